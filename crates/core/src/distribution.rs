@@ -1,0 +1,188 @@
+//! Piecewise-constant distributions in one and two dimensions, sampled by inversion.
+
+use glam::Vec2;
+
+/// A piecewise-constant density over [0, 1), from non-negative weights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Distribution1 {
+    weights: Vec<f32>,
+    /// `cumulative[i]` = share of the weights before `i`; one more entry than weights; the last is exactly 1.
+    cumulative: Vec<f64>,
+    mean: f64,
+}
+
+impl Distribution1 {
+    /// A distribution over `weights`. `None` where there are none, one is negative or not finite, or all are zero.
+    #[must_use]
+    pub fn new(weights: Vec<f32>) -> Option<Self> {
+        if !weights.iter().all(|w| w.is_finite() && *w >= 0.0) {
+            return None;
+        }
+        let total: f64 = weights.iter().map(|w| f64::from(*w)).sum();
+        if total <= 0.0 {
+            return None;
+        }
+        let mut sum = 0.0;
+        let mut cumulative: Vec<f64> = Vec::with_capacity(weights.len() + 1);
+        for w in &weights {
+            cumulative.push(sum / total);
+            sum += f64::from(*w);
+        }
+        cumulative.push(1.0);
+        let mean = total / weights.len() as f64;
+        Some(Self { weights, cumulative, mean })
+    }
+
+    /// Number of pieces.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.weights.len()
+    }
+
+    /// Never true: an empty distribution cannot be made.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.weights.is_empty()
+    }
+
+    /// Mean of the weights.
+    #[must_use]
+    pub fn mean(&self) -> f64 {
+        self.mean
+    }
+
+    /// Probability of piece `i`.
+    #[must_use]
+    pub fn probability(&self, i: usize) -> f32 {
+        (f64::from(self.weights[i]) / (self.mean * self.weights.len() as f64)) as f32
+    }
+
+    /// The piece that `u` in [0, 1) falls in, and where in it (in [0, 1)). Never a piece of zero weight.
+    #[must_use]
+    pub fn sample_discrete(&self, u: f32) -> (usize, f32) {
+        let u = f64::from(u);
+        let last = self.weights.iter().rposition(|w| *w > 0.0).unwrap_or(0);
+        let i = self.cumulative.partition_point(|c| *c <= u).saturating_sub(1).min(last);
+        let (low, high) = (self.cumulative[i], self.cumulative[i + 1]);
+        let within = if high > low { ((u - low) / (high - low)) as f32 } else { 0.0 };
+        (i, within.clamp(0.0, ONE_BELOW))
+    }
+
+    /// A point of [0, 1) and its density.
+    #[must_use]
+    pub fn sample(&self, u: f32) -> (f32, f32) {
+        let (i, within) = self.sample_discrete(u);
+        let x = (i as f32 + within) / self.len() as f32;
+        (x.min(ONE_BELOW), self.pdf_of_piece(i))
+    }
+
+    /// Density at `x` in [0, 1).
+    #[must_use]
+    pub fn pdf(&self, x: f32) -> f32 {
+        let i = ((x * self.len() as f32) as usize).min(self.len() - 1);
+        self.pdf_of_piece(i)
+    }
+
+    fn pdf_of_piece(&self, i: usize) -> f32 {
+        (f64::from(self.weights[i]) / self.mean) as f32
+    }
+}
+
+/// The largest `f32` below one.
+const ONE_BELOW: f32 = 1.0 - f32::EPSILON / 2.0;
+
+/// A piecewise-constant density over the unit square, from non-negative weights row by row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Distribution2 {
+    rows: Vec<Option<Distribution1>>,
+    marginal: Distribution1,
+    columns: usize,
+}
+
+impl Distribution2 {
+    /// A distribution over `weights` in rows of `columns`. `None` where they do not fill rows, one is negative or not
+    /// finite, or all are zero.
+    #[must_use]
+    pub fn new(columns: usize, weights: &[f32]) -> Option<Self> {
+        if columns == 0 || !weights.len().is_multiple_of(columns) || weights.iter().any(|w| !w.is_finite() || *w < 0.0)
+        {
+            return None;
+        }
+        let rows: Vec<_> = weights.chunks(columns).map(|row| Distribution1::new(row.to_vec())).collect();
+        let marginal = rows.iter().map(|row| row.as_ref().map_or(0.0, |r| r.mean() as f32)).collect();
+        Some(Self { marginal: Distribution1::new(marginal)?, rows, columns })
+    }
+
+    /// Mean of the weights.
+    #[must_use]
+    pub fn mean(&self) -> f64 {
+        self.marginal.mean()
+    }
+
+    /// Columns of the grid.
+    #[must_use]
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// A point (x along a row, y across rows) of the unit square and its density by area.
+    #[must_use]
+    pub fn sample(&self, u: Vec2) -> (Vec2, f32) {
+        let (y, y_pdf) = self.marginal.sample(u.y);
+        let row = ((y * self.rows.len() as f32) as usize).min(self.rows.len() - 1);
+        match &self.rows[row] {
+            Some(row) => {
+                let (x, x_pdf) = row.sample(u.x);
+                (Vec2::new(x, y), x_pdf * y_pdf)
+            }
+            None => (Vec2::new(u.x, y), 0.0),
+        }
+    }
+
+    /// Density by area at a point of the unit square.
+    #[must_use]
+    pub fn pdf(&self, p: Vec2) -> f32 {
+        let row = ((p.y * self.rows.len() as f32) as usize).min(self.rows.len() - 1);
+        self.rows[row].as_ref().map_or(0.0, |r| r.pdf(p.x) * self.marginal.pdf(p.y))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pieces_are_drawn_by_weight_and_zero_ones_never() {
+        let d = Distribution1::new(vec![0.0, 1.0, 0.0, 3.0, 0.0]).expect("weights");
+        let mut counts = [0; 5];
+        for i in 0..1000 {
+            counts[d.sample_discrete((i as f32 + 0.5) / 1000.0).0] += 1;
+        }
+        assert_eq!(counts, [0, 250, 0, 750, 0]);
+        assert_eq!(d.sample_discrete(ONE_BELOW).0, 3);
+        assert_eq!(d.sample_discrete(0.0).0, 1);
+        assert!((d.probability(3) - 0.75).abs() < 1e-7);
+    }
+
+    #[test]
+    fn densities_are_those_of_the_samples() {
+        let d = Distribution2::new(3, &[1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 4.0, 5.0, 6.0]).expect("weights");
+        let mut sum = 0.0;
+        for i in 0..90 {
+            for j in 0..90 {
+                sum += d.pdf(Vec2::new((i as f32 + 0.5) / 90.0, (j as f32 + 0.5) / 90.0)) / 8100.0;
+                let (p, pdf) = d.sample(Vec2::new((i as f32 + 0.5) / 90.0, (j as f32 + 0.5) / 90.0));
+                assert!((pdf - d.pdf(p)).abs() < 1e-4 && pdf > 0.0);
+            }
+        }
+        assert!((sum - 1.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn weights_that_are_none_are_refused() {
+        assert!(Distribution1::new(vec![]).is_none());
+        assert!(Distribution1::new(vec![0.0]).is_none());
+        assert!(Distribution1::new(vec![f32::NAN, 1.0]).is_none());
+        assert!(Distribution2::new(2, &[1.0, 2.0, 3.0]).is_none());
+    }
+}

@@ -1,0 +1,26 @@
+//! What optics asks of the world: the one open trait of the spine.
+
+use crate::random::PathStream;
+use crate::ray::Ray;
+use crate::wavelength::{Spectral, Wavelengths};
+
+/// Anything that answers a ray with spectral radiance.
+pub trait RadianceField<const N: usize>: Sync {
+    /// Spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) that arrives at the ray's origin against its direction, at the path's
+    /// wavelengths; an unbiased estimate where the field is a path tracer. Not divided by the density of the
+    /// wavelengths. `ray` is in the render frame with unit direction; `stream` is the sample's random address.
+    fn radiance(&self, ray: &Ray, wavelengths: &Wavelengths<N>, stream: &PathStream) -> Spectral<N>;
+}
+
+/// The same radiance in every direction and at every wavelength: for tests of optics and sensors without a tracer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConstantField {
+    /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹.
+    pub radiance: f32,
+}
+
+impl<const N: usize> RadianceField<N> for ConstantField {
+    fn radiance(&self, _ray: &Ray, _wavelengths: &Wavelengths<N>, _stream: &PathStream) -> Spectral<N> {
+        Spectral::splat(self.radiance)
+    }
+}

@@ -1,0 +1,33 @@
+//! Vocabulary of Étendue.
+//!
+//! Quantities with units, coordinate frames, rays, wavelength sets, planes of pixels, random addresses and
+//! deterministic mathematics: the words in which the stages of the simulation speak to each other.
+//!
+//! This crate knows no stage, does no input or output and holds no policy.
+//!
+//! # Frames
+//!
+//! | frame | axes | unit |
+//! | --- | --- | --- |
+//! | world | right-handed, x forward, y left, z up (ISO 8855, REP-103) | m, f64 |
+//! | render | axes of the world, origin at the centre of the camera's entrance pupil | m, f32 |
+//! | camera | x right, y down, z forward (OpenCV), origin at the centre of the entrance pupil | m, f64 |
+//! | sensor | x right, y down as the erect picture is seen, origin at the principal point | mm, f64 |
+//! | raster | x right, y down, the top-left corner is (0, 0), pixel centres at + 0.5 | px, f64 |
+
+pub mod distribution;
+pub mod field;
+pub mod frame;
+pub mod maths;
+pub mod plane;
+pub mod quantity;
+pub mod random;
+pub mod ray;
+pub mod warp;
+pub mod wavelength;
+
+pub use field::RadianceField;
+pub use frame::{Basis, CameraPose, Track};
+pub use plane::{Plane, SpectralCube};
+pub use ray::{PupilRay, Ray};
+pub use wavelength::{Bands, Spectral, Wavelengths};

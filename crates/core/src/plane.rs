@@ -1,0 +1,126 @@
+//! Rectangles of pixels, and stacks of them over wavelength.
+
+use crate::quantity::Quantity;
+use crate::wavelength::Bands;
+
+/// A rectangle of pixels of one quantity, row by row from the top left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plane<Q: Quantity> {
+    width: usize,
+    height: usize,
+    samples: Vec<Q::Sample>,
+}
+
+impl<Q: Quantity> Plane<Q> {
+    /// A plane of `width` × `height` pixels, all at the sample's default (zero).
+    #[must_use]
+    pub fn new(width: usize, height: usize) -> Self {
+        Self::filled(width, height, Q::Sample::default())
+    }
+
+    /// A plane of `width` × `height` pixels, all at `value`.
+    #[must_use]
+    pub fn filled(width: usize, height: usize, value: Q::Sample) -> Self {
+        Self { width, height, samples: vec![value; width * height] }
+    }
+
+    /// A plane over samples given row by row. `None` where their number is not `width × height`.
+    #[must_use]
+    pub fn from_samples(width: usize, height: usize, samples: Vec<Q::Sample>) -> Option<Self> {
+        (samples.len() == width * height).then_some(Self { width, height, samples })
+    }
+
+    /// Pixels a row.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// The sample at column `x`, row `y`. Panics outside the plane.
+    #[must_use]
+    pub fn at(&self, x: usize, y: usize) -> Q::Sample {
+        assert!(x < self.width, "column {x} of a plane {} wide", self.width);
+        self.samples[y * self.width + x]
+    }
+
+    /// Sets the sample at column `x`, row `y`. Panics outside the plane.
+    pub fn set(&mut self, x: usize, y: usize, value: Q::Sample) {
+        assert!(x < self.width, "column {x} of a plane {} wide", self.width);
+        self.samples[y * self.width + x] = value;
+    }
+
+    /// All samples, row by row from the top left.
+    #[must_use]
+    pub fn samples(&self) -> &[Q::Sample] {
+        &self.samples
+    }
+
+    /// All samples, row by row from the top left.
+    pub fn samples_mut(&mut self) -> &mut [Q::Sample] {
+        &mut self.samples
+    }
+
+    /// A plane of another quantity, sample by sample.
+    #[must_use]
+    pub fn map<R: Quantity>(&self, f: impl FnMut(Q::Sample) -> R::Sample) -> Plane<R> {
+        Plane { width: self.width, height: self.height, samples: self.samples.iter().copied().map(f).collect() }
+    }
+}
+
+/// One plane a wavelength band; each sample is the **mean over its band**, never a point sample.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpectralCube<Q: Quantity> {
+    bands: Bands,
+    planes: Vec<Plane<Q>>,
+}
+
+impl<Q: Quantity> SpectralCube<Q> {
+    /// A cube of zeros.
+    #[must_use]
+    pub fn new(width: usize, height: usize, bands: Bands) -> Self {
+        Self { bands, planes: (0..bands.count()).map(|_| Plane::new(width, height)).collect() }
+    }
+
+    /// A cube over planes of equal size, one a band, shortest wavelength first. `None` where they do not fit.
+    #[must_use]
+    pub fn from_planes(bands: Bands, planes: Vec<Plane<Q>>) -> Option<Self> {
+        let first = planes.first()?;
+        let same = planes.iter().all(|p| p.width == first.width && p.height == first.height);
+        (same && planes.len() == bands.count()).then_some(Self { bands, planes })
+    }
+
+    /// The wavelength bands, one a plane.
+    #[must_use]
+    pub fn bands(&self) -> Bands {
+        self.bands
+    }
+
+    /// Pixels a row.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.planes.first().map_or(0, Plane::width)
+    }
+
+    /// Rows.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.planes.first().map_or(0, Plane::height)
+    }
+
+    /// The planes, shortest wavelength first.
+    #[must_use]
+    pub fn planes(&self) -> &[Plane<Q>] {
+        &self.planes
+    }
+
+    /// The planes, shortest wavelength first.
+    pub fn planes_mut(&mut self) -> &mut [Plane<Q>] {
+        &mut self.planes
+    }
+}

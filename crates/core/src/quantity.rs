@@ -1,0 +1,48 @@
+//! The quantities that stages hand to each other, as types.
+//!
+//! A [`Quantity`] is a marker: a `Plane<Irradiance>` cannot be given to an effect that works on electrons.
+
+/// A physical quantity of an image, named so that a plane of it cannot be taken for another.
+pub trait Quantity: Copy + Send + Sync + 'static {
+    /// What one pixel holds.
+    type Sample: Copy + Default + PartialEq + Send + Sync + core::fmt::Debug + 'static;
+    /// The quantity's name in the words of the field, as files state it.
+    const NAME: &'static str;
+    /// The unit, as files state it.
+    const UNIT: &'static str;
+}
+
+macro_rules! quantities {
+    ($($(#[$doc:meta])* $name:ident($sample:ty) = $text:literal, $unit:literal;)*) => {
+        $($(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub struct $name;
+
+        impl Quantity for $name {
+            type Sample = $sample;
+            const NAME: &'static str = $text;
+            const UNIT: &'static str = $unit;
+        })*
+    };
+}
+
+quantities! {
+    /// Spectral radiance at the entrance pupil.
+    Radiance(f32) = "spectral radiance", "W.m^-2.sr^-1.nm^-1";
+    /// Spectral irradiance on the sensor plane.
+    Irradiance(f32) = "spectral irradiance", "W.m^-2.nm^-1";
+    /// Mean or collected electrons of a pixel.
+    Electrons(f32) = "electrons", "e";
+    /// Digital numbers out of the converter.
+    DigitalNumber(u16) = "digital number", "DN";
+    /// Display-referred picture, sRGB-encoded, 0 to 1 a channel.
+    Display([f32; 3]) = "display", "1";
+    /// Linear, scene-referred colour in a camera's or display's primaries.
+    LinearRgb([f32; 3]) = "linear rgb", "1";
+    /// A length along a ray or an axis.
+    Length(f32) = "length", "m";
+    /// An identity; 0 is the background.
+    Identity(u32) = "identity", "1";
+    /// A vector of three components: a normal (dimensionless) or a position (m), as its owner states.
+    Vector([f32; 3]) = "vector", "1";
+}

@@ -1,0 +1,74 @@
+//! Addresses of random numbers.
+
+/// A pixel of a camera's raster.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Pixel {
+    /// Column, from the left.
+    pub x: u32,
+    /// Row, from the top.
+    pub y: u32,
+}
+
+/// The part of a random address that one pixel's samples share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct PixelAddress {
+    /// The job's seed.
+    pub seed: u64,
+    /// The camera's place in the job.
+    pub camera: u32,
+    /// The frame. A still world's light is that of frame 0.
+    pub frame: u32,
+    /// The capture within the frame.
+    pub capture: u32,
+    /// The pixel.
+    pub pixel: Pixel,
+    /// The independently scrambled replicate.
+    pub replicate: u32,
+}
+
+impl PixelAddress {
+    /// A 64-bit key of the whole address.
+    #[must_use]
+    pub fn key(&self) -> u64 {
+        let words = [
+            u64::from(self.camera) | u64::from(self.frame) << 32,
+            u64::from(self.capture) | u64::from(self.replicate) << 32,
+            u64::from(self.pixel.x) | u64::from(self.pixel.y) << 32,
+        ];
+        words.into_iter().fold(mix(self.seed ^ 0x9e37_79b9_7f4a_7c15), |key, word| mix(key ^ mix(word)))
+    }
+}
+
+/// What a number of a path is used for. Append-only: the discriminants are part of the promised bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(u32)]
+pub enum Draw {
+    /// The hero wavelength. Sub-counter 0.
+    Wavelength = 0,
+    /// The point of the pixel's photosensitive area.
+    PixelArea = 1,
+    /// The point of the pupil.
+    Pupil = 2,
+    /// The time within the exposure.
+    Time = 3,
+    /// Which light to ask at a vertex; the sub-counter is the vertex's number on the path.
+    LightChoice = 4,
+    /// The point of that light.
+    LightPoint = 5,
+    /// Which part of a material to sample at a vertex.
+    BsdfChoice = 6,
+    /// The direction a material scatters to.
+    BsdfDirection = 7,
+    /// Russian roulette at a vertex.
+    Roulette = 8,
+    /// Whether a partly transparent surface lets a ray pass.
+    Opacity = 9,
+}
+
+/// A bijection of 64-bit words that scatters its bits (the finaliser of splitmix64, Steele et al. 2014).
+pub(super) fn mix(mut z: u64) -> u64 {
+    z = z.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}

@@ -1,0 +1,30 @@
+//! Randomness that is addressed, not consumed.
+//!
+//! Every random number of a simulation is a pure function of an address (seed, camera, frame, capture, pixel,
+//! replicate, sample, draw, sub-counter), so frames, tiles and shards can be made anywhere in any order.
+//!
+//! - [`PathStream`] serves light transport: scrambled Sobol points, stratified over the samples of a replicate.
+//! - [`NoiseStream`] serves the sensor: independent words from a counter-based generator.
+
+mod address;
+mod noise;
+mod path;
+mod philox;
+mod sobol;
+
+pub use address::{Draw, Pixel, PixelAddress};
+pub use noise::{NoiseDraw, NoiseStream};
+pub use path::PathStream;
+pub use philox::philox4x32;
+
+/// A float in [0, 1) from the upper 24 bits of a word.
+#[must_use]
+pub fn unit_f32(word: u32) -> f32 {
+    (word >> 8) as f32 * (1.0 / 16_777_216.0)
+}
+
+/// A float in [0, 1) from 53 bits of a double word.
+#[must_use]
+pub fn unit_f64(word: u64) -> f64 {
+    (word >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)
+}

@@ -1,0 +1,42 @@
+//! Rays.
+
+use glam::{DVec3, Vec3};
+
+/// A ray of the tracer, in the render frame or (inside the accelerator) an instance's frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Origin, m.
+    pub origin: Vec3,
+    /// Direction. Unit length where the ray leaves a camera or a surface; `t` is measured in its length.
+    pub direction: Vec3,
+    /// The ray ends here (exclusive); infinity where it does not.
+    pub t_max: f32,
+    /// Simulated time at which the ray is traced, s. A static world does not look at it.
+    pub time_s: f32,
+}
+
+impl Ray {
+    /// A ray without end.
+    #[must_use]
+    pub fn new(origin: Vec3, direction: Vec3, time_s: f32) -> Self {
+        Self { origin, direction, t_max: f32::INFINITY, time_s }
+    }
+
+    /// The point at parameter `t`, m.
+    #[must_use]
+    pub fn at(&self, t: f32) -> Vec3 {
+        self.origin + self.direction * t
+    }
+}
+
+/// A ray that leaves the lens towards the scene, in the camera frame, with what it contributes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PupilRay {
+    /// A point of the entrance pupil (the front of the lens), m.
+    pub origin_m: DVec3,
+    /// Unit direction into the scene (z > 0 for lenses that look forward).
+    pub direction: DVec3,
+    /// Weight, sr: spectral irradiance on the sensor = expectation of `weight_sr × radiance` over the pupil sample.
+    /// Holds the projected solid angle of the pupil, its sampling density, and the lens's transmittance.
+    pub weight_sr: f64,
+}

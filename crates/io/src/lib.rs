@@ -1,0 +1,1 @@
+//! Meshes, textures, spectral and ground-truth EXR, PNG and side-car files.

@@ -1,0 +1,1 @@
+//! Compile a description into a plan, and render the plan.

@@ -1,0 +1,1 @@
+//! Camera models as pure maths: projections, radial distortion, their inverses and conventions.

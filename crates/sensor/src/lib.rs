@@ -1,0 +1,1 @@
+//! Irradiance to electrons to digital numbers, every noise with a cause.

@@ -1,0 +1,1 @@
+//! Tabulated spectra, illuminants, colour matching, colour spaces, refractive indices, reflectance upsampling.

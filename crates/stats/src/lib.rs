@@ -1,0 +1,1 @@
+//! Estimators, confidence, hypothesis tests and error metrics.

@@ -1,0 +1,1 @@
+//! Brute-force and conservation oracles for tests.

@@ -1,0 +1,1 @@
+//! Geometry, accelerator, materials, lights and integrators: rays in, spectral radiance out.

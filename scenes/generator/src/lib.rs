@@ -1,0 +1,1 @@
+//! The generator of the scenes that ship with Étendue.
