@@ -1,1 +1,8 @@
 //! Geometry, accelerator, materials, lights and integrators: rays in, spectral radiance out.
+//!
+//! The tracer knows no lens, no pixel and no file. A world is built once; a view places it about a camera; a path
+//! tracer answers rays of the render frame with spectral radiance.
+
+/// A material's place in the tracer's list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct MaterialId(pub u32);
