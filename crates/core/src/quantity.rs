@@ -31,6 +31,10 @@ quantities! {
     Radiance(f32) = "spectral radiance", "W.m^-2.sr^-1.nm^-1";
     /// Spectral irradiance on the sensor plane.
     Irradiance(f32) = "spectral irradiance", "W.m^-2.nm^-1";
+    /// The weight of a pixel's pupil: mean projected solid angle times transmittance.
+    SolidAngle(f32) = "projected solid angle", "sr";
+    /// Variance of a mean, in the square of that mean's unit.
+    Variance(f32) = "variance of the mean", "(unit of the mean)^2";
     /// Mean or collected electrons of a pixel.
     Electrons(f32) = "electrons", "e";
     /// Digital numbers out of the converter.

@@ -1,0 +1,24 @@
+# Every task of the project. `just` lists them.
+
+default:
+    @just --list
+
+# All tests (the README's command)
+test:
+    cargo test --workspace
+
+# What CI runs
+ci:
+    .ci/run
+
+# Benchmarks: rays, paths, memory
+bench:
+    cargo run --release -p etendue-benches
+
+# Regenerate the scenes that ship with the project
+scenes:
+    cargo run --release -p etendue-scenes -- scenes
+
+# Recompute the figures of independent programs (needs Python and PyPI)
+oracles:
+    tests/oracles/run

@@ -1,0 +1,152 @@
+//! The house rules that a machine can check: the arrows between crates, the length of files, what libraries never do.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Which workspace crates a crate may use (docs/architecture.md). A new arrow is a decision, written down there.
+const ARROWS: &[(&str, &[&str])] = &[
+    ("core", &[]),
+    ("stats", &["core"]),
+    ("spectra", &["core"]),
+    ("projection", &["core"]),
+    ("scene", &["core", "spectra", "projection"]),
+    ("tracer", &["core", "spectra"]),
+    ("optics", &["core", "spectra", "projection"]),
+    ("sensor", &["core", "spectra"]),
+    ("isp", &["core", "spectra"]),
+    (
+        "pipeline",
+        &["core", "stats", "spectra", "projection", "scene", "tracer", "optics", "sensor", "isp"],
+    ),
+    ("io", &["core", "spectra", "projection", "scene"]),
+    (
+        "cli",
+        &[
+            "core", "stats", "spectra", "projection", "scene", "tracer", "optics", "sensor", "isp", "pipeline", "io",
+        ],
+    ),
+    ("testkit", &["core", "stats"]),
+    ("scenes", &["core"]),
+];
+
+/// Libraries that matter, and the only crates that may use them.
+const KEEPERS: &[(&str, &[&str])] = &[
+    ("obvhs", &["tracer"]),
+    ("exr", &["io"]),
+    ("image", &["io", "scenes"]),
+    ("tobj", &["io"]),
+    ("toml", &["scene"]),
+    ("clap", &["cli"]),
+    ("indicatif", &["cli"]),
+    ("tracing-subscriber", &["cli"]),
+    ("libm", &["core"]),
+];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the workspace").to_path_buf()
+}
+
+/// Normal (not dev) dependencies of every workspace crate, without the prefix of workspace names.
+fn dependencies() -> BTreeMap<String, BTreeSet<String>> {
+    let output = Command::new(env!("CARGO"))
+        .args(["metadata", "--format-version", "1", "--no-deps", "--offline"])
+        .current_dir(root())
+        .output()
+        .expect("cargo metadata runs");
+    let metadata: serde_json::Value = serde_json::from_slice(&output.stdout).expect("cargo metadata prints JSON");
+    let short = |name: &serde_json::Value| name.as_str().expect("a name").trim_start_matches("etendue-").to_owned();
+    let packages = metadata["packages"].as_array().expect("packages");
+    packages
+        .iter()
+        .map(|package| {
+            let dependencies = package["dependencies"].as_array().expect("dependencies");
+            let normal = dependencies.iter().filter(|d| d["kind"].is_null()).map(|d| short(&d["name"]));
+            (short(&package["name"]), normal.collect())
+        })
+        .collect()
+}
+
+#[test]
+fn crates_use_only_what_the_architecture_allows() {
+    let dependencies = dependencies();
+    let workspace: BTreeSet<&str> = dependencies.keys().map(String::as_str).collect();
+    let mut faults = Vec::new();
+    for (name, allowed) in ARROWS {
+        let used = dependencies.get(*name).unwrap_or_else(|| panic!("crate {name} is in the table but not there"));
+        for arrow in used.iter().filter(|u| workspace.contains(u.as_str()) && !allowed.contains(&u.as_str())) {
+            faults.push(format!("{name} → {arrow}"));
+        }
+    }
+    assert!(faults.is_empty(), "arrows that are not in the table: {faults:?}");
+    let listed: BTreeSet<&str> = ARROWS.iter().map(|(name, _)| *name).chain(["tests", "benches"]).collect();
+    assert!(workspace.is_subset(&listed), "crates missing from the table: {:?}", &workspace - &listed);
+}
+
+#[test]
+fn libraries_stay_with_their_keepers() {
+    let mut faults = Vec::new();
+    for (name, used) in dependencies() {
+        for (library, keepers) in KEEPERS {
+            if used.contains(*library) && !keepers.contains(&name.as_str()) && name != "benches" {
+                faults.push(format!("{name} uses {library}"));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{faults:?}");
+}
+
+/// Tracked text files, with their contents.
+fn tracked(suffixes: &[&str]) -> Vec<(String, String)> {
+    let output = Command::new("git").args(["ls-files", "-z"]).current_dir(root()).output().expect("git runs");
+    let names = String::from_utf8(output.stdout).expect("names in UTF-8");
+    let wanted = |name: &&str| suffixes.iter().any(|s| name.ends_with(s));
+    names
+        .split('\0')
+        .filter(wanted)
+        .filter_map(|name| Some((name.to_owned(), std::fs::read_to_string(root().join(name)).ok()?)))
+        .collect()
+}
+
+#[test]
+fn files_stay_readable_and_never_a_drawer() {
+    const LONGEST: usize = 450;
+    let drawers = ["utils.rs", "util.rs", "common.rs", "helpers.rs", "misc.rs"];
+    let mut faults = Vec::new();
+    for (name, text) in tracked(&[".rs"]) {
+        let lines = text.lines().count();
+        if lines > LONGEST {
+            faults.push(format!("{name}: {lines} lines, more than {LONGEST}: one concept a file"));
+        }
+        if drawers.iter().any(|d| name.ends_with(&format!("/{d}"))) {
+            faults.push(format!("{name}: name the concept"));
+        }
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+}
+
+#[test]
+fn libraries_do_not_print_read_clocks_or_start_pools() {
+    let forbidden = ["println!(", "eprintln!(", "SystemTime::now", "Instant::now", "build_global("];
+    let mut faults = Vec::new();
+    for (name, text) in tracked(&[".rs"]) {
+        let library = name.starts_with("crates/") && !name.starts_with("crates/cli/") && !name.contains("/examples/");
+        if library && !name.contains("/tests/") {
+            faults.extend(forbidden.iter().filter(|f| text.contains(**f)).map(|f| format!("{name}: {f}")));
+        }
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+}
+
+#[test]
+fn nothing_names_a_machine() {
+    let homes = ["/root/", "/home/", "/work/", "/tmp/"].map(|p| p.to_owned());
+    let mut faults = Vec::new();
+    for (name, text) in tracked(&[".rs", ".toml", ".md", ".py", ".json", ".yml", "justfile", "run"]) {
+        if name.ends_with("tests/tidy.rs") {
+            continue;
+        }
+        faults.extend(homes.iter().filter(|h| text.contains(h.as_str())).map(|h| format!("{name}: {h}")));
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+}
