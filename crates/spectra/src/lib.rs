@@ -1,1 +1,20 @@
-//! Tabulated spectra, illuminants, colour matching, colour spaces, refractive indices, reflectance upsampling.
+//! Spectra: how light, surfaces, glass and sensors depend on wavelength, and what colour they have.
+//!
+//! A [`Spectrum`] is a function of wavelength on a dense grid of 1 nm from 300 to 1 100 nm. Measured and standard
+//! tables come with the crate (`data/SOURCES.md` names their sources and licences) and are parsed once, on first use.
+//!
+//! **Outside a table** sensitivities and emissions are zero, and reflectances, transmittances and refractive indices
+//! hold their end value; [`Outside`] names the choice and [`Spectrum::covered_nm`] says how far a table reached.
+
+pub mod camera;
+pub mod chart;
+pub mod colour;
+pub mod illuminant;
+pub mod metal;
+pub mod observer;
+mod spectrum;
+mod table;
+pub mod upsample;
+
+pub use spectrum::{Outside, Spectrum};
+pub use table::{Place, SpectrumError};

@@ -1,0 +1,50 @@
+//! Measured spectral sensitivities of cameras.
+//!
+//! Three bodies from the rawtoaces collection, 380–780 nm, zero outside. The figures are **relative**: the channels of
+//! one camera compare with each other, but their scale is not a quantum efficiency. They are responses per unit of
+//! radiant power, lens and filters included.
+
+use crate::table::embedded;
+use crate::{Outside, Spectrum};
+use std::sync::LazyLock;
+
+/// Relative sensitivities of a camera's three channels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensitivity {
+    /// Red channel.
+    pub r: Spectrum,
+    /// Green channel.
+    pub g: Spectrum,
+    /// Blue channel.
+    pub b: Spectrum,
+}
+
+const NAMES: &[&str] = &["canon-eos-5d-mark-ii", "nikon-d5100", "sony-ilce-7sm2"];
+
+static TABLES: LazyLock<Vec<Sensitivity>> = LazyLock::new(|| {
+    [
+        include_str!("../data/camera_canon_eos_5d_mark_ii.csv"),
+        include_str!("../data/camera_nikon_d5100.csv"),
+        include_str!("../data/camera_sony_ilce_7sm2.csv"),
+    ]
+    .into_iter()
+    .map(sensitivity)
+    .collect()
+});
+
+fn sensitivity(text: &str) -> Sensitivity {
+    let [r, g, b] = embedded::<4>(text, Outside::Zero).try_into().expect("three columns");
+    Sensitivity { r, g, b }
+}
+
+/// A camera by name; `None` for one not in [`names`].
+#[must_use]
+pub fn named(name: &str) -> Option<&'static Sensitivity> {
+    NAMES.iter().position(|n| *n == name).map(|i| &TABLES[i])
+}
+
+/// The names that [`named`] knows: canon-eos-5d-mark-ii, nikon-d5100, sony-ilce-7sm2.
+#[must_use]
+pub fn names() -> &'static [&'static str] {
+    NAMES
+}

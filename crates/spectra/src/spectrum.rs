@@ -1,0 +1,192 @@
+//! A function of wavelength.
+
+use crate::table::{self, Place, SpectrumError};
+use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
+use etendue_core::{Bands, Spectral, Wavelengths};
+
+/// Nodes of the grid: 300, 301, … 1 100 nm.
+pub(crate) const NODES: usize = 801;
+
+/// What a table means beyond its first and last wavelength.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outside {
+    /// Zero: for emissions and sensitivities.
+    Zero,
+    /// The end value: for reflectances, transmittances and refractive indices.
+    Hold,
+}
+
+/// A function of wavelength: values at every nanometre from 300 to 1 100 nm, linear between; the unit is its owner's.
+///
+/// A table of coarser points is exact at its own whole nanometres. Where a table is finer than the grid, a node takes
+/// the mean over its neighbourhood (weights falling linearly to zero at 1 nm), so that narrow lines keep their power.
+/// A table that is zero outside falls to zero within 1 nm of its end.
+#[derive(Clone, PartialEq)]
+pub struct Spectrum {
+    values: Box<[f32; NODES]>,
+    covered_nm: (f64, f64),
+}
+
+impl core::fmt::Debug for Spectrum {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let (low, high) = self.covered_nm;
+        write!(f, "Spectrum({low}–{high} nm, values {} to {})", self.min_value(), self.max_value())
+    }
+}
+
+impl Spectrum {
+    /// The same value at every wavelength.
+    #[must_use]
+    pub fn constant(value: f64) -> Self {
+        Self::from_fn(|_| value)
+    }
+
+    /// The values of `f`, a function of the wavelength in nm, at every node. `f` must be finite.
+    #[must_use]
+    pub fn from_fn(mut f: impl FnMut(f64) -> f64) -> Self {
+        let values = (0..NODES).map(|i| f(node_nm(i)) as f32).collect();
+        Self { values: boxed(values), covered_nm: (SHORTEST_NM, LONGEST_NM) }
+    }
+
+    /// A spectrum through points (wavelength in nm, value), wavelengths rising; linear between points.
+    ///
+    /// # Errors
+    /// Where there are fewer than two points, a number is not finite, wavelengths do not rise, or no point lies within
+    /// 300 to 1 100 nm.
+    pub fn from_points(points: &[(f64, f64)], outside: Outside) -> Result<Self, SpectrumError> {
+        table::check(points, Place::Point)?;
+        Ok(Self::from_checked(points, outside))
+    }
+
+    /// A spectrum from the text of a CSV table: two columns `wavelength_nm,value`, an optional header line, empty lines
+    /// and `#` comments allowed.
+    ///
+    /// # Errors
+    /// As [`Spectrum::from_points`], and where a line is not two numbers; the error names the line.
+    pub fn from_csv(text: &str, outside: Outside) -> Result<Self, SpectrumError> {
+        Ok(Self::from_checked(&table::points(text)?, outside))
+    }
+
+    pub(crate) fn from_checked(points: &[(f64, f64)], outside: Outside) -> Self {
+        let values = (0..NODES).map(|i| table::node_value(points, outside, node_nm(i)) as f32).collect();
+        let (first, last) = (points[0].0, points[points.len() - 1].0);
+        Self { values: boxed(values), covered_nm: (first.max(SHORTEST_NM), last.min(LONGEST_NM)) }
+    }
+
+    /// The value at a wavelength of 300 to 1 100 nm; the end value beyond.
+    #[must_use]
+    #[inline]
+    pub fn at(&self, nm: f32) -> f32 {
+        let (i, t) = node_below(nm);
+        self.values[i] + t * (self.values[i + 1] - self.values[i])
+    }
+
+    /// The values at a path's wavelengths.
+    #[must_use]
+    #[inline]
+    pub fn sample<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> Spectral<N> {
+        Spectral(wavelengths.nm.map(|nm| self.at(nm)))
+    }
+
+    /// Integral over `[low_nm, high_nm]`, exact for the broken line; nothing is added beyond 300–1 100 nm.
+    /// The unit is the value's × nm.
+    #[must_use]
+    pub fn integral(&self, low_nm: f64, high_nm: f64) -> f64 {
+        let (low, high) = (low_nm.max(SHORTEST_NM) - SHORTEST_NM, high_nm.min(LONGEST_NM) - SHORTEST_NM);
+        if low >= high {
+            return 0.0;
+        }
+        (low.floor() as usize..high.ceil() as usize)
+            .map(|i| self.piece_integral(i, low.max(i as f64), high.min((i + 1) as f64)))
+            .sum()
+    }
+
+    /// Integral over a part of one piece of the grid; all lengths in nm from the first node.
+    fn piece_integral(&self, i: usize, low: f64, high: f64) -> f64 {
+        let (a, b) = (f64::from(self.values[i]), f64::from(self.values[i + 1]));
+        let middle = (low + high) / 2.0 - i as f64;
+        (high - low) * (a + middle * (b - a))
+    }
+
+    /// Mean over `[low_nm, high_nm]`, which must not be empty and lie within 300–1 100 nm.
+    #[must_use]
+    pub fn band_mean(&self, low_nm: f64, high_nm: f64) -> f64 {
+        self.integral(low_nm, high_nm) / (high_nm - low_nm)
+    }
+
+    /// The mean over each band, shortest wavelength first.
+    #[must_use]
+    pub fn band_means(&self, bands: Bands) -> Vec<f64> {
+        let half = bands.width_nm() / 2.0;
+        let mean = |i| self.band_mean(bands.centre_nm(i) - half, bands.centre_nm(i) + half);
+        (0..bands.count()).map(mean).collect()
+    }
+
+    /// The spectrum times a number.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        self.mapped(|_, v| v * factor)
+    }
+
+    /// The product with another spectrum, node by node; it covers what both cover.
+    #[must_use]
+    pub fn product(&self, other: &Self) -> Self {
+        let covered_nm = (self.covered_nm.0.max(other.covered_nm.0), self.covered_nm.1.min(other.covered_nm.1));
+        Self { covered_nm, ..self.mapped(|i, v| v * f64::from(other.values[i])) }
+    }
+
+    fn mapped(&self, f: impl Fn(usize, f64) -> f64) -> Self {
+        let values = self.values.iter().enumerate().map(|(i, v)| f(i, f64::from(*v)) as f32).collect();
+        Self { values: boxed(values), covered_nm: self.covered_nm }
+    }
+
+    /// The largest value of 300 to 1 100 nm.
+    #[must_use]
+    pub fn max_value(&self) -> f32 {
+        self.values.iter().copied().fold(f32::NEG_INFINITY, f32::max)
+    }
+
+    /// The smallest value of 300 to 1 100 nm.
+    #[must_use]
+    pub fn min_value(&self) -> f32 {
+        self.values.iter().copied().fold(f32::INFINITY, f32::min)
+    }
+
+    /// First and last wavelength (nm, within 300–1 100) that the table or function behind the spectrum gave a value
+    /// for; beyond, its [`Outside`] rule holds.
+    #[must_use]
+    pub fn covered_nm(&self) -> (f64, f64) {
+        self.covered_nm
+    }
+
+    /// The first and last wavelength (nm) between which the spectrum is not zero; `None` where it is zero everywhere.
+    #[must_use]
+    pub fn support_nm(&self) -> Option<(f64, f64)> {
+        let first = self.values.iter().position(|v| *v != 0.0)?;
+        let last = self.values.iter().rposition(|v| *v != 0.0)?;
+        Some((node_nm(first.saturating_sub(1)), node_nm((last + 1).min(NODES - 1))))
+    }
+
+    /// The values at 300, 301, … 1 100 nm.
+    #[must_use]
+    pub fn nodes(&self) -> &[f32; NODES] {
+        &self.values
+    }
+}
+
+/// Wavelength of node `i`, nm.
+pub(crate) fn node_nm(i: usize) -> f64 {
+    SHORTEST_NM + i as f64
+}
+
+/// The node at or below a wavelength, never the last, and how far on the wavelength lies, in [0, 1].
+#[inline]
+pub(crate) fn node_below(nm: f32) -> (usize, f32) {
+    let x = (nm - SHORTEST_NM as f32).clamp(0.0, (NODES - 1) as f32);
+    let i = (x as usize).min(NODES - 2);
+    (i, x - i as f32)
+}
+
+fn boxed(values: Vec<f32>) -> Box<[f32; NODES]> {
+    values.try_into().expect("one value a node")
+}

@@ -1,0 +1,184 @@
+//! Tables of points: reading, checking, and resampling on the grid of 1 nm.
+
+use crate::Spectrum;
+use crate::spectrum::Outside;
+use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
+
+/// Where in a table something is wrong.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A point, counted from 0.
+    Point(usize),
+    /// A line of a text, counted from 1.
+    Line(usize),
+}
+
+impl core::fmt::Display for Place {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Point(i) => write!(f, "point {i}"),
+            Self::Line(i) => write!(f, "line {i}"),
+        }
+    }
+}
+
+/// Why a table is not a spectrum.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SpectrumError {
+    /// A line is not the numbers expected.
+    #[error(
+        "line {line}: found `{found}`, expected {columns} numbers separated by commas, the first a wavelength in nm"
+    )]
+    Malformed {
+        /// The line, counted from 1.
+        line: usize,
+        /// The line's text.
+        found: String,
+        /// How many numbers were expected.
+        columns: usize,
+    },
+    /// Too few points for a broken line.
+    #[error(
+        "the table has {found} points, expected at least 2: give a value at the shortest and the longest wavelength"
+    )]
+    TooFew {
+        /// How many there are.
+        found: usize,
+    },
+    /// A number is infinite or not a number.
+    #[error("{place}: a wavelength or value is not finite: give ordinary numbers")]
+    NotFinite {
+        /// Where.
+        place: Place,
+    },
+    /// A wavelength is not longer than the one before.
+    #[error("{place}: wavelength {nm} nm follows {before} nm: sort the table by rising wavelength, each once")]
+    NotRising {
+        /// Where.
+        place: Place,
+        /// The wavelength there, nm.
+        nm: f64,
+        /// The wavelength before, nm.
+        before: f64,
+    },
+    /// No point lies in the legal range.
+    #[error("the table covers {low} to {high} nm, nothing of 300 to 1100 nm: are its wavelengths in nanometres?")]
+    OutOfRange {
+        /// First wavelength, nm.
+        low: f64,
+        /// Last wavelength, nm.
+        high: f64,
+    },
+}
+
+/// Checks that points make a spectrum; `place` names a point by its index.
+pub(crate) fn check(points: &[(f64, f64)], place: impl Fn(usize) -> Place) -> Result<(), SpectrumError> {
+    if let Some(i) = points.iter().position(|(nm, v)| !nm.is_finite() || !(*v as f32).is_finite()) {
+        return Err(SpectrumError::NotFinite { place: place(i) });
+    }
+    if let Some(i) = points.windows(2).position(|w| w[1].0 <= w[0].0) {
+        return Err(SpectrumError::NotRising { place: place(i + 1), nm: points[i + 1].0, before: points[i].0 });
+    }
+    let [(low, _), .., (high, _)] = *points else {
+        return Err(SpectrumError::TooFew { found: points.len() });
+    };
+    let legal = |nm: f64| (SHORTEST_NM..=LONGEST_NM).contains(&nm);
+    if points.iter().any(|(nm, _)| legal(*nm)) { Ok(()) } else { Err(SpectrumError::OutOfRange { low, high }) }
+}
+
+/// The checked points of a text of two columns.
+pub(crate) fn points(text: &str) -> Result<Vec<(f64, f64)>, SpectrumError> {
+    let rows = rows::<2>(text)?;
+    let points: Vec<_> = rows.iter().map(|(_, [nm, value])| (*nm, *value)).collect();
+    check(&points, |i| Place::Line(rows[i].0))?;
+    Ok(points)
+}
+
+/// A row: its line, counted from 1, and its numbers.
+type Row<const C: usize> = (usize, [f64; C]);
+
+/// The rows of a text of `C` columns: numbers separated by commas. Empty lines and `#` comments are passed over, and a
+/// first line without any number is a header.
+fn rows<const C: usize>(text: &str) -> Result<Vec<Row<C>>, SpectrumError> {
+    let lines = text.trim_start_matches('\u{feff}').lines().enumerate().map(|(i, line)| (i + 1, content(line)));
+    let mut lines = lines.filter(|(_, line)| !line.is_empty()).peekable();
+    lines.next_if(|(_, line)| is_header(line));
+    lines.map(|(line, text)| Ok((line, numbers(line, text)?))).collect()
+}
+
+/// A line without its comment and outer spaces.
+fn content(line: &str) -> &str {
+    line.split('#').next().unwrap_or("").trim()
+}
+
+fn is_header(line: &str) -> bool {
+    line.split(',').all(|field| field.trim().parse::<f64>().is_err())
+}
+
+fn numbers<const C: usize>(line: usize, text: &str) -> Result<[f64; C], SpectrumError> {
+    let parsed: Option<Vec<f64>> = text.split(',').map(|field| field.trim().parse().ok()).collect();
+    let array = parsed.and_then(|values| values.try_into().ok());
+    array.ok_or_else(|| SpectrumError::Malformed { line, found: text.to_owned(), columns: C })
+}
+
+/// The spectra of a table that comes with the crate: `C` columns, the first the wavelength in nm.
+pub(crate) fn embedded<const C: usize>(text: &str, outside: Outside) -> Vec<Spectrum> {
+    let rows = rows::<C>(text).expect("a table of the crate has numbers in every column");
+    let column = |c: usize| rows.iter().map(|(_, row)| (row[0], row[c])).collect::<Vec<_>>();
+    (1..C).map(|c| Spectrum::from_points(&column(c), outside).expect("a table of the crate is in order")).collect()
+}
+
+/// The column names of a table that comes with the crate, without the wavelength's.
+pub(crate) fn embedded_names(text: &'static str) -> impl Iterator<Item = &'static str> {
+    text.lines().next().unwrap_or("").split(',').skip(1)
+}
+
+/// A node's value: the broken line itself, or its mean over the neighbourhood where the table is finer than the grid.
+pub(crate) fn node_value(points: &[(f64, f64)], outside: Outside, nm: f64) -> f64 {
+    let inner = &points[points.partition_point(|p| p.0 <= nm - 1.0)..points.partition_point(|p| p.0 < nm + 1.0)];
+    if inner.iter().filter(|p| p.0 != nm).count() < 2 {
+        return line_at(points, outside, nm);
+    }
+    let knots = core::iter::once(nm - 1.0).chain(knots_between(inner, nm)).chain([nm + 1.0]);
+    let knots: Vec<f64> = knots.collect();
+    knots.windows(2).map(|w| hat_integral(points, outside, nm, w[0], w[1])).sum()
+}
+
+/// The wavelengths of `inner` with `nm` among them, in order.
+fn knots_between(inner: &[(f64, f64)], nm: f64) -> impl Iterator<Item = f64> {
+    let (below, above) = inner.split_at(inner.partition_point(|p| p.0 < nm));
+    let above = above.iter().filter(move |p| p.0 != nm);
+    below.iter().map(|p| p.0).chain([nm]).chain(above.map(|p| p.0))
+}
+
+/// Integral of the broken line times the hat about `nm`, between two neighbouring knots: a parabola, so Simpson's rule
+/// is exact.
+fn hat_integral(points: &[(f64, f64)], outside: Outside, nm: f64, low: f64, high: f64) -> f64 {
+    let middle = (low + high) / 2.0;
+    let value = line_at(points, outside, middle);
+    let (a, b) = (side_limit(points, outside, low, middle, value), side_limit(points, outside, high, middle, value));
+    let hat = |x: f64| 1.0 - (x - nm).abs();
+    (high - low) / 6.0 * (a * hat(low) + 4.0 * value * hat(middle) + b * hat(high))
+}
+
+/// The broken line's limit at a knot from the side of `inside`, where its value is `value`: the line may jump at the
+/// table's ends.
+fn side_limit(points: &[(f64, f64)], outside: Outside, knot: f64, inside: f64, value: f64) -> f64 {
+    let (first, last) = (points[0].0, points[points.len() - 1].0);
+    if inside < first || inside > last { value } else { line_at(points, outside, knot) }
+}
+
+/// The broken line at a wavelength.
+fn line_at(points: &[(f64, f64)], outside: Outside, nm: f64) -> f64 {
+    let (first, last) = (points[0], points[points.len() - 1]);
+    let end = |value: f64| if outside == Outside::Zero { 0.0 } else { value };
+    if nm < first.0 {
+        return end(first.1);
+    }
+    let above = points.partition_point(|p| p.0 <= nm);
+    if above == points.len() {
+        return if nm == last.0 { last.1 } else { end(last.1) };
+    }
+    let ((x0, y0), (x1, y1)) = (points[above - 1], points[above]);
+    y0 + (nm - x0) / (x1 - x0) * (y1 - y0)
+}
