@@ -1,0 +1,208 @@
+//! Where on the sensor plane a pixel lies, and the camera matrix that other programs expect.
+//!
+//! Raster coordinates have their origin at the top-left corner of the picture and pixel centres at + 0.5; column i
+//! covers [i, i + 1). OpenCV and ROS put the centre of the top-left pixel at (0, 0), so their cx = cx(raster) − 0.5 and
+//! cy = cy(raster) − 0.5; COLMAP uses the raster's own convention. fx and fy are the same in all of them.
+
+use glam::DVec2;
+
+/// Why a raster cannot be.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum RasterError {
+    /// No pixels.
+    #[error("a picture of {width} × {height} pixels is empty: give at least one column and one row")]
+    Empty {
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// A pitch that is not a positive number.
+    #[error("the pixel pitch {x_mm} × {y_mm} mm is not positive and finite")]
+    Pitch {
+        /// Pitch along a row, mm.
+        x_mm: f64,
+        /// Pitch along a column, mm.
+        y_mm: f64,
+    },
+    /// A principal point that is not a number.
+    #[error("the principal point ({x_px}, {y_px}) px is not finite")]
+    Principal {
+        /// Column coordinate, px.
+        x_px: f64,
+        /// Row coordinate, px.
+        y_px: f64,
+    },
+}
+
+/// The pixel grid on the sensor plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Raster {
+    width: usize,
+    height: usize,
+    pitch_mm: DVec2,
+    principal_px: DVec2,
+}
+
+impl Raster {
+    /// A grid of `width` × `height` pixels of `pitch_mm`, with the optical axis at `principal_px` (raster coordinates).
+    ///
+    /// # Errors
+    /// Where there are no pixels or a number is not finite or a pitch not positive.
+    pub fn new(width: usize, height: usize, pitch_mm: DVec2, principal_px: DVec2) -> Result<Self, RasterError> {
+        if width == 0 || height == 0 {
+            return Err(RasterError::Empty { width, height });
+        }
+        if !(pitch_mm.is_finite() && pitch_mm.min_element() > 0.0) {
+            return Err(RasterError::Pitch { x_mm: pitch_mm.x, y_mm: pitch_mm.y });
+        }
+        if !principal_px.is_finite() {
+            return Err(RasterError::Principal { x_px: principal_px.x, y_px: principal_px.y });
+        }
+        Ok(Self { width, height, pitch_mm, principal_px })
+    }
+
+    /// A grid of square pixels with the optical axis at its centre.
+    ///
+    /// # Errors
+    /// As [`Raster::new`].
+    pub fn centred(width: usize, height: usize, pitch_mm: f64) -> Result<Self, RasterError> {
+        let centre = DVec2::new(width as f64, height as f64) / 2.0;
+        Self::new(width, height, DVec2::splat(pitch_mm), centre)
+    }
+
+    /// Columns.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Pixel pitch, mm.
+    #[must_use]
+    pub fn pitch_mm(&self) -> DVec2 {
+        self.pitch_mm
+    }
+
+    /// The principal point in raster coordinates, px.
+    #[must_use]
+    pub fn principal_px(&self) -> DVec2 {
+        self.principal_px
+    }
+
+    /// Width and height of the picture on the sensor, mm.
+    #[must_use]
+    pub fn size_mm(&self) -> DVec2 {
+        self.pitch_mm * DVec2::new(self.width as f64, self.height as f64)
+    }
+
+    /// Half the picture's diagonal, mm.
+    #[must_use]
+    pub fn half_diagonal_mm(&self) -> f64 {
+        0.5 * self.size_mm().length()
+    }
+
+    /// The largest distance of a point of the picture from the principal point, mm.
+    #[must_use]
+    pub fn max_radius_mm(&self) -> f64 {
+        let far_px =
+            self.principal_px.abs().max((DVec2::new(self.width as f64, self.height as f64) - self.principal_px).abs());
+        (far_px * self.pitch_mm).length()
+    }
+
+    /// The point of the sensor plane (mm from the principal point) at raster coordinates.
+    #[must_use]
+    pub fn sensor_mm(&self, raster_px: DVec2) -> DVec2 {
+        (raster_px - self.principal_px) * self.pitch_mm
+    }
+
+    /// The raster coordinates of a point of the sensor plane.
+    #[must_use]
+    pub fn raster_px(&self, sensor_mm: DVec2) -> DVec2 {
+        sensor_mm / self.pitch_mm + self.principal_px
+    }
+
+    /// The camera matrix of a camera with this grid and a principal distance.
+    #[must_use]
+    pub fn camera_matrix(&self, principal_distance_mm: f64) -> CameraMatrix {
+        let f = DVec2::splat(principal_distance_mm) / self.pitch_mm;
+        CameraMatrix { fx: f.x, fy: f.y, cx: self.principal_px.x, cy: self.principal_px.y }
+    }
+}
+
+/// Focal lengths and principal point in pixels, in raster coordinates (centres at + 0.5).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CameraMatrix {
+    /// Principal distance in columns, px.
+    pub fx: f64,
+    /// Principal distance in rows, px.
+    pub fy: f64,
+    /// Column coordinate of the principal point, px.
+    pub cx: f64,
+    /// Row coordinate of the principal point, px.
+    pub cy: f64,
+}
+
+impl CameraMatrix {
+    /// The same camera with the centre of the top-left pixel at (0, 0), as OpenCV and ROS write it.
+    #[must_use]
+    pub fn to_opencv(self) -> Self {
+        Self { cx: self.cx - 0.5, cy: self.cy - 0.5, ..self }
+    }
+
+    /// The raster's matrix of one that OpenCV or ROS wrote.
+    #[must_use]
+    pub fn from_opencv(self) -> Self {
+        Self { cx: self.cx + 0.5, cy: self.cy + 0.5, ..self }
+    }
+
+    /// Row by row, as calibration files keep it.
+    #[must_use]
+    pub fn rows(self) -> [[f64; 3]; 3] {
+        [[self.fx, 0.0, self.cx], [0.0, self.fy, self.cy], [0.0, 0.0, 1.0]]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sensor_of_the_paper_has_its_size() {
+        // PHYSICS.md §17: 776 × 582 at 8.3 µm is 6.4408 × 4.8306 mm.
+        let raster = Raster::centred(776, 582, 0.0083).expect("legal");
+        assert!((raster.size_mm() - DVec2::new(6.4408, 4.8306)).length() < 1e-12);
+        assert!((raster.max_radius_mm() - raster.half_diagonal_mm()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn pixel_centres_are_at_a_half_and_opencv_s_at_whole_numbers() {
+        let raster = Raster::centred(4, 2, 0.01).expect("legal");
+        assert!((raster.sensor_mm(DVec2::new(0.5, 0.5)) - DVec2::new(-0.015, -0.005)).length() < 1e-15);
+        let matrix = raster.camera_matrix(10.0);
+        assert_eq!(matrix, CameraMatrix { fx: 1000.0, fy: 1000.0, cx: 2.0, cy: 1.0 });
+        assert_eq!((matrix.to_opencv().cx, matrix.to_opencv().cy), (1.5, 0.5));
+        assert_eq!(matrix.to_opencv().from_opencv(), matrix);
+    }
+
+    #[test]
+    fn the_far_corner_counts_where_the_axis_is_off_centre() {
+        let raster = Raster::new(4, 4, DVec2::splat(1.0), DVec2::new(1.0, 4.0)).expect("legal");
+        assert!((raster.max_radius_mm() - 5.0).abs() < 1e-12);
+        let p = DVec2::new(0.3, 3.7);
+        assert!((raster.raster_px(raster.sensor_mm(p)) - p).length() < 1e-14);
+    }
+
+    #[test]
+    fn what_is_no_raster_is_refused() {
+        assert!(matches!(Raster::centred(0, 4, 0.01), Err(RasterError::Empty { .. })));
+        assert!(matches!(Raster::centred(4, 4, -0.01), Err(RasterError::Pitch { .. })));
+        let nan = Raster::new(4, 4, DVec2::ONE, DVec2::NAN);
+        assert!(matches!(nan, Err(RasterError::Principal { .. })));
+    }
+}

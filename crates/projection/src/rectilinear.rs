@@ -1,0 +1,44 @@
+//! The rectilinear (perspective, gnomonic) projection: straight lines stay straight.
+//!
+//! x = c · X / Z, y = c · Y / Z, with c the principal distance: the focal length of a lens focused at infinity, longer
+//! where it is focused nearer. Covers less than 180°: directions with Z ≤ 0 have no image.
+
+use glam::{DVec2, DVec3};
+
+/// The rectilinear projection of a camera with one principal distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rectilinear {
+    /// Principal distance c, mm.
+    pub principal_distance_mm: f64,
+}
+
+impl Rectilinear {
+    /// The ideal point (mm) at which a direction of the camera frame (any length) is seen; `None` at 90° and beyond.
+    #[must_use]
+    pub fn project(&self, direction: DVec3) -> Option<DVec2> {
+        let point = direction.truncate() * (self.principal_distance_mm / direction.z);
+        (direction.z > 0.0 && point.is_finite()).then_some(point)
+    }
+
+    /// The unit direction of the camera frame seen at an ideal point (mm).
+    #[must_use]
+    pub fn direction(&self, ideal_mm: DVec2) -> DVec3 {
+        (ideal_mm / self.principal_distance_mm).extend(1.0).normalize()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_direction_comes_back() {
+        let view = Rectilinear { principal_distance_mm: 12.5 };
+        for p in [DVec2::ZERO, DVec2::new(3.0, -4.0), DVec2::new(-90.0, 0.5)] {
+            let back = view.project(view.direction(p) * 7.0).expect("in front");
+            // Two divisions and a normalisation: a few units in the last place.
+            assert!((back - p).length() <= 1e-14 * (1.0 + p.length()));
+        }
+        assert!(view.project(DVec3::X).is_none() && view.project(DVec3::NEG_Z).is_none());
+    }
+}
