@@ -43,7 +43,14 @@ impl Gather {
     #[must_use]
     pub fn new(layout: Layout) -> Self {
         let slots = layout.slots();
-        Self { layout, sums: vec![0.0; slots], mean: vec![0.0; slots], squares: vec![0.0; slots], replicates: 0, not_finite: 0 }
+        Self {
+            layout,
+            sums: vec![0.0; slots],
+            mean: vec![0.0; slots],
+            squares: vec![0.0; slots],
+            replicates: 0,
+            not_finite: 0,
+        }
     }
 
     /// Forgets everything, for the next pixel.

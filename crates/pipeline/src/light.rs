@@ -1,0 +1,224 @@
+//! The light of a frame: every pixel's samples sent into a radiance field and gathered on the film.
+
+use crate::film::Film;
+use crate::gather::{Gather, Layout};
+use crate::observer::Observer;
+use crate::tile::{Shard, Tile, tiles};
+use etendue_core::random::{Draw, PathStream, Pixel, PixelAddress};
+use etendue_core::{CameraPose, PupilRay, RadianceField, Ray, Wavelengths};
+use etendue_spectra::Spectrum;
+use glam::DVec2;
+use rayon::prelude::*;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// How a raster point becomes a ray: through a lens, or from the centre of the entrance pupil.
+pub trait RaySource: Sync {
+    /// The ray of a raster point (px) through the pupil sample (in [0, 1)²) at `wavelength_nm`, in the camera frame.
+    /// `None` where the lens stops it.
+    fn ray(&self, raster_px: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<PupilRay>;
+}
+
+/// Each pixel's responsivity (e⁻ per W·m⁻²), a colour filter's tile repeated over the sensor.
+#[derive(Clone, Debug)]
+pub struct Mosaic {
+    /// Columns of the tile.
+    pub columns: usize,
+    /// The tile's responsivities, row by row.
+    pub responsivities: Vec<Spectrum>,
+}
+
+impl Mosaic {
+    fn at(&self, pixel: Pixel) -> &Spectrum {
+        let rows = self.responsivities.len() / self.columns;
+        &self.responsivities[(pixel.y as usize % rows) * self.columns + pixel.x as usize % self.columns]
+    }
+}
+
+/// How densely light is sampled, and by which random addresses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampling {
+    /// Samples a pixel, over all replicates.
+    pub spp: u32,
+    /// Independently scrambled replicates; divides `spp`.
+    pub replicates: u32,
+    /// The job's seed.
+    pub seed: u64,
+    /// The camera's place in the job.
+    pub camera: u32,
+    /// Shortest wavelength sampled, nm.
+    pub low_nm: f32,
+    /// Longest wavelength sampled, nm.
+    pub high_nm: f32,
+}
+
+/// What a frame's light is gathered from and into.
+#[derive(Debug)]
+pub struct Exposure<'a, S> {
+    /// Makes the rays.
+    pub source: &'a S,
+    /// Where the camera stands.
+    pub pose: CameraPose,
+    /// Columns of the film.
+    pub width: u32,
+    /// Rows of the film.
+    pub height: u32,
+    /// Side of a pixel's photosensitive area, in pixels (the root of the fill factor).
+    pub aperture_px: f64,
+    /// What is kept.
+    pub layout: Layout,
+    /// Responsivities to fold, where electrons are folded.
+    pub mosaic: Option<&'a Mosaic>,
+    /// Samples and addresses.
+    pub sampling: Sampling,
+    /// Side of a tile, px. It does not change the result.
+    pub tile_px: u32,
+    /// Which tiles to render; the others stay zero.
+    pub shard: Shard,
+}
+
+/// The caller asked to stop before the film was complete.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the rendering was cancelled")]
+pub struct Cancelled;
+
+impl<S: RaySource> Exposure<'_, S> {
+    /// Renders the shard's tiles in parallel on the caller's thread pool.
+    ///
+    /// # Errors
+    /// [`Cancelled`] where the observer asked to stop.
+    pub fn gather<const N: usize>(
+        &self,
+        field: &impl RadianceField<N>,
+        observer: &dyn Observer,
+    ) -> Result<Film, Cancelled> {
+        let film = Mutex::new(self.empty_film());
+        let tiles = tiles(self.width, self.height, self.tile_px, self.shard);
+        let done = AtomicUsize::new(0);
+        tiles.par_iter().try_for_each(|tile| {
+            if observer.cancelled() {
+                return Err(Cancelled);
+            }
+            self.gather_tile(field, *tile, &film);
+            observer.tiles(done.fetch_add(1, Ordering::Relaxed) + 1, tiles.len());
+            Ok(())
+        })?;
+        Ok(film.into_inner().expect("no tile panicked"))
+    }
+
+    fn empty_film(&self) -> Film {
+        let Sampling { spp, replicates, .. } = self.sampling;
+        Film::new(self.width as usize, self.height as usize, &self.layout, spp, replicates)
+    }
+
+    /// Gathers a tile's pixels, then stores them together: the film is locked once a tile.
+    fn gather_tile<const N: usize>(&self, field: &impl RadianceField<N>, tile: Tile, film: &Mutex<Film>) {
+        let pixels: Vec<_> = tile.pixels().map(|pixel| (pixel, self.gather_pixel(field, pixel))).collect();
+        let mut film = film.lock().expect("no tile panicked");
+        pixels.iter().for_each(|(pixel, gather)| film.store(*pixel, gather));
+    }
+
+    fn gather_pixel<const N: usize>(&self, field: &impl RadianceField<N>, pixel: Pixel) -> Gather {
+        let mut gather = Gather::new(self.layout.clone());
+        let responsivity = self.mosaic.map(|mosaic| mosaic.at(pixel));
+        let samples = self.sampling.spp / self.sampling.replicates;
+        for replicate in 0..self.sampling.replicates {
+            let first = PathStream::new(&self.address(pixel, replicate), 0);
+            for sample in 0..samples {
+                self.add_sample(field, pixel, &first.with_sample(sample), responsivity, &mut gather);
+            }
+            gather.end_replicate(samples);
+        }
+        gather
+    }
+
+    fn address(&self, pixel: Pixel, replicate: u32) -> PixelAddress {
+        let Sampling { seed, camera, .. } = self.sampling;
+        PixelAddress { seed, camera, frame: 0, capture: 0, pixel, replicate }
+    }
+
+    fn add_sample<const N: usize>(
+        &self,
+        field: &impl RadianceField<N>,
+        pixel: Pixel,
+        stream: &PathStream,
+        responsivity: Option<&Spectrum>,
+        gather: &mut Gather,
+    ) {
+        let Sampling { low_nm, high_nm, .. } = self.sampling;
+        let wavelengths = Wavelengths::<N>::uniform(low_nm, high_nm, stream.one(Draw::Wavelength, 0));
+        let area = stream.two(Draw::PixelArea, 0).as_dvec2() - 0.5;
+        let raster = DVec2::new(f64::from(pixel.x), f64::from(pixel.y)) + 0.5 + area * self.aperture_px;
+        let pupil = stream.two(Draw::Pupil, 0).as_dvec2();
+        if let Some(pupil_ray) = self.source.ray(raster, pupil, f64::from(wavelengths.nm[0])) {
+            let radiance = field.radiance(&self.to_render(&pupil_ray), &wavelengths, stream);
+            gather.add(pupil_ray.weight_sr, radiance, &wavelengths, responsivity);
+        }
+    }
+
+    fn to_render(&self, ray: &PupilRay) -> Ray {
+        let origin = self.pose.point_to_render(ray.origin_m).as_vec3();
+        Ray::new(origin, self.pose.direction_to_world(ray.direction).as_vec3().normalize(), 0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::observer::Unobserved;
+    use etendue_core::Bands;
+    use etendue_core::field::ConstantField;
+    use glam::{DMat3, DVec3};
+
+    struct Half;
+
+    impl RaySource for Half {
+        fn ray(&self, raster_px: DVec2, _pupil: DVec2, _wavelength_nm: f64) -> Option<PupilRay> {
+            let ray = PupilRay { origin_m: DVec3::ZERO, direction: DVec3::Z, weight_sr: 0.25 };
+            (raster_px.x < 4.0).then_some(ray)
+        }
+    }
+
+    fn exposure(tile_px: u32, shard: Shard) -> Exposure<'static, Half> {
+        let bands = Bands::covering(400.0, 700.0, 50.0);
+        Exposure {
+            source: &Half,
+            pose: CameraPose { position_m: DVec3::ZERO, rotation: DMat3::IDENTITY },
+            width: 9,
+            height: 5,
+            aperture_px: 1.0,
+            layout: Layout { bands, folded: false },
+            mosaic: None,
+            sampling: Sampling { spp: 64, replicates: 2, seed: 3, camera: 0, low_nm: 400.0, high_nm: 700.0 },
+            tile_px,
+            shard,
+        }
+    }
+
+    fn film(tile_px: u32, shard: Shard) -> Film {
+        exposure(tile_px, shard).gather::<4>(&ConstantField { radiance: 2.0 }, &Unobserved).expect("not cancelled")
+    }
+
+    #[test]
+    fn a_stopped_pixel_is_dark_and_an_open_one_sees_weight_times_radiance() {
+        let film = film(4, Shard::WHOLE);
+        let cube = film.cube.as_ref().expect("a cube");
+        let sum = |x: usize| cube.mean.planes().iter().map(|p| p.at(x, 2)).sum::<f32>() / 6.0;
+        assert!((sum(1) - 0.5).abs() < 1e-6, "the mean over all bands is exact: {}", sum(1));
+        assert_eq!(sum(7), 0.0);
+        assert_eq!(film.radiance().expect("a cube").mean.planes()[0].at(7, 2), 0.0);
+    }
+
+    #[test]
+    fn tiles_and_shards_do_not_change_the_film() {
+        let whole = film(16, Shard::WHOLE);
+        assert_eq!(film(2, Shard::WHOLE), whole);
+        let mut joined = exposure(2, Shard::WHOLE).empty_film();
+        for index in 0..3 {
+            let shard = Shard::new(index, 3).expect("a shard");
+            let part = film(2, shard);
+            tiles(9, 5, 2, shard).into_iter().for_each(|tile| joined.copy_tile(tile, &part));
+        }
+        assert_eq!(joined, whole);
+    }
+}
