@@ -1,1 +1,29 @@
-//! Meshes, textures, spectral and ground-truth EXR, PNG and side-car files.
+//! Files of Étendue: reading assets, writing results, looking into files.
+//!
+//! | direction | what | where |
+//! | --- | --- | --- |
+//! | in | Wavefront OBJ with its MTL | [`mesh`] |
+//! | in | PNG, JPEG, Radiance HDR, OpenEXR pictures | [`picture`] |
+//! | in | everything a description names, with all errors at once | [`assets`] |
+//! | out and in | spectral EXR (layout of Fichet, Pacanowski and Wilkie 2021) | [`exr`] |
+//! | out | ground-truth EXR, planes as EXR, raw, depth and display PNG, side-car JSON | [`exr`], [`png`], [`sidecar`] |
+//! | look | what is in a file, with a picture of it | [`inspect`] |
+//!
+//! Encoders are pure: the same values give the same bytes, on any number of threads, without clock time. Bytes reach
+//! the disk through an [`OutputFolder`] alone, which refuses to overwrite, writes under temporary names and renames
+//! when everything is complete.
+//!
+//! This crate renders nothing and decides nothing; it never prints and starts no threads.
+
+pub mod error;
+pub mod exr;
+pub mod hash;
+pub mod output;
+pub mod png;
+pub mod provenance;
+pub mod sidecar;
+mod source;
+
+pub use error::Error;
+pub use output::{Existing, OutputFolder};
+pub use provenance::Provenance;

@@ -1,0 +1,66 @@
+//! What can be wrong with a file.
+
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// One fault of one file: where, what is wrong, what was expected and what to do, in one sentence.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub struct Error {
+    file: PathBuf,
+    line: Option<usize>,
+    what: String,
+    named_at: Option<String>,
+}
+
+impl Error {
+    /// A fault of the whole file.
+    #[must_use]
+    pub fn new(file: &Path, what: impl Into<String>) -> Self {
+        Self { file: file.to_path_buf(), line: None, what: what.into(), named_at: None }
+    }
+
+    /// A fault in line `line`, counted from 1.
+    #[must_use]
+    pub fn at(file: &Path, line: usize, what: impl Into<String>) -> Self {
+        Self { line: Some(line), ..Self::new(file, what) }
+    }
+
+    /// The same fault with the place of the reference that led to the file.
+    #[must_use]
+    pub fn named_at(mut self, place: impl Into<String>) -> Self {
+        self.named_at = Some(place.into());
+        self
+    }
+
+    /// The file at fault.
+    #[must_use]
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// The line at fault, counted from 1, where one is.
+    #[must_use]
+    pub fn line(&self) -> Option<usize> {
+        self.line
+    }
+
+    /// What is wrong, without the place.
+    #[must_use]
+    pub fn what(&self) -> &str {
+        &self.what
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.file.display())?;
+        if let Some(line) = self.line {
+            write!(f, ":{line}")?;
+        }
+        write!(f, ": {}", self.what)?;
+        match &self.named_at {
+            Some(place) => write!(f, " (named at {place})"),
+            None => Ok(()),
+        }
+    }
+}

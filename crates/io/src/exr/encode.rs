@@ -1,0 +1,220 @@
+//! Channels and facts to the bytes of an EXR file.
+
+use std::collections::BTreeMap;
+use std::io::Cursor;
+
+use ::exr::meta::attribute::AttributeValue;
+use ::exr::prelude::{
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, Text, WritableImage,
+};
+use ::exr::prelude::{Blocks, Compression, LineOrder};
+
+use crate::Provenance;
+
+/// Why values cannot become an EXR or PNG file.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum EncodeError {
+    /// Zero pixels.
+    #[error("a picture of {width} × {height} pixels cannot be stored; expected at least one pixel")]
+    Empty {
+        /// Pixels a row.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// A picture without channels.
+    #[error("a picture without channels cannot be stored; expected at least one plane")]
+    NoChannels,
+    /// Planes of different sizes.
+    #[error("plane `{name}` has {found} samples, expected {expected}; all planes of one file have the same size")]
+    Size {
+        /// The plane.
+        name: String,
+        /// Its samples.
+        found: usize,
+        /// The file's pixels.
+        expected: usize,
+    },
+    /// A text outside Latin-1, or a name longer than 31 bytes, which EXR headers do not hold.
+    #[error("`{0}` cannot stand in an EXR header: texts are Latin-1 without NUL, attribute names at most 31 bytes")]
+    Text(String),
+    /// The encoder refused.
+    #[error("the encoder failed: {0}")]
+    Encoder(String),
+}
+
+/// A fact of the header.
+pub(crate) enum Fact {
+    /// A string.
+    Text(String),
+    /// A double.
+    Number(f64),
+}
+
+/// A picture to be stored.
+pub(crate) struct ExrImage {
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+    pub(crate) channels: Vec<(String, FlatSamples)>,
+    pub(crate) facts: BTreeMap<String, Fact>,
+    /// Luminance of R = G = B = 1, cd/m², where R, G, B are photometric.
+    pub(crate) white_luminance: Option<f32>,
+}
+
+impl ExrImage {
+    /// A picture without channels that carries `provenance` as `etendue:…` facts.
+    pub(crate) fn new(width: usize, height: usize, provenance: &Provenance) -> Self {
+        let mut image = Self { width, height, channels: Vec::new(), facts: BTreeMap::new(), white_luminance: None };
+        for (name, text) in provenance.texts() {
+            image.state(&name, text);
+        }
+        image
+    }
+
+    /// States `etendue:<name>`.
+    pub(crate) fn state(&mut self, name: &str, text: impl Into<String>) {
+        self.facts.insert(format!("etendue:{name}"), Fact::Text(text.into()));
+    }
+
+    /// Adds a plane of floats.
+    pub(crate) fn float(&mut self, name: impl Into<String>, samples: Vec<f32>) {
+        self.channels.push((name.into(), FlatSamples::F32(samples)));
+    }
+
+    /// Adds a plane of unsigned integers.
+    pub(crate) fn uint(&mut self, name: impl Into<String>, samples: Vec<u32>) {
+        self.channels.push((name.into(), FlatSamples::U32(samples)));
+    }
+
+    /// The bytes of the file.
+    pub(crate) fn into_bytes(self) -> Result<Vec<u8>, EncodeError> {
+        self.check()?;
+        let mut attributes = LayerAttributes { white_luminance: self.white_luminance, ..LayerAttributes::default() };
+        for (name, fact) in &self.facts {
+            attributes.other.insert(header_name(name)?, fact.value()?);
+        }
+        let channels = self.channels.into_iter().map(|(name, samples)| Ok(AnyChannel::new(text(&name)?, samples)));
+        let channels = AnyChannels::sort(channels.collect::<Result<_, EncodeError>>()?);
+        let layer = Layer::new((self.width, self.height), attributes, ENCODING, channels);
+        let mut bytes = Cursor::new(Vec::new());
+        let written = Image::from_layer(layer).write().non_parallel().to_buffered(&mut bytes);
+        written.map_err(|cause| EncodeError::Encoder(cause.to_string()))?;
+        let mut bytes = bytes.into_inner();
+        sort_header(&mut bytes).ok_or_else(|| EncodeError::Encoder("the header cannot be followed".to_owned()))?;
+        Ok(bytes)
+    }
+
+    fn check(&self) -> Result<(), EncodeError> {
+        let (width, height) = (self.width, self.height);
+        if width == 0 || height == 0 {
+            return Err(EncodeError::Empty { width, height });
+        }
+        if self.channels.is_empty() {
+            return Err(EncodeError::NoChannels);
+        }
+        let expected = width * height;
+        match self.channels.iter().find(|(_, samples)| samples.len() != expected) {
+            Some((name, samples)) => Err(EncodeError::Size { name: name.clone(), found: samples.len(), expected }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// The one encoding we write.
+const ENCODING: Encoding =
+    Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
+
+impl Fact {
+    fn value(&self) -> Result<AttributeValue, EncodeError> {
+        Ok(match self {
+            Self::Text(string) => AttributeValue::Text(text(string)?),
+            Self::Number(number) => AttributeValue::F64(*number),
+        })
+    }
+}
+
+fn text(string: &str) -> Result<Text, EncodeError> {
+    let held = if string.contains('\0') { None } else { Text::new_or_none(string) };
+    held.ok_or_else(|| EncodeError::Text(string.to_owned()))
+}
+
+/// Attribute names of at most 31 bytes: longer ones need a file flag that older readers refuse.
+fn header_name(name: &str) -> Result<Text, EncodeError> {
+    if name.len() > 31 { Err(EncodeError::Text(name.to_owned())) } else { text(name) }
+}
+
+/// Sorts the header's records by name in place. The encoder writes custom attributes in the random order of a hash map;
+/// the sum of their lengths does not change, so the offsets that follow stay valid. `None` where the bytes are no
+/// single-part header.
+fn sort_header(bytes: &mut [u8]) -> Option<()> {
+    const START: usize = 8; // magic number and version
+    let mut records: Vec<&[u8]> = Vec::new();
+    let mut rest = bytes.get(START..)?;
+    while *rest.first()? != 0 {
+        let (record, after) = rest.split_at_checked(record_length(rest)?)?;
+        records.push(record);
+        rest = after;
+    }
+    records.sort_by_key(|record| record.split(|&b| b == 0).next());
+    let sorted = records.concat();
+    bytes[START..START + sorted.len()].copy_from_slice(&sorted);
+    Some(())
+}
+
+/// Length of the record at the head of `bytes`: name, NUL, type, NUL, length as little-endian i32, value.
+fn record_length(bytes: &[u8]) -> Option<usize> {
+    let name = bytes.iter().position(|&b| b == 0)?;
+    let kind = bytes[name + 1..].iter().position(|&b| b == 0)?;
+    let head = name + kind + 2;
+    let length = i32::from_le_bytes(bytes.get(head..head + 4)?.try_into().ok()?);
+    Some(head + 4 + usize::try_from(length).ok()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn image() -> ExrImage {
+        let mut image = ExrImage::new(3, 2, &Provenance::default());
+        image.float("Y", vec![0.5; 6]);
+        image
+    }
+
+    #[test]
+    fn records_are_sorted_by_name() {
+        let bytes = image().into_bytes().expect("a small picture");
+        let mut names = Vec::new();
+        let mut rest = &bytes[8..];
+        while rest[0] != 0 {
+            names.push(String::from_utf8_lossy(rest.split(|&b| b == 0).next().expect("name")).into_owned());
+            rest = &rest[record_length(rest).expect("record")..];
+        }
+        assert!(names.is_sorted(), "{names:?}");
+        assert!(names.len() > 12);
+    }
+
+    #[test]
+    fn bytes_are_the_same_in_every_thread() {
+        // Each hash map of each thread has its own random order.
+        let first = image().into_bytes().expect("a small picture");
+        for _ in 0..8 {
+            let again = std::thread::spawn(|| image().into_bytes()).join().expect("no panic").expect("a small picture");
+            assert_eq!(again, first);
+        }
+    }
+
+    #[test]
+    fn what_an_exr_cannot_hold_is_refused() {
+        let mut odd = image();
+        odd.state("note", "λ");
+        assert_eq!(odd.into_bytes(), Err(EncodeError::Text("λ".to_owned())));
+        let mut long = image();
+        long.state("a_name_that_goes_on_and_on_and_on", "x");
+        assert!(matches!(long.into_bytes(), Err(EncodeError::Text(_))));
+        let mut uneven = image();
+        uneven.uint("Z", vec![1; 5]);
+        assert_eq!(uneven.into_bytes(), Err(EncodeError::Size { name: "Z".to_owned(), found: 5, expected: 6 }));
+        assert!(matches!(ExrImage::new(0, 2, &Provenance::default()).into_bytes(), Err(EncodeError::Empty { .. })));
+        assert_eq!(ExrImage::new(1, 2, &Provenance::default()).into_bytes(), Err(EncodeError::NoChannels));
+    }
+}

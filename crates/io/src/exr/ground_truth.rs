@@ -1,0 +1,68 @@
+//! Ground truth as an EXR: point-sampled on the principal ray, never filtered.
+//!
+//! Lengths and positions are in metres; the sky is at +∞; identity 0 is the background.
+
+use etendue_core::Plane;
+use etendue_core::quantity::{Identity, Length, Vector};
+
+use super::encode::{EncodeError, ExrImage};
+use crate::Provenance;
+
+/// Planes of ground truth; what a job did not ask for is `None`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct GroundTruth<'a> {
+    /// Distance along the camera's axis, m.
+    pub depth: Option<&'a Plane<Length>>,
+    /// Distance along the ray from the centre of the entrance pupil, m.
+    pub distance: Option<&'a Plane<Length>>,
+    /// Unit shading normal in the world.
+    pub normal: Option<&'a Plane<Vector>>,
+    /// Position in the world, m, rounded to 32-bit floats (at 100 km from the origin: 4 mm).
+    pub position: Option<&'a Plane<Vector>>,
+    /// Identity of the instance.
+    pub instance: Option<&'a Plane<Identity>>,
+    /// Identity of the class.
+    pub semantic: Option<&'a Plane<Identity>>,
+    /// Identity of the material.
+    pub material: Option<&'a Plane<Identity>>,
+}
+
+/// The planes of `truth` in one file.
+pub fn encode_ground_truth(truth: &GroundTruth<'_>, provenance: &Provenance) -> Result<Vec<u8>, EncodeError> {
+    let (width, height) = truth.size().ok_or(EncodeError::NoChannels)?;
+    let mut image = ExrImage::new(width, height, provenance);
+    for (name, plane) in [("depth.Z", truth.depth), ("distance.Z", truth.distance)] {
+        if let Some(plane) = plane {
+            image.float(name, plane.samples().to_vec());
+        }
+    }
+    for (layer, plane) in [("N", truth.normal), ("P", truth.position)] {
+        if let Some(plane) = plane {
+            add_vector(&mut image, layer, plane);
+        }
+    }
+    for (layer, plane) in [("instance", truth.instance), ("semantic", truth.semantic), ("material", truth.material)] {
+        if let Some(plane) = plane {
+            image.uint(format!("{layer}.ID"), plane.samples().to_vec());
+        }
+    }
+    image.state("quantity", "ground truth");
+    image.state("units", "depth, distance, P: m; N: 1; ID: identity, 0 is the background");
+    image.state("sampling", "point sample on the principal ray, never filtered; sky at +inf");
+    image.into_bytes()
+}
+
+impl GroundTruth<'_> {
+    fn size(&self) -> Option<(usize, usize)> {
+        let lengths = [self.depth, self.distance].into_iter().flatten().map(|p| (p.width(), p.height()));
+        let vectors = [self.normal, self.position].into_iter().flatten().map(|p| (p.width(), p.height()));
+        let ids = [self.instance, self.semantic, self.material].into_iter().flatten().map(|p| (p.width(), p.height()));
+        lengths.chain(vectors).chain(ids).next()
+    }
+}
+
+fn add_vector(image: &mut ExrImage, layer: &str, plane: &Plane<Vector>) {
+    for (axis, letter) in ["X", "Y", "Z"].into_iter().enumerate() {
+        image.float(format!("{layer}.{letter}"), plane.samples().iter().map(|v| v[axis]).collect());
+    }
+}

@@ -1,0 +1,32 @@
+//! OpenEXR files: spectral images, ground truth, planes of one quantity.
+//!
+//! Everything is written as one part of scan lines, ZIP16 compression, increasing line order, channels sorted by name and
+//! header records sorted by name, on one thread: the same values give the same bytes, in any process. 32-bit floats
+//! and unsigned integers pass unchanged, NaN and infinities included.
+//!
+//! | writer | channels |
+//! | --- | --- |
+//! | [`encode_spectral`] | `S0.550,000000nm` …, `variance.S0.550,000000nm` …, preview `R`, `G`, `B` |
+//! | [`encode_ground_truth`] | `depth.Z`, `distance.Z`, `N.X/Y/Z`, `P.X/Y/Z`, `instance.ID`, `semantic.ID`, `material.ID`, `flow.X/Y` |
+//! | [`encode_plane`] | the quantity's name, `variance.` and the quantity's name |
+
+mod encode;
+mod ground_truth;
+mod name;
+mod plane;
+mod preview;
+mod read;
+mod spectral;
+mod spectral_read;
+
+pub use encode::EncodeError;
+pub use ground_truth::{GroundTruth, encode_ground_truth};
+pub use name::{SpectralChannel, Stokes, channel_name, parse_channel_name};
+pub use plane::encode_plane;
+pub use read::{ExrChannel, ExrFile, Samples, read_exr};
+pub use spectral::encode_spectral;
+pub use spectral_read::{SpectralFile, SpectralImage, WithVariance, read_spectral};
+
+pub(crate) use preview::linear_srgb;
+pub(crate) use read::decode_exr;
+pub(crate) use spectral_read::spectral_of;

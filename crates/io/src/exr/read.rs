@@ -1,0 +1,162 @@
+//! Reading any flat EXR: all channels of all parts, at full resolution.
+
+use std::collections::BTreeMap;
+use std::io::Cursor;
+use std::path::Path;
+
+use ::exr::meta::attribute::AttributeValue;
+use ::exr::prelude::{AnyChannels, FlatSamples, Layer, ReadChannels, ReadLayers};
+
+use crate::Error;
+use crate::source::read_bytes;
+
+/// Samples of a channel, row by row from the top left.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Samples {
+    /// 16-bit floats in the file, widened.
+    Half(Vec<f32>),
+    /// 32-bit floats.
+    Float(Vec<f32>),
+    /// 32-bit unsigned integers.
+    Uint(Vec<u32>),
+}
+
+/// A channel by its full name; of a file of several named parts the part's name stands before it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExrChannel {
+    /// Name.
+    pub name: String,
+    /// Values.
+    pub samples: Samples,
+}
+
+/// What is in an EXR file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ExrFile {
+    /// Pixels a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Channels, sorted by name within a part.
+    pub channels: Vec<ExrChannel>,
+    /// Header attributes other than the technical ones, as text.
+    pub attributes: BTreeMap<String, String>,
+    /// Compression, in the words of OpenEXR.
+    pub compression: String,
+}
+
+impl Samples {
+    /// The samples as floats; unsigned integers above 2²⁴ are rounded.
+    #[must_use]
+    pub fn to_floats(&self) -> Vec<f32> {
+        match self {
+            Self::Half(values) | Self::Float(values) => values.clone(),
+            Self::Uint(values) => values.iter().map(|&v| v as f32).collect(),
+        }
+    }
+}
+
+impl ExrFile {
+    /// The channel of that name.
+    #[must_use]
+    pub fn channel(&self, name: &str) -> Option<&Samples> {
+        self.channels.iter().find(|c| c.name == name).map(|c| &c.samples)
+    }
+}
+
+/// Reads `file`.
+pub fn read_exr(file: &Path) -> Result<ExrFile, Error> {
+    decode_exr(file, &read_bytes(file, "EXR")?)
+}
+
+/// Reads the bytes of `file`.
+pub(crate) fn decode_exr(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
+    let image = ::exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .all_layers()
+        .all_attributes()
+        .non_parallel()
+        .from_buffered(Cursor::new(bytes))
+        .map_err(|cause| Error::new(file, explain(&cause)))?;
+    let mut read = ExrFile {
+        width: 0,
+        height: 0,
+        channels: Vec::new(),
+        attributes: attribute_texts(&image.attributes.other),
+        compression: String::new(),
+    };
+    let several = image.layer_data.len() > 1;
+    for layer in image.layer_data {
+        add_layer(&mut read, file, layer, several)?;
+    }
+    Ok(read)
+}
+
+fn explain(cause: &::exr::error::Error) -> String {
+    match cause {
+        ::exr::error::Error::NotSupported(what) => {
+            format!(
+                "an EXR feature that is not supported ({what}); store the file again as flat scan lines with ZIP compression"
+            )
+        }
+        other => format!("not a readable EXR file ({other}); it may be truncated: make or fetch it again"),
+    }
+}
+
+fn add_layer(
+    read: &mut ExrFile,
+    file: &Path,
+    layer: Layer<AnyChannels<FlatSamples>>,
+    several: bool,
+) -> Result<(), Error> {
+    let (width, height) = (layer.size.width(), layer.size.height());
+    if read.channels.is_empty() {
+        (read.width, read.height) = (width, height);
+    } else if (read.width, read.height) != (width, height) {
+        let sizes = format!("{}x{} and {width}x{height}", read.width, read.height);
+        return Err(Error::new(
+            file,
+            format!("parts of different sizes ({sizes}); store each part as a file of its own"),
+        ));
+    }
+    read.compression = layer.encoding.compression.to_string();
+    read.attributes.extend(attribute_texts(&layer.attributes.other));
+    let part = layer.attributes.layer_name.as_ref().filter(|_| several).map(|name| format!("{name}."));
+    for channel in layer.channel_data.list {
+        let name = format!("{}{}", part.as_deref().unwrap_or_default(), channel.name);
+        if channel.sample_data.len() != width * height {
+            return Err(Error::new(
+                file,
+                format!("channel `{name}` is subsampled; store all channels at full resolution"),
+            ));
+        }
+        read.channels.push(ExrChannel { name, samples: owned(channel.sample_data) });
+    }
+    Ok(())
+}
+
+fn owned(samples: FlatSamples) -> Samples {
+    match samples {
+        FlatSamples::F16(values) => Samples::Half(values.into_iter().map(f32::from).collect()),
+        FlatSamples::F32(values) => Samples::Float(values),
+        FlatSamples::U32(values) => Samples::Uint(values),
+    }
+}
+
+fn attribute_texts<'a>(
+    attributes: impl IntoIterator<Item = (&'a ::exr::prelude::Text, &'a AttributeValue)>,
+) -> BTreeMap<String, String> {
+    attributes.into_iter().map(|(name, value)| (name.to_string(), attribute_text(value))).collect()
+}
+
+fn attribute_text(value: &AttributeValue) -> String {
+    match value {
+        AttributeValue::Text(text) => text.to_string(),
+        AttributeValue::F64(number) => number.to_string(),
+        AttributeValue::F32(number) => number.to_string(),
+        AttributeValue::I32(number) => number.to_string(),
+        other => format!("{other:?}"),
+    }
+}

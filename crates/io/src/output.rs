@@ -1,0 +1,247 @@
+//! The folder that takes a run's results.
+//!
+//! Contract: a final name holds a whole file or none. Files are written beside their final name under a temporary one
+//! (`.NAME.PID-N.part`), flushed to the disk, and renamed by [`OutputFolder::commit`]. Dropped without commit, a folder
+//! removes its temporaries and the folders it made itself. A run that is killed outright may leave `.part` files; it
+//! leaves no half-written file under a final name.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Component, Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use crate::Error;
+
+/// What to do with files that are already there under the names to be written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Existing {
+    /// Refuse: an earlier result is never lost.
+    Refuse,
+    /// Replace them when the run commits.
+    Replace,
+}
+
+/// A folder for results; see the module for its contract.
+#[derive(Debug)]
+pub struct OutputFolder {
+    root: PathBuf,
+    existing: Existing,
+    made: Vec<PathBuf>,
+    pending: Vec<Pending>,
+}
+
+#[derive(Debug)]
+struct Pending {
+    temporary: PathBuf,
+    name: PathBuf,
+}
+
+/// Keeps temporaries of several folders of one process apart.
+static SERIAL: AtomicU64 = AtomicU64::new(0);
+
+impl OutputFolder {
+    /// Opens `root`, making it where it is missing, and proves that it can be written to, so that a long run cannot
+    /// fail at its end for want of permission.
+    pub fn open(root: &Path, existing: Existing) -> Result<Self, Error> {
+        let mut folder = Self { root: root.to_path_buf(), existing, made: Vec::new(), pending: Vec::new() };
+        folder.make_folder(root)?;
+        folder.prove_writable()?;
+        Ok(folder)
+    }
+
+    /// The folder's path.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.root
+    }
+
+    /// Refuses at once, before any rendering, where a file of these names is there and may not be replaced.
+    pub fn claim<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> Result<(), Error> {
+        names.into_iter().try_for_each(|name| self.check_free(&self.resolve(name)?))
+    }
+
+    /// Writes `bytes` for `name` (relative, `/` between folders) under a temporary name.
+    pub fn write(&mut self, name: &str, bytes: &[u8]) -> Result<(), Error> {
+        let target = self.resolve(name)?;
+        self.check_free(&target)?;
+        if self.pending.iter().any(|p| p.name == target) {
+            return Err(Error::new(&target, "written twice in one run; every result needs its own name"));
+        }
+        if let Some(parent) = target.parent() {
+            self.make_folder(parent)?;
+        }
+        let temporary = temporary_beside(&target);
+        self.pending.push(Pending { temporary: temporary.clone(), name: target.clone() });
+        write_flushed(&temporary, bytes).map_err(|cause| Error::new(&target, format!("cannot be written: {cause}")))
+    }
+
+    /// Gives every file its final name and returns the names, in the order of writing.
+    pub fn commit(mut self) -> Result<Vec<PathBuf>, Error> {
+        for file in &self.pending {
+            self.check_free(&file.name)?;
+        }
+        let mut names = Vec::with_capacity(self.pending.len());
+        while !self.pending.is_empty() {
+            let file = &self.pending[0];
+            fs::rename(&file.temporary, &file.name)
+                .map_err(|cause| Error::new(&file.name, format!("cannot take its final name: {cause}")))?;
+            names.push(self.pending.remove(0).name);
+        }
+        self.made.clear();
+        Ok(names)
+    }
+
+    fn resolve(&self, name: &str) -> Result<PathBuf, Error> {
+        let relative = Path::new(name);
+        let plain = relative.components().all(|part| matches!(part, Component::Normal(_)));
+        if name.is_empty() || !plain {
+            return Err(Error::new(relative, "not a name inside the output folder; expected a plain relative path"));
+        }
+        Ok(self.root.join(relative))
+    }
+
+    fn check_free(&self, target: &Path) -> Result<(), Error> {
+        if target.is_dir() {
+            return Err(Error::new(
+                target,
+                "a folder of this name is in the way of a result; remove it or choose another output folder",
+            ));
+        }
+        if self.existing == Existing::Refuse && target.exists() {
+            return Err(Error::new(
+                target,
+                "already there; choose another output folder, or allow it with --overwrite",
+            ));
+        }
+        Ok(())
+    }
+
+    fn make_folder(&mut self, folder: &Path) -> Result<(), Error> {
+        let missing: Vec<&Path> = folder.ancestors().take_while(|f| !f.as_os_str().is_empty() && !f.exists()).collect();
+        for path in missing.into_iter().rev() {
+            fs::create_dir(path)
+                .map_err(|cause| Error::new(path, format!("this output folder cannot be made: {cause}")))?;
+            self.made.push(path.to_path_buf());
+        }
+        if folder.as_os_str().is_empty() || folder.is_dir() {
+            return Ok(());
+        }
+        Err(Error::new(folder, "expected a folder for the results, but this is a file; choose another name"))
+    }
+
+    fn prove_writable(&self) -> Result<(), Error> {
+        let probe = temporary_beside(&self.root.join("probe"));
+        write_flushed(&probe, b"")
+            .and_then(|()| fs::remove_file(&probe))
+            .map_err(|cause| Error::new(&self.root, format!("this output folder cannot be written to: {cause}")))
+    }
+}
+
+impl Drop for OutputFolder {
+    /// Removes what was not committed. Failures are passed over: there is nobody left to tell.
+    fn drop(&mut self) {
+        for file in &self.pending {
+            let _ = fs::remove_file(&file.temporary);
+        }
+        for folder in self.made.iter().rev() {
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+fn temporary_beside(target: &Path) -> PathBuf {
+    let serial = SERIAL.fetch_add(1, Ordering::Relaxed);
+    let name = target.file_name().unwrap_or_default().to_string_lossy();
+    target.with_file_name(format!(".{name}.{}-{serial}.part", std::process::id()))
+}
+
+fn write_flushed(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn listing(folder: &Path) -> Vec<String> {
+        let mut names: Vec<String> = fs::read_dir(folder)
+            .expect("folder")
+            .map(|e| e.expect("entry").file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn nothing_has_its_final_name_before_the_commit() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let root = place.path().join("a/b");
+        let mut out = OutputFolder::open(&root, Existing::Refuse).expect("new folder");
+        out.write("x.txt", b"one").expect("write");
+        out.write("deep/y.txt", b"two").expect("write");
+        assert!(!root.join("x.txt").exists() && !root.join("deep/y.txt").exists());
+        assert_eq!(out.commit().expect("commit"), [root.join("x.txt"), root.join("deep/y.txt")]);
+        assert_eq!(listing(&root), ["deep", "x.txt"]);
+        assert_eq!(fs::read(root.join("deep/y.txt")).expect("file"), b"two");
+    }
+
+    #[test]
+    fn a_dropped_folder_leaves_no_trace() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let mut out = OutputFolder::open(&place.path().join("a/b"), Existing::Refuse).expect("new folder");
+        out.write("deep/x.txt", b"one").expect("write");
+        drop(out);
+        assert_eq!(listing(place.path()), Vec::<String>::new());
+    }
+
+    #[test]
+    fn an_earlier_result_is_kept_unless_replacing_is_allowed() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        fs::write(place.path().join("x.txt"), b"old").expect("write");
+        let refusing = OutputFolder::open(place.path(), Existing::Refuse).expect("open");
+        let told = refusing.claim(["y.txt", "x.txt"]).expect_err("x.txt is there").to_string();
+        assert!(
+            told.ends_with("x.txt: already there; choose another output folder, or allow it with --overwrite"),
+            "{told}"
+        );
+        let mut replacing = OutputFolder::open(place.path(), Existing::Replace).expect("open");
+        replacing.claim(["x.txt"]).expect("allowed");
+        replacing.write("x.txt", b"new").expect("write");
+        assert_eq!(fs::read(place.path().join("x.txt")).expect("file"), b"old");
+        replacing.commit().expect("commit");
+        assert_eq!(fs::read(place.path().join("x.txt")).expect("file"), b"new");
+    }
+
+    #[test]
+    fn a_file_that_appears_during_the_run_is_not_overwritten() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let mut out = OutputFolder::open(place.path(), Existing::Refuse).expect("open");
+        out.write("x.txt", b"ours").expect("write");
+        fs::write(place.path().join("x.txt"), b"theirs").expect("write");
+        out.commit().expect_err("refused");
+        assert_eq!(fs::read(place.path().join("x.txt")).expect("file"), b"theirs");
+        assert_eq!(listing(place.path()), ["x.txt"]);
+    }
+
+    #[test]
+    fn names_stay_inside_and_are_used_once() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let mut out = OutputFolder::open(place.path(), Existing::Refuse).expect("open");
+        for name in ["", "../x", "/x", "a/../x"] {
+            out.write(name, b"").expect_err(name);
+        }
+        out.write("x", b"").expect("first");
+        out.write("x", b"").expect_err("second");
+    }
+
+    #[test]
+    fn a_file_in_the_place_of_the_folder_is_named() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let file = place.path().join("taken");
+        fs::write(&file, b"").expect("write");
+        let told = OutputFolder::open(&file, Existing::Replace).expect_err("a file").to_string();
+        assert!(told.contains("expected a folder for the results, but this is a file"), "{told}");
+    }
+}
