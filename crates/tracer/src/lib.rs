@@ -3,6 +3,10 @@
 //! The tracer knows no lens, no pixel and no file. A world is built once; a view places it about a camera; a path
 //! tracer answers rays of the render frame with spectral radiance.
 
+pub mod accel;
+pub mod geometry;
+pub mod view;
+
 /// A material's place in the tracer's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct MaterialId(pub u32);

@@ -1,0 +1,151 @@
+//! The world: meshes with their trees, and instances of them.
+
+use super::Simd;
+use crate::geometry::{Instance, Mesh, MeshId, Shape};
+use crate::view::View;
+use glam::{DAffine3, DVec3};
+
+/// Why a world is refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum WorldError {
+    /// An instance names a mesh that is not there.
+    #[error("instance {instance} shows mesh {mesh}, but the world has {meshes} meshes; add the mesh first")]
+    UnknownMesh {
+        /// The instance, counted from 0.
+        instance: usize,
+        /// The mesh it names.
+        mesh: u32,
+        /// Meshes of the world.
+        meshes: usize,
+    },
+    /// An instance has fewer materials than its shape has slots.
+    #[error("instance {instance} has {found} materials, but its shape uses {expected} slots; give one material a slot")]
+    MissingMaterials {
+        /// The instance, counted from 0.
+        instance: usize,
+        /// Materials of the instance.
+        found: usize,
+        /// Slots of the shape.
+        expected: usize,
+    },
+    /// An instance's transform cannot be inverted or is not finite.
+    #[error("instance {instance} has a transform that is not finite or flattens its shape; correct its scale")]
+    Transform {
+        /// The instance, counted from 0.
+        instance: usize,
+    },
+    /// An instance moves over time.
+    #[error("instance {instance} moves, but only still instances can be traced; give it one pose")]
+    Moving {
+        /// The instance, counted from 0.
+        instance: usize,
+    },
+    /// A sphere's radius is not a positive number.
+    #[error("instance {instance} is a sphere of radius {radius_m} m; a radius must be positive and finite")]
+    Radius {
+        /// The instance, counted from 0.
+        instance: usize,
+        /// The radius, m.
+        radius_m: f64,
+    },
+}
+
+/// Collects meshes and instances for a [`World`].
+#[derive(Clone, Debug, Default)]
+pub struct WorldBuilder {
+    meshes: Vec<Mesh>,
+    instances: Vec<Instance>,
+}
+
+impl WorldBuilder {
+    /// An empty world to be filled.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a mesh.
+    pub fn add_mesh(&mut self, mesh: Mesh) -> MeshId {
+        self.meshes.push(mesh);
+        MeshId((self.meshes.len() - 1) as u32)
+    }
+
+    /// Adds an instance; returns its index, by which hits name it.
+    pub fn add_instance(&mut self, instance: Instance) -> u32 {
+        self.instances.push(instance);
+        (self.instances.len() - 1) as u32
+    }
+
+    /// Checks the instances and builds the meshes' trees.
+    pub fn build(self) -> Result<World, WorldError> {
+        for (index, instance) in self.instances.iter().enumerate() {
+            check(index, instance, &self.meshes)?;
+        }
+        Ok(World { meshes: self.meshes, instances: self.instances })
+    }
+}
+
+fn check(index: usize, instance: &Instance, meshes: &[Mesh]) -> Result<(), WorldError> {
+    let expected = slots(index, instance, meshes)?;
+    if instance.materials.len() < expected {
+        return Err(WorldError::MissingMaterials { instance: index, found: instance.materials.len(), expected });
+    }
+    let still = instance.to_world.as_still().ok_or(WorldError::Moving { instance: index })?;
+    if is_invertible(&still) { Ok(()) } else { Err(WorldError::Transform { instance: index }) }
+}
+
+fn slots(index: usize, instance: &Instance, meshes: &[Mesh]) -> Result<usize, WorldError> {
+    match instance.shape {
+        Shape::Mesh(MeshId(mesh)) => meshes.get(mesh as usize).map(Mesh::slot_count).ok_or(WorldError::UnknownMesh {
+            instance: index,
+            mesh,
+            meshes: meshes.len(),
+        }),
+        Shape::Sphere { radius_m } if radius_m > 0.0 && radius_m.is_finite() => Ok(1),
+        Shape::Sphere { radius_m } => Err(WorldError::Radius { instance: index, radius_m }),
+    }
+}
+
+fn is_invertible(transform: &DAffine3) -> bool {
+    let inverse = transform.inverse();
+    transform.is_finite() && transform.matrix3.determinant() != 0.0 && inverse.is_finite()
+}
+
+/// Meshes with their trees, and instances of them. Immutable.
+#[derive(Clone, Debug)]
+pub struct World {
+    meshes: Vec<Mesh>,
+    instances: Vec<Instance>,
+}
+
+impl World {
+    /// The meshes, in the order of their ids.
+    #[must_use]
+    pub fn meshes(&self) -> &[Mesh] {
+        &self.meshes
+    }
+
+    /// One mesh. Panics on an id of another world.
+    #[must_use]
+    pub fn mesh(&self, id: MeshId) -> &Mesh {
+        &self.meshes[id.0 as usize]
+    }
+
+    /// The instances, in the order of their indices.
+    #[must_use]
+    pub fn instances(&self) -> &[Instance] {
+        &self.instances
+    }
+
+    /// The world placed about a camera whose entrance pupil is at `origin_m` (world, m).
+    #[must_use]
+    pub fn view(&self, origin_m: DVec3) -> View<'_> {
+        self.view_with(origin_m, Simd::Auto)
+    }
+
+    /// As [`World::view`], with a choice of instruction set.
+    #[must_use]
+    pub fn view_with(&self, origin_m: DVec3, simd: Simd) -> View<'_> {
+        View::new(self, origin_m, simd)
+    }
+}

@@ -1,0 +1,236 @@
+//! Triangle meshes.
+//!
+//! A mesh is checked once, when it is made: after that every index is in range, every coordinate finite, every
+//! triangle has an area, and no two triangles are the same. What cannot be intersected (triangles of zero area) or
+//! cannot be told apart (exact duplicates, in any order of their corners) is dropped and counted.
+
+use super::MeshError;
+use glam::{DVec3, Vec2, Vec3};
+use std::collections::HashSet;
+
+/// Coordinates beyond this are refused: products of three of them must stay finite in f32.
+const LARGEST_COORDINATE_M: f32 = 1e12;
+/// Trees name packets by 28 bits.
+const MOST_TRIANGLES: usize = (1 << 28) - 1;
+
+/// Triangles over shared vertices, in the mesh's own frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    positions: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    uvs: Vec<Vec2>,
+    triangles: Vec<[u32; 3]>,
+    slots: Vec<u16>,
+}
+
+/// How many triangles were left out of a mesh, and why.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Dropped {
+    /// Triangles whose corners lie on one line or point.
+    pub zero_area: usize,
+    /// Triangles with the same three corners as an earlier one, in whatever order.
+    pub duplicate: usize,
+}
+
+impl Mesh {
+    /// A checked mesh. `normals` and `uvs` are one a vertex or empty; `slots` (material slots) one a triangle, or empty
+    /// for slot 0 throughout. Triangles kept stay in their order; a primitive is counted among those kept.
+    pub fn new(
+        positions: Vec<Vec3>,
+        normals: Vec<Vec3>,
+        uvs: Vec<Vec2>,
+        triangles: Vec<[u32; 3]>,
+        slots: Vec<u16>,
+    ) -> Result<(Self, Dropped), MeshError> {
+        check_counts(&positions, &normals, &uvs, &triangles, &slots)?;
+        check_vertices(&positions, &uvs)?;
+        check_indices(positions.len(), &triangles)?;
+        let slots = if slots.is_empty() { vec![0; triangles.len()] } else { slots };
+        let mut mesh = Self { positions, normals, uvs, triangles, slots };
+        let dropped = mesh.drop_unusable();
+        Ok((mesh, dropped))
+    }
+
+    /// Vertex positions, m.
+    #[must_use]
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+
+    /// Vertex normals, as given; empty where there are none.
+    #[must_use]
+    pub fn normals(&self) -> &[Vec3] {
+        &self.normals
+    }
+
+    /// Texture coordinates, one a vertex; empty where there are none.
+    #[must_use]
+    pub fn uvs(&self) -> &[Vec2] {
+        &self.uvs
+    }
+
+    /// The vertices of each triangle.
+    #[must_use]
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// The material slot of each triangle.
+    #[must_use]
+    pub fn slots(&self) -> &[u16] {
+        &self.slots
+    }
+
+    /// The corners of a triangle.
+    #[must_use]
+    pub fn corners(&self, primitive: u32) -> [Vec3; 3] {
+        self.triangles[primitive as usize].map(|v| self.positions[v as usize])
+    }
+
+    /// Number of material slots in use: the highest one and those below it.
+    #[must_use]
+    pub fn slot_count(&self) -> usize {
+        self.slots.iter().max().map_or(0, |s| usize::from(*s) + 1)
+    }
+
+    /// Least and greatest coordinates of the triangles; `None` without triangles.
+    #[must_use]
+    pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        let corners = self.triangles.iter().flatten().map(|v| self.positions[*v as usize]);
+        corners.map(|p| (p, p)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    }
+
+    fn drop_unusable(&mut self) -> Dropped {
+        let mut dropped = Dropped::default();
+        let mut seen = HashSet::with_capacity(self.triangles.len());
+        let mut kept = Vec::with_capacity(self.triangles.len());
+        for triangle in 0..self.triangles.len() {
+            let corners = self.corners(triangle as u32);
+            let usable = !is_flat(corners);
+            let fresh = usable && seen.insert(unordered_bits(corners));
+            dropped.zero_area += usize::from(!usable);
+            dropped.duplicate += usize::from(usable && !fresh);
+            kept.push(fresh);
+        }
+        let mut keep = kept.iter();
+        self.triangles.retain(|_| *keep.next().unwrap_or(&true));
+        let mut keep = kept.iter();
+        self.slots.retain(|_| *keep.next().unwrap_or(&true));
+        dropped
+    }
+}
+
+fn check_counts(
+    positions: &[Vec3],
+    normals: &[Vec3],
+    uvs: &[Vec2],
+    triangles: &[[u32; 3]],
+    slots: &[u16],
+) -> Result<(), MeshError> {
+    check_count("normals", normals.len(), positions.len())?;
+    check_count("texture coordinates", uvs.len(), positions.len())?;
+    check_count("material slots", slots.len(), triangles.len())?;
+    if triangles.len() > MOST_TRIANGLES {
+        return Err(MeshError::TooManyTriangles { triangles: triangles.len() });
+    }
+    Ok(())
+}
+
+fn check_count(what: &'static str, found: usize, expected: usize) -> Result<(), MeshError> {
+    if found != 0 && found != expected {
+        return Err(MeshError::Count { what, found, expected });
+    }
+    Ok(())
+}
+
+fn check_vertices(positions: &[Vec3], uvs: &[Vec2]) -> Result<(), MeshError> {
+    if let Some(vertex) = positions.iter().position(|p| !p.is_finite()) {
+        return Err(MeshError::NonFinitePosition { vertex });
+    }
+    if let Some(vertex) = positions.iter().position(|p| p.abs().max_element() > LARGEST_COORDINATE_M) {
+        return Err(MeshError::TooFar { vertex });
+    }
+    match uvs.iter().position(|uv| !uv.is_finite()) {
+        Some(vertex) => Err(MeshError::NonFiniteUv { vertex }),
+        None => Ok(()),
+    }
+}
+
+fn check_indices(vertices: usize, triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+    for (triangle, corners) in triangles.iter().enumerate() {
+        if let Some(vertex) = corners.iter().copied().find(|v| *v as usize >= vertices) {
+            return Err(MeshError::IndexOutOfRange { triangle, vertex, vertices });
+        }
+    }
+    Ok(())
+}
+
+/// Whether the corners lie on one line, as f64 sees it.
+fn is_flat(corners: [Vec3; 3]) -> bool {
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    (b - a).cross(c - a) == DVec3::ZERO
+}
+
+/// The corners' bits in an order that does not depend on the triangle's.
+fn unordered_bits(corners: [Vec3; 3]) -> [[u32; 3]; 3] {
+    // Adding +0 makes −0 into +0.
+    let mut bits = corners.map(|p| p.to_array().map(|x| (x + 0.0).to_bits()));
+    bits.sort_unstable();
+    bits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square() -> Vec<Vec3> {
+        vec![Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y]
+    }
+
+    fn bare(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Result<(Mesh, Dropped), MeshError> {
+        Mesh::new(positions, vec![], vec![], triangles, vec![])
+    }
+
+    #[test]
+    fn what_cannot_be_hit_or_told_apart_is_dropped_and_counted() {
+        let mut positions = square();
+        positions.push(Vec3::new(-0.0, 0.0, -0.0)); // vertex 0 again, with another zero
+        positions.push(Vec3::new(0.5, 0.0, 0.0)); // on the edge 0–1
+        let triangles = vec![[0, 1, 2], [0, 2, 3], [0, 0, 1], [0, 5, 1], [2, 0, 1], [1, 4, 2], [0, 3, 2]];
+        let (mesh, dropped) =
+            Mesh::new(positions, vec![], vec![], triangles, vec![0, 1, 2, 3, 4, 5, 6]).expect("legal");
+        assert_eq!(dropped, Dropped { zero_area: 2, duplicate: 3 });
+        assert_eq!((mesh.triangles(), mesh.slots()), (&[[0, 1, 2], [0, 2, 3]][..], &[0, 1][..]));
+    }
+
+    #[test]
+    fn errors_name_the_vertex_or_triangle() {
+        assert_eq!(
+            bare(square(), vec![[0, 1, 2], [0, 2, 4]]),
+            Err(MeshError::IndexOutOfRange { triangle: 1, vertex: 4, vertices: 4 })
+        );
+        let with = |value: f32| {
+            let mut positions = square();
+            positions[3].z = value;
+            bare(positions, vec![[0, 1, 2]])
+        };
+        assert_eq!(with(f32::NAN), Err(MeshError::NonFinitePosition { vertex: 3 }));
+        assert_eq!(with(f32::NEG_INFINITY), Err(MeshError::NonFinitePosition { vertex: 3 }));
+        assert_eq!(with(-1e13), Err(MeshError::TooFar { vertex: 3 }));
+        let uvs = vec![Vec2::ZERO, Vec2::NAN, Vec2::ZERO, Vec2::ZERO];
+        assert_eq!(
+            Mesh::new(square(), vec![], uvs, vec![[0, 1, 2]], vec![]),
+            Err(MeshError::NonFiniteUv { vertex: 1 })
+        );
+        assert_eq!(
+            Mesh::new(square(), vec![Vec3::Z; 3], vec![], vec![[0, 1, 2]], vec![]),
+            Err(MeshError::Count { what: "normals", found: 3, expected: 4 })
+        );
+    }
+
+    #[test]
+    fn a_mesh_of_nothing_is_legal_and_has_no_bounds() {
+        let (mesh, dropped) = bare(vec![], vec![]).expect("legal");
+        assert_eq!((mesh.bounds(), mesh.slot_count(), dropped), (None, 0, Dropped::default()));
+    }
+}

@@ -1,0 +1,52 @@
+//! Why a mesh is refused.
+
+/// Why a mesh is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum MeshError {
+    /// A triangle names a vertex that is not there.
+    #[error("triangle {triangle} names vertex {vertex}, but the mesh has {vertices} vertices; correct its indices")]
+    IndexOutOfRange {
+        /// The triangle, counted from 0.
+        triangle: usize,
+        /// The vertex it names.
+        vertex: u32,
+        /// Vertices of the mesh.
+        vertices: usize,
+    },
+    /// A coordinate is NaN or infinite.
+    #[error("vertex {vertex} has a coordinate that is not a finite number; correct its position")]
+    NonFinitePosition {
+        /// The vertex, counted from 0.
+        vertex: usize,
+    },
+    /// A coordinate is beyond what single precision can intersect.
+    #[error(
+        "vertex {vertex} is more than 1e12 m from the mesh's origin; give the mesh a smaller unit or place it by its instance"
+    )]
+    TooFar {
+        /// The vertex, counted from 0.
+        vertex: usize,
+    },
+    /// A texture coordinate is NaN or infinite.
+    #[error("vertex {vertex} has a texture coordinate that is not a finite number; correct it")]
+    NonFiniteUv {
+        /// The vertex, counted from 0.
+        vertex: usize,
+    },
+    /// Normals or texture coordinates do not match the vertices, or slots the triangles.
+    #[error("the mesh has {found} {what}, but {expected} are needed (or none)")]
+    Count {
+        /// What is counted.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        expected: usize,
+    },
+    /// More triangles than the tree can name.
+    #[error("the mesh has {triangles} triangles, but at most 268435455 are possible; split it")]
+    TooManyTriangles {
+        /// How many there are.
+        triangles: usize,
+    },
+}

@@ -1,0 +1,15 @@
+//! What stands in the world: triangle meshes and analytic spheres, instances of them, and points on their surfaces.
+//!
+//! A mesh keeps its own f32 frame; an instance places it in the world by an f64 transform. Two instances of one mesh
+//! share its vertices and its tree.
+
+mod instance;
+mod mesh;
+mod mesh_error;
+pub(crate) mod sphere;
+mod surface;
+
+pub use instance::{Instance, MeshId, Shape};
+pub use mesh::{Dropped, Mesh};
+pub use mesh_error::MeshError;
+pub use surface::SurfacePoint;

@@ -1,0 +1,41 @@
+//! Points on surfaces, and rays that leave them.
+
+use crate::MaterialId;
+use glam::{Vec2, Vec3};
+
+/// A point of a surface, in the render frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// The point, m.
+    pub position: Vec3,
+    /// How far the stored point, and a ray's origin made from it, may be from the true surface, per axis, m.
+    pub position_error: Vec3,
+    /// Unit normal of the surface itself: by the winding of a mesh's triangles in their own frame (anticlockwise seen
+    /// from its tip), outwards for spheres.
+    pub geometric_normal: Vec3,
+    /// Unit normal for shading: the vertices' normals interpolated, on the same side as the geometric one.
+    pub shading_normal: Vec3,
+    /// Texture coordinates; zero where the mesh has none.
+    pub uv: Vec2,
+    /// Texture units a metre of the surface covers; 0 without texture coordinates.
+    pub uv_per_m: f32,
+    /// Index of the instance in the world.
+    pub instance: u32,
+    /// Primitive within the instance's shape.
+    pub primitive: u32,
+    /// The material here.
+    pub material: MaterialId,
+}
+
+impl SurfacePoint {
+    /// An origin for a ray that leaves the surface along `direction`: the point, pushed off the surface along its
+    /// normal, to the side of `direction`, by the error bound. The surface's own plane then lies behind the ray
+    /// (Pharr, Jakob, Humphreys 2023, section 6.8.6).
+    #[must_use]
+    pub fn spawn(&self, direction: Vec3) -> Vec3 {
+        let normal = self.geometric_normal;
+        let distance = normal.abs().dot(self.position_error);
+        let side = if normal.dot(direction) < 0.0 { -distance } else { distance };
+        self.position + normal * side
+    }
+}

@@ -1,0 +1,150 @@
+//! The world about one camera.
+//!
+//! A [`View`] places every instance relative to the camera's entrance pupil in f64 and only then goes to f32, so that
+//! precision is best near the camera wherever in the world it stands. Rays and answers are in the render frame (axes of
+//! the world, origin at the entrance pupil, m). Nothing about a mesh is rebuilt.
+
+mod place;
+mod point;
+mod truth;
+
+pub use truth::Truth;
+
+use crate::accel::{Simd, World};
+use crate::geometry::{Shape, SurfacePoint};
+use etendue_core::Ray;
+use glam::{DVec3, Vec3};
+use place::Placed;
+
+/// What a ray meets first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Where, in lengths of the ray's direction.
+    pub t: f32,
+    /// Index of the instance in the world.
+    pub instance: u32,
+    /// Primitive within the instance's shape: the triangle, or 0 for a sphere.
+    pub primitive: u32,
+    /// Barycentric weight of the triangle's vertex 1.
+    pub u: f32,
+    /// Barycentric weight of the triangle's vertex 2.
+    pub v: f32,
+}
+
+/// A world placed about a camera, ready to be asked by rays.
+#[derive(Clone, Debug)]
+pub struct View<'w> {
+    world: &'w World,
+    origin_m: DVec3,
+    placed: Vec<Placed>,
+}
+
+impl<'w> View<'w> {
+    pub(crate) fn new(world: &'w World, origin_m: DVec3, _simd: Simd) -> Self {
+        let placed: Vec<_> = world.instances().iter().map(|i| Placed::new(i, origin_m)).collect();
+        Self { world, origin_m, placed }
+    }
+
+    /// The world that is seen.
+    #[must_use]
+    pub fn world(&self) -> &'w World {
+        self.world
+    }
+
+    /// The camera's entrance pupil in the world, m: the origin of the render frame.
+    #[must_use]
+    pub fn origin_m(&self) -> DVec3 {
+        self.origin_m
+    }
+
+    /// The first surface that a ray meets, with t > 0 and t < `ray.t_max`. Surfaces are met from both sides. Of several
+    /// at the same t, the one of the least instance, then the least primitive.
+    #[must_use]
+    pub fn closest(&self, ray: &Ray) -> Option<Hit> {
+        let mut best: Option<Hit> = None;
+        for instance in 0..self.placed.len() as u32 {
+            for primitive in 0..self.primitive_count(instance) {
+                let limit = best.map_or(ray.t_max, |h| h.t);
+                if let Some((t, u, v)) = self.meet(ray, instance, primitive).filter(|h| h.0 > 0.0 && h.0 < limit) {
+                    best = Some(Hit { t, instance, primitive, u, v });
+                }
+            }
+        }
+        best
+    }
+
+    fn meet(&self, ray: &Ray, instance: u32, primitive: u32) -> Option<(f32, f32, f32)> {
+        let placed = &self.placed[instance as usize];
+        let (o, d) = placed.ray_to_local(ray);
+        match self.world.instances()[instance as usize].shape {
+            Shape::Sphere { radius_m } => {
+                crate::geometry::sphere::nearest(radius_m, o, d).map(|t| (t as f32, 0.0, 0.0))
+            }
+            Shape::Mesh(id) => {
+                let corners = self.world.mesh(id).corners(primitive).map(Vec3::as_dvec3);
+                let (t, u, v) = truth::plane(corners, o, d)?;
+                (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then_some((t as f32, u as f32, v as f32))
+            }
+        }
+    }
+
+    /// Whether a ray meets anything, with t > 0 and t < `ray.t_max`.
+    #[must_use]
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        self.closest(ray).is_some()
+    }
+
+    /// The point of the surface that `ray` met at `hit`.
+    #[must_use]
+    pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        let instance = &self.world.instances()[hit.instance as usize];
+        let placed = &self.placed[hit.instance as usize];
+        match instance.shape {
+            Shape::Mesh(id) => point::of_mesh(self.world.mesh(id), instance, placed, hit),
+            Shape::Sphere { radius_m } => point::of_sphere(radius_m, instance, placed, ray, hit),
+        }
+    }
+
+    /// Primitives of an instance: its triangles, or 1 for a sphere.
+    #[must_use]
+    pub fn primitive_count(&self, instance: u32) -> u32 {
+        match self.world.instances()[instance as usize].shape {
+            Shape::Mesh(id) => self.world.mesh(id).triangles().len() as u32,
+            Shape::Sphere { .. } => 1,
+        }
+    }
+
+    /// The corners of a triangle in the render frame, m, anticlockwise about its geometric normal: in the mesh's order,
+    /// but vertices 1 and 2 exchanged in an instance that mirrors. Panics where the instance is a sphere.
+    #[must_use]
+    pub fn triangle(&self, instance: u32, primitive: u32) -> [Vec3; 3] {
+        let Shape::Mesh(id) = self.world.instances()[instance as usize].shape else {
+            panic!("instance {instance} is a sphere and has no triangles");
+        };
+        let placed = &self.placed[instance as usize];
+        let [a, b, c] = self.world.mesh(id).corners(primitive).map(|p| placed.point_to_render(p.as_dvec3()).as_vec3());
+        if placed.mirrors() { [a, c, b] } else { [a, b, c] }
+    }
+
+    /// Centre (render frame, m) and radius (m) of an instance that is a sphere there too; `None` for meshes and for
+    /// spheres that their instance stretches unevenly.
+    #[must_use]
+    pub fn sphere(&self, instance: u32) -> Option<(Vec3, f32)> {
+        let Shape::Sphere { radius_m } = self.world.instances()[instance as usize].shape else { return None };
+        let placed = &self.placed[instance as usize];
+        let scale = placed.uniform_scale()?;
+        Some((placed.point_to_render(DVec3::ZERO).as_vec3(), (radius_m * scale) as f32))
+    }
+
+    /// Centre (render frame, m) and radius (m) of a sphere about everything; both zero in an empty world.
+    #[must_use]
+    pub fn bounds(&self) -> (Vec3, f32) {
+        let boxes = self.placed.iter().zip(self.world.instances());
+        let boxes = boxes.filter_map(|(placed, instance)| placed.bounds(instance, self.world));
+        let Some((low, high)) = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else {
+            return (Vec3::ZERO, 0.0);
+        };
+        // Room for the rounding of centre and radius.
+        (((low + high) * 0.5).as_vec3(), ((high - low).length() * 0.5 * (1.0 + 1e-6)) as f32)
+    }
+}

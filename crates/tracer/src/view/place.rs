@@ -1,0 +1,100 @@
+//! An instance relative to the camera.
+
+use crate::accel::World;
+use crate::geometry::{Instance, Shape};
+use etendue_core::{Ray, maths};
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+
+/// An instance's transforms between its own frame and the render frame, in f64.
+#[derive(Clone, Debug)]
+pub(crate) struct Placed {
+    to_render: DAffine3,
+    to_local: DAffine3,
+}
+
+impl Placed {
+    /// Places an instance relative to a camera at `origin_m`. Its track must stand still, as the world has checked.
+    pub(crate) fn new(instance: &Instance, origin_m: DVec3) -> Self {
+        let mut to_render = instance.to_world.as_still().unwrap_or(DAffine3::IDENTITY);
+        to_render.translation -= origin_m;
+        Self { to_render, to_local: to_render.inverse() }
+    }
+
+    /// A point of the instance's frame, in the render frame.
+    pub(crate) fn point_to_render(&self, point: DVec3) -> DVec3 {
+        self.to_render.transform_point3(point)
+    }
+
+    /// A ray's origin and direction in the instance's frame. The direction keeps its stretch, so t keeps its meaning.
+    #[inline]
+    pub(crate) fn ray_to_local(&self, ray: &Ray) -> (DVec3, DVec3) {
+        self.line_to_local(ray.origin.as_dvec3(), ray.direction.as_dvec3())
+    }
+
+    /// As [`Placed::ray_to_local`], in f64.
+    #[inline]
+    pub(crate) fn line_to_local(&self, origin: DVec3, direction: DVec3) -> (DVec3, DVec3) {
+        (self.to_local.transform_point3(origin), self.to_local.transform_vector3(direction))
+    }
+
+    /// A normal of the instance's frame (any length), in the render frame: unit, and on the same side of its surface.
+    /// `None` where it has no direction.
+    pub(crate) fn normal_to_render(&self, normal: DVec3) -> Option<DVec3> {
+        (self.to_local.matrix3.transpose() * normal.try_normalize()?).try_normalize()
+    }
+
+    /// Whether the instance turns right-handed shapes into left-handed ones.
+    pub(crate) fn mirrors(&self) -> bool {
+        self.to_render.matrix3.determinant() < 0.0
+    }
+
+    /// By how much the instance enlarges, where it is the same in all directions.
+    pub(crate) fn uniform_scale(&self) -> Option<f64> {
+        let m = self.to_render.matrix3;
+        let square = m.x_axis.length_squared();
+        // M Mᵀ is a multiple of one; descriptions are written with some ten digits.
+        let gram = m.transpose() * m;
+        let deviation = (gram - DMat3::from_diagonal(DVec3::splat(square))).to_cols_array();
+        deviation.iter().all(|x| x.abs() <= 1e-9 * square).then_some(square.sqrt())
+    }
+
+    /// By how much the instance enlarges on average: the third root of its enlargement of volumes.
+    pub(crate) fn mean_scale(&self) -> f64 {
+        maths::f64::cbrt(self.to_render.matrix3.determinant().abs())
+    }
+
+    /// Least and greatest coordinates in the render frame, m; `None` for a mesh without triangles.
+    pub(crate) fn bounds(&self, instance: &Instance, world: &World) -> Option<(DVec3, DVec3)> {
+        let (low, high) = match instance.shape {
+            Shape::Mesh(id) => world.mesh(id).bounds().map(|(low, high)| (low.as_dvec3(), high.as_dvec3()))?,
+            Shape::Sphere { radius_m } => return Some(self.sphere_bounds(radius_m)),
+        };
+        let half = self.abs_matrix() * ((high - low) * 0.5);
+        let centre = self.point_to_render((low + high) * 0.5);
+        Some((centre - half, centre + half))
+    }
+
+    fn sphere_bounds(&self, radius_m: f64) -> (DVec3, DVec3) {
+        let rows = self.to_render.matrix3.transpose();
+        let half = DVec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length()) * radius_m;
+        (self.to_render.translation - half, self.to_render.translation + half)
+    }
+
+    /// How far, per axis of the render frame (m), rounding may move a surface point or a ray's origin made from it off
+    /// the surface: the point and the pushed origin are each rounded to f32 in the render frame (half a unit in the last
+    /// place each, ≤ 2⁻²⁴ of the coordinate), and the origin once more in the instance's frame. The factors 3 and 2 for
+    /// 2 and 1 make room for the push itself and for the f64 arithmetic, which is 2²⁹ times finer.
+    pub(crate) fn position_error(&self, position: Vec3, local: DVec3) -> Vec3 {
+        let carried = self.abs_matrix() * local.abs();
+        (position.as_dvec3().abs() * (3.0 * HALF_ULP) + carried * (2.0 * HALF_ULP)).as_vec3()
+            + Vec3::splat(f32::MIN_POSITIVE)
+    }
+
+    fn abs_matrix(&self) -> DMat3 {
+        let m = self.to_render.matrix3;
+        DMat3::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs())
+    }
+}
+
+/// Greatest relative error of rounding to f32: 2⁻²⁴.
+const HALF_ULP: f64 = 5.960_464_477_539_063e-8;
