@@ -1,1 +1,29 @@
 //! Estimators, confidence, hypothesis tests and error metrics.
+//!
+//! | module | answers |
+//! | --- | --- |
+//! | [`special`] | Γ, erf, incomplete Γ and B |
+//! | [`normal`], [`student`], [`chi_square`] | distribution functions, p-values, critical values |
+//! | [`family`] | many tests at once (Šidák) |
+//! | [`moments`] | mean and variance of a stream of numbers (Welford) |
+//! | [`replicates`] | mean and honest variance of randomised quasi-Monte Carlo |
+//! | [`planes`] | do two estimated pictures differ? |
+//! | [`error`] | by how much do two pictures differ? |
+//!
+//! All in `f64`, summed in the order given, with the functions of `etendue_core::maths`: the same bits everywhere. This
+//! crate does not know what the numbers mean.
+
+pub mod chi_square;
+pub mod error;
+pub mod family;
+pub mod moments;
+pub mod normal;
+pub mod planes;
+pub mod replicates;
+pub mod special;
+pub mod student;
+
+pub use error::ErrorSummary;
+pub use moments::Moments;
+pub use planes::{EstimatedPlane, PlaneTest, Verdict};
+pub use replicates::ReplicateEstimate;

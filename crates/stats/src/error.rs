@@ -1,0 +1,117 @@
+//! By how much does a picture differ from a reference?
+
+use crate::moments::Moments;
+
+/// Errors of a picture against a reference, over all samples.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ErrorSummary {
+    /// Samples compared: those where both are finite.
+    pub samples: usize,
+    /// Samples left out because one of the two is not finite.
+    pub not_finite: usize,
+    /// Root of the mean squared error, in the picture's unit.
+    pub rmse: f64,
+    /// Mean of (error)² / (reference² + ε²), ε = 1 % of the reference's mean magnitude: dimensionless.
+    pub relative_mse: f64,
+    /// Relative MSE without the largest thousandth of its terms: what remains when fireflies are set aside.
+    pub trimmed_relative_mse: f64,
+    /// Mean error, in the picture's unit.
+    pub bias: f64,
+    /// Standard error of `bias` from the scatter of the errors, where errors of pixels are independent; 0 for fewer
+    /// than two samples.
+    pub bias_standard_error: f64,
+    /// Largest magnitude of an error.
+    pub max_abs: f64,
+}
+
+/// ε of the relative error, as a share of the reference's mean magnitude.
+const RELATIVE_FLOOR: f64 = 0.01;
+/// Share of the largest terms that the trimmed error leaves out.
+const TRIMMED_SHARE: f64 = 0.001;
+
+impl ErrorSummary {
+    /// The errors of `picture` against `reference`. `None` where their lengths differ or no sample is finite in both.
+    #[must_use]
+    pub fn of(picture: &[f32], reference: &[f32]) -> Option<Self> {
+        if picture.len() != reference.len() {
+            return None;
+        }
+        let pairs: Vec<(f64, f64)> = picture
+            .iter()
+            .zip(reference)
+            .filter(|(p, r)| p.is_finite() && r.is_finite())
+            .map(|(p, r)| (f64::from(*p) - f64::from(*r), f64::from(*r)))
+            .collect();
+        (!pairs.is_empty()).then(|| Self::of_errors(&pairs, picture.len() - pairs.len()))
+    }
+
+    /// From pairs of (error, reference).
+    fn of_errors(pairs: &[(f64, f64)], not_finite: usize) -> Self {
+        let errors = Moments::of(pairs.iter().map(|p| p.0));
+        let mut relative = relative_squares(pairs);
+        let relative_mse = mean(&relative);
+        relative.sort_by(f64::total_cmp);
+        let kept = relative.len() - (relative.len() as f64 * TRIMMED_SHARE) as usize;
+        Self {
+            samples: pairs.len(),
+            not_finite,
+            rmse: Moments::of(pairs.iter().map(|p| p.0 * p.0)).mean().sqrt(),
+            relative_mse,
+            trimmed_relative_mse: mean(&relative[..kept]),
+            bias: errors.mean(),
+            bias_standard_error: errors.variance_of_mean().unwrap_or(0.0).sqrt(),
+            max_abs: pairs.iter().fold(0.0, |m, p| p.0.abs().max(m)),
+        }
+    }
+}
+
+/// (error)² / (reference² + ε²); where reference and ε are zero, 0 for no error and infinity for any.
+fn relative_squares(pairs: &[(f64, f64)]) -> Vec<f64> {
+    let floor = RELATIVE_FLOOR * Moments::of(pairs.iter().map(|p| p.1.abs())).mean();
+    let term = |(e, r): &(f64, f64)| if *e == 0.0 { 0.0 } else { e * e / (r * r + floor * floor) };
+    pairs.iter().map(term).collect()
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_by_hand() {
+        let e = ErrorSummary::of(&[1.0, 2.0, 3.0, f32::NAN], &[1.0, 1.0, 5.0, 1.0]).expect("three samples");
+        assert_eq!((e.samples, e.not_finite, e.max_abs), (3, 1, 2.0));
+        assert!((e.rmse - (5.0_f64 / 3.0).sqrt()).abs() < 1e-15);
+        assert!((e.bias + 1.0 / 3.0).abs() < 1e-15);
+        // Errors 0, 1, −2: variance 7/3, of the mean 7/9.
+        assert!((e.bias_standard_error - (7.0_f64 / 9.0).sqrt()).abs() < 1e-15);
+        let floor = (0.01 * 7.0 / 3.0) * (0.01 * 7.0 / 3.0);
+        assert!((e.relative_mse - (1.0 / (1.0 + floor) + 4.0 / (25.0 + floor)) / 3.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_scale_changes_no_relative_error_and_a_firefly_is_trimmed() {
+        let reference: Vec<f32> = (0..2000).map(|i| 1.0 + (i % 5) as f32).collect();
+        let mut picture: Vec<f32> = reference.iter().map(|r| r * 1.5).collect();
+        picture[700] = 1e6;
+        let one = ErrorSummary::of(&picture, &reference).expect("samples");
+        let scale = |v: &[f32]| v.iter().map(|x| x * 1024.0).collect::<Vec<_>>();
+        let scaled = ErrorSummary::of(&scale(&picture), &scale(&reference)).expect("samples");
+        assert!((one.relative_mse / scaled.relative_mse - 1.0).abs() < 1e-12);
+        // 25 % off everywhere: a quarter, but for ε = 1 % of the mean, which is 3 times the smallest reference.
+        assert!((one.trimmed_relative_mse - 0.25).abs() < 0.25 * 0.001, "{}", one.trimmed_relative_mse);
+        assert!(one.relative_mse > 1e6);
+    }
+
+    #[test]
+    fn nothing_to_compare_is_none() {
+        assert!(ErrorSummary::of(&[], &[]).is_none());
+        assert!(ErrorSummary::of(&[1.0], &[1.0, 2.0]).is_none());
+        assert!(ErrorSummary::of(&[f32::NAN], &[1.0]).is_none());
+        assert!(ErrorSummary::of(&[1.0], &[0.0]).expect("one").relative_mse.is_infinite());
+        assert_eq!(ErrorSummary::of(&[0.0], &[0.0]).expect("one").relative_mse, 0.0);
+    }
+}
