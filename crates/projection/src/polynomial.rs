@@ -54,7 +54,7 @@ impl RadialPolynomial {
     /// last place (looser only where the fold itself makes the root ill-conditioned); `None` beyond the fold's value.
     #[must_use]
     pub fn inverse(&self, value: f64) -> Option<f64> {
-        if !(value < self.fold_value()) {
+        if value.is_nan() || value >= self.fold_value() {
             return None;
         }
         let (mut low, mut high) = (0.0, self.bracket(value));

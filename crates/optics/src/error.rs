@@ -1,0 +1,131 @@
+//! Why a lens cannot be, or cannot serve a picture.
+
+use etendue_projection::DistortionError;
+
+/// A lens or a stored radiance image that cannot do what is asked of it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum OpticsError {
+    /// A length or number that must be positive.
+    #[error("{name} is {value}; it must be positive and finite")]
+    NotPositive {
+        /// The key.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A position that is not a number.
+    #[error("{name} is {value}; it must be a finite number")]
+    NotFinite {
+        /// The key.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A transmittance that is none.
+    #[error("transmittance is {value}; it must be above 0 and at most 1")]
+    Transmittance {
+        /// Its value.
+        value: f64,
+    },
+    /// No real image is formed.
+    #[error(
+        "a focus distance of {focus_m} m gives no real image: it must be more than {least_m} m from the entrance pupil"
+    )]
+    FocusTooNear {
+        /// The focus distance, m.
+        focus_m: f64,
+        /// The distance whose image lies at infinity, m.
+        least_m: f64,
+    },
+    /// Two statements about the pupils that cannot both be true.
+    #[error(
+        "{first} = {first_value} means {second} = {expected}, because both pupils are images of one stop; {second} = \
+         {second_value} contradicts it: give one of them"
+    )]
+    Pupils {
+        /// The key taken first.
+        first: &'static str,
+        /// Its value.
+        first_value: f64,
+        /// The key that contradicts it.
+        second: &'static str,
+        /// The value given.
+        second_value: f64,
+        /// The value that follows from the first.
+        expected: f64,
+    },
+    /// A pupil beyond the focal point.
+    #[error(
+        "{name} = {value} means a pupil magnification of {magnification}: it must be positive and finite (a pupil at or \
+         beyond a focal point, a telecentric or hypercentric lens, is not modelled)"
+    )]
+    PupilBeyondFocus {
+        /// The key.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// The pupil magnification it means.
+        magnification: f64,
+    },
+    /// A rim that clips the bundle on the axis, so that it and not the f-number would be the stop.
+    #[error(
+        "{rim} has a radius of {radius_mm} mm but the f-number's bundle on the axis needs {needed_mm:.6} mm there: the rim \
+         would be the stop; enlarge it or raise f_number"
+    )]
+    RimIsStop {
+        /// Which rim.
+        rim: &'static str,
+        /// Its radius, mm.
+        radius_mm: f64,
+        /// The radius of the bundle on the axis, mm.
+        needed_mm: f64,
+    },
+    /// A rim that is not between the plane in focus and the sensor.
+    #[error("{rim} at {position_mm} mm lies beyond the {plane}, which is at {plane_mm:.6} mm")]
+    RimMisplaced {
+        /// Which rim.
+        rim: &'static str,
+        /// Its position on the axis, mm.
+        position_mm: f64,
+        /// What it lies beyond.
+        plane: &'static str,
+        /// That plane's position on the axis, mm.
+        plane_mm: f64,
+    },
+    /// The distortion cannot serve the picture.
+    #[error(transparent)]
+    Distortion(#[from] DistortionError),
+    /// A stored radiance image does not hold all directions that a picture needs.
+    #[error(
+        "the stored radiance image lacks directions that the picture needs: {missing_rad:.6} rad beyond its {edge} edge; \
+         render it with more overscan or use a narrower lens or a smaller sensor"
+    )]
+    MissingDirections {
+        /// The edge at which the most is missing.
+        edge: &'static str,
+        /// How far beyond the edge the picture reaches, rad.
+        missing_rad: f64,
+    },
+    /// A cube whose size is not that of its stated geometry.
+    #[error("the image has {got_width} × {got_height} pixels but its stated geometry has {width} × {height}")]
+    Size {
+        /// Columns found.
+        got_width: usize,
+        /// Rows found.
+        got_height: usize,
+        /// Columns stated.
+        width: usize,
+        /// Rows stated.
+        height: usize,
+    },
+}
+
+/// `value` where it is positive and finite.
+pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, OpticsError> {
+    if value.is_finite() && value > 0.0 { Ok(value) } else { Err(OpticsError::NotPositive { name, value }) }
+}
+
+/// `value` where it is finite.
+pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, OpticsError> {
+    if value.is_finite() { Ok(value) } else { Err(OpticsError::NotFinite { name, value }) }
+}

@@ -1,0 +1,254 @@
+//! Lenses.
+//!
+//! # Contract
+//!
+//! - All arithmetic is f64. Rays are in the camera frame (x right, y down, z forward, m) whose origin is the centre of the
+//!   **entrance pupil**. Sensor points are mm of the erect picture from the principal point.
+//! - [`Lens::ray`] makes a ray of a sensor point and a pupil sample; the mean over pupil samples of `weight_sr` × radiance
+//!   is the irradiance of the sensor point. `None` means no light by this sample: it counts as zero.
+//! - [`Lens::etendue_sr`] is the mean of the weights, computed without samples: a closed form, or a quadrature to 1e-9.
+//! - [`Lens::principal_ray`] goes through the centre of the entrance pupil at 587.56 nm, and [`Lens::project`] is its inverse.
+//! - A radial distortion, where there is one, maps the observed sensor point to the ideal one before the ray is made; the
+//!   weight is that of the observed point, where the light arrives.
+//! - f-number: a flat pupil disc, tan θ′ = 1/2N at infinity focus, so E = π τ L / (1 + 4N²) on the axis. (The pinhole is
+//!   the limit of small pupils: π τ L / 4N².)
+
+mod body;
+mod focus;
+mod pinhole;
+mod thick;
+mod thin;
+
+use crate::error::OpticsError;
+use crate::pupil::MM;
+use etendue_core::maths::f64::atan2;
+use etendue_core::ray::PupilRay;
+use etendue_projection::{RadialDistortion, Raster, Rectilinear};
+use glam::{DVec2, DVec3};
+
+pub use pinhole::{Pinhole, PinholeParameters};
+pub use thick::{ConstantPupil, PupilStatements, Rim, Thick, ThickParameters};
+pub use thin::{Thin, ThinParameters};
+
+/// A lens: the closed list.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lens {
+    /// Everything sharp, nominal brightness.
+    Pinhole(Pinhole),
+    /// One refracting plane, finite pupil.
+    Thin(Thin),
+    /// Principal planes, pupils and rims.
+    Thick(Thick),
+}
+
+macro_rules! each {
+    ($self:expr, $lens:ident => $body:expr) => {
+        match $self {
+            Lens::Pinhole($lens) => $body,
+            Lens::Thin($lens) => $body,
+            Lens::Thick($lens) => $body,
+        }
+    };
+}
+
+impl Lens {
+    /// A pinhole.
+    ///
+    /// # Errors
+    /// As [`Pinhole::new`].
+    pub fn pinhole(parameters: PinholeParameters) -> Result<Self, OpticsError> {
+        Pinhole::new(parameters).map(Self::Pinhole)
+    }
+
+    /// A thin lens.
+    ///
+    /// # Errors
+    /// As [`Thin::new`].
+    pub fn thin(parameters: ThinParameters) -> Result<Self, OpticsError> {
+        Thin::new(parameters).map(Self::Thin)
+    }
+
+    /// A thick lens.
+    ///
+    /// # Errors
+    /// As [`Thick::new`].
+    pub fn thick(parameters: ThickParameters) -> Result<Self, OpticsError> {
+        Thick::new(parameters).map(Self::Thick)
+    }
+
+    /// The same lens with a radial distortion. A distortion whose radius unit is the focal length is made with
+    /// [`Lens::principal_distance_mm`] of the lens without it.
+    #[must_use]
+    pub fn with_distortion(mut self, distortion: RadialDistortion) -> Self {
+        each!(&mut self, lens => lens.body.distortion = Some(distortion));
+        self
+    }
+
+    /// The lens's distortion, where it has one.
+    #[must_use]
+    pub fn distortion(&self) -> Option<&RadialDistortion> {
+        each!(self, lens => lens.body.distortion.as_ref())
+    }
+
+    /// Refuses a picture that the lens cannot image.
+    ///
+    /// # Errors
+    /// Where the distortion folds inside the picture.
+    pub fn check(&self, raster: &Raster) -> Result<(), OpticsError> {
+        self.distortion().map_or(Ok(()), |d| Ok(d.check(raster.max_radius_mm())?))
+    }
+
+    /// The ray of a sensor point (mm) through a pupil sample in [0, 1)² at a wavelength; `None` where no light comes.
+    #[must_use]
+    pub fn ray(&self, sensor_mm: DVec2, pupil: DVec2, _wavelength_nm: f64) -> Option<PupilRay> {
+        each!(self, lens => lens.ray(sensor_mm, pupil))
+    }
+
+    /// The ray of a sensor point through the centre of the entrance pupil, its weight that of the small-pupil limit;
+    /// `None` where it is clipped or the sensor point has no image.
+    #[must_use]
+    pub fn principal_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
+        each!(self, lens => lens.principal_ray(sensor_mm))
+    }
+
+    /// Where a direction of the camera frame (any length) is seen, mm; `None` behind the lens and beyond the
+    /// distortion's fold. Clipping is not looked at.
+    #[must_use]
+    pub fn project(&self, direction: DVec3) -> Option<DVec2> {
+        let ideal_mm = self.rectilinear().project(direction)?;
+        each!(self, lens => lens.body.observed(ideal_mm))
+    }
+
+    /// Irradiance of a sensor point per uniform radiance, sr; 0 where no light comes.
+    #[must_use]
+    pub fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
+        each!(self, lens => lens.etendue_sr(sensor_mm))
+    }
+
+    /// Whether rays depend on the wavelength.
+    #[must_use]
+    pub fn disperses(&self) -> bool {
+        false
+    }
+
+    /// Focal length, mm.
+    #[must_use]
+    pub fn focal_length_mm(&self) -> f64 {
+        each!(self, lens => lens.parameters().focal_length_mm)
+    }
+
+    /// f-number at infinity focus.
+    #[must_use]
+    pub fn f_number(&self) -> f64 {
+        each!(self, lens => lens.parameters().f_number)
+    }
+
+    /// Transmittance τ.
+    #[must_use]
+    pub fn transmittance(&self) -> f64 {
+        each!(self, lens => lens.parameters().transmittance)
+    }
+
+    /// T-number N/√τ.
+    #[must_use]
+    pub fn t_number(&self) -> f64 {
+        self.f_number() / self.transmittance().sqrt()
+    }
+
+    /// Distance of the plane in focus from the entrance pupil, m; `None` for a pinhole, where everything is sharp.
+    #[must_use]
+    pub fn focus_distance_m(&self) -> Option<f64> {
+        match self {
+            Self::Pinhole(_) => None,
+            Self::Thin(lens) => Some(lens.parameters().focus_distance_m),
+            Self::Thick(lens) => Some(lens.parameters().focus_distance_m),
+        }
+    }
+
+    /// The principal distance c, mm: near the axis a tangent t of object space is seen at c·t on the sensor.
+    #[must_use]
+    pub fn principal_distance_mm(&self) -> f64 {
+        match self {
+            Self::Pinhole(lens) => lens.principal_distance_mm(),
+            Self::Thin(lens) => lens.conjugates.principal_distance_mm,
+            Self::Thick(lens) => lens.conjugates.principal_distance_mm,
+        }
+    }
+
+    /// The projection of the lens without its distortion.
+    #[must_use]
+    pub fn rectilinear(&self) -> Rectilinear {
+        Rectilinear { principal_distance_mm: self.principal_distance_mm() }
+    }
+
+    /// Image size over object size in the plane in focus; 0 at infinity focus and for a pinhole.
+    #[must_use]
+    pub fn magnification(&self) -> f64 {
+        match self {
+            Self::Pinhole(_) => 0.0,
+            Self::Thin(lens) => lens.conjugates.magnification,
+            Self::Thick(lens) => lens.conjugates.magnification,
+        }
+    }
+
+    /// Working f-number on the axis, 1/(2 tan θ′): grows with close focus (the bellows factor).
+    #[must_use]
+    pub fn working_f_number(&self) -> f64 {
+        self.f_number() * self.principal_distance_mm() / self.focal_length_mm()
+    }
+
+    /// Radius of the entrance pupil on the axis, m: how far from the camera frame's origin rays begin. 0 for a pinhole.
+    #[must_use]
+    pub fn entrance_pupil_radius_m(&self) -> f64 {
+        match self {
+            Self::Pinhole(_) => 0.0,
+            Self::Thin(lens) => lens.size.entrance_radius_mm * MM,
+            Self::Thick(lens) => lens.size.entrance_radius_mm * MM,
+        }
+    }
+
+    /// The sensor's z coordinate in the camera frame, m: negative where it lies behind the entrance pupil.
+    #[must_use]
+    pub fn sensor_plane_m(&self) -> f64 {
+        match self {
+            Self::Pinhole(_) | Self::Thin(_) => -self.principal_distance_mm() * MM,
+            Self::Thick(lens) => (lens.entrance_pupil_mm() - lens.sensor_mm()) * MM,
+        }
+    }
+
+    /// Diameter on the sensor (on the axis, mm) of the blur of a point at depth `depth_m` (along z, from the entrance
+    /// pupil; infinity is legal).
+    #[must_use]
+    pub fn circle_of_confusion_mm(&self, depth_m: f64) -> f64 {
+        match self {
+            Self::Pinhole(_) => 0.0,
+            Self::Thin(lens) => lens.conjugates.circle_of_confusion_mm(lens.size.entrance_radius_mm, depth_m),
+            Self::Thick(lens) => lens.conjugates.circle_of_confusion_mm(lens.size.entrance_radius_mm, depth_m),
+        }
+    }
+
+    /// The focus distance at which infinity blurs to a circle of `circle_mm`, m; 0 for a pinhole.
+    #[must_use]
+    pub fn hyperfocal_m(&self, circle_mm: f64) -> f64 {
+        match self {
+            Self::Pinhole(_) => 0.0,
+            Self::Thin(lens) => lens.size.hyperfocal_m(self.focal_length_mm(), 1.0, circle_mm),
+            Self::Thick(lens) => lens.size.hyperfocal_m(self.focal_length_mm(), lens.pupil_magnification, circle_mm),
+        }
+    }
+
+    /// The angle between the directions seen at two sensor points, rad; `None` where one sees nothing. The horizontal
+    /// field of view is that between the middles of the picture's left and right edges.
+    #[must_use]
+    pub fn angle_between_rad(&self, a_mm: DVec2, b_mm: DVec2) -> Option<f64> {
+        let (a, b) = (self.direction(a_mm)?, self.direction(b_mm)?);
+        Some(atan2(a.cross(b).length(), a.dot(b)))
+    }
+
+    /// Unit direction of the chief ray of a sensor point, clipped or not; `None` beyond the distortion's fold.
+    #[must_use]
+    pub fn direction(&self, sensor_mm: DVec2) -> Option<DVec3> {
+        let ideal_mm = each!(self, lens => lens.body.ideal(sensor_mm))?;
+        Some(self.rectilinear().direction(ideal_mm))
+    }
+}

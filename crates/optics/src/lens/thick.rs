@@ -1,0 +1,328 @@
+//! A thick lens to first order: two principal planes, two pupils, two rims.
+//!
+//! # Parameters (keys of `[lens]`)
+//!
+//! One axis carries all positions: **millimetres from the front principal plane H, positive towards the sensor.**
+//!
+//! | key | meaning | default |
+//! | --- | --- | --- |
+//! | `focal_length_mm` | f > 0 | required |
+//! | `f_number` | N = f / diameter of the entrance pupil | required |
+//! | `focus_distance_m` | plane in focus, from the **entrance pupil** (the camera frame's depth); infinity is legal | required |
+//! | `transmittance` | τ in (0, 1] | 1 |
+//! | `principal_separation_mm` | position of the rear principal plane H′; any sign | 0 |
+//! | `entrance_pupil_mm` | position p of the entrance pupil | one of these three |
+//! | `exit_pupil_mm` | position of the exit pupil, p′ behind H′: separation + p′ | at most; without |
+//! | `pupil_magnification` | m_p = exit / entrance diameter, > 0 | any, m_p = 1 |
+//! | `constant_pupil` | `"entrance"` or `"exit"`: which pupil keeps its area over the field | required |
+//! | `front_rim`, `rear_rim` | `{ position_mm, radius_mm }`: round openings before and behind the lens that clip | none |
+//!
+//! # Consistency
+//!
+//! Both pupils are images of one stop, so each is the image of the other: p′ = p f/(f + p) and m_p = p′/p = f/(f + p) =
+//! 1 − p′/f. One of the three keys therefore fixes the others: p = f (1/m_p − 1), p′ = f (1 − m_p). Giving more than one is
+//! legal where they agree (to 1e-6 in m_p); else it is a contradiction and is refused.
+//!
+//! # Light
+//!
+//! A point of the exit pupil is imaged to the point of the entrance pupil 1/m_p times as far from the axis; a sensor point
+//! to the point in the plane in focus; the ray joins both. The exit pupil stands m_p c from the sensor (c of `focus.rs`), so
+//! on the axis E = π τ L / (1 + 4N²(1 − m/m_p)²) with m < 0 for a real image: the classical form of PHYSICS.md §3 with
+//! the **flat-disc convention** tan θ′ = 1/(2N (1 − m/m_p)).
+//!
+//! Off the axis a flat disc of fixed size cannot be both pupils at once (étendue would not be conserved; the two choices
+//! part by 1.52 at 30° for m_p = 2), so the lens says which pupil keeps its area:
+//! - `exit`: the exit pupil has its radius everywhere; irradiance falls with cos⁴ θ′ of the angle in image space.
+//! - `entrance`: the entrance pupil has its radius everywhere; irradiance falls with cos⁴ θ of the field angle (times
+//!   the area ratio of the distortion).
+//!
+//! The other pupil's radius is then scaled by √g or 1/√g, g = cos⁴θ · (ideal area per observed area) / cos⁴θ′, which
+//! conserves étendue along the chief ray.
+//!
+//! Rims clip the straight rays (object-side ray at the front rim, image-side ray at the rear rim): mechanical vignetting is
+//! the common part of pupil and projected rims, three circles whose centres lie on one line. A rim that clips on the axis is
+//! refused, for the f-number would not be what it says.
+//!
+//! With m_p = 1, no rims and no distortion this is the thin lens. Left out: aberrations, dispersion, diffraction, and
+//! telecentric lenses (a pupil at infinity).
+
+use super::body::Body;
+use super::focus::{Conjugates, PupilSize};
+use crate::error::{OpticsError, finite, positive};
+use crate::overlap::{Disc, clipped_etendue_sr};
+use crate::pupil::{MM, Pencil, PupilView, concentric_disc};
+use etendue_core::ray::PupilRay;
+use glam::DVec2;
+
+/// What a thick lens is made of. Positions: mm from the front principal plane, positive towards the sensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThickParameters {
+    /// Focal length, mm.
+    pub focal_length_mm: f64,
+    /// f-number N: focal length over the diameter of the entrance pupil.
+    pub f_number: f64,
+    /// Distance of the plane in focus from the entrance pupil, m; infinity is legal.
+    pub focus_distance_m: f64,
+    /// Transmittance, (0, 1].
+    pub transmittance: f64,
+    /// Position of the rear principal plane, mm.
+    pub principal_separation_mm: f64,
+    /// What is known about the pupils.
+    pub pupils: PupilStatements,
+    /// Which pupil keeps its area over the field.
+    pub constant_pupil: ConstantPupil,
+    /// An opening before the lens.
+    pub front_rim: Option<Rim>,
+    /// An opening behind the lens.
+    pub rear_rim: Option<Rim>,
+}
+
+/// Statements about the pupils: none (pupils in the principal planes), one, or several that agree.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PupilStatements {
+    /// Position of the entrance pupil, mm.
+    pub entrance_pupil_mm: Option<f64>,
+    /// Position of the exit pupil, mm.
+    pub exit_pupil_mm: Option<f64>,
+    /// Exit over entrance diameter.
+    pub pupil_magnification: Option<f64>,
+}
+
+/// The pupil whose area does not change over the field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConstantPupil {
+    /// The entrance pupil: irradiance falls with cos⁴ of the field angle.
+    Entrance,
+    /// The exit pupil: irradiance falls with cos⁴ of the angle in image space.
+    Exit,
+}
+
+/// A round opening centred on the axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rim {
+    /// Position, mm.
+    pub position_mm: f64,
+    /// Radius, mm.
+    pub radius_mm: f64,
+}
+
+/// A thick lens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thick {
+    pub(super) body: Body,
+    parameters: ThickParameters,
+    pub(super) conjugates: Conjugates,
+    pub(super) size: PupilSize,
+    pub(super) pupil_magnification: f64,
+    rims: Rims,
+}
+
+/// The rims as the pupils see them; distances in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Rims {
+    /// Distance from the entrance pupil towards the scene, and radius.
+    front: Option<[f64; 2]>,
+    /// Distance from the exit pupil towards the sensor, and radius.
+    rear: Option<[f64; 2]>,
+}
+
+/// Everything about one sensor point.
+struct Bundle {
+    pencil: Pencil,
+    /// The exit pupil from the sensor point.
+    view: PupilView,
+    entrance_radius_mm: f64,
+}
+
+impl Thick {
+    /// A thick lens.
+    ///
+    /// # Errors
+    /// Where a parameter is outside its range, statements contradict each other, or a rim clips on the axis.
+    pub fn new(parameters: ThickParameters) -> Result<Self, OpticsError> {
+        let p = &parameters;
+        let size = PupilSize::new(p.focal_length_mm, p.f_number)?;
+        finite("principal_separation_mm", p.principal_separation_mm)?;
+        let pupil_magnification = p.pupils.magnification(p.focal_length_mm, p.principal_separation_mm)?;
+        let conjugates = Conjugates::new(p.focal_length_mm, pupil_magnification, p.focus_distance_m)?;
+        let body = Body::new(p.transmittance)?;
+        let mut lens =
+            Self { body, parameters, conjugates, size, pupil_magnification, rims: Rims { front: None, rear: None } };
+        lens.rims.front = p.front_rim.map(|rim| lens.front_rim(rim)).transpose()?;
+        lens.rims.rear = p.rear_rim.map(|rim| lens.rear_rim(rim)).transpose()?;
+        Ok(lens)
+    }
+
+    /// What the lens was made of.
+    #[must_use]
+    pub fn parameters(&self) -> &ThickParameters {
+        &self.parameters
+    }
+
+    /// Exit over entrance diameter.
+    #[must_use]
+    pub fn pupil_magnification(&self) -> f64 {
+        self.pupil_magnification
+    }
+
+    /// Position of the entrance pupil, mm behind the front principal plane.
+    #[must_use]
+    pub fn entrance_pupil_mm(&self) -> f64 {
+        self.parameters.focal_length_mm * (1.0 / self.pupil_magnification - 1.0)
+    }
+
+    /// Position of the exit pupil, mm behind the front principal plane.
+    #[must_use]
+    pub fn exit_pupil_mm(&self) -> f64 {
+        self.parameters.principal_separation_mm + self.parameters.focal_length_mm * (1.0 - self.pupil_magnification)
+    }
+
+    /// Position of the sensor, mm behind the front principal plane.
+    #[must_use]
+    pub fn sensor_mm(&self) -> f64 {
+        self.exit_pupil_mm() + self.exit_distance_mm()
+    }
+
+    /// Distance from exit pupil to sensor, mm.
+    fn exit_distance_mm(&self) -> f64 {
+        self.pupil_magnification * self.conjugates.principal_distance_mm
+    }
+
+    pub(super) fn ray(&self, sensor_mm: DVec2, pupil: DVec2) -> Option<PupilRay> {
+        self.through(sensor_mm, concentric_disc(pupil))
+    }
+
+    pub(super) fn principal_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
+        self.through(sensor_mm, DVec2::ZERO)
+    }
+
+    /// The ray through the point `q` of the unit disc that both pupils are; `None` where a rim stops it.
+    fn through(&self, sensor_mm: DVec2, q: DVec2) -> Option<PupilRay> {
+        let bundle = self.bundle(sensor_mm)?;
+        let axis = sensor_mm.normalize_or(DVec2::X);
+        let open = |disc: Disc| (q - axis * disc.centre).length_squared() <= disc.radius * disc.radius;
+        if !self.rim_discs(&bundle, sensor_mm.length()).into_iter().flatten().all(open) {
+            return None;
+        }
+        let weight_sr = self.body.transmittance * bundle.view.weight_sr(sensor_mm, q * bundle.view.radius_mm);
+        Some(bundle.pencil.ray(q * bundle.entrance_radius_mm, weight_sr))
+    }
+
+    pub(super) fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
+        let Some(bundle) = self.bundle(sensor_mm) else { return 0.0 };
+        let rims = self.rim_discs(&bundle, sensor_mm.length());
+        let clipped = rims.into_iter().flatten().any(|disc| disc.clips_unit_disc());
+        self.body.transmittance
+            * if clipped {
+                clipped_etendue_sr(&bundle.view, sensor_mm.length(), rims)
+            } else {
+                bundle.view.etendue_sr(sensor_mm)
+            }
+    }
+
+    fn bundle(&self, sensor_mm: DVec2) -> Option<Bundle> {
+        let tangent = self.body.ideal(sensor_mm)? / self.conjugates.principal_distance_mm;
+        let entrance_mm = self.size.entrance_radius_mm;
+        let exit_mm = entrance_mm * self.pupil_magnification;
+        let growth = self.exit_growth(sensor_mm, tangent)?;
+        let (entrance_radius_mm, radius_mm) = match self.parameters.constant_pupil {
+            ConstantPupil::Entrance => (entrance_mm, exit_mm * growth),
+            ConstantPupil::Exit => (entrance_mm / growth, exit_mm),
+        };
+        Some(Bundle {
+            pencil: Pencil { tangent, inverse_focus_per_mm: self.conjugates.inverse_focus_per_mm },
+            view: PupilView { distance_mm: self.exit_distance_mm(), radius_mm },
+            entrance_radius_mm,
+        })
+    }
+
+    /// √g: the exit pupil's radius where the entrance pupil is constant, over its radius on the axis.
+    fn exit_growth(&self, sensor_mm: DVec2, tangent: DVec2) -> Option<f64> {
+        let image_tangent = sensor_mm / self.exit_distance_mm();
+        let secants = (1.0 + image_tangent.length_squared()) / (1.0 + tangent.length_squared());
+        Some(secants * self.body.ideal_area_per_observed(sensor_mm)?.sqrt())
+    }
+
+    /// The rims as discs in the plane of the unit disc, centres along the direction of the sensor point.
+    fn rim_discs(&self, bundle: &Bundle, sensor_radius_mm: f64) -> [Option<Disc>; 2] {
+        let front = self.rims.front.map(|[towards_scene, radius]| {
+            let scale = bundle.entrance_radius_mm * (1.0 - towards_scene * self.conjugates.inverse_focus_per_mm);
+            Disc { centre: -towards_scene * bundle.pencil.tangent.length() / scale, radius: radius / scale }
+        });
+        let rear = self.rims.rear.map(|[towards_sensor, radius]| {
+            let share = towards_sensor / bundle.view.distance_mm;
+            let scale = bundle.view.radius_mm * (1.0 - share);
+            Disc { centre: sensor_radius_mm * share / scale, radius: radius / scale }
+        });
+        [front, rear]
+    }
+
+    fn front_rim(&self, rim: Rim) -> Result<[f64; 2], OpticsError> {
+        let position_mm = finite("front_rim.position_mm", rim.position_mm)?;
+        let radius_mm = positive("front_rim.radius_mm", rim.radius_mm)?;
+        let ahead_mm = self.entrance_pupil_mm() - position_mm;
+        let left = 1.0 - ahead_mm * self.conjugates.inverse_focus_per_mm;
+        if left <= 0.0 {
+            let plane_mm = self.entrance_pupil_mm() - self.parameters.focus_distance_m / MM;
+            return Err(OpticsError::RimMisplaced { rim: "front_rim", position_mm, plane: "plane in focus", plane_mm });
+        }
+        rim_is_wide_enough("front_rim", radius_mm, self.size.entrance_radius_mm * left)?;
+        Ok([ahead_mm, radius_mm])
+    }
+
+    fn rear_rim(&self, rim: Rim) -> Result<[f64; 2], OpticsError> {
+        let position_mm = finite("rear_rim.position_mm", rim.position_mm)?;
+        let radius_mm = positive("rear_rim.radius_mm", rim.radius_mm)?;
+        let behind_mm = position_mm - self.exit_pupil_mm();
+        let left = 1.0 - behind_mm / self.exit_distance_mm();
+        if left <= 0.0 {
+            let plane_mm = self.sensor_mm();
+            return Err(OpticsError::RimMisplaced { rim: "rear_rim", position_mm, plane: "sensor", plane_mm });
+        }
+        let exit_radius_mm = self.size.entrance_radius_mm * self.pupil_magnification;
+        rim_is_wide_enough("rear_rim", radius_mm, exit_radius_mm * left)?;
+        Ok([behind_mm, radius_mm])
+    }
+}
+
+/// Rounding that a rim as wide as the bundle may have.
+const RIM_ROUNDING: f64 = 1e-12;
+
+fn rim_is_wide_enough(rim: &'static str, radius_mm: f64, needed_mm: f64) -> Result<(), OpticsError> {
+    if radius_mm * (1.0 + RIM_ROUNDING) >= needed_mm {
+        return Ok(());
+    }
+    Err(OpticsError::RimIsStop { rim, radius_mm, needed_mm })
+}
+
+/// How far two statements of the pupil magnification may part, relative.
+const PUPIL_AGREEMENT: f64 = 1e-6;
+
+impl PupilStatements {
+    /// The pupil magnification that the statements mean; 1 where there is none.
+    fn magnification(&self, focal_mm: f64, separation_mm: f64) -> Result<f64, OpticsError> {
+        let position = |m: f64| separation_mm + focal_mm * (1.0 - m);
+        let entrance = self.entrance_pupil_mm.map(|p| ("entrance_pupil_mm", p, focal_mm / (focal_mm + p)));
+        let exit = self.exit_pupil_mm.map(|q| ("exit_pupil_mm", q, 1.0 - (q - separation_mm) / focal_mm));
+        let ratio = self.pupil_magnification.map(|m| ("pupil_magnification", m, m));
+        let mut stated = [entrance, exit, ratio].into_iter().flatten();
+        let Some((first, first_value, m)) = stated.next() else { return Ok(1.0) };
+        positive_magnification(first, first_value, m)?;
+        for (second, second_value, other) in stated {
+            positive_magnification(second, second_value, other)?;
+            if (other / m - 1.0).abs() > PUPIL_AGREEMENT {
+                let expected = if second == "exit_pupil_mm" { position(m) } else { m };
+                return Err(OpticsError::Pupils { first, first_value, second, second_value, expected });
+            }
+        }
+        Ok(m)
+    }
+}
+
+fn positive_magnification(name: &'static str, value: f64, magnification: f64) -> Result<(), OpticsError> {
+    finite(name, value)?;
+    if magnification.is_finite() && magnification > 0.0 {
+        return Ok(());
+    }
+    Err(OpticsError::PupilBeyondFocus { name, value, magnification })
+}

@@ -1,0 +1,108 @@
+//! Mechanical vignetting: what a pupil sends to a sensor point where rims cut it.
+//!
+//! In the plane of the pupil (its radius taken as 1) the pupil and the projections of the rims are discs whose centres lie
+//! on one line, the direction of the sensor point. Along that line the integrand z²/d⁴ has a closed antiderivative;
+//! across it, a Gauss–Legendre rule runs piece by piece between the points where the boundary changes from one
+//! circle to another, in a variable that takes away the square roots at the ends.
+
+use crate::pupil::PupilView;
+use core::f64::consts::{FRAC_PI_2, PI};
+use etendue_core::maths::f64::{atan, sin_cos};
+
+/// A disc of the plane of the unit pupil, centred on the line through the pupil's centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Disc {
+    pub(crate) centre: f64,
+    pub(crate) radius: f64,
+}
+
+/// The pupil itself.
+const PUPIL: Disc = Disc { centre: 0.0, radius: 1.0 };
+
+impl Disc {
+    /// Whether part of the pupil lies outside this disc.
+    pub(crate) fn clips_unit_disc(self) -> bool {
+        self.centre.abs() + 1.0 > self.radius
+    }
+
+    /// Half the chord at height `t`; `None` where there is none.
+    fn half_chord(self, t: f64) -> Option<f64> {
+        let h2 = (self.radius - t) * (self.radius + t);
+        (h2 >= 0.0).then(|| h2.sqrt())
+    }
+}
+
+/// ∫ z²/d⁴ dA over the part of the pupil inside the rims, sr, for a sensor point `sensor_radius_mm` from the axis.
+pub(crate) fn clipped_etendue_sr(view: &PupilView, sensor_radius_mm: f64, rims: [Option<Disc>; 2]) -> f64 {
+    let discs = || rims.into_iter().flatten().chain([PUPIL]);
+    let chord = |t: f64| {
+        discs().try_fold((f64::NEG_INFINITY, f64::INFINITY), |(low, high), disc| {
+            let half = disc.half_chord(t)?;
+            let (low, high) = (low.max(disc.centre - half), high.min(disc.centre + half));
+            (low < high).then_some((low, high))
+        })
+    };
+    let strip = |t: f64| chord(t).map_or(0.0, |(low, high)| strip_sr(view, sensor_radius_mm, t, low, high));
+    let heights = break_heights(rims);
+    // The region is symmetric about the line: both halves at once.
+    2.0 * heights.windows(2).map(|piece| integrate(&strip, piece[0], piece[1])).sum::<f64>()
+}
+
+/// The strip at height `t` from `low` to `high`, per unit of height: ∫ z² a² / (A² + (a s + X)²)² ds with
+/// A² = z² + a² t², by ∫ dw/(A² + w²)² = w/(2A²(A² + w²)) + atan(w/A)/(2A³).
+fn strip_sr(view: &PupilView, sensor_radius_mm: f64, t: f64, low: f64, high: f64) -> f64 {
+    let (z, a) = (view.distance_mm, view.radius_mm);
+    let across2 = z * z + a * a * t * t;
+    let across = across2.sqrt();
+    let primitive = |s: f64| {
+        let w = a * s + sensor_radius_mm;
+        (w / (across2 + w * w) + atan(w / across) / across) / (2.0 * across2)
+    };
+    z * z * a * (primitive(high) - primitive(low))
+}
+
+/// Heights, in order from 0 to the least radius, between which the boundary is made of the same circles.
+fn break_heights(rims: [Option<Disc>; 2]) -> [f64; 5] {
+    let [front, rear] = rims;
+    let pair = |a: Option<Disc>, b: Option<Disc>| a.zip(b).and_then(|(a, b)| crossing_height(a, b)).unwrap_or(0.0);
+    let least = [front, rear].into_iter().flatten().map(|d| d.radius).fold(1.0, f64::min);
+    let crossings = [pair(front, Some(PUPIL)), pair(rear, Some(PUPIL)), pair(front, rear)];
+    let [a, b, c] = crossings.map(|t| t.min(least));
+    let mut heights = [0.0, a, b, c, least];
+    heights.sort_by(f64::total_cmp);
+    heights
+}
+
+/// The height at which two circles cross; `None` where they do not.
+fn crossing_height(a: Disc, b: Disc) -> Option<f64> {
+    let d = b.centre - a.centre;
+    let s = (d * d + a.radius * a.radius - b.radius * b.radius) / (2.0 * d);
+    let t2 = (a.radius - s) * (a.radius + s);
+    (t2 > 0.0).then(|| t2.sqrt())
+}
+
+/// ∫ f dt from `low` to `high`, with t = middle + half · sin φ, which takes away square roots at both ends.
+fn integrate(f: &impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
+    let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+    if half <= 0.0 {
+        return 0.0;
+    }
+    let at = |x: f64| {
+        let (s, c) = sin_cos(FRAC_PI_2 * x);
+        f(middle + half * s) * c
+    };
+    let sum: f64 = GAUSS.iter().map(|[x, w]| w * (at(*x) + at(-*x))).sum();
+    sum * half * 0.5 * PI
+}
+
+/// Positive abscissae and weights of the Gauss–Legendre rule of 16 points on [−1, 1].
+const GAUSS: [[f64; 2]; 8] = [
+    [0.09501250983763744, 0.18945061045506864],
+    [0.2816035507792589, 0.18260341504492364],
+    [0.45801677765722737, 0.16915651939500265],
+    [0.6178762444026438, 0.1495959888165767],
+    [0.755404408355003, 0.12462897125553407],
+    [0.8656312023878318, 0.0951585116824926],
+    [0.9445750230732326, 0.062253523938647456],
+    [0.9894009349916499, 0.027152459411754176],
+];
