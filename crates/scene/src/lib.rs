@@ -1,1 +1,31 @@
-//! The description of a job: records in file units with their places, parsing and checking.
+//! The description of a job: inert records in file units with their places; parsing and checking.
+//!
+//! A description is TOML, `format = 1` at the head of every file. A *job* names its scene and its cameras, inline or by
+//! file, and what to render; a *scene* holds what is seen; a *camera* holds lens, sensor and processing. The format is
+//! told key by key in `docs/scene-format.md`, which a test keeps in step with the records here.
+//!
+//! [`Description::load`] reads a job through a reader that the caller gives, applies overrides (`--set key=value`) and
+//! collects **all** faults with their places: unknown keys, wrong types and ranges, dangling names, contradictions.
+//! A record keeps the units of the file and the place of each value ([`Placed`]); `None` means that the key was not
+//! given. Defaults that depend on the plan belong to whoever compiles it.
+//!
+//! [`asset`] holds the inert contents of the files that a description names, filled by whoever reads them.
+//!
+//! This crate reads no file by itself, sees no acceleration structure, traces nothing and guesses nothing.
+
+pub mod asset;
+mod document;
+mod fault;
+mod load;
+mod overrides;
+mod place;
+mod reader;
+pub mod record;
+mod schema;
+mod suggest;
+
+pub use fault::{Fault, Faults};
+pub use load::{Description, ReadText, load_camera};
+pub use overrides::Overrides;
+pub use place::{Place, Placed};
+pub use schema::{FileKind, schema};

@@ -1,0 +1,78 @@
+//! What meshes, pictures and spectra hold once read.
+
+use super::mtl::SlotMaterial;
+
+/// A triangle mesh in the axes and units of its file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeshAsset {
+    /// Vertices, in units of the file.
+    pub positions: Vec<[f32; 3]>,
+    /// Normals of the vertices, of any length above 0; none, or one a vertex.
+    pub normals: Vec<[f32; 3]>,
+    /// Texture coordinates, v upwards; none, or one a vertex.
+    pub uvs: Vec<[f32; 2]>,
+    /// Indices of vertices, counter-clockwise as seen from the front.
+    pub triangles: Vec<[u32; 3]>,
+    /// The material slot of each triangle: an index to `slot_materials`.
+    pub slots: Vec<u16>,
+    /// The materials by the names that the file gives them.
+    pub slot_materials: Vec<SlotMaterial>,
+    /// What was read and not used, in sentences for the user: fields of no meaning here, dropped triangles.
+    pub report: Vec<String>,
+    /// SHA-256 of the contents of the file and of the material files it names.
+    pub hash: [u8; 32],
+}
+
+/// A picture; its first row is the top one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImageAsset {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// The pixels, row by row.
+    pub pixels: ImagePixels,
+    /// SHA-256 of the file.
+    pub hash: [u8; 32],
+}
+
+/// Pixels as the file holds them; what they mean is told by the description.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ImagePixels {
+    /// One channel, 0 … 255.
+    Gray8(Vec<u8>),
+    /// Red, green, blue, 0 … 255.
+    Rgb8(Vec<[u8; 3]>),
+    /// Red, green, blue, opacity, 0 … 255.
+    Rgba8(Vec<[u8; 4]>),
+    /// Red, green, blue, linear.
+    Rgb32F(Vec<[f32; 3]>),
+}
+
+impl ImagePixels {
+    /// How many pixels.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Gray8(p) => p.len(),
+            Self::Rgb8(p) => p.len(),
+            Self::Rgba8(p) => p.len(),
+            Self::Rgb32F(p) => p.len(),
+        }
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// A tabulated spectrum.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SpectrumAsset {
+    /// Wavelength in nm, increasing, and value.
+    pub points: Vec<(f64, f64)>,
+    /// SHA-256 of the file.
+    pub hash: [u8; 32],
+}

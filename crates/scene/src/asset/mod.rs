@@ -1,0 +1,12 @@
+//! Contents of the files that a description names: inert data, filled by whoever reads files.
+
+mod mesh;
+mod mtl;
+mod request;
+mod store;
+
+pub use mesh::{ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
+pub use mtl::{MtlFields, SlotMaterial, SlotReflectance, SlotSurface};
+pub(crate) use request::requests;
+pub use request::{AssetKind, AssetRequest};
+pub use store::Assets;

@@ -1,0 +1,169 @@
+//! What a Wavefront MTL says of a material, in the terms of a scene.
+//!
+//! `map_Kd` (sRGB-encoded) or else `Kd` (linear sRGB) becomes the diffuse reflectance. A material with highlights
+//! (`Ks` above 0, illumination model 2 or more or none given, and `Ns` above 0) or with a roughness `Pr` becomes "coated": index `Ni` where it is in (1, 3], else 1.5;
+//! α = Pr² (Burley, "Physically based shading at Disney", 2012) or else α = √(2 / (Ns + 2)), the GGX width that has the
+//! curvature of a Blinn-Phong lobe of exponent Ns (Walter et al., "Microfacet models for refraction", 2007).
+//! An MTL has no unit for light, so `Ke` is reported and gives none; so are metalness, transparency and the colour of
+//! highlights.
+
+use std::path::PathBuf;
+
+/// A material by the name that a mesh's file gives it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SlotMaterial {
+    /// The name in the mesh's file.
+    pub name: String,
+    /// How it reflects; `None` where the file says nothing, so that the scene must.
+    pub surface: Option<SlotSurface>,
+}
+
+/// How a mesh's own material reflects.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SlotSurface {
+    /// Lambert's law.
+    Diffuse {
+        /// Share of light reflected.
+        reflectance: SlotReflectance,
+    },
+    /// A diffuse base under a clear coat.
+    Coated {
+        /// Share of light that the base reflects.
+        reflectance: SlotReflectance,
+        /// Refractive index of the coat.
+        index: f64,
+        /// GGX roughness of the coat.
+        alpha: f64,
+    },
+}
+
+impl SlotSurface {
+    /// The reflectance of the base.
+    #[must_use]
+    pub fn reflectance(&self) -> &SlotReflectance {
+        match self {
+            Self::Diffuse { reflectance } | Self::Coated { reflectance, .. } => reflectance,
+        }
+    }
+}
+
+/// The reflectance that a mesh's file gives.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SlotReflectance {
+    /// Linear sRGB, 0 … 1.
+    LinearSrgb([f64; 3]),
+    /// An sRGB-encoded picture that repeats; a path that can be read.
+    Image(PathBuf),
+}
+
+/// The fields of an MTL material that have a meaning here or are reported; `None` where the file is silent.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MtlFields {
+    /// `Kd`, linear sRGB.
+    pub diffuse: Option<[f64; 3]>,
+    /// `map_Kd`, a path that can be read.
+    pub diffuse_map: Option<PathBuf>,
+    /// `Ks`.
+    pub specular: Option<[f64; 3]>,
+    /// `Ns`.
+    pub exponent: Option<f64>,
+    /// `Ni`.
+    pub index: Option<f64>,
+    /// `Ke`.
+    pub emission: Option<[f64; 3]>,
+    /// `Pr`.
+    pub roughness: Option<f64>,
+    /// `Pm`.
+    pub metalness: Option<f64>,
+    /// `d`, or 1 − `Tr`.
+    pub opacity: Option<f64>,
+    /// `illum`.
+    pub illumination_model: Option<u8>,
+}
+
+impl MtlFields {
+    /// The material, and what of it has no place in a scene: sentences for [`super::MeshAsset::report`].
+    #[must_use]
+    pub fn to_slot(&self, name: &str) -> (SlotMaterial, Vec<String>) {
+        let mut report = Vec::new();
+        let surface = self.reflectance(name, &mut report).map(|reflectance| match self.alpha() {
+            Some(alpha) => SlotSurface::Coated { reflectance, index: self.coat_index(), alpha },
+            None => SlotSurface::Diffuse { reflectance },
+        });
+        self.report_unused(name, &mut report);
+        (SlotMaterial { name: name.to_owned(), surface }, report)
+    }
+
+    fn reflectance(&self, name: &str, report: &mut Vec<String>) -> Option<SlotReflectance> {
+        if let Some(map) = &self.diffuse_map {
+            return Some(SlotReflectance::Image(map.clone()));
+        }
+        let kd = self.diffuse?;
+        if kd.iter().any(|v| !(0.0..=1.0).contains(v)) {
+            report.push(format!(
+                "material \"{name}\": Kd {kd:?} is no reflectance (0 … 1); say its material in the scene"
+            ));
+            return None;
+        }
+        Some(SlotReflectance::LinearSrgb(kd))
+    }
+
+    /// The roughness of the coat; `None` for a material without highlights.
+    fn alpha(&self) -> Option<f64> {
+        let shiny = self.specular.is_some_and(|ks| ks.iter().any(|v| *v > 0.0));
+        let by_exponent = self.exponent.filter(|n| shiny && *n > 0.0 && self.illumination_model.is_none_or(|m| m >= 2));
+        let alpha = match (self.roughness, by_exponent) {
+            (Some(roughness), _) => roughness * roughness,
+            (None, Some(exponent)) => (2.0 / (exponent + 2.0)).sqrt(),
+            (None, None) => return None,
+        };
+        Some(alpha.clamp(0.001, 1.0))
+    }
+
+    fn coat_index(&self) -> f64 {
+        self.index.filter(|n| *n > 1.0 && *n <= 3.0).unwrap_or(1.5)
+    }
+
+    fn report_unused(&self, name: &str, report: &mut Vec<String>) {
+        let emits = self.emission.is_some_and(|ke| ke.iter().any(|v| *v > 0.0));
+        let metal = self.metalness.is_some_and(|m| m > 0.0);
+        let clear = self.opacity.is_some_and(|d| d < 1.0);
+        let tinted = self.specular.is_some_and(|[r, g, b]| r != g || g != b);
+        let notes = [
+            (emits, "Ke has no unit and gives no light; say \"emission\" in the scene"),
+            (metal, "Pm (metalness) is not used; say \"conductor\" in the scene"),
+            (clear, "transparency (d, Tr) is not used: the surface is opaque"),
+            (tinted, "the colour of highlights (Ks) is not used"),
+        ];
+        report.extend(notes.iter().filter(|(is, _)| *is).map(|(_, note)| format!("material \"{name}\": {note}")));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn matt_and_shiny_materials() {
+        let matt = MtlFields {
+            diffuse: Some([0.5; 3]),
+            exponent: Some(250.0),
+            specular: Some([0.0; 3]),
+            ..Default::default()
+        };
+        assert!(matches!(matt.to_slot("a").0.surface, Some(SlotSurface::Diffuse { .. })), "no highlight without Ks");
+        let shiny = MtlFields { specular: Some([0.5; 3]), exponent: Some(198.0), ..matt };
+        let Some(SlotSurface::Coated { alpha, index, .. }) = shiny.to_slot("a").0.surface else { panic!("shiny") };
+        assert_eq!((alpha, index), (0.1, 1.5), "√(2 / 200)");
+    }
+
+    #[test]
+    fn what_has_no_place_is_reported() {
+        let fields =
+            MtlFields { emission: Some([1.0; 3]), metalness: Some(1.0), opacity: Some(0.5), ..Default::default() };
+        let (slot, report) = fields.to_slot("lamp");
+        assert_eq!((slot.surface, report.len()), (None, 3), "light, metal, glass");
+        let bright = MtlFields { diffuse: Some([1.5, 0.0, 0.0]), ..Default::default() };
+        assert_eq!(bright.to_slot("x").0.surface, None, "more light than arrives");
+    }
+}

@@ -1,0 +1,54 @@
+//! The assets of a description, by path.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use super::mtl::SlotReflectance;
+use super::{AssetKind, AssetRequest, ImageAsset, MeshAsset, SpectrumAsset};
+use crate::load::Description;
+use crate::place::Place;
+
+/// Everything that was read for a description.
+///
+/// Filled by reading [`Assets::missing`] until nothing is missing: meshes can name pictures of their own.
+#[derive(Clone, Debug, Default)]
+pub struct Assets {
+    /// Meshes by path.
+    pub meshes: BTreeMap<PathBuf, MeshAsset>,
+    /// Pictures by path.
+    pub images: BTreeMap<PathBuf, ImageAsset>,
+    /// Spectra by path.
+    pub spectra: BTreeMap<PathBuf, SpectrumAsset>,
+}
+
+impl Assets {
+    /// What `description`, and the meshes that are here already, name and is not here.
+    #[must_use]
+    pub fn missing(&self, description: &Description) -> Vec<AssetRequest> {
+        let mut missing: Vec<_> = description.assets();
+        missing.extend(self.meshes.iter().flat_map(|(path, mesh)| textures_of(path, mesh)));
+        missing.retain(|request| !self.has(request.kind, &request.path));
+        missing.sort_by(|a, b| a.path.cmp(&b.path));
+        missing.dedup_by(|a, b| a.kind == b.kind && a.path == b.path);
+        missing
+    }
+
+    fn has(&self, kind: AssetKind, path: &Path) -> bool {
+        match kind {
+            AssetKind::Mesh => self.meshes.contains_key(path),
+            AssetKind::Image => self.images.contains_key(path),
+            AssetKind::Spectrum => self.spectra.contains_key(path),
+        }
+    }
+}
+
+/// The pictures that a mesh's own materials name.
+fn textures_of<'a>(file: &'a Path, mesh: &'a MeshAsset) -> impl Iterator<Item = AssetRequest> + 'a {
+    let surfaces = mesh.slot_materials.iter().filter_map(|slot| slot.surface.as_ref());
+    surfaces.filter_map(move |surface| match surface.reflectance() {
+        SlotReflectance::Image(path) => {
+            Some(AssetRequest { path: path.clone(), kind: AssetKind::Image, place: Place::file_head(file) })
+        }
+        SlotReflectance::LinearSrgb(_) => None,
+    })
+}

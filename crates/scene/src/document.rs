@@ -1,0 +1,211 @@
+//! A TOML text as a tree whose every value knows its place.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::fault::Faults;
+use crate::place::Place;
+
+/// A value and its place.
+#[derive(Clone, Debug)]
+pub(crate) struct Node {
+    pub(crate) place: Place,
+    pub(crate) value: Value,
+}
+
+/// What a file can say.
+#[derive(Clone, Debug)]
+pub(crate) enum Value {
+    Flag(bool),
+    Whole(i64),
+    Number(f64),
+    Text(String),
+    List(Vec<Node>),
+    Table(Table),
+    /// TOML that no key of ours takes: its name.
+    Foreign(&'static str),
+    /// What a file that could not be read would have said; the fault is noted where the file is named.
+    Unreadable,
+}
+
+/// A table, in the order of the file.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Table {
+    pub(crate) entries: Vec<Entry>,
+}
+
+/// A key of a table.
+#[derive(Clone, Debug)]
+pub(crate) struct Entry {
+    pub(crate) key: String,
+    /// Where the key stands (the value stands to its right).
+    pub(crate) place: Place,
+    pub(crate) node: Node,
+}
+
+impl Table {
+    pub(crate) fn get(&self, key: &str) -> Option<&Node> {
+        self.entries.iter().find(|e| e.key == key).map(|e| &e.node)
+    }
+
+    pub(crate) fn get_mut(&mut self, key: &str) -> Option<&mut Node> {
+        self.entries.iter_mut().find(|e| e.key == key).map(|e| &mut e.node)
+    }
+
+    /// Takes an entry out.
+    pub(crate) fn remove(&mut self, key: &str) -> Option<Entry> {
+        let index = self.entries.iter().position(|e| e.key == key)?;
+        Some(self.entries.remove(index))
+    }
+}
+
+impl Node {
+    /// What it is, in words.
+    pub(crate) fn describe(&self) -> String {
+        match &self.value {
+            Value::Flag(v) => v.to_string(),
+            Value::Whole(v) => v.to_string(),
+            Value::Number(v) => v.to_string(),
+            Value::Text(v) => format!("the text \"{v}\""),
+            Value::List(v) => format!("a list of {}", v.len()),
+            Value::Table(_) => "a table".to_owned(),
+            Value::Foreign(name) => (*name).to_owned(),
+            Value::Unreadable => "nothing".to_owned(),
+        }
+    }
+
+    pub(crate) fn as_table(&self) -> Option<&Table> {
+        match &self.value {
+            Value::Table(t) => Some(t),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn as_table_mut(&mut self) -> Option<&mut Table> {
+        match &mut self.value {
+            Value::Table(t) => Some(t),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn as_list(&self) -> &[Node] {
+        match &self.value {
+            Value::List(v) => v,
+            _ => &[],
+        }
+    }
+
+    pub(crate) fn as_text(&self) -> Option<&str> {
+        match &self.value {
+            Value::Text(v) => Some(v),
+            _ => None,
+        }
+    }
+
+    /// The `name` of a table that has one.
+    pub(crate) fn name(&self) -> Option<&str> {
+        self.as_table()?.get("name")?.as_text()
+    }
+}
+
+/// Gives the tree of a file's text; notes every syntax fault.
+pub(crate) fn parse(file: &Arc<Path>, text: &str, faults: &mut Faults) -> Node {
+    let (table, errors) = DeTable::parse_recoverable(text);
+    let builder = Builder { spots: Spots::of_file(file, text) };
+    for error in errors {
+        let place = builder.spots.place(error.span().map_or(0, |s| s.start), "");
+        faults.add(&place, format!("this is not TOML: {}", error.message()), "correct the syntax");
+    }
+    Node { place: Place::file_head(file.clone()), value: Value::Table(builder.table(table.get_ref(), "")) }
+}
+
+/// Gives the tree of the value of an override, all of it at the place of the override; `None` where it is no TOML value.
+pub(crate) fn parse_override(file: &Arc<Path>, set: &Arc<str>, value: &str, key: &str) -> Option<Node> {
+    let parsed = DeValue::parse(value).ok()?;
+    let builder = Builder { spots: Spots::Set { file: file.clone(), text: set.clone() } };
+    Some(builder.node(&parsed, key))
+}
+
+/// Where byte offsets are.
+enum Spots<'a> {
+    File { file: Arc<Path>, text: &'a str, line_starts: Vec<usize> },
+    Set { file: Arc<Path>, text: Arc<str> },
+}
+
+impl<'a> Spots<'a> {
+    fn of_file(file: &Arc<Path>, text: &'a str) -> Self {
+        let breaks = text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(i, _)| i + 1);
+        Self::File { file: file.clone(), text, line_starts: std::iter::once(0).chain(breaks).collect() }
+    }
+
+    fn place(&self, offset: usize, key: &str) -> Place {
+        match self {
+            Self::Set { file, text } => Place::set(file.clone(), text.clone(), key.into()),
+            Self::File { file, text, line_starts } => {
+                let line = line_starts.partition_point(|start| *start <= offset);
+                let before = text.get(line_starts[line - 1]..offset).unwrap_or("");
+                let column = before.chars().count() + 1;
+                Place::at(file.clone(), saturating_u32(line), saturating_u32(column), key.into())
+            }
+        }
+    }
+}
+
+fn saturating_u32(n: usize) -> u32 {
+    u32::try_from(n).unwrap_or(u32::MAX)
+}
+
+struct Builder<'a> {
+    spots: Spots<'a>,
+}
+
+impl Builder<'_> {
+    fn node(&self, value: &Spanned<DeValue<'_>>, key: &str) -> Node {
+        let place = self.spots.place(value.span().start, key);
+        Node { place, value: self.value(value.get_ref(), key) }
+    }
+
+    fn value(&self, value: &DeValue<'_>, key: &str) -> Value {
+        match value {
+            DeValue::Boolean(v) => Value::Flag(*v),
+            DeValue::Integer(v) => whole(v),
+            DeValue::Float(v) => {
+                v.as_str().parse().map_or(Value::Foreign("a number too large for 64 bits"), Value::Number)
+            }
+            DeValue::String(v) => Value::Text(v.to_string()),
+            DeValue::Datetime(_) => Value::Foreign("a date"),
+            DeValue::Array(v) => Value::List(v.iter().enumerate().map(|(i, e)| self.element(i, e, key)).collect()),
+            DeValue::Table(v) => Value::Table(self.table(v, key)),
+        }
+    }
+
+    fn element(&self, index: usize, value: &Spanned<DeValue<'_>>, key: &str) -> Node {
+        let name = value.get_ref().get("name").and_then(|n| n.as_ref().as_str());
+        let key = name.map_or_else(|| format!("{key}[{index}]"), |name| join(key, name));
+        self.node(value, &key)
+    }
+
+    fn table(&self, table: &DeTable<'_>, key: &str) -> Table {
+        let mut entries: Vec<_> = table.iter().collect();
+        entries.sort_by_key(|(k, _)| k.span().start);
+        Table { entries: entries.into_iter().map(|(k, v)| self.entry(k, v, key)).collect() }
+    }
+
+    fn entry(&self, key: &Spanned<std::borrow::Cow<'_, str>>, value: &Spanned<DeValue<'_>>, parent: &str) -> Entry {
+        let path = join(parent, key.get_ref());
+        let node = self.node(value, &path);
+        Entry { key: key.get_ref().to_string(), place: self.spots.place(key.span().start, &path), node }
+    }
+}
+
+/// A dotted key.
+pub(crate) fn join(parent: &str, key: &str) -> String {
+    if parent.is_empty() { key.to_owned() } else { format!("{parent}.{key}") }
+}
+
+fn whole(v: &toml::de::DeInteger<'_>) -> Value {
+    i64::from_str_radix(v.as_str(), v.radix()).map_or(Value::Foreign("an integer too large for 64 bits"), Value::Whole)
+}

@@ -1,0 +1,80 @@
+//! Faults of a description: all of them are collected before any is reported.
+
+use std::fmt;
+
+use crate::place::Place;
+
+/// One fault: where it stands, what is wrong with what was expected, and what to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Where it stands.
+    pub place: Place,
+    /// What is wrong, and what was expected.
+    pub problem: String,
+    /// What to do.
+    pub remedy: String,
+}
+
+impl Fault {
+    /// A fault at `place`.
+    #[must_use]
+    pub fn new(place: &Place, problem: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self { place: place.clone(), problem: problem.into(), remedy: remedy.into() }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}; {}", self.place, self.problem, self.remedy)
+    }
+}
+
+/// All faults of a description, by file and line. Displays one a line.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub struct Faults {
+    list: Vec<Fault>,
+}
+
+impl Faults {
+    /// No faults yet.
+    pub(crate) fn none() -> Self {
+        Self { list: Vec::new() }
+    }
+
+    /// The faults, by file and line.
+    #[must_use]
+    pub fn list(&self) -> &[Fault] {
+        &self.list
+    }
+
+    /// Notes a fault.
+    pub(crate) fn add(&mut self, place: &Place, problem: impl Into<String>, remedy: impl Into<String>) {
+        self.list.push(Fault::new(place, problem, remedy));
+    }
+
+    /// How many there are.
+    pub(crate) fn count(&self) -> usize {
+        self.list.len()
+    }
+
+    /// `value` if there are no faults; else all of them, in order of place, each once.
+    pub(crate) fn or<T>(mut self, value: Option<T>) -> Result<T, Self> {
+        match value {
+            Some(value) if self.list.is_empty() => Ok(value),
+            _ => {
+                self.list.sort_by(|a, b| a.place.cmp(&b.place));
+                self.list.dedup();
+                Err(self)
+            }
+        }
+    }
+}
+
+impl fmt::Display for Faults {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, fault) in self.list.iter().enumerate() {
+            write!(f, "{}{fault}", if i == 0 { "" } else { "\n" })?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,98 @@
+//! From the path of a job to its records: reading files, overriding, checking.
+
+mod check;
+mod files;
+mod names;
+
+use std::path::{Path, PathBuf};
+
+use crate::asset::{AssetRequest, requests};
+use crate::document::Node;
+use crate::fault::Faults;
+use crate::overrides::Overrides;
+use crate::reader::{Rule as _, record};
+use crate::record::job::CameraSource;
+use crate::record::{Camera, CameraEntry, Job, Output, Pose, Render, Scene};
+
+/// Reads the text of a file; the error says in a few words why it cannot.
+pub type ReadText<'r> = dyn Fn(&Path) -> Result<String, String> + 'r;
+
+/// A job with its scene and cameras, checked.
+#[derive(Clone, Debug)]
+pub struct Description {
+    /// The file of the job.
+    pub file: PathBuf,
+    /// What is seen.
+    pub scene: Scene,
+    /// The cameras, one or more, names unique.
+    pub cameras: Vec<CameraSetup>,
+}
+
+/// A camera of a job.
+#[derive(Clone, Debug)]
+pub struct CameraSetup {
+    /// Its name.
+    pub name: crate::Placed<String>,
+    /// Lens, sensor, processing.
+    pub camera: Camera,
+    /// Where it stands.
+    pub pose: Pose,
+    /// How it renders: what the camera says, else what the job says.
+    pub render: Render,
+    /// What it writes: what the camera says, else what the job says.
+    pub output: Output,
+}
+
+impl Description {
+    /// Reads the job in `file` with all files it names but the assets, applies `overrides` and checks.
+    ///
+    /// # Errors
+    /// All faults of all files.
+    pub fn load(file: &Path, read: &ReadText<'_>, overrides: &Overrides) -> Result<Self, Faults> {
+        let mut faults = Faults::none();
+        let job = files::job(file, read, overrides, &mut faults);
+        let description = job.and_then(|document| Self::read(file, &document, &mut faults));
+        faults.or(description)
+    }
+
+    fn read(file: &Path, document: &Node, faults: &mut Faults) -> Option<Self> {
+        let job = record::<Job>().read(document, faults);
+        names::check(document, faults);
+        let job = job?;
+        let (render, output) = (job.render.as_ref(), job.output.as_ref());
+        let cameras: Vec<_> = job.cameras.into_iter().map(|c| CameraSetup::new(c, render, output)).collect();
+        let description = Self { file: file.to_owned(), scene: job.scene, cameras };
+        check::references(&description, document, faults);
+        check::cameras(&description, faults);
+        Some(description)
+    }
+
+    /// Every file that the description names and that is not text of its own, each once.
+    #[must_use]
+    pub fn assets(&self) -> Vec<AssetRequest> {
+        requests(self)
+    }
+}
+
+impl CameraSetup {
+    fn new(entry: CameraEntry, render: Option<&Render>, output: Option<&Output>) -> Self {
+        let CameraEntry { name, camera: CameraSource(camera), pose, render: own_render, output: own_output, place } =
+            entry;
+        let own_render = own_render.unwrap_or_else(|| Render::silent(place.clone()));
+        let own_output = own_output.unwrap_or_else(|| Output::silent(place));
+        let render = render.map_or(own_render.clone(), |base| own_render.over(base));
+        let output = output.map_or(own_output.clone(), |base| own_output.over(base));
+        Self { name, camera, pose, render, output }
+    }
+}
+
+/// Reads and checks a camera file by itself.
+///
+/// # Errors
+/// All faults of the file.
+pub fn load_camera(file: &Path, read: &ReadText<'_>) -> Result<Camera, Faults> {
+    let mut faults = Faults::none();
+    let document = files::document(file, read, &crate::Place::file_head(file), &mut faults);
+    let camera = document.and_then(|d| record::<Camera>().read(&d, &mut faults));
+    faults.or(camera)
+}

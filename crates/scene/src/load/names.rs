@@ -1,0 +1,59 @@
+//! Names are unique among their kind.
+
+use crate::document::{Node, Table};
+use crate::fault::Faults;
+
+/// The lists of a scene whose entries have names.
+const LISTS: [&str; 5] = ["meshes", "textures", "materials", "objects", "lights"];
+
+/// Notes every name that is used twice.
+pub(super) fn check(document: &Node, faults: &mut Faults) {
+    let Some(job) = document.as_table() else { return };
+    unique(job.get("cameras"), faults);
+    let Some(scene) = job.get("scene").and_then(Node::as_table) else { return };
+    for list in LISTS {
+        unique(scene.get(list), faults);
+    }
+    unique_numbers(scene, faults);
+}
+
+fn unique(list: Option<&Node>, faults: &mut Faults) {
+    let mut seen = std::collections::BTreeMap::new();
+    for node in list.map_or(&[][..], Node::as_list).iter().filter_map(|n| n.as_table()?.get("name")) {
+        let Some(name) = node.as_text() else { continue };
+        match seen.get(name) {
+            None => {
+                seen.insert(name, &node.place);
+            }
+            Some(first) => note_twice(&format!("the name \"{name}\""), node, first, faults),
+        }
+    }
+}
+
+fn unique_numbers(scene: &Table, faults: &mut Faults) {
+    let Some(classes) = scene.get("classes").and_then(Node::as_table) else { return };
+    for (i, entry) in classes.entries.iter().enumerate() {
+        let number = entry.node.describe();
+        if let Some(first) = classes.entries[..i].iter().find(|e| e.node.describe() == number) {
+            note_twice(&format!("the class number {number}"), &entry.node, &first.place, faults);
+        }
+    }
+}
+
+fn note_twice(what: &str, node: &Node, first: &crate::Place, faults: &mut Faults) {
+    let at = first.line_column().map_or(first.to_string(), |(line, _)| format!("line {line}"));
+    faults.add(&node.place, format!("{what} is taken by {at}"), "choose another");
+}
+
+/// The names in a list of the scene, whether or not the entries are right in all else.
+pub(super) fn of<'d>(document: &'d Node, list: &str) -> Vec<&'d str> {
+    let scene = document.as_table().and_then(|job| job.get("scene")).and_then(Node::as_table);
+    scene.and_then(|s| s.get(list)).map_or(&[][..], Node::as_list).iter().filter_map(Node::name).collect()
+}
+
+/// The names of the scene's classes.
+pub(super) fn of_classes(document: &Node) -> Vec<&str> {
+    let scene = document.as_table().and_then(|job| job.get("scene")).and_then(Node::as_table);
+    let classes = scene.and_then(|s| s.get("classes")).and_then(Node::as_table);
+    classes.map_or(Vec::new(), |t| t.entries.iter().map(|e| e.key.as_str()).collect())
+}

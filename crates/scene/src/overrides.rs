@@ -1,0 +1,161 @@
+//! Overrides: `--set key=value`, applied to the documents before they are checked.
+//!
+//! The key is a dotted path as the description would have it. An entry of a list is called by its name or its number
+//! (from 0): `cameras.front.sensor.exposure_s=0.01`, `scene.objects.2.material=red`. Referenced files are reached
+//! through the key that names them. The value is TOML; what is no TOML value is taken as a text, so that
+//! `scene=other.toml` needs no quotes.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use crate::document::{Entry, Node, Table, Value, join, parse_override};
+use crate::fault::Faults;
+use crate::place::Place;
+use crate::suggest::nearest;
+
+/// Changes to a description, in order.
+#[derive(Clone, Debug, Default)]
+pub struct Overrides {
+    texts: Vec<Arc<str>>,
+}
+
+impl Overrides {
+    /// From `key=value` texts; they are looked at when the description is loaded.
+    pub fn new<S: AsRef<str>>(texts: impl IntoIterator<Item = S>) -> Self {
+        Self { texts: texts.into_iter().map(|t| t.as_ref().into()).collect() }
+    }
+
+    /// Adds `text`, a `key=value`, after the others.
+    pub fn push(&mut self, text: &str) {
+        self.texts.push(text.into());
+    }
+
+    /// Applies those that say which files are read (`early`), or the others.
+    pub(crate) fn apply(&self, document: &mut Node, early: bool, faults: &mut Faults) {
+        for text in &self.texts {
+            let change = Change::parse(text);
+            let names_file = change.as_ref().is_some_and(Change::names_file);
+            match change {
+                Some(change) if names_file == early => change.apply(document, faults),
+                None if !early => note_no_pair(document, text, faults),
+                _ => {}
+            }
+        }
+    }
+}
+
+fn note_no_pair(document: &Node, text: &Arc<str>, faults: &mut Faults) {
+    let place = Place::set(document.place.file().into(), text.clone(), "".into());
+    faults.add(&place, "this is no key=value", "give a dotted key, \"=\" and a value: render.spp=16");
+}
+
+/// One `key=value`.
+struct Change<'t> {
+    text: &'t Arc<str>,
+    path: Vec<&'t str>,
+    value: &'t str,
+}
+
+impl<'t> Change<'t> {
+    fn parse(text: &'t Arc<str>) -> Option<Self> {
+        let (key, value) = text.split_once('=')?;
+        let path: Vec<_> = key.trim().split('.').map(str::trim).collect();
+        let whole = path.iter().all(|part| !part.is_empty()) && !value.trim().is_empty();
+        whole.then_some(Self { text, path, value: value.trim() })
+    }
+
+    /// Whether the change says which file is read.
+    fn names_file(&self) -> bool {
+        matches!(self.path.as_slice(), ["scene"] | ["cameras", _, "file"])
+    }
+
+    fn apply(&self, document: &mut Node, faults: &mut Faults) {
+        let Some((last, way)) = self.path.split_last() else { return };
+        let mut node = document;
+        for (depth, part) in way.iter().enumerate() {
+            let Some(next) = self.step(node, part, depth, faults) else { return };
+            node = next;
+        }
+        let node = through_file(node, last);
+        self.put(node, last, faults);
+    }
+
+    /// The entry `part` of `node`; a table that is not there yet is made.
+    fn step<'n>(&self, node: &'n mut Node, part: &str, depth: usize, faults: &mut Faults) -> Option<&'n mut Node> {
+        let node = through_file(node, part);
+        let (file, key) = (Arc::<Path>::from(node.place.file()), join(node.place.key(), part));
+        let place = Place::set(file, self.text.clone(), key.into());
+        match &mut node.value {
+            Value::Table(table) => Some(entry_or_table(table, part, &place)),
+            Value::List(list) => entry_of_list(list, part, &place, faults),
+            Value::Unreadable => None,
+            _ => {
+                let key = self.path[..depth].join(".");
+                faults.add(&place, format!("\"{key}\" is not a table and has no key \"{part}\""), "correct the key");
+                None
+            }
+        }
+    }
+
+    fn put(&self, node: &mut Node, last: &str, faults: &mut Faults) {
+        let file: Arc<Path> = node.place.file().into();
+        let key = join(node.place.key(), last);
+        let place = Place::set(file.clone(), self.text.clone(), key.as_str().into());
+        let value = parse_override(&file, self.text, self.value, &key)
+            .unwrap_or_else(|| Node { place: place.clone(), value: Value::Text(self.value.to_owned()) });
+        match &mut node.value {
+            Value::Table(table) => match table.get_mut(last) {
+                Some(old) => *old = value,
+                None => table.entries.push(Entry { key: last.to_owned(), place, node: value }),
+            },
+            Value::List(list) => {
+                if let Some(old) = entry_of_list(list, last, &place, faults) {
+                    *old = value;
+                }
+            }
+            Value::Unreadable => {}
+            _ => faults.add(&place, format!("there is no table that could hold \"{last}\""), "correct the key"),
+        }
+    }
+}
+
+/// A camera with a file has its lens, sensor and processing there.
+fn through_file<'n>(node: &'n mut Node, part: &str) -> &'n mut Node {
+    let holds = |t: &Table| t.get("file").is_some_and(|f| matches!(f.value, Value::Table(_) | Value::Unreadable));
+    if !["lens", "sensor", "processing"].contains(&part) || !node.as_table().is_some_and(holds) {
+        return node;
+    }
+    match &mut node.value {
+        Value::Table(table) => &mut table.entries.iter_mut().find(|e| e.key == "file").expect("just seen").node,
+        _ => unreachable!("just seen as a table"),
+    }
+}
+
+fn entry_or_table<'n>(table: &'n mut Table, part: &str, place: &Place) -> &'n mut Node {
+    let index = table.entries.iter().position(|e| e.key == part).unwrap_or_else(|| {
+        let node = Node { place: place.clone(), value: Value::Table(Table::default()) };
+        table.entries.push(Entry { key: part.to_owned(), place: place.clone(), node });
+        table.entries.len() - 1
+    });
+    &mut table.entries[index].node
+}
+
+fn entry_of_list<'n>(list: &'n mut [Node], part: &str, place: &Place, faults: &mut Faults) -> Option<&'n mut Node> {
+    let by_name = list.iter().position(|n| n.name() == Some(part));
+    let found = by_name.or_else(|| part.parse().ok().filter(|i| *i < list.len()));
+    if found.is_none() {
+        note_no_entry(list, part, place, faults);
+    }
+    found.map(|i| &mut list[i])
+}
+
+fn note_no_entry(list: &[Node], part: &str, place: &Place, faults: &mut Faults) {
+    let names: Vec<_> = list.iter().filter_map(Node::name).collect();
+    let hint = nearest(part, &names).map_or(String::new(), |n| format!("did you mean \"{n}\"? "));
+    let entries = if names.is_empty() { String::new() } else { format!(", or a name: {}", names.join(", ")) };
+    let remedy = match list.len() {
+        0 => "the list is empty; remove the override".to_owned(),
+        n => format!("{hint}give a number from 0 to {}{entries}", n - 1),
+    };
+    faults.add(place, format!("no entry is called \"{part}\""), remedy);
+}

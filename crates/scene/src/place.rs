@@ -1,0 +1,118 @@
+//! Where a value stands: file, line, column and key, or the override that set it.
+
+use std::fmt;
+use std::ops::Deref;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Where a value or a fault stands.
+///
+/// Displays as `file:line:column: key`, and as `--set key=value` for a value given on the command line.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    file: Arc<Path>,
+    spot: Spot,
+    key: Arc<str>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Spot {
+    At { line: u32, column: u32 },
+    Set(Arc<str>),
+}
+
+impl Place {
+    /// The first character of `file`.
+    #[must_use]
+    pub fn file_head(file: impl Into<Arc<Path>>) -> Self {
+        Self { file: file.into(), spot: Spot::At { line: 1, column: 1 }, key: "".into() }
+    }
+
+    /// Line and column (from 1, columns in characters) of `file`, at the dotted `key`.
+    pub(crate) fn at(file: Arc<Path>, line: u32, column: u32, key: Arc<str>) -> Self {
+        Self { file, spot: Spot::At { line, column }, key }
+    }
+
+    /// The override `--set text`, which changes `key` of `file`.
+    pub(crate) fn set(file: Arc<Path>, text: Arc<str>, key: Arc<str>) -> Self {
+        Self { file, spot: Spot::Set(text), key }
+    }
+
+    /// The file the value belongs to (for an override: the file it changes).
+    #[must_use]
+    pub fn file(&self) -> &Path {
+        &self.file
+    }
+
+    /// The dotted key; empty for the file as a whole. Entries with a name are called by it: `cameras.front.lens`.
+    #[must_use]
+    pub fn key(&self) -> &str {
+        &self.key
+    }
+
+    /// Line and column, both from 1; `None` for an override.
+    #[must_use]
+    pub fn line_column(&self) -> Option<(u32, u32)> {
+        match self.spot {
+            Spot::At { line, column } => Some((line, column)),
+            Spot::Set(_) => None,
+        }
+    }
+
+    /// `path` as meant at this place: relative to the file.
+    #[must_use]
+    pub fn resolve(&self, path: &Path) -> PathBuf {
+        self.file.parent().unwrap_or(Path::new("")).join(path)
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.spot {
+            Spot::At { line, column } => write!(f, "{}:{line}:{column}", self.file.display())?,
+            Spot::Set(text) => return write!(f, "--set {text}"),
+        }
+        if self.key.is_empty() { Ok(()) } else { write!(f, ": {}", self.key) }
+    }
+}
+
+/// A value and where it stands. Equality looks at the value only.
+#[derive(Clone, Debug)]
+pub struct Placed<T> {
+    /// The value.
+    pub value: T,
+    /// Where it stands.
+    pub place: Place,
+}
+
+impl<T> Placed<T> {
+    /// `value` at `place`.
+    #[must_use]
+    pub fn new(value: T, place: Place) -> Self {
+        Self { value, place }
+    }
+
+    /// Another value at the same place.
+    pub fn map<U>(self, f: impl FnOnce(T) -> U) -> Placed<U> {
+        Placed { value: f(self.value), place: self.place }
+    }
+}
+
+impl<T> Deref for Placed<T> {
+    type Target = T;
+    fn deref(&self) -> &T {
+        &self.value
+    }
+}
+
+impl<T: PartialEq> PartialEq for Placed<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.value == other.value
+    }
+}
+
+impl<T: PartialEq> PartialEq<T> for Placed<T> {
+    fn eq(&self, other: &T) -> bool {
+        self.value == *other
+    }
+}

@@ -1,0 +1,240 @@
+//! The macros that write records.
+
+/// A struct that is a table. Each field is `kind key: Type = rule;` with its documentation above it; the kinds:
+///
+/// - `required`: the key must be given;
+/// - `optional`: `Option<Type>`;
+/// - `many`: `Vec<Type>`, empty where the key is not given (the rule reads the list);
+/// - `inside` (no rule): the keys of another record in the same table;
+/// - `group` (no rule): the same, `None` where none of its keys is given.
+///
+/// `check(path)` names a function that looks at the whole record, called where its keys are right one by one.
+macro_rules! record {
+    (
+        $(#[doc = $about:literal])*
+        pub struct $name:ident $(check($check:path))? {
+            $( $(#[doc = $doc:literal])* $kind:ident $key:ident : $ty:ty $(= $rule:expr)?; )*
+        }
+    ) => {
+        $(#[doc = $about])*
+        #[derive(Clone, Debug)]
+        pub struct $name {
+            /// Where the table stands.
+            pub place: $crate::place::Place,
+            $( $(#[doc = $doc])* pub $key: $crate::reader::macros::field!(type $kind $ty), )*
+        }
+
+        impl $crate::reader::Record for $name {
+            fn read_keys(reader: &mut $crate::reader::Reader<'_>, faults: &mut $crate::fault::Faults) -> Option<Self> {
+                let before = faults.count();
+                $( let $key = $crate::reader::macros::field!(read $kind $key, $ty, reader, faults $(, $rule)?); )*
+                let record = Self { place: reader.place().clone(), $( $key: $key? ),* };
+                if faults.count() == before {
+                    $( $check(&record, faults); )?
+                }
+                Some(record)
+            }
+
+            fn forms() -> Vec<$crate::reader::Form> {
+                let forms = vec![$crate::reader::Form::default()];
+                $(
+                    let about = concat!($($doc),*);
+                    let forms = $crate::reader::macros::field!(forms $kind $key, $ty, forms, about $(, $rule)?);
+                )*
+                forms
+            }
+        }
+    };
+}
+
+/// The parts of `record!` that differ by the kind of a field.
+macro_rules! field {
+    (type required $ty:ty) => { $ty };
+    (type optional $ty:ty) => { Option<$ty> };
+    (type many $ty:ty) => { Vec<$ty> };
+    (type inside $ty:ty) => { $ty };
+    (type group $ty:ty) => { Option<$ty> };
+
+    (read required $key:ident, $ty:ty, $reader:ident, $faults:ident, $rule:expr) => {
+        $reader.required(stringify!($key), &$rule, $faults)
+    };
+    (read optional $key:ident, $ty:ty, $reader:ident, $faults:ident, $rule:expr) => {
+        Some($reader.optional(stringify!($key), &$rule, $faults))
+    };
+    (read many $key:ident, $ty:ty, $reader:ident, $faults:ident, $rule:expr) => {
+        Some($reader.optional(stringify!($key), &$rule, $faults).unwrap_or_default())
+    };
+    (read inside $key:ident, $ty:ty, $reader:ident, $faults:ident) => {
+        <$ty as $crate::reader::Record>::read_keys($reader, $faults)
+    };
+    (read group $key:ident, $ty:ty, $reader:ident, $faults:ident) => {
+        Some(if <$ty as $crate::reader::Record>::keys().iter().any(|k| $reader.given(k).is_some()) {
+            <$ty as $crate::reader::Record>::read_keys($reader, $faults)
+        } else {
+            None
+        })
+    };
+
+    (forms required $key:ident, $ty:ty, $forms:ident, $about:ident, $rule:expr) => {
+        $crate::reader::macros::with_key::<$ty, _>($forms, stringify!($key), true, $about, &$rule)
+    };
+    (forms optional $key:ident, $ty:ty, $forms:ident, $about:ident, $rule:expr) => {
+        $crate::reader::macros::with_key::<$ty, _>($forms, stringify!($key), false, $about, &$rule)
+    };
+    (forms many $key:ident, $ty:ty, $forms:ident, $about:ident, $rule:expr) => {
+        $crate::reader::macros::with_key::<Vec<$ty>, _>($forms, stringify!($key), false, $about, &$rule)
+    };
+    (forms inside $key:ident, $ty:ty, $forms:ident, $about:ident) => {{
+        let _ = $about;
+        $crate::reader::Form::product(&$forms, &<$ty as $crate::reader::Record>::forms())
+    }};
+    (forms group $key:ident, $ty:ty, $forms:ident, $about:ident) => {{
+        let _ = $about;
+        let with = $crate::reader::Form::product(&$forms, &<$ty as $crate::reader::Record>::forms());
+        $forms.into_iter().chain(with).collect::<Vec<_>>()
+    }};
+}
+
+/// An enum told apart by the word under one key; the variant's record shares the table.
+macro_rules! variants {
+    (
+        $(#[doc = $about:literal])*
+        pub enum $name:ident by $by:literal {
+            $( $(#[doc = $doc:literal])* $word:literal => $variant:ident($ty:ty), )*
+        }
+    ) => {
+        $(#[doc = $about])*
+        #[derive(Clone, Debug)]
+        pub enum $name {
+            $( $(#[doc = $doc])* $variant($ty), )*
+        }
+
+        impl $crate::reader::Record for $name {
+            fn read_keys(reader: &mut $crate::reader::Reader<'_>, faults: &mut $crate::fault::Faults) -> Option<Self> {
+                match $crate::reader::macros::variant_word(reader, $by, &[$($word),*], faults)? {
+                    $( $word => <$ty as $crate::reader::Record>::read_keys(reader, faults).map(Self::$variant), )*
+                    _ => None,
+                }
+            }
+
+            fn forms() -> Vec<$crate::reader::Form> {
+                let mut forms = Vec::new();
+                $(
+                    let word = serde_json::json!({ "const": $word });
+                    let key = $crate::reader::Key::new($by, true, concat!($($doc),*), word);
+                    let form = $crate::reader::Form::default().with(key);
+                    forms.extend($crate::reader::Form::product(&[form], &<$ty as $crate::reader::Record>::forms()));
+                )*
+                forms
+            }
+        }
+    };
+}
+
+/// An enum told apart by which one of its keys is given.
+macro_rules! keyed {
+    (
+        $(#[doc = $about:literal])*
+        pub enum $name:ident {
+            $( $(#[doc = $doc:literal])* $key:ident => $variant:ident($ty:ty) = $rule:expr; )*
+        }
+    ) => {
+        $(#[doc = $about])*
+        #[derive(Clone, Debug)]
+        pub enum $name {
+            $( $(#[doc = $doc])* $variant($ty), )*
+        }
+
+        impl $crate::reader::Record for $name {
+            fn read_keys(reader: &mut $crate::reader::Reader<'_>, faults: &mut $crate::fault::Faults) -> Option<Self> {
+                match $crate::reader::macros::only_key(reader, &[$(stringify!($key)),*], faults)? {
+                    $( stringify!($key) => reader.required(stringify!($key), &$rule, faults).map(Self::$variant), )*
+                    _ => None,
+                }
+            }
+
+            fn forms() -> Vec<$crate::reader::Form> {
+                [
+                    $( $crate::reader::macros::with_key::<$ty, _>(
+                        vec![$crate::reader::Form::default()], stringify!($key), true, concat!($($doc),*), &$rule
+                    ) ),*
+                ]
+                .concat()
+            }
+        }
+    };
+}
+
+/// An enum of words.
+macro_rules! choice {
+    (
+        $(#[doc = $about:literal])*
+        pub enum $name:ident { $( $(#[doc = $doc:literal])* $word:literal => $variant:ident, )* }
+    ) => {
+        $(#[doc = $about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $name { $( $(#[doc = $doc])* $variant, )* }
+
+        impl $crate::reader::Choice for $name {
+            const WORDS: &'static [(&'static str, Self)] = &[$( ($word, Self::$variant) ),*];
+        }
+    };
+}
+
+pub(crate) use {choice, field, keyed, record, variants};
+
+use super::rule::Rule;
+use super::table::{Form, Key, Reader};
+use super::word::{one_of, quoted, word};
+use crate::fault::Faults;
+
+/// The forms, each with a key more.
+pub(crate) fn with_key<T, R: Rule<Out = T>>(
+    forms: Vec<Form>,
+    name: &'static str,
+    must: bool,
+    about: &str,
+    rule: &R,
+) -> Vec<Form> {
+    let key = Key::new(name, must, about, rule.schema());
+    forms.into_iter().map(|f| f.with(key.clone())).collect()
+}
+
+/// The word that tells which variant the table is.
+pub(crate) fn variant_word<'t>(
+    reader: &mut Reader<'t>,
+    by: &str,
+    words: &[&str],
+    faults: &mut Faults,
+) -> Option<&'t str> {
+    let found = match reader.take(by) {
+        Some(node) => word(node, words, faults),
+        None => {
+            let remedy = format!("add it: {}", one_of(words));
+            faults.add(reader.place(), format!("the key \"{by}\" is missing"), remedy);
+            None
+        }
+    };
+    if found.is_none() {
+        reader.give_up();
+    }
+    found
+}
+
+/// The one of `keys` that is given.
+pub(crate) fn only_key<'k>(reader: &mut Reader<'_>, keys: &[&'k str], faults: &mut Faults) -> Option<&'k str> {
+    let given: Vec<_> = keys.iter().filter(|k| reader.given(k).is_some()).copied().collect();
+    if let [only] = given.as_slice() {
+        return Some(only);
+    }
+    for key in &given {
+        reader.take(key);
+    }
+    let place = given.last().and_then(|k| reader.given(k)).unwrap_or(reader.place());
+    let problem = match given.as_slice() {
+        [] => "something is missing".to_owned(),
+        _ => format!("{} contradict each other", quoted(&given)),
+    };
+    faults.add(place, problem, format!("give exactly one of {}", quoted(keys)));
+    None
+}

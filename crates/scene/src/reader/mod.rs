@@ -1,0 +1,17 @@
+//! Reading records: one statement of a key is its type, its check, its documentation and its schema.
+//!
+//! A [`Rule`] reads one value and says what it expects. A [`Record`] is a struct of keys, written with `record!`;
+//! `variants!` writes an enum told apart by the word under one key, `keyed!` an enum told apart by which key is given.
+//! Every key that no record takes is a fault.
+
+pub(crate) mod macros;
+mod number;
+mod rule;
+mod table;
+mod word;
+
+pub(crate) use macros::{choice, keyed, record, variants};
+pub(crate) use number::{Number, among, number, vector, whole};
+pub(crate) use rule::{Kind, Rule, RuleExt, either, exactly, keyed_by_name, list, record};
+pub(crate) use table::{Form, Key, Reader, Record};
+pub(crate) use word::{Choice, choice, file_name, flag, path, text};

@@ -1,0 +1,200 @@
+//! Numbers: finite, within bounds, alone or in vectors.
+
+use serde_json::{Value as Json, json};
+
+use super::rule::{Kind, Rule};
+use crate::document::{Node, Value};
+use crate::fault::Faults;
+use crate::place::Placed;
+
+/// A finite number; `unit` is named where it is missing or wrong ("" for a pure number).
+pub(crate) const fn number(unit: &'static str) -> Number {
+    Number { unit, low: None, high: None }
+}
+
+/// See [`number`].
+#[derive(Clone, Copy)]
+pub(crate) struct Number {
+    unit: &'static str,
+    low: Option<Bound>,
+    high: Option<Bound>,
+}
+
+#[derive(Clone, Copy)]
+struct Bound {
+    value: f64,
+    included: bool,
+}
+
+impl Number {
+    /// More than `value`.
+    pub(crate) const fn above(self, value: f64) -> Self {
+        Self { low: Some(Bound { value, included: false }), ..self }
+    }
+    /// `value` or more.
+    pub(crate) const fn at_least(self, value: f64) -> Self {
+        Self { low: Some(Bound { value, included: true }), ..self }
+    }
+    /// `value` or less.
+    pub(crate) const fn at_most(self, value: f64) -> Self {
+        Self { high: Some(Bound { value, included: true }), ..self }
+    }
+
+    fn admits(&self, v: f64) -> bool {
+        let low = self.low.is_none_or(|b| v > b.value || (b.included && v == b.value));
+        let high = self.high.is_none_or(|b| v < b.value || (b.included && v == b.value));
+        v.is_finite() && low && high
+    }
+
+    /// The kind of number, after its article: "number above 0 (mm)".
+    fn words(&self) -> String {
+        let low = self.low.map(|b| format!("{} {}", if b.included { "of at least" } else { "above" }, b.value));
+        let high = self.high.map(|b| format!("at most {}", b.value));
+        let bounds: Vec<_> = low.into_iter().chain(high).collect();
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" ({})", self.unit) };
+        let kind = if bounds.is_empty() { "finite number" } else { "number" };
+        [kind.to_owned(), bounds.join(" and ")].join(" ").trim_end().to_owned() + &unit
+    }
+}
+
+impl Rule for Number {
+    type Out = Placed<f64>;
+    fn takes(&self, kind: Kind) -> bool {
+        kind == Kind::Number
+    }
+    fn expected(&self) -> String {
+        format!("a {}", self.words())
+    }
+    fn schema(&self) -> Json {
+        let mut schema = json!({ "type": "number" });
+        if let Some(b) = self.low {
+            schema[if b.included { "minimum" } else { "exclusiveMinimum" }] = json!(b.value);
+        }
+        if let Some(b) = self.high {
+            schema[if b.included { "maximum" } else { "exclusiveMaximum" }] = json!(b.value);
+        }
+        if !self.unit.is_empty() {
+            schema["unit"] = json!(self.unit);
+        }
+        schema
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<f64>> {
+        match as_f64(node).filter(|v| self.admits(*v)) {
+            Some(v) => Some(Placed::new(v, node.place.clone())),
+            None => self.refuse(node, faults),
+        }
+    }
+}
+
+/// The number, where it is one that a double holds exactly.
+fn as_f64(node: &Node) -> Option<f64> {
+    match node.value {
+        Value::Number(v) => Some(v),
+        #[allow(
+            clippy::cast_precision_loss,
+            reason = "an integer of more than 53 bits rounds as its decimal text would"
+        )]
+        Value::Whole(v) => Some(v as f64),
+        _ => None,
+    }
+}
+
+/// A whole number from `low` to `high`.
+pub(crate) const fn whole(low: u64, high: u64) -> Whole {
+    Whole { low, high }
+}
+
+/// See [`whole`].
+#[derive(Clone, Copy)]
+pub(crate) struct Whole {
+    low: u64,
+    high: u64,
+}
+
+impl Rule for Whole {
+    type Out = Placed<u64>;
+    fn takes(&self, kind: Kind) -> bool {
+        kind == Kind::Number
+    }
+    fn expected(&self) -> String {
+        format!("a whole number from {} to {}", self.low, self.high)
+    }
+    fn schema(&self) -> Json {
+        json!({ "type": "integer", "minimum": self.low, "maximum": self.high })
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<u64>> {
+        match as_u64(node).filter(|v| (self.low..=self.high).contains(v)) {
+            Some(v) => Some(Placed::new(v, node.place.clone())),
+            None => self.refuse(node, faults),
+        }
+    }
+}
+
+/// One of a few whole numbers.
+pub(crate) const fn among(values: &'static [u64]) -> Among {
+    Among { values }
+}
+
+/// See [`among`].
+#[derive(Clone, Copy)]
+pub(crate) struct Among {
+    values: &'static [u64],
+}
+
+impl Rule for Among {
+    type Out = Placed<u64>;
+    fn takes(&self, kind: Kind) -> bool {
+        kind == Kind::Number
+    }
+    fn expected(&self) -> String {
+        let values: Vec<_> = self.values.iter().map(u64::to_string).collect();
+        format!("one of {}", values.join(", "))
+    }
+    fn schema(&self) -> Json {
+        json!({ "enum": self.values })
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<u64>> {
+        match as_u64(node).filter(|v| self.values.contains(v)) {
+            Some(v) => Some(Placed::new(v, node.place.clone())),
+            None => self.refuse(node, faults),
+        }
+    }
+}
+
+fn as_u64(node: &Node) -> Option<u64> {
+    match node.value {
+        Value::Whole(v) => u64::try_from(v).ok(),
+        _ => None,
+    }
+}
+
+/// A list of exactly `N` numbers.
+pub(crate) const fn vector<const N: usize>(of: Number) -> Vector<N> {
+    Vector { of }
+}
+
+/// See [`vector`].
+#[derive(Clone, Copy)]
+pub(crate) struct Vector<const N: usize> {
+    of: Number,
+}
+
+impl<const N: usize> Rule for Vector<N> {
+    type Out = Placed<[f64; N]>;
+    fn takes(&self, kind: Kind) -> bool {
+        kind == Kind::List
+    }
+    fn expected(&self) -> String {
+        format!("a list of {N} numbers, each a {}", self.of.words())
+    }
+    fn schema(&self) -> Json {
+        json!({ "type": "array", "items": self.of.schema(), "minItems": N, "maxItems": N })
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Self::Out> {
+        if Kind::of(node) != Kind::List || node.as_list().len() != N {
+            return self.refuse(node, faults);
+        }
+        let read: Vec<f64> = node.as_list().iter().filter_map(|n| self.of.read(n, faults)).map(|v| v.value).collect();
+        Some(Placed::new(read.try_into().ok()?, node.place.clone()))
+    }
+}

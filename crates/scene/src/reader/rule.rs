@@ -1,0 +1,242 @@
+//! The contract of a rule, and the rules made of other rules.
+
+use std::marker::PhantomData;
+
+use serde_json::{Value as Json, json};
+
+use super::table::{Reader, Record, record_schema};
+use crate::document::{Node, Value};
+use crate::fault::Faults;
+use crate::place::Placed;
+
+/// What kind of TOML a value is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Flag,
+    Number,
+    Text,
+    List,
+    Table,
+    Foreign,
+}
+
+impl Kind {
+    pub(crate) fn of(node: &Node) -> Self {
+        match node.value {
+            Value::Flag(_) => Self::Flag,
+            Value::Whole(_) | Value::Number(_) => Self::Number,
+            Value::Text(_) => Self::Text,
+            Value::List(_) => Self::List,
+            Value::Table(_) => Self::Table,
+            Value::Foreign(_) | Value::Unreadable => Self::Foreign,
+        }
+    }
+}
+
+/// How one value is read.
+pub(crate) trait Rule {
+    /// What it becomes.
+    type Out;
+    /// The kind of value the rule can look at.
+    fn takes(&self, kind: Kind) -> bool;
+    /// What it expects, in words: "a number above 0".
+    fn expected(&self) -> String;
+    /// The JSON Schema of the value.
+    fn schema(&self) -> Json;
+    /// The value; `None` after noting at least one fault.
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Self::Out>;
+
+    /// Notes that the node is not what the rule expects.
+    fn refuse<T>(&self, node: &Node, faults: &mut Faults) -> Option<T> {
+        if matches!(node.value, Value::Unreadable) {
+            return None;
+        }
+        let expected = self.expected();
+        faults.add(&node.place, format!("found {}", node.describe()), format!("give {expected}"));
+        None
+    }
+}
+
+/// What can be made of any rule.
+pub(crate) trait RuleExt: Rule + Sized {
+    /// The rule, with another result.
+    fn map<T>(self, f: fn(Self::Out) -> T) -> Mapped<Self, T> {
+        Mapped { rule: self, f }
+    }
+}
+
+impl<R: Rule> RuleExt for R {}
+
+/// See [`RuleExt::map`].
+pub(crate) struct Mapped<R: Rule, T> {
+    rule: R,
+    f: fn(R::Out) -> T,
+}
+
+impl<R: Rule, T> Rule for Mapped<R, T> {
+    type Out = T;
+    fn takes(&self, kind: Kind) -> bool {
+        self.rule.takes(kind)
+    }
+    fn expected(&self) -> String {
+        self.rule.expected()
+    }
+    fn schema(&self) -> Json {
+        self.rule.schema()
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<T> {
+        self.rule.read(node, faults).map(self.f)
+    }
+}
+
+/// One rule or the other, by the kind of the value.
+pub(crate) fn either<A: Rule, B: Rule<Out = A::Out>>(a: A, b: B) -> Either<A, B> {
+    Either { a, b }
+}
+
+/// See [`either`].
+pub(crate) struct Either<A, B> {
+    a: A,
+    b: B,
+}
+
+impl<A: Rule, B: Rule<Out = A::Out>> Rule for Either<A, B> {
+    type Out = A::Out;
+    fn takes(&self, kind: Kind) -> bool {
+        self.a.takes(kind) || self.b.takes(kind)
+    }
+    fn expected(&self) -> String {
+        format!("{}, or {}", self.a.expected(), self.b.expected())
+    }
+    fn schema(&self) -> Json {
+        json!({ "anyOf": [self.a.schema(), self.b.schema()] })
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<A::Out> {
+        let kind = Kind::of(node);
+        match (self.a.takes(kind), self.b.takes(kind)) {
+            (true, _) => self.a.read(node, faults),
+            (_, true) => self.b.read(node, faults),
+            _ => self.refuse(node, faults),
+        }
+    }
+}
+
+/// A list of at least `least` values. Faulty entries are noted and left out.
+pub(crate) fn list<R: Rule>(rule: R, least: usize) -> List<R> {
+    List { rule, least }
+}
+
+/// See [`list`].
+pub(crate) struct List<R> {
+    rule: R,
+    least: usize,
+}
+
+impl<R: Rule> Rule for List<R> {
+    type Out = Vec<R::Out>;
+    fn takes(&self, kind: Kind) -> bool {
+        kind == Kind::List
+    }
+    fn expected(&self) -> String {
+        let least = if self.least == 0 { String::new() } else { format!(" ({} or more)", self.least) };
+        format!("a list{least}, each {}", self.rule.expected())
+    }
+    fn schema(&self) -> Json {
+        json!({ "type": "array", "items": self.rule.schema(), "minItems": self.least })
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Self::Out> {
+        if !self.takes(Kind::of(node)) || node.as_list().len() < self.least {
+            return self.refuse(node, faults);
+        }
+        Some(node.as_list().iter().filter_map(|n| self.rule.read(n, faults)).collect())
+    }
+}
+
+/// A list of exactly `N` values.
+pub(crate) fn exactly<R: Rule, const N: usize>(rule: R) -> Exactly<R, N> {
+    Exactly { rule }
+}
+
+/// See [`exactly`].
+pub(crate) struct Exactly<R, const N: usize> {
+    rule: R,
+}
+
+impl<R: Rule, const N: usize> Rule for Exactly<R, N> {
+    type Out = Placed<[R::Out; N]>;
+    fn takes(&self, kind: Kind) -> bool {
+        kind == Kind::List
+    }
+    fn expected(&self) -> String {
+        format!("a list of {N}, each {}", self.rule.expected())
+    }
+    fn schema(&self) -> Json {
+        json!({ "type": "array", "items": self.rule.schema(), "minItems": N, "maxItems": N })
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Self::Out> {
+        if !self.takes(Kind::of(node)) || node.as_list().len() != N {
+            return self.refuse(node, faults);
+        }
+        let read: Vec<_> = node.as_list().iter().filter_map(|n| self.rule.read(n, faults)).collect();
+        Some(Placed::new(read.try_into().ok()?, node.place.clone()))
+    }
+}
+
+/// A table of entries under names of the user's choice.
+pub(crate) fn keyed_by_name<R: Rule>(rule: R) -> ByName<R> {
+    ByName { rule }
+}
+
+/// See [`keyed_by_name`].
+pub(crate) struct ByName<R> {
+    rule: R,
+}
+
+impl<R: Rule> Rule for ByName<R> {
+    type Out = Vec<(Placed<String>, R::Out)>;
+    fn takes(&self, kind: Kind) -> bool {
+        kind == Kind::Table
+    }
+    fn expected(&self) -> String {
+        format!("a table that gives each name {}", self.rule.expected())
+    }
+    fn schema(&self) -> Json {
+        json!({ "type": "object", "additionalProperties": self.rule.schema() })
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Self::Out> {
+        let Some(table) = node.as_table() else { return self.refuse(node, faults) };
+        let read = table.entries.iter().filter_map(|entry| {
+            let value = self.rule.read(&entry.node, faults)?;
+            Some((Placed::new(entry.key.clone(), entry.place.clone()), value))
+        });
+        Some(read.collect())
+    }
+}
+
+/// A table that is the record `T`.
+pub(crate) fn record<T: Record>() -> RecordRule<T> {
+    RecordRule(PhantomData)
+}
+
+/// See [`record`].
+pub(crate) struct RecordRule<T>(PhantomData<T>);
+
+impl<T: Record> Rule for RecordRule<T> {
+    type Out = T;
+    fn takes(&self, kind: Kind) -> bool {
+        kind == Kind::Table
+    }
+    fn expected(&self) -> String {
+        format!("a table with the keys {}", super::word::quoted(&T::keys()))
+    }
+    fn schema(&self) -> Json {
+        record_schema(&T::forms())
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<T> {
+        let Some(table) = node.as_table() else { return self.refuse(node, faults) };
+        let mut reader = Reader::new(table, &node.place);
+        let read = T::read_keys(&mut reader, faults);
+        reader.finish::<T>(faults);
+        read
+    }
+}

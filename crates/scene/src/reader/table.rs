@@ -1,0 +1,172 @@
+//! Records: tables read key by key, so that no key is left over.
+
+use serde_json::{Map, Value as Json, json};
+
+use super::rule::Rule;
+use super::word::quoted;
+use crate::document::{Node, Table};
+use crate::fault::Faults;
+use crate::place::Place;
+use crate::suggest::nearest;
+
+/// A struct or an enum of structs whose fields are keys of a table.
+pub(crate) trait Record: Sized {
+    /// Takes the record's keys; `None` after noting at least one fault.
+    fn read_keys(reader: &mut Reader<'_>, faults: &mut Faults) -> Option<Self>;
+    /// The shapes the table can have: one for a plain record, one a variant for an enum.
+    fn forms() -> Vec<Form>;
+
+    /// Every key of every form, each once.
+    fn keys() -> Vec<&'static str> {
+        let mut keys = Vec::new();
+        for key in Self::forms().into_iter().flat_map(|f| f.keys).map(|k| k.name) {
+            if !keys.contains(&key) {
+                keys.push(key);
+            }
+        }
+        keys
+    }
+}
+
+/// One shape of a table.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Form {
+    pub(crate) keys: Vec<Key>,
+}
+
+/// One key of a form.
+#[derive(Clone, Debug)]
+pub(crate) struct Key {
+    pub(crate) name: &'static str,
+    pub(crate) required: bool,
+    pub(crate) about: String,
+    pub(crate) schema: Json,
+}
+
+impl Key {
+    pub(crate) fn new(name: &'static str, required: bool, about: &str, schema: Json) -> Self {
+        Self { name, required, about: about.split_whitespace().collect::<Vec<_>>().join(" "), schema }
+    }
+}
+
+impl Form {
+    /// The form with a key more.
+    pub(crate) fn with(mut self, key: Key) -> Self {
+        self.keys.push(key);
+        self
+    }
+
+    /// Every form joined to every one of `others`.
+    pub(crate) fn product(forms: &[Self], others: &[Self]) -> Vec<Self> {
+        let joined = |a: &Self, b: &Self| Self { keys: a.keys.iter().chain(&b.keys).cloned().collect() };
+        forms.iter().flat_map(|a| others.iter().map(move |b| joined(a, b))).collect()
+    }
+
+    /// In words, how the form is told from others: `type = "sun"`.
+    fn mark(&self) -> Option<String> {
+        let key = self.keys.iter().find(|k| k.schema.get("const").is_some())?;
+        Some(format!("{} = {}", key.name, key.schema["const"]))
+    }
+}
+
+/// The JSON Schema of a table that has one of `forms`.
+pub(crate) fn record_schema(forms: &[Form]) -> Json {
+    match forms {
+        [only] => form_schema(only),
+        _ => json!({ "oneOf": forms.iter().map(form_schema).collect::<Vec<_>>() }),
+    }
+}
+
+fn form_schema(form: &Form) -> Json {
+    let properties: Map<String, Json> = form.keys.iter().map(|k| (k.name.to_owned(), described(k))).collect();
+    let required: Vec<_> = form.keys.iter().filter(|k| k.required).map(|k| k.name).collect();
+    json!({ "type": "object", "properties": properties, "required": required, "additionalProperties": false })
+}
+
+fn described(key: &Key) -> Json {
+    let mut schema = key.schema.clone();
+    if !key.about.is_empty() {
+        schema["description"] = json!(key.about);
+    }
+    schema
+}
+
+/// A table being read: knows which keys were taken.
+pub(crate) struct Reader<'t> {
+    table: &'t Table,
+    place: &'t Place,
+    taken: Vec<bool>,
+    /// The table's kind is unknown, so nothing can be said of its other keys.
+    lost: bool,
+}
+
+impl<'t> Reader<'t> {
+    pub(crate) fn new(table: &'t Table, place: &'t Place) -> Self {
+        Self { table, place, taken: vec![false; table.entries.len()], lost: false }
+    }
+
+    /// Where the table stands.
+    pub(crate) fn place(&self) -> &'t Place {
+        self.place
+    }
+
+    /// Where the key stands, if it is given.
+    pub(crate) fn given(&self, key: &str) -> Option<&'t Place> {
+        self.table.entries.iter().find(|e| e.key == key).map(|e| &e.place)
+    }
+
+    /// The value under `key`, which is thereby read.
+    pub(crate) fn take(&mut self, key: &str) -> Option<&'t Node> {
+        let index = self.table.entries.iter().position(|e| e.key == key)?;
+        self.taken[index] = true;
+        Some(&self.table.entries[index].node)
+    }
+
+    /// Marks every key as read: what the table is could not be told.
+    pub(crate) fn give_up(&mut self) {
+        self.lost = true;
+    }
+
+    /// The value under `key` by `rule`; a fault where it is not given.
+    pub(crate) fn required<R: Rule>(&mut self, key: &str, rule: &R, faults: &mut Faults) -> Option<R::Out> {
+        match self.take(key) {
+            Some(node) => rule.read(node, faults),
+            None => {
+                let remedy = format!("add it: {}", rule.expected());
+                faults.add(self.place, format!("the key \"{key}\" is missing"), remedy);
+                None
+            }
+        }
+    }
+
+    /// The value under `key` by `rule`, if it is given and right.
+    pub(crate) fn optional<R: Rule>(&mut self, key: &str, rule: &R, faults: &mut Faults) -> Option<R::Out> {
+        self.take(key).and_then(|node| rule.read(node, faults))
+    }
+
+    /// Notes every key that was not read.
+    pub(crate) fn finish<T: Record>(self, faults: &mut Faults) {
+        if self.lost || self.taken.iter().all(|t| *t) {
+            return;
+        }
+        let forms = T::forms();
+        for (entry, _) in self.table.entries.iter().zip(&self.taken).filter(|(_, taken)| !**taken) {
+            let (problem, remedy) = stray(&entry.key, &forms, &T::keys());
+            faults.add(&entry.place, problem, remedy);
+        }
+    }
+}
+
+/// What is wrong with a key that was not read, and what to do.
+fn stray(key: &str, forms: &[Form], keys: &[&'static str]) -> (String, String) {
+    let owners: Vec<_> = forms.iter().filter(|f| f.keys.iter().any(|k| k.name == key)).filter_map(Form::mark).collect();
+    if !owners.is_empty() {
+        let problem = format!("\"{key}\" has no effect here, it belongs to {}", owners.join(" or "));
+        return (problem, "remove it".to_owned());
+    }
+    let remedy = match nearest(key, keys) {
+        Some(word) => format!("did you mean \"{word}\"? The keys are {}", quoted(keys)),
+        None => format!("remove it; the keys are {}", quoted(keys)),
+    };
+    (format!("\"{key}\" is no key of this table"), remedy)
+}

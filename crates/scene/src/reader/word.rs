@@ -1,0 +1,194 @@
+//! Texts, paths, flags, and words from a closed list.
+
+use std::marker::PhantomData;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value as Json, json};
+
+use super::rule::{Kind, Rule};
+use crate::document::{Node, Value};
+use crate::fault::Faults;
+use crate::place::Placed;
+use crate::suggest::nearest;
+
+/// `"a", "b", "c"`.
+pub(crate) fn quoted<S: AsRef<str>>(words: &[S]) -> String {
+    words.iter().map(|w| format!("\"{}\"", w.as_ref())).collect::<Vec<_>>().join(", ")
+}
+
+/// `true` or `false`.
+pub(crate) const fn flag() -> Flag {
+    Flag
+}
+
+/// See [`flag`].
+pub(crate) struct Flag;
+
+impl Rule for Flag {
+    type Out = Placed<bool>;
+    fn takes(&self, kind: Kind) -> bool {
+        kind == Kind::Flag
+    }
+    fn expected(&self) -> String {
+        "true or false".to_owned()
+    }
+    fn schema(&self) -> Json {
+        json!({ "type": "boolean" })
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<bool>> {
+        match node.value {
+            Value::Flag(v) => Some(Placed::new(v, node.place.clone())),
+            _ => self.refuse(node, faults),
+        }
+    }
+}
+
+/// A text that is not empty; `what` says of what: "the name of a material".
+pub(crate) const fn text(what: &'static str) -> Text {
+    Text { what }
+}
+
+/// See [`text`].
+#[derive(Clone, Copy)]
+pub(crate) struct Text {
+    what: &'static str,
+}
+
+impl Rule for Text {
+    type Out = Placed<String>;
+    fn takes(&self, kind: Kind) -> bool {
+        kind == Kind::Text
+    }
+    fn expected(&self) -> String {
+        format!("{} (a text)", self.what)
+    }
+    fn schema(&self) -> Json {
+        json!({ "type": "string", "minLength": 1 })
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<String>> {
+        match node.as_text().filter(|t| !t.is_empty()) {
+            Some(v) => Some(Placed::new(v.to_owned(), node.place.clone())),
+            None => self.refuse(node, faults),
+        }
+    }
+}
+
+/// A text that can be part of a file's name on every system: letters, digits, `-` and `_`.
+pub(crate) const fn file_name(what: &'static str) -> FileName {
+    FileName { what }
+}
+
+/// See [`file_name`].
+#[derive(Clone, Copy)]
+pub(crate) struct FileName {
+    what: &'static str,
+}
+
+impl Rule for FileName {
+    type Out = Placed<String>;
+    fn takes(&self, kind: Kind) -> bool {
+        kind == Kind::Text
+    }
+    fn expected(&self) -> String {
+        format!("{} (letters, digits, - and _)", self.what)
+    }
+    fn schema(&self) -> Json {
+        json!({ "type": "string", "pattern": "^[A-Za-z0-9_-]+$" })
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<String>> {
+        let plain = |t: &&str| !t.is_empty() && t.chars().all(|c| c.is_ascii_alphanumeric() || "-_".contains(c));
+        match node.as_text().filter(plain) {
+            Some(v) => Some(Placed::new(v.to_owned(), node.place.clone())),
+            None => self.refuse(node, faults),
+        }
+    }
+}
+
+/// The path of a file with one of these extensions, resolved relative to the file that names it.
+pub(crate) const fn path(extensions: &'static [&'static str]) -> FilePath {
+    FilePath { extensions }
+}
+
+/// See [`path`].
+#[derive(Clone, Copy)]
+pub(crate) struct FilePath {
+    extensions: &'static [&'static str],
+}
+
+impl FilePath {
+    fn admits(&self, text: &str) -> bool {
+        let extension = Path::new(text).extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
+        self.extensions.contains(&extension.as_str())
+    }
+}
+
+impl Rule for FilePath {
+    type Out = Placed<PathBuf>;
+    fn takes(&self, kind: Kind) -> bool {
+        kind == Kind::Text
+    }
+    fn expected(&self) -> String {
+        format!("the path of a file (.{})", self.extensions.join(", ."))
+    }
+    fn schema(&self) -> Json {
+        json!({ "type": "string", "pattern": format!("\\.({})$", self.extensions.join("|")) })
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<PathBuf>> {
+        match node.as_text().filter(|t| self.admits(t)) {
+            Some(t) => Some(Placed::new(node.place.resolve(Path::new(t)), node.place.clone())),
+            None => self.refuse(node, faults),
+        }
+    }
+}
+
+/// A word that has a meaning: an enum written with `choice!`.
+pub(crate) trait Choice: Copy + 'static {
+    /// The words and their meanings.
+    const WORDS: &'static [(&'static str, Self)];
+
+    /// The words.
+    fn words() -> Vec<&'static str> {
+        Self::WORDS.iter().map(|(w, _)| *w).collect()
+    }
+}
+
+/// One of the words of `C`.
+pub(crate) const fn choice<C: Choice>() -> Word<C> {
+    Word(PhantomData)
+}
+
+/// See [`choice`].
+pub(crate) struct Word<C>(PhantomData<C>);
+
+impl<C: Choice> Rule for Word<C> {
+    type Out = Placed<C>;
+    fn takes(&self, kind: Kind) -> bool {
+        kind == Kind::Text
+    }
+    fn expected(&self) -> String {
+        one_of(&C::words())
+    }
+    fn schema(&self) -> Json {
+        json!({ "enum": C::words() })
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<C>> {
+        let word = word(node, &C::words(), faults)?;
+        C::WORDS.iter().find(|(w, _)| *w == word).map(|(_, c)| Placed::new(*c, node.place.clone()))
+    }
+}
+
+/// `"a"`, or `one of "a", "b"`.
+pub(crate) fn one_of(words: &[&str]) -> String {
+    if words.len() == 1 { quoted(words) } else { format!("one of {}", quoted(words)) }
+}
+
+/// The text of the node, which must be one of `words`.
+pub(crate) fn word<'n>(node: &'n Node, words: &[&str], faults: &mut Faults) -> Option<&'n str> {
+    let found = node.as_text();
+    if let Some(text) = found.filter(|t| words.contains(t)) {
+        return Some(text);
+    }
+    let hint = found.and_then(|t| nearest(t, words)).map_or(String::new(), |w| format!(" (did you mean \"{w}\"?)"));
+    faults.add(&node.place, format!("found {}", node.describe()), format!("give {}{hint}", one_of(words)));
+    None
+}

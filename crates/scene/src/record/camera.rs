@@ -1,0 +1,29 @@
+//! The camera: lens, sensor, processing.
+
+use super::lens::Lens;
+use super::processing::Processing;
+use super::sensor::Sensor;
+use crate::fault::Faults;
+use crate::reader::record;
+
+record! {
+    /// A camera, wherever it stands.
+    pub struct Camera check(check) {
+        /// The lens.
+        required lens: Lens = record();
+        /// The sensor.
+        required sensor: Sensor = record();
+        /// From raw to picture. Default: none, no picture is made.
+        optional processing: Processing = record();
+    }
+}
+
+fn check(camera: &Camera, faults: &mut Faults) {
+    if let (Some(processing), None) = (&camera.processing, &camera.sensor.electronics) {
+        faults.add(
+            &processing.place,
+            "a sensor without electronics makes no raw to process",
+            "add \"exposure_s\", \"cfa\", … to the sensor, or remove \"processing\"",
+        );
+    }
+}

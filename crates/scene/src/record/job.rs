@@ -1,0 +1,98 @@
+//! The job: which scene, seen by which cameras, rendered how, written where.
+
+use serde_json::{Value as Json, json};
+
+use super::camera::Camera;
+use super::output::Output;
+use super::pose::Pose;
+use super::render::Render;
+use super::scene::Scene;
+use crate::document::Node;
+use crate::fault::Faults;
+use crate::place::Placed;
+use crate::reader::{Form, Key, Kind, Reader, Record, Rule, file_name, list, path, record};
+
+record! {
+    /// Which scene, seen by which cameras, rendered how.
+    pub struct Job {
+        /// The scene: the path of a scene file, or the scene itself as a table.
+        required scene: Scene = file_or_table::<Scene>();
+        /// The cameras, one or more.
+        required cameras: Vec<CameraEntry> = list(record(), 1);
+        /// How the light is found. Default: as the plan decides.
+        optional render: Render = record();
+        /// What is written. Default: as the plan decides.
+        optional output: Output = record();
+    }
+}
+
+record! {
+    /// A camera of a job.
+    pub struct CameraEntry {
+        /// The name, which becomes part of file names.
+        required name: Placed<String> = file_name("the name of the camera");
+        /// The camera.
+        inside camera: CameraSource;
+        /// Where it stands and looks.
+        inside pose: Pose;
+        /// What this camera renders otherwise than the job says.
+        optional render: Render = record();
+        /// What this camera writes otherwise than the job says.
+        optional output: Output = record();
+    }
+}
+
+/// A camera: its own file, or its tables in the entry.
+#[derive(Clone, Debug)]
+pub struct CameraSource(pub Camera);
+
+impl Record for CameraSource {
+    fn read_keys(reader: &mut Reader<'_>, faults: &mut Faults) -> Option<Self> {
+        if reader.given("file").is_none() {
+            return Camera::read_keys(reader, faults).map(Self);
+        }
+        for key in Camera::keys() {
+            if let Some(place) = reader.given(key) {
+                reader.take(key);
+                faults.add(
+                    place,
+                    format!("\"{key}\" contradicts \"file\""),
+                    "keep the file, or the tables in its place",
+                );
+            }
+        }
+        reader.required("file", &file_or_table::<Camera>(), faults).map(Self)
+    }
+
+    fn forms() -> Vec<Form> {
+        let about = "The path of a camera file.";
+        let by_file = Form::default().with(Key::new("file", true, about, path(&["toml"]).schema()));
+        [vec![by_file], Camera::forms()].concat()
+    }
+}
+
+/// A record in a file of its own, or in place. Files are read before records are: what arrives here is a table.
+fn file_or_table<T: Record>() -> FileOrTable<T> {
+    FileOrTable(std::marker::PhantomData)
+}
+
+struct FileOrTable<T>(std::marker::PhantomData<T>);
+
+impl<T: Record> Rule for FileOrTable<T> {
+    type Out = T;
+    fn takes(&self, kind: Kind) -> bool {
+        kind == Kind::Table
+    }
+    fn expected(&self) -> String {
+        "the path of a file (.toml), or a table".to_owned()
+    }
+    fn schema(&self) -> Json {
+        json!({ "anyOf": [path(&["toml"]).schema(), record::<T>().schema()] })
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<T> {
+        if node.as_table().is_none() {
+            return self.refuse(node, faults);
+        }
+        record::<T>().read(node, faults)
+    }
+}

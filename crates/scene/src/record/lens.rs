@@ -1,0 +1,165 @@
+//! `[lens]`: from the scene to the sensor plane.
+
+use super::curve::{Curve, curve};
+use crate::place::Placed;
+use crate::reader::{Number, Rule, RuleExt as _, choice, either, number, record, variants};
+
+variants! {
+    /// A lens.
+    pub enum Lens by "model" {
+        /// A pupil so small that everything is sharp; "f_number" sets how much light comes through.
+        "pinhole" => Pinhole(Pinhole),
+        /// An ideal lens of no thickness.
+        "thin" => Thin(Thin),
+        /// A paraxial lens with two principal planes, two pupils and two rims that vignette.
+        "thick" => Thick(Thick),
+    }
+}
+
+record! {
+    /// A pinhole.
+    pub struct Pinhole {
+        /// Distance of the pinhole from the sensor, mm, above 0.
+        required focal_length_mm: Placed<f64> = focal_length();
+        /// Focal length divided by the pinhole's diameter, above 0: how much light comes through.
+        required f_number: Placed<f64> = f_number();
+        /// Share of light that the lens lets through, a number or `{ spectrum = file }`, 0 … 1. Default: 1.
+        optional transmittance: Curve = share();
+        /// Distortion. Default: none.
+        optional distortion: Distortion = record();
+    }
+}
+
+record! {
+    /// A thin lens.
+    pub struct Thin {
+        /// Focal length, mm, above 0.
+        required focal_length_mm: Placed<f64> = focal_length();
+        /// Focal length divided by the pupil's diameter, above 0.
+        required f_number: Placed<f64> = f_number();
+        /// Distance of the plane in focus from the lens, m, above the focal length, or "infinity".
+        required focus_distance_m: FocusDistance = focus_distance();
+        /// Share of light that the lens lets through, a number or `{ spectrum = file }`, 0 … 1. Default: 1.
+        optional transmittance: Curve = share();
+        /// Distortion. Default: none.
+        optional distortion: Distortion = record();
+    }
+}
+
+record! {
+    /// A thick lens. Positions are along the axis towards the sensor, from the front principal plane.
+    pub struct Thick {
+        /// Focal length, mm, above 0.
+        required focal_length_mm: Placed<f64> = focal_length();
+        /// Focal length divided by the entrance pupil's diameter, above 0.
+        required f_number: Placed<f64> = f_number();
+        /// Distance of the plane in focus from the front principal plane, m, above the focal length, or "infinity".
+        required focus_distance_m: FocusDistance = focus_distance();
+        /// Share of light that the lens lets through, a number or `{ spectrum = file }`, 0 … 1. Default: 1.
+        optional transmittance: Curve = share();
+        /// Distortion. Default: none.
+        optional distortion: Distortion = record();
+        /// The rear principal plane, from the front principal plane, mm; may be negative.
+        required principal_separation_mm: Placed<f64> = number("mm");
+        /// The entrance pupil, from the front principal plane, mm; negative lies towards the scene.
+        required entrance_pupil_mm: Placed<f64> = number("mm");
+        /// Which pupil keeps its area over the field.
+        required constant_pupil: Placed<Pupil> = choice();
+        /// The rim in front of the pupil. Default: none.
+        optional front_rim: Rim = record();
+        /// The rim behind the pupil. Default: none.
+        optional rear_rim: Rim = record();
+    }
+}
+
+choice! {
+    /// One of the two pupils of a lens.
+    pub enum Pupil {
+        /// The pupil as seen from the scene.
+        "entrance" => Entrance,
+        /// The pupil as seen from the sensor.
+        "exit" => Exit,
+    }
+}
+
+record! {
+    /// A round rim that stops light.
+    pub struct Rim {
+        /// Position along the axis, from the front principal plane, mm.
+        required position_mm: Placed<f64> = number("mm");
+        /// Radius, mm, above 0.
+        required radius_mm: Placed<f64> = number("mm").above(0.0);
+    }
+}
+
+/// Where a lens is focused.
+#[derive(Clone, Debug)]
+pub enum FocusDistance {
+    /// At a distance, m.
+    Metres(Placed<f64>),
+    /// At infinity.
+    Infinity,
+}
+
+choice! {
+    /// The word for a distance without end.
+    pub enum Endless {
+        /// Infinitely far.
+        "infinity" => Infinity,
+    }
+}
+
+record! {
+    /// Radial distortion r′ = r·(1 + k1·r² + k2·r⁴) about the principal point.
+    pub struct Distortion {
+        /// Coefficient of r².
+        required k1: Placed<f64> = number("");
+        /// Coefficient of r⁴. Default: 0.
+        optional k2: Placed<f64> = number("");
+        /// Whether r is the radius of the ideal picture and r′ the observed one, or the other way round.
+        required direction: Placed<Direction> = choice();
+        /// The unit of r and r′.
+        required radius_unit: Placed<RadiusUnit> = choice();
+    }
+}
+
+choice! {
+    /// Which way a distortion polynomial maps.
+    pub enum Direction {
+        /// From the undistorted picture to the distorted one (OpenCV).
+        "ideal_to_observed" => IdealToObserved,
+        /// From the distorted picture to the undistorted one.
+        "observed_to_ideal" => ObservedToIdeal,
+    }
+}
+
+choice! {
+    /// The unit of a radius on the sensor.
+    pub enum RadiusUnit {
+        /// Millimetres.
+        "mm" => Millimetres,
+        /// Focal lengths (OpenCV).
+        "focal_lengths" => FocalLengths,
+        /// Half the diagonal of the picture.
+        "half_diagonals" => HalfDiagonals,
+        /// Pixels.
+        "pixels" => Pixels,
+    }
+}
+
+fn focal_length() -> Number {
+    number("mm").above(0.0)
+}
+
+fn f_number() -> Number {
+    number("").above(0.0)
+}
+
+fn share() -> impl Rule<Out = Curve> {
+    curve(number("").at_least(0.0).at_most(1.0))
+}
+
+fn focus_distance() -> impl Rule<Out = FocusDistance> {
+    let metres = number("m").above(0.0).map(FocusDistance::Metres);
+    either(metres, choice::<Endless>().map(|_| FocusDistance::Infinity))
+}

@@ -1,0 +1,131 @@
+//! Light: its amount, its colour, emission of surfaces, and `[[lights]]`.
+
+use std::path::PathBuf;
+
+use super::curve::{Curve, curve, spectrum_file};
+use crate::fault::Faults;
+use crate::place::Placed;
+use crate::reader::{keyed, number, record, text, variants, vector};
+
+keyed! {
+    /// How much light a surface or the sky gives.
+    pub enum Level {
+        /// Luminance, cd/m², 0 or more; the colour is told by one of "illuminant", "temperature_k", "rgb", "spectrum".
+        luminance_cd_m2 => Luminance(Placed<f64>) = number("cd/m²").at_least(0.0);
+        /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹, 0 or more: a number (the same at all wavelengths) or `{ spectrum = file }`.
+        radiance_w_m2_sr_nm => Radiance(Curve) = curve(number("W·m⁻²·sr⁻¹·nm⁻¹").at_least(0.0));
+    }
+}
+
+keyed! {
+    /// The relative spectrum of a light.
+    pub enum LightColour {
+        /// A tabulated illuminant: "D65", "A", …
+        illuminant => Illuminant(Placed<String>) = text("the name of an illuminant");
+        /// The temperature of a black body, K, 500 to 20 000.
+        temperature_k => Temperature(Placed<f64>) = number("K").at_least(500.0).at_most(20_000.0);
+        /// A chromaticity as linear sRGB, made a smooth spectrum; only the ratios count, not all may be 0.
+        rgb => Rgb(Placed<[f64; 3]>) = vector::<3>(number("").at_least(0.0));
+        /// A table of two columns, wavelength in nm and relative power.
+        spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
+    }
+}
+
+record! {
+    /// Light that a surface or the sky gives, the same in all directions.
+    pub struct Emission check(check_emission) {
+        /// How much.
+        inside level: Level;
+        /// Of which colour.
+        group colour: LightColour;
+    }
+}
+
+fn check_emission(emission: &Emission, faults: &mut Faults) {
+    match (&emission.level, &emission.colour) {
+        (Level::Luminance(v), None) => faults.add(
+            &v.place,
+            "\"luminance_cd_m2\" does not say the colour of the light",
+            "add one of \"illuminant\", \"temperature_k\", \"rgb\", \"spectrum\"",
+        ),
+        (Level::Radiance(_), Some(colour)) => faults.add(
+            colour.place(),
+            "\"radiance_w_m2_sr_nm\" already says the spectrum, the colour contradicts it",
+            "remove the colour, or give \"luminance_cd_m2\" in place of the radiance",
+        ),
+        _ => {}
+    }
+    emission.colour.iter().for_each(|c| check_colour(c, faults));
+}
+
+/// A black light has no chromaticity.
+fn check_colour(colour: &LightColour, faults: &mut Faults) {
+    if let LightColour::Rgb(rgb) = colour
+        && rgb.value == [0.0; 3]
+    {
+        faults.add(&rgb.place, "found a colour of zeros, which has no chromaticity", "make one of the three above 0");
+    }
+}
+
+impl LightColour {
+    /// Where it stands.
+    #[must_use]
+    pub fn place(&self) -> &crate::Place {
+        match self {
+            Self::Illuminant(v) => &v.place,
+            Self::Temperature(v) => &v.place,
+            Self::Rgb(v) => &v.place,
+            Self::Spectrum(v) => &v.place,
+        }
+    }
+}
+
+variants! {
+    /// A light that is no surface.
+    pub enum Light by "type" {
+        /// The sun's disc, at infinity.
+        "sun" => Sun(Sun),
+    }
+}
+
+impl Light {
+    /// The name.
+    #[must_use]
+    pub fn name(&self) -> &Placed<String> {
+        match self {
+            Self::Sun(sun) => &sun.name,
+        }
+    }
+}
+
+record! {
+    /// The sun: a disc of uniform radiance at infinity.
+    pub struct Sun check(check_sun) {
+        /// Its name.
+        required name: Placed<String> = text("the name of the light");
+        /// Height of its centre above the horizon, degrees, −90 … 90.
+        required elevation_deg: Placed<f64> = number("°").at_least(-90.0).at_most(90.0);
+        /// Azimuth of its centre, degrees from +x (forward) towards +y (left), −360 … 360.
+        required azimuth_deg: Placed<f64> = number("°").at_least(-360.0).at_most(360.0);
+        /// How much light.
+        inside level: SunLevel;
+        /// Of which colour.
+        inside colour: LightColour;
+        /// Diameter of the disc, degrees, above 0 and at most 20. Default: 0.5338.
+        optional angular_diameter_deg: Placed<f64> = number("°").above(0.0).at_most(20.0);
+    }
+}
+
+fn check_sun(sun: &Sun, faults: &mut Faults) {
+    check_colour(&sun.colour, faults);
+}
+
+keyed! {
+    /// How much light arrives, on a plane at right angles to the beam.
+    pub enum SunLevel {
+        /// Irradiance normal to the beam, summed over 300 … 1 100 nm, W/m², 0 or more.
+        irradiance_w_m2 => Irradiance(Placed<f64>) = number("W/m²").at_least(0.0);
+        /// Illuminance normal to the beam, lx, 0 or more.
+        illuminance_lx => Illuminance(Placed<f64>) = number("lx").at_least(0.0);
+    }
+}

@@ -1,0 +1,95 @@
+//! `[[meshes]]`: triangle meshes from files.
+
+use std::path::PathBuf;
+
+use glam::{DMat3, DVec3};
+
+use crate::fault::Faults;
+use crate::place::Placed;
+use crate::reader::{choice, number, path, record, text};
+
+record! {
+    /// A triangle mesh. Objects place it in the world; it may be placed many times.
+    pub struct Mesh check(check) {
+        /// The name by which objects call it.
+        required name: Placed<String> = text("the name of the mesh");
+        /// The file (Wavefront OBJ).
+        required file: Placed<PathBuf> = path(&["obj"]);
+        /// Which axis of the file points upwards.
+        required up_axis: Placed<Axis> = choice();
+        /// Which axis of the file points forward (the world's +x). Default: the axis that follows the up axis in the
+        /// circle x, y, z (up z: forward x; up y: forward z; up x: forward y), with a plus.
+        optional forward_axis: Placed<Axis> = choice();
+        /// Metres per unit of the file. Default: 1.
+        optional scale: Placed<f64> = number("m").above(0.0);
+    }
+}
+
+choice! {
+    /// An axis of a file, with its sign.
+    pub enum Axis {
+        /// +x.
+        "x" => X,
+        /// +y.
+        "y" => Y,
+        /// +z.
+        "z" => Z,
+        /// −x.
+        "-x" => MinusX,
+        /// −y.
+        "-y" => MinusY,
+        /// −z.
+        "-z" => MinusZ,
+    }
+}
+
+impl Axis {
+    /// The unit vector.
+    #[must_use]
+    pub fn vector(self) -> DVec3 {
+        match self {
+            Self::X => DVec3::X,
+            Self::Y => DVec3::Y,
+            Self::Z => DVec3::Z,
+            Self::MinusX => DVec3::NEG_X,
+            Self::MinusY => DVec3::NEG_Y,
+            Self::MinusZ => DVec3::NEG_Z,
+        }
+    }
+
+    /// The forward axis where the file is silent.
+    fn default_forward(self) -> Self {
+        match self {
+            Self::X | Self::MinusX => Self::Y,
+            Self::Y | Self::MinusY => Self::Z,
+            Self::Z | Self::MinusZ => Self::X,
+        }
+    }
+}
+
+impl Mesh {
+    /// The axis of the file that becomes the world's +x.
+    #[must_use]
+    pub fn forward(&self) -> Axis {
+        self.forward_axis.as_ref().map_or(self.up_axis.default_forward(), |a| a.value)
+    }
+
+    /// From the axes and units of the file to an object's (x forward, y left, z up; m): a rotation times the scale.
+    #[must_use]
+    pub fn to_object(&self) -> DMat3 {
+        let (forward, up) = (self.forward().vector(), self.up_axis.vector());
+        let rows = DMat3::from_cols(forward, up.cross(forward), up);
+        rows.transpose() * self.scale.as_ref().map_or(1.0, |s| s.value)
+    }
+}
+
+fn check(mesh: &Mesh, faults: &mut Faults) {
+    let Some(forward) = &mesh.forward_axis else { return };
+    if forward.vector().dot(mesh.up_axis.vector()).abs() > 0.5 {
+        faults.add(
+            &forward.place,
+            "\"forward_axis\" lies along \"up_axis\"",
+            "give one of the four axes at right angles to it",
+        );
+    }
+}

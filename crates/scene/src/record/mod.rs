@@ -1,0 +1,44 @@
+//! The records: what each table of a description may say. One file a table.
+//!
+//! Every public field is a key of the file (or, where it is a record without a key of its own, keys of the same
+//! table), in the unit that its suffix names.
+
+pub mod camera;
+pub mod curve;
+pub mod environment;
+pub mod job;
+pub mod lens;
+pub mod light;
+pub mod material;
+pub mod mesh;
+pub mod object;
+pub mod output;
+pub mod pose;
+pub mod processing;
+pub mod reflectance;
+pub mod render;
+pub mod scene;
+pub mod sensor;
+pub mod shape;
+pub mod texture;
+pub mod transform;
+
+pub use camera::Camera;
+pub use curve::Curve;
+pub use environment::Environment;
+pub use job::{CameraEntry, Job};
+pub use lens::Lens;
+pub use light::{Emission, Level, Light, LightColour, Sun, SunLevel};
+pub use material::{Material, Surface};
+pub use mesh::Mesh;
+pub use object::{Body, Instance, Object};
+pub use output::Output;
+pub use pose::Pose;
+pub use processing::Processing;
+pub use reflectance::Reflectance;
+pub use render::Render;
+pub use scene::Scene;
+pub use sensor::{Electronics, Sensor};
+pub use shape::Shape;
+pub use texture::Texture;
+pub use transform::Transform;

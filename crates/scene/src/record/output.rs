@@ -1,0 +1,106 @@
+//! `[output]`: what is written. `None` everywhere means: the plan decides.
+
+use crate::place::{Place, Placed};
+use crate::reader::{Rule, RuleExt as _, choice, either, flag, number, record};
+
+record! {
+    /// What is written.
+    pub struct Output {
+        /// Spectral radiance at the entrance pupil, spectral EXR.
+        optional radiance: Placed<bool> = flag();
+        /// Spectral irradiance on the sensor plane, spectral EXR.
+        optional irradiance: Placed<bool> = flag();
+        /// Variance of the mean of what is estimated, EXR; needs two replicates or more.
+        optional variance: Placed<bool> = flag();
+        /// Expected electrons of each pixel, EXR.
+        optional electrons: Placed<bool> = flag();
+        /// Digital numbers, 16-bit PNG.
+        optional raw: Placed<bool> = flag();
+        /// The picture, 8-bit PNG.
+        optional picture: Placed<bool> = flag();
+        /// Depth, distance, normals, positions and identities of the ground truth, EXR.
+        optional ground_truth: Placed<bool> = flag();
+        /// Depth as 16-bit PNG.
+        optional depth_png: Placed<bool> = flag();
+        /// With "depth_png": numbers per metre, above 0, or a data set's convention: "kitti" (256 per m), "ros" (1 000 per
+        /// m), "tum" (5 000 per m). Default: "kitti".
+        optional depth_png_scale: DepthScale = depth_scale();
+    }
+}
+
+/// How depths become numbers.
+#[derive(Clone, Debug)]
+pub enum DepthScale {
+    /// Numbers per metre.
+    PerMetre(Placed<f64>),
+    /// The convention of a data set.
+    Named(Placed<DepthConvention>),
+}
+
+choice! {
+    /// The convention of a data set for depths.
+    pub enum DepthConvention {
+        /// 256 per metre.
+        "kitti" => Kitti,
+        /// 1 000 per metre.
+        "ros" => Ros,
+        /// 5 000 per metre.
+        "tum" => Tum,
+    }
+}
+
+impl DepthScale {
+    /// Numbers per metre.
+    #[must_use]
+    pub fn per_metre(&self) -> f64 {
+        match self {
+            Self::PerMetre(v) => v.value,
+            Self::Named(name) => match name.value {
+                DepthConvention::Kitti => 256.0,
+                DepthConvention::Ros => 1000.0,
+                DepthConvention::Tum => 5000.0,
+            },
+        }
+    }
+}
+
+fn depth_scale() -> impl Rule<Out = DepthScale> {
+    either(number("1/m").above(0.0).map(DepthScale::PerMetre), choice().map(DepthScale::Named))
+}
+
+impl Output {
+    /// A record that says nothing.
+    #[must_use]
+    pub fn silent(place: Place) -> Self {
+        Self {
+            place,
+            radiance: None,
+            irradiance: None,
+            variance: None,
+            electrons: None,
+            raw: None,
+            picture: None,
+            ground_truth: None,
+            depth_png: None,
+            depth_png_scale: None,
+        }
+    }
+
+    /// What this record says, and `base` where it is silent.
+    #[must_use]
+    pub fn over(&self, base: &Self) -> Self {
+        let (a, b) = (self.clone(), base.clone());
+        Self {
+            place: a.place,
+            radiance: a.radiance.or(b.radiance),
+            irradiance: a.irradiance.or(b.irradiance),
+            variance: a.variance.or(b.variance),
+            electrons: a.electrons.or(b.electrons),
+            raw: a.raw.or(b.raw),
+            picture: a.picture.or(b.picture),
+            ground_truth: a.ground_truth.or(b.ground_truth),
+            depth_png: a.depth_png.or(b.depth_png),
+            depth_png_scale: a.depth_png_scale.or(b.depth_png_scale),
+        }
+    }
+}

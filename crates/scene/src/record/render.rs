@@ -1,0 +1,120 @@
+//! `[render]`: how the light is found. `None` everywhere means: the plan decides.
+
+use crate::fault::Faults;
+use crate::place::{Place, Placed};
+use crate::reader::{among, choice, number, record, vector, whole};
+
+record! {
+    /// How the light is found.
+    pub struct Render check(check) {
+        /// Samples per pixel, 1 … 1 048 576; a multiple of "replicates".
+        optional spp: Placed<u64> = whole(1, 1 << 20);
+        /// Independent replicates from which the variance is told, 1 … 1 024; one gives no variance.
+        optional replicates: Placed<u64> = whole(1, 1024);
+        /// Surfaces that a path meets at most, 1 … 1 024.
+        optional max_bounces: Placed<u64> = whole(1, 1024);
+        /// Wavelengths that a path carries.
+        optional wavelengths_per_path: Placed<u64> = among(&[1, 4, 8]);
+        /// Through the lens (exact), or as seen from the centre of the entrance pupil (fast, reusable).
+        optional route: Placed<Route> = choice();
+        /// Width of the spectral bands, nm, 1 … 100; the range is a whole number of bands.
+        optional band_width_nm: Placed<f64> = number("nm").at_least(1.0).at_most(100.0);
+        /// First and last wavelength, nm, within 300 … 1 100. Default: what the cameras need.
+        optional wavelength_range_nm: Placed<[f64; 2]> = vector::<2>(number("nm").at_least(300.0).at_most(1100.0));
+        /// Whether a spectral cube is kept or pixels sum electrons directly. Default: "auto", what the outputs need.
+        optional accumulate: Placed<Accumulate> = choice();
+        /// Side of a tile, px, 4 … 1 024.
+        optional tile_px: Placed<u64> = whole(4, 1024);
+        /// Seed of every random number, 0 … 2⁶³ − 1.
+        optional seed: Placed<u64> = whole(0, i64::MAX.cast_unsigned());
+        /// With route "pupil": margin on every side, as a share of the picture's width and height, 0 … 1.
+        optional overscan: Placed<f64> = number("").at_least(0.0).at_most(1.0);
+    }
+}
+
+choice! {
+    /// The way to the sensor plane.
+    pub enum Route {
+        /// Every sample goes through the lens.
+        "lens" => Lens,
+        /// The radiance at the centre of the entrance pupil, then the lens on the picture.
+        "pupil" => Pupil,
+    }
+}
+
+choice! {
+    /// What pixels sum.
+    pub enum Accumulate {
+        /// What the outputs need.
+        "auto" => Auto,
+        /// Spectral bands.
+        "cube" => Cube,
+        /// Electrons.
+        "folded" => Folded,
+    }
+}
+
+impl Render {
+    /// A record that says nothing.
+    #[must_use]
+    pub fn silent(place: Place) -> Self {
+        Self {
+            place,
+            spp: None,
+            replicates: None,
+            max_bounces: None,
+            wavelengths_per_path: None,
+            route: None,
+            band_width_nm: None,
+            wavelength_range_nm: None,
+            accumulate: None,
+            tile_px: None,
+            seed: None,
+            overscan: None,
+        }
+    }
+
+    /// What this record says, and `base` where it is silent.
+    #[must_use]
+    pub fn over(&self, base: &Self) -> Self {
+        let (a, b) = (self.clone(), base.clone());
+        Self {
+            place: a.place,
+            spp: a.spp.or(b.spp),
+            replicates: a.replicates.or(b.replicates),
+            max_bounces: a.max_bounces.or(b.max_bounces),
+            wavelengths_per_path: a.wavelengths_per_path.or(b.wavelengths_per_path),
+            route: a.route.or(b.route),
+            band_width_nm: a.band_width_nm.or(b.band_width_nm),
+            wavelength_range_nm: a.wavelength_range_nm.or(b.wavelength_range_nm),
+            accumulate: a.accumulate.or(b.accumulate),
+            tile_px: a.tile_px.or(b.tile_px),
+            seed: a.seed.or(b.seed),
+            overscan: a.overscan.or(b.overscan),
+        }
+    }
+}
+
+fn check(render: &Render, faults: &mut Faults) {
+    if let Some(range) = &render.wavelength_range_nm
+        && range[0] >= range[1]
+    {
+        let problem = format!("found {} to {}", range[0], range[1]);
+        faults.add(&range.place, problem, "give the shorter wavelength first and a longer one after it");
+    }
+}
+
+/// Checks a record into which all others have been merged.
+pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
+    if let (Some(spp), Some(replicates)) = (&render.spp, &render.replicates)
+        && spp.value % replicates.value != 0
+    {
+        let problem = format!("{} samples cannot be shared evenly among {} replicates", spp.value, replicates.value);
+        faults.add(&spp.place, problem, "give a multiple of \"replicates\"");
+    }
+    if let Some(overscan) = &render.overscan
+        && render.route.as_ref().is_none_or(|r| r.value == Route::Lens)
+    {
+        faults.add(&overscan.place, "\"overscan\" has no effect here, it belongs to route = \"pupil\"", "remove it");
+    }
+}

@@ -1,0 +1,30 @@
+//! The scene: everything that is seen.
+
+use super::environment::Environment;
+use super::light::Light;
+use super::material::Material;
+use super::mesh::Mesh;
+use super::object::Object;
+use super::texture::Texture;
+use crate::place::Placed;
+use crate::reader::{keyed_by_name, list, record, whole};
+
+record! {
+    /// Everything that is seen.
+    pub struct Scene {
+        /// Meshes.
+        many meshes: Mesh = list(record(), 0);
+        /// Textures.
+        many textures: Texture = list(record(), 0);
+        /// Materials.
+        many materials: Material = list(record(), 0);
+        /// Semantic classes: name and number, 1 … 65 535. Class 0 is the background and what has no class.
+        many classes: (Placed<String>, Placed<u64>) = keyed_by_name(whole(1, 65_535));
+        /// Objects.
+        many objects: Object = list(record(), 0);
+        /// Lights that are no surfaces.
+        many lights: Light = list(record(), 0);
+        /// The light from infinitely far. Default: none, black.
+        optional environment: Environment = record();
+    }
+}

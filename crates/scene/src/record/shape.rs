@@ -1,0 +1,40 @@
+//! Shapes that need no file.
+
+use crate::place::Placed;
+use crate::reader::{number, record, variants, vector};
+
+variants! {
+    /// A shape in the frame of its object.
+    pub enum Shape by "type" {
+        /// A rectangle in the plane z = 0, centred, its front towards +z; u runs along x and v along y, 0 … 1.
+        "quad" => Quad(Quad),
+        /// A cuboid, centred, its faces outward; every face has u, v = 0 … 1.
+        "box" => Box(Cuboid),
+        /// A sphere about the origin.
+        "sphere" => Sphere(Sphere),
+    }
+}
+
+record! {
+    /// A rectangle.
+    pub struct Quad {
+        /// Extents along x and y, m, above 0.
+        required size_m: Placed<[f64; 2]> = vector::<2>(number("m").above(0.0));
+    }
+}
+
+record! {
+    /// A cuboid.
+    pub struct Cuboid {
+        /// Extents along x, y and z, m, above 0.
+        required size_m: Placed<[f64; 3]> = vector::<3>(number("m").above(0.0));
+    }
+}
+
+record! {
+    /// A sphere.
+    pub struct Sphere {
+        /// Radius, m, above 0.
+        required radius_m: Placed<f64> = number("m").above(0.0);
+    }
+}

@@ -1,0 +1,64 @@
+//! Where an object stands and how it is turned.
+
+use etendue_core::maths::f64 as maths;
+use glam::{DAffine3, DMat3, DVec3};
+
+use crate::place::Placed;
+use crate::reader::{Rule, RuleExt as _, either, number, record, vector};
+
+record! {
+    /// From an object's frame to the world: first scaled, then rotated, then moved.
+    pub struct Transform {
+        /// Where the object's origin stands in the world, m. Default: the world's origin.
+        optional position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
+        /// Yaw, pitch and roll, degrees, right-handed about z, y and x: the object is first rolled about its x axis, then
+        /// pitched about y (positive lowers the front), then yawed about z (positive turns to the left).
+        /// Default: not turned.
+        optional rotation_deg: Placed<[f64; 3]> = vector::<3>(number("°"));
+        /// Factor on the object's size, above 0: a number or one for each axis. Default: 1.
+        optional scale: Placed<[f64; 3]> = scale();
+    }
+}
+
+fn scale() -> impl Rule<Out = Placed<[f64; 3]>> {
+    let factor = number("").above(0.0);
+    either(factor.map(|f| f.map(|s| [s; 3])), vector::<3>(factor))
+}
+
+impl Transform {
+    /// From the object's frame to the world.
+    #[must_use]
+    pub fn to_world(&self) -> DAffine3 {
+        let position = self.position_m.as_ref().map_or(DVec3::ZERO, |p| DVec3::from_array(p.value));
+        let rotation = self.rotation_deg.as_ref().map_or(DMat3::IDENTITY, |r| yaw_pitch_roll(r.value));
+        let scale = self.scale.as_ref().map_or(DVec3::ONE, |s| DVec3::from_array(s.value));
+        DAffine3::from_mat3_translation(rotation * DMat3::from_diagonal(scale), position)
+    }
+
+    /// Whether any of its keys is given.
+    pub(crate) fn is_given(&self) -> bool {
+        self.position_m.is_some() || self.rotation_deg.is_some() || self.scale.is_some()
+    }
+}
+
+/// The rotation Rz(yaw)·Ry(pitch)·Rx(roll), angles in degrees; quarter turns are exact.
+#[must_use]
+pub fn yaw_pitch_roll(degrees: [f64; 3]) -> DMat3 {
+    let [(sz, cz), (sy, cy), (sx, cx)] = degrees.map(sin_cos_deg);
+    let yaw = DMat3::from_cols(DVec3::new(cz, sz, 0.0), DVec3::new(-sz, cz, 0.0), DVec3::Z);
+    let pitch = DMat3::from_cols(DVec3::new(cy, 0.0, -sy), DVec3::Y, DVec3::new(sy, 0.0, cy));
+    let roll = DMat3::from_cols(DVec3::X, DVec3::new(0.0, cx, sx), DVec3::new(0.0, -sx, cx));
+    yaw * pitch * roll
+}
+
+/// Sine and cosine of an angle in degrees, exact at quarter turns.
+fn sin_cos_deg(degrees: f64) -> (f64, f64) {
+    let quarters = (degrees / 90.0).round();
+    let (s, c) = maths::sin_cos((degrees - 90.0 * quarters).to_radians());
+    match quarters.rem_euclid(4.0) {
+        q if q == 1.0 => (c, -s),
+        q if q == 2.0 => (-s, -c),
+        q if q == 3.0 => (-c, s),
+        _ => (s, c),
+    }
+}
