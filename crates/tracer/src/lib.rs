@@ -5,6 +5,10 @@
 
 pub mod accel;
 pub mod geometry;
+pub mod integrator;
+pub mod lights;
+pub mod materials;
+pub mod textures;
 pub mod view;
 
 /// A material's place in the tracer's list.

@@ -1,0 +1,83 @@
+//! The path tracer: spectral radiance along a ray.
+//!
+//! Unidirectional paths from the camera (Kajiya 1986). At each vertex a light is drawn and asked (next-event
+//! estimation), then the surface draws where the path goes on; light found in both ways is weighed by its densities
+//! (multiple importance sampling). Paths end at random in proportion to what they still carry (Russian roulette), which
+//! leaves the mean unchanged. Nothing is clamped.
+//!
+//! `max_bounces` is the greatest number of scattering events between a light and the camera: 0 shows only what
+//! glows, 1 adds direct light, 2 light that was scattered twice. It is the only bias, and it is darkness.
+//!
+//! All wavelengths of a path share its directions: no density depends on the wavelength.
+
+mod cone;
+mod mis;
+mod path;
+
+#[cfg(test)]
+mod tests;
+
+pub use mis::Strategies;
+
+use etendue_core::random::PathStream;
+use etendue_core::{RadianceField, Ray, Spectral, Wavelengths};
+
+use crate::lights::Lights;
+use crate::materials::Palette;
+use crate::view::View;
+use path::Path;
+
+/// How paths are followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathSettings {
+    /// Greatest number of scattering events.
+    pub max_bounces: u32,
+    /// Scattering events after which paths may end at random.
+    pub roulette_start: u32,
+    /// Full angle of the cone that a camera ray stands for, rad: that of a pixel. Chooses the resolution of textures.
+    pub cone_spread_rad: f32,
+    /// Which ways of finding light are used.
+    pub strategies: Strategies,
+}
+
+impl Default for PathSettings {
+    fn default() -> Self {
+        Self { max_bounces: 16, roulette_start: 4, cone_spread_rad: 0.0, strategies: Strategies::Both }
+    }
+}
+
+/// Answers rays of a view with spectral radiance.
+#[derive(Clone, Copy, Debug)]
+pub struct PathTracer<'a> {
+    view: &'a View<'a>,
+    palette: &'a Palette,
+    lights: &'a Lights,
+    settings: PathSettings,
+}
+
+impl<'a> PathTracer<'a> {
+    /// A path tracer of a view with the materials that its instances name; `lights` must be collected from the same
+    /// view and palette.
+    #[must_use]
+    pub fn new(view: &'a View<'a>, palette: &'a Palette, lights: &'a Lights, settings: PathSettings) -> Self {
+        Self { view, palette, lights, settings }
+    }
+
+    /// How paths are followed.
+    #[must_use]
+    pub fn settings(&self) -> &PathSettings {
+        &self.settings
+    }
+
+    /// The lights.
+    #[must_use]
+    pub fn lights(&self) -> &'a Lights {
+        self.lights
+    }
+}
+
+impl<const N: usize> RadianceField<N> for PathTracer<'_> {
+    fn radiance(&self, ray: &Ray, wavelengths: &Wavelengths<N>, stream: &PathStream) -> Spectral<N> {
+        Path::new(self, ray, wavelengths, stream).follow()
+    }
+}

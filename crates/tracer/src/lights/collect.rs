@@ -1,0 +1,125 @@
+//! Finding the surfaces that glow.
+
+use glam::DAffine3;
+
+use super::Light;
+use super::primitives::Primitives;
+use super::sphere::SphereLight;
+use super::triangle::TriangleLight;
+use crate::MaterialId;
+use crate::geometry::{Instance, Mesh, Shape};
+use crate::materials::{Emission, Palette};
+use crate::view::View;
+
+/// Why lights cannot be collected.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum LightError {
+    /// An instance names a material that is not there.
+    #[error("instance {instance} names material {material}, but there are {materials}; add the material first")]
+    UnknownMaterial {
+        /// The instance, counted from 0.
+        instance: usize,
+        /// The material it names.
+        material: u32,
+        /// Number of materials.
+        materials: usize,
+    },
+    /// An instance moves over time.
+    #[error("instance {instance} moves, but only still instances can be lit; give it one pose")]
+    Moving {
+        /// The instance, counted from 0.
+        instance: usize,
+    },
+    /// More glowing triangles than can be told apart.
+    #[error("the scene has more than four thousand million glowing triangles; let fewer glow")]
+    TooMany,
+}
+
+/// Glowing surfaces with their powers.
+#[derive(Default)]
+pub(super) struct Gathered {
+    pub(super) lights: Vec<Light>,
+    /// Mean spectral power of each, W/nm.
+    pub(super) powers: Vec<f64>,
+    pub(super) primitives: Primitives,
+}
+
+/// What a material's glow weighs.
+struct Weigher<'a> {
+    palette: &'a Palette,
+    /// Mean exitance of each material that glows, over its sides, W·m⁻²·nm⁻¹.
+    exitance: Vec<Option<f64>>,
+}
+
+impl<'a> Weigher<'a> {
+    fn new(palette: &'a Palette, (low_nm, high_nm): (f64, f64)) -> Self {
+        let weigh = |e: &Emission| {
+            core::f64::consts::PI * e.sides() * e.mean_radiance(palette.textures(), low_nm, high_nm)
+        };
+        let exitance = palette.materials().iter().map(|m| m.emission.as_ref().map(weigh)).collect();
+        Self { palette, exitance }
+    }
+
+    fn exitance(&self, material: MaterialId) -> Option<f64> {
+        self.exitance[material.0 as usize]
+    }
+}
+
+pub(super) fn of_surfaces(
+    view: &View<'_>,
+    palette: &Palette,
+    support_nm: (f64, f64),
+) -> Result<Gathered, LightError> {
+    let world = view.world();
+    let weigher = Weigher::new(palette, support_nm);
+    let mut gathered = Gathered::default();
+    for (index, instance) in world.instances().iter().enumerate() {
+        check_materials(index, instance, &weigher)?;
+        let mut to_render = instance.to_world.as_still().ok_or(LightError::Moving { instance: index })?;
+        to_render.translation -= view.origin_m();
+        match instance.shape {
+            Shape::Mesh(id) => gathered.add_mesh(world.mesh(id), instance, &to_render, &weigher),
+            Shape::Sphere { radius_m } => gathered.add_sphere(radius_m, instance.materials[0], &to_render, &weigher),
+        }
+    }
+    if gathered.lights.len() >= u32::MAX as usize { Err(LightError::TooMany) } else { Ok(gathered) }
+}
+
+fn check_materials(index: usize, instance: &Instance, weigher: &Weigher<'_>) -> Result<(), LightError> {
+    let materials = weigher.palette.materials().len();
+    match instance.materials.iter().find(|m| m.0 as usize >= materials) {
+        Some(m) => Err(LightError::UnknownMaterial { instance: index, material: m.0, materials }),
+        None => Ok(()),
+    }
+}
+
+impl Gathered {
+    fn add_mesh(&mut self, mesh: &Mesh, instance: &Instance, to_render: &DAffine3, weigher: &Weigher<'_>) {
+        if !instance.materials.iter().any(|m| weigher.exitance(*m).is_some()) {
+            return self.primitives.push([]);
+        }
+        let lights: Vec<_> = (0..mesh.triangles().len())
+            .map(|primitive| {
+                let material = instance.materials[usize::from(mesh.slots()[primitive])];
+                let exitance = weigher.exitance(material)?;
+                let light = TriangleLight::new(mesh, primitive, to_render, material)?;
+                Some(self.add(exitance * light.area_m2(), Light::Triangle(light)))
+            })
+            .collect();
+        self.primitives.push(lights);
+    }
+
+    fn add_sphere(&mut self, radius_m: f64, material: MaterialId, to_render: &DAffine3, weigher: &Weigher<'_>) {
+        let Some(exitance) = weigher.exitance(material) else { return self.primitives.push([]) };
+        let textured = weigher.palette.emission(material).is_some_and(|e| e.factor.is_some());
+        let light = SphereLight::new(radius_m, to_render, material, textured);
+        let added = self.add(exitance * light.area_m2(), Light::Sphere(light));
+        self.primitives.push([Some(added)]);
+    }
+
+    fn add(&mut self, power: f64, light: Light) -> u32 {
+        self.lights.push(light);
+        self.powers.push(power);
+        (self.lights.len() - 1) as u32
+    }
+}

@@ -1,0 +1,252 @@
+//! What surrounds the scene, infinitely far away.
+//!
+//! A picture of the surroundings is equirectangular, z up: its centre looks along +x, a quarter of its width to the
+//! left along +y, its left and right edges along −x; the top row is the zenith. A rotation turns the surroundings
+//! about z, anticlockwise seen from above. Colours are interpolated between texels; directions are drawn texel by
+//! texel, by the mean of the interpolated picture over the texel and its solid angle, so that whatever shines can be
+//! drawn.
+
+use core::f32::consts::{PI, TAU};
+use etendue_core::distribution::Distribution2;
+use etendue_core::maths::f32::{acos, atan2, sin_cos};
+use etendue_core::{Spectral, Wavelengths, maths};
+use etendue_spectra::{Spectrum, upsample};
+use glam::{Vec2, Vec3};
+
+use super::LightSample;
+
+/// What surrounds the scene.
+#[derive(Clone, Debug)]
+pub enum Environment {
+    /// The same spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) from everywhere.
+    Uniform(Spectrum),
+    /// A picture.
+    Image(ImageEnvironment),
+}
+
+/// Why an environment picture is refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum EnvironmentError {
+    /// The texels do not fill the picture.
+    #[error("a picture of {width} × {height} needs as many texels, but {found} were given; check its size")]
+    Size {
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+        /// Texels given.
+        found: usize,
+    },
+    /// A texel is negative or not finite.
+    #[error("texel {texel} of the surroundings is negative or not a finite number; correct the picture")]
+    Texel {
+        /// The texel, counted by rows from the top.
+        texel: usize,
+    },
+    /// Nothing shines.
+    #[error("the picture of the surroundings is black everywhere; leave it out")]
+    Black,
+    /// The scale or the rotation is not a number that can be used.
+    #[error("the scale of the surroundings must be positive and finite and their rotation finite; correct them")]
+    Placement,
+}
+
+/// A picture of the surroundings.
+#[derive(Clone, Debug)]
+pub struct ImageEnvironment {
+    width: usize,
+    height: usize,
+    texels: Vec<[f32; 3]>,
+    /// Luminance of (1, 1, 1), cd/m².
+    scale: f32,
+    rotation_turns: f32,
+    distribution: Distribution2,
+    mean_luminance: f64,
+}
+
+impl ImageEnvironment {
+    /// A picture of linear sRGB colours, rows from the zenith down, in which (1, 1, 1) is D65 of `luminance_scale`
+    /// cd/m², turned by `rotation_rad` about z.
+    ///
+    /// # Errors
+    /// Where the texels do not fill the picture, one is not light, or all are black.
+    pub fn new(
+        (width, height): (usize, usize),
+        texels: Vec<[f32; 3]>,
+        luminance_scale: f64,
+        rotation_rad: f64,
+    ) -> Result<Self, EnvironmentError> {
+        if texels.is_empty() || texels.len() != width * height {
+            return Err(EnvironmentError::Size { width, height, found: texels.len() });
+        }
+        if let Some(texel) = texels.iter().position(|t| t.iter().any(|v| !(v.is_finite() && *v >= 0.0))) {
+            return Err(EnvironmentError::Texel { texel });
+        }
+        if !(luminance_scale > 0.0 && luminance_scale.is_finite() && rotation_rad.is_finite()) {
+            return Err(EnvironmentError::Placement);
+        }
+        let weights = weights(width, height, &texels);
+        let distribution = Distribution2::new(width, &weights).ok_or(EnvironmentError::Black)?;
+        let solid_angle_mean: f64 = (0..height).map(|y| solid_angle(y, height)).sum::<f64>() / height as f64;
+        let mean_luminance = luminance_scale * distribution.mean() / solid_angle_mean;
+        let rotation_turns = (rotation_rad / core::f64::consts::TAU).rem_euclid(1.0) as f32;
+        let scale = luminance_scale as f32;
+        Ok(Self { width, height, texels, scale, rotation_turns, distribution, mean_luminance })
+    }
+
+    /// Spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) from the unit `direction` (away from the viewer).
+    #[must_use]
+    pub fn radiance<const N: usize>(&self, direction: Vec3, wavelengths: &Wavelengths<N>) -> Spectral<N> {
+        self.radiance_at(self.place(direction), wavelengths)
+    }
+
+    fn radiance_at<const N: usize>(&self, place: Vec2, wavelengths: &Wavelengths<N>) -> Spectral<N> {
+        upsample::emission((self.colour(place) * self.scale).to_array(), wavelengths)
+    }
+
+    /// Place in the picture (to the right, downwards, in [0, 1]) of a direction.
+    fn place(&self, direction: Vec3) -> Vec2 {
+        let turns = 0.5 - atan2(direction.y, direction.x) / TAU + self.rotation_turns;
+        Vec2::new((turns - turns.floor()).min(ONE_BELOW), (acos(direction.z.clamp(-1.0, 1.0)) / PI).min(ONE_BELOW))
+    }
+
+    /// Direction of a place in the picture, and the sine of its angle from z.
+    fn direction(&self, place: Vec2) -> (Vec3, f32) {
+        let (sin_phi, cos_phi) = sin_cos((0.5 - place.x + self.rotation_turns) * TAU);
+        let (sin, cos) = sin_cos(place.y * PI);
+        (Vec3::new(sin * cos_phi, sin * sin_phi, cos), sin)
+    }
+
+    fn colour(&self, place: Vec2) -> Vec3 {
+        let (x, y) = (place.x * self.width as f32 - 0.5, place.y * self.height as f32 - 0.5);
+        let (column, row) = (x.floor(), y.floor());
+        let line = |j: i32| {
+            self.texel(column as i32, j).lerp(self.texel(column as i32 + 1, j), x - column)
+        };
+        line(row as i32).lerp(line(row as i32 + 1), y - row)
+    }
+
+    /// A texel; columns join at the edges, rows end at the poles.
+    fn texel(&self, column: i32, row: i32) -> Vec3 {
+        let x = column.rem_euclid(self.width as i32) as usize;
+        let y = row.clamp(0, self.height as i32 - 1) as usize;
+        Vec3::from(self.texels[y * self.width + x])
+    }
+
+    /// Density by which [`ImageEnvironment::sample`] gives the unit `direction`, 1/sr.
+    pub(super) fn pdf(&self, direction: Vec3) -> f32 {
+        let sin = (direction.x * direction.x + direction.y * direction.y).sqrt();
+        if sin > 0.0 { self.distribution.pdf(self.place(direction)) / (2.0 * PI * PI * sin) } else { 0.0 }
+    }
+
+    pub(super) fn sample<const N: usize>(&self, u: Vec2, wavelengths: &Wavelengths<N>) -> Option<LightSample<N>> {
+        let (place, by_area) = self.distribution.sample(u);
+        let (direction, sin) = self.direction(place);
+        let pdf = by_area / (2.0 * PI * PI * sin);
+        let radiance = self.radiance_at(place, wavelengths);
+        (pdf > 0.0 && pdf.is_finite()).then_some(LightSample { direction, target: None, radiance, pdf })
+    }
+
+    /// Irradiance of a surface under the mean of the surroundings, W·m⁻²·nm⁻¹, over a range of wavelengths.
+    pub(super) fn mean_irradiance(&self, low_nm: f64, high_nm: f64) -> f64 {
+        let white = upsample::emission_spectrum([1.0; 3]);
+        core::f64::consts::PI * self.mean_luminance * white.band_mean(low_nm, high_nm)
+    }
+}
+
+const ONE_BELOW: f32 = 1.0 - 0.5 * f32::EPSILON;
+
+/// Solid angle of row `y`, in units of the whole sphere.
+fn solid_angle(y: usize, height: usize) -> f64 {
+    let edge = |y: usize| maths::f64::cos(core::f64::consts::PI * y as f64 / height as f64);
+    0.5 * (edge(y) - edge(y + 1))
+}
+
+/// Mean of the interpolated picture over each texel, all channels alike, times the texel's solid angle.
+fn weights(width: usize, height: usize, texels: &[[f32; 3]]) -> Vec<f32> {
+    let grey = |x: usize, y: usize| texels[y * width + x].iter().map(|v| f64::from(*v)).sum::<f64>() / 3.0;
+    // The mean of linear interpolation over a texel is 1/8, 6/8, 1/8 of its neighbours and itself.
+    let across = |x: usize, y: usize| {
+        0.125 * (grey((x + width - 1) % width, y) + grey((x + 1) % width, y)) + 0.75 * grey(x, y)
+    };
+    let mean = |x: usize, y: usize| {
+        0.125 * (across(x, y.saturating_sub(1)) + across(x, (y + 1).min(height - 1))) + 0.75 * across(x, y)
+    };
+    let cells = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    cells.map(|(x, y)| (mean(x, y) * solid_angle(y, height)) as f32).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn gradient(width: usize, height: usize, rotation_rad: f64) -> ImageEnvironment {
+        let texels = (0..width * height).map(|i| [(i % 7) as f32, (i % 5) as f32, 0.5]).collect();
+        ImageEnvironment::new((width, height), texels, 1.0, rotation_rad).expect("surroundings")
+    }
+
+    #[test]
+    fn the_picture_lies_as_stated() {
+        let e = gradient(8, 4, 0.0);
+        for (direction, place) in [
+            (Vec3::X, Vec2::new(0.5, 0.5)),
+            (Vec3::Y, Vec2::new(0.25, 0.5)),
+            (Vec3::NEG_Y, Vec2::new(0.75, 0.5)),
+            (Vec3::Z, Vec2::new(0.5, 0.0)),
+        ] {
+            assert!((e.place(direction) - place).length() < 1e-6, "{direction}: {}", e.place(direction));
+        }
+        let turned = gradient(8, 4, core::f64::consts::FRAC_PI_2);
+        assert!((turned.place(Vec3::Y) - Vec2::splat(0.5)).length() < 1e-6, "the centre has turned to +y");
+    }
+
+    #[test]
+    fn places_and_directions_are_inverse() {
+        for rotation in [0.0, 1.0, -2.5] {
+            let e = gradient(8, 4, rotation);
+            for i in 0..100 {
+                let place = Vec2::new((i % 10) as f32 / 10.0 + 0.05, (i / 10) as f32 / 10.0 + 0.05);
+                assert!((e.place(e.direction(place).0) - place).length() < 1e-5);
+            }
+        }
+    }
+
+    #[test]
+    fn densities_integrate_to_one_and_are_those_of_the_draws() {
+        let e = gradient(16, 8, 0.7);
+        let n = 1 << 16;
+        let mut sum = 0.0;
+        for i in 0..n {
+            // A lattice of two dimensions (golden ratio): error of the order log(n)/n for bounded integrands.
+            let u = Vec2::new((i as f32 + 0.5) / n as f32, (0.618_034 * f64::from(i)).fract() as f32);
+            sum += f64::from(e.pdf(etendue_core::warp::uniform_sphere(u))) * 4.0 * core::f64::consts::PI;
+            let sample = e.sample(u, &Wavelengths::<1>::uniform(400.0, 700.0, 0.5)).expect("light");
+            let told = e.pdf(sample.direction);
+            // On the borders of texels rounding may tell the neighbour's density.
+            assert!((told - sample.pdf).abs() < 1e-3 * sample.pdf || i % 97 != 0, "{told} {}", sample.pdf);
+        }
+        assert!((sum / f64::from(n) - 1.0).abs() < 2e-3, "{}", sum / f64::from(n));
+    }
+
+    #[test]
+    fn whatever_shines_can_be_drawn() {
+        let mut texels = vec![[0.0; 3]; 32];
+        texels[12] = [0.0, 0.0, 3.0];
+        let e = ImageEnvironment::new((8, 4), texels, 1.0, 0.0).expect("one star");
+        let w = Wavelengths::<1>::uniform(400.0, 700.0, 0.2);
+        for i in 0..4096 {
+            let u = Vec2::new(((i % 64) as f32 + 0.5) / 64.0, ((i / 64) as f32 + 0.5) / 64.0);
+            let direction = etendue_core::warp::uniform_sphere(u);
+            assert!(e.radiance(direction, &w)[0] <= 0.0 || e.pdf(direction) > 0.0);
+        }
+    }
+
+    #[test]
+    fn faulty_surroundings_are_refused() {
+        let of = |texels: Vec<[f32; 3]>, scale| ImageEnvironment::new((2, 1), texels, scale, 0.0).err();
+        assert!(matches!(of(vec![[1.0; 3]], 1.0), Some(EnvironmentError::Size { .. })));
+        assert_eq!(of(vec![[1.0; 3], [-1.0; 3]], 1.0), Some(EnvironmentError::Texel { texel: 1 }));
+        assert_eq!(of(vec![[0.0; 3]; 2], 1.0), Some(EnvironmentError::Black));
+        assert_eq!(of(vec![[1.0; 3]; 2], 0.0), Some(EnvironmentError::Placement));
+    }
+}

@@ -1,0 +1,275 @@
+//! Lights: where light starts, and how to ask for it from a point.
+//!
+//! # Contract
+//! - [`Lights`] are those of one view: emissive triangles and spheres of its instances in the render frame, suns, and an
+//!   environment. They are collected once and never change.
+//! - [`Lights::sample`] draws a light and a direction towards it. Its `pdf` is by solid angle and includes the choice of
+//!   the light. Exactly the same density is told for light that was met by chance: [`Lights::met_pdf`] for surfaces,
+//!   [`Lights::distant`] for what lies beyond them, so that both can be weighed against each other.
+//! - Every light but a uniform environment can be drawn with a positive probability. A uniform environment is not drawn:
+//!   no direction of it is better than the one that the surface prefers; its density is told as 0.
+//! - Radiance is spectral, W·m⁻²·sr⁻¹·nm⁻¹.
+//!
+//! Left out so far: point-like lamps and a hierarchy; lights are chosen by power, wherever the point is.
+
+mod choice;
+mod collect;
+mod environment;
+mod primitives;
+mod sphere;
+mod sun;
+mod triangle;
+
+pub use collect::LightError;
+pub use environment::{Environment, EnvironmentError, ImageEnvironment};
+pub use sun::{SUN_ANGULAR_DIAMETER_DEG, Sun, SunError};
+
+use etendue_core::{Spectral, Wavelengths};
+use glam::{Vec2, Vec3};
+
+use crate::geometry::SurfacePoint;
+use crate::materials::Palette;
+use crate::textures::Lookup;
+use crate::view::View;
+use choice::Choice;
+use primitives::Primitives;
+use sphere::SphereLight;
+use triangle::TriangleLight;
+
+/// A light that can be drawn.
+#[derive(Clone, Debug)]
+enum Light {
+    Triangle(TriangleLight),
+    Sphere(SphereLight),
+    /// By its place among the suns.
+    Sun(u32),
+    /// The image environment.
+    Environment,
+}
+
+/// All lights of a view.
+#[derive(Clone, Debug)]
+pub struct Lights {
+    lights: Vec<Light>,
+    /// `None` where no light can be drawn.
+    choice: Option<Choice>,
+    primitives: Primitives,
+    suns: Vec<Sun>,
+    /// Place of the first sun among the lights.
+    first_sun: usize,
+    environment: Option<Environment>,
+}
+
+/// What is lit by what: for the plan.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LightCensus {
+    /// Emissive triangles.
+    pub triangles: usize,
+    /// Emissive spheres.
+    pub spheres: usize,
+    /// Suns.
+    pub suns: usize,
+    /// Whether an environment of one radiance surrounds the scene.
+    pub uniform_environment: bool,
+    /// Whether a picture surrounds the scene.
+    pub image_environment: bool,
+}
+
+/// Light drawn for a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightSample<const N: usize> {
+    /// Unit direction towards the light.
+    pub direction: Vec3,
+    /// The point of the light, moved off its surface by the error bound; `None` for light from infinity.
+    pub target: Option<Vec3>,
+    /// Spectral radiance towards the point.
+    pub radiance: Spectral<N>,
+    /// Density of the direction, with that of the choice, 1/sr; positive.
+    pub pdf: f32,
+}
+
+/// A point of a light's surface, drawn for a point of the scene.
+struct SurfaceSample {
+    position: Vec3,
+    normal: Vec3,
+    /// By solid angle, without the choice of the light.
+    pdf: f32,
+    uv: Vec2,
+    uv_per_m: f32,
+}
+
+/// The light that a surface point belongs to, as seen along a ray that met it.
+#[derive(Clone, Copy, Debug)]
+pub struct Met<'a> {
+    /// The point that was met.
+    pub point: &'a SurfacePoint,
+    /// Where the ray started, m.
+    pub from: Vec3,
+    /// The ray's unit direction.
+    pub direction: Vec3,
+    /// Length of the way, m.
+    pub distance_m: f32,
+}
+
+impl Lights {
+    /// The lights of a view, with `suns` and an environment. Wavelengths from `low_nm`
+    /// to `high_nm` decide how the lights share the draws.
+    ///
+    /// # Errors
+    /// Where an instance names a material that the palette does not have, or moves.
+    pub fn new(
+        view: &View<'_>,
+        palette: &Palette,
+        suns: Vec<Sun>,
+        environment: Option<Environment>,
+        (low_nm, high_nm): (f64, f64),
+    ) -> Result<Self, LightError> {
+        let mut gathered = collect::of_surfaces(view, palette, (low_nm, high_nm))?;
+        let first_sun = gathered.lights.len();
+        let mut distant = vec![];
+        for (i, sun) in suns.iter().enumerate() {
+            gathered.lights.push(Light::Sun(i as u32));
+            distant.push(sun.mean_irradiance(low_nm, high_nm));
+        }
+        if let Some(Environment::Image(image)) = &environment {
+            gathered.lights.push(Light::Environment);
+            distant.push(image.mean_irradiance(low_nm, high_nm));
+        }
+        let choice = Choice::new(&gathered.powers, &distant);
+        Ok(Self {
+            lights: gathered.lights,
+            choice,
+            primitives: gathered.primitives,
+            suns,
+            first_sun,
+            environment,
+        })
+    }
+
+    /// How many lights of each kind there are.
+    #[must_use]
+    pub fn census(&self) -> LightCensus {
+        let spheres = self.lights.iter().filter(|l| matches!(l, Light::Sphere(_))).count();
+        LightCensus {
+            triangles: self.first_sun - spheres,
+            spheres,
+            suns: self.suns.len(),
+            uniform_environment: matches!(self.environment, Some(Environment::Uniform(_))),
+            image_environment: matches!(self.environment, Some(Environment::Image(_))),
+        }
+    }
+
+    /// Whether any light can be drawn.
+    #[must_use]
+    pub fn can_be_drawn(&self) -> bool {
+        self.choice.is_some()
+    }
+
+    /// A light and a direction towards it from the point `from`; `None` where the light drawn sends nothing there.
+    /// `spread_rad` is the width of the path's cone, for the footprint of textures.
+    #[must_use]
+    pub fn sample<const N: usize>(
+        &self,
+        from: Vec3,
+        (choice, u): (f32, Vec2),
+        spread_rad: f32,
+        palette: &Palette,
+        wavelengths: &Wavelengths<N>,
+    ) -> Option<LightSample<N>> {
+        let (i, probability) = self.choice.as_ref()?.draw(choice);
+        let sample = match &self.lights[i] {
+            Light::Triangle(t) => t.glowing(palette).towards(&t.sample(from, u)?, from, spread_rad, wavelengths),
+            Light::Sphere(s) => s.glowing(palette).towards(&s.sample(from, u)?, from, spread_rad, wavelengths),
+            Light::Sun(sun) => Some(self.suns[*sun as usize].sample(u, wavelengths)),
+            Light::Environment => self.image_environment()?.sample(u, wavelengths),
+        }?;
+        let pdf = sample.pdf * probability;
+        (pdf > 0.0).then_some(LightSample { pdf, ..sample })
+    }
+
+    /// Density by which [`Lights::sample`] would have given the direction to a surface point that was met, 1/sr; 0
+    /// where the surface is no light.
+    #[must_use]
+    pub fn met_pdf(&self, met: &Met<'_>) -> f32 {
+        let Some(i) = self.primitives.light(met.point.instance, met.point.primitive) else { return 0.0 };
+        let pdf = match &self.lights[i] {
+            Light::Triangle(light) => light.pdf(met),
+            Light::Sphere(light) => light.pdf(met),
+            Light::Sun(_) | Light::Environment => 0.0,
+        };
+        pdf * self.probability(i)
+    }
+
+    /// Light from infinity along the unit `direction` away from the viewer: each contribution and the density by which
+    /// [`Lights::sample`] would have given the direction for it, 1/sr.
+    pub fn distant<'a, const N: usize>(
+        &'a self,
+        direction: Vec3,
+        wavelengths: &'a Wavelengths<N>,
+    ) -> impl Iterator<Item = (Spectral<N>, f32)> + 'a {
+        let suns = self.suns.iter().enumerate().filter(move |(_, sun)| sun.covers(direction)).map(move |(i, sun)| {
+            (sun.radiance().sample(wavelengths), sun.pdf() * self.probability(self.first_sun + i))
+        });
+        let environment = self.environment.iter().map(move |environment| match environment {
+            Environment::Uniform(radiance) => (radiance.sample(wavelengths), 0.0),
+            Environment::Image(image) => {
+                let last = self.lights.len() - 1;
+                (image.radiance(direction, wavelengths), image.pdf(direction) * self.probability(last))
+            }
+        });
+        suns.chain(environment)
+    }
+
+    fn image_environment(&self) -> Option<&ImageEnvironment> {
+        match &self.environment {
+            Some(Environment::Image(image)) => Some(image),
+            _ => None,
+        }
+    }
+
+    fn probability(&self, i: usize) -> f32 {
+        self.choice.as_ref().map_or(0.0, |c| c.probability(i))
+    }
+}
+
+/// What surface lights have in common.
+struct Glowing<'a> {
+    material: crate::MaterialId,
+    error_m: f32,
+    palette: &'a Palette,
+}
+
+impl Glowing<'_> {
+    /// The light sample of a surface sample seen from `from`; `None` where the side seen does not glow.
+    fn towards<const N: usize>(
+        &self,
+        surface: &SurfaceSample,
+        from: Vec3,
+        spread_rad: f32,
+        wavelengths: &Wavelengths<N>,
+    ) -> Option<LightSample<N>> {
+        let way = surface.position - from;
+        let distance = way.length();
+        let direction = (distance > 0.0).then(|| way / distance)?;
+        let emission = self.palette.emission(self.material).filter(|e| e.leaves(surface.normal, -direction))?;
+        let lookup = Lookup { uv: surface.uv, width: spread_rad * distance * surface.uv_per_m };
+        let side = -1.0_f32.copysign(surface.normal.dot(direction));
+        Some(LightSample {
+            direction,
+            target: Some(surface.position + surface.normal * (side * (self.error_m + ROUNDING * distance))),
+            radiance: self.palette.radiance(emission, &lookup, wavelengths),
+            pdf: surface.pdf,
+        })
+    }
+}
+
+/// Relative error allowed for a point on a light and a ray to it: sixteen roundings of f32.
+const ROUNDING: f32 = 16.0 * 0.5 * f32::EPSILON;
+
+/// Density by solid angle of a point drawn with density `per_area` (1/m²) on a surface of unit `normal`, seen from
+/// a point at the far end of `way`; 0 where it is seen edge-on.
+fn solid_angle_pdf(per_area: f32, way: Vec3, normal: Vec3) -> f32 {
+    let distance2 = way.length_squared();
+    let cos = normal.dot(way).abs() / distance2.sqrt();
+    if cos > 0.0 { per_area * distance2 / cos } else { 0.0 }
+}

@@ -1,0 +1,29 @@
+//! From a primitive of an instance to its light.
+
+const NONE: u32 = u32::MAX;
+
+/// The light of every primitive of the instances that glow.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Primitives {
+    /// For each instance the place of its first primitive in `lights`, `NONE` where it does not glow.
+    first: Vec<u32>,
+    lights: Vec<u32>,
+}
+
+impl Primitives {
+    /// Adds the next instance: one entry a primitive, empty where none of them glows.
+    pub(super) fn push(&mut self, lights: impl IntoIterator<Item = Option<u32>>) {
+        let first = self.lights.len();
+        self.lights.extend(lights.into_iter().map(|l| l.unwrap_or(NONE)));
+        self.first.push(if self.lights.len() > first { first as u32 } else { NONE });
+    }
+
+    pub(super) fn light(&self, instance: u32, primitive: u32) -> Option<usize> {
+        let first = self.first[instance as usize];
+        if first == NONE {
+            return None;
+        }
+        let light = self.lights[(first + primitive) as usize];
+        (light != NONE).then_some(light as usize)
+    }
+}

@@ -1,0 +1,145 @@
+//! Glowing spheres, and the ellipsoids that unequal scales make of them.
+//!
+//! From outside a round sphere is drawn by solid angle, uniformly over the cone it fills; from inside, and for an
+//! ellipsoid, uniformly over the sphere in its own frame: density by area 1/(4π J) with the stretch of area
+//! J = |det M| · |M⁻ᵀ n| where M takes the unit sphere to the render frame and n is the unit sphere's normal.
+
+use core::f32::consts::{PI, TAU};
+use etendue_core::warp::{uniform_cone, uniform_sphere};
+use etendue_core::Basis;
+use glam::{DAffine3, DMat3, DVec3, Mat3, Vec2, Vec3};
+
+use super::{Glowing, Met, ROUNDING, SurfaceSample, solid_angle_pdf};
+use crate::MaterialId;
+use crate::geometry::sphere;
+use crate::materials::Palette;
+
+/// A glowing sphere in the render frame.
+#[derive(Clone, Debug)]
+pub(super) struct SphereLight {
+    centre: Vec3,
+    /// M.
+    linear: Mat3,
+    /// M⁻ᵀ.
+    normals: Mat3,
+    determinant: f32,
+    /// Radius, m, where the sphere is round.
+    radius: Option<f32>,
+    area_m2: f64,
+    error_m: f32,
+    material: MaterialId,
+    textured: bool,
+}
+
+/// The cone that a round sphere fills, seen from outside.
+struct Cone {
+    axis: Vec3,
+    distance: f32,
+    one_minus_cos: f32,
+}
+
+impl SphereLight {
+    /// `textured` says whether the glow changes over the surface, so that texture coordinates are needed.
+    pub(super) fn new(radius_m: f64, to_render: &DAffine3, material: MaterialId, textured: bool) -> Self {
+        let linear = to_render.matrix3 * radius_m;
+        let centre = to_render.translation.as_vec3();
+        let longest = linear.x_axis.length().max(linear.y_axis.length()).max(linear.z_axis.length());
+        Self {
+            centre,
+            linear: linear.as_mat3(),
+            normals: linear.inverse().transpose().as_mat3(),
+            determinant: linear.determinant().abs() as f32,
+            radius: round_radius(&linear).map(|r| r as f32),
+            area_m2: mean_area(&linear),
+            error_m: ROUNDING * (centre.abs().max_element() + longest as f32),
+            material,
+            textured,
+        }
+    }
+
+    /// For weighing it among other lights; exact for a round sphere.
+    pub(super) fn area_m2(&self) -> f64 {
+        self.area_m2
+    }
+
+    /// The cone that it fills, with its radius, seen from outside; `None` from inside or where it is not round.
+    fn cone(&self, from: Vec3) -> Option<(Cone, f32)> {
+        let radius = self.radius?;
+        let way = self.centre - from;
+        let distance = way.length();
+        let sin = radius / distance;
+        // A point on the sphere itself is inside as far as f32 can tell.
+        if sin.is_nan() || sin >= 1.0 - 1e-6 {
+            return None;
+        }
+        let sin2 = sin * sin;
+        let one_minus_cos = sin2 / (1.0 + (1.0 - sin2).sqrt());
+        (one_minus_cos > 0.0).then_some((Cone { axis: way / distance, distance, one_minus_cos }, radius))
+    }
+
+    pub(super) fn sample(&self, from: Vec3, u: Vec2) -> Option<SurfaceSample> {
+        match self.cone(from) {
+            Some((cone, radius)) => Some(self.sample_cone(&cone, radius, from, u)),
+            None => self.sample_area(from, u),
+        }
+    }
+
+    fn sample_cone(&self, cone: &Cone, radius: f32, from: Vec3, u: Vec2) -> SurfaceSample {
+        let local = uniform_cone(u, cone.one_minus_cos);
+        let direction = Basis::about(cone.axis).outward(local);
+        let aside2 = cone.distance * cone.distance * (1.0 - local.z) * (1.0 + local.z);
+        let near = cone.distance * local.z - (radius * radius - aside2).max(0.0).sqrt();
+        let normal = (from + direction * near - self.centre).normalize_or(-cone.axis);
+        let (uv, uv_per_m) = self.texture(self.linear.transpose() * normal);
+        let pdf = 1.0 / (TAU * cone.one_minus_cos);
+        SurfaceSample { position: self.centre + normal * radius, normal, pdf, uv, uv_per_m }
+    }
+
+    fn sample_area(&self, from: Vec3, u: Vec2) -> Option<SurfaceSample> {
+        let own = uniform_sphere(u);
+        let stretched = self.normals * own;
+        let per_area = 1.0 / (4.0 * PI * self.determinant * stretched.length());
+        let normal = stretched.normalize_or(own);
+        let position = self.centre + self.linear * own;
+        let pdf = solid_angle_pdf(per_area, position - from, normal);
+        let (uv, uv_per_m) = self.texture(own);
+        (pdf > 0.0).then_some(SurfaceSample { position, normal, pdf, uv, uv_per_m })
+    }
+
+    /// Texture coordinates where the sphere's own normal is along `own`, and how many a metre covers.
+    fn texture(&self, own: Vec3) -> (Vec2, f32) {
+        if !self.textured {
+            return (Vec2::ZERO, 0.0);
+        }
+        let unit = own.as_dvec3().normalize_or(DVec3::Z);
+        let mean_radius_m = (self.area_m2 / (4.0 * core::f64::consts::PI)).sqrt();
+        (sphere::uv(unit).as_vec2(), sphere::uv_per_m(mean_radius_m) as f32)
+    }
+
+    pub(super) fn pdf(&self, met: &Met<'_>) -> f32 {
+        if let Some((cone, _)) = self.cone(met.from) {
+            return 1.0 / (TAU * cone.one_minus_cos);
+        }
+        let normal = met.point.geometric_normal;
+        let stretch = self.determinant / (self.linear.transpose() * normal).length();
+        solid_angle_pdf(1.0 / (4.0 * PI * stretch), met.direction * met.distance_m, normal)
+    }
+
+    pub(super) fn glowing<'a>(&self, palette: &'a Palette) -> Glowing<'a> {
+        Glowing { material: self.material, error_m: self.error_m, palette }
+    }
+}
+
+/// The radius where all directions are stretched alike, to f32's precision.
+fn round_radius(linear: &DMat3) -> Option<f64> {
+    let square = linear.x_axis.length_squared();
+    let deviation = (linear.transpose() * *linear - DMat3::from_diagonal(DVec3::splat(square))).to_cols_array();
+    deviation.iter().all(|x| x.abs() <= 1e-6 * square).then_some(square.sqrt())
+}
+
+/// 4π times the root mean square of the stretch of area: exact for a sphere, a little too much for an ellipsoid.
+fn mean_area(linear: &DMat3) -> f64 {
+    let DMat3 { x_axis: x, y_axis: y, z_axis: z } = *linear;
+    let squares = x.cross(y).length_squared() + y.cross(z).length_squared() + z.cross(x).length_squared();
+    4.0 * core::f64::consts::PI * (squares / 3.0).sqrt()
+}

@@ -1,0 +1,61 @@
+//! The shading frame at a point, seen from one side.
+//!
+//! Both normals are turned to the viewer's side of the true surface. Where interpolation has turned the shading normal
+//! away from the viewer (at silhouettes of coarse meshes), it is bent back until the viewer is just above its horizon:
+//! no black seams. A direction counts only where true surface and shading frame agree on its side: no light leaks
+//! through a wall by an interpolated normal.
+
+use etendue_core::Basis;
+use glam::Vec3;
+
+use crate::geometry::SurfacePoint;
+
+/// Cosine that the viewer has at least in the shading frame.
+const HORIZON: f32 = 1e-4;
+
+/// A shading frame on the side of the viewer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShadingFrame {
+    basis: Basis,
+    geometric_normal: Vec3,
+    /// Towards the viewer, in the frame; z > 0.
+    pub wo: Vec3,
+}
+
+impl ShadingFrame {
+    /// The frame at `point` for a viewer in the unit direction `to_viewer` (render frame).
+    #[must_use]
+    pub fn new(point: &SurfacePoint, to_viewer: Vec3) -> Self {
+        let side = 1.0_f32.copysign(point.geometric_normal.dot(to_viewer));
+        let geometric_normal = point.geometric_normal * side;
+        let basis = Basis::about(facing(point.shading_normal * side, geometric_normal, to_viewer));
+        let wo = basis.inward(to_viewer);
+        Self { basis, geometric_normal, wo: Vec3::new(wo.x, wo.y, wo.z.max(0.5 * HORIZON)) }
+    }
+
+    /// A unit direction of the render frame, in the shading frame; `None` where it is below the true surface or the
+    /// shading horizon.
+    #[must_use]
+    pub fn inward(&self, direction: Vec3) -> Option<Vec3> {
+        let local = self.basis.inward(direction);
+        (local.z > 0.0 && self.geometric_normal.dot(direction) > 0.0).then_some(local)
+    }
+
+    /// A direction of the shading frame, in the render frame and of unit length; `None` where it is below the true
+    /// surface.
+    #[must_use]
+    pub fn outward(&self, local: Vec3) -> Option<Vec3> {
+        let direction = self.basis.outward(local).normalize_or_zero();
+        (self.geometric_normal.dot(direction) > 0.0).then_some(direction)
+    }
+}
+
+/// The shading normal, bent towards the viewer where it looks away.
+fn facing(normal: Vec3, geometric_normal: Vec3, to_viewer: Vec3) -> Vec3 {
+    let cos = normal.dot(to_viewer);
+    if cos >= HORIZON {
+        return normal;
+    }
+    let bent = (normal + to_viewer * (HORIZON - cos)).normalize_or(geometric_normal);
+    if bent.dot(to_viewer) > 0.0 { bent } else { geometric_normal }
+}

@@ -1,0 +1,251 @@
+//! A picture as a texture, filtered by its footprint.
+//!
+//! Bilinear between texels; between halved resolutions linear in the logarithm of the footprint (trilinear, Williams
+//! 1983). The footprint is taken as round: a surface seen at a grazing angle is filtered for its short side and
+//! averaged along the long one by the samples of the pixel.
+
+use etendue_core::maths::f32::log2;
+use glam::{Vec2, Vec3};
+
+use super::mipmap::{Level, pyramid};
+use super::texels::{Store, Texels};
+use super::{Lookup, Wrap};
+
+/// How texels become a value.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Filter {
+    /// Between the four nearest texels; the footprint is not looked at.
+    Bilinear,
+    /// And between the two resolutions nearest to the footprint.
+    #[default]
+    Trilinear,
+}
+
+/// How a texture is laid over a surface and read.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampling {
+    /// What lies beyond the edges, along u and v.
+    pub wrap: [Wrap; 2],
+    /// How texels become a value.
+    pub filter: Filter,
+    /// Picture coordinates = surface coordinates × `scale` + `offset`.
+    pub scale: Vec2,
+    /// See `scale`.
+    pub offset: Vec2,
+}
+
+impl Default for Sampling {
+    fn default() -> Self {
+        Self { wrap: [Wrap::Repeat; 2], filter: Filter::Trilinear, scale: Vec2::ONE, offset: Vec2::ZERO }
+    }
+}
+
+/// Why a texture is refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum TextureError {
+    /// The texels do not fill the picture.
+    #[error("a picture of {width} × {height} needs as many texels, but {found} were given; check its size")]
+    Size {
+        /// Columns.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Texels given.
+        found: usize,
+    },
+    /// A texel is not a finite number.
+    #[error("texel {texel} of the picture is not a finite number; correct the file")]
+    NonFinite {
+        /// The texel, counted by rows from the top.
+        texel: usize,
+    },
+    /// Scale or offset are not finite numbers.
+    #[error("the texture's scale and offset must be finite numbers; correct them")]
+    Placement,
+}
+
+/// A picture over a surface.
+#[derive(Clone, Debug)]
+pub struct ImageTexture {
+    levels: Vec<Level>,
+    sampling: Sampling,
+    range: (f32, f32),
+    /// Texels a texture unit, the geometric mean of both axes.
+    density: f32,
+}
+
+impl ImageTexture {
+    /// A picture of `width` × `height` texels, rows from the top.
+    ///
+    /// # Errors
+    /// Where the texels do not fill the picture, one is not finite, or the placement is not.
+    pub fn new(width: u32, height: u32, texels: Texels, sampling: Sampling) -> Result<Self, TextureError> {
+        let found = texels.len();
+        if found == 0 || found as u64 != u64::from(width) * u64::from(height) {
+            return Err(TextureError::Size { width, height, found });
+        }
+        if !(sampling.scale.is_finite() && sampling.offset.is_finite()) {
+            return Err(TextureError::Placement);
+        }
+        let store = Store::new(texels);
+        let range = range(&store, found)?;
+        let base = Level::new(width, height, store);
+        let levels = if sampling.filter == Filter::Trilinear { pyramid(base) } else { vec![base] };
+        let area = width as f32 * sampling.scale.x * height as f32 * sampling.scale.y;
+        Ok(Self { levels, sampling, range, density: area.abs().sqrt() })
+    }
+
+    /// The filtered value, linear sRGB.
+    #[must_use]
+    pub fn sample(&self, lookup: &Lookup) -> [f32; 3] {
+        let placed = lookup.uv * self.sampling.scale + self.sampling.offset;
+        // Coordinates so far out that they overflow have no place in the picture: its corner stands for them.
+        let uv = if placed.is_finite() { placed } else { Vec2::ZERO };
+        let wrap = self.sampling.wrap;
+        let (s, t) = (wrap[0].fold(uv.x), 1.0 - wrap[1].fold(uv.y));
+        let last = self.levels.len() - 1;
+        let texels = lookup.width * self.density;
+        if last == 0 || texels <= 1.0 {
+            return self.levels[0].bilinear(s, t, wrap).to_array();
+        }
+        let lod = log2(texels).min(last as f32);
+        let i = (lod as usize).min(last - 1);
+        let (fine, coarse) = (self.levels[i].bilinear(s, t, wrap), self.levels[i + 1].bilinear(s, t, wrap));
+        fine.lerp(coarse, lod - i as f32).to_array()
+    }
+
+    /// Mean of the whole picture, linear.
+    #[must_use]
+    pub fn mean(&self) -> Vec3 {
+        let base = &self.levels[0];
+        let texels = (0..base.height as usize).flat_map(|y| (0..base.width as usize).map(move |x| (x, y)));
+        let sum: glam::DVec3 = texels.map(|(x, y)| base.texel(x, y).as_dvec3()).sum();
+        (sum / (f64::from(base.width) * f64::from(base.height))).as_vec3()
+    }
+
+    /// Least and greatest value of any channel.
+    #[must_use]
+    pub fn range(&self) -> (f32, f32) {
+        self.range
+    }
+
+    /// Columns and rows of the picture.
+    #[must_use]
+    pub fn size(&self) -> (u32, u32) {
+        (self.levels[0].width, self.levels[0].height)
+    }
+}
+
+fn range(store: &Store, count: usize) -> Result<(f32, f32), TextureError> {
+    let mut range = (f32::INFINITY, f32::NEG_INFINITY);
+    for texel in 0..count {
+        let value = store.get(texel);
+        if !value.is_finite() {
+            return Err(TextureError::NonFinite { texel });
+        }
+        range = (range.0.min(value.min_element()), range.1.max(value.max_element()));
+    }
+    Ok(range)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lookup(u: f32, v: f32, width: f32) -> Lookup {
+        Lookup { uv: Vec2::new(u, v), width }
+    }
+
+    /// 0 1 2 / 3 4 5 (top row first), in tenths.
+    fn numbered(sampling: Sampling) -> ImageTexture {
+        let texels = (0..6).map(|i| [i as f32 / 10.0; 3]).collect();
+        ImageTexture::new(3, 2, Texels::Float(texels), sampling).expect("a picture")
+    }
+
+    fn read(t: &ImageTexture, u: f32, v: f32) -> f32 {
+        t.sample(&lookup(u, v, 0.0))[0]
+    }
+
+    fn near(a: f32, b: f32) -> bool {
+        (a - b).abs() < 1e-6
+    }
+
+    #[test]
+    fn the_origin_is_the_bottom_left_corner() {
+        let clamp = Sampling { wrap: [Wrap::Clamp; 2], ..Sampling::default() };
+        let t = numbered(clamp);
+        assert!(near(read(&t, 0.0, 0.0), 0.3), "bottom left");
+        assert!(near(read(&t, 1.0, 0.0), 0.5), "bottom right");
+        assert!(near(read(&t, 0.0, 1.0), 0.0), "top left");
+        assert!(near(read(&t, 1.0, 1.0), 0.2), "top right");
+        assert!(near(read(&t, 0.5, 0.25), 0.4), "the centre of a texel is the texel");
+        assert!(near(read(&t, 1.0 / 3.0, 0.25), 0.35), "half-way between two is their mean");
+    }
+
+    #[test]
+    fn wraps_work_on_each_axis() {
+        let t = numbered(Sampling { wrap: [Wrap::Repeat, Wrap::Mirror], ..Sampling::default() });
+        assert!(near(read(&t, 1.0 + 1.0 / 6.0, 0.25), 0.3));
+        assert!(near(read(&t, -1.0 / 6.0, 0.25), 0.5));
+        assert!(near(read(&t, 0.5, -0.25), 0.4), "mirrored at the lower edge");
+        assert!(near(read(&t, 0.5, 1.75), 0.4), "mirrored at the upper edge");
+        assert!(near(read(&t, 0.0, 0.25), 0.4), "the seam of a repeated picture joins 3 and 5");
+    }
+
+    #[test]
+    fn placement_scales_then_shifts() {
+        let placed = Sampling { scale: Vec2::new(2.0, 1.0), offset: Vec2::new(0.0, 0.5), ..Sampling::default() };
+        assert!(near(read(&numbered(placed), 0.25, 0.25), 0.1));
+    }
+
+    #[test]
+    fn halving_keeps_the_mean_for_odd_sizes() {
+        let texels: Vec<_> = (0..7 * 5).map(|i| [(i * 37 % 11) as f32, (i % 3) as f32, 1.0]).collect();
+        let t = ImageTexture::new(7, 5, Texels::Float(texels), Sampling::default()).expect("a picture");
+        let coarsest = Vec3::from(t.sample(&lookup(0.3, 0.6, 1e9)));
+        // Sums of 35 f32 numbers.
+        assert!((coarsest - t.mean()).length() < 1e-5, "{coarsest} {}", t.mean());
+    }
+
+    #[test]
+    fn resolutions_are_chosen_by_the_footprint() {
+        // Vertical stripes of one texel: gone at a footprint of two texels.
+        let texels = (0..64 * 64).map(|i| [(i % 2) as f32; 3]).collect();
+        let t = ImageTexture::new(64, 64, Texels::Float(texels), Sampling::default()).expect("a picture");
+        let at = |width: f32| t.sample(&lookup(0.5 / 64.0, 0.5, width))[0];
+        assert!(near(at(1.0 / 64.0), 0.0));
+        assert!(near(at(2.0 / 64.0), 0.5));
+        let between = at(core::f32::consts::SQRT_2 / 64.0);
+        assert!((between - 0.25).abs() < 1e-5, "{between}");
+    }
+
+    #[test]
+    fn encoded_bytes_are_averaged_in_linear_light() {
+        let black_and_white = Texels::Srgb8(vec![[0; 3], [255; 3]]);
+        let t = ImageTexture::new(2, 1, black_and_white, Sampling::default()).expect("a picture");
+        assert!(near(t.sample(&lookup(0.5, 0.5, 100.0))[0], 0.5));
+        assert!(near(read(&t, 0.25, 0.5), 0.0));
+        let linear = ImageTexture::new(1, 1, Texels::Linear8(vec![[51, 0, 255]]), Sampling::default()).expect("one texel");
+        assert_eq!(linear.sample(&lookup(0.1, 0.9, 0.0)), [0.2, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn far_coordinates_stay_in_the_picture() {
+        let t = numbered(Sampling { wrap: [Wrap::Mirror, Wrap::Repeat], ..Sampling::default() });
+        for x in [1e9, -1e9, 3.4e38, -1e-30] {
+            let value = read(&t, x, -x);
+            assert!((0.0..=0.5).contains(&value), "{x}: {value}");
+        }
+    }
+
+    #[test]
+    fn faulty_pictures_are_refused() {
+        let size = ImageTexture::new(2, 2, Texels::Linear8(vec![[0; 3]; 3]), Sampling::default());
+        assert_eq!(size.err(), Some(TextureError::Size { width: 2, height: 2, found: 3 }));
+        let nan = Texels::Float(vec![[0.0; 3], [f32::NAN; 3]]);
+        assert_eq!(
+            ImageTexture::new(2, 1, nan, Sampling::default()).err(),
+            Some(TextureError::NonFinite { texel: 1 })
+        );
+    }
+}

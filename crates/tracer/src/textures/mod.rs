@@ -1,0 +1,31 @@
+//! Textures: numbers over a surface.
+//!
+//! # Conventions
+//! - Texture coordinates: u to the right, v up, (0, 0) the bottom-left corner of the picture (as OBJ files have it).
+//!   Rows of texels are stored from the top.
+//! - Texels are box-shaped; their centres lie at half-integers. Filtering is done in linear light.
+//! - A lookup names its footprint: the width, in texture coordinates, of what it stands for.
+
+mod image;
+mod mipmap;
+mod texels;
+mod wrap;
+
+pub use image::{Filter, ImageTexture, Sampling, TextureError};
+pub use texels::Texels;
+pub use wrap::Wrap;
+
+use glam::Vec2;
+
+/// A texture's place in the tracer's list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct TextureId(pub u32);
+
+/// Where a texture is asked, and how widely.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lookup {
+    /// Texture coordinates.
+    pub uv: Vec2,
+    /// Width of the footprint in texture coordinates; 0 for a point.
+    pub width: f32,
+}
