@@ -18,6 +18,7 @@
 pub mod error;
 pub mod exr;
 pub mod hash;
+pub mod mesh;
 pub mod output;
 pub mod png;
 pub mod provenance;

@@ -1,0 +1,21 @@
+//! Meshes: Wavefront OBJ with its material library.
+//!
+//! Source: B-rep and material formats of the Advanced Visualizer, Wavefront Technologies 1995, appendices B1 (OBJ) and
+//! MTL; the physically based fields (`Pr`, `Pm` …) after the proposal of Exocortex (2015).
+//!
+//! Read: `v vt vn f o g usemtl mtllib`, polygons of any number of corners (concave ones by ear clipping), relative
+//! indices, continued lines, both line ends. Not read and said so in the asset's report: lines, points, curves and
+//! surfaces, vertex colours, smoothing groups of a mesh without normals. Refused with the line: numbers that are not
+//! finite, indices out of range, faces with fewer than three corners, polygons that cross themselves.
+//!
+//! Coordinates are read in 64 bits and stored in 32; a mesh far from its origin is told what that costs.
+
+mod asset;
+mod mtl;
+mod obj;
+mod polygon;
+mod slot;
+mod statement;
+mod texture_option;
+
+pub use asset::read_mesh;

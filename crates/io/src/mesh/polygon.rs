@@ -1,0 +1,204 @@
+//! Polygons to triangles.
+//!
+//! Convex polygons become a fan about their first corner. Concave ones are cut by ear clipping (Meisters 1975, "Polygons
+//! have ears") in the projection along their Newell normal, in 64 bits. A polygon that crosses itself has no answer and is refused.
+
+/// Why a polygon has no triangles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PolygonFault {
+    /// Its edges cross, or it encloses nothing although its corners are not on one line.
+    CrossesItself,
+}
+
+/// Triangles of the polygon `corners`, as indices into it, in its winding. Corners on one line give triangles of no
+/// area, which the tracer counts and drops.
+pub(super) fn triangulate(corners: &[[f64; 3]]) -> Result<Vec<[usize; 3]>, PolygonFault> {
+    if corners.len() == 3 || on_one_line(corners) {
+        return Ok(fan(corners.len()));
+    }
+    let flat = project(corners).ok_or(PolygonFault::CrossesItself)?;
+    if is_convex(&flat) { Ok(fan(corners.len())) } else { clip_ears(&flat) }
+}
+
+fn fan(count: usize) -> Vec<[usize; 3]> {
+    (1..count - 1).map(|i| [0, i, i + 1]).collect()
+}
+
+fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|i| a[i] - b[i])
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// Twice the area vector (Newell), about the first corner so that large coordinates cancel.
+pub(super) fn newell(corners: &[[f64; 3]]) -> [f64; 3] {
+    let from_first: Vec<[f64; 3]> = corners.iter().map(|&c| sub(c, corners[0])).collect();
+    from_first.windows(2).fold([0.0; 3], |sum, pair| {
+        let area = cross(pair[0], pair[1]);
+        std::array::from_fn(|i| sum[i] + area[i])
+    })
+}
+
+/// The scale below which a doubled area is rounding: 1e-12 of the squared extent.
+fn negligible_area(corners: &[[f64; 3]]) -> f64 {
+    1e-12 * corners.iter().map(|&c| dot(sub(c, corners[0]), sub(c, corners[0]))).fold(0.0, f64::max)
+}
+
+fn on_one_line(corners: &[[f64; 3]]) -> bool {
+    let spokes = || corners.iter().map(|&c| sub(c, corners[0]));
+    let longest = spokes().fold([0.0; 3], |best, s| if dot(s, s) > dot(best, best) { s } else { best });
+    let limit = negligible_area(corners);
+    spokes().all(|s| {
+        let area = cross(longest, s);
+        dot(area, area).sqrt() <= limit
+    })
+}
+
+/// The polygon in the coordinate plane that sees most of it, counter-clockwise. `None` where it encloses nothing.
+fn project(corners: &[[f64; 3]]) -> Option<Vec<[f64; 2]>> {
+    let normal = newell(corners);
+    let largest = (0..3).max_by(|&a, &b| normal[a].abs().total_cmp(&normal[b].abs()))?;
+    if normal[largest].abs() <= negligible_area(corners) {
+        return None;
+    }
+    let (mut u, mut v) = ((largest + 1) % 3, (largest + 2) % 3);
+    if normal[largest] < 0.0 {
+        (u, v) = (v, u);
+    }
+    Some(corners.iter().map(|&c| sub(c, corners[0])).map(|c| [c[u], c[v]]).collect())
+}
+
+/// Twice the signed area of a triangle, positive counter-clockwise.
+fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// Whether a counter-clockwise polygon turns left everywhere, and once round in all: a pentagram turns left at each
+/// corner but twice round, which its fan's triangles show by turning right somewhere.
+fn is_convex(flat: &[[f64; 2]]) -> bool {
+    let n = flat.len();
+    let left = |a: usize, b: usize, c: usize| turn(flat[a % n], flat[b % n], flat[c % n]) >= 0.0;
+    (0..n).all(|i| left(i, i + 1, i + 2)) && (1..n - 1).all(|i| left(0, i, i + 1))
+}
+
+fn clip_ears(flat: &[[f64; 2]]) -> Result<Vec<[usize; 3]>, PolygonFault> {
+    if edges_cross(flat) {
+        return Err(PolygonFault::CrossesItself);
+    }
+    let mut left: Vec<usize> = (0..flat.len()).collect();
+    let mut triangles = Vec::with_capacity(flat.len() - 2);
+    while left.len() > 3 {
+        let n = left.len();
+        let corner = |i: usize| [left[(i + n - 1) % n], left[i], left[(i + 1) % n]];
+        let ear = (0..n).find(|&i| is_ear(flat, &left, corner(i))).ok_or(PolygonFault::CrossesItself)?;
+        triangles.push(corner(ear));
+        left.remove(ear);
+    }
+    triangles.push([left[0], left[1], left[2]]);
+    Ok(triangles)
+}
+
+/// Whether the corner `[before, tip, after]` can be cut off: it turns left or is straight, and none of the other
+/// corners lies in its triangle. A straight corner gives a triangle of no area and leaves the outline unchanged.
+fn is_ear(flat: &[[f64; 2]], left: &[usize], [before, tip, after]: [usize; 3]) -> bool {
+    let (a, b, c) = (flat[before], flat[tip], flat[after]);
+    let inside = |p: [f64; 2]| turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
+    let others = left.iter().filter(|i| ![before, tip, after].contains(i)).map(|&i| flat[i]);
+    turn(a, b, c) >= 0.0 && !others.filter(|&p| p != a && p != b && p != c).any(inside)
+}
+
+/// Whether two edges cross in a point inside both.
+fn edges_cross(flat: &[[f64; 2]]) -> bool {
+    let n = flat.len();
+    let edge = |i: usize| (flat[i], flat[(i + 1) % n]);
+    (0..n).any(|i| (i + 1..n).any(|j| properly_cross(edge(i), edge(j))))
+}
+
+fn properly_cross((a, b): ([f64; 2], [f64; 2]), (c, d): ([f64; 2], [f64; 2])) -> bool {
+    turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lift(flat: &[[f64; 2]]) -> Vec<[f64; 3]> {
+        // A slanted plane, far from the origin: a projection along an axis would be easier.
+        flat.iter().map(|[x, y]| [1e5 + x, 2e5 + y, 0.3 * x - 0.7 * y]).collect()
+    }
+
+    fn area(corners: &[[f64; 3]], triangles: &[[usize; 3]]) -> [f64; 3] {
+        triangles
+            .iter()
+            .map(|t| newell(&t.map(|i| corners[i])))
+            .fold([0.0; 3], |s, a| std::array::from_fn(|i| s[i] + a[i]))
+    }
+
+    /// The triangles cover the polygon once: each turns as the polygon does, and their areas add up to its own.
+    fn covers(flat: &[[f64; 2]]) {
+        let corners = lift(flat);
+        let triangles = triangulate(&corners).expect("simple");
+        let whole = newell(&corners);
+        assert_eq!(triangles.len(), corners.len() - 2);
+        for t in &triangles {
+            // Coordinates of 2e5 carry 3e-11 of rounding; triangles may have no area.
+            assert!(dot(newell(&t.map(|i| corners[i])), whole) >= -1e-8, "{t:?}");
+        }
+        let sum = area(&corners, &triangles);
+        for axis in 0..3 {
+            assert!((sum[axis] - whole[axis]).abs() < 1e-8, "{sum:?} {whole:?}");
+        }
+    }
+
+    #[test]
+    fn a_convex_polygon_is_a_fan() {
+        let square = lift(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+        assert_eq!(triangulate(&square), Ok(vec![[0, 1, 2], [0, 2, 3]]));
+    }
+
+    #[test]
+    fn concave_polygons_are_covered_once() {
+        covers(&[[0.0, 0.0], [2.0, 0.0], [0.5, 0.5], [0.0, 2.0]]); // arrowhead
+        covers(&[[1.0, 1.0], [0.0, 3.0], [0.0, 0.0], [3.0, 0.0]]); // arrowhead whose fan would be wrong
+        covers(&[[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]]); // L
+        covers(&[[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [3.0, 3.0], [3.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]]); // U
+        // The same L the other way round, and with a straight corner.
+        covers(&[[0.0, 3.0], [1.0, 3.0], [1.0, 1.0], [3.0, 1.0], [3.0, 0.0], [1.5, 0.0], [0.0, 0.0]]);
+    }
+
+    #[test]
+    fn a_polygon_that_crosses_itself_is_refused() {
+        let bow = lift(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]]);
+        assert_eq!(triangulate(&bow), Err(PolygonFault::CrossesItself));
+        let uneven_bow = lift(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 3.0]]);
+        assert_eq!(triangulate(&uneven_bow), Err(PolygonFault::CrossesItself));
+        // cos and sin of 72° steps, in the order of a pentagram.
+        let star = lift(&[[1.0, 0.0], [-0.809, 0.588], [0.309, -0.951], [0.309, 0.951], [-0.809, -0.588]]);
+        assert_eq!(triangulate(&star), Err(PolygonFault::CrossesItself));
+    }
+
+    #[test]
+    fn corners_on_one_line_give_triangles_without_area() {
+        let corners = lift(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]]);
+        assert_eq!(triangulate(&corners).map(|t| t.len()), Ok(2));
+    }
+
+    proptest::proptest! {
+        /// A polygon that is star-shaped about the origin is simple, and rarely convex.
+        #[test]
+        fn star_shaped_polygons_are_covered_once(radii in proptest::collection::vec(0.2_f64..3.0, 5..24)) {
+            let n = radii.len() as f64;
+            let flat: Vec<[f64; 2]> = radii.iter().enumerate().map(|(i, r)| {
+                let angle = std::f64::consts::TAU * i as f64 / n;
+                [r * etendue_core::maths::f64::cos(angle), r * etendue_core::maths::f64::sin(angle)]
+            }).collect();
+            covers(&flat);
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Lines of OBJ and MTL files as statements: a keyword and its words, with the line they begin on.
+
+use std::borrow::Cow;
+
+/// One statement: a line without its comment and outer blanks, never empty.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Statement<'a> {
+    /// Line it begins on, from 1.
+    pub(super) line: usize,
+    text: Cow<'a, str>,
+}
+
+impl Statement<'_> {
+    /// The first word.
+    pub(super) fn keyword(&self) -> &str {
+        &self.text[..self.keyword_end()]
+    }
+
+    /// The rest, without blanks at its ends.
+    pub(super) fn rest(&self) -> &str {
+        self.text[self.keyword_end()..].trim_ascii()
+    }
+
+    /// The words behind the keyword.
+    pub(super) fn words(&self) -> impl Iterator<Item = &str> {
+        self.rest().split_ascii_whitespace()
+    }
+
+    /// The words as numbers; the fault in words where one is none.
+    pub(super) fn numbers(&self) -> Result<Vec<f64>, String> {
+        self.words().map(number).collect()
+    }
+
+    fn keyword_end(&self) -> usize {
+        self.text.find([' ', '\t']).unwrap_or(self.text.len())
+    }
+}
+
+/// A finite number.
+pub(super) fn number(word: &str) -> Result<f64, String> {
+    let value: f64 = word.parse().map_err(|_| format!("`{word}` is not a number"))?;
+    if value.is_finite() { Ok(value) } else { Err(format!("`{word}` is not finite; expected a finite number")) }
+}
+
+/// The statements of `text`: comments and empty lines left out, lines that end in a backslash joined.
+pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
+    let mut lines = text.lines().enumerate();
+    std::iter::from_fn(move || {
+        loop {
+            let (index, first) = lines.next()?;
+            let mut whole = trimmed(first);
+            while let Some(head) = whole.strip_suffix('\\') {
+                let next = lines.next().map_or(Cow::Borrowed(""), |(_, line)| trimmed(line));
+                whole = format!("{head} {next}").trim_ascii().to_owned().into();
+            }
+            if !whole.is_empty() {
+                return Some(Statement { line: index + 1, text: whole });
+            }
+        }
+    })
+}
+
+/// A line without blanks at its ends and without what follows a `#` that begins a word: names may hold one inside.
+fn trimmed(line: &str) -> Cow<'_, str> {
+    let begins = |&(at, _): &(usize, &str)| at == 0 || line[..at].ends_with([' ', '\t']);
+    let end = line.match_indices('#').find(begins).map_or(line.len(), |(at, _)| at);
+    Cow::Borrowed(line[..end].trim_ascii())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Vec<(usize, String, String)> {
+        statements(text).map(|s| (s.line, s.keyword().to_owned(), s.rest().to_owned())).collect()
+    }
+
+    #[test]
+    fn comments_blanks_and_both_line_ends_are_passed_over() {
+        let found = read("# head\r\n\r\n  v 1\t2 3  # tail\r\nusemtl red #5 x\nmap_Kd a#b.png\ng");
+        let expected = [(3, "v", "1\t2 3"), (4, "usemtl", "red"), (5, "map_Kd", "a#b.png"), (6, "g", "")];
+        assert_eq!(found, expected.map(|(line, k, r)| (line, k.to_owned(), r.to_owned())));
+    }
+
+    #[test]
+    fn a_backslash_continues_a_line() {
+        let found = read("f 1 2 \\\n 3 4\\\r\n5\nv 0");
+        assert_eq!(found[0], (1, "f".to_owned(), "1 2  3 4 5".to_owned()));
+        assert_eq!(found[1].0, 4);
+        assert_eq!(read("v 1 \\"), [(1, "v".to_owned(), "1".to_owned())]);
+    }
+
+    #[test]
+    fn numbers_are_finite() {
+        assert_eq!(number("-1.5e-3"), Ok(-1.5e-3));
+        assert_eq!(number("nan"), Err("`nan` is not finite; expected a finite number".to_owned()));
+        assert_eq!(number("1e999"), Err("`1e999` is not finite; expected a finite number".to_owned()));
+        assert_eq!(number("1,5"), Err("`1,5` is not a number".to_owned()));
+    }
+}
