@@ -48,3 +48,21 @@ pub fn named(name: &str) -> Option<&'static Sensitivity> {
 pub fn names() -> &'static [&'static str] {
     NAMES
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn channels_peak_in_their_colours() {
+        for name in names() {
+            let Sensitivity { r, g, b } = named(name).expect("a camera of the list");
+            let [r, g, b] = [r, g, b].map(|s| {
+                assert!(s.min_value() >= 0.0 && s.at(900.0) == 0.0, "{name}");
+                300 + s.nodes().iter().position(|v| *v == s.max_value()).unwrap_or(0)
+            });
+            assert!((580..=640).contains(&r) && (510..=560).contains(&g) && (430..=480).contains(&b), "{name}");
+        }
+        assert!(named("brownie").is_none());
+    }
+}

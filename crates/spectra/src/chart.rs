@@ -23,3 +23,17 @@ pub fn colorchecker() -> &'static [Patch] {
     });
     &PATCHES
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_chart_has_its_patches_in_order() {
+        let patches = colorchecker();
+        assert_eq!((patches.len(), patches[0].name, patches[14].name), (24, "dark_skin", "red"));
+        assert!(patches.iter().all(|p| p.reflectance.min_value() > 0.0 && p.reflectance.max_value() < 1.0));
+        let greys: Vec<f32> = patches[18..].iter().map(|p| p.reflectance.at(550.0)).collect();
+        assert!(greys.windows(2).all(|w| w[1] < w[0]), "the last row falls from white to black: {greys:?}");
+    }
+}

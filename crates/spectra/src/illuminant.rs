@@ -107,3 +107,67 @@ pub fn planck(nm: f64, kelvin: f64) -> f64 {
     let exponent = PLANCK_J_S * LIGHT_M_S / (metres * BOLTZMANN_J_K * kelvin);
     2.0 * PLANCK_J_S * LIGHT_M_S * LIGHT_M_S / metres_5 / maths::f64::exp_m1(exponent) * 1e-9
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f64::consts::PI;
+
+    #[test]
+    fn every_name_has_a_light() {
+        for name in names() {
+            let light = named(name).expect("a name of the list");
+            assert!(light.min_value() >= 0.0 && light.max_value() > 0.0, "{name}");
+            assert_eq!((light.at(1000.0), light.at(840.0)), (0.0, 0.0), "{name} is zero outside its table");
+        }
+        assert!(named("d65").is_none());
+    }
+
+    /// π ∫ B dλ = σT⁴, by Simpson's rule in ln λ from 100 nm to 20 mm.
+    #[test]
+    fn stefan_and_boltzmann() {
+        let kelvin = 3000.0;
+        let (low, steps, step) = (maths::f64::ln(100.0), 4000, maths::f64::ln(2e5) / 4000.0);
+        let term = |i: i32| {
+            let nm = maths::f64::exp(low + step * f64::from(i));
+            planck(nm, kelvin) * nm
+        };
+        let weight = |i: i32| {
+            if i == 0 || i == steps {
+                1.0
+            } else if i % 2 == 1 {
+                4.0
+            } else {
+                2.0
+            }
+        };
+        let exitance = PI * step / 3.0 * (0..=steps).map(|i| weight(i) * term(i)).sum::<f64>();
+        let expected = 5.670_374_419e-8 * 3000.0_f64 * 3000.0 * 3000.0 * 3000.0;
+        // Beyond 20 mm the share is 15/π⁴ · x³/3 = 7e-13 for x = hc/λkT = 2.4e-4; σ has ten digits; Simpson's error is less.
+        assert!((exitance / expected - 1.0).abs() < 1e-9, "{exitance} against {expected}");
+    }
+
+    #[test]
+    fn wien() {
+        // b = 2.897771955e6 nm·K; the peak of a table of 1 nm lies within half a node.
+        for kelvin in [3000.0, 4000.0, 5772.0, 9000.0] {
+            let body = blackbody(kelvin);
+            let peak = body.nodes().iter().position(|v| *v == body.max_value()).expect("a peak");
+            assert!((300.0 + peak as f64 - 2.897_771_955e6 / kelvin).abs() <= 0.51, "{kelvin} K");
+        }
+        assert_eq!(blackbody(0.0).max_value(), 0.0);
+        assert_eq!(blackbody(2.0).max_value(), 0.0, "no light of 300 to 1 100 nm, and no NaN");
+    }
+
+    #[test]
+    fn the_sun_is_nearly_a_black_body() {
+        let sun = solar();
+        // Effective temperature 5 772 K, 6.794e-5 sr from the Earth (IAU 2015). Its lines and the infrared of its deeper
+        // layers move a few parts in a hundred.
+        let disc = blackbody(5772.0).scaled(6.794e-5).integral(300.0, 1100.0);
+        let above = sun.extraterrestrial.integral(300.0, 1100.0);
+        assert!((above / disc - 1.0).abs() < 0.04, "{above} W/m² against {disc}");
+        let ground = sun.global_tilt.integral(300.0, 1100.0);
+        assert!(sun.direct.integral(300.0, 1100.0) < ground && ground < above);
+    }
+}

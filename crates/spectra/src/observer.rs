@@ -84,3 +84,43 @@ pub fn xyz_of_bands(means: &[f32], bands: Bands) -> [f64; 3] {
 fn node_sum(factors: &[&Spectrum]) -> f64 {
     (0..crate::spectrum::NODES).map(|i| factors.iter().map(|s| f64::from(s.nodes()[i])).product::<f64>()).sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::illuminant;
+
+    /// 1/683 W·m⁻²·sr⁻¹ in a narrow line at 555 nm is 1 cd·m⁻²: ȳ is 1 there.
+    #[test]
+    fn a_candela() {
+        let line = [(554.0, 0.0), (555.0, 1.0 / 683.0), (556.0, 0.0)];
+        let line = Spectrum::from_points(&line, Outside::Zero).expect("a table");
+        assert!((luminance(&line) - 1.0).abs() < 1e-7);
+        // In a band the neighbours of the peak count: ȳ(554) = 0.9998, ȳ(556) = 0.99983 (CIE table).
+        let bands = Bands::new(554.0, 2.0, 1).expect("a band");
+        let mean = line.band_means(bands)[0] as f32;
+        assert!((xyz_of_bands(&[mean], bands)[1] - 1.0).abs() < 2e-4);
+    }
+
+    #[test]
+    fn bands_approach_the_sum_over_nodes() {
+        let light = illuminant::named("A").expect("A");
+        let exact = xyz(light);
+        // Means of width h err by about h²/12 S″/S, over nodes of 1 nm by 1/4 S″/S; S″/S of A is 1e-4 in the blue.
+        for (width, tolerance) in [(5.0, 3e-4), (1.0, 3e-5)] {
+            let bands = Bands::covering(360.0, 830.0, width).expect("bands");
+            let means: Vec<f32> = light.band_means(bands).into_iter().map(|v| v as f32).collect();
+            let got = xyz_of_bands(&means, bands);
+            assert!((0..3).all(|c| (got[c] / exact[c] - 1.0).abs() < tolerance), "{width} nm: {got:?} {exact:?}");
+        }
+    }
+
+    #[test]
+    fn a_lamp_takes_the_luminance_asked_for_and_infrared_none() {
+        let lamp = with_luminance(illuminant::named("sodium-low-pressure").expect("a lamp"), 250.0).expect("bright");
+        assert!((luminance(&lamp) / 250.0 - 1.0).abs() < 1e-6);
+        let infrared = [(900.0, 1.0), (1000.0, 1.0)];
+        let infrared = Spectrum::from_points(&infrared, Outside::Zero).expect("a table");
+        assert!(with_luminance(&infrared, 1.0).is_none());
+    }
+}

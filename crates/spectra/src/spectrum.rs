@@ -18,9 +18,9 @@ pub enum Outside {
 
 /// A function of wavelength: values at every nanometre from 300 to 1 100 nm, linear between; the unit is its owner's.
 ///
-/// A table of coarser points is exact at its own whole nanometres. Where a table is finer than the grid, a node takes
-/// the mean over its neighbourhood (weights falling linearly to zero at 1 nm), so that narrow lines keep their power.
-/// A table that is zero outside falls to zero within 1 nm of its end.
+/// A table of whole nanometres is kept as it is. A node with a point of the table beside it, closer than 1 nm, takes
+/// the mean over its neighbourhood (weights falling linearly to zero at 1 nm), so that tables finer than the grid and
+/// narrow lines keep their power. A table that is zero outside falls to zero within 1 nm of its end.
 #[derive(Clone, PartialEq)]
 pub struct Spectrum {
     values: Box<[f32; NODES]>,
@@ -51,8 +51,8 @@ impl Spectrum {
     /// A spectrum through points (wavelength in nm, value), wavelengths rising; linear between points.
     ///
     /// # Errors
-    /// Where there are fewer than two points, a number is not finite, wavelengths do not rise, or no point lies within
-    /// 300 to 1 100 nm.
+    /// Where there are fewer than two points, a number is not finite, wavelengths do not rise, or the table does not
+    /// reach into 300 to 1 100 nm.
     pub fn from_points(points: &[(f64, f64)], outside: Outside) -> Result<Self, SpectrumError> {
         table::check(points, Place::Point)?;
         Ok(Self::from_checked(points, outside))
@@ -189,4 +189,80 @@ pub(crate) fn node_below(nm: f32) -> (usize, f32) {
 
 fn boxed(values: Vec<f32>) -> Box<[f32; NODES]> {
     values.try_into().expect("one value a node")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(points: &[(f64, f64)], outside: Outside) -> Spectrum {
+        Spectrum::from_points(points, outside).expect("a table in order")
+    }
+
+    #[test]
+    fn a_line_is_exact_inside_and_follows_its_rule_outside() {
+        let points = [(400.0, 1.0), (500.0, 3.0)];
+        let (zero, hold) = (table(&points, Outside::Zero), table(&points, Outside::Hold));
+        for (nm, value) in [(400.0, 1.0), (450.0, 2.0), (475.25, 2.505), (500.0, 3.0)] {
+            // One rounding to f32 in store, two in between.
+            assert!((zero.at(nm) - value).abs() < 1e-6 && (hold.at(nm) - value).abs() < 1e-6);
+        }
+        assert_eq!((zero.at(399.0), zero.at(501.0), zero.at(300.0)), (0.0, 0.0, 0.0));
+        assert_eq!((hold.at(399.0), hold.at(501.0), hold.at(1100.0)), (1.0, 3.0, 3.0));
+        assert_eq!(zero.covered_nm(), (400.0, 500.0));
+        assert_eq!(zero.support_nm(), Some((399.0, 501.0)));
+        assert_eq!((hold.at(0.0), hold.at(f32::INFINITY)), (1.0, 3.0), "clamped");
+        assert!(hold.at(f32::NAN).is_nan());
+    }
+
+    #[test]
+    fn samples_are_values() {
+        let spectrum = Spectrum::from_fn(|nm| nm * nm);
+        let wavelengths = Wavelengths::<4>::uniform(380.0, 780.0, 0.371);
+        let values = spectrum.sample(&wavelengths);
+        for i in 0..4 {
+            assert_eq!(values[i], spectrum.at(wavelengths.nm[i]));
+            // The chord over 1 nm lies at most 1/4 above the parabola; f32 rounds 6e5 to 0.03.
+            assert!((values[i] - wavelengths.nm[i] * wavelengths.nm[i]).abs() < 0.32);
+        }
+    }
+
+    #[test]
+    fn integrals_of_a_line_are_exact() {
+        let line = Spectrum::from_fn(|nm| nm);
+        for (low, high) in [(300.0, 1100.0), (400.25, 400.75), (399.5, 617.125), (1099.5, 1100.0)] {
+            let exact = (high * high - low * low) / 2.0;
+            assert!((line.integral(low, high) / exact - 1.0).abs() < 1e-12, "{low}–{high}");
+            assert!((line.band_mean(low, high) / ((low + high) / 2.0) - 1.0).abs() < 1e-12);
+        }
+        assert_eq!((line.integral(100.0, 300.0), line.integral(500.0, 400.0)), (0.0, 0.0));
+        let bands = Bands::covering(380.0, 780.0, 2.5).expect("bands");
+        let sum: f64 = line.band_means(bands).iter().map(|m| m * 2.5).sum();
+        assert!((sum / line.integral(380.0, 780.0) - 1.0).abs() < 1e-12);
+    }
+
+    /// A laser line of 0.1 nm between two nodes: point samples would lose it.
+    #[test]
+    fn narrow_lines_keep_their_power() {
+        for centre in [532.0, 532.3, 632.5] {
+            let points = [(centre - 0.1, 0.0), (centre, 10.0), (centre + 0.1, 0.0)];
+            let line = table(&points, Outside::Zero);
+            // Area of the triangle: 1; values are rounded to f32.
+            assert!((line.integral(500.0, 700.0) - 1.0).abs() < 1e-6, "{centre}: {}", line.integral(500.0, 700.0));
+        }
+        let fine: Vec<_> = (0..=80).map(|i| (400.0 + 0.25 * f64::from(i), 5.0)).collect();
+        assert_eq!(table(&fine, Outside::Hold), {
+            let flat = Spectrum::constant(5.0);
+            Spectrum { covered_nm: (400.0, 420.0), ..flat }
+        });
+    }
+
+    #[test]
+    fn products_and_scales() {
+        let (a, b) = (table(&[(400.0, 1.0), (500.0, 3.0)], Outside::Hold), Spectrum::from_fn(|nm| nm / 100.0));
+        let product = a.product(&b).scaled(2.0);
+        assert!((product.at(450.0) - 18.0).abs() < 1e-5);
+        assert_eq!(product.covered_nm(), (400.0, 500.0));
+        assert_eq!((product.max_value(), product.min_value()), (66.0, 6.0));
+    }
 }

@@ -61,7 +61,7 @@ pub enum SpectrumError {
         /// The wavelength before, nm.
         before: f64,
     },
-    /// No point lies in the legal range.
+    /// The table does not reach into the legal range.
     #[error("the table covers {low} to {high} nm, nothing of 300 to 1100 nm: are its wavelengths in nanometres?")]
     OutOfRange {
         /// First wavelength, nm.
@@ -82,8 +82,7 @@ pub(crate) fn check(points: &[(f64, f64)], place: impl Fn(usize) -> Place) -> Re
     let [(low, _), .., (high, _)] = *points else {
         return Err(SpectrumError::TooFew { found: points.len() });
     };
-    let legal = |nm: f64| (SHORTEST_NM..=LONGEST_NM).contains(&nm);
-    if points.iter().any(|(nm, _)| legal(*nm)) { Ok(()) } else { Err(SpectrumError::OutOfRange { low, high }) }
+    if low <= LONGEST_NM && high >= SHORTEST_NM { Ok(()) } else { Err(SpectrumError::OutOfRange { low, high }) }
 }
 
 /// The checked points of a text of two columns.
@@ -133,10 +132,11 @@ pub(crate) fn embedded_names(text: &'static str) -> impl Iterator<Item = &'stati
     text.lines().next().unwrap_or("").split(',').skip(1)
 }
 
-/// A node's value: the broken line itself, or its mean over the neighbourhood where the table is finer than the grid.
+/// A node's value: the broken line itself, or, where a point lies closer than 1 nm beside it, the line's mean under the
+/// hat that falls to zero at the neighbouring nodes.
 pub(crate) fn node_value(points: &[(f64, f64)], outside: Outside, nm: f64) -> f64 {
     let inner = &points[points.partition_point(|p| p.0 <= nm - 1.0)..points.partition_point(|p| p.0 < nm + 1.0)];
-    if inner.iter().filter(|p| p.0 != nm).count() < 2 {
+    if inner.iter().all(|p| p.0 == nm) {
         return line_at(points, outside, nm);
     }
     let knots = core::iter::once(nm - 1.0).chain(knots_between(inner, nm)).chain([nm + 1.0]);
@@ -181,4 +181,43 @@ fn line_at(points: &[(f64, f64)], outside: Outside, nm: f64) -> f64 {
     }
     let ((x0, y0), (x1, y1)) = (points[above - 1], points[above]);
     y0 + (nm - x0) / (x1 - x0) * (y1 - y0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn error(text: &str) -> String {
+        Spectrum::from_csv(text, Outside::Zero).expect_err("a fault").to_string()
+    }
+
+    #[test]
+    fn a_table_with_and_without_header_comments_and_line_ends() {
+        let plain = Spectrum::from_csv("400,1\n500,2\n", Outside::Hold).expect("a table");
+        let text = "\u{feff}# measured\r\nwavelength_nm , value\r\n\r\n 400, 1 # first\r\n500 ,2.0e0";
+        assert_eq!(Spectrum::from_csv(text, Outside::Hold).expect("a table"), plain);
+    }
+
+    #[test]
+    fn faults_are_named_with_their_line() {
+        assert!(error("nm,v\n400,1\n450;2\n").starts_with("line 3: found `450;2`, expected 2 numbers"));
+        assert!(error("400,1\n450,2,3\n").starts_with("line 2: found `450,2,3`"));
+        assert!(error("400,1\nnm,v\n").starts_with("line 2: found `nm,v`"), "a header comes first only");
+        assert!(error("400,1\n\n450,nan\n").starts_with("line 3: a wavelength or value is not finite"));
+        assert!(error("400,1\n450,1e39\n").starts_with("line 2:"), "too large for storage");
+        assert!(error("400,1\n400,2\n").starts_with("line 2: wavelength 400 nm follows 400 nm"));
+        assert!(error("400,1\n").starts_with("the table has 1 points"));
+        assert!(error("").starts_with("the table has 0 points"));
+        assert!(error("0.4,1\n0.7,1\n").contains("are its wavelengths in nanometres?"));
+        let points = [(400.0, 1.0), (300.0, 1.0)];
+        let message = Spectrum::from_points(&points, Outside::Zero).expect_err("a fault").to_string();
+        assert!(message.starts_with("point 1: wavelength 300 nm follows 400 nm"));
+    }
+
+    #[test]
+    fn tables_that_reach_beyond_the_range_are_cut_to_it() {
+        let wide = Spectrum::from_csv("200,0\n1200,10\n", Outside::Zero).expect("a table");
+        assert!((wide.at(300.0) - 1.0).abs() < 1e-6 && (wide.at(1100.0) - 9.0).abs() < 1e-6);
+        assert_eq!(wide.covered_nm(), (300.0, 1100.0));
+    }
 }

@@ -92,3 +92,59 @@ fn mixture(nodes: &Nodes, rgb: [f32; 3]) -> Spectrum {
     let mut node = nodes.iter();
     Spectrum::from_fn(|_| f64::from(node.next().map_or(0.0, |n| dot(*n, rgb))))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::colour::{D65_WHITE, ciede2000, lab, linear_srgb_from_xyz, xyz_from_linear_srgb};
+
+    #[test]
+    fn the_basis_is_positive_and_sums_to_one() {
+        let [r, g, b] = basis();
+        for i in 0..NODES {
+            let sum = f64::from(r.nodes()[i]) + f64::from(g.nodes()[i]) + f64::from(b.nodes()[i]);
+            // Ten digits in the file, then three roundings to f32 of at most 3e-8 each.
+            assert!((sum - 1.0).abs() < 1e-7, "node {i}: {sum}");
+        }
+        assert!(basis().iter().all(|s| s.min_value() >= 0.0 && s.max_value() <= 1.0));
+    }
+
+    #[test]
+    fn colours_come_back() {
+        let steps = [0.0_f32, 0.05, 0.18, 0.4, 0.7, 0.95, 1.0];
+        for (r, g, b) in steps.iter().flat_map(|r| steps.iter().flat_map(move |g| steps.map(|b| (*r, *g, b)))) {
+            let xyz = observer::xyz_of_reflectance(&reflectance_spectrum([r, g, b]), illuminant::d65());
+            let asked = xyz_from_linear_srgb([r, g, b].map(f64::from));
+            let difference = ciede2000(lab(xyz, D65_WHITE), lab(asked, D65_WHITE));
+            // Rounding to f32 moves XYZ by 1e-7; L*a*b* has slopes up to 1 000, and 4 500 for a* near black.
+            assert!(difference < 1e-3, "{r} {g} {b}: {difference}");
+        }
+    }
+
+    #[test]
+    fn reflectances_are_reflectances() {
+        let wavelengths = Wavelengths::<8>::uniform(300.0, 1100.0, 0.61);
+        for rgb in [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [1.0, 0.0, 0.2], [0.3, 1.0, 0.0]] {
+            let (values, spectrum) = (reflectance(rgb, &wavelengths), reflectance_spectrum(rgb));
+            for i in 0..8 {
+                assert!((0.0..=1.0 + 1e-6).contains(&values[i]), "{values:?}");
+                // Interpolated before or after storing: roundings of f32.
+                assert!((values[i] - spectrum.at(wavelengths.nm[i])).abs() < 3e-7);
+            }
+        }
+    }
+
+    #[test]
+    fn white_emission_is_one_candela_and_colours_are_kept() {
+        let white = emission_spectrum([1.0; 3]);
+        assert!((observer::luminance(&white) - 1.0).abs() < 1e-6);
+        let rgb = linear_srgb_from_xyz(observer::xyz(&emission_spectrum([120.0, 3.5, 40.0])));
+        for (got, asked) in rgb.into_iter().zip([120.0, 3.5, 40.0]) {
+            // Roundings of f32 at the scale of the largest component.
+            assert!((got - asked).abs() < 120.0 * 1e-6, "{rgb:?}");
+        }
+        let wavelengths = Wavelengths::<4>::uniform(380.0, 780.0, 0.2);
+        let values = emission([1.0; 3], &wavelengths);
+        (0..4).for_each(|i| assert!((values[i] / white.at(wavelengths.nm[i]) - 1.0).abs() < 1e-6));
+    }
+}

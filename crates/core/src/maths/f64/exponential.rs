@@ -53,7 +53,7 @@ pub fn exp2(x: f64) -> f64 {
 #[must_use]
 #[inline]
 pub fn ln(x: f64) -> f64 {
-    if !(x >= f64::MIN_POSITIVE && x < f64::INFINITY) {
+    if !(f64::MIN_POSITIVE..f64::INFINITY).contains(&x) {
         return libm::log(x);
     }
     let (k, m) = split(x);
