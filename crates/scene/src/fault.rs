@@ -37,7 +37,8 @@ pub struct Faults {
 
 impl Faults {
     /// No faults yet.
-    pub(crate) fn none() -> Self {
+    #[must_use]
+    pub fn none() -> Self {
         Self { list: Vec::new() }
     }
 
@@ -48,17 +49,21 @@ impl Faults {
     }
 
     /// Notes a fault.
-    pub(crate) fn add(&mut self, place: &Place, problem: impl Into<String>, remedy: impl Into<String>) {
+    pub fn add(&mut self, place: &Place, problem: impl Into<String>, remedy: impl Into<String>) {
         self.list.push(Fault::new(place, problem, remedy));
     }
 
     /// How many there are.
-    pub(crate) fn count(&self) -> usize {
+    #[must_use]
+    pub fn count(&self) -> usize {
         self.list.len()
     }
 
     /// `value` if there are no faults; else all of them, in order of place, each once.
-    pub(crate) fn or<T>(mut self, value: Option<T>) -> Result<T, Self> {
+    ///
+    /// # Errors
+    /// Where there is a fault, or no value.
+    pub fn or<T>(mut self, value: Option<T>) -> Result<T, Self> {
         match value {
             Some(value) if self.list.is_empty() => Ok(value),
             _ => {

@@ -1,5 +1,7 @@
 //! What meshes, pictures and spectra hold once read.
 
+use etendue_spectra::{Outside, Spectrum, SpectrumError};
+
 use super::mtl::SlotMaterial;
 
 /// A triangle mesh in the axes and units of its file.
@@ -68,11 +70,22 @@ impl ImagePixels {
     }
 }
 
-/// A tabulated spectrum.
+/// A tabulated spectrum, as the file has it. What it is outside of its points depends on what it is used for.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SpectrumAsset {
     /// Wavelength in nm, increasing, and value.
     pub points: Vec<(f64, f64)>,
     /// SHA-256 of the file.
     pub hash: [u8; 32],
+}
+
+impl SpectrumAsset {
+    /// The spectrum, continued as its use demands: emissions and sensitivities are zero outside of the table,
+    /// reflectances hold their end values.
+    ///
+    /// # Errors
+    /// Where the points are no function of the wavelength.
+    pub fn spectrum(&self, outside: Outside) -> Result<Spectrum, SpectrumError> {
+        Spectrum::from_points(&self.points, outside)
+    }
 }

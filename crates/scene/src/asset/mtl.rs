@@ -1,7 +1,7 @@
 //! What a Wavefront MTL says of a material, in the terms of a scene.
 //!
 //! `map_Kd` (sRGB-encoded) or else `Kd` (linear sRGB) becomes the diffuse reflectance. A material with highlights
-//! (`Ks` above 0, illumination model 2 or more or none given, and `Ns` above 0) or with a roughness `Pr` becomes "coated": index `Ni` where it is in (1, 3], else 1.5;
+//! (`Ks` above 0, illumination model 2 or more or none given, and `Ns` above 0) or with a roughness `Pr` becomes "coated": index `Ni` where it is in 1.001 … 4, else 1.5;
 //! α = Pr² (Burley, "Physically based shading at Disney", 2012) or else α = √(2 / (Ns + 2)), the GGX width that has the
 //! curvature of a Blinn-Phong lobe of exponent Ns (Walter et al., "Microfacet models for refraction", 2007).
 //! An MTL has no unit for light, so `Ke` is reported and gives none; so are metalness, transparency and the colour of
@@ -117,11 +117,11 @@ impl MtlFields {
             (None, Some(exponent)) => (2.0 / (exponent + 2.0)).sqrt(),
             (None, None) => return None,
         };
-        Some(alpha.clamp(0.001, 1.0))
+        Some(alpha.min(1.0))
     }
 
     fn coat_index(&self) -> f64 {
-        self.index.filter(|n| *n > 1.0 && *n <= 3.0).unwrap_or(1.5)
+        self.index.filter(|n| (1.001..=4.0).contains(n)).unwrap_or(1.5)
     }
 
     fn report_unused(&self, name: &str, report: &mut Vec<String>) {

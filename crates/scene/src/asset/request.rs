@@ -7,12 +7,12 @@ use crate::place::{Place, Placed};
 use crate::record::light::{Emission, Level, LightColour};
 use crate::record::reflectance::Reflectance;
 use crate::record::sensor::QuantumEfficiency;
-use crate::record::{Camera, Curve, Environment, Lens, Light, Material, Surface};
+use crate::record::{Camera, Curve, Environment, Light, Material, Surface};
 
 /// A file to be read, and where it is named.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AssetRequest {
-    /// The file.
+    /// The file, relative to where the job is read from: the key in [`super::Assets`].
     pub path: PathBuf,
     /// What it is read as.
     pub kind: AssetKind,
@@ -49,8 +49,9 @@ struct List(Vec<AssetRequest>);
 
 impl List {
     fn add(&mut self, kind: AssetKind, path: &Placed<PathBuf>) {
-        if !self.0.iter().any(|r| r.kind == kind && r.path == path.value) {
-            self.0.push(AssetRequest { path: path.value.clone(), kind, place: path.place.clone() });
+        let resolved = path.resolved();
+        if !self.0.iter().any(|r| r.kind == kind && r.path == resolved) {
+            self.0.push(AssetRequest { path: resolved, kind, place: path.place.clone() });
         }
     }
 
@@ -60,7 +61,7 @@ impl List {
             Surface::Coated(c) => self.reflectance(&c.reflectance),
             Surface::Conductor(_) | Surface::Emitter(_) => {}
         }
-        material.emission.iter().for_each(|e| self.emission(e));
+        material.emission.iter().for_each(|e| self.emission(&e.light));
     }
 
     fn reflectance(&mut self, reflectance: &Reflectance) {
@@ -96,12 +97,6 @@ impl List {
     }
 
     fn camera(&mut self, camera: &Camera) {
-        let transmittance = match &camera.lens {
-            Lens::Pinhole(lens) => &lens.transmittance,
-            Lens::Thin(lens) => &lens.transmittance,
-            Lens::Thick(lens) => &lens.transmittance,
-        };
-        transmittance.iter().for_each(|t| self.curve(t));
         match camera.sensor.electronics.as_ref().map(|e| &e.quantum_efficiency) {
             Some(QuantumEfficiency::Same(curve)) => self.curve(curve),
             Some(QuantumEfficiency::PerChannel(curves)) => curves.iter().for_each(|c| self.curve(c)),

@@ -43,6 +43,9 @@ impl Known<'_> {
     }
 
     fn check_material(&self, material: &Material, faults: &mut Faults) {
+        if let Some(texture) = material.emission.as_ref().and_then(|e| e.texture.as_ref()) {
+            must_exist("texture", texture, &self.textures, faults);
+        }
         let reflectance = match &material.surface {
             Surface::Diffuse(d) => &d.reflectance,
             Surface::Coated(c) => &c.reflectance,

@@ -104,7 +104,7 @@ impl Rule for FileName {
     }
 }
 
-/// The path of a file with one of these extensions, resolved relative to the file that names it.
+/// The path of a file with one of these extensions, as it is written.
 pub(crate) const fn path(extensions: &'static [&'static str]) -> FilePath {
     FilePath { extensions }
 }
@@ -135,7 +135,7 @@ impl Rule for FilePath {
     }
     fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<PathBuf>> {
         match node.as_text().filter(|t| self.admits(t)) {
-            Some(t) => Some(Placed::new(node.place.resolve(Path::new(t)), node.place.clone())),
+            Some(t) => Some(Placed::new(PathBuf::from(t), node.place.clone())),
             None => self.refuse(node, faults),
         }
     }
@@ -149,6 +149,34 @@ pub(crate) trait Choice: Copy + 'static {
     /// The words.
     fn words() -> Vec<&'static str> {
         Self::WORDS.iter().map(|(w, _)| *w).collect()
+    }
+}
+
+/// One of the names that a library of data knows; `what` says of what: "an illuminant".
+pub(crate) fn known(what: &'static str, names: &[&'static str]) -> Known {
+    Known { what, names: names.to_vec() }
+}
+
+/// See [`known`].
+pub(crate) struct Known {
+    what: &'static str,
+    names: Vec<&'static str>,
+}
+
+impl Rule for Known {
+    type Out = Placed<String>;
+    fn takes(&self, kind: Kind) -> bool {
+        kind == Kind::Text
+    }
+    fn expected(&self) -> String {
+        format!("{}, {}", self.what, one_of(&self.names))
+    }
+    fn schema(&self) -> Json {
+        json!({ "enum": self.names })
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<String>> {
+        let name = word(node, &self.names, faults)?;
+        Some(Placed::new(name.to_owned(), node.place.clone()))
     }
 }
 

@@ -1,6 +1,5 @@
 //! `[lens]`: from the scene to the sensor plane.
 
-use super::curve::{Curve, curve};
 use crate::place::Placed;
 use crate::reader::{Number, Rule, RuleExt as _, choice, either, number, record, variants};
 
@@ -23,8 +22,8 @@ record! {
         required focal_length_mm: Placed<f64> = focal_length();
         /// Focal length divided by the pinhole's diameter, above 0: how much light comes through.
         required f_number: Placed<f64> = f_number();
-        /// Share of light that the lens lets through, a number or `{ spectrum = file }`, 0 … 1. Default: 1.
-        optional transmittance: Curve = share();
+        /// Share of light that the lens lets through, above 0 and at most 1. Default: 1.
+        optional transmittance: Placed<f64> = share();
         /// Distortion. Default: none.
         optional distortion: Distortion = record();
     }
@@ -37,10 +36,10 @@ record! {
         required focal_length_mm: Placed<f64> = focal_length();
         /// Focal length divided by the pupil's diameter, above 0.
         required f_number: Placed<f64> = f_number();
-        /// Distance of the plane in focus from the lens, m, above the focal length, or "infinity".
+        /// Distance of the plane in focus from the entrance pupil, m, beyond the focal length, or "infinity".
         required focus_distance_m: FocusDistance = focus_distance();
-        /// Share of light that the lens lets through, a number or `{ spectrum = file }`, 0 … 1. Default: 1.
-        optional transmittance: Curve = share();
+        /// Share of light that the lens lets through, above 0 and at most 1. Default: 1.
+        optional transmittance: Placed<f64> = share();
         /// Distortion. Default: none.
         optional distortion: Distortion = record();
     }
@@ -53,16 +52,21 @@ record! {
         required focal_length_mm: Placed<f64> = focal_length();
         /// Focal length divided by the entrance pupil's diameter, above 0.
         required f_number: Placed<f64> = f_number();
-        /// Distance of the plane in focus from the front principal plane, m, above the focal length, or "infinity".
+        /// Distance of the plane in focus from the entrance pupil, m, beyond the focal length, or "infinity".
         required focus_distance_m: FocusDistance = focus_distance();
-        /// Share of light that the lens lets through, a number or `{ spectrum = file }`, 0 … 1. Default: 1.
-        optional transmittance: Curve = share();
+        /// Share of light that the lens lets through, above 0 and at most 1. Default: 1.
+        optional transmittance: Placed<f64> = share();
         /// Distortion. Default: none.
         optional distortion: Distortion = record();
-        /// The rear principal plane, from the front principal plane, mm; may be negative.
-        required principal_separation_mm: Placed<f64> = number("mm");
-        /// The entrance pupil, from the front principal plane, mm; negative lies towards the scene.
-        required entrance_pupil_mm: Placed<f64> = number("mm");
+        /// The rear principal plane, from the front principal plane, mm; may be negative. Default: 0.
+        optional principal_separation_mm: Placed<f64> = number("mm");
+        /// The entrance pupil, from the front principal plane, mm; negative lies towards the scene. One statement about
+        /// the pupils fixes the others; more than one must agree. Default: the pupils lie in the principal planes.
+        optional entrance_pupil_mm: Placed<f64> = number("mm");
+        /// The exit pupil, from the front principal plane, mm. See "entrance_pupil_mm".
+        optional exit_pupil_mm: Placed<f64> = number("mm");
+        /// Diameter of the exit pupil by that of the entrance pupil, above 0. See "entrance_pupil_mm".
+        optional pupil_magnification: Placed<f64> = number("").above(0.0);
         /// Which pupil keeps its area over the field.
         required constant_pupil: Placed<Pupil> = choice();
         /// The rim in front of the pupil. Default: none.
@@ -155,8 +159,8 @@ fn f_number() -> Number {
     number("").above(0.0)
 }
 
-fn share() -> impl Rule<Out = Curve> {
-    curve(number("").at_least(0.0).at_most(1.0))
+fn share() -> Number {
+    number("").above(0.0).at_most(1.0)
 }
 
 fn focus_distance() -> impl Rule<Out = FocusDistance> {

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use super::curve::{Curve, curve, spectrum_file};
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{keyed, number, record, text, variants, vector};
+use crate::reader::{Known, keyed, known, number, record, text, variants, vector};
+use etendue_spectra::illuminant;
 
 keyed! {
     /// How much light a surface or the sky gives.
@@ -20,8 +21,8 @@ keyed! {
 keyed! {
     /// The relative spectrum of a light.
     pub enum LightColour {
-        /// A tabulated illuminant: "D65", "A", …
-        illuminant => Illuminant(Placed<String>) = text("the name of an illuminant");
+        /// A tabulated illuminant or lamp, or "solar", the direct sunlight of ASTM G-173.
+        illuminant => Illuminant(Placed<String>) = illuminants();
         /// The temperature of a black body, K, 500 to 20 000.
         temperature_k => Temperature(Placed<f64>) = number("K").at_least(500.0).at_most(20_000.0);
         /// A chromaticity as linear sRGB, made a smooth spectrum; only the ratios count, not all may be 0.
@@ -29,6 +30,11 @@ keyed! {
         /// A table of two columns, wavelength in nm and relative power.
         spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
     }
+}
+
+/// The name of an illuminant.
+pub(crate) fn illuminants() -> Known {
+    known("an illuminant", &[&["solar"], illuminant::names()].concat())
 }
 
 record! {

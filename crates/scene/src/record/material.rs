@@ -4,7 +4,8 @@ use super::light::Emission;
 use super::reflectance::{Reflectance, reflectance};
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{Number, number, record, text, variants};
+use crate::reader::{Number, choice, known, number, record, text, variants};
+use etendue_spectra::metal;
 
 record! {
     /// What a surface does with light.
@@ -13,9 +14,31 @@ record! {
         required name: Placed<String> = text("the name of the material");
         /// How it reflects.
         inside surface: Surface;
-        /// Light that the surface gives of its own, from its front: a table with "luminance_cd_m2" or
-        /// "radiance_w_m2_sr_nm". Default: none.
-        optional emission: Emission = record();
+        /// Light that the surface gives of its own, the same in all directions. Default: none.
+        optional emission: SurfaceEmission = record();
+    }
+}
+
+record! {
+    /// Light that a surface gives.
+    pub struct SurfaceEmission {
+        /// How much, of which colour.
+        inside light: Emission;
+        /// Which sides give it. The front is where the normal points: by the winding of triangles, outwards for a box or a
+        /// sphere, +z for a quad. Default: "front".
+        optional sides: Placed<Sides> = choice();
+        /// The name of a texture whose colours are factors on the light. Default: none.
+        optional texture: Placed<String> = text("the name of a texture");
+    }
+}
+
+choice! {
+    /// Sides of a surface.
+    pub enum Sides {
+        /// The side that the normal points to.
+        "front" => Front,
+        /// Both, each with the stated radiance.
+        "both" => Both,
     }
 }
 
@@ -46,8 +69,8 @@ record! {
     /// A metal with a GGX distribution of microfacets.
     pub struct Conductor {
         /// The metal, whose complex refractive index is tabulated: "Al", "Ag", "Au", "Cu", "Cr", "Fe".
-        required metal: Placed<String> = text("the symbol of a metal");
-        /// Roughness α of the GGX distribution (not its square root), 0.001 … 1.
+        required metal: Placed<String> = known("a metal", metal::names());
+        /// Roughness α of the GGX distribution (not its square root), 0 … 1; below 0.0001 it is a mirror.
         required alpha: Placed<f64> = alpha();
     }
 }
@@ -57,9 +80,9 @@ record! {
     pub struct Coated {
         /// Share of light that the base reflects, as for "diffuse".
         required reflectance: Reflectance = reflectance();
-        /// Refractive index of the coat, above 1 and at most 3. Default: 1.5.
-        optional index: Placed<f64> = number("").above(1.0).at_most(3.0);
-        /// Roughness α of the coat's GGX distribution (not its square root), 0.001 … 1.
+        /// Refractive index of the coat, 1.001 … 4. Default: 1.5.
+        optional index: Placed<f64> = number("").at_least(1.001).at_most(4.0);
+        /// Roughness α of the coat's GGX distribution (not its square root), 0 … 1; below 0.0001 it is a mirror.
         required alpha: Placed<f64> = alpha();
     }
 }
@@ -70,7 +93,7 @@ record! {
 }
 
 fn alpha() -> Number {
-    number("").at_least(0.001).at_most(1.0)
+    number("").at_least(0.0).at_most(1.0)
 }
 
 fn check(material: &Material, faults: &mut Faults) {

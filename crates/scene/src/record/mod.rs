@@ -29,7 +29,7 @@ pub use environment::Environment;
 pub use job::{CameraEntry, Job};
 pub use lens::Lens;
 pub use light::{Emission, Level, Light, LightColour, Sun, SunLevel};
-pub use material::{Material, Surface};
+pub use material::{Material, Surface, SurfaceEmission};
 pub use mesh::Mesh;
 pub use object::{Body, Instance, Object};
 pub use output::Output;

@@ -1,7 +1,8 @@
 //! `[processing]`: from raw to picture.
 
+use super::light::illuminants;
 use crate::place::Placed;
-use crate::reader::{Rule, RuleExt as _, choice, either, exactly, keyed, number, record, text, vector};
+use crate::reader::{Rule, RuleExt as _, choice, either, exactly, keyed, number, record, vector};
 
 record! {
     /// From raw to picture.
@@ -49,13 +50,13 @@ keyed! {
     /// How a colour matrix is found.
     pub enum ColourMatrixTable {
         /// The name of the illuminant under which the colour chart is fitted.
-        fit => Fit(Placed<String>) = text("the name of an illuminant");
+        fit => Fit(Placed<String>) = illuminants();
     }
 }
 
 fn white_balance() -> impl Rule<Out = WhiteBalance> {
     let factors = vector::<3>(number("").above(0.0)).map(WhiteBalance::Factors);
-    either(factors, text("the name of an illuminant").map(WhiteBalance::Illuminant))
+    either(factors, illuminants().map(WhiteBalance::Illuminant))
 }
 
 fn colour_matrix() -> impl Rule<Out = ColourMatrix> {

@@ -3,7 +3,8 @@
 use super::curve::{Curve, curve};
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{Rule, RuleExt as _, choice, either, exactly, flag, keyed, number, record, text, vector, whole};
+use crate::reader::{Rule, RuleExt as _, choice, either, exactly, flag, keyed, known, number, record, vector, whole};
+use etendue_spectra::camera;
 
 record! {
     /// A sensor: its geometry, and its electronics where electrons are wanted.
@@ -88,8 +89,8 @@ keyed! {
     pub enum QuantumEfficiencyTable {
         /// A table of two columns, wavelength in nm and quantum efficiency 0 … 1.
         spectrum => Spectrum(Placed<std::path::PathBuf>) = super::curve::spectrum_file();
-        /// A camera whose relative sensitivities were measured, such as "canon_eos_5d_mark_ii"; with "peak".
-        camera => Camera(Placed<String>) = text("the name of a measured camera");
+        /// A camera whose relative sensitivities were measured, with "peak".
+        camera => Camera(Placed<String>) = known("a measured camera", camera::names());
     }
 }
 
