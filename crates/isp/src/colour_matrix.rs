@@ -117,8 +117,8 @@ mod tests {
         };
         let differences: Vec<f64> = chart_spectra().map(difference).collect();
         let mean = differences.iter().sum::<f64>() / 24.0;
-        // A matrix of such cameras is known to reach a mean ΔE₀₀ of 1 to 3 on this chart.
-        assert!(differences.len() == 24 && mean < 3.0, "mean ΔE₀₀ {mean}, {differences:?}");
+        // The best matrix reaches 0.71; a fault in balance, tables or fit makes it several.
+        assert!(differences.len() == 24 && mean < 1.0, "mean ΔE₀₀ {mean}, {differences:?}");
     }
 
     #[test]

@@ -9,7 +9,7 @@
 //! | 2 | [dark current](dark_current) | adds its own electrons |
 //! | 3 | [full well](full_well) | clips |
 //! | 4 | [read noise](read_noise) | adds electrons' worth of volts |
-//! | 5 | [converter](converter) | gain, black level, rounding, range → DN |
+//! | 5 | [converter] | gain, black level, rounding, range → DN |
 //!
 //! Shot noise and dark current commute: both are independent counts that are added.
 
