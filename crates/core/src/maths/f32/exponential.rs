@@ -1,6 +1,7 @@
 //! Exponentials, logarithms and powers.
 
 use super::super::kernel::{exponential_series, inverse_tangent_series, nearest, polynomial, power_of_two, split};
+use super::special;
 use core::f64::consts::{LN_2, LOG2_E, LOG10_E};
 
 /// Next term: 3e-11 at half of ln 2.
@@ -26,14 +27,14 @@ fn exp2_wide(x: f64) -> f64 {
 #[must_use]
 #[inline]
 pub fn exp(x: f32) -> f32 {
-    if x.abs() <= 200.0 { exp2_wide(f64::from(x) * LOG2_E) as f32 } else { libm::exp(f64::from(x)) as f32 }
+    if x.abs() <= 200.0 { exp2_wide(f64::from(x) * LOG2_E) as f32 } else { special(libm::exp, x) }
 }
 
 /// 2 to the power of x.
 #[must_use]
 #[inline]
 pub fn exp2(x: f32) -> f32 {
-    if x.abs() <= 300.0 { exp2_wide(f64::from(x)) as f32 } else { libm::exp2(f64::from(x)) as f32 }
+    if x.abs() <= 300.0 { exp2_wide(f64::from(x)) as f32 } else { special(libm::exp2, x) }
 }
 
 /// e to the power of x, less one: exact to the last place near zero.
@@ -41,7 +42,7 @@ pub fn exp2(x: f32) -> f32 {
 #[inline]
 pub fn exp_m1(x: f32) -> f32 {
     if x == 0.0 || x.is_nan() || x.abs() > 200.0 {
-        return libm::expm1(f64::from(x)) as f32;
+        return special(libm::expm1, x);
     }
     let x = f64::from(x);
     let (whole, k) = nearest(x * LOG2_E);
@@ -81,7 +82,7 @@ fn log2_wide(x: f64) -> f64 {
 #[must_use]
 #[inline]
 pub fn ln(x: f32) -> f32 {
-    if has_logarithm(x) { ln_wide(f64::from(x)) as f32 } else { libm::log(f64::from(x)) as f32 }
+    if has_logarithm(x) { ln_wide(f64::from(x)) as f32 } else { special(libm::log, x) }
 }
 
 /// Natural logarithm of 1 + x: exact to the last place near zero.
@@ -89,7 +90,7 @@ pub fn ln(x: f32) -> f32 {
 #[inline]
 pub fn ln_1p(x: f32) -> f32 {
     if x == 0.0 || !has_logarithm(1.0 + x) {
-        return libm::log1p(f64::from(x)) as f32;
+        return special(libm::log1p, x);
     }
     let x = f64::from(x);
     if x.abs() < 0.25 { ln_1p_reduced(x) as f32 } else { ln_wide(1.0 + x) as f32 }
@@ -99,14 +100,14 @@ pub fn ln_1p(x: f32) -> f32 {
 #[must_use]
 #[inline]
 pub fn log2(x: f32) -> f32 {
-    if has_logarithm(x) { log2_wide(f64::from(x)) as f32 } else { libm::log2(f64::from(x)) as f32 }
+    if has_logarithm(x) { log2_wide(f64::from(x)) as f32 } else { special(libm::log2, x) }
 }
 
 /// Logarithm to base 10; exact for powers of ten.
 #[must_use]
 #[inline]
 pub fn log10(x: f32) -> f32 {
-    if has_logarithm(x) { (ln_wide(f64::from(x)) * LOG10_E) as f32 } else { libm::log10(f64::from(x)) as f32 }
+    if has_logarithm(x) { (ln_wide(f64::from(x)) * LOG10_E) as f32 } else { special(libm::log10, x) }
 }
 
 /// x to the power of y, with the conventions of C for zeros, infinities and negative x.
@@ -114,7 +115,7 @@ pub fn log10(x: f32) -> f32 {
 #[inline]
 pub fn pow(x: f32, y: f32) -> f32 {
     if !has_logarithm(x) || !y.is_finite() {
-        return libm::pow(f64::from(x), f64::from(y)) as f32;
+        return special(|x| libm::pow(x, f64::from(y)), x);
     }
     exp2_wide((f64::from(y) * log2_wide(f64::from(x))).clamp(-400.0, 400.0)) as f32
 }

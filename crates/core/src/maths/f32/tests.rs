@@ -18,7 +18,7 @@ fn between(low: f32, high: f32, count: u32) -> impl Iterator<Item = f32> {
 }
 
 fn unit_in_last_place(exact: f64) -> f64 {
-    let near = (exact.abs() as f32).min(f32::MAX).max(f32::MIN_POSITIVE);
+    let near = (exact.abs() as f32).clamp(f32::MIN_POSITIVE, f32::MAX);
     let binade = f32::from_bits(near.to_bits() & 0x7f80_0000);
     f64::from(binade) * f64::from(f32::EPSILON)
 }

@@ -1,6 +1,8 @@
 //! Sine, cosine and the angle of a point.
 
-use super::super::kernel::{ATAN_QUARTERS, circular_series, inverse_tangent_series, nearest, polynomial};
+use super::super::kernel::{
+    ATAN_QUARTERS, circular_series, in_order, inverse_tangent_series, nearest, polynomial, turned,
+};
 use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
 
 /// Beyond it, angles are reduced by libm.
@@ -57,9 +59,7 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
     }
     let (r, low, quadrant) = reduced(x);
     let (sin, cos) = series(r, low);
-    let (sin, cos) = if quadrant & 1 == 0 { (sin, cos) } else { (cos, sin) };
-    let sin = if quadrant & 2 == 0 { sin } else { -sin };
-    let cos = if (quadrant + 1) & 2 == 0 { cos } else { -cos };
+    let (sin, cos) = turned(sin, cos, quadrant);
     (if x == 0.0 { x } else { sin }, cos)
 }
 
@@ -106,8 +106,9 @@ fn rescale(length: f64) -> f64 {
 #[inline]
 fn angle(y: f64, x: f64) -> f64 {
     let (ay, ax) = (y.abs(), x.abs());
-    let scale = rescale(ay.max(ax));
-    let octant = atan_octant(ay.min(ax) * scale, ay.max(ax) * scale);
+    let (n, d) = in_order(ay, ax);
+    let scale = rescale(d);
+    let octant = atan_octant(n * scale, d * scale);
     let first = if ay > ax { FRAC_PI_2 - (octant - HALF_PI_LOW) } else { octant };
     if x < 0.0 { PI - (first - PI_LOW) } else { first }
 }
