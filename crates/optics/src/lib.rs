@@ -4,8 +4,10 @@ mod error;
 pub mod lens;
 mod overlap;
 mod pupil;
+pub mod pupil_image;
 
 pub use error::OpticsError;
 pub use lens::{
     ConstantPupil, Lens, Pinhole, PinholeParameters, PupilStatements, Rim, Thick, ThickParameters, Thin, ThinParameters,
 };
+pub use pupil_image::{PupilProjection, Resampling, irradiance};

@@ -241,14 +241,14 @@ impl Lens {
     /// field of view is that between the middles of the picture's left and right edges.
     #[must_use]
     pub fn angle_between_rad(&self, a_mm: DVec2, b_mm: DVec2) -> Option<f64> {
-        let (a, b) = (self.direction(a_mm)?, self.direction(b_mm)?);
+        let (a, b) = (self.tangent(a_mm)?.extend(1.0), self.tangent(b_mm)?.extend(1.0));
         Some(atan2(a.cross(b).length(), a.dot(b)))
     }
 
-    /// Unit direction of the chief ray of a sensor point, clipped or not; `None` beyond the distortion's fold.
+    /// Tangents X/Z and Y/Z of the chief ray of a sensor point, clipped or not; `None` beyond the distortion's fold.
     #[must_use]
-    pub fn direction(&self, sensor_mm: DVec2) -> Option<DVec3> {
+    pub fn tangent(&self, sensor_mm: DVec2) -> Option<DVec2> {
         let ideal_mm = each!(self, lens => lens.body.ideal(sensor_mm))?;
-        Some(self.rectilinear().direction(ideal_mm))
+        Some(ideal_mm / self.principal_distance_mm())
     }
 }
