@@ -189,7 +189,7 @@ fn range_errors(p: &SensorParameters) -> Vec<SensorError> {
         ("dark_current_e_s", p.dark_current_e_s, not_negative(p.dark_current_e_s), NOT_NEGATIVE),
         ("full_well_e", p.full_well_e, positive(p.full_well_e), POSITIVE),
         ("read_noise_e", p.read_noise_e, not_negative(p.read_noise_e), NOT_NEGATIVE),
-        ("gain_dn_e", p.gain_dn_e, positive(p.gain_dn_e), POSITIVE),
+        ("gain_dn_per_e", p.gain_dn_e, positive(p.gain_dn_e), POSITIVE),
         (
             "black_level_dn",
             p.black_level_dn,
