@@ -15,16 +15,20 @@
 //!
 //! This crate renders nothing and decides nothing; it never prints and starts no threads.
 
+pub mod assets;
 pub mod error;
 pub mod exr;
 pub mod hash;
 pub mod mesh;
 pub mod output;
+pub mod picture;
 pub mod png;
 pub mod provenance;
 pub mod sidecar;
 mod source;
+pub mod spectrum;
 
+pub use assets::load_assets;
 pub use error::Error;
 pub use output::{Existing, OutputFolder};
 pub use provenance::Provenance;

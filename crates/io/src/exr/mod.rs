@@ -18,6 +18,8 @@ mod preview;
 mod read;
 mod spectral;
 mod spectral_read;
+#[cfg(test)]
+pub(crate) mod tests_support;
 
 pub use encode::EncodeError;
 pub use ground_truth::{GroundTruth, encode_ground_truth};

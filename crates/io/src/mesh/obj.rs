@@ -95,7 +95,9 @@ impl Reader {
         match numbers[..] {
             [x, y, z] | [x, y, z, 1.0] => self.obj.positions.push([x, y, z]),
             [_, _, _, w] => {
-                return Err(format!("vertex with the weight {w}; expected three coordinates, weights belong to curves"));
+                return Err(format!(
+                    "vertex with the weight {w}; expected three coordinates, weights belong to curves"
+                ));
             }
             [x, y, z, _, _, _] => {
                 self.obj.positions.push([x, y, z]);

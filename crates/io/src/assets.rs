@@ -1,0 +1,43 @@
+//! Everything that a description names.
+
+use etendue_scene::Description;
+use etendue_scene::asset::{AssetKind, AssetRequest, Assets};
+
+use crate::Error;
+use crate::mesh::read_mesh;
+use crate::picture::read_picture;
+use crate::spectrum::read_spectrum;
+
+/// Reads every file that `description` names, and those that its meshes name in turn.
+///
+/// # Errors
+/// All faults of all files, each with the place that names the file.
+pub fn load_assets(description: &Description) -> Result<Assets, Vec<Error>> {
+    let mut assets = Assets::default();
+    let mut errors = Vec::new();
+    let mut tried: Vec<AssetRequest> = Vec::new();
+    loop {
+        let mut requests = assets.missing(description);
+        requests.retain(|request| !tried.iter().any(|t| t.kind == request.kind && t.path == request.path));
+        if requests.is_empty() {
+            break;
+        }
+        for request in requests {
+            if let Err(error) = load(&mut assets, &request) {
+                errors.push(error.named_at(request.place.to_string()));
+            }
+            tried.push(request);
+        }
+    }
+    if errors.is_empty() { Ok(assets) } else { Err(errors) }
+}
+
+fn load(assets: &mut Assets, request: &AssetRequest) -> Result<(), Error> {
+    let (path, key) = (&request.path, request.path.clone());
+    match request.kind {
+        AssetKind::Mesh => drop(assets.meshes.insert(key, read_mesh(path)?)),
+        AssetKind::Image => drop(assets.images.insert(key, read_picture(path)?)),
+        AssetKind::Spectrum => drop(assets.spectra.insert(key, read_spectrum(path)?)),
+    }
+    Ok(())
+}

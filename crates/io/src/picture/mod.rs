@@ -1,0 +1,46 @@
+//! Pictures: textures and environments.
+//!
+//! | file | becomes |
+//! | --- | --- |
+//! | PNG, JPEG of 8 bits | bytes as stored |
+//! | PNG of 16 bits | floats, stored value / 65 535, still encoded as in the file; opacity is left out |
+//! | Radiance HDR | floats |
+//! | OpenEXR with R, G, B or Y | floats; half floats and every compression of the exr crate (none, RLE, ZIP, PIZ, PXR24, B44, DWA) |
+//!
+//! The kind is told by the first bytes, not by the name. What the numbers mean (sRGB-encoded or linear) is told by the
+//! description that names the file. Numbers that are not finite are refused with their pixel.
+
+mod floats;
+mod raster;
+
+use std::path::Path;
+
+use etendue_scene::asset::{ImageAsset, ImagePixels};
+
+use crate::exr::decode_exr;
+use crate::source::read_bytes;
+use crate::{Error, hash};
+
+/// The first bytes of every OpenEXR file.
+pub(crate) const EXR_MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
+
+/// Reads a picture.
+pub fn read_picture(file: &Path) -> Result<ImageAsset, Error> {
+    decode_picture(file, &read_bytes(file, "picture")?)
+}
+
+/// Reads the bytes of `file`.
+pub(crate) fn decode_picture(file: &Path, bytes: &[u8]) -> Result<ImageAsset, Error> {
+    let (width, height, pixels) = if bytes.starts_with(&EXR_MAGIC) {
+        floats::of_exr(file, &decode_exr(file, bytes)?)?
+    } else {
+        raster::decode(file, bytes)?
+    };
+    if width == 0 || height == 0 {
+        return Err(Error::new(file, format!("a picture of {width} × {height} pixels; expected at least one pixel")));
+    }
+    if let ImagePixels::Rgb32F(values) = &pixels {
+        floats::check_finite(file, width, values)?;
+    }
+    Ok(ImageAsset { width, height, pixels, hash: hash::of_bytes(bytes) })
+}

@@ -1,0 +1,113 @@
+//! PNG, JPEG and Radiance HDR.
+
+use std::path::Path;
+
+use etendue_scene::asset::ImagePixels;
+use image::{DynamicImage, ImageError, ImageFormat};
+
+use super::floats::Picture;
+use crate::Error;
+
+/// Decodes `bytes` by their first bytes.
+pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Picture, Error> {
+    let format = image::guess_format(bytes)
+        .ok()
+        .filter(|f| matches!(f, ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::Hdr));
+    let format = format.ok_or_else(|| {
+        Error::new(file, "not a picture of a known kind; expected PNG, JPEG, Radiance HDR or OpenEXR")
+    })?;
+    if format == ImageFormat::Jpeg && !jpeg_is_whole(bytes) {
+        return Err(Error::new(file, "this JPEG has no end marker: it is truncated; make or fetch it again"));
+    }
+    let picture =
+        image::load_from_memory_with_format(bytes, format).map_err(|cause| Error::new(file, explain(&cause)))?;
+    Ok((picture.width(), picture.height(), pixels(picture)))
+}
+
+fn explain(cause: &ImageError) -> String {
+    match cause {
+        ImageError::Unsupported(what) => {
+            format!("a feature that is not supported ({what}); store the picture again as plain PNG")
+        }
+        ImageError::Limits(what) => format!("too large to be read ({what}); make the picture smaller"),
+        other => format!("not a readable picture ({other}); it may be truncated or damaged: make or fetch it again"),
+    }
+}
+
+/// Whether an end marker follows the last scan: the decoder would fill a truncated picture with grey.
+fn jpeg_is_whole(bytes: &[u8]) -> bool {
+    let last = |marker: [u8; 2]| bytes.windows(2).rposition(|pair| pair == marker);
+    last([0xff, 0xd9]) > last([0xff, 0xda])
+}
+
+fn pixels(picture: DynamicImage) -> ImagePixels {
+    match picture {
+        DynamicImage::ImageLuma8(p) => ImagePixels::Gray8(p.into_raw()),
+        DynamicImage::ImageLumaA8(_) | DynamicImage::ImageRgba8(_) => {
+            ImagePixels::Rgba8(picture.into_rgba8().pixels().map(|p| p.0).collect())
+        }
+        DynamicImage::ImageRgb8(p) => ImagePixels::Rgb8(p.pixels().map(|p| p.0).collect()),
+        DynamicImage::ImageRgb32F(p) => ImagePixels::Rgb32F(p.pixels().map(|p| p.0).collect()),
+        DynamicImage::ImageRgba32F(p) => ImagePixels::Rgb32F(p.pixels().map(|p| [p.0[0], p.0[1], p.0[2]]).collect()),
+        wide => ImagePixels::Rgb32F(wide.into_rgb16().pixels().map(|p| p.0.map(|v| f32::from(v) / 65_535.0)).collect()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::picture::decode_picture;
+
+    fn encoded(picture: &DynamicImage, format: ImageFormat) -> Vec<u8> {
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        picture.write_to(&mut bytes, format).expect("encodable");
+        bytes.into_inner()
+    }
+
+    fn read(bytes: &[u8]) -> Result<ImagePixels, String> {
+        decode_picture(Path::new("t.png"), bytes).map(|p| p.pixels).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn sixteen_bits_keep_their_precision() {
+        let picture = image::ImageBuffer::from_pixel(1, 1, image::Rgb([1_u16, 32_768, 65_535]));
+        let pixels = read(&encoded(&DynamicImage::ImageRgb16(picture), ImageFormat::Png)).expect("readable");
+        assert_eq!(pixels, ImagePixels::Rgb32F(vec![[1.0 / 65_535.0, 32_768.0 / 65_535.0, 1.0]]));
+    }
+
+    #[test]
+    fn eight_bits_stay_bytes() {
+        let picture = image::ImageBuffer::from_pixel(2, 1, image::Rgb([1_u8, 2, 3]));
+        assert_eq!(
+            read(&encoded(&DynamicImage::ImageRgb8(picture), ImageFormat::Png)),
+            Ok(ImagePixels::Rgb8(vec![[1, 2, 3]; 2]))
+        );
+        let grey = image::ImageBuffer::from_pixel(1, 1, image::Luma([7_u8]));
+        assert_eq!(read(&encoded(&DynamicImage::ImageLuma8(grey), ImageFormat::Png)), Ok(ImagePixels::Gray8(vec![7])));
+    }
+
+    #[test]
+    fn a_truncated_or_strange_picture_is_refused_by_name() {
+        let picture =
+            DynamicImage::ImageRgb8(image::ImageBuffer::from_fn(32, 32, |x, y| image::Rgb([(x * y) as u8, 2, 3])));
+        for format in [ImageFormat::Png, ImageFormat::Jpeg] {
+            let bytes = encoded(&picture, format);
+            read(&bytes).expect("whole");
+            let told = read(&bytes[..bytes.len() * 2 / 3]).expect_err("truncated");
+            assert!(told.starts_with("t.png: ") && told.contains("truncated"), "{told}");
+        }
+        let told = read(b"#!/bin/sh\n").expect_err("a script");
+        assert_eq!(told, "t.png: not a picture of a known kind; expected PNG, JPEG, Radiance HDR or OpenEXR");
+    }
+
+    #[test]
+    fn an_infinite_pixel_is_named() {
+        let mut exr = crate::exr::tests_support::picture(2, 2, &["R", "G", "B"], 1.0);
+        assert!(matches!(read(&exr), Ok(ImagePixels::Rgb32F(_))));
+        exr = crate::exr::tests_support::picture(2, 2, &["R", "G", "B"], f32::INFINITY);
+        let told = read(&exr).expect_err("infinite");
+        assert!(told.starts_with("t.png: pixel (0, 0) is [inf, inf, inf]; expected finite numbers"), "{told}");
+        let told = read(&crate::exr::tests_support::picture(2, 2, &["depth.Z"], 1.0)).expect_err("no colours");
+        assert_eq!(told, "t.png: no picture of R, G, B or Y; its channels are depth.Z");
+    }
+}
