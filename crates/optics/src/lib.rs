@@ -8,6 +8,7 @@ pub mod pupil_image;
 
 pub use error::OpticsError;
 pub use lens::{
-    ConstantPupil, Lens, Pinhole, PinholeParameters, PupilStatements, Rim, Thick, ThickParameters, Thin, ThinParameters,
+    ConstantPupil, Lens, Pinhole, PinholeParameters, PupilStatements, Rim, Thick, ThickParameters, Thin,
+    ThinParameters, TruthRay,
 };
 pub use pupil_image::{PupilProjection, Resampling, irradiance};

@@ -34,18 +34,31 @@ impl Disc {
 
 /// ∫ z²/d⁴ dA over the part of the pupil inside the rims, sr, for a sensor point `sensor_radius_mm` from the axis.
 pub(crate) fn clipped_etendue_sr(view: &PupilView, sensor_radius_mm: f64, rims: [Option<Disc>; 2]) -> f64 {
-    let discs = || rims.into_iter().flatten().chain([PUPIL]);
-    let chord = |t: f64| {
-        discs().try_fold((f64::NEG_INFINITY, f64::INFINITY), |(low, high), disc| {
-            let half = disc.half_chord(t)?;
-            let (low, high) = (low.max(disc.centre - half), high.min(disc.centre + half));
-            (low < high).then_some((low, high))
-        })
-    };
-    let strip = |t: f64| chord(t).map_or(0.0, |(low, high)| strip_sr(view, sensor_radius_mm, t, low, high));
-    let heights = break_heights(rims);
-    // The region is symmetric about the line: both halves at once.
-    2.0 * heights.windows(2).map(|piece| integrate(&strip, piece[0], piece[1])).sum::<f64>()
+    over_half(rims, |t, low, high| strip_sr(view, sensor_radius_mm, t, low, high)) * 2.0
+}
+
+/// Where on the line the centroid (by area) of the part of the pupil inside the rims lies; `None` where nothing is open.
+pub(crate) fn open_centroid(rims: [Option<Disc>; 2]) -> Option<f64> {
+    let area = over_half(rims, |_, low, high| high - low);
+    let moment = over_half(rims, |_, low, high| 0.5 * (high - low) * (high + low));
+    (area > 0.0).then(|| moment / area)
+}
+
+/// The integral over height of `strip(height, low, high)` over one half of the open region, which is symmetric about the
+/// line.
+fn over_half(rims: [Option<Disc>; 2], strip: impl Fn(f64, f64, f64) -> f64) -> f64 {
+    let at = |t: f64| chord(rims, t).map_or(0.0, |(low, high)| strip(t, low, high));
+    break_heights(rims).windows(2).map(|piece| integrate(&at, piece[0], piece[1])).sum()
+}
+
+/// The ends of the open region's chord at height `t`.
+fn chord(rims: [Option<Disc>; 2], t: f64) -> Option<(f64, f64)> {
+    let discs = rims.into_iter().flatten().chain([PUPIL]);
+    let (low, high) = discs.into_iter().try_fold((f64::NEG_INFINITY, f64::INFINITY), |(low, high), disc| {
+        let half = disc.half_chord(t)?;
+        Some((low.max(disc.centre - half), high.min(disc.centre + half)))
+    })?;
+    (low < high).then_some((low, high))
 }
 
 /// The strip at height `t` from `low` to `high`, per unit of height: ∫ z² a² / (A² + (a s + X)²)² ds with
@@ -162,6 +175,16 @@ mod tests {
                 assert!((fast / slow - 1.0).abs() < 1e-7, "{rims:?} at {x}: {fast} against {slow}");
             }
         }
+    }
+
+    #[test]
+    fn the_centroid_of_a_lens_shape_is_its_middle() {
+        let middle = open_centroid([Some(Disc { centre: 0.8, radius: 1.0 }), None]).expect("open");
+        assert!((middle - 0.4).abs() < 1e-12);
+        assert_eq!(open_centroid([Some(Disc { centre: 2.1, radius: 1.0 }), None]), None);
+        // A half disc, cut by a huge circle: 4/3π; the cut's sagitta is 1/(2·1e6).
+        let half = open_centroid([Some(Disc { centre: 1e6, radius: 1e6 }), None]).expect("open");
+        assert!((half - 4.0 / (3.0 * PI)).abs() < 1e-6);
     }
 
     #[test]

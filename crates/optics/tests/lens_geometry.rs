@@ -190,6 +190,10 @@ fn a_clipped_chief_ray_is_none_where_light_may_still_come() {
     let at = DVec2::new(2.1, 0.0);
     assert!(lens.principal_ray(at).is_none());
     assert!(lens.etendue_sr(at) > 0.0);
+    // To look right through a rim in front, a ray must start on the left.
+    let truth = lens.truth_ray(at).expect("light comes");
+    assert!(truth.off_centre && truth.ray.origin_m.x < 0.0 && truth.ray.weight_sr > 0.0, "{truth:?}");
+    assert!(!lens.truth_ray(DVec2::ZERO).expect("open").off_centre);
     assert!(lens.project(DVec3::Z).is_some());
 }
 

@@ -41,6 +41,15 @@ pub enum Lens {
     Thick(Thick),
 }
 
+/// The ray by which ground truth looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TruthRay {
+    /// The ray.
+    pub ray: PupilRay,
+    /// Whether the chief ray is clipped and this one goes through the centroid of the open part of the pupil instead.
+    pub off_centre: bool,
+}
+
 macro_rules! each {
     ($self:expr, $lens:ident => $body:expr) => {
         match $self {
@@ -109,6 +118,19 @@ impl Lens {
     #[must_use]
     pub fn principal_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
         each!(self, lens => lens.principal_ray(sensor_mm))
+    }
+
+    /// The ray by which ground truth looks: the principal ray, or, where that is clipped but light arrives, the ray through
+    /// the centroid of the open part of the pupil. `None` where no light comes.
+    #[must_use]
+    pub fn truth_ray(&self, sensor_mm: DVec2) -> Option<TruthRay> {
+        if let Some(ray) = self.principal_ray(sensor_mm) {
+            return Some(TruthRay { ray, off_centre: false });
+        }
+        match self {
+            Self::Pinhole(_) | Self::Thin(_) => None,
+            Self::Thick(lens) => lens.centroid_ray(sensor_mm).map(|ray| TruthRay { ray, off_centre: true }),
+        }
     }
 
     /// Where a direction of the camera frame (any length) is seen, mm; `None` behind the lens and beyond the

@@ -49,7 +49,7 @@
 use super::body::Body;
 use super::focus::{Conjugates, PupilSize};
 use crate::error::{OpticsError, finite, positive};
-use crate::overlap::{Disc, clipped_etendue_sr};
+use crate::overlap::{Disc, clipped_etendue_sr, open_centroid};
 use crate::pupil::{MM, Pencil, PupilView, concentric_disc};
 use etendue_core::ray::PupilRay;
 use glam::DVec2;
@@ -194,6 +194,13 @@ impl Thick {
 
     pub(super) fn principal_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
         self.through(sensor_mm, DVec2::ZERO)
+    }
+
+    /// The ray through the centroid of what the rims leave open of the pupil.
+    pub(super) fn centroid_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
+        let bundle = self.bundle(sensor_mm)?;
+        let centroid = open_centroid(self.rim_discs(&bundle, sensor_mm.length()))?;
+        self.through(sensor_mm, sensor_mm.normalize_or(DVec2::X) * centroid)
     }
 
     /// The ray through the point `q` of the unit disc that both pupils are; `None` where a rim stops it.
