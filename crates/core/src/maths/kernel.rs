@@ -1,5 +1,7 @@
 //! What both precisions are built from: polynomials, series, powers of two.
 
+use core::f64::consts::{FRAC_PI_2, PI};
+
 /// ln 2 to 32 bits, so that its products with exponents are exact.
 pub(super) const LN_2_HIGH: f64 = f64::from_bits(0x3fe6_2e42_fee0_0000);
 /// The rest of ln 2.
@@ -39,14 +41,32 @@ pub(super) fn split(x: f64) -> (i32, f64) {
     (k as i32, f64::from_bits((bits - (k << 52)).cast_unsigned()))
 }
 
-/// Sine and cosine of an angle `quadrant` quarter turns further on. By bits: a branch on a random quadrant would cost
-/// more than all the rest.
+/// Cosine and sine of no, one, two and three quarter turns.
+const QUARTER_TURNS: [(f64, f64); 4] = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)];
+
+/// Sine and cosine of an angle `quadrant` quarter turns further on. By a rotation, which is exact: a branch on a random
+/// quadrant would cost more than all the rest.
 #[inline(always)]
 pub(super) fn turned(sin: f64, cos: f64, quadrant: i32) -> (f64, f64) {
-    let (sin, cos, quadrant) = (sin.to_bits(), cos.to_bits(), i64::from(quadrant).cast_unsigned());
-    let swap = (sin ^ cos) & (quadrant & 1).wrapping_neg();
-    let (sin_sign, cos_sign) = ((quadrant & 2) << 62, (quadrant.wrapping_add(1) & 2) << 62);
-    (f64::from_bits(sin ^ swap ^ sin_sign), f64::from_bits(cos ^ swap ^ cos_sign))
+    let (c, s) = QUARTER_TURNS[(quadrant & 3) as usize];
+    (c * sin + s * cos, c * cos - s * sin)
+}
+
+/// The angle (high part, low part) that an octant of the upper half plane starts or ends with, and the sign of the
+/// octant's own angle: by |y| > |x| (1) and x < 0 (2).
+const OCTANTS: [(f64, f64, f64); 4] = [
+    (0.0, 0.0, 1.0),
+    (FRAC_PI_2, f64::from_bits(0x3c91_a626_3314_5c07), -1.0),
+    (PI, f64::from_bits(0x3ca1_a626_3314_5c07), -1.0),
+    (FRAC_PI_2, f64::from_bits(0x3c91_a626_3314_5c07), 1.0),
+];
+
+/// The angle of a point in the upper half plane from that of its octant, 0 to π/4; `steep` is |y| > |x|. By a table,
+/// for the same reason as [`turned`].
+#[inline(always)]
+pub(super) fn out_of_octant(octant: f64, steep: bool, behind: bool) -> f64 {
+    let (high, low, sign) = OCTANTS[usize::from(steep) | usize::from(behind) << 1];
+    high + (sign * octant + low)
 }
 
 /// The smaller and the larger of two ordinary numbers.

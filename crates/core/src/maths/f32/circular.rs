@@ -1,10 +1,10 @@
 //! Circular functions and their inverses.
 
 use super::super::kernel::{
-    ATAN_QUARTERS, circular_series, in_order, inverse_tangent_series, nearest, polynomial, turned,
+    ATAN_QUARTERS, circular_series, in_order, inverse_tangent_series, nearest, out_of_octant, polynomial, turned,
 };
 use super::special;
-use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
+use core::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 /// Beyond it, angles are reduced by libm.
 const LARGEST: f32 = 1.0e6;
@@ -98,9 +98,7 @@ fn atan_octant(n: f64, d: f64) -> f64 {
 fn angle_wide(y: f64, x: f64) -> f64 {
     let (ay, ax) = (y.abs(), x.abs());
     let (n, d) = in_order(ay, ax);
-    let octant = atan_octant(n, d);
-    let first = if ay > ax { FRAC_PI_2 - octant } else { octant };
-    if x < 0.0 { PI - first } else { first }
+    out_of_octant(atan_octant(n, d), ay > ax, x < 0.0)
 }
 
 /// The angle of the point (x, y) from the x axis, in −π to π, with the conventions of C for zeros and infinities.

@@ -1,9 +1,9 @@
 //! Sine, cosine and the angle of a point.
 
 use super::super::kernel::{
-    ATAN_QUARTERS, circular_series, in_order, inverse_tangent_series, nearest, polynomial, turned,
+    ATAN_QUARTERS, circular_series, in_order, inverse_tangent_series, nearest, out_of_octant, polynomial, turned,
 };
-use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
+use core::f64::consts::FRAC_2_PI;
 
 /// Beyond it, angles are reduced by libm.
 const LARGEST: f64 = 16_384.0;
@@ -14,9 +14,6 @@ const HALF_PI: [f64; 3] = [
     f64::from_bits(0x3d86_8c23_4c4c_4000),
     f64::from_bits(0x3b13_145c_06e0_e689),
 ];
-/// What π/2 and π lack as `f64`.
-const HALF_PI_LOW: f64 = f64::from_bits(0x3c91_a626_3314_5c07);
-const PI_LOW: f64 = f64::from_bits(0x3ca1_a626_3314_5c07);
 
 /// Next terms: 8e-20 of the sine, 3e-18 of the cosine, at π/4.
 const SIN: [f64; 8] = circular_series(3, -1.0);
@@ -108,9 +105,7 @@ fn angle(y: f64, x: f64) -> f64 {
     let (ay, ax) = (y.abs(), x.abs());
     let (n, d) = in_order(ay, ax);
     let scale = rescale(d);
-    let octant = atan_octant(n * scale, d * scale);
-    let first = if ay > ax { FRAC_PI_2 - (octant - HALF_PI_LOW) } else { octant };
-    if x < 0.0 { PI - (first - PI_LOW) } else { first }
+    out_of_octant(atan_octant(n * scale, d * scale), ay > ax, x < 0.0)
 }
 
 /// The angle of the point (x, y) from the x axis, in −π to π, with the conventions of C for zeros and infinities.

@@ -1,9 +1,9 @@
-//! Exponentials and the natural logarithm.
+//! The exponential and the natural logarithm.
 
 use super::super::kernel::{
     LN_2_HIGH, LN_2_LOW, exponential_series, inverse_tangent_series, nearest, polynomial, power_of_two, split,
 };
-use core::f64::consts::{LN_2, LOG2_E};
+use core::f64::consts::LOG2_E;
 
 /// Next term: 4e-18 at half of ln 2.
 const EXP: [f64; 12] = exponential_series();
@@ -36,17 +36,6 @@ pub fn exp(x: f64) -> f64 {
     }
     let (whole, k) = nearest(x * LOG2_E);
     scaled(exp_reduced(x - whole * LN_2_HIGH, whole * LN_2_LOW), k)
-}
-
-/// 2 to the power of x; exact for whole numbers.
-#[must_use]
-#[inline]
-pub fn exp2(x: f64) -> f64 {
-    if x.is_nan() || x.abs() > 1100.0 {
-        return libm::exp2(x);
-    }
-    let (whole, k) = nearest(x);
-    scaled(exp_reduced((x - whole) * LN_2, 0.0), k)
 }
 
 /// Natural logarithm; −∞ of zero, NaN of a negative number.

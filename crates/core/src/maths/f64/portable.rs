@@ -18,6 +18,12 @@ pub fn acos(x: f64) -> f64 {
     libm::acos(x)
 }
 
+/// 2 to the power of x; exact for whole numbers.
+#[must_use]
+pub fn exp2(x: f64) -> f64 {
+    libm::exp2(x)
+}
+
 /// e to the power of x, less one.
 #[must_use]
 pub fn exp_m1(x: f64) -> f64 {
