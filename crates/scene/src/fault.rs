@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::place::Place;
+use crate::place::{Place, Placed};
 
 /// One fault: where it stands, what is wrong with what was expected, and what to do.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -23,6 +23,18 @@ impl Fault {
     }
 }
 
+impl Named {
+    /// What it is.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Mesh => "mesh",
+            Self::Texture => "texture",
+            Self::Material => "material",
+            Self::Class => "class",
+        }
+    }
+}
+
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}; {}", self.place, self.problem, self.remedy)
@@ -30,16 +42,27 @@ impl fmt::Display for Fault {
 }
 
 /// All faults of a description, by file and line. Displays one a line.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub struct Faults {
     list: Vec<Fault>,
+    /// Names that were used while reading and must turn out to be defined.
+    uses: Vec<(Named, Placed<String>)>,
+}
+
+/// What can be called by name from elsewhere in a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Named {
+    Mesh,
+    Texture,
+    Material,
+    Class,
 }
 
 impl Faults {
     /// No faults yet.
     #[must_use]
     pub fn none() -> Self {
-        Self { list: Vec::new() }
+        Self { list: Vec::new(), uses: Vec::new() }
     }
 
     /// The faults, by file and line.
@@ -51,6 +74,16 @@ impl Faults {
     /// Notes a fault.
     pub fn add(&mut self, place: &Place, problem: impl Into<String>, remedy: impl Into<String>) {
         self.list.push(Fault::new(place, problem, remedy));
+    }
+
+    /// Remembers that a name is used.
+    pub(crate) fn note_use(&mut self, named: Named, name: Placed<String>) {
+        self.uses.push((named, name));
+    }
+
+    /// Hands over the names that were used.
+    pub(crate) fn take_uses(&mut self) -> Vec<(Named, Placed<String>)> {
+        std::mem::take(&mut self.uses)
     }
 
     /// How many there are.

@@ -25,7 +25,7 @@ mod schema;
 mod suggest;
 
 pub use fault::{Fault, Faults};
-pub use load::{Description, ReadText, load_camera};
+pub use load::{CameraSetup, Description, ReadText, load_camera};
 pub use overrides::Overrides;
 pub use place::{Place, Placed};
 pub use schema::{FileKind, schema};

@@ -1,66 +1,33 @@
 //! Checks that need more than one record: names that must exist, cameras with their job.
 
-use super::Description;
-use super::names;
+use std::collections::BTreeSet;
+
+use super::{Description, names};
 use crate::document::Node;
-use crate::fault::Faults;
+use crate::fault::{Faults, Named};
 use crate::place::Placed;
-use crate::record::reflectance::Reflectance;
 use crate::record::render::check_merged;
-use crate::record::{Body, Material, Object, Surface};
 use crate::suggest::nearest;
 
-/// Every name that is used is defined.
-pub(super) fn references(description: &Description, document: &Node, faults: &mut Faults) {
-    let known = Known {
-        meshes: names::of(document, "meshes"),
-        materials: names::of(document, "materials"),
-        textures: names::of(document, "textures"),
-        classes: names::of_classes(document),
+/// Every name that was used while reading is defined.
+pub(super) fn references(document: &Node, faults: &mut Faults) {
+    let uses = faults.take_uses();
+    let known = |named| match named {
+        Named::Mesh => names::of(document, "meshes"),
+        Named::Texture => names::of(document, "textures"),
+        Named::Material => names::of(document, "materials"),
+        Named::Class => names::of_classes(document),
     };
-    description.scene.objects.iter().for_each(|o| known.check_object(o, faults));
-    description.scene.materials.iter().for_each(|m| known.check_material(m, faults));
-}
-
-struct Known<'d> {
-    meshes: Vec<&'d str>,
-    materials: Vec<&'d str>,
-    textures: Vec<&'d str>,
-    classes: Vec<&'d str>,
-}
-
-impl Known<'_> {
-    fn check_object(&self, object: &Object, faults: &mut Faults) {
-        if let Body::Mesh(mesh) = &object.body {
-            must_exist("mesh", mesh, &self.meshes, faults);
-        }
-        for material in object.material.iter().chain(object.materials.iter().map(|(_, m)| m)) {
-            must_exist("material", material, &self.materials, faults);
-        }
-        if let Some(class) = &object.class {
-            must_exist("class", class, &self.classes, faults);
-        }
-    }
-
-    fn check_material(&self, material: &Material, faults: &mut Faults) {
-        if let Some(texture) = material.emission.as_ref().and_then(|e| e.texture.as_ref()) {
-            must_exist("texture", texture, &self.textures, faults);
-        }
-        let reflectance = match &material.surface {
-            Surface::Diffuse(d) => &d.reflectance,
-            Surface::Coated(c) => &c.reflectance,
-            Surface::Conductor(_) | Surface::Emitter(_) => return,
-        };
-        if let Reflectance::Texture { name, .. } = reflectance {
-            must_exist("texture", name, &self.textures, faults);
+    for named in [Named::Mesh, Named::Texture, Named::Material, Named::Class] {
+        let known = known(named);
+        let defined: BTreeSet<_> = known.iter().copied().collect();
+        for (_, name) in uses.iter().filter(|(n, name)| *n == named && !defined.contains(name.as_str())) {
+            note_unknown(named.word(), name, &known, faults);
         }
     }
 }
 
-fn must_exist(what: &str, name: &Placed<String>, known: &[&str], faults: &mut Faults) {
-    if known.contains(&name.as_str()) {
-        return;
-    }
+fn note_unknown(what: &str, name: &Placed<String>, known: &[&str], faults: &mut Faults) {
     let remedy = match (known, nearest(name, known)) {
         ([], _) => format!("define the {what}, the scene has none"),
         (_, Some(near)) => format!("did you mean \"{near}\"? Known: {}", known.join(", ")),

@@ -58,11 +58,11 @@ impl Description {
     fn read(file: &Path, document: &Node, faults: &mut Faults) -> Option<Self> {
         let job = record::<Job>().read(document, faults);
         names::check(document, faults);
+        check::references(document, faults);
         let job = job?;
         let (render, output) = (job.render.as_ref(), job.output.as_ref());
         let cameras: Vec<_> = job.cameras.into_iter().map(|c| CameraSetup::new(c, render, output)).collect();
         let description = Self { file: file.to_owned(), scene: job.scene, cameras };
-        check::references(&description, document, faults);
         check::cameras(&description, faults);
         Some(description)
     }

@@ -232,7 +232,7 @@ pub(crate) fn only_key<'k>(reader: &mut Reader<'_>, keys: &[&'k str], faults: &m
     }
     let place = given.last().and_then(|k| reader.given(k)).unwrap_or(reader.place());
     let problem = match given.as_slice() {
-        [] => "something is missing".to_owned(),
+        [] => "a key is missing".to_owned(),
         _ => format!("{} contradict each other", quoted(&given)),
     };
     faults.add(place, problem, format!("give exactly one of {}", quoted(keys)));

@@ -18,14 +18,19 @@ pub(crate) trait Record: Sized {
 
     /// Every key of every form, each once.
     fn keys() -> Vec<&'static str> {
-        let mut keys = Vec::new();
-        for key in Self::forms().into_iter().flat_map(|f| f.keys).map(|k| k.name) {
-            if !keys.contains(&key) {
-                keys.push(key);
-            }
-        }
-        keys
+        keys_of(&Self::forms())
     }
+}
+
+/// Every key of the forms, each once.
+fn keys_of<'f>(forms: impl IntoIterator<Item = &'f Form>) -> Vec<&'static str> {
+    let mut keys = Vec::new();
+    for key in forms.into_iter().flat_map(|f| &f.keys).map(|k| k.name) {
+        if !keys.contains(&key) {
+            keys.push(key);
+        }
+    }
+    keys
 }
 
 /// One shape of a table.
@@ -60,6 +65,16 @@ impl Form {
     pub(crate) fn product(forms: &[Self], others: &[Self]) -> Vec<Self> {
         let joined = |a: &Self, b: &Self| Self { keys: a.keys.iter().chain(&b.keys).cloned().collect() };
         forms.iter().flat_map(|a| others.iter().map(move |b| joined(a, b))).collect()
+    }
+
+    fn has(&self, key: &str) -> bool {
+        self.keys.iter().any(|k| k.name == key)
+    }
+
+    /// Whether the words that tell this form from others are those of the table.
+    fn fits(&self, table: &Table) -> bool {
+        let marks = self.keys.iter().filter_map(|k| Some((k.name, k.schema.get("const")?.as_str())));
+        marks.into_iter().all(|(key, word)| table.get(key).and_then(Node::as_text) == word)
     }
 
     /// In words, how the form is told from others: `type = "sun"`.
@@ -151,22 +166,23 @@ impl<'t> Reader<'t> {
         }
         let forms = T::forms();
         for (entry, _) in self.table.entries.iter().zip(&self.taken).filter(|(_, taken)| !**taken) {
-            let (problem, remedy) = stray(&entry.key, &forms, &T::keys());
+            let (problem, remedy) = stray(&entry.key, &forms, self.table);
             faults.add(&entry.place, problem, remedy);
         }
     }
 }
 
 /// What is wrong with a key that was not read, and what to do.
-fn stray(key: &str, forms: &[Form], keys: &[&'static str]) -> (String, String) {
-    let owners: Vec<_> = forms.iter().filter(|f| f.keys.iter().any(|k| k.name == key)).filter_map(Form::mark).collect();
+fn stray(key: &str, forms: &[Form], table: &Table) -> (String, String) {
+    let owners: Vec<_> = forms.iter().filter(|f| f.has(key)).filter_map(Form::mark).collect();
     if !owners.is_empty() {
         let problem = format!("\"{key}\" has no effect here, it belongs to {}", owners.join(" or "));
         return (problem, "remove it".to_owned());
     }
-    let remedy = match nearest(key, keys) {
-        Some(word) => format!("did you mean \"{word}\"? The keys are {}", quoted(keys)),
-        None => format!("remove it; the keys are {}", quoted(keys)),
+    let keys = keys_of(forms.iter().filter(|f| f.fits(table)));
+    let remedy = match nearest(key, &keys) {
+        Some(word) => format!("did you mean \"{word}\"?"),
+        None => format!("remove it; the keys are {}", quoted(&keys)),
     };
     (format!("\"{key}\" is no key of this table"), remedy)
 }

@@ -7,7 +7,7 @@ use serde_json::{Value as Json, json};
 
 use super::rule::{Kind, Rule};
 use crate::document::{Node, Value};
-use crate::fault::Faults;
+use crate::fault::{Faults, Named};
 use crate::place::Placed;
 use crate::suggest::nearest;
 
@@ -70,6 +70,36 @@ impl Rule for Text {
             Some(v) => Some(Placed::new(v.to_owned(), node.place.clone())),
             None => self.refuse(node, faults),
         }
+    }
+}
+
+/// The name of something that the scene defines elsewhere.
+pub(crate) const fn name_of(named: Named) -> NameOf {
+    NameOf { named }
+}
+
+/// See [`name_of`].
+#[derive(Clone, Copy)]
+pub(crate) struct NameOf {
+    named: Named,
+}
+
+impl Rule for NameOf {
+    type Out = Placed<String>;
+    fn takes(&self, kind: Kind) -> bool {
+        kind == Kind::Text
+    }
+    fn expected(&self) -> String {
+        format!("the name of a {} (a text)", self.named.word())
+    }
+    fn schema(&self) -> Json {
+        json!({ "type": "string", "minLength": 1 })
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<String>> {
+        let Some(text) = node.as_text().filter(|t| !t.is_empty()) else { return self.refuse(node, faults) };
+        let name = Placed::new(text.to_owned(), node.place.clone());
+        faults.note_use(self.named, name.clone());
+        Some(name)
     }
 }
 

@@ -2,9 +2,9 @@
 
 use super::light::Emission;
 use super::reflectance::{Reflectance, reflectance};
-use crate::fault::Faults;
+use crate::fault::{Faults, Named};
 use crate::place::Placed;
-use crate::reader::{Number, choice, known, number, record, text, variants};
+use crate::reader::{Number, choice, known, name_of, number, record, text, variants};
 use etendue_spectra::metal;
 
 record! {
@@ -28,7 +28,7 @@ record! {
         /// sphere, +z for a quad. Default: "front".
         optional sides: Placed<Sides> = choice();
         /// The name of a texture whose colours are factors on the light. Default: none.
-        optional texture: Placed<String> = text("the name of a texture");
+        optional texture: Placed<String> = name_of(Named::Texture);
     }
 }
 

@@ -2,9 +2,9 @@
 
 use super::shape::Shape;
 use super::transform::Transform;
-use crate::fault::Faults;
+use crate::fault::{Faults, Named};
 use crate::place::{Place, Placed};
-use crate::reader::{keyed, keyed_by_name, list, number, record, text};
+use crate::reader::{keyed, keyed_by_name, list, name_of, number, record, text};
 
 record! {
     /// A mesh or a shape in the world, once or many times.
@@ -14,12 +14,12 @@ record! {
         /// What it is.
         inside body: Body;
         /// The material of all of it. A mesh may do without: then its own file says its materials.
-        optional material: Placed<String> = text("the name of a material");
+        optional material: Placed<String> = name_of(Named::Material);
         /// Materials by the names that the mesh's file gives them: `{ "car_paint" = "red" }`. Names that are not listed
         /// keep what the mesh's file says.
-        many materials: (Placed<String>, Placed<String>) = keyed_by_name(text("the name of a material"));
+        many materials: (Placed<String>, Placed<String>) = keyed_by_name(name_of(Named::Material));
         /// The semantic class, a name in `[classes]`. Default: class 0.
-        optional class: Placed<String> = text("the name of a class");
+        optional class: Placed<String> = name_of(Named::Class);
         /// Where it stands, where it stands once.
         inside transform: Transform;
         /// Where it stands over time. One key stands still; more are refused until motion is rendered.
@@ -33,7 +33,7 @@ keyed! {
     /// What an object is.
     pub enum Body {
         /// The name of a mesh.
-        mesh => Mesh(Placed<String>) = text("the name of a mesh");
+        mesh => Mesh(Placed<String>) = name_of(Named::Mesh);
         /// A shape: a table with "type" and the keys of that type.
         shape => Shape(Shape) = record();
     }

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use super::curve::spectrum_file;
-use crate::fault::Faults;
+use crate::fault::{Faults, Named};
 use crate::place::Placed;
-use crate::reader::{Rule, RuleExt as _, either, keyed, number, record, text, vector};
+use crate::reader::{Rule, RuleExt as _, either, keyed, name_of, number, record, vector};
 
 /// The share of light that a surface reflects.
 #[derive(Clone, Debug)]
@@ -41,7 +41,7 @@ keyed! {
     /// What a reflectance is taken from.
     pub enum ReflectanceSource {
         /// The name of a texture.
-        texture => Texture(Placed<String>) = text("the name of a texture");
+        texture => Texture(Placed<String>) = name_of(Named::Texture);
         /// A colour as encoded in pictures (sRGB, 0 … 1), made a smooth spectrum.
         srgb => Srgb(Placed<[f64; 3]>) = vector::<3>(number("").at_least(0.0).at_most(1.0));
         /// A table of two columns, wavelength in nm and reflectance 0 … 1.

@@ -1,0 +1,105 @@
+//! The example of the page is read as it says.
+
+use std::path::Path;
+
+use crate::files::{Files, doc, load};
+use etendue_scene::asset::{AssetKind, Assets};
+use etendue_scene::record::{Lens, Light, Surface};
+use etendue_scene::{Overrides, load_camera};
+
+fn example() -> Files {
+    Files::of_example(&doc())
+}
+
+#[test]
+fn the_example_is_read() {
+    let d = load(&example(), &[]).unwrap_or_else(|faults| panic!("{faults}"));
+    assert_eq!(d.cameras.len(), 2);
+    assert_eq!(d.scene.objects[1].placements().count(), 2);
+    let Lens::Thin(lens) = &d.cameras[0].camera.lens else { panic!("a thin lens") };
+    assert_eq!(lens.f_number, 2.0);
+    let Light::Sun(sun) = &d.scene.lights[0];
+    assert_eq!(sun.name, "sun".to_owned());
+    assert!(matches!(d.scene.materials[2].surface, Surface::Conductor(_)));
+}
+
+#[test]
+fn a_camera_renders_and_writes_as_the_job_says_where_it_is_silent() {
+    let d = load(&example(), &[]).expect("the example");
+    let spp = |i: usize| d.cameras[i].render.spp.as_ref().map(|v| v.value);
+    assert_eq!((spp(0), spp(1)), (Some(256), Some(64)));
+    let raw = |i: usize| d.cameras[i].output.raw.as_ref().map(|v| v.value);
+    assert_eq!((raw(0), raw(1)), (Some(true), Some(false)));
+}
+
+#[test]
+fn a_value_knows_its_place() {
+    let d = load(&example(), &[]).expect("the example");
+    let place = &d.scene.objects[2].material.as_ref().expect("a material").place;
+    assert_eq!(place.key(), "objects.globe.material");
+    let text = example().text("scene.toml");
+    let (line, column) = place.line_column().expect("in a file");
+    let line = text.lines().nth(line as usize - 1).expect("the line");
+    assert_eq!(&line[column as usize - 1..], "\"lamp\"");
+}
+
+#[test]
+fn a_camera_file_is_read_by_itself() {
+    let files = example();
+    let camera = load_camera(Path::new("camera.toml"), &|p| files.read(p)).expect("the camera");
+    assert_eq!(camera.sensor.width_px, 640);
+}
+
+#[test]
+fn assets_are_listed_once_relative_to_the_job() {
+    let mut files = example();
+    files.rename("scene.toml", "sub/scene.toml");
+    files.edit("job.toml", "scene = \"scene.toml\"", "scene = \"sub/scene.toml\"");
+    let d = load(&files, &[]).expect("the example");
+    let missing = Assets::default().missing(&d);
+    let found: Vec<_> = missing.iter().map(|r| (r.path.as_path(), r.kind)).collect();
+    let expected =
+        [(Path::new("sub/meshes/car.obj"), AssetKind::Mesh), (Path::new("sub/textures/asphalt.png"), AssetKind::Image)];
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn overrides_reach_every_file() {
+    let sets = [
+        "render.spp=16",
+        "cameras.front.render.spp=8",
+        "cameras.front.lens.f_number=2.8",
+        "cameras.1.lens.f_number=4",
+        "scene.lights.sun.elevation_deg=10",
+        "scene.objects.globe.material=red",
+        "output={raw=false}",
+    ];
+    let d = load(&example(), &sets).unwrap_or_else(|faults| panic!("{faults}"));
+    let Lens::Thin(front) = &d.cameras[0].camera.lens else { panic!("a thin lens") };
+    let Lens::Pinhole(left) = &d.cameras[1].camera.lens else { panic!("a pinhole") };
+    let Light::Sun(sun) = &d.scene.lights[0];
+    assert_eq!((front.f_number.value, left.f_number.value, sun.elevation_deg.value), (2.8, 4.0, 10.0));
+    assert_eq!(d.scene.objects[2].material.as_ref().expect("a material").value, "red");
+    assert_eq!(d.cameras[1].render.spp.as_ref().expect("given").value, 16);
+    assert_eq!(d.cameras[0].render.spp.as_ref().expect("given").value, 8);
+    assert!(d.cameras[0].output.radiance.is_none(), "the table was replaced as a whole");
+    assert_eq!(front.f_number.place.to_string(), "--set cameras.front.lens.f_number=2.8");
+}
+
+#[test]
+fn an_override_can_name_another_file() {
+    let mut files = example();
+    files.put("empty.toml", "format = 1\n");
+    let d = load(&files, &["scene=empty.toml", "cameras.front.file=camera.toml"]).expect("an empty scene");
+    assert!(d.scene.objects.is_empty());
+}
+
+#[test]
+fn the_last_override_wins() {
+    let mut overrides = Overrides::new(["render.spp=16"]);
+    overrides.push("render.spp=24");
+    let files = example();
+    let d =
+        etendue_scene::Description::load(Path::new("job.toml"), &|p| files.read(p), &overrides).expect("the example");
+    assert_eq!(d.cameras[1].render.spp.as_ref().expect("given").value, 24);
+}

@@ -1,0 +1,351 @@
+//! Faults in the user's words: each text is pinned.
+
+use crate::files::{Files, doc, load};
+
+/// A small job that is right.
+const JOB: &str = r#"format = 1
+
+[[cameras]]
+name = "front"
+position_m = [0, 0, 1]
+look_at_m = [10, 0, 1]
+
+[cameras.lens]
+model = "thin"
+focal_length_mm = 6
+f_number = 2.0
+focus_distance_m = 5.0
+
+[cameras.sensor]
+width_px = 64
+height_px = 48
+pixel_pitch_um = 6.0
+
+[[scene.materials]]
+name = "grey"
+type = "diffuse"
+reflectance = 0.18
+
+[[scene.objects]]
+name = "wall"
+shape = { type = "quad", size_m = [2, 2] }
+material = "grey"
+position_m = [5, 0, 1]
+"#;
+
+/// The faults of the job with `old` replaced by `new`, one a line.
+fn faults_of(old: &str, new: &str) -> String {
+    let mut files = Files::of_job(JOB);
+    files.edit("job.toml", old, new);
+    load(&files, &[]).err().map_or(String::new(), |f| f.to_string())
+}
+
+/// The faults of the job under overrides.
+fn faults_of_sets(sets: &[&str]) -> String {
+    load(&Files::of_job(JOB), sets).err().map_or(String::new(), |f| f.to_string())
+}
+
+#[test]
+fn the_job_itself_is_right() {
+    assert_eq!(faults_of_sets(&[]), "");
+}
+
+#[test]
+fn a_misspelt_key() {
+    assert_eq!(
+        faults_of("f_number", "f_nmuber"),
+        "job.toml:8:1: cameras.front.lens: the key \"f_number\" is missing; add it: a number above 0\n\
+         job.toml:11:1: cameras.front.lens.f_nmuber: \"f_nmuber\" is no key of this table; did you mean \"f_number\"?"
+    );
+}
+
+#[test]
+fn an_unknown_key_without_a_near_one() {
+    let text = faults_of("size_m = [2, 2]", "size_m = [2, 2], banana = 1");
+    assert_eq!(
+        text,
+        "job.toml:26:43: scene.objects.wall.shape.banana: \"banana\" is no key of this table; \
+         remove it; the keys are \"type\", \"size_m\""
+    );
+}
+
+#[test]
+fn a_key_of_another_variant() {
+    assert_eq!(
+        faults_of("reflectance = 0.18", "reflectance = 0.18\nalpha = 0.1"),
+        "job.toml:23:1: scene.materials.grey.alpha: \"alpha\" has no effect here, it belongs to type = \"conductor\" or \
+         type = \"coated\"; remove it"
+    );
+}
+
+#[test]
+fn an_unknown_variant() {
+    assert_eq!(
+        faults_of("type = \"diffuse\"", "type = \"difuse\""),
+        "job.toml:21:8: scene.materials.grey.type: found the text \"difuse\"; give one of \"diffuse\", \"conductor\", \
+         \"coated\", \"emitter\" (did you mean \"diffuse\"?)"
+    );
+}
+
+#[test]
+fn a_wrong_type() {
+    assert_eq!(
+        faults_of("width_px = 64", "width_px = \"64\""),
+        "job.toml:15:12: cameras.front.sensor.width_px: found the text \"64\"; give a whole number from 1 to 65536"
+    );
+    assert_eq!(
+        faults_of("position_m = [5, 0, 1]", "position_m = [5, 0]"),
+        "job.toml:28:14: scene.objects.wall.position_m: found a list of 2; give a list of 3 numbers, each a finite number (m)"
+    );
+}
+
+#[test]
+fn a_negative_exposure() {
+    let mut files = Files::of_example(&doc());
+    files.edit("camera.toml", "exposure_s = 0.002", "exposure_s = -0.002");
+    let text = load(&files, &[]).expect_err("negative").to_string();
+    assert_eq!(text, "camera.toml:16:14: sensor.exposure_s: found -0.002; give a number above 0 (s)");
+}
+
+#[test]
+fn a_picture_of_no_size() {
+    assert_eq!(
+        faults_of("height_px = 48", "height_px = 0"),
+        "job.toml:16:13: cameras.front.sensor.height_px: found 0; give a whole number from 1 to 65536"
+    );
+}
+
+#[test]
+fn a_focal_length_of_zero() {
+    assert_eq!(
+        faults_of("focal_length_mm = 6", "focal_length_mm = 0"),
+        "job.toml:10:19: cameras.front.lens.focal_length_mm: found 0; give a number above 0 (mm)"
+    );
+}
+
+#[test]
+fn numbers_that_are_none() {
+    let text = faults_of("f_number = 2.0\nfocus_distance_m = 5.0", "f_number = nan\nfocus_distance_m = inf");
+    assert_eq!(
+        text,
+        "job.toml:11:12: cameras.front.lens.f_number: found NaN; give a number above 0\n\
+         job.toml:12:20: cameras.front.lens.focus_distance_m: found inf; give a number above 0 (m)"
+    );
+    assert!(
+        faults_of("position_m = [5, 0, 1]", "position_m = [5, -inf, 1]").contains("found -inf; give a finite number")
+    );
+    assert!(faults_of("f_number = 2.0", "f_number = 1e999").contains("number above 0"));
+    assert!(faults_of("width_px = 64", "width_px = 99999999999999999999").contains("an integer too large for 64 bits"));
+}
+
+#[test]
+fn an_unknown_material() {
+    assert_eq!(
+        faults_of("material = \"grey\"", "material = \"gray\""),
+        "job.toml:27:12: scene.objects.wall.material: there is no material \"gray\"; did you mean \"grey\"? Known: grey"
+    );
+    let text = faults_of("material = \"grey\"", "material = \"grey\"\nclass = \"wall\"");
+    assert_eq!(
+        text,
+        "job.toml:28:9: scene.objects.wall.class: there is no class \"wall\"; define the class, the scene has none"
+    );
+}
+
+#[test]
+fn a_material_that_is_faulty_is_still_known() {
+    let text = faults_of("reflectance = 0.18", "reflectance = 1.8");
+    assert_eq!(
+        text,
+        "job.toml:22:15: scene.materials.grey.reflectance: found 1.8; give a number of at least 0 and at most 1"
+    );
+}
+
+#[test]
+fn an_unknown_texture_mesh_and_metal() {
+    let text = faults_of("reflectance = 0.18", "reflectance = { texture = \"brick\" }");
+    assert!(text.contains("scene.materials.grey.reflectance.texture: there is no texture \"brick\""), "{text}");
+    let text = faults_of("shape = { type = \"quad\", size_m = [2, 2] }", "mesh = \"car\"");
+    assert!(text.contains("scene.objects.wall.mesh: there is no mesh \"car\""), "{text}");
+    let text = faults_of("type = \"diffuse\"\nreflectance = 0.18", "type = \"conductor\"\nmetal = \"Pb\"\nalpha = 0.1");
+    assert!(text.contains("scene.materials.grey.metal: found the text \"Pb\"; give one of \"A"), "{text}");
+}
+
+#[test]
+fn two_keyframes() {
+    let keys = "[[scene.objects.keys]]\ntime_s = 0\n[[scene.objects.keys]]\ntime_s = 1\nposition_m = [1, 0, 0]";
+    assert_eq!(
+        faults_of("position_m = [5, 0, 1]", keys),
+        "job.toml:30:1: scene.objects.wall.keys[1]: a second keyframe makes the object move, and motion is not rendered \
+         yet; keep one keyframe"
+    );
+    assert_eq!(faults_of("position_m = [5, 0, 1]", "keys = [{ time_s = 0, position_m = [5, 0, 1] }]"), "");
+}
+
+#[test]
+fn two_statements_of_one_thing() {
+    let twice = "position_m = [5, 0, 1]\ninstances = [{ position_m = [1, 0, 0] }]";
+    assert!(faults_of("position_m = [5, 0, 1]", twice).contains("\"instances\" contradicts \"position_m\""));
+    assert_eq!(
+        faults_of("look_at_m = [10, 0, 1]", "look_at_m = [10, 0, 1]\nrotation_deg = [0, 0, 0]"),
+        "job.toml:7:1: cameras.front.rotation_deg: \"look_at_m\", \"rotation_deg\" contradict each other; give exactly one of \
+         \"look_at_m\", \"rotation_deg\""
+    );
+    let file = "file = \"camera.toml\"\nposition_m = [0, 0, 1]";
+    assert!(faults_of("position_m = [0, 0, 1]", file).contains("cameras.front.lens: \"lens\" contradicts \"file\""));
+}
+
+#[test]
+fn one_name_twice() {
+    let twice = "[[scene.materials]]\nname = \"grey\"\ntype = \"diffuse\"\nreflectance = 0.2\n\n[[scene.objects]]";
+    assert_eq!(
+        faults_of("[[scene.objects]]", twice),
+        "job.toml:25:8: scene.materials.grey.name: the name \"grey\" is taken by line 20; choose another"
+    );
+    let classes = "[scene.classes]\ncar = 26\nvan = 26\n\n[[scene.objects]]";
+    assert!(
+        faults_of("[[scene.objects]]", classes).contains("scene.classes.van: the class number 26 is taken by line 25")
+    );
+}
+
+#[test]
+fn a_format_that_is_missing_or_another() {
+    assert_eq!(
+        faults_of("format = 1", ""),
+        "job.toml:1:1: the key \"format\" is missing; add \"format = 1\" at the head of the file"
+    );
+    assert_eq!(
+        faults_of("format = 1", "format = 2"),
+        "job.toml:1:10: format: found format 2, and this program reads format 1; write the file in format 1, or use a \
+         program that reads this format"
+    );
+}
+
+#[test]
+fn overrides_that_are_wrong() {
+    let cases = [
+        ("render.spp", "--set render.spp: this is no key=value; give a dotted key, \"=\" and a value: render.spp=16"),
+        ("render.spp=0", "--set render.spp=0: found 0; give a whole number from 1 to 1048576"),
+        ("cameras.front.lens.f_number=-1", "--set cameras.front.lens.f_number=-1: found -1; give a number above 0"),
+        (
+            "cameras.frnt.lens.f_number=4",
+            "--set cameras.frnt.lens.f_number=4: no entry is called \"frnt\"; did you mean \"front\"? give a number from 0 \
+             to 0, or a name: front",
+        ),
+        (
+            "format.x=4",
+            "--set format.x=4: \"format\" is no key of this table; remove it; the keys are \"scene\", \"cameras\", \
+             \"render\", \"output\"",
+        ),
+        (
+            "scene.objects.wall.shape.size_m.x.y=4",
+            "--set scene.objects.wall.shape.size_m.x.y=4: no entry is called \"x\"; give a number from 0 to 1",
+        ),
+        (
+            "cameras.front.name.x=4",
+            "--set cameras.front.name.x=4: there is no table that could hold \"x\"; correct the key",
+        ),
+    ];
+    for (set, expected) in cases {
+        assert_eq!(faults_of_sets(&[set]), expected);
+    }
+    assert!(
+        faults_of_sets(&["render.ssp=16"])
+            .starts_with("--set render.ssp=16: \"ssp\" is no key of this table; did you mean \"spp\"?")
+    );
+}
+
+#[test]
+fn samples_that_replicates_cannot_share() {
+    assert_eq!(
+        faults_of_sets(&["render.spp=10", "cameras.front.render={replicates=4}"]),
+        "--set render.spp=10: 10 samples cannot be shared evenly among 4 replicates; give a multiple of \"replicates\""
+    );
+}
+
+#[test]
+fn files_that_cannot_be_read() {
+    let mut files = Files::of_example(&doc());
+    files.edit("job.toml", "scene = \"scene.toml\"", "scene = \"scenes.toml\"");
+    files.edit("job.toml", "seed = 1", "sede = 1");
+    let text = load(&files, &[]).expect_err("no scene").to_string();
+    assert_eq!(text.lines().count(), 2, "both faults are told, nothing is said of what could not be read:\n{text}");
+    assert!(text.starts_with(
+        "job.toml:2:9: scene: cannot read \"scenes.toml\": no such file; correct the path, which is relative to the file \
+         that names it"
+    ));
+}
+
+#[test]
+fn text_that_is_not_toml() {
+    let text = faults_of("f_number = 2.0", "f_number = = 2.0");
+    assert!(text.starts_with("job.toml:11:12: this is not TOML: "), "{text}");
+    let text = faults_of("f_number = 2.0", "f_number = 2.0\nf_number = 2.0");
+    assert!(text.contains("job.toml:12:1: this is not TOML: duplicate key"), "{text}");
+}
+
+#[test]
+fn several_faults_at_once() {
+    let mut files = Files::of_example(&doc());
+    files.edit("job.toml", "spp = 64", "spp = -64");
+    files.edit("camera.toml", "bits = 12", "bits = 17");
+    files.edit("camera.toml", "fill_factor", "fil_factor");
+    files.edit("scene.toml", "class = \"road\"", "class = \"raod\"");
+    files.edit("scene.toml", "illuminance_lx", "illuminance_lux");
+    files.edit("scene.toml", "size_m = [100.0, 8.0]", "size_m = [100.0, -8.0]");
+    let faults = load(&files, &[]).expect_err("seven faults");
+    let found: Vec<_> =
+        faults.list().iter().map(|f| (f.place.file().to_str().expect("a name"), f.place.key())).collect();
+    let expected = [
+        ("camera.toml", "sensor.fil_factor"),
+        ("camera.toml", "sensor.bits"),
+        ("job.toml", "render.spp"),
+        ("scene.toml", "objects.road.shape.size_m[1]"),
+        ("scene.toml", "objects.road.class"),
+        ("scene.toml", "lights.sun"),
+        ("scene.toml", "lights.sun.illuminance_lux"),
+    ];
+    assert_eq!(found, expected, "{faults}");
+}
+
+#[test]
+fn light_that_says_too_little_or_too_much() {
+    let emitter = |emission: &str| {
+        faults_of("type = \"diffuse\"\nreflectance = 0.18", &format!("type = \"emitter\"\n{emission}"))
+    };
+    assert!(emitter("").contains("scene.materials.grey: an \"emitter\" without \"emission\" is black"));
+    assert!(emitter("emission = { luminance_cd_m2 = 1 }").contains("does not say the colour of the light"));
+    assert!(emitter("emission = { radiance_w_m2_sr_nm = 1, temperature_k = 3000 }").contains("contradicts it"));
+    assert!(emitter("emission = { luminance_cd_m2 = 1, rgb = [0, 0, 0] }").contains("no chromaticity"));
+    assert_eq!(emitter("emission = { radiance_w_m2_sr_nm = 1, sides = \"both\" }"), "");
+}
+
+#[test]
+fn sensors_that_contradict_themselves() {
+    let faults = |old: &str, new: &str| {
+        let mut files = Files::of_example(&doc());
+        files.edit("camera.toml", old, new);
+        load(&files, &[]).err().map_or(String::new(), |f| f.to_string())
+    };
+    assert!(faults("cfa = \"rggb\"", "cfa = \"mono\"").contains("three channels contradicts cfa = \"mono\""));
+    assert!(faults("black_level_dn = 168", "black_level_dn = 4095").contains("a converter of 12 bits ends at 4095 DN"));
+    assert!(
+        faults("{ camera = \"canon-eos-5d-mark-ii\", peak = 0.5 }", "[0.3, 0.4, { spectrum = \"blue.csv\" }]")
+            .is_empty()
+    );
+    assert!(faults(", peak = 0.5", "").contains("need \"peak\""));
+    assert!(faults("exposure_s = 0.002\n", "").contains("sensor: the key \"exposure_s\" is missing"));
+}
+
+#[test]
+fn cameras_that_look_nowhere() {
+    let text = faults_of("look_at_m = [10, 0, 1]", "look_at_m = [0, 0, 5]");
+    assert!(text.contains("cameras.front.look_at_m: the camera looks at its own position or along \"up\""), "{text}");
+    assert_eq!(faults_of("look_at_m = [10, 0, 1]", "look_at_m = [0, 0, 5]\nup = [1, 0, 0]"), "");
+}
+
+#[test]
+fn one_camera_at_least() {
+    let files = Files::of_job("format = 1\ncameras = []\nscene = {}\n");
+    let text = load(&files, &[]).expect_err("no camera").to_string();
+    assert!(text.starts_with("job.toml:2:11: cameras: found a list of 0; give a list (1 or more)"), "{text}");
+}

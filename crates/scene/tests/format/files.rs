@@ -1,0 +1,62 @@
+//! Files in memory.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use etendue_scene::{Description, Faults, Overrides};
+
+/// The page of the format.
+pub(crate) const DOC: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scene-format.md");
+
+pub(crate) fn doc() -> String {
+    std::fs::read_to_string(DOC).expect("the page is in the repository")
+}
+
+/// Files by name.
+pub(crate) struct Files(BTreeMap<String, String>);
+
+impl Files {
+    /// The three files of the page's example: each follows a line that ends with its name.
+    pub(crate) fn of_example(page: &str) -> Self {
+        let mut files = BTreeMap::new();
+        for part in page.split("\nThe ").skip(1) {
+            let Some(name) = part.split('`').nth(1).filter(|n| n.ends_with(".toml")) else { continue };
+            let text = part.split("```toml\n").nth(1).and_then(|t| t.split("```").next()).expect("a block");
+            files.insert(name.to_owned(), text.to_owned());
+        }
+        Self(files)
+    }
+
+    /// One job.
+    pub(crate) fn of_job(text: &str) -> Self {
+        Self([("job.toml".to_owned(), text.to_owned())].into())
+    }
+
+    pub(crate) fn put(&mut self, name: &str, text: &str) {
+        self.0.insert(name.to_owned(), text.to_owned());
+    }
+
+    pub(crate) fn rename(&mut self, name: &str, new: &str) {
+        let text = self.0.remove(name).expect("the file");
+        self.put(new, &text);
+    }
+
+    /// Changes a text that must be there.
+    pub(crate) fn edit(&mut self, name: &str, old: &str, new: &str) {
+        let text = self.text(name);
+        assert!(text.contains(old), "{name} has no {old}");
+        self.put(name, &text.replacen(old, new, 1));
+    }
+
+    pub(crate) fn text(&self, name: &str) -> String {
+        self.0.get(name).expect("the file").clone()
+    }
+
+    pub(crate) fn read(&self, path: &Path) -> Result<String, String> {
+        self.0.get(path.to_str().expect("a name")).cloned().ok_or_else(|| "no such file".to_owned())
+    }
+}
+
+pub(crate) fn load(files: &Files, sets: &[&str]) -> Result<Description, Faults> {
+    Description::load(Path::new("job.toml"), &|p| files.read(p), &Overrides::new(sets))
+}

@@ -1,0 +1,7 @@
+//! The format of descriptions: the example of its page, faults in the user's words, schema and reference.
+
+mod example;
+mod faults;
+mod files;
+mod reference;
+mod schema;

@@ -1,0 +1,1 @@
+//! The reference on the page is the schema.
