@@ -53,9 +53,8 @@ struct Weigher<'a> {
 
 impl<'a> Weigher<'a> {
     fn new(palette: &'a Palette, (low_nm, high_nm): (f64, f64)) -> Self {
-        let weigh = |e: &Emission| {
-            core::f64::consts::PI * e.sides() * e.mean_radiance(palette.textures(), low_nm, high_nm)
-        };
+        let weigh =
+            |e: &Emission| core::f64::consts::PI * e.sides() * e.mean_radiance(palette.textures(), low_nm, high_nm);
         let exitance = palette.materials().iter().map(|m| m.emission.as_ref().map(weigh)).collect();
         Self { palette, exitance }
     }
@@ -65,11 +64,7 @@ impl<'a> Weigher<'a> {
     }
 }
 
-pub(super) fn of_surfaces(
-    view: &View<'_>,
-    palette: &Palette,
-    support_nm: (f64, f64),
-) -> Result<Gathered, LightError> {
+pub(super) fn of_surfaces(view: &View<'_>, palette: &Palette, support_nm: (f64, f64)) -> Result<Gathered, LightError> {
     let world = view.world();
     let weigher = Weigher::new(palette, support_nm);
     let mut gathered = Gathered::default();

@@ -136,14 +136,7 @@ impl Lights {
             distant.push(image.mean_irradiance(low_nm, high_nm));
         }
         let choice = Choice::new(&gathered.powers, &distant);
-        Ok(Self {
-            lights: gathered.lights,
-            choice,
-            primitives: gathered.primitives,
-            suns,
-            first_sun,
-            environment,
-        })
+        Ok(Self { lights: gathered.lights, choice, primitives: gathered.primitives, suns, first_sun, environment })
     }
 
     /// How many lights of each kind there are.

@@ -5,8 +5,8 @@
 //! J = |det M| · |M⁻ᵀ n| where M takes the unit sphere to the render frame and n is the unit sphere's normal.
 
 use core::f32::consts::{PI, TAU};
-use etendue_core::warp::{uniform_cone, uniform_sphere};
 use etendue_core::Basis;
+use etendue_core::warp::{uniform_cone, uniform_sphere};
 use glam::{DAffine3, DMat3, DVec3, Mat3, Vec2, Vec3};
 
 use super::{Glowing, Met, ROUNDING, SurfaceSample, solid_angle_pdf};

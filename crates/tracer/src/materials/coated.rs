@@ -31,9 +31,9 @@ impl Coated {
     /// A base of reflectance `base` under a coat of index `n` and roughness `alpha` (GGX α, 0 to 1).
     ///
     /// # Errors
-    /// Where the roughness is outside 0–1 or the index outside 1.001–4.
+    /// Where the roughness is outside 0–1 or the index outside 1.1–4.
     pub fn new(base: Reflectance, n: f64, alpha: f64) -> Result<Self, MaterialError> {
-        if !(1.001..=4.0).contains(&n) {
+        if !(1.1..=4.0).contains(&n) {
             return Err(MaterialError::CoatIndex { n });
         }
         Ok(Self { base, coat: Coat::new(n as f32, check_alpha(alpha)?) })

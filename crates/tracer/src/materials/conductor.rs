@@ -28,7 +28,7 @@ impl Conductor {
     /// Where the roughness is outside 0–1 or the index is not a substance's (n² + k² must be positive and finite).
     pub fn new(index: ComplexIndex, alpha: f64) -> Result<Self, MaterialError> {
         let alpha = check_alpha(alpha)?;
-        match (300..=1100).find(|nm| !is_a_substance(&index, *nm as f32)) {
+        match (300_u16..=1100).find(|nm| !is_a_substance(&index, f32::from(*nm))) {
             Some(nm) => Err(MaterialError::Index { nm }),
             None => Ok(Self { index, alpha }),
         }

@@ -149,7 +149,7 @@ pub enum MaterialError {
         alpha: f64,
     },
     /// A coat's refractive index is outside its range.
-    #[error("a coat of refractive index {n} was given, but it must lie between 1.001 and 4; correct it")]
+    #[error("a coat of refractive index {n} was given, but it must lie between 1.1 and 4; correct it")]
     CoatIndex {
         /// What was given.
         n: f64,

@@ -62,12 +62,7 @@ impl Palette {
 
     /// A material's scattering at a point, for a path's wavelengths. Panics on an id of another palette.
     #[must_use]
-    pub fn bsdf<const N: usize>(
-        &self,
-        id: MaterialId,
-        lookup: &Lookup,
-        wavelengths: &Wavelengths<N>,
-    ) -> Bsdf<'_, N> {
+    pub fn bsdf<const N: usize>(&self, id: MaterialId, lookup: &Lookup, wavelengths: &Wavelengths<N>) -> Bsdf<'_, N> {
         match &self.materials[id.0 as usize].surface {
             Surface::Absorber => Bsdf::Absorber,
             Surface::Diffuse(r) => {

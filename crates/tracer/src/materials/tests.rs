@@ -1,1 +1,290 @@
+//! Every material against the contract: densities, values, reciprocity, energy.
 
+use super::*;
+use crate::MaterialId;
+use crate::textures::Lookup;
+use etendue_core::Wavelengths;
+use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
+use etendue_spectra::{Spectrum, metal};
+use etendue_stats::{chi_square, family};
+
+const WAVELENGTHS: Wavelengths<4> = Wavelengths { nm: [450.0, 520.0, 600.0, 680.0], pdf: [1.0 / 400.0; 4] };
+const LOOKUP: Lookup = Lookup { uv: Vec2::ZERO, width: 0.0 };
+
+fn palette(surface: Surface) -> Palette {
+    Palette::new(vec![Material { surface, emission: None }], vec![]).expect("a legal material")
+}
+
+fn bsdf(palette: &Palette) -> Bsdf<'_, 4> {
+    palette.bsdf(MaterialId(0), &LOOKUP, &WAVELENGTHS)
+}
+
+fn grey(value: f64) -> Reflectance {
+    Reflectance::Spectrum(Spectrum::constant(value))
+}
+
+fn metal_of(name: &str, alpha: f64) -> Surface {
+    let index = metal::named(name).expect("a known metal").clone();
+    Surface::Conductor(Box::new(Conductor::new(index, alpha).expect("a metal")))
+}
+
+/// So good a conductor that it reflects everything.
+fn perfect_metal(alpha: f64) -> Surface {
+    let index = metal::ComplexIndex { n: Spectrum::constant(0.0), k: Spectrum::constant(3.0) };
+    Surface::Conductor(Box::new(Conductor::new(index, alpha).expect("a metal")))
+}
+
+fn paint(albedo: f64, n: f64, alpha: f64) -> Surface {
+    Surface::Coated(Box::new(Coated::new(grey(albedo), n, alpha).expect("a paint")))
+}
+
+fn at_degrees(degrees: f32) -> Vec3 {
+    let (s, c) = etendue_core::maths::f32::sin_cos(degrees.to_radians());
+    // Turned in azimuth, so that a fault of one axis shows.
+    Vec3::new(0.8 * s, -0.6 * s, c)
+}
+
+fn noise(draw: u32) -> NoiseStream {
+    NoiseStream::new(11, 0, 0, 0, Pixel { x: draw, y: 0 }, NoiseDraw::Shot)
+}
+
+/// Polar cells about `axis`: tan(θ/2) = scale · t/(1 − t), t and φ in equal steps, so that a narrow lobe is resolved.
+struct Cells {
+    basis: etendue_core::Basis,
+    scale: f32,
+}
+
+const RINGS: usize = 20;
+const SECTORS: usize = 16;
+
+impl Cells {
+    fn index(&self, direction: Vec3) -> usize {
+        let local = self.basis.inward(direction);
+        let tan_half = (local.x * local.x + local.y * local.y).sqrt() / (1.0 + local.z).max(1e-9);
+        let t = tan_half / (self.scale + tan_half);
+        let turn = etendue_core::maths::f32::atan2(local.y, local.x) / core::f32::consts::TAU;
+        let sector = ((turn - turn.floor()) * SECTORS as f32) as usize;
+        ((t * RINGS as f32) as usize).min(RINGS - 1) * SECTORS + sector.min(SECTORS - 1)
+    }
+
+    /// ∫ f dω over each cell, by the midpoint rule on `SUB`² points of it.
+    fn integrals(&self, f: impl Fn(Vec3) -> f32) -> Vec<f64> {
+        const SUB: usize = 24;
+        let mut sums = vec![0.0; RINGS * SECTORS];
+        for i in 0..RINGS * SUB {
+            let t = (i as f32 + 0.5) / (RINGS * SUB) as f32;
+            let x = self.scale * t / (1.0 - t);
+            let (cos, sin) = ((1.0 - x * x) / (1.0 + x * x), 2.0 * x / (1.0 + x * x));
+            let dx_dt = self.scale / ((1.0 - t) * (1.0 - t));
+            let area = 4.0 * x / ((1.0 + x * x) * (1.0 + x * x)) * dx_dt * core::f32::consts::TAU
+                / (RINGS * SUB * SECTORS * SUB) as f32;
+            for j in 0..SECTORS * SUB {
+                let phi = core::f32::consts::TAU * (j as f32 + 0.5) / (SECTORS * SUB) as f32;
+                let (s, c) = etendue_core::maths::f32::sin_cos(phi);
+                let direction = self.basis.outward(Vec3::new(sin * c, sin * s, cos));
+                sums[(i / SUB) * SECTORS + j / SUB] += f64::from(f(direction) * area);
+            }
+        }
+        sums
+    }
+}
+
+/// p-value of the counts of drawn directions against the density told; paths absorbed are counted in a cell of their own.
+fn p_of_draws(bsdf: &Bsdf<'_, 4>, wo: Vec3, scale: f32, draw: u32) -> f64 {
+    const N: usize = 100_000;
+    let cells = Cells { basis: etendue_core::Basis::about(Vec3::new(-wo.x, -wo.y, wo.z)), scale };
+    let mut expected = cells.integrals(|wi| bsdf.evaluate(wo, wi).pdf);
+    let absorbed = 1.0 - expected.iter().sum::<f64>();
+    // The quadrature's error at the horizon, where the density may end abruptly.
+    assert!(absorbed > -2e-3, "the density integrates to {}", 1.0 - absorbed);
+    expected.push(absorbed.max(0.0));
+    let mut observed = vec![0_u64; expected.len()];
+    let mut stream = noise(draw);
+    for _ in 0..N {
+        let u = Vec2::new(stream.unit_f32(), stream.unit_f32());
+        let cell = bsdf.sample(wo, stream.unit_f32(), u).map_or(RINGS * SECTORS, |s| cells.index(s.wi));
+        observed[cell] += 1;
+    }
+    // Cells that hardly expect anything take part only with their neighbours: a floor keeps stray counts finite.
+    let expected: Vec<_> = expected.iter().map(|e| (e * N as f64).max(1e-3)).collect();
+    chi_square::goodness_of_fit(&observed, &expected).expect("many cells").p
+}
+
+#[test]
+fn directions_are_drawn_by_the_density_told() {
+    let cases = [
+        (Surface::Diffuse(grey(0.5)), 1.0),
+        (metal_of("Al", 0.01), 0.01),
+        (metal_of("Au", 0.1), 0.1),
+        (metal_of("Cu", 0.5), 0.5),
+        (perfect_metal(1.0), 1.0),
+        (paint(0.5, 1.5, 0.1), 0.2),
+        (paint(0.9, 1.7, 0.4), 0.5),
+    ];
+    let mut p_values = vec![];
+    for (k, (surface, scale)) in cases.into_iter().enumerate() {
+        let palette = palette(surface);
+        for (i, degrees) in [0.0, 30.0, 70.0, 86.0].into_iter().enumerate() {
+            let p = p_of_draws(&bsdf(&palette), at_degrees(degrees), scale, (k * 4 + i) as u32);
+            p_values.push((p, k, degrees));
+        }
+    }
+    let (least, k, degrees) = p_values.iter().copied().min_by(|a, b| a.0.total_cmp(&b.0)).expect("cases");
+    let level = family::sidak_level(0.01, p_values.len());
+    assert!(least > level, "case {k} at {degrees}°: p = {least:e} below {level:e}");
+}
+
+fn all_surfaces() -> Vec<Surface> {
+    vec![
+        Surface::Absorber,
+        Surface::Diffuse(grey(1.0)),
+        metal_of("Ag", 0.0),
+        metal_of("Al", 1e-3),
+        metal_of("Fe", 0.3),
+        perfect_metal(1.0),
+        paint(0.0, 1.5, 0.0),
+        paint(1.0, 1.5, 0.0),
+        paint(1.0, 1.5, 0.05),
+        paint(1.0, 2.5, 1.0),
+        paint(1.0, 1.1, 0.2),
+    ]
+}
+
+#[test]
+fn weights_are_value_over_density() {
+    for (k, surface) in all_surfaces().into_iter().enumerate() {
+        let palette = palette(surface);
+        let bsdf = bsdf(&palette);
+        let mut stream = noise(100 + k as u32);
+        for degrees in [0.0, 45.0, 80.0, 88.0] {
+            let wo = at_degrees(degrees);
+            for _ in 0..200 {
+                let u = Vec2::new(stream.unit_f32(), stream.unit_f32());
+                let Some(s) = bsdf.sample(wo, stream.unit_f32(), u).filter(|s| !s.mirror) else { continue };
+                let value = bsdf.evaluate(wo, s.wi);
+                let ratio = value.value_cos[1] / value.pdf;
+                // Narrow lobes: the half vector is good to 6e-8/cos θ; of a lobe of α = 1e-3 at 88° that is 2e-3.
+                assert!((ratio - s.weight[1]).abs() < 5e-3 * s.weight[1].max(1e-3), "{k} at {degrees}: {s:?}");
+                assert!((value.pdf - s.pdf).abs() < 1e-2 * s.pdf, "{k} at {degrees}: {} {}", value.pdf, s.pdf);
+            }
+        }
+    }
+}
+
+#[test]
+fn every_material_is_reciprocal() {
+    for (k, surface) in all_surfaces().into_iter().enumerate() {
+        let palette = palette(surface);
+        let bsdf = bsdf(&palette);
+        let mut stream = noise(200 + k as u32);
+        for _ in 0..2000 {
+            let mut draw = || etendue_core::warp::cosine_hemisphere(Vec2::new(stream.unit_f32(), stream.unit_f32()));
+            let (a, b) = (draw(), draw());
+            let (there, back) = (bsdf.evaluate(a, b).value_cos / b.z, bsdf.evaluate(b, a).value_cos / a.z);
+            for i in 0..4 {
+                assert!((there[i] - back[i]).abs() <= 1e-4 * there[i].max(1e-6), "{k}: {a} {b} {there:?} {back:?}");
+            }
+        }
+    }
+}
+
+/// Share of light that a surface sends back towards nowhere but the hemisphere, at each wavelength.
+fn albedo(bsdf: &Bsdf<'_, 4>, wo: Vec3) -> Spectral<4> {
+    const N: u32 = 1 << 17;
+    // A lattice of three dimensions (powers of the plastic number's kin): error below 2e-3 for N points.
+    let mut sum = [0.0_f64; 4];
+    for i in 0..N {
+        let at = |k: f64| (0.5 + k * f64::from(i)).fract() as f32;
+        let u = Vec2::new(at(0.819_172_513_396_164_4), at(0.671_043_606_703_789_2));
+        if let Some(s) = bsdf.sample(wo, at(0.549_700_477_901_970_3), u) {
+            (0..4).for_each(|j| sum[j] += f64::from(s.weight[j]));
+        }
+    }
+    Spectral(sum.map(|s| (s / f64::from(N)) as f32))
+}
+
+#[test]
+fn nothing_reflects_more_than_arrives() {
+    for (k, surface) in all_surfaces().into_iter().enumerate() {
+        let palette = palette(surface);
+        for degrees in [0.0, 20.0, 40.0, 60.0, 75.0, 85.0, 89.0, 89.9, 89.99] {
+            let albedo = albedo(&bsdf(&palette), at_degrees(degrees));
+            assert!(albedo.is_finite() && albedo.max_value() <= 1.0 + 2e-3, "{k} at {degrees}: {albedo:?}");
+        }
+    }
+}
+
+#[test]
+fn a_white_base_gives_back_what_the_coat_lets_in() {
+    for alpha in [0.0, 0.05, 0.3, 1.0] {
+        let palette = palette(paint(1.0, 1.5, alpha));
+        for degrees in [0.0, 30.0, 60.0, 80.0, 88.0] {
+            let albedo = albedo(&bsdf(&palette), at_degrees(degrees));
+            assert!((albedo.max_value() - 1.0).abs() < 3e-3, "α {alpha} at {degrees}: {albedo:?}");
+        }
+    }
+}
+
+#[test]
+fn a_smooth_paint_has_saundersons_albedo() {
+    // Under a smooth coat, seen along the normal: F + (1 − F)(1 − F_ext) a / (n² (1 − a F_int)) with the textbook's
+    // F = 0.04, F_ext = 0.0918, F_int = 0.5963.
+    let palette = palette(paint(0.5, 1.5, 0.0));
+    let expected = 0.04 + 0.96 * (1.0 - 0.0918) * 0.5 / (2.25 * (1.0 - 0.5 * 0.5963));
+    let albedo = albedo(&bsdf(&palette), Vec3::Z)[0];
+    assert!((albedo - expected).abs() < 2e-3, "{albedo} {expected}");
+}
+
+#[test]
+fn a_smooth_metal_mirrors_by_fresnel() {
+    let palette = palette(metal_of("Al", 0.0));
+    let index = metal::named("Al").expect("aluminium");
+    let sample = bsdf(&palette).sample(Vec3::Z, 0.0, Vec2::ZERO).expect("a mirror");
+    assert!(sample.mirror && sample.wi == Vec3::new(-0.0, -0.0, 1.0));
+    let (n, k) = (index.n.at(520.0), index.k.at(520.0));
+    let expected = ((n - 1.0) * (n - 1.0) + k * k) / ((n + 1.0) * (n + 1.0) + k * k);
+    assert!((sample.weight[1] - expected).abs() < 1e-6);
+    assert_eq!(bsdf(&palette).evaluate(Vec3::Z, Vec3::Z), BsdfValue::ZERO);
+}
+
+#[test]
+fn a_metal_that_is_hardly_rough_reflects_like_a_mirror() {
+    for degrees in [0.0, 60.0, 85.0] {
+        let (mirror, rough) = (palette(metal_of("Cu", 0.0)), palette(metal_of("Cu", 2.0 * f64::from(MIRROR_ALPHA))));
+        let (a, b) = (albedo(&bsdf(&mirror), at_degrees(degrees)), albedo(&bsdf(&rough), at_degrees(degrees)));
+        assert!((a - b).map(f32::abs).max_value() < 1e-3, "{degrees}: {a:?} {b:?}");
+    }
+}
+
+#[test]
+fn extreme_directions_give_numbers() {
+    let edges =
+        [Vec3::Z, Vec3::new(1.0, 0.0, 1e-7), Vec3::new(0.0, 1.0, 1e-20), Vec3::new(1.0, 0.0, f32::MIN_POSITIVE)];
+    for surface in all_surfaces() {
+        let palette = palette(surface);
+        let bsdf = bsdf(&palette);
+        for wo in edges {
+            for wi in edges.into_iter().chain([-edges[0], Vec3::new(-1.0, 0.0, 1e-7)]) {
+                let value = bsdf.evaluate(wo, wi);
+                assert!(value.value_cos.is_finite() && value.pdf.is_finite(), "{bsdf:?} {wo} {wi}");
+            }
+            for u in [0.0, 0.5, 0.999_999_94] {
+                let sample = bsdf.sample(wo, u, Vec2::splat(u));
+                assert!(sample.is_none_or(|s| s.weight.is_finite() && s.pdf.is_finite() && s.wi.is_finite()));
+            }
+        }
+    }
+}
+
+#[test]
+fn faulty_materials_are_refused() {
+    let of = |surface| Palette::new(vec![Material { surface, emission: None }], vec![]).err();
+    assert!(matches!(of(Surface::Diffuse(grey(1.2))), Some(MaterialError::Reflectance { material: 0, .. })));
+    assert!(matches!(of(Surface::Diffuse(grey(-0.1))), Some(MaterialError::Reflectance { .. })));
+    let textured = Surface::Diffuse(Reflectance::Texture(crate::textures::TextureId(2)));
+    assert_eq!(of(textured), Some(MaterialError::UnknownTexture { material: 0, texture: 2, textures: 0 }));
+    assert_eq!(Coated::new(grey(0.5), 1.0, 0.1), Err(MaterialError::CoatIndex { n: 1.0 }));
+    assert_eq!(Coated::new(grey(0.5), 1.5, 1.5), Err(MaterialError::Roughness { alpha: 1.5 }));
+    let nothing = metal::ComplexIndex { n: Spectrum::constant(0.0), k: Spectrum::constant(0.0) };
+    assert_eq!(Conductor::new(nothing, 0.1), Err(MaterialError::Index { nm: 300 }));
+}

@@ -225,7 +225,8 @@ mod tests {
         let t = ImageTexture::new(2, 1, black_and_white, Sampling::default()).expect("a picture");
         assert!(near(t.sample(&lookup(0.5, 0.5, 100.0))[0], 0.5));
         assert!(near(read(&t, 0.25, 0.5), 0.0));
-        let linear = ImageTexture::new(1, 1, Texels::Linear8(vec![[51, 0, 255]]), Sampling::default()).expect("one texel");
+        let linear =
+            ImageTexture::new(1, 1, Texels::Linear8(vec![[51, 0, 255]]), Sampling::default()).expect("one texel");
         assert_eq!(linear.sample(&lookup(0.1, 0.9, 0.0)), [0.2, 0.0, 1.0]);
     }
 
@@ -243,9 +244,6 @@ mod tests {
         let size = ImageTexture::new(2, 2, Texels::Linear8(vec![[0; 3]; 3]), Sampling::default());
         assert_eq!(size.err(), Some(TextureError::Size { width: 2, height: 2, found: 3 }));
         let nan = Texels::Float(vec![[0.0; 3], [f32::NAN; 3]]);
-        assert_eq!(
-            ImageTexture::new(2, 1, nan, Sampling::default()).err(),
-            Some(TextureError::NonFinite { texel: 1 })
-        );
+        assert_eq!(ImageTexture::new(2, 1, nan, Sampling::default()).err(), Some(TextureError::NonFinite { texel: 1 }));
     }
 }

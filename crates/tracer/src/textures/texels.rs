@@ -33,7 +33,7 @@ pub(super) enum Store {
 impl Store {
     pub(super) fn new(texels: Texels) -> Self {
         match texels {
-            Texels::Srgb8(texels) => Self::Bytes { texels, linear: table(|i| colour::decode_byte(i)) },
+            Texels::Srgb8(texels) => Self::Bytes { texels, linear: table(colour::decode_byte) },
             Texels::Linear8(texels) => Self::Bytes { texels, linear: table(|i| f32::from(i) / 255.0) },
             Texels::Float(texels) => Self::Float(texels),
         }
