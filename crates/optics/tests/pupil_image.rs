@@ -112,6 +112,10 @@ fn a_picture_that_looks_beyond_the_stored_image_is_refused_with_the_angle() {
     let refused = Resampling::new(geometry, &lens(), &wider).expect_err("four columns more on the left");
     let OpticsError::MissingDirections { edge, missing_rad } = refused else { panic!("{refused}") };
     assert_eq!(edge, "left");
+    assert!(
+        geometry.widened(4, 0).check_covers(&lens(), &wider).is_ok()
+            && geometry.widened(3, 9).check_covers(&lens(), &wider).is_err()
+    );
     let across = |px: f64| etendue_core::maths::f64::atan(px * 0.05 / 4.0);
     // In the row of the axis the four columns span the largest angle.
     assert!((missing_rad - (across(34.25) - across(30.25))).abs() < 1e-3, "{missing_rad}");

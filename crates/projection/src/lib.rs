@@ -3,18 +3,20 @@
 //! | model | maps | file |
 //! | --- | --- | --- |
 //! | [`Rectilinear`] | direction ↔ ideal point of the sensor plane, mm | `rectilinear.rs` |
-//! | [`RadialDistortion`] | ideal point ↔ observed point of the sensor plane, mm | `radial.rs`, on `polynomial.rs` |
+//! | [`RadialDistortion`] | ideal point ↔ observed point of the sensor plane, mm | `radial.rs`, on `polynomial.rs`; `fit.rs` |
 //! | [`Raster`], [`CameraMatrix`] | point of the sensor plane, mm ↔ raster coordinates, px | `raster.rs` |
 //!
 //! Frames are those of `etendue_core`: camera x right, y down, z forward; sensor x right, y down as the erect picture is
 //! seen, mm from the principal point; raster x right, y down, pixel centres at + 0.5.
 
+mod fit;
 mod polynomial;
 mod radial;
 mod raster;
 mod rectilinear;
 
+pub use fit::Fit;
 pub use polynomial::RadialPolynomial;
-pub use radial::{DistortionError, Fit, RadialDistortion, RadiusScales, RadiusUnit, Sense};
+pub use radial::{DistortionError, RadialDistortion, RadiusScales, RadiusUnit, Sense};
 pub use raster::{CameraMatrix, Raster, RasterError};
 pub use rectilinear::Rectilinear;

@@ -16,6 +16,7 @@
 mod body;
 mod focus;
 mod pinhole;
+mod statements;
 mod thick;
 mod thin;
 
@@ -27,7 +28,8 @@ use etendue_projection::{RadialDistortion, Raster, Rectilinear};
 use glam::{DVec2, DVec3};
 
 pub use pinhole::{Pinhole, PinholeParameters};
-pub use thick::{ConstantPupil, PupilStatements, Rim, Thick, ThickParameters};
+pub use statements::PupilStatements;
+pub use thick::{ConstantPupil, Rim, Thick, ThickParameters};
 pub use thin::{Thin, ThinParameters};
 
 /// A lens: the closed list.

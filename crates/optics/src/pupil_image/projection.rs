@@ -54,6 +54,18 @@ impl PupilProjection {
         Self::new(size.x as usize, size.y as usize, pitch_tan, principal_px)
     }
 
+    /// The same image with `columns` more on the left and on the right, and `rows` more above and below: room for other
+    /// lenses and sensors.
+    #[must_use]
+    pub fn widened(&self, columns: usize, rows: usize) -> Self {
+        Self {
+            width: self.width + 2 * columns,
+            height: self.height + 2 * rows,
+            principal_px: self.principal_px + DVec2::new(columns as f64, rows as f64),
+            ..*self
+        }
+    }
+
     /// Columns.
     #[must_use]
     pub fn width(&self) -> usize {
