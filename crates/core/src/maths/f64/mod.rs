@@ -1,7 +1,8 @@
 //! Functions of one or two `f64`.
 //!
-//! `sin`, `cos`, `sin_cos`, `exp`, `ln`, `atan` and `atan2` are our own: errors below 1.5 units in the last place. The
-//! others are those of the libm crate (errors below 1 unit, portable), as they are on no hot path.
+//! `sin`, `cos`, `sin_cos`, `exp` and `ln` are our own, with errors below 1 unit in the last place (largest of 20 000 random
+//! arguments against 36 digits: 0.9), and so are `atan` and `atan2`, below 2 (1.6). The others are those of the libm
+//! crate (below 1 unit, portable), as they are on no hot path.
 
 mod circular;
 mod exponential;
