@@ -4,10 +4,19 @@
 //! rendering takes a plan, a request and an [`Observer`], and answers with planes. Nothing here reads files, prints,
 //! looks at a clock or starts a thread pool.
 
+pub mod compile;
 pub mod film;
+mod fingerprint;
 pub mod gather;
 pub mod light;
 mod observer;
+pub mod photograph;
+pub mod plan;
+pub mod render;
+pub mod summary;
 pub mod tile;
+pub mod truth;
 
+pub use compile::{Choices, Quality, compile, compile_camera};
 pub use observer::{Observer, Unobserved};
+pub use plan::Plan;

@@ -1,0 +1,95 @@
+//! A camera wherever it stands: lens, sensor, processing.
+
+use super::context::Context;
+use super::lens::{lens, raster};
+use super::sensor::{fill_factor, sensor};
+use super::spectrum::named_illuminant;
+use crate::plan::{CameraBody, Development};
+use etendue_isp::{Colour, Filter, Mosaic, Processing, fit_colour_matrix, white_balance_from_illuminant};
+use etendue_scene::record::processing::{ColourMatrix, WhiteBalance};
+use etendue_scene::record::{self, Camera};
+use etendue_sensor::Sensor;
+use etendue_spectra::{Spectrum, chart};
+
+const IDENTITY: etendue_isp::ColourMatrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// The camera's models; `None` with the faults noted.
+pub(super) fn body(camera: &Camera, context: &mut Context<'_>) -> Option<CameraBody> {
+    let before = context.faults.len();
+    let raster = raster(&camera.sensor, context)?;
+    let lens = lens(&camera.lens, &raster, context);
+    let sensor = sensor(&camera.sensor, context);
+    let development = match (&camera.processing, &sensor) {
+        (Some(processing), Some(sensor)) => development(processing, sensor, context),
+        _ => None,
+    };
+    let aperture_px = fill_factor(&camera.sensor).sqrt();
+    let body = CameraBody { raster, lens: lens?, aperture_px, sensor, development };
+    (context.faults.len() == before).then_some(body)
+}
+
+fn development(record: &record::Processing, sensor: &Sensor, context: &mut Context<'_>) -> Option<Development> {
+    let exposure_gain = record.exposure_gain.as_ref().map_or(1.0, |g| g.value);
+    let [red, green, blue] = sensor.responsivities() else {
+        refuse_colour(record, context);
+        let processing = Processing { colour: None, exposure_gain };
+        return Some(Development { mosaic: Mosaic::Mono, processing });
+    };
+    let channels = [red, green, blue];
+    let white_balance = white_balance(record, channels, context)?;
+    let matrix = colour_matrix(record, channels, context)?;
+    let processing = Processing { colour: Some(Colour { white_balance, matrix }), exposure_gain };
+    Some(Development { mosaic: context.accept(&record.place, mosaic(sensor))?, processing })
+}
+
+/// A monochrome picture has no colour to process.
+fn refuse_colour(record: &record::Processing, context: &mut Context<'_>) {
+    if record.white_balance.is_some() || record.colour_matrix.is_some() {
+        let problem = "\"white_balance\" and \"colour_matrix\" have no effect on a monochrome sensor";
+        context.fault(&record.place, problem, "remove them");
+    }
+}
+
+fn mosaic(sensor: &Sensor) -> Result<Mosaic, etendue_isp::MosaicError> {
+    let cfa = &sensor.parameters().cfa;
+    let filter = |channel: &usize| [Filter::Red, Filter::Green, Filter::Blue][*channel];
+    Mosaic::tile(cfa.width(), cfa.height(), cfa.channels().iter().map(filter).collect())
+}
+
+fn white_balance(
+    record: &record::Processing,
+    channels: [&Spectrum; 3],
+    context: &mut Context<'_>,
+) -> Option<[f64; 3]> {
+    match &record.white_balance {
+        None => Some([1.0; 3]),
+        Some(WhiteBalance::Factors(factors)) => {
+            if factors.value.iter().any(|f| *f < 1.0) {
+                let problem = format!("a factor of {:?} is below 1 and would tint saturated pixels", factors.value);
+                context.fault(&factors.place, problem, "divide all three by the smallest");
+                return None;
+            }
+            Some(factors.value)
+        }
+        Some(WhiteBalance::Illuminant(name)) => {
+            let illuminant = named_illuminant(name, context)?;
+            context.accept(&name.place, white_balance_from_illuminant(channels, &illuminant))
+        }
+    }
+}
+
+fn colour_matrix(
+    record: &record::Processing,
+    channels: [&Spectrum; 3],
+    context: &mut Context<'_>,
+) -> Option<etendue_isp::ColourMatrix> {
+    match &record.colour_matrix {
+        None => Some(IDENTITY),
+        Some(ColourMatrix::Rows(rows)) => Some([rows[0].value, rows[1].value, rows[2].value]),
+        Some(ColourMatrix::Fit(name)) => {
+            let illuminant = named_illuminant(name, context)?;
+            let patches = chart::colorchecker().iter().map(|patch| &patch.reflectance);
+            context.accept(&name.place, fit_colour_matrix(channels, &illuminant, patches))
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! What every step of compiling shares: the assets, the faults found so far, and remarks for the plan.
+
+use etendue_scene::asset::Assets;
+use etendue_scene::{Fault, Place};
+use std::fmt::Display;
+
+/// Assets to resolve names in, faults and remarks collected on the way.
+#[derive(Debug)]
+pub(super) struct Context<'a> {
+    pub(super) assets: &'a Assets,
+    pub(super) faults: Vec<Fault>,
+    pub(super) remarks: Vec<String>,
+}
+
+impl<'a> Context<'a> {
+    pub(super) fn new(assets: &'a Assets) -> Self {
+        Self { assets, faults: Vec::new(), remarks: Vec::new() }
+    }
+
+    /// Notes a fault at `place`.
+    pub(super) fn fault(&mut self, place: &Place, problem: impl Into<String>, remedy: impl Into<String>) {
+        self.faults.push(Fault::new(place, problem, remedy));
+    }
+
+    /// The value, or `None` with its error noted as a fault at `place`; the errors of the models say what to do.
+    pub(super) fn accept<T, E: Display>(&mut self, place: &Place, result: Result<T, E>) -> Option<T> {
+        result.map_err(|error| self.fault(place, error.to_string(), "correct it")).ok()
+    }
+
+    /// A remark that the plan prints, once.
+    pub(super) fn remark(&mut self, text: String) {
+        if !self.remarks.contains(&text) {
+            self.remarks.push(text);
+        }
+    }
+}

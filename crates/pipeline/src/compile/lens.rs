@@ -1,0 +1,107 @@
+//! `[lens]` and the raster of `[sensor]`: from records to optics.
+
+use super::context::Context;
+use etendue_optics::lens::{self, ConstantPupil, PinholeParameters, PupilStatements, ThickParameters, ThinParameters};
+use etendue_optics::{Lens, OpticsError};
+use etendue_projection::{RadialDistortion, RadiusScales, RadiusUnit, Raster, Sense};
+use etendue_scene::Placed;
+use etendue_scene::record::{self, lens as description};
+use glam::DVec2;
+
+const UM_PER_MM: f64 = 1000.0;
+
+/// The pixel grid of a sensor.
+pub(super) fn raster(sensor: &record::Sensor, context: &mut Context<'_>) -> Option<Raster> {
+    let (width, height) = (sensor.width_px.value as usize, sensor.height_px.value as usize);
+    let middle = [width as f64 / 2.0, height as f64 / 2.0];
+    let principal = sensor.principal_point_px.as_ref().map_or(middle, |p| p.value);
+    let pitch_mm = DVec2::splat(sensor.pixel_pitch_um.value / UM_PER_MM);
+    context.accept(&sensor.place, Raster::new(width, height, pitch_mm, DVec2::from_array(principal)))
+}
+
+/// The lens of a camera, checked against its picture.
+pub(super) fn lens(record: &record::Lens, raster: &Raster, context: &mut Context<'_>) -> Option<Lens> {
+    let (place, made, distortion) = match record {
+        record::Lens::Pinhole(r) => (&r.place, pinhole(r), &r.distortion),
+        record::Lens::Thin(r) => (&r.place, thin(r), &r.distortion),
+        record::Lens::Thick(r) => (&r.place, thick(r), &r.distortion),
+    };
+    let lens = context.accept(place, made)?;
+    let Some(distortion) = distortion else { return Some(lens) };
+    let lens = lens.with_distortion(context.accept(&distortion.place, radial(distortion, &lens, raster))?);
+    context.accept(&distortion.place, lens.check(raster))?;
+    Some(lens)
+}
+
+fn pinhole(r: &description::Pinhole) -> Result<Lens, OpticsError> {
+    Lens::pinhole(PinholeParameters {
+        focal_length_mm: r.focal_length_mm.value,
+        f_number: r.f_number.value,
+        transmittance: transmittance(r.transmittance.as_ref()),
+    })
+}
+
+fn thin(r: &description::Thin) -> Result<Lens, OpticsError> {
+    Lens::thin(ThinParameters {
+        focal_length_mm: r.focal_length_mm.value,
+        f_number: r.f_number.value,
+        focus_distance_m: focus_m(&r.focus_distance_m),
+        transmittance: transmittance(r.transmittance.as_ref()),
+    })
+}
+
+fn thick(r: &description::Thick) -> Result<Lens, OpticsError> {
+    let number = |v: &Option<Placed<f64>>| v.as_ref().map(|v| v.value);
+    let rim = |rim: &Option<description::Rim>| {
+        rim.as_ref().map(|r| lens::Rim { position_mm: r.position_mm.value, radius_mm: r.radius_mm.value })
+    };
+    Lens::thick(ThickParameters {
+        focal_length_mm: r.focal_length_mm.value,
+        f_number: r.f_number.value,
+        focus_distance_m: focus_m(&r.focus_distance_m),
+        transmittance: transmittance(r.transmittance.as_ref()),
+        principal_separation_mm: number(&r.principal_separation_mm).unwrap_or(0.0),
+        pupils: PupilStatements {
+            entrance_pupil_mm: number(&r.entrance_pupil_mm),
+            exit_pupil_mm: number(&r.exit_pupil_mm),
+            pupil_magnification: number(&r.pupil_magnification),
+        },
+        constant_pupil: match r.constant_pupil.value {
+            description::Pupil::Entrance => ConstantPupil::Entrance,
+            description::Pupil::Exit => ConstantPupil::Exit,
+        },
+        front_rim: rim(&r.front_rim),
+        rear_rim: rim(&r.rear_rim),
+    })
+}
+
+fn transmittance(given: Option<&Placed<f64>>) -> f64 {
+    given.map_or(1.0, |t| t.value)
+}
+
+fn focus_m(focus: &description::FocusDistance) -> f64 {
+    match focus {
+        description::FocusDistance::Metres(m) => m.value,
+        description::FocusDistance::Infinity => f64::INFINITY,
+    }
+}
+
+fn radial(r: &description::Distortion, lens: &Lens, raster: &Raster) -> Result<RadialDistortion, OpticsError> {
+    let scales = RadiusScales {
+        principal_distance_mm: lens.principal_distance_mm(),
+        half_diagonal_mm: raster.half_diagonal_mm(),
+        pixel_pitch_mm: raster.pitch_mm().x,
+    };
+    let sense = match r.direction.value {
+        description::Direction::IdealToObserved => Sense::IdealToObserved,
+        description::Direction::ObservedToIdeal => Sense::ObservedToIdeal,
+    };
+    let unit = match r.radius_unit.value {
+        description::RadiusUnit::Millimetres => RadiusUnit::Millimetres,
+        description::RadiusUnit::FocalLengths => RadiusUnit::FocalLengths,
+        description::RadiusUnit::HalfDiagonals => RadiusUnit::HalfDiagonals,
+        description::RadiusUnit::Pixels => RadiusUnit::Pixels,
+    };
+    let k2 = r.k2.as_ref().map_or(0.0, |k| k.value);
+    Ok(RadialDistortion::new(sense, r.k1.value, k2, unit.length_mm(&scales))?)
+}

@@ -1,0 +1,121 @@
+//! From a description and its assets to a plan.
+//!
+//! Names are resolved, models are made, contradictions are collected, all of them, with their places. After this
+//! nothing fails because of what the user wrote.
+
+mod camera;
+mod context;
+mod lens;
+mod light;
+mod palette;
+mod sensor;
+mod settings;
+mod shape;
+mod spectrum;
+mod world;
+
+use crate::fingerprint::fingerprint;
+use crate::plan::{CameraBody, CameraPlan, Plan};
+use context::Context;
+use etendue_scene::asset::Assets;
+use etendue_scene::record::Camera;
+use etendue_scene::{CameraSetup, Description, Fault};
+use palette::PaletteBuilder;
+
+/// What the caller chooses over the description.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Choices {
+    /// Samples a pixel; `None` for what the description or the quality says.
+    pub spp: Option<u32>,
+    /// A preset for what the description leaves open; `None` is standard.
+    pub quality: Option<Quality>,
+    /// The seed; `None` for what the description says, or 0.
+    pub seed: Option<u64>,
+}
+
+/// Presets of the trade of time for accuracy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quality {
+    /// To frame and expose.
+    Draft,
+    /// To look at.
+    Standard,
+    /// To compare with.
+    Reference,
+}
+
+impl Quality {
+    /// Samples a pixel.
+    #[must_use]
+    pub fn spp(self) -> u32 {
+        match self {
+            Self::Draft => 16,
+            Self::Standard => 64,
+            Self::Reference => 1024,
+        }
+    }
+
+    /// Greatest number of scattering events.
+    #[must_use]
+    pub fn max_bounces(self) -> u32 {
+        match self {
+            Self::Draft => 4,
+            Self::Standard => 16,
+            Self::Reference => 64,
+        }
+    }
+}
+
+/// The plan of a description.
+///
+/// # Errors
+/// All contradictions, with their places.
+pub fn compile(description: &Description, assets: &Assets, choices: &Choices) -> Result<Plan, Vec<Fault>> {
+    let mut context = Context::new(assets);
+    let plan = planned(description, choices, &mut context);
+    let faults = context.faults;
+    plan.filter(|_| faults.is_empty()).ok_or(faults)
+}
+
+/// A camera by itself, for a stored radiance image.
+///
+/// # Errors
+/// All contradictions, with their places.
+pub fn compile_camera(camera: &Camera, assets: &Assets) -> Result<CameraBody, Vec<Fault>> {
+    let mut context = Context::new(assets);
+    let body = camera::body(camera, &mut context);
+    let faults = context.faults;
+    body.filter(|_| faults.is_empty()).ok_or(faults)
+}
+
+fn planned(description: &Description, choices: &Choices, context: &mut Context<'_>) -> Option<Plan> {
+    let scene = &description.scene;
+    let mut builder = PaletteBuilder::of_scene(scene, context);
+    let suns = light::suns(scene, context);
+    let environment = light::environment(scene, context);
+    let setups = description.cameras.iter().enumerate();
+    let cameras: Vec<_> =
+        setups.filter_map(|(index, setup)| camera_plan(index as u32, setup, choices, context)).collect();
+    let (world, identities) = world::world(scene, &mut builder, context)?;
+    let (palette, materials) = builder.finish(context)?;
+    let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();
+    let remarks = std::mem::take(&mut context.remarks);
+    let mut plan =
+        Plan { world, palette, suns, environment, cameras, identities, materials, classes, remarks, hash: [0; 32] };
+    plan.hash = fingerprint(&plan);
+    Some(plan)
+}
+
+fn camera_plan(
+    index: u32,
+    setup: &CameraSetup,
+    choices: &Choices,
+    context: &mut Context<'_>,
+) -> Option<CameraPlan> {
+    let body = camera::body(&setup.camera, context)?;
+    let products = settings::products(&setup.output, &body, context);
+    let settings = settings::settings(&setup.render, &body, &products, choices, context)?;
+    // A pose that was read has been checked.
+    let pose = setup.pose.to_camera_pose()?;
+    Some(CameraPlan { name: setup.name.value.clone(), index, pose, body, settings, products })
+}

@@ -1,0 +1,196 @@
+//! `[render]` and `[output]`: what is delivered, and how the light is found.
+
+use super::context::Context;
+use super::{Choices, Quality};
+use crate::plan::{CameraBody, Products, Route, Settings};
+use etendue_core::Bands;
+use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
+use etendue_optics::PupilProjection;
+use etendue_scene::record::output::DepthScale;
+use etendue_scene::record::render::{self, Accumulate};
+use etendue_scene::record::{Output, Render};
+use etendue_scene::{Place, Placed};
+
+/// Wavelengths of radiance itself, nm.
+const VISIBLE_NM: (f64, f64) = (380.0, 780.0);
+const BAND_WIDTH_NM: f64 = 5.0;
+const TILE_PX: u64 = 32;
+const REPLICATES: u64 = 4;
+
+/// What a camera delivers: what it asks for, and what its sensor makes possible where it is silent.
+pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> Products {
+    let electronics = body.sensor.is_some();
+    let said = |key: &Option<Placed<bool>>, default: bool| key.as_ref().map_or(default, |v| v.value);
+    for (key, name) in [(&output.electrons, "electrons"), (&output.raw, "raw")] {
+        need(key, electronics, name, "the sensor has no electronics", "add them to [sensor]", context);
+    }
+    let development = body.development.is_some();
+    need(&output.picture, development, "picture", "the camera has no [processing]", "add it", context);
+    let depth_png = said(&output.depth_png, false);
+    if let (Some(scale), false) = (&output.depth_png_scale, depth_png) {
+        let place = match scale {
+            DepthScale::PerMetre(number) => &number.place,
+            DepthScale::Named(name) => &name.place,
+        };
+        context.fault(place, "\"depth_png_scale\" has no effect without depth_png = true", "add it, or remove the scale");
+    }
+    Products {
+        radiance: said(&output.radiance, !electronics),
+        irradiance: said(&output.irradiance, false),
+        variance: said(&output.variance, false),
+        electrons: said(&output.electrons, false),
+        raw: said(&output.raw, electronics),
+        picture: said(&output.picture, development),
+        ground_truth: said(&output.ground_truth, true),
+        depth_png_per_m: depth_png.then(|| output.depth_png_scale.as_ref().map_or(256.0, |s| s.per_metre())),
+    }
+}
+
+fn need(
+    key: &Option<Placed<bool>>,
+    possible: bool,
+    name: &str,
+    lack: &str,
+    remedy: &str,
+    context: &mut Context<'_>,
+) {
+    if let Some(key) = key
+        && key.value
+        && !possible
+    {
+        context.fault(&key.place, format!("\"{name}\" is asked for, but {lack}"), format!("{remedy}, or remove the key"));
+    }
+}
+
+/// How a camera's light is found.
+pub(super) fn settings(
+    render: &Render,
+    body: &CameraBody,
+    products: &Products,
+    choices: &Choices,
+    context: &mut Context<'_>,
+) -> Option<Settings> {
+    let (spp, replicates) = samples(render, choices, context)?;
+    check_variance(products, replicates, render, context);
+    let route = route(render, body, context)?;
+    let (cube, folded) = accumulation(render, body, products, &route, context);
+    let range_nm = range(render, body, cube);
+    let bands = if cube { Some(bands(render, range_nm, context)?) } else { None };
+    let max_bounces = render.max_bounces.as_ref().map(|b| b.value as u32);
+    Some(Settings {
+        spp,
+        replicates,
+        max_bounces: max_bounces.unwrap_or_else(|| choices.quality.unwrap_or(Quality::Standard).max_bounces()),
+        wavelengths: render.wavelengths_per_path.as_ref().map_or(4, |n| n.value as u32),
+        route,
+        range_nm,
+        bands,
+        folded,
+        tile_px: render.tile_px.as_ref().map_or(TILE_PX, |t| t.value) as u32,
+        seed: choices.seed.or(render.seed.as_ref().map(|s| s.value)).unwrap_or(0),
+    })
+}
+
+/// Samples a pixel and replicates; the replicates divide the samples.
+fn samples(render: &Render, choices: &Choices, context: &mut Context<'_>) -> Option<(u32, u32)> {
+    let by_quality = || choices.quality.unwrap_or(Quality::Standard).spp();
+    let by_job = || render.spp.as_ref().map(|s| s.value as u32);
+    let spp = choices.spp.or_else(by_job).unwrap_or_else(by_quality);
+    let Some(replicates) = &render.replicates else {
+        let most = [REPLICATES, 2, 1].into_iter().find(|r| u64::from(spp) % r == 0);
+        return Some((spp, most.unwrap_or(1) as u32));
+    };
+    if spp == 0 || u64::from(spp) % replicates.value != 0 {
+        let problem = format!("{spp} samples cannot be shared evenly among {} replicates", replicates.value);
+        context.fault(&replicates.place, problem, "give samples that are a multiple of the replicates");
+        return None;
+    }
+    Some((spp, replicates.value as u32))
+}
+
+fn check_variance(products: &Products, replicates: u32, render: &Render, context: &mut Context<'_>) {
+    if products.variance && replicates < 2 {
+        let place = render.replicates.as_ref().map_or(&render.place, |r| &r.place);
+        let remedy = "give \"replicates\" = 2 or more (16 for a golden image) and samples that are a multiple";
+        context.fault(place, "one replicate knows no variance, and variance is asked for", remedy);
+    }
+}
+
+fn route(render: &Render, body: &CameraBody, context: &mut Context<'_>) -> Option<Route> {
+    match render.route.as_ref().map(|r| (r.value, &r.place)) {
+        None | Some((render::Route::Lens, _)) => Some(Route::Lens),
+        Some((render::Route::Pupil, place)) => {
+            let covering = context.accept(place, PupilProjection::covering(&body.lens, &body.raster))?;
+            let margin = render.overscan.as_ref().map_or(0.0, |o| o.value);
+            context.accept(place, widened(&covering, margin)).map(Route::Pupil)
+        }
+    }
+}
+
+/// A radiance image with a further margin on every side, as a share of its size.
+fn widened(p: &PupilProjection, margin: f64) -> Result<PupilProjection, etendue_optics::OpticsError> {
+    let (x, y) = ((margin * p.width() as f64).ceil(), (margin * p.height() as f64).ceil());
+    let principal_px = p.principal_px() + glam::DVec2::new(x, y);
+    PupilProjection::new(p.width() + 2 * x as usize, p.height() + 2 * y as usize, p.pitch_tan(), principal_px)
+}
+
+/// Whether a spectral cube is kept, and whether pixels fold electrons.
+fn accumulation(
+    render: &Render,
+    body: &CameraBody,
+    products: &Products,
+    route: &Route,
+    context: &mut Context<'_>,
+) -> (bool, bool) {
+    let spectral = products.radiance || products.irradiance;
+    let pupil = matches!(route, Route::Pupil(_));
+    let electrons = body.sensor.is_some() && (products.electrons || products.raw || products.picture);
+    let asked = render.accumulate.as_ref().map(|a| (a.value, &a.place));
+    match asked {
+        Some((Accumulate::Cube, _)) => (true, false),
+        Some((Accumulate::Folded, place)) => {
+            if pupil || body.sensor.is_none() {
+                let problem = "\"folded\" needs a sensor with electronics and route = \"lens\"";
+                context.fault(place, problem, "use \"auto\" or \"cube\"");
+            } else if spectral {
+                let problem = "\"folded\" keeps no spectrum, and radiance or irradiance is asked for";
+                context.fault(place, problem, "use \"auto\", which keeps both, or do not ask for them");
+            }
+            (false, true)
+        }
+        None | Some((Accumulate::Auto, _)) => (spectral || pupil, electrons && !pupil),
+    }
+}
+
+/// The wavelengths to sample, nm: what the sensor responds to, with the visible where radiance itself is wanted.
+fn range(render: &Render, body: &CameraBody, cube: bool) -> (f64, f64) {
+    if let Some(range) = &render.wavelength_range_nm {
+        return (range.value[0], range.value[1]);
+    }
+    let sensor = body.sensor.as_ref().and_then(etendue_sensor::Sensor::support_nm);
+    let (low, high) = match (sensor, cube) {
+        (Some(sensor), true) => (sensor.0.min(VISIBLE_NM.0), sensor.1.max(VISIBLE_NM.1)),
+        (Some(sensor), false) => sensor,
+        (None, _) => VISIBLE_NM,
+    };
+    let step = render.band_width_nm.as_ref().map_or(BAND_WIDTH_NM, |w| w.value);
+    ((low / step).floor() * step, (high / step).ceil() * step)
+}
+
+fn bands(render: &Render, range_nm: (f64, f64), context: &mut Context<'_>) -> Option<Bands> {
+    let width_nm = render.band_width_nm.as_ref().map_or(BAND_WIDTH_NM, |w| w.value);
+    let bands = Bands::covering(range_nm.0, range_nm.1, width_nm);
+    if bands.is_none() {
+        let place = render.band_width_nm.as_ref().map_or_else(|| range_place(render), |w| &w.place);
+        let problem = format!(
+            "{} to {} nm is not a whole number of bands of {width_nm} nm within {SHORTEST_NM} to {LONGEST_NM} nm",
+            range_nm.0, range_nm.1
+        );
+        context.fault(place, problem, "change \"band_width_nm\" or \"wavelength_range_nm\"");
+    }
+    bands
+}
+
+fn range_place(render: &Render) -> &Place {
+    render.wavelength_range_nm.as_ref().map_or(&render.place, |r| &r.place)
+}

@@ -1,0 +1,55 @@
+//! Shapes that need no file, as meshes.
+
+use etendue_tracer::geometry::{Dropped, Mesh, MeshError};
+use glam::{Vec2, Vec3};
+
+/// Corners of a shape's faces, four a face, counter-clockwise as seen from the front.
+pub(super) struct Corners(Vec<[Vec3; 4]>);
+
+/// A rectangle in the plane z = 0, centred, its front towards +z; u along x, v along y.
+pub(super) fn quad([x, y]: [f64; 2]) -> Corners {
+    let (x, y) = (x as f32 / 2.0, y as f32 / 2.0);
+    let corner = |u: f32, v: f32| Vec3::new(u * x, v * y, 0.0);
+    Corners(vec![[corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)]])
+}
+
+/// A cuboid, centred, its faces outward.
+pub(super) fn cuboid(size_m: [f64; 3]) -> Corners {
+    let half = Vec3::from(size_m.map(|s| s as f32)) / 2.0;
+    let axes = [(Vec3::X, Vec3::Y, Vec3::Z), (Vec3::Y, Vec3::Z, Vec3::X), (Vec3::Z, Vec3::X, Vec3::Y)];
+    let faces = axes.into_iter().flat_map(|(n, s, t)| [(n, s, t), (-n, t, s)]);
+    let face = |(n, s, t): (Vec3, Vec3, Vec3)| [n - s - t, n + s - t, n + s + t, n - s + t].map(|c| c * half);
+    Corners(faces.map(face).collect())
+}
+
+impl Corners {
+    /// The mesh: faces share no vertices, so each has its own texture coordinates, 0 to 1.
+    pub(super) fn into_mesh(self) -> Result<(Mesh, Dropped), MeshError> {
+        let faces = self.0.len() as u32;
+        let uvs = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y].repeat(self.0.len());
+        let triangles = (0..faces).flat_map(|f| [[4 * f, 4 * f + 1, 4 * f + 2], [4 * f, 4 * f + 2, 4 * f + 3]]);
+        Mesh::new(self.0.into_flattened(), vec![], uvs, triangles.collect(), vec![])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn normals(corners: &Corners) -> Vec<Vec3> {
+        corners.0.iter().map(|[a, b, c, _]| (*b - *a).cross(*c - *a).normalize()).collect()
+    }
+
+    #[test]
+    fn a_quad_faces_up_and_a_cuboid_outward() {
+        assert_eq!(normals(&quad([2.0, 3.0])), [Vec3::Z]);
+        let cuboid = cuboid([1.0, 2.0, 4.0]);
+        for (corners, normal) in cuboid.0.iter().zip(normals(&cuboid)) {
+            let centre = corners.iter().sum::<Vec3>() / 4.0;
+            assert!(centre.normalize().dot(normal) > 1.0 - 1e-6);
+        }
+        let (mesh, dropped) = cuboid.into_mesh().expect("a mesh");
+        assert_eq!((mesh.triangles().len(), dropped), (12, Dropped::default()));
+        assert_eq!(mesh.bounds(), Some((Vec3::new(-0.5, -1.0, -2.0), Vec3::new(0.5, 1.0, 2.0))));
+    }
+}

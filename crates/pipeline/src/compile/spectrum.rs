@@ -1,0 +1,81 @@
+//! Curves and colours of light: from records to spectra.
+
+use super::context::Context;
+use etendue_scene::record::{Curve, Emission, Level, LightColour};
+use etendue_scene::{Place, Placed};
+use etendue_spectra::{Outside, Spectrum, illuminant, observer, upsample};
+use std::path::PathBuf;
+
+/// A quantity over the wavelength; `outside` says how a table continues beyond its ends.
+pub(super) fn curve(curve: &Curve, outside: Outside, context: &mut Context<'_>) -> Option<Spectrum> {
+    match curve {
+        Curve::Constant(value) => Some(Spectrum::constant(value.value)),
+        Curve::File(file) => from_file(file, outside, context),
+    }
+}
+
+/// A tabulated spectrum.
+pub(super) fn from_file(file: &Placed<PathBuf>, outside: Outside, context: &mut Context<'_>) -> Option<Spectrum> {
+    let Some(asset) = context.assets.spectra.get(&file.value) else {
+        context.fault(&file.place, "the spectrum was not loaded", "give a readable file");
+        return None;
+    };
+    if let (Some(first), Some(last)) = (asset.points.first(), asset.points.last()) {
+        let beyond = match outside {
+            Outside::Zero => "zero",
+            Outside::Hold => "its end value",
+        };
+        context.remark(format!(
+            "{} covers {} to {} nm; beyond that it is {beyond}",
+            file.value.display(),
+            first.0,
+            last.0
+        ));
+    }
+    context.accept(&file.place, Spectrum::from_points(&asset.points, outside))
+}
+
+/// The relative spectrum of a light's colour.
+pub(super) fn relative(colour: &LightColour, context: &mut Context<'_>) -> Option<Spectrum> {
+    match colour {
+        LightColour::Illuminant(name) => named_illuminant(name, context),
+        LightColour::Temperature(kelvin) => Some(illuminant::blackbody(kelvin.value)),
+        LightColour::Rgb(rgb) => Some(upsample::emission_spectrum(rgb.value.map(|v| v as f32))),
+        LightColour::Spectrum(file) => from_file(file, Outside::Zero, context),
+    }
+}
+
+/// An illuminant of the library; "solar" is the direct beam of ASTM G-173.
+pub(super) fn named_illuminant(name: &Placed<String>, context: &mut Context<'_>) -> Option<Spectrum> {
+    if name.value == "solar" {
+        return Some(illuminant::solar().direct.clone());
+    }
+    let found = illuminant::named(&name.value).cloned();
+    if found.is_none() {
+        let problem = format!("there is no illuminant \"{}\"", name.value);
+        context.fault(&name.place, problem, format!("give one of solar, {}", illuminant::names().join(", ")));
+    }
+    found
+}
+
+/// The radiance of a surface or of the sky, W·m⁻²·sr⁻¹·nm⁻¹.
+pub(super) fn emitted(emission: &Emission, context: &mut Context<'_>) -> Option<Spectrum> {
+    match (&emission.level, &emission.colour) {
+        (Level::Radiance(radiance), _) => curve(radiance, Outside::Zero, context),
+        (Level::Luminance(level), Some(colour)) => {
+            let relative = relative(colour, context)?;
+            bright(&relative, level.value, &level.place, context)
+        }
+        (Level::Luminance(_), None) => None,
+    }
+}
+
+/// A relative spectrum scaled to a luminance (cd/m²) or an illuminance (lx).
+pub(super) fn bright(relative: &Spectrum, level: f64, place: &Place, context: &mut Context<'_>) -> Option<Spectrum> {
+    let scaled = observer::with_luminance(relative, level);
+    if scaled.is_none() {
+        let problem = "the spectrum of this light has no visible part, so no scale gives it a luminance";
+        context.fault(place, problem, "state its strength in W (radiance or irradiance)");
+    }
+    scaled
+}

@@ -1,0 +1,184 @@
+//! Meshes, shapes and their instances: from records to the tracer's world.
+
+use super::context::Context;
+use super::palette::PaletteBuilder;
+use super::shape;
+use crate::plan::Identity;
+use etendue_core::Track;
+use etendue_scene::asset::MeshAsset;
+use etendue_scene::record::{self, Body, Object, Scene};
+use etendue_scene::record::shape::Shape as ShapeRecord;
+use etendue_tracer::MaterialId;
+use etendue_tracer::accel::{World, WorldBuilder};
+use etendue_tracer::geometry::{Dropped, Instance, Mesh, MeshId, Shape};
+use glam::{DAffine3, DMat3, Vec2, Vec3};
+use std::collections::BTreeMap;
+
+/// The world and the identities that its ground truth names, in the order of the instance ids from 1.
+pub(super) fn world(
+    scene: &Scene,
+    palette: &mut PaletteBuilder,
+    context: &mut Context<'_>,
+) -> Option<(World, Vec<Identity>)> {
+    let mut assembly = Assembly { builder: WorldBuilder::new(), meshes: BTreeMap::new(), identities: Vec::new() };
+    for mesh in &scene.meshes {
+        assembly.add_mesh(mesh, context);
+    }
+    for object in &scene.objects {
+        assembly.add_object(object, scene, palette, context);
+    }
+    if !context.faults.is_empty() {
+        return None;
+    }
+    let built = assembly.builder.build();
+    let place = scene.place.clone();
+    Some((context.accept(&place, built)?, assembly.identities))
+}
+
+struct Assembly {
+    builder: WorldBuilder,
+    meshes: BTreeMap<String, MeshId>,
+    identities: Vec<Identity>,
+}
+
+/// What an object's instances share.
+struct Prototype {
+    shape: Shape,
+    materials: Vec<MaterialId>,
+    /// From the shape's own frame to the object's.
+    to_object: DMat3,
+}
+
+impl Assembly {
+    fn add_mesh(&mut self, record: &record::Mesh, context: &mut Context<'_>) {
+        let Some(asset) = context.assets.meshes.get(&record.file.value) else {
+            context.fault(&record.file.place, "the mesh was not loaded", "give a readable OBJ file");
+            return;
+        };
+        asset.report.iter().for_each(|line| context.remark(line.clone()));
+        let Some((mesh, dropped)) = context.accept(&record.file.place, mesh_of(asset)) else { return };
+        if dropped != Dropped::default() {
+            context.remark(format!(
+                "{}: {} triangles of no area and {} duplicates dropped",
+                record.file.value.display(),
+                dropped.zero_area,
+                dropped.duplicate
+            ));
+        }
+        let id = self.builder.add_mesh(mesh);
+        self.meshes.insert(record.name.value.clone(), id);
+    }
+
+    fn add_object(
+        &mut self,
+        object: &Object,
+        scene: &Scene,
+        palette: &mut PaletteBuilder,
+        context: &mut Context<'_>,
+    ) {
+        let prototype = match &object.body {
+            Body::Mesh(name) => self.of_mesh(object, &name.value, scene, palette, context),
+            Body::Shape(shape) => self.of_shape(object, shape, palette, context),
+        };
+        let Some(prototype) = prototype else { return };
+        let class = class_of(object, scene);
+        let many = object.placements().count() > 1;
+        for (number, (transform, name)) in object.placements().enumerate() {
+            let numbered = if many { format!("{} {}", object.name.value, number + 1) } else { object.name.value.clone() };
+            let name = name.map_or(numbered, |n| n.value.clone());
+            self.identities.push(Identity { name, class: object.class.as_ref().map(|c| c.value.clone()) });
+            self.builder.add_instance(Instance {
+                shape: prototype.shape,
+                to_world: Track::still(transform.to_world() * DAffine3::from_mat3(prototype.to_object)),
+                materials: prototype.materials.clone(),
+                instance_id: self.identities.len() as u32,
+                semantic_id: class,
+            });
+        }
+    }
+
+    fn of_mesh(
+        &self,
+        object: &Object,
+        name: &str,
+        scene: &Scene,
+        palette: &mut PaletteBuilder,
+        context: &mut Context<'_>,
+    ) -> Option<Prototype> {
+        let record = scene.meshes.iter().find(|m| m.name.value == name)?;
+        let asset = context.assets.meshes.get(&record.file.value)?;
+        let shape = Shape::Mesh(*self.meshes.get(name)?);
+        let materials = slot_materials(object, record, asset, palette, context)?;
+        Some(Prototype { shape, materials, to_object: record.to_object() })
+    }
+
+    fn of_shape(
+        &mut self,
+        object: &Object,
+        record: &ShapeRecord,
+        palette: &PaletteBuilder,
+        context: &mut Context<'_>,
+    ) -> Option<Prototype> {
+        let material = palette.named(&object.material.as_ref()?.value)?;
+        let shape = match record {
+            ShapeRecord::Sphere(sphere) => Shape::Sphere { radius_m: sphere.radius_m.value },
+            ShapeRecord::Quad(quad) => self.own_mesh(shape::quad(quad.size_m.value), object, context)?,
+            ShapeRecord::Box(cuboid) => self.own_mesh(shape::cuboid(cuboid.size_m.value), object, context)?,
+        };
+        Some(Prototype { shape, materials: vec![material], to_object: DMat3::IDENTITY })
+    }
+
+    fn own_mesh(&mut self, mesh: shape::Corners, object: &Object, context: &mut Context<'_>) -> Option<Shape> {
+        let (mesh, _) = context.accept(&object.place, mesh.into_mesh())?;
+        Some(Shape::Mesh(self.builder.add_mesh(mesh)))
+    }
+}
+
+fn class_of(object: &Object, scene: &Scene) -> u32 {
+    let number = |class: &str| scene.classes.iter().find(|(name, _)| name.value == class).map(|(_, id)| id.value as u32);
+    object.class.as_ref().and_then(|class| number(&class.value)).unwrap_or(0)
+}
+
+/// The material of each slot: the object's, the one it names for the slot, or what the mesh's own file says.
+fn slot_materials(
+    object: &Object,
+    mesh: &record::Mesh,
+    asset: &MeshAsset,
+    palette: &mut PaletteBuilder,
+    context: &mut Context<'_>,
+) -> Option<Vec<MaterialId>> {
+    if let Some(material) = &object.material {
+        return Some(vec![palette.named(&material.value)?; asset.slot_materials.len().max(1)]);
+    }
+    for (slot, _) in &object.materials {
+        check_slot(slot, mesh, asset, context);
+    }
+    let named = |slot: &str| object.materials.iter().find(|(name, _)| name.value == slot).map(|(_, m)| m);
+    asset
+        .slot_materials
+        .iter()
+        .map(|slot| match named(&slot.name) {
+            Some(material) => palette.named(&material.value),
+            None => palette.of_slot(&mesh.file.value, slot, &object.place, context),
+        })
+        .collect()
+}
+
+fn check_slot(
+    slot: &etendue_scene::Placed<String>,
+    mesh: &record::Mesh,
+    asset: &MeshAsset,
+    context: &mut Context<'_>,
+) {
+    if asset.slot_materials.iter().all(|s| s.name != slot.value) {
+        let known: Vec<&str> = asset.slot_materials.iter().map(|s| s.name.as_str()).collect();
+        let problem = format!("{} has no material \"{}\"", mesh.file.value.display(), slot.value);
+        context.fault(&slot.place, problem, format!("give one of {}", known.join(", ")));
+    }
+}
+
+fn mesh_of(asset: &MeshAsset) -> Result<(Mesh, Dropped), etendue_tracer::geometry::MeshError> {
+    let vectors = |list: &[[f32; 3]]| list.iter().copied().map(Vec3::from).collect();
+    let uvs = asset.uvs.iter().copied().map(Vec2::from).collect();
+    Mesh::new(vectors(&asset.positions), vectors(&asset.normals), uvs, asset.triangles.clone(), asset.slots.clone())
+}

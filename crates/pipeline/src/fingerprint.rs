@@ -1,0 +1,50 @@
+//! The hash of a plan: everything that decides its result, and nothing else (no path, no thread count, no tile size).
+
+use crate::plan::{CameraPlan, Plan, Settings};
+use etendue_tracer::geometry::Mesh;
+use sha2::{Digest, Sha256};
+use std::fmt::{Debug, Write};
+
+/// Feeds texts and bytes to the hash.
+struct Hasher(Sha256);
+
+impl Write for Hasher {
+    fn write_str(&mut self, text: &str) -> std::fmt::Result {
+        self.0.update(text.as_bytes());
+        Ok(())
+    }
+}
+
+impl Hasher {
+    /// Adds a value by its `Debug` text, which shows every float so that it reads back to the same bits.
+    fn add(&mut self, value: &impl Debug) {
+        // Writing to a hash does not fail.
+        let _ = writeln!(self, "{value:?}");
+    }
+
+    fn add_mesh(&mut self, mesh: &Mesh) {
+        self.0.update(bytemuck::cast_slice(mesh.positions()));
+        self.0.update(bytemuck::cast_slice(mesh.normals()));
+        self.0.update(bytemuck::cast_slice(mesh.uvs()));
+        self.0.update(bytemuck::cast_slice(mesh.triangles()));
+        self.0.update(bytemuck::cast_slice(mesh.slots()));
+    }
+
+    fn add_camera(&mut self, camera: &CameraPlan) {
+        self.add(&(&camera.name, camera.index, camera.pose, &camera.body, camera.products));
+        // The size of a tile does not change the result.
+        self.add(&Settings { tile_px: 0, ..camera.settings });
+    }
+}
+
+/// SHA-256 of all that decides the plan's result, the program's version included.
+pub(crate) fn fingerprint(plan: &Plan) -> [u8; 32] {
+    let mut hasher = Hasher(Sha256::new());
+    hasher.add(&env!("CARGO_PKG_VERSION"));
+    plan.world.meshes().iter().for_each(|mesh| hasher.add_mesh(mesh));
+    hasher.add(&plan.world.instances());
+    hasher.add(&plan.palette);
+    hasher.add(&(&plan.suns, &plan.environment));
+    plan.cameras.iter().for_each(|camera| hasher.add_camera(camera));
+    hasher.0.finalize().into()
+}

@@ -1,0 +1,104 @@
+//! From light to photographs: irradiance, electrons, raw, picture.
+
+use crate::film::{CubeEstimate, Film};
+use crate::plan::{CameraBody, CameraPlan, Route};
+use etendue_core::quantity::{Electrons, Irradiance, Radiance, Variance};
+use etendue_core::{Plane, SpectralCube};
+use etendue_isp::{Developed, RawPicture, develop};
+use etendue_optics::{OpticsError, PupilProjection, Resampling, irradiance};
+use etendue_sensor::{FrameAddress, Raw, SensorState};
+
+/// A camera's light, sorted by what it is.
+#[derive(Clone, Debug)]
+pub struct Light {
+    /// Spectral radiance: through the lens, the mean over each pixel's pupil; at the pupil, as seen from its centre
+    /// in the stored geometry.
+    pub radiance: Option<CubeEstimate<Radiance>>,
+    /// Spectral irradiance on the sensor plane.
+    pub irradiance: Option<SpectralCube<Irradiance>>,
+    /// Its variance; `None` on the route at the pupil, where only the radiance's is known.
+    pub irradiance_variance: Option<SpectralCube<Variance>>,
+    /// Mean electrons of each pixel.
+    pub electrons: Option<Plane<Electrons>>,
+    /// Their variance; `None` where they come from a cube.
+    pub electrons_variance: Option<Plane<Variance>>,
+}
+
+impl Light {
+    /// The light of a camera's film.
+    #[must_use]
+    pub fn of_film(camera: &CameraPlan, film: Film) -> Self {
+        match &camera.settings.route {
+            Route::Lens => Self::through_lens(&camera.body, film),
+            Route::Pupil(projection) => {
+                let radiance = film.radiance().expect("the route at the pupil keeps a cube");
+                let light = Self::at_pupil(&camera.body, projection, &radiance.mean);
+                let light = light.expect("a compiled plan covers its own picture");
+                Self { radiance: Some(radiance), ..light }
+            }
+        }
+    }
+
+    fn through_lens(body: &CameraBody, film: Film) -> Self {
+        let radiance = film.radiance();
+        let (irradiance, irradiance_variance) = film.cube.map(|c| (c.mean, c.variance)).unzip();
+        let (folded, electrons_variance) = film.electrons.map(|e| (e.mean, e.variance)).unzip();
+        let electrons = folded.or_else(|| electrons(body, irradiance.as_ref()?));
+        Self { radiance, irradiance, irradiance_variance, electrons, electrons_variance }
+    }
+
+    /// The light behind a lens of a stored radiance image (its radiance itself is not repeated).
+    ///
+    /// # Errors
+    /// Where the picture needs directions that the image does not hold.
+    pub fn at_pupil(
+        body: &CameraBody,
+        stored: &PupilProjection,
+        radiance: &SpectralCube<Radiance>,
+    ) -> Result<Self, OpticsError> {
+        let seen = Resampling::new(*stored, &body.lens, &body.raster)?.apply(radiance)?;
+        let irradiance = irradiance(&seen, &body.lens, &body.raster)?;
+        Ok(Self {
+            radiance: None,
+            electrons: electrons(body, &irradiance),
+            irradiance: Some(irradiance),
+            irradiance_variance: None,
+            electrons_variance: None,
+        })
+    }
+}
+
+fn electrons(body: &CameraBody, irradiance: &SpectralCube<Irradiance>) -> Option<Plane<Electrons>> {
+    body.sensor.as_ref().map(|sensor| sensor.electrons(irradiance))
+}
+
+/// One frame out of the converter, and its picture.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Digital numbers.
+    pub raw: Raw,
+    /// The picture, where the camera makes one.
+    pub picture: Option<Developed>,
+}
+
+/// Takes one frame of `electrons`; the state is passed from frame to frame. `None` where the camera has no
+/// electronics.
+#[must_use]
+pub fn take(
+    body: &CameraBody,
+    state: SensorState,
+    electrons: &Plane<Electrons>,
+    address: FrameAddress,
+) -> Option<(SensorState, Frame)> {
+    let (state, raw) = body.sensor.as_ref()?.step(state, electrons, address);
+    let picture = body.development.as_ref().map(|development| {
+        let picture = RawPicture {
+            plane: &raw.plane,
+            black_level_dn: raw.black_level_dn,
+            white_level_dn: raw.white_level_dn,
+            mosaic: &development.mosaic,
+        };
+        develop(&picture, &development.processing).expect("a compiled plan's processing fits its sensor")
+    });
+    Some((state, Frame { raw, picture }))
+}

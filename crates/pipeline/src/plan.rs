@@ -1,0 +1,165 @@
+//! The plan: everything that a rendering needs, resolved and checked. Immutable.
+
+use etendue_core::{Bands, CameraPose};
+use etendue_isp::{Mosaic, Processing};
+use etendue_optics::{Lens, PupilProjection};
+use etendue_projection::Raster;
+use etendue_sensor::Sensor;
+use etendue_tracer::accel::World;
+use etendue_tracer::lights::{Environment, Sun};
+use etendue_tracer::materials::Palette;
+
+/// What a rendering does, for all cameras of a job.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Meshes and instances.
+    pub world: World,
+    /// Materials and textures.
+    pub palette: Palette,
+    /// Suns.
+    pub suns: Vec<Sun>,
+    /// What surrounds the scene.
+    pub environment: Option<Environment>,
+    /// The cameras.
+    pub cameras: Vec<CameraPlan>,
+    /// What the instance ids of the ground truth stand for, from id 1.
+    pub identities: Vec<Identity>,
+    /// Names of the materials; the ground truth's material id is the place in this list, from 1.
+    pub materials: Vec<String>,
+    /// Semantic classes: name and id.
+    pub classes: Vec<(String, u32)>,
+    /// What was read and not used, what was dropped, where tables end.
+    pub remarks: Vec<String>,
+    /// Hash of all that decides the result: description, assets by content, version.
+    pub hash: [u8; 32],
+}
+
+/// What an instance id stands for.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Identity {
+    /// The instance's name.
+    pub name: String,
+    /// Its semantic class.
+    pub class: Option<String>,
+}
+
+/// One camera of a plan.
+#[derive(Clone, Debug)]
+pub struct CameraPlan {
+    /// Its name, part of file names.
+    pub name: String,
+    /// Its place in the job, part of random addresses.
+    pub index: u32,
+    /// Where it stands.
+    pub pose: CameraPose,
+    /// Everything behind the scene.
+    pub body: CameraBody,
+    /// How its light is found.
+    pub settings: Settings,
+    /// What it delivers.
+    pub products: Products,
+}
+
+/// A camera wherever it stands: lens, sensor, processing.
+#[derive(Clone, Debug)]
+pub struct CameraBody {
+    /// The pixel grid.
+    pub raster: Raster,
+    /// The lens.
+    pub lens: Lens,
+    /// Side of the photosensitive area, in pixels.
+    pub aperture_px: f64,
+    /// The electronics; `None` where no electrons are wanted.
+    pub sensor: Option<Sensor>,
+    /// How raw becomes a picture; `None` where none is wanted.
+    pub development: Option<Development>,
+}
+
+/// How raw becomes a picture.
+#[derive(Clone, Debug)]
+pub struct Development {
+    /// Which pixel measures which colour.
+    pub mosaic: Mosaic,
+    /// White balance, colour, gain.
+    pub processing: Processing,
+}
+
+/// The way to the sensor plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Route {
+    /// Every sample goes through the lens.
+    Lens,
+    /// Radiance at the centre of the entrance pupil in this geometry, then the lens on the picture.
+    Pupil(PupilProjection),
+}
+
+/// How the light of a camera is found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Samples a pixel.
+    pub spp: u32,
+    /// Independent replicates; divides `spp`.
+    pub replicates: u32,
+    /// Greatest number of scattering events.
+    pub max_bounces: u32,
+    /// Wavelengths a path: 1, 4 or 8.
+    pub wavelengths: u32,
+    /// The way to the sensor plane.
+    pub route: Route,
+    /// Shortest and longest wavelength sampled, nm.
+    pub range_nm: (f64, f64),
+    /// Spectral bands, where a cube is kept.
+    pub bands: Option<Bands>,
+    /// Whether pixels fold their responsivity into electrons.
+    pub folded: bool,
+    /// Side of a tile, px.
+    pub tile_px: u32,
+    /// Seed of every random number.
+    pub seed: u64,
+}
+
+/// What a camera delivers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Products {
+    /// Spectral radiance.
+    pub radiance: bool,
+    /// Spectral irradiance on the sensor.
+    pub irradiance: bool,
+    /// Variances of what is estimated.
+    pub variance: bool,
+    /// Expected electrons.
+    pub electrons: bool,
+    /// Digital numbers.
+    pub raw: bool,
+    /// The picture.
+    pub picture: bool,
+    /// Depth, normals, positions, identities.
+    pub ground_truth: bool,
+    /// Depth as 16-bit PNG, by its numbers a metre.
+    pub depth_png_per_m: Option<f64>,
+}
+
+impl Plan {
+    /// The camera of a name.
+    #[must_use]
+    pub fn camera(&self, name: &str) -> Option<&CameraPlan> {
+        self.cameras.iter().find(|camera| camera.name == name)
+    }
+
+    /// The hash in hexadecimal.
+    #[must_use]
+    pub fn hash_text(&self) -> String {
+        self.hash.iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+impl CameraPlan {
+    /// Columns and rows of the film: of the picture, or of the stored radiance.
+    #[must_use]
+    pub fn film_size(&self) -> (u32, u32) {
+        match &self.settings.route {
+            Route::Lens => (self.body.raster.width() as u32, self.body.raster.height() as u32),
+            Route::Pupil(projection) => (projection.width() as u32, projection.height() as u32),
+        }
+    }
+}

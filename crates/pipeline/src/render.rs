@@ -1,0 +1,157 @@
+//! Rendering a camera's light.
+
+use crate::film::Film;
+use crate::gather::Layout;
+use crate::light::{Cancelled, Exposure, Mosaic, RaySource, Sampling};
+use crate::observer::Observer;
+use crate::plan::{CameraPlan, Plan, Route};
+use crate::tile::Shard;
+use etendue_core::PupilRay;
+use etendue_optics::{Lens, PupilProjection};
+use etendue_projection::Raster;
+use etendue_sensor::Sensor;
+use etendue_tracer::accel::Simd;
+use etendue_tracer::integrator::{PathSettings, PathTracer};
+use etendue_tracer::lights::{LightCensus, Lights};
+use etendue_tracer::view::View;
+use glam::{DVec2, DVec3};
+
+/// Where paths may begin to end at random.
+const ROULETTE_START: u32 = 4;
+
+/// What a rendering is asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Request {
+    /// Which tiles.
+    pub shard: Shard,
+    /// Which instruction set the accelerator may use. It does not change the result.
+    pub simd: Simd,
+}
+
+impl Default for Request {
+    fn default() -> Self {
+        Self { shard: Shard::WHOLE, simd: Simd::Auto }
+    }
+}
+
+/// Renders the light of one camera on the caller's thread pool: irradiance and electrons through the lens, or (on the
+/// route at the pupil) radiance, for which every weight is 1.
+///
+/// # Errors
+/// [`Cancelled`] where the observer asked to stop.
+pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn Observer) -> Result<Film, Cancelled> {
+    match &camera.settings.route {
+        Route::Lens => through(plan, camera, request, observer, &LensSource::of(camera)),
+        Route::Pupil(projection) => through(plan, camera, request, observer, projection),
+    }
+}
+
+/// Which lights a camera's paths ask.
+#[must_use]
+pub fn census(plan: &Plan, camera: &CameraPlan) -> LightCensus {
+    lights(plan, camera, &plan.world.view(camera.pose.position_m)).census()
+}
+
+fn lights(plan: &Plan, camera: &CameraPlan, view: &View<'_>) -> Lights {
+    let (suns, environment) = (plan.suns.clone(), plan.environment.clone());
+    Lights::new(view, &plan.palette, suns, environment, camera.settings.range_nm)
+        .expect("a compiled plan names only materials that it has, and nothing moves")
+}
+
+fn through<S: RaySource>(
+    plan: &Plan,
+    camera: &CameraPlan,
+    request: Request,
+    observer: &dyn Observer,
+    source: &S,
+) -> Result<Film, Cancelled> {
+    let view = plan.world.view_with(camera.pose.position_m, request.simd);
+    let lights = lights(plan, camera, &view);
+    let tracer = PathTracer::new(&view, &plan.palette, &lights, path_settings(camera));
+    let mosaic = camera.body.sensor.as_ref().filter(|_| camera.settings.folded).map(mosaic);
+    let exposure = exposure(camera, request, source, mosaic.as_ref());
+    match camera.settings.wavelengths {
+        1 => exposure.gather::<1>(&tracer, observer),
+        8 => exposure.gather::<8>(&tracer, observer),
+        _ => exposure.gather::<4>(&tracer, observer),
+    }
+}
+
+fn exposure<'a, S>(
+    camera: &CameraPlan,
+    request: Request,
+    source: &'a S,
+    mosaic: Option<&'a Mosaic>,
+) -> Exposure<'a, S> {
+    let settings = &camera.settings;
+    let (width, height) = camera.film_size();
+    Exposure {
+        source,
+        pose: camera.pose,
+        width,
+        height,
+        aperture_px: if settings.route == Route::Lens { camera.body.aperture_px } else { 1.0 },
+        layout: layout(camera),
+        mosaic,
+        sampling: Sampling {
+            spp: settings.spp,
+            replicates: settings.replicates,
+            seed: settings.seed,
+            camera: camera.index,
+            low_nm: settings.range_nm.0 as f32,
+            high_nm: settings.range_nm.1 as f32,
+        },
+        tile_px: settings.tile_px,
+        shard: request.shard,
+    }
+}
+
+/// What a camera's film keeps.
+#[must_use]
+pub fn layout(camera: &CameraPlan) -> Layout {
+    Layout { bands: camera.settings.bands, folded: camera.settings.folded }
+}
+
+fn path_settings(camera: &CameraPlan) -> PathSettings {
+    let pitch_tan = match &camera.settings.route {
+        Route::Lens => camera.body.raster.pitch_mm().x / camera.body.lens.principal_distance_mm(),
+        Route::Pupil(projection) => projection.pitch_tan(),
+    };
+    PathSettings {
+        max_bounces: camera.settings.max_bounces,
+        roulette_start: ROULETTE_START,
+        cone_spread_rad: pitch_tan as f32,
+        ..PathSettings::default()
+    }
+}
+
+fn mosaic(sensor: &Sensor) -> Mosaic {
+    let cfa = &sensor.parameters().cfa;
+    let responsivities = cfa.channels().iter().map(|channel| sensor.responsivity(*channel).clone()).collect();
+    Mosaic { columns: cfa.width(), responsivities }
+}
+
+/// Rays through a lens.
+struct LensSource {
+    lens: Lens,
+    raster: Raster,
+}
+
+impl LensSource {
+    fn of(camera: &CameraPlan) -> Self {
+        Self { lens: camera.body.lens, raster: camera.body.raster }
+    }
+}
+
+impl RaySource for LensSource {
+    fn ray(&self, raster_px: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<PupilRay> {
+        self.lens.ray(self.raster.sensor_mm(raster_px), pupil, wavelength_nm)
+    }
+}
+
+/// Rays from the centre of the entrance pupil; their weight is 1, so that irradiance reads as radiance.
+impl RaySource for PupilProjection {
+    fn ray(&self, raster_px: DVec2, _pupil: DVec2, _wavelength_nm: f64) -> Option<PupilRay> {
+        Some(PupilRay { origin_m: DVec3::ZERO, direction: self.direction(raster_px), weight_sr: 1.0 })
+    }
+}

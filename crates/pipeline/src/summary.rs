@@ -1,0 +1,208 @@
+//! The plan in words: what is modelled, what is left out and why, what it will cost.
+
+use crate::film::Film;
+use crate::plan::{CameraPlan, Plan, Products, Route};
+use crate::render::{census, layout};
+use etendue_core::Bands;
+use etendue_optics::Lens;
+use etendue_sensor::Verdict;
+use etendue_tracer::geometry::Shape;
+use std::fmt::{self, Display, Formatter};
+
+/// Displays a plan for people.
+#[derive(Clone, Copy, Debug)]
+pub struct Summary<'a>(pub &'a Plan);
+
+/// CPU time of a path of the street scene, for the estimate of the cost, s (docs/performance.md).
+const PATH_CPU_S: f64 = 4e-6;
+
+impl Display for Summary<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let plan = self.0;
+        writeln!(f, "plan {}", &plan.hash_text()[..16])?;
+        world(plan, f)?;
+        for camera in &plan.cameras {
+            writeln!(f)?;
+            self::camera(plan, camera, f)?;
+        }
+        if !plan.remarks.is_empty() {
+            writeln!(f, "\nremarks")?;
+        }
+        plan.remarks.iter().try_for_each(|remark| writeln!(f, "  {remark}"))
+    }
+}
+
+/// One line: a name and what is said of it.
+fn line(f: &mut Formatter<'_>, name: &str, text: impl Display) -> fmt::Result {
+    writeln!(f, "  {name:<14} {text}")
+}
+
+fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
+    writeln!(f, "\nscene")?;
+    let stored: usize = plan.world.meshes().iter().map(|m| m.triangles().len()).sum();
+    let (mut seen, mut spheres) = (0, 0);
+    for instance in plan.world.instances() {
+        match instance.shape {
+            Shape::Mesh(id) => seen += plan.world.mesh(id).triangles().len(),
+            Shape::Sphere { .. } => spheres += 1,
+        }
+    }
+    let instances = plan.world.instances().len();
+    line(f, "geometry", format!("{instances} instances, {seen} triangles ({stored} stored), {spheres} spheres"))?;
+    line(f, "materials", format!("{}, {} textures", plan.materials.len(), plan.palette.textures().len()))?;
+    line(f, "left out", "motion: nothing moves; air: it is clear; polarisation and fluorescence: not modelled")
+}
+
+fn camera(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    writeln!(f, "camera {}", camera.name)?;
+    lights(plan, camera, f)?;
+    light_paths(camera, f)?;
+    lens(camera, f)?;
+    sensor(camera, f)?;
+    processing(camera, f)?;
+    line(f, "delivers", products(&camera.products))?;
+    cost(camera, f)
+}
+
+fn lights(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let census = census(plan, camera);
+    let counted = [
+        (census.suns, "sun disc"),
+        (census.triangles, "glowing triangle"),
+        (census.spheres, "glowing sphere"),
+        (usize::from(census.image_environment), "surrounding picture"),
+        (usize::from(census.uniform_environment), "uniform surrounding"),
+    ];
+    let named = counted.iter().filter(|(n, _)| *n > 0).map(|(n, name)| match n {
+        1 => format!("1 {name}"),
+        n => format!("{n} {name}s"),
+    });
+    let list: Vec<String> = named.collect();
+    line(f, "lights", if list.is_empty() { "none: the picture will be black".to_owned() } else { list.join(", ") })
+}
+
+fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let s = &camera.settings;
+    let samples = format!("{} samples a pixel in {} replicates", s.spp, s.replicates);
+    line(f, "sampling", format!("{samples}, seed {}, {} wavelengths a path", s.seed, s.wavelengths))?;
+    line(f, "paths", format!("at most {} bounces (light scattered more often is missing)", s.max_bounces))?;
+    let cube = |bands: Bands| format!("{} band means of {} nm are kept", bands.count(), bands.width_nm());
+    let kept = match (s.bands, s.folded) {
+        (Some(bands), false) => cube(bands),
+        (Some(bands), true) => format!("{}; electrons are summed beside them", cube(bands)),
+        (None, true) => "none is kept: pixels sum electrons directly".to_owned(),
+        (None, false) => "nothing is kept".to_owned(),
+    };
+    line(f, "spectrum", format!("{} to {} nm; {kept}", s.range_nm.0, s.range_nm.1))
+}
+
+fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let lens = &camera.body.lens;
+    let kind = match lens {
+        Lens::Pinhole(_) => "pinhole",
+        Lens::Thin(_) => "thin lens",
+        Lens::Thick(_) => "thick lens",
+    };
+    let focus = match lens.focus_distance_m() {
+        None => "everything sharp".to_owned(),
+        Some(m) if m.is_infinite() => "focused at infinity".to_owned(),
+        Some(m) => format!("focused at {m} m"),
+    };
+    let (mm, n, t) = (lens.focal_length_mm(), lens.f_number(), lens.transmittance());
+    line(f, "lens", format!("{kind}, {mm} mm f/{n}, transmittance {t}, {focus}, {}", field_of_view(camera)))?;
+    line(f, "distortion", distortion(lens))?;
+    match &camera.settings.route {
+        Route::Lens => line(f, "route", "through the lens: vignetting, defocus and distortion by each sample's ray"),
+        Route::Pupil(p) => {
+            let size = format!("at the pupil: radiance of {} × {} px, then the lens on the picture", p.width(), p.height());
+            line(f, "route", format!("{size}; defocus is left out ({})", blur(camera)))
+        }
+    }?;
+    line(f, "left out", "aberrations, diffraction, glare and ghosts: later models; dispersion: the lens has none")
+}
+
+fn field_of_view(camera: &CameraPlan) -> String {
+    let size = camera.body.raster.size_mm();
+    let middle = camera.body.raster.principal_px() * camera.body.raster.pitch_mm();
+    let left = glam::DVec2::new(-middle.x, 0.0);
+    let right = glam::DVec2::new(size.x - middle.x, 0.0);
+    match camera.body.lens.angle_between_rad(left, right) {
+        Some(angle) => format!("{:.2}° wide", angle.to_degrees()),
+        None => "wider than the lens sees".to_owned(),
+    }
+}
+
+fn distortion(lens: &Lens) -> String {
+    match lens.distortion() {
+        None => "none".to_owned(),
+        Some(d) => {
+            let [k1, k2] = d.coefficients();
+            format!("radial, k1 {k1}, k2 {k2}, radius in units of {} mm, {:?}", d.unit_mm(), d.sense())
+        }
+    }
+}
+
+/// The blur that the route at the pupil leaves out.
+fn blur(camera: &CameraPlan) -> String {
+    let pixels = |depth_m: f64| camera.body.lens.circle_of_confusion_mm(depth_m) / camera.body.raster.pitch_mm().x;
+    format!("{:.2} px across at 1 m, {:.2} px at infinity", pixels(1.0), pixels(f64::INFINITY))
+}
+
+fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let raster = &camera.body.raster;
+    let size = format!("{} × {} px of {} µm", raster.width(), raster.height(), 1000.0 * raster.pitch_mm().x);
+    let Some(sensor) = &camera.body.sensor else {
+        return line(f, "sensor", format!("{size}; no electronics are described, so no electrons are made"));
+    };
+    let p = sensor.parameters();
+    line(f, "sensor", format!("{size}, {} s, {} bits, {} e⁻ full well", p.exposure_s, p.bits, p.full_well_e))?;
+    for need in sensor.needs() {
+        let verdict = match need.verdict {
+            Verdict::Required => "modelled",
+            Verdict::Guarded => "where the data need it",
+            Verdict::Skipped => "left out",
+        };
+        line(f, "", format!("{}: {verdict}: {}", need.effect.name(), need.reason))?;
+    }
+    Ok(())
+}
+
+fn processing(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    match camera.body.development.as_ref().map(|d| d.processing) {
+        None => line(f, "processing", "none: no picture is made"),
+        Some(processing) => {
+            let gain = processing.exposure_gain;
+            match processing.colour {
+                None => line(f, "processing", format!("monochrome, gain {gain}, sRGB tone")),
+                Some(colour) => {
+                    let [r, g, b] = colour.white_balance;
+                    let balance = format!("white balance {r:.4} {g:.4} {b:.4}");
+                    line(f, "processing", format!("{balance}, bilinear demosaic, colour matrix, gain {gain}, sRGB tone"))
+                }
+            }
+        }
+    }
+}
+
+fn products(p: &Products) -> String {
+    let named = [
+        (p.radiance, "radiance"),
+        (p.irradiance, "irradiance"),
+        (p.variance, "variance"),
+        (p.electrons, "electrons"),
+        (p.raw, "raw"),
+        (p.picture, "picture"),
+        (p.ground_truth, "ground truth"),
+        (p.depth_png_per_m.is_some(), "depth PNG"),
+    ];
+    let list: Vec<&str> = named.iter().filter(|(wanted, _)| *wanted).map(|(_, name)| *name).collect();
+    if list.is_empty() { "nothing".to_owned() } else { list.join(", ") }
+}
+
+fn cost(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let (width, height) = camera.film_size();
+    let paths = f64::from(width) * f64::from(height) * f64::from(camera.settings.spp);
+    let film = Film::bytes(width as usize, height as usize, &layout(camera)) as f64 / 1e6;
+    let cpu = paths * PATH_CPU_S;
+    line(f, "cost", format!("{:.1} million paths, about {cpu:.0} CPU seconds in a street; film {film:.0} MB", paths / 1e6))
+}

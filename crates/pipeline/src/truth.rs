@@ -1,0 +1,101 @@
+//! Ground truth: what each pixel's principal ray meets. Point-sampled, never filtered.
+
+use crate::plan::{CameraPlan, Plan};
+use etendue_core::Plane;
+use etendue_core::quantity::{Identity, Length, Quantity, Vector};
+use etendue_optics::lens::TruthRay;
+use etendue_tracer::accel::Simd;
+use etendue_tracer::view::{Truth, View};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+/// Planes of ground truth, in the raster of the picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GroundTruth {
+    /// Distance along the camera's axis from the entrance pupil, m; +∞ for the sky, NaN where no principal ray passes.
+    pub depth: Plane<Length>,
+    /// Distance along the principal ray from the centre of the entrance pupil, m; as `depth` for the sky and no ray.
+    pub distance: Plane<Length>,
+    /// Unit shading normal in the world; zero for the sky.
+    pub normal: Plane<Vector>,
+    /// Position in the world, m; zero for the sky.
+    pub position: Plane<Vector>,
+    /// Instance ids; 0 is the background.
+    pub instance: Plane<Identity>,
+    /// Class ids; 0 is the background and what has no class.
+    pub semantic: Plane<Identity>,
+    /// Places in the plan's list of materials, from 1; 0 is the background.
+    pub material: Plane<Identity>,
+}
+
+/// What one pixel sees.
+enum Seen {
+    /// No principal ray: the lens stops it.
+    Nothing,
+    Sky,
+    Surface {
+        depth_m: f64,
+        truth: Truth,
+    },
+}
+
+/// The ground truth of a camera, along the principal rays (587.56 nm) of its pixels' centres, on the caller's pool.
+/// Where the lens clips that ray but lets light through, the ray through the centroid of the open pupil is used.
+#[must_use]
+pub fn ground_truth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> GroundTruth {
+    let raster = &camera.body.raster;
+    let (width, height) = (raster.width(), raster.height());
+    let view = plan.world.view_with(camera.pose.position_m, simd);
+    let seen: Vec<Seen> = (0..width * height)
+        .into_par_iter()
+        .map(|i| seen(&view, camera, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
+        .collect();
+    GroundTruth {
+        depth: plane(&seen, width, height, |s| s.length(|depth, _| depth)),
+        distance: plane(&seen, width, height, |s| s.length(|_, truth| truth.distance_m)),
+        normal: plane(&seen, width, height, |s| s.vector(|truth| truth.normal)),
+        position: plane(&seen, width, height, |s| s.vector(|truth| truth.position_m)),
+        instance: plane(&seen, width, height, |s| s.identity(|truth| truth.instance_id)),
+        semantic: plane(&seen, width, height, |s| s.identity(|truth| truth.semantic_id)),
+        material: plane(&seen, width, height, |s| s.identity(|truth| truth.material + 1)),
+    }
+}
+
+fn seen(view: &View<'_>, camera: &CameraPlan, raster_px: DVec2) -> Seen {
+    let Some(TruthRay { ray, .. }) = camera.body.lens.truth_ray(camera.body.raster.sensor_mm(raster_px)) else {
+        return Seen::Nothing;
+    };
+    let direction = camera.pose.direction_to_world(ray.direction);
+    match view.truth(camera.pose.point_to_render(ray.origin_m), direction) {
+        None => Seen::Sky,
+        Some(truth) => Seen::Surface { depth_m: truth.distance_m * ray.direction.z + ray.origin_m.z, truth },
+    }
+}
+
+fn plane<Q: Quantity>(seen: &[Seen], width: usize, height: usize, of: impl Fn(&Seen) -> Q::Sample) -> Plane<Q> {
+    Plane::from_samples(width, height, seen.iter().map(of).collect()).expect("one sample a pixel")
+}
+
+impl Seen {
+    fn length(&self, of: impl Fn(f64, &Truth) -> f64) -> f32 {
+        match self {
+            Self::Nothing => f32::NAN,
+            Self::Sky => f32::INFINITY,
+            Self::Surface { depth_m, truth } => of(*depth_m, truth) as f32,
+        }
+    }
+
+    fn vector(&self, of: impl Fn(&Truth) -> DVec3) -> [f32; 3] {
+        match self {
+            Self::Surface { truth, .. } => of(truth).as_vec3().to_array(),
+            Self::Nothing | Self::Sky => [0.0; 3],
+        }
+    }
+
+    fn identity(&self, of: impl Fn(&Truth) -> u32) -> u32 {
+        match self {
+            Self::Surface { truth, .. } => of(truth),
+            Self::Nothing | Self::Sky => 0,
+        }
+    }
+}
