@@ -183,7 +183,8 @@ pub(crate) fn node_nm(i: usize) -> f64 {
 #[inline]
 pub(crate) fn node_below(nm: f32) -> (usize, f32) {
     let x = (nm - SHORTEST_NM as f32).clamp(0.0, (NODES - 1) as f32);
-    let i = (x as usize).min(NODES - 2);
+    // By way of i32, which the processor converts to at once.
+    let i = (x as i32 as usize).min(NODES - 2);
     (i, x - i as f32)
 }
 
