@@ -6,7 +6,8 @@
 //! leaves the mean unchanged. Nothing is clamped.
 //!
 //! `max_bounces` is the greatest number of scattering events between a light and the camera: 0 shows only what
-//! glows, 1 adds direct light, 2 light that was scattered twice. It is the only bias, and it is darkness.
+//! glows, 1 adds direct light, 2 light that was scattered twice. Beside the filtering of textures it is the only bias, and it is
+//! darkness.
 //!
 //! All wavelengths of a path share its directions, drawn by densities common to them.
 

@@ -1,0 +1,112 @@
+//! The path tracer against itself: ways of finding light, roulette, wavelengths, repetition.
+
+use super::*;
+
+/// A floor and a block under lights of every kind.
+fn mixed(floor: Surface) -> Ready {
+    let picture = (0..128).map(|i| [0.2 + (i % 5) as f32, 0.5, (i % 3) as f32]).collect();
+    let mut scene = Scene {
+        suns: vec![Sun::of_radiance(DVec3::new(-1.0, 0.3, 1.0), 20.0, Spectrum::constant(0.02)).expect("a sun")],
+        environment: Some(Environment::Image(ImageEnvironment::new((16, 8), picture, 1.0, 1.0).expect("a picture"))),
+        ..Scene::default()
+    };
+    let floor = scene.material(floor, None);
+    let lamp = scene.material(matt(0.2), Some((0.05, Glow::Both)));
+    let block = scene.material(matt(0.7), None);
+    scene.square(Vec3::ZERO, 5.0, floor);
+    scene.square(Vec3::new(1.0, 0.0, 1.5), 0.5, lamp);
+    scene.sphere(DVec3::new(0.5, 1.0, 0.6), 0.5, lamp);
+    let flat = DAffine3::from_scale_rotation_translation(
+        DVec3::new(0.3, 0.8, 0.4),
+        glam::DQuat::from_rotation_z(0.4),
+        DVec3::new(0.0, -1.5, 0.8),
+    );
+    scene.place(Shape::Sphere { radius_m: 1.0 }, flat, lamp);
+    scene.sphere(DVec3::new(-0.8, 0.0, 0.5), 0.4, block);
+    scene.ready()
+}
+
+#[test]
+fn drawn_light_and_met_light_agree() {
+    for floor in [matt(0.8), aluminium(0.4), paint(0.6, 0.3), paint(0.6, 0.0)] {
+        let ready = mixed(floor);
+        let look = |strategies, samples| {
+            let settings = PathSettings { max_bounces: 3, strategies, ..PathSettings::default() };
+            ready.look(&ray([-2.0, -2.0, 2.0], [0.2, 0.1, 0.0]), samples, settings)
+        };
+        let both = look(Strategies::Both, 512);
+        agree(&look(Strategies::Scattering, 2048), &both);
+        agree(&look(Strategies::Lights, 1024), &both);
+        assert!(both.standard_error() < 0.02 * both.mean, "{both:?}");
+    }
+}
+
+#[test]
+fn roulette_leaves_the_mean() {
+    let ready = mixed(matt(0.8));
+    let look = |roulette_start| {
+        let settings = PathSettings { max_bounces: 6, roulette_start, ..PathSettings::default() };
+        ready.look(&ray([-2.0, -2.0, 2.0], [0.2, 0.1, 0.0]), 512, settings)
+    };
+    agree(&look(0), &look(100));
+}
+
+#[test]
+fn lights_are_counted_by_kind() {
+    let ready = mixed(matt(0.5));
+    let view = ready.world.view(DVec3::ZERO);
+    let lights = Lights::new(&view, &ready.palette, ready.suns.clone(), ready.environment.clone(), (380.0, 780.0));
+    let census = lights.expect("lights").census();
+    assert_eq!((census.triangles, census.spheres, census.suns), (2, 2, 1));
+    assert!(census.image_environment && !census.uniform_environment);
+}
+
+#[test]
+fn a_lamp_far_from_the_origin_of_its_mesh_still_shines() {
+    // The camera stands at the origin; the lamp's own frame is 100 km away, where f32 resolves 8 mm.
+    let mut scene = Scene::default();
+    let (floor, lamp) = (scene.material(matt(0.5), None), scene.material(Surface::Absorber, Some((1.0, Glow::Both))));
+    scene.square(Vec3::new(0.0, 0.0, -1.0), 50.0, floor);
+    let far = Vec3::new(1e5, 0.0, 0.0);
+    let positions =
+        [(-4.0, -4.0), (4.0, -4.0), (4.0, 4.0), (-4.0, 4.0)].map(|(x, y)| far + Vec3::new(x, y, 0.0)).to_vec();
+    let (mesh, _) = Mesh::new(positions, vec![], vec![], vec![[0, 1, 2], [0, 2, 3]], vec![]).expect("a mesh");
+    let id = scene.builder.add_mesh(mesh);
+    scene.place(Shape::Mesh(id), DAffine3::from_translation(DVec3::new(-1e5, 0.0, 1.0)), lamp);
+    let ready = scene.ready();
+    let look = |strategies| {
+        let settings = PathSettings { max_bounces: 1, strategies, ..PathSettings::default() };
+        ready.look(&ray([0.0; 3], [0.5, 0.2, -1.0]), 512, settings)
+    };
+    let drawn = look(Strategies::Lights);
+    agree(&look(Strategies::Scattering), &drawn);
+    assert!(drawn.mean > 0.1);
+}
+
+#[test]
+fn answers_are_the_same_bits_when_asked_again() {
+    let ready = mixed(paint(0.6, 0.3));
+    let view = ready.world.view(DVec3::ZERO);
+    let lights = Lights::new(&view, &ready.palette, ready.suns.clone(), ready.environment.clone(), (380.0, 780.0))
+        .expect("lights");
+    let tracer = PathTracer::new(&view, &ready.palette, &lights, PathSettings::default());
+    let r = ray([-2.0, -2.0, 2.0], [0.2, 0.1, 0.0]);
+    let ask = || replicate(&tracer, &r, 64, 7).to_bits();
+    assert_eq!(ask(), ask());
+}
+
+#[test]
+fn paths_of_one_four_and_eight_wavelengths_agree_where_nothing_disperses() {
+    let ready = mixed(matt(0.7));
+    let view = ready.world.view(DVec3::ZERO);
+    let lights = Lights::new(&view, &ready.palette, ready.suns.clone(), None, (380.0, 780.0)).expect("lights");
+    let tracer = PathTracer::new(&view, &ready.palette, &lights, bounces(2));
+    let address = PixelAddress { seed: 1, camera: 0, frame: 0, capture: 0, pixel: Pixel { x: 0, y: 0 }, replicate: 0 };
+    let stream = PathStream::new(&address, 3);
+    let r = ray([-2.0, -2.0, 2.0], [0.2, 0.1, 0.0]);
+    let one = tracer.radiance(&r, &Wavelengths::<1>::uniform(400.0, 700.0, 0.3), &stream)[0];
+    let four = tracer.radiance(&r, &Wavelengths::<4>::uniform(400.0, 700.0, 0.3), &stream);
+    let eight = tracer.radiance(&r, &Wavelengths::<8>::uniform(400.0, 700.0, 0.3), &stream);
+    // Every spectrum of this scene is constant.
+    assert!(one > 0.0 && four.0.iter().chain(&eight.0).all(|v| (v - one).abs() <= 1e-6 * one), "{one} {four:?}");
+}

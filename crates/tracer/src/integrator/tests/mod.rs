@@ -1,0 +1,143 @@
+//! The path tracer against closed forms, conservation laws and itself.
+//!
+//! Estimates are means of independently scrambled replicates; "agrees" is three standard errors of Student's t with
+//! 31 degrees of freedom (0.5 %), plus 1e-5 for the rounding of f32.
+
+mod agreement;
+mod closed_forms;
+mod sides;
+
+use super::*;
+use crate::MaterialId;
+use crate::accel::{World, WorldBuilder};
+use crate::geometry::{Instance, Mesh, Shape};
+use crate::lights::{Environment, ImageEnvironment, Sun};
+use crate::materials::{Coated, Conductor, Emission, Glow, Material, Reflectance, Surface};
+use core::f64::consts::PI;
+use etendue_core::Track;
+use etendue_core::random::{Pixel, PixelAddress};
+use etendue_spectra::{Spectrum, metal, upsample};
+use etendue_stats::ReplicateEstimate;
+use glam::{DAffine3, DVec3, Vec2, Vec3};
+
+const WAVELENGTHS: Wavelengths<4> = Wavelengths { nm: [450.0, 520.0, 600.0, 680.0], pdf: [1.0 / 400.0; 4] };
+
+/// What a test asks: surfaces, and what shines from infinity.
+#[derive(Default)]
+struct Scene {
+    builder: WorldBuilder,
+    materials: Vec<Material>,
+    suns: Vec<Sun>,
+    environment: Option<Environment>,
+}
+
+impl Scene {
+    fn material(&mut self, surface: Surface, glow: Option<(f64, Glow)>) -> MaterialId {
+        let emission =
+            glow.map(|(radiance, glow)| Emission { radiance: Spectrum::constant(radiance), factor: None, glow });
+        self.materials.push(Material { surface, emission });
+        MaterialId(self.materials.len() as u32 - 1)
+    }
+
+    fn place(&mut self, shape: Shape, to_world: DAffine3, material: MaterialId) {
+        let to_world = Track::still(to_world);
+        self.builder.add_instance(Instance {
+            shape,
+            to_world,
+            materials: vec![material],
+            instance_id: 1,
+            semantic_id: 1,
+        });
+    }
+
+    fn sphere(&mut self, centre: DVec3, radius_m: f64, material: MaterialId) {
+        self.place(Shape::Sphere { radius_m }, DAffine3::from_translation(centre), material);
+    }
+
+    fn mesh(&mut self, positions: Vec<Vec3>, triangles: Vec<[u32; 3]>, material: MaterialId) {
+        self.mesh_with_normals(positions, vec![], triangles, material);
+    }
+
+    fn mesh_with_normals(&mut self, at: Vec<Vec3>, normals: Vec<Vec3>, triangles: Vec<[u32; 3]>, m: MaterialId) {
+        let (mesh, _) = Mesh::new(at, normals, vec![], triangles, vec![]).expect("a mesh");
+        let id = self.builder.add_mesh(mesh);
+        self.place(Shape::Mesh(id), DAffine3::IDENTITY, m);
+    }
+
+    /// A square of side 2·`half` about `centre`, facing up (anticlockwise seen from above).
+    fn square(&mut self, centre: Vec3, half: f32, material: MaterialId) {
+        let corners = [(-half, -half), (half, -half), (half, half), (-half, half)];
+        let positions = corners.map(|(x, y)| centre + Vec3::new(x, y, 0.0)).to_vec();
+        self.mesh(positions, vec![[0, 1, 2], [0, 2, 3]], material);
+    }
+
+    fn ready(self) -> Ready {
+        let palette = Palette::new(self.materials, vec![]).expect("materials");
+        let world = self.builder.build().expect("a world");
+        Ready { world, palette, suns: self.suns, environment: self.environment }
+    }
+}
+
+struct Ready {
+    world: World,
+    palette: Palette,
+    suns: Vec<Sun>,
+    environment: Option<Environment>,
+}
+
+impl Ready {
+    /// Radiance along a ray, from 32 replicates of `samples`, at the second wavelength.
+    fn look(&self, ray: &Ray, samples: u32, settings: PathSettings) -> ReplicateEstimate {
+        let view = self.world.view(DVec3::ZERO);
+        let lights = Lights::new(&view, &self.palette, self.suns.clone(), self.environment.clone(), (380.0, 780.0))
+            .expect("lights");
+        let tracer = PathTracer::new(&view, &self.palette, &lights, settings);
+        let means: Vec<_> = (0..32).map(|r| replicate(&tracer, ray, samples, r)).collect();
+        ReplicateEstimate::of(&means).expect("replicates")
+    }
+}
+
+fn replicate(tracer: &PathTracer<'_>, ray: &Ray, samples: u32, replicate: u32) -> f64 {
+    let pixel = Pixel { x: 3, y: 4 };
+    let address = PixelAddress { seed: 5, camera: 0, frame: 0, capture: 0, pixel, replicate };
+    let stream = PathStream::new(&address, 0);
+    let sum: f64 = (0..samples).map(|s| f64::from(tracer.radiance(ray, &WAVELENGTHS, &stream.with_sample(s))[1])).sum();
+    sum / f64::from(samples)
+}
+
+fn agrees(estimate: &ReplicateEstimate, expected: f64) {
+    let allowed = 3.0 * estimate.standard_error() + 1e-5 * expected.abs();
+    assert!((estimate.mean - expected).abs() <= allowed, "{} ± {} is not {expected}", estimate.mean, allowed);
+}
+
+fn agree(a: &ReplicateEstimate, b: &ReplicateEstimate) {
+    let allowed = 3.5 * (a.variance_of_mean + b.variance_of_mean).sqrt() + 1e-5 * b.mean.abs();
+    assert!((a.mean - b.mean).abs() <= allowed, "{} and {} differ by more than {allowed}", a.mean, b.mean);
+}
+
+fn matt(reflectance: f64) -> Surface {
+    Surface::Diffuse(Reflectance::Spectrum(Spectrum::constant(reflectance)))
+}
+
+fn paint(base: f64, alpha: f64) -> Surface {
+    let base = Reflectance::Spectrum(Spectrum::constant(base));
+    Surface::Coated(Box::new(Coated::new(base, 1.5, alpha).expect("a paint")))
+}
+
+fn aluminium(alpha: f64) -> Surface {
+    let index = metal::named("Al").expect("aluminium").clone();
+    Surface::Conductor(Box::new(Conductor::new(index, alpha).expect("a metal")))
+}
+
+fn bounces(max_bounces: u32) -> PathSettings {
+    PathSettings { max_bounces, ..PathSettings::default() }
+}
+
+fn ray(origin: [f32; 3], towards: [f32; 3]) -> Ray {
+    let origin = Vec3::from(origin);
+    Ray::new(origin, (Vec3::from(towards) - origin).normalize(), 0.0)
+}
+
+fn white_picture() -> Environment {
+    Environment::Image(ImageEnvironment::new((16, 8), vec![[1.0; 3]; 128], 1.0, 0.3).expect("surroundings"))
+}
