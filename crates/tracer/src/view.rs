@@ -10,11 +10,12 @@ mod truth;
 
 pub use truth::Truth;
 
+use crate::accel::top::Top;
 use crate::accel::{Simd, World};
 use crate::geometry::{Shape, SurfacePoint};
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};
-use place::Placed;
+pub(crate) use place::Placed;
 
 /// What a ray meets first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,13 +37,13 @@ pub struct Hit {
 pub struct View<'w> {
     world: &'w World,
     origin_m: DVec3,
-    placed: Vec<Placed>,
+    top: Top<'w>,
 }
 
 impl<'w> View<'w> {
-    pub(crate) fn new(world: &'w World, origin_m: DVec3, _simd: Simd) -> Self {
+    pub(crate) fn new(world: &'w World, origin_m: DVec3, simd: Simd) -> Self {
         let placed: Vec<_> = world.instances().iter().map(|i| Placed::new(i, origin_m)).collect();
-        Self { world, origin_m, placed }
+        Self { world, origin_m, top: Top::new(world, placed, simd) }
     }
 
     /// The world that is seen.
@@ -61,48 +62,29 @@ impl<'w> View<'w> {
     /// at the same t, the one of the least instance, then the least primitive.
     #[must_use]
     pub fn closest(&self, ray: &Ray) -> Option<Hit> {
-        let mut best: Option<Hit> = None;
-        for instance in 0..self.placed.len() as u32 {
-            for primitive in 0..self.primitive_count(instance) {
-                let limit = best.map_or(ray.t_max, |h| h.t);
-                if let Some((t, u, v)) = self.meet(ray, instance, primitive).filter(|h| h.0 > 0.0 && h.0 < limit) {
-                    best = Some(Hit { t, instance, primitive, u, v });
-                }
-            }
-        }
-        best
-    }
-
-    fn meet(&self, ray: &Ray, instance: u32, primitive: u32) -> Option<(f32, f32, f32)> {
-        let placed = &self.placed[instance as usize];
-        let (o, d) = placed.ray_to_local(ray);
-        match self.world.instances()[instance as usize].shape {
-            Shape::Sphere { radius_m } => {
-                crate::geometry::sphere::nearest(radius_m, o, d).map(|t| (t as f32, 0.0, 0.0))
-            }
-            Shape::Mesh(id) => {
-                let corners = self.world.mesh(id).corners(primitive).map(Vec3::as_dvec3);
-                let (t, u, v) = truth::plane(corners, o, d)?;
-                (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then_some((t as f32, u as f32, v as f32))
-            }
-        }
+        self.top.closest(ray)
     }
 
     /// Whether a ray meets anything, with t > 0 and t < `ray.t_max`.
     #[must_use]
     pub fn occluded(&self, ray: &Ray) -> bool {
-        self.closest(ray).is_some()
+        self.top.occluded(ray)
     }
 
     /// The point of the surface that `ray` met at `hit`.
     #[must_use]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let instance = &self.world.instances()[hit.instance as usize];
-        let placed = &self.placed[hit.instance as usize];
+        let placed = self.placed(hit.instance);
         match instance.shape {
             Shape::Mesh(id) => point::of_mesh(self.world.mesh(id), instance, placed, hit),
             Shape::Sphere { radius_m } => point::of_sphere(radius_m, instance, placed, ray, hit),
         }
+    }
+
+    /// An instance's place.
+    pub(crate) fn placed(&self, instance: u32) -> &Placed {
+        &self.top.placed()[instance as usize]
     }
 
     /// Primitives of an instance: its triangles, or 1 for a sphere.
@@ -121,7 +103,7 @@ impl<'w> View<'w> {
         let Shape::Mesh(id) = self.world.instances()[instance as usize].shape else {
             panic!("instance {instance} is a sphere and has no triangles");
         };
-        let placed = &self.placed[instance as usize];
+        let placed = self.placed(instance);
         let [a, b, c] = self.world.mesh(id).corners(primitive).map(|p| placed.point_to_render(p.as_dvec3()).as_vec3());
         if placed.mirrors() { [a, c, b] } else { [a, b, c] }
     }
@@ -131,7 +113,7 @@ impl<'w> View<'w> {
     #[must_use]
     pub fn sphere(&self, instance: u32) -> Option<(Vec3, f32)> {
         let Shape::Sphere { radius_m } = self.world.instances()[instance as usize].shape else { return None };
-        let placed = &self.placed[instance as usize];
+        let placed = self.placed(instance);
         let scale = placed.uniform_scale()?;
         Some((placed.point_to_render(DVec3::ZERO).as_vec3(), (radius_m * scale) as f32))
     }
@@ -139,7 +121,7 @@ impl<'w> View<'w> {
     /// Centre (render frame, m) and radius (m) of a sphere about everything; both zero in an empty world.
     #[must_use]
     pub fn bounds(&self) -> (Vec3, f32) {
-        let boxes = self.placed.iter().zip(self.world.instances());
+        let boxes = self.top.placed().iter().zip(self.world.instances());
         let boxes = boxes.filter_map(|(placed, instance)| placed.bounds(instance, self.world));
         let Some((low, high)) = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else {
             return (Vec3::ZERO, 0.0);

@@ -1,8 +1,32 @@
 //! The accelerator: which primitive a ray meets first.
 //!
 //! A [`World`] holds meshes, each with a tree in its own frame, and instances of them. It is built once; a
-//! [`crate::view::View`] places the instances about one camera.
+//! [`crate::view::View`] places the instances about one camera and adds a tree over them.
+//!
+//! - `build`: binary trees by the library that builds best (parallel locally-ordered clustering and reinsertion).
+//! - `collapse`: binary to eight-wide, at least cost.
+//! - `node`, `packet`: what is tested eight at a time: boxes and triangles.
+//! - `walk`: near to far through a tree, for the first hit or for any.
+//!
+//! Everything is written once over eight lanes (`lanes`) and compiled twice, with AVX2 and without: the same
+//! operations in the same order, so the same bits.
 
+mod best;
+pub(crate) mod boxes;
+mod build;
+mod collapse;
+pub(crate) mod lanes;
+pub(crate) mod local;
+mod mesh_tree;
+mod node;
+mod packet;
+mod ray;
+#[cfg(target_arch = "x86_64")]
+mod simd;
+#[cfg(test)]
+mod tests;
+pub(crate) mod top;
+mod walk;
 mod world;
 
 pub use world::{World, WorldBuilder, WorldError};

@@ -1,6 +1,7 @@
 //! The world: meshes with their trees, and instances of them.
 
 use super::Simd;
+use super::mesh_tree::MeshTree;
 use crate::geometry::{Instance, Mesh, MeshId, Shape};
 use crate::view::View;
 use glam::{DAffine3, DVec3};
@@ -81,7 +82,8 @@ impl WorldBuilder {
         for (index, instance) in self.instances.iter().enumerate() {
             check(index, instance, &self.meshes)?;
         }
-        Ok(World { meshes: self.meshes, instances: self.instances })
+        let trees = self.meshes.iter().map(MeshTree::new).collect();
+        Ok(World { meshes: self.meshes, trees, instances: self.instances })
     }
 }
 
@@ -115,6 +117,7 @@ fn is_invertible(transform: &DAffine3) -> bool {
 #[derive(Clone, Debug)]
 pub struct World {
     meshes: Vec<Mesh>,
+    trees: Vec<MeshTree>,
     instances: Vec<Instance>,
 }
 
@@ -129,6 +132,10 @@ impl World {
     #[must_use]
     pub fn mesh(&self, id: MeshId) -> &Mesh {
         &self.meshes[id.0 as usize]
+    }
+
+    pub(crate) fn tree(&self, id: MeshId) -> &MeshTree {
+        &self.trees[id.0 as usize]
     }
 
     /// The instances, in the order of their indices.

@@ -35,7 +35,7 @@ impl View<'_> {
         let direction = direction.try_normalize()?;
         let hit = self.closest(&Ray::new(origin_m.as_vec3(), direction.as_vec3(), 0.0))?;
         let instance = &self.world.instances()[hit.instance as usize];
-        let placed = &self.placed[hit.instance as usize];
+        let placed = self.placed(hit.instance);
         let (origin, along) = placed.line_to_local(origin_m, direction);
         let (t, normal, slot) = match instance.shape {
             Shape::Mesh(id) => on_mesh(self.world.mesh(id), placed, &hit, origin, along),

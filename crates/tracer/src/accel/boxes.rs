@@ -1,0 +1,37 @@
+//! Axis-parallel boxes.
+
+use glam::{DVec3, Vec3};
+
+/// An axis-parallel box.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Box3 {
+    /// Least coordinates.
+    pub(crate) low: Vec3,
+    /// Greatest coordinates.
+    pub(crate) high: Vec3,
+}
+
+impl Box3 {
+    /// A box of f64 in f32. Rounding to f32 is within the padding that is to follow.
+    pub(crate) fn from_f64((low, high): (DVec3, DVec3)) -> Self {
+        Self { low: low.as_vec3(), high: high.as_vec3() }
+    }
+
+    /// By how much a primitive's box is enlarged on all sides so that no rounding of a box test loses a hit that the
+    /// primitive's own test grants: 4e-7 · (greatest coordinate + greatest extent), some seven roundings.
+    pub(crate) fn padding(&self) -> f32 {
+        let coordinate = self.low.abs().max(self.high.abs()).max_element();
+        4e-7 * (coordinate + (self.high - self.low).max_element())
+    }
+
+    /// The box enlarged on all sides.
+    pub(crate) fn grown(&self, by: f32) -> Self {
+        Self { low: self.low - Vec3::splat(by), high: self.high + Vec3::splat(by) }
+    }
+
+    /// Half the area of the box's surface.
+    pub(crate) fn half_area(&self) -> f32 {
+        let e = self.high - self.low;
+        e.x * e.y + e.y * e.z + e.z * e.x
+    }
+}

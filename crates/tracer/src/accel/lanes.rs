@@ -1,0 +1,140 @@
+//! Eight numbers at once.
+//!
+//! The accelerator's arithmetic is written once over [`Lanes`]. [`Plain`] does it lane by lane, with the operand order
+//! of the x86 instructions where that shows (minimum and maximum of zeros and NaN); the AVX2 form does the same
+//! operations eight at a time. No operation is fused.
+
+/// Eight f32.
+pub(crate) type Eight = [f32; 8];
+
+/// A way to compute with eight numbers at once. Every way gives the same bits.
+pub(crate) trait Lanes: Copy {
+    /// Eight numbers.
+    type V: Copy;
+    /// Eight truths.
+    type M: Copy;
+
+    /// Eight numbers from memory.
+    fn load(self, from: &Eight) -> Self::V;
+    /// Eight numbers to memory.
+    fn store(self, v: Self::V) -> Eight;
+    /// The same number eight times.
+    fn splat(self, x: f32) -> Self::V;
+    /// a + b
+    fn add(self, a: Self::V, b: Self::V) -> Self::V;
+    /// a − b
+    fn sub(self, a: Self::V, b: Self::V) -> Self::V;
+    /// a · b
+    fn mul(self, a: Self::V, b: Self::V) -> Self::V;
+    /// a / b
+    fn div(self, a: Self::V, b: Self::V) -> Self::V;
+    /// a < b ? a : b
+    fn min(self, a: Self::V, b: Self::V) -> Self::V;
+    /// a > b ? a : b
+    fn max(self, a: Self::V, b: Self::V) -> Self::V;
+    /// |a|
+    fn abs(self, a: Self::V) -> Self::V;
+    /// a ≤ b; false for NaN
+    fn le(self, a: Self::V, b: Self::V) -> Self::M;
+    /// a < b; false for NaN
+    fn lt(self, a: Self::V, b: Self::V) -> Self::M;
+    /// Both.
+    fn and(self, a: Self::M, b: Self::M) -> Self::M;
+    /// Either.
+    fn or(self, a: Self::M, b: Self::M) -> Self::M;
+    /// Lane i in bit i.
+    fn bits(self, m: Self::M) -> u32;
+    /// Asks the memory for what `at` begins.
+    fn prefetch<T>(self, at: &T);
+    /// Runs a task, compiled for these lanes.
+    fn run<J: Job>(self, job: J) -> J::Output;
+}
+
+/// A task that can be compiled for any lanes.
+pub(crate) trait Job {
+    /// What it answers.
+    type Output;
+    /// Does it. To be marked `#[inline(always)]`, so that it is compiled with the lanes' instructions.
+    fn work<L: Lanes>(self, lanes: L) -> Self::Output;
+}
+
+/// Lane by lane.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plain;
+
+#[inline(always)]
+fn zip(a: Eight, b: Eight, f: impl Fn(f32, f32) -> f32) -> Eight {
+    core::array::from_fn(|i| f(a[i], b[i]))
+}
+
+impl Lanes for Plain {
+    type V = Eight;
+    type M = [bool; 8];
+
+    #[inline(always)]
+    fn load(self, from: &Eight) -> Eight {
+        *from
+    }
+    #[inline(always)]
+    fn store(self, v: Eight) -> Eight {
+        v
+    }
+    #[inline(always)]
+    fn splat(self, x: f32) -> Eight {
+        [x; 8]
+    }
+    #[inline(always)]
+    fn add(self, a: Eight, b: Eight) -> Eight {
+        zip(a, b, |a, b| a + b)
+    }
+    #[inline(always)]
+    fn sub(self, a: Eight, b: Eight) -> Eight {
+        zip(a, b, |a, b| a - b)
+    }
+    #[inline(always)]
+    fn mul(self, a: Eight, b: Eight) -> Eight {
+        zip(a, b, |a, b| a * b)
+    }
+    #[inline(always)]
+    fn div(self, a: Eight, b: Eight) -> Eight {
+        zip(a, b, |a, b| a / b)
+    }
+    #[inline(always)]
+    fn min(self, a: Eight, b: Eight) -> Eight {
+        zip(a, b, |a, b| if a < b { a } else { b })
+    }
+    #[inline(always)]
+    fn max(self, a: Eight, b: Eight) -> Eight {
+        zip(a, b, |a, b| if a > b { a } else { b })
+    }
+    #[inline(always)]
+    fn abs(self, a: Eight) -> Eight {
+        a.map(f32::abs)
+    }
+    #[inline(always)]
+    fn le(self, a: Eight, b: Eight) -> [bool; 8] {
+        core::array::from_fn(|i| a[i] <= b[i])
+    }
+    #[inline(always)]
+    fn lt(self, a: Eight, b: Eight) -> [bool; 8] {
+        core::array::from_fn(|i| a[i] < b[i])
+    }
+    #[inline(always)]
+    fn and(self, a: [bool; 8], b: [bool; 8]) -> [bool; 8] {
+        core::array::from_fn(|i| a[i] & b[i])
+    }
+    #[inline(always)]
+    fn or(self, a: [bool; 8], b: [bool; 8]) -> [bool; 8] {
+        core::array::from_fn(|i| a[i] | b[i])
+    }
+    #[inline(always)]
+    fn bits(self, m: [bool; 8]) -> u32 {
+        m.iter().enumerate().fold(0, |bits, (i, set)| bits | u32::from(*set) << i)
+    }
+    #[inline(always)]
+    fn prefetch<T>(self, _at: &T) {}
+    #[inline(always)]
+    fn run<J: Job>(self, job: J) -> J::Output {
+        job.work(self)
+    }
+}

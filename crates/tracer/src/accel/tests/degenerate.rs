@@ -1,0 +1,117 @@
+//! Worlds and rays at the edge of sense.
+
+use super::shapes::{Random, instance, mesh, world_of};
+use crate::MaterialId;
+use crate::accel::{WorldBuilder, WorldError};
+use crate::geometry::{Dropped, Mesh, MeshId, Shape};
+use etendue_core::{Ray, Track};
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+
+#[test]
+fn an_empty_world_is_met_by_nothing() {
+    let mut builder = WorldBuilder::new();
+    let (empty, _) = Mesh::new(vec![], vec![], vec![], vec![], vec![]).expect("legal");
+    let id = builder.add_mesh(empty);
+    let ray = Ray::new(Vec3::ZERO, Vec3::X, 0.0);
+    for instances in 0..2 {
+        let mut builder = builder.clone();
+        for _ in 0..instances {
+            builder.add_instance(instance(Shape::Mesh(id), DAffine3::IDENTITY));
+        }
+        let world = builder.build().expect("legal");
+        let view = world.view(DVec3::ZERO);
+        assert!(view.closest(&ray).is_none() && !view.occluded(&ray) && view.truth(DVec3::ZERO, DVec3::X).is_none());
+        assert_eq!(view.bounds(), (Vec3::ZERO, 0.0));
+    }
+}
+
+#[test]
+fn twenty_thousand_coincident_triangles_are_one() {
+    let positions = vec![Vec3::new(1.0, -1.0, -1.0), Vec3::new(1.0, 1.0, -1.0), Vec3::new(1.0, 0.0, 1.0)];
+    let (mesh, dropped) = Mesh::new(positions, vec![], vec![], vec![[0, 1, 2]; 20_000], vec![]).expect("legal");
+    assert_eq!(dropped, Dropped { zero_area: 0, duplicate: 19_999 });
+    let world = world_of(mesh, DAffine3::IDENTITY);
+    assert_eq!(world.view(DVec3::ZERO).closest(&Ray::new(Vec3::ZERO, Vec3::X, 0.0)).map(|h| h.t), Some(1.0));
+}
+
+/// Boxes within boxes, which no tree can part, 20 000 deep.
+#[test]
+fn nested_triangles_overflow_nothing() {
+    let count = 20_000_u32;
+    let corners = |i: u32| {
+        let r = 1.0 + i as f32 * 1e-6;
+        [Vec3::new(1.0, -r, -r), Vec3::new(1.0, r, -r), Vec3::new(1.0, 0.0, r)]
+    };
+    let faces = (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]);
+    let (mesh, _) =
+        Mesh::new((0..count).flat_map(corners).collect(), vec![], vec![], faces.collect(), vec![]).expect("legal");
+    let world = world_of(mesh, DAffine3::IDENTITY);
+    let view = world.view(DVec3::ZERO);
+    let hit = view.closest(&Ray::new(Vec3::ZERO, Vec3::X, 0.0));
+    assert_eq!(hit.map(|h| (h.t, h.primitive)), Some((1.0, 0)));
+}
+
+#[test]
+fn a_hundred_thousand_instances_are_found() {
+    let mut builder = WorldBuilder::new();
+    let triangle = vec![Vec3::new(0.1, 0.1, 0.0), Vec3::new(0.9, 0.1, 0.0), Vec3::new(0.1, 0.9, 0.0)];
+    let id = builder.add_mesh(mesh(triangle, vec![[0, 1, 2]]));
+    let side = 316_u32;
+    let place = |i: u32| DAffine3::from_translation(DVec3::new(f64::from(i % side), f64::from(i / side), 0.0));
+    for i in 0..side * side {
+        builder.add_instance(instance(Shape::Mesh(id), place(i)));
+    }
+    let world = builder.build().expect("legal");
+    let view = world.view(DVec3::new(0.0, 0.0, 10.0));
+    let mut random = Random::new(2);
+    for _ in 0..1000 {
+        let i = random.between(0.0, f64::from(side * side)) as u32;
+        let over = place(i).translation.as_vec3() + Vec3::new(0.25, 0.25, 0.0);
+        assert_eq!(view.closest(&Ray::new(over, Vec3::NEG_Z, 0.0)).map(|h| (h.instance, h.t)), Some((i, 10.0)));
+    }
+}
+
+#[test]
+fn rays_that_are_none_meet_nothing() {
+    let world = super::shapes::medley();
+    let view = world.view(DVec3::ZERO);
+    let bad = [Vec3::NAN, Vec3::INFINITY, Vec3::new(0.0, f32::NAN, 1.0)];
+    let rays = bad.iter().flat_map(|b| [Ray::new(*b, Vec3::X, 0.0), Ray::new(Vec3::ZERO, *b, 0.0)]);
+    for ray in rays.chain([Ray::new(Vec3::ZERO, Vec3::ZERO, 0.0)]) {
+        assert!(view.closest(&ray).is_none() && !view.occluded(&ray), "{ray:?}");
+    }
+    let ended = Ray { t_max: 0.0, ..Ray::new(Vec3::ZERO, Vec3::X, 0.0) };
+    assert!(view.closest(&ended).is_none() && !view.occluded(&ended));
+}
+
+#[test]
+fn worlds_that_are_none_are_refused() {
+    let build = |shape, to_world, materials: usize| {
+        let mut builder = WorldBuilder::new();
+        let id = builder.add_mesh(super::shapes::icosphere(0));
+        assert_eq!(id, MeshId(0));
+        let mut one = instance(shape, to_world);
+        one.materials = vec![MaterialId(0); materials];
+        one.to_world = Track::still(to_world);
+        builder.add_instance(one);
+        builder.build().err()
+    };
+    let still = DAffine3::IDENTITY;
+    assert_eq!(build(Shape::Mesh(MeshId(0)), still, 1), None);
+    assert_eq!(
+        build(Shape::Mesh(MeshId(1)), still, 1),
+        Some(WorldError::UnknownMesh { instance: 0, mesh: 1, meshes: 1 })
+    );
+    assert_eq!(
+        build(Shape::Mesh(MeshId(0)), still, 0),
+        Some(WorldError::MissingMaterials { instance: 0, found: 0, expected: 1 })
+    );
+    let flat = DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(1.0, 0.0, 1.0)));
+    assert_eq!(build(Shape::Mesh(MeshId(0)), flat, 1), Some(WorldError::Transform { instance: 0 }));
+    let nowhere = DAffine3::from_translation(DVec3::NAN);
+    assert_eq!(build(Shape::Mesh(MeshId(0)), nowhere, 1), Some(WorldError::Transform { instance: 0 }));
+    for radius_m in [0.0, -1.0, f64::INFINITY] {
+        let error = build(Shape::Sphere { radius_m }, still, 1);
+        assert_eq!(error, Some(WorldError::Radius { instance: 0, radius_m }));
+    }
+}

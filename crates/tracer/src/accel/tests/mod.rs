@@ -1,0 +1,7 @@
+//! Tests of the accelerator against closed forms and brute force.
+
+mod agreement;
+mod degenerate;
+pub(crate) mod shapes;
+mod ties;
+mod watertight;

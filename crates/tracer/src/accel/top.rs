@@ -1,0 +1,199 @@
+//! The tree over the instances of a view.
+
+use super::best::Best;
+use super::boxes::Box3;
+use super::build::over_boxes;
+use super::collapse::collapse;
+use super::lanes::{Job, Lanes, Plain};
+use super::local::LocalRay;
+use super::mesh_tree::MeshTree;
+use super::node::{Child, Node};
+use super::packet::PrimitiveHit;
+use super::ray::SlabRay;
+#[cfg(target_arch = "x86_64")]
+use super::simd::Avx2;
+use super::walk::{Leaves, walk};
+use super::{Simd, World};
+use crate::geometry::{Instance, Shape, sphere};
+use crate::view::{Hit, Placed};
+use etendue_core::Ray;
+use glam::{DVec3, Vec3};
+
+/// A shape with what is needed to meet it.
+#[derive(Clone, Debug)]
+enum Target<'w> {
+    Mesh(&'w MeshTree),
+    Sphere(f64),
+}
+
+/// The lanes chosen when the view was made.
+#[derive(Clone, Copy, Debug)]
+enum Chosen {
+    Plain,
+    #[cfg(target_arch = "x86_64")]
+    Avx2(Avx2),
+}
+
+impl Chosen {
+    fn new(simd: Simd) -> Self {
+        match simd {
+            Simd::Scalar => Self::Plain,
+            #[cfg(target_arch = "x86_64")]
+            Simd::Auto => Avx2::detect().map_or(Self::Plain, Self::Avx2),
+            #[cfg(not(target_arch = "x86_64"))]
+            Simd::Auto => Self::Plain,
+        }
+    }
+
+    #[inline(always)]
+    fn run<J: Job>(self, job: J) -> J::Output {
+        match self {
+            Self::Plain => Plain.run(job),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2(lanes) => lanes.run(job),
+        }
+    }
+}
+
+/// The instances of a view, with a tree over them.
+#[derive(Clone, Debug)]
+pub(crate) struct Top<'w> {
+    nodes: Vec<Node>,
+    root: Option<Child>,
+    /// The instance of each leaf.
+    leaves: Vec<u32>,
+    targets: Vec<Target<'w>>,
+    placed: Vec<Placed>,
+    chosen: Chosen,
+}
+
+impl<'w> Top<'w> {
+    /// Builds the tree over instances placed in the render frame.
+    pub(crate) fn new(world: &'w World, placed: Vec<Placed>, simd: Simd) -> Self {
+        let bounded = placed.iter().zip(world.instances()).zip(0_u32..);
+        let (boxes, members): (Vec<_>, Vec<_>) = bounded
+            .filter_map(|((placed, instance), index)| Some((Box3::from_f64(placed.bounds(instance, world)?), index)))
+            .unzip();
+        let wide = collapse(&over_boxes(&boxes), 1);
+        let leaves = wide.leaves.iter().map(|leaf| members[leaf[0] as usize]).collect();
+        let targets = world.instances().iter().map(|instance| Target::new(world, instance)).collect();
+        Self { nodes: wide.nodes, root: wide.root, leaves, targets, placed, chosen: Chosen::new(simd) }
+    }
+
+    /// The instances' places, by their index.
+    pub(crate) fn placed(&self) -> &[Placed] {
+        &self.placed
+    }
+
+    /// The first primitive that a ray meets.
+    pub(crate) fn closest(&self, ray: &Ray) -> Option<Hit> {
+        self.chosen.run(Closest { top: self, ray })
+    }
+
+    /// Whether a ray meets anything.
+    pub(crate) fn occluded(&self, ray: &Ray) -> bool {
+        self.chosen.run(Occluded { top: self, ray })
+    }
+}
+
+impl<'w> Target<'w> {
+    fn new(world: &'w World, instance: &Instance) -> Self {
+        match instance.shape {
+            Shape::Mesh(id) => Self::Mesh(world.tree(id)),
+            Shape::Sphere { radius_m } => Self::Sphere(radius_m),
+        }
+    }
+}
+
+/// A ray that is nothing or nowhere meets nothing.
+#[inline(always)]
+fn is_traceable(ray: &Ray) -> bool {
+    ray.origin.is_finite() && ray.direction.is_finite() && ray.direction != Vec3::ZERO
+}
+
+struct Closest<'a, 'w> {
+    top: &'a Top<'w>,
+    ray: &'a Ray,
+}
+
+impl Job for Closest<'_, '_> {
+    type Output = Option<Hit>;
+
+    #[inline(always)]
+    fn work<L: Lanes>(self, l: L) -> Option<Hit> {
+        let Self { top, ray } = self;
+        let root = top.root.filter(|_| is_traceable(ray))?;
+        let mut leaves = ClosestLeaf { l, top, ray, best: Best::default() };
+        let slab = SlabRay::new(ray.origin, ray.direction);
+        walk::<L, true>(l, &top.nodes, root, &slab, &mut { ray.t_max }, &mut leaves);
+        leaves.best.hit
+    }
+}
+
+struct ClosestLeaf<'a, 'w, L> {
+    l: L,
+    top: &'a Top<'w>,
+    ray: &'a Ray,
+    best: Best,
+}
+
+impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
+    #[inline(always)]
+    fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
+        let instance = self.top.leaves[leaf];
+        let (origin, direction) = self.top.placed[instance as usize].ray_to_local(self.ray);
+        match self.top.targets[instance as usize] {
+            Target::Mesh(tree) => {
+                tree.closest(self.l, &LocalRay::new(origin, direction), instance, &mut self.best, limit);
+            }
+            Target::Sphere(radius) => {
+                if let Some(hit) = meet_sphere(radius, origin, direction) {
+                    self.best.offer(instance, hit, limit);
+                }
+            }
+        }
+        false
+    }
+}
+
+struct Occluded<'a, 'w> {
+    top: &'a Top<'w>,
+    ray: &'a Ray,
+}
+
+impl Job for Occluded<'_, '_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn work<L: Lanes>(self, l: L) -> bool {
+        let Self { top, ray } = self;
+        let Some(root) = top.root.filter(|_| is_traceable(ray)) else { return false };
+        let slab = SlabRay::new(ray.origin, ray.direction);
+        walk::<L, false>(l, &top.nodes, root, &slab, &mut { ray.t_max }, &mut AnyLeaf { l, top, ray })
+    }
+}
+
+struct AnyLeaf<'a, 'w, L> {
+    l: L,
+    top: &'a Top<'w>,
+    ray: &'a Ray,
+}
+
+impl<L: Lanes> Leaves for AnyLeaf<'_, '_, L> {
+    #[inline(always)]
+    fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
+        let instance = self.top.leaves[leaf] as usize;
+        let (origin, direction) = self.top.placed[instance].ray_to_local(self.ray);
+        match self.top.targets[instance] {
+            Target::Mesh(tree) => tree.occluded(self.l, &LocalRay::new(origin, direction), *limit),
+            Target::Sphere(radius) => {
+                meet_sphere(radius, origin, direction).is_some_and(|hit| hit.t > 0.0 && hit.t < *limit)
+            }
+        }
+    }
+}
+
+fn meet_sphere(radius: f64, origin: DVec3, direction: DVec3) -> Option<PrimitiveHit> {
+    let t = sphere::nearest(radius, origin, direction)? as f32;
+    Some(PrimitiveHit { t, u: 0.0, v: 0.0, primitive: 0 })
+}
