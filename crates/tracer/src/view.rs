@@ -6,6 +6,8 @@
 
 mod place;
 mod point;
+#[cfg(test)]
+mod tests;
 mod truth;
 
 pub use truth::Truth;

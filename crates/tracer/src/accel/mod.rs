@@ -24,7 +24,7 @@ mod ray;
 #[cfg(target_arch = "x86_64")]
 mod simd;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 pub(crate) mod top;
 mod walk;
 mod world;

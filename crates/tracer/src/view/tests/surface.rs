@@ -1,0 +1,116 @@
+//! Points of surfaces: place, normals, texture coordinates, materials.
+
+use crate::MaterialId;
+use crate::accel::WorldBuilder;
+use crate::accel::tests::shapes::{Random, icosphere, instance, world_of};
+use crate::geometry::{Mesh, Shape, SurfacePoint};
+use crate::view::View;
+use etendue_core::Ray;
+use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
+
+fn point(view: &View<'_>, ray: Ray) -> SurfacePoint {
+    let hit = view.closest(&ray).expect("a hit");
+    view.surface(&ray, &hit)
+}
+
+/// A square 2 m wide at z = 0, its texture once across, with normals and slots.
+fn square(normals: Vec<Vec3>) -> Mesh {
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Vec2::new(x, y));
+    let positions = corners.map(|c| c.extend(0.0)).to_vec();
+    let uvs = corners.map(|c| c * 0.5 + 0.5).to_vec();
+    Mesh::new(positions, normals, uvs, vec![[0, 1, 2], [0, 2, 3]], vec![0, 1]).expect("legal").0
+}
+
+fn placed(mesh: Mesh, to_world: DAffine3) -> crate::accel::World {
+    let mut builder = WorldBuilder::new();
+    let id = builder.add_mesh(mesh);
+    let mut one = instance(Shape::Mesh(id), to_world);
+    one.materials = vec![MaterialId(4), MaterialId(9)];
+    builder.add_instance(one);
+    builder.build().expect("legal")
+}
+
+#[test]
+fn a_point_of_a_square_is_where_its_texture_says() {
+    let world = placed(square(vec![]), DAffine3::from_scale(DVec3::splat(10.0)));
+    let view = world.view(DVec3::new(0.0, 0.0, 5.0));
+    let mut random = Random::new(1);
+    for _ in 0..500 {
+        let (x, y) = (random.between(-10.0, 10.0) as f32, random.between(-10.0, 10.0) as f32);
+        let p = point(&view, Ray::new(Vec3::ZERO, Vec3::new(x, y, -5.0), 0.0));
+        // Barycentric weights are f32: a few roundings of 6e-8, times 20 m.
+        assert!((p.position - Vec3::new(x, y, -5.0)).length() < 2e-5);
+        assert!((p.uv - (Vec2::new(x, y) / 20.0 + 0.5)).length() < 1e-6);
+        assert!((p.uv_per_m - 0.05).abs() < 1e-7);
+        assert_eq!(p.material, MaterialId(if p.primitive == 0 { 4 } else { 9 }));
+        assert_eq!((p.geometric_normal, p.shading_normal), (Vec3::Z, Vec3::Z), "as wound, though seen from any side");
+        assert!(p.position_error.min_element() > 0.0 && p.position_error.max_element() < 1e-5);
+    }
+}
+
+#[test]
+fn shading_normals_are_on_the_side_of_the_surface_and_fall_back_to_it() {
+    let down = Ray::new(Vec3::new(0.3, 0.1, 5.0), Vec3::NEG_Z, 0.0);
+    let tilted = Vec3::new(0.6, 0.0, 0.8);
+    let shading = |normals, to_world| {
+        let world = placed(square(normals), to_world);
+        point(&world.view(DVec3::ZERO), down).shading_normal
+    };
+    assert!((shading(vec![tilted * 3.0; 4], DAffine3::IDENTITY) - tilted).length() < 1e-6);
+    assert!((shading(vec![-tilted; 4], DAffine3::IDENTITY) - tilted).length() < 1e-6);
+    for bad in [Vec3::ZERO, Vec3::NAN, Vec3::INFINITY] {
+        assert_eq!(shading(vec![bad; 4], DAffine3::IDENTITY), Vec3::Z);
+    }
+    // A stretch by 2 along x turns normals by the inverse: (0.3, 0, 0.8).
+    let stretched = shading(vec![tilted; 4], DAffine3::from_scale(DVec3::new(2.0, 1.0, 1.0)));
+    assert!((stretched - Vec3::new(0.3, 0.0, 0.8).normalize()).length() < 1e-6);
+}
+
+#[test]
+fn normals_point_outwards_even_where_an_instance_mirrors() {
+    let mut random = Random::new(2);
+    for sign in [1.0, -1.0] {
+        let matrix = random.rotation() * DMat3::from_diagonal(DVec3::new(sign, 1.0, 1.0));
+        let placement = DAffine3::from_mat3_translation(matrix, random.cube() * 5.0);
+        let world = world_of(icosphere(2), placement);
+        let view = world.view(DVec3::ZERO);
+        let centre = placement.translation.as_vec3();
+        for _ in 0..200 {
+            let p = point(&view, Ray::new(centre, random.direction().as_vec3(), 0.0));
+            assert!(p.geometric_normal.dot((p.position - centre).normalize()) > 0.9);
+            let [a, b, c] = view.triangle(0, p.primitive);
+            assert!((b - a).cross(c - a).normalize().dot(p.geometric_normal) > 0.999);
+        }
+    }
+}
+
+#[test]
+fn lights_learn_where_spheres_and_everything_are() {
+    let mut builder = WorldBuilder::new();
+    let to_world = DAffine3::from_scale_rotation_translation(
+        DVec3::splat(3.0),
+        glam::DQuat::from_xyzw(0.6, 0.0, 0.0, 0.8),
+        DVec3::new(1e6, 0.0, 2.0),
+    );
+    builder.add_instance(instance(Shape::Sphere { radius_m: 0.5 }, to_world));
+    let uneven = DAffine3::from_scale(DVec3::new(1.0, 1.0, 2.0));
+    builder.add_instance(instance(Shape::Sphere { radius_m: 0.5 }, uneven));
+    let world = builder.build().expect("legal");
+    let view = world.view(DVec3::new(1e6, 1.0, 0.0));
+    let (centre, radius) = view.sphere(0).expect("a sphere");
+    assert!((centre - Vec3::new(0.0, -1.0, 2.0)).length() < 1e-6 && (radius - 1.5).abs() < 1e-6);
+    assert_eq!((view.sphere(1), view.primitive_count(0)), (None, 1));
+    let (centre, radius) = view.bounds();
+    assert!((centre.x + 5e5).abs() < 2.0 && (radius - 5e5).abs() < 5.0);
+}
+
+#[test]
+fn a_sphere_has_the_texture_of_a_globe() {
+    let mut builder = WorldBuilder::new();
+    builder.add_instance(instance(Shape::Sphere { radius_m: 2.0 }, DAffine3::IDENTITY));
+    let world = builder.build().expect("legal");
+    let view = world.view(DVec3::ZERO);
+    let p = point(&view, Ray::new(Vec3::ZERO, Vec3::Y, 0.0));
+    assert!((p.position - Vec3::Y * 2.0).length() < 1e-6 && (p.uv - Vec2::new(0.25, 0.5)).length() < 1e-6);
+    assert_eq!((p.geometric_normal, p.shading_normal), (Vec3::Y, Vec3::Y));
+}
