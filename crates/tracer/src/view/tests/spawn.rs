@@ -10,7 +10,7 @@ use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// A direction on the side of `normal`, at a sine of elevation between 1e-6 and 1.
 fn leaving(normal: Vec3, random: &mut Random) -> Vec3 {
-    let normal = normal.as_dvec3();
+    let normal = normal.as_dvec3().normalize();
     let along = random.direction();
     let along = (along - normal * along.dot(normal)).normalize();
     let exponent = random.between(-6.0, 0.0);
