@@ -59,12 +59,10 @@ impl Description {
         let job = record::<Job>().read(document, faults);
         names::check(document, faults);
         check::references(document, faults);
-        let job = job?;
-        let (render, output) = (job.render.as_ref(), job.output.as_ref());
-        let cameras: Vec<_> = job.cameras.into_iter().map(|c| CameraSetup::new(c, render, output)).collect();
-        let description = Self { file: file.to_owned(), scene: job.scene, cameras };
-        check::cameras(&description, faults);
-        Some(description)
+        check::cameras(document, faults);
+        let Job { scene, cameras, render, output, .. } = job?;
+        let setup = |entry| CameraSetup::new(entry, render.as_ref(), output.as_ref());
+        Some(Self { file: file.to_owned(), scene, cameras: cameras.into_iter().map(setup).collect() })
     }
 
     /// Every file that the description names and that is not text of its own, each once.

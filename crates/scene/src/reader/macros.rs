@@ -59,20 +59,20 @@ macro_rules! field {
         $reader.required(stringify!($key), &$rule, $faults)
     };
     (read optional $key:ident, $ty:ty, $reader:ident, $faults:ident, $rule:expr) => {
-        Some($reader.optional(stringify!($key), &$rule, $faults))
+        $reader.optional(stringify!($key), &$rule, $faults)
     };
     (read many $key:ident, $ty:ty, $reader:ident, $faults:ident, $rule:expr) => {
-        Some($reader.optional(stringify!($key), &$rule, $faults).unwrap_or_default())
+        $reader.optional(stringify!($key), &$rule, $faults).map(Option::unwrap_or_default)
     };
     (read inside $key:ident, $ty:ty, $reader:ident, $faults:ident) => {
         <$ty as $crate::reader::Record>::read_keys($reader, $faults)
     };
     (read group $key:ident, $ty:ty, $reader:ident, $faults:ident) => {
-        Some(if <$ty as $crate::reader::Record>::keys().iter().any(|k| $reader.given(k).is_some()) {
-            <$ty as $crate::reader::Record>::read_keys($reader, $faults)
+        if <$ty as $crate::reader::Record>::keys().iter().any(|k| $reader.given(k).is_some()) {
+            <$ty as $crate::reader::Record>::read_keys($reader, $faults).map(Some)
         } else {
-            None
-        })
+            Some(None)
+        }
     };
 
     (forms required $key:ident, $ty:ty, $forms:ident, $about:ident, $rule:expr) => {

@@ -33,6 +33,15 @@ fn keys_of<'f>(forms: impl IntoIterator<Item = &'f Form>) -> Vec<&'static str> {
     keys
 }
 
+impl<T: Record> Record for Box<T> {
+    fn read_keys(reader: &mut Reader<'_>, faults: &mut Faults) -> Option<Self> {
+        T::read_keys(reader, faults).map(Self::new)
+    }
+    fn forms() -> Vec<Form> {
+        T::forms()
+    }
+}
+
 /// One shape of a table.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Form {
@@ -154,9 +163,9 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// The value under `key` by `rule`, if it is given and right.
-    pub(crate) fn optional<R: Rule>(&mut self, key: &str, rule: &R, faults: &mut Faults) -> Option<R::Out> {
-        self.take(key).and_then(|node| rule.read(node, faults))
+    /// The value under `key` by `rule`, if it is given; the outer `None` after a fault.
+    pub(crate) fn optional<R: Rule>(&mut self, key: &str, rule: &R, faults: &mut Faults) -> Option<Option<R::Out>> {
+        self.take(key).map_or(Some(None), |node| rule.read(node, faults).map(Some))
     }
 
     /// Notes every key that was not read.

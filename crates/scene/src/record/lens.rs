@@ -11,7 +11,7 @@ variants! {
         /// An ideal lens of no thickness.
         "thin" => Thin(Thin),
         /// A paraxial lens with two principal planes, two pupils and two rims that vignette.
-        "thick" => Thick(Thick),
+        "thick" => Thick(Box<Thick>),
     }
 }
 

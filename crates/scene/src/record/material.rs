@@ -51,7 +51,7 @@ variants! {
         "conductor" => Conductor(Conductor),
         /// A diffuse base under a clear dielectric coat.
         "coated" => Coated(Coated),
-        /// Reflects nothing, gives light.
+        /// Reflects nothing, gives light: needs "emission".
         "emitter" => Emitter(Emitter),
     }
 }

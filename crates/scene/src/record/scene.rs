@@ -12,15 +12,15 @@ use crate::reader::{keyed_by_name, list, record, whole};
 record! {
     /// Everything that is seen.
     pub struct Scene {
-        /// Meshes.
+        /// Triangle meshes from files.
         many meshes: Mesh = list(record(), 0);
-        /// Textures.
+        /// Pictures on surfaces.
         many textures: Texture = list(record(), 0);
-        /// Materials.
+        /// What surfaces do with light.
         many materials: Material = list(record(), 0);
         /// Semantic classes: name and number, 1 … 65 535. Class 0 is the background and what has no class.
         many classes: (Placed<String>, Placed<u64>) = keyed_by_name(whole(1, 65_535));
-        /// Objects.
+        /// What stands where; the order numbers the instances.
         many objects: Object = list(record(), 0);
         /// Lights that are no surfaces.
         many lights: Light = list(record(), 0);

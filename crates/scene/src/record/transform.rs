@@ -56,9 +56,34 @@ fn sin_cos_deg(degrees: f64) -> (f64, f64) {
     let quarters = (degrees / 90.0).round();
     let (s, c) = maths::sin_cos((degrees - 90.0 * quarters).to_radians());
     match quarters.rem_euclid(4.0) {
-        q if q == 1.0 => (c, -s),
-        q if q == 2.0 => (-s, -c),
-        q if q == 3.0 => (-c, s),
+        1.0 => (c, -s),
+        2.0 => (-s, -c),
+        3.0 => (-c, s),
         _ => (s, c),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turns_are_as_the_format_says() {
+        let ahead = |degrees| yaw_pitch_roll(degrees) * DVec3::X;
+        assert_eq!(ahead([90.0, 0.0, 0.0]), DVec3::Y, "positive yaw turns to the left, a quarter turn exactly");
+        assert_eq!(ahead([0.0, 90.0, 0.0]), DVec3::NEG_Z, "positive pitch lowers the front");
+        assert_eq!(yaw_pitch_roll([0.0, 0.0, 90.0]) * DVec3::Y, DVec3::Z, "positive roll lifts the left side");
+        assert_eq!(ahead([90.0, 90.0, 0.0]), DVec3::NEG_Z, "pitched before it is yawed");
+    }
+
+    #[test]
+    fn every_turn_is_a_rotation() {
+        for degrees in [[10.0, 20.0, 30.0], [-170.0, 85.0, 721.0], [45.0, -45.0, 135.0]] {
+            let r = yaw_pitch_roll(degrees);
+            let error =
+                (r * r.transpose() - DMat3::IDENTITY).to_cols_array().map(f64::abs).into_iter().fold(0.0, f64::max);
+            // Three products of unit vectors, each rounded a few times.
+            assert!(error < 8.0 * f64::EPSILON && (r.determinant() - 1.0).abs() < 8.0 * f64::EPSILON);
+        }
     }
 }

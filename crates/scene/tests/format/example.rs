@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use crate::files::{Files, doc, load};
+use glam::DVec3;
+
 use etendue_scene::asset::{AssetKind, Assets};
 use etendue_scene::record::{Lens, Light, Surface};
 use etendue_scene::{Overrides, load_camera};
@@ -102,4 +104,34 @@ fn the_last_override_wins() {
     let d =
         etendue_scene::Description::load(Path::new("job.toml"), &|p| files.read(p), &overrides).expect("the example");
     assert_eq!(d.cameras[1].render.spp.as_ref().expect("given").value, 24);
+}
+
+#[test]
+fn axes_of_meshes() {
+    let with = |axes: &str| {
+        let mut files = example();
+        files.edit("scene.toml", "up_axis = \"z\"", axes);
+        load(&files, &[]).map(|d| d.scene.meshes[0].to_object()).map_err(|f| f.to_string())
+    };
+    let y_up = with("up_axis = \"y\"\nscale = 0.5").expect("legal");
+    assert_eq!(y_up * DVec3::new(1.0, 2.0, 3.0), DVec3::new(1.5, 0.5, 1.0), "z forward, x left, y up, half the size");
+    let blender = with("up_axis = \"y\"\nforward_axis = \"-z\"").expect("legal");
+    assert_eq!(blender * DVec3::new(1.0, 2.0, 3.0), DVec3::new(-3.0, -1.0, 2.0), "x is right");
+    assert!(with("up_axis = \"y\"\nforward_axis = \"-y\"").expect_err("parallel").contains("lies along"));
+}
+
+#[test]
+fn where_cameras_look() {
+    let d = load(&example(), &["cameras.left.rotation_deg=[90, 0, 0]"]).expect("the example");
+    let pose = d.cameras[1].pose.to_camera_pose().expect("a pose");
+    assert_eq!(pose.direction_to_world(DVec3::Z), DVec3::Y, "it looks to the left");
+    assert_eq!(pose.direction_to_world(DVec3::X), DVec3::X, "its right is ahead");
+    assert_eq!(pose.direction_to_world(DVec3::Y), DVec3::NEG_Z, "its down is down");
+}
+
+#[test]
+fn instances_stand_where_they_say() {
+    let d = load(&example(), &[]).expect("the example");
+    let at: Vec<_> = d.scene.objects[1].placements().map(|(t, _)| t.to_world().translation).collect();
+    assert_eq!(at, [DVec3::new(12.0, 3.0, 0.0), DVec3::new(18.0, 3.1, 0.0)]);
 }

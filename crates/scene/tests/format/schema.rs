@@ -1,1 +1,172 @@
-//! The schema says what the parser accepts.
+//! The schema says what the parser accepts, and the parser accepts what the schema says.
+
+use etendue_scene::{FileKind, schema};
+use serde_json::{Map, Value as Json, json};
+
+use crate::files::{Files, doc, load};
+
+/// Why `value` does not fit `schema`, if it does not: the keywords that our schemas use.
+fn misfit(value: &Json, schema: &Json, path: &str) -> Option<String> {
+    let of = |key: &str| schema.get(key);
+    let fail = |why: &str| Some(format!("{path}: {value} {why} {schema}"));
+    if let Some(options) = of("anyOf").or(of("oneOf")).and_then(Json::as_array) {
+        let fits = options.iter().filter(|o| misfit(value, o, path).is_none()).count();
+        let exact = of("oneOf").is_none() || fits == 1;
+        return if fits > 0 && exact { None } else { fail(&format!("fits {fits} of")) };
+    }
+    if of("const").is_some_and(|c| c != value) {
+        return fail("is not");
+    }
+    if of("enum").and_then(Json::as_array).is_some_and(|list| !list.contains(value)) {
+        return fail("is not in");
+    }
+    let typed = match of("type").and_then(Json::as_str) {
+        Some("object") => value.is_object(),
+        Some("array") => value.is_array(),
+        Some("string") => value.is_string(),
+        Some("boolean") => value.is_boolean(),
+        Some("integer") => value.is_u64(),
+        Some("number") => value.is_number(),
+        _ => true,
+    };
+    if !typed {
+        return fail("is not of the type of");
+    }
+    match value {
+        Json::Number(n) => (!in_bounds(n.as_f64()?, schema)).then(|| fail("is outside of")).flatten(),
+        Json::Array(list) => list.iter().find_map(|v| misfit(v, of("items")?, path)),
+        Json::Object(table) => misfit_table(table, schema, path),
+        _ => None,
+    }
+}
+
+fn in_bounds(v: f64, schema: &Json) -> bool {
+    let bound = |key: &str| schema.get(key).and_then(Json::as_f64);
+    bound("minimum").is_none_or(|b| v >= b)
+        && bound("maximum").is_none_or(|b| v <= b)
+        && bound("exclusiveMinimum").is_none_or(|b| v > b)
+}
+
+fn misfit_table(table: &Map<String, Json>, schema: &Json, path: &str) -> Option<String> {
+    let properties = schema.get("properties").and_then(Json::as_object);
+    let missing = schema.get("required").and_then(Json::as_array).into_iter().flatten();
+    if let Some(key) = missing.filter_map(Json::as_str).find(|k| !table.contains_key(*k)) {
+        return Some(format!("{path}: {key} is missing"));
+    }
+    table.iter().find_map(|(key, value)| {
+        let path = format!("{path}.{key}");
+        match (properties.and_then(|p| p.get(key)), &schema["additionalProperties"]) {
+            (Some(schema), _) => misfit(value, schema, &path),
+            (None, Json::Bool(false)) => Some(format!("{path} is no key")),
+            (None, schema) => misfit(value, schema, &path),
+        }
+    })
+}
+
+#[test]
+fn the_example_fits_the_schema() {
+    let files = Files::of_example(&doc());
+    for (name, kind) in
+        [("job.toml", FileKind::Job), ("scene.toml", FileKind::Scene), ("camera.toml", FileKind::Camera)]
+    {
+        let value: Json = toml::from_str(&files.text(name)).expect("TOML");
+        assert_eq!(misfit(&value, &schema(kind), name), None);
+    }
+}
+
+#[test]
+fn what_the_parser_refuses_does_not_fit_the_schema() {
+    let camera = Files::of_example(&doc()).text("camera.toml");
+    for (old, new) in [
+        ("f_number", "f_nmuber"),
+        ("width_px = 640", "width_px = 0"),
+        ("focal_length_mm = 6.0", "focal_length_mm = 0.0"),
+        ("cfa = \"rggb\"", "cfa = \"rgbg\""),
+        ("format = 1", "format = 2"),
+        ("exposure_s = 0.002", ""),
+        ("model = \"thin\"", "model = \"pinhole\""),
+    ] {
+        let value: Json = toml::from_str(&camera.replacen(old, new, 1)).expect("TOML");
+        assert!(misfit(&value, &schema(FileKind::Camera), "").is_some(), "{new}");
+    }
+}
+
+/// Values that fit the schema: together they have every key, every variant and every way to write a value.
+fn samples(schema: &Json) -> Vec<Json> {
+    if let Some(options) = schema.get("anyOf").or(schema.get("oneOf")).and_then(Json::as_array) {
+        return options.iter().flat_map(samples).collect();
+    }
+    if let Some(list) = schema.get("enum").and_then(Json::as_array) {
+        return list.clone();
+    }
+    match schema["type"].as_str() {
+        Some("object") => table_samples(schema),
+        Some("array") => array_samples(schema),
+        Some("string") => string_sample(schema).into_iter().collect(),
+        Some("boolean") => vec![json!(true)],
+        Some("integer") => vec![json!(number_sample(schema).floor() as u64)],
+        Some("number") => vec![json!(number_sample(schema))],
+        _ => vec![schema["const"].clone()],
+    }
+}
+
+/// Every key with each of its values in turn; none where a key has none.
+fn table_samples(schema: &Json) -> Vec<Json> {
+    let Some(properties) = schema.get("properties").and_then(Json::as_object) else {
+        return samples(&schema["additionalProperties"]).into_iter().map(|v| json!({ "any": v })).collect();
+    };
+    let values: Vec<_> = properties.iter().map(|(key, schema)| (key.clone(), samples(schema))).collect();
+    if values.iter().any(|(_, v)| v.is_empty()) {
+        return Vec::new();
+    }
+    let count = values.iter().map(|(_, v)| v.len()).max().unwrap_or(1);
+    let pick = |i: usize| values.iter().map(|(k, v)| (k.clone(), v[i.min(v.len() - 1)].clone())).collect();
+    (0..count).map(|i| Json::Object(pick(i))).collect()
+}
+
+fn array_samples(schema: &Json) -> Vec<Json> {
+    let items = samples(&schema["items"]);
+    let Some(count) = schema["maxItems"].as_u64() else { return items.into_iter().map(|v| json!([v])).collect() };
+    let scaled = |v: &Json, i: u64| match v.as_f64() {
+        Some(v) => json!(v * (1.0 + 0.01 * i as f64)),
+        None => v.clone(),
+    };
+    items.iter().map(|v| (0..count).map(|i| scaled(v, i)).collect()).collect()
+}
+
+/// A text; none for the path of a description, which would be read.
+fn string_sample(schema: &Json) -> Option<Json> {
+    match schema["pattern"].as_str() {
+        Some(pattern) if pattern.contains("toml") => None,
+        Some(pattern) if pattern.contains("\\.(") => {
+            let extension = pattern.trim_start_matches("\\.(").split(['|', ')']).next()?;
+            Some(json!(format!("file.{extension}")))
+        }
+        _ => Some(json!("name")),
+    }
+}
+
+fn number_sample(schema: &Json) -> f64 {
+    let low = schema["minimum"].as_f64().or(schema["exclusiveMinimum"].as_f64());
+    match (low, schema["maximum"].as_f64()) {
+        (Some(low), Some(high)) => 0.4 * low + 0.6 * high,
+        (Some(low), None) => low + 0.5,
+        (None, _) => 0.25,
+    }
+}
+
+#[test]
+fn the_parser_accepts_every_key_of_the_schema() {
+    let schema = schema(FileKind::Job);
+    let found = samples(&schema);
+    assert!(found.len() > 20, "every variant has its sample");
+    for sample in found {
+        assert_eq!(misfit(&sample, &schema, ""), None, "a sample fits");
+        let text = toml::to_string(&sample).expect("TOML");
+        let Err(faults) = load(&Files::of_job(&text), &[]) else { continue };
+        for fault in faults.list() {
+            let misread = ["is no key", "is missing", "found "].iter().any(|w| fault.problem.contains(w));
+            assert!(!misread, "{fault}\n{text}");
+        }
+    }
+}
