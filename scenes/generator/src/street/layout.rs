@@ -1,0 +1,362 @@
+//! What stands where.
+
+use super::building::{Ground, House, Roof};
+use super::furniture::{self as things, Board};
+use super::road::{self, FRONT_Y, KERB_M, LANE_M, NOSE_X, PARKING_Y, REACH_X};
+use super::tree::Growth;
+use super::{fleet, person};
+use crate::description::{Description, Spot};
+use crate::random::Dice;
+use glam::DVec3;
+
+/// Road, pavements, kerbs.
+pub(super) fn ground(street: &mut Description) {
+    let flat = [
+        ("earth", "terrain", road::earth()),
+        ("carriageway", "road", road::carriageway()),
+        ("repairs", "road", road::repairs()),
+        ("parking", "parking", road::parking()),
+        ("pavement", "sidewalk", road::pavement()),
+        ("lawn", "terrain", road::lawn()),
+        ("markings", "marking", road::markings()),
+    ];
+    for (name, class, mesh) in flat {
+        street.mesh(name, mesh);
+        street.object(name, class, vec![Spot::new(0.0, 0.0, 0.0, 0.0)]);
+    }
+    street.mesh("kerb", road::kerb());
+    street.object("kerb", "sidewalk", kerbs());
+}
+
+/// Kerbs along both sides; at the crossing's nose the right one steps out to the lane.
+fn kerbs() -> Vec<Spot> {
+    let tens = (0..22).map(|i| REACH_X[0] + 10.0 * f64::from(i));
+    let right = tens.clone().filter(|x| *x + 10.0 <= NOSE_X[0] || *x >= NOSE_X[1] - 10.0);
+    let left = tens.map(|x| Spot::new(x + 10.0, LANE_M, 0.0, 180.0));
+    let nose = [Spot::new(NOSE_X[0], -LANE_M - 0.1, 0.0, 0.0), Spot::new(NOSE_X[1] - 10.0, -LANE_M - 0.1, 0.0, 0.0)];
+    right.map(|x| Spot::new(x, PARKING_Y, 0.0, 0.0)).chain(left).chain(nose).collect()
+}
+
+/// Names and shapes of the kinds of houses.
+fn kinds() -> [(&'static str, House); 7] {
+    let base = House {
+        width: 12.0,
+        depth: 11.0,
+        storeys: 4,
+        bays: 5,
+        window: [1.15, 1.6],
+        surrounds: true,
+        balconies: false,
+        ground: Ground::Home,
+        roof: Roof::Pitched(2),
+        key: 1,
+    };
+    [
+        ("house-a", base),
+        (
+            "house-b",
+            House { width: 9.0, storeys: 3, bays: 3, ground: Ground::Shop, roof: Roof::Pitched(1), key: 2, ..base },
+        ),
+        (
+            "house-c",
+            House {
+                width: 14.0,
+                bays: 5,
+                window: [1.7, 1.5],
+                surrounds: false,
+                balconies: true,
+                ground: Ground::Shop,
+                roof: Roof::Flat,
+                key: 3,
+                ..base
+            },
+        ),
+        ("house-d", House { width: 10.0, storeys: 5, bays: 4, window: [1.05, 1.75], key: 4, ..base }),
+        (
+            "house-e",
+            House { width: 8.0, storeys: 3, bays: 3, surrounds: false, roof: Roof::Pitched(1), key: 5, ..base },
+        ),
+        ("house-f", House { width: 11.0, bays: 4, ground: Ground::Shop, key: 6, ..base }),
+        (
+            "house-g",
+            House {
+                width: 13.0,
+                bays: 4,
+                window: [1.9, 1.45],
+                surrounds: false,
+                balconies: true,
+                roof: Roof::Flat,
+                key: 7,
+                ..base
+            },
+        ),
+    ]
+}
+
+/// Rows of houses: kind, wall and the board above the shop.
+type Row = &'static [(usize, &'static str, &'static str)];
+
+const RIGHT: Row = &[
+    (0, "plaster-cream", ""),
+    (3, "plaster-grey", ""),
+    (5, "plaster-white", "board-brot"),
+    (4, "plaster-green", ""),
+    (2, "plaster-white", "board-optik"),
+    (0, "brick", ""),
+    (1, "plaster-rose", "board-cafe"),
+    (3, "plaster-white", ""),
+    (5, "plaster-ochre", "board-brot"),
+    (6, "plaster-grey", ""),
+    (4, "plaster-blue", ""),
+    (0, "plaster-rose", ""),
+    (1, "brick", "board-optik"),
+    (3, "plaster-cream", ""),
+    (2, "plaster-grey", "board-cafe"),
+    (0, "plaster-white", ""),
+    (5, "plaster-green", "board-brot"),
+    (4, "plaster-ochre", ""),
+    (3, "brick", ""),
+    (0, "plaster-cream", ""),
+];
+
+const LEFT: Row = &[
+    (3, "brick", ""),
+    (5, "plaster-rose", "board-optik"),
+    (0, "plaster-white", ""),
+    (4, "plaster-cream", ""),
+    (1, "plaster-ochre", "board-brot"),
+    (0, "plaster-blue", ""),
+    (3, "plaster-cream", ""),
+    (6, "brick", ""),
+    (1, "brick", "board-cafe"),
+    (5, "plaster-green", "board-optik"),
+    (0, "plaster-ochre", ""),
+    (2, "plaster-cream", "board-brot"),
+    (3, "plaster-rose", ""),
+    (4, "plaster-white", ""),
+    (0, "brick", ""),
+    (5, "plaster-grey", "board-cafe"),
+    (3, "plaster-green", ""),
+    (1, "plaster-cream", "board-optik"),
+];
+
+const ACROSS: Row = &[
+    (0, "plaster-grey", ""),
+    (3, "brick", ""),
+    (5, "plaster-cream", "board-cafe"),
+    (0, "plaster-white", ""),
+    (3, "plaster-rose", ""),
+];
+
+/// The houses that close the view across the park.
+const BEHIND_PARK: Row =
+    &[(0, "plaster-rose", ""), (3, "plaster-white", ""), (0, "brick", ""), (4, "plaster-cream", "")];
+
+/// And those that look along the park from behind the first house after it.
+const BESIDE_PARK: Row = &[(0, "plaster-white", ""), (4, "plaster-ochre", "")];
+
+/// The gap in the left row where the sun reaches the road.
+const PARK_X: [f64; 2] = [18.0, 48.0];
+
+/// The houses on both sides and across the ends.
+pub(super) fn houses(street: &mut Description) {
+    let kinds = kinds();
+    for (name, house) in &kinds {
+        street.mesh(name, house.mesh());
+    }
+    let mut x = REACH_X[0] + 2.0;
+    for &house in RIGHT {
+        let width = kinds[house.0].1.width;
+        add_house(street, &kinds, house, Spot::new(x + width, FRONT_Y[0], KERB_M, 180.0));
+        x += width;
+    }
+    x = REACH_X[0] + 4.0;
+    for &house in LEFT {
+        let width = kinds[house.0].1.width;
+        if x + width > PARK_X[0] && x < PARK_X[1] {
+            x = PARK_X[1];
+        }
+        add_house(street, &kinds, house, Spot::new(x, FRONT_Y[1], KERB_M, 0.0));
+        x += width;
+    }
+    x = 12.0;
+    for &house in BEHIND_PARK {
+        add_house(street, &kinds, house, Spot::new(x, 38.0, KERB_M, 0.0));
+        x += kinds[house.0].1.width;
+    }
+    let mut y = 41.0;
+    for &house in BESIDE_PARK {
+        add_house(street, &kinds, house, Spot::new(62.0, y, KERB_M, -90.0));
+        y -= kinds[house.0].1.width;
+    }
+    let (mut far, mut near) = (28.0, -28.0);
+    for &house in ACROSS {
+        let width = kinds[house.0].1.width;
+        add_house(street, &kinds, house, Spot::new(REACH_X[1] + 16.0, far, KERB_M, -90.0));
+        add_house(street, &kinds, house, Spot::new(REACH_X[0] - 2.0, near, KERB_M, 90.0));
+        far -= width;
+        near += width;
+    }
+}
+
+fn add_house(
+    street: &mut Description,
+    kinds: &[(&'static str, House)],
+    house: (usize, &'static str, &'static str),
+    spot: Spot,
+) {
+    let (kind, wall, board) = house;
+    let mesh = kinds[kind].0;
+    let mut dress = vec![("wall", wall)];
+    if !board.is_empty() {
+        dress.push(("board", board));
+    }
+    let same = street.objects.iter().position(|object| object.mesh == mesh && object.dress == dress);
+    match same {
+        Some(index) => street.objects[index].spots.push(spot),
+        None => street.dressed(house_name(mesh, wall, board), mesh, "building", dress, vec![spot]),
+    }
+}
+
+fn house_name(mesh: &str, wall: &str, board: &str) -> String {
+    format!("{mesh}-{}{}", wall.trim_start_matches("plaster-"), board.trim_start_matches("board"))
+}
+
+/// Trees and hedges.
+pub(super) fn greenery(street: &mut Description) {
+    let lime = Growth { trunk: 2.7, crown: [5.6, 2.6], leaves: 1400, key: 71 };
+    let maple = Growth { trunk: 2.3, crown: [5.0, 2.3], leaves: 1150, key: 72 };
+    street.mesh("tree-a", lime.mesh());
+    street.mesh("tree-b", maple.mesh());
+    street.mesh("hedge", things::hedge(DVec3::new(8.0, 0.7, 1.1), 420, 73));
+    street.mesh("island", road::island());
+    let mut dice = Dice::new(80);
+    let mut trees = [Vec::new(), Vec::new()];
+    let mut plant = |x: f64, y: f64, z: f64| {
+        let kind = dice.below(2);
+        let scale = (dice.range(0.9, 1.15) * 100.0).round() / 100.0;
+        trees[kind].push(Spot { scale, ..Spot::new(x, y, z, (dice.unit() * 36.0).floor() * 10.0) });
+    };
+    for i in 0..15 {
+        let x = -46.0 + 14.0 * f64::from(i);
+        if !(8.0..24.0).contains(&x) {
+            plant(x, 4.15, KERB_M);
+        }
+    }
+    for x in ISLANDS_X {
+        plant(x, -4.4, KERB_M);
+    }
+    for (x, y) in [
+        (33.0, 12.0),
+        (39.5, 15.0),
+        (45.0, 11.5),
+        (36.0, 22.0),
+        (43.0, 24.0),
+        (33.5, 30.0),
+        (40.0, 33.0),
+        (46.0, 31.0),
+        (22.0, 11.0),
+        (27.5, 15.0),
+        (24.0, 24.0),
+        (29.0, 29.0),
+    ] {
+        plant(x, y, 0.1);
+    }
+    for y in [-7.0, 5.2, 11.0] {
+        plant(REACH_X[1] + 12.5, y, KERB_M);
+    }
+    let [first, second] = trees;
+    street.object("tree-a", "vegetation", first);
+    street.object("tree-b", "vegetation", second);
+    street.object("island", "sidewalk", ISLANDS_X.map(|x| Spot::new(x, -4.35, 0.0, 0.0)).to_vec());
+    street.object("hedge", "vegetation", [19.5, 28.5, 39.0].map(|x| Spot::new(x, 7.6, KERB_M, 0.0)).to_vec());
+}
+
+/// Tree islands in the parking lane.
+const ISLANDS_X: [f64; 5] = [-8.2, 48.2, 71.0, 93.8, 116.6];
+
+/// Lamps, signs, bins, bollards, a bench.
+pub(super) fn furniture(street: &mut Description) {
+    street.mesh("lamp-post", things::lamp_post());
+    let right = (0..9).map(|i| Spot::new(-39.0 + 25.0 * f64::from(i), -5.8, KERB_M, 0.0));
+    street.object("lamp-post", "pole", right.collect());
+    street.mesh("bollard", things::bollard());
+    street.object("bollard", "pole", [13.2, 14.6, 21.4, 22.8].map(|x| Spot::new(x, -3.75, KERB_M, 0.0)).to_vec());
+    street.mesh("bin", things::bin());
+    street.object("bin", "pole", vec![Spot::new(10.4, -5.85, KERB_M, 0.0), Spot::new(29.2, 7.0, KERB_M, 0.0)]);
+    street.mesh("bench", things::bench());
+    street.object("bench", "pole", vec![Spot::new(35.0, 6.7, KERB_M, 180.0)]);
+    signs(street);
+}
+
+fn signs(street: &mut Description) {
+    let limit = (Board::Round, 0.30, 2.45, "sign-limit");
+    let crossing = (Board::Square, 0.30, 2.45, "sign-crossing");
+    let posts: [(&'static str, Vec<things::Sign>, Vec<Spot>); 5] = [
+        ("board-limit", vec![limit], vec![Spot::new(9.5, -5.75, KERB_M, 0.0)]),
+        (
+            "board-crossing",
+            vec![crossing],
+            vec![Spot::new(15.4, -3.85, KERB_M, 0.0), Spot::new(20.6, 3.75, KERB_M, 180.0)],
+        ),
+        (
+            "board-priority",
+            vec![(Board::Diamond, 0.30, 2.4, "sign-priority")],
+            vec![Spot::new(26.2, -5.75, KERB_M, 0.0)],
+        ),
+        (
+            "board-no-parking",
+            vec![(Board::Round, 0.21, 2.3, "sign-no-parking")],
+            vec![Spot::new(11.4, 3.75, KERB_M, 180.0), Spot::new(66.0, -5.75, KERB_M, 0.0)],
+        ),
+        ("board-danger", vec![(Board::Triangle, 0.45, 2.4, "sign-danger")], vec![Spot::new(43.0, -5.75, KERB_M, 0.0)]),
+    ];
+    let mut standing = Vec::new();
+    for (mesh, boards, spots) in posts {
+        street.mesh(mesh, things::sign_boards(&boards));
+        standing.extend(spots.iter().copied());
+        street.object(mesh, "traffic-sign", spots);
+    }
+    street.mesh("post", things::sign_post(2.85));
+    street.object("post", "pole", standing);
+}
+
+/// Cars and people.
+pub(super) fn traffic(street: &mut Description) {
+    street.mesh("saloon", fleet::saloon().mesh());
+    street.mesh("hatchback", fleet::hatchback().mesh());
+    street.mesh("van", fleet::van().mesh());
+    let parked = |x: f64| Spot::new(x, -4.32, 0.0, 0.0);
+    let fleet: [(&'static str, &'static str, &'static str, Vec<Spot>); 11] = [
+        ("saloon", "paint-blue", "plate-1", vec![Spot::new(29.5, -1.6, 0.0, 0.0)]),
+        ("hatchback", "paint-red", "plate-2", vec![parked(37.0), parked(65.4)]),
+        ("hatchback", "paint-white", "plate-3", vec![Spot::new(25.5, 1.7, 0.0, 180.0), parked(116.0)]),
+        ("van", "paint-white", "plate-1", vec![Spot::new(52.0, 1.65, 0.0, 180.0), parked(76.8)]),
+        ("saloon", "paint-silver", "plate-3", vec![parked(27.8), parked(-2.6), parked(99.6)]),
+        ("saloon", "paint-black", "plate-2", vec![parked(42.5), Spot::new(74.0, 1.7, 0.0, 180.0)]),
+        ("hatchback", "paint-green", "plate-1", vec![parked(54.0), parked(105.2)]),
+        ("van", "paint-yellow", "plate-2", vec![parked(59.7)]),
+        ("saloon", "paint-red", "plate-1", vec![parked(82.3), Spot::new(66.0, -1.65, 0.0, 0.0)]),
+        ("hatchback", "paint-blue", "plate-3", vec![parked(7.4), parked(88.0)]),
+        ("hatchback", "paint-silver", "plate-2", vec![parked(32.6), parked(110.9)]),
+    ];
+    for (mesh, paint, plate, spots) in fleet {
+        let name = format!("{mesh}-{}", paint.trim_start_matches("paint-"));
+        street.dressed(name, mesh, "car", vec![("paint", paint), ("plate", plate)], spots);
+    }
+    people(street);
+}
+
+fn people(street: &mut Description) {
+    street.mesh("walker", person::walker(0.62));
+    let people = [
+        ("walker", "coat-red", "trousers", Spot::new(13.4, -6.6, KERB_M, 0.0)),
+        ("walker", "coat-blue", "trousers-beige", Spot::new(18.4, 3.75, KERB_M, -90.0)),
+        ("walker", "coat-grey", "trousers", Spot::new(31.0, 6.0, KERB_M, 180.0)),
+        ("walker", "coat-blue", "trousers", Spot::new(38.0, -6.9, KERB_M, 180.0)),
+    ];
+    for (i, (mesh, coat, trousers, spot)) in people.into_iter().enumerate() {
+        let dress = vec![("coat", coat), ("trousers", trousers)];
+        street.dressed(format!("person-{}", i + 1), mesh, "person", dress, vec![spot]);
+    }
+}

@@ -1,0 +1,72 @@
+//! A city street: two lanes, parked and driving cars, houses on both sides, in sunlight.
+//!
+//! The street runs along +x, the ego car drives on its right lane; y = 0 is the middle of the carriageway. Widths
+//! follow German practice for streets of houses (RASt 06, stand-ins within its ranges): lanes of 3.25 m, a parking
+//! lane of 2.1 m, kerbs of 0.12 m, pavements of 2.5 m; markings of 0.12 m in dashes of 3 m every 9 m (RMS-1).
+
+mod building;
+mod car;
+mod curve;
+mod fleet;
+mod furniture;
+mod layout;
+mod materials;
+mod opening;
+mod person;
+mod road;
+mod roof;
+mod text;
+mod tree;
+mod wheel;
+
+use crate::File;
+use crate::description::Description;
+use crate::sky::ClearSky;
+
+/// The light of the day.
+const SKY: ClearSky =
+    ClearSky { sun_elevation_deg: 38.0, sun_azimuth_deg: 150.0, diffuse_lx: 13_000.0, ground_cd_m2: 2800.0 };
+
+/// Every generated file of the street.
+#[must_use]
+pub fn files() -> Vec<File> {
+    let street = description();
+    let mut files = street.files("street");
+    files.push(File { path: String::from("street/sky.hdr"), bytes: SKY.file() });
+    files.push(File::text(String::from("street/scene.toml"), text::scene(&street, &SKY)));
+    files.push(File::text(String::from("street/street.toml"), text::job()));
+    files
+}
+
+/// Triangles of the street in its files, and with every instance counted.
+#[must_use]
+pub fn triangle_counts() -> [usize; 2] {
+    description().triangle_counts()
+}
+
+fn description() -> Description {
+    let mut street = Description { materials: materials::all(), classes: CLASSES.to_vec(), ..Description::default() };
+    materials::paint(&mut street);
+    layout::ground(&mut street);
+    layout::houses(&mut street);
+    layout::greenery(&mut street);
+    layout::furniture(&mut street);
+    layout::traffic(&mut street);
+    street
+}
+
+/// Numbers as in the Cityscapes data set's label ids, with one more for painted markings; what no object covers, the
+/// sky, is 0.
+const CLASSES: [(&str, u32); 11] = [
+    ("road", 7),
+    ("sidewalk", 8),
+    ("parking", 9),
+    ("building", 11),
+    ("pole", 17),
+    ("traffic-sign", 20),
+    ("vegetation", 21),
+    ("terrain", 22),
+    ("person", 24),
+    ("car", 26),
+    ("marking", 40),
+];
