@@ -69,29 +69,38 @@ impl<'t> Change<'t> {
         matches!(self.path.as_slice(), ["scene"] | ["cameras", _, "file"])
     }
 
+    /// The path in the document, where the tree of a camera's file stands under "file".
+    fn path_through_files(&self, document: &Node) -> Vec<&'t str> {
+        let mut path = self.path.clone();
+        if let ["cameras", camera, "lens" | "sensor" | "processing", ..] = self.path.as_slice()
+            && is_in_file(document, camera)
+        {
+            path.insert(2, "file");
+        }
+        path
+    }
+
     fn apply(&self, document: &mut Node, faults: &mut Faults) {
-        let Some((last, way)) = self.path.split_last() else { return };
+        let path = self.path_through_files(document);
+        let Some((last, way)) = path.split_last() else { return };
         let mut node = document;
-        for (depth, part) in way.iter().enumerate() {
-            let Some(next) = self.step(node, part, depth, faults) else { return };
+        for part in way {
+            let Some(next) = self.step(node, part, faults) else { return };
             node = next;
         }
-        let node = through_file(node, last);
         self.put(node, last, faults);
     }
 
     /// The entry `part` of `node`; a table that is not there yet is made.
-    fn step<'n>(&self, node: &'n mut Node, part: &str, depth: usize, faults: &mut Faults) -> Option<&'n mut Node> {
-        let node = through_file(node, part);
-        let (file, key) = (Arc::<Path>::from(node.place.file()), join(node.place.key(), part));
-        let place = Place::set(file, self.text.clone(), key.into());
+    fn step<'n>(&self, node: &'n mut Node, part: &str, faults: &mut Faults) -> Option<&'n mut Node> {
+        let parent = node.place.key().to_owned();
+        let place = Place::set(node.place.file().into(), self.text.clone(), join(&parent, part).into());
         match &mut node.value {
             Value::Table(table) => Some(entry_or_table(table, part, &place)),
             Value::List(list) => entry_of_list(list, part, &place, faults),
             Value::Unreadable => None,
             _ => {
-                let key = self.path[..depth].join(".");
-                faults.add(&place, format!("\"{key}\" is not a table and has no key \"{part}\""), "correct the key");
+                faults.add(&place, format!("\"{parent}\" is not a table and has no key \"{part}\""), "correct the key");
                 None
             }
         }
@@ -119,16 +128,18 @@ impl<'t> Change<'t> {
     }
 }
 
-/// A camera with a file has its lens, sensor and processing there.
-fn through_file<'n>(node: &'n mut Node, part: &str) -> &'n mut Node {
-    let holds = |t: &Table| t.get("file").is_some_and(|f| matches!(f.value, Value::Table(_) | Value::Unreadable));
-    if !["lens", "sensor", "processing"].contains(&part) || !node.as_table().is_some_and(holds) {
-        return node;
-    }
-    match &mut node.value {
-        Value::Table(table) => &mut table.entries.iter_mut().find(|e| e.key == "file").expect("just seen").node,
-        _ => unreachable!("just seen as a table"),
-    }
+/// Whether the camera has its lens, sensor and processing in a file.
+fn is_in_file(document: &Node, camera: &str) -> bool {
+    let cameras = document.as_table().and_then(|job| job.get("cameras")).map_or(&[][..], Node::as_list);
+    let entry = find_entry(cameras, camera).and_then(|i| cameras[i].as_table());
+    let file = entry.and_then(|entry| entry.get("file"));
+    file.is_some_and(|file| matches!(file.value, Value::Table(_) | Value::Unreadable))
+}
+
+/// The number of the entry of that name or number.
+fn find_entry(list: &[Node], part: &str) -> Option<usize> {
+    let by_name = list.iter().position(|n| n.name() == Some(part));
+    by_name.or_else(|| part.parse().ok().filter(|i| *i < list.len()))
 }
 
 fn entry_or_table<'n>(table: &'n mut Table, part: &str, place: &Place) -> &'n mut Node {
@@ -141,8 +152,7 @@ fn entry_or_table<'n>(table: &'n mut Table, part: &str, place: &Place) -> &'n mu
 }
 
 fn entry_of_list<'n>(list: &'n mut [Node], part: &str, place: &Place, faults: &mut Faults) -> Option<&'n mut Node> {
-    let by_name = list.iter().position(|n| n.name() == Some(part));
-    let found = by_name.or_else(|| part.parse().ok().filter(|i| *i < list.len()));
+    let found = find_entry(list, part);
     if found.is_none() {
         note_no_entry(list, part, place, faults);
     }

@@ -98,14 +98,6 @@ impl<T> Placed<T> {
     }
 }
 
-impl Placed<PathBuf> {
-    /// The path as meant: relative to the file that names it.
-    #[must_use]
-    pub fn resolved(&self) -> PathBuf {
-        self.place.resolve(&self.value)
-    }
-}
-
 impl<T> Deref for Placed<T> {
     type Target = T;
     fn deref(&self) -> &T {

@@ -49,9 +49,8 @@ struct List(Vec<AssetRequest>);
 
 impl List {
     fn add(&mut self, kind: AssetKind, path: &Placed<PathBuf>) {
-        let resolved = path.resolved();
-        if !self.0.iter().any(|r| r.kind == kind && r.path == resolved) {
-            self.0.push(AssetRequest { path: resolved, kind, place: path.place.clone() });
+        if !self.0.iter().any(|r| r.kind == kind && r.path == path.value) {
+            self.0.push(AssetRequest { path: path.value.clone(), kind, place: path.place.clone() });
         }
     }
 

@@ -35,7 +35,7 @@ fn splice(node: &mut Node, read: &ReadText<'_>, faults: &mut Faults) {
         return;
     }
     let file = path(&["toml"]).read(node, faults);
-    let tree = file.and_then(|file| document(&file.resolved(), read, &node.place, faults));
+    let tree = file.and_then(|file| document(&file, read, &node.place, faults));
     *node = tree.unwrap_or(Node { place: node.place.clone(), value: Value::Unreadable });
 }
 

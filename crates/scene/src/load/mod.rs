@@ -12,6 +12,7 @@ use crate::fault::Faults;
 use crate::overrides::Overrides;
 use crate::reader::{Rule as _, record};
 use crate::record::job::CameraSource;
+use crate::record::render::check_merged;
 use crate::record::{Camera, CameraEntry, Job, Output, Pose, Render, Scene};
 
 /// Reads the text of a file; the error says in a few words why it cannot.
@@ -59,10 +60,11 @@ impl Description {
         let job = record::<Job>().read(document, faults);
         names::check(document, faults);
         check::references(document, faults);
-        check::cameras(document, faults);
         let Job { scene, cameras, render, output, .. } = job?;
         let setup = |entry| CameraSetup::new(entry, render.as_ref(), output.as_ref());
-        Some(Self { file: file.to_owned(), scene, cameras: cameras.into_iter().map(setup).collect() })
+        let cameras: Vec<_> = cameras.into_iter().map(setup).collect();
+        cameras.iter().for_each(|c| check_merged(&c.render, faults));
+        Some(Self { file: file.to_owned(), scene, cameras })
     }
 
     /// Every file that the description names and that is not text of its own, each once.

@@ -134,7 +134,7 @@ impl Rule for FileName {
     }
 }
 
-/// The path of a file with one of these extensions, as it is written.
+/// The path of a file with one of these extensions, resolved relative to the file that names it.
 pub(crate) const fn path(extensions: &'static [&'static str]) -> FilePath {
     FilePath { extensions }
 }
@@ -165,7 +165,7 @@ impl Rule for FilePath {
     }
     fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<PathBuf>> {
         match node.as_text().filter(|t| self.admits(t)) {
-            Some(t) => Some(Placed::new(PathBuf::from(t), node.place.clone())),
+            Some(t) => Some(Placed::new(node.place.resolve(Path::new(t)), node.place.clone())),
             None => self.refuse(node, faults),
         }
     }

@@ -1,7 +1,7 @@
 //! The records: what each table of a description may say. One file a table.
 //!
 //! Every public field is a key of the file (or, where it is a record without a key of its own, keys of the same
-//! table), in the unit that its suffix names.
+//! table), in the unit that its suffix names. Paths are resolved: relative to where the job's path is.
 
 pub mod camera;
 pub mod curve;

@@ -50,15 +50,6 @@ choice! {
 }
 
 impl DepthScale {
-    /// Where it stands.
-    #[must_use]
-    pub fn place(&self) -> &Place {
-        match self {
-            Self::PerMetre(v) => &v.place,
-            Self::Named(v) => &v.place,
-        }
-    }
-
     /// Numbers per metre.
     #[must_use]
     pub fn per_metre(&self) -> f64 {

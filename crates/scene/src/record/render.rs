@@ -15,7 +15,7 @@ record! {
         optional max_bounces: Placed<u64> = whole(1, 1024);
         /// Wavelengths that a path carries.
         optional wavelengths_per_path: Placed<u64> = among(&[1, 4, 8]);
-        /// Through the lens (exact), or as seen from the centre of the entrance pupil (fast, reusable).
+        /// Through the lens (exact), or as seen from the centre of the entrance pupil (fast, reusable). Default: "lens".
         optional route: Placed<Route> = choice();
         /// Width of the spectral bands, nm, 1 … 100; the range is a whole number of bands.
         optional band_width_nm: Placed<f64> = number("nm").at_least(1.0).at_most(100.0);
@@ -27,7 +27,7 @@ record! {
         optional tile_px: Placed<u64> = whole(4, 1024);
         /// Seed of every random number, 0 … 2⁶³ − 1.
         optional seed: Placed<u64> = whole(0, i64::MAX.cast_unsigned());
-        /// With route "pupil": margin on every side, as a share of the picture's width and height, 0 … 1.
+        /// With route "pupil": margin on every side, as a share of the picture's width and height, 0 … 1. Default: 0.
         optional overscan: Placed<f64> = number("").at_least(0.0).at_most(1.0);
     }
 }
@@ -104,14 +104,8 @@ fn check(render: &Render, faults: &mut Faults) {
     }
 }
 
-/// Checks a record into which all others have been merged.
+/// Checks a record into which the job's has been merged. The default route is through the lens.
 pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
-    if let (Some(spp), Some(replicates)) = (&render.spp, &render.replicates)
-        && spp.value % replicates.value != 0
-    {
-        let problem = format!("{} samples cannot be shared evenly among {} replicates", spp.value, replicates.value);
-        faults.add(&spp.place, problem, "give a multiple of \"replicates\"");
-    }
     if let Some(overscan) = &render.overscan
         && render.route.as_ref().is_none_or(|r| r.value == Route::Lens)
     {

@@ -255,11 +255,12 @@ fn overrides_that_are_wrong() {
 }
 
 #[test]
-fn samples_that_replicates_cannot_share() {
+fn a_margin_without_its_route() {
     assert_eq!(
-        faults_of_sets(&["render.spp=10", "cameras.front.render={replicates=4}"]),
-        "--set render.spp=10: 10 samples cannot be shared evenly among 4 replicates; give a multiple of \"replicates\""
+        faults_of_sets(&["cameras.front.render={overscan=0.1}"]),
+        "--set cameras.front.render={overscan=0.1}: \"overscan\" has no effect here, it belongs to route = \"pupil\"; remove it"
     );
+    assert_eq!(faults_of_sets(&["cameras.front.render={overscan=0.1}", "render.route=pupil"]), "");
 }
 
 #[test]
@@ -348,24 +349,4 @@ fn one_camera_at_least() {
     let files = Files::of_job("format = 1\ncameras = []\nscene = {}\n");
     let text = load(&files, &[]).expect_err("no camera").to_string();
     assert!(text.starts_with("job.toml:2:11: cameras: found a list of 0; give a list (1 or more)"), "{text}");
-}
-
-#[test]
-fn outputs_that_cannot_be_made() {
-    assert_eq!(
-        faults_of_sets(&["output.raw=true"]),
-        "--set output.raw=true: the sensor of camera \"front\" has no electronics to make it; add \"exposure_s\", \"cfa\", … \
-         to the sensor, or say false for this camera"
-    );
-    let scale = faults_of_sets(&["output.depth_png_scale=100"]);
-    assert!(scale.contains("no effect without \"depth_png\""), "{scale}");
-    assert_eq!(faults_of_sets(&["output.depth_png_scale=100", "output.depth_png=true"]), "");
-    let variance = faults_of_sets(&["output.variance=true", "render.replicates=1"]);
-    assert!(variance.contains("one replicate tells no variance"), "{variance}");
-    let mut files = Files::of_example(&doc());
-    let camera = files.text("camera.toml");
-    let end = camera.find("[processing]").expect("the table");
-    files.put("camera.toml", &camera[..end]);
-    let text = load(&files, &[]).expect_err("a picture by nothing").to_string();
-    assert!(text.contains("output.picture: camera \"front\" has no processing to make it"), "{text}");
 }
