@@ -1,6 +1,5 @@
 //! Everything that a description names.
 
-use etendue_scene::Description;
 use etendue_scene::asset::{AssetKind, AssetRequest, Assets};
 
 use crate::Error;
@@ -8,16 +7,16 @@ use crate::mesh::read_mesh;
 use crate::picture::read_picture;
 use crate::spectrum::read_spectrum;
 
-/// Reads every file that `description` names, and those that its meshes name in turn.
+/// Reads every file of `named` (as a description names them), and those that its meshes name in turn.
 ///
 /// # Errors
 /// All faults of all files, each with the place that names the file.
-pub fn load_assets(description: &Description) -> Result<Assets, Vec<Error>> {
+pub fn load_assets(named: &[AssetRequest]) -> Result<Assets, Vec<Error>> {
     let mut assets = Assets::default();
     let mut errors = Vec::new();
     let mut tried: Vec<AssetRequest> = Vec::new();
     loop {
-        let mut requests = assets.missing(description);
+        let mut requests = assets.missing(named);
         requests.retain(|request| !tried.iter().any(|t| t.kind == request.kind && t.path == request.path));
         if requests.is_empty() {
             break;

@@ -7,6 +7,7 @@
 //! | in | everything a description names, with all errors at once | [`assets`] |
 //! | out and in | spectral EXR (layout of Fichet, Pacanowski and Wilkie 2021) | [`exr`] |
 //! | out | ground-truth EXR, planes as EXR, raw, depth and display PNG, side-car JSON | [`exr`], [`png`], [`sidecar`] |
+//! | look | two results, channel beside channel | [`compare`] |
 //! | look | what is in a file, with a picture of it | [`inspect`] |
 //!
 //! Encoders are pure: the same values give the same bytes, on any number of threads, without clock time. Bytes reach
@@ -16,9 +17,11 @@
 //! This crate renders nothing and decides nothing; it never prints and starts no threads.
 
 pub mod assets;
+pub mod compare;
 pub mod error;
 pub mod exr;
 pub mod hash;
+pub mod inspect;
 pub mod mesh;
 pub mod output;
 pub mod picture;

@@ -13,36 +13,12 @@ use image::{ExtendedColorType, ImageEncoder};
 
 use crate::exr::EncodeError;
 
-/// A convention for depth in 16-bit PNG.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum DepthScale {
-    /// KITTI: metres × 256, to 255.996 m.
-    #[default]
-    Kitti,
-    /// ROS (REP-118): millimetres, to 65.535 m.
-    Ros,
-    /// TUM RGB-D: metres × 5000, to 13.107 m.
-    Tum,
-}
-
-impl DepthScale {
-    /// Units a metre.
-    #[must_use]
-    pub fn per_metre(self) -> f64 {
-        match self {
-            Self::Kitti => 256.0,
-            Self::Ros => 1000.0,
-            Self::Tum => 5000.0,
-        }
-    }
-
-    /// The stored value of `depth_m`: rounded to nearest. 0, invalid, where it is not finite, not positive, or beyond
-    /// the largest value: a wall too far away must not seem near.
-    #[must_use]
-    pub fn store(self, depth_m: f32) -> u16 {
-        let units = (f64::from(depth_m) * self.per_metre()).round();
-        if units >= 1.0 && units <= f64::from(u16::MAX) { units as u16 } else { 0 }
-    }
+/// The stored value of `depth_m` at `per_metre` units a metre (KITTI 256, ROS 1 000, TUM 5 000): rounded to nearest. 0,
+/// invalid, where it is not finite, not positive, or beyond the largest value: a wall too far away must not seem near.
+#[must_use]
+pub fn stored_depth(depth_m: f32, per_metre: f64) -> u16 {
+    let units = (f64::from(depth_m) * per_metre).round();
+    if units >= 1.0 && units <= f64::from(u16::MAX) { units as u16 } else { 0 }
 }
 
 /// Raw digital numbers.
@@ -50,9 +26,9 @@ pub fn encode_raw16(raw: &Plane<DigitalNumber>) -> Result<Vec<u8>, EncodeError> 
     encode_grey16(raw.width(), raw.height(), raw.samples())
 }
 
-/// Depth (m, planar or along the ray as the caller states it).
-pub fn encode_depth16(depth: &Plane<Length>, scale: DepthScale) -> Result<Vec<u8>, EncodeError> {
-    let stored: Vec<u16> = depth.samples().iter().map(|&m| scale.store(m)).collect();
+/// Depth (m, planar or along the ray as the caller states it) at `per_metre` units a metre.
+pub fn encode_depth16(depth: &Plane<Length>, per_metre: f64) -> Result<Vec<u8>, EncodeError> {
+    let stored: Vec<u16> = depth.samples().iter().map(|&m| stored_depth(m, per_metre)).collect();
     encode_grey16(depth.width(), depth.height(), &stored)
 }
 
@@ -101,13 +77,13 @@ mod tests {
 
     #[test]
     fn depth_conventions_have_their_scale_and_0_is_invalid() {
-        assert_eq!(DepthScale::Kitti.store(10.0), 2560);
-        assert_eq!(DepthScale::Ros.store(1.2345), 1235); // 1234.5000… in f32 lies above the half
-        assert_eq!(DepthScale::Tum.store(2.0), 10_000);
+        assert_eq!(stored_depth(10.0, 256.0), 2560);
+        assert_eq!(stored_depth(1.2345, 1000.0), 1235); // 1234.5000… in f32 lies above the half
+        assert_eq!(stored_depth(2.0, 5000.0), 10_000);
         for invalid in [f32::INFINITY, f32::NAN, -1.0, 0.0, 300.0, 1e-5] {
-            assert_eq!(DepthScale::Kitti.store(invalid), 0, "{invalid}");
+            assert_eq!(stored_depth(invalid, 256.0), 0, "{invalid}");
         }
-        assert_eq!(DepthScale::Kitti.store(255.996), 65_535);
+        assert_eq!(stored_depth(255.996, 256.0), 65_535);
     }
 
     #[test]

@@ -43,20 +43,13 @@ pub enum EncodeError {
     Encoder(String),
 }
 
-/// A fact of the header.
-pub(crate) enum Fact {
-    /// A string.
-    Text(String),
-    /// A double.
-    Number(f64),
-}
-
 /// A picture to be stored.
 pub(crate) struct ExrImage {
     pub(crate) width: usize,
     pub(crate) height: usize,
     pub(crate) channels: Vec<(String, FlatSamples)>,
-    pub(crate) facts: BTreeMap<String, Fact>,
+    /// Header attributes, all texts: readers in use pass over attributes of 64-bit floats (OpenEXR 3.5 for Python).
+    pub(crate) facts: BTreeMap<String, String>,
     /// Luminance of R = G = B = 1, cd/m², where R, G, B are photometric.
     pub(crate) white_luminance: Option<f32>,
 }
@@ -73,7 +66,7 @@ impl ExrImage {
 
     /// States `etendue:<name>`.
     pub(crate) fn state(&mut self, name: &str, text: impl Into<String>) {
-        self.facts.insert(format!("etendue:{name}"), Fact::Text(text.into()));
+        self.facts.insert(format!("etendue:{name}"), text.into());
     }
 
     /// Adds a plane of floats.
@@ -91,7 +84,7 @@ impl ExrImage {
         self.check()?;
         let mut attributes = LayerAttributes { white_luminance: self.white_luminance, ..LayerAttributes::default() };
         for (name, fact) in &self.facts {
-            attributes.other.insert(header_name(name)?, fact.value()?);
+            attributes.other.insert(header_name(name)?, AttributeValue::Text(text(fact)?));
         }
         let channels = self.channels.into_iter().map(|(name, samples)| Ok(AnyChannel::new(text(&name)?, samples)));
         let channels = AnyChannels::sort(channels.collect::<Result<_, EncodeError>>()?);
@@ -123,15 +116,6 @@ impl ExrImage {
 /// The one encoding we write.
 const ENCODING: Encoding =
     Encoding { compression: Compression::ZIP16, blocks: Blocks::ScanLines, line_order: LineOrder::Increasing };
-
-impl Fact {
-    fn value(&self) -> Result<AttributeValue, EncodeError> {
-        Ok(match self {
-            Self::Text(string) => AttributeValue::Text(text(string)?),
-            Self::Number(number) => AttributeValue::F64(*number),
-        })
-    }
-}
 
 fn text(string: &str) -> Result<Text, EncodeError> {
     let held = if string.contains('\0') { None } else { Text::new_or_none(string) };

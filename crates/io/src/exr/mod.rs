@@ -7,11 +7,13 @@
 //! | writer | channels |
 //! | --- | --- |
 //! | [`encode_spectral`] | `S0.550,000000nm` …, `variance.S0.550,000000nm` …, preview `R`, `G`, `B` |
-//! | [`encode_ground_truth`] | `depth.Z`, `distance.Z`, `N.X/Y/Z`, `P.X/Y/Z`, `instance.ID`, `semantic.ID`, `material.ID`, `flow.X/Y` |
+//! | [`encode_ground_truth`] | `depth.Z`, `distance.Z`, `N.X/Y/Z`, `P.X/Y/Z`, `instance.ID`, `semantic.ID`, `material.ID` |
+//! | [`encode_layers`] | as named |
 //! | [`encode_plane`] | the quantity's name, `variance.` and the quantity's name |
 
 mod encode;
 mod ground_truth;
+mod layers;
 mod name;
 mod plane;
 mod preview;
@@ -23,6 +25,7 @@ pub(crate) mod tests_support;
 
 pub use encode::EncodeError;
 pub use ground_truth::{GroundTruth, encode_ground_truth};
+pub use layers::{Layer, encode_layers};
 pub use name::{SpectralChannel, Stokes, channel_name, parse_channel_name};
 pub use plane::encode_plane;
 pub use read::{ExrChannel, ExrFile, Samples, read_exr};

@@ -3,7 +3,7 @@
 //! The channel is named by the quantity (`electrons`), its variance `variance.electrons`, in squared units.
 
 use etendue_core::Plane;
-use etendue_core::quantity::Quantity;
+use etendue_core::quantity::{Quantity, Variance};
 
 use super::encode::{EncodeError, ExrImage};
 use crate::Provenance;
@@ -11,7 +11,7 @@ use crate::Provenance;
 /// `plane`, with the variance of each pixel where given.
 pub fn encode_plane<Q: Quantity<Sample = f32>>(
     plane: &Plane<Q>,
-    variance: Option<&Plane<Q>>,
+    variance: Option<&Plane<Variance>>,
     provenance: &Provenance,
 ) -> Result<Vec<u8>, EncodeError> {
     let mut image = ExrImage::new(plane.width(), plane.height(), provenance);

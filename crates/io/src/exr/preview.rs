@@ -16,8 +16,13 @@ pub(crate) fn linear_srgb<Q: Quantity<Sample = f32>>(cube: &SpectralCube<Q>) -> 
                 *sum += weight[channel] * f64::from(*mean);
             }
         }
-        sums.into_iter().map(|sum| sum as f32).collect()
+        sums.into_iter().map(single).collect()
     })
+}
+
+/// A 32-bit float; every NaN becomes the same one, since processors differ in the bits of theirs.
+fn single(value: f64) -> f32 {
+    if value.is_nan() { f32::NAN } else { value as f32 }
 }
 
 #[cfg(test)]

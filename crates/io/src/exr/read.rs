@@ -121,7 +121,7 @@ fn add_layer(
             format!("parts of different sizes ({sizes}); store each part as a file of its own"),
         ));
     }
-    read.compression = layer.encoding.compression.to_string();
+    read.compression = layer.encoding.compression.to_string().trim_end_matches(" compression").to_uppercase();
     read.attributes.extend(attribute_texts(&layer.attributes.other));
     let part = layer.attributes.layer_name.as_ref().filter(|_| several).map(|name| format!("{name}."));
     for channel in layer.channel_data.list {

@@ -5,9 +5,9 @@
 //! sRGB whose luminance is in cd/m² (lx for irradiance): it is of no use for measurement.
 
 use etendue_core::SpectralCube;
-use etendue_core::quantity::Quantity;
+use etendue_core::quantity::{Quantity, Variance};
 
-use super::encode::{EncodeError, ExrImage, Fact};
+use super::encode::{EncodeError, ExrImage};
 use super::name::{Stokes, channel_name};
 use super::preview::linear_srgb;
 use crate::Provenance;
@@ -18,7 +18,7 @@ const LAYOUT_VERSION: &str = "1.0";
 /// A spectral image, with the variance of its band means where given (its unit is the square of the cube's).
 pub fn encode_spectral<Q: Quantity<Sample = f32>>(
     cube: &SpectralCube<Q>,
-    variance: Option<&SpectralCube<Q>>,
+    variance: Option<&SpectralCube<Variance>>,
     provenance: &Provenance,
 ) -> Result<Vec<u8>, EncodeError> {
     let mut image = ExrImage::new(cube.width(), cube.height(), provenance);
@@ -45,9 +45,9 @@ fn state_layout<Q: Quantity>(image: &mut ExrImage, band_width_nm: f64) {
     image.state("quantity", Q::NAME);
     image.state("units", Q::UNIT);
     image.state("preview", "R, G, B: linear sRGB, (1, 1, 1) is 1 cd.m^-2 (lx for irradiance), for display only");
-    image.facts.insert("etendue:band_width_nm".to_owned(), Fact::Number(band_width_nm));
-    image.facts.insert("spectralLayoutVersion".to_owned(), Fact::Text(LAYOUT_VERSION.to_owned()));
-    image.facts.insert("emissiveUnits".to_owned(), Fact::Text(layout_unit(Q::UNIT).to_owned()));
+    image.state("band_width_nm", band_width_nm.to_string());
+    image.facts.insert("spectralLayoutVersion".to_owned(), LAYOUT_VERSION.to_owned());
+    image.facts.insert("emissiveUnits".to_owned(), layout_unit(Q::UNIT).to_owned());
     image.white_luminance = Some(1.0);
 }
 

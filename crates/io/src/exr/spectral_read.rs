@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use etendue_core::quantity::{Irradiance, Quantity, Radiance};
+use etendue_core::quantity::{Irradiance, Quantity, Radiance, Variance};
 use etendue_core::{Bands, Plane, SpectralCube};
 
 use super::name::{SpectralChannel, Stokes, parse_channel_name};
@@ -20,7 +20,7 @@ pub struct WithVariance<Q: Quantity> {
     /// Band means.
     pub cube: SpectralCube<Q>,
     /// Variance of each band mean, squared units.
-    pub variance: Option<SpectralCube<Q>>,
+    pub variance: Option<SpectralCube<Variance>>,
 }
 
 /// A spectral image by its quantity.
@@ -81,7 +81,7 @@ fn stated_quantity(file: &Path, exr: &ExrFile, notes: &mut Vec<String>) -> Resul
     }
     match exr.attributes.get("emissiveUnits").map(|unit| unit.trim_end_matches(".nm^-1")) {
         Some("W.m^-2.sr^-1") => {
-            notes.push("written by another program: values are taken as W.m^-2.sr^-1.nm^-1".to_owned())
+            notes.push("written by another program: values are taken as W.m^-2.sr^-1.nm^-1".to_owned());
         }
         Some("W.m^-2") => return Ok(Irradiance::NAME),
         Some(unit) => {
@@ -112,16 +112,14 @@ fn cubes<Q: Quantity<Sample = f32>>(
     Ok(WithVariance { cube, variance })
 }
 
-fn cube_of_same_bands<Q: Quantity>(
+fn cube_of_same_bands(
     file: &Path,
     bands: Bands,
-    variance: Option<SpectralCube<Q>>,
-) -> Result<Option<SpectralCube<Q>>, Error> {
+    variance: Option<SpectralCube<Variance>>,
+) -> Result<Option<SpectralCube<Variance>>, Error> {
+    let told = "the variance channels have other wavelengths than the values; the file is not complete";
     match variance {
-        Some(cube) if cube.bands() != bands => Err(Error::new(
-            file,
-            "the variance channels have other wavelengths than the values; the file is not complete",
-        )),
+        Some(cube) if cube.bands() != bands => Err(Error::new(file, told)),
         other => Ok(other),
     }
 }

@@ -40,7 +40,7 @@ impl Slots {
     fn add(&mut self, file: &Path, wanted: &MaterialUse, libraries: &[Library]) {
         let found = libraries.iter().find_map(|library| library.materials.get(&wanted.name));
         let (material, layout) = match found {
-            Some(found) => self.from_library(&wanted.name, found),
+            Some(found) => self.take_from_library(&wanted.name, found),
             None => (SlotMaterial { name: wanted.name.clone(), surface: None }, UvLayout::PLAIN),
         };
         if let (None, Some(line)) = (found, wanted.line) {
@@ -54,7 +54,7 @@ impl Slots {
         self.layouts.push(layout);
     }
 
-    fn from_library(&mut self, name: &str, found: &LibraryMaterial) -> (SlotMaterial, UvLayout) {
+    fn take_from_library(&mut self, name: &str, found: &LibraryMaterial) -> (SlotMaterial, UvLayout) {
         let (material, notes) = found.fields.to_slot(name);
         self.report.extend(notes.into_iter().map(|note| format!("{}: {note}", found.place)));
         if found.fields.diffuse_map.is_some() && found.fields.diffuse.is_some_and(|kd| kd != [1.0; 3]) {

@@ -17,6 +17,8 @@ use std::path::Path;
 
 use etendue_scene::asset::{ImageAsset, ImagePixels};
 
+pub(crate) use raster::decode_raster;
+
 use crate::exr::decode_exr;
 use crate::source::read_bytes;
 use crate::{Error, hash};

@@ -10,18 +10,21 @@ use crate::Error;
 
 /// Decodes `bytes` by their first bytes.
 pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Picture, Error> {
-    let format = image::guess_format(bytes)
-        .ok()
-        .filter(|f| matches!(f, ImageFormat::Png | ImageFormat::Jpeg | ImageFormat::Hdr));
-    let format = format.ok_or_else(|| {
-        Error::new(file, "not a picture of a known kind; expected PNG, JPEG, Radiance HDR or OpenEXR")
-    })?;
+    let (_, picture) = decode_raster(file, bytes)?;
+    Ok((picture.width(), picture.height(), pixels(picture)))
+}
+
+/// The picture as stored, with its format.
+pub(crate) fn decode_raster(file: &Path, bytes: &[u8]) -> Result<(ImageFormat, DynamicImage), Error> {
+    let known = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Hdr];
+    let format = image::guess_format(bytes).ok().filter(|format| known.contains(format));
+    let unknown = "not a picture of a known kind; expected PNG, JPEG, Radiance HDR or OpenEXR";
+    let format = format.ok_or_else(|| Error::new(file, unknown))?;
     if format == ImageFormat::Jpeg && !jpeg_is_whole(bytes) {
         return Err(Error::new(file, "this JPEG has no end marker: it is truncated; make or fetch it again"));
     }
-    let picture =
-        image::load_from_memory_with_format(bytes, format).map_err(|cause| Error::new(file, explain(&cause)))?;
-    Ok((picture.width(), picture.height(), pixels(picture)))
+    let picture = image::load_from_memory_with_format(bytes, format);
+    Ok((format, picture.map_err(|cause| Error::new(file, explain(&cause)))?))
 }
 
 fn explain(cause: &ImageError) -> String {

@@ -1,0 +1,83 @@
+//! Looking into EXR files.
+
+use std::path::Path;
+
+use super::statistics::ChannelReport;
+use super::{FileReport, Preview};
+use crate::Error;
+use crate::exr::{ExrFile, Samples, SpectralImage, decode_exr, linear_srgb, parse_channel_name, spectral_of};
+
+pub(super) fn report(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
+    let exr = decode_exr(file, bytes)?;
+    let mut report = FileReport::new(file, kind(&exr));
+    report.state("size", format!("{} x {} pixels", exr.width, exr.height));
+    report.state("compression", &exr.compression);
+    for (name, text) in &exr.attributes {
+        report.state(name.strip_prefix("etendue:").unwrap_or(name), text);
+    }
+    report.channels = exr.channels.iter().map(|c| channel(&c.name, &c.samples)).collect();
+    report.preview = preview(file, &exr, &mut report);
+    Ok(report)
+}
+
+fn kind(exr: &ExrFile) -> &'static str {
+    match exr.attributes.get("etendue:quantity").map(String::as_str) {
+        Some("spectral radiance") => "spectral radiance, EXR",
+        Some("spectral irradiance") => "spectral irradiance, EXR",
+        Some("ground truth") => "ground truth, EXR",
+        _ if is_spectral(exr) => "spectral image, EXR",
+        _ => "EXR",
+    }
+}
+
+fn is_spectral(exr: &ExrFile) -> bool {
+    exr.channels.iter().any(|c| parse_channel_name(&c.name).is_some())
+}
+
+fn channel(name: &str, samples: &Samples) -> ChannelReport {
+    match samples {
+        Samples::Half(v) => ChannelReport::of(name, "half", v.iter().map(|v| f64::from(*v))),
+        Samples::Float(v) => ChannelReport::of(name, "float", v.iter().map(|v| f64::from(*v))),
+        Samples::Uint(v) => ChannelReport::of(name, "uint", v.iter().map(|v| f64::from(*v))),
+    }
+}
+
+/// R, G, B where they are there, else the colour of the spectra, else the first channel as grey.
+fn preview(file: &Path, exr: &ExrFile, report: &mut FileReport) -> Option<Preview> {
+    let planes = stored_colour(exr).or_else(|| spectral_colour(file, exr, report));
+    match planes {
+        Some([r, g, b]) => {
+            let pixels: Vec<[f32; 3]> = r.iter().zip(&g).zip(&b).map(|((r, g), b)| [*r, *g, *b]).collect();
+            Some(Preview::of_linear(exr.width, exr.height, &pixels))
+        }
+        None => {
+            let first = exr.channels.first()?;
+            report.notes.push(format!("the picture shows channel {}", first.name));
+            Some(Preview::of_grey(exr.width, exr.height, &first.samples.to_floats()))
+        }
+    }
+}
+
+fn stored_colour(exr: &ExrFile) -> Option<[Vec<f32>; 3]> {
+    let plane = |name: &str| exr.channel(name).map(Samples::to_floats);
+    Some([plane("R")?, plane("G")?, plane("B")?])
+}
+
+fn spectral_colour(file: &Path, exr: &ExrFile, report: &mut FileReport) -> Option<[Vec<f32>; 3]> {
+    if !is_spectral(exr) {
+        return None;
+    }
+    match spectral_of(file, exr) {
+        Ok(spectral) => {
+            report.notes.extend(spectral.notes);
+            Some(match spectral.image {
+                SpectralImage::Radiance(image) => linear_srgb(&image.cube),
+                SpectralImage::Irradiance(image) => linear_srgb(&image.cube),
+            })
+        }
+        Err(error) => {
+            report.notes.push(format!("not readable as a spectral image: {}", error.what()));
+            None
+        }
+    }
+}

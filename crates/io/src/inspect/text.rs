@@ -1,0 +1,75 @@
+//! Looking into text files: meshes, side-cars, spectra.
+
+use std::path::Path;
+
+use etendue_scene::asset::{MeshAsset, SlotMaterial, SlotReflectance, SlotSurface};
+use serde_json::Value;
+
+use super::FileReport;
+use super::statistics::ChannelReport;
+use crate::Error;
+use crate::mesh::read_mesh;
+use crate::spectrum::read_spectrum;
+
+pub(super) fn mesh(file: &Path) -> Result<FileReport, Error> {
+    let mesh = read_mesh(file)?;
+    let mut report = FileReport::new(file, "mesh, Wavefront OBJ");
+    report.state("triangles", mesh.triangles.len());
+    report.state("vertices", mesh.positions.len());
+    report.state("normals", if mesh.normals.is_empty() { "none: faceted" } else { "at each vertex" });
+    report.state("texture coordinates", if mesh.uvs.is_empty() { "none" } else { "at each vertex" });
+    for (slot, material) in mesh.slot_materials.iter().enumerate() {
+        report.state(&format!("material slot {slot}"), slot_text(&mesh, slot, material));
+    }
+    for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+        let values = mesh.positions.iter().map(|p| f64::from(p[axis]));
+        report.channels.push(ChannelReport::of(&format!("{name} (file units)"), "float", values));
+    }
+    report.notes.extend(mesh.report);
+    Ok(report)
+}
+
+fn slot_text(mesh: &MeshAsset, slot: usize, material: &SlotMaterial) -> String {
+    let count = mesh.slots.iter().filter(|s| usize::from(**s) == slot).count();
+    let surface = match &material.surface {
+        None => "no material of its own".to_owned(),
+        Some(SlotSurface::Diffuse { reflectance }) => format!("diffuse, {}", reflectance_text(reflectance)),
+        Some(SlotSurface::Coated { reflectance, index, alpha }) => {
+            format!("coated, index {index}, alpha {alpha:.4}, {}", reflectance_text(reflectance))
+        }
+    };
+    format!("\"{}\": {surface}, {count} triangles", material.name)
+}
+
+fn reflectance_text(reflectance: &SlotReflectance) -> String {
+    match reflectance {
+        SlotReflectance::LinearSrgb(rgb) => format!("linear sRGB {rgb:?}"),
+        SlotReflectance::Image(path) => format!("picture {}", path.display()),
+    }
+}
+
+pub(super) fn sidecar(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
+    let value: Value = serde_json::from_slice(bytes)
+        .map_err(|cause| Error::at(file, cause.line(), format!("not readable as JSON: {cause}")))?;
+    let mut report = FileReport::new(file, "side-car, JSON");
+    match value {
+        Value::Object(facts) => facts.iter().for_each(|(name, fact)| report.state(name, fact_text(fact))),
+        other => report.state("value", other),
+    }
+    Ok(report)
+}
+
+fn fact_text(fact: &Value) -> String {
+    fact.as_str().map_or_else(|| fact.to_string(), str::to_owned)
+}
+
+pub(super) fn spectrum(file: &Path) -> Result<FileReport, Error> {
+    let spectrum = read_spectrum(file)?;
+    let mut report = FileReport::new(file, "spectrum, CSV");
+    let (first, last) = (spectrum.points.first(), spectrum.points.last());
+    if let (Some((low, _)), Some((high, _))) = (first, last) {
+        report.state("wavelengths", format!("{low} to {high} nm, {} points", spectrum.points.len()));
+    }
+    report.channels.push(ChannelReport::of("value", "text", spectrum.points.iter().map(|(_, v)| *v)));
+    Ok(report)
+}

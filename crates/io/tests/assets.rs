@@ -1,0 +1,114 @@
+//! All assets of a description at once, and all that is wrong with them.
+
+use std::fs;
+use std::path::Path;
+
+use etendue_io::{load_assets, mesh};
+use etendue_scene::asset::ImagePixels;
+use etendue_scene::{Description, Overrides};
+
+const JOB: &str = r#"format = 1
+[scene]
+[[scene.meshes]]
+name = "m"
+file = "m.obj"
+up_axis = "z"
+[[scene.textures]]
+name = "t"
+file = "t.png"
+encoding = "srgb"
+[[scene.materials]]
+name = "a"
+type = "diffuse"
+reflectance = { texture = "t" }
+[[scene.materials]]
+name = "b"
+type = "diffuse"
+reflectance = { spectrum = "b.csv" }
+[[scene.objects]]
+name = "o"
+mesh = "m"
+material = "a"
+class = "thing"
+[scene.classes]
+thing = 1
+[[cameras]]
+name = "c"
+position_m = [0, 0, 1]
+look_at_m = [1, 0, 1]
+lens = { model = "pinhole", focal_length_mm = 4, f_number = 8 }
+sensor = { width_px = 8, height_px = 8, pixel_pitch_um = 5 }
+"#;
+
+const PLAIN_OBJ: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n";
+
+fn description(folder: &Path) -> Description {
+    let job = folder.join("job.toml");
+    fs::write(&job, JOB).expect("write");
+    let read = |path: &Path| fs::read_to_string(path).map_err(|e| e.to_string());
+    Description::load(&job, &read, &Overrides::default()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn write(folder: &Path, files: &[(&str, &[u8])]) {
+    for (name, content) in files {
+        fs::write(folder.join(name), content).expect("write");
+    }
+}
+
+fn png(grey: u8) -> Vec<u8> {
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let picture = image::DynamicImage::ImageLuma8(image::ImageBuffer::from_pixel(2, 2, image::Luma([grey])));
+    picture.write_to(&mut bytes, image::ImageFormat::Png).expect("encodable");
+    bytes.into_inner()
+}
+
+#[test]
+fn everything_named_is_read_and_what_it_names_in_turn() {
+    let place = tempfile::tempdir().expect("temporary folder");
+    let folder = place.path();
+    let spectrum = b"wavelength_nm,value\n# measured\n400,0.5\n\n700, 0.25 # end\n";
+    let library = b"newmtl x\nmap_Kd inner.png\n";
+    write(folder, &[("m.obj", PLAIN_OBJ.as_bytes()), ("m.mtl", library), ("b.csv", spectrum)]);
+    write(folder, &[("t.png", &png(10)), ("inner.png", &png(20))]);
+    let assets = load_assets(&description(folder).assets()).unwrap_or_else(|e| panic!("{e:?}"));
+    assert_eq!(assets.meshes.len(), 1);
+    assert_eq!(assets.meshes[&folder.join("m.obj")], mesh::read_mesh(&folder.join("m.obj")).expect("mesh"));
+    assert_eq!(assets.spectra[&folder.join("b.csv")].points, [(400.0, 0.5), (700.0, 0.25)]);
+    assert_eq!(assets.images[&folder.join("t.png")].pixels, ImagePixels::Gray8(vec![10; 4]));
+    assert_eq!(assets.images[&folder.join("inner.png")].pixels, ImagePixels::Gray8(vec![20; 4]));
+}
+
+#[test]
+fn all_errors_come_at_once_with_the_place_that_names_the_file() {
+    let place = tempfile::tempdir().expect("temporary folder");
+    let folder = place.path();
+    write(folder, &[("m.obj", b"v 0 0 0\nf 1 2 3\n"), ("t.png", &png(10)[..40]), ("b.csv", b"400,0.5\n390,0.5\n")]);
+    let errors = load_assets(&description(folder).assets()).expect_err("three faults");
+    let told: Vec<String> =
+        errors.iter().map(|e| e.to_string().replace(&format!("{}/", folder.display()), "")).collect();
+    assert_eq!(told.len(), 3, "{told:#?}");
+    assert_eq!(
+        told[0],
+        "b.csv: line 2: wavelength 390 nm follows 400 nm: sort the table by rising wavelength, each once \
+         (named at job.toml:18:28: scene.materials.b.reflectance.spectrum)"
+    );
+    assert_eq!(
+        told[1],
+        "m.obj:2: face names vertex 2, but there are 1; the file is damaged or truncated \
+         (named at job.toml:5:8: scene.meshes.m.file)"
+    );
+    assert!(told[2].starts_with("t.png: not a readable picture (") && told[2].contains("truncated"), "{}", told[2]);
+    assert!(told[2].ends_with("(named at job.toml:9:8: scene.textures.t.file)"), "{}", told[2]);
+}
+
+#[test]
+fn a_texture_that_a_mesh_names_in_vain_is_told_with_the_mesh() {
+    let place = tempfile::tempdir().expect("temporary folder");
+    let folder = place.path();
+    write(folder, &[("m.obj", PLAIN_OBJ.as_bytes()), ("m.mtl", b"newmtl x\nmap_Kd lost.png\n")]);
+    write(folder, &[("t.png", &png(10)), ("b.csv", b"400,0.5\n700,0.5\n")]);
+    let errors = load_assets(&description(folder).assets()).expect_err("a lost texture");
+    let told = errors[0].to_string().replace(&format!("{}/", folder.display()), "");
+    assert!(errors.len() == 1 && told.starts_with("lost.png: no such picture file; check the path"), "{told}");
+    assert!(told.contains("named at m.obj"), "{told}");
+}

@@ -1,0 +1,166 @@
+//! Meshes from the disk: whole, damaged, and compared with an independent reader.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use etendue_io::mesh::read_mesh;
+use etendue_scene::asset::{MeshAsset, SlotReflectance, SlotSurface};
+
+const CUBE_FACE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+/// Reads a mesh of this text, with other files beside it.
+fn read(text: &str, others: &[(&str, &str)]) -> Result<MeshAsset, String> {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    for (name, content) in others {
+        fs::write(folder.path().join(name), content).expect("write");
+    }
+    fs::write(folder.path().join("a.obj"), text).expect("write");
+    let told = |e: etendue_io::Error| e.to_string().replace(&format!("{}/", folder.path().display()), "");
+    read_mesh(&folder.path().join("a.obj")).map_err(told)
+}
+
+#[test]
+fn a_missing_mesh_says_so() {
+    let told = read_mesh(Path::new("nowhere/a.obj")).expect_err("missing").to_string();
+    assert_eq!(told, "nowhere/a.obj: no such mesh file; check the path, which is relative to the file that names it");
+    assert_eq!(read("", &[]), Err("a.obj: this mesh file is empty".to_owned()));
+}
+
+#[test]
+fn damage_is_named_with_its_line() {
+    let whole = format!("{CUBE_FACE}f 1 2 3 4\n");
+    let cut_in_a_vertex = &whole[..CUBE_FACE.len() - 4];
+    assert_eq!(
+        read(cut_in_a_vertex, &[]),
+        Err("a.obj:4: `v` has 1, expected 3 coordinates; the line may be cut off".to_owned())
+    );
+    let cut_in_a_face = &whole[..whole.len() - 5];
+    assert_eq!(
+        read(cut_in_a_face, &[]),
+        Err("a.obj:5: `f` has 2, expected 3 or more corners; the line may be cut off".to_owned())
+    );
+    let before_the_faces = read(CUBE_FACE, &[]).expect_err("no faces");
+    assert!(before_the_faces.contains("no faces; the file may be truncated"), "{before_the_faces}");
+    let without_an_end = read(whole.trim_end(), &[]).expect("still a mesh");
+    assert_eq!(without_an_end.report, ["the last line has no end: the file may be truncated"]);
+    assert_eq!(
+        read(&format!("{CUBE_FACE}f 1 2 9\n"), &[]),
+        Err("a.obj:5: face names vertex 9, but there are 4; the file is damaged or truncated".to_owned())
+    );
+    assert_eq!(
+        read("v 0 0 0\r\nv 1 NaN 0\r\n", &[]),
+        Err("a.obj:2: `NaN` is not finite; expected a finite number".to_owned())
+    );
+    assert_eq!(
+        read("v 0 0 0\nv 1 1 0\nv 1 0 0\nv 0 1 0\nf 1 2 3 4\n", &[]),
+        Err("a.obj:5: polygon of 4 corners crosses itself; triangulate the mesh where it was modelled".to_owned())
+    );
+}
+
+#[test]
+fn material_libraries_are_found_or_named() {
+    let text = format!("mtllib my paints.mtl\n{CUBE_FACE}usemtl red\nf 1 2 3\nusemtl lost\nf 1 3 4\n");
+    assert_eq!(
+        read(&text, &[]),
+        Err("a.obj:1: the material library `my` does not exist; put it there or remove the line".to_owned())
+    );
+    assert_eq!(
+        read(&text, &[("my paints.mtl", "newmtl red\nKd 0.5 oh 0\n")]),
+        Err("my paints.mtl:2: `Kd 0.5 oh 0`: `oh` is not a number; expected three numbers of 0 or more".to_owned())
+    );
+    let mesh = read(&text, &[("my paints.mtl", "newmtl red\nKd 0.5 0 0\nKs 1 1 1\nNs 6\nNi 1.4\nsharpness 60\n")])
+        .expect("whole");
+    assert_eq!(mesh.slots, [0, 1]);
+    let reflectance = SlotReflectance::LinearSrgb([0.5, 0.0, 0.0]);
+    assert_eq!(mesh.slot_materials[0].surface, Some(SlotSurface::Coated { reflectance, index: 1.4, alpha: 0.5 }));
+    assert_eq!(mesh.slot_materials[1].surface, None);
+    assert_eq!(
+        mesh.report,
+        [
+            "my paints.mtl:6: material \"red\": `sharpness` is not used",
+            "a.obj:8: material \"lost\" is in no material library; say it in the scene",
+        ]
+    );
+}
+
+#[test]
+fn the_hash_covers_the_library() {
+    let text = format!("mtllib a.mtl\n{CUBE_FACE}f 1 2 3\n");
+    let hash = |library: &str| read(&text, &[("a.mtl", library)]).expect("whole").hash;
+    assert_eq!(hash("newmtl a\n"), hash("newmtl a\n"));
+    assert_ne!(hash("newmtl a\n"), hash("newmtl b\n"));
+}
+
+#[test]
+fn texture_options_lie_in_the_texture_coordinates() {
+    let library = "newmtl plain\nmap_Kd a.png\nnewmtl tiled\nmap_Kd -s 2 3 1 -o 0.5 0.25 a.png\n";
+    let face = "vt 1 1\nvt 0 1\nvt 0 0\n";
+    let text = format!("mtllib a.mtl\n{CUBE_FACE}{face}usemtl plain\nf 1/1 2/2 3/3\nusemtl tiled\nf 1/1 2/2 3/3\n");
+    let mesh = read(&text, &[("a.mtl", library)]).expect("whole");
+    assert_eq!(mesh.positions.len(), 6, "no vertex is shared between layouts");
+    assert_eq!(mesh.uvs[..3], [[1.0, 1.0], [0.0, 1.0], [0.0, 0.0]]);
+    assert_eq!(mesh.uvs[3..], [[2.5, 3.25], [0.5, 3.25], [0.5, 0.25]]);
+}
+
+#[test]
+fn faces_without_normals_are_flat_among_faces_with_them() {
+    let text = format!("{CUBE_FACE}vn 0 0.6 0.8\nvn 0 0 0\nf 1//1 2//1 3//1\nf 1//2 3//2 4//2\n");
+    let mesh = read(&text, &[]).expect("whole");
+    assert_eq!(mesh.normals[..3], [[0.0, 0.6, 0.8]; 3]);
+    assert_eq!(mesh.normals[3..], [[0.0, 0.0, 1.0]; 3]);
+    assert_eq!(mesh.report, ["3 vertices without a usable normal take that of their face"]);
+}
+
+#[test]
+fn a_mesh_far_from_its_origin_is_told_what_it_loses() {
+    let mesh = read("v 451000 5411000 0\nv 451001 5411000 0\nv 451000 5411001 0\nf 1 2 3\n", &[]).expect("whole");
+    assert_eq!(
+        mesh.report,
+        ["coordinates of up to 5411001 are rounded by up to 3.2e-1 units, the mesh measures 1: move it to its origin"]
+    );
+    assert_eq!(
+        read("v 0 0 0\nv 1e39 0 0\n", &[]),
+        Err("a.obj:2: coordinate 1e39 is beyond the range of 32-bit floats".to_owned())
+    );
+}
+
+/// Corners of all triangles, position by position, as bits.
+fn corners(mesh: &MeshAsset) -> Vec<[u32; 3]> {
+    mesh.triangles.iter().flatten().map(|i| mesh.positions[*i as usize].map(f32::to_bits)).collect()
+}
+
+/// The same of tobj, which reads 32-bit floats from text as we do by way of 64 bits: both round to nearest, and double
+/// rounding needs a number with more digits than these files have.
+fn corners_by_tobj(file: &Path) -> Vec<[u32; 3]> {
+    let options = tobj::LoadOptions { triangulate: true, ..tobj::LoadOptions::default() };
+    let (models, _) = tobj::load_obj(file, &options).expect("tobj reads it");
+    let of_model = |m: &tobj::Model| -> Vec<[u32; 3]> {
+        let at = |i: u32| std::array::from_fn(|axis| m.mesh.positions[3 * i as usize + axis].to_bits());
+        m.mesh.indices.iter().map(|i| at(*i)).collect()
+    };
+    models.iter().flat_map(of_model).collect()
+}
+
+#[test]
+#[expect(clippy::print_stderr, reason = "a test that is skipped says so")]
+fn real_meshes_are_read_as_an_independent_reader_reads_them() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/assets/kenney-city");
+    let Ok(entries) = fs::read_dir(&folder) else {
+        eprintln!("skipped: {} is not here", folder.display());
+        return;
+    };
+    let files: Vec<PathBuf> =
+        entries.map(|e| e.expect("entry").path()).filter(|p| p.extension().is_some_and(|e| e == "obj")).collect();
+    assert!(files.len() > 5);
+    for file in files {
+        let mesh = read_mesh(&file).unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(corners(&mesh), corners_by_tobj(&file), "{}", file.display());
+        assert_eq!(mesh.slots.len(), mesh.triangles.len());
+        assert!(mesh.normals.len() == mesh.positions.len() && mesh.uvs.len() == mesh.positions.len());
+        let Some(SlotSurface::Diffuse { reflectance: SlotReflectance::Image(path) }) = &mesh.slot_materials[0].surface
+        else {
+            panic!("{}: {:?}", file.display(), mesh.slot_materials);
+        };
+        etendue_io::picture::read_picture(path).unwrap_or_else(|e| panic!("{e}"));
+    }
+}
