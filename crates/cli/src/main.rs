@@ -1,2 +1,58 @@
-//! The command line of Étendue.
-fn main() {}
+//! The command line of Étendue: arguments, files, progress and exit codes. Physics lives in the libraries.
+
+// A binary exports nothing: `pub` here means `for the other modules`.
+#![allow(unreachable_pub)]
+
+mod args;
+mod deliver;
+mod facts;
+mod failure;
+mod film_file;
+mod job;
+mod machine;
+mod progress;
+mod verbs;
+
+use args::{Arguments, Verb};
+use clap::Parser;
+use failure::Failure;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    match run(&arguments.verb) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            tell(&failure.to_string());
+            ExitCode::from(failure.status())
+        }
+    }
+}
+
+fn run(verb: &Verb) -> Result<(), Failure> {
+    match verb {
+        Verb::Render(arguments) => verbs::render::run(arguments),
+        Verb::Merge(arguments) => verbs::merge::run(arguments),
+        Verb::Plan(arguments) => verbs::plan::run(arguments),
+        Verb::Expose(arguments) => verbs::expose::run(arguments),
+        Verb::Inspect(arguments) => verbs::inspect::run(arguments),
+        Verb::Compare(arguments) => verbs::compare::run(arguments),
+        Verb::Schema(arguments) => verbs::schema::run(arguments),
+    }
+}
+
+/// Results go to stdout. A reader that has gone away (a closed pipe) ends the program quietly.
+fn say(text: &str) {
+    use std::io::Write as _;
+    let mut out = std::io::stdout().lock();
+    if out.write_all(text.as_bytes()).and_then(|()| out.flush()).is_err() {
+        std::process::exit(0);
+    }
+}
+
+/// Everything that is no result goes to stderr.
+fn tell(text: &str) {
+    use std::io::Write as _;
+    // There is nowhere left to report a failing stderr to.
+    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+}

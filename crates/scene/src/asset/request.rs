@@ -44,6 +44,14 @@ pub(crate) fn requests(description: &Description) -> Vec<AssetRequest> {
     list.0
 }
 
+/// Every file that a camera names, each once.
+#[must_use]
+pub fn of_camera(camera: &Camera) -> Vec<AssetRequest> {
+    let mut list = List::default();
+    list.camera(camera);
+    list.0
+}
+
 #[derive(Default)]
 struct List(Vec<AssetRequest>);
 

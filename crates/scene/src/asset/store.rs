@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use super::mtl::SlotReflectance;
 use super::{AssetKind, AssetRequest, ImageAsset, MeshAsset, SpectrumAsset};
-use crate::load::Description;
 use crate::place::Place;
 
 /// Everything that was read for a description.
@@ -22,10 +21,10 @@ pub struct Assets {
 }
 
 impl Assets {
-    /// What `description`, and the meshes that are here already, name and is not here.
+    /// What of `named`, and of what the meshes that are here already name, is not here.
     #[must_use]
-    pub fn missing(&self, description: &Description) -> Vec<AssetRequest> {
-        let mut missing: Vec<_> = description.assets();
+    pub fn missing(&self, named: &[AssetRequest]) -> Vec<AssetRequest> {
+        let mut missing = named.to_vec();
         missing.extend(self.meshes.iter().flat_map(|(path, mesh)| textures_of(path, mesh)));
         missing.retain(|request| !self.has(request.kind, &request.path));
         missing.sort_by(|a, b| a.path.cmp(&b.path));

@@ -86,13 +86,17 @@ impl CameraSetup {
     }
 }
 
-/// Reads and checks a camera file by itself.
+/// Reads a camera file by itself, applies `overrides` (keys of the camera file) and checks.
 ///
 /// # Errors
 /// All faults of the file.
-pub fn load_camera(file: &Path, read: &ReadText<'_>) -> Result<Camera, Faults> {
+pub fn load_camera(file: &Path, read: &ReadText<'_>, overrides: &Overrides) -> Result<Camera, Faults> {
     let mut faults = Faults::none();
-    let document = files::document(file, read, &crate::Place::file_head(file), &mut faults);
+    let mut document = files::document(file, read, &crate::Place::file_head(file), &mut faults);
+    if let Some(document) = &mut document {
+        overrides.apply(document, true, &mut faults);
+        overrides.apply(document, false, &mut faults);
+    }
     let camera = document.and_then(|d| record::<Camera>().read(&d, &mut faults));
     faults.or(camera)
 }

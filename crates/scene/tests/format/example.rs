@@ -48,7 +48,7 @@ fn a_value_knows_its_place() {
 #[test]
 fn a_camera_file_is_read_by_itself() {
     let files = example();
-    let camera = load_camera(Path::new("camera.toml"), &|p| files.read(p)).expect("the camera");
+    let camera = load_camera(Path::new("camera.toml"), &|p| files.read(p), &Overrides::default()).expect("the camera");
     assert_eq!(camera.sensor.width_px, 640);
 }
 
@@ -58,7 +58,7 @@ fn assets_are_listed_once_relative_to_the_job() {
     files.rename("scene.toml", "sub/scene.toml");
     files.edit("job.toml", "scene = \"scene.toml\"", "scene = \"sub/scene.toml\"");
     let d = load(&files, &[]).expect("the example");
-    let missing = Assets::default().missing(&d);
+    let missing = Assets::default().missing(&d.assets());
     let found: Vec<_> = missing.iter().map(|r| (r.path.as_path(), r.kind)).collect();
     let expected =
         [(Path::new("sub/meshes/car.obj"), AssetKind::Mesh), (Path::new("sub/textures/asphalt.png"), AssetKind::Image)];

@@ -1,0 +1,223 @@
+//! The command line, as typed.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Spectral path tracing joined to a physical camera: from a scene file to the picture that camera would have taken.
+#[derive(Debug, Parser)]
+#[command(name = "etendue", version, about, max_term_width = 110)]
+#[command(after_help = "Exit status: 0 done, 1 a comparison or run failed, 2 unusable input or arguments.\n\
+    Results go to stdout, everything else to stderr. Start with: etendue render scenes/street/street.toml -o out/street")]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Verb,
+}
+
+/// The verbs of the command line.
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    /// Render radiance, image, raw and ground truth of a job's cameras
+    Render(Render),
+    /// Join the shards of one job to the result of an unsharded run, byte for byte
+    Merge(Merge),
+    /// Print what will be modelled, what is left out and why, and what it will cost
+    Plan(Plan),
+    /// Photograph a stored radiance image (rendered with route = "pupil") by another lens and sensor
+    Expose(Expose),
+    /// Say what is in a file, with units; make a picture of it
+    Inspect(Inspect),
+    /// Compare two results: errors with their uncertainty; exit status 1 where they differ
+    Compare(Compare),
+    /// Print the JSON Schema of a file kind, for editors
+    Schema(Schema),
+}
+
+/// A job file and what the command line changes in it.
+#[derive(Debug, Args)]
+pub struct Job {
+    /// The job file (TOML)
+    #[arg(value_name = "JOB.toml")]
+    pub job: PathBuf,
+    /// Change a key of the job, its scene or a camera, e.g. --set render.spp=16 or --set cameras.front.lens.f_number=4
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Samples a pixel, over all replicates [default: the job's, or the quality's]
+    #[arg(long, value_name = "N")]
+    pub spp: Option<u32>,
+    /// A preset of samples and bounces, for what the job file leaves open
+    #[arg(long, value_enum)]
+    pub quality: Option<Quality>,
+    /// Render only this camera of the job
+    #[arg(long, value_name = "NAME")]
+    pub camera: Option<String>,
+    /// The seed of all random numbers [default: the job's, or 0]
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+}
+
+/// Presets of the trade of time for accuracy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quality {
+    /// 16 samples a pixel, 4 bounces: to frame and expose
+    Draft,
+    /// 64 samples a pixel, 16 bounces
+    Standard,
+    /// 1024 samples a pixel, 64 bounces
+    Reference,
+}
+
+/// Where results go.
+#[derive(Debug, Args)]
+pub struct Output {
+    /// Folder for the results; made where missing
+    #[arg(short, long, value_name = "DIR")]
+    pub output: PathBuf,
+    /// Replace results that are already there
+    #[arg(long)]
+    pub overwrite: bool,
+}
+
+/// `etendue render`
+#[derive(Debug, Args)]
+pub struct Render {
+    #[command(flatten)]
+    pub job: Job,
+    #[command(flatten)]
+    pub output: Output,
+    /// Frames to take, first to last (the last excluded); each has its own sensor noise. The light of a still world is
+    /// rendered once
+    #[arg(long, value_name = "A..B", value_parser = frames, default_value = "0..1")]
+    pub frames: std::ops::Range<u32>,
+    /// Worker threads [default: one a processor]. The result does not depend on it
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub threads: Option<u32>,
+    /// Render only the tiles whose number is I modulo N; join the shards with `etendue merge`
+    #[arg(long, value_name = "I/N", value_parser = shard)]
+    pub shard: Option<(u32, u32)>,
+}
+
+/// `etendue merge`
+#[derive(Debug, Args)]
+pub struct Merge {
+    /// The folders of all shards
+    #[arg(required = true, value_name = "DIR")]
+    pub shards: Vec<PathBuf>,
+    #[command(flatten)]
+    pub output: Output,
+}
+
+/// `etendue plan`
+#[derive(Debug, Args)]
+pub struct Plan {
+    #[command(flatten)]
+    pub job: Job,
+}
+
+/// `etendue expose`
+#[derive(Debug, Args)]
+pub struct Expose {
+    /// A spectral radiance image rendered with route = "pupil"
+    #[arg(value_name = "RADIANCE.exr")]
+    pub radiance: PathBuf,
+    /// The camera file (TOML) to photograph it with
+    #[arg(long, value_name = "CAMERA.toml")]
+    pub camera: PathBuf,
+    /// Change a key of the camera file, e.g. --set sensor.exposure_s=0.002
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// The seed of the sensor's noise [default: that of the radiance image]
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Frames to take, first to last (the last excluded); each has its own sensor noise
+    #[arg(long, value_name = "A..B", value_parser = frames, default_value = "0..1")]
+    pub frames: std::ops::Range<u32>,
+    #[command(flatten)]
+    pub output: Output,
+}
+
+/// `etendue inspect`
+#[derive(Debug, Args)]
+pub struct Inspect {
+    /// A file that Étendue reads or writes: EXR, PNG, OBJ, JSON side-car, TOML
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Write a picture of it here
+    #[arg(long, value_name = "OUT.png")]
+    pub png: Option<PathBuf>,
+}
+
+/// `etendue compare`
+#[derive(Debug, Args)]
+pub struct Compare {
+    /// One result: an EXR or PNG file
+    #[arg(value_name = "A")]
+    pub a: PathBuf,
+    /// The other, of the same size and channels
+    #[arg(value_name = "B")]
+    pub b: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Family-wise probability of calling equal images different, for images that carry their variance
+    #[arg(long, value_name = "P", default_value_t = 0.001)]
+    pub significance: f64,
+    /// Where they differ, write A, B and their difference as pictures into this folder
+    #[arg(long, value_name = "DIR")]
+    pub difference: Option<PathBuf>,
+}
+
+/// `etendue schema`
+#[derive(Debug, Args)]
+pub struct Schema {
+    /// The kind of file
+    #[arg(value_enum)]
+    pub kind: SchemaKind,
+}
+
+/// Kinds of description files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SchemaKind {
+    /// Geometry, materials, lights
+    Scene,
+    /// Lens, sensor, processing
+    Camera,
+    /// Scene, cameras, render and output settings
+    Job,
+}
+
+fn frames(text: &str) -> Result<std::ops::Range<u32>, String> {
+    let expected = || format!("expected FIRST..END with FIRST < END, e.g. 0..10, not '{text}'");
+    let (first, end) = text.split_once("..").ok_or_else(expected)?;
+    let number = |s: &str| s.trim().parse::<u32>().map_err(|_| expected());
+    let range = number(first)?..number(end)?;
+    if range.is_empty() { Err(expected()) } else { Ok(range) }
+}
+
+fn shard(text: &str) -> Result<(u32, u32), String> {
+    let expected = || format!("expected I/N with I < N, e.g. 0/3, not '{text}'");
+    let (index, count) = text.split_once('/').ok_or_else(expected)?;
+    let number = |s: &str| s.trim().parse::<u32>().map_err(|_| expected());
+    let (index, count) = (number(index)?, number(count)?);
+    if index < count { Ok((index, count)) } else { Err(expected()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_well_formed() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn frames_and_shards_are_ranges() {
+        assert_eq!(frames("2..5"), Ok(2..5));
+        assert!(frames("5..5").is_err() && frames("5").is_err() && frames("a..b").is_err());
+        assert_eq!(shard("1/3"), Ok((1, 3)));
+        assert!(shard("3/3").is_err() && shard("1").is_err());
+    }
+}

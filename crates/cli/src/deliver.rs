@@ -1,0 +1,175 @@
+//! From a camera's film to its files.
+
+use crate::facts::{self, Files};
+use crate::failure::Failure;
+use crate::tell;
+use etendue_core::Plane;
+use etendue_core::quantity::Electrons;
+use etendue_io::exr::{self, EncodeError, encode_ground_truth, encode_plane, encode_spectral};
+use etendue_io::{OutputFolder, Provenance, png, sidecar};
+use etendue_pipeline::film::Film;
+use etendue_pipeline::photograph::{Light, take};
+use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan};
+use etendue_pipeline::truth::{GroundTruth, ground_truth};
+use etendue_sensor::{FrameAddress, SensorState};
+use etendue_tracer::accel::Simd;
+use std::ops::Range;
+
+/// The names, relative to the output folder, of all files of a plan.
+pub fn names(plan: &Plan, frames: &Range<u32>) -> Vec<String> {
+    let of_camera = |camera: &CameraPlan| {
+        let names = Files::of(camera, frames.clone()).into_keys().chain([Files::SIDECAR.to_owned()]);
+        names.map(|name| format!("{}/{name}", camera.name)).collect::<Vec<_>>()
+    };
+    plan.cameras.iter().flat_map(of_camera).collect()
+}
+
+/// Writes everything that a camera delivers of its film. Runs on the caller's thread pool.
+pub fn deliver(
+    plan: &Plan,
+    camera: &CameraPlan,
+    film: Film,
+    frames: &Range<u32>,
+    simd: Simd,
+    folder: &mut OutputFolder,
+) -> Result<(), Failure> {
+    let not_finite = film.not_finite_samples();
+    if not_finite > 0 {
+        tell(&format!("warning: camera {}: {not_finite} samples were not finite numbers\n", camera.name));
+    }
+    let mut results = Results { prefix: camera.name.clone(), folder };
+    let light = Light::of_film(camera, film);
+    spectra(plan, camera, &light, &mut results)?;
+    if let Some(electrons) = &light.electrons {
+        self::electrons(plan, camera, electrons, &light, &mut results)?;
+        let address = |frame| FrameAddress { seed: camera.settings.seed, camera: camera.index, frame, capture: 0 };
+        let wanted = Wanted { raw: camera.products.raw, picture: camera.products.picture };
+        photographs(&camera.body, electrons, frames, address, wanted, &mut results)?;
+    }
+    truth(plan, camera, simd, &mut results)?;
+    let facts = facts::sidecar(plan, camera, &Files::of(camera, frames.clone()), not_finite);
+    results.json(Files::SIDECAR, &facts)
+}
+
+/// Where the results of one camera go.
+pub struct Results<'a> {
+    /// Folder of the camera within the output folder.
+    pub prefix: String,
+    /// The output folder.
+    pub folder: &'a mut OutputFolder,
+}
+
+impl Results<'_> {
+    fn write(&mut self, name: &str, bytes: Result<Vec<u8>, EncodeError>) -> Result<(), Failure> {
+        let name = format!("{}/{name}", self.prefix);
+        let bytes = bytes.map_err(|error| Failure::Run(format!("{name}: {error}")))?;
+        self.folder.write(&name, &bytes).map_err(Failure::input)
+    }
+
+    /// Writes a side-car.
+    pub fn json(&mut self, name: &str, facts: &serde_json::Value) -> Result<(), Failure> {
+        let bytes = sidecar::encode(facts).map_err(|error| Failure::Run(format!("{name}: {error}")))?;
+        self.write(name, Ok(bytes))
+    }
+
+    /// Writes an irradiance image.
+    pub fn irradiance(&mut self, light: &Light, variance: bool, facts: &Provenance) -> Result<(), Failure> {
+        let Some(cube) = &light.irradiance else { return Ok(()) };
+        let variance = light.irradiance_variance.as_ref().filter(|_| variance);
+        self.write(Files::IRRADIANCE, encode_spectral(cube, variance, facts))
+    }
+}
+
+fn spectra(plan: &Plan, camera: &CameraPlan, light: &Light, results: &mut Results<'_>) -> Result<(), Failure> {
+    let products = &camera.products;
+    if let Some(radiance) = light.radiance.as_ref().filter(|_| products.radiance) {
+        let variance = products.variance.then_some(&radiance.variance);
+        let facts = facts::radiance_provenance(plan, camera);
+        results.write(Files::RADIANCE, encode_spectral(&radiance.mean, variance, &facts))?;
+    }
+    if products.irradiance {
+        results.irradiance(light, products.variance, &facts::provenance(plan, camera))?;
+    }
+    Ok(())
+}
+
+fn electrons(
+    plan: &Plan,
+    camera: &CameraPlan,
+    mean: &Plane<Electrons>,
+    light: &Light,
+    results: &mut Results<'_>,
+) -> Result<(), Failure> {
+    if !camera.products.electrons {
+        return Ok(());
+    }
+    let variance = light.electrons_variance.as_ref().filter(|_| camera.products.variance);
+    results.write(Files::ELECTRONS, encode_plane(mean, variance, &facts::provenance(plan, camera)))
+}
+
+/// Which photographs are wanted.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted {
+    /// Digital numbers.
+    pub raw: bool,
+    /// Pictures.
+    pub picture: bool,
+}
+
+/// Takes frame after frame and writes what is wanted of each.
+pub fn photographs(
+    body: &CameraBody,
+    electrons: &Plane<Electrons>,
+    frames: &Range<u32>,
+    address: impl Fn(u32) -> FrameAddress,
+    wanted: Wanted,
+    results: &mut Results<'_>,
+) -> Result<(), Failure> {
+    if !(wanted.raw || wanted.picture) {
+        return Ok(());
+    }
+    let mut state = SensorState::default();
+    for number in frames.clone() {
+        let Some((next, frame)) = take(body, state, electrons, address(number)) else { return Ok(()) };
+        state = next;
+        if !frame.raw.invalid.is_empty() {
+            let count = frame.raw.invalid.len();
+            tell(&format!("warning: frame {number}: {count} pixels have no valid light; their digital number is 0\n"));
+        }
+        if wanted.raw {
+            results.write(&Files::raw(number), png::encode_raw16(&frame.raw.plane))?;
+        }
+        if let Some(picture) = frame.picture.filter(|_| wanted.picture) {
+            results.write(&Files::picture(number), png::encode_display(&picture.display))?;
+        }
+    }
+    Ok(())
+}
+
+fn truth(plan: &Plan, camera: &CameraPlan, simd: Simd, results: &mut Results<'_>) -> Result<(), Failure> {
+    let products = &camera.products;
+    if !products.ground_truth && products.depth_png_per_m.is_none() {
+        return Ok(());
+    }
+    let truth = ground_truth(plan, camera, simd);
+    if products.ground_truth {
+        let facts = facts::provenance(plan, camera);
+        results.write(Files::GROUND_TRUTH, encode_ground_truth(&planes(&truth), &facts))?;
+    }
+    if let Some(per_metre) = products.depth_png_per_m {
+        results.write(Files::DEPTH, png::encode_depth16(&truth.depth, per_metre))?;
+    }
+    Ok(())
+}
+
+fn planes(truth: &GroundTruth) -> exr::GroundTruth<'_> {
+    exr::GroundTruth {
+        depth: Some(&truth.depth),
+        distance: Some(&truth.distance),
+        normal: Some(&truth.normal),
+        position: Some(&truth.position),
+        instance: Some(&truth.instance),
+        semantic: Some(&truth.semantic),
+        material: Some(&truth.material),
+    }
+}

@@ -1,0 +1,217 @@
+//! What every result says of itself: the side-car and the facts in EXR headers.
+
+use etendue_core::CameraPose;
+use etendue_core::quantity::{DigitalNumber, Electrons, Irradiance, Quantity, Radiance};
+use etendue_io::Provenance;
+use etendue_optics::PupilProjection;
+use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, Route};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// Facts under which a radiance image states its geometry, so that `expose` can use it.
+pub const PITCH_TAN: &str = "pupil_pitch_tan";
+/// See [`PITCH_TAN`].
+pub const PRINCIPAL_X_PX: &str = "pupil_principal_x_px";
+/// See [`PITCH_TAN`].
+pub const PRINCIPAL_Y_PX: &str = "pupil_principal_y_px";
+
+const THROUGH_LENS: &str = "through the lens, pixel centres at +0.5, x right, y down; pose: camera x right, y down, \
+                            z forward, origin at the centre of the entrance pupil, to world x forward, y left, z up, m";
+const AT_PUPIL: &str = "rectilinear from the centre of the entrance pupil: direction = ((x - principal_x) * pitch_tan, \
+                        (y - principal_y) * pitch_tan, 1), pixel centres at +0.5, x right, y down";
+
+/// The program's version.
+pub const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// The facts of a camera's results.
+pub fn provenance(plan: &Plan, camera: &CameraPlan) -> Provenance {
+    let settings = &camera.settings;
+    Provenance {
+        plan_hash: plan.hash_text(),
+        seed: settings.seed,
+        version: VERSION.to_owned(),
+        camera: camera.name.clone(),
+        frame: 0,
+        time_s: 0.0,
+        geometry: THROUGH_LENS.to_owned(),
+        camera_to_world: Some(pose_rows(&camera.pose)),
+        further: BTreeMap::from([
+            ("spp".to_owned(), settings.spp.to_string()),
+            ("replicates".to_owned(), settings.replicates.to_string()),
+        ]),
+    }
+}
+
+/// The facts of a radiance image; at the pupil its own geometry.
+pub fn radiance_provenance(plan: &Plan, camera: &CameraPlan) -> Provenance {
+    let facts = provenance(plan, camera);
+    match &camera.settings.route {
+        Route::Lens => facts,
+        Route::Pupil(projection) => at_pupil(facts, projection, camera.index),
+    }
+}
+
+fn at_pupil(mut facts: Provenance, projection: &PupilProjection, camera: u32) -> Provenance {
+    AT_PUPIL.clone_into(&mut facts.geometry);
+    let principal = projection.principal_px();
+    facts.further.extend([
+        (PITCH_TAN.to_owned(), projection.pitch_tan().to_string()),
+        (PRINCIPAL_X_PX.to_owned(), principal.x.to_string()),
+        (PRINCIPAL_Y_PX.to_owned(), principal.y.to_string()),
+        ("camera_index".to_owned(), camera.to_string()),
+    ]);
+    facts
+}
+
+fn pose_rows(pose: &CameraPose) -> [[f64; 4]; 3] {
+    std::array::from_fn(|i| {
+        let row = pose.rotation.row(i);
+        [row.x, row.y, row.z, pose.position_m[i]]
+    })
+}
+
+/// The side-car of a rendered camera.
+pub fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>, not_finite: u64) -> Value {
+    let settings = &camera.settings;
+    json!({
+        "program": "etendue",
+        "version": VERSION,
+        "plan_hash": plan.hash_text(),
+        "seed": settings.seed,
+        "camera": camera.name,
+        "pose": {
+            "camera_to_world": pose_rows(&camera.pose),
+            "convention": "camera x right, y down, z forward (OpenCV), origin at the centre of the entrance pupil; \
+                           world x forward, y left, z up; m",
+        },
+        "optics": optics(&camera.body),
+        "sensor": sensor(&camera.body),
+        "sampling": {
+            "spp": settings.spp,
+            "replicates": settings.replicates,
+            "max_bounces": settings.max_bounces,
+            "wavelengths_per_path": settings.wavelengths,
+            "range_nm": [settings.range_nm.0, settings.range_nm.1],
+            "band_width_nm": settings.bands.map(etendue_core::Bands::width_nm),
+            "route": if settings.route == Route::Lens { "lens" } else { "pupil" },
+            "samples_not_finite": not_finite,
+        },
+        "time_s": 0.0,
+        "files": files,
+        "ground_truth": {
+            "depth.Z": "m along the optical axis from the entrance pupil; +inf: sky; NaN: no ray",
+            "distance.Z": "m along the pixel's principal ray (587.56 nm); as depth.Z",
+            "N": "unit shading normal, world",
+            "P": "position, world, m",
+            "instances": plan.identities,
+            "classes": plan.classes.iter().cloned().collect::<BTreeMap<String, u32>>(),
+            "materials": plan.materials,
+            "ids": "instances and materials: place in the list, from 1; 0 is the background",
+        },
+    })
+}
+
+/// Lens and camera matrix.
+pub fn optics(body: &CameraBody) -> Value {
+    let lens = &body.lens;
+    let matrix = body.raster.camera_matrix(lens.principal_distance_mm());
+    let distortion = lens.distortion().map(|d| {
+        let [k1, k2] = d.coefficients();
+        json!({ "k1": k1, "k2": k2, "radius_unit_mm": d.unit_mm(), "direction": format!("{:?}", d.sense()) })
+    });
+    json!({
+        "focal_length_mm": lens.focal_length_mm(),
+        "f_number": lens.f_number(),
+        "focus_distance_m": lens.focus_distance_m().filter(|m| m.is_finite()),
+        "principal_distance_mm": lens.principal_distance_mm(),
+        "transmittance": lens.transmittance(),
+        "distortion": distortion,
+        "camera_matrix": matrix.rows(),
+        "camera_matrix_convention": "raster: the top-left corner of the image is (0, 0), pixel centres at +0.5",
+        "camera_matrix_opencv": matrix.to_opencv().rows(),
+    })
+}
+
+/// The sensor's geometry and, where it has electronics, their figures.
+pub fn sensor(body: &CameraBody) -> Value {
+    let raster = &body.raster;
+    let electronics = body.sensor.as_ref().map(|sensor| {
+        let p = sensor.parameters();
+        json!({
+            "exposure_s": p.exposure_s,
+            "gain_dn_per_e": p.gain_dn_e,
+            "black_level_dn": p.black_level_dn,
+            "white_level_dn": sensor.white_level_dn(),
+            "full_well_e": p.full_well_e,
+            "read_noise_e": p.read_noise_e,
+            "dark_current_e_s": p.dark_current_e_s,
+            "bits": p.bits,
+            "noise": p.noise,
+            "cfa": {
+                "columns": p.cfa.width(),
+                "channels": p.cfa.channels().iter().map(|c| p.channels[*c].name.clone()).collect::<Vec<_>>(),
+            },
+        })
+    });
+    json!({
+        "width_px": raster.width(),
+        "height_px": raster.height(),
+        "pixel_pitch_um": 1000.0 * raster.pitch_mm().x,
+        "principal_point_px": raster.principal_px().to_array(),
+        "electronics": electronics,
+    })
+}
+
+/// What a file holds: its quantity and unit.
+pub fn entry(quantity: &str, unit: &str) -> Value {
+    json!({ "quantity": quantity, "unit": unit })
+}
+
+/// [`entry`] of a quantity of the core.
+pub fn entry_of<Q: Quantity>() -> Value {
+    entry(Q::NAME, Q::UNIT)
+}
+
+/// Names and entries of the files that a camera can deliver.
+pub struct Files;
+
+impl Files {
+    pub const RADIANCE: &str = "radiance.exr";
+    pub const IRRADIANCE: &str = "irradiance.exr";
+    pub const ELECTRONS: &str = "electrons.exr";
+    pub const GROUND_TRUTH: &str = "ground_truth.exr";
+    pub const DEPTH: &str = "depth.png";
+    pub const SIDECAR: &str = "camera.json";
+
+    /// The raw picture of a frame.
+    pub fn raw(frame: u32) -> String {
+        format!("raw.{frame:04}.png")
+    }
+
+    /// The picture of a frame.
+    pub fn picture(frame: u32) -> String {
+        format!("picture.{frame:04}.png")
+    }
+
+    /// All files of a camera over frames, with what they hold.
+    pub fn of(camera: &CameraPlan, frames: std::ops::Range<u32>) -> BTreeMap<String, Value> {
+        let p = &camera.products;
+        let mut files = BTreeMap::new();
+        let mut add = |wanted: bool, name: &str, entry: Value| {
+            if wanted {
+                files.insert(name.to_owned(), entry);
+            }
+        };
+        add(p.radiance, Self::RADIANCE, entry_of::<Radiance>());
+        add(p.irradiance, Self::IRRADIANCE, entry_of::<Irradiance>());
+        add(p.electrons, Self::ELECTRONS, entry_of::<Electrons>());
+        add(p.ground_truth, Self::GROUND_TRUTH, entry("depth, distance, normal, position, ids", "m, m, 1, m, 1"));
+        let depth_unit = format!("1/{} m", p.depth_png_per_m.unwrap_or(0.0));
+        add(p.depth_png_per_m.is_some(), Self::DEPTH, entry("planar depth, 0 is invalid", &depth_unit));
+        for frame in frames {
+            add(p.raw, &Self::raw(frame), entry_of::<DigitalNumber>());
+            add(p.picture, &Self::picture(frame), entry("sRGB picture", "8 bits"));
+        }
+        files
+    }
+}

@@ -1,0 +1,122 @@
+//! `etendue expose`: another lens and sensor on stored radiance.
+
+use super::render::{claim, commit, open};
+use crate::args;
+use crate::deliver::{Results, Wanted, photographs};
+use crate::facts::{self, Files, PITCH_TAN, PRINCIPAL_X_PX, PRINCIPAL_Y_PX};
+use crate::failure::Failure;
+use crate::job::read_text;
+use crate::machine;
+use etendue_core::SpectralCube;
+use etendue_core::quantity::Radiance;
+use etendue_io::exr::{SpectralImage, read_spectral};
+use etendue_io::{Provenance, load_assets};
+use etendue_optics::PupilProjection;
+use etendue_pipeline::compile_camera;
+use etendue_pipeline::photograph::Light;
+use etendue_pipeline::plan::CameraBody;
+use etendue_scene::{Overrides, asset, load_camera};
+use etendue_sensor::FrameAddress;
+use glam::DVec2;
+use serde_json::json;
+use std::path::Path;
+
+/// A stored radiance image that a lens can be put before.
+struct Stored {
+    radiance: SpectralCube<Radiance>,
+    projection: PupilProjection,
+    provenance: Provenance,
+}
+
+pub fn run(arguments: &args::Expose) -> Result<(), Failure> {
+    let body = camera(arguments)?;
+    let stored = stored(&arguments.radiance)?;
+    let mut folder = open(&arguments.output)?;
+    let name = camera_name(&arguments.camera);
+    claim(&folder, names(&body, arguments).into_iter().map(|file| format!("{name}/{file}")))?;
+    let mut results = Results { prefix: name, folder: &mut folder };
+    let pool = machine::pool(None)?;
+    pool.install(|| photograph(&body, &stored, arguments, &mut results))?;
+    commit(folder)
+}
+
+fn camera(arguments: &args::Expose) -> Result<CameraBody, Failure> {
+    let overrides = Overrides::new(&arguments.set);
+    let camera = load_camera(&arguments.camera, &read_text, &overrides).map_err(|f| Failure::inputs(f.list()))?;
+    let assets = load_assets(&asset::of_camera(&camera)).map_err(Failure::inputs)?;
+    compile_camera(&camera, &assets).map_err(Failure::inputs)
+}
+
+/// The camera file's stem: the name of the results' folder.
+fn camera_name(file: &Path) -> String {
+    file.file_stem().map_or_else(|| "camera".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+fn names(body: &CameraBody, arguments: &args::Expose) -> Vec<String> {
+    let frames = arguments.frames.clone();
+    let mut names = vec![Files::IRRADIANCE.to_owned(), Files::SIDECAR.to_owned()];
+    if body.sensor.is_some() {
+        names.extend(frames.clone().map(Files::raw));
+    }
+    if body.development.is_some() {
+        names.extend(frames.map(Files::picture));
+    }
+    names
+}
+
+fn stored(path: &Path) -> Result<Stored, Failure> {
+    let refuse = |why: &str| Failure::input(format!("{}: {why}", path.display()));
+    let file = read_spectral(path).map_err(Failure::input)?;
+    let SpectralImage::Radiance(image) = file.image else {
+        return Err(refuse("this is irradiance behind a lens; expected radiance, rendered with route = \"pupil\""));
+    };
+    let remedy = "its geometry is not stated; expected radiance that etendue rendered with route = \"pupil\"";
+    let provenance = file.provenance.ok_or_else(|| refuse(remedy))?;
+    let number = |name: &str| provenance.further.get(name).and_then(|text| text.parse::<f64>().ok());
+    let (Some(pitch), Some(x), Some(y)) = (number(PITCH_TAN), number(PRINCIPAL_X_PX), number(PRINCIPAL_Y_PX)) else {
+        return Err(refuse("it was rendered through a lens; render it with --set render.route=\"pupil\" to expose it"));
+    };
+    let radiance = image.cube;
+    let projection = PupilProjection::new(radiance.width(), radiance.height(), pitch, DVec2::new(x, y));
+    let projection = projection.map_err(|error| refuse(&error.to_string()))?;
+    Ok(Stored { radiance, projection, provenance })
+}
+
+fn photograph(
+    body: &CameraBody,
+    stored: &Stored,
+    arguments: &args::Expose,
+    results: &mut Results<'_>,
+) -> Result<(), Failure> {
+    let light = Light::at_pupil(body, &stored.projection, &stored.radiance).map_err(|error| {
+        Failure::input(format!("{} through {}: {error}", arguments.radiance.display(), arguments.camera.display()))
+    })?;
+    results.irradiance(&light, false, &stored.provenance)?;
+    let seed = arguments.seed.unwrap_or(stored.provenance.seed);
+    if let Some(electrons) = &light.electrons {
+        let camera = stored.provenance.further.get("camera_index").and_then(|i| i.parse().ok()).unwrap_or(0);
+        let address = |frame| FrameAddress { seed, camera, frame, capture: 0 };
+        let wanted = Wanted { raw: true, picture: true };
+        photographs(body, electrons, &arguments.frames, address, wanted, results)?;
+    }
+    results.json(Files::SIDECAR, &sidecar(body, stored, arguments, seed))
+}
+
+fn sidecar(body: &CameraBody, stored: &Stored, arguments: &args::Expose, seed: u64) -> serde_json::Value {
+    json!({
+        "program": "etendue",
+        "version": facts::VERSION,
+        "seed": seed,
+        "radiance": {
+            "plan_hash": stored.provenance.plan_hash,
+            "version": stored.provenance.version,
+            "camera": stored.provenance.camera,
+        },
+        "pose": { "camera_to_world": stored.provenance.camera_to_world },
+        "optics": facts::optics(body),
+        "sensor": facts::sensor(body),
+        "route": "pupil",
+        "files": names(body, arguments),
+        "time_s": stored.provenance.time_s,
+    })
+}

@@ -1,0 +1,10 @@
+//! One verb a file.
+
+pub mod compare;
+mod difference;
+pub mod expose;
+pub mod inspect;
+pub mod merge;
+pub mod plan;
+pub mod render;
+pub mod schema;

@@ -1,0 +1,13 @@
+//! `etendue plan`: what will be modelled, what is left out and why, and what it will cost.
+
+use crate::args;
+use crate::failure::Failure;
+use crate::job::JobRequest;
+use crate::say;
+use etendue_pipeline::summary::Summary;
+
+pub fn run(arguments: &args::Plan) -> Result<(), Failure> {
+    let plan = JobRequest::from(&arguments.job).plan()?;
+    say(&Summary(&plan).to_string());
+    Ok(())
+}

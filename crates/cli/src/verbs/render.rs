@@ -1,0 +1,71 @@
+//! `etendue render`: radiance, image, raw and ground truth of a job's cameras.
+
+use crate::args;
+use crate::deliver::{deliver, names};
+use crate::facts;
+use crate::failure::Failure;
+use crate::film_file::{self, MANIFEST, Manifest};
+use crate::job::JobRequest;
+use crate::machine;
+use crate::progress::TileBar;
+use crate::say;
+use etendue_io::{Existing, OutputFolder};
+use etendue_pipeline::Plan;
+use etendue_pipeline::film::Film;
+use etendue_pipeline::plan::CameraPlan;
+use etendue_pipeline::render::{Request, light};
+use etendue_pipeline::tile::Shard;
+
+pub fn run(arguments: &args::Render) -> Result<(), Failure> {
+    let request = JobRequest::from(&arguments.job);
+    let simd = machine::simd()?;
+    let plan = request.plan()?;
+    let pool = machine::pool(arguments.threads)?;
+    let mut folder = open(&arguments.output)?;
+    match arguments.shard {
+        None => {
+            claim(&folder, names(&plan, &arguments.frames))?;
+            for camera in &plan.cameras {
+                let film = pool.install(|| expose(&plan, camera, Request { simd, shard: Shard::WHOLE }))?;
+                pool.install(|| deliver(&plan, camera, film, &arguments.frames, simd, &mut folder))?;
+            }
+        }
+        Some((index, count)) => {
+            let shard = Shard::new(index, count).expect("checked when the arguments were read");
+            claim(&folder, plan.cameras.iter().map(film_file::film_name).chain([MANIFEST.to_owned()]))?;
+            for camera in &plan.cameras {
+                let film = pool.install(|| expose(&plan, camera, Request { simd, shard }))?;
+                let bytes = film_file::encode(&film, &facts::provenance(&plan, camera))?;
+                folder.write(&film_file::film_name(camera), &bytes).map_err(Failure::input)?;
+            }
+            let frames = arguments.frames.clone();
+            Manifest { request, frames, index, count, plan_hash: plan.hash_text() }.write(&mut folder)?;
+        }
+    }
+    commit(folder)
+}
+
+fn expose(plan: &Plan, camera: &CameraPlan, request: Request) -> Result<Film, Failure> {
+    let bar = TileBar::new(&camera.name);
+    let film = light(plan, camera, request, &bar);
+    bar.finish();
+    film.map_err(|cancelled| Failure::Run(cancelled.to_string()))
+}
+
+/// Opens the output folder.
+pub fn open(output: &args::Output) -> Result<OutputFolder, Failure> {
+    let existing = if output.overwrite { Existing::Replace } else { Existing::Refuse };
+    OutputFolder::open(&output.output, existing).map_err(Failure::input)
+}
+
+/// Refuses early where a result is already there.
+pub fn claim(folder: &OutputFolder, names: impl IntoIterator<Item = String>) -> Result<(), Failure> {
+    names.into_iter().try_for_each(|name| folder.claim([name.as_str()]).map_err(Failure::input))
+}
+
+/// Gives all results their names, and prints them.
+pub fn commit(folder: OutputFolder) -> Result<(), Failure> {
+    let written = folder.commit().map_err(|error| Failure::Run(error.to_string()))?;
+    say(&written.iter().map(|path| format!("{}\n", path.display())).collect::<String>());
+    Ok(())
+}

@@ -1,0 +1,17 @@
+//! `etendue schema`: the JSON Schema of a file kind.
+
+use crate::args::{self, SchemaKind};
+use crate::failure::Failure;
+use crate::say;
+use etendue_scene::{FileKind, schema};
+
+pub fn run(arguments: &args::Schema) -> Result<(), Failure> {
+    let kind = match arguments.kind {
+        SchemaKind::Scene => FileKind::Scene,
+        SchemaKind::Camera => FileKind::Camera,
+        SchemaKind::Job => FileKind::Job,
+    };
+    let text = serde_json::to_string_pretty(&schema(kind)).map_err(|error| Failure::Run(error.to_string()))?;
+    say(&format!("{text}\n"));
+    Ok(())
+}
