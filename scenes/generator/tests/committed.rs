@@ -64,6 +64,6 @@ fn jobs_can_be_read() {
 fn cameras_can_be_read() {
     for camera in ["automotive", "laboratory"] {
         let file = scenes().join(format!("cameras/{camera}.toml"));
-        load_camera(&file, &read).unwrap_or_else(|faults| panic!("{camera}: {faults}"));
+        load_camera(&file, &read, &Overrides::default()).unwrap_or_else(|faults| panic!("{camera}: {faults}"));
     }
 }

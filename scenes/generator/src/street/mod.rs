@@ -9,6 +9,7 @@ mod car;
 mod curve;
 mod fleet;
 mod furniture;
+mod houses;
 mod layout;
 mod materials;
 mod opening;
@@ -48,7 +49,7 @@ fn description() -> Description {
     let mut street = Description { materials: materials::all(), classes: CLASSES.to_vec(), ..Description::default() };
     materials::paint(&mut street);
     layout::ground(&mut street);
-    layout::houses(&mut street);
+    houses::add(&mut street);
     layout::greenery(&mut street);
     layout::furniture(&mut street);
     layout::traffic(&mut street);
