@@ -40,7 +40,7 @@ pub(super) fn over_triangles(triangles: &[[Vec3; 3]]) -> Vec<BinaryNode> {
     for (bounds, triangle) in boxes.iter_mut().zip(&indices) {
         *bounds = theirs(&own(bounds).grown(paddings[*triangle as usize]));
     }
-    binary(&boxes, indices, 0.3)
+    binary(&boxes, indices, 0.5)
 }
 
 /// A tree over boxes, built fast: a view makes one for its instances. Node 0 is the root; empty without boxes.

@@ -4,8 +4,10 @@
 //! of the x86 instructions where that shows (minimum and maximum of zeros and NaN); the AVX2 form does the same
 //! operations eight at a time. No operation is fused.
 
-/// Eight f32.
-pub(crate) type Eight = [f32; 8];
+/// Eight f32, aligned for one load.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(32))]
+pub(crate) struct Eight(pub(crate) [f32; 8]);
 
 /// A way to compute with eight numbers at once. Every way gives the same bits.
 pub(crate) trait Lanes: Copy {
@@ -64,7 +66,7 @@ pub(crate) struct Plain;
 
 #[inline(always)]
 fn zip(a: Eight, b: Eight, f: impl Fn(f32, f32) -> f32) -> Eight {
-    core::array::from_fn(|i| f(a[i], b[i]))
+    Eight(core::array::from_fn(|i| f(a.0[i], b.0[i])))
 }
 
 impl Lanes for Plain {
@@ -81,7 +83,7 @@ impl Lanes for Plain {
     }
     #[inline(always)]
     fn splat(self, x: f32) -> Eight {
-        [x; 8]
+        Eight([x; 8])
     }
     #[inline(always)]
     fn add(self, a: Eight, b: Eight) -> Eight {
@@ -109,15 +111,15 @@ impl Lanes for Plain {
     }
     #[inline(always)]
     fn abs(self, a: Eight) -> Eight {
-        a.map(f32::abs)
+        Eight(a.0.map(f32::abs))
     }
     #[inline(always)]
     fn le(self, a: Eight, b: Eight) -> [bool; 8] {
-        core::array::from_fn(|i| a[i] <= b[i])
+        core::array::from_fn(|i| a.0[i] <= b.0[i])
     }
     #[inline(always)]
     fn lt(self, a: Eight, b: Eight) -> [bool; 8] {
-        core::array::from_fn(|i| a[i] < b[i])
+        core::array::from_fn(|i| a.0[i] < b.0[i])
     }
     #[inline(always)]
     fn and(self, a: [bool; 8], b: [bool; 8]) -> [bool; 8] {

@@ -23,7 +23,7 @@ impl LocalRay {
     pub(crate) fn new(origin: DVec3, direction: DVec3) -> Self {
         let (origin, direction) = (origin.as_vec3(), direction.as_vec3());
         let d = direction.to_array();
-        let [x, y, z] = d.map(f32::abs);
+        let [x, y, z] = [d[0].abs(), d[1].abs(), d[2].abs()];
         let axes = if x > y && x > z {
             [1, 2, 0]
         } else if y > z {

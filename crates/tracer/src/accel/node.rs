@@ -53,15 +53,15 @@ pub(super) struct Node {
 impl Node {
     /// A node without children.
     pub(super) const EMPTY: Self = {
-        let nowhere = [[f32::INFINITY; 8], [f32::NEG_INFINITY; 8]];
+        let nowhere = [Eight([f32::INFINITY; 8]), Eight([f32::NEG_INFINITY; 8])];
         Self { planes: [nowhere; 3], children: [Child(LEAF); 8] }
     };
 
     /// Hangs a child into a slot.
     pub(super) fn set(&mut self, slot: usize, bounds: &Box3, child: Child) {
         for axis in 0..3 {
-            self.planes[axis][0][slot] = bounds.low[axis];
-            self.planes[axis][1][slot] = bounds.high[axis];
+            self.planes[axis][0].0[slot] = bounds.low[axis];
+            self.planes[axis][1].0[slot] = bounds.high[axis];
         }
         self.children[slot] = child;
     }

@@ -49,7 +49,7 @@ impl Iterator for Meeting<'_> {
         }
         let lane = self.lanes.trailing_zeros() as usize & 7;
         self.lanes &= self.lanes - 1;
-        Some(PrimitiveHit { t: self.t[lane], u: self.u[lane], v: self.v[lane], primitive: self.primitives[lane] })
+        Some(PrimitiveHit { t: self.t.0[lane], u: self.u.0[lane], v: self.v.0[lane], primitive: self.primitives[lane] })
     }
 }
 
@@ -65,10 +65,10 @@ pub(super) struct RayLanes<L: Lanes> {
 impl<L: Lanes> RayLanes<L> {
     #[inline(always)]
     pub(super) fn new(l: L, ray: &LocalRay) -> Self {
-        let origin = ray.origin.to_array();
+        let (origin, [x, y, z]) = (ray.origin.to_array(), ray.axes);
         Self {
-            origin: ray.axes.map(|axis| l.splat(origin[axis])),
-            shear: ray.shear.map(|s| l.splat(s)),
+            origin: [l.splat(origin[x]), l.splat(origin[y]), l.splat(origin[z])],
+            shear: [l.splat(ray.shear[0]), l.splat(ray.shear[1])],
             scale: l.splat(ray.scale),
             axes: ray.axes,
         }
@@ -86,12 +86,12 @@ struct Triple<V> {
 impl Packet {
     /// A packet of at most eight triangles.
     pub(super) fn new(triangles: &[(u32, [Vec3; 3])]) -> Self {
-        let mut packet = Self { corners: [[[f32::NAN; 8]; 3]; 3], primitives: [u32::MAX; 8] };
+        let mut packet = Self { corners: [[Eight([f32::NAN; 8]); 3]; 3], primitives: [u32::MAX; 8] };
         for (lane, (primitive, corners)) in triangles.iter().enumerate() {
             packet.primitives[lane] = *primitive;
             for (corner, position) in corners.iter().enumerate() {
                 for axis in 0..3 {
-                    packet.corners[corner][axis][lane] = position[axis];
+                    packet.corners[corner][axis].0[lane] = position[axis];
                 }
             }
         }
@@ -136,16 +136,13 @@ impl Packet {
 
     #[inline(always)]
     fn corner<L: Lanes>(&self, l: L, ray: &RayLanes<L>, corner: usize) -> Triple<L::V> {
-        let [x, y, z] = [
-            self.from_origin(l, ray, corner, 0),
-            self.from_origin(l, ray, corner, 1),
-            self.from_origin(l, ray, corner, 2),
-        ];
+        let [x, y, z] =
+            [self.relative(l, ray, corner, 0), self.relative(l, ray, corner, 1), self.relative(l, ray, corner, 2)];
         Triple { x: l.sub(x, l.mul(ray.shear[0], z)), y: l.sub(y, l.mul(ray.shear[1], z)), z }
     }
 
     #[inline(always)]
-    fn from_origin<L: Lanes>(&self, l: L, ray: &RayLanes<L>, corner: usize, axis: usize) -> L::V {
+    fn relative<L: Lanes>(&self, l: L, ray: &RayLanes<L>, corner: usize, axis: usize) -> L::V {
         l.sub(l.load(&self.corners[corner][ray.axes[axis]]), ray.origin[axis])
     }
 
@@ -155,10 +152,10 @@ impl Packet {
     fn settle(&self, ray: &LocalRay, limit: f32, doubtful: u32, meeting: &mut Meeting<'_>) {
         for lane in (0..8).filter(|lane| doubtful >> lane & 1 == 1) {
             let corners: [Vec3; 3] =
-                core::array::from_fn(|corner| Vec3::from_array(self.corners[corner].map(|axis| axis[lane])));
+                core::array::from_fn(|corner| Vec3::from_array(self.corners[corner].map(|axis| axis.0[lane])));
             if let Some((t, u, v)) = exact(corners, ray).filter(|(t, ..)| *t > 0.0 && *t <= limit) {
                 meeting.lanes |= 1 << lane;
-                (meeting.t[lane], meeting.u[lane], meeting.v[lane]) = (t, u, v);
+                (meeting.t.0[lane], meeting.u.0[lane], meeting.v.0[lane]) = (t, u, v);
             }
         }
     }

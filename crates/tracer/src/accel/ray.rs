@@ -23,8 +23,9 @@ pub(super) struct SlabRay {
 impl SlabRay {
     #[inline(always)]
     pub(super) fn new(origin: Vec3, direction: Vec3) -> Self {
-        let inverse = direction.to_array().map(inverse);
-        Self { origin: origin.to_array(), inverse, near: inverse.map(|x| usize::from(x < 0.0)) }
+        let inverse = [inverse(direction.x), inverse(direction.y), inverse(direction.z)];
+        let near = [usize::from(inverse[0] < 0.0), usize::from(inverse[1] < 0.0), usize::from(inverse[2] < 0.0)];
+        Self { origin: origin.to_array(), inverse, near }
     }
 }
 
@@ -40,37 +41,50 @@ fn inverse(d: f32) -> f32 {
 pub(super) struct SlabLanes<L: Lanes> {
     origin: [L::V; 3],
     inverse: [L::V; 3],
+    /// The same, shrunk, for entries.
+    entry_inverse: [L::V; 3],
     near: [usize; 3],
-    shrink: L::V,
-    zero: L::V,
 }
 
 impl<L: Lanes> SlabLanes<L> {
     #[inline(always)]
     pub(super) fn new(l: L, ray: &SlabRay) -> Self {
+        let [x, y, z] = ray.inverse;
         Self {
-            origin: ray.origin.map(|x| l.splat(x)),
-            inverse: ray.inverse.map(|x| l.splat(x)),
+            origin: splat(l, ray.origin),
+            inverse: splat(l, ray.inverse),
+            entry_inverse: splat(l, [x * ENTRY_SHRINK, y * ENTRY_SHRINK, z * ENTRY_SHRINK]),
             near: ray.near,
-            shrink: l.splat(ENTRY_SHRINK),
-            zero: l.splat(0.0),
         }
     }
 
     /// Which of a node's boxes the ray enters at or before `limit`, and where.
     #[inline(always)]
     pub(super) fn enter(&self, l: L, node: &Node, limit: f32) -> (u32, Eight) {
-        let [nx, ny, nz] = [self.plane(l, node, 0, 0), self.plane(l, node, 1, 0), self.plane(l, node, 2, 0)];
-        let [fx, fy, fz] = [self.plane(l, node, 0, 1), self.plane(l, node, 1, 1), self.plane(l, node, 2, 1)];
-        let near = l.max(l.mul(l.max(l.max(nx, ny), nz), self.shrink), self.zero);
+        let [nx, ny, nz] = [self.entry(l, node, 0), self.entry(l, node, 1), self.entry(l, node, 2)];
+        let [fx, fy, fz] = [self.exit(l, node, 0), self.exit(l, node, 1), self.exit(l, node, 2)];
+        let near = l.max(l.max(nx, ny), l.max(nz, l.splat(0.0)));
         let far = l.min(l.min(fx, fy), l.min(fz, l.splat(limit)));
         (l.bits(l.le(near, far)), l.store(near))
     }
 
-    /// Where the ray meets the first (`far` = 0) or last (1) planes of an axis.
+    /// Where the ray meets the first planes of an axis, or a little before.
     #[inline(always)]
-    fn plane(&self, l: L, node: &Node, axis: usize, far: usize) -> L::V {
-        let planes = l.load(&node.planes[axis][(self.near[axis] ^ far) & 1]);
+    fn entry(&self, l: L, node: &Node, axis: usize) -> L::V {
+        let planes = l.load(&node.planes[axis][self.near[axis] & 1]);
+        l.mul(l.sub(planes, self.origin[axis]), self.entry_inverse[axis])
+    }
+
+    /// Where the ray meets the last planes of an axis.
+    #[inline(always)]
+    fn exit(&self, l: L, node: &Node, axis: usize) -> L::V {
+        let planes = l.load(&node.planes[axis][(self.near[axis] ^ 1) & 1]);
         l.mul(l.sub(planes, self.origin[axis]), self.inverse[axis])
     }
+}
+
+/// Each of three numbers in all lanes.
+#[inline(always)]
+fn splat<L: Lanes>(l: L, [x, y, z]: [f32; 3]) -> [L::V; 3] {
+    [l.splat(x), l.splat(y), l.splat(z)]
 }

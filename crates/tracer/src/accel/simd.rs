@@ -18,7 +18,7 @@ impl Avx2 {
 }
 
 // SAFETY, for every block below: an `Avx2` exists only where AVX2 was detected. Loads and stores go through references
-// to eight floats and do not ask for alignment. A prefetch may be given any address.
+// to eight floats, which their type aligns. A prefetch may be given any address.
 impl Lanes for Avx2 {
     type V = __m256;
     type M = __m256;
@@ -26,13 +26,13 @@ impl Lanes for Avx2 {
     #[inline(always)]
     fn load(self, from: &Eight) -> __m256 {
         // SAFETY: see above.
-        unsafe { _mm256_loadu_ps(from.as_ptr()) }
+        unsafe { _mm256_load_ps(from.0.as_ptr()) }
     }
     #[inline(always)]
     fn store(self, v: __m256) -> Eight {
-        let mut to = [0.0; 8];
+        let mut to = Eight([0.0; 8]);
         // SAFETY: see above.
-        unsafe { _mm256_storeu_ps(to.as_mut_ptr(), v) };
+        unsafe { _mm256_store_ps(to.0.as_mut_ptr(), v) };
         to
     }
     #[inline(always)]

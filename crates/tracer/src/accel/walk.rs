@@ -32,7 +32,7 @@ pub(super) fn walk<L: Lanes, const SORTED: bool>(
     let mut current = root;
     loop {
         let next = match current.as_node() {
-            Some(index) => descend::<L, SORTED>(l, &nodes[index], &ray, *limit, &mut pending),
+            Some(index) => descend::<L, SORTED>(l, nodes, index, &ray, *limit, &mut pending),
             None if leaves.visit(current.leaf_index(), limit) => return true,
             None => None,
         };
@@ -47,19 +47,21 @@ pub(super) fn walk<L: Lanes, const SORTED: bool>(
 #[inline(always)]
 fn descend<L: Lanes, const SORTED: bool>(
     l: L,
-    node: &Node,
+    nodes: &[Node],
+    index: usize,
     ray: &SlabLanes<L>,
     limit: f32,
     pending: &mut Pending,
 ) -> Option<Child> {
+    let node = &nodes[index];
     let (mut lanes, near) = ray.enter(l, node, limit);
     if lanes == 0 {
         return None;
     }
-    let mut best = take(&mut lanes, node, &near);
+    let mut best = take(l, nodes, node, &mut lanes, &near);
     let start = pending.len();
     while lanes != 0 {
-        let other = take(&mut lanes, node, &near);
+        let other = take(l, nodes, node, &mut lanes, &near);
         if SORTED {
             pending.push(best.max(other));
             best = best.min(other);
@@ -73,12 +75,16 @@ fn descend<L: Lanes, const SORTED: bool>(
     Some(Child::from_word(best as u32))
 }
 
-/// Takes the lowest lane out of `lanes`.
+/// Takes the lowest lane out of `lanes`, and asks the memory for the node there.
 #[inline(always)]
-fn take(lanes: &mut u32, node: &Node, near: &Eight) -> u64 {
+fn take<L: Lanes>(l: L, nodes: &[Node], node: &Node, lanes: &mut u32, near: &Eight) -> u64 {
     let lane = lanes.trailing_zeros() as usize & 7;
     *lanes &= *lanes - 1;
-    u64::from(near[lane].to_bits()) << 32 | u64::from(node.children[lane].word())
+    let child = node.children[lane];
+    if let Some(next) = child.as_node().and_then(|index| nodes.get(index)) {
+        l.prefetch(next);
+    }
+    u64::from(near.0[lane].to_bits()) << 32 | u64::from(child.word())
 }
 
 /// Sorts at most seven entries by insertion.
