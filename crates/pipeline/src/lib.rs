@@ -9,6 +9,7 @@ pub mod film;
 mod fingerprint;
 pub mod gather;
 pub mod light;
+pub mod mosaic;
 mod observer;
 pub mod photograph;
 pub mod plan;

@@ -2,11 +2,11 @@
 
 use crate::film::Film;
 use crate::gather::{Gather, Layout};
+use crate::mosaic::{Mosaic, Site};
 use crate::observer::Observer;
 use crate::tile::{Shard, Tile, tiles};
 use etendue_core::random::{Draw, PathStream, Pixel, PixelAddress};
 use etendue_core::{CameraPose, PupilRay, RadianceField, Ray, Wavelengths};
-use etendue_spectra::Spectrum;
 use glam::DVec2;
 use rayon::prelude::*;
 use std::sync::Mutex;
@@ -17,22 +17,6 @@ pub trait RaySource: Sync {
     /// The ray of a raster point (px) through the pupil sample (in [0, 1)²) at `wavelength_nm`, in the camera frame.
     /// `None` where the lens stops it.
     fn ray(&self, raster_px: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<PupilRay>;
-}
-
-/// Each pixel's responsivity (e⁻ per W·m⁻²), a colour filter's tile repeated over the sensor.
-#[derive(Clone, Debug)]
-pub struct Mosaic {
-    /// Columns of the tile.
-    pub columns: usize,
-    /// The tile's responsivities, row by row.
-    pub responsivities: Vec<Spectrum>,
-}
-
-impl Mosaic {
-    fn at(&self, pixel: Pixel) -> &Spectrum {
-        let rows = self.responsivities.len() / self.columns;
-        &self.responsivities[(pixel.y as usize % rows) * self.columns + pixel.x as usize % self.columns]
-    }
 }
 
 /// How densely light is sampled, and by which random addresses.
@@ -120,12 +104,12 @@ impl<S: RaySource> Exposure<'_, S> {
 
     fn gather_pixel<const N: usize>(&self, field: &impl RadianceField<N>, pixel: Pixel) -> Gather {
         let mut gather = Gather::new(self.layout.clone());
-        let responsivity = self.mosaic.map(|mosaic| mosaic.at(pixel));
+        let site = self.mosaic.map(|mosaic| mosaic.at(pixel));
         let samples = self.sampling.spp / self.sampling.replicates;
         for replicate in 0..self.sampling.replicates {
             let first = PathStream::new(&self.address(pixel, replicate), 0);
             for sample in 0..samples {
-                self.add_sample(field, pixel, &first.with_sample(sample), responsivity, &mut gather);
+                self.add_sample(field, pixel, &first.with_sample(sample), site, &mut gather);
             }
             gather.end_replicate(samples);
         }
@@ -142,17 +126,25 @@ impl<S: RaySource> Exposure<'_, S> {
         field: &impl RadianceField<N>,
         pixel: Pixel,
         stream: &PathStream,
-        responsivity: Option<&Spectrum>,
+        site: Option<&Site>,
         gather: &mut Gather,
     ) {
-        let Sampling { low_nm, high_nm, .. } = self.sampling;
-        let wavelengths = Wavelengths::<N>::uniform(low_nm, high_nm, stream.one(Draw::Wavelength, 0));
+        let wavelengths = self.wavelengths::<N>(site, stream.one(Draw::Wavelength, 0));
         let area = stream.two(Draw::PixelArea, 0).as_dvec2() - 0.5;
         let raster = DVec2::new(f64::from(pixel.x), f64::from(pixel.y)) + 0.5 + area * self.aperture_px;
         let pupil = stream.two(Draw::Pupil, 0).as_dvec2();
         if let Some(pupil_ray) = self.source.ray(raster, pupil, f64::from(wavelengths.nm[0])) {
             let radiance = field.radiance(&self.to_render(&pupil_ray), &wavelengths, stream);
-            gather.add(pupil_ray.weight_sr, radiance, &wavelengths, responsivity);
+            gather.add(pupil_ray.weight_sr, radiance, &wavelengths, site.map(|s| &s.responsivity));
+        }
+    }
+
+    /// A pixel that folds its responsivity draws wavelengths by it.
+    fn wavelengths<const N: usize>(&self, site: Option<&Site>, u: f32) -> Wavelengths<N> {
+        let Sampling { low_nm, high_nm, .. } = self.sampling;
+        match site {
+            Some(site) => Wavelengths::drawn(&site.density, low_nm, high_nm, u),
+            None => Wavelengths::uniform(low_nm, high_nm, u),
         }
     }
 

@@ -2,14 +2,14 @@
 
 use crate::film::Film;
 use crate::gather::Layout;
-use crate::light::{Cancelled, Exposure, Mosaic, RaySource, Sampling};
+use crate::light::{Cancelled, Exposure, RaySource, Sampling};
+use crate::mosaic::Mosaic;
 use crate::observer::Observer;
 use crate::plan::{CameraPlan, Plan, Route};
 use crate::tile::Shard;
 use etendue_core::PupilRay;
 use etendue_optics::{Lens, PupilProjection};
 use etendue_projection::Raster;
-use etendue_sensor::Sensor;
 use etendue_tracer::accel::Simd;
 use etendue_tracer::integrator::{PathSettings, PathTracer};
 use etendue_tracer::lights::{LightCensus, Lights};
@@ -68,9 +68,11 @@ fn through<S: RaySource>(
     let view = plan.world.view_with(camera.pose.position_m, request.simd);
     let lights = lights(plan, camera, &view);
     let tracer = PathTracer::new(&view, &plan.palette, &lights, path_settings(camera));
-    let mosaic = camera.body.sensor.as_ref().filter(|_| camera.settings.folded).map(mosaic);
+    let settings = &camera.settings;
+    let sensor = camera.body.sensor.as_ref().filter(|_| settings.folded);
+    let mosaic = sensor.map(|sensor| Mosaic::of(sensor, settings.range_nm, settings.bands.is_some()));
     let exposure = exposure(camera, request, source, mosaic.as_ref());
-    match camera.settings.wavelengths {
+    match settings.wavelengths {
         1 => exposure.gather::<1>(&tracer, observer),
         8 => exposure.gather::<8>(&tracer, observer),
         _ => exposure.gather::<4>(&tracer, observer),
@@ -123,12 +125,6 @@ fn path_settings(camera: &CameraPlan) -> PathSettings {
         cone_spread_rad: pitch_tan as f32,
         ..PathSettings::default()
     }
-}
-
-fn mosaic(sensor: &Sensor) -> Mosaic {
-    let cfa = &sensor.parameters().cfa;
-    let responsivities = cfa.channels().iter().map(|channel| sensor.responsivity(*channel).clone()).collect();
-    Mosaic { columns: cfa.width(), responsivities }
 }
 
 /// Rays through a lens.

@@ -114,7 +114,8 @@ fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     match &camera.settings.route {
         Route::Lens => line(f, "route", "through the lens: vignetting, defocus and distortion by each sample's ray"),
         Route::Pupil(p) => {
-            let size = format!("at the pupil: radiance of {} × {} px, then the lens on the picture", p.width(), p.height());
+            let size =
+                format!("at the pupil: radiance of {} × {} px, then the lens on the picture", p.width(), p.height());
             line(f, "route", format!("{size}; defocus is left out ({})", blur(camera)))
         }
     }?;
@@ -177,7 +178,11 @@ fn processing(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
                 Some(colour) => {
                     let [r, g, b] = colour.white_balance;
                     let balance = format!("white balance {r:.4} {g:.4} {b:.4}");
-                    line(f, "processing", format!("{balance}, bilinear demosaic, colour matrix, gain {gain}, sRGB tone"))
+                    line(
+                        f,
+                        "processing",
+                        format!("{balance}, bilinear demosaic, colour matrix, gain {gain}, sRGB tone"),
+                    )
                 }
             }
         }
@@ -204,5 +209,9 @@ fn cost(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let paths = f64::from(width) * f64::from(height) * f64::from(camera.settings.spp);
     let film = Film::bytes(width as usize, height as usize, &layout(camera)) as f64 / 1e6;
     let cpu = paths * PATH_CPU_S;
-    line(f, "cost", format!("{:.1} million paths, about {cpu:.0} CPU seconds in a street; film {film:.0} MB", paths / 1e6))
+    line(
+        f,
+        "cost",
+        format!("{:.1} million paths, about {cpu:.0} CPU seconds in a street; film {film:.0} MB", paths / 1e6),
+    )
 }

@@ -56,11 +56,7 @@ fn mosaic(sensor: &Sensor) -> Result<Mosaic, etendue_isp::MosaicError> {
     Mosaic::tile(cfa.width(), cfa.height(), cfa.channels().iter().map(filter).collect())
 }
 
-fn white_balance(
-    record: &record::Processing,
-    channels: [&Spectrum; 3],
-    context: &mut Context<'_>,
-) -> Option<[f64; 3]> {
+fn white_balance(record: &record::Processing, channels: [&Spectrum; 3], context: &mut Context<'_>) -> Option<[f64; 3]> {
     match &record.white_balance {
         None => Some([1.0; 3]),
         Some(WhiteBalance::Factors(factors)) => {

@@ -106,12 +106,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     Some(plan)
 }
 
-fn camera_plan(
-    index: u32,
-    setup: &CameraSetup,
-    choices: &Choices,
-    context: &mut Context<'_>,
-) -> Option<CameraPlan> {
+fn camera_plan(index: u32, setup: &CameraSetup, choices: &Choices, context: &mut Context<'_>) -> Option<CameraPlan> {
     let body = camera::body(&setup.camera, context)?;
     let products = settings::products(&setup.output, &body, context);
     let settings = settings::settings(&setup.render, &body, &products, choices, context)?;

@@ -3,8 +3,8 @@
 use super::context::Context;
 use super::spectrum::curve;
 use etendue_scene::Placed;
-use etendue_scene::record::sensor::{self as description, QuantumEfficiency};
 use etendue_scene::record;
+use etendue_scene::record::sensor::{self as description, QuantumEfficiency};
 use etendue_sensor::{BayerPhase, Cfa, Channel, Pixel, Sensor, SensorParameters};
 use etendue_spectra::{Outside, Spectrum, camera};
 
@@ -56,7 +56,9 @@ fn channels(electronics: &record::Electronics, context: &mut Context<'_>) -> Opt
     };
     let spectra: Vec<Spectrum> = match &electronics.quantum_efficiency {
         QuantumEfficiency::Same(one) => vec![curve(one, Outside::Zero, context)?; names.len()],
-        QuantumEfficiency::PerChannel(curves) => curves.iter().map(|c| curve(c, Outside::Zero, context)).collect::<Option<_>>()?,
+        QuantumEfficiency::PerChannel(curves) => {
+            curves.iter().map(|c| curve(c, Outside::Zero, context)).collect::<Option<_>>()?
+        }
         QuantumEfficiency::Measured { camera, peak } => measured(camera, peak.value, context)?.into(),
     };
     let channel = |(name, quantum_efficiency): (&&str, _)| Channel { name: (*name).to_owned(), quantum_efficiency };

@@ -32,7 +32,11 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
             DepthScale::PerMetre(number) => &number.place,
             DepthScale::Named(name) => &name.place,
         };
-        context.fault(place, "\"depth_png_scale\" has no effect without depth_png = true", "add it, or remove the scale");
+        context.fault(
+            place,
+            "\"depth_png_scale\" has no effect without depth_png = true",
+            "add it, or remove the scale",
+        );
     }
     Products {
         radiance: said(&output.radiance, !electronics),
@@ -46,19 +50,16 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
     }
 }
 
-fn need(
-    key: &Option<Placed<bool>>,
-    possible: bool,
-    name: &str,
-    lack: &str,
-    remedy: &str,
-    context: &mut Context<'_>,
-) {
+fn need(key: &Option<Placed<bool>>, possible: bool, name: &str, lack: &str, remedy: &str, context: &mut Context<'_>) {
     if let Some(key) = key
         && key.value
         && !possible
     {
-        context.fault(&key.place, format!("\"{name}\" is asked for, but {lack}"), format!("{remedy}, or remove the key"));
+        context.fault(
+            &key.place,
+            format!("\"{name}\" is asked for, but {lack}"),
+            format!("{remedy}, or remove the key"),
+        );
     }
 }
 

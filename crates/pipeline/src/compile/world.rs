@@ -6,8 +6,8 @@ use super::shape;
 use crate::plan::Identity;
 use etendue_core::Track;
 use etendue_scene::asset::MeshAsset;
-use etendue_scene::record::{self, Body, Object, Scene};
 use etendue_scene::record::shape::Shape as ShapeRecord;
+use etendue_scene::record::{self, Body, Object, Scene};
 use etendue_tracer::MaterialId;
 use etendue_tracer::accel::{World, WorldBuilder};
 use etendue_tracer::geometry::{Dropped, Instance, Mesh, MeshId, Shape};
@@ -69,13 +69,7 @@ impl Assembly {
         self.meshes.insert(record.name.value.clone(), id);
     }
 
-    fn add_object(
-        &mut self,
-        object: &Object,
-        scene: &Scene,
-        palette: &mut PaletteBuilder,
-        context: &mut Context<'_>,
-    ) {
+    fn add_object(&mut self, object: &Object, scene: &Scene, palette: &mut PaletteBuilder, context: &mut Context<'_>) {
         let prototype = match &object.body {
             Body::Mesh(name) => self.of_mesh(object, &name.value, scene, palette, context),
             Body::Shape(shape) => self.of_shape(object, shape, palette, context),
@@ -84,7 +78,8 @@ impl Assembly {
         let class = class_of(object, scene);
         let many = object.placements().count() > 1;
         for (number, (transform, name)) in object.placements().enumerate() {
-            let numbered = if many { format!("{} {}", object.name.value, number + 1) } else { object.name.value.clone() };
+            let numbered =
+                if many { format!("{} {}", object.name.value, number + 1) } else { object.name.value.clone() };
             let name = name.map_or(numbered, |n| n.value.clone());
             self.identities.push(Identity { name, class: object.class.as_ref().map(|c| c.value.clone()) });
             self.builder.add_instance(Instance {
@@ -135,7 +130,8 @@ impl Assembly {
 }
 
 fn class_of(object: &Object, scene: &Scene) -> u32 {
-    let number = |class: &str| scene.classes.iter().find(|(name, _)| name.value == class).map(|(_, id)| id.value as u32);
+    let number =
+        |class: &str| scene.classes.iter().find(|(name, _)| name.value == class).map(|(_, id)| id.value as u32);
     object.class.as_ref().and_then(|class| number(&class.value)).unwrap_or(0)
 }
 
@@ -164,12 +160,7 @@ fn slot_materials(
         .collect()
 }
 
-fn check_slot(
-    slot: &etendue_scene::Placed<String>,
-    mesh: &record::Mesh,
-    asset: &MeshAsset,
-    context: &mut Context<'_>,
-) {
+fn check_slot(slot: &etendue_scene::Placed<String>, mesh: &record::Mesh, asset: &MeshAsset, context: &mut Context<'_>) {
     if asset.slot_materials.iter().all(|s| s.name != slot.value) {
         let known: Vec<&str> = asset.slot_materials.iter().map(|s| s.name.as_str()).collect();
         let problem = format!("{} has no material \"{}\"", mesh.file.value.display(), slot.value);

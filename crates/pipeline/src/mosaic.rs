@@ -1,0 +1,88 @@
+//! What the pixels of a colour filter's tile respond to, and which wavelengths are worth asking for them.
+//!
+//! A pixel that folds its responsivity R(λ) into electrons draws its wavelengths with a density that is a mixture of
+//! R(λ) and of the uniform density: electrons are then an estimate with little spectral noise, and where a spectral cube
+//! is kept beside them, every band still gets its share.
+
+use etendue_core::distribution::Distribution1;
+use etendue_core::random::Pixel;
+use etendue_sensor::Sensor;
+use etendue_spectra::Spectrum;
+
+/// Width of the density's steps, nm, at most.
+const STEP_NM: f64 = 5.0;
+/// Share of the uniform density where only electrons are summed: it guards against a step whose mean is far below its
+/// peak.
+const UNIFORM_SHARE: f64 = 0.05;
+/// The same where spectral bands are kept too.
+const UNIFORM_SHARE_WITH_BANDS: f64 = 0.5;
+
+/// One pixel of the tile.
+#[derive(Clone, Debug)]
+pub struct Site {
+    /// Responsivity, e⁻ per W·m⁻².
+    pub responsivity: Spectrum,
+    /// Density of wavelengths over the sampled range, as a distribution over [0, 1).
+    pub density: Distribution1,
+}
+
+/// The tile of a colour filter, repeated over the sensor.
+#[derive(Clone, Debug)]
+pub struct Mosaic {
+    columns: usize,
+    sites: Vec<Site>,
+}
+
+impl Mosaic {
+    /// The tile of a sensor; wavelengths are drawn from `range_nm`, and `keeps_bands` says whether a cube is kept.
+    #[must_use]
+    pub fn of(sensor: &Sensor, range_nm: (f64, f64), keeps_bands: bool) -> Self {
+        let cfa = &sensor.parameters().cfa;
+        let uniform_share = if keeps_bands { UNIFORM_SHARE_WITH_BANDS } else { UNIFORM_SHARE };
+        let site = |channel: &usize| {
+            let responsivity = sensor.responsivity(*channel).clone();
+            Site { density: density(&responsivity, range_nm, uniform_share), responsivity }
+        };
+        Self { columns: cfa.width(), sites: cfa.channels().iter().map(site).collect() }
+    }
+
+    /// The site that `pixel` has.
+    #[must_use]
+    pub fn at(&self, pixel: Pixel) -> &Site {
+        let rows = self.sites.len() / self.columns;
+        &self.sites[(pixel.y as usize % rows) * self.columns + pixel.x as usize % self.columns]
+    }
+}
+
+fn density(responsivity: &Spectrum, (low_nm, high_nm): (f64, f64), uniform_share: f64) -> Distribution1 {
+    let steps = ((high_nm - low_nm) / STEP_NM).ceil().max(1.0);
+    let edge = |i: f64| low_nm + (high_nm - low_nm) * i / steps;
+    let means: Vec<f64> =
+        (0..steps as usize).map(|i| responsivity.band_mean(edge(i as f64), edge(i as f64 + 1.0))).collect();
+    let mean = means.iter().sum::<f64>() / steps;
+    let weight = |m: &f64| match mean > 0.0 {
+        true => (uniform_share + (1.0 - uniform_share) * m / mean) as f32,
+        false => 1.0,
+    };
+    Distribution1::new(means.iter().map(weight).collect()).expect("weights are positive and finite")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wavelengths_are_asked_where_a_pixel_responds_and_a_little_everywhere() {
+        let green = Spectrum::from_fn(|nm| if (500.0..=600.0).contains(&nm) { 2.0 } else { 0.0 });
+        let density = density(&green, (400.0, 700.0), 0.25);
+        let (inside, outside) = (density.pdf(0.5), density.pdf(0.1));
+        // A third of the range holds three quarters of the density beside a quarter spread evenly.
+        assert!((inside - (0.25 + 0.75 * 3.0)).abs() < 0.05 && (outside - 0.25).abs() < 0.01, "{inside} {outside}");
+    }
+
+    #[test]
+    fn a_pixel_that_responds_to_nothing_draws_uniformly() {
+        let density = density(&Spectrum::constant(0.0), (400.0, 700.0), 0.05);
+        assert!((density.pdf(0.3) - 1.0).abs() < 1e-6);
+    }
+}
