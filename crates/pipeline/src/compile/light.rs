@@ -50,7 +50,24 @@ fn image(record: &EnvironmentImage, context: &mut Context<'_>) -> Option<ImageEn
     let size = (picture.width as usize, picture.height as usize);
     let rotation_rad = record.rotation_deg.as_ref().map_or(0.0, |r| r.value.to_radians());
     let scale = record.luminance_cd_m2_per_unit.value;
-    context.accept(&record.file.place, ImageEnvironment::new(size, linear(picture), scale, rotation_rad))
+    let texels = light_only(linear(picture), record, context);
+    context.accept(&record.file.place, ImageEnvironment::new(size, texels, scale, rotation_rad))
+}
+
+/// Texels without negative components. Where there are any, the record must ask for it, and they are counted.
+fn light_only(mut texels: Vec<[f32; 3]>, record: &EnvironmentImage, context: &mut Context<'_>) -> Vec<[f32; 3]> {
+    let negative = texels.iter().filter(|t| t.iter().any(|v| *v < 0.0)).count();
+    let file = record.file.value.display();
+    match (negative, &record.negative_texels) {
+        (0, _) => return texels,
+        (_, Some(_)) => context.remark(format!("{file}: {negative} texels with a component below 0 made 0, as asked")),
+        (_, None) => {
+            let problem = format!("{negative} texels of {file} have a component below 0, which no light has");
+            context.fault(&record.file.place, problem, "correct the picture, or say negative_texels = \"zero\"");
+        }
+    }
+    texels.iter_mut().flatten().for_each(|v| *v = v.max(0.0));
+    texels
 }
 
 /// Linear sRGB of a picture; bytes are taken as sRGB-encoded.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::light::Emission;
 use crate::place::Placed;
-use crate::reader::{number, path, record, variants};
+use crate::reader::{choice, number, path, record, variants};
 
 variants! {
     /// The light from infinitely far.
@@ -26,5 +26,15 @@ record! {
         required luminance_cd_m2_per_unit: Placed<f64> = number("cd/m²").above(0.0);
         /// The picture turned about the vertical, degrees, positive to the left. Default: 0.
         optional rotation_deg: Placed<f64> = number("°").at_least(-360.0).at_most(360.0);
+        /// What becomes of texels below 0, which no light has but lossy compression makes. Default: they are refused.
+        optional negative_texels: Placed<NegativeTexels> = choice();
+    }
+}
+
+choice! {
+    /// What becomes of texels below 0.
+    pub enum NegativeTexels {
+        /// They become 0; the plan says how many there are.
+        "zero" => Zero,
     }
 }
