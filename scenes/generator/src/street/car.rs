@@ -141,6 +141,7 @@ impl Shape {
                 "gap"
             }
             FLOOR_CELLS => "trim",
+            _ if cell == FLOOR_CELLS + 1 && (x < self.ends[1] + 0.3 || x > self.ends[0] - 0.3) => "trim",
             BELT_CELL if self.side_glass.iter().copied().any(between) => "trim",
             GLASS_CELL if self.side_glass.iter().copied().any(between) => "glass",
             GLASS_CELL if self.cabin(x) && length > 0.0 && self.pillar(x) => "trim",

@@ -26,7 +26,7 @@ use crate::sky::ClearSky;
 
 /// The light of the day.
 const SKY: ClearSky =
-    ClearSky { sun_elevation_deg: 38.0, sun_azimuth_deg: 150.0, diffuse_lx: 13_000.0, ground_cd_m2: 2800.0 };
+    ClearSky { sun_elevation_deg: 38.0, sun_azimuth_deg: 150.0, diffuse_lx: 15_000.0, ground_cd_m2: 2900.0 };
 
 /// Every generated file of the street.
 #[must_use]
