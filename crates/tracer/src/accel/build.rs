@@ -6,6 +6,7 @@
 //! the number of threads.
 
 use super::boxes::Box3;
+use super::halve::{halve, is_crowded};
 use glam::Vec3;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
@@ -57,8 +58,12 @@ fn split(triangles: &[Triangle], boxes: &mut Vec<Aabb>, indices: &mut Vec<u32>) 
     split_aabbs_preset(boxes, indices, triangles, mean, largest);
 }
 
-/// `reinsertion` is the share of nodes tried for a better place.
+/// `indices` are the primitives of the boxes; `reinsertion` is the share of nodes tried for a better place.
 fn binary(boxes: &[Aabb], indices: Vec<u32>, reinsertion: f32) -> Vec<BinaryNode> {
+    let plain: Vec<_> = boxes.iter().map(own).collect();
+    if is_crowded(&plain) {
+        return halve(&plain, &indices);
+    }
     let mut tree = PlocBuilder::with_capacity(boxes.len()).build(
         PlocSearchDistance::Medium,
         boxes,

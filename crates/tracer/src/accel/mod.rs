@@ -4,6 +4,7 @@
 //! [`crate::view::View`] places the instances about one camera and adds a tree over them.
 //!
 //! - `build`: binary trees by the library that builds best (parallel locally-ordered clustering and reinsertion).
+//! - `halve`: binary trees for crowds, which that library would take too long for.
 //! - `collapse`: binary to eight-wide, at least cost.
 //! - `node`, `packet`: what is tested eight at a time: boxes and triangles.
 //! - `walk`: near to far through a tree, for the first hit or for any.
@@ -15,6 +16,7 @@ mod best;
 pub(crate) mod boxes;
 mod build;
 mod collapse;
+mod halve;
 pub(crate) mod lanes;
 pub(crate) mod local;
 mod mesh_tree;
