@@ -1,1 +1,15 @@
 //! Brute-force and conservation oracles for tests.
+//!
+//! | module | answers |
+//! | --- | --- |
+//! | [`judge`] | is an estimated picture what a closed form says? |
+//! | [`quadrature`] | integrals by plain sums |
+//! | [`form_factor`] | irradiance from spheres and polygons |
+//! | [`pupil`] | irradiance behind a round, perhaps clipped, pupil |
+//!
+//! Nothing here shares code with what it judges, but for the vocabulary and the elementary functions of `core`.
+
+pub mod form_factor;
+pub mod judge;
+pub mod pupil;
+pub mod quadrature;

@@ -1,0 +1,82 @@
+//! A job as text, with the contents of the files that it names.
+
+use crate::Shot;
+use etendue_pipeline::{Choices, Plan, compile};
+use etendue_scene::asset::{Assets, ImageAsset, ImagePixels, SpectrumAsset};
+use etendue_scene::{Description, Overrides};
+use std::path::Path;
+
+/// A job as text, with the contents of the files that it names.
+#[derive(Clone, Debug)]
+pub struct Job {
+    text: String,
+    assets: Assets,
+    seed: u64,
+}
+
+impl Job {
+    /// A job of this text, without its head (`format = 1`).
+    #[must_use]
+    pub fn new(text: impl AsRef<str>) -> Self {
+        Self { text: format!("format = 1\n{}", text.as_ref()), assets: Assets::default(), seed: 1 }
+    }
+
+    /// With a spectrum file of these points.
+    #[must_use]
+    pub fn with_spectrum(mut self, path: &str, points: &[(f64, f64)]) -> Self {
+        let asset = SpectrumAsset { points: points.to_vec(), hash: [0; 32] };
+        self.assets.spectra.insert(path.into(), asset);
+        self
+    }
+
+    /// With a picture file of linear numbers, first row on top.
+    #[must_use]
+    pub fn with_image(mut self, path: &str, width: u32, height: u32, rgb: Vec<[f32; 3]>) -> Self {
+        let asset = ImageAsset { width, height, pixels: ImagePixels::Rgb32F(rgb), hash: [0; 32] };
+        self.assets.images.insert(path.into(), asset);
+        self
+    }
+
+    /// With `new` in place of `old` in the text.
+    ///
+    /// # Panics
+    /// Where `old` does not stand there.
+    #[must_use]
+    pub fn replacing(mut self, old: &str, new: &str) -> Self {
+        assert!(self.text.contains(old), "there is no {old:?} in\n{}", self.text);
+        self.text = self.text.replace(old, new);
+        self
+    }
+
+    /// With another seed than 1.
+    #[must_use]
+    pub fn with_seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// The plan.
+    ///
+    /// # Panics
+    /// Where the text is not a good job, with all faults.
+    #[must_use]
+    pub fn plan(&self) -> Plan {
+        let read = |_: &Path| Ok(self.text.clone());
+        let description = Description::load(Path::new("job.toml"), &read, &Overrides::default())
+            .unwrap_or_else(|faults| panic!("{faults}\n{}", self.text));
+        let choices = Choices { seed: Some(self.seed), ..Choices::default() };
+        compile(&description, &self.assets, &choices).unwrap_or_else(|faults| {
+            let lines: Vec<String> = faults.iter().map(ToString::to_string).collect();
+            panic!("{}\n{}", lines.join("\n"), self.text)
+        })
+    }
+
+    /// The light of the first camera.
+    ///
+    /// # Panics
+    /// As [`Job::plan`].
+    #[must_use]
+    pub fn shot(&self) -> Shot {
+        Shot::of(self.plan())
+    }
+}

@@ -1,0 +1,106 @@
+//! The light of a job's first camera.
+
+use etendue_core::SpectralCube;
+use etendue_core::quantity::{Quantity, Variance};
+use etendue_pipeline::film::{CubeEstimate, Film};
+use etendue_pipeline::photograph::Light;
+use etendue_pipeline::plan::CameraPlan;
+use etendue_pipeline::render::{Request, light};
+use etendue_pipeline::truth::{GroundTruth, ground_truth};
+use etendue_pipeline::{Plan, Unobserved};
+use etendue_stats::EstimatedPlane;
+use etendue_tracer::accel::Simd;
+
+/// The light of a job's first camera. Every sample was finite.
+#[derive(Clone, Debug)]
+pub struct Shot {
+    /// The plan.
+    pub plan: Plan,
+    /// What its first camera gathered.
+    pub film: Film,
+}
+
+impl Shot {
+    /// Renders a plan's first camera.
+    ///
+    /// # Panics
+    /// Where a sample is not finite.
+    #[must_use]
+    pub fn of(plan: Plan) -> Self {
+        let film = light(&plan, &plan.cameras[0], Request::default(), &Unobserved).expect("nobody cancels");
+        assert_eq!(film.not_finite_samples(), 0, "samples that are not finite");
+        Self { plan, film }
+    }
+
+    /// The camera.
+    #[must_use]
+    pub fn camera(&self) -> &CameraPlan {
+        &self.plan.cameras[0]
+    }
+
+    /// The light, sorted by what it is.
+    #[must_use]
+    pub fn light(&self) -> Light {
+        Light::of_film(self.camera(), self.film.clone())
+    }
+
+    /// Mean electrons of every pixel.
+    ///
+    /// # Panics
+    /// Where the camera has no electronics.
+    #[must_use]
+    pub fn electrons(&self) -> Vec<f32> {
+        self.light().electrons.expect("the camera has electronics").samples().to_vec()
+    }
+
+    /// Spectral radiance, all bands one after the other.
+    ///
+    /// # Panics
+    /// Where no cube is kept.
+    #[must_use]
+    pub fn radiance(&self) -> Samples {
+        Samples::of(&self.film.radiance().expect("a cube is kept"), self.film.replicates)
+    }
+
+    /// Spectral irradiance on the sensor, all bands one after the other.
+    ///
+    /// # Panics
+    /// Where no cube is kept.
+    #[must_use]
+    pub fn irradiance(&self) -> Samples {
+        Samples::of(self.film.cube.as_ref().expect("a cube is kept"), self.film.replicates)
+    }
+
+    /// The ground truth.
+    #[must_use]
+    pub fn truth(&self) -> GroundTruth {
+        ground_truth(&self.plan, self.camera(), Simd::Auto)
+    }
+}
+
+/// Means and variances of a cube's planes, one band after the other.
+#[derive(Clone, Debug)]
+pub struct Samples {
+    /// Means.
+    pub mean: Vec<f32>,
+    /// Variances of the means.
+    pub variance: Vec<f32>,
+    /// Replicates behind each variance.
+    pub replicates: u32,
+}
+
+impl Samples {
+    fn of<Q: Quantity<Sample = f32>>(cube: &CubeEstimate<Q>, replicates: u32) -> Self {
+        Self { mean: joined(&cube.mean), variance: joined::<Variance>(&cube.variance), replicates }
+    }
+
+    /// As the statistics want it.
+    #[must_use]
+    pub fn estimate(&self) -> EstimatedPlane<'_> {
+        EstimatedPlane { mean: &self.mean, variance_of_mean: &self.variance, replicates: self.replicates }
+    }
+}
+
+fn joined<Q: Quantity<Sample = f32>>(cube: &SpectralCube<Q>) -> Vec<f32> {
+    cube.planes().iter().flat_map(|plane| plane.samples().iter().copied()).collect()
+}

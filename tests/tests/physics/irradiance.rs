@@ -1,0 +1,168 @@
+//! Light on a plane from lights of every kind, against closed forms.
+//!
+//! A matt plane of reflectance ρ under irradiance E has the radiance ρE/π in all directions; a pinhole above looks
+//! straight down at it through nearly point-like pixels.
+
+use core::f64::consts::PI;
+use etendue_core::maths::f64::{sin, sin_cos};
+use etendue_spectra::{illuminant, observer};
+use etendue_stats::planes;
+use etendue_testkit::form_factor::{polygon, sphere};
+use etendue_testkit::judge::{SIGNIFICANCE, against_truth};
+use etendue_tests::{Job, Samples};
+use glam::DVec3;
+
+const REFLECTANCE: f64 = 0.5;
+const HEIGHT_M: f64 = 10.0;
+const SIDE_PX: usize = 8;
+
+/// The plane z = 0 seen from above its point (0, −4), one pixel a metre; `light` is more of the scene.
+fn plane(light: &str) -> Job {
+    Job::new(format!(
+        r#"
+        [[cameras]]
+        name = "eye"
+        position_m = [0, -4, {HEIGHT_M}]
+        look_at_m = [0, -4, 0]
+        up = [1, 0, 0]
+        lens = {{ model = "pinhole", focal_length_mm = 10, f_number = 8 }}
+        sensor = {{ width_px = {SIDE_PX}, height_px = {SIDE_PX}, pixel_pitch_um = 1000, fill_factor = 1e-6 }}
+        [render]
+        spp = 256
+        replicates = 16
+        max_bounces = 1
+        wavelength_range_nm = [500, 600]
+        band_width_nm = 100
+        [[scene.materials]]
+        name = "matt"
+        type = "diffuse"
+        reflectance = {REFLECTANCE}
+        [[scene.objects]]
+        name = "ground"
+        shape = {{ type = "quad", size_m = [100, 100] }}
+        material = "matt"
+        {light}
+        "#
+    ))
+}
+
+/// The point that a pixel sees: columns run towards −y (right of a view whose up is +x), rows towards −x.
+fn point(pixel: usize) -> DVec3 {
+    let from_middle = |k: usize| k as f64 + 0.5 - SIDE_PX as f64 / 2.0;
+    DVec3::new(-from_middle(pixel / SIDE_PX), -4.0 - from_middle(pixel % SIDE_PX), 0.0)
+}
+
+fn assert_lit(seen: &Samples, irradiance: impl Fn(DVec3) -> f64, what: &str) {
+    let truth = |i: usize| REFLECTANCE / PI * irradiance(point(i));
+    // Sums, densities and solid angles in f32.
+    let judged = against_truth(seen.estimate(), truth, |i| 1e-5 * truth(i));
+    assert!(judged.is_ok(), "{what}: {judged:?}");
+    // A test that could not fail would be of no use: the light of every pixel is known to 2 %.
+    let largest = seen.variance.iter().zip(&seen.mean).map(|(v, m)| v.sqrt() / m).fold(0.0, f32::max);
+    assert!(largest < 0.02, "{what}: relative standard error {largest}");
+}
+
+const LAMP: &str = r#"
+    [[scene.materials]]
+    name = "lamp"
+    type = "emitter"
+    emission = { radiance_w_m2_sr_nm = 3 }
+"#;
+
+#[test]
+fn a_sphere_over_a_plane() {
+    for (height, radius) in [(1.5, 0.4), (3.0, 1.5), (6.0, 0.01)] {
+        let ball = format!(
+            "{LAMP}\n[[scene.objects]]\nname = \"ball\"\nmaterial = \"lamp\"\nposition_m = [0.5, 3, {height}]\n\
+             shape = {{ type = \"sphere\", radius_m = {radius} }}"
+        );
+        let seen = plane(&ball).shot().radiance();
+        let centre = DVec3::new(0.5, 3.0, height);
+        assert_lit(&seen, |p| 3.0 * sphere(p, DVec3::Z, centre, radius), &format!("radius {radius} at {height}"));
+    }
+}
+
+#[test]
+fn a_rectangle_over_a_plane() {
+    for (height, pitch_deg) in [(2.0, 180.0), (3.0, 160.0), (0.8, 180.0)] {
+        let panel = format!(
+            "{LAMP}\n[[scene.objects]]\nname = \"panel\"\nmaterial = \"lamp\"\nposition_m = [0.5, 2.2, {height}]\n\
+             rotation_deg = [0, {pitch_deg}, 0]\nshape = {{ type = \"quad\", size_m = [1.5, 1.2] }}"
+        );
+        let seen = plane(&panel).shot().radiance();
+        // Pitch turns x to (cos, 0, −sin); y stays.
+        let (sin, cos) = sin_cos(f64::to_radians(pitch_deg));
+        let (centre, x, y) = (DVec3::new(0.5, 2.2, height), DVec3::new(cos, 0.0, -sin) * 0.75, DVec3::Y * 0.6);
+        let corners = [centre - x - y, centre + x - y, centre + x + y, centre - x + y];
+        // The panel's front looks down and to +x: seen points behind its plane get no light.
+        let lit = |p: DVec3| 3.0 * polygon(p, DVec3::Z, &corners);
+        assert_lit(&seen, lit, &format!("panel at {height}, pitch {pitch_deg}"));
+    }
+}
+
+#[test]
+fn the_suns_disc_gives_its_irradiance_times_the_cosine() {
+    for (elevation, diameter) in [(90.0, 0.5338), (40.0, 0.5338), (3.0, 0.5338), (30.0, 20.0)] {
+        // 800 W/m² shared evenly by the 800 nm of the legal range: 1 W/m²/nm.
+        let sun = format!(
+            "[[scene.lights]]\ntype = \"sun\"\nname = \"sun\"\nelevation_deg = {elevation}\nazimuth_deg = 30\n\
+             angular_diameter_deg = {diameter}\nirradiance_w_m2 = 800\nspectrum = \"flat.csv\""
+        );
+        let job = plane(&sun).with_spectrum("flat.csv", &[(300.0, 1.0), (1100.0, 1.0)]);
+        // A uniform disc that is wholly above the horizon lights as if all came from its middle.
+        assert_lit(&job.shot().radiance(), |_| sin(f64::to_radians(elevation)), &format!("sun at {elevation}"));
+    }
+}
+
+#[test]
+fn a_declared_illuminance_arrives_on_the_ground() {
+    const LUX: f64 = 80_000.0;
+    for name in ["solar", "A", "FL11"] {
+        let sun = format!(
+            "[[scene.lights]]\ntype = \"sun\"\nname = \"sun\"\nelevation_deg = 40\nazimuth_deg = 120\n\
+             illuminance_lx = {LUX}\nilluminant = \"{name}\""
+        );
+        let text = "wavelength_range_nm = [500, 600]\n        band_width_nm = 100";
+        let shot = plane(&sun).replacing(text, "wavelength_range_nm = [360, 830]\nband_width_nm = 5").shot();
+        let seen = shot.radiance();
+        let bands = shot.camera().settings.bands.expect("a cube");
+        // What bands of 5 nm cost: the observer's and the lamp's band means multiplied instead of their product
+        // integrated. Computed from the spectra alone.
+        let lamp = if name == "solar" { &illuminant::solar().direct } else { illuminant::named(name).expect("known") };
+        let means: Vec<f32> = lamp.band_means(bands).iter().map(|v| *v as f32).collect();
+        let of_bands = observer::xyz_of_bands(&means, bands)[1] / observer::luminance(lamp);
+        // A lamp of lines pays more than the sun; both stay below half a percent.
+        assert!((of_bands - 1.0).abs() < 5e-3, "{name}: {of_bands}");
+        let weights = observer::xyz_weights(bands);
+        let pixels = SIDE_PX * SIDE_PX;
+        let sum = |values: &[f32], power: i32| {
+            let weight = |i: usize| if power == 2 { weights[i / pixels][1] * weights[i / pixels][1] } else { weights[i / pixels][1] };
+            values.iter().enumerate().map(|(i, v)| weight(i) * f64::from(*v)).sum::<f64>() / pixels as f64
+        };
+        let ground_lx = sum(&seen.mean, 1) * PI / REFLECTANCE;
+        let truth = LUX * sin(40_f64.to_radians()) * of_bands;
+        // Standard error of the picture's mean. Bands of one path's draw are not independent, but their errors are of
+        // opposite sign (a sample falls into one or another), so that the sum of variances is an upper bound.
+        let error = (sum(&seen.variance, 2) / pixels as f64).sqrt() * PI / REFLECTANCE;
+        assert!((ground_lx - truth).abs() < 4.0 * error + 1e-5 * truth, "{name}: {ground_lx} lx for {truth} ± {error}");
+        assert!(error < 2e-3 * truth, "{name}: {error} of {truth}");
+    }
+}
+
+#[test]
+fn a_constant_picture_is_a_uniform_environment() {
+    let range = "wavelength_range_nm = [500, 600]\n        band_width_nm = 100";
+    let visible = "wavelength_range_nm = [400, 700]\nband_width_nm = 50";
+    let rgb = [0.8_f32, 0.5, 0.3];
+    let picture = "[scene.environment]\ntype = \"image\"\nfile = \"sky.hdr\"\nluminance_cd_m2_per_unit = 1000\nrotation_deg = 33";
+    let image = plane(picture).replacing(range, visible).with_image("sky.hdr", 16, 8, vec![rgb; 128]).shot().radiance();
+    // The luminance of linear sRGB: Rec. 709's row of Y.
+    let luminance = 1000.0 * (0.2126 * f64::from(rgb[0]) + 0.7152 * f64::from(rgb[1]) + 0.0722 * f64::from(rgb[2]));
+    let uniform = format!("[scene.environment]\ntype = \"uniform\"\nluminance_cd_m2 = {luminance}\nrgb = {rgb:?}");
+    let uniform = plane(&uniform).replacing(range, visible).with_seed(2).shot().radiance();
+    let test = planes::compare(&image.estimate(), &uniform.estimate(), SIGNIFICANCE).expect("same size");
+    assert_eq!(test.verdict, planes::Verdict::Agree, "{test:?}");
+    let sum = |s: &Samples| s.mean.iter().map(|v| f64::from(*v)).sum::<f64>();
+    // Rec. 709's row is given to four digits: 1e-4. Scatter of the mean over 64 pixels and 256 samples: 1e-3.
+    assert!((sum(&image) / sum(&uniform) - 1.0).abs() < 3e-3);
+}

@@ -1,0 +1,14 @@
+//! The whole way from a description to light, electrons, pictures and ground truth, against closed forms.
+//!
+//! Small pictures, fixed seeds. A tolerance is either statistical (from the scatter of 16 replicates or more, Student's t,
+//! Šidák's correction, one wrong alarm in a thousand; see `etendue_testkit::judge`) or says where it comes from.
+
+mod colour;
+mod extremes;
+mod furnace;
+mod ground_truth;
+mod irradiance;
+mod lens_light;
+mod photons;
+mod routes;
+mod spectral_routes;
