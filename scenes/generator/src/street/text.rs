@@ -52,9 +52,17 @@ pub(super) fn job() -> String {
          rotation_deg = [0, 0.5, 0]\n\n\
          [render]\n\
          # About a minute on two cores.\n\
-         spp = 48\n\
+         spp = 64\n\
          replicates = 4\n\
          max_bounces = 6\n\
-         seed = 1\n",
+         seed = 1\n\
+         # Twenty bands keep the radiance file small; electrons are folded beside them and do not depend on the width.\n\
+         band_width_nm = 20\n\n\
+         [output]\n\
+         radiance = true\n\
+         raw = true\n\
+         picture = true\n\
+         ground_truth = true\n\
+         depth_png = true\n",
     )
 }
