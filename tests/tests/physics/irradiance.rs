@@ -6,15 +6,18 @@
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{sin, sin_cos};
 use etendue_spectra::{illuminant, observer};
-use etendue_stats::planes;
+use etendue_core::Bands;
+use etendue_stats::{ReplicateEstimate, planes};
 use etendue_testkit::form_factor::{polygon, sphere};
-use etendue_testkit::judge::{SIGNIFICANCE, against_truth};
+use etendue_testkit::judge::{SIGNIFICANCE, against_truth, is_near};
 use etendue_tests::{Job, Samples};
 use glam::DVec3;
 
 const REFLECTANCE: f64 = 0.5;
 const HEIGHT_M: f64 = 10.0;
 const SIDE_PX: usize = 8;
+/// One band for all that is sampled: the draw of wavelengths adds no noise.
+const ONE_BAND: &str = "wavelength_range_nm = [500, 600]\nband_width_nm = 100";
 
 /// The plane z = 0 seen from above its point (0, −4), one pixel a metre; `light` is more of the scene.
 fn plane(light: &str) -> Job {
@@ -31,8 +34,7 @@ fn plane(light: &str) -> Job {
         spp = 256
         replicates = 16
         max_bounces = 1
-        wavelength_range_nm = [500, 600]
-        band_width_nm = 100
+        {ONE_BAND}
         [[scene.materials]]
         name = "matt"
         type = "diffuse"
@@ -114,52 +116,52 @@ fn the_suns_disc_gives_its_irradiance_times_the_cosine() {
     }
 }
 
+/// Mean illuminance of the ground, lx, told by the luminance of what the camera sees.
+fn ground_lx(job: &Job) -> f64 {
+    let shot = job.shot();
+    let cube = &shot.film.radiance().expect("a cube").mean;
+    let mean = |samples: &[f32]| samples.iter().map(|v| f64::from(*v)).sum::<f64>() / samples.len() as f64;
+    let means: Vec<f32> = cube.planes().iter().map(|plane| mean(plane.samples()) as f32).collect();
+    observer::xyz_of_bands(&means, cube.bands())[1] * PI / REFLECTANCE
+}
+
 #[test]
 fn a_declared_illuminance_arrives_on_the_ground() {
     const LUX: f64 = 80_000.0;
+    let bands = Bands::covering(360.0, 830.0, 5.0).expect("94 bands");
     for name in ["solar", "A", "FL11"] {
         let sun = format!(
             "[[scene.lights]]\ntype = \"sun\"\nname = \"sun\"\nelevation_deg = 40\nazimuth_deg = 120\n\
              illuminance_lx = {LUX}\nilluminant = \"{name}\""
         );
-        let text = "wavelength_range_nm = [500, 600]\n        band_width_nm = 100";
-        let shot = plane(&sun).replacing(text, "wavelength_range_nm = [360, 830]\nband_width_nm = 5").shot();
-        let seen = shot.radiance();
-        let bands = shot.camera().settings.bands.expect("a cube");
-        // What bands of 5 nm cost: the observer's and the lamp's band means multiplied instead of their product
-        // integrated. Computed from the spectra alone.
+        let job = plane(&sun).replacing(ONE_BAND, "wavelength_range_nm = [360, 830]\nband_width_nm = 5");
+        // What bands of 5 nm cost: the band means of observer and lamp are multiplied instead of their product
+        // integrated. Computed from the spectra alone; a lamp of lines pays more than the sun, all stay below 0.5 %.
         let lamp = if name == "solar" { &illuminant::solar().direct } else { illuminant::named(name).expect("known") };
         let means: Vec<f32> = lamp.band_means(bands).iter().map(|v| *v as f32).collect();
         let of_bands = observer::xyz_of_bands(&means, bands)[1] / observer::luminance(lamp);
-        // A lamp of lines pays more than the sun; both stay below half a percent.
         assert!((of_bands - 1.0).abs() < 5e-3, "{name}: {of_bands}");
-        let weights = observer::xyz_weights(bands);
-        let pixels = SIDE_PX * SIDE_PX;
-        let sum = |values: &[f32], power: i32| {
-            let weight = |i: usize| if power == 2 { weights[i / pixels][1] * weights[i / pixels][1] } else { weights[i / pixels][1] };
-            values.iter().enumerate().map(|(i, v)| weight(i) * f64::from(*v)).sum::<f64>() / pixels as f64
-        };
-        let ground_lx = sum(&seen.mean, 1) * PI / REFLECTANCE;
+        // Neighbouring bands share their samples, so the error of the sum is told by independent pictures.
+        let pictures: Vec<f64> = (1..=8).map(|seed| ground_lx(&job.clone().with_seed(seed))).collect();
+        let ground = ReplicateEstimate::of(&pictures).expect("eight pictures");
         let truth = LUX * sin(40_f64.to_radians()) * of_bands;
-        // Standard error of the picture's mean. Bands of one path's draw are not independent, but their errors are of
-        // opposite sign (a sample falls into one or another), so that the sum of variances is an upper bound.
-        let error = (sum(&seen.variance, 2) / pixels as f64).sqrt() * PI / REFLECTANCE;
-        assert!((ground_lx - truth).abs() < 4.0 * error + 1e-5 * truth, "{name}: {ground_lx} lx for {truth} ± {error}");
-        assert!(error < 2e-3 * truth, "{name}: {error} of {truth}");
+        let measured = (ground.mean, ground.standard_error());
+        // f32 sums.
+        assert!(is_near(measured, truth, 1e-5 * truth, 7.0), "{name}: {ground:?} for {truth}");
+        assert!(ground.standard_error() < 3e-3 * truth, "{name}: {ground:?}");
     }
 }
 
 #[test]
 fn a_constant_picture_is_a_uniform_environment() {
-    let range = "wavelength_range_nm = [500, 600]\n        band_width_nm = 100";
     let visible = "wavelength_range_nm = [400, 700]\nband_width_nm = 50";
     let rgb = [0.8_f32, 0.5, 0.3];
     let picture = "[scene.environment]\ntype = \"image\"\nfile = \"sky.hdr\"\nluminance_cd_m2_per_unit = 1000\nrotation_deg = 33";
-    let image = plane(picture).replacing(range, visible).with_image("sky.hdr", 16, 8, vec![rgb; 128]).shot().radiance();
+    let image = plane(picture).replacing(ONE_BAND, visible).with_image("sky.hdr", 16, 8, vec![rgb; 128]).shot().radiance();
     // The luminance of linear sRGB: Rec. 709's row of Y.
     let luminance = 1000.0 * (0.2126 * f64::from(rgb[0]) + 0.7152 * f64::from(rgb[1]) + 0.0722 * f64::from(rgb[2]));
     let uniform = format!("[scene.environment]\ntype = \"uniform\"\nluminance_cd_m2 = {luminance}\nrgb = {rgb:?}");
-    let uniform = plane(&uniform).replacing(range, visible).with_seed(2).shot().radiance();
+    let uniform = plane(&uniform).replacing(ONE_BAND, visible).with_seed(2).shot().radiance();
     let test = planes::compare(&image.estimate(), &uniform.estimate(), SIGNIFICANCE).expect("same size");
     assert_eq!(test.verdict, planes::Verdict::Agree, "{test:?}");
     let sum = |s: &Samples| s.mean.iter().map(|v| f64::from(*v)).sum::<f64>();
