@@ -87,7 +87,8 @@ impl SphereLight {
     fn sample_cone(&self, cone: &Cone, radius: f32, from: Vec3, u: Vec2) -> SurfaceSample {
         let local = uniform_cone(u, cone.one_minus_cos);
         let direction = Basis::about(cone.axis).outward(local);
-        let aside2 = cone.distance * cone.distance * (1.0 - local.z) * (1.0 + local.z);
+        // Not by 1 − z²: of a small cone's z few digits are left, and points beyond the limb would be drawn.
+        let aside2 = cone.distance * cone.distance * (local.x * local.x + local.y * local.y);
         let near = cone.distance * local.z - (radius * radius - aside2).max(0.0).sqrt();
         let normal = (from + direction * near - self.centre).normalize_or(-cone.axis);
         let (uv, uv_per_m) = self.texture(self.linear.transpose() * normal);
