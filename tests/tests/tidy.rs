@@ -15,16 +15,11 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("optics", &["core", "spectra", "projection"]),
     ("sensor", &["core", "spectra"]),
     ("isp", &["core", "spectra"]),
-    (
-        "pipeline",
-        &["core", "stats", "spectra", "projection", "scene", "tracer", "optics", "sensor", "isp"],
-    ),
+    ("pipeline", &["core", "stats", "spectra", "projection", "scene", "tracer", "optics", "sensor", "isp"]),
     ("io", &["core", "spectra", "projection", "scene"]),
     (
         "cli",
-        &[
-            "core", "stats", "spectra", "projection", "scene", "tracer", "optics", "sensor", "isp", "pipeline", "io",
-        ],
+        &["core", "stats", "spectra", "projection", "scene", "tracer", "optics", "sensor", "isp", "pipeline", "io"],
     ),
     ("testkit", &["core", "stats"]),
     ("scenes", &["core"]),

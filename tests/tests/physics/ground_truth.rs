@@ -1,1 +1,207 @@
-//! x
+//! Ground truth against geometry.
+
+use etendue_core::maths::f64::tan;
+use etendue_tests::{Job, Shot};
+use glam::{DVec2, DVec3};
+
+/// f32 storage rounds by 6e-8; the solution itself is f64. The specification grants 1e-6.
+const RELATIVE: f64 = 1e-6;
+
+fn camera(height_m: f64, lens: &str, side_px: usize, pitch_um: f64) -> String {
+    format!(
+        r#"
+        [[cameras]]
+        name = "eye"
+        position_m = [0, 0, {height_m}]
+        rotation_deg = [0, 0, 0]
+        lens = {{ model = "pinhole", focal_length_mm = 10, f_number = 8{lens} }}
+        sensor = {{ width_px = {side_px}, height_px = {side_px}, pixel_pitch_um = {pitch_um} }}
+        [render]
+        spp = 1
+        replicates = 1
+        wavelength_range_nm = [500, 600]
+        band_width_nm = 100
+        "#
+    )
+}
+
+/// Unit direction in the world of a pixel's centre, from the camera matrix and the distortion that side-cars state
+/// (ideal = observed where there is none). The camera looks along +x: its x is −y of the world, its y is −z.
+fn direction(shot: &Shot, pixel: usize) -> DVec3 {
+    let body = &shot.camera().body;
+    let matrix = body.raster.camera_matrix(body.lens.principal_distance_mm());
+    let width = body.raster.width();
+    let px = DVec2::new((pixel % width) as f64 + 0.5, (pixel / width) as f64 + 0.5);
+    let observed = DVec2::new((px.x - matrix.cx) / matrix.fx, (px.y - matrix.cy) / matrix.fy);
+    let ideal = body.lens.distortion().map_or(observed, |d| {
+        let [k1, k2] = d.coefficients();
+        undistorted(observed, k1, k2)
+    });
+    DVec3::new(1.0, -ideal.x, -ideal.y).normalize()
+}
+
+/// The ideal point whose image is `observed`, r′ = r (1 + k₁ r² + k₂ r⁴) in focal lengths, by bisection.
+fn undistorted(observed: DVec2, k1: f64, k2: f64) -> DVec2 {
+    let target = observed.length();
+    let (mut low, mut high) = (0.0, 2.0 * target);
+    for _ in 0..200 {
+        let r = 0.5 * (low + high);
+        if r * (1.0 + k1 * r * r + k2 * r * r * r * r) < target { low = r } else { high = r }
+    }
+    if target == 0.0 { observed } else { observed * (low / target) }
+}
+
+fn relative(found: f32, truth: f64) -> f64 {
+    (f64::from(found) / truth - 1.0).abs()
+}
+
+const GROUND: &str = r#"
+    [classes]
+    road = 7
+    ball = 3
+    [[materials]]
+    name = "other"
+    type = "diffuse"
+    reflectance = 0.2
+    [[materials]]
+    name = "grey"
+    type = "diffuse"
+    reflectance = 0.5
+"#;
+
+fn scene(objects: &str) -> String {
+    let text = GROUND.replace("[[", "[[scene.").replace("[classes]", "[scene.classes]");
+    format!("{text}\n{objects}")
+}
+
+fn assert_same_vector(found: [f32; 3], truth: DVec3, tolerance: f64, what: &str) {
+    let error = (DVec3::from_array(found.map(f64::from)) - truth).length();
+    assert!(error <= tolerance, "{what}: {found:?} for {truth}, off by {error:e}");
+}
+
+#[test]
+fn a_plane_is_where_it_is_up_to_grazing_incidence() {
+    let ground = "[[scene.objects]]\nname = \"road\"\nclass = \"road\"\nmaterial = \"grey\"\nshape = { type = \"quad\", size_m = [4000, 4000] }";
+    let (side, height) = (64, 1.3);
+    // The rows below the middle look down by 0.5 … 31.5 pitches of tan 0.6°: incidence from 89.7° to about 71°.
+    let pitch_um = 1e4 * tan(0.6_f64.to_radians());
+    let shot = Job::new(camera(height, "", side, pitch_um) + &scene(ground)).shot();
+    let truth = shot.truth();
+    let mut steepest: f64 = 0.0;
+    for pixel in 0..side * side {
+        let (x, y) = (pixel % side, pixel / side);
+        let ray = direction(&shot, pixel);
+        if y < side / 2 {
+            assert_eq!((truth.depth.at(x, y), truth.distance.at(x, y)), (f32::INFINITY, f32::INFINITY));
+            assert_eq!((truth.instance.at(x, y), truth.semantic.at(x, y), truth.material.at(x, y)), (0, 0, 0));
+            assert_eq!((truth.normal.at(x, y), truth.position.at(x, y)), ([0.0; 3], [0.0; 3]));
+            continue;
+        }
+        let distance = -height / ray.z;
+        let hit = ray * distance;
+        let incidence = etendue_core::maths::f64::acos(-ray.z).to_degrees();
+        steepest = steepest.max(incidence);
+        assert!(relative(truth.distance.at(x, y), distance) < RELATIVE, "{incidence}°: {}", truth.distance.at(x, y));
+        assert!(relative(truth.depth.at(x, y), hit.x) < RELATIVE, "{incidence}°: {}", truth.depth.at(x, y));
+        assert_same_vector(truth.position.at(x, y), hit + DVec3::Z * height, RELATIVE * distance, "position");
+        assert_eq!(truth.normal.at(x, y), [0.0, 0.0, 1.0]);
+        assert_eq!((truth.instance.at(x, y), truth.semantic.at(x, y), truth.material.at(x, y)), (1, 7, 2));
+    }
+    assert!(steepest > 89.4, "the steepest incidence was {steepest}°");
+}
+
+/// Distance to a sphere along a unit direction from the origin, without cancellation; `None` where it passes by.
+fn sphere_distance(ray: DVec3, centre: DVec3, radius: f64) -> Option<f64> {
+    let along = ray.dot(centre);
+    let aside = (centre - ray * along).length();
+    (aside < radius).then(|| along - ((radius - aside) * (radius + aside)).sqrt())
+}
+
+#[test]
+fn spheres_are_where_they_are_up_to_their_limbs() {
+    let side = 96;
+    let centres = [DVec3::new(10.0, 0.7, -0.4), DVec3::new(500.0, -30.0, 40.0)];
+    let radii = [1.5, 60.0];
+    let object = |i: usize| {
+        let c = centres[i];
+        format!(
+            "[[scene.objects]]\nname = \"ball {i}\"\nclass = \"ball\"\nmaterial = \"other\"\nposition_m = [{}, {}, {}]\nrotation_deg = [10, 20, 30]\n\
+             shape = {{ type = \"sphere\", radius_m = {} }}\n",
+            c.x, c.y, c.z, radii[i]
+        )
+    };
+    let shot = Job::new(camera(0.0, "", side, 50.0) + &scene(&(object(0) + &object(1)))).shot();
+    let truth = shot.truth();
+    let (mut counts, mut steepest) = ([0; 3], 0.0_f64);
+    for pixel in 0..side * side {
+        let (x, y) = (pixel % side, pixel / side);
+        let ray = direction(&shot, pixel);
+        let hits = [0, 1].map(|i| sphere_distance(ray, centres[i], radii[i]));
+        let nearest = [0, 1].into_iter().filter_map(|i| Some((hits[i]?, i))).min_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((distance, i)) = nearest else {
+            assert_eq!((truth.depth.at(x, y), truth.instance.at(x, y)), (f32::INFINITY, 0));
+            counts[2] += 1;
+            continue;
+        };
+        counts[i] += 1;
+        let normal = (ray * distance - centres[i]) / radii[i];
+        let incidence = etendue_core::maths::f64::acos(-normal.dot(ray)).to_degrees();
+        let what = format!("pixel {x}, {y}, ball {i}, incidence {incidence}°");
+        assert_eq!((truth.instance.at(x, y), truth.semantic.at(x, y), truth.material.at(x, y)), (i as u32 + 1, 3, 1));
+        if incidence <= 89.4 {
+            steepest = steepest.max(incidence);
+            assert!(relative(truth.distance.at(x, y), distance) < RELATIVE, "{what}");
+            assert!(relative(truth.depth.at(x, y), distance * ray.x) < RELATIVE, "{what}");
+            // f32 storage: half a unit in the last place of each component below 1, together below 1e-7.
+            assert_same_vector(truth.normal.at(x, y), normal, 1e-7, &what);
+            assert_same_vector(truth.position.at(x, y), ray * distance, RELATIVE * distance, &what);
+        }
+    }
+    assert!(counts.iter().all(|n| *n > 200) && steepest > 85.0, "{counts:?}, steepest {steepest}°");
+}
+
+#[test]
+fn back_projection_through_matrix_and_distortion_lands_on_the_geometry() {
+    let lens =
+        ", distortion = { k1 = -0.12, k2 = 0.03, direction = \"ideal_to_observed\", radius_unit = \"focal_lengths\" }";
+    let wall = "[[scene.objects]]\nname = \"wall\"\nmaterial = \"grey\"\nposition_m = [5, 0, 0]\nrotation_deg = [0, -90, 0]\nshape = { type = \"quad\", size_m = [100, 100] }";
+    let side = 48;
+    let shot = Job::new(camera(0.2, lens, side, 200.0) + &scene(wall)).shot();
+    let truth = shot.truth();
+    for pixel in 0..side * side {
+        let (x, y) = (pixel % side, pixel / side);
+        let ray = direction(&shot, pixel);
+        let (position, camera_m) = (ray * (5.0 / ray.x), DVec3::Z * 0.2);
+        assert!(relative(truth.depth.at(x, y), 5.0) < RELATIVE);
+        assert!(relative(truth.distance.at(x, y), position.length()) < RELATIVE, "{x}, {y}");
+        assert_same_vector(truth.position.at(x, y), position + camera_m, 2.0 * RELATIVE * 5.0, "position");
+    }
+    let (matrix, plain) = (shot.camera().body.raster.camera_matrix(10.0), 10.0 / 0.2);
+    assert!(
+        (matrix.fx - plain).abs() < 1e-9 && (matrix.cx - 24.0).abs() < 1e-12,
+        "the matrix is f/pitch and the middle"
+    );
+}
+
+#[test]
+fn a_mesh_far_from_the_origin_keeps_its_digits() {
+    // A box seen from 3 m, all of it a thousand kilometres from the world's origin: f64 holds 1e-10 m there.
+    let far = 1e6;
+    let cube = format!(
+        "[[scene.objects]]\nname = \"box\"\nclass = \"ball\"\nmaterial = \"grey\"\nposition_m = [{}, {far}, {far}]\nshape = {{ type = \"box\", size_m = [1, 1, 1] }}",
+        far + 3.5
+    );
+    let text = camera(0.0, "", 16, 100.0) + &scene(&cube);
+    let shot =
+        Job::new(text).replacing("position_m = [0, 0, 0]", &format!("position_m = [{far}, {far}, {far}]")).shot();
+    let truth = shot.truth();
+    for pixel in 0..256 {
+        // The box's face stands square to the view at 3 m.
+        assert!(
+            relative(truth.depth.at(pixel % 16, pixel / 16), 3.0) < RELATIVE,
+            "{}",
+            truth.depth.at(pixel % 16, pixel / 16)
+        );
+        assert!(relative(truth.distance.at(pixel % 16, pixel / 16), 3.0 / direction(&shot, pixel).x) < RELATIVE);
+    }
+}

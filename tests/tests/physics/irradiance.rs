@@ -4,9 +4,9 @@
 //! straight down at it through nearly point-like pixels.
 
 use core::f64::consts::PI;
+use etendue_core::Bands;
 use etendue_core::maths::f64::{sin, sin_cos};
 use etendue_spectra::{illuminant, observer};
-use etendue_core::Bands;
 use etendue_stats::{ReplicateEstimate, planes};
 use etendue_testkit::form_factor::{polygon, sphere};
 use etendue_testkit::judge::{SIGNIFICANCE, against_truth, is_near};
@@ -156,8 +156,10 @@ fn a_declared_illuminance_arrives_on_the_ground() {
 fn a_constant_picture_is_a_uniform_environment() {
     let visible = "wavelength_range_nm = [400, 700]\nband_width_nm = 50";
     let rgb = [0.8_f32, 0.5, 0.3];
-    let picture = "[scene.environment]\ntype = \"image\"\nfile = \"sky.hdr\"\nluminance_cd_m2_per_unit = 1000\nrotation_deg = 33";
-    let image = plane(picture).replacing(ONE_BAND, visible).with_image("sky.hdr", 16, 8, vec![rgb; 128]).shot().radiance();
+    let picture =
+        "[scene.environment]\ntype = \"image\"\nfile = \"sky.hdr\"\nluminance_cd_m2_per_unit = 1000\nrotation_deg = 33";
+    let image =
+        plane(picture).replacing(ONE_BAND, visible).with_image("sky.hdr", 16, 8, vec![rgb; 128]).shot().radiance();
     // The luminance of linear sRGB: Rec. 709's row of Y.
     let luminance = 1000.0 * (0.2126 * f64::from(rgb[0]) + 0.7152 * f64::from(rgb[1]) + 0.0722 * f64::from(rgb[2]));
     let uniform = format!("[scene.environment]\ntype = \"uniform\"\nluminance_cd_m2 = {luminance}\nrgb = {rgb:?}");

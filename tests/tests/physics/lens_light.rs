@@ -55,10 +55,14 @@ fn a_wall_through_a_thin_lens_follows_the_finite_aperture() {
             // The bound of the specification; scatter of 4096 points of the pupil is far below it.
             assert!(error.abs() < 3e-3, "f/{n}, column {column}: {error:e}");
         }
-        let judged = against_truth(row.estimate(), |i| PI * foote(tangent(i), 0.5 / n), |i| {
-            // Sampled irradiance is stored as f32.
-            1e-6 * PI * foote(tangent(i), 0.5 / n)
-        });
+        let judged = against_truth(
+            row.estimate(),
+            |i| PI * foote(tangent(i), 0.5 / n),
+            |i| {
+                // Sampled irradiance is stored as f32.
+                1e-6 * PI * foote(tangent(i), 0.5 / n)
+            },
+        );
         assert!(judged.is_ok(), "f/{n}: {judged:?}");
     }
 }
@@ -135,17 +139,22 @@ fn vignetting_is_the_common_area_of_two_discs() {
     // radii ahead of it, leaves the common area of two equal discs at a distance of 20 tan θ radii. (Infinity focus.)
     let (n, pupil_mm) = (100.0, FOCAL_MM / 200.0);
     let rim = format!("front_rim = {{ position_mm = {}, radius_mm = {pupil_mm} }}", -5.0 * pupil_mm);
-    let lens = format!("model = \"thick\", constant_pupil = \"entrance\", f_number = {n}, focus_distance_m = \"infinity\"");
+    let lens =
+        format!("model = \"thick\", constant_pupil = \"entrance\", f_number = {n}, focus_distance_m = \"infinity\"");
     let row = wall(&format!("{lens}, {rim}")).irradiance();
     let open = |t: f64| lens_area(1.0, 1.0, 5.0 * t) / PI;
     let whole = |t: f64| PI * foote(t, 0.5 / n);
-    let judged = against_truth(row.estimate(), |i| whole(tangent(i)) * open(tangent(i)), |i| {
-        // The weight varies over the pupil by 4 sin θ cos θ a ≤ 2 a = 1 % from side to side, and the centroid of the open
-        // part lies off the centre by up to its radius: 0.5 % of the light left is the bound of what the area leaves out.
-        // Where nearly all is shut no point of 4096 may meet the rest, and the scatter knows nothing: 7 points that were
-        // expected are all missed once in e⁷ = 1100 times.
-        whole(tangent(i)) * (5e-3 * open(tangent(i)) + 7.0 / 4096.0)
-    });
+    let judged = against_truth(
+        row.estimate(),
+        |i| whole(tangent(i)) * open(tangent(i)),
+        |i| {
+            // The weight varies over the pupil by 4 sin θ cos θ a ≤ 2 a = 1 % from side to side, and the centroid of the open
+            // part lies off the centre by up to its radius: 0.5 % of the light left is the bound of what the area leaves out.
+            // Where nearly all is shut no point of 4096 may meet the rest, and the scatter knows nothing: 7 points that were
+            // expected are all missed once in e⁷ = 1100 times.
+            whole(tangent(i)) * (5e-3 * open(tangent(i)) + 7.0 / 4096.0)
+        },
+    );
     assert!(judged.is_ok(), "{judged:?}");
     assert!(row.mean[COLUMNS / 4] > 0.0 && row.mean[COLUMNS - 1] == 0.0, "from half open to shut within the row");
 }

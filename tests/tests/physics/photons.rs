@@ -76,7 +76,11 @@ fn a_known_radiance_gives_its_photons_by_both_routes_to_electrons() {
         let truth = photons() * (1.0 + bias);
         let error = seen.variance_of_mean().expect("16 pixels").sqrt();
         // Pixels at most 1.5 pitches off the axis: cos⁴ costs 1e-6. Electrons are stored as f32.
-        assert!((seen.mean() - truth).abs() < 4.0 * error + 3e-6 * truth, "{render}: {} ± {error} for {truth}", seen.mean());
+        assert!(
+            (seen.mean() - truth).abs() < 4.0 * error + 3e-6 * truth,
+            "{render}: {} ± {error} for {truth}",
+            seen.mean()
+        );
         assert!(error < 2e-3 * truth, "{render}: scatter {error}");
     }
 }
@@ -100,8 +104,7 @@ fn digital_numbers_are_electrons_times_the_gain() {
     let sensor = body.sensor.as_ref().expect("a sensor");
     let address = etendue_sensor::FrameAddress { seed: 1, camera: 0, frame: 0, capture: 0 };
     let start = etendue_sensor::SensorState::default();
-    let (_, frame) =
-        etendue_pipeline::photograph::take(body, start, &electrons, address).expect("a sensor");
+    let (_, frame) = etendue_pipeline::photograph::take(body, start, &electrons, address).expect("a sensor");
     assert!(!sensor.parameters().noise);
     for (dn, e) in frame.raw.plane.samples().iter().zip(electrons.samples()) {
         // Without noise the converter rounds to the nearest whole number.
