@@ -102,6 +102,8 @@ pub struct Settings {
     pub replicates: u32,
     /// Greatest number of scattering events.
     pub max_bounces: u32,
+    /// Whether caustics of lamps are followed.
+    pub caustics: bool,
     /// Wavelengths a path: 1, 4 or 8.
     pub wavelengths: u32,
     /// The way to the sensor plane.

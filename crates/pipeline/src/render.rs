@@ -123,6 +123,7 @@ fn path_settings(camera: &CameraPlan) -> PathSettings {
         max_bounces: camera.settings.max_bounces,
         roulette_start: ROULETTE_START,
         cone_spread_rad: pitch_tan as f32,
+        caustics: camera.settings.caustics,
         ..PathSettings::default()
     }
 }

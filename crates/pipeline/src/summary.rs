@@ -86,6 +86,9 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let samples = format!("{} samples a pixel in {} replicates", s.spp, s.replicates);
     line(f, "sampling", format!("{samples}, seed {}, {} wavelengths a path", s.seed, s.wavelengths))?;
     line(f, "paths", format!("at most {} bounces (light scattered more often is missing)", s.max_bounces))?;
+    if !s.caustics {
+        line(f, "left out", "caustics of suns and lamps (light thrown by smooth surfaces on matt ones), as asked")?;
+    }
     let cube = |bands: Bands| format!("{} band means of {} nm are kept", bands.count(), bands.width_nm());
     let kept = match (s.bands, s.folded) {
         (Some(bands), false) => cube(bands),

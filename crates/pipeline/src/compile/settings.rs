@@ -82,6 +82,7 @@ pub(super) fn settings(
         spp,
         replicates,
         max_bounces: max_bounces.unwrap_or_else(|| choices.quality.unwrap_or(Quality::Standard).max_bounces()),
+        caustics: render.caustics.as_ref().is_none_or(|c| c.value),
         wavelengths: render.wavelengths_per_path.as_ref().map_or(4, |n| n.value as u32),
         route,
         range_nm,

@@ -2,7 +2,7 @@
 
 use crate::fault::Faults;
 use crate::place::{Place, Placed};
-use crate::reader::{among, choice, number, record, vector, whole};
+use crate::reader::{among, choice, flag, number, record, vector, whole};
 
 record! {
     /// How the light is found.
@@ -13,6 +13,9 @@ record! {
         optional replicates: Placed<u64> = whole(1, 1024);
         /// Surfaces that a path meets at most, 1 … 1 024.
         optional max_bounces: Placed<u64> = whole(1, 1024);
+        /// Whether light of suns and glowing surfaces that smooth surfaces throw on matt ones is followed. Without it the
+        /// picture is darker by that light, and free of the rare bright samples that find it. Default: true.
+        optional caustics: Placed<bool> = flag();
         /// Wavelengths that a path carries.
         optional wavelengths_per_path: Placed<u64> = among(&[1, 4, 8]);
         /// Through the lens (exact), or as seen from the centre of the entrance pupil (fast, reusable). Default: "lens".
@@ -63,6 +66,7 @@ impl Render {
             spp: None,
             replicates: None,
             max_bounces: None,
+            caustics: None,
             wavelengths_per_path: None,
             route: None,
             band_width_nm: None,
@@ -83,6 +87,7 @@ impl Render {
             spp: a.spp.or(b.spp),
             replicates: a.replicates.or(b.replicates),
             max_bounces: a.max_bounces.or(b.max_bounces),
+            caustics: a.caustics.or(b.caustics),
             wavelengths_per_path: a.wavelengths_per_path.or(b.wavelengths_per_path),
             route: a.route.or(b.route),
             band_width_nm: a.band_width_nm.or(b.band_width_nm),

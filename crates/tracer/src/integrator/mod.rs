@@ -11,6 +11,7 @@
 //!
 //! All wavelengths of a path share its directions, drawn by densities common to them.
 
+mod caustic;
 mod cone;
 mod mis;
 mod path;
@@ -39,11 +40,14 @@ pub struct PathSettings {
     pub cone_spread_rad: f32,
     /// Which ways of finding light are used.
     pub strategies: Strategies,
+    /// Whether light of suns and glowing surfaces that smooth surfaces throw on matt ones is followed (`caustic.rs`).
+    /// Without it the picture is darker by that light, and free of the rare bright samples that find it.
+    pub caustics: bool,
 }
 
 impl Default for PathSettings {
     fn default() -> Self {
-        Self { max_bounces: 16, roulette_start: 4, cone_spread_rad: 0.0, strategies: Strategies::Both }
+        Self { max_bounces: 16, roulette_start: 4, cone_spread_rad: 0.0, strategies: Strategies::Both, caustics: true }
     }
 }
 

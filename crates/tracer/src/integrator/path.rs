@@ -5,6 +5,7 @@ use etendue_core::{Ray, Spectral, Wavelengths};
 use glam::Vec3;
 
 use super::PathTracer;
+use super::caustic::History;
 use super::cone::Cone;
 use crate::geometry::SurfacePoint;
 use crate::lights::Met;
@@ -22,6 +23,7 @@ pub(super) struct Path<'a, const N: usize> {
     bounces: u32,
     /// Density of the ray's direction, 1/sr; `None` where it came from the camera or a mirror.
     scattered: Option<f32>,
+    history: History,
     /// What radiance along the ray counts at the camera.
     throughput: Spectral<N>,
     radiance: Spectral<N>,
@@ -49,6 +51,7 @@ impl<'a, const N: usize> Path<'a, N> {
             cone: Cone::new(tracer.settings.cone_spread_rad),
             bounces: 0,
             scattered: None,
+            history: History::default(),
             throughput: Spectral::ONE,
             radiance: Spectral::ZERO,
         }
@@ -74,8 +77,10 @@ impl<'a, const N: usize> Path<'a, N> {
     /// Light from beyond the scene, along the ray.
     fn gather_distant(&mut self) {
         let strategies = self.tracer.settings.strategies;
-        for (radiance, drawn) in self.tracer.lights.distant(self.ray.direction, self.wavelengths) {
-            self.radiance += self.throughput * radiance * strategies.met(self.scattered, drawn);
+        for light in self.tracer.lights.distant(self.ray.direction, self.wavelengths) {
+            if light.surrounds || self.follows(self.history.is_caustic()) {
+                self.radiance += self.throughput * light.radiance * strategies.met(self.scattered, light.pdf);
+            }
         }
     }
 
@@ -83,7 +88,7 @@ impl<'a, const N: usize> Path<'a, N> {
     fn gather_glow(&mut self, point: &SurfacePoint, lookup: &Lookup, distance_m: f32) {
         let palette = self.tracer.palette;
         let Some(emission) = palette.emission(point.material) else { return };
-        if !emission.leaves(point.geometric_normal, -self.ray.direction) {
+        if !emission.leaves(point.geometric_normal, -self.ray.direction) || !self.follows(self.history.is_caustic()) {
             return;
         }
         let met = Met { point, from: self.ray.origin, direction: self.ray.direction, distance_m };
@@ -118,11 +123,19 @@ impl<'a, const N: usize> Path<'a, N> {
         };
         let Some(wi) = vertex.frame.inward(light.direction) else { return };
         let value = vertex.bsdf.evaluate(vertex.frame.wo, wi);
+        if !(light.surrounds || self.follows(self.history.would_be_caustic(value.pdf))) {
+            return;
+        }
         let weight = self.tracer.settings.strategies.drawn(light.pdf, value.pdf) / light.pdf;
         let arriving = self.throughput * value.value_cos * light.radiance * weight;
         if !arriving.is_zero() && self.is_free(&vertex.point, light.direction, light.target) {
             self.radiance += arriving;
         }
+    }
+
+    /// Whether light of a lamp counts, given whether it is part of a caustic.
+    fn follows(&self, is_caustic: bool) -> bool {
+        self.tracer.settings.caustics || !is_caustic
     }
 
     /// Whether light comes through from `target`, or from infinity.
@@ -144,6 +157,7 @@ impl<'a, const N: usize> Path<'a, N> {
         let Some(direction) = vertex.frame.outward(sample.wi) else { return false };
         self.throughput *= sample.weight;
         self.scattered = (!sample.mirror).then_some(sample.pdf);
+        self.history.scatter(self.scattered);
         if let Some(pdf) = self.scattered {
             self.cone.scatter(pdf);
         }

@@ -142,7 +142,13 @@ impl ImageEnvironment {
         let (direction, sin) = self.direction(place);
         let pdf = by_area / (2.0 * PI * PI * sin);
         let radiance = self.radiance_at(place, wavelengths);
-        (pdf > 0.0 && pdf.is_finite()).then_some(LightSample { direction, target: None, radiance, pdf })
+        (pdf > 0.0 && pdf.is_finite()).then_some(LightSample {
+            direction,
+            target: None,
+            radiance,
+            pdf,
+            surrounds: true,
+        })
     }
 
     /// Irradiance of a surface under the mean of the surroundings, W·m⁻²·nm⁻¹, over a range of wavelengths.

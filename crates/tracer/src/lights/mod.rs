@@ -86,6 +86,19 @@ pub struct LightSample<const N: usize> {
     pub radiance: Spectral<N>,
     /// Density of the direction, with that of the choice, 1/sr; positive.
     pub pdf: f32,
+    /// Whether it is light of the surroundings, and of no sun or surface.
+    pub surrounds: bool,
+}
+
+/// Light from infinity that was met by chance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DistantLight<const N: usize> {
+    /// Spectral radiance.
+    pub radiance: Spectral<N>,
+    /// Density by which [`Lights::sample`] would have given the direction for it, 1/sr.
+    pub pdf: f32,
+    /// Whether it is light of the surroundings, and of no sun.
+    pub surrounds: bool,
 }
 
 /// A point of a light's surface, drawn for a point of the scene.
@@ -193,21 +206,23 @@ impl Lights {
         pdf * self.probability(i)
     }
 
-    /// Light from infinity along the unit `direction` away from the viewer: each contribution and the density by which
-    /// [`Lights::sample`] would have given the direction for it, 1/sr.
+    /// Light from infinity along the unit `direction` away from the viewer, each contribution by itself.
     pub fn distant<'a, const N: usize>(
         &'a self,
         direction: Vec3,
         wavelengths: &'a Wavelengths<N>,
-    ) -> impl Iterator<Item = (Spectral<N>, f32)> + 'a {
+    ) -> impl Iterator<Item = DistantLight<N>> + 'a {
         let suns = self.suns.iter().enumerate().filter(move |(_, sun)| sun.covers(direction)).map(move |(i, sun)| {
-            (sun.radiance().sample(wavelengths), sun.pdf() * self.probability(self.first_sun + i))
+            let pdf = sun.pdf() * self.probability(self.first_sun + i);
+            DistantLight { radiance: sun.radiance().sample(wavelengths), pdf, surrounds: false }
         });
         let environment = self.environment.iter().map(move |environment| match environment {
-            Environment::Uniform(radiance) => (radiance.sample(wavelengths), 0.0),
+            Environment::Uniform(radiance) => {
+                DistantLight { radiance: radiance.sample(wavelengths), pdf: 0.0, surrounds: true }
+            }
             Environment::Image(image) => {
-                let last = self.lights.len() - 1;
-                (image.radiance(direction, wavelengths), image.pdf(direction) * self.probability(last))
+                let pdf = image.pdf(direction) * self.probability(self.lights.len() - 1);
+                DistantLight { radiance: image.radiance(direction, wavelengths), pdf, surrounds: true }
             }
         });
         suns.chain(environment)
@@ -252,6 +267,7 @@ impl Glowing<'_> {
             target: Some(surface.position + surface.normal * (side * (self.error_m + ROUNDING * distance))),
             radiance: self.palette.radiance(emission, &lookup, wavelengths),
             pdf: surface.pdf,
+            surrounds: false,
         })
     }
 }

@@ -55,6 +55,9 @@ pub(super) fn job() -> String {
          spp = 64\n\
          replicates = 4\n\
          max_bounces = 6\n\
+         # Sunlight that windows and paint throw on the road comes in a few very bright samples: a look without them. For\n\
+         # a reference, set it to true and take many more samples.\n\
+         caustics = false\n\
          seed = 1\n\
          # Twenty bands keep the radiance file small; electrons are folded beside them and do not depend on the width.\n\
          band_width_nm = 20\n\n\

@@ -1,0 +1,60 @@
+//! Caustics of lamps: light that a smooth surface throws on a matt one.
+//!
+//! Seen from the camera: a path scatters at a matt surface, then at a smooth one, and then meets a sun or a glowing
+//! surface. Unidirectional paths find such light only by chance, in a few very bright samples. Where a caller leaves it
+//! out ([`super::PathSettings::caustics`]), the picture is darker by exactly that light: light of suns and glowing
+//! surfaces that arrives by a scattering of more than [`SMOOTH_PER_SR`] after one of less. What smooth surfaces reflect
+//! of the surroundings is kept. The rule looks at densities alone, so both ways of finding light obey it alike.
+
+/// Density of scattering, 1/sr, above which a surface counts as smooth: that of the highlight of a GGX surface of α ≈ 0.14.
+const SMOOTH_PER_SR: f32 = 4.0;
+
+/// What a path has scattered at so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct History {
+    matt: bool,
+    caustic: bool,
+}
+
+impl History {
+    /// Notes a scattering of density `pdf`, 1/sr; `None` for a mirror.
+    pub(super) fn scatter(&mut self, pdf: Option<f32>) {
+        let smooth = is_smooth(pdf);
+        self.caustic = smooth && self.matt;
+        self.matt |= !smooth;
+    }
+
+    /// Whether light of a lamp that is met now is part of a caustic.
+    pub(super) fn is_caustic(self) -> bool {
+        self.caustic
+    }
+
+    /// Whether light of a lamp would be part of a caustic if it arrived by a scattering of density `pdf`, 1/sr.
+    pub(super) fn would_be_caustic(self, pdf: f32) -> bool {
+        self.matt && is_smooth(Some(pdf))
+    }
+}
+
+fn is_smooth(pdf: Option<f32>) -> bool {
+    pdf.is_none_or(|pdf| pdf > SMOOTH_PER_SR)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_caustic_is_smooth_after_matt() {
+        let after = |events: &[Option<f32>]| {
+            let mut history = History::default();
+            events.iter().for_each(|pdf| history.scatter(*pdf));
+            history.is_caustic()
+        };
+        assert!(!after(&[]) && !after(&[None]) && !after(&[Some(0.3)]) && !after(&[Some(50.0), Some(0.3)]));
+        assert!(after(&[Some(0.3), None]) && after(&[Some(0.3), Some(50.0)]) && after(&[Some(0.3), None, None]));
+        let mut matt = History::default();
+        matt.scatter(Some(0.3));
+        assert!(matt.would_be_caustic(50.0) && !matt.would_be_caustic(0.3));
+        assert!(!History::default().would_be_caustic(50.0));
+    }
+}
