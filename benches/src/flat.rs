@@ -1,0 +1,33 @@
+//! A world's instances written out as one mesh: what the accelerator does without instances.
+
+use etendue_core::Track;
+use etendue_tracer::MaterialId;
+use etendue_tracer::accel::{World, WorldBuilder};
+use etendue_tracer::geometry::{Instance, Mesh, Shape};
+use etendue_tracer::view::View;
+use glam::{DAffine3, Vec3};
+
+/// All triangles of a view in one mesh, in the render frame. Spheres are left out.
+pub(crate) fn mesh(view: &View<'_>) -> Mesh {
+    let corners: Vec<Vec3> = instances(view).flat_map(|i| triangles(view, i)).flatten().collect();
+    let triangles = (0..corners.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    Mesh::new(corners, vec![], vec![], triangles, vec![]).expect("triangles of a legal world").0
+}
+
+/// A world of one mesh.
+pub(crate) fn world(mesh: Mesh) -> World {
+    let mut builder = WorldBuilder::new();
+    let shape = Shape::Mesh(builder.add_mesh(mesh));
+    let to_world = Track::still(DAffine3::IDENTITY);
+    builder.add_instance(Instance { shape, to_world, materials: vec![MaterialId(0)], instance_id: 1, semantic_id: 0 });
+    builder.build().expect("a legal world")
+}
+
+fn instances<'w>(view: &View<'w>) -> impl Iterator<Item = u32> + use<'w> {
+    let shapes = view.world().instances().iter().enumerate();
+    shapes.filter(|(_, instance)| matches!(instance.shape, Shape::Mesh(_))).map(|(i, _)| i as u32)
+}
+
+fn triangles<'a>(view: &'a View<'_>, instance: u32) -> impl Iterator<Item = [Vec3; 3]> + 'a {
+    (0..view.primitive_count(instance)).map(move |primitive| view.triangle(instance, primitive))
+}

@@ -1,0 +1,76 @@
+//! Benchmarks of Étendue: what a machine does in a second, as tables in Markdown on the standard output.
+//!
+//! `just bench` runs all of them; `cargo run --release -p etendue-benches -- rays paths` runs those that are named.
+//! docs/performance.md keeps a set of results and says how to read them.
+//!
+//! | name | what is measured |
+//! | --- | --- |
+//! | `rays` | millions of rays a second in the street: primary, bounce, shadow; AVX2 and scalar |
+//! | `paths` | paths a second of the scenes that ship with the project, one thread and two |
+//! | `trees` | time to build the accelerator, a triangle |
+//! | `memory` | peak memory of a scene, in a process of its own |
+//! | `frames` | raw and picture of a frame of two megapixels |
+//! | `files` | megabytes a second into a spectral EXR |
+//!
+//! Times are processor times of one thread, medians of several runs that take turns, so that a busy machine disturbs
+//! little. Only the speed-up by a second thread is looked at by the clock.
+
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that reports to its user")]
+
+mod clock;
+mod files;
+mod flat;
+mod frames;
+mod machine;
+mod memory;
+mod paths;
+mod questions;
+mod rays;
+mod runs;
+mod scenes;
+mod table;
+mod threads;
+mod trees;
+
+use std::process::ExitCode;
+use table::Table;
+
+/// A benchmark: its name and what it answers.
+type Benchmark = (&'static str, fn() -> Table);
+
+const BENCHMARKS: [Benchmark; 6] = [
+    ("rays", rays::table),
+    ("paths", paths::table),
+    ("trees", trees::table),
+    ("memory", memory::table),
+    ("frames", frames::table),
+    ("files", files::table),
+];
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    match arguments.as_slice() {
+        [flag, scene] if flag == memory::CHILD => {
+            println!("{}", memory::child(scene));
+            ExitCode::SUCCESS
+        }
+        names => report(names),
+    }
+}
+
+/// Runs the benchmarks that are named, or all.
+fn report(names: &[String]) -> ExitCode {
+    if let Some(unknown) = names.iter().find(|name| !BENCHMARKS.iter().any(|(known, _)| known == name)) {
+        let known = BENCHMARKS.map(|(name, _)| name).join(", ");
+        eprintln!("there is no benchmark \"{unknown}\"; give some of {known}, or nothing for all");
+        return ExitCode::from(2);
+    }
+    println!("{}", machine::line());
+    for (name, table) in BENCHMARKS {
+        if names.is_empty() || names.iter().any(|n| n == name) {
+            println!("\n{}", table());
+        }
+    }
+    println!("\n{}", machine::load());
+    ExitCode::SUCCESS
+}

@@ -1,0 +1,53 @@
+//! Peak memory of a scene: loading, compiling and rendering its own picture, in a process of its own.
+
+use crate::scenes::{ALL, Scene, camera};
+use crate::table::Table;
+use crate::threads::pool;
+use etendue_pipeline::Unobserved;
+use etendue_pipeline::film::Film;
+use etendue_pipeline::render::{Request, layout, light};
+use std::process::Command;
+
+/// The argument that makes this program a child that measures the scene named next.
+pub(crate) const CHILD: &str = "--peak-memory-of";
+
+const NOTE: &str = "Most memory resident at any time (Linux), until the scene is compiled and until its picture (of the \
+    size of its job, two threads) is on the film. Film: the part of it that the job's products decide. Photographs and \
+    files come on top.";
+
+/// Peak memory of all scenes.
+pub(crate) fn table() -> Table {
+    let head = ["scene", "compiled, MB", "rendered, MB", "film, MB"];
+    let mut table = Table::new("Memory", NOTE, &head);
+    ALL.iter().for_each(|scene| table.row(row(scene)));
+    table
+}
+
+fn row(scene: &Scene) -> Vec<String> {
+    let program = std::env::current_exe().expect("this program has a file");
+    let output = Command::new(program).args([CHILD, scene.name]).output().expect("this program can be run again");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let answer = String::from_utf8_lossy(&output.stdout);
+    let megabytes = answer.split_whitespace().map(str::to_owned);
+    std::iter::once(scene.name.to_owned()).chain(megabytes).collect()
+}
+
+/// Renders a scene; megabytes at most until it was compiled and until it was rendered, and those of the film.
+pub(crate) fn child(scene: &str) -> String {
+    let plan = Scene::named(scene).thin_plan();
+    let compiled = peak_mb();
+    let camera = camera(&plan);
+    let film = pool(2).install(|| light(&plan, camera, Request::default(), &Unobserved));
+    std::hint::black_box(film.expect("nobody cancels"));
+    let (width, height) = camera.film_size();
+    let film_mb = Film::bytes(width as usize, height as usize, &layout(camera)) as f64 / 1e6;
+    format!("{compiled} {} {film_mb:.0}", peak_mb())
+}
+
+/// Most memory that this process had resident, MB.
+fn peak_mb() -> String {
+    let text = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let peak =
+        text.lines().find_map(|line| line.strip_prefix("VmHWM:")?.split_whitespace().next()?.parse::<f64>().ok());
+    peak.map_or_else(|| "unknown".to_owned(), |kib| format!("{:.0}", kib * 1024.0 / 1e6))
+}

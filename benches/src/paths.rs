@@ -1,0 +1,90 @@
+//! Paths a second of the scenes that ship with the project: all of the way from the sensor to the film.
+
+use crate::clock::{clock_s, cpu_s, timed};
+use crate::runs::Runs;
+use crate::scenes::{ALL, Scene, camera};
+use crate::table::Table;
+use crate::threads::pool;
+use etendue_pipeline::render::{Request, census, light};
+use etendue_pipeline::{Plan, Unobserved};
+use rayon::ThreadPool;
+
+const NOTE: &str = "Small pictures (320 × 200 px of the street with its own field of view, 256 × 256 px of the others). \
+    Start: placing the world about the camera and collecting the lights; it is taken off the paths. Speed-up: by a \
+    second thread, by the clock (wants an idle machine) and by the processor time of the busier thread.";
+
+/// Runs, for what takes long.
+const COUNT: usize = 3;
+
+/// What is measured of a scene.
+#[derive(Default)]
+struct Measured {
+    /// Processor time of one thread, s.
+    one_cpu: Runs,
+    /// Time by the clock of one thread, over that of two.
+    clock_ratio: Runs,
+    /// Processor time of one thread, over that of the busier of two.
+    cpu_ratio: Runs,
+}
+
+/// Paths a second of all scenes.
+pub(crate) fn table() -> Table {
+    let pools = [pool(1), pool(2)];
+    let head = [
+        "scene",
+        "paths, million",
+        "start, ms",
+        "µs a path",
+        "paths/s",
+        "spread",
+        "speed-up, clock",
+        "speed-up, processor",
+    ];
+    let mut table = Table::new("Paths", NOTE, &head);
+    ALL.iter().for_each(|scene| table.row(row(scene, &pools)));
+    table
+}
+
+fn row(scene: &Scene, pools: &[ThreadPool; 2]) -> Vec<String> {
+    let plan = scene.small_plan();
+    let (_, start_s) = timed(|| census(&plan, camera(&plan)));
+    let measured = measured(&plan, pools, start_s);
+    let (width, height) = camera(&plan).film_size();
+    let paths = f64::from(width) * f64::from(height) * f64::from(scene.spp);
+    let path_s = measured.one_cpu.median() / paths;
+    vec![
+        scene.name.to_owned(),
+        format!("{:.2}", paths / 1e6),
+        format!("{:.1}", start_s * 1e3),
+        format!("{:.2}", path_s * 1e6),
+        format!("{:.0}", 1.0 / path_s),
+        measured.one_cpu.spread_text(),
+        format!("{:.2}", measured.clock_ratio.median()),
+        format!("{:.2}", measured.cpu_ratio.median()),
+    ]
+}
+
+/// One thread and two take turns.
+fn measured(plan: &Plan, [one, two]: &[ThreadPool; 2], start_s: f64) -> Measured {
+    let mut measured = Measured::default();
+    for _ in 0..COUNT {
+        let (one_clock, one_cpu) = rendered(plan, one);
+        let (two_clock, two_cpu) = rendered(plan, two);
+        measured.one_cpu.add(one_cpu - start_s);
+        measured.clock_ratio.add((one_clock - start_s) / (two_clock - start_s));
+        // Either thread may have made the start.
+        measured.cpu_ratio.add(one_cpu / two_cpu);
+    }
+    measured
+}
+
+/// Time by the clock, and processor time of the busiest thread, of one rendering, s.
+fn rendered(plan: &Plan, pool: &ThreadPool) -> (f64, f64) {
+    let before = pool.broadcast(|_| cpu_s());
+    let start = clock_s();
+    let film = pool.install(|| light(plan, camera(plan), Request::default(), &Unobserved));
+    let clock = clock_s() - start;
+    std::hint::black_box(film.expect("nobody cancels"));
+    let after = pool.broadcast(|_| cpu_s());
+    (clock, after.iter().zip(&before).map(|(after, before)| after - before).fold(0.0, f64::max))
+}

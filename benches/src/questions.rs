@@ -1,0 +1,99 @@
+//! Rays as a renderer asks them: what a camera sees, where light goes on, whether a light is free.
+
+use etendue_core::random::{Draw, PathStream, Pixel, PixelAddress};
+use etendue_core::{Basis, Ray, warp};
+use etendue_pipeline::Plan;
+use etendue_pipeline::plan::CameraPlan;
+use etendue_tracer::geometry::SurfacePoint;
+use etendue_tracer::view::View;
+use glam::{DVec2, Vec3};
+
+/// Rays of one kind.
+#[derive(Clone, Debug)]
+pub(crate) struct Questions {
+    /// What they are.
+    pub(crate) name: &'static str,
+    /// The rays.
+    pub(crate) rays: Vec<Ray>,
+    /// Whether any hit answers, or only the first.
+    pub(crate) any_hit: bool,
+}
+
+impl Questions {
+    /// Asks all of them; the number of rays that met something.
+    pub(crate) fn ask(&self, view: &View<'_>) -> usize {
+        match self.any_hit {
+            true => self.rays.iter().filter(|ray| view.occluded(ray)).count(),
+            false => self.rays.iter().filter(|ray| view.closest(ray).is_some()).count(),
+        }
+    }
+}
+
+/// A point that the camera sees, with the normal on its side.
+struct Seen {
+    point: SurfacePoint,
+    normal: Vec3,
+    stream: PathStream,
+}
+
+/// Questions of all kinds about a plan's first camera, in the order of its pixels.
+pub(crate) fn questions(plan: &Plan, camera: &CameraPlan, view: &View<'_>) -> Vec<Questions> {
+    let primary = primary(camera);
+    let seen: Vec<Seen> = primary.iter().enumerate().filter_map(|(i, ray)| seen(view, ray, i as u32)).collect();
+    let sun = plan.suns.first().expect("the street has a sun").direction();
+    vec![
+        Questions { name: "primary", rays: primary, any_hit: false },
+        Questions { name: "bounce", rays: seen.iter().map(Seen::bounce).collect(), any_hit: false },
+        Questions { name: "shadow, sun", rays: seen.iter().filter_map(|s| s.towards(sun)).collect(), any_hit: true },
+        Questions {
+            name: "shadow, sky",
+            rays: seen.iter().filter_map(|s| s.towards(s.sky())).collect(),
+            any_hit: true,
+        },
+    ]
+}
+
+/// The principal ray of every pixel, row by row.
+fn primary(camera: &CameraPlan) -> Vec<Ray> {
+    let raster = &camera.body.raster;
+    let pixels = (0..raster.height()).flat_map(|y| (0..raster.width()).map(move |x| DVec2::new(x as f64, y as f64)));
+    pixels.filter_map(|pixel| principal(camera, raster.sensor_mm(pixel + 0.5))).collect()
+}
+
+fn principal(camera: &CameraPlan, sensor_mm: DVec2) -> Option<Ray> {
+    let ray = camera.body.lens.principal_ray(sensor_mm)?;
+    let direction = camera.pose.direction_to_world(ray.direction).as_vec3().normalize();
+    Some(Ray::new(camera.pose.point_to_render(ray.origin_m).as_vec3(), direction, 0.0))
+}
+
+fn seen(view: &View<'_>, ray: &Ray, number: u32) -> Option<Seen> {
+    let point = view.surface(ray, &view.closest(ray)?);
+    let outward = point.geometric_normal;
+    let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
+    let pixel = Pixel { x: number, y: 0 };
+    let address = PixelAddress { seed: 1, camera: 0, frame: 0, capture: 0, pixel, replicate: 0 };
+    Some(Seen { point, normal, stream: PathStream::new(&address, 0) })
+}
+
+impl Seen {
+    /// Where a diffuse surface sends light on.
+    fn bounce(&self) -> Ray {
+        let local = warp::cosine_hemisphere(self.stream.two(Draw::BsdfDirection, 0));
+        self.leaving(Basis::about(self.normal).outward(local))
+    }
+
+    /// A ray towards a light, unless the surface faces away.
+    fn towards(&self, light: Vec3) -> Option<Ray> {
+        (light.dot(self.normal) > 0.0).then(|| self.leaving(light))
+    }
+
+    /// Any direction above the horizon.
+    fn sky(&self) -> Vec3 {
+        let direction = warp::uniform_sphere(self.stream.two(Draw::LightPoint, 0));
+        Vec3 { z: direction.z.abs(), ..direction }
+    }
+
+    fn leaving(&self, direction: Vec3) -> Ray {
+        Ray::new(self.point.spawn(direction), direction, 0.0)
+    }
+}

@@ -1,0 +1,61 @@
+//! Rays a second in the street.
+
+use crate::clock::timed;
+use crate::flat;
+use crate::questions::{Questions, questions};
+use crate::runs::{COUNT, Runs};
+use crate::scenes::{STREET, camera};
+use crate::table::Table;
+use etendue_tracer::accel::Simd;
+use etendue_tracer::view::View;
+use glam::DVec3;
+
+const NOTE: &str = "Millions a second. One thread, one ray after the other. Bounces leave the points that the primary rays meet in the \
+    directions of a diffuse surface; shadow rays leave them towards the centre of the sun, or anywhere above the horizon.";
+
+/// Millions of rays a second, for every kind of ray.
+pub(crate) fn table() -> Table {
+    let plan = STREET.plan();
+    let camera = camera(&plan);
+    let origin_m = camera.pose.position_m;
+    let flat = flat::world(flat::mesh(&plan.world.view(origin_m)));
+    let views = [
+        plan.world.view_with(origin_m, Simd::Auto),
+        plan.world.view_with(origin_m, Simd::Scalar),
+        flat.view_with(DVec3::ZERO, Simd::Auto),
+        flat.view_with(DVec3::ZERO, Simd::Scalar),
+    ];
+    let questions = questions(&plan, camera, &views[0]);
+    let head = ["ray", "thousands", "met", "AVX2", "scalar", "as one mesh, AVX2", "as one mesh, scalar", "spread"];
+    let mut table = Table::new("Rays in the street", NOTE, &head);
+    for (asked, rates) in questions.iter().zip(measured(&questions, &views)) {
+        table.row(row(asked, asked.ask(&views[0]), &rates));
+    }
+    table
+}
+
+/// Rates of every kind of ray in every view. Views and kinds take turns, so that their ratios hold on a busy machine.
+fn measured(questions: &[Questions], views: &[View<'_>]) -> Vec<Vec<Runs>> {
+    let mut rates = vec![vec![Runs::default(); views.len()]; questions.len()];
+    for _ in 0..COUNT {
+        for (asked, rates) in questions.iter().zip(&mut rates) {
+            views.iter().zip(rates).for_each(|(view, rates)| rates.add(rate(asked, view)));
+        }
+    }
+    rates
+}
+
+fn rate(asked: &Questions, view: &View<'_>) -> f64 {
+    let (_, seconds) = timed(|| std::hint::black_box(asked.ask(view)));
+    asked.rays.len() as f64 / seconds / 1e6
+}
+
+fn row(asked: &Questions, met: usize, rates: &[Runs]) -> Vec<String> {
+    let rays = asked.rays.len() as f64;
+    let mut cells = vec![asked.name.to_owned(), format!("{:.0}", rays / 1e3)];
+    cells.push(format!("{:.0} %", 100.0 * met as f64 / rays));
+    cells.extend(rates.iter().map(|r| format!("{:.2}", r.median())));
+    let spread = rates.iter().map(|r| r.spread()).fold(0.0, f64::max);
+    cells.push(format!("± {:.0} %", 100.0 * spread));
+    cells
+}

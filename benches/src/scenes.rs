@@ -1,0 +1,74 @@
+//! The scenes that ship with the project, as plans.
+
+use etendue_io::load_assets;
+use etendue_pipeline::plan::CameraPlan;
+use etendue_pipeline::{Choices, Plan, compile};
+use etendue_scene::{Description, Overrides};
+use std::path::{Path, PathBuf};
+
+/// A scene, and how it is measured.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scene {
+    /// Its name: that of its folder and of its job.
+    pub(crate) name: &'static str,
+    /// What makes its picture small: a third of the street's columns and rows, with the same field of view.
+    small: &'static [&'static str],
+    /// Samples a pixel of the small picture.
+    pub(crate) spp: u32,
+}
+
+/// The street.
+pub(crate) const STREET: Scene = Scene {
+    name: "street",
+    small: &["cameras.0.sensor.width_px=320", "cameras.0.sensor.height_px=200", "cameras.0.sensor.pixel_pitch_um=18"],
+    spp: 16,
+};
+
+/// All scenes.
+pub(crate) const ALL: [Scene; 4] = [
+    STREET,
+    Scene { name: "cornell", small: &[], spp: 8 },
+    Scene { name: "furnace", small: &[], spp: 16 },
+    Scene { name: "sphere-on-plane", small: &[], spp: 16 },
+];
+
+impl Scene {
+    /// The scene of a name. Panics where there is none.
+    pub(crate) fn named(name: &str) -> Self {
+        *ALL.iter().find(|scene| scene.name == name).expect("a scene of the list")
+    }
+
+    /// The plan of the scene as it is.
+    pub(crate) fn plan(&self) -> Plan {
+        self.planned(&[], self.spp)
+    }
+
+    /// The plan of a small picture.
+    pub(crate) fn small_plan(&self) -> Plan {
+        self.planned(self.small, self.spp)
+    }
+
+    /// The plan of the scene's own picture, with one sample a pixel.
+    pub(crate) fn thin_plan(&self) -> Plan {
+        self.planned(&["render.replicates=1"], 1)
+    }
+
+    fn planned(&self, changes: &[&str], spp: u32) -> Plan {
+        let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string());
+        let description =
+            Description::load(&self.job(), &read, &Overrides::new(changes)).unwrap_or_else(|faults| panic!("{faults}"));
+        let assets = load_assets(&description.assets()).expect("the assets of a scene that ships with the project");
+        let choices = Choices { spp: Some(spp), ..Choices::default() };
+        compile(&description, &assets, &choices).expect("a scene that ships with the project")
+    }
+
+    fn job(&self) -> PathBuf {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("benches/ lies in the workspace");
+        root.join("scenes").join(self.name).join(format!("{}.toml", self.name))
+    }
+}
+
+/// The first camera of a plan.
+pub(crate) fn camera(plan: &Plan) -> &CameraPlan {
+    plan.cameras.first().expect("every scene has a camera")
+}

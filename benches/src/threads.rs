@@ -1,0 +1,8 @@
+//! Worker threads.
+
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// A pool of threads.
+pub(crate) fn pool(threads: usize) -> ThreadPool {
+    ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started")
+}
