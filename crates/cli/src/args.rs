@@ -43,7 +43,7 @@ pub struct Job {
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// Samples a pixel, over all replicates [default: the job's, or the quality's]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub spp: Option<u32>,
     /// A preset of samples and bounces, for what the job file leaves open
     #[arg(long, value_enum)]

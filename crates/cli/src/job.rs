@@ -39,8 +39,12 @@ impl From<&args::Job> for JobRequest {
 }
 
 impl JobRequest {
-    /// Reads, checks and compiles.
-    pub fn plan(&self) -> Result<Plan, Failure> {
+    /// Reads, checks and compiles, on the pool's threads.
+    pub fn plan(&self, pool: &rayon::ThreadPool) -> Result<Plan, Failure> {
+        pool.install(|| self.compiled())
+    }
+
+    fn compiled(&self) -> Result<Plan, Failure> {
         let overrides = Overrides::new(&self.set);
         let description = Description::load(&self.job, &read_text, &overrides).map_err(|f| Failure::inputs(f.list()))?;
         let assets = load_assets(&description.assets()).map_err(Failure::inputs)?;

@@ -5,6 +5,7 @@ use crate::plan::{CameraPlan, Plan, Products, Route};
 use crate::render::{census, layout};
 use etendue_core::Bands;
 use etendue_optics::Lens;
+use etendue_projection::Sense;
 use etendue_sensor::Verdict;
 use etendue_tracer::geometry::Shape;
 use std::fmt::{self, Display, Formatter};
@@ -141,7 +142,11 @@ fn distortion(lens: &Lens) -> String {
         None => "none".to_owned(),
         Some(d) => {
             let [k1, k2] = d.coefficients();
-            format!("radial, k1 {k1}, k2 {k2}, radius in units of {} mm, {:?}", d.unit_mm(), d.sense())
+            let sense = match d.sense() {
+                Sense::IdealToObserved => "ideal to observed",
+                Sense::ObservedToIdeal => "observed to ideal",
+            };
+            format!("radial, {sense}, k1 {k1}, k2 {k2}, radius in units of {:.4} mm", d.unit_mm())
         }
     }
 }

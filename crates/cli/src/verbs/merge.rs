@@ -20,9 +20,9 @@ pub fn run(arguments: &args::Merge) -> Result<(), Failure> {
     check_complete(&shards)?;
     let manifest = shards[0].0.clone();
     let simd = machine::simd()?;
-    let plan = manifest.request.plan()?;
-    check_same_plan(&plan, &manifest)?;
     let pool = machine::pool(None)?;
+    let plan = manifest.request.plan(&pool)?;
+    check_same_plan(&plan, &manifest)?;
     let mut folder = open(&arguments.output)?;
     claim(&folder, names(&plan, &manifest.frames))?;
     for camera in &plan.cameras {

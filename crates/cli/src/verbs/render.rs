@@ -19,8 +19,8 @@ use etendue_pipeline::tile::Shard;
 pub fn run(arguments: &args::Render) -> Result<(), Failure> {
     let request = JobRequest::from(&arguments.job);
     let simd = machine::simd()?;
-    let plan = request.plan()?;
     let pool = machine::pool(arguments.threads)?;
+    let plan = request.plan(&pool)?;
     let mut folder = open(&arguments.output)?;
     match arguments.shard {
         None => {
