@@ -43,7 +43,7 @@ fn job(accumulate: &str, band_width_nm: u32, wavelengths: u32, seed: u64) -> Job
         black_level_dn = 0
         bits = 16
         [render]
-        spp = 64
+        spp = 512
         replicates = 4
         max_bounces = 1
         wavelength_range_nm = [380, 780]
