@@ -25,7 +25,7 @@ impl<const N: usize> Wavelengths<N> {
     #[must_use]
     pub fn uniform(low_nm: f32, high_nm: f32, u: f32) -> Self {
         let range = high_nm - low_nm;
-        let nm = core::array::from_fn(|i| low_nm + range * turned(u, i, N));
+        let nm = core::array::from_fn(|i| within(low_nm, high_nm, turned(u, i, N)));
         Self { nm, pdf: [1.0 / range; N] }
     }
 
@@ -37,10 +37,15 @@ impl<const N: usize> Wavelengths<N> {
         let (mut nm, mut pdf) = ([0.0; N], [0.0; N]);
         for i in 0..N {
             let (x, density) = distribution.sample(turned(u, i, N));
-            (nm[i], pdf[i]) = (low_nm + range * x, density / range);
+            (nm[i], pdf[i]) = (within(low_nm, high_nm, x), density / range);
         }
         Self { nm, pdf }
     }
+}
+
+/// The wavelength at `x` in [0, 1) of `[low_nm, high_nm)`; rounding does not take it to the upper end.
+fn within(low_nm: f32, high_nm: f32, x: f32) -> f32 {
+    (low_nm + (high_nm - low_nm) * x).min(high_nm.next_down())
 }
 
 /// `u` turned by `i` of `n` equal steps, in [0, 1).
@@ -232,6 +237,7 @@ mod tests {
     #[test]
     fn hero_wavelengths_are_equally_spaced_and_stay_in_the_support() {
         for u in [0.0, 0.3, 0.74, 0.999_999_94] {
+            assert!(Wavelengths::<1>::uniform(500.0, 600.0, u).nm[0] < 600.0, "the upper end is no wavelength");
             let w = Wavelengths::<4>::uniform(380.0, 780.0, u);
             let mut nm = w.nm;
             nm.sort_by(f32::total_cmp);
