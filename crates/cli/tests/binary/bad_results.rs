@@ -1,0 +1,141 @@
+//! Stored results that cannot be used for what is asked.
+
+use crate::support::{etendue, small, tests, text};
+use std::fs;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+fn place() -> TempDir {
+    tempfile::tempdir().expect("a temporary folder")
+}
+
+/// Renders the small job into `place/name`; gives that folder.
+fn into(place: &Path, name: &str, options: &[&str]) -> String {
+    let output = text(&place.join(name));
+    etendue(["render", &small(), "-o", &output].iter().chain(options)).ok();
+    output
+}
+
+fn laboratory() -> String {
+    text(&crate::support::root().join("scenes/cameras/laboratory.toml"))
+}
+
+#[test]
+fn radiance_made_through_a_lens_is_not_exposed_again() {
+    let place = place();
+    let folder = into(place.path(), "scene", &[]);
+    let output = place.path().join("out");
+    let radiance = format!("{folder}/front/radiance.exr");
+    let expose = |file: &str, camera: &str| etendue(["expose", file, "--camera", camera, "-o", &text(&output)]);
+    expose(&radiance, &laboratory()).refused(&["radiance.exr", "through a lens", "render.route"]);
+    expose(&format!("{folder}/front/irradiance.exr"), &laboratory()).refused(&["irradiance.exr", "expected radiance"]);
+    expose(&format!("{folder}/front/picture.0000.png"), &laboratory()).refused(&["picture.0000.png"]);
+    expose("no/such/radiance.exr", &laboratory()).refused(&["no/such/radiance.exr"]);
+    expose(&radiance, "no/such/camera.toml").refused(&["no/such/camera.toml", "no such file"]);
+    assert!(!output.exists());
+}
+
+#[test]
+fn a_camera_that_sees_more_than_was_stored_is_refused() {
+    let place = place();
+    let folder = into(place.path(), "scene", &["--set", "render.route=pupil"]);
+    let camera = place.path().join("wide.toml");
+    fs::write(
+        &camera,
+        "format = 1\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm = 2\nf_number = 8\n\
+         [sensor]\nwidth_px = 45\nheight_px = 30\npixel_pitch_um = 120\n",
+    )
+    .expect("written");
+    let output = place.path().join("out");
+    let radiance = format!("{folder}/front/radiance.exr");
+    etendue(["expose", &radiance, "--camera", &text(&camera), "-o", &text(&output)]).refused(&[
+        "radiance.exr",
+        "wide.toml",
+        "overscan",
+    ]);
+    assert!(!output.exists());
+}
+
+#[test]
+fn a_camera_file_with_faults_is_refused_by_line_and_key() {
+    let place = place();
+    let camera = place.path().join("camera.toml");
+    fs::write(&camera, "format = 1\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm = 2\n[sensor]\nwidth = 3\n")
+        .expect("written");
+    etendue(["expose", "x.exr", "--camera", &text(&camera), "-o", "y"])
+        .refused(&["camera.toml:6", "sensor.width", "\"width_px\""])
+        .says(&["camera.toml:", "lens", "f_number"]);
+}
+
+#[test]
+fn pictures_of_different_sizes_or_kinds_are_not_compared() {
+    let place = place();
+    let a = into(place.path(), "a", &[]);
+    let b = into(place.path(), "b", &["--set", "cameras.front.sensor.width_px=44"]);
+    let file = |folder: &str, name: &str| format!("{folder}/front/{name}");
+    for name in ["radiance.exr", "picture.0000.png"] {
+        etendue(["compare", &file(&a, name), &file(&b, name)]).refused(&[name, "44 × 30", "45 × 30"]);
+    }
+    etendue(["compare", &file(&a, "radiance.exr"), &file(&a, "picture.0000.png")])
+        .refused(&["two EXR files or two pictures"]);
+    etendue(["compare", &file(&a, "radiance.exr"), &file(&a, "ground_truth.exr")])
+        .refused(&["ground_truth.exr", "channels"]);
+    etendue(["compare", &file(&a, "none.exr"), &file(&a, "radiance.exr")]).refused(&["none.exr"]);
+    etendue(["compare", &file(&a, "radiance.exr"), &file(&a, "radiance.exr"), "--significance", "2"])
+        .refused(&["--significance 2", "probability"]);
+}
+
+/// A copy of the small job that may be changed.
+fn own_job(place: &Path) -> PathBuf {
+    let folder = place.join("job");
+    fs::create_dir(&folder).expect("made");
+    for file in ["small.toml", "tower.obj", "tower.mtl", "checker.png", "sky.hdr"] {
+        fs::copy(tests().join("jobs/small").join(file), folder.join(file)).expect("copied");
+    }
+    folder.join("small.toml")
+}
+
+#[test]
+fn shards_that_do_not_belong_together_are_not_merged() {
+    let place = place();
+    let (a, b) = (into(place.path(), "a", &["--shard", "0/2"]), into(place.path(), "b", &["--shard", "1/2"]));
+    let other = into(place.path(), "other", &["--shard", "1/2", "--seed", "3"]);
+    let whole = into(place.path(), "whole", &[]);
+    let output = place.path().join("out");
+    let merge = |folders: &[&str]| etendue(["merge", "-o", &text(&output)].iter().chain(folders));
+    merge(&[&a]).refused(&["1 of 2 shards"]);
+    merge(&[&b]).refused(&["shard 0 of 2 is missing"]);
+    merge(&[&a, &a]).refused(&["given twice"]);
+    merge(&[&a, &b, &b]).refused(&["given twice"]);
+    merge(&[&a, &other]).refused(&["other", "another run"]);
+    merge(&[&a, &whole]).refused(&["whole", "shard.json", "render --shard"]);
+    fs::write(place.path().join("b/front.film.exr"), b"no film").expect("written");
+    merge(&[&a, &b]).refused(&["front.film.exr"]);
+    fs::write(place.path().join("b/shard.json"), b"{}").expect("written");
+    merge(&[&a, &b]).refused(&["shard.json", "no shard manifest"]);
+    assert!(!output.exists());
+}
+
+#[test]
+fn a_job_that_changed_since_its_shards_were_rendered_is_not_merged() {
+    let place = place();
+    let job = own_job(place.path());
+    let folders = ["0", "1"].map(|i| (format!("{i}/2"), text(&place.path().join(i))));
+    for (shard, folder) in &folders {
+        etendue(["render", &text(&job), "-o", folder, "--shard", shard]).ok();
+    }
+    let changed = fs::read_to_string(&job).expect("the job").replace("alpha = 0.2", "alpha = 0.3");
+    fs::write(&job, changed).expect("written");
+    let output = place.path().join("out");
+    etendue(["merge", &folders[0].1, &folders[1].1, "-o", &text(&output)]).refused(&["small.toml", "changed since"]);
+    assert!(!output.exists());
+}
+
+#[test]
+fn files_of_unknown_kinds_are_not_inspected() {
+    let place = place();
+    let file = place.path().join("notes.txt");
+    fs::write(&file, "words").expect("written");
+    etendue(["inspect", &text(&file)]).refused(&["notes.txt"]);
+    etendue(["inspect", "no/such.exr"]).refused(&["no/such.exr"]);
+}

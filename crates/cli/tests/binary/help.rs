@@ -1,0 +1,45 @@
+//! What the program says of itself.
+
+use crate::support::etendue;
+
+#[test]
+fn help_names_every_verb_and_the_exit_statuses() {
+    let help = etendue(["--help"]).ok().out;
+    for word in
+        ["render", "merge", "plan", "expose", "inspect", "compare", "schema", "Exit status: 0 done, 1", "2 unusable"]
+    {
+        assert!(help.contains(word), "{word} is missing in:\n{help}");
+    }
+}
+
+#[test]
+fn every_option_explains_itself() {
+    for verb in ["render", "merge", "plan", "expose", "inspect", "compare", "schema"] {
+        let help = etendue(["help", verb]).ok().out;
+        let options = help.lines().filter(|line| line.trim_start().starts_with("--")).count();
+        let lines: Vec<&str> = help.lines().collect();
+        let is_option = |line: &str| line.trim_start().starts_with("--");
+        // The words stand beside the option or below it.
+        let explained =
+            lines.windows(2).filter(|w| is_option(w[0]) && (w[0].contains("   ") || !w[1].trim().is_empty()));
+        assert_eq!(options, explained.count(), "{help}");
+    }
+}
+
+#[test]
+fn unknown_words_are_refused_with_status_2() {
+    etendue(["rende", "x"]).refused(&["rende"]);
+    etendue(["render", "x.toml", "-o", "y", "--frame", "0..1"]).refused(&["--frame"]);
+    etendue(["render", "x.toml", "-o", "y", "--frames", "3..3"]).refused(&["FIRST < END"]);
+    etendue(["render", "x.toml", "-o", "y", "--shard", "3/3"]).refused(&["I < N"]);
+    etendue(["render", "x.toml", "-o", "y", "--threads", "0"]).refused(&["--threads"]);
+    etendue(["render", "x.toml"]).refused(&["--output"]);
+}
+
+#[test]
+fn schemas_are_json_that_names_the_keys() {
+    for (kind, key) in [("scene", "materials"), ("camera", "lens"), ("job", "cameras")] {
+        let schema: serde_json::Value = serde_json::from_str(&etendue(["schema", kind]).ok().out).expect("JSON");
+        assert!(schema.to_string().contains(&format!("\"{key}\"")), "{kind}: {key}");
+    }
+}

@@ -1,0 +1,13 @@
+//! The binary as its users meet it: bytes, refusals, plans, golden results.
+//!
+//! `ETENDUE_BLESS=1` writes plan snapshots and golden results anew.
+
+mod bad_input;
+mod bad_results;
+mod bytes;
+mod dropped;
+mod goldens;
+mod help;
+mod kenney;
+mod plans;
+mod support;

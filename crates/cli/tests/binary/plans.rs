@@ -1,0 +1,69 @@
+//! The plan of every job that ships, word for word.
+
+use crate::support::{bless, etendue, root, tests, text};
+use std::path::PathBuf;
+
+/// Every job below `scenes/`: the files `scenes/NAME/NAME.toml`.
+fn jobs() -> Vec<(String, String)> {
+    let mut jobs: Vec<(String, String)> = std::fs::read_dir(root().join("scenes"))
+        .expect("scenes/ is part of the repository")
+        .map(|entry| entry.expect("a readable entry").file_name().into_string().expect("UTF-8"))
+        .map(|name| (format!("scenes/{name}/{name}.toml"), name))
+        .filter(|(job, _)| root().join(job).is_file())
+        .collect();
+    jobs.sort();
+    jobs
+}
+
+fn check(job: &str, name: &str) -> Result<(), String> {
+    let plan = etendue(["plan", job]).ok().out;
+    let file: PathBuf = tests().join(format!("snapshots/{name}.txt"));
+    if bless() {
+        std::fs::write(&file, &plan).expect("the snapshot can be written");
+        return Ok(());
+    }
+    let expected = std::fs::read_to_string(&file).map_err(|error| format!("{}: {error}", text(&file)))?;
+    let lines = expected.lines().zip(plan.lines()).enumerate().find(|(_, (a, b))| a != b);
+    match lines {
+        None if expected == plan => Ok(()),
+        None => Err(format!("{job}: the plan has another number of lines than {}", text(&file))),
+        Some((i, (a, b))) => Err(format!("{job}: line {} of the plan was\n  {a}\nand is\n  {b}", i + 1)),
+    }
+}
+
+#[test]
+fn the_plans_of_all_jobs_are_as_they_were() {
+    let jobs = jobs();
+    for expected in ["cornell", "furnace", "sphere-on-plane", "street"] {
+        assert!(jobs.iter().any(|(_, name)| name == expected), "scenes/{expected} is missing");
+    }
+    let changed: Vec<String> = jobs.iter().filter_map(|(job, name)| check(job, name).err()).collect();
+    assert!(changed.is_empty(), "{}\n(ETENDUE_BLESS=1 accepts)", changed.join("\n"));
+}
+
+#[test]
+fn a_plan_does_not_depend_on_where_it_is_made() {
+    let job = "scenes/furnace/furnace.toml";
+    let here = etendue(["plan", job]).ok().out;
+    let there = etendue(["plan", &text(&root().join(job))]).ok().out;
+    assert_eq!(here, there);
+}
+
+#[test]
+fn a_changed_texel_is_another_plan() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let folder = tests().join("jobs/small");
+    for file in ["small.toml", "tower.obj", "tower.mtl", "checker.png", "sky.hdr"] {
+        std::fs::copy(folder.join(file), place.path().join(file)).expect("copied");
+    }
+    let job = text(&place.path().join("small.toml"));
+    let head = |plan: String| plan.lines().next().expect("a first line").to_owned();
+    let before = head(etendue(["plan", &job]).ok().out);
+    assert_eq!(before, head(etendue(["plan", &crate::support::small()]).ok().out), "a copy is the same job");
+    let sky = place.path().join("sky.hdr");
+    let mut bytes = std::fs::read(&sky).expect("the sky");
+    let last = bytes.len() - 2;
+    bytes[last] ^= 1;
+    std::fs::write(&sky, bytes).expect("written");
+    assert_ne!(before, head(etendue(["plan", &job]).ok().out));
+}

@@ -1,0 +1,129 @@
+//! Running the binary and looking at what it leaves.
+
+use assert_cmd::Command;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// The folder `crates/cli/tests`.
+pub(crate) fn tests() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests")
+}
+
+/// The repository's root.
+pub(crate) fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).expect("crates/cli lies two folders deep").to_path_buf()
+}
+
+/// The job with a little of everything.
+pub(crate) fn small() -> String {
+    text(&tests().join("jobs/small/small.toml"))
+}
+
+/// Whether stored results shall be written anew.
+pub(crate) fn bless() -> bool {
+    std::env::var_os("ETENDUE_BLESS").is_some_and(|value| value == "1")
+}
+
+/// A path as an argument.
+pub(crate) fn text(path: &Path) -> String {
+    path.to_str().expect("the tests' paths are UTF-8").to_owned()
+}
+
+/// What a run said and how it ended.
+#[derive(Debug)]
+pub(crate) struct Ran {
+    pub(crate) status: i32,
+    pub(crate) out: String,
+    pub(crate) err: String,
+}
+
+impl Ran {
+    /// The run was a success.
+    #[track_caller]
+    pub(crate) fn ok(self) -> Self {
+        assert_eq!(self.status, 0, "{}", self.err);
+        self
+    }
+
+    /// Refused: status 2, nothing on stdout, and every one of these phrases on one line of stderr.
+    #[track_caller]
+    pub(crate) fn refused(self, phrases: &[&str]) -> Self {
+        assert_eq!(self.status, 2, "{self:?}");
+        assert_eq!(self.out, "", "nothing goes to stdout");
+        self.says(phrases)
+    }
+
+    /// One line of stderr holds all of these.
+    #[track_caller]
+    pub(crate) fn says(self, phrases: &[&str]) -> Self {
+        let found = self.err.lines().any(|line| phrases.iter().all(|phrase| line.contains(phrase)));
+        assert!(found, "no line with all of {phrases:?} in:\n{}", self.err);
+        self
+    }
+}
+
+/// Runs the binary from the repository's root.
+pub(crate) fn etendue<S: AsRef<std::ffi::OsStr>>(arguments: impl IntoIterator<Item = S>) -> Ran {
+    etendue_with(arguments, &[])
+}
+
+/// Runs the binary with further environment variables.
+pub(crate) fn etendue_with<S: AsRef<std::ffi::OsStr>>(
+    arguments: impl IntoIterator<Item = S>,
+    environment: &[(&str, &str)],
+) -> Ran {
+    let mut command = Command::cargo_bin("etendue").expect("cargo builds the binary for its tests");
+    command.current_dir(root()).env_remove("ETENDUE_SIMD").args(arguments);
+    environment.iter().for_each(|(name, value)| {
+        command.env(name, value);
+    });
+    let output = command.output().expect("the binary starts");
+    let utf8 = |bytes: Vec<u8>| String::from_utf8(bytes).expect("the program writes UTF-8");
+    Ran { status: output.status.code().expect("it ends by itself"), out: utf8(output.stdout), err: utf8(output.stderr) }
+}
+
+/// All files below a folder with their bytes, by relative name.
+pub(crate) fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    collect(folder, folder, &mut files);
+    files
+}
+
+fn collect(root: &Path, folder: &Path, files: &mut BTreeMap<String, Vec<u8>>) {
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    for entry in entries {
+        let path = entry.expect("a readable entry").path();
+        if path.is_dir() {
+            collect(root, &path, files);
+        } else {
+            let name = text(path.strip_prefix(root).expect("below the root"));
+            files.insert(name, std::fs::read(&path).expect("a readable file"));
+        }
+    }
+}
+
+/// Renders a job into a temporary folder and gives its files.
+#[track_caller]
+pub(crate) fn rendered(job: &str, options: &[&str]) -> BTreeMap<String, Vec<u8>> {
+    rendered_with(job, options, &[])
+}
+
+/// [`rendered`] with environment variables.
+#[track_caller]
+pub(crate) fn rendered_with(job: &str, options: &[&str], environment: &[(&str, &str)]) -> BTreeMap<String, Vec<u8>> {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let output = text(&place.path().join("out"));
+    let arguments = ["render", job, "-o", &output].into_iter().chain(options.iter().copied());
+    etendue_with(arguments, environment).ok();
+    contents(Path::new(&output))
+}
+
+/// Both runs left the same files with the same bytes.
+#[track_caller]
+pub(crate) fn assert_same(a: &BTreeMap<String, Vec<u8>>, b: &BTreeMap<String, Vec<u8>>, what: &str) {
+    let names = |files: &BTreeMap<String, Vec<u8>>| files.keys().cloned().collect::<Vec<_>>();
+    assert_eq!(names(a), names(b), "{what}: other files");
+    for (name, bytes) in a {
+        assert!(*bytes == b[name], "{what}: {name} has other bytes");
+    }
+}
