@@ -75,7 +75,8 @@ fn of_exr(path: &Path, a: &ExrFile, b: &ExrFile) -> Result<Pair, Error> {
         let only = |x: &[&str], y: &[&str]| x.iter().filter(|n| !y.contains(n)).copied().collect::<Vec<_>>().join(", ");
         let lacking = only(&of_a, &of_b);
         let surplus = only(&of_b, &of_a);
-        let what = format!("has other channels: it lacks [{lacking}] and has [{surplus}] more; compare results of one kind");
+        let what =
+            format!("has other channels: it lacks [{lacking}] and has [{surplus}] more; compare results of one kind");
         return Err(Error::new(path, what));
     }
     let channels = of_a.iter().filter(|name| !name.starts_with(VARIANCE) && !is_preview(a, name));
@@ -129,10 +130,11 @@ fn of_pictures(a: &Path, b: &Path) -> Result<Pair, Error> {
         return Err(Error::new(b, what));
     }
     let names = if of_a.len() == 1 { &["grey"][..] } else { &["R", "G", "B", "A"] };
-    let channels = names.iter().zip(of_a).zip(of_b).map(|((name, a), b)| Channel {
-        name: (*name).to_owned(),
-        content: Content::Number { a, b, variance: None },
-    });
+    let channels = names
+        .iter()
+        .zip(of_a)
+        .zip(of_b)
+        .map(|((name, a), b)| Channel { name: (*name).to_owned(), content: Content::Number { a, b, variance: None } });
     Ok(Pair { width, height, channels: channels.collect(), replicates: (1, 1) })
 }
 

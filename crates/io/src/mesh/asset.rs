@@ -1,150 +1,114 @@
-//! Polygons with separate indices to triangles with one index a vertex.
+//! Polygons as tobj reads them to triangles.
 
-use std::collections::HashMap;
 use std::path::Path;
 
 use etendue_scene::asset::MeshAsset;
 
-use super::mtl::UvLayout;
-use super::obj::{Corner, Face, Obj, parse};
+use super::obj::{Obj, scan};
 use super::polygon::{newell, triangulate};
 use super::slot::{Slots, slots};
+use super::texture_option::UvLayout;
 use crate::source::{decode_text, read_bytes};
 use crate::{Error, hash};
 
 /// Reads a Wavefront OBJ file with the material libraries it names.
 pub fn read_mesh(file: &Path) -> Result<MeshAsset, Error> {
     let bytes = read_bytes(file, "mesh")?;
-    let obj = parse(file, decode_text(file, &bytes)?)?;
-    let slots = slots(file, &obj)?;
-    let mut builder = Builder::new(&obj, &slots.layouts);
-    for face in &obj.faces {
-        builder.face(face).map_err(|told| Error::at(file, face.line, told))?;
+    let obj = scan(file, decode_text(file, &bytes)?)?;
+    let Slots { materials, layouts, report, library_bytes } = slots(file, &obj)?;
+    let parts = obj.parts(file)?;
+    let mut builder = Builder::new(&parts);
+    for part in &parts {
+        let slot = part.material_id.unwrap_or(0); // without a `usemtl`: the first slot, which has no name
+        builder
+            .part(part, slot as u16, &layouts[slot])
+            .map_err(|told| Error::at(file, obj.fed.line_of_face(builder.faces), told))?;
     }
     let mut mesh = builder.finish();
-    mesh.hash = hash::of_parts(std::iter::once(&bytes).chain(&slots.library_bytes).map(Vec::as_slice));
+    mesh.hash = hash::of_parts(std::iter::once(&bytes).chain(&library_bytes).map(Vec::as_slice));
     if !bytes.ends_with(b"\n") {
         mesh.report.push("the last line has no end: the file may be truncated".to_owned());
     }
-    mesh.report.extend(notes(&obj));
-    let Slots { materials, report, .. } = slots;
+    mesh.report.extend(notes(&obj, &parts));
     mesh.slot_materials = materials;
     mesh.report.extend(report);
     Ok(mesh)
 }
 
-/// What makes a vertex of its own: its indices, the face where the normal is the face's, the texture's layout.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-struct Key {
-    position: usize,
-    uv: Option<usize>,
-    normal: NormalKey,
-    layout: Option<u16>,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-enum NormalKey {
-    None,
-    Given(usize),
-    OfFace(usize),
-}
-
-struct Builder<'a> {
-    obj: &'a Obj,
-    layouts: &'a [UvLayout],
+/// The mesh as far as it is made.
+#[derive(Default)]
+struct Builder {
     has_normals: bool,
     has_uvs: bool,
-    known: HashMap<Key, u32>,
     mesh: MeshAsset,
+    faces: usize,
+    /// Where the vertices of the current part stand in the mesh.
+    placed: Vec<Option<u32>>,
     flat_corners: usize,
     bare_corners: usize,
 }
 
-impl<'a> Builder<'a> {
-    fn new(obj: &'a Obj, layouts: &'a [UvLayout]) -> Self {
+impl Builder {
+    fn new(parts: &[tobj::Mesh]) -> Self {
         Self {
-            obj,
-            layouts,
-            has_normals: obj.corners.iter().any(|c| usable_normal(obj, c).is_some()),
-            has_uvs: obj.corners.iter().any(|c| c.uv.is_some()),
-            known: HashMap::new(),
-            mesh: MeshAsset::default(),
-            flat_corners: 0,
-            bare_corners: 0,
+            has_normals: parts.iter().any(|p| p.normals.iter().any(|v| *v != 0.0)),
+            has_uvs: parts.iter().any(|p| !p.texcoords.is_empty()),
+            ..Self::default()
         }
     }
 
-    fn face(&mut self, face: &Face) -> Result<(), String> {
-        let corners = self.obj.corners_of(face);
-        let positions: Vec<[f64; 3]> = corners.iter().map(|c| self.obj.positions[c.position]).collect();
-        let triangles = triangulate(&positions).map_err(|_| {
-            format!("polygon of {} corners crosses itself; triangulate the mesh where it was modelled", corners.len())
-        })?;
-        let vertices =
-            corners.iter().map(|c| self.vertex(face, c, &positions)).collect::<Result<Vec<u32>, String>>()?;
-        for triangle in triangles {
-            self.mesh.triangles.push(triangle.map(|i| vertices[i]));
-            self.mesh.slots.push(face.material);
+    /// Takes a part of one material, whose vertices all have a normal or none, and so texture coordinates.
+    fn part(&mut self, part: &tobj::Mesh, slot: u16, layout: &UvLayout) -> Result<(), String> {
+        let positions = part.positions.as_chunks().0;
+        self.placed = vec![None; positions.len()];
+        let mut rest = &part.indices[..];
+        // tobj tells the numbers of corners unless all are triangles.
+        let arity = |face: usize| part.face_arities.get(face).map_or(3, |n| *n as usize);
+        for corners in (0..).map(arity).map_while(|count| rest.split_off(..count)) {
+            let polygon: Vec<[f64; 3]> = corners.iter().map(|&i| positions[i as usize]).collect();
+            let triangles = triangulate(&polygon).map_err(|_| {
+                let count = corners.len();
+                format!("polygon of {count} corners crosses itself; triangulate the mesh where it was modelled")
+            })?;
+            let vertices: Vec<u32> = corners.iter().map(|&i| self.vertex(part, layout, i as usize, &polygon)).collect();
+            self.mesh.triangles.extend(triangles.iter().map(|t| t.map(|i| vertices[i])));
+            self.mesh.slots.resize(self.mesh.triangles.len(), slot);
+            self.faces += 1;
         }
         Ok(())
     }
 
-    fn vertex(&mut self, face: &Face, corner: &Corner, polygon: &[[f64; 3]]) -> Result<u32, String> {
-        let key = self.key(face, corner);
-        if let Some(index) = self.known.get(&key) {
-            return Ok(*index);
+    /// The vertex `index` of a part. Without a usable normal it belongs to this polygon alone, where others have one.
+    fn vertex(&mut self, part: &tobj::Mesh, layout: &UvLayout, index: usize, polygon: &[[f64; 3]]) -> u32 {
+        let normal = part.normals.as_chunks().0.get(index).filter(|n| **n != [0.0; 3]);
+        let is_shared = normal.is_some() || !self.has_normals;
+        if let (true, Some(known)) = (is_shared, self.placed[index]) {
+            return known;
         }
-        let index = u32::try_from(self.mesh.positions.len()).map_err(|_| "more than 2³² vertices; split the mesh")?;
-        self.known.insert(key, index);
-        self.mesh.positions.push(self.obj.positions[corner.position].map(|v| v as f32));
+        let place = self.mesh.positions.len() as u32; // no more than corners, which are counted
+        self.placed[index] = Some(place);
+        self.mesh.positions.push(part.positions.as_chunks().0[index].map(|v: f64| v as f32));
         if self.has_normals {
-            self.push_normal(key.normal, polygon);
+            self.flat_corners += usize::from(normal.is_none());
+            self.mesh.normals.push(unit(normal.copied().unwrap_or_else(|| newell(polygon))));
         }
         if self.has_uvs {
-            let layout = &self.layouts[usize::from(face.material)];
-            let uv = corner.uv.map_or([0.0; 2], |i| layout.apply(self.obj.uvs[i]));
-            self.mesh.uvs.push(uv.map(|v| v as f32));
-            self.bare_corners += usize::from(corner.uv.is_none());
+            let uv = part.texcoords.as_chunks().0.get(index);
+            self.bare_corners += usize::from(uv.is_none());
+            self.mesh.uvs.push(uv.map_or([0.0; 2], |uv| layout.apply(*uv)).map(|v| v as f32));
         }
-        Ok(index)
-    }
-
-    fn key(&self, face: &Face, corner: &Corner) -> Key {
-        let normal = match usable_normal(self.obj, corner) {
-            _ if !self.has_normals => NormalKey::None,
-            Some(index) => NormalKey::Given(index),
-            None => NormalKey::OfFace(face.first_corner),
-        };
-        let plain = self.layouts[usize::from(face.material)] == UvLayout::PLAIN;
-        Key { position: corner.position, uv: corner.uv, normal, layout: (!plain).then_some(face.material) }
-    }
-
-    fn push_normal(&mut self, key: NormalKey, polygon: &[[f64; 3]]) {
-        let normal = match key {
-            NormalKey::Given(index) => self.obj.normals[index],
-            NormalKey::OfFace(_) | NormalKey::None => {
-                self.flat_corners += 1;
-                newell(polygon)
-            }
-        };
-        self.mesh.normals.push(unit(normal));
+        place
     }
 
     fn finish(self) -> MeshAsset {
         let mut mesh = self.mesh;
-        if self.flat_corners > 0 {
-            mesh.report.push(format!("{} vertices without a usable normal take that of their face", self.flat_corners));
-        }
-        if self.bare_corners > 0 {
-            mesh.report.push(format!("{} vertices without texture coordinates stand at u = v = 0", self.bare_corners));
-        }
+        let notes = [
+            (self.flat_corners, "without a usable normal take that of their face"),
+            (self.bare_corners, "without texture coordinates stand at u = v = 0"),
+        ];
+        mesh.report.extend(notes.iter().filter(|(n, _)| *n > 0).map(|(n, told)| format!("{n} vertices {told}")));
         mesh
     }
-}
-
-/// The corner's normal where it is there and not zero.
-fn usable_normal(obj: &Obj, corner: &Corner) -> Option<usize> {
-    corner.normal.filter(|&i| obj.normals[i] != [0.0; 3])
 }
 
 /// A unit vector in 32 bits; z for a face without area, which no ray meets.
@@ -158,24 +122,25 @@ fn unit(v: [f64; 3]) -> [f32; 3] {
     scaled.map(|c| (c / length) as f32)
 }
 
-fn notes(obj: &Obj) -> Vec<String> {
+fn notes(obj: &Obj, parts: &[tobj::Mesh]) -> Vec<String> {
     let mut notes: Vec<String> = obj
         .unread
         .iter()
         .map(|(keyword, (count, line))| format!("`{keyword}` is not used ({count} times, first on line {line})"))
         .collect();
-    if let (Some(line), true) = (obj.smoothing_line, obj.normals.is_empty()) {
+    if let (Some(line), [_, _, 0]) = (obj.smoothing_line, obj.counts) {
         notes.push(format!("line {line}: smoothing groups are not used: export normals, or the mesh stays faceted"));
     }
-    notes.extend(far_from_origin(&obj.positions));
+    notes.extend(far_from_origin(parts));
     notes
 }
 
 /// Says what 32 bits cost where the rounding of a coordinate exceeds a millionth of the mesh's extent.
-fn far_from_origin(positions: &[[f64; 3]]) -> Option<String> {
-    let bound = |axis: usize, pick: fn(f64, f64) -> f64| positions.iter().map(|p| p[axis]).reduce(pick);
+fn far_from_origin(parts: &[tobj::Mesh]) -> Option<String> {
+    let coordinates = |axis: usize| parts.iter().flat_map(move |p| p.positions.iter().skip(axis).step_by(3).copied());
+    let bound = |axis: usize, pick: fn(f64, f64) -> f64| coordinates(axis).reduce(pick);
     let extent = (0..3).filter_map(|a| Some(bound(a, f64::max)? - bound(a, f64::min)?)).fold(0.0, f64::max);
-    let largest = positions.iter().flatten().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let largest = (0..3).flat_map(coordinates).fold(0.0_f64, |m, v| m.max(v.abs()));
     let rounding = largest * f64::from(f32::EPSILON) * 0.5;
     (rounding > 1e-6 * extent).then(|| {
         format!("coordinates of up to {largest} are rounded by up to {rounding:.1e} units, the mesh measures {extent}: move it to its origin")

@@ -3,14 +3,18 @@
 //! Source: B-rep and material formats of the Advanced Visualizer, Wavefront Technologies 1995, appendices B1 (OBJ) and
 //! MTL; the physically based fields (`Pr`, `Pm` …) after the proposal of Exocortex (2015).
 //!
-//! Read: `v vt vn f o g usemtl mtllib`, polygons of any number of corners (concave ones by ear clipping), relative
-//! indices, continued lines, both line ends. Not read and said so in the asset's report: lines, points, curves and
-//! surfaces, vertex colours, smoothing groups of a mesh without normals. Refused with the line: numbers that are not
-//! finite, indices out of range, faces with fewer than three corners, polygons that cross themselves.
+//! tobj parses both formats. Ours is what it passes over or has no place for (docs/decisions/obj-reading.md): each line
+//! is checked before tobj gets it, so that faults name their line, and concave polygons are cut by ear clipping.
+//!
+//! Read: `v vt vn f o g usemtl mtllib`, polygons of any number of corners, relative indices, continued lines, both line
+//! ends. Not read and said so in the asset's report: lines, points, curves and surfaces, vertex colours, smoothing
+//! groups of a mesh without normals. Refused with the line: numbers that are not finite, indices out of range, faces
+//! with fewer than three corners or of which only some have a normal, polygons that cross themselves.
 //!
 //! Coordinates are read in 64 bits and stored in 32; a mesh far from its origin is told what that costs.
 
 mod asset;
+mod fed;
 mod mtl;
 mod obj;
 mod polygon;

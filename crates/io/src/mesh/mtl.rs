@@ -7,10 +7,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use etendue_scene::asset::MtlFields;
+use etendue_scene::asset::{MtlFields, SlotMaterial};
 
+use super::fed::Fed;
 use super::statement::{Statement, statements};
-use super::texture_option::{TextureReference, parse as parse_texture};
+use super::texture_option::{UvLayout, parse as parse_texture};
 use crate::Error;
 
 /// The materials of one library, by name, and what of it is not used.
@@ -30,151 +31,126 @@ pub(super) struct LibraryMaterial {
     pub(super) place: String,
 }
 
-/// Texture coordinates become `uv · scale + offset` (MTL `-s`, `-o`).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct UvLayout {
-    pub(super) scale: [f64; 2],
-    pub(super) offset: [f64; 2],
-}
-
-impl UvLayout {
-    /// Texture coordinates as they are.
-    pub(super) const PLAIN: Self = Self { scale: [1.0; 2], offset: [0.0; 2] };
-
-    /// The coordinates by which the picture is read.
-    pub(super) fn apply(&self, uv: [f64; 2]) -> [f64; 2] {
-        std::array::from_fn(|i| uv[i] * self.scale[i] + self.offset[i])
-    }
-}
-
 /// Reads the text of `file`.
 pub(super) fn parse(file: &Path, text: &str) -> Result<Library, Error> {
-    let mut reader = Reader { file, library: Library::default(), current: None };
+    let mut scan = Scan { file, fed: Fed::default(), places: Vec::new(), report: Vec::new() };
     for statement in statements(text) {
-        reader.take(&statement).map_err(|told| Error::at(file, statement.line, told))?;
+        scan.take(&statement).map_err(|told| Error::at(file, statement.line, told))?;
     }
-    Ok(reader.library)
+    let (materials, _) = scan.fed.read(file, |text| tobj::load_mtl_buf(text))?;
+    let materials = materials.into_iter().zip(scan.places);
+    let materials = materials.map(|(material, (name, place))| (name, LibraryMaterial::new(file, &material, place)));
+    Ok(Library { materials: materials.collect(), report: scan.report })
 }
 
-struct Reader<'a> {
+/// The lines of a library: what tobj is given of them, and what is not used.
+struct Scan<'a> {
     file: &'a Path,
-    library: Library,
-    current: Option<String>,
+    fed: Fed,
+    /// The materials in order, with `file:line` of their `newmtl`.
+    places: Vec<(String, String)>,
+    report: Vec<String>,
 }
 
-impl Reader<'_> {
-    fn take(&mut self, statement: &Statement<'_>) -> Result<(), String> {
+impl Scan<'_> {
+    fn take(&mut self, statement: &Statement) -> Result<(), String> {
+        let place = format!("{}:{}", self.file.file_name().unwrap_or_default().to_string_lossy(), statement.line);
         if statement.keyword() == "newmtl" {
-            return self.begin(statement);
+            return self.begin(statement, place);
         }
-        let name =
-            self.current.clone().ok_or_else(|| format!("`{}` stands before any `newmtl`", statement.keyword()))?;
-        let notes = match self.library.materials.get_mut(&name) {
-            Some(material) => material.take(self.file, statement)?,
-            None => Vec::new(),
+        let Some((name, _)) = self.places.last() else {
+            return Err(format!("`{}` stands before any `newmtl`", statement.keyword()));
         };
-        let place = self.place(statement.line);
-        self.library.report.extend(notes.into_iter().map(|note| format!("{place}: material \"{name}\": {note}")));
-        Ok(())
-    }
-
-    fn begin(&mut self, statement: &Statement<'_>) -> Result<(), String> {
-        let name = statement.rest().to_owned();
-        if let Some(first) = self.library.materials.get(&name) {
-            return Err(format!(
-                "material \"{name}\" is defined a second time, first at {}; rename one of them",
-                first.place
-            ));
+        let (fed, notes) = field(statement)?;
+        self.report.extend(notes.into_iter().map(|note| format!("{place}: material \"{name}\": {note}")));
+        if let Some(value) = fed {
+            self.fed.push(statement.line, &format!("{} {value}", statement.keyword()));
         }
-        let place = self.place(statement.line);
-        let material = LibraryMaterial { fields: MtlFields::default(), layout: UvLayout::PLAIN, place };
-        self.library.materials.insert(name.clone(), material);
-        self.current = Some(name);
         Ok(())
     }
 
-    fn place(&self, line: usize) -> String {
-        format!("{}:{line}", self.file.file_name().unwrap_or_default().to_string_lossy())
+    fn begin(&mut self, statement: &Statement, place: String) -> Result<(), String> {
+        let name = statement.rest().to_owned();
+        if let Some((_, first)) = self.places.iter().find(|(known, _)| *known == name) {
+            return Err(format!("material \"{name}\" is defined a second time, first at {first}; rename one of them"));
+        }
+        self.fed.push(statement.line, &format!("newmtl {name}"));
+        self.places.push((name, place));
+        Ok(())
     }
+}
+
+/// Checks a field: the value for tobj, which panics at colours of fewer than three numbers, and what of it is not used.
+fn field(statement: &Statement) -> Result<(Option<String>, Vec<String>), String> {
+    let (keyword, rest) = (statement.keyword(), statement.rest());
+    let value = match keyword {
+        "Kd" | "Ks" | "Ke" | "Ka" | "Tf" => numbers(statement, 3, f64::MAX)?,
+        "Ns" | "Ni" => numbers(statement, 1, f64::MAX)?,
+        "Pr" | "Pm" | "d" | "Tr" => numbers(statement, 1, 1.0)?,
+        "illum" => numbers(statement, 1, 10.0)?,
+        "map_Kd" => return Ok((Some(rest.to_owned()), parse_texture(rest)?.notes)),
+        _ => return Ok((None, vec![format!("`{keyword}` is not used")])),
+    };
+    let note = match (keyword, value.as_str()) {
+        ("Ka", "0 0 0") | ("Tf", "1 1 1") => None,
+        ("Ka", _) => Some("`Ka` is not used: ambient light is no property of a surface".to_owned()),
+        ("Tf", _) => Some("`Tf` is not used".to_owned()),
+        _ => None,
+    };
+    Ok((Some(value), note.into_iter().collect()))
+}
+
+/// `count` numbers from 0 to `high`, as text; one number stands for all.
+fn numbers(statement: &Statement, count: usize, high: f64) -> Result<String, String> {
+    let expected = match (count, high) {
+        (3, _) => "three numbers of 0 or more".to_owned(),
+        (_, f64::MAX) => "a number of 0 or more".to_owned(),
+        _ => format!("a number from 0 to {high}"),
+    };
+    let told = |what: &str| format!("`{} {}`: {what}; expected {expected}", statement.keyword(), statement.rest());
+    let values = statement.numbers().map_err(|what| told(&what))?;
+    if values.len() != count && values.len() != 1 {
+        return Err(told(&format!("{} numbers", values.len())));
+    }
+    if values.iter().any(|v| !(0.0..=high).contains(v)) {
+        return Err(told("out of range"));
+    }
+    Ok(values.iter().cycle().take(count).map(f64::to_string).collect::<Vec<_>>().join(" "))
 }
 
 impl LibraryMaterial {
-    /// Reads one field; returns what of it is not used.
-    fn take(&mut self, file: &Path, statement: &Statement<'_>) -> Result<Vec<String>, String> {
-        let fields = &mut self.fields;
-        match statement.keyword() {
-            "Kd" => fields.diffuse = Some(colour(statement)?),
-            "Ks" => fields.specular = Some(colour(statement)?),
-            "Ke" => fields.emission = Some(colour(statement)?),
-            "Ns" => fields.exponent = Some(scalar(statement, 0.0, f64::MAX)?),
-            "Ni" => fields.index = Some(scalar(statement, 0.0, f64::MAX)?),
-            "Pr" => fields.roughness = Some(scalar(statement, 0.0, 1.0)?),
-            "Pm" => fields.metalness = Some(scalar(statement, 0.0, 1.0)?),
-            "d" => fields.opacity = Some(scalar(statement, 0.0, 1.0)?),
-            "Tr" => fields.opacity = Some(1.0 - scalar(statement, 0.0, 1.0)?),
-            "illum" => fields.illumination_model = Some(scalar(statement, 0.0, 10.0)? as u8),
-            "map_Kd" => return self.texture(file, parse_texture(statement.rest())?),
-            "Ka" | "Tf" => drop(colour(statement)?),
-            _ => {}
-        }
-        Ok(not_used(statement).into_iter().collect())
+    /// What tobj read, whose texture and physically based fields are still text. All is checked.
+    fn new(file: &Path, material: &tobj::Material, place: String) -> Self {
+        let number = |key: &str| material.unknown_param.get(key).and_then(|text| text.parse::<f64>().ok());
+        let texture = material.diffuse_texture.as_deref().and_then(|text| parse_texture(text).ok());
+        let fields = MtlFields {
+            diffuse: material.diffuse,
+            diffuse_map: texture.as_ref().map(|t| beside(file, &t.file)),
+            specular: material.specular,
+            exponent: material.shininess,
+            index: material.optical_density,
+            emission: material.emissive,
+            roughness: number("Pr"),
+            metalness: number("Pm"),
+            opacity: material.dissolve.or(number("Tr").map(|t| 1.0 - t)),
+            illumination_model: material.illumination_model,
+        };
+        Self { fields, layout: texture.map_or(UvLayout::PLAIN, |t| t.layout), place }
     }
 
-    fn texture(&mut self, file: &Path, texture: TextureReference) -> Result<Vec<String>, String> {
-        let mut notes: Vec<String> =
-            texture.unread.iter().map(|option| format!("the texture option `{option}` is not used")).collect();
-        if texture.clamp {
-            notes.push("the texture option `-clamp on` is not used: the picture repeats".to_owned());
+    /// The material in terms of a scene, and what has no place there.
+    pub(super) fn slot(&self, name: &str) -> (SlotMaterial, Vec<String>) {
+        let (material, mut notes) = self.fields.to_slot(name);
+        if self.fields.diffuse_map.is_some() && self.fields.diffuse.is_some_and(|kd| kd != [1.0; 3]) {
+            notes.push(format!("material \"{name}\": Kd is not used beside map_Kd"));
         }
-        let forward = texture.file.replace('\\', "/");
-        if forward != texture.file {
-            notes.push(format!("`{}` is read as `{forward}`", texture.file));
-        }
-        self.fields.diffuse_map = Some(beside(file, &forward));
-        self.layout = UvLayout { scale: texture.scale, offset: texture.offset };
-        Ok(notes)
+        (material, notes.into_iter().map(|note| format!("{}: {note}", self.place)).collect())
     }
 }
 
 /// `name` as meant in `file`: relative to its folder.
 pub(super) fn beside(file: &Path, name: &str) -> PathBuf {
     file.parent().unwrap_or(Path::new("")).join(name)
-}
-
-/// The note for a field that is read and has no effect. Fields of the mapping note themselves.
-fn not_used(statement: &Statement<'_>) -> Option<String> {
-    let keyword = statement.keyword();
-    match keyword {
-        "Kd" | "Ks" | "Ke" | "Ns" | "Ni" | "Pr" | "Pm" | "d" | "Tr" | "illum" => None,
-        "Ka" if statement.numbers().is_ok_and(|n| n.iter().all(|v| *v == 0.0)) => None,
-        "Tf" if statement.numbers().is_ok_and(|n| n.iter().all(|v| *v == 1.0)) => None,
-        "Ka" => Some("`Ka` is not used: ambient light is no property of a surface".to_owned()),
-        _ => Some(format!("`{keyword}` is not used")),
-    }
-}
-
-/// Three numbers of 0 or more; one number stands for all three.
-fn colour(statement: &Statement<'_>) -> Result<[f64; 3], String> {
-    let told = |what: &str| {
-        format!("`{} {}`: {what}; expected three numbers of 0 or more", statement.keyword(), statement.rest())
-    };
-    let values = match statement.numbers().map_err(|what| told(&what))?[..] {
-        [r, g, b] => [r, g, b],
-        [grey] => [grey; 3],
-        ref other => return Err(told(&format!("{} numbers", other.len()))),
-    };
-    if values.iter().any(|v| *v < 0.0) { Err(told("a negative number")) } else { Ok(values) }
-}
-
-fn scalar(statement: &Statement<'_>, low: f64, high: f64) -> Result<f64, String> {
-    let expected =
-        if high == f64::MAX { format!("a number of {low} or more") } else { format!("a number from {low} to {high}") };
-    let told = |what: &str| format!("`{} {}`: {what}; expected {expected}", statement.keyword(), statement.rest());
-    match statement.numbers().map_err(|what| told(&what))?[..] {
-        [value] if (low..=high).contains(&value) => Ok(value),
-        [_] => Err(told("out of range")),
-        ref other => Err(told(&format!("{} numbers", other.len()))),
-    }
 }
 
 #[cfg(test)]

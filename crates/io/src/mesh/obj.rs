@@ -1,206 +1,174 @@
-//! The text of an OBJ file as polygons.
+//! The lines of an OBJ file: what tobj is given of them, and what it would pass over.
+//!
+//! tobj accepts coordinates that are not finite, takes the index 0 for none, lines for faces and colours for part of a
+//! vertex, and loses which corners have no normal where some have: its vertex data stay in step only where all faces of
+//! a model have the same form. So each line is checked here, and a group begins wherever the form changes.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use super::fed::Fed;
 use super::statement::{Statement, statements};
 use crate::Error;
 
-/// What an OBJ file says, in 64 bits, polygons whole.
+/// What a corner names, in order.
+const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
+
+/// What is known of an OBJ file before tobj reads it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Obj {
-    pub(super) positions: Vec<[f64; 3]>,
-    pub(super) normals: Vec<[f64; 3]>,
-    /// v grows upwards.
-    pub(super) uvs: Vec<[f64; 2]>,
-    pub(super) corners: Vec<Corner>,
-    pub(super) faces: Vec<Face>,
-    /// Names of materials in order of first use.
-    pub(super) materials: Vec<MaterialUse>,
+    pub(super) fed: Fed,
+    /// Names of materials in order of first use, with its line; faces before any have the empty name and no line.
+    pub(super) materials: Vec<(String, Option<usize>)>,
     /// Material libraries with their lines, as written.
     pub(super) libraries: Vec<(String, usize)>,
     /// What is not read, by keyword: how often, and on which line first.
     pub(super) unread: BTreeMap<String, (usize, usize)>,
     /// First line that switches smoothing on.
     pub(super) smoothing_line: Option<usize>,
+    /// How many of each of [`KINDS`] are read.
+    pub(super) counts: [usize; 3],
+    /// Indices that point ahead, with their kind and line.
+    ahead: Vec<(usize, isize, usize)>,
+    corners: u32,
+    form: [bool; 3],
 }
 
-/// A corner of a face: indices from 0.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) struct Corner {
-    pub(super) position: usize,
-    pub(super) uv: Option<usize>,
-    pub(super) normal: Option<usize>,
-}
-
-/// A polygon.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Face {
-    pub(super) first_corner: usize,
-    pub(super) corner_count: usize,
-    pub(super) material: u16,
-    pub(super) line: usize,
-}
-
-/// A material by name, with the line of its first `usemtl`; faces before any have the empty name and no line.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct MaterialUse {
-    pub(super) name: String,
-    pub(super) line: Option<usize>,
-}
-
-/// Reads the text of `file`.
-pub(super) fn parse(file: &Path, text: &str) -> Result<Obj, Error> {
-    let mut reader = Reader::default();
+/// Checks the text of `file`.
+pub(super) fn scan(file: &Path, text: &str) -> Result<Obj, Error> {
+    let mut obj = Obj::default();
+    obj.fed.push(0, "mtllib materials");
     for statement in statements(text) {
-        reader.take(&statement).map_err(|told| Error::at(file, statement.line, told))?;
+        obj.take(&statement).map_err(|told| Error::at(file, statement.line, told))?;
     }
-    reader.obj.check_indices().map_err(|(line, told)| Error::at(file, line, told))?;
-    if reader.obj.faces.is_empty() {
+    if let Some((kind, index, line)) = obj.ahead.iter().find(|(kind, index, _)| *index > obj.counts[*kind] as isize) {
+        return Err(Error::at(file, *line, out_of_range(KINDS[*kind], *index, obj.counts[*kind])));
+    }
+    if obj.corners == 0 {
         return Err(Error::new(
             file,
             "this mesh has no faces; the file may be truncated, or hold only lines or points",
         ));
     }
-    Ok(reader.obj)
+    Ok(obj)
 }
 
-#[derive(Default)]
-struct Reader {
-    obj: Obj,
-    material: Option<u16>,
-}
+impl Obj {
+    /// The polygons by material and form, each part with vertices of its own. A part's material is an index to
+    /// `materials`.
+    pub(super) fn parts(&self, file: &Path) -> Result<Vec<tobj::Mesh>, Error> {
+        let slots = |_: &Path| Ok((Vec::new(), self.materials.iter().map(|(name, _)| name.clone()).zip(0..).collect()));
+        let options = tobj::LoadOptions { single_index: true, ..tobj::LoadOptions::default() };
+        let (models, _no_materials) = self.fed.read(file, |text| tobj::load_obj_buf(text, &options, slots))?;
+        Ok(models.into_iter().map(|model| model.mesh).collect())
+    }
 
-impl Reader {
-    fn take(&mut self, statement: &Statement<'_>) -> Result<(), String> {
+    fn take(&mut self, statement: &Statement) -> Result<(), String> {
+        let (line, rest) = (statement.line, statement.rest());
         match statement.keyword() {
             "v" => self.vertex(statement)?,
-            "vn" => self.obj.normals.push(components(statement, 3, 3)?),
-            "vt" => self.obj.uvs.push(components(statement, 1, 3)?),
+            "vt" => self.feed(1, statement, &format!("{rest} 0"))?,
+            "vn" => self.feed(2, statement, rest)?,
             "f" => self.face(statement)?,
-            "usemtl" => self.material = Some(self.material_slot(statement.rest(), Some(statement.line))?),
-            "mtllib" => self.obj.libraries.push((statement.rest().to_owned(), statement.line)),
-            "s" => self.smoothing(statement),
+            "usemtl" => self.use_material(rest, Some(line))?,
+            "mtllib" => self.libraries.push((rest.to_owned(), line)),
+            "s" if matches!(rest, "off" | "0" | "") => {}
+            "s" => drop(self.smoothing_line.get_or_insert(line)),
             "o" | "g" => {}
-            other => self.pass_over(other, statement.line),
+            other => self.pass_over(other, line),
         }
         Ok(())
     }
 
-    fn vertex(&mut self, statement: &Statement<'_>) -> Result<(), String> {
+    fn vertex(&mut self, statement: &Statement) -> Result<(), String> {
         let numbers = statement.numbers()?;
         if let Some(far) = numbers.iter().find(|v| v.abs() > f64::from(f32::MAX)) {
             return Err(format!("coordinate {far:e} is beyond the range of 32-bit floats"));
         }
         match numbers[..] {
-            [x, y, z] | [x, y, z, 1.0] => self.obj.positions.push([x, y, z]),
+            [x, y, z] | [x, y, z, 1.0] => self.feed(0, statement, &format!("{x} {y} {z}")),
             [_, _, _, w] => {
-                return Err(format!(
-                    "vertex with the weight {w}; expected three coordinates, weights belong to curves"
-                ));
+                Err(format!("vertex with the weight {w}; expected three coordinates, weights belong to curves"))
             }
             [x, y, z, _, _, _] => {
-                self.obj.positions.push([x, y, z]);
                 self.pass_over("v with a colour", statement.line);
+                self.feed(0, statement, &format!("{x} {y} {z}"))
             }
-            _ => return Err(wrong_count("v", "3 coordinates", numbers.len())),
+            _ => Err(wrong_count("v", "3 coordinates", numbers.len())),
         }
+    }
+
+    /// Gives tobj one of `kind` if its numbers are finite. Too few are left to tobj.
+    fn feed(&mut self, kind: usize, statement: &Statement, numbers: &str) -> Result<(), String> {
+        let found = statement.numbers()?.len();
+        if kind > 0 && found > 3 {
+            return Err(format!("`{}` has {found} numbers, expected at most 3", statement.keyword()));
+        }
+        self.counts[kind] += 1;
+        self.fed.push(statement.line, &format!("{} {numbers}", statement.keyword()));
         Ok(())
     }
 
-    fn face(&mut self, statement: &Statement<'_>) -> Result<(), String> {
-        let first_corner = self.obj.corners.len();
-        for word in statement.words() {
-            let corner = self.corner(word)?;
-            self.obj.corners.push(corner);
-        }
-        let corner_count = self.obj.corners.len() - first_corner;
-        if corner_count < 3 {
-            return Err(wrong_count("f", "3 or more corners", corner_count));
-        }
-        let material = match self.material {
-            Some(slot) => slot,
-            None => self.material_slot("", None)?,
+    fn face(&mut self, statement: &Statement) -> Result<(), String> {
+        let forms = statement.words().map(|w| self.corner(w, statement.line)).collect::<Result<Vec<_>, _>>()?;
+        let [form, _, _, ..] = forms[..] else {
+            return Err(wrong_count("f", "3 or more corners", forms.len()));
         };
-        self.obj.faces.push(Face { first_corner, corner_count, material, line: statement.line });
+        if !form[0] || forms.iter().any(|f| *f != form) {
+            return Err(format!(
+                "corners of no form or of several in `f {}`; expected all as v, v/vt, v//vn or v/vt/vn",
+                statement.rest()
+            ));
+        }
+        let corners = u32::try_from(forms.len()).ok().and_then(|n| self.corners.checked_add(n));
+        self.corners = corners.ok_or("more than 2³² corners of faces; split the mesh")?;
+        if self.materials.is_empty() {
+            self.use_material("", None)?;
+        }
+        if self.form != form {
+            self.form = form;
+            self.fed.push(statement.line, "g");
+        }
+        self.fed.push(statement.line, &format!("f {}", statement.rest()));
         Ok(())
     }
 
-    fn corner(&self, word: &str) -> Result<Corner, String> {
-        let mut parts = word.split('/');
-        let mut part = |name: &str, count: usize| match parts.next() {
-            None | Some("") => Ok(None),
-            Some(text) => index(text, name, count).map(Some),
-        };
-        let position = part("vertex", self.obj.positions.len())?;
-        let uv = part("texture coordinate", self.obj.uvs.len())?;
-        let normal = part("normal", self.obj.normals.len())?;
-        match (position, parts.next()) {
-            (Some(position), None) => Ok(Corner { position, uv, normal }),
-            _ => Err(format!("`{word}` is not a corner of a face; expected v, v/vt, v//vn or v/vt/vn")),
+    /// Which of [`KINDS`] a corner names, each in range. What is no index at all is left to tobj.
+    fn corner(&mut self, word: &str, line: usize) -> Result<[bool; 3], String> {
+        let mut form = [false; 3];
+        for (kind, text) in word.split('/').enumerate().take(3) {
+            form[kind] = !text.is_empty();
+            let Ok(stated) = text.parse::<isize>() else { continue };
+            let count = self.counts[kind];
+            if stated == 0 || (stated < 0 && count.checked_add_signed(stated).is_none()) {
+                return Err(out_of_range(KINDS[kind], stated, count));
+            }
+            if stated > count as isize {
+                self.ahead.push((kind, stated, line));
+            }
         }
+        Ok(form)
     }
 
-    fn material_slot(&mut self, name: &str, line: Option<usize>) -> Result<u16, String> {
-        let known = self.obj.materials.iter().position(|m| m.name == name);
-        let slot = known.unwrap_or(self.obj.materials.len());
-        if known.is_none() {
-            self.obj.materials.push(MaterialUse { name: name.to_owned(), line });
+    fn use_material(&mut self, name: &str, line: Option<usize>) -> Result<(), String> {
+        if !self.materials.iter().any(|(known, _)| known == name) {
+            self.materials.push((name.to_owned(), line));
         }
-        u16::try_from(slot).map_err(|_| "more than 65 536 materials in one mesh; split the mesh".to_owned())
-    }
-
-    fn smoothing(&mut self, statement: &Statement<'_>) {
-        if !matches!(statement.rest(), "off" | "0" | "") {
-            self.obj.smoothing_line.get_or_insert(statement.line);
+        if self.materials.len() > 1 << 16 {
+            return Err("more than 65 536 materials in one mesh; split the mesh".to_owned());
         }
+        if let Some(line) = line {
+            self.fed.push(line, &format!("usemtl {name}"));
+        }
+        Ok(())
     }
 
     fn pass_over(&mut self, keyword: &str, line: usize) {
-        self.obj.unread.entry(keyword.to_owned()).or_insert((0, line)).0 += 1;
+        self.unread.entry(keyword.to_owned()).or_insert((0, line)).0 += 1;
     }
 }
 
-impl Obj {
-    /// Absolute indices may point ahead, so they are checked when everything is read.
-    fn check_indices(&self) -> Result<(), (usize, String)> {
-        for face in &self.faces {
-            for corner in self.corners_of(face) {
-                let within = |index: Option<usize>, name: &str, count: usize| match index {
-                    Some(i) if i >= count => Err((face.line, out_of_range(name, &(i + 1).to_string(), count))),
-                    _ => Ok(()),
-                };
-                within(Some(corner.position), "vertex", self.positions.len())?;
-                within(corner.uv, "texture coordinate", self.uvs.len())?;
-                within(corner.normal, "normal", self.normals.len())?;
-            }
-        }
-        Ok(())
-    }
-
-    /// The corners of `face`.
-    pub(super) fn corners_of(&self, face: &Face) -> &[Corner] {
-        &self.corners[face.first_corner..face.first_corner + face.corner_count]
-    }
-}
-
-/// Between `least` and `most` numbers, of which the first `N` count; what is missing is 0.
-fn components<const N: usize>(statement: &Statement<'_>, least: usize, most: usize) -> Result<[f64; N], String> {
-    let numbers = statement.numbers()?;
-    if !(least..=most).contains(&numbers.len()) {
-        return Err(wrong_count(statement.keyword(), &format!("{least} to {most} numbers"), numbers.len()));
-    }
-    Ok(std::array::from_fn(|i| numbers.get(i).copied().unwrap_or(0.0)))
-}
-
-/// An index from 0: `text` counts from 1, or backwards from the last of the `count` read so far.
-fn index(text: &str, name: &str, count: usize) -> Result<usize, String> {
-    let stated: i64 = text.parse().map_err(|_| format!("`{text}` is not an index of a {name}"))?;
-    let from_0 = if stated < 0 { i64::try_from(count).unwrap_or(i64::MAX) + stated } else { stated - 1 };
-    usize::try_from(from_0).map_err(|_| out_of_range(name, text, count))
-}
-
-fn out_of_range(name: &str, stated: &str, count: usize) -> String {
+fn out_of_range(name: &str, stated: isize, count: usize) -> String {
     format!("face names {name} {stated}, but there are {count}; the file is damaged or truncated")
 }
 
@@ -212,8 +180,11 @@ fn wrong_count(keyword: &str, expected: &str, found: usize) -> String {
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> Result<Obj, String> {
-        parse(Path::new("a.obj"), text).map_err(|e| e.to_string())
+    fn read(text: &str) -> Result<(Obj, Vec<tobj::Mesh>), String> {
+        let file = Path::new("a.obj");
+        let obj = scan(file, text).map_err(|e| e.to_string())?;
+        let parts = obj.parts(file).map_err(|e| e.to_string())?;
+        Ok((obj, parts))
     }
 
     const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -224,14 +195,12 @@ mod tests {
 
     #[test]
     fn relative_indices_and_every_form_of_corner_are_read() {
-        let obj = read(&format!(
-            "{TRIANGLE}vt 0.5\nvn 0 0 1\nf -3 -2 -1\nf 1/1 2/1 3/-1\nf 1//1 2//1 3//-1\nf 1/1/1 2/1/1 3/1/1"
-        ));
-        let obj = obj.expect("readable");
-        assert_eq!(obj.faces.len(), 4);
-        assert!(obj.faces.iter().all(|f| obj.corners_of(f).iter().map(|c| c.position).eq([0, 1, 2])));
-        assert_eq!(obj.corners_of(&obj.faces[2])[2], Corner { position: 2, uv: None, normal: Some(0) });
-        assert_eq!(obj.uvs, [[0.5, 0.0]]);
+        let forms = "f -3 -2 -1\no a\nf 1 2 3\nf 1/1 2/1 3/-1\nf 1//1 2//1 3//-1\nf 1/1/1 2/1/1 3/1/1";
+        let (_, parts) = read(&format!("{TRIANGLE}vt 0.5\nvn 0 0 1\n{forms}")).expect("readable");
+        let sizes: Vec<_> = parts.iter().map(|p| (p.indices.len(), p.texcoords.len(), p.normals.len())).collect();
+        assert_eq!(sizes, [(6, 0, 0), (3, 6, 0), (3, 0, 9), (3, 6, 9)], "a part for each form");
+        assert!(parts.iter().all(|p| p.positions == [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]));
+        assert_eq!(parts[1].texcoords[..2], [0.5, 0.0]);
     }
 
     #[test]
@@ -249,7 +218,7 @@ mod tests {
             "a.obj:4: face names vertex 0, but there are 3; the file is damaged or truncated"
         );
         assert_eq!(
-            refused("\nf 1/1 2 3"),
+            refused("\nf 1/1 2/1 3/1"),
             "a.obj:5: face names texture coordinate 1, but there are 0; the file is damaged or truncated"
         );
         assert_eq!(refused("v 0 nan 0"), "a.obj:4: `nan` is not finite; expected a finite number");
@@ -262,29 +231,41 @@ mod tests {
             refused("f 1 2 3\nf 1 2"),
             "a.obj:5: `f` has 2, expected 3 or more corners; the line may be cut off"
         );
-        assert_eq!(refused("f 1 2 x"), "a.obj:4: `x` is not an index of a vertex");
+        assert_eq!(refused("f 1 2 x"), "a.obj:4: `f 1 2 x` is refused (face parse error); correct or remove this line");
         assert_eq!(
-            refused("f 1 2 3/1/1/1"),
-            "a.obj:4: `3/1/1/1` is not a corner of a face; expected v, v/vt, v//vn or v/vt/vn"
+            refused("vt 0 0\nvn 0 0 1\nf 1 2 3/1/1/1"),
+            "a.obj:6: corners of no form or of several in `f 1 2 3/1/1/1`; expected all as v, v/vt, v//vn or v/vt/vn"
         );
+        assert_eq!(
+            refused("vn 0 0 1\nf 1//1 2//0 3//1"),
+            "a.obj:5: face names normal 0, but there are 1; the file is damaged or truncated"
+        );
+        assert!(refused("vt 0 0\nf /1 /1 /1").starts_with("a.obj:5: corners of no form or of several"));
+        assert_eq!(
+            refused("usemtl\nf 1 2 3"),
+            "a.obj:4: `usemtl ` is refused (material parse error); correct or remove this line"
+        );
+        assert_eq!(refused("vn 0 0 1 1"), "a.obj:4: `vn` has 4 numbers, expected at most 3");
         assert!(refused("").contains("no faces"));
     }
 
     #[test]
     fn materials_are_slots_in_order_of_use() {
-        let obj = read(&format!(
+        let (obj, parts) = read(&format!(
             "{TRIANGLE}f 1 2 3\no part\nusemtl red paint\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl red paint\nf 1 2 3"
-        ));
-        let obj = obj.expect("readable");
-        let names: Vec<&str> = obj.materials.iter().map(|m| m.name.as_str()).collect();
+        ))
+        .expect("readable");
+        let names: Vec<&str> = obj.materials.iter().map(|(name, _)| name.as_str()).collect();
         assert_eq!(names, ["", "red paint", "b"]);
-        assert!(obj.faces.iter().map(|f| f.material).eq([0, 1, 2, 1]));
-        assert_eq!(obj.materials[1].line, Some(6));
+        assert!(parts.iter().map(|p| p.material_id).eq([None, Some(1), Some(2), Some(1)]));
+        assert_eq!(obj.materials[1].1, Some(6));
     }
 
     #[test]
     fn what_is_not_read_is_counted() {
-        let obj = read(&format!("{TRIANGLE}v 0 0 1 0.5 0.5 0.5\nl 1 2\nl 2 3\ns 1\nf 1 2 3")).expect("readable");
+        let (obj, parts) =
+            read(&format!("{TRIANGLE}v 0 0 1 0.5 0.5 0.5\nl 1 2 3\nl 2 3\ns 1\nf 1 2 3")).expect("readable");
+        assert_eq!(parts[0].indices, [0, 1, 2]);
         assert_eq!(obj.unread["l"], (2, 5));
         assert_eq!(obj.unread["v with a colour"], (1, 4));
         assert_eq!(obj.smoothing_line, Some(7));

@@ -1,11 +1,13 @@
 //! Material slots of a mesh: the materials that its faces use, looked up in its libraries.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use etendue_scene::asset::SlotMaterial;
 
-use super::mtl::{Library, LibraryMaterial, UvLayout, beside, parse};
-use super::obj::{MaterialUse, Obj};
+use super::mtl::{beside, parse};
+use super::obj::Obj;
+use super::texture_option::UvLayout;
 use crate::Error;
 use crate::source::{decode_text, read_bytes};
 
@@ -21,47 +23,34 @@ pub(super) struct Slots {
 /// Reads the libraries that `obj` (read from `file`) names and finds the materials that it uses.
 pub(super) fn slots(file: &Path, obj: &Obj) -> Result<Slots, Error> {
     let mut slots = Slots::default();
-    let mut libraries = Vec::new();
+    let mut known = BTreeMap::new();
     for path in library_paths(file, obj)? {
         let bytes = read_bytes(&path, "material library")?;
-        libraries.push(parse(&path, decode_text(&path, &bytes)?)?);
+        let library = parse(&path, decode_text(&path, &bytes)?)?;
+        for (name, material) in library.materials {
+            known.entry(name).or_insert(material); // the first library counts
+        }
+        slots.report.extend(library.report);
         slots.library_bytes.push(bytes);
     }
-    for library in &libraries {
-        slots.report.extend(library.report.iter().cloned());
-    }
-    for wanted in &obj.materials {
-        slots.add(file, wanted, &libraries);
+    for (name, line) in &obj.materials {
+        let (material, layout) = if let Some(found) = known.get(name) {
+            let (material, notes) = found.slot(name);
+            slots.report.extend(notes);
+            (material, found.layout)
+        } else {
+            let place = line.map(|line| format!("{}:{line}", file.file_name().unwrap_or_default().to_string_lossy()));
+            slots.report.extend(
+                place.map(|place| {
+                    format!("{place}: material \"{name}\" is in no material library; say it in the scene")
+                }),
+            );
+            (SlotMaterial { name: name.clone(), surface: None }, UvLayout::PLAIN)
+        };
+        slots.materials.push(material);
+        slots.layouts.push(layout);
     }
     Ok(slots)
-}
-
-impl Slots {
-    fn add(&mut self, file: &Path, wanted: &MaterialUse, libraries: &[Library]) {
-        let found = libraries.iter().find_map(|library| library.materials.get(&wanted.name));
-        let (material, layout) = match found {
-            Some(found) => self.take_from_library(&wanted.name, found),
-            None => (SlotMaterial { name: wanted.name.clone(), surface: None }, UvLayout::PLAIN),
-        };
-        if let (None, Some(line)) = (found, wanted.line) {
-            let obj = file.file_name().unwrap_or_default().to_string_lossy();
-            self.report.push(format!(
-                "{obj}:{line}: material \"{}\" is in no material library; say it in the scene",
-                wanted.name
-            ));
-        }
-        self.materials.push(material);
-        self.layouts.push(layout);
-    }
-
-    fn take_from_library(&mut self, name: &str, found: &LibraryMaterial) -> (SlotMaterial, UvLayout) {
-        let (material, notes) = found.fields.to_slot(name);
-        self.report.extend(notes.into_iter().map(|note| format!("{}: {note}", found.place)));
-        if found.fields.diffuse_map.is_some() && found.fields.diffuse.is_some_and(|kd| kd != [1.0; 3]) {
-            self.report.push(format!("{}: material \"{name}\": Kd is not used beside map_Kd", found.place));
-        }
-        (material, found.layout)
-    }
 }
 
 /// The library files, each once. A name may hold blanks, and one statement may name several files: the whole is tried
@@ -70,11 +59,8 @@ fn library_paths(file: &Path, obj: &Obj) -> Result<Vec<PathBuf>, Error> {
     let mut paths: Vec<PathBuf> = Vec::new();
     for (rest, line) in &obj.libraries {
         let whole = beside(file, rest);
-        let named: Vec<PathBuf> = if whole.exists() {
-            vec![whole]
-        } else {
-            rest.split_ascii_whitespace().map(|name| beside(file, name)).collect()
-        };
+        let named: Vec<PathBuf> =
+            if whole.exists() { vec![whole] } else { rest.split_whitespace().map(|name| beside(file, name)).collect() };
         if named.is_empty() {
             return Err(Error::at(file, *line, "`mtllib` without a file name"));
         }
@@ -85,7 +71,7 @@ fn library_paths(file: &Path, obj: &Obj) -> Result<Vec<PathBuf>, Error> {
         }
         paths.extend(named);
     }
-    let mut seen = std::collections::BTreeSet::new();
+    let mut seen = BTreeSet::new();
     paths.retain(|path| seen.insert(path.clone()));
     Ok(paths)
 }

@@ -1,16 +1,16 @@
 //! Lines of OBJ and MTL files as statements: a keyword and its words, with the line they begin on.
-
-use std::borrow::Cow;
+//!
+//! Blanks are those of Unicode, as tobj has them.
 
 /// One statement: a line without its comment and outer blanks, never empty.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Statement<'a> {
+pub(super) struct Statement {
     /// Line it begins on, from 1.
     pub(super) line: usize,
-    text: Cow<'a, str>,
+    text: String,
 }
 
-impl Statement<'_> {
+impl Statement {
     /// The first word.
     pub(super) fn keyword(&self) -> &str {
         &self.text[..self.keyword_end()]
@@ -18,12 +18,12 @@ impl Statement<'_> {
 
     /// The rest, without blanks at its ends.
     pub(super) fn rest(&self) -> &str {
-        self.text[self.keyword_end()..].trim_ascii()
+        self.text[self.keyword_end()..].trim()
     }
 
     /// The words behind the keyword.
     pub(super) fn words(&self) -> impl Iterator<Item = &str> {
-        self.rest().split_ascii_whitespace()
+        self.rest().split_whitespace()
     }
 
     /// The words as numbers; the fault in words where one is none.
@@ -32,7 +32,7 @@ impl Statement<'_> {
     }
 
     fn keyword_end(&self) -> usize {
-        self.text.find([' ', '\t']).unwrap_or(self.text.len())
+        self.text.find(char::is_whitespace).unwrap_or(self.text.len())
     }
 }
 
@@ -43,15 +43,15 @@ pub(super) fn number(word: &str) -> Result<f64, String> {
 }
 
 /// The statements of `text`: comments and empty lines left out, lines that end in a backslash joined.
-pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
+pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement> {
     let mut lines = text.lines().enumerate();
     std::iter::from_fn(move || {
         loop {
             let (index, first) = lines.next()?;
-            let mut whole = trimmed(first);
+            let mut whole = trimmed(first).to_owned();
             while let Some(head) = whole.strip_suffix('\\') {
-                let next = lines.next().map_or(Cow::Borrowed(""), |(_, line)| trimmed(line));
-                whole = format!("{head} {next}").trim_ascii().to_owned().into();
+                let next = lines.next().map_or("", |(_, line)| trimmed(line));
+                whole = format!("{head} {next}").trim().to_owned();
             }
             if !whole.is_empty() {
                 return Some(Statement { line: index + 1, text: whole });
@@ -61,10 +61,10 @@ pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
 }
 
 /// A line without blanks at its ends and without what follows a `#` that begins a word: names may hold one inside.
-fn trimmed(line: &str) -> Cow<'_, str> {
-    let begins = |&(at, _): &(usize, &str)| at == 0 || line[..at].ends_with([' ', '\t']);
+fn trimmed(line: &str) -> &str {
+    let begins = |&(at, _): &(usize, &str)| at == 0 || line[..at].ends_with(char::is_whitespace);
     let end = line.match_indices('#').find(begins).map_or(line.len(), |(at, _)| at);
-    Cow::Borrowed(line[..end].trim_ascii())
+    line[..end].trim()
 }
 
 #[cfg(test)]

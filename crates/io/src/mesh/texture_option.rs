@@ -4,32 +4,47 @@
 
 use super::statement::number;
 
+/// Texture coordinates become `uv · scale + offset` (MTL `-s`, `-o`).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct UvLayout {
+    pub(super) scale: [f64; 2],
+    pub(super) offset: [f64; 2],
+}
+
+impl UvLayout {
+    /// Texture coordinates as they are.
+    pub(super) const PLAIN: Self = Self { scale: [1.0; 2], offset: [0.0; 2] };
+
+    /// The coordinates by which the picture is read.
+    pub(super) fn apply(&self, uv: [f64; 2]) -> [f64; 2] {
+        std::array::from_fn(|i| uv[i] * self.scale[i] + self.offset[i])
+    }
+}
+
 /// A texture as a material library names it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct TextureReference {
-    /// File name as written.
+    /// File name, with forward slashes.
     pub(super) file: String,
-    /// Multiplies texture coordinates.
-    pub(super) scale: [f64; 2],
-    /// Is added to texture coordinates.
-    pub(super) offset: [f64; 2],
-    /// `-clamp on`.
-    pub(super) clamp: bool,
-    /// Options that are not read, as written.
-    pub(super) unread: Vec<String>,
+    pub(super) layout: UvLayout,
+    /// What of the text is not used or read otherwise.
+    pub(super) notes: Vec<String>,
 }
 
 /// Reads everything behind the keyword.
-pub(super) fn parse(rest: &str) -> Result<TextureReference, String> {
-    let mut texture =
-        TextureReference { file: String::new(), scale: [1.0; 2], offset: [0.0; 2], clamp: false, unread: Vec::new() };
-    let mut rest = rest.trim_ascii_start();
+pub(super) fn parse(text: &str) -> Result<TextureReference, String> {
+    let mut texture = TextureReference { file: String::new(), layout: UvLayout::PLAIN, notes: Vec::new() };
+    let mut rest = text;
     while let Some((option, after)) = next_option(rest) {
         rest = texture.take(option, after)?;
     }
-    rest.trim_ascii().clone_into(&mut texture.file);
-    if texture.file.is_empty() {
+    let name = rest.trim();
+    if name.is_empty() {
         return Err("texture without a file name".to_owned());
+    }
+    texture.file = name.replace('\\', "/");
+    if texture.file != name {
+        texture.notes.push(format!("`{name}` is read as `{}`", texture.file));
     }
     Ok(texture)
 }
@@ -44,42 +59,28 @@ fn next_option(rest: &str) -> Option<(&str, &str)> {
 }
 
 fn first_word(text: &str) -> Option<(&str, &str)> {
-    let text = text.trim_ascii_start();
-    let end = text.find([' ', '\t']).unwrap_or(text.len());
+    let text = text.trim_start();
+    let end = text.find(char::is_whitespace).unwrap_or(text.len());
     (end > 0).then(|| text.split_at(end))
 }
 
 impl TextureReference {
+    /// Reads an option; what follows it.
     fn take<'a>(&mut self, option: &str, after: &'a str) -> Result<&'a str, String> {
         match option {
-            "-s" => self.vector(option, after, |t| &mut t.scale),
-            "-o" => self.vector(option, after, |t| &mut t.offset),
-            "-clamp" => {
-                let (word, after) = first_word(after).ok_or("`-clamp` without on or off")?;
-                self.clamp = word == "on";
-                Ok(after)
-            }
+            "-s" => vector(option, after, &mut self.layout.scale),
+            "-o" => vector(option, after, &mut self.layout.offset),
             "-t" => Ok(self.pass_over(option, after, numbers(after, 3).0.len())),
             "-mm" => Ok(self.pass_over(option, after, 2)),
+            "-clamp" => {
+                let (word, after) = first_word(after).ok_or("`-clamp` without on or off")?;
+                if word == "on" {
+                    self.notes.push("the texture option `-clamp on` is not used: the picture repeats".to_owned());
+                }
+                Ok(after)
+            }
             _ => Ok(self.pass_over(option, after, 1)),
         }
-    }
-
-    fn vector<'a>(
-        &mut self,
-        option: &str,
-        after: &'a str,
-        field: fn(&mut Self) -> &mut [f64; 2],
-    ) -> Result<&'a str, String> {
-        let (values, after) = numbers(after, 3);
-        let [u, rest @ ..] = &values[..] else { return Err(format!("`{option}` without a number")) };
-        let v = rest.first();
-        let field = field(self);
-        field[0] = *u;
-        if let Some(v) = v {
-            field[1] = *v;
-        }
-        Ok(after)
     }
 
     fn pass_over<'a>(&mut self, option: &str, after: &'a str, words: usize) -> &'a str {
@@ -87,9 +88,20 @@ impl TextureReference {
         for _ in 0..words {
             rest = first_word(rest).map_or(rest, |(_, after)| after);
         }
-        self.unread.push(format!("{option}{}", &after[..after.len() - rest.len()]));
+        let passed_over = &after[..after.len() - rest.len()];
+        self.notes.push(format!("the texture option `{option}{passed_over}` is not used"));
         rest
     }
+}
+
+/// Reads the first two of up to three numbers into `field`; what follows them.
+fn vector<'a>(option: &str, after: &'a str, field: &mut [f64; 2]) -> Result<&'a str, String> {
+    let (values, rest) = numbers(after, 3);
+    if values.is_empty() {
+        return Err(format!("`{option}` without a number"));
+    }
+    field.iter_mut().zip(values).for_each(|(field, value)| *field = value);
+    Ok(rest)
 }
 
 /// Up to `most` numbers at the head of `text`, and what follows them.
@@ -98,7 +110,7 @@ fn numbers(text: &str, most: usize) -> (Vec<f64>, &str) {
     let mut rest = text;
     while values.len() < most {
         let Some((word, after)) = first_word(rest) else { break };
-        let (Ok(value), false) = (number(word), after.trim_ascii().is_empty()) else { break };
+        let (Ok(value), false) = (number(word), after.trim().is_empty()) else { break };
         values.push(value);
         rest = after;
     }
@@ -113,8 +125,15 @@ mod tests {
     fn options_are_parted_from_a_name_with_blanks() {
         let texture = parse("-s 2 3 1 -o 0.5 -blendu on -mm 0 1 -clamp on  my wall.png ").expect("readable");
         assert_eq!(texture.file, "my wall.png");
-        assert_eq!((texture.scale, texture.offset, texture.clamp), ([2.0, 3.0], [0.5, 0.0], true));
-        assert_eq!(texture.unread, ["-blendu on", "-mm 0 1"]);
+        assert_eq!(texture.layout, UvLayout { scale: [2.0, 3.0], offset: [0.5, 0.0] });
+        assert_eq!(
+            texture.notes,
+            [
+                "the texture option `-blendu on` is not used",
+                "the texture option `-mm 0 1` is not used",
+                "the texture option `-clamp on` is not used: the picture repeats",
+            ]
+        );
     }
 
     #[test]
