@@ -45,7 +45,11 @@ pub(super) fn document(file: &Path, read: &ReadText<'_>, named: &Place, faults: 
         Ok(text) => text,
         Err(why) => {
             let problem = format!("cannot read \"{}\": {why}", file.display());
-            faults.add(named, problem, "correct the path, which is relative to the file that names it");
+            let remedy = match named.file() == file {
+                true => "correct the path",
+                false => "correct the path, which is relative to the file that names it",
+            };
+            faults.add(named, problem, remedy);
             return None;
         }
     };
