@@ -8,6 +8,10 @@ pub struct Distribution1 {
     weights: Vec<f32>,
     /// `cumulative[i]` = share of the weights before `i`; one more entry than weights; the last is exactly 1.
     cumulative: Vec<f64>,
+    /// For each of as many equal steps of `u` as there are pieces, the piece in which the step begins.
+    guide: Vec<u32>,
+    /// The last piece of positive weight.
+    last: usize,
     mean: f64,
 }
 
@@ -30,7 +34,8 @@ impl Distribution1 {
         }
         cumulative.push(1.0);
         let mean = total / weights.len() as f64;
-        Some(Self { weights, cumulative, mean })
+        let last = weights.iter().rposition(|w| *w > 0.0)?;
+        Some(Self { guide: guide(&cumulative), weights, cumulative, last, mean })
     }
 
     /// Number of pieces.
@@ -61,8 +66,12 @@ impl Distribution1 {
     #[must_use]
     pub fn sample_discrete(&self, u: f32) -> (usize, f32) {
         let u = f64::from(u);
-        let last = self.weights.iter().rposition(|w| *w > 0.0).unwrap_or(0);
-        let i = self.cumulative.partition_point(|c| *c <= u).saturating_sub(1).min(last);
+        let step = ((u * self.guide.len() as f64) as usize).min(self.guide.len() - 1);
+        let mut i = self.guide[step] as usize;
+        while i < self.last && self.cumulative[i + 1] <= u {
+            i += 1;
+        }
+        let i = i.min(self.last);
         let (low, high) = (self.cumulative[i], self.cumulative[i + 1]);
         let within = if high > low { ((u - low) / (high - low)) as f32 } else { 0.0 };
         (i, within.clamp(0.0, ONE_BELOW))
@@ -86,6 +95,20 @@ impl Distribution1 {
     fn pdf_of_piece(&self, i: usize) -> f32 {
         (f64::from(self.weights[i]) / self.mean) as f32
     }
+}
+
+/// Where in the table to begin looking (the guide table of Chen and Asau 1974).
+fn guide(cumulative: &[f64]) -> Vec<u32> {
+    let pieces = cumulative.len() - 1;
+    let mut i = 0;
+    let begin = |step: usize| {
+        let u = step as f64 / pieces as f64;
+        while i + 1 < pieces && cumulative[i + 1] <= u {
+            i += 1;
+        }
+        i as u32
+    };
+    (0..pieces).map(begin).collect()
 }
 
 /// The largest `f32` below one.
@@ -162,6 +185,17 @@ mod tests {
         assert_eq!(d.sample_discrete(ONE_BELOW).0, 3);
         assert_eq!(d.sample_discrete(0.0).0, 1);
         assert!((d.probability(3) - 0.75).abs() < 1e-7);
+    }
+
+    #[test]
+    fn the_guide_leads_to_the_piece_that_a_search_finds() {
+        let weights: Vec<f32> = (0..97).map(|i| if i % 5 == 0 { 0.0 } else { ((i * 37) % 23) as f32 }).collect();
+        let d = Distribution1::new(weights).expect("weights");
+        for i in 0..100_000 {
+            let u = i as f32 / 100_000.0;
+            let searched = d.cumulative.partition_point(|c| *c <= f64::from(u)) - 1;
+            assert_eq!(d.sample_discrete(u).0, searched.min(d.last), "{u}");
+        }
     }
 
     #[test]

@@ -53,15 +53,6 @@ impl Gather {
         }
     }
 
-    /// Forgets everything, for the next pixel.
-    pub fn reset(&mut self) {
-        for values in [&mut self.sums, &mut self.mean, &mut self.squares] {
-            values.fill(0.0);
-        }
-        self.replicates = 0;
-        self.not_finite = 0;
-    }
-
     /// Adds one sample: `radiance` (W·m⁻²·sr⁻¹·nm⁻¹, not divided by the wavelengths' density) through a pupil of
     /// weight `weight_sr`, at a pixel of `responsivity` (e⁻ per W·m⁻²; unused where nothing is folded).
     pub fn add<const N: usize>(

@@ -15,7 +15,7 @@ use std::fmt::{self, Display, Formatter};
 pub struct Summary<'a>(pub &'a Plan);
 
 /// CPU time of a path of the street scene, for the estimate of the cost, s (docs/performance.md).
-const PATH_CPU_S: f64 = 4e-6;
+const PATH_CPU_S: f64 = 3e-6;
 
 impl Display for Summary<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
