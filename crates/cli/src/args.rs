@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 /// Spectral path tracing joined to a physical camera: from a scene file to the picture that camera would have taken.
 #[derive(Debug, Parser)]
-#[command(name = "etendue", version, about, max_term_width = 110)]
+#[command(name = "etendue", version, max_term_width = 110)]
 #[command(after_help = "Exit status: 0 done, 1 a comparison or run failed, 2 unusable input or arguments.\n\
     Results go to stdout, everything else to stderr. Start with: etendue render scenes/street/street.toml -o out/street")]
 pub struct Arguments {
@@ -140,7 +140,7 @@ pub struct Expose {
 /// `etendue inspect`
 #[derive(Debug, Args)]
 pub struct Inspect {
-    /// A file that Étendue reads or writes: EXR, PNG, OBJ, JSON side-car, TOML
+    /// A file that Étendue reads or writes: EXR, PNG, JPEG, HDR, OBJ, JSON side-car
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// Write a picture of it here

@@ -37,7 +37,8 @@ impl Manifest {
     /// Reads the manifest of a shard's folder.
     pub fn read(folder: &Path) -> Result<Self, Failure> {
         let path = folder.join(MANIFEST);
-        let explain = |why: String| Failure::input(format!("{}: {why}; give folders made by render --shard", path.display()));
+        let explain =
+            |why: String| Failure::input(format!("{}: {why}; give folders made by render --shard", path.display()));
         let text = crate::job::read_text(&path).map_err(explain)?;
         serde_json::from_str(&text).map_err(|error| explain(format!("this is no shard manifest: {error}")))
     }
@@ -79,7 +80,11 @@ pub fn read(folder: &Path, camera: &CameraPlan) -> Result<Film, Failure> {
     let path = folder.join(film_name(camera));
     let file = read_exr(&path).map_err(Failure::input)?;
     decode(&file, camera).ok_or_else(|| {
-        Failure::input(format!("{}: this is not the film of camera {}; render the shard again", path.display(), camera.name))
+        Failure::input(format!(
+            "{}: this is not the film of camera {}; render the shard again",
+            path.display(),
+            camera.name
+        ))
     })
 }
 
@@ -89,7 +94,9 @@ fn decode(file: &ExrFile, camera: &CameraPlan) -> Option<Film> {
     let mut film = Film::new(width, height, &layout(camera), settings.spp, settings.replicates);
     fill(&mut film.weight, file, "weight")?;
     match file.channel("not_finite")? {
-        Samples::Uint(values) if values.len() == width * height => film.not_finite.samples_mut().copy_from_slice(values),
+        Samples::Uint(values) if values.len() == width * height => {
+            film.not_finite.samples_mut().copy_from_slice(values)
+        }
         _ => return None,
     }
     if let Some(cube) = &mut film.cube {

@@ -46,7 +46,8 @@ impl JobRequest {
 
     fn compiled(&self) -> Result<Plan, Failure> {
         let overrides = Overrides::new(&self.set);
-        let description = Description::load(&self.job, &read_text, &overrides).map_err(|f| Failure::inputs(f.list()))?;
+        let description =
+            Description::load(&self.job, &read_text, &overrides).map_err(|f| Failure::inputs(f.list()))?;
         let assets = load_assets(&description.assets()).map_err(Failure::inputs)?;
         let plan = compile(&description, &assets, &self.choices()).map_err(Failure::inputs)?;
         self.narrowed(plan)

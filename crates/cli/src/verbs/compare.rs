@@ -85,7 +85,11 @@ fn as_table(findings: &[Finding], differ: bool) -> String {
     for f in findings {
         let _ = write!(text, "{:widest$}", f.name);
         let _ = match &f.errors {
-            Some(e) => write!(text, "  {:>11.4e} {:>11.4e} {:>11.4e} {:>11.4e}", e.rmse, e.bias, e.bias_standard_error, e.max_abs),
+            Some(e) => write!(
+                text,
+                "  {:>11.4e} {:>11.4e} {:>11.4e} {:>11.4e}",
+                e.rmse, e.bias, e.bias_standard_error, e.max_abs
+            ),
             None => write!(text, "  {:>11} {:>11} {:>11} {:>11}", "-", "-", "-", "-"),
         };
         let _ = match &f.test {

@@ -48,7 +48,9 @@ fn check_complete(shards: &[(Manifest, &PathBuf)]) -> Result<(), Failure> {
     }
     match shards.len() == first.count as usize {
         true => Ok(()),
-        false => Err(refuse(shards[shards.len() - 1].1, &format!("{} of {} shards are given", shards.len(), first.count))),
+        false => {
+            Err(refuse(shards[shards.len() - 1].1, &format!("{} of {} shards are given", shards.len(), first.count)))
+        }
     }
 }
 
@@ -61,7 +63,9 @@ fn check_same_plan(plan: &Plan, manifest: &Manifest) -> Result<(), Failure> {
         return Ok(());
     }
     let job = manifest.request.job.display();
-    Err(Failure::input(format!("{job} or a file that it names has changed since the shards were rendered; render them again")))
+    Err(Failure::input(format!(
+        "{job} or a file that it names has changed since the shards were rendered; render them again"
+    )))
 }
 
 /// The film of all shards' tiles.
