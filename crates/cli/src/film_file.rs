@@ -95,7 +95,7 @@ fn decode(file: &ExrFile, camera: &CameraPlan) -> Option<Film> {
     fill(&mut film.weight, file, "weight")?;
     match file.channel("not_finite")? {
         Samples::Uint(values) if values.len() == width * height => {
-            film.not_finite.samples_mut().copy_from_slice(values)
+            film.not_finite.samples_mut().copy_from_slice(values);
         }
         _ => return None,
     }
