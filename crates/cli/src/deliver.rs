@@ -18,7 +18,7 @@ use std::ops::Range;
 /// The names, relative to the output folder, of all files of a plan.
 pub fn names(plan: &Plan, frames: &Range<u32>) -> Vec<String> {
     let of_camera = |camera: &CameraPlan| {
-        let names = Files::of(camera, frames.clone()).into_keys().chain([Files::SIDECAR.to_owned()]);
+        let names = Files::of(&camera.products, frames).into_keys().chain([Files::SIDECAR.to_owned()]);
         names.map(|name| format!("{}/{name}", camera.name)).collect::<Vec<_>>()
     };
     plan.cameras.iter().flat_map(of_camera).collect()
@@ -47,7 +47,7 @@ pub fn deliver(
         photographs(&camera.body, electrons, frames, address, wanted, &mut results)?;
     }
     truth(plan, camera, simd, &mut results)?;
-    let facts = facts::sidecar(plan, camera, &Files::of(camera, frames.clone()), not_finite);
+    let facts = facts::sidecar(plan, camera, &Files::of(&camera.products, frames), not_finite);
     results.json(Files::SIDECAR, &facts)
 }
 
@@ -63,7 +63,7 @@ impl Results<'_> {
     fn write(&mut self, name: &str, bytes: Result<Vec<u8>, EncodeError>) -> Result<(), Failure> {
         let name = format!("{}/{name}", self.prefix);
         let bytes = bytes.map_err(|error| Failure::Run(format!("{name}: {error}")))?;
-        self.folder.write(&name, &bytes).map_err(Failure::input)
+        self.folder.write(&name, &bytes).map_err(Failure::run)
     }
 
     /// Writes a side-car.
@@ -171,5 +171,6 @@ fn planes(truth: &GroundTruth) -> exr::GroundTruth<'_> {
         instance: Some(&truth.instance),
         semantic: Some(&truth.semantic),
         material: Some(&truth.material),
+        ray: Some(&truth.ray),
     }
 }

@@ -4,7 +4,8 @@ use etendue_core::CameraPose;
 use etendue_core::quantity::{DigitalNumber, Electrons, Irradiance, Quantity, Radiance};
 use etendue_io::Provenance;
 use etendue_optics::PupilProjection;
-use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, Route};
+use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, Products, Route};
+use etendue_projection::Sense;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -48,6 +49,23 @@ pub fn radiance_provenance(plan: &Plan, camera: &CameraPlan) -> Provenance {
     match &camera.settings.route {
         Route::Lens => facts,
         Route::Pupil(projection) => at_pupil(facts, projection, camera.index),
+    }
+}
+
+/// The facts of what another camera made of a stored radiance image.
+pub fn exposed_provenance(source: &Provenance, camera: &str, seed: u64) -> Provenance {
+    let pupil = [PITCH_TAN, PRINCIPAL_X_PX, PRINCIPAL_Y_PX];
+    let further = source.further.iter().filter(|(name, _)| !pupil.contains(&name.as_str()));
+    let mut further: BTreeMap<String, String> = further.map(|(name, text)| (name.clone(), text.clone())).collect();
+    further.insert("radiance_camera".to_owned(), source.camera.clone());
+    further.insert("radiance_seed".to_owned(), source.seed.to_string());
+    Provenance {
+        seed,
+        version: VERSION.to_owned(),
+        camera: camera.to_owned(),
+        geometry: THROUGH_LENS.to_owned(),
+        further,
+        ..source.clone()
     }
 }
 
@@ -99,6 +117,8 @@ pub fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>
         "time_s": 0.0,
         "files": files,
         "ground_truth": {
+            "ray.ID": "0: no ray passes the lens; 1: the principal ray; 2: that ray is clipped, the ray through the \
+                       centroid of the open pupil is taken",
             "depth.Z": "m along the optical axis from the entrance pupil; +inf: sky; NaN: no ray",
             "distance.Z": "m along the pixel's principal ray (587.56 nm); as depth.Z",
             "N": "unit shading normal, world",
@@ -117,7 +137,7 @@ pub fn optics(body: &CameraBody) -> Value {
     let matrix = body.raster.camera_matrix(lens.principal_distance_mm());
     let distortion = lens.distortion().map(|d| {
         let [k1, k2] = d.coefficients();
-        json!({ "k1": k1, "k2": k2, "radius_unit_mm": d.unit_mm(), "direction": format!("{:?}", d.sense()) })
+        json!({ "k1": k1, "k2": k2, "radius_unit_mm": d.unit_mm(), "direction": direction(d.sense()) })
     });
     json!({
         "focal_length_mm": lens.focal_length_mm(),
@@ -130,6 +150,14 @@ pub fn optics(body: &CameraBody) -> Value {
         "camera_matrix_convention": "raster: the top-left corner of the image is (0, 0), pixel centres at +0.5",
         "camera_matrix_opencv": matrix.to_opencv().rows(),
     })
+}
+
+/// The direction of a distortion, in the words of camera files.
+fn direction(sense: Sense) -> &'static str {
+    match sense {
+        Sense::IdealToObserved => "ideal_to_observed",
+        Sense::ObservedToIdeal => "observed_to_ideal",
+    }
 }
 
 /// The sensor's geometry and, where it has electronics, their figures.
@@ -194,8 +222,7 @@ impl Files {
     }
 
     /// All files of a camera over frames, with what they hold.
-    pub fn of(camera: &CameraPlan, frames: std::ops::Range<u32>) -> BTreeMap<String, Value> {
-        let p = &camera.products;
+    pub fn of(p: &Products, frames: &std::ops::Range<u32>) -> BTreeMap<String, Value> {
         let mut files = BTreeMap::new();
         let mut add = |wanted: bool, name: &str, entry: Value| {
             if wanted {
@@ -208,7 +235,7 @@ impl Files {
         add(p.ground_truth, Self::GROUND_TRUTH, entry("depth, distance, normal, position, ids", "m, m, 1, m, 1"));
         let depth_unit = format!("1/{} m", p.depth_png_per_m.unwrap_or(0.0));
         add(p.depth_png_per_m.is_some(), Self::DEPTH, entry("planar depth, 0 is invalid", &depth_unit));
-        for frame in frames {
+        for frame in frames.clone() {
             add(p.raw, &Self::raw(frame), entry_of::<DigitalNumber>());
             add(p.picture, &Self::picture(frame), entry("sRGB picture", "8 bits"));
         }

@@ -22,6 +22,11 @@ impl Failure {
         Self::Input(errors.into_iter().map(|e| e.to_string()).collect())
     }
 
+    /// A run that did not succeed although its input is good.
+    pub fn run(error: impl Display) -> Self {
+        Self::Run(format!("error: {error}"))
+    }
+
     /// The process's exit status.
     pub fn status(&self) -> u8 {
         match self {

@@ -9,6 +9,7 @@ use etendue_core::Plane;
 use etendue_core::quantity::Quantity;
 use etendue_io::exr::{ExrFile, Layer, Samples, encode_layers, read_exr};
 use etendue_io::{OutputFolder, Provenance, sidecar};
+use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::render::layout;
@@ -31,6 +32,13 @@ pub struct Manifest {
     pub count: u32,
     /// The plan's hash.
     pub plan_hash: String,
+    /// Side of each camera's tiles, px: the plan's hash leaves it out, but it says which pixels are whose.
+    pub tile_px: Vec<u32>,
+}
+
+/// The sides of the tiles of a plan's cameras.
+pub fn tile_sides(plan: &Plan) -> Vec<u32> {
+    plan.cameras.iter().map(|camera| camera.settings.tile_px).collect()
 }
 
 impl Manifest {
@@ -46,7 +54,7 @@ impl Manifest {
     /// Writes the manifest.
     pub fn write(&self, folder: &mut OutputFolder) -> Result<(), Failure> {
         let bytes = sidecar::encode(self).map_err(|error| Failure::Run(error.to_string()))?;
-        folder.write(MANIFEST, &bytes).map_err(Failure::input)
+        folder.write(MANIFEST, &bytes).map_err(Failure::run)
     }
 }
 

@@ -8,7 +8,7 @@ use etendue_scene::{Description, Overrides};
 use std::path::{Path, PathBuf};
 
 /// What the command line says of a job: enough to make the same plan again.
-#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JobRequest {
     /// The job file.

@@ -53,6 +53,7 @@ fn ground_truth() -> Vec<u8> {
         instance: Some(&ids),
         semantic: Some(&ids),
         material: Some(&ids),
+        ray: None,
     };
     encode_ground_truth(&truth, &provenance()).expect("encodable")
 }

@@ -66,11 +66,11 @@ impl Film {
         }
     }
 
-    /// Bytes that a film of this size and layout takes.
+    /// Bytes that a film of this size and layout takes; a float, for a picture too large to be made must not overflow.
     #[must_use]
-    pub fn bytes(width: usize, height: usize, layout: &Layout) -> usize {
+    pub fn bytes(width: usize, height: usize, layout: &Layout) -> f64 {
         let planes = 2 * layout.bands.map_or(0, Bands::count) + 2 * usize::from(layout.folded) + 2;
-        width * height * planes * size_of::<f32>()
+        width as f64 * height as f64 * (planes * size_of::<f32>()) as f64
     }
 
     /// Stores what one pixel gathered.

@@ -1,6 +1,7 @@
 //! The hash of a plan: everything that decides its result, and nothing else (no path, no thread count, no tile size).
 
-use crate::plan::{CameraPlan, Plan, Settings};
+use crate::plan::{CameraBody, CameraPlan, Plan, Settings};
+use etendue_scene::asset::Assets;
 use etendue_tracer::geometry::Mesh;
 use sha2::{Digest, Sha256};
 use std::fmt::{Debug, Write};
@@ -22,7 +23,16 @@ impl Hasher {
         let _ = writeln!(self, "{value:?}");
     }
 
+    /// Pictures and tables by their content: `Debug` texts leave texels out.
+    fn add_assets(&mut self, assets: &Assets) {
+        let hashes = |of: &mut dyn Iterator<Item = [u8; 32]>| of.collect::<Vec<_>>();
+        self.add(&hashes(&mut assets.images.values().map(|image| image.hash)));
+        self.add(&hashes(&mut assets.spectra.values().map(|spectrum| spectrum.hash)));
+    }
+
     fn add_mesh(&mut self, mesh: &Mesh) {
+        let counts = [mesh.positions().len(), mesh.normals().len(), mesh.uvs().len(), mesh.triangles().len()];
+        self.add(&counts);
         self.0.update(bytemuck::cast_slice(mesh.positions()));
         self.0.update(bytemuck::cast_slice(mesh.normals()));
         self.0.update(bytemuck::cast_slice(mesh.uvs()));
@@ -31,16 +41,19 @@ impl Hasher {
     }
 
     fn add_camera(&mut self, camera: &CameraPlan) {
-        self.add(&(&camera.name, camera.index, camera.pose, &camera.body, camera.products));
+        let CameraBody { place: _, raster, lens, aperture_px, sensor, development } = &camera.body;
+        self.add(&(&camera.name, camera.index, camera.pose, camera.products));
+        self.add(&(raster, lens, aperture_px, sensor, development));
         // The size of a tile does not change the result.
         self.add(&Settings { tile_px: 0, ..camera.settings });
     }
 }
 
 /// SHA-256 of all that decides the plan's result, the program's version included.
-pub(crate) fn fingerprint(plan: &Plan) -> [u8; 32] {
+pub(crate) fn fingerprint(plan: &Plan, assets: &Assets) -> [u8; 32] {
     let mut hasher = Hasher(Sha256::new());
     hasher.add(&env!("CARGO_PKG_VERSION"));
+    hasher.add_assets(assets);
     plan.world.meshes().iter().for_each(|mesh| hasher.add_mesh(mesh));
     hasher.add(&plan.world.instances());
     hasher.add(&plan.palette);

@@ -4,6 +4,7 @@ use etendue_core::{Bands, CameraPose};
 use etendue_isp::{Mosaic, Processing};
 use etendue_optics::{Lens, PupilProjection};
 use etendue_projection::Raster;
+use etendue_scene::Place;
 use etendue_sensor::Sensor;
 use etendue_tracer::accel::World;
 use etendue_tracer::lights::{Environment, Sun};
@@ -63,6 +64,8 @@ pub struct CameraPlan {
 /// A camera wherever it stands: lens, sensor, processing.
 #[derive(Clone, Debug)]
 pub struct CameraBody {
+    /// Where the description says how large the picture is.
+    pub place: Place,
     /// The pixel grid.
     pub raster: Raster,
     /// The lens.

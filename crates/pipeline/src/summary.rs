@@ -215,7 +215,7 @@ fn products(p: &Products) -> String {
 fn cost(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let (width, height) = camera.film_size();
     let paths = f64::from(width) * f64::from(height) * f64::from(camera.settings.spp);
-    let film = Film::bytes(width as usize, height as usize, &layout(camera)) as f64 / 1e6;
+    let film = Film::bytes(width as usize, height as usize, &layout(camera)) / 1e6;
     let cpu = paths * PATH_CPU_S;
     line(
         f,

@@ -1,8 +1,8 @@
 //! Ground truth: what each pixel's principal ray meets. Point-sampled, never filtered.
 
 use crate::plan::{CameraPlan, Plan};
-use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Length, Quantity, Vector};
+use etendue_core::{Plane, PupilRay};
 use etendue_optics::lens::TruthRay;
 use etendue_tracer::accel::Simd;
 use etendue_tracer::view::{Truth, View};
@@ -14,7 +14,7 @@ use rayon::prelude::*;
 pub struct GroundTruth {
     /// Distance along the camera's axis from the entrance pupil, m; +∞ for the sky, NaN where no principal ray passes.
     pub depth: Plane<Length>,
-    /// Distance along the principal ray from the centre of the entrance pupil, m; as `depth` for the sky and no ray.
+    /// Distance along the pixel's ray from the plane of the entrance pupil, m; as `depth` for the sky and no ray.
     pub distance: Plane<Length>,
     /// Unit shading normal in the world; zero for the sky.
     pub normal: Plane<Vector>,
@@ -26,6 +26,9 @@ pub struct GroundTruth {
     pub semantic: Plane<Identity>,
     /// Places in the plan's list of materials, from 1; 0 is the background.
     pub material: Plane<Identity>,
+    /// By which ray the pixel looks: 0 none passes the lens, 1 the principal ray, 2 that is clipped and the ray through
+    /// the centroid of the open pupil is taken.
+    pub ray: Plane<Identity>,
 }
 
 /// What one pixel sees.
@@ -39,6 +42,13 @@ enum Seen {
     },
 }
 
+/// A pixel's ray and what it meets.
+struct Look {
+    /// As [`GroundTruth::ray`].
+    ray: u32,
+    seen: Seen,
+}
+
 /// The ground truth of a camera, along the principal rays (587.56 nm) of its pixels' centres, on the caller's pool.
 /// Where the lens clips that ray but lets light through, the ray through the centroid of the open pupil is used.
 #[must_use]
@@ -46,25 +56,30 @@ pub fn ground_truth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> GroundTruth
     let raster = &camera.body.raster;
     let (width, height) = (raster.width(), raster.height());
     let view = plan.world.view_with(camera.pose.position_m, simd);
-    let seen: Vec<Seen> = (0..width * height)
+    let looks: Vec<Look> = (0..width * height)
         .into_par_iter()
-        .map(|i| seen(&view, camera, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
+        .map(|i| look(&view, camera, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
         .collect();
     GroundTruth {
-        depth: plane(&seen, width, height, |s| s.length(|depth, _| depth)),
-        distance: plane(&seen, width, height, |s| s.length(|_, truth| truth.distance_m)),
-        normal: plane(&seen, width, height, |s| s.vector(|truth| truth.normal)),
-        position: plane(&seen, width, height, |s| s.vector(|truth| truth.position_m)),
-        instance: plane(&seen, width, height, |s| s.identity(|truth| truth.instance_id)),
-        semantic: plane(&seen, width, height, |s| s.identity(|truth| truth.semantic_id)),
-        material: plane(&seen, width, height, |s| s.identity(|truth| truth.material + 1)),
+        depth: plane(&looks, width, height, |l| l.seen.length(|depth, _| depth)),
+        distance: plane(&looks, width, height, |l| l.seen.length(|_, truth| truth.distance_m)),
+        normal: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.normal)),
+        position: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.position_m)),
+        instance: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.instance_id)),
+        semantic: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.semantic_id)),
+        material: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.material + 1)),
+        ray: plane(&looks, width, height, |l| l.ray),
     }
 }
 
-fn seen(view: &View<'_>, camera: &CameraPlan, raster_px: DVec2) -> Seen {
-    let Some(TruthRay { ray, .. }) = camera.body.lens.truth_ray(camera.body.raster.sensor_mm(raster_px)) else {
-        return Seen::Nothing;
-    };
+fn look(view: &View<'_>, camera: &CameraPlan, raster_px: DVec2) -> Look {
+    match camera.body.lens.truth_ray(camera.body.raster.sensor_mm(raster_px)) {
+        None => Look { ray: 0, seen: Seen::Nothing },
+        Some(TruthRay { ray, off_centre }) => Look { ray: 1 + u32::from(off_centre), seen: seen(view, camera, &ray) },
+    }
+}
+
+fn seen(view: &View<'_>, camera: &CameraPlan, ray: &PupilRay) -> Seen {
     let direction = camera.pose.direction_to_world(ray.direction);
     match view.truth(camera.pose.point_to_render(ray.origin_m), direction) {
         None => Seen::Sky,
@@ -72,8 +87,8 @@ fn seen(view: &View<'_>, camera: &CameraPlan, raster_px: DVec2) -> Seen {
     }
 }
 
-fn plane<Q: Quantity>(seen: &[Seen], width: usize, height: usize, of: impl Fn(&Seen) -> Q::Sample) -> Plane<Q> {
-    Plane::from_samples(width, height, seen.iter().map(of).collect()).expect("one sample a pixel")
+fn plane<Q: Quantity>(looks: &[Look], width: usize, height: usize, of: impl Fn(&Look) -> Q::Sample) -> Plane<Q> {
+    Plane::from_samples(width, height, looks.iter().map(of).collect()).expect("one sample a pixel")
 }
 
 impl Seen {

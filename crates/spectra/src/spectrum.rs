@@ -21,17 +21,10 @@ pub enum Outside {
 /// A table of whole nanometres is kept as it is. A node with a point of the table beside it, closer than 1 nm, takes
 /// the mean over its neighbourhood (weights falling linearly to zero at 1 nm), so that tables finer than the grid and
 /// narrow lines keep their power. A table that is zero outside falls to zero within 1 nm of its end.
-#[derive(Clone, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
     values: Box<[f32; NODES]>,
     covered_nm: (f64, f64),
-}
-
-impl core::fmt::Debug for Spectrum {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let (low, high) = self.covered_nm;
-        write!(f, "Spectrum({low}–{high} nm, values {} to {})", self.min_value(), self.max_value())
-    }
 }
 
 impl Spectrum {

@@ -139,6 +139,18 @@ impl Run {
         }
     }
 
+    /// All runs together: where a picture is a little off everywhere, the sum of its pixels tells it.
+    fn whole(runs: &[Self]) -> Self {
+        let sum = |of: fn(&Self) -> f64| runs.iter().map(of).sum();
+        Self {
+            difference: sum(|r| r.difference),
+            rounding: sum(|r| r.rounding),
+            variance: sum(|r| r.variance),
+            spread: sum(|r| r.spread),
+            ..Self::default()
+        }
+    }
+
     /// |t| and its two-sided p; `None` where the run holds no random test.
     fn test(&self) -> Option<(f64, f64)> {
         if self.variance == 0.0 {
@@ -163,8 +175,9 @@ fn runs(a: &EstimatedPlane<'_>, b: &EstimatedPlane<'_>, freedom: [Option<u32>; 2
 }
 
 fn judge(runs: &[Run], pooled_pixels: usize, significance: f64) -> PlaneTest {
+    let whole = (runs.len() > 1).then(|| Run::whole(runs));
     let tests: Vec<(usize, f64, f64)> =
-        runs.iter().filter_map(|r| r.test().map(|(z, p)| (r.first_pixel, z, p))).collect();
+        runs.iter().chain(&whole).filter_map(|r| r.test().map(|(z, p)| (r.first_pixel, z, p))).collect();
     let level = family::sidak_level(significance, tests.len());
     let certain: usize = runs.iter().map(|r| r.certain_differences).sum();
     let not_finite = runs.iter().map(|r| r.not_finite).sum();
@@ -220,6 +233,16 @@ mod tests {
             let wrong = wrong.count();
             assert!((18..=62).contains(&wrong), "{ra} and {rb} replicates: {wrong} of 200");
         }
+    }
+
+    #[test]
+    fn a_shift_too_small_for_any_run_is_found_in_the_whole() {
+        // Half a standard error a pixel: 0.5 √1000 = 16 standard errors of the sum.
+        let (truth, shifted) = (vec![10.0; 1000], vec![10.0 + 0.5 / 8.0_f64.sqrt(); 1000]);
+        let (a, b) = (estimate(1, &truth, 1.0, 8), estimate(2, &shifted, 1.0, 8));
+        let test = compare(&plane(&a, 8), &plane(&b, 8), 1e-3).expect("sizes");
+        assert_eq!((test.verdict, test.tests), (Verdict::Differ, 201));
+        assert!(test.max_abs_z > 8.0);
     }
 
     #[test]

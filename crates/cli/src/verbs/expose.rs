@@ -14,7 +14,7 @@ use etendue_io::{Provenance, load_assets};
 use etendue_optics::PupilProjection;
 use etendue_pipeline::compile_camera;
 use etendue_pipeline::photograph::Light;
-use etendue_pipeline::plan::CameraBody;
+use etendue_pipeline::plan::{CameraBody, Products};
 use etendue_scene::{Overrides, asset, load_camera};
 use etendue_sensor::FrameAddress;
 use glam::DVec2;
@@ -33,7 +33,9 @@ pub fn run(arguments: &args::Expose) -> Result<(), Failure> {
     let stored = stored(&arguments.radiance)?;
     let mut folder = open(&arguments.output)?;
     let name = camera_name(&arguments.camera);
-    claim(&folder, names(&body, arguments).into_iter().map(|file| format!("{name}/{file}")))?;
+    let files = Files::of(&products(&body), &arguments.frames);
+    let claimed = files.keys().map(String::as_str).chain([Files::SIDECAR]);
+    claim(&folder, claimed.map(|file| format!("{name}/{file}")))?;
     let mut results = Results { prefix: name, folder: &mut folder };
     let pool = machine::pool(None)?;
     pool.install(|| photograph(&body, &stored, arguments, &mut results))?;
@@ -52,16 +54,18 @@ fn camera_name(file: &Path) -> String {
     file.file_stem().map_or_else(|| "camera".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
-fn names(body: &CameraBody, arguments: &args::Expose) -> Vec<String> {
-    let frames = arguments.frames.clone();
-    let mut names = vec![Files::IRRADIANCE.to_owned(), Files::SIDECAR.to_owned()];
-    if body.sensor.is_some() {
-        names.extend(frames.clone().map(Files::raw));
+/// Everything that the camera can make of the light.
+fn products(body: &CameraBody) -> Products {
+    Products {
+        radiance: false,
+        irradiance: true,
+        variance: false,
+        electrons: false,
+        raw: body.sensor.is_some(),
+        picture: body.development.is_some(),
+        ground_truth: false,
+        depth_png_per_m: None,
     }
-    if body.development.is_some() {
-        names.extend(frames.map(Files::picture));
-    }
-    names
 }
 
 fn stored(path: &Path) -> Result<Stored, Failure> {
@@ -91,12 +95,14 @@ fn photograph(
     let light = Light::at_pupil(body, &stored.projection, &stored.radiance).map_err(|error| {
         Failure::input(format!("{} through {}: {error}", arguments.radiance.display(), arguments.camera.display()))
     })?;
-    results.irradiance(&light, false, &stored.provenance)?;
     let seed = arguments.seed.unwrap_or(stored.provenance.seed);
+    let facts = facts::exposed_provenance(&stored.provenance, &results.prefix, seed);
+    results.irradiance(&light, false, &facts)?;
     if let Some(electrons) = &light.electrons {
         let camera = stored.provenance.further.get("camera_index").and_then(|i| i.parse().ok()).unwrap_or(0);
         let address = |frame| FrameAddress { seed, camera, frame, capture: 0 };
-        let wanted = Wanted { raw: true, picture: true };
+        let products = products(body);
+        let wanted = Wanted { raw: products.raw, picture: products.picture };
         photographs(body, electrons, &arguments.frames, address, wanted, results)?;
     }
     results.json(Files::SIDECAR, &sidecar(body, stored, arguments, seed))
@@ -116,7 +122,7 @@ fn sidecar(body: &CameraBody, stored: &Stored, arguments: &args::Expose, seed: u
         "optics": facts::optics(body),
         "sensor": facts::sensor(body),
         "route": "pupil",
-        "files": names(body, arguments),
+        "files": Files::of(&products(body), &arguments.frames),
         "time_s": stored.provenance.time_s,
     })
 }

@@ -36,7 +36,7 @@ pub fn run(arguments: &args::Merge) -> Result<(), Failure> {
 fn check_complete(shards: &[(Manifest, &PathBuf)]) -> Result<(), Failure> {
     let first = &shards[0].0;
     for (manifest, folder) in shards {
-        if manifest.plan_hash != first.plan_hash || manifest.count != first.count || manifest.frames != first.frames {
+        if !of_one_run(manifest, first) {
             return Err(refuse(folder, "it is a shard of another run; give the shards of one run"));
         }
     }
@@ -54,12 +54,18 @@ fn check_complete(shards: &[(Manifest, &PathBuf)]) -> Result<(), Failure> {
     }
 }
 
+/// Whether two shards were cut from one run: the same plan, cameras, frames and tiles.
+fn of_one_run(a: &Manifest, b: &Manifest) -> bool {
+    let cut = |m: &Manifest| (m.plan_hash.clone(), m.count, m.frames.clone(), m.tile_px.clone());
+    cut(a) == cut(b) && a.request.camera == b.request.camera
+}
+
 fn refuse(folder: &Path, why: &str) -> Failure {
     Failure::input(format!("{}: {why}", folder.display()))
 }
 
 fn check_same_plan(plan: &Plan, manifest: &Manifest) -> Result<(), Failure> {
-    if plan.hash_text() == manifest.plan_hash {
+    if plan.hash_text() == manifest.plan_hash && film_file::tile_sides(plan) == manifest.tile_px {
         return Ok(());
     }
     let job = manifest.request.job.display();

@@ -36,10 +36,11 @@ pub fn run(arguments: &args::Render) -> Result<(), Failure> {
             for camera in &plan.cameras {
                 let film = pool.install(|| expose(&plan, camera, Request { simd, shard }))?;
                 let bytes = film_file::encode(&film, &facts::provenance(&plan, camera))?;
-                folder.write(&film_file::film_name(camera), &bytes).map_err(Failure::input)?;
+                folder.write(&film_file::film_name(camera), &bytes).map_err(Failure::run)?;
             }
             let frames = arguments.frames.clone();
-            Manifest { request, frames, index, count, plan_hash: plan.hash_text() }.write(&mut folder)?;
+            let (plan_hash, tile_px) = (plan.hash_text(), film_file::tile_sides(&plan));
+            Manifest { request, frames, index, count, plan_hash, tile_px }.write(&mut folder)?;
         }
     }
     commit(folder)
@@ -65,7 +66,7 @@ pub fn claim(folder: &OutputFolder, names: impl IntoIterator<Item = String>) -> 
 
 /// Gives all results their names, and prints them.
 pub fn commit(folder: OutputFolder) -> Result<(), Failure> {
-    let written = folder.commit().map_err(|error| Failure::Run(error.to_string()))?;
+    let written = folder.commit().map_err(Failure::run)?;
     say(&written.iter().map(|path| format!("{}\n", path.display())).collect::<String>());
     Ok(())
 }

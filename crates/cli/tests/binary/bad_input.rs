@@ -209,6 +209,13 @@ fn a_variance_of_one_replicate() {
 }
 
 #[test]
+fn a_picture_that_no_machine_holds() {
+    let spoilt = Spoilt::new();
+    let options = ["--set", "cameras.front.sensor.width_px=65536", "--set", "cameras.front.sensor.height_px=65536"];
+    spoilt.render(&options).refused(&["sensor", "65536 × 65536", "GB"]);
+}
+
+#[test]
 fn all_errors_are_told_at_once_in_their_order() {
     let spoilt = Spoilt::new();
     let first = spoilt.spoil("small.toml", "alpha = 0.05", "alpha = 5");

@@ -100,6 +100,8 @@ fn shards_that_do_not_belong_together_are_not_merged() {
     let place = place();
     let (a, b) = (into(place.path(), "a", &["--shard", "0/2"]), into(place.path(), "b", &["--shard", "1/2"]));
     let other = into(place.path(), "other", &["--shard", "1/2", "--seed", "3"]);
+    let tiles = into(place.path(), "tiles", &["--shard", "1/2", "--set", "render.tile_px=8"]);
+    let narrowed = into(place.path(), "narrowed", &["--shard", "1/2", "--camera", "front"]);
     let whole = into(place.path(), "whole", &[]);
     let output = place.path().join("out");
     let merge = |folders: &[&str]| etendue(["merge", "-o", &text(&output)].iter().chain(folders));
@@ -108,6 +110,8 @@ fn shards_that_do_not_belong_together_are_not_merged() {
     merge(&[&a, &a]).refused(&["given twice"]);
     merge(&[&a, &b, &b]).refused(&["given twice"]);
     merge(&[&a, &other]).refused(&["other", "another run"]);
+    merge(&[&a, &tiles]).refused(&["tiles", "another run"]);
+    merge(&[&a, &narrowed]).refused(&["narrowed", "another run"]);
     merge(&[&a, &whole]).refused(&["whole", "shard.json", "render --shard"]);
     fs::write(place.path().join("b/front.film.exr"), b"no film").expect("written");
     merge(&[&a, &b]).refused(&["front.film.exr"]);

@@ -8,6 +8,7 @@ mod bytes;
 mod dropped;
 mod goldens;
 mod help;
+mod identity;
 mod kenney;
 mod plans;
 mod support;

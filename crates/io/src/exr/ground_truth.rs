@@ -13,7 +13,7 @@ use crate::Provenance;
 pub struct GroundTruth<'a> {
     /// Distance along the camera's axis, m.
     pub depth: Option<&'a Plane<Length>>,
-    /// Distance along the ray from the centre of the entrance pupil, m.
+    /// Distance along the ray from the plane of the entrance pupil, m.
     pub distance: Option<&'a Plane<Length>>,
     /// Unit shading normal in the world.
     pub normal: Option<&'a Plane<Vector>>,
@@ -25,6 +25,8 @@ pub struct GroundTruth<'a> {
     pub semantic: Option<&'a Plane<Identity>>,
     /// Identity of the material.
     pub material: Option<&'a Plane<Identity>>,
+    /// By which ray the pixel looks: 0 none, 1 the principal ray, 2 one through the centroid of the open pupil.
+    pub ray: Option<&'a Plane<Identity>>,
 }
 
 /// The planes of `truth` in one file.
@@ -41,7 +43,9 @@ pub fn encode_ground_truth(truth: &GroundTruth<'_>, provenance: &Provenance) -> 
             add_vector(&mut image, layer, plane);
         }
     }
-    for (layer, plane) in [("instance", truth.instance), ("semantic", truth.semantic), ("material", truth.material)] {
+    for (layer, plane) in
+        [("instance", truth.instance), ("semantic", truth.semantic), ("material", truth.material), ("ray", truth.ray)]
+    {
         if let Some(plane) = plane {
             image.uint(format!("{layer}.ID"), plane.samples().to_vec());
         }
@@ -56,7 +60,10 @@ impl GroundTruth<'_> {
     fn size(&self) -> Option<(usize, usize)> {
         let lengths = [self.depth, self.distance].into_iter().flatten().map(|p| (p.width(), p.height()));
         let vectors = [self.normal, self.position].into_iter().flatten().map(|p| (p.width(), p.height()));
-        let ids = [self.instance, self.semantic, self.material].into_iter().flatten().map(|p| (p.width(), p.height()));
+        let ids = [self.instance, self.semantic, self.material, self.ray]
+            .into_iter()
+            .flatten()
+            .map(|p| (p.width(), p.height()));
         lengths.chain(vectors).chain(ids).next()
     }
 }

@@ -24,7 +24,8 @@ pub(super) fn body(camera: &Camera, context: &mut Context<'_>) -> Option<CameraB
         _ => None,
     };
     let aperture_px = fill_factor(&camera.sensor).sqrt();
-    let body = CameraBody { raster, lens: lens?, aperture_px, sensor, development };
+    let place = camera.sensor.place.clone();
+    let body = CameraBody { place, raster, lens: lens?, aperture_px, sensor, development };
     (context.faults.len() == before).then_some(body)
 }
 

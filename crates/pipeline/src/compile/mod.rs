@@ -102,7 +102,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let remarks = std::mem::take(&mut context.remarks);
     let mut plan =
         Plan { world, palette, suns, environment, cameras, identities, materials, classes, remarks, hash: [0; 32] };
-    plan.hash = fingerprint(&plan);
+    plan.hash = fingerprint(&plan, context.assets);
     Some(plan)
 }
 

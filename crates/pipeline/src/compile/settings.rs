@@ -2,6 +2,8 @@
 
 use super::context::Context;
 use super::{Choices, Quality};
+use crate::film::Film;
+use crate::gather::Layout;
 use crate::plan::{CameraBody, Products, Route, Settings};
 use etendue_core::Bands;
 use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
@@ -77,6 +79,9 @@ pub(super) fn settings(
     let (cube, folded) = accumulation(render, body, products, &route, context);
     let range_nm = range(render, body, cube);
     let bands = if cube { Some(bands(render, range_nm, context)?) } else { None };
+    check_size(body, &route, &Layout { bands, folded }, context)?;
+    remark_variance(products, &route, folded, context);
+    remark_bands(render, cube, context);
     let max_bounces = render.max_bounces.as_ref().map(|b| b.value as u32);
     Some(Settings {
         spp,
@@ -118,22 +123,55 @@ fn check_variance(products: &Products, replicates: u32, render: &Render, context
     }
 }
 
+/// The most that a film may take, bytes.
+const LARGEST_FILM: f64 = 32.0 * 1024.0 * 1024.0 * 1024.0;
+
+/// A picture that no machine of today would hold is refused, and not tried.
+fn check_size(body: &CameraBody, route: &Route, layout: &Layout, context: &mut Context<'_>) -> Option<()> {
+    let (width, height) = match route {
+        Route::Lens => (body.raster.width(), body.raster.height()),
+        Route::Pupil(projection) => (projection.width(), projection.height()),
+    };
+    let bytes = Film::bytes(width, height, layout);
+    if bytes <= LARGEST_FILM {
+        return Some(());
+    }
+    let problem = format!("a film of {width} × {height} pixels takes {:.0} GB", bytes / 1e9);
+    context.fault(&body.place, problem, "make the picture smaller, the bands wider, or the field of view narrower");
+    None
+}
+
+/// Variances that are asked for but cannot be known.
+fn remark_variance(products: &Products, route: &Route, folded: bool, context: &mut Context<'_>) {
+    if products.variance && products.electrons && !folded {
+        let remark =
+            "electrons come from band means and bring no variance; accumulate = \"auto\" through the lens does";
+        context.remark(remark.to_owned());
+    }
+    if products.variance && products.irradiance && *route != Route::Lens {
+        context
+            .remark("irradiance behind a lens put on stored radiance brings no variance; the radiance does".to_owned());
+    }
+}
+
+/// Bands whose width is stated but which nobody asked for. No fault: `--set output.radiance=false` must not need another
+/// change of the job.
+fn remark_bands(render: &Render, cube: bool, context: &mut Context<'_>) {
+    if let (Some(width), false) = (&render.band_width_nm, cube) {
+        context.remark(format!("{}: no spectrum is kept, so the width of bands does not matter", width.place));
+    }
+}
+
 fn route(render: &Render, body: &CameraBody, context: &mut Context<'_>) -> Option<Route> {
     match render.route.as_ref().map(|r| (r.value, &r.place)) {
         None | Some((render::Route::Lens, _)) => Some(Route::Lens),
         Some((render::Route::Pupil, place)) => {
             let covering = context.accept(place, PupilProjection::covering(&body.lens, &body.raster))?;
             let margin = render.overscan.as_ref().map_or(0.0, |o| o.value);
-            context.accept(place, widened(&covering, margin)).map(Route::Pupil)
+            let (columns, rows) = (margin * covering.width() as f64, margin * covering.height() as f64);
+            Some(Route::Pupil(covering.widened(columns.ceil() as usize, rows.ceil() as usize)))
         }
     }
-}
-
-/// A radiance image with a further margin on every side, as a share of its size.
-fn widened(p: &PupilProjection, margin: f64) -> Result<PupilProjection, etendue_optics::OpticsError> {
-    let (x, y) = ((margin * p.width() as f64).ceil(), (margin * p.height() as f64).ceil());
-    let principal_px = p.principal_px() + glam::DVec2::new(x, y);
-    PupilProjection::new(p.width() + 2 * x as usize, p.height() + 2 * y as usize, p.pitch_tan(), principal_px)
 }
 
 /// Whether a spectral cube is kept, and whether pixels fold electrons.
@@ -175,8 +213,11 @@ fn range(render: &Render, body: &CameraBody, cube: bool) -> (f64, f64) {
         (Some(sensor), false) => sensor,
         (None, _) => VISIBLE_NM,
     };
+    if !cube {
+        return (low, high);
+    }
     let step = render.band_width_nm.as_ref().map_or(BAND_WIDTH_NM, |w| w.value);
-    ((low / step).floor() * step, (high / step).ceil() * step)
+    (((low / step).floor() * step).max(SHORTEST_NM), ((high / step).ceil() * step).min(LONGEST_NM))
 }
 
 fn bands(render: &Render, range_nm: (f64, f64), context: &mut Context<'_>) -> Option<Bands> {

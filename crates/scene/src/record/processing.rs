@@ -2,10 +2,10 @@
 
 use super::light::illuminants;
 use crate::place::Placed;
-use crate::reader::{Rule, RuleExt as _, choice, either, exactly, keyed, number, record, vector};
+use crate::reader::{Rule, RuleExt as _, either, exactly, keyed, number, record, vector};
 
 record! {
-    /// From raw to picture.
+    /// From raw to picture, which is encoded by the curve of IEC 61966-2-1 (sRGB).
     pub struct Processing {
         /// Factors on red, green and blue, above 0, or the name of the illuminant that shall come out neutral.
         /// Default: 1, 1, 1.
@@ -15,8 +15,6 @@ record! {
         optional colour_matrix: ColourMatrix = colour_matrix();
         /// Factor on the linear picture, above 0. Default: 1.
         optional exposure_gain: Placed<f64> = number("").above(0.0);
-        /// The tone curve. Default: "srgb".
-        optional tone: Placed<Tone> = choice();
     }
 }
 
@@ -36,14 +34,6 @@ pub enum ColourMatrix {
     Rows([Placed<[f64; 3]>; 3]),
     /// Fitted under an illuminant.
     Fit(Placed<String>),
-}
-
-choice! {
-    /// A tone curve.
-    pub enum Tone {
-        /// The curve of IEC 61966-2-1.
-        "srgb" => Srgb,
-    }
 }
 
 keyed! {

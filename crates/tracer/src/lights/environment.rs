@@ -51,8 +51,8 @@ pub enum EnvironmentError {
     Placement,
 }
 
-/// A picture of the surroundings.
-#[derive(Clone, Debug)]
+/// A picture of the surroundings. Its `Debug` text leaves out the texels.
+#[derive(Clone)]
 pub struct ImageEnvironment {
     width: usize,
     height: usize,
@@ -62,6 +62,14 @@ pub struct ImageEnvironment {
     rotation_turns: f32,
     distribution: Distribution2,
     mean_luminance: f64,
+}
+
+impl core::fmt::Debug for ImageEnvironment {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Self { width, height, scale, rotation_turns, mean_luminance, .. } = self;
+        f.debug_struct("ImageEnvironment").field("size", &(width, height)).field("scale", scale)
+            .field("rotation_turns", rotation_turns).field("mean_luminance", mean_luminance).finish_non_exhaustive()
+    }
 }
 
 impl ImageEnvironment {

@@ -64,14 +64,23 @@ pub enum TextureError {
     Placement,
 }
 
-/// A picture over a surface.
-#[derive(Clone, Debug)]
+/// A picture over a surface. Its `Debug` text leaves out the texels.
+#[derive(Clone)]
 pub struct ImageTexture {
     levels: Vec<Level>,
     sampling: Sampling,
     range: (f32, f32),
     /// Texels a texture unit, the geometric mean of both axes.
     density: f32,
+}
+
+impl core::fmt::Debug for ImageTexture {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Self { sampling, range, .. } = self;
+        let (size, mean) = (self.size(), self.mean());
+        f.debug_struct("ImageTexture").field("size", &size).field("sampling", sampling).field("range", range)
+            .field("mean", &mean).finish_non_exhaustive()
+    }
 }
 
 impl ImageTexture {
