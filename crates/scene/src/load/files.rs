@@ -8,20 +8,57 @@ use crate::document::{Node, Value, parse};
 use crate::fault::Faults;
 use crate::overrides::Overrides;
 use crate::place::Place;
-use crate::reader::{Rule as _, path};
+use crate::reader::{Record as _, Rule as _, path};
+use crate::record::{Camera, Job, Scene};
+
+/// What a file describes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FileKind {
+    Job,
+    Scene,
+    Camera,
+}
+
+impl FileKind {
+    fn word(self) -> &'static str {
+        match self {
+            Self::Job => "job",
+            Self::Scene => "scene",
+            Self::Camera => "camera",
+        }
+    }
+
+    fn keys(self) -> Vec<&'static str> {
+        match self {
+            Self::Job => Job::keys(),
+            Self::Scene => Scene::keys(),
+            Self::Camera => Camera::keys(),
+        }
+    }
+
+    fn has_key_of(self, tree: &Node) -> bool {
+        tree.as_table().is_some_and(|table| self.keys().into_iter().any(|key| table.get(key).is_some()))
+    }
+
+    /// The kind that the tree is of, where nothing in it belongs to this kind and something to another.
+    fn mistaken_for(self, tree: &Node) -> Option<Self> {
+        let others = [Self::Job, Self::Scene, Self::Camera].into_iter().filter(|kind| kind.has_key_of(tree));
+        if self.has_key_of(tree) { None } else { others.reduce(|first, _| first) }
+    }
+}
 
 /// The tree of a job, its scene and its cameras; in place of each file's name stands its tree.
 pub(super) fn job(file: &Path, read: &ReadText<'_>, overrides: &Overrides, faults: &mut Faults) -> Option<Node> {
-    let mut document = document(file, read, &Place::file_head(file), faults)?;
+    let mut document = document(file, FileKind::Job, read, &Place::file_head(file), faults)?;
     overrides.apply(&mut document, true, faults);
     let table = document.as_table_mut()?;
     if let Some(scene) = table.get_mut("scene") {
-        splice(scene, read, faults);
+        splice(scene, FileKind::Scene, read, faults);
     }
     if let Some(Node { value: Value::List(cameras), .. }) = table.get_mut("cameras") {
         for camera in cameras {
             if let Some(file) = camera.as_table_mut().and_then(|t| t.get_mut("file")) {
-                splice(file, read, faults);
+                splice(file, FileKind::Camera, read, faults);
             }
         }
     }
@@ -30,17 +67,23 @@ pub(super) fn job(file: &Path, read: &ReadText<'_>, overrides: &Overrides, fault
 }
 
 /// Puts the tree of a file in place of its name.
-fn splice(node: &mut Node, read: &ReadText<'_>, faults: &mut Faults) {
+fn splice(node: &mut Node, kind: FileKind, read: &ReadText<'_>, faults: &mut Faults) {
     if node.as_text().is_none() {
         return;
     }
     let file = path(&["toml"]).read(node, faults);
-    let tree = file.and_then(|file| document(&file, read, &node.place, faults));
+    let tree = file.and_then(|file| document(&file, kind, read, &node.place, faults));
     *node = tree.unwrap_or(Node { place: node.place.clone(), value: Value::Unreadable });
 }
 
-/// The tree of a file, which is named at `named`; its format is checked and taken out.
-pub(super) fn document(file: &Path, read: &ReadText<'_>, named: &Place, faults: &mut Faults) -> Option<Node> {
+/// The tree of a file of one kind, which is named at `named`; its format is checked and taken out.
+pub(super) fn document(
+    file: &Path,
+    kind: FileKind,
+    read: &ReadText<'_>,
+    named: &Place,
+    faults: &mut Faults,
+) -> Option<Node> {
     let text = match read(file) {
         Ok(text) => text,
         Err(why) => {
@@ -59,7 +102,20 @@ pub(super) fn document(file: &Path, read: &ReadText<'_>, named: &Place, faults: 
         return None;
     }
     check_format(&mut tree, faults);
+    if let Some(other) = kind.mistaken_for(&tree) {
+        note_other_kind(file, kind, other, named, faults);
+        return None;
+    }
     Some(tree)
+}
+
+fn note_other_kind(file: &Path, kind: FileKind, other: FileKind, named: &Place, faults: &mut Faults) {
+    let subject = if named.file() == file { "this".to_owned() } else { format!("\"{}\"", file.display()) };
+    let remedy = match (kind, other) {
+        (FileKind::Job, FileKind::Scene | FileKind::Camera) => "give a job file that names it".to_owned(),
+        _ => format!("give a {} file", kind.word()),
+    };
+    faults.add(named, format!("{subject} is a {} file", other.word()), remedy);
 }
 
 /// Every file says its format; this program reads format 1.

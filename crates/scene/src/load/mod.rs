@@ -92,7 +92,8 @@ impl CameraSetup {
 /// All faults of the file.
 pub fn load_camera(file: &Path, read: &ReadText<'_>, overrides: &Overrides) -> Result<Camera, Faults> {
     let mut faults = Faults::none();
-    let mut document = files::document(file, read, &crate::Place::file_head(file), &mut faults);
+    let mut document =
+        files::document(file, files::FileKind::Camera, read, &crate::Place::file_head(file), &mut faults);
     if let Some(document) = &mut document {
         overrides.apply(document, true, &mut faults);
         overrides.apply(document, false, &mut faults);
