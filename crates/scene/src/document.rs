@@ -1,5 +1,6 @@
 //! A TOML text as a tree whose every value knows its place.
 
+use std::num::IntErrorKind;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -207,5 +208,11 @@ pub(crate) fn join(parent: &str, key: &str) -> String {
 }
 
 fn whole(v: &toml::de::DeInteger<'_>) -> Value {
-    i64::from_str_radix(v.as_str(), v.radix()).map_or(Value::Foreign("an integer too large for 64 bits"), Value::Whole)
+    match i64::from_str_radix(v.as_str(), v.radix()) {
+        Ok(v) => Value::Whole(v),
+        Err(error) => Value::Foreign(match error.kind() {
+            IntErrorKind::PosOverflow | IntErrorKind::NegOverflow => "an integer too large for 64 bits",
+            _ => "an integer without proper digits",
+        }),
+    }
 }

@@ -1,5 +1,9 @@
 //! Faults in the user's words: each text is pinned.
 
+use std::path::Path;
+
+use etendue_scene::{Overrides, load_camera};
+
 use crate::files::{Files, doc, load};
 
 /// A small job that is right.
@@ -136,6 +140,10 @@ fn numbers_that_are_none() {
     );
     assert!(faults_of("f_number = 2.0", "f_number = 1e999").contains("number above 0"));
     assert!(faults_of("width_px = 64", "width_px = 99999999999999999999").contains("an integer too large for 64 bits"));
+    for digitless in ["0x", "0xg1", "0b2"] {
+        let told = faults_of_sets(&[&format!("render.spp={digitless}")]);
+        assert!(!told.contains("too large") && told.ends_with("give a whole number from 1 to 1048576"), "{told}");
+    }
 }
 
 #[test]
@@ -274,6 +282,33 @@ fn files_that_cannot_be_read() {
         "job.toml:2:9: scene: cannot read \"scenes.toml\": no such file; correct the path, which is relative to the file \
          that names it"
     ));
+}
+
+#[test]
+fn a_file_of_another_kind_is_one_fault() {
+    let example = Files::of_example(&doc());
+    let as_job = |kind: &str| {
+        let mut files = Files::of_example(&doc());
+        files.put("job.toml", &example.text(kind));
+        load(&files, &[]).expect_err("no job").to_string()
+    };
+    assert_eq!(as_job("scene.toml"), "job.toml:1:1: this is a scene file; give a job file that names it");
+    assert_eq!(as_job("camera.toml"), "job.toml:1:1: this is a camera file; give a job file that names it");
+    let set = |set: &str| load(&example, &[set]).expect_err("another kind").to_string();
+    assert_eq!(
+        set("scene=camera.toml"),
+        "--set scene=camera.toml: \"camera.toml\" is a camera file; give a scene file"
+    );
+    assert_eq!(
+        set("cameras.front.file=scene.toml"),
+        "--set cameras.front.file=scene.toml: \"scene.toml\" is a scene file; give a camera file"
+    );
+    assert_eq!(
+        set("cameras.front.file=job.toml"),
+        "--set cameras.front.file=job.toml: this is a job file; give a camera file"
+    );
+    let camera = load_camera(Path::new("job.toml"), &|p| example.read(p), &Overrides::default());
+    assert_eq!(camera.expect_err("a job").to_string(), "job.toml:1:1: this is a job file; give a camera file");
 }
 
 #[test]
