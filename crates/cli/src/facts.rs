@@ -135,21 +135,45 @@ pub fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>
 pub fn optics(body: &CameraBody) -> Value {
     let lens = &body.lens;
     let matrix = body.raster.camera_matrix(lens.principal_distance_mm());
-    let distortion = lens.distortion().map(|d| {
-        let [k1, k2] = d.coefficients();
-        json!({ "k1": k1, "k2": k2, "radius_unit_mm": d.unit_mm(), "direction": direction(d.sense()) })
-    });
     json!({
         "focal_length_mm": lens.focal_length_mm(),
         "f_number": lens.f_number(),
+        "t_number": lens.t_number(),
+        "working_f_number": lens.working_f_number(),
         "focus_distance_m": lens.focus_distance_m().filter(|m| m.is_finite()),
+        "magnification": lens.magnification(),
+        "hyperfocal_m_for_1_px": lens.hyperfocal_m(body.raster.pitch_mm().x),
+        "entrance_pupil_diameter_mm": 2e3 * lens.entrance_pupil_radius_m(),
+        "sensor_plane_from_entrance_pupil_mm": 1e3 * lens.sensor_plane_m(),
         "principal_distance_mm": lens.principal_distance_mm(),
         "transmittance": lens.transmittance(),
-        "distortion": distortion,
+        "distortion": distortion(body),
         "camera_matrix": matrix.rows(),
         "camera_matrix_convention": "raster: the top-left corner of the image is (0, 0), pixel centres at +0.5",
         "camera_matrix_opencv": matrix.to_opencv().rows(),
     })
+}
+
+/// A lens's distortion, and the one of the other direction that comes nearest over the picture.
+fn distortion(body: &CameraBody) -> Option<Value> {
+    let d = body.lens.distortion()?;
+    let [k1, k2] = d.coefficients();
+    let other = match d.sense() {
+        Sense::IdealToObserved => Sense::ObservedToIdeal,
+        Sense::ObservedToIdeal => Sense::IdealToObserved,
+    };
+    let fitted = d.fitted(other, body.raster.max_radius_mm()).ok().map(|fit| {
+        let [k1, k2] = fit.distortion.coefficients();
+        let worst_px = fit.worst_mm / body.raster.pitch_mm().x;
+        json!({ "k1": k1, "k2": k2, "direction": direction(other), "largest_difference_px": worst_px })
+    });
+    Some(json!({
+        "k1": k1,
+        "k2": k2,
+        "radius_unit_mm": d.unit_mm(),
+        "direction": direction(d.sense()),
+        "fitted_in_the_other_direction": fitted,
+    }))
 }
 
 /// The direction of a distortion, in the words of camera files.

@@ -23,5 +23,5 @@ pub mod white_balance;
 pub use colour_matrix::{ColourMatrix, FitError, fit_colour_matrix};
 pub use develop::{Colour, DevelopError, Developed, Processing, RawPicture, develop};
 pub use mosaic::{Filter, Mosaic, MosaicError};
-pub use tone::{encode, to_8_bit};
+pub use tone::encode;
 pub use white_balance::{NoResponse, white_balance_from_illuminant};

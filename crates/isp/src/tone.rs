@@ -10,9 +10,10 @@ pub fn encode(linear: &Plane<LinearRgb>) -> Plane<Display> {
     linear.map(|rgb| rgb.map(|v| colour::encode(v.clamp(0.0, 1.0))))
 }
 
+#[cfg(test)]
 /// 8 bits a channel, row by row: 255 v rounded to the nearest, halves up; of a NaN, 0.
 #[must_use]
-pub fn to_8_bit(display: &Plane<Display>) -> Vec<[u8; 3]> {
+pub(crate) fn to_8_bit(display: &Plane<Display>) -> Vec<[u8; 3]> {
     display.samples().iter().map(|rgb| rgb.map(|v| (255.0 * v + 0.5) as u8)).collect()
 }
 

@@ -112,8 +112,8 @@ fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
         Some(m) if m.is_infinite() => "focused at infinity".to_owned(),
         Some(m) => format!("focused at {m} m"),
     };
-    let (mm, n, t) = (lens.focal_length_mm(), lens.f_number(), lens.transmittance());
-    line(f, "lens", format!("{kind}, {mm} mm f/{n}, transmittance {t}, {focus}, {}", field_of_view(camera)))?;
+    let (mm, n, t) = (lens.focal_length_mm(), lens.f_number(), lens.t_number());
+    line(f, "lens", format!("{kind}, {mm} mm f/{n} (T {t:.3}), {focus}, {}", field_of_view(camera)))?;
     line(f, "distortion", distortion(lens))?;
     match &camera.settings.route {
         Route::Lens => line(f, "route", "through the lens: vignetting, defocus and distortion by each sample's ray"),
@@ -123,7 +123,8 @@ fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
             line(f, "route", format!("{size}; defocus is left out ({})", blur(camera)))
         }
     }?;
-    line(f, "left out", "aberrations, diffraction, glare and ghosts: later models; dispersion: the lens has none")
+    let dispersion = if lens.disperses() { "" } else { "; dispersion: the lens has none" };
+    line(f, "left out", format!("aberrations, diffraction, glare and ghosts: not modelled{dispersion}"))
 }
 
 fn field_of_view(camera: &CameraPlan) -> String {

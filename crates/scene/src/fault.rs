@@ -11,7 +11,7 @@ pub struct Fault {
     pub place: Place,
     /// What is wrong, and what was expected.
     pub problem: String,
-    /// What to do.
+    /// What to do; empty where the problem's own words say it.
     pub remedy: String,
 }
 
@@ -37,7 +37,8 @@ impl Named {
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}; {}", self.place, self.problem, self.remedy)
+        write!(f, "{}: {}", self.place, self.problem)?;
+        if self.remedy.is_empty() { Ok(()) } else { write!(f, "; {}", self.remedy) }
     }
 }
 

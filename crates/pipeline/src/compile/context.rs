@@ -24,7 +24,7 @@ impl<'a> Context<'a> {
 
     /// The value, or `None` with its error noted as a fault at `place`; the errors of the models say what to do.
     pub(super) fn accept<T, E: Display>(&mut self, place: &Place, result: Result<T, E>) -> Option<T> {
-        result.map_err(|error| self.fault(place, error.to_string(), "correct it")).ok()
+        result.map_err(|error| self.fault(place, error.to_string(), "")).ok()
     }
 
     /// A remark that the plan prints, once.

@@ -21,10 +21,14 @@ pub(super) fn raster(sensor: &record::Sensor, context: &mut Context<'_>) -> Opti
 
 /// The lens of a camera, checked against its picture.
 pub(super) fn lens(record: &record::Lens, raster: &Raster, context: &mut Context<'_>) -> Option<Lens> {
-    let (place, made, distortion) = match record {
-        record::Lens::Pinhole(r) => (&r.place, pinhole(r), &r.distortion),
-        record::Lens::Thin(r) => (&r.place, thin(r), &r.distortion),
-        record::Lens::Thick(r) => (&r.place, thick(r), &r.distortion),
+    let (place, focus, made, distortion) = match record {
+        record::Lens::Pinhole(r) => (&r.place, None, pinhole(r), &r.distortion),
+        record::Lens::Thin(r) => (&r.place, Some(&r.focus_distance_m), thin(r), &r.distortion),
+        record::Lens::Thick(r) => (&r.place, Some(&r.focus_distance_m), thick(r), &r.distortion),
+    };
+    let place = match (&made, focus) {
+        (Err(OpticsError::FocusTooNear { .. }), Some(description::FocusDistance::Metres(metres))) => &metres.place,
+        _ => place,
     };
     let lens = context.accept(place, made)?;
     let Some(distortion) = distortion else { return Some(lens) };

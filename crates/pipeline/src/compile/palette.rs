@@ -82,7 +82,7 @@ impl PaletteBuilder {
             Ok(palette) => Some((palette, self.names)),
             Err(error) => {
                 if let Some(place) = material_of(&error).and_then(|i| self.places.get(i)) {
-                    context.fault(place, error.to_string(), "correct it");
+                    context.fault(place, error.to_string(), "");
                 }
                 None
             }

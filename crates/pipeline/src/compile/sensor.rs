@@ -27,7 +27,7 @@ pub(super) fn sensor(record: &record::Sensor, context: &mut Context<'_>) -> Opti
     match Sensor::new(parameters) {
         Ok(sensor) => Some(sensor),
         Err(errors) => {
-            errors.iter().for_each(|e| context.fault(&record.place, e.to_string(), "correct it"));
+            errors.iter().for_each(|e| context.fault(&record.place, e.to_string(), ""));
             None
         }
     }

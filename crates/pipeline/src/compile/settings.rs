@@ -108,7 +108,8 @@ fn samples(render: &Render, choices: &Choices, context: &mut Context<'_>) -> Opt
         return Some((spp, most.unwrap_or(1) as u32));
     };
     if spp == 0 || u64::from(spp) % replicates.value != 0 {
-        let problem = format!("{spp} samples cannot be shared evenly among {} replicates", replicates.value);
+        let said = if choices.spp.is_some() { format!("--spp {spp}") } else { format!("{spp} samples") };
+        let problem = format!("{said} cannot be shared evenly among {} replicates", replicates.value);
         context.fault(&replicates.place, problem, "give samples that are a multiple of the replicates");
         return None;
     }
