@@ -5,7 +5,7 @@ use etendue_scene::asset::{AssetKind, AssetRequest, Assets};
 use crate::Error;
 use crate::mesh::read_mesh;
 use crate::picture::read_picture;
-use crate::spectrum::read_spectrum;
+use crate::spectrum::read_spectrum_of;
 
 /// Reads every file of `named` (as a description names them), and those that its meshes name in turn.
 ///
@@ -36,7 +36,7 @@ fn load(assets: &mut Assets, request: &AssetRequest) -> Result<(), Error> {
     match request.kind {
         AssetKind::Mesh => drop(assets.meshes.insert(key, read_mesh(path)?)),
         AssetKind::Image => drop(assets.images.insert(key, read_picture(path)?)),
-        AssetKind::Spectrum => drop(assets.spectra.insert(key, read_spectrum(path)?)),
+        AssetKind::Spectrum(values) => drop(assets.spectra.insert(key, read_spectrum_of(path, values)?)),
     }
     Ok(())
 }

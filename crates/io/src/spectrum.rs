@@ -2,18 +2,52 @@
 
 use std::path::Path;
 
-use etendue_scene::asset::SpectrumAsset;
-use etendue_spectra::{Outside, Spectrum};
+use etendue_scene::asset::{SpectrumAsset, Values};
+use etendue_spectra::{Outside, Spectrum, SpectrumError};
 
 use crate::source::{decode_text, read_bytes};
 use crate::{Error, hash};
 
+/// A line, counted from 1, and its wavelength (nm) and value.
+type Row = (usize, (f64, f64));
+
 /// Reads a spectrum. The grammar and the checks are those of [`Spectrum::from_csv`].
 pub fn read_spectrum(file: &Path) -> Result<SpectrumAsset, Error> {
+    let (rows, hash) = read(file)?;
+    Ok(asset(&rows, hash))
+}
+
+/// Reads a spectrum whose values are all `values`.
+pub fn read_spectrum_of(file: &Path, values: Values) -> Result<SpectrumAsset, Error> {
+    let (rows, hash) = read(file)?;
+    match rows.iter().find(|(_, (_, value))| !values.admit(*value)) {
+        Some((line, (nm, value))) => {
+            Err(Error::at(file, *line, format!("found {value} at {nm} nm; expected {}", values.words())))
+        }
+        None => Ok(asset(&rows, hash)),
+    }
+}
+
+fn read(file: &Path) -> Result<(Vec<Row>, [u8; 32]), Error> {
     let bytes = read_bytes(file, "spectrum")?;
     let text = decode_text(file, &bytes)?;
-    Spectrum::from_csv(text, Outside::Hold).map_err(|cause| Error::new(file, cause.to_string()))?;
-    Ok(SpectrumAsset { points: text.lines().filter_map(point).collect(), hash: hash::of_bytes(&bytes) })
+    Spectrum::from_csv(text, Outside::Hold).map_err(|cause| fault(file, &cause))?;
+    let rows = text.lines().enumerate().filter_map(|(i, line)| Some((i + 1, point(line)?)));
+    Ok((rows.collect(), hash::of_bytes(&bytes)))
+}
+
+fn asset(rows: &[Row], hash: [u8; 32]) -> SpectrumAsset {
+    SpectrumAsset { points: rows.iter().map(|(_, point)| *point).collect(), hash }
+}
+
+/// The cause at its line, told as in all other files.
+fn fault(file: &Path, cause: &SpectrumError) -> Error {
+    let text = cause.to_string();
+    let told = text.strip_prefix("line ").and_then(|rest| rest.split_once(": "));
+    match told.and_then(|(line, what)| Some((line.parse().ok()?, what))) {
+        Some((line, what)) => Error::at(file, line, what),
+        None => Error::new(file, text),
+    }
 }
 
 /// The point of a line of a table that has been checked: what is no point is a header, a comment or empty.

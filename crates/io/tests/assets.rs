@@ -89,7 +89,7 @@ fn all_errors_come_at_once_with_the_place_that_names_the_file() {
     assert_eq!(told.len(), 3, "{told:#?}");
     assert_eq!(
         told[0],
-        "b.csv: line 2: wavelength 390 nm follows 400 nm: sort the table by rising wavelength, each once \
+        "b.csv:2: wavelength 390 nm follows 400 nm: sort the table by rising wavelength, each once \
          (named at job.toml:18:28: scene.materials.b.reflectance.spectrum)"
     );
     assert_eq!(
@@ -99,6 +99,25 @@ fn all_errors_come_at_once_with_the_place_that_names_the_file() {
     );
     assert!(told[2].starts_with("t.png: not a readable picture (") && told[2].contains("truncated"), "{}", told[2]);
     assert!(told[2].ends_with("(named at job.toml:9:8: scene.textures.t.file)"), "{}", told[2]);
+}
+
+#[test]
+fn a_value_that_its_use_forbids_is_told_with_its_line() {
+    let place = tempfile::tempdir().expect("temporary folder");
+    let folder = place.path();
+    write(folder, &[("m.obj", PLAIN_OBJ.as_bytes()), ("m.mtl", b"newmtl x\n"), ("t.png", &png(10))]);
+    let told = |table: &[u8]| {
+        write(folder, &[("b.csv", table)]);
+        let errors = load_assets(&description(folder).assets()).err().unwrap_or_default();
+        errors.iter().map(|e| e.to_string().replace(&format!("{}/", folder.display()), "")).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        told(b"# paint\nwavelength_nm,value\n400,0.5\n500,1.5\n"),
+        ["b.csv:4: found 1.5 at 500 nm; expected a share between 0 and 1 \
+          (named at job.toml:18:28: scene.materials.b.reflectance.spectrum)"]
+    );
+    assert_eq!(told(b"400,-0.5\n500,0.5\n")[0].split(';').next(), Some("b.csv:1: found -0.5 at 400 nm"));
+    assert_eq!(told(b"400,0\n500,1\n"), [""; 0]);
 }
 
 #[test]

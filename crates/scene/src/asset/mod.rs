@@ -8,5 +8,5 @@ mod store;
 pub use mesh::{ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
 pub use mtl::{MtlFields, SlotMaterial, SlotReflectance, SlotSurface};
 pub(crate) use request::requests;
-pub use request::{AssetKind, AssetRequest, of_camera};
+pub use request::{AssetKind, AssetRequest, Values, of_camera};
 pub use store::Assets;

@@ -27,8 +27,37 @@ pub enum AssetKind {
     Mesh,
     /// [`super::ImageAsset`].
     Image,
-    /// [`super::SpectrumAsset`].
-    Spectrum,
+    /// [`super::SpectrumAsset`] of such values.
+    Spectrum(Values),
+}
+
+/// What the values of a tabulated spectrum can be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Values {
+    /// A share of light or of photons, 0 … 1.
+    Share,
+    /// Light, 0 or more.
+    Light,
+}
+
+impl Values {
+    /// Whether a value is one of these.
+    #[must_use]
+    pub fn admit(self, value: f64) -> bool {
+        match self {
+            Self::Share => (0.0..=1.0).contains(&value),
+            Self::Light => value >= 0.0,
+        }
+    }
+
+    /// What they are, in words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Share => "a share between 0 and 1",
+            Self::Light => "0 or more",
+        }
+    }
 }
 
 /// Every file that is named, each once.
@@ -73,26 +102,26 @@ impl List {
 
     fn reflectance(&mut self, reflectance: &Reflectance) {
         if let Reflectance::Spectrum(file) = reflectance {
-            self.add(AssetKind::Spectrum, file);
+            self.add(AssetKind::Spectrum(Values::Share), file);
         }
     }
 
     fn emission(&mut self, emission: &Emission) {
         if let Level::Radiance(curve) = &emission.level {
-            self.curve(curve);
+            self.curve(curve, Values::Light);
         }
         emission.colour.iter().for_each(|c| self.colour(c));
     }
 
     fn colour(&mut self, colour: &LightColour) {
         if let LightColour::Spectrum(file) = colour {
-            self.add(AssetKind::Spectrum, file);
+            self.add(AssetKind::Spectrum(Values::Light), file);
         }
     }
 
-    fn curve(&mut self, curve: &Curve) {
+    fn curve(&mut self, curve: &Curve, values: Values) {
         if let Curve::File(file) = curve {
-            self.add(AssetKind::Spectrum, file);
+            self.add(AssetKind::Spectrum(values), file);
         }
     }
 
@@ -105,8 +134,8 @@ impl List {
 
     fn camera(&mut self, camera: &Camera) {
         match camera.sensor.electronics.as_ref().map(|e| &e.quantum_efficiency) {
-            Some(QuantumEfficiency::Same(curve)) => self.curve(curve),
-            Some(QuantumEfficiency::PerChannel(curves)) => curves.iter().for_each(|c| self.curve(c)),
+            Some(QuantumEfficiency::Same(curve)) => self.curve(curve, Values::Share),
+            Some(QuantumEfficiency::PerChannel(curves)) => curves.iter().for_each(|c| self.curve(c, Values::Share)),
             Some(QuantumEfficiency::Measured { .. }) | None => {}
         }
     }

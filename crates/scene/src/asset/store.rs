@@ -36,7 +36,7 @@ impl Assets {
         match kind {
             AssetKind::Mesh => self.meshes.contains_key(path),
             AssetKind::Image => self.images.contains_key(path),
-            AssetKind::Spectrum => self.spectra.contains_key(path),
+            AssetKind::Spectrum(_) => self.spectra.contains_key(path),
         }
     }
 }
