@@ -70,18 +70,65 @@ pub fn read_pair(a: &Path, b: &Path) -> Result<Pair, Error> {
 
 fn of_exr(path: &Path, a: &ExrFile, b: &ExrFile) -> Result<Pair, Error> {
     check_size(path, (a.width, a.height), (b.width, b.height))?;
-    let (of_a, of_b) = (names(a), names(b));
-    if of_a != of_b {
-        let only = |x: &[&str], y: &[&str]| x.iter().filter(|n| !y.contains(n)).copied().collect::<Vec<_>>().join(", ");
-        let lacking = only(&of_a, &of_b);
-        let surplus = only(&of_b, &of_a);
-        let what =
-            format!("has other channels: it lacks [{lacking}] and has [{surplus}] more; compare results of one kind");
-        return Err(Error::new(path, what));
-    }
-    let channels = of_a.iter().filter(|name| !name.starts_with(VARIANCE) && !is_preview(a, name));
+    check_stated(path, a, b)?;
+    check_channels(path, &names(a), &names(b))?;
+    let channels = names(a).into_iter().filter(|name| !name.starts_with(VARIANCE) && !is_preview(a, name));
     let channels = channels.map(|name| channel(path, a, b, name)).collect::<Result<_, _>>()?;
     Ok(Pair { width: a.width, height: a.height, channels, replicates: (replicates(a), replicates(b)) })
+}
+
+/// Quantity and unit, which have to be the same where both files state them.
+fn check_stated(path: &Path, a: &ExrFile, b: &ExrFile) -> Result<(), Error> {
+    for fact in ["quantity", "units"] {
+        let stated = |file: &ExrFile| file.attributes.get(&format!("etendue:{fact}")).cloned();
+        if let (Some(of_a), Some(of_b)) = (stated(a), stated(b))
+            && of_a != of_b
+        {
+            let what = format!("states the {fact} \"{of_b}\", the other \"{of_a}\"; compare results of one kind");
+            return Err(Error::new(path, what));
+        }
+    }
+    Ok(())
+}
+
+fn check_channels(path: &Path, of_a: &[&str], of_b: &[&str]) -> Result<(), Error> {
+    let lacking = beyond(of_a, of_b);
+    let surplus = beyond(of_b, of_a);
+    let is_variance = |names: &[&str]| names.iter().all(|name| name.starts_with(VARIANCE));
+    let what = match (lacking.is_empty(), surplus.is_empty()) {
+        (true, true) => return Ok(()),
+        (false, true) if is_variance(&lacking) => {
+            "has no variances, the other has; render both with output.variance or none".to_owned()
+        }
+        (true, false) if is_variance(&surplus) => {
+            "has variances, the other none; render both with output.variance or none".to_owned()
+        }
+        (false, true) => format!("lacks channels of the other: {}; compare results of one kind", a_few(&lacking)),
+        (true, false) => format!("has channels that the other lacks: {}; compare results of one kind", a_few(&surplus)),
+        (false, false) => {
+            format!(
+                "has other channels: {} in place of {}; compare results of one kind",
+                a_few(&surplus),
+                a_few(&lacking)
+            )
+        }
+    };
+    Err(Error::new(path, what))
+}
+
+/// The names that are not among the others.
+fn beyond<'n>(names: &[&'n str], others: &[&str]) -> Vec<&'n str> {
+    names.iter().filter(|name| !others.contains(name)).copied().collect()
+}
+
+/// The first names, and how many more there are.
+fn a_few(names: &[&str]) -> String {
+    const TOLD: usize = 4;
+    let told = names[..names.len().min(TOLD)].join(", ");
+    match names.len().saturating_sub(TOLD) {
+        0 => told,
+        more => format!("{told} and {more} more"),
+    }
 }
 
 const VARIANCE: &str = "variance.";
@@ -124,11 +171,11 @@ fn of_pictures(a: &Path, b: &Path) -> Result<Pair, Error> {
     let (x, y) = (read_picture(a)?, read_picture(b)?);
     let (width, height) = (x.width as usize, x.height as usize);
     check_size(b, (width, height), (y.width as usize, y.height as usize))?;
-    let (of_a, of_b) = (channels_of(&x.pixels), channels_of(&y.pixels));
-    if of_a.len() != of_b.len() {
-        let what = format!("has {} channels, the other {}; compare pictures of one kind", of_b.len(), of_a.len());
+    if kind(&x.pixels) != kind(&y.pixels) {
+        let what = format!("holds {}, the other {}; compare pictures of one kind", kind(&y.pixels), kind(&x.pixels));
         return Err(Error::new(b, what));
     }
+    let (of_a, of_b) = (channels_of(&x.pixels), channels_of(&y.pixels));
     let names = if of_a.len() == 1 { &["grey"][..] } else { &["R", "G", "B", "A"] };
     let channels = names
         .iter()
@@ -138,12 +185,89 @@ fn of_pictures(a: &Path, b: &Path) -> Result<Pair, Error> {
     Ok(Pair { width, height, channels: channels.collect(), replicates: (1, 1) })
 }
 
+/// What a picture holds, in words.
+fn kind(pixels: &ImagePixels) -> &'static str {
+    match pixels {
+        ImagePixels::Gray8(_) => "grey of 8 bits",
+        ImagePixels::Gray16(_) => "grey of 16 bits",
+        ImagePixels::Rgb8(_) => "R, G, B of 8 bits",
+        ImagePixels::Rgba8(_) => "R, G, B, A of 8 bits",
+        ImagePixels::Rgb32F(_) => "R, G, B as numbers",
+    }
+}
+
+/// The channels in the units of the file; colours of 16 bits in shares of 65 535.
 fn channels_of(pixels: &ImagePixels) -> Vec<Vec<f32>> {
     let bytes = |of: &dyn Fn(usize) -> Vec<f32>, n: usize| (0..n).map(of).collect();
     match pixels {
         ImagePixels::Gray8(p) => vec![p.iter().map(|v| f32::from(*v)).collect()],
+        ImagePixels::Gray16(p) => vec![p.iter().map(|v| f32::from(*v)).collect()],
         ImagePixels::Rgb8(p) => bytes(&|c| p.iter().map(|v| f32::from(v[c])).collect(), 3),
         ImagePixels::Rgba8(p) => bytes(&|c| p.iter().map(|v| f32::from(v[c])).collect(), 4),
         ImagePixels::Rgb32F(p) => bytes(&|c| p.iter().map(|v| v[c]).collect(), 3),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+    use crate::exr::ExrChannel;
+
+    fn exr(quantity: Option<&str>, channels: &[&str]) -> ExrFile {
+        let channel = |name: &&str| ExrChannel { name: (*name).to_owned(), samples: Samples::Float(vec![1.0]) };
+        let stated = quantity.map(|text| ("etendue:quantity".to_owned(), text.to_owned()));
+        ExrFile {
+            width: 1,
+            height: 1,
+            channels: channels.iter().map(channel).collect(),
+            attributes: BTreeMap::from_iter(stated),
+            compression: String::new(),
+        }
+    }
+
+    fn told(a: &ExrFile, b: &ExrFile) -> String {
+        of_exr(Path::new("b.exr"), a, b).err().map_or(String::new(), |e| e.to_string())
+    }
+
+    #[test]
+    fn results_of_other_kinds_are_refused_in_a_sentence() {
+        let electrons = exr(Some("electrons"), &["n"]);
+        assert_eq!(told(&electrons, &electrons), "");
+        assert_eq!(told(&electrons, &exr(None, &["n"])), "", "a file of another program states nothing");
+        assert_eq!(
+            told(&electrons, &exr(Some("depth"), &["n"])),
+            "b.exr: states the quantity \"depth\", the other \"electrons\"; compare results of one kind"
+        );
+        assert_eq!(
+            told(&exr(None, &["a", "b", "c", "d", "e", "f", "x"]), &exr(None, &["x", "y"])),
+            "b.exr: has other channels: y in place of a, b, c, d and 2 more; compare results of one kind"
+        );
+        assert_eq!(
+            told(&exr(None, &["n", "variance.n"]), &electrons),
+            "b.exr: has no variances, the other has; render both with output.variance or none"
+        );
+    }
+
+    #[test]
+    fn raw_frames_are_compared_in_digital_numbers() {
+        let folder = tempfile::tempdir().expect("temporary folder");
+        let written = |name: &str, picture: &image::DynamicImage| {
+            let path = folder.path().join(name);
+            picture.save(&path).expect("writable");
+            path
+        };
+        let grey = |v: u16| image::DynamicImage::ImageLuma16(image::ImageBuffer::from_pixel(1, 1, image::Luma([v])));
+        let (a, b) = (written("a.png", &grey(100)), written("b.png", &grey(40_000)));
+        let channels = read_pair(&a, &b).expect("comparable").channels;
+        let content = Content::Number { a: vec![100.0], b: vec![40_000.0], variance: None };
+        assert_eq!(channels, [Channel { name: "grey".to_owned(), content }]);
+        let byte = image::DynamicImage::ImageLuma8(image::ImageBuffer::from_pixel(1, 1, image::Luma([7])));
+        let told = read_pair(&a, &written("c.png", &byte)).expect_err("another kind").to_string();
+        assert!(
+            told.ends_with("c.png: holds grey of 8 bits, the other grey of 16 bits; compare pictures of one kind"),
+            "{told}"
+        );
     }
 }

@@ -3,7 +3,8 @@
 //! | file | becomes |
 //! | --- | --- |
 //! | PNG, JPEG of 8 bits | bytes as stored |
-//! | PNG of 16 bits | floats, stored value / 65 535, still encoded as in the file; opacity is left out |
+//! | grey PNG of 16 bits | numbers as stored |
+//! | other PNG of 16 bits | floats, stored value / 65 535, still encoded as in the file; opacity is left out |
 //! | Radiance HDR | floats |
 //! | OpenEXR with R, G, B or Y | floats; half floats and every compression of the exr crate (none, RLE, ZIP, PIZ, PXR24, B44, DWA) |
 //!

@@ -46,6 +46,7 @@ fn jpeg_is_whole(bytes: &[u8]) -> bool {
 fn pixels(picture: DynamicImage) -> ImagePixels {
     match picture {
         DynamicImage::ImageLuma8(p) => ImagePixels::Gray8(p.into_raw()),
+        DynamicImage::ImageLuma16(p) => ImagePixels::Gray16(p.into_raw()),
         DynamicImage::ImageLumaA8(_) | DynamicImage::ImageRgba8(_) => {
             ImagePixels::Rgba8(picture.into_rgba8().pixels().map(|p| p.0).collect())
         }
@@ -76,6 +77,9 @@ mod tests {
         let picture = image::ImageBuffer::from_pixel(1, 1, image::Rgb([1_u16, 32_768, 65_535]));
         let pixels = read(&encoded(&DynamicImage::ImageRgb16(picture), ImageFormat::Png)).expect("readable");
         assert_eq!(pixels, ImagePixels::Rgb32F(vec![[1.0 / 65_535.0, 32_768.0 / 65_535.0, 1.0]]));
+        let grey = image::ImageBuffer::from_raw(2, 1, vec![1_u16, 65_535]).expect("two pixels");
+        let pixels = read(&encoded(&DynamicImage::ImageLuma16(grey), ImageFormat::Png)).expect("readable");
+        assert_eq!(pixels, ImagePixels::Gray16(vec![1, 65_535]));
     }
 
     #[test]

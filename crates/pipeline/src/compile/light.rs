@@ -74,6 +74,7 @@ fn light_only(mut texels: Vec<[f32; 3]>, record: &EnvironmentImage, context: &mu
 fn linear(picture: &ImageAsset) -> Vec<[f32; 3]> {
     match &picture.pixels {
         ImagePixels::Gray8(p) => p.iter().map(|g| [colour::decode_byte(*g); 3]).collect(),
+        ImagePixels::Gray16(p) => p.iter().map(|g| [f32::from(*g) / 65_535.0; 3]).collect(),
         ImagePixels::Rgb8(p) => p.iter().map(|c| c.map(colour::decode_byte)).collect(),
         ImagePixels::Rgba8(p) => p.iter().map(|[r, g, b, _]| [*r, *g, *b].map(colour::decode_byte)).collect(),
         ImagePixels::Rgb32F(p) => p.clone(),

@@ -231,6 +231,10 @@ fn texels(image: &ImageAsset, encoded: bool, scale: f32) -> Texels {
     };
     match &image.pixels {
         ImagePixels::Gray8(pixels) => bytes(pixels.iter().map(|g| [*g; 3]).collect()),
+        ImagePixels::Gray16(pixels) => {
+            let linear = |v: f32| if encoded { colour::decode(v) } else { v };
+            Texels::Float(pixels.iter().map(|g| [linear(f32::from(*g) / 65_535.0) * scale; 3]).collect())
+        }
         ImagePixels::Rgb8(pixels) => bytes(pixels.clone()),
         ImagePixels::Rgba8(pixels) => bytes(pixels.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect()),
         ImagePixels::Rgb32F(pixels) => {

@@ -43,11 +43,13 @@ pub struct ImageAsset {
 pub enum ImagePixels {
     /// One channel, 0 … 255.
     Gray8(Vec<u8>),
+    /// One channel, 0 … 65 535.
+    Gray16(Vec<u16>),
     /// Red, green, blue, 0 … 255.
     Rgb8(Vec<[u8; 3]>),
     /// Red, green, blue, opacity, 0 … 255.
     Rgba8(Vec<[u8; 4]>),
-    /// Red, green, blue, linear.
+    /// Red, green, blue: linear numbers, or 0 … 1 as encoded in a picture of 16 bits.
     Rgb32F(Vec<[f32; 3]>),
 }
 
@@ -57,6 +59,7 @@ impl ImagePixels {
     pub fn len(&self) -> usize {
         match self {
             Self::Gray8(p) => p.len(),
+            Self::Gray16(p) => p.len(),
             Self::Rgb8(p) => p.len(),
             Self::Rgba8(p) => p.len(),
             Self::Rgb32F(p) => p.len(),
