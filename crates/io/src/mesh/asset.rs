@@ -30,6 +30,8 @@ pub fn read_mesh(file: &Path) -> Result<MeshAsset, Error> {
         mesh.report.push("the last line has no end: the file may be truncated".to_owned());
     }
     mesh.report.extend(notes(&obj, &parts));
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    mesh.report.iter_mut().for_each(|note| note.insert_str(0, &format!("{name}: ")));
     mesh.slot_materials = materials;
     mesh.report.extend(report);
     Ok(mesh)
