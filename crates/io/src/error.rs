@@ -10,19 +10,26 @@ pub struct Error {
     line: Option<usize>,
     what: String,
     named_at: Option<String>,
+    /// Whether the path is at fault, not what is in the file.
+    is_path: bool,
 }
 
 impl Error {
     /// A fault of the whole file.
     #[must_use]
     pub fn new(file: &Path, what: impl Into<String>) -> Self {
-        Self { file: file.to_path_buf(), line: None, what: what.into(), named_at: None }
+        Self { file: file.to_path_buf(), line: None, what: what.into(), named_at: None, is_path: false }
     }
 
     /// A fault in line `line`, counted from 1.
     #[must_use]
     pub fn at(file: &Path, line: usize, what: impl Into<String>) -> Self {
         Self { line: Some(line), ..Self::new(file, what) }
+    }
+
+    /// A fault of the path.
+    pub(crate) fn missing(file: &Path, what: impl Into<String>) -> Self {
+        Self { is_path: true, ..Self::new(file, what) }
     }
 
     /// The same fault with the place of the reference that led to the file.
@@ -59,6 +66,9 @@ impl fmt::Display for Error {
         }
         write!(f, ": {}", self.what)?;
         match &self.named_at {
+            Some(place) if self.is_path => {
+                write!(f, " (named at {place}; a path is relative to the file that names it)")
+            }
             Some(place) => write!(f, " (named at {place})"),
             None => Ok(()),
         }

@@ -8,10 +8,8 @@ use crate::Error;
 /// The bytes of `file`; `what` names in words what it should be ("mesh", "texture").
 pub(crate) fn read_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error> {
     let bytes = std::fs::read(file).map_err(|cause| match cause.kind() {
-        ErrorKind::NotFound => Error::new(
-            file,
-            format!("no such {what} file; check the path, which is relative to the file that names it"),
-        ),
+        ErrorKind::NotFound => Error::missing(file, format!("no such {what} file; check the path")),
+        ErrorKind::IsADirectory => Error::missing(file, "this is a folder; name a file in it"),
         ErrorKind::PermissionDenied => Error::new(file, format!("this {what} file may not be read: permission denied")),
         _ => Error::new(file, format!("this {what} file cannot be read: {cause}")),
     })?;

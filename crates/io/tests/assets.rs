@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use etendue_io::picture::read_picture;
 use etendue_io::{load_assets, mesh};
 use etendue_scene::asset::ImagePixels;
 use etendue_scene::{Description, Overrides};
@@ -130,4 +131,9 @@ fn a_texture_that_a_mesh_names_in_vain_is_told_with_the_mesh() {
     let told = errors[0].to_string().replace(&format!("{}/", folder.display()), "");
     assert!(errors.len() == 1 && told.starts_with("lost.png: no such picture file; check the path"), "{told}");
     assert!(told.contains("named at m.obj"), "{told}");
+    assert!(told.ends_with("; a path is relative to the file that names it)"), "{told}");
+    let told = read_picture(&folder.join("lost.png")).expect_err("nobody names it").to_string();
+    assert!(told.ends_with("lost.png: no such picture file; check the path"), "{told}");
+    let told = read_picture(folder).expect_err("a folder").to_string();
+    assert!(told.ends_with(": this is a folder; name a file in it"), "{told}");
 }
