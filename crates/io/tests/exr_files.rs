@@ -94,6 +94,9 @@ fn ground_truth_keeps_its_names_types_and_the_sky() {
     let report = inspect(&path).expect("ground truth");
     assert_eq!(report.kind, "ground truth, EXR");
     assert_eq!(report.channels[3].infinite_count, 1);
+    assert_eq!(report.notes, ["the picture shows channel depth.Z"]);
+    let told = inspect(&written(folder.path(), "job.toml", b"format = 1\n")).expect_err("no result").to_string();
+    assert!(told.contains("job.toml: a description, neither result nor asset"), "{told}");
 }
 
 #[test]

@@ -42,7 +42,7 @@ fn channel(name: &str, samples: &Samples) -> ChannelReport {
     }
 }
 
-/// R, G, B where they are there, else the colour of the spectra, else the first channel as grey.
+/// R, G, B where they are there, else the colour of the spectra, else depth or the first channel as grey.
 fn preview(file: &Path, exr: &ExrFile, report: &mut FileReport) -> Option<Preview> {
     let planes = stored_colour(exr).or_else(|| spectral_colour(file, exr, report));
     match planes {
@@ -51,9 +51,9 @@ fn preview(file: &Path, exr: &ExrFile, report: &mut FileReport) -> Option<Previe
             Some(Preview::of_linear(exr.width, exr.height, &pixels))
         }
         None => {
-            let first = exr.channels.first()?;
-            report.notes.push(format!("the picture shows channel {}", first.name));
-            Some(Preview::of_grey(exr.width, exr.height, &first.samples.to_floats()))
+            let shown = exr.channels.iter().find(|c| c.name == "depth.Z").or(exr.channels.first())?;
+            report.notes.push(format!("the picture shows channel {}", shown.name));
+            Some(Preview::of_grey(exr.width, exr.height, &shown.samples.to_floats()))
         }
     }
 }

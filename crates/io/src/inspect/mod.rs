@@ -59,6 +59,9 @@ pub fn inspect(file: &Path) -> Result<FileReport, Error> {
         Some("obj") => text::mesh(file),
         Some("json") => text::sidecar(file, &bytes),
         Some("csv") => text::spectrum(file),
+        Some("toml") => {
+            Err(Error::new(file, "a description, neither result nor asset; `etendue plan` says what a job describes"))
+        }
         _ => picture::report(file, &bytes),
     }
 }

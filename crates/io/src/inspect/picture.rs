@@ -11,7 +11,7 @@ use crate::picture::decode_raster;
 
 pub(super) fn report(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
     let (format, picture) = decode_raster(file, bytes)?;
-    let mut report = FileReport::new(file, format!("picture, {format:?}"));
+    let mut report = FileReport::new(file, format!("picture, {}", format!("{format:?}").to_uppercase()));
     let (width, height) = (picture.width() as usize, picture.height() as usize);
     report.state("size", format!("{width} x {height} pixels"));
     let names = channel_names(picture.color());
