@@ -84,7 +84,9 @@ fn check_stated(path: &Path, a: &ExrFile, b: &ExrFile) -> Result<(), Error> {
         if let (Some(of_a), Some(of_b)) = (stated(a), stated(b))
             && of_a != of_b
         {
-            let what = format!("states the {fact} \"{of_b}\", the other \"{of_a}\"; compare results of one kind");
+            let what = format!(
+                "states the {fact} \"{of_b}\", the other \"{of_a}\", whose channels cannot be compared; compare results of one kind"
+            );
             return Err(Error::new(path, what));
         }
     }
@@ -238,7 +240,8 @@ mod tests {
         assert_eq!(told(&electrons, &exr(None, &["n"])), "", "a file of another program states nothing");
         assert_eq!(
             told(&electrons, &exr(Some("depth"), &["n"])),
-            "b.exr: states the quantity \"depth\", the other \"electrons\"; compare results of one kind"
+            "b.exr: states the quantity \"depth\", the other \"electrons\", whose channels cannot be compared; \
+             compare results of one kind"
         );
         assert_eq!(
             told(&exr(None, &["a", "b", "c", "d", "e", "f", "x"]), &exr(None, &["x", "y"])),
