@@ -19,9 +19,9 @@ record! {
         required scene: Scene = file_or_table::<Scene>();
         /// The cameras, one or more.
         required cameras: Vec<CameraEntry> = list(record(), 1);
-        /// How the light is found. Default: as the plan decides.
+        /// How the light is found. Default: that of each key.
         optional render: Render = record();
-        /// What is written. Default: as the plan decides.
+        /// What is written. Default: that of each key.
         optional output: Output = record();
     }
 }

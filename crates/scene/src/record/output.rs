@@ -6,21 +6,22 @@ use crate::reader::{Rule, RuleExt as _, choice, either, flag, number, record};
 record! {
     /// What is written.
     pub struct Output {
-        /// Spectral radiance at the entrance pupil, spectral EXR.
+        /// Spectral radiance at the entrance pupil, spectral EXR: what `etendue expose` takes, rendered with route "pupil".
+        /// Default: true for a sensor without electronics, else false.
         optional radiance: Placed<bool> = flag();
-        /// Spectral irradiance on the sensor plane, spectral EXR.
+        /// Spectral irradiance on the sensor plane, spectral EXR. Default: false.
         optional irradiance: Placed<bool> = flag();
-        /// Variance of the mean of what is estimated, EXR; needs two replicates or more.
+        /// Variance of the mean of what is estimated, EXR; needs two replicates or more. Default: false.
         optional variance: Placed<bool> = flag();
-        /// Expected electrons of each pixel, EXR.
+        /// Expected electrons of each pixel, EXR. Default: false.
         optional electrons: Placed<bool> = flag();
-        /// Digital numbers, 16-bit PNG.
+        /// Digital numbers, 16-bit PNG. Default: true for a sensor with electronics.
         optional raw: Placed<bool> = flag();
-        /// The picture, 8-bit PNG.
+        /// The picture, 8-bit PNG. Default: true for a camera with `[processing]`.
         optional picture: Placed<bool> = flag();
-        /// Depth, distance, normals, positions and identities of the ground truth, EXR.
+        /// Depth, distance, normals, positions and identities of the ground truth, EXR. Default: true.
         optional ground_truth: Placed<bool> = flag();
-        /// Depth as 16-bit PNG.
+        /// Depth as 16-bit PNG. Default: false.
         optional depth_png: Placed<bool> = flag();
         /// With "depth_png": numbers per metre, above 0, or a data set's convention: "kitti" (256 per m), "ros" (1 000 per
         /// m), "tum" (5 000 per m). Default: "kitti".

@@ -7,28 +7,29 @@ use crate::reader::{among, choice, flag, number, record, vector, whole};
 record! {
     /// How the light is found.
     pub struct Render check(check) {
-        /// Samples per pixel, 1 … 1 048 576; a multiple of "replicates".
+        /// Samples per pixel, 1 … 1 048 576; a multiple of "replicates". Default: 64, or as `--quality` says.
         optional spp: Placed<u64> = whole(1, 1 << 20);
-        /// Independent replicates from which the variance is told, 1 … 1 024; one gives no variance.
+        /// Independent replicates from which the variance is told, 1 … 1 024; one gives no variance. Default: 4, or
+        /// 2 or 1 where "spp" is no multiple.
         optional replicates: Placed<u64> = whole(1, 1024);
-        /// Surfaces that a path meets at most, 1 … 1 024.
+        /// Surfaces that a path meets at most, 1 … 1 024. Default: 16, or as `--quality` says.
         optional max_bounces: Placed<u64> = whole(1, 1024);
         /// Whether light of suns and glowing surfaces that smooth surfaces throw on matt ones is followed. Without it the
         /// picture is darker by that light, and free of the rare bright samples that find it. Default: true.
         optional caustics: Placed<bool> = flag();
-        /// Wavelengths that a path carries.
+        /// Wavelengths that a path carries. Default: 4.
         optional wavelengths_per_path: Placed<u64> = among(&[1, 4, 8]);
         /// Through the lens (exact), or as seen from the centre of the entrance pupil (fast, reusable). Default: "lens".
         optional route: Placed<Route> = choice();
-        /// Width of the spectral bands, nm, 1 … 100; the range is a whole number of bands.
+        /// Width of the spectral bands, nm, 1 … 100; the range is a whole number of bands. Default: 5.
         optional band_width_nm: Placed<f64> = number("nm").at_least(1.0).at_most(100.0);
         /// First and last wavelength, nm, within 300 … 1 100. Default: what the cameras need.
         optional wavelength_range_nm: Placed<[f64; 2]> = vector::<2>(number("nm").at_least(300.0).at_most(1100.0));
         /// Whether a spectral cube is kept or pixels sum electrons directly. Default: "auto", what the outputs need.
         optional accumulate: Placed<Accumulate> = choice();
-        /// Side of a tile, px, 4 … 1 024.
+        /// Side of a tile, px, 4 … 1 024. Default: 32.
         optional tile_px: Placed<u64> = whole(4, 1024);
-        /// Seed of every random number, 0 … 2⁶³ − 1.
+        /// Seed of every random number, 0 … 2⁶³ − 1. Default: 0.
         optional seed: Placed<u64> = whole(0, i64::MAX.cast_unsigned());
         /// With route "pupil": margin on every side, as a share of the picture's width and height, 0 … 1. Default: 0.
         optional overscan: Placed<f64> = number("").at_least(0.0).at_most(1.0);
