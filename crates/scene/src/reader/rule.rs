@@ -145,6 +145,10 @@ impl<R: Rule> Rule for List<R> {
         json!({ "type": "array", "items": self.rule.schema(), "minItems": self.least })
     }
     fn read(&self, node: &Node, faults: &mut Faults) -> Option<Self::Out> {
+        if Kind::of(node) == Kind::Table && self.rule.takes(Kind::Table) {
+            faults.add(&node.place, "found one table", "give a list of tables: double its brackets, [[ ]]");
+            return None;
+        }
         if !self.takes(Kind::of(node)) || node.as_list().len() < self.least {
             return self.refuse(node, faults);
         }
@@ -233,6 +237,10 @@ impl<T: Record> Rule for RecordRule<T> {
         record_schema(&T::forms())
     }
     fn read(&self, node: &Node, faults: &mut Faults) -> Option<T> {
+        if node.as_list().iter().any(|entry| entry.as_table().is_some()) {
+            faults.add(&node.place, "found a list of tables", "give one table: in single brackets, [ ]");
+            return None;
+        }
         let Some(table) = node.as_table() else { return self.refuse(node, faults) };
         let mut reader = Reader::new(table, &node.place);
         let read = T::read_keys(&mut reader, faults);

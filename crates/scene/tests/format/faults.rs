@@ -312,6 +312,18 @@ fn a_file_of_another_kind_is_one_fault() {
 }
 
 #[test]
+fn brackets_too_many_or_too_few() {
+    assert_eq!(
+        faults_of("[[scene.materials]]", "[scene.materials]").lines().next(),
+        Some("job.toml:19:1: scene.materials: found one table; give a list of tables: double its brackets, [[ ]]")
+    );
+    assert_eq!(
+        faults_of("[cameras.lens]", "[[cameras.lens]]"),
+        "job.toml:8:1: cameras.front.lens: found a list of tables; give one table: in single brackets, [ ]"
+    );
+}
+
+#[test]
 fn text_that_is_not_toml() {
     let text = faults_of("f_number = 2.0", "f_number = = 2.0");
     assert!(text.starts_with("job.toml:11:12: this is not TOML: "), "{text}");
