@@ -67,8 +67,12 @@ pub struct ImageEnvironment {
 impl core::fmt::Debug for ImageEnvironment {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let Self { width, height, scale, rotation_turns, mean_luminance, .. } = self;
-        f.debug_struct("ImageEnvironment").field("size", &(width, height)).field("scale", scale)
-            .field("rotation_turns", rotation_turns).field("mean_luminance", mean_luminance).finish_non_exhaustive()
+        f.debug_struct("ImageEnvironment")
+            .field("size", &(width, height))
+            .field("scale", scale)
+            .field("rotation_turns", rotation_turns)
+            .field("mean_luminance", mean_luminance)
+            .finish_non_exhaustive()
     }
 }
 

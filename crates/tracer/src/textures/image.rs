@@ -78,8 +78,12 @@ impl core::fmt::Debug for ImageTexture {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let Self { sampling, range, .. } = self;
         let (size, mean) = (self.size(), self.mean());
-        f.debug_struct("ImageTexture").field("size", &size).field("sampling", sampling).field("range", range)
-            .field("mean", &mean).finish_non_exhaustive()
+        f.debug_struct("ImageTexture")
+            .field("size", &size)
+            .field("sampling", sampling)
+            .field("range", range)
+            .field("mean", &mean)
+            .finish_non_exhaustive()
     }
 }
 
