@@ -81,15 +81,28 @@ impl Distribution1 {
     #[must_use]
     pub fn sample(&self, u: f32) -> (f32, f32) {
         let (i, within) = self.sample_discrete(u);
-        let x = (i as f32 + within) / self.len() as f32;
-        (x.min(ONE_BELOW), self.pdf_of_piece(i))
+        (self.point(i, within), self.pdf_of_piece(i))
     }
 
     /// Density at `x` in [0, 1).
     #[must_use]
     pub fn pdf(&self, x: f32) -> f32 {
-        let i = ((x * self.len() as f32) as usize).min(self.len() - 1);
-        self.pdf_of_piece(i)
+        self.pdf_of_piece(piece(x, self.len()))
+    }
+
+    /// The point that lies `within` piece `i`: in no other piece, whichever way it rounds.
+    fn point(&self, i: usize, within: f32) -> f32 {
+        let pieces = self.len() as f64;
+        let x = ((i as f64 + f64::from(within)) / pieces) as f32;
+        // Exact: 24 bits times the number of pieces.
+        let place = f64::from(x) * pieces;
+        if place >= (i + 1) as f64 {
+            x.next_down()
+        } else if place < i as f64 {
+            x.next_up()
+        } else {
+            x
+        }
     }
 
     fn pdf_of_piece(&self, i: usize) -> f32 {
@@ -109,6 +122,11 @@ fn guide(cumulative: &[f64]) -> Vec<u32> {
         i as u32
     };
     (0..pieces).map(begin).collect()
+}
+
+/// Which of equal pieces of [0, 1) holds `x`, without rounding.
+fn piece(x: f32, pieces: usize) -> usize {
+    ((f64::from(x) * pieces as f64) as usize).min(pieces - 1)
 }
 
 /// The largest `f32` below one.
@@ -151,22 +169,17 @@ impl Distribution2 {
     /// A point (x along a row, y across rows) of the unit square and its density by area.
     #[must_use]
     pub fn sample(&self, u: Vec2) -> (Vec2, f32) {
-        let (y, y_pdf) = self.marginal.sample(u.y);
-        let row = ((y * self.rows.len() as f32) as usize).min(self.rows.len() - 1);
-        match &self.rows[row] {
-            Some(row) => {
-                let (x, x_pdf) = row.sample(u.x);
-                (Vec2::new(x, y), x_pdf * y_pdf)
-            }
-            None => (Vec2::new(u.x, y), 0.0),
-        }
+        let (i, within) = self.marginal.sample_discrete(u.y);
+        let (y, y_pdf) = (self.marginal.point(i, within), self.marginal.pdf_of_piece(i));
+        // A row without weights is never drawn.
+        let (x, x_pdf) = self.rows[i].as_ref().map_or((u.x, 0.0), |row| row.sample(u.x));
+        (Vec2::new(x, y), x_pdf * y_pdf)
     }
 
     /// Density by area at a point of the unit square.
     #[must_use]
     pub fn pdf(&self, p: Vec2) -> f32 {
-        let row = ((p.y * self.rows.len() as f32) as usize).min(self.rows.len() - 1);
-        self.rows[row].as_ref().map_or(0.0, |r| r.pdf(p.x) * self.marginal.pdf(p.y))
+        self.rows[piece(p.y, self.rows.len())].as_ref().map_or(0.0, |r| r.pdf(p.x) * self.marginal.pdf(p.y))
     }
 }
 
@@ -195,6 +208,35 @@ mod tests {
             let u = i as f32 / 100_000.0;
             let searched = d.cumulative.partition_point(|c| *c <= f64::from(u)) - 1;
             assert_eq!(d.sample_discrete(u).0, searched.min(d.last), "{u}");
+        }
+    }
+
+    #[test]
+    fn points_stay_in_their_piece_at_both_of_its_ends() {
+        for n in [3, 49, 1000, 4095, 4096, 65536] {
+            let d = Distribution1::new((0..n).map(|i| ((i + 1) % 2) as f32).collect()).expect("weights");
+            for i in (0..n).step_by(2) {
+                for u in [d.cumulative[i] as f32, (d.cumulative[i + 1] as f32).next_down()] {
+                    let (x, pdf) = d.sample(u);
+                    assert!(pdf > 0.0 && d.pdf(x) == pdf, "{n} pieces, {i}, {u}: {x} has {} for {pdf}", d.pdf(x));
+                }
+                for within in [0.0, 0.5, ONE_BELOW] {
+                    assert_eq!(piece(d.point(i, within), n), i, "{n} pieces, {within}");
+                }
+            }
+            assert!(d.point(n - 1, ONE_BELOW) < 1.0);
+        }
+    }
+
+    #[test]
+    fn rows_without_weights_are_never_drawn() {
+        let rows = 4096;
+        let weights: Vec<f32> = (0..rows).flat_map(|row| [((row + 1) % 2) as f32, 0.0]).collect();
+        let d = Distribution2::new(2, &weights).expect("weights");
+        for row in (0..rows).step_by(2) {
+            let y = (d.marginal.cumulative[row + 1] as f32).next_down();
+            let (p, pdf) = d.sample(Vec2::new(ONE_BELOW, y));
+            assert!(pdf > 0.0 && d.pdf(p) == pdf && p.x < 0.5, "{row}: {p}");
         }
     }
 
