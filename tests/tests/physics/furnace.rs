@@ -57,6 +57,11 @@ fn a_white_body_is_white_in_every_band() {
 }
 
 #[test]
+fn scenes_may_state_the_coats_that_the_tracer_has() {
+    assert_eq!(etendue_scene::asset::COAT_INDICES, etendue_tracer::materials::COAT_INDICES);
+}
+
+#[test]
 fn a_coat_over_white_loses_nothing() {
     // The coat's reflectance is tabulated at 128 steps and interpolated: a smooth one is exact at the steps and bends by
     // less than 5e-4 between them; a rough one is integrated by a lattice besides, good to 2e-3.

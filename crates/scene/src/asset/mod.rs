@@ -6,7 +6,7 @@ mod request;
 mod store;
 
 pub use mesh::{ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
-pub use mtl::{MtlFields, SlotMaterial, SlotReflectance, SlotSurface};
+pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurface};
 pub(crate) use request::requests;
 pub use request::{AssetKind, AssetRequest, Values, of_camera};
 pub use store::Assets;

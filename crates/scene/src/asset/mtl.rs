@@ -1,13 +1,21 @@
 //! What a Wavefront MTL says of a material, in the terms of a scene.
 //!
 //! `map_Kd` (sRGB-encoded) or else `Kd` (linear sRGB) becomes the diffuse reflectance. A material with highlights
-//! (`Ks` above 0, illumination model 2 or more or none given, and `Ns` above 0) or with a roughness `Pr` becomes "coated": index `Ni` where it is in 1.001 … 4, else 1.5;
+//! (`Ks` above 0, illumination model 2 or more or none given, and `Ns` above 0) or with a roughness `Pr` becomes "coated": index `Ni`, or 1.5 where there is none or where it is
+//! outside 1.1 … 4, which is reported;
 //! α = Pr² (Burley, "Physically based shading at Disney", 2012) or else α = √(2 / (Ns + 2)), the GGX width that has the
 //! curvature of a Blinn-Phong lobe of exponent Ns (Walter et al., "Microfacet models for refraction", 2007).
 //! An MTL has no unit for light, so `Ke` is reported and gives none; so are metalness, transparency and the colour of
 //! highlights.
 
 use std::path::PathBuf;
+
+/// Refractive indices that a coat may have, in scenes and in MTL files. The tracer's model of a coat states the same
+/// range (`etendue_tracer::materials::COAT_INDICES`) and refuses others.
+pub const COAT_INDICES: std::ops::RangeInclusive<f64> = 1.1..=4.0;
+
+/// The index of a coat whose file gives none that a coat may have.
+const USUAL_INDEX: f64 = 1.5;
 
 /// A material by the name that a mesh's file gives it.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,7 +95,7 @@ impl MtlFields {
     pub fn to_slot(&self, name: &str) -> (SlotMaterial, Vec<String>) {
         let mut report = Vec::new();
         let surface = self.reflectance(name, &mut report).map(|reflectance| match self.alpha() {
-            Some(alpha) => SlotSurface::Coated { reflectance, index: self.coat_index(), alpha },
+            Some(alpha) => SlotSurface::Coated { reflectance, index: self.coat_index(name, &mut report), alpha },
             None => SlotSurface::Diffuse { reflectance },
         });
         self.report_unused(name, &mut report);
@@ -120,8 +128,17 @@ impl MtlFields {
         Some(alpha.min(1.0))
     }
 
-    fn coat_index(&self) -> f64 {
-        self.index.filter(|n| (1.001..=4.0).contains(n)).unwrap_or(1.5)
+    fn coat_index(&self, name: &str, report: &mut Vec<String>) -> f64 {
+        let Some(index) = self.index else { return USUAL_INDEX };
+        if COAT_INDICES.contains(&index) {
+            return index;
+        }
+        let (low, high) = (COAT_INDICES.start(), COAT_INDICES.end());
+        report.push(format!(
+            "material \"{name}\": Ni {index} is no index of a coat ({low} … {high}), {USUAL_INDEX} is used; \
+             say its material in the scene"
+        ));
+        USUAL_INDEX
     }
 
     fn report_unused(&self, name: &str, report: &mut Vec<String>) {
@@ -155,6 +172,30 @@ mod tests {
         let shiny = MtlFields { specular: Some([0.5; 3]), exponent: Some(198.0), ..matt };
         let Some(SlotSurface::Coated { alpha, index, .. }) = shiny.to_slot("a").0.surface else { panic!("shiny") };
         assert_eq!((alpha, index), (0.1, 1.5), "√(2 / 200)");
+    }
+
+    #[test]
+    fn an_index_that_no_coat_has_is_reported_where_a_coat_would_use_it() {
+        let of = |index, shine| {
+            let fields = MtlFields {
+                diffuse: Some([0.5; 3]),
+                specular: Some([shine; 3]),
+                exponent: Some(198.0),
+                index: Some(index),
+                ..Default::default()
+            };
+            let (slot, report) = fields.to_slot("x");
+            let index = match slot.surface {
+                Some(SlotSurface::Coated { index, .. }) => Some(index),
+                _ => None,
+            };
+            (index, report.len())
+        };
+        for (index, expected) in [(1.1, (1.1, 0)), (4.0, (4.0, 0)), (1.0, (1.5, 1)), (1.05, (1.5, 1)), (4.1, (1.5, 1))]
+        {
+            assert_eq!(of(index, 0.5), (Some(expected.0), expected.1), "Ni {index}");
+        }
+        assert_eq!(of(1.0, 0.0), (None, 0), "a matt surface has no coat");
     }
 
     #[test]

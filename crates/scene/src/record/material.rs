@@ -2,6 +2,7 @@
 
 use super::light::Emission;
 use super::reflectance::{Reflectance, reflectance};
+use crate::asset::COAT_INDICES;
 use crate::fault::{Faults, Named};
 use crate::place::Placed;
 use crate::reader::{Number, choice, known, name_of, number, record, text, variants};
@@ -80,8 +81,8 @@ record! {
     pub struct Coated {
         /// Share of light that the base reflects, as for "diffuse".
         required reflectance: Reflectance = reflectance();
-        /// Refractive index of the coat, 1.001 … 4. Default: 1.5.
-        optional index: Placed<f64> = number("").at_least(1.001).at_most(4.0);
+        /// Refractive index of the coat, 1.1 … 4. Default: 1.5.
+        optional index: Placed<f64> = number("").at_least(*COAT_INDICES.start()).at_most(*COAT_INDICES.end());
         /// Roughness α of the coat's GGX distribution (not its square root), 0 … 1; below 0.0001 it is a mirror.
         required alpha: Placed<f64> = alpha();
     }

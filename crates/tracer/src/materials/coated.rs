@@ -20,6 +20,10 @@ use super::conductor::MIRROR_ALPHA;
 use super::microfacet::{Ggx, half_vector, mirrored};
 use super::{BsdfSample, BsdfValue, MaterialError, Reflectance, check_alpha, fresnel};
 
+/// Refractive indices that a coat may have: from a little above air's, below which the coat would do nothing that f32
+/// and the table resolve, to that of germanium. Scene files state the same range.
+pub const COAT_INDICES: core::ops::RangeInclusive<f64> = 1.1..=4.0;
+
 /// A coated matt surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coated {
@@ -31,12 +35,18 @@ impl Coated {
     /// A base of reflectance `base` under a coat of index `n` and roughness `alpha` (GGX α, 0 to 1).
     ///
     /// # Errors
-    /// Where the roughness is outside 0–1 or the index outside 1.1–4.
+    /// Where the roughness is outside 0–1 or the index outside [`COAT_INDICES`].
     pub fn new(base: Reflectance, n: f64, alpha: f64) -> Result<Self, MaterialError> {
-        if !(1.1..=4.0).contains(&n) {
+        if !COAT_INDICES.contains(&n) {
             return Err(MaterialError::CoatIndex { n });
         }
         Ok(Self { base, coat: Coat::new(n as f32, check_alpha(alpha)?) })
+    }
+
+    /// The reflectance under the coat.
+    #[must_use]
+    pub fn base(&self) -> &Reflectance {
+        &self.base
     }
 
     pub(super) fn resolve<const N: usize>(&self, base: Spectral<N>) -> CoatedBsdf<'_, N> {

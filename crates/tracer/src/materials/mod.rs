@@ -24,7 +24,7 @@ mod shading;
 #[cfg(test)]
 mod tests;
 
-pub use coated::{Coated, CoatedBsdf};
+pub use coated::{COAT_INDICES, Coated, CoatedBsdf};
 pub use conductor::{Conductor, ConductorBsdf, MIRROR_ALPHA};
 pub use diffuse::DiffuseBsdf;
 pub use emission::{Emission, Glow};
