@@ -3,12 +3,20 @@
 //! The accelerator, which works in f32, names the primitive; distance, position and normal are then solved again in
 //! f64 against that primitive: a plane through the triangle's corners, or a sphere. The error is that of f64 at every
 //! incidence, not that of f32 over the cosine.
+//!
+//! The accelerator's ray is the exact one rounded to f32, some 1e-7 of the distance beside it. At a silhouette the exact
+//! ray may therefore miss the triangle named, and where that is small, far away or nearly edge-on, its plane leads
+//! anywhere. A plane is believed up to 1e-3 of the triangle beyond its edges (the least barycentric weight is −1e-3 or
+//! more). Beyond that, the answer is that of the accelerator's ray, solved in f64: a point of the triangle's edge.
 
 use super::place::Placed;
 use super::{Hit, View, point};
 use crate::geometry::{Instance, Mesh, Shape, sphere};
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};
+
+/// How far beyond its triangle, in barycentric weights, a plane is believed.
+const BEYOND: f64 = 1e-3;
 
 /// What a ray meets, exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,12 +41,13 @@ impl View<'_> {
     #[must_use]
     pub fn truth(&self, origin_m: DVec3, direction: DVec3) -> Option<Truth> {
         let direction = direction.try_normalize()?;
-        let hit = self.closest(&Ray::new(origin_m.as_vec3(), direction.as_vec3(), 0.0))?;
+        let rounded = Ray::new(origin_m.as_vec3(), direction.as_vec3(), 0.0);
+        let hit = self.closest(&rounded)?;
         let instance = &self.world.instances()[hit.instance as usize];
         let placed = self.placed(hit.instance);
         let (origin, along) = placed.line_to_local(origin_m, direction);
         let (t, normal, slot) = match instance.shape {
-            Shape::Mesh(id) => on_mesh(self.world.mesh(id), placed, &hit, origin, along),
+            Shape::Mesh(id) => on_mesh(self.world.mesh(id), placed, &hit, [(origin, along), traced(placed, &rounded)]),
             Shape::Sphere { radius_m } => on_sphere(radius_m, placed, origin, along),
         };
         let position_m = self.origin_m + origin_m + direction * t;
@@ -57,11 +66,19 @@ fn report(instance: &Instance, slot: usize, distance_m: f64, position_m: DVec3, 
     }
 }
 
-fn on_mesh(mesh: &Mesh, placed: &Placed, hit: &Hit, origin: DVec3, direction: DVec3) -> (f64, DVec3, usize) {
+/// The line that the accelerator follows in a mesh's frame.
+fn traced(placed: &Placed, rounded: &Ray) -> (DVec3, DVec3) {
+    let (origin, direction) = placed.ray_to_local(rounded);
+    (origin.as_vec3().as_dvec3(), direction.as_vec3().as_dvec3())
+}
+
+/// Where the first of `lines` (origin, direction) that meets the triangle does so.
+fn on_mesh(mesh: &Mesh, placed: &Placed, hit: &Hit, lines: [(DVec3, DVec3); 2]) -> (f64, DVec3, usize) {
     let corners = mesh.corners(hit.primitive).map(Vec3::as_dvec3);
-    let named = (f64::from(hit.t), f64::from(hit.u), f64::from(hit.v));
+    let meets = |(t, u, v): &(f64, f64, f64)| *t > 0.0 && u.min(*v).min(1.0 - u - v) >= -BEYOND;
+    let solved = lines.into_iter().find_map(|(origin, along)| plane(corners, origin, along).filter(meets));
     // A ray in the plane itself has no better answer than the accelerator's.
-    let (t, u, v) = plane(corners, origin, direction).filter(|(t, ..)| *t > 0.0).unwrap_or(named);
+    let (t, u, v) = solved.unwrap_or((f64::from(hit.t), f64::from(hit.u), f64::from(hit.v)));
     let geometric = point::geometric_normal(corners, placed);
     let triangle = mesh.triangles()[hit.primitive as usize];
     let normal = point::shading_normal(mesh, triangle, point::weights(u, v), placed, geometric);
