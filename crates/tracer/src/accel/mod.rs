@@ -7,6 +7,7 @@
 //! - `halve`: binary trees for crowds, which that library would take too long for.
 //! - `collapse`: binary to eight-wide, at least cost.
 //! - `node`, `packet`: what is tested eight at a time: boxes and triangles.
+//! - `reach`: how far rays may start from a mesh.
 //! - `walk`: near to far through a tree, for the first hit or for any.
 //!
 //! Everything is written once over eight lanes (`lanes`) and compiled twice, with AVX2 and without: the same
@@ -23,6 +24,7 @@ mod mesh_tree;
 mod node;
 mod packet;
 mod ray;
+mod reach;
 #[cfg(target_arch = "x86_64")]
 mod simd;
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::Simd;
 use super::mesh_tree::MeshTree;
+use super::reach;
 use crate::geometry::{Instance, Mesh, MeshId, Shape};
 use crate::view::View;
 use glam::{DAffine3, DVec3};
@@ -40,6 +41,17 @@ pub enum WorldError {
     Moving {
         /// The instance, counted from 0.
         instance: usize,
+    },
+    /// A mesh's own unit is too small for the distances of the scene.
+    #[error(
+        "rays may start {reach:e} units of its own frame away from instance {instance}, but at most 1e12 can be traced; \
+         scale it less, give its mesh a larger unit, or bring camera and objects nearer to each other"
+    )]
+    Reach {
+        /// The instance, counted from 0.
+        instance: usize,
+        /// Greatest coordinate of a ray's start in the mesh's frame, in its units.
+        reach: f64,
     },
     /// A sphere's radius is not a positive number.
     #[error("instance {instance} is a sphere of radius {radius_m} m; a radius must be positive and finite")]
@@ -148,6 +160,15 @@ impl World {
     #[must_use]
     pub fn view(&self, origin_m: DVec3) -> View<'_> {
         self.view_with(origin_m, Simd::Auto)
+    }
+
+    /// Whether rays that start near `origin_m` (world, m) or on any surface can be met with every mesh.
+    ///
+    /// # Errors
+    /// Where a mesh is so far away from a ray's start, in units of its own frame, that products of three coordinates
+    /// leave f32: such a ray would pass it unseen.
+    pub fn check_reach(&self, origin_m: DVec3) -> Result<(), WorldError> {
+        reach::check(self, origin_m)
     }
 
     /// As [`World::view`], with a choice of instruction set.

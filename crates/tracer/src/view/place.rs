@@ -80,6 +80,13 @@ impl Placed {
         (self.to_render.translation - half, self.to_render.translation + half)
     }
 
+    /// The greatest coordinate, in the instance's frame, of a box of the render frame.
+    pub(crate) fn greatest_local(&self, low: DVec3, high: DVec3) -> f64 {
+        let corner = |i: u32| DVec3::select(glam::BVec3::new(i & 1 == 0, i & 2 == 0, i & 4 == 0), low, high);
+        let local = (0..8).map(|i| self.to_local.transform_point3(corner(i)).abs().max_element());
+        local.fold(0.0, |most: f64, x| if x > most || x.is_nan() { x } else { most })
+    }
+
     /// How far, per axis of the render frame (m), rounding may move a surface point or a ray's origin made from it off
     /// the surface: the point and the pushed origin are each rounded to f32 in the render frame (half a unit in the last
     /// place each, ≤ 2⁻²⁴ of the coordinate), and the origin once more in the instance's frame. The factors 3 and 2 for

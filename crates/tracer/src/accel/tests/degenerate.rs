@@ -115,3 +115,43 @@ fn worlds_that_are_none_are_refused() {
         assert_eq!(error, Some(WorldError::Radius { instance: 0, radius_m }));
     }
 }
+
+/// A triangle of 1 m about (0, 0, `away_m`), from a mesh whose unit is `unit_m`.
+fn of_unit(unit_m: f64, away_m: f64) -> crate::accel::World {
+    let half = (0.5 / unit_m) as f32;
+    let corners = vec![Vec3::new(-half, -half, 0.0), Vec3::new(half, -half, 0.0), Vec3::new(0.0, half, 0.0)];
+    let placement = DAffine3::from_mat3_translation(DMat3::from_diagonal(DVec3::splat(unit_m)), DVec3::Z * away_m);
+    world_of(mesh(corners, vec![[0, 1, 2]]), placement)
+}
+
+#[test]
+fn rays_that_would_overflow_are_refused_and_all_others_meet() {
+    let along = Ray::new(Vec3::ZERO, Vec3::Z, 0.0);
+    for (unit_m, away_m) in [(1.0, 1e3), (1e-6, 9e5), (1e-11, 9.0), (1e9, 1e6)] {
+        let world = of_unit(unit_m, away_m);
+        assert_eq!(world.check_reach(DVec3::ZERO), Ok(()));
+        let t = world.view(DVec3::ZERO).closest(&along).map(|hit| hit.t);
+        // A few roundings of f32.
+        assert!(t.is_some_and(|t| (f64::from(t) / away_m - 1.0).abs() < 1e-6), "{unit_m} {away_m}: {t:?}");
+    }
+    for (unit_m, away_m) in [(1e-11, 11.0), (1e-9, 1e5)] {
+        let refused = of_unit(unit_m, away_m).check_reach(DVec3::ZERO);
+        assert!(matches!(refused, Err(WorldError::Reach { instance: 0, .. })), "{refused:?}");
+    }
+    let here = of_unit(1e-11, 0.0);
+    assert_eq!(here.check_reach(DVec3::X), Ok(()));
+    assert!(here.check_reach(DVec3::X * 20.0).is_err(), "the camera is too far away");
+}
+
+#[test]
+fn rays_that_start_on_another_surface_are_within_reach_too() {
+    let mut builder = WorldBuilder::new();
+    let corners = vec![Vec3::ZERO, Vec3::X * 1e10, Vec3::Y * 1e10];
+    let id = builder.add_mesh(mesh(corners, vec![[0, 1, 2]]));
+    builder.add_instance(instance(Shape::Mesh(id), DAffine3::from_scale(DVec3::splat(1e-11))));
+    assert_eq!(builder.clone().build().expect("legal").check_reach(DVec3::ZERO), Ok(()));
+    let away = DAffine3::from_translation(DVec3::X * 100.0);
+    builder.add_instance(instance(Shape::Sphere { radius_m: 1.0 }, away));
+    let refused = builder.build().expect("legal").check_reach(DVec3::ZERO);
+    assert!(matches!(refused, Err(WorldError::Reach { instance: 0, .. })), "{refused:?}");
+}
