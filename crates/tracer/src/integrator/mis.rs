@@ -3,6 +3,9 @@
 //! The power heuristic with exponent 2 (Veach and Guibas 1995): a way of density p counts p²/(p² + q²).
 
 /// Which ways of finding light are used. All give the same mean; the others than `Both` exist to prove it.
+///
+/// Where a glow is textured they do but for the filtering: a drawn light's texture is averaged over the cone of the path
+/// as it arrived, one met by chance over the cone widened by the scattering. `Both` then gives a mean of the two.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Strategies {
     /// Lights are drawn, and met by chance; both are weighed.
