@@ -48,7 +48,8 @@ impl Manifest {
         let explain =
             |why: String| Failure::input(format!("{}: {why}; give folders made by render --shard", path.display()));
         let text = crate::job::read_text(&path).map_err(explain)?;
-        serde_json::from_str(&text).map_err(|error| explain(format!("this is no shard manifest: {error}")))
+        serde_json::from_str(&text)
+            .map_err(|error| explain(format!("this is no shard manifest of this version ({error})")))
     }
 
     /// Writes the manifest.

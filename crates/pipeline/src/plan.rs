@@ -144,6 +144,15 @@ pub struct Products {
     pub depth_png_per_m: Option<f64>,
 }
 
+impl Products {
+    /// Whether nothing is delivered.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        let images = self.radiance || self.irradiance || self.electrons || self.raw || self.picture;
+        !(images || self.ground_truth || self.depth_png_per_m.is_some())
+    }
+}
+
 impl Plan {
     /// The camera of a name.
     #[must_use]

@@ -33,6 +33,11 @@ impl Display for Summary<'_> {
     }
 }
 
+/// A number of things: "1 sphere", "2 spheres".
+fn count(n: usize, thing: &str) -> String {
+    if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
+}
+
 /// One line: a name and what is said of it.
 fn line(f: &mut Formatter<'_>, name: &str, text: impl Display) -> fmt::Result {
     writeln!(f, "  {name:<14} {text}")
@@ -49,8 +54,10 @@ fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
         }
     }
     let instances = plan.world.instances().len();
-    line(f, "geometry", format!("{instances} instances, {seen} triangles ({stored} stored), {spheres} spheres"))?;
-    line(f, "materials", format!("{}, {} textures", plan.materials.len(), plan.palette.textures().len()))?;
+    let triangles = format!("{} ({stored} stored)", count(seen, "triangle"));
+    line(f, "geometry", format!("{}, {triangles}, {}", count(instances, "instance"), count(spheres, "sphere")))?;
+    let textures = count(plan.palette.textures().len(), "texture");
+    line(f, "materials", format!("{}, {textures}", plan.materials.len()))?;
     line(f, "left out", "motion: nothing moves; air: it is clear; polarisation and fluorescence: not modelled")
 }
 
@@ -74,17 +81,14 @@ fn lights(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Resul
         (usize::from(census.image_environment), "surrounding picture"),
         (usize::from(census.uniform_environment), "uniform surrounding"),
     ];
-    let named = counted.iter().filter(|(n, _)| *n > 0).map(|(n, name)| match n {
-        1 => format!("1 {name}"),
-        n => format!("{n} {name}s"),
-    });
-    let list: Vec<String> = named.collect();
+    let list: Vec<String> = counted.iter().filter(|(n, _)| *n > 0).map(|(n, name)| count(*n, name)).collect();
     line(f, "lights", if list.is_empty() { "none: the picture will be black".to_owned() } else { list.join(", ") })
 }
 
 fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let s = &camera.settings;
-    let samples = format!("{} samples a pixel in {} replicates", s.spp, s.replicates);
+    let samples = count(s.spp as usize, "sample");
+    let samples = format!("{samples} a pixel in {}", count(s.replicates as usize, "replicate"));
     line(f, "sampling", format!("{samples}, seed {}, {} wavelengths a path", s.seed, s.wavelengths))?;
     line(f, "paths", format!("at most {} bounces (light scattered more often is missing)", s.max_bounces))?;
     if !s.caustics {
@@ -221,6 +225,6 @@ fn cost(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     line(
         f,
         "cost",
-        format!("{:.1} million paths, about {cpu:.0} CPU seconds in a street; film {film:.0} MB", paths / 1e6),
+        format!("{:.1} million paths, about {cpu:.0} CPU seconds at the street's rate; film {film:.1} MB", paths / 1e6),
     )
 }

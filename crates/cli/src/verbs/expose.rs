@@ -78,7 +78,7 @@ fn stored(path: &Path) -> Result<Stored, Failure> {
     let provenance = file.provenance.ok_or_else(|| refuse(remedy))?;
     let number = |name: &str| provenance.further.get(name).and_then(|text| text.parse::<f64>().ok());
     let (Some(pitch), Some(x), Some(y)) = (number(PITCH_TAN), number(PRINCIPAL_X_PX), number(PRINCIPAL_Y_PX)) else {
-        return Err(refuse("it was rendered through a lens; render it with --set render.route=\"pupil\" to expose it"));
+        return Err(refuse("it was rendered through a lens; render it with --set render.route=pupil to expose it"));
     };
     let radiance = image.cube;
     let projection = PupilProjection::new(radiance.width(), radiance.height(), pitch, DVec2::new(x, y));

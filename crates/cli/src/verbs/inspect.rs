@@ -15,6 +15,7 @@ pub fn run(arguments: &args::Inspect) -> Result<(), Failure> {
         };
         let bytes = preview.to_png().map_err(|error| Failure::Run(error.to_string()))?;
         write(path, &bytes)?;
+        crate::tell(&format!("wrote {}\n", path.display()));
     }
     say(&report.to_string());
     Ok(())

@@ -48,9 +48,10 @@ fn check_complete(shards: &[(Manifest, &PathBuf)]) -> Result<(), Failure> {
     }
     match shards.len() == first.count as usize {
         true => Ok(()),
-        false => {
-            Err(refuse(shards[shards.len() - 1].1, &format!("{} of {} shards are given", shards.len(), first.count)))
-        }
+        false => Err(refuse(
+            shards[shards.len() - 1].1,
+            &format!("{} of {} shards are given; give the folders of all", shards.len(), first.count),
+        )),
     }
 }
 

@@ -329,7 +329,7 @@ fn a_spectrum_that_is_no_table() {
     let spoilt = Spoilt::new();
     spoilt.write("paint.csv", "wavelength_nm,value\n400,0.1\n500,lots\n");
     let place = spoilt.spoil("small.toml", "[0.05, 0.2, 0.6]", "{ spectrum = \"paint.csv\" }");
-    spoilt.render(&[]).refused(&["paint.csv", "line 3", "lots", &place]);
+    spoilt.render(&[]).refused(&["paint.csv", "paint.csv:3", "lots", &place]);
     spoilt.write("paint.csv", "wavelength_nm,value\n400,0.1\n500,1.5\n");
     spoilt.render(&[]).refused(&["small.toml:", "scene.materials.paint", "1.5", "between 0 and 1"]);
 }

@@ -22,7 +22,7 @@ fn triangles_without_area_and_duplicates_are_counted_in_the_plan() {
     fs::write(&job, JOB).expect("written");
     fs::write(place.path().join("m.obj"), OBJ).expect("written");
     let plan = etendue(["plan", &text(&job)]).ok().out;
-    assert!(plan.contains("1 instances, 2 triangles (2 stored)"), "{plan}");
+    assert!(plan.contains("1 instance, 2 triangles (2 stored)"), "{plan}");
     let told = |words: &[&str]| plan.lines().any(|line| words.iter().all(|word| line.contains(word)));
     assert!(told(&["2 ", "area", "dropped"]), "{plan}");
     assert!(told(&["2 ", "duplicate", "dropped"]), "{plan}");

@@ -4,7 +4,7 @@
 //! ([`PupilProjection`]); any lens and sensor whose directions it holds can then be put before it:
 //!
 //! 1. [`Resampling`]: distortion and raster, radiance → radiance. A uniform radiance stays uniform.
-//! 2. [`irradiance`]: times the lens's étendue at the pixel: cos⁴, finite aperture, mechanical vignetting, transmittance.
+//! 2. [`irradiance()`]: times the lens's étendue at the pixel: cos⁴, finite aperture, mechanical vignetting, transmittance.
 //!
 //! Left out here, and exact only through the lens: defocus, parallax across the pupil, and radiance that varies within
 //! the bundle of one sensor point.

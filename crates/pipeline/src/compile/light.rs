@@ -21,6 +21,9 @@ fn sun(record: &record::Sun, context: &mut Context<'_>) -> Option<Sun> {
         SunLevel::Illuminance(lux) => bright(&relative, lux.value, &lux.place, context)?,
         SunLevel::Irradiance(total) => powered(&relative, total.value),
     };
+    if record.elevation_deg.value < 0.0 {
+        context.remark(format!("the sun \"{}\" stands below the horizon", record.name.value));
+    }
     let (sin_e, cos_e) = sin_cos(record.elevation_deg.value.to_radians());
     let (sin_a, cos_a) = sin_cos(record.azimuth_deg.value.to_radians());
     let direction = DVec3::new(cos_e * cos_a, cos_e * sin_a, sin_e);

@@ -20,6 +20,7 @@ use context::Context;
 use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;
 use etendue_scene::{CameraSetup, Description, Fault};
+use glam::DVec3;
 use palette::PaletteBuilder;
 
 /// What the caller chooses over the description.
@@ -97,6 +98,10 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let cameras: Vec<_> =
         setups.filter_map(|(index, setup)| camera_plan(index as u32, setup, choices, context)).collect();
     let (world, identities) = world::world(scene, &mut builder, context)?;
+    for setup in &description.cameras {
+        let position = &setup.pose.position_m;
+        context.accept(&position.place, world.check_reach(DVec3::from_array(position.value)));
+    }
     let (palette, materials) = builder.finish(context)?;
     let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();
     let remarks = std::mem::take(&mut context.remarks);

@@ -52,6 +52,19 @@ impl PaletteBuilder {
         self.by_name.get(name).copied()
     }
 
+    /// The name of a material that has a texture; `None` for one without.
+    pub(super) fn textured(&self, id: MaterialId) -> Option<&str> {
+        let material = &self.materials[id.0 as usize];
+        let base = match &material.surface {
+            Surface::Diffuse(base) => Some(base),
+            Surface::Coated(coated) => Some(coated.base()),
+            Surface::Conductor(_) | Surface::Absorber => None,
+        };
+        let glows = material.emission.as_ref().is_some_and(|e| e.factor.is_some());
+        let textured = glows || matches!(base, Some(Reflectance::Texture(_)));
+        textured.then(|| self.names[id.0 as usize].as_str())
+    }
+
     /// The material that a mesh's own file gives a slot. A fault at `place` where the file gives none.
     pub(super) fn of_slot(
         &mut self,
@@ -66,7 +79,10 @@ impl PaletteBuilder {
         }
         let Some(surface) = &slot.surface else {
             let problem = format!("{} says no reflectance for its material \"{}\"", file.display(), slot.name);
-            let remedy = format!("name one of the scene's: material = …, or materials = {{ \"{}\" = … }}", slot.name);
+            let remedy = match slot.name.is_empty() {
+                true => "name one of the scene's: material = …".to_owned(),
+                false => format!("name one of the scene's: material = …, or materials = {{ \"{}\" = … }}", slot.name),
+            };
             context.fault(place, problem, remedy);
             return None;
         };

@@ -40,7 +40,7 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
             "add it, or remove the scale",
         );
     }
-    Products {
+    let products = Products {
         radiance: said(&output.radiance, !electronics),
         irradiance: said(&output.irradiance, false),
         variance: said(&output.variance, false),
@@ -49,7 +49,11 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
         picture: said(&output.picture, development),
         ground_truth: said(&output.ground_truth, true),
         depth_png_per_m: depth_png.then(|| output.depth_png_scale.as_ref().map_or(256.0, |s| s.per_metre())),
+    };
+    if products.is_empty() {
+        context.fault(&output.place, "the camera delivers nothing", "ask for at least one product in [output]");
     }
+    products
 }
 
 fn need(key: &Option<Placed<bool>>, possible: bool, name: &str, lack: &str, remedy: &str, context: &mut Context<'_>) {
@@ -80,7 +84,7 @@ pub(super) fn settings(
     let range_nm = range(render, body, cube);
     let bands = if cube { Some(bands(render, range_nm, context)?) } else { None };
     check_size(body, &route, &Layout { bands, folded }, context)?;
-    remark_variance(products, &route, folded, context);
+    remark_losses(products, &route, folded, context);
     remark_bands(render, cube, context);
     let max_bounces = render.max_bounces.as_ref().map(|b| b.value as u32);
     Some(Settings {
@@ -104,8 +108,12 @@ fn samples(render: &Render, choices: &Choices, context: &mut Context<'_>) -> Opt
     let by_job = || render.spp.as_ref().map(|s| s.value as u32);
     let spp = choices.spp.or_else(by_job).unwrap_or_else(by_quality);
     let Some(replicates) = &render.replicates else {
-        let most = [REPLICATES, 2, 1].into_iter().find(|r| u64::from(spp) % r == 0);
-        return Some((spp, most.unwrap_or(1) as u32));
+        let most = [REPLICATES, 2, 1].into_iter().find(|r| u64::from(spp) % r == 0).unwrap_or(1);
+        if most == 1 {
+            context
+                .remark(format!("{spp} samples are one replicate, which knows no variance: an even number gives two"));
+        }
+        return Some((spp, most as u32));
     };
     if spp == 0 || u64::from(spp) % replicates.value != 0 {
         let said = if choices.spp.is_some() { format!("--spp {spp}") } else { format!("{spp} samples") };
@@ -142,12 +150,15 @@ fn check_size(body: &CameraBody, route: &Route, layout: &Layout, context: &mut C
     None
 }
 
-/// Variances that are asked for but cannot be known.
-fn remark_variance(products: &Products, route: &Route, folded: bool, context: &mut Context<'_>) {
+/// What is asked for but cannot be had, or is made and not kept.
+fn remark_losses(products: &Products, route: &Route, folded: bool, context: &mut Context<'_>) {
     if products.variance && products.electrons && !folded {
         let remark =
             "electrons come from band means and bring no variance; accumulate = \"auto\" through the lens does";
         context.remark(remark.to_owned());
+    }
+    if matches!(route, Route::Pupil(_)) && !products.radiance {
+        context.remark("route = \"pupil\" without radiance = true: nothing is kept for expose".to_owned());
     }
     if products.variance && products.irradiance && *route != Route::Lens {
         context

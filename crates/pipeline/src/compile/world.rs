@@ -104,6 +104,7 @@ impl Assembly {
         let asset = context.assets.meshes.get(&record.file.value)?;
         let shape = Shape::Mesh(*self.meshes.get(name)?);
         let materials = slot_materials(object, record, asset, palette, context)?;
+        check_coordinates(record, asset, &materials, palette, object, context);
         Some(Prototype { shape, materials, to_object: record.to_object() })
     }
 
@@ -160,11 +161,31 @@ fn slot_materials(
         .collect()
 }
 
+/// A texture on a mesh without texture coordinates would show one texel everywhere.
+fn check_coordinates(
+    mesh: &record::Mesh,
+    asset: &MeshAsset,
+    materials: &[MaterialId],
+    palette: &PaletteBuilder,
+    object: &Object,
+    context: &mut Context<'_>,
+) {
+    if let (true, Some(name)) = (asset.uvs.is_empty(), materials.iter().find_map(|id| palette.textured(*id))) {
+        let file = mesh.file.value.display();
+        let problem = format!("{file} has no texture coordinates, but its material \"{name}\" has a texture");
+        context.fault(&object.place, problem, "export them with the mesh, or use a plain reflectance");
+    }
+}
+
 fn check_slot(slot: &etendue_scene::Placed<String>, mesh: &record::Mesh, asset: &MeshAsset, context: &mut Context<'_>) {
     if asset.slot_materials.iter().all(|s| s.name != slot.value) {
-        let known: Vec<&str> = asset.slot_materials.iter().map(|s| s.name.as_str()).collect();
+        let known: Vec<&str> = asset.slot_materials.iter().map(|s| s.name.as_str()).filter(|n| !n.is_empty()).collect();
         let problem = format!("{} has no material \"{}\"", mesh.file.value.display(), slot.value);
-        context.fault(&slot.place, problem, format!("give one of {}", known.join(", ")));
+        let remedy = match known.is_empty() {
+            true => "it names no materials: give \"material\" in place of \"materials\"".to_owned(),
+            false => format!("give one of {}", known.join(", ")),
+        };
+        context.fault(&slot.place, problem, remedy);
     }
 }
 

@@ -9,7 +9,7 @@ use super::Verdict;
 use crate::sensor::SensorParameters;
 
 pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
-    (Verdict::Required, format!("{} DN/e-, black at {} DN, {} bits", p.gain_dn_e, p.black_level_dn, p.bits))
+    (Verdict::Required, format!("{} DN/e⁻, black at {} DN, {} bits", p.gain_dn_e, p.black_level_dn, p.bits))
 }
 
 /// The converter, prepared.

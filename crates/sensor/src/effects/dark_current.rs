@@ -13,9 +13,9 @@ pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
     if mean_e == 0.0 {
         (Verdict::Skipped, format!("{} e-/s over {} s frees no electron", p.dark_current_e_s, p.exposure_s))
     } else if p.noise {
-        (Verdict::Required, format!("{mean_e} e- a pixel on average, Poisson"))
+        (Verdict::Required, format!("{mean_e} e⁻ a pixel on average, Poisson"))
     } else {
-        (Verdict::Required, format!("{mean_e} e- a pixel; its shot noise is switched off"))
+        (Verdict::Required, format!("{mean_e} e⁻ a pixel; its shot noise is switched off"))
     }
 }
 

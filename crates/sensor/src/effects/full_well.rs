@@ -6,10 +6,10 @@ use super::Verdict;
 use crate::sensor::SensorParameters;
 
 pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
-    let clips = format!("clips rows in which a pixel collects more than {} e-", p.full_well_e);
+    let clips = format!("clips rows in which a pixel collects more than {} e⁻", p.full_well_e);
     let range_e = (f64::from((1_u32 << p.bits) - 1) - p.black_level_dn) / p.gain_dn_e;
     if range_e < p.full_well_e {
-        (Verdict::Guarded, format!("{clips}; the converter's range ends before, at {range_e:.0} e-"))
+        (Verdict::Guarded, format!("{clips}; the converter's range ends before, at {range_e:.0} e⁻"))
     } else {
         (Verdict::Guarded, clips)
     }

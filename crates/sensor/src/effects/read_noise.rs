@@ -10,9 +10,9 @@ use etendue_core::random::NoiseDraw;
 
 pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
     if p.read_noise_e == 0.0 {
-        (Verdict::Skipped, "the read noise is 0 e-".into())
+        (Verdict::Skipped, "the read noise is 0 e⁻".into())
     } else if p.noise {
-        (Verdict::Required, format!("{} e- of standard deviation, normal", p.read_noise_e))
+        (Verdict::Required, format!("{} e⁻ of standard deviation, normal", p.read_noise_e))
     } else {
         (Verdict::Skipped, NOISE_OFF.into())
     }
