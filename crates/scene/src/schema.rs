@@ -16,24 +16,56 @@ pub enum FileKind {
     Job,
 }
 
-/// The JSON Schema (draft 2020-12) of a kind of file.
+/// The JSON Schema (draft 2020-12) of a kind of file. That of scenes and cameras is a choice: a file with a `base` ("then")
+/// may leave out what the base says, all others ("else") are whole.
 #[must_use]
 pub fn schema(kind: FileKind) -> Json {
     match kind {
-        FileKind::Scene => file_schema::<Scene>("Étendue scene"),
-        FileKind::Camera => file_schema::<Camera>("Étendue camera"),
-        FileKind::Job => file_schema::<Job>("Étendue job"),
+        FileKind::Scene => based::<Scene>("Étendue scene"),
+        FileKind::Camera => based::<Camera>("Étendue camera"),
+        FileKind::Job => {
+            let mut schema = whole::<Job>();
+            head(&mut schema, "Étendue job");
+            schema
+        }
     }
 }
 
-/// The schema of a record at the head of a file.
-fn file_schema<T: Record>(title: &str) -> Json {
-    let mut schema = record::<T>().schema();
+fn head(schema: &mut Json, title: &str) {
     schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
     schema["title"] = json!(title);
-    schema["properties"]["format"] = json!({ "const": 1, "description": "The version of the format: 1." });
+}
+
+/// A file that is whole, or builds on another.
+fn based<T: Record>(title: &str) -> Json {
+    let mut schema = json!({ "if": { "required": ["base"] }, "then": derived::<T>(), "else": whole::<T>() });
+    head(&mut schema, title);
+    schema
+}
+
+/// The schema of a record at the head of a file.
+fn whole<T: Record>() -> Json {
+    let mut schema = record::<T>().schema();
+    schema["properties"]["format"] = format();
     if let Some(required) = schema["required"].as_array_mut() {
         required.insert(0, json!("format"));
     }
     schema
+}
+
+/// A file that is laid over another: any part of it may be missing, so only the names of its keys are told.
+fn derived<T: Record>() -> Json {
+    let base = "The path of a file of this kind, over which this one is laid.";
+    let without = "Dotted keys of entries that are taken out of the base: \"environment\", \"lights.sun\".";
+    let mut properties = json!({
+        "format": format(),
+        "base": { "type": "string", "description": base },
+        "without": { "type": "array", "items": { "type": "string" }, "description": without },
+    });
+    T::keys().into_iter().for_each(|key| properties[key] = json!({}));
+    json!({ "type": "object", "properties": properties, "required": ["format", "base"], "additionalProperties": false })
+}
+
+fn format() -> Json {
+    json!({ "const": 1, "description": "The version of the format: 1." })
 }

@@ -1,9 +1,9 @@
 //! Reading a job and the files it names into one tree, and changing it by the overrides.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::ReadText;
+use super::{ReadText, base};
 use crate::document::{Node, Value, parse};
 use crate::fault::Faults;
 use crate::overrides::Overrides;
@@ -76,7 +76,7 @@ fn splice(node: &mut Node, kind: FileKind, read: &ReadText<'_>, faults: &mut Fau
     *node = tree.unwrap_or(Node { place: node.place.clone(), value: Value::Unreadable });
 }
 
-/// The tree of a file of one kind, which is named at `named`; its format is checked and taken out.
+/// The tree of a file of one kind, which is named at `named`, over that of its base; its format is checked and taken out.
 pub(super) fn document(
     file: &Path,
     kind: FileKind,
@@ -84,6 +84,30 @@ pub(super) fn document(
     named: &Place,
     faults: &mut Faults,
 ) -> Option<Node> {
+    open(file, kind, read, named, &[], faults)
+}
+
+/// As [`document`], of a file on which those of `chain` are built.
+pub(super) fn open(
+    file: &Path,
+    kind: FileKind,
+    read: &ReadText<'_>,
+    named: &Place,
+    chain: &[PathBuf],
+    faults: &mut Faults,
+) -> Option<Node> {
+    let tree = own_tree(file, read, named, faults)?;
+    let chain = [chain, &[file.to_owned()]].concat();
+    let tree = if kind == FileKind::Job { tree } else { base::lay_over(tree, kind, read, &chain, faults)? };
+    if let Some(other) = kind.mistaken_for(&tree) {
+        note_other_kind(file, kind, other, named, faults);
+        return None;
+    }
+    Some(tree)
+}
+
+/// What a file itself says.
+fn own_tree(file: &Path, read: &ReadText<'_>, named: &Place, faults: &mut Faults) -> Option<Node> {
     let text = match read(file) {
         Ok(text) => text,
         Err(why) => {
@@ -102,10 +126,6 @@ pub(super) fn document(
         return None;
     }
     check_format(&mut tree, faults);
-    if let Some(other) = kind.mistaken_for(&tree) {
-        note_other_kind(file, kind, other, named, faults);
-        return None;
-    }
     Some(tree)
 }
 

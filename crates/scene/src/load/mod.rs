@@ -1,5 +1,6 @@
 //! From the path of a job to its records: reading files, overriding, checking.
 
+mod base;
 mod check;
 mod files;
 mod names;

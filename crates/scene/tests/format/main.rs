@@ -1,5 +1,6 @@
 //! The format of descriptions: the example of its page, faults in the user's words, schema and reference.
 
+mod base;
 mod example;
 mod faults;
 mod files;

@@ -9,6 +9,10 @@ use crate::files::{Files, doc, load};
 fn misfit(value: &Json, schema: &Json, path: &str) -> Option<String> {
     let of = |key: &str| schema.get(key);
     let fail = |why: &str| Some(format!("{path}: {value} {why} {schema}"));
+    if let Some(condition) = of("if") {
+        let branch = if misfit(value, condition, path).is_none() { "then" } else { "else" };
+        return misfit(value, &schema[branch], path);
+    }
     if let Some(options) = of("anyOf").or(of("oneOf")).and_then(Json::as_array) {
         let fits = options.iter().filter(|o| misfit(value, o, path).is_none()).count();
         let exact = of("oneOf").is_none() || fits == 1;

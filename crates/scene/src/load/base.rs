@@ -1,0 +1,127 @@
+//! Files that build on another: `base = "other.toml"`.
+//!
+//! A scene or a camera file may name a base of its own kind and say only what differs. What it says is laid over the
+//! base's tree before any key is looked at:
+//! - a table is laid over the base's key by key, but one that says its `type` or `model` replaces the base's as a whole;
+//! - of lists whose entries have names, an entry takes the place of the base's of the same name; others follow at the
+//!   end;
+//! - any other value replaces the base's.
+//!
+//! `without = ["lights.sun", "environment"]` first takes entries out of the base. A base may have a base.
+
+use std::path::{Path, PathBuf};
+
+use super::ReadText;
+use super::files::{FileKind, open};
+use crate::document::{Node, Table, Value};
+use crate::fault::Faults;
+use crate::place::Place;
+use crate::reader::{Rule as _, path};
+
+/// Bases in a row that a file may have: more are taken for a circle that its paths hide.
+const DEEPEST: usize = 16;
+
+/// A file's own tree over that of its base, if it names one. `chain` are the files that led here, this one last.
+pub(super) fn lay_over(
+    mut tree: Node,
+    kind: FileKind,
+    read: &ReadText<'_>,
+    chain: &[PathBuf],
+    faults: &mut Faults,
+) -> Option<Node> {
+    let table = tree.as_table_mut()?;
+    let (base, without) = (table.remove("base"), table.remove("without"));
+    let Some(base) = base else {
+        if let Some(without) = without {
+            faults.add(&without.place, "\"without\" has no effect without \"base\"", "name the base, or remove it");
+        }
+        return Some(tree);
+    };
+    let file = path(&["toml"]).read(&base.node, faults)?;
+    let mut under = based_on(&file.value, kind, read, &base.node.place, chain, faults)?;
+    if let Some(without) = without {
+        take_out(&mut under, &without.node, faults);
+    }
+    merge(&mut under, tree);
+    Some(under)
+}
+
+fn based_on(
+    file: &Path,
+    kind: FileKind,
+    read: &ReadText<'_>,
+    named: &Place,
+    chain: &[PathBuf],
+    faults: &mut Faults,
+) -> Option<Node> {
+    if chain.iter().any(|above| above == file) || chain.len() > DEEPEST {
+        faults.add(named, format!("\"{}\" is built on itself", file.display()), "name another base, or none");
+        return None;
+    }
+    open(file, kind, read, named, chain, faults)
+}
+
+/// Takes the entries that `list` names out of the base.
+fn take_out(base: &mut Node, list: &Node, faults: &mut Faults) {
+    if !matches!(list.value, Value::List(_)) {
+        let problem = format!("found {}", list.describe());
+        faults.add(&list.place, problem, "give a list of dotted keys of the base: [\"lights.sun\"]");
+    }
+    for name in list.as_list() {
+        let taken = name.as_text().is_some_and(|key| remove(base, &key.split('.').collect::<Vec<_>>()));
+        if !taken {
+            let problem = format!("the base has nothing called {}", name.describe());
+            faults.add(&name.place, problem, "give dotted keys of the base: \"environment\", \"lights.sun\"");
+        }
+    }
+}
+
+fn remove(node: &mut Node, key: &[&str]) -> bool {
+    match (&mut node.value, key) {
+        (Value::Table(table), [last]) => table.remove(last).is_some(),
+        (Value::Table(table), [first, rest @ ..]) => table.get_mut(first).is_some_and(|inner| remove(inner, rest)),
+        (Value::List(entries), [name, rest @ ..]) => match entries.iter().position(|e| e.name() == Some(name)) {
+            Some(at) if rest.is_empty() => {
+                entries.remove(at);
+                true
+            }
+            Some(at) => remove(&mut entries[at], rest),
+            None => false,
+        },
+        _ => false,
+    }
+}
+
+/// Lays `over` on `under`.
+fn merge(under: &mut Node, over: Node) {
+    match (&mut under.value, over.value) {
+        (Value::Table(base), Value::Table(table)) if !says_its_kind(&table) => {
+            under.place = over.place;
+            table.entries.into_iter().for_each(|entry| match base.get_mut(&entry.key) {
+                Some(node) => merge(node, entry.node),
+                None => base.entries.push(entry),
+            });
+        }
+        (Value::List(base), Value::List(list)) if named(base) && named(&list) => {
+            for entry in list {
+                match base.iter_mut().find(|e| e.name() == entry.name()) {
+                    Some(node) => *node = entry,
+                    None => base.push(entry),
+                }
+            }
+        }
+        (value, other) => {
+            *value = other;
+            under.place = over.place;
+        }
+    }
+}
+
+/// Whether a table chooses among the forms of its kind, so that the base's keys may not fit.
+fn says_its_kind(table: &Table) -> bool {
+    table.get("type").is_some() || table.get("model").is_some()
+}
+
+fn named(list: &[Node]) -> bool {
+    !list.is_empty() && list.iter().all(|entry| entry.name().is_some())
+}

@@ -1,0 +1,86 @@
+//! Files laid over a base.
+
+use etendue_scene::record::{Environment, Lens};
+
+use crate::files::{Files, doc, load};
+
+/// The page's example, its scene and camera made bases of files that say only what `scene` and `camera` say.
+fn derived(scene: &str, camera: &str) -> Files {
+    let mut files = Files::of_example(&doc());
+    files.rename("scene.toml", "base/scene.toml");
+    files.rename("camera.toml", "base/camera.toml");
+    files.put("scene.toml", &format!("format = 1\nbase = \"base/scene.toml\"\n{scene}"));
+    files.put("camera.toml", &format!("format = 1\nbase = \"base/camera.toml\"\n{camera}"));
+    files
+}
+
+fn faults(scene: &str, camera: &str) -> String {
+    load(&derived(scene, camera), &[]).expect_err("a fault").to_string()
+}
+
+#[test]
+fn a_base_alone_is_the_base() {
+    let (plain, over) = (load(&Files::of_example(&doc()), &[]), load(&derived("", ""), &[]));
+    let (plain, over) = (plain.expect("the example"), over.expect("over the example"));
+    assert_eq!(plain.scene.objects.len(), over.scene.objects.len());
+    assert_eq!(plain.cameras[0].camera.sensor.width_px, over.cameras[0].camera.sensor.width_px);
+    // Paths belong to the file that names them.
+    let paths = |d: &etendue_scene::Description| d.assets().iter().map(|a| a.path.clone()).collect::<Vec<_>>();
+    let moved: Vec<_> = paths(&plain).iter().map(|p| std::path::Path::new("base").join(p)).collect();
+    assert_eq!(paths(&over), moved);
+}
+
+#[test]
+fn tables_are_merged_and_forms_replaced() {
+    let uniform = "[environment]\ntype = \"uniform\"\nradiance_w_m2_sr_nm = 0.1\n";
+    let camera = "[sensor]\nexposure_s = 0.25\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm = 3\nf_number = 8\n";
+    let description = load(&derived(uniform, camera), &[]).expect("laid over");
+    assert!(matches!(description.scene.environment, Some(Environment::Uniform(_))));
+    let camera = &description.cameras[0].camera;
+    assert!(matches!(camera.lens, Lens::Pinhole(_)));
+    assert_eq!(camera.sensor.electronics.as_ref().expect("electronics").exposure_s, 0.25);
+    assert_eq!(camera.sensor.width_px, 640);
+}
+
+#[test]
+fn entries_are_replaced_by_name_added_and_taken_out() {
+    let base = load(&Files::of_example(&doc()), &[]).expect("the example");
+    let names = |d: &etendue_scene::Description| -> Vec<String> {
+        d.scene.materials.iter().map(|m| m.name.value.clone()).collect()
+    };
+    let first = names(&base)[0].clone();
+    let scene = format!(
+        "without = [\"lights.sun\"]\n[[materials]]\nname = \"{first}\"\ntype = \"diffuse\"\nreflectance = 0.125\n\
+         [[materials]]\nname = \"new\"\ntype = \"diffuse\"\nreflectance = 0.5\n"
+    );
+    let over = load(&derived(&scene, ""), &[]).expect("laid over");
+    assert_eq!(names(&over), [names(&base), vec!["new".to_owned()]].concat());
+    assert_eq!((base.scene.lights.len(), over.scene.lights.len()), (1, 0));
+}
+
+#[test]
+fn faults_name_the_file_that_says_it() {
+    assert_eq!(
+        faults("", "[sensor]\nexposure_s = -1\n"),
+        "camera.toml:4:14: sensor.exposure_s: found -1; give a number above 0 (s)"
+    );
+    assert_eq!(
+        faults("without = [\"lights.son\"]\n", ""),
+        "scene.toml:3:12: without[0]: the base has nothing called the text \"lights.son\"; give dotted keys of the base: \
+         \"environment\", \"lights.sun\""
+    );
+    assert!(faults("without = 3\n", "").contains("without: found 3; give a list of dotted keys"));
+    let mut files = derived("", "");
+    files.edit("base/scene.toml", "format = 1", "format = 1\nbase = \"../scene.toml\"");
+    // In memory, paths are not made shorter: "base/../scene.toml" is no file here, as a missing base.
+    assert!(load(&files, &[]).expect_err("a fault").to_string().contains("cannot read \"base/../scene.toml\""));
+    let mut files = derived("", "");
+    files.edit("scene.toml", "base/scene.toml", "scene.toml");
+    assert_eq!(
+        load(&files, &[]).expect_err("a fault").to_string(),
+        "scene.toml:2:8: base: \"scene.toml\" is built on itself; name another base, or none"
+    );
+    let mut files = Files::of_example(&doc());
+    files.edit("scene.toml", "format = 1", "format = 1\nwithout = []");
+    assert!(load(&files, &[]).expect_err("a fault").to_string().contains("\"without\" has no effect without \"base\""));
+}
