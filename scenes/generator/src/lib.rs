@@ -7,6 +7,7 @@
 
 pub mod description;
 pub mod hdr;
+pub mod luminaire;
 pub mod mesh;
 pub mod obj;
 pub mod paint;
