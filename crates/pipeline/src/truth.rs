@@ -81,7 +81,7 @@ fn look(view: &View<'_>, camera: &CameraPlan, raster_px: DVec2) -> Look {
 
 fn seen(view: &View<'_>, camera: &CameraPlan, ray: &PupilRay) -> Seen {
     let direction = camera.pose.direction_to_world(ray.direction);
-    match view.truth(camera.pose.point_to_render(ray.origin_m), direction) {
+    match view.truth(camera.pose.point_to_render(ray.origin_m), direction, |_| true) {
         None => Seen::Sky,
         Some(truth) => Seen::Surface { depth_m: truth.distance_m * ray.direction.z + ray.origin_m.z, truth },
     }

@@ -4,8 +4,10 @@
 //! precision is best near the camera wherever in the world it stands. Rays and answers are in the render frame (axes of
 //! the world, origin at the entrance pupil, m). Nothing about a mesh is rebuilt.
 
+mod footprint;
 mod place;
 mod point;
+mod tangents;
 #[cfg(test)]
 mod tests;
 mod truth;
@@ -14,7 +16,7 @@ pub use truth::Truth;
 
 use crate::accel::top::Top;
 use crate::accel::{Simd, World};
-use crate::geometry::{Shape, SurfacePoint};
+use crate::geometry::{Footprint, Shape, SurfacePoint};
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};
 pub(crate) use place::Placed;
@@ -82,6 +84,29 @@ impl<'w> View<'w> {
             Shape::Mesh(id) => point::of_mesh(self.world.mesh(id), instance, placed, hit),
             Shape::Sphere { radius_m } => point::of_sphere(radius_m, instance, placed, ray, hit),
         }
+    }
+
+    /// How large texture and shape are about a point of this view's surfaces.
+    #[must_use]
+    pub fn footprint(&self, point: &SurfacePoint) -> Footprint {
+        let placed = self.placed(point.instance);
+        match self.world.instances()[point.instance as usize].shape {
+            Shape::Mesh(id) => footprint::of_mesh(self.world.mesh(id), placed, point.primitive),
+            Shape::Sphere { radius_m } => footprint::of_sphere(radius_m, placed),
+        }
+    }
+
+    /// The directions in which the two texture coordinates grow at a point of this view's surfaces, in its plane: unit,
+    /// in the render frame, neither perpendicular to each other nor to the shading normal. `None` where there are none:
+    /// without texture coordinates, where they do not span the triangle, at the poles of a sphere.
+    #[must_use]
+    pub fn tangents(&self, point: &SurfacePoint) -> Option<[Vec3; 2]> {
+        let placed = self.placed(point.instance);
+        let local = match self.world.instances()[point.instance as usize].shape {
+            Shape::Mesh(id) => tangents::of_mesh(self.world.mesh(id), point.primitive)?,
+            Shape::Sphere { .. } => tangents::of_sphere(point.local.as_dvec3())?,
+        };
+        tangents::to_render(local, placed)
     }
 
     /// An instance's place.

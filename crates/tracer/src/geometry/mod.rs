@@ -12,4 +12,4 @@ mod surface;
 pub use instance::{Instance, MeshId, Shape};
 pub use mesh::{Dropped, Mesh};
 pub use mesh_error::MeshError;
-pub use surface::SurfacePoint;
+pub use surface::{Footprint, SurfacePoint};

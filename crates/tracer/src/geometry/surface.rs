@@ -17,14 +17,25 @@ pub struct SurfacePoint {
     pub shading_normal: Vec3,
     /// Texture coordinates; zero where the mesh has none.
     pub uv: Vec2,
-    /// Texture units a metre of the surface covers; 0 without texture coordinates.
-    pub uv_per_m: f32,
+    /// The point in the own frame of the shape, in its units.
+    pub local: Vec3,
+    /// The normal for shading in the own frame of the shape; unit, on either side.
+    pub local_normal: Vec3,
     /// Index of the instance in the world.
     pub instance: u32,
     /// Primitive within the instance's shape.
     pub primitive: u32,
     /// The material here.
     pub material: MaterialId,
+}
+
+/// How large things are about a point of a surface, for filtering textures.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Footprint {
+    /// Texture units a metre of the surface covers; 0 without texture coordinates.
+    pub uv_per_m: f32,
+    /// Units of the shape's own frame a metre covers, on average over all directions.
+    pub local_per_m: f32,
 }
 
 impl SurfacePoint {

@@ -66,7 +66,8 @@ impl<'a, const N: usize> Path<'a, N> {
             };
             let point = self.tracer.view.surface(&self.ray, &hit);
             self.cone.travel(hit.t);
-            let lookup = Lookup { uv: point.uv, width: self.cone.width_m * point.uv_per_m };
+            let lookup =
+                Lookup { uv: point.uv, width: self.cone.width_m * self.tracer.view.footprint(&point).uv_per_m };
             self.gather_glow(&point, &lookup, hit.t);
             if self.bounces == self.tracer.settings.max_bounces || !self.scatter(point, &lookup) {
                 return self.radiance;

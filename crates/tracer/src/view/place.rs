@@ -25,6 +25,11 @@ impl Placed {
         self.to_render.transform_point3(point)
     }
 
+    /// A vector of the instance's frame, in the render frame.
+    pub(crate) fn vector_to_render(&self, vector: DVec3) -> DVec3 {
+        self.to_render.transform_vector3(vector)
+    }
+
     /// A ray's origin and direction in the instance's frame. The direction keeps its stretch, so t keeps its meaning.
     #[inline]
     pub(crate) fn ray_to_local(&self, ray: &Ray) -> (DVec3, DVec3) {
@@ -37,10 +42,10 @@ impl Placed {
         (self.to_local.transform_point3(origin), self.to_local.transform_vector3(direction))
     }
 
-    /// A normal of the instance's frame (any length), in the render frame: unit, and on the same side of its surface.
+    /// A unit normal of the instance's frame, in the render frame: unit, and on the same side of its surface.
     /// `None` where it has no direction.
     pub(crate) fn normal_to_render(&self, normal: DVec3) -> Option<DVec3> {
-        (self.to_local.matrix3.transpose() * normal.try_normalize()?).try_normalize()
+        (self.to_local.matrix3.transpose() * normal).try_normalize()
     }
 
     /// Whether the instance turns right-handed shapes into left-handed ones.

@@ -10,13 +10,17 @@
 //! more). Beyond that, the answer is that of the accelerator's ray, solved in f64: a point of the triangle's edge.
 
 use super::place::Placed;
-use super::{Hit, View, point};
-use crate::geometry::{Instance, Mesh, Shape, sphere};
+use super::point::{self, Normals};
+use super::{Hit, View};
+use crate::geometry::{Instance, Mesh, Shape, SurfacePoint, sphere};
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};
 
 /// How far beyond its triangle, in barycentric weights, a plane is believed.
 const BEYOND: f64 = 1e-3;
+
+/// Origin and direction in a mesh's frame, and where along the exact ray the line begins, m.
+type Line = (DVec3, DVec3, f64);
 
 /// What a ray meets, exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,23 +39,48 @@ pub struct Truth {
     pub material: u32,
 }
 
+/// After so many surfaces that are passed, the next is taken as it is. Rays go on from one to the next by the least
+/// step; among surfaces closer together than that they might turn in circles.
+const MOST_PASSES: usize = 4096;
+
 impl View<'_> {
-    /// What the ray from `origin_m` (render frame, m) along `direction` (any length) meets first; `None` for the
-    /// background.
+    /// What the ray from `origin_m` (render frame, m) along `direction` (any length) meets first that `accept` takes;
+    /// it goes straight on through other points. `None` for the background.
     #[must_use]
-    pub fn truth(&self, origin_m: DVec3, direction: DVec3) -> Option<Truth> {
+    pub fn truth(&self, origin_m: DVec3, direction: DVec3, accept: impl Fn(&SurfacePoint) -> bool) -> Option<Truth> {
         let direction = direction.try_normalize()?;
-        let rounded = Ray::new(origin_m.as_vec3(), direction.as_vec3(), 0.0);
-        let hit = self.closest(&rounded)?;
+        let mut rounded = Ray::new(origin_m.as_vec3(), direction.as_vec3(), 0.0);
+        let mut hit = self.closest(&rounded)?;
+        for _ in 0..MOST_PASSES {
+            let point = self.surface(&rounded, &hit);
+            if accept(&point) {
+                break;
+            }
+            rounded.origin = point.spawn(rounded.direction);
+            hit = self.closest(&rounded)?;
+        }
+        Some(self.solve(origin_m, direction, &rounded, &hit))
+    }
+
+    /// The exact ray from `origin_m` along `direction` (unit) against the primitive that `rounded` has met.
+    fn solve(&self, origin_m: DVec3, direction: DVec3, rounded: &Ray, hit: &Hit) -> Truth {
         let instance = &self.world.instances()[hit.instance as usize];
         let placed = self.placed(hit.instance);
         let (origin, along) = placed.line_to_local(origin_m, direction);
+        // Where the rounded ray begins, along the exact one.
+        let passed = rounded.origin != origin_m.as_vec3();
+        let start = if passed { (rounded.origin.as_dvec3() - origin_m).dot(direction) } else { 0.0 };
         let (t, normal, slot) = match instance.shape {
-            Shape::Mesh(id) => on_mesh(self.world.mesh(id), placed, &hit, [(origin, along), traced(placed, &rounded)]),
-            Shape::Sphere { radius_m } => on_sphere(radius_m, placed, origin, along),
+            Shape::Mesh(id) => {
+                let lines = [(origin, along, 0.0), traced(placed, rounded, start)];
+                on_mesh(self.world.mesh(id), placed, hit, lines)
+            }
+            Shape::Sphere { radius_m } => {
+                let about = passed.then_some(start + f64::from(hit.t));
+                on_sphere(radius_m, placed, (origin, along), about)
+            }
         };
-        let position_m = self.origin_m + origin_m + direction * t;
-        Some(report(instance, slot, t, position_m, normal))
+        report(instance, slot, t, self.origin_m + origin_m + direction * t, normal)
     }
 }
 
@@ -66,23 +95,23 @@ fn report(instance: &Instance, slot: usize, distance_m: f64, position_m: DVec3, 
     }
 }
 
-/// The line that the accelerator follows in a mesh's frame.
-fn traced(placed: &Placed, rounded: &Ray) -> (DVec3, DVec3) {
+/// The line that the accelerator follows in a mesh's frame, which begins at `start`.
+fn traced(placed: &Placed, rounded: &Ray, start: f64) -> Line {
     let (origin, direction) = placed.ray_to_local(rounded);
-    (origin.as_vec3().as_dvec3(), direction.as_vec3().as_dvec3())
+    (origin.as_vec3().as_dvec3(), direction.as_vec3().as_dvec3(), start)
 }
 
-/// Where the first of `lines` (origin, direction) that meets the triangle does so.
-fn on_mesh(mesh: &Mesh, placed: &Placed, hit: &Hit, lines: [(DVec3, DVec3); 2]) -> (f64, DVec3, usize) {
+/// Where the first of `lines` that meets the triangle does so.
+fn on_mesh(mesh: &Mesh, placed: &Placed, hit: &Hit, lines: [Line; 2]) -> (f64, DVec3, usize) {
     let corners = mesh.corners(hit.primitive).map(Vec3::as_dvec3);
     let meets = |(t, u, v): &(f64, f64, f64)| *t > 0.0 && u.min(*v).min(1.0 - u - v) >= -BEYOND;
-    let solved = lines.into_iter().find_map(|(origin, along)| plane(corners, origin, along).filter(meets));
+    let solve =
+        |(origin, along, start): Line| plane(corners, origin, along).filter(meets).map(|(t, u, v)| (start + t, u, v));
+    let solved = lines.into_iter().find_map(solve);
     // A ray in the plane itself has no better answer than the accelerator's.
-    let (t, u, v) = solved.unwrap_or((f64::from(hit.t), f64::from(hit.u), f64::from(hit.v)));
-    let geometric = point::geometric_normal(corners, placed);
-    let triangle = mesh.triangles()[hit.primitive as usize];
-    let normal = point::shading_normal(mesh, triangle, point::weights(u, v), placed, geometric);
-    (t, normal, usize::from(mesh.slots()[hit.primitive as usize]))
+    let (t, u, v) = solved.unwrap_or((lines[1].2 + f64::from(hit.t), f64::from(hit.u), f64::from(hit.v)));
+    let normals = Normals::of_mesh(mesh, hit.primitive, point::weights(u, v), placed);
+    (t, normals.shading, usize::from(mesh.slots()[hit.primitive as usize]))
 }
 
 /// Where a ray meets a triangle's plane: t, and the barycentric weights of vertices 1 and 2 there.
@@ -96,10 +125,21 @@ pub(super) fn plane([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> O
     (t.is_finite() && u.is_finite() && v.is_finite()).then_some((t, u, v))
 }
 
-fn on_sphere(radius_m: f64, placed: &Placed, origin: DVec3, direction: DVec3) -> (f64, DVec3, usize) {
+/// Where a line meets a sphere: for a ray that has passed other points, the root nearest to what the accelerator found.
+fn on_sphere(
+    radius_m: f64,
+    placed: &Placed,
+    (origin, direction): (DVec3, DVec3),
+    passed_to: Option<f64>,
+) -> (f64, DVec3, usize) {
     // A ray that only its f32 form grazes: the point of closest approach.
     let abreast = -origin.dot(direction) / direction.length_squared();
-    let t = sphere::nearest(radius_m, origin, direction).unwrap_or(abreast);
-    let normal = placed.normal_to_render(origin + direction * t).unwrap_or(DVec3::Z);
+    let t = match (sphere::roots(radius_m, origin, direction), passed_to) {
+        (Some([near, far]), Some(about)) if (far - about).abs() < (near - about).abs() => far,
+        (Some([near, _]), Some(_)) => near,
+        (roots, _) => roots.into_iter().flatten().find(|t| *t > 0.0).unwrap_or(abreast),
+    };
+    let unit = (origin + direction * t).try_normalize().unwrap_or(DVec3::Z);
+    let normal = placed.normal_to_render(unit).unwrap_or(DVec3::Z);
     (t, normal, 0)
 }

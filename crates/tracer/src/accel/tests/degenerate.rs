@@ -20,7 +20,11 @@ fn an_empty_world_is_met_by_nothing() {
         }
         let world = builder.build().expect("legal");
         let view = world.view(DVec3::ZERO);
-        assert!(view.closest(&ray).is_none() && !view.occluded(&ray) && view.truth(DVec3::ZERO, DVec3::X).is_none());
+        assert!(
+            view.closest(&ray).is_none()
+                && !view.occluded(&ray)
+                && view.truth(DVec3::ZERO, DVec3::X, |_| true).is_none()
+        );
         assert_eq!(view.bounds(), (Vec3::ZERO, 0.0));
     }
 }

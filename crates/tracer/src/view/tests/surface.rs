@@ -41,7 +41,10 @@ fn a_point_of_a_square_is_where_its_texture_says() {
         // Barycentric weights are f32: a few roundings of 6e-8, times 20 m.
         assert!((p.position - Vec3::new(x, y, -5.0)).length() < 2e-5);
         assert!((p.uv - (Vec2::new(x, y) / 20.0 + 0.5)).length() < 1e-6);
-        assert!((p.uv_per_m - 0.05).abs() < 1e-7);
+        let footprint = view.footprint(&p);
+        assert!((footprint.uv_per_m - 0.05).abs() < 1e-7 && (footprint.local_per_m - 0.1).abs() < 1e-7);
+        assert!((p.local * 10.0 - Vec3::new(x, y, 0.0)).length() < 2e-5);
+        assert_eq!((p.local_normal, view.tangents(&p)), (Vec3::Z, Some([Vec3::X, Vec3::Y])));
         assert_eq!(p.material, MaterialId(if p.primitive == 0 { 4 } else { 9 }));
         assert_eq!((p.geometric_normal, p.shading_normal), (Vec3::Z, Vec3::Z), "as wound, though seen from any side");
         assert!(p.position_error.min_element() > 0.0 && p.position_error.max_element() < 1e-5);
@@ -112,5 +115,36 @@ fn a_sphere_has_the_texture_of_a_globe() {
     let view = world.view(DVec3::ZERO);
     let p = point(&view, Ray::new(Vec3::ZERO, Vec3::Y, 0.0));
     assert!((p.position - Vec3::Y * 2.0).length() < 1e-6 && (p.uv - Vec2::new(0.25, 0.5)).length() < 1e-6);
-    assert_eq!((p.geometric_normal, p.shading_normal), (Vec3::Y, Vec3::Y));
+    assert_eq!((p.geometric_normal, p.shading_normal, p.local_normal), (Vec3::Y, Vec3::Y, Vec3::Y));
+    assert!((p.local - Vec3::Y * 2.0).length() < 1e-6);
+    assert_eq!(view.tangents(&p), Some([Vec3::NEG_X, Vec3::Z]), "east and north");
+}
+
+#[test]
+fn tangents_follow_the_texture_through_mirrors_and_stretches() {
+    let stretch = DAffine3::from_scale(DVec3::new(-2.0, 1.0, 3.0));
+    let mirrored_uv = |square: Mesh| {
+        let uvs = square.uvs().iter().map(|uv| Vec2::new(1.0 - uv.x, uv.y)).collect();
+        Mesh::new(square.positions().to_vec(), vec![], uvs, square.triangles().to_vec(), vec![0, 1]).expect("legal").0
+    };
+    for (mesh, sign) in [(square(vec![]), -1.0), (mirrored_uv(square(vec![])), 1.0)] {
+        let world = placed(mesh, stretch);
+        let view = world.view(DVec3::new(0.0, 0.0, 5.0));
+        let p = point(&view, Ray::new(Vec3::ZERO, Vec3::new(0.3, 0.2, -5.0), 0.0));
+        assert_eq!(view.tangents(&p), Some([Vec3::X * sign, Vec3::Y]));
+    }
+}
+
+#[test]
+fn without_texture_coordinates_that_span_it_a_triangle_has_no_tangents() {
+    let flat = |uvs: Vec<Vec2>| {
+        let mesh = square(vec![]);
+        let mesh = Mesh::new(mesh.positions().to_vec(), vec![], uvs, mesh.triangles().to_vec(), vec![0, 1]);
+        let world = placed(mesh.expect("legal").0, DAffine3::IDENTITY);
+        let view = world.view(DVec3::new(0.0, 0.0, 5.0));
+        let p = point(&view, Ray::new(Vec3::ZERO, Vec3::new(0.3, 0.2, -5.0), 0.0));
+        (view.tangents(&p), view.footprint(&p).uv_per_m)
+    };
+    assert_eq!(flat(vec![]), (None, 0.0));
+    assert_eq!(flat(vec![Vec2::ONE; 4]), (None, 0.0));
 }
