@@ -37,6 +37,9 @@ fn load(assets: &mut Assets, request: &AssetRequest) -> Result<(), Error> {
         AssetKind::Mesh => drop(assets.meshes.insert(key, read_mesh(path)?)),
         AssetKind::Image => drop(assets.images.insert(key, read_picture(path)?)),
         AssetKind::Spectrum(values) => drop(assets.spectra.insert(key, read_spectrum_of(path, values)?)),
+        AssetKind::Photometry | AssetKind::ComplexIndex | AssetKind::RetroTable => {
+            return Err(Error::new(path, "files of this kind cannot be read yet"));
+        }
     }
     Ok(())
 }

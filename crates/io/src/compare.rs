@@ -195,6 +195,7 @@ fn kind(pixels: &ImagePixels) -> &'static str {
         ImagePixels::Rgb8(_) => "R, G, B of 8 bits",
         ImagePixels::Rgba8(_) => "R, G, B, A of 8 bits",
         ImagePixels::Rgb32F(_) => "R, G, B as numbers",
+        ImagePixels::Rgba32F(_) => "R, G, B, A as numbers",
     }
 }
 
@@ -207,6 +208,7 @@ fn channels_of(pixels: &ImagePixels) -> Vec<Vec<f32>> {
         ImagePixels::Rgb8(p) => bytes(&|c| p.iter().map(|v| f32::from(v[c])).collect(), 3),
         ImagePixels::Rgba8(p) => bytes(&|c| p.iter().map(|v| f32::from(v[c])).collect(), 4),
         ImagePixels::Rgb32F(p) => bytes(&|c| p.iter().map(|v| v[c]).collect(), 3),
+        ImagePixels::Rgba32F(p) => bytes(&|c| p.iter().map(|v| v[c]).collect(), 4),
     }
 }
 

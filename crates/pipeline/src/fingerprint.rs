@@ -28,6 +28,9 @@ impl Hasher {
         let hashes = |of: &mut dyn Iterator<Item = [u8; 32]>| of.collect::<Vec<_>>();
         self.add(&hashes(&mut assets.images.values().map(|image| image.hash)));
         self.add(&hashes(&mut assets.spectra.values().map(|spectrum| spectrum.hash)));
+        self.add(&hashes(&mut assets.photometry.values().map(|lamp| lamp.hash)));
+        self.add(&hashes(&mut assets.indices.values().map(|table| table.hash)));
+        self.add(&hashes(&mut assets.retro_tables.values().map(|table| table.hash)));
     }
 
     fn add_mesh(&mut self, mesh: &Mesh) {

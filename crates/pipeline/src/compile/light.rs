@@ -81,5 +81,6 @@ fn linear(picture: &ImageAsset) -> Vec<[f32; 3]> {
         ImagePixels::Rgb8(p) => p.iter().map(|c| c.map(colour::decode_byte)).collect(),
         ImagePixels::Rgba8(p) => p.iter().map(|[r, g, b, _]| [*r, *g, *b].map(colour::decode_byte)).collect(),
         ImagePixels::Rgb32F(p) => p.clone(),
+        ImagePixels::Rgba32F(p) => p.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect(),
     }
 }

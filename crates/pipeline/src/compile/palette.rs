@@ -257,6 +257,10 @@ fn texels(image: &ImageAsset, encoded: bool, scale: f32) -> Texels {
             let linear = |v: f32| if encoded { colour::decode(v) } else { v };
             Texels::Float(pixels.iter().map(|p| p.map(|v| linear(v) * scale)).collect())
         }
+        ImagePixels::Rgba32F(pixels) => {
+            let linear = |v: f32| if encoded { colour::decode(v) } else { v };
+            Texels::Float(pixels.iter().map(|[r, g, b, _]| [*r, *g, *b].map(|v| linear(v) * scale)).collect())
+        }
     }
 }
 

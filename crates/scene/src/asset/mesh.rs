@@ -51,6 +51,8 @@ pub enum ImagePixels {
     Rgba8(Vec<[u8; 4]>),
     /// Red, green, blue: linear numbers, or 0 … 1 as encoded in a picture of 16 bits.
     Rgb32F(Vec<[f32; 3]>),
+    /// As [`Self::Rgb32F`], with opacity: a linear number.
+    Rgba32F(Vec<[f32; 4]>),
 }
 
 impl ImagePixels {
@@ -63,6 +65,7 @@ impl ImagePixels {
             Self::Rgb8(p) => p.len(),
             Self::Rgba8(p) => p.len(),
             Self::Rgb32F(p) => p.len(),
+            Self::Rgba32F(p) => p.len(),
         }
     }
 

@@ -2,11 +2,15 @@
 
 mod mesh;
 mod mtl;
+mod photometry;
 mod request;
 mod store;
+mod table;
 
 pub use mesh::{ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
 pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurface};
+pub use photometry::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
 pub(crate) use request::requests;
 pub use request::{AssetKind, AssetRequest, Values, of_camera};
 pub use store::Assets;
+pub use table::{ComplexIndexAsset, RetroTableAsset};

@@ -29,6 +29,12 @@ pub enum AssetKind {
     Image,
     /// [`super::SpectrumAsset`] of such values.
     Spectrum(Values),
+    /// [`super::PhotometryAsset`].
+    Photometry,
+    /// [`super::ComplexIndexAsset`].
+    ComplexIndex,
+    /// [`super::RetroTableAsset`].
+    RetroTable,
 }
 
 /// What the values of a tabulated spectrum can be.

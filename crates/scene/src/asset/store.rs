@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::mtl::SlotReflectance;
-use super::{AssetKind, AssetRequest, ImageAsset, MeshAsset, SpectrumAsset};
+use super::{
+    AssetKind, AssetRequest, ComplexIndexAsset, ImageAsset, MeshAsset, PhotometryAsset, RetroTableAsset, SpectrumAsset,
+};
 use crate::place::Place;
 
 /// Everything that was read for a description.
@@ -18,6 +20,12 @@ pub struct Assets {
     pub images: BTreeMap<PathBuf, ImageAsset>,
     /// Spectra by path.
     pub spectra: BTreeMap<PathBuf, SpectrumAsset>,
+    /// Measured lamps by path.
+    pub photometry: BTreeMap<PathBuf, PhotometryAsset>,
+    /// Refractive indices by path.
+    pub indices: BTreeMap<PathBuf, ComplexIndexAsset>,
+    /// Coefficients of retro-reflection by path.
+    pub retro_tables: BTreeMap<PathBuf, RetroTableAsset>,
 }
 
 impl Assets {
@@ -37,6 +45,9 @@ impl Assets {
             AssetKind::Mesh => self.meshes.contains_key(path),
             AssetKind::Image => self.images.contains_key(path),
             AssetKind::Spectrum(_) => self.spectra.contains_key(path),
+            AssetKind::Photometry => self.photometry.contains_key(path),
+            AssetKind::ComplexIndex => self.indices.contains_key(path),
+            AssetKind::RetroTable => self.retro_tables.contains_key(path),
         }
     }
 }
