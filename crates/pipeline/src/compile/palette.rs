@@ -8,9 +8,7 @@ use etendue_scene::record::{self, Scene, SurfaceEmission, material};
 use etendue_scene::{Place, Placed};
 use etendue_spectra::{Outside, Spectrum, colour, metal, upsample};
 use etendue_tracer::MaterialId;
-use etendue_tracer::materials::{
-    Coated, Conductor, Emission, Glow, Material, MaterialError, Palette, Reflectance, Surface,
-};
+use etendue_tracer::materials::{Coated, Conductor, Emission, Glow, Material, Palette, Reflectance, Surface};
 use etendue_tracer::textures::{ImageTexture, Sampling, Texels, TextureId, Wrap};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -58,7 +56,7 @@ impl PaletteBuilder {
         let base = match &material.surface {
             Surface::Diffuse(base) => Some(base),
             Surface::Coated(coated) => Some(coated.base()),
-            Surface::Conductor(_) | Surface::Absorber => None,
+            Surface::Conductor(_) | Surface::Absorber | Surface::Mix(_) => None,
         };
         let glows = material.emission.as_ref().is_some_and(|e| e.factor.is_some());
         let textured = glows || matches!(base, Some(Reflectance::Texture(_)));
@@ -87,7 +85,7 @@ impl PaletteBuilder {
             return None;
         };
         let surface = self.slot_surface(surface, place, context)?;
-        let id = self.add(Material { surface, emission: None }, place.clone(), slot.name.clone());
+        let id = self.add(Material::new(surface), place.clone(), slot.name.clone());
         self.by_slot.insert(key, id);
         Some(id)
     }
@@ -97,7 +95,7 @@ impl PaletteBuilder {
         match Palette::new(self.materials, self.textures) {
             Ok(palette) => Some((palette, self.names)),
             Err(error) => {
-                if let Some(place) = material_of(&error).and_then(|i| self.places.get(i)) {
+                if let Some(place) = error.material().and_then(|i| self.places.get(i)) {
                     context.fault(place, error.to_string(), "");
                 }
                 None
@@ -127,7 +125,7 @@ impl PaletteBuilder {
             Some(emission) => Some(self.emission(emission, scene, context)?),
             None => None,
         };
-        Some(Material { surface, emission })
+        Some(Material { emission, ..Material::new(surface) })
     }
 
     fn emission(&mut self, record: &SurfaceEmission, scene: &Scene, context: &mut Context<'_>) -> Option<Emission> {
@@ -266,14 +264,4 @@ fn texels(image: &ImageAsset, encoded: bool, scale: f32) -> Texels {
 
 fn floats(pixels: &[[u8; 3]], linear: impl Fn(u8) -> f32) -> Texels {
     Texels::Float(pixels.iter().map(|p| p.map(&linear)).collect())
-}
-
-/// The material that an error is about.
-fn material_of(error: &MaterialError) -> Option<usize> {
-    match error {
-        MaterialError::Reflectance { material, .. }
-        | MaterialError::Radiance { material, .. }
-        | MaterialError::UnknownTexture { material, .. } => Some(*material),
-        MaterialError::Roughness { .. } | MaterialError::CoatIndex { .. } | MaterialError::Index { .. } => None,
-    }
 }

@@ -9,7 +9,7 @@ use super::caustic::History;
 use super::cone::Cone;
 use crate::geometry::SurfacePoint;
 use crate::lights::Met;
-use crate::materials::{Bsdf, ShadingFrame};
+use crate::materials::{Bsdf, Event, ShadingFrame};
 use crate::textures::Lookup;
 
 /// A path on its way.
@@ -66,13 +66,23 @@ impl<'a, const N: usize> Path<'a, N> {
             };
             let point = self.tracer.view.surface(&self.ray, &hit);
             self.cone.travel(hit.t);
-            let lookup =
-                Lookup { uv: point.uv, width: self.cone.width_m * self.tracer.view.footprint(&point).uv_per_m };
+            let lookup = self.lookup(&point);
             self.gather_glow(&point, &lookup, hit.t);
             if self.bounces == self.tracer.settings.max_bounces || !self.scatter(point, &lookup) {
                 return self.radiance;
             }
         }
+    }
+
+    /// Where textures are read at a point that the path has met.
+    fn lookup(&self, point: &SurfacePoint) -> Lookup {
+        let at = Lookup { local: point.local, local_normal: point.local_normal, ..Lookup::point(point.uv) };
+        if !self.tracer.palette.needs_footprint(point.material) {
+            return at;
+        }
+        let footprint = self.tracer.view.footprint(point);
+        let width_m = self.cone.width_m;
+        Lookup { width: width_m * footprint.uv_per_m, width_local: width_m * footprint.local_per_m, ..at }
     }
 
     /// Light from beyond the scene, along the ray.
@@ -95,16 +105,19 @@ impl<'a, const N: usize> Path<'a, N> {
         let met = Met { point, from: self.ray.origin, direction: self.ray.direction, distance_m };
         let drawn = if self.scattered.is_some() { self.tracer.lights.met_pdf(&met) } else { 0.0 };
         let weight = self.tracer.settings.strategies.met(self.scattered, drawn);
-        self.radiance += self.throughput * palette.radiance(emission, lookup, self.wavelengths) * weight;
+        self.radiance +=
+            self.throughput * palette.radiance(point.material, emission, lookup, self.wavelengths) * weight;
     }
 
     /// Gathers drawn light at a surface and goes on from it; false where the path ends.
     fn scatter(&mut self, point: SurfacePoint, lookup: &Lookup) -> bool {
-        let bsdf = self.tracer.palette.bsdf(point.material, lookup, self.wavelengths);
+        let to_viewer = -self.ray.direction;
+        let frame = ShadingFrame::new(&point, point.shading_normal, to_viewer);
+        let bsdf = self.tracer.palette.bsdf(point.material, lookup, frame.front, self.wavelengths);
         if matches!(bsdf, Bsdf::Absorber) {
             return false;
         }
-        let vertex = Vertex { frame: ShadingFrame::new(&point, -self.ray.direction), point, bsdf };
+        let vertex = Vertex { frame, point, bsdf };
         self.gather_drawn(&vertex);
         self.go_on(&vertex) && self.survives()
     }
@@ -157,7 +170,7 @@ impl<'a, const N: usize> Path<'a, N> {
         let Some(sample) = vertex.bsdf.sample(vertex.frame.wo, choice, u) else { return false };
         let Some(direction) = vertex.frame.outward(sample.wi) else { return false };
         self.throughput *= sample.weight;
-        self.scattered = (!sample.mirror).then_some(sample.pdf);
+        self.scattered = (sample.event == Event::Scatter).then_some(sample.pdf);
         self.history.scatter(self.scattered);
         if let Some(pdf) = self.scattered {
             self.cone.scatter(pdf);

@@ -260,12 +260,12 @@ impl Glowing<'_> {
         let distance = way.length();
         let direction = (distance > 0.0).then(|| way / distance)?;
         let emission = self.palette.emission(self.material).filter(|e| e.leaves(surface.normal, -direction))?;
-        let lookup = Lookup { uv: surface.uv, width: spread_rad * distance * surface.uv_per_m };
+        let lookup = Lookup { width: spread_rad * distance * surface.uv_per_m, ..Lookup::point(surface.uv) };
         let side = -1.0_f32.copysign(surface.normal.dot(direction));
         Some(LightSample {
             direction,
             target: Some(surface.position + surface.normal * (side * (self.error_m + ROUNDING * distance))),
-            radiance: self.palette.radiance(emission, &lookup, wavelengths),
+            radiance: self.palette.radiance(self.material, emission, &lookup, wavelengths),
             pdf: surface.pdf,
             surrounds: false,
         })

@@ -18,7 +18,7 @@ use glam::{Vec2, Vec3};
 
 use super::conductor::MIRROR_ALPHA;
 use super::microfacet::{Ggx, half_vector, mirrored};
-use super::{BsdfSample, BsdfValue, MaterialError, Reflectance, check_alpha, fresnel};
+use super::{BsdfSample, BsdfValue, Event, MaterialError, Reflectance, check_alpha, fresnel};
 
 /// Refractive indices that a coat may have: from a little above air's, below which the coat would do nothing that f32
 /// and the table resolve, to that of germanium. Scene files state the same range.
@@ -170,7 +170,7 @@ impl<const N: usize> CoatedBsdf<'_, N> {
             return None;
         }
         let BsdfValue { value_cos, pdf } = self.evaluate(wo, wi);
-        (pdf > 0.0).then(|| BsdfSample { wi, weight: value_cos / pdf, pdf, mirror: false })
+        (pdf > 0.0).then(|| BsdfSample { wi, weight: value_cos / pdf, pdf, event: Event::Scatter })
     }
 }
 

@@ -9,7 +9,7 @@ use etendue_spectra::metal::ComplexIndex;
 use glam::{Vec2, Vec3};
 
 use super::microfacet::{Ggx, half_vector, mirrored};
-use super::{BsdfSample, BsdfValue, MaterialError, check_alpha, fresnel};
+use super::{BsdfSample, BsdfValue, Event, MaterialError, check_alpha, fresnel};
 
 /// Roughness α below which a surface is an exact mirror.
 pub const MIRROR_ALPHA: f32 = 1e-4;
@@ -80,7 +80,7 @@ impl<const N: usize> ConductorBsdf<N> {
             wi,
             weight: self.fresnel(wo.dot(m)) * facets.weight(wo, wi),
             pdf: facets.reflect_pdf(wo, m),
-            mirror: false,
+            event: Event::Scatter,
         })
     }
 }

@@ -7,7 +7,7 @@ use etendue_core::Spectral;
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use glam::{Vec2, Vec3};
 
-use super::{BsdfSample, BsdfValue};
+use super::{BsdfSample, BsdfValue, Event};
 
 /// Lambert's law with the reflectances of one point at a path's wavelengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +24,6 @@ impl<const N: usize> DiffuseBsdf<N> {
     pub(super) fn sample(&self, u: Vec2) -> Option<BsdfSample<N>> {
         let wi = cosine_hemisphere(u);
         let pdf = cosine_hemisphere_pdf(wi.z);
-        (pdf > 0.0).then_some(BsdfSample { wi, weight: self.reflectance, pdf, mirror: false })
+        (pdf > 0.0).then_some(BsdfSample { wi, weight: self.reflectance, pdf, event: Event::Scatter })
     }
 }

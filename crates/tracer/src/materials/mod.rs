@@ -1,33 +1,48 @@
 //! Materials: how a surface scatters light, and what it emits.
 //!
 //! # Contract
-//! - A [`Material`] is a [`Surface`] and, where it glows, an [`Emission`]. Both sides of a surface scatter alike;
-//!   emission says which sides glow.
-//! - At a point of a surface, [`Palette::bsdf`] evaluates textures and spectra once and gives a [`Bsdf`] for the path's
-//!   wavelengths.
+//! - A [`Material`] is a [`Surface`] and, where it has them, an [`Emission`], an opacity and a normal map.
+//! - At a point of a surface, [`Palette::resolve`] follows mixes by chance, [`Palette::shading_normal`] bends the normal,
+//!   and [`Palette::bsdf`] evaluates textures and spectra once and gives a [`Bsdf`] for the path's wavelengths. Which side
+//!   is seen (`front`) matters to solids like glass alone.
 //! - Directions `wo` (towards the viewer) and `wi` (towards the light) are unit vectors that point away from the
-//!   surface, in the shading frame: z is the shading normal on the side of `wo`. Both have z > 0: nothing here transmits.
-//! - `value_cos` is bsdf × cos θᵢ (1/sr), so that nothing divides by a cosine that vanishes. `weight` of a sample is
-//!   bsdf × cos θᵢ / pdf. `pdf` is by solid angle, 1/sr, of the whole sampling routine.
-//! - A mirror's direction has no finite density: its sample says `mirror`, and evaluation leaves that lobe out.
-//! - Every bsdf is reciprocal and reflects no more than arrives; no input in range gives a NaN.
+//!   surface, in the shading frame: z is the shading normal on the side of `wo`, which has z > 0. Light with wi.z > 0 is
+//!   reflected, with wi.z < 0 transmitted.
+//! - `value_cos` is bsdf × |cos θᵢ| (1/sr), so that nothing divides by a cosine that vanishes. `weight` of a sample is
+//!   bsdf × |cos θᵢ| / pdf. `pdf` is by solid angle, 1/sr, of the whole sampling routine.
+//! - Radiance is what is transported: where light comes from a medium of relative index η (the far side's over the
+//!   viewer's), values and weights hold its factor 1/η² (Veach 1997, section 5.2).
+//! - A mirrored or refracted direction has no finite density, nor has one that goes straight through: samples say so by
+//!   their [`Event`], and evaluation leaves such parts out.
+//! - Every bsdf is reciprocal, f(wo, wi)/n²(wi's side) = f(wi, wo)/n²(wo's side) where it transmits, and sends on no
+//!   more power than arrives; no input in range gives a NaN.
 
+mod check;
 mod coated;
 mod conductor;
 mod diffuse;
 mod emission;
+mod error;
+mod factor;
 pub mod fresnel;
 mod microfacet;
+mod mix;
+mod normal_map;
 mod palette;
 mod reflectance;
 mod shading;
 #[cfg(test)]
 mod tests;
+mod traits;
 
 pub use coated::{COAT_INDICES, Coated, CoatedBsdf};
 pub use conductor::{Conductor, ConductorBsdf, MIRROR_ALPHA};
 pub use diffuse::DiffuseBsdf;
 pub use emission::{Emission, Glow};
+pub use error::MaterialError;
+pub use factor::Factor;
+pub use mix::Mix;
+pub use normal_map::{Green, NormalMap};
 pub use palette::Palette;
 pub use reflectance::Reflectance;
 pub use shading::ShadingFrame;
@@ -42,6 +57,18 @@ pub struct Material {
     pub surface: Surface,
     /// What it emits; `None` where it does not glow.
     pub emission: Option<Emission>,
+    /// Share of the surface that is there, 0 to 1: through the rest light goes straight. `None` where all of it is.
+    pub opacity: Option<Factor>,
+    /// Finer normals than the mesh's.
+    pub normal_map: Option<NormalMap>,
+}
+
+impl Material {
+    /// A material that only scatters.
+    #[must_use]
+    pub fn new(surface: Surface) -> Self {
+        Self { surface, emission: None, opacity: None, normal_map: None }
+    }
 }
 
 /// How a surface scatters light.
@@ -55,6 +82,8 @@ pub enum Surface {
     Conductor(Box<Conductor>),
     /// A matt base under a clear coat.
     Coated(Box<Coated>),
+    /// Two materials side by side.
+    Mix(Mix),
 }
 
 /// Scattering at one point, at the wavelengths of one path.
@@ -73,7 +102,7 @@ pub enum Bsdf<'a, const N: usize> {
 /// What a bsdf says of a pair of directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BsdfValue<const N: usize> {
-    /// bsdf × cos θᵢ, 1/sr.
+    /// bsdf × |cos θᵢ|, 1/sr.
     pub value_cos: Spectral<N>,
     /// Density with which sampling would give this `wi`, 1/sr.
     pub pdf: f32,
@@ -84,36 +113,56 @@ impl<const N: usize> BsdfValue<N> {
     pub const ZERO: Self = Self { value_cos: Spectral::ZERO, pdf: 0.0 };
 }
 
+/// What happened to a path at a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Event {
+    /// It was scattered, by a finite density.
+    Scatter,
+    /// It was reflected or refracted in the one exact direction.
+    Mirror,
+    /// It went straight on, as if nothing had been there: no scattering event. The path keeps the direction it had.
+    Pass,
+}
+
 /// A direction drawn from a bsdf.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BsdfSample<const N: usize> {
-    /// Where light comes from; unit, z > 0.
+    /// Where light comes from; unit, never in the surface's plane.
     pub wi: Vec3,
-    /// bsdf × cos θᵢ / pdf; for a mirror its reflectance over the probability of choosing it.
+    /// bsdf × |cos θᵢ| / pdf; of an exact direction its reflectance or transmittance over the probability of choosing it.
     pub weight: Spectral<N>,
-    /// Density of `wi`, 1/sr; 0 and without meaning for a mirror.
+    /// Density of `wi`, 1/sr; 0 and without meaning for an exact direction.
     pub pdf: f32,
-    /// Whether the direction is the exact mirror direction.
-    pub mirror: bool,
+    /// What happened.
+    pub event: Event,
 }
 
 impl<const N: usize> BsdfSample<N> {
     fn mirror(wo: Vec3, weight: Spectral<N>) -> Self {
-        Self { wi: Vec3::new(-wo.x, -wo.y, wo.z), weight, pdf: 0.0, mirror: true }
+        Self { wi: Vec3::new(-wo.x, -wo.y, wo.z), weight, pdf: 0.0, event: Event::Mirror }
     }
 }
 
 impl<const N: usize> Bsdf<'_, N> {
-    /// Whether all light is mirrored exactly, so that asking for a light drawn elsewhere is in vain.
+    /// Whether light goes on in exact directions only, so that asking for a light drawn elsewhere is in vain.
     #[must_use]
     pub fn is_mirror(&self) -> bool {
         matches!(self, Self::Conductor(conductor) if conductor.is_mirror())
     }
 
-    /// Value and density of a pair of directions; zero where either is below the surface.
+    /// Whether light may come from behind (wi.z < 0) by a finite density.
+    #[must_use]
+    pub fn transmits(&self) -> bool {
+        match self {
+            Self::Absorber | Self::Diffuse(_) | Self::Conductor(_) | Self::Coated(_) => false,
+        }
+    }
+
+    /// Value and density of a pair of directions; zero where `wo` is behind the surface, or light from there is not let
+    /// through.
     #[must_use]
     pub fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
-        if wo.z <= 0.0 || wi.z <= 0.0 {
+        if wo.z <= 0.0 || wi.z == 0.0 || (wi.z < 0.0 && !self.transmits()) {
             return BsdfValue::ZERO;
         }
         match self {
@@ -137,55 +186,6 @@ impl<const N: usize> Bsdf<'_, N> {
             Self::Coated(coated) => coated.sample(wo, choice, u),
         }
     }
-}
-
-/// Why a material is refused.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum MaterialError {
-    /// A roughness is outside its range.
-    #[error("a roughness α of {alpha} was given, but it must lie between 0 (mirror) and 1; correct it")]
-    Roughness {
-        /// What was given.
-        alpha: f64,
-    },
-    /// A coat's refractive index is outside its range.
-    #[error("a coat of refractive index {n} was given, but it must lie between 1.1 and 4; correct it")]
-    CoatIndex {
-        /// What was given.
-        n: f64,
-    },
-    /// A metal's index is not a substance's.
-    #[error("the complex index at {nm} nm is not a substance's: n and k must be 0 or more, not both 0, and finite")]
-    Index {
-        /// Where, nm.
-        nm: u16,
-    },
-    /// A reflectance leaves the range 0–1.
-    #[error("material {material} has a reflectance of {value}, but it must lie between 0 and 1; scale it")]
-    Reflectance {
-        /// The material's place.
-        material: usize,
-        /// The value found.
-        value: f32,
-    },
-    /// An emission is negative or not finite.
-    #[error("material {material} emits {value} W.m^-2.sr^-1.nm^-1, but radiance must be 0 or more and finite")]
-    Radiance {
-        /// The material's place.
-        material: usize,
-        /// The value found.
-        value: f32,
-    },
-    /// A material names a texture that is not there.
-    #[error("material {material} names texture {texture}, but there are {textures}; add the texture first")]
-    UnknownTexture {
-        /// The material's place.
-        material: usize,
-        /// The texture it names.
-        texture: u32,
-        /// Number of textures.
-        textures: usize,
-    },
 }
 
 fn check_alpha(alpha: f64) -> Result<f32, MaterialError> {

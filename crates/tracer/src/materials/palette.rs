@@ -1,35 +1,33 @@
 //! The materials and textures of a world, checked once.
 
 use etendue_core::{Spectral, Wavelengths};
+use glam::Vec3;
 
-use super::{Bsdf, DiffuseBsdf, Emission, Material, MaterialError, Reflectance, Surface};
+use super::traits::{Traits, traits};
+use super::{Bsdf, DiffuseBsdf, Emission, Material, MaterialError, Surface, check, mix};
 use crate::MaterialId;
-use crate::textures::{ImageTexture, Lookup, TextureId};
+use crate::geometry::SurfacePoint;
+use crate::textures::{ImageTexture, Lookup};
 
-/// Materials and textures. Immutable; every texture that a material names is here, every reflectance lies in 0–1.
+/// Materials and textures. Immutable; every texture and part that a material names is here, every reflectance lies in
+/// 0–1. The methods that take a material's id panic on one of another palette.
 #[derive(Clone, Debug, Default)]
 pub struct Palette {
     materials: Vec<Material>,
     textures: Vec<ImageTexture>,
+    traits: Vec<Traits>,
 }
 
 impl Palette {
     /// Materials, in the order of their ids, and the textures they name.
     ///
     /// # Errors
-    /// Where a material names no texture, reflects more than arrives, or emits what is not light.
+    /// Where a material names no texture or part, is mixed of itself, reflects more than arrives, or emits what is not
+    /// light.
     pub fn new(materials: Vec<Material>, textures: Vec<ImageTexture>) -> Result<Self, MaterialError> {
-        for (i, material) in materials.iter().enumerate() {
-            match &material.surface {
-                Surface::Diffuse(reflectance) => check_reflectance(i, reflectance, &textures)?,
-                Surface::Coated(coated) => check_reflectance(i, &coated.base, &textures)?,
-                Surface::Absorber | Surface::Conductor(_) => {}
-            }
-            if let Some(emission) = &material.emission {
-                check_emission(i, emission, &textures)?;
-            }
-        }
-        Ok(Self { materials, textures })
+        (0..materials.len()).try_for_each(|i| check::material(&materials, i, &textures))?;
+        let traits = traits(&materials);
+        Ok(Self { materials, textures, traits })
     }
 
     /// The materials, in the order of their ids.
@@ -44,25 +42,108 @@ impl Palette {
         &self.textures
     }
 
-    /// A material's emission. Panics on an id of another palette.
+    /// Whether any material lets light pass straight through.
+    #[must_use]
+    pub fn has_passages(&self) -> bool {
+        self.traits.iter().any(|t| t.passage)
+    }
+
+    /// Whether a material lets light pass straight through, or any of its parts does.
+    #[must_use]
+    pub fn lets_pass(&self, id: MaterialId) -> bool {
+        self.traits[id.0 as usize].passage
+    }
+
+    /// Whether a material, or any of its parts, has a normal map: only then does [`Palette::shading_normal`] look at
+    /// tangents.
+    #[must_use]
+    pub fn needs_tangents(&self, id: MaterialId) -> bool {
+        self.traits[id.0 as usize].tangents
+    }
+
+    /// Whether a material, or any of its parts, has a texture: only then is the width of a [`Lookup`] looked at.
+    #[must_use]
+    pub fn needs_footprint(&self, id: MaterialId) -> bool {
+        self.traits[id.0 as usize].footprint
+    }
+
+    /// A material's emission.
     #[must_use]
     pub fn emission(&self, id: MaterialId) -> Option<&Emission> {
         self.materials[id.0 as usize].emission.as_ref()
     }
 
-    /// Radiance (W·m⁻²·sr⁻¹·nm⁻¹) of a glowing side at a point.
+    /// Radiance (W·m⁻²·sr⁻¹·nm⁻¹) of a glowing side at a point: as much as the material's opacity leaves of `emission`,
+    /// so that it counts before the path decides whether the surface is there.
     pub(crate) fn radiance<const N: usize>(
         &self,
+        id: MaterialId,
         emission: &Emission,
         lookup: &Lookup,
         wavelengths: &Wavelengths<N>,
     ) -> Spectral<N> {
-        emission.at(&self.textures, lookup, wavelengths)
+        let full = emission.at(&self.textures, lookup, wavelengths);
+        match self.materials[id.0 as usize].opacity {
+            None => full,
+            Some(opacity) => full * opacity.at(&self.textures, lookup),
+        }
     }
 
-    /// A material's scattering at a point, for a path's wavelengths. Panics on an id of another palette.
+    /// Share of a material's surface that is there at a point; 1 without an opacity.
     #[must_use]
-    pub fn bsdf<const N: usize>(&self, id: MaterialId, lookup: &Lookup, wavelengths: &Wavelengths<N>) -> Bsdf<'_, N> {
+    pub fn opacity(&self, id: MaterialId, lookup: &Lookup) -> f32 {
+        self.materials[id.0 as usize].opacity.map_or(1.0, |opacity| opacity.at(&self.textures, lookup))
+    }
+
+    /// What share of light comes straight through a surface at a point, met at `cos` (of the angle from its shading
+    /// normal, in (0, 1]): 1 − opacity + opacity × what the surface itself lets pass. `None` where nothing ever does.
+    #[must_use]
+    pub fn passage<const N: usize>(
+        &self,
+        id: MaterialId,
+        lookup: &Lookup,
+        _cos: f32,
+        _wavelengths: &Wavelengths<N>,
+    ) -> Option<Spectral<N>> {
+        self.lets_pass(id).then(|| Spectral::splat(1.0 - self.opacity(id, lookup)))
+    }
+
+    /// The material that a path meets at a point: of a mix the part that `u`, uniform in [0, 1), falls on, and so on
+    /// down; others are themselves.
+    #[must_use]
+    pub fn resolve(&self, mut id: MaterialId, lookup: &Lookup, mut u: f32) -> MaterialId {
+        while let Surface::Mix(parts) = &self.materials[id.0 as usize].surface {
+            (id, u) = mix::choose(parts, parts.weight.at(&self.textures, lookup), u);
+        }
+        id
+    }
+
+    /// The shading normal of a material at a point: the point's own, or bent by a normal map about unit tangents along
+    /// u and v (render frame). Without tangents there is nothing to bend by. The id is a resolved one.
+    #[must_use]
+    pub fn shading_normal(
+        &self,
+        id: MaterialId,
+        lookup: &Lookup,
+        point: &SurfacePoint,
+        tangents: Option<[Vec3; 2]>,
+    ) -> Vec3 {
+        match (self.materials[id.0 as usize].normal_map, tangents) {
+            (Some(map), Some(tangents)) => map.at(&self.textures, lookup, point.shading_normal, tangents),
+            _ => point.shading_normal,
+        }
+    }
+
+    /// A material's scattering at a point, for a path's wavelengths, seen from its `front` or its back. Panics on a mix:
+    /// [`Palette::resolve`] it first.
+    #[must_use]
+    pub fn bsdf<const N: usize>(
+        &self,
+        id: MaterialId,
+        lookup: &Lookup,
+        _front: bool,
+        wavelengths: &Wavelengths<N>,
+    ) -> Bsdf<'_, N> {
         match &self.materials[id.0 as usize].surface {
             Surface::Absorber => Bsdf::Absorber,
             Surface::Diffuse(r) => {
@@ -72,41 +153,7 @@ impl Palette {
             Surface::Coated(coated) => {
                 Bsdf::Coated(coated.resolve(coated.base.at(&self.textures, lookup, wavelengths)))
             }
+            Surface::Mix(_) => panic!("material {} is a mix: resolve it first", id.0),
         }
     }
-}
-
-/// Rounding in the basis spectra may take white a little over 1.
-const WHITE: f32 = 1.0 + 1e-4;
-
-fn check_reflectance(
-    material: usize,
-    reflectance: &Reflectance,
-    textures: &[ImageTexture],
-) -> Result<(), MaterialError> {
-    let (low, high) = match reflectance {
-        Reflectance::Spectrum(s) => (s.min_value(), s.max_value()),
-        Reflectance::Texture(id) => find_texture(material, *id, textures)?.range(),
-    };
-    match [low, high].into_iter().find(|v| !(0.0..=WHITE).contains(v)) {
-        Some(value) => Err(MaterialError::Reflectance { material, value }),
-        None => Ok(()),
-    }
-}
-
-fn check_emission(material: usize, emission: &Emission, textures: &[ImageTexture]) -> Result<(), MaterialError> {
-    let (mut low, mut high) = (emission.radiance.min_value(), emission.radiance.max_value());
-    if let Some(id) = emission.factor {
-        let range = find_texture(material, id, textures)?.range();
-        (low, high) = (low.min(range.0), high * range.1);
-    }
-    match [low, high].into_iter().find(|v| !(v.is_finite() && *v >= 0.0)) {
-        Some(value) => Err(MaterialError::Radiance { material, value }),
-        None => Ok(()),
-    }
-}
-
-fn find_texture(material: usize, id: TextureId, textures: &[ImageTexture]) -> Result<&ImageTexture, MaterialError> {
-    let unknown = MaterialError::UnknownTexture { material, texture: id.0, textures: textures.len() };
-    textures.get(id.0 as usize).ok_or(unknown)
 }

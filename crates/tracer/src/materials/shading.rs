@@ -1,9 +1,9 @@
 //! The shading frame at a point, seen from one side.
 //!
-//! Both normals are turned to the viewer's side of the true surface. Where interpolation has turned the shading normal
-//! away from the viewer (at silhouettes of coarse meshes), it is bent back until the viewer is just above its horizon:
-//! no black seams. A direction counts only where true surface and shading frame agree on its side: no light leaks
-//! through a wall by an interpolated normal.
+//! Both normals are turned to the viewer's side of the true surface. Where interpolation or a normal map has turned the
+//! shading normal away from the viewer (at silhouettes of coarse meshes), it is bent back until the viewer is just above
+//! its horizon: no black seams. A direction counts only where true surface and shading frame agree on its side: no
+//! light leaks through a wall by an interpolated normal.
 
 use etendue_core::Basis;
 use glam::Vec3;
@@ -20,33 +20,48 @@ pub struct ShadingFrame {
     geometric_normal: Vec3,
     /// Towards the viewer, in the frame; z > 0.
     pub wo: Vec3,
+    /// Whether the viewer is on the side that the surface's own geometric normal points to: the outside of a solid.
+    pub front: bool,
 }
 
 impl ShadingFrame {
-    /// The frame at `point` for a viewer in the unit direction `to_viewer` (render frame).
+    /// The frame at `point` about `shading_normal` (unit, on the side of the point's geometric normal: the point's own,
+    /// or one bent by a normal map) for a viewer in the unit direction `to_viewer` (render frame).
     #[must_use]
-    pub fn new(point: &SurfacePoint, to_viewer: Vec3) -> Self {
+    pub fn new(point: &SurfacePoint, shading_normal: Vec3, to_viewer: Vec3) -> Self {
         let side = 1.0_f32.copysign(point.geometric_normal.dot(to_viewer));
         let geometric_normal = point.geometric_normal * side;
-        let basis = Basis::about(facing(point.shading_normal * side, geometric_normal, to_viewer));
+        let basis = Basis::about(facing(shading_normal * side, geometric_normal, to_viewer));
         let wo = basis.inward(to_viewer);
-        Self { basis, geometric_normal, wo: Vec3::new(wo.x, wo.y, wo.z.max(0.5 * HORIZON)) }
+        let wo = Vec3::new(wo.x, wo.y, wo.z.max(0.5 * HORIZON));
+        Self { basis, geometric_normal, wo, front: side > 0.0 }
     }
 
-    /// A unit direction of the render frame, in the shading frame; `None` where it is below the true surface or the
-    /// shading horizon.
+    /// The shading normal on the side of the viewer, unit, in the render frame.
+    #[must_use]
+    pub fn normal(&self) -> Vec3 {
+        self.basis.z
+    }
+
+    /// A unit direction of the render frame, in the shading frame: z > 0 on the viewer's side, z < 0 behind the
+    /// surface. `None` where true surface and shading frame disagree on its side.
     #[must_use]
     pub fn inward(&self, direction: Vec3) -> Option<Vec3> {
         let local = self.basis.inward(direction);
-        (local.z > 0.0 && self.geometric_normal.dot(direction) > 0.0).then_some(local)
+        self.agrees(local, direction).then_some(local)
     }
 
-    /// A direction of the shading frame, in the render frame and of unit length; `None` where it is below the true
-    /// surface.
+    /// A direction of the shading frame, in the render frame and of unit length; `None` where true surface and shading
+    /// frame disagree on its side.
     #[must_use]
     pub fn outward(&self, local: Vec3) -> Option<Vec3> {
         let direction = self.basis.outward(local).normalize_or_zero();
-        (self.geometric_normal.dot(direction) > 0.0).then_some(direction)
+        self.agrees(local, direction).then_some(direction)
+    }
+
+    fn agrees(&self, local: Vec3, direction: Vec3) -> bool {
+        let above = self.geometric_normal.dot(direction);
+        (local.z > 0.0 && above > 0.0) || (local.z < 0.0 && above < 0.0)
     }
 }
 

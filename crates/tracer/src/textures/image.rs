@@ -9,7 +9,7 @@ use glam::{Vec2, Vec3};
 
 use super::mipmap::{Level, pyramid};
 use super::texels::{Store, Texels};
-use super::{Lookup, Wrap};
+use super::{Channel, Lookup, Wrap};
 
 /// How texels become a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -69,19 +69,19 @@ pub enum TextureError {
 pub struct ImageTexture {
     levels: Vec<Level>,
     sampling: Sampling,
-    range: (f32, f32),
+    ranges: [(f32, f32); 3],
     /// Texels a texture unit, the geometric mean of both axes.
     density: f32,
 }
 
 impl core::fmt::Debug for ImageTexture {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        let Self { sampling, range, .. } = self;
+        let Self { sampling, ranges, .. } = self;
         let (size, mean) = (self.size(), self.mean());
         f.debug_struct("ImageTexture")
             .field("size", &size)
             .field("sampling", sampling)
-            .field("range", range)
+            .field("ranges", ranges)
             .field("mean", &mean)
             .finish_non_exhaustive()
     }
@@ -101,11 +101,11 @@ impl ImageTexture {
             return Err(TextureError::Placement);
         }
         let store = Store::new(texels);
-        let range = range(&store, found)?;
+        let ranges = ranges(&store, found)?;
         let base = Level::new(width, height, store);
         let levels = if sampling.filter == Filter::Trilinear { pyramid(base) } else { vec![base] };
         let area = width as f32 * sampling.scale.x * height as f32 * sampling.scale.y;
-        Ok(Self { levels, sampling, range, density: area.abs().sqrt() })
+        Ok(Self { levels, sampling, ranges, density: area.abs().sqrt() })
     }
 
     /// The filtered value, linear sRGB.
@@ -127,6 +127,12 @@ impl ImageTexture {
         fine.lerp(coarse, lod - i as f32).to_array()
     }
 
+    /// The filtered value of one channel, linear.
+    #[must_use]
+    pub fn channel(&self, lookup: &Lookup, channel: Channel) -> f32 {
+        channel.of(self.sample(lookup))
+    }
+
     /// Mean of the whole picture, linear.
     #[must_use]
     pub fn mean(&self) -> Vec3 {
@@ -139,7 +145,15 @@ impl ImageTexture {
     /// Least and greatest value of any channel.
     #[must_use]
     pub fn range(&self) -> (f32, f32) {
-        self.range
+        self.ranges
+            .into_iter()
+            .fold((f32::INFINITY, f32::NEG_INFINITY), |all, one| (all.0.min(one.0), all.1.max(one.1)))
+    }
+
+    /// Bounds of one channel's values; those of the luminance are the bounds that the colours' own give it.
+    #[must_use]
+    pub fn channel_range(&self, channel: Channel) -> (f32, f32) {
+        (channel.of(self.ranges.map(|r| r.0)), channel.of(self.ranges.map(|r| r.1)))
     }
 
     /// Columns and rows of the picture.
@@ -149,16 +163,16 @@ impl ImageTexture {
     }
 }
 
-fn range(store: &Store, count: usize) -> Result<(f32, f32), TextureError> {
-    let mut range = (f32::INFINITY, f32::NEG_INFINITY);
+fn ranges(store: &Store, count: usize) -> Result<[(f32, f32); 3], TextureError> {
+    let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     for texel in 0..count {
         let value = store.get(texel);
         if !value.is_finite() {
             return Err(TextureError::NonFinite { texel });
         }
-        range = (range.0.min(value.min_element()), range.1.max(value.max_element()));
+        (low, high) = (low.min(value), high.max(value));
     }
-    Ok(range)
+    Ok(core::array::from_fn(|i| (low[i], high[i])))
 }
 
 #[cfg(test)]
@@ -166,7 +180,7 @@ mod tests {
     use super::*;
 
     fn lookup(u: f32, v: f32, width: f32) -> Lookup {
-        Lookup { uv: Vec2::new(u, v), width }
+        Lookup { width, ..Lookup::point(Vec2::new(u, v)) }
     }
 
     /// 0 1 2 / 3 4 5 (top row first), in tenths.

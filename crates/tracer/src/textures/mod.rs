@@ -6,16 +6,18 @@
 //! - Texels are box-shaped; their centres lie at half-integers. Filtering is done in linear light.
 //! - A lookup names its footprint: the width, in texture coordinates, of what it stands for.
 
+mod channel;
 mod image;
 mod mipmap;
 mod texels;
 mod wrap;
 
+pub use channel::Channel;
 pub use image::{Filter, ImageTexture, Sampling, TextureError};
 pub use texels::Texels;
 pub use wrap::Wrap;
 
-use glam::Vec2;
+use glam::{Vec2, Vec3};
 
 /// A texture's place in the tracer's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -28,4 +30,18 @@ pub struct Lookup {
     pub uv: Vec2,
     /// Width of the footprint in texture coordinates; 0 for a point.
     pub width: f32,
+    /// The point in the shape's own frame, m.
+    pub local: Vec3,
+    /// The surface's unit normal there in the shape's own frame.
+    pub local_normal: Vec3,
+    /// Width of the footprint in the shape's own frame, m; 0 for a point.
+    pub width_local: f32,
+}
+
+impl Lookup {
+    /// A point in texture coordinates, of no width, at the origin of its shape.
+    #[must_use]
+    pub const fn point(uv: Vec2) -> Self {
+        Self { uv, width: 0.0, local: Vec3::ZERO, local_normal: Vec3::Z, width_local: 0.0 }
+    }
 }

@@ -35,7 +35,7 @@ impl Scene {
     fn material(&mut self, surface: Surface, glow: Option<(f64, Glow)>) -> MaterialId {
         let emission =
             glow.map(|(radiance, glow)| Emission { radiance: Spectrum::constant(radiance), factor: None, glow });
-        self.materials.push(Material { surface, emission });
+        self.materials.push(Material { emission, ..Material::new(surface) });
         MaterialId(self.materials.len() as u32 - 1)
     }
 

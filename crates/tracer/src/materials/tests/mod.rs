@@ -9,14 +9,14 @@ use etendue_spectra::{Spectrum, metal};
 use etendue_stats::{chi_square, family};
 
 const WAVELENGTHS: Wavelengths<4> = Wavelengths { nm: [450.0, 520.0, 600.0, 680.0], pdf: [1.0 / 400.0; 4] };
-const LOOKUP: Lookup = Lookup { uv: Vec2::ZERO, width: 0.0 };
+const LOOKUP: Lookup = Lookup::point(Vec2::ZERO);
 
 fn palette(surface: Surface) -> Palette {
-    Palette::new(vec![Material { surface, emission: None }], vec![]).expect("a legal material")
+    Palette::new(vec![Material::new(surface)], vec![]).expect("a legal material")
 }
 
 fn bsdf(palette: &Palette) -> Bsdf<'_, 4> {
-    palette.bsdf(MaterialId(0), &LOOKUP, &WAVELENGTHS)
+    palette.bsdf(MaterialId(0), &LOOKUP, true, &WAVELENGTHS)
 }
 
 fn grey(value: f64) -> Reflectance {
@@ -160,7 +160,9 @@ fn weights_are_value_over_density() {
             let wo = at_degrees(degrees);
             for _ in 0..200 {
                 let u = Vec2::new(stream.unit_f32(), stream.unit_f32());
-                let Some(s) = bsdf.sample(wo, stream.unit_f32(), u).filter(|s| !s.mirror) else { continue };
+                let Some(s) = bsdf.sample(wo, stream.unit_f32(), u).filter(|s| s.event == Event::Scatter) else {
+                    continue;
+                };
                 let value = bsdf.evaluate(wo, s.wi);
                 let ratio = value.value_cos[1] / value.pdf;
                 // Narrow lobes: the half vector is good to 6e-8/cos θ; of a lobe of α = 1e-3 at 88° that is 2e-3.
@@ -240,7 +242,7 @@ fn a_smooth_metal_mirrors_by_fresnel() {
     let palette = palette(metal_of("Al", 0.0));
     let index = metal::named("Al").expect("aluminium");
     let sample = bsdf(&palette).sample(Vec3::Z, 0.0, Vec2::ZERO).expect("a mirror");
-    assert!(sample.mirror && sample.wi == Vec3::new(-0.0, -0.0, 1.0));
+    assert!(sample.event == Event::Mirror && sample.wi == Vec3::new(-0.0, -0.0, 1.0));
     let (n, k) = (index.n.at(520.0), index.k.at(520.0));
     let expected = ((n - 1.0) * (n - 1.0) + k * k) / ((n + 1.0) * (n + 1.0) + k * k);
     assert!((sample.weight[1] - expected).abs() < 1e-6);
@@ -278,7 +280,7 @@ fn extreme_directions_give_numbers() {
 
 #[test]
 fn faulty_materials_are_refused() {
-    let of = |surface| Palette::new(vec![Material { surface, emission: None }], vec![]).err();
+    let of = |surface| Palette::new(vec![Material::new(surface)], vec![]).err();
     assert!(matches!(of(Surface::Diffuse(grey(1.2))), Some(MaterialError::Reflectance { material: 0, .. })));
     assert!(matches!(of(Surface::Diffuse(grey(-0.1))), Some(MaterialError::Reflectance { .. })));
     let textured = Surface::Diffuse(Reflectance::Texture(crate::textures::TextureId(2)));

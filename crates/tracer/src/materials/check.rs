@@ -1,0 +1,74 @@
+//! What a palette's materials must be.
+
+use super::mix;
+use super::{Emission, Factor, Material, MaterialError, Reflectance, Surface};
+use crate::textures::{ImageTexture, TextureId};
+
+/// Rounding in the basis spectra may take white a little over 1.
+const WHITE: f32 = 1.0 + 1e-4;
+
+/// Checks material `index` of `materials`.
+pub(super) fn material(materials: &[Material], index: usize, textures: &[ImageTexture]) -> Result<(), MaterialError> {
+    let material = &materials[index];
+    match &material.surface {
+        Surface::Absorber | Surface::Conductor(_) => {}
+        Surface::Diffuse(r) => reflectance(index, r, textures)?,
+        Surface::Coated(coated) => reflectance(index, coated.base(), textures)?,
+        Surface::Mix(parts) => {
+            mix::check(materials, index, parts)?;
+            factor(index, "a share", parts.weight, textures)?;
+            if material.normal_map.is_some() {
+                return Err(MaterialError::MixNormal { material: index });
+            }
+        }
+    }
+    if let Some(glow) = &material.emission {
+        emission(index, glow, textures)?;
+    }
+    if let Some(opacity) = material.opacity {
+        factor(index, "an opacity", opacity, textures)?;
+    }
+    if let Some(map) = material.normal_map {
+        find(index, map.texture(), textures)?;
+    }
+    Ok(())
+}
+
+fn reflectance(material: usize, r: &Reflectance, textures: &[ImageTexture]) -> Result<(), MaterialError> {
+    let (low, high) = match r {
+        Reflectance::Spectrum(s) => (s.min_value(), s.max_value()),
+        Reflectance::Texture(id) => find(material, *id, textures)?.range(),
+    };
+    match [low, high].into_iter().find(|v| !(0.0..=WHITE).contains(v)) {
+        Some(value) => Err(MaterialError::Reflectance { material, value }),
+        None => Ok(()),
+    }
+}
+
+fn factor(material: usize, quantity: &'static str, f: Factor, textures: &[ImageTexture]) -> Result<(), MaterialError> {
+    let (low, high) = match f {
+        Factor::Number(value) => (value, value),
+        Factor::Texture(id, channel) => find(material, id, textures)?.channel_range(channel),
+    };
+    match [low, high].into_iter().find(|v| !(0.0..=1.0).contains(v)) {
+        Some(value) => Err(MaterialError::Factor { material, quantity, value }),
+        None => Ok(()),
+    }
+}
+
+fn emission(material: usize, glow: &Emission, textures: &[ImageTexture]) -> Result<(), MaterialError> {
+    let (mut low, mut high) = (glow.radiance.min_value(), glow.radiance.max_value());
+    if let Some(id) = glow.factor {
+        let range = find(material, id, textures)?.range();
+        (low, high) = (low.min(range.0), high * range.1);
+    }
+    match [low, high].into_iter().find(|v| !(v.is_finite() && *v >= 0.0)) {
+        Some(value) => Err(MaterialError::Radiance { material, value }),
+        None => Ok(()),
+    }
+}
+
+fn find(material: usize, id: TextureId, textures: &[ImageTexture]) -> Result<&ImageTexture, MaterialError> {
+    let unknown = MaterialError::UnknownTexture { material, texture: id.0, textures: textures.len() };
+    textures.get(id.0 as usize).ok_or(unknown)
+}

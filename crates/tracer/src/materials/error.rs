@@ -1,0 +1,116 @@
+//! Why materials are refused.
+
+/// Why a material is refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum MaterialError {
+    /// A roughness is outside its range.
+    #[error("a roughness α of {alpha} was given, but it must lie between 0 (mirror) and 1; correct it")]
+    Roughness {
+        /// What was given.
+        alpha: f64,
+    },
+    /// A coat's refractive index is outside its range.
+    #[error("a coat of refractive index {n} was given, but it must lie between 1.1 and 4; correct it")]
+    CoatIndex {
+        /// What was given.
+        n: f64,
+    },
+    /// A metal's index is not a substance's.
+    #[error("the complex index at {nm} nm is not a substance's: n and k must be 0 or more, not both 0, and finite")]
+    Index {
+        /// Where, nm.
+        nm: u16,
+    },
+    /// The strength of a normal map is outside its range.
+    #[error("a normal map of strength {strength} was given, but it must lie between 0 and 10; correct it")]
+    NormalStrength {
+        /// What was given.
+        strength: f64,
+    },
+    /// A reflectance leaves the range 0–1.
+    #[error("material {material} has a reflectance of {value}, but it must lie between 0 and 1; scale it")]
+    Reflectance {
+        /// The material's place.
+        material: usize,
+        /// The value found.
+        value: f32,
+    },
+    /// A roughness, opacity or share leaves the range 0–1.
+    #[error("material {material} has {quantity} of {value}, but it must lie between 0 and 1; scale it")]
+    Factor {
+        /// The material's place.
+        material: usize,
+        /// What is wrong, with its article.
+        quantity: &'static str,
+        /// The value found.
+        value: f32,
+    },
+    /// An emission is negative or not finite.
+    #[error("material {material} emits {value} W.m^-2.sr^-1.nm^-1, but radiance must be 0 or more and finite")]
+    Radiance {
+        /// The material's place.
+        material: usize,
+        /// The value found.
+        value: f32,
+    },
+    /// A material names a texture that is not there.
+    #[error("material {material} names texture {texture}, but there are {textures}; add the texture first")]
+    UnknownTexture {
+        /// The material's place.
+        material: usize,
+        /// The texture it names.
+        texture: u32,
+        /// Number of textures.
+        textures: usize,
+    },
+    /// A mix names a material that is not there.
+    #[error("material {material} mixes material {part}, but there are {materials}; add the material first")]
+    UnknownMaterial {
+        /// The mix's place.
+        material: usize,
+        /// The part it names.
+        part: u32,
+        /// Number of materials.
+        materials: usize,
+    },
+    /// A mix contains itself.
+    #[error("material {material} is mixed of itself, directly or by way of other mixes; take it out of its own parts")]
+    Circle {
+        /// The mix's place.
+        material: usize,
+    },
+    /// A part of a mix has what counts only on the mix.
+    #[error("material {material} mixes material {part}, which has {what} of its own; give that to the mix instead")]
+    Part {
+        /// The mix's place.
+        material: usize,
+        /// The part.
+        part: u32,
+        /// What it has, with its article where it needs one.
+        what: &'static str,
+    },
+    /// A mix has a normal map.
+    #[error("material {material} is a mix with a normal map, which would bend nothing; give it to the parts instead")]
+    MixNormal {
+        /// The mix's place.
+        material: usize,
+    },
+}
+
+impl MaterialError {
+    /// The place of the material that the error is about; `None` where it was refused before it had one.
+    #[must_use]
+    pub fn material(&self) -> Option<usize> {
+        match self {
+            Self::Reflectance { material, .. }
+            | Self::Factor { material, .. }
+            | Self::Radiance { material, .. }
+            | Self::UnknownTexture { material, .. }
+            | Self::UnknownMaterial { material, .. }
+            | Self::Circle { material }
+            | Self::Part { material, .. }
+            | Self::MixNormal { material } => Some(*material),
+            Self::Roughness { .. } | Self::CoatIndex { .. } | Self::Index { .. } | Self::NormalStrength { .. } => None,
+        }
+    }
+}
