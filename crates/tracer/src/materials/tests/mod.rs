@@ -1,12 +1,13 @@
 //! Every material against the contract: densities, values, reciprocity, energy.
 
+pub(in crate::materials) mod chi_square;
+
 use super::*;
 use crate::MaterialId;
 use crate::textures::Lookup;
 use etendue_core::Wavelengths;
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
 use etendue_spectra::{Spectrum, metal};
-use etendue_stats::{chi_square, family};
 
 const WAVELENGTHS: Wavelengths<4> = Wavelengths { nm: [450.0, 520.0, 600.0, 680.0], pdf: [1.0 / 400.0; 4] };
 const LOOKUP: Lookup = Lookup::point(Vec2::ZERO);
@@ -46,92 +47,6 @@ fn at_degrees(degrees: f32) -> Vec3 {
 
 fn noise(draw: u32) -> NoiseStream {
     NoiseStream::new(11, 0, 0, 0, Pixel { x: draw, y: 0 }, NoiseDraw::Shot)
-}
-
-/// Polar cells about `axis`: tan(θ/2) = scale · t/(1 − t), t and φ in equal steps, so that a narrow lobe is resolved.
-struct Cells {
-    basis: etendue_core::Basis,
-    scale: f32,
-}
-
-const RINGS: usize = 20;
-const SECTORS: usize = 16;
-
-impl Cells {
-    fn index(&self, direction: Vec3) -> usize {
-        let local = self.basis.inward(direction);
-        let tan_half = (local.x * local.x + local.y * local.y).sqrt() / (1.0 + local.z).max(1e-9);
-        let t = tan_half / (self.scale + tan_half);
-        let turn = etendue_core::maths::f32::atan2(local.y, local.x) / core::f32::consts::TAU;
-        let sector = ((turn - turn.floor()) * SECTORS as f32) as usize;
-        ((t * RINGS as f32) as usize).min(RINGS - 1) * SECTORS + sector.min(SECTORS - 1)
-    }
-
-    /// ∫ f dω over each cell, by the midpoint rule on `SUB`² points of it.
-    fn integrals(&self, f: impl Fn(Vec3) -> f32) -> Vec<f64> {
-        const SUB: usize = 24;
-        let mut sums = vec![0.0; RINGS * SECTORS];
-        for i in 0..RINGS * SUB {
-            let t = (i as f32 + 0.5) / (RINGS * SUB) as f32;
-            let x = self.scale * t / (1.0 - t);
-            let (cos, sin) = ((1.0 - x * x) / (1.0 + x * x), 2.0 * x / (1.0 + x * x));
-            let dx_dt = self.scale / ((1.0 - t) * (1.0 - t));
-            let area = 4.0 * x / ((1.0 + x * x) * (1.0 + x * x)) * dx_dt * core::f32::consts::TAU
-                / (RINGS * SUB * SECTORS * SUB) as f32;
-            for j in 0..SECTORS * SUB {
-                let phi = core::f32::consts::TAU * (j as f32 + 0.5) / (SECTORS * SUB) as f32;
-                let (s, c) = etendue_core::maths::f32::sin_cos(phi);
-                let direction = self.basis.outward(Vec3::new(sin * c, sin * s, cos));
-                sums[(i / SUB) * SECTORS + j / SUB] += f64::from(f(direction) * area);
-            }
-        }
-        sums
-    }
-}
-
-/// p-value of the counts of drawn directions against the density told; paths absorbed are counted in a cell of their own.
-fn p_of_draws(bsdf: &Bsdf<'_, 4>, wo: Vec3, scale: f32, draw: u32) -> f64 {
-    const N: usize = 100_000;
-    let cells = Cells { basis: etendue_core::Basis::about(Vec3::new(-wo.x, -wo.y, wo.z)), scale };
-    let mut expected = cells.integrals(|wi| bsdf.evaluate(wo, wi).pdf);
-    let absorbed = 1.0 - expected.iter().sum::<f64>();
-    // The quadrature's error at the horizon, where the density may end abruptly.
-    assert!(absorbed > -2e-3, "the density integrates to {}", 1.0 - absorbed);
-    expected.push(absorbed.max(0.0));
-    let mut observed = vec![0_u64; expected.len()];
-    let mut stream = noise(draw);
-    for _ in 0..N {
-        let u = Vec2::new(stream.unit_f32(), stream.unit_f32());
-        let cell = bsdf.sample(wo, stream.unit_f32(), u).map_or(RINGS * SECTORS, |s| cells.index(s.wi));
-        observed[cell] += 1;
-    }
-    // Cells that hardly expect anything take part only with their neighbours: a floor keeps stray counts finite.
-    let expected: Vec<_> = expected.iter().map(|e| (e * N as f64).max(1e-3)).collect();
-    chi_square::goodness_of_fit(&observed, &expected).expect("many cells").p
-}
-
-#[test]
-fn directions_are_drawn_by_the_density_told() {
-    let cases = [
-        (Surface::Diffuse(grey(0.5)), 1.0),
-        (metal_of("Al", 0.01), 0.01),
-        (metal_of("Au", 0.1), 0.1),
-        (metal_of("Cu", 0.5), 0.5),
-        (perfect_metal(1.0), 1.0),
-        (paint(0.5, 1.5, 0.1), 0.2),
-        (paint(0.9, 1.7, 0.4), 0.5),
-    ];
-    let mut p_values = vec![];
-    for (k, (surface, scale)) in cases.into_iter().enumerate() {
-        let palette = palette(surface);
-        for (i, degrees) in [0.0, 30.0, 70.0, 86.0].into_iter().enumerate() {
-            let p = p_of_draws(&bsdf(&palette), at_degrees(degrees), scale, (k * 4 + i) as u32);
-            p_values.push((p, k, degrees));
-        }
-    }
-    let (least, k, degrees) = p_values.iter().copied().min_by(|a, b| a.0.total_cmp(&b.0)).expect("cases");
-    let level = family::sidak_level(0.01, p_values.len());
-    assert!(least > level, "case {k} at {degrees}°: p = {least:e} below {level:e}");
 }
 
 fn all_surfaces() -> Vec<Surface> {

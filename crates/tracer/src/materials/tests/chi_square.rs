@@ -1,0 +1,146 @@
+//! Directions drawn against the density told, by counting.
+//!
+//! The sphere is cut into cells, finer about the directions where lobes are narrow; counts in each cell are compared
+//! with the integral of the density over it by Pearson's χ². What is absorbed, or sent in exact directions, is counted in
+//! a cell of its own, which expects 1 − ∫ pdf dω. Families of such tests are judged together: see [`judge`].
+
+use super::*;
+use etendue_core::Basis;
+use etendue_core::maths::f32::{atan2, sin_cos};
+use etendue_stats::{chi_square, family};
+
+/// Polar cells about a direction: tan(θ/2) = scale · t/(1 − t), t and φ in equal steps, so that a narrow lobe is
+/// resolved. They cover the whole sphere.
+struct Polar {
+    basis: Basis,
+    scale: f32,
+}
+
+const RINGS: usize = 20;
+const SECTORS: usize = 16;
+const CELLS: usize = RINGS * SECTORS;
+
+impl Polar {
+    fn index(&self, direction: Vec3) -> usize {
+        let local = self.basis.inward(direction);
+        let tan_half = (local.x * local.x + local.y * local.y).sqrt() / (1.0 + local.z).max(1e-9);
+        let t = tan_half / (self.scale + tan_half);
+        let turn = atan2(local.y, local.x) / core::f32::consts::TAU;
+        let sector = ((turn - turn.floor()) * SECTORS as f32) as usize;
+        ((t * RINGS as f32) as usize).min(RINGS - 1) * SECTORS + sector.min(SECTORS - 1)
+    }
+
+    /// ∫ f dω over each cell, by the midpoint rule on `SUB`² points of it.
+    fn integrals(&self, f: impl Fn(Vec3) -> f32) -> Vec<f64> {
+        const SUB: usize = 24;
+        let mut sums = vec![0.0; CELLS];
+        for i in 0..RINGS * SUB {
+            let t = (i as f32 + 0.5) / (RINGS * SUB) as f32;
+            let x = self.scale * t / (1.0 - t);
+            let (cos, sin) = ((1.0 - x * x) / (1.0 + x * x), 2.0 * x / (1.0 + x * x));
+            let dx_dt = self.scale / ((1.0 - t) * (1.0 - t));
+            let area = 4.0 * x / ((1.0 + x * x) * (1.0 + x * x)) * dx_dt * core::f32::consts::TAU
+                / (RINGS * SUB * SECTORS * SUB) as f32;
+            for j in 0..SECTORS * SUB {
+                let phi = core::f32::consts::TAU * (j as f32 + 0.5) / (SECTORS * SUB) as f32;
+                let (s, c) = sin_cos(phi);
+                let direction = self.basis.outward(Vec3::new(sin * c, sin * s, cos));
+                sums[(i / SUB) * SECTORS + j / SUB] += f64::from(f(direction) * area);
+            }
+        }
+        sums
+    }
+}
+
+/// Cells for each side of a surface.
+pub(in crate::materials) struct Grid {
+    above: Polar,
+    below: Polar,
+}
+
+impl Grid {
+    /// Cells about a direction above the surface and one below; each `scale` is about the tangent of half a lobe's
+    /// half angle (α for micro-facets), 1 for even cells.
+    pub(in crate::materials) fn new(above: (Vec3, f32), below: (Vec3, f32)) -> Self {
+        let polar = |(axis, scale): (Vec3, f32)| Polar { basis: Basis::about(axis), scale };
+        Self { above: polar(above), below: polar(below) }
+    }
+
+    /// Cells about the mirrored direction, and even ones below.
+    pub(in crate::materials) fn of_mirror(wo: Vec3, scale: f32) -> Self {
+        Self::new((Vec3::new(-wo.x, -wo.y, wo.z), scale), (Vec3::NEG_Z, 1.0))
+    }
+
+    fn index(&self, direction: Vec3) -> usize {
+        if direction.z > 0.0 { self.above.index(direction) } else { CELLS + self.below.index(direction) }
+    }
+
+    fn integrals(&self, f: impl Fn(Vec3) -> f32) -> Vec<f64> {
+        let mut sums = self.above.integrals(|w| if w.z > 0.0 { f(w) } else { 0.0 });
+        sums.extend(self.below.integrals(|w| if w.z > 0.0 { 0.0 } else { f(w) }));
+        sums
+    }
+}
+
+/// p-value of the counts of drawn directions against the density told. `draw` names the random numbers.
+pub(in crate::materials) fn p_of_draws(bsdf: &Bsdf<'_, 4>, wo: Vec3, grid: &Grid, draw: u32) -> f64 {
+    p_of((bsdf, bsdf), wo, grid, draw)
+}
+
+/// The same for a density told by one bsdf and draws of another.
+fn p_of((told, drawn): (&Bsdf<'_, 4>, &Bsdf<'_, 4>), wo: Vec3, grid: &Grid, draw: u32) -> f64 {
+    const N: usize = 100_000;
+    let mut expected = grid.integrals(|wi| told.evaluate(wo, wi).pdf);
+    let other = 1.0 - expected.iter().sum::<f64>();
+    // The quadrature's error at the horizon, where the density may end abruptly.
+    assert!(other > -2e-3, "the density integrates to {}", 1.0 - other);
+    expected.push(other.max(0.0));
+    let mut observed = vec![0_u64; expected.len()];
+    let mut stream = noise(draw);
+    for _ in 0..N {
+        let u = Vec2::new(stream.unit_f32(), stream.unit_f32());
+        let sample = drawn.sample(wo, stream.unit_f32(), u).filter(|s| s.event == Event::Scatter);
+        observed[sample.map_or(2 * CELLS, |s| grid.index(s.wi))] += 1;
+    }
+    // Cells that hardly expect anything take part only with their neighbours: a floor keeps stray counts finite.
+    let expected: Vec<_> = expected.iter().map(|e| (e * N as f64).max(1e-3)).collect();
+    chi_square::goodness_of_fit(&observed, &expected).expect("many cells").p
+}
+
+/// Refuses a family of tests, each named, whose least p-value would come up by chance in less than one of a hundred.
+pub(in crate::materials) fn judge(p_values: &[(f64, String)]) {
+    let (least, name) = p_values.iter().min_by(|a, b| a.0.total_cmp(&b.0)).expect("cases");
+    let level = family::sidak_level(0.01, p_values.len());
+    assert!(*least > level, "{name}: p = {least:e} is below {level:e}");
+}
+
+#[test]
+fn a_wrong_density_is_found() {
+    let (told, drawn) = (palette(perfect_metal(0.40)), palette(perfect_metal(0.42)));
+    let wo = at_degrees(30.0);
+    let p = p_of((&bsdf(&told), &bsdf(&drawn)), wo, &Grid::of_mirror(wo, 0.5), 999);
+    assert!(p < 1e-6, "a roughness told 5 % wrong has p = {p}");
+}
+
+#[test]
+fn directions_are_drawn_by_the_density_told() {
+    let cases = [
+        (Surface::Diffuse(grey(0.5)), 1.0),
+        (metal_of("Al", 0.01), 0.01),
+        (metal_of("Au", 0.1), 0.1),
+        (metal_of("Cu", 0.5), 0.5),
+        (perfect_metal(1.0), 1.0),
+        (paint(0.5, 1.5, 0.1), 0.2),
+        (paint(0.9, 1.7, 0.4), 0.5),
+    ];
+    let mut p_values = vec![];
+    for (k, (surface, scale)) in cases.into_iter().enumerate() {
+        let palette = palette(surface);
+        for (i, degrees) in [0.0, 30.0, 70.0, 86.0].into_iter().enumerate() {
+            let wo = at_degrees(degrees);
+            let p = p_of_draws(&bsdf(&palette), wo, &Grid::of_mirror(wo, scale), (k * 4 + i) as u32);
+            p_values.push((p, format!("case {k} at {degrees}°")));
+        }
+    }
+    judge(&p_values);
+}
