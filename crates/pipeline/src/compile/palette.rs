@@ -56,6 +56,8 @@ impl PaletteBuilder {
         let base = match &material.surface {
             Surface::Diffuse(base) => Some(base),
             Surface::Coated(coated) => Some(coated.base()),
+            Surface::Lafortune(model) => Some(model.base()),
+            Surface::BlinnPhong(model) => Some(model.base()),
             Surface::Conductor(_) | Surface::Absorber | Surface::Mix(_) => None,
         };
         let glows = material.emission.as_ref().is_some_and(|e| e.factor.is_some());

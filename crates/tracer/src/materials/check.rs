@@ -1,8 +1,9 @@
 //! What a palette's materials must be.
 
 use super::mix;
-use super::{Emission, Factor, Material, MaterialError, Reflectance, Surface};
+use super::{Emission, EnergyGain, Factor, Material, MaterialError, Reflectance, Surface};
 use crate::textures::{ImageTexture, TextureId};
+use etendue_spectra::Spectrum;
 
 /// Rounding in the basis spectra may take white a little over 1.
 const WHITE: f32 = 1.0 + 1e-4;
@@ -14,6 +15,8 @@ pub(super) fn material(materials: &[Material], index: usize, textures: &[ImageTe
         Surface::Absorber | Surface::Conductor(_) => {}
         Surface::Diffuse(r) => reflectance(index, r, textures)?,
         Surface::Coated(coated) => reflectance(index, coated.base(), textures)?,
+        Surface::Lafortune(model) => base(index, model.base(), textures, |s| model.check_energy(s))?,
+        Surface::BlinnPhong(model) => base(index, model.base(), textures, |s| model.check_energy(s))?,
         Surface::Mix(parts) => {
             mix::check(materials, index, parts)?;
             factor(index, "a share", parts.weight, textures)?;
@@ -43,6 +46,19 @@ fn reflectance(material: usize, r: &Reflectance, textures: &[ImageTexture]) -> R
         Some(value) => Err(MaterialError::Reflectance { material, value }),
         None => Ok(()),
     }
+}
+
+/// Checks the base of a model whose lobes leave less than everything for it: of a texture its brightest colour counts.
+fn base(
+    material: usize,
+    r: &Reflectance,
+    textures: &[ImageTexture],
+    check_energy: impl Fn(&Spectrum) -> Result<(), EnergyGain>,
+) -> Result<(), MaterialError> {
+    reflectance(material, r, textures)?;
+    let Reflectance::Texture(id) = r else { return Ok(()) };
+    let brightest = f64::from(find(material, *id, textures)?.range().1);
+    check_energy(&Spectrum::constant(brightest)).map_err(|gain| MaterialError::Gain { material, gain })
 }
 
 fn factor(material: usize, quantity: &'static str, f: Factor, textures: &[ImageTexture]) -> Result<(), MaterialError> {

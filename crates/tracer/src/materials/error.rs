@@ -1,5 +1,7 @@
 //! Why materials are refused.
 
+use super::EnergyGain;
+
 /// Why a material is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum MaterialError {
@@ -44,6 +46,14 @@ pub enum MaterialError {
         quantity: &'static str,
         /// The value found.
         value: f32,
+    },
+    /// A textured material sends back more than arrives.
+    #[error("material {material} gains energy where its texture is brightest: {gain}")]
+    Gain {
+        /// The material's place.
+        material: usize,
+        /// What it gains.
+        gain: EnergyGain,
     },
     /// An emission is negative or not finite.
     #[error("material {material} emits {value} W.m^-2.sr^-1.nm^-1, but radiance must be 0 or more and finite")]
@@ -103,6 +113,7 @@ impl MaterialError {
     pub fn material(&self) -> Option<usize> {
         match self {
             Self::Reflectance { material, .. }
+            | Self::Gain { material, .. }
             | Self::Factor { material, .. }
             | Self::Radiance { material, .. }
             | Self::UnknownTexture { material, .. }

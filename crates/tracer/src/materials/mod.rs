@@ -17,14 +17,18 @@
 //! - Every bsdf is reciprocal, f(wo, wi)/n²(wi's side) = f(wi, wo)/n²(wo's side) where it transmits, and sends on no
 //!   more power than arrives; no input in range gives a NaN.
 
+mod blinn_phong;
 mod check;
 mod coated;
 mod conductor;
 mod diffuse;
 mod emission;
+mod energy;
 mod error;
 mod factor;
 pub mod fresnel;
+mod lafortune;
+mod lottery;
 mod microfacet;
 mod mix;
 mod normal_map;
@@ -35,12 +39,15 @@ mod shading;
 mod tests;
 mod traits;
 
+pub use blinn_phong::{BlinnPhong, BlinnPhongBsdf, BlinnPhongError, blinn_phong_normalisation};
 pub use coated::{COAT_INDICES, Coated, CoatedBsdf};
 pub use conductor::{Conductor, ConductorBsdf, MIRROR_ALPHA};
 pub use diffuse::DiffuseBsdf;
 pub use emission::{Emission, Glow};
+pub use energy::EnergyGain;
 pub use error::MaterialError;
 pub use factor::Factor;
+pub use lafortune::{Lafortune, LafortuneBsdf, LafortuneError, Lobe, MAX_LOBES};
 pub use mix::Mix;
 pub use normal_map::{Green, NormalMap};
 pub use palette::Palette;
@@ -82,6 +89,10 @@ pub enum Surface {
     Conductor(Box<Conductor>),
     /// A matt base under a clear coat.
     Coated(Box<Coated>),
+    /// A matt base with generalised cosine lobes.
+    Lafortune(Box<Lafortune>),
+    /// A matt base with a glossy lobe about the half vector.
+    BlinnPhong(Box<BlinnPhong>),
     /// Two materials side by side.
     Mix(Mix),
 }
@@ -97,6 +108,10 @@ pub enum Bsdf<'a, const N: usize> {
     Conductor(ConductorBsdf<N>),
     /// A coated base.
     Coated(CoatedBsdf<'a, N>),
+    /// Generalised cosine lobes.
+    Lafortune(LafortuneBsdf<'a, N>),
+    /// A lobe about the half vector.
+    BlinnPhong(BlinnPhongBsdf<'a, N>),
 }
 
 /// What a bsdf says of a pair of directions.
@@ -155,6 +170,7 @@ impl<const N: usize> Bsdf<'_, N> {
     pub fn transmits(&self) -> bool {
         match self {
             Self::Absorber | Self::Diffuse(_) | Self::Conductor(_) | Self::Coated(_) => false,
+            Self::Lafortune(_) | Self::BlinnPhong(_) => false,
         }
     }
 
@@ -170,6 +186,8 @@ impl<const N: usize> Bsdf<'_, N> {
             Self::Diffuse(diffuse) => diffuse.evaluate(wi),
             Self::Conductor(conductor) => conductor.evaluate(wo, wi),
             Self::Coated(coated) => coated.evaluate(wo, wi),
+            Self::Lafortune(lafortune) => lafortune.evaluate(wo, wi),
+            Self::BlinnPhong(blinn_phong) => blinn_phong.evaluate(wo, wi),
         }
     }
 
@@ -184,6 +202,8 @@ impl<const N: usize> Bsdf<'_, N> {
             Self::Diffuse(diffuse) => diffuse.sample(u),
             Self::Conductor(conductor) => conductor.sample(wo, u),
             Self::Coated(coated) => coated.sample(wo, choice, u),
+            Self::Lafortune(lafortune) => lafortune.sample(wo, choice, u),
+            Self::BlinnPhong(blinn_phong) => blinn_phong.sample(wo, choice, u),
         }
     }
 }

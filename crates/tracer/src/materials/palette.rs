@@ -153,6 +153,12 @@ impl Palette {
             Surface::Coated(coated) => {
                 Bsdf::Coated(coated.resolve(coated.base.at(&self.textures, lookup, wavelengths)))
             }
+            Surface::Lafortune(model) => {
+                Bsdf::Lafortune(model.resolve(model.base().at(&self.textures, lookup, wavelengths), wavelengths))
+            }
+            Surface::BlinnPhong(model) => {
+                Bsdf::BlinnPhong(model.resolve(model.base().at(&self.textures, lookup, wavelengths), wavelengths))
+            }
             Surface::Mix(_) => panic!("material {} is a mix: resolve it first", id.0),
         }
     }

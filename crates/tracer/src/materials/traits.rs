@@ -49,6 +49,8 @@ fn own(material: &Material) -> Traits {
         Surface::Absorber | Surface::Conductor(_) => false,
         Surface::Diffuse(r) => is_textured(r),
         Surface::Coated(coated) => is_textured(coated.base()),
+        Surface::Lafortune(model) => is_textured(model.base()),
+        Surface::BlinnPhong(model) => is_textured(model.base()),
         Surface::Mix(mix) => mix.weight.texture().is_some(),
     };
     let glows = material.emission.as_ref().is_some_and(|e| e.factor.is_some());

@@ -1,6 +1,7 @@
 //! Every material against the contract: densities, values, reciprocity, energy.
 
 pub(in crate::materials) mod chi_square;
+mod reflection;
 
 use super::*;
 use crate::MaterialId;
@@ -50,7 +51,7 @@ fn noise(draw: u32) -> NoiseStream {
 }
 
 fn all_surfaces() -> Vec<Surface> {
-    vec![
+    let mut surfaces = vec![
         Surface::Absorber,
         Surface::Diffuse(grey(1.0)),
         metal_of("Ag", 0.0),
@@ -62,7 +63,9 @@ fn all_surfaces() -> Vec<Surface> {
         paint(1.0, 1.5, 0.05),
         paint(1.0, 2.5, 1.0),
         paint(1.0, 1.1, 0.2),
-    ]
+    ];
+    surfaces.extend(reflection::surfaces());
+    surfaces
 }
 
 #[test]

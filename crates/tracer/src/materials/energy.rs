@@ -1,0 +1,112 @@
+//! Energy: how much of the light a surface sends back, and the refusal of surfaces that send back more than arrives.
+//!
+//! The albedo (directional-hemispherical reflectance) of a lobe is tabulated over the incidence when a material is made:
+//! E(θ) = ∫ f(θ, ωᵢ) cos θᵢ dωᵢ. A material's albedo at a wavelength is the sum of its lobes' tables, each times its
+//! spectrum; it is checked at every node of the tables and at every nanometre.
+
+use etendue_spectra::Spectrum;
+
+use super::Reflectance;
+
+/// A surface that would send back more light than arrives.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "lit at {incidence_deg:.1}° from its normal, the surface would send back {albedo:.4} of the light at {wavelength_nm} \
+     nm, but none sends back more than arrives (1); lower its reflectances or weights to {:.4} of what they are",
+    1.0 / albedo
+)]
+pub struct EnergyGain {
+    /// The greatest albedo found.
+    pub albedo: f64,
+    /// The angle of incidence at which it was found, degrees.
+    pub incidence_deg: f64,
+    /// The wavelength at which it was found, nm.
+    pub wavelength_nm: u16,
+}
+
+const SEGMENTS: usize = 64;
+
+/// Rounding, and the error of the quadratures behind the tables.
+const LIMIT: f64 = 1.0 + 5e-4;
+
+/// A function of the cosine of incidence, at cosines (i/[`SEGMENTS`])², i = 0 ..= `SEGMENTS`: dense towards grazing.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct AlbedoTable(Box<[f32]>);
+
+impl AlbedoTable {
+    pub(super) fn new(albedo: impl Fn(f32) -> f64) -> Self {
+        Self((0..=SEGMENTS).map(|i| albedo(node_cos(i)) as f32).collect())
+    }
+
+    /// The albedo at a cosine of incidence.
+    pub(super) fn at(&self, cos: f32) -> f32 {
+        let x = cos.clamp(0.0, 1.0).sqrt() * SEGMENTS as f32;
+        let i = (x as usize).min(SEGMENTS - 1);
+        self.0[i] + (self.0[i + 1] - self.0[i]) * (x - i as f32)
+    }
+}
+
+fn node_cos(i: usize) -> f32 {
+    let t = i as f32 / SEGMENTS as f32;
+    t * t
+}
+
+/// Refuses a surface of matt reflectance `base` and lobes (spectrum, albedo at spectrum 1) that gains energy anywhere.
+pub(super) fn check(base: &Spectrum, lobes: &[(&Spectrum, &AlbedoTable)]) -> Result<(), EnergyGain> {
+    let greatest =
+        (0..=SEGMENTS).map(|i| greatest(base, lobes, i)).reduce(|a, b| if b.albedo > a.albedo { b } else { a });
+    match greatest {
+        Some(gain) if gain.albedo > LIMIT => Err(gain),
+        _ => Ok(()),
+    }
+}
+
+fn greatest(base: &Spectrum, lobes: &[(&Spectrum, &AlbedoTable)], node: usize) -> EnergyGain {
+    let albedo = |k: usize| -> f64 {
+        let lobe = |(spectrum, table): &(&Spectrum, &AlbedoTable)| f64::from(spectrum.nodes()[k] * table.0[node]);
+        f64::from(base.nodes()[k]) + lobes.iter().map(lobe).sum::<f64>()
+    };
+    let (k, albedo) = (0..base.nodes().len())
+        .map(|k| (k, albedo(k)))
+        .fold((0, f64::NEG_INFINITY), |best, next| if next.1 > best.1 { next } else { best });
+    let incidence_deg = f64::from(etendue_core::maths::f32::acos(node_cos(node)).to_degrees());
+    EnergyGain { albedo, incidence_deg, wavelength_nm: 300 + k as u16 }
+}
+
+/// A reflectance's spectrum; black for a texture, whose range the palette checks once it has its pictures.
+pub(super) fn known(reflectance: &Reflectance) -> Spectrum {
+    match reflectance {
+        Reflectance::Spectrum(spectrum) => spectrum.clone(),
+        Reflectance::Texture(_) => Spectrum::constant(0.0),
+    }
+}
+
+/// Whether every value of a spectrum is a number of 0 or more.
+pub(super) fn is_weight(spectrum: &Spectrum) -> bool {
+    spectrum.nodes().iter().all(|v| v.is_finite() && *v >= 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_hold_their_nodes_and_follow_between() {
+        let table = AlbedoTable::new(|cos| f64::from(1.0 - cos * cos));
+        assert_eq!((table.at(0.0), table.at(1.0)), (1.0, 0.0));
+        // The broken line errs by h²/8 · f'' (t⁴ has 12) at h = 1/64: 4e-4 at most.
+        assert!((table.at(0.3) - 0.91).abs() < 4e-4);
+    }
+
+    #[test]
+    fn a_gain_is_found_where_it_is() {
+        let base =
+            Spectrum::from_points(&[(400.0, 0.2), (600.0, 0.6)], etendue_spectra::Outside::Hold).expect("points");
+        let table = AlbedoTable::new(|cos| f64::from(1.0 - cos));
+        assert_eq!(check(&base, &[(&Spectrum::constant(0.4), &table)]), Ok(()));
+        let gain = check(&base, &[(&Spectrum::constant(0.5), &table)]).expect_err("it gains");
+        assert_eq!((gain.wavelength_nm, gain.incidence_deg), (600, 90.0));
+        assert!((gain.albedo - 1.1).abs() < 1e-6);
+        assert!(gain.to_string().contains("90.0°") && gain.to_string().contains("0.9091"), "{gain}");
+    }
+}
