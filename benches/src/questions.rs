@@ -40,7 +40,7 @@ struct Seen {
 pub(crate) fn questions(plan: &Plan, camera: &CameraPlan, view: &View<'_>) -> Vec<Questions> {
     let primary = primary(camera);
     let seen: Vec<Seen> = primary.iter().enumerate().filter_map(|(i, ray)| seen(view, ray, i as u32)).collect();
-    let sun = plan.suns.first().expect("the street has a sun").direction();
+    let sun = plan.sources.suns.first().expect("the street has a sun").direction();
     vec![
         Questions { name: "primary", rays: primary, any_hit: false },
         Questions { name: "bounce", rays: seen.iter().map(Seen::bounce).collect(), any_hit: false },

@@ -60,7 +60,7 @@ pub(crate) fn fingerprint(plan: &Plan, assets: &Assets) -> [u8; 32] {
     plan.world.meshes().iter().for_each(|mesh| hasher.add_mesh(mesh));
     hasher.add(&plan.world.instances());
     hasher.add(&plan.palette);
-    hasher.add(&(&plan.suns, &plan.environment));
+    hasher.add(&plan.sources);
     plan.cameras.iter().for_each(|camera| hasher.add_camera(camera));
     hasher.0.finalize().into()
 }

@@ -7,7 +7,7 @@ use etendue_projection::Raster;
 use etendue_scene::Place;
 use etendue_sensor::Sensor;
 use etendue_tracer::accel::World;
-use etendue_tracer::lights::{Environment, Sun};
+use etendue_tracer::lights::Sources;
 use etendue_tracer::materials::Palette;
 
 /// What a rendering does, for all cameras of a job.
@@ -17,10 +17,8 @@ pub struct Plan {
     pub world: World,
     /// Materials and textures.
     pub palette: Palette,
-    /// Suns.
-    pub suns: Vec<Sun>,
-    /// What surrounds the scene.
-    pub environment: Option<Environment>,
+    /// What shines but is no surface.
+    pub sources: Sources,
     /// The cameras.
     pub cameras: Vec<CameraPlan>,
     /// What the instance ids of the ground truth stand for, from id 1.

@@ -53,8 +53,7 @@ pub fn census(plan: &Plan, camera: &CameraPlan) -> LightCensus {
 }
 
 fn lights(plan: &Plan, camera: &CameraPlan, view: &View<'_>) -> Lights {
-    let (suns, environment) = (plan.suns.clone(), plan.environment.clone());
-    Lights::new(view, &plan.palette, suns, environment, camera.settings.range_nm)
+    Lights::new(view, &plan.palette, plan.sources.clone(), camera.settings.range_nm)
         .expect("a compiled plan names only materials that it has, and nothing moves")
 }
 

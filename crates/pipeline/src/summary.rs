@@ -76,6 +76,7 @@ fn lights(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Resul
     let census = census(plan, camera);
     let counted = [
         (census.suns, "sun disc"),
+        (census.lamps, "lamp"),
         (census.triangles, "glowing triangle"),
         (census.spheres, "glowing sphere"),
         (usize::from(census.image_environment), "surrounding picture"),

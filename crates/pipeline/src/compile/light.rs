@@ -7,12 +7,13 @@ use etendue_scene::asset::{ImageAsset, ImagePixels};
 use etendue_scene::record::environment::EnvironmentImage;
 use etendue_scene::record::{self, Light, Scene, SunLevel};
 use etendue_spectra::{Spectrum, colour};
-use etendue_tracer::lights::{Environment, ImageEnvironment, SUN_ANGULAR_DIAMETER_DEG, Sun};
+use etendue_tracer::lights::{Environment, ImageEnvironment, SUN_ANGULAR_DIAMETER_DEG, Sources, Sun};
 use glam::DVec3;
 
 /// The lights of a scene that are no surfaces.
-pub(super) fn suns(scene: &Scene, context: &mut Context<'_>) -> Vec<Sun> {
-    scene.lights.iter().filter_map(|Light::Sun(record)| sun(record, context)).collect()
+pub(super) fn sources(scene: &Scene, context: &mut Context<'_>) -> Sources {
+    let suns = scene.lights.iter().filter_map(|Light::Sun(record)| sun(record, context)).collect();
+    Sources { suns, lamps: vec![], environment: environment(scene, context) }
 }
 
 fn sun(record: &record::Sun, context: &mut Context<'_>) -> Option<Sun> {
@@ -38,7 +39,7 @@ fn powered(relative: &Spectrum, total: f64) -> Spectrum {
 }
 
 /// What surrounds the scene; `None` where nothing does or it is faulty.
-pub(super) fn environment(scene: &Scene, context: &mut Context<'_>) -> Option<Environment> {
+fn environment(scene: &Scene, context: &mut Context<'_>) -> Option<Environment> {
     match scene.environment.as_ref()? {
         record::Environment::Uniform(emission) => emitted(emission, context).map(Environment::Uniform),
         record::Environment::Image(record) => image(record, context).map(Environment::Image),

@@ -92,8 +92,7 @@ pub fn compile_camera(camera: &Camera, assets: &Assets) -> Result<CameraBody, Ve
 fn planned(description: &Description, choices: &Choices, context: &mut Context<'_>) -> Option<Plan> {
     let scene = &description.scene;
     let mut builder = PaletteBuilder::of_scene(scene, context);
-    let suns = light::suns(scene, context);
-    let environment = light::environment(scene, context);
+    let sources = light::sources(scene, context);
     let setups = description.cameras.iter().enumerate();
     let cameras: Vec<_> =
         setups.filter_map(|(index, setup)| camera_plan(index as u32, setup, choices, context)).collect();
@@ -105,8 +104,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let (palette, materials) = builder.finish(context)?;
     let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();
     let remarks = std::mem::take(&mut context.remarks);
-    let mut plan =
-        Plan { world, palette, suns, environment, cameras, identities, materials, classes, remarks, hash: [0; 32] };
+    let mut plan = Plan { world, palette, sources, cameras, identities, materials, classes, remarks, hash: [0; 32] };
     plan.hash = fingerprint(&plan, context.assets);
     Some(plan)
 }

@@ -8,7 +8,7 @@ use super::PathTracer;
 use super::caustic::History;
 use super::cone::Cone;
 use crate::geometry::SurfacePoint;
-use crate::lights::Met;
+use crate::lights::{Met, Receiver};
 use crate::materials::{Bsdf, Event, ShadingFrame};
 use crate::textures::Lookup;
 
@@ -23,6 +23,8 @@ pub(super) struct Path<'a, const N: usize> {
     bounces: u32,
     /// Density of the ray's direction, 1/sr; `None` where it came from the camera or a mirror.
     scattered: Option<f32>,
+    /// Where `scattered` is told: the point that the ray came from.
+    receiver: Option<Receiver>,
     history: History,
     /// What radiance along the ray counts at the camera.
     throughput: Spectral<N>,
@@ -34,6 +36,7 @@ struct Vertex<'a, const N: usize> {
     point: SurfacePoint,
     frame: ShadingFrame,
     bsdf: Bsdf<'a, N>,
+    receiver: Receiver,
 }
 
 impl<'a, const N: usize> Path<'a, N> {
@@ -51,6 +54,7 @@ impl<'a, const N: usize> Path<'a, N> {
             cone: Cone::new(tracer.settings.cone_spread_rad),
             bounces: 0,
             scattered: None,
+            receiver: None,
             history: History::default(),
             throughput: Spectral::ONE,
             radiance: Spectral::ZERO,
@@ -88,7 +92,7 @@ impl<'a, const N: usize> Path<'a, N> {
     /// Light from beyond the scene, along the ray.
     fn gather_distant(&mut self) {
         let strategies = self.tracer.settings.strategies;
-        for light in self.tracer.lights.distant(self.ray.direction, self.wavelengths) {
+        for light in self.tracer.lights.distant(self.ray.direction, self.receiver.as_ref(), self.wavelengths) {
             if light.surrounds || self.follows(self.history.is_caustic()) {
                 self.radiance += self.throughput * light.radiance * strategies.met(self.scattered, light.pdf);
             }
@@ -102,8 +106,8 @@ impl<'a, const N: usize> Path<'a, N> {
         if !emission.leaves(point.geometric_normal, -self.ray.direction) || !self.follows(self.history.is_caustic()) {
             return;
         }
-        let met = Met { point, from: self.ray.origin, direction: self.ray.direction, distance_m };
-        let drawn = if self.scattered.is_some() { self.tracer.lights.met_pdf(&met) } else { 0.0 };
+        let met = |receiver| Met { receiver, point, direction: self.ray.direction, distance_m };
+        let drawn = self.receiver.as_ref().map_or(0.0, |receiver| self.tracer.lights.met_pdf(&met(receiver)));
         let weight = self.tracer.settings.strategies.met(self.scattered, drawn);
         self.radiance +=
             self.throughput * palette.radiance(point.material, emission, lookup, self.wavelengths) * weight;
@@ -117,7 +121,10 @@ impl<'a, const N: usize> Path<'a, N> {
         if matches!(bsdf, Bsdf::Absorber) {
             return false;
         }
-        let vertex = Vertex { frame, point, bsdf };
+        // Light from behind counts where the surface lets it through.
+        let normal = if bsdf.transmits() { Vec3::ZERO } else { frame.normal() };
+        let receiver = Receiver { position: point.position, normal };
+        let vertex = Vertex { frame, point, bsdf, receiver };
         self.gather_drawn(&vertex);
         self.go_on(&vertex) && self.survives()
     }
@@ -130,9 +137,9 @@ impl<'a, const N: usize> Path<'a, N> {
         }
         let choice = self.stream.one(Draw::LightChoice, self.bounces);
         let u = self.stream.two(Draw::LightPoint, self.bounces);
-        let from = vertex.point.position;
         let spread = self.cone.spread_rad;
-        let Some(light) = lights.sample(from, (choice, u), spread, self.tracer.palette, self.wavelengths) else {
+        let Some(light) = lights.sample(&vertex.receiver, (choice, u), spread, self.tracer.palette, self.wavelengths)
+        else {
             return;
         };
         let Some(wi) = vertex.frame.inward(light.direction) else { return };
@@ -140,7 +147,8 @@ impl<'a, const N: usize> Path<'a, N> {
         if !(light.surrounds || self.follows(self.history.would_be_caustic(value.pdf))) {
             return;
         }
-        let weight = self.tracer.settings.strategies.drawn(light.pdf, value.pdf) / light.pdf;
+        let weight =
+            if light.delta { 1.0 } else { self.tracer.settings.strategies.drawn(light.pdf, value.pdf) } / light.pdf;
         let arriving = self.throughput * value.value_cos * light.radiance * weight;
         if !arriving.is_zero() && self.is_free(&vertex.point, light.direction, light.target) {
             self.radiance += arriving;
@@ -171,6 +179,7 @@ impl<'a, const N: usize> Path<'a, N> {
         let Some(direction) = vertex.frame.outward(sample.wi) else { return false };
         self.throughput *= sample.weight;
         self.scattered = (sample.event == Event::Scatter).then_some(sample.pdf);
+        self.receiver = self.scattered.map(|_| vertex.receiver);
         self.history.scatter(self.scattered);
         if let Some(pdf) = self.scattered {
             self.cone.scatter(pdf);

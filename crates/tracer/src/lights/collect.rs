@@ -112,7 +112,7 @@ impl Gathered {
         self.primitives.push([Some(added)]);
     }
 
-    fn add(&mut self, power: f64, light: Light) -> u32 {
+    pub(super) fn add(&mut self, power: f64, light: Light) -> u32 {
         self.lights.push(light);
         self.powers.push(power);
         (self.lights.len() - 1) as u32

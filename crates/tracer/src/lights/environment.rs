@@ -159,6 +159,7 @@ impl ImageEnvironment {
             target: None,
             radiance,
             pdf,
+            delta: false,
             surrounds: true,
         })
     }

@@ -1,27 +1,32 @@
 //! Lights: where light starts, and how to ask for it from a point.
 //!
 //! # Contract
-//! - [`Lights`] are those of one view: emissive triangles and spheres of its instances in the render frame, suns, and an
-//!   environment. They are collected once and never change.
+//! - [`Lights`] are those of one view: emissive triangles and spheres of its instances in the render frame, lamps, suns,
+//!   and an environment. They are collected once and never change.
 //! - [`Lights::sample`] draws a light and a direction towards it. Its `pdf` is by solid angle and includes the choice of
 //!   the light. Exactly the same density is told for light that was met by chance: [`Lights::met_pdf`] for surfaces,
 //!   [`Lights::distant`] for what lies beyond them, so that both can be weighed against each other.
 //! - Every light but a uniform environment can be drawn with a positive probability. A uniform environment is not drawn:
 //!   no direction of it is better than the one that the surface prefers; its density is told as 0.
+//! - Densities belong to a [`Receiver`], the point that asks.
 //! - Radiance is spectral, W·m⁻²·sr⁻¹·nm⁻¹.
-//!
-//! Left out so far: point-like lamps and a hierarchy; lights are chosen by power, wherever the point is.
 
 mod choice;
 mod collect;
 mod environment;
+mod lamp;
 mod primitives;
+mod profile;
+mod receiver;
 mod sphere;
 mod sun;
 mod triangle;
 
 pub use collect::LightError;
 pub use environment::{Environment, EnvironmentError, ImageEnvironment};
+pub use lamp::{Lamp, LampError};
+pub use profile::{Cone, ConeError, Masked, Profile, Slide, SlideError, Web, WebAxes, WebError};
+pub use receiver::Receiver;
 pub use sun::{SUN_ANGULAR_DIAMETER_DEG, Sun, SunError};
 
 use etendue_core::{Spectral, Wavelengths};
@@ -32,6 +37,7 @@ use crate::materials::Palette;
 use crate::textures::Lookup;
 use crate::view::View;
 use choice::Choice;
+use lamp::LampLight;
 use primitives::Primitives;
 use sphere::SphereLight;
 use triangle::TriangleLight;
@@ -41,10 +47,22 @@ use triangle::TriangleLight;
 enum Light {
     Triangle(TriangleLight),
     Sphere(SphereLight),
+    Lamp(LampLight),
     /// By its place among the suns.
     Sun(u32),
     /// The image environment.
     Environment,
+}
+
+/// What shines but is no surface.
+#[derive(Clone, Debug, Default)]
+pub struct Sources {
+    /// Suns.
+    pub suns: Vec<Sun>,
+    /// Lamps without extent.
+    pub lamps: Vec<Lamp>,
+    /// What surrounds the scene.
+    pub environment: Option<Environment>,
 }
 
 /// All lights of a view.
@@ -67,6 +85,8 @@ pub struct LightCensus {
     pub triangles: usize,
     /// Emissive spheres.
     pub spheres: usize,
+    /// Lamps without extent.
+    pub lamps: usize,
     /// Suns.
     pub suns: usize,
     /// Whether an environment of one radiance surrounds the scene.
@@ -82,10 +102,13 @@ pub struct LightSample<const N: usize> {
     pub direction: Vec3,
     /// The point of the light, moved off its surface by the error bound; `None` for light from infinity.
     pub target: Option<Vec3>,
-    /// Spectral radiance towards the point.
+    /// Spectral radiance towards the point; of a lamp without extent the spectral irradiance of a surface that faces it.
     pub radiance: Spectral<N>,
-    /// Density of the direction, with that of the choice, 1/sr; positive.
+    /// Density of the direction, with that of the choice, 1/sr; of a lamp without extent the probability of the choice.
+    /// Positive.
     pub pdf: f32,
+    /// Whether it is a lamp without extent: nothing but a draw can find it.
+    pub delta: bool,
     /// Whether it is light of the surroundings, and of no sun or surface.
     pub surrounds: bool,
 }
@@ -114,10 +137,10 @@ struct SurfaceSample {
 /// The light that a surface point belongs to, as seen along a ray that met it.
 #[derive(Clone, Copy, Debug)]
 pub struct Met<'a> {
+    /// The point that the ray came from.
+    pub receiver: &'a Receiver,
     /// The point that was met.
     pub point: &'a SurfacePoint,
-    /// Where the ray started, m.
-    pub from: Vec3,
     /// The ray's unit direction.
     pub direction: Vec3,
     /// Length of the way, m.
@@ -125,7 +148,7 @@ pub struct Met<'a> {
 }
 
 impl Lights {
-    /// The lights of a view, with `suns` and an environment. Wavelengths from `low_nm`
+    /// The lights of a view: its surfaces that glow, and `sources`. Wavelengths from `low_nm`
     /// to `high_nm` decide how the lights share the draws.
     ///
     /// # Errors
@@ -133,11 +156,15 @@ impl Lights {
     pub fn new(
         view: &View<'_>,
         palette: &Palette,
-        suns: Vec<Sun>,
-        environment: Option<Environment>,
+        sources: Sources,
         (low_nm, high_nm): (f64, f64),
     ) -> Result<Self, LightError> {
+        let Sources { suns, lamps, environment } = sources;
         let mut gathered = collect::of_surfaces(view, palette, (low_nm, high_nm))?;
+        for lamp in lamps {
+            let lamp = LampLight::new(lamp, view.origin_m(), (low_nm, high_nm));
+            gathered.add(lamp.mean_power(), Light::Lamp(lamp));
+        }
         let first_sun = gathered.lights.len();
         let mut distant = vec![];
         for (i, sun) in suns.iter().enumerate() {
@@ -155,10 +182,11 @@ impl Lights {
     /// How many lights of each kind there are.
     #[must_use]
     pub fn census(&self) -> LightCensus {
-        let spheres = self.lights.iter().filter(|l| matches!(l, Light::Sphere(_))).count();
+        let count = |kind: fn(&Light) -> bool| self.lights.iter().filter(|l| kind(l)).count();
         LightCensus {
-            triangles: self.first_sun - spheres,
-            spheres,
+            triangles: count(|l| matches!(l, Light::Triangle(_))),
+            spheres: count(|l| matches!(l, Light::Sphere(_))),
+            lamps: count(|l| matches!(l, Light::Lamp(_))),
             suns: self.suns.len(),
             uniform_environment: matches!(self.environment, Some(Environment::Uniform(_))),
             image_environment: matches!(self.environment, Some(Environment::Image(_))),
@@ -171,21 +199,23 @@ impl Lights {
         self.choice.is_some()
     }
 
-    /// A light and a direction towards it from the point `from`; `None` where the light drawn sends nothing there.
+    /// A light and a direction towards it from the `receiver`; `None` where the light drawn sends nothing there.
     /// `spread_rad` is the width of the path's cone, for the footprint of textures.
     #[must_use]
     pub fn sample<const N: usize>(
         &self,
-        from: Vec3,
+        receiver: &Receiver,
         (choice, u): (f32, Vec2),
         spread_rad: f32,
         palette: &Palette,
         wavelengths: &Wavelengths<N>,
     ) -> Option<LightSample<N>> {
         let (i, probability) = self.choice.as_ref()?.draw(choice);
+        let from = receiver.position;
         let sample = match &self.lights[i] {
             Light::Triangle(t) => t.glowing(palette).towards(&t.sample(from, u)?, from, spread_rad, wavelengths),
             Light::Sphere(s) => s.glowing(palette).towards(&s.sample(from, u)?, from, spread_rad, wavelengths),
+            Light::Lamp(lamp) => lamp.sample(from, wavelengths),
             Light::Sun(sun) => Some(self.suns[*sun as usize].sample(u, wavelengths)),
             Light::Environment => self.image_environment()?.sample(u, wavelengths),
         }?;
@@ -201,19 +231,22 @@ impl Lights {
         let pdf = match &self.lights[i] {
             Light::Triangle(light) => light.pdf(met),
             Light::Sphere(light) => light.pdf(met),
-            Light::Sun(_) | Light::Environment => 0.0,
+            Light::Lamp(_) | Light::Sun(_) | Light::Environment => 0.0,
         };
         pdf * self.probability(i)
     }
 
-    /// Light from infinity along the unit `direction` away from the viewer, each contribution by itself.
+    /// Light from infinity along the unit `direction` away from the viewer, each contribution by itself. `receiver` is
+    /// where the ray came from; without one nothing could have been drawn from there, and densities are 0.
     pub fn distant<'a, const N: usize>(
         &'a self,
         direction: Vec3,
+        receiver: Option<&'a Receiver>,
         wavelengths: &'a Wavelengths<N>,
     ) -> impl Iterator<Item = DistantLight<N>> + 'a {
+        let drawn = move |i: usize| receiver.map_or(0.0, |_| self.probability(i));
         let suns = self.suns.iter().enumerate().filter(move |(_, sun)| sun.covers(direction)).map(move |(i, sun)| {
-            let pdf = sun.pdf() * self.probability(self.first_sun + i);
+            let pdf = sun.pdf() * drawn(self.first_sun + i);
             DistantLight { radiance: sun.radiance().sample(wavelengths), pdf, surrounds: false }
         });
         let environment = self.environment.iter().map(move |environment| match environment {
@@ -221,7 +254,7 @@ impl Lights {
                 DistantLight { radiance: radiance.sample(wavelengths), pdf: 0.0, surrounds: true }
             }
             Environment::Image(image) => {
-                let pdf = image.pdf(direction) * self.probability(self.lights.len() - 1);
+                let pdf = image.pdf(direction) * drawn(self.lights.len() - 1);
                 DistantLight { radiance: image.radiance(direction, wavelengths), pdf, surrounds: true }
             }
         });
@@ -267,6 +300,7 @@ impl Glowing<'_> {
             target: Some(surface.position + surface.normal * (side * (self.error_m + ROUNDING * distance))),
             radiance: self.palette.radiance(self.material, emission, &lookup, wavelengths),
             pdf: surface.pdf,
+            delta: false,
             surrounds: false,
         })
     }

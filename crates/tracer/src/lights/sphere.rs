@@ -118,7 +118,7 @@ impl SphereLight {
     }
 
     pub(super) fn pdf(&self, met: &Met<'_>) -> f32 {
-        if let Some((cone, _)) = self.cone(met.from) {
+        if let Some((cone, _)) = self.cone(met.receiver.position) {
             return 1.0 / (TAU * cone.one_minus_cos);
         }
         let normal = met.point.geometric_normal;

@@ -100,7 +100,7 @@ impl Sun {
     pub(super) fn sample<const N: usize>(&self, u: Vec2, wavelengths: &Wavelengths<N>) -> LightSample<N> {
         let radiance: Spectral<N> = self.radiance.sample(wavelengths);
         let direction = self.basis.outward(uniform_cone(u, self.one_minus_cos));
-        LightSample { direction, target: None, radiance, pdf: self.pdf(), surrounds: false }
+        LightSample { direction, target: None, radiance, pdf: self.pdf(), delta: false, surrounds: false }
     }
 }
 

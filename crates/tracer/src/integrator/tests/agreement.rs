@@ -5,11 +5,12 @@ use super::*;
 /// A floor and a block under lights of every kind.
 fn mixed(floor: Surface) -> Ready {
     let picture = (0..128).map(|i| [0.2 + (i % 5) as f32, 0.5, (i % 3) as f32]).collect();
-    let mut scene = Scene {
+    let sources = Sources {
         suns: vec![Sun::of_radiance(DVec3::new(-1.0, 0.3, 1.0), 20.0, Spectrum::constant(0.02)).expect("a sun")],
+        lamps: vec![],
         environment: Some(Environment::Image(ImageEnvironment::new((16, 8), picture, 1.0, 1.0).expect("a picture"))),
-        ..Scene::default()
     };
+    let mut scene = Scene { sources, ..Scene::default() };
     let floor = scene.material(floor, None);
     let lamp = scene.material(matt(0.2), Some((0.05, Glow::Both)));
     let block = scene.material(matt(0.7), None);
@@ -55,8 +56,7 @@ fn roulette_leaves_the_mean() {
 fn lights_are_counted_by_kind() {
     let ready = mixed(matt(0.5));
     let view = ready.world.view(DVec3::ZERO);
-    let lights = Lights::new(&view, &ready.palette, ready.suns.clone(), ready.environment.clone(), (380.0, 780.0));
-    let census = lights.expect("lights").census();
+    let census = ready.lights(&view).census();
     assert_eq!((census.triangles, census.spheres, census.suns), (2, 2, 1));
     assert!(census.image_environment && !census.uniform_environment);
 }
@@ -87,8 +87,7 @@ fn a_lamp_far_from_the_origin_of_its_mesh_still_shines() {
 fn answers_are_the_same_bits_when_asked_again() {
     let ready = mixed(paint(0.6, 0.3));
     let view = ready.world.view(DVec3::ZERO);
-    let lights = Lights::new(&view, &ready.palette, ready.suns.clone(), ready.environment.clone(), (380.0, 780.0))
-        .expect("lights");
+    let lights = ready.lights(&view);
     let tracer = PathTracer::new(&view, &ready.palette, &lights, PathSettings::default());
     let r = ray([-2.0, -2.0, 2.0], [0.2, 0.1, 0.0]);
     let ask = || replicate(&tracer, &r, 64, 7).to_bits();
@@ -99,7 +98,8 @@ fn answers_are_the_same_bits_when_asked_again() {
 fn paths_of_one_four_and_eight_wavelengths_agree_where_nothing_disperses() {
     let ready = mixed(matt(0.7));
     let view = ready.world.view(DVec3::ZERO);
-    let lights = Lights::new(&view, &ready.palette, ready.suns.clone(), None, (380.0, 780.0)).expect("lights");
+    let sources = Sources { environment: None, ..ready.sources.clone() };
+    let lights = Lights::new(&view, &ready.palette, sources, (380.0, 780.0)).expect("lights");
     let tracer = PathTracer::new(&view, &ready.palette, &lights, bounces(2));
     let address = PixelAddress { seed: 1, camera: 0, frame: 0, capture: 0, pixel: Pixel { x: 0, y: 0 }, replicate: 0 };
     let stream = PathStream::new(&address, 3);

@@ -9,7 +9,8 @@ fn a_white_sphere_vanishes_in_a_uniform_environment() {
         (matt(1.0), white_picture(), f64::from(upsample::emission([1.0; 3], &WAVELENGTHS)[1])),
         (paint(1.0, 0.0), Environment::Uniform(Spectrum::constant(1.0)), 1.0),
     ] {
-        let mut scene = Scene { environment: Some(environment), ..Scene::default() };
+        let mut scene =
+            Scene { sources: Sources { environment: Some(environment), ..Sources::default() }, ..Scene::default() };
         let material = scene.material(surface, None);
         scene.sphere(DVec3::new(5.0, 0.0, 0.0), 1.0, material);
         let ready = scene.ready();
@@ -73,7 +74,7 @@ fn a_sun_lights_a_plane_by_its_irradiance() {
     let sun = Sun::of_irradiance(direction, 0.5338, &Spectrum::constant(1.4)).expect("a sun");
     let towards = sun.direction().to_array();
     let seen = f64::from(sun.radiance().at(520.0));
-    let mut scene = Scene { suns: vec![sun], ..Scene::default() };
+    let mut scene = Scene { sources: Sources { suns: vec![sun], ..Sources::default() }, ..Scene::default() };
     let floor = scene.material(matt(0.3), None);
     scene.square(Vec3::new(0.0, 0.0, -1.0), 10.0, floor);
     let ready = scene.ready();
@@ -123,7 +124,7 @@ fn a_texture_is_read_in_its_place() {
     builder.add_instance(Instance { shape, to_world, materials: vec![MaterialId(0)], instance_id: 1, semantic_id: 1 });
     let world = builder.build().expect("a world");
     let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));
-    let ready = Ready { world, palette, suns: vec![], environment };
+    let ready = Ready { world, palette, sources: Sources { environment, ..Sources::default() } };
     agrees(&ready.look(&ray([-0.5, 0.3, 1.0], [-0.5, 0.3, 0.0]), 4, bounces(1)), 0.2);
     agrees(&ready.look(&ray([0.5, 0.3, 1.0], [0.5, 0.3, 0.0]), 4, bounces(1)), 0.8);
 }

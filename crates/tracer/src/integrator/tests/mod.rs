@@ -5,17 +5,18 @@
 
 mod agreement;
 mod closed_forms;
+mod lamps;
 mod sides;
 
 use super::*;
 use crate::MaterialId;
 use crate::accel::{World, WorldBuilder};
 use crate::geometry::{Instance, Mesh, Shape};
-use crate::lights::{Environment, ImageEnvironment, Sun};
+use crate::lights::{Environment, ImageEnvironment, Sources, Sun};
 use crate::materials::{Coated, Conductor, Emission, Glow, Material, Reflectance, Surface};
 use core::f64::consts::PI;
-use etendue_core::Track;
 use etendue_core::random::{Pixel, PixelAddress};
+use etendue_core::{Track, maths};
 use etendue_spectra::{Spectrum, metal, upsample};
 use etendue_stats::ReplicateEstimate;
 use glam::{DAffine3, DVec3, Vec2, Vec3};
@@ -27,8 +28,7 @@ const WAVELENGTHS: Wavelengths<4> = Wavelengths { nm: [450.0, 520.0, 600.0, 680.
 struct Scene {
     builder: WorldBuilder,
     materials: Vec<Material>,
-    suns: Vec<Sun>,
-    environment: Option<Environment>,
+    sources: Sources,
 }
 
 impl Scene {
@@ -74,23 +74,25 @@ impl Scene {
     fn ready(self) -> Ready {
         let palette = Palette::new(self.materials, vec![]).expect("materials");
         let world = self.builder.build().expect("a world");
-        Ready { world, palette, suns: self.suns, environment: self.environment }
+        Ready { world, palette, sources: self.sources }
     }
 }
 
 struct Ready {
     world: World,
     palette: Palette,
-    suns: Vec<Sun>,
-    environment: Option<Environment>,
+    sources: Sources,
 }
 
 impl Ready {
+    fn lights(&self, view: &View<'_>) -> Lights {
+        Lights::new(view, &self.palette, self.sources.clone(), (380.0, 780.0)).expect("lights")
+    }
+
     /// Radiance along a ray, from 32 replicates of `samples`, at the second wavelength.
     fn look(&self, ray: &Ray, samples: u32, settings: PathSettings) -> ReplicateEstimate {
         let view = self.world.view(DVec3::ZERO);
-        let lights = Lights::new(&view, &self.palette, self.suns.clone(), self.environment.clone(), (380.0, 780.0))
-            .expect("lights");
+        let lights = self.lights(&view);
         let tracer = PathTracer::new(&view, &self.palette, &lights, settings);
         let means: Vec<_> = (0..32).map(|r| replicate(&tracer, ray, samples, r)).collect();
         ReplicateEstimate::of(&means).expect("replicates")

@@ -42,7 +42,8 @@ fn a_wall_with_leaning_normals_lets_no_light_through() {
 
 #[test]
 fn a_viewer_below_the_shading_horizon_sees_no_black_seam() {
-    let mut scene = Scene { environment: Some(Environment::Uniform(Spectrum::constant(1.0))), ..Scene::default() };
+    let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));
+    let mut scene = Scene { sources: Sources { environment, ..Sources::default() }, ..Scene::default() };
     let wall = scene.material(matt(1.0), None);
     let positions = [(-5.0, -5.0), (5.0, -5.0), (5.0, 5.0), (-5.0, 5.0)].map(|(x, y)| Vec3::new(x, y, 0.0)).to_vec();
     scene.mesh_with_normals(positions, vec![Vec3::new(0.94, 0.0, 0.342); 4], vec![[0, 1, 2], [0, 2, 3]], wall);

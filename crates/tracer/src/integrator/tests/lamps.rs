@@ -1,0 +1,58 @@
+//! Lamps without extent against closed forms.
+
+use super::*;
+use crate::lights::{Cone, Lamp, Profile};
+use glam::DMat3;
+
+/// A lamp of `intensity` that looks down (its x axis) from a height above the origin.
+fn lamp(height_m: f64, intensity: f64, profile: Profile) -> Lamp {
+    let axes = DMat3::from_cols(DVec3::NEG_Z, DVec3::Y, DVec3::X);
+    Lamp::new(DVec3::new(0.0, 0.0, height_m), axes, Spectrum::constant(intensity), profile).expect("a lamp")
+}
+
+/// Radiance of a white floor under lamps, `x` beside the origin.
+fn below(lamps: Vec<Lamp>, x: f32) -> f64 {
+    let mut scene = Scene { sources: Sources { lamps, ..Sources::default() }, ..Scene::default() };
+    let floor = scene.material(matt(1.0), None);
+    scene.square(Vec3::ZERO, 50.0, floor);
+    scene.ready().look(&ray([x, 1.0, 2.0], [x, 0.0, 0.0]), 16, bounces(1)).mean
+}
+
+#[test]
+fn irradiance_falls_by_distance_squared_and_cosine() {
+    for (height_m, x) in [(3.0, 0.0), (3.0, 4.0), (0.5, 6.0)] {
+        let d2 = height_m * height_m + f64::from(x * x);
+        let expected = 7.0 / d2 * (height_m / d2.sqrt()) / PI;
+        let got = below(vec![lamp(height_m, 7.0, Profile::Isotropic)], x);
+        // Some ten roundings of f32.
+        assert!((got / expected - 1.0).abs() < 2e-6, "{got} {expected}");
+        let attenuated = lamp(height_m, 7.0, Profile::Isotropic).attenuated(0.1).expect("an attenuation");
+        let got = below(vec![attenuated], x);
+        assert!((got * (1.0 + 0.1 * d2.sqrt()) / expected - 1.0).abs() < 2e-6, "attenuated: {got} {expected}");
+    }
+}
+
+#[test]
+fn a_spot_lights_its_field_alone() {
+    let spot = |x| below(vec![lamp(2.0, 1.0, Profile::Cone(Cone::new(0.5, 0.5).expect("a spot")))], x);
+    let edge = 2.0 * maths::f32::tan(0.5);
+    assert!((spot(0.0) - 0.25 / PI).abs() < 1e-6);
+    assert!(spot(0.999 * edge) > 0.1 / PI && spot(1.001 * edge) == 0.0);
+}
+
+#[test]
+fn lamps_add_up_and_a_block_shades_them() {
+    let mut scene = Scene::default();
+    for (x, intensity) in [(-2.0, 3.0), (2.0, 5.0), (0.0, 1e3)] {
+        let axes = DMat3::from_cols(DVec3::NEG_Z, DVec3::Y, DVec3::X);
+        let at = DVec3::new(x, 0.0, if x == 0.0 { 4.0 } else { 2.0 });
+        let lamp = Lamp::new(at, axes, Spectrum::constant(intensity), Profile::Isotropic).expect("a lamp");
+        scene.sources.lamps.push(lamp);
+    }
+    let (floor, block) = (scene.material(matt(1.0), None), scene.material(Surface::Absorber, None));
+    scene.square(Vec3::ZERO, 50.0, floor);
+    scene.square(Vec3::new(0.0, 0.0, 3.0), 0.3, block);
+    let estimate = scene.ready().look(&ray([0.0, 0.5, 1.0], [0.0; 3]), 256, bounces(1));
+    // Each from the distance √8 at 45°.
+    agrees(&estimate, (3.0 + 5.0) / 8.0 * 0.5_f64.sqrt() / PI);
+}

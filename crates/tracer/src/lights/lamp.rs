@@ -1,0 +1,154 @@
+//! Lamps as points: intensity by direction, 1/d² by distance.
+//!
+//! A surface that faces a lamp of intensity I(λ) · value(direction) from the distance d has the spectral irradiance
+//! E(λ) = I(λ) · value / d² / (1 + a d). The last factor is the attenuation coefficient a (1/m) of the legacy mode, 0 by
+//! default; it is no physics of clear air.
+//!
+//! A lamp's frame is x forward, y left, z up; its axes say where these point in the world. Left out: the size of a lamp
+//! (shadows are sharp, and so near it that it is no point its light is too strong), polarisation, flicker.
+
+use std::sync::Arc;
+
+use etendue_core::Wavelengths;
+use etendue_spectra::Spectrum;
+use glam::{DMat3, DVec3, Mat3, Vec3};
+
+use super::LightSample;
+use super::profile::Profile;
+
+/// Why a lamp is refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum LampError {
+    /// The place is not finite.
+    #[error("a lamp's position must be three finite numbers; correct it")]
+    Position,
+    /// The axes are no rotation.
+    #[error(
+        "a lamp's axes must be three unit vectors at right angles, right-handed (x forward, y left, z up); correct them"
+    )]
+    Axes,
+    /// The intensity is negative or not finite.
+    #[error("a lamp's intensity must be 0 or more and finite at every wavelength; correct it")]
+    Intensity,
+    /// The attenuation coefficient is negative or not finite.
+    #[error("an attenuation of {per_m} 1/m was given, but it must be 0 or more and finite; correct it")]
+    Attenuation {
+        /// What was given, 1/m.
+        per_m: f64,
+    },
+}
+
+/// A lamp without extent. Intensity and profile are shared between lamps of a kind.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Lamp {
+    position_m: DVec3,
+    axes: DMat3,
+    intensity: Arc<Spectrum>,
+    profile: Arc<Profile>,
+    attenuation_per_m: f64,
+}
+
+impl Lamp {
+    /// A lamp at `position_m` of the world. The columns of `axes` are its x (forward), y (left) and z (up) in the world,
+    /// `intensity` (W·sr⁻¹·nm⁻¹) is that where the profile is 1.
+    ///
+    /// # Errors
+    /// Where a number is not finite, the axes are no rotation, or the intensity is negative.
+    pub fn new(
+        position_m: DVec3,
+        axes: DMat3,
+        intensity: impl Into<Arc<Spectrum>>,
+        profile: impl Into<Arc<Profile>>,
+    ) -> Result<Self, LampError> {
+        let (intensity, profile) = (intensity.into(), profile.into());
+        let deviation = (axes.transpose() * axes - DMat3::IDENTITY).to_cols_array();
+        if !position_m.is_finite() {
+            return Err(LampError::Position);
+        }
+        // Descriptions are written with some ten digits.
+        if !deviation.iter().all(|x| x.abs() <= 1e-6) || axes.determinant() < 0.0 {
+            return Err(LampError::Axes);
+        }
+        if !(intensity.min_value() >= 0.0 && intensity.max_value().is_finite()) {
+            return Err(LampError::Intensity);
+        }
+        Ok(Self { position_m, axes, intensity, profile, attenuation_per_m: 0.0 })
+    }
+
+    /// The lamp with an attenuation coefficient, 1/m.
+    ///
+    /// # Errors
+    /// Where it is negative or not finite.
+    pub fn attenuated(self, attenuation_per_m: f64) -> Result<Self, LampError> {
+        let legal = attenuation_per_m >= 0.0 && attenuation_per_m.is_finite();
+        if legal {
+            Ok(Self { attenuation_per_m, ..self })
+        } else {
+            Err(LampError::Attenuation { per_m: attenuation_per_m })
+        }
+    }
+
+    /// Where it is, world, m.
+    #[must_use]
+    pub fn position_m(&self) -> DVec3 {
+        self.position_m
+    }
+
+    /// How its intensity is spread.
+    #[must_use]
+    pub fn profile(&self) -> &Profile {
+        &self.profile
+    }
+
+    /// Spectral intensity where the profile is 1, W·sr⁻¹·nm⁻¹.
+    #[must_use]
+    pub fn intensity(&self) -> &Spectrum {
+        &self.intensity
+    }
+}
+
+/// A lamp in the render frame.
+#[derive(Clone, Debug)]
+pub(super) struct LampLight {
+    position: Vec3,
+    /// From the render frame to the lamp's.
+    to_lamp: Mat3,
+    /// Mean intensity over the wavelengths of the camera where the profile is 1, W·sr⁻¹·nm⁻¹.
+    mean_intensity: f32,
+    attenuation: f32,
+    lamp: Lamp,
+}
+
+impl LampLight {
+    pub(super) fn new(lamp: Lamp, origin_m: DVec3, (low_nm, high_nm): (f64, f64)) -> Self {
+        Self {
+            position: (lamp.position_m - origin_m).as_vec3(),
+            to_lamp: lamp.axes.transpose().as_mat3(),
+            mean_intensity: lamp.intensity.band_mean(low_nm, high_nm) as f32,
+            attenuation: lamp.attenuation_per_m as f32,
+            lamp,
+        }
+    }
+
+    /// Mean power, W/nm.
+    pub(super) fn mean_power(&self) -> f64 {
+        f64::from(self.mean_intensity) * self.lamp.profile.flux_sr()
+    }
+
+    /// Direction to the lamp, and what a unit of intensity gives a surface that faces it; `None` where there is none.
+    fn reach(&self, from: Vec3) -> Option<(Vec3, f32)> {
+        let way = self.position - from;
+        let distance = way.length();
+        let direction = way / distance;
+        let value = self.lamp.profile.value(self.to_lamp * -direction);
+        let factor = value / (distance * distance) / (1.0 + self.attenuation * distance);
+        (factor > 0.0 && factor.is_finite()).then_some((direction, factor))
+    }
+
+    pub(super) fn sample<const N: usize>(&self, from: Vec3, wavelengths: &Wavelengths<N>) -> Option<LightSample<N>> {
+        let (direction, factor) = self.reach(from)?;
+        let radiance = self.lamp.intensity.sample(wavelengths) * factor;
+        let target = Some(self.position);
+        Some(LightSample { direction, target, radiance, pdf: 1.0, delta: true, surrounds: false })
+    }
+}

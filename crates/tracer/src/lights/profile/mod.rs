@@ -1,0 +1,111 @@
+//! How a lamp's intensity is spread over directions.
+//!
+//! # Contract
+//! A [`Profile`] is a function of the unit direction away from the lamp, in the lamp's own frame (x forward, y left,
+//! z up); what it is measured in is its owner's: a factor, or candela. It is finite and never negative, and knows
+//! - [`Profile::value`]: the function,
+//! - [`Profile::flux_sr`]: its integral over all directions, sr times the unit of the value,
+//! - [`Profile::peak`] and [`Profile::on_axis`]: its greatest value, and that along its [`Profile::axis`],
+//! - its [`Spread`], by which lamps are chosen.
+//!
+//! A profile belongs to directions in space: a mask shapes the light in the whole volume that it crosses.
+
+mod axis;
+mod cone;
+mod quadrature;
+mod slide;
+mod spread;
+mod web;
+
+#[cfg(test)]
+mod tests;
+
+pub use cone::{Cone, ConeError};
+pub use slide::{Slide, SlideError};
+pub use web::{Web, WebAxes, WebError};
+
+pub(in crate::lights) use spread::Spread;
+
+use glam::Vec3;
+
+/// The spread of a lamp's intensity.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Profile {
+    /// 1 in every direction.
+    Isotropic,
+    /// A spot about +x.
+    Cone(Cone),
+    /// A measured grid.
+    Web(Web),
+    /// A picture, projected along +x.
+    Slide(Slide),
+    /// One profile seen through another: their product.
+    Masked(Masked),
+}
+
+/// The product of two profiles. Its `mask` is the one that cuts: the finer or narrower of both.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Masked {
+    lamp: Box<Profile>,
+    mask: Box<Profile>,
+    spread: Spread,
+}
+
+impl Profile {
+    /// `lamp` seen through `mask`.
+    #[must_use]
+    pub fn masked(lamp: Self, mask: Self) -> Self {
+        let spread = Spread::of(&quadrature::product(&mask, |direction| lamp.value(direction)));
+        Self::Masked(Masked { lamp: Box::new(lamp), mask: Box::new(mask), spread })
+    }
+
+    /// The value along the unit `direction` of the lamp's frame, away from the lamp.
+    #[must_use]
+    pub fn value(&self, direction: Vec3) -> f32 {
+        match self {
+            Self::Isotropic => 1.0,
+            Self::Cone(cone) => cone.value(direction),
+            Self::Web(web) => web.value(direction),
+            Self::Slide(slide) => slide.value(direction),
+            Self::Masked(masked) => masked.mask.value(direction) * masked.lamp.value(direction),
+        }
+    }
+
+    /// ∫ value dΩ over all directions.
+    #[must_use]
+    pub fn flux_sr(&self) -> f64 {
+        self.spread().flux_sr
+    }
+
+    /// The greatest value. Of a masked profile that of the directions its mask is given at.
+    #[must_use]
+    pub fn peak(&self) -> f64 {
+        self.spread().peak
+    }
+
+    /// Where the profile aims: straight down for a grid of type C, forward for all others.
+    #[must_use]
+    pub fn axis(&self) -> Vec3 {
+        match self {
+            Self::Web(web) if web.axes() == WebAxes::C => Vec3::NEG_Z,
+            Self::Masked(masked) => masked.lamp.axis(),
+            _ => Vec3::X,
+        }
+    }
+
+    /// The value along [`Profile::axis`].
+    #[must_use]
+    pub fn on_axis(&self) -> f64 {
+        f64::from(self.value(self.axis()))
+    }
+
+    pub(in crate::lights) fn spread(&self) -> &Spread {
+        match self {
+            Self::Isotropic => &Spread::EVERYWHERE,
+            Self::Cone(cone) => cone.spread(),
+            Self::Web(web) => web.spread(),
+            Self::Slide(slide) => slide.spread(),
+            Self::Masked(masked) => &masked.spread,
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! A picture projected into space: a mask as a slide projector holds it before its lamp.
+//!
+//! The picture fills a field of a horizontal and a vertical full angle about +x, its right edge to the right of who looks
+//! along +x, its top row up. A unit direction (x, y, z) with x > 0 meets it at (−y/x / tan(h/2), z/x / tan(v/2)), each in
+//! −1…1; the value is that of the texels, linear between their centres, held from the outermost centres to the edge, and
+//! zero outside. It is a factor on the intensity: a plane across the axis gets cos³ less aside, as behind any small lamp.
+//! Left out: colours, the blur of a real projector.
+
+use core::f64::consts::PI;
+use etendue_core::maths;
+use glam::{DVec3, Vec2, Vec3};
+
+use super::quadrature::{GAUSS, Node};
+use super::spread::Spread;
+
+/// Why a slide is refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum SlideError {
+    /// The texels do not fill the picture.
+    #[error("a mask of {width} × {height} needs as many texels, but {found} were given; check its size")]
+    Size {
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+        /// Texels given.
+        found: usize,
+    },
+    /// A texel is negative or not finite.
+    #[error("texel {texel} of the mask is negative or not a finite number; correct the picture")]
+    Texel {
+        /// The texel, counted by rows from the top.
+        texel: usize,
+    },
+    /// The field is out of range.
+    #[error(
+        "a field of {horizontal_rad} × {vertical_rad} rad was given, but both angles must lie between 0 and π; correct them"
+    )]
+    Field {
+        /// Full horizontal angle, rad.
+        horizontal_rad: f64,
+        /// Full vertical angle, rad.
+        vertical_rad: f64,
+    },
+}
+
+/// A mask over a field. Its `Debug` text leaves out the texels.
+#[derive(Clone, PartialEq)]
+pub struct Slide {
+    width: usize,
+    height: usize,
+    texels: Vec<f32>,
+    /// Tangents of the half angles.
+    half: Vec2,
+    spread: Spread,
+}
+
+impl core::fmt::Debug for Slide {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Slide")
+            .field("size", &(self.width, self.height))
+            .field("half", &self.half)
+            .field("spread", &self.spread)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Slide {
+    /// A picture of factors, rows from the top, over a field of full angles.
+    ///
+    /// # Errors
+    /// Where the texels do not fill the picture, one is negative or not finite, or an angle is not between 0 and π.
+    pub fn new(
+        (width, height): (usize, usize),
+        texels: Vec<f32>,
+        horizontal_rad: f64,
+        vertical_rad: f64,
+    ) -> Result<Self, SlideError> {
+        if texels.is_empty() || texels.len() != width * height {
+            return Err(SlideError::Size { width, height, found: texels.len() });
+        }
+        if let Some(texel) = texels.iter().position(|t| !(t.is_finite() && *t >= 0.0)) {
+            return Err(SlideError::Texel { texel });
+        }
+        if ![horizontal_rad, vertical_rad].iter().all(|a| *a > 1e-6 && *a < PI - 1e-6) {
+            return Err(SlideError::Field { horizontal_rad, vertical_rad });
+        }
+        let half = [horizontal_rad, vertical_rad].map(|a| maths::f64::tan(0.5 * a) as f32);
+        let mut slide = Self { width, height, texels, half: Vec2::from(half), spread: Spread::EVERYWHERE };
+        let peak = slide.texels.iter().copied().fold(0.0, f32::max);
+        slide.spread = Spread { peak: f64::from(peak), ..Spread::of(&slide.nodes()) };
+        Ok(slide)
+    }
+
+    pub(super) fn value(&self, direction: Vec3) -> f32 {
+        if direction.x <= 0.0 {
+            return 0.0;
+        }
+        let place = Vec2::new(-direction.y, direction.z) / (direction.x * self.half);
+        if place.abs().max_element() > 1.0 { 0.0 } else { self.at(place) }
+    }
+
+    /// The value at a place of the picture: to the right and upwards, −1…1.
+    fn at(&self, place: Vec2) -> f32 {
+        let (w, h) = (self.width as f32, self.height as f32);
+        let x = ((0.5 + 0.5 * place.x) * w - 0.5).clamp(0.0, w - 1.0);
+        let y = ((0.5 - 0.5 * place.y) * h - 0.5).clamp(0.0, h - 1.0);
+        let (column, row) = (x as usize, y as usize);
+        let (s, t) = (x - column as f32, y - row as f32);
+        let texel = |i: usize, j: usize| self.texels[j.min(self.height - 1) * self.width + i.min(self.width - 1)];
+        let line = |j: usize| texel(column, j) + s * (texel(column + 1, j) - texel(column, j));
+        line(row) + t * (line(row + 1) - line(row))
+    }
+
+    pub(super) fn spread(&self) -> &Spread {
+        &self.spread
+    }
+
+    /// Four directions in each of equal cells of the field. Cells end where the linear pieces do: at half texels.
+    pub(super) fn nodes(&self) -> Vec<Node> {
+        let (columns, rows) = (cells(self.width), cells(self.height));
+        let size = self.half.as_dvec2() * 2.0 / glam::DVec2::new(columns as f64, rows as f64);
+        let place = |i: usize, s: f64, count: usize| -1.0 + 2.0 * (i as f64 + s) / count as f64;
+        let of_cell = |(i, j): (usize, usize)| {
+            GAUSS.into_iter().flat_map(move |s| GAUSS.map(|t| (place(i, s, columns), place(j, t, rows))))
+        };
+        let node = |(x, y): (f64, f64)| {
+            let long = DVec3::new(1.0, -x * f64::from(self.half.x), y * f64::from(self.half.y));
+            let length = long.length();
+            Node {
+                direction: (long / length).as_vec3(),
+                value: self.at(Vec2::new(x as f32, y as f32)),
+                weight_sr: 0.25 * size.x * size.y / (length * length * length),
+                spacing_rad: (size.x + size.y) as f32,
+            }
+        };
+        (0..columns).flat_map(|i| (0..rows).map(move |j| (i, j))).flat_map(of_cell).map(node).collect()
+    }
+}
+
+/// Cells along a side of `texels`: an even multiple, and 64 at least.
+fn cells(texels: usize) -> usize {
+    2 * texels * (32_usize.div_ceil(texels))
+}

@@ -1,0 +1,66 @@
+//! What the choice of lamps knows of a profile: how much light, and into which cone.
+
+use etendue_core::maths;
+use glam::{DVec3, Vec3};
+
+use super::quadrature::Node;
+
+/// Flux, peak and bounding cone of a profile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::lights) struct Spread {
+    /// ∫ value dΩ.
+    pub(in crate::lights) flux_sr: f64,
+    /// The greatest value.
+    pub(in crate::lights) peak: f64,
+    /// Mean direction of the light, unit.
+    pub(in crate::lights) axis: Vec3,
+    /// Half angle about `axis` that holds nine tenths of the flux, rad.
+    pub(in crate::lights) core_rad: f32,
+    /// Half angle about `axis` beyond which there is no light, rad.
+    pub(in crate::lights) reach_rad: f32,
+}
+
+/// Share of the flux within the core.
+const CORE: f64 = 0.9;
+
+impl Spread {
+    /// That of a profile of value 1 everywhere.
+    pub(super) const EVERYWHERE: Self = Self {
+        flux_sr: 4.0 * core::f64::consts::PI,
+        peak: 1.0,
+        axis: Vec3::X,
+        core_rad: core::f32::consts::PI,
+        reach_rad: core::f32::consts::PI,
+    };
+
+    /// The spread of what `nodes` sum up.
+    pub(super) fn of(nodes: &[Node]) -> Self {
+        let flux_sr: f64 = nodes.iter().map(Node::flux).sum();
+        let peak = nodes.iter().map(|n| f64::from(n.value)).fold(0.0, f64::max);
+        let mean: DVec3 = nodes.iter().map(|n| n.direction.as_dvec3() * n.flux()).sum();
+        // A mean that is short beside its terms is rounding: the light goes everywhere alike.
+        let axis = if mean.length() > 1e-6 * flux_sr { mean.normalize().as_vec3() } else { Vec3::X };
+        let (core_rad, reach_rad) = half_angles(nodes, axis, flux_sr);
+        Self { flux_sr, peak, axis, core_rad, reach_rad }
+    }
+}
+
+/// Core and reach about `axis`, by steps of half a degree; the reach with room for what lies between nodes.
+fn half_angles(nodes: &[Node], axis: Vec3, flux_sr: f64) -> (f32, f32) {
+    const STEPS: usize = 360;
+    let mut shells = [0.0; STEPS];
+    let mut reach = 0.0_f32;
+    for node in nodes.iter().filter(|n| n.value > 0.0) {
+        let angle = maths::f32::acos(axis.dot(node.direction).clamp(-1.0, 1.0));
+        shells[((angle.to_degrees() * 2.0) as usize).min(STEPS - 1)] += node.flux();
+        reach = reach.max(angle + node.spacing_rad);
+    }
+    let mut sum = 0.0;
+    let within = |shell: &f64| {
+        sum += shell;
+        sum >= CORE * flux_sr
+    };
+    let steps = shells.iter().position(within).unwrap_or(STEPS - 1) + 1;
+    let reach = reach.min(core::f32::consts::PI);
+    ((0.5 * steps as f32).to_radians().min(reach), reach)
+}
