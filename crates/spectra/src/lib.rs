@@ -12,6 +12,7 @@ pub mod colour;
 pub mod illuminant;
 pub mod metal;
 pub mod observer;
+pub mod sky;
 mod spectrum;
 mod table;
 pub mod upsample;

@@ -94,11 +94,11 @@ pub(crate) fn points(text: &str) -> Result<Vec<(f64, f64)>, SpectrumError> {
 }
 
 /// A row: its line, counted from 1, and its numbers.
-type Row<const C: usize> = (usize, [f64; C]);
+pub(crate) type Row<const C: usize> = (usize, [f64; C]);
 
 /// The rows of a text of `C` columns: numbers separated by commas. Empty lines and `#` comments are passed over, and a
 /// first line without any number is a header.
-fn rows<const C: usize>(text: &str) -> Result<Vec<Row<C>>, SpectrumError> {
+pub(crate) fn rows<const C: usize>(text: &str) -> Result<Vec<Row<C>>, SpectrumError> {
     let lines = text.trim_start_matches('\u{feff}').lines().enumerate().map(|(i, line)| (i + 1, content(line)));
     let mut lines = lines.filter(|(_, line)| !line.is_empty()).peekable();
     lines.next_if(|(_, line)| is_header(line));
