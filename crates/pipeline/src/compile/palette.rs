@@ -52,16 +52,7 @@ impl PaletteBuilder {
 
     /// The name of a material that has a texture; `None` for one without.
     pub(super) fn textured(&self, id: MaterialId) -> Option<&str> {
-        let material = &self.materials[id.0 as usize];
-        let base = match &material.surface {
-            Surface::Diffuse(base) => Some(base),
-            Surface::Coated(coated) => Some(coated.base()),
-            Surface::Lafortune(model) => Some(model.base()),
-            Surface::BlinnPhong(model) => Some(model.base()),
-            Surface::Conductor(_) | Surface::Absorber | Surface::Mix(_) => None,
-        };
-        let glows = material.emission.as_ref().is_some_and(|e| e.factor.is_some());
-        let textured = glows || matches!(base, Some(Reflectance::Texture(_)));
+        let textured = !self.materials[id.0 as usize].textures().is_empty();
         textured.then(|| self.names[id.0 as usize].as_str())
     }
 

@@ -1,7 +1,7 @@
 //! What a palette's materials must be.
 
 use super::mix;
-use super::{Emission, EnergyGain, Factor, Material, MaterialError, Reflectance, Surface};
+use super::{Emission, EnergyGain, Factor, Leaf, Material, MaterialError, Reflectance, Surface};
 use crate::textures::{ImageTexture, TextureId};
 use etendue_spectra::Spectrum;
 
@@ -12,11 +12,18 @@ const WHITE: f32 = 1.0 + 1e-4;
 pub(super) fn material(materials: &[Material], index: usize, textures: &[ImageTexture]) -> Result<(), MaterialError> {
     let material = &materials[index];
     match &material.surface {
-        Surface::Absorber | Surface::Conductor(_) => {}
+        Surface::Absorber => {}
         Surface::Diffuse(r) => reflectance(index, r, textures)?,
-        Surface::Coated(coated) => reflectance(index, coated.base(), textures)?,
         Surface::Lafortune(model) => base(index, model.base(), textures, |s| model.check_energy(s))?,
         Surface::BlinnPhong(model) => base(index, model.base(), textures, |s| model.check_energy(s))?,
+        Surface::Conductor(conductor) => alpha(index, conductor.alpha(), textures)?,
+        Surface::Coated(coated) => {
+            reflectance(index, coated.base(), textures)?;
+            alpha(index, coated.alpha(), textures)?;
+        }
+        Surface::Dielectric(dielectric) => alpha(index, dielectric.alpha(), textures)?,
+        Surface::ThinSheet(sheet) => reflectance(index, sheet.transmittance(), textures)?,
+        Surface::Leaf(both) => leaf(index, both, textures)?,
         Surface::Mix(parts) => {
             mix::check(materials, index, parts)?;
             factor(index, "a share", parts.weight, textures)?;
@@ -59,6 +66,22 @@ fn base(
     let Reflectance::Texture(id) = r else { return Ok(()) };
     let brightest = f64::from(find(material, *id, textures)?.range().1);
     check_energy(&Spectrum::constant(brightest)).map_err(|gain| MaterialError::Gain { material, gain })
+}
+
+/// Checks that no wavelength sends on more than arrives: node by node for spectra, by its greatest value for a texture.
+fn leaf(material: usize, leaf: &Leaf, textures: &[ImageTexture]) -> Result<(), MaterialError> {
+    let parts = [&leaf.reflectance, &leaf.transmittance];
+    parts.into_iter().try_for_each(|part| reflectance(material, part, textures))?;
+    let [r, t] = parts.map(|part| match part {
+        Reflectance::Spectrum(spectrum) => spectrum.clone(),
+        Reflectance::Texture(id) => Spectrum::constant(f64::from(textures[id.0 as usize].range().1)),
+    });
+    let greatest = r.nodes().iter().zip(t.nodes()).map(|(r, t)| r + t).fold(0.0, f32::max);
+    if greatest > WHITE { Err(MaterialError::LeafSum { material, value: greatest }) } else { Ok(()) }
+}
+
+fn alpha(material: usize, alpha: Factor, textures: &[ImageTexture]) -> Result<(), MaterialError> {
+    factor(material, "a roughness α", alpha, textures)
 }
 
 fn factor(material: usize, quantity: &'static str, f: Factor, textures: &[ImageTexture]) -> Result<(), MaterialError> {

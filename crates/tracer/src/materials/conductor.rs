@@ -1,7 +1,7 @@
 //! Metals: a GGX surface with the exact Fresnel reflectance of a complex index at each wavelength.
 //!
-//! f = F(n, k) · D · G₂ / (4 cos θₒ cos θᵢ); see `microfacet` for the terms. A roughness α below [`MIRROR_ALPHA`] is
-//! an exact mirror: the lobe would be narrower than a hundredth of a degree. Light scattered among facets more than
+//! f = F(n, k) · D · G₂ / (4 cos θₒ cos θᵢ); see `microfacet` for the terms. A roughness α below [`super::MIRROR_ALPHA`] is
+//! an exact mirror. Light scattered among facets more than
 //! once is left out.
 
 use etendue_core::{Spectral, Wavelengths};
@@ -9,16 +9,14 @@ use etendue_spectra::metal::ComplexIndex;
 use glam::{Vec2, Vec3};
 
 use super::microfacet::{Ggx, half_vector, mirrored};
-use super::{BsdfSample, BsdfValue, Event, MaterialError, check_alpha, fresnel};
-
-/// Roughness α below which a surface is an exact mirror.
-pub const MIRROR_ALPHA: f32 = 1e-4;
+use super::{BsdfSample, BsdfValue, Event, Factor, MaterialError, fresnel};
+use crate::textures::{ImageTexture, Lookup};
 
 /// A metal surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conductor {
     index: ComplexIndex,
-    alpha: f32,
+    alpha: Factor,
 }
 
 impl Conductor {
@@ -26,19 +24,30 @@ impl Conductor {
     ///
     /// # Errors
     /// Where the roughness is outside 0–1 or the index is not a substance's (n² + k² must be positive and finite).
-    pub fn new(index: ComplexIndex, alpha: f64) -> Result<Self, MaterialError> {
-        let alpha = check_alpha(alpha)?;
+    pub fn new(index: ComplexIndex, alpha: impl Into<Factor>) -> Result<Self, MaterialError> {
+        let alpha = alpha.into().checked_alpha()?;
         match (300_u16..=1100).find(|nm| !is_a_substance(&index, f32::from(*nm))) {
             Some(nm) => Err(MaterialError::Index { nm }),
             None => Ok(Self { index, alpha }),
         }
     }
 
-    pub(super) fn resolve<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> ConductorBsdf<N> {
+    /// The roughness α.
+    #[must_use]
+    pub fn alpha(&self) -> Factor {
+        self.alpha
+    }
+
+    pub(super) fn resolve<const N: usize>(
+        &self,
+        textures: &[ImageTexture],
+        lookup: &Lookup,
+        wavelengths: &Wavelengths<N>,
+    ) -> ConductorBsdf<N> {
         ConductorBsdf {
             n: self.index.n.sample(wavelengths),
             k: self.index.k.sample(wavelengths),
-            facets: (self.alpha >= MIRROR_ALPHA).then_some(Ggx { alpha: self.alpha }),
+            facets: Ggx::of(self.alpha.at(textures, lookup)),
         }
     }
 }

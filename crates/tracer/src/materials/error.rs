@@ -17,6 +17,30 @@ pub enum MaterialError {
         /// What was given.
         n: f64,
     },
+    /// A transparent substance's refractive index is outside its range.
+    #[error("glass of refractive index {n} was given, but it must lie between 1.1 and 4; correct it")]
+    GlassIndex {
+        /// What was given.
+        n: f64,
+    },
+    /// An absorption coefficient is negative.
+    #[error("an absorption of {value} 1/m was given, but it must be 0 or more everywhere; correct it")]
+    Absorption {
+        /// What was found.
+        value: f32,
+    },
+    /// An internal transmittance leaves 0–1.
+    #[error("an internal transmittance of {value} was given, but it must lie between 0 and 1; scale it")]
+    Transmittance {
+        /// What was found.
+        value: f32,
+    },
+    /// A thickness is no length.
+    #[error("a transmittance was given for a thickness of {thickness_m} m, but that must be above 0; correct it")]
+    Thickness {
+        /// What was given, m.
+        thickness_m: f64,
+    },
     /// A metal's index is not a substance's.
     #[error("the complex index at {nm} nm is not a substance's: n and k must be 0 or more, not both 0, and finite")]
     Index {
@@ -35,6 +59,16 @@ pub enum MaterialError {
         /// The material's place.
         material: usize,
         /// The value found.
+        value: f32,
+    },
+    /// A leaf sends on more than arrives.
+    #[error(
+        "material {material} reflects and transmits {value} of what arrives, but both must sum to at most 1; scale them"
+    )]
+    LeafSum {
+        /// The material's place.
+        material: usize,
+        /// The greatest sum found.
         value: f32,
     },
     /// A roughness, opacity or share leaves the range 0–1.
@@ -115,13 +149,21 @@ impl MaterialError {
             Self::Reflectance { material, .. }
             | Self::Gain { material, .. }
             | Self::Factor { material, .. }
+            | Self::LeafSum { material, .. }
             | Self::Radiance { material, .. }
             | Self::UnknownTexture { material, .. }
             | Self::UnknownMaterial { material, .. }
             | Self::Circle { material }
             | Self::Part { material, .. }
             | Self::MixNormal { material } => Some(*material),
-            Self::Roughness { .. } | Self::CoatIndex { .. } | Self::Index { .. } | Self::NormalStrength { .. } => None,
+            Self::Roughness { .. }
+            | Self::CoatIndex { .. }
+            | Self::GlassIndex { .. }
+            | Self::Absorption { .. }
+            | Self::Transmittance { .. }
+            | Self::Thickness { .. }
+            | Self::Index { .. }
+            | Self::NormalStrength { .. } => None,
         }
     }
 }

@@ -1,5 +1,6 @@
 //! A number over a surface: one for all of it, or a channel of a texture.
 
+use super::MaterialError;
 use crate::textures::{Channel, ImageTexture, Lookup, TextureId};
 
 /// A number, dimensionless: a roughness, an opacity, the share of a mix.
@@ -11,7 +12,23 @@ pub enum Factor {
     Texture(TextureId, Channel),
 }
 
+impl From<f64> for Factor {
+    fn from(value: f64) -> Self {
+        Self::Number(value as f32)
+    }
+}
+
 impl Factor {
+    /// The factor as a roughness α: a number must lie in 0 to 1. Textures are looked at when the palette has them.
+    pub(super) fn checked_alpha(self) -> Result<Self, MaterialError> {
+        match self {
+            Self::Number(alpha) if !(0.0..=1.0).contains(&alpha) => {
+                Err(MaterialError::Roughness { alpha: f64::from(alpha) })
+            }
+            _ => Ok(self),
+        }
+    }
+
     pub(super) fn at(&self, textures: &[ImageTexture], lookup: &Lookup) -> f32 {
         match self {
             Self::Number(value) => *value,

@@ -1,17 +1,31 @@
 //! Reflectance of smooth interfaces for unpolarised light.
 //!
 //! Exact Fresnel equations (Born & Wolf, *Principles of Optics*, ch. 1.5 and 14.2), light arriving from air or vacuum
-//! (index 1). `cos_i` is the cosine of the angle of incidence, in [0, 1]. Polarisation is left out: the mean of both
+//! (index 1) but where stated. `cos_i` is the cosine of the angle of incidence, in [0, 1]. Polarisation is left out: the mean of both
 //! planes is taken at every interface.
 
 /// Reflectance of a dielectric of index `n` > 1 seen from outside.
 #[must_use]
 pub fn dielectric(cos_i: f32, n: f32) -> f32 {
+    let [s, p] = planes(cos_i, n);
+    0.5 * (s + p)
+}
+
+/// The same for light polarised perpendicular to the plane of incidence, and in it.
+#[must_use]
+pub fn planes(cos_i: f32, n: f32) -> [f32; 2] {
     let c = cos_i.clamp(0.0, 1.0);
     let n_cos_t = (n * n - (1.0 - c * c)).sqrt();
     let s = (c - n_cos_t) / (c + n_cos_t);
     let p = (n * n * c - n_cos_t) / (n * n * c + n_cos_t);
-    0.5 * (s * s + p * p)
+    [s * s, p * p]
+}
+
+/// Reflectance of an interface into a medium of `eta` times the index of the one light comes from; 1 beyond the critical
+/// angle.
+#[must_use]
+pub fn interface(cos_i: f32, eta: f32) -> f32 {
+    if eta * eta <= 1.0 - cos_i * cos_i { 1.0 } else { dielectric(cos_i, eta) }
 }
 
 /// Reflectance of a conductor of complex index n + i·k (n² + k² > 0) seen from outside.
@@ -64,6 +78,18 @@ mod tests {
         let c = 1.0 / (1.0 + n * n).sqrt();
         let expected = 0.5 * ((n * n - 1.0) / (n * n + 1.0)) * ((n * n - 1.0) / (n * n + 1.0));
         assert!((dielectric(c, n) - expected).abs() < 1e-6);
+    }
+
+    #[test]
+    fn an_interface_reflects_alike_from_both_sides() {
+        for i in 10..=100 {
+            let outside = i as f32 / 100.0;
+            let inside = (1.0 - (1.0 - outside * outside) / (1.5 * 1.5)).sqrt();
+            let (there, back) = (interface(outside, 1.5), interface(inside, 1.0 / 1.5));
+            // The cosine inside is rounded by 6e-8: 1e-6 of the one outside at 0.1, where the slope is 5.
+            assert!((there - back).abs() < 1e-5, "{outside}: {there} {back}");
+        }
+        assert_eq!((interface(0.74, 1.0 / 1.5), interface(0.0, 1.5)), (1.0, 1.0), "critical cosine 0.7454");
     }
 
     #[test]

@@ -11,6 +11,9 @@ use core::f32::consts::{PI, TAU};
 use etendue_core::maths::f32::sin_cos;
 use glam::{Vec2, Vec3};
 
+/// Roughness α below which a surface is an exact mirror: the lobe would be narrower than a hundredth of a degree.
+pub const MIRROR_ALPHA: f32 = 1e-4;
+
 /// A GGX distribution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Ggx {
@@ -18,6 +21,11 @@ pub(super) struct Ggx {
 }
 
 impl Ggx {
+    /// The facets of a surface of roughness `alpha` (0 to 1); `None` where it is smooth.
+    pub(super) fn of(alpha: f32) -> Option<Self> {
+        (alpha >= MIRROR_ALPHA).then_some(Self { alpha })
+    }
+
     /// Density of facet normals by solid angle, over the projected area; 1/sr.
     fn density(self, m: Vec3) -> f32 {
         let a2 = self.alpha * self.alpha;
@@ -45,6 +53,16 @@ impl Ggx {
     pub(super) fn weight(self, wo: Vec3, wi: Vec3) -> f32 {
         let so = self.slant(wo);
         wi.z * (wo.z + so) / (wi.z * so + wo.z * self.slant(wi))
+    }
+
+    /// Density by solid angle of the facet normals that `wo` sees, 1/sr: D · G₁ · (wo·m) / cos θₒ.
+    pub(super) fn visible_pdf(self, wo: Vec3, m: Vec3) -> f32 {
+        2.0 * wo.dot(m) * self.density(m) / (wo.z + self.slant(wo))
+    }
+
+    /// G₁: the share of facets facing `w` that it reaches, on whichever side of the surface.
+    pub(super) fn shadowing(self, w: Vec3) -> f32 {
+        2.0 * w.z.abs() / (w.z.abs() + self.slant(w))
     }
 
     /// A facet normal drawn from those that `wo` sees.

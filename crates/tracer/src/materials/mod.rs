@@ -21,6 +21,7 @@ mod blinn_phong;
 mod check;
 mod coated;
 mod conductor;
+mod dielectric;
 mod diffuse;
 mod emission;
 mod energy;
@@ -28,6 +29,7 @@ mod error;
 mod factor;
 pub mod fresnel;
 mod lafortune;
+mod leaf;
 mod lottery;
 mod microfacet;
 mod mix;
@@ -37,22 +39,27 @@ mod reflectance;
 mod shading;
 #[cfg(test)]
 mod tests;
+mod thin_sheet;
 mod traits;
 
 pub use blinn_phong::{BlinnPhong, BlinnPhongBsdf, BlinnPhongError, blinn_phong_normalisation};
 pub use coated::{COAT_INDICES, Coated, CoatedBsdf};
-pub use conductor::{Conductor, ConductorBsdf, MIRROR_ALPHA};
+pub use conductor::{Conductor, ConductorBsdf};
+pub use dielectric::{DIELECTRIC_INDICES, Dielectric, DielectricBsdf, absorption_of};
 pub use diffuse::DiffuseBsdf;
 pub use emission::{Emission, Glow};
 pub use energy::EnergyGain;
 pub use error::MaterialError;
 pub use factor::Factor;
 pub use lafortune::{Lafortune, LafortuneBsdf, LafortuneError, Lobe, MAX_LOBES};
+pub use leaf::{Leaf, LeafBsdf};
+pub use microfacet::MIRROR_ALPHA;
 pub use mix::Mix;
 pub use normal_map::{Green, NormalMap};
 pub use palette::Palette;
 pub use reflectance::Reflectance;
 pub use shading::ShadingFrame;
+pub use thin_sheet::{ThinSheet, ThinSheetBsdf};
 
 use etendue_core::Spectral;
 use glam::{Vec2, Vec3};
@@ -93,6 +100,12 @@ pub enum Surface {
     Lafortune(Box<Lafortune>),
     /// A matt base with a glossy lobe about the half vector.
     BlinnPhong(Box<BlinnPhong>),
+    /// The outside of a transparent solid.
+    Dielectric(Box<Dielectric>),
+    /// A thin pane.
+    ThinSheet(Box<ThinSheet>),
+    /// A thin sheet that scatters to both sides.
+    Leaf(Box<Leaf>),
     /// Two materials side by side.
     Mix(Mix),
 }
@@ -112,6 +125,12 @@ pub enum Bsdf<'a, const N: usize> {
     Lafortune(LafortuneBsdf<'a, N>),
     /// A lobe about the half vector.
     BlinnPhong(BlinnPhongBsdf<'a, N>),
+    /// An interface.
+    Dielectric(DielectricBsdf),
+    /// A pane.
+    ThinSheet(ThinSheetBsdf<N>),
+    /// A sheet that scatters to both sides.
+    Leaf(LeafBsdf<N>),
 }
 
 /// What a bsdf says of a pair of directions.
@@ -162,15 +181,23 @@ impl<const N: usize> Bsdf<'_, N> {
     /// Whether light goes on in exact directions only, so that asking for a light drawn elsewhere is in vain.
     #[must_use]
     pub fn is_mirror(&self) -> bool {
-        matches!(self, Self::Conductor(conductor) if conductor.is_mirror())
+        match self {
+            Self::Conductor(conductor) => conductor.is_mirror(),
+            Self::Dielectric(dielectric) => dielectric.is_smooth(),
+            Self::ThinSheet(_) => true,
+            Self::Absorber | Self::Diffuse(_) | Self::Coated(_) | Self::Leaf(_) => false,
+            Self::Lafortune(_) | Self::BlinnPhong(_) => false,
+        }
     }
 
     /// Whether light may come from behind (wi.z < 0) by a finite density.
     #[must_use]
     pub fn transmits(&self) -> bool {
         match self {
-            Self::Absorber | Self::Diffuse(_) | Self::Conductor(_) | Self::Coated(_) => false,
+            Self::Absorber | Self::Diffuse(_) | Self::Conductor(_) | Self::Coated(_) | Self::ThinSheet(_) => false,
             Self::Lafortune(_) | Self::BlinnPhong(_) => false,
+            Self::Dielectric(dielectric) => !dielectric.is_smooth(),
+            Self::Leaf(_) => true,
         }
     }
 
@@ -188,6 +215,9 @@ impl<const N: usize> Bsdf<'_, N> {
             Self::Coated(coated) => coated.evaluate(wo, wi),
             Self::Lafortune(lafortune) => lafortune.evaluate(wo, wi),
             Self::BlinnPhong(blinn_phong) => blinn_phong.evaluate(wo, wi),
+            Self::Dielectric(dielectric) => dielectric.evaluate(wo, wi),
+            Self::ThinSheet(_) => BsdfValue::ZERO,
+            Self::Leaf(leaf) => leaf.evaluate(wi),
         }
     }
 
@@ -204,10 +234,9 @@ impl<const N: usize> Bsdf<'_, N> {
             Self::Coated(coated) => coated.sample(wo, choice, u),
             Self::Lafortune(lafortune) => lafortune.sample(wo, choice, u),
             Self::BlinnPhong(blinn_phong) => blinn_phong.sample(wo, choice, u),
+            Self::Dielectric(dielectric) => dielectric.sample(wo, choice, u),
+            Self::ThinSheet(sheet) => sheet.sample(wo, choice),
+            Self::Leaf(leaf) => leaf.sample(choice, u),
         }
     }
-}
-
-fn check_alpha(alpha: f64) -> Result<f32, MaterialError> {
-    if (0.0..=1.0).contains(&alpha) { Ok(alpha as f32) } else { Err(MaterialError::Roughness { alpha }) }
 }

@@ -1,10 +1,11 @@
 //! The materials and textures of a world, checked once.
 
 use etendue_core::{Spectral, Wavelengths};
+use etendue_spectra::Spectrum;
 use glam::Vec3;
 
 use super::traits::{Traits, traits};
-use super::{Bsdf, DiffuseBsdf, Emission, Material, MaterialError, Surface, check, mix};
+use super::{Bsdf, DiffuseBsdf, Emission, LeafBsdf, Material, MaterialError, Surface, check, mix};
 use crate::MaterialId;
 use crate::geometry::SurfacePoint;
 use crate::textures::{ImageTexture, Lookup};
@@ -102,10 +103,42 @@ impl Palette {
         &self,
         id: MaterialId,
         lookup: &Lookup,
-        _cos: f32,
-        _wavelengths: &Wavelengths<N>,
+        cos: f32,
+        wavelengths: &Wavelengths<N>,
     ) -> Option<Spectral<N>> {
-        self.lets_pass(id).then(|| Spectral::splat(1.0 - self.opacity(id, lookup)))
+        self.lets_pass(id).then(|| {
+            let opacity = self.opacity(id, lookup);
+            Spectral::splat(1.0 - opacity) + self.through(id, lookup, cos, wavelengths) * opacity
+        })
+    }
+
+    /// What the surface itself lets pass straight; of a mix the mean of its parts.
+    fn through<const N: usize>(
+        &self,
+        id: MaterialId,
+        lookup: &Lookup,
+        cos: f32,
+        wavelengths: &Wavelengths<N>,
+    ) -> Spectral<N> {
+        match &self.materials[id.0 as usize].surface {
+            Surface::ThinSheet(sheet) => sheet.resolve(&self.textures, lookup, wavelengths).shares(cos).1,
+            Surface::Mix(parts) if self.lets_pass(parts.a) || self.lets_pass(parts.b) => {
+                let weight = parts.weight.at(&self.textures, lookup);
+                let [a, b] = [parts.a, parts.b].map(|part| self.through(part, lookup, cos, wavelengths));
+                a * (1.0 - weight) + b * weight
+            }
+            _ => Spectral::ZERO,
+        }
+    }
+
+    /// Absorption coefficient inside a solid that this material bounds, 1/m; `None` where nothing is absorbed, or the
+    /// material is no solid's. The id is a resolved one.
+    #[must_use]
+    pub fn absorption(&self, id: MaterialId) -> Option<&Spectrum> {
+        match &self.materials[id.0 as usize].surface {
+            Surface::Dielectric(dielectric) => dielectric.absorption(),
+            _ => None,
+        }
     }
 
     /// The material that a path meets at a point: of a mix the part that `u`, uniform in [0, 1), falls on, and so on
@@ -141,24 +174,27 @@ impl Palette {
         &self,
         id: MaterialId,
         lookup: &Lookup,
-        _front: bool,
+        front: bool,
         wavelengths: &Wavelengths<N>,
     ) -> Bsdf<'_, N> {
+        let textures = &self.textures;
         match &self.materials[id.0 as usize].surface {
             Surface::Absorber => Bsdf::Absorber,
-            Surface::Diffuse(r) => {
-                Bsdf::Diffuse(DiffuseBsdf { reflectance: r.at(&self.textures, lookup, wavelengths) })
-            }
-            Surface::Conductor(conductor) => Bsdf::Conductor(conductor.resolve(wavelengths)),
-            Surface::Coated(coated) => {
-                Bsdf::Coated(coated.resolve(coated.base.at(&self.textures, lookup, wavelengths)))
-            }
+            Surface::Diffuse(r) => Bsdf::Diffuse(DiffuseBsdf { reflectance: r.at(textures, lookup, wavelengths) }),
+            Surface::Conductor(conductor) => Bsdf::Conductor(conductor.resolve(textures, lookup, wavelengths)),
+            Surface::Coated(coated) => Bsdf::Coated(coated.resolve(textures, lookup, wavelengths)),
             Surface::Lafortune(model) => {
-                Bsdf::Lafortune(model.resolve(model.base().at(&self.textures, lookup, wavelengths), wavelengths))
+                Bsdf::Lafortune(model.resolve(model.base().at(textures, lookup, wavelengths), wavelengths))
             }
             Surface::BlinnPhong(model) => {
-                Bsdf::BlinnPhong(model.resolve(model.base().at(&self.textures, lookup, wavelengths), wavelengths))
+                Bsdf::BlinnPhong(model.resolve(model.base().at(textures, lookup, wavelengths), wavelengths))
             }
+            Surface::Dielectric(dielectric) => Bsdf::Dielectric(dielectric.resolve(textures, lookup, front)),
+            Surface::ThinSheet(sheet) => Bsdf::ThinSheet(sheet.resolve(textures, lookup, wavelengths)),
+            Surface::Leaf(leaf) => Bsdf::Leaf(LeafBsdf::new(
+                leaf.reflectance.at(textures, lookup, wavelengths),
+                leaf.transmittance.at(textures, lookup, wavelengths),
+            )),
             Surface::Mix(_) => panic!("material {} is a mix: resolve it first", id.0),
         }
     }

@@ -16,6 +16,15 @@ pub enum Reflectance {
 }
 
 impl Reflectance {
+    /// The texture that it reads, if any.
+    #[must_use]
+    pub fn texture(&self) -> Option<TextureId> {
+        match self {
+            Self::Spectrum(_) => None,
+            Self::Texture(id) => Some(*id),
+        }
+    }
+
     pub(super) fn at<const N: usize>(
         &self,
         textures: &[ImageTexture],

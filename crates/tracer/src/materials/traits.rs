@@ -1,6 +1,7 @@
 //! What a material asks of its callers, known once for all points.
 
-use super::{Material, Reflectance, Surface};
+use super::{Material, Surface};
+use crate::textures::TextureId;
 
 /// What holds for a material or any of its parts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -44,17 +45,34 @@ fn of_parts(material: &Material, known: &[Traits]) -> Traits {
 }
 
 fn own(material: &Material) -> Traits {
-    let is_textured = |r: &Reflectance| matches!(r, Reflectance::Texture(_));
-    let surface = match &material.surface {
-        Surface::Absorber | Surface::Conductor(_) => false,
-        Surface::Diffuse(r) => is_textured(r),
-        Surface::Coated(coated) => is_textured(coated.base()),
-        Surface::Lafortune(model) => is_textured(model.base()),
-        Surface::BlinnPhong(model) => is_textured(model.base()),
-        Surface::Mix(mix) => mix.weight.texture().is_some(),
-    };
-    let glows = material.emission.as_ref().is_some_and(|e| e.factor.is_some());
-    let cut = material.opacity.is_some_and(|o| o.texture().is_some());
-    let tangents = material.normal_map.is_some();
-    Traits { passage: material.opacity.is_some(), tangents, footprint: surface || glows || cut || tangents }
+    let passage = material.opacity.is_some() || matches!(material.surface, Surface::ThinSheet(_));
+    Traits { passage, tangents: material.normal_map.is_some(), footprint: !material.textures().is_empty() }
+}
+
+impl Material {
+    /// The textures that it reads; those of a mix's parts are not among them.
+    #[must_use]
+    pub fn textures(&self) -> Vec<TextureId> {
+        let glow = self.emission.as_ref().and_then(|e| e.factor);
+        let opacity = self.opacity.and_then(|o| o.texture());
+        let normals = self.normal_map.map(|map| map.texture());
+        self.surface.textures().into_iter().chain([glow, opacity, normals]).flatten().collect()
+    }
+}
+
+impl Surface {
+    fn textures(&self) -> [Option<TextureId>; 2] {
+        match self {
+            Self::Absorber => [None; 2],
+            Self::Diffuse(r) => [r.texture(), None],
+            Self::Conductor(conductor) => [None, conductor.alpha().texture()],
+            Self::Coated(coated) => [coated.base().texture(), coated.alpha().texture()],
+            Self::Lafortune(model) => [model.base().texture(), None],
+            Self::BlinnPhong(model) => [model.base().texture(), None],
+            Self::Dielectric(dielectric) => [None, dielectric.alpha().texture()],
+            Self::ThinSheet(sheet) => [sheet.transmittance().texture(), None],
+            Self::Leaf(leaf) => [leaf.reflectance.texture(), leaf.transmittance.texture()],
+            Self::Mix(mix) => [mix.weight.texture(), None],
+        }
+    }
 }

@@ -1,0 +1,160 @@
+//! A thin pane: window glass, a windscreen, film, as one surface without thickness of its own.
+//!
+//! Two smooth, parallel interfaces of index n with an absorbing sheet between. Light that enters is refracted, crosses
+//! the sheet, is reflected to and fro, and leaves on either side; the shares of all orders sum to geometric series. With
+//! ρ an interface's reflectance in one plane of polarisation and a = τ^(1/cos θₜ) the transmittance of one crossing (τ:
+//! internal transmittance along the normal, θₜ the angle inside, sin θₜ = sin θ/n),
+//!
+//! R = ρ + ρ (1 − ρ)² a² / (1 − ρ² a²),  T = (1 − ρ)² a / (1 − ρ² a²),
+//!
+//! each the mean of both planes, which is exact for unpolarised light (Stokes 1862; Born & Wolf, ch. 7.6, without
+//! interference). R + T = 1 where nothing is absorbed. What passes goes on straight ([`Event::Pass`]); its shift aside,
+//! by up to the pane's thickness, is left out, as are interference, dispersion and dirt. Both sides are alike.
+
+use etendue_core::{Spectral, Wavelengths, maths};
+use glam::Vec3;
+
+use super::dielectric::DIELECTRIC_INDICES;
+use super::{BsdfSample, Event, MaterialError, Reflectance, fresnel};
+use crate::textures::{ImageTexture, Lookup};
+
+/// A thin pane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ThinSheet {
+    n: f32,
+    transmittance: Reflectance,
+}
+
+impl ThinSheet {
+    /// A pane of index `n` with the internal transmittance `transmittance` (0 to 1, along the normal, reflections taken
+    /// out) of its whole thickness.
+    ///
+    /// # Errors
+    /// Where the index is out of range.
+    pub fn new(n: f64, transmittance: Reflectance) -> Result<Self, MaterialError> {
+        if !DIELECTRIC_INDICES.contains(&n) {
+            return Err(MaterialError::GlassIndex { n });
+        }
+        Ok(Self { n: n as f32, transmittance })
+    }
+
+    /// Internal transmittance along the normal.
+    #[must_use]
+    pub fn transmittance(&self) -> &Reflectance {
+        &self.transmittance
+    }
+
+    pub(super) fn resolve<const N: usize>(
+        &self,
+        textures: &[ImageTexture],
+        lookup: &Lookup,
+        wavelengths: &Wavelengths<N>,
+    ) -> ThinSheetBsdf<N> {
+        ThinSheetBsdf { n: self.n, inner: self.transmittance.at(textures, lookup, wavelengths) }
+    }
+}
+
+/// A pane at a path's wavelengths.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThinSheetBsdf<const N: usize> {
+    n: f32,
+    /// Internal transmittance along the normal.
+    inner: Spectral<N>,
+}
+
+impl<const N: usize> ThinSheetBsdf<N> {
+    /// What the pane reflects and what it lets pass at a cosine of incidence.
+    pub(super) fn shares(&self, cos: f32) -> (Spectral<N>, Spectral<N>) {
+        let cos = cos.clamp(0.0, 1.0);
+        let planes = fresnel::planes(cos, self.n);
+        let cos_inside = (1.0 - (1.0 - cos * cos) / (self.n * self.n)).sqrt();
+        let (mut reflected, mut passed) = (Spectral::ZERO, Spectral::ZERO);
+        for i in 0..N {
+            let a = crossing(self.inner[i], cos_inside);
+            for rho in planes {
+                let orders = (1.0 - rho) * (1.0 - rho) / (1.0 - rho * rho * a * a).max(f32::MIN_POSITIVE);
+                reflected[i] += 0.5 * (rho + rho * orders * a * a).min(1.0);
+                passed[i] += 0.5 * orders * a;
+            }
+        }
+        (reflected, passed)
+    }
+
+    pub(super) fn sample(&self, wo: Vec3, choice: f32) -> Option<BsdfSample<N>> {
+        let (reflected, passed) = self.shares(wo.z);
+        let (r, t) = (reflected.mean(), passed.mean());
+        let share = r / (r + t);
+        if choice < share {
+            return Some(BsdfSample::mirror(wo, reflected / share));
+        }
+        // Where nothing passes, the share is 1; NaN where nothing at all goes on.
+        (share < 1.0).then(|| BsdfSample { wi: -wo, weight: passed / (1.0 - share), pdf: 0.0, event: Event::Pass })
+    }
+}
+
+/// Transmittance of one crossing at the cosine inside.
+fn crossing(inner: f32, cos_inside: f32) -> f32 {
+    if inner > 0.0 { maths::f32::exp(maths::f32::ln(inner.min(1.0)) / cos_inside) } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pane(n: f32, inner: f32) -> ThinSheetBsdf<1> {
+        ThinSheetBsdf { n, inner: Spectral::splat(inner) }
+    }
+
+    /// Rays followed order by order in f64, for one plane of polarisation.
+    fn followed(rho: f64, a: f64) -> (f64, f64) {
+        let (mut reflected, mut passed, mut inside) = (rho, 0.0, 1.0 - rho);
+        for order in 0..200 {
+            inside *= a;
+            *(if order % 2 == 0 { &mut passed } else { &mut reflected }) += inside * (1.0 - rho);
+            inside *= rho;
+        }
+        (reflected, passed)
+    }
+
+    #[test]
+    fn the_series_is_that_of_rays_followed_one_by_one() {
+        for cos in [1.0, 0.7, 0.3, 0.05] {
+            for inner in [1.0_f32, 0.6, 0.01] {
+                let inside = (1.0 - (1.0 - cos * cos) / (1.52_f32 * 1.52)).sqrt();
+                let a = maths::f64::exp(maths::f64::ln(f64::from(inner)) / f64::from(inside));
+                let by_plane = fresnel::planes(cos, 1.52).map(|rho| followed(f64::from(rho), a));
+                let (r, t) = (by_plane[0].0 + by_plane[1].0, by_plane[0].1 + by_plane[1].1);
+                let (reflected, passed) = pane(1.52, inner).shares(cos);
+                // Roundings of f32; at grazing incidence 1 − ρ² keeps fewer digits.
+                assert!((f64::from(reflected[0]) - r / 2.0).abs() < 2e-6, "{cos} {inner}");
+                assert!((f64::from(passed[0]) - t / 2.0).abs() < 2e-6, "{cos} {inner}");
+            }
+        }
+    }
+
+    #[test]
+    fn clear_glass_has_the_textbook_shares() {
+        // ρ = ((n − 1)/(n + 1))² = 0.04: R = 2ρ/(1 + ρ) = 0.0769, T = (1 − ρ)/(1 + ρ) = 0.9231 along the normal.
+        let (reflected, passed) = pane(1.5, 1.0).shares(1.0);
+        assert!((reflected[0] - 0.08 / 1.04).abs() < 1e-6 && (passed[0] - 0.96 / 1.04).abs() < 1e-6);
+        for i in 0..=1000 {
+            let (reflected, passed) = pane(1.5, 1.0).shares(i as f32 / 1000.0);
+            assert!((reflected[0] + passed[0] - 1.0).abs() < 1e-6, "{i}");
+        }
+    }
+
+    #[test]
+    fn no_input_is_no_number() {
+        for cos in [0.0, 1e-20, 1e-4, 1.0] {
+            for inner in [0.0, 1e-38, 1.0, 1.000_1] {
+                let (reflected, passed) = pane(1.1, inner).shares(cos);
+                assert!((0.0..=1.0).contains(&reflected[0]) && (0.0..=1.0).contains(&passed[0]), "{cos} {inner}");
+                for choice in [0.0, 0.5, 0.999_999_94] {
+                    let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
+                    let sample = pane(1.1, inner).sample(wo, choice);
+                    assert!(sample.is_none_or(|s| s.weight.is_finite()), "{cos} {inner} {sample:?}");
+                }
+            }
+        }
+    }
+}
