@@ -185,3 +185,83 @@ fn bernstein(x: f64) -> [f64; 6] {
     let (x4, y4) = (x2 * x2, y2 * y2);
     [y4 * y, 5.0 * y4 * x, 10.0 * y2 * y * x2, 10.0 * y2 * x2 * x, 5.0 * y * x4, x4 * x]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn model(turbidity: f64, albedo: f64, elevation_deg: f64) -> SkyModel {
+        SkyModel::new(turbidity, albedo, elevation_deg.to_radians()).expect("in range")
+    }
+
+    #[test]
+    fn control_points_are_the_tables_own() {
+        // At the horizon the curve is its first control point, in the zenith its last.
+        for (elevation, point) in [(0.0, 0), (90.0, 5)] {
+            let sky = model(4.0, 1.0, elevation);
+            for (b, band) in sky.bands().iter().enumerate() {
+                for k in 0..9 {
+                    assert!((band.shape[k] - SHAPES[((10 + 3) * 6 + point) * 9 + k][b]).abs() < 1e-12);
+                }
+                assert!((band.scale() - MEANS[(10 + 3) * 6 + point][b]).abs() < 1e-15);
+            }
+        }
+        assert!((bernstein(0.3).iter().sum::<f64>() - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn radiance_is_the_product_of_its_parts_and_never_negative() {
+        for (turbidity, elevation) in [(1.0, 0.0), (3.0, 0.0), (7.5, 2.0), (10.0, 40.0), (2.0, 90.0)] {
+            let sky = model(turbidity, 0.1, elevation);
+            for step in 0..=200 {
+                let (zenith, sun) = (f64::from(step) / 200.0, f64::from(step % 41) / 20.0 - 1.0);
+                for (band, got) in sky.bands().iter().zip(sky.band_radiances(zenith, sun)) {
+                    let parts = band.scale() * band.gradient(zenith) * (band.glow(sun) + band.rise(zenith));
+                    assert!(got == parts.max(0.0) && got.is_finite());
+                }
+            }
+            assert_eq!(sky.band_radiances(-0.1, 0.3), [0.0; BANDS], "no sky below the horizon");
+        }
+    }
+
+    /// Rings of equal projected solid angle: against a plain sum over zenith angle and azimuth, five times as fine.
+    #[test]
+    fn irradiance_is_an_integral() {
+        let sky = model(3.0, 0.3, 25.0);
+        let sun = maths::f64::sin_cos(sky.glow_elevation_rad());
+        let (mut sum, rings, sectors) = (0.0, 400, 300);
+        for ring in 0..rings {
+            let (sin, cos) = maths::f64::sin_cos(FRAC_PI_2 * (f64::from(ring) + 0.5) / f64::from(rings));
+            for sector in 0..sectors {
+                let azimuth = PI * (f64::from(sector) + 0.5) / f64::from(sectors);
+                sum += sin * cos * sky.bands()[6].radiance(cos, cos_between(cos, sun, azimuth));
+            }
+        }
+        let fine = 2.0 * PI * FRAC_PI_2 * sum / f64::from(rings * sectors);
+        let got = f64::from(sky.horizontal_irradiance().at(560.0));
+        // The glow of some degrees about the Sun is the finest thing in the sky; a cell is 2° to 4°.
+        assert!((got / fine - 1.0).abs() < 2e-3, "{got} against {fine}");
+    }
+
+    #[test]
+    fn a_clear_sky_is_as_bright_as_measured() {
+        // A clear day's diffuse light at a Sun of 60° is 10 to 20 klx (Kittler & Darula 2012); haze and ground add to it.
+        let lux =
+            [(2.0, 0.0), (2.0, 0.2), (4.0, 0.2), (6.0, 0.2)].map(|(t, a)| model(t, a, 60.0).horizontal_illuminance());
+        assert!((10e3..20e3).contains(&lux[1]), "{lux:?}");
+        assert!(lux.windows(2).all(|w| w[1] > w[0]), "{lux:?}");
+    }
+
+    #[test]
+    fn brightness_goes_on_below_the_horizon() {
+        let lux = |elevation| model(3.0, 0.2, elevation).horizontal_illuminance();
+        // A Sun of 1e-6° more or less: the cube root of 1e-6/90 is 0.002, of which the curve takes some times as much.
+        assert!((lux(-1e-6) / lux(1e-6) - 1.0).abs() < 0.02, "{} and {}", lux(-1e-6), lux(1e-6));
+        assert!((lux(-1e-6) / lux(0.0) - 1.0).abs() < 1e-6);
+        for elevation in [-6.0, -9.0, -15.0, -18.0, -50.0, -90.0] {
+            assert!((lux(elevation) / twilight::illuminance(elevation) - 1.0).abs() < 1e-6, "{elevation}°");
+        }
+        assert!((0..40).map(|i| lux(-0.5 * f64::from(i))).is_sorted_by(|a, b| b <= a), "it grows dark");
+        assert_eq!(model(3.0, 0.2, -4.0).glow_elevation_rad(), 0.0);
+    }
+}

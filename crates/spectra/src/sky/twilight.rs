@@ -41,3 +41,27 @@ pub(super) fn factor(horizon_lx: f64, elevation_deg: f64) -> f64 {
     let ratio = maths::f64::pow(horizon_lx / illuminance(0.0), kept);
     illuminance(elevation_deg) * ratio / horizon_lx
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn published_figures() {
+        // Urban & Seidelmann's table of the Sun: 759, 3.4, 8.3e-3 and 6.5e-4 lx; their fits are good to 0.03 in the logarithm.
+        for (degrees, lux) in [(0.0, 759.0), (-6.0, 3.4), (-12.0, 8.3e-3), (-18.0, 6.5e-4)] {
+            let off = maths::f64::log10(illuminance(degrees) / lux);
+            assert!(off.abs() < 0.03, "{degrees}°: {}", illuminance(degrees));
+        }
+        assert_eq!(illuminance(-60.0), illuminance(-18.0));
+    }
+
+    #[test]
+    fn fits_meet() {
+        for degrees in [-5.0, -12.0, -18.0] {
+            // Their authors' error, 0.03 in the logarithm.
+            let step = maths::f64::log10(illuminance(degrees - 1e-9) / illuminance(degrees + 1e-9));
+            assert!(step.abs() < 0.03, "{degrees}°: {step}");
+        }
+    }
+}
