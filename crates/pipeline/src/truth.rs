@@ -1,10 +1,14 @@
-//! Ground truth: what each pixel's principal ray meets. Point-sampled, never filtered.
+//! Ground truth: what each pixel's principal ray meets. Point-sampled, never filtered: a surface that is cut out by its
+//! opacity is there where at least half of it is.
 
 use crate::plan::{CameraPlan, Plan};
 use etendue_core::quantity::{Identity, Length, Quantity, Vector};
 use etendue_core::{Plane, PupilRay};
 use etendue_optics::lens::TruthRay;
 use etendue_tracer::accel::Simd;
+use etendue_tracer::geometry::SurfacePoint;
+use etendue_tracer::materials::Palette;
+use etendue_tracer::textures::Lookup;
 use etendue_tracer::view::{Truth, View};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -58,7 +62,7 @@ pub fn ground_truth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> GroundTruth
     let view = plan.world.view_with(camera.pose.position_m, simd);
     let looks: Vec<Look> = (0..width * height)
         .into_par_iter()
-        .map(|i| look(&view, camera, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
+        .map(|i| look(&view, &plan.palette, camera, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
         .collect();
     GroundTruth {
         depth: plane(&looks, width, height, |l| l.seen.length(|depth, _| depth)),
@@ -72,19 +76,30 @@ pub fn ground_truth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> GroundTruth
     }
 }
 
-fn look(view: &View<'_>, camera: &CameraPlan, raster_px: DVec2) -> Look {
+fn look(view: &View<'_>, palette: &Palette, camera: &CameraPlan, raster_px: DVec2) -> Look {
     match camera.body.lens.truth_ray(camera.body.raster.sensor_mm(raster_px)) {
         None => Look { ray: 0, seen: Seen::Nothing },
-        Some(TruthRay { ray, off_centre }) => Look { ray: 1 + u32::from(off_centre), seen: seen(view, camera, &ray) },
+        Some(TruthRay { ray, off_centre }) => {
+            Look { ray: 1 + u32::from(off_centre), seen: seen(view, palette, camera, &ray) }
+        }
     }
 }
 
-fn seen(view: &View<'_>, camera: &CameraPlan, ray: &PupilRay) -> Seen {
+fn seen(view: &View<'_>, palette: &Palette, camera: &CameraPlan, ray: &PupilRay) -> Seen {
     let direction = camera.pose.direction_to_world(ray.direction);
-    match view.truth(camera.pose.point_to_render(ray.origin_m), direction, |_| true) {
+    match view.truth(camera.pose.point_to_render(ray.origin_m), direction, |point| is_there(palette, point)) {
         None => Seen::Sky,
         Some(truth) => Seen::Surface { depth_m: truth.distance_m * ray.direction.z + ray.origin_m.z, truth },
     }
+}
+
+/// Whether a pixel sees a surface that may be cut out: where at least half of it is there. Panes of glass are seen.
+fn is_there(palette: &Palette, point: &SurfacePoint) -> bool {
+    if !palette.lets_pass(point.material) {
+        return true;
+    }
+    let at = Lookup { local: point.local, local_normal: point.local_normal, ..Lookup::point(point.uv) };
+    palette.opacity(point.material, &at) >= 0.5
 }
 
 fn plane<Q: Quantity>(looks: &[Look], width: usize, height: usize, of: impl Fn(&Look) -> Q::Sample) -> Plane<Q> {

@@ -63,6 +63,8 @@ pub enum Draw {
     Roulette = 8,
     /// Whether a partly transparent surface lets a ray pass.
     Opacity = 9,
+    /// Which part of a mix of materials a path meets at a vertex.
+    Mix = 10,
 }
 
 /// A bijection of 64-bit words that scatters its bits (the finaliser of splitmix64, Steele et al. 2014).

@@ -13,12 +13,15 @@
 
 mod caustic;
 mod cone;
+mod level;
 mod mis;
 mod path;
+mod shadow;
 
 #[cfg(test)]
 mod tests;
 
+pub use level::Level;
 pub use mis::Strategies;
 
 use etendue_core::random::PathStream;
@@ -32,7 +35,9 @@ use path::Path;
 /// How paths are followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSettings {
-    /// Greatest number of scattering events.
+    /// How much of light transport is followed.
+    pub level: Level,
+    /// Greatest number of scattering events; of the level [`Level::Path`] alone.
     pub max_bounces: u32,
     /// Scattering events after which paths may end at random.
     pub roulette_start: u32,
@@ -47,7 +52,14 @@ pub struct PathSettings {
 
 impl Default for PathSettings {
     fn default() -> Self {
-        Self { max_bounces: 16, roulette_start: 4, cone_spread_rad: 0.0, strategies: Strategies::Both, caustics: true }
+        Self {
+            level: Level::Path,
+            max_bounces: 16,
+            roulette_start: 4,
+            cone_spread_rad: 0.0,
+            strategies: Strategies::Both,
+            caustics: true,
+        }
     }
 }
 
@@ -72,6 +84,14 @@ impl<'a> PathTracer<'a> {
     #[must_use]
     pub fn settings(&self) -> &PathSettings {
         &self.settings
+    }
+
+    /// Scattering events that a path may have.
+    fn max_bounces(&self) -> u32 {
+        match self.settings.level {
+            Level::Flat | Level::Direct => 1,
+            Level::Path => self.settings.max_bounces,
+        }
     }
 
     /// The lights.

@@ -1,29 +1,40 @@
 //! One path, vertex by vertex.
+//!
+//! Where a surface is not there (opacity), or light goes straight through it (a thin pane), the path goes on as if it had
+//! met nothing: no scattering event, and light that it then meets is weighed as seen from where it was last scattered.
 
 use etendue_core::random::{Draw, PathStream};
 use etendue_core::{Ray, Spectral, Wavelengths};
 use glam::Vec3;
 
-use super::PathTracer;
 use super::caustic::History;
 use super::cone::Cone;
+use super::{Level, PathTracer};
 use crate::geometry::SurfacePoint;
-use crate::lights::{Met, Receiver};
-use crate::materials::{Bsdf, Event, ShadingFrame};
+use crate::lights::{LightSample, Met, Receiver};
+use crate::materials::{Bsdf, BsdfSample, Event, ShadingFrame};
 use crate::textures::Lookup;
+
+/// Surfaces that a path meets at most, with those that it passes. No scene needs as many; among surfaces closer together
+/// than the step from one to the next a path might turn in circles.
+pub(super) const MOST_MET: u32 = 8192;
 
 /// A path on its way.
 pub(super) struct Path<'a, const N: usize> {
-    tracer: &'a PathTracer<'a>,
-    wavelengths: &'a Wavelengths<N>,
+    pub(super) tracer: &'a PathTracer<'a>,
+    pub(super) wavelengths: &'a Wavelengths<N>,
     stream: &'a PathStream,
     ray: Ray,
-    cone: Cone,
+    pub(super) cone: Cone,
     /// Scattering events so far.
     bounces: u32,
+    /// Surfaces met so far, with those that were passed: the vertex's number for random draws.
+    met: u32,
+    /// Way since the last scattering, m: longer than the ray's where it has passed surfaces.
+    travelled_m: f32,
     /// Density of the ray's direction, 1/sr; `None` where it came from the camera or a mirror.
     scattered: Option<f32>,
-    /// Where `scattered` is told: the point that the ray came from.
+    /// Where the ray was last scattered; `None` where it came from the camera or a mirror.
     receiver: Option<Receiver>,
     history: History,
     /// What radiance along the ray counts at the camera.
@@ -32,11 +43,18 @@ pub(super) struct Path<'a, const N: usize> {
 }
 
 /// A surface that the path has met.
-struct Vertex<'a, const N: usize> {
-    point: SurfacePoint,
-    frame: ShadingFrame,
+pub(super) struct Vertex<'a, const N: usize> {
+    pub(super) point: SurfacePoint,
+    pub(super) frame: ShadingFrame,
     bsdf: Bsdf<'a, N>,
-    receiver: Receiver,
+}
+
+/// How a path goes on.
+enum Onward {
+    /// To another surface.
+    Goes,
+    /// Not at all.
+    Ends,
 }
 
 impl<'a, const N: usize> Path<'a, N> {
@@ -53,6 +71,8 @@ impl<'a, const N: usize> Path<'a, N> {
             ray: *ray,
             cone: Cone::new(tracer.settings.cone_spread_rad),
             bounces: 0,
+            met: 0,
+            travelled_m: 0.0,
             scattered: None,
             receiver: None,
             history: History::default(),
@@ -63,29 +83,42 @@ impl<'a, const N: usize> Path<'a, N> {
 
     /// Radiance at the camera.
     pub(super) fn follow(mut self) -> Spectral<N> {
-        loop {
-            let Some(hit) = self.tracer.view.closest(&self.ray) else {
-                self.gather_distant();
-                return self.radiance;
-            };
-            let point = self.tracer.view.surface(&self.ray, &hit);
-            self.cone.travel(hit.t);
-            let lookup = self.lookup(&point);
-            self.gather_glow(&point, &lookup, hit.t);
-            if self.bounces == self.tracer.settings.max_bounces || !self.scatter(point, &lookup) {
-                return self.radiance;
-            }
+        while self.met < MOST_MET && matches!(self.step(), Onward::Goes) {
+            self.met += 1;
+        }
+        self.radiance
+    }
+
+    /// To the next surface, or to infinity.
+    fn step(&mut self) -> Onward {
+        let Some(hit) = self.tracer.view.closest(&self.ray) else {
+            self.gather_distant();
+            return Onward::Ends;
+        };
+        let point = self.tracer.view.surface(&self.ray, &hit);
+        self.cone.travel(hit.t);
+        self.travelled_m += hit.t;
+        let lookup = self.lookup(&point, self.cone);
+        self.gather_glow(&point, &lookup);
+        if self.is_passed(&point, &lookup) {
+            self.pass(&point);
+            return Onward::Goes;
+        }
+        if self.bounces == self.tracer.max_bounces() {
+            self.only_pass(point, &lookup)
+        } else {
+            self.scatter(point, &lookup)
         }
     }
 
-    /// Where textures are read at a point that the path has met.
-    fn lookup(&self, point: &SurfacePoint) -> Lookup {
+    /// Where textures are read at a point that a ray has met whose cone is `cone` there.
+    pub(super) fn lookup(&self, point: &SurfacePoint, cone: Cone) -> Lookup {
         let at = Lookup { local: point.local, local_normal: point.local_normal, ..Lookup::point(point.uv) };
         if !self.tracer.palette.needs_footprint(point.material) {
             return at;
         }
         let footprint = self.tracer.view.footprint(point);
-        let width_m = self.cone.width_m;
+        let width_m = cone.width_m;
         Lookup { width: width_m * footprint.uv_per_m, width_local: width_m * footprint.local_per_m, ..at }
     }
 
@@ -100,46 +133,87 @@ impl<'a, const N: usize> Path<'a, N> {
     }
 
     /// Light that the surface met emits against the ray.
-    fn gather_glow(&mut self, point: &SurfacePoint, lookup: &Lookup, distance_m: f32) {
+    fn gather_glow(&mut self, point: &SurfacePoint, lookup: &Lookup) {
         let palette = self.tracer.palette;
         let Some(emission) = palette.emission(point.material) else { return };
         if !emission.leaves(point.geometric_normal, -self.ray.direction) || !self.follows(self.history.is_caustic()) {
             return;
         }
-        let met = |receiver| Met { receiver, point, direction: self.ray.direction, distance_m };
+        let (direction, distance_m) = (self.ray.direction, self.travelled_m);
+        let met = |receiver| Met { receiver, point, direction, distance_m };
         let drawn = self.receiver.as_ref().map_or(0.0, |receiver| self.tracer.lights.met_pdf(&met(receiver)));
         let weight = self.tracer.settings.strategies.met(self.scattered, drawn);
         self.radiance +=
             self.throughput * palette.radiance(point.material, emission, lookup, self.wavelengths) * weight;
     }
 
-    /// Gathers drawn light at a surface and goes on from it; false where the path ends.
-    fn scatter(&mut self, point: SurfacePoint, lookup: &Lookup) -> bool {
-        let to_viewer = -self.ray.direction;
-        let frame = ShadingFrame::new(&point, point.shading_normal, to_viewer);
-        let bsdf = self.tracer.palette.bsdf(point.material, lookup, frame.front, self.wavelengths);
-        if matches!(bsdf, Bsdf::Absorber) {
-            return false;
-        }
-        // Light from behind counts where the surface lets it through.
-        let normal = if bsdf.transmits() { Vec3::ZERO } else { frame.normal() };
-        let receiver = Receiver { position: point.position, normal };
-        let vertex = Vertex { frame, point, bsdf, receiver };
-        self.gather_drawn(&vertex);
-        self.go_on(&vertex) && self.survives()
+    /// Whether the surface is not there for this path.
+    fn is_passed(&self, point: &SurfacePoint, lookup: &Lookup) -> bool {
+        let palette = self.tracer.palette;
+        palette.lets_pass(point.material)
+            && self.stream.one(Draw::Opacity, self.met) >= palette.opacity(point.material, lookup)
     }
 
-    /// Next-event estimation: light of one drawn light, if nothing stands between.
-    fn gather_drawn(&mut self, vertex: &Vertex<'_, N>) {
+    /// Straight on from a surface.
+    fn pass(&mut self, point: &SurfacePoint) {
+        self.ray.origin = point.spawn(self.ray.direction);
+    }
+
+    /// Beyond the last scattering event light may still come straight through.
+    fn only_pass(&mut self, point: SurfacePoint, lookup: &Lookup) -> Onward {
+        if !self.tracer.palette.lets_pass(point.material) {
+            return Onward::Ends;
+        }
+        let vertex = self.vertex(point, lookup);
+        match self.sample(&vertex) {
+            Some(sample) if sample.event == Event::Pass => self.go_through(&vertex, &sample),
+            _ => Onward::Ends,
+        }
+    }
+
+    /// Gathers drawn light at a surface and goes on from it.
+    fn scatter(&mut self, point: SurfacePoint, lookup: &Lookup) -> Onward {
+        let vertex = self.vertex(point, lookup);
+        if matches!(vertex.bsdf, Bsdf::Absorber) {
+            return Onward::Ends;
+        }
+        // Light from behind counts where the surface lets it through.
+        let normal = if vertex.bsdf.transmits() { Vec3::ZERO } else { vertex.frame.normal() };
+        let receiver = Receiver { position: vertex.point.position, normal };
+        self.gather_drawn(&vertex, &receiver);
+        match self.sample(&vertex) {
+            None => Onward::Ends,
+            Some(sample) if sample.event == Event::Pass => self.go_through(&vertex, &sample),
+            Some(sample) => self.go_on(&vertex, &sample, receiver),
+        }
+    }
+
+    fn vertex(&self, point: SurfacePoint, lookup: &Lookup) -> Vertex<'a, N> {
+        let palette = self.tracer.palette;
+        let material = if palette.is_mix(point.material) {
+            palette.resolve(point.material, lookup, self.stream.one(Draw::Mix, self.met))
+        } else {
+            point.material
+        };
+        let normal = if palette.needs_tangents(material) {
+            palette.shading_normal(material, lookup, &point, self.tracer.view.tangents(&point))
+        } else {
+            point.shading_normal
+        };
+        let frame = ShadingFrame::new(&point, normal, -self.ray.direction);
+        Vertex { bsdf: palette.bsdf(material, lookup, frame.front, self.wavelengths), point, frame }
+    }
+
+    /// Next-event estimation: light of one drawn light, as far as it comes through.
+    fn gather_drawn(&mut self, vertex: &Vertex<'_, N>, receiver: &Receiver) {
         let lights = self.tracer.lights;
         if !lights.can_be_drawn() || vertex.bsdf.is_mirror() {
             return;
         }
-        let choice = self.stream.one(Draw::LightChoice, self.bounces);
-        let u = self.stream.two(Draw::LightPoint, self.bounces);
+        let choice = self.stream.one(Draw::LightChoice, self.met);
+        let u = self.stream.two(Draw::LightPoint, self.met);
         let spread = self.cone.spread_rad;
-        let Some(light) = lights.sample(&vertex.receiver, (choice, u), spread, self.tracer.palette, self.wavelengths)
-        else {
+        let Some(light) = lights.sample(receiver, (choice, u), spread, self.tracer.palette, self.wavelengths) else {
             return;
         };
         let Some(wi) = vertex.frame.inward(light.direction) else { return };
@@ -147,12 +221,20 @@ impl<'a, const N: usize> Path<'a, N> {
         if !(light.surrounds || self.follows(self.history.would_be_caustic(value.pdf))) {
             return;
         }
-        let weight =
-            if light.delta { 1.0 } else { self.tracer.settings.strategies.drawn(light.pdf, value.pdf) } / light.pdf;
-        let arriving = self.throughput * value.value_cos * light.radiance * weight;
-        if !arriving.is_zero() && self.is_free(&vertex.point, light.direction, light.target) {
-            self.radiance += arriving;
+        let arriving = self.throughput * value.value_cos * light.radiance * self.drawn_weight(&light, value.pdf);
+        if !arriving.is_zero()
+            && let Some(share) = self.share(vertex, &light)
+        {
+            self.radiance += arriving * share;
         }
+    }
+
+    /// What drawn light counts beside the other way of finding it, over its density. A lamp without extent is found in no
+    /// other way, and nor are surfaces where no ray is sent out to meet them.
+    fn drawn_weight(&self, light: &LightSample<N>, scattered: f32) -> f32 {
+        let settings = &self.tracer.settings;
+        let only = light.delta || (settings.level == Level::Flat && light.target.is_some());
+        if only { 1.0 / light.pdf } else { settings.strategies.drawn(light.pdf, scattered) / light.pdf }
     }
 
     /// Whether light of a lamp counts, given whether it is part of a caustic.
@@ -160,33 +242,50 @@ impl<'a, const N: usize> Path<'a, N> {
         self.tracer.settings.caustics || !is_caustic
     }
 
-    /// Whether light comes through from `target`, or from infinity.
-    fn is_free(&self, point: &SurfacePoint, direction: Vec3, target: Option<Vec3>) -> bool {
-        let origin = point.spawn(direction);
-        let mut ray = Ray::new(origin, direction, self.ray.time_s);
-        if let Some(target) = target {
-            ray.direction = target - origin;
-            ray.t_max = 1.0;
-        }
-        !self.tracer.view.occluded(&ray)
+    /// The time at which the path looks at the scene.
+    pub(super) fn time_s(&self) -> f32 {
+        self.ray.time_s
     }
 
-    /// Draws where the path goes; false where the light would be absorbed.
-    fn go_on(&mut self, vertex: &Vertex<'_, N>) -> bool {
-        let choice = self.stream.one(Draw::BsdfChoice, self.bounces);
-        let u = self.stream.two(Draw::BsdfDirection, self.bounces);
-        let Some(sample) = vertex.bsdf.sample(vertex.frame.wo, choice, u) else { return false };
-        let Some(direction) = vertex.frame.outward(sample.wi) else { return false };
+    /// Draws where the path goes; `None` where the light would be absorbed.
+    fn sample(&self, vertex: &Vertex<'_, N>) -> Option<BsdfSample<N>> {
+        let choice = self.stream.one(Draw::BsdfChoice, self.met);
+        let u = self.stream.two(Draw::BsdfDirection, self.met);
+        vertex.bsdf.sample(vertex.frame.wo, choice, u)
+    }
+
+    /// Straight through a surface that takes its share.
+    fn go_through(&mut self, vertex: &Vertex<'_, N>, sample: &BsdfSample<N>) -> Onward {
+        self.throughput *= sample.weight;
+        self.pass(&vertex.point);
+        self.unless_dark()
+    }
+
+    /// On in a new direction.
+    fn go_on(&mut self, vertex: &Vertex<'a, N>, sample: &BsdfSample<N>, receiver: Receiver) -> Onward {
+        let Some(direction) = vertex.frame.outward(sample.wi) else { return Onward::Ends };
         self.throughput *= sample.weight;
         self.scattered = (sample.event == Event::Scatter).then_some(sample.pdf);
-        self.receiver = self.scattered.map(|_| vertex.receiver);
+        self.receiver = self.scattered.map(|_| receiver);
         self.history.scatter(self.scattered);
         if let Some(pdf) = self.scattered {
             self.cone.scatter(pdf);
         }
         self.ray = Ray::new(vertex.point.spawn(direction), direction, self.ray.time_s);
+        self.travelled_m = 0.0;
         self.bounces += 1;
-        !self.throughput.is_zero()
+        if self.tracer.settings.level == Level::Flat {
+            self.gather_distant();
+            return Onward::Ends;
+        }
+        match self.unless_dark() {
+            Onward::Goes if self.survives() => Onward::Goes,
+            _ => Onward::Ends,
+        }
+    }
+
+    fn unless_dark(&self) -> Onward {
+        if self.throughput.is_zero() { Onward::Ends } else { Onward::Goes }
     }
 
     /// Russian roulette: the path goes on with the probability of its greatest throughput, and then counts for those

@@ -141,6 +141,12 @@ impl Palette {
         }
     }
 
+    /// Whether a material is a mix, so that [`Palette::resolve`] needs a number.
+    #[must_use]
+    pub fn is_mix(&self, id: MaterialId) -> bool {
+        matches!(self.materials[id.0 as usize].surface, Surface::Mix(_))
+    }
+
     /// The material that a path meets at a point: of a mix the part that `u`, uniform in [0, 1), falls on, and so on
     /// down; others are themselves.
     #[must_use]

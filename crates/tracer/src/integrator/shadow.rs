@@ -1,0 +1,61 @@
+//! What comes through between a surface and a light.
+
+use etendue_core::{Ray, Spectral};
+use glam::Vec3;
+
+use super::Level;
+use super::path::{MOST_MET, Path, Vertex};
+use crate::geometry::SurfacePoint;
+use crate::lights::LightSample;
+
+impl<const N: usize> Path<'_, N> {
+    /// The share of a drawn light that reaches the vertex; `None` where something opaque stands between.
+    pub(super) fn share(&self, vertex: &Vertex<'_, N>, light: &LightSample<N>) -> Option<Spectral<N>> {
+        if self.tracer.settings.level == Level::Flat {
+            return Some(Spectral::ONE);
+        }
+        let ray = self.towards(&vertex.point, light.direction, light.target);
+        if self.tracer.palette.has_passages() {
+            self.share_through(ray, light)
+        } else {
+            (!self.tracer.view.occluded(&ray)).then_some(Spectral::ONE)
+        }
+    }
+
+    /// The ray from a point to `target`, or to infinity.
+    fn towards(&self, point: &SurfacePoint, direction: Vec3, target: Option<Vec3>) -> Ray {
+        let origin = point.spawn(direction);
+        let mut ray = Ray::new(origin, direction, self.time_s());
+        if let Some(target) = target {
+            ray.direction = target - origin;
+            ray.t_max = 1.0;
+        }
+        ray
+    }
+
+    /// As [`Path::share`], surface by surface: cut-outs and thin panes let light pass straight.
+    fn share_through(&self, mut ray: Ray, light: &LightSample<N>) -> Option<Spectral<N>> {
+        let palette = self.tracer.palette;
+        let mut share = Spectral::ONE;
+        let mut cone = self.cone;
+        for _ in 0..MOST_MET {
+            let Some(hit) = self.tracer.view.closest(&ray) else { return Some(share) };
+            let point = self.tracer.view.surface(&ray, &hit);
+            if !palette.lets_pass(point.material) {
+                return None;
+            }
+            cone.travel(hit.t * ray.direction.length());
+            let cos = point.shading_normal.dot(light.direction).abs();
+            let lookup = self.lookup(&point, cone);
+            share *= palette.passage(point.material, &lookup, cos, self.wavelengths)?;
+            if share.is_zero() {
+                return None;
+            }
+            ray = self.towards(&point, light.direction, light.target);
+            if ray.direction.dot(light.direction) <= 0.0 {
+                return Some(share);
+            }
+        }
+        None
+    }
+}
