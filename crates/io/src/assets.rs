@@ -4,8 +4,10 @@ use etendue_scene::asset::{AssetKind, AssetRequest, Assets};
 
 use crate::Error;
 use crate::mesh::read_mesh;
+use crate::photometry::read_photometry;
 use crate::picture::read_picture;
 use crate::spectrum::read_spectrum_of;
+use crate::table::{read_complex_index, read_retro_table};
 
 /// Reads every file of `named` (as a description names them), and those that its meshes name in turn.
 ///
@@ -37,9 +39,9 @@ fn load(assets: &mut Assets, request: &AssetRequest) -> Result<(), Error> {
         AssetKind::Mesh => drop(assets.meshes.insert(key, read_mesh(path)?)),
         AssetKind::Image => drop(assets.images.insert(key, read_picture(path)?)),
         AssetKind::Spectrum(values) => drop(assets.spectra.insert(key, read_spectrum_of(path, values)?)),
-        AssetKind::Photometry | AssetKind::ComplexIndex | AssetKind::RetroTable => {
-            return Err(Error::new(path, "files of this kind cannot be read yet"));
-        }
+        AssetKind::Photometry => drop(assets.photometry.insert(key, read_photometry(path)?)),
+        AssetKind::ComplexIndex => drop(assets.indices.insert(key, read_complex_index(path)?)),
+        AssetKind::RetroTable => drop(assets.retro_tables.insert(key, read_retro_table(path)?)),
     }
     Ok(())
 }

@@ -4,6 +4,8 @@
 //! | --- | --- | --- |
 //! | in | Wavefront OBJ with its MTL | [`mesh`] |
 //! | in | PNG, JPEG, Radiance HDR, OpenEXR pictures | [`picture`] |
+//! | in | measured lamps: IES LM-63, EULUMDAT | [`photometry`] |
+//! | in | spectra, refractive indices, coefficients of retro-reflection | [`spectrum`], [`mod@table`] |
 //! | in | everything a description names, with all errors at once | [`assets`] |
 //! | out and in | spectral EXR (layout of Fichet, Pacanowski and Wilkie 2021) | [`exr`] |
 //! | out | ground-truth EXR, planes as EXR, raw, depth and display PNG, side-car JSON | [`exr`], [`png`], [`sidecar`] |
@@ -24,12 +26,14 @@ pub mod hash;
 pub mod inspect;
 pub mod mesh;
 pub mod output;
+pub mod photometry;
 pub mod picture;
 pub mod png;
 pub mod provenance;
 pub mod sidecar;
 mod source;
 pub mod spectrum;
+pub mod table;
 
 pub use assets::load_assets;
 pub use error::Error;

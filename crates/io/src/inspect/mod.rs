@@ -1,9 +1,10 @@
 //! What is in a file, with units, and a picture of it.
 //!
-//! Any EXR, PNG, JPEG, HDR, OBJ, side-car JSON and spectrum CSV. Statistics leave out values that are not finite and
+//! Any EXR, PNG, JPEG, HDR, OBJ, side-car JSON, spectrum CSV and measured lamp (IES, EULUMDAT). Statistics leave out values that are not finite and
 //! count them.
 
 mod exr;
+mod lamp;
 mod picture;
 mod preview;
 mod statistics;
@@ -58,6 +59,7 @@ pub fn inspect(file: &Path) -> Result<FileReport, Error> {
         _ if bytes.starts_with(&EXR_MAGIC) => exr::report(file, &bytes),
         Some("obj") => text::mesh(file),
         Some("json") => text::sidecar(file, &bytes),
+        Some("ies" | "ldt") => lamp::report(file),
         Some("csv") => text::spectrum(file),
         Some("toml") => {
             Err(Error::new(file, "a description, neither result nor asset; `etendue plan` says what a job describes"))

@@ -12,6 +12,8 @@
 
 mod flux;
 
+use etendue_core::maths::f64::{atan2, sin_cos};
+
 /// The systems of angles in which lamps are measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PhotometryAxes {
@@ -125,6 +127,23 @@ impl PhotometryAsset {
         blend(along(h), along((h + 1).min(self.horizontal_deg.len() - 1)), s)
     }
 
+    /// The intensity (cd) towards the right and up as UN regulations for head lamps count (a latitude and a longitude
+    /// about a vertical axis, degrees); `None` for type C, which has no direction ahead.
+    #[must_use]
+    pub fn candela_ahead(&self, right_deg: f64, up_deg: f64) -> Option<f64> {
+        match self.axes {
+            PhotometryAxes::A => Some(self.candela_at(right_deg, up_deg)),
+            PhotometryAxes::B => {
+                let ((sin_right, cos_right), (sin_up, cos_up)) =
+                    (sin_cos(right_deg.to_radians()), sin_cos(up_deg.to_radians()));
+                let [ahead, right, up] = [cos_up * cos_right, cos_up * sin_right, sin_up];
+                let across = atan2(right, (ahead * ahead + up * up).sqrt()).to_degrees();
+                Some(self.candela_at(across, atan2(up, ahead).to_degrees()))
+            }
+            PhotometryAxes::C => None,
+        }
+    }
+
     /// The greatest intensity (cd) with its horizontal and vertical angle (degrees): the first of equals.
     #[must_use]
     pub fn peak(&self) -> (f64, f64, f64) {
@@ -202,6 +221,18 @@ mod tests {
             assert_eq!(lamp.candela_at(h, v), 0.0, "({h}, {v})");
         }
         assert_eq!(lamp.peak(), (160.0, 20.0, 5.0));
+    }
+
+    #[test]
+    fn the_directions_of_regulations_are_type_a_and_turned_for_type_b() {
+        let (across, up) = ([-30.0, 0.0, 30.0], [-20.0, 0.0, 20.0]);
+        let a = grid(PhotometryAxes::A, &across, &up, |h, v| 100.0 + h + 2.0 * v);
+        assert_eq!(a.candela_ahead(10.0, -5.0), Some(a.candela_at(10.0, -5.0)));
+        let b = grid(PhotometryAxes::B, &across, &up, |h, v| 100.0 + h + 2.0 * v);
+        // cos 10° cos 20°, cos 10° sin 20°, sin 10° are ahead, right and up: asin 0.336824 and atan(0.173648 / 0.925417).
+        let found = b.candela_ahead(20.0, 10.0).expect("ahead");
+        assert!((found - (100.0 + 19.683_498 + 2.0 * 10.627_584)).abs() < 1e-5, "{found}: angles to six decimals");
+        assert_eq!(grid(PhotometryAxes::C, &across, &up, |_, _| 1.0).candela_ahead(0.0, 0.0), None);
     }
 
     #[test]

@@ -1,0 +1,73 @@
+//! Test points of a passing beam: class B head lamps for right-hand traffic, UN Regulation No. 112 (01 series), whose
+//! requirements UN Regulation No. 149 took over; left-hand traffic is the mirror image. Intensities in cd of the lamp as
+//! measured. Zones, the cut-off's sharpness and the aim are not checked: this is no approval.
+
+use etendue_scene::asset::PhotometryAsset;
+
+use super::FileReport;
+
+/// What is required at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Limit {
+    AtLeast(f64),
+    AtMost(f64),
+}
+
+/// Name, degrees to the right, degrees up, requirement (cd).
+const POINTS: [(&str, f64, f64, Limit); 9] = [
+    ("B50L", -3.43, 0.57, Limit::AtMost(350.0)),
+    ("BR", 2.5, 1.0, Limit::AtMost(1750.0)),
+    ("75R", 1.15, -0.57, Limit::AtLeast(10_100.0)),
+    ("75L", -3.43, -0.57, Limit::AtMost(10_600.0)),
+    ("50L", -3.43, -0.86, Limit::AtMost(13_200.0)),
+    ("50R", 1.72, -0.86, Limit::AtLeast(10_100.0)),
+    ("50V", 0.0, -0.86, Limit::AtLeast(5_100.0)),
+    ("25L", -9.0, -1.72, Limit::AtLeast(1_700.0)),
+    ("25R", 9.0, -1.72, Limit::AtLeast(1_700.0)),
+];
+
+/// The points of right-hand traffic: to the right and up, degrees.
+pub(super) fn places() -> impl Iterator<Item = (f64, f64)> {
+    POINTS.iter().map(|(_, right, up, _)| (*right, *up))
+}
+
+impl Limit {
+    fn is_met(self, candela: f64) -> bool {
+        match self {
+            Self::AtLeast(limit) => candela >= limit,
+            Self::AtMost(limit) => candela <= limit,
+        }
+    }
+
+    fn words(self) -> String {
+        match self {
+            Self::AtLeast(limit) => format!("at least {limit} cd"),
+            Self::AtMost(limit) => format!("at most {limit} cd"),
+        }
+    }
+}
+
+/// Adds the table to the report of a lamp that has a direction ahead.
+pub(super) fn state(lamp: &PhotometryAsset, report: &mut FileReport) {
+    let mut met = [0, 0];
+    for (name, right, up, limit) in POINTS {
+        let (Some(here), Some(mirrored)) = (lamp.candela_ahead(right, up), lamp.candela_ahead(-right, up)) else {
+            return;
+        };
+        let verdict = if limit.is_met(here) { "pass" } else { "FAIL" };
+        let place = format!("passing beam {name}, {} {}", side(right, "R", "L"), side(up, "U", "D"));
+        report.state(&place, format!("{here:.0} cd, {}: {verdict}", limit.words()));
+        met[0] += usize::from(limit.is_met(here));
+        met[1] += usize::from(limit.is_met(mirrored));
+    }
+    let count = POINTS.len();
+    let told = format!("{} of {count} points met for right-hand, {} of {count} for left-hand traffic", met[0], met[1]);
+    report.state("passing beam, UN R112/R149 class B", told);
+}
+
+fn side(angle_deg: f64, positive: &str, negative: &str) -> String {
+    match angle_deg {
+        0.0 => "0°".to_owned(),
+        _ => format!("{}° {}", angle_deg.abs(), if angle_deg > 0.0 { positive } else { negative }),
+    }
+}

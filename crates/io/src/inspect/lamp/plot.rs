@@ -1,0 +1,102 @@
+//! A lamp as a picture.
+//!
+//! Type C: a polar diagram, straight down at the bottom; C0 is right and C180 left (red), C90 right and C270 left
+//! (blue); rings at quarters of the greatest intensity, spokes every 30°. Types A and B: the view ahead as in H-V
+//! diagrams, right is right, up is up; brightness by the logarithm over three decades, lines at 1, ½, ⅕ and 1/10 of each
+//! decade of the peak; cross hairs at H = 0, V = 0 and dots at the test points of a passing beam.
+
+use etendue_core::maths::f64::{atan2, log10};
+use etendue_scene::asset::{PhotometryAsset, PhotometryAxes};
+
+use super::super::Preview;
+use super::{passing_beam, width};
+
+const PIXELS: usize = 512;
+const WHITE: [u8; 3] = [255; 3];
+const RED: [u8; 3] = [200, 30, 30];
+const BLUE: [u8; 3] = [30, 60, 200];
+const PALE: [u8; 3] = [215; 3];
+
+/// The picture of a lamp.
+pub(super) fn of(lamp: &PhotometryAsset) -> Preview {
+    match lamp.axes {
+        PhotometryAxes::C => polar(lamp),
+        PhotometryAxes::A | PhotometryAxes::B => ahead(lamp),
+    }
+}
+
+fn polar(lamp: &PhotometryAsset) -> Preview {
+    let planes = [(width::plane(lamp, 90.0), BLUE), (width::plane(lamp, 0.0), RED)];
+    let (peak, _, _) = lamp.peak();
+    let half = PIXELS as f64 / 2.0;
+    let at = |x: f64, y: f64| ((x * x + y * y).sqrt() / (0.95 * half), atan2(x, y).to_degrees());
+    picture(PIXELS, |x, y| {
+        let corners = [(0.0, 0.0), (1.5, 0.0), (0.0, 1.5), (1.5, 1.5)].map(|(dx, dy)| at(x - half + dx, y - half + dy));
+        let curve = planes.iter().rev().find(|(cut, _)| {
+            let inside = corners.map(|(radius, angle)| radius * peak <= value(cut, angle));
+            inside.contains(&true) && inside.contains(&false)
+        });
+        curve.map_or_else(|| scale(corners), |(_, colour)| *colour)
+    })
+}
+
+/// Rings at quarters and spokes every 30°.
+fn scale(corners: [(f64, f64); 4]) -> [u8; 3] {
+    let differ = |of: fn((f64, f64)) -> f64| {
+        let of_corners = corners.map(of);
+        of_corners.iter().any(|cell| *cell != of_corners[0])
+    };
+    let on_ring = differ(|(radius, _)| (4.0 * radius.min(1.01)).floor());
+    let on_spoke = corners[0].0 < 1.0 && differ(|(_, angle)| (angle / 30.0).floor());
+    if on_ring || on_spoke { PALE } else { WHITE }
+}
+
+/// A cut between its points; 0 outside.
+fn value(cut: &[(f64, f64)], angle: f64) -> f64 {
+    let above = cut.partition_point(|(a, _)| *a < angle);
+    match (above.checked_sub(1).map(|i| cut[i]), cut.get(above)) {
+        (Some((a, low)), Some((b, high))) => low + (high - low) * (angle - a) / (b - a),
+        (None, Some((a, first))) if *a == angle => *first,
+        _ => 0.0,
+    }
+}
+
+fn ahead(lamp: &PhotometryAsset) -> Preview {
+    let (left, right) = (lamp.horizontal_deg[0], lamp.horizontal_deg[lamp.horizontal_deg.len() - 1]);
+    let (down, up) = (lamp.vertical_deg[0], lamp.vertical_deg[lamp.vertical_deg.len() - 1]);
+    let (peak, _, _) = lamp.peak();
+    let step = (right - left) / (PIXELS - 1) as f64;
+    let rows = (((up - down) / step) as usize + 1).clamp(16, 2 * PIXELS);
+    let down_step = (up - down) / (rows - 1) as f64;
+    let share = |h: f64, v: f64| lamp.candela_at(h, v) / peak;
+    let on = |angle: f64, line: f64, step: f64| (angle - line).abs() <= 0.5 * step;
+    picture(rows, |x, y| {
+        let (h, v) = (left + step * x, up - down_step * y);
+        let here = share(h, v);
+        let next = [share(h + step, v), share(h, v - down_step)];
+        let is_point = passing_beam::places().any(|(right, up)| on(h, right, 3.0 * step) && on(v, up, 3.0 * down_step));
+        match () {
+            () if is_point => RED,
+            () if on(h, 0.0, step) || on(v, 0.0, down_step) => BLUE,
+            () if next.iter().any(|n| line(*n) != line(here)) => WHITE,
+            () => [brightness(here); 3],
+        }
+    })
+}
+
+/// Three decades down from the peak, darker than the lines.
+fn brightness(share: f64) -> u8 {
+    let decades = if share > 0.0 { log10(share) } else { f64::NEG_INFINITY };
+    (180.0 * (1.0 + decades / 3.0).clamp(0.0, 1.0)).round() as u8
+}
+
+/// Between which lines a share of the peak lies.
+fn line(share: f64) -> usize {
+    const LINES: [f64; 9] = [0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5];
+    LINES.partition_point(|line| *line <= share)
+}
+
+fn picture(rows: usize, pixel: impl Fn(f64, f64) -> [u8; 3]) -> Preview {
+    let row = |y: usize| (0..PIXELS).map(move |x| (x as f64, y as f64));
+    Preview { width: PIXELS, height: rows, rgb: (0..rows).flat_map(row).map(|(x, y)| pixel(x, y)).collect() }
+}

@@ -1,0 +1,273 @@
+//! ANSI/IES LM-63: the editions of 1986, 1991, 1995, 2002 and 2019.
+//!
+//! A line of identification (none in 1986), `[KEYWORD] text` lines, `TILT=`, then numbers in any arrangement: lamps,
+//! lumens a lamp (−1: absolute photometry), multiplier, counts of vertical and horizontal angles, type (1 C, 2 B, 3 A),
+//! unit (1 feet, 2 metres), width, length and height of the luminous opening, ballast factor, one more, watts, the
+//! angles, and the intensities plane by plane. The one more is the ballast-lamp photometric factor up to 1995, reserved
+//! in 2002, the type of file generation in 2019: only the first is a factor.
+//!
+//! Horizontal angles tell the symmetry. Type C: 0 alone, 0–90, 0–180, 90–270 (about the C90 plane), 0–360. Types A
+//! and B: from 0 on (the left is the mirror image of the right), or both sides.
+
+use std::path::Path;
+
+use etendue_scene::asset::{PhotometryAsset, PhotometryAxes, Tilt};
+
+use super::fields::Fields;
+use super::symmetry::{self, Symmetry};
+use super::{angles, tilt};
+use crate::Error;
+
+mod opening;
+
+/// The editions of the standard.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Edition {
+    Of1986,
+    Of1991,
+    Of1995,
+    Of2002,
+    Of2019,
+}
+
+/// What stands before the numbers.
+struct Head<'a> {
+    edition: Edition,
+    texts: Vec<(String, String)>,
+    tilt: tilt::Statement<'a>,
+    /// The line of TILT, counted from 1.
+    line: usize,
+}
+
+/// The numbers between TILT and the angles.
+struct Body {
+    lamps: u32,
+    lumens: f64,
+    multiplier: f64,
+    verticals: u32,
+    horizontals: u32,
+    axes: PhotometryAxes,
+    metres: f64,
+    size: [f64; 3],
+    ballast: f64,
+    further: f64,
+    watts: f64,
+}
+
+/// Reads a text, and tells the bytes of a file of tilts, where it names one.
+pub(super) fn read(file: &Path, text: &str) -> Result<(PhotometryAsset, Option<Vec<u8>>), Error> {
+    let head = head(file, text)?;
+    let numbered = text.lines().enumerate().map(|(i, line)| (i + 1, line)).skip(head.line);
+    let mut fields = Fields::divided_by_commas(file, numbered);
+    let (tilt, further) = match head.tilt {
+        tilt::Statement::None => (Tilt::None, None),
+        tilt::Statement::Include => (tilt::table(&mut fields)?, None),
+        tilt::Statement::File(name) => {
+            let (tilt, bytes) = tilt::from_file(file, head.line, name)?;
+            (tilt, Some(bytes))
+        }
+    };
+    let body = body(&mut fields)?;
+    let mut report = body.remarks(head.edition);
+    report.extend(tilt::remark(&tilt));
+    let factor = body.factor(head.edition);
+    let (vertical_deg, planes) = grid(file, &mut fields, &body, factor, &mut report)?;
+    let asset = PhotometryAsset {
+        format: format!("IES LM-63, {}", head.edition.name()),
+        axes: body.axes,
+        vertical_deg,
+        horizontal_deg: planes.iter().map(|(angle, _)| *angle).collect(),
+        candela: planes.into_iter().flat_map(|(_, plane)| plane).collect(),
+        rated_lumens: (body.lumens > 0.0).then(|| body.lumens * f64::from(body.lamps)),
+        output_ratio: None,
+        lamps: body.lamps,
+        factor,
+        watts: body.watts,
+        opening: opening::of(body.size.map(|v| v * body.metres)),
+        tilt,
+        texts: head.texts,
+        report,
+        hash: [0; 32],
+    };
+    Ok((asset, further))
+}
+
+fn head<'a>(file: &Path, text: &'a str) -> Result<Head<'a>, Error> {
+    let mut texts: Vec<(String, String)> = Vec::new();
+    let mut edition = Edition::Of1986;
+    for (index, line) in text.lines().enumerate() {
+        if let Some(word) = after_tilt(line) {
+            if word.is_empty() {
+                let what = "nothing follows TILT=; expected NONE, INCLUDE or the name of a file";
+                return Err(Error::at(file, index + 1, what));
+            }
+            return Ok(Head { edition, texts, tilt: tilt::Statement::of(word), line: index + 1 });
+        }
+        match Edition::of(line) {
+            Some(found) if index == 0 => edition = found,
+            _ => add_text(&mut texts, line.trim()),
+        }
+    }
+    let what = "no line begins with TILT=; expected TILT=NONE, TILT=INCLUDE or TILT=file before the numbers: this is no \
+                IES file, or a damaged one";
+    Err(Error::new(file, what))
+}
+
+/// What follows `TILT=`, blanks around it left out.
+fn after_tilt(line: &str) -> Option<&str> {
+    let (name, word) = line.split_once('=')?;
+    name.trim().eq_ignore_ascii_case("tilt").then(|| word.trim())
+}
+
+/// `[KEYWORD] text`; `[MORE]` continues; a line without a keyword is a text without a name.
+fn add_text(texts: &mut Vec<(String, String)>, line: &str) {
+    let keyword = line.strip_prefix('[').and_then(|rest| rest.split_once(']'));
+    match (keyword, texts.last_mut()) {
+        (Some(("MORE", more)), Some((_, text))) => {
+            text.push(' ');
+            text.push_str(more.trim());
+        }
+        (Some((name, text)), _) => texts.push((name.trim().to_owned(), text.trim().to_owned())),
+        (None, _) if line.is_empty() => {}
+        (None, _) => texts.push((String::new(), line.to_owned())),
+    }
+}
+
+impl Edition {
+    /// The edition that a first line states.
+    fn of(line: &str) -> Option<Self> {
+        let line = line.trim();
+        match line {
+            "IESNA91" => Some(Self::Of1991),
+            "IESNA:LM-63-1986" | "IESNA86" => Some(Self::Of1986),
+            "IESNA:LM-63-1991" => Some(Self::Of1991),
+            "IESNA:LM-63-1995" => Some(Self::Of1995),
+            "IESNA:LM-63-2002" => Some(Self::Of2002),
+            "IES:LM-63-2019" => Some(Self::Of2019),
+            _ => None,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Of1986 => "edition of 1986 or none stated",
+            Self::Of1991 => "edition of 1991",
+            Self::Of1995 => "edition of 1995",
+            Self::Of2002 => "edition of 2002",
+            Self::Of2019 => "edition of 2019",
+        }
+    }
+}
+
+fn body(fields: &mut Fields<'_>) -> Result<Body, Error> {
+    Ok(Body {
+        lamps: fields.whole("the count of lamps", 1..=1_000_000)?,
+        lumens: lumens(fields)?,
+        multiplier: fields.positive("the multiplier of intensities")?,
+        verticals: fields.whole("the count of vertical angles", 2..=angles::MOST)?,
+        horizontals: fields.whole("the count of horizontal angles", 1..=angles::MOST)?,
+        axes: axes(fields)?,
+        metres: if fields.whole("the unit (1 feet, 2 metres)", 1..=2)? == 1 { 0.3048 } else { 1.0 },
+        size: [size(fields, "width")?, size(fields, "length")?, size(fields, "height")?],
+        ballast: fields.positive("the ballast factor")?,
+        further: fields.number("the ballast-lamp factor, or what later editions put there")?,
+        watts: fields.amount("the watts")?,
+    })
+}
+
+fn lumens(fields: &mut Fields<'_>) -> Result<f64, Error> {
+    let lumens = fields.number("the lumens of a lamp")?;
+    if lumens >= 0.0 || lumens == -1.0 {
+        return Ok(lumens);
+    }
+    Err(fields.fault(format!("found {lumens} lumens; expected those of a lamp, or -1 for absolute photometry")))
+}
+
+fn axes(fields: &mut Fields<'_>) -> Result<PhotometryAxes, Error> {
+    let types = [PhotometryAxes::C, PhotometryAxes::B, PhotometryAxes::A];
+    let number = fields.whole("the photometric type (1 is C, 2 is B, 3 is A)", 1..=3)?;
+    Ok(types[number as usize - 1])
+}
+
+fn size(fields: &mut Fields<'_>, which: &str) -> Result<f64, Error> {
+    fields.number(&format!("the {which} of the luminous opening"))
+}
+
+impl Body {
+    /// What the numbers of the file are multiplied by.
+    fn factor(&self, edition: Edition) -> f64 {
+        let lamp = if edition <= Edition::Of1995 { self.further } else { 1.0 };
+        self.multiplier * self.ballast * lamp
+    }
+
+    fn remarks(&self, edition: Edition) -> Vec<String> {
+        let reserved = edition == Edition::Of2002 && self.further != 1.0;
+        let notes = [
+            (self.lumens == 0.0, "its lamps are rated 0 lumens: its flux cannot be checked".to_owned()),
+            (reserved, format!("the number {} in the place that LM-63-2002 reserves is not used", self.further)),
+        ];
+        notes.into_iter().filter(|(is, _)| *is).map(|(_, note)| note).collect()
+    }
+
+    /// The symmetry that the horizontal angles tell.
+    fn symmetry(&self, horizontal: &[f64]) -> Result<Symmetry, String> {
+        let (first, last) = (horizontal[0], horizontal[horizontal.len() - 1]);
+        match (self.axes, horizontal.len()) {
+            (PhotometryAxes::C, 1) => Ok(Symmetry::Round),
+            (PhotometryAxes::C, _) => turn(first, last, horizontal),
+            (_, 1) => Err("one horizontal angle; expected two at least, for the lamp has a width".to_owned()),
+            _ if first == 0.0 => Ok(Symmetry::LeftRight),
+            _ => Ok(Symmetry::None),
+        }
+    }
+}
+
+/// The symmetry of planes about a vertical axis.
+fn turn(first: f64, last: f64, horizontal: &[f64]) -> Result<Symmetry, String> {
+    let step = horizontal.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+    if first == 0.0 && last == 90.0 {
+        Ok(Symmetry::Quadrants)
+    } else if first == 0.0 && last == 180.0 {
+        Ok(Symmetry::AboutC0)
+    } else if first == 90.0 && last == 270.0 {
+        Ok(Symmetry::AboutC90)
+    } else if first + 360.0 - last <= step || (first == 0.0 && last == 360.0) {
+        Ok(Symmetry::None)
+    } else {
+        Err(format!(
+            "horizontal angles from {first}° to {last}°; expected 0° alone, or from 0° to 90°, 180° or 360°, or from 90° to \
+             270°: measure the rest or state the symmetry"
+        ))
+    }
+}
+
+/// The vertical angles, and the planes with every factor applied.
+fn grid(
+    file: &Path,
+    fields: &mut Fields<'_>,
+    body: &Body,
+    factor: f64,
+    report: &mut Vec<String>,
+) -> Result<(Vec<f64>, Vec<symmetry::Plane>), Error> {
+    if factor.is_nan() || factor <= 0.0 {
+        return Err(fields.fault(format!("multiplier and ballast factors make {factor}; expected a number above 0")));
+    }
+    let (up, across) = (angles::vertical_range(body.axes), angles::horizontal_range(body.axes));
+    let vertical = angles::read(fields, body.verticals, "vertical", &up)?;
+    let horizontal = angles::read(fields, body.horizontals, "horizontal", &across)?;
+    let symmetry = body.symmetry(&horizontal).map_err(|what| fields.fault(what))?;
+    let mut intensities = fields.intensities(vertical.len() * horizontal.len())?;
+    fields.end("the last intensity")?;
+    intensities.iter_mut().for_each(|value| *value *= factor);
+    let planes = symmetry::planes(&horizontal, &intensities);
+    report.extend(angles::dark_above_or_below(body.axes, &vertical));
+    let planes = match body.axes {
+        PhotometryAxes::C => symmetry::full_turn(file, planes, symmetry)?,
+        PhotometryAxes::A | PhotometryAxes::B => symmetry::fan(planes, symmetry),
+    };
+    if body.axes != PhotometryAxes::C {
+        let all: Vec<f64> = planes.iter().map(|(angle, _)| *angle).collect();
+        report.extend(angles::dark_beyond("horizontal", &all, &[-90.0, -180.0], &[90.0, 180.0]));
+    }
+    Ok((vertical, planes))
+}

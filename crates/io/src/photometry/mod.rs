@@ -1,0 +1,47 @@
+//! Measured lamps: IES LM-63 and EULUMDAT files.
+//!
+//! | file | standard | intensities | angles |
+//! | --- | --- | --- | --- |
+//! | `.ies` | ANSI/IES LM-63, 1986 to 2019 | cd × multiplier × ballast factors | types A, B and C |
+//! | `.ldt` | EULUMDAT (A. W. Stockmar, 1990) | cd per 1 000 lm of the lamps × conversion factor | type C |
+//!
+//! Both become a [`PhotometryAsset`]: cd on a complete grid. Texts are UTF-8 or Latin-1; lines end in any way; a
+//! byte-order mark and the end-of-file character of DOS are passed over. Every fault is told with its line. Numbers are
+//! never allocated for before they are there, so that an absurd count costs nothing.
+
+mod angles;
+mod fields;
+mod flux;
+mod ies;
+mod ldt;
+mod symmetry;
+mod text;
+mod tilt;
+
+use std::path::Path;
+
+use etendue_scene::asset::PhotometryAsset;
+
+use crate::source::read_bytes;
+use crate::{Error, hash};
+
+/// Reads a measured lamp; the kind of file is told by its name.
+///
+/// # Errors
+/// The first fault of the file, with its line.
+pub fn read_photometry(file: &Path) -> Result<PhotometryAsset, Error> {
+    let bytes = read_bytes(file, "lamp")?;
+    let text = text::decode(file, &bytes)?;
+    let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
+    let (mut asset, further) = match extension.to_str() {
+        Some("ies") => ies::read(file, &text)?,
+        Some("ldt") => (ldt::read(file, &text)?, None),
+        _ => return Err(Error::new(file, "expected a measured lamp by the name of .ies (LM-63) or .ldt (EULUMDAT)")),
+    };
+    asset.hash = match further {
+        Some(tilt) => hash::of_parts([&bytes[..], &tilt[..]]),
+        None => hash::of_bytes(&bytes),
+    };
+    flux::check(file, &mut asset)?;
+    Ok(asset)
+}

@@ -1,0 +1,146 @@
+//! Tables of materials: CSV, `#` comments, blank lines and header lines allowed where told; decimal points.
+//!
+//! **Refractive indices**: three columns, wavelength in nm (rising, each once), n (above 0), k (0 or more), divided by
+//! commas or blanks; one header line may come first.
+//!
+//! **Coefficients of retro-reflection**: the first row holds the entrance angles β (degrees, rising, 0 … 90) behind one
+//! word of any kind; each further row an observation angle α (degrees, rising, 0 … 180) and R_A (cd·lx⁻¹·m⁻², 0 or
+//! more) for each β:
+//!
+//! ```text
+//! observation_deg \ entrance_deg, 5, 30, 40
+//! 0.2,  250, 150, 110
+//! 0.33, 180, 100, 95
+//! ```
+
+use std::path::Path;
+
+use etendue_scene::asset::{ComplexIndexAsset, RetroTableAsset};
+
+use crate::source::{decode_text, read_bytes};
+use crate::{Error, hash};
+
+/// Reads a table of n and k.
+///
+/// # Errors
+/// The first fault, with its line.
+pub fn read_complex_index(file: &Path) -> Result<ComplexIndexAsset, Error> {
+    let bytes = read_bytes(file, "refractive index")?;
+    let mut points: Vec<(f64, f64, f64)> = Vec::new();
+    for (index, row) in rows(decode_text(file, &bytes)?).enumerate() {
+        if index == 0 && row.cells.iter().all(|cell| number(cell).is_none()) {
+            continue;
+        }
+        let point = index_of(&row, points.last().map(|p| p.0)).map_err(|what| Error::at(file, row.line, what))?;
+        points.push(point);
+    }
+    if points.is_empty() {
+        return Err(Error::new(file, "holds no row; expected three columns: wavelength in nm, n, k"));
+    }
+    Ok(ComplexIndexAsset { points, hash: hash::of_bytes(&bytes) })
+}
+
+fn index_of(row: &Row<'_>, before: Option<f64>) -> Result<(f64, f64, f64), String> {
+    let values = row.numbers()?;
+    let [nm, n, k] = values[..] else {
+        return Err(format!("found {} columns; expected three: wavelength in nm, n, k", values.len()));
+    };
+    if let Some(last) = before.filter(|last| nm <= *last) {
+        return Err(format!("wavelength {nm} nm follows {last} nm: sort the table by rising wavelength, each once"));
+    }
+    let wrong =
+        [(nm <= 0.0, "a wavelength in nm above 0", nm), (n <= 0.0, "n above 0", n), (k < 0.0, "k of 0 or more", k)];
+    match wrong.into_iter().find(|(is, _, _)| *is) {
+        Some((_, expected, found)) => Err(format!("found {found}; expected {expected}")),
+        None => Ok((nm, n, k)),
+    }
+}
+
+/// Reads a table of R_A.
+///
+/// # Errors
+/// The first fault, with its line.
+pub fn read_retro_table(file: &Path) -> Result<RetroTableAsset, Error> {
+    let bytes = read_bytes(file, "retro-reflection")?;
+    let mut rows = rows(decode_text(file, &bytes)?);
+    let head = rows.next().filter(|row| row.cells.len() > 1);
+    let head =
+        head.ok_or_else(|| Error::new(file, "has no row of entrance angles; expected a word and one angle at least"))?;
+    let mut table = RetroTableAsset { hash: hash::of_bytes(&bytes), ..RetroTableAsset::default() };
+    for cell in &head.cells[1..] {
+        let angle = angle(cell, "entrance", 90.0, table.entrance_deg.last());
+        table.entrance_deg.push(angle.map_err(|what| Error::at(file, head.line, what))?);
+    }
+    for row in rows {
+        add_row(&mut table, &row).map_err(|what| Error::at(file, row.line, what))?;
+    }
+    if table.observation_deg.is_empty() {
+        return Err(Error::new(
+            file,
+            "holds no observation angle; expected one row at least behind the entrance angles",
+        ));
+    }
+    Ok(table)
+}
+
+fn add_row(table: &mut RetroTableAsset, row: &Row<'_>) -> Result<(), String> {
+    let (found, expected) = (row.cells.len() - 1, table.entrance_deg.len());
+    if found != expected {
+        return Err(format!(
+            "found {found} coefficients; expected {expected}, one for each entrance angle of the first row"
+        ));
+    }
+    let angle = angle(row.cells[0], "observation", 180.0, table.observation_deg.last())?;
+    table.observation_deg.push(angle);
+    for value in row.numbers()?.into_iter().skip(1) {
+        if value < 0.0 {
+            return Err(format!("found the coefficient {value}; expected 0 or more"));
+        }
+        table.coefficients.push(value);
+    }
+    Ok(())
+}
+
+fn angle(cell: &str, which: &str, most: f64, before: Option<&f64>) -> Result<f64, String> {
+    let found = number(cell).ok_or_else(|| format!("found \"{cell}\"; expected an {which} angle: a number"))?;
+    if !(0.0..=most).contains(&found) {
+        return Err(format!("found the {which} angle {found}°; expected one from 0° to {most}°"));
+    }
+    match before.filter(|last| found <= **last) {
+        Some(last) => Err(format!("{which} angle {found}° follows {last}°: sort the table by rising angle, each once")),
+        None => Ok(found),
+    }
+}
+
+/// A row that holds something.
+struct Row<'a> {
+    /// Counted from 1.
+    line: usize,
+    cells: Vec<&'a str>,
+}
+
+impl Row<'_> {
+    fn numbers(&self) -> Result<Vec<f64>, String> {
+        let told = |cell: &&str| number(cell).ok_or_else(|| format!("found \"{cell}\"; expected a number"));
+        self.cells.iter().map(told).collect()
+    }
+}
+
+/// Rows that are no comment. Cells are divided by commas, or else by blanks.
+fn rows(text: &str) -> impl Iterator<Item = Row<'_>> {
+    text.lines().enumerate().filter_map(|(index, line)| {
+        let content = line.split('#').next().unwrap_or_default().trim();
+        let cells: Vec<&str> = match content.contains(',') {
+            true => content.split(',').map(str::trim).collect(),
+            false => content.split_whitespace().collect(),
+        };
+        (!content.is_empty()).then_some(Row { line: index + 1, cells })
+    })
+}
+
+fn number(cell: &str) -> Option<f64> {
+    cell.parse().ok().filter(|v: &f64| v.is_finite())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,6 @@
+//! Measured lamps: what files of every kind become, and what is refused.
+
+mod faults;
+mod ies;
+mod ldt;
+mod support;
