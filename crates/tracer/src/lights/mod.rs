@@ -11,6 +11,7 @@
 //! - Densities belong to a [`Receiver`], the point that asks.
 //! - Radiance is spectral, W·m⁻²·sr⁻¹·nm⁻¹.
 
+pub mod almanac;
 mod choice;
 mod collect;
 mod environment;
