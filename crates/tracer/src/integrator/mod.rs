@@ -14,6 +14,7 @@
 mod caustic;
 mod cone;
 mod level;
+mod medium;
 mod mis;
 mod path;
 mod shadow;

@@ -9,7 +9,9 @@ use glam::Vec3;
 
 use super::caustic::History;
 use super::cone::Cone;
+use super::medium::Medium;
 use super::{Level, PathTracer};
+use crate::MaterialId;
 use crate::geometry::SurfacePoint;
 use crate::lights::{LightSample, Met, Receiver};
 use crate::materials::{Bsdf, BsdfSample, Event, ShadingFrame};
@@ -36,6 +38,7 @@ pub(super) struct Path<'a, const N: usize> {
     scattered: Option<f32>,
     /// Where the ray was last scattered; `None` where it came from the camera or a mirror.
     receiver: Option<Receiver>,
+    medium: Medium<'a>,
     history: History,
     /// What radiance along the ray counts at the camera.
     throughput: Spectral<N>,
@@ -47,6 +50,8 @@ pub(super) struct Vertex<'a, const N: usize> {
     pub(super) point: SurfacePoint,
     pub(super) frame: ShadingFrame,
     bsdf: Bsdf<'a, N>,
+    /// Of mixes the part that was drawn.
+    material: MaterialId,
 }
 
 /// How a path goes on.
@@ -75,6 +80,7 @@ impl<'a, const N: usize> Path<'a, N> {
             travelled_m: 0.0,
             scattered: None,
             receiver: None,
+            medium: Medium::default(),
             history: History::default(),
             throughput: Spectral::ONE,
             radiance: Spectral::ZERO,
@@ -98,6 +104,7 @@ impl<'a, const N: usize> Path<'a, N> {
         let point = self.tracer.view.surface(&self.ray, &hit);
         self.cone.travel(hit.t);
         self.travelled_m += hit.t;
+        self.throughput = self.medium.attenuate(self.throughput, hit.t, self.wavelengths);
         let lookup = self.lookup(&point, self.cone);
         self.gather_glow(&point, &lookup);
         if self.is_passed(&point, &lookup) {
@@ -201,7 +208,7 @@ impl<'a, const N: usize> Path<'a, N> {
             point.shading_normal
         };
         let frame = ShadingFrame::new(&point, normal, -self.ray.direction);
-        Vertex { bsdf: palette.bsdf(material, lookup, frame.front, self.wavelengths), point, frame }
+        Vertex { bsdf: palette.bsdf(material, lookup, frame.front, self.wavelengths), point, frame, material }
     }
 
     /// Next-event estimation: light of one drawn light, as far as it comes through.
@@ -270,6 +277,9 @@ impl<'a, const N: usize> Path<'a, N> {
         self.history.scatter(self.scattered);
         if let Some(pdf) = self.scattered {
             self.cone.scatter(pdf);
+        }
+        if sample.wi.z < 0.0 {
+            self.medium = Medium::beyond(vertex.frame.front, self.tracer.palette.absorption(vertex.material));
         }
         self.ray = Ray::new(vertex.point.spawn(direction), direction, self.ray.time_s);
         self.travelled_m = 0.0;

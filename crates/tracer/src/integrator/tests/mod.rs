@@ -6,6 +6,8 @@
 mod agreement;
 mod closed_forms;
 mod lamps;
+mod levels;
+mod passages;
 mod sides;
 
 use super::*;

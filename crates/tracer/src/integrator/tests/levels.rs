@@ -1,0 +1,71 @@
+//! The levels of rendering against closed forms.
+
+use super::*;
+use crate::lights::{Lamp, Profile};
+use glam::DMat3;
+
+/// A white floor under a sky of radiance 1 and a lamp at 2 m, with a black block between lamp and origin; seen beside it.
+fn floor(level: Level, x: f32) -> ReplicateEstimate {
+    let lamp = Lamp::new(DVec3::Z * 2.0, DMat3::IDENTITY, Spectrum::constant(8.0), Profile::Isotropic).expect("a lamp");
+    let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));
+    let mut scene =
+        Scene { sources: Sources { lamps: vec![lamp], environment, ..Sources::default() }, ..Scene::default() };
+    let (white, black) = (scene.material(matt(1.0), None), scene.material(Surface::Absorber, None));
+    scene.square(Vec3::ZERO, 50.0, white);
+    scene.square(Vec3::new(0.0, 0.0, 1.0), 0.5, black);
+    let settings = PathSettings { level, max_bounces: 7, ..PathSettings::default() };
+    scene.ready().look(&ray([x, 2.0, 0.9], [x, 0.0, 0.0]), 1024, settings)
+}
+
+/// Share of the sky that a square of half side 0.5 at height 1 hides from the point below its centre, weighed by the
+/// cosine: 4/π · (a/√(1+a²)) · atan(a/√(1+a²)) with a = 0.5 (Howell, configuration C-11, four corners).
+fn hidden() -> f64 {
+    let s = 0.5 / 1.25_f64.sqrt();
+    4.0 / PI * s * maths::f64::atan2(s, 1.0)
+}
+
+#[test]
+fn flat_is_unshadowed_and_direct_is_shadowed() {
+    agrees(&floor(Level::Flat, 0.0), 1.0 + 8.0 / 4.0 / PI);
+    agrees(&floor(Level::Direct, 0.0), 1.0 - hidden());
+    // Nothing throws light back onto the floor, so the whole path is direct light.
+    agrees(&floor(Level::Path, 0.0), 1.0 - hidden());
+}
+
+/// A white wall of a white box of radiance 1: its own glow, direct light, and all of it.
+#[test]
+fn only_paths_gather_light_of_other_surfaces() {
+    let look = |level| {
+        let mut scene = Scene::default();
+        let glowing = scene.material(matt(0.5), Some((1.0, Glow::Both)));
+        scene.sphere(DVec3::ZERO, 1.0, glowing);
+        let settings = PathSettings { level, max_bounces: 64, roulette_start: 64, ..PathSettings::default() };
+        scene.ready().look(&ray([0.1, 0.2, 0.3], [1.0, 0.3, 0.2]), 64, settings)
+    };
+    agrees(&look(Level::Flat), 1.5);
+    agrees(&look(Level::Direct), 1.5);
+    agrees(&look(Level::Path), 2.0);
+}
+
+#[test]
+fn mirrors_show_the_surroundings_at_every_level_and_what_glows_from_direct_on() {
+    let look = |level, glows: bool| {
+        let environment = Some(Environment::Uniform(Spectrum::constant(2.0)));
+        let mut scene = Scene { sources: Sources { environment, ..Sources::default() }, ..Scene::default() };
+        let mirror = scene.material(aluminium(0.0), None);
+        scene.square(Vec3::ZERO, 1.0, mirror);
+        if glows {
+            let lamp = scene.material(Surface::Absorber, Some((5.0, Glow::Both)));
+            scene.square(Vec3::new(0.0, 0.0, 3.0), 1.0, lamp);
+        }
+        let settings = PathSettings { level, ..PathSettings::default() };
+        scene.ready().look(&ray([0.0, 0.0, 1.0], [0.0, 0.01, 0.0]), 1, settings).mean
+    };
+    let sky = look(Level::Path, false);
+    assert!(sky > 1.5, "aluminium reflects more than three quarters");
+    for (level, expected) in [(Level::Flat, sky), (Level::Direct, 2.5 * sky), (Level::Path, 2.5 * sky)] {
+        // Six roundings.
+        assert!((look(level, true) / expected - 1.0).abs() < 1e-6, "{level:?}");
+        assert!((look(level, false) / sky - 1.0).abs() < 1e-6, "{level:?}");
+    }
+}

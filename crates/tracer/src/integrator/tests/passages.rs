@@ -1,0 +1,98 @@
+//! Light that comes straight through: cut-outs, thin panes; and through solids of glass.
+
+use super::*;
+use crate::lights::{Lamp, Profile};
+use crate::materials::{Dielectric, Factor, ThinSheet};
+use glam::DMat3;
+
+/// What lights a floor from above through a screen.
+enum Source {
+    Lamp,
+    Sun,
+    Square,
+}
+
+/// Radiance of a white floor of reflectance 1 under a screen.
+fn through(screen: Option<Material>, source: &Source, strategies: Strategies) -> ReplicateEstimate {
+    let mut scene = Scene::default();
+    let floor = scene.material(matt(1.0), None);
+    scene.square(Vec3::ZERO, 30.0, floor);
+    if let Some(screen) = screen {
+        scene.materials.push(screen);
+        scene.square(Vec3::new(0.0, 0.0, 1.0), 30.0, MaterialId(1));
+    }
+    match source {
+        Source::Lamp => {
+            let lamp = Lamp::new(DVec3::Z * 2.0, DMat3::IDENTITY, Spectrum::constant(4.0), Profile::Isotropic);
+            scene.sources.lamps.push(lamp.expect("a lamp"));
+        }
+        Source::Sun => {
+            let sun = Sun::of_irradiance(DVec3::new(0.2, 0.1, 1.0), 20.0, &Spectrum::constant(1.0)).expect("a sun");
+            scene.sources.suns.push(sun);
+        }
+        Source::Square => {
+            let glow = scene.material(Surface::Absorber, Some((1.0, Glow::Both)));
+            scene.square(Vec3::new(0.0, 0.0, 2.0), 0.6, glow);
+        }
+    }
+    let settings = PathSettings { strategies, max_bounces: 1, ..PathSettings::default() };
+    scene.ready().look(&ray([0.4, 0.3, 0.9], [0.0; 3]), 2048, settings)
+}
+
+fn screen(opacity: f32) -> Option<Material> {
+    Some(Material { opacity: Some(Factor::Number(opacity)), ..Material::new(Surface::Absorber) })
+}
+
+#[test]
+fn a_screen_lets_its_share_through_however_the_light_is_found() {
+    for source in [Source::Lamp, Source::Sun, Source::Square] {
+        let open = through(None, &source, Strategies::Both).mean;
+        for strategies in [Strategies::Both, Strategies::Scattering, Strategies::Lights] {
+            // Lamps without extent are found in one way alone, which no strategy leaves out.
+            let half = through(screen(0.4), &source, strategies);
+            let allowed = 3.5 * half.standard_error() + 1e-3 * open;
+            assert!((half.mean - 0.6 * open).abs() < allowed, "{strategies:?}: {} {}", half.mean, 0.6 * open);
+        }
+        assert_eq!(through(screen(1.0), &source, Strategies::Both).mean, 0.0);
+    }
+}
+
+#[test]
+fn a_pane_lets_light_straight_through_and_loses_what_it_reflects() {
+    let pane = |n| {
+        let clear = Reflectance::Spectrum(Spectrum::constant(1.0));
+        Some(Material::new(Surface::ThinSheet(Box::new(ThinSheet::new(n, clear).expect("a pane")))))
+    };
+    // At normal incidence a clear pane reflects 2R/(1 + R), R = ((n − 1)/(n + 1))² (Hecht, section 9.6, incoherent).
+    let r = (0.5_f64 / 2.5) * (0.5 / 2.5);
+    let left = 1.0 - 2.0 * r / (1.0 + r);
+    let lamp = |screen| through(screen, &Source::Lamp, Strategies::Both).mean;
+    assert!((lamp(pane(1.5)) / lamp(None) / left - 1.0).abs() < 1e-5);
+    for strategies in [Strategies::Both, Strategies::Scattering] {
+        agree(&through(pane(1.5), &Source::Sun, strategies), &through(pane(1.5), &Source::Sun, Strategies::Lights));
+    }
+}
+
+/// A solid of glass before a glowing wall, seen square on.
+#[test]
+fn a_solid_of_glass_absorbs_by_its_thickness() {
+    let look = |absorption: Option<f64>| {
+        let mut scene = Scene { sources: Sources::default(), ..Scene::default() };
+        let glass = Dielectric::new(1.5, 0.0, absorption.map(Spectrum::constant)).expect("glass");
+        let (glass, wall) = (
+            scene.material(Surface::Dielectric(Box::new(glass)), None),
+            scene.material(Surface::Absorber, Some((1.0, Glow::Both))),
+        );
+        // A block 0.2 m thick: two squares, the lower one turned down.
+        scene.square(Vec3::new(0.0, 0.0, 0.2), 5.0, glass);
+        let down = [(-5.0, -5.0), (-5.0, 5.0), (5.0, 5.0), (5.0, -5.0)].map(|(x, y)| Vec3::new(x, y, 0.0)).to_vec();
+        scene.mesh(down, vec![[0, 1, 2], [0, 2, 3]], glass);
+        scene.square(Vec3::new(0.0, 0.0, -1.0), 5.0, wall);
+        let settings = PathSettings { max_bounces: 32, roulette_start: 32, ..PathSettings::default() };
+        scene.ready().look(&ray([0.0, 0.0, 1.0], [0.0; 3]), 4096, settings)
+    };
+    let r = 0.04_f64;
+    let of = |t: f64| (1.0 - r) * (1.0 - r) * t / (1.0 - r * r * t * t);
+    agrees(&look(None), of(1.0));
+    agrees(&look(Some(3.0)), of(maths::f64::exp(-0.6)));
+}
