@@ -80,6 +80,7 @@ fn lights(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Resul
         (census.triangles, "glowing triangle"),
         (census.spheres, "glowing sphere"),
         (usize::from(census.image_environment), "surrounding picture"),
+        (usize::from(census.sky), "clear sky"),
         (usize::from(census.uniform_environment), "uniform surrounding"),
     ];
     let list: Vec<String> = counted.iter().filter(|(n, _)| *n > 0).map(|(n, name)| count(*n, name)).collect();

@@ -1,14 +1,16 @@
 //! Which light to ask.
 //!
-//! By power, with a floor: one draw in twenty is uniform over the lights of a kind, so that a dim light beside the
-//! point, or one outside the range that weighed it, is never lost. Lights at infinity and lights in the scene share
-//! the draws equally, because their powers cannot be compared.
+//! Lights in the scene and lights at infinity share the draws by the irradiances that a receiver can expect of them: the
+//! tree's estimate on one side, on the other that of the suns which its surface faces and that of the surroundings in the
+//! mean. Neither side gets less than [`FLOOR`] while it can give anything at all, since both numbers are estimates.
+//! Within the scene the tree decides (`tree/`); at infinity suns and surroundings share by irradiance, but a sun that
+//! the surface faces away from gets nothing.
 //!
-//! Suns and a picture of the surroundings share by power too. Equal shares look fairer to places that only the sky
-//! lights, but are worse even there: up to half of their light is sunlight thrown by lit surfaces, and the sky is also
-//! met by chance. Measured on the street (75 klx of sun, 15 klx of sky; 240 × 150 pixels, 64 samples in 8 replicates,
-//! without caustics): mean relative variance of a pixel, in units of 1e-2, over all pixels, over the 30 % that get
-//! most of their light from the sky, and over the others, by the sun's share of the draws:
+//! Equal shares for sun and surroundings look fairer to places that only the sky lights, but are worse even there: up to
+//! half of their light is sunlight thrown by lit surfaces, and the sky is also met by chance. Measured on the street
+//! before receivers were looked at (75 klx of sun, 15 klx of sky; 240 × 150 pixels, 64 samples in 8 replicates, without
+//! caustics): mean relative variance of a pixel, in units of 1e-2, over all pixels, over the 30 % that get most of their
+//! light from the sky, and over the others, by the sun's share of the draws:
 //!
 //! | sun's share | all | by the sky | others |
 //! | --- | --- | --- | --- |
@@ -18,64 +20,107 @@
 //! | 0.50 | 1.96 | 1.96 | 1.96 |
 //! | 0.35 | 2.59 | 2.30 | 2.72 |
 
-use etendue_core::distribution::Distribution1;
+use super::Receiver;
+use super::sun::Sun;
+use super::tree::{LightBounds, LightTree, Question};
 
-/// Share of the draws that are uniform.
-const FLOOR: f64 = 0.05;
+/// Least share of the draws of lights in the scene beside those at infinity, and the other way round.
+const FLOOR: f32 = 0.05;
 
-/// A fixed distribution over lights.
+/// A light that was chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Chosen {
+    /// A light in the scene, by its place.
+    Local(usize),
+    /// A sun, by its place.
+    Sun(usize),
+    /// The surroundings.
+    Environment,
+}
+
+/// How lights are chosen.
 #[derive(Clone, Debug)]
 pub(super) struct Choice {
-    distribution: Distribution1,
-    probabilities: Vec<f32>,
+    tree: Option<LightTree>,
+    /// Suns with the irradiance of what faces them, W·m⁻²·nm⁻¹.
+    suns: Vec<(Sun, f32)>,
+    /// Irradiance of the surroundings if they are drawn, W·m⁻²·nm⁻¹.
+    environment: f32,
 }
 
 impl Choice {
-    /// Lights in the scene by power, then those at infinity by irradiance; `None` where there is none.
-    pub(super) fn new(local: &[f64], distant: &[f64]) -> Option<Self> {
-        let share = if local.is_empty() || distant.is_empty() { 1.0 } else { 0.5 };
-        let weights = shares(local, share).chain(shares(distant, share)).collect();
-        let distribution = Distribution1::new(weights)?;
-        let probabilities = (0..distribution.len()).map(|i| distribution.probability(i)).collect();
-        Some(Self { distribution, probabilities })
+    /// A choice among lights in the scene, suns, and surroundings of a mean irradiance (0 where they are not drawn).
+    pub(super) fn new(local: &[LightBounds], suns: Vec<(Sun, f32)>, environment: f32) -> Self {
+        Self { tree: LightTree::new(local), suns, environment }
     }
 
-    /// The light that `u` falls on, and its probability.
-    pub(super) fn draw(&self, u: f32) -> (usize, f32) {
-        let (i, _) = self.distribution.sample_discrete(u);
-        (i, self.probabilities[i])
+    /// Whether any light can be drawn.
+    pub(super) fn is_possible(&self) -> bool {
+        self.tree.is_some() || self.has_distant()
     }
 
-    pub(super) fn probability(&self, i: usize) -> f32 {
-        self.probabilities[i]
-    }
-}
-
-fn shares(powers: &[f64], share: f64) -> impl Iterator<Item = f32> {
-    let total: f64 = powers.iter().sum();
-    let even = 1.0 / powers.len() as f64;
-    powers.iter().map(move |power| {
-        let by_power = if total > 0.0 && total.is_finite() { power / total } else { even };
-        (share * (FLOOR * even + (1.0 - FLOOR) * by_power)) as f32
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_light_has_a_chance() {
-        let choice = Choice::new(&[1e-30, 1e12, 0.0], &[5.0]).expect("four lights");
-        let probabilities: Vec<_> = (0..4).map(|i| choice.probability(i)).collect();
-        assert!(probabilities.iter().all(|p| *p > 0.005), "{probabilities:?}");
-        assert!((probabilities.iter().sum::<f32>() - 1.0).abs() < 1e-6);
-        assert!((probabilities[3] - 0.5).abs() < 1e-6);
+    fn has_distant(&self) -> bool {
+        self.environment > 0.0 || self.suns.iter().any(|(_, e)| *e > 0.0)
     }
 
-    #[test]
-    fn no_light_is_no_choice() {
-        assert!(Choice::new(&[], &[]).is_none());
-        assert_eq!(Choice::new(&[], &[0.0]).expect("one").draw(0.7), (0, 1.0));
+    /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver.
+    pub(super) fn pick<F: Fn(u32) -> f32>(&self, question: &Question<'_, F>, u: f64) -> Option<(Chosen, f32)> {
+        let local = self.local_share(question);
+        let (share, chosen) = match &self.tree {
+            Some(tree) if u < f64::from(local) => {
+                let (light, probability) = tree.pick(question, u / f64::from(local))?;
+                (local, (Chosen::Local(light), probability))
+            }
+            _ => {
+                let rest = (u - f64::from(local)) / (1.0 - f64::from(local));
+                (1.0 - local, self.pick_distant(question.receiver, rest as f32)?)
+            }
+        };
+        Some((chosen.0, share * chosen.1))
+    }
+
+    fn pick_distant(&self, receiver: &Receiver, u: f32) -> Option<(Chosen, f32)> {
+        let total = self.distant_irradiance(receiver);
+        let mut rest = u * total;
+        for i in 0..self.suns.len() {
+            let irradiance = self.of_sun(i, receiver);
+            if rest < irradiance {
+                return Some((Chosen::Sun(i), irradiance / total));
+            }
+            rest -= irradiance;
+        }
+        (self.environment > 0.0).then(|| (Chosen::Environment, self.environment / total))
+    }
+
+    /// The probability by which [`Choice::pick`] gives a light.
+    pub(super) fn probability<F: Fn(u32) -> f32>(&self, question: &Question<'_, F>, light: Chosen) -> f32 {
+        let irradiance = match (light, &self.tree) {
+            (Chosen::Local(_), None) => return 0.0,
+            (Chosen::Local(i), Some(tree)) => return self.local_share(question) * tree.probability(question, i),
+            (Chosen::Sun(i), _) => self.of_sun(i, question.receiver),
+            (Chosen::Environment, _) => self.environment,
+        };
+        let total = self.distant_irradiance(question.receiver);
+        if irradiance > 0.0 { (1.0 - self.local_share(question)) * (irradiance / total) } else { 0.0 }
+    }
+
+    fn local_share<F: Fn(u32) -> f32>(&self, question: &Question<'_, F>) -> f32 {
+        let Some(tree) = &self.tree else { return 0.0 };
+        let distant = self.distant_irradiance(question.receiver);
+        if distant <= 0.0 {
+            return 1.0;
+        }
+        let local = tree.irradiance(question) as f32;
+        if local > 0.0 { (1.0 / (1.0 + distant / local)).clamp(FLOOR, 1.0 - FLOOR) } else { 0.0 }
+    }
+
+    fn distant_irradiance(&self, receiver: &Receiver) -> f32 {
+        (0..self.suns.len()).map(|i| self.of_sun(i, receiver)).sum::<f32>() + self.environment
+    }
+
+    /// What a sun counts for a receiver.
+    fn of_sun(&self, i: usize, receiver: &Receiver) -> f32 {
+        let (sun, irradiance) = &self.suns[i];
+        if receiver.normal == glam::Vec3::ZERO || sun.rises_over(receiver.normal) { *irradiance } else { 0.0 }
     }
 }

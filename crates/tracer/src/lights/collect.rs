@@ -5,10 +5,11 @@ use glam::DAffine3;
 use super::Light;
 use super::primitives::Primitives;
 use super::sphere::SphereLight;
+use super::tree::LightBounds;
 use super::triangle::TriangleLight;
 use crate::MaterialId;
 use crate::geometry::{Instance, Mesh, Shape};
-use crate::materials::{Emission, Palette};
+use crate::materials::{Emission, Glow, Palette};
 use crate::view::View;
 
 /// Why lights cannot be collected.
@@ -35,32 +36,31 @@ pub enum LightError {
     TooMany,
 }
 
-/// Glowing surfaces with their powers.
+/// Lights of the scene.
 #[derive(Default)]
 pub(super) struct Gathered {
     pub(super) lights: Vec<Light>,
-    /// Mean spectral power of each, W/nm.
-    pub(super) powers: Vec<f64>,
+    /// What the choice among them knows of each.
+    pub(super) bounds: Vec<LightBounds>,
     pub(super) primitives: Primitives,
 }
 
 /// What a material's glow weighs.
 struct Weigher<'a> {
     palette: &'a Palette,
-    /// Mean exitance of each material that glows, over its sides, W·m⁻²·nm⁻¹.
-    exitance: Vec<Option<f64>>,
+    /// Mean radiance of each material that glows, W·m⁻²·sr⁻¹·nm⁻¹, and which sides do.
+    glows: Vec<Option<(f64, Glow)>>,
 }
 
 impl<'a> Weigher<'a> {
     fn new(palette: &'a Palette, (low_nm, high_nm): (f64, f64)) -> Self {
-        let weigh =
-            |e: &Emission| core::f64::consts::PI * e.sides() * e.mean_radiance(palette.textures(), low_nm, high_nm);
-        let exitance = palette.materials().iter().map(|m| m.emission.as_ref().map(weigh)).collect();
-        Self { palette, exitance }
+        let weigh = |e: &Emission| (e.mean_radiance(palette.textures(), low_nm, high_nm), e.glow);
+        let glows = palette.materials().iter().map(|m| m.emission.as_ref().map(weigh)).collect();
+        Self { palette, glows }
     }
 
-    fn exitance(&self, material: MaterialId) -> Option<f64> {
-        self.exitance[material.0 as usize]
+    fn glow(&self, material: MaterialId) -> Option<(f64, Glow)> {
+        self.glows[material.0 as usize]
     }
 }
 
@@ -90,31 +90,31 @@ fn check_materials(index: usize, instance: &Instance, weigher: &Weigher<'_>) -> 
 
 impl Gathered {
     fn add_mesh(&mut self, mesh: &Mesh, instance: &Instance, to_render: &DAffine3, weigher: &Weigher<'_>) {
-        if !instance.materials.iter().any(|m| weigher.exitance(*m).is_some()) {
+        if !instance.materials.iter().any(|m| weigher.glow(*m).is_some()) {
             return self.primitives.push([]);
         }
         let lights: Vec<_> = (0..mesh.triangles().len())
             .map(|primitive| {
                 let material = instance.materials[usize::from(mesh.slots()[primitive])];
-                let exitance = weigher.exitance(material)?;
+                let (radiance, glow) = weigher.glow(material)?;
                 let light = TriangleLight::new(mesh, primitive, to_render, material)?;
-                Some(self.add(exitance * light.area_m2(), Light::Triangle(light)))
+                Some(self.add(light.bounds(radiance, glow == Glow::Both), Light::Triangle(light)))
             })
             .collect();
         self.primitives.push(lights);
     }
 
     fn add_sphere(&mut self, radius_m: f64, material: MaterialId, to_render: &DAffine3, weigher: &Weigher<'_>) {
-        let Some(exitance) = weigher.exitance(material) else { return self.primitives.push([]) };
+        let Some((radiance, _)) = weigher.glow(material) else { return self.primitives.push([]) };
         let textured = weigher.palette.emission(material).is_some_and(|e| e.factor.is_some());
         let light = SphereLight::new(radius_m, to_render, material, textured);
-        let added = self.add(exitance * light.area_m2(), Light::Sphere(light));
+        let added = self.add(light.bounds(radiance), Light::Sphere(light));
         self.primitives.push([Some(added)]);
     }
 
-    pub(super) fn add(&mut self, power: f64, light: Light) -> u32 {
+    pub(super) fn add(&mut self, bounds: LightBounds, light: Light) -> u32 {
         self.lights.push(light);
-        self.powers.push(power);
+        self.bounds.push(bounds);
         (self.lights.len() - 1) as u32
     }
 }

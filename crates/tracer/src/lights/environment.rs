@@ -14,6 +14,7 @@ use etendue_spectra::{Spectrum, upsample};
 use glam::{Vec2, Vec3};
 
 use super::LightSample;
+use super::sky::SkyEnvironment;
 
 /// What surrounds the scene.
 #[derive(Clone, Debug)]
@@ -22,6 +23,44 @@ pub enum Environment {
     Uniform(Spectrum),
     /// A picture.
     Image(ImageEnvironment),
+    /// A clear sky.
+    Sky(Box<SkyEnvironment>),
+}
+
+impl Environment {
+    /// Irradiance that the surroundings give in the mean where they are drawn, W·m⁻²·nm⁻¹; 0 where they are not.
+    pub(super) fn drawn_irradiance(&self, low_nm: f64, high_nm: f64) -> f64 {
+        match self {
+            Self::Uniform(_) => 0.0,
+            Self::Image(image) => image.mean_irradiance(low_nm, high_nm),
+            Self::Sky(sky) => sky.mean_irradiance(low_nm, high_nm),
+        }
+    }
+
+    /// Radiance from a direction, and the density by which it would be drawn, 1/sr, which is asked for only where it is
+    /// `wanted`.
+    pub(super) fn seen<const N: usize>(
+        &self,
+        direction: Vec3,
+        wanted: bool,
+        wavelengths: &Wavelengths<N>,
+    ) -> (Spectral<N>, f32) {
+        match self {
+            Self::Uniform(radiance) => (radiance.sample(wavelengths), 0.0),
+            Self::Image(image) => {
+                (image.radiance(direction, wavelengths), if wanted { image.pdf(direction) } else { 0.0 })
+            }
+            Self::Sky(sky) => (sky.radiance(direction, wavelengths), if wanted { sky.pdf(direction) } else { 0.0 }),
+        }
+    }
+
+    pub(super) fn sample<const N: usize>(&self, u: Vec2, wavelengths: &Wavelengths<N>) -> Option<LightSample<N>> {
+        match self {
+            Self::Uniform(_) => None,
+            Self::Image(image) => image.sample(u, wavelengths),
+            Self::Sky(sky) => sky.sample(u, wavelengths),
+        }
+    }
 }
 
 /// Why an environment picture is refused.

@@ -9,12 +9,13 @@
 
 use std::sync::Arc;
 
-use etendue_core::Wavelengths;
+use etendue_core::{Wavelengths, maths};
 use etendue_spectra::Spectrum;
 use glam::{DMat3, DVec3, Mat3, Vec3};
 
-use super::LightSample;
 use super::profile::Profile;
+use super::tree::LightBounds;
+use super::{LightSample, Receiver};
 
 /// Why a lamp is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -116,7 +117,8 @@ pub(super) struct LampLight {
     /// Mean intensity over the wavelengths of the camera where the profile is 1, W·sr⁻¹·nm⁻¹.
     mean_intensity: f32,
     attenuation: f32,
-    lamp: Lamp,
+    intensity: Arc<Spectrum>,
+    profile: Arc<Profile>,
 }
 
 impl LampLight {
@@ -126,13 +128,32 @@ impl LampLight {
             to_lamp: lamp.axes.transpose().as_mat3(),
             mean_intensity: lamp.intensity.band_mean(low_nm, high_nm) as f32,
             attenuation: lamp.attenuation_per_m as f32,
-            lamp,
+            intensity: lamp.intensity,
+            profile: lamp.profile,
         }
     }
 
-    /// Mean power, W/nm.
-    pub(super) fn mean_power(&self) -> f64 {
-        f64::from(self.mean_intensity) * self.lamp.profile.flux_sr()
+    /// For the choice among lights.
+    pub(super) fn bounds(&self) -> LightBounds {
+        let spread = self.profile.spread();
+        let core_sr = core::f64::consts::TAU * (1.0 - maths::f64::cos(f64::from(spread.core_rad)));
+        LightBounds {
+            low: self.position,
+            high: self.position,
+            radius: 0.0,
+            intensity: f64::from(self.mean_intensity) * spread.flux_sr / core_sr.max(f64::MIN_POSITIVE),
+            axis: (self.to_lamp.transpose() * spread.axis).normalize(),
+            theta_o: spread.core_rad,
+            theta_e: (spread.reach_rad - spread.core_rad).max(0.0),
+            is_lamp: true,
+        }
+    }
+
+    /// Mean irradiance at a receiver, W·m⁻²·nm⁻¹: that of its surface, or of one facing the lamp.
+    pub(super) fn irradiance(&self, receiver: &Receiver) -> f32 {
+        let Some((direction, factor)) = self.reach(receiver.position) else { return 0.0 };
+        let cos = if receiver.normal == Vec3::ZERO { 1.0 } else { receiver.normal.dot(direction).max(0.0) };
+        self.mean_intensity * factor * cos
     }
 
     /// Direction to the lamp, and what a unit of intensity gives a surface that faces it; `None` where there is none.
@@ -140,14 +161,14 @@ impl LampLight {
         let way = self.position - from;
         let distance = way.length();
         let direction = way / distance;
-        let value = self.lamp.profile.value(self.to_lamp * -direction);
+        let value = self.profile.value(self.to_lamp * -direction);
         let factor = value / (distance * distance) / (1.0 + self.attenuation * distance);
         (factor > 0.0 && factor.is_finite()).then_some((direction, factor))
     }
 
     pub(super) fn sample<const N: usize>(&self, from: Vec3, wavelengths: &Wavelengths<N>) -> Option<LightSample<N>> {
         let (direction, factor) = self.reach(from)?;
-        let radiance = self.lamp.intensity.sample(wavelengths) * factor;
+        let radiance = self.intensity.sample(wavelengths) * factor;
         let target = Some(self.position);
         Some(LightSample { direction, target, radiance, pdf: 1.0, delta: true, surrounds: false })
     }

@@ -15,12 +15,15 @@ pub mod almanac;
 mod choice;
 mod collect;
 mod environment;
+pub mod head_lamp;
 mod lamp;
 mod primitives;
 mod profile;
 mod receiver;
+mod sky;
 mod sphere;
 mod sun;
+mod tree;
 mod triangle;
 
 pub use collect::LightError;
@@ -28,6 +31,7 @@ pub use environment::{Environment, EnvironmentError, ImageEnvironment};
 pub use lamp::{Lamp, LampError};
 pub use profile::{Cone, ConeError, Masked, Profile, Slide, SlideError, Web, WebAxes, WebError};
 pub use receiver::Receiver;
+pub use sky::SkyEnvironment;
 pub use sun::{SUN_ANGULAR_DIAMETER_DEG, Sun, SunError};
 
 use etendue_core::{Spectral, Wavelengths};
@@ -37,22 +41,19 @@ use crate::geometry::SurfacePoint;
 use crate::materials::Palette;
 use crate::textures::Lookup;
 use crate::view::View;
-use choice::Choice;
+use choice::{Choice, Chosen};
 use lamp::LampLight;
 use primitives::Primitives;
 use sphere::SphereLight;
+use tree::Question;
 use triangle::TriangleLight;
 
-/// A light that can be drawn.
+/// A light in the scene.
 #[derive(Clone, Debug)]
 enum Light {
     Triangle(TriangleLight),
     Sphere(SphereLight),
     Lamp(LampLight),
-    /// By its place among the suns.
-    Sun(u32),
-    /// The image environment.
-    Environment,
 }
 
 /// What shines but is no surface.
@@ -70,12 +71,9 @@ pub struct Sources {
 #[derive(Clone, Debug)]
 pub struct Lights {
     lights: Vec<Light>,
-    /// `None` where no light can be drawn.
-    choice: Option<Choice>,
+    choice: Choice,
     primitives: Primitives,
     suns: Vec<Sun>,
-    /// Place of the first sun among the lights.
-    first_sun: usize,
     environment: Option<Environment>,
 }
 
@@ -94,6 +92,8 @@ pub struct LightCensus {
     pub uniform_environment: bool,
     /// Whether a picture surrounds the scene.
     pub image_environment: bool,
+    /// Whether a clear sky surrounds the scene.
+    pub sky: bool,
 }
 
 /// Light drawn for a point.
@@ -164,20 +164,12 @@ impl Lights {
         let mut gathered = collect::of_surfaces(view, palette, (low_nm, high_nm))?;
         for lamp in lamps {
             let lamp = LampLight::new(lamp, view.origin_m(), (low_nm, high_nm));
-            gathered.add(lamp.mean_power(), Light::Lamp(lamp));
+            gathered.add(lamp.bounds(), Light::Lamp(lamp));
         }
-        let first_sun = gathered.lights.len();
-        let mut distant = vec![];
-        for (i, sun) in suns.iter().enumerate() {
-            gathered.lights.push(Light::Sun(i as u32));
-            distant.push(sun.mean_irradiance(low_nm, high_nm));
-        }
-        if let Some(Environment::Image(image)) = &environment {
-            gathered.lights.push(Light::Environment);
-            distant.push(image.mean_irradiance(low_nm, high_nm));
-        }
-        let choice = Choice::new(&gathered.powers, &distant);
-        Ok(Self { lights: gathered.lights, choice, primitives: gathered.primitives, suns, first_sun, environment })
+        let weighed = suns.iter().map(|sun| (sun.clone(), sun.mean_irradiance(low_nm, high_nm) as f32)).collect();
+        let surroundings = environment.as_ref().map_or(0.0, |e| e.drawn_irradiance(low_nm, high_nm)) as f32;
+        let choice = Choice::new(&gathered.bounds, weighed, surroundings);
+        Ok(Self { lights: gathered.lights, choice, primitives: gathered.primitives, suns, environment })
     }
 
     /// How many lights of each kind there are.
@@ -191,13 +183,14 @@ impl Lights {
             suns: self.suns.len(),
             uniform_environment: matches!(self.environment, Some(Environment::Uniform(_))),
             image_environment: matches!(self.environment, Some(Environment::Image(_))),
+            sky: matches!(self.environment, Some(Environment::Sky(_))),
         }
     }
 
     /// Whether any light can be drawn.
     #[must_use]
     pub fn can_be_drawn(&self) -> bool {
-        self.choice.is_some()
+        self.choice.is_possible()
     }
 
     /// A light and a direction towards it from the `receiver`; `None` where the light drawn sends nothing there.
@@ -211,17 +204,29 @@ impl Lights {
         palette: &Palette,
         wavelengths: &Wavelengths<N>,
     ) -> Option<LightSample<N>> {
-        let (i, probability) = self.choice.as_ref()?.draw(choice);
+        // Deep in a tree more digits are needed than the one number has; the other's place on the light is not felt.
+        let fine = f64::from(choice) + f64::from(u.x) * DIGIT;
+        let (chosen, probability) = self.choice.pick(&self.question(receiver), fine)?;
         let from = receiver.position;
-        let sample = match &self.lights[i] {
-            Light::Triangle(t) => t.glowing(palette).towards(&t.sample(from, u)?, from, spread_rad, wavelengths),
-            Light::Sphere(s) => s.glowing(palette).towards(&s.sample(from, u)?, from, spread_rad, wavelengths),
-            Light::Lamp(lamp) => lamp.sample(from, wavelengths),
-            Light::Sun(sun) => Some(self.suns[*sun as usize].sample(u, wavelengths)),
-            Light::Environment => self.image_environment()?.sample(u, wavelengths),
+        let sample = match chosen {
+            Chosen::Local(i) => match &self.lights[i] {
+                Light::Triangle(t) => t.glowing(palette).towards(&t.sample(from, u)?, from, spread_rad, wavelengths),
+                Light::Sphere(s) => s.glowing(palette).towards(&s.sample(from, u)?, from, spread_rad, wavelengths),
+                Light::Lamp(lamp) => lamp.sample(from, wavelengths),
+            },
+            Chosen::Sun(i) => Some(self.suns[i].sample(u, wavelengths)),
+            Chosen::Environment => self.environment.as_ref()?.sample(u, wavelengths),
         }?;
         let pdf = sample.pdf * probability;
         (pdf > 0.0).then_some(LightSample { pdf, ..sample })
+    }
+
+    fn question<'a>(&'a self, receiver: &'a Receiver) -> Question<'a, impl Fn(u32) -> f32 + 'a> {
+        let lamp = |i: u32| match &self.lights[i as usize] {
+            Light::Lamp(lamp) => lamp.irradiance(receiver),
+            Light::Triangle(_) | Light::Sphere(_) => 0.0,
+        };
+        Question { receiver, lamp }
     }
 
     /// Density by which [`Lights::sample`] would have given the direction to a surface point that was met, 1/sr; 0
@@ -232,9 +237,9 @@ impl Lights {
         let pdf = match &self.lights[i] {
             Light::Triangle(light) => light.pdf(met),
             Light::Sphere(light) => light.pdf(met),
-            Light::Lamp(_) | Light::Sun(_) | Light::Environment => 0.0,
+            Light::Lamp(_) => 0.0,
         };
-        pdf * self.probability(i)
+        pdf * self.choice.probability(&self.question(met.receiver), Chosen::Local(i))
     }
 
     /// Light from infinity along the unit `direction` away from the viewer, each contribution by itself. `receiver` is
@@ -245,34 +250,24 @@ impl Lights {
         receiver: Option<&'a Receiver>,
         wavelengths: &'a Wavelengths<N>,
     ) -> impl Iterator<Item = DistantLight<N>> + 'a {
-        let drawn = move |i: usize| receiver.map_or(0.0, |_| self.probability(i));
+        let drawn = move |light: Chosen| {
+            receiver.map_or(0.0, |receiver| self.choice.probability(&self.question(receiver), light))
+        };
         let suns = self.suns.iter().enumerate().filter(move |(_, sun)| sun.covers(direction)).map(move |(i, sun)| {
-            let pdf = sun.pdf() * drawn(self.first_sun + i);
-            DistantLight { radiance: sun.radiance().sample(wavelengths), pdf, surrounds: false }
+            let pdf = sun.pdf() * drawn(Chosen::Sun(i));
+            DistantLight { radiance: sun.radiance_from(direction, wavelengths), pdf, surrounds: false }
         });
-        let environment = self.environment.iter().map(move |environment| match environment {
-            Environment::Uniform(radiance) => {
-                DistantLight { radiance: radiance.sample(wavelengths), pdf: 0.0, surrounds: true }
-            }
-            Environment::Image(image) => {
-                let pdf = image.pdf(direction) * drawn(self.lights.len() - 1);
-                DistantLight { radiance: image.radiance(direction, wavelengths), pdf, surrounds: true }
-            }
+        let environment = self.environment.iter().map(move |environment| {
+            let (radiance, pdf) = environment.seen(direction, receiver.is_some(), wavelengths);
+            let pdf = if pdf > 0.0 { pdf * drawn(Chosen::Environment) } else { 0.0 };
+            DistantLight { radiance, pdf, surrounds: true }
         });
         suns.chain(environment)
     }
-
-    fn image_environment(&self) -> Option<&ImageEnvironment> {
-        match &self.environment {
-            Some(Environment::Image(image)) => Some(image),
-            _ => None,
-        }
-    }
-
-    fn probability(&self, i: usize) -> f32 {
-        self.choice.as_ref().map_or(0.0, |c| c.probability(i))
-    }
 }
+
+/// Weight of the digits that a second number adds to the 24 bits of the first: 2⁻²⁴.
+const DIGIT: f64 = 0.5 * 1.192_092_895_507_812_5e-7;
 
 /// What surface lights have in common.
 struct Glowing<'a> {

@@ -9,6 +9,7 @@ use etendue_core::Basis;
 use etendue_core::warp::{uniform_cone, uniform_sphere};
 use glam::{DAffine3, DMat3, DVec3, Mat3, Vec2, Vec3};
 
+use super::tree::LightBounds;
 use super::{Glowing, Met, ROUNDING, SurfaceSample, solid_angle_pdf};
 use crate::MaterialId;
 use crate::geometry::sphere;
@@ -57,9 +58,14 @@ impl SphereLight {
         }
     }
 
-    /// For weighing it among other lights; exact for a round sphere.
-    pub(super) fn area_m2(&self) -> f64 {
-        self.area_m2
+    /// For the choice among lights, at a mean radiance: seen from anywhere it fills about a quarter of its area.
+    pub(super) fn bounds(&self, radiance: f64) -> LightBounds {
+        let rows = self.linear.transpose();
+        let half = Vec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length());
+        let points = [self.centre - half, self.centre + half];
+        let bounds = LightBounds::of_surface(&points, 0.25 * radiance * self.area_m2, None);
+        // Room for rounding.
+        LightBounds { radius: half.max_element().min(bounds.radius) * (1.0 + 1e-5), ..bounds }
     }
 
     /// The cone that it fills, with its radius, seen from outside; `None` from inside or where it is not round.

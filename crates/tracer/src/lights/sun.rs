@@ -1,18 +1,25 @@
-//! The sun: a disc of uniform radiance at infinity.
+//! The sun: a disc at infinity.
 //!
-//! A disc of half angle δ seen at radiance L gives a surface that faces it the irradiance E = π sin² δ · L. At
-//! 0.5338° across that is 6.817·10⁻⁵ sr · L. Limb darkening is left out.
+//! A disc of half angle δ seen at the mean radiance L gives a surface that faces it the irradiance E = π sin² δ · L. At
+//! 0.5338° across that is 6.817·10⁻⁵ sr · L. The disc is of one radiance, or darkens towards its limb: with
+//! µ = √(1 − sin² γ/sin² δ) at the angle γ from its centre, radiance is the centre's times Σ aₖ(λ) µᵏ, k = 0…5
+//! (`etendue_spectra::sky::sun`), of which the mean is 2 Σ aₖ/(k + 2), so that the irradiance is as stated, exactly.
+//! Directions are drawn uniformly over the disc in both cases. Left out: refraction, which flattens a low sun; spots.
 
 use core::f32::consts::TAU;
 use etendue_core::warp::uniform_cone;
 use etendue_core::{Basis, Spectral, Wavelengths, maths};
 use etendue_spectra::Spectrum;
+use etendue_spectra::sky::{BANDS, FIRST_NM, STEP_NM, sun as model};
 use glam::{DVec3, Vec2, Vec3};
 
 use super::LightSample;
 
 /// Mean angular diameter of the sun, degrees.
 pub const SUN_ANGULAR_DIAMETER_DEG: f64 = 0.5338;
+
+/// Coefficients aₖ in each band.
+type Limb = [[f32; 6]; BANDS];
 
 /// Why a sun is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -31,11 +38,14 @@ pub enum SunError {
     Radiance,
 }
 
-/// A disc of uniform radiance at infinity.
+/// A disc at infinity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sun {
     basis: Basis,
+    /// At the centre.
     radiance: Spectrum,
+    /// Coefficients aₖ in each band, where the limb is darker.
+    limb: Option<Box<Limb>>,
     /// 1 − cos δ and sin² δ of the half angle δ.
     one_minus_cos: f32,
     sin2: f64,
@@ -57,7 +67,7 @@ impl Sun {
         let sin = maths::f64::sin(0.5 * angular_diameter_deg.to_radians());
         let one_minus_cos = sin * sin / (1.0 + (1.0 - sin * sin).sqrt());
         let basis = Basis::about(z.as_vec3().normalize());
-        Ok(Self { basis, radiance, one_minus_cos: one_minus_cos as f32, sin2: sin * sin })
+        Ok(Self { basis, radiance, limb: None, one_minus_cos: one_minus_cos as f32, sin2: sin * sin })
     }
 
     /// A sun that gives a surface facing it the spectral `irradiance`, W·m⁻²·nm⁻¹.
@@ -70,7 +80,19 @@ impl Sun {
         Self::of_radiance(direction, angular_diameter_deg, radiance)
     }
 
-    /// Spectral radiance of the disc, W·m⁻²·sr⁻¹·nm⁻¹.
+    /// The sun with a limb as dark as the real one's, and the same irradiance: its centre becomes brighter.
+    #[must_use]
+    pub fn with_limb(self) -> Self {
+        if self.limb.is_some() {
+            return self;
+        }
+        let per_mean = Spectrum::from_fn(|nm| 1.0 / model::limb_mean(nm));
+        let band = |b: usize| model::limb(FIRST_NM + STEP_NM * b as f64).map(|a| a as f32);
+        let limb = Some(Box::new(core::array::from_fn(band)));
+        Self { radiance: self.radiance.product(&per_mean), limb, ..self }
+    }
+
+    /// Spectral radiance of the disc's centre, W·m⁻²·sr⁻¹·nm⁻¹.
     #[must_use]
     pub fn radiance(&self) -> &Spectrum {
         &self.radiance
@@ -83,7 +105,33 @@ impl Sun {
     }
 
     pub(super) fn mean_irradiance(&self, low_nm: f64, high_nm: f64) -> f64 {
-        core::f64::consts::PI * self.sin2 * self.radiance.band_mean(low_nm, high_nm)
+        let mean = match self.limb {
+            Some(_) => self.radiance.product(&Spectrum::from_fn(model::limb_mean)).band_mean(low_nm, high_nm),
+            None => self.radiance.band_mean(low_nm, high_nm),
+        };
+        core::f64::consts::PI * self.sin2 * mean
+    }
+
+    /// Whether any of the disc is above the horizon of a surface of this unit normal.
+    pub(super) fn rises_over(&self, normal: Vec3) -> bool {
+        // Room for the rounding of both vectors.
+        self.basis.z.dot(normal) > -(self.sin2 as f32).sqrt() - 1e-5
+    }
+
+    /// Spectral radiance from a unit direction that meets the disc.
+    pub(super) fn radiance_from<const N: usize>(&self, direction: Vec3, wavelengths: &Wavelengths<N>) -> Spectral<N> {
+        let centre = self.radiance.sample(wavelengths);
+        let Some(limb) = &self.limb else { return centre };
+        let aside2 = self.basis.z.cross(direction).length_squared();
+        let mu = (1.0 - aside2 / self.sin2 as f32).max(0.0).sqrt();
+        let band = |b: usize| limb[b].iter().rev().fold(0.0, |sum, a| sum * mu + a);
+        let darkening = Spectral(wavelengths.nm.map(|nm| {
+            let x = ((nm - FIRST_NM as f32) * (1.0 / STEP_NM as f32)).clamp(0.0, (BANDS - 1) as f32);
+            let low = (x as i32 as usize).min(BANDS - 2);
+            let (below, above) = (band(low), band(low + 1));
+            (below + (x - low as f32) * (above - below)).max(0.0)
+        }));
+        centre * darkening
     }
 
     /// Whether the unit `direction` meets the disc. By the sine, which f32 resolves where it cannot the cosine.
@@ -98,8 +146,8 @@ impl Sun {
     }
 
     pub(super) fn sample<const N: usize>(&self, u: Vec2, wavelengths: &Wavelengths<N>) -> LightSample<N> {
-        let radiance: Spectral<N> = self.radiance.sample(wavelengths);
         let direction = self.basis.outward(uniform_cone(u, self.one_minus_cos));
+        let radiance = self.radiance_from(direction, wavelengths);
         LightSample { direction, target: None, radiance, pdf: self.pdf(), delta: false, surrounds: false }
     }
 }
@@ -129,6 +177,42 @@ mod tests {
             assert_eq!(sun.covers(sun.basis.outward(Vec3::new(s, 0.0, c))), inside, "{k}");
         }
         assert!(!sun.covers(-sun.direction()));
+    }
+
+    #[test]
+    fn a_dark_limb_keeps_the_irradiance_and_has_the_centre_of_the_table() {
+        let irradiance = model::normal_irradiance(3.0, 1.0).expect("a sun");
+        let sun = Sun::of_irradiance(DVec3::new(0.2, 0.5, 0.7), SUN_ANGULAR_DIAMETER_DEG, &irradiance).expect("a sun");
+        let sun = sun.with_limb();
+        let table = model::radiance(3.0, 1.0).expect("a radiance");
+        for nm in [330.0, 450.0, 555.0, 700.0, 1000.0] {
+            // Values are rounded to f32 three times; the mean of the limb is exact at whole nanometres.
+            assert!((sun.radiance().at(nm) / table.at(nm) - 1.0).abs() < 1e-6, "{nm}");
+        }
+        let wavelengths = etendue_core::Wavelengths::<4> { nm: [330.0, 450.0, 555.0, 700.0], pdf: [1.0; 4] };
+        let n = 4096;
+        let mut sums = [0.0; 4];
+        for i in 0..n {
+            let u = Vec2::new((i as f32 + 0.5) / n as f32, (0.618_034 * f64::from(i)).fract() as f32);
+            let sample = sun.sample(u, &wavelengths);
+            let cos = f64::from(sample.direction.dot(sun.direction()));
+            (0..4).for_each(|k| sums[k] += f64::from(sample.radiance[k]) * cos / f64::from(sample.pdf));
+        }
+        for (k, sum) in sums.iter().enumerate() {
+            let expected = f64::from(irradiance.at(wavelengths.nm[k]));
+            // The midpoint rule of 4096 rings; µ has a vertical tangent at the limb.
+            assert!((sum / f64::from(n) / expected - 1.0).abs() < 1e-4, "{k}: {} {expected}", sum / f64::from(n));
+        }
+        assert!((sun.mean_irradiance(400.0, 700.0) / irradiance.band_mean(400.0, 700.0) - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_sun_rises_with_its_upper_edge() {
+        let sun = Sun::of_radiance(DVec3::Z, 0.5338, Spectrum::constant(1.0)).expect("a sun");
+        for (below_deg, rises) in [(-1.0_f32, true), (0.266, true), (0.27, false), (30.0, false)] {
+            let (sin, cos) = maths::f32::sin_cos(below_deg.to_radians());
+            assert_eq!(sun.rises_over(Vec3::new(cos, 0.0, -sin)), rises, "{below_deg}");
+        }
     }
 
     #[test]

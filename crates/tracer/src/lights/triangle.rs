@@ -3,6 +3,7 @@
 use etendue_core::warp::uniform_triangle;
 use glam::{DAffine3, Mat3, Vec2, Vec3};
 
+use super::tree::LightBounds;
 use super::{Glowing, Met, ROUNDING, SurfaceSample, solid_angle_pdf};
 use crate::MaterialId;
 use crate::geometry::Mesh;
@@ -47,6 +48,14 @@ impl TriangleLight {
 
     pub(super) fn area_m2(&self) -> f64 {
         1.0 / f64::from(self.per_area)
+    }
+
+    /// For the choice among lights, at a mean radiance; `both` sides glow or only the front.
+    pub(super) fn bounds(&self, radiance: f64, both: bool) -> LightBounds {
+        let corners = [self.corner, self.corner + self.edges[0], self.corner + self.edges[1]];
+        // A side's intensity falls by the cosine, whose mean over all directions is one half.
+        let share = if both { 0.5 } else { 1.0 };
+        LightBounds::of_surface(&corners, share * radiance * self.area_m2(), (!both).then_some(self.normal))
     }
 
     pub(super) fn sample(&self, from: Vec3, u: Vec2) -> Option<SurfaceSample> {

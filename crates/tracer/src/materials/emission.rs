@@ -54,12 +54,4 @@ impl Emission {
         let texture = self.factor.map_or(1.0, |id| f64::from(textures[id.0 as usize].mean().element_sum()) / 3.0);
         self.radiance.band_mean(low_nm, high_nm) * texture
     }
-
-    /// Radiant exitance's factor for its sides: 1 or 2.
-    pub(crate) fn sides(&self) -> f64 {
-        match self.glow {
-            Glow::Front => 1.0,
-            Glow::Both => 2.0,
-        }
-    }
 }

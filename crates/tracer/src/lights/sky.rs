@@ -1,0 +1,204 @@
+//! The clear sky of Hosek and Wilkie as surroundings.
+//!
+//! Above the horizon a direction at the angle θ from the zenith and γ from the sun has, in each of eleven bands,
+//! L = L̄ · gradient(cos θ) · (glow(γ) + rise · √cos θ), not below zero (`etendue_spectra::sky`, which also says how bands
+//! become wavelengths). The two functions are kept as tables, linear between nodes of √cos θ and of √sin(γ/2), in which
+//! they are smooth and finest where the horizon and the sun are; against the model that is within 1e-3.
+//!
+//! Below the horizon lies ground of the model's kind, matt and endless: its radiance is albedo · E/π everywhere, E the
+//! irradiance of level ground by sky and sun. So a picture without a ground does not end in black. It is met by chance
+//! and never drawn: no direction of it is better than the surface's own.
+//!
+//! Directions of the sky are drawn by a grid of equal steps in azimuth from the sun and in elevation, a cell by its mean
+//! radiance (440–640 nm) and solid angle; each cell has a chance.
+
+use core::f32::consts::{FRAC_PI_2, TAU};
+use etendue_core::distribution::Distribution2;
+use etendue_core::maths::f32::{asin, atan2, sin_cos};
+use etendue_core::{Spectral, Wavelengths, maths};
+use etendue_spectra::Spectrum;
+use etendue_spectra::sky::{BANDS, FIRST_NM, STEP_NM, SkyModel};
+use glam::{DVec3, Vec2, Vec3};
+
+use super::LightSample;
+
+/// Intervals of the tables.
+const STEPS: usize = 1024;
+
+/// Cells of the grid that directions are drawn by.
+const COLUMNS: usize = 256;
+const ROWS: usize = 128;
+
+/// Bands whose mean weighs directions: 440 to 640 nm.
+const SEEN: core::ops::RangeInclusive<usize> = 3..=8;
+
+/// Least weight of a cell, as a share of the mean one.
+const FLOOR: f64 = 1e-3;
+
+/// One value for each band.
+type Bands = [f32; BANDS];
+
+/// The sky above an endless ground. Its `Debug` text leaves out the tables, which follow from what it tells.
+#[derive(Clone)]
+pub struct SkyEnvironment {
+    /// Where γ is counted from: the sun, or the horizon below which it stands.
+    glow: Vec3,
+    azimuth_turns: f32,
+    gradient: Vec<Bands>,
+    around: Vec<Bands>,
+    rise: Bands,
+    /// Factor on the outermost bands beyond them, 1 between.
+    beyond: Spectrum,
+    ground: Spectrum,
+    irradiance: Spectrum,
+    distribution: Distribution2,
+}
+
+impl core::fmt::Debug for SkyEnvironment {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("SkyEnvironment")
+            .field("glow", &self.glow)
+            .field("irradiance", &self.irradiance)
+            .field("ground", &self.ground)
+            .finish_non_exhaustive()
+    }
+}
+
+impl SkyEnvironment {
+    /// The sky of a model whose sun stands at an azimuth (rad, anticlockwise from +x seen from above), over ground of a
+    /// matt `albedo` on which the sun alone gives the spectral irradiance `sun_on_ground` (W·m⁻²·nm⁻¹).
+    /// `None` where the sky is black.
+    #[must_use]
+    pub fn new(model: &SkyModel, azimuth_rad: f64, albedo: f64, sun_on_ground: &Spectrum) -> Option<Self> {
+        let irradiance = model.horizontal_irradiance();
+        let share = albedo / core::f64::consts::PI;
+        let ground = Spectrum::from_fn(|nm| share * f64::from(irradiance.at(nm as f32) + sun_on_ground.at(nm as f32)));
+        let glow = towards(azimuth_rad, model.glow_elevation_rad());
+        let [gradient, around] = tables(model);
+        Some(Self {
+            glow: glow.as_vec3(),
+            azimuth_turns: (azimuth_rad / core::f64::consts::TAU).rem_euclid(1.0) as f32,
+            gradient,
+            around,
+            rise: model.bands().map(|b| (b.rise(1.0) * b.scale()) as f32),
+            beyond: Spectrum::from_fn(|nm| SkyModel::mix(nm).weights.iter().sum()),
+            ground,
+            irradiance,
+            distribution: Distribution2::new(COLUMNS, &weights(model))?,
+        })
+    }
+
+    /// Spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) from the unit `direction` (away from the viewer).
+    #[must_use]
+    pub fn radiance<const N: usize>(&self, direction: Vec3, wavelengths: &Wavelengths<N>) -> Spectral<N> {
+        if direction.z < 0.0 {
+            return self.ground.sample(wavelengths);
+        }
+        let root = direction.z.min(1.0).sqrt();
+        // sin(γ/2), half the chord; without loss near the sun.
+        let around = (0.5 * (direction - self.glow).length()).min(1.0).sqrt();
+        let (gradient, around) = (Place::of(root), Place::of(around));
+        let band = |b: usize| gradient.read(&self.gradient, b) * (around.read(&self.around, b) + self.rise[b] * root);
+        Spectral(wavelengths.nm.map(|nm| {
+            let x = ((nm - FIRST_NM as f32) * (1.0 / STEP_NM as f32)).clamp(0.0, (BANDS - 1) as f32);
+            let low = (x as i32 as usize).min(BANDS - 2);
+            let (below, above) = (band(low).max(0.0), band(low + 1).max(0.0));
+            self.beyond.at(nm) * (below + (x - low as f32) * (above - below))
+        }))
+    }
+
+    /// Spectral irradiance of level ground by the sky, W·m⁻²·nm⁻¹.
+    #[must_use]
+    pub fn irradiance(&self) -> &Spectrum {
+        &self.irradiance
+    }
+
+    pub(super) fn mean_irradiance(&self, low_nm: f64, high_nm: f64) -> f64 {
+        self.irradiance.band_mean(low_nm, high_nm)
+    }
+
+    /// Density by which [`SkyEnvironment::sample`] gives the unit `direction`, 1/sr.
+    pub(super) fn pdf(&self, direction: Vec3) -> f32 {
+        let cos = (direction.x * direction.x + direction.y * direction.y).sqrt();
+        if direction.z < 0.0 || cos <= 0.0 {
+            return 0.0;
+        }
+        let turns = atan2(direction.y, direction.x) / TAU - self.azimuth_turns;
+        let place = Vec2::new(turns - turns.floor(), asin(direction.z.min(1.0)) / FRAC_PI_2).min(ONE_BELOW);
+        self.distribution.pdf(place) / (TAU * FRAC_PI_2 * cos)
+    }
+
+    pub(super) fn sample<const N: usize>(&self, u: Vec2, wavelengths: &Wavelengths<N>) -> Option<LightSample<N>> {
+        let (place, by_area) = self.distribution.sample(u);
+        let (sin_a, cos_a) = sin_cos((place.x + self.azimuth_turns) * TAU);
+        let (sin_e, cos_e) = sin_cos(place.y * FRAC_PI_2);
+        let direction = Vec3::new(cos_e * cos_a, cos_e * sin_a, sin_e);
+        let pdf = by_area / (TAU * FRAC_PI_2 * cos_e);
+        let radiance = self.radiance(direction, wavelengths);
+        (pdf > 0.0 && pdf.is_finite()).then_some(LightSample {
+            direction,
+            target: None,
+            radiance,
+            pdf,
+            delta: false,
+            surrounds: true,
+        })
+    }
+}
+
+const ONE_BELOW: Vec2 = Vec2::splat(1.0 - 0.5 * f32::EPSILON);
+
+fn towards(azimuth_rad: f64, elevation_rad: f64) -> DVec3 {
+    let ((sin_a, cos_a), (sin_e, cos_e)) = (maths::f64::sin_cos(azimuth_rad), maths::f64::sin_cos(elevation_rad));
+    DVec3::new(cos_e * cos_a, cos_e * sin_a, sin_e)
+}
+
+/// A place in a table over [0, 1].
+struct Place {
+    node: usize,
+    t: f32,
+}
+
+impl Place {
+    fn of(x: f32) -> Self {
+        let x = x * STEPS as f32;
+        let node = (x as i32 as usize).min(STEPS - 1);
+        Self { node, t: x - node as f32 }
+    }
+
+    fn read(&self, table: &[Bands], band: usize) -> f32 {
+        let (low, high) = (table[self.node][band], table[self.node + 1][band]);
+        low + self.t * (high - low)
+    }
+}
+
+/// Gradients over √cos θ, and glows times scale over √sin(γ/2).
+fn tables(model: &SkyModel) -> [Vec<Bands>; 2] {
+    let node = |i: usize| i as f64 / STEPS as f64;
+    let gradient = |x: f64| model.bands().map(|b| b.gradient(x * x) as f32);
+    // cos γ = 1 − 2 sin²(γ/2).
+    let around = |x: f64| model.bands().map(|b| (b.scale() * b.glow(1.0 - 2.0 * x * x * x * x)) as f32);
+    [(0..=STEPS).map(|i| gradient(node(i))).collect(), (0..=STEPS).map(|i| around(node(i))).collect()]
+}
+
+/// Mean radiance of each cell, of its corners and middle, times the cell's solid angle.
+fn weights(model: &SkyModel) -> Vec<f32> {
+    let (height, width) = (core::f64::consts::FRAC_PI_2 / ROWS as f64, core::f64::consts::TAU / COLUMNS as f64);
+    let glow = towards(0.0, model.glow_elevation_rad());
+    let seen = |row: f64, column: f64| {
+        let direction = towards(column * width, (row * height).min(core::f64::consts::FRAC_PI_2));
+        let bands = model.band_radiances(direction.z.clamp(0.0, 1.0), direction.dot(glow).clamp(-1.0, 1.0));
+        bands[SEEN].iter().sum::<f64>()
+    };
+    let corners: Vec<f64> =
+        (0..=ROWS).flat_map(|j| (0..=COLUMNS).map(move |i| (j, i))).map(|(j, i)| seen(j as f64, i as f64)).collect();
+    let cell = |j: usize, i: usize| {
+        let at = |j: usize, i: usize| corners[j * (COLUMNS + 1) + i];
+        let middle = seen(j as f64 + 0.5, i as f64 + 0.5);
+        0.125 * (at(j, i) + at(j, i + 1) + at(j + 1, i) + at(j + 1, i + 1)) + 0.5 * middle
+    };
+    let means: Vec<f64> = (0..ROWS).flat_map(|j| (0..COLUMNS).map(move |i| (j, i))).map(|(j, i)| cell(j, i)).collect();
+    let floor = FLOOR * means.iter().sum::<f64>() / means.len() as f64;
+    let band = |j: usize| maths::f64::sin((j + 1) as f64 * height) - maths::f64::sin(j as f64 * height);
+    means.iter().enumerate().map(|(k, mean)| ((mean + floor) * band(k / COLUMNS) * width * 1e6) as f32).collect()
+}

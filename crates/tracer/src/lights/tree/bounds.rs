@@ -1,0 +1,96 @@
+//! Where a light or a cluster is, how strong, and into which cone it shines.
+
+use core::f32::consts::{FRAC_PI_2, PI};
+use etendue_core::maths;
+use glam::Vec3;
+
+/// Bounds of a light or of a cluster of them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::lights) struct LightBounds {
+    /// Least and greatest coordinates, render frame, m.
+    pub(in crate::lights) low: Vec3,
+    pub(in crate::lights) high: Vec3,
+    /// Radius of a sphere about the middle of these that holds all, m.
+    pub(in crate::lights) radius: f32,
+    /// Mean intensity along the axis, W·sr⁻¹·nm⁻¹.
+    pub(in crate::lights) intensity: f64,
+    /// Unit axis, and half angles (rad): light goes along the axis up to `theta_o`, and falls beyond it to none at
+    /// `theta_e` more.
+    pub(in crate::lights) axis: Vec3,
+    pub(in crate::lights) theta_o: f32,
+    pub(in crate::lights) theta_e: f32,
+    /// Whether it is one lamp without extent.
+    pub(in crate::lights) is_lamp: bool,
+}
+
+impl LightBounds {
+    pub(super) fn centre(&self) -> Vec3 {
+        self.low * 0.5 + self.high * 0.5
+    }
+
+    /// Bounds of both.
+    pub(super) fn union(&self, other: &Self) -> Self {
+        let (low, high) = (self.low.min(other.low), self.high.max(other.high));
+        let (axis, theta_o) = cone_union((self.axis, self.theta_o), (other.axis, other.theta_o));
+        Self {
+            low,
+            high,
+            // Room for the rounding of the middle.
+            radius: (high * 0.5 - low * 0.5).length() * (1.0 + 1e-5),
+            intensity: self.intensity + other.intensity,
+            axis,
+            theta_o,
+            theta_e: self.theta_e.max(other.theta_e),
+            is_lamp: false,
+        }
+    }
+
+    /// The orientation measure M_Ω of Conty Estevez and Kulla: ∫ over the cone, weighted by the fall beyond θ_o.
+    fn orientation(&self) -> f64 {
+        let (o, w) = (f64::from(self.theta_o), f64::from((self.theta_o + self.theta_e).min(PI)));
+        let (sin, cos) = maths::f64::sin_cos(o);
+        let fall = 2.0 * w * sin - maths::f64::cos(o - 2.0 * w) - 2.0 * o * sin + cos;
+        core::f64::consts::TAU * (1.0 - cos) + core::f64::consts::FRAC_PI_2 * fall
+    }
+
+    /// What a cluster costs a tree: intensity × squared radius × orientation. The radius takes the place of the area of the
+    /// box in the paper, which is zero for lamps in a row.
+    pub(super) fn cost(&self) -> f64 {
+        self.intensity * f64::from(self.radius) * f64::from(self.radius) * self.orientation()
+    }
+}
+
+/// The least cone about two.
+fn cone_union((a, theta_a): (Vec3, f32), (b, theta_b): (Vec3, f32)) -> (Vec3, f32) {
+    let ((wide, theta), (narrow, other)) =
+        if theta_a >= theta_b { ((a, theta_a), (b, theta_b)) } else { ((b, theta_b), (a, theta_a)) };
+    let between = angle(wide, narrow);
+    if (between + other).min(PI) <= theta {
+        return (wide, theta);
+    }
+    let half = 0.5 * (theta + between + other);
+    let aside = (narrow - wide * wide.dot(narrow)).normalize_or_zero();
+    // Opposite axes have no direction between them.
+    if half >= PI || aside == Vec3::ZERO {
+        return (wide, PI);
+    }
+    let (sin, cos) = maths::f32::sin_cos(half - theta);
+    // Room for rounding.
+    ((wide * cos + aside * sin).normalize(), (half + 1e-5).min(PI))
+}
+
+/// Angle between unit vectors, rad.
+fn angle(a: Vec3, b: Vec3) -> f32 {
+    maths::f32::atan2(a.cross(b).length(), a.dot(b))
+}
+
+impl LightBounds {
+    /// Of a surface: matt light from one side (`normal`) or all.
+    pub(in crate::lights) fn of_surface(points: &[Vec3], intensity: f64, normal: Option<Vec3>) -> Self {
+        let low = points.iter().copied().reduce(Vec3::min).unwrap_or_default();
+        let high = points.iter().copied().reduce(Vec3::max).unwrap_or_default();
+        let (axis, theta_o, theta_e) = normal.map_or((Vec3::Z, PI, FRAC_PI_2), |n| (n, 0.0, FRAC_PI_2));
+        let radius = (high * 0.5 - low * 0.5).length() * (1.0 + 1e-5);
+        Self { low, high, radius, intensity, axis, theta_o, theta_e, is_lamp: false }
+    }
+}

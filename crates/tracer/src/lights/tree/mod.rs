@@ -1,0 +1,132 @@
+//! Which local light to ask: a tree over all that shines in the scene, walked anew for each receiver.
+//!
+//! After Conty Estevez and Kulla 2018 ("Importance sampling of many lights with adaptive tree splitting"): clusters know
+//! a sphere about them, their intensity and a cone that holds their light; from these follows a bound-like estimate of
+//! the irradiance that they give a receiver, and a cluster is entered with a probability in proportion to it. Changed
+//! here: nodes have eight children, whose estimates are made at once; leaves that are lamps without extent are weighed by
+//! their own intensity towards the receiver. A draw costs O(log n). [`LightTree::probability`] walks the way to a light
+//! through the same arithmetic in the same order, so that it tells the bits that [`LightTree::pick`] told.
+//!
+//! An estimate is zero only where the light surely is (behind the emitter, below the receiver's horizon).
+
+mod bounds;
+mod build;
+mod node;
+
+pub(super) use bounds::LightBounds;
+
+use super::Receiver;
+use node::{LANES, Node};
+
+/// Where a light or a node hangs.
+#[derive(Clone, Copy, Debug, Default)]
+struct Slot {
+    node: u32,
+    lane: u8,
+}
+
+/// A tree over lights that are numbered from 0.
+#[derive(Clone, Debug)]
+pub(super) struct LightTree {
+    /// The root first.
+    nodes: Vec<Node>,
+    /// Where each node hangs; of no meaning for the root.
+    parents: Vec<Slot>,
+    /// Where each light hangs.
+    leaves: Vec<Slot>,
+    /// Irradiance, W·m⁻²·nm⁻¹, of a weight of 1: weights are told in units of the strongest light, to fit into f32.
+    scale: f64,
+    per_irradiance: f32,
+}
+
+/// A receiver with what leaves are asked for: the irradiance that a lamp gives it, W·m⁻²·nm⁻¹.
+pub(super) struct Question<'a, F: Fn(u32) -> f32> {
+    pub(super) receiver: &'a Receiver,
+    pub(super) lamp: F,
+}
+
+impl LightTree {
+    /// A tree over lights; `None` where none of them shines.
+    pub(super) fn new(lights: &[LightBounds]) -> Option<Self> {
+        build::tree(lights)
+    }
+
+    /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver.
+    pub(super) fn pick<F: Fn(u32) -> f32>(&self, question: &Question<'_, F>, u: f64) -> Option<(usize, f32)> {
+        let (mut node, mut u, mut probability) = (0, u, 1.0);
+        loop {
+            let weights = self.weights(node, question);
+            let (lane, share, within) = draw(&weights, u)?;
+            probability *= share;
+            u = within;
+            let child = self.nodes[node as usize].child(lane);
+            if !child.is_node {
+                return Some((child.index as usize, probability));
+            }
+            node = child.index;
+        }
+    }
+
+    /// The probability by which [`LightTree::pick`] gives a light.
+    pub(super) fn probability<F: Fn(u32) -> f32>(&self, question: &Question<'_, F>, light: usize) -> f32 {
+        self.reach(question, self.leaves[light])
+    }
+
+    /// Probability of coming to a slot.
+    fn reach<F: Fn(u32) -> f32>(&self, question: &Question<'_, F>, slot: Slot) -> f32 {
+        let above = if slot.node == 0 { 1.0 } else { self.reach(question, self.parents[slot.node as usize]) };
+        if above > 0.0 { above * share(&self.weights(slot.node, question), usize::from(slot.lane)) } else { 0.0 }
+    }
+
+    /// Estimate of the irradiance at the receiver, W·m⁻²·nm⁻¹: finer where the greatest cluster is near.
+    pub(super) fn irradiance<F: Fn(u32) -> f32>(&self, question: &Question<'_, F>) -> f64 {
+        let (mut node, mut sum) = (0, 0.0);
+        loop {
+            let weights = self.weights(node, question);
+            let total: f32 = weights.iter().sum();
+            let lane = (0..LANES).fold(0, |best, i| if weights[i] > weights[best] { i } else { best });
+            let child = self.nodes[node as usize].child(lane);
+            if !child.is_node || self.nodes[node as usize].is_far(lane, question.receiver.position) {
+                return self.scale * (sum + f64::from(total));
+            }
+            sum += f64::from(total - weights[lane]);
+            node = child.index;
+        }
+    }
+
+    fn weights<F: Fn(u32) -> f32>(&self, node: u32, question: &Question<'_, F>) -> [f32; LANES] {
+        let node = &self.nodes[node as usize];
+        let mut weights = node.weights(question.receiver);
+        for (lane, weight) in weights.iter_mut().enumerate() {
+            if node.is_lamp(lane) && *weight > 0.0 {
+                *weight = (question.lamp)(node.child(lane).index) * self.per_irradiance;
+            }
+        }
+        weights
+    }
+}
+
+fn share(weights: &[f32; LANES], lane: usize) -> f32 {
+    let total: f32 = weights.iter().sum();
+    if total > 0.0 { weights[lane] / total } else { 0.0 }
+}
+
+/// The lane that `u` in [0, 1) falls on, its share, and where in it `u` lies, in [0, 1).
+fn draw(weights: &[f32; LANES], u: f64) -> Option<(usize, f32, f64)> {
+    let total: f32 = weights.iter().sum();
+    let mut rest = u * f64::from(total);
+    let mut chosen = None;
+    for (lane, weight) in weights.iter().enumerate().filter(|(_, w)| **w > 0.0) {
+        let weight = f64::from(*weight);
+        chosen = Some((lane, (rest / weight).min(ONE_BELOW)));
+        if rest < weight {
+            break;
+        }
+        rest -= weight;
+    }
+    let (lane, within) = chosen?;
+    Some((lane, share(weights, lane), within))
+}
+
+/// The largest `f64` below one.
+const ONE_BELOW: f64 = 1.0 - 0.5 * f64::EPSILON;
