@@ -12,10 +12,11 @@ const WHITE: f32 = 1.0 + 1e-4;
 pub(super) fn material(materials: &[Material], index: usize, textures: &[ImageTexture]) -> Result<(), MaterialError> {
     let material = &materials[index];
     match &material.surface {
-        Surface::Absorber => {}
+        Surface::Absorber | Surface::Marking(_) => {}
         Surface::Diffuse(r) => reflectance(index, r, textures)?,
         Surface::Lafortune(model) => base(index, model.base(), textures, |s| model.check_energy(s))?,
         Surface::BlinnPhong(model) => base(index, model.base(), textures, |s| model.check_energy(s))?,
+        Surface::Sheeting(sheeting) => sheeting.print().map_or(Ok(()), |print| reflectance(index, print, textures))?,
         Surface::Conductor(conductor) => alpha(index, conductor.alpha(), textures)?,
         Surface::Coated(coated) => {
             reflectance(index, coated.base(), textures)?;

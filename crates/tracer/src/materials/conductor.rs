@@ -1,22 +1,41 @@
-//! Metals: a GGX surface with the exact Fresnel reflectance of a complex index at each wavelength.
+//! Metals and other rough interfaces after Cook and Torrance: micro-facets with the exact Fresnel reflectance at each
+//! wavelength.
 //!
-//! f = F(n, k) · D · G₂ / (4 cos θₒ cos θᵢ); see `microfacet` for the terms. A roughness α below [`super::MIRROR_ALPHA`] is
-//! an exact mirror. Light scattered among facets more than
-//! once is left out.
+//! f = F · D · G₂ / (4 cos θₒ cos θᵢ), 1/sr (Cook and Torrance 1982, with the 4 that energy asks for), D GGX or Beckmann
+//! with height-correlated Smith shadowing, see `microfacet` and `beckmann`; facets are drawn from those visible. F is
+//! that of a complex index n + ik, or of a real one; what enters is absorbed (a matt base under such a surface is
+//! [`super::Coated`]). A roughness α below [`super::MIRROR_ALPHA`] is an exact mirror: the lobe would be narrower than a
+//! hundredth of a degree. The roughness may be a texture's.
+//!
+//! Light scattered among facets more than once is left out (a white surface of α = 1 loses up to six tenths), unless it
+//! is asked for: see `interreflection`.
 
 use etendue_core::{Spectral, Wavelengths};
+use etendue_spectra::Spectrum;
 use etendue_spectra::metal::ComplexIndex;
 use glam::{Vec2, Vec3};
 
-use super::microfacet::{Ggx, half_vector, mirrored};
-use super::{BsdfSample, BsdfValue, Event, Factor, MaterialError, fresnel};
+use super::facets::{Distribution, Facets};
+use super::interreflection::{self, LossOfAlpha};
+use super::microfacet::{half_vector, mirrored};
+use super::{BsdfSample, BsdfValue, Event, Factor, MIRROR_ALPHA, MaterialError, fresnel};
 use crate::textures::{ImageTexture, Lookup};
 
-/// A metal surface.
+/// A metal, or another interface that light does not come out of again.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conductor {
-    index: ComplexIndex,
+    index: Index,
     alpha: Factor,
+    distribution: Distribution,
+    /// F̄ at each wavelength, where light scattered more than once counts.
+    mean_fresnel: Option<Spectrum>,
+}
+
+/// A refractive index over wavelength.
+#[derive(Clone, Debug, PartialEq)]
+enum Index {
+    Complex(ComplexIndex),
+    Real(Spectrum),
 }
 
 impl Conductor {
@@ -28,11 +47,41 @@ impl Conductor {
         let alpha = alpha.into().checked_alpha()?;
         match (300_u16..=1100).find(|nm| !is_a_substance(&index, f32::from(*nm))) {
             Some(nm) => Err(MaterialError::Index { nm }),
-            None => Ok(Self { index, alpha }),
+            None => Ok(Self::of_index(Index::Complex(index), alpha)),
         }
     }
 
-    /// The roughness α.
+    /// An interface of real refractive index `index` (1 to 4) and roughness `alpha` (GGX α, 0 to 1); what enters is
+    /// absorbed.
+    ///
+    /// # Errors
+    /// Where the roughness or the index is out of range.
+    pub fn dielectric(index: Spectrum, alpha: impl Into<Factor>) -> Result<Self, MaterialError> {
+        let alpha = alpha.into().checked_alpha()?;
+        match (300_u16..=1100).find(|nm| !(1.0..=4.0).contains(&index.at(f32::from(*nm)))) {
+            Some(nm) => Err(MaterialError::RealIndex { nm, n: index.at(f32::from(nm)) }),
+            None => Ok(Self::of_index(Index::Real(index), alpha)),
+        }
+    }
+
+    fn of_index(index: Index, alpha: Factor) -> Self {
+        Self { index, alpha, distribution: Distribution::Ggx, mean_fresnel: None }
+    }
+
+    /// The same with facets of another distribution.
+    #[must_use]
+    pub fn with_distribution(self, distribution: Distribution) -> Self {
+        Self { distribution, ..self }
+    }
+
+    /// The same with the light that is scattered among its facets more than once.
+    #[must_use]
+    pub fn with_interreflection(self) -> Self {
+        let mean = Spectrum::from_fn(|nm| self.index.mean_fresnel(nm as f32));
+        Self { mean_fresnel: Some(mean), ..self }
+    }
+
+    /// Its roughness, α.
     #[must_use]
     pub fn alpha(&self) -> Factor {
         self.alpha
@@ -44,10 +93,19 @@ impl Conductor {
         lookup: &Lookup,
         wavelengths: &Wavelengths<N>,
     ) -> ConductorBsdf<N> {
+        let alpha = self.alpha.at(textures, lookup);
+        let rough = alpha >= MIRROR_ALPHA;
+        let more = self.mean_fresnel.as_ref().filter(|_| rough).map(|mean| {
+            let loss = interreflection::table(self.distribution).of_alpha(alpha);
+            More { loss, tint: mean.sample(wavelengths).map(|mean| loss.tint(mean)) }
+        });
         ConductorBsdf {
-            n: self.index.n.sample(wavelengths),
-            k: self.index.k.sample(wavelengths),
-            facets: Ggx::of(self.alpha.at(textures, lookup)),
+            fresnel: match &self.index {
+                Index::Complex(index) => Fresnel::Complex(index.n.sample(wavelengths), index.k.sample(wavelengths)),
+                Index::Real(n) => Fresnel::Real(n.sample(wavelengths)),
+            },
+            facets: rough.then(|| self.distribution.of_alpha(alpha)),
+            more,
         }
     }
 }
@@ -57,32 +115,82 @@ fn is_a_substance(index: &ComplexIndex, nm: f32) -> bool {
     n >= 0.0 && k >= 0.0 && n * n + k * k > 1e-9 && (n * n + k * k) < 1e9
 }
 
-/// A metal at a path's wavelengths.
-#[derive(Clone, Copy, Debug, PartialEq)]
+impl Index {
+    fn fresnel(&self, nm: f32, cos_i: f32) -> f32 {
+        match self {
+            Self::Complex(index) => fresnel::conductor(cos_i, index.n.at(nm), index.k.at(nm)),
+            Self::Real(n) => fresnel::dielectric(cos_i, n.at(nm)),
+        }
+    }
+
+    /// 2 ∫ F μ dμ = ∫ F dμ², by the midpoint rule.
+    fn mean_fresnel(&self, nm: f32) -> f64 {
+        const STEPS: usize = 64;
+        let at = |i: usize| f64::from(self.fresnel(nm, ((i as f32 + 0.5) / STEPS as f32).sqrt()));
+        (0..STEPS).map(at).sum::<f64>() / STEPS as f64
+    }
+}
+
+/// Indices at a path's wavelengths.
+#[derive(Clone, Copy, Debug)]
+enum Fresnel<const N: usize> {
+    Complex(Spectral<N>, Spectral<N>),
+    Real(Spectral<N>),
+}
+
+/// Light scattered among facets more than once.
+#[derive(Clone, Copy, Debug)]
+struct More<const N: usize> {
+    loss: LossOfAlpha,
+    /// F_ms.
+    tint: Spectral<N>,
+}
+
+/// A rough interface at one point and a path's wavelengths.
+#[derive(Clone, Copy, Debug)]
 pub struct ConductorBsdf<const N: usize> {
-    n: Spectral<N>,
-    k: Spectral<N>,
+    fresnel: Fresnel<N>,
     /// `None` for a mirror.
-    facets: Option<Ggx>,
+    facets: Option<Facets>,
+    more: Option<More<N>>,
 }
 
 impl<const N: usize> ConductorBsdf<N> {
     fn fresnel(&self, cos_i: f32) -> Spectral<N> {
-        Spectral::from_fn(|i| fresnel::conductor(cos_i, self.n[i], self.k[i]))
+        match self.fresnel {
+            Fresnel::Complex(n, k) => Spectral::from_fn(|i| fresnel::conductor(cos_i, n[i], k[i])),
+            Fresnel::Real(n) => n.map(|n| fresnel::dielectric(cos_i, n)),
+        }
     }
 
     pub(super) fn is_mirror(&self) -> bool {
         self.facets.is_none()
     }
 
+    /// Probability of drawing from what is scattered more than once: about its share of what goes back.
+    fn share_of(&self, more: &More<N>, wo_loss: f32, wo: Vec3) -> f32 {
+        let (again, once) = (more.tint.mean() * wo_loss, self.fresnel(wo.z).mean() * (1.0 - wo_loss));
+        if again + once > 0.0 { again / (again + once) } else { 0.0 }
+    }
+
     pub(super) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let Some(facets) = self.facets else { return BsdfValue::ZERO };
         let m = half_vector(wo, wi);
-        BsdfValue { value_cos: self.fresnel(wo.dot(m)) * facets.reflect(wo, wi, m), pdf: facets.reflect_pdf(wo, m) }
+        let (once, pdf) = (self.fresnel(wo.dot(m)) * facets.reflect(wo, wi, m), facets.reflect_pdf(wo, m));
+        let Some(more) = &self.more else { return BsdfValue { value_cos: once, pdf } };
+        let wo_loss = more.loss.at(wo.z);
+        let share = self.share_of(more, wo_loss, wo);
+        BsdfValue {
+            value_cos: once + more.tint * more.loss.value_cos(wo_loss, wi),
+            pdf: pdf * (1.0 - share) + share * more.loss.pdf(wi.z),
+        }
     }
 
-    pub(super) fn sample(&self, wo: Vec3, u: Vec2) -> Option<BsdfSample<N>> {
+    pub(super) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let Some(facets) = self.facets else { return Some(BsdfSample::mirror(wo, self.fresnel(wo.z))) };
+        if let Some(more) = &self.more {
+            return self.sample_both(facets, more, wo, (choice, u));
+        }
         let m = facets.sample(wo, u);
         let wi = mirrored(wo, m);
         (wi.z > 0.0).then(|| BsdfSample {
@@ -91,5 +199,15 @@ impl<const N: usize> ConductorBsdf<N> {
             pdf: facets.reflect_pdf(wo, m),
             event: Event::Scatter,
         })
+    }
+
+    fn sample_both(&self, facets: Facets, more: &More<N>, wo: Vec3, (choice, u): (f32, Vec2)) -> Option<BsdfSample<N>> {
+        let share = self.share_of(more, more.loss.at(wo.z), wo);
+        let wi = if choice < share { more.loss.sample(u) } else { mirrored(wo, facets.sample(wo, u)) };
+        if wi.z <= 0.0 {
+            return None;
+        }
+        let BsdfValue { value_cos, pdf } = self.evaluate(wo, wi);
+        (pdf > 0.0).then(|| BsdfSample { wi, weight: value_cos / pdf, pdf, event: Event::Scatter })
     }
 }

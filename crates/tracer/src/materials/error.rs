@@ -47,6 +47,14 @@ pub enum MaterialError {
         /// Where, nm.
         nm: u16,
     },
+    /// An interface's real index is out of range.
+    #[error("the refractive index is {n} at {nm} nm, but it must lie between 1 and 4 at every wavelength; correct it")]
+    RealIndex {
+        /// Where, nm.
+        nm: u16,
+        /// What was given.
+        n: f32,
+    },
     /// The strength of a normal map is outside its range.
     #[error("a normal map of strength {strength} was given, but it must lie between 0 and 10; correct it")]
     NormalStrength {
@@ -156,7 +164,8 @@ impl MaterialError {
             | Self::Circle { material }
             | Self::Part { material, .. }
             | Self::MixNormal { material } => Some(*material),
-            Self::Roughness { .. }
+            Self::RealIndex { .. }
+            | Self::Roughness { .. }
             | Self::CoatIndex { .. }
             | Self::GlassIndex { .. }
             | Self::Absorption { .. }

@@ -17,6 +17,7 @@
 //! - Every bsdf is reciprocal, f(wo, wi)/n²(wi's side) = f(wi, wo)/n²(wo's side) where it transmits, and sends on no
 //!   more power than arrives; no input in range gives a NaN.
 
+mod beckmann;
 mod blinn_phong;
 mod check;
 mod coated;
@@ -26,8 +27,10 @@ mod diffuse;
 mod emission;
 mod energy;
 mod error;
+mod facets;
 mod factor;
 pub mod fresnel;
+mod interreflection;
 mod lafortune;
 mod leaf;
 mod lottery;
@@ -36,6 +39,7 @@ mod mix;
 mod normal_map;
 mod palette;
 mod reflectance;
+mod retro;
 mod shading;
 #[cfg(test)]
 mod tests;
@@ -50,6 +54,7 @@ pub use diffuse::DiffuseBsdf;
 pub use emission::{Emission, Glow};
 pub use energy::EnergyGain;
 pub use error::MaterialError;
+pub use facets::Distribution;
 pub use factor::Factor;
 pub use lafortune::{Lafortune, LafortuneBsdf, LafortuneError, Lobe, MAX_LOBES};
 pub use leaf::{Leaf, LeafBsdf};
@@ -58,6 +63,10 @@ pub use mix::Mix;
 pub use normal_map::{Green, NormalMap};
 pub use palette::Palette;
 pub use reflectance::Reflectance;
+pub use retro::{
+    DayTime, MarkingBsdf, MarkingError, RetroTable, RetroTableError, RoadMarking, SHEETING_CLASSES, SHEETING_COLOURS,
+    Sheeting, SheetingBsdf, SheetingError, SheetingPreset, marking_class,
+};
 pub use shading::ShadingFrame;
 pub use thin_sheet::{ThinSheet, ThinSheetBsdf};
 
@@ -100,6 +109,10 @@ pub enum Surface {
     Lafortune(Box<Lafortune>),
     /// A matt base with a glossy lobe about the half vector.
     BlinnPhong(Box<BlinnPhong>),
+    /// Retro-reflective sheeting.
+    Sheeting(Box<Sheeting>),
+    /// A road marking with glass beads.
+    Marking(Box<RoadMarking>),
     /// The outside of a transparent solid.
     Dielectric(Box<Dielectric>),
     /// A thin pane.
@@ -125,6 +138,10 @@ pub enum Bsdf<'a, const N: usize> {
     Lafortune(LafortuneBsdf<'a, N>),
     /// A lobe about the half vector.
     BlinnPhong(BlinnPhongBsdf<'a, N>),
+    /// Retro-reflective sheeting.
+    Sheeting(SheetingBsdf<'a, N>),
+    /// Glass beads.
+    Marking(MarkingBsdf<'a, N>),
     /// An interface.
     Dielectric(DielectricBsdf),
     /// A pane.
@@ -186,7 +203,7 @@ impl<const N: usize> Bsdf<'_, N> {
             Self::Dielectric(dielectric) => dielectric.is_smooth(),
             Self::ThinSheet(_) => true,
             Self::Absorber | Self::Diffuse(_) | Self::Coated(_) | Self::Leaf(_) => false,
-            Self::Lafortune(_) | Self::BlinnPhong(_) => false,
+            Self::Lafortune(_) | Self::BlinnPhong(_) | Self::Sheeting(_) | Self::Marking(_) => false,
         }
     }
 
@@ -195,7 +212,7 @@ impl<const N: usize> Bsdf<'_, N> {
     pub fn transmits(&self) -> bool {
         match self {
             Self::Absorber | Self::Diffuse(_) | Self::Conductor(_) | Self::Coated(_) | Self::ThinSheet(_) => false,
-            Self::Lafortune(_) | Self::BlinnPhong(_) => false,
+            Self::Lafortune(_) | Self::BlinnPhong(_) | Self::Sheeting(_) | Self::Marking(_) => false,
             Self::Dielectric(dielectric) => !dielectric.is_smooth(),
             Self::Leaf(_) => true,
         }
@@ -215,6 +232,8 @@ impl<const N: usize> Bsdf<'_, N> {
             Self::Coated(coated) => coated.evaluate(wo, wi),
             Self::Lafortune(lafortune) => lafortune.evaluate(wo, wi),
             Self::BlinnPhong(blinn_phong) => blinn_phong.evaluate(wo, wi),
+            Self::Sheeting(sheeting) => sheeting.evaluate(wo, wi),
+            Self::Marking(marking) => marking.evaluate(wo, wi),
             Self::Dielectric(dielectric) => dielectric.evaluate(wo, wi),
             Self::ThinSheet(_) => BsdfValue::ZERO,
             Self::Leaf(leaf) => leaf.evaluate(wi),
@@ -230,10 +249,12 @@ impl<const N: usize> Bsdf<'_, N> {
         match self {
             Self::Absorber => None,
             Self::Diffuse(diffuse) => diffuse.sample(u),
-            Self::Conductor(conductor) => conductor.sample(wo, u),
+            Self::Conductor(conductor) => conductor.sample(wo, choice, u),
             Self::Coated(coated) => coated.sample(wo, choice, u),
             Self::Lafortune(lafortune) => lafortune.sample(wo, choice, u),
             Self::BlinnPhong(blinn_phong) => blinn_phong.sample(wo, choice, u),
+            Self::Sheeting(sheeting) => sheeting.sample(wo, choice, u),
+            Self::Marking(marking) => marking.sample(wo, choice, u),
             Self::Dielectric(dielectric) => dielectric.sample(wo, choice, u),
             Self::ThinSheet(sheet) => sheet.sample(wo, choice),
             Self::Leaf(leaf) => leaf.sample(choice, u),

@@ -195,6 +195,8 @@ impl Palette {
             Surface::BlinnPhong(model) => {
                 Bsdf::BlinnPhong(model.resolve(model.base().at(textures, lookup, wavelengths), wavelengths))
             }
+            Surface::Sheeting(sheeting) => Bsdf::Sheeting(sheeting.resolve(textures, lookup, wavelengths)),
+            Surface::Marking(marking) => Bsdf::Marking(marking.resolve(wavelengths)),
             Surface::Dielectric(dielectric) => Bsdf::Dielectric(dielectric.resolve(textures, lookup, front)),
             Surface::ThinSheet(sheet) => Bsdf::ThinSheet(sheet.resolve(textures, lookup, wavelengths)),
             Surface::Leaf(leaf) => Bsdf::Leaf(LeafBsdf::new(

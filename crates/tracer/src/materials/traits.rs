@@ -1,6 +1,6 @@
 //! What a material asks of its callers, known once for all points.
 
-use super::{Material, Surface};
+use super::{Material, Reflectance, Surface};
 use crate::textures::TextureId;
 
 /// What holds for a material or any of its parts.
@@ -63,12 +63,13 @@ impl Material {
 impl Surface {
     fn textures(&self) -> [Option<TextureId>; 2] {
         match self {
-            Self::Absorber => [None; 2],
+            Self::Absorber | Self::Marking(_) => [None; 2],
             Self::Diffuse(r) => [r.texture(), None],
             Self::Conductor(conductor) => [None, conductor.alpha().texture()],
             Self::Coated(coated) => [coated.base().texture(), coated.alpha().texture()],
             Self::Lafortune(model) => [model.base().texture(), None],
             Self::BlinnPhong(model) => [model.base().texture(), None],
+            Self::Sheeting(sheeting) => [sheeting.print().and_then(Reflectance::texture), None],
             Self::Dielectric(dielectric) => [None, dielectric.alpha().texture()],
             Self::ThinSheet(sheet) => [sheet.transmittance().texture(), None],
             Self::Leaf(leaf) => [leaf.reflectance.texture(), leaf.transmittance.texture()],

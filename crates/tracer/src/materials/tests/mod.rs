@@ -4,6 +4,7 @@ pub(in crate::materials) mod chi_square;
 mod maps;
 mod reflection;
 mod refusals;
+mod retro;
 mod transmission;
 
 use super::*;

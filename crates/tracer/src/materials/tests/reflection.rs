@@ -18,14 +18,58 @@ fn blinn_phong(base: f64, gloss: f64, n: f64) -> Surface {
     Surface::BlinnPhong(Box::new(BlinnPhong::new(grey(base), Spectrum::constant(gloss), n).expect("a legal model")))
 }
 
+fn rough(index: &metal::ComplexIndex, alpha: f64, distribution: Distribution, all: bool) -> Surface {
+    let metal = Conductor::new(index.clone(), alpha).expect("a metal").with_distribution(distribution);
+    Surface::Conductor(Box::new(if all { metal.with_interreflection() } else { metal }))
+}
+
+fn white() -> metal::ComplexIndex {
+    metal::ComplexIndex { n: Spectrum::constant(0.0), k: Spectrum::constant(3.0) }
+}
+
+fn gold() -> metal::ComplexIndex {
+    metal::named("Au").expect("gold").clone()
+}
+
+fn glaze(alpha: f64) -> Surface {
+    let index = Spectrum::from_fn(|nm| 1.5 + 0.1 * (600.0 - nm) / 600.0);
+    Surface::Conductor(Box::new(Conductor::dielectric(index, alpha).expect("a glaze").with_interreflection()))
+}
+
+fn marking() -> Surface {
+    let white = Spectrum::constant(1.0);
+    Surface::Marking(Box::new(RoadMarking::new(300.0, DayTime::Qd(130.0), &white).expect("a marking")))
+}
+
 /// Surfaces for the tests that all materials pass.
 pub(super) fn surfaces() -> Vec<Surface> {
-    vec![lobes(), blinn_phong(0.0, 1.0, 0.0), blinn_phong(0.3, 0.7, 20.0), blinn_phong(0.0, 1.0, 5000.0)]
+    vec![
+        lobes(),
+        blinn_phong(0.0, 1.0, 0.0),
+        blinn_phong(0.3, 0.7, 20.0),
+        blinn_phong(0.0, 1.0, 5000.0),
+        rough(&white(), 1.0, Distribution::Beckmann, false),
+        rough(&gold(), 0.02, Distribution::Beckmann, false),
+        rough(&gold(), 0.4, Distribution::Beckmann, true),
+        rough(&white(), 0.7, Distribution::Ggx, true),
+        rough(&gold(), 0.01, Distribution::Ggx, true),
+        glaze(0.5),
+        marking(),
+    ]
 }
 
 #[test]
 fn directions_are_drawn_by_the_density_told() {
-    let cases = [(lobes(), 0.3), (blinn_phong(0.3, 0.7, 1.0), 1.0), (blinn_phong(0.3, 0.5, 200.0), 0.2)];
+    let cases = [
+        (lobes(), 0.3),
+        (blinn_phong(0.3, 0.7, 1.0), 1.0),
+        (blinn_phong(0.3, 0.5, 200.0), 0.2),
+        (rough(&gold(), 0.05, Distribution::Beckmann, false), 0.05),
+        (rough(&white(), 0.8, Distribution::Beckmann, true), 0.8),
+        (rough(&gold(), 0.1, Distribution::Ggx, true), 0.1),
+        (rough(&white(), 1.0, Distribution::Ggx, true), 1.0),
+        (glaze(0.5), 0.5),
+    ];
     let mut p_values = vec![];
     for (k, (surface, scale)) in cases.into_iter().enumerate() {
         let palette = palette(surface);
@@ -36,4 +80,27 @@ fn directions_are_drawn_by_the_density_told() {
         }
     }
     judge(&p_values);
+}
+
+#[test]
+fn white_facets_give_back_all_light() {
+    for distribution in [Distribution::Ggx, Distribution::Beckmann] {
+        for alpha in [0.01, 0.1, 0.25, 0.5, 1.0] {
+            let palette = palette(rough(&white(), alpha, distribution, true));
+            for degrees in [0.0, 45.0, 75.0, 85.0, 89.0] {
+                let albedo = albedo(&bsdf(&palette), at_degrees(degrees))[0];
+                // The loss is a table; 0.5 % is the worst seen over 242 roughnesses and angles.
+                assert!((albedo - 1.0).abs() < 0.01, "{distribution:?} α {alpha} at {degrees}: {albedo}");
+            }
+        }
+    }
+}
+
+#[test]
+fn interreflection_gives_back_less_where_metals_absorb() {
+    // Gold at 450 nm reflects four tenths, at 680 nm nearly all: what is scattered twice is redder.
+    let [once, all] = [false, true].map(|all| palette(rough(&gold(), 0.9, Distribution::Ggx, all)));
+    let (once, all) = (albedo(&bsdf(&once), at_degrees(40.0)), albedo(&bsdf(&all), at_degrees(40.0)));
+    let gain = [0, 3].map(|i| all[i] / once[i]);
+    assert!(gain[0] > 1.0 && gain[1] > gain[0] + 0.05, "{once:?} {all:?}");
 }

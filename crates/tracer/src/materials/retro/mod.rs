@@ -1,0 +1,205 @@
+//! Retro-reflective sheeting: signs and number plates.
+//!
+//! f_r = c(λ) R_A(α, β)/(cos β cos ν) + k_d/π, 1/sr. α is the observation angle, between the ways to the lamp and to the
+//! viewer; β the entrance angle, of the lamp to the normal; ν that of the viewer. R_A is the coefficient of
+//! retro-reflection, cd·lx⁻¹·m⁻² (CIE e-ILV 17-24-103; measured by ASTM E810), so that a sheeting under E_⊥ lux has the
+//! luminance R_A E_⊥/cos ν. c is the colour, of luminous mean 1 under CIE illuminant A, the light that R_A is measured in.
+//! The angle is taken from |ωᵢ − ωₒ|, exact for close directions in f32. Light is drawn from about the viewer's
+//! direction by a table of R_A × solid angle, mixed with the cosine for the base.
+//!
+//! Outside the table R_A is held at its nearest entry: below the first and beyond the last of the observation angles up
+//! to a cut-off, where it ends; beyond the last entrance angle. The cut-off is 10°, or as much less as the energy asks
+//! for: at no incidence and wavelength is more sent back than arrives. Beyond 60° from the normal, the largest entrance angle of ASTM E810 (or the last entrance
+//! angle, if beyond) the bsdf is held instead: R_A must vanish where no area is seen. [`Sheeting::limits`] says so in
+//! words. A table that gains energy even if cut off at its last observation angle is refused.
+//!
+//! Not reciprocal to the last digit: measured tables depend on β alone, not on ν. Both differ by at most α, by which R_A
+//! hardly changes.
+//!
+//! Left out: the rotation of sheets about their normal and of the observation plane (rotation and presentation angles);
+//! gloss of the front (mix with, or coat, another material); dew.
+
+mod lobe;
+mod marking;
+mod preset;
+mod table;
+
+pub use marking::{DayTime, MarkingBsdf, MarkingError, RoadMarking, marking_class};
+pub use preset::{SHEETING_CLASSES, SHEETING_COLOURS, SheetingPreset};
+pub use table::{RetroTable, RetroTableError};
+
+use core::f32::consts::FRAC_1_PI;
+use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
+use etendue_core::{Spectral, Wavelengths};
+use etendue_spectra::{Spectrum, illuminant, observer};
+use glam::{Vec2, Vec3};
+
+use super::energy::{self, EnergyGain};
+use super::lottery::Lottery;
+use super::{BsdfSample, BsdfValue, Event, Reflectance};
+use crate::textures::{ImageTexture, Lookup};
+use lobe::{GRAZING_DEG, RetroLobe, WIDEST_DEG};
+
+/// A retro-reflective sheeting over a matt base.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sheeting {
+    face: Face,
+    table: RetroTable,
+    lobe: RetroLobe,
+}
+
+/// What colours a sheeting.
+#[derive(Clone, Debug, PartialEq)]
+enum Face {
+    /// A reflectance by day, and the colour c.
+    Plain(Spectrum, Spectrum),
+    /// What a white sheeting reflects by day, and the print over it, which colours that and the retro-reflected light.
+    Printed(f32, Reflectance),
+}
+
+impl Sheeting {
+    /// A sheeting of colour `colour` (a spectrum of any scale) whose own coefficients, measured in illuminant A, are
+    /// `table`, with the matt reflectance `base` by day.
+    ///
+    /// # Errors
+    /// Where base or colour are none, or more is sent back than arrives.
+    pub fn new(base: Spectrum, colour: &Spectrum, table: RetroTable) -> Result<Self, SheetingError> {
+        if !energy::is_weight(&base) {
+            return Err(SheetingError::Base);
+        }
+        let colour = photometric(colour).ok_or(SheetingError::Colour)?;
+        let lobe = widest(&table, &base, &colour)?;
+        Ok(Self { face: Face::Plain(base, colour), table, lobe })
+    }
+
+    /// A white sheeting of coefficients `table` and a reflectance `white` (0 to 1) by day, printed with transparent ink:
+    /// `print` says what share of its light is left at each wavelength. A texture makes a sign of it.
+    ///
+    /// # Errors
+    /// Where the reflectance is out of range, or more would be sent back than arrives.
+    pub fn printed(white: f64, print: Reflectance, table: RetroTable) -> Result<Self, SheetingError> {
+        if !(0.0..=1.0).contains(&white) {
+            return Err(SheetingError::Base);
+        }
+        let lobe = widest(&table, &Spectrum::constant(white), &Spectrum::constant(1.0))?;
+        Ok(Self { face: Face::Printed(white as f32, print), table, lobe })
+    }
+
+    /// The print, if it has one.
+    #[must_use]
+    pub fn print(&self) -> Option<&Reflectance> {
+        match &self.face {
+            Face::Plain(..) => None,
+            Face::Printed(_, print) => Some(print),
+        }
+    }
+
+    /// The observation angle beyond which nothing is retro-reflected, degrees.
+    #[must_use]
+    pub fn cut_off_deg(&self) -> f64 {
+        self.lobe.cut_off_deg()
+    }
+
+    /// How the table is continued, in words.
+    #[must_use]
+    pub fn limits(&self) -> String {
+        let (alpha, beta) = (self.table.observation_deg(), self.table.entrance_deg());
+        let (first, last, deepest) = (alpha[0], alpha[alpha.len() - 1], beta[beta.len() - 1]);
+        let cut = self.cut_off_deg();
+        let why = if cut < WIDEST_DEG - 0.01 { ", all that its energy allows" } else { "" };
+        format!(
+            "R_A is held below an observation angle of {first}° and from {last}° to {cut:.2}°{why}; beyond it is 0. It is \
+             held beyond an entrance angle of {deepest}°, up to {}°",
+            deepest.max(GRAZING_DEG)
+        )
+    }
+
+    pub(super) fn resolve<const N: usize>(
+        &self,
+        textures: &[ImageTexture],
+        lookup: &Lookup,
+        wavelengths: &Wavelengths<N>,
+    ) -> SheetingBsdf<'_, N> {
+        let (base, colour) = match &self.face {
+            Face::Plain(base, colour) => (base.sample(wavelengths), colour.sample(wavelengths)),
+            Face::Printed(white, print) => {
+                let print = print.at(textures, lookup, wavelengths);
+                (print * *white, print)
+            }
+        };
+        SheetingBsdf { lobe: &self.lobe, base, colour }
+    }
+}
+
+/// The widest lobe of a table that keeps energy.
+fn widest(table: &RetroTable, base: &Spectrum, colour: &Spectrum) -> Result<RetroLobe, EnergyGain> {
+    let mut gain = Ok(());
+    for lobe in RetroLobe::widest_first(table) {
+        gain = energy::check(base, &[(colour, &lobe.albedo)]);
+        if gain.is_ok() {
+            return Ok(lobe);
+        }
+    }
+    Err(gain.expect_err("a table has a lobe"))
+}
+
+/// A spectrum scaled to a luminous mean of 1 under illuminant A; `None` for one that is negative or dark.
+pub(super) fn photometric(colour: &Spectrum) -> Option<Spectrum> {
+    let a = illuminant::named("A").expect("A is in the list");
+    let luminous = observer::xyz_of_reflectance(colour, a)[1];
+    (energy::is_weight(colour) && luminous > 0.0).then(|| colour.scaled(1.0 / luminous))
+}
+
+/// Why a sheeting is refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum SheetingError {
+    /// The base is none.
+    #[error("the sheeting's reflectance by day is negative or not finite somewhere; it must lie between 0 and 1")]
+    Base,
+    /// The colour is none.
+    #[error(
+        "the colour of the retro-reflected light is negative or dark; give a spectrum of 0 or more that has light in it"
+    )]
+    Colour,
+    /// The table is none.
+    #[error(transparent)]
+    Table(#[from] RetroTableError),
+    /// More is sent back than arrives, even if the table is cut off at its last observation angle.
+    #[error(transparent)]
+    Energy(#[from] EnergyGain),
+}
+
+/// A sheeting at one point and a path's wavelengths.
+#[derive(Clone, Copy, Debug)]
+pub struct SheetingBsdf<'a, const N: usize> {
+    lobe: &'a RetroLobe,
+    base: Spectral<N>,
+    colour: Spectral<N>,
+}
+
+impl<const N: usize> SheetingBsdf<'_, N> {
+    fn lottery(&self, wo: Vec3) -> Option<Lottery<2>> {
+        Lottery::new([self.base.mean(), self.colour.mean() * self.lobe.albedo.at(wo.z)])
+    }
+
+    pub(super) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+        self.lottery(wo).map_or(BsdfValue::ZERO, |lottery| self.value(lottery, wo, wi))
+    }
+
+    fn value(&self, lottery: Lottery<2>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+        BsdfValue {
+            value_cos: self.base * (wi.z * FRAC_1_PI) + self.colour * self.lobe.value_cos(wo, wi),
+            pdf: lottery.of(0) * cosine_hemisphere_pdf(wi.z) + lottery.of(1) * self.lobe.pdf(wo, wi),
+        }
+    }
+
+    pub(super) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
+        let lottery = self.lottery(wo)?;
+        let wi = if lottery.draw(choice) == 0 { cosine_hemisphere(u) } else { self.lobe.sample(wo, u) };
+        if wi.z <= 0.0 {
+            return None;
+        }
+        let BsdfValue { value_cos, pdf } = self.value(lottery, wo, wi);
+        (pdf > 0.0).then(|| BsdfSample { wi, weight: value_cos / pdf, pdf, event: Event::Scatter })
+    }
+}
