@@ -4,9 +4,9 @@
 //! | --- | --- |
 //! | PNG, JPEG of 8 bits | bytes as stored |
 //! | grey PNG of 16 bits | numbers as stored |
-//! | other PNG of 16 bits | floats, stored value / 65 535, still encoded as in the file; opacity is left out |
+//! | other PNG of 16 bits | floats, stored value / 65 535, still encoded as in the file; opacity where it is there |
 //! | Radiance HDR | floats |
-//! | OpenEXR with R, G, B or Y | floats; half floats and every compression of the exr crate (none, RLE, ZIP, PIZ, PXR24, B44, DWA) |
+//! | OpenEXR with R, G, B or Y, and A where it is there | floats; half floats and every compression of the exr crate (none, RLE, ZIP, PIZ, PXR24, B44, DWA) |
 //!
 //! The kind is told by the first bytes, not by the name. What the numbers mean (sRGB-encoded or linear) is told by the
 //! description that names the file. Numbers that are not finite are refused with their pixel.
@@ -16,7 +16,7 @@ mod raster;
 
 use std::path::Path;
 
-use etendue_scene::asset::{ImageAsset, ImagePixels};
+use etendue_scene::asset::ImageAsset;
 
 pub(crate) use raster::decode_raster;
 
@@ -42,8 +42,6 @@ pub(crate) fn decode_picture(file: &Path, bytes: &[u8]) -> Result<ImageAsset, Er
     if width == 0 || height == 0 {
         return Err(Error::new(file, format!("a picture of {width} × {height} pixels; expected at least one pixel")));
     }
-    if let ImagePixels::Rgb32F(values) = &pixels {
-        floats::check_finite(file, width, values)?;
-    }
+    floats::check_finite(file, width, &pixels)?;
     Ok(ImageAsset { width, height, pixels, hash: hash::of_bytes(bytes) })
 }

@@ -52,9 +52,17 @@ fn pixels(picture: DynamicImage) -> ImagePixels {
         }
         DynamicImage::ImageRgb8(p) => ImagePixels::Rgb8(p.pixels().map(|p| p.0).collect()),
         DynamicImage::ImageRgb32F(p) => ImagePixels::Rgb32F(p.pixels().map(|p| p.0).collect()),
-        DynamicImage::ImageRgba32F(p) => ImagePixels::Rgb32F(p.pixels().map(|p| [p.0[0], p.0[1], p.0[2]]).collect()),
-        wide => ImagePixels::Rgb32F(wide.into_rgb16().pixels().map(|p| p.0.map(|v| f32::from(v) / 65_535.0)).collect()),
+        DynamicImage::ImageRgba32F(p) => ImagePixels::Rgba32F(p.pixels().map(|p| p.0).collect()),
+        DynamicImage::ImageLumaA16(_) | DynamicImage::ImageRgba16(_) => {
+            ImagePixels::Rgba32F(picture.into_rgba16().pixels().map(|p| p.0.map(share)).collect())
+        }
+        wide => ImagePixels::Rgb32F(wide.into_rgb16().pixels().map(|p| p.0.map(share)).collect()),
     }
+}
+
+/// A number of 16 bits as a share of the greatest.
+fn share(stored: u16) -> f32 {
+    f32::from(stored) / 65_535.0
 }
 
 #[cfg(test)]
@@ -80,6 +88,32 @@ mod tests {
         let grey = image::ImageBuffer::from_raw(2, 1, vec![1_u16, 65_535]).expect("two pixels");
         let pixels = read(&encoded(&DynamicImage::ImageLuma16(grey), ImageFormat::Png)).expect("readable");
         assert_eq!(pixels, ImagePixels::Gray16(vec![1, 65_535]));
+    }
+
+    #[test]
+    fn opacity_is_kept() {
+        let picture = image::ImageBuffer::from_pixel(1, 1, image::Rgba([1_u16, 2, 3, 32_768]));
+        let pixels = read(&encoded(&DynamicImage::ImageRgba16(picture), ImageFormat::Png)).expect("readable");
+        assert_eq!(pixels, ImagePixels::Rgba32F(vec![[1.0, 2.0, 3.0, 32_768.0].map(|v| v / 65_535.0)]));
+        let picture = image::ImageBuffer::from_pixel(1, 1, image::LumaA([9_u8, 8]));
+        let pixels = read(&encoded(&DynamicImage::ImageLumaA8(picture), ImageFormat::Png)).expect("readable");
+        assert_eq!(pixels, ImagePixels::Rgba8(vec![[9, 9, 9, 8]]));
+        let exr = crate::exr::tests_support::picture(1, 1, &["R", "G", "B", "A"], 0.25);
+        assert_eq!(read(&exr).expect("readable"), ImagePixels::Rgba32F(vec![[0.25; 4]]));
+        let exr = crate::exr::tests_support::picture(1, 1, &["Y", "A"], 0.5);
+        assert_eq!(read(&exr).expect("readable"), ImagePixels::Rgba32F(vec![[0.5; 4]]));
+        let told = read(&crate::exr::tests_support::picture(1, 1, &["Y", "A"], f32::NAN)).expect_err("no number");
+        assert!(told.starts_with("t.png: pixel (0, 0) is [NaN, NaN, NaN, NaN]; expected finite numbers"), "{told}");
+    }
+
+    #[test]
+    fn half_floats_are_widened() {
+        use ::exr::prelude::{Image, SpecificChannels, WritableImage as _, f16};
+        let pixels = |_| (f16::from_f32(0.5), f16::from_f32(2.0), f16::from_f32(65_504.0));
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        let image = Image::from_channels((2, 1), SpecificChannels::rgb(pixels));
+        image.write().non_parallel().to_buffered(&mut bytes).expect("writable");
+        assert_eq!(read(bytes.get_ref()), Ok(ImagePixels::Rgb32F(vec![[0.5, 2.0, 65_504.0]; 2])));
     }
 
     #[test]
