@@ -5,7 +5,7 @@ use std::path::Path;
 
 use etendue_io::picture::read_picture;
 use etendue_io::{load_assets, mesh};
-use etendue_scene::asset::ImagePixels;
+use etendue_scene::asset::{AssetKind, AssetRequest, ImagePixels};
 use etendue_scene::{Description, Overrides};
 
 const JOB: &str = r#"format = 1
@@ -77,6 +77,31 @@ fn everything_named_is_read_and_what_it_names_in_turn() {
     assert_eq!(assets.spectra[&folder.join("b.csv")].points, [(400.0, 0.5), (700.0, 0.25)]);
     assert_eq!(assets.images[&folder.join("t.png")].pixels, ImagePixels::Gray8(vec![10; 4]));
     assert_eq!(assets.images[&folder.join("inner.png")].pixels, ImagePixels::Gray8(vec![20; 4]));
+}
+
+#[test]
+fn lamps_and_tables_are_read_by_their_kind() {
+    let place = tempfile::tempdir().expect("temporary folder");
+    let folder = place.path();
+    let lamp = b"IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0 1 1 5\n0 90\n0\n9 8\n";
+    write(folder, &[("l.ies", lamp), ("nk.csv", b"400,1,2\n500,1,3\n"), ("ra.csv", b"a,5,30\n0.2,70,30\n")]);
+    let kinds =
+        [("l.ies", AssetKind::Photometry), ("nk.csv", AssetKind::ComplexIndex), ("ra.csv", AssetKind::RetroTable)];
+    let requests = kinds.map(|(name, kind)| AssetRequest {
+        path: folder.join(name),
+        kind,
+        place: description(folder).assets()[0].place.clone(),
+    });
+    let assets = load_assets(&requests).unwrap_or_else(|e| panic!("{e:?}"));
+    assert_eq!(assets.photometry[&folder.join("l.ies")].candela, [9.0, 8.0, 9.0, 8.0]);
+    assert_eq!(assets.indices[&folder.join("nk.csv")].points[1], (500.0, 1.0, 3.0));
+    assert_eq!(assets.retro_tables[&folder.join("ra.csv")].row(0), [70.0, 30.0]);
+    write(folder, &[("l.ies", &lamp[..lamp.len() - 3])]);
+    let told = load_assets(&requests).expect_err("a truncated lamp")[0].to_string();
+    assert!(
+        told.contains("l.ies:6: the file ends here; expected intensity 2 of 2") && told.contains("(named at "),
+        "{told}"
+    );
 }
 
 #[test]

@@ -145,7 +145,7 @@ fn texts(lines: &Lines<'_>) -> Result<Vec<(String, String)>, Error> {
         (10, "luminaire number"),
         (11, "file"),
         (12, "date and user"),
-        (HEAD_LINES + 2, "lamps"),
+        (HEAD_LINES + 2, "type of lamps"),
         (HEAD_LINES + 4, "colour temperature"),
         (HEAD_LINES + 5, "colour rendering"),
     ];

@@ -2,5 +2,7 @@
 
 mod faults;
 mod ies;
+mod inspected;
 mod ldt;
+mod oracles;
 mod support;
