@@ -43,5 +43,7 @@ pub fn read_photometry(file: &Path) -> Result<PhotometryAsset, Error> {
         None => hash::of_bytes(&bytes),
     };
     flux::check(file, &mut asset)?;
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    asset.report.iter_mut().for_each(|note| note.insert_str(0, &format!("{name}: ")));
     Ok(asset)
 }

@@ -116,7 +116,7 @@ fn factors_of_tilts_are_kept_and_told() {
     let included = lamp.read();
     assert_eq!(included.tilt, expected);
     assert!(
-        included.report[0].starts_with("its light changes with the tilt of the lamp (factors 0.9 to 1)"),
+        included.report[0].starts_with("lamp.ies: its light changes with the tilt of the lamp (factors 0.9 to 1)"),
         "{:?}",
         included.report
     );
@@ -150,7 +150,7 @@ fn the_flux_is_told_where_it_is_not_what_is_rated() {
     assert_eq!(
         kept,
         [
-            "its intensities make 1256.6 lm, 0.785 of the 1600.0 lm that are the lumens of its lamps: the luminaire keeps the \
+            "lamp.ies: its intensities make 1256.6 lm, 0.785 of the 1600.0 lm that are the lumens of its lamps: the luminaire keeps the \
           rest, or directions are missing; the intensities are used"
         ]
     );

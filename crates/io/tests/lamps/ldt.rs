@@ -49,8 +49,12 @@ fn numbers_are_per_1000_lumens_of_the_lamps_and_converted() {
     assert_eq!(read.stated_flux_lm(), Some(5000.0));
     // 300 cd all around: 1200 π = 3770 lm of 5000.
     assert_eq!(read.report.len(), 2, "{:?}", read.report);
-    assert_eq!(read.report[0], "2 sets of lamps are listed; the first is used (4000 lm)");
-    assert!(read.report[1].starts_with("its intensities make 3769.9 lm, 0.754 of the 5000.0 lm"), "{:?}", read.report);
+    assert_eq!(read.report[0], "lamp.ldt: 2 sets of lamps are listed; the first is used (4000 lm)");
+    assert!(
+        read.report[1].starts_with("lamp.ldt: its intensities make 3769.9 lm, 0.754 of the 5000.0 lm"),
+        "{:?}",
+        read.report
+    );
     assert_eq!((read.opening.shape, read.opening.length_m), (OpeningShape::Rectangular, 0.15), "width along C0");
     assert_eq!((read.opening.width_m, read.opening.height_m), (0.5, 0.01));
     assert_eq!(read.texts[2], ("luminaire".to_owned(), "Street light".to_owned()));
@@ -73,7 +77,7 @@ fn the_tilt_of_the_measurement_is_told() {
     lamp.factors[2] = 5.0;
     let read = lamp.read();
     assert_eq!(read.tilt, Tilt::Measured(5.0));
-    assert!(read.report[0].starts_with("it was measured at a tilt of 5°"), "{:?}", read.report);
+    assert!(read.report[0].starts_with("lamp.ldt: it was measured at a tilt of 5°"), "{:?}", read.report);
 }
 
 #[test]
