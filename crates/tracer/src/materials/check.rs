@@ -16,6 +16,8 @@ pub(super) fn material(materials: &[Material], index: usize, textures: &[ImageTe
         Surface::Diffuse(r) => reflectance(index, r, textures)?,
         Surface::Lafortune(model) => base(index, model.base(), textures, |s| model.check_energy(s))?,
         Surface::BlinnPhong(model) => base(index, model.base(), textures, |s| model.check_energy(s))?,
+        Surface::CarPaint(paint) => reflectance(index, paint.pigment(), textures)?,
+        Surface::Cloth(cloth) => reflectance(index, cloth.base(), textures)?,
         Surface::Sheeting(sheeting) => sheeting.print().map_or(Ok(()), |print| reflectance(index, print, textures))?,
         Surface::Conductor(conductor) => alpha(index, conductor.alpha(), textures)?,
         Surface::Coated(coated) => {

@@ -76,8 +76,8 @@ impl Coated {
 
 /// The clear coat and its tabulated transmittance.
 #[derive(Clone, Debug, PartialEq)]
-struct Coat {
-    n: f32,
+pub(super) struct Coat {
+    pub(super) n: f32,
     alpha: Factor,
     /// One row for a roughness that is a number; for a texture [`ROWS`] + 1 of them, at α = (i/ROWS)³: dense towards
     /// smooth, where T bends.
@@ -95,7 +95,7 @@ struct Row {
 
 /// Where a roughness lies among the rows: between `row` and the next, at `beyond` in [0, 1]; 0 needs no next.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct PlaceInRows {
+pub(super) struct PlaceInRows {
     row: u32,
     beyond: f32,
 }
@@ -109,7 +109,7 @@ fn alpha_of(row: usize) -> f32 {
 }
 
 impl Coat {
-    fn new(n: f32, alpha: Factor) -> Self {
+    pub(super) fn new(n: f32, alpha: Factor) -> Self {
         let rows = match alpha {
             Factor::Number(alpha) => Box::new([Row::new(n, alpha)]) as Box<[Row]>,
             Factor::Texture(..) => (0..=ROWS).map(|i| Row::new(n, alpha_of(i))).collect(),
@@ -117,7 +117,7 @@ impl Coat {
         Self { n, alpha, rows }
     }
 
-    fn place(&self, alpha: f32) -> PlaceInRows {
+    pub(super) fn place(&self, alpha: f32) -> PlaceInRows {
         if self.rows.len() == 1 {
             return PlaceInRows { row: 0, beyond: 0.0 };
         }
@@ -132,11 +132,11 @@ impl Coat {
         if place.beyond > 0.0 { low + (of(&self.rows[row + 1]) - low) * place.beyond } else { low }
     }
 
-    fn mean_transmittance(&self, place: PlaceInRows) -> f32 {
+    pub(super) fn mean_transmittance(&self, place: PlaceInRows) -> f32 {
         self.between(place, |row| row.mean)
     }
 
-    fn transmittance(&self, place: PlaceInRows, cos: f32) -> f32 {
+    pub(super) fn transmittance(&self, place: PlaceInRows, cos: f32) -> f32 {
         let x = cos.clamp(0.0, 1.0).sqrt() * SEGMENTS as f32;
         let i = (x as usize).min(SEGMENTS - 1);
         self.between(place, |row| {

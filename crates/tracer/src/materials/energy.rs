@@ -44,6 +44,25 @@ impl AlbedoTable {
         let i = (x as usize).min(SEGMENTS - 1);
         self.0[i] + (self.0[i + 1] - self.0[i]) * (x - i as f32)
     }
+
+    pub(super) fn max_value(&self) -> f32 {
+        self.0.iter().copied().fold(0.0, f32::max)
+    }
+
+    /// 2 ∫ E μ dμ = 4 ∫ E t³ dt with μ = t²: the albedo under uniform light. Exact for the broken line over t.
+    pub(super) fn mean(&self) -> f32 {
+        let node = 0.5 * (0.6_f64).sqrt();
+        let rule = [(0.5 - node, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.5 + node, 5.0 / 18.0)];
+        let segment = |i: usize| -> f64 {
+            let (low, high) = (f64::from(self.0[i]), f64::from(self.0[i + 1]));
+            let point = |x: f64| {
+                let t = (i as f64 + x) / SEGMENTS as f64;
+                (low + (high - low) * x) * t * t * t
+            };
+            rule.iter().map(|(x, w)| w * point(*x)).sum()
+        };
+        (4.0 / SEGMENTS as f64 * (0..SEGMENTS).map(segment).sum::<f64>()) as f32
+    }
 }
 
 fn node_cos(i: usize) -> f32 {
@@ -93,7 +112,9 @@ mod tests {
     #[test]
     fn tables_hold_their_nodes_and_follow_between() {
         let table = AlbedoTable::new(|cos| f64::from(1.0 - cos * cos));
-        assert_eq!((table.at(0.0), table.at(1.0)), (1.0, 0.0));
+        assert_eq!((table.at(0.0), table.at(1.0), table.max_value()), (1.0, 0.0, 1.0));
+        // 2 ∫ (1 − μ²) μ dμ = 1/2.
+        assert!((table.mean() - 0.5).abs() < 4e-4, "{}", table.mean());
         // The broken line errs by h²/8 · f'' (t⁴ has 12) at h = 1/64: 4e-4 at most.
         assert!((table.at(0.3) - 0.91).abs() < 4e-4);
     }

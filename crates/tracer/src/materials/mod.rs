@@ -19,7 +19,9 @@
 
 mod beckmann;
 mod blinn_phong;
+mod car_paint;
 mod check;
+mod cloth;
 mod coated;
 mod conductor;
 mod dielectric;
@@ -47,6 +49,8 @@ mod thin_sheet;
 mod traits;
 
 pub use blinn_phong::{BlinnPhong, BlinnPhongBsdf, BlinnPhongError, blinn_phong_normalisation};
+pub use car_paint::{CarPaint, CarPaintBsdf, CarPaintError, CarPaintParts, flake_reflectance};
+pub use cloth::{Cloth, ClothBsdf, ClothError};
 pub use coated::{COAT_INDICES, Coated, CoatedBsdf};
 pub use conductor::{Conductor, ConductorBsdf};
 pub use dielectric::{DIELECTRIC_INDICES, Dielectric, DielectricBsdf, absorption_of};
@@ -109,6 +113,10 @@ pub enum Surface {
     Lafortune(Box<Lafortune>),
     /// A matt base with a glossy lobe about the half vector.
     BlinnPhong(Box<BlinnPhong>),
+    /// Metal flakes and pigment under a clear coat.
+    CarPaint(Box<CarPaint>),
+    /// A matt base with the sheen of fibres.
+    Cloth(Box<Cloth>),
     /// Retro-reflective sheeting.
     Sheeting(Box<Sheeting>),
     /// A road marking with glass beads.
@@ -138,6 +146,10 @@ pub enum Bsdf<'a, const N: usize> {
     Lafortune(LafortuneBsdf<'a, N>),
     /// A lobe about the half vector.
     BlinnPhong(BlinnPhongBsdf<'a, N>),
+    /// Metal flakes under a clear coat.
+    CarPaint(CarPaintBsdf<'a, N>),
+    /// The sheen of fibres.
+    Cloth(ClothBsdf<'a, N>),
     /// Retro-reflective sheeting.
     Sheeting(SheetingBsdf<'a, N>),
     /// Glass beads.
@@ -204,6 +216,7 @@ impl<const N: usize> Bsdf<'_, N> {
             Self::ThinSheet(_) => true,
             Self::Absorber | Self::Diffuse(_) | Self::Coated(_) | Self::Leaf(_) => false,
             Self::Lafortune(_) | Self::BlinnPhong(_) | Self::Sheeting(_) | Self::Marking(_) => false,
+            Self::CarPaint(_) | Self::Cloth(_) => false,
         }
     }
 
@@ -213,6 +226,7 @@ impl<const N: usize> Bsdf<'_, N> {
         match self {
             Self::Absorber | Self::Diffuse(_) | Self::Conductor(_) | Self::Coated(_) | Self::ThinSheet(_) => false,
             Self::Lafortune(_) | Self::BlinnPhong(_) | Self::Sheeting(_) | Self::Marking(_) => false,
+            Self::CarPaint(_) | Self::Cloth(_) => false,
             Self::Dielectric(dielectric) => !dielectric.is_smooth(),
             Self::Leaf(_) => true,
         }
@@ -232,6 +246,8 @@ impl<const N: usize> Bsdf<'_, N> {
             Self::Coated(coated) => coated.evaluate(wo, wi),
             Self::Lafortune(lafortune) => lafortune.evaluate(wo, wi),
             Self::BlinnPhong(blinn_phong) => blinn_phong.evaluate(wo, wi),
+            Self::CarPaint(paint) => paint.evaluate(wo, wi),
+            Self::Cloth(cloth) => cloth.evaluate(wo, wi),
             Self::Sheeting(sheeting) => sheeting.evaluate(wo, wi),
             Self::Marking(marking) => marking.evaluate(wo, wi),
             Self::Dielectric(dielectric) => dielectric.evaluate(wo, wi),
@@ -253,6 +269,8 @@ impl<const N: usize> Bsdf<'_, N> {
             Self::Coated(coated) => coated.sample(wo, choice, u),
             Self::Lafortune(lafortune) => lafortune.sample(wo, choice, u),
             Self::BlinnPhong(blinn_phong) => blinn_phong.sample(wo, choice, u),
+            Self::CarPaint(paint) => paint.sample(wo, choice, u),
+            Self::Cloth(cloth) => cloth.sample(wo, choice, u),
             Self::Sheeting(sheeting) => sheeting.sample(wo, choice, u),
             Self::Marking(marking) => marking.sample(wo, choice, u),
             Self::Dielectric(dielectric) => dielectric.sample(wo, choice, u),

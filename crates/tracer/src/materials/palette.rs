@@ -195,6 +195,8 @@ impl Palette {
             Surface::BlinnPhong(model) => {
                 Bsdf::BlinnPhong(model.resolve(model.base().at(textures, lookup, wavelengths), wavelengths))
             }
+            Surface::CarPaint(paint) => Bsdf::CarPaint(paint.resolve(textures, lookup, wavelengths)),
+            Surface::Cloth(cloth) => Bsdf::Cloth(cloth.resolve(textures, lookup, wavelengths)),
             Surface::Sheeting(sheeting) => Bsdf::Sheeting(sheeting.resolve(textures, lookup, wavelengths)),
             Surface::Marking(marking) => Bsdf::Marking(marking.resolve(wavelengths)),
             Surface::Dielectric(dielectric) => Bsdf::Dielectric(dielectric.resolve(textures, lookup, front)),

@@ -69,6 +69,8 @@ impl Surface {
             Self::Coated(coated) => [coated.base().texture(), coated.alpha().texture()],
             Self::Lafortune(model) => [model.base().texture(), None],
             Self::BlinnPhong(model) => [model.base().texture(), None],
+            Self::CarPaint(paint) => [paint.pigment().texture(), None],
+            Self::Cloth(cloth) => [cloth.base().texture(), None],
             Self::Sheeting(sheeting) => [sheeting.print().and_then(Reflectance::texture), None],
             Self::Dielectric(dielectric) => [None, dielectric.alpha().texture()],
             Self::ThinSheet(sheet) => [sheet.transmittance().texture(), None],

@@ -41,6 +41,23 @@ fn marking() -> Surface {
     Surface::Marking(Box::new(RoadMarking::new(300.0, DayTime::Qd(130.0), &white).expect("a marking")))
 }
 
+fn car_paint(pigment: f64, flakes: f64, coverage: f64, flake_alpha: f64, coat_alpha: f64) -> Surface {
+    let parts = CarPaintParts {
+        pigment: grey(pigment),
+        flakes: Spectrum::constant(flakes),
+        coverage,
+        flake_alpha,
+        coat_index: 1.5,
+        coat_alpha,
+    };
+    Surface::CarPaint(Box::new(CarPaint::new(parts).expect("a paint")))
+}
+
+fn cloth(base: f64, sheen: f64, alpha: f64) -> Surface {
+    let sheen = Spectrum::constant(sheen);
+    Surface::Cloth(Box::new(Cloth::new(grey(base), sheen, alpha).expect("a cloth")))
+}
+
 /// Surfaces for the tests that all materials pass.
 pub(super) fn surfaces() -> Vec<Surface> {
     vec![
@@ -55,6 +72,12 @@ pub(super) fn surfaces() -> Vec<Surface> {
         rough(&gold(), 0.01, Distribution::Ggx, true),
         glaze(0.5),
         marking(),
+        car_paint(0.05, 0.85, 0.6, 0.3, 0.0),
+        car_paint(1.0, 1.0, 0.5, 0.1, 0.0),
+        car_paint(0.0, 1.0, 1.0, 0.6, 0.05),
+        cloth(1.0, 1.0, 0.3),
+        cloth(0.2, 0.5, 1.0),
+        cloth(0.0, 1.0, 0.1),
     ]
 }
 
@@ -69,6 +92,9 @@ fn directions_are_drawn_by_the_density_told() {
         (rough(&gold(), 0.1, Distribution::Ggx, true), 0.1),
         (rough(&white(), 1.0, Distribution::Ggx, true), 1.0),
         (glaze(0.5), 0.5),
+        (car_paint(0.2, 0.8, 0.7, 0.2, 0.0), 0.4),
+        (car_paint(0.1, 0.9, 0.5, 0.5, 0.1), 0.2),
+        (cloth(0.3, 0.8, 0.3), 1.0),
     ];
     let mut p_values = vec![];
     for (k, (surface, scale)) in cases.into_iter().enumerate() {
@@ -103,4 +129,40 @@ fn interreflection_gives_back_less_where_metals_absorb() {
     let (once, all) = (albedo(&bsdf(&once), at_degrees(40.0)), albedo(&bsdf(&all), at_degrees(40.0)));
     let gain = [0, 3].map(|i| all[i] / once[i]);
     assert!(gain[0] > 1.0 && gain[1] > gain[0] + 0.05, "{once:?} {all:?}");
+}
+
+#[test]
+fn paint_without_flakes_is_a_solid_paint() {
+    for (d, coat_alpha) in [(0.6, 0.0), (0.9, 0.2)] {
+        let (metallic, solid) = (palette(car_paint(d, 0.9, 0.0, 0.3, coat_alpha)), palette(paint(d, 1.5, coat_alpha)));
+        for (wo, wi) in [(10.0, 40.0), (60.0, 5.0), (80.0, 70.0)] {
+            let pair = (at_degrees(wo), at_degrees(wi));
+            let [a, b] = [&metallic, &solid].map(|p| bsdf(p).evaluate(pair.0, pair.1).value_cos[0]);
+            assert!((a / b - 1.0).abs() < 1e-4, "{d} {coat_alpha} {wo} {wi}: {a} {b}");
+        }
+    }
+}
+
+#[test]
+fn metallic_paint_is_darker_away_from_the_mirror() {
+    // Silver: the flop index of car makers compares 15°, 45° and 110° off the mirror direction of light at 45°.
+    let palette = palette(car_paint(0.02, 0.87, 0.7, 0.25, 0.0));
+    let at = |off: f32| {
+        let (s, c) = etendue_core::maths::f32::sin_cos((45.0 - off).to_radians());
+        let light = Vec3::new(-core::f32::consts::FRAC_1_SQRT_2, 0.0, core::f32::consts::FRAC_1_SQRT_2);
+        bsdf(&palette).evaluate(Vec3::new(s, 0.0, c), light).value_cos[0]
+    };
+    assert!(at(15.0) > 2.5 * at(45.0) && at(45.0) > 2.5 * at(110.0), "{} {} {}", at(15.0), at(45.0), at(110.0));
+}
+
+#[test]
+fn white_cloth_gives_back_all_light() {
+    for alpha in [0.1, 0.3, 1.0] {
+        let palette = palette(cloth(1.0, 1.0, alpha));
+        for degrees in [0.0, 45.0, 75.0, 85.0, 89.0] {
+            let albedo = albedo(&bsdf(&palette), at_degrees(degrees))[0];
+            // Tables of the sheen's albedo: 64 steps of the cosine's root.
+            assert!((albedo - 1.0).abs() < 0.01, "α {alpha} at {degrees}: {albedo}");
+        }
+    }
 }

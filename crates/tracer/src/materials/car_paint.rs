@@ -1,0 +1,357 @@
+//! Metallic car paint: metal flakes among pigment, under a clear coat.
+//!
+//! Three parts, 1/sr, with T the coat's transmittance of `coated`, n its index, ω′ the directions refracted into it:
+//!
+//! - the coat's own reflection F D G₂/(4 cos θₒ cos θᵢ), exact for a smooth coat;
+//! - the base, met once: T(θₒ) T(θᵢ)/n² · [ s F D G₂/(4 cos θₒ′ cos θᵢ′) + (1 − s) d/π ], flakes (GGX of roughness α_f,
+//!   their reflectance F in the coat a spectrum) covering a share s of the area, pigment of reflectance d the rest;
+//! - light sent back by the base, turned round inside the coat and met again, taken as diffuse from the first turn
+//!   (Saunderson 1942): T(θₒ) T(θᵢ)/(n² π) · g R(θₒ) R(θᵢ), R(θ) the share of light from θ that the base sends back and
+//!   the coat turns round, g = min(ρ̄/(R̄ (1 − R̄)), 1/X). ρ̄ and R̄ are means over diffuse light inside, X the part of R
+//!   that comes out: with pigment alone this is Saunderson's sum of `coated`, and with white flakes no more comes out
+//!   than went round.
+//!
+//! Reciprocal; at no incidence or wavelength is more sent back than arrives, as both sides of each sum are bounded: met
+//! once ρ − R, after that R g X ≤ R. Drawn by parts, in proportion to what each sends back; flakes inside the coat from
+//! those visible.
+//!
+//! The flop of colour with the angle comes from s, α_f and d alone. Left out: single flakes (sparkle), layers of flakes
+//! above one another, light scattered among flakes more than once, change of F with the angle (below 42° inside, a metal's
+//! hardly does), pearl and interference pigments, absorption in the coat.
+
+use core::f32::consts::FRAC_1_PI;
+use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
+use etendue_core::{Spectral, Wavelengths};
+use etendue_spectra::Spectrum;
+use etendue_spectra::metal::ComplexIndex;
+use glam::{Vec2, Vec3};
+
+use super::coated::{COAT_INDICES, Coat, PlaceInRows};
+use super::energy::{self, AlbedoTable};
+use super::lottery::Lottery;
+use super::microfacet::{Ggx, half_vector, mirrored};
+use super::{BsdfSample, BsdfValue, Event, Factor, MaterialError, Reflectance, fresnel};
+use crate::textures::{ImageTexture, Lookup};
+
+/// What a metallic paint is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CarPaintParts {
+    /// Reflectance d of the pigment between the flakes.
+    pub pigment: Reflectance,
+    /// Reflectance F of the flakes' metal in the coat, 0 to 1: see [`flake_reflectance`].
+    pub flakes: Spectrum,
+    /// Share s of the area that flakes cover, 0 to 1.
+    pub coverage: f64,
+    /// How unevenly flakes lie: GGX α_f, 0.05 to 1.
+    pub flake_alpha: f64,
+    /// Refractive index n of the clear coat.
+    pub coat_index: f64,
+    /// Roughness of the clear coat, GGX α, 0 to 1.
+    pub coat_alpha: f64,
+}
+
+/// Reflectance at normal incidence of a metal that lies in a medium of index `medium`.
+#[must_use]
+pub fn flake_reflectance(metal: &ComplexIndex, medium: f64) -> Spectrum {
+    Spectrum::from_fn(|nm| {
+        let (n, k) = (f64::from(metal.n.at(nm as f32)), f64::from(metal.k.at(nm as f32)));
+        ((n - medium) * (n - medium) + k * k) / ((n + medium) * (n + medium) + k * k)
+    })
+}
+
+/// A metallic paint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CarPaint {
+    pigment: Reflectance,
+    flakes: Spectrum,
+    coverage: f32,
+    facets: Ggx,
+    coat: Coat,
+    coat_facets: Option<Ggx>,
+    place: PlaceInRows,
+    inside: Inside,
+}
+
+/// What flakes of reflectance 1 do inside the coat.
+#[derive(Clone, Debug, PartialEq)]
+struct Inside {
+    /// Share sent back, by the cosine outside.
+    sent: AlbedoTable,
+    /// Of it, what the coat turns round.
+    turned: AlbedoTable,
+    /// Means of both over diffuse light inside.
+    mean_sent: f32,
+    mean_turned: f32,
+    /// What of the second comes out when it is sent up by its own profile: X of the flakes.
+    out: f32,
+}
+
+/// The cosine inside the coat of one outside.
+fn inner_cos(cos: f32, n: f32) -> f32 {
+    (1.0 - (1.0 - cos * cos).max(0.0) / (n * n)).sqrt()
+}
+
+/// The cosine outside of one inside; `None` beyond total reflection.
+fn outer_cos(cos: f32, n: f32) -> Option<f32> {
+    let square = 1.0 - n * n * (1.0 - cos * cos);
+    (square > 0.0).then(|| square.sqrt())
+}
+
+/// A direction bent at the coat's mean plane.
+fn bent(w: Vec3, scale: f32, cos: f32) -> Vec3 {
+    Vec3::new(w.x * scale, w.y * scale, cos)
+}
+
+impl Inside {
+    fn new(facets: Ggx, coat: &Coat, place: PlaceInRows) -> Self {
+        const STEPS: usize = 64;
+        let through = |cos: f32| outer_cos(cos, coat.n).map_or(0.0, |outer| coat.transmittance(place, outer));
+        let both = |cos: f32| sent_and_turned(facets, cos, &through);
+        // Means over diffuse light inside: ∫ f dμ², by the midpoint rule.
+        let nodes: Vec<_> = (0..STEPS).map(|i| ((i as f32 + 0.5) / STEPS as f32).sqrt()).collect();
+        let all: Vec<_> = nodes.iter().map(|cos| both(*cos)).collect();
+        let mean = |f: &dyn Fn(usize) -> f64| ((0..STEPS).map(f).sum::<f64>() / STEPS as f64) as f32;
+        Self {
+            sent: AlbedoTable::new(|cos| both(inner_cos(cos, coat.n)).0),
+            turned: AlbedoTable::new(|cos| both(inner_cos(cos, coat.n)).1),
+            mean_sent: mean(&|i| all[i].0),
+            mean_turned: mean(&|i| all[i].1),
+            out: mean(&|i| all[i].1 * f64::from(through(nodes[i]))),
+        }
+    }
+}
+
+/// Share of light from a cosine inside that flakes send back, and what of it the coat turns round.
+fn sent_and_turned(facets: Ggx, cos: f32, through: &impl Fn(f32) -> f32) -> (f64, f64) {
+    const CELLS: usize = 24;
+    let cos = cos.max(1e-4);
+    let wo = Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
+    let cell = |i: usize| {
+        let u = Vec2::new(0.5 * ((i % CELLS) as f32 + 0.5), (i / CELLS) as f32 + 0.5) / CELLS as f32;
+        let wi = mirrored(wo, facets.sample(wo, u));
+        let sent = if wi.z > 0.0 { facets.weight(wo, wi) } else { 0.0 };
+        (f64::from(sent), f64::from(sent * (1.0 - through(wi.z))))
+    };
+    let sum = (0..CELLS * CELLS).map(cell).fold((0.0, 0.0), |sum, x| (sum.0 + x.0, sum.1 + x.1));
+    let cells = (CELLS * CELLS) as f64;
+    (sum.0 / cells, sum.1 / cells)
+}
+
+impl CarPaint {
+    /// A paint of `parts`.
+    ///
+    /// # Errors
+    /// Where a number or spectrum is out of range.
+    pub fn new(parts: CarPaintParts) -> Result<Self, CarPaintError> {
+        if !COAT_INDICES.contains(&parts.coat_index) {
+            return Err(MaterialError::CoatIndex { n: parts.coat_index }.into());
+        }
+        if !(0.05..=1.0).contains(&parts.flake_alpha) {
+            return Err(CarPaintError::FlakeAlpha { alpha: parts.flake_alpha });
+        }
+        if !(0.0..=1.0).contains(&parts.coverage) {
+            return Err(CarPaintError::Coverage { coverage: parts.coverage });
+        }
+        if !energy::is_weight(&parts.flakes) || parts.flakes.max_value() > 1.0 {
+            return Err(CarPaintError::Flakes);
+        }
+        let alpha = Factor::from(parts.coat_alpha).checked_alpha()?;
+        let coat = Coat::new(parts.coat_index as f32, alpha);
+        let place = coat.place(parts.coat_alpha as f32);
+        let facets = Ggx { alpha: parts.flake_alpha as f32 };
+        Ok(Self {
+            inside: Inside::new(facets, &coat, place),
+            coat_facets: Ggx::of(parts.coat_alpha as f32),
+            pigment: parts.pigment,
+            flakes: parts.flakes,
+            coverage: parts.coverage as f32,
+            facets,
+            coat,
+            place,
+        })
+    }
+
+    /// The reflectance of the pigment.
+    #[must_use]
+    pub fn pigment(&self) -> &Reflectance {
+        &self.pigment
+    }
+
+    /// Share of diffuse light inside that the coat turns round.
+    fn turned_diffuse(&self) -> f32 {
+        1.0 - self.coat.mean_transmittance(self.place) / (self.coat.n * self.coat.n)
+    }
+
+    pub(super) fn resolve<const N: usize>(
+        &self,
+        textures: &[ImageTexture],
+        lookup: &Lookup,
+        wavelengths: &Wavelengths<N>,
+    ) -> CarPaintBsdf<'_, N> {
+        let flakes = self.flakes.sample(wavelengths) * self.coverage;
+        let pigment = self.pigment.at(textures, lookup, wavelengths) * (1.0 - self.coverage);
+        let turned = self.turned_diffuse();
+        let again = Spectral::from_fn(|i| {
+            let (f, d) = (flakes[i], pigment[i]);
+            let sent = f * self.inside.mean_sent + d;
+            let round = f * self.inside.mean_turned + d * turned;
+            let out = f * self.inside.out + d * turned * (1.0 - turned);
+            if round > 1e-6 { (sent / (round * (1.0 - round))).min(1.0 / out) } else { 0.0 }
+        });
+        CarPaintBsdf { paint: self, flakes, pigment, turned, again }
+    }
+}
+
+/// Why a metallic paint is refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum CarPaintError {
+    /// The flakes' roughness is out of range.
+    #[error("flakes of roughness α = {alpha} were given, but it must lie between 0.05 and 1; correct it")]
+    FlakeAlpha {
+        /// What was given.
+        alpha: f64,
+    },
+    /// The coverage is out of range.
+    #[error("a coverage by flakes of {coverage} was given, but it must lie between 0 and 1; correct it")]
+    Coverage {
+        /// What was given.
+        coverage: f64,
+    },
+    /// The flakes' reflectance is none.
+    #[error("the reflectance of the flakes leaves the range 0 to 1 at some wavelength; scale it")]
+    Flakes,
+    /// The coat is none.
+    #[error(transparent)]
+    Coat(#[from] MaterialError),
+}
+
+/// A metallic paint at one point and a path's wavelengths.
+#[derive(Clone, Copy, Debug)]
+pub struct CarPaintBsdf<'a, const N: usize> {
+    paint: &'a CarPaint,
+    /// s F.
+    flakes: Spectral<N>,
+    /// (1 − s) d.
+    pigment: Spectral<N>,
+    /// Share of diffuse light inside that the coat turns round.
+    turned: f32,
+    /// g.
+    again: Spectral<N>,
+}
+
+impl<const N: usize> CarPaintBsdf<'_, N> {
+    fn through(&self, cos: f32) -> f32 {
+        self.paint.coat.transmittance(self.paint.place, cos)
+    }
+
+    /// R at a cosine outside.
+    fn round(&self, cos: f32) -> Spectral<N> {
+        self.flakes * self.paint.inside.turned.at(cos) + self.pigment * self.turned
+    }
+
+    /// Coat, flakes and what is matt, by what each sends back.
+    fn lottery(&self, wo: Vec3) -> Option<Lottery<3>> {
+        let (inside, through) = (&self.paint.inside, self.through(wo.z));
+        let flakes = self.flakes.mean() * (inside.sent.at(wo.z) - inside.turned.at(wo.z)).max(0.0);
+        let (f, d) = (self.flakes.mean(), self.pigment.mean());
+        let out = f * inside.out + d * self.turned * (1.0 - self.turned);
+        let matt = d * (1.0 - self.turned) + self.round(wo.z).mean() * self.again.mean() * out;
+        Lottery::new([1.0 - through, through * flakes, through * matt])
+    }
+
+    pub(super) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+        self.lottery(wo).map_or(BsdfValue::ZERO, |lottery| self.value(&lottery, wo, wi))
+    }
+
+    fn value(&self, lottery: &Lottery<3>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+        let n = self.paint.coat.n;
+        let both = self.through(wo.z) * self.through(wi.z) / (n * n);
+        let (flake, flake_pdf) = self.flake(wo, wi);
+        let matt = self.pigment + self.round(wo.z) * self.round(wi.z) * self.again;
+        let mut value_cos = self.flakes * (both * flake) + matt * (both * FRAC_1_PI * wi.z);
+        let mut pdf = lottery.of(1) * flake_pdf + lottery.of(2) * cosine_hemisphere_pdf(wi.z);
+        if let Some(facets) = self.paint.coat_facets {
+            let m = half_vector(wo, wi);
+            value_cos += Spectral::splat(fresnel::dielectric(wo.dot(m), n) * facets.reflect(wo, wi, m));
+            pdf += lottery.of(0) * facets.reflect_pdf(wo, m);
+        }
+        BsdfValue { value_cos, pdf }
+    }
+
+    /// Of flakes of reflectance 1, f′ cos θᵢ for directions outside, and the density there of drawing them.
+    fn flake(&self, wo: Vec3, wi: Vec3) -> (f32, f32) {
+        let (n, facets) = (self.paint.coat.n, self.paint.facets);
+        let (o, i) = (bent(wo, 1.0 / n, inner_cos(wo.z, n)), bent(wi, 1.0 / n, inner_cos(wi.z, n)));
+        let m = half_vector(o, i);
+        (facets.reflect(o, i, m) * wi.z / i.z, facets.reflect_pdf(o, m) * wi.z / (n * n * i.z))
+    }
+
+    /// A direction by way of a flake, outside; `None` where the coat turns it round.
+    fn sample_flake(&self, wo: Vec3, u: Vec2) -> Option<Vec3> {
+        let n = self.paint.coat.n;
+        let o = bent(wo, 1.0 / n, inner_cos(wo.z, n));
+        let i = mirrored(o, self.paint.facets.sample(o, u));
+        let cos = outer_cos(i.z, n).filter(|_| i.z > 0.0)?;
+        Some(bent(i, n, cos))
+    }
+
+    pub(super) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
+        let lottery = self.lottery(wo)?;
+        let wi = match (lottery.draw(choice), self.paint.coat_facets) {
+            (0, Some(facets)) => mirrored(wo, facets.sample(wo, u)),
+            (0, None) => {
+                let reflectance = fresnel::dielectric(wo.z, self.paint.coat.n) / lottery.of(0);
+                return Some(BsdfSample::mirror(wo, Spectral::splat(reflectance)));
+            }
+            (1, _) => self.sample_flake(wo, u)?,
+            _ => cosine_hemisphere(u),
+        };
+        if wi.z <= 0.0 {
+            return None;
+        }
+        let BsdfValue { value_cos, pdf } = self.value(&lottery, wo, wi);
+        (pdf > 0.0).then(|| BsdfSample { wi, weight: value_cos / pdf, pdf, event: Event::Scatter })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn flakes_of_aluminium_in_lacquer_reflect_less_than_in_air() {
+        let metal = etendue_spectra::metal::named("Al").expect("aluminium");
+        let (air, lacquer) = (flake_reflectance(metal, 1.0).at(550.0), flake_reflectance(metal, 1.5).at(550.0));
+        assert!((air - 0.915).abs() < 0.02 && lacquer < air && lacquer > 0.85, "{air} {lacquer}");
+    }
+
+    #[test]
+    fn faulty_paints_are_refused() {
+        let parts = CarPaintParts {
+            pigment: Reflectance::Spectrum(Spectrum::constant(0.1)),
+            flakes: Spectrum::constant(0.9),
+            coverage: 0.5,
+            flake_alpha: 0.3,
+            coat_index: 1.5,
+            coat_alpha: 0.0,
+        };
+        let of = |parts| CarPaint::new(parts).expect_err("faulty");
+        assert!(CarPaint::new(parts.clone()).is_ok());
+        assert_eq!(of(CarPaintParts { flake_alpha: 0.0, ..parts.clone() }), CarPaintError::FlakeAlpha { alpha: 0.0 });
+        assert_eq!(of(CarPaintParts { coverage: 1.5, ..parts.clone() }), CarPaintError::Coverage { coverage: 1.5 });
+        assert_eq!(of(CarPaintParts { flakes: Spectrum::constant(1.5), ..parts.clone() }), CarPaintError::Flakes);
+        let index = MaterialError::CoatIndex { n: 1.0 };
+        assert_eq!(of(CarPaintParts { coat_index: 1.0, ..parts.clone() }), CarPaintError::Coat(index));
+        let alpha = MaterialError::Roughness { alpha: 2.0 };
+        assert_eq!(of(CarPaintParts { coat_alpha: 2.0, ..parts }), CarPaintError::Coat(alpha));
+    }
+
+    #[test]
+    fn bending_in_and_out_again_leaves_a_direction() {
+        for cos in [0.01, 0.3, 0.99] {
+            let back = outer_cos(inner_cos(cos, 1.5), 1.5).expect("from outside");
+            assert!((back - cos).abs() < 1e-4, "{cos}: {back}");
+        }
+        assert!(outer_cos(0.5, 1.5).is_none());
+    }
+}
