@@ -9,9 +9,11 @@
 pub mod camera;
 pub mod chart;
 pub mod colour;
+pub mod dielectric;
 pub mod illuminant;
 pub mod metal;
 pub mod observer;
+pub mod reflectance;
 pub mod sky;
 mod spectrum;
 mod table;

@@ -32,7 +32,7 @@ static TABLES: LazyLock<Vec<ComplexIndex>> = LazyLock::new(|| {
     .collect()
 });
 
-fn complex_index(text: &str) -> ComplexIndex {
+pub(crate) fn complex_index(text: &str) -> ComplexIndex {
     let [n, k] = embedded::<3>(text, Outside::Hold).try_into().expect("two columns");
     ComplexIndex { n, k }
 }

@@ -245,7 +245,7 @@ mod tests {
 
     #[test]
     fn a_clear_sky_is_as_bright_as_measured() {
-        // A clear day's diffuse light at a Sun of 60° is 10 to 20 klx (Kittler & Darula 2012); haze and ground add to it.
+        // A clear sky without its Sun gives 10 to 20 klx by day, as is commonly stated; haze and ground add to it.
         let lux =
             [(2.0, 0.0), (2.0, 0.2), (4.0, 0.2), (6.0, 0.2)].map(|(t, a)| model(t, a, 60.0).horizontal_illuminance());
         assert!((10e3..20e3).contains(&lux[1]), "{lux:?}");

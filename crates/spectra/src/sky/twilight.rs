@@ -4,7 +4,7 @@
 //! the Sun's depression: log₁₀ E = Σ lₖ xᵏ with E in lx and x = elevation/90°, fitted piecewise to measurements
 //! (Janiczek & DeYoung 1987, U.S. Naval Observatory Circular 171; also Urban & Seidelmann 2013, p. 518). It gives
 //! 750 lx at the horizon, 3.4 lx at −6°, 0.008 lx at −12° and 6.5·10⁻⁴ lx at −18°. Below −18° the sky keeps that last
-//! value, a moonless, starlit night (their own figure for stars and airglow is 5·10⁻⁴ lx).
+//! value, about that of a moonless, starlit night.
 //!
 //! The model's own sky at the horizon differs from the published one, so that their ratio, to the power 1 − d/6°, is
 //! kept down to a depression d of 6°: brightness goes on without a step and is the published one from there on.
@@ -48,7 +48,8 @@ mod tests {
 
     #[test]
     fn published_figures() {
-        // Urban & Seidelmann's table of the Sun: 759, 3.4, 8.3e-3 and 6.5e-4 lx; their fits are good to 0.03 in the logarithm.
+        // Illuminances commonly stated for these moments: 759, 3.4, 8.3e-3 and 6.5e-4 lx; fits of such data are good to 0.03
+        // in the logarithm.
         for (degrees, lux) in [(0.0, 759.0), (-6.0, 3.4), (-12.0, 8.3e-3), (-18.0, 6.5e-4)] {
             let off = maths::f64::log10(illuminance(degrees) / lux);
             assert!(off.abs() < 0.03, "{degrees}°: {}", illuminance(degrees));
@@ -59,7 +60,7 @@ mod tests {
     #[test]
     fn fits_meet() {
         for degrees in [-5.0, -12.0, -18.0] {
-            // Their authors' error, 0.03 in the logarithm.
+            // As good as the fits themselves.
             let step = maths::f64::log10(illuminance(degrees - 1e-9) / illuminance(degrees + 1e-9));
             assert!(step.abs() < 0.03, "{degrees}°: {step}");
         }
