@@ -118,13 +118,20 @@ fn path_settings(camera: &CameraPlan) -> PathSettings {
         Route::Lens => camera.body.raster.pitch_mm().x / camera.body.lens.principal_distance_mm(),
         Route::Pupil(projection) => projection.pitch_tan(),
     };
+    let samples = camera.settings.spp / camera.settings.replicates;
     PathSettings {
         max_bounces: camera.settings.max_bounces,
         roulette_start: ROULETTE_START,
-        cone_spread_rad: pitch_tan as f32,
+        cone_spread_rad: pitch_tan as f32 * sample_width(samples),
         caustics: camera.settings.caustics,
         ..PathSettings::default()
     }
+}
+
+/// Share of a pixel's width that one of its samples stands for: together they cover the pixel once, so that textures are
+/// not averaged over the pixel twice. Not less than an eighth, to read textures in fewer places.
+fn sample_width(samples: u32) -> f32 {
+    (1.0 / (samples.max(1) as f32).sqrt()).max(0.125)
 }
 
 /// Rays through a lens.

@@ -18,7 +18,7 @@ use crate::accel::top::Top;
 use crate::accel::{Simd, World};
 use crate::geometry::{Footprint, Shape, SurfacePoint};
 use etendue_core::Ray;
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 pub(crate) use place::Placed;
 
 /// What a ray meets first.
@@ -94,6 +94,18 @@ impl<'w> View<'w> {
             Shape::Mesh(id) => footprint::of_mesh(self.world.mesh(id), placed, point.primitive),
             Shape::Sphere { radius_m } => footprint::of_sphere(radius_m, placed),
         }
+    }
+
+    /// How texture coordinates and the place in the own frame of the shape change along a `vector` (render frame, m) in
+    /// the surface at a point.
+    #[must_use]
+    pub fn change_along(&self, point: &SurfacePoint, vector: Vec3) -> (Vec2, Vec3) {
+        let local = self.placed(point.instance).vector_to_local(vector.as_dvec3());
+        let uv = match self.world.instances()[point.instance as usize].shape {
+            Shape::Mesh(id) => footprint::uv_along(self.world.mesh(id), point.primitive, local),
+            Shape::Sphere { .. } => footprint::globe_along(point.local.as_dvec3(), local),
+        };
+        (uv.as_vec2(), local.as_vec3())
     }
 
     /// The directions in which the two texture coordinates grow at a point of this view's surfaces, in its plane: unit,

@@ -42,7 +42,8 @@ pub struct PathSettings {
     pub max_bounces: u32,
     /// Scattering events after which paths may end at random.
     pub roulette_start: u32,
-    /// Full angle of the cone that a camera ray stands for, rad: that of a pixel. Chooses the resolution of textures.
+    /// Full angle of the cone that a camera ray stands for, rad: that of a pixel over the root of its samples. Chooses the
+    /// resolution of textures.
     pub cone_spread_rad: f32,
     /// Which ways of finding light are used.
     pub strategies: Strategies,

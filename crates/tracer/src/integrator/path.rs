@@ -105,7 +105,7 @@ impl<'a, const N: usize> Path<'a, N> {
         self.cone.travel(hit.t);
         self.travelled_m += hit.t;
         self.throughput = self.medium.attenuate(self.throughput, hit.t, self.wavelengths);
-        let lookup = self.lookup(&point, self.cone);
+        let lookup = self.lookup(&point, self.cone, self.ray.direction);
         self.gather_glow(&point, &lookup);
         if self.is_passed(&point, &lookup) {
             self.pass(&point);
@@ -118,15 +118,22 @@ impl<'a, const N: usize> Path<'a, N> {
         }
     }
 
-    /// Where textures are read at a point that a ray has met whose cone is `cone` there.
-    pub(super) fn lookup(&self, point: &SurfacePoint, cone: Cone) -> Lookup {
+    /// Where textures are read at a point that a ray of unit `direction` has met whose cone is `cone` there.
+    pub(super) fn lookup(&self, point: &SurfacePoint, cone: Cone, direction: Vec3) -> Lookup {
         let at = Lookup { local: point.local, local_normal: point.local_normal, ..Lookup::point(point.uv) };
         if !self.tracer.palette.needs_footprint(point.material) {
             return at;
         }
         let footprint = self.tracer.view.footprint(point);
         let width_m = cone.width_m;
-        Lookup { width: width_m * footprint.uv_per_m, width_local: width_m * footprint.local_per_m, ..at }
+        let round = Lookup { width: width_m * footprint.uv_per_m, width_local: width_m * footprint.local_per_m, ..at };
+        match cone.long_side(point.geometric_normal, direction) {
+            None => round,
+            Some(vector) => {
+                let (long, long_local) = self.tracer.view.change_along(point, vector);
+                Lookup { long, long_local, ..round }
+            }
+        }
     }
 
     /// Light from beyond the scene, along the ray.

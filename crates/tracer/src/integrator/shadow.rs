@@ -46,7 +46,7 @@ impl<const N: usize> Path<'_, N> {
             }
             cone.travel(hit.t * ray.direction.length());
             let cos = point.shading_normal.dot(light.direction).abs();
-            let lookup = self.lookup(&point, cone);
+            let lookup = self.lookup(&point, cone, light.direction);
             share *= palette.passage(point.material, &lookup, cos, self.wavelengths)?;
             if share.is_zero() {
                 return None;

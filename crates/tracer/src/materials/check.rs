@@ -2,7 +2,7 @@
 
 use super::mix;
 use super::{Emission, EnergyGain, Factor, Leaf, Material, MaterialError, Reflectance, Surface};
-use crate::textures::{ImageTexture, TextureId};
+use crate::textures::{Channel, ImageTexture, TextureId};
 use etendue_spectra::Spectrum;
 
 /// Rounding in the basis spectra may take white a little over 1.
@@ -42,7 +42,7 @@ pub(super) fn material(materials: &[Material], index: usize, textures: &[ImageTe
         factor(index, "an opacity", opacity, textures)?;
     }
     if let Some(map) = material.normal_map {
-        find(index, map.texture(), textures)?;
+        laid_by_uv(index, "a normal map", map.texture(), textures)?;
     }
     Ok(())
 }
@@ -90,7 +90,13 @@ fn alpha(material: usize, alpha: Factor, textures: &[ImageTexture]) -> Result<()
 fn factor(material: usize, quantity: &'static str, f: Factor, textures: &[ImageTexture]) -> Result<(), MaterialError> {
     let (low, high) = match f {
         Factor::Number(value) => (value, value),
-        Factor::Texture(id, channel) => find(material, id, textures)?.channel_range(channel),
+        Factor::Texture(id, channel) => {
+            let texture = find(material, id, textures)?;
+            if channel == Channel::Alpha && !texture.has_alpha() {
+                return Err(MaterialError::NoAlpha { material, texture: id.0 });
+            }
+            texture.channel_range(channel)
+        }
     };
     match [low, high].into_iter().find(|v| !(0.0..=1.0).contains(v)) {
         Some(value) => Err(MaterialError::Factor { material, quantity, value }),
@@ -101,13 +107,24 @@ fn factor(material: usize, quantity: &'static str, f: Factor, textures: &[ImageT
 fn emission(material: usize, glow: &Emission, textures: &[ImageTexture]) -> Result<(), MaterialError> {
     let (mut low, mut high) = (glow.radiance.min_value(), glow.radiance.max_value());
     if let Some(id) = glow.factor {
-        let range = find(material, id, textures)?.range();
+        let range = laid_by_uv(material, "an emission", id, textures)?.range();
         (low, high) = (low.min(range.0), high * range.1);
     }
     match [low, high].into_iter().find(|v| !(v.is_finite() && *v >= 0.0)) {
         Some(value) => Err(MaterialError::Radiance { material, value }),
         None => Ok(()),
     }
+}
+
+/// The texture of what only texture coordinates can place.
+fn laid_by_uv<'a>(
+    material: usize,
+    what: &'static str,
+    id: TextureId,
+    textures: &'a [ImageTexture],
+) -> Result<&'a ImageTexture, MaterialError> {
+    let texture = find(material, id, textures)?;
+    if texture.needs_uv() { Ok(texture) } else { Err(MaterialError::Projected { material, what }) }
 }
 
 fn find(material: usize, id: TextureId, textures: &[ImageTexture]) -> Result<&ImageTexture, MaterialError> {

@@ -115,6 +115,24 @@ pub enum MaterialError {
         /// Number of textures.
         textures: usize,
     },
+    /// A picture laid on from three sides is used where texture coordinates are needed.
+    #[error(
+        "material {material} has {what} laid on from three sides, but that needs texture coordinates; lay it on by them"
+    )]
+    Projected {
+        /// The material's place.
+        material: usize,
+        /// What is laid on, with its article.
+        what: &'static str,
+    },
+    /// The alpha channel of a picture without one is asked for.
+    #[error("material {material} reads the alpha channel of texture {texture}, which has none; choose another channel")]
+    NoAlpha {
+        /// The material's place.
+        material: usize,
+        /// The texture.
+        texture: u32,
+    },
     /// A mix names a material that is not there.
     #[error("material {material} mixes material {part}, but there are {materials}; add the material first")]
     UnknownMaterial {
@@ -160,6 +178,8 @@ impl MaterialError {
             | Self::LeafSum { material, .. }
             | Self::Radiance { material, .. }
             | Self::UnknownTexture { material, .. }
+            | Self::Projected { material, .. }
+            | Self::NoAlpha { material, .. }
             | Self::UnknownMaterial { material, .. }
             | Self::Circle { material }
             | Self::Part { material, .. }

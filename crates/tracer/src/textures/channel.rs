@@ -11,16 +11,20 @@ pub enum Channel {
     Green,
     /// Blue.
     Blue,
+    /// How opaque a texel is, of pictures that say so; 1 of others.
+    Alpha,
     /// The luminance of the linear colour, 1 for white; of a grey picture, its grey.
     Luminance,
 }
 
 impl Channel {
+    /// The channel of a colour.
     pub(super) fn of(self, [r, g, b]: [f32; 3]) -> f32 {
         match self {
             Self::Red => r,
             Self::Green => g,
             Self::Blue => b,
+            Self::Alpha => 1.0,
             Self::Luminance => {
                 let [wr, wg, wb] = XYZ_FROM_SRGB[1].map(|w| w as f32);
                 // Rounding must not take white beyond 1.

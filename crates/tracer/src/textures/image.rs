@@ -1,22 +1,28 @@
 //! A picture as a texture, filtered by its footprint.
 //!
 //! Bilinear between texels; between halved resolutions linear in the logarithm of the footprint (trilinear, Williams
-//! 1983). The footprint is taken as round: a surface seen at a grazing angle is filtered for its short side and
-//! averaged along the long one by the samples of the pixel.
+//! 1983). A footprint more than twice as long as wide, as of a road in the distance, is read in up to eight places along
+//! its long side (after Schilling, Knittel & Strasser 1996, "Texram"), each over its short side, or twice that where the
+//! places would leave gaps. Longer footprints are read with gaps: nothing is blurred further, and the samples of the pixel
+//! fill them.
 
 use etendue_core::maths::f32::log2;
 use glam::{Vec2, Vec3};
 
-use super::mipmap::{Level, pyramid};
-use super::texels::{Store, Texels};
+use super::mipmap::{Level, pyramid, weighted_pyramid};
+use super::projection::{Place, Projection};
+use super::texels::{Store, Texel, Texels};
 use super::{Channel, Lookup, Wrap};
+
+/// Most readings along a long footprint.
+const MOST_PROBES: f32 = 8.0;
 
 /// How texels become a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Filter {
     /// Between the four nearest texels; the footprint is not looked at.
     Bilinear,
-    /// And between the two resolutions nearest to the footprint.
+    /// And between the two resolutions nearest to the footprint, along its long side.
     #[default]
     Trilinear,
 }
@@ -32,11 +38,19 @@ pub struct Sampling {
     pub scale: Vec2,
     /// See `scale`.
     pub offset: Vec2,
+    /// Where the coordinates come from.
+    pub projection: Projection,
 }
 
 impl Default for Sampling {
     fn default() -> Self {
-        Self { wrap: [Wrap::Repeat; 2], filter: Filter::Trilinear, scale: Vec2::ONE, offset: Vec2::ZERO }
+        Self {
+            wrap: [Wrap::Repeat; 2],
+            filter: Filter::Trilinear,
+            scale: Vec2::ONE,
+            offset: Vec2::ZERO,
+            projection: Projection::Uv,
+        }
     }
 }
 
@@ -59,6 +73,9 @@ pub enum TextureError {
         /// The texel, counted by rows from the top.
         texel: usize,
     },
+    /// The size or sharpness of a projection from three sides is out of range.
+    #[error("a picture laid on from three sides needs a size above 0 m and a sharpness of 1 to 64; correct them")]
+    Projection,
     /// Scale or offset are not finite numbers.
     #[error("the texture's scale and offset must be finite numbers; correct them")]
     Placement,
@@ -67,11 +84,13 @@ pub enum TextureError {
 /// A picture over a surface. Its `Debug` text leaves out the texels.
 #[derive(Clone)]
 pub struct ImageTexture {
-    levels: Vec<Level>,
+    levels: Vec<Level<Vec3>>,
+    /// The alpha channel's; empty where there is none.
+    alpha: Vec<Level<f32>>,
     sampling: Sampling,
     ranges: [(f32, f32); 3],
-    /// Texels a texture unit, the geometric mean of both axes.
-    density: f32,
+    /// Texels a unit of coordinates, along u and v.
+    density: Vec2,
 }
 
 impl core::fmt::Debug for ImageTexture {
@@ -83,6 +102,7 @@ impl core::fmt::Debug for ImageTexture {
             .field("sampling", sampling)
             .field("ranges", ranges)
             .field("mean", &mean)
+            .field("has_alpha", &self.has_alpha())
             .finish_non_exhaustive()
     }
 }
@@ -91,46 +111,99 @@ impl ImageTexture {
     /// A picture of `width` × `height` texels, rows from the top.
     ///
     /// # Errors
-    /// Where the texels do not fill the picture, one is not finite, or the placement is not.
+    /// Where the texels do not fill the picture, one is not finite, or the placement is not legal.
     pub fn new(width: u32, height: u32, texels: Texels, sampling: Sampling) -> Result<Self, TextureError> {
-        let found = texels.len();
-        if found == 0 || found as u64 != u64::from(width) * u64::from(height) {
-            return Err(TextureError::Size { width, height, found });
-        }
+        check_size(width, height, texels.len())?;
         if !(sampling.scale.is_finite() && sampling.offset.is_finite()) {
             return Err(TextureError::Placement);
         }
+        if !sampling.projection.is_legal() {
+            return Err(TextureError::Projection);
+        }
+        let count = texels.len();
         let store = Store::new(texels);
-        let ranges = ranges(&store, found)?;
-        let base = Level::new(width, height, store);
-        let levels = if sampling.filter == Filter::Trilinear { pyramid(base) } else { vec![base] };
-        let area = width as f32 * sampling.scale.x * height as f32 * sampling.scale.y;
-        Ok(Self { levels, sampling, ranges, density: area.abs().sqrt() })
+        let ranges = ranges(&store, count)?;
+        let levels = halvings(Level::new(width, height, store), &sampling);
+        let density = (Vec2::new(width as f32, height as f32) * sampling.scale).abs();
+        Ok(Self { levels, alpha: vec![], sampling, ranges, density })
+    }
+
+    /// The same with an alpha channel, 0 (nothing there) to 255. Colours are filtered by it, so that what cannot be seen
+    /// gives no colour to what can.
+    ///
+    /// # Errors
+    /// As [`ImageTexture::new`].
+    pub fn with_alpha(
+        width: u32,
+        height: u32,
+        texels: Texels,
+        alpha: Vec<u8>,
+        sampling: Sampling,
+    ) -> Result<Self, TextureError> {
+        check_size(width, height, alpha.len())?;
+        let mut texture = Self::new(width, height, texels, Sampling { filter: Filter::Bilinear, ..sampling })?;
+        texture.sampling = sampling;
+        texture.alpha = halvings(Level::new(width, height, Store::of_bytes(alpha)), &sampling);
+        texture.levels = weighted_pyramid(texture.levels.swap_remove(0), &texture.alpha);
+        Ok(texture)
+    }
+
+    /// Whether the picture has an alpha channel.
+    #[must_use]
+    pub fn has_alpha(&self) -> bool {
+        !self.alpha.is_empty()
+    }
+
+    /// Whether the picture is laid out by texture coordinates, which a surface must then have.
+    #[must_use]
+    pub fn needs_uv(&self) -> bool {
+        self.sampling.projection == Projection::Uv
     }
 
     /// The filtered value, linear sRGB.
     #[must_use]
     pub fn sample(&self, lookup: &Lookup) -> [f32; 3] {
-        let placed = lookup.uv * self.sampling.scale + self.sampling.offset;
-        // Coordinates so far out that they overflow have no place in the picture: its corner stands for them.
-        let uv = if placed.is_finite() { placed } else { Vec2::ZERO };
-        let wrap = self.sampling.wrap;
-        let (s, t) = (wrap[0].fold(uv.x), 1.0 - wrap[1].fold(uv.y));
-        let last = self.levels.len() - 1;
-        let texels = lookup.width * self.density;
-        if last == 0 || texels <= 1.0 {
-            return self.levels[0].bilinear(s, t, wrap).to_array();
-        }
-        let lod = log2(texels).min(last as f32);
-        let i = (lod as usize).min(last - 1);
-        let (fine, coarse) = (self.levels[i].bilinear(s, t, wrap), self.levels[i + 1].bilinear(s, t, wrap));
-        fine.lerp(coarse, lod - i as f32).to_array()
+        self.sampling.projection.read(lookup, |place| self.filtered(&self.levels, place)).to_array()
     }
 
     /// The filtered value of one channel, linear.
     #[must_use]
     pub fn channel(&self, lookup: &Lookup, channel: Channel) -> f32 {
+        if channel == Channel::Alpha && self.has_alpha() {
+            return self.sampling.projection.read(lookup, |place| self.filtered(&self.alpha, place));
+        }
         channel.of(self.sample(lookup))
+    }
+
+    fn filtered<T: Texel>(&self, levels: &[Level<T>], place: &Place) -> T {
+        let placed = place.uv * self.sampling.scale + self.sampling.offset;
+        // Coordinates so far out that they overflow have no place in the picture: its corner stands for them.
+        let uv = if placed.is_finite() { placed } else { Vec2::ZERO };
+        let across = place.width * (self.density.x * self.density.y).sqrt();
+        let along = (place.long * self.density).length();
+        let probes = probes(across, along);
+        if probes <= 1 {
+            return self.trilinear(levels, uv, across);
+        }
+        let count = probes as f32;
+        let (step, width) = (place.long * self.sampling.scale / count, (along / count).clamp(across, 2.0 * across));
+        let at = |k: u32| uv + step * (k as f32 + 0.5 - 0.5 * count);
+        let sum = (0..probes).fold(T::NOTHING, |sum, k| sum + self.trilinear(levels, at(k), width));
+        sum * (1.0 / count)
+    }
+
+    /// The value at picture coordinates, over a round footprint of a width in texels.
+    fn trilinear<T: Texel>(&self, levels: &[Level<T>], uv: Vec2, texels: f32) -> T {
+        let wrap = self.sampling.wrap;
+        let (s, t) = (wrap[0].fold(uv.x), 1.0 - wrap[1].fold(uv.y));
+        let last = levels.len() - 1;
+        if last == 0 || texels <= 1.0 {
+            return levels[0].bilinear(s, t, wrap);
+        }
+        let lod = log2(texels).min(last as f32);
+        let i = (lod as usize).min(last - 1);
+        let (fine, coarse) = (levels[i].bilinear(s, t, wrap), levels[i + 1].bilinear(s, t, wrap));
+        fine.towards(coarse, lod - i as f32)
     }
 
     /// Mean of the whole picture, linear.
@@ -142,7 +215,7 @@ impl ImageTexture {
         (sum / (f64::from(base.width) * f64::from(base.height))).as_vec3()
     }
 
-    /// Least and greatest value of any channel.
+    /// Least and greatest value of any colour channel.
     #[must_use]
     pub fn range(&self) -> (f32, f32) {
         self.ranges
@@ -153,6 +226,9 @@ impl ImageTexture {
     /// Bounds of one channel's values; those of the luminance are the bounds that the colours' own give it.
     #[must_use]
     pub fn channel_range(&self, channel: Channel) -> (f32, f32) {
+        if channel == Channel::Alpha && self.has_alpha() {
+            return (0.0, 1.0);
+        }
         (channel.of(self.ranges.map(|r| r.0)), channel.of(self.ranges.map(|r| r.1)))
     }
 
@@ -163,7 +239,23 @@ impl ImageTexture {
     }
 }
 
-fn ranges(store: &Store, count: usize) -> Result<[(f32, f32); 3], TextureError> {
+/// Readings along a footprint of `across` by `along` texels.
+fn probes(across: f32, along: f32) -> u32 {
+    let ratio = along / across.max(1.0);
+    if ratio > 2.0 { (0.5 * ratio).ceil().min(MOST_PROBES) as u32 } else { 1 }
+}
+
+fn check_size(width: u32, height: u32, found: usize) -> Result<(), TextureError> {
+    let fits = found > 0 && found as u64 == u64::from(width) * u64::from(height);
+    if fits { Ok(()) } else { Err(TextureError::Size { width, height, found }) }
+}
+
+/// The resolutions that a way of filtering needs.
+fn halvings<T: Texel>(base: Level<T>, sampling: &Sampling) -> Vec<Level<T>> {
+    if sampling.filter == Filter::Trilinear { pyramid(base) } else { vec![base] }
+}
+
+fn ranges(store: &Store<Vec3>, count: usize) -> Result<[(f32, f32); 3], TextureError> {
     let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
     for texel in 0..count {
         let value = store.get(texel);

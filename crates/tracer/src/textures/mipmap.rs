@@ -1,51 +1,67 @@
 //! A picture at halved resolutions, averaged by area in linear light.
+//!
+//! Where a picture has an alpha channel, colours are averaged by it too: what cannot be seen gives no colour to what can.
 
-use glam::Vec3;
-
-use super::texels::Store;
+use super::texels::{Store, Texel};
 use super::wrap::Wrap;
+use glam::Vec3;
 
 /// One resolution of a picture.
 #[derive(Clone, Debug)]
-pub(super) struct Level {
+pub(super) struct Level<T: Texel> {
     pub(super) width: u32,
     pub(super) height: u32,
-    store: Store,
+    store: Store<T>,
 }
 
-impl Level {
-    pub(super) fn new(width: u32, height: u32, store: Store) -> Self {
+impl<T: Texel> Level<T> {
+    pub(super) fn new(width: u32, height: u32, store: Store<T>) -> Self {
         Self { width, height, store }
     }
 
-    pub(super) fn texel(&self, x: usize, y: usize) -> Vec3 {
+    pub(super) fn texel(&self, x: usize, y: usize) -> T {
         self.store.get(y * self.width as usize + x)
     }
 
     /// Bilinear interpolation at `s` (to the right) and `t` (downwards), both folded into [0, 1].
-    pub(super) fn bilinear(&self, s: f32, t: f32, wrap: [Wrap; 2]) -> Vec3 {
+    pub(super) fn bilinear(&self, s: f32, t: f32, wrap: [Wrap; 2]) -> T {
         let (x0, x1, fx) = neighbours(s, self.width, wrap[0]);
         let (y0, y1, fy) = neighbours(t, self.height, wrap[1]);
-        let top = self.texel(x0, y0).lerp(self.texel(x1, y0), fx);
-        let bottom = self.texel(x0, y1).lerp(self.texel(x1, y1), fx);
-        top.lerp(bottom, fy)
+        let top = self.texel(x0, y0).towards(self.texel(x1, y0), fx);
+        let bottom = self.texel(x0, y1).towards(self.texel(x1, y1), fx);
+        top.towards(bottom, fy)
     }
 
     /// Half as wide and as high (at least 1); every texel the mean of the area it covers, so that the mean is kept for
     /// odd sizes too.
     fn halved(&self) -> Self {
+        self.coarser(|share| share.mean(|i, j| self.texel(i, j)))
+    }
+
+    /// A level of half the size, each texel of its share of this one.
+    fn coarser(&self, texel: impl Fn(Share<'_>) -> T) -> Self {
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
+        let columns: Vec<Vec<_>> = (0..width).map(|x| overlaps(x, width, self.width).collect()).collect();
         let mut texels = Vec::with_capacity(width as usize * height as usize);
         for y in 0..height {
-            for x in 0..width {
-                let columns = overlaps(x, width, self.width);
-                let texel: Vec3 = overlaps(y, height, self.height)
-                    .map(|(j, wy)| wy * columns.clone().map(|(i, wx)| wx * self.texel(i, j)).sum::<Vec3>())
-                    .sum();
-                texels.push(texel.to_array());
-            }
+            let rows: Vec<_> = overlaps(y, height, self.height).collect();
+            texels.extend(columns.iter().map(|columns| texel(Share { columns, rows: &rows })));
         }
         Self { width, height, store: Store::Float(texels) }
+    }
+}
+
+/// The columns and rows that a coarse texel covers, with their shares of it.
+#[derive(Clone, Copy)]
+struct Share<'a> {
+    columns: &'a [(usize, f32)],
+    rows: &'a [(usize, f32)],
+}
+
+impl Share<'_> {
+    fn mean<V: Texel>(self, value: impl Fn(usize, usize) -> V) -> V {
+        let row = |j: usize| self.columns.iter().fold(V::NOTHING, |sum, (i, wx)| sum + value(*i, j) * *wx);
+        self.rows.iter().fold(V::NOTHING, |sum, (j, wy)| sum + row(*j) * *wy)
     }
 }
 
@@ -58,7 +74,7 @@ fn neighbours(x: f32, count: u32, wrap: Wrap) -> (usize, usize, f32) {
 }
 
 /// The fine texels that coarse texel `j` covers along one axis, with their shares of it.
-fn overlaps(j: u32, coarse: u32, fine: u32) -> impl Iterator<Item = (usize, f32)> + Clone {
+fn overlaps(j: u32, coarse: u32, fine: u32) -> impl Iterator<Item = (usize, f32)> {
     let ratio = f64::from(fine) / f64::from(coarse);
     let (low, high) = (f64::from(j) * ratio, f64::from(j + 1) * ratio);
     let last = (high.ceil() as usize).min(fine as usize);
@@ -69,10 +85,28 @@ fn overlaps(j: u32, coarse: u32, fine: u32) -> impl Iterator<Item = (usize, f32)
 }
 
 /// A picture and all its halvings, down to one texel.
-pub(super) fn pyramid(base: Level) -> Vec<Level> {
+pub(super) fn pyramid<T: Texel>(base: Level<T>) -> Vec<Level<T>> {
     let mut levels = vec![base];
     while let Some(last) = levels.last().filter(|l| l.width > 1 || l.height > 1) {
         let next = last.halved();
+        levels.push(next);
+    }
+    levels
+}
+
+/// The same for colours that count by the alpha of a pyramid of the same size.
+pub(super) fn weighted_pyramid(base: Level<Vec3>, alpha: &[Level<f32>]) -> Vec<Level<Vec3>> {
+    let mut levels = vec![base];
+    for visible in &alpha[..alpha.len() - 1] {
+        let last = &levels[levels.len() - 1];
+        let next = last.coarser(|share| {
+            let weight = share.mean(|i, j| visible.texel(i, j));
+            if weight > 0.0 {
+                share.mean(|i, j| last.texel(i, j) * visible.texel(i, j)) * (1.0 / weight)
+            } else {
+                share.mean(|i, j| last.texel(i, j))
+            }
+        });
         levels.push(next);
     }
     levels

@@ -4,16 +4,21 @@
 //! - Texture coordinates: u to the right, v up, (0, 0) the bottom-left corner of the picture (as OBJ files have it).
 //!   Rows of texels are stored from the top.
 //! - Texels are box-shaped; their centres lie at half-integers. Filtering is done in linear light.
-//! - A lookup names its footprint: the width, in texture coordinates, of what it stands for.
+//! - A lookup names its footprint, of what it stands for: the width of its short side, in texture coordinates and in the
+//!   shape's own frame, and where it is longer one way, that side with its direction.
 
 mod channel;
 mod image;
 mod mipmap;
+mod projection;
+#[cfg(test)]
+mod tests;
 mod texels;
 mod wrap;
 
 pub use channel::Channel;
 pub use image::{Filter, ImageTexture, Sampling, TextureError};
+pub use projection::Projection;
 pub use texels::Texels;
 pub use wrap::Wrap;
 
@@ -28,20 +33,25 @@ pub struct TextureId(pub u32);
 pub struct Lookup {
     /// Texture coordinates.
     pub uv: Vec2,
-    /// Width of the footprint in texture coordinates; 0 for a point.
+    /// Width of the footprint's short side in texture coordinates; 0 for a point.
     pub width: f32,
+    /// The footprint's long side in texture coordinates, from end to end; zero where it is round.
+    pub long: Vec2,
     /// The point in the shape's own frame, m.
     pub local: Vec3,
     /// The surface's unit normal there in the shape's own frame.
     pub local_normal: Vec3,
-    /// Width of the footprint in the shape's own frame, m; 0 for a point.
+    /// Width of the footprint's short side in the shape's own frame, m; 0 for a point.
     pub width_local: f32,
+    /// The footprint's long side in the shape's own frame, m, from end to end; zero where it is round.
+    pub long_local: Vec3,
 }
 
 impl Lookup {
     /// A point in texture coordinates, of no width, at the origin of its shape.
     #[must_use]
     pub const fn point(uv: Vec2) -> Self {
-        Self { uv, width: 0.0, local: Vec3::ZERO, local_normal: Vec3::Z, width_local: 0.0 }
+        let (local, local_normal) = (Vec3::ZERO, Vec3::Z);
+        Self { uv, width: 0.0, long: Vec2::ZERO, local, local_normal, width_local: 0.0, long_local: Vec3::ZERO }
     }
 }

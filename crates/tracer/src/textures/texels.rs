@@ -1,5 +1,6 @@
 //! Texels as files hold them, read as linear light.
 
+use core::ops::{Add, Mul};
 use etendue_spectra::colour;
 use glam::Vec3;
 
@@ -23,26 +24,73 @@ impl Texels {
     }
 }
 
-/// Texels with what it takes to read them.
-#[derive(Clone, Debug)]
-pub(super) enum Store {
-    Bytes { texels: Vec<[u8; 3]>, linear: Box<[f32; 256]> },
-    Float(Vec<[f32; 3]>),
+/// What a texel is: a colour, or a number.
+pub(super) trait Texel: Copy + Add<Output = Self> + Mul<f32, Output = Self> {
+    /// As files hold it in bytes.
+    type Bytes: Copy + Clone + core::fmt::Debug;
+    /// Nothing.
+    const NOTHING: Self;
+    /// The value of bytes, by a table of the linear values of a byte.
+    fn decoded(bytes: Self::Bytes, linear: &[f32; 256]) -> Self;
+    /// `self` at `t` = 0, `other` at 1.
+    fn towards(self, other: Self, t: f32) -> Self;
 }
 
-impl Store {
+impl Texel for Vec3 {
+    type Bytes = [u8; 3];
+    const NOTHING: Self = Self::ZERO;
+
+    fn decoded(bytes: [u8; 3], linear: &[f32; 256]) -> Self {
+        Self::from(bytes.map(|b| linear[usize::from(b)]))
+    }
+
+    fn towards(self, other: Self, t: f32) -> Self {
+        self.lerp(other, t)
+    }
+}
+
+impl Texel for f32 {
+    type Bytes = u8;
+    const NOTHING: Self = 0.0;
+
+    fn decoded(byte: u8, linear: &[f32; 256]) -> Self {
+        linear[usize::from(byte)]
+    }
+
+    fn towards(self, other: Self, t: f32) -> Self {
+        self + (other - self) * t
+    }
+}
+
+/// Texels with what it takes to read them.
+#[derive(Clone, Debug)]
+pub(super) enum Store<T: Texel> {
+    Bytes { texels: Vec<T::Bytes>, linear: Box<[f32; 256]> },
+    Float(Vec<T>),
+}
+
+impl Store<Vec3> {
     pub(super) fn new(texels: Texels) -> Self {
         match texels {
             Texels::Srgb8(texels) => Self::Bytes { texels, linear: table(colour::decode_byte) },
             Texels::Linear8(texels) => Self::Bytes { texels, linear: table(|i| f32::from(i) / 255.0) },
-            Texels::Float(texels) => Self::Float(texels),
+            Texels::Float(texels) => Self::Float(texels.into_iter().map(Vec3::from).collect()),
         }
     }
+}
 
-    pub(super) fn get(&self, i: usize) -> Vec3 {
+impl Store<f32> {
+    /// Numbers of 0 to 1 in bytes.
+    pub(super) fn of_bytes(texels: Vec<u8>) -> Self {
+        Self::Bytes { texels, linear: table(|i| f32::from(i) / 255.0) }
+    }
+}
+
+impl<T: Texel> Store<T> {
+    pub(super) fn get(&self, i: usize) -> T {
         match self {
-            Self::Bytes { texels, linear } => Vec3::from(texels[i].map(|b| linear[usize::from(b)])),
-            Self::Float(texels) => Vec3::from(texels[i]),
+            Self::Bytes { texels, linear } => T::decoded(texels[i], linear),
+            Self::Float(texels) => texels[i],
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::place::Placed;
 use crate::geometry::{Footprint, Mesh, sphere};
+use core::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3, Vec3};
 
 pub(super) fn of_mesh(mesh: &Mesh, placed: &Placed, primitive: u32) -> Footprint {
@@ -11,6 +12,33 @@ pub(super) fn of_mesh(mesh: &Mesh, placed: &Placed, primitive: u32) -> Footprint
 pub(super) fn of_sphere(radius_m: f64, placed: &Placed) -> Footprint {
     let uv_per_m = sphere::uv_per_m(radius_m * placed.mean_scale()) as f32;
     Footprint { uv_per_m, local_per_m: local_per_m(placed) }
+}
+
+/// How texture coordinates change along a vector of a mesh's own frame in the plane of a triangle.
+pub(super) fn uv_along(mesh: &Mesh, primitive: u32, vector: DVec3) -> DVec2 {
+    if mesh.uvs().is_empty() {
+        return DVec2::ZERO;
+    }
+    let [a, b, c] = mesh.corners(primitive).map(Vec3::as_dvec3);
+    let (along, across) = (b - a, c - a);
+    let normal = along.cross(across);
+    let weights =
+        DVec2::new(normal.dot(vector.cross(across)), normal.dot(along.cross(vector))) / normal.length_squared();
+    let triangle = mesh.triangles()[primitive as usize];
+    let [a, b, c]: [DVec2; 3] = triangle.map(|v| mesh.uvs()[v as usize].as_dvec2());
+    (b - a) * weights.x + (c - a) * weights.y
+}
+
+/// How longitude (turns) and latitude (half turns) change along a vector at a point of a sphere about the origin; zero
+/// at the poles.
+pub(super) fn globe_along(point: DVec3, vector: DVec3) -> DVec2 {
+    let east = DVec3::Z.cross(point);
+    let (flat, square) = (east.length(), point.length_squared());
+    if flat == 0.0 {
+        return DVec2::ZERO;
+    }
+    let north = point.cross(east) / flat;
+    DVec2::new(vector.dot(east) / (flat * flat * TAU), vector.dot(north) / (square * PI))
 }
 
 /// Root of the ratio of a triangle's areas in texture units and in the render frame.

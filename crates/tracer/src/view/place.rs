@@ -30,6 +30,11 @@ impl Placed {
         self.to_render.transform_vector3(vector)
     }
 
+    /// A vector of the render frame, in the instance's.
+    pub(crate) fn vector_to_local(&self, vector: DVec3) -> DVec3 {
+        self.to_local.transform_vector3(vector)
+    }
+
     /// A ray's origin and direction in the instance's frame. The direction keeps its stretch, so t keeps its meaning.
     #[inline]
     pub(crate) fn ray_to_local(&self, ray: &Ray) -> (DVec3, DVec3) {

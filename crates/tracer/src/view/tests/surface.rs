@@ -148,3 +148,36 @@ fn without_texture_coordinates_that_span_it_a_triangle_has_no_tangents() {
     assert_eq!(flat(vec![]), (None, 0.0));
     assert_eq!(flat(vec![Vec2::ONE; 4]), (None, 0.0));
 }
+
+#[test]
+fn texture_coordinates_change_as_they_do_between_neighbours() {
+    let stretch = DAffine3::from_mat3_translation(
+        Random::new(3).rotation() * DMat3::from_diagonal(DVec3::new(2.0, 3.0, 0.5)),
+        DVec3::new(1.0, -2.0, 0.5),
+    );
+    let mut builder = WorldBuilder::new();
+    let id = builder.add_mesh(square(vec![]));
+    let mut flat = instance(Shape::Mesh(id), stretch);
+    flat.materials = vec![MaterialId(0); 2];
+    builder.add_instance(flat);
+    builder.add_instance(instance(Shape::Sphere { radius_m: 0.7 }, DAffine3::from_translation(DVec3::splat(9.0))));
+    let world = builder.build().expect("legal");
+    for (centre, aim) in
+        [(stretch.translation, DVec3::new(0.3, 0.2, 0.0)), (DVec3::splat(9.0), DVec3::new(0.3, 0.5, 0.2))]
+    {
+        let is_flat = centre == stretch.translation;
+        let target = if is_flat { stretch.transform_point3(aim) } else { centre + aim.normalize() * 0.7 };
+        let normal = if is_flat { stretch.matrix3.inverse().transpose() * DVec3::Z } else { aim }.normalize();
+        let view = world.view(target + normal * 0.25);
+        let at = |offset: DVec3| point(&view, Ray::new(Vec3::ZERO, (offset - normal * 0.25).as_vec3(), 0.0));
+        let middle = at(DVec3::ZERO);
+        for along in [normal.any_orthonormal_vector(), normal.cross(normal.any_orthonormal_vector())] {
+            let step = 1e-2;
+            let (ahead, behind) = (at(along * step), at(along * -step));
+            let (uv, local) = view.change_along(&middle, (along * (2.0 * step)).as_vec3());
+            // Coordinates are rounded at 1e-7 of steps of 1e-2; the sphere bends by a ten-thousandth of them.
+            assert!((ahead.uv - behind.uv - uv).length() < 3e-3 * uv.length() + 1e-6, "{} {uv}", ahead.uv - behind.uv);
+            assert!((ahead.local - behind.local - local).length() < 3e-3 * local.length() + 1e-6);
+        }
+    }
+}

@@ -1,0 +1,120 @@
+//! How a picture is laid over a surface.
+//!
+//! - By texture coordinates.
+//! - From three sides, where a shape has none or they are poor: the picture is projected along each axis of the shape's
+//!   own frame, one of its widths `size_m` metres wide (so u = place / size), and the three readings are blended by
+//!   |nₐ|ᵏ / Σ |n|ᵏ, n the shape's normal, k the sharpness: 1 blends widely, 16 only near the edges. On the sides ±x and
+//!   ±y the picture stands upright (v along z) and reads from left to right as seen from outside; on ±z v runs along y.
+//!   Where projections blend, contrast is lost; at a slant the picture is stretched by up to √3.
+
+use etendue_core::maths::f32::pow;
+use glam::{Vec2, Vec3};
+
+use super::Lookup;
+
+/// How a picture is laid over a surface.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Projection {
+    /// By the surface's texture coordinates.
+    #[default]
+    Uv,
+    /// From three sides.
+    Triplanar {
+        /// Width and height of the picture in the shape's own frame, m.
+        size_m: f32,
+        /// The exponent k, 1 to 64.
+        sharpness: f32,
+    },
+}
+
+/// A place in a picture's coordinates: the middle of the footprint, its short side's width, its long side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Place {
+    pub(super) uv: Vec2,
+    pub(super) width: f32,
+    pub(super) long: Vec2,
+}
+
+impl Projection {
+    pub(super) fn is_legal(self) -> bool {
+        match self {
+            Self::Uv => true,
+            Self::Triplanar { size_m, sharpness } => {
+                size_m > 0.0 && size_m.is_finite() && (1.0 / size_m).is_finite() && (1.0..=64.0).contains(&sharpness)
+            }
+        }
+    }
+
+    /// Reads `value` where the projection leads to, blended.
+    #[inline]
+    pub(super) fn read<T>(self, lookup: &Lookup, value: impl Fn(&Place) -> T) -> T
+    where
+        T: Default + core::ops::Add<Output = T> + core::ops::Mul<f32, Output = T>,
+    {
+        match self {
+            Self::Uv => value(&Place { uv: lookup.uv, width: lookup.width, long: lookup.long }),
+            Self::Triplanar { size_m, sharpness } => {
+                let weights = weights(lookup.local_normal, sharpness);
+                let sides = sides(lookup, 1.0 / size_m);
+                (0..3).filter(|i| weights[*i] > 0.0).fold(T::default(), |sum, i| sum + value(&sides[i]) * weights[i])
+            }
+        }
+    }
+}
+
+/// Shares of the three axes, which sum to 1.
+fn weights(normal: Vec3, sharpness: f32) -> [f32; 3] {
+    let most = normal.abs().max_element();
+    // Written so that a normal without direction is one along z.
+    if !(most > 0.0 && most.is_finite()) {
+        return [0.0, 0.0, 1.0];
+    }
+    // Of the greatest part, so that powers do not vanish.
+    let powers = (normal.abs() / most).to_array().map(|n| if n > 0.0 { pow(n, sharpness) } else { 0.0 });
+    let sum = powers[0] + powers[1] + powers[2];
+    powers.map(|p| p / sum)
+}
+
+fn sides(lookup: &Lookup, per_m: f32) -> [Place; 3] {
+    let side = lookup.local_normal.map(|n| 1.0_f32.copysign(n));
+    let onto = |v: Vec3| {
+        [Vec2::new(side.x * v.y, v.z), Vec2::new(-side.y * v.x, v.z), Vec2::new(side.z * v.x, v.y)].map(|p| p * per_m)
+    };
+    let (places, longs) = (onto(lookup.local), onto(lookup.long_local));
+    let width = lookup.width_local * per_m;
+    core::array::from_fn(|i| Place { uv: places[i], width, long: longs[i] })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(local: Vec3, local_normal: Vec3) -> Vec2 {
+        let lookup = Lookup { local, local_normal, ..Lookup::point(Vec2::ZERO) };
+        let triplanar = Projection::Triplanar { size_m: 2.0, sharpness: 4.0 };
+        triplanar.read(&lookup, |place| Vec2::new(place.uv.x, place.uv.y))
+    }
+
+    #[test]
+    fn sides_of_a_box_read_from_left_to_right() {
+        let p = Vec3::new(0.2, 0.6, 1.0);
+        assert_eq!(read(p, Vec3::X), Vec2::new(0.3, 0.5));
+        assert_eq!(read(p, Vec3::NEG_X), Vec2::new(-0.3, 0.5));
+        assert_eq!(read(p, Vec3::Y), Vec2::new(-0.1, 0.5));
+        assert_eq!(read(p, Vec3::NEG_Y), Vec2::new(0.1, 0.5));
+        assert_eq!(read(p, Vec3::Z), Vec2::new(0.1, 0.3));
+    }
+
+    #[test]
+    fn shares_sum_to_one_and_follow_the_normal() {
+        for n in [Vec3::new(0.6, 0.0, 0.8), Vec3::new(1e-20, 1.0, 1e-9), Vec3::splat(0.577_35)] {
+            for sharpness in [1.0, 4.0, 64.0] {
+                let w = weights(n, sharpness);
+                assert!((w.iter().sum::<f32>() - 1.0).abs() < 1e-6 && w.iter().all(|w| *w >= 0.0), "{n} {w:?}");
+            }
+        }
+        // 0.8⁴ / (0.8⁴ + 0.6⁴) = 0.7596.
+        assert!((weights(Vec3::new(0.6, 0.0, -0.8), 4.0)[2] - 0.759_65).abs() < 1e-4);
+        assert_eq!(weights(Vec3::ZERO, 4.0), [0.0, 0.0, 1.0]);
+    }
+}
