@@ -1,6 +1,6 @@
 //! What is in a file, with units, and a picture of it.
 //!
-//! Any EXR, PNG, JPEG, HDR, OBJ, side-car JSON, spectrum CSV and measured lamp (IES, EULUMDAT). Statistics leave out values that are not finite and
+//! Any EXR, PNG, JPEG, HDR, OBJ, side-car JSON, CSV of spectra, refractive indices or retro-reflection, and measured lamp (IES, EULUMDAT). Statistics leave out values that are not finite and
 //! count them.
 
 mod exr;
@@ -60,7 +60,7 @@ pub fn inspect(file: &Path) -> Result<FileReport, Error> {
         Some("obj") => text::mesh(file),
         Some("json") => text::sidecar(file, &bytes),
         Some("ies" | "ldt") => lamp::report(file),
-        Some("csv") => text::spectrum(file),
+        Some("csv") => text::table(file, &bytes),
         Some("toml") => {
             Err(Error::new(file, "a description, neither result nor asset; `etendue plan` says what a job describes"))
         }

@@ -10,6 +10,7 @@ use super::statistics::ChannelReport;
 use crate::Error;
 use crate::mesh::read_mesh;
 use crate::spectrum::read_spectrum;
+use crate::table::{read_complex_index, read_retro_table};
 
 pub(super) fn mesh(file: &Path) -> Result<FileReport, Error> {
     let mesh = read_mesh(file)?;
@@ -63,7 +64,46 @@ fn fact_text(fact: &Value) -> String {
     fact.as_str().map_or_else(|| fact.to_string(), str::to_owned)
 }
 
-pub(super) fn spectrum(file: &Path) -> Result<FileReport, Error> {
+/// A table: of two columns a spectrum; of three whose last row begins above 180, a wavelength and no angle, n and k; else
+/// coefficients of retro-reflection, but for a table of one entrance angle, which looks like a spectrum.
+pub(super) fn table(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
+    let text = String::from_utf8_lossy(bytes);
+    let row = text.lines().filter_map(first_and_count).next_back();
+    match row {
+        Some((first, 3)) if first > 180.0 => index(file),
+        Some((_, 3..)) => retro(file),
+        _ => spectrum(file),
+    }
+}
+
+/// The first number of a row, and how many columns there are.
+fn first_and_count(line: &str) -> Option<(f64, usize)> {
+    let content = line.split('#').next()?;
+    let first = content.split(',').next()?.trim().parse().ok()?;
+    Some((first, content.split(',').count()))
+}
+
+fn index(file: &Path) -> Result<FileReport, Error> {
+    let table = read_complex_index(file)?;
+    let mut report = FileReport::new(file, "complex refractive index, CSV");
+    if let (Some(first), Some(last)) = (table.points.first(), table.points.last()) {
+        report.state("wavelengths", format!("{} to {} nm, {} points", first.0, last.0, table.points.len()));
+    }
+    report.channels.push(ChannelReport::of("n", "text", table.points.iter().map(|p| p.1)));
+    report.channels.push(ChannelReport::of("k", "text", table.points.iter().map(|p| p.2)));
+    Ok(report)
+}
+
+fn retro(file: &Path) -> Result<FileReport, Error> {
+    let table = read_retro_table(file)?;
+    let mut report = FileReport::new(file, "coefficients of retro-reflection, CSV");
+    report.state("observation angles", format!("{:?}°", table.observation_deg));
+    report.state("entrance angles", format!("{:?}°", table.entrance_deg));
+    report.channels.push(ChannelReport::of("R_A (cd/lx/m2)", "text", table.coefficients.iter().copied()));
+    Ok(report)
+}
+
+fn spectrum(file: &Path) -> Result<FileReport, Error> {
     let spectrum = read_spectrum(file)?;
     let mut report = FileReport::new(file, "spectrum, CSV");
     let (first, last) = (spectrum.points.first(), spectrum.points.last());

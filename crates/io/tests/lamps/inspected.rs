@@ -60,3 +60,15 @@ fn a_street_light_is_told_with_units() {
     let below = (256..512).filter(|y| pixel(256, *y) == [200, 30, 30]).collect::<Vec<_>>();
     assert!(below.iter().any(|y| (497..=501).contains(y)), "the red curve ends at 256 + 0.95 × 256 = 499: {below:?}");
 }
+
+#[test]
+fn tables_are_told_by_their_columns() {
+    let kinds = [
+        ("wavelength_nm,value\n400,1\n500,1\n", "spectrum, CSV"),
+        ("wavelength_nm,n,k\n400,1,2\n500,1,3\n", "complex refractive index, CSV"),
+        ("a,5,30\n0.2,70,30\n", "coefficients of retro-reflection, CSV"),
+    ];
+    for (text, kind) in kinds {
+        assert_eq!(report("t.csv", text).kind, kind);
+    }
+}
