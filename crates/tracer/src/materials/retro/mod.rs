@@ -7,11 +7,12 @@
 //! The angle is taken from |ωᵢ − ωₒ|, exact for close directions in f32. Light is drawn from about the viewer's
 //! direction by a table of R_A × solid angle, mixed with the cosine for the base.
 //!
-//! Outside the table R_A is held at its nearest entry: below the first and beyond the last of the observation angles up
-//! to a cut-off, where it ends; beyond the last entrance angle. The cut-off is 10°, or as much less as the energy asks
-//! for: at no incidence and wavelength is more sent back than arrives. Beyond 60° from the normal, the largest entrance angle of ASTM E810 (or the last entrance
-//! angle, if beyond) the bsdf is held instead: R_A must vanish where no area is seen. [`Sheeting::limits`] says so in
-//! words. A table that gains energy even if cut off at its last observation angle is refused.
+//! Outside the table R_A is held at its nearest entry: below the first observation angle; beyond the last up to a
+//! cut-off, where it ends; beyond the last entrance angle. The cut-off is 10°, or as much less as the energy asks for: at
+//! no incidence and wavelength is more sent back than arrives. Beyond 60° from the normal, the largest entrance angle
+//! that ASTM E810 measures (or beyond the last entrance angle, if that is larger), the bsdf is held instead: R_A must
+//! vanish where no area is seen. [`Sheeting::limits`] says so in words. A table that gains energy even if cut off at its
+//! last observation angle is refused.
 //!
 //! Not reciprocal to the last digit: measured tables depend on β alone, not on ν. Both differ by at most α, by which R_A
 //! hardly changes.
@@ -109,7 +110,7 @@ impl Sheeting {
         let why = if cut < WIDEST_DEG - 0.01 { ", all that its energy allows" } else { "" };
         format!(
             "R_A is held below an observation angle of {first}° and from {last}° to {cut:.2}°{why}; beyond it is 0. It is \
-             held beyond an entrance angle of {deepest}°, up to {}°",
+             held beyond an entrance angle of {deepest}°, up to {}° from the normal, where it begins to fall",
             deepest.max(GRAZING_DEG)
         )
     }

@@ -185,8 +185,10 @@ fn albedos(bsdf: &Bsdf<'_, 4>, wo: Vec3) -> [Spectral<4>; 2] {
 #[test]
 fn nothing_sends_on_more_than_arrives() {
     for (k, surface) in all_surfaces().into_iter().enumerate() {
+        let seen_alike = !matches!(surface, Surface::Dielectric(_));
         let palette = palette(surface);
-        for (side, bsdf) in [bsdf(&palette), from_back(&palette)].into_iter().enumerate() {
+        let sides = if seen_alike { vec![bsdf(&palette)] } else { vec![bsdf(&palette), from_back(&palette)] };
+        for (side, bsdf) in sides.into_iter().enumerate() {
             for degrees in [0.0, 20.0, 40.0, 60.0, 75.0, 85.0, 89.0, 89.9, 89.99] {
                 let albedo = albedo(&bsdf, at_degrees(degrees));
                 assert!(albedo.is_finite() && albedo.max_value() <= 1.0 + 2e-3, "{k}/{side} at {degrees}: {albedo:?}");
