@@ -12,6 +12,8 @@
 mod bounds;
 mod build;
 mod node;
+#[cfg(test)]
+mod tests;
 
 pub(super) use bounds::LightBounds;
 
