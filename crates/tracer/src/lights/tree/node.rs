@@ -94,7 +94,7 @@ impl Node {
         // 1 where light counts from everywhere, and the cosine then does not.
         let everywhere = if n == Vec3::ZERO { 1.0 } else { 0.0 };
         let mut weights = [0.0; LANES];
-        for i in 0..LANES.min(usize::from(self.used)) {
+        for (i, weight) in weights.iter_mut().enumerate().take(usize::from(self.used)) {
             let (x, y, z) = (self.centre[0][i] - p.x, self.centre[1][i] - p.y, self.centre[2][i] - p.z);
             let d2 = x * x + y * y + z * z;
             let per_d = 1.0 / at_least(d2, f32::MIN_POSITIVE).sqrt();
@@ -113,7 +113,7 @@ impl Node {
 
             let seen = if d2 <= self.radius2[i] { 1.0 } else { emits * receives };
             let far2 = at_least(at_least(d2, INSIDE * self.radius2[i]), f32::MIN_POSITIVE);
-            weights[i] = self.intensity[i] * seen / far2;
+            *weight = self.intensity[i] * seen / far2;
         }
         weights
     }
