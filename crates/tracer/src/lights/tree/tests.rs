@@ -29,7 +29,7 @@ fn lamps(count: u32, centre: DVec3, size: f64, decades: f64) -> Vec<LampLight> {
         let at = centre + size * (DVec3::new(number(i, 0), number(i, 1), number(i, 2)) - 0.5);
         let intensity = etendue_core::maths::f64::pow(10.0, decades * (number(i, 3) - 0.5));
         let spot = || Profile::Cone(Cone::new(0.3, 0.5 + 2.0 * number(i, 4)).expect("a spot"));
-        lamp(at, direction(i, 3), intensity, if i % 3 == 0 { spot() } else { Profile::Isotropic })
+        lamp(at, direction(i, 3), intensity, if i.is_multiple_of(3) { spot() } else { Profile::Isotropic })
     };
     (0..count).map(one).collect()
 }
