@@ -96,3 +96,29 @@ fn a_solid_of_glass_absorbs_by_its_thickness() {
     agrees(&look(None), of(1.0));
     agrees(&look(Some(3.0)), of(maths::f64::exp(-0.6)));
 }
+
+/// In even light from everywhere a clear solid cannot be seen: what it mirrors, refracts and reflects inside is as bright
+/// as what it hides.
+#[test]
+fn clear_glass_vanishes_in_even_light() {
+    for (alpha, least) in [(0.0, 1.0), (0.1, 0.8)] {
+        let sources =
+            Sources { environment: Some(Environment::Uniform(Spectrum::constant(1.0))), ..Sources::default() };
+        let mut scene = Scene { sources, ..Scene::default() };
+        let glass = Dielectric::new(1.5, alpha, None).expect("glass");
+        let glass = scene.material(Surface::Dielectric(Box::new(glass)), None);
+        scene.sphere(DVec3::ZERO, 1.0, glass);
+        let settings = PathSettings { max_bounces: 200, ..PathSettings::default() };
+        let ready = scene.ready();
+        for height in [0.0, 0.5, 0.95] {
+            let estimate = ready.look(&ray([3.0, 0.0, height], [0.0, 0.0, height]), 512, settings);
+            // A rough surface loses what facets would scatter twice, most near the critical angle: seen, 3 % at half of
+            // the radius and 14 % at its edge, where light goes round inside.
+            let noise = 3.0 * estimate.standard_error() + 1e-5;
+            assert!(
+                estimate.mean <= 1.0 + noise && estimate.mean >= least - noise,
+                "α {alpha} at {height}: {estimate:?}"
+            );
+        }
+    }
+}
