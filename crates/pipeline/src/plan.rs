@@ -7,6 +7,7 @@ use etendue_projection::Raster;
 use etendue_scene::Place;
 use etendue_sensor::Sensor;
 use etendue_tracer::accel::World;
+use etendue_tracer::integrator::Level;
 use etendue_tracer::lights::Sources;
 use etendue_tracer::materials::Palette;
 
@@ -19,6 +20,8 @@ pub struct Plan {
     pub palette: Palette,
     /// What shines but is no surface.
     pub sources: Sources,
+    /// What is said of the sky, where the surroundings are one.
+    pub sky: Option<SkyFacts>,
     /// The cameras.
     pub cameras: Vec<CameraPlan>,
     /// What the instance ids of the ground truth stand for, from id 1.
@@ -31,6 +34,21 @@ pub struct Plan {
     pub remarks: Vec<String>,
     /// Hash of all that decides the result: description, assets by content, version.
     pub hash: [u8; 32],
+}
+
+/// A clear sky in figures, for people.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkyFacts {
+    /// Turbidity.
+    pub turbidity: f64,
+    /// Height of the sun's centre, degrees.
+    pub sun_elevation_deg: f64,
+    /// Azimuth of the sun's centre from +x towards +y, degrees.
+    pub sun_azimuth_deg: f64,
+    /// Illuminance of level ground by the sky, lx.
+    pub sky_lx: f64,
+    /// Illuminance of level ground by the sky's own sun, lx; 0 where it is left out or down.
+    pub sun_lx: f64,
 }
 
 /// What an instance id stands for.
@@ -101,7 +119,9 @@ pub struct Settings {
     pub spp: u32,
     /// Independent replicates; divides `spp`.
     pub replicates: u32,
-    /// Greatest number of scattering events.
+    /// How much of the light's ways is followed.
+    pub level: Level,
+    /// Greatest number of scattering events; 1 where no paths are traced.
     pub max_bounces: u32,
     /// Whether caustics of lamps are followed.
     pub caustics: bool,

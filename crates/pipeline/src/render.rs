@@ -120,6 +120,7 @@ fn path_settings(camera: &CameraPlan) -> PathSettings {
     };
     let samples = camera.settings.spp / camera.settings.replicates;
     PathSettings {
+        level: camera.settings.level,
         max_bounces: camera.settings.max_bounces,
         roulette_start: ROULETTE_START,
         cone_spread_rad: pitch_tan as f32 * sample_width(samples),

@@ -1,13 +1,14 @@
 //! The plan in words: what is modelled, what is left out and why, what it will cost.
 
 use crate::film::Film;
-use crate::plan::{CameraPlan, Plan, Products, Route};
+use crate::plan::{CameraPlan, Plan, Products, Route, Settings, SkyFacts};
 use crate::render::{census, layout};
 use etendue_core::Bands;
 use etendue_optics::Lens;
 use etendue_projection::Sense;
 use etendue_sensor::Verdict;
 use etendue_tracer::geometry::Shape;
+use etendue_tracer::integrator::Level;
 use std::fmt::{self, Display, Formatter};
 
 /// Displays a plan for people.
@@ -58,7 +59,25 @@ fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     line(f, "geometry", format!("{}, {triangles}, {}", count(instances, "instance"), count(spheres, "sphere")))?;
     let textures = count(plan.palette.textures().len(), "texture");
     line(f, "materials", format!("{}, {textures}", plan.materials.len()))?;
+    if let Some(sky) = &plan.sky {
+        line(f, "sky", self::sky(sky))?;
+    }
     line(f, "left out", "motion: nothing moves; air: it is clear; polarisation and fluorescence: not modelled")
+}
+
+fn sky(sky: &SkyFacts) -> String {
+    let SkyFacts { turbidity, sun_elevation_deg, sun_azimuth_deg, sky_lx, sun_lx } = sky;
+    let lux = |lx: &f64| if *lx >= 100.0 { format!("{lx:.0} lx") } else { format!("{lx:.3} lx") };
+    let sun = match (*sun_lx > 0.0, *sun_elevation_deg < 0.0) {
+        (true, _) => format!("and {} of the sun", lux(sun_lx)),
+        (false, true) => "and none of the sun, which is down".to_owned(),
+        (false, false) => "and none of the sun, which is left out".to_owned(),
+    };
+    format!(
+        "turbidity {turbidity}, sun at elevation {sun_elevation_deg:.2}° and azimuth {sun_azimuth_deg:.2}°; level ground \
+         gets {} of the sky {sun}",
+        lux(sky_lx)
+    )
 }
 
 fn camera(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
@@ -92,7 +111,7 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let samples = count(s.spp as usize, "sample");
     let samples = format!("{samples} a pixel in {}", count(s.replicates as usize, "replicate"));
     line(f, "sampling", format!("{samples}, seed {}, {} wavelengths a path", s.seed, s.wavelengths))?;
-    line(f, "paths", format!("at most {} bounces (light scattered more often is missing)", s.max_bounces))?;
+    line(f, "paths", level(s))?;
     if !s.caustics {
         line(f, "left out", "caustics of suns and lamps (light thrown by smooth surfaces on matt ones), as asked")?;
     }
@@ -104,6 +123,18 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
         (None, false) => "nothing is kept".to_owned(),
     };
     line(f, "spectrum", format!("{} to {} nm; {kept}", s.range_nm.0, s.range_nm.1))
+}
+
+fn level(settings: &Settings) -> String {
+    match settings.level {
+        Level::Flat => "none: local shading of lamps, suns and sky (level flat); shadows, reflections and light from \
+                        surface to surface are missing"
+            .to_owned(),
+        Level::Direct => "none: direct light with its shadows (level direct); reflections and light from surface to \
+                          surface are missing"
+            .to_owned(),
+        Level::Path => format!("at most {} bounces (light scattered more often is missing)", settings.max_bounces),
+    }
 }
 
 fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {

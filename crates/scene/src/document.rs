@@ -24,6 +24,8 @@ pub(crate) enum Value {
     Whole(i64),
     Number(f64),
     Text(String),
+    /// A day or a time, as it is written.
+    Moment(String),
     List(Vec<Node>),
     Table(Table),
     /// TOML that no key of ours takes: its name.
@@ -71,6 +73,7 @@ impl Node {
             Value::Whole(v) => v.to_string(),
             Value::Number(v) => v.to_string(),
             Value::Text(v) => format!("the text \"{v}\""),
+            Value::Moment(v) => format!("the date {v}"),
             Value::List(v) => format!("a list of {}", v.len()),
             Value::Table(_) => "a table".to_owned(),
             Value::Foreign(name) => (*name).to_owned(),
@@ -177,7 +180,7 @@ impl Builder<'_> {
                 v.as_str().parse().map_or(Value::Foreign("a number too large for 64 bits"), Value::Number)
             }
             DeValue::String(v) => Value::Text(v.to_string()),
-            DeValue::Datetime(_) => Value::Foreign("a date"),
+            DeValue::Datetime(v) => Value::Moment(v.to_string()),
             DeValue::Array(v) => Value::List(v.iter().enumerate().map(|(i, e)| self.element(i, e, key)).collect()),
             DeValue::Table(v) => Value::Table(self.table(v, key)),
         }

@@ -19,6 +19,7 @@ mod fault;
 mod load;
 mod overrides;
 mod place;
+pub mod preset;
 mod reader;
 pub mod record;
 mod schema;

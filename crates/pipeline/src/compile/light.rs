@@ -1,49 +1,58 @@
 //! Suns and the environment: from records to the tracer's lights.
 
 use super::context::Context;
-use super::spectrum::{bright, emitted, relative};
-use etendue_core::maths::f64::sin_cos;
+use super::spectrum::{bright, emitted, powered, relative};
+use super::{lamp, sky};
+use crate::plan::SkyFacts;
 use etendue_scene::asset::{ImageAsset, ImagePixels};
 use etendue_scene::record::environment::EnvironmentImage;
 use etendue_scene::record::{self, Light, Scene, SunLevel};
-use etendue_spectra::{Spectrum, colour};
+use etendue_spectra::colour;
 use etendue_tracer::lights::{Environment, ImageEnvironment, SUN_ANGULAR_DIAMETER_DEG, Sources, Sun};
-use glam::DVec3;
 
-/// The lights of a scene that are no surfaces.
-pub(super) fn sources(scene: &Scene, context: &mut Context<'_>) -> Sources {
-    let suns = scene.lights.iter().filter_map(|Light::Sun(record)| sun(record, context)).collect();
-    Sources { suns, lamps: vec![], environment: environment(scene, context) }
+/// What shines but is no surface, and what the plan says of a sky.
+pub(super) fn sources(scene: &Scene, context: &mut Context<'_>) -> (Sources, Option<SkyFacts>) {
+    let mut sources = Sources::default();
+    for light in &scene.lights {
+        match light {
+            Light::Sun(record) => sources.suns.extend(sun(record, context)),
+            lamp => sources.lamps.extend(lamp::lamps(lamp, context)),
+        }
+    }
+    let mut facts = None;
+    sources.environment = scene.environment.as_ref().and_then(|record| match record {
+        record::Environment::Uniform(emission) => emitted(emission, context).map(Environment::Uniform),
+        record::Environment::Image(record) => image(record, context).map(Environment::Image),
+        record::Environment::Sky(record) => {
+            let made = sky::sky(record, context)?;
+            sources.suns.extend(made.sun);
+            facts = Some(made.facts);
+            Some(Environment::Sky(Box::new(made.environment)))
+        }
+    });
+    (sources, facts)
 }
 
 fn sun(record: &record::Sun, context: &mut Context<'_>) -> Option<Sun> {
-    let relative = relative(&record.colour, context)?;
+    let elevation_rad = record.elevation_deg.value.to_radians();
     let irradiance = match &record.level {
-        SunLevel::Illuminance(lux) => bright(&relative, lux.value, &lux.place, context)?,
-        SunLevel::Irradiance(total) => powered(&relative, total.value),
+        SunLevel::Illuminance(lux) => {
+            bright(&relative(record.colour.as_ref()?, context)?, lux.value, &lux.place, context)?
+        }
+        SunLevel::Irradiance(total) => powered(&relative(record.colour.as_ref()?, context)?, total.value),
+        SunLevel::Turbidity(turbidity) => {
+            sky::normal_irradiance(turbidity, elevation_rad, &record.elevation_deg.place, context)?
+        }
     };
     if record.elevation_deg.value < 0.0 {
         context.remark(format!("the sun \"{}\" stands below the horizon", record.name.value));
     }
-    let (sin_e, cos_e) = sin_cos(record.elevation_deg.value.to_radians());
-    let (sin_a, cos_a) = sin_cos(record.azimuth_deg.value.to_radians());
-    let direction = DVec3::new(cos_e * cos_a, cos_e * sin_a, sin_e);
+    let direction = sky::direction(elevation_rad, record.azimuth_deg.value.to_radians());
     let diameter_deg = record.angular_diameter_deg.as_ref().map_or(SUN_ANGULAR_DIAMETER_DEG, |d| d.value);
-    context.accept(&record.place, Sun::of_irradiance(direction, diameter_deg, &irradiance))
-}
-
-/// A relative spectrum scaled to a power summed over all legal wavelengths.
-fn powered(relative: &Spectrum, total: f64) -> Spectrum {
-    use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
-    relative.scaled(total / relative.integral(SHORTEST_NM, LONGEST_NM))
-}
-
-/// What surrounds the scene; `None` where nothing does or it is faulty.
-fn environment(scene: &Scene, context: &mut Context<'_>) -> Option<Environment> {
-    match scene.environment.as_ref()? {
-        record::Environment::Uniform(emission) => emitted(emission, context).map(Environment::Uniform),
-        record::Environment::Image(record) => image(record, context).map(Environment::Image),
-    }
+    let sun = context.accept(&record.place, Sun::of_irradiance(direction, diameter_deg, &irradiance))?;
+    let by_model = matches!(record.level, SunLevel::Turbidity(_));
+    let darkens = record.limb_darkening.as_ref().map_or(by_model, |l| l.value);
+    Some(if darkens { sun.with_limb() } else { sun })
 }
 
 fn image(record: &EnvironmentImage, context: &mut Context<'_>) -> Option<ImageEnvironment> {
@@ -75,7 +84,7 @@ fn light_only(mut texels: Vec<[f32; 3]>, record: &EnvironmentImage, context: &mu
 }
 
 /// Linear sRGB of a picture; bytes are taken as sRGB-encoded.
-fn linear(picture: &ImageAsset) -> Vec<[f32; 3]> {
+pub(super) fn linear(picture: &ImageAsset) -> Vec<[f32; 3]> {
     match &picture.pixels {
         ImagePixels::Gray8(p) => p.iter().map(|g| [colour::decode_byte(*g); 3]).collect(),
         ImagePixels::Gray16(p) => p.iter().map(|g| [f32::from(*g) / 65_535.0; 3]).collect(),

@@ -5,13 +5,17 @@
 
 mod camera;
 mod context;
+mod lamp;
 mod lens;
 mod light;
-mod palette;
+mod material;
 mod sensor;
 mod settings;
 mod shape;
+mod sky;
 mod spectrum;
+#[cfg(test)]
+mod tests;
 mod world;
 
 use crate::fingerprint::fingerprint;
@@ -21,7 +25,7 @@ use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;
 use etendue_scene::{CameraSetup, Description, Fault};
 use glam::DVec3;
-use palette::PaletteBuilder;
+use material::PaletteBuilder;
 
 /// What the caller chooses over the description.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -92,7 +96,7 @@ pub fn compile_camera(camera: &Camera, assets: &Assets) -> Result<CameraBody, Ve
 fn planned(description: &Description, choices: &Choices, context: &mut Context<'_>) -> Option<Plan> {
     let scene = &description.scene;
     let mut builder = PaletteBuilder::of_scene(scene, context);
-    let sources = light::sources(scene, context);
+    let (sources, sky) = light::sources(scene, context);
     let setups = description.cameras.iter().enumerate();
     let cameras: Vec<_> =
         setups.filter_map(|(index, setup)| camera_plan(index as u32, setup, choices, context)).collect();
@@ -104,7 +108,8 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let (palette, materials) = builder.finish(context)?;
     let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();
     let remarks = std::mem::take(&mut context.remarks);
-    let mut plan = Plan { world, palette, sources, cameras, identities, materials, classes, remarks, hash: [0; 32] };
+    let mut plan =
+        Plan { world, palette, sources, sky, cameras, identities, materials, classes, remarks, hash: [0; 32] };
     plan.hash = fingerprint(&plan, context.assets);
     Some(plan)
 }

@@ -12,6 +12,7 @@ use etendue_scene::record::output::DepthScale;
 use etendue_scene::record::render::{self, Accumulate};
 use etendue_scene::record::{Output, Render};
 use etendue_scene::{Place, Placed};
+use etendue_tracer::integrator::Level;
 
 /// Wavelengths of radiance itself, nm.
 const VISIBLE_NM: (f64, f64) = (380.0, 780.0);
@@ -86,12 +87,14 @@ pub(super) fn settings(
     check_size(body, &route, &Layout { bands, folded }, context)?;
     remark_losses(products, &route, folded, context);
     remark_bands(render, cube, context);
-    let max_bounces = render.max_bounces.as_ref().map(|b| b.value as u32);
+    let level = level(render);
     Some(Settings {
         spp,
         replicates,
-        max_bounces: max_bounces.unwrap_or_else(|| choices.quality.unwrap_or(Quality::Standard).max_bounces()),
-        caustics: render.caustics.as_ref().is_none_or(|c| c.value),
+        level,
+        max_bounces: max_bounces(level, render, choices),
+        // What has no effect must not change the hash.
+        caustics: level != Level::Path || render.caustics.as_ref().is_none_or(|c| c.value),
         wavelengths: render.wavelengths_per_path.as_ref().map_or(4, |n| n.value as u32),
         route,
         range_nm,
@@ -100,6 +103,22 @@ pub(super) fn settings(
         tile_px: render.tile_px.as_ref().map_or(TILE_PX, |t| t.value) as u32,
         seed: choices.seed.or(render.seed.as_ref().map(|s| s.value)).unwrap_or(0),
     })
+}
+
+fn level(render: &Render) -> Level {
+    match render.level.as_ref().map(|l| l.value) {
+        Some(render::Level::Flat) => Level::Flat,
+        Some(render::Level::Direct) => Level::Direct,
+        Some(render::Level::Path) | None => Level::Path,
+    }
+}
+
+fn max_bounces(level: Level, render: &Render, choices: &Choices) -> u32 {
+    let by_quality = || choices.quality.unwrap_or(Quality::Standard).max_bounces();
+    match level {
+        Level::Flat | Level::Direct => 1,
+        Level::Path => render.max_bounces.as_ref().map_or_else(by_quality, |b| b.value as u32),
+    }
 }
 
 /// Samples a pixel and replicates; the replicates divide the samples.

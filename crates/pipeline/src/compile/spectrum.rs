@@ -1,6 +1,7 @@
 //! Curves and colours of light: from records to spectra.
 
 use super::context::Context;
+use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
 use etendue_scene::record::{Curve, Emission, Level, LightColour};
 use etendue_scene::{Place, Placed};
 use etendue_spectra::{Outside, Spectrum, illuminant, observer, upsample};
@@ -78,4 +79,9 @@ pub(super) fn bright(relative: &Spectrum, level: f64, place: &Place, context: &m
         context.fault(place, problem, "state its strength in W (radiance or irradiance)");
     }
     scaled
+}
+
+/// A relative spectrum scaled to a power summed over all legal wavelengths.
+pub(super) fn powered(relative: &Spectrum, total: f64) -> Spectrum {
+    relative.scaled(total / relative.integral(SHORTEST_NM, LONGEST_NM))
 }

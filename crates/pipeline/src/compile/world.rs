@@ -1,7 +1,7 @@
 //! Meshes, shapes and their instances: from records to the tracer's world.
 
 use super::context::Context;
-use super::palette::PaletteBuilder;
+use super::material::PaletteBuilder;
 use super::shape;
 use crate::plan::Identity;
 use etendue_core::Track;
@@ -170,7 +170,7 @@ fn check_coordinates(
     object: &Object,
     context: &mut Context<'_>,
 ) {
-    if let (true, Some(name)) = (asset.uvs.is_empty(), materials.iter().find_map(|id| palette.textured(*id))) {
+    if let (true, Some(name)) = (asset.uvs.is_empty(), materials.iter().find_map(|id| palette.needs_coordinates(*id))) {
         let file = mesh.file.value.display();
         let problem = format!("{file} has no texture coordinates, but its material \"{name}\" has a texture");
         context.fault(&object.place, problem, "export them with the mesh, or use a plain reflectance");

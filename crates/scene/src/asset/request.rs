@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use crate::load::Description;
 use crate::place::{Place, Placed};
 use crate::record::light::{Emission, Level, LightColour};
-use crate::record::reflectance::Reflectance;
+use crate::record::material::{Absorption, Interface, LobeStrength, Metal, Sheeting, SheetingTable};
+use crate::record::reflectance::{Colour, Reflectance};
 use crate::record::sensor::QuantumEfficiency;
 use crate::record::{Camera, Curve, Environment, Light, Material, Surface};
 
@@ -42,8 +43,10 @@ pub enum AssetKind {
 pub enum Values {
     /// A share of light or of photons, 0 … 1.
     Share,
-    /// Light, 0 or more.
+    /// Light, or a coefficient of absorption, 0 or more.
     Light,
+    /// A refractive index, 1 … 4.
+    Index,
 }
 
 impl Values {
@@ -53,6 +56,7 @@ impl Values {
         match self {
             Self::Share => (0.0..=1.0).contains(&value),
             Self::Light => value >= 0.0,
+            Self::Index => (1.0..=4.0).contains(&value),
         }
     }
 
@@ -62,6 +66,7 @@ impl Values {
         match self {
             Self::Share => "a share between 0 and 1",
             Self::Light => "0 or more",
+            Self::Index => "a refractive index from 1 to 4",
         }
     }
 }
@@ -73,7 +78,7 @@ pub(crate) fn requests(description: &Description) -> Vec<AssetRequest> {
     scene.meshes.iter().for_each(|m| list.add(AssetKind::Mesh, &m.file));
     scene.textures.iter().for_each(|t| list.add(AssetKind::Image, &t.file));
     scene.materials.iter().for_each(|m| list.material(m));
-    scene.lights.iter().for_each(|Light::Sun(sun)| list.colour(&sun.colour));
+    scene.lights.iter().for_each(|l| list.light(l));
     scene.environment.iter().for_each(|e| list.environment(e));
     description.cameras.iter().for_each(|c| list.camera(&c.camera));
     list.0
@@ -98,18 +103,91 @@ impl List {
     }
 
     fn material(&mut self, material: &Material) {
-        match &material.surface {
+        match &material.surface.0 {
             Surface::Diffuse(d) => self.reflectance(&d.reflectance),
             Surface::Coated(c) => self.reflectance(&c.reflectance),
-            Surface::Conductor(_) | Surface::Emitter(_) => {}
+            Surface::Conductor(c) => self.metal(&c.metal),
+            Surface::BlinnPhong(b) => {
+                self.reflectance(&b.reflectance);
+                self.share(&b.specular);
+            }
+            Surface::Lafortune(l) => {
+                self.reflectance(&l.reflectance);
+                l.lobes.iter().for_each(|lobe| self.lobe(&lobe.strength));
+            }
+            Surface::CookTorrance(c) => self.interface(&c.interface),
+            Surface::Sheeting(s) => self.sheeting(s),
+            Surface::RoadMarking(m) => m.colour.iter().for_each(|c| self.share(c)),
+            Surface::Dielectric(d) => self.absorption(d.absorption.as_ref()),
+            Surface::ThinSheet(s) => self.absorption(s.absorption.as_ref()),
+            Surface::Leaf(l) => [&l.reflectance, &l.transmittance].into_iter().for_each(|r| self.reflectance(r)),
+            Surface::Mix(_) | Surface::Emitter(_) => {}
         }
         material.emission.iter().for_each(|e| self.emission(&e.light));
     }
 
+    fn lobe(&mut self, strength: &LobeStrength) {
+        match strength {
+            LobeStrength::Albedo(colour) => self.share(colour),
+            LobeStrength::Weight(curve) => self.curve(curve, Values::Light),
+        }
+    }
+
+    fn interface(&mut self, interface: &Interface) {
+        match interface {
+            Interface::Named(_) => {}
+            Interface::File(file) => self.add(AssetKind::ComplexIndex, file),
+            Interface::Index(curve) => self.curve(curve, Values::Index),
+        }
+    }
+
+    fn sheeting(&mut self, sheeting: &Sheeting) {
+        if let SheetingTable::File(file) = &sheeting.table {
+            self.add(AssetKind::RetroTable, file);
+        }
+        sheeting.reflectance.iter().chain(&sheeting.retro_colour).for_each(|c| self.share(c));
+        sheeting.print.iter().for_each(|print| self.reflectance(print));
+    }
+
+    fn metal(&mut self, metal: &Metal) {
+        if let Metal::File(file) = metal {
+            self.add(AssetKind::ComplexIndex, file);
+        }
+    }
+
+    fn absorption(&mut self, absorption: Option<&Absorption>) {
+        match absorption {
+            Some(Absorption::Coefficient(curve)) => self.curve(curve, Values::Light),
+            Some(Absorption::Transmittance(share)) => self.share(share),
+            None => {}
+        }
+    }
+
     fn reflectance(&mut self, reflectance: &Reflectance) {
-        if let Reflectance::Spectrum(file) = reflectance {
+        if let Reflectance::Plain(colour) = reflectance {
+            self.share(colour);
+        }
+    }
+
+    fn share(&mut self, colour: &Colour) {
+        if let Colour::Spectrum(file) = colour {
             self.add(AssetKind::Spectrum(Values::Share), file);
         }
+    }
+
+    fn light(&mut self, light: &Light) {
+        let mask = match light {
+            Light::Sun(_) => None,
+            Light::Point(lamp) => lamp.mask.as_ref(),
+            Light::Spot(lamp) => lamp.mask.as_ref(),
+            Light::Measured(lamp) => lamp.mask.as_ref(),
+            Light::HeadLamp(lamp) => lamp.mask.as_ref(),
+        };
+        mask.into_iter().for_each(|mask| self.add(AssetKind::Image, &mask.file));
+        if let Light::Measured(lamp) = light {
+            self.add(AssetKind::Photometry, &lamp.file);
+        }
+        light.colour().into_iter().for_each(|colour| self.colour(colour));
     }
 
     fn emission(&mut self, emission: &Emission) {
@@ -135,6 +213,7 @@ impl List {
         match environment {
             Environment::Uniform(emission) => self.emission(emission),
             Environment::Image(image) => self.add(AssetKind::Image, &image.file),
+            Environment::Sky(_) => {}
         }
     }
 

@@ -11,9 +11,10 @@ use crate::asset::{AssetRequest, requests};
 use crate::document::Node;
 use crate::fault::Faults;
 use crate::overrides::Overrides;
+use crate::preset;
 use crate::reader::{Rule as _, record};
 use crate::record::job::CameraSource;
-use crate::record::render::check_merged;
+use crate::record::render::{check_levels, check_merged};
 use crate::record::{Camera, CameraEntry, Job, Output, Pose, Render, Scene};
 
 /// Reads the text of a file; the error says in a few words why it cannot.
@@ -52,7 +53,8 @@ impl Description {
     /// All faults of all files.
     pub fn load(file: &Path, read: &ReadText<'_>, overrides: &Overrides) -> Result<Self, Faults> {
         let mut faults = Faults::none();
-        let job = files::job(file, read, overrides, &mut faults);
+        let mut job = files::job(file, read, overrides, &mut faults);
+        job.iter_mut().for_each(|document| preset::spell_out(document, &mut faults));
         let description = job.and_then(|document| Self::read(file, &document, &mut faults));
         faults.or(description)
     }
@@ -65,6 +67,7 @@ impl Description {
         let setup = |entry| CameraSetup::new(entry, render.as_ref(), output.as_ref());
         let cameras: Vec<_> = cameras.into_iter().map(setup).collect();
         cameras.iter().for_each(|c| check_merged(&c.render, faults));
+        check_levels(cameras.iter().map(|c| &c.render), faults);
         Some(Self { file: file.to_owned(), scene, cameras })
     }
 

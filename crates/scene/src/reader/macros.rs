@@ -90,8 +90,8 @@ macro_rules! field {
     }};
     (forms group $key:ident, $ty:ty, $forms:ident, $about:ident) => {{
         let _ = $about;
-        let with = $crate::reader::Form::product(&$forms, &<$ty as $crate::reader::Record>::forms());
-        $forms.into_iter().chain(with).collect::<Vec<_>>()
+        let group = $crate::reader::Form::all_or_none(<$ty as $crate::reader::Record>::forms());
+        $crate::reader::Form::product(&$forms, &group)
     }};
 }
 
@@ -154,12 +154,9 @@ macro_rules! keyed {
             }
 
             fn forms() -> Vec<$crate::reader::Form> {
-                [
-                    $( $crate::reader::macros::with_key::<$ty, _>(
-                        vec![$crate::reader::Form::default()], stringify!($key), true, concat!($($doc),*), &$rule
-                    ) ),*
-                ]
-                .concat()
+                vec![$crate::reader::Form::one_of(vec![
+                    $( $crate::reader::macros::key_of::<$ty, _>(stringify!($key), true, concat!($($doc),*), &$rule) ),*
+                ])]
             }
         }
     };
@@ -196,8 +193,13 @@ pub(crate) fn with_key<T, R: Rule<Out = T>>(
     about: &str,
     rule: &R,
 ) -> Vec<Form> {
-    let key = Key::new(name, must, about, rule.schema());
+    let key = key_of(name, must, about, rule);
     forms.into_iter().map(|f| f.with(key.clone())).collect()
+}
+
+/// A key of a rule's values.
+pub(crate) fn key_of<T, R: Rule<Out = T>>(name: &'static str, must: bool, about: &str, rule: &R) -> Key {
+    Key::new(name, must, about, rule.schema())
 }
 
 /// The word that tells which variant the table is.

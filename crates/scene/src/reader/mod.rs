@@ -14,4 +14,4 @@ pub(crate) use macros::{choice, keyed, record, variants};
 pub(crate) use number::{Number, among, number, vector, whole};
 pub(crate) use rule::{Kind, Rule, RuleExt, either, exactly, keyed_by_name, list, record};
 pub(crate) use table::{Form, Key, Reader, Record};
-pub(crate) use word::{Choice, Known, choice, file_name, flag, known, name_of, path, text};
+pub(crate) use word::{Choice, Known, choice, file_name, flag, known, name_of, path, text, word};

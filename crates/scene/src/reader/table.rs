@@ -46,6 +46,27 @@ impl<T: Record> Record for Box<T> {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Form {
     pub(crate) keys: Vec<Key>,
+    /// Keys of which exactly one is given, or at most one.
+    choices: Vec<Choice>,
+    /// Keys that are given together or not at all.
+    groups: Vec<Group>,
+    /// The key without which no table has this form, where its value does not tell.
+    only_with: Option<&'static str>,
+}
+
+/// Keys that exclude each other.
+#[derive(Clone, Debug)]
+struct Choice {
+    keys: Vec<&'static str>,
+    /// Whether one of them must be given.
+    must: bool,
+}
+
+/// Keys of which none is given without all that are needed.
+#[derive(Clone, Debug)]
+struct Group {
+    keys: Vec<&'static str>,
+    needed: Vec<&'static str>,
 }
 
 /// One key of a form.
@@ -64,6 +85,58 @@ impl Key {
 }
 
 impl Form {
+    /// A form of tables that have `name`.
+    pub(crate) fn only_with(name: &'static str, about: &str, schema: Json) -> Self {
+        Self { keys: vec![Key::new(name, true, about, schema)], only_with: Some(name), ..Self::default() }
+    }
+
+    /// A form of exactly one of some keys.
+    pub(crate) fn one_of(keys: Vec<Key>) -> Self {
+        let names = keys.iter().map(|k| k.name).collect();
+        let keys = keys.into_iter().map(|k| Key { required: false, ..k }).collect();
+        Self { keys, choices: vec![Choice { keys: names, must: true }], ..Self::default() }
+    }
+
+    /// The forms of a table that may have none of these forms' keys.
+    pub(crate) fn all_or_none(forms: Vec<Self>) -> Vec<Self> {
+        match forms.as_slice() {
+            [only] if only.groups.is_empty() => only.clone().optional().map_or(forms, |form| vec![form]),
+            _ => [vec![Self::default()], forms].concat(),
+        }
+    }
+
+    /// The form where it may be missing as a whole; `None` where choices and other keys are needed together.
+    fn optional(mut self) -> Option<Self> {
+        let needed: Vec<_> = self.keys.iter().filter(|k| k.required).map(|k| k.name).collect();
+        match self.choices.as_mut_slice() {
+            [] => {
+                let keys = self.keys.iter().map(|k| k.name).collect();
+                self.keys.iter_mut().for_each(|k| k.required = false);
+                self.groups.push(Group { keys, needed });
+            }
+            [only] if only.keys.len() == self.keys.len() => only.must = false,
+            _ => return None,
+        }
+        Some(self)
+    }
+
+    /// The form with a key of another form, optional; with either schema where it has the key already.
+    pub(crate) fn or_with(mut self, key: &Key) -> Self {
+        match self.keys.iter_mut().find(|k| k.name == key.name) {
+            None => self.keys.push(Key { required: false, ..key.clone() }),
+            Some(known) if known.schema == key.schema => {}
+            Some(known) => {
+                let options = known.schema["anyOf"].as_array().cloned();
+                let mut options = options.unwrap_or_else(|| vec![known.schema.clone()]);
+                if !options.contains(&key.schema) {
+                    options.push(key.schema.clone());
+                    known.schema = json!({ "anyOf": options });
+                }
+            }
+        }
+        self
+    }
+
     /// The form with a key more.
     pub(crate) fn with(mut self, key: Key) -> Self {
         self.keys.push(key);
@@ -72,7 +145,12 @@ impl Form {
 
     /// Every form joined to every one of `others`.
     pub(crate) fn product(forms: &[Self], others: &[Self]) -> Vec<Self> {
-        let joined = |a: &Self, b: &Self| Self { keys: a.keys.iter().chain(&b.keys).cloned().collect() };
+        let joined = |a: &Self, b: &Self| Self {
+            keys: a.keys.iter().chain(&b.keys).cloned().collect(),
+            choices: a.choices.iter().chain(&b.choices).cloned().collect(),
+            groups: a.groups.iter().chain(&b.groups).cloned().collect(),
+            only_with: a.only_with.or(b.only_with),
+        };
         forms.iter().flat_map(|a| others.iter().map(move |b| joined(a, b))).collect()
     }
 
@@ -83,7 +161,8 @@ impl Form {
     /// Whether the words that tell this form from others are those of the table.
     fn fits(&self, table: &Table) -> bool {
         let marks = self.keys.iter().filter_map(|k| Some((k.name, k.schema.get("const")?.as_str())));
-        marks.into_iter().all(|(key, word)| table.get(key).and_then(Node::as_text) == word)
+        let marked = marks.into_iter().all(|(key, word)| table.get(key).and_then(Node::as_text) == word);
+        marked && self.only_with.is_none_or(|key| table.get(key).is_some())
     }
 
     /// In words, how the form is told from others: `type = "sun"`.
@@ -104,7 +183,23 @@ pub(crate) fn record_schema(forms: &[Form]) -> Json {
 fn form_schema(form: &Form) -> Json {
     let properties: Map<String, Json> = form.keys.iter().map(|k| (k.name.to_owned(), described(k))).collect();
     let required: Vec<_> = form.keys.iter().filter(|k| k.required).map(|k| k.name).collect();
-    json!({ "type": "object", "properties": properties, "required": required, "additionalProperties": false })
+    let mut schema =
+        json!({ "type": "object", "properties": properties, "required": required, "additionalProperties": false });
+    if !form.choices.is_empty() {
+        schema["allOf"] = form.choices.iter().map(choice_schema).collect();
+    }
+    for group in &form.groups {
+        for key in &group.keys {
+            schema["dependentRequired"][key] = json!(group.needed);
+        }
+    }
+    schema
+}
+
+fn choice_schema(choice: &Choice) -> Json {
+    let given: Vec<_> = choice.keys.iter().map(|key| json!({ "required": [key] })).collect();
+    let none = (!choice.must).then(|| json!({ "not": { "anyOf": given } }));
+    json!({ "oneOf": given.iter().cloned().chain(none).collect::<Vec<_>>() })
 }
 
 fn described(key: &Key) -> Json {

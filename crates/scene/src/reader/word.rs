@@ -246,6 +246,9 @@ pub(crate) fn word<'n>(node: &'n Node, words: &[&str], faults: &mut Faults) -> O
     if let Some(text) = found.filter(|t| words.contains(t)) {
         return Some(text);
     }
+    if matches!(node.value, Value::Unreadable) {
+        return None;
+    }
     let hint = found.and_then(|t| nearest(t, words)).map_or(String::new(), |w| format!(" (did you mean \"{w}\"?)"));
     faults.add(&node.place, format!("found {}", node.describe()), format!("give {}{hint}", one_of(words)));
     None

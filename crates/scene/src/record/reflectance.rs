@@ -4,20 +4,14 @@ use std::path::PathBuf;
 
 use super::curve::spectrum_file;
 use crate::fault::{Faults, Named};
-use crate::place::Placed;
-use crate::reader::{Rule, RuleExt as _, either, keyed, name_of, number, record, vector};
+use crate::place::{Place, Placed};
+use crate::reader::{Number, Rule, RuleExt as _, either, keyed, name_of, number, record, vector};
 
-/// The share of light that a surface reflects.
+/// The share of light that a surface reflects or lets through.
 #[derive(Clone, Debug)]
 pub enum Reflectance {
-    /// The same at all wavelengths, 0 … 1.
-    Grey(Placed<f64>),
-    /// Linear sRGB, 0 … 1, made a smooth spectrum.
-    LinearSrgb(Placed<[f64; 3]>),
-    /// sRGB as encoded in pictures, 0 … 1, made a smooth spectrum.
-    EncodedSrgb(Placed<[f64; 3]>),
-    /// Tabulated over the wavelength.
-    Spectrum(Placed<PathBuf>),
+    /// The same everywhere.
+    Plain(Colour),
     /// A picture.
     Texture {
         /// The name of the texture.
@@ -25,6 +19,31 @@ pub enum Reflectance {
         /// A factor on the picture, 1 where it is not given.
         scale: Option<Placed<f64>>,
     },
+}
+
+/// A share of light over the wavelength, 0 … 1.
+#[derive(Clone, Debug)]
+pub enum Colour {
+    /// The same at all wavelengths.
+    Grey(Placed<f64>),
+    /// Linear sRGB, made a smooth spectrum.
+    LinearSrgb(Placed<[f64; 3]>),
+    /// sRGB as encoded in pictures, made a smooth spectrum.
+    EncodedSrgb(Placed<[f64; 3]>),
+    /// Tabulated over the wavelength.
+    Spectrum(Placed<PathBuf>),
+}
+
+impl Colour {
+    /// Where it stands.
+    #[must_use]
+    pub fn place(&self) -> &Place {
+        match self {
+            Self::Grey(v) => &v.place,
+            Self::LinearSrgb(v) | Self::EncodedSrgb(v) => &v.place,
+            Self::Spectrum(v) => &v.place,
+        }
+    }
 }
 
 record! {
@@ -43,25 +62,48 @@ keyed! {
         /// The name of a texture.
         texture => Texture(Placed<String>) = name_of(Named::Texture);
         /// A colour as encoded in pictures (sRGB, 0 … 1), made a smooth spectrum.
-        srgb => Srgb(Placed<[f64; 3]>) = vector::<3>(number("").at_least(0.0).at_most(1.0));
+        srgb => Srgb(Placed<[f64; 3]>) = vector::<3>(share());
         /// A table of two columns, wavelength in nm and reflectance 0 … 1.
         spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
     }
 }
 
+keyed! {
+    /// What a colour is taken from.
+    pub enum ColourTable {
+        /// A colour as encoded in pictures (sRGB, 0 … 1), made a smooth spectrum.
+        srgb => Srgb(Placed<[f64; 3]>) = vector::<3>(share());
+        /// A table of two columns, wavelength in nm and a share of light 0 … 1.
+        spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
+    }
+}
+
+fn share() -> Number {
+    number("").at_least(0.0).at_most(1.0)
+}
+
 /// A number, `[r, g, b]` in linear sRGB, or a table.
-pub(crate) fn reflectance() -> impl Rule<Out = Reflectance> {
-    let share = number("").at_least(0.0).at_most(1.0);
-    let colour = vector::<3>(share).map(Reflectance::LinearSrgb);
-    either(share.map(Reflectance::Grey), either(colour, record::<ReflectanceTable>().map(ReflectanceTable::resolve)))
+pub(crate) fn any_reflectance() -> impl Rule<Out = Reflectance> {
+    let grey = share().map(|v| Reflectance::Plain(Colour::Grey(v)));
+    let rgb = vector::<3>(share()).map(|v| Reflectance::Plain(Colour::LinearSrgb(v)));
+    either(grey, either(rgb, record::<ReflectanceTable>().map(ReflectanceTable::resolve)))
+}
+
+/// The same without textures.
+pub(crate) fn any_colour() -> impl Rule<Out = Colour> {
+    let table = record::<ColourTable>().map(|table| match table {
+        ColourTable::Srgb(v) => Colour::EncodedSrgb(v),
+        ColourTable::Spectrum(v) => Colour::Spectrum(v),
+    });
+    either(share().map(Colour::Grey), either(vector::<3>(share()).map(Colour::LinearSrgb), table))
 }
 
 impl ReflectanceTable {
     fn resolve(self) -> Reflectance {
         match self.source {
             ReflectanceSource::Texture(name) => Reflectance::Texture { name, scale: self.scale },
-            ReflectanceSource::Srgb(colour) => Reflectance::EncodedSrgb(colour),
-            ReflectanceSource::Spectrum(file) => Reflectance::Spectrum(file),
+            ReflectanceSource::Srgb(colour) => Reflectance::Plain(Colour::EncodedSrgb(colour)),
+            ReflectanceSource::Spectrum(file) => Reflectance::Plain(Colour::Spectrum(file)),
         }
     }
 }

@@ -12,10 +12,13 @@ record! {
         /// Independent replicates from which the variance is told, 1 … 1 024; one gives no variance. Default: 4, or
         /// 2 or 1 where "spp" is no multiple.
         optional replicates: Placed<u64> = whole(1, 1024);
-        /// Surfaces that a path meets at most, 1 … 1 024. Default: 16, or as `--quality` says.
+        /// How much of the light's ways is followed. Depth and identities are the same at every level. Default: "path".
+        optional level: Placed<Level> = choice();
+        /// Surfaces that a path meets at most, 1 … 1 024; belongs to level = "path". Default: 16, or as `--quality` says.
         optional max_bounces: Placed<u64> = whole(1, 1024);
         /// Whether light of suns and glowing surfaces that smooth surfaces throw on matt ones is followed. Without it the
-        /// picture is darker by that light, and free of the rare bright samples that find it. Default: true.
+        /// picture is darker by that light, and free of the rare bright samples that find it. Belongs to level = "path".
+        /// Default: true.
         optional caustics: Placed<bool> = flag();
         /// Wavelengths that a path carries. Default: 4.
         optional wavelengths_per_path: Placed<u64> = among(&[1, 4, 8]);
@@ -33,6 +36,18 @@ record! {
         optional seed: Placed<u64> = whole(0, i64::MAX.cast_unsigned());
         /// With route "pupil": margin on every side, as a share of the picture's width and height, 0 … 1. Default: 0.
         optional overscan: Placed<f64> = number("").at_least(0.0).at_most(1.0);
+    }
+}
+
+choice! {
+    /// How much of the light's ways is followed.
+    pub enum Level {
+        /// Local shading: light of lamps, suns and sky on every surface as if nothing stood in its way, nothing else.
+        "flat" => Flat,
+        /// The same with shadows: light that reaches a surface directly.
+        "direct" => Direct,
+        /// Everything, by path tracing.
+        "path" => Path,
     }
 }
 
@@ -66,6 +81,7 @@ impl Render {
             place,
             spp: None,
             replicates: None,
+            level: None,
             max_bounces: None,
             caustics: None,
             wavelengths_per_path: None,
@@ -79,6 +95,12 @@ impl Render {
         }
     }
 
+    /// Whether "max_bounces" or "caustics" is what stands at `place`.
+    fn states(&self, place: &Place) -> bool {
+        let bounces = self.max_bounces.as_ref().is_some_and(|b| b.place == *place);
+        bounces || self.caustics.as_ref().is_some_and(|c| c.place == *place)
+    }
+
     /// What this record says, and `base` where it is silent.
     #[must_use]
     pub fn over(&self, base: &Self) -> Self {
@@ -87,6 +109,7 @@ impl Render {
             place: a.place,
             spp: a.spp.or(b.spp),
             replicates: a.replicates.or(b.replicates),
+            level: a.level.or(b.level),
             max_bounces: a.max_bounces.or(b.max_bounces),
             caustics: a.caustics.or(b.caustics),
             wavelengths_per_path: a.wavelengths_per_path.or(b.wavelengths_per_path),
@@ -107,6 +130,22 @@ fn check(render: &Render, faults: &mut Faults) {
     {
         let problem = format!("found {} to {}", range[0], range[1]);
         faults.add(&range.place, problem, "give the shorter wavelength first and a longer one after it");
+    }
+}
+
+/// Checks the records of all cameras, into which the job's has been merged: what only paths need must serve a camera that
+/// traces them.
+pub(crate) fn check_levels<'r>(cameras: impl Iterator<Item = &'r Render> + Clone, faults: &mut Faults) {
+    let traces = |render: &Render| render.level.as_ref().is_none_or(|l| l.value == Level::Path);
+    for render in cameras.clone().filter(|r| !traces(r)) {
+        let bounces = render.max_bounces.as_ref().map(|b| ("max_bounces", &b.place));
+        let caustics = render.caustics.as_ref().map(|c| ("caustics", &c.place));
+        for (key, place) in bounces.into_iter().chain(caustics) {
+            if !cameras.clone().any(|r| traces(r) && r.states(place)) {
+                let problem = format!("\"{key}\" has no effect here, it belongs to level = \"path\"");
+                faults.add(place, problem, "remove it, or change the level");
+            }
+        }
     }
 }
 

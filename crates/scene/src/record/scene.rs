@@ -6,12 +6,13 @@ use super::material::Material;
 use super::mesh::Mesh;
 use super::object::Object;
 use super::texture::Texture;
+use crate::fault::Faults;
 use crate::place::Placed;
 use crate::reader::{keyed_by_name, list, record, whole};
 
 record! {
     /// Everything that is seen.
-    pub struct Scene {
+    pub struct Scene check(check) {
         /// Triangle meshes from files.
         many meshes: Mesh = list(record(), 0);
         /// Pictures on surfaces.
@@ -26,5 +27,19 @@ record! {
         many lights: Light = list(record(), 0);
         /// The light from infinitely far. Default: none, black.
         optional environment: Environment = record();
+    }
+}
+
+/// A sky brings its sun.
+fn check(scene: &Scene, faults: &mut Faults) {
+    let Some(Environment::Sky(sky)) = &scene.environment else { return };
+    if sky.sun.as_ref().is_some_and(|sun| !sun.value) {
+        return;
+    }
+    for light in &scene.lights {
+        if let Light::Sun(sun) = light {
+            let problem = format!("the sky brings a sun of its own ({}), this would be a second one", sky.place);
+            faults.add(&sun.place, problem, "remove this one, or say sun = false in the environment");
+        }
     }
 }

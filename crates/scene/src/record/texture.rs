@@ -2,30 +2,51 @@
 
 use std::path::PathBuf;
 
+use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{choice, path, record, text};
+use crate::reader::{choice, number, path, record, text, vector};
 
 record! {
-    /// A picture that materials use as reflectance.
-    pub struct Texture {
+    /// A picture that materials use as reflectance, as a number, as normals or on their light.
+    pub struct Texture check(check) {
         /// The name by which materials call it.
         required name: Placed<String> = text("the name of the texture");
         /// The picture. Its first row is at v = 1.
-        required file: Placed<PathBuf> = path(&["png", "jpg", "jpeg", "hdr"]);
+        required file: Placed<PathBuf> = path(&["png", "jpg", "jpeg", "hdr", "exr"]);
         /// What the numbers of the file mean.
         required encoding: Placed<Encoding> = choice();
         /// What is outside of u, v = 0 … 1. Default: "repeat".
         optional wrap: Placed<Wrap> = choice();
+        /// By what points of a surface find their place in the picture. Default: "uv".
+        optional mapping: Placed<Mapping> = choice();
+        /// With mapping = "triplanar": width and height of the picture on the surface, m, above 0, in the object's own frame.
+        optional size_m: Placed<[f64; 2]> = vector::<2>(number("m").above(0.0));
+        /// With mapping = "uv": how often the picture stands along u and v from 0 to 1, above 0. Default: 1, 1.
+        optional uv_scale: Placed<[f64; 2]> = vector::<2>(number("").above(0.0));
+        /// With mapping = "uv": where in the picture u, v = 0, 0 lies, in its widths and heights. Default: 0, 0.
+        optional uv_offset: Placed<[f64; 2]> = vector::<2>(number(""));
     }
 }
 
 choice! {
     /// What the numbers of a picture mean.
     pub enum Encoding {
-        /// Encoded by the curve of IEC 61966-2-1.
+        /// Colours, encoded by the curve of IEC 61966-2-1.
         "srgb" => Srgb,
-        /// In proportion to the reflectance, primaries of sRGB.
+        /// Colours in proportion to reflectance or light, primaries of sRGB.
         "linear" => Linear,
+        /// Plain numbers: roughness, opacity, weights, normals.
+        "data" => Data,
+    }
+}
+
+choice! {
+    /// By what points of a surface find their place in a picture.
+    pub enum Mapping {
+        /// By the texture coordinates of the mesh.
+        "uv" => Uv,
+        /// By the position in the object's own frame, along its three axes, blended by the normal.
+        "triplanar" => Triplanar,
     }
 }
 
@@ -38,5 +59,38 @@ choice! {
         "clamp" => Clamp,
         /// The picture, mirrored.
         "mirror" => Mirror,
+    }
+}
+
+impl Texture {
+    /// By what points of a surface find their place.
+    #[must_use]
+    pub fn mapping(&self) -> Mapping {
+        self.mapping.as_ref().map_or(Mapping::Uv, |m| m.value)
+    }
+}
+
+fn check(texture: &Texture, faults: &mut Faults) {
+    match (texture.mapping(), &texture.mapping, &texture.size_m) {
+        (Mapping::Triplanar, Some(mapping), None) => faults.add(
+            &mapping.place,
+            "mapping = \"triplanar\" does not say how large the picture is on the surface",
+            "add \"size_m\" = [width, height]",
+        ),
+        (Mapping::Uv, _, Some(size)) => {
+            faults.add(
+                &size.place,
+                "\"size_m\" has no effect here, it belongs to mapping = \"triplanar\"",
+                "remove it, or say the mapping",
+            );
+        }
+        _ => {}
+    }
+    let of_uv = [("uv_scale", &texture.uv_scale), ("uv_offset", &texture.uv_offset)];
+    for (key, given) in of_uv.into_iter().filter(|_| texture.mapping() == Mapping::Triplanar) {
+        if let Some(given) = given {
+            let problem = format!("\"{key}\" has no effect here, it belongs to mapping = \"uv\"");
+            faults.add(&given.place, problem, "remove it; \"size_m\" says how large the picture is");
+        }
     }
 }

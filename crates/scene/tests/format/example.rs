@@ -20,9 +20,9 @@ fn the_example_is_read() {
     assert_eq!(d.scene.objects[1].placements().count(), 2);
     let Lens::Thin(lens) = &d.cameras[0].camera.lens else { panic!("a thin lens") };
     assert_eq!(lens.f_number, 2.0);
-    let Light::Sun(sun) = &d.scene.lights[0];
+    let Light::Sun(sun) = &d.scene.lights[0] else { panic!("a sun") };
     assert_eq!(sun.name, "sun".to_owned());
-    assert!(matches!(d.scene.materials[2].surface, Surface::Conductor(_)));
+    assert!(matches!(d.scene.materials[2].surface.0, Surface::Conductor(_)));
 }
 
 #[test]
@@ -79,7 +79,7 @@ fn overrides_reach_every_file() {
     let d = load(&example(), &sets).unwrap_or_else(|faults| panic!("{faults}"));
     let Lens::Thin(front) = &d.cameras[0].camera.lens else { panic!("a thin lens") };
     let Lens::Pinhole(left) = &d.cameras[1].camera.lens else { panic!("a pinhole") };
-    let Light::Sun(sun) = &d.scene.lights[0];
+    let Light::Sun(sun) = &d.scene.lights[0] else { panic!("a sun") };
     assert_eq!((front.f_number.value, left.f_number.value, sun.elevation_deg.value), (2.8, 4.0, 10.0));
     assert_eq!(d.scene.objects[2].material.as_ref().expect("a material").value, "red");
     assert_eq!(d.cameras[1].render.spp.as_ref().expect("given").value, 16);

@@ -1,6 +1,7 @@
 //! The format of descriptions: the example of its page, faults in the user's words, schema and reference.
 
 mod base;
+mod contradictions;
 mod example;
 mod faults;
 mod files;

@@ -144,23 +144,36 @@ fn keys_of(forms: &[Json]) -> Vec<(String, Json)> {
     keys
 }
 
-fn needs(form: &Json, key: &str) -> bool {
-    form["required"].as_array().is_some_and(|r| r.iter().any(|k| k == key))
+/// Whether a list of keys in a schema has the key.
+fn lists(list: &Json, key: &str) -> bool {
+    list.as_array().is_some_and(|list| list.iter().any(|k| k == key))
 }
 
-/// Whether the key is needed: in all forms, in some of them, in those that have others too, or in none.
+/// Whether exactly one of some keys, this one among them, must be given.
+fn is_one_of(form: &Json, key: &str) -> bool {
+    let choices = form["allOf"].as_array().into_iter().flatten();
+    let must = choices.filter_map(|c| c["oneOf"].as_array()).filter(|o| o.iter().all(|o| o.get("not").is_none()));
+    must.flatten().any(|option| lists(&option["required"], key))
+}
+
+/// Whether the key is needed: in all forms, in some of them or in place of others, with others, or never.
 fn must(key: &str, forms: &[Json]) -> &'static str {
-    let with: Vec<_> = forms.iter().filter(|f| needs(f, key)).collect();
-    let beside = |k: &&String| *k != key && with.iter().all(|f| needs(f, k)) && !forms.iter().all(|f| needs(f, k));
-    match with.first().and_then(|f| f["properties"].as_object()) {
-        None => "no",
-        Some(_) if with.len() == forms.len() => "yes",
-        Some(keys) if keys.keys().any(|k| beside(&k)) => "set",
-        Some(_) => "one",
+    let with = forms.iter().filter(|f| lists(&f["required"], key)).count();
+    let needed_by =
+        |form: &Json| form["dependentRequired"].as_object().is_some_and(|d| d.values().any(|n| lists(n, key)));
+    match with {
+        0 if forms.iter().any(|f| is_one_of(f, key)) => "one",
+        0 if forms.iter().any(needed_by) => "set",
+        0 => "no",
+        n if n == forms.len() => "yes",
+        _ => "one",
     }
 }
 
 fn string(schema: &Json) -> String {
+    if let Some(example) = schema["examples"].get(0).and_then(Json::as_str) {
+        return format!("text: `{example}`");
+    }
     match schema["pattern"].as_str() {
         Some(pattern) if pattern.contains("\\.(") => {
             let list = pattern.trim_start_matches("\\.(").trim_end_matches(")$").replace('|', ", .");
@@ -188,6 +201,17 @@ fn bounds(schema: &Json) -> String {
     }
 }
 
+/// The list of ready materials.
+fn presets() -> String {
+    let mut text =
+        "### Presets of `[[materials]]`\n\n| preset | is | says | source |\n| --- | --- | --- | --- |\n".to_owned();
+    for preset in etendue_scene::preset::all() {
+        let says: Vec<_> = preset.said().map(|said| format!("`{said}`")).collect();
+        text += &format!("| `{}` | {} | {} | {} |\n", preset.name, preset.about, says.join(", "), preset.source);
+    }
+    text + "\n"
+}
+
 #[test]
 fn the_reference_is_in_step_with_the_schema() {
     let mut page = Page::default();
@@ -196,7 +220,7 @@ fn the_reference_is_in_step_with_the_schema() {
         let schema = schema(kind);
         page.title(title, schema.get("else").unwrap_or(&schema));
     }
-    let reference = format!("{HEAD}\n{}{END}", page.write());
+    let reference = format!("{HEAD}\n{}{}{END}", page.write(), presets());
     let doc = doc();
     let start = doc.find(HEAD).expect("the reference begins");
     let end = doc.find(END).expect("the reference ends") + END.len();

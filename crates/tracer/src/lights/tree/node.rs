@@ -1,10 +1,10 @@
-//! A node's eight clusters, weighed for a receiver.
+//! Eight clusters at once.
 //!
 //! A cluster of intensity I (W·sr⁻¹·nm⁻¹) within a sphere of radius r about c, its light within the half angle θ_o of an
 //! axis and, falling by the cosine, θ_e beyond. Seen from a receiver at the distance d under the half angle θ_u
 //! (sin θ_u = r/d), θ from the axis and θ_i from the receiver's normal, it counts
 //!
-//! I · cos max(θ − θ_o − θ_u, 0) · cos max(θ_i − θ_u, 0) / max(d², r²/4),
+//! I · cos max(θ − θ_o − θ_u, 0) · cos max(θ_i − θ_u, 0) / max(d², r²/2),
 //!
 //! nothing where the first angle exceeds θ_e or the second a right angle, and the cosines are 1 from inside the sphere.
 //! A single point thus counts its irradiance.
@@ -30,8 +30,6 @@ pub(super) struct Node {
     sin_o: Lanes,
     cos_e: Lanes,
     children: [u32; LANES],
-    /// How many children there are.
-    used: u8,
     /// By bits: which children are nodes, and which are lamps without extent.
     nodes: u8,
     lamps: u8,
@@ -51,7 +49,7 @@ const DIM: f32 = 0.02;
 const MARGIN: f32 = 1e-4;
 
 /// Share of r² that d² is not taken below: a receiver among the lights is near to one of them.
-const INSIDE: f32 = 0.25;
+const INSIDE: f32 = 0.5;
 
 impl Node {
     pub(super) fn set(&mut self, lane: usize, bounds: &LightBounds, child: Child, per_scale: f64) {
@@ -66,7 +64,6 @@ impl Node {
         (self.sin_o[lane], self.cos_o[lane]) = (sin_o, cos_o);
         self.cos_e[lane] = etendue_core::maths::f32::cos(bounds.theta_e);
         self.children[lane] = child.index;
-        self.used = self.used.max(lane as u8 + 1);
         self.nodes |= u8::from(child.is_node) << lane;
         self.lamps |= u8::from(bounds.is_lamp && !child.is_node) << lane;
     }
@@ -88,45 +85,32 @@ impl Node {
         Vec3::new(self.centre[0][lane], self.centre[1][lane], self.centre[2][lane])
     }
 
-    /// What each child counts for a receiver. Without branches: they would be guessed wrong.
+    /// What each child counts for a receiver. Without branches, so that lanes go side by side.
     pub(super) fn weights(&self, receiver: &Receiver) -> Lanes {
         let (p, n) = (receiver.position, receiver.normal);
-        // 1 where light counts from everywhere, and the cosine then does not.
-        let everywhere = if n == Vec3::ZERO { 1.0 } else { 0.0 };
-        let mut weights = [0.0; LANES];
-        for (i, weight) in weights.iter_mut().enumerate().take(usize::from(self.used)) {
-            let (x, y, z) = (self.centre[0][i] - p.x, self.centre[1][i] - p.y, self.centre[2][i] - p.z);
-            let d2 = x * x + y * y + z * z;
-            let per_d = 1.0 / at_least(d2, f32::MIN_POSITIVE).sqrt();
-            let sin2_u = at_most(self.radius2[i] * per_d * per_d, 1.0);
+        let from_everywhere = n == Vec3::ZERO;
+        core::array::from_fn(|i| {
+            let way = [self.centre[0][i] - p.x, self.centre[1][i] - p.y, self.centre[2][i] - p.z];
+            let d2 = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
+            let per_d = 1.0 / d2.max(f32::MIN_POSITIVE).sqrt();
+            let sin2_u = (self.radius2[i] * per_d * per_d).min(1.0);
             let (sin_u, cos_u) = (sin2_u.sqrt(), (1.0 - sin2_u).sqrt());
+            let inside = d2 <= self.radius2[i];
 
-            let along = x * self.axis[0][i] + y * self.axis[1][i] + z * self.axis[2][i];
-            let cos = at_most(at_least(-along * per_d, -1.0), 1.0);
+            let along = way[0] * self.axis[0][i] + way[1] * self.axis[1][i] + way[2] * self.axis[2][i];
+            let cos = (-along * per_d).clamp(-1.0, 1.0);
             let (sin_1, cos_1) = less((1.0 - cos * cos).sqrt(), cos, self.sin_o[i], self.cos_o[i]);
             let (_, cos_2) = less(sin_1, cos_1, sin_u, cos_u);
-            let emits = if cos_2 >= self.cos_e[i] - MARGIN { at_least(cos_2, DIM) } else { 0.0 };
+            let emits = if cos_2 >= self.cos_e[i] - MARGIN { cos_2.max(DIM) } else { 0.0 };
 
-            let cos_i = at_most(at_least((x * n.x + y * n.y + z * n.z) * per_d, -1.0), 1.0);
+            let cos_i = ((way[0] * n.x + way[1] * n.y + way[2] * n.z) * per_d).clamp(-1.0, 1.0);
             let (_, cos_3) = less((1.0 - cos_i * cos_i).sqrt(), cos_i, sin_u, cos_u);
-            let receives = at_least(at_least(cos_3 + MARGIN, 0.0), everywhere);
+            let receives = if from_everywhere { 1.0 } else { (cos_3 + MARGIN).max(0.0) };
 
-            let seen = if d2 <= self.radius2[i] { 1.0 } else { emits * receives };
-            let far2 = at_least(at_least(d2, INSIDE * self.radius2[i]), f32::MIN_POSITIVE);
-            *weight = self.intensity[i] * seen / far2;
-        }
-        weights
+            let seen = if inside { 1.0 } else { emits * receives };
+            self.intensity[i] * seen / d2.max(INSIDE * self.radius2[i]).max(f32::MIN_POSITIVE)
+        })
     }
-}
-
-/// The greater of two numbers, as one instruction.
-fn at_least(x: f32, low: f32) -> f32 {
-    if x > low { x } else { low }
-}
-
-/// The smaller of two numbers, as one instruction.
-fn at_most(x: f32, high: f32) -> f32 {
-    if x < high { x } else { high }
 }
 
 /// Sine and cosine of max(a − b, 0), for angles of 0…π given by theirs.

@@ -1,11 +1,11 @@
-//! Light: its amount, its colour, emission of surfaces, and `[[lights]]`.
+//! Light: its amount, its colour, and the emission of surfaces.
 
 use std::path::PathBuf;
 
-use super::curve::{Curve, curve, spectrum_file};
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{Known, keyed, known, number, record, text, variants, vector};
+use crate::reader::{Known, keyed, known, number, record, vector};
+use crate::record::curve::{Curve, curve, spectrum_file};
 use etendue_spectra::illuminant;
 
 keyed! {
@@ -65,7 +65,7 @@ fn check_emission(emission: &Emission, faults: &mut Faults) {
 }
 
 /// A black light has no chromaticity.
-fn check_colour(colour: &LightColour, faults: &mut Faults) {
+pub(super) fn check_colour(colour: &LightColour, faults: &mut Faults) {
     if let LightColour::Rgb(rgb) = colour
         && rgb.value == [0.0; 3]
     {
@@ -83,55 +83,5 @@ impl LightColour {
             Self::Rgb(v) => &v.place,
             Self::Spectrum(v) => &v.place,
         }
-    }
-}
-
-variants! {
-    /// A light that is no surface.
-    pub enum Light by "type" {
-        /// The sun's disc, at infinity.
-        "sun" => Sun(Sun),
-    }
-}
-
-impl Light {
-    /// The name.
-    #[must_use]
-    pub fn name(&self) -> &Placed<String> {
-        match self {
-            Self::Sun(sun) => &sun.name,
-        }
-    }
-}
-
-record! {
-    /// The sun: a disc of uniform radiance at infinity.
-    pub struct Sun check(check_sun) {
-        /// Its name.
-        required name: Placed<String> = text("the name of the light");
-        /// Height of its centre above the horizon, degrees, −90 … 90.
-        required elevation_deg: Placed<f64> = number("°").at_least(-90.0).at_most(90.0);
-        /// Azimuth of its centre, degrees from +x (forward) towards +y (left), −360 … 360.
-        required azimuth_deg: Placed<f64> = number("°").at_least(-360.0).at_most(360.0);
-        /// How much light.
-        inside level: SunLevel;
-        /// Of which colour.
-        inside colour: LightColour;
-        /// Diameter of the disc, degrees, above 0 and at most 20. Default: 0.5338.
-        optional angular_diameter_deg: Placed<f64> = number("°").above(0.0).at_most(20.0);
-    }
-}
-
-fn check_sun(sun: &Sun, faults: &mut Faults) {
-    check_colour(&sun.colour, faults);
-}
-
-keyed! {
-    /// How much light arrives, on a plane at right angles to the beam.
-    pub enum SunLevel {
-        /// Irradiance normal to the beam, summed over 300 … 1 100 nm, W/m², 0 or more.
-        irradiance_w_m2 => Irradiance(Placed<f64>) = number("W/m²").at_least(0.0);
-        /// Illuminance normal to the beam, lx, 0 or more.
-        illuminance_lx => Illuminance(Placed<f64>) = number("lx").at_least(0.0);
     }
 }

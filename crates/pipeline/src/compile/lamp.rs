@@ -1,0 +1,159 @@
+//! Lamps without extent: from records to the tracer's lamps.
+
+use super::context::Context;
+use super::light::linear;
+use super::spectrum::{bright, powered, relative};
+use etendue_scene::Place;
+use etendue_scene::asset::PhotometryAxes;
+use etendue_scene::record::light::stand::MainAxis;
+use etendue_scene::record::light::{
+    Beam, HeadLamp, LampAim, LampStrength, Mask, MeasuredLamp, MeasuredStrength, PointLamp, SpotLamp, Stand, Traffic,
+};
+use etendue_scene::record::transform::yaw_pitch_roll;
+use etendue_scene::record::{Light, LightColour};
+use etendue_spectra::{Spectrum, colour};
+use etendue_tracer::lights::{Cone, Lamp, Profile, Slide, Web, WebAxes, head_lamp};
+use glam::{DMat3, DVec3};
+use std::sync::Arc;
+
+/// The lamps of a light that is one, one a place where it stands; empty where it is faulty.
+pub(super) fn lamps(light: &Light, context: &mut Context<'_>) -> Vec<Lamp> {
+    let made = match light {
+        Light::Sun(_) => None,
+        Light::Point(lamp) => point(lamp, context),
+        Light::Spot(lamp) => spot(lamp, context),
+        Light::Measured(lamp) => measured(lamp, context),
+        Light::HeadLamp(lamp) => head_lamp(lamp, context),
+    };
+    made.unwrap_or_default()
+}
+
+fn point(lamp: &PointLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>> {
+    let intensity = intensity(&lamp.strength, &lamp.colour, &Profile::Isotropic, context)?;
+    let profile = masked(Profile::Isotropic, lamp.mask.as_ref(), context)?;
+    placed(&lamp.stand, MainAxis::Forward, DMat3::IDENTITY, (intensity, profile), &lamp.place, context)
+}
+
+fn spot(lamp: &SpotLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>> {
+    let outer = lamp.field_angle_deg.value;
+    let inner = lamp.inner_angle_deg.as_ref().map_or(outer, |a| a.value);
+    let half_rad = |full_deg: f64| 0.5 * full_deg.to_radians();
+    let cone = context.accept(&lamp.field_angle_deg.place, Cone::new(half_rad(inner), half_rad(outer)))?;
+    let profile = Profile::Cone(cone);
+    let intensity = intensity(&lamp.strength, &lamp.colour, &profile, context)?;
+    let profile = masked(profile, lamp.mask.as_ref(), context)?;
+    placed(&lamp.stand, MainAxis::Forward, DMat3::IDENTITY, (intensity, profile), &lamp.place, context)
+}
+
+fn measured(lamp: &MeasuredLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>> {
+    let Some(asset) = context.assets.photometry.get(&lamp.file.value) else {
+        context.fault(&lamp.file.place, "the photometric file was not loaded", "give a readable file");
+        return None;
+    };
+    asset.report.iter().for_each(|line| context.remark(line.clone()));
+    let (axes, main) = match asset.axes {
+        PhotometryAxes::A => (WebAxes::A, MainAxis::Forward),
+        PhotometryAxes::B => (WebAxes::B, MainAxis::Forward),
+        PhotometryAxes::C => (WebAxes::C, MainAxis::Downward),
+    };
+    if let (Some(mask), MainAxis::Downward) = (&lamp.mask, main) {
+        let problem = "a mask shapes light along +x, and this lamp (photometry of type C) shines down";
+        context.fault(&mask.place, problem, "remove it, or give a file of type A or B");
+        return None;
+    }
+    let floats = |values: &[f64]| values.iter().map(|v| *v as f32).collect::<Vec<_>>();
+    let web = Web::new(axes, floats(&asset.vertical_deg), floats(&asset.horizontal_deg), floats(&asset.candela));
+    let profile = Profile::Web(context.accept(&lamp.file.place, web)?);
+    let intensity = of_candela(lamp.strength.as_ref(), &lamp.colour, &profile, context)?;
+    let profile = masked(profile, lamp.mask.as_ref(), context)?;
+    placed(&lamp.stand, main, DMat3::IDENTITY, (intensity, profile), &lamp.place, context)
+}
+
+fn head_lamp(lamp: &HeadLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>> {
+    let profile = Profile::Web(match (lamp.beam.value, lamp.traffic.as_ref().map(|t| t.value)) {
+        (Beam::High, _) => head_lamp::high_beam(),
+        (Beam::Low, Some(Traffic::Left)) => head_lamp::low_beam(head_lamp::Traffic::Left),
+        (Beam::Low, Some(Traffic::Right) | None) => head_lamp::low_beam(head_lamp::Traffic::Right),
+    });
+    let intensity = of_candela(lamp.strength.as_ref(), &lamp.colour, &profile, context)?;
+    let profile = masked(profile, lamp.mask.as_ref(), context)?;
+    let down_deg = lamp.aim_down_deg.as_ref().map_or(0.0, |d| d.value);
+    let turn = yaw_pitch_roll([0.0, down_deg, 0.0]);
+    placed(&lamp.stand, MainAxis::Forward, turn, (intensity, profile), &lamp.place, context)
+}
+
+/// A profile behind its mask.
+fn masked(profile: Profile, mask: Option<&Mask>, context: &mut Context<'_>) -> Option<Profile> {
+    let Some(mask) = mask else { return Some(profile) };
+    let Some(picture) = context.assets.images.get(&mask.file.value) else {
+        context.fault(&mask.file.place, "the picture was not loaded", "give a readable file");
+        return None;
+    };
+    let size = (picture.width as usize, picture.height as usize);
+    let texels = linear(picture).into_iter().map(luminance).collect();
+    let [horizontal_rad, vertical_rad] = mask.field_deg.value.map(f64::to_radians);
+    let slide = context.accept(&mask.file.place, Slide::new(size, texels, horizontal_rad, vertical_rad))?;
+    Some(Profile::masked(profile, Profile::Slide(slide)))
+}
+
+/// Luminance of a linear colour, 1 for white.
+fn luminance([r, g, b]: [f32; 3]) -> f32 {
+    let [wr, wg, wb] = colour::XYZ_FROM_SRGB[1].map(|w| w as f32);
+    // Greys stay what they are.
+    if r == g && g == b { r } else { wr * r + wg * g + wb * b }
+}
+
+/// Spectral intensity (W·sr⁻¹·nm⁻¹) where the profile is 1.
+fn intensity(
+    strength: &LampStrength,
+    colour: &LightColour,
+    profile: &Profile,
+    context: &mut Context<'_>,
+) -> Option<Spectrum> {
+    let relative = relative(colour, context)?;
+    match strength {
+        LampStrength::LuminousFlux(lm) => bright(&relative, lm.value / profile.flux_sr(), &lm.place, context),
+        LampStrength::Intensity(cd) => bright(&relative, cd.value, &cd.place, context),
+        LampStrength::RadiantFlux(w) => Some(powered(&relative, w.value / profile.flux_sr())),
+    }
+}
+
+/// Spectral intensity a candela of the profile, scaled as asked.
+fn of_candela(
+    strength: Option<&MeasuredStrength>,
+    colour: &LightColour,
+    profile: &Profile,
+    context: &mut Context<'_>,
+) -> Option<Spectrum> {
+    let relative = relative(colour, context)?;
+    let factor = match strength {
+        None => 1.0,
+        Some(MeasuredStrength::Scale(scale)) => scale.value,
+        Some(MeasuredStrength::LuminousFlux(lm)) if profile.flux_sr() > 0.0 => lm.value / profile.flux_sr(),
+        Some(MeasuredStrength::LuminousFlux(lm)) => {
+            context.fault(&lm.place, "the distribution is dark everywhere, so no scale gives it a flux", "remove it");
+            return None;
+        }
+    };
+    bright(&relative, factor, colour.place(), context)
+}
+
+/// A lamp everywhere where it stands; `turn` turns it in its own frame.
+fn placed(
+    stand: &Stand,
+    main: MainAxis,
+    turn: DMat3,
+    (intensity, profile): (Spectrum, Profile),
+    place: &Place,
+    context: &mut Context<'_>,
+) -> Option<Vec<Lamp>> {
+    let (intensity, profile) = (Arc::new(intensity), Arc::new(profile));
+    let attenuation = stand.attenuation_per_m.as_ref().map_or(0.0, |a| a.value);
+    let lamp = |(position, aim): (&etendue_scene::Placed<[f64; 3]>, Option<&LampAim>)| {
+        // An aim that was read has been checked.
+        let axes = aim.map_or(Some(DMat3::IDENTITY), |aim| aim.axes(position.value, main))? * turn;
+        let made = Lamp::new(DVec3::from_array(position.value), axes, intensity.clone(), profile.clone());
+        context.accept(place, made.and_then(|lamp| lamp.attenuated(attenuation)))
+    };
+    stand.placements().map(lamp).collect()
+}

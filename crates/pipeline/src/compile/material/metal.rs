@@ -1,0 +1,43 @@
+//! Complex refractive indices of metals, by name or from a file.
+
+use super::super::context::Context;
+use etendue_scene::Placed;
+use etendue_scene::record::material::Metal;
+use etendue_spectra::metal::{self, ComplexIndex};
+use etendue_spectra::{Outside, Spectrum};
+use std::path::PathBuf;
+
+/// The complex index of a metal.
+pub(super) fn complex_index(metal: &Metal, context: &mut Context<'_>) -> Option<ComplexIndex> {
+    match metal {
+        Metal::Named(name) => named(name, context),
+        Metal::File(file) => from_table(file, context),
+    }
+}
+
+/// A metal of the library.
+pub(super) fn named(name: &Placed<String>, context: &mut Context<'_>) -> Option<ComplexIndex> {
+    let found = metal::named(&name.value).cloned();
+    if found.is_none() {
+        let remedy = format!("give one of {}", metal::names().join(", "));
+        context.fault(&name.place, format!("there is no metal \"{}\"", name.value), remedy);
+    }
+    found
+}
+
+/// A table of n and k.
+pub(super) fn from_table(file: &Placed<PathBuf>, context: &mut Context<'_>) -> Option<ComplexIndex> {
+    let Some(asset) = context.assets.indices.get(&file.value) else {
+        context.fault(&file.place, "the table was not loaded", "give a readable file");
+        return None;
+    };
+    if let (Some(first), Some(last)) = (asset.points.first(), asset.points.last()) {
+        let file = file.value.display();
+        context.remark(format!("{file} covers {} to {} nm; beyond that it is its end value", first.0, last.0));
+    }
+    let n: Vec<_> = asset.points.iter().map(|(nm, n, _)| (*nm, *n)).collect();
+    let k: Vec<_> = asset.points.iter().map(|(nm, _, k)| (*nm, *k)).collect();
+    let n = context.accept(&file.place, Spectrum::from_points(&n, Outside::Hold))?;
+    let k = context.accept(&file.place, Spectrum::from_points(&k, Outside::Hold))?;
+    Some(ComplexIndex { n, k })
+}

@@ -1,0 +1,164 @@
+//! Materials and textures: from records and from the meshes' own files to the tracer's palette.
+
+mod metal;
+mod number;
+mod picture;
+mod road;
+mod share;
+mod slot;
+mod surface;
+
+use super::context::Context;
+use etendue_scene::Place;
+use etendue_scene::asset::SlotMaterial;
+use etendue_scene::record::{self, Scene};
+use etendue_tracer::MaterialId;
+use etendue_tracer::materials::{Material, Palette, Surface};
+use picture::Pictures;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Materials and textures as they are found, and where each was named.
+#[derive(Default)]
+pub(super) struct PaletteBuilder {
+    materials: Vec<Made>,
+    by_name: BTreeMap<String, MaterialId>,
+    /// Materials that meshes bring themselves, by mesh file and slot name.
+    by_slot: BTreeMap<(PathBuf, String), MaterialId>,
+    pictures: Pictures,
+}
+
+/// A material, and what is said of it.
+struct Made {
+    material: Material,
+    place: Place,
+    name: String,
+    /// Whether any of its textures is laid by texture coordinates.
+    needs_coordinates: bool,
+}
+
+/// What materials are made with.
+struct Workshop<'w, 'a> {
+    scene: &'w Scene,
+    pictures: &'w mut Pictures,
+    context: &'w mut Context<'a>,
+    /// Whether a texture was used that is laid by texture coordinates.
+    needs_coordinates: bool,
+}
+
+impl PaletteBuilder {
+    /// All materials of a scene.
+    pub(super) fn of_scene(scene: &Scene, context: &mut Context<'_>) -> Self {
+        let mut builder = Self::default();
+        for record in &scene.materials {
+            let pictures = &mut builder.pictures;
+            let mut workshop = Workshop { scene, pictures, context, needs_coordinates: false };
+            if let Some(material) = workshop.material(record) {
+                let needs_coordinates = workshop.needs_coordinates;
+                let (place, name) = (record.place.clone(), record.name.value.clone());
+                let id = builder.add(Made { material, place, name: name.clone(), needs_coordinates });
+                builder.by_name.insert(name, id);
+            }
+        }
+        builder
+    }
+
+    /// The material of a name that the scene defines; `None` where it is faulty.
+    pub(super) fn named(&self, name: &str) -> Option<MaterialId> {
+        self.by_name.get(name).copied()
+    }
+
+    /// The name of a material that has a texture laid by texture coordinates, or a part that has; `None` for others.
+    pub(super) fn needs_coordinates(&self, id: MaterialId) -> Option<&str> {
+        let mut visited = vec![false; self.materials.len()];
+        let mut open = vec![id];
+        while let Some(id) = open.pop() {
+            // A part that is faulty has no material.
+            let Some(made) = self.materials.get(id.0 as usize) else { continue };
+            if made.needs_coordinates {
+                return Some(&made.name);
+            }
+            if let (Surface::Mix(mix), false) = (&made.material.surface, visited[id.0 as usize]) {
+                open.extend([mix.a, mix.b]);
+            }
+            visited[id.0 as usize] = true;
+        }
+        None
+    }
+
+    /// The material that a mesh's own file gives a slot. A fault at `place` where the file gives none.
+    pub(super) fn of_slot(
+        &mut self,
+        file: &Path,
+        slot: &SlotMaterial,
+        place: &Place,
+        context: &mut Context<'_>,
+    ) -> Option<MaterialId> {
+        let key = (file.to_owned(), slot.name.clone());
+        if let Some(id) = self.by_slot.get(&key) {
+            return Some(*id);
+        }
+        let surface = slot::surface(file, slot, place, &mut self.pictures, context)?;
+        let needs_coordinates = slot::has_picture(slot);
+        let material = Material::new(surface);
+        let id = self.add(Made { material, place: place.clone(), name: slot.name.clone(), needs_coordinates });
+        self.by_slot.insert(key, id);
+        Some(id)
+    }
+
+    /// The palette, and the materials' names in the order of their ids.
+    pub(super) fn finish(self, context: &mut Context<'_>) -> Option<(Palette, Vec<String>)> {
+        let names = self.materials.iter().map(|made| made.name.clone()).collect();
+        let places: Vec<_> = self.materials.iter().map(|made| made.place.clone()).collect();
+        let materials = self.materials.into_iter().map(|made| made.material).collect();
+        match Palette::new(materials, self.pictures.into_textures()) {
+            Ok(palette) => Some((palette, names)),
+            Err(error) => {
+                if let Some(place) = error.material().and_then(|i| places.get(i)) {
+                    context.fault(place, error.to_string(), "");
+                }
+                None
+            }
+        }
+    }
+
+    fn add(&mut self, made: Made) -> MaterialId {
+        self.materials.push(made);
+        MaterialId((self.materials.len() - 1) as u32)
+    }
+}
+
+impl Workshop<'_, '_> {
+    fn material(&mut self, record: &record::Material) -> Option<Material> {
+        let surface = self.surface(&record.surface.0);
+        let emission = record.emission.as_ref().map(|e| self.emission(e));
+        let opacity = record.opacity.as_ref().map(|o| self.factor(o));
+        let normal_map = record.normal_map.as_ref().map(|map| self.normal_map(map));
+        Some(Material {
+            surface: surface?,
+            emission: whole(emission)?,
+            opacity: whole(opacity)?,
+            normal_map: whole(normal_map)?,
+        })
+    }
+
+    /// The texture of a name; a description that was read names only what it has.
+    fn named_texture(&self, name: &str) -> Option<&record::Texture> {
+        self.scene.textures.iter().find(|t| t.name.value == name)
+    }
+
+    /// The id that a material of the scene has, or will have: that of its place, as no faulty material comes to a plan.
+    fn id_of(&self, name: &str) -> Option<MaterialId> {
+        let place = self.scene.materials.iter().position(|m| m.name.value == name)?;
+        Some(MaterialId(place as u32))
+    }
+}
+
+/// What is given and right, or not given; `None` where it is given and faulty.
+#[allow(clippy::option_option, reason = "the outer level tells faults, the inner what is not given")]
+fn whole<T>(given: Option<Option<T>>) -> Option<Option<T>> {
+    match given {
+        None => Some(None),
+        Some(made) => made.map(Some),
+    }
+}

@@ -1,0 +1,45 @@
+//! Shares of light over the wavelength, and what a surface emits.
+
+use super::super::context::Context;
+use super::super::spectrum::{emitted, from_file};
+use super::Workshop;
+use super::picture::Use;
+use etendue_scene::record::material::Sides;
+use etendue_scene::record::{self, Colour, SurfaceEmission};
+use etendue_spectra::{Outside, Spectrum, colour, upsample};
+use etendue_tracer::materials::{Emission, Glow, Reflectance};
+
+/// A share of light over the wavelength.
+pub(super) fn share(colour: &Colour, context: &mut Context<'_>) -> Option<Spectrum> {
+    let rgb = |rgb: [f64; 3]| upsample::reflectance_spectrum(rgb.map(|v| v as f32));
+    match colour {
+        Colour::Grey(share) => Some(Spectrum::constant(share.value)),
+        Colour::LinearSrgb(value) => Some(rgb(value.value)),
+        Colour::EncodedSrgb(value) => Some(rgb(value.value.map(|v| f64::from(colour::decode(v as f32))))),
+        Colour::Spectrum(file) => from_file(file, Outside::Hold, context),
+    }
+}
+
+impl Workshop<'_, '_> {
+    pub(super) fn reflectance(&mut self, reflectance: &record::Reflectance) -> Option<Reflectance> {
+        match reflectance {
+            record::Reflectance::Plain(colour) => share(colour, self.context).map(Reflectance::Spectrum),
+            record::Reflectance::Texture { name, scale } => {
+                let scale = scale.as_ref().map_or(1.0, |s| s.value);
+                self.texture(name, Use::Colour, scale).map(Reflectance::Texture)
+            }
+        }
+    }
+
+    pub(super) fn emission(&mut self, record: &SurfaceEmission) -> Option<Emission> {
+        let glow = match record.sides.as_ref().map(|s| s.value) {
+            Some(Sides::Both) => Glow::Both,
+            Some(Sides::Front) | None => Glow::Front,
+        };
+        let factor = match &record.texture {
+            Some(name) => Some(self.texture(name, Use::Colour, 1.0)?),
+            None => None,
+        };
+        Some(Emission { radiance: emitted(&record.light, self.context)?, factor, glow })
+    }
+}

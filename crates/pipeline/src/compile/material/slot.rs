@@ -1,0 +1,45 @@
+//! Materials that a mesh's own file brings.
+
+use super::super::context::Context;
+use super::picture::Pictures;
+use etendue_scene::Place;
+use etendue_scene::asset::{SlotMaterial, SlotReflectance, SlotSurface};
+use etendue_spectra::upsample;
+use etendue_tracer::materials::{Coated, Reflectance, Surface};
+use std::path::Path;
+
+/// How a slot reflects. A fault at `place` where the file does not say it.
+pub(super) fn surface(
+    file: &Path,
+    slot: &SlotMaterial,
+    place: &Place,
+    pictures: &mut Pictures,
+    context: &mut Context<'_>,
+) -> Option<Surface> {
+    let Some(surface) = &slot.surface else {
+        let problem = format!("{} says no reflectance for its material \"{}\"", file.display(), slot.name);
+        let remedy = match slot.name.is_empty() {
+            true => "name one of the scene's: material = …".to_owned(),
+            false => format!("name one of the scene's: material = …, or materials = {{ \"{}\" = … }}", slot.name),
+        };
+        context.fault(place, problem, remedy);
+        return None;
+    };
+    let base = match surface.reflectance() {
+        SlotReflectance::LinearSrgb(rgb) => {
+            Reflectance::Spectrum(upsample::reflectance_spectrum(rgb.map(|v| v as f32)))
+        }
+        SlotReflectance::Image(picture) => Reflectance::Texture(pictures.of_slot(picture, place, context)?),
+    };
+    match surface {
+        SlotSurface::Diffuse { .. } => Some(Surface::Diffuse(base)),
+        SlotSurface::Coated { index, alpha, .. } => {
+            Some(Surface::Coated(Box::new(context.accept(place, Coated::new(base, *index, *alpha))?)))
+        }
+    }
+}
+
+/// Whether a slot's file gives it a picture.
+pub(super) fn has_picture(slot: &SlotMaterial) -> bool {
+    slot.surface.as_ref().is_some_and(|surface| matches!(surface.reflectance(), SlotReflectance::Image(_)))
+}

@@ -1,0 +1,163 @@
+//! How a surface scatters: from the record's type to the tracer's model.
+
+use super::super::spectrum::curve;
+use super::Workshop;
+use super::metal::{self, complex_index};
+use super::share::share;
+use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
+use etendue_scene::Placed;
+use etendue_scene::record::material::{
+    self as record, Absorption, Interface, LobeDirection, LobeKind, LobeStrength, Surface as Record,
+};
+use etendue_spectra::{Outside, Spectrum};
+use etendue_tracer::materials::{
+    BlinnPhong, Coated, Conductor, Dielectric, Distribution, Lafortune, Leaf, Lobe, Mix, Reflectance, Surface,
+    ThinSheet, absorption_of,
+};
+
+/// The index of a coat or a pane that does not state one.
+const USUAL_INDEX: f64 = 1.5;
+const MM_PER_M: f64 = 1000.0;
+
+impl Workshop<'_, '_> {
+    pub(super) fn surface(&mut self, record: &Record) -> Option<Surface> {
+        match record {
+            Record::Diffuse(r) => Some(Surface::Diffuse(self.reflectance(&r.reflectance)?)),
+            Record::Conductor(r) => self.conductor(r),
+            Record::Coated(r) => self.coated(r),
+            Record::CookTorrance(r) => self.cook_torrance(r),
+            Record::Sheeting(r) => self.sheeting(r),
+            Record::RoadMarking(r) => self.road_marking(r),
+            Record::Lafortune(r) => self.lafortune(r),
+            Record::BlinnPhong(r) => self.blinn_phong(r),
+            Record::Dielectric(r) => self.dielectric(r),
+            Record::ThinSheet(r) => self.thin_sheet(r),
+            Record::Leaf(r) => self.leaf(r),
+            Record::Mix(r) => self.mix(r),
+            Record::Emitter(_) => Some(Surface::Absorber),
+        }
+    }
+
+    fn conductor(&mut self, r: &record::Conductor) -> Option<Surface> {
+        let index = complex_index(&r.metal, self.context)?;
+        let alpha = self.factor(&r.alpha)?;
+        let made = self.context.accept(&r.place, Conductor::new(index, alpha))?;
+        Some(with_facets(made, r.distribution.as_ref(), r.multiple_scattering.as_ref()))
+    }
+
+    fn cook_torrance(&mut self, r: &record::CookTorrance) -> Option<Surface> {
+        let alpha = self.factor(&r.alpha)?;
+        let made = match &r.interface {
+            Interface::Named(name) => Conductor::new(metal::named(name, self.context)?, alpha),
+            Interface::File(file) => Conductor::new(metal::from_table(file, self.context)?, alpha),
+            Interface::Index(index) => Conductor::dielectric(curve(index, Outside::Hold, self.context)?, alpha),
+        };
+        let made = self.context.accept(&r.place, made)?;
+        Some(with_facets(made, r.distribution.as_ref(), r.multiple_scattering.as_ref()))
+    }
+
+    fn coated(&mut self, r: &record::Coated) -> Option<Surface> {
+        let base = self.reflectance(&r.reflectance)?;
+        let alpha = self.factor(&r.alpha)?;
+        let index = number(r.index.as_ref(), USUAL_INDEX);
+        Some(Surface::Coated(Box::new(self.context.accept(&r.place, Coated::new(base, index, alpha))?)))
+    }
+
+    fn lafortune(&mut self, r: &record::Lafortune) -> Option<Surface> {
+        let base = self.reflectance(&r.reflectance)?;
+        let lobes: Option<Vec<Lobe>> = r.lobes.iter().map(|lobe| self.lobe(lobe)).collect();
+        let made = self.context.accept(&r.place, Lafortune::new(base, lobes?))?;
+        Some(Surface::Lafortune(Box::new(made)))
+    }
+
+    fn lobe(&mut self, r: &record::Lobe) -> Option<Lobe> {
+        let [tangential, normal] = match &r.direction {
+            LobeDirection::Factors(factors) => factors.value,
+            LobeDirection::Kind(kind) => match kind.value {
+                LobeKind::Mirror => [-1.0, 1.0],
+                LobeKind::Retro => [1.0, 1.0],
+            },
+        };
+        let exponent = r.exponent.value;
+        match &r.strength {
+            LobeStrength::Albedo(colour) => {
+                Some(Lobe::of_albedo(tangential, normal, exponent, &share(colour, self.context)?))
+            }
+            LobeStrength::Weight(per_sr) => {
+                let weight = curve(per_sr, Outside::Hold, self.context)?;
+                Some(Lobe { tangential, normal, exponent, weight })
+            }
+        }
+    }
+
+    fn blinn_phong(&mut self, r: &record::BlinnPhong) -> Option<Surface> {
+        let base = self.reflectance(&r.reflectance)?;
+        let specular = share(&r.specular, self.context)?;
+        let made = self.context.accept(&r.place, BlinnPhong::new(base, specular, r.exponent.value))?;
+        Some(Surface::BlinnPhong(Box::new(made)))
+    }
+
+    fn dielectric(&mut self, r: &record::Dielectric) -> Option<Surface> {
+        let alpha = match &r.alpha {
+            Some(alpha) => self.factor(alpha)?,
+            None => 0.0.into(),
+        };
+        let absorption = match &r.absorption {
+            None => None,
+            Some(Absorption::Coefficient(per_m)) => Some(curve(per_m, Outside::Hold, self.context)?),
+            Some(Absorption::Transmittance(colour)) => {
+                let transmittance = share(colour, self.context)?;
+                let thickness_m = number(r.thickness_mm.as_ref(), 0.0) / MM_PER_M;
+                Some(self.context.accept(colour.place(), absorption_of(&transmittance, thickness_m))?)
+            }
+        };
+        let made = Dielectric::new(r.index.value, alpha, absorption);
+        Some(Surface::Dielectric(Box::new(self.context.accept(&r.place, made)?)))
+    }
+
+    fn thin_sheet(&mut self, r: &record::ThinSheet) -> Option<Surface> {
+        let transmittance = match &r.absorption {
+            None => Spectrum::constant(1.0),
+            Some(Absorption::Transmittance(colour)) => share(colour, self.context)?,
+            Some(Absorption::Coefficient(per_m)) => {
+                let coefficient = curve(per_m, Outside::Hold, self.context)?;
+                beer_lambert(&coefficient, number(r.thickness_mm.as_ref(), 0.0) / MM_PER_M)
+            }
+        };
+        let made = ThinSheet::new(number(r.index.as_ref(), USUAL_INDEX), Reflectance::Spectrum(transmittance));
+        Some(Surface::ThinSheet(Box::new(self.context.accept(&r.place, made)?)))
+    }
+
+    fn leaf(&mut self, r: &record::Leaf) -> Option<Surface> {
+        let (reflectance, transmittance) = (self.reflectance(&r.reflectance), self.reflectance(&r.transmittance));
+        Some(Surface::Leaf(Box::new(Leaf { reflectance: reflectance?, transmittance: transmittance? })))
+    }
+
+    fn mix(&mut self, r: &record::Mix) -> Option<Surface> {
+        let weight = self.factor(&r.weight)?;
+        Some(Surface::Mix(Mix { a: self.id_of(&r.a.value)?, b: self.id_of(&r.b.value)?, weight }))
+    }
+}
+
+fn with_facets(
+    conductor: Conductor,
+    distribution: Option<&Placed<record::Distribution>>,
+    multiple_scattering: Option<&Placed<bool>>,
+) -> Surface {
+    let conductor = conductor.with_distribution(match distribution.map(|d| d.value) {
+        Some(record::Distribution::Beckmann) => Distribution::Beckmann,
+        Some(record::Distribution::Ggx) | None => Distribution::Ggx,
+    });
+    let more = multiple_scattering.is_some_and(|m| m.value);
+    Surface::Conductor(Box::new(if more { conductor.with_interreflection() } else { conductor }))
+}
+
+fn number(given: Option<&Placed<f64>>, default: f64) -> f64 {
+    given.map_or(default, |v| v.value)
+}
+
+/// exp(−a d): what comes through a thickness `m` of a substance, reflections taken out.
+fn beer_lambert(coefficient_per_m: &Spectrum, m: f64) -> Spectrum {
+    let at = |nm: f64| etendue_core::maths::f64::exp(-f64::from(coefficient_per_m.at(nm as f32)) * m);
+    Spectrum::from_fn(|nm| at(nm.clamp(SHORTEST_NM, LONGEST_NM)))
+}

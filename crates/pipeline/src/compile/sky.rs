@@ -1,0 +1,111 @@
+//! The clear sky and the sun by the model of Hosek and Wilkie.
+
+use super::context::Context;
+use crate::plan::SkyFacts;
+use etendue_core::maths::f64::{sin, sin_cos};
+use etendue_scene::record::environment::{Sky, SunMoment};
+use etendue_scene::{Place, Placed};
+use etendue_spectra::sky::{SkyModel, sun};
+use etendue_spectra::{Spectrum, observer};
+use etendue_tracer::lights::almanac::{UtcTime, sun_position};
+use etendue_tracer::lights::{SUN_ANGULAR_DIAMETER_DEG, SkyEnvironment, Sun};
+use glam::DVec3;
+
+/// Reflectance of the ground where a sky does not state it: grass and soil reflect about a fifth of the light.
+const GROUND_ALBEDO: f64 = 0.2;
+
+/// A sky, its sun where that is asked for and up, and what the plan says of them.
+pub(super) struct MadeSky {
+    pub(super) environment: SkyEnvironment,
+    pub(super) sun: Option<Sun>,
+    pub(super) facts: SkyFacts,
+}
+
+/// Where the sun stands in the world, rad: elevation, and azimuth from +x towards +y.
+struct Sunward {
+    elevation_rad: f64,
+    azimuth_rad: f64,
+}
+
+/// The sky of a record; `None` with the faults noted.
+pub(super) fn sky(record: &Sky, context: &mut Context<'_>) -> Option<MadeSky> {
+    let place = record.sun_place();
+    let sunward = sunward(record, context)?;
+    let albedo = record.ground_albedo.as_ref().map_or(GROUND_ALBEDO, |a| a.value);
+    let model = context.accept(place, SkyModel::new(record.turbidity.value, albedo, sunward.elevation_rad))?;
+    let asked = record.sun.as_ref().is_none_or(|s| s.value);
+    let beam = match asked && sunward.elevation_rad >= 0.0 {
+        true => Some(normal_irradiance(&record.turbidity, sunward.elevation_rad, place, context)?),
+        false => None,
+    };
+    let on_ground = match &beam {
+        Some(beam) => beam.scaled(sin(sunward.elevation_rad)),
+        None => Spectrum::constant(0.0),
+    };
+    let Some(environment) = SkyEnvironment::new(&model, sunward.azimuth_rad, albedo, &on_ground) else {
+        context.fault(place, "the sky is black with the sun so low", "remove the sky, or give a higher sun");
+        return None;
+    };
+    let facts = SkyFacts {
+        turbidity: record.turbidity.value,
+        sun_elevation_deg: sunward.elevation_rad.to_degrees(),
+        sun_azimuth_deg: sunward.azimuth_rad.to_degrees(),
+        sky_lx: observer::luminance(environment.irradiance()),
+        sun_lx: observer::luminance(&on_ground),
+    };
+    let sun = match beam {
+        Some(beam) => {
+            let made = Sun::of_irradiance(sunward.direction(), SUN_ANGULAR_DIAMETER_DEG, &beam);
+            Some(context.accept(place, made)?.with_limb())
+        }
+        None => None,
+    };
+    Some(MadeSky { environment, sun, facts })
+}
+
+/// Spectral irradiance by the sun through air of a turbidity, on a plane at right angles to the beam.
+pub(super) fn normal_irradiance(
+    turbidity: &Placed<f64>,
+    elevation_rad: f64,
+    place: &Place,
+    context: &mut Context<'_>,
+) -> Option<Spectrum> {
+    context.accept(place, sun::normal_irradiance(turbidity.value, elevation_rad))
+}
+
+fn sunward(record: &Sky, context: &mut Context<'_>) -> Option<Sunward> {
+    match (&record.angles, &record.moment) {
+        (Some(angles), _) => Some(Sunward {
+            elevation_rad: angles.sun_elevation_deg.value.to_radians(),
+            azimuth_rad: angles.sun_azimuth_deg.value.to_radians(),
+        }),
+        (None, Some(moment)) => at(moment, context),
+        // A sky that was read says one of them.
+        (None, None) => None,
+    }
+}
+
+fn at(moment: &SunMoment, context: &mut Context<'_>) -> Option<Sunward> {
+    let (day, seconds) = (moment.date.value, moment.time_utc.seconds);
+    let time = (seconds / 3600, seconds / 60 % 60, f64::from(seconds % 60));
+    let utc = context.accept(&moment.date.place, UtcTime::new((day.year as i32, day.month, day.day), time))?;
+    let position = sun_position(utc, moment.latitude_deg.value, moment.longitude_deg.value);
+    let position = context.accept(&moment.latitude_deg.place, position)?;
+    // North turns anticlockwise as seen from above, the sun's azimuth clockwise from it.
+    let north_rad = moment.north_azimuth_deg.as_ref().map_or(0.0, |n| n.value.to_radians());
+    let turn = core::f64::consts::TAU;
+    let azimuth_rad = (north_rad - position.azimuth_rad).rem_euclid(turn);
+    Some(Sunward { elevation_rad: position.elevation_rad, azimuth_rad })
+}
+
+impl Sunward {
+    fn direction(&self) -> DVec3 {
+        direction(self.elevation_rad, self.azimuth_rad)
+    }
+}
+
+/// The unit vector of an elevation and an azimuth.
+pub(super) fn direction(elevation_rad: f64, azimuth_rad: f64) -> DVec3 {
+    let ((sin_e, cos_e), (sin_a, cos_a)) = (sin_cos(elevation_rad), sin_cos(azimuth_rad));
+    DVec3::new(cos_e * cos_a, cos_e * sin_a, sin_e)
+}

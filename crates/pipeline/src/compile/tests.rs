@@ -1,0 +1,124 @@
+//! Descriptions compiled: presets, lamps, skies, and what is refused only here.
+
+use super::{Choices, compile};
+use crate::Plan;
+use etendue_scene::asset::Assets;
+use etendue_scene::{Description, Overrides, preset};
+use etendue_spectra::observer::luminance;
+use std::path::Path;
+
+const CAMERA: &str = r#"format = 1
+[[cameras]]
+name = "front"
+position_m = [0, 0, 1]
+look_at_m = [10, 0, 1]
+lens = { model = "pinhole", focal_length_mm = 6, f_number = 2.0 }
+sensor = { width_px = 8, height_px = 6, pixel_pitch_um = 6.0 }
+"#;
+
+/// The plan of a scene without assets, or its faults, one a line.
+fn plan(scene: &str) -> Result<Plan, String> {
+    let text = format!("{CAMERA}{scene}");
+    let read = |_: &Path| Ok(text.clone());
+    let job = Description::load(Path::new("job.toml"), &read, &Overrides::default()).map_err(|f| f.to_string())?;
+    let faults = |list: Vec<etendue_scene::Fault>| list.iter().map(|f| format!("{f}\n")).collect::<String>();
+    compile(&job, &Assets::default(), &Choices::default()).map_err(faults)
+}
+
+#[test]
+fn every_preset_becomes_a_material() {
+    let material = |name: &&str| format!("[[scene.materials]]\nname = \"{name}\"\npreset = \"{name}\"\n");
+    let plan = plan(&preset::names().iter().map(material).collect::<String>()).expect("no fault");
+    assert_eq!(plan.materials, preset::names());
+}
+
+fn light(keys: &str) -> Result<Plan, String> {
+    plan(&format!("[[scene.lights]]\nname = \"l\"\n{keys}\n"))
+}
+
+#[test]
+fn lamps_have_the_flux_and_intensity_that_is_asked_for() {
+    let lamp = |keys: &str| {
+        let plan = light(keys).expect("no fault");
+        let lamp = &plan.sources.lamps[0];
+        (luminance(lamp.intensity()), lamp.profile().flux_sr())
+    };
+    let at = "position_m = [0, 0, 5]\nilluminant = \"LED-B3\"\n";
+    let (cd, sr) = lamp(&format!("type = \"point\"\nluminous_flux_lm = 1000\n{at}"));
+    // Spectra are f32; the flux is the sum of some hundreds of them.
+    assert!((cd * sr / 1000.0 - 1.0).abs() < 1e-5 && (sr / (4.0 * core::f64::consts::PI) - 1.0).abs() < 1e-12);
+    let spot = format!("type = \"spot\"\nfield_angle_deg = 60\n{at}");
+    let (cd, sr) = lamp(&format!("{spot}luminous_flux_lm = 1000"));
+    // A sharp cone of 30° half angle: 2π (1 − cos 30°) sr.
+    assert!((cd * sr / 1000.0 - 1.0).abs() < 1e-5 && (sr - 0.841_787).abs() < 1e-5, "{sr}");
+    assert!((lamp(&format!("{spot}intensity_cd = 70")).0 / 70.0 - 1.0).abs() < 1e-5);
+    let plan = light(&format!("{spot}radiant_flux_w = 3")).expect("no fault");
+    let lamp = &plan.sources.lamps[0];
+    assert!((lamp.intensity().integral(300.0, 1100.0) * lamp.profile().flux_sr() / 3.0 - 1.0).abs() < 1e-5);
+}
+
+#[test]
+fn a_lamp_stands_wherever_it_is_placed() {
+    let keys = "type = \"head_lamp\"\nbeam = \"low_beam\"\ntraffic = \"right\"\nilluminant = \"LED-B3\"\n\
+                instances = [{ position_m = [0, 0.6, 0.7] }, { position_m = [0, -0.6, 0.7], rotation_deg = [180, 0, 0] }]";
+    let plan = light(keys).expect("no fault");
+    let at: Vec<_> = plan.sources.lamps.iter().map(|l| l.position_m().y).collect();
+    assert_eq!(at, [0.6, -0.6]);
+    assert!((luminance(plan.sources.lamps[0].intensity()) - 1.0).abs() < 1e-5, "candela as the beam says");
+}
+
+#[test]
+fn a_sky_brings_its_sun_by_time_and_place() {
+    let sky = |keys: &str| plan(&format!("[scene.environment]\ntype = \"sky\"\nturbidity = 2\n{keys}"));
+    let plan = sky("sun_elevation_deg = 60\nsun_azimuth_deg = 90").expect("no fault");
+    let facts = plan.sky.expect("a sky");
+    // The issue's figure for a clear day: 85 to 110 klx.
+    assert!((85e3..110e3).contains(&(facts.sky_lx + facts.sun_lx)), "{facts:?}");
+    assert!((plan.sources.suns[0].direction().y - 0.5).abs() < 1e-6, "an azimuth of 90° is to the left");
+    // Noon of midsummer in Greenwich: the sun stands in the south at 90° − 51.48° + 23.44°, less the equation of time.
+    let noon = "date = 2026-06-21\ntime_utc = 12:02:00\nlatitude_deg = 51.48\nlongitude_deg = 0\n";
+    let facts = sky(noon).expect("no fault").sky.expect("a sky");
+    assert!((facts.sun_elevation_deg - 61.96).abs() < 0.05 && (facts.sun_azimuth_deg - 180.0).abs() < 1.0, "{facts:?}");
+    // North to the left: south is to the right.
+    let facts = sky(&format!("{noon}north_azimuth_deg = 90")).expect("no fault").sky.expect("a sky");
+    assert!((facts.sun_azimuth_deg - 270.0).abs() < 1.0, "{facts:?}");
+    let without = sky("sun_elevation_deg = 60\nsun_azimuth_deg = 90\nsun = false").expect("no fault");
+    assert!(without.sources.suns.is_empty() && without.sky.is_some_and(|s| s.sun_lx == 0.0));
+    let night = sky("sun_elevation_deg = -12\nsun_azimuth_deg = 90").expect("no fault");
+    assert!(night.sources.suns.is_empty() && night.sky.is_some_and(|s| s.sky_lx < 1.0 && s.sky_lx > 0.0));
+}
+
+#[test]
+fn suns_by_the_model_and_by_level() {
+    let keys = "type = \"sun\"\nelevation_deg = 30\nazimuth_deg = 0\n";
+    let by_model = light(&format!("{keys}turbidity = 2")).expect("no fault");
+    let level = "illuminance_lx = 90000\nilluminant = \"solar\"";
+    let plain = light(&format!("{keys}{level}")).expect("no fault");
+    let darkened = light(&format!("{keys}{level}\nlimb_darkening = true")).expect("no fault");
+    let centre = |plan: &Plan| luminance(plan.sources.suns[0].radiance());
+    assert!((1.2e9..2.0e9).contains(&centre(&by_model)), "{}", centre(&by_model));
+    assert!(centre(&darkened) > 1.1 * centre(&plain), "a dark limb makes the centre brighter");
+}
+
+#[test]
+fn what_gains_energy_is_refused() {
+    let material = |keys: &str| plan(&format!("[[scene.materials]]\nname = \"m\"\n{keys}")).expect_err("gains energy");
+    let lobes = material(
+        "type = \"lafortune\"\nreflectance = 0.6\nlobes = [{ kind = \"mirror\", exponent = 20, albedo = 0.6 }]",
+    );
+    assert!(lobes.starts_with("job.toml:8:1: scene.materials.m: "), "{lobes}");
+    let gloss = material("type = \"blinn_phong\"\nreflectance = 0.6\nspecular = 0.6\nexponent = 30");
+    assert!(gloss.starts_with("job.toml:8:1: scene.materials.m: "), "{gloss}");
+    let leaf = material("type = \"leaf\"\nreflectance = 0.6\ntransmittance = 0.5");
+    assert!(leaf.contains("scene.materials.m: "), "{leaf}");
+}
+
+#[test]
+fn mixes_name_materials_in_any_order_and_not_themselves() {
+    let parts = "[[scene.materials]]\nname = \"mix\"\ntype = \"mix\"\na = \"grey\"\nb = \"gold\"\nweight = 0.3\n\
+                 [[scene.materials]]\nname = \"grey\"\ntype = \"diffuse\"\nreflectance = 0.2\n\
+                 [[scene.materials]]\nname = \"gold\"\npreset = \"gold\"\n";
+    assert!(plan(parts).is_ok());
+    let circle = plan(&parts.replace("a = \"grey\"", "a = \"mix\"")).expect_err("a circle");
+    assert!(circle.contains("job.toml:8:1: scene.materials.mix: ") && circle.contains("of itself"), "{circle}");
+}

@@ -1,0 +1,188 @@
+//! Ready materials: `preset = "chrome"` stands for the keys that `materials.toml` gives that name.
+//!
+//! A preset is a table in the words of the format, read by the same rules as any material. Keys that the user gives beside
+//! `preset` take the place of the preset's: the same key, or one that says the same thing another way (`metal` and
+//! `index_file`). What the preset itself says stands, for errors, where the user names it.
+
+use std::path::Path;
+use std::sync::{Arc, LazyLock};
+
+use crate::document::{Entry, Node, Table, Value, parse};
+use crate::fault::Faults;
+use crate::place::Place;
+use crate::reader::word;
+
+/// The presets, each a table: "about" and "source" in words, then keys of a material.
+const MATERIALS: &str = include_str!("materials.toml");
+
+/// Keys of which a material has one at most: one that the user gives takes the place of the preset's.
+const ALTERNATIVES: &[&[&str]] = &[
+    &["metal", "index_file"],
+    &["absorption_per_m", "internal_transmittance"],
+    &["class", "r_l_mcd_m2_lx"],
+    &["q_d_mcd_m2_lx", "luminance_factor"],
+];
+
+/// A ready material.
+#[derive(Clone, Debug)]
+pub struct Preset {
+    /// Its name.
+    pub name: String,
+    /// What it is, in a sentence.
+    pub about: String,
+    /// Where its values are from.
+    pub source: String,
+    /// Its keys and values, in the words of the format.
+    keys: Table,
+}
+
+static PRESETS: LazyLock<Vec<Preset>> = LazyLock::new(|| {
+    let mut faults = Faults::none();
+    let tree = parse(&Arc::from(Path::new("materials.toml")), MATERIALS, &mut faults);
+    let entries = tree.as_table().map_or(&[][..], |t| &t.entries);
+    entries.iter().map(|entry| Preset::of(&entry.key, &entry.node)).collect()
+});
+
+/// All ready materials.
+#[must_use]
+pub fn all() -> &'static [Preset] {
+    &PRESETS
+}
+
+/// The names of all ready materials.
+#[must_use]
+pub fn names() -> Vec<&'static str> {
+    all().iter().map(|p| p.name.as_str()).collect()
+}
+
+impl Preset {
+    fn of(name: &str, node: &Node) -> Self {
+        let mut keys = node.as_table().cloned().unwrap_or_default();
+        let mut words = |key: &str| {
+            let entry = keys.remove(key);
+            entry.and_then(|e| e.node.as_text().map(str::to_owned)).unwrap_or_default()
+        };
+        let (about, source) = (words("about"), words("source"));
+        Self { name: name.to_owned(), about, source, keys }
+    }
+
+    /// Its keys and values, in the words of the format: `type = "conductor"`, …
+    pub fn said(&self) -> impl Iterator<Item = String> {
+        self.keys.entries.iter().map(|e| format!("{} = {}", e.key, e.node.written()))
+    }
+}
+
+/// Puts what a preset says in place of its name, in every material of the scene.
+pub(crate) fn spell_out(document: &mut Node, faults: &mut Faults) {
+    let scene = document.as_table_mut().and_then(|job| job.get_mut("scene"));
+    let materials = scene.and_then(Node::as_table_mut).and_then(|scene| scene.get_mut("materials"));
+    if let Some(Node { value: Value::List(materials), .. }) = materials {
+        materials.iter_mut().filter_map(Node::as_table_mut).for_each(|material| spell_out_material(material, faults));
+    }
+}
+
+fn spell_out_material(material: &mut Table, faults: &mut Faults) {
+    let Some(named) = material.remove("preset") else { return };
+    if let Some(kind) = material.entries.iter().find(|e| e.key == "type") {
+        let problem = format!("\"preset\" contradicts \"type\" ({})", kind.place);
+        faults.add(&named.place, problem, "keep the preset, whose type is its own, or the type");
+        return;
+    }
+    let found = word(&named.node, &names(), faults).and_then(|name| all().iter().find(|p| p.name == name));
+    match found {
+        Some(preset) => {
+            let said = preset.keys.entries.iter().filter(|e| !is_given(material, &e.key));
+            let said: Vec<_> = said.map(|e| e.moved_to(&named.node.place)).collect();
+            material.entries.extend(said);
+        }
+        // Nothing more can be said of a material of no kind.
+        None => material.entries.push(Entry {
+            key: "type".to_owned(),
+            place: named.place.clone(),
+            node: Node { place: named.place, value: Value::Unreadable },
+        }),
+    }
+}
+
+/// Whether the material gives the key, or another that says the same thing.
+fn is_given(material: &Table, key: &str) -> bool {
+    let alternatives = ALTERNATIVES.iter().find(|group| group.contains(&key));
+    material.get(key).is_some() || alternatives.is_some_and(|group| group.iter().any(|k| material.get(k).is_some()))
+}
+
+impl Entry {
+    /// The same, all of it at `place`.
+    fn moved_to(&self, place: &Place) -> Self {
+        Self { key: self.key.clone(), place: place.clone(), node: self.node.moved_to(place) }
+    }
+}
+
+impl Node {
+    fn moved_to(&self, place: &Place) -> Self {
+        let value = match &self.value {
+            Value::List(list) => Value::List(list.iter().map(|n| n.moved_to(place)).collect()),
+            Value::Table(table) => {
+                Value::Table(Table { entries: table.entries.iter().map(|e| e.moved_to(place)).collect() })
+            }
+            other => other.clone(),
+        };
+        Self { place: place.clone(), value }
+    }
+
+    /// The value as it is written in a file.
+    fn written(&self) -> String {
+        match &self.value {
+            Value::Text(text) => format!("\"{text}\""),
+            Value::List(list) => format!("[{}]", list.iter().map(Self::written).collect::<Vec<_>>().join(", ")),
+            Value::Table(table) => {
+                let said = table.entries.iter().map(|e| format!("{} = {}", e.key, e.node.written()));
+                format!("{{ {} }}", said.collect::<Vec<_>>().join(", "))
+            }
+            _ => self.describe(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_preset_says_what_it_is_where_from_and_of_what_type() {
+        assert!(all().len() > 10, "the file was read");
+        for Preset { name, about, source, keys } in all() {
+            assert!(about.ends_with('.') && !source.is_empty(), "{name}");
+            assert!(keys.get("type").is_some(), "{name}");
+        }
+    }
+
+    fn spelt_out(material: &str) -> (Table, Vec<String>) {
+        let mut faults = Faults::none();
+        let text = format!("[[scene.materials]]\nname = \"m\"\n{material}");
+        let mut tree = parse(&Arc::from(Path::new("job.toml")), &text, &mut faults);
+        spell_out(&mut tree, &mut faults);
+        let scene = tree.as_table().and_then(|t| t.get("scene")).and_then(Node::as_table).expect("the scene");
+        let table = scene.get("materials").expect("materials").as_list()[0].as_table().expect("a table").clone();
+        (table, faults.list().iter().map(ToString::to_string).collect())
+    }
+
+    #[test]
+    fn keys_beside_a_preset_take_the_place_of_its_own() {
+        let (table, faults) = spelt_out("preset = \"chrome\"\nalpha = 0.3");
+        assert!(faults.is_empty(), "{faults:?}");
+        assert_eq!(table.get("alpha").map(Node::describe), Some("0.3".to_owned()));
+        let metal = table.get("metal").expect("of the preset");
+        assert_eq!((metal.describe(), metal.place.line_column()), ("the text \"Cr\"".to_owned(), Some((3, 10))));
+        let (table, _) = spelt_out("preset = \"chrome\"\nindex_file = \"nickel.csv\"");
+        assert!(table.get("metal").is_none(), "a file of n and k says which metal");
+    }
+
+    #[test]
+    fn presets_that_are_none_and_types_beside_them() {
+        let (_, faults) = spelt_out("preset = \"crome\"");
+        assert!(faults.len() == 1 && faults[0].contains("did you mean \"chrome\"?"), "{faults:?}");
+        let (_, faults) = spelt_out("type = \"diffuse\"\npreset = \"chrome\"");
+        let both = "job.toml:4:1: scene.materials.m.preset: \"preset\" contradicts \"type\" (job.toml:3:1: scene.materials.m.type)";
+        assert!(faults.len() == 1 && faults[0].starts_with(both), "{faults:?}");
+    }
+}

@@ -1,0 +1,59 @@
+//! Light: emission of surfaces, and `[[lights]]`, which are no surfaces.
+
+pub mod emission;
+pub mod lamp;
+pub mod stand;
+pub mod strength;
+pub mod sun;
+
+pub(crate) use emission::illuminants;
+pub use emission::{Emission, Level, LightColour};
+pub use lamp::{Beam, HeadLamp, Mask, MeasuredLamp, PointLamp, SpotLamp, Traffic};
+pub use stand::{LampAim, LampInstance, Stand};
+pub use strength::{LampStrength, MeasuredStrength};
+pub use sun::{Sun, SunLevel};
+
+use crate::place::Placed;
+use crate::reader::variants;
+
+variants! {
+    /// A light that is no surface.
+    pub enum Light by "type" {
+        /// The sun's disc, at infinity.
+        "sun" => Sun(Sun),
+        /// A lamp without extent that shines alike in all directions.
+        "point" => Point(PointLamp),
+        /// A lamp without extent that shines in a cone about its +x axis.
+        "spot" => Spot(SpotLamp),
+        /// A lamp without extent whose intensities were measured: an IES LM-63 or EULUMDAT file.
+        "measured" => Measured(MeasuredLamp),
+        /// A head lamp's low or high beam, made after the test points of UN R149; the lamp's +x axis points forward.
+        "head_lamp" => HeadLamp(HeadLamp),
+    }
+}
+
+impl Light {
+    /// The name.
+    #[must_use]
+    pub fn name(&self) -> &Placed<String> {
+        match self {
+            Self::Sun(sun) => &sun.name,
+            Self::Point(lamp) => &lamp.name,
+            Self::Spot(lamp) => &lamp.name,
+            Self::Measured(lamp) => &lamp.name,
+            Self::HeadLamp(lamp) => &lamp.name,
+        }
+    }
+
+    /// The colour, where the light says it by itself.
+    #[must_use]
+    pub fn colour(&self) -> Option<&LightColour> {
+        match self {
+            Self::Sun(sun) => sun.colour.as_ref(),
+            Self::Point(lamp) => Some(&lamp.colour),
+            Self::Spot(lamp) => Some(&lamp.colour),
+            Self::Measured(lamp) => Some(&lamp.colour),
+            Self::HeadLamp(lamp) => Some(&lamp.colour),
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! Where a lamp stands and where it points.
+
+use glam::{DMat3, DVec3};
+
+use crate::fault::Faults;
+use crate::place::{Place, Placed};
+use crate::reader::{keyed, list, number, record, text, vector};
+use crate::record::transform::yaw_pitch_roll;
+
+record! {
+    /// Where a lamp stands, once or many times.
+    pub struct Stand check(check) {
+        /// Where it stands in the world, m, where it stands once.
+        optional position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
+        /// Where it points, where it stands once. Default: not turned.
+        group aim: LampAim;
+        /// Where it stands, where the same lamp stands many times.
+        many instances: LampInstance = list(record(), 1);
+        /// The paper's attenuation coefficient a, 1/m, 0 or more: a factor 1 / (1 + a·distance) besides the law of 1/d²,
+        /// which always holds. Default: 0, as in clear air.
+        optional attenuation_per_m: Placed<f64> = number("1/m").at_least(0.0);
+    }
+}
+
+record! {
+    /// One of the places where a lamp stands.
+    pub struct LampInstance check(check_instance) {
+        /// Its name. Default: the lamp's name and its number.
+        optional name: Placed<String> = text("the name of the instance");
+        /// Where it stands in the world, m.
+        required position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
+        /// Where it points. Default: not turned.
+        group aim: LampAim;
+    }
+}
+
+keyed! {
+    /// Where a lamp points.
+    pub enum LampAim {
+        /// Yaw, pitch and roll, degrees, as for objects. At 0, 0, 0 the lamp's axes are the world's.
+        rotation_deg => Rotation(Placed<[f64; 3]>) = vector::<3>(number("°"));
+        /// The point in the world, m, that the lamp's main direction meets: its +x axis, but the downward axis (γ = 0) of a
+        /// lamp that was measured in C planes. Its y axis stays level.
+        target_m => Target(Placed<[f64; 3]>) = vector::<3>(number("m"));
+    }
+}
+
+/// A lamp's main direction, which "target_m" turns.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MainAxis {
+    /// +x: spots, head lamps, photometry of types A and B.
+    Forward,
+    /// −z: photometry of type C.
+    Downward,
+}
+
+impl LampAim {
+    /// The lamp's x, y and z axes in the world as columns, for a lamp at `position_m`; `None` for one that points at its
+    /// own position.
+    #[must_use]
+    pub fn axes(&self, position_m: [f64; 3], main: MainAxis) -> Option<DMat3> {
+        match self {
+            Self::Rotation(degrees) => Some(yaw_pitch_roll(degrees.value)),
+            Self::Target(target) => {
+                let way = DVec3::from_array(target.value) - DVec3::from_array(position_m);
+                towards(way.try_normalize()?, main)
+            }
+        }
+    }
+
+    /// Where it stands in the file.
+    #[must_use]
+    pub fn place(&self) -> &Place {
+        match self {
+            Self::Rotation(v) | Self::Target(v) => &v.place,
+        }
+    }
+}
+
+/// Axes whose main one is `direction` and whose y axis is level; towards the zenith or nadir the y axis is the world's.
+fn towards(direction: DVec3, main: MainAxis) -> Option<DMat3> {
+    let left = DVec3::Z.cross(direction).try_normalize().unwrap_or(DVec3::Y);
+    Some(match main {
+        MainAxis::Forward => DMat3::from_cols(direction, left, direction.cross(left)),
+        MainAxis::Downward => DMat3::from_cols(left.cross(-direction), left, -direction),
+    })
+}
+
+impl Stand {
+    /// Every place where the lamp stands, with its aim.
+    pub fn placements(&self) -> impl Iterator<Item = (&Placed<[f64; 3]>, Option<&LampAim>)> {
+        let own = self.position_m.iter().map(|p| (p, self.aim.as_ref()));
+        own.chain(self.instances.iter().map(|i| (&i.position_m, i.aim.as_ref())))
+    }
+}
+
+fn check(stand: &Stand, faults: &mut Faults) {
+    let own = stand.position_m.as_ref().map(|p| ("\"position_m\"", &p.place));
+    let own = own.or(stand.aim.as_ref().map(|a| ("the lamp's own aim", a.place())));
+    match (own, stand.instances.first()) {
+        (Some((said, _)), Some(first)) => faults.add(
+            &first.place,
+            format!("\"instances\" contradicts {said}: both say where the lamp stands"),
+            "keep one of the two",
+        ),
+        (_, None) if stand.position_m.is_none() => {
+            faults.add(&stand.place, "the lamp stands nowhere", "add \"position_m\", or \"instances\" for many places");
+        }
+        _ => {}
+    }
+    if let (Some(position), Some(aim)) = (&stand.position_m, &stand.aim) {
+        check_aim(position, aim, faults);
+    }
+}
+
+fn check_instance(instance: &LampInstance, faults: &mut Faults) {
+    instance.aim.iter().for_each(|aim| check_aim(&instance.position_m, aim, faults));
+}
+
+fn check_aim(position: &Placed<[f64; 3]>, aim: &LampAim, faults: &mut Faults) {
+    if aim.axes(position.value, MainAxis::Forward).is_none() {
+        faults.add(aim.place(), "the lamp points at its own position", "move \"target_m\"");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn main_axes_meet_their_target_and_left_stays_level() {
+        for way in [DVec3::X, DVec3::NEG_Z, DVec3::Z, DVec3::new(1.0, -2.0, -0.5).normalize()] {
+            let forward = towards(way, MainAxis::Forward).expect("axes");
+            let downward = towards(way, MainAxis::Downward).expect("axes");
+            // Products of unit vectors, each rounded a few times.
+            assert!((forward * DVec3::X - way).length() < 1e-15 && (downward * DVec3::NEG_Z - way).length() < 1e-15);
+            for axes in [forward, downward] {
+                assert!((axes.determinant() - 1.0).abs() < 1e-15 && (axes * DVec3::Y).z.abs() < 1e-15);
+            }
+        }
+        let down = towards(DVec3::NEG_Z, MainAxis::Downward).expect("axes");
+        assert_eq!(down, DMat3::IDENTITY, "a road lamp that shines straight down is not turned");
+    }
+}

@@ -1,0 +1,70 @@
+//! Numbers over a surface, and normal maps.
+
+use crate::fault::Named;
+use crate::place::Placed;
+use crate::reader::{Rule, RuleExt as _, choice, either, name_of, number, record};
+
+/// A number from 0 to 1 over a surface.
+#[derive(Clone, Debug)]
+pub enum Factor {
+    /// The same everywhere.
+    Number(Placed<f64>),
+    /// A channel of a texture.
+    Texture(FactorTexture),
+}
+
+record! {
+    /// A number that a picture says.
+    pub struct FactorTexture {
+        /// The name of a texture.
+        required texture: Placed<String> = name_of(Named::Texture);
+        /// Which of its numbers. Default: "luminance", which of a grey picture is its grey.
+        optional channel: Placed<Channel> = choice();
+        /// A factor on the numbers, above 0 and at most 1. Default: 1.
+        optional scale: Placed<f64> = number("").above(0.0).at_most(1.0);
+    }
+}
+
+choice! {
+    /// One of a picture's numbers.
+    pub enum Channel {
+        /// Red.
+        "r" => Red,
+        /// Green.
+        "g" => Green,
+        /// Blue.
+        "b" => Blue,
+        /// Opacity; linear whatever the encoding.
+        "a" => Alpha,
+        /// The luminance of the colour, 1 for white.
+        "luminance" => Luminance,
+    }
+}
+
+record! {
+    /// Normals that a picture says: (r, g, b) = 0 … 1 is the vector (2r − 1, 2g − 1, 2b − 1) along u, v and the normal.
+    pub struct NormalMap {
+        /// The name of a texture with encoding = "data".
+        required texture: Placed<String> = name_of(Named::Texture);
+        /// A factor on the slopes, 0 … 10. Default: 1.
+        optional strength: Placed<f64> = number("").at_least(0.0).at_most(10.0);
+        /// Whether green points up in the picture (OpenGL) or down (DirectX). Default: "up".
+        optional y: Placed<Green> = choice();
+    }
+}
+
+choice! {
+    /// Which way green points.
+    pub enum Green {
+        /// To greater v (OpenGL).
+        "up" => Up,
+        /// To smaller v (DirectX).
+        "down" => Down,
+    }
+}
+
+/// A number, or a texture.
+pub(crate) fn any_factor() -> impl Rule<Out = Factor> {
+    let share = number("").at_least(0.0).at_most(1.0);
+    either(share.map(Factor::Number), record::<FactorTexture>().map(Factor::Texture))
+}

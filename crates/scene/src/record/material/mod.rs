@@ -1,0 +1,118 @@
+//! `[[materials]]`: what surfaces do with light.
+
+pub mod factor;
+pub mod glass;
+pub mod glow;
+pub mod mix;
+pub mod reflector;
+pub mod road;
+
+pub use factor::{Channel, Factor, Green, NormalMap};
+pub use glass::{Absorption, Dielectric, Leaf, ThinSheet};
+pub use glow::{Sides, SurfaceEmission};
+pub use mix::Mix;
+pub use reflector::{
+    BlinnPhong, Coated, Conductor, CookTorrance, Diffuse, Distribution, Interface, Lafortune, Lobe, LobeDirection,
+    LobeKind, LobeStrength, Metal,
+};
+pub use road::{
+    MarkingClass, MarkingDay, MarkingNight, RoadMarking, Sheeting, SheetingClass, SheetingColour, SheetingTable,
+};
+
+use crate::fault::Faults;
+use crate::place::Placed;
+use crate::preset;
+use crate::reader::{Form, Reader, Record, record, text, variants};
+use factor::any_factor;
+use serde_json::json;
+
+record! {
+    /// What a surface does with light.
+    pub struct Material check(check) {
+        /// The name by which objects call it.
+        required name: Placed<String> = text("the name of the material");
+        /// How it reflects.
+        inside surface: SurfaceSource;
+        /// Light that the surface gives of its own, the same in all directions. Default: none.
+        optional emission: SurfaceEmission = record();
+        /// Share of the surface that is there, 0 … 1: through the rest light goes straight, as through a fence or between
+        /// leaves; a number, or `{ texture = name, channel = "a" }`. Default: 1.
+        optional opacity: Factor = any_factor();
+        /// Finer normals than the mesh has. Default: none.
+        optional normal_map: NormalMap = record();
+    }
+}
+
+variants! {
+    /// How a surface reflects.
+    pub enum Surface by "type" {
+        /// Lambert's law.
+        "diffuse" => Diffuse(Diffuse),
+        /// A bare metal, smooth or rough.
+        "conductor" => Conductor(Conductor),
+        /// A diffuse base under a clear dielectric coat.
+        "coated" => Coated(Coated),
+        /// Cook and Torrance's model: bare microfacets of any refractive index, and nothing below them.
+        "cook_torrance" => CookTorrance(CookTorrance),
+        /// Lafortune's model: a diffuse base with generalised cosine lobes.
+        "lafortune" => Lafortune(Lafortune),
+        /// Blinn and Phong's model: a diffuse base with a glossy lobe.
+        "blinn_phong" => BlinnPhong(BlinnPhong),
+        /// Retro-reflective sheeting over a matt base: signs, number plates.
+        "retro_sheeting" => Sheeting(Sheeting),
+        /// A road marking with glass beads.
+        "road_marking" => RoadMarking(RoadMarking),
+        /// Clear or tinted glass or water as a solid with two sides: refracts, and absorbs inside. The mesh must be closed.
+        "dielectric" => Dielectric(Dielectric),
+        /// A pane without thickness of its own: reflects and lets light straight through, all inner reflections included.
+        "thin_sheet" => ThinSheet(ThinSheet),
+        /// A leaf: reflects from the side that is lit and glows through on the other, both by Lambert's law.
+        "leaf" => Leaf(Leaf),
+        /// Two other materials side by side, finer than anything seen.
+        "mix" => Mix(Mix),
+        /// Reflects nothing, gives light: needs "emission".
+        "emitter" => Emitter(Emitter),
+    }
+}
+
+/// How a surface reflects, told by its type or by a preset. Presets are spelt out before records are read: what arrives here
+/// says its type.
+#[derive(Clone, Debug)]
+pub struct SurfaceSource(pub Surface);
+
+impl Record for SurfaceSource {
+    fn read_keys(reader: &mut Reader<'_>, faults: &mut Faults) -> Option<Self> {
+        Surface::read_keys(reader, faults).map(Self)
+    }
+
+    fn forms() -> Vec<Form> {
+        let models = Surface::forms();
+        let about = "A ready material (see the list of presets below). Keys of its type that are given beside it take the place \
+                     of its own.";
+        let mut preset = Form::only_with("preset", about, json!({ "enum": preset::names() }));
+        for key in models.iter().flat_map(|form| &form.keys).filter(|key| key.name != "type") {
+            preset = preset.or_with(key);
+        }
+        [vec![preset], models].concat()
+    }
+}
+
+record! {
+    /// A surface that reflects nothing.
+    pub struct Emitter {}
+}
+
+fn check(material: &Material, faults: &mut Faults) {
+    if matches!(material.surface.0, Surface::Emitter(_)) && material.emission.is_none() {
+        faults.add(
+            &material.place,
+            "an \"emitter\" without \"emission\" is black",
+            "add \"emission\", or make it \"diffuse\" with reflectance 0",
+        );
+    }
+    let bent = matches!(material.surface.0, Surface::Emitter(_) | Surface::Mix(_));
+    if let (Some(map), true) = (&material.normal_map, bent) {
+        let problem = "\"normal_map\" has no effect on a surface that does not reflect by itself";
+        faults.add(&map.place, problem, "remove it; of a mix, give it to the parts");
+    }
+}

@@ -1,0 +1,175 @@
+//! Opaque surfaces: matt, metallic, coated.
+
+use std::path::PathBuf;
+
+use super::factor::{Factor, any_factor};
+use crate::asset::COAT_INDICES;
+use crate::fault::Faults;
+use crate::place::Placed;
+use crate::reader::{choice, flag, keyed, known, list, number, path, record, vector};
+use crate::record::curve::{Curve, curve};
+use crate::record::reflectance::{Colour, Reflectance, any_colour, any_reflectance};
+use etendue_spectra::metal;
+
+record! {
+    /// Lambert's law.
+    pub struct Diffuse {
+        /// Share of light reflected: a number, `[r, g, b]` (linear sRGB), `{ srgb = [r, g, b] }`,
+        /// `{ spectrum = file }` or `{ texture = name, scale = … }`; 0 … 1.
+        required reflectance: Reflectance = any_reflectance();
+    }
+}
+
+record! {
+    /// A metal with a rough surface of microfacets.
+    pub struct Conductor {
+        /// Which metal.
+        inside metal: Metal;
+        /// Roughness α of the facets' distribution (not its square root), 0 … 1; below 0.0001 it is a mirror. A number, or
+        /// `{ texture = name, channel = "r" }`.
+        required alpha: Factor = any_factor();
+        /// How the slopes of the facets are distributed. Default: "ggx".
+        optional distribution: Placed<Distribution> = choice();
+        /// Whether light that meets several facets before it leaves is added (Kulla and Conty 2017); without it rough metals
+        /// are too dark, by up to half. Default: false.
+        optional multiple_scattering: Placed<bool> = flag();
+    }
+}
+
+keyed! {
+    /// A metal, by its complex refractive index.
+    pub enum Metal {
+        /// A tabulated metal: "Al", "Ag", "Au", "Cu", "Cr", "Fe".
+        metal => Named(Placed<String>) = known("a metal", metal::names());
+        /// A table of three columns: wavelength in nm, n, k (above 0 where it absorbs); end values hold beyond the table.
+        index_file => File(Placed<PathBuf>) = path(&["csv"]);
+    }
+}
+
+record! {
+    /// A rough interface of microfacets with the exact Fresnel reflectance; what enters is absorbed.
+    pub struct CookTorrance {
+        /// What it is made of.
+        inside interface: Interface;
+        /// Roughness α of the facets' distribution (not its square root), 0 … 1; below 0.0001 it is a mirror. A number, or
+        /// `{ texture = name, channel = "r" }`.
+        required alpha: Factor = any_factor();
+        /// How the slopes of the facets are distributed. Default: "ggx".
+        optional distribution: Placed<Distribution> = choice();
+        /// Whether light that meets several facets before it leaves is added (Kulla and Conty 2017); without it rough
+        /// surfaces are too dark. Default: false.
+        optional multiple_scattering: Placed<bool> = flag();
+    }
+}
+
+keyed! {
+    /// What an interface is made of, by its refractive index.
+    pub enum Interface {
+        /// A tabulated metal: "Al", "Ag", "Au", "Cu", "Cr", "Fe".
+        metal => Named(Placed<String>) = known("a metal", metal::names());
+        /// A table of three columns: wavelength in nm, n, k; end values hold beyond the table.
+        index_file => File(Placed<PathBuf>) = path(&["csv"]);
+        /// A real refractive index against air, 1 … 4: a number, or `{ spectrum = file }`.
+        index => Index(Curve) = curve(number("").at_least(1.0).at_most(4.0));
+    }
+}
+
+choice! {
+    /// How the slopes of microfacets are distributed.
+    pub enum Distribution {
+        /// Trowbridge and Reitz 1975; Walter et al. 2007: long tails, as most real surfaces have.
+        "ggx" => Ggx,
+        /// Beckmann and Spizzichino 1963: Gaussian slopes.
+        "beckmann" => Beckmann,
+    }
+}
+
+record! {
+    /// A diffuse base under a dielectric coat with a GGX distribution of microfacets.
+    pub struct Coated {
+        /// Share of light that the base reflects, as for "diffuse".
+        required reflectance: Reflectance = any_reflectance();
+        /// Refractive index of the coat, 1.1 … 4. Default: 1.5.
+        optional index: Placed<f64> = number("").at_least(*COAT_INDICES.start()).at_most(*COAT_INDICES.end());
+        /// Roughness α of the coat's GGX distribution (not its square root), 0 … 1; below 0.0001 it is a mirror. A number, or
+        /// `{ texture = name, channel = "r" }`.
+        required alpha: Factor = any_factor();
+    }
+}
+
+record! {
+    /// A diffuse base and up to four cosine lobes, f = k_d/π + Σ w [C_t (wᵢₓ wₒₓ + wᵢ_y wₒ_y) + C_n wᵢ_z wₒ_z]ⁿ.
+    pub struct Lafortune {
+        /// Share of light that the base reflects, as for "diffuse".
+        required reflectance: Reflectance = any_reflectance();
+        /// The lobes, one to four.
+        many lobes: Lobe = list(record(), 1);
+    }
+}
+
+record! {
+    /// A lobe of a generalised cosine.
+    pub struct Lobe check(check_lobe) {
+        /// Where it points.
+        inside direction: LobeDirection;
+        /// Exponent n, 0 … 10 000: the greater, the narrower.
+        required exponent: Placed<f64> = number("").at_least(0.0).at_most(1e4);
+        /// How strong it is.
+        inside strength: LobeStrength;
+    }
+}
+
+keyed! {
+    /// Where a lobe points.
+    pub enum LobeDirection {
+        /// "mirror" (C_t = −1, C_n = 1) or "retro" (C_t = C_n = 1).
+        kind => Kind(Placed<LobeKind>) = choice();
+        /// C_t and C_n: factors along the surface and along the normal. C_t < 0 on the mirror's side (off-specular where
+        /// C_n < −C_t), > 0 back towards the light; C_n at least 0, not both 0.
+        factors => Factors(Placed<[f64; 2]>) = vector::<2>(number(""));
+    }
+}
+
+keyed! {
+    /// How strong a lobe is.
+    pub enum LobeStrength {
+        /// Share of light that the lobe sends back at normal incidence: a number, `[r, g, b]` (linear sRGB),
+        /// `{ srgb = … }` or `{ spectrum = file }`; needs C_n above 0.
+        albedo => Albedo(Colour) = any_colour();
+        /// Its weight w, 1/sr, 0 or more: a number, or `{ spectrum = file }`.
+        weight_per_sr => Weight(Curve) = curve(number("1/sr").at_least(0.0));
+    }
+}
+
+choice! {
+    /// Where a lobe points.
+    pub enum LobeKind {
+        /// To the mirror direction.
+        "mirror" => Mirror,
+        /// Back to where light comes from.
+        "retro" => Retro,
+    }
+}
+
+record! {
+    /// A diffuse base and a glossy lobe about the half vector, with its exact normalisation.
+    pub struct BlinnPhong {
+        /// Share of light that the base reflects, as for "diffuse".
+        required reflectance: Reflectance = any_reflectance();
+        /// Share of light that the lobe sends back at normal incidence: a number, `[r, g, b]` (linear sRGB),
+        /// `{ srgb = … }` or `{ spectrum = file }`.
+        required specular: Colour = any_colour();
+        /// Exponent n, 0 … 100 000: the greater, the narrower. It is no roughness.
+        required exponent: Placed<f64> = number("").at_least(0.0).at_most(1e5);
+    }
+}
+
+fn check_lobe(lobe: &Lobe, faults: &mut Faults) {
+    if let (LobeDirection::Factors(factors), LobeStrength::Albedo(albedo)) = (&lobe.direction, &lobe.strength)
+        && factors[1] <= 0.0
+    {
+        let problem =
+            "a lobe with C_n = 0 sends nothing back at normal incidence, so \"albedo\" cannot tell its strength";
+        faults.add(albedo.place(), problem, "give \"weight_per_sr\" in place of it");
+    }
+}

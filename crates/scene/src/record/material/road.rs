@@ -1,0 +1,173 @@
+//! What shines back at head lamps: retro-reflective sheeting and road markings.
+
+use std::path::PathBuf;
+
+use crate::fault::Faults;
+use crate::place::{Place, Placed};
+use crate::reader::{choice, keyed, number, path, record};
+use crate::record::reflectance::{Colour, Reflectance, any_colour, any_reflectance};
+
+record! {
+    /// Retro-reflective sheeting: signs, number plates.
+    pub struct Sheeting check(check_sheeting) {
+        /// How it sends light back.
+        inside table: SheetingTable;
+        /// With "class": the colour of the sheeting. Default: "white".
+        optional colour: Placed<SheetingColour> = choice();
+        /// With "r_a_table": the matt reflectance by day: a number, `[r, g, b]` (linear sRGB), `{ srgb = … }` or
+        /// `{ spectrum = file }`.
+        optional reflectance: Colour = any_colour();
+        /// With "r_a_table": the colour of the light sent back, of which only the course over the wavelength counts; the
+        /// table is that of this colour. Default: white.
+        optional retro_colour: Colour = any_colour();
+        /// A print of transparent ink over white sheeting, as for the reflectance of "diffuse": the share of light that it
+        /// leaves, by day and by night. A texture makes a sign of it. Default: none.
+        optional print: Reflectance = any_reflectance();
+    }
+}
+
+keyed! {
+    /// Coefficients of retro-reflection R_A.
+    pub enum SheetingTable {
+        /// The least that a standard asks for; new sheeting has about one and a half times as much.
+        class => Class(Placed<SheetingClass>) = choice();
+        /// A measured table: coefficients in cd·lx⁻¹·m⁻² by observation and entrance angle, CSV: a row of entrance angles
+        /// (degrees) after a first field, then rows of an observation angle (degrees) and its coefficients.
+        r_a_table => File(Placed<PathBuf>) = path(&["csv"]);
+    }
+}
+
+choice! {
+    /// A class of sheeting.
+    pub enum SheetingClass {
+        /// EN 12899-1, class RA1: glass beads.
+        "ra1" => Ra1,
+        /// EN 12899-1, class RA2: encapsulated beads or prisms.
+        "ra2" => Ra2,
+        /// ASTM D4956, type IX: micro-prisms.
+        "d4956-ix" => D4956Ix,
+    }
+}
+
+choice! {
+    /// A colour of sheeting.
+    pub enum SheetingColour {
+        /// White.
+        "white" => White,
+        /// Yellow.
+        "yellow" => Yellow,
+        /// Red.
+        "red" => Red,
+        /// Blue.
+        "blue" => Blue,
+        /// Green.
+        "green" => Green,
+    }
+}
+
+record! {
+    /// A road marking with glass beads.
+    pub struct RoadMarking {
+        /// How much it sends back at night.
+        inside night: MarkingNight;
+        /// How bright it is by day.
+        inside day: MarkingDay;
+        /// Its colour, of which only the course over the wavelength counts: a number, `[r, g, b]` (linear sRGB),
+        /// `{ srgb = … }` or `{ spectrum = file }`. Default: white.
+        optional colour: Colour = any_colour();
+        /// Angle from the way back to the lamp at which the light sent back has fallen to a quarter, degrees, 0.5 … 30.
+        /// Default: 3, an assumption.
+        optional spread_deg: Placed<f64> = number("°").at_least(0.5).at_most(30.0);
+    }
+}
+
+keyed! {
+    /// The coefficient of retro-reflected luminance R_L at the 30 m geometry of EN 1436.
+    pub enum MarkingNight {
+        /// R_L, mcd·m⁻²·lx⁻¹, 0 or more.
+        r_l_mcd_m2_lx => Coefficient(Placed<f64>) = number("mcd·m⁻²·lx⁻¹").at_least(0.0);
+        /// The least of a class of EN 1436.
+        class => Class(Placed<MarkingClass>) = choice();
+    }
+}
+
+keyed! {
+    /// How bright a marking is by day.
+    pub enum MarkingDay {
+        /// Luminance coefficient under diffuse light Q_d, mcd·m⁻²·lx⁻¹, 0 … 318.
+        q_d_mcd_m2_lx => Qd(Placed<f64>) = number("mcd·m⁻²·lx⁻¹").at_least(0.0).at_most(318.0);
+        /// Luminance factor β, 0 … 1.
+        luminance_factor => LuminanceFactor(Placed<f64>) = number("").at_least(0.0).at_most(1.0);
+    }
+}
+
+choice! {
+    /// A class of road markings by their least R_L.
+    pub enum MarkingClass {
+        /// White, dry: 100.
+        "r2" => R2,
+        /// White, dry: 150.
+        "r3" => R3,
+        /// White, dry: 200.
+        "r4" => R4,
+        /// White, dry: 300.
+        "r5" => R5,
+        /// Yellow, dry: 80.
+        "yellow-r1" => YellowR1,
+        /// Yellow, dry: 150.
+        "yellow-r3" => YellowR3,
+        /// Yellow, dry: 200.
+        "yellow-r5" => YellowR5,
+        /// Wet: 25.
+        "rw1" => Rw1,
+        /// Wet: 35.
+        "rw2" => Rw2,
+        /// Wet: 50.
+        "rw3" => Rw3,
+        /// Wet: 75.
+        "rw4" => Rw4,
+        /// Wet: 100.
+        "rw5" => Rw5,
+        /// Wet: 150.
+        "rw6" => Rw6,
+    }
+}
+
+fn check_sheeting(sheeting: &Sheeting, faults: &mut Faults) {
+    match &sheeting.table {
+        SheetingTable::Class(_) => {
+            let of_table = [("reflectance", &sheeting.reflectance), ("retro_colour", &sheeting.retro_colour)];
+            for (key, given) in of_table {
+                given.iter().for_each(|given| refuse(key, "\"r_a_table\"", given.place(), faults));
+            }
+        }
+        SheetingTable::File(file) => {
+            sheeting.colour.iter().for_each(|colour| refuse("colour", "\"class\"", &colour.place, faults));
+            if sheeting.reflectance.is_none() {
+                faults.add(
+                    &file.place,
+                    "the table does not say what the sheeting reflects by day",
+                    "add \"reflectance\"",
+                );
+            }
+        }
+    }
+    if sheeting.print.is_some() {
+        check_print(sheeting, faults);
+    }
+}
+
+/// A print lies on white sheeting.
+fn check_print(sheeting: &Sheeting, faults: &mut Faults) {
+    let coloured = sheeting.colour.iter().filter(|c| c.value != SheetingColour::White).map(|c| &c.place);
+    let tinted = sheeting.retro_colour.iter().map(Colour::place);
+    let grey = |colour: &&Colour| !matches!(colour, Colour::Grey(_));
+    let base = sheeting.reflectance.iter().filter(grey).map(Colour::place);
+    for place in coloured.chain(tinted).chain(base) {
+        faults.add(place, "\"print\" lies on white sheeting, this colours it", "remove one of the two, or give a grey");
+    }
+}
+
+fn refuse(key: &str, owner: &str, place: &Place, faults: &mut Faults) {
+    faults.add(place, format!("\"{key}\" has no effect here, it belongs to {owner}"), "remove it");
+}

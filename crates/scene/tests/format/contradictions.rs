@@ -1,0 +1,178 @@
+//! Lights, skies, textures and materials that contradict themselves.
+
+use crate::files::{Files, load};
+
+const JOB: &str = r#"format = 1
+
+[[cameras]]
+name = "front"
+position_m = [0, 0, 1]
+look_at_m = [10, 0, 1]
+lens = { model = "pinhole", focal_length_mm = 6, f_number = 2.0 }
+sensor = { width_px = 64, height_px = 48, pixel_pitch_um = 6.0 }
+
+[[scene.textures]]
+name = "bricks"
+file = "bricks.png"
+encoding = "srgb"
+
+"#;
+
+/// The faults of a job with `more` at its end, one a line.
+fn faults_of(more: &str) -> String {
+    load(&Files::of_job(&format!("{JOB}{more}")), &[]).err().map_or(String::new(), |f| f.to_string())
+}
+
+/// The faults of a light with these keys.
+fn light(keys: &str) -> String {
+    faults_of(&format!("[[scene.lights]]\nname = \"l\"\n{keys}\n"))
+}
+
+/// The faults of a material with these keys.
+fn material(keys: &str) -> String {
+    faults_of(&format!("[[scene.materials]]\nname = \"m\"\n{keys}\n"))
+}
+
+const SPOT: &str = "type = \"spot\"\nintensity_cd = 100\nilluminant = \"A\"\nfield_angle_deg = 40\n";
+
+#[test]
+fn lamps_stand_and_point_in_one_way() {
+    let spot = |keys: &str| light(&format!("{SPOT}{keys}"));
+    assert_eq!(spot("position_m = [0, 0, 5]\ntarget_m = [5, 0, 0]"), "");
+    assert_eq!(
+        spot("instances = [{ position_m = [0, 0, 5] }, { position_m = [9, 0, 5], rotation_deg = [0, 90, 0] }]"),
+        ""
+    );
+    assert!(spot("").contains("the lamp stands nowhere"));
+    let twice = spot("position_m = [0, 0, 5]\ninstances = [{ position_m = [0, 0, 5] }]");
+    assert!(twice.contains("\"instances\" contradicts \"position_m\""), "{twice}");
+    let aims = spot("position_m = [0, 0, 5]\ntarget_m = [5, 0, 0]\nrotation_deg = [0, 0, 0]");
+    assert!(aims.contains("\"rotation_deg\", \"target_m\" contradict each other"), "{aims}");
+    assert!(spot("position_m = [0, 0, 5]\ntarget_m = [0, 0, 5]").contains("points at its own position"));
+    let wide = spot("position_m = [0, 0, 5]\ninner_angle_deg = 41");
+    assert!(wide.contains("lights.l.inner_angle_deg: found 41, and the field ends at 40"), "{wide}");
+    let point = "type = \"point\"\nposition_m = [0, 0, 5]\nluminous_flux_lm = 800\nilluminant = \"A\"\nrotation_deg = [0, 90, 0]";
+    assert!(light(point).contains("rotation_deg: a lamp that shines alike in all directions points nowhere"));
+    let masked = format!("{point}\nmask = {{ file = \"mask.png\", field_deg = [40, 30] }}");
+    assert_eq!(light(&masked), "");
+}
+
+#[test]
+fn lamps_have_one_strength_and_one_colour() {
+    let strengths = light(&format!("{SPOT}position_m = [0, 0, 5]\nluminous_flux_lm = 800"));
+    assert!(strengths.contains("\"luminous_flux_lm\", \"intensity_cd\" contradict each other"), "{strengths}");
+    let colours = light(&format!("{SPOT}position_m = [0, 0, 5]\ntemperature_k = 3000"));
+    assert!(colours.contains("\"illuminant\", \"temperature_k\" contradict each other"), "{colours}");
+    let unknown = light(&format!("{}position_m = [0, 0, 5]", SPOT.replace("\"A\"", "\"d65\"")));
+    assert!(unknown.contains("scene.lights.l.illuminant: found the text \"d65\"; give one of \"solar\""), "{unknown}");
+    assert!(unknown.contains("did you mean \"D65\"?"), "{unknown}");
+}
+
+#[test]
+fn head_lamps_keep_to_a_side_of_the_road() {
+    let lamp =
+        |keys: &str| light(&format!("type = \"head_lamp\"\nposition_m = [0, 0, 0.7]\nilluminant = \"LED-B3\"\n{keys}"));
+    assert_eq!(lamp("beam = \"low_beam\"\ntraffic = \"right\""), "");
+    assert!(lamp("beam = \"low_beam\"").contains("rises towards one side of the road, which is not said"));
+    assert!(lamp("beam = \"high_beam\"\ntraffic = \"left\"").contains("belongs to beam = \"low_beam\""));
+}
+
+#[test]
+fn suns_by_level_and_by_model() {
+    let sun = |keys: &str| light(&format!("type = \"sun\"\nazimuth_deg = 0\n{keys}"));
+    assert_eq!(sun("elevation_deg = 30\nturbidity = 3"), "");
+    let twice = sun("elevation_deg = 30\nturbidity = 3\nilluminance_lx = 1e5\nilluminant = \"solar\"");
+    assert!(twice.contains("\"illuminance_lx\", \"turbidity\" contradict each other"), "{twice}");
+    assert!(sun("elevation_deg = 30\nturbidity = 3\ntemperature_k = 5800").contains("the colour contradicts it"));
+    assert!(sun("elevation_deg = 30\nilluminance_lx = 1e5").contains("does not say the colour of the sun"));
+    assert!(sun("elevation_deg = 0\nturbidity = 3").contains("no sun at or below the horizon"));
+    let hazy = sun("elevation_deg = 30\nturbidity = 11");
+    assert!(hazy.contains("found 11; give a number of at least 1 and at most 10"), "{hazy}");
+}
+
+#[test]
+fn skies_know_where_the_sun_stands_by_one_way() {
+    let sky = |keys: &str| faults_of(&format!("[scene.environment]\ntype = \"sky\"\nturbidity = 3\n{keys}"));
+    let moment = "date = 2026-06-21\ntime_utc = \"09:30:00\"\nlatitude_deg = 48\nlongitude_deg = 11\n";
+    let angles = "sun_elevation_deg = 30\nsun_azimuth_deg = 10\n";
+    assert_eq!(sky(moment), "");
+    assert_eq!(sky(angles), "");
+    let sun = "[[scene.lights]]\ntype = \"sun\"\nname = \"s\"\nelevation_deg = 30\nazimuth_deg = 0\nturbidity = 3";
+    assert!(sky(&format!("{angles}{sun}")).contains("scene.lights.s: the sky brings a sun of its own (job.toml:"));
+    assert_eq!(sky(&format!("{angles}sun = false\n{sun}")), "");
+    assert!(sky("").contains("it is not said where the sun stands"));
+    let both = sky(&format!("{moment}{angles}"));
+    assert!(both.contains("scene.environment.date: \"date\" and \"sun_elevation_deg\" (job.toml:"), "{both}");
+    assert!(sky("sun_elevation_deg = 30").contains("the key \"sun_azimuth_deg\" is missing"));
+    let day = sky(&moment.replace("2026-06-21", "\"2026-06-31\""));
+    assert!(day.contains("found the text \"2026-06-31\"; give a day from 1950 to 2099"), "{day}");
+    assert!(sky(&moment.replace("09:30:00", "9:30")).contains("give a time of the day"));
+}
+
+#[test]
+fn textures_are_laid_in_one_way() {
+    let texture = |keys: &str| {
+        faults_of(&format!("[[scene.textures]]\nname = \"t\"\nfile = \"t.exr\"\nencoding = \"data\"\n{keys}"))
+    };
+    assert_eq!(texture("uv_scale = [2, 2]"), "");
+    assert_eq!(texture("mapping = \"triplanar\"\nsize_m = [2, 2]"), "");
+    assert!(texture("mapping = \"triplanar\"").contains("does not say how large the picture is"));
+    assert!(texture("size_m = [2, 2]").contains("belongs to mapping = \"triplanar\""));
+    let both = texture("mapping = \"triplanar\"\nsize_m = [2, 2]\nuv_offset = [0.5, 0]");
+    assert!(both.contains("\"uv_offset\" has no effect here, it belongs to mapping = \"uv\""), "{both}");
+}
+
+#[test]
+fn glass_absorbs_in_one_way() {
+    let solid = |keys: &str| material(&format!("type = \"dielectric\"\nindex = 1.5\n{keys}"));
+    assert_eq!(solid("internal_transmittance = 0.9\nthickness_mm = 4"), "");
+    assert!(solid("internal_transmittance = 0.9").contains("does not say for which way through it"));
+    assert!(solid("absorption_per_m = 3\nthickness_mm = 4").contains("the mesh says how thick the solid is"));
+    let both = solid("internal_transmittance = 0.9\nthickness_mm = 4\nabsorption_per_m = 3");
+    assert!(both.contains("\"absorption_per_m\", \"internal_transmittance\" contradict each other"), "{both}");
+    let sheet = |keys: &str| material(&format!("type = \"thin_sheet\"\n{keys}"));
+    assert_eq!(sheet("absorption_per_m = 3\nthickness_mm = 4"), "");
+    assert!(sheet("absorption_per_m = 3").contains("of a thin sheet needs its thickness"));
+    assert!(sheet("internal_transmittance = 0.9\nthickness_mm = 4").contains("belongs to \"absorption_per_m\""));
+}
+
+#[test]
+fn lobes_and_maps() {
+    let lobe = |keys: &str| {
+        material(&format!("type = \"lafortune\"\nreflectance = 0.2\nlobes = [{{ exponent = 20, {keys} }}]"))
+    };
+    assert_eq!(lobe("kind = \"retro\", albedo = 0.1"), "");
+    assert_eq!(lobe("factors = [-1, 0], weight_per_sr = 0.1"), "");
+    assert!(lobe("factors = [-1, 0], albedo = 0.1").contains("sends nothing back at normal incidence"));
+    assert!(lobe("kind = \"mirror\", factors = [-1, 1], albedo = 0.1").contains("contradict each other"));
+    let bent = material(
+        "type = \"emitter\"\nemission = { luminance_cd_m2 = 1, illuminant = \"A\" }\nnormal_map = { texture = \"bricks\" }",
+    );
+    assert!(bent.contains("\"normal_map\" has no effect on a surface that does not reflect by itself"), "{bent}");
+    assert!(
+        material("type = \"diffuse\"\nreflectance = 0.2\nopacity = { texture = \"brick\" }")
+            .contains("did you mean \"bricks\"?")
+    );
+    assert!(material("type = \"mix\"\na = \"m\"\nb = \"n\"\nweight = 0.5").contains("there is no material \"n\""));
+}
+
+#[test]
+fn levels_that_trace_no_paths() {
+    let level = |job: &str, own: &str| {
+        let text = JOB.replace("lens =", &format!("render = {{ {own} }}\nlens ="));
+        let text = format!("{text}\n[render]\n{job}\n");
+        load(&Files::of_job(&text), &[]).err().map_or(String::new(), |f| f.to_string())
+    };
+    assert_eq!(level("level = \"direct\"", ""), "");
+    let told = level("level = \"direct\"\nmax_bounces = 8", "");
+    assert!(
+        told.contains("render.max_bounces: \"max_bounces\" has no effect here, it belongs to level = \"path\""),
+        "{told}"
+    );
+    assert!(level("caustics = false", "level = \"flat\"").contains("\"caustics\" has no effect here"));
+    let second = "\n[[cameras]]\nname = \"second\"\nposition_m = [0, 0, 1]\nlook_at_m = [9, 0, 1]\n\
+                  lens = { model = \"pinhole\", focal_length_mm = 6, f_number = 2.0 }\n\
+                  sensor = { width_px = 64, height_px = 48, pixel_pitch_um = 6.0 }\n";
+    let shared = format!("max_bounces = 8\n{second}");
+    assert_eq!(level(&shared, "level = \"flat\""), "", "the other camera traces paths of eight bounces");
+}
