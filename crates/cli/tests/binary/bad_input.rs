@@ -6,14 +6,14 @@ use std::path::PathBuf;
 use tempfile::TempDir;
 
 /// A copy of the small job that a test spoils.
-struct Spoilt {
+pub(crate) struct Spoilt {
     place: TempDir,
 }
 
 const OBJ: &str = "tower.obj";
 
 impl Spoilt {
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let place = tempfile::tempdir().expect("a temporary folder");
         for entry in fs::read_dir(tests().join("jobs/small")).expect("the small job") {
             let path = entry.expect("a readable entry").path();
@@ -30,12 +30,12 @@ impl Spoilt {
         fs::read_to_string(self.path(name)).expect("a text file")
     }
 
-    fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+    pub(crate) fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
         fs::write(self.path(name), bytes).expect("written");
     }
 
     /// Replaces the first `from` in a file; gives `file:line` of what was replaced.
-    fn spoil(&self, name: &str, from: &str, to: &str) -> String {
+    pub(crate) fn spoil(&self, name: &str, from: &str, to: &str) -> String {
         let text = self.read(name);
         let at = text.find(from).unwrap_or_else(|| panic!("{name} lacks {from}"));
         self.write(name, text.replacen(from, to, 1));
@@ -43,7 +43,7 @@ impl Spoilt {
     }
 
     /// Renders; whatever happens, nothing may be written.
-    fn render(&self, options: &[&str]) -> Ran {
+    pub(crate) fn render(&self, options: &[&str]) -> Ran {
         let output = self.path("out");
         let (job, folder) = (text(&self.path("small.toml")), text(&output));
         let ran = etendue(["render", &job, "-o", &folder].iter().chain(options));

@@ -3,6 +3,7 @@
 //! `ETENDUE_BLESS=1` writes plan snapshots and golden results anew.
 
 mod bad_input;
+mod bad_lights;
 mod bad_results;
 mod bytes;
 mod dropped;

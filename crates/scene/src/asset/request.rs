@@ -115,6 +115,15 @@ impl List {
                 self.reflectance(&l.reflectance);
                 l.lobes.iter().for_each(|lobe| self.lobe(&lobe.strength));
             }
+            Surface::CarPaint(p) => {
+                self.reflectance(&p.reflectance);
+                self.metal(&p.metal);
+                p.flake_tint.iter().for_each(|tint| self.share(tint));
+            }
+            Surface::Cloth(c) => {
+                self.reflectance(&c.reflectance);
+                c.sheen.iter().for_each(|sheen| self.share(sheen));
+            }
             Surface::CookTorrance(c) => self.interface(&c.interface),
             Surface::Sheeting(s) => self.sheeting(s),
             Surface::RoadMarking(m) => m.colour.iter().for_each(|c| self.share(c)),

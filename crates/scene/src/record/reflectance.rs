@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use super::curve::spectrum_file;
 use crate::fault::{Faults, Named};
 use crate::place::{Place, Placed};
-use crate::reader::{Number, Rule, RuleExt as _, either, keyed, name_of, number, record, vector};
+use crate::reader::{Number, Rule, RuleExt as _, either, keyed, known, name_of, number, record, vector};
+use etendue_spectra::reflectance;
 
 /// The share of light that a surface reflects or lets through.
 #[derive(Clone, Debug)]
@@ -32,6 +33,8 @@ pub enum Colour {
     EncodedSrgb(Placed<[f64; 3]>),
     /// Tabulated over the wavelength.
     Spectrum(Placed<PathBuf>),
+    /// Typical of a material, by name.
+    Named(Placed<String>),
 }
 
 impl Colour {
@@ -42,6 +45,7 @@ impl Colour {
             Self::Grey(v) => &v.place,
             Self::LinearSrgb(v) | Self::EncodedSrgb(v) => &v.place,
             Self::Spectrum(v) => &v.place,
+            Self::Named(v) => &v.place,
         }
     }
 }
@@ -65,6 +69,8 @@ keyed! {
         srgb => Srgb(Placed<[f64; 3]>) = vector::<3>(share());
         /// A table of two columns, wavelength in nm and reflectance 0 … 1.
         spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
+        /// A spectrum of the library that is typical of a material.
+        named => Named(Placed<String>) = known("a material of the library", reflectance::names());
     }
 }
 
@@ -75,6 +81,8 @@ keyed! {
         srgb => Srgb(Placed<[f64; 3]>) = vector::<3>(share());
         /// A table of two columns, wavelength in nm and a share of light 0 … 1.
         spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
+        /// A spectrum of the library that is typical of a material.
+        named => Named(Placed<String>) = known("a material of the library", reflectance::names());
     }
 }
 
@@ -94,6 +102,7 @@ pub(crate) fn any_colour() -> impl Rule<Out = Colour> {
     let table = record::<ColourTable>().map(|table| match table {
         ColourTable::Srgb(v) => Colour::EncodedSrgb(v),
         ColourTable::Spectrum(v) => Colour::Spectrum(v),
+        ColourTable::Named(v) => Colour::Named(v),
     });
     either(share().map(Colour::Grey), either(vector::<3>(share()).map(Colour::LinearSrgb), table))
 }
@@ -104,6 +113,7 @@ impl ReflectanceTable {
             ReflectanceSource::Texture(name) => Reflectance::Texture { name, scale: self.scale },
             ReflectanceSource::Srgb(colour) => Reflectance::Plain(Colour::EncodedSrgb(colour)),
             ReflectanceSource::Spectrum(file) => Reflectance::Plain(Colour::Spectrum(file)),
+            ReflectanceSource::Named(name) => Reflectance::Plain(Colour::Named(name)),
         }
     }
 }

@@ -19,8 +19,11 @@ record! {
         optional wrap: Placed<Wrap> = choice();
         /// By what points of a surface find their place in the picture. Default: "uv".
         optional mapping: Placed<Mapping> = choice();
-        /// With mapping = "triplanar": width and height of the picture on the surface, m, above 0, in the object's own frame.
-        optional size_m: Placed<[f64; 2]> = vector::<2>(number("m").above(0.0));
+        /// With mapping = "triplanar": width and height of the picture on the surface, m, above 0, in the frame of the mesh's
+        /// file or of the shape.
+        optional size_m: Placed<f64> = number("m").above(0.0);
+        /// With mapping = "triplanar": how sharply the three sides meet, 1 … 64. Default: 4.
+        optional sharpness: Placed<f64> = number("").at_least(1.0).at_most(64.0);
         /// With mapping = "uv": how often the picture stands along u and v from 0 to 1, above 0. Default: 1, 1.
         optional uv_scale: Placed<[f64; 2]> = vector::<2>(number("").above(0.0));
         /// With mapping = "uv": where in the picture u, v = 0, 0 lies, in its widths and heights. Default: 0, 0.
@@ -71,20 +74,16 @@ impl Texture {
 }
 
 fn check(texture: &Texture, faults: &mut Faults) {
-    match (texture.mapping(), &texture.mapping, &texture.size_m) {
-        (Mapping::Triplanar, Some(mapping), None) => faults.add(
-            &mapping.place,
-            "mapping = \"triplanar\" does not say how large the picture is on the surface",
-            "add \"size_m\" = [width, height]",
-        ),
-        (Mapping::Uv, _, Some(size)) => {
-            faults.add(
-                &size.place,
-                "\"size_m\" has no effect here, it belongs to mapping = \"triplanar\"",
-                "remove it, or say the mapping",
-            );
+    if let (Mapping::Triplanar, Some(mapping), None) = (texture.mapping(), &texture.mapping, &texture.size_m) {
+        let problem = "mapping = \"triplanar\" does not say how large the picture is on the surface";
+        faults.add(&mapping.place, problem, "add \"size_m\"");
+    }
+    let of_sides = [("size_m", &texture.size_m), ("sharpness", &texture.sharpness)];
+    for (key, given) in of_sides.into_iter().filter(|_| texture.mapping() == Mapping::Uv) {
+        if let Some(given) = given {
+            let problem = format!("\"{key}\" has no effect here, it belongs to mapping = \"triplanar\"");
+            faults.add(&given.place, problem, "remove it, or say the mapping");
         }
-        _ => {}
     }
     let of_uv = [("uv_scale", &texture.uv_scale), ("uv_offset", &texture.uv_offset)];
     for (key, given) in of_uv.into_iter().filter(|_| texture.mapping() == Mapping::Triplanar) {

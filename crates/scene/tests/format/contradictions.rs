@@ -115,10 +115,10 @@ fn textures_are_laid_in_one_way() {
         faults_of(&format!("[[scene.textures]]\nname = \"t\"\nfile = \"t.exr\"\nencoding = \"data\"\n{keys}"))
     };
     assert_eq!(texture("uv_scale = [2, 2]"), "");
-    assert_eq!(texture("mapping = \"triplanar\"\nsize_m = [2, 2]"), "");
+    assert_eq!(texture("mapping = \"triplanar\"\nsize_m = 2"), "");
     assert!(texture("mapping = \"triplanar\"").contains("does not say how large the picture is"));
-    assert!(texture("size_m = [2, 2]").contains("belongs to mapping = \"triplanar\""));
-    let both = texture("mapping = \"triplanar\"\nsize_m = [2, 2]\nuv_offset = [0.5, 0]");
+    assert!(texture("size_m = 2").contains("belongs to mapping = \"triplanar\""));
+    let both = texture("mapping = \"triplanar\"\nsize_m = 2\nuv_offset = [0.5, 0]");
     assert!(both.contains("\"uv_offset\" has no effect here, it belongs to mapping = \"uv\""), "{both}");
 }
 

@@ -78,7 +78,7 @@ fn a_key_of_another_variant() {
     assert_eq!(
         faults_of("reflectance = 0.18", "reflectance = 0.18\nalpha = 0.1"),
         "job.toml:23:1: scene.materials.grey.alpha: \"alpha\" has no effect here, it belongs to type = \"conductor\" or \
-         type = \"coated\" or type = \"cook_torrance\" or type = \"dielectric\"; remove it"
+         type = \"coated\" or type = \"cook_torrance\" or type = \"car_paint\" or type = \"cloth\" or type = \"dielectric\"; remove it"
     );
 }
 
@@ -87,7 +87,7 @@ fn an_unknown_variant() {
     assert_eq!(
         faults_of("type = \"diffuse\"", "type = \"difuse\""),
         "job.toml:21:8: scene.materials.grey.type: found the text \"difuse\"; give one of \"diffuse\", \"conductor\", \
-         \"coated\", \"cook_torrance\", \"lafortune\", \"blinn_phong\", \"retro_sheeting\", \"road_marking\", \"dielectric\", \"thin_sheet\", \"leaf\", \"mix\", \"emitter\" (did you mean \"diffuse\"?)"
+         \"coated\", \"cook_torrance\", \"lafortune\", \"blinn_phong\", \"car_paint\", \"cloth\", \"retro_sheeting\", \"road_marking\", \"dielectric\", \"thin_sheet\", \"leaf\", \"mix\", \"emitter\" (did you mean \"diffuse\"?)"
     );
 }
 

@@ -7,10 +7,13 @@ use etendue_scene::record::Texture;
 use etendue_scene::record::texture::{self, Encoding, Mapping};
 use etendue_scene::{Place, Placed};
 use etendue_spectra::colour;
-use etendue_tracer::textures::{ImageTexture, Sampling, Texels, TextureId, Wrap};
+use etendue_tracer::textures::{ImageTexture, Projection, Sampling, Texels, TextureId, Wrap};
 use glam::Vec2;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+/// How sharply pictures laid on from three sides meet, if it is not said.
+const SHARPNESS: f32 = 4.0;
 
 /// What a picture is used for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,7 +81,14 @@ fn sampling(record: &Texture) -> Sampling {
         given.as_ref().map_or(default, |p| Vec2::new(p.value[0] as f32, p.value[1] as f32))
     };
     let (scale, offset) = (pair(&record.uv_scale, Vec2::ONE), pair(&record.uv_offset, Vec2::ZERO));
-    Sampling { wrap: [wrap; 2], scale, offset, ..Sampling::default() }
+    let projection = match &record.size_m {
+        None => Projection::Uv,
+        Some(size_m) => Projection::Triplanar {
+            size_m: size_m.value as f32,
+            sharpness: record.sharpness.as_ref().map_or(SHARPNESS, |s| s.value as f32),
+        },
+    };
+    Sampling { wrap: [wrap; 2], scale, offset, projection, ..Sampling::default() }
 }
 
 impl Pictures {

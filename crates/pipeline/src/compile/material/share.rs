@@ -6,7 +6,7 @@ use super::Workshop;
 use super::picture::Use;
 use etendue_scene::record::material::Sides;
 use etendue_scene::record::{self, Colour, SurfaceEmission};
-use etendue_spectra::{Outside, Spectrum, colour, upsample};
+use etendue_spectra::{Outside, Spectrum, colour, reflectance, upsample};
 use etendue_tracer::materials::{Emission, Glow, Reflectance};
 
 /// A share of light over the wavelength.
@@ -17,6 +17,14 @@ pub(super) fn share(colour: &Colour, context: &mut Context<'_>) -> Option<Spectr
         Colour::LinearSrgb(value) => Some(rgb(value.value)),
         Colour::EncodedSrgb(value) => Some(rgb(value.value.map(|v| f64::from(colour::decode(v as f32))))),
         Colour::Spectrum(file) => from_file(file, Outside::Hold, context),
+        Colour::Named(name) => {
+            let found = reflectance::named(&name.value).cloned();
+            if found.is_none() {
+                let remedy = format!("give one of {}", reflectance::names().join(", "));
+                context.fault(&name.place, format!("there is no reflectance \"{}\"", name.value), remedy);
+            }
+            found
+        }
     }
 }
 

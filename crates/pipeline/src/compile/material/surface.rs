@@ -11,12 +11,17 @@ use etendue_scene::record::material::{
 };
 use etendue_spectra::{Outside, Spectrum};
 use etendue_tracer::materials::{
-    BlinnPhong, Coated, Conductor, Dielectric, Distribution, Lafortune, Leaf, Lobe, Mix, Reflectance, Surface,
-    ThinSheet, absorption_of,
+    BlinnPhong, CarPaint, CarPaintParts, Cloth, Coated, Conductor, Dielectric, Distribution, Lafortune, Leaf, Lobe,
+    Mix, Reflectance, Surface, ThinSheet, absorption_of, flake_reflectance,
 };
 
 /// The index of a coat or a pane that does not state one.
 const USUAL_INDEX: f64 = 1.5;
+/// How unevenly flakes lie, how rough a coat is, how much sheen cloth has and how wide, if it is not said.
+const FLAKE_ALPHA: f64 = 0.25;
+const COAT_ALPHA: f64 = 0.01;
+const SHEEN: f64 = 0.1;
+const SHEEN_ALPHA: f64 = 0.5;
 const MM_PER_M: f64 = 1000.0;
 
 impl Workshop<'_, '_> {
@@ -26,6 +31,8 @@ impl Workshop<'_, '_> {
             Record::Conductor(r) => self.conductor(r),
             Record::Coated(r) => self.coated(r),
             Record::CookTorrance(r) => self.cook_torrance(r),
+            Record::CarPaint(r) => self.car_paint(r),
+            Record::Cloth(r) => self.cloth(r),
             Record::Sheeting(r) => self.sheeting(r),
             Record::RoadMarking(r) => self.road_marking(r),
             Record::Lafortune(r) => self.lafortune(r),
@@ -61,6 +68,35 @@ impl Workshop<'_, '_> {
         let alpha = self.factor(&r.alpha)?;
         let index = number(r.index.as_ref(), USUAL_INDEX);
         Some(Surface::Coated(Box::new(self.context.accept(&r.place, Coated::new(base, index, alpha))?)))
+    }
+
+    fn car_paint(&mut self, r: &record::CarPaint) -> Option<Surface> {
+        let pigment = self.reflectance(&r.reflectance)?;
+        let coat_index = number(r.index.as_ref(), USUAL_INDEX);
+        let bare = flake_reflectance(&complex_index(&r.metal, self.context)?, coat_index);
+        let flakes = match &r.flake_tint {
+            Some(tint) => bare.product(&share(tint, self.context)?),
+            None => bare,
+        };
+        let parts = CarPaintParts {
+            pigment,
+            flakes,
+            coverage: r.flake_coverage.value,
+            flake_alpha: number(r.flake_alpha.as_ref(), FLAKE_ALPHA),
+            coat_index,
+            coat_alpha: number(r.alpha.as_ref(), COAT_ALPHA),
+        };
+        Some(Surface::CarPaint(Box::new(self.context.accept(&r.place, CarPaint::new(parts))?)))
+    }
+
+    fn cloth(&mut self, r: &record::Cloth) -> Option<Surface> {
+        let base = self.reflectance(&r.reflectance)?;
+        let sheen = match &r.sheen {
+            Some(sheen) => share(sheen, self.context)?,
+            None => Spectrum::constant(SHEEN),
+        };
+        let made = Cloth::new(base, sheen, number(r.alpha.as_ref(), SHEEN_ALPHA));
+        Some(Surface::Cloth(Box::new(self.context.accept(&r.place, made)?)))
     }
 
     fn lafortune(&mut self, r: &record::Lafortune) -> Option<Surface> {

@@ -12,8 +12,8 @@ pub use glass::{Absorption, Dielectric, Leaf, ThinSheet};
 pub use glow::{Sides, SurfaceEmission};
 pub use mix::Mix;
 pub use reflector::{
-    BlinnPhong, Coated, Conductor, CookTorrance, Diffuse, Distribution, Interface, Lafortune, Lobe, LobeDirection,
-    LobeKind, LobeStrength, Metal,
+    BlinnPhong, CarPaint, Cloth, Coated, Conductor, CookTorrance, Diffuse, Distribution, Interface, Lafortune, Lobe,
+    LobeDirection, LobeKind, LobeStrength, Metal,
 };
 pub use road::{
     MarkingClass, MarkingDay, MarkingNight, RoadMarking, Sheeting, SheetingClass, SheetingColour, SheetingTable,
@@ -58,6 +58,10 @@ variants! {
         "lafortune" => Lafortune(Lafortune),
         /// Blinn and Phong's model: a diffuse base with a glossy lobe.
         "blinn_phong" => BlinnPhong(BlinnPhong),
+        /// Metallic car paint: flakes in pigment under a clear coat.
+        "car_paint" => CarPaint(CarPaint),
+        /// Cloth with a sheen.
+        "cloth" => Cloth(Cloth),
         /// Retro-reflective sheeting over a matt base: signs, number plates.
         "retro_sheeting" => Sheeting(Sheeting),
         /// A road marking with glass beads.

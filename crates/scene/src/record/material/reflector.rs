@@ -173,3 +173,37 @@ fn check_lobe(lobe: &Lobe, faults: &mut Faults) {
         faults.add(albedo.place(), problem, "give \"weight_per_sr\" in place of it");
     }
 }
+
+record! {
+    /// Metal flakes in pigment under a clear coat. Solid paint without flakes is "coated".
+    pub struct CarPaint {
+        /// Share of light that the pigment between the flakes reflects, as for "diffuse".
+        required reflectance: Reflectance = any_reflectance();
+        /// The metal of the flakes.
+        inside metal: Metal;
+        /// A tint on the light that the flakes reflect, as of stained lacquer: a number, `[r, g, b]` (linear sRGB),
+        /// `{ srgb = … }` or `{ spectrum = file }`. Default: 1.
+        optional flake_tint: Colour = any_colour();
+        /// Share of the area that flakes cover, 0 … 1.
+        required flake_coverage: Placed<f64> = number("").at_least(0.0).at_most(1.0);
+        /// How unevenly the flakes lie: GGX α (not its square root), 0.05 … 1. Default: 0.25.
+        optional flake_alpha: Placed<f64> = number("").at_least(0.05).at_most(1.0);
+        /// Refractive index of the coat, 1.1 … 4. Default: 1.5.
+        optional index: Placed<f64> = number("").at_least(*COAT_INDICES.start()).at_most(*COAT_INDICES.end());
+        /// Roughness α of the coat's GGX distribution (not its square root), 0 … 1; below 0.0001 it is a mirror. Default: 0.01.
+        optional alpha: Placed<f64> = number("").at_least(0.0).at_most(1.0);
+    }
+}
+
+record! {
+    /// Cloth: a matt base under a sheen of fibres that stand up.
+    pub struct Cloth {
+        /// Share of light that the base reflects, as for "diffuse".
+        required reflectance: Reflectance = any_reflectance();
+        /// Colour of the sheen, 0 … 1: a number, `[r, g, b]` (linear sRGB), `{ srgb = … }` or `{ spectrum = file }`.
+        /// Default: 0.1.
+        optional sheen: Colour = any_colour();
+        /// Roughness α of the sheen, 0.1 … 1: the less, the narrower the rim of light. Default: 0.5.
+        optional alpha: Placed<f64> = number("").at_least(0.1).at_most(1.0);
+    }
+}

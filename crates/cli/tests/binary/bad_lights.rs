@@ -1,0 +1,71 @@
+//! Unusable lamps, skies and materials: each is told with its file, line and key, and nothing is written.
+
+use crate::bad_input::Spoilt;
+
+const LAMP: &str = "[[scene.lights]]\ntype = \"measured\"\nname = \"street\"\nfile = \"street.ies\"\nilluminant = \"LED-B3\"\n\
+                    position_m = [5, 0, 6]\n\n[[scene.lights]]\ntype = \"sun\"";
+const IES: &str = "IESNA:LM-63-2002\n[TEST] a lamp\nTILT=NONE\n1 1000 1 3 1 1 2 0 0 0\n1 1 10\n0 45 90\n0\n100 80 0\n";
+
+/// The job with a lamp of such a file is refused: at a line of the file, where the job names it, and with `phrases`.
+#[track_caller]
+fn lamp_refused(ies: &str, line: &str, phrases: &[&str]) {
+    let spoilt = Spoilt::new();
+    let place = spoilt.spoil("small.toml", "[[scene.lights]]\ntype = \"sun\"", LAMP);
+    let (file, first) = place.split_once(':').expect("a line");
+    let named = format!("{file}:{}", first.parse::<usize>().expect("a number") + 3);
+    spoilt.write("street.ies", ies);
+    let phrases: Vec<&str> = [line, &named, "file"].into_iter().chain(phrases.iter().copied()).collect();
+    spoilt.render(&[]).refused(&phrases);
+}
+
+#[test]
+fn a_photometric_file_with_a_wrong_count_of_angles() {
+    lamp_refused(&IES.replace("1 1000 1 3 1", "1 1000 1 4 1"), "street.ies:", &["4"]);
+    lamp_refused(&IES.replace("100 80 0\n", "100 80\n"), "street.ies:", &["3"]);
+}
+
+#[test]
+fn a_photometric_file_with_unsorted_angles() {
+    lamp_refused(&IES.replace("0 45 90", "0 90 45"), "street.ies:6", &["45"]);
+}
+
+#[test]
+fn a_lamp_of_an_unknown_spectrum() {
+    let spoilt = Spoilt::new();
+    let lamp = LAMP.replace("LED-B3", "LED-B4").replace("\"measured\"", "\"point\"");
+    let lamp = lamp.replace("file = \"street.ies\"", "luminous_flux_lm = 100");
+    spoilt.spoil("small.toml", "[[scene.lights]]\ntype = \"sun\"", &lamp);
+    spoilt.render(&[]).refused(&[
+        "small.toml:",
+        "scene.lights.street.illuminant",
+        "\"LED-B4\"",
+        "did you mean \"LED-B",
+    ]);
+}
+
+#[test]
+fn a_turbidity_out_of_range() {
+    let spoilt = Spoilt::new();
+    let sky = "type = \"sky\"\nturbidity = 0.5\nsun = false\nsun_elevation_deg = 30\nsun_azimuth_deg = 0\n#";
+    spoilt.spoil("small.toml", "type = \"image\"", sky);
+    spoilt.render(&[]).refused(&[
+        "small.toml:",
+        "scene.environment.turbidity",
+        "found 0.5",
+        "of at least 1 and at most 10",
+    ]);
+}
+
+#[test]
+fn materials_that_gain_energy() {
+    for gains in [
+        "type = \"blinn_phong\"\nreflectance = 0.7\nspecular = 0.5\nexponent = 40",
+        "type = \"lafortune\"\nreflectance = 0.5\nlobes = [{ kind = \"retro\", exponent = 10, albedo = 0.7 }]",
+    ] {
+        let spoilt = Spoilt::new();
+        let place =
+            spoilt.spoil("small.toml", "type = \"coated\"\nreflectance = [0.05, 0.2, 0.6]\nalpha = 0.05", gains);
+        assert!(place.starts_with("small.toml:"));
+        spoilt.render(&[]).refused(&["small.toml:", "scene.materials.paint", "more"]);
+    }
+}
