@@ -170,10 +170,18 @@ fn table_sample(values: &[(String, Vec<Json>)], choices: &[(Vec<&str>, bool)], i
             at = i / turns;
         }
         if chosen {
-            sample.insert(key.clone(), values[at.min(values.len() - 1)].clone());
+            sample.insert(key.clone(), values.get(at).cloned().unwrap_or_else(|| short(&values[values.len() - 1])));
         }
     }
     sample
+}
+
+/// A value that another sample shows whole: of a list of tables the first.
+fn short(value: &Json) -> Json {
+    match value.as_array().map(Vec::as_slice) {
+        Some([first, ..]) if first.is_object() => json!([first]),
+        _ => value.clone(),
+    }
 }
 
 fn array_samples(schema: &Json) -> Vec<Json> {
