@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 use std::time::Instant;
 
 /// Processor time of this thread, s, from the Linux kernel's accounting; elsewhere the clock's.
-pub(crate) fn cpu_s() -> f64 {
+pub fn cpu_s() -> f64 {
     // The kernel brings the account up to date when a thread yields, otherwise only at its tick.
     std::thread::yield_now();
     let account = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
@@ -13,13 +13,13 @@ pub(crate) fn cpu_s() -> f64 {
 }
 
 /// Time of the clock since it was first asked, s.
-pub(crate) fn clock_s() -> f64 {
+pub fn clock_s() -> f64 {
     static START: OnceLock<Instant> = OnceLock::new();
     START.get_or_init(Instant::now).elapsed().as_secs_f64()
 }
 
 /// What `work` answers, and the processor time of this thread that it took, s.
-pub(crate) fn timed<R>(work: impl FnOnce() -> R) -> (R, f64) {
+pub fn timed<R>(work: impl FnOnce() -> R) -> (R, f64) {
     let start = cpu_s();
     let answer = work();
     (answer, cpu_s() - start)

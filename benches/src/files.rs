@@ -15,7 +15,7 @@ const NOTE: &str = "Radiance of a small picture of the street (a noisy one: it c
     encoded into memory. MB: floating-point numbers before compression. One thread.";
 
 /// Speed of the encoder.
-pub(crate) fn table() -> Table {
+pub fn table() -> Table {
     let cube = radiance();
     let mut length = 0;
     let runs = Runs::of(|| {

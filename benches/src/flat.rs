@@ -8,14 +8,14 @@ use etendue_tracer::view::View;
 use glam::{DAffine3, Vec3};
 
 /// All triangles of a view in one mesh, in the render frame. Spheres are left out.
-pub(crate) fn mesh(view: &View<'_>) -> Mesh {
+pub fn mesh(view: &View<'_>) -> Mesh {
     let corners: Vec<Vec3> = instances(view).flat_map(|i| triangles(view, i)).flatten().collect();
     let triangles = (0..corners.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     Mesh::new(corners, vec![], vec![], triangles, vec![]).expect("triangles of a legal world").0
 }
 
 /// A world of one mesh.
-pub(crate) fn world(mesh: Mesh) -> World {
+pub fn world(mesh: Mesh) -> World {
     let mut builder = WorldBuilder::new();
     let shape = Shape::Mesh(builder.add_mesh(mesh));
     let to_world = Track::still(DAffine3::IDENTITY);

@@ -17,7 +17,7 @@ const WIDTH: usize = 1920;
 const HEIGHT: usize = 1080;
 
 /// Time of a frame.
-pub(crate) fn table() -> Table {
+pub fn table() -> Table {
     let plan = STREET.plan();
     let body = &camera(&plan).body;
     let sensor = sensor(body);

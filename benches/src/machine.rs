@@ -3,7 +3,7 @@
 use std::process::Command;
 
 /// Processor, threads, instruction set, compiler and commit in one line.
-pub(crate) fn line() -> String {
+pub fn line() -> String {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let rustc = answer("rustc", &["--version"]).unwrap_or_else(|| "unknown rustc".to_owned());
     let commit = answer("git", &["describe", "--always", "--dirty"]).unwrap_or_else(|| "unknown".to_owned());
@@ -11,7 +11,7 @@ pub(crate) fn line() -> String {
 }
 
 /// How busy the machine has been in the last minute.
-pub(crate) fn load() -> String {
+pub fn load() -> String {
     let text = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
     format!(
         "Load of the machine in the last minute, this program's included: {}",

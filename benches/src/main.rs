@@ -17,23 +17,9 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that reports to its user")]
 
-mod clock;
-mod files;
-mod flat;
-mod frames;
-mod machine;
-mod memory;
-mod paths;
-mod questions;
-mod rays;
-mod runs;
-mod scenes;
-mod table;
-mod threads;
-mod trees;
-
+use etendue_benches::table::Table;
+use etendue_benches::{files, frames, machine, memory, paths, rays, trees};
 use std::process::ExitCode;
-use table::Table;
 
 /// A benchmark: its name and what it answers.
 type Benchmark = (&'static str, fn() -> Table);

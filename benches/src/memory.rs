@@ -9,14 +9,14 @@ use etendue_pipeline::render::{Request, layout, light};
 use std::process::Command;
 
 /// The argument that makes this program a child that measures the scene named next.
-pub(crate) const CHILD: &str = "--peak-memory-of";
+pub const CHILD: &str = "--peak-memory-of";
 
 const NOTE: &str = "Most memory resident at any time (Linux), until the scene is compiled and until its picture (of the \
     size of its job, two threads) is on the film. Film: the part of it that the job's products decide. Photographs and \
     files come on top.";
 
 /// Peak memory of all scenes.
-pub(crate) fn table() -> Table {
+pub fn table() -> Table {
     let head = ["scene", "compiled, MB", "rendered, MB", "film, MB"];
     let mut table = Table::new("Memory", NOTE, &head);
     ALL.iter().for_each(|scene| table.row(row(scene)));
@@ -33,7 +33,7 @@ fn row(scene: &Scene) -> Vec<String> {
 }
 
 /// Renders a scene; megabytes at most until it was compiled and until it was rendered, and those of the film.
-pub(crate) fn child(scene: &str) -> String {
+pub fn child(scene: &str) -> String {
     let plan = Scene::named(scene).thin_plan();
     let compiled = peak_mb();
     let camera = camera(&plan);
@@ -45,7 +45,8 @@ pub(crate) fn child(scene: &str) -> String {
 }
 
 /// Most memory that this process had resident, MB.
-fn peak_mb() -> String {
+#[must_use]
+pub fn peak_mb() -> String {
     let text = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let peak =
         text.lines().find_map(|line| line.strip_prefix("VmHWM:")?.split_whitespace().next()?.parse::<f64>().ok());

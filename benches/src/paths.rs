@@ -28,7 +28,7 @@ struct Measured {
 }
 
 /// Paths a second of all scenes.
-pub(crate) fn table() -> Table {
+pub fn table() -> Table {
     let pools = [pool(1), pool(2)];
     let head = [
         "scene",

@@ -10,18 +10,18 @@ use glam::{DVec2, Vec3};
 
 /// Rays of one kind.
 #[derive(Clone, Debug)]
-pub(crate) struct Questions {
+pub struct Questions {
     /// What they are.
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     /// The rays.
-    pub(crate) rays: Vec<Ray>,
+    pub rays: Vec<Ray>,
     /// Whether any hit answers, or only the first.
-    pub(crate) any_hit: bool,
+    pub any_hit: bool,
 }
 
 impl Questions {
     /// Asks all of them; the number of rays that met something.
-    pub(crate) fn ask(&self, view: &View<'_>) -> usize {
+    pub fn ask(&self, view: &View<'_>) -> usize {
         match self.any_hit {
             true => self.rays.iter().filter(|ray| view.occluded(ray)).count(),
             false => self.rays.iter().filter(|ray| view.closest(ray).is_some()).count(),
@@ -37,10 +37,13 @@ struct Seen {
 }
 
 /// Questions of all kinds about a plan's first camera, in the order of its pixels.
-pub(crate) fn questions(plan: &Plan, camera: &CameraPlan, view: &View<'_>) -> Vec<Questions> {
-    let primary = primary(camera);
+pub fn questions(plan: &Plan, camera: &CameraPlan, view: &View<'_>) -> Vec<Questions> {
+    about(primary(camera), plan.sources.suns.first().expect("the street has a sun").direction(), view)
+}
+
+/// Questions of all kinds that begin with `primary` rays, under a sun in direction `sun`.
+pub fn about(primary: Vec<Ray>, sun: Vec3, view: &View<'_>) -> Vec<Questions> {
     let seen: Vec<Seen> = primary.iter().enumerate().filter_map(|(i, ray)| seen(view, ray, i as u32)).collect();
-    let sun = plan.sources.suns.first().expect("the street has a sun").direction();
     vec![
         Questions { name: "primary", rays: primary, any_hit: false },
         Questions { name: "bounce", rays: seen.iter().map(Seen::bounce).collect(), any_hit: false },

@@ -14,7 +14,7 @@ const NOTE: &str = "Millions a second. One thread, one ray after the other. Boun
     directions of a diffuse surface; shadow rays leave them towards the centre of the sun, or anywhere above the horizon.";
 
 /// Millions of rays a second, for every kind of ray.
-pub(crate) fn table() -> Table {
+pub fn table() -> Table {
     let plan = STREET.plan();
     let camera = camera(&plan);
     let origin_m = camera.pose.position_m;

@@ -1,38 +1,44 @@
 //! Several runs of one measurement.
 
 /// How often everything is measured.
-pub(crate) const COUNT: usize = 5;
+pub const COUNT: usize = 5;
 
 /// What several runs measured.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Runs(Vec<f64>);
+pub struct Runs(Vec<f64>);
 
 impl Runs {
     /// Notes one run.
-    pub(crate) fn add(&mut self, value: f64) {
+    pub fn add(&mut self, value: f64) {
         self.0.push(value);
     }
 
     /// [`COUNT`] runs of `measure`.
-    pub(crate) fn of(mut measure: impl FnMut() -> f64) -> Self {
+    pub fn of(mut measure: impl FnMut() -> f64) -> Self {
         Self((0..COUNT).map(|_| measure()).collect())
     }
 
     /// The run in the middle.
-    pub(crate) fn median(&self) -> f64 {
+    pub fn median(&self) -> f64 {
         let mut sorted = self.0.clone();
         sorted.sort_by(f64::total_cmp);
         sorted[sorted.len() / 2]
     }
 
+    /// Run by run, these values over those.
+    #[must_use]
+    pub fn over(&self, those: &Self) -> Self {
+        Self(self.0.iter().zip(&those.0).map(|(a, b)| a / b).collect())
+    }
+
     /// Distance of the farthest run from the middle one, as a share of it.
-    pub(crate) fn spread(&self) -> f64 {
+    pub fn spread(&self) -> f64 {
         let median = self.median();
         self.0.iter().map(|v| (v / median - 1.0).abs()).fold(0.0, f64::max)
     }
 
     /// Distance of the farthest run in words.
-    pub(crate) fn spread_text(&self) -> String {
+    pub fn spread_text(&self) -> String {
         format!("± {:.0} %", 100.0 * self.spread())
     }
 }

@@ -8,24 +8,24 @@ use std::path::{Path, PathBuf};
 
 /// A scene, and how it is measured.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Scene {
+pub struct Scene {
     /// Its name: that of its folder and of its job.
-    pub(crate) name: &'static str,
+    pub name: &'static str,
     /// What makes its picture small: a third of the street's columns and rows, with the same field of view.
     small: &'static [&'static str],
     /// Samples a pixel of the small picture.
-    pub(crate) spp: u32,
+    pub spp: u32,
 }
 
 /// The street.
-pub(crate) const STREET: Scene = Scene {
+pub const STREET: Scene = Scene {
     name: "street",
     small: &["cameras.0.sensor.width_px=320", "cameras.0.sensor.height_px=200", "cameras.0.sensor.pixel_pitch_um=18"],
     spp: 16,
 };
 
 /// All scenes.
-pub(crate) const ALL: [Scene; 4] = [
+pub const ALL: [Scene; 4] = [
     STREET,
     Scene { name: "cornell", small: &[], spp: 8 },
     Scene { name: "furnace", small: &[], spp: 16 },
@@ -34,22 +34,22 @@ pub(crate) const ALL: [Scene; 4] = [
 
 impl Scene {
     /// The scene of a name. Panics where there is none.
-    pub(crate) fn named(name: &str) -> Self {
+    pub fn named(name: &str) -> Self {
         *ALL.iter().find(|scene| scene.name == name).expect("a scene of the list")
     }
 
     /// The plan of the scene as it is.
-    pub(crate) fn plan(&self) -> Plan {
+    pub fn plan(&self) -> Plan {
         self.planned(&[], self.spp)
     }
 
     /// The plan of a small picture.
-    pub(crate) fn small_plan(&self) -> Plan {
+    pub fn small_plan(&self) -> Plan {
         self.planned(self.small, self.spp)
     }
 
     /// The plan of the scene's own picture, with one sample a pixel.
-    pub(crate) fn thin_plan(&self) -> Plan {
+    pub fn thin_plan(&self) -> Plan {
         self.planned(&["render.replicates=1"], 1)
     }
 
@@ -69,6 +69,6 @@ impl Scene {
 }
 
 /// The first camera of a plan.
-pub(crate) fn camera(plan: &Plan) -> &CameraPlan {
+pub fn camera(plan: &Plan) -> &CameraPlan {
     plan.cameras.first().expect("every scene has a camera")
 }

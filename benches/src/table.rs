@@ -4,7 +4,7 @@ use std::fmt::{self, Display, Formatter};
 
 /// A table with a title and a note.
 #[derive(Clone, Debug)]
-pub(crate) struct Table {
+pub struct Table {
     title: &'static str,
     note: String,
     rows: Vec<Vec<String>>,
@@ -12,12 +12,12 @@ pub(crate) struct Table {
 
 impl Table {
     /// A table without rows; `note` says what was measured.
-    pub(crate) fn new(title: &'static str, note: impl Into<String>, head: &[&str]) -> Self {
+    pub fn new(title: &'static str, note: impl Into<String>, head: &[&str]) -> Self {
         Self { title, note: note.into(), rows: vec![head.iter().map(|name| (*name).to_owned()).collect()] }
     }
 
     /// Adds a row, a cell a column.
-    pub(crate) fn row(&mut self, cells: impl IntoIterator<Item = String>) {
+    pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
         self.rows.push(cells.into_iter().collect());
     }
 }

@@ -3,6 +3,6 @@
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 /// A pool of threads.
-pub(crate) fn pool(threads: usize) -> ThreadPool {
+pub fn pool(threads: usize) -> ThreadPool {
     ThreadPoolBuilder::new().num_threads(threads).build().expect("threads can be started")
 }

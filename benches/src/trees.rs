@@ -12,7 +12,7 @@ const NOTE: &str = "The street: once as it is (the triangles of each mesh once, 
     camera), once with all instances written out as one mesh. One thread.";
 
 /// Build times of the street.
-pub(crate) fn table() -> Table {
+pub fn table() -> Table {
     let plan = STREET.plan();
     let view = plan.world.view(camera(&plan).pose.position_m);
     let flat = flat::world(flat::mesh(&view));

@@ -1,0 +1,15 @@
+#!/bin/sh
+# Étendue's accelerator beside Intel Embree 4.4, which the wheel `embreex` brings along (PyPI; Python 3 is needed).
+# Everything lands in target/peers. Arguments are the names of tables: rays, agreement, sizes; none for all.
+set -e
+root=$(cd "$(dirname "$0")/../.." && pwd)
+venv=$root/target/peers/embree-venv
+if [ ! -e "$venv/bin/python" ]; then
+    python3 -m venv "$venv"
+fi
+"$venv/bin/python" -m pip install --quiet --disable-pip-version-check "embreex==4.4.0.post1"
+library=$(find "$venv" -name "libembree4*.so*" | head -n 1)
+tbb=$(dirname "$library")
+cd "$root/benches/peers/embree"
+cargo build --release --quiet --target-dir "$root/target/peers/embree"
+LD_LIBRARY_PATH=$tbb exec "$root/target/peers/embree/release/etendue-beside-embree" "$library" "$@"

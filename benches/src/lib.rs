@@ -1,0 +1,18 @@
+//! What the benchmarks are made of: scenes and rays, clocks, tables. The benchmarks beside other programs (peers/) use
+//! it too.
+
+pub mod clock;
+pub mod files;
+pub mod flat;
+pub mod frames;
+pub mod machine;
+pub mod memory;
+pub mod paths;
+pub mod questions;
+pub mod rays;
+pub mod runs;
+pub mod scenes;
+pub mod table;
+pub mod terrain;
+pub mod threads;
+pub mod trees;
