@@ -8,6 +8,7 @@ pub mod frames;
 pub mod machine;
 pub mod memory;
 pub mod paths;
+pub mod peer;
 pub mod questions;
 pub mod rays;
 pub mod runs;

@@ -18,7 +18,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that reports to its user")]
 
 use etendue_benches::table::Table;
-use etendue_benches::{files, frames, machine, memory, paths, rays, trees};
+use etendue_benches::{files, frames, machine, memory, paths, peer, rays, trees};
 use std::process::ExitCode;
 
 /// A benchmark: its name and what it answers.
@@ -40,7 +40,21 @@ fn main() -> ExitCode {
             println!("{}", memory::child(scene));
             ExitCode::SUCCESS
         }
+        [flag, order @ ..] if flag == peer::FLAG => answer(peer::rendered(order)),
         names => report(names),
+    }
+}
+
+fn answer(lines: Result<Vec<String>, String>) -> ExitCode {
+    match lines {
+        Ok(lines) => {
+            lines.iter().for_each(|line| println!("{line}"));
+            ExitCode::SUCCESS
+        }
+        Err(what) => {
+            eprintln!("{what}");
+            ExitCode::from(2)
+        }
     }
 }
 

@@ -54,18 +54,22 @@ impl Scene {
     }
 
     fn planned(&self, changes: &[&str], spp: u32) -> Plan {
-        let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string());
-        let description =
-            Description::load(&self.job(), &read, &Overrides::new(changes)).unwrap_or_else(|faults| panic!("{faults}"));
-        let assets = load_assets(&description.assets()).expect("the assets of a scene that ships with the project");
-        let choices = Choices { spp: Some(spp), ..Choices::default() };
-        compile(&description, &assets, &choices).expect("a scene that ships with the project")
+        plan_of(&self.job(), changes, &Choices { spp: Some(spp), ..Choices::default() })
     }
 
     fn job(&self) -> PathBuf {
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("benches/ lies in the workspace");
         root.join("scenes").join(self.name).join(format!("{}.toml", self.name))
     }
+}
+
+/// The plan of a job file. Panics where the file or what it names cannot be used.
+pub fn plan_of(job: &Path, changes: &[&str], choices: &Choices) -> Plan {
+    let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string());
+    let overrides = Overrides::new(changes);
+    let description = Description::load(job, &read, &overrides).unwrap_or_else(|faults| panic!("{faults}"));
+    let assets = load_assets(&description.assets()).unwrap_or_else(|faults| panic!("{faults:?}"));
+    compile(&description, &assets, choices).unwrap_or_else(|faults| panic!("{faults:?}"))
 }
 
 /// The first camera of a plan.
