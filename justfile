@@ -22,3 +22,7 @@ scenes:
 # Recompute the figures of independent programs (needs Python and PyPI)
 oracles:
     tests/oracles/run
+
+# Efficiency beside Mitsuba 3 and Cycles (needs Python 3.11, PyPI, libllvm19)
+peers *arguments:
+    benches/peers/run {{arguments}}

@@ -34,7 +34,8 @@ struct Order<'a> {
 /// A sentence where the arguments are no such order, the job folds no electrons or a file cannot be written.
 pub fn rendered(arguments: &[String]) -> Result<Vec<String>, String> {
     let [job, out, spp, threads, seeds @ ..] = arguments else { return Err(USAGE.to_owned()) };
-    let mut order = Order { plan: plan_of(Path::new(job), &[], &Choices::default()), pool: pool(number(threads)?), out };
+    let mut order =
+        Order { plan: plan_of(Path::new(job), &[], &Choices::default()), pool: pool(number(threads)?), out };
     order.render(1, 0);
     let spp = number(spp)?;
     seeds.iter().map(|seed| order.line(spp, number(seed)?)).collect()

@@ -5,6 +5,7 @@
 
 mod caustics;
 mod colour;
+mod cornell;
 mod extremes;
 mod furnace;
 mod ground_truth;
