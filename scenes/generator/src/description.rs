@@ -18,6 +18,12 @@ pub enum Surface {
     Coated([f64; 3], f64),
     /// A bare metal of this roughness α.
     Conductor(&'static str, f64),
+    /// Retro-reflective sheeting of this class, printed with the texture of this name.
+    Sign(&'static str, &'static str),
+    /// A leaf: linear sRGB that it reflects and lets through.
+    Leaf([f64; 3], [f64; 3]),
+    /// A ready material.
+    Preset(&'static str),
 }
 
 /// A named surface.
@@ -132,9 +138,9 @@ impl Description {
     fn display_colour(&self, name: &str) -> [f64; 3] {
         let material = self.materials.iter().find(|(known, _)| *known == name);
         match material.map(|(_, surface)| *surface) {
-            Some(Surface::Diffuse(colour) | Surface::Coated(colour, _)) => colour,
+            Some(Surface::Diffuse(colour) | Surface::Coated(colour, _) | Surface::Leaf(colour, _)) => colour,
             Some(Surface::Conductor(..)) => [0.6; 3],
-            Some(Surface::Textured(_)) | None => [0.4; 3],
+            Some(Surface::Textured(_) | Surface::Sign(..) | Surface::Preset(_)) | None => [0.4; 3],
         }
     }
 
@@ -202,6 +208,14 @@ fn surface_text(surface: Surface) -> String {
         Surface::Conductor(metal, alpha) => {
             format!("type = \"conductor\"\nmetal = \"{metal}\"\nalpha = {}\n", number(alpha))
         }
+        Surface::Sign(class, print) => {
+            format!("type = \"retro_sheeting\"\nclass = \"{class}\"\nprint = {{ texture = \"{print}\" }}\n")
+        }
+        Surface::Leaf(reflected, through) => {
+            let (reflected, through) = (colour(reflected), colour(through));
+            format!("type = \"leaf\"\nreflectance = {reflected}\ntransmittance = {through}\n")
+        }
+        Surface::Preset(name) => format!("preset = \"{name}\"\n"),
     }
 }
 

@@ -1,18 +1,16 @@
 //! The generator of the scenes that ship with Étendue.
 //!
-//! [`files`] makes every generated file of the folder `scenes/`: meshes, textures, the sky and the description of the
-//! street. Everything is computed from constants and addressed random numbers, so the bytes are the same on every
+//! [`files`] makes every generated file of the folder `scenes/`: meshes, textures, photometry and the descriptions of
+//! the street. Everything is computed from constants and addressed random numbers, so the bytes are the same on every
 //! machine; a test compares them with the files in the repository. The small scenes made of shapes alone
 //! (`cornell`, `furnace`, `sphere-on-plane`) and the cameras are written by hand and are not touched.
 
 pub mod description;
-pub mod hdr;
 pub mod luminaire;
 pub mod mesh;
 pub mod obj;
 pub mod paint;
 pub mod random;
-pub mod sky;
 pub mod street;
 
 /// A file of the scenes.

@@ -21,7 +21,7 @@ pub fn plate(text: &str) -> Canvas {
             () if edge < 0.03 => DVec3::splat(0.02),
             () if p.x < 0.40 => DVec3::new(0.01, 0.05, 0.32),
             () if inked(text, at, 0.14) => DVec3::splat(0.02),
-            () => DVec3::splat(0.65),
+            () => DVec3::splat(0.97),
         }
     })
 }

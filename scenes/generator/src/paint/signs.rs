@@ -7,11 +7,11 @@ use super::letters::{inked, width};
 use super::{Canvas, segment_distance};
 use glam::{DVec2, DVec3};
 
-const WHITE: DVec3 = DVec3::new(0.62, 0.62, 0.60);
+const WHITE: DVec3 = DVec3::new(0.97, 0.97, 0.95);
 const BLACK: DVec3 = DVec3::new(0.02, 0.02, 0.02);
-const RED: DVec3 = DVec3::new(0.42, 0.025, 0.03);
-const BLUE: DVec3 = DVec3::new(0.015, 0.09, 0.36);
-const YELLOW: DVec3 = DVec3::new(0.68, 0.42, 0.02);
+const RED: DVec3 = DVec3::new(0.55, 0.025, 0.03);
+const BLUE: DVec3 = DVec3::new(0.02, 0.10, 0.42);
+const YELLOW: DVec3 = DVec3::new(0.92, 0.62, 0.03);
 
 /// Pixels along a side of a sign.
 const SIDE: u32 = 160;

@@ -141,24 +141,42 @@ pub(super) fn traffic(street: &mut Description) {
     street.mesh("hatchback", fleet::hatchback().mesh());
     street.mesh("van", fleet::van().mesh());
     let parked = |x: f64| Spot::new(x, -4.32, 0.0, 0.0);
-    let fleet: [(&'static str, &'static str, &'static str, Vec<Spot>); 11] = [
-        ("saloon", "paint-blue", "plate-1", vec![Spot::new(29.5, -1.6, 0.0, 0.0)]),
-        ("hatchback", "paint-red", "plate-2", vec![parked(37.0), parked(65.4)]),
-        ("hatchback", "paint-white", "plate-3", vec![Spot::new(25.5, 1.7, 0.0, 180.0), parked(116.0)]),
-        ("van", "paint-white", "plate-1", vec![Spot::new(52.0, 1.65, 0.0, 180.0), parked(76.8)]),
-        ("saloon", "paint-silver", "plate-3", vec![parked(27.8), parked(-2.6), parked(99.6)]),
-        ("saloon", "paint-black", "plate-2", vec![parked(42.5), Spot::new(74.0, 1.7, 0.0, 180.0)]),
-        ("hatchback", "paint-green", "plate-1", vec![parked(54.0), parked(105.2)]),
-        ("van", "paint-yellow", "plate-2", vec![parked(59.7)]),
-        ("saloon", "paint-red", "plate-1", vec![parked(82.3), Spot::new(66.0, -1.65, 0.0, 0.0)]),
-        ("hatchback", "paint-blue", "plate-3", vec![parked(7.4), parked(88.0)]),
-        ("hatchback", "paint-silver", "plate-2", vec![parked(32.6), parked(110.9)]),
+    let parking: [(&'static str, &'static str, &'static str, Vec<f64>); 10] = [
+        ("hatchback", "paint-red", "plate-2", vec![37.0, 65.4]),
+        ("hatchback", "paint-white", "plate-3", vec![116.0]),
+        ("van", "paint-white", "plate-1", vec![76.8]),
+        ("saloon", "paint-silver", "plate-3", vec![27.8, -2.6, 99.6]),
+        ("saloon", "paint-black", "plate-2", vec![42.5]),
+        ("hatchback", "paint-green", "plate-1", vec![54.0, 105.2]),
+        ("van", "paint-yellow", "plate-2", vec![59.7]),
+        ("saloon", "paint-red", "plate-1", vec![82.3]),
+        ("hatchback", "paint-blue", "plate-3", vec![7.4, 88.0]),
+        ("hatchback", "paint-silver", "plate-2", vec![32.6, 110.9]),
     ];
-    for (mesh, paint, plate, spots) in fleet {
+    for (mesh, paint, plate, places) in parking {
         let name = format!("{mesh}-{}", paint.trim_start_matches("paint-"));
-        street.dressed(name, mesh, "car", vec![("paint", paint), ("plate", plate)], spots);
+        let dress = vec![("paint", paint), ("plate", plate)];
+        street.dressed(name, mesh, "car", dress, places.into_iter().map(parked).collect());
     }
+    driving(street);
     people(street);
+}
+
+/// Cars under way, whose lamps are materials of their own.
+fn driving(street: &mut Description) {
+    let cars = [
+        ("saloon", "paint-blue", "plate-1", Spot::new(29.5, -1.6, 0.0, 0.0)),
+        ("hatchback", "paint-white", "plate-3", Spot::new(25.5, 1.7, 0.0, 180.0)),
+        ("van", "paint-white", "plate-1", Spot::new(52.0, 1.65, 0.0, 180.0)),
+        ("saloon", "paint-black", "plate-2", Spot::new(74.0, 1.7, 0.0, 180.0)),
+        ("saloon", "paint-red", "plate-1", Spot::new(66.0, -1.65, 0.0, 0.0)),
+    ];
+    for (mesh, paint, plate, spot) in cars {
+        let name = format!("{mesh}-{}-driving", paint.trim_start_matches("paint-"));
+        let lamps = [("headlamp", "headlamp-driving"), ("taillamp", "taillamp-driving")];
+        let dress = [[("paint", paint), ("plate", plate)], lamps].concat();
+        street.dressed(name, mesh, "car", dress, vec![spot]);
+    }
 }
 
 fn people(street: &mut Description) {

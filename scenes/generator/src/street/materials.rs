@@ -1,6 +1,6 @@
 //! Surfaces and textures of the street.
 
-use crate::description::Surface::{Coated, Conductor, Diffuse, Textured};
+use crate::description::Surface::{Coated, Conductor, Diffuse, Leaf, Preset, Sign, Textured};
 use crate::description::{Description, Material};
 use crate::paint::{brick, grass, ground, plates, roof, signs};
 use glam::DVec3;
@@ -14,7 +14,7 @@ const ROAD: &[Material] = &[
     ("asphalt", Textured("asphalt")),
     ("fresh-asphalt", Textured("fresh-asphalt")),
     ("bitumen", Coated([0.03, 0.03, 0.03], 0.35)),
-    ("marking", Diffuse([0.56, 0.56, 0.54])),
+    ("marking", Preset("marking_white")),
     ("slabs", Textured("slabs")),
     ("kerb", Diffuse([0.36, 0.35, 0.33])),
     ("manhole", Diffuse([0.085, 0.08, 0.075])),
@@ -48,8 +48,8 @@ const WALLS: &[Material] = &[
 ];
 
 const PLANTS: &[Material] = &[
-    ("leaf", Diffuse([0.055, 0.115, 0.025])),
-    ("leaf-light", Diffuse([0.09, 0.165, 0.035])),
+    ("leaf", Leaf([0.055, 0.115, 0.025], [0.035, 0.085, 0.008])),
+    ("leaf-light", Leaf([0.09, 0.165, 0.035], [0.06, 0.125, 0.012])),
     ("hedge", Diffuse([0.02, 0.04, 0.01])),
     ("bark", Diffuse([0.13, 0.10, 0.075])),
 ];
@@ -60,20 +60,20 @@ const FURNITURE: &[Material] = &[
     ("bin", Coated([0.48, 0.14, 0.02], 0.25)),
     ("bollard", Coated([0.045, 0.05, 0.055], 0.20)),
     ("wood", Diffuse([0.30, 0.19, 0.10])),
-    ("sign-limit", Textured("sign-limit")),
-    ("sign-priority", Textured("sign-priority")),
-    ("sign-no-parking", Textured("sign-no-parking")),
-    ("sign-danger", Textured("sign-danger")),
-    ("sign-crossing", Textured("sign-crossing")),
-    ("sign-street", Textured("sign-street")),
+    ("sign-limit", Sign("ra2", "sign-limit")),
+    ("sign-priority", Sign("ra2", "sign-priority")),
+    ("sign-no-parking", Sign("ra2", "sign-no-parking")),
+    ("sign-danger", Sign("ra2", "sign-danger")),
+    ("sign-crossing", Sign("ra2", "sign-crossing")),
+    ("sign-street", Sign("ra1", "sign-street")),
 ];
 
 const CARS: &[Material] = &[
-    ("paint-silver", Coated([0.42, 0.43, 0.44], 0.005)),
+    ("paint-silver", Preset("car_paint_silver")),
     ("paint-white", Coated([0.74, 0.74, 0.73], 0.005)),
     ("paint-black", Coated([0.012, 0.012, 0.013], 0.005)),
     ("paint-red", Coated([0.36, 0.018, 0.016], 0.005)),
-    ("paint-blue", Coated([0.02, 0.06, 0.20], 0.005)),
+    ("paint-blue", Preset("car_paint_metallic_blue")),
     ("paint-green", Coated([0.03, 0.09, 0.06], 0.005)),
     ("paint-yellow", Coated([0.66, 0.36, 0.02], 0.005)),
     ("trim", Coated([0.025, 0.025, 0.026], 0.35)),
@@ -81,15 +81,17 @@ const CARS: &[Material] = &[
     ("grille", Coated([0.02, 0.02, 0.02], 0.20)),
     ("headlamp", Coated([0.20, 0.21, 0.22], 0.002)),
     ("taillamp", Coated([0.28, 0.012, 0.010], 0.002)),
-    ("rubber", Diffuse([0.04, 0.04, 0.04])),
+    ("headlamp-driving", Coated([0.20, 0.21, 0.22], 0.002)),
+    ("taillamp-driving", Coated([0.28, 0.012, 0.010], 0.002)),
+    ("rubber", Preset("rubber")),
     ("alloy", Conductor("Al", 0.25)),
-    ("plate-1", Textured("plate-1")),
-    ("plate-2", Textured("plate-2")),
-    ("plate-3", Textured("plate-3")),
+    ("plate-1", Sign("ra1", "plate-1")),
+    ("plate-2", Sign("ra1", "plate-2")),
+    ("plate-3", Sign("ra1", "plate-3")),
 ];
 
 const PEOPLE: &[Material] = &[
-    ("skin", Diffuse([0.45, 0.28, 0.20])),
+    ("skin", Preset("skin_light")),
     ("hair", Diffuse([0.05, 0.03, 0.02])),
     ("trousers", Diffuse([0.05, 0.06, 0.10])),
     ("trousers-beige", Diffuse([0.34, 0.28, 0.19])),
@@ -111,8 +113,8 @@ pub(super) fn paint(street: &mut Description) {
     street.texture("sign-no-parking", &signs::no_parking());
     street.texture("sign-danger", &signs::danger());
     street.texture("sign-crossing", &signs::crossing());
-    let (white, blue) = (DVec3::splat(0.62), DVec3::new(0.015, 0.06, 0.25));
-    street.texture("sign-street", &signs::board("LAMBERTSTR", [192, 32], blue, white));
+    let (white, blue) = (DVec3::splat(0.62), DVec3::new(0.02, 0.10, 0.42));
+    street.texture("sign-street", &signs::board("LAMBERTSTR", [192, 32], blue, DVec3::splat(0.97)));
     let (dark, gold) = (DVec3::splat(0.03), DVec3::new(0.55, 0.36, 0.10));
     street.texture("board-cafe", &signs::board("CAFE ABBE", [256, 32], DVec3::new(0.22, 0.03, 0.03), white));
     street.texture("board-optik", &signs::board("OPTIK PETZVAL", [256, 32], dark, gold));

@@ -9,6 +9,7 @@ mod car;
 mod curve;
 mod fleet;
 mod furniture;
+mod hours;
 mod houses;
 mod layout;
 mod materials;
@@ -22,21 +23,31 @@ mod wheel;
 
 use crate::File;
 use crate::description::Description;
-use crate::sky::ClearSky;
-
-/// The light of the day.
-const SKY: ClearSky =
-    ClearSky { sun_elevation_deg: 38.0, sun_azimuth_deg: 150.0, diffuse_lx: 15_000.0, ground_cd_m2: 2900.0 };
+use crate::luminaire;
 
 /// Every generated file of the street.
 #[must_use]
 pub fn files() -> Vec<File> {
     let street = description();
     let mut files = street.files("street");
-    files.push(File { path: String::from("street/sky.hdr"), bytes: SKY.file() });
-    files.push(File::text(String::from("street/scene.toml"), text::scene(&street, &SKY)));
+    files.push(File::text(String::from("street/scene.toml"), text::scene(&street)));
     files.push(File::text(String::from("street/street.toml"), text::job()));
+    files.extend(other_hours());
     files
+}
+
+/// Scenes and jobs of the evening and the night.
+fn other_hours() -> Vec<File> {
+    let sunset = hours::job("The street in the evening sun.", "scene-sunset.toml", "automotive-evening.toml");
+    let night = hours::job("The street at night.", "scene-night.toml", "automotive-night.toml");
+    let files = [
+        ("scene-sunset.toml", hours::sunset_scene()),
+        ("sunset.toml", sunset),
+        ("scene-night.toml", hours::night_scene()),
+        ("night.toml", night),
+        ("street-lamp.ies", luminaire::ies()),
+    ];
+    files.map(|(name, text)| File::text(format!("street/{name}"), text)).into()
 }
 
 /// Triangles of the street in its files, and with every instance counted.
