@@ -88,7 +88,7 @@ const GOLDENS: [Golden; 4] = [
             "--set",
             "cameras.front.sensor.pixel_pitch_um=120",
         ],
-        change: "scene.lights.sun.elevation_deg=40",
+        change: "scene.environment.sun_elevation_deg=42",
     },
 ];
 

@@ -3,14 +3,19 @@
 use crate::support::{bless, etendue, root, tests, text};
 use std::path::PathBuf;
 
-/// Every job below `scenes/`: the files `scenes/NAME/NAME.toml`.
+/// Every job below `scenes/`, `scenes/FOLDER/NAME.toml`, and its name.
 fn jobs() -> Vec<(String, String)> {
-    let mut jobs: Vec<(String, String)> = std::fs::read_dir(root().join("scenes"))
-        .expect("scenes/ is part of the repository")
-        .map(|entry| entry.expect("a readable entry").file_name().into_string().expect("UTF-8"))
-        .map(|name| (format!("scenes/{name}/{name}.toml"), name))
-        .filter(|(job, _)| root().join(job).is_file())
-        .collect();
+    let within = |folder: PathBuf| std::fs::read_dir(folder).expect("a folder").map(|e| e.expect("readable").path());
+    let files = within(root().join("scenes")).filter(|p| p.is_dir()).flat_map(within);
+    let is_job = |file: &PathBuf| {
+        file.extension().is_some_and(|e| e == "toml")
+            && std::fs::read_to_string(file).is_ok_and(|text| text.contains("[[cameras]]"))
+    };
+    let named = |file: PathBuf| {
+        let name = file.file_stem().expect("a name").to_str().expect("UTF-8").to_owned();
+        (text(file.strip_prefix(root()).expect("below the repository")), name)
+    };
+    let mut jobs: Vec<(String, String)> = files.filter(is_job).map(named).collect();
     jobs.sort();
     jobs
 }
@@ -34,8 +39,8 @@ fn check(job: &str, name: &str) -> Result<(), String> {
 #[test]
 fn the_plans_of_all_jobs_are_as_they_were() {
     let jobs = jobs();
-    for expected in ["cornell", "furnace", "sphere-on-plane", "street"] {
-        assert!(jobs.iter().any(|(_, name)| name == expected), "scenes/{expected} is missing");
+    for expected in ["cornell", "furnace", "night", "signs", "sphere-on-plane", "street", "sunset"] {
+        assert!(jobs.iter().any(|(_, name)| name == expected), "the job {expected} is missing");
     }
     let changed: Vec<String> = jobs.iter().filter_map(|(job, name)| check(job, name).err()).collect();
     assert!(changed.is_empty(), "{}\n(ETENDUE_BLESS=1 accepts)", changed.join("\n"));
