@@ -60,8 +60,11 @@ fn assets_are_listed_once_relative_to_the_job() {
     let d = load(&files, &[]).expect("the example");
     let missing = Assets::default().missing(&d.assets());
     let found: Vec<_> = missing.iter().map(|r| (r.path.as_path(), r.kind)).collect();
-    let expected =
-        [(Path::new("sub/meshes/car.obj"), AssetKind::Mesh), (Path::new("sub/textures/asphalt.png"), AssetKind::Image)];
+    let expected = [
+        (Path::new("sub/lamps/road.ies"), AssetKind::Photometry),
+        (Path::new("sub/meshes/car.obj"), AssetKind::Mesh),
+        (Path::new("sub/textures/asphalt.png"), AssetKind::Image),
+    ];
     assert_eq!(found, expected);
 }
 

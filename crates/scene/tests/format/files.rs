@@ -9,7 +9,13 @@ use etendue_scene::{Description, Faults, Overrides};
 pub(crate) const DOC: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scene-format.md");
 
 pub(crate) fn doc() -> String {
-    std::fs::read_to_string(DOC).expect("the page is in the repository")
+    page("scene-format.md")
+}
+
+/// A page of the documentation.
+pub(crate) fn page(name: &str) -> String {
+    let path = Path::new(DOC).with_file_name(name);
+    std::fs::read_to_string(path).expect("the page is in the repository")
 }
 
 /// Files by name.

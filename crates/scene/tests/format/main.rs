@@ -5,5 +5,6 @@ mod contradictions;
 mod example;
 mod faults;
 mod files;
+mod pages;
 mod reference;
 mod schema;
