@@ -23,7 +23,7 @@ use glam::{DVec3, Vec2, Vec3};
 use super::LightSample;
 
 /// Intervals of the tables.
-const STEPS: usize = 1024;
+const STEPS: usize = 4096;
 
 /// Cells of the grid that directions are drawn by.
 const COLUMNS: usize = 256;
@@ -201,4 +201,75 @@ fn weights(model: &SkyModel) -> Vec<f32> {
     let floor = FLOOR * means.iter().sum::<f64>() / means.len() as f64;
     let band = |j: usize| maths::f64::sin((j + 1) as f64 * height) - maths::f64::sin(j as f64 * height);
     means.iter().enumerate().map(|(k, mean)| ((mean + floor) * band(k / COLUMNS) * width * 1e6) as f32).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_core::warp::uniform_sphere;
+
+    const WAVELENGTHS: Wavelengths<4> = Wavelengths { nm: [310.0, 450.0, 610.0, 900.0], pdf: [1.0; 4] };
+
+    fn sky(turbidity: f64, elevation_deg: f64) -> (SkyModel, SkyEnvironment) {
+        let model = SkyModel::new(turbidity, 0.3, elevation_deg.to_radians()).expect("a sky");
+        let sky = SkyEnvironment::new(&model, 0.7, 0.3, &Spectrum::constant(0.5)).expect("light");
+        (model, sky)
+    }
+
+    /// A lattice of two dimensions (golden ratio).
+    fn lattice(n: u32) -> impl Iterator<Item = Vec2> {
+        (0..n).map(move |i| Vec2::new((i as f32 + 0.5) / n as f32, (0.618_034 * (f64::from(i) + 0.5)).fract() as f32))
+    }
+
+    #[test]
+    fn tables_are_the_model() {
+        for (turbidity, elevation_deg) in [(1.0, 2.0), (3.0, 40.0), (10.0, 89.0), (2.0, -4.0)] {
+            let (model, sky) = sky(turbidity, elevation_deg);
+            let glow = towards(0.7, model.glow_elevation_rad());
+            let near = (0..50).map(|i| (glow + 1e-3 * f64::from(i) * DVec3::new(0.3, 0.1, 1.0)).normalize().as_vec3());
+            for direction in lattice(2000).map(uniform_sphere).chain(near).filter(|d| d.z >= 0.0) {
+                let cos_sun = direction.as_dvec3().dot(glow).clamp(-1.0, 1.0);
+                let exact = model.radiance(f64::from(direction.z), cos_sun);
+                let got = sky.radiance(direction, &WAVELENGTHS);
+                for (nm, got) in WAVELENGTHS.nm.iter().zip(got.0) {
+                    let exact = exact.at(*nm);
+                    // Where gradient and glow nearly cancel (low over the horizon), errors are those of their terms.
+                    assert!((got - exact).abs() <= 1e-3 * exact + 2e-5, "{direction} {nm}: {got} {exact}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn draws_give_the_irradiance_and_the_densities_that_are_told() {
+        for (turbidity, elevation_deg) in [(2.0, 5.0), (4.0, 60.0)] {
+            let (model, sky) = sky(turbidity, elevation_deg);
+            let (n, mut sums, mut apart, mut share) = (1 << 15, [0.0; 4], 0, 0.0);
+            for u in lattice(n) {
+                let sample = sky.sample(u, &WAVELENGTHS).expect("light");
+                let told = sky.pdf(sample.direction);
+                apart += usize::from((told - sample.pdf).abs() > 1e-3 * sample.pdf);
+                let cos = f64::from(sample.direction.z);
+                (0..4).for_each(|k| sums[k] += f64::from(sample.radiance[k]) * cos / f64::from(sample.pdf));
+                share += f64::from(sky.pdf(uniform_sphere(u))) * 4.0 * core::f64::consts::PI;
+            }
+            // Only on the borders of cells may rounding tell the neighbour's density.
+            assert!(apart < 200, "{apart} of {n} densities differ");
+            assert!((share / f64::from(n) - 1.0).abs() < 5e-3, "{}", share / f64::from(n));
+            let expected = model.horizontal_irradiance();
+            for (nm, sum) in WAVELENGTHS.nm.iter().zip(sums) {
+                let ratio = sum / f64::from(n) / f64::from(expected.at(*nm));
+                // The lattice's error, and the model's own quadrature.
+                assert!((ratio - 1.0).abs() < 5e-3, "{nm}: {ratio}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_ground_throws_back_its_share() {
+        let (model, sky) = sky(3.0, 30.0);
+        let got = sky.radiance(Vec3::new(0.6, 0.0, -0.8), &WAVELENGTHS)[1];
+        let expected = 0.3 / core::f32::consts::PI * (model.horizontal_irradiance().at(450.0) + 0.5);
+        assert!((got / expected - 1.0).abs() < 1e-5 && sky.pdf(Vec3::NEG_Z) == 0.0);
+    }
 }

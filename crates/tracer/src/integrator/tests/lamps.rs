@@ -56,3 +56,60 @@ fn lamps_add_up_and_a_block_shades_them() {
     // Each from the distance √8 at 45°.
     agrees(&estimate, (3.0 + 5.0) / 8.0 * 0.5_f64.sqrt() / PI);
 }
+
+/// A room of many glowing surfaces of unlike strength, with a sun and a picture about it.
+fn many() -> Ready {
+    let mut scene = Scene::default();
+    scene.sources.suns =
+        vec![Sun::of_radiance(DVec3::new(-1.0, 0.3, 1.0), 20.0, Spectrum::constant(0.5)).expect("a sun")];
+    scene.sources.environment = Some(white_picture());
+    let floor = scene.material(matt(0.8), None);
+    scene.square(Vec3::ZERO, 20.0, floor);
+    for i in 0..30 {
+        let (x, y) = ((i % 6) as f32 - 2.5, (i / 6) as f32 - 2.0);
+        let glow = if i % 2 == 0 { Glow::Both } else { Glow::Front };
+        let lamp = scene.material(Surface::Absorber, Some((0.5 + f64::from(i % 4), glow)));
+        scene.square(Vec3::new(3.0 * x, 3.0 * y, 0.6 + 0.1 * i as f32), 0.15, lamp);
+        scene.sphere(DVec3::new(f64::from(3.0 * x + 1.0), f64::from(3.0 * y), 0.5), 0.1, lamp);
+    }
+    scene.ready()
+}
+
+#[test]
+fn many_lights_agree_in_both_ways_of_finding_them() {
+    let ready = many();
+    for from in [[-2.0, -2.0, 2.0], [4.0, 1.0, 0.4]] {
+        let look = |strategies, samples| {
+            let settings = PathSettings { max_bounces: 2, strategies, ..PathSettings::default() };
+            ready.look(&ray(from, [from[0] + 0.7, from[1] + 0.5, 0.0]), samples, settings)
+        };
+        let both = look(Strategies::Both, 512);
+        agree(&look(Strategies::Scattering, 4096), &both);
+        agree(&look(Strategies::Lights, 1024), &both);
+        assert!(both.standard_error() < 0.01 * both.mean, "{both:?}");
+    }
+}
+
+#[test]
+fn many_lamps_give_the_sum_of_their_irradiances() {
+    let axes = DMat3::from_cols(DVec3::NEG_Z, DVec3::Y, DVec3::X);
+    let spot = std::sync::Arc::new(Profile::Cone(Cone::new(0.6, 0.6).expect("a spot")));
+    let (mut lamps, mut expected) = (vec![], 0.0);
+    let at = DVec3::new(1.0, 2.0, 0.0);
+    for i in 0..400 {
+        let place = DVec3::new(f64::from(i % 20) * 5.0 - 48.0, f64::from(i / 20) * 5.0 - 47.0, 3.0 + f64::from(i % 7));
+        let intensity = 1.0 + f64::from(i % 11);
+        let way = place - at;
+        let cos = way.z / way.length();
+        let inside = i % 3 != 0 || cos >= maths::f64::cos(0.6);
+        expected += if inside { intensity * cos / way.length_squared() / PI } else { 0.0 };
+        let profile = if i % 3 == 0 { spot.clone() } else { std::sync::Arc::new(Profile::Isotropic) };
+        lamps.push(Lamp::new(place, axes, Spectrum::constant(intensity), profile).expect("a lamp"));
+    }
+    let mut scene = Scene { sources: Sources { lamps, ..Sources::default() }, ..Scene::default() };
+    let floor = scene.material(matt(1.0), None);
+    scene.square(Vec3::ZERO, 200.0, floor);
+    let estimate = scene.ready().look(&ray([1.0, 1.0, 1.0], [1.0, 2.0, 0.0]), 1024, bounces(1));
+    agrees(&estimate, expected);
+    assert!(estimate.standard_error() < 2e-3 * estimate.mean, "{estimate:?}");
+}

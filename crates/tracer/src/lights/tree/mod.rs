@@ -3,15 +3,24 @@
 //! After Conty Estevez and Kulla 2018 ("Importance sampling of many lights with adaptive tree splitting"): clusters know
 //! a sphere about them, their intensity and a cone that holds their light; from these follows a bound-like estimate of
 //! the irradiance that they give a receiver, and a cluster is entered with a probability in proportion to it. Changed
-//! here: nodes have eight children, whose estimates are made at once; leaves that are lamps without extent are weighed by
+//! here: nodes have eight children, whose estimates are made four at once; leaves that are lamps without extent are weighed by
 //! their own intensity towards the receiver. A draw costs O(log n). [`LightTree::probability`] walks the way to a light
 //! through the same arithmetic in the same order, so that it tells the bits that [`LightTree::pick`] told.
 //!
 //! An estimate is zero only where the light surely is (behind the emitter, below the receiver's horizon).
+//!
+//! Measured on a street at night (lamps of a batwing grid of type C in two rows, 15 m apart, 7 m high, four bounces; mean relative
+//! variance of a pixel at 4 samples × time, against a choice of all lamps alike): 50 lamps 2.33 → 0.075 at 1.7 times the
+//! time, 1 000 lamps 12.0 → 0.14 at 2 times the time. Keeping one of two to four candidates by resampling (Talbot, Cline
+//! and Egbert 2005) takes another half to nine tenths off the variance of direct light alone, but with bounces costs more
+//! time than it saves (0.141 → 0.194, 0.247, 0.340 variance × µs for two, three, four of 50 lamps): left out. So is the
+//! surface's own reflection: a lamp far from where a smooth surface mirrors it counts as much as one near.
 
 mod bounds;
 mod build;
 mod node;
+#[cfg(test)]
+mod tests;
 
 pub(super) use bounds::LightBounds;
 

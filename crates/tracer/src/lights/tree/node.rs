@@ -1,10 +1,10 @@
-//! Eight clusters at once.
+//! A node's eight clusters, weighed for a receiver.
 //!
 //! A cluster of intensity I (W·sr⁻¹·nm⁻¹) within a sphere of radius r about c, its light within the half angle θ_o of an
 //! axis and, falling by the cosine, θ_e beyond. Seen from a receiver at the distance d under the half angle θ_u
 //! (sin θ_u = r/d), θ from the axis and θ_i from the receiver's normal, it counts
 //!
-//! I · cos max(θ − θ_o − θ_u, 0) · cos max(θ_i − θ_u, 0) / max(d², r²/2),
+//! I · cos max(θ − θ_o − θ_u, 0) · cos max(θ_i − θ_u, 0) / max(d², r²/4),
 //!
 //! nothing where the first angle exceeds θ_e or the second a right angle, and the cosines are 1 from inside the sphere.
 //! A single point thus counts its irradiance.
@@ -18,6 +18,9 @@ pub(super) const LANES: usize = 8;
 
 type Lanes = [f32; LANES];
 
+/// What goes side by side.
+type Four = [f32; 4];
+
 /// Eight children, component by component. Lanes without a child have no intensity.
 #[derive(Clone, Debug, Default)]
 #[repr(align(32))]
@@ -30,6 +33,8 @@ pub(super) struct Node {
     sin_o: Lanes,
     cos_e: Lanes,
     children: [u32; LANES],
+    /// How many children there are.
+    used: u8,
     /// By bits: which children are nodes, and which are lamps without extent.
     nodes: u8,
     lamps: u8,
@@ -49,7 +54,7 @@ const DIM: f32 = 0.02;
 const MARGIN: f32 = 1e-4;
 
 /// Share of r² that d² is not taken below: a receiver among the lights is near to one of them.
-const INSIDE: f32 = 0.5;
+const INSIDE: f32 = 0.25;
 
 impl Node {
     pub(super) fn set(&mut self, lane: usize, bounds: &LightBounds, child: Child, per_scale: f64) {
@@ -64,6 +69,7 @@ impl Node {
         (self.sin_o[lane], self.cos_o[lane]) = (sin_o, cos_o);
         self.cos_e[lane] = etendue_core::maths::f32::cos(bounds.theta_e);
         self.children[lane] = child.index;
+        self.used = self.used.max(lane as u8 + 1);
         self.nodes |= u8::from(child.is_node) << lane;
         self.lamps |= u8::from(bounds.is_lamp && !child.is_node) << lane;
     }
@@ -85,38 +91,70 @@ impl Node {
         Vec3::new(self.centre[0][lane], self.centre[1][lane], self.centre[2][lane])
     }
 
-    /// What each child counts for a receiver. Without branches, so that lanes go side by side.
+    /// What each child counts for a receiver: four children at a time, the second four where there are any.
     pub(super) fn weights(&self, receiver: &Receiver) -> Lanes {
+        let mut weights = [0.0; LANES];
+        weights[..4].copy_from_slice(&self.four(0, receiver));
+        if self.used > 4 {
+            weights[4..].copy_from_slice(&self.four(4, receiver));
+        }
+        weights
+    }
+
+    /// The weights of four children from lane `from` on. In small steps without branches, each over all four, so that
+    /// the compiler lets them go side by side.
+    #[inline(always)]
+    fn four(&self, from: usize, receiver: &Receiver) -> Four {
         let (p, n) = (receiver.position, receiver.normal);
-        let from_everywhere = n == Vec3::ZERO;
-        core::array::from_fn(|i| {
-            let way = [self.centre[0][i] - p.x, self.centre[1][i] - p.y, self.centre[2][i] - p.z];
-            let d2 = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
-            let per_d = 1.0 / d2.max(f32::MIN_POSITIVE).sqrt();
-            let sin2_u = (self.radius2[i] * per_d * per_d).min(1.0);
-            let (sin_u, cos_u) = (sin2_u.sqrt(), (1.0 - sin2_u).sqrt());
-            let inside = d2 <= self.radius2[i];
+        // 1 where light counts from everywhere, and the cosine then does not.
+        let everywhere = if n == Vec3::ZERO { 1.0 } else { 0.0 };
+        let lanes = |of: &Lanes| -> Four { each(|i| of[from + i]) };
+        let (radius2, sin_o, cos_o) = (lanes(&self.radius2), lanes(&self.sin_o), lanes(&self.cos_o));
+        let (x, y, z) = (lanes(&self.centre[0]), lanes(&self.centre[1]), lanes(&self.centre[2]));
+        let (x, y, z) = (each(|i| x[i] - p.x), each(|i| y[i] - p.y), each(|i| z[i] - p.z));
+        let d2 = each(|i| x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
+        let per_d = each(|i| 1.0 / at_least(d2[i], f32::MIN_POSITIVE).sqrt());
+        let sin2_u = each(|i| at_most(radius2[i] * per_d[i] * per_d[i], 1.0));
+        let (sin_u, cos_u) = (each(|i| sin2_u[i].sqrt()), each(|i| (1.0 - sin2_u[i]).sqrt()));
 
-            let along = way[0] * self.axis[0][i] + way[1] * self.axis[1][i] + way[2] * self.axis[2][i];
-            let cos = (-along * per_d).clamp(-1.0, 1.0);
-            let (sin_1, cos_1) = less((1.0 - cos * cos).sqrt(), cos, self.sin_o[i], self.cos_o[i]);
-            let (_, cos_2) = less(sin_1, cos_1, sin_u, cos_u);
-            let emits = if cos_2 >= self.cos_e[i] - MARGIN { cos_2.max(DIM) } else { 0.0 };
+        let axis = [lanes(&self.axis[0]), lanes(&self.axis[1]), lanes(&self.axis[2])];
+        let along = each(|i| x[i] * axis[0][i] + y[i] * axis[1][i] + z[i] * axis[2][i]);
+        let cos = each(|i| at_most(at_least(-along[i] * per_d[i], -1.0), 1.0));
+        let sin = each(|i| (1.0 - cos[i] * cos[i]).sqrt());
+        let (_, cos_2) = less(less((sin, cos), (sin_o, cos_o)), (sin_u, cos_u));
+        let cos_e = lanes(&self.cos_e);
+        let emits = each(|i| if cos_2[i] >= cos_e[i] - MARGIN { at_least(cos_2[i], DIM) } else { 0.0 });
 
-            let cos_i = ((way[0] * n.x + way[1] * n.y + way[2] * n.z) * per_d).clamp(-1.0, 1.0);
-            let (_, cos_3) = less((1.0 - cos_i * cos_i).sqrt(), cos_i, sin_u, cos_u);
-            let receives = if from_everywhere { 1.0 } else { (cos_3 + MARGIN).max(0.0) };
+        let cos_i = each(|i| at_most(at_least((x[i] * n.x + y[i] * n.y + z[i] * n.z) * per_d[i], -1.0), 1.0));
+        let sin_i = each(|i| (1.0 - cos_i[i] * cos_i[i]).sqrt());
+        let (_, cos_3) = less((sin_i, cos_i), (sin_u, cos_u));
+        let receives = each(|i| at_least(at_least(cos_3[i] + MARGIN, 0.0), everywhere));
 
-            let seen = if inside { 1.0 } else { emits * receives };
-            self.intensity[i] * seen / d2.max(INSIDE * self.radius2[i]).max(f32::MIN_POSITIVE)
-        })
+        let seen = each(|i| if d2[i] <= radius2[i] { 1.0 } else { emits[i] * receives[i] });
+        let far2 = each(|i| at_least(at_least(d2[i], INSIDE * radius2[i]), f32::MIN_POSITIVE));
+        each(|i| self.intensity[from + i] * seen[i] / far2[i])
     }
 }
 
+#[inline(always)]
+fn each(f: impl Fn(usize) -> f32) -> Four {
+    core::array::from_fn(f)
+}
+
+/// The greater of two numbers, as one instruction.
+fn at_least(x: f32, low: f32) -> f32 {
+    if x > low { x } else { low }
+}
+
+/// The smaller of two numbers, as one instruction.
+fn at_most(x: f32, high: f32) -> f32 {
+    if x < high { x } else { high }
+}
+
 /// Sine and cosine of max(a − b, 0), for angles of 0…π given by theirs.
-fn less(sin_a: f32, cos_a: f32, sin_b: f32, cos_b: f32) -> (f32, f32) {
-    let within = cos_a > cos_b;
-    let sin = if within { 0.0 } else { sin_a * cos_b - cos_a * sin_b };
-    let cos = if within { 1.0 } else { cos_a * cos_b + sin_a * sin_b };
+#[inline(always)]
+fn less((sin_a, cos_a): (Four, Four), (sin_b, cos_b): (Four, Four)) -> (Four, Four) {
+    let sin = each(|i| if cos_a[i] > cos_b[i] { 0.0 } else { sin_a[i] * cos_b[i] - cos_a[i] * sin_b[i] });
+    let cos = each(|i| if cos_a[i] > cos_b[i] { 1.0 } else { cos_a[i] * cos_b[i] + sin_a[i] * sin_b[i] });
     (sin, cos)
 }

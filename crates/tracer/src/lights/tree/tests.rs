@@ -1,0 +1,124 @@
+//! The tree's probabilities: shares of one, told alike in both ways, never zero where light arrives.
+
+use super::*;
+use crate::lights::lamp::LampLight;
+use crate::lights::{Cone, Lamp, Profile};
+use etendue_spectra::Spectrum;
+use glam::{DMat3, DVec3, Vec3};
+
+/// A fixed row of numbers in [0, 1): steps of irrational numbers.
+fn number(i: u32, k: u32) -> f64 {
+    let steps = [0.618_033_988_75, 0.754_877_666_25, 0.569_840_290_998, 0.819_172_513_396, 0.324_717_957_24];
+    (steps[k as usize % 5] * f64::from(i + 1) + 0.137 * f64::from(k)).fract()
+}
+
+fn direction(i: u32, k: u32) -> DVec3 {
+    etendue_core::warp::uniform_sphere(glam::Vec2::new(number(i, k) as f32, number(i, k + 1) as f32)).as_dvec3()
+}
+
+fn lamp(at: DVec3, towards: DVec3, intensity: f64, profile: Profile) -> LampLight {
+    let basis = etendue_core::Basis::about(towards.as_vec3().normalize());
+    let axes = DMat3::from_cols(basis.z.as_dvec3(), basis.x.as_dvec3(), basis.y.as_dvec3());
+    let lamp = Lamp::new(at, axes, Spectrum::constant(intensity), profile).expect("a lamp");
+    LampLight::new(lamp, DVec3::ZERO, (400.0, 700.0))
+}
+
+/// Lamps in a box of `size`, about `centre`, every third a spot, of powers over `decades`.
+fn lamps(count: u32, centre: DVec3, size: f64, decades: f64) -> Vec<LampLight> {
+    let one = |i: u32| {
+        let at = centre + size * (DVec3::new(number(i, 0), number(i, 1), number(i, 2)) - 0.5);
+        let intensity = etendue_core::maths::f64::pow(10.0, decades * (number(i, 3) - 0.5));
+        let spot = || Profile::Cone(Cone::new(0.3, 0.5 + 2.0 * number(i, 4)).expect("a spot"));
+        lamp(at, direction(i, 3), intensity, if i.is_multiple_of(3) { spot() } else { Profile::Isotropic })
+    };
+    (0..count).map(one).collect()
+}
+
+/// Calls `f` with a tree over lamps and questions of receivers near and far, facing all ways or none.
+fn ask(lamps: &[LampLight], size: f64, centre: DVec3, f: impl Fn(&LightTree, &Receiver, &dyn Fn(u32) -> f32)) {
+    let bounds: Vec<_> = lamps.iter().map(LampLight::bounds).collect();
+    let tree = LightTree::new(&bounds).expect("lamps that shine");
+    for i in 0..12 {
+        let position = (centre + direction(i, 0) * size * [0.01, 0.3, 1.0, 20.0][i as usize % 4]).as_vec3();
+        let normal = if i % 3 == 0 { Vec3::ZERO } else { direction(i, 2).as_vec3().normalize() };
+        let receiver = Receiver { position, normal };
+        f(&tree, &receiver, &|lamp| lamps[lamp as usize].irradiance(&receiver));
+    }
+}
+
+#[test]
+fn draws_fall_as_often_as_is_told() {
+    let sets = [
+        (lamps(1, DVec3::ZERO, 1.0, 0.0), 1.0),
+        (lamps(50, DVec3::new(5.0, 0.0, 3.0), 100.0, 2.0), 100.0),
+        (lamps(700, DVec3::ZERO, 300.0, 4.0), 300.0),
+    ];
+    for (lamps, size) in &sets {
+        ask(lamps, *size, DVec3::ZERO, |tree, receiver, lamp| {
+            let question = Question { receiver, lamp };
+            let n = 1 << 14;
+            let mut counts = vec![0.0; lamps.len()];
+            let mut none = 0.0;
+            for i in 0..n {
+                match tree.pick(&question, (f64::from(i) + 0.5) / f64::from(n)) {
+                    Some((light, told)) => {
+                        counts[light] += 1.0;
+                        assert_eq!(told.to_bits(), tree.probability(&question, light).to_bits());
+                    }
+                    None => none += 1.0,
+                }
+            }
+            let told: Vec<_> = (0..lamps.len()).map(|i| f64::from(tree.probability(&question, i))).collect();
+            for (count, told) in counts.iter().zip(&told) {
+                // Each light has one interval of u: its points of the grid differ from its length by less than one, and
+                // a few more where rounding in f32 moves both ends.
+                assert!((count - told * f64::from(n)).abs() < 1.0 + 2e-6 * f64::from(n), "{count} {told}");
+            }
+            let sum: f64 = told.iter().sum();
+            assert!((sum + none / f64::from(n) - 1.0).abs() < 2e-3, "{sum} and {none} of {n} in vain");
+        });
+    }
+}
+
+#[test]
+fn no_light_that_arrives_is_lost() {
+    let huge = DVec3::new(3e6, -2e6, 1e5);
+    for (lamps, size, centre) in [
+        (lamps(300, DVec3::ZERO, 50.0, 21.0), 50.0, DVec3::ZERO),
+        (lamps(10_000, DVec3::ZERO, 2000.0, 1.0), 2000.0, DVec3::ZERO),
+        (lamps(100, huge, 500.0, 3.0), 500.0, huge),
+        (lamps(100, DVec3::ONE, 0.0, 3.0), 10.0, DVec3::ONE),
+    ] {
+        ask(&lamps, size, centre, |tree, receiver, lamp| {
+            let question = Question { receiver, lamp };
+            for (i, light) in lamps.iter().enumerate() {
+                let (told, arrives) = (tree.probability(&question, i), light.irradiance(receiver) > 0.0);
+                assert!(told.is_finite() && (told > 0.0) == arrives, "lamp {i}: {told}, {arrives}");
+            }
+            assert!(tree.irradiance(&question).is_finite());
+        });
+    }
+}
+
+#[test]
+fn estimates_are_of_the_size_of_what_arrives() {
+    let lamps = lamps(400, DVec3::ZERO, 200.0, 1.0);
+    ask(&lamps, 200.0, DVec3::ZERO, |tree, receiver, lamp| {
+        if receiver.normal == Vec3::ZERO {
+            let exact: f64 = lamps.iter().map(|l| f64::from(l.irradiance(receiver))).sum();
+            let ratio = tree.irradiance(&Question { receiver, lamp }) / exact;
+            assert!((0.2..5.0).contains(&ratio), "{ratio}");
+        }
+    });
+}
+
+#[test]
+fn dark_lamps_make_no_tree() {
+    assert!(LightTree::new(&[]).is_none());
+    assert!(LightTree::new(&[lamp(DVec3::ZERO, DVec3::X, 0.0, Profile::Isotropic).bounds()]).is_none());
+    let lamps =
+        [lamp(DVec3::ZERO, DVec3::X, 0.0, Profile::Isotropic), lamp(DVec3::X, DVec3::X, 1.0, Profile::Isotropic)];
+    ask(&lamps, 3.0, DVec3::ZERO, |tree, receiver, lamp| {
+        assert_eq!(tree.probability(&Question { receiver, lamp }, 0), 0.0);
+    });
+}
