@@ -18,10 +18,10 @@ impl Box3 {
     }
 
     /// By how much a primitive's box is enlarged on all sides so that no rounding of a box test loses a hit that the
-    /// primitive's own test grants: 4e-7 · (greatest coordinate + greatest extent), some seven roundings.
+    /// primitive's own test grants: 6e-7 · (greatest coordinate + greatest extent), some ten roundings.
     pub(crate) fn padding(&self) -> f32 {
         let coordinate = self.low.abs().max(self.high.abs()).max_element();
-        4e-7 * (coordinate + (self.high - self.low).max_element())
+        6e-7 * (coordinate + (self.high - self.low).max_element())
     }
 
     /// The box enlarged on all sides.

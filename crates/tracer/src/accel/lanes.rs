@@ -2,12 +2,17 @@
 //!
 //! The accelerator's arithmetic is written once over [`Lanes`]. [`Plain`] does it lane by lane, with the operand order
 //! of the x86 instructions where that shows (minimum and maximum of zeros and NaN); the AVX2 form does the same
-//! operations eight at a time. No operation is fused.
+//! operations eight at a time. No operation is fused but [`Lanes::mul_sub`], on which no answer depends.
 
 /// Eight f32, aligned for one load.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub(crate) struct Eight(pub(crate) [f32; 8]);
+
+/// Four f32, aligned for one load.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(16))]
+pub(crate) struct Four(pub(crate) [f32; 4]);
 
 /// A way to compute with eight numbers at once. Every way gives the same bits.
 pub(crate) trait Lanes: Copy {
@@ -18,6 +23,8 @@ pub(crate) trait Lanes: Copy {
 
     /// Eight numbers from memory.
     fn load(self, from: &Eight) -> Self::V;
+    /// Four numbers from memory and four from elsewhere.
+    fn load_halves(self, low: &Four, high: &Four) -> Self::V;
     /// Eight numbers to memory.
     fn store(self, v: Self::V) -> Eight;
     /// The same number eight times.
@@ -28,6 +35,8 @@ pub(crate) trait Lanes: Copy {
     fn sub(self, a: Self::V, b: Self::V) -> Self::V;
     /// a · b
     fn mul(self, a: Self::V, b: Self::V) -> Self::V;
+    /// a · b − c, rounded once or twice: where no answer depends on the last bit
+    fn mul_sub(self, a: Self::V, b: Self::V, c: Self::V) -> Self::V;
     /// a / b
     fn div(self, a: Self::V, b: Self::V) -> Self::V;
     /// a < b ? a : b
@@ -46,8 +55,8 @@ pub(crate) trait Lanes: Copy {
     fn or(self, a: Self::M, b: Self::M) -> Self::M;
     /// Lane i in bit i.
     fn bits(self, m: Self::M) -> u32;
-    /// Asks the memory for what `at` begins.
-    fn prefetch<T>(self, at: &T);
+    /// Asks the memory for four cache lines from an address on, which may be any.
+    fn prefetch(self, at: *const u8);
     /// Runs a task, compiled for these lanes.
     fn run<J: Job>(self, job: J) -> J::Output;
 }
@@ -78,6 +87,10 @@ impl Lanes for Plain {
         *from
     }
     #[inline(always)]
+    fn load_halves(self, low: &Four, high: &Four) -> Eight {
+        Eight(core::array::from_fn(|i| if i < 4 { low.0[i] } else { high.0[i - 4] }))
+    }
+    #[inline(always)]
     fn store(self, v: Eight) -> Eight {
         v
     }
@@ -96,6 +109,10 @@ impl Lanes for Plain {
     #[inline(always)]
     fn mul(self, a: Eight, b: Eight) -> Eight {
         zip(a, b, |a, b| a * b)
+    }
+    #[inline(always)]
+    fn mul_sub(self, a: Eight, b: Eight, c: Eight) -> Eight {
+        self.sub(self.mul(a, b), c)
     }
     #[inline(always)]
     fn div(self, a: Eight, b: Eight) -> Eight {
@@ -134,7 +151,7 @@ impl Lanes for Plain {
         m.iter().enumerate().fold(0, |bits, (i, set)| bits | u32::from(*set) << i)
     }
     #[inline(always)]
-    fn prefetch<T>(self, _at: &T) {}
+    fn prefetch(self, _at: *const u8) {}
     #[inline(always)]
     fn run<J: Job>(self, job: J) -> J::Output {
         job.work(self)

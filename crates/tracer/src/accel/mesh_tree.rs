@@ -2,11 +2,11 @@
 
 use super::best::Best;
 use super::build::over_triangles;
-use super::collapse::collapse;
-use super::lanes::Lanes;
+use super::collapse::{Wide, collapse};
+use super::lanes::{Job, Lanes};
 use super::local::LocalRay;
 use super::node::{Child, Node};
-use super::packet::{Packet, RayLanes};
+use super::packet::{Half, Packet, RayLanes};
 use super::ray::SlabRay;
 use super::walk::{Leaves, walk};
 use crate::geometry::Mesh;
@@ -18,7 +18,8 @@ const LEAF_SIZE: usize = 8;
 #[derive(Clone, Debug)]
 pub(crate) struct MeshTree {
     nodes: Vec<Node>,
-    packets: Vec<Packet>,
+    /// The leaves' triangles; a leaf's index is twice that of its first half, and one more where it has two.
+    halves: Vec<Half>,
     root: Option<Child>,
 }
 
@@ -26,30 +27,74 @@ impl MeshTree {
     /// Builds the tree. The same mesh gives the same tree.
     pub(crate) fn new(mesh: &Mesh) -> Self {
         let triangles: Vec<_> = (0..mesh.triangles().len() as u32).map(|p| mesh.corners(p)).collect();
-        let wide = collapse(&over_triangles(&triangles), LEAF_SIZE);
-        let packet = |leaf: &[u32]| {
+        let Wide { mut nodes, root, leaves } = collapse(&over_triangles(&triangles), LEAF_SIZE);
+        let (mut halves, mut places) = (Vec::new(), Vec::with_capacity(leaves.len()));
+        for leaf in &leaves {
+            let first = halves.len();
             let members: Vec<_> = leaf.iter().map(|p| (*p, triangles[*p as usize])).collect();
-            Packet::new(&members)
-        };
-        let packets = wide.leaves.iter().map(|leaf| packet(leaf)).collect();
-        Self { nodes: wide.nodes, packets, root: wide.root }
+            halves.extend(Half::of(&members));
+            places.push(Child::leaf(2 * first + halves.len() - first - 1));
+        }
+        let place = |child: Child| if child.as_node().is_some() { child } else { places[child.leaf_index()] };
+        nodes.iter_mut().for_each(|node| node.children = node.children.map(place));
+        Self { nodes, halves, root: root.map(place) }
+    }
+
+    #[inline(always)]
+    fn packet(&self, leaf: usize) -> Packet<'_> {
+        Packet::new(&self.halves, leaf / 2, leaf / 2 + leaf % 2)
     }
 
     /// Offers the triangles that the ray meets with 0 < t ≤ `limit` to `best`, as those of `instance`; near ones come
     /// first by and by, and `limit` is lowered to the best.
     #[inline(always)]
     pub(super) fn closest<L: Lanes>(&self, l: L, ray: &LocalRay, instance: u32, best: &mut Best, limit: &mut f32) {
-        let Some(root) = self.root else { return };
-        let mut leaves = ClosestLeaf { l, tree: self, ray, spread: RayLanes::new(l, ray), instance, best };
-        walk::<L, true>(l, &self.nodes, root, &SlabRay::new(ray.origin, ray.direction), limit, &mut leaves);
+        l.run(Closest { tree: self, ray, instance, best, limit });
     }
 
     /// Whether the ray meets a triangle with 0 < t < `t_max`.
     #[inline(always)]
     pub(super) fn occluded<L: Lanes>(&self, l: L, ray: &LocalRay, t_max: f32) -> bool {
-        let Some(root) = self.root else { return false };
-        let mut leaves = AnyLeaf { l, tree: self, ray, spread: RayLanes::new(l, ray) };
-        walk::<L, false>(l, &self.nodes, root, &SlabRay::new(ray.origin, ray.direction), &mut { t_max }, &mut leaves)
+        l.run(Occluded { tree: self, ray, t_max })
+    }
+}
+
+/// A task of its own, so that the compiler keeps what a walk needs at hand.
+struct Closest<'a> {
+    tree: &'a MeshTree,
+    ray: &'a LocalRay,
+    instance: u32,
+    best: &'a mut Best,
+    limit: &'a mut f32,
+}
+
+impl Job for Closest<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn work<L: Lanes>(self, l: L) {
+        let Self { tree, ray, instance, best, limit } = self;
+        let Some(root) = tree.root else { return };
+        let mut leaves = ClosestLeaf { l, tree, ray, spread: RayLanes::new(l, ray), instance, best };
+        walk::<L, true>(l, &tree.nodes, root, &SlabRay::new(ray.origin, ray.direction), limit, &mut leaves);
+    }
+}
+
+struct Occluded<'a> {
+    tree: &'a MeshTree,
+    ray: &'a LocalRay,
+    t_max: f32,
+}
+
+impl Job for Occluded<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn work<L: Lanes>(self, l: L) -> bool {
+        let Self { tree, ray, t_max } = self;
+        let Some(root) = tree.root else { return false };
+        let mut leaves = AnyLeaf { l, tree, ray, spread: RayLanes::new(l, ray) };
+        walk::<L, false>(l, &tree.nodes, root, &SlabRay::new(ray.origin, ray.direction), &mut { t_max }, &mut leaves)
     }
 }
 
@@ -65,12 +110,17 @@ struct ClosestLeaf<'a, L: Lanes> {
 impl<L: Lanes> Leaves for ClosestLeaf<'_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
-        if let Some(meeting) = self.tree.packets[leaf].meet(self.l, &self.spread, self.ray, *limit) {
+        if let Some(meeting) = self.tree.packet(leaf).meet(self.l, &self.spread, self.ray, *limit) {
             for hit in meeting {
                 self.best.offer(self.instance, hit, limit);
             }
         }
         false
+    }
+
+    #[inline(always)]
+    fn place(&self, leaf: usize) -> *const u8 {
+        self.tree.halves.as_ptr().wrapping_add(leaf / 2).cast()
     }
 }
 
@@ -84,12 +134,11 @@ struct AnyLeaf<'a, L: Lanes> {
 impl<L: Lanes> Leaves for AnyLeaf<'_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
-        let mut met = false;
-        if let Some(meeting) = self.tree.packets[leaf].meet(self.l, &self.spread, self.ray, *limit) {
-            for hit in meeting {
-                met |= hit.t < *limit;
-            }
-        }
-        met
+        self.tree.packet(leaf).blocks(self.l, &self.spread, self.ray, *limit)
+    }
+
+    #[inline(always)]
+    fn place(&self, leaf: usize) -> *const u8 {
+        self.tree.halves.as_ptr().wrapping_add(leaf / 2).cast()
     }
 }

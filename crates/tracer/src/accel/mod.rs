@@ -8,7 +8,7 @@
 //! - `collapse`: binary to eight-wide, at least cost.
 //! - `node`, `packet`: what is tested eight at a time: boxes and triangles.
 //! - `reach`: how far rays may start from a mesh.
-//! - `walk`: near to far through a tree, for the first hit or for any.
+//! - `walk`, `pending`: near to far through a tree for the first hit, or through the largest boxes for any.
 //!
 //! Everything is written once over eight lanes (`lanes`) and compiled twice, with AVX2 and without: the same
 //! operations in the same order, so the same bits.
@@ -23,6 +23,7 @@ pub(crate) mod local;
 mod mesh_tree;
 mod node;
 mod packet;
+mod pending;
 mod ray;
 mod reach;
 #[cfg(target_arch = "x86_64")]

@@ -9,16 +9,29 @@
 //! depths, so its sign is certain where those have one sign, or where it exceeds its error bound (Pharr, Jakob,
 //! Humphreys 2023, section 6.8.7); else t is found again in f64 from the triangle's plane.
 
-use super::lanes::{Eight, Lanes};
+use super::lanes::{Eight, Four, Lanes};
 use super::local::LocalRay;
 use glam::{DVec3, Vec3};
 
-/// Eight triangles, corner by corner and axis by axis. Lanes without a triangle hold NaN, which no ray meets.
+/// Triangles a half.
+const HALF: usize = 4;
+
+/// Half of what is met at once: four triangles, corner by corner and axis by axis. Lanes without a triangle hold NaN,
+/// which no ray meets.
 #[derive(Clone, Debug)]
-#[repr(C, align(64))]
-pub(super) struct Packet {
-    corners: [[Eight; 3]; 3],
-    primitives: [u32; 8],
+#[repr(C, align(32))]
+pub(super) struct Half {
+    corners: [[Four; 3]; 3],
+    primitives: [u32; HALF],
+}
+
+/// Up to eight triangles: one half or two.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Packet<'a> {
+    /// The same half twice where there is only one.
+    halves: [&'a Half; 2],
+    /// The lanes that count.
+    lanes: u32,
 }
 
 /// Where a ray meets the triangles of a packet, for the lanes it meets. Iterates over them.
@@ -27,7 +40,7 @@ pub(super) struct Meeting<'a> {
     t: Eight,
     u: Eight,
     v: Eight,
-    primitives: &'a [u32; 8],
+    packet: Packet<'a>,
 }
 
 /// A primitive that a ray meets.
@@ -49,7 +62,12 @@ impl Iterator for Meeting<'_> {
         }
         let lane = self.lanes.trailing_zeros() as usize & 7;
         self.lanes &= self.lanes - 1;
-        Some(PrimitiveHit { t: self.t.0[lane], u: self.u.0[lane], v: self.v.0[lane], primitive: self.primitives[lane] })
+        Some(PrimitiveHit {
+            t: self.t.0[lane],
+            u: self.u.0[lane],
+            v: self.v.0[lane],
+            primitive: self.packet.primitive(lane),
+        })
     }
 }
 
@@ -70,7 +88,8 @@ impl<L: Lanes> RayLanes<L> {
             origin: [l.splat(origin[x]), l.splat(origin[y]), l.splat(origin[z])],
             shear: [l.splat(ray.shear[0]), l.splat(ray.shear[1])],
             scale: l.splat(ray.scale),
-            axes: ray.axes,
+            // What the compiler sees here spares it to look at every use.
+            axes: ray.axes.map(|axis| axis.min(2)),
         }
     }
 }
@@ -83,55 +102,118 @@ struct Triple<V> {
     z: V,
 }
 
-impl Packet {
-    /// A packet of at most eight triangles.
-    pub(super) fn new(triangles: &[(u32, [Vec3; 3])]) -> Self {
-        let mut packet = Self { corners: [[Eight([f32::NAN; 8]); 3]; 3], primitives: [u32::MAX; 8] };
+/// What f32 says of a packet's triangles.
+struct Test<L: Lanes> {
+    /// Lanes that are met with 0 < t ≤ limit.
+    hit: u32,
+    /// Lanes that f32 cannot decide.
+    doubtful: u32,
+    edges: Triple<L::V>,
+    sum: L::V,
+    t: L::V,
+}
+
+impl Half {
+    /// Halves, one or two, of at most eight triangles.
+    pub(super) fn of(triangles: &[(u32, [Vec3; 3])]) -> impl Iterator<Item = Self> {
+        triangles.chunks(HALF).map(Self::new)
+    }
+
+    fn new(triangles: &[(u32, [Vec3; 3])]) -> Self {
+        let mut half = Self { corners: [[Four([f32::NAN; HALF]); 3]; 3], primitives: [u32::MAX; HALF] };
         for (lane, (primitive, corners)) in triangles.iter().enumerate() {
-            packet.primitives[lane] = *primitive;
+            half.primitives[lane] = *primitive;
             for (corner, position) in corners.iter().enumerate() {
                 for axis in 0..3 {
-                    packet.corners[corner][axis].0[lane] = position[axis];
+                    half.corners[corner][axis].0[lane] = position[axis];
                 }
             }
         }
-        packet
+        half
+    }
+}
+
+impl<'a> Packet<'a> {
+    /// The packet of one half or two.
+    #[inline(always)]
+    pub(super) fn new(halves: &'a [Half], first: usize, second: usize) -> Self {
+        let lanes = if first == second { 0x0f } else { 0xff };
+        Self { halves: [&halves[first], &halves[second]], lanes }
+    }
+
+    #[inline(always)]
+    fn primitive(&self, lane: usize) -> u32 {
+        self.halves[(lane / HALF) & 1].primitives[lane % HALF]
     }
 
     /// Which triangles the ray meets with 0 < t ≤ `limit`, and where.
     #[inline(always)]
-    pub(super) fn meet<L: Lanes>(&self, l: L, spread: &RayLanes<L>, ray: &LocalRay, limit: f32) -> Option<Meeting<'_>> {
-        let zero = l.splat(0.0);
-        let [a, b, c] = [self.corner(l, spread, 0), self.corner(l, spread, 1), self.corner(l, spread, 2)];
-        let edges = Triple { x: edge(l, b, c), y: edge(l, c, a), z: edge(l, a, b) };
-        let least = l.min(l.min(edges.x, edges.y), edges.z);
-        let most = l.max(l.max(edges.x, edges.y), edges.z);
-        let inside = l.or(l.le(zero, least), l.le(most, zero));
-        if l.bits(inside) == 0 {
-            return None;
-        }
-        let sum = l.add(l.add(edges.x, edges.y), edges.z);
-        let depth = l.add(l.add(l.mul(edges.x, a.z), l.mul(edges.y, b.z)), l.mul(edges.z, c.z));
-        let t = l.mul(l.div(depth, sum), spread.scale);
-        let hit = l.bits(l.and(inside, l.and(l.lt(zero, t), l.le(t, l.splat(limit)))));
-        // An edge function that is zero is the least magnitude there is.
-        let smallest = l.min(l.min(l.abs(edges.x), l.abs(edges.y)), l.abs(edges.z));
-        let doubtful = l.bits(l.and(inside, l.or(l.le(smallest, zero), doubtful_depth(l, [a, b, c], depth))));
-        if hit | doubtful == 0 {
-            return None;
-        }
+    pub(super) fn meet<L: Lanes>(&self, l: L, spread: &RayLanes<L>, ray: &LocalRay, limit: f32) -> Option<Meeting<'a>> {
+        let Test { hit, doubtful, edges, sum, t } = self.test(l, spread, ray, limit)?;
         let (u, v) = (l.div(edges.y, sum), l.div(edges.z, sum));
-        let mut meeting = Meeting {
-            lanes: hit & !doubtful,
-            t: l.store(t),
-            u: l.store(u),
-            v: l.store(v),
-            primitives: &self.primitives,
-        };
+        let mut meeting =
+            Meeting { lanes: hit & !doubtful, t: l.store(t), u: l.store(u), v: l.store(v), packet: *self };
         if doubtful != 0 {
             self.settle(ray, limit, doubtful, &mut meeting);
         }
         Some(meeting)
+    }
+
+    /// Whether the ray meets a triangle with 0 < t < `limit`.
+    #[inline(always)]
+    pub(super) fn blocks<L: Lanes>(&self, l: L, spread: &RayLanes<L>, ray: &LocalRay, limit: f32) -> bool {
+        let Some(met) = self.test(l, spread, ray, limit) else { return false };
+        let certain = met.hit & !met.doubtful & l.bits(l.lt(met.t, l.splat(limit)));
+        certain != 0 || met.doubtful != 0 && self.any_settled(ray, limit, met.doubtful)
+    }
+
+    /// What f32 says of a packet; `None` where no triangle is met or may be.
+    #[inline(always)]
+    fn test<L: Lanes>(&self, l: L, spread: &RayLanes<L>, ray: &LocalRay, limit: f32) -> Option<Test<L>> {
+        let zero = l.splat(0.0);
+        let corners = [self.corner(l, spread, 0), self.corner(l, spread, 1), self.corner(l, spread, 2)];
+        let [a, b, c] = corners;
+        let edges = Triple { x: edge(l, b, c), y: edge(l, c, a), z: edge(l, a, b) };
+        let least = l.min(l.min(edges.x, edges.y), edges.z);
+        let most = l.max(l.max(edges.x, edges.y), edges.z);
+        let inside = l.or(l.le(zero, least), l.le(most, zero));
+        let mut candidates = self.lanes & l.bits(inside);
+        if candidates == 0 {
+            return None;
+        }
+        let astride = self.lanes & l.bits(l.and(inside, astride(l, corners)));
+        if astride != 0 {
+            // Most often the surface that the ray has just left.
+            candidates &= !self.behind(ray, astride);
+            if candidates == 0 {
+                return None;
+            }
+        }
+        let sum = l.add(l.add(edges.x, edges.y), edges.z);
+        let depth = l.add(l.add(l.mul(edges.x, a.z), l.mul(edges.y, b.z)), l.mul(edges.z, c.z));
+        let t = l.mul(l.div(depth, sum), spread.scale);
+        let hit = candidates & l.bits(l.and(l.lt(zero, t), l.le(t, l.splat(limit))));
+        // An edge function that is zero is the least magnitude there is.
+        let smallest = l.min(l.min(l.abs(edges.x), l.abs(edges.y)), l.abs(edges.z));
+        let mut doubtful = candidates & l.bits(l.le(smallest, zero));
+        if candidates & astride != 0 {
+            doubtful |= candidates & astride & l.bits(uncertain_depth(l, corners, depth));
+        }
+        (hit | doubtful != 0).then_some(Test { hit, doubtful, edges, sum, t })
+    }
+
+    /// Those of `lanes` whose planes f64 finds not before the ray's origin.
+    #[inline(always)]
+    fn behind(&self, ray: &LocalRay, lanes: u32) -> u32 {
+        let (mut pending, mut behind) = (lanes, 0);
+        while pending != 0 {
+            let lane = pending.trailing_zeros() as usize & 7;
+            pending &= pending - 1;
+            let (height, slope) = height_and_slope(self.triangle(lane).map(Vec3::as_dvec3), ray);
+            let is_behind = slope != 0.0 && (height == 0.0 || (height < 0.0) != (slope < 0.0));
+            behind |= u32::from(is_behind) << lane;
+        }
+        behind
     }
 
     #[inline(always)]
@@ -143,7 +225,8 @@ impl Packet {
 
     #[inline(always)]
     fn relative<L: Lanes>(&self, l: L, ray: &RayLanes<L>, corner: usize, axis: usize) -> L::V {
-        l.sub(l.load(&self.corners[corner][ray.axes[axis]]), ray.origin[axis])
+        let [low, high] = self.halves.map(|half| &half.corners[corner][ray.axes[axis]]);
+        l.sub(l.load_halves(low, high), ray.origin[axis])
     }
 
     /// Decides doubtful lanes in f64.
@@ -151,13 +234,25 @@ impl Packet {
     #[inline(never)]
     fn settle(&self, ray: &LocalRay, limit: f32, doubtful: u32, meeting: &mut Meeting<'_>) {
         for lane in (0..8).filter(|lane| doubtful >> lane & 1 == 1) {
-            let corners: [Vec3; 3] =
-                core::array::from_fn(|corner| Vec3::from_array(self.corners[corner].map(|axis| axis.0[lane])));
-            if let Some((t, u, v)) = exact(corners, ray).filter(|(t, ..)| *t > 0.0 && *t <= limit) {
+            if let Some((t, u, v)) = exact(self.triangle(lane), ray, limit) {
                 meeting.lanes |= 1 << lane;
                 (meeting.t.0[lane], meeting.u.0[lane], meeting.v.0[lane]) = (t, u, v);
             }
         }
+    }
+
+    /// Whether one of the doubtful lanes is met before `limit`, decided in f64.
+    #[cold]
+    #[inline(never)]
+    fn any_settled(&self, ray: &LocalRay, limit: f32, doubtful: u32) -> bool {
+        let lanes = (0..8).filter(|lane| doubtful >> lane & 1 == 1);
+        lanes.filter_map(|lane| exact(self.triangle(lane), ray, limit)).any(|(t, ..)| t < limit)
+    }
+
+    #[inline(always)]
+    fn triangle(&self, lane: usize) -> [Vec3; 3] {
+        let half = self.halves[(lane / HALF) & 1];
+        core::array::from_fn(|corner| Vec3::from_array(half.corners[corner].map(|axis| axis.0[lane % HALF])))
     }
 }
 
@@ -167,22 +262,26 @@ fn edge<L: Lanes>(l: L, p: Triple<L::V>, q: Triple<L::V>) -> L::V {
     l.sub(l.mul(p.x, q.y), l.mul(p.y, q.x))
 }
 
-/// Lanes where the sign of the depth is not certain: the corners' depths are not of one sign, and their mean is within
-/// its error. With e = 2⁻²⁴ and greatest magnitudes x, y, z of the corners' coordinates, a sheared coordinate errs by
-/// 5e(x + z), an edge function by 2(2e·xy + 5e(x + z)y + 5e(y + z)x) and is at most 2xy, the sum of the three
-/// products by 3z·(error of an edge function + 4e·2xy): less than e·z·(96·xy + 30·z(x + y)).
+/// Lanes whose corners' depths are not of one sign.
 #[inline(always)]
-fn doubtful_depth<L: Lanes>(l: L, corners: [Triple<L::V>; 3], depth: L::V) -> L::M {
-    const E: f32 = f32::EPSILON / 2.0;
+fn astride<L: Lanes>(l: L, [a, b, c]: [Triple<L::V>; 3]) -> L::M {
     let zero = l.splat(0.0);
-    let [a, b, c] = corners;
     let low = l.min(l.min(a.z, b.z), c.z);
     let high = l.max(l.max(a.z, b.z), c.z);
-    let astride = l.and(l.le(low, zero), l.le(zero, high));
+    l.and(l.le(low, zero), l.le(zero, high))
+}
+
+/// Lanes where the sign of the depth is not certain, of those whose corners' depths are not of one sign: their mean is
+/// within its error. With e = 2⁻²⁴ and greatest magnitudes x, y, z of the corners' coordinates, a sheared coordinate errs
+/// by 5e(x + z), an edge function by 2(2e·xy + 5e(x + z)y + 5e(y + z)x) and is at most 2xy, the sum of the three
+/// products by 3z·(error of an edge function + 4e·2xy): less than e·z·(96·xy + 30·z(x + y)).
+#[inline(always)]
+fn uncertain_depth<L: Lanes>(l: L, [a, b, c]: [Triple<L::V>; 3], depth: L::V) -> L::M {
+    const E: f32 = f32::EPSILON / 2.0;
     let [x, y, z] = [greatest(l, a.x, b.x, c.x), greatest(l, a.y, b.y, c.y), greatest(l, a.z, b.z, c.z)];
     let square = l.mul(l.splat(100.0 * E), l.mul(x, y));
     let cross = l.mul(l.splat(32.0 * E), l.mul(z, l.add(x, y)));
-    l.and(astride, l.le(l.abs(depth), l.mul(z, l.add(square, cross))))
+    l.le(l.abs(depth), l.mul(z, l.add(square, cross)))
 }
 
 /// The greatest magnitude.
@@ -191,8 +290,10 @@ fn greatest<L: Lanes>(l: L, p: L::V, q: L::V, r: L::V) -> L::V {
     l.max(l.max(l.abs(p), l.abs(q)), l.abs(r))
 }
 
-/// The test for one triangle in f64, on the same sheared f32 corners: t, and the weights of vertices 1 and 2.
-fn exact(corners: [Vec3; 3], ray: &LocalRay) -> Option<(f32, f32, f32)> {
+/// The test for one triangle in f64, on the same sheared f32 corners: t with 0 < t ≤ `limit`, and the weights of vertices
+/// 1 and 2.
+fn exact(corners: [Vec3; 3], ray: &LocalRay, limit: f32) -> Option<(f32, f32, f32)> {
+    let in_range = |t: f64| t as f32 > 0.0 && t as f32 <= limit;
     let [a, b, c] = corners.map(|p| sheared(p, ray));
     let product = |p: DVec3, q: DVec3| p.x * q.y - p.y * q.x;
     let edges = DVec3::new(product(b, c), product(c, a), product(a, b));
@@ -202,7 +303,7 @@ fn exact(corners: [Vec3; 3], ray: &LocalRay) -> Option<(f32, f32, f32)> {
     }
     let mean = edges.dot(DVec3::new(a.z, b.z, c.z)) / sum * f64::from(ray.scale);
     let t = plane(corners.map(Vec3::as_dvec3), ray).unwrap_or(mean);
-    Some((t as f32, (edges.y / sum) as f32, (edges.z / sum) as f32))
+    in_range(t).then_some((t as f32, (edges.y / sum) as f32, (edges.z / sum) as f32))
 }
 
 fn sheared(p: Vec3, ray: &LocalRay) -> DVec3 {
@@ -212,8 +313,16 @@ fn sheared(p: Vec3, ray: &LocalRay) -> DVec3 {
 }
 
 /// Where the ray meets the triangle's plane; `None` where it runs along it.
-fn plane([a, b, c]: [DVec3; 3], ray: &LocalRay) -> Option<f64> {
-    let normal = (b - a).cross(c - a);
-    let t = normal.dot(a - ray.origin.as_dvec3()) / normal.dot(ray.direction.as_dvec3());
+fn plane(corners: [DVec3; 3], ray: &LocalRay) -> Option<f64> {
+    let (height, slope) = height_and_slope(corners, ray);
+    let t = height / slope;
     t.is_finite().then_some(t)
+}
+
+/// How far the triangle's plane is from the ray's origin, and how much of that the ray covers in a length of its
+/// direction, in lengths of the plane's normal.
+#[inline(always)]
+fn height_and_slope([a, b, c]: [DVec3; 3], ray: &LocalRay) -> (f64, f64) {
+    let normal = (b - a).cross(c - a);
+    (normal.dot(a - ray.origin.as_dvec3()), normal.dot(ray.direction.as_dvec3()))
 }

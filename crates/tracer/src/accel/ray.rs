@@ -7,8 +7,10 @@ use glam::Vec3;
 /// Below this a component of a direction counts as this small: its reciprocal stays finite, and the ray strays by less
 /// than any coordinate's rounding.
 const LEAST_COMPONENT: f32 = 1e-18;
-/// Shrinks the entry into a box by more than the rounding of the three operations that made it, and of those that made
-/// the exit: 2·3 roundings of 2⁻²⁴ (after Ize 2013, "Robust BVH ray traversal"), and as many for the triangle's.
+/// Shrinks the entry into a box by more than the rounding of the operations that made it, and of those that made the
+/// exit: 2·3 roundings of 2⁻²⁴ (after Ize 2013, "Robust BVH ray traversal"), and as many for the triangle's. What the
+/// difference of two products errs by more, two roundings of the plane's coordinate, the boxes' padding covers; being
+/// monotonic in that coordinate, it never places a plane before one that lies farther along the ray.
 const ENTRY_SHRINK: f32 = 1.0 - 1e-6;
 
 /// A ray prepared for boxes.
@@ -36,24 +38,28 @@ fn inverse(d: f32) -> f32 {
     if d.abs() < LEAST_COMPONENT { (1.0 / LEAST_COMPONENT).copysign(d) } else { 1.0 / d }
 }
 
-/// A slab ray spread over lanes.
+/// A slab ray spread over lanes. Where it meets a plane is found as plane · inverse − origin · inverse.
 #[derive(Clone, Copy)]
 pub(super) struct SlabLanes<L: Lanes> {
-    origin: [L::V; 3],
     inverse: [L::V; 3],
+    /// Origin · inverse.
+    start: [L::V; 3],
     /// The same, shrunk, for entries.
     entry_inverse: [L::V; 3],
+    entry_start: [L::V; 3],
     near: [usize; 3],
 }
 
 impl<L: Lanes> SlabLanes<L> {
     #[inline(always)]
     pub(super) fn new(l: L, ray: &SlabRay) -> Self {
-        let [x, y, z] = ray.inverse;
+        let ([x, y, z], [ox, oy, oz]) = (ray.inverse, ray.origin);
+        let [ex, ey, ez] = [x * ENTRY_SHRINK, y * ENTRY_SHRINK, z * ENTRY_SHRINK];
         Self {
-            origin: splat(l, ray.origin),
-            inverse: splat(l, ray.inverse),
-            entry_inverse: splat(l, [x * ENTRY_SHRINK, y * ENTRY_SHRINK, z * ENTRY_SHRINK]),
+            inverse: splat(l, [x, y, z]),
+            start: splat(l, [ox * x, oy * y, oz * z]),
+            entry_inverse: splat(l, [ex, ey, ez]),
+            entry_start: splat(l, [ox * ex, oy * ey, oz * ez]),
             near: ray.near,
         }
     }
@@ -72,14 +78,14 @@ impl<L: Lanes> SlabLanes<L> {
     #[inline(always)]
     fn entry(&self, l: L, node: &Node, axis: usize) -> L::V {
         let planes = l.load(&node.planes[axis][self.near[axis] & 1]);
-        l.mul(l.sub(planes, self.origin[axis]), self.entry_inverse[axis])
+        l.mul_sub(planes, self.entry_inverse[axis], self.entry_start[axis])
     }
 
     /// Where the ray meets the last planes of an axis.
     #[inline(always)]
     fn exit(&self, l: L, node: &Node, axis: usize) -> L::V {
         let planes = l.load(&node.planes[axis][(self.near[axis] ^ 1) & 1]);
-        l.mul(l.sub(planes, self.origin[axis]), self.inverse[axis])
+        l.mul_sub(planes, self.inverse[axis], self.start[axis])
     }
 }
 

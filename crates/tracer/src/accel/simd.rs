@@ -3,22 +3,26 @@
 
 #![allow(unsafe_code, reason = "vector instructions that are chosen at run time")]
 
-use super::lanes::{Eight, Job, Lanes};
+use super::lanes::{Eight, Four, Job, Lanes};
 use core::arch::x86_64::*;
 
-/// Proof that this machine has AVX2.
+/// Proof that this machine has AVX2, and what came with it: fused multiplication and instructions for single bits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx2(());
 
 impl Avx2 {
     /// The lanes, where this machine has them.
     pub(crate) fn detect() -> Option<Self> {
-        is_x86_feature_detected!("avx2").then_some(Self(()))
+        let has_all = is_x86_feature_detected!("avx2")
+            && is_x86_feature_detected!("fma")
+            && is_x86_feature_detected!("bmi1")
+            && is_x86_feature_detected!("bmi2");
+        has_all.then_some(Self(()))
     }
 }
 
 // SAFETY, for every block below: an `Avx2` exists only where AVX2 was detected. Loads and stores go through references
-// to eight floats, which their type aligns. A prefetch may be given any address.
+// to eight or four floats, which their types align. A prefetch may be given any address.
 impl Lanes for Avx2 {
     type V = __m256;
     type M = __m256;
@@ -27,6 +31,11 @@ impl Lanes for Avx2 {
     fn load(self, from: &Eight) -> __m256 {
         // SAFETY: see above.
         unsafe { _mm256_load_ps(from.0.as_ptr()) }
+    }
+    #[inline(always)]
+    fn load_halves(self, low: &Four, high: &Four) -> __m256 {
+        // SAFETY: see above.
+        unsafe { _mm256_set_m128(_mm_load_ps(high.0.as_ptr()), _mm_load_ps(low.0.as_ptr())) }
     }
     #[inline(always)]
     fn store(self, v: __m256) -> Eight {
@@ -54,6 +63,11 @@ impl Lanes for Avx2 {
     fn mul(self, a: __m256, b: __m256) -> __m256 {
         // SAFETY: see above.
         unsafe { _mm256_mul_ps(a, b) }
+    }
+    #[inline(always)]
+    fn mul_sub(self, a: __m256, b: __m256, c: __m256) -> __m256 {
+        // SAFETY: see above.
+        unsafe { _mm256_fmsub_ps(a, b, c) }
     }
     #[inline(always)]
     fn div(self, a: __m256, b: __m256) -> __m256 {
@@ -101,16 +115,15 @@ impl Lanes for Avx2 {
         unsafe { _mm256_movemask_ps(m) as u32 }
     }
     #[inline(always)]
-    fn prefetch<T>(self, at: &T) {
-        let start = core::ptr::from_ref(at).cast::<i8>();
-        for line in (0..size_of::<T>()).step_by(64) {
+    fn prefetch(self, at: *const u8) {
+        for line in 0..4 {
             // SAFETY: see above.
-            unsafe { _mm_prefetch::<_MM_HINT_T0>(start.wrapping_add(line)) };
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(at.cast::<i8>().wrapping_add(64 * line)) };
         }
     }
     #[inline(always)]
     fn run<J: Job>(self, job: J) -> J::Output {
-        #[target_feature(enable = "avx2")]
+        #[target_feature(enable = "avx2,fma,bmi1,bmi2")]
         fn with_avx2<J: Job>(lanes: Avx2, job: J) -> J::Output {
             job.work(lanes)
         }

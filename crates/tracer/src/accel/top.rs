@@ -124,8 +124,12 @@ impl Job for Closest<'_, '_> {
         let Self { top, ray } = self;
         let root = top.root.filter(|_| is_traceable(ray))?;
         let mut leaves = ClosestLeaf { l, top, ray, best: Best::default() };
-        let slab = SlabRay::new(ray.origin, ray.direction);
-        walk::<L, true>(l, &top.nodes, root, &slab, &mut { ray.t_max }, &mut leaves);
+        if root.as_node().is_some() {
+            let slab = SlabRay::new(ray.origin, ray.direction);
+            walk::<L, true>(l, &top.nodes, root, &slab, &mut { ray.t_max }, &mut leaves);
+        } else {
+            leaves.visit(root.leaf_index(), &mut { ray.t_max });
+        }
         leaves.best.hit
     }
 }
@@ -154,6 +158,11 @@ impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
         }
         false
     }
+
+    #[inline(always)]
+    fn place(&self, leaf: usize) -> *const u8 {
+        self.top.leaves.as_ptr().wrapping_add(leaf).cast()
+    }
 }
 
 struct Occluded<'a, 'w> {
@@ -168,8 +177,12 @@ impl Job for Occluded<'_, '_> {
     fn work<L: Lanes>(self, l: L) -> bool {
         let Self { top, ray } = self;
         let Some(root) = top.root.filter(|_| is_traceable(ray)) else { return false };
+        let mut leaves = AnyLeaf { l, top, ray };
+        if root.as_node().is_none() {
+            return leaves.visit(root.leaf_index(), &mut { ray.t_max });
+        }
         let slab = SlabRay::new(ray.origin, ray.direction);
-        walk::<L, false>(l, &top.nodes, root, &slab, &mut { ray.t_max }, &mut AnyLeaf { l, top, ray })
+        walk::<L, false>(l, &top.nodes, root, &slab, &mut { ray.t_max }, &mut leaves)
     }
 }
 
@@ -190,6 +203,11 @@ impl<L: Lanes> Leaves for AnyLeaf<'_, '_, L> {
                 meet_sphere(radius, origin, direction).is_some_and(|hit| hit.t > 0.0 && hit.t < *limit)
             }
         }
+    }
+
+    #[inline(always)]
+    fn place(&self, leaf: usize) -> *const u8 {
+        self.top.leaves.as_ptr().wrapping_add(leaf).cast()
     }
 }
 

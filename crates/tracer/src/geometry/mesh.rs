@@ -10,8 +10,8 @@ use std::collections::HashSet;
 
 /// Coordinates beyond this are refused: products of three of them must stay finite in f32.
 const LARGEST_COORDINATE_M: f32 = 1e12;
-/// Trees name nodes and leaves by 31 bits, and has no more of either than triangles.
-const MOST_TRIANGLES: usize = (1 << 31) - 1;
+/// Trees name leaves by 30 bits, and have no more of them than pieces of triangles.
+const MOST_TRIANGLES: usize = (1 << 29) - 1;
 
 /// Triangles over shared vertices, in the mesh's own frame.
 #[derive(Clone, Debug, PartialEq)]

@@ -44,7 +44,7 @@ pub enum MeshError {
         expected: usize,
     },
     /// More triangles than the tree can name.
-    #[error("the mesh has {triangles} triangles, but at most 2147483647 are possible; split it")]
+    #[error("the mesh has {triangles} triangles, but at most 536870911 are possible; split it")]
     TooManyTriangles {
         /// How many there are.
         triangles: usize,

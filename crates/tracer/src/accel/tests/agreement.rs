@@ -3,7 +3,7 @@
 use super::shapes::{Random, medley, soup, world_of};
 use crate::accel::lanes::Plain;
 use crate::accel::local::LocalRay;
-use crate::accel::packet::{Packet, RayLanes};
+use crate::accel::packet::{Half, Packet, RayLanes};
 use crate::accel::{Simd, World};
 use crate::geometry::{Shape, sphere};
 use crate::view::{Hit, View};
@@ -42,7 +42,8 @@ fn alone(view: &View<'_>, ray: &Ray, instance: u32, primitive: u32) -> Option<Hi
             Some(Hit { t, instance, primitive, u: 0.0, v: 0.0 })
         }
         Shape::Mesh(id) => {
-            let packet = Packet::new(&[(primitive, world.mesh(id).corners(primitive))]);
+            let halves: Vec<_> = Half::of(&[(primitive, world.mesh(id).corners(primitive))]).collect();
+            let packet = Packet::new(&halves, 0, 0);
             let local = LocalRay::new(origin, direction);
             let hit = packet.meet(Plain, &RayLanes::new(Plain, &local), &local, f32::INFINITY)?.next()?;
             Some(Hit { t: hit.t, instance, primitive, u: hit.u, v: hit.v })
