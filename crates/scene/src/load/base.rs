@@ -54,8 +54,13 @@ fn based_on(
     chain: &[PathBuf],
     faults: &mut Faults,
 ) -> Option<Node> {
-    if chain.iter().any(|above| above == file) || chain.len() > DEEPEST {
+    if chain.iter().any(|above| above == file) {
         faults.add(named, format!("\"{}\" is built on itself", file.display()), "name another base, or none");
+        return None;
+    }
+    if chain.len() > DEEPEST {
+        let problem = format!("more than {DEEPEST} files are built one on the other here, in a circle perhaps");
+        faults.add(named, problem, "build on fewer files");
         return None;
     }
     open(file, kind, read, named, chain, faults)
