@@ -90,7 +90,7 @@ impl Lobe {
     }
 }
 
-/// ∫ cosⁿγ [wᵢ_z]₊ dω over the half-space about an axis with components `s` along the surface and `z` ≥ 0 along the
+/// ∫ cosⁿγ max(wᵢ_z, 0) dω over the half-space about an axis with components `s` along the surface and `z` ≥ 0 along the
 /// normal: ∫ dt/(n + 1) over t = cosⁿ⁺¹γ by the midpoint rule.
 fn cosine_power_flux(s: f64, z: f64, n: f64) -> f64 {
     const STEPS: usize = 512;
@@ -101,7 +101,7 @@ fn cosine_power_flux(s: f64, z: f64, n: f64) -> f64 {
     (0..STEPS).map(ring).sum::<f64>() / (STEPS as f64 * (n + 1.0))
 }
 
-/// ∫ [a + b cos φ]₊ dφ over a turn, for a, b ≥ 0.
+/// ∫ max(a + b cos φ, 0) dφ over a turn, for a, b ≥ 0.
 fn positive_part(a: f64, b: f64) -> f64 {
     if a >= b {
         return core::f64::consts::TAU * a;
