@@ -17,10 +17,12 @@ pub(super) const GRAZING_DEG: f64 = 60.0;
 /// Steps between the first and the last observation angle, and from there to the widest cut-off.
 const STEPS: usize = 24;
 
-/// f_r = R_A(α, β)/(cos β cos ν), cut off at some α.
+/// f_r = R_A(α, β)/(cos β cos ν) less what the base gives, not below 0, cut off at some α.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RetroLobe {
     table: RetroTable,
+    /// The base's bsdf (luminous, under illuminant A), which R_A as measured holds already, 1/sr.
+    beneath: f32,
     /// Cosine below which those of β and ν are held.
     least_cos: f32,
     /// Edges of cells of the observation angle, as 1 − cos α; the last is the cut-off.
@@ -61,13 +63,14 @@ fn edges(table: &RetroTable) -> (Vec<f32>, usize) {
 
 impl RetroLobe {
     /// The lobe cut off after `cells` of its possible cells.
-    fn cut(table: &RetroTable, edges: &[f32], cells: usize) -> Self {
+    fn cut(table: &RetroTable, beneath: f32, edges: &[f32], cells: usize) -> Self {
         let deepest = table.entrance_deg()[table.entrance_deg().len() - 1].max(GRAZING_DEG);
         let edges = edges[..=cells].to_vec();
         let mut lobe = Self {
             least_cos: cos(deepest.to_radians() as f32),
             cumulative: table.entrance().iter().map(|beta| cumulative(table, &edges, *beta)).collect(),
             table: table.clone(),
+            beneath,
             edges,
             albedo: AlbedoTable::new(|_| 0.0),
         };
@@ -76,19 +79,21 @@ impl RetroLobe {
     }
 
     /// Lobes by falling cut-off: the widest first, the last cut off where the table ends.
-    pub(super) fn widest_first(table: &RetroTable) -> impl Iterator<Item = Self> + '_ {
+    /// `beneath` is the bsdf of the base.
+    pub(super) fn widest_first(table: &RetroTable, beneath: f32) -> impl Iterator<Item = Self> + '_ {
         let (edges, known) = edges(table);
-        (known - 1..edges.len()).rev().map(move |cells| Self::cut(table, &edges, cells))
+        (known - 1..edges.len()).rev().map(move |cells| Self::cut(table, beneath, &edges, cells))
     }
 
-    /// R_A cos θᵢ/(cos β cos ν), 1/sr.
+    /// R_A cos θᵢ/(cos β cos ν) less the base's value, 1/sr.
     pub(super) fn value_cos(&self, wo: Vec3, wi: Vec3) -> f32 {
         let k = one_minus_cos(wo, wi);
         if k >= self.cut_off() {
             return 0.0;
         }
         let coefficient = self.table.at(angle(k), acos(wi.z.min(1.0)));
-        coefficient * wi.z / (wi.z.max(self.least_cos) * wo.z.max(self.least_cos))
+        let whole = coefficient / (wi.z.max(self.least_cos) * wo.z.max(self.least_cos));
+        (whole - self.beneath).max(0.0) * wi.z
     }
 
     fn cut_off(&self) -> f32 {

@@ -1,9 +1,10 @@
 //! Retro-reflective sheeting: signs and number plates.
 //!
-//! f_r = c(λ) R_A(α, β)/(cos β cos ν) + k_d/π, 1/sr. α is the observation angle, between the ways to the lamp and to the
+//! f_r = k_d(λ)/π + c(λ) [R_A(α, β)/(cos β cos ν) − k̄_d/π]₊, 1/sr. α is the observation angle, between the ways to the lamp and to the
 //! viewer; β the entrance angle, of the lamp to the normal; ν that of the viewer. R_A is the coefficient of
 //! retro-reflection, cd·lx⁻¹·m⁻² (CIE e-ILV 17-24-103; measured by ASTM E810), so that a sheeting under E_⊥ lux has the
-//! luminance R_A E_⊥/cos ν. c is the colour, of luminous mean 1 under CIE illuminant A, the light that R_A is measured in.
+//! luminance R_A E_⊥/cos ν: R_A as measured holds the matt base's light, whose luminous reflectance under illuminant A is
+//! k̄_d, so the lobe adds what is missing, and nothing where the base alone gives more. c is the colour, of luminous mean 1 under CIE illuminant A, the light that R_A is measured in.
 //! The angle is taken from |ωᵢ − ωₒ|, exact for close directions in f32. Light is drawn from about the viewer's
 //! direction by a table of R_A × solid angle, mixed with the cosine for the base.
 //!
@@ -135,7 +136,8 @@ impl Sheeting {
 /// The widest lobe of a table that keeps energy.
 fn widest(table: &RetroTable, base: &Spectrum, colour: &Spectrum) -> Result<RetroLobe, EnergyGain> {
     let mut gain = Ok(());
-    for lobe in RetroLobe::widest_first(table) {
+    let beneath = luminous(base) as f32 * FRAC_1_PI;
+    for lobe in RetroLobe::widest_first(table, beneath) {
         gain = energy::check(base, &[(colour, &lobe.albedo)]);
         if gain.is_ok() {
             return Ok(lobe);
@@ -146,9 +148,13 @@ fn widest(table: &RetroTable, base: &Spectrum, colour: &Spectrum) -> Result<Retr
 
 /// A spectrum scaled to a luminous mean of 1 under illuminant A; `None` for one that is negative or dark.
 pub(super) fn photometric(colour: &Spectrum) -> Option<Spectrum> {
-    let a = illuminant::named("A").expect("A is in the list");
-    let luminous = observer::xyz_of_reflectance(colour, a)[1];
+    let luminous = luminous(colour);
     (energy::is_weight(colour) && luminous > 0.0).then(|| colour.scaled(1.0 / luminous))
+}
+
+/// Luminous mean of a spectrum under illuminant A.
+fn luminous(of: &Spectrum) -> f64 {
+    observer::xyz_of_reflectance(of, illuminant::named("A").expect("A is in the list"))[1]
 }
 
 /// Why a sheeting is refused.
