@@ -8,7 +8,7 @@ use etendue_core::Bands;
 use etendue_core::maths::f64::{sin, sin_cos};
 use etendue_spectra::{illuminant, observer};
 use etendue_stats::{ReplicateEstimate, planes};
-use etendue_testkit::form_factor::{polygon, sphere};
+use etendue_testkit::form_factor::{disc, polygon, sphere};
 use etendue_testkit::judge::{SIGNIFICANCE, against_truth, is_near};
 use etendue_tests::{Job, Samples};
 use glam::DVec3;
@@ -169,4 +169,23 @@ fn a_constant_picture_is_a_uniform_environment() {
     let sum = |s: &Samples| s.mean.iter().map(|v| f64::from(*v)).sum::<f64>();
     // Rec. 709's row is given to four digits: 1e-4. Scatter of the mean over 64 pixels and 256 samples: 1e-3.
     assert!((sum(&image) / sum(&uniform) - 1.0).abs() < 3e-3);
+}
+
+#[test]
+fn a_disc_over_a_plane() {
+    // Over the corner of what is seen: the disc's back hides no pixel, as it would over the middle.
+    for (height, radius) in [(1.5, 0.4), (3.0, 1.2), (6.0, 0.05)] {
+        let lamp = format!(
+            "{LAMP}\n[[scene.objects]]\nname = \"disc\"\nmaterial = \"lamp\"\nposition_m = [3.5, -7.5, {height}]\n\
+             rotation_deg = [0, 180, 0]\nshape = {{ type = \"disc\", radius_m = {radius} }}"
+        );
+        // A polygon of 256 sides and the same area as the circle: their second moments differ by 2e-9.
+        let seen = plane(&lamp).shot().radiance();
+        let axis = DVec3::new(3.5, -7.5, 0.0);
+        assert_lit(&seen, |p| 3.0 * disc(height, (p - axis).length(), radius), &format!("radius {radius} at {height}"));
+        // The pixel below the middle is on the axis: E = π L R²/(R² + h²).
+        let below = (0..64).find(|i| (point(*i) - axis).length() < 1e-9).expect("a pixel below the middle");
+        let on_axis = 3.0 * PI * radius * radius / (radius * radius + height * height);
+        assert!((3.0 * disc(height, (point(below) - axis).length(), radius) / on_axis - 1.0).abs() < 1e-12);
+    }
 }

@@ -1,5 +1,7 @@
 //! Shapes that need no file, as meshes.
 
+use core::f64::consts::TAU;
+use etendue_core::maths::f64::{sin, sin_cos};
 use etendue_tracer::geometry::{Dropped, Mesh, MeshError};
 use glam::{Vec2, Vec3};
 
@@ -22,6 +24,24 @@ pub(super) fn cuboid(size_m: [f64; 3]) -> Corners {
     Corners(faces.map(face).collect())
 }
 
+/// Sides of the polygon that stands for a disc.
+const DISC_SIDES: u32 = 256;
+
+/// A disc in the plane z = 0, centred, its front towards +z, as a regular polygon of the same area.
+pub(super) fn disc(radius_m: f64) -> Result<(Mesh, Dropped), MeshError> {
+    let step = TAU / f64::from(DISC_SIDES);
+    let reach = (step / sin(step)).sqrt();
+    let rim = (0..DISC_SIDES).map(|i| {
+        let (y, x) = sin_cos(f64::from(i) * step);
+        Vec2::new(x as f32, y as f32)
+    });
+    let unit: Vec<Vec2> = core::iter::once(Vec2::ZERO).chain(rim).collect();
+    let positions = unit.iter().map(|p| (*p * (radius_m * reach) as f32).extend(0.0)).collect();
+    let uvs = unit.iter().map(|p| 0.5 + 0.5 * *p).collect();
+    let triangles = (0..DISC_SIDES).map(|i| [0, 1 + i, 1 + (i + 1) % DISC_SIDES]).collect();
+    Mesh::new(positions, vec![], uvs, triangles, vec![])
+}
+
 impl Corners {
     /// The mesh: faces share no vertices, so each has its own texture coordinates, 0 to 1.
     pub(super) fn into_mesh(self) -> Result<(Mesh, Dropped), MeshError> {
@@ -38,6 +58,19 @@ mod tests {
 
     fn normals(corners: &Corners) -> Vec<Vec3> {
         corners.0.iter().map(|[a, b, c, _]| (*b - *a).cross(*c - *a).normalize()).collect()
+    }
+
+    #[test]
+    fn a_disc_has_the_area_of_the_circle_and_faces_up() {
+        let (mesh, dropped) = disc(0.3).expect("a mesh");
+        assert_eq!((mesh.triangles().len(), dropped), (256, Dropped::default()));
+        let twice_area = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|i| mesh.positions()[i as usize]);
+            f64::from((b - a).cross(c - a).z)
+        };
+        let area: f64 = mesh.triangles().iter().map(twice_area).sum::<f64>() / 2.0;
+        // f32 positions.
+        assert!((area / (core::f64::consts::PI * 0.09) - 1.0).abs() < 1e-6, "{area}");
     }
 
     #[test]

@@ -10,7 +10,7 @@ use etendue_scene::record::shape::Shape as ShapeRecord;
 use etendue_scene::record::{self, Body, Object, Scene};
 use etendue_tracer::MaterialId;
 use etendue_tracer::accel::{World, WorldBuilder};
-use etendue_tracer::geometry::{Dropped, Instance, Mesh, MeshId, Shape};
+use etendue_tracer::geometry::{Dropped, Instance, Mesh, MeshError, MeshId, Shape};
 use glam::{DAffine3, DMat3, Vec2, Vec3};
 use std::collections::BTreeMap;
 
@@ -118,14 +118,22 @@ impl Assembly {
         let material = palette.named(&object.material.as_ref()?.value)?;
         let shape = match record {
             ShapeRecord::Sphere(sphere) => Shape::Sphere { radius_m: sphere.radius_m.value },
-            ShapeRecord::Quad(quad) => self.own_mesh(shape::quad(quad.size_m.value), object, context)?,
-            ShapeRecord::Box(cuboid) => self.own_mesh(shape::cuboid(cuboid.size_m.value), object, context)?,
+            ShapeRecord::Quad(quad) => self.own_mesh(shape::quad(quad.size_m.value).into_mesh(), object, context)?,
+            ShapeRecord::Box(cuboid) => {
+                self.own_mesh(shape::cuboid(cuboid.size_m.value).into_mesh(), object, context)?
+            }
+            ShapeRecord::Disc(disc) => self.own_mesh(shape::disc(disc.radius_m.value), object, context)?,
         };
         Some(Prototype { shape, materials: vec![material], to_object: DMat3::IDENTITY })
     }
 
-    fn own_mesh(&mut self, mesh: shape::Corners, object: &Object, context: &mut Context<'_>) -> Option<Shape> {
-        let (mesh, _) = context.accept(&object.place, mesh.into_mesh())?;
+    fn own_mesh(
+        &mut self,
+        mesh: Result<(Mesh, Dropped), MeshError>,
+        object: &Object,
+        context: &mut Context<'_>,
+    ) -> Option<Shape> {
+        let (mesh, _) = context.accept(&object.place, mesh)?;
         Some(Shape::Mesh(self.builder.add_mesh(mesh)))
     }
 }

@@ -12,6 +12,9 @@ variants! {
         "box" => Box(Cuboid),
         /// A sphere about the origin.
         "sphere" => Sphere(Sphere),
+        /// A disc in the plane z = 0, centred, its front towards +z: a regular polygon of 256 sides and the same area; u
+        /// runs along x and v along y, 0 … 1 over its diameter.
+        "disc" => Disc(Disc),
     }
 }
 
@@ -34,6 +37,14 @@ record! {
 record! {
     /// A sphere.
     pub struct Sphere {
+        /// Radius, m, above 0.
+        required radius_m: Placed<f64> = number("m").above(0.0);
+    }
+}
+
+record! {
+    /// A disc.
+    pub struct Disc {
         /// Radius, m, above 0.
         required radius_m: Placed<f64> = number("m").above(0.0);
     }
