@@ -2,7 +2,7 @@
 
 use crate::Shot;
 use etendue_pipeline::{Choices, Plan, compile};
-use etendue_scene::asset::{Assets, ImageAsset, ImagePixels, SpectrumAsset};
+use etendue_scene::asset::{Assets, ImageAsset, ImagePixels, PhotometryAsset, RetroTableAsset, SpectrumAsset};
 use etendue_scene::{Description, Overrides};
 use std::path::Path;
 
@@ -34,6 +34,20 @@ impl Job {
     pub fn with_image(mut self, path: &str, width: u32, height: u32, rgb: Vec<[f32; 3]>) -> Self {
         let asset = ImageAsset { width, height, pixels: ImagePixels::Rgb32F(rgb), hash: [0; 32] };
         self.assets.images.insert(path.into(), asset);
+        self
+    }
+
+    /// With a lamp file.
+    #[must_use]
+    pub fn with_lamp(mut self, path: &str, lamp: PhotometryAsset) -> Self {
+        self.assets.photometry.insert(path.into(), lamp);
+        self
+    }
+
+    /// With a table of coefficients of retro-reflection.
+    #[must_use]
+    pub fn with_retro_table(mut self, path: &str, table: RetroTableAsset) -> Self {
+        self.assets.retro_tables.insert(path.into(), table);
         self
     }
 
@@ -78,5 +92,15 @@ impl Job {
     #[must_use]
     pub fn shot(&self) -> Shot {
         Shot::of(self.plan())
+    }
+
+    /// The light of every camera.
+    ///
+    /// # Panics
+    /// As [`Job::plan`].
+    #[must_use]
+    pub fn shots(&self) -> Vec<Shot> {
+        let plan = self.plan();
+        (0..plan.cameras.len()).map(|i| Shot::of_camera(plan.clone(), i)).collect()
     }
 }

@@ -1,4 +1,4 @@
-//! The light of a job's first camera.
+//! The light of a camera of a job.
 
 use etendue_core::SpectralCube;
 use etendue_core::quantity::{Quantity, Variance};
@@ -8,16 +8,19 @@ use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::render::{Request, light};
 use etendue_pipeline::truth::{GroundTruth, ground_truth};
 use etendue_pipeline::{Plan, Unobserved};
+use etendue_spectra::observer;
 use etendue_stats::EstimatedPlane;
 use etendue_tracer::accel::Simd;
 
-/// The light of a job's first camera. Every sample was finite.
+/// The light of a camera of a job. Every sample was finite.
 #[derive(Clone, Debug)]
 pub struct Shot {
     /// The plan.
     pub plan: Plan,
-    /// What its first camera gathered.
+    /// What the camera gathered.
     pub film: Film,
+    /// Which camera it is.
+    index: usize,
 }
 
 impl Shot {
@@ -27,15 +30,24 @@ impl Shot {
     /// Where a sample is not finite.
     #[must_use]
     pub fn of(plan: Plan) -> Self {
-        let film = light(&plan, &plan.cameras[0], Request::default(), &Unobserved).expect("nobody cancels");
+        Self::of_camera(plan, 0)
+    }
+
+    /// Renders one of a plan's cameras, counted from 0.
+    ///
+    /// # Panics
+    /// Where a sample is not finite, or there is no such camera.
+    #[must_use]
+    pub fn of_camera(plan: Plan, index: usize) -> Self {
+        let film = light(&plan, &plan.cameras[index], Request::default(), &Unobserved).expect("nobody cancels");
         assert_eq!(film.not_finite_samples(), 0, "samples that are not finite");
-        Self { plan, film }
+        Self { plan, film, index }
     }
 
     /// The camera.
     #[must_use]
     pub fn camera(&self) -> &CameraPlan {
-        &self.plan.cameras[0]
+        &self.plan.cameras[self.index]
     }
 
     /// The light, sorted by what it is.
@@ -60,6 +72,18 @@ impl Shot {
     #[must_use]
     pub fn radiance(&self) -> Samples {
         Samples::of(&self.film.radiance().expect("a cube is kept"), self.film.replicates)
+    }
+
+    /// Luminance, cd/m², of every pixel, by the bands that are kept.
+    ///
+    /// # Panics
+    /// Where no cube is kept.
+    #[must_use]
+    pub fn luminance(&self) -> Vec<f64> {
+        let cube = self.film.radiance().expect("a cube is kept").mean;
+        let pixels = self.camera().body.raster.width() * self.camera().body.raster.height();
+        let bands = |pixel: usize| cube.planes().iter().map(|p| p.samples()[pixel]).collect::<Vec<f32>>();
+        (0..pixels).map(|pixel| observer::xyz_of_bands(&bands(pixel), cube.bands())[1]).collect()
     }
 
     /// Spectral irradiance on the sensor, all bands one after the other.
