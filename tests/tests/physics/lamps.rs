@@ -73,13 +73,12 @@ fn fan() -> Vec<DVec3> {
 }
 
 fn assert_near(found: f64, expected: f64, tolerance: f64, what: &str) {
-    eprintln!("FIG {what} {found} {expected} {:e}", found / expected - 1.0);
     assert!((found - expected).abs() <= tolerance * expected, "{what}: {found} for {expected}");
 }
 
 #[test]
 fn a_lamp_alike_in_all_directions_is_told_in_lumens_candelas_or_watts() {
-    // 1 W of the 800 nm from 300 to 1 100 nm a steradian: spectral intensity of 1/800 W·sr⁻¹·nm⁻¹.
+    // 1 000 cd of a flat spectrum over all directions and the 800 nm from 300 to 1 100 nm.
     let watts = 4.0 * PI * 800.0 * flat_per_lux() * 1000.0;
     for (strength, at_m) in [
         ("intensity_cd = 1000".to_owned(), 0.0),
@@ -204,7 +203,7 @@ fn read(name: &str, text: &str) -> PhotometryAsset {
 }
 
 /// A measured lamp on the wall gives the file's candelas at (horizontal, vertical) angles, degrees, whose directions are
-/// `direction`'s; those of `nodes` are in the file as `candela` says.
+/// `direction`'s; multiples of 10° are in the file as `candela` says.
 fn assert_measured(
     lamp: &PhotometryAsset,
     name: &str,
@@ -305,7 +304,6 @@ fn a_low_beam_on_the_wall_passes_the_regulation_s_points() {
         for (found, (name, _, _, least, most)) in
             intensities(&wall(&lamp, &directions), &directions).iter().zip(PASSING_BEAM)
         {
-            eprintln!("FIG {traffic} {name}: {found} for {least} {most}");
             assert!((least..=most).contains(found), "{traffic}, {name}: {found} cd for {least} to {most} cd");
         }
     }

@@ -86,7 +86,6 @@ fn luminances(job: &Job) -> Vec<f64> {
 const GRANTED: f64 = 1e-3;
 
 fn assert_near(found: f64, expected: f64, tolerance: f64, what: &str) {
-    eprintln!("FIG {what} {found} {expected} {:e}", found / expected - 1.0);
     assert!((found / expected - 1.0).abs() < tolerance, "{what}: {found} for {expected} cd/m²");
 }
 

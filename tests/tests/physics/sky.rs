@@ -44,7 +44,6 @@ fn band_mean(nm: u32, of: impl Fn(f64) -> f64) -> f64 {
 }
 
 fn assert_near(found: f32, expected: f64, tolerance: f64, what: &str) {
-    eprintln!("FIG {what} {:e}", f64::from(found) / expected - 1.0);
     assert!((f64::from(found) / expected - 1.0).abs() < tolerance, "{what}: {found} for {expected}");
 }
 
