@@ -11,21 +11,16 @@ GRID = (8, 6)
 
 
 def relative_mse(pictures):
-    """Of independent pictures with equal samples, each against the mean of the others.
+    """Of independent pictures with equal samples, against their mean, which stands for the converged picture.
 
-    (picture - reference)^2 / (reference^2 + (1 % of the mean)^2), the mean over all pixels but the worst. The error of
-    the reference, that of a picture over their number, is taken off.
+    (picture - mean)^2 / (mean^2 + (1 % of the picture's mean)^2), averaged over all pixels but the worst, and times
+    n / (n - 1), because the mean of n pictures contains each of them.
     """
-    return float(np.mean([_against_others(pictures, i) for i in range(len(pictures))]))
-
-
-def _against_others(pictures, i):
-    others = [p for k, p in enumerate(pictures) if k != i]
-    reference = np.mean(others, axis=0)
-    scale = reference**2 + (FLOOR * reference.mean()) ** 2
-    errors = np.sort(((pictures[i] - reference) ** 2 / scale).ravel())
-    kept = errors[: int(np.ceil(len(errors) * (1 - TRIMMED)))]
-    return kept.mean() / (1.0 + 1.0 / len(others))
+    mean = np.mean(pictures, axis=0)
+    scale = mean**2 + (FLOOR * mean.mean()) ** 2
+    kept = int(np.ceil(mean.size * (1 - TRIMMED)))
+    errors = [np.sort(((p - mean) ** 2 / scale).ravel())[:kept].mean() for p in pictures]
+    return float(np.mean(errors) * len(pictures) / (len(pictures) - 1))
 
 
 def regions(image):

@@ -6,7 +6,8 @@ made of the scenes that ship with the project:
 
 - `cornell`: scenes/cornell, its quads and boxes as triangles, with the measured spectra.
 - `street`: scenes/street, every instance written out, cars, kerbs and one kind of house divided in four, so that there
-  are 807 170 triangles; coats have alpha of 0.1 or more, so that no renderer waits for caustics.
+  are more than 800 000 triangles. Only materials that all renderers have: leaves and retro-reflecting signs are matt, and
+  coats have alpha of 0.1 or more, so that no renderer waits for caustics.
 - `night`: the same at night, under 50 lamps.
 """
 
@@ -17,14 +18,26 @@ from pathlib import Path
 
 import numpy as np
 
+import sky
 from spectra import DATA, NM, OBSERVER, ROOT, black_body, on_grid, table, with_luminance
 
 WIDTH, HEIGHT = 512, 384
 BOUNCES = 8
-# The street's textures and sky are named from where they lie.
+# The street's textures are named from where they lie.
 STREET = ROOT / "scenes/street"
 DIVIDED = {"hatchback", "saloon", "van", "house-a", "kerb"}
 LEAST_ALPHA = 0.1
+LEAST_TRIANGLES = 800_000
+# What stands for ready materials, and is enough like them.
+READY = {
+    "marking_white": {"type": "diffuse", "reflectance": [0.56, 0.56, 0.54]},
+    "car_paint_silver": {"type": "coated", "reflectance": [0.42, 0.43, 0.44], "alpha": LEAST_ALPHA},
+    "car_paint_metallic_blue": {"type": "coated", "reflectance": [0.02, 0.06, 0.20], "alpha": LEAST_ALPHA},
+    "rubber": {"type": "diffuse", "reflectance": [0.04, 0.04, 0.04]},
+    "skin_light": {"type": "diffuse", "reflectance": [0.45, 0.28, 0.20]},
+}
+SUN = {"elevation_deg": 38.0, "azimuth_deg": 150.0, "diameter_deg": 0.5338, "illuminance_lx": 75_000.0}
+SUN_K, SKY_LX, GROUND_CD_M2 = 5300.0, 15_000.0, 2900.0
 LAMPS, LAMP_CD_M2, LAMP_SIZE_M = 50, 6000.0, (0.6, 0.25)
 
 
@@ -161,21 +174,20 @@ def cornell():
     return {"materials": materials, "camera": view, "objects": objects}, mesh
 
 
-def street_materials(described):
-    found = []
-    files = {t["name"]: str(STREET / t["file"]) for t in described["textures"]}
-    for m in described["materials"]:
-        material = {"name": m["name"], "kind": m["type"]}
-        if m["type"] == "conductor":
-            material |= {"metal": m["metal"], "alpha": max(m["alpha"], LEAST_ALPHA)}
-        elif isinstance(m["reflectance"], dict):
-            material["texture"] = files[m["reflectance"]["texture"]]
-        else:
-            material["rgb"] = m["reflectance"]
-        if m["type"] == "coated":
-            material["alpha"] = max(m["alpha"], LEAST_ALPHA)
-        found.append(material)
-    return found
+def street_material(m, files):
+    """In terms of what all renderers have."""
+    m = READY[m["preset"]] | {"name": m["name"]} if "preset" in m else m
+    if m["type"] == "conductor":
+        return {"name": m["name"], "kind": "conductor", "metal": m["metal"], "alpha": max(m["alpha"], LEAST_ALPHA)}
+    material = {"name": m["name"], "kind": "coated" if m["type"] == "coated" else "diffuse"}
+    colour = m["print"] if m["type"] == "retro_sheeting" else m["reflectance"]
+    if isinstance(colour, dict):
+        material["texture"] = files[colour["texture"]]
+    else:
+        material["rgb"] = colour
+    if m["type"] == "coated":
+        material["alpha"] = max(m["alpha"], LEAST_ALPHA)
+    return material
 
 
 def street_mesh(described, names):
@@ -195,14 +207,17 @@ def street_mesh(described, names):
 def street():
     """By day."""
     described = tomllib.loads((STREET / "scene.toml").read_text())
-    materials = street_materials(described)
+    files = {t["name"]: str(STREET / t["file"]) for t in described["textures"]}
+    materials = [street_material(m, files) for m in described["materials"]]
     mesh = street_mesh(described, [m["name"] for m in materials])
-    sun = described["lights"][0]
-    light = {"elevation_deg": sun["elevation_deg"], "azimuth_deg": sun["azimuth_deg"], "diameter_deg": 0.5338,
-             "illuminance_lx": sun["illuminance_lx"],
-             "irradiance": emission(black_body(sun["temperature_k"]), sun["illuminance_lx"])}
+    light = SUN | {"irradiance": emission(black_body(SUN_K), SUN["illuminance_lx"])}
     view = pinhole([0, -1.6, 1.35], [0, 0.5, 0], 4.6, 5760.0 / WIDTH)
-    return {"materials": materials, "camera": view, "sun": light, "sky": str(STREET / "sky.hdr")}, mesh
+    return {"materials": materials, "camera": view, "sun": light, "sky": "sky.hdr"}, mesh
+
+
+def towards_sun():
+    elevation, azimuth = np.radians([SUN["elevation_deg"], SUN["azimuth_deg"]])
+    return np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
 
 
 def night():
@@ -302,8 +317,12 @@ def write(name, folder):
     used = np.unique(arrays["materials"])
     scene["materials"] = [scene["materials"][i] for i in used]
     arrays["materials"] = np.searchsorted(used, arrays["materials"]).astype(np.int32)
+    if name != "cornell" and len(arrays["triangles"]) < LEAST_TRIANGLES:
+        sys.exit(f"{name} has {len(arrays['triangles'])} triangles; divide more of its meshes (DIVIDED)")
     scene["triangles"], scene["bounces"] = len(arrays["triangles"]), BOUNCES
     np.savez(folder / "mesh.npz", **arrays)
+    if "sky" in scene:
+        sky.write(folder / scene["sky"], sky.pixels(towards_sun(), SKY_LX, GROUND_CD_M2))
     write_obj(folder / "mesh.obj", arrays, [m["name"] for m in scene["materials"]])
     job(folder, scene)
     (folder / "scene.json").write_text(json.dumps(scene))

@@ -5,6 +5,7 @@ pub mod clock;
 pub mod files;
 pub mod flat;
 pub mod frames;
+pub mod lamps;
 pub mod machine;
 pub mod memory;
 pub mod paths;

@@ -53,6 +53,15 @@ impl Scene {
         self.planned(&["render.replicates=1"], 1)
     }
 
+    /// The plan of its job with another scene, given as text; files that it names are looked for beside the job.
+    pub fn with_scene(&self, scene: &str, changes: &[&str]) -> Plan {
+        const OTHER: &str = "other-scene.toml";
+        let named = format!("scene={OTHER}");
+        let changes: Vec<&str> = changes.iter().copied().chain([named.as_str()]).collect();
+        let read = |path: &Path| if path.ends_with(OTHER) { Ok(scene.to_owned()) } else { read(path) };
+        compiled(&self.job(), &read, &changes, &Choices::default())
+    }
+
     fn planned(&self, changes: &[&str], spp: u32) -> Plan {
         plan_of(&self.job(), changes, &Choices { spp: Some(spp), ..Choices::default() })
     }
@@ -65,9 +74,16 @@ impl Scene {
 
 /// The plan of a job file. Panics where the file or what it names cannot be used.
 pub fn plan_of(job: &Path, changes: &[&str], choices: &Choices) -> Plan {
-    let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string());
+    compiled(job, &read, changes, choices)
+}
+
+fn read(path: &Path) -> Result<String, String> {
+    std::fs::read_to_string(path).map_err(|error| error.to_string())
+}
+
+fn compiled(job: &Path, read: &dyn Fn(&Path) -> Result<String, String>, changes: &[&str], choices: &Choices) -> Plan {
     let overrides = Overrides::new(changes);
-    let description = Description::load(job, &read, &overrides).unwrap_or_else(|faults| panic!("{faults}"));
+    let description = Description::load(job, read, &overrides).unwrap_or_else(|faults| panic!("{faults}"));
     let assets = load_assets(&description.assets()).unwrap_or_else(|faults| panic!("{faults:?}"));
     compile(&description, &assets, choices).unwrap_or_else(|faults| panic!("{faults:?}"))
 }

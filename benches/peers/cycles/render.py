@@ -145,7 +145,7 @@ def sun(light):
     bpy.context.collection.objects.link(lamp)
 
 
-def world(scene):
+def world(folder, scene):
     made = bpy.data.worlds.new("world")
     bpy.context.scene.world = made
     made.use_nodes = True
@@ -154,7 +154,7 @@ def world(scene):
     background.inputs["Color"].default_value = (0.0, 0.0, 0.0, 1.0)
     if "sky" in scene:
         picture = tree.nodes.new("ShaderNodeTexEnvironment")
-        picture.image = bpy.data.images.load(scene["sky"])
+        picture.image = bpy.data.images.load(str(folder / scene["sky"]))
         tree.links.new(picture.outputs["Color"], background.inputs["Color"])
         background.inputs["Strength"].default_value = 1.0 / UNIT
 
@@ -186,7 +186,7 @@ def load(folder, threads):
     camera(scene["camera"])
     if "sun" in scene:
         sun(scene["sun"])
-    world(scene)
+    world(folder, scene)
     settings(scene, threads)
 
 

@@ -138,7 +138,7 @@ def load(folder):
     if "sky" in scene:
         # Its picture's centre looks along the local +z with y up.
         turn = mi.ScalarTransform4f([[0, 0, 1, 0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1]])
-        described["the-sky"] = {"type": "envmap", "filename": scene["sky"], "to_world": turn}
+        described["the-sky"] = {"type": "envmap", "filename": str(folder / scene["sky"]), "to_world": turn}
     return mi.load_dict(described)
 
 
