@@ -26,7 +26,7 @@ def main():
     depth = rng.uniform(0.5, 20.0, 40)
     points = np.column_stack([tangents * depth[:, None], depth])
     lenses = [{"k1": k1, "k2": k2, "pixels": project(k1, k2, points).tolist()} for k1, k2 in LENSES]
-    figures = {"program": f"opencv-python-headless {cv2.__version__}", "matrix": MATRIX, "points_m": points.tolist(), "lenses": lenses}
+    figures = {"program": f"opencv-contrib-python-headless {cv2.__version__}", "matrix": MATRIX, "points_m": points.tolist(), "lenses": lenses}
     path = pathlib.Path(__file__).parent / "figures" / "distortion.json"
     path.write_text(json.dumps(figures, indent=1) + "\n")
 

@@ -131,7 +131,7 @@ impl Raster {
     #[must_use]
     pub fn camera_matrix(&self, principal_distance_mm: f64) -> CameraMatrix {
         let f = DVec2::splat(principal_distance_mm) / self.pitch_mm;
-        CameraMatrix { fx: f.x, fy: f.y, cx: self.principal_px.x, cy: self.principal_px.y }
+        CameraMatrix { fx: f.x, fy: f.y, skew: 0.0, cx: self.principal_px.x, cy: self.principal_px.y }
     }
 }
 
@@ -142,6 +142,8 @@ pub struct CameraMatrix {
     pub fx: f64,
     /// Principal distance in rows, px.
     pub fy: f64,
+    /// Columns that a principal distance downwards adds, px; 0 where rows and columns are at right angles.
+    pub skew: f64,
     /// Column coordinate of the principal point, px.
     pub cx: f64,
     /// Row coordinate of the principal point, px.
@@ -161,10 +163,29 @@ impl CameraMatrix {
         Self { cx: self.cx + 0.5, cy: self.cy + 0.5, ..self }
     }
 
+    /// The raster point of a point of the normalised image plane: (fx x + skew y + cx, fy y + cy).
+    #[must_use]
+    pub fn raster_px(self, point: DVec2) -> DVec2 {
+        DVec2::new(self.fx * point.x + self.skew * point.y + self.cx, self.fy * point.y + self.cy)
+    }
+
+    /// The point of the normalised image plane at a raster point.
+    #[must_use]
+    pub fn point(self, raster_px: DVec2) -> DVec2 {
+        let y = (raster_px.y - self.cy) / self.fy;
+        DVec2::new((raster_px.x - self.cx - self.skew * y) / self.fx, y)
+    }
+
+    /// Area of the unit square of the normalised plane, px².
+    #[must_use]
+    pub fn area_px(self) -> f64 {
+        self.fx * self.fy
+    }
+
     /// Row by row, as calibration files keep it.
     #[must_use]
     pub fn rows(self) -> [[f64; 3]; 3] {
-        [[self.fx, 0.0, self.cx], [0.0, self.fy, self.cy], [0.0, 0.0, 1.0]]
+        [[self.fx, self.skew, self.cx], [0.0, self.fy, self.cy], [0.0, 0.0, 1.0]]
     }
 }
 
@@ -185,7 +206,7 @@ mod tests {
         let raster = Raster::centred(4, 2, 0.01).expect("legal");
         assert!((raster.sensor_mm(DVec2::new(0.5, 0.5)) - DVec2::new(-0.015, -0.005)).length() < 1e-15);
         let matrix = raster.camera_matrix(10.0);
-        assert_eq!(matrix, CameraMatrix { fx: 1000.0, fy: 1000.0, cx: 2.0, cy: 1.0 });
+        assert_eq!(matrix, CameraMatrix { fx: 1000.0, fy: 1000.0, skew: 0.0, cx: 2.0, cy: 1.0 });
         assert_eq!((matrix.to_opencv().cx, matrix.to_opencv().cy), (1.5, 0.5));
         assert_eq!(matrix.to_opencv().from_opencv(), matrix);
     }
@@ -196,6 +217,16 @@ mod tests {
         assert!((raster.max_radius_mm() - 5.0).abs() < 1e-12);
         let p = DVec2::new(0.3, 3.7);
         assert!((raster.raster_px(raster.sensor_mm(p)) - p).length() < 1e-14);
+    }
+
+    #[test]
+    fn a_skewed_matrix_takes_points_to_pixels_and_back() {
+        let matrix = CameraMatrix { fx: 800.0, fy: 790.0, skew: 1.5, cx: 320.5, cy: 240.0 };
+        let p = DVec2::new(0.2, -0.4);
+        let px = matrix.raster_px(p);
+        assert!((px - DVec2::new(160.0 - 0.6 + 320.5, -316.0 + 240.0)).length() < 1e-12);
+        assert!((matrix.point(px) - p).length() < 1e-15);
+        assert_eq!(matrix.rows()[0], [800.0, 1.5, 320.5]);
     }
 
     #[test]

@@ -19,7 +19,7 @@ fn rows(value: &Value) -> impl Iterator<Item = &Vec<Value>> {
 /// The raster whose camera matrix is the figures'.
 fn raster(figures: &Value) -> Raster {
     let m = |row: usize, column: usize| number(&figures["matrix"][row][column]);
-    let opencv = CameraMatrix { fx: m(0, 0), fy: m(1, 1), cx: m(0, 2), cy: m(1, 2) };
+    let opencv = CameraMatrix { fx: m(0, 0), fy: m(1, 1), skew: 0.0, cx: m(0, 2), cy: m(1, 2) };
     let matrix = opencv.from_opencv();
     let pitch_mm = DVec2::new(PRINCIPAL_DISTANCE_MM / matrix.fx, PRINCIPAL_DISTANCE_MM / matrix.fy);
     let raster = Raster::new(640, 480, pitch_mm, DVec2::new(matrix.cx, matrix.cy)).expect("legal");

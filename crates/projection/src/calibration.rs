@@ -1,0 +1,205 @@
+//! A calibrated camera: a model, its camera matrix, the size of its picture.
+//!
+//! Points are raster coordinates of this project: px, the top-left corner of the picture at (0, 0), pixel centres at + 0.5.
+
+use core::f64::consts::TAU;
+
+use etendue_core::maths::f64::sin_cos;
+use glam::{DVec2, DVec3};
+
+use crate::model::{Model, field_angle};
+use crate::raster::CameraMatrix;
+
+/// Why a calibration cannot be used.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CalibrationError {
+    /// A camera matrix that is none.
+    #[error(
+        "the camera matrix fx = {fx}, fy = {fy}, skew = {skew}, cx = {cx}, cy = {cy} needs finite numbers and positive fx and fy"
+    )]
+    Matrix {
+        /// fx, px.
+        fx: f64,
+        /// fy, px.
+        fy: f64,
+        /// Skew, px.
+        skew: f64,
+        /// cx, px.
+        cx: f64,
+        /// cy, px.
+        cy: f64,
+    },
+    /// No pixels.
+    #[error("a picture of {width} × {height} pixels is empty: give at least one column and one row")]
+    Empty {
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// A greatest angle that is none.
+    #[error("the greatest field angle is {angle_rad} rad; expected more than 0 and no more than π")]
+    Angle {
+        /// The angle, rad.
+        angle_rad: f64,
+    },
+    /// The picture reaches beyond a fold.
+    #[error(
+        "the calibration folds the picture over at a radius of {radius_px:.3} px from the principal point (field angle \
+         {:.3}°), inside the picture, which reaches out to {needed_px:.3} px: use coefficients fitted over the whole \
+         picture, crop it, or state the greatest field angle up to which they hold",
+        angle_rad.to_degrees()
+    )]
+    Fold {
+        /// Least distance of the fold's image from the principal point, px.
+        radius_px: f64,
+        /// Field angle of the fold, rad.
+        angle_rad: f64,
+        /// Largest distance of a corner of the picture from the principal point, px.
+        needed_px: f64,
+    },
+}
+
+/// A camera model in pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Calibration {
+    model: Model,
+    matrix: CameraMatrix,
+    size_px: [usize; 2],
+    greatest_angle_rad: Option<f64>,
+}
+
+impl Calibration {
+    /// The camera of a model, a camera matrix (raster coordinates) and a size (width, height).
+    ///
+    /// # Errors
+    /// Where the matrix or the picture is none. A fold inside the picture is told by [`check`](Self::check).
+    pub fn new(model: Model, matrix: CameraMatrix, size_px: [usize; 2]) -> Result<Self, CalibrationError> {
+        let CameraMatrix { fx, fy, skew, cx, cy } = matrix;
+        let finite = [fx, fy, skew, cx, cy].iter().all(|x| x.is_finite());
+        if !(finite && fx > 0.0 && fy > 0.0) {
+            return Err(CalibrationError::Matrix { fx, fy, skew, cx, cy });
+        }
+        let [width, height] = size_px;
+        if width == 0 || height == 0 {
+            return Err(CalibrationError::Empty { width, height });
+        }
+        Ok(Self { model, matrix, size_px, greatest_angle_rad: None })
+    }
+
+    /// The same camera that sees nothing at this field angle and beyond.
+    ///
+    /// # Errors
+    /// Where the angle is not in (0, π].
+    pub fn limited_to(self, angle_rad: f64) -> Result<Self, CalibrationError> {
+        if !(angle_rad > 0.0 && angle_rad <= core::f64::consts::PI) {
+            return Err(CalibrationError::Angle { angle_rad });
+        }
+        Ok(Self { greatest_angle_rad: Some(angle_rad), ..self })
+    }
+
+    /// The camera model.
+    #[must_use]
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The camera matrix, in raster coordinates.
+    #[must_use]
+    pub fn matrix(&self) -> CameraMatrix {
+        self.matrix
+    }
+
+    /// Width and height, px.
+    #[must_use]
+    pub fn size_px(&self) -> [usize; 2] {
+        self.size_px
+    }
+
+    /// The field angle from which on nothing is seen by decree, rad; the model's own [`edge`](Model::edge) may come before.
+    #[must_use]
+    pub fn greatest_angle_rad(&self) -> Option<f64> {
+        self.greatest_angle_rad
+    }
+
+    /// The raster point (px) at which a direction of the camera frame (any length) is seen, inside the picture or not;
+    /// `None` outside the field.
+    #[must_use]
+    pub fn project(&self, direction: DVec3) -> Option<DVec2> {
+        let limit = self.greatest_angle_rad;
+        if limit.is_some_and(|limit| field_angle(direction).is_none_or(|angle| angle >= limit)) {
+            return None;
+        }
+        Some(self.matrix.raster_px(self.model.project(direction)?))
+    }
+
+    /// The unit direction of the camera frame seen at a raster point; `None` where nothing is.
+    #[must_use]
+    pub fn unproject(&self, raster_px: DVec2) -> Option<DVec3> {
+        let direction = self.model.unproject(self.matrix.point(raster_px))?;
+        self.sees(direction).then_some(direction)
+    }
+
+    /// dΩ/dA, the solid angle that a pixel's area sees at a raster point, sr per px²; `None` where nothing is seen.
+    #[must_use]
+    pub fn solid_angle_per_area(&self, raster_px: DVec2) -> Option<f64> {
+        let point = self.matrix.point(raster_px);
+        if self.greatest_angle_rad.is_some() {
+            self.unproject(raster_px)?;
+        }
+        Some(self.model.solid_angle_per_area(point)? / self.matrix.area_px())
+    }
+
+    /// Refuses a calibration that folds over inside the picture, with the radius at which it does. Parts of the picture
+    /// that lie beyond the greatest angle, or where the model's formula ends without a fold, are legal: they see nothing.
+    ///
+    /// # Errors
+    /// [`CalibrationError::Fold`].
+    pub fn check(&self) -> Result<(), CalibrationError> {
+        let edge = self.model.edge();
+        let limited = self.greatest_angle_rad.is_some_and(|angle| angle < edge.angle_rad);
+        if !edge.folds || limited || self.border().all(|p| self.unproject(p).is_some()) {
+            return Ok(());
+        }
+        let radius_px = self.fold_radius_px(edge.angle_rad);
+        let needed_px = self.corners().map(|p| self.principal_distance(p)).fold(0.0, f64::max);
+        Err(CalibrationError::Fold { radius_px, angle_rad: edge.angle_rad, needed_px })
+    }
+
+    fn sees(&self, direction: DVec3) -> bool {
+        self.greatest_angle_rad.is_none_or(|limit| field_angle(direction).is_some_and(|angle| angle < limit))
+    }
+
+    fn principal_distance(&self, raster_px: DVec2) -> f64 {
+        (raster_px - DVec2::new(self.matrix.cx, self.matrix.cy)).length()
+    }
+
+    /// The fold's image, least distance from the principal point. At a fold the radius stands still: a billionth of the
+    /// angle before it, it is the fold's to 1e-18.
+    fn fold_radius_px(&self, angle_rad: f64) -> f64 {
+        const DIRECTIONS: i32 = 720;
+        let (sin, cos) = sin_cos(angle_rad * (1.0 - 1e-9));
+        let towards = |i: i32| (DVec2::from(sin_cos(TAU * f64::from(i) / f64::from(DIRECTIONS))) * sin).extend(cos);
+        let images = (0..DIRECTIONS).filter_map(|i| Some(self.matrix.raster_px(self.model.project(towards(i))?)));
+        images.map(|p| self.principal_distance(p)).fold(f64::INFINITY, f64::min)
+    }
+
+    fn corners(&self) -> impl Iterator<Item = DVec2> {
+        let size = self.size();
+        [DVec2::ZERO, DVec2::new(size.x, 0.0), DVec2::new(0.0, size.y), size].into_iter()
+    }
+
+    /// The corners of all pixels along the picture's border, no more than some thousand to a side.
+    fn border(&self) -> impl Iterator<Item = DVec2> {
+        const MOST: usize = 4096;
+        let size = self.size();
+        let along = |n: usize| (0..=n.min(MOST)).map(move |i| i as f64 / n.min(MOST) as f64);
+        let rows = along(self.size_px[0]).flat_map(move |t| [0.0, size.y].map(|y| DVec2::new(t * size.x, y)));
+        let columns = along(self.size_px[1]).flat_map(move |t| [0.0, size.x].map(|x| DVec2::new(x, t * size.y)));
+        rows.chain(columns)
+    }
+
+    fn size(&self) -> DVec2 {
+        DVec2::new(self.size_px[0] as f64, self.size_px[1] as f64)
+    }
+}

@@ -1,0 +1,90 @@
+//! Models that are symmetrical about the axis: one increasing function r(θ) from the field angle to the radius in the image
+//! plane, up to the edge of the field.
+//!
+//! dΩ/dA = sin θ dθ/(r dr), which is 1/(dr/dθ)² on the axis.
+
+use core::f64::consts::{FRAC_PI_2, PI};
+
+use etendue_core::maths::f64::{atan2, sin, sin_cos};
+use glam::{DVec2, DVec3};
+
+/// Where a model's field ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Edge {
+    /// The field angle that is no longer seen (from the axis), rad.
+    pub angle_rad: f64,
+    /// Whether the picture folds over there: the fitted function turns back, and says nothing of what is beyond.
+    /// Otherwise the formula or the calibration ends.
+    pub folds: bool,
+}
+
+impl Edge {
+    /// The whole sphere but the point behind the camera.
+    pub(crate) const SPHERE: Self = Self::end(PI);
+    /// What is in front of the camera.
+    pub(crate) const FRONT: Self = Self::end(FRAC_PI_2);
+
+    pub(crate) const fn end(angle_rad: f64) -> Self {
+        Self { angle_rad, folds: false }
+    }
+
+    pub(crate) const fn fold(angle_rad: f64) -> Self {
+        Self { angle_rad, folds: true }
+    }
+
+    /// The nearer of both.
+    pub(crate) fn nearer(self, other: Self) -> Self {
+        if other.angle_rad < self.angle_rad { other } else { self }
+    }
+}
+
+/// r(θ), increasing from r(0) = 0 to the edge.
+pub(crate) trait Profile {
+    fn edge(&self) -> Edge;
+
+    /// r of an angle before the edge.
+    fn radius(&self, angle_rad: f64) -> f64;
+
+    /// dr/dθ at an angle before the edge.
+    fn slope(&self, angle_rad: f64) -> f64;
+
+    /// θ of r > 0; `None`, or a number at the edge or beyond, where none has it.
+    fn angle(&self, radius: f64) -> Option<f64>;
+
+    /// The angle of a radius, before the edge.
+    fn seen(&self, radius: f64) -> Option<f64> {
+        let angle = if radius > 0.0 { self.angle(radius)? } else { radius };
+        (angle < self.edge().angle_rad).then_some(angle)
+    }
+
+    fn project(&self, direction: DVec3) -> Option<DVec2> {
+        let across = direction.truncate().length();
+        let angle = field_angle(direction)?;
+        if angle >= self.edge().angle_rad {
+            return None;
+        }
+        let point = if across > 0.0 { direction.truncate() * (self.radius(angle) / across) } else { DVec2::ZERO };
+        point.is_finite().then_some(point)
+    }
+
+    fn unproject(&self, point: DVec2) -> Option<DVec3> {
+        let radius = point.length();
+        let (sin, cos) = sin_cos(self.seen(radius)?);
+        let azimuth = if radius > 0.0 { point / radius } else { DVec2::ZERO };
+        Some((azimuth * sin).extend(cos))
+    }
+
+    fn solid_angle_per_area(&self, point: DVec2) -> Option<f64> {
+        let radius = point.length();
+        let angle = self.seen(radius)?;
+        let slope = self.slope(angle);
+        Some(if radius > 0.0 { sin(angle) / (radius * slope) } else { 1.0 / (slope * slope) })
+    }
+}
+
+/// The angle from the axis of a direction of any length, rad; `None` of what is no direction.
+pub(crate) fn field_angle(direction: DVec3) -> Option<f64> {
+    let across = direction.truncate().length();
+    let is_one = direction.is_finite() && (across > 0.0 || direction.z != 0.0);
+    is_one.then(|| atan2(across, direction.z))
+}

@@ -1,0 +1,149 @@
+//! What holds for every camera model: round trips over the whole picture, the solid angle, folds.
+
+use core::f64::consts::PI;
+
+use etendue_core::maths::f64::{sin_cos, tan};
+use etendue_projection::model::{KannalaBrandt, Perspective};
+use etendue_projection::{Calibration, CalibrationError, CameraMatrix, Model};
+use glam::{DVec2, DVec3};
+
+const SIZE: [usize; 2] = [1920, 1208];
+
+fn camera(model: Model, focal_px: f64) -> Calibration {
+    let matrix = CameraMatrix { fx: focal_px, fy: 1.01 * focal_px, skew: 0.7, cx: 966.3, cy: 598.2 };
+    Calibration::new(model, matrix, SIZE).expect("legal")
+}
+
+fn perspective(coefficients: &[f64]) -> Model {
+    Model::Perspective(Perspective::from_opencv(coefficients).expect("legal"))
+}
+
+fn fisheye(k: [f64; 4]) -> Model {
+    Model::KannalaBrandt(KannalaBrandt::new(k).expect("legal"))
+}
+
+/// Realistic cameras, with the share of the picture at least that they fill.
+fn cameras() -> Vec<(&'static str, Calibration, f64)> {
+    let rational = [0.4, -0.25, 0.0009, 0.0002, 0.03, 0.72, -0.19, 0.01];
+    let all = [-0.2, 0.05, 0.0011, -0.0008, 0.01, 0.02, -0.005, 0.001, 0.002, -0.001, 0.0015, 0.0004, 0.06, -0.11];
+    vec![
+        ("pinhole", camera(perspective(&[]), 1100.0), 1.0),
+        ("radial and tangential", camera(perspective(&[-0.28, 0.07, 0.0011, -0.0008]), 1450.0), 1.0),
+        ("rational", camera(perspective(&rational), 1500.0), 1.0),
+        ("all fourteen", camera(perspective(&all), 1500.0), 1.0),
+        ("equidistant to 360°", camera(fisheye([0.0; 4]), 400.0), 1.0),
+        ("Kannala-Brandt", camera(fisheye([-0.012, 0.0042, -0.0031, 0.0006]), 700.0), 1.0),
+        ("Kannala-Brandt beyond 180°", camera(fisheye([0.05, -0.02, 0.004, -0.0003]), 540.0), 1.0),
+    ]
+}
+
+/// Points of the whole picture, its border included.
+fn picture() -> impl Iterator<Item = DVec2> {
+    let [width, height] = SIZE.map(|n| n as f64);
+    (0..=96)
+        .flat_map(move |i| (0..=60).map(move |j| DVec2::new(f64::from(i) / 96.0 * width, f64::from(j) / 60.0 * height)))
+}
+
+#[test]
+fn every_pixel_comes_back_and_so_does_every_direction() {
+    for (name, camera, filled) in cameras() {
+        let (mut seen, mut all) = (0, 0);
+        for pixel in picture() {
+            all += 1;
+            let Some(direction) = camera.unproject(pixel) else { continue };
+            seen += 1;
+            // Three roundings of unit vectors.
+            assert!((direction.length() - 1.0).abs() < 1e-15, "{name}: {direction}");
+            let back = camera.project(direction * 3.7).unwrap_or_else(|| panic!("{name}: {pixel} is not seen again"));
+            assert!((back - pixel).length() < 1e-9, "{name}: {back} for {pixel}");
+            let again = camera.unproject(back).unwrap_or_else(|| panic!("{name}: {back} sees nothing"));
+            let error_px = (again - direction).length() / camera.solid_angle_per_area(pixel).expect("seen").sqrt();
+            assert!(error_px < 1e-9, "{name}: {error_px} px at {pixel}");
+        }
+        assert!(f64::from(seen) >= filled * f64::from(all), "{name}: {seen} of {all}");
+    }
+}
+
+#[test]
+fn the_solid_angle_is_the_jacobian() {
+    for (name, camera, _) in cameras() {
+        for pixel in picture().step_by(37) {
+            let Some(expected) = area_of_directions(&camera, pixel) else { continue };
+            let found = camera.solid_angle_per_area(pixel).expect("seen");
+            // Sixth-order differences over 4 px of a function smooth over hundreds.
+            assert!((found / expected - 1.0).abs() < 1e-9, "{name}: {found} for {expected} at {pixel}");
+        }
+    }
+}
+
+/// |∂d/∂u × ∂d/∂v| by sixth-order central differences.
+fn area_of_directions(camera: &Calibration, pixel: DVec2) -> Option<f64> {
+    let slope = |axis: DVec2| -> Option<DVec3> {
+        [(1.0, 45.0), (2.0, -9.0), (3.0, 1.0)].iter().try_fold(DVec3::ZERO, |sum, (step, weight)| {
+            let (ahead, behind) = (camera.unproject(pixel + axis * *step)?, camera.unproject(pixel - axis * *step)?);
+            Some(sum + (ahead - behind) * (weight / 60.0))
+        })
+    };
+    Some(slope(DVec2::X)?.cross(slope(DVec2::Y)?).length())
+}
+
+#[test]
+fn a_fold_inside_the_picture_is_refused_with_its_radius() {
+    // r (1 − 0.3 r²) turns at r = 1/√0.9, where it is 2/3 of that.
+    let fold = 2.0 / (3.0 * 0.9_f64.sqrt());
+    let matrix = CameraMatrix { fx: 1000.0, fy: 1000.0, skew: 0.0, cx: 960.0, cy: 604.0 };
+    let at = |focal: f64| {
+        let matrix = CameraMatrix { fx: focal, fy: focal, ..matrix };
+        Calibration::new(perspective(&[-0.3, 0.0, 0.0, 0.0]), matrix, SIZE).expect("legal")
+    };
+    let refused = at(1000.0).check().expect_err("folds");
+    let CalibrationError::Fold { radius_px, angle_rad, needed_px } = refused else { panic!("{refused}") };
+    assert!((radius_px - 1000.0 * fold).abs() < 1e-9 && radius_px < needed_px, "{refused}");
+    assert!((tan(angle_rad) - 1.0 / 0.9_f64.sqrt()).abs() < 1e-12);
+    assert!(refused.to_string().contains("702.728 px"), "{refused}");
+    // The corner lies at 1134.3 px.
+    assert!(at(1134.3 / fold).check().is_ok() && at(1134.2 / fold).check().is_err());
+    // Beyond the fold's image there is nothing.
+    assert!(at(1000.0).unproject(DVec2::new(960.0 + 1000.0 * fold + 1e-6, 604.0)).is_none());
+    assert!(at(1000.0).unproject(DVec2::new(960.0 + 1000.0 * fold - 1e-6, 604.0)).is_some());
+    assert!(at(1000.0).project(DVec3::new(1.06, 0.0, 1.0)).is_none());
+    assert!(at(1000.0).project(DVec3::new(1.05, 0.0, 1.0)).is_some());
+}
+
+#[test]
+fn a_stated_greatest_angle_takes_the_fold_out_of_the_picture() {
+    let camera = camera(fisheye([-0.1, 0.0, 0.0, 0.0]), 400.0);
+    // 1 − 0.3 θ² = 0.
+    let fold = (1.0_f64 / 0.3).sqrt();
+    let refused = camera.check().expect_err("folds");
+    assert!(matches!(refused, CalibrationError::Fold { angle_rad, .. } if (angle_rad - fold).abs() < 1e-14));
+    let limited = camera.clone().limited_to(1.6).expect("legal");
+    assert!(limited.check().is_ok());
+    let (sin, cos) = sin_cos(1.61);
+    let beyond = DVec3::new(0.0, sin, cos);
+    let pixel = camera.project(beyond).expect("before the fold");
+    assert!(limited.project(beyond).is_none() && limited.unproject(pixel).is_none());
+    assert!(limited.solid_angle_per_area(pixel).is_none() && camera.solid_angle_per_area(pixel).is_some());
+    assert!(camera.limited_to(4.0).is_err());
+}
+
+#[test]
+fn a_circle_in_a_larger_picture_is_no_fold() {
+    let camera = camera(fisheye([0.0; 4]), 150.0);
+    assert!(camera.check().is_ok());
+    assert!(camera.unproject(DVec2::new(1.0, 1.0)).is_none());
+    assert!(camera.unproject(DVec2::new(966.3 + 150.0 * (PI - 0.01), 598.2)).is_some());
+    assert!(camera.project(DVec3::NEG_Z).is_none() && camera.project(DVec3::ZERO).is_none());
+    assert!(camera.project(DVec3::NAN).is_none() && camera.unproject(DVec2::NAN).is_none());
+}
+
+#[test]
+fn what_is_no_camera_is_refused() {
+    assert!(Perspective::from_opencv(&[0.1; 6]).is_err());
+    let refused = Perspective::from_opencv(&[0.1, f64::NAN, 0.0, 0.0]).expect_err("not finite");
+    assert!(refused.to_string().contains("finite"), "{refused}");
+    let matrix = CameraMatrix { fx: 0.0, fy: 1.0, skew: 0.0, cx: 0.0, cy: 0.0 };
+    assert!(matches!(Calibration::new(perspective(&[]), matrix, SIZE), Err(CalibrationError::Matrix { .. })));
+    let matrix = CameraMatrix { fx: 1.0, ..matrix };
+    assert!(matches!(Calibration::new(perspective(&[]), matrix, [0, 2]), Err(CalibrationError::Empty { .. })));
+}
