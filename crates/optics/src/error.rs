@@ -1,6 +1,10 @@
 //! Why a lens cannot be, or cannot serve a picture.
 
+use crate::prescription::PrescriptionError;
 use etendue_projection::DistortionError;
+
+/// The wavelength of ground truth and of first-order quantities, nm.
+pub const PRINCIPAL_NM: f64 = 587.56;
 
 /// A lens or a stored radiance image that cannot do what is asked of it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -91,6 +95,21 @@ pub enum OpticsError {
         plane: &'static str,
         /// That plane's position on the axis, mm.
         plane_mm: f64,
+    },
+    /// A prescription that is no lens.
+    #[error(transparent)]
+    Prescription(#[from] PrescriptionError),
+    /// A filter without layers.
+    #[error("effective_index is {value}; an interference filter's is above 1 (1.5 to 2.2)")]
+    FilterIndex {
+        /// Its value.
+        value: f64,
+    },
+    /// A filter that gains light or has less than none.
+    #[error("the filter's transmittance is {value} at some wavelength; it must stay within 0 and 1")]
+    FilterTransmittance {
+        /// Its value.
+        value: f64,
     },
     /// The distortion cannot serve the picture.
     #[error(transparent)]

@@ -3,12 +3,14 @@
 mod error;
 pub mod lens;
 mod overlap;
+pub mod prescription;
 mod pupil;
 pub mod pupil_image;
 
-pub use error::OpticsError;
+pub use error::{OpticsError, PRINCIPAL_NM};
 pub use lens::{
     ConstantPupil, Lens, Pinhole, PinholeParameters, PupilStatements, Rim, Thick, ThickParameters, Thin,
     ThinParameters, TruthRay,
 };
+pub use prescription::{Prescription, PrescriptionError, PrescriptionParameters};
 pub use pupil_image::{PupilProjection, Resampling, irradiance};

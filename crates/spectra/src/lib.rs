@@ -10,6 +10,7 @@ pub mod camera;
 pub mod chart;
 pub mod colour;
 pub mod dielectric;
+pub mod glass;
 pub mod illuminant;
 pub mod metal;
 pub mod observer;

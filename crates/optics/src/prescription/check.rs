@@ -1,0 +1,125 @@
+//! What makes a list of surfaces a lens.
+
+use super::Prescription;
+use super::coating::Coating;
+use super::error::PrescriptionError;
+use super::surface::{Shape, Surface};
+use super::trace::{LensRay, Loss, Rims, Way, walk};
+use crate::error::PRINCIPAL_NM;
+use etendue_spectra::glass::Dispersion;
+use glam::DVec3;
+
+/// Checks every surface by itself and counts the stops: the stop's place, from 0.
+pub(super) fn surfaces(surfaces: &[Surface]) -> Result<usize, PrescriptionError> {
+    if surfaces.is_empty() {
+        return Err(PrescriptionError::Empty);
+    }
+    surfaces.iter().enumerate().try_for_each(|(i, surface)| numbers(i + 1, surface))?;
+    let stops: Vec<usize> = surfaces.iter().enumerate().filter(|(_, s)| s.stop).map(|(i, _)| i).collect();
+    let [stop] = stops[..] else { return Err(PrescriptionError::Stops { found: stops.len() }) };
+    Ok(stop)
+}
+
+pub(super) fn finite_number(surface: usize, name: &'static str, value: f64) -> Result<f64, PrescriptionError> {
+    let expected = "it must be a finite number";
+    if value.is_finite() { Ok(value) } else { Err(PrescriptionError::Number { surface, name, value, expected }) }
+}
+
+fn numbers(surface: usize, s: &Surface) -> Result<(), PrescriptionError> {
+    let fault = |name, value, expected| Err(PrescriptionError::Number { surface, name, value, expected });
+    if s.radius_mm == 0.0 || s.radius_mm.is_nan() {
+        return fault("radius_mm", s.radius_mm, "it must not be zero; infinity (or leaving it out) is a plane");
+    }
+    finite_number(surface, "conic", s.conic)?;
+    s.asphere.iter().try_for_each(|a| finite_number(surface, "asphere", *a).map(|_| ()))?;
+    if !(s.semi_aperture_mm > 0.0 && s.semi_aperture_mm.is_finite()) {
+        return fault("semi_aperture_mm", s.semi_aperture_mm, "it must be positive and finite");
+    }
+    if !(s.thickness_mm >= 0.0 && s.thickness_mm.is_finite()) {
+        return fault("thickness_mm", s.thickness_mm, "it must be finite and not negative");
+    }
+    match s.coating {
+        Coating::Constant(value) if !(value > 0.0 && value <= 1.0) => {
+            fault("transmittance", value, "it must be above 0 and at most 1")
+        }
+        Coating::QuarterWave { design_nm } if !(design_nm > 0.0 && design_nm.is_finite()) => {
+            fault("design_wavelength_nm", design_nm, "it must be positive and finite")
+        }
+        _ => rim(surface, s),
+    }
+}
+
+fn rim(surface: usize, s: &Surface) -> Result<(), PrescriptionError> {
+    let semi_aperture_mm = s.semi_aperture_mm;
+    let ends = s.shape().sag(semi_aperture_mm).is_none();
+    if ends { Err(PrescriptionError::Equator { surface, semi_aperture_mm }) } else { Ok(()) }
+}
+
+/// Heights at which neighbours are compared.
+const HEIGHTS: usize = 64;
+/// Rounding of a sag, mm: surfaces may touch.
+const TOUCHING_MM: f64 = 1e-9;
+
+/// Neighbouring refracting surfaces must not cross within both their clear apertures. Surfaces that do not refract (a stop
+/// in air, a dummy) may stand where they like.
+pub(super) fn overlaps(surfaces: &[Surface]) -> Result<(), PrescriptionError> {
+    let mut z_mm = 0.0;
+    let mut before: Option<(usize, f64)> = None;
+    let mut medium = Dispersion::AIR;
+    for (i, surface) in surfaces.iter().enumerate() {
+        if core::mem::replace(&mut medium, surface.glass) != surface.glass {
+            if let Some((first, first_mm)) = before {
+                let pair = [&surfaces[first], surface];
+                overlap(pair, z_mm - first_mm, first + 1, i + 1)?;
+            }
+            before = Some((i, z_mm));
+        }
+        z_mm += surface.thickness_mm;
+    }
+    Ok(())
+}
+
+fn overlap(pair: [&Surface; 2], gap_mm: f64, first: usize, second: usize) -> Result<(), PrescriptionError> {
+    let shapes = pair.map(Surface::shape);
+    let least = pair[0].semi_aperture_mm.min(pair[1].semi_aperture_mm);
+    for i in 0..=HEIGHTS {
+        let height_mm = least * i as f64 / HEIGHTS as f64;
+        let sag = |shape: &Shape| shape.sag(height_mm).unwrap_or(0.0);
+        let overlap_mm = sag(&shapes[0]) - sag(&shapes[1]) - gap_mm;
+        if overlap_mm > TOUCHING_MM {
+            return Err(PrescriptionError::Overlap { first, second, height_mm, overlap_mm });
+        }
+    }
+    Ok(())
+}
+
+/// How much of the entrance pupil, from its centre, must be open on the axis: published apertures are rounded.
+const OPEN: f64 = 0.99;
+const STEPS: usize = 32;
+
+/// The bundle of the axial point in focus must be stopped by the stop alone: no total reflection, no other rim.
+pub(super) fn axial_bundle(lens: &Prescription) -> Result<(), PrescriptionError> {
+    let media = lens.media(PRINCIPAL_NM);
+    let stop_mm = lens.stop_mm();
+    for step in 0..=STEPS {
+        let share = OPEN * step as f64 / STEPS as f64;
+        let ray = axial_ray(lens, share * lens.paraxial.entrance_radius_mm);
+        let Err(lost) = walk(&lens.elements, 0, Way::ToSensor, &media, ray, &mut Rims::Clip) else { continue };
+        if lost.surface == lens.stop {
+            return Ok(());
+        }
+        let (surface, height_mm) = (lost.surface + 1, share * stop_mm);
+        return Err(match lost.loss {
+            Loss::TotalReflection => PrescriptionError::TotalReflection { surface, height_mm },
+            _ => PrescriptionError::NotTheStop { surface, height_mm, stop_mm },
+        });
+    }
+    Ok(())
+}
+
+/// From the axial point in focus through a height of the entrance pupil.
+fn axial_ray(lens: &Prescription, height_mm: f64) -> LensRay {
+    let pupil = DVec3::new(height_mm, 0.0, lens.paraxial.entrance_pupil_mm);
+    let slope = height_mm / (lens.focus_distance_m * 1e3);
+    LensRay { point: pupil, direction: DVec3::new(slope, 0.0, 1.0).normalize() }
+}

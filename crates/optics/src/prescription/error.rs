@@ -1,0 +1,156 @@
+//! Why a prescription is no lens.
+
+/// A prescription that cannot be, or cannot be focused as asked. Surfaces are counted from 1 at the scene, as lens files
+/// do.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PrescriptionError {
+    /// Nothing to trace.
+    #[error("the prescription has no surface; give at least one refracting surface and a stop")]
+    Empty,
+    /// Not exactly one stop.
+    #[error("{found} surfaces are the stop; exactly one must be: set `stop = true` at one of them")]
+    Stops {
+        /// How many there are.
+        found: usize,
+    },
+    /// A number that a surface cannot have.
+    #[error("surface {surface}: {name} is {value}; {expected}")]
+    Number {
+        /// The surface.
+        surface: usize,
+        /// The key.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it should be.
+        expected: &'static str,
+    },
+    /// An aperture larger than the surface.
+    #[error(
+        "surface {surface}: semi_aperture_mm is {semi_aperture_mm} but the surface ends at its equator before that; make it smaller than the radius of curvature"
+    )]
+    Equator {
+        /// The surface.
+        surface: usize,
+        /// Its clear semi-aperture, mm.
+        semi_aperture_mm: f64,
+    },
+    /// Two surfaces that cross.
+    #[error(
+        "surfaces {first} and {second} overlap: {height_mm:.4} mm from the axis, inside both clear apertures, the second lies {overlap_mm:.6} mm before the first; reduce an aperture or enlarge the thickness"
+    )]
+    Overlap {
+        /// The one nearer to the scene.
+        first: usize,
+        /// The next refracting one.
+        second: usize,
+        /// Distance from the axis, mm.
+        height_mm: f64,
+        /// How far the second lies before the first, mm.
+        overlap_mm: f64,
+    },
+    /// More glasses than the tracer's table holds.
+    #[error("the prescription has {found} different media; at most {most} are possible")]
+    Media {
+        /// How many there are.
+        found: usize,
+        /// The limit.
+        most: usize,
+    },
+    /// The sensor is not in air.
+    #[error(
+        "behind the last surface is glass; the sensor stands in air: add the last surface of the glass (a plane for a cover glass)"
+    )]
+    LastMedium,
+    /// No real image.
+    #[error(
+        "the prescription has a focal length of {focal_length_mm} mm: only a positive one images a scene onto a sensor"
+    )]
+    NoImage {
+        /// Focal length at 587.56 nm, mm.
+        focal_length_mm: f64,
+    },
+    /// The sensor would be inside the lens.
+    #[error(
+        "the paraxial image lies {distance_mm:.6} mm behind the last surface; it must be behind it (a positive distance) for a sensor to stand there"
+    )]
+    ImageInside {
+        /// Distance of the image from the last vertex, mm.
+        distance_mm: f64,
+    },
+    /// A pupil at infinity.
+    #[error(
+        "the entrance pupil lies at infinity (the stop is in the front group's focal plane): an object-side telecentric lens is not modelled"
+    )]
+    Telecentric,
+    /// Rays of the axial bundle that are totally reflected.
+    #[error(
+        "surface {surface} totally reflects rays of the axial bundle (which cross the stop about {height_mm:.4} mm from its centre): check the radii and glasses, or stop down"
+    )]
+    TotalReflection {
+        /// The surface.
+        surface: usize,
+        /// Height at the stop, mm.
+        height_mm: f64,
+    },
+    /// Another surface limits the axial bundle.
+    #[error(
+        "surface {surface} clips the axial bundle (rays that cross the stop about {height_mm:.4} mm from its centre; it opens to {stop_mm} mm): it would be the stop; enlarge its aperture or stop down"
+    )]
+    NotTheStop {
+        /// The surface that clips.
+        surface: usize,
+        /// Height at the stop, mm.
+        height_mm: f64,
+        /// The stop's semi-aperture, mm.
+        stop_mm: f64,
+    },
+    /// An f-number that the stop cannot open to.
+    #[error(
+        "f_number {f_number} needs a stop of {needed_mm:.4} mm semi-aperture, but it opens to {open_mm} mm (f/{least:.3})"
+    )]
+    TooFast {
+        /// The f-number asked for.
+        f_number: f64,
+        /// The semi-aperture it needs, mm.
+        needed_mm: f64,
+        /// What the prescription gives, mm.
+        open_mm: f64,
+        /// The f-number fully open.
+        least: f64,
+    },
+    /// A focus distance that is none.
+    #[error("a focus distance of {focus_m} m: it must be positive; infinity is legal")]
+    FocusDistance {
+        /// The distance, m.
+        focus_m: f64,
+    },
+    /// A group that is none.
+    #[error(
+        "the focusing group {first} to {last}: it must be a range of the {count} surfaces that does not hold all the lens's power in a place it cannot leave; count from 1"
+    )]
+    Group {
+        /// Its first surface.
+        first: usize,
+        /// Its last surface.
+        last: usize,
+        /// How many surfaces there are.
+        count: usize,
+    },
+    /// A group without room.
+    #[error(
+        "moving surfaces {first} to {last} within the room they have ({low_mm:.4} to {high_mm:.4} mm) does not bring {focus_m} m into focus"
+    )]
+    GroupRange {
+        /// Its first surface.
+        first: usize,
+        /// Its last surface.
+        last: usize,
+        /// How far it may move towards the scene (negative), mm.
+        low_mm: f64,
+        /// How far it may move towards the sensor, mm.
+        high_mm: f64,
+        /// The focus distance, m.
+        focus_m: f64,
+    },
+}

@@ -1,0 +1,249 @@
+//! Prescriptions: lenses as their makers describe them, surface by surface, traced in double precision.
+//!
+//! **Modelled**: refraction by Snell's law at spheres, conics, even aspheres and planes; a real stop and real clear
+//! apertures; dispersion of every glass; losses by reflection; focusing by moving the sensor or a group of surfaces. A
+//! wavelength that is totally reflected, misses a surface or falls outside a clear aperture is blocked.
+//!
+//! **Left out**: absorption in glass, light that is reflected twice and more (ghosts are a layer of their own), scatter,
+//! diffraction, tilts and decentres.
+//!
+//! A [`Prescription`] is checked when it is made: afterwards nothing in it can fail but a ray.
+
+mod check;
+pub mod coating;
+mod error;
+pub mod filter;
+mod focus;
+mod indices;
+pub mod paraxial;
+pub mod published;
+pub mod surface;
+pub mod trace;
+
+use crate::error::PRINCIPAL_NM;
+use etendue_spectra::glass::Dispersion;
+use glam::DVec3;
+use indices::{IndexTable, MOST_MEDIA, Media};
+use paraxial::Paraxial;
+use trace::{Element, LensRay, Lost, Rims, Through, Way, walk};
+
+pub use error::PrescriptionError;
+pub use focus::Focus;
+pub use surface::Surface;
+
+/// What a prescription is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PrescriptionParameters {
+    /// Surfaces, from the scene to the sensor.
+    pub surfaces: Vec<Surface>,
+    /// How far the stop opens: an f-number at infinity focus, or `None` for the stop's own clear aperture.
+    pub f_number: Option<f64>,
+    /// What is in focus, and what moves for it.
+    pub focus: Focus,
+    /// How far behind the paraxial image at 587.56 nm the sensor stands, mm: best focus of an aberrated lens.
+    pub defocus_mm: f64,
+}
+
+/// A lens of surfaces, focused.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Prescription {
+    surfaces: Vec<Surface>,
+    elements: Vec<Element>,
+    table: IndexTable,
+    stop: usize,
+    paraxial: Paraxial,
+    sensor_mm: f64,
+    focus_distance_m: f64,
+    magnification: f64,
+    principal_distance_mm: f64,
+}
+
+impl Prescription {
+    /// A checked and focused lens.
+    ///
+    /// # Errors
+    /// Where the surfaces are no lens, or it cannot be focused as asked.
+    pub fn new(parameters: PrescriptionParameters) -> Result<Self, PrescriptionError> {
+        let PrescriptionParameters { mut surfaces, f_number, focus, defocus_mm } = parameters;
+        let stop = check::surfaces(&surfaces)?;
+        let (list, places) = media(&surfaces)?;
+        let table = IndexTable::new(&list);
+        let at_d = table.at(PRINCIPAL_NM);
+        focus::open(&mut surfaces, stop, f_number, &places, &at_d)?;
+        let focused = focus::focused(&mut surfaces, stop, focus, &places, &at_d)?;
+        check::overlaps(&surfaces)?;
+        let elements = elements(&surfaces, &places);
+        let paraxial = paraxial::paraxial(&elements, stop, surfaces[stop].semi_aperture_mm, &at_d);
+        let last_mm = elements.last().map_or(0.0, |e| e.z_mm);
+        let sensor_mm = last_mm + focused.image_mm + check::finite_number(surfaces.len(), "defocus_mm", defocus_mm)?;
+        let lens = Self {
+            sensor_mm,
+            focus_distance_m: focused.distance_m,
+            magnification: focused.magnification,
+            principal_distance_mm: focus::principal_distance_mm(&elements, &paraxial, sensor_mm - last_mm, &at_d),
+            surfaces,
+            elements,
+            table,
+            stop,
+            paraxial,
+        };
+        check::axial_bundle(&lens)?;
+        Ok(lens)
+    }
+
+    /// The surfaces as they stand: opened and focused.
+    #[must_use]
+    pub fn surfaces(&self) -> &[Surface] {
+        &self.surfaces
+    }
+
+    /// Which surface is the stop, from 0.
+    #[must_use]
+    pub fn stop(&self) -> usize {
+        self.stop
+    }
+
+    /// First-order quantities at 587.56 nm.
+    #[must_use]
+    pub fn paraxial(&self) -> &Paraxial {
+        &self.paraxial
+    }
+
+    /// First-order quantities at a wavelength.
+    #[must_use]
+    pub fn paraxial_at(&self, nm: f64) -> Paraxial {
+        paraxial::paraxial(&self.elements, self.stop, self.stop_mm(), &self.table.at(nm))
+    }
+
+    /// The sensor's place in the lens frame: mm from the first vertex.
+    #[must_use]
+    pub fn sensor_mm(&self) -> f64 {
+        self.sensor_mm
+    }
+
+    /// The last vertex's place in the lens frame, mm.
+    #[must_use]
+    pub fn last_vertex_mm(&self) -> f64 {
+        self.elements.last().map_or(0.0, |element| element.z_mm)
+    }
+
+    /// Distance of the plane in focus from the entrance pupil, m; infinite where the image is of infinity.
+    #[must_use]
+    pub fn focus_distance_m(&self) -> f64 {
+        self.focus_distance_m
+    }
+
+    /// Image size over object size in the plane in focus, positive; 0 at infinity.
+    #[must_use]
+    pub fn magnification(&self) -> f64 {
+        self.magnification
+    }
+
+    /// The principal distance c, mm: near the axis a tangent t at the entrance pupil is seen at c·t on the sensor.
+    #[must_use]
+    pub fn principal_distance_mm(&self) -> f64 {
+        self.principal_distance_mm
+    }
+
+    /// Semi-aperture of the stop, mm.
+    #[must_use]
+    pub fn stop_mm(&self) -> f64 {
+        self.surfaces[self.stop].semi_aperture_mm
+    }
+
+    /// Whether any glass disperses.
+    #[must_use]
+    pub fn disperses(&self) -> bool {
+        self.surfaces.iter().any(|surface| surface.glass.disperses())
+    }
+
+    /// A ray from the scene (its direction towards the sensor) behind the last surface, with the transmittance of the
+    /// surfaces.
+    ///
+    /// # Errors
+    /// Where the ray is lost.
+    pub fn to_sensor(&self, ray: LensRay, nm: f64) -> Result<(LensRay, f64), Lost> {
+        self.through(ray, Way::ToSensor, nm)
+    }
+
+    /// A ray from the sensor (its direction towards the scene) before the first surface, with the transmittance of the
+    /// surfaces.
+    ///
+    /// # Errors
+    /// Where the ray is lost.
+    pub fn to_scene(&self, ray: LensRay, nm: f64) -> Result<(LensRay, f64), Lost> {
+        self.through(ray, Way::ToScene, nm)
+    }
+
+    fn through(&self, ray: LensRay, way: Way, nm: f64) -> Result<(LensRay, f64), Lost> {
+        let mut journey = Through { nm, transmittance: 1.0 };
+        let ray = walk(&self.elements, 0, way, &self.table.at(nm), ray, &mut journey)?;
+        Ok((ray, journey.transmittance))
+    }
+
+    pub(super) fn media(&self, nm: f64) -> Media {
+        self.table.at(nm)
+    }
+
+    /// Where a ray from the sensor meets the stop's surface, from its vertex, whatever the clear apertures.
+    ///
+    /// # Errors
+    /// Where it misses a surface or is totally reflected on the way.
+    pub fn at_stop(&self, ray: LensRay, nm: f64) -> Result<DVec3, Lost> {
+        self.stop_point(ray, &self.media(nm))
+    }
+
+    pub(super) fn stop_point(&self, ray: LensRay, media: &Media) -> Result<DVec3, Lost> {
+        let behind = &self.elements[self.stop + 1..];
+        let ray = walk(behind, self.stop + 1, Way::ToScene, media, ray, &mut Rims::Ignore)?;
+        let element = &self.elements[self.stop];
+        let vertex = DVec3::new(0.0, 0.0, element.z_mm);
+        let hit = element.shape.hit(ray.point - vertex, ray.direction, -1.0);
+        hit.map(|h| h.point).ok_or(Lost { surface: self.stop, loss: trace::Loss::Missed })
+    }
+
+    /// Transmittance of the coatings on the axis.
+    #[must_use]
+    pub fn axial_transmittance(&self, nm: f64) -> f64 {
+        let axis = LensRay { point: DVec3::new(0.0, 0.0, self.sensor_mm), direction: DVec3::NEG_Z };
+        self.to_scene(axis, nm).map_or(0.0, |(_, transmittance)| transmittance)
+    }
+}
+
+/// The different media of a lens, air first, and for each surface its places in that list: before it, and behind it.
+fn media(surfaces: &[Surface]) -> Result<(Vec<Dispersion>, Vec<[usize; 2]>), PrescriptionError> {
+    let mut list = vec![Dispersion::AIR];
+    let mut before = 0;
+    let places = surfaces
+        .iter()
+        .map(|surface| {
+            let known = list.iter().position(|medium| *medium == surface.glass);
+            let after = known.unwrap_or_else(|| {
+                list.push(surface.glass);
+                list.len() - 1
+            });
+            [core::mem::replace(&mut before, after), after]
+        })
+        .collect();
+    if list.len() > MOST_MEDIA {
+        return Err(PrescriptionError::Media { found: list.len(), most: MOST_MEDIA });
+    }
+    if before == 0 { Ok((list, places)) } else { Err(PrescriptionError::LastMedium) }
+}
+
+/// Surfaces ready to be traced.
+fn elements(surfaces: &[Surface], places: &[[usize; 2]]) -> Vec<Element> {
+    let mut z_mm = 0.0;
+    let element = |(surface, media): (&Surface, &[usize; 2])| {
+        let element = Element {
+            shape: surface.shape(),
+            z_mm,
+            open_mm2: surface.semi_aperture_mm * surface.semi_aperture_mm,
+            media: *media,
+            coating: surface.coating,
+        };
+        z_mm += surface.thickness_mm;
+        element
+    };
+    surfaces.iter().zip(places).map(element).collect()
+}

@@ -1,0 +1,188 @@
+//! Rays through the surfaces of a lens, in either direction.
+//!
+//! Lens frame: mm, z along the axis from the scene to the sensor, origin at the vertex of the first surface. Between
+//! surfaces rays run straight, also backwards where surfaces are so curved that their vertices' order is not the order in
+//! which an oblique ray meets them.
+
+use super::coating::{Coating, Crossing};
+use super::indices::Media;
+use super::surface::{Hit, Shape};
+use glam::DVec3;
+
+/// A ray in the lens frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LensRay {
+    /// A point of it, mm.
+    pub point: DVec3,
+    /// Unit direction.
+    pub direction: DVec3,
+}
+
+/// Why a ray does not come through.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Loss {
+    /// It does not meet a surface.
+    Missed,
+    /// It meets a surface outside its clear aperture.
+    Clipped,
+    /// It is totally reflected.
+    TotalReflection,
+}
+
+/// Where, and why, a ray is lost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Lost {
+    /// The surface, counted from 0 at the scene.
+    pub surface: usize,
+    /// Why.
+    pub loss: Loss,
+}
+
+/// A surface, ready to be traced.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Element {
+    pub(super) shape: Shape,
+    /// Vertex, mm.
+    pub(super) z_mm: f64,
+    /// Square of the clear semi-aperture, mm².
+    pub(super) open_mm2: f64,
+    /// Places in the table of media, of the scene's side and the sensor's.
+    pub(super) media: [usize; 2],
+    pub(super) coating: Coating,
+}
+
+/// Which way rays run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Way {
+    ToSensor,
+    ToScene,
+}
+
+impl Way {
+    #[inline]
+    fn sense(self) -> f64 {
+        if self == Self::ToSensor { 1.0 } else { -1.0 }
+    }
+}
+
+/// Whether clear apertures stop rays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Rims {
+    Clip,
+    Ignore,
+}
+
+/// What a ray has met: it is told of every surface it crosses, and may stop it.
+pub(super) trait Journey {
+    /// The ray crosses `element` at `hit` with these indices and cosines; false stops it.
+    fn crosses(&mut self, index: usize, element: &Element, hit: &Hit, crossing: &Crossing) -> Result<(), Loss>;
+}
+
+/// Clear apertures clip, coatings take their part.
+pub(super) struct Through {
+    pub(super) nm: f64,
+    pub(super) transmittance: f64,
+}
+
+impl Journey for Through {
+    #[inline]
+    fn crosses(&mut self, _: usize, element: &Element, hit: &Hit, crossing: &Crossing) -> Result<(), Loss> {
+        inside(element, hit)?;
+        self.transmittance *= element.coating.transmittance(crossing, self.nm);
+        Ok(())
+    }
+}
+
+/// Apertures alone, or nothing: geometry.
+impl Journey for Rims {
+    #[inline]
+    fn crosses(&mut self, _: usize, element: &Element, hit: &Hit, _: &Crossing) -> Result<(), Loss> {
+        if *self == Self::Clip { inside(element, hit) } else { Ok(()) }
+    }
+}
+
+#[inline]
+fn inside(element: &Element, hit: &Hit) -> Result<(), Loss> {
+    let r2 = hit.point.x * hit.point.x + hit.point.y * hit.point.y;
+    if r2 <= element.open_mm2 { Ok(()) } else { Err(Loss::Clipped) }
+}
+
+/// `ray` after the surfaces `elements` (numbered from `first`), in the order of its way.
+#[inline]
+pub(super) fn walk(
+    elements: &[Element],
+    first: usize,
+    way: Way,
+    media: &Media,
+    mut ray: LensRay,
+    journey: &mut impl Journey,
+) -> Result<LensRay, Lost> {
+    let count = elements.len();
+    for step in 0..count {
+        let index = if way == Way::ToSensor { step } else { count - 1 - step };
+        let lost = |loss| Lost { surface: first + index, loss };
+        ray = cross(&elements[index], first + index, way, media, ray, journey).map_err(lost)?;
+    }
+    Ok(ray)
+}
+
+#[inline]
+fn cross(
+    element: &Element,
+    index: usize,
+    way: Way,
+    media: &Media,
+    ray: LensRay,
+    journey: &mut impl Journey,
+) -> Result<LensRay, Loss> {
+    let sense = way.sense();
+    let vertex = DVec3::new(0.0, 0.0, element.z_mm);
+    let hit = element.shape.hit(ray.point - vertex, ray.direction, sense).ok_or(Loss::Missed)?;
+    let [a, b] = element.media;
+    let n = if way == Way::ToSensor { [media[a], media[b]] } else { [media[b], media[a]] };
+    let (direction, cosine) = refract(ray.direction, &hit, n[0] / n[1], sense).ok_or(Loss::TotalReflection)?;
+    journey.crosses(index, element, &hit, &Crossing { n, cosine })?;
+    Ok(LensRay { point: hit.point + vertex, direction })
+}
+
+/// Snell's law: d′ = μ d + (± √(1 − μ²(1 − (d·n)²)) − μ d·n) n with μ = n₁/n₂; and both cosines. `None` for total
+/// reflection.
+#[inline]
+pub(super) fn refract(d: DVec3, hit: &Hit, mu: f64, sense: f64) -> Option<(DVec3, [f64; 2])> {
+    let along = d.dot(hit.normal);
+    if mu == 1.0 {
+        return Some((d, [along.abs(); 2]));
+    }
+    let square = 1.0 - mu * mu * (1.0 - along * along);
+    if square <= 0.0 {
+        return None;
+    }
+    let beyond = square.sqrt();
+    Some((d * mu + hit.normal * (sense * beyond - mu * along), [along.abs(), beyond]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn refraction_keeps_n_sine_and_the_plane_of_incidence() {
+        let hit = Hit { point: DVec3::ZERO, normal: DVec3::new(0.1, -0.2, 1.0).normalize() };
+        let d = DVec3::new(0.3, 0.1, 1.0).normalize();
+        let (out, cosine) = refract(d, &hit, 1.0 / 1.5, 1.0).expect("into glass");
+        let sines = [d, out].map(|v| v.cross(hit.normal).length());
+        // Rounding.
+        assert!((sines[0] - 1.5 * sines[1]).abs() < 1e-15 && (out.length() - 1.0).abs() < 1e-15);
+        assert!(out.cross(hit.normal).normalize().dot(d.cross(hit.normal).normalize()) > 1.0 - 1e-14);
+        assert!((cosine[1] - out.dot(hit.normal)).abs() < 1e-15);
+        let (back, _) = refract(-out, &hit, 1.5, -1.0).expect("out again");
+        assert!((back + d).length() < 1e-15);
+    }
+
+    #[test]
+    fn beyond_the_critical_angle_nothing_comes_through() {
+        let hit = Hit { point: DVec3::ZERO, normal: DVec3::Z };
+        let at = |sine: f64| refract(DVec3::new(sine, 0.0, (1.0 - sine * sine).sqrt()), &hit, 1.5, 1.0);
+        assert!(at(1.0 / 1.5 + 1e-9).is_none() && at(1.0 / 1.5 - 1e-9).is_some());
+    }
+}
