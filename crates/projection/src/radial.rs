@@ -163,6 +163,16 @@ impl RadialDistortion {
             }
     }
 
+    /// The ideal radius of the fold, mm; infinite where there is none.
+    #[must_use]
+    pub fn fold_ideal_mm(&self) -> f64 {
+        self.unit_mm
+            * match self.sense {
+                Sense::IdealToObserved => self.polynomial.fold(),
+                Sense::ObservedToIdeal => self.polynomial.fold_value(),
+            }
+    }
+
     /// The ideal point of an observed one, mm; `None` beyond the fold.
     #[must_use]
     pub fn ideal(&self, observed_mm: DVec2) -> Option<DVec2> {

@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 
 use super::ModelError;
 use super::error::{finite_list, legal};
-use super::profile::Edge;
+use super::profile::{Edge, Projection};
 use crate::plane::{Distortion, DistortionTerms, Tilt};
 
 /// A perspective camera with the distortion of OpenCV.
@@ -73,11 +73,22 @@ impl Perspective {
         self.tilt.as_deref()
     }
 
-    pub(super) fn edge(&self) -> Edge {
+    /// The gnomonic point of an image point.
+    fn ideal(&self, point: DVec2) -> Option<DVec2> {
+        let upright = match &self.tilt {
+            Some(tilt) => tilt.upright(point)?,
+            None => point,
+        };
+        self.distortion.ideal(upright)
+    }
+}
+
+impl Projection for Perspective {
+    fn edge(&self) -> Edge {
         self.distortion.fold().map_or(Edge::FRONT, |limit| Edge::fold(atan(limit)))
     }
 
-    pub(super) fn project(&self, direction: DVec3) -> Option<DVec2> {
+    fn project(&self, direction: DVec3) -> Option<DVec2> {
         if direction.z <= 0.0 {
             return None;
         }
@@ -88,11 +99,11 @@ impl Perspective {
         }
     }
 
-    pub(super) fn unproject(&self, point: DVec2) -> Option<DVec3> {
+    fn unproject(&self, point: DVec2) -> Option<DVec3> {
         Some(self.ideal(point)?.extend(1.0).normalize())
     }
 
-    pub(super) fn solid_angle_per_area(&self, point: DVec2) -> Option<f64> {
+    fn solid_angle_per_area(&self, point: DVec2) -> Option<f64> {
         let ideal = self.ideal(point)?;
         let square = 1.0 + ideal.length_squared();
         let tilt = match &self.tilt {
@@ -100,15 +111,6 @@ impl Perspective {
             None => 1.0,
         };
         Some(1.0 / (square * square.sqrt() * self.distortion.area_ratio(ideal) * tilt))
-    }
-
-    /// The gnomonic point of an image point.
-    fn ideal(&self, point: DVec2) -> Option<DVec2> {
-        let upright = match &self.tilt {
-            Some(tilt) => tilt.upright(point)?,
-            None => point,
-        };
-        self.distortion.ideal(upright)
     }
 }
 

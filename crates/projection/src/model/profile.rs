@@ -38,6 +38,14 @@ impl Edge {
     }
 }
 
+/// What every model answers ([`Model`](super::Model) states it).
+pub(crate) trait Projection {
+    fn edge(&self) -> Edge;
+    fn project(&self, direction: DVec3) -> Option<DVec2>;
+    fn unproject(&self, point: DVec2) -> Option<DVec3>;
+    fn solid_angle_per_area(&self, point: DVec2) -> Option<f64>;
+}
+
 /// r(θ), increasing from r(0) = 0 to the edge.
 pub(crate) trait Profile {
     fn edge(&self) -> Edge;
@@ -54,13 +62,19 @@ pub(crate) trait Profile {
     /// The angle of a radius, before the edge.
     fn seen(&self, radius: f64) -> Option<f64> {
         let angle = if radius > 0.0 { self.angle(radius)? } else { radius };
-        (angle < self.edge().angle_rad).then_some(angle)
+        (angle < Profile::edge(self).angle_rad).then_some(angle)
+    }
+}
+
+impl<P: Profile> Projection for P {
+    fn edge(&self) -> Edge {
+        Profile::edge(self)
     }
 
     fn project(&self, direction: DVec3) -> Option<DVec2> {
         let across = direction.truncate().length();
         let angle = field_angle(direction)?;
-        if angle >= self.edge().angle_rad {
+        if angle >= Profile::edge(self).angle_rad {
             return None;
         }
         let point = if across > 0.0 { direction.truncate() * (self.radius(angle) / across) } else { DVec2::ZERO };

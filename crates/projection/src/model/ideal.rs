@@ -1,0 +1,100 @@
+//! Ideal projections about an axis, in focal lengths.
+//!
+//! | projection | r(θ) | field | solid angle per area, with its value on the axis as 1 |
+//! | --- | --- | --- | --- |
+//! | equidistant | θ | to 180° | sin θ/θ |
+//! | equisolid | 2 sin(θ/2) | to 180° | 1 |
+//! | stereographic | 2 tan(θ/2) | to 180°, at infinity | cos⁴(θ/2) |
+//! | orthographic | sin θ | to 90° | 1/cos θ |
+//! | rectilinear | tan θ | to 90°, at infinity | cos³ θ |
+//!
+//! (Miyamoto 1964; Ray, Applied Photographic Optics, 2002.) Fields are half of the full angle.
+
+use etendue_core::maths::f64::{asin, atan, cos, sin, tan};
+
+use super::profile::{Edge, Profile};
+
+/// An ideal projection.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ideal {
+    /// Equal angles, equal lengths.
+    Equidistant,
+    /// Equal solid angles, equal areas.
+    Equisolid,
+    /// Small circles stay circles.
+    Stereographic,
+    /// The hemisphere seen from afar.
+    Orthographic,
+    /// Straight lines stay straight.
+    Rectilinear,
+}
+
+impl Profile for Ideal {
+    fn edge(&self) -> Edge {
+        match self {
+            Self::Equidistant | Self::Equisolid | Self::Stereographic => Edge::SPHERE,
+            Self::Orthographic | Self::Rectilinear => Edge::FRONT,
+        }
+    }
+
+    fn radius(&self, angle_rad: f64) -> f64 {
+        match self {
+            Self::Equidistant => angle_rad,
+            Self::Equisolid => 2.0 * sin(0.5 * angle_rad),
+            Self::Stereographic => 2.0 * tan(0.5 * angle_rad),
+            Self::Orthographic => sin(angle_rad),
+            Self::Rectilinear => tan(angle_rad),
+        }
+    }
+
+    fn slope(&self, angle_rad: f64) -> f64 {
+        let half = cos(0.5 * angle_rad);
+        let whole = cos(angle_rad);
+        match self {
+            Self::Equidistant => 1.0,
+            Self::Equisolid => half,
+            Self::Stereographic => 1.0 / (half * half),
+            Self::Orthographic => whole,
+            Self::Rectilinear => 1.0 / (whole * whole),
+        }
+    }
+
+    fn angle(&self, radius: f64) -> Option<f64> {
+        match self {
+            Self::Equidistant => Some(radius),
+            Self::Equisolid => (radius < 2.0).then(|| 2.0 * asin(0.5 * radius)),
+            Self::Stereographic => Some(2.0 * atan(0.5 * radius)),
+            Self::Orthographic => (radius < 1.0).then(|| asin(radius)),
+            Self::Rectilinear => Some(atan(radius)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Projection;
+    use super::*;
+    use glam::DVec2;
+
+    #[test]
+    fn the_solid_angle_falls_as_the_table_says() {
+        let expected: [fn(f64) -> f64; 5] = [
+            |a| sin(a) / a,
+            |_| 1.0,
+            |a| cos(0.5 * a) * cos(0.5 * a) * cos(0.5 * a) * cos(0.5 * a),
+            |a| 1.0 / cos(a),
+            |a| cos(a) * cos(a) * cos(a),
+        ];
+        let all = [Ideal::Equidistant, Ideal::Equisolid, Ideal::Stereographic, Ideal::Orthographic, Ideal::Rectilinear];
+        for (ideal, expected) in all.into_iter().zip(expected) {
+            for i in 1..15 {
+                let angle = 0.1 * f64::from(i);
+                let point = DVec2::new(0.6, -0.8) * ideal.radius(angle);
+                let found = ideal.solid_angle_per_area(point).expect("seen");
+                // A dozen roundings; near 90° the orthographic angle loses as its cosine (0.17 at 1.4 rad) grows small.
+                assert!((found / expected(angle) - 1.0).abs() < 1e-13, "{ideal:?} at {angle}");
+            }
+            assert_eq!(ideal.solid_angle_per_area(DVec2::ZERO), Some(1.0));
+        }
+    }
+}
