@@ -25,9 +25,11 @@ pub mod random;
 pub mod ray;
 pub mod warp;
 pub mod wavelength;
+mod wavelength_density;
 
 pub use field::RadianceField;
 pub use frame::{Basis, CameraPose, Track};
 pub use plane::{Plane, SpectralCube};
 pub use ray::{PupilRay, Ray};
 pub use wavelength::{Bands, Spectral, Wavelengths};
+pub use wavelength_density::WavelengthDensity;

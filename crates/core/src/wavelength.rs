@@ -1,6 +1,5 @@
 //! Wavelengths carried by a path, values over them, and bands of a spectral image.
 
-use crate::distribution::Distribution1;
 use core::ops::{Add, AddAssign, Div, Index, IndexMut, Mul, MulAssign, Sub};
 
 /// The shortest wavelength that a description may name, nm.
@@ -28,19 +27,6 @@ impl<const N: usize> Wavelengths<N> {
         let nm = core::array::from_fn(|i| within(low_nm, high_nm, turned(u, i, N)));
         Self { nm, pdf: [1.0 / range; N] }
     }
-
-    /// `N` wavelengths over `[low_nm, high_nm)` by a density given as `distribution` over [0, 1), from one number `u`
-    /// in [0, 1).
-    #[must_use]
-    pub fn drawn(distribution: &Distribution1, low_nm: f32, high_nm: f32, u: f32) -> Self {
-        let range = high_nm - low_nm;
-        let (mut nm, mut pdf) = ([0.0; N], [0.0; N]);
-        for i in 0..N {
-            let (x, density) = distribution.sample(turned(u, i, N));
-            (nm[i], pdf[i]) = (within(low_nm, high_nm, x), density / range);
-        }
-        Self { nm, pdf }
-    }
 }
 
 /// The wavelength at `x` in [0, 1) of `[low_nm, high_nm)`; rounding does not take it to the upper end.
@@ -49,7 +35,8 @@ fn within(low_nm: f32, high_nm: f32, x: f32) -> f32 {
 }
 
 /// `u` turned by `i` of `n` equal steps, in [0, 1).
-fn turned(u: f32, i: usize, n: usize) -> f32 {
+#[inline]
+pub(crate) fn turned(u: f32, i: usize, n: usize) -> f32 {
     let turned = u + i as f32 / n as f32;
     if turned >= 1.0 { turned - 1.0 } else { turned }
 }
@@ -247,22 +234,6 @@ mod tests {
             }
             assert_eq!(w.pdf, [1.0 / 400.0; 4]);
         }
-    }
-
-    #[test]
-    fn drawn_wavelengths_estimate_an_integral_by_their_density() {
-        let density = Distribution1::new(vec![1.0, 0.0, 3.0, 4.0]).expect("weights");
-        let mut sum = 0.0;
-        for i in 0..256 {
-            let w = Wavelengths::<4>::drawn(&density, 400.0, 800.0, (i as f32 + 0.5) / 256.0);
-            for (nm, pdf) in w.nm.iter().zip(w.pdf) {
-                assert!(!(500.0..600.0).contains(nm) && pdf > 0.0);
-                sum += f64::from(*nm) / f64::from(pdf) / 1024.0;
-            }
-        }
-        // ∫ λ dλ over the three bins that have weight; the midpoint rule is exact but for rounding.
-        let exact = 450.0 * 100.0 + 700.0 * 200.0;
-        assert!((sum / exact - 1.0).abs() < 1e-4, "{sum} {exact}");
     }
 
     #[test]

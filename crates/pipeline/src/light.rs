@@ -143,7 +143,7 @@ impl<S: RaySource> Exposure<'_, S> {
     fn wavelengths<const N: usize>(&self, site: Option<&Site>, u: f32) -> Wavelengths<N> {
         let Sampling { low_nm, high_nm, .. } = self.sampling;
         match site {
-            Some(site) => Wavelengths::drawn(&site.density, low_nm, high_nm, u),
+            Some(site) => site.density.draw(u),
             None => Wavelengths::uniform(low_nm, high_nm, u),
         }
     }

@@ -4,7 +4,7 @@
 //! R(λ) and of the uniform density: electrons are then an estimate with little spectral noise, and where a spectral cube
 //! is kept beside them, every band still gets its share.
 
-use etendue_core::distribution::Distribution1;
+use etendue_core::WavelengthDensity;
 use etendue_core::random::Pixel;
 use etendue_sensor::Sensor;
 use etendue_spectra::Spectrum;
@@ -22,8 +22,8 @@ const UNIFORM_SHARE_WITH_BANDS: f64 = 0.5;
 pub struct Site {
     /// Responsivity, e⁻ per W·m⁻².
     pub responsivity: Spectrum,
-    /// Density of wavelengths over the sampled range, as a distribution over [0, 1).
-    pub density: Distribution1,
+    /// Density of the wavelengths that are asked for.
+    pub density: WavelengthDensity,
 }
 
 /// The tile of a colour filter, repeated over the sensor.
@@ -54,7 +54,7 @@ impl Mosaic {
     }
 }
 
-fn density(responsivity: &Spectrum, (low_nm, high_nm): (f64, f64), uniform_share: f64) -> Distribution1 {
+fn density(responsivity: &Spectrum, (low_nm, high_nm): (f64, f64), uniform_share: f64) -> WavelengthDensity {
     let steps = ((high_nm - low_nm) / STEP_NM).ceil().max(1.0);
     let edge = |i: f64| low_nm + (high_nm - low_nm) * i / steps;
     let means: Vec<f64> =
@@ -64,7 +64,8 @@ fn density(responsivity: &Spectrum, (low_nm, high_nm): (f64, f64), uniform_share
         true => (uniform_share + (1.0 - uniform_share) * m / mean) as f32,
         false => 1.0,
     };
-    Distribution1::new(means.iter().map(weight).collect()).expect("weights are positive and finite")
+    let weights: Vec<_> = means.iter().map(weight).collect();
+    WavelengthDensity::new(&weights, low_nm as f32, high_nm as f32).expect("weights are positive and finite")
 }
 
 #[cfg(test)]
@@ -75,7 +76,7 @@ mod tests {
     fn wavelengths_are_asked_where_a_pixel_responds_and_a_little_everywhere() {
         let green = Spectrum::from_fn(|nm| if (500.0..=600.0).contains(&nm) { 2.0 } else { 0.0 });
         let density = density(&green, (400.0, 700.0), 0.25);
-        let (inside, outside) = (density.pdf(0.5), density.pdf(0.1));
+        let (inside, outside) = (300.0 * density.pdf(550.0), 300.0 * density.pdf(430.0));
         // A third of the range holds three quarters of the density beside a quarter spread evenly.
         assert!((inside - (0.25 + 0.75 * 3.0)).abs() < 0.05 && (outside - 0.25).abs() < 0.01, "{inside} {outside}");
     }
@@ -83,6 +84,6 @@ mod tests {
     #[test]
     fn a_pixel_that_responds_to_nothing_draws_uniformly() {
         let density = density(&Spectrum::constant(0.0), (400.0, 700.0), 0.05);
-        assert!((density.pdf(0.3) - 1.0).abs() < 1e-6);
+        assert!((300.0 * density.pdf(490.0) - 1.0).abs() < 1e-5);
     }
 }

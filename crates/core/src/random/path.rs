@@ -1,7 +1,7 @@
 //! Numbers for one path: stratified over the samples of a replicate.
 
 use super::address::{Draw, PixelAddress, mix};
-use super::sobol::{scrambled_0, scrambled_1, shuffle};
+use super::sobol::{scrambled_0, scrambled_pair, shuffle_mirrored};
 use super::unit_f32;
 use glam::Vec2;
 
@@ -13,27 +13,28 @@ use glam::Vec2;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathStream {
     key: u64,
-    sample: u32,
+    /// The sample's number with its bits reversed.
+    mirrored: u32,
 }
 
 impl PathStream {
     /// The numbers of sample `sample` of a pixel's replicate.
     #[must_use]
     pub fn new(address: &PixelAddress, sample: u32) -> Self {
-        Self { key: address.key(), sample }
+        Self { key: address.key(), mirrored: sample.reverse_bits() }
     }
 
     /// The numbers of another sample of the same pixel and replicate.
     #[must_use]
     pub fn with_sample(self, sample: u32) -> Self {
-        Self { sample, ..self }
+        Self { mirrored: sample.reverse_bits(), ..self }
     }
 
     /// A number in [0, 1) for `draw`; `sub` tells vertices and repetitions apart.
     #[must_use]
     pub fn one(&self, draw: Draw, sub: u32) -> f32 {
         let key = self.draw_key(draw, sub);
-        let index = shuffle(self.sample, key as u32);
+        let index = shuffle_mirrored(self.mirrored, key as u32);
         unit_f32(scrambled_0(index, (key >> 32) as u32))
     }
 
@@ -42,9 +43,9 @@ impl PathStream {
     #[must_use]
     pub fn two(&self, draw: Draw, sub: u32) -> Vec2 {
         let key = self.draw_key(draw, sub);
-        let other = mix(key);
-        let index = shuffle(self.sample, key as u32);
-        Vec2::new(unit_f32(scrambled_0(index, (key >> 32) as u32)), unit_f32(scrambled_1(index, other as u32)))
+        let index = shuffle_mirrored(self.mirrored, key as u32);
+        let (x, y) = scrambled_pair(index, (key >> 32) as u32, mix(key) as u32);
+        Vec2::new(unit_f32(x), unit_f32(y))
     }
 
     fn draw_key(&self, draw: Draw, sub: u32) -> u64 {

@@ -9,14 +9,17 @@ pub(super) fn scrambled_0(index: u32, seed: u32) -> u32 {
     upward_hash(index, seed).reverse_bits()
 }
 
-/// Dimension 1 at `index`, Owen-scrambled by `seed`; fixed point, 2³² is one.
-pub(super) fn scrambled_1(index: u32, seed: u32) -> u32 {
-    upward_hash(mirrored_1(index), seed).reverse_bits()
+/// Dimensions 0 and 1 at `index`, Owen-scrambled by a seed each; fixed point, 2³² is one. Both are reversed at once.
+pub(super) fn scrambled_pair(index: u32, seed_0: u32, seed_1: u32) -> (u32, u32) {
+    let (low, high) = (upward_hash(mirrored_1(index), seed_1), upward_hash(index, seed_0));
+    let both = (u64::from(low) | u64::from(high) << 32).reverse_bits();
+    (both as u32, (both >> 32) as u32)
 }
 
-/// A shuffle of indices that keeps every aligned power-of-two block together, so prefixes stay well distributed.
-pub(super) fn shuffle(index: u32, seed: u32) -> u32 {
-    upward_hash(index.reverse_bits(), seed).reverse_bits()
+/// A shuffle of indices that keeps every aligned power-of-two block together, so prefixes stay well distributed. The
+/// index is given with its bits reversed.
+pub(super) fn shuffle_mirrored(mirrored: u32, seed: u32) -> u32 {
+    upward_hash(mirrored, seed).reverse_bits()
 }
 
 /// Dimension 1 with its bits reversed: its matrix is Pascal's triangle modulo 2, the Kronecker power of a triangle of
@@ -68,9 +71,9 @@ mod tests {
             for (a, b) in [(4_u32, 4_u32), (8, 0), (0, 8), (2, 6), (5, 3)] {
                 let mut seen = [false; 256];
                 for i in 0..256 {
-                    let index = shuffle(i, seed ^ 0x55);
-                    let x = scrambled_0(index, seed);
-                    let y = scrambled_1(index, seed.wrapping_mul(31) ^ 0x1234_5678);
+                    let index = shuffle_mirrored(u32::reverse_bits(i), seed ^ 0x55);
+                    let (x, y) = scrambled_pair(index, seed, seed.wrapping_mul(31) ^ 0x1234_5678);
+                    assert_eq!(x, scrambled_0(index, seed));
                     let column = if a == 0 { 0 } else { x >> (32 - a) };
                     let row = if b == 0 { 0 } else { y >> (32 - b) };
                     seen[(column << b | row) as usize] = true;

@@ -224,7 +224,7 @@ impl<'a, const N: usize> Path<'a, N> {
         if !lights.can_be_drawn() || vertex.bsdf.is_mirror() {
             return;
         }
-        let choice = self.stream.one(Draw::LightChoice, self.met);
+        let choice = if lights.are_many() { self.stream.one(Draw::LightChoice, self.met) } else { 0.0 };
         let u = self.stream.two(Draw::LightPoint, self.met);
         let spread = self.cone.spread_rad;
         let Some(light) = lights.sample(receiver, (choice, u), spread, self.tracer.palette, self.wavelengths) else {
@@ -263,7 +263,7 @@ impl<'a, const N: usize> Path<'a, N> {
 
     /// Draws where the path goes; `None` where the light would be absorbed.
     fn sample(&self, vertex: &Vertex<'_, N>) -> Option<BsdfSample<N>> {
-        let choice = self.stream.one(Draw::BsdfChoice, self.met);
+        let choice = if vertex.bsdf.has_parts() { self.stream.one(Draw::BsdfChoice, self.met) } else { 0.0 };
         let u = self.stream.two(Draw::BsdfDirection, self.met);
         vertex.bsdf.sample(vertex.frame.wo, choice, u)
     }

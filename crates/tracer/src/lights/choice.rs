@@ -59,6 +59,12 @@ impl Choice {
         self.tree.is_some() || self.has_distant()
     }
 
+    /// Whether there is more than one light to choose from.
+    pub(super) fn is_open(&self) -> bool {
+        let near = self.tree.as_ref().map_or(0, LightTree::len);
+        near + self.suns.len() + usize::from(self.environment > 0.0) > 1
+    }
+
     fn has_distant(&self) -> bool {
         self.environment > 0.0 || self.suns.iter().any(|(_, e)| *e > 0.0)
     }

@@ -93,14 +93,21 @@ impl Gathered {
         if !instance.materials.iter().any(|m| weigher.glow(*m).is_some()) {
             return self.primitives.push([]);
         }
-        let lights: Vec<_> = (0..mesh.triangles().len())
-            .map(|primitive| {
-                let material = instance.materials[usize::from(mesh.slots()[primitive])];
-                let (radiance, glow) = weigher.glow(material)?;
-                let light = TriangleLight::new(mesh, primitive, to_render, material)?;
-                Some(self.add(light.bounds(radiance, glow == Glow::Both), Light::Triangle(light)))
-            })
-            .collect();
+        let material = |primitive: usize| instance.materials[usize::from(mesh.slots()[primitive])];
+        let count = mesh.triangles().len();
+        let mut lights: Vec<Option<u32>> = Vec::with_capacity(count);
+        while lights.len() < count {
+            let first = lights.len();
+            let light = weigher.glow(material(first)).and_then(|(radiance, glow)| {
+                let pair = (first + 1 < count && material(first + 1) == material(first)).then_some([first, first + 1]);
+                let light = pair
+                    .and_then(|pair| TriangleLight::of_two(mesh, pair, to_render, material(first)))
+                    .or_else(|| TriangleLight::new(mesh, first, to_render, material(first)))?;
+                Some((light.triangles(), self.add(light.bounds(radiance, glow == Glow::Both), Light::Triangle(light))))
+            });
+            let (triangles, light) = light.map_or((1, None), |(triangles, light)| (triangles, Some(light)));
+            lights.extend(core::iter::repeat_n(light, triangles));
+        }
         self.primitives.push(lights);
     }
 

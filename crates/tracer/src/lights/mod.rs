@@ -56,6 +56,12 @@ enum Light {
     Lamp(LampLight),
 }
 
+impl Light {
+    fn triangles(&self) -> usize {
+        if let Self::Triangle(light) = self { light.triangles() } else { 0 }
+    }
+}
+
 /// What shines but is no surface.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
@@ -127,7 +133,9 @@ pub struct DistantLight<const N: usize> {
 
 /// A point of a light's surface, drawn for a point of the scene.
 struct SurfaceSample {
-    position: Vec3,
+    /// From the point of the scene, and its length, m.
+    way: Vec3,
+    distance: f32,
     normal: Vec3,
     /// By solid angle, without the choice of the light.
     pdf: f32,
@@ -177,7 +185,7 @@ impl Lights {
     pub fn census(&self) -> LightCensus {
         let count = |kind: fn(&Light) -> bool| self.lights.iter().filter(|l| kind(l)).count();
         LightCensus {
-            triangles: count(|l| matches!(l, Light::Triangle(_))),
+            triangles: self.lights.iter().map(Light::triangles).sum(),
             spheres: count(|l| matches!(l, Light::Sphere(_))),
             lamps: count(|l| matches!(l, Light::Lamp(_))),
             suns: self.suns.len(),
@@ -191,6 +199,13 @@ impl Lights {
     #[must_use]
     pub fn can_be_drawn(&self) -> bool {
         self.choice.is_possible()
+    }
+
+    /// Whether there is more than one light to choose from; [`Lights::sample`] does not look at the number that chooses
+    /// where there is not.
+    #[must_use]
+    pub fn are_many(&self) -> bool {
+        self.choice.is_open()
     }
 
     /// A light and a direction towards it from the `receiver`; `None` where the light drawn sends nothing there.
@@ -285,15 +300,14 @@ impl Glowing<'_> {
         spread_rad: f32,
         wavelengths: &Wavelengths<N>,
     ) -> Option<LightSample<N>> {
-        let way = surface.position - from;
-        let distance = way.length();
-        let direction = (distance > 0.0).then(|| way / distance)?;
+        let distance = surface.distance;
+        let direction = (distance > 0.0).then(|| surface.way * (1.0 / distance))?;
         let emission = self.palette.emission(self.material).filter(|e| e.leaves(surface.normal, -direction))?;
         let lookup = Lookup { width: spread_rad * distance * surface.uv_per_m, ..Lookup::point(surface.uv) };
         let side = -1.0_f32.copysign(surface.normal.dot(direction));
         Some(LightSample {
             direction,
-            target: Some(surface.position + surface.normal * (side * (self.error_m + ROUNDING * distance))),
+            target: Some(from + surface.way + surface.normal * (side * (self.error_m + ROUNDING * distance))),
             radiance: self.palette.radiance(self.material, emission, &lookup, wavelengths),
             pdf: surface.pdf,
             delta: false,
@@ -306,9 +320,8 @@ impl Glowing<'_> {
 const ROUNDING: f32 = 16.0 * 0.5 * f32::EPSILON;
 
 /// Density by solid angle of a point drawn with density `per_area` (1/m²) on a surface of unit `normal`, seen from
-/// a point at the far end of `way`; 0 where it is seen edge-on.
-fn solid_angle_pdf(per_area: f32, way: Vec3, normal: Vec3) -> f32 {
-    let distance2 = way.length_squared();
-    let cos = normal.dot(way).abs() / distance2.sqrt();
-    if cos > 0.0 { per_area * distance2 / cos } else { 0.0 }
+/// a point at the far end of `way` of length `distance`; 0 where it is seen edge-on.
+fn solid_angle_pdf(per_area: f32, way: Vec3, distance: f32, normal: Vec3) -> f32 {
+    let height = normal.dot(way).abs();
+    if height > 0.0 { per_area * (distance * distance) * (distance / height) } else { 0.0 }
 }

@@ -99,7 +99,8 @@ impl SphereLight {
         let normal = (from + direction * near - self.centre).normalize_or(-cone.axis);
         let (uv, uv_per_m) = self.texture(self.linear.transpose() * normal);
         let pdf = 1.0 / (TAU * cone.one_minus_cos);
-        SurfaceSample { position: self.centre + normal * radius, normal, pdf, uv, uv_per_m }
+        let way = self.centre + normal * radius - from;
+        SurfaceSample { way, distance: way.length(), normal, pdf, uv, uv_per_m }
     }
 
     fn sample_area(&self, from: Vec3, u: Vec2) -> Option<SurfaceSample> {
@@ -107,10 +108,11 @@ impl SphereLight {
         let stretched = self.normals * own;
         let per_area = 1.0 / (4.0 * PI * self.determinant * stretched.length());
         let normal = stretched.normalize_or(own);
-        let position = self.centre + self.linear * own;
-        let pdf = solid_angle_pdf(per_area, position - from, normal);
+        let way = self.centre + self.linear * own - from;
+        let distance = way.length();
+        let pdf = solid_angle_pdf(per_area, way, distance, normal);
         let (uv, uv_per_m) = self.texture(own);
-        (pdf > 0.0).then_some(SurfaceSample { position, normal, pdf, uv, uv_per_m })
+        (pdf > 0.0).then_some(SurfaceSample { way, distance, normal, pdf, uv, uv_per_m })
     }
 
     /// Texture coordinates where the sphere's own normal is along `own`, and how many a metre covers.
@@ -129,7 +131,7 @@ impl SphereLight {
         }
         let normal = met.point.geometric_normal;
         let stretch = self.determinant / (self.linear.transpose() * normal).length();
-        solid_angle_pdf(1.0 / (4.0 * PI * stretch), met.direction * met.distance_m, normal)
+        solid_angle_pdf(1.0 / (4.0 * PI * stretch), met.direction * met.distance_m, met.distance_m, normal)
     }
 
     pub(super) fn glowing<'a>(&self, palette: &'a Palette) -> Glowing<'a> {

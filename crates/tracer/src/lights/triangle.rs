@@ -1,4 +1,7 @@
-//! Glowing triangles, drawn uniformly by area.
+//! Glowing triangles and parallelograms, drawn uniformly by area.
+//!
+//! Two triangles that make up a parallelogram are one light: points then lie as well on it as the numbers do in their
+//! square, and there are half as many lights to choose from.
 
 use etendue_core::warp::uniform_triangle;
 use glam::{DAffine3, Mat3, Vec2, Vec3};
@@ -9,9 +12,11 @@ use crate::MaterialId;
 use crate::geometry::Mesh;
 use crate::materials::Palette;
 
-/// A glowing triangle in the render frame.
+/// A glowing triangle in the render frame, or a parallelogram.
 #[derive(Clone, Debug)]
 pub(super) struct TriangleLight {
+    /// Whether it is a parallelogram, with as much again beyond the side that its edges leave open.
+    doubled: bool,
     corner: Vec3,
     edges: [Vec3; 2],
     /// On the same side as the surface's geometric normal: that of the winding in the mesh's own frame.
@@ -26,14 +31,18 @@ pub(super) struct TriangleLight {
 impl TriangleLight {
     /// `None` where rounding leaves no area: such a triangle sends no light that could be drawn.
     pub(super) fn new(mesh: &Mesh, primitive: usize, to_render: &DAffine3, material: MaterialId) -> Option<Self> {
-        let own = mesh.corners(primitive as u32);
+        Self::of_corners(&Corners::of(mesh, primitive), to_render, material)
+    }
+
+    fn of_corners(corners: &Corners, to_render: &DAffine3, material: MaterialId) -> Option<Self> {
+        let Corners { own, uvs } = *corners;
         let [a, b, c] = own.map(|p| to_render.transform_point3(p.as_dvec3()));
         let doubled = (b - a).cross(c - a) * 1.0_f64.copysign(to_render.matrix3.determinant());
         let per_area = (2.0 / doubled.length()) as f32;
-        let uvs = mesh.triangles()[primitive].map(|v| mesh.uvs().get(v as usize).copied().unwrap_or_default());
         let uv_area = (uvs[1] - uvs[0]).perp_dot(uvs[2] - uvs[0]).abs();
         let linear = to_render.matrix3.as_mat3();
         let light = Self {
+            doubled: false,
             corner: a.as_vec3(),
             edges: [(b - a).as_vec3(), (c - a).as_vec3()],
             normal: doubled.normalize_or_zero().as_vec3(),
@@ -46,34 +55,98 @@ impl TriangleLight {
         (per_area.is_finite() && per_area > 0.0).then_some(light)
     }
 
+    /// The parallelogram of two triangles of a mesh; `None` where they are none, to the rounding of coordinates.
+    pub(super) fn of_two(
+        mesh: &Mesh,
+        primitives: [usize; 2],
+        to_render: &DAffine3,
+        material: MaterialId,
+    ) -> Option<Self> {
+        let whole = primitives.map(|primitive| Corners::of(mesh, primitive));
+        let turn = (0..9).find(|turn| whole[0].turned(turn % 3).meets(&whole[1].turned(turn / 3)))?;
+        let (near, far) = (whole[0].turned(turn % 3), whole[1].turned(turn / 3));
+        let single = Self::of_corners(&near, to_render, material)?;
+        let error_m = single.error_m.max(Self::of_corners(&far, to_render, material)?.error_m);
+        Some(Self { doubled: true, per_area: 0.5 * single.per_area, error_m, ..single })
+    }
+
+    /// How many triangles it is.
+    pub(super) fn triangles(&self) -> usize {
+        1 + usize::from(self.doubled)
+    }
+
     pub(super) fn area_m2(&self) -> f64 {
         1.0 / f64::from(self.per_area)
     }
 
     /// For the choice among lights, at a mean radiance; `both` sides glow or only the front.
     pub(super) fn bounds(&self, radiance: f64, both: bool) -> LightBounds {
-        let corners = [self.corner, self.corner + self.edges[0], self.corner + self.edges[1]];
+        let [along, across] = self.edges;
+        let far = if self.doubled { along + across } else { across };
+        let corners = [self.corner, self.corner + along, self.corner + across, self.corner + far];
         // A side's intensity falls by the cosine, whose mean over all directions is one half.
         let share = if both { 0.5 } else { 1.0 };
         LightBounds::of_surface(&corners, share * radiance * self.area_m2(), (!both).then_some(self.normal))
     }
 
     pub(super) fn sample(&self, from: Vec3, u: Vec2) -> Option<SurfaceSample> {
-        let b = uniform_triangle(u);
-        let position = self.corner + self.edges[0] * b.x + self.edges[1] * b.y;
-        let pdf = solid_angle_pdf(self.per_area, position - from, self.normal);
+        let b = if self.doubled { u } else { uniform_triangle(u) };
+        let way = self.corner + self.edges[0] * b.x + self.edges[1] * b.y - from;
+        let distance = way.length();
+        let pdf = solid_angle_pdf(self.per_area, way, distance, self.normal);
         let uv = self.uvs[0] * (1.0 - b.x - b.y) + self.uvs[1] * b.x + self.uvs[2] * b.y;
-        (pdf > 0.0).then_some(SurfaceSample { position, normal: self.normal, pdf, uv, uv_per_m: self.uv_per_m })
+        (pdf > 0.0).then_some(SurfaceSample { way, distance, normal: self.normal, pdf, uv, uv_per_m: self.uv_per_m })
     }
 
     pub(super) fn pdf(&self, met: &Met<'_>) -> f32 {
-        solid_angle_pdf(self.per_area, met.direction * met.distance_m, self.normal)
+        solid_angle_pdf(self.per_area, met.direction * met.distance_m, met.distance_m, self.normal)
     }
 
     pub(super) fn glowing<'a>(&self, palette: &'a Palette) -> Glowing<'a> {
         Glowing { material: self.material, error_m: self.error_m, palette }
     }
 }
+
+/// The corners of a triangle in its own frame, with their texture coordinates.
+#[derive(Clone, Copy)]
+struct Corners {
+    own: [Vec3; 3],
+    uvs: [Vec2; 3],
+}
+
+impl Corners {
+    fn of(mesh: &Mesh, primitive: usize) -> Self {
+        let uvs = mesh.triangles()[primitive].map(|v| mesh.uvs().get(v as usize).copied().unwrap_or_default());
+        Self { own: mesh.corners(primitive as u32), uvs }
+    }
+
+    /// Begun by another corner.
+    fn turned(&self, by: usize) -> Self {
+        let Self { mut own, mut uvs } = *self;
+        own.rotate_left(by);
+        uvs.rotate_left(by);
+        Self { own, uvs }
+    }
+
+    /// Whether `far` has the side that faces the first corner, seen from the same side, and both make up a parallelogram.
+    fn meets(&self, far: &Self) -> bool {
+        let shares = |one: usize, other: usize| self.own[one] == far.own[other] && self.uvs[one] == far.uvs[other];
+        let closes = |one: [f32; 3], far: f32| {
+            let largest = one.into_iter().fold(far.abs(), |most, x| most.max(x.abs()));
+            ((one[1] - one[0]) - (far - one[2])).abs() <= CLOSED * largest
+        };
+        let near = |axis: usize| self.own.map(|p| p[axis]);
+        let near_uv = |axis: usize| self.uvs.map(|p| p[axis]);
+        shares(1, 2)
+            && shares(2, 1)
+            && (0..3).all(|axis| closes(near(axis), far.own[0][axis]))
+            && (0..2).all(|axis| closes(near_uv(axis), far.uvs[0][axis]))
+    }
+}
+
+/// How far a parallelogram's fourth corner may be from where the others put it, in units of the largest coordinate: four
+/// roundings of f32 and room for those of the test.
+const CLOSED: f32 = 8.0 * 0.5 * f32::EPSILON;
 
 /// How far a stored point may be from where the accelerator sees the triangle: roundings of the coordinates in
 /// the mesh's own frame and in the render frame.

@@ -232,6 +232,12 @@ impl<const N: usize> Bsdf<'_, N> {
         }
     }
 
+    /// Whether [`Bsdf::sample`] looks at the number that picks a lobe.
+    #[must_use]
+    pub fn has_parts(&self) -> bool {
+        !matches!(self, Self::Absorber | Self::Diffuse(_))
+    }
+
     /// Value and density of a pair of directions; zero where `wo` is behind the surface, or light from there is not let
     /// through.
     #[must_use]

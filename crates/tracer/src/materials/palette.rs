@@ -17,6 +17,7 @@ pub struct Palette {
     materials: Vec<Material>,
     textures: Vec<ImageTexture>,
     traits: Vec<Traits>,
+    has_passages: bool,
 }
 
 impl Palette {
@@ -28,7 +29,8 @@ impl Palette {
     pub fn new(materials: Vec<Material>, textures: Vec<ImageTexture>) -> Result<Self, MaterialError> {
         (0..materials.len()).try_for_each(|i| check::material(&materials, i, &textures))?;
         let traits = traits(&materials);
-        Ok(Self { materials, textures, traits })
+        let has_passages = traits.iter().any(|t| t.passage);
+        Ok(Self { materials, textures, traits, has_passages })
     }
 
     /// The materials, in the order of their ids.
@@ -46,7 +48,7 @@ impl Palette {
     /// Whether any material lets light pass straight through.
     #[must_use]
     pub fn has_passages(&self) -> bool {
-        self.traits.iter().any(|t| t.passage)
+        self.has_passages
     }
 
     /// Whether a material lets light pass straight through, or any of its parts does.

@@ -51,11 +51,13 @@ impl ShadingFrame {
         self.agrees(local, direction).then_some(local)
     }
 
-    /// A direction of the shading frame, in the render frame and of unit length; `None` where true surface and shading
+    /// A unit direction of the shading frame, in the render frame and of unit length again; `None` where true surface and shading
     /// frame disagree on its side.
     #[must_use]
     pub fn outward(&self, local: Vec3) -> Option<Vec3> {
-        let direction = self.basis.outward(local).normalize_or_zero();
+        let direction = self.basis.outward(local);
+        // One step of Newton's towards unit length: what is off by a rounding or two is then off by its square.
+        let direction = direction * (1.5 - 0.5 * direction.length_squared());
         self.agrees(local, direction).then_some(direction)
     }
 

@@ -22,7 +22,7 @@ pub(super) fn of_mesh(mesh: &Mesh, instance: &Instance, placed: &Placed, hit: &H
         shading_normal: normals.shading.as_vec3(),
         uv: uv(mesh, mesh.triangles()[hit.primitive as usize], weights),
         local: local.as_vec3(),
-        local_normal: normals.local.as_vec3(),
+        local_normal: normals.local.normalize_or(DVec3::Z).as_vec3(),
         instance: hit.instance,
         primitive: hit.primitive,
         material: instance.materials[usize::from(mesh.slots()[hit.primitive as usize])],
@@ -54,23 +54,23 @@ pub(super) fn weights(u: f64, v: f64) -> [f64; 3] {
     [1.0 - u - v, u, v]
 }
 
-/// Unit normals at a point of a mesh.
+/// Normals at a point of a mesh.
 pub(super) struct Normals {
-    /// Of the triangle's plane in the render frame, by its winding in its own frame.
+    /// Of the triangle's plane in the render frame, by its winding in its own frame; unit.
     geometric: DVec3,
     /// The interpolated one in the render frame, on the side of the geometric one, which takes its place where there is
-    /// none.
+    /// none; unit.
     pub(super) shading: DVec3,
-    /// For shading, in the mesh's own frame.
+    /// For shading, in the mesh's own frame, of whatever length.
     local: DVec3,
 }
 
 impl Normals {
     pub(super) fn of_mesh(mesh: &Mesh, primitive: u32, weights: [f64; 3], placed: &Placed) -> Self {
         let [a, b, c] = mesh.corners(primitive).map(Vec3::as_dvec3);
-        let flat = (b - a).cross(c - a).try_normalize().unwrap_or(DVec3::Z);
-        let geometric = placed.normal_to_render(flat).unwrap_or(DVec3::Z);
-        let flat = Self { geometric, shading: geometric, local: flat };
+        let local = (b - a).cross(c - a);
+        let geometric = placed.normal_to_render(local).unwrap_or(DVec3::Z);
+        let flat = Self { geometric, shading: geometric, local };
         flat.interpolated(mesh, primitive, weights, placed).unwrap_or(flat)
     }
 
@@ -79,7 +79,7 @@ impl Normals {
             return None;
         }
         let normals = mesh.triangles()[primitive as usize].map(|v| mesh.normals()[v as usize].as_dvec3());
-        let local = blend(normals, weights).try_normalize()?;
+        let local = blend(normals, weights);
         let normal = placed.normal_to_render(local)?;
         let shading = if normal.dot(self.geometric) < 0.0 { -normal } else { normal };
         Some(Self { geometric: self.geometric, shading, local })

@@ -60,8 +60,17 @@ impl LightTree {
         build::tree(lights)
     }
 
-    /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver.
+    /// How many lights there are.
+    pub(super) fn len(&self) -> usize {
+        self.leaves.len()
+    }
+
+    /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver, unless
+    /// there is but one light.
     pub(super) fn pick<F: Fn(u32) -> f32>(&self, question: &Question<'_, F>, u: f64) -> Option<(usize, f32)> {
+        if self.len() == 1 {
+            return Some((0, 1.0));
+        }
         let (mut node, mut u, mut probability) = (0, u, 1.0);
         loop {
             let weights = self.weights(node, question);
@@ -78,7 +87,7 @@ impl LightTree {
 
     /// The probability by which [`LightTree::pick`] gives a light.
     pub(super) fn probability<F: Fn(u32) -> f32>(&self, question: &Question<'_, F>, light: usize) -> f32 {
-        self.reach(question, self.leaves[light])
+        if self.len() == 1 { 1.0 } else { self.reach(question, self.leaves[light]) }
     }
 
     /// Probability of coming to a slot.
