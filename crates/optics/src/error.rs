@@ -111,6 +111,9 @@ pub enum OpticsError {
         /// Its value.
         value: f64,
     },
+    /// A distortion of a lens that has its own.
+    #[error("a prescription has the distortion of its surfaces: leave out the lens's distortion")]
+    OwnDistortion,
     /// The distortion cannot serve the picture.
     #[error(transparent)]
     Distortion(#[from] DistortionError),

@@ -9,7 +9,7 @@ pub mod pupil_image;
 
 pub use error::{OpticsError, PRINCIPAL_NM};
 pub use lens::{
-    ConstantPupil, Lens, Pinhole, PinholeParameters, PupilStatements, Rim, Thick, ThickParameters, Thin,
+    ConstantPupil, Lens, Pinhole, PinholeParameters, Prescribed, PupilStatements, Rim, Thick, ThickParameters, Thin,
     ThinParameters, TruthRay,
 };
 pub use prescription::{Prescription, PrescriptionError, PrescriptionParameters};

@@ -13,14 +13,20 @@ pub(crate) const MM: f64 = 1e-3;
 
 /// From the unit square to the unit disc, area-preserving and continuous (Shirley and Chiu 1997).
 pub(crate) fn concentric_disc(u: DVec2) -> DVec2 {
+    concentric(u).0
+}
+
+/// The same, with the point's angle from the x axis without its sign, in [0, π].
+#[inline]
+pub(crate) fn concentric(u: DVec2) -> (DVec2, f64) {
     let p = u * 2.0 - DVec2::ONE;
     if p == DVec2::ZERO {
-        return DVec2::ZERO;
+        return (DVec2::ZERO, 0.0);
     }
     let (r, angle) =
         if p.x.abs() > p.y.abs() { (p.x, FRAC_PI_4 * (p.y / p.x)) } else { (p.y, FRAC_PI_2 - FRAC_PI_4 * (p.x / p.y)) };
     let (s, c) = sin_cos(angle);
-    DVec2::new(r * c, r * s)
+    (DVec2::new(r * c, r * s), if r < 0.0 { PI - angle.abs() } else { angle.abs() })
 }
 
 /// A disc pupil as a sensor point sees it.

@@ -42,7 +42,9 @@ fn at_depth(ray: &PupilRay, z_m: f64) -> DVec3 {
 #[test]
 fn all_rays_of_a_sensor_point_meet_in_the_plane_in_focus() {
     let distortion = RadialDistortion::new(Sense::ObservedToIdeal, 0.1, 0.0, 16.0).expect("legal");
-    for lens in [thin(0.6), Lens::Thick(thick()), Lens::Thick(thick()).with_distortion(distortion)] {
+    for lens in
+        [thin(0.6), Lens::Thick(thick()), Lens::Thick(thick()).with_distortion(distortion).expect("a paraxial lens")]
+    {
         for sensor in [DVec2::ZERO, DVec2::new(3.0, -2.0), DVec2::new(-6.0, 4.0)] {
             let meeting = at_depth(&lens.principal_ray(sensor).expect("open"), 0.6);
             for i in 0..64 {
@@ -141,10 +143,13 @@ fn what_cannot_be_is_refused() {
 fn a_fold_inside_the_picture_is_refused() {
     let fold = RadialDistortion::new(Sense::ObservedToIdeal, -3.0, 0.0, 16.0).expect("legal");
     let raster = Raster::centred(1000, 1000, 0.01).expect("legal");
-    assert!(matches!(thin(1.0).with_distortion(fold).check(&raster), Err(OpticsError::Distortion(_))));
+    assert!(matches!(
+        thin(1.0).with_distortion(fold).expect("a paraxial lens").check(&raster),
+        Err(OpticsError::Distortion(_))
+    ));
     assert!(thin(1.0).check(&raster).is_ok());
     let beyond = DVec2::new(6.0, 0.0);
-    let lens = thin(1.0).with_distortion(fold);
+    let lens = thin(1.0).with_distortion(fold).expect("a paraxial lens");
     assert!(lens.ray(beyond, DVec2::splat(0.5), 550.0).is_none() && lens.etendue_sr(beyond) == 0.0);
 }
 
@@ -203,7 +208,7 @@ proptest! {
         let sense = if forward { Sense::IdealToObserved } else { Sense::ObservedToIdeal };
         let distortion = RadialDistortion::new(sense, k1, k2, 16.0).expect("legal");
         for lens in [pinhole(), thin(0.6), Lens::Thick(thick())] {
-            let lens = lens.with_distortion(distortion);
+            let lens = lens.with_distortion(distortion).expect("a paraxial lens");
             let p = DVec2::new(x, y);
             let back = lens.project(lens.principal_ray(p).expect("open").direction).expect("in view");
             // 1e-9 px of a 2 µm pixel.

@@ -179,7 +179,7 @@ fn the_constant_pupil_rules_the_fall_off() {
 fn a_constant_entrance_pupil_conserves_etendue_through_distortion() {
     let distortion = RadialDistortion::new(Sense::IdealToObserved, -0.2, 0.03, FOCAL_MM).expect("legal");
     let parameters = ThickParameters { constant_pupil: ConstantPupil::Entrance, ..magnified(200.0, 1.6) };
-    let lens = thick(parameters).with_distortion(distortion);
+    let lens = thick(parameters).with_distortion(distortion).expect("a paraxial lens");
     let (at, h) = (DVec2::new(8.0, -5.0), 1e-4);
     let direction = |p: DVec2| lens.principal_ray(p).expect("open").direction;
     let dx = (direction(at + DVec2::X * h) - direction(at - DVec2::X * h)) / (2.0 * h);

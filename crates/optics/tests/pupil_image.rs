@@ -18,7 +18,7 @@ fn lens() -> Lens {
 }
 
 fn distorted(sense: Sense, k1: f64) -> Lens {
-    lens().with_distortion(RadialDistortion::new(sense, k1, 0.01, 4.0).expect("legal"))
+    lens().with_distortion(RadialDistortion::new(sense, k1, 0.01, 4.0).expect("legal")).expect("a paraxial lens")
 }
 
 fn raster() -> Raster {

@@ -143,6 +143,7 @@ fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
         Lens::Pinhole(_) => "pinhole",
         Lens::Thin(_) => "thin lens",
         Lens::Thick(_) => "thick lens",
+        Lens::Prescription(_) => "prescription",
     };
     let focus = match lens.focus_distance_m() {
         None => "everything sharp".to_owned(),

@@ -6,16 +6,19 @@
 //!   **entrance pupil**. Sensor points are mm of the erect picture from the principal point.
 //! - [`Lens::ray`] makes a ray of a sensor point and a pupil sample; the mean over pupil samples of `weight_sr` × radiance
 //!   is the irradiance of the sensor point. `None` means no light by this sample: it counts as zero.
-//! - [`Lens::etendue_sr`] is the mean of the weights, computed without samples: a closed form, or a quadrature to 1e-9.
-//! - [`Lens::principal_ray`] goes through the centre of the entrance pupil at 587.56 nm, and [`Lens::project`] is its inverse.
+//! - [`Lens::etendue_sr`] is the mean of the weights, computed without samples: a closed form, or a quadrature to 1e-9
+//!   (through a prescription, whose clear apertures have no closed form, at 587.56 nm and to 1e-5).
+//! - [`Lens::principal_ray`] goes through the centre of the pupil (of the real stop) at 587.56 nm, and [`Lens::project`] is
+//!   its inverse.
 //! - A radial distortion, where there is one, maps the observed sensor point to the ideal one before the ray is made; the
 //!   weight is that of the observed point, where the light arrives.
-//! - f-number: a flat pupil disc, tan θ′ = 1/2N at infinity focus, so E = π τ L / (1 + 4N²) on the axis. (The pinhole is
+//! - f-number, of the paraxial lenses: a flat pupil disc, tan θ′ = 1/2N at infinity focus, so E = π τ L / (1 + 4N²) on the axis. (The pinhole is
 //!   the limit of small pupils: π τ L / 4N².)
 
 mod body;
 mod focus;
 mod pinhole;
+mod prescribed;
 mod statements;
 mod thick;
 mod thin;
@@ -25,15 +28,18 @@ use crate::pupil::MM;
 use etendue_core::maths::f64::atan2;
 use etendue_core::ray::PupilRay;
 use etendue_projection::{RadialDistortion, Raster, Rectilinear};
+use focus::PupilSize;
 use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 pub use pinhole::{Pinhole, PinholeParameters};
+pub use prescribed::Prescribed;
 pub use statements::PupilStatements;
 pub use thick::{ConstantPupil, Rim, Thick, ThickParameters};
 pub use thin::{Thin, ThinParameters};
 
 /// A lens: the closed list.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Lens {
     /// Everything sharp, nominal brightness.
     Pinhole(Pinhole),
@@ -41,6 +47,8 @@ pub enum Lens {
     Thin(Thin),
     /// Principal planes, pupils and rims.
     Thick(Thick),
+    /// Surfaces, glasses, a stop: traced.
+    Prescription(Arc<Prescribed>),
 }
 
 /// The ray by which ground truth looks.
@@ -52,12 +60,14 @@ pub struct TruthRay {
     pub off_centre: bool,
 }
 
+/// The same for the paraxial lenses, and what a prescription does.
 macro_rules! each {
-    ($self:expr, $lens:ident => $body:expr) => {
+    ($self:expr, $lens:ident => $body:expr, $traced:ident => $other:expr) => {
         match $self {
             Lens::Pinhole($lens) => $body,
             Lens::Thin($lens) => $body,
             Lens::Thick($lens) => $body,
+            Lens::Prescription($traced) => $other,
         }
     };
 }
@@ -87,18 +97,26 @@ impl Lens {
         Thick::new(parameters).map(Self::Thick)
     }
 
+    /// A prescription.
+    #[must_use]
+    pub fn prescription(lens: Prescribed) -> Self {
+        Self::Prescription(Arc::new(lens))
+    }
+
     /// The same lens with a radial distortion. A distortion whose radius unit is the focal length is made with
     /// [`Lens::principal_distance_mm`] of the lens without it.
-    #[must_use]
-    pub fn with_distortion(mut self, distortion: RadialDistortion) -> Self {
-        each!(&mut self, lens => lens.body.distortion = Some(distortion));
-        self
+    ///
+    /// # Errors
+    /// For a prescription, which has its own.
+    pub fn with_distortion(mut self, distortion: RadialDistortion) -> Result<Self, OpticsError> {
+        each!(&mut self, lens => lens.body.distortion = Some(distortion), _lens => return Err(OpticsError::OwnDistortion));
+        Ok(self)
     }
 
     /// The lens's distortion, where it has one.
     #[must_use]
     pub fn distortion(&self) -> Option<&RadialDistortion> {
-        each!(self, lens => lens.body.distortion.as_ref())
+        each!(self, lens => lens.body.distortion.as_ref(), _lens => None)
     }
 
     /// Refuses a picture that the lens cannot image.
@@ -111,15 +129,15 @@ impl Lens {
 
     /// The ray of a sensor point (mm) through a pupil sample in [0, 1)² at a wavelength; `None` where no light comes.
     #[must_use]
-    pub fn ray(&self, sensor_mm: DVec2, pupil: DVec2, _wavelength_nm: f64) -> Option<PupilRay> {
-        each!(self, lens => lens.ray(sensor_mm, pupil))
+    pub fn ray(&self, sensor_mm: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<PupilRay> {
+        each!(self, lens => lens.ray(sensor_mm, pupil), lens => lens.ray(sensor_mm, pupil, wavelength_nm))
     }
 
     /// The ray of a sensor point through the centre of the entrance pupil, its weight that of the small-pupil limit;
     /// `None` where it is clipped or the sensor point has no image.
     #[must_use]
     pub fn principal_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
-        each!(self, lens => lens.principal_ray(sensor_mm))
+        each!(self, lens => lens.principal_ray(sensor_mm), lens => lens.principal_ray(sensor_mm))
     }
 
     /// The ray by which ground truth looks: the principal ray, or, where that is clipped but light arrives, the ray through
@@ -132,6 +150,7 @@ impl Lens {
         match self {
             Self::Pinhole(_) | Self::Thin(_) => None,
             Self::Thick(lens) => lens.centroid_ray(sensor_mm).map(|ray| TruthRay { ray, off_centre: true }),
+            Self::Prescription(lens) => lens.centroid_ray(sensor_mm).map(|ray| TruthRay { ray, off_centre: true }),
         }
     }
 
@@ -139,38 +158,38 @@ impl Lens {
     /// distortion's fold. Clipping is not looked at.
     #[must_use]
     pub fn project(&self, direction: DVec3) -> Option<DVec2> {
-        let ideal_mm = self.rectilinear().project(direction)?;
-        each!(self, lens => lens.body.observed(ideal_mm))
+        let ideal_mm = || self.rectilinear().project(direction);
+        each!(self, lens => lens.body.observed(ideal_mm()?), lens => lens.project(direction))
     }
 
     /// Irradiance of a sensor point per uniform radiance, sr; 0 where no light comes.
     #[must_use]
     pub fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
-        each!(self, lens => lens.etendue_sr(sensor_mm))
+        each!(self, lens => lens.etendue_sr(sensor_mm), lens => lens.etendue_sr(sensor_mm))
     }
 
     /// Whether rays depend on the wavelength.
     #[must_use]
     pub fn disperses(&self) -> bool {
-        false
+        matches!(self, Self::Prescription(lens) if lens.prescription().disperses())
     }
 
     /// Focal length, mm.
     #[must_use]
     pub fn focal_length_mm(&self) -> f64 {
-        each!(self, lens => lens.parameters().focal_length_mm)
+        each!(self, lens => lens.parameters().focal_length_mm, lens => lens.prescription().paraxial().focal_length_mm)
     }
 
     /// f-number at infinity focus.
     #[must_use]
     pub fn f_number(&self) -> f64 {
-        each!(self, lens => lens.parameters().f_number)
+        each!(self, lens => lens.parameters().f_number, lens => lens.prescription().paraxial().f_number())
     }
 
     /// Transmittance τ.
     #[must_use]
     pub fn transmittance(&self) -> f64 {
-        each!(self, lens => lens.parameters().transmittance)
+        each!(self, lens => lens.parameters().transmittance, lens => lens.transmittance())
     }
 
     /// T-number N/√τ.
@@ -186,6 +205,7 @@ impl Lens {
             Self::Pinhole(_) => None,
             Self::Thin(lens) => Some(lens.parameters().focus_distance_m),
             Self::Thick(lens) => Some(lens.parameters().focus_distance_m),
+            Self::Prescription(lens) => Some(lens.prescription().focus_distance_m()),
         }
     }
 
@@ -196,6 +216,7 @@ impl Lens {
             Self::Pinhole(lens) => lens.principal_distance_mm(),
             Self::Thin(lens) => lens.conjugates.principal_distance_mm,
             Self::Thick(lens) => lens.conjugates.principal_distance_mm,
+            Self::Prescription(lens) => lens.prescription().principal_distance_mm(),
         }
     }
 
@@ -212,6 +233,7 @@ impl Lens {
             Self::Pinhole(_) => 0.0,
             Self::Thin(lens) => lens.conjugates.magnification,
             Self::Thick(lens) => lens.conjugates.magnification,
+            Self::Prescription(lens) => lens.prescription().magnification(),
         }
     }
 
@@ -228,6 +250,7 @@ impl Lens {
             Self::Pinhole(_) => 0.0,
             Self::Thin(lens) => lens.size.entrance_radius_mm * MM,
             Self::Thick(lens) => lens.size.entrance_radius_mm * MM,
+            Self::Prescription(lens) => lens.prescription().paraxial().entrance_radius_mm * MM,
         }
     }
 
@@ -237,6 +260,9 @@ impl Lens {
         match self {
             Self::Pinhole(_) | Self::Thin(_) => -self.principal_distance_mm() * MM,
             Self::Thick(lens) => (lens.entrance_pupil_mm() - lens.sensor_mm()) * MM,
+            Self::Prescription(lens) => {
+                (lens.prescription().paraxial().entrance_pupil_mm - lens.prescription().sensor_mm()) * MM
+            }
         }
     }
 
@@ -248,6 +274,9 @@ impl Lens {
             Self::Pinhole(_) => 0.0,
             Self::Thin(lens) => lens.conjugates.circle_of_confusion_mm(lens.size.entrance_radius_mm, depth_m),
             Self::Thick(lens) => lens.conjugates.circle_of_confusion_mm(lens.size.entrance_radius_mm, depth_m),
+            Self::Prescription(lens) => {
+                lens.conjugates().circle_of_confusion_mm(self.entrance_pupil_radius_m() / MM, depth_m)
+            }
         }
     }
 
@@ -258,6 +287,11 @@ impl Lens {
             Self::Pinhole(_) => 0.0,
             Self::Thin(lens) => lens.size.hyperfocal_m(self.focal_length_mm(), 1.0, circle_mm),
             Self::Thick(lens) => lens.size.hyperfocal_m(self.focal_length_mm(), lens.pupil_magnification, circle_mm),
+            Self::Prescription(lens) => {
+                let p = lens.prescription().paraxial();
+                let size = PupilSize { entrance_radius_mm: p.entrance_radius_mm };
+                size.hyperfocal_m(p.focal_length_mm, p.pupil_magnification(), circle_mm)
+            }
         }
     }
 
@@ -265,14 +299,24 @@ impl Lens {
     /// field of view is that between the middles of the picture's left and right edges.
     #[must_use]
     pub fn angle_between_rad(&self, a_mm: DVec2, b_mm: DVec2) -> Option<f64> {
-        let (a, b) = (self.tangent(a_mm)?.extend(1.0), self.tangent(b_mm)?.extend(1.0));
+        let (a, b) = (self.direction(a_mm)?, self.direction(b_mm)?);
         Some(atan2(a.cross(b).length(), a.dot(b)))
     }
 
-    /// Tangents X/Z and Y/Z of the chief ray of a sensor point, clipped or not; `None` beyond the distortion's fold.
+    /// Tangents X/Z and Y/Z of the chief ray of a sensor point, clipped or not; `None` beyond the distortion's fold, and
+    /// for a ray that looks sideways or back.
     #[must_use]
     pub fn tangent(&self, sensor_mm: DVec2) -> Option<DVec2> {
-        let ideal_mm = each!(self, lens => lens.body.ideal(sensor_mm))?;
-        Some(ideal_mm / self.principal_distance_mm())
+        let direction = self.direction(sensor_mm)?;
+        (direction.z > 0.0).then(|| direction.truncate() / direction.z)
+    }
+
+    /// The direction (of any length) of the chief ray of a sensor point, clipped or not; `None` where there is none.
+    #[must_use]
+    pub fn direction(&self, sensor_mm: DVec2) -> Option<DVec3> {
+        each!(self,
+            lens => Some((lens.body.ideal(sensor_mm)? / self.principal_distance_mm()).extend(1.0)),
+            lens => lens.direction(sensor_mm)
+        )
     }
 }

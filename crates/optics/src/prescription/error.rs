@@ -153,4 +153,10 @@ pub enum PrescriptionError {
         /// The focus distance, m.
         focus_m: f64,
     },
+    /// A sensor that sees nothing.
+    #[error("no ray from the middle of the sensor comes through the lens at {nm} nm")]
+    Dark {
+        /// The wavelength, nm.
+        nm: f64,
+    },
 }

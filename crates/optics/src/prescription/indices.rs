@@ -17,10 +17,10 @@ const WIDTH: f64 = (1.0 / SHORTEST_NM - LOW) / PIECES as f64;
 const COEFFICIENTS: usize = 8;
 
 /// Most different media that a lens may have.
-pub(super) const MOST_MEDIA: usize = 16;
+pub(crate) const MOST_MEDIA: usize = 16;
 
 /// Indices of a lens's media at one wavelength, in the order of its list.
-pub(super) type Media = [f64; MOST_MEDIA];
+pub(crate) type Media = [f64; MOST_MEDIA];
 
 /// A table over wavelength of several media.
 #[derive(Clone, Debug, PartialEq)]

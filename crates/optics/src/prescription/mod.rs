@@ -14,7 +14,7 @@ pub mod coating;
 mod error;
 pub mod filter;
 mod focus;
-mod indices;
+pub(crate) mod indices;
 pub mod paraxial;
 pub mod published;
 pub mod surface;
@@ -181,7 +181,25 @@ impl Prescription {
         Ok((ray, journey.transmittance))
     }
 
-    pub(super) fn media(&self, nm: f64) -> Media {
+    /// Geometry alone: a ray from the sensor before the first surface, clipped or not.
+    #[inline]
+    pub(crate) fn passes(&self, ray: LensRay, media: &Media, mut rims: Rims) -> Result<LensRay, Lost> {
+        walk(&self.elements, 0, Way::ToScene, media, ray, &mut rims)
+    }
+
+    /// Least and greatest distance of the last surface's opening from the sensor, mm.
+    pub(crate) fn rear_distances_mm(&self) -> [f64; 2] {
+        let vertex = self.sensor_mm - self.last_vertex_mm();
+        let rim = self.surfaces.last().and_then(|s| s.shape().sag(s.semi_aperture_mm)).unwrap_or(0.0);
+        [vertex - rim.max(0.0), vertex - rim.min(0.0)]
+    }
+
+    /// Distance of the exit pupil before the sensor, mm; infinite for a telecentric lens.
+    pub(crate) fn exit_distance_mm(&self) -> f64 {
+        self.sensor_mm - self.last_vertex_mm() - self.paraxial.exit_pupil_mm
+    }
+
+    pub(crate) fn media(&self, nm: f64) -> Media {
         self.table.at(nm)
     }
 
@@ -193,7 +211,7 @@ impl Prescription {
         self.stop_point(ray, &self.media(nm))
     }
 
-    pub(super) fn stop_point(&self, ray: LensRay, media: &Media) -> Result<DVec3, Lost> {
+    pub(crate) fn stop_point(&self, ray: LensRay, media: &Media) -> Result<DVec3, Lost> {
         let behind = &self.elements[self.stop + 1..];
         let ray = walk(behind, self.stop + 1, Way::ToScene, media, ray, &mut Rims::Ignore)?;
         let element = &self.elements[self.stop];

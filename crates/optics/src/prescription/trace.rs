@@ -67,7 +67,7 @@ impl Way {
 
 /// Whether clear apertures stop rays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Rims {
+pub(crate) enum Rims {
     Clip,
     Ignore,
 }

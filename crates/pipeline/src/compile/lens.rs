@@ -32,7 +32,8 @@ pub(super) fn lens(record: &record::Lens, raster: &Raster, context: &mut Context
     };
     let lens = context.accept(place, made)?;
     let Some(distortion) = distortion else { return Some(lens) };
-    let lens = lens.with_distortion(context.accept(&distortion.place, radial(distortion, &lens, raster))?);
+    let radial = context.accept(&distortion.place, radial(distortion, &lens, raster))?;
+    let lens = context.accept(&distortion.place, lens.with_distortion(radial))?;
     context.accept(&distortion.place, lens.check(raster))?;
     Some(lens)
 }

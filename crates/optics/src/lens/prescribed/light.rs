@@ -1,0 +1,95 @@
+//! Samples, weights and special rays of a prescribed lens.
+
+use super::Prescribed;
+use super::meridian::Meridian;
+use super::opening::{Opening, unit};
+use crate::error::PRINCIPAL_NM;
+use crate::prescription::trace::LensRay;
+use crate::pupil::{MM, concentric};
+use core::f64::consts::PI;
+use etendue_core::ray::PupilRay;
+use glam::{DVec2, DVec3};
+
+/// Directions over half a turn and points of a radius of the étendue's quadrature.
+const DIRECTIONS: usize = 96;
+/// Gauss–Legendre abscissae and weights on [0, 1], five points.
+const GAUSS: [[f64; 2]; 5] = [
+    [0.046_910_077_030_668, 0.118_463_442_528_094_5],
+    [0.230_765_344_947_158_5, 0.239_314_335_249_683_2],
+    [0.5, 0.284_444_444_444_444_4],
+    [0.769_234_655_052_841_5, 0.239_314_335_249_683_2],
+    [0.953_089_922_969_332, 0.118_463_442_528_094_5],
+];
+
+impl Prescribed {
+    pub(in crate::lens) fn ray(&self, sensor_mm: DVec2, pupil: DVec2, nm: f64) -> Option<PupilRay> {
+        let meridian = Meridian::new(sensor_mm, self.prescription.sensor_mm());
+        let (disc, turn) = concentric(pupil);
+        let proposal = self.regions.propose(meridian.s_mm, disc, turn)?;
+        let (ray, transmittance) = self.out(&meridian, proposal.slope, nm)?;
+        let weight_sr = proposal.area * Meridian::cos4(proposal.slope) * transmittance;
+        Some(PupilRay { origin_m: self.point_m(ray.point), direction: flip(ray.direction), weight_sr })
+    }
+
+    /// A ray with slopes `t` in front of the lens, and what coatings and filter leave of it.
+    #[inline]
+    fn out(&self, meridian: &Meridian, t: DVec2, nm: f64) -> Option<(LensRay, f64)> {
+        let ray = meridian.ray(t);
+        let (out, transmittance) = self.prescription.to_scene(ray, nm).ok()?;
+        let filtered = if self.filter.is_none() { 1.0 } else { self.filtered(nm, -ray.direction.z) };
+        Some((out, transmittance * filtered))
+    }
+
+    pub(in crate::lens) fn principal_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
+        self.seen(sensor_mm, self.chiefs.slope(&self.prescription, sensor_mm.length())?)
+    }
+
+    /// The ray through the centroid of the open part of the pupil.
+    pub(in crate::lens) fn centroid_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
+        self.seen(sensor_mm, self.regions.centroid(sensor_mm.length())?)
+    }
+
+    /// A meridional ray at 587.56 nm with the whole pupil's weight, from its point nearest to the entrance pupil's centre.
+    fn seen(&self, sensor_mm: DVec2, slope: f64) -> Option<PupilRay> {
+        let meridian = Meridian::new(sensor_mm, self.prescription.sensor_mm());
+        let t = DVec2::new(slope, 0.0);
+        let (ray, transmittance) = self.out(&meridian, t, PRINCIPAL_NM)?;
+        let weight_sr = self.regions.area(meridian.s_mm) * Meridian::cos4(t) * transmittance;
+        let (origin_m, direction) = (self.point_m(ray.point), flip(ray.direction));
+        Some(PupilRay { origin_m: origin_m - direction * origin_m.dot(direction), direction, weight_sr })
+    }
+
+    /// From the lens frame (mm, z towards the sensor, from the first vertex) to the camera frame.
+    fn point_m(&self, point: DVec3) -> DVec3 {
+        let z = self.prescription.paraxial().entrance_pupil_mm - point.z;
+        DVec3::new(point.x, point.y, z) * MM
+    }
+
+    /// ∫ τ cos⁴ θ dt over what passes at 587.56 nm: for each direction from the region's centre the edge is found by
+    /// bisection, then Gauss's rule along the radius and equal steps around.
+    pub(in crate::lens) fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
+        let s_mm = sensor_mm.length();
+        let Some(ellipse) = self.regions.ellipse(s_mm) else { return 0.0 };
+        let media = self.prescription.media(PRINCIPAL_NM);
+        let meridian = Meridian::at(s_mm, self.prescription.sensor_mm());
+        let opening = Opening { lens: &self.prescription, media: &media, meridian };
+        let centre = DVec2::new(ellipse.centre, 0.0);
+        let sector = |i: usize| {
+            let direction = unit(PI * (i as f64 + 0.5) / DIRECTIONS as f64) * ellipse.axes;
+            let edge = opening.reach(centre, direction, 3.0, 48, 40);
+            let along = |[x, w]: [f64; 2]| w * x * self.passing(&meridian, centre + direction * (edge * x));
+            edge * edge * GAUSS.into_iter().map(along).sum::<f64>()
+        };
+        let turn = 2.0 * PI / DIRECTIONS as f64;
+        ellipse.axes.x * ellipse.axes.y * turn * (0..DIRECTIONS).map(sector).sum::<f64>()
+    }
+
+    fn passing(&self, meridian: &Meridian, t: DVec2) -> f64 {
+        self.out(meridian, t, PRINCIPAL_NM).map_or(0.0, |(_, transmittance)| transmittance * Meridian::cos4(t))
+    }
+}
+
+/// A direction of the lens frame in the camera frame.
+fn flip(direction: DVec3) -> DVec3 {
+    DVec3::new(direction.x, direction.y, -direction.z)
+}

@@ -1,0 +1,204 @@
+//! The region of slopes from which pupil samples are drawn: it holds all that passes, and little else.
+//!
+//! For 40 intervals of sensor height the region is an ellipse, its centre and semi-axes linear in the height, times a radius
+//! R(φ) tabulated over half a turn (the other half mirrors it). The ellipse is that of the middle wavelength; R is raised
+//! until it holds what passes at the interval's ends and between them at all of [`WAVELENGTHS_NM`], so that no light is
+//! lost, plus a margin for what lies between the tabulated points.
+//!
+//! A point (ρ, φ) of the unit disc becomes centre + ρ R(φ) (a cos φ, b sin φ): with samples uniform in the disc, slope area
+//! per sample is π a b R², the inverse of the sampling density, which the weight keeps.
+
+use super::meridian::Meridian;
+use super::opening::{Opening, unit};
+use crate::error::PRINCIPAL_NM;
+use crate::prescription::Prescription;
+use core::f64::consts::PI;
+use glam::DVec2;
+
+/// Wavelengths whose bundles the region holds, nm; dispersion is monotone, so what passes in between lies in between.
+pub(super) const WAVELENGTHS_NM: [f64; 3] = [PRINCIPAL_NM, 300.0, 1100.0];
+
+const INTERVALS: usize = 40;
+/// Heights looked at in an interval, both ends among them.
+const LOOKS: usize = 4;
+/// Tabulated directions over half a turn.
+const DIRECTIONS: usize = 24;
+/// Directions looked at for each tabulated one.
+const FINE: usize = 3;
+/// What is added to R for edges that lie between the points looked at.
+const MARGIN: f64 = 1.004;
+
+/// Centre and semi-axes, in slopes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Ellipse {
+    pub(super) centre: f64,
+    pub(super) axes: DVec2,
+}
+
+impl Ellipse {
+    fn mix(&self, other: &Self, share: f64) -> Self {
+        Self {
+            centre: self.centre + share * (other.centre - self.centre),
+            axes: self.axes + (other.axes - self.axes) * share,
+        }
+    }
+
+    fn at(&self, q: DVec2) -> DVec2 {
+        DVec2::new(self.centre + self.axes.x * q.x, self.axes.y * q.y)
+    }
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Interval {
+    ends: [Ellipse; 2],
+    /// R at equal steps of φ from 0 to π.
+    radius: [f64; DIRECTIONS + 1],
+}
+
+/// The regions of all sensor heights.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Regions {
+    /// Beyond this height no light arrives, mm.
+    pub(super) limit_mm: f64,
+    intervals: Vec<Interval>,
+}
+
+/// A proposal: slopes, and slope area per sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Proposal {
+    pub(super) slope: DVec2,
+    pub(super) area: f64,
+}
+
+impl Regions {
+    /// By tracing, as far as `picture_mm` from the axis or the light reaches. `chief` is the chief ray's slope at a
+    /// height, where it has one. `None` where the middle of the sensor is dark.
+    pub(super) fn new(lens: &Prescription, picture_mm: f64, chief: impl Fn(f64) -> Option<f64>) -> Option<Self> {
+        let look = |s_mm: f64| ellipse(lens, s_mm, chief(s_mm));
+        let limit_mm = lit_as_far_as(picture_mm, |s_mm| look(s_mm).is_some())?;
+        let width = limit_mm / INTERVALS as f64;
+        let ellipses: Vec<Ellipse> = (0..=INTERVALS).map_while(|i| look(width * i as f64)).collect();
+        let interval =
+            |(i, ends): (usize, &[Ellipse])| Interval::new(lens, [ends[0], ends[1]], width * i as f64, width);
+        let intervals: Vec<Interval> = ellipses.windows(2).enumerate().map(interval).collect();
+        (intervals.len() == INTERVALS).then_some(Self { limit_mm, intervals })
+    }
+
+    fn interval(&self, s_mm: f64) -> Option<(&Interval, f64)> {
+        let place = s_mm / self.limit_mm * INTERVALS as f64;
+        let inside = place <= INTERVALS as f64;
+        let index = (place as usize).min(INTERVALS - 1);
+        inside.then(|| (&self.intervals[index], place - index as f64))
+    }
+
+    /// The proposal of a point of the unit disc whose angle from the meridian, without sign, is `turn`.
+    #[inline]
+    pub(super) fn propose(&self, s_mm: f64, disc: DVec2, turn: f64) -> Option<Proposal> {
+        let (interval, share) = self.interval(s_mm)?;
+        let ellipse = interval.ends[0].mix(&interval.ends[1], share);
+        let radius = interval.radius_at(turn * (DIRECTIONS as f64 / PI));
+        let area = PI * ellipse.axes.x * ellipse.axes.y * radius * radius;
+        Some(Proposal { slope: ellipse.at(disc * radius), area })
+    }
+
+    /// The ellipse at a height; `None` beyond the limit.
+    pub(super) fn ellipse(&self, s_mm: f64) -> Option<Ellipse> {
+        let (interval, share) = self.interval(s_mm)?;
+        Some(interval.ends[0].mix(&interval.ends[1], share))
+    }
+
+    /// The region's own centroid along the meridian, as a slope.
+    pub(super) fn centroid(&self, s_mm: f64) -> Option<f64> {
+        let (interval, share) = self.interval(s_mm)?;
+        let ellipse = interval.ends[0].mix(&interval.ends[1], share);
+        let (mut area, mut moment) = (0.0, 0.0);
+        for (i, r) in interval.radius.iter().enumerate() {
+            let weight = if i == 0 || i == DIRECTIONS { 0.5 } else { 1.0 };
+            area += weight * r * r / 2.0;
+            moment += weight * r * r * r / 3.0 * unit(PI * i as f64 / DIRECTIONS as f64).x;
+        }
+        Some(ellipse.centre + ellipse.axes.x * moment / area)
+    }
+
+    /// Slope area of the region at a height.
+    pub(super) fn area(&self, s_mm: f64) -> f64 {
+        let Some((interval, share)) = self.interval(s_mm) else { return 0.0 };
+        let ellipse = interval.ends[0].mix(&interval.ends[1], share);
+        let squares = interval.radius.windows(2).map(|w| (w[0] * w[0] + w[0] * w[1] + w[1] * w[1]) / 3.0);
+        ellipse.axes.x * ellipse.axes.y * PI * squares.sum::<f64>() / DIRECTIONS as f64
+    }
+}
+
+/// What passes at one height: its interval of the meridian, and its width across; at the first wavelength that comes
+/// through.
+pub(super) fn ellipse(lens: &Prescription, s_mm: f64, chief: Option<f64>) -> Option<Ellipse> {
+    WAVELENGTHS_NM.into_iter().find_map(|nm| {
+        let media = lens.media(nm);
+        let opening = Opening { lens, media: &media, meridian: Meridian::at(s_mm, lens.sensor_mm()) };
+        let [low, high] = opening.meridional(chief)?;
+        let (centre, half) = (0.5 * (low + high), 0.5 * (high - low));
+        let across = opening.reach(DVec2::new(centre, 0.0), DVec2::new(0.0, half), 8.0, 64, 12) * half;
+        Some(Ellipse { centre, axes: DVec2::new(half, across).max(DVec2::splat(1e-9)) })
+    })
+}
+
+/// The greatest height up to `picture_mm` below which all heights are lit.
+fn lit_as_far_as(picture_mm: f64, lit: impl Fn(f64) -> bool) -> Option<f64> {
+    let at = |i: usize| picture_mm * i as f64 / (2 * INTERVALS) as f64;
+    let Some(dark) = (0..=2 * INTERVALS).find(|i| !lit(at(*i))) else { return Some(picture_mm) };
+    let mut bracket = [at(dark.checked_sub(1)?), at(dark)];
+    for _ in 0..30 {
+        let middle = 0.5 * (bracket[0] + bracket[1]);
+        bracket[usize::from(!lit(middle))] = middle;
+    }
+    Some(bracket[0])
+}
+
+impl Interval {
+    fn new(lens: &Prescription, ends: [Ellipse; 2], start_mm: f64, width_mm: f64) -> Self {
+        let mut interval = Self { ends, radius: [0.0; DIRECTIONS + 1] };
+        for look in 0..LOOKS {
+            let share = look as f64 / (LOOKS - 1) as f64;
+            WAVELENGTHS_NM.into_iter().for_each(|nm| interval.hold(lens, start_mm + width_mm * share, share, nm));
+        }
+        interval.radius.iter_mut().for_each(|r| *r *= MARGIN);
+        interval
+    }
+
+    /// Raises R until the region holds what passes at one height and wavelength: first at the tabulated directions, then
+    /// between them.
+    fn hold(&mut self, lens: &Prescription, s_mm: f64, share: f64, nm: f64) {
+        let media = lens.media(nm);
+        let opening = Opening { lens, media: &media, meridian: Meridian::at(s_mm, lens.sensor_mm()) };
+        let ellipse = self.ends[0].mix(&self.ends[1], share);
+        let reach = |place: f64| {
+            let direction = unit(PI * place / DIRECTIONS as f64) * ellipse.axes;
+            opening.reach(DVec2::new(ellipse.centre, 0.0), direction, 2.0, 10, 11)
+        };
+        for i in 0..=DIRECTIONS {
+            self.radius[i] = self.radius[i].max(reach(i as f64));
+        }
+        for fine in (0..DIRECTIONS * FINE).filter(|i| i % FINE != 0) {
+            let place = fine as f64 / FINE as f64;
+            let missing = reach(place) - self.radius_at(place);
+            if missing > 0.0 {
+                self.raise(place, missing);
+            }
+        }
+    }
+
+    #[inline]
+    fn radius_at(&self, place: f64) -> f64 {
+        let i = (place as usize).min(DIRECTIONS - 1);
+        self.radius[i] + (place - i as f64) * (self.radius[i + 1] - self.radius[i])
+    }
+
+    fn raise(&mut self, place: f64, by: f64) {
+        let i = (place as usize).min(DIRECTIONS - 1);
+        let share = place - i as f64;
+        // The least change of both neighbours that raises the line between them by `by`.
+        let scale = by / (share * share + (1.0 - share) * (1.0 - share));
+        self.radius[i] += scale * (1.0 - share);
+        self.radius[i + 1] += scale * share;
+    }
+}
