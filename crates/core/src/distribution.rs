@@ -13,6 +13,8 @@ pub struct Distribution1 {
     /// The last piece of positive weight.
     last: usize,
     mean: f64,
+    per_mean: f64,
+    per_piece: f64,
 }
 
 impl Distribution1 {
@@ -35,7 +37,8 @@ impl Distribution1 {
         cumulative.push(1.0);
         let mean = total / weights.len() as f64;
         let last = weights.iter().rposition(|w| *w > 0.0)?;
-        Some(Self { guide: guide(&cumulative), weights, cumulative, last, mean })
+        let (per_mean, per_piece) = (1.0 / mean, 1.0 / weights.len() as f64);
+        Some(Self { guide: guide(&cumulative), weights, cumulative, last, mean, per_mean, per_piece })
     }
 
     /// Number of pieces.
@@ -93,7 +96,7 @@ impl Distribution1 {
     /// The point that lies `within` piece `i`: in no other piece, whichever way it rounds.
     fn point(&self, i: usize, within: f32) -> f32 {
         let pieces = self.len() as f64;
-        let x = ((i as f64 + f64::from(within)) / pieces) as f32;
+        let x = ((i as f64 + f64::from(within)) * self.per_piece) as f32;
         // Exact: 24 bits times the number of pieces.
         let place = f64::from(x) * pieces;
         if place >= (i + 1) as f64 {
@@ -106,7 +109,7 @@ impl Distribution1 {
     }
 
     fn pdf_of_piece(&self, i: usize) -> f32 {
-        (f64::from(self.weights[i]) / self.mean) as f32
+        (f64::from(self.weights[i]) * self.per_mean) as f32
     }
 }
 

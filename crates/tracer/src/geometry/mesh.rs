@@ -5,6 +5,7 @@
 //! cannot be told apart (exact duplicates, in any order of their corners) is dropped and counted.
 
 use super::MeshError;
+use super::facet::{Facet, facets};
 use glam::{DVec3, Vec2, Vec3};
 use std::collections::HashSet;
 
@@ -21,6 +22,7 @@ pub struct Mesh {
     uvs: Vec<Vec2>,
     triangles: Vec<[u32; 3]>,
     slots: Vec<u16>,
+    facets: Vec<Facet>,
 }
 
 /// How many triangles were left out of a mesh, and why.
@@ -46,8 +48,9 @@ impl Mesh {
         check_vertices(&positions, &uvs)?;
         check_indices(positions.len(), &triangles)?;
         let slots = if slots.is_empty() { vec![0; triangles.len()] } else { slots };
-        let mut mesh = Self { positions, normals, uvs, triangles, slots };
+        let mut mesh = Self { positions, normals, uvs, triangles, slots, facets: vec![] };
         let dropped = mesh.drop_unusable();
+        mesh.facets = facets(&mesh);
         Ok((mesh, dropped))
     }
 
@@ -79,6 +82,11 @@ impl Mesh {
     #[must_use]
     pub fn slots(&self) -> &[u16] {
         &self.slots
+    }
+
+    /// What is known beforehand of a triangle.
+    pub(crate) fn facet(&self, primitive: u32) -> &Facet {
+        &self.facets[primitive as usize]
     }
 
     /// The corners of a triangle.

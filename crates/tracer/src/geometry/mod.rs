@@ -3,6 +3,7 @@
 //! A mesh keeps its own f32 frame; an instance places it in the world by an f64 transform. Two instances of one mesh
 //! share its vertices and its tree.
 
+mod facet;
 mod instance;
 mod mesh;
 mod mesh_error;

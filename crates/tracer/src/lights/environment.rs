@@ -48,7 +48,9 @@ impl Environment {
         match self {
             Self::Uniform(radiance) => (radiance.sample(wavelengths), 0.0),
             Self::Image(image) => {
-                (image.radiance(direction, wavelengths), if wanted { image.pdf(direction) } else { 0.0 })
+                let place = image.place(direction);
+                let pdf = if wanted { image.pdf_at(place, direction) } else { 0.0 };
+                (image.radiance_at(place, wavelengths), pdf)
             }
             Self::Sky(sky) => (sky.radiance(direction, wavelengths), if wanted { sky.pdf(direction) } else { 0.0 }),
         }
@@ -177,15 +179,23 @@ impl ImageEnvironment {
 
     /// A texel; columns join at the edges, rows end at the poles.
     fn texel(&self, column: i32, row: i32) -> Vec3 {
-        let x = column.rem_euclid(self.width as i32) as usize;
+        // At most one column beyond an edge.
+        let width = self.width as i32;
+        let x = if column < 0 { column + width } else { column };
+        let x = (if x >= width { x - width } else { x }) as usize;
         let y = row.clamp(0, self.height as i32 - 1) as usize;
         Vec3::from(self.texels[y * self.width + x])
     }
 
     /// Density by which [`ImageEnvironment::sample`] gives the unit `direction`, 1/sr.
-    pub(super) fn pdf(&self, direction: Vec3) -> f32 {
+    #[cfg(test)]
+    fn pdf(&self, direction: Vec3) -> f32 {
+        self.pdf_at(self.place(direction), direction)
+    }
+
+    fn pdf_at(&self, place: Vec2, direction: Vec3) -> f32 {
         let sin = (direction.x * direction.x + direction.y * direction.y).sqrt();
-        if sin > 0.0 { self.distribution.pdf(self.place(direction)) / (2.0 * PI * PI * sin) } else { 0.0 }
+        if sin > 0.0 { self.distribution.pdf(place) / (2.0 * PI * PI * sin) } else { 0.0 }
     }
 
     pub(super) fn sample<const N: usize>(&self, u: Vec2, wavelengths: &Wavelengths<N>) -> Option<LightSample<N>> {

@@ -155,3 +155,56 @@ fn error_bound(own: [Vec3; 3], linear: Mat3, translation: Vec3) -> f32 {
     let carried = linear.x_axis.abs() * largest.x + linear.y_axis.abs() * largest.y + linear.z_axis.abs() * largest.z;
     ROUNDING * (carried.max_element() + translation.abs().max_element())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two triangles over four corners, named in these orders.
+    fn two(corners: [Vec3; 4], triangles: [[u32; 3]; 2]) -> Option<TriangleLight> {
+        let mesh = Mesh::new(corners.to_vec(), vec![], vec![], triangles.to_vec(), vec![]).expect("legal").0;
+        TriangleLight::of_two(&mesh, [0, 1], &DAffine3::IDENTITY, MaterialId(0))
+    }
+
+    fn slanted() -> [Vec3; 4] {
+        let (corner, along, across) =
+            (Vec3::new(0.3, 0.2, 3.1), Vec3::new(0.13, 0.0, 0.05), Vec3::new(0.02, 0.105, 0.0));
+        [corner, corner + along, corner + along + across, corner + across]
+    }
+
+    #[test]
+    fn two_triangles_make_a_parallelogram_however_they_are_begun() {
+        let [a, b, _, d] = slanted();
+        let area = f64::from((b - a).cross(d - a).length());
+        for turn in 0..9 {
+            let (mut near, mut far) = ([0, 1, 2], [0, 2, 3]);
+            near.rotate_left(turn % 3);
+            far.rotate_left(turn / 3);
+            let light = two(slanted(), [near, far]).expect("a parallelogram");
+            // Roundings of coordinates of 3 to edges of 0.1.
+            assert!((light.area_m2() / area - 1.0).abs() < 1e-5 && light.triangles() == 2);
+            let mut mean = Vec3::ZERO;
+            for i in 0..64 {
+                let u = Vec2::new((i % 8) as f32 + 0.5, (i / 8) as f32 + 0.5) / 8.0;
+                mean += light.sample(Vec3::ZERO, u).expect("seen").way / 64.0;
+            }
+            assert!((mean - (b + d) * 0.5).length() < 2e-6, "{mean}");
+        }
+    }
+
+    #[test]
+    fn other_pairs_are_two_triangles() {
+        let both = [[0, 1, 2], [0, 2, 3]];
+        assert!(two(slanted(), [[0, 1, 2], [0, 3, 2]]).is_none(), "wound against each other");
+        let mut bent = slanted();
+        bent[3].z += 1e-4;
+        assert!(two(bent, both).is_none());
+        let mut kite = slanted();
+        kite[3] = kite[0] + (kite[2] - kite[0]) * 0.5 + (kite[3] - kite[1]);
+        assert!(two(kite, both).is_none());
+        let own = vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y * 0.5];
+        let mesh = Mesh::new(slanted().to_vec(), vec![], own, both.to_vec(), vec![]).expect("legal").0;
+        let light = TriangleLight::of_two(&mesh, [0, 1], &DAffine3::IDENTITY, MaterialId(0));
+        assert!(light.is_none(), "a texture that is bent at the diagonal");
+    }
+}

@@ -3,13 +3,18 @@
 use crate::accel::World;
 use crate::geometry::{Instance, Shape};
 use etendue_core::{Ray, maths};
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
 
 /// An instance's transforms between its own frame and the render frame, in f64.
 #[derive(Clone, Debug)]
 pub(crate) struct Placed {
     to_render: DAffine3,
     to_local: DAffine3,
+    /// Takes normals to the render frame, up to their length.
+    normals: Mat3,
+    /// Whether it keeps their length.
+    keeps_length: bool,
+    mean_scale: f64,
 }
 
 impl Placed {
@@ -17,7 +22,18 @@ impl Placed {
     pub(crate) fn new(instance: &Instance, origin_m: DVec3) -> Self {
         let mut to_render = instance.to_world.as_still().unwrap_or(DAffine3::IDENTITY);
         to_render.translation -= origin_m;
-        Self { to_render, to_local: to_render.inverse() }
+        let to_local = to_render.inverse();
+        let scale = uniform_scale(&to_render.matrix3);
+        // Not by the matrix itself: of very large and very small instances f32 could not hold it.
+        let turned = to_local.matrix3.transpose();
+        let largest = turned.to_cols_array().into_iter().fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
+        Self {
+            to_render,
+            to_local,
+            normals: (turned * scale.unwrap_or(1.0 / largest)).as_mat3(),
+            keeps_length: scale.is_some(),
+            mean_scale: maths::f64::cbrt(to_render.matrix3.determinant().abs()),
+        }
     }
 
     /// A point of the instance's frame, in the render frame.
@@ -53,6 +69,17 @@ impl Placed {
         (self.to_local.matrix3.transpose() * normal).try_normalize()
     }
 
+    /// A unit normal of the instance's frame, in the render frame: unit, to some roundings of f32.
+    pub(crate) fn unit_normal_to_render(&self, normal: Vec3) -> Vec3 {
+        let turned = self.normals * normal;
+        if self.keeps_length { turned } else { turned.normalize_or(Vec3::Z) }
+    }
+
+    /// A normal of the instance's frame, of whatever length, in the render frame, likewise.
+    pub(crate) fn long_normal_to_render(&self, normal: Vec3) -> Vec3 {
+        self.normals * normal
+    }
+
     /// Whether the instance turns right-handed shapes into left-handed ones.
     pub(crate) fn mirrors(&self) -> bool {
         self.to_render.matrix3.determinant() < 0.0
@@ -60,17 +87,12 @@ impl Placed {
 
     /// By how much the instance enlarges, where it is the same in all directions.
     pub(crate) fn uniform_scale(&self) -> Option<f64> {
-        let m = self.to_render.matrix3;
-        let square = m.x_axis.length_squared();
-        // M Mᵀ is a multiple of one; descriptions are written with some ten digits.
-        let gram = m.transpose() * m;
-        let deviation = (gram - DMat3::from_diagonal(DVec3::splat(square))).to_cols_array();
-        deviation.iter().all(|x| x.abs() <= 1e-9 * square).then_some(square.sqrt())
+        uniform_scale(&self.to_render.matrix3)
     }
 
     /// By how much the instance enlarges on average: the third root of its enlargement of volumes.
     pub(crate) fn mean_scale(&self) -> f64 {
-        maths::f64::cbrt(self.to_render.matrix3.determinant().abs())
+        self.mean_scale
     }
 
     /// Least and greatest coordinates in the render frame, m; `None` for a mesh without triangles.
@@ -111,6 +133,14 @@ impl Placed {
         let m = self.to_render.matrix3;
         DMat3::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs())
     }
+}
+
+fn uniform_scale(m: &DMat3) -> Option<f64> {
+    let square = m.x_axis.length_squared();
+    // M Mᵀ is a multiple of one; descriptions are written with some ten digits.
+    let gram = m.transpose() * *m;
+    let deviation = (gram - DMat3::from_diagonal(DVec3::splat(square))).to_cols_array();
+    deviation.iter().all(|x| x.abs() <= 1e-9 * square).then_some(square.sqrt())
 }
 
 /// Greatest relative error of rounding to f32: 2⁻²⁴.

@@ -13,21 +13,43 @@ use glam::{DVec3, Vec2, Vec3};
 pub(super) fn of_mesh(mesh: &Mesh, instance: &Instance, placed: &Placed, hit: &Hit) -> SurfacePoint {
     let weights = weights(f64::from(hit.u), f64::from(hit.v));
     let local = blend(mesh.corners(hit.primitive).map(Vec3::as_dvec3), weights);
-    let normals = Normals::of_mesh(mesh, hit.primitive, weights, placed);
     let position = placed.point_to_render(local).as_vec3();
+    let facet = mesh.facet(hit.primitive);
+    let flat = placed.unit_normal_to_render(facet.normal);
+    let (shading, own) =
+        if facet.is_flat { (flat, facet.normal) } else { bent(mesh, hit.primitive, weights, placed, flat) };
     SurfacePoint {
         position,
         position_error: placed.position_error(position, local),
-        geometric_normal: normals.geometric.as_vec3(),
-        shading_normal: normals.shading.as_vec3(),
+        geometric_normal: flat,
+        shading_normal: shading,
         uv: uv(mesh, mesh.triangles()[hit.primitive as usize], weights),
         local: local.as_vec3(),
-        local_normal: normals.local.normalize_or(DVec3::Z).as_vec3(),
+        local_normal: own,
         instance: hit.instance,
         primitive: hit.primitive,
-        material: instance.materials[usize::from(mesh.slots()[hit.primitive as usize])],
+        material: instance.materials[usize::from(facet.slot)],
     }
 }
+
+/// The interpolated normal in the render frame, on the side of the triangle's own, `flat`, and in the mesh's frame; unit.
+/// In f32, but for lengths of which f32 has no squares.
+fn bent(mesh: &Mesh, primitive: u32, weights: [f64; 3], placed: &Placed, flat: Vec3) -> (Vec3, Vec3) {
+    let [a, b, c] = mesh.triangles()[primitive as usize].map(|v| mesh.normals()[v as usize]);
+    let [wa, wb, wc] = weights.map(|w| w as f32);
+    let own = a * wa + b * wb + c * wc;
+    let normal = placed.long_normal_to_render(own);
+    let squares = [own.length_squared(), normal.length_squared()];
+    if !squares.iter().all(|square| MODERATE.contains(square)) {
+        let normals = Normals::of_mesh(mesh, primitive, weights, placed);
+        return (normals.shading.as_vec3(), normals.local.normalize_or(DVec3::Z).as_vec3());
+    }
+    let side = 1.0_f32.copysign(normal.dot(flat));
+    (normal * (side / squares[1].sqrt()), own * (1.0 / squares[0].sqrt()))
+}
+
+/// Squared lengths whose numbers f32 holds to all digits, and which are no remainders of normals that cancel.
+const MODERATE: core::ops::RangeInclusive<f32> = 1e-6..=1e20;
 
 pub(super) fn of_sphere(radius_m: f64, instance: &Instance, placed: &Placed, ray: &Ray, hit: &Hit) -> SurfacePoint {
     let (origin, direction) = placed.ray_to_local(ray);
@@ -54,7 +76,7 @@ pub(super) fn weights(u: f64, v: f64) -> [f64; 3] {
     [1.0 - u - v, u, v]
 }
 
-/// Normals at a point of a mesh.
+/// Normals at a point of a mesh, in f64.
 pub(super) struct Normals {
     /// Of the triangle's plane in the render frame, by its winding in its own frame; unit.
     geometric: DVec3,
