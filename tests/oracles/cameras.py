@@ -1,8 +1,8 @@
-"""Figures of OpenCV and COLMAP for crates/projection: figures/cameras.json.
+"""Figures of OpenCV and COLMAP for crates/projection and crates/io: figures/cameras.json, figures/calibrations.
 
 cv2.projectPoints with 4 to 14 coefficients, cv2.fisheye and cv2.omnidir (pixel centres at whole numbers), and every camera
-model of COLMAP (pixel centres at + 0.5). A COLMAP camera keeps its points before the one where it leaves the picture's
-neighbourhood, as its formulas go on beyond the fold. Versions: requirements.txt. Run anywhere:
+model of COLMAP (pixel centres at + 0.5). The calibration files are those programs' own writing. Versions:
+requirements.txt. Run anywhere:
     python tests/oracles/cameras.py
 """
 
@@ -14,6 +14,7 @@ import numpy as np
 import pycolmap
 
 ROOT = pathlib.Path(__file__).parent
+FILES = ROOT / "figures" / "calibrations"
 MATRIX = [[812.5, 0.0, 319.25], [0.0, 798.0, 241.5], [0.0, 0.0, 1.0]]
 SKEWED = [[412.5, 0.8, 319.25], [0.0, 408.0, 241.5], [0.0, 0.0, 1.0]]
 PERSPECTIVE = [
@@ -92,10 +93,41 @@ def colmap(rng):
     return cameras
 
 
+def file_storage(name, matrix, coefficients, **more):
+    """A calibration as OpenCV's own programs write it."""
+    storage = cv2.FileStorage(str(FILES / name), cv2.FILE_STORAGE_WRITE)
+    storage.write("image_width", 640)
+    storage.write("image_height", 480)
+    for key, value in more.items():
+        storage.write(key, value)
+    storage.write("camera_matrix", np.array(matrix))
+    storage.write("distortion_coefficients", np.array([coefficients]).T)
+    storage.write("avg_reprojection_error", 0.125)
+    storage.release()
+
+
+def files(cameras):
+    FILES.mkdir(exist_ok=True)
+    file_storage("opencv.yml", MATRIX, PERSPECTIVE[5])
+    file_storage("opencv.json", MATRIX, PERSPECTIVE[3])
+    file_storage("opencv_fisheye.yml", SKEWED, FISHEYE[1], fisheye_model=1)
+    file_storage("opencv_omnidir.yml", SKEWED, MEI[0][1], xi=np.array([[MEI[0][0]]]))
+    made = pycolmap.Reconstruction()
+    for i, camera in enumerate(cameras):
+        made.add_camera(pycolmap.Camera(model=camera["model"], width=640, height=480, params=camera["parameters"],
+                                        camera_id=i + 1))
+    made.write_text(str(FILES))
+    for path in FILES.glob("*.txt"):
+        if path.name != "cameras.txt":
+            path.unlink()
+
+
 def main():
     rng = np.random.default_rng(20240612)
+    opencv_figures, colmap_figures = opencv(rng), colmap(rng)
+    files(colmap_figures)
     figures = {"programs": [f"opencv-contrib-python-headless {cv2.__version__}", f"pycolmap {pycolmap.__version__}"],
-               "opencv": opencv(rng), "colmap": colmap(rng)}
+               "opencv": opencv_figures, "colmap": colmap_figures}
     (ROOT / "figures" / "cameras.json").write_text(json.dumps(figures, indent=1) + "\n")
 
 

@@ -31,6 +31,7 @@ const KEEPERS: &[(&str, &[&str])] = &[
     ("exr", &["io"]),
     ("image", &["io", "scenes"]),
     ("tobj", &["io"]),
+    ("saphyr-parser", &["io"]),
     ("toml", &["scene"]),
     ("clap", &["cli"]),
     ("indicatif", &["cli"]),

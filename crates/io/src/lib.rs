@@ -5,6 +5,7 @@
 //! | in | Wavefront OBJ with its MTL | [`mesh`] |
 //! | in | PNG, JPEG, Radiance HDR, OpenEXR pictures | [`picture`] |
 //! | in | measured lamps: IES LM-63, EULUMDAT | [`photometry`] |
+//! | in | calibrated cameras: OpenCV, ROS, Kalibr, COLMAP, OCamCalib | [`calibration`] |
 //! | in | spectra, refractive indices, coefficients of retro-reflection | [`spectrum`], [`mod@table`] |
 //! | in | everything a description names, with all errors at once | [`assets`] |
 //! | out and in | spectral EXR (layout of Fichet, Pacanowski and Wilkie 2021) | [`exr`] |
@@ -19,6 +20,7 @@
 //! This crate renders nothing and decides nothing; it never prints and starts no threads.
 
 pub mod assets;
+pub mod calibration;
 pub mod compare;
 pub mod error;
 pub mod exr;

@@ -1,0 +1,155 @@
+//! COLMAP's `cameras.txt`: a line a camera, CAMERA_ID MODEL WIDTH HEIGHT PARAMS…; the id is the camera's name.
+//!
+//! All models of COLMAP 4 are read. Its pixel coordinates are the raster's.
+
+use core::f64::consts::{PI, TAU};
+
+use etendue_projection::model::{
+    Division, ExtendedUnified, FieldOfView, KannalaBrandt, ModelError, Panorama, Perspective, ThinPrismFisheye,
+};
+use etendue_projection::plane::DistortionTerms;
+use etendue_projection::{Calibration, CameraMatrix, Model};
+
+use super::opencv::wrong;
+use super::{Fault, Found, Read, of_camera};
+
+/// Models with one focal length and with two, each with its number of parameters.
+const ONE_FOCAL: [(&str, usize); 7] = [
+    ("SIMPLE_PINHOLE", 3),
+    ("SIMPLE_RADIAL", 4),
+    ("RADIAL", 5),
+    ("SIMPLE_FISHEYE", 3),
+    ("SIMPLE_RADIAL_FISHEYE", 4),
+    ("RADIAL_FISHEYE", 5),
+    ("SIMPLE_DIVISION", 4),
+];
+const TWO_FOCALS: [(&str, usize); 10] = [
+    ("PINHOLE", 4),
+    ("OPENCV", 8),
+    ("FULL_OPENCV", 12),
+    ("FISHEYE", 4),
+    ("OPENCV_FISHEYE", 8),
+    ("FOV", 5),
+    ("DIVISION", 5),
+    ("EUCM", 6),
+    ("THIN_PRISM_FISHEYE", 12),
+    ("RAD_TAN_THIN_PRISM_FISHEYE", 16),
+];
+/// Its two parameters are the picture's size.
+const PANORAMA: (&str, usize) = ("EQUIRECTANGULAR", 2);
+
+pub(super) fn read(text: &str, camera: Option<&str>) -> Read<Found> {
+    let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
+    let cameras: Vec<Line<'_>> =
+        lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#')).map(Line::read).collect::<Read<_>>()?;
+    let line = chosen(&cameras, camera)?;
+    let (model, matrix) = line.camera()?;
+    let calibration = Calibration::new(model, matrix, line.size_px).map_err(of_camera(line.number))?;
+    Ok(Found { name: line.id.to_owned(), calibration, notes: Vec::new() })
+}
+
+struct Line<'a> {
+    number: usize,
+    id: &'a str,
+    model: &'a str,
+    size_px: [usize; 2],
+    parameters: Vec<f64>,
+}
+
+fn chosen<'a, 'b>(cameras: &'b [Line<'a>], camera: Option<&str>) -> Read<&'b Line<'a>> {
+    let names = cameras.iter().map(|c| c.id).collect::<Vec<_>>().join(", ");
+    match (cameras, camera) {
+        ([], _) => Err(Fault::at(0, "holds no camera; expected a line CAMERA_ID MODEL WIDTH HEIGHT PARAMS…")),
+        (all, Some(asked)) => all
+            .iter()
+            .find(|c| c.id == asked)
+            .ok_or_else(|| Fault::at(0, format!("holds no camera \"{asked}\"; it holds {names}"))),
+        ([one], None) => Ok(one),
+        _ => Err(Fault::at(0, format!("holds the cameras {names}; choose one by its id"))),
+    }
+}
+
+impl<'a> Line<'a> {
+    fn read((number, text): (usize, &'a str)) -> Read<Self> {
+        let mut words = text.split_whitespace();
+        let mut word = |what: &str| {
+            words.next().ok_or_else(|| {
+                Fault::at(number, format!("the line ends before {what}; expected CAMERA_ID MODEL WIDTH HEIGHT PARAMS…"))
+            })
+        };
+        let (id, model) = (word("the id")?, word("the model")?);
+        let size_px = [count(number, word("the width")?)?, count(number, word("the height")?)?];
+        let parameters = words.map(|word| finite(number, word)).collect::<Read<_>>()?;
+        Ok(Self { number, id, model, size_px, parameters })
+    }
+
+    fn camera(&self) -> Read<(Model, CameraMatrix)> {
+        let all = ONE_FOCAL.iter().chain(&TWO_FOCALS).chain([&PANORAMA]);
+        let Some((_, count)) = all.clone().find(|(name, _)| *name == self.model) else {
+            let known = all.map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+            return Err(Fault::at(self.number, format!("the model {} is none of {known}", self.model)));
+        };
+        if self.parameters.len() != *count {
+            let what = format!("found {} parameters; {} has {count}", self.parameters.len(), self.model);
+            return Err(Fault::at(self.number, what));
+        }
+        let (matrix, k) = self.matrix();
+        Ok((model(self.model, k).map_err(wrong(self.number))?, matrix))
+    }
+
+    /// The camera matrix and what follows it.
+    fn matrix(&self) -> (CameraMatrix, &[f64]) {
+        let p = &self.parameters;
+        let of = |fx, fy, cx, cy| CameraMatrix { fx, fy, skew: 0.0, cx, cy };
+        if self.model == PANORAMA.0 {
+            return (of(p[0] / TAU, p[1] / PI, 0.5 * p[0], 0.5 * p[1]), &[]);
+        }
+        if ONE_FOCAL.iter().any(|(name, _)| *name == self.model) {
+            return (of(p[0], p[0], p[1], p[2]), &p[3..]);
+        }
+        (of(p[0], p[1], p[2], p[3]), &p[4..])
+    }
+}
+
+/// The model of what follows the camera matrix, in the number that the tables state.
+fn model(name: &str, k: &[f64]) -> Result<Model, ModelError> {
+    match (name, k) {
+        ("THIN_PRISM_FISHEYE", &[k1, k2, p1, p2, k3, k4, sx1, sy1]) => {
+            let (numerator, prism) = ([k1, k2, k3, k4], [sx1, 0.0, sy1, 0.0]);
+            thin_prism(&[], DistortionTerms { numerator, tangential: [p1, p2], prism, ..Default::default() })
+        }
+        // The first tangential coefficient goes with x here, as OpenCV's second does.
+        ("RAD_TAN_THIN_PRISM_FISHEYE", &[.., p0, p1, s0, s1, s2, s3]) => {
+            let prism = [s0, s1, s2, s3];
+            thin_prism(&k[..6], DistortionTerms { tangential: [p1, p0], prism, ..Default::default() })
+        }
+        ("EQUIRECTANGULAR", _) => Ok(Model::Panorama(Panorama::Equirectangular)),
+        ("FOV", [omega]) => FieldOfView::new(*omega).map(Model::FieldOfView),
+        ("SIMPLE_DIVISION" | "DIVISION", [k]) => Division::new(*k).map(Model::Division),
+        ("EUCM", [alpha, beta]) => ExtendedUnified::new(*alpha, *beta).map(Model::ExtendedUnified),
+        (name, k) if name.ends_with("FISHEYE") => fisheye(k).map(Model::KannalaBrandt),
+        ("SIMPLE_RADIAL", [k1]) => Perspective::from_opencv(&[*k1, 0.0, 0.0, 0.0]).map(Model::Perspective),
+        ("RADIAL", [k1, k2]) => Perspective::from_opencv(&[*k1, *k2, 0.0, 0.0]).map(Model::Perspective),
+        (_, k) => Perspective::from_opencv(k).map(Model::Perspective),
+    }
+}
+
+fn fisheye(k: &[f64]) -> Result<KannalaBrandt, ModelError> {
+    let mut six = [0.0; 6];
+    six[..k.len()].copy_from_slice(k);
+    KannalaBrandt::long(six)
+}
+
+fn thin_prism(k: &[f64], terms: DistortionTerms) -> Result<Model, ModelError> {
+    ThinPrismFisheye::new(fisheye(k)?, terms).map(Model::ThinPrismFisheye)
+}
+
+fn count(line: usize, word: &str) -> Read<usize> {
+    let count = word.parse::<usize>().ok().filter(|n| (1..=1_000_000).contains(n));
+    count.ok_or_else(|| Fault::at(line, format!("found \"{word}\"; expected a number of pixels from 1")))
+}
+
+fn finite(line: usize, word: &str) -> Read<f64> {
+    let number = word.parse::<f64>().ok().filter(|x| x.is_finite());
+    number.ok_or_else(|| Fault::at(line, format!("found \"{word}\"; expected a finite number")))
+}

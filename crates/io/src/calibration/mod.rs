@@ -1,0 +1,129 @@
+//! Calibrated cameras of other programs.
+//!
+//! | format | file | models | centre of the top-left pixel |
+//! | --- | --- | --- | --- |
+//! | [`OpenCv`](CalibrationFormat::OpenCv) | FileStorage as YAML or JSON | perspective with 14 coefficients, `cv::fisheye`, `cv::omnidir` | (0, 0) |
+//! | [`Ros`](CalibrationFormat::Ros) | `camera_info` YAML | plumb_bob, rational_polynomial, equidistant | (0, 0) |
+//! | [`Kalibr`](CalibrationFormat::Kalibr) | camchain YAML | pinhole, omni, eucm, ds with radtan, equi, fov, none | (0, 0) |
+//! | [`Colmap`](CalibrationFormat::Colmap) | `cameras.txt` | all | (0.5, 0.5) |
+//! | [`Ocam`](CalibrationFormat::Ocam) | `calib_results.txt` | Scaramuzza's | (0, 0), row first |
+//!
+//! All become a [`Calibration`] in raster coordinates, in which that centre is at (0.5, 0.5). What a file says beyond the
+//! camera (dates, boards, extrinsics, rectification) is passed over, and the [notes](ImportedCamera::notes) name it. A
+//! calibration that folds over inside its picture is read; [`Calibration::check`] refuses it.
+
+mod colmap;
+mod kalibr;
+mod matrix;
+mod ocam;
+mod opencv;
+mod ros;
+mod yaml;
+
+use std::path::Path;
+
+use etendue_projection::{Calibration, CalibrationError};
+
+use crate::Error;
+use crate::hash::{self, ContentHash};
+use crate::source::{decode_text, read_bytes};
+
+/// Whose file it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CalibrationFormat {
+    /// OpenCV's FileStorage: perspective unless the file says `fisheye_model: 1` or holds `xi`.
+    OpenCv,
+    /// OpenCV's FileStorage with the coefficients of `cv::fisheye`.
+    OpenCvFisheye,
+    /// ROS `camera_info`.
+    Ros,
+    /// Kalibr camera chain.
+    Kalibr,
+    /// COLMAP `cameras.txt`.
+    Colmap,
+    /// OCamCalib `calib_results.txt`.
+    Ocam,
+}
+
+/// A camera of a calibration file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImportedCamera {
+    /// Its name in the file; empty where it has none.
+    pub name: String,
+    /// The camera.
+    pub calibration: Calibration,
+    /// What was passed over, a sentence each.
+    pub notes: Vec<String>,
+    /// Content hash of the file.
+    pub hash: ContentHash,
+}
+
+/// Reads one camera; `camera` chooses it by its name in a file that holds several.
+///
+/// # Errors
+/// The first fault of the file, with its line.
+pub fn read_calibration(file: &Path, format: CalibrationFormat, camera: Option<&str>) -> Result<ImportedCamera, Error> {
+    let bytes = read_bytes(file, "calibration")?;
+    let text = decode_text(file, &bytes)?;
+    let read = match format {
+        CalibrationFormat::OpenCv => opencv::read(text, false),
+        CalibrationFormat::OpenCvFisheye => opencv::read(text, true),
+        CalibrationFormat::Ros => ros::read(text),
+        CalibrationFormat::Kalibr => kalibr::read(text, camera),
+        CalibrationFormat::Colmap => colmap::read(text, camera),
+        CalibrationFormat::Ocam => ocam::read(text),
+    };
+    let (name, calibration, notes) = read.and_then(|found| found.chosen(camera)).map_err(|fault| fault.of(file))?;
+    Ok(ImportedCamera { name, calibration, notes, hash: hash::of_bytes(&bytes) })
+}
+
+/// What is wrong, and in which line (from 1; 0 for the whole file).
+#[derive(Debug)]
+struct Fault {
+    line: usize,
+    what: String,
+}
+
+type Read<T> = Result<T, Fault>;
+
+impl Fault {
+    fn at(line: usize, what: impl Into<String>) -> Self {
+        Self { line, what: what.into() }
+    }
+
+    fn of(self, file: &Path) -> Error {
+        if self.line == 0 { Error::new(file, self.what) } else { Error::at(file, self.line, self.what) }
+    }
+}
+
+/// What a reader found.
+struct Found {
+    name: String,
+    calibration: Calibration,
+    notes: Vec<String>,
+}
+
+impl Found {
+    /// The camera, if it is the one asked for.
+    fn chosen(self, camera: Option<&str>) -> Read<(String, Calibration, Vec<String>)> {
+        match camera {
+            Some(asked) if asked != self.name && self.name.is_empty() => {
+                Err(Fault::at(0, format!("holds one camera without a name; do not ask for \"{asked}\"")))
+            }
+            Some(asked) if asked != self.name => {
+                Err(Fault::at(0, format!("holds no camera \"{asked}\"; it holds \"{}\"", self.name)))
+            }
+            _ => Ok((self.name, self.calibration, self.notes)),
+        }
+    }
+}
+
+/// A note of keys that say nothing of the camera.
+fn passed_over(keys: &[&str]) -> Vec<String> {
+    if keys.is_empty() { Vec::new() } else { vec![format!("passed over: {}", keys.join(", "))] }
+}
+
+/// A fault of the camera as a whole, told at the line where it starts.
+fn of_camera(line: usize) -> impl Fn(CalibrationError) -> Fault {
+    move |cause| Fault::at(line, cause.to_string())
+}

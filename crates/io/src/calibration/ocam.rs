@@ -1,0 +1,113 @@
+//! OCamCalib's `calib_results.txt` (Scaramuzza 2006): five lines of numbers between remarks.
+//!
+//! | line | holds |
+//! | --- | --- |
+//! | 1 | count, a₀, a₁, … of the direct polynomial (px) |
+//! | 2 | count and coefficients of the inverse polynomial, highest last; may be `0` |
+//! | 3 | centre: row and column, from 0 at the centre of the first pixel |
+//! | 4 | affine c, d, e |
+//! | 5 | height and width, px |
+//!
+//! The inverse polynomial is a fit to the inverse; the exact inverse is used, and a note says how far the fit is off.
+
+use etendue_projection::model::Ocam;
+use etendue_projection::plane::Affine;
+use etendue_projection::{Calibration, CameraMatrix, Model};
+
+use super::opencv::wrong;
+use super::{Fault, Found, Read, of_camera};
+
+const LINES: [&str; 5] = [
+    "the direct polynomial: count a0 a1 …",
+    "the inverse polynomial: count and coefficients",
+    "the centre: row column",
+    "the affine parameters: c d e",
+    "the image size: height width",
+];
+
+pub(super) fn read(text: &str) -> Read<Found> {
+    let rows = rows(text)?;
+    let direct = counted(&rows[0])?;
+    let inverse = counted(&rows[1])?;
+    let [row, column] = exactly(&rows[2])?;
+    let [c, d, e] = exactly(&rows[3])?;
+    let size_px = size(&rows[4])?;
+    let note = note(direct, inverse, size_px);
+    let model = Ocam::new(direct.to_vec(), Affine { c, d, e }).map_err(wrong(rows[0].line))?;
+    let matrix = CameraMatrix { fx: 1.0, fy: 1.0, skew: 0.0, cx: column, cy: row }.from_opencv();
+    let calibration = Calibration::new(Model::Ocam(model), matrix, size_px).map_err(of_camera(rows[2].line))?;
+    Ok(Found { name: String::new(), calibration, notes: note.into_iter().collect() })
+}
+
+struct Row {
+    line: usize,
+    what: &'static str,
+    numbers: Vec<f64>,
+}
+
+/// The five lines of numbers.
+fn rows(text: &str) -> Read<[Row; 5]> {
+    let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
+    let lines: Vec<(usize, &str)> = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#')).collect();
+    if lines.len() > LINES.len() {
+        return Err(Fault::at(lines[LINES.len()].0, "a sixth line of numbers; expected five"));
+    }
+    let rows = LINES.iter().enumerate().map(|(i, what)| match lines.get(i) {
+        Some((line, text)) => row(*line, what, text),
+        None => Err(Fault::at(0, format!("ends before {what}; expected five lines of numbers"))),
+    });
+    let rows: Vec<Row> = rows.collect::<Read<_>>()?;
+    rows.try_into().map_err(|_| Fault::at(0, "expected five lines of numbers"))
+}
+
+fn row(line: usize, what: &'static str, text: &str) -> Read<Row> {
+    let number = |word: &str| {
+        let number = word.parse::<f64>().ok().filter(|x| x.is_finite());
+        number.ok_or_else(|| Fault::at(line, format!("found \"{word}\"; expected {what}")))
+    };
+    Ok(Row { line, what, numbers: text.split_whitespace().map(number).collect::<Read<_>>()? })
+}
+
+/// Numbers after their count.
+fn counted(row: &Row) -> Read<&[f64]> {
+    match &row.numbers[..] {
+        [count, rest @ ..] if *count == rest.len() as f64 => Ok(rest),
+        [count, rest @ ..] => {
+            Err(Fault::at(row.line, format!("counts {count} but holds {}: {}", rest.len(), row.what)))
+        }
+        [] => Err(Fault::at(row.line, format!("expected {}", row.what))),
+    }
+}
+
+fn exactly<const N: usize>(row: &Row) -> Read<[f64; N]> {
+    let found = row.numbers.len();
+    let fault = || Fault::at(row.line, format!("found {found} numbers; expected {N}: {}", row.what));
+    row.numbers.clone().try_into().map_err(|_| fault())
+}
+
+fn size(row: &Row) -> Read<[usize; 2]> {
+    let [height, width] = exactly(row)?;
+    let pixels = |x: f64| (1.0..=1e6).contains(&x) && x.fract() == 0.0;
+    if !(pixels(height) && pixels(width)) {
+        return Err(Fault::at(row.line, format!("found {height} {width}; expected whole numbers of pixels from 1")));
+    }
+    Ok([width as usize, height as usize])
+}
+
+/// How far the inverse polynomial is from the inverse of the direct one, over half the picture's diagonal.
+fn note(direct: &[f64], inverse: &[f64], [width, height]: [usize; 2]) -> Option<String> {
+    if inverse.is_empty() {
+        return None;
+    }
+    let value = |c: &[f64], x: f64| c.iter().rev().fold(0.0, |sum, c| sum * x + c);
+    let half_diagonal = 0.5 * (width as f64 * width as f64 + height as f64 * height as f64).sqrt();
+    let off = (0..=256).map(|i| {
+        let radius = half_diagonal * f64::from(i) / 256.0;
+        let angle = etendue_core::maths::f64::atan2(value(direct, radius), radius);
+        (value(inverse, angle) - radius).abs()
+    });
+    let worst = off.fold(0.0, f64::max);
+    Some(format!(
+        "the exact inverse is used; the file's inverse polynomial is up to {worst:.3} px off within half the diagonal"
+    ))
+}

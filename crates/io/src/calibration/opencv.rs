@@ -1,0 +1,65 @@
+//! OpenCV's FileStorage, YAML or JSON: `camera_matrix`, `distortion_coefficients`, `image_width`, `image_height`.
+//!
+//! The keys are those of OpenCV's own calibration programs; `cameraMatrix`, `K` and `distCoeffs`, `dist_coeffs`, `D` are
+//! read as well, and matrices as plain nested lists. `fisheye_model: 1` means `cv::fisheye`, whose camera matrix holds
+//! α fx as its skew; `xi` means `cv::omnidir`. The perspective functions of OpenCV ignore a skew, so one is refused.
+
+use etendue_projection::model::{KannalaBrandt, ModelError, Perspective, Unified};
+use etendue_projection::plane::DistortionTerms;
+use etendue_projection::{Calibration, CameraMatrix, Model};
+
+use super::yaml::{self, Node};
+use super::{Fault, Found, Read, matrix, of_camera, passed_over};
+
+const MATRIX: [&str; 3] = ["camera_matrix", "cameraMatrix", "K"];
+const DISTORTION: [&str; 4] = ["distortion_coefficients", "distCoeffs", "dist_coeffs", "D"];
+const REST: [&str; 5] = ["image_width", "image_height", "image_size", "fisheye_model", "xi"];
+
+/// Reads a camera; `fisheye` where the caller knows that it is one.
+pub(super) fn read(text: &str, fisheye: bool) -> Read<Found> {
+    let root = yaml::parse(text)?;
+    let size_px = matrix::size(&root)?;
+    let node = root.any(&MATRIX)?;
+    let camera_matrix = matrix::camera(node)?;
+    let says_fisheye = root.find("fisheye_model").map(Node::number).transpose()?.is_some_and(|flag| flag != 0.0);
+    let distortion = root.any(&DISTORTION)?;
+    let k = matrix::numbers(distortion)?;
+    let model = match root.find("xi") {
+        Some(xi) => omnidir(xi, distortion.line, &k),
+        None if fisheye || says_fisheye => self::fisheye(distortion.line, &k),
+        None => perspective(node.line, camera_matrix, distortion.line, &k),
+    }?;
+    let calibration = Calibration::new(model, camera_matrix, size_px).map_err(of_camera(node.line))?;
+    let known = [&MATRIX[..], &DISTORTION, &REST].concat();
+    Ok(Found { name: String::new(), calibration, notes: passed_over(&root.others(&known)) })
+}
+
+fn perspective(at: usize, matrix: CameraMatrix, line: usize, k: &[f64]) -> Read<Model> {
+    if matrix.skew != 0.0 {
+        let what = format!("a skew of {} px, which OpenCV's perspective functions ignore; expected 0", matrix.skew);
+        return Err(Fault::at(at, what));
+    }
+    Perspective::from_opencv(k).map(Model::Perspective).map_err(wrong(line))
+}
+
+pub(super) fn fisheye(line: usize, k: &[f64]) -> Read<Model> {
+    let k = k.try_into().map_err(|_| Fault::at(line, format!("found {} numbers; expected k1, k2, k3, k4", k.len())))?;
+    KannalaBrandt::new(k).map(Model::KannalaBrandt).map_err(wrong(line))
+}
+
+fn omnidir(xi: &Node, line: usize, k: &[f64]) -> Read<Model> {
+    let [xi_value] = matrix::numbers(xi)?[..] else { return Err(Fault::at(xi.line, "expected xi as one number")) };
+    let &[k1, k2, p1, p2] = k else {
+        return Err(Fault::at(line, format!("found {} numbers; expected k1, k2, p1, p2", k.len())));
+    };
+    unified(xi_value, [k1, k2, p1, p2]).map_err(wrong(xi.line))
+}
+
+pub(super) fn unified(xi: f64, [k1, k2, p1, p2]: [f64; 4]) -> Result<Model, ModelError> {
+    let terms = DistortionTerms { numerator: [k1, k2, 0.0, 0.0], tangential: [p1, p2], ..Default::default() };
+    Unified::new(xi, terms).map(Model::Unified)
+}
+
+pub(super) fn wrong(line: usize) -> impl Fn(ModelError) -> Fault {
+    move |cause| Fault::at(line, cause.to_string())
+}
