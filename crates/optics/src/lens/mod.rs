@@ -33,7 +33,7 @@ use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
 pub use pinhole::{Pinhole, PinholeParameters};
-pub use prescribed::Prescribed;
+pub use prescribed::{FieldReport, ImageReport, LensReport, Prescribed, Spot};
 pub use statements::PupilStatements;
 pub use thick::{ConstantPupil, Rim, Thick, ThickParameters};
 pub use thin::{Thin, ThinParameters};

@@ -187,6 +187,18 @@ impl Prescription {
         walk(&self.elements, 0, Way::ToScene, media, ray, &mut rims)
     }
 
+    /// Geometry alone: a ray from the scene behind the last surface, clipped or not.
+    pub(crate) fn arrives(&self, ray: LensRay, media: &Media, mut rims: Rims) -> Result<LensRay, Lost> {
+        walk(&self.elements, 0, Way::ToSensor, media, ray, &mut rims)
+    }
+
+    /// Where the paraxial image of the plane in focus lies at a wavelength, mm behind the last vertex.
+    #[must_use]
+    pub fn image_mm(&self, nm: f64) -> f64 {
+        let before = self.focus_distance_m * 1e3 - self.paraxial.entrance_pupil_mm;
+        paraxial::matrix(&self.elements, &self.media(nm)).image_mm(1.0 / before)
+    }
+
     /// Least and greatest distance of the last surface's opening from the sensor, mm.
     pub(crate) fn rear_distances_mm(&self) -> [f64; 2] {
         let vertex = self.sensor_mm - self.last_vertex_mm();

@@ -17,6 +17,7 @@ mod light;
 mod meridian;
 mod opening;
 mod region;
+mod report;
 
 use crate::error::{OpticsError, PRINCIPAL_NM, positive};
 use crate::lens::focus::Conjugates;
@@ -26,6 +27,8 @@ use crate::pupil::MM;
 use chief::Chiefs;
 use glam::{DVec2, DVec3};
 use region::Regions;
+
+pub use report::{FieldReport, ImageReport, LensReport, Spot};
 
 /// A prescription, focused, with its pupils found for a picture of a given size.
 #[derive(Clone, Debug, PartialEq)]
