@@ -119,6 +119,7 @@ impl<'a, const N: usize> Path<'a, N> {
     }
 
     /// Where textures are read at a point that a ray of unit `direction` has met whose cone is `cone` there.
+    #[inline(always)]
     pub(super) fn lookup(&self, point: &SurfacePoint, cone: Cone, direction: Vec3) -> Lookup {
         let at = Lookup { local: point.local, local_normal: point.local_normal, ..Lookup::point(point.uv) };
         if !self.tracer.palette.needs_footprint(point.material) {
@@ -186,6 +187,7 @@ impl<'a, const N: usize> Path<'a, N> {
     }
 
     /// Gathers drawn light at a surface and goes on from it.
+    #[inline(always)]
     fn scatter(&mut self, point: SurfacePoint, lookup: &Lookup) -> Onward {
         let vertex = self.vertex(point, lookup);
         if matches!(vertex.bsdf, Bsdf::Absorber) {
@@ -202,6 +204,7 @@ impl<'a, const N: usize> Path<'a, N> {
         }
     }
 
+    #[inline(always)]
     fn vertex(&self, point: SurfacePoint, lookup: &Lookup) -> Vertex<'a, N> {
         let palette = self.tracer.palette;
         let material = if palette.is_mix(point.material) {
@@ -262,6 +265,7 @@ impl<'a, const N: usize> Path<'a, N> {
     }
 
     /// Draws where the path goes; `None` where the light would be absorbed.
+    #[inline(always)]
     fn sample(&self, vertex: &Vertex<'_, N>) -> Option<BsdfSample<N>> {
         let choice = if vertex.bsdf.has_parts() { self.stream.one(Draw::BsdfChoice, self.met) } else { 0.0 };
         let u = self.stream.two(Draw::BsdfDirection, self.met);

@@ -293,6 +293,7 @@ struct Glowing<'a> {
 
 impl Glowing<'_> {
     /// The light sample of a surface sample seen from `from`; `None` where the side seen does not glow.
+    #[inline(always)]
     fn towards<const N: usize>(
         &self,
         surface: &SurfaceSample,

@@ -89,6 +89,7 @@ impl TriangleLight {
         LightBounds::of_surface(&corners, share * radiance * self.area_m2(), (!both).then_some(self.normal))
     }
 
+    #[inline(always)]
     pub(super) fn sample(&self, from: Vec3, u: Vec2) -> Option<SurfaceSample> {
         let b = if self.doubled { u } else { uniform_triangle(u) };
         let way = self.corner + self.edges[0] * b.x + self.edges[1] * b.y - from;

@@ -25,6 +25,7 @@ impl Reflectance {
         }
     }
 
+    #[inline(always)]
     pub(super) fn at<const N: usize>(
         &self,
         textures: &[ImageTexture],

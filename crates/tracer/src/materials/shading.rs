@@ -28,6 +28,7 @@ impl ShadingFrame {
     /// The frame at `point` about `shading_normal` (unit, on the side of the point's geometric normal: the point's own,
     /// or one bent by a normal map) for a viewer in the unit direction `to_viewer` (render frame).
     #[must_use]
+    #[inline(always)]
     pub fn new(point: &SurfacePoint, shading_normal: Vec3, to_viewer: Vec3) -> Self {
         let side = 1.0_f32.copysign(point.geometric_normal.dot(to_viewer));
         let geometric_normal = point.geometric_normal * side;
