@@ -157,3 +157,19 @@ fn lost_rays_say_where() {
         LensRay { point: DVec3::new(0.0, 0.0, lens.sensor_mm()), direction: DVec3::new(0.95, 0.0, -0.1).normalize() };
     assert_eq!(lens.to_scene(away, 550.0).expect_err("beside the sphere").loss, Loss::Missed);
 }
+
+#[test]
+fn a_group_inside_the_lens_focuses_and_breathes() {
+    let surfaces = published::named("double-gauss").expect("a published lens").surfaces();
+    let far = lens(surfaces.clone());
+    let focus = Focus::Group { distance_m: 3.0, first: 6, last: 10 };
+    let near = Prescription::new(PrescriptionParameters { focus, ..parameters(surfaces) }).expect("in focus");
+    // The sensor has not moved, the group has, and the image of 3 m lies on the sensor.
+    assert!((near.sensor_mm() - far.sensor_mm()).abs() < 1e-12);
+    let moved_mm = near.surfaces()[5].thickness_mm - far.surfaces()[5].thickness_mm;
+    assert!(moved_mm.abs() > 0.1 && (near.surfaces()[10].thickness_mm).abs() < 1e-12, "{moved_mm}");
+    let miss_mm = near.image_mm(587.56) - (near.sensor_mm() - near.last_vertex_mm());
+    assert!(miss_mm.abs() < 1e-9, "{miss_mm}");
+    assert!((near.paraxial().focal_length_mm - far.paraxial().focal_length_mm).abs() > 1e-3, "it breathes");
+    assert!((near.magnification() / (near.paraxial().focal_length_mm / 3000.0) - 1.0).abs() < 0.1);
+}
