@@ -12,6 +12,7 @@ made of the scenes that ship with the project:
 """
 
 import json
+import os
 import sys
 import tomllib
 from pathlib import Path
@@ -22,6 +23,8 @@ import sky
 from spectra import DATA, NM, OBSERVER, ROOT, black_body, on_grid, table, with_luminance
 
 WIDTH, HEIGHT = 512, 384
+# Side of the blocks of pixels whose paths share their tails in Etendue, px.
+SHARING = int(os.environ.get("ETENDUE_SHARING", "8"))
 BOUNCES = 8
 # The street's textures are named from where they lie.
 STREET = ROOT / "scenes/street"
@@ -289,7 +292,7 @@ def job(folder, scene):
               f"pixel_pitch_um = {c['pixel_pitch_um']}", "exposure_s = 1.0", 'cfa = "mono"',
               'quantum_efficiency = { spectrum = "eye.csv" }', "full_well_e = 1e12", "read_noise_e = 0",
               "dark_current_e_s = 0", "gain_dn_per_e = 1", "black_level_dn = 0", "bits = 16",
-              "", "[render]", "spp = 64", "replicates = 1", f"max_bounces = {BOUNCES}", "wavelength_range_nm = [360, 830]",
+              "", "[render]", "spp = 64", "replicates = 1", f"tail_sharing_px = {SHARING}", f"max_bounces = {BOUNCES}", "wavelength_range_nm = [360, 830]",
               "", "[output]", "electrons = true", "raw = false", "ground_truth = false", ""]
     (folder / "job.toml").write_text("\n".join(lines))
 

@@ -121,7 +121,7 @@ impl Samples {
     /// As the statistics want it.
     #[must_use]
     pub fn estimate(&self) -> EstimatedPlane<'_> {
-        EstimatedPlane { mean: &self.mean, variance_of_mean: &self.variance, replicates: self.replicates }
+        EstimatedPlane { mean: &self.mean, variance_of_mean: &self.variance, replicates: self.replicates, alike: 1 }
     }
 }
 

@@ -39,6 +39,7 @@ pub fn provenance(plan: &Plan, camera: &CameraPlan) -> Provenance {
         further: BTreeMap::from([
             ("spp".to_owned(), settings.spp.to_string()),
             ("replicates".to_owned(), settings.replicates.to_string()),
+            ("alike_px".to_owned(), settings.blocks.len_px().to_string()),
         ]),
     }
 }
@@ -107,6 +108,7 @@ pub fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>
         "sampling": {
             "spp": settings.spp,
             "replicates": settings.replicates,
+            "alike_px": settings.blocks.len_px(),
             "max_bounces": settings.max_bounces,
             "wavelengths_per_path": settings.wavelengths,
             "range_nm": [settings.range_nm.0, settings.range_nm.1],

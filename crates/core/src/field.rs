@@ -10,6 +10,21 @@ pub trait RadianceField<const N: usize>: Sync {
     /// wavelengths; an unbiased estimate where the field is a path tracer. Not divided by the density of the
     /// wavelengths. `ray` is in the render frame with unit direction; `stream` is the sample's random address.
     fn radiance(&self, ray: &Ray, wavelengths: &Wavelengths<N>, stream: &PathStream) -> Spectral<N>;
+
+    /// As [`RadianceField::radiance`] for each of several rays of neighbouring pixels that carry the same wavelengths,
+    /// appended to `radiance`. Each is an unbiased estimate, but a field may let them share what it finds.
+    fn radiance_of_group(&self, rays: &[FieldRay], wavelengths: &Wavelengths<N>, radiance: &mut Vec<Spectral<N>>) {
+        radiance.extend(rays.iter().map(|FieldRay { ray, stream }| self.radiance(ray, wavelengths, stream)));
+    }
+}
+
+/// A ray to be answered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FieldRay {
+    /// In the render frame, with unit direction.
+    pub ray: Ray,
+    /// The sample's random address.
+    pub stream: PathStream,
 }
 
 /// The same radiance in every direction and at every wavelength: for tests of optics and sensors without a tracer.

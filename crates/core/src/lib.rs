@@ -27,7 +27,7 @@ pub mod warp;
 pub mod wavelength;
 mod wavelength_density;
 
-pub use field::RadianceField;
+pub use field::{FieldRay, RadianceField};
 pub use frame::{Basis, CameraPose, Track};
 pub use plane::{Plane, SpectralCube};
 pub use ray::{PupilRay, Ray};

@@ -16,8 +16,21 @@ pub struct Pair {
     pub height: usize,
     /// Channels by name. Previews (R, G, B beside spectral bands) and variances are no channels of their own.
     pub channels: Vec<Channel>,
-    /// Replicates behind the variances of the first and the second file, as their headers state; 1 where they do not.
-    pub replicates: (u32, u32),
+    /// What stands behind the variances of the first and the second file.
+    pub origin: (Origin, Origin),
+}
+
+/// What stands behind the variances of a file, as its header states; 1 where it does not.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Origin {
+    /// Independent replicates.
+    pub replicates: u32,
+    /// Pixels whose errors may be equal, because their paths shared what they found.
+    pub alike: u32,
+}
+
+impl Origin {
+    const NONE: Self = Self { replicates: 1, alike: 1 };
 }
 
 /// A channel that both files have.
@@ -74,7 +87,7 @@ fn of_exr(path: &Path, a: &ExrFile, b: &ExrFile) -> Result<Pair, Error> {
     check_channels(path, &names(a), &names(b))?;
     let channels = names(a).into_iter().filter(|name| !name.starts_with(VARIANCE) && !is_preview(a, name));
     let channels = channels.map(|name| channel(path, a, b, name)).collect::<Result<_, _>>()?;
-    Ok(Pair { width: a.width, height: a.height, channels, replicates: (replicates(a), replicates(b)) })
+    Ok(Pair { width: a.width, height: a.height, channels, origin: (origin(a), origin(b)) })
 }
 
 /// Quantity and unit, which have to be the same where both files state them.
@@ -144,8 +157,9 @@ fn is_preview(file: &ExrFile, name: &str) -> bool {
     ["R", "G", "B"].contains(&name) && file.channels.iter().any(|c| c.name.starts_with("S0."))
 }
 
-fn replicates(file: &ExrFile) -> u32 {
-    file.attributes.get("etendue:replicates").and_then(|text| text.parse().ok()).unwrap_or(1)
+fn origin(file: &ExrFile) -> Origin {
+    let stated = |key| file.attributes.get(key).and_then(|text| text.parse().ok()).unwrap_or(1);
+    Origin { replicates: stated("etendue:replicates"), alike: stated("etendue:alike_px") }
 }
 
 fn channel(path: &Path, a: &ExrFile, b: &ExrFile, name: &str) -> Result<Channel, Error> {
@@ -184,7 +198,7 @@ fn of_pictures(a: &Path, b: &Path) -> Result<Pair, Error> {
         .zip(of_a)
         .zip(of_b)
         .map(|((name, a), b)| Channel { name: (*name).to_owned(), content: Content::Number { a, b, variance: None } });
-    Ok(Pair { width, height, channels: channels.collect(), replicates: (1, 1) })
+    Ok(Pair { width, height, channels: channels.collect(), origin: (Origin::NONE, Origin::NONE) })
 }
 
 /// What a picture holds, in words.

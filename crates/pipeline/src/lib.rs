@@ -4,6 +4,7 @@
 //! rendering takes a plan, a request and an [`Observer`], and answers with planes. Nothing here reads files, prints,
 //! looks at a clock or starts a thread pool.
 
+pub mod block;
 pub mod compile;
 pub mod film;
 mod fingerprint;

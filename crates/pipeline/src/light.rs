@@ -1,12 +1,13 @@
 //! The light of a frame: every pixel's samples sent into a radiance field and gathered on the film.
 
+use crate::block::Blocks;
 use crate::film::Film;
 use crate::gather::{Gather, Layout};
 use crate::mosaic::{Mosaic, Site};
 use crate::observer::Observer;
 use crate::tile::{Shard, Tile, tiles};
 use etendue_core::random::{Draw, PathStream, Pixel, PixelAddress};
-use etendue_core::{CameraPose, PupilRay, RadianceField, Ray, Wavelengths};
+use etendue_core::{CameraPose, FieldRay, PupilRay, RadianceField, Ray, Spectral, Wavelengths};
 use glam::DVec2;
 use rayon::prelude::*;
 use std::sync::Mutex;
@@ -55,10 +56,29 @@ pub struct Exposure<'a, S> {
     pub mosaic: Option<&'a Mosaic>,
     /// Samples and addresses.
     pub sampling: Sampling,
-    /// Side of a tile, px. It does not change the result.
+    /// Pixels whose paths share their tails.
+    pub blocks: Blocks,
+    /// Side of a tile, px, that cuts no block. It does not change the result.
     pub tile_px: u32,
     /// Which tiles to render; the others stay zero.
     pub shard: Shard,
+}
+
+/// One sample of each pixel of a block, while it is answered.
+#[derive(Default)]
+struct Asked<const N: usize> {
+    /// Pixels that light reaches, by their place in the block, and the weights of their rays.
+    pixels: Vec<(usize, f64)>,
+    rays: Vec<FieldRay>,
+    radiance: Vec<Spectral<N>>,
+}
+
+impl<const N: usize> Asked<N> {
+    fn clear(&mut self) {
+        self.pixels.clear();
+        self.rays.clear();
+        self.radiance.clear();
+    }
 }
 
 /// The caller asked to stop before the film was complete.
@@ -97,23 +117,24 @@ impl<S: RaySource> Exposure<'_, S> {
 
     /// Gathers a tile's pixels, then stores them together: the film is locked once a tile.
     fn gather_tile<const N: usize>(&self, field: &impl RadianceField<N>, tile: Tile, film: &Mutex<Film>) {
-        let pixels: Vec<_> = tile.pixels().map(|pixel| (pixel, self.gather_pixel(field, pixel))).collect();
+        let pixels: Vec<_> = self.blocks.of(tile).flat_map(|block| self.gather_block(field, &block)).collect();
         let mut film = film.lock().expect("no tile panicked");
         pixels.iter().for_each(|(pixel, gather)| film.store(*pixel, gather));
     }
 
-    fn gather_pixel<const N: usize>(&self, field: &impl RadianceField<N>, pixel: Pixel) -> Gather {
-        let mut gather = Gather::new(self.layout.clone());
-        let site = self.mosaic.map(|mosaic| mosaic.at(pixel));
+    /// Gathers the pixels of a block, sample by sample.
+    fn gather_block<const N: usize>(&self, field: &impl RadianceField<N>, block: &[Pixel]) -> Vec<(Pixel, Gather)> {
+        let mut gathers: Vec<_> = block.iter().map(|pixel| (*pixel, Gather::new(self.layout.clone()))).collect();
+        let mut asked = Asked::default();
         let samples = self.sampling.spp / self.sampling.replicates;
         for replicate in 0..self.sampling.replicates {
-            let first = PathStream::new(&self.address(pixel, replicate), 0);
+            let streams: Vec<_> = block.iter().map(|p| PathStream::new(&self.address(*p, replicate), 0)).collect();
             for sample in 0..samples {
-                self.add_sample(field, pixel, &first.with_sample(sample), site, &mut gather);
+                self.add_samples(field, &streams, sample, &mut asked, &mut gathers);
             }
-            gather.end_replicate(samples);
+            gathers.iter_mut().for_each(|(_, gather)| gather.end_replicate(samples));
         }
-        gather
+        gathers
     }
 
     fn address(&self, pixel: Pixel, replicate: u32) -> PixelAddress {
@@ -121,22 +142,36 @@ impl<S: RaySource> Exposure<'_, S> {
         PixelAddress { seed, camera, frame: 0, capture: 0, pixel, replicate }
     }
 
-    fn add_sample<const N: usize>(
+    /// One sample of each pixel of a block.
+    fn add_samples<const N: usize>(
         &self,
         field: &impl RadianceField<N>,
-        pixel: Pixel,
-        stream: &PathStream,
-        site: Option<&Site>,
-        gather: &mut Gather,
+        streams: &[PathStream],
+        sample: u32,
+        asked: &mut Asked<N>,
+        gathers: &mut [(Pixel, Gather)],
     ) {
-        let wavelengths = self.wavelengths::<N>(site, stream.one(Draw::Wavelength, 0));
+        asked.clear();
+        let site = self.mosaic.map(|mosaic| mosaic.at(gathers[0].0));
+        let wavelengths = self.wavelengths::<N>(site, streams[0].with_sample(sample).one(Draw::Wavelength, 0));
+        for (index, (stream, (pixel, _))) in streams.iter().zip(gathers.iter()).enumerate() {
+            let stream = stream.with_sample(sample);
+            if let Some(pupil_ray) = self.pupil_ray(*pixel, &stream, wavelengths.nm[0]) {
+                asked.pixels.push((index, pupil_ray.weight_sr));
+                asked.rays.push(FieldRay { ray: self.to_render(&pupil_ray), stream });
+            }
+        }
+        field.radiance_of_group(&asked.rays, &wavelengths, &mut asked.radiance);
+        for ((index, weight_sr), radiance) in asked.pixels.iter().zip(&asked.radiance) {
+            gathers[*index].1.add(*weight_sr, *radiance, &wavelengths, site.map(|s| &s.responsivity));
+        }
+    }
+
+    /// The ray of a sample; `None` where the lens stops it.
+    fn pupil_ray(&self, pixel: Pixel, stream: &PathStream, hero_nm: f32) -> Option<PupilRay> {
         let area = stream.two(Draw::PixelArea, 0).as_dvec2() - 0.5;
         let raster = DVec2::new(f64::from(pixel.x), f64::from(pixel.y)) + 0.5 + area * self.aperture_px;
-        let pupil = stream.two(Draw::Pupil, 0).as_dvec2();
-        if let Some(pupil_ray) = self.source.ray(raster, pupil, f64::from(wavelengths.nm[0])) {
-            let radiance = field.radiance(&self.to_render(&pupil_ray), &wavelengths, stream);
-            gather.add(pupil_ray.weight_sr, radiance, &wavelengths, site.map(|s| &s.responsivity));
-        }
+        self.source.ray(raster, stream.two(Draw::Pupil, 0).as_dvec2(), f64::from(hero_nm))
     }
 
     /// A pixel that folds its responsivity draws wavelengths by it.
@@ -182,6 +217,7 @@ mod tests {
             layout: Layout { bands, folded: false },
             mosaic: None,
             sampling: Sampling { spp: 64, replicates: 2, seed: 3, camera: 0, low_nm: 400.0, high_nm: 700.0 },
+            blocks: Blocks::SINGLE,
             tile_px,
             shard,
         }

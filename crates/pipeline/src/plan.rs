@@ -1,5 +1,6 @@
 //! The plan: everything that a rendering needs, resolved and checked. Immutable.
 
+use crate::block::Blocks;
 use etendue_core::{Bands, CameraPose};
 use etendue_isp::{Mosaic, Processing};
 use etendue_optics::{Lens, PupilProjection};
@@ -137,6 +138,8 @@ pub struct Settings {
     pub folded: bool,
     /// Side of a tile, px.
     pub tile_px: u32,
+    /// Pixels whose paths share their tails.
+    pub blocks: Blocks,
     /// Seed of every random number.
     pub seed: u64,
 }

@@ -102,6 +102,7 @@ fn exposure<'a, S>(
             low_nm: settings.range_nm.0 as f32,
             high_nm: settings.range_nm.1 as f32,
         },
+        blocks: settings.blocks,
         tile_px: settings.tile_px,
         shard: request.shard,
     }
@@ -123,6 +124,7 @@ fn path_settings(camera: &CameraPlan) -> PathSettings {
         level: camera.settings.level,
         max_bounces: camera.settings.max_bounces,
         roulette_start: ROULETTE_START,
+        samples,
         cone_spread_rad: pitch_tan as f32 * sample_width(samples),
         caustics: camera.settings.caustics,
         ..PathSettings::default()

@@ -1,5 +1,6 @@
 //! The plan in words: what is modelled, what is left out and why, what it will cost.
 
+use crate::block::Blocks;
 use crate::film::Film;
 use crate::plan::{CameraPlan, Plan, Products, Route, Settings, SkyFacts};
 use crate::render::{census, layout};
@@ -112,6 +113,9 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let samples = format!("{samples} a pixel in {}", count(s.replicates as usize, "replicate"));
     line(f, "sampling", format!("{samples}, seed {}, {} wavelengths a path", s.seed, s.wavelengths))?;
     line(f, "paths", level(s))?;
+    if s.blocks != Blocks::SINGLE {
+        line(f, "shared", format!("tails of the paths of {} pixels, whose errors are alike", s.blocks.len_px()))?;
+    }
     if !s.caustics {
         line(f, "left out", "caustics of suns and lamps (light thrown by smooth surfaces on matt ones), as asked")?;
     }

@@ -14,6 +14,10 @@
 //! form) has variances of zero and any number of replicates. **Not finite.** Every value that is not finite, and every
 //! negative variance, is counted and makes the verdict *different*.
 //!
+//! **Errors that are alike.** Where paths of m pixels shared what they found, the errors of these pixels may be equal. The
+//! variance of a sum over k pixels is then taken as min(k, m) times as large, and its degrees of freedom as that many times
+//! fewer: the bound for errors that are equal, too wide for errors that are not.
+//!
 //! Left out: replicate means that are not normal. With very few samples a replicate the distribution is skewed and the
 //! test is too strict; that shows as failures of both signs' extremes, and is cured by more samples.
 
@@ -35,6 +39,8 @@ pub struct EstimatedPlane<'a> {
     pub variance_of_mean: &'a [f32],
     /// Replicates behind each variance; at least 2 where any variance is positive.
     pub replicates: u32,
+    /// How many pixels may have equal errors; 1 where every pixel has its own.
+    pub alike: u32,
 }
 
 /// The judgement of a comparison.
@@ -92,7 +98,7 @@ pub fn compare(a: &EstimatedPlane<'_>, b: &EstimatedPlane<'_>, significance: f64
     let fewest = freedom.into_iter().flatten().min().unwrap_or(POOLED_DEGREES_OF_FREEDOM);
     let pooled_pixels = POOLED_DEGREES_OF_FREEDOM.div_ceil(fewest) as usize;
     let runs = runs(a, b, freedom, pooled_pixels);
-    Ok(judge(&runs, pooled_pixels, significance))
+    Ok(judge(&runs, [a.alike, b.alike], pooled_pixels, significance))
 }
 
 /// R − 1 where the picture has variances, `None` where it is exact.
@@ -111,9 +117,10 @@ struct Run {
     first_pixel: usize,
     difference: f64,
     rounding: f64,
-    variance: f64,
-    /// Σ u²/ν, the denominator of Satterthwaite's degrees of freedom.
-    spread: f64,
+    /// Of each picture: Σ u.
+    variance: [f64; 2],
+    /// Of each picture: Σ u²/ν, the denominator of Satterthwaite's degrees of freedom.
+    spread: [f64; 2],
     certain_differences: usize,
     not_finite: usize,
 }
@@ -133,31 +140,36 @@ impl Run {
         }
         self.difference += difference;
         self.rounding += rounding;
-        for (v, nu) in variances.into_iter().zip(freedom) {
-            self.variance += v;
-            self.spread += nu.map_or(0.0, |nu| v * v / f64::from(nu));
+        for (i, (v, nu)) in variances.into_iter().zip(freedom).enumerate() {
+            self.variance[i] += v;
+            self.spread[i] += nu.map_or(0.0, |nu| v * v / f64::from(nu));
         }
     }
 
     /// All runs together: where a picture is a little off everywhere, the sum of its pixels tells it.
     fn whole(runs: &[Self]) -> Self {
-        let sum = |of: fn(&Self) -> f64| runs.iter().map(of).sum();
+        let sum = |of: &dyn Fn(&Self) -> f64| runs.iter().map(of).sum();
         Self {
-            difference: sum(|r| r.difference),
-            rounding: sum(|r| r.rounding),
-            variance: sum(|r| r.variance),
-            spread: sum(|r| r.spread),
+            difference: sum(&|r| r.difference),
+            rounding: sum(&|r| r.rounding),
+            variance: [0, 1].map(|i| sum(&|r| r.variance[i])),
+            spread: [0, 1].map(|i| sum(&|r| r.spread[i])),
             ..Self::default()
         }
     }
 
-    /// |t| and its two-sided p; `None` where the run holds no random test.
-    fn test(&self) -> Option<(f64, f64)> {
-        if self.variance == 0.0 {
+    /// |t| and its two-sided p, where so many pixels of each picture have equal errors; `None` where the run holds no
+    /// random test.
+    fn test(&self, alike: [f64; 2]) -> Option<(f64, f64)> {
+        let variance = self.variance[0] * alike[0] + self.variance[1] * alike[1];
+        if variance == 0.0 {
             return None;
         }
-        let z = (self.difference.abs() - self.rounding).max(0.0) / self.variance.sqrt();
-        Some((z, student::two_sided_p(z, self.variance * self.variance / self.spread)))
+        // m equal errors: m² times the variance of one, with the freedom of one.
+        let cubed = alike.map(|m| m * m * m);
+        let spread = self.spread[0] * cubed[0] + self.spread[1] * cubed[1];
+        let z = (self.difference.abs() - self.rounding).max(0.0) / variance.sqrt();
+        Some((z, student::two_sided_p(z, variance * variance / spread)))
     }
 }
 
@@ -174,10 +186,12 @@ fn runs(a: &EstimatedPlane<'_>, b: &EstimatedPlane<'_>, freedom: [Option<u32>; 2
     runs
 }
 
-fn judge(runs: &[Run], pooled_pixels: usize, significance: f64) -> PlaneTest {
-    let whole = (runs.len() > 1).then(|| Run::whole(runs));
+fn judge(runs: &[Run], alike: [u32; 2], pooled_pixels: usize, significance: f64) -> PlaneTest {
+    let whole = (runs.len() > 1).then(|| (Run::whole(runs), alike.map(f64::from)));
+    let within = alike.map(|m| f64::from(m).min(pooled_pixels as f64));
+    let all = runs.iter().map(|run| (*run, within)).chain(whole);
     let tests: Vec<(usize, f64, f64)> =
-        runs.iter().chain(&whole).filter_map(|r| r.test().map(|(z, p)| (r.first_pixel, z, p))).collect();
+        all.filter_map(|(run, alike)| run.test(alike).map(|(z, p)| (run.first_pixel, z, p))).collect();
     let level = family::sidak_level(significance, tests.len());
     let certain: usize = runs.iter().map(|r| r.certain_differences).sum();
     let not_finite = runs.iter().map(|r| r.not_finite).sum();
@@ -218,7 +232,7 @@ mod tests {
     }
 
     fn plane((mean, variance_of_mean): &(Vec<f32>, Vec<f32>), replicates: u32) -> EstimatedPlane<'_> {
-        EstimatedPlane { mean, variance_of_mean, replicates }
+        EstimatedPlane { mean, variance_of_mean, replicates, alike: 1 }
     }
 
     #[test]
@@ -233,6 +247,26 @@ mod tests {
             let wrong = wrong.count();
             assert!((18..=62).contains(&wrong), "{ra} and {rb} replicates: {wrong} of 200");
         }
+    }
+
+    #[test]
+    fn errors_that_are_alike_raise_no_alarm_where_it_is_said() {
+        // Blocks of 16 equal errors: their sum has 16 times the variance that 16 single errors would have.
+        let blocks = |seed| {
+            let (mean, variance) = estimate(seed, &vec![10.0; 100], 1.0, 8);
+            let spread = |v: Vec<f32>| v.into_iter().flat_map(|v| [v; 16]).collect::<Vec<_>>();
+            (spread(mean), spread(variance))
+        };
+        let alarms = |alike| {
+            let differs = |seed: &u64| {
+                let (a, b) = (blocks(*seed), blocks(seed + 1000));
+                let said = |picture| EstimatedPlane { alike, ..plane(picture, 8) };
+                compare(&said(&a), &said(&b), 0.05).expect("sizes").verdict == Verdict::Differ
+            };
+            (0..100).filter(differs).count()
+        };
+        // Binomial(100, 0.05) exceeds 14 in 1 of 10 000 cases.
+        assert!(alarms(16) <= 14 && alarms(1) > 50, "{} and {}", alarms(16), alarms(1));
     }
 
     #[test]
@@ -259,7 +293,7 @@ mod tests {
     #[test]
     fn without_variance_pictures_must_be_equal_to_rounding() {
         let zeros = [0.0; 3];
-        let exact = |mean| EstimatedPlane { mean, variance_of_mean: &zeros, replicates: 1 };
+        let exact = |mean| EstimatedPlane { mean, variance_of_mean: &zeros, replicates: 1, alike: 1 };
         let one = [1.0, 2.0, 3.0_f32];
         let rounded = [1.0, 2.0_f32.next_up(), 3.0];
         let other = [1.0, 2.000_01, 3.0];
@@ -282,7 +316,7 @@ mod tests {
     #[test]
     fn what_is_not_finite_is_counted_and_never_agrees() {
         let (one, zero) = ([1.0_f32, f32::NAN], [0.0_f32, 0.0]);
-        let a = EstimatedPlane { mean: &one, variance_of_mean: &zero, replicates: 4 };
+        let a = EstimatedPlane { mean: &one, variance_of_mean: &zero, replicates: 4, alike: 1 };
         let test = compare(&a, &a, 0.01).expect("sizes");
         assert_eq!((test.not_finite, test.verdict), (1, Verdict::Differ));
     }
@@ -290,9 +324,9 @@ mod tests {
     #[test]
     fn unusable_input_is_refused() {
         let (two, three, ones) = ([1.0_f32; 2], [1.0_f32; 3], [1.0_f32; 2]);
-        let a = EstimatedPlane { mean: &two, variance_of_mean: &ones, replicates: 1 };
+        let a = EstimatedPlane { mean: &two, variance_of_mean: &ones, replicates: 1, alike: 1 };
         assert_eq!(compare(&a, &a, 0.01), Err(PlaneTestError::Replicates(1)));
-        let b = EstimatedPlane { mean: &three, variance_of_mean: &ones, replicates: 4 };
+        let b = EstimatedPlane { mean: &three, variance_of_mean: &ones, replicates: 4, alike: 1 };
         assert_eq!(compare(&a, &b, 0.01), Err(PlaneTestError::Lengths([2, 2, 3, 2])));
     }
 }

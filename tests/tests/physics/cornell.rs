@@ -53,7 +53,12 @@ fn mean_of(shot: &Shot, band: usize, pixels: &[usize]) -> (f64, f64) {
     let (mean, variance) = (radiance.mean.planes()[band].samples(), radiance.variance.planes()[band].samples());
     let chosen = |values: &[f32]| pixels.iter().map(|i| values[*i]).collect::<Vec<f32>>();
     let (mean, variance) = (chosen(mean), chosen(variance));
-    mean_and_error(EstimatedPlane { mean: &mean, variance_of_mean: &variance, replicates: shot.film.replicates })
+    mean_and_error(EstimatedPlane {
+        mean: &mean,
+        variance_of_mean: &variance,
+        replicates: shot.film.replicates,
+        alike: 1,
+    })
 }
 
 #[test]

@@ -4,7 +4,6 @@
 //! (rtcore_ray.h, rtcore_geometry.h, rtcore_buffer.h, rtcore_scene.h).
 
 use core::ffi::{c_char, c_int, c_uint, c_void};
-use core::mem::ManuallyDrop;
 use core::ptr::null;
 use etendue_core::Ray;
 use etendue_tracer::geometry::Mesh;
@@ -73,8 +72,7 @@ pub struct Embree {
     device: Handle,
     intersect: Query,
     occluded: Query,
-    /// Never closed: threads of its own may outlive the device.
-    library: ManuallyDrop<Library>,
+    library: Library,
 }
 
 /// A built scene of one mesh, whose buffers it borrows.
@@ -94,7 +92,7 @@ impl Embree {
             let device = new_device(c"threads=1,set_affinity=0".as_ptr());
             let (intersect, occluded) =
                 (*library.get::<Query>(b"rtcIntersect1")?, *library.get::<Query>(b"rtcOccluded1")?);
-            Ok(Self { device, intersect, occluded, library: ManuallyDrop::new(library) })
+            Ok(Self { device, intersect, occluded, library })
         }
     }
 

@@ -6,7 +6,7 @@
 use crate::args;
 use crate::failure::Failure;
 use crate::say;
-use etendue_io::compare::{Channel, Content, Pair, read_pair};
+use etendue_io::compare::{Channel, Content, Origin, Pair, read_pair};
 use etendue_stats::ErrorSummary;
 use etendue_stats::family::sidak_level;
 use etendue_stats::planes::{EstimatedPlane, PlaneTest, Verdict, compare};
@@ -65,8 +65,8 @@ fn finding(channel: &Channel, pair: &Pair, level: f64) -> Result<Finding, Failur
             let test = match variance {
                 None => None,
                 Some((of_a, of_b)) => {
-                    let a = EstimatedPlane { mean: a, variance_of_mean: of_a, replicates: pair.replicates.0 };
-                    let b = EstimatedPlane { mean: b, variance_of_mean: of_b, replicates: pair.replicates.1 };
+                    let a = estimated(a, of_a, pair.origin.0);
+                    let b = estimated(b, of_b, pair.origin.1);
                     let test = compare(&a, &b, level);
                     Some(test.map_err(|error| Failure::input(format!("channel {name}: {error}")))?)
                 }
@@ -74,6 +74,10 @@ fn finding(channel: &Channel, pair: &Pair, level: f64) -> Result<Finding, Failur
             Ok(Finding { name, errors: ErrorSummary::of(a, b), unequal, test })
         }
     }
+}
+
+fn estimated<'a>(mean: &'a [f32], variance_of_mean: &'a [f32], origin: Origin) -> EstimatedPlane<'a> {
+    EstimatedPlane { mean, variance_of_mean, replicates: origin.replicates, alike: origin.alike }
 }
 
 fn as_table(findings: &[Finding], differ: bool) -> String {

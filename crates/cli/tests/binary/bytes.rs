@@ -66,6 +66,11 @@ fn nor_by_the_route_over_the_pupil() {
 }
 
 #[test]
+fn nor_where_paths_share_their_tails() {
+    same_however_it_is_cut(&["--set", "render.tail_sharing_px=4"]);
+}
+
+#[test]
 fn frames_share_the_light_and_have_noise_of_their_own() {
     let both = rendered(&small(), &["--frames", "0..2"]);
     assert_ne!(both["front/raw.0000.png"], both["front/raw.0001.png"]);

@@ -65,6 +65,8 @@ pub enum Draw {
     Opacity = 9,
     /// Which part of a mix of materials a path meets at a vertex.
     Mix = 10,
+    /// Which paths of a group that shares its tails are followed on.
+    Followed = 11,
 }
 
 /// A bijection of 64-bit words that scatters its bits (the finaliser of splitmix64, Steele et al. 2014).

@@ -30,6 +30,12 @@ impl PathStream {
         Self { mirrored: sample.reverse_bits(), ..self }
     }
 
+    /// Which sample of its pixel and replicate.
+    #[must_use]
+    pub fn sample(&self) -> u32 {
+        self.mirrored.reverse_bits()
+    }
+
     /// A number in [0, 1) for `draw`; `sub` tells vertices and repetitions apart.
     #[must_use]
     pub fn one(&self, draw: Draw, sub: u32) -> f32 {

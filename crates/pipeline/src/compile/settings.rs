@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use super::{Choices, Quality};
+use crate::block::Blocks;
 use crate::film::Film;
 use crate::gather::Layout;
 use crate::plan::{CameraBody, Products, Route, Settings};
@@ -88,6 +89,7 @@ pub(super) fn settings(
     remark_losses(products, &route, folded, context);
     remark_bands(render, cube, context);
     let level = level(render);
+    let blocks = blocks(level, render, body, folded);
     Some(Settings {
         spp,
         replicates,
@@ -100,7 +102,8 @@ pub(super) fn settings(
         range_nm,
         bands,
         folded,
-        tile_px: render.tile_px.as_ref().map_or(TILE_PX, |t| t.value) as u32,
+        tile_px: blocks.tile_px(render.tile_px.as_ref().map_or(TILE_PX, |t| t.value) as u32),
+        blocks,
         seed: choices.seed.or(render.seed.as_ref().map(|s| s.value)).unwrap_or(0),
     })
 }
@@ -119,6 +122,14 @@ fn max_bounces(level: Level, render: &Render, choices: &Choices) -> u32 {
         Level::Flat | Level::Direct => 1,
         Level::Path => render.max_bounces.as_ref().map_or_else(by_quality, |b| b.value as u32),
     }
+}
+
+/// Pixels that share tails. They carry the same wavelengths: where electrons are folded, they have one colour.
+fn blocks(level: Level, render: &Render, body: &CameraBody, folded: bool) -> Blocks {
+    let Some(side) = render.tail_sharing_px.as_ref().filter(|_| level == Level::Path) else { return Blocks::SINGLE };
+    let filter = body.sensor.as_ref().filter(|_| folded).map(|sensor| &sensor.parameters().cfa);
+    let stride = filter.map_or((1, 1), |cfa| (cfa.width() as u32, (cfa.channels().len() / cfa.width()) as u32));
+    Blocks::new(side.value as u32, stride)
 }
 
 /// Samples a pixel and replicates; the replicates divide the samples.

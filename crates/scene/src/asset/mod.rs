@@ -3,7 +3,6 @@
 mod mesh;
 mod mtl;
 mod photometry;
-mod prescription;
 mod request;
 mod store;
 mod table;
@@ -11,7 +10,6 @@ mod table;
 pub use mesh::{ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
 pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurface};
 pub use photometry::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
-pub use prescription::{GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 pub(crate) use request::requests;
 pub use request::{AssetKind, AssetRequest, Values, of_camera};
 pub use store::Assets;

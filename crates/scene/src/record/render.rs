@@ -20,6 +20,10 @@ record! {
         /// picture is darker by that light, and free of the rare bright samples that find it. Belongs to level = "path".
         /// Default: true.
         optional caustics: Placed<bool> = flag();
+        /// Paths of blocks of this many by this many pixels of one colour share their tails: 1 (none do), 2, 4 or 8. It takes
+        /// much less time for the same error where light is scattered from surface to surface, but errors of the pixels of
+        /// a block are then alike. Belongs to level = "path". Default: 1.
+        optional tail_sharing_px: Placed<u64> = among(&[1, 2, 4, 8]);
         /// Wavelengths that a path carries. Default: 4.
         optional wavelengths_per_path: Placed<u64> = among(&[1, 4, 8]);
         /// Through the lens (exact), or as seen from the centre of the entrance pupil (fast, reusable). Default: "lens".
@@ -84,6 +88,7 @@ impl Render {
             level: None,
             max_bounces: None,
             caustics: None,
+            tail_sharing_px: None,
             wavelengths_per_path: None,
             route: None,
             band_width_nm: None,
@@ -95,10 +100,19 @@ impl Render {
         }
     }
 
-    /// Whether "max_bounces" or "caustics" is what stands at `place`.
+    /// The keys that only paths need, as far as they are said, and where.
+    fn of_paths(&self) -> impl Iterator<Item = (&'static str, &Place)> {
+        let keys = [
+            ("max_bounces", self.max_bounces.as_ref().map(|b| &b.place)),
+            ("caustics", self.caustics.as_ref().map(|c| &c.place)),
+            ("tail_sharing_px", self.tail_sharing_px.as_ref().map(|t| &t.place)),
+        ];
+        keys.into_iter().filter_map(|(key, place)| Some((key, place?)))
+    }
+
+    /// Whether what stands at `place` is a key that only paths need.
     fn states(&self, place: &Place) -> bool {
-        let bounces = self.max_bounces.as_ref().is_some_and(|b| b.place == *place);
-        bounces || self.caustics.as_ref().is_some_and(|c| c.place == *place)
+        self.of_paths().any(|(_, stated)| stated == place)
     }
 
     /// What this record says, and `base` where it is silent.
@@ -112,6 +126,7 @@ impl Render {
             level: a.level.or(b.level),
             max_bounces: a.max_bounces.or(b.max_bounces),
             caustics: a.caustics.or(b.caustics),
+            tail_sharing_px: a.tail_sharing_px.or(b.tail_sharing_px),
             wavelengths_per_path: a.wavelengths_per_path.or(b.wavelengths_per_path),
             route: a.route.or(b.route),
             band_width_nm: a.band_width_nm.or(b.band_width_nm),
@@ -138,9 +153,7 @@ fn check(render: &Render, faults: &mut Faults) {
 pub(crate) fn check_levels<'r>(cameras: impl Iterator<Item = &'r Render> + Clone, faults: &mut Faults) {
     let traces = |render: &Render| render.level.as_ref().is_none_or(|l| l.value == Level::Path);
     for render in cameras.clone().filter(|r| !traces(r)) {
-        let bounces = render.max_bounces.as_ref().map(|b| ("max_bounces", &b.place));
-        let caustics = render.caustics.as_ref().map(|c| ("caustics", &c.place));
-        for (key, place) in bounces.into_iter().chain(caustics) {
+        for (key, place) in render.of_paths() {
             if !cameras.clone().any(|r| traces(r) && r.states(place)) {
                 let problem = format!("\"{key}\" has no effect here, it belongs to level = \"path\"");
                 faults.add(place, problem, "remove it, or change the level");

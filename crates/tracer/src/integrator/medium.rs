@@ -21,6 +21,11 @@ impl<'a> Medium<'a> {
         Self { absorption: absorption.filter(|_| front) }
     }
 
+    /// Whether nothing absorbs.
+    pub(super) fn is_clear(self) -> bool {
+        self.absorption.is_none()
+    }
+
     /// What is left of `light` after `distance_m`.
     pub(super) fn attenuate<const N: usize>(
         self,

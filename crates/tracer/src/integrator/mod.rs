@@ -18,6 +18,7 @@ mod medium;
 mod mis;
 mod path;
 mod shadow;
+mod shared;
 
 #[cfg(test)]
 mod tests;
@@ -26,7 +27,7 @@ pub use level::Level;
 pub use mis::Strategies;
 
 use etendue_core::random::PathStream;
-use etendue_core::{RadianceField, Ray, Spectral, Wavelengths};
+use etendue_core::{FieldRay, RadianceField, Ray, Spectral, Wavelengths};
 
 use crate::lights::Lights;
 use crate::materials::Palette;
@@ -42,6 +43,8 @@ pub struct PathSettings {
     pub max_bounces: u32,
     /// Scattering events after which paths may end at random.
     pub roulette_start: u32,
+    /// Samples of a replicate: paths that share their tails take turns over them.
+    pub samples: u32,
     /// Full angle of the cone that a camera ray stands for, rad: that of a pixel over the root of its samples. Chooses the
     /// resolution of textures.
     pub cone_spread_rad: f32,
@@ -58,6 +61,7 @@ impl Default for PathSettings {
             level: Level::Path,
             max_bounces: 16,
             roulette_start: 4,
+            samples: 1,
             cone_spread_rad: 0.0,
             strategies: Strategies::Both,
             caustics: true,
@@ -106,5 +110,13 @@ impl<'a> PathTracer<'a> {
 impl<const N: usize> RadianceField<N> for PathTracer<'_> {
     fn radiance(&self, ray: &Ray, wavelengths: &Wavelengths<N>, stream: &PathStream) -> Spectral<N> {
         Path::new(self, ray, wavelengths, stream).follow()
+    }
+
+    fn radiance_of_group(&self, rays: &[FieldRay], wavelengths: &Wavelengths<N>, radiance: &mut Vec<Spectral<N>>) {
+        if rays.len() > 1 && self.shares() {
+            self.radiance_shared(rays, wavelengths, radiance);
+        } else {
+            radiance.extend(rays.iter().map(|FieldRay { ray, stream }| self.radiance(ray, wavelengths, stream)));
+        }
     }
 }

@@ -22,6 +22,7 @@ use crate::textures::Lookup;
 pub(super) const MOST_MET: u32 = 8192;
 
 /// A path on its way.
+#[derive(Clone)]
 pub(super) struct Path<'a, const N: usize> {
     pub(super) tracer: &'a PathTracer<'a>,
     pub(super) wavelengths: &'a Wavelengths<N>,
@@ -29,33 +30,46 @@ pub(super) struct Path<'a, const N: usize> {
     ray: Ray,
     pub(super) cone: Cone,
     /// Scattering events so far.
-    bounces: u32,
+    pub(super) bounces: u32,
     /// Surfaces met so far, with those that were passed: the vertex's number for random draws.
-    met: u32,
+    pub(super) met: u32,
     /// Way since the last scattering, m: longer than the ray's where it has passed surfaces.
-    travelled_m: f32,
+    pub(super) travelled_m: f32,
     /// Density of the ray's direction, 1/sr; `None` where it came from the camera or a mirror.
-    scattered: Option<f32>,
+    pub(super) scattered: Option<f32>,
     /// Where the ray was last scattered; `None` where it came from the camera or a mirror.
     receiver: Option<Receiver>,
-    medium: Medium<'a>,
+    pub(super) medium: Medium<'a>,
     history: History,
+    /// What the path carried when its throughput was last set to one: roulette looks at the product.
+    pub(super) prior: f32,
     /// What radiance along the ray counts at the camera.
-    throughput: Spectral<N>,
-    radiance: Spectral<N>,
+    pub(super) throughput: Spectral<N>,
+    pub(super) radiance: Spectral<N>,
 }
 
 /// A surface that the path has met.
+#[derive(Clone, Copy)]
 pub(super) struct Vertex<'a, const N: usize> {
     pub(super) point: SurfacePoint,
     pub(super) frame: ShadingFrame,
-    bsdf: Bsdf<'a, N>,
+    pub(super) bsdf: Bsdf<'a, N>,
     /// Of mixes the part that was drawn.
     material: MaterialId,
 }
 
+/// What a path meets.
+pub(super) enum Meeting {
+    /// Nothing: infinity.
+    Nothing,
+    /// A surface that is not there for this path.
+    Passed,
+    /// A surface, and where its textures are read.
+    Surface(SurfacePoint, Lookup),
+}
+
 /// How a path goes on.
-enum Onward {
+pub(super) enum Onward {
     /// To another surface.
     Goes,
     /// Not at all.
@@ -82,6 +96,7 @@ impl<'a, const N: usize> Path<'a, N> {
             receiver: None,
             medium: Medium::default(),
             history: History::default(),
+            prior: 1.0,
             throughput: Spectral::ONE,
             radiance: Spectral::ZERO,
         }
@@ -95,11 +110,42 @@ impl<'a, const N: usize> Path<'a, N> {
         self.radiance
     }
 
-    /// To the next surface, or to infinity.
+    /// The light that a surface, which the path has just met, scatters against it: what the rest of the path gathers.
+    /// Roulette goes on as if the path were not cut.
+    pub(super) fn tail(mut self, vertex: &Vertex<'a, N>) -> Spectral<N> {
+        self.prior *= self.throughput.max_value();
+        self.throughput = Spectral::ONE;
+        self.radiance = Spectral::ZERO;
+        match self.scatter(vertex) {
+            Onward::Ends => self.radiance,
+            Onward::Goes => {
+                self.met += 1;
+                self.follow()
+            }
+        }
+    }
+
+    /// To the next surface and on from it, or to infinity.
     fn step(&mut self) -> Onward {
+        match self.meet() {
+            Meeting::Nothing => Onward::Ends,
+            Meeting::Passed => Onward::Goes,
+            Meeting::Surface(point, lookup) if self.is_spent() => self.only_pass(point, &lookup),
+            Meeting::Surface(point, lookup) => self.scatter(&self.vertex(point, &lookup)),
+        }
+    }
+
+    /// Whether the path has scattered as often as it may.
+    pub(super) fn is_spent(&self) -> bool {
+        self.bounces == self.tracer.max_bounces()
+    }
+
+    /// To the next surface, whose glow is gathered, or to infinity.
+    #[inline(always)]
+    pub(super) fn meet(&mut self) -> Meeting {
         let Some(hit) = self.tracer.view.closest(&self.ray) else {
             self.gather_distant();
-            return Onward::Ends;
+            return Meeting::Nothing;
         };
         let point = self.tracer.view.surface(&self.ray, &hit);
         self.cone.travel(hit.t);
@@ -109,13 +155,9 @@ impl<'a, const N: usize> Path<'a, N> {
         self.gather_glow(&point, &lookup);
         if self.is_passed(&point, &lookup) {
             self.pass(&point);
-            return Onward::Goes;
+            return Meeting::Passed;
         }
-        if self.bounces == self.tracer.max_bounces() {
-            self.only_pass(point, &lookup)
-        } else {
-            self.scatter(point, &lookup)
-        }
+        Meeting::Surface(point, lookup)
     }
 
     /// Where textures are read at a point that a ray of unit `direction` has met whose cone is `cone` there.
@@ -175,7 +217,7 @@ impl<'a, const N: usize> Path<'a, N> {
     }
 
     /// Beyond the last scattering event light may still come straight through.
-    fn only_pass(&mut self, point: SurfacePoint, lookup: &Lookup) -> Onward {
+    pub(super) fn only_pass(&mut self, point: SurfacePoint, lookup: &Lookup) -> Onward {
         if !self.tracer.palette.lets_pass(point.material) {
             return Onward::Ends;
         }
@@ -188,24 +230,23 @@ impl<'a, const N: usize> Path<'a, N> {
 
     /// Gathers drawn light at a surface and goes on from it.
     #[inline(always)]
-    fn scatter(&mut self, point: SurfacePoint, lookup: &Lookup) -> Onward {
-        let vertex = self.vertex(point, lookup);
+    pub(super) fn scatter(&mut self, vertex: &Vertex<'a, N>) -> Onward {
         if matches!(vertex.bsdf, Bsdf::Absorber) {
             return Onward::Ends;
         }
         // Light from behind counts where the surface lets it through.
         let normal = if vertex.bsdf.transmits() { Vec3::ZERO } else { vertex.frame.normal() };
         let receiver = Receiver { position: vertex.point.position, normal };
-        self.gather_drawn(&vertex, &receiver);
-        match self.sample(&vertex) {
+        self.gather_drawn(vertex, &receiver);
+        match self.sample(vertex) {
             None => Onward::Ends,
-            Some(sample) if sample.event == Event::Pass => self.go_through(&vertex, &sample),
-            Some(sample) => self.go_on(&vertex, &sample, receiver),
+            Some(sample) if sample.event == Event::Pass => self.go_through(vertex, &sample),
+            Some(sample) => self.go_on(vertex, &sample, receiver),
         }
     }
 
     #[inline(always)]
-    fn vertex(&self, point: SurfacePoint, lookup: &Lookup) -> Vertex<'a, N> {
+    pub(super) fn vertex(&self, point: SurfacePoint, lookup: &Lookup) -> Vertex<'a, N> {
         let palette = self.tracer.palette;
         let material = if palette.is_mix(point.material) {
             palette.resolve(point.material, lookup, self.stream.one(Draw::Mix, self.met))
@@ -257,6 +298,11 @@ impl<'a, const N: usize> Path<'a, N> {
     /// Whether light of a lamp counts, given whether it is part of a caustic.
     fn follows(&self, is_caustic: bool) -> bool {
         self.tracer.settings.caustics || !is_caustic
+    }
+
+    /// Unit direction of the ray.
+    pub(super) fn direction(&self) -> Vec3 {
+        self.ray.direction
     }
 
     /// The time at which the path looks at the scene.
@@ -315,7 +361,7 @@ impl<'a, const N: usize> Path<'a, N> {
         if self.bounces < self.tracer.settings.roulette_start {
             return true;
         }
-        let chance = self.throughput.max_value();
+        let chance = self.prior * self.throughput.max_value();
         if chance >= 1.0 || !chance.is_finite() {
             return true;
         }

@@ -44,6 +44,12 @@ impl ShadingFrame {
         self.basis.z
     }
 
+    /// Cosine of a unit direction (render frame) to the normal of the true surface on the viewer's side.
+    #[must_use]
+    pub fn true_cos(&self, direction: Vec3) -> f32 {
+        self.geometric_normal.dot(direction)
+    }
+
     /// A unit direction of the render frame, in the shading frame: z > 0 on the viewer's side, z < 0 behind the
     /// surface. `None` where true surface and shading frame disagree on its side.
     #[must_use]

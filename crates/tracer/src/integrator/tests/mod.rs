@@ -8,6 +8,7 @@ mod closed_forms;
 mod lamps;
 mod levels;
 mod passages;
+mod sharing;
 mod sides;
 
 use super::*;
