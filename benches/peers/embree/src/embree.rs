@@ -4,6 +4,7 @@
 //! (rtcore_ray.h, rtcore_geometry.h, rtcore_buffer.h, rtcore_scene.h).
 
 use core::ffi::{c_char, c_int, c_uint, c_void};
+use core::mem::ManuallyDrop;
 use core::ptr::null;
 use etendue_core::Ray;
 use etendue_tracer::geometry::Mesh;
@@ -72,7 +73,8 @@ pub struct Embree {
     device: Handle,
     intersect: Query,
     occluded: Query,
-    library: Library,
+    /// Never closed: threads of its own may outlive the device.
+    library: ManuallyDrop<Library>,
 }
 
 /// A built scene of one mesh, whose buffers it borrows.
@@ -92,7 +94,7 @@ impl Embree {
             let device = new_device(c"threads=1,set_affinity=0".as_ptr());
             let (intersect, occluded) =
                 (*library.get::<Query>(b"rtcIntersect1")?, *library.get::<Query>(b"rtcOccluded1")?);
-            Ok(Self { device, intersect, occluded, library })
+            Ok(Self { device, intersect, occluded, library: ManuallyDrop::new(library) })
         }
     }
 

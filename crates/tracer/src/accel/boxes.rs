@@ -19,14 +19,21 @@ impl Box3 {
 
     /// By how much a primitive's box is enlarged on all sides so that no rounding of a box test loses a hit that the
     /// primitive's own test grants: 6e-7 · (greatest coordinate + greatest extent), some ten roundings.
-    pub(crate) fn padding(&self) -> f32 {
-        let coordinate = self.low.abs().max(self.high.abs()).max_element();
-        6e-7 * (coordinate + (self.high - self.low).max_element())
+    pub(crate) fn padding(&self) -> Vec3 {
+        Vec3::splat(self.padding_by_axis().max_element())
+    }
+
+    /// As [`Box3::padding`], where both tests are of the same ray: along each axis by 6e-7 · (its greatest coordinate +
+    /// the greatest extent of all), for the rounding of a sheared corner is that of its own coordinate and of the
+    /// primitive's length along the ray.
+    pub(crate) fn padding_by_axis(&self) -> Vec3 {
+        let extent = (self.high - self.low).max_element();
+        6e-7 * (self.low.abs().max(self.high.abs()) + Vec3::splat(extent))
     }
 
     /// The box enlarged on all sides.
-    pub(crate) fn grown(&self, by: f32) -> Self {
-        Self { low: self.low - Vec3::splat(by), high: self.high + Vec3::splat(by) }
+    pub(crate) fn grown(&self, by: Vec3) -> Self {
+        Self { low: self.low - by, high: self.high + by }
     }
 
     /// The middle.

@@ -35,7 +35,7 @@ pub(super) enum BinaryKind {
 pub(super) fn over_triangles(triangles: &[[Vec3; 3]]) -> Vec<BinaryNode> {
     let triangles: Vec<_> = triangles.iter().map(|t| triangle(*t)).collect();
     let mut boxes: Vec<_> = triangles.iter().map(Triangle::aabb).collect();
-    let paddings: Vec<_> = boxes.iter().map(|b| own(b).padding()).collect();
+    let paddings: Vec<_> = boxes.iter().map(|b| own(b).padding_by_axis()).collect();
     let mut indices: Vec<_> = (0..triangles.len() as u32).collect();
     split(&triangles, &mut boxes, &mut indices);
     for (bounds, triangle) in boxes.iter_mut().zip(&indices) {

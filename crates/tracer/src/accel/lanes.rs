@@ -14,6 +14,24 @@ pub(crate) struct Eight(pub(crate) [f32; 8]);
 #[repr(C, align(16))]
 pub(crate) struct Four(pub(crate) [f32; 4]);
 
+/// Where one of six times eight numbers stands, as the processor counts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OfSix(usize);
+
+impl OfSix {
+    /// The place of a number below six.
+    #[inline(always)]
+    pub(crate) fn new(index: usize) -> Self {
+        Self(index.min(5) * size_of::<Eight>())
+    }
+
+    /// From the first of the six, bytes: less than six times the size of [`Eight`], of which it is a multiple.
+    #[inline(always)]
+    pub(crate) fn bytes(self) -> usize {
+        self.0
+    }
+}
+
 /// A way to compute with eight numbers at once. Every way gives the same bits.
 pub(crate) trait Lanes: Copy {
     /// Eight numbers.
@@ -21,8 +39,8 @@ pub(crate) trait Lanes: Copy {
     /// Eight truths.
     type M: Copy;
 
-    /// Eight numbers from memory.
-    fn load(self, from: &Eight) -> Self::V;
+    /// Eight numbers of six times as many.
+    fn load_of(self, six: &[Eight; 6], at: OfSix) -> Self::V;
     /// Four numbers from memory and four from elsewhere.
     fn load_halves(self, low: &Four, high: &Four) -> Self::V;
     /// Eight numbers to memory.
@@ -55,8 +73,6 @@ pub(crate) trait Lanes: Copy {
     fn or(self, a: Self::M, b: Self::M) -> Self::M;
     /// Lane i in bit i.
     fn bits(self, m: Self::M) -> u32;
-    /// Asks the memory for four cache lines from an address on, which may be any.
-    fn prefetch(self, at: *const u8);
     /// Runs a task, compiled for these lanes.
     fn run<J: Job>(self, job: J) -> J::Output;
 }
@@ -83,8 +99,8 @@ impl Lanes for Plain {
     type M = [bool; 8];
 
     #[inline(always)]
-    fn load(self, from: &Eight) -> Eight {
-        *from
+    fn load_of(self, six: &[Eight; 6], at: OfSix) -> Eight {
+        six[at.bytes() / size_of::<Eight>()]
     }
     #[inline(always)]
     fn load_halves(self, low: &Four, high: &Four) -> Eight {
@@ -150,8 +166,6 @@ impl Lanes for Plain {
     fn bits(self, m: [bool; 8]) -> u32 {
         m.iter().enumerate().fold(0, |bits, (i, set)| bits | u32::from(*set) << i)
     }
-    #[inline(always)]
-    fn prefetch(self, _at: *const u8) {}
     #[inline(always)]
     fn run<J: Job>(self, job: J) -> J::Output {
         job.work(self)

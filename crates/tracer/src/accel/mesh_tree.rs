@@ -75,8 +75,8 @@ impl Job for Closest<'_> {
     fn work<L: Lanes>(self, l: L) {
         let Self { tree, ray, instance, best, limit } = self;
         let Some(root) = tree.root else { return };
-        let mut leaves = ClosestLeaf { l, tree, ray, spread: RayLanes::new(l, ray), instance, best };
-        walk::<L, true>(l, &tree.nodes, root, &SlabRay::new(ray.origin, ray.direction), limit, &mut leaves);
+        let mut leaves = ClosestLeaf { l, tree, ray, instance, best };
+        walk::<L, true>(l, &tree.nodes, root, &SlabRay::with_inverse(ray.origin, ray.inverse), limit, &mut leaves);
     }
 }
 
@@ -93,8 +93,15 @@ impl Job for Occluded<'_> {
     fn work<L: Lanes>(self, l: L) -> bool {
         let Self { tree, ray, t_max } = self;
         let Some(root) = tree.root else { return false };
-        let mut leaves = AnyLeaf { l, tree, ray, spread: RayLanes::new(l, ray) };
-        walk::<L, false>(l, &tree.nodes, root, &SlabRay::new(ray.origin, ray.direction), &mut { t_max }, &mut leaves)
+        let mut leaves = AnyLeaf { l, tree, ray };
+        walk::<L, false>(
+            l,
+            &tree.nodes,
+            root,
+            &SlabRay::with_inverse(ray.origin, ray.inverse),
+            &mut { t_max },
+            &mut leaves,
+        )
     }
 }
 
@@ -102,7 +109,6 @@ struct ClosestLeaf<'a, L: Lanes> {
     l: L,
     tree: &'a MeshTree,
     ray: &'a LocalRay,
-    spread: RayLanes<L>,
     instance: u32,
     best: &'a mut Best,
 }
@@ -110,17 +116,13 @@ struct ClosestLeaf<'a, L: Lanes> {
 impl<L: Lanes> Leaves for ClosestLeaf<'_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
-        if let Some(meeting) = self.tree.packet(leaf).meet(self.l, &self.spread, self.ray, *limit) {
+        let spread = RayLanes::new(self.l, self.ray);
+        if let Some(meeting) = self.tree.packet(leaf).meet(self.l, &spread, self.ray, *limit) {
             for hit in meeting {
                 self.best.offer(self.instance, hit, limit);
             }
         }
         false
-    }
-
-    #[inline(always)]
-    fn place(&self, leaf: usize) -> *const u8 {
-        self.tree.halves.as_ptr().wrapping_add(leaf / 2).cast()
     }
 }
 
@@ -128,17 +130,12 @@ struct AnyLeaf<'a, L: Lanes> {
     l: L,
     tree: &'a MeshTree,
     ray: &'a LocalRay,
-    spread: RayLanes<L>,
 }
 
 impl<L: Lanes> Leaves for AnyLeaf<'_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
-        self.tree.packet(leaf).blocks(self.l, &self.spread, self.ray, *limit)
-    }
-
-    #[inline(always)]
-    fn place(&self, leaf: usize) -> *const u8 {
-        self.tree.halves.as_ptr().wrapping_add(leaf / 2).cast()
+        let spread = RayLanes::new(self.l, self.ray);
+        self.tree.packet(leaf).blocks(self.l, &spread, self.ray, *limit)
     }
 }

@@ -46,22 +46,22 @@ impl Child {
 #[repr(C, align(64))]
 pub(super) struct Node {
     /// For each axis, the boxes' least coordinates, then their greatest.
-    pub(super) planes: [[Eight; 2]; 3],
+    pub(super) planes: [Eight; 6],
     pub(super) children: [Child; 8],
 }
 
 impl Node {
     /// A node without children.
     pub(super) const EMPTY: Self = {
-        let nowhere = [Eight([f32::INFINITY; 8]), Eight([f32::NEG_INFINITY; 8])];
-        Self { planes: [nowhere; 3], children: [Child(LEAF); 8] }
+        let [low, high] = [Eight([f32::INFINITY; 8]), Eight([f32::NEG_INFINITY; 8])];
+        Self { planes: [low, high, low, high, low, high], children: [Child(LEAF); 8] }
     };
 
     /// Hangs a child into a slot.
     pub(super) fn set(&mut self, slot: usize, bounds: &Box3, child: Child) {
         for axis in 0..3 {
-            self.planes[axis][0].0[slot] = bounds.low[axis];
-            self.planes[axis][1].0[slot] = bounds.high[axis];
+            self.planes[2 * axis].0[slot] = bounds.low[axis];
+            self.planes[2 * axis + 1].0[slot] = bounds.high[axis];
         }
         self.children[slot] = child;
     }

@@ -83,13 +83,13 @@ pub(super) struct RayLanes<L: Lanes> {
 impl<L: Lanes> RayLanes<L> {
     #[inline(always)]
     pub(super) fn new(l: L, ray: &LocalRay) -> Self {
-        let (origin, [x, y, z]) = (ray.origin.to_array(), ray.axes);
+        let [x, y, z] = ray.start;
         Self {
-            origin: [l.splat(origin[x]), l.splat(origin[y]), l.splat(origin[z])],
+            origin: [l.splat(x), l.splat(y), l.splat(z)],
             shear: [l.splat(ray.shear[0]), l.splat(ray.shear[1])],
             scale: l.splat(ray.scale),
             // What the compiler sees here spares it to look at every use.
-            axes: ray.axes.map(|axis| axis.min(2)),
+            axes: ray.axes().map(|axis| axis.min(2)),
         }
     }
 }
@@ -308,7 +308,7 @@ fn exact(corners: [Vec3; 3], ray: &LocalRay, limit: f32) -> Option<(f32, f32, f3
 
 fn sheared(p: Vec3, ray: &LocalRay) -> DVec3 {
     let relative = p - ray.origin;
-    let [x, y, z] = ray.axes.map(|axis| relative[axis]);
+    let [x, y, z] = ray.axes().map(|axis| relative[axis]);
     Vec3::new(x - ray.shear[0] * z, y - ray.shear[1] * z, z).as_dvec3()
 }
 

@@ -1,6 +1,6 @@
 //! A ray as boxes and triangles want it.
 
-use super::lanes::{Eight, Lanes};
+use super::lanes::{Eight, Lanes, OfSix};
 use super::node::Node;
 use glam::Vec3;
 
@@ -18,24 +18,23 @@ const ENTRY_SHRINK: f32 = 1.0 - 1e-6;
 pub(super) struct SlabRay {
     origin: [f32; 3],
     inverse: [f32; 3],
-    /// For each axis, which planes the ray meets first: 0 the least ones, 1 the greatest.
-    near: [usize; 3],
+    /// For each axis, whether the ray meets the greatest planes first.
+    is_backward: [bool; 3],
 }
 
 impl SlabRay {
     #[inline(always)]
     pub(super) fn new(origin: Vec3, direction: Vec3) -> Self {
-        let inverse = [inverse(direction.x), inverse(direction.y), inverse(direction.z)];
-        let near = [usize::from(inverse[0] < 0.0), usize::from(inverse[1] < 0.0), usize::from(inverse[2] < 0.0)];
-        Self { origin: origin.to_array(), inverse, near }
+        Self::with_inverse(origin, direction.recip())
     }
-}
 
-/// Reciprocal of a direction's component, finite. −0 counts as +0.
-#[inline(always)]
-fn inverse(d: f32) -> f32 {
-    let d = d + 0.0;
-    if d.abs() < LEAST_COMPONENT { (1.0 / LEAST_COMPONENT).copysign(d) } else { 1.0 / d }
+    /// Of an origin and the reciprocals of a direction's components; those of zeros, of either sign, become finite.
+    #[inline(always)]
+    pub(super) fn with_inverse(origin: Vec3, inverse: Vec3) -> Self {
+        const MOST: f32 = 1.0 / LEAST_COMPONENT;
+        let inverse = inverse.to_array().map(|i| i.clamp(-MOST, MOST));
+        Self { origin: origin.to_array(), inverse, is_backward: inverse.map(|i| i < 0.0) }
+    }
 }
 
 /// A slab ray spread over lanes. Where it meets a plane is found as plane · inverse − origin · inverse.
@@ -47,7 +46,9 @@ pub(super) struct SlabLanes<L: Lanes> {
     /// The same, shrunk, for entries.
     entry_inverse: [L::V; 3],
     entry_start: [L::V; 3],
-    near: [usize; 3],
+    /// Which of a node's planes the ray meets first and last, by axis.
+    first: [OfSix; 3],
+    last: [OfSix; 3],
 }
 
 impl<L: Lanes> SlabLanes<L> {
@@ -60,33 +61,39 @@ impl<L: Lanes> SlabLanes<L> {
             start: splat(l, [ox * x, oy * y, oz * z]),
             entry_inverse: splat(l, [ex, ey, ez]),
             entry_start: splat(l, [ox * ex, oy * ey, oz * ez]),
-            near: ray.near,
+            first: planes(ray, false),
+            last: planes(ray, true),
         }
     }
 
-    /// Which of a node's boxes the ray enters at or before `limit`, and where.
+    /// Which of a node's boxes the ray enters at or before `limits` or a little after, and where.
     #[inline(always)]
-    pub(super) fn enter(&self, l: L, node: &Node, limit: f32) -> (u32, Eight) {
+    pub(super) fn enter(&self, l: L, node: &Node, limits: L::V) -> (u32, Eight) {
         let [nx, ny, nz] = [self.entry(l, node, 0), self.entry(l, node, 1), self.entry(l, node, 2)];
         let [fx, fy, fz] = [self.exit(l, node, 0), self.exit(l, node, 1), self.exit(l, node, 2)];
         let near = l.max(l.max(nx, ny), l.max(nz, l.splat(0.0)));
-        let far = l.min(l.min(fx, fy), l.min(fz, l.splat(limit)));
+        let far = l.min(l.min(fx, fy), l.min(fz, limits));
         (l.bits(l.le(near, far)), l.store(near))
     }
 
     /// Where the ray meets the first planes of an axis, or a little before.
     #[inline(always)]
     fn entry(&self, l: L, node: &Node, axis: usize) -> L::V {
-        let planes = l.load(&node.planes[axis][self.near[axis] & 1]);
-        l.mul_sub(planes, self.entry_inverse[axis], self.entry_start[axis])
+        l.mul_sub(l.load_of(&node.planes, self.first[axis]), self.entry_inverse[axis], self.entry_start[axis])
     }
 
     /// Where the ray meets the last planes of an axis.
     #[inline(always)]
     fn exit(&self, l: L, node: &Node, axis: usize) -> L::V {
-        let planes = l.load(&node.planes[axis][(self.near[axis] ^ 1) & 1]);
-        l.mul_sub(planes, self.inverse[axis], self.start[axis])
+        l.mul_sub(l.load_of(&node.planes, self.last[axis]), self.inverse[axis], self.start[axis])
     }
+}
+
+/// The planes that the ray meets first, or last.
+#[inline(always)]
+fn planes(ray: &SlabRay, is_last: bool) -> [OfSix; 3] {
+    let [x, y, z] = ray.is_backward.map(|is_backward| usize::from(is_backward != is_last));
+    [OfSix::new(x), OfSix::new(2 + y), OfSix::new(4 + z)]
 }
 
 /// Each of three numbers in all lanes.

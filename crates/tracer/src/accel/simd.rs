@@ -3,7 +3,7 @@
 
 #![allow(unsafe_code, reason = "vector instructions that are chosen at run time")]
 
-use super::lanes::{Eight, Four, Job, Lanes};
+use super::lanes::{Eight, Four, Job, Lanes, OfSix};
 use core::arch::x86_64::*;
 
 /// Proof that this machine has AVX2, and what came with it: fused multiplication and instructions for single bits.
@@ -22,15 +22,15 @@ impl Avx2 {
 }
 
 // SAFETY, for every block below: an `Avx2` exists only where AVX2 was detected. Loads and stores go through references
-// to eight or four floats, which their types align. A prefetch may be given any address.
+// to eight or four floats, which their types align.
 impl Lanes for Avx2 {
     type V = __m256;
     type M = __m256;
 
     #[inline(always)]
-    fn load(self, from: &Eight) -> __m256 {
-        // SAFETY: see above.
-        unsafe { _mm256_load_ps(from.0.as_ptr()) }
+    fn load_of(self, six: &[Eight; 6], at: OfSix) -> __m256 {
+        // SAFETY: see above; an `OfSix` stays within the six and is a multiple of the size of one.
+        unsafe { _mm256_load_ps(six.as_ptr().byte_add(at.bytes()).cast()) }
     }
     #[inline(always)]
     fn load_halves(self, low: &Four, high: &Four) -> __m256 {
@@ -113,13 +113,6 @@ impl Lanes for Avx2 {
     fn bits(self, m: __m256) -> u32 {
         // SAFETY: see above.
         unsafe { _mm256_movemask_ps(m) as u32 }
-    }
-    #[inline(always)]
-    fn prefetch(self, at: *const u8) {
-        for line in 0..4 {
-            // SAFETY: see above.
-            unsafe { _mm_prefetch::<_MM_HINT_T0>(at.cast::<i8>().wrapping_add(64 * line)) };
-        }
     }
     #[inline(always)]
     fn run<J: Job>(self, job: J) -> J::Output {

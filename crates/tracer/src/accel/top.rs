@@ -108,7 +108,9 @@ impl<'w> Target<'w> {
 /// A ray that is nothing or nowhere meets nothing.
 #[inline(always)]
 fn is_traceable(ray: &Ray) -> bool {
-    ray.origin.is_finite() && ray.direction.is_finite() && ray.direction != Vec3::ZERO
+    let length = |v: Vec3| v.x.abs() + v.y.abs() + v.z.abs();
+    let along = length(ray.direction);
+    along > 0.0 && along + length(ray.origin) < f32::INFINITY
 }
 
 struct Closest<'a, 'w> {
@@ -145,23 +147,20 @@ impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
         let instance = self.top.leaves[leaf];
-        let (origin, direction) = self.top.placed[instance as usize].ray_to_local(self.ray);
+        let placed = &self.top.placed[instance as usize];
         match self.top.targets[instance as usize] {
             Target::Mesh(tree) => {
+                let (origin, direction) = placed.rounded_ray_to_local(self.ray);
                 tree.closest(self.l, &LocalRay::new(origin, direction), instance, &mut self.best, limit);
             }
             Target::Sphere(radius) => {
+                let (origin, direction) = placed.ray_to_local(self.ray);
                 if let Some(hit) = meet_sphere(radius, origin, direction) {
                     self.best.offer(instance, hit, limit);
                 }
             }
         }
         false
-    }
-
-    #[inline(always)]
-    fn place(&self, leaf: usize) -> *const u8 {
-        self.top.leaves.as_ptr().wrapping_add(leaf).cast()
     }
 }
 
@@ -196,18 +195,17 @@ impl<L: Lanes> Leaves for AnyLeaf<'_, '_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
         let instance = self.top.leaves[leaf] as usize;
-        let (origin, direction) = self.top.placed[instance].ray_to_local(self.ray);
+        let placed = &self.top.placed[instance];
         match self.top.targets[instance] {
-            Target::Mesh(tree) => tree.occluded(self.l, &LocalRay::new(origin, direction), *limit),
+            Target::Mesh(tree) => {
+                let (origin, direction) = placed.rounded_ray_to_local(self.ray);
+                tree.occluded(self.l, &LocalRay::new(origin, direction), *limit)
+            }
             Target::Sphere(radius) => {
+                let (origin, direction) = placed.ray_to_local(self.ray);
                 meet_sphere(radius, origin, direction).is_some_and(|hit| hit.t > 0.0 && hit.t < *limit)
             }
         }
-    }
-
-    #[inline(always)]
-    fn place(&self, leaf: usize) -> *const u8 {
-        self.top.leaves.as_ptr().wrapping_add(leaf).cast()
     }
 }
 

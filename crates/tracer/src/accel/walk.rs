@@ -10,9 +10,6 @@ pub(super) trait Leaves {
     /// Visits a leaf; may lower the limit. Whether to stop. To be marked `#[inline(always)]`, like all that it calls,
     /// so that it is compiled with the lanes' instructions (closures would not be).
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool;
-
-    /// Where in memory a leaf begins, for asking it ahead.
-    fn place(&self, leaf: usize) -> *const u8;
 }
 
 /// Visits the leaves that a ray enters at or before `limit`, until a leaf says stop. With
@@ -29,11 +26,15 @@ pub(super) fn walk<L: Lanes, const SORTED: bool>(
     let ray = SlabLanes::new(l, ray);
     let mut pending = Pending::default();
     let mut current = root;
+    let mut limits = l.splat(*limit);
     loop {
         let next = match current.as_node() {
-            Some(index) => descend::<L, SORTED>(l, nodes, index, &ray, *limit, &mut pending, leaves),
+            Some(index) => descend::<L, SORTED>(l, &nodes[index], &ray, limits, &mut pending),
             None if leaves.visit(current.leaf_index(), limit) => return true,
-            None => None,
+            None => {
+                limits = l.splat(*limit);
+                None
+            }
         };
         current = match next.or_else(|| pending.pop(*limit)) {
             Some(child) => child,
@@ -46,15 +47,12 @@ pub(super) fn walk<L: Lanes, const SORTED: bool>(
 #[inline(always)]
 fn descend<L: Lanes, const SORTED: bool>(
     l: L,
-    nodes: &[Node],
-    index: usize,
+    node: &Node,
     ray: &SlabLanes<L>,
-    limit: f32,
+    limits: L::V,
     pending: &mut Pending,
-    leaves: &impl Leaves,
 ) -> Option<Child> {
-    let node = &nodes[index];
-    let (mut lanes, near) = ray.enter(l, node, limit);
+    let (mut lanes, near) = ray.enter(l, node, limits);
     if lanes == 0 {
         return None;
     }
@@ -64,7 +62,7 @@ fn descend<L: Lanes, const SORTED: bool>(
     }
     pending.reserve();
     let others = Others { node, lanes, near };
-    let best = if SORTED { others.nearest(l, nodes, leaves, first, pending) } else { others.last(first, pending) };
+    let best = if SORTED { others.nearest(first, pending) } else { others.last(first, pending) };
     Some(Child::from_word(best as u32))
 }
 
@@ -78,18 +76,10 @@ struct Others<'a> {
 impl Others<'_> {
     /// The nearest, `first` included; the others are left pending, the nearer to be taken earlier.
     #[inline(always)]
-    fn nearest<L: Lanes>(
-        mut self,
-        l: L,
-        nodes: &[Node],
-        leaves: &impl Leaves,
-        first: u64,
-        pending: &mut Pending,
-    ) -> u64 {
+    fn nearest(mut self, first: u64, pending: &mut Pending) -> u64 {
         let (mut best, mut count) = (first, 0);
         while self.lanes != 0 {
             let other = take::<true>(self.node, &mut self.lanes, &self.near);
-            ask(l, nodes, leaves, best.max(other));
             pending.push(best.max(other));
             best = best.min(other);
             count += 1;
@@ -118,13 +108,4 @@ fn take<const SORTED: bool>(node: &Node, lanes: &mut u32, near: &Eight) -> u64 {
     let lane = lanes.trailing_zeros() as usize & 7;
     *lanes &= *lanes - 1;
     entry(if SORTED { near.0[lane] } else { 0.0 }, node.children[lane])
-}
-
-/// Asks the memory for what an entry names.
-#[inline(always)]
-fn ask<L: Lanes>(l: L, nodes: &[Node], leaves: &impl Leaves, entry: u64) {
-    let child = Child::from_word(entry as u32);
-    let node = nodes.as_ptr().wrapping_add(child.leaf_index()).cast();
-    let leaf = leaves.place(child.leaf_index());
-    l.prefetch(if child.as_node().is_some() { node } else { leaf });
 }

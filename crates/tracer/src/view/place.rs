@@ -15,6 +15,8 @@ pub(crate) struct Placed {
     /// Whether it keeps their length.
     keeps_length: bool,
     mean_scale: f64,
+    /// Whether the instance is only moved, neither turned nor scaled.
+    is_shifted: bool,
 }
 
 impl Placed {
@@ -32,6 +34,7 @@ impl Placed {
             to_local,
             normals: (turned * scale.unwrap_or(1.0 / largest)).as_mat3(),
             keeps_length: scale.is_some(),
+            is_shifted: to_render.matrix3 == DMat3::IDENTITY,
             mean_scale: maths::f64::cbrt(to_render.matrix3.determinant().abs()),
         }
     }
@@ -55,6 +58,16 @@ impl Placed {
     #[inline]
     pub(crate) fn ray_to_local(&self, ray: &Ray) -> (DVec3, DVec3) {
         self.line_to_local(ray.origin.as_dvec3(), ray.direction.as_dvec3())
+    }
+
+    /// As [`Placed::ray_to_local`], rounded to f32; quick where the instance is only moved.
+    #[inline(always)]
+    pub(crate) fn rounded_ray_to_local(&self, ray: &Ray) -> (Vec3, Vec3) {
+        if self.is_shifted {
+            return ((ray.origin.as_dvec3() + self.to_local.translation).as_vec3(), ray.direction);
+        }
+        let (origin, direction) = self.ray_to_local(ray);
+        (origin.as_vec3(), direction.as_vec3())
     }
 
     /// As [`Placed::ray_to_local`], in f64.

@@ -44,7 +44,7 @@ fn alone(view: &View<'_>, ray: &Ray, instance: u32, primitive: u32) -> Option<Hi
         Shape::Mesh(id) => {
             let halves: Vec<_> = Half::of(&[(primitive, world.mesh(id).corners(primitive))]).collect();
             let packet = Packet::new(&halves, 0, 0);
-            let local = LocalRay::new(origin, direction);
+            let local = LocalRay::new(origin.as_vec3(), direction.as_vec3());
             let hit = packet.meet(Plain, &RayLanes::new(Plain, &local), &local, f32::INFINITY)?.next()?;
             Some(Hit { t: hit.t, instance, primitive, u: hit.u, v: hit.v })
         }
