@@ -174,11 +174,11 @@ impl Calibration {
         (raster_px - DVec2::new(self.matrix.cx, self.matrix.cy)).length()
     }
 
-    /// The fold's image, least distance from the principal point. At a fold the radius stands still: a billionth of the
-    /// angle before it, it is the fold's to 1e-18.
+    /// The fold's image, least distance from the principal point, by directions some roundings before it. There the
+    /// radius stands still (a polynomial of the angle) or the angle does (one of the radius: √1e-14 of the radius off).
     fn fold_radius_px(&self, angle_rad: f64) -> f64 {
         const DIRECTIONS: i32 = 720;
-        let (sin, cos) = sin_cos(angle_rad * (1.0 - 1e-9));
+        let (sin, cos) = sin_cos(angle_rad * (1.0 - 1e-14));
         let towards = |i: i32| (DVec2::from(sin_cos(TAU * f64::from(i) / f64::from(DIRECTIONS))) * sin).extend(cos);
         let images = (0..DIRECTIONS).filter_map(|i| Some(self.matrix.raster_px(self.model.project(towards(i))?)));
         images.map(|p| self.principal_distance(p)).fold(f64::INFINITY, f64::min)

@@ -4,6 +4,8 @@
 //! image. Only the branch from 0 to the fold exists here; beyond it every function answers `None`.
 //! r is dimensionless: its unit is the caller's ([`RadialDistortion`](crate::RadialDistortion) states it).
 
+use crate::root::increasing;
+
 /// r (1 + k₁ r² + k₂ r⁴) on [0, fold).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RadialPolynomial {
@@ -57,22 +59,7 @@ impl RadialPolynomial {
         if value.is_nan() || value >= self.fold_value() {
             return None;
         }
-        let (mut low, mut high) = (0.0, self.bracket(value));
-        let mut r = value.min(high);
-        for _ in 0..200 {
-            let error = self.value(r) - value;
-            if error > 0.0 {
-                high = r;
-            } else {
-                low = r;
-            }
-            let next = inside(r - error / self.derivative(r), low, high);
-            if (next - r).abs() <= f64::EPSILON * r {
-                return Some(next);
-            }
-            r = next;
-        }
-        Some(r)
+        increasing(value, [0.0, self.bracket(value)], value, |r| [self.value(r), self.derivative(r)])
     }
 
     fn value(&self, r: f64) -> f64 {
@@ -82,17 +69,12 @@ impl RadialPolynomial {
 
     /// An upper bound of the root of `value`.
     fn bracket(&self, value: f64) -> f64 {
-        let mut high = value;
-        while high < self.fold && self.value(high) < value {
+        let mut high = value.max(f64::MIN_POSITIVE);
+        while high < self.fold && self.value(high) <= value {
             high *= 2.0;
         }
         high.min(self.fold)
     }
-}
-
-/// Newton's proposal where it stays inside the bracket, else the bracket's middle.
-fn inside(proposal: f64, low: f64, high: f64) -> f64 {
-    if proposal >= low && proposal <= high { proposal } else { 0.5 * (low + high) }
 }
 
 /// The smallest positive root in r of 1 + 3 k₁ r² + 5 k₂ r⁴; infinite where there is none.

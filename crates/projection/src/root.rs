@@ -4,8 +4,8 @@
 const STEPS: usize = 200;
 
 /// The argument in [`low`, `high`) at which an increasing function takes the value `target`; `None` where it reaches it at
-/// the upper end or later. `function` gives value and slope. Newton's method from `guess`, kept in the bracket and halving it
-/// where it would leave, to the last units in the last place.
+/// the upper end or later. `function` gives value and slope. Newton's method from `guess`, kept in the bracket; where it
+/// would leave or its steps do not halve, the bracket is halved instead. To the last units in the last place.
 pub(crate) fn increasing(
     target: f64,
     [mut low, mut high]: [f64; 2],
@@ -16,6 +16,7 @@ pub(crate) fn increasing(
         return None;
     }
     let mut x = guess.clamp(low, high);
+    let mut last = high - low;
     for _ in 0..STEPS {
         let [value, slope] = function(x);
         let error = value - target;
@@ -24,10 +25,16 @@ pub(crate) fn increasing(
         } else {
             low = x;
         }
-        let newton = x - error / slope;
-        let next = if newton >= low && newton <= high { newton } else { 0.5 * (low + high) };
-        if (next - x).abs() <= f64::EPSILON * x.abs() {
-            return Some(next);
+        let step = error / slope;
+        if step.abs() <= f64::EPSILON * x.abs() || error.abs() <= f64::EPSILON * target.abs() {
+            return Some(if step.is_finite() { (x - step).clamp(low, high) } else { x });
+        }
+        let newton = x - step;
+        let converges = newton >= low && newton <= high && step.abs() <= 0.5 * last;
+        let next = if converges { newton } else { 0.5 * (low + high) };
+        last = (next - x).abs();
+        if last == 0.0 {
+            return Some(x);
         }
         x = next;
     }
@@ -120,6 +127,9 @@ mod tests {
             // Newton stops at a step of one unit in the last place.
             assert!((increasing(8.0, [0.0, high], 0.1, cube).expect("inside") - 2.0).abs() < 1e-15);
         }
+        // Newton's steps alone go to and fro for ever: √|x − 2| with the sign of x − 2, from any guess.
+        let root = |x: f64| [(x - 2.0).signum() * (x - 2.0).abs().sqrt() + 2.0, 0.5 / (x - 2.0).abs().sqrt()];
+        assert!((increasing(2.0, [0.0, 5.0], 3.0, root).expect("inside") - 2.0).abs() < 1e-15);
         assert!(increasing(27.0, [0.0, 3.0], 1.0, cube).is_none());
         assert!(increasing(f64::NAN, [0.0, 3.0], 1.0, cube).is_none());
     }

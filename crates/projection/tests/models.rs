@@ -215,6 +215,37 @@ fn a_stated_greatest_angle_takes_the_fold_out_of_the_picture() {
 }
 
 #[test]
+fn polynomials_in_pixels_fold_where_they_turn_back() {
+    let matrix = CameraMatrix { fx: 1.0, fy: 1.0, skew: 0.0, cx: 960.0, cy: 604.0 };
+    let camera = |model| Calibration::new(model, matrix, SIZE).expect("legal");
+    let fold = |camera: &Calibration| match camera.check() {
+        Err(CalibrationError::Fold { radius_px, angle_rad, .. }) => [radius_px, angle_rad],
+        other => panic!("{other:?}"),
+    };
+    // f = −500 − ρ²/1000: tan θ = ρ/(500 + ρ²/1000) is greatest at ρ² = 500 000.
+    let ocam = camera(Model::Ocam(Ocam::new(vec![-500.0, 0.0, -1e-3], Affine::default()).expect("legal")));
+    let [radius_px, angle_rad] = fold(&ocam);
+    // The angle stands still at the fold: the radius is good to the root of the angle's 1e-14.
+    assert!((radius_px / 500_000.0_f64.sqrt() - 1.0).abs() < 1e-6, "{radius_px}");
+    assert!((tan(angle_rad) - 500_000.0_f64.sqrt() / 1000.0).abs() < 1e-12);
+    let f_theta =
+        |sense, c, greatest| camera(Model::FTheta(FTheta::new(sense, c, greatest, Affine::default()).expect("legal")));
+    // r = 600 (θ − θ³/10) turns at θ² = 10/3; a greatest angle before it is the end.
+    let by_angle = |greatest| f_theta(FThetaSense::AngleToRadius, vec![0.0, 600.0, 0.0, -60.0], greatest);
+    let turn = (10.0_f64 / 3.0).sqrt();
+    let [radius_px, angle_rad] = fold(&by_angle(2.5));
+    assert!((angle_rad - turn).abs() < 1e-14 && (radius_px - 600.0 * turn * 2.0 / 3.0).abs() < 1e-9);
+    assert!(by_angle(1.8).check().is_ok());
+    // θ = ρ/400 − ρ³/1e9 turns at ρ² = 1e9/1200 with 1.52 rad.
+    let by_radius = |greatest| f_theta(FThetaSense::RadiusToAngle, vec![0.0, 0.0025, 0.0, -1e-9], greatest);
+    let turn_px = (1e9_f64 / 1200.0).sqrt();
+    assert!((fold(&by_radius(2.5))[0] / turn_px - 1.0).abs() < 1e-6);
+    assert!(by_radius(2.5).unproject(DVec2::new(960.0 + turn_px + 1e-6, 604.0)).is_none());
+    assert!(by_radius(2.5).unproject(DVec2::new(960.0 + turn_px - 1e-3, 604.0)).is_some());
+    assert!(by_radius(1.5).check().is_ok());
+}
+
+#[test]
 fn a_circle_in_a_larger_picture_is_no_fold() {
     let camera = camera(fisheye([0.0; 4]), 150.0);
     assert!(camera.check().is_ok());

@@ -3,7 +3,9 @@
 //! r = sin θ/(α d + (1 − α)(ξ + cos θ)), d = √(sin² θ + (ξ + cos θ)²), −1 < ξ < 1, 0 ≤ α ≤ 1
 //! (Usenko, Demmel & Cremers 2018, eqs. 40–45; Kalibr's ds-none).
 //!
-//! The field ends without a fold where cos θ = −w₂ (eq. 43).
+//! The field ends without a fold where r is greatest (α > ½) or infinite: at ξ + cos θ = −w d with w = α/(1 − α) or its
+//! inverse, whichever is smaller, that is at cos θ = −ξ (1 − w²) − w √(1 − ξ² (1 − w²)). The paper's bound −w₂ (eq. 43)
+//! comes before it for ξ > 0 and, where two directions share a point already, after it for ξ < 0.
 
 use etendue_core::maths::f64::{acos, atan2, sin_cos};
 
@@ -52,8 +54,9 @@ impl DoubleSphere {
 impl Profile for DoubleSphere {
     fn edge(&self) -> Edge {
         let w = self.alpha.min(1.0 - self.alpha) / self.alpha.max(1.0 - self.alpha);
-        let w2 = (w + self.xi) / (2.0 * w * self.xi + self.xi * self.xi + 1.0).sqrt();
-        Edge::end(acos(-w2.clamp(-1.0, 1.0)))
+        let rest = 1.0 - w * w;
+        let cos = -self.xi * rest - w * (1.0 - self.xi * self.xi * rest).sqrt();
+        Edge::end(acos(cos.clamp(-1.0, 1.0)))
     }
 
     fn radius(&self, angle_rad: f64) -> f64 {

@@ -34,7 +34,8 @@ impl Rational {
         let pole = first_sign_change(&self.denominator, reach * reach);
         let stationary = first_sign_change(&self.stationary(), reach * reach);
         let first = [pole, stationary].into_iter().flatten().fold(f64::INFINITY, f64::min);
-        first.is_finite().then(|| first.sqrt())
+        // A few units before it, so that rounding does not land beyond a pole.
+        first.is_finite().then(|| first.sqrt() * (1.0 - 4.0 * f64::EPSILON))
     }
 
     /// N D + 2 s (N′ D − N D′).
