@@ -5,6 +5,7 @@
 //! | in | Wavefront OBJ with its MTL | [`mesh`] |
 //! | in | PNG, JPEG, Radiance HDR, OpenEXR pictures | [`picture`] |
 //! | in | measured lamps: IES LM-63, EULUMDAT | [`photometry`] |
+//! | in | lens prescriptions: Zemax, CODE V | [`prescription`] |
 //! | in | calibrated cameras: OpenCV, ROS, Kalibr, COLMAP, OCamCalib | [`calibration`] |
 //! | in | spectra, refractive indices, coefficients of retro-reflection | [`spectrum`], [`mod@table`] |
 //! | in | everything a description names, with all errors at once | [`assets`] |
@@ -31,6 +32,7 @@ pub mod output;
 pub mod photometry;
 pub mod picture;
 pub mod png;
+pub mod prescription;
 pub mod provenance;
 pub mod sidecar;
 mod source;

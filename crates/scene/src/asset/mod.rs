@@ -3,6 +3,7 @@
 mod mesh;
 mod mtl;
 mod photometry;
+mod prescription;
 mod request;
 mod store;
 mod table;
@@ -10,6 +11,7 @@ mod table;
 pub use mesh::{ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
 pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurface};
 pub use photometry::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
+pub use prescription::{GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 pub(crate) use request::requests;
 pub use request::{AssetKind, AssetRequest, Values, of_camera};
 pub use store::Assets;

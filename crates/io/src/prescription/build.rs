@@ -1,0 +1,129 @@
+//! What both kinds of file come to: surfaces in their own unit, made into a prescription in mm.
+
+use std::path::Path;
+
+use etendue_scene::asset::{GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
+use etendue_spectra::glass;
+
+use crate::Error;
+
+/// A lens as it is read: object and image are surfaces too, lengths in the file's unit.
+#[derive(Default)]
+pub(super) struct Raw {
+    pub(super) title: String,
+    /// The file's unit, mm.
+    pub(super) unit_mm: Option<f64>,
+    pub(super) surfaces: Vec<RawSurface>,
+    pub(super) opening: Option<LensOpening>,
+    pub(super) fields: Option<LensFields>,
+    pub(super) wavelengths_nm: Vec<f64>,
+}
+
+#[derive(Clone)]
+pub(super) struct RawSurface {
+    pub(super) line: usize,
+    pub(super) curvature: f64,
+    pub(super) conic: f64,
+    pub(super) asphere: [f64; 8],
+    pub(super) semi_aperture: Option<f64>,
+    pub(super) thickness: f64,
+    pub(super) glass: GlassAsset,
+    pub(super) stop: bool,
+}
+
+impl RawSurface {
+    pub(super) fn new(line: usize) -> Self {
+        let (curvature, conic, asphere) = (0.0, 0.0, [0.0; 8]);
+        let glass = GlassAsset::Air;
+        Self { line, curvature, conic, asphere, semi_aperture: None, thickness: 0.0, glass, stop: false }
+    }
+}
+
+/// A glass by the name that a file has for it: hyphens and capitals differ between programs, and a catalogue may follow
+/// after an underscore.
+pub(super) fn named(name: &str) -> Option<GlassAsset> {
+    let plain = |text: &str| text.chars().filter(char::is_ascii_alphanumeric).collect::<String>().to_ascii_uppercase();
+    let wanted = plain(name.split('_').next().unwrap_or(name));
+    let found = glass::catalogue().iter().find(|known| plain(known.name) == wanted)?;
+    Some(GlassAsset::Named(found.name.to_owned()))
+}
+
+impl Raw {
+    /// The prescription of at least object, one surface and image.
+    pub(super) fn finish(self, file: &Path) -> Result<PrescriptionAsset, Error> {
+        let unit = self.unit_mm.unwrap_or(1.0);
+        let [object, surfaces @ .., _image] = &self.surfaces[..] else {
+            return Err(Error::new(
+                file,
+                "expected object, surfaces and image; the file has fewer than three surfaces",
+            ));
+        };
+        let surfaces = refracting(surfaces, unit);
+        let back_focus_mm = surfaces.last().map_or(0.0, |surface| surface.thickness_mm);
+        match surfaces.iter().filter(|s| s.stop).count() {
+            _ if surfaces.is_empty() => Err(Error::new(file, "no surface refracts; expected a lens")),
+            1 => Ok(PrescriptionAsset {
+                title: self.title,
+                surfaces,
+                object_distance_mm: object.thickness * unit,
+                back_focus_mm,
+                opening: self.opening.map(|opening| scaled(opening, unit)),
+                fields: self.fields.map(|fields| scaled_fields(fields, unit)),
+                wavelengths_nm: self.wavelengths_nm,
+                hash: [0; 32],
+            }),
+            found => Err(Error::new(file, format!("{found} surfaces are the stop; expected one (STOP or STO)"))),
+        }
+    }
+}
+
+/// Surfaces in mm without those that do nothing.
+fn refracting(surfaces: &[RawSurface], unit: f64) -> Vec<SurfaceAsset> {
+    let mut list: Vec<SurfaceAsset> = Vec::new();
+    let mut before = GlassAsset::Air;
+    for surface in surfaces {
+        let idle = surface.glass == before && !surface.stop;
+        before = surface.glass.clone();
+        match list.last_mut() {
+            Some(last) if idle => last.thickness_mm += surface.thickness * unit,
+            None if idle => {}
+            _ => list.push(in_mm(surface, unit)),
+        }
+    }
+    list
+}
+
+fn in_mm(s: &RawSurface, unit: f64) -> SurfaceAsset {
+    let mut power = 1.0;
+    // αᵢ has the unit of length to the 1 − 2i.
+    let asphere = s.asphere.map(|a| {
+        power *= unit * unit;
+        a * unit / power
+    });
+    SurfaceAsset {
+        radius_mm: if s.curvature == 0.0 { f64::INFINITY } else { unit / s.curvature },
+        conic: s.conic,
+        asphere,
+        semi_aperture_mm: s.semi_aperture.map(|a| a * unit),
+        thickness_mm: s.thickness * unit,
+        glass: s.glass.clone(),
+        stop: s.stop,
+        line: s.line,
+    }
+}
+
+fn scaled(opening: LensOpening, unit: f64) -> LensOpening {
+    match opening {
+        LensOpening::EntrancePupil { diameter_mm } => LensOpening::EntrancePupil { diameter_mm: diameter_mm * unit },
+        same @ LensOpening::FNumber { .. } => same,
+    }
+}
+
+fn scaled_fields(fields: LensFields, unit: f64) -> LensFields {
+    let scale = |heights: Vec<f64>| heights.into_iter().map(|h| h * unit).collect();
+    match fields {
+        LensFields::ObjectMm(heights) => LensFields::ObjectMm(scale(heights)),
+        LensFields::ImageMm(heights) => LensFields::ImageMm(scale(heights)),
+        same @ LensFields::AnglesDeg(_) => same,
+    }
+}

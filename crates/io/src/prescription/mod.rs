@@ -1,0 +1,38 @@
+//! Lens prescriptions: Zemax and CODE V files, as text.
+//!
+//! | file | read | refused |
+//! | --- | --- | --- |
+//! | `.zmx` (Zemax, UTF-8 or UTF-16) | UNIT, SURF, TYPE STANDARD and EVENASPH, CURV, CONI, PARM, DISZ, GLAS (catalogue and model), DIAM, CLAP, STOP, ENPD, FNUM, FTYP, YFLN, WAVM | mirrors, other surfaces, tilts, other apertures, non-sequential parts |
+//! | `.seq` (CODE V) | RDM, DIM, S, SO, SI, STO, K, A–G, CIR, EPD, FNO, WL, YAN, YOB, YIM, TITLE | private catalogues, mirrors, tilts and decentres, other surface forms, zooms |
+//!
+//! Both become a [`PrescriptionAsset`] in mm. What else these files hold (tolerances, plots, solves, merit functions) says
+//! nothing about the lens as it stands and is passed over. Nothing of the programs is run.
+
+mod build;
+mod seq;
+mod text;
+mod zmx;
+
+use std::path::Path;
+
+use etendue_scene::asset::PrescriptionAsset;
+
+use crate::source::read_bytes;
+use crate::{Error, hash};
+
+/// Reads a prescription; the kind of file is told by its name.
+///
+/// # Errors
+/// The first fault of the file, with its line.
+pub fn read_prescription(file: &Path) -> Result<PrescriptionAsset, Error> {
+    let bytes = read_bytes(file, "lens")?;
+    let text = text::decode(file, &bytes)?;
+    let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
+    let mut asset = match extension.to_str() {
+        Some("zmx") => zmx::read(file, &text)?,
+        Some("seq") => seq::read(file, &text)?,
+        _ => return Err(Error::new(file, "expected a lens by the name of .zmx (Zemax) or .seq (CODE V)")),
+    };
+    asset.hash = hash::of_bytes(&bytes);
+    Ok(asset)
+}

@@ -1,0 +1,85 @@
+//! A lens by its surfaces, as lens files give it.
+
+/// A prescription in a file: surfaces from the scene to the sensor, without object and image.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PrescriptionAsset {
+    /// What the file calls it; may be empty.
+    pub title: String,
+    /// Surfaces; those that neither refract nor stop are left out, their thickness added to the one before.
+    pub surfaces: Vec<SurfaceAsset>,
+    /// Distance of the object before the first surface, mm; infinite for a distant one.
+    pub object_distance_mm: f64,
+    /// Distance of the image behind the last surface, mm.
+    pub back_focus_mm: f64,
+    /// How far the lens opens; `None` where the stop's own aperture says it.
+    pub opening: Option<LensOpening>,
+    /// The field points of the file.
+    pub fields: Option<LensFields>,
+    /// The wavelengths of the file, nm.
+    pub wavelengths_nm: Vec<f64>,
+    /// SHA-256 of the file.
+    pub hash: [u8; 32],
+}
+
+/// A surface and the space behind it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceAsset {
+    /// Radius of curvature, mm, positive where the centre lies towards the sensor; infinite for a plane.
+    pub radius_mm: f64,
+    /// Conic constant.
+    pub conic: f64,
+    /// Coefficients of r², r⁴ … r¹⁶, mm^(1 − 2i).
+    pub asphere: [f64; 8],
+    /// Clear semi-aperture, mm; `None` where the file leaves it to be found from the light.
+    pub semi_aperture_mm: Option<f64>,
+    /// Distance to the next surface (from the last one: to the image), mm.
+    pub thickness_mm: f64,
+    /// What fills that space.
+    pub glass: GlassAsset,
+    /// Whether this is the aperture stop.
+    pub stop: bool,
+    /// The file's line that begins it, from 1.
+    pub line: usize,
+}
+
+/// What fills the space behind a surface.
+#[derive(Clone, Debug, PartialEq)]
+pub enum GlassAsset {
+    /// Air.
+    Air,
+    /// A glass of a maker's catalogue, by the name that [`etendue_spectra::glass`] has for it.
+    Named(String),
+    /// A glass known by n_d and V_d.
+    Abbe {
+        /// n_d.
+        index: f64,
+        /// V_d.
+        abbe: f64,
+    },
+}
+
+/// How far a lens opens.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LensOpening {
+    /// Diameter of the entrance pupil, mm.
+    EntrancePupil {
+        /// The diameter, mm.
+        diameter_mm: f64,
+    },
+    /// f-number.
+    FNumber {
+        /// The number.
+        f_number: f64,
+    },
+}
+
+/// Field points across the meridian.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LensFields {
+    /// Angles from the axis in front of the lens, degrees.
+    AnglesDeg(Vec<f64>),
+    /// Heights of the object, mm.
+    ObjectMm(Vec<f64>),
+    /// Heights of the image, mm.
+    ImageMm(Vec<f64>),
+}
