@@ -2,11 +2,13 @@
 
 use core::f64::consts::PI;
 use etendue_optics::prescription::coating::Coating;
+use etendue_optics::prescription::filter::InterferenceFilter;
 use etendue_optics::prescription::surface::Surface;
 use etendue_optics::prescription::trace::LensRay;
 use etendue_optics::prescription::{Focus, published};
 use etendue_optics::{Lens, Prescribed, Prescription, PrescriptionParameters};
 use etendue_spectra::glass::{Dispersion, LINE_C_NM, LINE_F_NM};
+use etendue_spectra::{Outside, Spectrum};
 use glam::{DVec2, DVec3};
 
 /// The published lenses with the radius of picture that each is for, mm.
@@ -224,4 +226,36 @@ fn axial_colour_of_a_thin_lens_is_that_of_its_power() {
     let (c, f) = (power(LINE_C_NM), power(LINE_F_NM));
     let exact = report.first_order.focal_length_mm * power(587.56) * (1.0 / c - 1.0 / f);
     assert!((longitudinal_mm / exact - 1.0).abs() < 2e-3, "{longitudinal_mm} {exact}");
+}
+
+#[test]
+fn an_ir_cut_darkens_its_edge_towards_the_picture_s_corner() {
+    let table = [(300.0, 1.0), (640.0, 1.0), (660.0, 0.0), (1100.0, 0.0)];
+    let edge = Spectrum::from_points(&table, Outside::Hold).expect("a table");
+    let filter = InterferenceFilter::new(edge, 1.8).expect("a filter");
+    let surfaces = published::named("double-gauss").expect("a published lens").surfaces();
+    let bare = Lens::prescription(Prescribed::new(focused(surfaces.clone(), FAR), None, 21.6).expect("lit"));
+    let cut = Lens::prescription(Prescribed::new(focused(surfaces, FAR), Some(filter.clone()), 21.6).expect("lit"));
+    for s_mm in [0.0, 12.0, 20.0] {
+        for pupil in points(40) {
+            let sensor_mm = DVec2::new(0.0, s_mm);
+            let at = |lens: &Lens, nm: f64| lens.ray(sensor_mm, pupil, nm);
+            let (Some(a), Some(b)) = (at(&bare, 645.0), at(&cut, 645.0)) else { continue };
+            // The same ray, its weight times the filter's transmittance at the angle of arrival: within the edge's 20 nm.
+            let share = b.weight_sr / a.weight_sr;
+            assert!(a.direction == b.direction && share <= filter.transmittance(645.0, 1.0) + 1e-6, "{share}");
+            let open = [(500.0, 1.0), (700.0, 0.0)];
+            for (nm, expected) in open {
+                let (Some(a), Some(b)) = (at(&bare, nm), at(&cut, nm)) else { continue };
+                assert!((b.weight_sr - expected * a.weight_sr).abs() < 1e-12 * a.weight_sr);
+            }
+        }
+    }
+    let mean = |s_mm: f64| {
+        let sum = |lens: &Lens| -> f64 {
+            points(500).filter_map(|u| lens.ray(DVec2::new(s_mm, 0.0), u, 635.0)).map(|ray| ray.weight_sr).sum()
+        };
+        sum(&cut) / sum(&bare)
+    };
+    assert!(mean(20.0) < 0.9 && mean(0.0) > mean(20.0) + 0.05, "{} {}", mean(0.0), mean(20.0));
 }

@@ -55,10 +55,15 @@ fn amplitudes(n: [f64; 2], cosine: [f64; 2]) -> [f64; 2] {
 }
 
 impl Crossing {
+    /// The mean of both polarisations' |amplitude|², over one common denominator.
     #[inline]
     fn reflectance(&self) -> f64 {
-        let [s, p] = amplitudes(self.n, self.cosine);
-        0.5 * (s * s + p * p)
+        let ([n1, n2], [c1, c2]) = (self.n, self.cosine);
+        let [s_less, s_more] = [n1 * c1 - n2 * c2, n1 * c1 + n2 * c2];
+        let [p_less, p_more] = [n2 * c1 - n1 * c2, n2 * c1 + n1 * c2];
+        let [a, b] = [s_less * p_more, p_less * s_more];
+        let both = s_more * p_more;
+        0.5 * (a * a + b * b) / (both * both)
     }
 
     /// With a layer of a quarter wave at normal incidence, at λ₀/λ.
