@@ -100,14 +100,16 @@ impl LightTree {
     pub(super) fn irradiance<F: Fn(u32) -> f32>(&self, question: &Question<'_, F>) -> f64 {
         let (mut node, mut sum) = (0, 0.0);
         loop {
-            let weights = self.weights(node, question);
+            let mut weights = self.weights(node, question);
             let total: f32 = weights.iter().sum();
             let lane = (0..LANES).fold(0, |best, i| if weights[i] > weights[best] { i } else { best });
             let child = self.nodes[node as usize].child(lane);
             if !child.is_node || self.nodes[node as usize].is_far(lane, question.receiver.position) {
                 return self.scale * (sum + f64::from(total));
             }
-            sum += f64::from(total - weights[lane]);
+            // Not by subtraction, in which weak lights vanish.
+            weights[lane] = 0.0;
+            sum += f64::from(weights.iter().sum::<f32>());
             node = child.index;
         }
     }

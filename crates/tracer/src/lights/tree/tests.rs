@@ -100,6 +100,23 @@ fn no_light_that_arrives_is_lost() {
     }
 }
 
+/// Two spots beside the receiver that shine past it, back to back so that their cluster seems to shine everywhere, must
+/// not take the weak light of far lamps from it.
+#[test]
+fn an_estimate_is_zero_only_where_nothing_arrives() {
+    let narrow = || Profile::Cone(Cone::new(0.1, 0.2).expect("a spot"));
+    let spot = |towards: DVec3| lamp(DVec3::X * 0.1 + towards * 0.08, towards, 1.0, narrow());
+    let far = |i| lamp(DVec3::new(1e5, 1e3 * f64::from(i), 0.0), DVec3::X, 1.0, Profile::Isotropic);
+    let lamps: Vec<_> = [spot(DVec3::Y), spot(DVec3::NEG_Y)].into_iter().chain((0..12).map(far)).collect();
+    let bounds: Vec<_> = lamps.iter().map(LampLight::bounds).collect();
+    let tree = LightTree::new(&bounds).expect("lamps that shine");
+    let receiver = Receiver { position: Vec3::ZERO, normal: Vec3::ZERO };
+    let irradiance =
+        tree.irradiance(&Question { receiver: &receiver, lamp: |i| lamps[i as usize].irradiance(&receiver) });
+    // Twelve lamps of 1 W/sr at 100 km.
+    assert!((0.5..2.0).contains(&(irradiance / 12e-10)), "{irradiance}");
+}
+
 #[test]
 fn estimates_are_of_the_size_of_what_arrives() {
     let lamps = lamps(400, DVec3::ZERO, 200.0, 1.0);
