@@ -43,7 +43,8 @@ pub enum Profile {
     Masked(Masked),
 }
 
-/// The product of two profiles. Its `mask` is the one that cuts: the finer or narrower of both.
+/// The product of two profiles. Its integrals are taken over directions of the one that reaches less far, the `mask` where
+/// both reach as far.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Masked {
     lamp: Box<Profile>,
@@ -55,7 +56,7 @@ impl Profile {
     /// `lamp` seen through `mask`.
     #[must_use]
     pub fn masked(lamp: Self, mask: Self) -> Self {
-        let spread = Spread::of(&quadrature::product(&mask, |direction| lamp.value(direction)));
+        let spread = Spread::of(&quadrature::product(&lamp, &mask));
         Self::Masked(Masked { lamp: Box::new(lamp), mask: Box::new(mask), spread })
     }
 
@@ -77,7 +78,7 @@ impl Profile {
         self.spread().flux_sr
     }
 
-    /// The greatest value. Of a masked profile that of the directions its mask is given at.
+    /// The greatest value. Of a masked profile that of the directions its integrals are taken over.
     #[must_use]
     pub fn peak(&self) -> f64 {
         self.spread().peak

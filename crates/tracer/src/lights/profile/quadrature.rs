@@ -46,10 +46,13 @@ pub(super) fn cap(one_minus_cos: f64, value: impl Fn(Vec3) -> f32) -> Vec<Node> 
     cells.map(node).collect()
 }
 
-/// The nodes of `mask`, its values times `factor`.
-pub(super) fn product(mask: &Profile, factor: impl Fn(Vec3) -> f32) -> Vec<Node> {
-    let mut nodes = nodes(mask);
-    nodes.iter_mut().for_each(|n| n.value *= factor(n.direction));
+/// The nodes of the profile that reaches less far, their values times those of the other: so they are dense enough for a
+/// narrow spot behind a wide mask.
+pub(super) fn product(lamp: &Profile, mask: &Profile) -> Vec<Node> {
+    let narrower = lamp.spread().reach_rad < mask.spread().reach_rad;
+    let (of, factor) = if narrower { (lamp, mask) } else { (mask, lamp) };
+    let mut nodes = nodes(of);
+    nodes.iter_mut().for_each(|n| n.value *= factor.value(n.direction));
     nodes
 }
 
@@ -59,6 +62,6 @@ fn nodes(profile: &Profile) -> Vec<Node> {
         Profile::Cone(cone) => cone.nodes(),
         Profile::Web(web) => web.nodes(),
         Profile::Slide(slide) => slide.nodes(),
-        Profile::Masked(masked) => product(&masked.mask, |d| masked.lamp.value(d)),
+        Profile::Masked(masked) => product(&masked.lamp, &masked.mask),
     }
 }

@@ -51,7 +51,8 @@ fn half_angles(nodes: &[Node], axis: Vec3, flux_sr: f64) -> (f32, f32) {
     let mut shells = [0.0; STEPS];
     let mut reach = 0.0_f32;
     for node in nodes.iter().filter(|n| n.value > 0.0) {
-        let angle = maths::f32::acos(axis.dot(node.direction).clamp(-1.0, 1.0));
+        // By the chord, which keeps the digits of small angles.
+        let angle = 2.0 * maths::f32::asin((0.5 * axis.distance(node.direction)).min(1.0));
         shells[((angle.to_degrees() * 2.0) as usize).min(STEPS - 1)] += node.flux();
         reach = reach.max(angle + node.spacing_rad);
     }

@@ -50,6 +50,8 @@ fn grids_of_one_value_have_the_flux_of_their_part_of_the_sphere() {
         (web(WebAxes::A, full_v.clone(), full_h.clone(), |_, _| 1.0), 1.0),
         (web(WebAxes::B, full_h, full_v, |_, _| 1.0), 1.0),
         (web(WebAxes::C, steps(0.0, 180.0, 5), vec![0.0], |_, _| 1.0), 1.0),
+        (web(WebAxes::A, steps(-90.0, 90.0, 9), vec![0.0], |_, _| 1.0), 1.0),
+        (web(WebAxes::B, steps(-90.0, 90.0, 9), vec![0.0], |_, _| 1.0), 0.5),
         (web(WebAxes::C, steps(0.0, 90.0, 5), steps(0.0, 360.0, 5), |_, _| 1.0), 0.5),
         (web(WebAxes::A, steps(0.0, 90.0, 5), steps(0.0, 90.0, 3), |_, _| 1.0), 0.125),
         (web(WebAxes::B, steps(-90.0, 90.0, 5), steps(-30.0, 30.0, 3), |_, _| 1.0), 0.25),
@@ -168,4 +170,17 @@ fn faulty_profiles_are_refused() {
     assert!(matches!(Cone::new(0.0, 0.0), Err(ConeError::Angles { .. })));
     assert!(matches!(Slide::new((1, 1), vec![1.0], 0.0, 1.0), Err(SlideError::Field { .. })));
     assert!(matches!(Slide::new((1, 1), vec![f32::NAN], 1.0, 1.0), Err(SlideError::Texel { texel: 0 })));
+}
+
+#[test]
+fn a_mask_wider_than_its_spot_takes_no_light() {
+    for field_deg in [0.05_f64, 0.3, 2.0, 20.0] {
+        let cone = Profile::Cone(Cone::new(0.0, field_deg.to_radians()).expect("a spot"));
+        let slide = Slide::new((3, 2), vec![1.0; 6], 2.0, 1.5).expect("a mask");
+        let masked = Profile::masked(cone.clone(), Profile::Slide(slide));
+        // The midpoint rule in 128 rings.
+        assert!((masked.flux_sr() / cone.flux_sr() - 1.0).abs() < 5e-3, "{field_deg}°: {}", masked.flux_sr());
+        let (seen, reach) = (f64::from(masked.spread().reach_rad), field_deg.to_radians());
+        assert!(seen >= reach && seen < 1.2 * reach, "{field_deg}°: {seen}");
+    }
 }

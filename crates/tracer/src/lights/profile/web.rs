@@ -12,7 +12,7 @@
 //! how the lamp is placed.
 //!
 //! Linear in each angle between neighbours, so exact at the points of the grid; zero outside it. A grid of a single
-//! horizontal angle is the same at all. One of type C whose last plane is short of 360° and whose first is 0° closes.
+//! horizontal angle is the same at all that its type has. One of type C whose last plane is short of 360° and whose first is 0° closes.
 //! Fluxes are integrals of just this function, exact: ∫ (a + b φ) sin φ dφ along the polar angle, the mean across it.
 
 use etendue_core::maths::f32::{acos, asin, atan2};
@@ -155,19 +155,19 @@ impl Web {
         &self.spread
     }
 
-    /// Cells of the grid, vertical interval first, as intervals in degrees.
-    fn cells(&self) -> impl Iterator<Item = [[f64; 2]; 2]> + '_ {
-        let whole_turn = [f64::from(self.horizontal_deg.nodes()[0]); 2];
-        let vertical = self.vertical_deg.nodes().windows(2).map(|w| [f64::from(w[0]), f64::from(w[1])]);
-        vertical.flat_map(move |v| {
-            let horizontal = self.horizontal_deg.nodes().windows(2).map(|w| [f64::from(w[0]), f64::from(w[1])]);
-            let single = (self.horizontal_deg.nodes().len() == 1).then_some(whole_turn);
-            horizontal.chain(single).map(move |h| [v, h])
-        })
+    /// Cells of the grid, vertical interval first, as intervals in degrees. A single horizontal angle is that of sectors
+    /// over the whole range.
+    fn cells(&self) -> Vec<[[f64; 2]; 2]> {
+        let horizontal = match self.horizontal_deg.nodes() {
+            [_] => self.axes.sectors(),
+            nodes => intervals(nodes).collect(),
+        };
+        let of_row = |v: [f64; 2]| horizontal.iter().map(move |h| [v, *h]);
+        intervals(self.vertical_deg.nodes()).flat_map(of_row).collect()
     }
 
     fn exact_flux_sr(&self) -> f64 {
-        self.cells().map(|[v, h]| self.cell_flux_sr(v, h)).sum()
+        self.cells().into_iter().map(|[v, h]| self.cell_flux_sr(v, h)).sum()
     }
 
     /// Flux of one cell.
@@ -182,20 +182,14 @@ impl Web {
             WebAxes::A | WebAxes::C => {
                 let zero = if self.axes == WebAxes::A { 90.0 } else { 0.0 };
                 let [low, high] = v.map(|v| across(h, &|h| at(v, h)));
-                let width_deg = if h[0] == h[1] { self.axes.turn_deg() } else { h[1] - h[0] };
-                width_deg.to_radians() * polar_integral([zero + v[0], zero + v[1]], [low, high])
+                (h[1] - h[0]).to_radians() * polar_integral([zero + v[0], zero + v[1]], [low, high])
             }
         }
     }
 
-    /// Four directions a cell; a single horizontal angle as 72 sectors of the turn.
+    /// Four directions a cell.
     pub(super) fn nodes(&self) -> Vec<Node> {
-        let sectors = |h: [f64; 2]| {
-            let count = if h[0] == h[1] { 72 } else { 1 };
-            let (from, width) = if count > 1 { (-180.0, 5.0) } else { (h[0], h[1] - h[0]) };
-            (0..count).map(move |i| [from + width * f64::from(i), from + width * f64::from(i + 1)])
-        };
-        self.cells().flat_map(|[v, h]| sectors(h).flat_map(move |h| self.cell_nodes(v, h))).collect()
+        self.cells().into_iter().flat_map(|[v, h]| self.cell_nodes(v, h)).collect()
     }
 
     fn cell_nodes(&self, v: [f64; 2], h: [f64; 2]) -> impl Iterator<Item = Node> + '_ {
@@ -205,12 +199,7 @@ impl Web {
             move |(v, h)| {
                 let (direction, stretch) = self.axes.direction(v, h);
                 let weight_sr = 0.25 * size[0] * size[1] * stretch;
-                let value = if self.horizontal_deg.nodes().len() == 1 {
-                    self.at_deg(v as f32, self.horizontal_deg.nodes()[0])
-                } else {
-                    self.at_deg(v as f32, h as f32)
-                };
-                Node { direction, value, weight_sr, spacing_rad }
+                Node { direction, value: self.at_deg(v as f32, h as f32), weight_sr, spacing_rad }
             },
         )
     }
@@ -233,9 +222,10 @@ impl WebAxes {
         }
     }
 
-    /// What a single horizontal angle stands for.
-    fn turn_deg(self) -> f64 {
-        self.horizontal_range()[2]
+    /// What a single horizontal angle stands for: the whole range in steps of 5°.
+    fn sectors(self) -> Vec<[f64; 2]> {
+        let [low, high, _] = self.horizontal_range();
+        (0..((high - low) / 5.0) as u32).map(|i| [low + 5.0 * f64::from(i), low + 5.0 * f64::from(i + 1)]).collect()
     }
 
     /// Vertical and horizontal angle (degrees) of a unit direction.
@@ -258,6 +248,11 @@ impl WebAxes {
             Self::C => (DVec3::new(sin_v * cos_h, sin_v * sin_h, -cos_v).as_vec3(), sin_v),
         }
     }
+}
+
+/// From each number of a grid to the next.
+fn intervals(nodes: &[f32]) -> impl Iterator<Item = [f64; 2]> + '_ {
+    nodes.windows(2).map(|w| [f64::from(w[0]), f64::from(w[1])])
 }
 
 /// ∫ of a line from `low` to `high` times sin φ over the polar angles `degrees`.
