@@ -263,7 +263,7 @@ impl<'a, const N: usize> Path<'a, N> {
     }
 
     /// Next-event estimation: light of one drawn light, as far as it comes through.
-    fn gather_drawn(&mut self, vertex: &Vertex<'_, N>, receiver: &Receiver) {
+    fn gather_drawn(&mut self, vertex: &Vertex<'a, N>, receiver: &Receiver) {
         let lights = self.tracer.lights;
         if !lights.can_be_drawn() || vertex.bsdf.is_mirror() {
             return;
@@ -281,7 +281,7 @@ impl<'a, const N: usize> Path<'a, N> {
         }
         let arriving = self.throughput * value.value_cos * light.radiance * self.drawn_weight(&light, value.pdf);
         if !arriving.is_zero()
-            && let Some(share) = self.share(vertex, &light)
+            && let Some(share) = self.share(vertex, &light, self.medium_towards(vertex, wi))
         {
             self.radiance += arriving * share;
         }
@@ -318,6 +318,15 @@ impl<'a, const N: usize> Path<'a, N> {
         vertex.bsdf.sample(vertex.frame.wo, choice, u)
     }
 
+    /// What light crosses that arrives at a surface from `wi`.
+    fn medium_towards(&self, vertex: &Vertex<'a, N>, wi: Vec3) -> Medium<'a> {
+        if wi.z < 0.0 {
+            Medium::beyond(vertex.frame.front, self.tracer.palette.absorption(vertex.material))
+        } else {
+            self.medium
+        }
+    }
+
     /// Straight through a surface that takes its share.
     fn go_through(&mut self, vertex: &Vertex<'_, N>, sample: &BsdfSample<N>) -> Onward {
         self.throughput *= sample.weight;
@@ -335,9 +344,7 @@ impl<'a, const N: usize> Path<'a, N> {
         if let Some(pdf) = self.scattered {
             self.cone.scatter(pdf);
         }
-        if sample.wi.z < 0.0 {
-            self.medium = Medium::beyond(vertex.frame.front, self.tracer.palette.absorption(vertex.material));
-        }
+        self.medium = self.medium_towards(vertex, sample.wi);
         self.ray = Ray::new(vertex.point.spawn(direction), direction, self.ray.time_s);
         self.travelled_m = 0.0;
         self.bounces += 1;

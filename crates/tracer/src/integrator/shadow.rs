@@ -4,22 +4,31 @@ use etendue_core::{Ray, Spectral};
 use glam::Vec3;
 
 use super::Level;
+use super::medium::Medium;
 use super::path::{MOST_MET, Path, Vertex};
 use crate::geometry::SurfacePoint;
 use crate::lights::LightSample;
 
 impl<const N: usize> Path<'_, N> {
-    /// The share of a drawn light that reaches the vertex; `None` where something opaque stands between.
-    pub(super) fn share(&self, vertex: &Vertex<'_, N>, light: &LightSample<N>) -> Option<Spectral<N>> {
+    /// The share of a drawn light that reaches the vertex through a `medium`; `None` where something opaque stands between.
+    pub(super) fn share(
+        &self,
+        vertex: &Vertex<'_, N>,
+        light: &LightSample<N>,
+        medium: Medium<'_>,
+    ) -> Option<Spectral<N>> {
         if self.tracer.settings.level == Level::Flat {
             return Some(Spectral::ONE);
         }
         let ray = self.towards(&vertex.point, light.direction, light.target);
-        if self.tracer.palette.has_passages() {
+        let share = if self.tracer.palette.has_passages() {
             self.share_through(ray, light)
         } else {
             (!self.tracer.view.occluded(&ray)).then_some(Spectral::ONE)
-        }
+        }?;
+        // As for a path that meets nothing, the way to infinity takes nothing.
+        let way_m = light.target.map_or(0.0, |target| target.distance(vertex.point.position));
+        Some(medium.attenuate(share, way_m, self.wavelengths))
     }
 
     /// The ray from a point to `target`, or to infinity.

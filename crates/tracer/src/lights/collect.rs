@@ -113,8 +113,7 @@ impl Gathered {
 
     fn add_sphere(&mut self, radius_m: f64, material: MaterialId, to_render: &DAffine3, weigher: &Weigher<'_>) {
         let Some((radiance, _)) = weigher.glow(material) else { return self.primitives.push([]) };
-        let textured = weigher.palette.emission(material).is_some_and(|e| e.factor.is_some());
-        let light = SphereLight::new(radius_m, to_render, material, textured);
+        let light = SphereLight::new(radius_m, to_render, material, weigher.palette);
         let added = self.add(light.bounds(radiance), Light::Sphere(light));
         self.primitives.push([Some(added)]);
     }

@@ -1,8 +1,9 @@
 //! Glowing spheres, and the ellipsoids that unequal scales make of them.
 //!
-//! From outside a round sphere is drawn by solid angle, uniformly over the cone it fills; from inside, and for an
-//! ellipsoid, uniformly over the sphere in its own frame: density by area 1/(4π J) with the stretch of area
-//! J = |det M| · |M⁻ᵀ n| where M takes the unit sphere to the render frame and n is the unit sphere's normal.
+//! From outside a round sphere is drawn by solid angle, uniformly over the cone it fills; from inside, for an ellipsoid,
+//! and where light passes through the surface, so that the far side is seen too, uniformly over the sphere in its own
+//! frame: density by area 1/(4π J) with the stretch of area J = |det M| · |M⁻ᵀ n| where M takes the unit sphere to the
+//! render frame and n is the unit sphere's normal.
 
 use core::f32::consts::{PI, TAU};
 use etendue_core::Basis;
@@ -24,11 +25,12 @@ pub(super) struct SphereLight {
     /// M⁻ᵀ.
     normals: Mat3,
     determinant: f32,
-    /// Radius, m, where the sphere is round.
+    /// Radius, m, where the sphere is round and nothing passes through it.
     radius: Option<f32>,
     area_m2: f64,
     error_m: f32,
     material: MaterialId,
+    /// Whether texture coordinates are needed.
     textured: bool,
 }
 
@@ -40,8 +42,7 @@ struct Cone {
 }
 
 impl SphereLight {
-    /// `textured` says whether the glow changes over the surface, so that texture coordinates are needed.
-    pub(super) fn new(radius_m: f64, to_render: &DAffine3, material: MaterialId, textured: bool) -> Self {
+    pub(super) fn new(radius_m: f64, to_render: &DAffine3, material: MaterialId, palette: &Palette) -> Self {
         let linear = to_render.matrix3 * radius_m;
         let centre = to_render.translation.as_vec3();
         let longest = linear.x_axis.length().max(linear.y_axis.length()).max(linear.z_axis.length());
@@ -50,11 +51,11 @@ impl SphereLight {
             linear: linear.as_mat3(),
             normals: linear.inverse().transpose().as_mat3(),
             determinant: linear.determinant().abs() as f32,
-            radius: round_radius(&linear).map(|r| r as f32),
+            radius: round_radius(&linear).filter(|_| !palette.lets_pass(material)).map(|r| r as f32),
             area_m2: mean_area(&linear),
             error_m: ROUNDING * (centre.abs().max_element() + longest as f32),
             material,
-            textured,
+            textured: palette.needs_footprint(material),
         }
     }
 

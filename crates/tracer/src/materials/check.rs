@@ -40,6 +40,9 @@ pub(super) fn material(materials: &[Material], index: usize, textures: &[ImageTe
     }
     if let Some(opacity) = material.opacity {
         factor(index, "an opacity", opacity, textures)?;
+        if let (Some(_), Some(id)) = (&material.emission, opacity.texture()) {
+            laid_by_uv(index, "an opacity beside its emission", id, textures)?;
+        }
     }
     if let Some(map) = material.normal_map {
         laid_by_uv(index, "a normal map", map.texture(), textures)?;

@@ -3,6 +3,7 @@
 use super::*;
 use crate::lights::{Lamp, Profile};
 use crate::materials::{Dielectric, Factor, ThinSheet};
+use crate::textures::{Channel, ImageTexture, Sampling, Texels, TextureId};
 use glam::DMat3;
 
 /// What lights a floor from above through a screen.
@@ -70,6 +71,62 @@ fn a_pane_lets_light_straight_through_and_loses_what_it_reflects() {
     assert!((lamp(pane(1.5)) / lamp(None) / left - 1.0).abs() < 1e-5);
     for strategies in [Strategies::Both, Strategies::Scattering] {
         agree(&through(pane(1.5), &Source::Sun, strategies), &through(pane(1.5), &Source::Sun, Strategies::Lights));
+    }
+}
+
+/// Whether light of a scene is the same however it is found.
+fn found_alike(ready: &Ready, from: [f32; 3], max_bounces: u32) {
+    let look = |strategies| {
+        let settings = PathSettings { strategies, max_bounces, ..PathSettings::default() };
+        ready.look(&ray(from, [0.0; 3]), 2048, settings)
+    };
+    let both = look(Strategies::Both);
+    assert!(both.mean > 0.0 && both.standard_error() < 0.01 * both.mean, "{both:?}");
+    agree(&look(Strategies::Scattering), &both);
+    agree(&look(Strategies::Lights), &both);
+}
+
+/// A floor under a ball that glows on both sides and is not wholly there.
+fn thin_ball(opacity: Factor, textures: Vec<ImageTexture>, stretched: DVec3) -> Ready {
+    let mut scene = Scene::default();
+    let floor = scene.material(matt(0.8), None);
+    scene.square(Vec3::ZERO, 3.0, floor);
+    let ball = scene.material(Surface::Absorber, Some((1.0, Glow::Both)));
+    scene.materials[ball.0 as usize].opacity = Some(opacity);
+    let place = DAffine3::from_scale_rotation_translation(stretched, glam::DQuat::IDENTITY, DVec3::new(0.3, 0.2, 1.0));
+    scene.place(Shape::Sphere { radius_m: 0.5 }, place, ball);
+    let palette = Palette::new(core::mem::take(&mut scene.materials), textures).expect("materials");
+    Ready { world: scene.builder.build().expect("a world"), palette, sources: scene.sources }
+}
+
+#[test]
+fn the_inside_of_a_ball_glows_through_its_gaps() {
+    for stretched in [DVec3::ONE, DVec3::new(1.0, 0.7, 1.2)] {
+        found_alike(&thin_ball(Factor::Number(0.3), vec![], stretched), [1.0, -1.5, 0.8], 1);
+    }
+}
+
+#[test]
+fn gaps_by_a_picture_lie_where_the_picture_has_them() {
+    let texels = [0.0, 0.9, 0.2, 0.6].map(|v| [v; 3]).to_vec();
+    let picture = ImageTexture::new(2, 2, Texels::Float(texels), Sampling::default()).expect("a picture");
+    let opacity = Factor::Texture(TextureId(0), Channel::Red);
+    found_alike(&thin_ball(opacity, vec![picture], DVec3::ONE), [1.0, -1.5, 0.8], 1);
+}
+
+/// A matt ball beside a glowing one, both inside a ball of tinted glass.
+#[test]
+fn light_from_a_lamp_inside_tinted_glass_is_tinted_however_it_is_found() {
+    for alpha in [0.0, 0.2] {
+        let mut scene = Scene::default();
+        let glass = Dielectric::new(1.3, alpha, Some(Spectrum::constant(1.5))).expect("glass");
+        let glass = scene.material(Surface::Dielectric(Box::new(glass)), None);
+        let (matt, glow) =
+            (scene.material(matt(0.8), None), scene.material(Surface::Absorber, Some((1.0, Glow::Front))));
+        scene.sphere(DVec3::ZERO, 2.0, glass);
+        scene.sphere(DVec3::ZERO, 0.4, matt);
+        scene.sphere(DVec3::new(0.9, -0.9, 0.3), 0.4, glow);
+        found_alike(&scene.ready(), [0.0, -4.0, 0.4], 3);
     }
 }
 

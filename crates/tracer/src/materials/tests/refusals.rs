@@ -70,3 +70,20 @@ fn what_counts_on_a_mix_alone_is_refused_on_its_parts() {
     let bent = Material { normal_map: Some(map), ..whole() };
     assert_eq!(of(plain(), bent), Some(MaterialError::MixNormal { material: 2 }));
 }
+
+/// Light that is drawn on a glowing surface knows its texture coordinates alone.
+#[test]
+fn what_glows_has_no_gaps_laid_on_from_three_sides() {
+    use crate::textures::{Channel, ImageTexture, Projection, Sampling, Texels, TextureId};
+    let of = |emission| {
+        let projection = Projection::Triplanar { size_m: 1.0, sharpness: 4.0 };
+        let sampling = Sampling { projection, ..Sampling::default() };
+        let picture = ImageTexture::new(1, 1, Texels::Float(vec![[0.5; 3]]), sampling).expect("a texel");
+        let opacity = Some(Factor::Texture(TextureId(0), Channel::Red));
+        Palette::new(vec![Material { emission, opacity, ..Material::new(Surface::Absorber) }], vec![picture]).err()
+    };
+    let glow = Emission { radiance: Spectrum::constant(1.0), factor: None, glow: Glow::Both };
+    assert_eq!(of(None), None);
+    let refused = MaterialError::Projected { material: 0, what: "an opacity beside its emission" };
+    assert_eq!(of(Some(glow)), Some(refused));
+}
