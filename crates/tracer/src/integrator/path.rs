@@ -253,13 +253,26 @@ impl<'a, const N: usize> Path<'a, N> {
         } else {
             point.material
         };
+        let frame = self.frame(material, &point, lookup, self.ray.direction);
+        Vertex { bsdf: palette.bsdf(material, lookup, frame.front, self.wavelengths), point, frame, material }
+    }
+
+    /// The shading frame of a material at a point that a ray of unit `direction` has met.
+    #[inline(always)]
+    pub(super) fn frame(
+        &self,
+        material: MaterialId,
+        point: &SurfacePoint,
+        lookup: &Lookup,
+        direction: Vec3,
+    ) -> ShadingFrame {
+        let palette = self.tracer.palette;
         let normal = if palette.needs_tangents(material) {
-            palette.shading_normal(material, lookup, &point, self.tracer.view.tangents(&point))
+            palette.shading_normal(material, lookup, point, self.tracer.view.tangents(point))
         } else {
             point.shading_normal
         };
-        let frame = ShadingFrame::new(&point, normal, -self.ray.direction);
-        Vertex { bsdf: palette.bsdf(material, lookup, frame.front, self.wavelengths), point, frame, material }
+        ShadingFrame::new(point, normal, -direction)
     }
 
     /// Next-event estimation: light of one drawn light, as far as it comes through.

@@ -54,9 +54,9 @@ impl<const N: usize> Path<'_, N> {
                 return None;
             }
             cone.travel(hit.t * ray.direction.length());
-            let cos = point.shading_normal.dot(light.direction).abs();
             let lookup = self.lookup(&point, cone, light.direction);
-            share *= palette.passage(point.material, &lookup, cos, self.wavelengths)?;
+            let cos = |part| self.frame(part, &point, &lookup, light.direction).wo.z;
+            share *= palette.passage(point.material, &lookup, &cos, self.wavelengths)?;
             if share.is_zero() {
                 return None;
             }

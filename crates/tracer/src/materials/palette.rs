@@ -98,14 +98,15 @@ impl Palette {
         self.materials[id.0 as usize].opacity.map_or(1.0, |opacity| opacity.at(&self.textures, lookup))
     }
 
-    /// What share of light comes straight through a surface at a point, met at `cos` (of the angle from its shading
-    /// normal, in (0, 1]): 1 − opacity + opacity × what the surface itself lets pass. `None` where nothing ever does.
+    /// What share of light comes straight through a surface at a point: 1 − opacity + opacity × what the surface itself lets
+    /// pass. `cos` tells the cosine from the shading normal, in (0, 1], at which the material or a part of it is met.
+    /// `None` where nothing ever passes.
     #[must_use]
     pub fn passage<const N: usize>(
         &self,
         id: MaterialId,
         lookup: &Lookup,
-        cos: f32,
+        cos: &impl Fn(MaterialId) -> f32,
         wavelengths: &Wavelengths<N>,
     ) -> Option<Spectral<N>> {
         self.lets_pass(id).then(|| {
@@ -119,11 +120,11 @@ impl Palette {
         &self,
         id: MaterialId,
         lookup: &Lookup,
-        cos: f32,
+        cos: &impl Fn(MaterialId) -> f32,
         wavelengths: &Wavelengths<N>,
     ) -> Spectral<N> {
         match &self.materials[id.0 as usize].surface {
-            Surface::ThinSheet(sheet) => sheet.resolve(&self.textures, lookup, wavelengths).shares(cos).1,
+            Surface::ThinSheet(sheet) => sheet.resolve(&self.textures, lookup, wavelengths).shares(cos(id)).1,
             Surface::Mix(parts) if self.lets_pass(parts.a) || self.lets_pass(parts.b) => {
                 let weight = parts.weight.at(&self.textures, lookup);
                 let [a, b] = [parts.a, parts.b].map(|part| self.through(part, lookup, cos, wavelengths));

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::lights::{Lamp, Profile};
-use crate::materials::{Dielectric, Factor, ThinSheet};
+use crate::materials::{Dielectric, Factor, Green, NormalMap, ThinSheet};
 use crate::textures::{Channel, ImageTexture, Sampling, Texels, TextureId};
 use glam::DMat3;
 
@@ -128,6 +128,31 @@ fn light_from_a_lamp_inside_tinted_glass_is_tinted_however_it_is_found() {
         scene.sphere(DVec3::new(0.9, -0.9, 0.3), 0.4, glow);
         found_alike(&scene.ready(), [0.0, -4.0, 0.4], 3);
     }
+}
+
+/// A pane whose normals a normal map bends.
+#[test]
+fn a_pane_of_bent_normals_passes_the_same_to_all_ways_of_finding_light() {
+    let mut scene = Scene::default();
+    let floor = scene.material(matt(0.8), None);
+    scene.square(Vec3::ZERO, 3.0, floor);
+    let clear = Reflectance::Spectrum(Spectrum::constant(0.5));
+    let pane = scene.material(Surface::ThinSheet(Box::new(ThinSheet::new(1.5, clear).expect("a pane"))), None);
+    let map = NormalMap::new(TextureId(0), Green::Up, 1.0).expect("a map");
+    scene.materials[pane.0 as usize].normal_map = Some(map);
+    let corners = [(-3.0, -3.0), (3.0, -3.0), (3.0, 3.0), (-3.0, 3.0)].map(|(x, y)| Vec3::new(x, y, 0.6)).to_vec();
+    let uvs = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(u, v)| Vec2::new(u, v)).to_vec();
+    let (mesh, _) = Mesh::new(corners, vec![], uvs, vec![[0, 1, 2], [0, 2, 3]], vec![]).expect("a mesh");
+    let id = scene.builder.add_mesh(mesh);
+    scene.place(Shape::Mesh(id), DAffine3::IDENTITY, pane);
+    let glow = scene.material(Surface::Absorber, Some((1.0, Glow::Both)));
+    scene.square(Vec3::new(0.5, 0.5, 1.5), 0.6, glow);
+    // A slope of 2 along u.
+    let texels = Texels::Float(vec![[0.95, 0.5, 0.72]]);
+    let picture = ImageTexture::new(1, 1, texels, Sampling::default()).expect("a picture");
+    let palette = Palette::new(core::mem::take(&mut scene.materials), vec![picture]).expect("materials");
+    let ready = Ready { world: scene.builder.build().expect("a world"), palette, sources: scene.sources };
+    found_alike(&ready, [0.3, -0.3, 0.4], 1);
 }
 
 /// A solid of glass before a glowing wall, seen square on.

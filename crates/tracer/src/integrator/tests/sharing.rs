@@ -1,7 +1,7 @@
 //! Paths that share their tails against paths that do not.
 
 use super::*;
-use crate::materials::ThinSheet;
+use crate::materials::{Factor, Leaf, Mix, ThinSheet};
 use etendue_core::FieldRay;
 
 /// Rays of a group, which meet different surfaces.
@@ -15,14 +15,16 @@ const TARGETS: [[f32; 3]; 7] = [
     [1.97, 1.2, 0.6],
 ];
 
-/// A floor and two walls under the sun, with balls and a pane; with a sky, a glowing ball and a mirror, or all matt.
+/// A floor and two walls under the sun, with balls and a pane; with a sky, a glowing ball, a mirror, walls of two materials
+/// with gaps and a cellar, or all matt.
 fn corner(floor: Surface, glows: bool) -> Ready {
     let mut scene = Scene::default();
     let sky = Environment::Uniform(Spectrum::constant(0.3));
     let sun = Sun::of_radiance(DVec3::new(-1.0, -0.6, 1.2), 2.0, Spectrum::constant(300.0)).expect("a sun");
     scene.sources = Sources { suns: vec![sun], lamps: vec![], environment: glows.then_some(sky) };
     let floor = scene.material(floor, None);
-    let wall = scene.material(matt(0.8), None);
+    let plaster = scene.material(matt(0.8), None);
+    let wall = if glows { spotted(&mut scene, plaster) } else { plaster };
     let bright = scene.material(matt(0.6), glows.then_some((0.2, Glow::Both)));
     let mirror = scene.material(if glows { aluminium(0.0) } else { matt(0.5) }, None);
     let clear = ThinSheet::new(1.5, Reflectance::Spectrum(Spectrum::constant(0.9))).expect("a pane");
@@ -39,6 +41,15 @@ fn corner(floor: Surface, glows: bool) -> Ready {
     scene.sphere(DVec3::new(-0.8, 0.0, 0.5), 0.4, wall);
     scene.sphere(DVec3::new(1.2, -0.4, 0.35), 0.35, mirror);
     scene.ready()
+}
+
+/// A material of two parts, some of it not there.
+fn spotted(scene: &mut Scene, a: MaterialId) -> MaterialId {
+    let b = scene.material(aluminium(0.3), None);
+    let wall = scene.material(Surface::Mix(Mix { a, b, weight: Factor::Number(0.4) }), None);
+    scene.materials[wall.0 as usize].opacity = Some(Factor::Number(0.7));
+    scene.square(Vec3::new(0.0, 0.0, -0.7), 4.0, a);
+    wall
 }
 
 /// Means of `replicates` of each ray, shared or not.
@@ -81,7 +92,9 @@ fn group(tracer: &PathTracer<'_>, targets: &[[f32; 3]], samples: u32, replicate:
 
 #[test]
 fn sharing_leaves_every_mean() {
-    for floor in [matt(0.7), aluminium(0.3), paint(0.6, 0.2), paint(0.6, 0.0)] {
+    let half = || Reflectance::Spectrum(Spectrum::constant(0.45));
+    let leaf = Surface::Leaf(Box::new(Leaf { reflectance: half(), transmittance: half() }));
+    for floor in [matt(0.7), aluminium(0.3), paint(0.6, 0.2), paint(0.6, 0.0), leaf] {
         let ready = corner(floor, true);
         let (alone, together) = (looks(&ready, &TARGETS, 256, false), looks(&ready, &TARGETS, 512, true));
         for (index, (a, b)) in alone.iter().zip(&together).enumerate() {

@@ -35,11 +35,11 @@ fn passages_of_cut_out_mixes_are_means() {
     let whole = Material { opacity: Some(RAMP), ..Material::new(mix) };
     let materials = vec![Material::new(Surface::Absorber), Material::new(pane(1.5, 1.0)), whole];
     let palette = Palette::new(materials, vec![ramp()]).expect("a mix");
-    assert_eq!(palette.passage(MaterialId(0), &at(0), 1.0, &WAVELENGTHS), None);
+    assert_eq!(palette.passage(MaterialId(0), &at(0), &|_| 1.0, &WAVELENGTHS), None);
     for i in 0..4 {
         let opacity = i as f32 / 3.0;
         let expected = 1.0 - opacity + opacity * 0.25 * 0.96 / 1.04;
-        let passage = palette.passage(MaterialId(2), &at(i), 1.0, &WAVELENGTHS).expect("a passage");
+        let passage = palette.passage(MaterialId(2), &at(i), &|_| 1.0, &WAVELENGTHS).expect("a passage");
         assert!(
             (passage[2] - expected).abs() < 1e-6 && (palette.opacity(MaterialId(2), &at(i)) - opacity).abs() < 1e-6
         );

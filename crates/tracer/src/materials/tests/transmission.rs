@@ -84,7 +84,7 @@ fn panes_share_what_arrives_by_their_series() {
     let palette = palette(pane(1.52, 1.0));
     for degrees in [0.0, 45.0, 80.0] {
         let wo = at_degrees(degrees);
-        let passage = palette.passage(MaterialId(0), &LOOKUP, wo.z, &WAVELENGTHS).expect("a pane");
+        let passage = palette.passage(MaterialId(0), &LOOKUP, &|_| wo.z, &WAVELENGTHS).expect("a pane");
         let [reflected, passed] = albedos(&bsdf(&palette), wo);
         assert!((passed[0] - passage[0]).abs() < 2e-4 && (reflected[0] + passed[0] - 1.0).abs() < 1e-5, "{degrees}");
         let straight = bsdf(&palette).sample(wo, 0.999, Vec2::ZERO).expect("light");
