@@ -19,7 +19,7 @@ use crate::accel::{Simd, World};
 use crate::geometry::{Footprint, Shape, SurfacePoint};
 use etendue_core::Ray;
 use glam::{DVec3, Vec2, Vec3};
-pub(crate) use place::Placed;
+pub(crate) use place::{Placed, uniform_scale};
 
 /// What a ray meets first.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -189,3 +189,48 @@ fn a_disc_over_a_plane() {
         assert!((3.0 * disc(height, (point(below) - axis).length(), radius) / on_axis - 1.0).abs() < 1e-12);
     }
 }
+
+/// A lamp's glow by its strength, and an object of it over the ground.
+fn flux_lamp(level: &str, object: &str) -> Job {
+    plane(&format!(
+        "[[scene.materials]]\nname = \"lamp\"\ntype = \"emitter\"\nemission = {{ {level} }}\n\
+         [[scene.objects]]\nname = \"lamp\"\nmaterial = \"lamp\"\nposition_m = [3.5, -7.5, 3]\n{object}"
+    ))
+    .with_spectrum("flat.csv", &[(300.0, 1.0), (1100.0, 1.0)])
+}
+
+#[test]
+fn a_flux_is_shared_by_the_area_of_each_object() {
+    let sphere = (PI, "shape = { type = \"sphere\", radius_m = 0.25 }\nscale = 2", "");
+    let disc = (0.25 * PI, "shape = { type = \"disc\", radius_m = 0.5 }\nrotation_deg = [0, 180, 0]", "");
+    let quad = (18.0, "shape = { type = \"quad\", size_m = [1, 2] }\nscale = 3", ", sides = \"both\"");
+    for ((area, object, sides), glowing) in [(sphere, 1.0), (disc, 1.0), (quad, 2.0)] {
+        // The flux that leaves with 3 W·m⁻²·sr⁻¹·nm⁻¹ over the 800 nm of the legal range: Φ = π L A.
+        let watts = 3.0 * 800.0 * PI * area * glowing;
+        let by_flux = format!("radiant_flux_w = {watts}, spectrum = \"flat.csv\"{sides}");
+        let by_radiance = format!("radiance_w_m2_sr_nm = 3{sides}");
+        let (a, b) = (flux_lamp(&by_flux, object).shot(), flux_lamp(&by_radiance, object).shot());
+        let seen = |shot: &etendue_tests::Shot| shot.radiance().mean.clone();
+        // The same paths; a spectrum scaled twice in f32.
+        let apart = seen(&a).iter().zip(seen(&b)).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f32::max);
+        assert!(apart < 1e-6 && seen(&a)[0] > 0.0, "{object}: {apart}");
+    }
+}
+
+#[test]
+fn a_luminous_flux_lights_by_its_lumens() {
+    // A sphere of Φ lm far above the ground: E = Φ / (4 π d²) · cos θ, as of a point.
+    let lamp =
+        flux_lamp("luminous_flux_lm = 1000, illuminant = \"A\"", "shape = { type = \"sphere\", radius_m = 0.01 }");
+    let lamp = lamp.replacing(ONE_BAND, "wavelength_range_nm = [360, 830]\nband_width_nm = 5");
+    let expected: f64 = (0..64)
+        .map(|i| {
+            let to = DVec3::new(3.5, -7.5, 3.0) - point(i);
+            1000.0 / (4.0 * PI * to.length_squared()) * (to.z / to.length())
+        })
+        .sum::<f64>()
+        / 64.0;
+    let lux = ground_lx(&lamp);
+    // Noise of the spectrum's sampling: 16 384 wavelengths in all.
+    assert!((lux / expected - 1.0).abs() < 0.01, "{lux} lx, expected {expected}");
+}

@@ -57,6 +57,15 @@ fn a_turbidity_out_of_range() {
 }
 
 #[test]
+fn a_flux_of_what_has_no_area() {
+    let spoilt = Spoilt::new();
+    spoilt.spoil("small.toml", "type = \"image\"", "type = \"uniform\"\nluminous_flux_lm = 100\nilluminant = \"D65\"");
+    spoilt.spoil("small.toml", "file = \"sky.hdr\"\n", "");
+    spoilt.spoil("small.toml", "luminance_cd_m2_per_unit = 2000\n", "");
+    spoilt.render(&[]).refused(&["small.toml:", "scene.environment.luminous_flux_lm", "the sky has no area"]);
+}
+
+#[test]
 fn materials_that_gain_energy() {
     for gains in [
         "type = \"blinn_phong\"\nreflectance = 0.7\nspecular = 0.5\nexponent = 40",

@@ -18,8 +18,8 @@ const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 #[derive(Clone, Debug, Default)]
 pub(super) struct Obj {
     pub(super) fed: Fed,
-    /// Names of materials in order of first use, with its line; faces before any have the empty name and no line.
-    pub(super) materials: Vec<(String, Option<usize>)>,
+    /// Names of materials in order of first use; faces before any have the empty name.
+    pub(super) materials: Vec<String>,
     /// Material libraries with their lines, as written.
     pub(super) libraries: Vec<(String, usize)>,
     /// What is not read, by keyword: how often, and on which line first.
@@ -57,7 +57,7 @@ impl Obj {
     /// The polygons by material and form, each part with vertices of its own. A part's material is an index to
     /// `materials`.
     pub(super) fn parts(&self, file: &Path) -> Result<Vec<tobj::Mesh>, Error> {
-        let slots = |_: &Path| Ok((Vec::new(), self.materials.iter().map(|(name, _)| name.clone()).zip(0..).collect()));
+        let slots = |_: &Path| Ok((Vec::new(), self.materials.iter().cloned().zip(0..).collect()));
         let options = tobj::LoadOptions { single_index: true, ..tobj::LoadOptions::default() };
         let (models, _no_materials) = self.fed.read(file, |text| tobj::load_obj_buf(text, &options, slots))?;
         Ok(models.into_iter().map(|model| model.mesh).collect())
@@ -151,8 +151,8 @@ impl Obj {
     }
 
     fn use_material(&mut self, name: &str, line: Option<usize>) -> Result<(), String> {
-        if !self.materials.iter().any(|(known, _)| known == name) {
-            self.materials.push((name.to_owned(), line));
+        if !self.materials.iter().any(|known| known == name) {
+            self.materials.push(name.to_owned());
         }
         if self.materials.len() > 1 << 16 {
             return Err("more than 65 536 materials in one mesh; split the mesh".to_owned());
@@ -255,10 +255,8 @@ mod tests {
             "{TRIANGLE}f 1 2 3\no part\nusemtl red paint\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl red paint\nf 1 2 3"
         ))
         .expect("readable");
-        let names: Vec<&str> = obj.materials.iter().map(|(name, _)| name.as_str()).collect();
-        assert_eq!(names, ["", "red paint", "b"]);
+        assert_eq!(obj.materials, ["", "red paint", "b"]);
         assert!(parts.iter().map(|p| p.material_id).eq([None, Some(1), Some(2), Some(1)]));
-        assert_eq!(obj.materials[1].1, Some(6));
     }
 
     #[test]

@@ -33,18 +33,13 @@ pub(super) fn slots(file: &Path, obj: &Obj) -> Result<Slots, Error> {
         slots.report.extend(library.report);
         slots.library_bytes.push(bytes);
     }
-    for (name, line) in &obj.materials {
+    for name in &obj.materials {
         let (material, layout) = if let Some(found) = known.get(name) {
             let (material, notes) = found.slot(name);
             slots.report.extend(notes);
             (material, found.layout)
         } else {
-            let place = line.map(|line| format!("{}:{line}", file.file_name().unwrap_or_default().to_string_lossy()));
-            slots.report.extend(
-                place.map(|place| {
-                    format!("{place}: material \"{name}\" is in no material library; say it in the scene")
-                }),
-            );
+            // The scene says what it is, or is told that nobody does.
             (SlotMaterial { name: name.clone(), surface: None }, UvLayout::PLAIN)
         };
         slots.materials.push(material);

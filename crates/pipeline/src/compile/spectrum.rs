@@ -1,6 +1,7 @@
 //! Curves and colours of light: from records to spectra.
 
 use super::context::Context;
+use core::f64::consts::FRAC_1_PI;
 use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
 use etendue_scene::record::{Curve, Emission, Level, LightColour};
 use etendue_scene::{Place, Placed};
@@ -59,15 +60,19 @@ pub(super) fn named_illuminant(name: &Placed<String>, context: &mut Context<'_>)
     found
 }
 
-/// The radiance of a surface or of the sky, W·m⁻²·sr⁻¹·nm⁻¹.
+/// The radiance of a surface or of the sky, W·m⁻²·sr⁻¹·nm⁻¹; of a stated flux that of a surface of 1 m², one side of which
+/// glows (a flux Φ from an area A leaves with L = Φ / (π A)).
 pub(super) fn emitted(emission: &Emission, context: &mut Context<'_>) -> Option<Spectrum> {
-    match (&emission.level, &emission.colour) {
-        (Level::Radiance(radiance), _) => curve(radiance, Outside::Zero, context),
-        (Level::Luminance(level), Some(colour)) => {
-            let relative = relative(colour, context)?;
-            bright(&relative, level.value, &level.place, context)
-        }
-        (Level::Luminance(_), None) => None,
+    let level = match &emission.level {
+        Level::Radiance(radiance) => return curve(radiance, Outside::Zero, context),
+        // A level without a colour has been refused where it was read.
+        Level::Luminance(level) | Level::LuminousFlux(level) | Level::RadiantFlux(level) => level,
+    };
+    let relative = relative(emission.colour.as_ref()?, context)?;
+    match &emission.level {
+        Level::RadiantFlux(_) => Some(powered(&relative, level.value * FRAC_1_PI)),
+        Level::LuminousFlux(_) => bright(&relative, level.value * FRAC_1_PI, &level.place, context),
+        Level::Luminance(_) | Level::Radiance(_) => bright(&relative, level.value, &level.place, context),
     }
 }
 

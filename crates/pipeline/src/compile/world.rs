@@ -82,13 +82,41 @@ impl Assembly {
                 if many { format!("{} {}", object.name.value, number + 1) } else { object.name.value.clone() };
             let name = name.map_or(numbered, |n| n.value.clone());
             self.identities.push(Identity { name, class: object.class.as_ref().map(|c| c.value.clone()) });
-            self.builder.add_instance(Instance {
+            let mut instance = Instance {
                 shape: prototype.shape,
                 to_world: Track::still(transform.to_world() * DAffine3::from_mat3(prototype.to_object)),
                 materials: prototype.materials.clone(),
                 instance_id: self.identities.len() as u32,
                 semantic_id: class,
-            });
+            };
+            self.share_flux(&mut instance, object, palette, context);
+            self.builder.add_instance(instance);
+        }
+    }
+
+    /// Materials whose light is stated as a flux give it by the area that they have on this instance.
+    fn share_flux(
+        &self,
+        instance: &mut Instance,
+        object: &Object,
+        palette: &mut PaletteBuilder,
+        context: &mut Context<'_>,
+    ) {
+        let shared: Vec<_> = instance.materials.iter().copied().filter(|id| palette.gives_flux(*id)).collect();
+        for id in shared {
+            match self.builder.area_m2(instance, id) {
+                // None of its surfaces has the material, or another slot of the same has been served.
+                Some(0.0) => {}
+                Some(area_m2) => {
+                    let like = palette.of_area(id, area_m2);
+                    instance.materials.iter_mut().filter(|m| **m == id).for_each(|m| *m = like);
+                }
+                None => context.fault(
+                    &object.place,
+                    "a sphere that is stretched unevenly has no area from which its light's flux would follow",
+                    "scale it evenly, or give the light's luminance or radiance",
+                ),
+            }
         }
     }
 

@@ -30,8 +30,18 @@ record! {
     }
 }
 
-/// A sky brings its sun.
 fn check(scene: &Scene, faults: &mut Faults) {
+    check_sun(scene, faults);
+    if let Some(Environment::Uniform(emission)) = &scene.environment
+        && let Some((key, place)) = emission.level.flux()
+    {
+        let problem = format!("\"{key}\" is the flux of a surface, and the sky has no area");
+        faults.add(place, problem, "give \"luminance_cd_m2\" or \"radiance_w_m2_sr_nm\"");
+    }
+}
+
+/// A sky brings its sun.
+fn check_sun(scene: &Scene, faults: &mut Faults) {
     let Some(Environment::Sky(sky)) = &scene.environment else { return };
     if sky.sun.as_ref().is_some_and(|sun| !sun.value) {
         return;

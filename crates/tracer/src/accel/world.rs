@@ -3,8 +3,9 @@
 use super::Simd;
 use super::mesh_tree::MeshTree;
 use super::reach;
+use crate::MaterialId;
 use crate::geometry::{Instance, Mesh, MeshId, Shape};
-use crate::view::View;
+use crate::view::{View, uniform_scale};
 use glam::{DAffine3, DVec3};
 
 /// Why a world is refused.
@@ -87,6 +88,30 @@ impl WorldBuilder {
     pub fn add_instance(&mut self, instance: Instance) -> u32 {
         self.instances.push(instance);
         (self.instances.len() - 1) as u32
+    }
+
+    /// Area of one side of an instance's surfaces of a material, m² in the world; `None` where the instance moves, and for
+    /// a sphere that it stretches unevenly, of whose area no closed form is known.
+    #[must_use]
+    pub fn area_m2(&self, instance: &Instance, material: MaterialId) -> Option<f64> {
+        let to_world = instance.to_world.as_still()?.matrix3;
+        match instance.shape {
+            Shape::Sphere { radius_m } => {
+                let radius_m = radius_m * uniform_scale(&to_world)?;
+                Some(4.0 * core::f64::consts::PI * radius_m * radius_m)
+            }
+            Shape::Mesh(id) => {
+                let mesh = &self.meshes[id.0 as usize];
+                let of_it = |primitive: &u32| {
+                    instance.materials.get(usize::from(mesh.slots()[*primitive as usize])) == Some(&material)
+                };
+                let area = |primitive| {
+                    let [a, b, c] = mesh.corners(primitive).map(glam::Vec3::as_dvec3);
+                    0.5 * (to_world * (b - a)).cross(to_world * (c - a)).length()
+                };
+                Some((0..mesh.triangles().len() as u32).filter(of_it).map(area).sum())
+            }
+        }
     }
 
     /// Checks the instances and builds the meshes' trees.

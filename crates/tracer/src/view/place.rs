@@ -148,7 +148,7 @@ impl Placed {
     }
 }
 
-fn uniform_scale(m: &DMat3) -> Option<f64> {
+pub(crate) fn uniform_scale(m: &DMat3) -> Option<f64> {
     let square = m.x_axis.length_squared();
     // M Mᵀ is a multiple of one; descriptions are written with some ten digits.
     let gram = m.transpose() * *m;

@@ -25,6 +25,8 @@ pub(super) struct PaletteBuilder {
     by_name: BTreeMap<String, MaterialId>,
     /// Materials that meshes bring themselves, by mesh file and slot name.
     by_slot: BTreeMap<(PathBuf, String), MaterialId>,
+    /// Materials of a flux, by the bits of the area that gives it.
+    by_area: BTreeMap<(u32, u64), MaterialId>,
     pictures: Pictures,
 }
 
@@ -35,6 +37,9 @@ struct Made {
     name: String,
     /// Whether any of its textures is laid by texture coordinates.
     needs_coordinates: bool,
+    /// Of a material whose light is stated as a flux: how many sides glow. Its radiance is that of an area of 1 m² in all
+    /// until [`PaletteBuilder::of_area`] knows better.
+    flux_sides: Option<f64>,
 }
 
 /// What materials are made with.
@@ -44,6 +49,8 @@ struct Workshop<'w, 'a> {
     context: &'w mut Context<'a>,
     /// Whether a texture was used that is laid by texture coordinates.
     needs_coordinates: bool,
+    /// As in [`Made`].
+    flux_sides: Option<f64>,
 }
 
 impl PaletteBuilder {
@@ -52,11 +59,11 @@ impl PaletteBuilder {
         let mut builder = Self::default();
         for record in &scene.materials {
             let pictures = &mut builder.pictures;
-            let mut workshop = Workshop { scene, pictures, context, needs_coordinates: false };
+            let mut workshop = Workshop { scene, pictures, context, needs_coordinates: false, flux_sides: None };
             if let Some(material) = workshop.material(record) {
-                let needs_coordinates = workshop.needs_coordinates;
+                let (needs_coordinates, flux_sides) = (workshop.needs_coordinates, workshop.flux_sides);
                 let (place, name) = (record.place.clone(), record.name.value.clone());
-                let id = builder.add(Made { material, place, name: name.clone(), needs_coordinates });
+                let id = builder.add(Made { material, place, name: name.clone(), needs_coordinates, flux_sides });
                 builder.by_name.insert(name, id);
             }
         }
@@ -101,9 +108,38 @@ impl PaletteBuilder {
         let surface = slot::surface(file, slot, place, &mut self.pictures, context)?;
         let needs_coordinates = slot::has_picture(slot);
         let material = Material::new(surface);
-        let id = self.add(Made { material, place: place.clone(), name: slot.name.clone(), needs_coordinates });
+        let id = self.add(Made {
+            material,
+            place: place.clone(),
+            name: slot.name.clone(),
+            needs_coordinates,
+            flux_sides: None,
+        });
         self.by_slot.insert(key, id);
         Some(id)
+    }
+
+    /// Whether a material's light is stated as a flux, so that [`PaletteBuilder::of_area`] has to make its like.
+    pub(super) fn gives_flux(&self, id: MaterialId) -> bool {
+        self.materials.get(id.0 as usize).is_some_and(|made| made.flux_sides.is_some())
+    }
+
+    /// The like of a material of a flux for an object whose surfaces of it have `area_m2` on one side.
+    pub(super) fn of_area(&mut self, id: MaterialId, area_m2: f64) -> MaterialId {
+        let key = (id.0, area_m2.to_bits());
+        if let Some(known) = self.by_area.get(&key) {
+            return *known;
+        }
+        let made = &self.materials[id.0 as usize];
+        let sides = made.flux_sides.unwrap_or(1.0);
+        let mut like =
+            Made { material: made.material.clone(), place: made.place.clone(), name: made.name.clone(), ..*made };
+        if let Some(emission) = &mut like.material.emission {
+            emission.radiance = emission.radiance.scaled(1.0 / (sides * area_m2));
+        }
+        let made = self.add(like);
+        self.by_area.insert(key, made);
+        made
     }
 
     /// The palette, and the materials' names in the order of their ids.

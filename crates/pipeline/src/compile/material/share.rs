@@ -48,6 +48,8 @@ impl Workshop<'_, '_> {
             Some(name) => Some(self.texture(name, Use::Colour, 1.0)?),
             None => None,
         };
-        Some(Emission { radiance: emitted(&record.light, self.context)?, factor, glow })
+        let radiance = emitted(&record.light, self.context)?;
+        self.flux_sides = record.light.level.flux().map(|_| if glow == Glow::Both { 2.0 } else { 1.0 });
+        Some(Emission { radiance, factor, glow })
     }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::fault::Faults;
-use crate::place::Placed;
+use crate::place::{Place, Placed};
 use crate::reader::{Known, keyed, known, number, record, vector};
 use crate::record::curve::{Curve, curve, spectrum_file};
 use etendue_spectra::illuminant;
@@ -15,6 +15,11 @@ keyed! {
         luminance_cd_m2 => Luminance(Placed<f64>) = number("cd/m²").at_least(0.0);
         /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹, 0 or more: a number (the same at all wavelengths) or `{ spectrum = file }`.
         radiance_w_m2_sr_nm => Radiance(Curve) = curve(number("W·m⁻²·sr⁻¹·nm⁻¹").at_least(0.0));
+        /// Luminous flux, lm, 0 or more, of each object by all its surfaces of this material together; for surfaces without
+        /// a texture on their light. The colour is told as for a luminance.
+        luminous_flux_lm => LuminousFlux(Placed<f64>) = number("lm").at_least(0.0);
+        /// Radiant flux over all wavelengths (300 to 1 100 nm), W, 0 or more, of each object, like the luminous flux.
+        radiant_flux_w => RadiantFlux(Placed<f64>) = number("W").at_least(0.0);
     }
 }
 
@@ -47,14 +52,35 @@ record! {
     }
 }
 
+impl Level {
+    /// The key that needs a colour beside it, and where it stands.
+    fn of_a_colour(&self) -> Option<(&'static str, &Place)> {
+        match self {
+            Self::Luminance(v) => Some(("luminance_cd_m2", &v.place)),
+            Self::LuminousFlux(v) => Some(("luminous_flux_lm", &v.place)),
+            Self::RadiantFlux(v) => Some(("radiant_flux_w", &v.place)),
+            Self::Radiance(_) => None,
+        }
+    }
+
+    /// The key that states a flux, of which a surface of known area is needed, and where it stands.
+    #[must_use]
+    pub fn flux(&self) -> Option<(&'static str, &Place)> {
+        match self {
+            Self::LuminousFlux(_) | Self::RadiantFlux(_) => self.of_a_colour(),
+            Self::Luminance(_) | Self::Radiance(_) => None,
+        }
+    }
+}
+
 fn check_emission(emission: &Emission, faults: &mut Faults) {
-    match (&emission.level, &emission.colour) {
-        (Level::Luminance(v), None) => faults.add(
-            &v.place,
-            "\"luminance_cd_m2\" does not say the colour of the light",
+    match (emission.level.of_a_colour(), &emission.colour) {
+        (Some((key, place)), None) => faults.add(
+            place,
+            format!("\"{key}\" does not say the colour of the light"),
             "add one of \"illuminant\", \"temperature_k\", \"rgb\", \"spectrum\"",
         ),
-        (Level::Radiance(_), Some(colour)) => faults.add(
+        (None, Some(colour)) => faults.add(
             colour.place(),
             "\"radiance_w_m2_sr_nm\" already says the spectrum, the colour contradicts it",
             "remove the colour, or give \"luminance_cd_m2\" in place of the radiance",
@@ -76,7 +102,7 @@ pub(super) fn check_colour(colour: &LightColour, faults: &mut Faults) {
 impl LightColour {
     /// Where it stands.
     #[must_use]
-    pub fn place(&self) -> &crate::Place {
+    pub fn place(&self) -> &Place {
         match self {
             Self::Illuminant(v) => &v.place,
             Self::Temperature(v) => &v.place,

@@ -1,13 +1,13 @@
 //! Light that a surface gives.
 
-use crate::fault::Named;
+use crate::fault::{Faults, Named};
 use crate::place::Placed;
 use crate::reader::{choice, name_of, record};
 use crate::record::light::Emission;
 
 record! {
     /// Light that a surface gives.
-    pub struct SurfaceEmission {
+    pub struct SurfaceEmission check(check_glow) {
         /// How much, of which colour.
         inside light: Emission;
         /// Which sides give it. The front is where the normal points: by the winding of triangles, outwards for a box or a
@@ -24,7 +24,14 @@ choice! {
     pub enum Sides {
         /// The side that the normal points to.
         "front" => Front,
-        /// Both, each with the stated radiance.
+        /// Both, each with the stated radiance; a flux is that of both together.
         "both" => Both,
+    }
+}
+
+fn check_glow(emission: &SurfaceEmission, faults: &mut Faults) {
+    if let (Some((key, place)), Some(_)) = (emission.light.level.flux(), &emission.texture) {
+        let problem = format!("\"{key}\" is no flux of a surface whose light a texture changes from place to place");
+        faults.add(place, problem, "give \"luminance_cd_m2\" or \"radiance_w_m2_sr_nm\" of the texture's white");
     }
 }
