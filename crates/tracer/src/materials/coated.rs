@@ -18,6 +18,7 @@ use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use etendue_core::{Spectral, Wavelengths};
 use glam::{Vec2, Vec3};
 
+use super::energy::CosineTable;
 use super::microfacet::{Ggx, half_vector, mirrored};
 use super::{BsdfSample, BsdfValue, Event, Factor, MaterialError, Reflectance, fresnel};
 use crate::textures::{ImageTexture, Lookup};
@@ -87,8 +88,8 @@ pub(super) struct Coat {
 /// The transmittance of a coat of one roughness.
 #[derive(Clone, Debug, PartialEq)]
 struct Row {
-    /// T at cosines (i/SEGMENTS)², i = 0 ..= SEGMENTS: dense towards grazing, where T bends.
-    transmittance: Box<[f32]>,
+    /// T, of more steps than albedos have: towards grazing it bends sharply.
+    transmittance: CosineTable<128>,
     /// T̄ = 2 ∫ T μ dμ.
     mean: f32,
 }
@@ -100,7 +101,6 @@ pub(super) struct PlaceInRows {
     beyond: f32,
 }
 
-const SEGMENTS: usize = 128;
 const ROWS: usize = 16;
 
 /// The roughness of a row of a table over roughness.
@@ -137,26 +137,15 @@ impl Coat {
     }
 
     pub(super) fn transmittance(&self, place: PlaceInRows, cos: f32) -> f32 {
-        let x = cos.clamp(0.0, 1.0).sqrt() * SEGMENTS as f32;
-        let i = (x as usize).min(SEGMENTS - 1);
-        self.between(place, |row| {
-            let (low, high) = (row.transmittance[i], row.transmittance[i + 1]);
-            low + (high - low) * (x - i as f32)
-        })
+        self.between(place, |row| row.transmittance.at(cos))
     }
 }
 
 impl Row {
     fn new(n: f32, alpha: f32) -> Self {
         let facets = Ggx::of(alpha);
-        let transmittance: Box<[f32]> = (0..=SEGMENTS)
-            .map(|i| {
-                let t = i as f32 / SEGMENTS as f32;
-                1.0 - reflectance_of_coat(n, facets, t * t)
-            })
-            .collect();
-        let mean = mean_transmittance(&transmittance) as f32;
-        Self { transmittance, mean }
+        let transmittance = CosineTable::new(|cos| f64::from(1.0 - reflectance_of_coat(n, facets, cos)));
+        Self { mean: transmittance.mean(), transmittance }
     }
 }
 
@@ -173,23 +162,6 @@ fn reflectance_of_coat(n: f32, facets: Option<Ggx>, cos_o: f32) -> f32 {
         if wi.z > 0.0 { f64::from(fresnel::dielectric(wo.dot(m), n) * facets.weight(wo, wi)) } else { 0.0 }
     };
     ((0..CELLS * CELLS).map(cell).sum::<f64>() / (CELLS * CELLS) as f64) as f32
-}
-
-/// 2 ∫ T μ dμ = 4 ∫ T t³ dt with μ = t², exact for the piecewise linear table (three-point Gauss in each segment).
-fn mean_transmittance(table: &[f32]) -> f64 {
-    let width = 1.0 / SEGMENTS as f64;
-    let node = 0.5 * (0.6_f64).sqrt();
-    let rule = [(0.5 - node, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.5 + node, 5.0 / 18.0)];
-    let segment = |i: usize| -> f64 {
-        let (low, high) = (f64::from(table[i]), f64::from(table[i + 1]));
-        rule.iter()
-            .map(|(x, w)| {
-                let t = (i as f64 + x) * width;
-                w * (low + (high - low) * x) * t * t * t
-            })
-            .sum()
-    };
-    4.0 * width * (0..SEGMENTS).map(segment).sum::<f64>()
 }
 
 /// A coated surface at one point and a path's wavelengths.

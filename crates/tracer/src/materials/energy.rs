@@ -24,24 +24,28 @@ pub struct EnergyGain {
     pub wavelength_nm: u16,
 }
 
+/// Segments of the tables of albedos.
 const SEGMENTS: usize = 64;
 
 /// Rounding, and the error of the quadratures behind the tables.
 const LIMIT: f64 = 1.0 + 5e-4;
 
-/// A function of the cosine of incidence, at cosines (i/[`SEGMENTS`])², i = 0 ..= `SEGMENTS`: dense towards grazing.
+/// A function of the cosine of incidence, at cosines (i/N)², i = 0 ..= N: dense towards grazing.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct AlbedoTable(Box<[f32]>);
+pub(super) struct CosineTable<const N: usize>(Box<[f32]>);
 
-impl AlbedoTable {
-    pub(super) fn new(albedo: impl Fn(f32) -> f64) -> Self {
-        Self((0..=SEGMENTS).map(|i| albedo(node_cos(i)) as f32).collect())
+/// A lobe's albedo.
+pub(super) type AlbedoTable = CosineTable<SEGMENTS>;
+
+impl<const N: usize> CosineTable<N> {
+    pub(super) fn new(of_cos: impl Fn(f32) -> f64) -> Self {
+        Self((0..=N).map(|i| of_cos(node_cos(i, N)) as f32).collect())
     }
 
-    /// The albedo at a cosine of incidence.
+    /// The value at a cosine of incidence.
     pub(super) fn at(&self, cos: f32) -> f32 {
-        let x = cos.clamp(0.0, 1.0).sqrt() * SEGMENTS as f32;
-        let i = (x as usize).min(SEGMENTS - 1);
+        let x = cos.clamp(0.0, 1.0).sqrt() * N as f32;
+        let i = (x as usize).min(N - 1);
         self.0[i] + (self.0[i + 1] - self.0[i]) * (x - i as f32)
     }
 
@@ -49,24 +53,24 @@ impl AlbedoTable {
         self.0.iter().copied().fold(0.0, f32::max)
     }
 
-    /// 2 ∫ E μ dμ = 4 ∫ E t³ dt with μ = t²: the albedo under uniform light. Exact for the broken line over t.
+    /// 2 ∫ E μ dμ = 4 ∫ E t³ dt with μ = t²: the mean under uniform light. Exact for the broken line over t.
     pub(super) fn mean(&self) -> f32 {
         let node = 0.5 * (0.6_f64).sqrt();
         let rule = [(0.5 - node, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.5 + node, 5.0 / 18.0)];
         let segment = |i: usize| -> f64 {
             let (low, high) = (f64::from(self.0[i]), f64::from(self.0[i + 1]));
             let point = |x: f64| {
-                let t = (i as f64 + x) / SEGMENTS as f64;
+                let t = (i as f64 + x) / N as f64;
                 (low + (high - low) * x) * t * t * t
             };
             rule.iter().map(|(x, w)| w * point(*x)).sum()
         };
-        (4.0 / SEGMENTS as f64 * (0..SEGMENTS).map(segment).sum::<f64>()) as f32
+        (4.0 / N as f64 * (0..N).map(segment).sum::<f64>()) as f32
     }
 }
 
-fn node_cos(i: usize) -> f32 {
-    let t = i as f32 / SEGMENTS as f32;
+fn node_cos(i: usize, segments: usize) -> f32 {
+    let t = i as f32 / segments as f32;
     t * t
 }
 
@@ -88,7 +92,7 @@ fn greatest(base: &Spectrum, lobes: &[(&Spectrum, &AlbedoTable)], node: usize) -
     let (k, albedo) = (0..base.nodes().len())
         .map(|k| (k, albedo(k)))
         .fold((0, f64::NEG_INFINITY), |best, next| if next.1 > best.1 { next } else { best });
-    let incidence_deg = f64::from(etendue_core::maths::f32::acos(node_cos(node)).to_degrees());
+    let incidence_deg = f64::from(etendue_core::maths::f32::acos(node_cos(node, SEGMENTS)).to_degrees());
     EnergyGain { albedo, incidence_deg, wavelength_nm: 300 + k as u16 }
 }
 

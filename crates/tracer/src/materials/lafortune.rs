@@ -125,11 +125,13 @@ impl Lafortune {
     /// # Errors
     /// Where there are too many lobes, one has no direction, an exponent or weight out of range, or the whole sends back
     /// more than arrives.
-    pub fn new(base: Reflectance, lobes: Vec<Lobe>) -> Result<Self, LafortuneError> {
+    pub fn new(base: Reflectance, mut lobes: Vec<Lobe>) -> Result<Self, LafortuneError> {
         if lobes.len() > MAX_LOBES {
             return Err(LafortuneError::TooMany { lobes: lobes.len() });
         }
         lobes.iter().enumerate().try_for_each(|(i, lobe)| lobe.check(i))?;
+        // Nothing times a power beyond every number would be no number.
+        lobes.retain(|lobe| lobe.weight.max_value() > 0.0);
         let albedos = lobes.iter().map(|lobe| AlbedoTable::new(|cos| lobe.albedo(cos))).collect();
         let model = Self { base, lobes, albedos };
         model.check_energy(&energy::known(&model.base))?;
@@ -301,6 +303,18 @@ mod tests {
         let most = Spectrum::constant(0.6);
         let error = Lafortune::new(Reflectance::Spectrum(half), vec![Lobe::mirror(30.0, &most)]).expect_err("1.1");
         assert!(matches!(error, LafortuneError::Energy(g) if (g.albedo - 1.1).abs() < 1e-3 && g.incidence_deg == 0.0));
+    }
+
+    #[test]
+    fn a_lobe_without_weight_is_none() {
+        // 1.2¹⁰⁰⁰⁰ is beyond every number.
+        let lobe = Lobe { tangential: -1.2, normal: 1.0, exponent: 1e4, weight: Spectrum::constant(0.0) };
+        let base = Reflectance::Spectrum(Spectrum::constant(0.5));
+        let model = Lafortune::new(base, vec![lobe]).expect("a matt surface");
+        let bsdf = model.resolve(Spectral([0.5]), &Wavelengths::<1>::uniform(400.0, 700.0, 0.5));
+        let (wo, wi) = (Vec3::new(0.8, 0.0, 0.6), Vec3::new(-0.8, 0.0, 0.6));
+        let value = bsdf.evaluate(wo, wi);
+        assert!((value.value_cos[0] - 0.3 * FRAC_1_PI).abs() < 1e-7 && value.pdf > 0.0, "{value:?}");
     }
 
     #[test]
