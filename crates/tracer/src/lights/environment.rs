@@ -202,15 +202,7 @@ impl ImageEnvironment {
         let (place, by_area) = self.distribution.sample(u);
         let (direction, sin) = self.direction(place);
         let pdf = by_area / (2.0 * PI * PI * sin);
-        let radiance = self.radiance_at(place, wavelengths);
-        (pdf > 0.0 && pdf.is_finite()).then_some(LightSample {
-            direction,
-            target: None,
-            radiance,
-            pdf,
-            delta: false,
-            surrounds: true,
-        })
+        LightSample::of_surroundings(direction, self.radiance_at(place, wavelengths), pdf)
     }
 
     /// Irradiance of a surface under the mean of the surroundings, W·m⁻²·nm⁻¹, over a range of wavelengths.

@@ -120,6 +120,14 @@ pub struct LightSample<const N: usize> {
     pub surrounds: bool,
 }
 
+impl<const N: usize> LightSample<N> {
+    /// Light of the surroundings; `None` where no density can be told.
+    fn of_surroundings(direction: Vec3, radiance: Spectral<N>, pdf: f32) -> Option<Self> {
+        let drawn = Self { direction, target: None, radiance, pdf, delta: false, surrounds: true };
+        (pdf > 0.0 && pdf.is_finite()).then_some(drawn)
+    }
+}
+
 /// Light from infinity that was met by chance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DistantLight<const N: usize> {

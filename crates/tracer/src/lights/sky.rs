@@ -134,15 +134,7 @@ impl SkyEnvironment {
         let (sin_e, cos_e) = sin_cos(place.y * FRAC_PI_2);
         let direction = Vec3::new(cos_e * cos_a, cos_e * sin_a, sin_e);
         let pdf = by_area / (TAU * FRAC_PI_2 * cos_e);
-        let radiance = self.radiance(direction, wavelengths);
-        (pdf > 0.0 && pdf.is_finite()).then_some(LightSample {
-            direction,
-            target: None,
-            radiance,
-            pdf,
-            delta: false,
-            surrounds: true,
-        })
+        LightSample::of_surroundings(direction, self.radiance(direction, wavelengths), pdf)
     }
 }
 
