@@ -4,8 +4,8 @@
 //! ∂p/∂v, z along the surface's own shading normal. Pictures have green up in the texture (OpenGL) or down (DirectX).
 //! The x and y parts are multiplied by the strength, the result is normalised. Filtered texels are shorter than unit
 //! vectors; the spread of normals that their length tells is left out, as is the displacement itself: outlines and
-//! shadows are those of the mesh. Bytes of 127 and 128 both stand next to 0: |x| below 1/254 is taken as 0, so that a
-//! flat map is flat.
+//! shadows are those of the mesh. Where a picture repeats mirrored, its slopes are not turned about. Bytes of 127 and 128
+//! both stand next to 0: |x| below 1/254 is taken as 0, so that a flat map is flat.
 
 use glam::{Vec2, Vec3};
 
