@@ -5,11 +5,12 @@ use crate::failure::Failure;
 use crate::tell;
 use etendue_core::Plane;
 use etendue_core::quantity::Electrons;
-use etendue_io::exr::{self, EncodeError, encode_ground_truth, encode_plane, encode_spectral};
+use etendue_io::exr::{self, EncodeError, encode_ground_truth, encode_plane, encode_rays, encode_spectral};
 use etendue_io::{OutputFolder, Provenance, png, sidecar};
 use etendue_pipeline::film::Film;
 use etendue_pipeline::photograph::{Light, take};
 use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan};
+use etendue_pipeline::rays::ray_table;
 use etendue_pipeline::truth::{GroundTruth, ground_truth};
 use etendue_sensor::{FrameAddress, SensorState};
 use etendue_tracer::accel::Simd;
@@ -148,6 +149,11 @@ pub fn photographs(
 
 fn truth(plan: &Plan, camera: &CameraPlan, simd: Simd, results: &mut Results<'_>) -> Result<(), Failure> {
     let products = &camera.products;
+    if products.rays {
+        let table = ray_table(&camera.body);
+        let facts = facts::provenance(plan, camera);
+        results.write(Files::RAYS, encode_rays(&table.origin, &table.direction, &table.ray, &facts))?;
+    }
     if !products.ground_truth && products.depth_png_per_m.is_none() {
         return Ok(());
     }

@@ -3,7 +3,7 @@
 use etendue_core::CameraPose;
 use etendue_core::quantity::{DigitalNumber, Electrons, Irradiance, Quantity, Radiance};
 use etendue_io::Provenance;
-use etendue_optics::PupilProjection;
+use etendue_optics::{Lens, PupilProjection};
 use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, Products, Route};
 use etendue_projection::Sense;
 use serde_json::{Value, json};
@@ -121,8 +121,8 @@ pub fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>
         "ground_truth": {
             "ray.ID": "0: no ray passes the lens; 1: the principal ray; 2: that ray is clipped, the ray through the \
                        centroid of the open pupil is taken",
-            "depth.Z": "m along the optical axis from the entrance pupil; +inf: sky; NaN: no ray",
-            "distance.Z": "m along the pixel's principal ray (587.56 nm); as depth.Z",
+            "depth.Z": "m along the optical axis from the entrance pupil; +inf: sky; NaN: no ray, or one that does not look ahead",
+            "distance.Z": "m along the pixel's principal ray (587.56 nm) from its origin; +inf: sky; NaN: no ray",
             "N": "unit shading normal, world",
             "P": "position, world, m",
             "instances": plan.identities,
@@ -136,8 +136,12 @@ pub fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>
 /// Lens and camera matrix.
 pub fn optics(body: &CameraBody) -> Value {
     let lens = &body.lens;
-    let matrix = body.raster.camera_matrix(lens.principal_distance_mm());
+    let matrix = match lens {
+        Lens::Calibrated(lens) => lens.parameters().calibration.matrix(),
+        _ => body.raster.camera_matrix(lens.principal_distance_mm()),
+    };
     json!({
+        "model": lens.kind(),
         "focal_length_mm": lens.focal_length_mm(),
         "f_number": lens.f_number(),
         "t_number": lens.t_number(),
@@ -235,6 +239,7 @@ impl Files {
     pub const ELECTRONS: &str = "electrons.exr";
     pub const GROUND_TRUTH: &str = "ground_truth.exr";
     pub const DEPTH: &str = "depth.png";
+    pub const RAYS: &str = "rays.exr";
     pub const SIDECAR: &str = "camera.json";
 
     /// The raw picture of a frame.
@@ -261,6 +266,7 @@ impl Files {
         add(p.ground_truth, Self::GROUND_TRUTH, entry("depth, distance, normal, position, ids", "m, m, 1, m, 1"));
         let depth_unit = format!("1/{} m", p.depth_png_per_m.unwrap_or(0.0));
         add(p.depth_png_per_m.is_some(), Self::DEPTH, entry("planar depth, 0 is invalid", &depth_unit));
+        add(p.rays, Self::RAYS, entry("origin and direction of each pixel's ray, camera frame", "m, 1"));
         for frame in frames.clone() {
             add(p.raw, &Self::raw(frame), entry_of::<DigitalNumber>());
             add(p.picture, &Self::picture(frame), entry("sRGB picture", "8 bits"));

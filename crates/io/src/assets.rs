@@ -1,11 +1,13 @@
 //! Everything that a description names.
 
-use etendue_scene::asset::{AssetKind, AssetRequest, Assets};
+use etendue_scene::asset::{AssetKind, AssetRequest, Assets, CalibrationAsset};
 
 use crate::Error;
+use crate::calibration::{ImportedCamera, read_calibration};
 use crate::mesh::read_mesh;
 use crate::photometry::read_photometry;
 use crate::picture::read_picture;
+use crate::prescription::read_prescription;
 use crate::spectrum::read_spectrum_of;
 use crate::table::{read_complex_index, read_retro_table};
 
@@ -35,13 +37,19 @@ pub fn load_assets(named: &[AssetRequest]) -> Result<Assets, Vec<Error>> {
 
 fn load(assets: &mut Assets, request: &AssetRequest) -> Result<(), Error> {
     let (path, key) = (&request.path, request.path.clone());
-    match request.kind {
+    match &request.kind {
         AssetKind::Mesh => drop(assets.meshes.insert(key, read_mesh(path)?)),
         AssetKind::Image => drop(assets.images.insert(key, read_picture(path)?)),
-        AssetKind::Spectrum(values) => drop(assets.spectra.insert(key, read_spectrum_of(path, values)?)),
+        AssetKind::Spectrum(values) => drop(assets.spectra.insert(key, read_spectrum_of(path, *values)?)),
         AssetKind::Photometry => drop(assets.photometry.insert(key, read_photometry(path)?)),
         AssetKind::ComplexIndex => drop(assets.indices.insert(key, read_complex_index(path)?)),
         AssetKind::RetroTable => drop(assets.retro_tables.insert(key, read_retro_table(path)?)),
+        AssetKind::Prescription => drop(assets.prescriptions.insert(key, read_prescription(path)?)),
+        AssetKind::Calibration(choice) => {
+            let camera = read_calibration(path, choice.format, choice.camera.as_deref())?;
+            let ImportedCamera { calibration, notes: report, hash, .. } = camera;
+            assets.calibrations.insert((key, choice.clone()), CalibrationAsset { calibration, report, hash });
+        }
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! Why a lens cannot be, or cannot serve a picture.
 
 use crate::prescription::PrescriptionError;
-use etendue_projection::DistortionError;
+use etendue_projection::{CalibrationError, DistortionError};
 
 /// The wavelength of ground truth and of first-order quantities, nm.
 pub const PRINCIPAL_NM: f64 = 587.56;
@@ -112,8 +112,54 @@ pub enum OpticsError {
         value: f64,
     },
     /// A distortion of a lens that has its own.
-    #[error("a prescription has the distortion of its surfaces: leave out the lens's distortion")]
+    #[error("prescriptions, calibrated and parallel cameras have their own distortion: leave out the lens's")]
     OwnDistortion,
+    /// A calibration that cannot serve.
+    #[error(transparent)]
+    Calibration(#[from] CalibrationError),
+    /// A calibration of another picture.
+    #[error(
+        "the sensor has {got_width} × {got_height} pixels but the calibration is of {width} × {height}: give the sensor the calibration's size, or a calibration of this picture"
+    )]
+    CalibratedSize {
+        /// The sensor's width.
+        got_width: usize,
+        /// The sensor's height.
+        got_height: usize,
+        /// The calibration's width.
+        width: usize,
+        /// The calibration's height.
+        height: usize,
+    },
+    /// A calibration that sees nothing at its own principal point.
+    #[error("the calibration sees nothing at its principal point ({x}, {y}) px, where the focal length is taken")]
+    BlindCentre {
+        /// cx, px.
+        x: f64,
+        /// cy, px.
+        y: f64,
+    },
+    /// A relative illumination that is none.
+    #[error(
+        "a relative illumination is a list of rising radii from 0 mm and of ratios of at least 0 that begin with 1"
+    )]
+    Falloff,
+    /// A relative illumination that ends inside the picture.
+    #[error(
+        "the relative illumination is known to {end_mm} mm, but the picture reaches {needed_mm:.4} mm from the principal point: extend it"
+    )]
+    FalloffEnds {
+        /// Where it ends, mm.
+        end_mm: f64,
+        /// How far the picture reaches, mm.
+        needed_mm: f64,
+    },
+    /// A lens that the route at the pupil cannot serve.
+    #[error("the route at the pupil serves pinhole, thin and thick lenses; a {kind} is rendered with route = \"lens\"")]
+    NoPupilRoute {
+        /// What the lens is.
+        kind: &'static str,
+    },
     /// The distortion cannot serve the picture.
     #[error(transparent)]
     Distortion(#[from] DistortionError),

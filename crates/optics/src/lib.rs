@@ -9,8 +9,9 @@ pub mod pupil_image;
 
 pub use error::{OpticsError, PRINCIPAL_NM};
 pub use lens::{
-    ConstantPupil, Lens, Pinhole, PinholeParameters, Prescribed, PupilStatements, Rim, Thick, ThickParameters, Thin,
-    ThinParameters, TruthRay,
+    Calibrated, CalibratedParameters, ConstantPupil, Falloff, Lens, Parallel, ParallelParameters, Pinhole,
+    PinholeParameters, Prescribed, PupilStance, PupilStatements, Rim, Thick, ThickParameters, Thin, ThinParameters,
+    TruthRay,
 };
 pub use prescription::{Prescription, PrescriptionError, PrescriptionParameters};
 pub use pupil_image::{PupilProjection, Resampling, irradiance};

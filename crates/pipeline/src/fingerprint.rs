@@ -31,6 +31,7 @@ impl Hasher {
         self.add(&hashes(&mut assets.photometry.values().map(|lamp| lamp.hash)));
         self.add(&hashes(&mut assets.indices.values().map(|table| table.hash)));
         self.add(&hashes(&mut assets.retro_tables.values().map(|table| table.hash)));
+        // Lenses and calibrations are in the cameras, whole.
     }
 
     fn add_mesh(&mut self, mesh: &Mesh) {

@@ -14,6 +14,8 @@ pub mod mosaic;
 mod observer;
 pub mod photograph;
 pub mod plan;
+
+pub mod rays;
 pub mod render;
 pub mod summary;
 pub mod tile;

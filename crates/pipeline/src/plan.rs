@@ -163,6 +163,8 @@ pub struct Products {
     pub ground_truth: bool,
     /// Depth as 16-bit PNG, by its numbers a metre.
     pub depth_png_per_m: Option<f64>,
+    /// Origin and direction of each pixel's ray.
+    pub rays: bool,
 }
 
 impl Products {
@@ -170,7 +172,7 @@ impl Products {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         let images = self.radiance || self.irradiance || self.electrons || self.raw || self.picture;
-        !(images || self.ground_truth || self.depth_png_per_m.is_some())
+        !(images || self.ground_truth || self.depth_png_per_m.is_some() || self.rays)
     }
 }
 

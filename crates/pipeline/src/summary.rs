@@ -5,7 +5,7 @@ use crate::film::Film;
 use crate::plan::{CameraPlan, Plan, Products, Route, Settings, SkyFacts};
 use crate::render::{census, layout};
 use etendue_core::Bands;
-use etendue_optics::Lens;
+use etendue_optics::{Lens, PupilStance};
 use etendue_projection::Sense;
 use etendue_sensor::Verdict;
 use etendue_tracer::geometry::Shape;
@@ -111,7 +111,13 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let s = &camera.settings;
     let samples = count(s.spp as usize, "sample");
     let samples = format!("{samples} a pixel in {}", count(s.replicates as usize, "replicate"));
-    line(f, "sampling", format!("{samples}, seed {}, {} wavelengths a path", s.seed, s.wavelengths))?;
+    let alone =
+        if camera.body.lens.disperses() && s.route == Route::Lens { " (the lens treats each differently)" } else { "" };
+    line(
+        f,
+        "sampling",
+        format!("{samples}, seed {}, {}{alone} a path", s.seed, count(s.wavelengths as usize, "wavelength")),
+    )?;
     line(f, "paths", level(s))?;
     if s.blocks != Blocks::SINGLE {
         line(f, "shared", format!("tails of the paths of {} pixels, whose errors are alike", s.blocks.len_px()))?;
@@ -143,19 +149,17 @@ fn level(settings: &Settings) -> String {
 
 fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let lens = &camera.body.lens;
-    let kind = match lens {
-        Lens::Pinhole(_) => "pinhole",
-        Lens::Thin(_) => "thin lens",
-        Lens::Thick(_) => "thick lens",
-        Lens::Prescription(_) => "prescription",
-    };
     let focus = match lens.focus_distance_m() {
         None => "everything sharp".to_owned(),
         Some(m) if m.is_infinite() => "focused at infinity".to_owned(),
         Some(m) => format!("focused at {m} m"),
     };
-    let (mm, n, t) = (lens.focal_length_mm(), lens.f_number(), lens.t_number());
-    line(f, "lens", format!("{kind}, {mm} mm f/{n} (T {t:.3}), {focus}, {}", field_of_view(camera)))?;
+    let (kind, n, t) = (lens.kind(), figure(lens.f_number()), lens.t_number());
+    let length = match lens {
+        Lens::Parallel(_) => String::new(),
+        _ => format!(" {} mm", figure(lens.focal_length_mm())),
+    };
+    line(f, "lens", format!("{kind},{length} f/{n} (T {t:.3}), {focus}, {}", field_of_view(camera)))?;
     line(f, "distortion", distortion(lens))?;
     match &camera.settings.route {
         Route::Lens => line(f, "route", "through the lens: vignetting, defocus and distortion by each sample's ray"),
@@ -165,25 +169,61 @@ fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
             line(f, "route", format!("{size}; defocus is left out ({})", blur(camera)))
         }
     }?;
-    let dispersion = if lens.disperses() { "" } else { "; dispersion: the lens has none" };
-    line(f, "left out", format!("aberrations, diffraction, glare and ghosts: not modelled{dispersion}"))
+    line(f, "left out", left_out(lens))
+}
+
+/// A number as the user would write it: to four decimals.
+fn figure(x: f64) -> f64 {
+    (x * 1e4).round() / 1e4
+}
+
+fn left_out(lens: &Lens) -> String {
+    match lens {
+        Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Parallel(_) => {
+            "aberrations, diffraction, glare and ghosts: not modelled; dispersion: the lens has none".to_owned()
+        }
+        Lens::Prescription(_) => "diffraction, glare, ghosts and absorption in glass: not modelled".to_owned(),
+        Lens::Calibrated(lens) => {
+            let pupil = match (lens.parameters().relative_illumination.is_some(), lens.pupil()) {
+                (true, _) => "illumination as measured",
+                (false, PupilStance::Flat) => "illumination of a flat pupil, cos θ dΩ/dA",
+                (false, PupilStance::Turning) => "illumination of a pupil turned to the light, dΩ/dA",
+            };
+            format!("aberrations, dispersion, diffraction, glare and ghosts: not modelled; {pupil}")
+        }
+    }
 }
 
 fn field_of_view(camera: &CameraPlan) -> String {
+    if let Lens::Parallel(lens) = &camera.body.lens {
+        return format!("{} m wide", figure(lens.parameters().metres_per_mm * camera.body.raster.size_mm().x));
+    }
     let size = camera.body.raster.size_mm();
     let middle = camera.body.raster.principal_px() * camera.body.raster.pitch_mm();
     let left = glam::DVec2::new(-middle.x, 0.0);
     let right = glam::DVec2::new(size.x - middle.x, 0.0);
-    match camera.body.lens.angle_between_rad(left, right) {
+    let lens = &camera.body.lens;
+    // Beyond a half turn the angle between two directions is not the one across the picture.
+    let across = match lens {
+        Lens::Calibrated(_) => lens
+            .angle_between_rad(left, glam::DVec2::ZERO)
+            .and_then(|half| Some(half + lens.angle_between_rad(glam::DVec2::ZERO, right)?)),
+        _ => lens.angle_between_rad(left, right),
+    };
+    match across {
         Some(angle) => format!("{:.2}° wide", angle.to_degrees()),
         None => "wider than the lens sees".to_owned(),
     }
 }
 
 fn distortion(lens: &Lens) -> String {
-    match lens.distortion() {
-        None => "none".to_owned(),
-        Some(d) => {
+    match (lens.distortion(), lens) {
+        (None, Lens::Prescription(_)) => "that of its surfaces".to_owned(),
+        (None, Lens::Calibrated(_)) => {
+            "that of its projection; outside of it pixels are dark and without a ray".to_owned()
+        }
+        (None, _) => "none".to_owned(),
+        (Some(d), _) => {
             let [k1, k2] = d.coefficients();
             let sense = match d.sense() {
                 Sense::IdealToObserved => "ideal to observed",
@@ -250,6 +290,7 @@ fn products(p: &Products) -> String {
         (p.picture, "picture"),
         (p.ground_truth, "ground truth"),
         (p.depth_png_per_m.is_some(), "depth PNG"),
+        (p.rays, "ray table"),
     ];
     let list: Vec<&str> = named.iter().filter(|(wanted, _)| *wanted).map(|(_, name)| *name).collect();
     if list.is_empty() { "nothing".to_owned() } else { list.join(", ") }

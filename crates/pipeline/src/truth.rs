@@ -16,9 +16,11 @@ use rayon::prelude::*;
 /// Planes of ground truth, in the raster of the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroundTruth {
-    /// Distance along the camera's axis from the entrance pupil, m; +∞ for the sky, NaN where no principal ray passes.
+    /// Distance along the camera's axis from the entrance pupil, m; +∞ for the sky, NaN where no principal ray passes and
+    /// where it looks sideways or back, so that depth along the axis means nothing.
     pub depth: Plane<Length>,
-    /// Distance along the pixel's ray from the plane of the entrance pupil, m; as `depth` for the sky and no ray.
+    /// Distance along the pixel's ray from its origin (which the ray table states; the centre of the entrance pupil but for
+    /// real pupils, which move with the field), m; +∞ for the sky, NaN where no ray passes.
     pub distance: Plane<Length>,
     /// Unit shading normal in the world; zero for the sky.
     pub normal: Plane<Vector>,
@@ -39,7 +41,9 @@ pub struct GroundTruth {
 enum Seen {
     /// No principal ray: the lens stops it.
     Nothing,
-    Sky,
+    Sky {
+        ahead: bool,
+    },
     Surface {
         depth_m: f64,
         truth: Truth,
@@ -65,8 +69,8 @@ pub fn ground_truth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> GroundTruth
         .map(|i| look(&view, &plan.palette, camera, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
         .collect();
     GroundTruth {
-        depth: plane(&looks, width, height, |l| l.seen.length(|depth, _| depth)),
-        distance: plane(&looks, width, height, |l| l.seen.length(|_, truth| truth.distance_m)),
+        depth: plane(&looks, width, height, |l| l.seen.depth()),
+        distance: plane(&looks, width, height, |l| l.seen.distance()),
         normal: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.normal)),
         position: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.position_m)),
         instance: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.instance_id)),
@@ -88,8 +92,11 @@ fn look(view: &View<'_>, palette: &Palette, camera: &CameraPlan, raster_px: DVec
 fn seen(view: &View<'_>, palette: &Palette, camera: &CameraPlan, ray: &PupilRay) -> Seen {
     let direction = camera.pose.direction_to_world(ray.direction);
     match view.truth(camera.pose.point_to_render(ray.origin_m), direction, |point| is_there(palette, point)) {
-        None => Seen::Sky,
-        Some(truth) => Seen::Surface { depth_m: truth.distance_m * ray.direction.z + ray.origin_m.z, truth },
+        None => Seen::Sky { ahead: ray.direction.z > 0.0 },
+        Some(truth) if ray.direction.z > 0.0 => {
+            Seen::Surface { depth_m: truth.distance_m * ray.direction.z + ray.origin_m.z, truth }
+        }
+        Some(truth) => Seen::Surface { depth_m: f64::NAN, truth },
     }
 }
 
@@ -107,25 +114,33 @@ fn plane<Q: Quantity>(looks: &[Look], width: usize, height: usize, of: impl Fn(&
 }
 
 impl Seen {
-    fn length(&self, of: impl Fn(f64, &Truth) -> f64) -> f32 {
+    fn depth(&self) -> f32 {
+        match self {
+            Self::Nothing | Self::Sky { ahead: false } => f32::NAN,
+            Self::Sky { ahead: true } => f32::INFINITY,
+            Self::Surface { depth_m, .. } => *depth_m as f32,
+        }
+    }
+
+    fn distance(&self) -> f32 {
         match self {
             Self::Nothing => f32::NAN,
-            Self::Sky => f32::INFINITY,
-            Self::Surface { depth_m, truth } => of(*depth_m, truth) as f32,
+            Self::Sky { .. } => f32::INFINITY,
+            Self::Surface { truth, .. } => truth.distance_m as f32,
         }
     }
 
     fn vector(&self, of: impl Fn(&Truth) -> DVec3) -> [f32; 3] {
         match self {
             Self::Surface { truth, .. } => of(truth).as_vec3().to_array(),
-            Self::Nothing | Self::Sky => [0.0; 3],
+            Self::Nothing | Self::Sky { .. } => [0.0; 3],
         }
     }
 
     fn identity(&self, of: impl Fn(&Truth) -> u32) -> u32 {
         match self {
             Self::Surface { truth, .. } => of(truth),
-            Self::Nothing | Self::Sky => 0,
+            Self::Nothing | Self::Sky { .. } => 0,
         }
     }
 }

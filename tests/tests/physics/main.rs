@@ -6,6 +6,7 @@
 mod caustics;
 mod colour;
 mod cornell;
+mod dispersing_lens;
 mod extremes;
 mod furnace;
 mod ground_truth;

@@ -65,6 +65,7 @@ fn products(body: &CameraBody) -> Products {
         picture: body.development.is_some(),
         ground_truth: false,
         depth_png_per_m: None,
+        rays: false,
     }
 }
 

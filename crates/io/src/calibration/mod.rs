@@ -23,27 +23,11 @@ mod yaml;
 use std::path::Path;
 
 use etendue_projection::{Calibration, CalibrationError};
+pub use etendue_scene::asset::CalibrationFormat;
 
 use crate::Error;
 use crate::hash::{self, ContentHash};
 use crate::source::{decode_text, read_bytes};
-
-/// Whose file it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CalibrationFormat {
-    /// OpenCV's FileStorage: perspective unless the file says `fisheye_model: 1` or holds `xi`.
-    OpenCv,
-    /// OpenCV's FileStorage with the coefficients of `cv::fisheye`.
-    OpenCvFisheye,
-    /// ROS `camera_info`.
-    Ros,
-    /// Kalibr camera chain.
-    Kalibr,
-    /// COLMAP `cameras.txt`.
-    Colmap,
-    /// OCamCalib `calib_results.txt`.
-    Ocam,
-}
 
 /// A camera of a calibration file.
 #[derive(Clone, Debug, PartialEq)]

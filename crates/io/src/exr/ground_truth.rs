@@ -68,7 +68,7 @@ impl GroundTruth<'_> {
     }
 }
 
-fn add_vector(image: &mut ExrImage, layer: &str, plane: &Plane<Vector>) {
+pub(super) fn add_vector(image: &mut ExrImage, layer: &str, plane: &Plane<Vector>) {
     for (axis, letter) in ["X", "Y", "Z"].into_iter().enumerate() {
         image.float(format!("{layer}.{letter}"), plane.samples().iter().map(|v| v[axis]).collect());
     }

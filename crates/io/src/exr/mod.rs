@@ -8,6 +8,7 @@
 //! | --- | --- |
 //! | [`encode_spectral`] | `S0.550,000000nm` …, `variance.S0.550,000000nm` …, preview `R`, `G`, `B` |
 //! | [`encode_ground_truth`] | `depth.Z`, `distance.Z`, `N.X/Y/Z`, `P.X/Y/Z`, `instance.ID`, `semantic.ID`, `material.ID` |
+//! | [`encode_rays`] | `origin.X/Y/Z`, `direction.X/Y/Z`, `ray.ID` |
 //! | [`encode_layers`] | as named |
 //! | [`encode_plane`] | the quantity's name, `variance.` and the quantity's name |
 
@@ -17,6 +18,7 @@ mod layers;
 mod name;
 mod plane;
 mod preview;
+mod rays;
 mod read;
 mod spectral;
 mod spectral_read;
@@ -28,6 +30,7 @@ pub use ground_truth::{GroundTruth, encode_ground_truth};
 pub use layers::{Layer, encode_layers};
 pub use name::{SpectralChannel, Stokes, channel_name, parse_channel_name};
 pub use plane::encode_plane;
+pub use rays::encode_rays;
 pub use read::{ExrChannel, ExrFile, Samples, read_exr};
 pub use spectral::encode_spectral;
 pub use spectral_read::{SpectralFile, SpectralImage, WithVariance, read_spectral};

@@ -10,13 +10,17 @@
 //!   (through a prescription, whose clear apertures have no closed form, at 587.56 nm and to 1e-5).
 //! - [`Lens::principal_ray`] goes through the centre of the pupil (of the real stop) at 587.56 nm, and [`Lens::project`] is
 //!   its inverse.
+//! - A calibrated camera and a parallel one say their own (`calibrated.rs`, `parallel.rs`).
 //! - A radial distortion, where there is one, maps the observed sensor point to the ideal one before the ray is made; the
 //!   weight is that of the observed point, where the light arrives.
 //! - f-number, of the paraxial lenses: a flat pupil disc, tan θ′ = 1/2N at infinity focus, so E = π τ L / (1 + 4N²) on the axis. (The pinhole is
 //!   the limit of small pupils: π τ L / 4N².)
 
 mod body;
+mod calibrated;
+mod falloff;
 mod focus;
+mod parallel;
 mod pinhole;
 mod prescribed;
 mod statements;
@@ -32,6 +36,9 @@ use focus::PupilSize;
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
 
+pub use calibrated::{Calibrated, CalibratedParameters, PupilStance};
+pub use falloff::Falloff;
+pub use parallel::{Parallel, ParallelParameters};
 pub use pinhole::{Pinhole, PinholeParameters};
 pub use prescribed::{FieldReport, ImageReport, LensReport, Prescribed, Spot};
 pub use statements::PupilStatements;
@@ -49,6 +56,10 @@ pub enum Lens {
     Thick(Thick),
     /// Surfaces, glasses, a stop: traced.
     Prescription(Arc<Prescribed>),
+    /// Each pixel looks where a projection says.
+    Calibrated(Arc<Calibrated>),
+    /// Every pixel looks along the axis.
+    Parallel(Parallel),
 }
 
 /// The ray by which ground truth looks.
@@ -60,14 +71,14 @@ pub struct TruthRay {
     pub off_centre: bool,
 }
 
-/// The same for the paraxial lenses, and what a prescription does.
+/// The same for the paraxial lenses, and what the others do.
 macro_rules! each {
-    ($self:expr, $lens:ident => $body:expr, $traced:ident => $other:expr) => {
+    ($self:expr, $lens:ident => $body:expr, $($other:ident($it:pat) => $does:expr),+ $(,)?) => {
         match $self {
             Lens::Pinhole($lens) => $body,
             Lens::Thin($lens) => $body,
             Lens::Thick($lens) => $body,
-            Lens::Prescription($traced) => $other,
+            $(Lens::$other($it) => $does,)+
         }
     };
 }
@@ -103,41 +114,88 @@ impl Lens {
         Self::Prescription(Arc::new(lens))
     }
 
+    /// A calibrated camera.
+    ///
+    /// # Errors
+    /// As [`Calibrated::new`].
+    pub fn calibrated(parameters: CalibratedParameters) -> Result<Self, OpticsError> {
+        Calibrated::new(parameters).map(|lens| Self::Calibrated(Arc::new(lens)))
+    }
+
+    /// A parallel camera.
+    ///
+    /// # Errors
+    /// As [`Parallel::new`].
+    pub fn parallel(parameters: ParallelParameters) -> Result<Self, OpticsError> {
+        Parallel::new(parameters).map(Self::Parallel)
+    }
+
     /// The same lens with a radial distortion. A distortion whose radius unit is the focal length is made with
     /// [`Lens::principal_distance_mm`] of the lens without it.
     ///
     /// # Errors
-    /// For a prescription, which has its own.
+    /// For a prescription, a calibrated and a parallel camera, which have their own.
     pub fn with_distortion(mut self, distortion: RadialDistortion) -> Result<Self, OpticsError> {
-        each!(&mut self, lens => lens.body.distortion = Some(distortion), _lens => return Err(OpticsError::OwnDistortion));
+        each!(&mut self,
+            lens => lens.body.distortion = Some(distortion),
+            Prescription(_) => return Err(OpticsError::OwnDistortion),
+            Calibrated(_) => return Err(OpticsError::OwnDistortion),
+            Parallel(_) => return Err(OpticsError::OwnDistortion),
+        );
         Ok(self)
     }
 
-    /// The lens's distortion, where it has one.
+    /// The radial distortion that was laid over the lens, where there is one.
     #[must_use]
     pub fn distortion(&self) -> Option<&RadialDistortion> {
-        each!(self, lens => lens.body.distortion.as_ref(), _lens => None)
+        each!(self, lens => lens.body.distortion.as_ref(), Prescription(_) => None, Calibrated(_) => None, Parallel(_) => None)
+    }
+
+    /// What the lens is, in words.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Pinhole(_) => "pinhole",
+            Self::Thin(_) => "thin lens",
+            Self::Thick(_) => "thick lens",
+            Self::Prescription(_) => "prescription",
+            Self::Calibrated(_) => "calibrated camera",
+            Self::Parallel(_) => "parallel camera",
+        }
     }
 
     /// Refuses a picture that the lens cannot image.
     ///
     /// # Errors
-    /// Where the distortion folds inside the picture.
+    /// Where the distortion folds inside the picture, or the picture is not that of the calibration.
     pub fn check(&self, raster: &Raster) -> Result<(), OpticsError> {
+        if let Self::Calibrated(lens) = self {
+            return lens.check(raster);
+        }
         self.distortion().map_or(Ok(()), |d| Ok(d.check(raster.max_radius_mm())?))
     }
 
     /// The ray of a sensor point (mm) through a pupil sample in [0, 1)² at a wavelength; `None` where no light comes.
     #[must_use]
     pub fn ray(&self, sensor_mm: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<PupilRay> {
-        each!(self, lens => lens.ray(sensor_mm, pupil), lens => lens.ray(sensor_mm, pupil, wavelength_nm))
+        each!(self,
+            lens => lens.ray(sensor_mm, pupil),
+            Prescription(lens) => lens.ray(sensor_mm, pupil, wavelength_nm),
+            Calibrated(lens) => lens.ray(sensor_mm, pupil),
+            Parallel(lens) => Some(lens.principal_ray(sensor_mm)),
+        )
     }
 
     /// The ray of a sensor point through the centre of the entrance pupil, its weight that of the small-pupil limit;
     /// `None` where it is clipped or the sensor point has no image.
     #[must_use]
     pub fn principal_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
-        each!(self, lens => lens.principal_ray(sensor_mm), lens => lens.principal_ray(sensor_mm))
+        each!(self,
+            lens => lens.principal_ray(sensor_mm),
+            Prescription(lens) => lens.principal_ray(sensor_mm),
+            Calibrated(lens) => lens.principal_ray(sensor_mm),
+            Parallel(lens) => Some(lens.principal_ray(sensor_mm)),
+        )
     }
 
     /// The ray by which ground truth looks: the principal ray, or, where that is clipped but light arrives, the ray through
@@ -148,48 +206,74 @@ impl Lens {
             return Some(TruthRay { ray, off_centre: false });
         }
         match self {
-            Self::Pinhole(_) | Self::Thin(_) => None,
+            Self::Pinhole(_) | Self::Thin(_) | Self::Calibrated(_) | Self::Parallel(_) => None,
             Self::Thick(lens) => lens.centroid_ray(sensor_mm).map(|ray| TruthRay { ray, off_centre: true }),
             Self::Prescription(lens) => lens.centroid_ray(sensor_mm).map(|ray| TruthRay { ray, off_centre: true }),
         }
     }
 
-    /// Where a direction of the camera frame (any length) is seen, mm; `None` behind the lens and beyond the
-    /// distortion's fold. Clipping is not looked at.
+    /// Where a direction of the camera frame (any length) is seen, mm; `None` outside the field, beyond a fold, and for a
+    /// parallel camera, which sees a single direction. Clipping is not looked at.
     #[must_use]
     pub fn project(&self, direction: DVec3) -> Option<DVec2> {
         let ideal_mm = || self.rectilinear().project(direction);
-        each!(self, lens => lens.body.observed(ideal_mm()?), lens => lens.project(direction))
+        each!(self,
+            lens => lens.body.observed(ideal_mm()?),
+            Prescription(lens) => lens.project(direction),
+            Calibrated(lens) => lens.project(direction),
+            Parallel(_) => None,
+        )
     }
 
     /// Irradiance of a sensor point per uniform radiance, sr; 0 where no light comes.
     #[must_use]
     pub fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
-        each!(self, lens => lens.etendue_sr(sensor_mm), lens => lens.etendue_sr(sensor_mm))
+        each!(self,
+            lens => lens.etendue_sr(sensor_mm),
+            Prescription(lens) => lens.etendue_sr(sensor_mm),
+            Calibrated(lens) => lens.etendue_sr(sensor_mm),
+            Parallel(lens) => lens.principal_ray(sensor_mm).weight_sr,
+        )
     }
 
-    /// Whether rays depend on the wavelength.
+    /// Whether a ray or its weight depends on the wavelength: glasses that disperse, coatings, a filter. A sample's ray then
+    /// serves one wavelength only.
     #[must_use]
     pub fn disperses(&self) -> bool {
-        matches!(self, Self::Prescription(lens) if lens.prescription().disperses())
+        matches!(self, Self::Prescription(lens) if lens.disperses())
     }
 
-    /// Focal length, mm.
+    /// Focal length, mm; infinite for a parallel camera.
     #[must_use]
     pub fn focal_length_mm(&self) -> f64 {
-        each!(self, lens => lens.parameters().focal_length_mm, lens => lens.prescription().paraxial().focal_length_mm)
+        each!(self,
+            lens => lens.parameters().focal_length_mm,
+            Prescription(lens) => lens.prescription().paraxial().focal_length_mm,
+            Calibrated(lens) => lens.focal_length_mm(),
+            Parallel(_) => f64::INFINITY,
+        )
     }
 
-    /// f-number at infinity focus.
+    /// f-number at infinity focus (of a parallel camera: on the sensor's side).
     #[must_use]
     pub fn f_number(&self) -> f64 {
-        each!(self, lens => lens.parameters().f_number, lens => lens.prescription().paraxial().f_number())
+        each!(self,
+            lens => lens.parameters().f_number,
+            Prescription(lens) => lens.prescription().paraxial().f_number(),
+            Calibrated(lens) => lens.parameters().f_number,
+            Parallel(lens) => lens.parameters().f_number,
+        )
     }
 
     /// Transmittance τ.
     #[must_use]
     pub fn transmittance(&self) -> f64 {
-        each!(self, lens => lens.parameters().transmittance, lens => lens.transmittance())
+        each!(self,
+            lens => lens.parameters().transmittance,
+            Prescription(lens) => lens.transmittance(),
+            Calibrated(lens) => lens.parameters().transmittance,
+            Parallel(lens) => lens.parameters().transmittance,
+        )
     }
 
     /// T-number N/√τ.
@@ -198,18 +282,20 @@ impl Lens {
         self.f_number() / self.transmittance().sqrt()
     }
 
-    /// Distance of the plane in focus from the entrance pupil, m; `None` for a pinhole, where everything is sharp.
+    /// Distance of the plane in focus from the entrance pupil, m; `None` where everything is sharp.
     #[must_use]
     pub fn focus_distance_m(&self) -> Option<f64> {
         match self {
-            Self::Pinhole(_) => None,
+            Self::Pinhole(_) | Self::Parallel(_) => None,
+            Self::Calibrated(lens) => lens.parameters().focus_distance_m,
             Self::Thin(lens) => Some(lens.parameters().focus_distance_m),
             Self::Thick(lens) => Some(lens.parameters().focus_distance_m),
             Self::Prescription(lens) => Some(lens.prescription().focus_distance_m()),
         }
     }
 
-    /// The principal distance c, mm: near the axis a tangent t of object space is seen at c·t on the sensor.
+    /// The principal distance c, mm: near the axis a tangent t of object space is seen at c·t on the sensor. Infinite for a
+    /// parallel camera.
     #[must_use]
     pub fn principal_distance_mm(&self) -> f64 {
         match self {
@@ -217,6 +303,8 @@ impl Lens {
             Self::Thin(lens) => lens.conjugates.principal_distance_mm,
             Self::Thick(lens) => lens.conjugates.principal_distance_mm,
             Self::Prescription(lens) => lens.prescription().principal_distance_mm(),
+            Self::Calibrated(lens) => lens.focal_length_mm(),
+            Self::Parallel(_) => f64::INFINITY,
         }
     }
 
@@ -226,11 +314,16 @@ impl Lens {
         Rectilinear { principal_distance_mm: self.principal_distance_mm() }
     }
 
-    /// Image size over object size in the plane in focus; 0 at infinity focus and for a pinhole.
+    /// Image size over object size in the plane in focus; 0 at infinity focus and where everything is sharp, but for a
+    /// parallel camera, which has one everywhere.
     #[must_use]
     pub fn magnification(&self) -> f64 {
         match self {
             Self::Pinhole(_) => 0.0,
+            Self::Calibrated(lens) => {
+                lens.parameters().focus_distance_m.map_or(0.0, |focus_m| lens.focal_length_mm() * MM / focus_m)
+            }
+            Self::Parallel(lens) => MM / lens.parameters().metres_per_mm,
             Self::Thin(lens) => lens.conjugates.magnification,
             Self::Thick(lens) => lens.conjugates.magnification,
             Self::Prescription(lens) => lens.prescription().magnification(),
@@ -240,25 +333,32 @@ impl Lens {
     /// Working f-number on the axis, 1/(2 tan θ′): grows with close focus (the bellows factor).
     #[must_use]
     pub fn working_f_number(&self) -> f64 {
-        self.f_number() * self.principal_distance_mm() / self.focal_length_mm()
+        match self {
+            Self::Parallel(_) => self.f_number(),
+            _ => self.f_number() * self.principal_distance_mm() / self.focal_length_mm(),
+        }
     }
 
-    /// Radius of the entrance pupil on the axis, m: how far from the camera frame's origin rays begin. 0 for a pinhole.
+    /// Radius of the entrance pupil on the axis, m; 0 where everything is sharp.
     #[must_use]
     pub fn entrance_pupil_radius_m(&self) -> f64 {
         match self {
-            Self::Pinhole(_) => 0.0,
+            Self::Pinhole(_) | Self::Parallel(_) => 0.0,
+            Self::Calibrated(lens) => lens.pupil_radius_mm() * MM,
             Self::Thin(lens) => lens.size.entrance_radius_mm * MM,
             Self::Thick(lens) => lens.size.entrance_radius_mm * MM,
             Self::Prescription(lens) => lens.prescription().paraxial().entrance_radius_mm * MM,
         }
     }
 
-    /// The sensor's z coordinate in the camera frame, m: negative where it lies behind the entrance pupil.
+    /// The sensor's z coordinate in the camera frame, m: negative where it lies behind the entrance pupil. Of a calibrated
+    /// camera it is taken to be a focal length behind; a parallel camera's is not known.
     #[must_use]
     pub fn sensor_plane_m(&self) -> f64 {
         match self {
-            Self::Pinhole(_) | Self::Thin(_) => -self.principal_distance_mm() * MM,
+            Self::Pinhole(_) | Self::Thin(_) | Self::Calibrated(_) | Self::Parallel(_) => {
+                -self.principal_distance_mm() * MM
+            }
             Self::Thick(lens) => (lens.entrance_pupil_mm() - lens.sensor_mm()) * MM,
             Self::Prescription(lens) => {
                 (lens.prescription().paraxial().entrance_pupil_mm - lens.prescription().sensor_mm()) * MM
@@ -271,7 +371,11 @@ impl Lens {
     #[must_use]
     pub fn circle_of_confusion_mm(&self, depth_m: f64) -> f64 {
         match self {
-            Self::Pinhole(_) => 0.0,
+            Self::Pinhole(_) | Self::Parallel(_) => 0.0,
+            Self::Calibrated(lens) => {
+                let focus_m = lens.parameters().focus_distance_m.unwrap_or(f64::INFINITY);
+                2.0 * lens.pupil_radius_mm() * lens.focal_length_mm() * MM * (1.0 / depth_m - 1.0 / focus_m).abs()
+            }
             Self::Thin(lens) => lens.conjugates.circle_of_confusion_mm(lens.size.entrance_radius_mm, depth_m),
             Self::Thick(lens) => lens.conjugates.circle_of_confusion_mm(lens.size.entrance_radius_mm, depth_m),
             Self::Prescription(lens) => {
@@ -280,11 +384,12 @@ impl Lens {
         }
     }
 
-    /// The focus distance at which infinity blurs to a circle of `circle_mm`, m; 0 for a pinhole.
+    /// The focus distance at which infinity blurs to a circle of `circle_mm`, m; 0 where everything is sharp.
     #[must_use]
     pub fn hyperfocal_m(&self, circle_mm: f64) -> f64 {
         match self {
-            Self::Pinhole(_) => 0.0,
+            Self::Pinhole(_) | Self::Parallel(_) => 0.0,
+            Self::Calibrated(lens) => 2.0 * lens.pupil_radius_mm() * lens.focal_length_mm() * MM / circle_mm,
             Self::Thin(lens) => lens.size.hyperfocal_m(self.focal_length_mm(), 1.0, circle_mm),
             Self::Thick(lens) => lens.size.hyperfocal_m(self.focal_length_mm(), lens.pupil_magnification, circle_mm),
             Self::Prescription(lens) => {
@@ -316,7 +421,9 @@ impl Lens {
     pub fn direction(&self, sensor_mm: DVec2) -> Option<DVec3> {
         each!(self,
             lens => Some((lens.body.ideal(sensor_mm)? / self.principal_distance_mm()).extend(1.0)),
-            lens => lens.direction(sensor_mm)
+            Prescription(lens) => lens.direction(sensor_mm),
+            Calibrated(lens) => lens.direction(sensor_mm),
+            Parallel(_) => Some(DVec3::Z),
         )
     }
 }

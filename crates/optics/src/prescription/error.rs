@@ -160,3 +160,18 @@ pub enum PrescriptionError {
         nm: f64,
     },
 }
+
+impl PrescriptionError {
+    /// The surface (from 1) that is at fault, where it is one.
+    #[must_use]
+    pub fn surface(&self) -> Option<usize> {
+        match *self {
+            Self::Number { surface, .. }
+            | Self::Equator { surface, .. }
+            | Self::TotalReflection { surface, .. }
+            | Self::NotTheStop { surface, .. } => Some(surface),
+            Self::Overlap { second, .. } => Some(second),
+            _ => None,
+        }
+    }
+}

@@ -40,6 +40,7 @@ impl PupilProjection {
     /// # Errors
     /// Where the lens cannot image the picture.
     pub fn covering(lens: &Lens, raster: &Raster) -> Result<Self, OpticsError> {
+        serves(lens)?;
         lens.check(raster)?;
         let border: Vec<DVec2> = border_tangents(lens, raster).collect();
         let low = border.iter().copied().fold(DVec2::INFINITY, DVec2::min);
@@ -107,6 +108,7 @@ impl PupilProjection {
     /// # Errors
     /// Names the edge beyond which most is missing, and how much; or says why the lens cannot image the picture.
     pub fn check_covers(&self, lens: &Lens, raster: &Raster) -> Result<(), OpticsError> {
+        serves(lens)?;
         lens.check(raster)?;
         let worst = border_tangents(lens, raster)
             .filter_map(|tangent| self.missing(self.px_of_tangent(tangent)))
@@ -131,6 +133,16 @@ impl PupilProjection {
         };
         let (a, b) = (self.direction(px), self.direction(inside));
         Some((edge, etendue_core::maths::f64::atan2(a.cross(b).length(), a.dot(b)).min(FRAC_PI_2)))
+    }
+}
+
+/// Refuses lenses that have no rectilinear picture of their own, or more than one.
+fn serves(lens: &Lens) -> Result<(), OpticsError> {
+    match lens {
+        Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) => Ok(()),
+        Lens::Prescription(_) | Lens::Calibrated(_) | Lens::Parallel(_) => {
+            Err(OpticsError::NoPupilRoute { kind: lens.kind() })
+        }
     }
 }
 

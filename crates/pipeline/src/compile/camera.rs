@@ -1,7 +1,7 @@
 //! A camera wherever it stands: lens, sensor, processing.
 
 use super::context::Context;
-use super::lens::{lens, raster};
+use super::lens::lens;
 use super::sensor::{fill_factor, sensor};
 use super::spectrum::named_illuminant;
 use crate::plan::{CameraBody, Development};
@@ -16,8 +16,7 @@ const IDENTITY: etendue_isp::ColourMatrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [
 /// The camera's models; `None` with the faults noted.
 pub(super) fn body(camera: &Camera, context: &mut Context<'_>) -> Option<CameraBody> {
     let before = context.faults.len();
-    let raster = raster(&camera.sensor, context)?;
-    let lens = lens(&camera.lens, &raster, context);
+    let lens = lens(camera, context);
     let sensor = sensor(&camera.sensor, context);
     let development = match (&camera.processing, &sensor) {
         (Some(processing), Some(sensor)) => development(processing, sensor, context),
@@ -25,7 +24,8 @@ pub(super) fn body(camera: &Camera, context: &mut Context<'_>) -> Option<CameraB
     };
     let aperture_px = fill_factor(&camera.sensor).sqrt();
     let place = camera.sensor.place.clone();
-    let body = CameraBody { place, raster, lens: lens?, aperture_px, sensor, development };
+    let (lens, raster) = lens?;
+    let body = CameraBody { place, raster, lens, aperture_px, sensor, development };
     (context.faults.len() == before).then_some(body)
 }
 

@@ -51,6 +51,7 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
         picture: said(&output.picture, development),
         ground_truth: said(&output.ground_truth, true),
         depth_png_per_m: depth_png.then(|| output.depth_png_scale.as_ref().map_or(256.0, |s| s.per_metre())),
+        rays: said(&output.rays, false),
     };
     if products.is_empty() {
         context.fault(&output.place, "the camera delivers nothing", "ask for at least one product in [output]");
@@ -97,7 +98,7 @@ pub(super) fn settings(
         max_bounces: max_bounces(level, render, choices),
         // What has no effect must not change the hash.
         caustics: level != Level::Path || render.caustics.as_ref().is_none_or(|c| c.value),
-        wavelengths: render.wavelengths_per_path.as_ref().map_or(4, |n| n.value as u32),
+        wavelengths: wavelengths(render, body, &route, context)?,
         route,
         range_nm,
         bands,
@@ -106,6 +107,22 @@ pub(super) fn settings(
         blocks,
         seed: choices.seed.or(render.seed.as_ref().map(|s| s.value)).unwrap_or(0),
     })
+}
+
+/// Wavelengths a path: one where the lens treats each differently, as a ray that was found for one wavelength says nothing
+/// of the others.
+fn wavelengths(render: &Render, body: &CameraBody, route: &Route, context: &mut Context<'_>) -> Option<u32> {
+    let asked = render.wavelengths_per_path.as_ref();
+    if !(body.lens.disperses() && *route == Route::Lens) {
+        return Some(asked.map_or(4, |n| n.value as u32));
+    }
+    if let Some(asked) = asked.filter(|n| n.value != 1) {
+        let problem =
+            format!("a path cannot carry {} wavelengths through a lens that treats each differently", asked.value);
+        context.fault(&asked.place, problem, "remove the key, or give 1");
+        return None;
+    }
+    Some(1)
 }
 
 fn level(render: &Render) -> Level {

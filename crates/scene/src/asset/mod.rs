@@ -1,5 +1,6 @@
 //! Contents of the files that a description names: inert data, filled by whoever reads files.
 
+mod calibration;
 mod mesh;
 mod mtl;
 mod photometry;
@@ -8,6 +9,7 @@ mod request;
 mod store;
 mod table;
 
+pub use calibration::{CalibrationAsset, CalibrationChoice, CalibrationFormat};
 pub use mesh::{ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
 pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurface};
 pub use photometry::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};

@@ -2,13 +2,16 @@
 
 use std::path::PathBuf;
 
+use super::CalibrationChoice;
 use crate::load::Description;
 use crate::place::{Place, Placed};
+use crate::record::lens::calibrated::View;
+use crate::record::lens::prescription::{IrCutCurve, Source};
 use crate::record::light::{Emission, Level, LightColour};
 use crate::record::material::{Absorption, Interface, LobeStrength, Metal, Sheeting, SheetingTable};
 use crate::record::reflectance::{Colour, Reflectance};
 use crate::record::sensor::QuantumEfficiency;
-use crate::record::{Camera, Curve, Environment, Light, Material, Surface};
+use crate::record::{Camera, Curve, Environment, Lens, Light, Material, Surface};
 
 /// A file to be read, and where it is named.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +25,7 @@ pub struct AssetRequest {
 }
 
 /// What a file is read as.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum AssetKind {
     /// [`super::MeshAsset`].
     Mesh,
@@ -36,6 +39,10 @@ pub enum AssetKind {
     ComplexIndex,
     /// [`super::RetroTableAsset`].
     RetroTable,
+    /// [`super::PrescriptionAsset`].
+    Prescription,
+    /// [`super::CalibrationAsset`] of this camera.
+    Calibration(CalibrationChoice),
 }
 
 /// What the values of a tabulated spectrum can be.
@@ -226,7 +233,27 @@ impl List {
         }
     }
 
+    fn lens(&mut self, lens: &Lens) {
+        match lens {
+            Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Parallel(_) => {}
+            Lens::Prescription(lens) => {
+                if let Source::File(file) = &lens.source {
+                    self.add(AssetKind::Prescription, file);
+                }
+                if let Some(IrCutCurve::Spectrum(file)) = lens.ir_cut.as_ref().map(|filter| &filter.normal) {
+                    self.add(AssetKind::Spectrum(Values::Share), file);
+                }
+            }
+            Lens::Calibrated(lens) => {
+                if let View::Calibration(calibration) = &lens.view {
+                    self.add(AssetKind::Calibration(calibration.choice()), &calibration.file);
+                }
+            }
+        }
+    }
+
     fn camera(&mut self, camera: &Camera) {
+        self.lens(&camera.lens);
         match camera.sensor.electronics.as_ref().map(|e| &e.quantum_efficiency) {
             Some(QuantumEfficiency::Same(curve)) => self.curve(curve, Values::Share),
             Some(QuantumEfficiency::PerChannel(curves)) => curves.iter().for_each(|c| self.curve(c, Values::Share)),

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::mtl::SlotReflectance;
 use super::{
-    AssetKind, AssetRequest, ComplexIndexAsset, ImageAsset, MeshAsset, PhotometryAsset, RetroTableAsset, SpectrumAsset,
+    AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, ImageAsset, MeshAsset,
+    PhotometryAsset, PrescriptionAsset, RetroTableAsset, SpectrumAsset,
 };
 use crate::place::Place;
 
@@ -26,6 +27,10 @@ pub struct Assets {
     pub indices: BTreeMap<PathBuf, ComplexIndexAsset>,
     /// Coefficients of retro-reflection by path.
     pub retro_tables: BTreeMap<PathBuf, RetroTableAsset>,
+    /// Lenses by path.
+    pub prescriptions: BTreeMap<PathBuf, PrescriptionAsset>,
+    /// Calibrated cameras by path and by which of the file's they are.
+    pub calibrations: BTreeMap<(PathBuf, CalibrationChoice), CalibrationAsset>,
 }
 
 impl Assets {
@@ -34,13 +39,13 @@ impl Assets {
     pub fn missing(&self, named: &[AssetRequest]) -> Vec<AssetRequest> {
         let mut missing = named.to_vec();
         missing.extend(self.meshes.iter().flat_map(|(path, mesh)| textures_of(path, mesh)));
-        missing.retain(|request| !self.has(request.kind, &request.path));
+        missing.retain(|request| !self.has(&request.kind, &request.path));
         missing.sort_by(|a, b| a.path.cmp(&b.path));
         missing.dedup_by(|a, b| a.kind == b.kind && a.path == b.path);
         missing
     }
 
-    fn has(&self, kind: AssetKind, path: &Path) -> bool {
+    fn has(&self, kind: &AssetKind, path: &Path) -> bool {
         match kind {
             AssetKind::Mesh => self.meshes.contains_key(path),
             AssetKind::Image => self.images.contains_key(path),
@@ -48,6 +53,8 @@ impl Assets {
             AssetKind::Photometry => self.photometry.contains_key(path),
             AssetKind::ComplexIndex => self.indices.contains_key(path),
             AssetKind::RetroTable => self.retro_tables.contains_key(path),
+            AssetKind::Prescription => self.prescriptions.contains_key(path),
+            AssetKind::Calibration(choice) => self.calibrations.contains_key(&(path.to_owned(), choice.clone())),
         }
     }
 }

@@ -169,7 +169,7 @@ macro_rules! choice {
         pub enum $name:ident { $( $(#[doc = $doc:literal])* $word:literal => $variant:ident, )* }
     ) => {
         $(#[doc = $about])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum $name { $( $(#[doc = $doc])* $variant, )* }
 
         impl $crate::reader::Choice for $name {

@@ -26,6 +26,9 @@ record! {
         /// With "depth_png": numbers per metre, above 0, or a data set's convention: "kitti" (256 per m), "ros" (1 000 per
         /// m), "tum" (5 000 per m). Default: "kitti".
         optional depth_png_scale: DepthScale = depth_scale();
+        /// Origin (m) and unit direction of each pixel's principal ray in the camera's frame, EXR: with the distance of the
+        /// ground truth any pixel can be put back into space. Default: false.
+        optional rays: Placed<bool> = flag();
     }
 }
 
@@ -84,6 +87,7 @@ impl Output {
             ground_truth: None,
             depth_png: None,
             depth_png_scale: None,
+            rays: None,
         }
     }
 
@@ -102,6 +106,7 @@ impl Output {
             ground_truth: a.ground_truth.or(b.ground_truth),
             depth_png: a.depth_png.or(b.depth_png),
             depth_png_scale: a.depth_png_scale.or(b.depth_png_scale),
+            rays: a.rays.or(b.rays),
         }
     }
 }

@@ -59,7 +59,7 @@ fn assets_are_listed_once_relative_to_the_job() {
     files.edit("job.toml", "scene = \"scene.toml\"", "scene = \"sub/scene.toml\"");
     let d = load(&files, &[]).expect("the example");
     let missing = Assets::default().missing(&d.assets());
-    let found: Vec<_> = missing.iter().map(|r| (r.path.as_path(), r.kind)).collect();
+    let found: Vec<_> = missing.iter().map(|r| (r.path.as_path(), r.kind.clone())).collect();
     let expected = [
         (Path::new("sub/lamps/road.ies"), AssetKind::Photometry),
         (Path::new("sub/meshes/car.obj"), AssetKind::Mesh),

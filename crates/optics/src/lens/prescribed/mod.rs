@@ -21,8 +21,9 @@ mod report;
 
 use crate::error::{OpticsError, PRINCIPAL_NM, positive};
 use crate::lens::focus::Conjugates;
+use crate::prescription::coating::Coating;
 use crate::prescription::filter::InterferenceFilter;
-use crate::prescription::{Prescription, PrescriptionError};
+use crate::prescription::{Prescription, PrescriptionError, Surface};
 use crate::pupil::MM;
 use chief::Chiefs;
 use glam::{DVec2, DVec3};
@@ -61,6 +62,13 @@ impl Prescribed {
     #[must_use]
     pub fn prescription(&self) -> &Prescription {
         &self.prescription
+    }
+
+    /// Whether a ray or its weight depends on the wavelength: by a glass, a coating or the filter.
+    #[must_use]
+    pub fn disperses(&self) -> bool {
+        let layered = |s: &Surface| matches!(s.coating, Coating::QuarterWave { .. });
+        self.filter.is_some() || self.prescription.disperses() || self.prescription.surfaces().iter().any(layered)
     }
 
     /// How far from the axis light arrives, mm: the picture's radius, or less where the lens is dark before.

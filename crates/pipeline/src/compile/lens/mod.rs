@@ -1,8 +1,14 @@
 //! `[lens]` and the raster of `[sensor]`: from records to optics.
 
+mod calibrated;
+mod prescription;
+mod projection;
+#[cfg(test)]
+mod tests;
+
 use super::context::Context;
 use etendue_optics::lens::{self, ConstantPupil, PinholeParameters, PupilStatements, ThickParameters, ThinParameters};
-use etendue_optics::{Lens, OpticsError};
+use etendue_optics::{Lens, OpticsError, ParallelParameters};
 use etendue_projection::{RadialDistortion, RadiusScales, RadiusUnit, Raster, Sense};
 use etendue_scene::Placed;
 use etendue_scene::record::{self, lens as description};
@@ -10,8 +16,30 @@ use glam::DVec2;
 
 const UM_PER_MM: f64 = 1000.0;
 
+/// The lens of a camera, checked against its picture, and the pixel grid of its sensor.
+pub(super) fn lens(camera: &record::Camera, context: &mut Context<'_>) -> Option<(Lens, Raster)> {
+    let raster = raster(&camera.sensor, context)?;
+    let lens = match &camera.lens {
+        record::Lens::Calibrated(record) => return calibrated::lens(record, &camera.sensor, &raster, context),
+        record::Lens::Prescription(record) => prescription::lens(record, &raster, context),
+        record::Lens::Parallel(record) => context.accept(&record.place, parallel(record, &raster)),
+        record::Lens::Pinhole(_) | record::Lens::Thin(_) | record::Lens::Thick(_) => {
+            paraxial(&camera.lens, &raster, context)
+        }
+    };
+    Some((lens?, raster))
+}
+
+fn parallel(r: &description::Parallel, raster: &Raster) -> Result<Lens, OpticsError> {
+    Lens::parallel(ParallelParameters {
+        metres_per_mm: r.field_width_m.value / raster.size_mm().x,
+        f_number: r.f_number.value,
+        transmittance: transmittance(r.transmittance.as_ref()),
+    })
+}
+
 /// The pixel grid of a sensor.
-pub(super) fn raster(sensor: &record::Sensor, context: &mut Context<'_>) -> Option<Raster> {
+fn raster(sensor: &record::Sensor, context: &mut Context<'_>) -> Option<Raster> {
     let (width, height) = (sensor.width_px.value as usize, sensor.height_px.value as usize);
     let middle = [width as f64 / 2.0, height as f64 / 2.0];
     let principal = sensor.principal_point_px.as_ref().map_or(middle, |p| p.value);
@@ -19,12 +47,13 @@ pub(super) fn raster(sensor: &record::Sensor, context: &mut Context<'_>) -> Opti
     context.accept(&sensor.place, Raster::new(width, height, pitch_mm, DVec2::from_array(principal)))
 }
 
-/// The lens of a camera, checked against its picture.
-pub(super) fn lens(record: &record::Lens, raster: &Raster, context: &mut Context<'_>) -> Option<Lens> {
+/// A pinhole, thin or thick lens; the others have no distortion laid over them.
+fn paraxial(record: &record::Lens, raster: &Raster, context: &mut Context<'_>) -> Option<Lens> {
     let (place, focus, made, distortion) = match record {
         record::Lens::Pinhole(r) => (&r.place, None, pinhole(r), &r.distortion),
         record::Lens::Thin(r) => (&r.place, Some(&r.focus_distance_m), thin(r), &r.distortion),
         record::Lens::Thick(r) => (&r.place, Some(&r.focus_distance_m), thick(r), &r.distortion),
+        record::Lens::Prescription(_) | record::Lens::Calibrated(_) | record::Lens::Parallel(_) => return None,
     };
     let place = match (&made, focus) {
         (Err(OpticsError::FocusTooNear { .. }), Some(description::FocusDistance::Metres(metres))) => &metres.place,

@@ -1,7 +1,13 @@
 //! `[lens]`: from the scene to the sensor plane.
 
+pub mod calibrated;
+pub mod prescription;
+pub mod projection;
+
 use crate::place::Placed;
 use crate::reader::{Number, Rule, RuleExt as _, choice, either, number, record, variants};
+pub use calibrated::Calibrated;
+pub use prescription::Prescription;
 
 variants! {
     /// A lens.
@@ -12,6 +18,12 @@ variants! {
         "thin" => Thin(Thin),
         /// A paraxial lens with two principal planes, two pupils and two rims that vignette.
         "thick" => Thick(Box<Thick>),
+        /// A lens of surfaces and glasses, traced: aberrations, colours, vignetting as they are.
+        "prescription" => Prescription(Box<Prescription>),
+        /// A calibrated or ideal projection: each pixel looks where the calibration says.
+        "calibrated" => Calibrated(Box<Calibrated>),
+        /// Parallel rays along the axis, as from an object-side telecentric lens; everything is sharp.
+        "parallel" => Parallel(Parallel),
     }
 }
 
@@ -73,6 +85,18 @@ record! {
         optional front_rim: Rim = record();
         /// The rim behind the pupil. Default: none.
         optional rear_rim: Rim = record();
+    }
+}
+
+record! {
+    /// A parallel (orthographic) camera.
+    pub struct Parallel {
+        /// Width of what is seen, m, above 0: the picture's width in the scene.
+        required field_width_m: Placed<f64> = number("m").above(0.0);
+        /// f-number on the sensor's side, above 0: how much light comes through.
+        required f_number: Placed<f64> = f_number();
+        /// Share of light that the lens lets through, above 0 and at most 1. Default: 1.
+        optional transmittance: Placed<f64> = share();
     }
 }
 

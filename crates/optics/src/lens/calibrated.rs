@@ -1,0 +1,189 @@
+//! A camera known by where its pixels look: a calibrated or ideal projection, with a lens's light.
+//!
+//! A projection says which solid angle dΩ of the scene lands on which area dA of the sensor. Through a pupil of area A_p as
+//! the direction sees it, that area gets E = τ L A_p dΩ/dA.
+//!
+//! - **f-number**: A_p on the axis is π (f/2N)² with the focal length f = √(dA/dΩ) at the principal point, so that
+//!   E = π τ L/(4 N²) there (small-pupil limit, as a pinhole), whatever the projection.
+//! - **Constant pupil**: [`PupilStance::Flat`] keeps the disc across the axis, foreshortened to cos θ (a rectilinear
+//!   projection then gives cos⁴ θ, and no light comes from 90° on); [`PupilStance::Turning`] keeps A_p for every direction,
+//!   as the pupils of wide lenses nearly do, which tilt and move towards the light (an equisolid fisheye is then uniform, an
+//!   equidistant one falls off as sin θ/θ). A measured relative illumination takes the place of both.
+//! - **Defocus**, where a focus distance is given: rays begin on the pupil's disc of radius f/2N and meet where the
+//!   principal ray meets the plane in focus (flat), or at the focus distance along it (turning). Weights stay those of the
+//!   principal ray. The calibration holds for the focus at which it was made: there is no breathing.
+//!
+//! Left out: what the projection does not hold: aberrations, dispersion, a pupil that moves with the field (all rays meet in
+//! one point), clipping.
+
+use super::body::Body;
+use super::falloff::Falloff;
+use crate::error::{OpticsError, positive};
+use crate::pupil::{MM, concentric_disc};
+use core::f64::consts::PI;
+use etendue_core::ray::PupilRay;
+use etendue_projection::{Calibration, Raster};
+use glam::{DVec2, DVec3};
+
+/// How the entrance pupil stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PupilStance {
+    /// A disc across the axis.
+    Flat,
+    /// Turned towards each direction.
+    Turning,
+}
+
+/// What a calibrated camera is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CalibratedParameters {
+    /// Where pixels look.
+    pub calibration: Calibration,
+    /// Distance of the pixels' centres, mm.
+    pub pixel_pitch_mm: f64,
+    /// f-number N.
+    pub f_number: f64,
+    /// Transmittance, (0, 1].
+    pub transmittance: f64,
+    /// Distance of what is sharp, m; infinity is legal. `None`: everything is.
+    pub focus_distance_m: Option<f64>,
+    /// How the pupil stands; `None`: flat for projections that see less than 180°, else turning.
+    pub pupil: Option<PupilStance>,
+    /// Measured relative illumination.
+    pub relative_illumination: Option<Falloff>,
+}
+
+/// A calibrated camera.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Calibrated {
+    parameters: CalibratedParameters,
+    pupil: PupilStance,
+    focal_length_mm: f64,
+    /// τ A_p in mm², or (where the illumination is measured) E/L on the axis, sr.
+    scale: f64,
+}
+
+impl Calibrated {
+    /// A calibrated camera.
+    ///
+    /// # Errors
+    /// Where a number is outside its range, or the calibration sees nothing at its principal point.
+    pub fn new(parameters: CalibratedParameters) -> Result<Self, OpticsError> {
+        let pitch_mm = positive("pixel_pitch_mm", parameters.pixel_pitch_mm)?;
+        let n = positive("f_number", parameters.f_number)?;
+        let transmittance = Body::new(parameters.transmittance)?.transmittance;
+        if let Some(focus_m) = parameters.focus_distance_m
+            && (focus_m.is_nan() || focus_m <= 0.0)
+        {
+            return Err(OpticsError::FocusTooNear { focus_m, least_m: 0.0 });
+        }
+        let matrix = parameters.calibration.matrix();
+        let seen = parameters.calibration.solid_angle_per_area(DVec2::new(matrix.cx, matrix.cy));
+        let sr_per_px2 = seen.filter(|s| *s > 0.0).ok_or(OpticsError::BlindCentre { x: matrix.cx, y: matrix.cy })?;
+        let focal_length_mm = pitch_mm / sr_per_px2.sqrt();
+        let axis_sr = transmittance * PI / (4.0 * n * n);
+        let measured = parameters.relative_illumination.is_some();
+        let scale = if measured { axis_sr } else { axis_sr * focal_length_mm * focal_length_mm };
+        let wide = parameters.calibration.model().edge().angle_rad > core::f64::consts::FRAC_PI_2;
+        let by_field = if wide { PupilStance::Turning } else { PupilStance::Flat };
+        Ok(Self { pupil: parameters.pupil.unwrap_or(by_field), focal_length_mm, scale, parameters })
+    }
+
+    /// What it was made of.
+    #[must_use]
+    pub fn parameters(&self) -> &CalibratedParameters {
+        &self.parameters
+    }
+
+    /// How its pupil stands.
+    #[must_use]
+    pub fn pupil(&self) -> PupilStance {
+        self.pupil
+    }
+
+    /// √(dA/dΩ) at the principal point, mm.
+    #[must_use]
+    pub fn focal_length_mm(&self) -> f64 {
+        self.focal_length_mm
+    }
+
+    /// Radius of the pupil, mm; 0 where everything is sharp.
+    #[must_use]
+    pub fn pupil_radius_mm(&self) -> f64 {
+        self.parameters.focus_distance_m.map_or(0.0, |_| self.focal_length_mm / (2.0 * self.parameters.f_number))
+    }
+
+    /// Refuses a picture that is not the calibration's, a fold inside it, and a measured illumination that ends before it.
+    pub(super) fn check(&self, raster: &Raster) -> Result<(), OpticsError> {
+        let [width, height] = self.parameters.calibration.size_px();
+        let (got_width, got_height) = (raster.width(), raster.height());
+        if [got_width, got_height] != [width, height] {
+            return Err(OpticsError::CalibratedSize { got_width, got_height, width, height });
+        }
+        self.parameters.calibration.check()?;
+        self.parameters.relative_illumination.as_ref().map_or(Ok(()), |table| table.check(raster.max_radius_mm()))
+    }
+
+    fn raster_px(&self, sensor_mm: DVec2) -> DVec2 {
+        let matrix = self.parameters.calibration.matrix();
+        sensor_mm / self.parameters.pixel_pitch_mm + DVec2::new(matrix.cx, matrix.cy)
+    }
+
+    pub(super) fn direction(&self, sensor_mm: DVec2) -> Option<DVec3> {
+        self.parameters.calibration.unproject(self.raster_px(sensor_mm))
+    }
+
+    pub(super) fn project(&self, direction: DVec3) -> Option<DVec2> {
+        let matrix = self.parameters.calibration.matrix();
+        let px = self.parameters.calibration.project(direction)?;
+        Some((px - DVec2::new(matrix.cx, matrix.cy)) * self.parameters.pixel_pitch_mm)
+    }
+
+    pub(super) fn principal_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
+        let direction = self.direction(sensor_mm)?;
+        let weight_sr = self.weight_sr(sensor_mm, direction)?;
+        Some(PupilRay { origin_m: DVec3::ZERO, direction, weight_sr })
+    }
+
+    pub(super) fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
+        self.principal_ray(sensor_mm).map_or(0.0, |ray| ray.weight_sr)
+    }
+
+    /// E/L of a direction; `None` where no light comes.
+    fn weight_sr(&self, sensor_mm: DVec2, direction: DVec3) -> Option<f64> {
+        let foreshortened = match self.pupil {
+            PupilStance::Flat if direction.z <= 0.0 => return None,
+            PupilStance::Flat => direction.z,
+            PupilStance::Turning => 1.0,
+        };
+        if let Some(table) = &self.parameters.relative_illumination {
+            return Some(self.scale * table.at(sensor_mm.length()));
+        }
+        let pitch = self.parameters.pixel_pitch_mm;
+        let sr_per_px2 = self.parameters.calibration.solid_angle_per_area(self.raster_px(sensor_mm))?;
+        Some(self.scale * foreshortened * sr_per_px2 / (pitch * pitch))
+    }
+
+    pub(super) fn ray(&self, sensor_mm: DVec2, pupil: DVec2) -> Option<PupilRay> {
+        let principal = self.principal_ray(sensor_mm)?;
+        match self.parameters.focus_distance_m {
+            None => Some(principal),
+            Some(focus_m) => Some(self.through(principal, concentric_disc(pupil), focus_m)),
+        }
+    }
+
+    /// The ray through the point `q` of the unit disc that meets the principal ray where it is sharp.
+    fn through(&self, principal: PupilRay, q: DVec2, focus_m: f64) -> PupilRay {
+        let ahead = principal.direction;
+        let at = q * (self.pupil_radius_mm() * MM);
+        let (origin_m, sharp) = match self.pupil {
+            PupilStance::Flat => (at.extend(0.0), ahead / ahead.z),
+            PupilStance::Turning => {
+                let (x, y) = ahead.any_orthonormal_pair();
+                (x * at.x + y * at.y, ahead)
+            }
+        };
+        let direction = (sharp - origin_m / focus_m).normalize();
+        PupilRay { origin_m, direction, ..principal }
+    }
+}

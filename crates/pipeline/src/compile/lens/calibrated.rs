@@ -1,0 +1,93 @@
+//! A camera known by where its pixels look.
+
+use super::super::context::Context;
+use super::{focus_m, projection, transmittance};
+use etendue_optics::{CalibratedParameters, Falloff, Lens, OpticsError, PupilStance};
+use etendue_projection::{Calibration, Raster};
+use etendue_scene::Place;
+use etendue_scene::record::Sensor;
+use etendue_scene::record::lens::calibrated::{Calibrated, Pupil, RelativeIllumination, View};
+use etendue_scene::record::lens::projection::CalibrationFile;
+
+/// The lens, and the pixel grid about the calibration's principal point.
+pub(super) fn lens(
+    record: &Calibrated,
+    sensor: &Sensor,
+    raster: &Raster,
+    context: &mut Context<'_>,
+) -> Option<(Lens, Raster)> {
+    let (place, calibration) = match &record.view {
+        View::Projection(projection) => {
+            (&record.place, projection::calibration(projection, &record.place, raster, context)?)
+        }
+        View::Calibration(file) => (&file.file.place, imported(file, context)?),
+    };
+    one_principal_point(record, sensor, context)?;
+    let calibration = match &record.greatest_angle_deg {
+        None => calibration,
+        Some(angle) => context.accept(&angle.place, calibration.limited_to(angle.value.to_radians()))?,
+    };
+    let matrix = calibration.matrix();
+    let principal = glam::DVec2::new(matrix.cx, matrix.cy);
+    let raster = context.accept(place, Raster::new(raster.width(), raster.height(), raster.pitch_mm(), principal))?;
+    let lens = parameters(record, calibration, &raster).and_then(Lens::calibrated);
+    let lens = context.accept(place, lens)?;
+    let checked = lens.check(&raster);
+    let at = match (&checked, &record.relative_illumination) {
+        (Err(OpticsError::FalloffEnds { .. }), Some(table)) => &table.place,
+        (Err(OpticsError::CalibratedSize { .. }), _) => &sensor.place,
+        _ => place,
+    };
+    context.accept(at, checked)?;
+    Some((lens, raster))
+}
+
+fn parameters(
+    record: &Calibrated,
+    calibration: Calibration,
+    raster: &Raster,
+) -> Result<CalibratedParameters, OpticsError> {
+    Ok(CalibratedParameters {
+        calibration,
+        pixel_pitch_mm: raster.pitch_mm().x,
+        f_number: record.f_number.value,
+        transmittance: transmittance(record.transmittance.as_ref()),
+        focus_distance_m: record.focus_distance_m.as_ref().map(focus_m),
+        pupil: record.pupil.as_ref().map(|pupil| match pupil.value {
+            Pupil::Flat => PupilStance::Flat,
+            Pupil::Turning => PupilStance::Turning,
+        }),
+        relative_illumination: record.relative_illumination.as_ref().map(falloff).transpose()?,
+    })
+}
+
+fn falloff(table: &RelativeIllumination) -> Result<Falloff, OpticsError> {
+    let points = table.radius_mm.iter().zip(&table.ratio);
+    Falloff::new(points.map(|(radius, ratio)| (radius.value, ratio.value)).collect())
+}
+
+/// The camera of a calibration file, with what of the file was passed over remarked.
+fn imported(file: &CalibrationFile, context: &mut Context<'_>) -> Option<Calibration> {
+    let assets = context.assets;
+    let Some(asset) = assets.calibrations.get(&(file.file.value.clone(), file.choice())) else {
+        context.fault(&file.file.place, "the calibration was not loaded", "give a readable file");
+        return None;
+    };
+    for note in &asset.report {
+        context.remark(format!("{}: {note}", file.file.value.display()));
+    }
+    Some(asset.calibration.clone())
+}
+
+/// A calibration has a principal point of its own.
+fn one_principal_point(record: &Calibrated, sensor: &Sensor, context: &mut Context<'_>) -> Option<()> {
+    let Some(stated) = &sensor.principal_point_px else { return Some(()) };
+    let by: Option<&Place> = match &record.view {
+        View::Projection(projection) => projection::stated_centre(projection),
+        View::Calibration(file) => Some(&file.place),
+    };
+    let Some(by) = by else { return Some(()) };
+    let problem = format!("the principal point is stated here and by the lens ({by})");
+    context.fault(&stated.place, problem, "remove one of them");
+    None
+}

@@ -1,0 +1,159 @@
+//! Lenses of descriptions: what they become, and what is refused where.
+
+use crate::compile::{Choices, compile};
+use crate::plan::{CameraPlan, Plan};
+use crate::rays::ray_table;
+use etendue_optics::Lens;
+use etendue_scene::asset::{Assets, GlassAsset, PrescriptionAsset, SurfaceAsset};
+use etendue_scene::{Description, Overrides};
+use std::path::Path;
+
+fn plan_with(lens: &str, further: &str, assets: &Assets) -> Result<Plan, String> {
+    let text = format!(
+        "format = 1\nscene = {{}}\n[[cameras]]\nname = \"a\"\nposition_m = [0, 0, 1]\nlook_at_m = [10, 0, 1]\n\
+         sensor = {{ width_px = 64, height_px = 48, pixel_pitch_um = 100 }}\n[cameras.lens]\n{lens}\n{further}"
+    );
+    let read = |_: &Path| Ok(text.clone());
+    let job = Description::load(Path::new("job.toml"), &read, &Overrides::default()).map_err(|f| f.to_string())?;
+    let faults = |list: Vec<etendue_scene::Fault>| list.iter().map(|f| format!("{f}\n")).collect::<String>();
+    compile(&job, assets, &Choices::default()).map_err(faults)
+}
+
+fn camera(lens: &str) -> CameraPlan {
+    plan_with(lens, "", &Assets::default()).unwrap_or_else(|faults| panic!("{faults}")).cameras.remove(0)
+}
+
+fn refused(lens: &str, further: &str, words: &[&str]) {
+    let text = plan_with(lens, further, &Assets::default()).map(|_| ()).expect_err(lens);
+    assert!(words.iter().all(|word| text.contains(word)), "{words:?} in {text}");
+}
+
+const GAUSS: &str = "model = \"prescription\"\npublished = \"double-gauss\"\nfocus_distance_m = \"infinity\"\n";
+
+/// A biconvex singlet with its stop in front.
+fn singlet(front: &str) -> String {
+    format!(
+        "model = \"prescription\"\nfocus_distance_m = \"infinity\"\nsurfaces = [\n\
+         {{ thickness_mm = 1, semi_aperture_mm = 2, stop = true }},\n{{ radius_mm = 30, {front} }},\n\
+         {{ radius_mm = -30, semi_aperture_mm = 5 }},\n]\n"
+    )
+}
+
+#[test]
+fn a_published_lens_is_traced_and_carries_one_wavelength_a_path() {
+    let camera = camera(&format!("{GAUSS}f_number = 4\n"));
+    let Lens::Prescription(lens) = &camera.body.lens else { panic!("a prescription") };
+    assert!((lens.prescription().paraxial().f_number() - 4.0).abs() < 1e-9);
+    assert_eq!(camera.settings.wavelengths, 1);
+    refused(GAUSS, "[render]\nwavelengths_per_path = 8", &["wavelengths_per_path", "remove the key"]);
+    refused(GAUSS, "[render]\nroute = \"pupil\"", &["render.route", "a prescription is rendered with route"]);
+}
+
+#[test]
+fn glasses_are_named_or_told_by_numbers() {
+    let focal = |glass: &str| {
+        let camera = camera(&singlet(&format!("thickness_mm = 3, semi_aperture_mm = 5, glass = {glass}")));
+        (camera.body.lens.focal_length_mm(), camera.settings.wavelengths)
+    };
+    // N-BK7 by its name, by Schott's Sellmeier coefficients, by n_d and V_d, and without dispersion.
+    let by_name = focal("\"N-BK7\"");
+    let sellmeier = "{ sellmeier_b = [1.03961212, 0.231792344, 1.01046945], sellmeier_c_um2 = [0.00600069867, 0.0200179144, 103.560653] }";
+    for (glass, wavelengths) in [(sellmeier, 1), ("{ index = 1.5168, abbe = 64.17 }", 1), ("{ index = 1.5168 }", 4)] {
+        let found = focal(glass);
+        // n_d is given to five digits: 1e-6 / (n − 1).
+        assert!((found.0 / by_name.0 - 1.0).abs() < 1e-5 && found.1 == wavelengths, "{glass}: {found:?}");
+    }
+}
+
+#[test]
+fn faults_of_prescriptions_name_their_place() {
+    refused(
+        "model = \"prescription\"\npublished = \"biotar\"\nfocus_distance_m = 1\n",
+        "",
+        &["published", "double-gauss"],
+    );
+    refused(&singlet("thickness_mm = 3, semi_aperture_mm = 5, glass = \"BK8\""), "", &["surfaces", "glass", "BK8"]);
+    refused(&singlet("thickness_mm = 0.1, semi_aperture_mm = 5, glass = \"N-BK7\""), "", &["overlap", "surfaces"]);
+    refused(&singlet("semi_aperture_mm = 5, glass = \"N-BK7\""), "", &["thickness_mm"]);
+    refused(&GAUSS.replace("\"infinity\"", "0"), "", &["focus_distance_m", "above 0"]);
+    refused(&format!("{GAUSS}f_number = 1\n"), "", &["f_number", "opens to"]);
+    refused(&format!("{GAUSS}focus_by = [3, 90]\n"), "", &["focus_by", "range"]);
+    refused(&format!("{GAUSS}semi_apertures_mm = [3]\n"), "", &["semi_apertures_mm", "no effect"]);
+    let filter = "ir_cut = { edge_nm = 650, effective_index = 1.8 }\n";
+    refused(&format!("{GAUSS}{filter}"), "", &["edge_width_nm"]);
+}
+
+fn file_surface(radius_mm: f64, semi_aperture_mm: Option<f64>, glass: GlassAsset, stop: bool) -> SurfaceAsset {
+    let (conic, asphere, thickness_mm, line) = (0.0, [0.0; 8], 3.0, 12);
+    SurfaceAsset { radius_mm, conic, asphere, semi_aperture_mm, thickness_mm, glass, stop, line }
+}
+
+#[test]
+fn a_file_without_apertures_is_refused_by_line_and_served_by_a_list() {
+    let mut assets = Assets::default();
+    let glass = GlassAsset::Named("N-BK7".to_owned());
+    let surfaces = vec![file_surface(30.0, None, glass, true), file_surface(-30.0, Some(5.0), GlassAsset::Air, false)];
+    let asset = PrescriptionAsset {
+        title: String::new(),
+        surfaces,
+        object_distance_mm: f64::INFINITY,
+        back_focus_mm: 28.0,
+        opening: None,
+        fields: None,
+        wavelengths_nm: Vec::new(),
+        hash: [0; 32],
+    };
+    assets.prescriptions.insert("lens.zmx".into(), asset);
+    let lens = "model = \"prescription\"\nfile = \"lens.zmx\"\nfocus_distance_m = \"infinity\"\n";
+    let text = plan_with(lens, "", &assets).map(|_| ()).expect_err("no aperture");
+    assert!(text.contains("1 (line 12)") && text.contains("semi_apertures_mm"), "{text}");
+    let served = plan_with(&format!("{lens}semi_apertures_mm = [2, 5]\n"), "", &assets);
+    assert!(served.is_ok(), "{:?}", served.map(|_| ()));
+}
+
+#[test]
+fn calibrated_cameras_take_their_numbers_as_they_are_written() {
+    let lens = "model = \"calibrated\"\nf_number = 2\n\
+                projection = { type = \"kannala_brandt\", fx_px = 20, fy_px = 21, cx_px = 30, cy_px = 25, k = [0.01, 0, 0, 0] }\n";
+    let plan = camera(lens);
+    assert_eq!(plan.body.raster.principal_px().to_array(), [30.0, 25.0]);
+    let Lens::Calibrated(made) = &plan.body.lens else { panic!("calibrated") };
+    assert_eq!(made.parameters().calibration.matrix().fy, 21.0);
+    let full = camera(
+        "model = \"calibrated\"\nf_number = 2\nprojection = { type = \"equirectangular\", field_of_view_deg = 360 }\n",
+    );
+    let Lens::Calibrated(made) = &full.body.lens else { panic!("calibrated") };
+    assert!((made.parameters().calibration.matrix().fx * 2.0 * core::f64::consts::PI / 64.0 - 1.0).abs() < 1e-11);
+}
+
+#[test]
+fn faults_of_calibrations_name_their_place() {
+    let camera = |projection: &str| format!("model = \"calibrated\"\nf_number = 2\nprojection = {{ {projection} }}\n");
+    refused(&camera("type = \"rectilinear\", field_of_view_deg = 200"), "", &["field_of_view_deg", "180"]);
+    refused(&camera("type = \"kannala_brandt\", fx_px = 20, k = [-0.5, 0, 0, 0]"), "", &["folds", "radius"]);
+    refused(&camera("type = \"equidistant\", focal_length_mm = 2, fy_px = 20"), "", &["fy_px", "no effect"]);
+    refused(&camera("type = \"opencv\", fx_px = 60, distortion = [0.1, 0.2]"), "", &["lens"]);
+    refused(&camera("type = \"equidistant\", fx_px = 20"), "[render]\nroute = \"pupil\"", &["calibrated camera"]);
+}
+
+/// The ray table puts any pixel back: it is the calibration's own direction, and NaN where nothing is seen.
+#[test]
+fn the_ray_table_is_the_calibration() {
+    let plan = camera(
+        "model = \"calibrated\"\nf_number = 2\ngreatest_angle_deg = 60\nprojection = { type = \"equidistant\", fx_px = 25 }\n",
+    );
+    let table = ray_table(&plan.body);
+    let Lens::Calibrated(lens) = &plan.body.lens else { panic!("calibrated") };
+    let mut dark = 0;
+    for (i, direction) in table.direction.samples().iter().enumerate() {
+        let px = glam::DVec2::new((i % 64) as f64 + 0.5, (i / 64) as f64 + 0.5);
+        match lens.parameters().calibration.unproject(px) {
+            Some(exact) => assert!((exact.as_vec3() - glam::Vec3::from_array(*direction)).length() < 1e-6),
+            None => assert!(direction[0].is_nan() && table.ray.samples()[i] == 0),
+        }
+        dark += usize::from(direction[0].is_nan());
+    }
+    // 60° is a circle of 25 π/3 = 26.2 px about the middle of 64 × 48: some of the corners.
+    let seen = 64 * 48 - dark;
+    assert!((1700..2154).contains(&seen), "{seen}");
+}

@@ -1,0 +1,43 @@
+//! A calibrated camera, as another program wrote it.
+
+use etendue_projection::Calibration;
+
+use crate::reader::choice;
+
+choice! {
+    /// Whose calibration file it is.
+    pub enum CalibrationFormat {
+        /// OpenCV's FileStorage as YAML or JSON: perspective, unless the file says that it is a fisheye or holds ξ.
+        "opencv" => OpenCv,
+        /// OpenCV's FileStorage with the coefficients of its fisheye module.
+        "opencv_fisheye" => OpenCvFisheye,
+        /// ROS camera_info, YAML.
+        "ros" => Ros,
+        /// Kalibr's camera chain, YAML.
+        "kalibr" => Kalibr,
+        /// COLMAP's cameras.txt.
+        "colmap" => Colmap,
+        /// OCamCalib's calib_results.txt.
+        "ocam" => Ocam,
+    }
+}
+
+/// Which camera of a calibration file.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct CalibrationChoice {
+    /// Whose file it is.
+    pub format: CalibrationFormat,
+    /// The camera's name in a file of several.
+    pub camera: Option<String>,
+}
+
+/// A camera of a calibration file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CalibrationAsset {
+    /// The camera, in raster coordinates.
+    pub calibration: Calibration,
+    /// What was passed over, a sentence each.
+    pub report: Vec<String>,
+    /// SHA-256 of the file.
+    pub hash: [u8; 32],
+}

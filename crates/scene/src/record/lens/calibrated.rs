@@ -1,0 +1,84 @@
+//! A camera known by where its pixels look.
+
+use super::projection::{CalibrationFile, Projection};
+use super::{FocusDistance, f_number, focus_distance, share};
+use crate::fault::Faults;
+use crate::place::Placed;
+use crate::reader::{choice, keyed, list, number, record};
+
+record! {
+    /// A calibrated or ideal projection with a lens's light.
+    pub struct Calibrated check(check) {
+        /// Where its pixels look.
+        inside view: View;
+        /// How much light comes through, above 0: on the axis E = π τ L/(4 N²). With "focus_distance_m" also the pupil's size.
+        required f_number: Placed<f64> = f_number();
+        /// Distance of what is sharp from the entrance pupil, m, above 0, or "infinity": along the axis for a flat pupil, along
+        /// the ray for a turning one. Default: everything is sharp.
+        optional focus_distance_m: FocusDistance = focus_distance();
+        /// How the entrance pupil stands. Default: "flat" for projections that see less than 180°, "turning" for others.
+        optional pupil: Placed<Pupil> = choice();
+        /// Measured relative illumination, in place of the pupil's and the projection's own. Default: theirs.
+        optional relative_illumination: RelativeIllumination = record();
+        /// The field angle (from the axis) from which on the camera sees nothing, degrees, above 0 and at most 180. Default:
+        /// where the projection ends.
+        optional greatest_angle_deg: Placed<f64> = number("degrees").above(0.0).at_most(180.0);
+        /// Share of light that the lens lets through, above 0 and at most 1. Default: 1.
+        optional transmittance: Placed<f64> = share();
+    }
+}
+
+keyed! {
+    /// Where pixels look.
+    pub enum View {
+        /// A projection with its numbers.
+        projection => Projection(Projection) = record();
+        /// A calibration of another program; its picture must have the sensor's size.
+        calibration => Calibration(CalibrationFile) = record();
+    }
+}
+
+choice! {
+    /// How an entrance pupil stands to the rays.
+    pub enum Pupil {
+        /// A disc across the axis: a direction sees it foreshortened by cos θ, so light falls off as cos θ dΩ/dA; sees less than
+        /// 180°.
+        "flat" => Flat,
+        /// Turned towards each direction, as wide lenses' pupils do: light falls off as dΩ/dA.
+        "turning" => Turning,
+    }
+}
+
+record! {
+    /// Irradiance over that on the axis, linear between the points.
+    pub struct RelativeIllumination check(check_illumination) {
+        /// Distances from the principal point, mm, rising from 0 to the picture's farthest corner or beyond.
+        required radius_mm: Vec<Placed<f64>> = list(number("mm").at_least(0.0), 1);
+        /// Irradiance over that on the axis, 0 or more; the first is 1.
+        required ratio: Vec<Placed<f64>> = list(number("").at_least(0.0), 1);
+    }
+}
+
+fn check(lens: &Calibrated, faults: &mut Faults) {
+    if let (Some(pupil), Some(_), None) = (&lens.pupil, &lens.relative_illumination, &lens.focus_distance_m) {
+        let problem = "\"pupil\" has no effect here: the illumination is measured and everything is sharp";
+        faults.add(&pupil.place, problem, "remove it");
+    }
+}
+
+fn check_illumination(table: &RelativeIllumination, faults: &mut Faults) {
+    let (radii, ratios) = (&table.radius_mm, &table.ratio);
+    if radii.len() != ratios.len() {
+        let problem = format!("{} radii and {} ratios", radii.len(), ratios.len());
+        faults.add(&table.place, problem, "give as many of one as of the other");
+    }
+    if let Some(pair) = radii.windows(2).find(|pair| pair[1].value <= pair[0].value) {
+        let problem = format!("{} does not lie beyond {}", pair[1].value, pair[0].value);
+        faults.add(&pair[1].place, problem, "give rising radii");
+    }
+    for (list, start, name) in [(radii, 0.0, "radius"), (ratios, 1.0, "ratio")] {
+        if let Some(first) = list.first().filter(|first| first.value != start) {
+            faults.add(&first.place, format!("the first {name} is {}", first.value), format!("begin with {start}"));
+        }
+    }
+}

@@ -1,0 +1,242 @@
+//! A lens by its surfaces: in the camera file, in the file of a lens program, or a published one.
+
+use std::path::PathBuf;
+
+use super::{FocusDistance, f_number, focus_distance};
+use crate::fault::Faults;
+use crate::place::Placed;
+use crate::reader::{Rule, RuleExt as _, choice, either, flag, keyed, list, number, path, record, text, vector};
+use crate::record::curve::spectrum_file;
+
+record! {
+    /// A traced lens.
+    pub struct Prescription check(check) {
+        /// Where its surfaces are.
+        inside source: Source;
+        /// With "file": clear semi-apertures, mm, one a surface of the file that refracts or is the stop, in place of the
+        /// file's. Default: the file's, which must then have one a surface.
+        optional semi_apertures_mm: Vec<Placed<f64>> = list(number("mm").above(0.0), 1);
+        /// Focal length divided by the entrance pupil's diameter, with the focus at infinity, above 0: how far the stop opens,
+        /// no further than its own semi-aperture. Default: what the file says, or the stop's own semi-aperture.
+        optional f_number: Placed<f64> = f_number();
+        /// Distance of the plane in focus from the entrance pupil, m, above 0, or "infinity".
+        required focus_distance_m: FocusDistance = focus_distance();
+        /// What moves to focus: "sensor" (or the lens as a whole), or the first and last surface of a group, counted from 1 at
+        /// the scene; the sensor then stays where the lens images infinity. Default: "sensor".
+        optional focus_by: FocusBy = focus_by();
+        /// How far behind the paraxial image (at 587.56 nm) the sensor stands, mm: best focus of an aberrated lens. Default: 0.
+        optional defocus_mm: Placed<f64> = number("mm");
+        /// An interference filter in front of the sensor that cuts the infrared off. Default: none.
+        optional ir_cut: IrCut = record();
+    }
+}
+
+keyed! {
+    /// Where surfaces are.
+    pub enum Source {
+        /// A published lens, with its source in docs/lenses.md: "double-gauss", "wide-angle", "fisheye", "telephoto".
+        published => Published(Placed<String>) = text("the name of a published lens");
+        /// A sequential lens of Zemax (.zmx) or CODE V (.seq), as text.
+        file => File(Placed<PathBuf>) = path(&["zmx", "seq"]);
+        /// The surfaces, from the scene to the sensor; one is the stop. What is behind the last is air.
+        surfaces => Surfaces(Vec<Surface>) = list(record::<Surface>(), 1);
+    }
+}
+
+record! {
+    /// A surface and the space behind it. With c = 1/radius_mm and r the distance from the axis its sag is
+    /// c r²/(1 + √(1 − (1 + conic) c² r²)) + asphere[0] r² + asphere[1] r⁴ + …
+    pub struct Surface {
+        /// Radius of curvature, mm, positive where the centre lies towards the sensor. Default: a plane.
+        optional radius_mm: Placed<f64> = number("mm");
+        /// Conic constant: 0 a sphere, −1 a paraboloid. Default: 0.
+        optional conic: Placed<f64> = number("");
+        /// Coefficients of r², r⁴, r⁶ …, mm to the power 1 − 2i; at most eight. Default: none.
+        optional asphere: Vec<Placed<f64>> = list(number("mm^(1 - 2i)"), 1);
+        /// Distance to the next surface along the axis, mm, 0 or more. Of the last surface it has no effect and is left out.
+        optional thickness_mm: Placed<f64> = number("mm").at_least(0.0);
+        /// Radius of the opening that lets light through, mm, above 0.
+        required semi_aperture_mm: Placed<f64> = number("mm").above(0.0);
+        /// What fills the space behind it: a glass of the catalogues of Schott or Ohara by its name ("N-BK7"), or a table.
+        /// Default: air.
+        optional glass: Glass = glass();
+        /// What it lets through: "uncoated" (Fresnel), a share above 0 and at most 1, or a layer. Default: "uncoated".
+        optional coating: Coating = coating();
+        /// Whether it is the aperture stop. Default: false.
+        optional stop: Placed<bool> = flag();
+    }
+}
+
+/// What fills a space.
+#[derive(Clone, Debug)]
+pub enum Glass {
+    /// By the maker's name.
+    Named(Placed<String>),
+    /// By its numbers.
+    Numbers(GlassNumbers),
+}
+
+record! {
+    /// A glass by its numbers, against air.
+    pub struct GlassNumbers check(check_glass) {
+        /// What is known of it.
+        inside known: GlassKnown;
+        /// With "index": Abbe number V_d, above 5. Without it the glass does not disperse.
+        optional abbe: Placed<f64> = number("").above(5.0);
+        /// With "sellmeier_b": C₁, C₂, C₃, µm².
+        optional sellmeier_c_um2: Placed<[f64; 3]> = vector::<3>(number("µm²"));
+    }
+}
+
+keyed! {
+    /// What is known of a glass.
+    pub enum GlassKnown {
+        /// n_d, at 587.56 nm, above 1 and at most 5; with "abbe" a Conrady curve on the normal line.
+        index => Index(Placed<f64>) = number("").above(1.0).at_most(5.0);
+        /// B₁, B₂, B₃ of Sellmeier's equation n² = 1 + Σ B λ²/(λ² − C), λ in µm.
+        sellmeier_b => Sellmeier(Placed<[f64; 3]>) = vector::<3>(number(""));
+    }
+}
+
+/// What a surface lets through.
+#[derive(Clone, Debug)]
+pub enum Coating {
+    /// Bare glass.
+    Uncoated,
+    /// A share at every angle and wavelength.
+    Share(Placed<f64>),
+    /// A quarter-wave layer of magnesium fluoride for this wavelength, nm.
+    QuarterWave(Placed<f64>),
+}
+
+choice! {
+    /// The word for a surface without coating.
+    pub enum Bare {
+        /// Bare glass: Fresnel's reflection.
+        "uncoated" => Uncoated,
+    }
+}
+
+keyed! {
+    /// A layer.
+    pub enum Layer {
+        /// A layer of magnesium fluoride, a quarter of this wavelength thick, nm, 300 … 1 100.
+        quarter_wave_nm => QuarterWave(Placed<f64>) = number("nm").at_least(300.0).at_most(1100.0);
+    }
+}
+
+/// What moves to focus.
+#[derive(Clone, Debug)]
+pub enum FocusBy {
+    /// The sensor.
+    Sensor,
+    /// From the first to the last surface of a group, counted from 1.
+    Group(Placed<[f64; 2]>),
+}
+
+choice! {
+    /// The word for focusing by the sensor.
+    pub enum Mover {
+        /// The sensor moves, or the lens as a whole.
+        "sensor" => Sensor,
+    }
+}
+
+record! {
+    /// An interference filter. An edge at λ₀ stands at λ₀ √(1 − sin²θ/effective_index²) for light at the angle θ.
+    pub struct IrCut check(check_filter) {
+        /// What it lets through at normal incidence.
+        inside normal: IrCutCurve;
+        /// With "edge_nm": from full transmittance to none, nm, above 0.
+        optional edge_width_nm: Placed<f64> = number("nm").above(0.0);
+        /// Effective index of its layers, above 1; 1.5 to 2.2 is usual.
+        required effective_index: Placed<f64> = number("").above(1.0);
+    }
+}
+
+keyed! {
+    /// A filter's transmittance at normal incidence.
+    pub enum IrCutCurve {
+        /// A table of two columns, wavelength in nm and transmittance 0 … 1.
+        spectrum => Spectrum(Placed<PathBuf>) = spectrum_file();
+        /// Where half comes through, nm, 300 … 1 100: all below, none beyond, and a straight flank.
+        edge_nm => Edge(Placed<f64>) = number("nm").at_least(300.0).at_most(1100.0);
+    }
+}
+
+fn glass() -> impl Rule<Out = Glass> {
+    either(text("the name of a glass").map(Glass::Named), record::<GlassNumbers>().map(Glass::Numbers))
+}
+
+fn coating() -> impl Rule<Out = Coating> {
+    let share = number("").above(0.0).at_most(1.0).map(Coating::Share);
+    let layer = record::<Layer>().map(|Layer::QuarterWave(nm)| Coating::QuarterWave(nm));
+    either(choice::<Bare>().map(|_| Coating::Uncoated), either(share, layer))
+}
+
+fn focus_by() -> impl Rule<Out = FocusBy> {
+    let group = vector::<2>(number("").at_least(1.0)).map(FocusBy::Group);
+    either(choice::<Mover>().map(|_| FocusBy::Sensor), group)
+}
+
+fn check(lens: &Prescription, faults: &mut Faults) {
+    let given = lens.semi_apertures_mm.iter().flatten().next();
+    if let (Some(given), false) = (given, matches!(lens.source, Source::File(_))) {
+        let problem = "\"semi_apertures_mm\" has no effect here, it belongs to \"file\"";
+        faults.add(&given.place, problem, "remove it; a surface states its own \"semi_aperture_mm\"");
+    }
+    if let Some(FocusBy::Group(group)) = &lens.focus_by
+        && !(group.value.iter().all(|i| i.fract() == 0.0) && group.value[0] <= group.value[1])
+    {
+        let problem = format!("{} to {} is no range of surfaces", group.value[0], group.value[1]);
+        faults.add(&group.place, problem, "give two whole numbers, the first surface's and the last's");
+    }
+    let Source::Surfaces(surfaces) = &lens.source else { return };
+    let (last, others) = surfaces.split_last().map_or((None, &[][..]), |(last, others)| (Some(last), others));
+    for surface in others.iter().filter(|s| s.thickness_mm.is_none()) {
+        faults.add(&surface.place, "the distance to the next surface is missing", "add \"thickness_mm\"");
+    }
+    if let Some(thickness) = last.and_then(|s| s.thickness_mm.as_ref()) {
+        let problem = "\"thickness_mm\" of the last surface has no effect: the focus says where the sensor stands";
+        faults.add(&thickness.place, problem, "remove it");
+    }
+    for surface in surfaces {
+        if let Some(beyond) = surface.asphere.iter().flatten().nth(ASPHERE_TERMS) {
+            let problem = format!("found more than {ASPHERE_TERMS} coefficients");
+            faults.add(&beyond.place, problem, "give those of r² to r¹⁶");
+        }
+        if let Some(radius) = surface.radius_mm.as_ref().filter(|r| r.value == 0.0) {
+            faults.add(&radius.place, "found a radius of 0", "give a radius, or leave the key out for a plane");
+        }
+    }
+}
+
+/// r² to r¹⁶.
+const ASPHERE_TERMS: usize = 8;
+
+fn check_glass(glass: &GlassNumbers, faults: &mut Faults) {
+    match (&glass.known, &glass.abbe, &glass.sellmeier_c_um2) {
+        (GlassKnown::Index(_), _, Some(c)) => {
+            faults.add(&c.place, "\"sellmeier_c_um2\" belongs to \"sellmeier_b\"", "remove it");
+        }
+        (GlassKnown::Sellmeier(_), Some(abbe), _) => {
+            faults.add(&abbe.place, "\"abbe\" has no effect here, it belongs to \"index\"", "remove it");
+        }
+        (GlassKnown::Sellmeier(b), _, None) => {
+            faults.add(&b.place, "Sellmeier's equation lacks its resonances", "add \"sellmeier_c_um2\"");
+        }
+        _ => {}
+    }
+}
+
+fn check_filter(filter: &IrCut, faults: &mut Faults) {
+    match (&filter.normal, &filter.edge_width_nm) {
+        (IrCutCurve::Edge(edge), None) => {
+            faults.add(&edge.place, "an edge without its width", "add \"edge_width_nm\"");
+        }
+        (IrCutCurve::Spectrum(_), Some(width)) => {
+            faults.add(&width.place, "\"edge_width_nm\" has no effect here, it belongs to \"edge_nm\"", "remove it");
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,256 @@
+//! Where a calibrated camera's pixels look: a projection with its numbers, or a calibration file.
+
+use std::path::PathBuf;
+
+use super::Direction;
+use crate::asset::{CalibrationChoice, CalibrationFormat};
+use crate::place::Placed;
+use crate::reader::{choice, exactly, keyed, list, number, path, record, text, variants};
+
+record! {
+    /// A calibration file.
+    pub struct CalibrationFile {
+        /// The file.
+        required file: Placed<PathBuf> = path(&["yaml", "yml", "json", "txt"]);
+        /// Whose file it is.
+        required format: Placed<CalibrationFormat> = choice();
+        /// Which camera of the file, by its name there. Default: its only one.
+        optional camera: Placed<String> = text("the name of a camera");
+    }
+}
+
+impl CalibrationFile {
+    /// Which camera of the file it is.
+    #[must_use]
+    pub fn choice(&self) -> CalibrationChoice {
+        CalibrationChoice { format: self.format.value, camera: self.camera.as_ref().map(|c| c.value.clone()) }
+    }
+}
+
+variants! {
+    /// Where a raster point looks. Points of the normalised image plane become pixels by
+    /// (fx x + skew y + cx, fy y + cy), in raster coordinates: pixel centres are at + 0.5.
+    pub enum Projection by "type" {
+        /// Perspective with OpenCV's distortion.
+        "opencv" => OpenCv(OpenCv),
+        /// Perspective with r′ = r (1 + k1 r² + k2 r⁴), r in focal lengths.
+        "radial" => Radial(Radial),
+        /// Fitzgibbon's division model, tan θ = r/(1 + k r²).
+        "division" => Division(Division),
+        /// The FOV model, r = atan(2 tan θ tan(ω/2))/ω.
+        "field_of_view" => FieldOfView(FieldOfView),
+        /// OpenCV's fisheye: r = θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸).
+        "kannala_brandt" => KannalaBrandt(KannalaBrandt),
+        /// Mei's unified model: a sphere, a shifted centre ξ, then OpenCV's distortion.
+        "unified" => Unified(Unified),
+        /// The extended unified model.
+        "extended_unified" => ExtendedUnified(ExtendedUnified),
+        /// Two spheres.
+        "double_sphere" => DoubleSphere(DoubleSphere),
+        /// Scaramuzza's polynomial, in pixels.
+        "ocam" => Ocam(Ocam),
+        /// A polynomial between field angle (rad) and radius, in pixels.
+        "f_theta" => FTheta(FTheta),
+        /// r = θ: to 360°.
+        "equidistant" => Equidistant(Scaled),
+        /// r = 2 sin(θ/2): to 360°.
+        "equisolid" => Equisolid(Scaled),
+        /// r = 2 tan(θ/2): to below 360°.
+        "stereographic" => Stereographic(Scaled),
+        /// r = sin θ: to 180°.
+        "orthographic" => Orthographic(Scaled),
+        /// r = tan θ: to below 180°.
+        "rectilinear" => Rectilinear(Scaled),
+        /// x = azimuth, y = tan of the elevation: to 360° about the camera's y axis.
+        "cylindrical" => Cylindrical(Scaled),
+        /// x = azimuth, y = elevation: the whole sphere.
+        "equirectangular" => Equirectangular(Scaled),
+    }
+}
+
+record! {
+    /// A projection without numbers of its own.
+    pub struct Scaled {
+        /// Its scale.
+        inside matrix: Matrix;
+    }
+}
+
+record! {
+    /// The camera matrix.
+    pub struct Matrix {
+        /// How long the unit of the normalised plane is.
+        inside scale: Scale;
+        /// With "fx_px": the same in rows, px, above 0. Default: fx_px.
+        optional fy_px: Placed<f64> = number("px").above(0.0);
+        /// Columns that a step down by one unit adds, px. Default: 0.
+        optional skew_px: Placed<f64> = number("px");
+        /// The principal point.
+        inside centre: Centre;
+    }
+}
+
+keyed! {
+    /// The unit of the normalised plane on the sensor.
+    pub enum Scale {
+        /// fx, px, above 0.
+        fx_px => Columns(Placed<f64>) = number("px").above(0.0);
+        /// The focal length (of a lens without distortion), mm, above 0.
+        focal_length_mm => Millimetres(Placed<f64>) = number("mm").above(0.0);
+        /// The horizontal angle that a picture of this width sees whose principal point is in its middle, degrees, above 0
+        /// and at most 360.
+        field_of_view_deg => FieldOfView(Placed<f64>) = number("degrees").above(0.0).at_most(360.0);
+    }
+}
+
+record! {
+    /// The principal point.
+    pub struct Centre {
+        /// Column of the principal point, px, in raster coordinates (OpenCV's and ROS's plus 0.5). Default: the sensor's
+        /// "principal_point_px", or the middle.
+        optional cx_px: Placed<f64> = number("px");
+        /// Row of the principal point, px. See "cx_px".
+        optional cy_px: Placed<f64> = number("px");
+    }
+}
+
+record! {
+    /// OpenCV's perspective camera.
+    pub struct OpenCv {
+        /// Camera matrix.
+        inside matrix: Matrix;
+        /// Its distCoeffs: 4, 5, 8, 12 or 14 numbers in OpenCV's order (k1, k2, p1, p2, k3, k4, k5, k6, s1 … s4, τx, τy).
+        /// Default: none.
+        optional distortion: Vec<Placed<f64>> = list(number(""), 1);
+    }
+}
+
+record! {
+    /// The radial polynomial.
+    pub struct Radial {
+        /// Camera matrix.
+        inside matrix: Matrix;
+        /// Coefficient of r².
+        required k1: Placed<f64> = number("");
+        /// Coefficient of r⁴. Default: 0.
+        optional k2: Placed<f64> = number("");
+        /// Whether r is the radius of the ideal picture and r′ the observed one, or the other way round.
+        required direction: Placed<Direction> = choice();
+    }
+}
+
+record! {
+    /// The division model.
+    pub struct Division {
+        /// Camera matrix.
+        inside matrix: Matrix;
+        /// k, per square of the focal length.
+        required k: Placed<f64> = number("");
+    }
+}
+
+record! {
+    /// The FOV model.
+    pub struct FieldOfView {
+        /// Camera matrix.
+        inside matrix: Matrix;
+        /// ω, rad, between 0 and π.
+        required omega_rad: Placed<f64> = number("rad").above(0.0);
+    }
+}
+
+record! {
+    /// The polynomial fisheye.
+    pub struct KannalaBrandt {
+        /// Camera matrix.
+        inside matrix: Matrix;
+        /// k1, k2, k3, k4.
+        required k: Placed<[Placed<f64>; 4]> = exactly(number(""));
+    }
+}
+
+record! {
+    /// The unified model.
+    pub struct Unified {
+        /// Camera matrix.
+        inside matrix: Matrix;
+        /// ξ, 0 or more.
+        required xi: Placed<f64> = number("").at_least(0.0);
+        /// k1, k2, p1, p2. Default: none.
+        optional distortion: Placed<[Placed<f64>; 4]> = exactly(number(""));
+    }
+}
+
+record! {
+    /// The extended unified model.
+    pub struct ExtendedUnified {
+        /// Camera matrix.
+        inside matrix: Matrix;
+        /// α, 0 … 1.
+        required alpha: Placed<f64> = number("").at_least(0.0).at_most(1.0);
+        /// β, above 0.
+        required beta: Placed<f64> = number("").above(0.0);
+    }
+}
+
+record! {
+    /// The double sphere.
+    pub struct DoubleSphere {
+        /// Camera matrix.
+        inside matrix: Matrix;
+        /// ξ, between −1 and 1.
+        required xi: Placed<f64> = number("");
+        /// α, 0 … 1.
+        required alpha: Placed<f64> = number("").at_least(0.0).at_most(1.0);
+    }
+}
+
+record! {
+    /// The affine map x′ = x + e y, y′ = d x + c y of the polynomials in pixels.
+    pub struct Stretch {
+        /// Scale of the rows. Default: 1.
+        optional c: Placed<f64> = number("");
+        /// What a step to the right adds downwards. Default: 0.
+        optional d: Placed<f64> = number("");
+        /// What a step downwards adds to the right. Default: 0.
+        optional e: Placed<f64> = number("");
+    }
+}
+
+record! {
+    /// Scaramuzza's model.
+    pub struct Ocam {
+        /// Principal point.
+        inside centre: Centre;
+        /// a₀ (negative), a₁, a₂ …, in px to the power 1 − i.
+        required polynomial: Vec<Placed<f64>> = list(number(""), 1);
+        /// The affine map.
+        inside stretch: Stretch;
+    }
+}
+
+record! {
+    /// The f-theta polynomial.
+    pub struct FTheta {
+        /// Principal point.
+        inside centre: Centre;
+        /// c₁, c₂, … (there is no c₀).
+        required polynomial: Vec<Placed<f64>> = list(number(""), 1);
+        /// Which way it runs.
+        required maps: Placed<FThetaSense> = choice();
+        /// The field angle up to which it holds, degrees, above 0 and at most 180.
+        required greatest_angle_deg: Placed<f64> = number("degrees").above(0.0).at_most(180.0);
+        /// The affine map.
+        inside stretch: Stretch;
+    }
+}
+
+choice! {
+    /// Which way an f-theta polynomial runs.
+    pub enum FThetaSense {
+        /// From the field angle, rad, to the radius, px.
+        "angle_to_radius" => AngleToRadius,
+        /// From the radius, px, to the field angle, rad.
+        "radius_to_angle" => RadiusToAngle,
+    }
+}
