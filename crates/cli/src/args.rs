@@ -29,6 +29,9 @@ pub enum Verb {
     Inspect(Inspect),
     /// Compare two results: errors with their uncertainty; exit status 1 where they differ
     Compare(Compare),
+    /// Measure a part of a camera without rendering
+    #[command(subcommand)]
+    Measure(Measure),
     /// Print the JSON Schema of a file kind, for editors
     Schema(Schema),
 }
@@ -166,6 +169,36 @@ pub struct Compare {
     /// Where they differ, write A, B and their difference as pictures into this folder
     #[arg(long, value_name = "DIR")]
     pub difference: Option<PathBuf>,
+}
+
+/// `etendue measure`
+#[derive(Debug, Subcommand)]
+pub enum Measure {
+    /// Focal lengths, principal planes, pupils and field of view; by field: distortion, illumination, spots, field
+    /// curvature, colour
+    Lens(MeasureLens),
+}
+
+/// `etendue measure lens`
+#[derive(Debug, Args)]
+pub struct MeasureLens {
+    /// A camera file (TOML), a lens of Zemax (.zmx) or CODE V (.seq), or the name of a published lens (double-gauss,
+    /// wide-angle, fisheye, telephoto)
+    #[arg(value_name = "FILE")]
+    pub lens: String,
+    /// Change a key of the camera, e.g. --set lens.f_number=4
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// How many field heights, from the axis to the picture's edge
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u32).range(2..=1000))]
+    pub fields: u32,
+    /// For a lens without a sensor: how far the picture reaches from the axis, mm [default: 21.64, or as far as there is
+    /// light]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub picture_radius_mm: Option<f64>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `etendue schema`

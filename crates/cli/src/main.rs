@@ -37,6 +37,7 @@ fn run(verb: &Verb) -> Result<(), Failure> {
         Verb::Expose(arguments) => verbs::expose::run(arguments),
         Verb::Inspect(arguments) => verbs::inspect::run(arguments),
         Verb::Compare(arguments) => verbs::compare::run(arguments),
+        Verb::Measure(arguments) => verbs::measure::run(arguments),
         Verb::Schema(arguments) => verbs::schema::run(arguments),
     }
 }

@@ -87,8 +87,8 @@ fn a_sphere_s_worth_of_solid_angle_lands_on_a_panorama() {
     let lens = Lens::calibrated(parameters(Model::Panorama(Panorama::Equirectangular), f_px)).expect("a camera");
     let focal_mm = lens.focal_length_mm();
     let mut flux = 0.0;
-    for i in 0..640 * 320 {
-        let px = DVec2::new((i % 640) as f64 + 0.5, (i / 640) as f64 + 0.5 + 80.0);
+    for i in 0..640_u32 * 320 {
+        let px = DVec2::new(f64::from(i % 640) + 0.5, f64::from(i / 640) + 0.5 + 80.0);
         flux += lens.etendue_sr((px - DVec2::new(320.0, 240.0)) * PITCH_MM) * PITCH_MM * PITCH_MM;
     }
     let exact = 0.9 * PI * (focal_mm / 4.0) * (focal_mm / 4.0) * 4.0 * PI;

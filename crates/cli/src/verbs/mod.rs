@@ -4,6 +4,7 @@ pub mod compare;
 mod difference;
 pub mod expose;
 pub mod inspect;
+pub mod measure;
 pub mod merge;
 pub mod plan;
 pub mod render;

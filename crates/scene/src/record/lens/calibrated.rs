@@ -32,9 +32,9 @@ keyed! {
     /// Where pixels look.
     pub enum View {
         /// A projection with its numbers.
-        projection => Projection(Projection) = record();
+        projection => Projection(Box<Projection>) = record();
         /// A calibration of another program; its picture must have the sensor's size.
-        calibration => Calibration(CalibrationFile) = record();
+        calibration => Calibration(Box<CalibrationFile>) = record();
     }
 }
 
