@@ -6,6 +6,7 @@ pub mod files;
 pub mod flat;
 pub mod frames;
 pub mod lamps;
+pub mod lenses;
 pub mod machine;
 pub mod memory;
 pub mod paths;

@@ -8,6 +8,7 @@
 //! | `rays` | millions of rays a second in the street: primary, bounce, shadow; AVX2 and scalar |
 //! | `paths` | paths a second of the scenes that ship with the project, one thread and two |
 //! | `lamps` | cost and error of a path under 10 to 10 000 lamps |
+//! | `lenses` | nanoseconds of a ray through each kind of lens |
 //! | `trees` | time to build the accelerator, a triangle |
 //! | `memory` | peak memory of a scene, in a process of its own |
 //! | `frames` | raw and picture of a frame of two megapixels |
@@ -19,16 +20,17 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that reports to its user")]
 
 use etendue_benches::table::Table;
-use etendue_benches::{files, frames, lamps, machine, memory, paths, peer, rays, trees};
+use etendue_benches::{files, frames, lamps, lenses, machine, memory, paths, peer, rays, trees};
 use std::process::ExitCode;
 
 /// A benchmark: its name and what it answers.
 type Benchmark = (&'static str, fn() -> Table);
 
-const BENCHMARKS: [Benchmark; 7] = [
+const BENCHMARKS: [Benchmark; 8] = [
     ("rays", rays::table),
     ("paths", paths::table),
     ("lamps", lamps::table),
+    ("lenses", lenses::table),
     ("trees", trees::table),
     ("memory", memory::table),
     ("frames", frames::table),

@@ -49,8 +49,13 @@ fn the_street_is_large() {
 
 #[test]
 fn jobs_can_be_read() {
-    let jobs =
-        ["street/street.toml", "cornell/cornell.toml", "furnace/furnace.toml", "sphere-on-plane/sphere-on-plane.toml"];
+    let jobs = [
+        "street/street.toml",
+        "cornell/cornell.toml",
+        "furnace/furnace.toml",
+        "sphere-on-plane/sphere-on-plane.toml",
+        "lenses/lenses.toml",
+    ];
     for job in jobs {
         let description = Description::load(&scenes().join(job), &read, &Overrides::default());
         let description = description.unwrap_or_else(|faults| panic!("{job}: {faults}"));
@@ -62,7 +67,7 @@ fn jobs_can_be_read() {
 
 #[test]
 fn cameras_can_be_read() {
-    for camera in ["automotive", "laboratory"] {
+    for camera in ["automotive", "laboratory", "double-gauss", "fisheye", "calibrated"] {
         let file = scenes().join(format!("cameras/{camera}.toml"));
         load_camera(&file, &read, &Overrides::default()).unwrap_or_else(|faults| panic!("{camera}: {faults}"));
     }

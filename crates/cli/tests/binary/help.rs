@@ -5,9 +5,18 @@ use crate::support::etendue;
 #[test]
 fn help_names_every_verb_and_the_exit_statuses() {
     let help = etendue(["--help"]).ok().out;
-    for word in
-        ["render", "merge", "plan", "expose", "inspect", "compare", "schema", "Exit status: 0 done, 1", "2 unusable"]
-    {
+    for word in [
+        "render",
+        "merge",
+        "plan",
+        "expose",
+        "inspect",
+        "compare",
+        "measure",
+        "schema",
+        "Exit status: 0 done, 1",
+        "2 unusable",
+    ] {
         assert!(help.contains(word), "{word} is missing in:\n{help}");
     }
 }
@@ -24,6 +33,19 @@ fn every_option_explains_itself() {
             lines.windows(2).filter(|w| is_option(w[0]) && (w[0].contains("   ") || !w[1].trim().is_empty()));
         assert_eq!(options, explained.count(), "{help}");
     }
+}
+
+#[test]
+fn a_lens_is_measured_as_text_and_as_json() {
+    let text = etendue(["measure", "lens", "double-gauss"]).ok().out;
+    assert!(text.contains("focal length") && text.contains("entrance pupil"), "{text}");
+    let json: serde_json::Value =
+        serde_json::from_str(&etendue(["measure", "lens", "telephoto", "--json", "--fields", "4"]).ok().out)
+            .expect("JSON");
+    // The patent's lens is one of 100 mm.
+    assert!((json["focal_length_mm"].as_f64().expect("a number") - 100.0).abs() < 2.0, "{json}");
+    assert_eq!(json["fields"].as_array().map(Vec::len), Some(4));
+    etendue(["measure", "lens", "biotar"]).refused(&["biotar", "double-gauss"]);
 }
 
 #[test]

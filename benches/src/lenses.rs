@@ -1,0 +1,82 @@
+//! Time of a ray through each kind of lens.
+
+use crate::clock::timed;
+use crate::runs::{COUNT, Runs};
+use crate::table::Table;
+use etendue_pipeline::compile_camera;
+use etendue_pipeline::plan::CameraBody;
+use etendue_scene::asset::Assets;
+use etendue_scene::{Overrides, load_camera};
+use glam::DVec2;
+use std::path::Path;
+
+const NOTE: &str = "One thread. Rays of pixels all over the picture, through points all over the pupil, from 400 to 700 nm; \
+    \"open\" is the share that comes through.";
+
+const RAYS: u32 = 200_000;
+
+const LENSES: [(&str, &str); 9] = [
+    ("pinhole", "model = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4"),
+    ("thin", "model = \"thin\"\nfocal_length_mm = 50\nf_number = 2\nfocus_distance_m = 5"),
+    ("thick", "model = \"thick\"\nfocal_length_mm = 50\nf_number = 2\nfocus_distance_m = 5\nconstant_pupil = \"exit\""),
+    ("parallel", "model = \"parallel\"\nf_number = 4\nfield_width_m = 2"),
+    (
+        "equidistant",
+        "model = \"calibrated\"\nf_number = 4\nprojection = { type = \"equidistant\", focal_length_mm = 20 }",
+    ),
+    (
+        "OpenCV, five coefficients",
+        "model = \"calibrated\"\nf_number = 4\nprojection = { type = \"opencv\", focal_length_mm = 50, \
+         distortion = [-0.2, 0.05, 0.0005, -0.0005, 0] }",
+    ),
+    (
+        "Kannala-Brandt",
+        "model = \"calibrated\"\nf_number = 4\nprojection = { type = \"kannala_brandt\", focal_length_mm = 20, \
+         k = [0.01, -0.002, 0.0003, 0] }",
+    ),
+    ("double Gauss, f/2.03", "model = \"prescription\"\npublished = \"double-gauss\"\nfocus_distance_m = 5"),
+    ("telephoto, f/5.6", "model = \"prescription\"\npublished = \"telephoto\"\nfocus_distance_m = 5"),
+];
+
+/// Nanoseconds of a ray, for every kind of lens.
+pub fn table() -> Table {
+    let bodies = LENSES.map(|(_, keys)| body(keys));
+    let mut times = LENSES.map(|_| Runs::default());
+    let mut open = LENSES.map(|_| 0);
+    for _ in 0..COUNT {
+        for ((body, times), open) in bodies.iter().zip(&mut times).zip(&mut open) {
+            let (passed, seconds) = timed(|| rays(body));
+            times.add(1e9 * seconds / f64::from(RAYS));
+            *open = passed;
+        }
+    }
+    let mut table = Table::new("Rays through lenses", NOTE, &["lens", "ns a ray", "open", "spread"]);
+    for (((name, _), times), open) in LENSES.iter().zip(&times).zip(open) {
+        let share = 100.0 * f64::from(open) / f64::from(RAYS);
+        let cells =
+            [format!("{:.0}", times.median()), format!("{share:.0} %"), format!("± {:.0} %", 100.0 * times.spread())];
+        table.row([(*name).to_owned()].into_iter().chain(cells).collect());
+    }
+    table
+}
+
+/// A camera with a picture of 36 × 24 mm.
+fn body(lens: &str) -> CameraBody {
+    let text = format!("format = 1\n[sensor]\nwidth_px = 900\nheight_px = 600\npixel_pitch_um = 40\n[lens]\n{lens}\n");
+    let camera = load_camera(Path::new("camera.toml"), &|_| Ok(text.clone()), &Overrides::default());
+    let camera = camera.unwrap_or_else(|faults| panic!("{faults}"));
+    compile_camera(&camera, &Assets::default()).unwrap_or_else(|faults| panic!("{faults:?}"))
+}
+
+/// How many rays come through.
+fn rays(body: &CameraBody) -> u32 {
+    let step = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_3);
+    let turn = DVec2::new(0.819_172_513_396_164, 0.671_043_606_703_789_2);
+    let size = DVec2::new(900.0, 600.0);
+    let passes = |i: u32| {
+        let (at, pupil) = ((step * f64::from(i)).fract() * size, (turn * f64::from(i)).fract());
+        let nm = 400.0 + 300.0 * (0.618_033_988_749_895 * f64::from(i)).fract();
+        std::hint::black_box(body.lens.ray(body.raster.sensor_mm(at), pupil, nm)).is_some()
+    };
+    (0..RAYS).map(|i| u32::from(passes(i))).sum()
+}
