@@ -55,7 +55,7 @@ pub fn table() -> Table {
         let share = 100.0 * f64::from(open) / f64::from(RAYS);
         let cells =
             [format!("{:.0}", times.median()), format!("{share:.0} %"), format!("± {:.0} %", 100.0 * times.spread())];
-        table.row([(*name).to_owned()].into_iter().chain(cells).collect());
+        table.row([(*name).to_owned()].into_iter().chain(cells));
     }
     table
 }

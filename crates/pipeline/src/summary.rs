@@ -112,12 +112,9 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let samples = count(s.spp as usize, "sample");
     let samples = format!("{samples} a pixel in {}", count(s.replicates as usize, "replicate"));
     let alone =
-        if camera.body.lens.disperses() && s.route == Route::Lens { " (the lens treats each differently)" } else { "" };
-    line(
-        f,
-        "sampling",
-        format!("{samples}, seed {}, {}{alone} a path", s.seed, count(s.wavelengths as usize, "wavelength")),
-    )?;
+        if s.wavelengths == 1 && camera.body.lens.disperses() { ", as the lens treats each differently" } else { "" };
+    let wavelengths = count(s.wavelengths as usize, "wavelength");
+    line(f, "sampling", format!("{samples}, seed {}, {wavelengths} a path{alone}", s.seed))?;
     line(f, "paths", level(s))?;
     if s.blocks != Blocks::SINGLE {
         line(f, "shared", format!("tails of the paths of {} pixels, whose errors are alike", s.blocks.len_px()))?;
