@@ -143,7 +143,7 @@ pub struct Expose {
 /// `etendue inspect`
 #[derive(Debug, Args)]
 pub struct Inspect {
-    /// A file that Étendue reads or writes: EXR, PNG, JPEG, HDR, OBJ, JSON side-car
+    /// A file that Étendue reads or writes: EXR, PNG, JPEG, HDR, OBJ, lamps (IES, LDT), JSON side-car
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// Write a picture of it here

@@ -69,7 +69,7 @@ fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
 fn sky(sky: &SkyFacts) -> String {
     let SkyFacts { turbidity, sun_elevation_deg, sun_azimuth_deg, sky_lx, sun_lx } = sky;
     let lux = |lx: &f64| if *lx >= 100.0 { format!("{lx:.0} lx") } else { format!("{lx:.3} lx") };
-    let sun = match (*sun_lx > 0.0, *sun_elevation_deg < 0.0) {
+    let sun = match (*sun_lx > 0.0, *sun_elevation_deg <= 0.0) {
         (true, _) => format!("and {} of the sun", lux(sun_lx)),
         (false, true) => "and none of the sun, which is down".to_owned(),
         (false, false) => "and none of the sun, which is left out".to_owned(),

@@ -35,14 +35,17 @@ pub(super) fn check(file: &Path, asset: &mut PhotometryAsset) -> Result<(), Erro
 }
 
 fn absurd(asset: &PhotometryAsset, flux: f64, stated: f64) -> String {
-    let source = match asset.output_ratio {
-        Some(share) => format!("lumens of the lamps × light output ratio ({share})"),
-        None => "lumens of the lamps".to_owned(),
+    let (source, remedy) = match asset.output_ratio {
+        Some(share) => (
+            format!("lumens of the lamps × light output ratio ({share})"),
+            "times as much or as little: correct the lumens, the conversion factor or the light output ratio (in per cent)",
+        ),
+        None => (
+            "lumens of the lamps".to_owned(),
+            "times as much: correct the lumens or the multiplier; lumens of -1 say that the luminaire was measured by itself",
+        ),
     };
-    format!(
-        "its intensities make {flux:.4} lm, its {source} {stated:.4} lm; expected at most {ABSURD_BEYOND} times as much \
-         or as little: correct the lumens, the multiplier or the light output ratio (in per cent)"
-    )
+    format!("its intensities make {flux:.4} lm, its {source} {stated:.4} lm; expected at most {ABSURD_BEYOND} {remedy}")
 }
 
 fn remark(asset: &PhotometryAsset, flux: f64, stated: f64) -> String {
@@ -52,9 +55,11 @@ fn remark(asset: &PhotometryAsset, flux: f64, stated: f64) -> String {
             "the lumens of its lamps × its light output ratio: one of them is wrong, or directions are missing"
         }
         (None, true) => "the lumens of its lamps: the luminaire keeps the rest, or directions are missing",
-        (None, false) => "the lumens of its lamps, more than they give: check lumens and multiplier",
+        (None, false) => {
+            "the lumens of its lamps, and no luminaire gives more than its lamps: check lumens and multiplier"
+        }
     };
     format!(
-        "its intensities make {flux:.1} lm, {ratio:.3} of the {stated:.1} lm that are {reason}; the intensities are used"
+        "its intensities make {flux:.1} lm, {ratio:.3} times the {stated:.1} lm that are {reason}; the intensities are used"
     )
 }

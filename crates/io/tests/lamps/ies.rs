@@ -150,15 +150,23 @@ fn the_flux_is_told_where_it_is_not_what_is_rated() {
     assert_eq!(
         kept,
         [
-            "lamp.ies: its intensities make 1256.6 lm, 0.785 of the 1600.0 lm that are the lumens of its lamps: the luminaire keeps the \
+            "lamp.ies: its intensities make 1256.6 lm, 0.785 times the 1600.0 lm that are the lumens of its lamps: the luminaire keeps the \
           rest, or directions are missing; the intensities are used"
         ]
     );
-    assert!(of(1000.0).expect("readable").report[0].contains("more than they give: check lumens and multiplier"));
+    assert!(
+        of(1000.0).expect("readable").report[0]
+            .contains("no luminaire gives more than its lamps: check lumens and multiplier")
+    );
     let absurd = of(400.0).expect_err("more than three times");
     assert!(
         absurd.starts_with("lamp.ies: its intensities make 1256.6371 lm, its lumens of the lamps 400.0000 lm"),
         "{absurd}"
+    );
+    assert!(
+        absurd.ends_with(
+            "correct the lumens or the multiplier; lumens of -1 say that the luminaire was measured by itself"
+        )
     );
     assert!(of(0.0).expect("readable").report[0].contains("cannot be checked"));
 }

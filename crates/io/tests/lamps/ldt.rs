@@ -51,7 +51,7 @@ fn numbers_are_per_1000_lumens_of_the_lamps_and_converted() {
     assert_eq!(read.report.len(), 2, "{:?}", read.report);
     assert_eq!(read.report[0], "lamp.ldt: 2 sets of lamps are listed; the first is used (4000 lm)");
     assert!(
-        read.report[1].starts_with("lamp.ldt: its intensities make 3769.9 lm, 0.754 of the 5000.0 lm"),
+        read.report[1].starts_with("lamp.ldt: its intensities make 3769.9 lm, 0.754 times the 5000.0 lm"),
         "{:?}",
         read.report
     );
@@ -85,5 +85,8 @@ fn a_share_in_place_of_per_cent_is_found_by_the_flux() {
     let mut lamp = Ldt::of(1, &[0.0], &[0.0], &[0.0, 90.0], |_, _| 160.0);
     lamp.factors[0] = 0.8;
     let told = read_bytes("l.ldt", lamp.text().as_bytes()).expect_err("more than a hundred times");
-    assert!(told.ends_with("correct the lumens, the multiplier or the light output ratio (in per cent)"), "{told}");
+    assert!(
+        told.ends_with("correct the lumens, the conversion factor or the light output ratio (in per cent)"),
+        "{told}"
+    );
 }

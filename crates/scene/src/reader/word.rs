@@ -249,7 +249,14 @@ pub(crate) fn word<'n>(node: &'n Node, words: &[&str], faults: &mut Faults) -> O
     if matches!(node.value, Value::Unreadable) {
         return None;
     }
-    let hint = found.and_then(|t| nearest(t, words)).map_or(String::new(), |w| format!(" (did you mean \"{w}\"?)"));
-    faults.add(&node.place, format!("found {}", node.describe()), format!("give {}{hint}", one_of(words)));
+    faults.add(&node.place, format!("found {}", node.describe()), remedy(found, words));
     None
+}
+
+/// What to do: the likely word stands first, as lists may be long.
+fn remedy(found: Option<&str>, words: &[&str]) -> String {
+    match found.and_then(|t| nearest(t, words)) {
+        Some(likely) => format!("did you mean \"{likely}\"? Give {}", one_of(words)),
+        None => format!("give {}", one_of(words)),
+    }
 }

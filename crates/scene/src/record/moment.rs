@@ -66,7 +66,7 @@ impl Rule for TimeRule {
         matches!(kind, Kind::Text | Kind::Moment)
     }
     fn expected(&self) -> String {
-        "a time of the day in whole seconds as hour:minute:second: 09:30:00".to_owned()
+        "a time of the day by UTC, without a zone, in whole seconds as hour:minute:second: 09:30:00".to_owned()
     }
     fn schema(&self) -> Json {
         json!({ "type": "string", "format": "time", "examples": ["09:30:00"] })

@@ -86,8 +86,8 @@ fn a_key_of_another_variant() {
 fn an_unknown_variant() {
     assert_eq!(
         faults_of("type = \"diffuse\"", "type = \"difuse\""),
-        "job.toml:21:8: scene.materials.grey.type: found the text \"difuse\"; give one of \"diffuse\", \"conductor\", \
-         \"coated\", \"cook_torrance\", \"lafortune\", \"blinn_phong\", \"car_paint\", \"cloth\", \"retro_sheeting\", \"road_marking\", \"dielectric\", \"thin_sheet\", \"leaf\", \"mix\", \"emitter\" (did you mean \"diffuse\"?)"
+        "job.toml:21:8: scene.materials.grey.type: found the text \"difuse\"; did you mean \"diffuse\"? Give one of \"diffuse\", \"conductor\", \
+         \"coated\", \"cook_torrance\", \"lafortune\", \"blinn_phong\", \"car_paint\", \"cloth\", \"retro_sheeting\", \"road_marking\", \"dielectric\", \"thin_sheet\", \"leaf\", \"mix\", \"emitter\""
     );
 }
 

@@ -8,7 +8,7 @@
 //! with g(x, σ) = e^{−x²/2σ²} (the narrower σ on the side of oncoming traffic). Its cut-off c lies 0.57° (1 %) below the
 //! horizon on the side of oncoming traffic, rises by 15° from the middle, and ends 1° above the horizon. Its width
 //! w = 0.15° makes the sharpness G = lg I(V) − lg I(V + 0.1°) 0.2–0.3, between the 0.13 and 0.40 that UN R112 asks
-//! for. Stray light s, 160 cd wide about the axis, reaches signs above the road. For traffic on the left all is mirrored.
+//! for. Stray light s = 160 g(H, 15) g(V, 5) cd reaches signs above the road. For traffic on the left all is mirrored.
 //! The high beam is 52 000 g(H, 3.5) g(V, 1.5) + 6 000 g(H, 12) g(V + 0.5, 3.5) cd.
 //!
 //! [`check`] compares any grid with the points of the passing beam of UN R149, class B, given in PHYSICS.md section 15.

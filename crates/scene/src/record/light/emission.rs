@@ -16,7 +16,7 @@ keyed! {
         /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹, 0 or more: a number (the same at all wavelengths) or `{ spectrum = file }`.
         radiance_w_m2_sr_nm => Radiance(Curve) = curve(number("W·m⁻²·sr⁻¹·nm⁻¹").at_least(0.0));
         /// Luminous flux, lm, 0 or more, of each object by all its surfaces of this material together; for surfaces without
-        /// a texture on their light. The colour is told as for a luminance.
+        /// a texture on their light, not for an environment, which has no area. The colour is told as for a luminance.
         luminous_flux_lm => LuminousFlux(Placed<f64>) = number("lm").at_least(0.0);
         /// Radiant flux over all wavelengths (300 to 1 100 nm), W, 0 or more, of each object, like the luminous flux.
         radiant_flux_w => RadiantFlux(Placed<f64>) = number("W").at_least(0.0);
