@@ -45,7 +45,7 @@ keyed! {
 
 record! {
     /// A surface and the space behind it. With c = 1/radius_mm and r the distance from the axis its sag is
-    /// c r²/(1 + √(1 − (1 + conic) c² r²)) + asphere[0] r² + asphere[1] r⁴ + …
+    /// c r²/(1 + √(1 − (1 + conic) c² r²)) + a₁ r² + a₂ r⁴ + …, a the list `asphere`.
     pub struct Surface {
         /// Radius of curvature, mm, positive where the centre lies towards the sensor. Default: a plane.
         optional radius_mm: Placed<f64> = number("mm");
