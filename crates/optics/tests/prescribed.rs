@@ -189,7 +189,7 @@ fn a_prescription_keeps_its_own_distortion() {
     let lens = published("telephoto", 6.3);
     let own = etendue_projection::RadialDistortion::new(etendue_projection::Sense::IdealToObserved, 0.1, 0.0, 1.0);
     let message = lens.with_distortion(own.expect("legal")).expect_err("refused").to_string();
-    assert!(message.starts_with("a prescription has the distortion of its surfaces"), "{message}");
+    assert!(message.contains("have their own distortion"), "{message}");
 }
 
 #[test]
