@@ -138,7 +138,8 @@ fn share_tail<'a, const N: usize>(
         .collect();
     let density = share * claims.iter().map(|claim| claim.density).sum::<f32>();
     if density > 0.0 {
-        claims.iter().for_each(|claim| radiance[claim.index] += claim.weight * tail / density);
+        // The quotient first: it is a bounded weight, whatever the light.
+        claims.iter().for_each(|claim| radiance[claim.index] += claim.weight / density * tail);
     }
 }
 
