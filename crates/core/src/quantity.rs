@@ -37,8 +37,8 @@ quantities! {
     Variance(f32) = "variance of the mean", "(unit of the mean)^2";
     /// Mean or collected electrons of a pixel.
     Electrons(f32) = "electrons", "e";
-    /// Digital numbers out of the converter.
-    DigitalNumber(u16) = "digital number", "DN";
+    /// Digital numbers out of the converter, of up to 24 bits.
+    DigitalNumber(u32) = "digital number", "DN";
     /// Display-referred picture, sRGB-encoded, 0 to 1 a channel.
     Display([f32; 3]) = "display", "1";
     /// Linear, scene-referred colour in a camera's or display's primaries.

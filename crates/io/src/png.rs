@@ -21,9 +21,11 @@ pub fn stored_depth(depth_m: f32, per_metre: f64) -> u16 {
     if units >= 1.0 && units <= f64::from(u16::MAX) { units as u16 } else { 0 }
 }
 
-/// Raw digital numbers.
+/// Raw digital numbers of at most 16 bits; larger ones are refused.
 pub fn encode_raw16(raw: &Plane<DigitalNumber>) -> Result<Vec<u8>, EncodeError> {
-    encode_grey16(raw.width(), raw.height(), raw.samples())
+    let narrowed = |dn: &u32| u16::try_from(*dn).map_err(|_| EncodeError::Wide { value: *dn });
+    let values = raw.samples().iter().map(narrowed).collect::<Result<Vec<u16>, _>>()?;
+    encode_grey16(raw.width(), raw.height(), &values)
 }
 
 /// Depth (m, planar or along the ray as the caller states it) at `per_metre` units a metre.
@@ -88,12 +90,14 @@ mod tests {
 
     #[test]
     fn raw_numbers_come_back_as_they_are() {
-        let numbers: Vec<u16> = vec![0, 1, 255, 256, 4095, 65_535];
+        let numbers: Vec<u32> = vec![0, 1, 255, 256, 4095, 65_535];
         let plane = Plane::from_samples(3, 2, numbers.clone()).expect("six pixels");
         let file = encode_raw16(&plane).expect("a picture");
         let read = image::load_from_memory(&file).expect("PNG").into_luma16();
         assert_eq!((read.width(), read.height()), (3, 2));
-        assert_eq!(read.into_raw(), numbers);
+        assert!(read.into_raw().into_iter().map(u32::from).eq(numbers));
+        let wide = Plane::from_samples(2, 1, vec![7, 65_536]).expect("two pixels");
+        assert!(matches!(encode_raw16(&wide), Err(EncodeError::Wide { value: 65_536 })));
     }
 
     #[test]

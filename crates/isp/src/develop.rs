@@ -138,7 +138,8 @@ fn balanced(raw: &RawPicture<'_>, colour: Option<&Colour>) -> Vec<f32> {
         (Mosaic::Tile(tile), Some(colour)) => gain(colour.white_balance, tile.at(i % width, i / width)),
         _ => 1.0,
     };
-    let value = |(i, dn): (usize, &u16)| ((f32::from(*dn) - black) * scale).min(1.0) * gain_at(i);
+    // Digital numbers have at most 24 bits, which f32 holds.
+    let value = |(i, dn): (usize, &u32)| ((*dn as f32 - black) * scale).min(1.0) * gain_at(i);
     raw.plane.samples().par_iter().enumerate().map(|sample| value(sample).min(1.0)).collect()
 }
 
@@ -168,7 +169,7 @@ mod tests {
         Mosaic::tile(2, 2, vec![Red, Green, Green, Blue]).expect("Bayer")
     }
 
-    fn developed(dn: [u16; 4], processing: Processing) -> Developed {
+    fn developed(dn: [u32; 4], processing: Processing) -> Developed {
         let samples = (0..48).map(|i| dn[i / 8 % 2 * 2 + i % 2]).collect();
         let plane = Plane::from_samples(8, 6, samples).expect("filled");
         let raw = RawPicture { plane: &plane, black_level_dn: 100.0, white_level_dn: 1100.0, mosaic: &bayer() };
@@ -237,7 +238,7 @@ mod tests {
     #[test]
     fn threads_change_no_bit() {
         let plane =
-            Plane::from_samples(31, 17, (0..31 * 17).map(|i| (i * 37 % 1200) as u16).collect()).expect("filled");
+            Plane::from_samples(31, 17, (0..31 * 17).map(|i| (i * 37 % 1200) as u32).collect()).expect("filled");
         let mosaic = bayer();
         let raw = RawPicture { plane: &plane, black_level_dn: 64.0, white_level_dn: 1100.0, mosaic: &mosaic };
         let with = |threads| {

@@ -145,8 +145,8 @@ impl Sensor {
 
     /// The largest digital number of the converter.
     #[must_use]
-    pub fn largest_dn(&self) -> u16 {
-        ((1_u32 << self.parameters.bits) - 1) as u16
+    pub fn largest_dn(&self) -> u32 {
+        (1_u32 << self.parameters.bits) - 1
     }
 
     /// The digital number of a saturated pixel: of a full well, or the converter's largest where that comes first.

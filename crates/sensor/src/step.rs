@@ -95,7 +95,7 @@ fn expose_row(
     row: Row,
     means: &[f32],
     electrons: &mut [f64],
-    dn: &mut [u16],
+    dn: &mut [u32],
 ) {
     for (e, mean) in electrons.iter_mut().zip(means) {
         *e = if is_valid(*mean) { f64::from(*mean) } else { 0.0 };
@@ -242,5 +242,5 @@ mod tests {
         assert_eq!(raw.plane.samples(), PINNED, "changed bits change every raw picture: is it meant?");
     }
 
-    const PINNED: [u16; 9] = [404, 399, 400, 400, 408, 417, 416, 418, 421];
+    const PINNED: [u32; 9] = [404, 399, 400, 400, 408, 417, 416, 418, 421];
 }

@@ -13,7 +13,7 @@ mod philox;
 mod sobol;
 
 pub use address::{Draw, Pixel, PixelAddress};
-pub use noise::{NoiseDraw, NoiseStream};
+pub use noise::{NoiseDraw, NoiseKey, NoiseStream};
 pub use path::PathStream;
 pub use philox::philox4x32;
 

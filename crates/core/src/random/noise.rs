@@ -16,6 +16,60 @@ pub enum NoiseDraw {
     Dark = 1,
     /// Read noise.
     Read = 2,
+    /// Read noise of a row, at column 0.
+    RowRead = 3,
+    /// Read noise of a column, at row 0.
+    ColumnRead = 4,
+    /// Whether a two-level pixel changes its level.
+    TelegraphFlip = 5,
+    /// The same of its dark current.
+    BlinkingFlip = 6,
+    /// Fixed pattern: a pixel's response to light. Patterns are addressed without frame and capture.
+    PixelResponse = 7,
+    /// Fixed pattern: a row's response to light, at column 0.
+    RowResponse = 8,
+    /// Fixed pattern: a column's response to light, at row 0.
+    ColumnResponse = 9,
+    /// Fixed pattern: a pixel's dark current.
+    PixelDark = 10,
+    /// Fixed pattern: a row's dark current, at column 0.
+    RowDark = 11,
+    /// Fixed pattern: a column's dark current, at row 0.
+    ColumnDark = 12,
+    /// Fixed pattern: a pixel's offset.
+    PixelOffset = 13,
+    /// Fixed pattern: a row's offset, at column 0.
+    RowOffset = 14,
+    /// Fixed pattern: a column's offset, at row 0.
+    ColumnOffset = 15,
+    /// Fixed pattern: which pixels of a row are hot, and how much; at column 0.
+    Hot = 16,
+    /// Fixed pattern: which pixels of a row are dead; at column 0.
+    Dead = 17,
+    /// Fixed pattern: which pixels of a row blink, and how much; at column 0.
+    Blinking = 18,
+    /// Fixed pattern: which pixels of a row have telegraph noise, and how much; at column 0.
+    Telegraph = 19,
+}
+
+/// A draw of one (seed, camera, frame, capture), whose pixels' streams are asked for one after another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoiseKey([u32; 2]);
+
+impl NoiseKey {
+    /// The key of a draw.
+    #[must_use]
+    pub fn new(seed: u64, camera: u32, frame: u32, capture: u32, draw: NoiseDraw) -> Self {
+        let key = mix(mix(seed) ^ (u64::from(camera) | u64::from(frame) << 32));
+        let key = mix(key ^ (u64::from(capture) | u64::from(draw as u32) << 32));
+        Self([key as u32, (key >> 32) as u32])
+    }
+
+    /// The stream of a pixel.
+    #[must_use]
+    pub fn stream(self, pixel: Pixel) -> NoiseStream {
+        NoiseStream { key: self.0, counter: [0, 0, pixel.x, pixel.y], words: [0; 4], used: 4 }
+    }
 }
 
 /// Independent words for one (seed, camera, frame, capture, pixel, draw): Philox4x32-10, the sub-counter running.
@@ -33,9 +87,7 @@ impl NoiseStream {
     /// The stream of one draw of one pixel.
     #[must_use]
     pub fn new(seed: u64, camera: u32, frame: u32, capture: u32, pixel: Pixel, draw: NoiseDraw) -> Self {
-        let key = mix(mix(seed) ^ (u64::from(camera) | u64::from(frame) << 32));
-        let key = mix(key ^ (u64::from(capture) | u64::from(draw as u32) << 32));
-        Self { key: [key as u32, (key >> 32) as u32], counter: [0, 0, pixel.x, pixel.y], words: [0; 4], used: 4 }
+        NoiseKey::new(seed, camera, frame, capture, draw).stream(pixel)
     }
 
     /// The next 32 bits.

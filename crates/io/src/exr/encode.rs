@@ -22,6 +22,12 @@ pub enum EncodeError {
         /// Rows.
         height: usize,
     },
+    /// A digital number that 16 bits do not hold.
+    #[error("the digital number {value} does not fit into 16 bits; write the raw as TIFF")]
+    Wide {
+        /// The number.
+        value: u32,
+    },
     /// A picture without channels.
     #[error("a picture without channels cannot be stored; expected at least one plane")]
     NoChannels,

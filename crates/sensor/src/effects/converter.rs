@@ -27,9 +27,9 @@ impl Converter {
     }
 
     /// The digital number of a charge.
-    pub(crate) fn digital_number(&self, electrons: f64) -> u16 {
+    pub(crate) fn digital_number(&self, electrons: f64) -> u32 {
         let dn = (self.black_level_dn + self.gain_dn_e * electrons).round_ties_even();
-        dn.clamp(0.0, self.largest_dn) as u16
+        dn.clamp(0.0, self.largest_dn) as u32
     }
 }
 
