@@ -174,6 +174,30 @@ pub enum OpticsError {
         /// How far beyond the edge the picture reaches, rad.
         missing_rad: f64,
     },
+    /// Distances of a blend that are not in order.
+    #[error(
+        "a sharp range from {sharp_near_m} m to {sharp_far_m} m cannot be wholly blurred at {blurred_near_m} m and at \
+         {blurred_far_m} m: give blurred_near_m < sharp_near_m <= sharp_far_m < blurred_far_m (sharp_near_m = 0 or \
+         sharp_far_m = inf where one side stays sharp)"
+    )]
+    SharpRange {
+        /// Blurred wholly from here to the camera, m.
+        blurred_near_m: f64,
+        /// Sharp from here, m.
+        sharp_near_m: f64,
+        /// Sharp to here, m.
+        sharp_far_m: f64,
+        /// Blurred wholly from here on, m.
+        blurred_far_m: f64,
+    },
+    /// Radiance that is no number.
+    #[error("the radiance at column {x}, row {y} is no finite number: depth of field would spread it; render it anew")]
+    RadianceNotFinite {
+        /// Column.
+        x: usize,
+        /// Row.
+        y: usize,
+    },
     /// A cube whose size is not that of its stated geometry.
     #[error("the image has {got_width} × {got_height} pixels but its stated geometry has {width} × {height}")]
     Size {

@@ -1,5 +1,6 @@
 //! Lenses, pupil sampling and image-space lens operators: radiance in, irradiance on the sensor plane out.
 
+pub mod defocus;
 mod error;
 pub mod lens;
 mod overlap;
@@ -7,6 +8,7 @@ pub mod prescription;
 mod pupil;
 pub mod pupil_image;
 
+pub use defocus::{DepthOfField, FastBlend, FastParameters};
 pub use error::{OpticsError, PRINCIPAL_NM};
 pub use lens::{
     Calibrated, CalibratedParameters, ConstantPupil, Falloff, Lens, Parallel, ParallelParameters, Pinhole,

@@ -1,0 +1,95 @@
+//! What the centre of the pupil does not see but its rim does: guessed from visible neighbours.
+//!
+//! Where the distance jumps, the farther surface goes on behind the nearer one. From each pixel the nearest jumps to something
+//! farther are looked for in eight directions, as far as blurs reach; what lies there, a pixel beyond the jump (whose own pixel
+//! may be mixed), fills the place behind the pixel with its mean light and distance, weighted by the inverse square of the
+//! way.
+
+use super::Sight;
+use super::footprint::Footprints;
+
+const DIRECTIONS: [[i64; 2]; 8] = [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]];
+/// Change of the blur's diameter from a pixel to its neighbour that counts as a jump, px. Along a surface it changes by the
+/// pupil's diameter over the distance to the surface's vanishing line at most: a few hundredths.
+const JUMP_PX: f32 = 0.75;
+
+/// What lies behind a pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Fill {
+    pub(super) pixel: u32,
+    pub(super) inverse_per_m: f32,
+    /// Pixels whose light it has, and their shares, which sum to one; unused ones have none.
+    pub(super) taps: [(u32, f32); DIRECTIONS.len()],
+}
+
+/// What lies behind pixels, where something does that rays from the rim of the pupil can meet.
+pub(super) fn fills(sight: &Sight<'_>, footprints: &Footprints) -> Vec<Fill> {
+    let inverse: Vec<f32> =
+        (0..sight.width() * sight.height()).map(|i| sight.inverse_per_m(i).unwrap_or(f32::NAN)).collect();
+    let radius = |w: f32| if w.is_nan() { 0.0 } else { footprints.reach_px(f64::from(w)) as f32 };
+    let radii: Vec<f32> = inverse.iter().map(|w| radius(*w)).collect();
+    let farthest = radii.iter().copied().fold(0.0, f32::max);
+    let search = Search {
+        size: [sight.width() as i64, sight.height() as i64],
+        jump_per_m: JUMP_PX / footprints.spread_px() as f32,
+        steps: farthest.ceil() as i64 + 1,
+        inverse: &inverse,
+        radii: &radii,
+    };
+    (0..inverse.len()).filter(|i| !inverse[*i].is_nan()).filter_map(|i| search.behind(i)).collect()
+}
+
+struct Search<'a> {
+    size: [i64; 2],
+    jump_per_m: f32,
+    /// Steps that are looked at in each direction.
+    steps: i64,
+    inverse: &'a [f32],
+    radii: &'a [f32],
+}
+
+impl Search<'_> {
+    fn behind(&self, pixel: usize) -> Option<Fill> {
+        let mut taps = [(0, 0.0); DIRECTIONS.len()];
+        for (tap, direction) in taps.iter_mut().zip(DIRECTIONS) {
+            if let Some((found, way)) = self.jump(pixel, direction) {
+                *tap = (found as u32, 1.0 / (way * way) as f32);
+            }
+        }
+        let sum: f32 = taps.iter().map(|(_, weight)| weight).sum();
+        if sum == 0.0 {
+            return None;
+        }
+        taps.iter_mut().for_each(|(_, weight)| *weight /= sum);
+        let inverse_per_m = taps.iter().map(|(found, weight)| self.inverse[*found as usize] * weight).sum();
+        Some(Fill { pixel: pixel as u32, inverse_per_m, taps })
+    }
+
+    /// The pixel beyond the first jump to something farther, and how many steps away it is.
+    fn jump(&self, pixel: usize, direction: [i64; 2]) -> Option<(usize, i64)> {
+        let mut last = self.inverse[pixel];
+        for way in 1..=self.steps {
+            let found = self.at(pixel, direction, way)?;
+            let inverse = self.inverse[found];
+            if last - inverse > self.jump_per_m && self.inverse[pixel] - inverse > self.jump_per_m {
+                let reach = self.radii[pixel].max(self.radii[found]) + 1.0;
+                return (way as f32 <= reach).then(|| self.beyond(pixel, direction, way, found));
+            }
+            last = inverse;
+        }
+        None
+    }
+
+    /// The next pixel on the way where it belongs to the same surface.
+    fn beyond(&self, pixel: usize, direction: [i64; 2], way: i64, found: usize) -> (usize, i64) {
+        let same = |next: &usize| (self.inverse[*next] - self.inverse[found]).abs() <= self.jump_per_m;
+        self.at(pixel, direction, way + 1).filter(same).map_or((found, way), |next| (next, way + 1))
+    }
+
+    fn at(&self, pixel: usize, direction: [i64; 2], way: i64) -> Option<usize> {
+        let [width, height] = self.size;
+        let x = pixel as i64 % width + direction[0] * way;
+        let y = pixel as i64 / width + direction[1] * way;
+        ((0..width).contains(&x) && (0..height).contains(&y)).then_some((y * width + x) as usize)
+    }
+}

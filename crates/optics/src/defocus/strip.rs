@@ -1,0 +1,127 @@
+//! A few rows of the picture while layers are laid over each other, the nearest first.
+//!
+//! Each pixel holds three sums of a coverage and of light times coverage: of the layer at hand (as differences along the
+//! row), of the surface at hand, and of everything in front of it. Within a surface, layers that follow each other without
+//! a gap, coverages add, for its parts cover different parts of the pupil, up to one: what is more is behind. Between surfaces
+//! they multiply: what is left of the pupil by those in front is spread evenly. At the end light is divided by coverage.
+
+use super::scan::Step;
+use core::ops::Range;
+
+/// Coverage below this is rounding.
+const NOTHING: f64 = 1e-9;
+/// Layers between two surfaces.
+const GAP: usize = 2;
+
+/// Rows of the picture.
+#[derive(Debug)]
+pub(super) struct Strip {
+    rows: Range<usize>,
+    width: usize,
+    /// Numbers a pixel: coverage, then light of each band.
+    depth: usize,
+    layer: Vec<f64>,
+    surface: Vec<f64>,
+    front: Vec<f64>,
+    /// What the surfaces in front leave of the pupil.
+    left: Vec<f64>,
+    /// The layer that last touched the surface at hand.
+    last: Vec<usize>,
+    /// Columns of each row that the layer at hand touches: the first, and one beyond the last.
+    touched: Vec<[usize; 2]>,
+    running: Vec<f64>,
+}
+
+const UNTOUCHED: [usize; 2] = [usize::MAX, 0];
+
+impl Strip {
+    pub(super) fn new(rows: Range<usize>, width: usize, bands: usize) -> Self {
+        let (pixels, depth) = (rows.len() * width, bands + 1);
+        let empty = || vec![0.0; pixels * depth];
+        Self {
+            width,
+            depth,
+            layer: empty(),
+            surface: empty(),
+            front: empty(),
+            left: vec![1.0; pixels],
+            last: vec![0; pixels],
+            touched: vec![UNTOUCHED; rows.len()],
+            running: vec![0.0; depth],
+            rows,
+        }
+    }
+
+    /// Adds a source's steps in a row: `light` holds 1 and the radiance of each band, `column` is the source's.
+    pub(super) fn add(&mut self, row: i64, column: i64, steps: &[Step], light: &[f64]) {
+        let Some(row) = usize::try_from(row).ok().filter(|row| self.rows.contains(row)) else { return };
+        let row = row - self.rows.start;
+        for step in steps {
+            let x = (column + step.column).max(0) as usize;
+            if x < self.width {
+                let at = (row * self.width + x) * self.depth;
+                for (sum, light) in self.layer[at..at + self.depth].iter_mut().zip(light) {
+                    *sum += step.share * light;
+                }
+            }
+            let [first, end] = &mut self.touched[row];
+            (*first, *end) = ((*first).min(x), (*end).max(x.min(self.width)));
+        }
+    }
+
+    /// Lays the layer at hand behind what is there.
+    pub(super) fn lay(&mut self, number: usize) {
+        for row in 0..self.rows.len() {
+            let [first, end] = core::mem::replace(&mut self.touched[row], UNTOUCHED);
+            if first < self.width {
+                self.lay_row(row, first..(end + 1).min(self.width), number);
+            }
+        }
+    }
+
+    fn lay_row(&mut self, row: usize, columns: Range<usize>, number: usize) {
+        self.running.fill(0.0);
+        for x in columns {
+            let pixel = row * self.width + x;
+            let at = pixel * self.depth;
+            for (sum, step) in self.running.iter_mut().zip(&mut self.layer[at..at + self.depth]) {
+                *sum += core::mem::take(step);
+            }
+            if self.running[0] > NOTHING && self.left[pixel] > NOTHING {
+                self.lay_pixel(pixel, number);
+            }
+        }
+    }
+
+    fn lay_pixel(&mut self, pixel: usize, number: usize) {
+        if number > self.last[pixel] + GAP {
+            self.close(pixel);
+        }
+        self.last[pixel] = number;
+        let surface = &mut self.surface[pixel * self.depth..(pixel + 1) * self.depth];
+        let room = (1.0 - surface[0]).max(0.0);
+        let share = (room / self.running[0]).min(1.0);
+        for (sum, light) in surface.iter_mut().zip(&self.running) {
+            *sum += share * light;
+        }
+    }
+
+    /// Puts the surface at hand behind those in front.
+    fn close(&mut self, pixel: usize) {
+        let range = pixel * self.depth..(pixel + 1) * self.depth;
+        let left = self.left[pixel];
+        self.left[pixel] = left * (1.0 - self.surface[range.start]).max(0.0);
+        for (sum, light) in self.front[range.clone()].iter_mut().zip(&mut self.surface[range]) {
+            *sum += left * core::mem::take(light);
+        }
+    }
+
+    /// The light of a pixel, a number a band; `None` where nothing shines.
+    pub(super) fn light(&mut self, x: usize, y: usize) -> Option<impl Iterator<Item = f64>> {
+        let pixel = (y - self.rows.start) * self.width + x;
+        self.close(pixel);
+        let sums = &self.front[pixel * self.depth..(pixel + 1) * self.depth];
+        let coverage = sums[0];
+        (coverage > NOTHING).then(|| sums[1..].iter().map(move |light| light / coverage))
+    }
+}
