@@ -154,6 +154,12 @@ pub enum OpticsError {
         /// How far the picture reaches, mm.
         needed_mm: f64,
     },
+    /// A sensor that mirrors more than all light, or less than none.
+    #[error("the sensor's reflectance is {value}; it must be at least 0 and below 1")]
+    SensorReflectance {
+        /// Its value.
+        value: f64,
+    },
     /// A lens that the route at the pupil cannot serve.
     #[error("the route at the pupil serves pinhole, thin and thick lenses; a {kind} is rendered with route = \"lens\"")]
     NoPupilRoute {

@@ -2,6 +2,7 @@
 
 pub mod defocus;
 mod error;
+pub mod ghosts;
 pub mod lens;
 mod overlap;
 pub mod prescription;

@@ -4,10 +4,11 @@
 //! - [`Coating::Constant`]: a number, whatever angle and wavelength.
 //! - [`Coating::QuarterWave`]: one layer of magnesium fluoride (n = 1.38, its dispersion left out), a quarter of the design
 //!   wavelength thick at normal incidence: R = |r₁ + r₂ e^{2iδ}|²/|1 + r₁ r₂ e^{2iδ}|², δ = (π/2)(λ₀/λ) cos θ in the
-//!   layer (Airy 1833). Where no layer could be there (both sides alike) the surface is open.
+//!   layer (Airy 1833). Where no layer could be there (both sides alike) the surface is open. Between
+//!   two denser glasses, beyond the layer's own critical angle, cos θ is imaginary and light tunnels.
 
 use core::f64::consts::PI;
-use etendue_core::maths::f64::cos;
+use etendue_core::maths::f64::{cos, exp};
 
 /// Index of magnesium fluoride.
 const LAYER: f64 = 1.38;
@@ -69,12 +70,31 @@ impl Crossing {
     /// With a layer of a quarter wave at normal incidence, at λ₀/λ.
     fn layered_reflectance(&self, ratio: f64) -> f64 {
         let sine = self.n[0] / LAYER * (1.0 - self.cosine[0] * self.cosine[0]).max(0.0).sqrt();
-        let inside = (1.0 - sine * sine).max(0.0).sqrt();
+        if sine >= 1.0 {
+            return self.tunnelled_reflectance(ratio, (sine * sine - 1.0).sqrt());
+        }
+        let inside = (1.0 - sine * sine).sqrt();
         let turn = cos(PI * ratio * inside);
         let front = amplitudes([self.n[0], LAYER], [self.cosine[0], inside]);
         let back = amplitudes([LAYER, self.n[1]], [inside, self.cosine[1]]);
         let airy = |a: f64, b: f64| (a * a + b * b + 2.0 * a * b * turn) / (1.0 + a * a * b * b + 2.0 * a * b * turn);
         0.5 * (airy(front[0], back[0]) + airy(front[1], back[1]))
+    }
+
+    /// The same where the cosine in the layer is i κ: each side turns the phase by φ with tan(φ/2) = n_L κ/(n cos θ) (s) or
+    /// n κ/(n_L cos θ) (p), and the wave fades by e^{−π κ λ₀/λ} there and back.
+    fn tunnelled_reflectance(&self, ratio: f64, kappa: f64) -> f64 {
+        let fades = exp(-PI * ratio * kappa);
+        let polarised = |half: [f64; 2]| {
+            let [cosine, sine] = [half.map(|t| (1.0 - t * t) / (1.0 + t * t)), half.map(|t| 2.0 * t / (1.0 + t * t))];
+            let [both, across] = [cosine[0] * cosine[1], sine[0] * sine[1]];
+            let apart = |turn: f64| 1.0 + fades * fades - 2.0 * fades * turn;
+            if kappa > 0.0 { apart(both + across) / apart(both - across) } else { 1.0 }
+        };
+        let side = |i: usize| self.cosine[i] / kappa;
+        let s = [0, 1].map(|i| LAYER / (self.n[i] * side(i)));
+        let p = [0, 1].map(|i| self.n[i] / (LAYER * side(i)));
+        0.5 * (polarised(s) + polarised(p))
     }
 }
 
@@ -107,6 +127,22 @@ mod tests {
         // At half the design wavelength the layer is half a wave thick and does nothing.
         assert!((coated(275.0, 1.0) - Coating::Uncoated.transmittance(&crossing(1.0, 1.52, 1.0), 275.0)).abs() < 1e-15);
         assert!(coated(400.0, 1.0) < coated(550.0, 1.0) && coated(550.0, 0.5) < coated(550.0, 1.0));
+    }
+
+    #[test]
+    fn a_layer_between_denser_glasses_has_its_own_critical_angle() {
+        let coating = Coating::QuarterWave { design_nm: 550.0 };
+        let at = |sine: f64| coating.transmittance(&crossing(1.7, 1.72, (1.0 - sine * sine).sqrt()), 550.0);
+        let critical = LAYER / 1.7;
+        // Continuous there (the square root of the distance from it is what both sides go with), fading beyond.
+        assert!(
+            (at(critical - 1e-12) - at(critical + 1e-12)).abs() < 1e-4,
+            "{} {}",
+            at(critical - 1e-12),
+            at(critical + 1e-12)
+        );
+        let [a, b, c] = [0.001, 0.05, 0.15].map(|beyond| at(critical + beyond));
+        assert!(1.0 > a && a > b && b > c && c > 0.0, "{a} {b} {c}");
     }
 
     #[test]

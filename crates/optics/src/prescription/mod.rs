@@ -4,7 +4,7 @@
 //! apertures; dispersion of every glass; losses by reflection; focusing by moving the sensor or a group of surfaces. A
 //! wavelength that is totally reflected, misses a surface or falls outside a clear aperture is blocked.
 //!
-//! **Left out**: absorption in glass, light that is reflected twice and more (ghosts are a layer of their own), scatter,
+//! **Left out**: absorption in glass, light that is reflected twice (see [`ghost`]: a layer of its own) and more, scatter,
 //! diffraction, tilts and decentres.
 //!
 //! A [`Prescription`] is checked when it is made: afterwards nothing in it can fail but a ray.
@@ -14,6 +14,7 @@ pub mod coating;
 mod error;
 pub mod filter;
 mod focus;
+pub mod ghost;
 pub(crate) mod indices;
 pub mod paraxial;
 pub mod published;

@@ -58,9 +58,9 @@ pub(super) struct Matrix {
 }
 
 impl Matrix {
-    const IDENTITY: Self = Self { a: 1.0, b: 0.0, c: 0.0, d: 1.0 };
+    pub(super) const IDENTITY: Self = Self { a: 1.0, b: 0.0, c: 0.0, d: 1.0 };
 
-    fn refracted(self, power: f64) -> Self {
+    pub(super) fn refracted(self, power: f64) -> Self {
         Self { c: self.c - power * self.a, d: self.d - power * self.b, ..self }
     }
 

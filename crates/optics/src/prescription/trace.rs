@@ -51,6 +51,26 @@ pub(super) struct Element {
     pub(super) coating: Coating,
 }
 
+impl Element {
+    #[inline]
+    pub(super) fn vertex(&self) -> DVec3 {
+        DVec3::new(0.0, 0.0, self.z_mm)
+    }
+
+    /// Indices before and behind the surface, for a ray that comes this way.
+    #[inline]
+    pub(super) fn indices(&self, way: Way, media: &Media) -> [f64; 2] {
+        let [a, b] = self.media.map(|i| media[i]);
+        if way == Way::ToSensor { [a, b] } else { [b, a] }
+    }
+
+    /// Square of a hit's distance from the axis over that of the rim.
+    #[inline]
+    pub(super) fn filling(&self, hit: &Hit) -> f64 {
+        hit.point.truncate().length_squared() / self.open_mm2
+    }
+}
+
 /// Which way rays run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Way {
@@ -135,14 +155,37 @@ fn cross(
     ray: LensRay,
     journey: &mut impl Journey,
 ) -> Result<LensRay, Loss> {
-    let sense = way.sense();
-    let vertex = DVec3::new(0.0, 0.0, element.z_mm);
-    let hit = element.shape.hit(ray.point - vertex, ray.direction, sense).ok_or(Loss::Missed)?;
-    let [a, b] = element.media;
-    let n = if way == Way::ToSensor { [media[a], media[b]] } else { [media[b], media[a]] };
-    let (direction, cosine) = refract(ray.direction, &hit, n[0] / n[1], sense).ok_or(Loss::TotalReflection)?;
+    let hit = meet(element, way, ray)?;
+    let n = element.indices(way, media);
+    let refracted = refract(ray.direction, &hit, n[0] / n[1], way.sense());
+    let (direction, cosine) = refracted.ok_or(Loss::TotalReflection)?;
     journey.crosses(index, element, &hit, &Crossing { n, cosine })?;
-    Ok(LensRay { point: hit.point + vertex, direction })
+    Ok(LensRay { point: hit.point + element.vertex(), direction })
+}
+
+/// Where a ray meets a surface, from its vertex.
+#[inline]
+fn meet(element: &Element, way: Way, ray: LensRay) -> Result<Hit, Loss> {
+    element.shape.hit(ray.point - element.vertex(), ray.direction, way.sense()).ok_or(Loss::Missed)
+}
+
+/// A ray that comes this `way` and is reflected by a surface: d′ = d − 2 (d·n) n; with the share that is reflected.
+#[inline]
+pub(super) fn bounce(
+    element: &Element,
+    way: Way,
+    media: &Media,
+    ray: LensRay,
+    nm: f64,
+) -> Result<(LensRay, Hit, f64), Loss> {
+    let hit = meet(element, way, ray)?;
+    let n = element.indices(way, media);
+    let reflectance = match refract(ray.direction, &hit, n[0] / n[1], way.sense()) {
+        Some((_, cosine)) => 1.0 - element.coating.transmittance(&Crossing { n, cosine }, nm),
+        None => 1.0,
+    };
+    let direction = ray.direction - hit.normal * (2.0 * ray.direction.dot(hit.normal));
+    Ok((LensRay { point: hit.point + element.vertex(), direction }, hit, reflectance))
 }
 
 /// Snell's law: d′ = μ d + (± √(1 − μ²(1 − (d·n)²)) − μ d·n) n with μ = n₁/n₂; and both cosines. `None` for total

@@ -67,7 +67,7 @@ impl Prescribed {
 
     /// ∫ τ cos⁴ θ dt over what passes at 587.56 nm: for each direction from the region's centre the edge is found by
     /// bisection, then Gauss's rule along the radius and equal steps around.
-    pub(in crate::lens) fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
+    pub(crate) fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
         let s_mm = sensor_mm.length();
         let Some(ellipse) = self.regions.ellipse(s_mm) else { return 0.0 };
         let media = self.prescription.media(PRINCIPAL_NM);

@@ -93,7 +93,13 @@ impl Prescribed {
         }
     }
 
-    fn filtered(&self, nm: f64, cosine: f64) -> f64 {
+    /// The angle from the axis at which a height on the sensor looks, rad; `None` where it has no principal ray.
+    pub(crate) fn field_angle(&self, height_mm: f64) -> Option<f64> {
+        self.chiefs.ray(&self.prescription, height_mm).map(|ray| chief::field_angle(ray.direction))
+    }
+
+    /// Transmittance of the filter; 1 for none.
+    pub(crate) fn filtered(&self, nm: f64, cosine: f64) -> f64 {
         self.filter.as_ref().map_or(1.0, |filter| filter.transmittance(nm, cosine))
     }
 

@@ -1,0 +1,201 @@
+//! Where the beam of one field angle, pair and wavelength lands: a grid of rays, and what lies between them.
+//!
+//! The grid lies across the beam and covers half of it (the other half mirrors it). Places, weights and fillings (above 1
+//! a ray is clipped) are bilinear within a cell, so edges are found more finely than the grid. Cells with a corner whose
+//! ray misses a surface or is totally reflected on its way are dark.
+
+use crate::prescription::Prescription;
+use crate::prescription::ghost::GhostPair;
+use crate::prescription::trace::LensRay;
+use etendue_core::maths::f64::sin_cos;
+use glam::{DVec2, DVec3};
+
+/// Cells across the whole beam in the meridional plane, and across half of it.
+const COLUMNS: usize = 32;
+const ROWS: usize = 16;
+/// The same of a first look, over the whole front.
+const LOOK_COLUMNS: usize = 32;
+const LOOK_ROWS: usize = 16;
+
+/// Rays that land further from the axis than this count as lost, mm.
+const FARTHEST_MM: f32 = 1e4;
+
+/// A ray's end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Node {
+    /// On the sensor, mm: away from the axis in the source's own direction, and across.
+    x: f32,
+    y: f32,
+    /// Share of the light.
+    weight: f32,
+    /// Infinite for a ray that does not arrive.
+    filling: f32,
+    /// Of the angle at which it lands.
+    cosine: f32,
+}
+
+impl Node {
+    const LOST: Self = Self { x: 0.0, y: 0.0, weight: 0.0, filling: f32::INFINITY, cosine: 0.0 };
+
+    fn arrives(&self) -> bool {
+        self.filling.is_finite()
+    }
+
+    fn mix(self, other: Self, share: f32) -> Self {
+        match (self.arrives(), other.arrives()) {
+            (true, true) => self.between(other, share),
+            (true, false) => self,
+            _ => other,
+        }
+    }
+
+    #[inline]
+    fn between(self, other: Self, share: f32) -> Self {
+        let mix = |a: f32, b: f32| a + share * (b - a);
+        Self {
+            x: mix(self.x, other.x),
+            y: mix(self.y, other.y),
+            weight: mix(self.weight, other.weight),
+            filling: mix(self.filling, other.filling),
+            cosine: mix(self.cosine, other.cosine),
+        }
+    }
+}
+
+/// Parallel light at an angle to the axis.
+pub(super) struct Beam<'a> {
+    lens: &'a Prescription,
+    direction: DVec3,
+    across: DVec3,
+    angle: f64,
+}
+
+impl<'a> Beam<'a> {
+    pub(super) fn new(lens: &'a Prescription, angle: f64) -> Self {
+        let (sine, cosine) = sin_cos(angle);
+        Self { lens, direction: DVec3::new(sine, 0.0, cosine), across: DVec3::new(cosine, 0.0, -sine), angle }
+    }
+
+    /// Rays on the corners of a grid over a window across the beam.
+    fn grid(&self, pair: GhostPair, nm: f64, window: [DVec2; 2], size: [usize; 2]) -> Vec<Node> {
+        let media = self.lens.media(nm);
+        let node = |i: usize| {
+            let share =
+                DVec2::new((i % (size[0] + 1)) as f64 / size[0] as f64, (i / (size[0] + 1)) as f64 / size[1] as f64);
+            let at = window[0] + (window[1] - window[0]) * share;
+            let ray = LensRay { point: self.across * at.x + DVec3::Y * at.y, direction: self.direction };
+            let Ok(ghost) = self.lens.ghost_in(pair, ray, nm, &media) else { return Node::LOST };
+            let d = ghost.ray.direction;
+            let end = ghost.ray.point + d * ((self.lens.sensor_mm() - ghost.ray.point.z) / d.z);
+            let (x, y, weight, filling) = (end.x as f32, end.y as f32, ghost.weight as f32, ghost.filling as f32);
+            // Rays along the sensor or away from it do not land.
+            let lands = d.z > 0.0 && x.abs().max(y.abs()) < FARTHEST_MM;
+            if lands { Node { x, y, weight, filling, cosine: d.z as f32 } } else { Node::LOST }
+        };
+        (0..(size[0] + 1) * (size[1] + 1)).map(node).collect()
+    }
+
+    /// The window in which a pair lets rays pass, and the area it lets pass times its weight, mm².
+    pub(super) fn look(&self, pair: GhostPair, nm: f64) -> Option<([DVec2; 2], f64)> {
+        let size = [LOOK_COLUMNS, LOOK_ROWS];
+        let [low, high] = self.lens.front_box(self.angle);
+        let cell = (high - low) / DVec2::new(size[0] as f64, size[1] as f64);
+        let nodes = self.grid(pair, nm, [low, high], size);
+        let (mut least, mut most, mut weight) = (DVec2::INFINITY, DVec2::NEG_INFINITY, 0.0);
+        for (i, node) in nodes.iter().enumerate().filter(|(_, node)| node.filling <= 1.0) {
+            let place = DVec2::new((i % (size[0] + 1)) as f64, (i / (size[0] + 1)) as f64);
+            (least, most) = (least.min(place), most.max(place));
+            // The row in the plane of symmetry belongs to both halves.
+            weight += f64::from(node.weight) * if place.y == 0.0 { 1.0 } else { 2.0 };
+        }
+        let window = [least - 1.0, most + 1.0].map(|place| low + cell * place);
+        let window = [DVec2::new(window[0].x, 0.0), window[1]];
+        (weight > 0.0).then_some((window, weight * cell.x * cell.y))
+    }
+
+    /// Where the light of a pair lands that enters through a window.
+    pub(super) fn footprint(&self, pair: GhostPair, nm: f64, window: [DVec2; 2]) -> Footprint {
+        let area = window[1] - window[0];
+        let cell_mm2 = area.x * area.y / (COLUMNS * ROWS) as f64;
+        Footprint { nodes: self.grid(pair, nm, window, [COLUMNS, ROWS]), cell_mm2: cell_mm2 as f32 }
+    }
+}
+
+/// A grid of rays' ends.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Footprint {
+    nodes: Vec<Node>,
+    /// Cross-section of the beam that a cell stands for, mm².
+    cell_mm2: f32,
+}
+
+/// Light that lands at a point, mm: the cross-section of the beam that it came through, times the shares left of it, mm².
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Landed {
+    pub(super) x: f32,
+    pub(super) y: f32,
+    pub(super) area_mm2: f32,
+    pub(super) cosine: f32,
+}
+
+impl Footprint {
+    /// Between two angles.
+    pub(super) fn mix(&self, other: &Self, share: f32) -> Self {
+        let nodes = self.nodes.iter().zip(&other.nodes).map(|(a, b)| a.mix(*b, share)).collect();
+        Self { nodes, cell_mm2: self.cell_mm2 + share * (other.cell_mm2 - self.cell_mm2) }
+    }
+
+    /// The same place with a share of the light.
+    pub(super) fn dimmed(&self, share: f32) -> Self {
+        Self { nodes: self.nodes.clone(), cell_mm2: self.cell_mm2 * share }
+    }
+
+    fn cells(&self) -> impl Iterator<Item = [Node; 4]> {
+        let node = |column: usize, row: usize| self.nodes[row * (COLUMNS + 1) + column];
+        let corners = move |i: usize| {
+            let (column, row) = (i % COLUMNS, i / COLUMNS);
+            [node(column, row), node(column + 1, row), node(column, row + 1), node(column + 1, row + 1)]
+        };
+        let lit = |cell: &[Node; 4]| cell.iter().all(Node::arrives) && cell.iter().any(|n| n.filling < 1.0);
+        (0..COLUMNS * ROWS).map(corners).filter(lit)
+    }
+
+    /// The smallest box about the light, mm; `None` for none.
+    pub(super) fn bounds(&self) -> Option<[[f32; 2]; 2]> {
+        let mut bounds = [[f32::INFINITY; 2], [f32::NEG_INFINITY; 2]];
+        for node in self.cells().flatten() {
+            bounds[0] = [bounds[0][0].min(node.x), bounds[0][1].min(-node.y.abs())];
+            bounds[1] = [bounds[1][0].max(node.x), bounds[1][1].max(node.y.abs())];
+        }
+        bounds[0][0].is_finite().then_some(bounds)
+    }
+
+    /// Calls `lands` for points closer to each other than `step_mm` that together carry all light.
+    #[inline]
+    pub(super) fn each(&self, step_mm: f32, mut lands: impl FnMut(Landed)) {
+        for cell in self.cells() {
+            let finer = finer(&cell, step_mm);
+            let share = self.cell_mm2 / (finer * finer) as f32;
+            let at = |i: usize| (i as f32 + 0.5) / finer as f32;
+            for row in 0..finer {
+                let [left, right] = [cell[0].between(cell[2], at(row)), cell[1].between(cell[3], at(row))];
+                for node in (0..finer).map(|column| left.between(right, at(column))).filter(|n| n.filling <= 1.0) {
+                    let landed = Landed { x: node.x, y: node.y, area_mm2: share * node.weight, cosine: node.cosine };
+                    lands(landed);
+                    lands(Landed { y: -node.y, ..landed });
+                }
+            }
+        }
+    }
+}
+
+/// Least and greatest number of points along a cell's side; more than the least only to be dense enough.
+const LEAST: usize = 3;
+const MOST: usize = 256;
+
+fn finer(cell: &[Node; 4], step_mm: f32) -> usize {
+    let side = |a: Node, b: Node| (a.x - b.x).abs().max((a.y - b.y).abs());
+    let [a, b, c, d] = *cell;
+    let longest = side(a, b).max(side(c, d)).max(side(a, c)).max(side(b, d));
+    ((longest / step_mm).ceil() as usize).clamp(LEAST, MOST)
+}

@@ -1,0 +1,256 @@
+//! From a picture's irradiance to the irradiance of its ghosts.
+
+use super::response::Response;
+use super::source::{Source, SourceImage};
+use super::splat::{Laid, Level, lay};
+use super::{GhostSettings, mirrored};
+use crate::error::{OpticsError, PRINCIPAL_NM};
+use crate::lens::Prescribed;
+use crate::prescription::ghost::GhostPair;
+use etendue_core::Bands;
+use etendue_core::maths::f64::sin;
+use etendue_core::plane::{Plane, SpectralCube};
+use etendue_core::quantity::Irradiance;
+use etendue_projection::Raster;
+use glam::DVec2;
+use rayon::prelude::*;
+
+/// Rings between which the field is tabulated.
+const RINGS: usize = 256;
+/// Every how many rings the étendue is.
+const ETENDUE_STEP: usize = 4;
+/// A height or a wavelength that gets less than this share of what the best gets is no source: what is divided by it would
+/// be noise.
+const DARK: f64 = 1e-3;
+/// Sources laid down at a time, to bound memory.
+const BATCH: usize = 8;
+
+/// The ghosts of a picture behind a lens: irradiance in the same raster. The raster may be larger than the sensor: with
+/// light from beside the picture.
+///
+/// # Errors
+/// Where the irradiance is not of the raster's size.
+pub fn layer(
+    irradiance: &SpectralCube<Irradiance>,
+    lens: &Prescribed,
+    raster: &Raster,
+    settings: GhostSettings,
+) -> Result<SpectralCube<Irradiance>, OpticsError> {
+    let (got_width, got_height) = (irradiance.width(), irradiance.height());
+    let (width, height) = (raster.width(), raster.height());
+    if (got_width, got_height) != (width, height) {
+        return Err(OpticsError::Size { got_width, got_height, width, height });
+    }
+    let field = Field::new(lens, raster);
+    let bands = irradiance.bands();
+    let image = SourceImage {
+        planes: irradiance.planes(),
+        pixel_factor: field.pixel_factors(raster),
+        band_factor: band_factors(lens, bands),
+    };
+    let seen = |source: Source| {
+        let at_mm = raster.sensor_mm(source.at_px);
+        let angle = field.angle(at_mm.length());
+        FarSource { angle, outward: at_mm.normalize_or(DVec2::X), spectrum: source.spectrum, share: source.share }
+    };
+    let sources: Vec<FarSource> = image.sources().into_iter().map(seen).collect();
+    Ok(Scattering::new(lens, raster, settings, bands, (&sources, field.greatest())).layer(&sources))
+}
+
+/// Light from a direction.
+struct FarSource {
+    /// From the axis, rad.
+    angle: f64,
+    /// In the picture, from the axis towards its own image.
+    outward: DVec2,
+    spectrum: Vec<f32>,
+    share: f64,
+}
+
+/// A lens's ghosts, ready to be laid down.
+struct Scattering<'a> {
+    lens: &'a Prescribed,
+    raster: &'a Raster,
+    settings: GhostSettings,
+    bands: Bands,
+    response: Response,
+    levels: Vec<Level>,
+    /// By pair: what its mirrors reflect, by band, over what they do at the tabulated wavelengths.
+    colours: Vec<Colour>,
+}
+
+impl<'a> Scattering<'a> {
+    fn new(
+        lens: &'a Prescribed,
+        raster: &'a Raster,
+        settings: GhostSettings,
+        bands: Bands,
+        (sources, greatest): (&[FarSource], f64),
+    ) -> Self {
+        let wanted: Vec<f64> = sources.iter().map(|source| source.angle).collect();
+        let range_nm = [bands.low_nm(), bands.high_nm()];
+        let response = Response::new(lens, settings, range_nm, greatest, &wanted);
+        let colours = response.pairs.iter().map(|pair| Colour::new(lens, *pair, &response.knots_nm, bands)).collect();
+        Self { lens, raster, settings, bands, response, levels: Level::of(raster), colours }
+    }
+
+    fn layer(&self, sources: &[FarSource]) -> SpectralCube<Irradiance> {
+        let mut canvas: Vec<Vec<Vec<f32>>> =
+            (0..self.bands.count()).map(|_| vec![Vec::new(); self.levels.len()]).collect();
+        for batch in sources.chunks(BATCH) {
+            let jobs: Vec<_> =
+                batch.iter().flat_map(|s| (0..self.response.pairs.len()).map(move |pair| (s, pair))).collect();
+            let laid: Vec<_> = jobs.into_par_iter().filter_map(|(source, pair)| self.lay(source, pair)).collect();
+            canvas.par_iter_mut().enumerate().for_each(|(band, levels)| {
+                laid.iter().for_each(|laid| self.add(levels, band, laid));
+            });
+        }
+        let planes = canvas.par_iter().map(|levels| self.picture(levels)).collect();
+        SpectralCube::from_planes(self.bands, planes).expect("a plane a band, all of the raster's size")
+    }
+
+    fn lay<'s>(&self, source: &'s FarSource, pair: usize) -> Option<(&'s FarSource, usize, Laid)> {
+        let footprints = self.response.at(source.angle, pair)?;
+        lay(&footprints, source.outward, source.share, &self.levels).map(|laid| (source, pair, laid))
+    }
+
+    /// Adds a ghost to the levels of a band.
+    fn add(&self, levels: &mut [Vec<f32>], band: usize, (source, pair, laid): &(&FarSource, usize, Laid)) {
+        let rear = self.response.pairs[*pair].rear;
+        let filtered = self.lens.filtered(self.bands.centre_nm(band), laid.cosine);
+        // Light that the sensor mirrors passes the filter before it on all three ways.
+        let passes = if rear == self.lens.prescription().surfaces().len() { 3 } else { 1 };
+        let strength = f64::from(source.spectrum[band])
+            * mirrored(self.lens, rear, self.settings)
+            * (0..passes).map(|_| filtered).product::<f64>();
+        let at = &self.levels[laid.level];
+        let plane = &mut levels[laid.level];
+        plane.resize(at.columns * at.rows, 0.0);
+        for (knot, share) in self.colours[*pair].of_band(band) {
+            let factor = (strength * share) as f32;
+            for (j, row) in laid.light[knot].chunks_exact(laid.columns).enumerate() {
+                let first = (laid.from[1] + j) * at.columns + laid.from[0];
+                let to = &mut plane[first..first + laid.columns];
+                to.iter_mut().zip(row).for_each(|(sum, light)| *sum += factor * light);
+            }
+        }
+    }
+
+    /// The sum of all levels, interpolated between the middles of their cells.
+    fn picture(&self, levels: &[Vec<f32>]) -> Plane<Irradiance> {
+        let (width, height) = (self.raster.width(), self.raster.height());
+        let mut plane = Plane::new(width, height);
+        for (at, cells) in self.levels.iter().zip(levels).filter(|(_, cells)| !cells.is_empty()) {
+            let columns: Vec<_> = (0..width).map(|x| at.pixel(x)).collect();
+            for (y, row) in plane.samples_mut().chunks_exact_mut(width).enumerate() {
+                let (j, v) = at.pixel(y);
+                let [above, below] = [j, j + 1].map(|j| &cells[j * at.columns..(j + 1) * at.columns]);
+                for (sum, (i, u)) in row.iter_mut().zip(&columns) {
+                    let along = |row: &[f32]| row[*i] + u * (row[i + 1] - row[*i]);
+                    let (a, b) = (along(above), along(below));
+                    *sum += a + v * (b - a);
+                }
+            }
+        }
+        plane
+    }
+}
+
+/// What a pair's mirrors reflect at each band, over what they reflect at the tabulated wavelengths.
+struct Colour {
+    /// By band: the tabulated wavelength below, and factors of it and of the next.
+    bands: Vec<(usize, [f64; 2])>,
+}
+
+impl Colour {
+    fn new(lens: &Prescribed, pair: GhostPair, knots_nm: &[f64], bands: Bands) -> Self {
+        let reflected = |nm: f64| lens.prescription().ghost_colour(pair, nm);
+        let knots: Vec<f64> = knots_nm.iter().map(|nm| reflected(*nm)).collect();
+        let of_band = |i: usize| {
+            let nm = bands.centre_nm(i);
+            let below = knots_nm.partition_point(|knot| *knot <= nm).saturating_sub(1);
+            let next = (below + 1).min(knots.len() - 1);
+            let width = knots_nm[next] - knots_nm[below];
+            let share = if width > 0.0 { (nm - knots_nm[below]) / width } else { 0.0 };
+            let over = |knot: f64| if knot > 0.0 { reflected(nm) / knot } else { 0.0 };
+            (below, [(1.0 - share) * over(knots[below]), share * over(knots[next])])
+        };
+        Self { bands: (0..bands.count()).map(of_band).collect() }
+    }
+
+    /// Tabulated wavelengths and their factors.
+    fn of_band(&self, band: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let (below, shares) = self.bands[band];
+        [(below, shares[0]), (below + 1, shares[1])].into_iter().filter(|(_, share)| *share > 0.0)
+    }
+}
+
+/// Field angle, solid angle and étendue by height on the sensor.
+struct Field {
+    step_mm: f64,
+    angles: Vec<f64>,
+    /// sr by sr and mm²: of the ring above each height.
+    factors: Vec<f64>,
+}
+
+impl Field {
+    fn new(lens: &Prescribed, raster: &Raster) -> Self {
+        let step_mm = raster.max_radius_mm().min(lens.lit_radius_mm()) / RINGS as f64;
+        let angles: Vec<f64> = (0..=RINGS).map_while(|i| lens.field_angle(step_mm * i as f64)).collect();
+        let coarse: Vec<f64> = (0..=RINGS / ETENDUE_STEP)
+            .into_par_iter()
+            .map(|i| lens.etendue_sr(DVec2::new(step_mm * (i * ETENDUE_STEP) as f64, 0.0)))
+            .collect();
+        let factor = |i: usize| {
+            let place = (i as f64 + 0.5) / ETENDUE_STEP as f64;
+            let etendue = between(&coarse, place);
+            let [inner, outer] = [i as f64, i as f64 + 1.0].map(|i| i * step_mm);
+            // 2π (cos a − cos b) over π (outer² − inner²).
+            let [a, b] = [angles[i], angles[i + 1]];
+            let sr_per_mm2 = 4.0 * sin(0.5 * (a + b)) * sin(0.5 * (b - a)) / (outer * outer - inner * inner);
+            if etendue > DARK * coarse[0] { sr_per_mm2 / etendue } else { 0.0 }
+        };
+        let factors = (0..angles.len().saturating_sub(1)).map(factor).collect();
+        Self { step_mm, angles, factors }
+    }
+
+    /// For each pixel, its solid angle over the étendue of its place; 0 beyond the light.
+    fn pixel_factors(&self, raster: &Raster) -> Vec<f64> {
+        let pitch = raster.pitch_mm();
+        let factor = |i: usize| {
+            let centre = DVec2::new((i % raster.width()) as f64 + 0.5, (i / raster.width()) as f64 + 0.5);
+            let place = raster.sensor_mm(centre).length() / self.step_mm;
+            if place as usize >= self.factors.len() {
+                return 0.0;
+            }
+            pitch.x * pitch.y * between(&self.factors, (place - 0.5).max(0.0))
+        };
+        (0..raster.width() * raster.height()).map(factor).collect()
+    }
+
+    fn angle(&self, height_mm: f64) -> f64 {
+        between(&self.angles, height_mm / self.step_mm)
+    }
+
+    fn greatest(&self) -> f64 {
+        self.angles.last().copied().unwrap_or(0.0)
+    }
+}
+
+/// Linear interpolation in an evenly spaced table, held beyond its end.
+fn between(table: &[f64], place: f64) -> f64 {
+    let last = table.len().saturating_sub(1);
+    let i = (place as usize).min(last);
+    let next = (i + 1).min(last);
+    let share = (place - i as f64).clamp(0.0, 1.0);
+    if table.is_empty() { 0.0 } else { table[i] + share * (table[next] - table[i]) }
+}
+
+/// By band, the inverse of what the lens lets through on the axis, over that at 587.56 nm, at which the étendue is.
+fn band_factors(lens: &Prescribed, bands: Bands) -> Vec<f64> {
+    let passes = |nm: f64| lens.prescription().axial_transmittance(nm) * lens.filtered(nm, 1.0);
+    let through: Vec<f64> = (0..bands.count()).map(|i| passes(bands.centre_nm(i))).collect();
+    let most = through.iter().copied().fold(0.0, f64::max);
+    let principal = passes(PRINCIPAL_NM);
+    through.into_iter().map(|t| if t > DARK * most { principal / t } else { 0.0 }).collect()
+}

@@ -1,0 +1,178 @@
+//! Laying a beam's light on the sensor, at a resolution that suits its size.
+//!
+//! Level l has square cells of 2^l pixels. Light is laid down by tents as wide as a cell on both sides of its point, which
+//! keeps it, from points at most 0.35 cells apart, which leaves at most some per cent of ripple. One row of cells around
+//! the picture is kept too, so that levels can be interpolated up to its edges.
+
+use super::footprint::Footprint;
+use super::source::SHARE;
+use etendue_projection::Raster;
+use glam::DVec2;
+
+/// Cells across a ghost of a source that has [`SHARE`] of the light, and at most.
+const CELLS: f64 = 32.0;
+const MOST_CELLS: f64 = 192.0;
+/// Distance of points, cells.
+const STEP: f32 = 0.35;
+/// Coarsest levels still have this many cells across the picture's shorter side.
+const COARSEST: usize = 12;
+
+/// The cells of one level about a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Level {
+    level: u32,
+    /// Cells, with the margin.
+    pub(super) columns: usize,
+    pub(super) rows: usize,
+    /// A cell's area on the sensor, mm².
+    area_mm2: f64,
+    principal: DVec2,
+    cell_mm: DVec2,
+}
+
+impl Level {
+    pub(super) fn new(raster: &Raster, level: u32) -> Self {
+        let side = f64::from(1_u32 << level);
+        let cell_mm = raster.pitch_mm() * side;
+        let cells = |pixels: usize| pixels.div_ceil(1 << level) + 2;
+        Self {
+            level,
+            columns: cells(raster.width()),
+            rows: cells(raster.height()),
+            area_mm2: cell_mm.x * cell_mm.y,
+            principal: raster.principal_px() / side,
+            cell_mm,
+        }
+    }
+
+    /// All levels of a picture, finest first.
+    pub(super) fn of(raster: &Raster) -> Vec<Self> {
+        let shorter = raster.width().min(raster.height());
+        (0..24).take_while(|l| *l == 0 || shorter >> l >= COARSEST).map(|l| Self::new(raster, l)).collect()
+    }
+
+    /// The cell whose middle lies at or before that of a pixel's column or row, and how far on to the next it lies.
+    pub(super) fn pixel(&self, pixel: usize) -> (usize, f32) {
+        let place = (pixel as f64 + 0.5) / f64::from(1_u32 << self.level) + 0.5;
+        (place as usize, (place - place.floor()) as f32)
+    }
+
+    /// Coordinates in cells, with the middle of cell i at i, of a point of the picture, mm.
+    fn place(&self, mm: DVec2) -> DVec2 {
+        // The margin adds a cell, the middle takes half of one.
+        self.principal + mm / self.cell_mm + 0.5
+    }
+}
+
+/// Light on a window of a level: area of the beam over area of the cell, by wavelength.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Laid {
+    /// The level.
+    pub(super) level: usize,
+    /// First column and row of the window.
+    pub(super) from: [usize; 2],
+    /// Columns of the window.
+    pub(super) columns: usize,
+    /// By wavelength, row by row.
+    pub(super) light: Vec<Vec<f32>>,
+    /// Mean cosine of the angle at which it lands.
+    pub(super) cosine: f64,
+}
+
+/// Lays the footprints (by wavelength) of a source that lies `outward` from the axis and has a share of all light; `None`
+/// where nothing falls on the picture.
+pub(super) fn lay(footprints: &[Footprint], outward: DVec2, share: f64, levels: &[Level]) -> Option<Laid> {
+    let bounds = bounds(footprints)?;
+    let level = level(bounds, share, levels);
+    let at = &levels[level];
+    let mut window = Window::new(bounds, outward, at)?;
+    let (mut cosines, mut area) = (0.0, 0.0);
+    let light = footprints.iter().map(|footprint| {
+        let step_mm = STEP * at.cell_mm.min_element() as f32;
+        footprint.each(step_mm, |landed| {
+            window.add(landed.x, landed.y, landed.area_mm2);
+            cosines += f64::from(landed.area_mm2 * landed.cosine);
+            area += f64::from(landed.area_mm2);
+        });
+        window.take()
+    });
+    let light: Vec<Vec<f32>> = light.collect();
+    let lit = light.iter().flatten().any(|value| *value > 0.0);
+    lit.then(|| Laid { level, from: window.from, columns: window.size[0], light, cosine: cosines / area })
+}
+
+/// A box about all footprints, mm.
+fn bounds(footprints: &[Footprint]) -> Option<[DVec2; 2]> {
+    let boxes = footprints.iter().filter_map(Footprint::bounds);
+    let vector = |[x, y]: [f32; 2]| DVec2::new(f64::from(x), f64::from(y));
+    boxes.map(|b| b.map(vector)).reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+}
+
+/// The coarsest level with as many cells across a ghost as its source is worth.
+fn level(bounds: [DVec2; 2], share: f64, levels: &[Level]) -> usize {
+    let cells = (CELLS * (share / SHARE).max(1.0).sqrt()).min(MOST_CELLS);
+    let cell_mm = (bounds[1] - bounds[0]).max_element() / cells;
+    levels.iter().rposition(|level| level.cell_mm.max_element() <= cell_mm).unwrap_or(0)
+}
+
+/// Part of a level.
+struct Window {
+    from: [usize; 2],
+    size: [usize; 2],
+    light: Vec<f32>,
+    per_mm2: f32,
+    /// From the beam's own axes to cells of the window.
+    origin: [f32; 2],
+    x_axis: [f32; 2],
+    y_axis: [f32; 2],
+}
+
+impl Window {
+    fn new([low, high]: [DVec2; 2], outward: DVec2, level: &Level) -> Option<Self> {
+        let turned = |x: f64, y: f64| level.place(outward * x + outward.perp() * y);
+        let corners = [turned(low.x, low.y), turned(low.x, high.y), turned(high.x, low.y), turned(high.x, high.y)];
+        let least = corners.into_iter().reduce(DVec2::min)?.floor().max(DVec2::ZERO);
+        let all = DVec2::new(level.columns as f64, level.rows as f64);
+        let most = (corners.into_iter().reduce(DVec2::max)?.floor() + 2.0).min(all);
+        let size = most - least;
+        if !(size.x > 0.0 && size.y > 0.0) {
+            return None;
+        }
+        let (from, size) = ([least.x as usize, least.y as usize], [size.x as usize, size.y as usize]);
+        let single = |v: DVec2| [v.x as f32, v.y as f32];
+        Some(Self {
+            from,
+            size,
+            light: vec![0.0; size[0] * size[1]],
+            per_mm2: (1.0 / level.area_mm2) as f32,
+            origin: single(level.place(DVec2::ZERO) - least),
+            x_axis: single(outward / level.cell_mm),
+            y_axis: single(outward.perp() / level.cell_mm),
+        })
+    }
+
+    /// Adds light that lands at a point of the beam's own axes, mm.
+    #[inline]
+    fn add(&mut self, x: f32, y: f32, area_mm2: f32) {
+        let column = self.origin[0] + x * self.x_axis[0] + y * self.y_axis[0];
+        let row = self.origin[1] + x * self.x_axis[1] + y * self.y_axis[1];
+        let [columns, rows] = self.size;
+        // What falls beside the window falls beside the picture's margin.
+        if !(column >= 0.0 && row >= 0.0 && column < (columns as f32) - 1.0 && row < (rows as f32) - 1.0) {
+            return;
+        }
+        let (i, j) = (column as usize, row as usize);
+        let (u, v) = (column - i as f32, row - j as f32);
+        let light = area_mm2 * self.per_mm2;
+        let at = j * columns + i;
+        self.light[at] += light * (1.0 - u) * (1.0 - v);
+        self.light[at + 1] += light * u * (1.0 - v);
+        self.light[at + columns] += light * (1.0 - u) * v;
+        self.light[at + columns + 1] += light * u * v;
+    }
+
+    fn take(&mut self) -> Vec<f32> {
+        let empty = vec![0.0; self.light.len()];
+        core::mem::replace(&mut self.light, empty)
+    }
+}
