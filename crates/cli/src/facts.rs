@@ -3,23 +3,31 @@
 use etendue_core::CameraPose;
 use etendue_core::quantity::{DigitalNumber, Electrons, Irradiance, Quantity, Radiance};
 use etendue_io::Provenance;
-use etendue_optics::{Lens, PupilProjection};
+use etendue_optics::{Cube, Face, Lens, PupilProjection, View, Window};
 use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, Products, Route};
 use etendue_projection::Sense;
+use glam::DVec2;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// Facts under which a radiance image states its geometry, so that `expose` can use it.
-pub const PITCH_TAN: &str = "pupil_pitch_tan";
-/// See [`PITCH_TAN`].
-pub const PRINCIPAL_X_PX: &str = "pupil_principal_x_px";
-/// See [`PITCH_TAN`].
-pub const PRINCIPAL_Y_PX: &str = "pupil_principal_y_px";
+/// Facts under which a radiance image states its geometry, so that `expose` can use it: the pitch and the axis of one
+/// rectilinear view, or the faces of a cube and what is stored of each.
+const PITCH_TAN: &str = "pupil_pitch_tan";
+const PRINCIPAL_X_PX: &str = "pupil_principal_x_px";
+const PRINCIPAL_Y_PX: &str = "pupil_principal_y_px";
+const FACE_PX: &str = "pupil_face_px";
+const VIEWS: &str = "pupil_views";
 
 const THROUGH_LENS: &str = "through the lens, pixel centres at +0.5, x right, y down; pose: camera x right, y down, \
                             z forward, origin at the centre of the entrance pupil, to world x forward, y left, z up, m";
 const AT_PUPIL: &str = "rectilinear from the centre of the entrance pupil: direction = ((x - principal_x) * pitch_tan, \
                         (y - principal_y) * pitch_tan, 1), pixel centres at +0.5, x right, y down";
+
+const AT_PUPIL_CUBE: &str = "up to six perspective views from the centre of the entrance pupil; pupil_views: of each \
+                             face: its first column and row in this image, its columns and rows, the column and row of \
+                             the face's own grid of pupil_face_px x pupil_face_px that come first; tangent = (index + \
+                             0.5) * 2 / pupil_face_px - 1; right, down, ahead: front x y z, right -z y x, left z y -x, \
+                             top x z -y, bottom x -z y, back -x y -z";
 
 /// The program's version.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -55,7 +63,7 @@ pub fn radiance_provenance(plan: &Plan, camera: &CameraPlan) -> Provenance {
 
 /// The facts of what another camera made of a stored radiance image.
 pub fn exposed_provenance(source: &Provenance, camera: &str, seed: u64) -> Provenance {
-    let pupil = [PITCH_TAN, PRINCIPAL_X_PX, PRINCIPAL_Y_PX];
+    let pupil = [PITCH_TAN, PRINCIPAL_X_PX, PRINCIPAL_Y_PX, FACE_PX, VIEWS];
     let further = source.further.iter().filter(|(name, _)| !pupil.contains(&name.as_str()));
     let mut further: BTreeMap<String, String> = further.map(|(name, text)| (name.clone(), text.clone())).collect();
     further.insert("radiance_camera".to_owned(), source.camera.clone());
@@ -71,15 +79,67 @@ pub fn exposed_provenance(source: &Provenance, camera: &str, seed: u64) -> Prove
 }
 
 fn at_pupil(mut facts: Provenance, projection: &PupilProjection, camera: u32) -> Provenance {
-    AT_PUPIL.clone_into(&mut facts.geometry);
-    let principal = projection.principal_px();
-    facts.further.extend([
-        (PITCH_TAN.to_owned(), projection.pitch_tan().to_string()),
-        (PRINCIPAL_X_PX.to_owned(), principal.x.to_string()),
-        (PRINCIPAL_Y_PX.to_owned(), principal.y.to_string()),
-        ("camera_index".to_owned(), camera.to_string()),
-    ]);
+    let geometry = match projection {
+        PupilProjection::Rectilinear(view) => {
+            AT_PUPIL.clone_into(&mut facts.geometry);
+            let principal = view.principal_px();
+            let numbers =
+                [(PITCH_TAN, projection.pitch_tan()), (PRINCIPAL_X_PX, principal.x), (PRINCIPAL_Y_PX, principal.y)];
+            numbers.map(|(name, number)| (name, number.to_string())).to_vec()
+        }
+        PupilProjection::Cube(cube) => {
+            AT_PUPIL_CUBE.clone_into(&mut facts.geometry);
+            vec![(FACE_PX, cube.face_px().to_string()), (VIEWS, views_text(cube))]
+        }
+    };
+    facts.further.extend(geometry.into_iter().map(|(name, text)| (name.to_owned(), text)));
+    facts.further.insert("camera_index".to_owned(), camera.to_string());
     facts
+}
+
+/// What is stored of a cube's faces: "front 0 0 808 808 -4 -4; …".
+fn views_text(cube: &Cube) -> String {
+    let view = |(view, window): (&Option<View>, Option<Window>)| {
+        let (view, Window { left, top, width, height }) = (view.as_ref()?, window?);
+        let [x, y] = view.first();
+        Some(format!("{} {x} {y} {width} {height} {left} {top}", view.face().name()))
+    };
+    let texts: Vec<String> = cube.views().iter().zip(cube.windows()).filter_map(view).collect();
+    texts.join("; ")
+}
+
+/// The geometry that a radiance image of `width` × `height` pixels states; `None` where it states none.
+pub fn pupil_geometry(facts: &Provenance, width: usize, height: usize) -> Option<Result<PupilProjection, String>> {
+    let number = |name: &str| facts.further.get(name)?.parse::<f64>().ok();
+    if let Some(views) = facts.further.get(VIEWS) {
+        let face_px = facts.further.get(FACE_PX).and_then(|text| text.parse().ok());
+        let cube = face_px
+            .and_then(|face_px| stated_cube(face_px, views))
+            .filter(|c| (c.width(), c.height()) == (width, height));
+        let told = || format!("its geometry, {VIEWS} = \"{views}\", is not one that etendue writes");
+        return Some(cube.map(PupilProjection::Cube).ok_or_else(told));
+    }
+    let principal = DVec2::new(number(PRINCIPAL_X_PX)?, number(PRINCIPAL_Y_PX)?);
+    let view = PupilProjection::rectilinear(width, height, number(PITCH_TAN)?, principal);
+    Some(view.map_err(|error| error.to_string()))
+}
+
+/// The cube of [`views_text`]; `None` where the text is not that of a cube.
+fn stated_cube(face_px: usize, text: &str) -> Option<Cube> {
+    let mut windows = [None; 6];
+    for view in text.split("; ") {
+        let words: Vec<&str> = view.split(' ').collect();
+        let [name, _, _, width, height, left, top] = words.as_slice() else { return None };
+        let face = Face::ALL.iter().position(|face| face.name() == *name)?;
+        let window = Window {
+            left: left.parse().ok()?,
+            top: top.parse().ok()?,
+            width: width.parse().ok()?,
+            height: height.parse().ok()?,
+        };
+        windows[face] = Some(window);
+    }
+    Cube::new(face_px, windows).ok().filter(|cube| views_text(cube) == text)
 }
 
 fn pose_rows(pose: &CameraPose) -> [[f64; 4]; 3] {

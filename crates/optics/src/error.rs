@@ -161,7 +161,7 @@ pub enum OpticsError {
         value: f64,
     },
     /// A lens that the route at the pupil cannot serve.
-    #[error("the route at the pupil serves pinhole, thin and thick lenses; a {kind} is rendered with route = \"lens\"")]
+    #[error("the route at the pupil needs one viewpoint; a {kind} has none: render it with route = \"lens\"")]
     NoPupilRoute {
         /// What the lens is.
         kind: &'static str,
@@ -204,6 +204,21 @@ pub enum OpticsError {
         /// Row.
         y: usize,
     },
+    /// A stored radiance image lacks a whole view that a picture needs.
+    #[error(
+        "the stored radiance image lacks its {view} view, at which the picture looks; render it with the lens that looks \
+         there, or use a narrower one"
+    )]
+    MissingView {
+        /// Which view.
+        view: &'static str,
+    },
+    /// A stored radiance image without views, or with empty ones.
+    #[error("a stored radiance image needs at least one view, and pixels in each")]
+    NoViews,
+    /// A picture none of whose pixels has a ray.
+    #[error("no pixel of the picture has a ray: the lens sees nothing there")]
+    SeesNothing,
     /// A cube whose size is not that of its stated geometry.
     #[error("the image has {got_width} × {got_height} pixels but its stated geometry has {width} × {height}")]
     Size {

@@ -17,4 +17,4 @@ pub use lens::{
     TruthRay,
 };
 pub use prescription::{Prescription, PrescriptionError, PrescriptionParameters};
-pub use pupil_image::{PupilProjection, Resampling, irradiance};
+pub use pupil_image::{Cube, Face, PupilProjection, Resampling, View, Window, irradiance};

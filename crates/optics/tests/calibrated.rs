@@ -166,7 +166,11 @@ fn what_cannot_be_is_refused() {
     let raster = Raster::centred(320, 240, PITCH_MM).expect("a raster");
     let lens = ideal(Ideal::Equidistant, 400.0);
     assert!(matches!(lens.check(&raster), Err(OpticsError::CalibratedSize { width: 640, .. })));
-    assert!(matches!(PupilProjection::covering(&lens, &raster), Err(OpticsError::NoPupilRoute { .. })));
+    let parallel = Lens::parallel(ParallelParameters { metres_per_mm: 1.0, f_number: 4.0, transmittance: 1.0 });
+    assert!(matches!(
+        PupilProjection::covering(&parallel.expect("legal"), &raster, 0, (400.0, 700.0)),
+        Err(OpticsError::NoPupilRoute { .. })
+    ));
     let folding = KannalaBrandt::new([-0.3, 0.0, 0.0, 0.0]).expect("finite");
     let folding = Lens::calibrated(parameters(Model::KannalaBrandt(folding), 300.0)).expect("a camera");
     let full = Raster::centred(640, 480, PITCH_MM).expect("a raster");

@@ -56,7 +56,7 @@ impl Light {
         stored: &PupilProjection,
         radiance: &SpectralCube<Radiance>,
     ) -> Result<Self, OpticsError> {
-        let seen = Resampling::new(*stored, &body.lens, &body.raster)?.apply(radiance)?;
+        let seen = Resampling::new(*stored, &body.lens, &body.raster, 0, radiance.bands())?.apply(radiance)?;
         let irradiance = irradiance(&seen, &body.lens, &body.raster)?;
         Ok(Self {
             radiance: None,

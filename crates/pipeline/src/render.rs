@@ -155,9 +155,11 @@ impl RaySource for LensSource {
     }
 }
 
-/// Rays from the centre of the entrance pupil; their weight is 1, so that irradiance reads as radiance.
+/// Rays from the centre of the entrance pupil; their weight is 1, so that irradiance reads as radiance. Pixels between the
+/// views of a cube have none.
 impl RaySource for PupilProjection {
     fn ray(&self, raster_px: DVec2, _pupil: DVec2, _wavelength_nm: f64) -> Option<PupilRay> {
-        Some(PupilRay { origin_m: DVec3::ZERO, direction: self.direction(raster_px), weight_sr: 1.0 })
+        let direction = self.direction(raster_px)?;
+        Some(PupilRay { origin_m: DVec3::ZERO, direction, weight_sr: 1.0 })
     }
 }

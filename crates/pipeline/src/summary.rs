@@ -5,7 +5,7 @@ use crate::film::Film;
 use crate::plan::{CameraPlan, Plan, Products, Route, Settings, SkyFacts};
 use crate::render::{census, layout};
 use etendue_core::Bands;
-use etendue_optics::{Lens, PupilStance};
+use etendue_optics::{Lens, PupilProjection, PupilStance};
 use etendue_projection::Sense;
 use etendue_sensor::Verdict;
 use etendue_tracer::geometry::Shape;
@@ -161,8 +161,17 @@ fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     match &camera.settings.route {
         Route::Lens => line(f, "route", "through the lens: vignetting, defocus and distortion by each sample's ray"),
         Route::Pupil(p) => {
-            let size =
-                format!("at the pupil: radiance of {} × {} px, then the lens on the picture", p.width(), p.height());
+            let views = match p {
+                PupilProjection::Rectilinear(_) => String::new(),
+                PupilProjection::Cube(cube) => {
+                    format!(" in {} of a cube's faces of {} px", p.views().count(), cube.face_px())
+                }
+            };
+            let size = format!(
+                "at the pupil: radiance of {} × {} px{views}, then the lens on the picture",
+                p.width(),
+                p.height()
+            );
             line(f, "route", format!("{size}; defocus is left out ({})", blur(camera)))
         }
     }?;

@@ -71,6 +71,17 @@ impl Raster {
         Self::new(width, height, DVec2::splat(pitch_mm), centre)
     }
 
+    /// The same grid with `margin_px` more pixels on all sides.
+    #[must_use]
+    pub fn with_margin(&self, margin_px: usize) -> Self {
+        Self {
+            width: self.width + 2 * margin_px,
+            height: self.height + 2 * margin_px,
+            principal_px: self.principal_px + margin_px as f64,
+            ..*self
+        }
+    }
+
     /// Columns.
     #[must_use]
     pub fn width(&self) -> usize {

@@ -3,7 +3,7 @@
 use super::render::{claim, commit, open};
 use crate::args;
 use crate::deliver::{Results, Wanted, photographs};
-use crate::facts::{self, Files, PITCH_TAN, PRINCIPAL_X_PX, PRINCIPAL_Y_PX};
+use crate::facts::{self, Files};
 use crate::failure::Failure;
 use crate::job::read_text;
 use crate::machine;
@@ -17,7 +17,6 @@ use etendue_pipeline::photograph::Light;
 use etendue_pipeline::plan::{CameraBody, Products};
 use etendue_scene::{Overrides, asset, load_camera};
 use etendue_sensor::FrameAddress;
-use glam::DVec2;
 use serde_json::json;
 use std::path::Path;
 
@@ -77,13 +76,10 @@ fn stored(path: &Path) -> Result<Stored, Failure> {
     };
     let remedy = "its geometry is not stated; expected radiance that etendue rendered with route = \"pupil\"";
     let provenance = file.provenance.ok_or_else(|| refuse(remedy))?;
-    let number = |name: &str| provenance.further.get(name).and_then(|text| text.parse::<f64>().ok());
-    let (Some(pitch), Some(x), Some(y)) = (number(PITCH_TAN), number(PRINCIPAL_X_PX), number(PRINCIPAL_Y_PX)) else {
-        return Err(refuse("it was rendered through a lens; render it with --set render.route=pupil to expose it"));
-    };
     let radiance = image.cube;
-    let projection = PupilProjection::new(radiance.width(), radiance.height(), pitch, DVec2::new(x, y));
-    let projection = projection.map_err(|error| refuse(&error.to_string()))?;
+    let through_lens = "it was rendered through a lens; render it with --set render.route=pupil to expose it";
+    let geometry = facts::pupil_geometry(&provenance, radiance.width(), radiance.height());
+    let projection = geometry.ok_or_else(|| refuse(through_lens))?.map_err(|why| refuse(&why))?;
     Ok(Stored { radiance, projection, provenance })
 }
 

@@ -243,6 +243,12 @@ impl Lens {
         matches!(self, Self::Prescription(lens) if lens.disperses())
     }
 
+    /// Whether the chief ray of a sensor point depends on the wavelength: lateral colour.
+    #[must_use]
+    pub fn spreads_colours(&self) -> bool {
+        matches!(self, Self::Prescription(lens) if lens.prescription().disperses())
+    }
+
     /// Focal length, mm; infinite for a parallel camera.
     #[must_use]
     pub fn focal_length_mm(&self) -> f64 {
@@ -414,6 +420,12 @@ impl Lens {
     pub fn tangent(&self, sensor_mm: DVec2) -> Option<DVec2> {
         let direction = self.direction(sensor_mm)?;
         (direction.z > 0.0).then(|| direction.truncate() / direction.z)
+    }
+
+    /// [`Lens::direction`] at a wavelength: that of the lens's lateral colour.
+    #[must_use]
+    pub fn direction_at(&self, sensor_mm: DVec2, _nm: f64) -> Option<DVec3> {
+        self.direction(sensor_mm)
     }
 
     /// The direction (of any length) of the chief ray of a sensor point, clipped or not; `None` where there is none.

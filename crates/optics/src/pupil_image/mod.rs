@@ -1,18 +1,28 @@
 //! The at-the-pupil route: from stored radiance at the entrance pupil to irradiance on a sensor.
 //!
-//! The radiance seen from the centre of the entrance pupil is rendered once in a rectilinear projection
+//! The radiance seen from the centre of the entrance pupil is rendered once, in one rectilinear view or in six
 //! ([`PupilProjection`]); any lens and sensor whose directions it holds can then be put before it:
 //!
-//! 1. [`Resampling`]: distortion and raster, radiance → radiance. A uniform radiance stays uniform.
+//! 1. [`Resampling`]: projection, distortion, lateral colour and raster, radiance → radiance. A uniform radiance stays uniform.
 //! 2. [`irradiance()`]: times the lens's étendue at the pixel: cos⁴, finite aperture, mechanical vignetting, transmittance.
 //!
-//! Left out here, and exact only through the lens: defocus, parallax across the pupil, and radiance that varies within
-//! the bundle of one sensor point.
+//! A prescription looks along its chief rays, whose origins are all taken to be the centre of the paraxial entrance pupil.
+//!
+//! Left out here, and exact only through the lens: defocus and aberrations, parallax across the pupil, and radiance that
+//! varies within the bundle of one sensor point.
 
+mod aim;
+mod covering;
+mod cube;
 mod irradiance;
 mod projection;
 mod resample;
+mod survey;
+mod view;
 
+pub(crate) use aim::FieldAngles;
+pub use cube::{Cube, Window};
 pub use irradiance::irradiance;
-pub use projection::PupilProjection;
+pub use projection::{PupilProjection, WIDEST_RECTILINEAR_RAD};
 pub use resample::Resampling;
+pub use view::{Face, View};

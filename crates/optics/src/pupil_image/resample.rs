@@ -1,32 +1,49 @@
-//! Distortion and raster by resampling a stored radiance image.
+//! Distortion, lateral colour and raster by resampling a stored radiance image.
 //!
-//! A pixel of the picture is cut into 2 × 2 cells; each cell's footprint in the stored image is taken as the upright
-//! rectangle between the images of its edges' middles, and the cell's radiance is the mean over that rectangle of the
-//! stored image, whose pixels count as uniform. Weights sum to one, so a uniform radiance stays uniform.
+//! A pixel of the picture is cut into cells, n × n with n = 2 or as many as it takes for a cell to be no wider than two stored
+//! pixels. Each cell is read from the view that shows its middle: its footprint is taken as the upright rectangle of the
+//! cell's own second moments there (for a cell with edges a and b: √(a_x² + b_x²) wide and √(a_y² + b_y²) high), and the
+//! cell's radiance is the mean over that rectangle of the stored image, whose pixels count as uniform. Weights sum to one,
+//! so a uniform radiance stays uniform.
 //!
 //! Blur: the picture's own pixel box, widened by the stored pixel's box. Where both grids have one pitch this is exactly
 //! linear interpolation of the stored pixels (the identity where the grids coincide: then nothing is blurred); where the
-//! stored image is finer it tends to the exact pixel mean. The shear of the footprint within a cell is left out: at most
-//! a quarter pixel times the off-diagonal of the distortion's derivative.
+//! stored image is finer it tends to the exact pixel mean. Views overlap by a few pixels, so that across the edges of a cube
+//! the radiance is as continuous as within a face.
+//!
+//! A pixel is the mean of its cells that see something; where none does it is dark. With lateral colour every band is
+//! resampled by the chief rays of its own middle.
 
+use super::aim::Aim;
+use super::covering::serves;
 use super::irradiance::check_size;
 use super::projection::PupilProjection;
+use super::survey::{REACH, Survey};
+use super::view::{Face, View};
 use crate::error::OpticsError;
 use crate::lens::Lens;
 use etendue_core::plane::{Plane, SpectralCube};
-use etendue_core::quantity::Radiance;
+use etendue_core::quantity::{Quantity, Radiance};
+use etendue_core::wavelength::Bands;
 use etendue_projection::Raster;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
-/// Cells a pixel along each axis.
-const CELLS: usize = 2;
+/// Cells a pixel along each axis, at least and at most.
+const CELLS: (usize, usize) = (2, 64);
+/// Stored pixels that a cell may be wide.
+const CELL_PX: f64 = 2.0;
+/// The least side of a cell's footprint, stored pixels: two make the box of a linear interpolation.
+const LEAST_PX: f64 = 0.5;
 
-/// The map from a stored radiance image to the picture of a lens and a raster.
-#[derive(Clone, Copy, Debug)]
+/// The map from a stored radiance image to the picture of a lens and a raster, with a margin about it.
+#[derive(Clone, Debug)]
 pub struct Resampling<'a> {
     stored: PupilProjection,
     lens: &'a Lens,
-    raster: &'a Raster,
+    /// The picture with its margin.
+    raster: Raster,
+    /// Cells a pixel along each axis.
+    cells: usize,
 }
 
 /// A share of one stored pixel in a pixel of the picture.
@@ -36,88 +53,212 @@ struct Tap {
     weight: f64,
 }
 
+/// The directions at the corners of a row of cells: above and below.
+type Corners<'a> = [&'a [Option<DVec3>]; 2];
+
 impl<'a> Resampling<'a> {
-    /// A resampling of images of geometry `stored`.
+    /// A resampling of images of geometry `stored` into the raster of the picture with `margin_px` more pixels on all sides.
     ///
     /// # Errors
     /// Where the picture needs directions that the image does not hold, or the lens cannot image the picture.
-    pub fn new(stored: PupilProjection, lens: &'a Lens, raster: &'a Raster) -> Result<Self, OpticsError> {
-        stored.check_covers(lens, raster)?;
-        Ok(Self { stored, lens, raster })
+    pub fn new(
+        stored: PupilProjection,
+        lens: &'a Lens,
+        raster: &Raster,
+        margin_px: usize,
+        bands: Bands,
+    ) -> Result<Self, OpticsError> {
+        serves(lens)?;
+        lens.check(raster)?;
+        let raster = raster.with_margin(margin_px);
+        let survey = Survey::new(lens, &raster, (bands.low_nm(), bands.high_nm()));
+        check_covers(&stored, &survey)?;
+        let widest = survey
+            .looks
+            .iter()
+            .filter_map(|look| look.sides_tan(stored.view(look.direction)?.face()).map(|[a, b]| a.max(b)));
+        let widest_px = widest.fold(0.0, f64::max) / stored.pitch_tan();
+        let cells = ((widest_px / CELL_PX).ceil() as usize).clamp(CELLS.0, CELLS.1);
+        Ok(Self { stored, lens, raster, cells })
+    }
+
+    /// The pixels of the result: those of the picture and of its margin.
+    #[must_use]
+    pub fn raster(&self) -> &Raster {
+        &self.raster
     }
 
     /// The radiance image in the raster of the picture.
     ///
     /// # Errors
-    /// Where the image's size is not that of its geometry.
+    /// Where the image's size is not that of its geometry, or directions are missing after all.
     pub fn apply(&self, radiance: &SpectralCube<Radiance>) -> Result<SpectralCube<Radiance>, OpticsError> {
         check_size(radiance, self.stored.width(), self.stored.height())?;
         let mut result = SpectralCube::new(self.raster.width(), self.raster.height(), radiance.bands());
-        let mut taps = Vec::new();
+        let reach_mm = self.raster.max_radius_mm() * REACH;
+        if !self.lens.spreads_colours() {
+            let aim = Aim::principal(self.lens, reach_mm);
+            self.apply_to(&aim, radiance.planes(), result.planes_mut())?;
+            return Ok(result);
+        }
+        for (i, (from, to)) in radiance.planes().iter().zip(result.planes_mut()).enumerate() {
+            let aim = Aim::new(self.lens, reach_mm, radiance.bands().centre_nm(i));
+            self.apply_to(&aim, core::slice::from_ref(from), core::slice::from_mut(to))?;
+        }
+        Ok(result)
+    }
+
+    /// A stored plane in the raster of the picture, each pixel the stored one nearest to its centre's chief ray (587.56 nm):
+    /// never averaged. `nothing` where no ray is.
+    ///
+    /// # Errors
+    /// Where the plane's size is not that of the geometry.
+    pub fn nearest<Q: Quantity>(&self, plane: &Plane<Q>, nothing: Q::Sample) -> Result<Plane<Q>, OpticsError> {
+        let (got_width, got_height) = (plane.width(), plane.height());
+        let (width, height) = (self.stored.width(), self.stored.height());
+        if (got_width, got_height) != (width, height) {
+            return Err(OpticsError::Size { got_width, got_height, width, height });
+        }
+        let aim = Aim::principal(self.lens, self.raster.max_radius_mm() * REACH);
+        let mut result = Plane::filled(self.raster.width(), self.raster.height(), nothing);
         for y in 0..self.raster.height() {
             for x in 0..self.raster.width() {
-                taps.clear();
-                self.pixel_taps(x, y, &mut taps);
-                for (from, to) in radiance.planes().iter().zip(result.planes_mut()) {
-                    to.set(x, y, weighted(from, &taps));
+                if let Some(index) = self.nearest_index(&aim, DVec2::new(x as f64, y as f64) + 0.5) {
+                    result.set(x, y, plane.samples()[index]);
                 }
             }
         }
         Ok(result)
     }
 
-    fn pixel_taps(&self, x: usize, y: usize, taps: &mut Vec<Tap>) {
-        let side = 1.0 / CELLS as f64;
-        for cell in 0..CELLS * CELLS {
-            let corner = DVec2::new((cell % CELLS) as f64, (cell / CELLS) as f64) * side;
-            let [low, high] = self.footprint(DVec2::new(x as f64, y as f64) + corner, side);
-            self.rectangle_taps(low, high, side * side, taps);
+    /// Resamples planes by the chief rays of one wavelength, row by row.
+    fn apply_to(&self, aim: &Aim<'_>, from: &[Plane<Radiance>], to: &mut [Plane<Radiance>]) -> Result<(), OpticsError> {
+        let n = self.cells;
+        let mut rows: Vec<Vec<Option<DVec3>>> = (0..=n).map(|i| self.corner_row(aim, i)).collect();
+        let mut taps = Vec::new();
+        for y in 0..self.raster.height() {
+            for x in 0..self.raster.width() {
+                taps.clear();
+                let mut seen = 0;
+                for j in 0..n {
+                    seen += self.add_cells([&rows[j], &rows[j + 1]], x * n, &mut taps)?;
+                }
+                if seen == 0 {
+                    taps.extend(self.single_tap(aim, DVec2::new(x as f64, y as f64) + 0.5));
+                    seen = taps.len();
+                }
+                let share = 1.0 / seen.max(1) as f64;
+                for (from, to) in from.iter().zip(to.iter_mut()) {
+                    to.set(x, y, weighted(from, &taps, share));
+                }
+            }
+            rows.swap(0, n);
+            for (j, row) in rows.iter_mut().enumerate().skip(1) {
+                *row = self.corner_row(aim, (y + 1) * n + j);
+            }
         }
+        Ok(())
     }
 
-    /// Corners (px of the stored image) of the rectangle that a square of the picture covers.
-    fn footprint(&self, corner: DVec2, side: f64) -> [DVec2; 2] {
-        let middle = corner + 0.5 * side;
-        let far = corner + side;
-        let left = self.stored_px(DVec2::new(corner.x, middle.y)).x;
-        let right = self.stored_px(DVec2::new(far.x, middle.y)).x;
-        let top = self.stored_px(DVec2::new(middle.x, corner.y)).y;
-        let bottom = self.stored_px(DVec2::new(middle.x, far.y)).y;
-        [DVec2::new(left, top), DVec2::new(right, bottom)]
+    /// Directions at the corners of the cells along the line `index` cells below the top.
+    fn corner_row(&self, aim: &Aim<'_>, index: usize) -> Vec<Option<DVec3>> {
+        let side = 1.0 / self.cells as f64;
+        let at = |i: usize| aim.direction(self.raster.sensor_mm(DVec2::new(i as f64, index as f64) * side));
+        (0..=self.raster.width() * self.cells).map(at).collect()
     }
 
-    /// The stored image's coordinates at raster coordinates of the picture. All of the picture has an image, which
-    /// [`Resampling::new`] made sure of; a NaN would show up as one in the picture.
-    fn stored_px(&self, raster_px: DVec2) -> DVec2 {
-        let tangent = self.lens.tangent(self.raster.sensor_mm(raster_px));
-        tangent.map_or(DVec2::NAN, |t| self.stored.px_of_tangent(t))
+    /// Adds the stored pixels of one row of a pixel's cells, from the cell `first` on, each cell's weights summing to one. How
+    /// many cells see something.
+    fn add_cells(&self, rows: Corners<'_>, first: usize, taps: &mut Vec<Tap>) -> Result<usize, OpticsError> {
+        let mut seen = 0;
+        for i in first..first + self.cells {
+            let [above, below] = rows;
+            if let [Some(a), Some(b), Some(c), Some(d)] = [above[i], above[i + 1], below[i], below[i + 1]] {
+                self.add_cell([a, b, c, d], taps)?;
+                seen += 1;
+            }
+        }
+        Ok(seen)
     }
 
-    /// Adds the stored pixels under a rectangle, their weights summing to `share`.
-    fn rectangle_taps(&self, low: DVec2, high: DVec2, share: f64, taps: &mut Vec<Tap>) {
-        let scale = share / ((high.x - low.x) * (high.y - low.y));
-        for (j, tall) in overlaps(low.y, high.y, self.stored.height()) {
-            for (i, wide) in overlaps(low.x, high.x, self.stored.width()) {
+    fn add_cell(&self, corners: [DVec3; 4], taps: &mut Vec<Tap>) -> Result<(), OpticsError> {
+        let middle: DVec3 = corners.into_iter().sum();
+        let view = self.stored.view(middle);
+        let view = view.ok_or(OpticsError::MissingView { view: Face::towards(middle).name() })?;
+        if let Some([low, high]) = footprint(view, corners, middle) {
+            self.rectangle_taps(view, low, high, taps);
+        }
+        Ok(())
+    }
+
+    /// Adds the stored pixels of a view under a rectangle, their weights summing to one.
+    fn rectangle_taps(&self, view: &View, low: DVec2, high: DVec2, taps: &mut Vec<Tap>) {
+        let scale = 1.0 / ((high.x - low.x) * (high.y - low.y));
+        let ([x0, y0], [width, height]) = (view.first(), view.size());
+        for (j, tall) in overlaps(low.y, high.y, y0, height) {
+            for (i, wide) in overlaps(low.x, high.x, x0, width) {
                 taps.push(Tap { index: j * self.stored.width() + i, weight: wide * tall * scale });
             }
         }
     }
+
+    /// The one stored pixel of a pixel at the image circle's edge, of which no whole cell sees anything but its centre does.
+    fn single_tap(&self, aim: &Aim<'_>, raster_px: DVec2) -> Option<Tap> {
+        self.nearest_index(aim, raster_px).map(|index| Tap { index, weight: 1.0 })
+    }
+
+    fn nearest_index(&self, aim: &Aim<'_>, raster_px: DVec2) -> Option<usize> {
+        let direction = aim.direction(self.raster.sensor_mm(raster_px))?;
+        let view = self.stored.view(direction)?;
+        let px = view.px(direction)?;
+        let [low, high] = view.bounds();
+        let px = px.floor().clamp(low, high - 1.0);
+        Some(px.y as usize * self.stored.width() + px.x as usize)
+    }
 }
 
-/// The pixels that the interval [low, high] touches, with the length in each. Pixels at the edge stand for what lies beyond
-/// (rounding only: the picture lies inside).
-fn overlaps(low: f64, high: f64, count: usize) -> impl Iterator<Item = (usize, f64)> {
-    let last = count - 1;
-    let index = move |p: f64| (p.floor().max(0.0) as usize).min(last);
-    let (first, end) = (index(low), index(high));
-    (first..=end).map(move |i| {
-        let from = if i == first { low } else { i as f64 };
+/// Refuses a picture that looks where the image holds nothing.
+fn check_covers(stored: &PupilProjection, survey: &Survey) -> Result<(), OpticsError> {
+    let mut worst: Option<(f64, OpticsError)> = None;
+    for look in &survey.looks {
+        let Err(error) = stored.check_holds(look.direction) else { continue };
+        let missing_rad =
+            if let OpticsError::MissingDirections { missing_rad, .. } = &error { *missing_rad } else { 0.0 };
+        if worst.as_ref().is_none_or(|(most, _)| missing_rad > *most) {
+            worst = Some((missing_rad, error));
+        }
+    }
+    worst.map_or(Ok(()), |(_, error)| Err(error))
+}
+
+/// The upright rectangle (px of the stored image) of a cell in a view that shows its middle: its second moments about it.
+fn footprint(view: &View, corners: [DVec3; 4], middle: DVec3) -> Option<[DVec2; 2]> {
+    let middle = view.px(middle)?;
+    let [a, b, c, d] = corners.map(|corner| view.px(corner));
+    let (centre, size) = if let [Some(a), Some(b), Some(c), Some(d)] = [a, b, c, d] {
+        let (across, down) = (0.5 * ((b - a) + (d - c)), 0.5 * ((c - a) + (d - b)));
+        let moment = |x: f64, y: f64| (x * x + y * y).sqrt().max(LEAST_PX);
+        (0.25 * ((a + d) + (b + c)), DVec2::new(moment(across.x, down.x), moment(across.y, down.y)))
+    } else {
+        // A cell of a right angle and more.
+        (middle, DVec2::splat(LEAST_PX))
+    };
+    Some([centre - 0.5 * size, centre + 0.5 * size])
+}
+
+/// The pixels from `first` on, `count` of them, that the interval [low, high] touches, with the length in each. Pixels at the
+/// edge stand for what lies beyond (rounding only: the picture lies inside).
+fn overlaps(low: f64, high: f64, first: usize, count: usize) -> impl Iterator<Item = (usize, f64)> {
+    let index = move |p: f64| (p.floor().max(first as f64) as usize).min(first + count - 1);
+    let (start, end) = (index(low), index(high));
+    (start..=end).map(move |i| {
+        let from = if i == start { low } else { i as f64 };
         let to = if i == end { high } else { (i + 1) as f64 };
         (i, to - from)
     })
 }
 
-fn weighted(plane: &Plane<Radiance>, taps: &[Tap]) -> f32 {
+fn weighted(plane: &Plane<Radiance>, taps: &[Tap], share: f64) -> f32 {
     let samples = plane.samples();
-    taps.iter().map(|tap| f64::from(samples[tap.index]) * tap.weight).sum::<f64>() as f32
+    (taps.iter().map(|tap| f64::from(samples[tap.index]) * tap.weight).sum::<f64>() * share) as f32
 }

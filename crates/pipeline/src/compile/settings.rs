@@ -225,10 +225,10 @@ fn route(render: &Render, body: &CameraBody, context: &mut Context<'_>) -> Optio
     match render.route.as_ref().map(|r| (r.value, &r.place)) {
         None | Some((render::Route::Lens, _)) => Some(Route::Lens),
         Some((render::Route::Pupil, place)) => {
-            let covering = context.accept(place, PupilProjection::covering(&body.lens, &body.raster))?;
-            let margin = render.overscan.as_ref().map_or(0.0, |o| o.value);
-            let (columns, rows) = (margin * covering.width() as f64, margin * covering.height() as f64);
-            Some(Route::Pupil(covering.widened(columns.ceil() as usize, rows.ceil() as usize)))
+            let range_nm = range(render, body, true);
+            let covering = PupilProjection::covering(&body.lens, &body.raster, 0, range_nm);
+            let covering = context.accept(place, covering)?;
+            Some(Route::Pupil(covering.overscanned(render.overscan.as_ref().map_or(0.0, |o| o.value))))
         }
     }
 }

@@ -9,6 +9,7 @@ use crate::error::PRINCIPAL_NM;
 use crate::prescription::Prescription;
 use crate::prescription::indices::Media;
 use crate::prescription::trace::{LensRay, Rims};
+use crate::pupil_image::FieldAngles;
 use core::f64::consts::FRAC_PI_2;
 use etendue_core::maths::f64::{atan2, sin_cos};
 use glam::{DVec2, DVec3};
@@ -33,10 +34,15 @@ pub(super) struct Chiefs {
 impl Chiefs {
     /// A little beyond `picture_mm` from the axis, or as far as principal rays exist and their angle grows.
     pub(super) fn new(lens: &Prescription, picture_mm: f64) -> Self {
-        let media = lens.media(PRINCIPAL_NM);
-        let step_mm = OVERSCAN * picture_mm / (KNOTS - 1) as f64;
+        Self::traced(lens, OVERSCAN * picture_mm, PRINCIPAL_NM, KNOTS)
+    }
+
+    /// At `knots` heights up to `reach_mm`, at a wavelength.
+    pub(super) fn traced(lens: &Prescription, reach_mm: f64, nm: f64, knots: usize) -> Self {
+        let media = lens.media(nm);
+        let step_mm = reach_mm / (knots - 1) as f64;
         let mut chiefs = Self { step_mm, slopes: vec![0.0], angles: vec![0.0] };
-        for i in 1..KNOTS {
+        for i in 1..knots {
             let s_mm = step_mm * i as f64;
             let found = solve(lens, &media, s_mm, chiefs.guess(s_mm, lens));
             let Some((slope, ray)) = found.and_then(|t| Some((t, front(lens, &media, s_mm, t)?))) else { break };
@@ -48,6 +54,11 @@ impl Chiefs {
             chiefs.angles.push(angle);
         }
         chiefs
+    }
+
+    /// Field angles at equal steps of height, as a table.
+    pub(super) fn into_field_angles(self) -> FieldAngles {
+        FieldAngles { step_mm: self.step_mm, angles: self.angles }
     }
 
     /// The greatest height that has a principal ray, mm.

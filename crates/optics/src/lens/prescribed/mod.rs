@@ -25,6 +25,7 @@ use crate::prescription::coating::Coating;
 use crate::prescription::filter::InterferenceFilter;
 use crate::prescription::{Prescription, PrescriptionError, Surface};
 use crate::pupil::MM;
+use crate::pupil_image::FieldAngles;
 use chief::Chiefs;
 use glam::{DVec2, DVec3};
 use region::Regions;
@@ -101,6 +102,12 @@ impl Prescribed {
     /// Transmittance of the filter; 1 for none.
     pub(crate) fn filtered(&self, nm: f64, cosine: f64) -> f64 {
         self.filter.as_ref().map_or(1.0, |filter| filter.transmittance(nm, cosine))
+    }
+
+    /// Field angles of chief rays (through the centre of the stop) of a wavelength at `knots` radii up to `reach_mm`, or as far
+    /// as they go.
+    pub(crate) fn field_angles(&self, reach_mm: f64, nm: f64, knots: usize) -> FieldAngles {
+        Chiefs::traced(&self.prescription, reach_mm, nm, knots).into_field_angles()
     }
 
     /// Where a direction of the camera frame is seen, mm.
