@@ -23,6 +23,7 @@ pub const WIDEST_RECTILINEAR_RAD: f64 = 65.0 * core::f64::consts::PI / 180.0;
 
 /// The geometry of a radiance image as seen from the entrance pupil: the closed list.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "there is one a camera, and settings that hold it stay Copy")]
 pub enum PupilProjection {
     /// One view about the axis.
     Rectilinear(View),
