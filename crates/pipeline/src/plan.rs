@@ -106,6 +106,7 @@ pub struct Development {
 
 /// The way to the sensor plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "there is one a camera, and settings that hold it stay Copy")]
 pub enum Route {
     /// Every sample goes through the lens.
     Lens,
