@@ -53,7 +53,7 @@ impl Shot {
     /// The light, sorted by what it is.
     #[must_use]
     pub fn light(&self) -> Light {
-        Light::of_film(self.camera(), self.film.clone())
+        Light::of_film(self.camera(), self.film.clone(), None)
     }
 
     /// Mean electrons of every pixel.

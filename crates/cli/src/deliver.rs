@@ -5,11 +5,14 @@ use crate::failure::Failure;
 use crate::tell;
 use etendue_core::Plane;
 use etendue_core::quantity::Electrons;
-use etendue_io::exr::{self, EncodeError, encode_ground_truth, encode_plane, encode_rays, encode_spectral};
+use etendue_io::exr::{
+    self, EncodeError, Lengths, encode_ground_truth, encode_plane, encode_radiance, encode_rays, encode_spectral,
+};
 use etendue_io::{OutputFolder, Provenance, png, sidecar};
 use etendue_pipeline::film::Film;
 use etendue_pipeline::photograph::{Light, take};
 use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan};
+use etendue_pipeline::pupil_depth::{PupilDepth, pupil_depth};
 use etendue_pipeline::rays::ray_table;
 use etendue_pipeline::truth::{GroundTruth, ground_truth};
 use etendue_sensor::{FrameAddress, SensorState};
@@ -39,8 +42,9 @@ pub fn deliver(
         tell(&format!("warning: camera {}: {not_finite} samples were not finite numbers\n", camera.name));
     }
     let mut results = Results { prefix: camera.name.clone(), folder };
-    let light = Light::of_film(camera, film);
-    spectra(plan, camera, &light, &mut results)?;
+    let depth = pupil_depth(plan, camera, simd);
+    let light = Light::of_film(camera, film, depth.as_ref());
+    spectra(plan, camera, &light, depth.as_ref(), &mut results)?;
     if let Some(electrons) = &light.electrons {
         self::electrons(plan, camera, electrons, &light, &mut results)?;
         let address = |frame| FrameAddress { seed: camera.settings.seed, camera: camera.index, frame, capture: 0 };
@@ -81,12 +85,19 @@ impl Results<'_> {
     }
 }
 
-fn spectra(plan: &Plan, camera: &CameraPlan, light: &Light, results: &mut Results<'_>) -> Result<(), Failure> {
+fn spectra(
+    plan: &Plan,
+    camera: &CameraPlan,
+    light: &Light,
+    depth: Option<&PupilDepth>,
+    results: &mut Results<'_>,
+) -> Result<(), Failure> {
     let products = &camera.products;
     if let Some(radiance) = light.radiance.as_ref().filter(|_| products.radiance) {
         let variance = products.variance.then_some(&radiance.variance);
         let facts = facts::radiance_provenance(plan, camera);
-        results.write(Files::RADIANCE, encode_spectral(&radiance.mean, variance, &facts))?;
+        let lengths = depth.map(|depth| Lengths { distance: &depth.distance, depth: &depth.depth });
+        results.write(Files::RADIANCE, encode_radiance(&radiance.mean, variance, lengths, &facts))?;
     }
     if products.irradiance {
         results.irradiance(light, products.variance, &facts::provenance(plan, camera))?;

@@ -7,7 +7,8 @@ use etendue_core::quantity::{Electrons, Identity, Irradiance, Length, Quantity, 
 use etendue_core::{Bands, Plane, SpectralCube};
 use etendue_io::Provenance;
 use etendue_io::exr::{
-    GroundTruth, Samples, SpectralImage, encode_ground_truth, encode_plane, encode_spectral, read_exr, read_spectral,
+    GroundTruth, Lengths, Samples, SpectralImage, encode_ground_truth, encode_plane, encode_radiance, encode_spectral,
+    read_exr, read_spectral,
 };
 use etendue_io::inspect::inspect;
 
@@ -54,6 +55,29 @@ fn radiance_and_its_variance_come_back_to_the_bit() {
     assert_eq!(bits(&image.variance.expect("variance")), bits(&variance));
     assert_eq!(file.provenance, Some(provenance()));
     assert_eq!(file.notes, Vec::<String>::new());
+}
+
+#[test]
+fn distances_stand_beside_the_radiance_and_come_back_to_the_bit() {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    let values = cube::<Radiance>(0.0);
+    let plane =
+        |offset: f32| Plane::<Length>::from_samples(3, 2, ODD.map(|v| v + offset).to_vec()).expect("six pixels");
+    let (distance, depth) = (plane(1.0), plane(2.0));
+    let lengths = Lengths { distance: &distance, depth: &depth };
+    let bytes = encode_radiance(&values, None, Some(lengths), &provenance()).expect("encodable");
+    let path = written(folder.path(), "a.exr", &bytes);
+    let file = read_spectral(&path).expect("readable");
+    assert_eq!(file.distance.as_ref(), Some(&distance));
+    assert_eq!((file.provenance, file.notes), (Some(provenance()), Vec::new()));
+    let SpectralImage::Radiance(image) = file.image else { panic!("radiance") };
+    assert_eq!(bits(&image.cube), bits(&values));
+    let channels = read_exr(&path).expect("readable").channels;
+    let stored = channels.iter().find(|c| c.name == "depth.Z").map(|c| c.samples.to_floats());
+    assert_eq!(stored.as_deref(), Some(depth.samples()));
+    // Without lengths the bytes are those of any spectral image.
+    let plain = encode_radiance(&values, None, None, &provenance()).expect("encodable");
+    assert_eq!(plain, encode_spectral(&values, None, &provenance()).expect("encodable"));
 }
 
 #[test]

@@ -14,6 +14,7 @@ pub mod mosaic;
 mod observer;
 pub mod photograph;
 pub mod plan;
+pub mod pupil_depth;
 
 pub mod rays;
 pub mod render;

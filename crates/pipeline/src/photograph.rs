@@ -2,7 +2,8 @@
 
 use crate::film::{CubeEstimate, Film};
 use crate::plan::{CameraBody, CameraPlan, Route};
-use etendue_core::quantity::{Electrons, Irradiance, Radiance, Variance};
+use crate::pupil_depth::PupilDepth;
+use etendue_core::quantity::{Electrons, Irradiance, Length, Radiance, Variance};
 use etendue_core::{Plane, SpectralCube};
 use etendue_isp::{Developed, RawPicture, develop};
 use etendue_optics::{OpticsError, PupilProjection, Resampling, irradiance};
@@ -24,15 +25,50 @@ pub struct Light {
     pub electrons_variance: Option<Plane<Variance>>,
 }
 
+/// A stored radiance image: what the route at the pupil begins with.
+#[derive(Clone, Copy, Debug)]
+pub struct Stored<'a> {
+    /// Its geometry.
+    pub projection: &'a PupilProjection,
+    /// Radiance as seen from the centre of the entrance pupil.
+    pub radiance: &'a SpectralCube<Radiance>,
+    /// Distance of what each of its pixels sees, where it is known.
+    pub distance: Option<&'a Plane<Length>>,
+}
+
+impl Stored<'_> {
+    /// Radiance and distance in the raster of a camera's picture, with `margin_px` more pixels on all sides.
+    ///
+    /// # Errors
+    /// Where the picture needs directions that the image does not hold.
+    pub fn seen(&self, body: &CameraBody, margin_px: usize) -> Result<Sight, OpticsError> {
+        let (lens, bands) = (&body.lens, self.radiance.bands());
+        let resampling = Resampling::new(*self.projection, lens, &body.raster, margin_px, bands)?;
+        let radiance = resampling.apply(self.radiance)?;
+        let distance = self.distance.map(|plane| resampling.nearest(plane, f32::NAN)).transpose()?;
+        Ok(Sight { radiance, distance })
+    }
+}
+
+/// What a camera's pixels see from the centre of the entrance pupil.
+#[derive(Clone, Debug)]
+pub struct Sight {
+    /// Mean radiance of each pixel.
+    pub radiance: SpectralCube<Radiance>,
+    /// Distance of what each pixel's centre sees, m; +∞ for the sky, NaN where no ray is.
+    pub distance: Option<Plane<Length>>,
+}
+
 impl Light {
-    /// The light of a camera's film.
+    /// The light of a camera's film; at the pupil with the distances of its pixels, where an operator needs them.
     #[must_use]
-    pub fn of_film(camera: &CameraPlan, film: Film) -> Self {
+    pub fn of_film(camera: &CameraPlan, film: Film, depth: Option<&PupilDepth>) -> Self {
         match &camera.settings.route {
             Route::Lens => Self::through_lens(&camera.body, film),
             Route::Pupil(projection) => {
                 let radiance = film.radiance().expect("the route at the pupil keeps a cube");
-                let light = Self::at_pupil(&camera.body, projection, &radiance.mean);
+                let distance = depth.map(|depth| &depth.distance);
+                let light = Self::at_pupil(&camera.body, &Stored { projection, radiance: &radiance.mean, distance });
                 let light = light.expect("a compiled plan covers its own picture");
                 Self { radiance: Some(radiance), ..light }
             }
@@ -51,12 +87,8 @@ impl Light {
     ///
     /// # Errors
     /// Where the picture needs directions that the image does not hold.
-    pub fn at_pupil(
-        body: &CameraBody,
-        stored: &PupilProjection,
-        radiance: &SpectralCube<Radiance>,
-    ) -> Result<Self, OpticsError> {
-        let seen = Resampling::new(*stored, &body.lens, &body.raster, 0, radiance.bands())?.apply(radiance)?;
+    pub fn at_pupil(body: &CameraBody, stored: &Stored<'_>) -> Result<Self, OpticsError> {
+        let Sight { radiance: seen, .. } = Stored { distance: None, ..*stored }.seen(body, 0)?;
         let irradiance = irradiance(&seen, &body.lens, &body.raster)?;
         Ok(Self {
             radiance: None,

@@ -38,7 +38,7 @@ pub struct GroundTruth {
 }
 
 /// What one pixel sees.
-enum Seen {
+pub(crate) enum Seen {
     /// No principal ray: the lens stops it.
     Nothing,
     Sky {
@@ -89,7 +89,8 @@ fn look(view: &View<'_>, palette: &Palette, camera: &CameraPlan, raster_px: DVec
     }
 }
 
-fn seen(view: &View<'_>, palette: &Palette, camera: &CameraPlan, ray: &PupilRay) -> Seen {
+/// What a ray of the camera frame meets.
+pub(crate) fn seen(view: &View<'_>, palette: &Palette, camera: &CameraPlan, ray: &PupilRay) -> Seen {
     let direction = camera.pose.direction_to_world(ray.direction);
     match view.truth(camera.pose.point_to_render(ray.origin_m), direction, |point| is_there(palette, point)) {
         None => Seen::Sky { ahead: ray.direction.z > 0.0 },
@@ -114,7 +115,7 @@ fn plane<Q: Quantity>(looks: &[Look], width: usize, height: usize, of: impl Fn(&
 }
 
 impl Seen {
-    fn depth(&self) -> f32 {
+    pub(crate) fn depth(&self) -> f32 {
         match self {
             Self::Nothing | Self::Sky { ahead: false } => f32::NAN,
             Self::Sky { ahead: true } => f32::INFINITY,
@@ -122,7 +123,7 @@ impl Seen {
         }
     }
 
-    fn distance(&self) -> f32 {
+    pub(crate) fn distance(&self) -> f32 {
         match self {
             Self::Nothing => f32::NAN,
             Self::Sky { .. } => f32::INFINITY,

@@ -7,13 +7,13 @@ use crate::facts::{self, Files};
 use crate::failure::Failure;
 use crate::job::read_text;
 use crate::machine;
-use etendue_core::SpectralCube;
-use etendue_core::quantity::Radiance;
+use etendue_core::quantity::{Length, Radiance};
+use etendue_core::{Plane, SpectralCube};
 use etendue_io::exr::{SpectralImage, read_spectral};
 use etendue_io::{Provenance, load_assets};
 use etendue_optics::PupilProjection;
 use etendue_pipeline::compile_camera;
-use etendue_pipeline::photograph::Light;
+use etendue_pipeline::photograph::{self, Light};
 use etendue_pipeline::plan::{CameraBody, Products};
 use etendue_scene::{Overrides, asset, load_camera};
 use etendue_sensor::FrameAddress;
@@ -23,6 +23,8 @@ use std::path::Path;
 /// A stored radiance image that a lens can be put before.
 struct Stored {
     radiance: SpectralCube<Radiance>,
+    /// Distance of what each pixel sees; `None` in files of former versions.
+    distance: Option<Plane<Length>>,
     projection: PupilProjection,
     provenance: Provenance,
 }
@@ -37,7 +39,7 @@ pub fn run(arguments: &args::Expose) -> Result<(), Failure> {
     claim(&folder, claimed.map(|file| format!("{name}/{file}")))?;
     let mut results = Results { prefix: name, folder: &mut folder };
     let pool = machine::pool(None)?;
-    pool.install(|| photograph(&body, &stored, arguments, &mut results))?;
+    pool.install(|| expose(&body, &stored, arguments, &mut results))?;
     commit(folder)
 }
 
@@ -80,16 +82,18 @@ fn stored(path: &Path) -> Result<Stored, Failure> {
     let through_lens = "it was rendered through a lens; render it with --set render.route=pupil to expose it";
     let geometry = facts::pupil_geometry(&provenance, radiance.width(), radiance.height());
     let projection = geometry.ok_or_else(|| refuse(through_lens))?.map_err(|why| refuse(&why))?;
-    Ok(Stored { radiance, projection, provenance })
+    Ok(Stored { radiance, distance: file.distance, projection, provenance })
 }
 
-fn photograph(
+fn expose(
     body: &CameraBody,
     stored: &Stored,
     arguments: &args::Expose,
     results: &mut Results<'_>,
 ) -> Result<(), Failure> {
-    let light = Light::at_pupil(body, &stored.projection, &stored.radiance).map_err(|error| {
+    let Stored { radiance, projection, distance, .. } = stored;
+    let at_pupil = photograph::Stored { projection, radiance, distance: distance.as_ref() };
+    let light = Light::at_pupil(body, &at_pupil).map_err(|error| {
         Failure::input(format!("{} through {}: {error}", arguments.radiance.display(), arguments.camera.display()))
     })?;
     let seed = arguments.seed.unwrap_or(stored.provenance.seed);

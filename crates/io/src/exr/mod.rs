@@ -7,6 +7,7 @@
 //! | writer | channels |
 //! | --- | --- |
 //! | [`encode_spectral`] | `S0.550,000000nm` …, `variance.S0.550,000000nm` …, preview `R`, `G`, `B` |
+//! | [`encode_radiance`] | the same, at the pupil `distance.Z` and `depth.Z` |
 //! | [`encode_ground_truth`] | `depth.Z`, `distance.Z`, `N.X/Y/Z`, `P.X/Y/Z`, `instance.ID`, `semantic.ID`, `material.ID` |
 //! | [`encode_rays`] | `origin.X/Y/Z`, `direction.X/Y/Z`, `ray.ID` |
 //! | [`encode_layers`] | as named |
@@ -32,7 +33,7 @@ pub use name::{SpectralChannel, Stokes, channel_name, parse_channel_name};
 pub use plane::encode_plane;
 pub use rays::encode_rays;
 pub use read::{ExrChannel, ExrFile, Samples, read_exr};
-pub use spectral::encode_spectral;
+pub use spectral::{Lengths, encode_radiance, encode_spectral};
 pub use spectral_read::{SpectralFile, SpectralImage, WithVariance, read_spectral};
 
 pub(crate) use preview::linear_srgb;

@@ -4,16 +4,30 @@
 //! true unit; `emissiveUnits` is the literal string that readers of the layout expect. R, G, B are a preview in linear
 //! sRGB whose luminance is in cd/m² (lx for irradiance): it is of no use for measurement.
 
-use etendue_core::SpectralCube;
-use etendue_core::quantity::{Quantity, Variance};
+use etendue_core::quantity::{Length, Quantity, Radiance, Variance};
+use etendue_core::{Plane, SpectralCube};
 
 use super::encode::{EncodeError, ExrImage};
 use super::name::{Stokes, channel_name};
 use super::preview::linear_srgb;
 use crate::Provenance;
 
+/// The channel of distances along pixels' rays.
+pub(super) const DISTANCE: &str = "distance.Z";
+/// The channel of distances along the camera's axis.
+const DEPTH: &str = "depth.Z";
+
 /// The version of the layout that we write.
 const LAYOUT_VERSION: &str = "1.0";
+
+/// How far off the scene is in each pixel of a radiance image, m; +∞ the sky, NaN no ray.
+#[derive(Clone, Copy, Debug)]
+pub struct Lengths<'a> {
+    /// Along the pixel's ray.
+    pub distance: &'a Plane<Length>,
+    /// Along the camera's axis.
+    pub depth: &'a Plane<Length>,
+}
 
 /// A spectral image, with the variance of its band means where given (its unit is the square of the cube's).
 pub fn encode_spectral<Q: Quantity<Sample = f32>>(
@@ -21,6 +35,30 @@ pub fn encode_spectral<Q: Quantity<Sample = f32>>(
     variance: Option<&SpectralCube<Variance>>,
     provenance: &Provenance,
 ) -> Result<Vec<u8>, EncodeError> {
+    spectral_image(cube, variance, provenance).into_bytes()
+}
+
+/// A radiance image, with the distances of what its pixels see where given, in channels `distance.Z` and `depth.Z`.
+pub fn encode_radiance(
+    cube: &SpectralCube<Radiance>,
+    variance: Option<&SpectralCube<Variance>>,
+    lengths: Option<Lengths<'_>>,
+    provenance: &Provenance,
+) -> Result<Vec<u8>, EncodeError> {
+    let mut image = spectral_image(cube, variance, provenance);
+    if let Some(Lengths { distance, depth }) = lengths {
+        image.float(DISTANCE, distance.samples().to_vec());
+        image.float(DEPTH, depth.samples().to_vec());
+        image.state("lengths", "distance.Z along the pixel's ray, depth.Z along the axis: m; +inf: sky; NaN: no ray");
+    }
+    image.into_bytes()
+}
+
+fn spectral_image<Q: Quantity<Sample = f32>>(
+    cube: &SpectralCube<Q>,
+    variance: Option<&SpectralCube<Variance>>,
+    provenance: &Provenance,
+) -> ExrImage {
     let mut image = ExrImage::new(cube.width(), cube.height(), provenance);
     add_bands(&mut image, cube, false);
     if let Some(variance) = variance {
@@ -31,7 +69,7 @@ pub fn encode_spectral<Q: Quantity<Sample = f32>>(
         image.float(name, plane);
     }
     state_layout::<Q>(&mut image, cube.bands().width_nm());
-    image.into_bytes()
+    image
 }
 
 fn add_bands<Q: Quantity<Sample = f32>>(image: &mut ExrImage, cube: &SpectralCube<Q>, variance: bool) {

@@ -7,11 +7,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use etendue_core::quantity::{Irradiance, Quantity, Radiance, Variance};
+use etendue_core::quantity::{Irradiance, Length, Quantity, Radiance, Variance};
 use etendue_core::{Bands, Plane, SpectralCube};
 
 use super::name::{SpectralChannel, Stokes, parse_channel_name};
 use super::read::{ExrFile, read_exr};
+use super::spectral::DISTANCE;
 use crate::{Error, Provenance};
 
 /// A cube and the variance of its band means, where the file has one.
@@ -37,6 +38,8 @@ pub enum SpectralImage {
 pub struct SpectralFile {
     /// Values.
     pub image: SpectralImage,
+    /// Distance (m) along the ray of each pixel of what it sees, where the file says.
+    pub distance: Option<Plane<Length>>,
     /// What the header says about the origin; `None` in a file of another writer.
     pub provenance: Option<Provenance>,
     /// What was assumed or passed over, in words.
@@ -56,12 +59,14 @@ pub(crate) fn spectral_of(file: &Path, exr: &ExrFile) -> Result<SpectralFile, Er
         _ => SpectralImage::Radiance(cubes(file, exr, &mut notes)?),
     };
     let provenance = exr.attributes.contains_key("etendue:plan_hash").then(|| Provenance::from_texts(&own_facts(exr)));
-    Ok(SpectralFile { image, provenance, notes })
+    let distance = exr.channels.iter().find(|channel| channel.name == DISTANCE);
+    let distance = distance.and_then(|c| Plane::from_samples(exr.width, exr.height, c.samples.to_floats()));
+    Ok(SpectralFile { image, distance, provenance, notes })
 }
 
 /// The facts that a provenance holds: ours, without those that describe the values.
 fn own_facts(exr: &ExrFile) -> BTreeMap<String, String> {
-    const OF_VALUES: [&str; 5] = ["quantity", "units", "band_width_nm", "preview", "variance"];
+    const OF_VALUES: [&str; 6] = ["quantity", "units", "band_width_nm", "preview", "variance", "lengths"];
     let ours = exr.attributes.iter().filter_map(|(name, text)| Some((name.strip_prefix("etendue:")?, text)));
     ours.filter(|(name, _)| !OF_VALUES.contains(name)).map(|(name, text)| (name.to_owned(), text.clone())).collect()
 }
