@@ -40,6 +40,7 @@ pub use calibrated::{Calibrated, CalibratedParameters, PupilStance};
 pub use falloff::Falloff;
 pub use parallel::{Parallel, ParallelParameters};
 pub use pinhole::{Pinhole, PinholeParameters};
+pub(crate) use prescribed::DIRECTIONS;
 pub use prescribed::{FieldReport, ImageReport, LensReport, Prescribed, Spot};
 pub use statements::PupilStatements;
 pub use thick::{ConstantPupil, Rim, Thick, ThickParameters};

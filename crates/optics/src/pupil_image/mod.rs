@@ -16,6 +16,7 @@ mod covering;
 mod cube;
 mod irradiance;
 mod projection;
+mod radial;
 mod resample;
 mod survey;
 mod view;

@@ -27,6 +27,7 @@ use etendue_core::quantity::{Quantity, Radiance};
 use etendue_core::wavelength::Bands;
 use etendue_projection::Raster;
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 /// Cells a pixel along each axis, at least and at most.
 const CELLS: (usize, usize) = (2, 64);
@@ -131,33 +132,41 @@ impl<'a> Resampling<'a> {
         Ok(result)
     }
 
-    /// Resamples planes by the chief rays of one wavelength, row by row.
+    /// Resamples planes by the chief rays of one wavelength, rows independently of each other.
     fn apply_to(&self, aim: &Aim<'_>, from: &[Plane<Radiance>], to: &mut [Plane<Radiance>]) -> Result<(), OpticsError> {
-        let n = self.cells;
-        let mut rows: Vec<Vec<Option<DVec3>>> = (0..=n).map(|i| self.corner_row(aim, i)).collect();
-        let mut taps = Vec::new();
-        for y in 0..self.raster.height() {
-            for x in 0..self.raster.width() {
-                taps.clear();
-                let mut seen = 0;
-                for j in 0..n {
-                    seen += self.add_cells([&rows[j], &rows[j + 1]], x * n, &mut taps)?;
-                }
-                if seen == 0 {
-                    taps.extend(self.single_tap(aim, DVec2::new(x as f64, y as f64) + 0.5));
-                    seen = taps.len();
-                }
-                let share = 1.0 / seen.max(1) as f64;
-                for (from, to) in from.iter().zip(to.iter_mut()) {
-                    to.set(x, y, weighted(from, &taps, share));
-                }
-            }
-            rows.swap(0, n);
-            for (j, row) in rows.iter_mut().enumerate().skip(1) {
-                *row = self.corner_row(aim, (y + 1) * n + j);
+        let width = self.raster.width();
+        let rows = (0..self.raster.height()).into_par_iter().map(|y| self.row(aim, y, from));
+        let rows: Vec<Vec<f32>> = rows.collect::<Result<_, _>>()?;
+        for (i, plane) in to.iter_mut().enumerate() {
+            for (to, row) in plane.samples_mut().chunks_exact_mut(width).zip(&rows) {
+                to.copy_from_slice(&row[i * width..(i + 1) * width]);
             }
         }
         Ok(())
+    }
+
+    /// A row of the picture in all planes, plane after plane.
+    fn row(&self, aim: &Aim<'_>, y: usize, from: &[Plane<Radiance>]) -> Result<Vec<f32>, OpticsError> {
+        let (n, width) = (self.cells, self.raster.width());
+        let lines: Vec<Vec<Option<DVec3>>> = (0..=n).map(|i| self.corner_row(aim, y * n + i)).collect();
+        let mut row = vec![0.0; from.len() * width];
+        let mut taps = Vec::new();
+        for x in 0..width {
+            taps.clear();
+            let mut seen = 0;
+            for pair in lines.windows(2) {
+                seen += self.add_cells([&pair[0], &pair[1]], x * n, &mut taps)?;
+            }
+            if seen == 0 {
+                taps.extend(self.single_tap(aim, DVec2::new(x as f64, y as f64) + 0.5));
+                seen = taps.len();
+            }
+            let share = 1.0 / seen.max(1) as f64;
+            for (i, plane) in from.iter().enumerate() {
+                row[i * width + x] = weighted(plane, &taps, share);
+            }
+        }
+        Ok(row)
     }
 
     /// Directions at the corners of the cells along the line `index` cells below the top.

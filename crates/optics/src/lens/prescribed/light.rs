@@ -10,8 +10,8 @@ use core::f64::consts::PI;
 use etendue_core::ray::PupilRay;
 use glam::{DVec2, DVec3};
 
-/// Directions over half a turn and points of a radius of the étendue's quadrature.
-const DIRECTIONS: usize = 96;
+/// Directions over half a turn of the étendue's quadrature.
+pub(crate) const DIRECTIONS: usize = 96;
 /// Gauss–Legendre abscissae and weights on [0, 1], five points.
 const GAUSS: [[f64; 2]; 5] = [
     [0.046_910_077_030_668, 0.118_463_442_528_094_5],
@@ -65,27 +65,30 @@ impl Prescribed {
         DVec3::new(point.x, point.y, z) * MM
     }
 
-    /// ∫ τ cos⁴ θ dt over what passes at 587.56 nm: for each direction from the region's centre the edge is found by
-    /// bisection, then Gauss's rule along the radius and equal steps around.
     pub(crate) fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
-        let s_mm = sensor_mm.length();
+        self.etendue_at_sr(sensor_mm.length(), PRINCIPAL_NM, DIRECTIONS)
+    }
+
+    /// ∫ τ cos⁴ θ dt over what passes at a wavelength and a distance from the axis: for each of some directions from the
+    /// region's centre the edge is found by bisection, then Gauss's rule along the radius and equal steps around.
+    pub(crate) fn etendue_at_sr(&self, s_mm: f64, nm: f64, directions: usize) -> f64 {
         let Some(ellipse) = self.regions.ellipse(s_mm) else { return 0.0 };
-        let media = self.prescription.media(PRINCIPAL_NM);
+        let media = self.prescription.media(nm);
         let meridian = Meridian::at(s_mm, self.prescription.sensor_mm());
         let opening = Opening { lens: &self.prescription, media: &media, meridian };
         let centre = DVec2::new(ellipse.centre, 0.0);
         let sector = |i: usize| {
-            let direction = unit(PI * (i as f64 + 0.5) / DIRECTIONS as f64) * ellipse.axes;
+            let direction = unit(PI * (i as f64 + 0.5) / directions as f64) * ellipse.axes;
             let edge = opening.reach(centre, direction, 3.0, 48, 40);
-            let along = |[x, w]: [f64; 2]| w * x * self.passing(&meridian, centre + direction * (edge * x));
+            let along = |[x, w]: [f64; 2]| w * x * self.passing(&meridian, centre + direction * (edge * x), nm);
             edge * edge * GAUSS.into_iter().map(along).sum::<f64>()
         };
-        let turn = 2.0 * PI / DIRECTIONS as f64;
-        ellipse.axes.x * ellipse.axes.y * turn * (0..DIRECTIONS).map(sector).sum::<f64>()
+        let turn = 2.0 * PI / directions as f64;
+        ellipse.axes.x * ellipse.axes.y * turn * (0..directions).map(sector).sum::<f64>()
     }
 
-    fn passing(&self, meridian: &Meridian, t: DVec2) -> f64 {
-        self.out(meridian, t, PRINCIPAL_NM).map_or(0.0, |(_, transmittance)| transmittance * Meridian::cos4(t))
+    fn passing(&self, meridian: &Meridian, t: DVec2, nm: f64) -> f64 {
+        self.out(meridian, t, nm).map_or(0.0, |(_, transmittance)| transmittance * Meridian::cos4(t))
     }
 }
 

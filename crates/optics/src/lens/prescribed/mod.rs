@@ -30,6 +30,7 @@ use chief::Chiefs;
 use glam::{DVec2, DVec3};
 use region::Regions;
 
+pub(crate) use light::DIRECTIONS;
 pub use report::{FieldReport, ImageReport, LensReport, Spot};
 
 /// A prescription, focused, with its pupils found for a picture of a given size.
