@@ -2,26 +2,41 @@
 //!
 //! | order | step | module |
 //! | --- | --- | --- |
-//! | 1 | black level off, white level to 1 | [`develop`](develop()) |
-//! | 2 | white balance, highlights clipped at 1 | [`white_balance`] |
-//! | 3 | bilinear demosaic | [`demosaic`] |
-//! | 4 | camera colours to linear sRGB | [`colour_matrix`] |
-//! | 5 | digital gain | [`develop`](develop()) |
-//! | 6 | clip, sRGB encoding, 8 bits | [`tone`] |
+//! | 1 | black level off, white level to 1 | [`black_level`] |
+//! | 2 | defective pixels | [`defects`] |
+//! | 3 | shading | [`shading`] |
+//! | 4 | white balance, highlights clipped at 1 | [`white_balance`] |
+//! | 5 | demosaic | [`demosaic`] |
+//! | 6 | noise reduction | [`detail`] |
+//! | 7 | camera colours to linear sRGB, digital gain | [`colour_matrix`] |
+//! | 8 | clip, tone curve | [`tone`] |
+//! | 9 | sharpening | [`detail`] |
 //!
-//! This is a plain, stated way to look at a raw picture, not the look of any camera. Left out for now: denoising,
-//! sharpening, highlight recovery, local tone mapping, mosaics other than Bayer-like ones. This crate does not know
-//! electrons: a raw picture is digital numbers between a black and a white level.
+//! Black level, white balance, demosaic, colour and tone are always there; the others only where they are asked for. This
+//! is a plain, stated way to look at a raw picture, not the look of any camera. Left out: highlight recovery, local tone
+//! mapping, chromatic aberration, temporal noise reduction. This crate does not know electrons: a raw picture is digital
+//! numbers between a black and a white level.
 
+pub mod black_level;
 pub mod colour_matrix;
+pub mod defects;
 pub mod demosaic;
+pub mod detail;
 mod develop;
 mod mosaic;
+mod raw;
+pub mod shading;
 pub mod tone;
 pub mod white_balance;
 
-pub use colour_matrix::{ColourMatrix, FitError, fit_colour_matrix};
-pub use develop::{Colour, DevelopError, Developed, Processing, RawPicture, develop};
-pub use mosaic::{Filter, Mosaic, MosaicError};
-pub use tone::encode;
-pub use white_balance::{NoResponse, white_balance_from_illuminant};
+pub use black_level::BlackLevel;
+pub use colour_matrix::{ColourMatrix, FitError, MatrixError, NOISE_OF_MANY_CHANNELS, fit_colour_matrix};
+pub use defects::Defects;
+pub use demosaic::Demosaic;
+pub use detail::{Bilateral, DetailError, NoiseReduction, Unsharp};
+pub use develop::{Colour, DevelopError, Developed, Facts, Processing, develop};
+pub use mosaic::{Filter, MAX_CHANNELS, Mosaic, MosaicError, Tile};
+pub use raw::RawPicture;
+pub use shading::{Shading, ShadingError};
+pub use tone::{Oecf, SCurve, Table, ToneCurve, ToneError};
+pub use white_balance::{NoResponse, WhiteBalance, white_balance_from_illuminant};

@@ -1,7 +1,16 @@
 //! Which colour a pixel of a raw picture measures, in the words of development.
+//!
+//! A tile of filters repeats from the top left corner. The kinds of filter that it holds, in the order of [`Filter`], are
+//! the **channels** of the picture: a Bayer tile has red, green and blue, an RCCC tile red and clear.
 
-/// What a pixel's filter lets through.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Channels that a picture can have at most.
+pub const MAX_CHANNELS: usize = 4;
+
+/// The farthest that interpolation looks for a colour, px.
+const MAX_REACH: usize = 4;
+
+/// What a pixel's filter lets through. The order is the order of channels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Filter {
     /// Red.
     Red,
@@ -9,6 +18,16 @@ pub enum Filter {
     Green,
     /// Blue.
     Blue,
+    /// Everything the sensor sees: "C" of RCCC and RCCB, "W" of RGBW.
+    Clear,
+    /// Near infrared.
+    Infrared,
+    /// Green and blue.
+    Cyan,
+    /// Red and blue.
+    Magenta,
+    /// Red and green.
+    Yellow,
 }
 
 /// How filters lie over the raster.
@@ -20,11 +39,13 @@ pub enum Mosaic {
     Tile(Tile),
 }
 
-/// A rectangle of filters, every two by two neighbours of which hold all three colours.
+/// A rectangle of filters of two to four kinds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tile {
     width: usize,
+    channels: Vec<usize>,
     filters: Vec<Filter>,
+    reach: usize,
 }
 
 /// Why a mosaic cannot be developed.
@@ -40,59 +61,157 @@ pub enum MosaicError {
         /// Entries given.
         entries: usize,
     },
-    /// Somewhere a colour is farther than a neighbour away.
+    /// One kind of filter, or too many.
     #[error(
-        "the two by two pixels at column {x}, row {y} of the filter tile lack a colour, and bilinear demosaic needs red, green and blue in each: only Bayer-like tiles can be developed"
+        "a filter tile of {0} kinds of filter cannot be developed: two to four are expected; a tile of one is mono"
     )]
-    Sparse {
-        /// Column of the block's top left pixel.
-        x: usize,
-        /// Row of the block's top left pixel.
-        y: usize,
-    },
+    Kinds(usize),
+    /// Somewhere a colour is too far away.
+    #[error(
+        "a block of {MAX_REACH} × {MAX_REACH} pixels of the filter tile lacks one of its colours, and interpolation looks no farther: use a tile that mixes its colours more closely"
+    )]
+    Sparse,
 }
 
 impl Mosaic {
     /// A repeating tile of filters, row by row.
     ///
     /// # Errors
-    /// Where the entries do not fill the tile, or two by two neighbours anywhere lack a colour.
+    /// Where the entries do not fill the tile, are of one kind or more than four, or leave a colour too far away.
     pub fn tile(width: usize, height: usize, filters: Vec<Filter>) -> Result<Self, MosaicError> {
         if filters.is_empty() || width * height != filters.len() {
             return Err(MosaicError::Shape { width, height, entries: filters.len() });
         }
-        let tile = Tile { width, filters };
-        for (x, y) in (0..width * height).map(|i| (i % width, i / width)) {
-            let block = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(dx, dy)| tile.at(x + dx, y + dy));
-            if ![Filter::Red, Filter::Green, Filter::Blue].iter().all(|f| block.contains(f)) {
-                return Err(MosaicError::Sparse { x, y });
-            }
+        let mut kinds = filters.clone();
+        kinds.sort_unstable();
+        kinds.dedup();
+        if !(2..=MAX_CHANNELS).contains(&kinds.len()) {
+            return Err(MosaicError::Kinds(kinds.len()));
         }
-        Ok(Self::Tile(tile))
+        let channel = |filter: &Filter| kinds.partition_point(|kind| kind < filter);
+        let channels = filters.iter().map(channel).collect();
+        let tile = Tile { width, channels, filters: kinds, reach: 0 };
+        let reach = (1..MAX_REACH).find(|reach| tile.full(reach + 1)).ok_or(MosaicError::Sparse)?;
+        Ok(Self::Tile(Tile { reach, ..tile }))
+    }
+
+    /// Channels of the picture: 1 of a mono one.
+    #[must_use]
+    pub fn channels(&self) -> usize {
+        match self {
+            Self::Mono => 1,
+            Self::Tile(tile) => tile.filters.len(),
+        }
+    }
+
+    /// The channel of the pixel in column `x`, row `y`.
+    #[must_use]
+    pub fn channel_at(&self, x: usize, y: usize) -> usize {
+        match self {
+            Self::Mono => 0,
+            Self::Tile(tile) => tile.at(x, y),
+        }
+    }
+
+    /// Columns and rows after which the filters repeat.
+    #[must_use]
+    pub fn period(&self) -> (usize, usize) {
+        match self {
+            Self::Mono => (1, 1),
+            Self::Tile(tile) => (tile.width, tile.height()),
+        }
     }
 }
 
 impl Tile {
-    /// The filter of the pixel in column `x`, row `y`.
+    /// The channel of the pixel in column `x`, row `y`.
     #[must_use]
-    pub fn at(&self, x: usize, y: usize) -> Filter {
-        let height = self.filters.len() / self.width;
-        self.filters[y % height * self.width + x % self.width]
+    pub fn at(&self, x: usize, y: usize) -> usize {
+        self.channels[y % self.height() * self.width + x % self.width]
+    }
+
+    /// Rows of the tile.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.channels.len() / self.width
+    }
+
+    /// The kinds of filter, one a channel.
+    #[must_use]
+    pub fn filters(&self) -> &[Filter] {
+        &self.filters
+    }
+
+    /// How far a pixel may have to look for each of the colours, px: 1 for tiles of two by two.
+    #[must_use]
+    pub fn reach(&self) -> usize {
+        self.reach
+    }
+
+    /// Whether it is a Bayer tile in any of its four phases.
+    #[must_use]
+    pub fn is_bayer(&self) -> bool {
+        let corners = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(x, y)| self.at(x, y));
+        let two_by_two = self.width <= 2 && self.height() <= 2 && self.channels.len() == 4;
+        self.filters == [Filter::Red, Filter::Green, Filter::Blue]
+            && two_by_two
+            && matches!(corners, [1, _, _, 1] | [_, 1, 1, _])
+    }
+
+    /// Whether every block of `size` × `size` pixels holds all channels.
+    fn full(&self, size: usize) -> bool {
+        let in_block = |x: usize, y: usize| {
+            let mut seen = [false; MAX_CHANNELS];
+            for (dx, dy) in (0..size * size).map(|i| (i % size, i / size)) {
+                seen[self.at(x + dx, y + dy)] = true;
+            }
+            seen.into_iter().filter(|s| *s).count() == self.filters.len()
+        };
+        (0..self.channels.len()).all(|i| in_block(i % self.width, i / self.width))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Filter::{Blue, Green, Red};
+    use super::Filter::{Blue, Clear, Cyan, Green, Infrared, Magenta, Red, Yellow};
     use super::*;
 
+    fn tile(width: usize, height: usize, filters: &[Filter]) -> Tile {
+        match Mosaic::tile(width, height, filters.to_vec()).expect("a legal tile") {
+            Mosaic::Tile(tile) => tile,
+            Mosaic::Mono => unreachable!("a tile is not mono"),
+        }
+    }
+
     #[test]
-    fn bayer_tiles_pass_and_others_are_told_why_not() {
-        assert!(Mosaic::tile(2, 2, vec![Green, Blue, Red, Green]).is_ok());
-        assert_eq!(Mosaic::tile(2, 2, vec![Red; 4]), Err(MosaicError::Sparse { x: 0, y: 0 }));
-        assert!(matches!(Mosaic::tile(2, 2, vec![Red]), Err(MosaicError::Shape { .. })));
-        // A quad-Bayer tile has blocks of one colour.
+    fn channels_are_the_kinds_of_filter_in_order() {
+        let rccc = tile(2, 2, &[Red, Clear, Clear, Clear]);
+        assert_eq!((rccc.filters(), rccc.at(0, 0), rccc.at(3, 5)), (&[Red, Clear][..], 0, 1));
+        let cmyg = tile(2, 2, &[Cyan, Yellow, Green, Magenta]);
+        assert_eq!((cmyg.filters(), cmyg.at(1, 0)), (&[Green, Cyan, Magenta, Yellow][..], 3));
+        assert_eq!(tile(2, 2, &[Red, Green, Infrared, Blue]).reach(), 1);
+    }
+
+    #[test]
+    fn only_bayer_is_bayer() {
+        assert!(tile(2, 2, &[Green, Blue, Red, Green]).is_bayer() && tile(2, 2, &[Red, Green, Green, Blue]).is_bayer());
+        assert!(!tile(2, 2, &[Red, Green, Blue, Green]).is_bayer());
+        assert!(!tile(2, 2, &[Red, Clear, Clear, Blue]).is_bayer());
+    }
+
+    #[test]
+    fn a_wider_tile_has_a_wider_reach() {
         let quad = [Red, Red, Green, Green, Red, Red, Green, Green, Green, Green, Blue, Blue, Green, Green, Blue, Blue];
-        assert!(Mosaic::tile(4, 4, quad.to_vec()).is_err());
+        assert_eq!(tile(4, 4, &quad).reach(), 2);
+    }
+
+    #[test]
+    fn what_cannot_be_developed_is_refused() {
+        assert_eq!(Mosaic::tile(2, 2, vec![Red; 4]), Err(MosaicError::Kinds(1)));
+        assert_eq!(Mosaic::tile(5, 1, vec![Red, Green, Blue, Clear, Cyan]), Err(MosaicError::Kinds(5)));
+        assert!(matches!(Mosaic::tile(2, 2, vec![Red]), Err(MosaicError::Shape { .. })));
+        let mut far = vec![Green; 36];
+        far[0] = Red;
+        assert_eq!(Mosaic::tile(6, 6, far), Err(MosaicError::Sparse));
     }
 }

@@ -129,6 +129,7 @@ pub fn take(
             black_level_dn: raw.black_level_dn,
             white_level_dn: raw.white_level_dn,
             mosaic: &development.mosaic,
+            optical_black: None,
         };
         develop(&picture, &development.processing).expect("a compiled plan's processing fits its sensor")
     });

@@ -5,6 +5,7 @@ use crate::film::Film;
 use crate::plan::{CameraPlan, Plan, Products, Route, Settings, SkyFacts};
 use crate::render::{census, layout};
 use etendue_core::Bands;
+use etendue_isp::WhiteBalance;
 use etendue_optics::{Lens, PupilProjection, PupilStance};
 use etendue_projection::Sense;
 use etendue_sensor::Verdict;
@@ -266,15 +267,20 @@ fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
 }
 
 fn processing(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
-    match camera.body.development.as_ref().map(|d| d.processing) {
+    match camera.body.development.as_ref().map(|d| &d.processing) {
         None => line(f, "processing", "none: no picture is made"),
         Some(processing) => {
             let gain = processing.exposure_gain;
-            match processing.colour {
+            match &processing.colour {
                 None => line(f, "processing", format!("monochrome, gain {gain}, sRGB tone")),
                 Some(colour) => {
-                    let [r, g, b] = colour.white_balance;
-                    let balance = format!("white balance {r:.4} {g:.4} {b:.4}");
+                    let balance = match &colour.white_balance {
+                        WhiteBalance::GreyWorld => "white balance by grey world".to_owned(),
+                        WhiteBalance::Gains(gains) => {
+                            let gains: Vec<String> = gains.iter().map(|g| format!("{g:.4}")).collect();
+                            format!("white balance {}", gains.join(" "))
+                        }
+                    };
                     line(
                         f,
                         "processing",

@@ -5,13 +5,13 @@ use super::lens::lens;
 use super::sensor::{fill_factor, sensor};
 use super::spectrum::named_illuminant;
 use crate::plan::{CameraBody, Development};
-use etendue_isp::{Colour, Filter, Mosaic, Processing, fit_colour_matrix, white_balance_from_illuminant};
+use etendue_isp::{
+    Colour, Filter, Mosaic, Processing, WhiteBalance as Balance, fit_colour_matrix, white_balance_from_illuminant,
+};
 use etendue_scene::record::processing::{ColourMatrix, WhiteBalance};
 use etendue_scene::record::{self, Camera};
 use etendue_sensor::Sensor;
 use etendue_spectra::{Spectrum, chart};
-
-const IDENTITY: etendue_isp::ColourMatrix = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// The camera's models; `None` with the faults noted.
 pub(super) fn body(camera: &Camera, context: &mut Context<'_>) -> Option<CameraBody> {
@@ -33,13 +33,14 @@ fn development(record: &record::Processing, sensor: &Sensor, context: &mut Conte
     let exposure_gain = record.exposure_gain.as_ref().map_or(1.0, |g| g.value);
     let [red, green, blue] = sensor.responsivities() else {
         refuse_colour(record, context);
-        let processing = Processing { colour: None, exposure_gain };
+        let processing = Processing { exposure_gain, ..Processing::plain(None) };
         return Some(Development { mosaic: Mosaic::Mono, processing });
     };
     let channels = [red, green, blue];
     let white_balance = white_balance(record, channels, context)?;
     let matrix = colour_matrix(record, channels, context)?;
-    let processing = Processing { colour: Some(Colour { white_balance, matrix }), exposure_gain };
+    let colour = Colour { white_balance: Balance::Gains(white_balance), matrix };
+    let processing = Processing { exposure_gain, ..Processing::plain(Some(colour)) };
     Some(Development { mosaic: context.accept(&record.place, mosaic(sensor))?, processing })
 }
 
@@ -57,20 +58,20 @@ fn mosaic(sensor: &Sensor) -> Result<Mosaic, etendue_isp::MosaicError> {
     Mosaic::tile(cfa.width(), cfa.height(), cfa.channels().iter().map(filter).collect())
 }
 
-fn white_balance(record: &record::Processing, channels: [&Spectrum; 3], context: &mut Context<'_>) -> Option<[f64; 3]> {
+fn white_balance(record: &record::Processing, channels: [&Spectrum; 3], context: &mut Context<'_>) -> Option<Vec<f64>> {
     match &record.white_balance {
-        None => Some([1.0; 3]),
+        None => Some(vec![1.0; 3]),
         Some(WhiteBalance::Factors(factors)) => {
             if factors.value.iter().any(|f| *f < 1.0) {
                 let problem = format!("a factor of {:?} is below 1 and would tint saturated pixels", factors.value);
                 context.fault(&factors.place, problem, "divide all three by the smallest");
                 return None;
             }
-            Some(factors.value)
+            Some(factors.value.to_vec())
         }
         Some(WhiteBalance::Illuminant(name)) => {
             let illuminant = named_illuminant(name, context)?;
-            context.accept(&name.place, white_balance_from_illuminant(channels, &illuminant))
+            context.accept(&name.place, white_balance_from_illuminant(&channels, &illuminant))
         }
     }
 }
@@ -81,12 +82,15 @@ fn colour_matrix(
     context: &mut Context<'_>,
 ) -> Option<etendue_isp::ColourMatrix> {
     match &record.colour_matrix {
-        None => Some(IDENTITY),
-        Some(ColourMatrix::Rows(rows)) => Some([rows[0].value, rows[1].value, rows[2].value]),
+        None => Some(etendue_isp::ColourMatrix::identity()),
+        Some(ColourMatrix::Rows(rows)) => {
+            let matrix = etendue_isp::ColourMatrix::new(rows.each_ref().map(|row| row.value.to_vec()));
+            context.accept(&record.place, matrix)
+        }
         Some(ColourMatrix::Fit(name)) => {
             let illuminant = named_illuminant(name, context)?;
             let patches = chart::colorchecker().iter().map(|patch| &patch.reflectance);
-            context.accept(&name.place, fit_colour_matrix(channels, &illuminant, patches))
+            context.accept(&name.place, fit_colour_matrix(&channels, &illuminant, patches, 0.0))
         }
     }
 }

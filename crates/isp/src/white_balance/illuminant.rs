@@ -1,15 +1,7 @@
-//! White balance: gains that make a grey surface grey.
-//!
-//! Gains are normalised so that the smallest is 1. A saturated pixel is then at least 1 in every channel and, clipped at
-//! 1 **before** demosaic and colour matrix, white: without the clip, highlights turn magenta.
+//! White balance from the spectrum of the light.
 
-use crate::mosaic::Filter;
+use super::balancing;
 use etendue_spectra::Spectrum;
-
-/// The gain of a filter's pixels.
-pub(crate) fn gain(gains: [f64; 3], filter: Filter) -> f32 {
-    gains[filter as usize] as f32
-}
 
 /// A channel that sees nothing of the light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -18,21 +10,17 @@ pub(crate) fn gain(gains: [f64; 3], filter: Filter) -> f32 {
 )]
 pub struct NoResponse(pub usize);
 
-/// Gains of red, green and blue for which a spectrally flat reflector under `illuminant` (any scale) is neutral; the
-/// smallest is 1.
+/// Gains of the channels for which a spectrally flat reflector under `illuminant` (any scale) is neutral; the smallest
+/// is 1.
 ///
 /// # Errors
 /// Where a channel does not respond to the illuminant.
 pub fn white_balance_from_illuminant(
-    responsivities: [&Spectrum; 3],
+    responsivities: &[&Spectrum],
     illuminant: &Spectrum,
-) -> Result<[f64; 3], NoResponse> {
-    let white = responsivities.map(|r| response(r, illuminant, None));
-    if let Some(channel) = white.iter().position(|w| *w <= 0.0) {
-        return Err(NoResponse(channel));
-    }
-    let largest = white.into_iter().fold(0.0, f64::max);
-    Ok(white.map(|w| largest / w))
+) -> Result<Vec<f64>, NoResponse> {
+    let white: Vec<f64> = responsivities.iter().map(|r| response(r, illuminant, None)).collect();
+    balancing(&white).ok_or_else(|| NoResponse(white.iter().position(|w| *w <= 0.0).unwrap_or(0)))
 }
 
 /// ∫ responsivity × illuminant × reflectance dλ, by trapezia of 1 nm (the ends, at 300 and 1 100 nm, count in full); of a
@@ -55,7 +43,7 @@ mod tests {
         let canon = camera::named("canon-eos-5d-mark-ii").expect("a camera");
         let channels = [&canon.r, &canon.g, &canon.b];
         let light = illuminant::named("A").unwrap_or(illuminant::d65());
-        let gains = white_balance_from_illuminant(channels, light).expect("light in all channels");
+        let gains = white_balance_from_illuminant(&channels, light).expect("light in all channels");
         let grey = Spectrum::constant(0.18);
         let balanced: [f64; 3] = core::array::from_fn(|c| gains[c] * response(channels[c], light, Some(&grey)));
         assert!((balanced[0] / balanced[1] - 1.0).abs() < 1e-12 && (balanced[2] / balanced[1] - 1.0).abs() < 1e-12);
@@ -65,7 +53,7 @@ mod tests {
     #[test]
     fn a_blind_channel_is_refused() {
         let (flat, blind) = (Spectrum::constant(1.0), Spectrum::constant(0.0));
-        let refused = white_balance_from_illuminant([&flat, &flat, &blind], illuminant::d65());
+        let refused = white_balance_from_illuminant(&[&flat, &flat, &blind], illuminant::d65());
         assert_eq!(refused, Err(NoResponse(2)));
     }
 }

@@ -1,0 +1,334 @@
+//! The whole way from a raw picture to a display.
+
+mod error;
+mod processing;
+
+pub use error::DevelopError;
+pub use processing::{Colour, Processing};
+
+use crate::black_level::black_level;
+use crate::colour_matrix::ColourMatrix;
+use crate::defects;
+use crate::mosaic::{Mosaic, Tile};
+use crate::raw::{RawPicture, normalised};
+use crate::white_balance::{WhiteBalance, grey_world};
+use etendue_core::Plane;
+use etendue_core::quantity::{Display, LinearRgb};
+use rayon::prelude::*;
+
+/// A developed picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Developed {
+    /// Linear sRGB, not clipped below 0 nor above 1.
+    pub linear: Plane<LinearRgb>,
+    /// The same, clipped and encoded.
+    pub display: Plane<Display>,
+    /// What was found on the way.
+    pub facts: Facts,
+}
+
+/// What development found in the picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facts {
+    /// The black level taken off, DN.
+    pub black_level_dn: f64,
+    /// The gains of the channels; empty for a mono picture.
+    pub white_balance: Vec<f64>,
+    /// How many pixels were corrected as defective.
+    pub corrected_pixels: usize,
+}
+
+/// Develops a raw picture. Runs in the rayon pool of the caller; the bits do not depend on it.
+///
+/// # Errors
+/// Where picture and processing contradict each other or a number is out of range.
+pub fn develop(raw: &RawPicture<'_>, processing: &Processing) -> Result<Developed, DevelopError> {
+    processing.check(raw)?;
+    let black = black_level(processing.black_level, raw).ok_or(DevelopError::NoOpticalBlack)?;
+    error::check_levels(black, raw.white_level_dn)?;
+    let width = raw.plane.width();
+    let samples = normalised(raw.plane, black, raw.white_level_dn);
+    let (mut samples, corrected_pixels) = defects::corrected(samples, width, raw.mosaic, &processing.defects);
+    shade(&mut samples, raw, processing);
+    let gains = gains(&samples, raw, processing.colour.as_ref());
+    balance(&mut samples, width, raw.mosaic, &gains);
+    let linear = Plane::from_samples(width, raw.plane.height(), colours(&samples, width, raw.mosaic, processing));
+    let linear = linear.expect("as many colours as samples");
+    let mut display = processing.tone.encode_plane(&linear);
+    if let Some(sharpening) = &processing.sharpening {
+        sharpening.apply(&mut display);
+    }
+    let facts = Facts { black_level_dn: black, white_balance: gains, corrected_pixels };
+    Ok(Developed { linear, display, facts })
+}
+
+/// Shading gains; a saturated sample stays 1.
+fn shade(samples: &mut [f32], raw: &RawPicture<'_>, processing: &Processing) {
+    let Some(shading) = &processing.shading else { return };
+    let (width, height) = (raw.plane.width(), raw.plane.height());
+    samples.par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
+        for (v, gain) in row.iter_mut().zip(shading.row(y, width, height)) {
+            *v = (*v * gain).min(1.0);
+        }
+    });
+}
+
+/// The gains of the channels; none of a mono picture.
+fn gains(samples: &[f32], raw: &RawPicture<'_>, colour: Option<&Colour>) -> Vec<f64> {
+    match colour.map(|c| &c.white_balance) {
+        None => Vec::new(),
+        Some(WhiteBalance::Gains(gains)) => gains.clone(),
+        Some(WhiteBalance::GreyWorld) => grey_world(samples, raw.plane.width(), raw.mosaic),
+    }
+}
+
+/// White balance; no sample exceeds 1. Noise below black stays negative.
+fn balance(samples: &mut [f32], width: usize, mosaic: &Mosaic, gains: &[f64]) {
+    let Mosaic::Tile(tile) = mosaic else { return };
+    let gains: Vec<f32> = gains.iter().map(|g| *g as f32).collect();
+    samples.par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
+        for (x, v) in row.iter_mut().enumerate() {
+            *v = (*v * gains[tile.at(x, y)]).min(1.0);
+        }
+    });
+}
+
+/// Linear sRGB of balanced samples.
+fn colours(samples: &[f32], width: usize, mosaic: &Mosaic, processing: &Processing) -> Vec<[f32; 3]> {
+    match mosaic {
+        Mosaic::Mono => {
+            let grey = ColourMatrix::new([vec![1.0], vec![1.0], vec![1.0]]).expect("a column");
+            let lone: Vec<[f32; 1]> = samples.par_iter().map(|v| [*v]).collect();
+            finished(lone, width, &grey, processing)
+        }
+        Mosaic::Tile(tile) => match tile.filters().len() {
+            2 => interpolated::<2>(samples, width, tile, processing),
+            3 => interpolated::<3>(samples, width, tile, processing),
+            _ => interpolated::<4>(samples, width, tile, processing),
+        },
+    }
+}
+
+fn interpolated<const N: usize>(samples: &[f32], width: usize, tile: &Tile, processing: &Processing) -> Vec<[f32; 3]> {
+    let colour = processing.colour.as_ref().expect("checked: a tile has colour settings");
+    finished(processing.demosaic.apply::<N>(samples, width, tile), width, &colour.matrix, processing)
+}
+
+/// Noise reduction, colour matrix and digital gain.
+fn finished<const N: usize>(
+    picture: Vec<[f32; N]>,
+    width: usize,
+    matrix: &ColourMatrix,
+    processing: &Processing,
+) -> Vec<[f32; 3]> {
+    let picture = match &processing.noise_reduction {
+        Some(filter) => filter.apply(&picture, width),
+        None => picture,
+    };
+    let rows: [[f32; N]; 3] = matrix
+        .rows()
+        .each_ref()
+        .map(|row| core::array::from_fn(|channel| (row[channel] * processing.exposure_gain) as f32));
+    picture.par_iter().map(|channels| product(&rows, channels)).collect()
+}
+
+/// Left to right, so that three channels round as m₀ c₀ + m₁ c₁ + m₂ c₂.
+fn product<const N: usize>(rows: &[[f32; N]; 3], channels: &[f32; N]) -> [f32; 3] {
+    rows.map(|row| (1..N).fold(row[0] * channels[0], |sum, c| sum + row[c] * channels[c]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::demosaic::Demosaic;
+    use crate::mosaic::Filter::{Blue, Clear, Green, Infrared, Red};
+    use crate::tone::to_8_bit;
+    use etendue_core::quantity::{DigitalNumber, Quantity};
+    use etendue_spectra::colour;
+
+    type Dn = <DigitalNumber as Quantity>::Sample;
+
+    fn processing() -> Processing {
+        let rows = [vec![1.75, -0.5, -0.25], vec![-0.25, 1.5, -0.25], vec![0.0, -0.5, 1.5]];
+        let matrix = ColourMatrix::new(rows).expect("a matrix");
+        Processing::plain(Some(Colour { white_balance: WhiteBalance::Gains(vec![2.0, 1.0, 1.5]), matrix }))
+    }
+
+    fn bayer() -> Mosaic {
+        Mosaic::tile(2, 2, vec![Red, Green, Green, Blue]).expect("Bayer")
+    }
+
+    /// A raw picture of black 100 DN and white 1 100 DN.
+    fn raw<'a>(plane: &'a Plane<DigitalNumber>, mosaic: &'a Mosaic) -> RawPicture<'a> {
+        RawPicture { plane, black_level_dn: 100.0, white_level_dn: 1100.0, mosaic, optical_black: None }
+    }
+
+    fn plane(width: usize, height: usize, dn: impl Fn(usize, usize) -> Dn) -> Plane<DigitalNumber> {
+        let samples = (0..width * height).map(|i| dn(i % width, i / width)).collect();
+        Plane::from_samples(width, height, samples).expect("filled")
+    }
+
+    fn developed(dn: [Dn; 4], processing: &Processing) -> Developed {
+        let plane = plane(8, 6, |x, y| dn[y % 2 * 2 + x % 2]);
+        develop(&raw(&plane, &bayer()), processing).expect("legal")
+    }
+
+    #[test]
+    fn neutral_stays_neutral() {
+        // 0.2 of the range in green, and as much after balance in red and blue.
+        let picture = developed([200, 300, 300, 233], &Processing { exposure_gain: 2.0, ..processing() });
+        for rgb in picture.linear.samples() {
+            // Blue is off by a third of a digital number: 0.0005 · 1.5 · 2, times up to 1.5 by the matrix.
+            assert!(rgb.iter().all(|v| (v - 0.4).abs() < 2.5e-3), "{rgb:?}");
+        }
+        let code = (255.0 * colour::encode(0.4)).round() as u8;
+        assert!(to_8_bit(&picture.display).iter().flatten().all(|v| v.abs_diff(code) <= 1));
+    }
+
+    #[test]
+    fn saturation_is_white_and_not_magenta() {
+        for dn in [[1100; 4], [4095; 4], [900, 1100, 1100, 950]] {
+            let picture = developed(dn, &processing());
+            assert!(picture.linear.samples().iter().flatten().all(|v| (v - 1.0).abs() < 1e-6));
+            assert!(to_8_bit(&picture.display).iter().all(|rgb| *rgb == [255; 3]));
+        }
+    }
+
+    #[test]
+    fn noise_below_black_survives_to_the_linear_picture() {
+        let picture = developed([90; 4], &processing());
+        assert!(picture.linear.samples().iter().all(|rgb| rgb[1] < 0.0));
+        assert!(to_8_bit(&picture.display).iter().all(|rgb| *rgb == [0; 3]));
+    }
+
+    #[test]
+    fn mono_is_grey() {
+        let plane = plane(3, 1, |x, _| [100, 600, 1100][x]);
+        let picture = develop(&raw(&plane, &Mosaic::Mono), &Processing::plain(None)).expect("legal");
+        assert_eq!(picture.linear.samples(), [[0.0; 3], [0.5; 3], [1.0; 3]]);
+    }
+
+    #[test]
+    fn grey_world_finds_the_gains_of_a_grey() {
+        let mut grey = processing();
+        grey.colour.as_mut().expect("colour").white_balance = WhiteBalance::GreyWorld;
+        let picture = developed([300, 500, 500, 350], &grey);
+        let gains = &picture.facts.white_balance;
+        assert!(gains.iter().zip([2.0, 1.0, 1.6]).all(|(found, want)| (found - want).abs() < 1e-6), "{gains:?}");
+        // The same grey everywhere: 0.4 of the range, to f32.
+        assert!(picture.linear.samples().iter().flatten().all(|v| (v - 0.4).abs() < 1e-6));
+    }
+
+    #[test]
+    fn black_level_defects_and_shading_come_first() {
+        let dark = plane(4, 4, |_, _| 200);
+        // Half the light at the left edge of a flat picture of 0.5, and one dead pixel.
+        let fall = |x: usize| 0.5 + 0.5 * (x as f64 + 0.5) / 8.0;
+        let shaded = plane(8, 6, |x, y| if (x, y) == (5, 2) { 0 } else { (200.0 + 450.0 * fall(x)) as Dn });
+        let gains: Vec<f64> = [0.5, 1.0, 0.5, 1.0].map(|light| 1.0 / light).to_vec();
+        let settings = Processing {
+            black_level: crate::BlackLevel::OpticalBlack,
+            defects: crate::Defects { map: vec![[5, 2]], outlier_threshold: None },
+            shading: Some(crate::Shading::Grid { columns: 2, gains }),
+            ..Processing::plain(None)
+        };
+        let raw = RawPicture { optical_black: Some(&dark), ..raw(&shaded, &Mosaic::Mono) };
+        let picture = develop(&raw, &settings).expect("legal");
+        assert_eq!((picture.facts.black_level_dn, picture.facts.corrected_pixels), (200.0, 1));
+        let grey = |x: usize| f64::from(picture.linear.at(x, 2)[0]);
+        let want = |x: usize| 0.5 * fall(x) * (2.0 - (x as f64 + 0.5) / 8.0);
+        // 1/900 by the converter; the dead pixel takes the median of its neighbours, between which light differs by 0.03.
+        assert!((0..8).all(|x| (grey(x) - want(x)).abs() < if x == 5 { 0.04 } else { 2.5e-3 }));
+    }
+
+    #[test]
+    fn two_and_four_channels_are_developed_with_their_matrix() {
+        let rccc = Mosaic::tile(2, 2, vec![Red, Clear, Clear, Clear]).expect("legal");
+        let of = |mosaic: &Mosaic, rows: [Vec<f64>; 3], dn: [Dn; 4]| {
+            let matrix = ColourMatrix::new(rows).expect("a matrix");
+            let white_balance = WhiteBalance::Gains(vec![1.0; matrix.channels()]);
+            let plane = plane(6, 6, |x, y| dn[y % 2 * 2 + x % 2]);
+            let settings = Processing::plain(Some(Colour { white_balance, matrix }));
+            develop(&raw(&plane, mosaic), &settings).expect("legal").linear.at(3, 3)
+        };
+        // Red as it is, grey of clear.
+        assert_eq!(of(&rccc, [vec![1.0, 0.0], vec![0.0, 1.0], vec![0.0, 1.0]], [350, 600, 600, 600]), [0.25, 0.5, 0.5]);
+        let rgbi = Mosaic::tile(2, 2, vec![Red, Green, Infrared, Blue]).expect("legal");
+        // Infrared is taken off all three.
+        let rows = [0, 1, 2].map(|c| {
+            (0..4)
+                .map(|k| {
+                    if k == c {
+                        1.0
+                    } else if k == 3 {
+                        -1.0
+                    } else {
+                        0.0
+                    }
+                })
+                .collect()
+        });
+        let [r, g, b] = of(&rgbi, rows, [600, 850, 350, 1100]);
+        // Differences of numbers up to 1, to f32.
+        assert!((r - 0.25).abs().max((g - 0.5).abs()).max((b - 0.75).abs()) < 2e-7);
+    }
+
+    #[test]
+    fn contradictions_are_refused() {
+        let (empty, mosaic) = (Plane::new(4, 4), bayer());
+        let raw = RawPicture { black_level_dn: 0.0, ..raw(&empty, &mosaic) };
+        let mono = RawPicture { mosaic: &Mosaic::Mono, ..raw };
+        let with = |gains: Vec<f64>| {
+            let mut settings = processing();
+            settings.colour.as_mut().expect("colour").white_balance = WhiteBalance::Gains(gains);
+            settings
+        };
+        let dim = Processing { exposure_gain: 0.0, ..processing() };
+        let no_colour = Processing { colour: None, ..processing() };
+        let shielded = Processing { black_level: crate::BlackLevel::OpticalBlack, ..processing() };
+        let beside = crate::Defects { map: vec![[4, 0]], outlier_threshold: None };
+        let beside = Processing { defects: beside, ..processing() };
+        let malvar = Processing { demosaic: Demosaic::MalvarHeCutler, ..processing() };
+        let rccb = Mosaic::tile(2, 2, vec![Red, Clear, Clear, Blue]).expect("legal");
+        let thin = Plane::new(4, 1);
+        let cases = [
+            (RawPicture { white_level_dn: 0.0, ..raw }, processing(), DevelopError::Levels { black: 0.0, white: 0.0 }),
+            (raw, with(vec![0.5, 1.0, 2.0]), DevelopError::WhiteBalance(vec![0.5, 1.0, 2.0])),
+            (raw, with(vec![1.0]), DevelopError::Channels { mosaic: 3, settings: 1 }),
+            (raw, dim, DevelopError::ExposureGain(0.0)),
+            (raw, no_colour, DevelopError::NoColour),
+            (raw, shielded, DevelopError::NoOpticalBlack),
+            (raw, beside, DevelopError::DefectOutside { x: 4, y: 0, width: 4, height: 4 }),
+            (mono, processing(), DevelopError::ColourOfMono),
+            (RawPicture { mosaic: &rccb, ..raw }, malvar, DevelopError::NotBayer),
+            (
+                RawPicture { plane: &thin, ..raw },
+                processing(),
+                DevelopError::TooSmall { width: 4, height: 1, least: 2 },
+            ),
+        ];
+        for (raw, processing, error) in cases {
+            assert_eq!(develop(&raw, &processing), Err(error));
+        }
+    }
+
+    #[test]
+    fn threads_change_no_bit() {
+        let (plane, mosaic) = (plane(31, 17, |x, y| ((y * 31 + x) * 37 % 1200) as Dn), bayer());
+        let with = |threads, settings: &Processing| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            pool.install(|| develop(&raw(&plane, &mosaic), settings).expect("legal"))
+        };
+        let bilateral = crate::Bilateral { radius_px: 1.5, range: 0.1 };
+        let full = Processing {
+            defects: crate::Defects { map: vec![[3, 4]], outlier_threshold: Some(0.2) },
+            demosaic: Demosaic::HamiltonAdams,
+            noise_reduction: Some(crate::NoiseReduction::Bilateral(bilateral)),
+            sharpening: Some(crate::Unsharp { amount: 1.0, radius_px: 1.0, threshold: 0.0 }),
+            ..processing()
+        };
+        for settings in [processing(), full] {
+            assert_eq!(with(1, &settings), with(3, &settings));
+        }
+    }
+}
