@@ -61,6 +61,7 @@ fn picture(raw: &Raw, development: &Development) -> etendue_isp::Developed {
         black_level_dn: raw.black_level_dn,
         white_level_dn: raw.white_level_dn,
         mosaic: &development.mosaic,
+        optical_black: None,
     };
     develop(&picture, &development.processing).expect("the camera's own processing")
 }
