@@ -1,5 +1,6 @@
 //! From spectra to colours: pictures of known reflectances, and metals.
 
+use etendue_isp::WhiteBalance;
 use etendue_spectra::colour::{lab, xyz_from_linear_srgb};
 use etendue_spectra::{chart, illuminant, metal, observer};
 use etendue_testkit::judge::against_truth;
@@ -87,16 +88,17 @@ fn the_chart_has_the_colours_that_spectra_and_matrix_say() {
         // Irradiance on the axis: ρ L π/(4N²); electrons over the full well is the white level's share.
         let scale = LIGHT / observer::luminance(d65) * core::f64::consts::PI / 64.0;
         let white_e = sensor.parameters().full_well_e;
-        let processing = body.development.as_ref().expect("a processing").processing;
-        let colour = processing.colour.expect("colour");
+        let processing = &body.development.as_ref().expect("a processing").processing;
+        let colour = processing.colour.as_ref().expect("colour");
+        let WhiteBalance::Gains(gains) = &colour.white_balance else { panic!("the illuminant gives gains") };
         let camera: [f64; 3] = std::array::from_fn(|c| {
             let product = |nm: f64| {
                 [sensor.responsivity(c), d65, &patch.reflectance].map(|s| f64::from(s.at(nm as f32))).iter().product()
             };
-            colour.white_balance[c] * scale * simpson(380.0, 780.0, 800, product) / white_e
+            gains[c] * scale * simpson(380.0, 780.0, 800, product) / white_e
         });
         let brightest = camera.iter().copied().fold(0.0, f64::max);
-        for (row, found) in colour.matrix.iter().zip(found) {
+        for (row, found) in colour.matrix.rows().iter().zip(found) {
             let truth: f64 = row.iter().zip(camera).map(|(m, v)| m * v).sum();
             // 64 pixels of 1024 samples of 8 wavelengths: each channel is known to about 1e-3, and the matrix's rows
             // (entries up to 2 in sum of squares 5) spread it: 5e-3 of the brightest is five standard errors.
