@@ -1,6 +1,7 @@
 //! Lenses, pupil sampling and image-space lens operators: radiance in, irradiance on the sensor plane out.
 
 pub mod defocus;
+pub mod effects;
 mod error;
 pub mod ghosts;
 pub mod lens;
@@ -10,6 +11,7 @@ mod pupil;
 pub mod pupil_image;
 
 pub use defocus::{DepthOfField, FastBlend, FastParameters};
+pub use effects::{Effects, EffectsError, EffectsParameters, Glare, GlareParameters};
 pub use error::{OpticsError, PRINCIPAL_NM};
 pub use lens::{
     Calibrated, CalibratedParameters, ConstantPupil, Falloff, Lens, Parallel, ParallelParameters, Pinhole,

@@ -3,7 +3,7 @@
 use crate::block::Blocks;
 use etendue_core::{Bands, CameraPose};
 use etendue_isp::{Mosaic, Processing};
-use etendue_optics::{Lens, PupilProjection};
+use etendue_optics::{Effects, Lens, PupilProjection};
 use etendue_projection::Raster;
 use etendue_scene::Place;
 use etendue_sensor::Sensor;
@@ -78,7 +78,7 @@ pub struct CameraPlan {
     pub products: Products,
 }
 
-/// A camera wherever it stands: lens, sensor, processing.
+/// A camera wherever it stands: lens, effects, sensor, processing.
 #[derive(Clone, Debug)]
 pub struct CameraBody {
     /// Where the description says how large the picture is.
@@ -87,6 +87,8 @@ pub struct CameraBody {
     pub raster: Raster,
     /// The lens.
     pub lens: Lens,
+    /// What becomes of the irradiance behind the lens.
+    pub effects: Effects,
     /// Side of the photosensitive area, in pixels.
     pub aperture_px: f64,
     /// The electronics; `None` where no electrons are wanted.
@@ -191,12 +193,20 @@ impl Plan {
     }
 }
 
+impl CameraBody {
+    /// The pixels that are rendered: the picture's, and those beyond it that the effects need.
+    #[must_use]
+    pub fn film(&self) -> Raster {
+        self.effects.film(&self.raster)
+    }
+}
+
 impl CameraPlan {
-    /// Columns and rows of the film: of the picture, or of the stored radiance.
+    /// Columns and rows of the film: of the picture with its margin, or of the stored radiance.
     #[must_use]
     pub fn film_size(&self) -> (u32, u32) {
         match &self.settings.route {
-            Route::Lens => (self.body.raster.width() as u32, self.body.raster.height() as u32),
+            Route::Lens => (self.body.film().width() as u32, self.body.film().height() as u32),
             Route::Pupil(projection) => (projection.width() as u32, projection.height() as u32),
         }
     }

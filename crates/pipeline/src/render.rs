@@ -145,7 +145,7 @@ struct LensSource {
 
 impl LensSource {
     fn of(camera: &CameraPlan) -> Self {
-        Self { lens: camera.body.lens.clone(), raster: camera.body.raster }
+        Self { lens: camera.body.lens.clone(), raster: camera.body.film() }
     }
 }
 

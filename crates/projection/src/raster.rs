@@ -71,13 +71,13 @@ impl Raster {
         Self::new(width, height, DVec2::splat(pitch_mm), centre)
     }
 
-    /// The same grid with `margin_px` more pixels on all sides.
+    /// The same grid with columns more on the left and on the right, and rows more above and below.
     #[must_use]
-    pub fn with_margin(&self, margin_px: usize) -> Self {
+    pub fn widened(&self, [columns, rows]: [usize; 2]) -> Self {
         Self {
-            width: self.width + 2 * margin_px,
-            height: self.height + 2 * margin_px,
-            principal_px: self.principal_px + margin_px as f64,
+            width: self.width + 2 * columns,
+            height: self.height + 2 * rows,
+            principal_px: self.principal_px + DVec2::new(columns as f64, rows as f64),
             ..*self
         }
     }
@@ -238,6 +238,15 @@ mod tests {
         assert!((px - DVec2::new(160.0 - 0.6 + 320.5, -316.0 + 240.0)).length() < 1e-12);
         assert!((matrix.point(px) - p).length() < 1e-15);
         assert_eq!(matrix.rows()[0], [800.0, 1.5, 320.5]);
+    }
+
+    #[test]
+    fn a_wider_grid_keeps_its_points_where_they_are() {
+        let raster = Raster::new(4, 6, DVec2::splat(0.5), DVec2::new(1.0, 4.0)).expect("legal");
+        let wide = raster.widened([3, 2]);
+        assert_eq!((wide.width(), wide.height()), (10, 10));
+        let p = DVec2::new(0.25, 5.5);
+        assert_eq!(wide.sensor_mm(p + DVec2::new(3.0, 2.0)), raster.sensor_mm(p));
     }
 
     #[test]

@@ -29,7 +29,7 @@ impl PupilProjection {
     pub fn covering(lens: &Lens, raster: &Raster, margin_px: usize, range_nm: (f64, f64)) -> Result<Self, OpticsError> {
         serves(lens)?;
         lens.check(raster)?;
-        let raster = raster.with_margin(margin_px);
+        let raster = raster.widened([margin_px, margin_px]);
         let survey = Survey::new(lens, &raster, range_nm);
         if survey.looks.is_empty() {
             return Err(OpticsError::SeesNothing);

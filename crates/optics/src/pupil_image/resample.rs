@@ -71,7 +71,7 @@ impl<'a> Resampling<'a> {
     ) -> Result<Self, OpticsError> {
         serves(lens)?;
         lens.check(raster)?;
-        let raster = raster.with_margin(margin_px);
+        let raster = raster.widened([margin_px, margin_px]);
         let survey = Survey::new(lens, &raster, (bands.low_nm(), bands.high_nm()));
         check_covers(&stored, &survey)?;
         let widest = survey

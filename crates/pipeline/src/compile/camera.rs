@@ -1,6 +1,7 @@
-//! A camera wherever it stands: lens, sensor, processing.
+//! A camera wherever it stands: lens, effects, sensor, processing.
 
 use super::context::Context;
+use super::effects::effects;
 use super::lens::lens;
 use super::sensor::{fill_factor, sensor};
 use super::spectrum::named_illuminant;
@@ -25,7 +26,8 @@ pub(super) fn body(camera: &Camera, context: &mut Context<'_>) -> Option<CameraB
     let aperture_px = fill_factor(&camera.sensor).sqrt();
     let place = camera.sensor.place.clone();
     let (lens, raster) = lens?;
-    let body = CameraBody { place, raster, lens, aperture_px, sensor, development };
+    let effects = effects(camera.effects.as_ref(), &raster, context)?;
+    let body = CameraBody { place, raster, lens, effects, aperture_px, sensor, development };
     (context.faults.len() == before).then_some(body)
 }
 

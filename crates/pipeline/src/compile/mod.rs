@@ -5,6 +5,7 @@
 
 mod camera;
 mod context;
+mod effects;
 mod lamp;
 mod lens;
 mod light;

@@ -1,5 +1,6 @@
-//! The camera: lens, sensor, processing.
+//! The camera: lens, effects, sensor, processing.
 
+use super::effects::Effects;
 use super::lens::Lens;
 use super::processing::Processing;
 use super::sensor::Sensor;
@@ -11,6 +12,8 @@ record! {
     pub struct Camera check(check) {
         /// The lens.
         required lens: Lens = record();
+        /// What becomes of the irradiance behind the lens. Default: nothing.
+        optional effects: Effects = record();
         /// The sensor.
         required sensor: Sensor = record();
         /// From raw to picture. Default: none, no picture is made.

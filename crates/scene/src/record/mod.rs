@@ -5,6 +5,7 @@
 
 pub mod camera;
 pub mod curve;
+pub mod effects;
 pub mod environment;
 pub mod job;
 pub mod lens;
@@ -26,6 +27,7 @@ pub mod transform;
 
 pub use camera::Camera;
 pub use curve::Curve;
+pub use effects::Effects;
 pub use environment::Environment;
 pub use job::{CameraEntry, Job};
 pub use lens::Lens;

@@ -1,0 +1,279 @@
+//! Convolution of a picture with a kernel: nothing comes from outside the picture.
+//!
+//! Few taps are summed directly. Many go through the Fourier transform, by blocks of the result, two blocks at once as real
+//! and imaginary part; the number of blocks is the one that costs least.
+
+use super::fourier::{Grid, Plan, fast_length};
+use super::kernel::Kernel;
+use core::ops::Range;
+
+/// Taps up to which the sum is taken directly.
+const DIRECT_TAPS: usize = 49;
+/// Most blocks along an axis that are tried.
+const MOST_BLOCKS: usize = 24;
+
+/// Numbers in a rectangle, row by row.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Field {
+    pub(crate) width: usize,
+    pub(crate) values: Vec<f64>,
+}
+
+impl Field {
+    pub(crate) fn zeros(width: usize, height: usize) -> Self {
+        Self { width, values: vec![0.0; width * height] }
+    }
+
+    pub(crate) fn height(&self) -> usize {
+        self.values.len() / self.width.max(1)
+    }
+
+    pub(crate) fn row(&self, y: usize) -> &[f64] {
+        &self.values[y * self.width..(y + 1) * self.width]
+    }
+
+    pub(crate) fn row_mut(&mut self, y: usize) -> &mut [f64] {
+        &mut self.values[y * self.width..(y + 1) * self.width]
+    }
+}
+
+/// A rectangle of pixels.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Region {
+    pub(crate) x: Range<usize>,
+    pub(crate) y: Range<usize>,
+}
+
+/// A kernel made ready for pictures of one size and a region of them.
+#[derive(Clone, Debug)]
+pub(crate) struct Convolver {
+    region: Region,
+    method: Method,
+}
+
+#[derive(Clone, Debug)]
+enum Method {
+    Direct(Vec<(isize, isize, f64)>),
+    Fourier { plan: Box<Plan>, spectrum: Box<Grid>, blocks: Vec<Block> },
+}
+
+/// A block of the result, and the part of the picture that it needs.
+#[derive(Clone, Debug)]
+struct Block {
+    out: Region,
+    from: Region,
+}
+
+impl Convolver {
+    /// `kernel` on pictures of `size`, of whose result `region` is wanted.
+    pub(crate) fn new(kernel: &Kernel, size: [usize; 2], region: Region) -> Self {
+        let taps: Vec<_> = kernel.taps().collect();
+        let method = if taps.len() <= DIRECT_TAPS { Method::Direct(taps) } else { fourier(kernel, size, &region) };
+        Self { region, method }
+    }
+
+    /// The region of the picture convolved.
+    pub(crate) fn apply(&self, picture: &Field) -> Field {
+        let mut result = Field::zeros(self.region.x.len(), self.region.y.len());
+        match &self.method {
+            Method::Direct(taps) => taps.iter().for_each(|tap| self.add_tap(picture, *tap, &mut result)),
+            Method::Fourier { plan, spectrum, blocks } => {
+                for pair in blocks.chunks(2) {
+                    let grid = through(plan, spectrum, pair, picture);
+                    pair.iter().enumerate().for_each(|(part, block)| self.take(&grid, block, part, &mut result));
+                }
+            }
+        }
+        result
+    }
+
+    fn add_tap(&self, picture: &Field, (dx, dy, tap): (isize, isize, f64), result: &mut Field) {
+        let (height, width) = (picture.height(), picture.width);
+        for y in self.region.y.clone() {
+            let Some(from) = y.checked_add_signed(-dy).filter(|from| *from < height) else { continue };
+            let to = result.row_mut(y - self.region.y.start);
+            for x in self.region.x.clone() {
+                if let Some(from_x) = x.checked_add_signed(-dx).filter(|from| *from < width) {
+                    to[x - self.region.x.start] += tap * picture.row(from)[from_x];
+                }
+            }
+        }
+    }
+
+    /// Copies a block out of the real or the imaginary part.
+    fn take(&self, grid: &Grid, block: &Block, part: usize, result: &mut Field) {
+        let shift = block.out.x.start - block.from.x.start;
+        for y in block.out.y.clone() {
+            let row = y - block.from.y.start;
+            let values = if part == 0 { grid.re(row) } else { grid.im(row) };
+            let start = block.out.x.start - self.region.x.start;
+            let to = &mut result.row_mut(y - self.region.y.start)[start..start + block.out.x.len()];
+            to.copy_from_slice(&values[shift..shift + block.out.x.len()]);
+        }
+    }
+}
+
+/// The pair of blocks through the transform and back.
+fn through(plan: &Plan, spectrum: &Grid, pair: &[Block], picture: &Field) -> Grid {
+    let mut grid = Grid::zeros(plan.width(), plan.height());
+    let rows = |of: fn(&Block) -> Range<usize>| pair.iter().map(|b| of(b).end).max().unwrap_or(0);
+    for (part, Block { from, .. }) in pair.iter().enumerate() {
+        for (row, y) in from.y.clone().enumerate() {
+            let to = if part == 0 { grid.re_mut(row) } else { grid.im_mut(row) };
+            to[..from.x.len()].copy_from_slice(&picture.row(y)[from.x.clone()]);
+        }
+    }
+    plan.forward(&mut grid, 0..rows(|b| 0..b.from.y.len()));
+    grid.multiply(spectrum);
+    plan.inverse(&mut grid, 0..rows(|b| 0..b.out.y.end - b.from.y.start));
+    grid
+}
+
+fn fourier(kernel: &Kernel, size: [usize; 2], region: &Region) -> Method {
+    let [rx, ry] = kernel.reach();
+    let (mut best, mut cost) = ([1, 1], f64::INFINITY);
+    for columns in 1..=MOST_BLOCKS {
+        for rows in 1..=MOST_BLOCKS {
+            let (width, height) =
+                (length(&spans(&region.x, columns, rx, size[0])), length(&spans(&region.y, rows, ry, size[1])));
+            let this = (columns * rows).div_ceil(2) as f64 * work(width, height);
+            if this < cost {
+                (best, cost) = ([columns, rows], this);
+            }
+        }
+    }
+    let (across, down) = (spans(&region.x, best[0], rx, size[0]), spans(&region.y, best[1], ry, size[1]));
+    let plan = Box::new(Plan::new(length(&across), length(&down)));
+    let pairs = down.iter().flat_map(|y| across.iter().map(move |x| (x, y)));
+    let block = |(x, y): (&Span, &Span)| Block {
+        out: Region { x: x.out.clone(), y: y.out.clone() },
+        from: Region { x: x.from.clone(), y: y.from.clone() },
+    };
+    let blocks = pairs.map(block).collect();
+    Method::Fourier { spectrum: Box::new(spectrum(kernel, &plan)), plan, blocks }
+}
+
+/// Work of a transform of this size, in no particular unit: n log n.
+fn work(width: usize, height: usize) -> f64 {
+    let bits = |n: usize| f64::from(usize::BITS - n.leading_zeros());
+    (width * height) as f64 * (bits(width) + bits(height))
+}
+
+/// A block along one axis.
+struct Span {
+    out: Range<usize>,
+    from: Range<usize>,
+    reach: usize,
+}
+
+/// `wanted` cut into `count` parts of nearly equal length, each with what it needs of a picture of length `size`.
+fn spans(wanted: &Range<usize>, count: usize, reach: usize, size: usize) -> Vec<Span> {
+    let end = |i: usize| wanted.start + wanted.len() * i / count;
+    let span = |i: usize| {
+        let out = end(i)..end(i + 1);
+        Span { from: out.start.saturating_sub(reach)..(out.end + reach).min(size), out, reach }
+    };
+    (0..count).map(span).filter(|span| !span.out.is_empty()).collect()
+}
+
+/// The length of a transform in which no block meets its own copies.
+fn length(spans: &[Span]) -> usize {
+    let need = |Span { out, from, reach }: &Span| {
+        let furthest = (from.end - out.start).max(out.end - from.start);
+        furthest + (*reach).min(furthest)
+    };
+    fast_length(spans.iter().map(need).max().unwrap_or(1))
+}
+
+/// The transform of the kernel, divided by the number of points.
+fn spectrum(kernel: &Kernel, plan: &Plan) -> Grid {
+    let mut grid = Grid::zeros(plan.width(), plan.height());
+    let scale = 1.0 / (plan.width() * plan.height()) as f64;
+    for (x, y, tap) in kernel.taps() {
+        // Taps that no two pixels of a block are apart fall outside, and are left out.
+        if x.unsigned_abs() < plan.width().div_ceil(2) && y.unsigned_abs() < plan.height().div_ceil(2) {
+            let column = x.rem_euclid(plan.width() as isize) as usize;
+            grid.re_mut(y.rem_euclid(plan.height() as isize) as usize)[column] += tap * scale;
+        }
+    }
+    plan.forward(&mut grid, 0..plan.height());
+    grid
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn picture(width: usize, height: usize) -> Field {
+        let value = |i: usize| ((i * 7919 + 104_729) % 1013) as f64 / 1013.0;
+        Field { width, values: (0..width * height).map(value).collect() }
+    }
+
+    fn kernel(reach: [usize; 2]) -> Kernel {
+        let mut kernel = Kernel::zeros(reach);
+        for y in -(reach[1] as isize)..=reach[1] as isize {
+            for x in -(reach[0] as isize)..=reach[0] as isize {
+                kernel.add(x, y, 1.0 / (1.0 + (x * x + 2 * y * y + x) as f64).abs());
+            }
+        }
+        kernel
+    }
+
+    /// The sum that defines a convolution.
+    fn summed(kernel: &Kernel, picture: &Field, region: &Region) -> Field {
+        let mut result = Field::zeros(region.x.len(), region.y.len());
+        for (j, y) in region.y.clone().enumerate() {
+            for (i, x) in region.x.clone().enumerate() {
+                let from = (0..picture.values.len()).map(|k| {
+                    let (u, v) = (k % picture.width, k / picture.width);
+                    picture.values[k] * kernel.at(x as isize - u as isize, y as isize - v as isize)
+                });
+                result.row_mut(j)[i] = from.sum();
+            }
+        }
+        result
+    }
+
+    #[test]
+    fn blocks_are_the_sum_for_kernels_small_and_wider_than_the_picture() {
+        let (width, height) = (61, 37);
+        let picture = picture(width, height);
+        let whole = Region { x: 0..width, y: 0..height };
+        let inner = Region { x: 9..50, y: 4..36 };
+        for reach in [[1, 1], [3, 3], [5, 9], [30, 20], [60, 36], [100, 50]] {
+            let kernel = kernel(reach);
+            for region in [&whole, &inner] {
+                let found = Convolver::new(&kernel, [width, height], region.clone()).apply(&picture);
+                let wanted = summed(&kernel, &picture, region);
+                let error = found.values.iter().zip(&wanted.values).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                // Sums of 2257 terms below 1: rounding of the transform.
+                assert!(error < 1e-11, "{reach:?} {region:?}: {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn large_pictures_go_by_blocks() {
+        let (width, height) = (400, 300);
+        let picture = picture(width, height);
+        let kernel = kernel([6, 5]);
+        let region = Region { x: 0..width, y: 0..height };
+        let convolver = Convolver::new(&kernel, [width, height], region);
+        assert!(matches!(&convolver.method, Method::Fourier { blocks, .. } if blocks.len() > 4));
+        let found = convolver.apply(&picture);
+        for (x, y) in [(0, 0), (399, 299), (133, 77), (200, 150)] {
+            let region = Region { x: x..x + 1, y: y..y + 1 };
+            let wanted = summed(&kernel, &picture, &region).values[0];
+            assert!((found.row(y)[x] - wanted).abs() < 1e-11);
+        }
+    }
+
+    #[test]
+    fn a_kernel_of_one_tap_is_the_identity_to_the_bit() {
+        let mut kernel = Kernel::zeros([2, 2]);
+        kernel.add(0, 0, 1.0);
+        let picture = picture(20, 10);
+        let region = Region { x: 0..20, y: 0..10 };
+        assert_eq!(Convolver::new(&kernel, [20, 10], region).apply(&picture), picture);
+    }
+}

@@ -1,0 +1,265 @@
+//! Irradiance effects: from the spectral irradiance on the sensor plane to the same.
+//!
+//! # Contract
+//!
+//! - Effects act on band means of the irradiance (W·m⁻²·nm⁻¹), one band after the other, in the order of the table. Each
+//!   says whether a camera needs it and why (`need`), beside what it does.
+//! - They need light from outside the picture: the film is wider by a margin on every side ([`Effects::margin_px`]), which
+//!   is cut off at the end. Nothing comes from beyond the margin, and what leaves it is lost.
+//! - All are linear with weights that are not negative. Variances go through the squared weights: errors of different pixels
+//!   are taken as independent, before every effect.
+//! - What is absent costs nothing: no margin, no spectrum.
+//!
+//! | order | effect | on |
+//! | --- | --- | --- |
+//! | 1 | [veiling glare](glare) | scatters a share of the light over the plane |
+
+mod convolve;
+mod error;
+mod fourier;
+pub mod glare;
+mod kernel;
+
+pub use error::EffectsError;
+pub use glare::{Glare, GlareParameters};
+
+use convolve::{Convolver, Field, Region};
+use etendue_core::Plane;
+use etendue_core::quantity::{Irradiance, Quantity, Variance};
+use etendue_projection::Raster;
+use glam::DVec2;
+use kernel::Kernel;
+
+/// The widest margin that is chosen without being asked for, as a share of the picture's width and height.
+const MARGIN_CAP: f64 = 0.25;
+
+/// The effects that there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effect {
+    /// Light scattered in the lens.
+    Glare,
+}
+
+impl Effect {
+    /// All effects, in their order.
+    pub const ALL: [Self; 1] = [Self::Glare];
+
+    /// The effect's name in a plan.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Glare => "veiling glare",
+        }
+    }
+}
+
+/// Whether an effect is modelled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Always run.
+    Required,
+    /// Where the data need it.
+    Guarded,
+    /// Absent.
+    Skipped,
+}
+
+/// What a plan says about an effect.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Need {
+    /// The effect.
+    pub effect: Effect,
+    /// Whether it is modelled.
+    pub verdict: Verdict,
+    /// Why, in words.
+    pub reason: String,
+}
+
+/// The effects of a camera.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Effects {
+    glare: Option<Glare>,
+    margin_px: [usize; 2],
+}
+
+/// The members that a camera can have, and its margin.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EffectsParameters {
+    /// Light scattered in the lens.
+    pub glare: Option<Glare>,
+    /// Width of the margin on every side as a share of the picture's width and height, 0 to 1; `None` for as far as the
+    /// effects reach, at most a quarter.
+    pub margin: Option<f64>,
+}
+
+impl Effects {
+    /// The effects behind a picture.
+    ///
+    /// # Errors
+    /// Where the margin is out of range or serves nothing.
+    pub fn new(parameters: EffectsParameters, picture: &Raster) -> Result<Self, EffectsError> {
+        let EffectsParameters { glare, margin } = parameters;
+        let mut effects = Self { glare, margin_px: [0, 0] };
+        effects.margin_px = match margin {
+            Some(margin) if !(0.0..=1.0).contains(&margin) => return Err(EffectsError::Margin { margin }),
+            Some(_) if effects.is_idle() => return Err(EffectsError::IdleMargin),
+            Some(margin) => share(margin, picture),
+            None => effects.reach_px(picture),
+        };
+        Ok(effects)
+    }
+
+    /// How far the effects reach, at most a quarter of the picture.
+    fn reach_px(&self, picture: &Raster) -> [usize; 2] {
+        let cap = share(MARGIN_CAP, picture);
+        let glare = self.needs_glare().map(|glare| glare.reach_px(picture.pitch_mm()).unwrap_or(cap));
+        let reach = [glare].into_iter().flatten().fold([0, 0], |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
+        [reach[0].min(cap[0]), reach[1].min(cap[1])]
+    }
+
+    /// What the camera needs, in the order of the effects.
+    #[must_use]
+    pub fn needs(&self) -> Vec<Need> {
+        let need = |effect| {
+            let (verdict, reason) = match effect {
+                Effect::Glare => Glare::need(self.glare.as_ref()),
+            };
+            Need { effect, verdict, reason }
+        };
+        Effect::ALL.into_iter().map(need).collect()
+    }
+
+    /// Whether nothing is to be done.
+    #[must_use]
+    pub fn is_idle(&self) -> bool {
+        self.needs().iter().all(|need| need.verdict == Verdict::Skipped)
+    }
+
+    /// Columns and rows that the film needs beyond the picture, on every side.
+    #[must_use]
+    pub fn margin_px(&self) -> [usize; 2] {
+        self.margin_px
+    }
+
+    /// The pixels of the film: the picture's with the margin.
+    #[must_use]
+    pub fn film(&self, picture: &Raster) -> Raster {
+        picture.widened(self.margin_px)
+    }
+
+    fn needs_glare(&self) -> Option<&Glare> {
+        self.glare.as_ref().filter(|glare| Glare::need(Some(glare)).0 != Verdict::Skipped)
+    }
+
+    /// The effects made ready for a picture: what does not depend on the wavelength.
+    #[must_use]
+    pub fn prepared(&self, picture: &Raster) -> Prepared {
+        let canvas = Canvas::new(picture, self.margin_px);
+        let glare = self.needs_glare().map(|glare| Spread::new(&glare.kernel(&canvas), &canvas));
+        Prepared { canvas, glare }
+    }
+}
+
+fn share(margin: f64, picture: &Raster) -> [usize; 2] {
+    [(margin * picture.width() as f64).ceil() as usize, (margin * picture.height() as f64).ceil() as usize]
+}
+
+/// The film and the picture in it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Canvas {
+    film: Raster,
+    margin_px: [usize; 2],
+}
+
+impl Canvas {
+    pub(crate) fn new(picture: &Raster, margin_px: [usize; 2]) -> Self {
+        Self { film: picture.widened(margin_px), margin_px }
+    }
+
+    /// Columns and rows of the film.
+    pub(crate) fn size(&self) -> [usize; 2] {
+        [self.film.width(), self.film.height()]
+    }
+
+    pub(crate) fn pitch_mm(&self) -> DVec2 {
+        self.film.pitch_mm()
+    }
+
+    /// All of the film.
+    fn whole(&self) -> Region {
+        Region { x: 0..self.film.width(), y: 0..self.film.height() }
+    }
+
+    /// The picture in the film.
+    fn picture(&self) -> Region {
+        let [x, y] = self.margin_px;
+        Region { x: x..self.film.width() - x, y: y..self.film.height() - y }
+    }
+}
+
+/// A kernel for means and, squared, for variances.
+#[derive(Debug)]
+struct Spread {
+    mean: Convolver,
+    variance: Convolver,
+}
+
+impl Spread {
+    fn new(kernel: &Kernel, canvas: &Canvas) -> Self {
+        let of = |kernel: &Kernel| Convolver::new(kernel, canvas.size(), canvas.whole());
+        Self { mean: of(kernel), variance: of(&kernel.squared()) }
+    }
+}
+
+/// Effects that are ready to be applied.
+#[derive(Debug)]
+pub struct Prepared {
+    canvas: Canvas,
+    glare: Option<Spread>,
+}
+
+impl Prepared {
+    /// The picture's irradiance in one band, of the film's; and its variance, of the film's.
+    ///
+    /// A pixel of the film that is not finite makes others so: none that holds a number has met it.
+    #[must_use]
+    pub fn apply(
+        &self,
+        film: &Plane<Irradiance>,
+        variance: Option<&Plane<Variance>>,
+    ) -> (Plane<Irradiance>, Option<Plane<Variance>>) {
+        let mean = self.spread(field(film), |spread| &spread.mean);
+        // One replicate knows no variance.
+        let known = |plane: &&Plane<Variance>| plane.samples().iter().all(|v| !v.is_nan());
+        let variance = variance.map(|plane| match Some(plane).filter(known) {
+            Some(plane) => self.cut(&self.spread(field(plane), |spread| &spread.variance)),
+            None => self.unknown(),
+        });
+        (self.cut(&mean), variance)
+    }
+
+    fn spread(&self, mut light: Field, of: impl Fn(&Spread) -> &Convolver) -> Field {
+        if let Some(glare) = &self.glare {
+            light = of(glare).apply(&light);
+        }
+        light
+    }
+
+    /// The picture of a film. Rounding of the transforms below zero is no light.
+    fn cut<Q: Quantity<Sample = f32>>(&self, film: &Field) -> Plane<Q> {
+        let Region { x, y } = self.canvas.picture();
+        let (width, height) = (x.len(), y.len());
+        let positive = |v: &f64| if *v < 0.0 { 0.0 } else { *v as f32 };
+        let samples = y.flat_map(|y| film.row(y)[x.clone()].iter().map(positive)).collect();
+        Plane::from_samples(width, height, samples).expect("a sample a pixel")
+    }
+
+    fn unknown(&self) -> Plane<Variance> {
+        let Region { x, y } = self.canvas.picture();
+        Plane::filled(x.len(), y.len(), f32::NAN)
+    }
+}
+
+fn field<Q: Quantity<Sample = f32>>(plane: &Plane<Q>) -> Field {
+    Field { width: plane.width(), values: plane.samples().iter().map(|v| f64::from(*v)).collect() }
+}
