@@ -164,6 +164,7 @@ pub fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>
                            world x forward, y left, z up; m",
         },
         "optics": optics(&camera.body),
+        "effects": effects(&camera.body),
         "sensor": sensor(&camera.body),
         "sampling": {
             "spp": settings.spp,
@@ -218,6 +219,16 @@ pub fn optics(body: &CameraBody) -> Value {
         "camera_matrix_convention": "raster: the top-left corner of the image is (0, 0), pixel centres at +0.5",
         "camera_matrix_opencv": matrix.to_opencv().rows(),
     })
+}
+
+/// The irradiance effects and their margin; null where there are none.
+pub fn effects(body: &CameraBody) -> Option<Value> {
+    let effects = Some(&body.effects).filter(|effects| !effects.is_idle())?;
+    let glare = effects.glare().map(|glare| {
+        let p = glare.parameters();
+        json!({ "scatter": p.scatter, "core_um": p.core_um, "exponent": p.exponent, "reach_mm": p.reach_mm })
+    });
+    Some(json!({ "margin_px": effects.margin_px(), "glare": glare }))
 }
 
 /// A lens's distortion, and the one of the other direction that comes nearest over the picture.

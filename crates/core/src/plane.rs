@@ -66,6 +66,14 @@ impl<Q: Quantity> Plane<Q> {
         &mut self.samples
     }
 
+    /// `width` × `height` pixels of the plane from column `x`, row `y` on. Panics outside the plane.
+    #[must_use]
+    pub fn part(&self, x: usize, y: usize, width: usize, height: usize) -> Self {
+        let row = |row: usize| self.samples[row * self.width + x..][..width].iter().copied();
+        assert!(x + width <= self.width, "columns up to {} of a plane {} wide", x + width, self.width);
+        Self { width, height, samples: (y..y + height).flat_map(row).collect() }
+    }
+
     /// A plane of another quantity, sample by sample.
     #[must_use]
     pub fn map<R: Quantity>(&self, f: impl FnMut(Q::Sample) -> R::Sample) -> Plane<R> {

@@ -168,7 +168,7 @@ fn what_cannot_be_is_refused() {
     assert!(matches!(lens.check(&raster), Err(OpticsError::CalibratedSize { width: 640, .. })));
     let parallel = Lens::parallel(ParallelParameters { metres_per_mm: 1.0, f_number: 4.0, transmittance: 1.0 });
     assert!(matches!(
-        PupilProjection::covering(&parallel.expect("legal"), &raster, 0, (400.0, 700.0)),
+        PupilProjection::covering(&parallel.expect("legal"), &raster, [0, 0], (400.0, 700.0)),
         Err(OpticsError::NoPupilRoute { .. })
     ));
     let folding = KannalaBrandt::new([-0.3, 0.0, 0.0, 0.0]).expect("finite");

@@ -46,10 +46,11 @@ fn cube(geometry: &PupilProjection, value: impl Fn(DVec2) -> f64) -> SpectralCub
 #[test]
 fn without_distortion_the_stored_pixels_are_the_picture_s() {
     let (lens, raster) = (lens(), raster());
-    let geometry = PupilProjection::covering(&lens, &raster, 0, RANGE_NM).expect("legal");
+    let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect("legal");
     assert_eq!((geometry.width(), geometry.height()), (64, 48));
     let stored = cube(&geometry, |t| if (t.x * 80.0).floor() % 2.0 == 0.0 { 1.0 } else { 3.0 });
-    let picture = Resampling::new(geometry, &lens, &raster, 0, bands()).expect("covered").apply(&stored).expect("size");
+    let picture =
+        Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect("covered").apply(&stored).expect("size");
     for (a, b) in picture.planes().iter().zip(stored.planes()) {
         for (a, b) in a.samples().iter().zip(b.samples()) {
             // Cell edges are found to about 1e-13 px.
@@ -62,8 +63,8 @@ fn without_distortion_the_stored_pixels_are_the_picture_s() {
 fn uniform_radiance_stays_uniform_and_becomes_the_etendue() {
     for lens in [distorted(Sense::IdealToObserved, -0.15), distorted(Sense::ObservedToIdeal, -0.08)] {
         let raster = raster();
-        let geometry = PupilProjection::covering(&lens, &raster, 0, RANGE_NM).expect("legal");
-        let picture = Resampling::new(geometry, &lens, &raster, 0, bands())
+        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect("legal");
+        let picture = Resampling::new(geometry, &lens, &raster, [0, 0], bands())
             .expect("covered")
             .apply(&cube(&geometry, |_| 7.0))
             .expect("size");
@@ -82,10 +83,10 @@ fn uniform_radiance_stays_uniform_and_becomes_the_etendue() {
 fn a_gradient_lands_where_the_lens_looks() {
     for lens in [distorted(Sense::IdealToObserved, -0.15), distorted(Sense::ObservedToIdeal, -0.08)] {
         let raster = raster();
-        let geometry = PupilProjection::covering(&lens, &raster, 0, RANGE_NM).expect("legal");
+        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect("legal");
         let stored = cube(&geometry, |t| 5.0 + 2.0 * t.x - 3.0 * t.y);
         let picture =
-            Resampling::new(geometry, &lens, &raster, 0, bands()).expect("covered").apply(&stored).expect("size");
+            Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect("covered").apply(&stored).expect("size");
         for (x, y) in [(0, 0), (12, 40), (31, 25), (63, 47)] {
             let ray = lens.principal_ray(raster.sensor_mm(DVec2::new(x as f64 + 0.5, y as f64 + 0.5))).expect("open");
             let t = ray.direction.truncate() / ray.direction.z;
@@ -102,26 +103,27 @@ fn a_gradient_lands_where_the_lens_looks() {
 fn overscan_grows_with_barrel_and_the_pixels_are_fine_enough() {
     let raster = raster();
     let barrel =
-        PupilProjection::covering(&distorted(Sense::IdealToObserved, -0.15), &raster, 0, RANGE_NM).expect("legal");
+        PupilProjection::covering(&distorted(Sense::IdealToObserved, -0.15), &raster, [0, 0], RANGE_NM).expect("legal");
     assert!(barrel.width() > 66 && barrel.height() > 50, "{barrel:?}");
     assert!(barrel.pitch_tan() <= 0.05 / 4.0);
     let pincushion =
-        PupilProjection::covering(&distorted(Sense::ObservedToIdeal, -0.08), &raster, 0, RANGE_NM).expect("legal");
+        PupilProjection::covering(&distorted(Sense::ObservedToIdeal, -0.08), &raster, [0, 0], RANGE_NM).expect("legal");
     assert!(pincushion.pitch_tan() < 0.05 / 4.0, "pincushion magnifies the corners");
 }
 
 #[test]
 fn a_picture_that_looks_beyond_the_stored_image_is_refused_with_the_angle() {
     let raster = raster();
-    let geometry = PupilProjection::covering(&lens(), &raster, 0, RANGE_NM).expect("legal");
-    assert!(Resampling::new(geometry, &lens(), &raster, 0, bands()).is_ok());
+    let geometry = PupilProjection::covering(&lens(), &raster, [0, 0], RANGE_NM).expect("legal");
+    assert!(Resampling::new(geometry, &lens(), &raster, [0, 0], bands()).is_ok());
     let wider = Raster::new(68, 48, DVec2::splat(0.05), DVec2::new(34.25, 25.5)).expect("legal");
-    let refused = Resampling::new(geometry, &lens(), &wider, 0, bands()).expect_err("four columns more on the left");
+    let refused =
+        Resampling::new(geometry, &lens(), &wider, [0, 0], bands()).expect_err("four columns more on the left");
     let OpticsError::MissingDirections { edge, missing_rad } = refused else { panic!("{refused}") };
     assert_eq!(edge, "left");
     assert!(
-        Resampling::new(geometry.widened(4, 0), &lens(), &wider, 0, bands()).is_ok()
-            && Resampling::new(geometry.widened(3, 9), &lens(), &wider, 0, bands()).is_err()
+        Resampling::new(geometry.widened(4, 0), &lens(), &wider, [0, 0], bands()).is_ok()
+            && Resampling::new(geometry.widened(3, 9), &lens(), &wider, [0, 0], bands()).is_err()
     );
     let across = |px: f64| etendue_core::maths::f64::atan(px * 0.05 / 4.0);
     // In the row of the axis the four columns span the largest angle.
@@ -131,9 +133,9 @@ fn a_picture_that_looks_beyond_the_stored_image_is_refused_with_the_angle() {
 #[test]
 fn an_image_of_another_size_is_refused() {
     let (lens, raster) = (lens(), raster());
-    let geometry = PupilProjection::covering(&lens, &raster, 0, RANGE_NM).expect("legal");
+    let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect("legal");
     let other = SpectralCube::<Radiance>::new(10, 10, bands());
-    let resampling = Resampling::new(geometry, &lens, &raster, 0, bands()).expect("covered");
+    let resampling = Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect("covered");
     assert!(matches!(resampling.apply(&other), Err(OpticsError::Size { got_width: 10, .. })));
     assert!(matches!(irradiance(&other, &lens, &raster), Err(OpticsError::Size { .. })));
 }

@@ -101,8 +101,8 @@ fn centres(raster: &Raster) -> impl Iterator<Item = (usize, usize, DVec2)> {
 fn uniform_radiance_stays_uniform_whatever_the_lens() {
     for (name, lens, raster) in cameras() {
         for margin_px in [0, 5] {
-            let geometry = PupilProjection::covering(&lens, &raster, margin_px, RANGE_NM).expect(name);
-            let resampling = Resampling::new(geometry, &lens, &raster, margin_px, bands()).expect(name);
+            let geometry = PupilProjection::covering(&lens, &raster, [margin_px; 2], RANGE_NM).expect(name);
+            let resampling = Resampling::new(geometry, &lens, &raster, [margin_px; 2], bands()).expect(name);
             let picture = resampling.apply(&stored(&geometry, |_| 7.0)).expect(name);
             let mut seen = 0;
             for (x, y, at) in centres(resampling.raster()) {
@@ -131,8 +131,8 @@ fn smooth(d: DVec3) -> f64 {
 #[test]
 fn a_smooth_radiance_has_no_seams() {
     for (name, lens, raster) in cameras() {
-        let geometry = PupilProjection::covering(&lens, &raster, 0, RANGE_NM).expect(name);
-        let resampling = Resampling::new(geometry, &lens, &raster, 0, bands()).expect(name);
+        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect(name);
+        let resampling = Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect(name);
         let picture = resampling.apply(&stored(&geometry, smooth)).expect(name);
         for (x, y, at) in centres(&raster) {
             let half = 0.5 * raster.pitch_mm().x;
@@ -157,7 +157,7 @@ fn a_smooth_radiance_has_no_seams() {
 #[test]
 fn narrow_pictures_take_one_view_and_wide_ones_only_the_faces_they_see() {
     let views = |(lens, raster): (Lens, Raster)| {
-        let geometry = PupilProjection::covering(&lens, &raster, 0, RANGE_NM).expect("legal");
+        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect("legal");
         (matches!(geometry, PupilProjection::Cube(_)), geometry.views().count())
     };
     assert_eq!(views(camera(Model::Perspective(Perspective::pinhole()), 80.0, [96, 64])), (false, 1));
@@ -171,7 +171,8 @@ fn narrow_pictures_take_one_view_and_wide_ones_only_the_faces_they_see() {
 #[test]
 fn stored_pixels_are_no_wider_than_the_picture_s() {
     let (lens, raster) = equidistant(PI);
-    let PupilProjection::Cube(cube) = PupilProjection::covering(&lens, &raster, 0, RANGE_NM).expect("legal") else {
+    let PupilProjection::Cube(cube) = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect("legal")
+    else {
         panic!("six views")
     };
     // π/96 rad a pixel; the finest of the survey's differences may round below it.
@@ -225,27 +226,27 @@ fn pixels_belong_to_one_view_and_look_where_they_are_found() {
 #[test]
 fn a_wider_picture_than_the_stored_views_is_refused_and_overscan_helps() {
     let (narrow, small) = equidistant(PI);
-    let geometry = PupilProjection::covering(&narrow, &small, 0, RANGE_NM).expect("legal");
+    let geometry = PupilProjection::covering(&narrow, &small, [0, 0], RANGE_NM).expect("legal");
     let (wide, large) = limited(Model::Ideal(Ideal::Equidistant), 96.0 / PI, [104, 104], 0.5 * PI * 104.0 / 96.0);
-    let refused = Resampling::new(geometry, &wide, &large, 0, bands()).expect_err("8.5° more on each side");
+    let refused = Resampling::new(geometry, &wide, &large, [0, 0], bands()).expect_err("8.5° more on each side");
     assert!(matches!(refused, OpticsError::MissingDirections { .. }), "{refused}");
     let more = geometry.overscanned(0.25);
-    assert!(Resampling::new(more, &wide, &large, 0, bands()).is_ok());
+    assert!(Resampling::new(more, &wide, &large, [0, 0], bands()).is_ok());
     let (sphere, full) = equidistant(2.0 * PI);
-    let refused = Resampling::new(geometry, &sphere, &full, 0, bands()).expect_err("it looks back");
+    let refused = Resampling::new(geometry, &sphere, &full, [0, 0], bands()).expect_err("it looks back");
     assert!(refused.to_string().contains("back view") || refused.to_string().contains("edge"), "{refused}");
 }
 
 #[test]
 fn distances_are_taken_and_never_averaged() {
     let (lens, raster) = equidistant(PI);
-    let geometry = PupilProjection::covering(&lens, &raster, 0, RANGE_NM).expect("legal");
+    let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect("legal");
     // The inside of a box about the pupil, with a hole to the sky.
     let distance = |d: DVec3| if d.y < -0.8 { f64::INFINITY } else { 2.0 / d.abs().max_element() };
     let cube = stored(&geometry, distance);
     let mut plane = Plane::<Length>::new(geometry.width(), geometry.height());
     plane.samples_mut().copy_from_slice(cube.planes()[0].samples());
-    let resampling = Resampling::new(geometry, &lens, &raster, 0, bands()).expect("covered");
+    let resampling = Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect("covered");
     let seen = resampling.nearest(&plane, f32::NAN).expect("size");
     let mut sky = 0;
     for (x, y, at) in centres(&raster) {
@@ -269,10 +270,10 @@ fn distances_are_taken_and_never_averaged() {
 fn a_prescription_is_resampled_by_its_own_chief_rays() {
     for (name, radius_mm) in [("double-gauss", 21.6), ("fisheye", 12.75)] {
         let (lens, raster) = prescription(name, radius_mm);
-        let geometry = PupilProjection::covering(&lens, &raster, 0, RANGE_NM).expect(name);
+        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], RANGE_NM).expect(name);
         // A radiance that is the field angle itself, which a linear interpolation keeps.
         let angle = |d: DVec3| atan2(d.truncate().length(), d.z);
-        let picture = Resampling::new(geometry, &lens, &raster, 0, bands()).expect(name);
+        let picture = Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect(name);
         let picture = picture.apply(&stored(&geometry, angle)).expect(name);
         for (x, y, at) in centres(&raster).filter(|(_, _, at)| at.length() < 0.97 * radius_mm && at.length() > 2.0) {
             let direct = angle(lens.direction(at).expect("seen"));

@@ -6,6 +6,7 @@
 
 pub mod block;
 pub mod compile;
+mod effects;
 pub mod film;
 mod fingerprint;
 pub mod gather;

@@ -1,5 +1,6 @@
 //! From light to photographs: irradiance, electrons, raw, picture.
 
+use crate::effects::{behind, picture};
 use crate::film::{CubeEstimate, Film};
 use crate::plan::{CameraBody, CameraPlan, Route};
 use crate::pupil_depth::PupilDepth;
@@ -37,11 +38,11 @@ pub struct Stored<'a> {
 }
 
 impl Stored<'_> {
-    /// Radiance and distance in the raster of a camera's picture, with `margin_px` more pixels on all sides.
+    /// Radiance and distance in the raster of a camera's picture, with `margin_px` more columns and rows on all sides.
     ///
     /// # Errors
     /// Where the picture needs directions that the image does not hold.
-    pub fn seen(&self, body: &CameraBody, margin_px: usize) -> Result<Sight, OpticsError> {
+    pub fn seen(&self, body: &CameraBody, margin_px: [usize; 2]) -> Result<Sight, OpticsError> {
         let (lens, bands) = (&body.lens, self.radiance.bands());
         let resampling = Resampling::new(*self.projection, lens, &body.raster, margin_px, bands)?;
         let radiance = resampling.apply(self.radiance)?;
@@ -76,8 +77,13 @@ impl Light {
     }
 
     fn through_lens(body: &CameraBody, film: Film) -> Self {
-        let radiance = film.radiance();
-        let (irradiance, irradiance_variance) = film.cube.map(|c| (c.mean, c.variance)).unzip();
+        let radiance = film.radiance().map(|CubeEstimate { mean, variance }| CubeEstimate {
+            mean: picture(body, mean),
+            variance: picture(body, variance),
+        });
+        let behind = film.cube.map(|c| behind(body, c.mean, Some(c.variance)));
+        let (irradiance, irradiance_variance) = behind.unzip();
+        let irradiance_variance = irradiance_variance.flatten();
         let (folded, electrons_variance) = film.electrons.map(|e| (e.mean, e.variance)).unzip();
         let electrons = folded.or_else(|| electrons(body, irradiance.as_ref()?));
         Self { radiance, irradiance, irradiance_variance, electrons, electrons_variance }
@@ -88,8 +94,9 @@ impl Light {
     /// # Errors
     /// Where the picture needs directions that the image does not hold.
     pub fn at_pupil(body: &CameraBody, stored: &Stored<'_>) -> Result<Self, OpticsError> {
-        let Sight { radiance: seen, .. } = Stored { distance: None, ..*stored }.seen(body, 0)?;
-        let irradiance = irradiance(&seen, &body.lens, &body.raster)?;
+        let margin = body.effects.margin_px();
+        let Sight { radiance: seen, .. } = Stored { distance: None, ..*stored }.seen(body, margin)?;
+        let (irradiance, _) = behind(body, irradiance(&seen, &body.lens, &body.film())?, None);
         Ok(Self {
             radiance: None,
             electrons: electrons(body, &irradiance),

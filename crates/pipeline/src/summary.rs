@@ -6,7 +6,8 @@ use crate::plan::{CameraPlan, Plan, Products, Route, Settings, SkyFacts};
 use crate::render::{census, layout};
 use etendue_core::Bands;
 use etendue_isp::WhiteBalance;
-use etendue_optics::{Lens, PupilProjection, PupilStance};
+use etendue_optics::effects::{self, Effect};
+use etendue_optics::{Effects, Lens, PupilProjection, PupilStance};
 use etendue_projection::Sense;
 use etendue_sensor::Verdict;
 use etendue_tracer::geometry::Shape;
@@ -87,6 +88,7 @@ fn camera(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Resul
     lights(plan, camera, f)?;
     light_paths(camera, f)?;
     lens(camera, f)?;
+    effects(camera, f)?;
     sensor(camera, f)?;
     processing(camera, f)?;
     line(f, "delivers", products(&camera.products))?;
@@ -176,7 +178,7 @@ fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
             line(f, "route", format!("{size}; defocus is left out ({})", blur(camera)))
         }
     }?;
-    line(f, "left out", left_out(lens))
+    line(f, "left out", left_out(lens, &camera.body.effects))
 }
 
 /// A number as the user would write it: to four decimals.
@@ -184,19 +186,63 @@ fn figure(x: f64) -> f64 {
     (x * 1e4).round() / 1e4
 }
 
-fn left_out(lens: &Lens) -> String {
+/// The irradiance effects, each with its need.
+fn effects(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let effects = &camera.body.effects;
+    let [columns, rows] = effects.margin_px();
+    let about = match (effects.is_idle(), columns + rows) {
+        (true, _) => "none on the irradiance".to_owned(),
+        (false, 0) => "on the irradiance; nothing comes from beyond the picture".to_owned(),
+        (false, _) => {
+            format!(
+                "on the irradiance, with {columns} columns and {rows} rows beyond each edge of the picture rendered"
+            )
+        }
+    };
+    line(f, "effects", about)?;
+    for need in effects.needs() {
+        let verdict = match need.verdict {
+            effects::Verdict::Required => "modelled",
+            effects::Verdict::Guarded => "where the data need it",
+            effects::Verdict::Skipped => "left out",
+        };
+        line(f, "", format!("{}: {verdict}: {}", need.effect.name(), need.reason))?;
+    }
+    Ok(())
+}
+
+/// "a, b and c".
+fn list(words: &[&str]) -> String {
+    match words {
+        [] => "nothing".to_owned(),
+        [one] => (*one).to_owned(),
+        [some @ .., last] => format!("{} and {last}", some.join(", ")),
+    }
+}
+
+fn left_out(lens: &Lens, effects: &Effects) -> String {
+    let missing = |words: &[&'static str]| {
+        let models =
+            |effect| effects.needs().iter().any(|n| n.effect == effect && n.verdict != effects::Verdict::Skipped);
+        let modelled = |word: &&&str| **word == "glare" && models(Effect::Glare);
+        list(&words.iter().filter(|word| !modelled(word)).copied().collect::<Vec<_>>())
+    };
     match lens {
         Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Parallel(_) => {
-            "aberrations, diffraction, glare and ghosts: not modelled; dispersion: the lens has none".to_owned()
+            let missing = missing(&["aberrations", "diffraction", "glare", "ghosts"]);
+            format!("{missing}: not modelled; dispersion: the lens has none")
         }
-        Lens::Prescription(_) => "diffraction, glare, ghosts and absorption in glass: not modelled".to_owned(),
+        Lens::Prescription(_) => {
+            format!("{}: not modelled", missing(&["diffraction", "glare", "ghosts", "absorption in glass"]))
+        }
         Lens::Calibrated(lens) => {
             let pupil = match (lens.parameters().relative_illumination.is_some(), lens.pupil()) {
                 (true, _) => "illumination as measured",
                 (false, PupilStance::Flat) => "illumination of a flat pupil, cos θ dΩ/dA",
                 (false, PupilStance::Turning) => "illumination of a pupil turned to the light, dΩ/dA",
             };
-            format!("aberrations, dispersion, diffraction, glare and ghosts: not modelled; {pupil}")
+            let missing = missing(&["aberrations", "dispersion", "diffraction", "glare", "ghosts"]);
+            format!("{missing}: not modelled; {pupil}")
         }
     }
 }

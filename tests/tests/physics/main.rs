@@ -7,6 +7,7 @@ mod caustics;
 mod colour;
 mod cornell;
 mod dispersing_lens;
+mod effects;
 mod extremes;
 mod furnace;
 mod ground_truth;

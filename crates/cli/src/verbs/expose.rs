@@ -94,7 +94,8 @@ fn expose(
     let Stored { radiance, projection, distance, .. } = stored;
     let at_pupil = photograph::Stored { projection, radiance, distance: distance.as_ref() };
     let light = Light::at_pupil(body, &at_pupil).map_err(|error| {
-        Failure::input(format!("{} through {}: {error}", arguments.radiance.display(), arguments.camera.display()))
+        let (radiance, camera) = (arguments.radiance.display(), arguments.camera.display());
+        Failure::input(format!("{radiance} through {camera}: {error}{}", margin(body)))
     })?;
     let seed = arguments.seed.unwrap_or(stored.provenance.seed);
     let facts = facts::exposed_provenance(&stored.provenance, &results.prefix, seed);
@@ -109,6 +110,17 @@ fn expose(
     results.json(Files::SIDECAR, &sidecar(body, stored, arguments, seed))
 }
 
+/// What the camera's effects need beyond its picture, where they need anything.
+fn margin(body: &CameraBody) -> String {
+    match body.effects.margin_px() {
+        [0, 0] => String::new(),
+        [x, y] => format!(
+            "; the camera's [effects] need {x} columns and {y} rows beyond its picture: give them a smaller \"margin\", or \
+             render with more \"overscan\""
+        ),
+    }
+}
+
 fn sidecar(body: &CameraBody, stored: &Stored, arguments: &args::Expose, seed: u64) -> serde_json::Value {
     json!({
         "program": "etendue",
@@ -121,6 +133,7 @@ fn sidecar(body: &CameraBody, stored: &Stored, arguments: &args::Expose, seed: u
         },
         "pose": { "camera_to_world": stored.provenance.camera_to_world },
         "optics": facts::optics(body),
+        "effects": facts::effects(body),
         "sensor": facts::sensor(body),
         "route": "pupil",
         "files": Files::of(&products(body), &arguments.frames),

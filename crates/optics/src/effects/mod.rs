@@ -147,6 +147,12 @@ impl Effects {
         picture.widened(self.margin_px)
     }
 
+    /// Veiling glare, as described.
+    #[must_use]
+    pub fn glare(&self) -> Option<&Glare> {
+        self.glare.as_ref()
+    }
+
     fn needs_glare(&self) -> Option<&Glare> {
         self.glare.as_ref().filter(|glare| Glare::need(Some(glare)).0 != Verdict::Skipped)
     }

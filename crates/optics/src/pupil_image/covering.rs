@@ -21,15 +21,20 @@ use glam::DVec2;
 const ROUNDING_PX: f64 = 1e-6;
 
 impl PupilProjection {
-    /// The geometry that holds every direction of a picture and of `margin_px` more pixels on all its sides, at the
+    /// The geometry that holds every direction of a picture and of `margin_px` more columns and rows on all its sides, at the
     /// wavelengths of a range (nm).
     ///
     /// # Errors
     /// Where the lens has no single viewpoint or cannot image the picture.
-    pub fn covering(lens: &Lens, raster: &Raster, margin_px: usize, range_nm: (f64, f64)) -> Result<Self, OpticsError> {
+    pub fn covering(
+        lens: &Lens,
+        raster: &Raster,
+        margin_px: [usize; 2],
+        range_nm: (f64, f64),
+    ) -> Result<Self, OpticsError> {
         serves(lens)?;
         lens.check(raster)?;
-        let raster = raster.widened([margin_px, margin_px]);
+        let raster = raster.widened(margin_px);
         let survey = Survey::new(lens, &raster, range_nm);
         if survey.looks.is_empty() {
             return Err(OpticsError::SeesNothing);

@@ -58,7 +58,7 @@ struct Tap {
 type Corners<'a> = [&'a [Option<DVec3>]; 2];
 
 impl<'a> Resampling<'a> {
-    /// A resampling of images of geometry `stored` into the raster of the picture with `margin_px` more pixels on all sides.
+    /// A resampling of images of geometry `stored` into the raster of the picture with `margin_px` more columns and rows on all sides.
     ///
     /// # Errors
     /// Where the picture needs directions that the image does not hold, or the lens cannot image the picture.
@@ -66,12 +66,12 @@ impl<'a> Resampling<'a> {
         stored: PupilProjection,
         lens: &'a Lens,
         raster: &Raster,
-        margin_px: usize,
+        margin_px: [usize; 2],
         bands: Bands,
     ) -> Result<Self, OpticsError> {
         serves(lens)?;
         lens.check(raster)?;
-        let raster = raster.widened([margin_px, margin_px]);
+        let raster = raster.widened(margin_px);
         let survey = Survey::new(lens, &raster, (bands.low_nm(), bands.high_nm()));
         check_covers(&stored, &survey)?;
         let widest = survey

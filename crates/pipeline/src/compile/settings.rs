@@ -87,7 +87,8 @@ pub(super) fn settings(
     let range_nm = range(render, body, cube);
     let bands = if cube { Some(bands(render, range_nm, context)?) } else { None };
     check_size(body, &route, &Layout { bands, folded }, context)?;
-    remark_losses(products, &route, folded, context);
+    remark_losses(products, &route, folded, body, context);
+    remark_margin(body, context);
     remark_bands(render, cube, context);
     let level = level(render);
     let blocks = blocks(level, render, body, folded);
@@ -185,7 +186,7 @@ const LARGEST_FILM: f64 = 32.0 * 1024.0 * 1024.0 * 1024.0;
 /// A picture that no machine of today would hold is refused, and not tried.
 fn check_size(body: &CameraBody, route: &Route, layout: &Layout, context: &mut Context<'_>) -> Option<()> {
     let (width, height) = match route {
-        Route::Lens => (body.raster.width(), body.raster.height()),
+        Route::Lens => (body.film().width(), body.film().height()),
         Route::Pupil(projection) => (projection.width(), projection.height()),
     };
     let bytes = Film::bytes(width, height, layout);
@@ -198,11 +199,10 @@ fn check_size(body: &CameraBody, route: &Route, layout: &Layout, context: &mut C
 }
 
 /// What is asked for but cannot be had, or is made and not kept.
-fn remark_losses(products: &Products, route: &Route, folded: bool, context: &mut Context<'_>) {
+fn remark_losses(products: &Products, route: &Route, folded: bool, body: &CameraBody, context: &mut Context<'_>) {
     if products.variance && products.electrons && !folded {
-        let remark =
-            "electrons come from band means and bring no variance; accumulate = \"auto\" through the lens does";
-        context.remark(remark.to_owned());
+        let remedy = if body.effects.is_idle() { "accumulate = \"auto\" through the lens" } else { "the irradiance" };
+        context.remark(format!("electrons come from band means and bring no variance; {remedy} does"));
     }
     if matches!(route, Route::Pupil(_)) && !products.radiance {
         context.remark("route = \"pupil\" without radiance = true: nothing is kept for expose".to_owned());
@@ -210,6 +210,13 @@ fn remark_losses(products: &Products, route: &Route, folded: bool, context: &mut
     if products.variance && products.irradiance && *route != Route::Lens {
         context
             .remark("irradiance behind a lens put on stored radiance brings no variance; the radiance does".to_owned());
+    }
+}
+
+/// Light from beyond the picture that the lens does not give.
+fn remark_margin(body: &CameraBody, context: &mut Context<'_>) {
+    if let (Ok(()), Err(error)) = (body.lens.check(&body.raster), body.lens.check(&body.film())) {
+        context.remark(format!("beyond the picture, where the effects take light from, some is missing: {error}"));
     }
 }
 
@@ -226,7 +233,7 @@ fn route(render: &Render, body: &CameraBody, context: &mut Context<'_>) -> Optio
         None | Some((render::Route::Lens, _)) => Some(Route::Lens),
         Some((render::Route::Pupil, place)) => {
             let range_nm = range(render, body, true);
-            let covering = PupilProjection::covering(&body.lens, &body.raster, 0, range_nm);
+            let covering = PupilProjection::covering(&body.lens, &body.raster, body.effects.margin_px(), range_nm);
             let covering = context.accept(place, covering)?;
             Some(Route::Pupil(covering.overscanned(render.overscan.as_ref().map_or(0.0, |o| o.value))))
         }
@@ -243,6 +250,7 @@ fn accumulation(
 ) -> (bool, bool) {
     let spectral = products.radiance || products.irradiance;
     let pupil = matches!(route, Route::Pupil(_));
+    let effects = !body.effects.is_idle();
     let electrons = body.sensor.is_some() && (products.electrons || products.raw || products.picture);
     let asked = render.accumulate.as_ref().map(|a| (a.value, &a.place));
     match asked {
@@ -254,10 +262,13 @@ fn accumulation(
             } else if spectral {
                 let problem = "\"folded\" keeps no spectrum, and radiance or irradiance is asked for";
                 context.fault(place, problem, "use \"auto\", which keeps both, or do not ask for them");
+            } else if effects {
+                let problem = "\"folded\" keeps no spectrum, and the camera's [effects] act on one";
+                context.fault(place, problem, "use \"auto\" or \"cube\", or remove [effects]");
             }
             (false, true)
         }
-        None | Some((Accumulate::Auto, _)) => (spectral || pupil, electrons && !pupil),
+        None | Some((Accumulate::Auto, _)) => (spectral || pupil || effects, electrons && !pupil && !effects),
     }
 }
 

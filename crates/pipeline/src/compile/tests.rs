@@ -122,3 +122,66 @@ fn mixes_name_materials_in_any_order_and_not_themselves() {
     let circle = plan(&parts.replace("a = \"grey\"", "a = \"mix\"")).expect_err("a circle");
     assert!(circle.contains("job.toml:8:1: scene.materials.mix: ") && circle.contains("of itself"), "{circle}");
 }
+
+/// A camera that scatters light, with further keys of the effects and a section of rendering.
+fn scattering(effects: &str, render: &str) -> Result<Plan, String> {
+    let text = format!(
+        r#"format = 1
+[[cameras]]
+name = "front"
+position_m = [0, 0, 1]
+look_at_m = [10, 0, 1]
+lens = {{ model = "thin", focal_length_mm = 6, f_number = 2.0, focus_distance_m = "infinity", distortion = {{ k1 = -0.5, direction = "ideal_to_observed", radius_unit = "focal_lengths" }} }}
+effects = {{ {effects} }}
+[cameras.sensor]
+width_px = 80
+height_px = 60
+pixel_pitch_um = 50
+exposure_s = 0.01
+cfa = "mono"
+quantum_efficiency = 0.5
+full_well_e = 1e4
+read_noise_e = 2
+dark_current_e_s = 0
+gain_dn_per_e = 0.5
+black_level_dn = 0
+bits = 12
+[render]
+{render}
+[scene]
+"#
+    );
+    let read = |_: &Path| Ok(text.clone());
+    let job = Description::load(Path::new("job.toml"), &read, &Overrides::default()).map_err(|f| f.to_string())?;
+    let faults = |list: Vec<etendue_scene::Fault>| list.iter().map(|f| format!("{f}\n")).collect::<String>();
+    compile(&job, &Assets::default(), &Choices::default()).map_err(faults)
+}
+
+const GLARE: &str = "glare = { scatter = 0.02, core_um = 10, exponent = 2.5 }";
+
+#[test]
+fn effects_keep_a_spectrum_and_a_margin() {
+    let plan = scattering(GLARE, "").expect("no fault");
+    let camera = &plan.cameras[0];
+    assert!(camera.settings.bands.is_some() && !camera.settings.folded);
+    assert_eq!(camera.film_size(), (120, 90), "a quarter of 80 × 60 on every side");
+    let clean = scattering("glare = { scatter = 0, core_um = 10, exponent = 2.5 }", "").expect("no fault");
+    assert!(clean.cameras[0].settings.bands.is_none() && clean.cameras[0].film_size() == (80, 60));
+}
+
+#[test]
+fn effects_that_cannot_be_are_refused_where_they_stand() {
+    let fault = |effects: &str, render: &str| scattering(effects, render).expect_err("a fault");
+    let said = fault(GLARE, "accumulate = \"folded\"");
+    assert!(said.starts_with("job.toml:22:14: render.accumulate") && said.contains("[effects] act on one"), "{said}");
+    let said = fault("glare = { scatter = 0.02, core_um = 10, exponent = 2 }", "");
+    assert!(said.contains("effects.glare") && said.contains("no finite sum"), "{said}");
+    let said = fault("margin = 0.5, glare = { scatter = 0, core_um = 10, exponent = 3 }", "");
+    assert!(said.contains("effects.margin") && said.contains("no effect"), "{said}");
+    let said = fault("glare = { scatter = 0.7, core_um = 10, exponent = 3 }", "");
+    assert!(said.contains("scatter") && said.contains("at most 0.5"), "{said}");
+    assert!(fault("", "").contains("describes no effect"));
+    // The distortion folds beyond the picture, within a margin of its own width.
+    let plan = scattering(&format!("margin = 1, {GLARE}"), "").expect("it is dark there");
+    assert!(plan.remarks.iter().any(|r| r.contains("some is missing")), "{:?}", plan.remarks);
+}

@@ -1,0 +1,45 @@
+//! The irradiance effects of a camera on a whole film, bands side by side.
+
+use crate::plan::CameraBody;
+use etendue_core::quantity::{Irradiance, Quantity, Variance};
+use etendue_core::{Plane, SpectralCube};
+use etendue_optics::effects::Prepared;
+use rayon::prelude::*;
+
+/// The picture's irradiance and its variance, of the film's, on the caller's pool; the same where the camera has no effects.
+pub(crate) fn behind(
+    body: &CameraBody,
+    film: SpectralCube<Irradiance>,
+    variance: Option<SpectralCube<Variance>>,
+) -> (SpectralCube<Irradiance>, Option<SpectralCube<Variance>>) {
+    if body.effects.is_idle() {
+        return (film, variance);
+    }
+    let prepared = body.effects.prepared(&body.raster);
+    let of_band = |band: usize| of_band(&prepared, band, &film, variance.as_ref());
+    let (means, variances): (Vec<_>, Vec<_>) = (0..film.planes().len()).into_par_iter().map(of_band).unzip();
+    let bands = film.bands();
+    let mean = SpectralCube::from_planes(bands, means).expect("planes of one picture");
+    let variances: Option<Vec<_>> = variances.into_iter().collect();
+    (mean, variances.and_then(|planes| SpectralCube::from_planes(bands, planes)))
+}
+
+fn of_band(
+    prepared: &Prepared,
+    band: usize,
+    film: &SpectralCube<Irradiance>,
+    variance: Option<&SpectralCube<Variance>>,
+) -> (Plane<Irradiance>, Option<Plane<Variance>>) {
+    prepared.apply(&film.planes()[band], variance.map(|cube| &cube.planes()[band]))
+}
+
+/// The picture of a film, without its margin.
+pub(crate) fn picture<Q: Quantity>(body: &CameraBody, film: SpectralCube<Q>) -> SpectralCube<Q> {
+    let [x, y] = body.effects.margin_px();
+    if [x, y] == [0, 0] {
+        return film;
+    }
+    let (width, height) = (body.raster.width(), body.raster.height());
+    let planes = film.planes().iter().map(|plane| plane.part(x, y, width, height)).collect();
+    SpectralCube::from_planes(film.bands(), planes).expect("planes of one picture")
+}
