@@ -13,7 +13,7 @@ fn glare(scatter: f64, core_um: f64, exponent: f64, reach_mm: Option<f64>) -> Gl
 
 fn effects(glare: Glare, margin: f64, width: usize, height: usize) -> (Effects, Raster) {
     let picture = Raster::centred(width, height, PITCH_MM).expect("legal");
-    let parameters = EffectsParameters { glare: Some(glare), margin: Some(margin), ..Default::default() };
+    let parameters = EffectsParameters { glare: Some(glare), margin: Some(margin) };
     (Effects::new(parameters, &picture).expect("legal"), picture)
 }
 
