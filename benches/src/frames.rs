@@ -21,7 +21,7 @@ pub fn table() -> Table {
     let plan = STREET.plan();
     let body = &camera(&plan).body;
     let sensor = sensor(body);
-    let means = ramp(sensor.parameters().full_well_e);
+    let means = ramp(sensor.parameters().charge.full_well_e);
     let development = body.development.as_ref().expect("the street's camera makes pictures");
     let raw = expose(&sensor, &means);
     let one = pool(1);
@@ -41,8 +41,9 @@ fn row(name: &str, runs: &Runs) -> Vec<String> {
 
 /// The camera's sensor, with dark current that counts.
 fn sensor(body: &CameraBody) -> Sensor {
-    let parameters = body.sensor.as_ref().expect("the street's camera has electronics").parameters().clone();
-    let warm = SensorParameters { exposure_s: 0.01, dark_current_e_s: 500.0, noise: true, ..parameters };
+    let mut warm: SensorParameters =
+        body.sensor.as_ref().expect("the street's camera has electronics").parameters().clone();
+    (warm.exposure.exposure_s, warm.charge.dark.current_e_s, warm.noise) = (0.01, 500.0, true);
     Sensor::new(warm).expect("a legal sensor")
 }
 

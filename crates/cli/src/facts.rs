@@ -267,14 +267,14 @@ pub fn sensor(body: &CameraBody) -> Value {
     let electronics = body.sensor.as_ref().map(|sensor| {
         let p = sensor.parameters();
         json!({
-            "exposure_s": p.exposure_s,
-            "gain_dn_per_e": p.gain_dn_e,
-            "black_level_dn": p.black_level_dn,
+            "exposure_s": p.exposure.exposure_s,
+            "gain_dn_per_e": p.read_out.gain_dn_e,
+            "black_level_dn": sensor.black_level_dn(),
             "white_level_dn": sensor.white_level_dn(),
-            "full_well_e": p.full_well_e,
-            "read_noise_e": p.read_noise_e,
-            "dark_current_e_s": p.dark_current_e_s,
-            "bits": p.bits,
+            "full_well_e": p.charge.full_well_e,
+            "read_noise_e": p.read_out.noise.white_e,
+            "dark_current_e_s": p.charge.dark.current_e_s,
+            "bits": sensor.delivered_bits(),
             "noise": p.noise,
             "cfa": {
                 "columns": p.cfa.width(),

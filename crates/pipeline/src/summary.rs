@@ -300,8 +300,13 @@ fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
         return line(f, "sensor", format!("{size}; no electronics are described, so no electrons are made"));
     };
     let p = sensor.parameters();
-    line(f, "sensor", format!("{size}, {} s, {} bits, {} e⁻ full well", p.exposure_s, p.bits, p.full_well_e))?;
-    for need in sensor.needs() {
+    line(
+        f,
+        "sensor",
+        format!("{size}, {} s, {} bits, {} e⁻ full well", p.exposure.exposure_s, p.read_out.bits, p.charge.full_well_e),
+    )?;
+    let (silent, said): (Vec<_>, Vec<_>) = sensor.needs().into_iter().partition(etendue_sensor::Need::is_silent);
+    for need in said {
         let verdict = match need.verdict {
             Verdict::Required => "modelled",
             Verdict::Guarded => "where the data need it",
@@ -309,7 +314,8 @@ fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
         };
         line(f, "", format!("{}: {verdict}: {}", need.effect.name(), need.reason))?;
     }
-    Ok(())
+    let silent: Vec<_> = silent.iter().map(|need| need.effect.name()).collect();
+    line(f, "", format!("left out, as not described: {}", silent.join(", ")))
 }
 
 fn processing(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {

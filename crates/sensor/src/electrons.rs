@@ -42,9 +42,10 @@ fn weighted_sum(irradiance: &SpectralCube<Irradiance>, weights: &[f64], i: usize
 
 #[cfg(test)]
 mod tests {
+    use crate::Channel;
     use crate::cfa::{BayerPhase, Cfa};
-    use crate::sensor::tests::ideal;
-    use crate::sensor::{Channel, Sensor};
+    use crate::parameters::tests::ideal;
+    use crate::sensor::Sensor;
     use etendue_core::{Bands, SpectralCube};
     use etendue_spectra::Spectrum;
 

@@ -6,24 +6,39 @@
 //!
 //! - [`Sensor::responsivity`] says how many electrons a channel makes of an irradiance during the exposure; an irradiance
 //!   cube ([`Sensor::electrons`]) or the caller's own accumulation makes mean electrons of it.
-//! - [`Sensor::step`] makes a raw picture of mean electrons: shot noise, dark current, full well, read noise, converter,
-//!   in that order ([`effects`]). It is an ordered fold over frames; its state is [`SensorState`].
+//! - [`Sensor::step`] makes a raw picture of mean electrons by the effects a sensor has, in their physical order
+//!   ([`effects`]). It is an ordered fold over frames; its state is [`SensorState`]. [`Sensor::step_with_causes`] says
+//!   beside it what each pixel's value is made of.
 //! - [`Sensor::needs`] says which effects a sensor has, and why others are absent.
 //!
-//! The model is that of EMVA 1288 (linear). Every random number has an address, so a picture's bits do not depend on
-//! threads or on the order of work.
-//!
-//! Left out for now: temperature, fixed patterns (PRNU, DSNU, defects), crosstalk, blooming, smear, lag.
+//! The model is that of EMVA 1288 (linear), with what the standard leaves out. Every random number has an address, so a
+//! picture's bits do not depend on threads or on the order of work. Noise from frame to frame is drawn from the job's seed,
+//! fixed patterns from the specimen's.
 
+mod account;
+mod causes;
 pub mod cfa;
+mod check;
 pub mod effects;
 mod electrons;
+pub mod exposure_control;
+mod frame;
+pub mod hdr;
+pub mod layout;
+mod operation;
+mod parameters;
 pub mod photon;
 pub mod random;
+mod raw;
 mod sensor;
-mod step;
+mod state;
 
+pub use account::ChargeAccount;
+pub use causes::{Cause, Causes};
 pub use cfa::{BayerPhase, Cfa, CfaError};
+pub use check::SensorError;
 pub use effects::{Effect, Need, Verdict};
-pub use sensor::{Channel, Pixel, Sensor, SensorError, SensorParameters};
-pub use step::{FrameAddress, Raw, SensorState};
+pub use parameters::{Channel, Charge, Exposure, FixedPattern, Optics, Pixel, ReadOut, SensorParameters};
+pub use raw::{LinearRaw, Raw};
+pub use sensor::Sensor;
+pub use state::{FrameAddress, OperatingPoint, SensorState};

@@ -5,7 +5,10 @@ use super::spectrum::curve;
 use etendue_scene::Placed;
 use etendue_scene::record;
 use etendue_scene::record::sensor::{self as description, QuantumEfficiency};
-use etendue_sensor::{BayerPhase, Cfa, Channel, Pixel, Sensor, SensorParameters};
+use etendue_sensor::hdr::HighDynamicRange;
+use etendue_sensor::{
+    BayerPhase, Cfa, Channel, Charge, Exposure, FixedPattern, Optics, Pixel, ReadOut, Sensor, SensorParameters,
+};
 use etendue_spectra::{Outside, Spectrum, camera};
 
 /// The sensor with its electronics; `None` where the record has none or they are faulty.
@@ -15,13 +18,17 @@ pub(super) fn sensor(record: &record::Sensor, context: &mut Context<'_>) -> Opti
         pixel: Pixel { pitch_um: record.pixel_pitch_um.value, fill_factor: fill_factor(record) },
         channels: channels(electronics, context)?,
         cfa: cfa(electronics.cfa.value),
-        exposure_s: electronics.exposure_s.value,
-        dark_current_e_s: electronics.dark_current_e_s.value,
-        full_well_e: electronics.full_well_e.value,
-        read_noise_e: electronics.read_noise_e.value,
-        gain_dn_e: electronics.gain_dn_per_e.value,
-        black_level_dn: electronics.black_level_dn.value,
-        bits: electronics.bits.value as u32,
+        exposure: Exposure { exposure_s: electronics.exposure_s.value, frame_period_s: None, control: None },
+        optics: Optics::default(),
+        pattern: FixedPattern::default(),
+        charge: Charge::plain(electronics.full_well_e.value, electronics.dark_current_e_s.value),
+        read_out: ReadOut::linear(
+            electronics.gain_dn_per_e.value,
+            electronics.black_level_dn.value,
+            electronics.bits.value as u32,
+            electronics.read_noise_e.value,
+        ),
+        hdr: HighDynamicRange::default(),
         noise: electronics.noise.as_ref().is_none_or(|n| n.value),
     };
     match Sensor::new(parameters) {

@@ -1,47 +1,317 @@
 //! Dark current: electrons that heat sets free, with their own shot noise.
 //!
-//! k ~ Poisson(I t), I the mean dark current (e⁻/s) at the sensor's temperature; the mean I t itself where noise is off.
-//! Draw: `NoiseDraw::Dark` of the pixel. Left out: dependence on temperature, differences between pixels (DSNU).
+//! k ~ Poisson(I t), I the dark current (e⁻/s) of the pixel at the sensor's temperature ([`temperature`](super::temperature)); the
+//! mean I t itself where noise is off. I is the same for all pixels unless the description says how they differ:
+//!
+//! - spread: I f, f of mean 1 with a white, a row and a column part of stated standard deviation (shares of the mean). Normal:
+//!   f = max(1 + d, 0). Log-normal (the long tail of most sensors): the white part is exp(s z − s²/2), s² = ln(1 + σ²);
+//! - hot pixels: a share of pixels has an exponential current more, of a stated mean;
+//! - blinking pixels: a share of pixels has it only at the upper one of two levels ([`two_level`](super::two_level)).
+//!
+//! Draws: `Dark` of the pixel; of the specimen: `PixelDark`, `RowDark`, `ColumnDark`, `Hot`, `Blinking`; `BlinkingFlip`.
+//! All currents are stated at the reference temperature. Left out: glow of amplifiers, activation energies pixel by pixel.
 
-use super::{Row, Verdict};
-use crate::random::Poisson;
-use crate::sensor::SensorParameters;
-use etendue_core::random::NoiseDraw;
+use super::Verdict;
+use super::temperature::Temperature;
+use super::two_level::{Site, TwoLevel, high_in_row};
+use crate::check::Checks;
+use crate::operation::{Context, Operation};
+use crate::parameters::SensorParameters;
+use crate::random::pattern::{Deviations, Sigmas};
+use crate::random::{Poisson, sparse, standard_normal};
+use etendue_core::maths::f64::{exp, ln_1p};
+use etendue_core::random::{NoiseDraw, NoiseKey, Pixel};
 
-pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
-    let mean_e = p.dark_current_e_s * p.exposure_s;
-    if mean_e == 0.0 {
-        (Verdict::Skipped, format!("{} e-/s over {} s frees no electron", p.dark_current_e_s, p.exposure_s))
-    } else if p.noise {
-        (Verdict::Required, format!("{mean_e} e⁻ a pixel on average, Poisson"))
-    } else {
-        (Verdict::Required, format!("{mean_e} e⁻ a pixel; its shot noise is switched off"))
-    }
+/// Shape of the distribution of dark currents over pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tail {
+    /// Normal, cut at 0.
+    #[default]
+    Normal,
+    /// Log-normal, of the same mean and standard deviation.
+    LogNormal,
 }
 
-/// Dark current, prepared.
+/// How pixels' dark currents differ: standard deviations as shares of the mean.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DarkSpread {
+    /// From pixel to pixel.
+    pub white: f64,
+    /// From row to row.
+    pub row: f64,
+    /// From column to column.
+    pub column: f64,
+    /// Shape of the white part.
+    pub tail: Tail,
+}
+
+/// Pixels with far more dark current.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct DarkCurrent {
-    mean_e: f64,
-    /// `None` where only the mean is added.
-    counts: Option<Poisson>,
+pub struct Hot {
+    /// Share of pixels.
+    pub share: f64,
+    /// Mean of their additional current, e⁻/s.
+    pub mean_e_s: f64,
+}
+
+/// Dark current of a sensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DarkCurrent {
+    /// Mean dark current of a pixel at the reference temperature, e⁻·s⁻¹.
+    pub current_e_s: f64,
+    /// Temperatures; `None` where the stated current is that of the sensor as it is.
+    pub temperature: Option<Temperature>,
+    /// How pixels differ.
+    pub spread: DarkSpread,
+    /// Hot pixels.
+    pub hot: Option<Hot>,
+    /// Blinking pixels; the amplitude is a current, e⁻/s.
+    pub blinking: Option<TwoLevel>,
 }
 
 impl DarkCurrent {
-    pub(super) fn new(p: &SensorParameters) -> Self {
-        let mean_e = p.dark_current_e_s * p.exposure_s;
-        Self { mean_e, counts: Poisson::new(mean_e).filter(|_| p.noise) }
+    /// The same for all pixels, at the sensor's own temperature.
+    #[must_use]
+    pub fn even(current_e_s: f64) -> Self {
+        Self { current_e_s, temperature: None, spread: DarkSpread::default(), hot: None, blinking: None }
+    }
+
+    pub(crate) fn check(&self, checks: &mut Checks) {
+        checks.not_negative("dark_current_e_s", self.current_e_s);
+        if let Some(temperature) = &self.temperature {
+            temperature.check(checks);
+        }
+        checks.not_negative("dark_spread", self.spread.white);
+        checks.not_negative("dark_spread_row", self.spread.row);
+        checks.not_negative("dark_spread_column", self.spread.column);
+        if let Some(hot) = &self.hot {
+            checks.share_above_0("hot_share", hot.share);
+            checks.positive("hot_mean_e_s", hot.mean_e_s);
+        }
+        if let Some(blinking) = &self.blinking {
+            blinking.check(["blinking_share", "blinking_mean_e_s", "blinking_dwell_frames"], checks);
+        }
+    }
+
+    /// Factor of the sensor's temperature on all currents.
+    #[must_use]
+    pub fn temperature_factor(&self) -> f64 {
+        self.temperature.map_or(1.0, |t| t.factor())
+    }
+
+    fn is_even(&self) -> bool {
+        let s = self.spread;
+        s.white == 0.0 && s.row == 0.0 && s.column == 0.0 && self.hot.is_none() && self.blinking.is_none()
+    }
+}
+
+pub(super) fn need(p: &SensorParameters, operation: &Operation) -> (Verdict, String) {
+    let dark = &p.charge.dark;
+    let mean_e = dark.current_e_s * dark.temperature_factor() * operation.exposure_s;
+    let none = mean_e == 0.0 && dark.hot.is_none() && dark.blinking.is_none();
+    if none || operation.exposure_s == 0.0 {
+        return (
+            Verdict::Skipped,
+            format!("{} e-/s over {} s frees no electron", dark.current_e_s, operation.exposure_s),
+        );
+    }
+    let counted = if p.noise {
+        format!("{mean_e} e⁻ a pixel on average, Poisson")
+    } else {
+        format!("{mean_e} e⁻ a pixel; its shot noise is switched off")
+    };
+    (Verdict::Required, counted + &differences(dark))
+}
+
+fn differences(dark: &DarkCurrent) -> String {
+    let mut text = String::new();
+    if let Some(t) = dark.temperature {
+        text += &format!("; {:.4} times the stated current, by temperature", t.factor());
+    }
+    if dark.spread.white > 0.0 || dark.spread.row > 0.0 || dark.spread.column > 0.0 {
+        text += "; pixels differ";
+    }
+    if let Some(hot) = dark.hot {
+        text += &format!("; {} of pixels are hot", hot.share);
+    }
+    if let Some(blinking) = dark.blinking {
+        text += &format!("; {} of pixels blink", blinking.share);
+    }
+    text
+}
+
+/// Dark current, prepared.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct DarkElectrons {
+    key: NoiseKey,
+    /// Mean of a pixel that is as all others, e⁻.
+    mean_e: f64,
+    /// `None` where only the mean is added.
+    counts: Option<Poisson>,
+    /// `None` where all pixels are alike.
+    pattern: Option<DarkPattern>,
+}
+
+/// How pixels differ, prepared.
+#[derive(Clone, Debug, PartialEq)]
+struct DarkPattern {
+    deviations: Deviations,
+    /// s of the log-normal white part, and its key.
+    log_normal: Option<(f64, NoiseKey)>,
+    /// Share, and mean in electrons.
+    hot: Option<(f64, f64, NoiseKey)>,
+    /// Pixels that are at their upper level, amplitudes in electrons.
+    blinking: Vec<Site>,
+}
+
+impl DarkElectrons {
+    /// `high`: the blinking pixels at their upper level.
+    pub(crate) fn new(context: &Context<'_>, high: &[Site]) -> Self {
+        let dark = &context.p.charge.dark;
+        let electrons_per_current = dark.temperature_factor() * context.operation.exposure_s;
+        let mean_e = dark.current_e_s * electrons_per_current;
+        Self {
+            key: context.noise(NoiseDraw::Dark),
+            mean_e,
+            counts: Poisson::new(mean_e).filter(|_| context.p.noise),
+            pattern: (!dark.is_even()).then(|| DarkPattern::new(context, high, electrons_per_current)),
+        }
     }
 
     /// Adds dark electrons.
-    pub(super) fn apply(&self, electrons: &mut [f64], row: Row) {
-        match self.counts {
-            None => electrons.iter_mut().for_each(|e| *e += self.mean_e),
-            Some(counts) => {
-                for (x, e) in electrons.iter_mut().enumerate() {
-                    *e += counts.draw(&mut row.address.stream(x, row.y, NoiseDraw::Dark));
+    pub(crate) fn apply(&self, electrons: &mut [f64], y: u32) {
+        match (&self.pattern, self.counts) {
+            (None, None) => electrons.iter_mut().for_each(|e| *e += self.mean_e),
+            (None, Some(counts)) => {
+                electrons.iter_mut().enumerate().for_each(|(x, e)| *e += self.draw(&counts, x, y));
+            }
+            (Some(pattern), counts) => {
+                let means = pattern.means(self.mean_e, electrons.len(), y);
+                for ((x, e), mean) in electrons.iter_mut().enumerate().zip(means) {
+                    let poisson = counts.and_then(|_| Poisson::new(mean));
+                    *e += poisson.map_or(mean, |poisson| self.draw(&poisson, x, y));
                 }
             }
         }
+    }
+
+    fn draw(&self, counts: &Poisson, x: usize, y: u32) -> f64 {
+        counts.draw(&mut self.key.stream(Pixel { x: x as u32, y }))
+    }
+}
+
+impl DarkPattern {
+    fn new(context: &Context<'_>, high: &[Site], electrons_per_current: f64) -> Self {
+        let DarkSpread { white, row, column, tail } = context.p.charge.dark.spread;
+        let log_normal = (tail == Tail::LogNormal && white > 0.0)
+            .then(|| (ln_1p(white * white).sqrt(), context.pattern(NoiseDraw::PixelDark)));
+        let sigmas = Sigmas { white: if log_normal.is_some() { 0.0 } else { white }, row, column };
+        let draws = [NoiseDraw::PixelDark, NoiseDraw::RowDark, NoiseDraw::ColumnDark];
+        let hot = context.p.charge.dark.hot;
+        let in_electrons = |site: &Site| Site { amplitude: site.amplitude * electrons_per_current, ..*site };
+        Self {
+            deviations: Deviations::new(sigmas, draws, |draw| context.pattern(draw), context.width),
+            log_normal,
+            hot: hot.map(|h| (h.share, h.mean_e_s * electrons_per_current, context.pattern(NoiseDraw::Hot))),
+            blinking: high.iter().map(in_electrons).collect(),
+        }
+    }
+
+    /// Mean dark electrons of a row's pixels.
+    fn means(&self, mean_e: f64, width: usize, y: u32) -> Vec<f64> {
+        let mut means = vec![0.0; width];
+        self.deviations.of_row(y, width, |x, d| means[x] = mean_e * (1.0 + d).max(0.0));
+        if let Some((s, key)) = self.log_normal {
+            for (x, mean) in means.iter_mut().enumerate() {
+                let z = standard_normal(&mut key.stream(Pixel { x: x as u32, y }));
+                *mean *= exp(s * z - 0.5 * s * s);
+            }
+        }
+        if let Some((share, hot_e, key)) = self.hot {
+            sparse::each(key, y, share, width, |x, stream| means[x] += sparse::exponential(hot_e, stream));
+        }
+        for site in high_in_row(&self.blinking, y) {
+            means[site.x as usize] += site.amplitude;
+        }
+        means
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::tests::{ADDRESS, covariance, one_dn_an_electron, quiet, run};
+    use crate::sensor::Sensor;
+    use crate::state::{FrameAddress, SensorState};
+    use etendue_core::Plane;
+    use etendue_stats::Moments;
+
+    fn moments(p: &SensorParameters, size: usize) -> Moments {
+        let raw = run(p, &Plane::filled(size, size, 0.0), ADDRESS);
+        Moments::of(raw.plane.samples().iter().map(|dn| f64::from(*dn)))
+    }
+
+    #[test]
+    fn dark_electrons_are_counted_at_every_mean() {
+        for mean in [0.1, 1.0, 50.0, 1e4] {
+            let mut p = one_dn_an_electron();
+            p.charge.dark.current_e_s = mean / p.exposure.exposure_s;
+            let m = moments(&p, 512);
+            // 512² counts; their variance is known to √((2 + 1/μ)/n); four of each. Whole numbers of DN lose nothing.
+            let n: f64 = 262_144.0;
+            assert!((m.mean() - mean).abs() < 4.0 * (mean / n).sqrt(), "{mean}: {}", m.mean());
+            let relative = 4.0 * ((2.0 + 1.0 / mean) / n).sqrt();
+            assert!((m.variance().expect("many") / mean - 1.0).abs() < relative, "{mean}");
+        }
+    }
+
+    #[test]
+    fn both_tails_have_the_stated_mean_and_spread() {
+        for tail in [Tail::Normal, Tail::LogNormal] {
+            let mut p = quiet();
+            p.charge.dark.current_e_s = 1e4 / p.exposure.exposure_s;
+            p.charge.dark.spread = DarkSpread { white: 0.1, row: 0.0, column: 0.0, tail };
+            let m = moments(&p, 512);
+            // The variance of a log-normal number of 10 % is known a little worse than that of a normal one: √(2.6/n) = 0.31 %.
+            assert!((m.mean() / 1e4 - 1.0).abs() < 4.0 * 0.1 / 512.0, "{tail:?}");
+            assert!((m.variance().expect("many") / 1e6 - 1.0).abs() < 0.0125, "{tail:?}");
+        }
+    }
+
+    #[test]
+    fn heat_doubles_the_mean() {
+        let mut p = quiet();
+        p.charge.dark.current_e_s = 1e3 / p.exposure.exposure_s;
+        let law = super::super::temperature::TemperatureLaw::Doubling { step_k: 7.0 };
+        p.charge.dark.temperature = Some(Temperature { sensor_k: 307.0, reference_k: 300.0, law });
+        assert!((moments(&p, 8).mean() - 2000.0).abs() < 1e-9);
+        p.charge.dark.temperature = Some(Temperature { sensor_k: -1.0, reference_k: 300.0, law });
+        assert!(Sensor::new(p).is_err());
+    }
+
+    #[test]
+    fn hot_pixels_are_a_few_and_stay() {
+        let mut p = quiet();
+        p.charge.dark.hot = Some(Hot { share: 0.01, mean_e_s: 1e4 / p.exposure.exposure_s });
+        let first = run(&p, &Plane::filled(256, 256, 0.0), ADDRESS);
+        let hot = first.plane.samples().iter().filter(|dn| **dn > 0).count();
+        // 655 ± 25.
+        assert!((hot as f64 - 655.0).abs() < 102.0, "{hot}");
+        assert!(covariance(&first, 0, 0) > 0.0);
+        let later = run(&p, &Plane::filled(256, 256, 0.0), FrameAddress { frame: 5, ..ADDRESS });
+        assert_eq!(first.plane, later.plane);
+    }
+
+    #[test]
+    fn blinking_pixels_blink_over_frames() {
+        let mut p = one_dn_an_electron();
+        p.charge.dark.blinking = Some(TwoLevel { share: 0.02, mean: 1e6 / p.exposure.exposure_s, dwell_frames: 2.0 });
+        let sensor = Sensor::new(p).expect("legal");
+        let dark = Plane::filled(64, 64, 0.0);
+        let (state, first) = sensor.step(SensorState::default(), &dark, ADDRESS);
+        let (_, second) = sensor.step(state.clone(), &dark, FrameAddress { frame: 3, ..ADDRESS });
+        let up = |raw: &crate::Raw| raw.plane.samples().iter().map(|dn| *dn > 0).collect::<Vec<_>>();
+        assert_ne!(up(&first), up(&second));
+        assert_eq!(state.blinking_high.iter().filter(|h| **h).count(), up(&first).iter().filter(|h| **h).count());
     }
 }

@@ -1,35 +1,121 @@
-//! Full well: the most electrons a pixel holds; what is above is lost.
+//! Full well: the most electrons a pixel holds, and where the rest goes.
 //!
-//! e ← min(e, capacity). Left out: blooming into neighbours, the bend of the response before the well is full.
+//! Without blooming e ← min(e, capacity), and the rest is lost. With it, a share b of what a pixel cannot hold goes on to its
+//! neighbours and 1 − b is taken by the overflow drain, again and again until every pixel holds what it has:
+//!
+//! - along the column, half up and half down ([`bloom_column`]): a CCD, whose channel stops block sideways;
+//! - to all sides ([`bloom_around`]): a CMOS sensor.
+//!
+//! generated = collected + drained + spilt off the edge + clipped ([`ChargeAccount`]).
+//! Left out: the bend of the response before the well is full (see [`response`](super::response)).
 
 use super::Verdict;
-use crate::sensor::SensorParameters;
+use super::{bloom_around, bloom_column};
+use crate::account::ChargeAccount;
+use crate::check::Checks;
+use crate::operation::{Context, Operation};
+use crate::parameters::SensorParameters;
+use etendue_core::Plane;
+use etendue_core::quantity::Electrons;
+use rayon::prelude::*;
 
-pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
-    let clips = format!("clips rows in which a pixel collects more than {} e⁻", p.full_well_e);
-    let range_e = (f64::from((1_u32 << p.bits) - 1) - p.black_level_dn) / p.gain_dn_e;
-    if range_e < p.full_well_e {
+/// Where charge above the full well goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Blooming {
+    /// Along the column (CCD).
+    Column {
+        /// Share that goes on; the rest is drained.
+        spill: f64,
+    },
+    /// To all sides (CMOS).
+    Around {
+        /// Share that goes on; the rest is drained.
+        spill: f64,
+    },
+}
+
+impl Blooming {
+    pub(crate) fn check(&self, checks: &mut Checks) {
+        match *self {
+            Self::Column { spill } => checks.share_above_0("blooming_spill", spill),
+            // Without any drain, charge of a wide light would spread without end.
+            Self::Around { spill } => {
+                checks.legal("blooming_spill", spill, spill > 0.0 && spill <= 0.95, "a share above 0 and up to 0.95");
+            }
+        }
+    }
+}
+
+pub(super) fn need(p: &SensorParameters, operation: &Operation) -> (Verdict, String) {
+    let capacity = operation.full_well_e;
+    let clips = match p.charge.blooming {
+        None => format!("clips rows in which a pixel collects more than {capacity} e⁻"),
+        Some(Blooming::Column { spill }) => {
+            format!("of what exceeds {capacity} e⁻, {spill} goes on along the column, the rest is drained")
+        }
+        Some(Blooming::Around { spill }) => {
+            format!("of what exceeds {capacity} e⁻, {spill} goes on to all sides, the rest is drained")
+        }
+    };
+    let range_e = (p.largest_dn() - p.read_out.black_level_dn) / operation.gain_dn_e;
+    if range_e < capacity {
         (Verdict::Guarded, format!("{clips}; the converter's range ends before, at {range_e:.0} e⁻"))
     } else {
         (Verdict::Guarded, clips)
     }
 }
 
-/// Full well, prepared.
+/// Full well without blooming, prepared.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct FullWell {
+pub(crate) struct Clip {
     capacity_e: f64,
 }
 
-impl FullWell {
-    pub(super) fn new(p: &SensorParameters) -> Self {
-        Self { capacity_e: p.full_well_e }
+impl Clip {
+    pub(crate) fn new(context: &Context<'_>) -> Self {
+        Self { capacity_e: context.operation.full_well_e }
     }
 
     /// Clips, where a pixel of the row needs it.
-    pub(super) fn apply(&self, electrons: &mut [f64]) {
+    pub(crate) fn apply(&self, electrons: &mut [f64]) {
         if electrons.iter().any(|e| *e > self.capacity_e) {
             electrons.iter_mut().for_each(|e| *e = e.min(self.capacity_e));
         }
     }
+}
+
+/// Full well with blooming, prepared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Overflow {
+    pub(super) blooming: Blooming,
+    pub(super) capacity_e: f64,
+}
+
+impl Overflow {
+    pub(crate) fn new(blooming: Blooming, context: &Context<'_>) -> Self {
+        Self { blooming, capacity_e: context.operation.full_well_e }
+    }
+
+    /// Moves what pixels cannot hold.
+    pub(crate) fn apply(&self, plane: &mut Plane<Electrons>) -> ChargeAccount {
+        let generated_e = sum(plane);
+        // The well in the precision of the plane.
+        let well = self.capacity_e as f32;
+        let mut account = ChargeAccount { generated_e, ..ChargeAccount::default() };
+        if plane.samples().par_iter().any(|q| *q > well) {
+            match self.blooming {
+                Blooming::Column { spill } => bloom_column::apply(plane, well, spill, &mut account),
+                Blooming::Around { spill } => bloom_around::apply(plane, well, spill, &mut account),
+            }
+        }
+        account.collected_e = sum(plane);
+        account
+    }
+}
+
+/// Sum of a plane, rows first, so that it does not depend on threads.
+fn sum(plane: &Plane<Electrons>) -> f64 {
+    let rows = plane.samples().par_chunks(plane.width().max(1));
+    let sums: Vec<f64> = rows.map(|row| row.iter().map(|q| f64::from(*q)).sum()).collect();
+    sums.iter().sum()
 }

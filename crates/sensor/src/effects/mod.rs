@@ -1,70 +1,191 @@
-//! Charge effects and the converter, in physical order.
+//! Effects on charge and the converter, in physical order.
 //!
-//! Each member says whether a sensor needs it and why (`need`), and acts on a row of pixels (`apply`). What is not needed
-//! is absent: a strength of zero is never run.
+//! Each member says whether a sensor needs it and why (`need`), is prepared for a capture (`new`), and acts (`apply`): on a row
+//! of pixels where each is on its own, or on the whole plane where neighbours matter. What is not needed is absent: a
+//! strength of zero is never run.
 //!
-//! | order | effect | on |
-//! | --- | --- | --- |
-//! | 1 | [shot noise](shot_noise) | mean electrons → collected electrons |
-//! | 2 | [dark current](dark_current) | adds its own electrons |
-//! | 3 | [full well](full_well) | clips |
-//! | 4 | [read noise](read_noise) | adds electrons' worth of volts |
-//! | 5 | [converter] | gain, black level, rounding, range → DN |
+//! | order | effect | on | acts on |
+//! | --- | --- | --- | --- |
+//! | 1 | [angle response](angle_response) | mean electrons | rows |
+//! | 2 | [optical cross-talk](cross_talk) | mean electrons | plane |
+//! | 3 | [photo-response non-uniformity](photo_response) | mean electrons | rows |
+//! | 4 | [smear] | adds to mean electrons | plane |
+//! | 5 | [shot noise](shot_noise) | mean electrons → collected electrons | rows |
+//! | 6 | [dark current](dark_current) with its pattern | adds its own electrons | rows |
+//! | 7 | [lag] | exchanges charge with traps | plane |
+//! | 8 | [brighter-fatter](brighter_fatter) | moves charge | plane |
+//! | 9 | [full well](full_well), blooming | cuts and moves charge | rows; plane |
+//! | 10 | [dead pixels](dead_pixels) | empties | rows |
+//! | 11 | binning of charge ([`layout`](crate::layout)) | adds charge of pixels | plane |
+//! | 12 | [response] | charge → voltage | rows |
+//! | 13 | [inter-pixel capacitance](capacitance) | moves voltage | plane |
+//! | 14 | [offset non-uniformity](offset_pattern) | adds voltage | rows |
+//! | 15 | [read noise](read_noise) | adds voltage | rows |
+//! | 16 | [telegraph noise](telegraph_noise) | adds voltage | rows |
+//! | 17 | [converter] | gain, black level, rounding, range → DN | rows |
+//! | 18 | merging and companding ([`hdr`](crate::hdr)) | DN | plane |
 //!
 //! Shot noise and dark current commute: both are independent counts that are added.
 
+pub mod angle_response;
+pub mod bloom_around;
+pub mod bloom_column;
+pub mod brighter_fatter;
+pub mod capacitance;
 pub mod converter;
+pub mod cross_talk;
 pub mod dark_current;
+pub mod dead_pixels;
 pub mod full_well;
+pub mod lag;
+pub mod neighbours;
+pub mod offset_pattern;
+pub mod photo_response;
 pub mod read_noise;
+pub mod response;
 pub mod shot_noise;
+pub mod smear;
+pub mod telegraph_noise;
+pub mod temperature;
+pub mod two_level;
 
-use crate::sensor::SensorParameters;
-use crate::step::FrameAddress;
-use converter::Converter;
-use dark_current::DarkCurrent;
-use full_well::FullWell;
-use read_noise::ReadNoise;
-use shot_noise::ShotNoise;
+use crate::causes::Cause;
+use crate::operation::Operation;
+use crate::parameters::SensorParameters;
 
-/// The effects a sensor can have.
+/// The effects a sensor can have, in physical order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
+    /// What exposure control does to the next frame.
+    ExposureControl,
+    /// Response of the micro-lenses over the angle.
+    AngleResponse,
+    /// Light that neighbours exchange.
+    CrossTalk,
+    /// Differences in response to light.
+    PhotoResponse,
+    /// Light that charge meets on its way down the column.
+    Smear,
     /// Fluctuation of the number of photo-electrons.
     ShotNoise,
     /// Electrons without light.
     DarkCurrent,
-    /// The most electrons a pixel holds.
+    /// Traps that keep charge from frame to frame.
+    Lag,
+    /// Borders that charge moves.
+    BrighterFatter,
+    /// The most electrons a pixel holds, and where the rest goes.
     FullWell,
+    /// Pixels that hold nothing.
+    DeadPixels,
+    /// Pixels that are read together, and which are read.
+    Layout,
+    /// Voltage over charge.
+    Response,
+    /// Voltage that neighbours exchange.
+    Capacitance,
+    /// Offsets that differ.
+    OffsetPattern,
     /// Noise of the read-out chain.
     ReadNoise,
+    /// Pixels whose voltage jumps.
+    TelegraphNoise,
     /// Gain, black level, rounding and range.
     Converter,
+    /// Several captures become one.
+    Merge,
+    /// Fewer bits by a curve.
+    Companding,
 }
 
 impl Effect {
     /// All effects, in physical order.
-    pub const ALL: [Self; 5] = [Self::ShotNoise, Self::DarkCurrent, Self::FullWell, Self::ReadNoise, Self::Converter];
+    pub const ALL: [Self; 20] = [
+        Self::ExposureControl,
+        Self::AngleResponse,
+        Self::CrossTalk,
+        Self::PhotoResponse,
+        Self::Smear,
+        Self::ShotNoise,
+        Self::DarkCurrent,
+        Self::Lag,
+        Self::BrighterFatter,
+        Self::FullWell,
+        Self::DeadPixels,
+        Self::Layout,
+        Self::Response,
+        Self::Capacitance,
+        Self::OffsetPattern,
+        Self::ReadNoise,
+        Self::TelegraphNoise,
+        Self::Converter,
+        Self::Merge,
+        Self::Companding,
+    ];
 
     /// The effect's name in a plan.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            Self::ExposureControl => "exposure control",
+            Self::AngleResponse => "angle response",
+            Self::CrossTalk => "optical cross-talk",
+            Self::PhotoResponse => "photo-response non-uniformity",
+            Self::Smear => "smear",
             Self::ShotNoise => "shot noise",
             Self::DarkCurrent => "dark current",
+            Self::Lag => "lag",
+            Self::BrighterFatter => "brighter-fatter",
             Self::FullWell => "full well",
+            Self::DeadPixels => "dead pixels",
+            Self::Layout => "region and binning",
+            Self::Response => "response",
+            Self::Capacitance => "inter-pixel capacitance",
+            Self::OffsetPattern => "offset non-uniformity",
             Self::ReadNoise => "read noise",
+            Self::TelegraphNoise => "telegraph noise",
             Self::Converter => "converter",
+            Self::Merge => "merging of captures",
+            Self::Companding => "companding",
         }
     }
 
-    fn need(self, p: &SensorParameters) -> (Verdict, String) {
+    /// Whether a capture needs the effect, and why.
+    pub(crate) fn need(self, p: &SensorParameters, operation: &Operation) -> (Verdict, String) {
         match self {
-            Self::ShotNoise => shot_noise::need(p),
-            Self::DarkCurrent => dark_current::need(p),
-            Self::FullWell => full_well::need(p),
-            Self::ReadNoise => read_noise::need(p),
-            Self::Converter => converter::need(p),
+            Self::ExposureControl => crate::exposure_control::need(p),
+            Self::AngleResponse => angle_response::need(p),
+            Self::CrossTalk => cross_talk::need(p),
+            Self::PhotoResponse => photo_response::need(p),
+            Self::Smear => smear::need(p),
+            Self::ShotNoise => shot_noise::need(p, operation),
+            Self::DarkCurrent => dark_current::need(p, operation),
+            Self::Lag => lag::need(p),
+            Self::BrighterFatter => brighter_fatter::need(p),
+            Self::FullWell => full_well::need(p, operation),
+            Self::DeadPixels => dead_pixels::need(p),
+            Self::Layout => crate::layout::need(p),
+            Self::Response => response::need(p),
+            Self::Capacitance => capacitance::need(p),
+            Self::OffsetPattern => offset_pattern::need(p),
+            Self::ReadNoise => read_noise::need(p, operation),
+            Self::TelegraphNoise => telegraph_noise::need(p),
+            Self::Converter => converter::need(p, operation),
+            Self::Merge => crate::hdr::need_merge(p),
+            Self::Companding => crate::hdr::need_companding(p),
+        }
+    }
+
+    /// Under which cause what the effect adds is noted.
+    pub(crate) fn cause(self) -> Cause {
+        match self {
+            Self::PhotoResponse | Self::DeadPixels | Self::OffsetPattern => Cause::FixedPattern,
+            Self::Smear => Cause::Smear,
+            Self::ShotNoise => Cause::Shot,
+            Self::DarkCurrent => Cause::Dark,
+            Self::FullWell => Cause::Blooming,
+            Self::ReadNoise | Self::TelegraphNoise => Cause::Read,
+            _ => Cause::Transfer,
         }
     }
 }
@@ -91,79 +212,50 @@ pub struct Need {
     pub reason: String,
 }
 
+impl Need {
+    /// Whether the description says nothing of the effect.
+    #[must_use]
+    pub fn is_silent(&self) -> bool {
+        self.reason == NOT_DESCRIBED
+    }
+}
+
 /// The needs of a sensor, in physical order.
 #[must_use]
 pub(crate) fn needs(p: &SensorParameters) -> Vec<Need> {
+    let operation = Operation::described(p);
     let need = |effect: Effect| {
-        let (verdict, reason) = effect.need(p);
+        let (verdict, reason) = effect.need(p, &operation);
         Need { effect, verdict, reason }
     };
     Effect::ALL.into_iter().map(need).collect()
 }
 
-/// Where a row of pixels is, for its random addresses.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Row {
-    pub(crate) address: FrameAddress,
-    pub(crate) y: u32,
-}
-
-/// An effect on charge, prepared.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum ChargeEffect {
-    ShotNoise(ShotNoise),
-    DarkCurrent(DarkCurrent),
-    FullWell(FullWell),
-    ReadNoise(ReadNoise),
-}
-
-impl ChargeEffect {
-    pub(crate) fn apply(&self, electrons: &mut [f64], row: Row) {
-        match self {
-            Self::ShotNoise(effect) => effect.apply(electrons, row),
-            Self::DarkCurrent(effect) => effect.apply(electrons, row),
-            Self::FullWell(effect) => effect.apply(electrons),
-            Self::ReadNoise(effect) => effect.apply(electrons, row),
-        }
-    }
-}
-
-/// The needed effects of a sensor: those on charge in physical order, then the converter.
-pub(crate) fn chain(p: &SensorParameters) -> (Vec<ChargeEffect>, Converter) {
-    let needed = Effect::ALL.into_iter().filter(|e| e.need(p).0 != Verdict::Skipped);
-    let charge = needed.filter_map(|effect| match effect {
-        Effect::ShotNoise => Some(ChargeEffect::ShotNoise(ShotNoise)),
-        Effect::DarkCurrent => Some(ChargeEffect::DarkCurrent(DarkCurrent::new(p))),
-        Effect::FullWell => Some(ChargeEffect::FullWell(FullWell::new(p))),
-        Effect::ReadNoise => Some(ChargeEffect::ReadNoise(ReadNoise::new(p))),
-        Effect::Converter => None,
-    });
-    (charge.collect(), Converter::new(p))
-}
-
 /// Why randomness is absent.
 const NOISE_OFF: &str = "noise is switched off for this sensor";
+/// Why an effect is absent that the description says nothing of.
+pub(crate) const NOT_DESCRIBED: &str = "not described";
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sensor::tests::ideal;
+    use crate::parameters::tests::ideal;
 
     #[test]
     fn what_has_no_strength_is_absent_and_says_why() {
         let mut p = ideal();
+        let kept = |p: &SensorParameters| -> Vec<_> {
+            let needs = needs(p);
+            assert!(needs.iter().all(|n| !n.reason.is_empty()));
+            needs.into_iter().filter(|n| n.verdict != Verdict::Skipped).map(|n| n.effect.name()).collect()
+        };
         p.noise = false;
-        let verdicts: Vec<_> = needs(&p).iter().map(|n| n.verdict).collect();
-        use Verdict::{Guarded, Required, Skipped};
-        assert_eq!(verdicts, [Skipped, Skipped, Guarded, Skipped, Required]);
-        assert!(needs(&p).iter().all(|n| !n.reason.is_empty()));
-        assert_eq!(chain(&p).0.len(), 1);
+        assert_eq!(kept(&p), ["full well", "converter"]);
         p.noise = true;
-        p.dark_current_e_s = 3.0;
-        assert_eq!(chain(&p).0.len(), 4);
-        p.exposure_s = 0.0;
-        p.read_noise_e = 0.0;
-        let kept: Vec<_> = needs(&p).into_iter().filter(|n| n.verdict != Skipped).map(|n| n.effect.name()).collect();
-        assert_eq!(kept, ["full well", "converter"]);
+        p.charge.dark.current_e_s = 3.0;
+        assert_eq!(kept(&p), ["shot noise", "dark current", "full well", "read noise", "converter"]);
+        p.exposure.exposure_s = 0.0;
+        p.read_out.noise.white_e = 0.0;
+        assert_eq!(kept(&p), ["full well", "converter"]);
     }
 }

@@ -1,7 +1,9 @@
-//! The draws whose bits are promised: Poisson and normal, from addressed streams.
+//! Random numbers for sensors: our own, because their bits are promised.
 
 mod normal;
+pub(crate) mod pattern;
 mod poisson;
+pub(crate) mod sparse;
 
 pub use normal::standard_normal;
 pub use poisson::Poisson;

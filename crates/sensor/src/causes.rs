@@ -1,0 +1,126 @@
+//! What each pixel's digital number is made of: one layer a cause, in electrons at the converter's input.
+//!
+//! Every effect's layer is what it added to the pixel (negative where it took). Their sum is the digital number less the black
+//! level, over the gain. The layers are noted beside the raw and never change it. Of several captures those of the first.
+
+use etendue_core::Plane;
+use etendue_core::quantity::Electrons;
+
+/// A cause of a pixel's value.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// The mean electrons of the light.
+    Signal,
+    /// Photon shot noise (smear's included).
+    Shot,
+    /// Dark electrons: their mean, their shot noise, hot and blinking pixels.
+    Dark,
+    /// Read noise of all kinds.
+    Read,
+    /// Photo-response and offset non-uniformity, dead pixels.
+    FixedPattern,
+    /// Rounding, digital gain and the converter's end.
+    Quantisation,
+    /// What the full well took, and what overflow brought.
+    Blooming,
+    /// Mean electrons that moving charge collected.
+    Smear,
+    /// Cross-talk, angle response, lag, brighter-fatter, response, capacitance.
+    Transfer,
+    /// 1 where the digital number is at the white level, else 0. It is no part of the sum.
+    Saturated,
+}
+
+impl Cause {
+    /// All causes.
+    pub const ALL: [Self; 10] = [
+        Self::Signal,
+        Self::Shot,
+        Self::Dark,
+        Self::Read,
+        Self::FixedPattern,
+        Self::Quantisation,
+        Self::Blooming,
+        Self::Smear,
+        Self::Transfer,
+        Self::Saturated,
+    ];
+
+    /// The layer's name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Signal => "signal",
+            Self::Shot => "shot",
+            Self::Dark => "dark",
+            Self::Read => "read",
+            Self::FixedPattern => "fixed_pattern",
+            Self::Quantisation => "quantisation",
+            Self::Blooming => "blooming",
+            Self::Smear => "smear",
+            Self::Transfer => "transfer",
+            Self::Saturated => "saturated",
+        }
+    }
+}
+
+/// The layers of a raw picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Causes {
+    layers: Vec<Plane<Electrons>>,
+}
+
+impl Causes {
+    pub(crate) fn new(width: usize, height: usize) -> Self {
+        Self { layers: Cause::ALL.iter().map(|_| Plane::new(width, height)).collect() }
+    }
+
+    /// The layer of a cause.
+    #[must_use]
+    pub fn layer(&self, cause: Cause) -> &Plane<Electrons> {
+        &self.layers[cause as usize]
+    }
+
+    /// Adds what a plane became from what it was.
+    pub(crate) fn note(&mut self, cause: Cause, before: &Plane<Electrons>, after: &Plane<Electrons>) {
+        let pairs = before.samples().iter().zip(after.samples());
+        for (layer, (before, after)) in self.layers[cause as usize].samples_mut().iter_mut().zip(pairs) {
+            *layer += after - before;
+        }
+    }
+
+    /// The same, of planes of another layout.
+    pub(crate) fn mapped(self, f: impl Fn(&Plane<Electrons>) -> Plane<Electrons>) -> Self {
+        Self { layers: self.layers.iter().map(f).collect() }
+    }
+
+    /// The rows of all layers.
+    pub(crate) fn rows(&mut self) -> Vec<CauseRow<'_>> {
+        let (width, height) = (self.layers[0].width(), self.layers[0].height());
+        let mut rows: Vec<CauseRow<'_>> = (0..height).map(|_| CauseRow { layers: Vec::new() }).collect();
+        for layer in &mut self.layers {
+            let chunks = layer.samples_mut().chunks_mut(width.max(1));
+            rows.iter_mut().zip(chunks).for_each(|(row, chunk)| row.layers.push(chunk));
+        }
+        rows
+    }
+}
+
+/// One row of all layers.
+pub(crate) struct CauseRow<'a> {
+    layers: Vec<&'a mut [f32]>,
+}
+
+impl CauseRow<'_> {
+    /// Adds what a row became from what it was.
+    pub(crate) fn note(&mut self, cause: Cause, before: &[f64], after: &[f64]) {
+        for (layer, (before, after)) in self.layers[cause as usize].iter_mut().zip(before.iter().zip(after)) {
+            *layer += (after - before) as f32;
+        }
+    }
+
+    /// Adds to one pixel.
+    pub(crate) fn add(&mut self, cause: Cause, x: usize, value: f64) {
+        self.layers[cause as usize][x] += value as f32;
+    }
+}

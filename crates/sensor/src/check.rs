@@ -1,0 +1,85 @@
+//! Why a sensor cannot be, and the checks that find it.
+
+/// Why a sensor cannot be.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SensorError {
+    /// A number outside its range.
+    #[error("{key} is {value}, but {expected} is needed")]
+    Range {
+        /// The parameter.
+        key: &'static str,
+        /// Its value.
+        value: f64,
+        /// What would be legal.
+        expected: &'static str,
+    },
+    /// A quantum efficiency outside 0 to 1.
+    #[error(
+        "the quantum efficiency of channel {channel} runs from {low} to {high}, but must stay within 0 to 1: give it in electrons a photon"
+    )]
+    Efficiency {
+        /// The channel's name.
+        channel: String,
+        /// Its smallest value.
+        low: f32,
+        /// Its largest value.
+        high: f32,
+    },
+    /// The tile names a channel that does not exist.
+    #[error("the colour filter tile names channel {channel}, but there are only {channels}, counted from 0")]
+    NoSuchChannel {
+        /// The channel's number.
+        channel: usize,
+        /// How many there are.
+        channels: usize,
+    },
+    /// A channel that no pixel has.
+    #[error("channel {0} has no pixel in the colour filter tile: remove it or place it")]
+    UnusedChannel(String),
+    /// Parameters that contradict each other.
+    #[error("{key}: {problem}")]
+    Conflict {
+        /// The parameter that gives way.
+        key: &'static str,
+        /// What is wrong, and what to do.
+        problem: String,
+    },
+}
+
+/// Collects what is wrong with a sensor's parameters.
+#[derive(Debug, Default)]
+pub(crate) struct Checks {
+    pub(crate) errors: Vec<SensorError>,
+}
+
+impl Checks {
+    /// Refuses `value` unless it is `legal`.
+    pub(crate) fn legal(&mut self, key: &'static str, value: f64, legal: bool, expected: &'static str) {
+        if !legal {
+            self.errors.push(SensorError::Range { key, value, expected });
+        }
+    }
+
+    pub(crate) fn positive(&mut self, key: &'static str, value: f64) {
+        self.legal(key, value, value.is_finite() && value > 0.0, "a finite number above 0");
+    }
+
+    pub(crate) fn not_negative(&mut self, key: &'static str, value: f64) {
+        self.legal(key, value, value.is_finite() && value >= 0.0, "a finite number of at least 0");
+    }
+
+    pub(crate) fn share(&mut self, key: &'static str, value: f64) {
+        self.legal(key, value, (0.0..=1.0).contains(&value), "a share from 0 to 1");
+    }
+
+    pub(crate) fn share_above_0(&mut self, key: &'static str, value: f64) {
+        self.legal(key, value, value > 0.0 && value <= 1.0, "a share above 0 and up to 1");
+    }
+
+    /// Refuses a combination unless it is `legal`.
+    pub(crate) fn agree(&mut self, key: &'static str, legal: bool, problem: impl FnOnce() -> String) {
+        if !legal {
+            self.errors.push(SensorError::Conflict { key, problem: problem() });
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! Lag: charge that traps keep and give back in later frames (image retention, persistence).
+//!
+//! For each kind of trap k, with capture share f_k and time constant τ_k, and frames T apart, a pixel's charge q and its trapped
+//! charge Q_k become
+//!
+//! - released: r_k = Q_k (1 − exp(−T/τ_k)), added to the pixel;
+//! - caught: c_k = f_k min(q + Σ r, full well), taken from it; Q_k ← Q_k − r_k + c_k.
+//!
+//! Charge is conserved: q + Σ Q_k before is q + Σ Q_k after. (The linear limit of the trap model in Pyxel's `persistence`
+//! and of Smith et al. 2008.) Left out: shot noise of catching and releasing, traps that fill up, dependence on temperature.
+
+use super::Verdict;
+use crate::check::Checks;
+use crate::operation::Context;
+use crate::parameters::SensorParameters;
+use etendue_core::Plane;
+use etendue_core::maths::f64::exp;
+use etendue_core::quantity::Electrons;
+use rayon::prelude::*;
+
+/// A kind of trap.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trap {
+    /// Share of a frame's charge that it keeps.
+    pub share: f64,
+    /// Time after which 1/e of it is left, s.
+    pub time_constant_s: f64,
+}
+
+impl Trap {
+    pub(crate) fn check(&self, p: &SensorParameters, checks: &mut Checks) {
+        checks.share_above_0("lag.share", self.share);
+        checks.positive("lag.time_constant_s", self.time_constant_s);
+        checks.agree("lag", p.exposure.frame_period_s.is_some(), || {
+            "what is given back depends on the time between frames: give \"frame_period_s\"".to_owned()
+        });
+    }
+}
+
+/// Traps together cannot keep all.
+pub(crate) fn check_sum(traps: &[Trap], checks: &mut Checks) {
+    let sum: f64 = traps.iter().map(|trap| trap.share).sum();
+    checks.agree("lag", sum <= 0.5 || traps.is_empty(), || format!("traps keep {sum} in all: give at most 0.5"));
+}
+
+pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
+    if p.charge.traps.is_empty() {
+        return (Verdict::Skipped, super::NOT_DESCRIBED.into());
+    }
+    let list: Vec<_> =
+        p.charge.traps.iter().map(|t| format!("{} of the charge for about {} s", t.share, t.time_constant_s)).collect();
+    (Verdict::Required, format!("traps keep {}", list.join(", ")))
+}
+
+/// Traps, prepared.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Traps {
+    /// Share caught, and share released.
+    kinds: Vec<(f64, f64)>,
+    full_well_e: f64,
+}
+
+impl Traps {
+    pub(crate) fn new(context: &Context<'_>) -> Self {
+        let period_s = context.p.exposure.frame_period_s.expect("checked with the parameters");
+        let kinds = context.p.charge.traps.iter().map(|t| (t.share, 1.0 - exp(-period_s / t.time_constant_s)));
+        Self { kinds: kinds.collect(), full_well_e: context.operation.full_well_e }
+    }
+
+    /// Exchanges charge with the traps of each pixel.
+    pub(crate) fn apply(&self, plane: &mut Plane<Electrons>, trapped_e: &mut Vec<Vec<f32>>) {
+        let size = plane.samples().len();
+        if trapped_e.len() != self.kinds.len() || trapped_e.iter().any(|kind| kind.len() != size) {
+            *trapped_e = vec![vec![0.0; size]; self.kinds.len()];
+        }
+        // Kinds one after the other: each releases first, then each catches of the charge so far.
+        for (kind, (_, released)) in trapped_e.iter_mut().zip(&self.kinds) {
+            kind.par_iter_mut().zip(plane.samples_mut().par_iter_mut()).for_each(|(trapped, q)| {
+                let back = (f64::from(*trapped) * released) as f32;
+                (*trapped, *q) = (*trapped - back, *q + back);
+            });
+        }
+        let total: f64 = self.kinds.iter().map(|(share, _)| share).sum();
+        for (kind, (share, _)) in trapped_e.iter_mut().zip(&self.kinds) {
+            kind.par_iter_mut().zip(plane.samples().par_iter()).for_each(|(trapped, q)| {
+                *trapped += (share * f64::from(*q).min(self.full_well_e)) as f32;
+            });
+        }
+        let well = self.full_well_e;
+        plane.samples_mut().par_iter_mut().for_each(|q| *q -= (total * f64::from(*q).min(well)) as f32);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::tests::{ADDRESS, quiet};
+    use crate::sensor::Sensor;
+    use crate::state::{FrameAddress, SensorState};
+
+    fn lagging() -> Sensor {
+        let mut p = quiet();
+        (p.exposure.frame_period_s, p.charge.full_well_e) = (Some(0.04), 1e6);
+        p.charge.traps = vec![Trap { share: 0.05, time_constant_s: 0.04 }, Trap { share: 0.01, time_constant_s: 1.0 }];
+        Sensor::new(p).expect("legal")
+    }
+
+    #[test]
+    fn a_flash_fades_by_its_time_constants_and_no_charge_is_lost() {
+        let sensor = lagging();
+        let (mut state, first) =
+            sensor.step(SensorState::default(), &Plane::filled(2, 2, 100_000.0), FrameAddress { frame: 0, ..ADDRESS });
+        assert_eq!(first.plane.at(0, 0), 94_000);
+        let (mut given, mut fast, mut slow) = (94_000.0, 5000.0, 1000.0);
+        for frame in 1..200 {
+            let (next, raw) = sensor.step(state, &Plane::new(2, 2), FrameAddress { frame, ..ADDRESS });
+            state = next;
+            let (a, b) = (fast * (1.0 - exp(-1.0)), slow * (1.0 - exp(-0.04)));
+            let read = (a + b) * 0.94;
+            fast += 0.05 * (a + b) - a;
+            slow += 0.01 * (a + b) - b;
+            given += read;
+            // The converter rounds to one electron.
+            assert!(
+                (f64::from(raw.plane.at(1, 1)) - read).abs() <= 0.51,
+                "frame {frame}: {} {read}",
+                raw.plane.at(1, 1)
+            );
+        }
+        let kept: f64 = state.trapped_e.iter().map(|kind| f64::from(kind[0])).sum();
+        // Charges are f32: each of 200 frames rounds by at most 100 000 · 2⁻²⁴.
+        assert!((given + kept - 100_000.0).abs() < 1.2, "{}", given + kept);
+    }
+}

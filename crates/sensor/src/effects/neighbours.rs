@@ -1,0 +1,101 @@
+//! What pixels exchange with their eight neighbours: a symmetric kernel of three by three.
+//!
+//! out(p) = in(p) + Σ w_n (in(n) − in(p)) over the neighbours n inside the array: each pair exchanges what it gives, so the
+//! sum is kept to the last bit of rounding, an even plane stays even, and nothing crosses the array's edge.
+
+use crate::check::Checks;
+use etendue_core::Plane;
+use etendue_core::quantity::Electrons;
+use rayon::prelude::*;
+
+/// Shares given to each neighbour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Neighbours {
+    /// To each neighbour left and right.
+    pub horizontal: f64,
+    /// To each neighbour above and below.
+    pub vertical: f64,
+    /// To each neighbour across a corner.
+    pub corner: f64,
+}
+
+impl Neighbours {
+    pub(crate) fn check(&self, key: &'static str, checks: &mut Checks) {
+        for share in [self.horizontal, self.vertical, self.corner] {
+            checks.share(key, share);
+        }
+        let given = self.given();
+        checks.agree(key, given <= 0.75, || {
+            format!("a pixel gives {given} away in all: give at most 0.75, so that it keeps the largest part")
+        });
+    }
+
+    /// Everything that a pixel gives away.
+    pub(crate) fn given(&self) -> f64 {
+        2.0 * self.horizontal + 2.0 * self.vertical + 4.0 * self.corner
+    }
+
+    /// The plane after the exchange.
+    pub(crate) fn exchange(&self, plane: &Plane<Electrons>) -> Plane<Electrons> {
+        let (width, height) = (plane.width(), plane.height());
+        let mut out = Plane::new(width, height);
+        if width > 0 {
+            let row = |y: usize| &plane.samples()[y * width..(y + 1) * width];
+            out.samples_mut().par_chunks_mut(width).enumerate().for_each(|(y, out)| {
+                let above = (y > 0).then(|| row(y - 1));
+                let below = (y + 1 < height).then(|| row(y + 1));
+                self.exchange_row(above, row(y), below, out);
+            });
+        }
+        out
+    }
+
+    fn exchange_row(&self, above: Option<&[f32]>, here: &[f32], below: Option<&[f32]>, out: &mut [f32]) {
+        let flow = |row: &[f32], x: usize, own: f64, straight: f64, across: f64| {
+            let term = |share: f64, value: Option<&f32>| value.map_or(0.0, |v| share * (f64::from(*v) - own));
+            let left = term(across, x.checked_sub(1).and_then(|i| row.get(i)));
+            left + term(straight, row.get(x)) + term(across, row.get(x + 1))
+        };
+        for (x, out) in out.iter_mut().enumerate() {
+            let own = f64::from(here[x]);
+            let mut sum = flow(here, x, own, 0.0, self.horizontal);
+            for row in [above, below].into_iter().flatten() {
+                sum += flow(row, x, own, self.vertical, self.corner);
+            }
+            *out = (own + sum) as f32;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SHARES: Neighbours = Neighbours { horizontal: 0.02, vertical: 0.03, corner: 0.005 };
+
+    #[test]
+    fn a_point_becomes_the_kernel() {
+        let mut plane = Plane::new(5, 5);
+        plane.set(2, 2, 1000.0);
+        let out = SHARES.exchange(&plane);
+        let near = |x, y, want: f32| assert!((out.at(x, y) - want).abs() < 1e-3, "{x} {y}: {}", out.at(x, y));
+        near(1, 2, 20.0);
+        near(2, 3, 30.0);
+        near(3, 1, 5.0);
+        near(2, 2, 880.0);
+        near(0, 2, 0.0);
+    }
+
+    #[test]
+    fn sums_are_kept_and_even_planes_stay() {
+        for (width, height) in [(1, 1), (1, 7), (6, 1), (7, 5)] {
+            let value = |i: usize| (i * 7919 % 977) as f32;
+            let plane = Plane::from_samples(width, height, (0..width * height).map(value).collect()).expect("filled");
+            let sum = |plane: &Plane<Electrons>| plane.samples().iter().map(|v| f64::from(*v)).sum::<f64>();
+            let out = SHARES.exchange(&plane);
+            // Samples are f32: 24 bits each.
+            assert!((sum(&out) - sum(&plane)).abs() <= 6e-8 * sum(&plane).max(1.0));
+            assert_eq!(SHARES.exchange(&Plane::filled(width, height, 3.5)), Plane::filled(width, height, 3.5));
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Photo-response non-uniformity (PRNU): pixels differ in how much of the light they count.
+//!
+//! μ ← μ max(1 + d, 0), d normal with a white, a row and a column part, each as a share (EMVA 1288 states them in per cent).
+//! The pattern is the specimen's: the same in every frame. Draws: `PixelResponse`, `RowResponse`, `ColumnResponse`.
+//! Left out: differences that depend on wavelength; patterns of lower frequency (shading).
+
+use super::Verdict;
+use crate::check::Checks;
+use crate::operation::Context;
+use crate::parameters::SensorParameters;
+use crate::random::pattern::{Deviations, Sigmas};
+use etendue_core::random::NoiseDraw;
+
+/// Standard deviations of the response, as shares of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PhotoResponse {
+    /// From pixel to pixel.
+    pub white: f64,
+    /// From row to row.
+    pub row: f64,
+    /// From column to column.
+    pub column: f64,
+}
+
+impl PhotoResponse {
+    pub(crate) fn check(&self, checks: &mut Checks) {
+        checks.share("prnu", self.white);
+        checks.share("prnu_row", self.row);
+        checks.share("prnu_column", self.column);
+    }
+
+    fn sigmas(self) -> Sigmas {
+        Sigmas { white: self.white, row: self.row, column: self.column }
+    }
+}
+
+pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
+    let r = p.pattern.photo_response;
+    if r.sigmas().is_zero() {
+        return (Verdict::Skipped, super::NOT_DESCRIBED.into());
+    }
+    let part = |name, share: f64| if share > 0.0 { format!(", {name} by {share}") } else { String::new() };
+    let parts = [part("pixels", r.white), part("rows", r.row), part("columns", r.column)].concat();
+    (Verdict::Required, format!("responses differ: {}", parts.trim_start_matches(", ")))
+}
+
+/// Photo-response non-uniformity, prepared.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct ResponsePattern {
+    deviations: Deviations,
+}
+
+impl ResponsePattern {
+    pub(crate) fn new(context: &Context<'_>) -> Self {
+        let draws = [NoiseDraw::PixelResponse, NoiseDraw::RowResponse, NoiseDraw::ColumnResponse];
+        let sigmas = context.p.pattern.photo_response.sigmas();
+        Self { deviations: Deviations::new(sigmas, draws, |draw| context.pattern(draw), context.width) }
+    }
+
+    pub(crate) fn apply(&self, means: &mut [f64], y: u32) {
+        self.deviations.of_row(y, means.len(), |x, d| means[x] *= (1.0 + d).max(0.0));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::tests::{ADDRESS, covariance, quiet, run};
+    use crate::state::FrameAddress;
+    use etendue_core::Plane;
+
+    fn patterned() -> SensorParameters {
+        let mut p = quiet();
+        p.pattern.photo_response = PhotoResponse { white: 0.01, row: 0.0, column: 0.0 };
+        p
+    }
+
+    #[test]
+    fn the_spread_is_the_stated_one_and_grows_with_the_light() {
+        for mean in [1e3, 1e4, 1e6] {
+            let raw = run(&patterned(), &Plane::filled(512, 512, mean), ADDRESS);
+            let sigma = 0.01 * f64::from(mean);
+            let want = sigma * sigma + 1.0 / 12.0;
+            // A variance of 512² numbers is known to 0.28 %; four of those.
+            assert!((covariance(&raw, 0, 0) / want - 1.0).abs() < 0.0112, "{mean}");
+        }
+    }
+
+    #[test]
+    fn the_pattern_is_the_specimen_s_not_the_frame_s() {
+        let means = Plane::filled(32, 32, 1e4);
+        let with = |seed, address| {
+            let mut p = patterned();
+            p.pattern.seed = seed;
+            run(&p, &means, address).plane
+        };
+        let first = with(None, ADDRESS);
+        assert_eq!(first, with(None, FrameAddress { frame: 9, seed: 77, capture: 1, ..ADDRESS }));
+        assert_ne!(first, with(None, FrameAddress { camera: 7, ..ADDRESS }));
+        assert_ne!(first, with(Some(3), ADDRESS));
+        assert_eq!(with(Some(3), FrameAddress { camera: 7, ..ADDRESS }), with(Some(3), ADDRESS));
+    }
+}

@@ -1,0 +1,82 @@
+//! Random telegraph noise: a trap at a pixel's transistor makes its voltage jump between two levels.
+//!
+//! e ← e ± a/2 for a share of pixels, a exponential of a stated mean, the level from a two-level state over frames
+//! ([`two_level`](super::two_level)). The mean of both levels is the pixel's own. Draws: `Telegraph` (specimen), `TelegraphFlip`.
+
+use super::two_level::{Site, TwoLevel, high_in_row};
+use super::{NOISE_OFF, Verdict};
+use crate::check::Checks;
+use crate::parameters::SensorParameters;
+
+/// Pixels with telegraph noise; the amplitude is in e⁻.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TelegraphNoise(pub TwoLevel);
+
+impl TelegraphNoise {
+    pub(crate) fn check(&self, checks: &mut Checks) {
+        self.0.check(["telegraph_share", "telegraph_mean_e", "telegraph_dwell_frames"], checks);
+    }
+}
+
+pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
+    match p.read_out.telegraph {
+        None => (Verdict::Skipped, super::NOT_DESCRIBED.into()),
+        Some(_) if !p.noise => (Verdict::Skipped, NOISE_OFF.into()),
+        Some(TelegraphNoise(t)) => (
+            Verdict::Required,
+            format!("{} of pixels jump by {} e⁻ on average, every {} frames", t.share, t.mean, t.dwell_frames),
+        ),
+    }
+}
+
+/// Telegraph noise, prepared: half the jump of each pixel, up or down.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Jumps {
+    halves: Vec<Site>,
+}
+
+impl Jumps {
+    pub(crate) fn new(sites: &[Site], high: &[bool]) -> Self {
+        let half =
+            |(site, high): (&Site, &bool)| Site { amplitude: if *high { 0.5 } else { -0.5 } * site.amplitude, ..*site };
+        Self { halves: sites.iter().zip(high).map(half).collect() }
+    }
+
+    pub(crate) fn apply(&self, electrons: &mut [f64], y: u32) {
+        for site in high_in_row(&self.halves, y) {
+            electrons[site.x as usize] += site.amplitude;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::tests::{ADDRESS, quiet};
+    use crate::sensor::Sensor;
+    use crate::state::{FrameAddress, SensorState};
+    use etendue_core::Plane;
+
+    #[test]
+    fn a_pixel_has_two_values_over_frames() {
+        let mut p = quiet();
+        (p.noise, p.read_out.black_level_dn) = (true, 1000.0);
+        let two = TwoLevel { share: 0.1, mean: 200.0, dwell_frames: 3.0 };
+        p.read_out.telegraph = Some(TelegraphNoise(two));
+        let sensor = Sensor::new(p).expect("legal");
+        let mut state = SensorState::default();
+        let mut seen = vec![std::collections::BTreeSet::new(); 32 * 32];
+        for frame in 0..40 {
+            let (next, raw) = sensor.step(state, &Plane::new(32, 32), FrameAddress { frame, ..ADDRESS });
+            state = next;
+            seen.iter_mut().zip(raw.plane.samples()).for_each(|(set, dn)| {
+                set.insert(*dn);
+            });
+        }
+        assert!(seen.iter().all(|set| set.len() <= 2));
+        let jumping = seen.iter().filter(|set| set.len() == 2).count() as f64;
+        // 102 ± 10 pixels; jumps below half a DN do not show (0.5 %), nor does a pixel that never jumps in 40 frames.
+        assert!((jumping - 102.0).abs() < 40.0, "{jumping}");
+        assert!(seen.iter().filter(|s| s.len() == 2).all(|s| s.iter().sum::<u32>().abs_diff(2000) <= 1));
+    }
+}

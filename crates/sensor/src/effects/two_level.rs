@@ -1,0 +1,113 @@
+//! Pixels with two levels between which they jump at random: a telegraph signal over frames.
+//!
+//! A share of pixels has it; each has its own amplitude (exponential) and level. From frame to frame it changes its level with
+//! probability 1/dwell, so it stays for a mean of `dwell` frames at each; before the first frame both are as likely.
+//! Which pixels, and how much, are the specimen's; the jumps are the frames'.
+//! Left out: unequal dwell times of the two levels, more than two levels.
+
+use crate::check::Checks;
+use crate::operation::pattern_key;
+use crate::parameters::SensorParameters;
+use crate::random::sparse;
+use crate::state::FrameAddress;
+use etendue_core::random::{NoiseDraw, NoiseKey, Pixel};
+
+/// Pixels that jump between two levels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwoLevel {
+    /// Share of pixels that do.
+    pub share: f64,
+    /// Mean of their amplitudes, from the lower level to the upper one, in the unit of what jumps.
+    pub mean: f64,
+    /// Mean number of frames at a level, 1 or more.
+    pub dwell_frames: f64,
+}
+
+impl TwoLevel {
+    pub(crate) fn check(&self, keys: [&'static str; 3], checks: &mut Checks) {
+        checks.share_above_0(keys[0], self.share);
+        checks.positive(keys[1], self.mean);
+        let legal = self.dwell_frames.is_finite() && self.dwell_frames >= 1.0;
+        checks.legal(keys[2], self.dwell_frames, legal, "a number of frames of at least 1");
+    }
+}
+
+/// A pixel and its amplitude.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Site {
+    pub(crate) x: u32,
+    pub(crate) y: u32,
+    pub(crate) amplitude: f64,
+}
+
+/// The draws of a kind of two-level pixels: which ones, and the jumps.
+pub(crate) struct Draws {
+    pub(crate) which: NoiseDraw,
+    pub(crate) flip: NoiseDraw,
+}
+
+/// The sites of an array, and which of them are at their upper level in the frame of `address`.
+pub(crate) fn next(
+    two: &TwoLevel,
+    (p, draws): (&SensorParameters, Draws),
+    address: FrameAddress,
+    (width, height): (usize, usize),
+    before: &[bool],
+) -> (Vec<Site>, Vec<bool>) {
+    let key = pattern_key(p, address.camera, draws.which);
+    let mut sites = Vec::new();
+    for y in 0..height as u32 {
+        sparse::each(key, y, two.share, width, |x, stream| {
+            sites.push(Site { x: x as u32, y, amplitude: sparse::exponential(two.mean, stream) });
+        });
+    }
+    // All captures of a frame see one level.
+    let flips = NoiseKey::new(address.seed, address.camera, address.frame, 0, draws.flip);
+    let draw = |site: &Site| flips.stream(Pixel { x: site.x, y: site.y }).unit_f64();
+    let high = if before.len() == sites.len() {
+        sites.iter().zip(before).map(|(site, high)| high ^ (draw(site) * two.dwell_frames < 1.0)).collect()
+    } else {
+        sites.iter().map(|site| draw(site) < 0.5).collect()
+    };
+    (sites, high)
+}
+
+/// The sites of row `y` that are at their upper level.
+pub(crate) fn high_in_row(sites: &[Site], y: u32) -> &[Site] {
+    let start = sites.partition_point(|site| site.y < y);
+    let end = sites.partition_point(|site| site.y <= y);
+    &sites[start..end]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameters::tests::ideal;
+
+    #[test]
+    fn levels_stay_for_their_dwell_and_are_as_likely_as_each_other() {
+        let two = TwoLevel { share: 0.05, mean: 3.0, dwell_frames: 4.0 };
+        let p = ideal();
+        let frame = |frame: u32, before: &[bool]| {
+            let draws = Draws { which: NoiseDraw::Telegraph, flip: NoiseDraw::TelegraphFlip };
+            next(&two, (&p, draws), FrameAddress { seed: 1, camera: 0, frame, capture: 0 }, (200, 200), before)
+        };
+        let (sites, mut high) = frame(0, &[]);
+        let n = sites.len() as f64;
+        // 40 000 pixels: 2000 ± 44; four of those.
+        assert!((n - 2000.0).abs() < 175.0, "{n}");
+        let mean = sites.iter().map(|s| s.amplitude).sum::<f64>() / n;
+        assert!((mean / 3.0 - 1.0).abs() < 4.0 / n.sqrt());
+        let (mut up, mut jumps) = (0.0, 0.0);
+        for k in 1..=50 {
+            let (same, next) = frame(k, &high);
+            assert_eq!(same, sites, "the pattern is the specimen's");
+            jumps += high.iter().zip(&next).filter(|(a, b)| a != b).count() as f64;
+            up += next.iter().filter(|h| **h).count() as f64;
+            high = next;
+        }
+        // 50 n jumps of probability 1/4. The share up is correlated over (1 + r)/(1 − r) = 3 frames, r = 1 − 2/4.
+        assert!((jumps / (50.0 * n) - 0.25).abs() < 4.0 * (0.1875 / (50.0 * n)).sqrt());
+        assert!((up / (50.0 * n) - 0.5).abs() < 4.0 * (0.25 * 3.0 / (50.0 * n)).sqrt());
+    }
+}

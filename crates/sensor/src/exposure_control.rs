@@ -1,0 +1,146 @@
+//! Automatic exposure: time and gain that bring a percentile of the picture to a target.
+//!
+//! After a frame, ℓ is the level below which a share p of the picture's pixels lies, as a share of the range from black to white.
+//! With E the product of time and gain, the next frame has E ← E (target/ℓ)^d, d the damping in (0, 1], the factor kept within
+//! 1/16 and 16. Time is used first, then gain, each within its limits: t = clamp(E/g_min), g = clamp(E/t). Where ℓ is white,
+//! target/ℓ is the target itself: the control walks down by that factor a frame until it sees.
+//! Left out: metering by region, flicker avoidance, delays of more than a frame, steps of lines.
+
+use crate::check::Checks;
+use crate::effects::{NOT_DESCRIBED, Verdict};
+use crate::parameters::SensorParameters;
+use crate::raw::Raw;
+use crate::state::OperatingPoint;
+use etendue_core::maths::f64::pow;
+
+/// How exposure is set from frame to frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExposureControl {
+    /// Share of pixels that shall lie below the target, (0, 1).
+    pub percentile: f64,
+    /// Where that share shall end, as a share of the range from black to white, (0, 1).
+    pub target: f64,
+    /// Exponent of a frame's correction, (0, 1].
+    pub damping: f64,
+    /// Shortest and longest time, s.
+    pub exposure_s: [f64; 2],
+    /// Smallest and largest analogue gain.
+    pub analogue_gain: [f64; 2],
+}
+
+const LARGEST_STEP: f64 = 16.0;
+
+impl ExposureControl {
+    pub(crate) fn check(&self, p: &SensorParameters, checks: &mut Checks) {
+        let inside = |v: f64| v > 0.0 && v < 1.0;
+        checks.legal("auto_exposure.percentile", self.percentile, inside(self.percentile), "a share between 0 and 1");
+        checks.legal("auto_exposure.target", self.target, inside(self.target), "a share between 0 and 1");
+        checks.share_above_0("auto_exposure.damping", self.damping);
+        let [low, high] = self.exposure_s;
+        checks.positive("auto_exposure.exposure_s", low);
+        let around = |[low, high]: [f64; 2], v: f64| low <= v && v <= high && high.is_finite();
+        checks.agree("auto_exposure.exposure_s", around(self.exposure_s, p.exposure.exposure_s), || {
+            format!("the limits must rise and hold the exposure of the first frame, {} s", p.exposure.exposure_s)
+        });
+        checks.agree("auto_exposure.exposure_s", p.exposure.frame_period_s.is_none_or(|period| high <= period), || {
+            "the longest exposure is longer than \"frame_period_s\"".to_owned()
+        });
+        checks.positive("auto_exposure.analogue_gain", self.analogue_gain[0]);
+        checks.agree("auto_exposure.analogue_gain", around(self.analogue_gain, p.read_out.analogue_gain), || {
+            format!("the limits must rise and hold the gain of the first frame, {}", p.read_out.analogue_gain)
+        });
+    }
+
+    /// The operating point of the frame after `raw`, which was taken at `point`.
+    pub(crate) fn next(&self, raw: &Raw, point: OperatingPoint) -> OperatingPoint {
+        let Some(level) = self.level(raw) else { return point };
+        let ratio = (self.target / level.max(1e-9)).clamp(1.0 / LARGEST_STEP, LARGEST_STEP);
+        let total = point.exposure_s * point.analogue_gain * pow(ratio, self.damping);
+        let exposure_s = (total / self.analogue_gain[0]).clamp(self.exposure_s[0], self.exposure_s[1]);
+        let analogue_gain = (total / exposure_s).clamp(self.analogue_gain[0], self.analogue_gain[1]);
+        OperatingPoint { exposure_s, analogue_gain }
+    }
+
+    /// The level below which the percentile lies, 0 to 1; `None` where there are no pixels.
+    fn level(&self, raw: &Raw) -> Option<f64> {
+        let linear = raw.linear();
+        let mut dn = linear.plane.samples().to_vec();
+        let rank = (self.percentile * dn.len() as f64) as usize;
+        let rank = rank.min(dn.len().checked_sub(1)?);
+        let dn = f64::from(*dn.select_nth_unstable(rank).1);
+        Some(((dn - linear.black_level_dn) / (linear.white_level_dn - linear.black_level_dn)).clamp(0.0, 1.0))
+    }
+}
+
+pub(crate) fn need(p: &SensorParameters) -> (Verdict, String) {
+    match &p.exposure.control {
+        None => (Verdict::Skipped, NOT_DESCRIBED.into()),
+        Some(c) => (
+            Verdict::Required,
+            format!(
+                "from frame to frame, {} of pixels below {} of the range; {} to {} s, gain {} to {}",
+                c.percentile, c.target, c.exposure_s[0], c.exposure_s[1], c.analogue_gain[0], c.analogue_gain[1]
+            ),
+        ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::tests::{ADDRESS, quiet};
+    use crate::sensor::Sensor;
+    use crate::state::{FrameAddress, SensorState};
+    use etendue_core::Plane;
+
+    fn controlled(damping: f64) -> Sensor {
+        let mut p = quiet();
+        (p.charge.full_well_e, p.exposure.exposure_s, p.read_out.bits) = (1e4, 0.01, 14);
+        p.exposure.control = Some(ExposureControl {
+            percentile: 0.9,
+            target: 0.5,
+            damping,
+            exposure_s: [1e-6, 0.04],
+            analogue_gain: [1.0, 8.0],
+        });
+        Sensor::new(p).expect("legal")
+    }
+
+    /// Levels and operating points over frames of a scene that gives `mean` in the described exposure.
+    fn frames(sensor: &Sensor, mean: f32, count: u32) -> Vec<(u32, OperatingPoint)> {
+        let mut state = SensorState::default();
+        let mut seen = Vec::new();
+        for frame in 0..count {
+            let (next, raw) = sensor.step(state, &Plane::filled(8, 8, mean), FrameAddress { frame, ..ADDRESS });
+            seen.push((raw.plane.at(3, 3), raw.operating_point));
+            state = next;
+        }
+        seen
+    }
+
+    #[test]
+    fn it_converges_from_dark_and_from_bright() {
+        for (mean, damping, count) in [(1500.0, 1.0, 4), (1e7, 1.0, 14), (3000.0, 0.5, 12), (1400.0, 0.5, 14)] {
+            let seen = frames(&controlled(damping), mean, count);
+            let (dn, _) = *seen.last().expect("frames");
+            // Half of the well, to a rounding of the level that was measured.
+            assert!((f64::from(dn) / 5000.0 - 1.0).abs() < 0.02, "{mean}: {seen:?}");
+        }
+    }
+
+    #[test]
+    fn time_comes_before_gain_and_limits_hold() {
+        let (_, point) = *frames(&controlled(1.0), 500.0, 6).last().expect("frames");
+        assert_eq!(point.exposure_s, 0.04);
+        // 2000 e⁻ at the longest time; half of the converter's 16 383 DN is white's half where the gain exceeds 1.6.
+        assert!((point.analogue_gain - 16_383.0 / 4000.0).abs() < 0.01, "{point:?}");
+        let (_, point) = *frames(&controlled(1.0), 1.0, 8).last().expect("frames");
+        assert_eq!((point.exposure_s, point.analogue_gain), (0.04, 8.0));
+    }
+
+    #[test]
+    fn a_dark_scene_asks_for_all_there_is() {
+        let (_, point) = *frames(&controlled(1.0), 0.0, 4).last().expect("frames");
+        assert_eq!((point.exposure_s, point.analogue_gain), (0.04, 8.0));
+    }
+}

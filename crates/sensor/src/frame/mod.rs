@@ -1,0 +1,216 @@
+//! From mean electrons to a raw picture, frame after frame.
+
+mod chain;
+mod pass;
+
+use crate::account::ChargeAccount;
+use crate::causes::Causes;
+use crate::effects::converter::Converter;
+use crate::hdr::merge::Merged;
+use crate::operation::{Context, Operation};
+use crate::raw::Raw;
+use crate::sensor::Sensor;
+use crate::state::{FrameAddress, OperatingPoint, SensorState};
+use etendue_core::Plane;
+use etendue_core::quantity::{DigitalNumber, Electrons};
+use etendue_core::random::Pixel;
+use pass::Pass;
+
+/// What a sensor remembers, as the last frame left it and as this frame leaves it.
+#[derive(Clone, Debug)]
+pub(crate) struct Memory {
+    before: SensorState,
+    after: SensorState,
+}
+
+/// What all captures of a frame have become.
+struct Taken {
+    numbers: Plane<DigitalNumber>,
+    causes: Option<Causes>,
+    account: Option<ChargeAccount>,
+}
+
+impl Sensor {
+    /// One frame: the raw picture that `mean_electrons` (of photons, in the described exposure) become, and the state for the
+    /// next frame.
+    ///
+    /// Runs in the rayon pool of the caller; the bits depend on the state, `address` and the means alone.
+    #[must_use]
+    pub fn step(
+        &self,
+        state: SensorState,
+        mean_electrons: &Plane<Electrons>,
+        address: FrameAddress,
+    ) -> (SensorState, Raw) {
+        let (state, raw, _) = self.frame(state, mean_electrons, address, false);
+        (state, raw)
+    }
+
+    /// The same, with what each pixel's value is made of.
+    #[must_use]
+    pub fn step_with_causes(
+        &self,
+        state: SensorState,
+        mean_electrons: &Plane<Electrons>,
+        address: FrameAddress,
+    ) -> (SensorState, Raw, Causes) {
+        let (state, raw, causes) = self.frame(state, mean_electrons, address, true);
+        (state, raw, causes.expect("they were asked for"))
+    }
+
+    fn frame(
+        &self,
+        state: SensorState,
+        means: &Plane<Electrons>,
+        address: FrameAddress,
+        with_causes: bool,
+    ) -> (SensorState, Raw, Option<Causes>) {
+        let p = self.parameters();
+        let point = state.operating_point.unwrap_or_else(|| OperatingPoint::described(p));
+        let after = SensorState { trapped_e: state.trapped_e.clone(), ..SensorState::default() };
+        let mut memory = Memory { before: state, after };
+        let extended = p.read_out.layout.with_optical_black(means);
+        let array = extended.as_ref().unwrap_or(means);
+        let first = Operation::base(p, point);
+        let taken = if p.hdr.captures.is_empty() {
+            self.single(array, first, address, &mut memory, with_causes)
+        } else {
+            self.merged(array, first, address, &mut memory, with_causes)
+        };
+        let (raw, causes) = self.raw(taken, array, point);
+        let mut state = memory.after;
+        state.operating_point = p.exposure.control.map(|control| control.next(&raw, point));
+        (state, raw, causes)
+    }
+
+    fn context(&self, array: &Plane<Electrons>, operation: Operation, address: FrameAddress) -> Context<'_> {
+        Context { p: self.parameters(), operation, address, width: array.width(), height: array.height() }
+    }
+
+    /// The only capture, from means to numbers.
+    fn single(
+        &self,
+        array: &Plane<Electrons>,
+        operation: Operation,
+        address: FrameAddress,
+        memory: &mut Memory,
+        with_causes: bool,
+    ) -> Taken {
+        let context = self.context(array, operation, address);
+        let mut pass = Pass::new(array, operation.light, with_causes);
+        let stages = [chain::charge(&context, memory), chain::reading(&context, memory)].concat();
+        pass.run(stages, &context, &mut memory.after.trapped_e);
+        let linear = self.merged_of(pass.convert(&Converter::new(&context), self.capture_white_dn(&operation)));
+        Taken { numbers: linear, causes: pass.causes, account: pass.account }
+    }
+
+    /// Companding of a single capture.
+    fn merged_of(&self, numbers: Plane<DigitalNumber>) -> Plane<DigitalNumber> {
+        match &self.parameters().hdr.companding {
+            None => numbers,
+            Some(curve) => numbers.map(|dn| curve.companded(f64::from(dn)).round_ties_even() as u32),
+        }
+    }
+
+    /// Several captures, merged.
+    fn merged(
+        &self,
+        array: &Plane<Electrons>,
+        first: Operation,
+        address: FrameAddress,
+        memory: &mut Memory,
+        with_causes: bool,
+    ) -> Taken {
+        let p = self.parameters();
+        let mut held: Option<Pass<'_>> = None;
+        let mut merged: Option<(Merged, usize)> = None;
+        let mut taken = (None, None);
+        for (k, operation) in p.hdr.operations(first).into_iter().enumerate() {
+            let address = FrameAddress { capture: address.capture + k as u32, ..address };
+            let context = self.context(array, operation, address);
+            let reads_again = k > 0 && p.hdr.captures[k - 1].same_charge;
+            if !reads_again {
+                let mut pass = Pass::new(array, operation.light, with_causes && k == 0);
+                pass.run(chain::charge(&context, memory), &context, &mut memory.after.trapped_e);
+                pass.settle();
+                held = Some(pass);
+            }
+            let Some(charge) = &mut held else { continue };
+            let causes = charge.causes.take();
+            let account = charge.account.take();
+            let mut pass = charge.again();
+            pass.causes = causes;
+            pass.run(chain::reading(&context, memory), &context, &mut memory.after.trapped_e);
+            let white_dn = self.capture_white_dn(&operation);
+            let numbers = pass.convert(&Converter::new(&context), white_dn);
+            let black_dn = p.read_out.black_level_dn;
+            let (merged, _) =
+                merged.get_or_insert_with(|| (Merged::new(numbers.samples().len(), black_dn), numbers.width()));
+            merged.take(&numbers, p.hdr.scale(k), black_dn + p.hdr.switch() * (white_dn - black_dn));
+            if k == 0 {
+                taken = (pass.causes, account);
+            }
+        }
+        let (merged, width) = merged.expect("a frame has a first capture");
+        let (causes, account) = taken;
+        Taken { numbers: self.rounded(&merged, width), causes, account }
+    }
+
+    /// The digital number of a saturated pixel of one capture.
+    fn capture_white_dn(&self, operation: &Operation) -> f64 {
+        let p = self.parameters();
+        let wells = p.read_out.layout.charge_binning().map_or(1, |b| b.columns * b.rows) as f64;
+        Converter::of(p, operation).level_dn(p.read_out.response.voltage_e(wells * operation.full_well_e))
+    }
+
+    /// Merged numbers, companded where there is a curve, rounded once.
+    fn rounded(&self, merged: &Merged, width: usize) -> Plane<DigitalNumber> {
+        let hdr = &self.parameters().hdr;
+        let largest = f64::from((1_u32 << self.delivered_bits()) - 1);
+        let curve = |v: f64| hdr.companding.as_ref().map_or(v, |c| c.companded(v));
+        let number = |v: &f32| curve(f64::from(*v)).round_ties_even().clamp(0.0, largest) as u32;
+        let samples: Vec<u32> = merged.values().iter().map(number).collect();
+        Plane::from_samples(width, samples.len() / width.max(1), samples).expect("whole rows")
+    }
+
+    /// The raw of what was taken: numbers put together, the part that is read, what was no light.
+    fn raw(&self, taken: Taken, array: &Plane<Electrons>, point: OperatingPoint) -> (Raw, Option<Causes>) {
+        let p = self.parameters();
+        let layout = &p.read_out.layout;
+        let Taken { mut numbers, mut causes, account } = taken;
+        if let Some(binning) = layout.number_binning() {
+            numbers = binning.averaged(&p.cfa, &numbers);
+            causes = causes.map(|c| c.mapped(|layer| binning.mean(&p.cfa, layer)));
+        }
+        if let Some(part) = layout.read_part() {
+            numbers = part.of(&numbers);
+            causes = causes.map(|c| c.mapped(|layer| part.of(layer)));
+        }
+        let invalid = invalid_pixels(array);
+        let places = invalid.iter().filter_map(|i| layout.raw_of_array(&p.cfa, (i.x as usize, i.y as usize)));
+        for (x, y) in places.collect::<Vec<_>>() {
+            numbers.set(x, y, 0);
+        }
+        let raw = Raw {
+            picture: layout.picture_in_raw(numbers.width(), numbers.height()),
+            plane: numbers,
+            black_level_dn: self.black_level_dn(),
+            white_level_dn: self.white_level_at(point),
+            bits: self.delivered_bits(),
+            companding: p.hdr.companding.clone(),
+            operating_point: point,
+            account,
+            invalid,
+        };
+        (raw, causes)
+    }
+}
+
+fn invalid_pixels(means: &Plane<Electrons>) -> Vec<Pixel> {
+    let width = means.width();
+    let wrong = means.samples().iter().enumerate().filter(|(_, m)| !pass::is_valid(**m));
+    wrong.map(|(i, _)| Pixel { x: (i % width) as u32, y: (i / width) as u32 }).collect()
+}
+
+#[cfg(test)]
+pub(crate) mod tests;

@@ -1,0 +1,198 @@
+//! High dynamic range: several captures of one frame, merged, and put into fewer bits.
+//!
+//! A capture may differ from the first in its time, in the sensitivity of its photodiode, and in its conversion gain:
+//!
+//! | way | what differs |
+//! | --- | --- |
+//! | multiple exposures | time |
+//! | split pixel | sensitivity, full well |
+//! | dual conversion gain | gain and read noise; the same charge is read again |
+//!
+//! and these may be combined (a split pixel read at two gains each is four captures). Captures see the same light, each with its
+//! own shot and read noise; a second reading has its own read noise only. Captures are listed by falling sensitivity.
+//!
+//! - [`merge`]: the first capture that is not saturated, scaled ([`merge`](mod@merge)).
+//! - [`companding`]: fewer bits by straight lines ([`companding`](mod@companding)).
+//!
+//! Left out: motion between captures, dark current that differs by photodiode, leakage between photodiodes.
+
+pub mod companding;
+pub mod merge;
+
+use crate::check::Checks;
+use crate::effects::converter::Converter;
+use crate::effects::{NOT_DESCRIBED, Verdict};
+use crate::operation::Operation;
+use crate::parameters::SensorParameters;
+use companding::Companding;
+
+/// A capture after the first, relative to it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Capture {
+    /// Its exposure time over the first's, (0, 1].
+    pub exposure_share: f64,
+    /// Its photodiode's sensitivity over the first's, (0, 1].
+    pub sensitivity_share: f64,
+    /// Its conversion gain over the first's, (0, 1].
+    pub gain_share: f64,
+    /// Its full well, e⁻; `None`: the first's.
+    pub full_well_e: Option<f64>,
+    /// Its read noise, e⁻; `None`: the first's.
+    pub read_noise_e: Option<f64>,
+    /// Whether it reads the charge of the capture before it once more.
+    pub same_charge: bool,
+}
+
+/// Several captures a frame, and fewer bits by a curve.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct HighDynamicRange {
+    /// Captures after the first.
+    pub captures: Vec<Capture>,
+    /// Share of a capture's range above which the next one is taken, (0, 1); `None`: 0.9.
+    pub switch_at: Option<f64>,
+    /// Bits of the merged number, the converter's to 24; `None` without captures.
+    pub bits: Option<u32>,
+    /// Fewer bits by a curve.
+    pub companding: Option<Companding>,
+}
+
+impl Capture {
+    /// Numbers of the first capture a number of this one.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        1.0 / (self.exposure_share * self.sensitivity_share * self.gain_share)
+    }
+
+    /// How this capture is taken, where `first` is how the first one is.
+    pub(crate) fn operation(&self, first: &Operation) -> Operation {
+        Operation {
+            exposure_s: first.exposure_s * self.exposure_share,
+            light: first.light * self.exposure_share * self.sensitivity_share,
+            full_well_e: self.full_well_e.unwrap_or(first.full_well_e),
+            gain_dn_e: first.gain_dn_e * self.gain_share,
+            read_noise_e: self.read_noise_e.unwrap_or(first.read_noise_e),
+        }
+    }
+
+    fn check(&self, checks: &mut Checks) {
+        checks.share_above_0("captures.exposure_share", self.exposure_share);
+        checks.share_above_0("captures.sensitivity_share", self.sensitivity_share);
+        checks.share_above_0("captures.gain_share", self.gain_share);
+        if let Some(e) = self.full_well_e {
+            checks.positive("captures.full_well_e", e);
+        }
+        if let Some(e) = self.read_noise_e {
+            checks.not_negative("captures.read_noise_e", e);
+        }
+        let read_only = self.exposure_share == 1.0 && self.sensitivity_share == 1.0 && self.full_well_e.is_none();
+        checks.agree("captures.same_charge", !self.same_charge || read_only, || {
+            "charge that is read again has the exposure, photodiode and full well it had: remove those, or \"same_charge\"".to_owned()
+        });
+    }
+}
+
+impl HighDynamicRange {
+    /// The share of a capture's range above which the next one is taken.
+    pub(crate) fn switch(&self) -> f64 {
+        self.switch_at.unwrap_or(0.9)
+    }
+
+    /// Numbers of the first capture a number of capture `k`; a second reading is relative to the charge it reads.
+    pub(crate) fn scale(&self, k: usize) -> f64 {
+        match k.checked_sub(1) {
+            None => 1.0,
+            Some(i) if self.captures[i].same_charge => self.charge_scale(i) / self.captures[i].gain_share,
+            Some(i) => self.captures[i].scale(),
+        }
+    }
+
+    /// The scale, but for the gain, of the charge that capture `k` holds.
+    fn charge_scale(&self, k: usize) -> f64 {
+        match k.checked_sub(1).map(|i| &self.captures[i]) {
+            None => 1.0,
+            Some(c) if c.same_charge => self.charge_scale(k - 1),
+            Some(c) => 1.0 / (c.exposure_share * c.sensitivity_share),
+        }
+    }
+
+    /// How all captures are taken.
+    pub(crate) fn operations(&self, first: Operation) -> Vec<Operation> {
+        let mut all = vec![first];
+        for capture in &self.captures {
+            let own = capture.operation(&first);
+            let before = all[all.len() - 1];
+            all.push(match capture.same_charge {
+                false => own,
+                true => Operation { gain_dn_e: own.gain_dn_e, read_noise_e: own.read_noise_e, ..before },
+            });
+        }
+        all
+    }
+
+    /// Merged white level, DN, where the first capture is `first`.
+    pub(crate) fn white_level_dn(&self, p: &SensorParameters, first: Operation) -> f64 {
+        let last = self.captures.len();
+        let operation = self.operations(first)[last];
+        let wells = p.read_out.layout.charge_binning().map_or(1, |b| b.columns * b.rows) as f64;
+        let voltage_e = p.read_out.response.voltage_e(wells * operation.full_well_e);
+        let level = Converter::of(p, &operation).level_dn(voltage_e);
+        p.read_out.black_level_dn + self.scale(last) * (level - p.read_out.black_level_dn)
+    }
+
+    pub(crate) fn check(&self, p: &SensorParameters, checks: &mut Checks) {
+        self.captures.iter().for_each(|capture| capture.check(checks));
+        if let Some(share) = self.switch_at {
+            checks.legal("switch_at", share, share > 0.0 && share < 1.0, "a share between 0 and 1");
+            checks
+                .agree("switch_at", !self.captures.is_empty(), || "there are no captures to switch between".to_owned());
+        }
+        if checks.errors.is_empty() {
+            self.check_bits(p, checks);
+        }
+        if let Some(companding) = &self.companding {
+            companding.check(self.bits.unwrap_or(p.read_out.bits), checks);
+        }
+    }
+
+    fn check_bits(&self, p: &SensorParameters, checks: &mut Checks) {
+        let Some(bits) = self.bits else {
+            checks
+                .agree("merged_bits", self.captures.is_empty(), || "several captures need \"merged_bits\"".to_owned());
+            return;
+        };
+        checks
+            .agree("merged_bits", !self.captures.is_empty(), || "there are no captures to merge: remove it".to_owned());
+        let legal = (p.read_out.bits..=24).contains(&bits);
+        checks.legal("merged_bits", f64::from(bits), legal, "a whole number from the converter's bits to 24");
+        let rising = (1..=self.captures.len()).all(|k| self.scale(k) >= self.scale(k - 1));
+        checks.agree("captures", rising, || "captures must be listed by falling sensitivity".to_owned());
+        if checks.errors.is_empty() {
+            let white = self.white_level_dn(p, Operation::described(p));
+            checks.agree("merged_bits", white < f64::from(1_u32 << bits), || {
+                format!("the merged range reaches {white:.0} DN, and {bits} bits end at {}: give more bits or fewer captures", (1_u32 << bits) - 1)
+            });
+        }
+    }
+}
+
+pub(crate) fn need_merge(p: &SensorParameters) -> (Verdict, String) {
+    let hdr = &p.hdr;
+    let Some(bits) = hdr.bits else { return (Verdict::Skipped, NOT_DESCRIBED.into()) };
+    let scales: Vec<String> = (0..=hdr.captures.len()).map(|k| format!("{}", hdr.scale(k))).collect();
+    let switch = hdr.switch();
+    (
+        Verdict::Required,
+        format!(
+            "{} captures of scales {}, each used up to {switch} of its range, merged to {bits} bits",
+            scales.len(),
+            scales.join(", ")
+        ),
+    )
+}
+
+pub(crate) fn need_companding(p: &SensorParameters) -> (Verdict, String) {
+    match &p.hdr.companding {
+        None => (Verdict::Skipped, NOT_DESCRIBED.into()),
+        Some(c) => (Verdict::Required, format!("{} straight lines to {} bits", c.knees.len(), c.bits)),
+    }
+}

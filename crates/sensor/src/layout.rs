@@ -1,0 +1,290 @@
+//! Which pixels are read, and which are read together.
+//!
+//! - Optical black: rows above and columns left of the picture that no light reaches. They have dark current, smear and all noises.
+//! - Binning: n × m pixels of the same colour give one. Charge: their electrons are added before the chain, whose noise comes once (the
+//!   register is taken to hold the sum). Digital: their digital numbers are averaged and rounded.
+//!   Of tiles w × h pixels, the pixel (x, y) of the result takes the pixels ⌊x/w⌋ w n + x mod w + i w of a row, i < n, and so down: the
+//!   tile's order stays.
+//! - Region: a rectangle of the picture is read. The pixels around it still collect, smear and bloom.
+//!
+//! Left out: binning without regard to colour, subsampling.
+
+use crate::cfa::Cfa;
+use crate::check::{Checks, SensorError};
+use crate::effects::{NOT_DESCRIBED, Verdict};
+use crate::parameters::SensorParameters;
+use etendue_core::Plane;
+use etendue_core::quantity::{DigitalNumber, Electrons, Quantity};
+
+/// Pixels that no light reaches.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct OpticalBlack {
+    /// Rows above the picture.
+    pub rows: usize,
+    /// Columns left of the picture.
+    pub columns: usize,
+}
+
+/// A rectangle of pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Region {
+    /// First column.
+    pub x: usize,
+    /// First row.
+    pub y: usize,
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+}
+
+/// What is put together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BinningOf {
+    /// Charge is added before it is read.
+    Charge,
+    /// Digital numbers are averaged.
+    Numbers,
+}
+
+/// Pixels that are read together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Binning {
+    /// Pixels of a row.
+    pub columns: usize,
+    /// Pixels of a column.
+    pub rows: usize,
+    /// What is put together.
+    pub of: BinningOf,
+}
+
+/// Which pixels are read, and which are read together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Layout {
+    /// Pixels that no light reaches.
+    pub optical_black: OpticalBlack,
+    /// The part of the picture that is read; `None`: all of it.
+    pub region: Option<Region>,
+    /// Pixels that are read together; `None`: each on its own.
+    pub binning: Option<Binning>,
+}
+
+pub(crate) fn need(p: &SensorParameters) -> (Verdict, String) {
+    let Layout { optical_black: dark, region, binning } = p.read_out.layout;
+    let mut parts = Vec::new();
+    if dark != OpticalBlack::default() {
+        parts.push(format!("{} rows above and {} columns left are optically black", dark.rows, dark.columns));
+    }
+    if let Some(Binning { columns, rows, of }) = binning {
+        let how = if of == BinningOf::Charge { "charge is added" } else { "digital numbers are averaged" };
+        parts.push(format!("{columns} × {rows} pixels of a colour give one: {how}"));
+    }
+    if let Some(Region { x, y, width, height }) = region {
+        parts.push(format!("{width} × {height} pixels from column {x}, row {y} are read"));
+    }
+    if parts.is_empty() { (Verdict::Skipped, NOT_DESCRIBED.into()) } else { (Verdict::Required, parts.join("; ")) }
+}
+
+impl Layout {
+    /// What is wrong with this layout on a picture of `width` × `height` pixels under a tile.
+    pub(crate) fn errors(&self, cfa: &Cfa, width: usize, height: usize) -> Vec<SensorError> {
+        let mut checks = Checks::default();
+        let (w, h) = (cfa.width(), cfa.height());
+        checks.agree("cfa", width.is_multiple_of(w) && height.is_multiple_of(h), || {
+            format!("a tile of {w} × {h} pixels does not tile a sensor of {width} × {height}: give multiples of it")
+        });
+        let (n, m) = self.binning.map_or((1, 1), |b| (b.columns, b.rows));
+        checks.agree("binning", (1..=64).contains(&n) && (1..=64).contains(&m), || {
+            format!("{n} × {m} pixels cannot be read together: give 1 to 64 each")
+        });
+        if !checks.errors.is_empty() {
+            return checks.errors;
+        }
+        let (w, h) = (w * n, h * m);
+        let whole = |columns: usize, rows: usize| columns.is_multiple_of(w) && rows.is_multiple_of(h);
+        let multiples =
+            || format!("columns must be multiples of {w} and rows of {h} (the colour tile times the binning)");
+        checks.agree("binning", whole(width, height), multiples);
+        let dark = self.optical_black;
+        checks.agree("optical_black", whole(dark.columns, dark.rows), multiples);
+        if let Some(r) = self.region {
+            checks.agree(
+                "region_px",
+                whole(r.x, r.y) && whole(r.width, r.height) && r.width > 0 && r.height > 0,
+                multiples,
+            );
+            checks.agree("region_px", r.x + r.width <= width && r.y + r.height <= height, || {
+                format!("it ends beyond the picture of {width} × {height} pixels")
+            });
+            checks.agree("region_px", dark == OpticalBlack::default(), || {
+                "a region leaves the optical black out: remove one of both".to_owned()
+            });
+        }
+        checks.errors
+    }
+
+    /// The whole array: the picture with the pixels that no light reaches. `None` where there are none.
+    pub(crate) fn with_optical_black(&self, picture: &Plane<Electrons>) -> Option<Plane<Electrons>> {
+        let OpticalBlack { rows, columns } = self.optical_black;
+        if rows == 0 && columns == 0 {
+            return None;
+        }
+        let (width, height) = (picture.width(), picture.height());
+        let mut array = Plane::new(width + columns, height + rows);
+        for y in 0..height {
+            let start = (y + rows) * (width + columns) + columns;
+            array.samples_mut()[start..start + width].copy_from_slice(&picture.samples()[y * width..(y + 1) * width]);
+        }
+        Some(array)
+    }
+
+    /// The binning of charge, where there is one.
+    pub(crate) fn charge_binning(&self) -> Option<Binning> {
+        self.binning.filter(|b| b.of == BinningOf::Charge)
+    }
+
+    /// The binning of digital numbers, where there is one.
+    pub(crate) fn number_binning(&self) -> Option<Binning> {
+        self.binning.filter(|b| b.of == BinningOf::Numbers)
+    }
+
+    /// The part of the array that is read, in pixels of the result; `None` for all of it.
+    pub(crate) fn read_part(&self) -> Option<Region> {
+        let (n, m) = self.binning.map_or((1, 1), |b| (b.columns, b.rows));
+        self.region.map(|r| Region { x: r.x / n, y: r.y / m, width: r.width / n, height: r.height / m })
+    }
+
+    /// Where the picture lies in a raw of `width` × `height` pixels.
+    pub(crate) fn picture_in_raw(&self, width: usize, height: usize) -> Region {
+        let (n, m) = self.binning.map_or((1, 1), |b| (b.columns, b.rows));
+        let (x, y) = (self.optical_black.columns / n, self.optical_black.rows / m);
+        Region { x, y, width: width - x, height: height - y }
+    }
+
+    /// Where pixel (x, y) of the array is found in the raw.
+    pub(crate) fn raw_of_array(&self, cfa: &Cfa, (x, y): (usize, usize)) -> Option<(usize, usize)> {
+        let along = |i: usize, tile: usize, n: usize| i / (tile * n) * tile + i % tile;
+        let (n, m) = self.binning.map_or((1, 1), |b| (b.columns, b.rows));
+        let (x, y) = (along(x, cfa.width(), n), along(y, cfa.height(), m));
+        match self.read_part() {
+            None => Some((x, y)),
+            Some(r) => {
+                let inside = (r.x..r.x + r.width).contains(&x) && (r.y..r.y + r.height).contains(&y);
+                inside.then(|| (x - r.x, y - r.y))
+            }
+        }
+    }
+}
+
+impl Binning {
+    /// Samples of the same colour put together by `fold`.
+    fn folded<Q: Quantity>(&self, cfa: &Cfa, plane: &Plane<Q>, fold: impl Fn(&[Q::Sample]) -> Q::Sample) -> Plane<Q> {
+        let (n, m, w, h) = (self.columns, self.rows, cfa.width(), cfa.height());
+        let mut out = Plane::new(plane.width() / n, plane.height() / m);
+        let mut samples = Vec::with_capacity(n * m);
+        for y in 0..out.height() {
+            for x in 0..out.width() {
+                let (x0, y0) = (x / w * w * n + x % w, y / h * h * m + y % h);
+                samples.clear();
+                samples.extend(
+                    (0..m).flat_map(|j| (0..n).map(move |i| (x0 + i * w, y0 + j * h))).map(|(x, y)| plane.at(x, y)),
+                );
+                out.set(x, y, fold(&samples));
+            }
+        }
+        out
+    }
+
+    /// Charge added.
+    pub(crate) fn added(&self, cfa: &Cfa, plane: &Plane<Electrons>) -> Plane<Electrons> {
+        self.folded(cfa, plane, |q| q.iter().map(|q| f64::from(*q)).sum::<f64>() as f32)
+    }
+
+    /// The mean of layers.
+    pub(crate) fn mean(&self, cfa: &Cfa, plane: &Plane<Electrons>) -> Plane<Electrons> {
+        self.folded(cfa, plane, |q| (q.iter().map(|q| f64::from(*q)).sum::<f64>() / q.len() as f64) as f32)
+    }
+
+    /// Digital numbers averaged, halves to even.
+    pub(crate) fn averaged(&self, cfa: &Cfa, plane: &Plane<DigitalNumber>) -> Plane<DigitalNumber> {
+        let mean = |dn: &[u32]| dn.iter().map(|dn| f64::from(*dn)).sum::<f64>() / dn.len() as f64;
+        self.folded(cfa, plane, |dn| mean(dn).round_ties_even() as u32)
+    }
+}
+
+impl Region {
+    /// The rectangle of a plane.
+    pub(crate) fn of<Q: Quantity>(&self, plane: &Plane<Q>) -> Plane<Q> {
+        let rows = plane.samples().chunks(plane.width()).skip(self.y).take(self.height);
+        let samples = rows.flat_map(|row| row[self.x..self.x + self.width].iter().copied()).collect();
+        Plane::from_samples(self.width, self.height, samples).expect("a checked region")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cfa::BayerPhase;
+    use crate::frame::tests::{ADDRESS, quiet, run};
+    use crate::sensor::Sensor;
+
+    #[test]
+    fn binning_keeps_colours_apart_and_counts_all_charge() {
+        let mut p = quiet();
+        let channel = p.channels[0].clone();
+        p.channels = ["r", "g", "b"].map(|name| crate::Channel { name: name.into(), ..channel.clone() }).to_vec();
+        p.cfa = Cfa::bayer(BayerPhase::Rggb);
+        p.charge.full_well_e = 1e5;
+        let mut means = Plane::new(8, 4);
+        for (x, y) in (0..32).map(|i| (i % 8, i / 8)) {
+            means.set(x, y, [100.0, 200.0, 300.0][p.cfa.channel_at(x, y)]);
+        }
+        let mut binned = |of| {
+            p.read_out.layout.binning = Some(Binning { columns: 2, rows: 2, of });
+            run(&p, &means, ADDRESS).plane
+        };
+        let charge = binned(BinningOf::Charge);
+        assert_eq!((charge.width(), charge.height()), (4, 2));
+        assert_eq!(charge.samples(), [400, 800, 400, 800, 800, 1200, 800, 1200]);
+        assert_eq!(binned(BinningOf::Numbers).samples(), [100, 200, 100, 200, 200, 300, 200, 300]);
+    }
+
+    #[test]
+    fn a_region_is_a_part_of_the_whole() {
+        let mut p = quiet();
+        p.noise = true;
+        let means = Plane::from_samples(10, 6, (0..60).map(|i| 10.0 * i as f32).collect()).expect("filled");
+        let whole = run(&p, &means, ADDRESS).plane;
+        let region = Region { x: 3, y: 2, width: 4, height: 3 };
+        p.read_out.layout.region = Some(region);
+        assert_eq!(run(&p, &means, ADDRESS).plane, region.of(&whole));
+    }
+
+    #[test]
+    fn optical_black_sees_heat_and_no_light() {
+        let mut p = quiet();
+        p.charge.dark.current_e_s = 10.0 / p.exposure.exposure_s;
+        p.read_out.layout.optical_black = OpticalBlack { rows: 2, columns: 3 };
+        let raw = run(&p, &Plane::filled(5, 4, 500.0), ADDRESS);
+        assert_eq!(raw.picture, Region { x: 3, y: 2, width: 5, height: 4 });
+        for (x, y) in (0..48).map(|i| (i % 8, i / 8)) {
+            assert_eq!(raw.plane.at(x, y), if x >= 3 && y >= 2 { 510 } else { 10 });
+        }
+    }
+
+    #[test]
+    fn what_does_not_fit_is_refused() {
+        let errors = |change: &dyn Fn(&mut SensorParameters)| {
+            let mut p = quiet();
+            change(&mut p);
+            Sensor::new(p).expect("legal").misfits(10, 6).len()
+        };
+        assert_eq!(errors(&|_| ()), 0);
+        assert_eq!(errors(&|p| p.cfa = Cfa::tile(4, 1, vec![0; 4]).expect("a tile")), 1);
+        assert_eq!(
+            errors(&|p| p.read_out.layout.binning = Some(Binning { columns: 3, rows: 1, of: BinningOf::Charge })),
+            1
+        );
+        assert_eq!(errors(&|p| p.read_out.layout.region = Some(Region { x: 8, y: 0, width: 4, height: 1 })), 1);
+    }
+}

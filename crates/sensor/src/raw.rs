@@ -1,0 +1,65 @@
+//! A raw picture, with what development needs to know.
+
+use crate::account::ChargeAccount;
+use crate::hdr::companding::Companding;
+use crate::layout::Region;
+use crate::state::OperatingPoint;
+use etendue_core::Plane;
+use etendue_core::quantity::DigitalNumber;
+use etendue_core::random::Pixel;
+use std::borrow::Cow;
+
+/// A raw picture, with what development needs to know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Raw {
+    /// Digital numbers.
+    pub plane: Plane<DigitalNumber>,
+    /// Digital number of no charge.
+    pub black_level_dn: f64,
+    /// Digital number of a saturated pixel.
+    pub white_level_dn: f64,
+    /// Bits of a number.
+    pub bits: u32,
+    /// The curve by which numbers were put into fewer bits.
+    pub companding: Option<Companding>,
+    /// The part of the plane that light reached.
+    pub picture: Region,
+    /// Exposure time and gain of the frame.
+    pub operating_point: OperatingPoint,
+    /// Where the charge went, where pixels overflow into others; of the first capture.
+    pub account: Option<ChargeAccount>,
+    /// Pixels whose mean electrons were not a number, infinite or negative, in raster order of the array. The digital
+    /// numbers they go into are 0, and mean nothing.
+    pub invalid: Vec<Pixel>,
+}
+
+/// The part that light reached, in numbers proportional to the merged reading.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearRaw<'a> {
+    /// Digital numbers.
+    pub plane: Cow<'a, Plane<DigitalNumber>>,
+    /// Digital number of no charge.
+    pub black_level_dn: f64,
+    /// Digital number of a saturated pixel.
+    pub white_level_dn: f64,
+}
+
+impl Raw {
+    /// The picture without optical black and without companding.
+    #[must_use]
+    pub fn linear(&self) -> LinearRaw<'_> {
+        let whole = (self.picture.width, self.picture.height) == (self.plane.width(), self.plane.height());
+        let part = if whole { Cow::Borrowed(&self.plane) } else { Cow::Owned(self.picture.of(&self.plane)) };
+        let Some(curve) = &self.companding else {
+            let (black_level_dn, white_level_dn) = (self.black_level_dn, self.white_level_dn);
+            return LinearRaw { plane: part, black_level_dn, white_level_dn };
+        };
+        let table: Vec<u32> =
+            (0..1_u32 << self.bits).map(|y| curve.linear(f64::from(y)).round_ties_even() as u32).collect();
+        LinearRaw {
+            plane: Cow::Owned(part.map(|dn| table[dn as usize])),
+            black_level_dn: curve.linear(self.black_level_dn),
+            white_level_dn: curve.linear(self.white_level_dn),
+        }
+    }
+}

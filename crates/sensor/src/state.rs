@@ -1,0 +1,49 @@
+//! What a sensor remembers from frame to frame, and where a frame stands.
+
+use crate::parameters::SensorParameters;
+use serde::{Deserialize, Serialize};
+
+/// The part of a random address that a raw picture's pixels share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FrameAddress {
+    /// The job's seed.
+    pub seed: u64,
+    /// The camera's place in the job.
+    pub camera: u32,
+    /// The frame.
+    pub frame: u32,
+    /// The capture within the frame; those of a frame of several captures follow on.
+    pub capture: u32,
+}
+
+/// Exposure time and gain of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OperatingPoint {
+    /// Exposure time, s.
+    pub exposure_s: f64,
+    /// Factor on the voltage before the converter.
+    pub analogue_gain: f64,
+}
+
+impl OperatingPoint {
+    /// The one that the description says.
+    pub(crate) fn described(p: &SensorParameters) -> Self {
+        Self { exposure_s: p.exposure.exposure_s, analogue_gain: p.read_out.analogue_gain }
+    }
+}
+
+/// What a sensor remembers from frame to frame. The default is a sensor that has rested in the dark; so is, for each
+/// part, a state of another size of sensor.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SensorState {
+    /// Where exposure control has come to.
+    pub operating_point: Option<OperatingPoint>,
+    /// Charge in the traps, e⁻: for each kind of trap one number a pixel, row by row.
+    pub trapped_e: Vec<Vec<f32>>,
+    /// Which blinking pixels are at their upper level, in raster order.
+    pub blinking_high: Vec<bool>,
+    /// Which pixels of telegraph noise are at their upper level, in raster order.
+    pub telegraph_high: Vec<bool>,
+}
