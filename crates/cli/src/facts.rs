@@ -228,7 +228,20 @@ pub fn effects(body: &CameraBody) -> Option<Value> {
         let p = glare.parameters();
         json!({ "scatter": p.scatter, "core_um": p.core_um, "exponent": p.exponent, "reach_mm": p.reach_mm })
     });
-    Some(json!({ "margin_px": effects.margin_px(), "glare": glare }))
+    let psf = effects.psf().map(|psf| {
+        let p = psf.parameters();
+        json!({
+            "f_number": psf.f_number(),
+            "blades": p.blades,
+            "blade_curvature": p.curvature,
+            "rotation_deg": p.rotation_rad.to_degrees(),
+            "obstruction": p.obstruction,
+            "wavefront_terms": p.wavefront.len(),
+            "reach_mm": p.reach_mm,
+            "patches": psf.patches(),
+        })
+    });
+    Some(json!({ "margin_px": effects.margin_px(), "psf": psf, "glare": glare }))
 }
 
 /// A lens's distortion, and the one of the other direction that comes nearest over the picture.

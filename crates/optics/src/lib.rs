@@ -11,7 +11,7 @@ mod pupil;
 pub mod pupil_image;
 
 pub use defocus::{DepthOfField, FastBlend, FastParameters};
-pub use effects::{Effects, EffectsError, EffectsParameters, Glare, GlareParameters};
+pub use effects::{Effects, EffectsError, EffectsParameters, Glare, GlareParameters, Psf, PsfParameters};
 pub use error::{OpticsError, PRINCIPAL_NM};
 pub use lens::{
     Calibrated, CalibratedParameters, ConstantPupil, Falloff, Lens, Parallel, ParallelParameters, Pinhole,

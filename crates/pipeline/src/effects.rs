@@ -15,10 +15,10 @@ pub(crate) fn behind(
     if body.effects.is_idle() {
         return (film, variance);
     }
-    let prepared = body.effects.prepared(&body.raster);
+    let bands = film.bands();
+    let prepared = body.effects.prepared(&body.raster, (bands.low_nm(), bands.high_nm()));
     let of_band = |band: usize| of_band(&prepared, band, &film, variance.as_ref());
     let (means, variances): (Vec<_>, Vec<_>) = (0..film.planes().len()).into_par_iter().map(of_band).unzip();
-    let bands = film.bands();
     let mean = SpectralCube::from_planes(bands, means).expect("planes of one picture");
     let variances: Option<Vec<_>> = variances.into_iter().collect();
     (mean, variances.and_then(|planes| SpectralCube::from_planes(bands, planes)))
@@ -30,7 +30,9 @@ fn of_band(
     film: &SpectralCube<Irradiance>,
     variance: Option<&SpectralCube<Variance>>,
 ) -> (Plane<Irradiance>, Option<Plane<Variance>>) {
-    prepared.apply(&film.planes()[band], variance.map(|cube| &cube.planes()[band]))
+    let bands = film.bands();
+    let low_nm = bands.low_nm() + band as f64 * bands.width_nm();
+    prepared.apply((low_nm, low_nm + bands.width_nm()), &film.planes()[band], variance.map(|cube| &cube.planes()[band]))
 }
 
 /// The picture of a film, without its margin.

@@ -224,7 +224,11 @@ fn left_out(lens: &Lens, effects: &Effects) -> String {
     let missing = |words: &[&'static str]| {
         let models =
             |effect| effects.needs().iter().any(|n| n.effect == effect && n.verdict != effects::Verdict::Skipped);
-        let modelled = |word: &&&str| **word == "glare" && models(Effect::Glare);
+        let modelled = |word: &&&str| match **word {
+            "glare" => models(Effect::Glare),
+            "diffraction" => models(Effect::PointSpread),
+            _ => false,
+        };
         list(&words.iter().filter(|word| !modelled(word)).copied().collect::<Vec<_>>())
     };
     match lens {

@@ -28,6 +28,20 @@ pub enum EffectsError {
         /// The exponent.
         exponent: f64,
     },
+    /// A table of a wavefront term that is none.
+    #[error("a wavefront term needs as many root mean squares as field radii, which must rise; or one, and no radii")]
+    Table,
+    /// A wavefront too steep for the pupil's lattice.
+    #[error(
+        "the wavefront's slope of {slope_um:.1} µm over the pupil's radius is beyond {limit_um:.1} µm, where its pattern is no \
+         longer held: give smaller terms; large blurs are defocus, which the lens's own focus makes"
+    )]
+    Slope {
+        /// The steepest slope, µm.
+        slope_um: f64,
+        /// The steepest that is held, µm.
+        limit_um: f64,
+    },
     /// A margin that is no share.
     #[error("a margin of {margin} is not within 0 to 1 of the picture's size")]
     Margin {

@@ -12,16 +12,19 @@
 //!
 //! | order | effect | on |
 //! | --- | --- | --- |
-//! | 1 | [veiling glare](glare) | scatters a share of the light over the plane |
+//! | 1 | [point spread](psf) | diffraction of the aperture, wavefront error |
+//! | 2 | [veiling glare](glare) | scatters a share of the light over the plane |
 
 mod convolve;
 mod error;
 mod fourier;
 pub mod glare;
 mod kernel;
+pub mod psf;
 
 pub use error::EffectsError;
 pub use glare::{Glare, GlareParameters};
+pub use psf::{Psf, PsfParameters, WavefrontTerm, Zernike};
 
 use convolve::{Convolver, Field, Region};
 use etendue_core::Plane;
@@ -36,18 +39,21 @@ const MARGIN_CAP: f64 = 0.25;
 /// The effects that there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effect {
+    /// Diffraction and wavefront error.
+    PointSpread,
     /// Light scattered in the lens.
     Glare,
 }
 
 impl Effect {
     /// All effects, in their order.
-    pub const ALL: [Self; 1] = [Self::Glare];
+    pub const ALL: [Self; 2] = [Self::PointSpread, Self::Glare];
 
     /// The effect's name in a plan.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            Self::PointSpread => "point spread",
             Self::Glare => "veiling glare",
         }
     }
@@ -78,6 +84,7 @@ pub struct Need {
 /// The effects of a camera.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Effects {
+    psf: Option<Psf>,
     glare: Option<Glare>,
     margin_px: [usize; 2],
 }
@@ -85,6 +92,8 @@ pub struct Effects {
 /// The members that a camera can have, and its margin.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EffectsParameters {
+    /// Diffraction and wavefront error.
+    pub psf: Option<Psf>,
     /// Light scattered in the lens.
     pub glare: Option<Glare>,
     /// Width of the margin on every side as a share of the picture's width and height, 0 to 1; `None` for as far as the
@@ -98,8 +107,8 @@ impl Effects {
     /// # Errors
     /// Where the margin is out of range or serves nothing.
     pub fn new(parameters: EffectsParameters, picture: &Raster) -> Result<Self, EffectsError> {
-        let EffectsParameters { glare, margin } = parameters;
-        let mut effects = Self { glare, margin_px: [0, 0] };
+        let EffectsParameters { psf, glare, margin } = parameters;
+        let mut effects = Self { psf, glare, margin_px: [0, 0] };
         effects.margin_px = match margin {
             Some(margin) if !(0.0..=1.0).contains(&margin) => return Err(EffectsError::Margin { margin }),
             Some(_) if effects.is_idle() => return Err(EffectsError::IdleMargin),
@@ -113,7 +122,8 @@ impl Effects {
     fn reach_px(&self, picture: &Raster) -> [usize; 2] {
         let cap = share(MARGIN_CAP, picture);
         let glare = self.needs_glare().map(|glare| glare.reach_px(picture.pitch_mm()).unwrap_or(cap));
-        let reach = [glare].into_iter().flatten().fold([0, 0], |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
+        let psf = self.psf.as_ref().map(|psf| psf.reach_px(picture.pitch_mm()));
+        let reach = [psf, glare].into_iter().flatten().fold([0, 0], |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
         [reach[0].min(cap[0]), reach[1].min(cap[1])]
     }
 
@@ -122,6 +132,7 @@ impl Effects {
     pub fn needs(&self) -> Vec<Need> {
         let need = |effect| {
             let (verdict, reason) = match effect {
+                Effect::PointSpread => Psf::need(self.psf.as_ref()),
                 Effect::Glare => Glare::need(self.glare.as_ref()),
             };
             Need { effect, verdict, reason }
@@ -147,6 +158,12 @@ impl Effects {
         picture.widened(self.margin_px)
     }
 
+    /// The point-spread function, as described.
+    #[must_use]
+    pub fn psf(&self) -> Option<&Psf> {
+        self.psf.as_ref()
+    }
+
     /// Veiling glare, as described.
     #[must_use]
     pub fn glare(&self) -> Option<&Glare> {
@@ -157,12 +174,13 @@ impl Effects {
         self.glare.as_ref().filter(|glare| Glare::need(Some(glare)).0 != Verdict::Skipped)
     }
 
-    /// The effects made ready for a picture: what does not depend on the wavelength.
+    /// The effects made ready for a picture and a range of wavelengths (nm): what does not depend on the band.
     #[must_use]
-    pub fn prepared(&self, picture: &Raster) -> Prepared {
+    pub fn prepared(&self, picture: &Raster, range_nm: (f64, f64)) -> Prepared {
         let canvas = Canvas::new(picture, self.margin_px);
         let glare = self.needs_glare().map(|glare| Spread::new(&glare.kernel(&canvas), &canvas));
-        Prepared { canvas, glare }
+        let psf = self.psf.as_ref().map(|psf| psf.ready(&canvas, range_nm));
+        Prepared { canvas, psf, glare }
     }
 }
 
@@ -185,6 +203,11 @@ impl Canvas {
     /// Columns and rows of the film.
     pub(crate) fn size(&self) -> [usize; 2] {
         [self.film.width(), self.film.height()]
+    }
+
+    /// The point of the sensor at a point of the film.
+    fn sensor_mm(&self, film_px: DVec2) -> DVec2 {
+        self.film.sensor_mm(film_px)
     }
 
     pub(crate) fn pitch_mm(&self) -> DVec2 {
@@ -221,34 +244,37 @@ impl Spread {
 #[derive(Debug)]
 pub struct Prepared {
     canvas: Canvas,
+    psf: Option<psf::Ready>,
     glare: Option<Spread>,
 }
 
 impl Prepared {
-    /// The picture's irradiance in one band, of the film's; and its variance, of the film's.
+    /// The picture's irradiance in the band from `band_nm.0` to `band_nm.1`, of the film's; and its variance, of the film's.
     ///
     /// A pixel of the film that is not finite makes others so: none that holds a number has met it.
     #[must_use]
     pub fn apply(
         &self,
+        band_nm: (f64, f64),
         film: &Plane<Irradiance>,
         variance: Option<&Plane<Variance>>,
     ) -> (Plane<Irradiance>, Option<Plane<Variance>>) {
-        let mean = self.spread(field(film), |spread| &spread.mean);
         // One replicate knows no variance.
-        let known = |plane: &&Plane<Variance>| plane.samples().iter().all(|v| !v.is_nan());
-        let variance = variance.map(|plane| match Some(plane).filter(known) {
-            Some(plane) => self.cut(&self.spread(field(plane), |spread| &spread.variance)),
-            None => self.unknown(),
-        });
+        let known = variance.filter(|plane| plane.samples().iter().all(|v| !v.is_nan())).map(field);
+        let (mean, spread) = self.spread(band_nm, field(film), known);
+        let variance = variance.map(|_| spread.map_or_else(|| self.unknown(), |v| self.cut(&v)));
         (self.cut(&mean), variance)
     }
 
-    fn spread(&self, mut light: Field, of: impl Fn(&Spread) -> &Convolver) -> Field {
-        if let Some(glare) = &self.glare {
-            light = of(glare).apply(&light);
+    fn spread(&self, band_nm: (f64, f64), mut light: Field, mut variance: Option<Field>) -> (Field, Option<Field>) {
+        if let Some(psf) = &self.psf {
+            (light, variance) = psf.apply(band_nm, &light, variance.as_ref());
         }
-        light
+        if let Some(glare) = &self.glare {
+            light = glare.mean.apply(&light);
+            variance = variance.map(|variance| glare.variance.apply(&variance));
+        }
+        (light, variance)
     }
 
     /// The picture of a film. Rounding of the transforms below zero is no light.

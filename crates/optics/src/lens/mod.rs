@@ -346,6 +346,19 @@ impl Lens {
         }
     }
 
+    /// Distance from the exit pupil to the sensor, mm: of a pinhole, a thin lens and a calibrated camera the principal distance,
+    /// infinite for a parallel camera.
+    #[must_use]
+    pub fn exit_pupil_distance_mm(&self) -> f64 {
+        match self {
+            Self::Pinhole(_) | Self::Thin(_) | Self::Calibrated(_) | Self::Parallel(_) => self.principal_distance_mm(),
+            Self::Thick(lens) => lens.sensor_mm() - lens.exit_pupil_mm(),
+            Self::Prescription(lens) => {
+                (lens.prescription().sensor_mm() - lens.prescription().paraxial().exit_pupil_mm).abs()
+            }
+        }
+    }
+
     /// Radius of the entrance pupil on the axis, m; 0 where everything is sharp.
     #[must_use]
     pub fn entrance_pupil_radius_m(&self) -> f64 {

@@ -26,7 +26,7 @@ pub(super) fn body(camera: &Camera, context: &mut Context<'_>) -> Option<CameraB
     let aperture_px = fill_factor(&camera.sensor).sqrt();
     let place = camera.sensor.place.clone();
     let (lens, raster) = lens?;
-    let effects = effects(camera.effects.as_ref(), &raster, context)?;
+    let effects = effects(camera.effects.as_ref(), &lens, &raster, context)?;
     let body = CameraBody { place, raster, lens, effects, aperture_px, sensor, development };
     (context.faults.len() == before).then_some(body)
 }

@@ -1,31 +1,71 @@
 //! `[effects]`: from the record to the effects.
 
 use super::context::Context;
-use etendue_optics::{Effects, EffectsParameters, Glare, GlareParameters};
+use etendue_optics::effects::{WavefrontTerm, Zernike};
+use etendue_optics::{Effects, EffectsError, EffectsParameters, Glare, GlareParameters, Lens, Psf, PsfParameters};
 use etendue_projection::Raster;
+use etendue_scene::record::effects::{TermSize, ZernikeIndex};
 use etendue_scene::record::{self, effects as description};
+
+const NM_PER_UM: f64 = 1000.0;
 
 /// The effects behind a picture; none where the record is silent.
 pub(super) fn effects(
     record: Option<&record::Effects>,
+    lens: &Lens,
     picture: &Raster,
     context: &mut Context<'_>,
 ) -> Option<Effects> {
     let Some(record) = record else { return Some(Effects::default()) };
+    let psf = match &record.psf {
+        Some(record) => Some(context.accept(&record.place, psf(record, lens, picture))?),
+        None => None,
+    };
     let glare = match &record.glare {
         Some(record) => Some(context.accept(&record.place, glare(record))?),
         None => None,
     };
-    let parameters = EffectsParameters { glare, margin: record.margin.as_ref().map(|m| m.value) };
+    let parameters = EffectsParameters { psf, glare, margin: record.margin.as_ref().map(|m| m.value) };
     let place = record.margin.as_ref().map_or(&record.place, |m| &m.place);
     context.accept(place, Effects::new(parameters, picture))
 }
 
-fn glare(record: &description::Glare) -> Result<Glare, etendue_optics::EffectsError> {
+fn glare(record: &description::Glare) -> Result<Glare, EffectsError> {
     Glare::new(GlareParameters {
         scatter: record.scatter.value,
         core_um: record.core_um.value,
         exponent: record.exponent.value,
         reach_mm: record.reach_mm.as_ref().map(|r| r.value),
     })
+}
+
+fn psf(record: &description::Psf, lens: &Lens, picture: &Raster) -> Result<Psf, EffectsError> {
+    let number = |key: &Option<etendue_scene::Placed<f64>>| key.as_ref().map_or(0.0, |v| v.value);
+    let parameters = PsfParameters {
+        blades: record.blades.as_ref().map_or(0, |b| b.value as u32),
+        curvature: number(&record.blade_curvature),
+        rotation_rad: number(&record.rotation_deg).to_radians(),
+        obstruction: number(&record.obstruction),
+        wavefront: record.wavefront.iter().map(term).collect(),
+        reach_mm: record.reach_mm.as_ref().map(|r| r.value),
+        patches: record.patches.as_ref().map(|p| [p.value[0].value as usize, p.value[1].value as usize]),
+    };
+    Psf::new(parameters, lens, picture)
+}
+
+/// A term whose index the record holds within the known ones.
+fn term(record: &description::WavefrontTerm) -> WavefrontTerm {
+    let zernike = match &record.index {
+        ZernikeIndex::Noll(index) => Zernike::noll(index.value as u32),
+        ZernikeIndex::Osa(index) => Zernike::osa(index.value as u32),
+    };
+    let (sizes, um) = match &record.size {
+        TermSize::Micrometres(sizes) => (sizes, 1.0),
+        TermSize::Waves(sizes) => (sizes, record.wavelength_nm.as_ref().map_or(0.0, |nm| nm.value / NM_PER_UM)),
+    };
+    WavefrontTerm {
+        zernike: zernike.expect("an index that was read is one of the known"),
+        field_mm: record.field_radius_mm.iter().map(|r| r.value).collect(),
+        rms_um: sizes.iter().map(|s| s.value * um).collect(),
+    }
 }

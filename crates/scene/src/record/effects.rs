@@ -2,17 +2,101 @@
 
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{number, record};
+use crate::reader::{Rule, RuleExt as _, either, exactly, keyed, list, number, record, whole};
 
 record! {
     /// What becomes of the irradiance behind the lens, on either route. The film is rendered wider than the picture, for light
     /// that comes from beyond its edge, and spectral bands are kept.
     pub struct Effects check(check) {
+        /// Diffraction and wavefront error of the aperture. Default: none.
+        optional psf: Psf = record();
         /// Light scattered in the lens. Default: none.
         optional glare: Glare = record();
         /// Width of what is rendered beyond the picture on every side, as a share of its width and height, 0 … 1. Default: as
         /// far as the effects reach, at most 0.25.
         optional margin: Placed<f64> = number("").at_least(0.0).at_most(1.0);
+    }
+}
+
+record! {
+    /// The point-spread function of the aperture: diffraction at the lens's working f-number, with the wavefront's error.
+    pub struct Psf check(check_psf) {
+        /// Blades of the diaphragm, 3 … 32. Default: a circle. The area is always that of the circle of the f-number.
+        optional blades: Placed<u64> = whole(3, 32);
+        /// With "blades": their curvature, 0 … 1, straight to a circle. Default: 0.
+        optional blade_curvature: Placed<f64> = number("").at_least(0.0).at_most(1.0);
+        /// With "blades": where a corner stands, degrees from the picture's right towards its bottom. Default: 0.
+        optional rotation_deg: Placed<f64> = number("deg");
+        /// Radius of an obstruction in the middle as a share of the pupil's, 0 … 0.9. Default: 0.
+        optional obstruction: Placed<f64> = number("").at_least(0.0).at_most(0.9);
+        /// Zernike terms of the wavefront's error; a ray through the point u of the pupil (of radius one) lands at 2N ∂W/∂u.
+        /// Default: none.
+        many wavefront: WavefrontTerm = list(record::<WavefrontTerm>(), 1);
+        /// Where the function ends, mm, above 0. Default: 256 λN at most, and 512 px.
+        optional reach_mm: Placed<f64> = number("mm").above(0.0);
+        /// Patches across and down the picture with a function each, 1 … 32. Default: one where the pattern is nearly the same
+        /// everywhere, else five and three.
+        optional patches: Placed<[Placed<u64>; 2]> = exactly(whole(1, 32));
+    }
+}
+
+record! {
+    /// A Zernike term, of root mean square one over the pupil of the f-number; beyond it, in the corners of blades, it goes on.
+    pub struct WavefrontTerm check(check_term) {
+        /// Which.
+        inside index: ZernikeIndex;
+        /// How large.
+        inside size: TermSize;
+        /// With "rms_waves": of which wavelength, nm, 300 … 1 100.
+        optional wavelength_nm: Placed<f64> = number("nm").at_least(300.0).at_most(1100.0);
+        /// Distances from the axis on the sensor, mm, rising, one for each root mean square; between them it is linear. The
+        /// term is stated for a point to the right of the axis and turns with it. Default: the same everywhere, not turned.
+        many field_radius_mm: Placed<f64> = list(number("mm").at_least(0.0), 2);
+    }
+}
+
+keyed! {
+    /// The index of a Zernike term.
+    pub enum ZernikeIndex {
+        /// By Noll (1976), from 1 (piston) to 91: 4 defocus, 7 and 8 coma, 11 spherical aberration.
+        noll => Noll(Placed<u64>) = whole(1, 91);
+        /// By OSA and ANSI Z80.28, from 0 (piston) to 90: 4 defocus, 7 and 8 coma, 12 spherical aberration.
+        osa => Osa(Placed<u64>) = whole(0, 90);
+    }
+}
+
+keyed! {
+    /// Root mean square of a term: one number, or one for each field radius.
+    pub enum TermSize {
+        /// In µm.
+        rms_um => Micrometres(Vec<Placed<f64>>) = sizes("µm");
+        /// In waves of "wavelength_nm".
+        rms_waves => Waves(Vec<Placed<f64>>) = sizes("");
+    }
+}
+
+fn sizes(unit: &'static str) -> impl Rule<Out = Vec<Placed<f64>>> {
+    either(number(unit).map(|v| vec![v]), list(number(unit), 2))
+}
+
+fn check_psf(psf: &Psf, faults: &mut Faults) {
+    let of_blades = [(&psf.blade_curvature, "blade_curvature"), (&psf.rotation_deg, "rotation_deg")];
+    for (key, name) in of_blades {
+        if let (Some(key), None) = (key, &psf.blades) {
+            faults.add(&key.place, format!("\"{name}\" has no effect on a circle"), "give \"blades\", or remove it");
+        }
+    }
+}
+
+fn check_term(term: &WavefrontTerm, faults: &mut Faults) {
+    match (&term.size, &term.wavelength_nm) {
+        (TermSize::Waves(_), None) => {
+            faults.add(&term.place, "\"rms_waves\" does not say of which wavelength", "add \"wavelength_nm\"");
+        }
+        (TermSize::Micrometres(_), Some(nm)) => {
+            faults.add(&nm.place, "\"wavelength_nm\" has no effect with \"rms_um\"", "remove it");
+        }
+        _ => {}
     }
 }
 
@@ -32,7 +116,11 @@ record! {
 }
 
 fn check(effects: &Effects, faults: &mut Faults) {
-    if effects.glare.is_none() {
-        faults.add(&effects.place, "[effects] describes no effect", "add [effects.glare], or remove the section");
+    if effects.psf.is_none() && effects.glare.is_none() {
+        faults.add(
+            &effects.place,
+            "[effects] describes no effect",
+            "add [effects.psf] or [effects.glare], or remove the section",
+        );
     }
 }

@@ -1,0 +1,350 @@
+//! The point-spread function of a real aperture: diffraction, and the wavefront's error by Zernike terms.
+//!
+//! For each band the patterns (`pattern.rs`) of wavelengths at most 10 nm apart are averaged and shared among the pixels
+//! (`kernel.rs`), with all of the light in them. Away from the axis the pupil looks smaller from the sensor: by cos θ′ along
+//! the rim and cos³ θ′ towards the axis, θ′ the chief ray's angle at the exit pupil, so that the pattern is wider by as much
+//! (Goodman, Introduction to Fourier Optics).
+//!
+//! The function varies over the picture by patches. Each pixel takes a mean of what the functions of the nearest patches make
+//! of the film, with weights that are linear between the patches and sum to one: a uniform irradiance stays uniform. Light
+//! of a point is kept where the functions' centroids lie in the middle and the weights are straight across it. A variance is
+//! that mean of what the squared functions make, which is not too small.
+//!
+//! Zernike terms are in units of length (root mean square over the pupil of the f-number), the same at all wavelengths. Terms
+//! with a table over the field turn with it: they are stated for a point of the picture to the right of the axis.
+//!
+//! Left out: the pupil's being cut by rims away from the axis; what the lens's own rays make of a wavefront (a traced lens
+//! has its aberrations already); light beyond the pattern's end, which is shared out over it.
+
+mod outline;
+mod pattern;
+mod zernike;
+
+pub use zernike::Zernike;
+
+use super::convolve::{Convolver, Field, Region};
+use super::error::EffectsError;
+use super::kernel::Kernel;
+use super::{Canvas, Verdict};
+use crate::lens::Lens;
+use etendue_projection::Raster;
+use glam::{DMat2, DVec2};
+use outline::Outline;
+use pattern::{CELLS, Pattern, Pupil};
+
+const MM_PER_NM: f64 = 1e-6;
+const NM_PER_UM: f64 = 1e3;
+/// Wavelengths of a band are at most this far apart, nm.
+const STEP_NM: f64 = 10.0;
+/// The farthest that a function reaches, px.
+const FARTHEST_PX: usize = 512;
+/// Wavelengths for which the pupil's lattice must hold the wavefront, nm.
+const VISIBLE_NM: (f64, f64) = (380.0, 780.0);
+/// Patches where the function varies and nothing is said.
+const PATCHES: [usize; 2] = [5, 3];
+/// A pattern that is wider by less in the picture's corner counts as the same everywhere.
+const SAME: f64 = 1.05;
+
+/// A Zernike term of the wavefront.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WavefrontTerm {
+    /// The polynomial.
+    pub zernike: Zernike,
+    /// Distances from the axis, mm, rising; empty where the term is the same everywhere.
+    pub field_mm: Vec<f64>,
+    /// Root mean square at each, µm; one where the term is the same everywhere.
+    pub rms_um: Vec<f64>,
+}
+
+impl WavefrontTerm {
+    /// The coefficient at a distance from the axis, linear in between, the ends held.
+    fn at(&self, radius_mm: f64) -> f64 {
+        let (field, rms) = (&self.field_mm, &self.rms_um);
+        let next = field.partition_point(|r| *r <= radius_mm);
+        match next {
+            0 => rms[0],
+            n if n == field.len() => rms[n - 1],
+            n => {
+                let share = (radius_mm - field[n - 1]) / (field[n] - field[n - 1]);
+                rms[n - 1] + share * (rms[n] - rms[n - 1])
+            }
+        }
+    }
+
+    fn varies(&self) -> bool {
+        !self.field_mm.is_empty()
+    }
+
+    fn check(&self) -> Result<(), EffectsError> {
+        let rising = self.field_mm.windows(2).all(|w| w[0] < w[1]);
+        let fits = self.rms_um.len() == self.field_mm.len().max(1);
+        if rising && fits { Ok(()) } else { Err(EffectsError::Table) }
+    }
+}
+
+/// An aperture and its wavefront.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PsfParameters {
+    /// Blades of the diaphragm; 0 for a circle.
+    pub blades: u32,
+    /// Curvature of the blades: 0 straight, 1 a circle.
+    pub curvature: f64,
+    /// Where the first corner stands, from the picture's x towards its y, rad.
+    pub rotation_rad: f64,
+    /// Radius of an obstruction in the middle over the pupil's.
+    pub obstruction: f64,
+    /// The wavefront's error.
+    pub wavefront: Vec<WavefrontTerm>,
+    /// Where the function ends, mm; `None` for as far as it is computed.
+    pub reach_mm: Option<f64>,
+    /// Patches across and down; `None` for one where the function is nearly the same everywhere, and 5 × 3.
+    pub patches: Option<[usize; 2]>,
+}
+
+/// The point-spread function of a lens's aperture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Psf {
+    parameters: PsfParameters,
+    f_number: f64,
+    exit_mm: f64,
+    patches: [usize; 2],
+}
+
+impl Psf {
+    /// The function behind `lens` over a picture.
+    ///
+    /// # Errors
+    /// Where a table is none, or the wavefront is steeper than the pupil's lattice can hold.
+    pub fn new(parameters: PsfParameters, lens: &Lens, picture: &Raster) -> Result<Self, EffectsError> {
+        parameters.wavefront.iter().try_for_each(WavefrontTerm::check)?;
+        let (f_number, exit_mm) = (lens.working_f_number(), lens.exit_pupil_distance_mm());
+        let mut psf = Self { parameters, f_number, exit_mm, patches: [1, 1] };
+        let corner_mm = picture.max_radius_mm();
+        let varies = psf.stretch(corner_mm)[0] > SAME || psf.parameters.wavefront.iter().any(WavefrontTerm::varies);
+        psf.patches = psf.parameters.patches.unwrap_or(if varies { PATCHES } else { [1, 1] });
+        psf.check_slope(picture.pitch_mm().min_element())?;
+        Ok(psf)
+    }
+
+    /// What it was made of.
+    #[must_use]
+    pub fn parameters(&self) -> &PsfParameters {
+        &self.parameters
+    }
+
+    /// Patches across and down.
+    #[must_use]
+    pub fn patches(&self) -> [usize; 2] {
+        self.patches
+    }
+
+    /// Working f-number.
+    #[must_use]
+    pub fn f_number(&self) -> f64 {
+        self.f_number
+    }
+
+    pub(super) fn need(psf: Option<&Self>) -> (Verdict, String) {
+        let Some(psf) = psf else { return (Verdict::Skipped, "no [effects.psf] is described".to_owned()) };
+        let shape = match psf.parameters.blades {
+            0 => "a circle".to_owned(),
+            n => format!("{n} blades of curvature {}", psf.parameters.curvature),
+        };
+        let error = match psf.parameters.wavefront.len() {
+            0 => "no wavefront error".to_owned(),
+            1 => "1 Zernike term".to_owned(),
+            n => format!("{n} Zernike terms"),
+        };
+        let [x, y] = psf.patches;
+        let n = (psf.f_number * 1e3).round() / 1e3;
+        (Verdict::Required, format!("diffraction of {shape} at f/{n}, {error}, in {x} × {y} patches"))
+    }
+
+    /// Columns and rows that light is spread over.
+    pub(super) fn reach_px(&self, pitch_mm: DVec2) -> [usize; 2] {
+        let fineness = self.fineness(VISIBLE_NM.1, pitch_mm.min_element());
+        let reach = self.reach_px_of(VISIBLE_NM.1, fineness, pitch_mm.min_element(), 1.0);
+        [reach, reach]
+    }
+
+    fn outline(&self) -> Outline {
+        let p = &self.parameters;
+        Outline::new(p.blades, p.curvature, p.rotation_rad, p.obstruction)
+    }
+
+    /// Steps of the pattern in λN: at least two, and two a pixel for the longest wavelength.
+    fn fineness(&self, longest_nm: f64, pitch_mm: f64) -> f64 {
+        let steps = (longest_nm * MM_PER_NM * self.f_number / pitch_mm).ceil().max(1.0);
+        2.0 * steps.min(16.0) * self.outline().radius()
+    }
+
+    /// How far the pattern reaches, px.
+    fn reach_px_of(&self, longest_nm: f64, fineness: f64, pitch_mm: f64, stretch: f64) -> usize {
+        let computed = 0.5 * CELLS as f64 * longest_nm * MM_PER_NM * self.f_number / fineness * stretch;
+        let reach = self.parameters.reach_mm.map_or(computed, |mm| mm.min(computed));
+        ((reach / pitch_mm).ceil() as usize + 1).min(FARTHEST_PX)
+    }
+
+    /// How much wider the pattern is along the radius and across it.
+    fn stretch(&self, radius_mm: f64) -> [f64; 2] {
+        let tangent = radius_mm / self.exit_mm;
+        let across = (1.0 + tangent * tangent).sqrt();
+        [across * across * across, across]
+    }
+
+    /// Rays must land within the pattern at all visible wavelengths.
+    fn check_slope(&self, pitch_mm: f64) -> Result<(), EffectsError> {
+        let limit_um = 0.25 * CELLS as f64 / self.fineness(VISIBLE_NM.1, pitch_mm) * VISIBLE_NM.0 / NM_PER_UM;
+        let radii: Vec<f64> = self.parameters.wavefront.iter().flat_map(|t| t.field_mm.clone()).chain([0.0]).collect();
+        let slope_um = radii.iter().map(|r| self.slope_um(*r)).fold(0.0, f64::max);
+        if slope_um < limit_um { Ok(()) } else { Err(EffectsError::Slope { slope_um, limit_um }) }
+    }
+
+    /// The steepest slope of the wavefront over the pupil's radius, by differences.
+    fn slope_um(&self, radius_mm: f64) -> f64 {
+        const CELLS: usize = 64;
+        let step = 2.0 / CELLS as f64;
+        let at =
+            |i: usize, j: usize| self.wavefront_um(radius_mm, DVec2::X, DVec2::new(i as f64, j as f64) * step - 1.0);
+        let cells = (0..CELLS).flat_map(|i| (0..CELLS).map(move |j| (i, j)));
+        let inside = cells.filter(|(i, j)| (DVec2::new(*i as f64, *j as f64) * step - 1.0).length() <= 1.0);
+        inside
+            .map(|(i, j)| DVec2::new(at(i + 1, j) - at(i, j), at(i, j + 1) - at(i, j)).length() / step)
+            .fold(0.0, f64::max)
+    }
+
+    /// W at a point of the pupil, for a field point at `radius_mm` in the direction `outwards`.
+    fn wavefront_um(&self, radius_mm: f64, outwards: DVec2, point: DVec2) -> f64 {
+        let turned = DVec2::new(point.dot(outwards), outwards.perp_dot(point));
+        let term = |t: &WavefrontTerm| t.at(radius_mm) * t.zernike.at(if t.varies() { turned } else { point });
+        self.parameters.wavefront.iter().map(term).sum()
+    }
+
+    /// The function made ready for a film and the wavelengths of a range.
+    pub(super) fn ready(&self, canvas: &Canvas, range_nm: (f64, f64)) -> Ready {
+        let fineness = self.fineness(range_nm.1, canvas.pitch_mm().min_element());
+        let pupil = Pupil::new(&self.outline(), fineness);
+        let [columns, rows] = self.patches;
+        let patches = (0..columns * rows).map(|i| self.patch(canvas, &pupil, i % columns, i / columns)).collect();
+        let shared = self.parameters.wavefront.is_empty().then(|| pupil.pattern(None));
+        Ready { psf: self.clone(), canvas: *canvas, fineness, pupil, shared, patches }
+    }
+
+    fn patch(&self, canvas: &Canvas, pupil: &Pupil, column: usize, row: usize) -> Patch {
+        let region = canvas.picture();
+        let x = Hat::new(column, self.patches[0], &region.x, canvas.size()[0]);
+        let y = Hat::new(row, self.patches[1], &region.y, canvas.size()[1]);
+        let point = canvas.sensor_mm(DVec2::new(x.middle, y.middle));
+        let radius_mm = point.length();
+        let outwards = if radius_mm > 0.0 { point / radius_mm } else { DVec2::X };
+        let [along, across] = self.stretch(radius_mm);
+        let turn = DMat2::from_cols(outwards, outwards.perp());
+        let stretch = turn * DMat2::from_diagonal(DVec2::new(along, across)) * turn.transpose();
+        let error = !self.parameters.wavefront.is_empty();
+        let wavefront_um = error.then(|| pupil.map(|u| self.wavefront_um(radius_mm, outwards, u)));
+        Patch { x, y, stretch, widest: along, wavefront_um }
+    }
+}
+
+/// Weights of a patch along one axis: linear to its neighbours, even outside of the outermost.
+#[derive(Clone, Debug)]
+struct Hat {
+    middle: f64,
+    first: usize,
+    weights: Vec<f64>,
+}
+
+impl Hat {
+    fn new(index: usize, count: usize, picture: &core::ops::Range<usize>, size: usize) -> Self {
+        let step = picture.len() as f64 / count as f64;
+        let middle = picture.start as f64 + (index as f64 + 0.5) * step;
+        let weight = |pixel: usize| {
+            let away = (pixel as f64 + 0.5 - middle) / step;
+            let outer = (index == 0 && away < 0.0) || (index + 1 == count && away > 0.0);
+            if outer { 1.0 } else { (1.0 - away.abs()).max(0.0) }
+        };
+        let first = (0..size).find(|p| weight(*p) > 0.0).unwrap_or(0);
+        let weights = (first..size).map(weight).take_while(|w| *w > 0.0).collect();
+        Self { middle, first, weights }
+    }
+
+    fn range(&self) -> core::ops::Range<usize> {
+        self.first..self.first + self.weights.len()
+    }
+}
+
+/// A part of the picture with a function of its own.
+#[derive(Clone, Debug)]
+struct Patch {
+    x: Hat,
+    y: Hat,
+    stretch: DMat2,
+    widest: f64,
+    wavefront_um: Option<Vec<f64>>,
+}
+
+/// The function of a film.
+#[derive(Debug)]
+pub(super) struct Ready {
+    psf: Psf,
+    canvas: Canvas,
+    fineness: f64,
+    pupil: Pupil,
+    /// The pattern that all patches and wavelengths share, where there is no wavefront error.
+    shared: Option<Pattern>,
+    patches: Vec<Patch>,
+}
+
+impl Ready {
+    /// The film's light and variance in a band.
+    pub(super) fn apply(&self, band_nm: (f64, f64), light: &Field, variance: Option<&Field>) -> (Field, Option<Field>) {
+        let size = self.canvas.size();
+        let mut spread = Field::zeros(size[0], size[1]);
+        let mut spread_variance = variance.map(|_| Field::zeros(size[0], size[1]));
+        for patch in &self.patches {
+            let kernel = self.kernel(band_nm, patch);
+            let region = Region { x: patch.x.range(), y: patch.y.range() };
+            add(&Convolver::new(&kernel, size, region.clone()).apply(light), patch, &mut spread);
+            if let (Some(from), Some(to)) = (variance, &mut spread_variance) {
+                add(&Convolver::new(&kernel.squared(), size, region).apply(from), patch, to);
+            }
+        }
+        (spread, spread_variance)
+    }
+
+    /// The kernel of a patch, its sum one.
+    fn kernel(&self, (low_nm, high_nm): (f64, f64), patch: &Patch) -> Kernel {
+        let pitch = self.canvas.pitch_mm();
+        let reach = self.psf.reach_px_of(high_nm, self.fineness, pitch.min_element(), patch.widest);
+        let mut kernel = Kernel::zeros([reach, reach]);
+        let parts = ((high_nm - low_nm) / STEP_NM).ceil().max(1.0);
+        for part in 0..parts as usize {
+            let nm = low_nm + (high_nm - low_nm) * (part as f64 + 0.5) / parts;
+            let own = patch.wavefront_um.as_ref().map(|wavefront| {
+                let waves: Vec<f64> = wavefront.iter().map(|um| um * NM_PER_UM / nm).collect();
+                self.pupil.pattern(Some(&waves))
+            });
+            let Some(pattern) = own.as_ref().or(self.shared.as_ref()) else { continue };
+            let step = nm * MM_PER_NM * self.psf.f_number / self.fineness;
+            let end = self.psf.parameters.reach_mm.unwrap_or(f64::INFINITY);
+            for (place, share) in pattern.points() {
+                let offset = patch.stretch * place * step;
+                if offset.length_squared() <= end * end {
+                    kernel.deposit(offset / pitch, share);
+                }
+            }
+        }
+        let sum = kernel.sum();
+        kernel.scaled(1.0 / sum)
+    }
+}
+
+/// Adds a patch's part by its weights.
+fn add(part: &Field, patch: &Patch, to: &mut Field) {
+    for (row, (y, tall)) in patch.y.range().zip(&patch.y.weights).enumerate() {
+        let target = &mut to.row_mut(y)[patch.x.range()];
+        for ((to, from), wide) in target.iter_mut().zip(part.row(row)).zip(&patch.x.weights) {
+            *to += tall * wide * from;
+        }
+    }
+}

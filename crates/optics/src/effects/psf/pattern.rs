@@ -1,0 +1,188 @@
+//! The diffraction pattern of a pupil: |∫ P(u) exp(2πi (W(u)/λ − u·x/2λN)) du|².
+//!
+//! u is a point of the pupil in units of its radius, x one of the picture, N the working f-number, W the wavefront error: a
+//! ray through u lands at x = 2N ∂W/∂u, in the axes of the erect picture. The pupil is sampled on a square lattice, each
+//! cell with the share of it that is open; the pattern then comes at steps of λN/Q, as far as the lattice's number of cells
+//! times half of that. Q is at least 2, so that its sum is its integral.
+
+use super::outline::Outline;
+use crate::effects::fourier::{Grid, Plan};
+use core::f64::consts::TAU;
+use etendue_core::maths::f64::sin_cos;
+use glam::DVec2;
+
+/// Cells of the lattice along a side.
+pub(super) const CELLS: usize = 1024;
+/// Parts of a cell, along a side, by which its open share is found.
+const PARTS: usize = 4;
+
+/// The sampled pupil.
+#[derive(Clone, Debug)]
+pub(super) struct Pupil {
+    /// Q.
+    fineness: f64,
+    /// Rows that are not all dark, and the cells of one side about the middle.
+    half: usize,
+    /// Open shares of the cells about the middle, row by row.
+    open: Vec<f64>,
+}
+
+/// Intensities whose sum is one, over the lattice about the middle.
+#[derive(Clone, Debug)]
+pub(super) struct Pattern {
+    values: Vec<f64>,
+}
+
+impl Pupil {
+    pub(super) fn new(outline: &Outline, fineness: f64) -> Self {
+        let half = ((outline.radius() * 0.5 * CELLS as f64 / fineness).ceil() as usize + 1).min(CELLS / 2);
+        let step = Self::step(fineness);
+        let open = |i: usize| open(outline, Self::cell(i, half, step), step);
+        Self { fineness, half, open: (0..4 * half * half).map(open).collect() }
+    }
+
+    /// Side of a cell in units of the pupil's radius.
+    fn step(fineness: f64) -> f64 {
+        2.0 * fineness / CELLS as f64
+    }
+
+    fn cell(i: usize, half: usize, step: f64) -> DVec2 {
+        let (x, y) = (i % (2 * half), i / (2 * half));
+        (DVec2::new(x as f64, y as f64) - half as f64 + 0.5) * step
+    }
+
+    /// A number at every open cell, 0 elsewhere: a wavefront.
+    pub(super) fn map(&self, f: impl Fn(DVec2) -> f64) -> Vec<f64> {
+        let step = Self::step(self.fineness);
+        let value = |i: usize| if self.open[i] > 0.0 { f(Self::cell(i, self.half, step)) } else { 0.0 };
+        (0..self.open.len()).map(value).collect()
+    }
+
+    /// The pattern of a wavefront, in waves at each cell.
+    pub(super) fn pattern(&self, waves: Option<&[f64]>) -> Pattern {
+        let plan = Plan::new(CELLS, CELLS);
+        let mut grid = Grid::zeros(CELLS, CELLS);
+        let side = 2 * self.half;
+        for y in 0..side {
+            for x in 0..side {
+                let (sine, cosine) = waves.map_or((0.0, 1.0), |w| sin_cos(TAU * w[y * side + x]));
+                let open = self.open[y * side + x];
+                grid.re_mut(y)[x] = open * cosine;
+                grid.im_mut(y)[x] = open * sine;
+            }
+        }
+        plan.forward(&mut grid, 0..side);
+        let row = |y: usize| grid.re(y).iter().zip(grid.im(y)).map(|(re, im)| re * re + im * im).collect::<Vec<_>>();
+        let values: Vec<f64> = (0..CELLS).flat_map(row).collect();
+        let sum: f64 = values.iter().sum();
+        Pattern { values: values.iter().map(|v| v / sum).collect() }
+    }
+}
+
+fn open(outline: &Outline, centre: DVec2, step: f64) -> f64 {
+    let place = |i: usize| (i as f64 + 0.5) / PARTS as f64 - 0.5;
+    let part = |i: usize| centre + DVec2::new(place(i % PARTS), place(i / PARTS)) * step;
+    (0..PARTS * PARTS).filter(|i| outline.passes(part(*i))).count() as f64 / (PARTS * PARTS) as f64
+}
+
+impl Pattern {
+    /// Places, in steps of λN/Q, and shares of the light.
+    pub(super) fn points(&self) -> impl Iterator<Item = (DVec2, f64)> {
+        let signed = |i: usize| if i < CELLS / 2 { i as f64 } else { i as f64 - CELLS as f64 };
+        self.values.iter().enumerate().map(move |(i, v)| (DVec2::new(signed(i % CELLS), signed(i / CELLS)), *v))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f64::consts::PI;
+    use etendue_core::maths::f64::acos;
+
+    fn circle(fineness: f64) -> Pattern {
+        Pupil::new(&Outline::new(0, 0.0, 0.0, 0.0), fineness).pattern(None)
+    }
+
+    /// Share of the light within a radius in units of λN.
+    fn within(pattern: &Pattern, fineness: f64, radius: f64) -> f64 {
+        pattern.points().filter(|(p, _)| p.length() <= radius * fineness).map(|(_, v)| v).sum()
+    }
+
+    #[test]
+    fn a_circle_makes_airy_s_pattern() {
+        let pattern = circle(16.0);
+        // The first zero: 1.2197 λN (Airy 1835). Steps of 1/16 λN.
+        let along = |i: usize| pattern.values[i];
+        let zero = (1..32).min_by(|a, b| along(*a).total_cmp(&along(*b))).expect("some");
+        assert!((zero as f64 / 16.0 - 1.2197).abs() < 0.5 / 16.0, "{zero}");
+        // Within it 83.8 %, within the second 91.0 % (Rayleigh 1881), of all light: 2/(π² 32) = 0.6 % of it lies beyond the
+        // lattice's 32 λN, and the border cells' shares take half as much from what lies just before its end.
+        for (radius, share) in [(1.2197, 0.838), (2.233, 0.910)] {
+            let found = within(&pattern, 16.0, radius);
+            assert!((found - share).abs() < 0.01, "{radius}: {found} for {share}");
+        }
+    }
+
+    #[test]
+    fn its_transform_is_the_modulation_of_a_circle() {
+        let pattern = circle(4.0);
+        for v in [0.1f64, 0.3, 0.5, 0.8] {
+            let wave = |(p, share): (DVec2, f64)| share * sin_cos(TAU * v * p.x / 4.0).1;
+            let found: f64 = pattern.points().map(wave).sum();
+            let expected = 2.0 / PI * (acos(v) - v * (1.0 - v * v).sqrt());
+            // Of the light 2/(π² 128) = 0.16 % lies beyond the lattice, and as much is taken from what lies before its end.
+            assert!((found - expected).abs() < 3.2e-3, "{v}: {found} for {expected}");
+        }
+    }
+
+    #[test]
+    fn a_small_error_dims_the_middle_as_marechal_says() {
+        let pupil = Pupil::new(&Outline::new(0, 0.0, 0.0, 0.0), 4.0);
+        let clean = pupil.pattern(None).values[0];
+        for (index, rms) in [(4, 0.03), (6, 0.05), (8, 0.04), (11, 0.05)] {
+            let zernike = super::super::Zernike::noll(index).expect("known");
+            let waves = pupil.map(|u| rms * zernike.at(u));
+            let strehl = pupil.pattern(Some(&waves)).values[0] / clean;
+            let phase = TAU * rms;
+            // The next order of the logarithm: for these below (2πσ)⁴/4.
+            assert!(
+                (strehl - etendue_core::maths::f64::exp(-phase * phase)).abs()
+                    < (phase * phase) * (phase * phase) / 4.0 + 1e-3,
+                "{index}"
+            );
+        }
+    }
+
+    #[test]
+    fn far_out_of_focus_it_is_the_geometric_disc() {
+        let fineness = 4.0;
+        let pupil = Pupil::new(&Outline::new(0, 0.0, 0.0, 0.0), fineness);
+        // W = a √3 (2r² − 1) = 20 waves of r²: the disc's radius is 2N dW/dr = 80 λN.
+        let zernike = super::super::Zernike::noll(4).expect("known");
+        let waves = pupil.map(|u| 10.0 / 3f64.sqrt() * zernike.at(u));
+        let pattern = pupil.pattern(Some(&waves));
+        for share in [0.3, 0.6, 0.9] {
+            let found = within(&pattern, fineness, share * 80.0);
+            // Fresnel's fringe at the disc's border is 37 % brighter over some 1/√40 of the radius.
+            assert!((found - share * share).abs() < 0.05, "{share}: {found}");
+        }
+        assert!(within(&pattern, fineness, 88.0) > 0.98);
+    }
+
+    #[test]
+    fn blades_make_as_many_spikes_or_twice_as_many() {
+        for (blades, spikes) in [(5, 10), (6, 6), (7, 14), (8, 8)] {
+            let pattern = Pupil::new(&Outline::new(blades, 0.0, 0.0, 0.0), 2.0).pattern(None);
+            let bins = 840;
+            let mut light = vec![0.0; bins];
+            for (p, v) in pattern.points().filter(|(p, _)| (60.0..200.0).contains(&p.length())) {
+                let turn = etendue_core::maths::f64::atan2(p.y, p.x) / TAU + 1.0;
+                light[(turn * bins as f64) as usize % bins] += v;
+            }
+            let wide: Vec<f64> = (0..bins).map(|i| (0..7).map(|k| light[(i + k) % bins]).sum()).collect();
+            let threshold = 4.0 * wide.iter().sum::<f64>() / bins as f64;
+            let rises = (0..bins).filter(|i| wide[*i] < threshold && wide[(i + 1) % bins] >= threshold).count();
+            assert_eq!(rises, spikes, "{blades} blades");
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! The point-spread function on a film.
+
+use etendue_core::Plane;
+use etendue_core::quantity::{Irradiance, Variance};
+use etendue_optics::effects::{WavefrontTerm, Zernike};
+use etendue_optics::{Effects, EffectsError, EffectsParameters, Lens, PinholeParameters, Psf, PsfParameters};
+use etendue_projection::Raster;
+use glam::DVec2;
+
+fn lens(focal_length_mm: f64, f_number: f64) -> Lens {
+    Lens::pinhole(PinholeParameters { focal_length_mm, f_number, transmittance: 1.0 }).expect("legal")
+}
+
+fn round() -> PsfParameters {
+    PsfParameters {
+        blades: 0,
+        curvature: 0.0,
+        rotation_rad: 0.0,
+        obstruction: 0.0,
+        wavefront: Vec::new(),
+        reach_mm: None,
+        patches: None,
+    }
+}
+
+fn effects(parameters: PsfParameters, lens: &Lens, raster: &Raster) -> Effects {
+    let psf = Psf::new(parameters, lens, raster).expect("legal");
+    Effects::new(EffectsParameters { psf: Some(psf), margin: Some(0.0), ..Default::default() }, raster).expect("legal")
+}
+
+fn point(raster: &Raster, x: usize, y: usize) -> Plane<Irradiance> {
+    let mut film = Plane::new(raster.width(), raster.height());
+    film.set(x, y, 1.0);
+    film
+}
+
+const BAND: (f64, f64) = (540.0, 560.0);
+
+fn centroid(picture: &Plane<Irradiance>) -> DVec2 {
+    let place = |i: usize| DVec2::new((i % picture.width()) as f64, (i / picture.width()) as f64);
+    let sum: f64 = picture.samples().iter().map(|v| f64::from(*v)).sum();
+    let moment: DVec2 = picture.samples().iter().enumerate().map(|(i, v)| place(i) * f64::from(*v)).sum();
+    moment / sum
+}
+
+#[test]
+fn a_point_keeps_its_light_and_its_place() {
+    let raster = Raster::centred(121, 101, 0.003).expect("legal");
+    let effects = effects(PsfParameters { reach_mm: Some(0.1), blades: 6, ..round() }, &lens(50.0, 8.0), &raster);
+    let picture = effects.prepared(&raster, BAND).apply(BAND, &point(&raster, 60, 50), None).0;
+    let sum: f64 = picture.samples().iter().map(|v| f64::from(*v)).sum();
+    // 32-bit pixels; the pattern's lattice has one row more on the side of the picture's origin.
+    assert!((sum - 1.0).abs() < 1e-6 && (centroid(&picture) - DVec2::new(60.0, 50.0)).length() < 1e-3, "{sum}");
+}
+
+#[test]
+fn a_uniform_irradiance_stays_uniform_whatever_the_patches() {
+    let raster = Raster::centred(90, 70, 0.006).expect("legal");
+    let coma =
+        WavefrontTerm { zernike: Zernike::noll(8).expect("known"), field_mm: vec![0.0, 0.3], rms_um: vec![0.0, 0.2] };
+    let parameters = PsfParameters { wavefront: vec![coma], reach_mm: Some(0.05), ..round() };
+    let effects = effects(PsfParameters { patches: Some([3, 2]), ..parameters }, &lens(0.4, 4.0), &raster);
+    let film = Plane::filled(90, 70, 2.0);
+    let picture = effects.prepared(&raster, BAND).apply(BAND, &film, None).0;
+    for y in 10..60 {
+        for x in 10..80 {
+            assert!((picture.at(x, y) - 2.0).abs() < 1e-6, "({x}, {y}): {}", picture.at(x, y));
+        }
+    }
+}
+
+#[test]
+fn a_spread_much_smaller_than_a_pixel_is_nearly_the_identity() {
+    let raster = Raster::centred(31, 31, 0.5).expect("legal");
+    let effects = effects(round(), &lens(50.0, 2.0), &raster);
+    let picture = effects.prepared(&raster, BAND).apply(BAND, &point(&raster, 15, 15), None).0;
+    // Mean |x| + |y| of the pattern in units of a pixel: λN = 1.1 µm, reach 140 µm of 500.
+    assert!(picture.at(15, 15) > 0.99, "{}", picture.at(15, 15));
+}
+
+#[test]
+fn away_from_the_axis_the_pattern_is_wider_towards_it() {
+    // θ′ = 45° at the node on the right: cos³ and cos differ by two.
+    let raster = Raster::new(61, 61, DVec2::splat(0.002), DVec2::new(-970.0, 30.5)).expect("legal");
+    let effects = effects(PsfParameters { patches: Some([1, 1]), ..round() }, &lens(2.001, 8.0), &raster);
+    let picture = effects.prepared(&raster, BAND).apply(BAND, &point(&raster, 30, 30), None).0;
+    let half = |at: &dyn Fn(usize) -> f32| (0..30).map(at).take_while(|v| *v > 0.5 * picture.at(30, 30)).count();
+    let (wide, tall) = (half(&|i| picture.at(30 + i, 30)), half(&|i| picture.at(30, 30 + i)));
+    // The half width of Airy's pattern is 0.51 λN: 2.27 µm here, times 2.83 and 1.41: 3.2 and 1.6 pixels.
+    assert_eq!((wide, tall), (4, 2));
+}
+
+#[test]
+fn coma_points_outwards_and_turns_with_the_field() {
+    let raster = Raster::centred(81, 81, 0.004).expect("legal");
+    let coma = |rms_um: f64| WavefrontTerm {
+        zernike: Zernike::noll(8).expect("known"),
+        field_mm: vec![0.0, 0.1],
+        rms_um: vec![rms_um; 2],
+    };
+    let bright = |patches: [usize; 2], x: usize, y: usize| {
+        let parameters = PsfParameters { wavefront: vec![coma(0.3)], patches: Some(patches), ..round() };
+        let effects = effects(parameters, &lens(50.0, 8.0), &raster);
+        let picture = effects.prepared(&raster, BAND).apply(BAND, &point(&raster, x, y), None).0;
+        let brightest =
+            (0..81 * 81).max_by(|a, b| picture.samples()[*a].total_cmp(&picture.samples()[*b])).expect("some");
+        DVec2::new((brightest % 81) as f64, (brightest / 81) as f64) - DVec2::new(x as f64, y as f64)
+    };
+    // The bright core of W = a √8 (3r³ − 2r) cos θ lies where its middle's rays land: 2N ∂W/∂x(0) = −2N 2√8 a = −27 µm.
+    let right = bright([5, 1], 72, 40);
+    let below = bright([1, 5], 40, 72);
+    assert!(right.x < -3.0 && right.y == 0.0 && below.y < -3.0 && below.x == 0.0, "{right} {below}");
+}
+
+#[test]
+fn variances_go_through_the_squared_function() {
+    let raster = Raster::centred(61, 61, 0.003).expect("legal");
+    let effects = effects(PsfParameters { reach_mm: Some(0.05), ..round() }, &lens(50.0, 5.6), &raster);
+    let film = point(&raster, 30, 30);
+    let variance: Plane<Variance> = film.map(|v| v);
+    let (mean, variance) = effects.prepared(&raster, BAND).apply(BAND, &film, Some(&variance));
+    for (m, v) in mean.samples().iter().zip(variance.expect("given").samples()) {
+        assert!((m * m - v).abs() < 1e-7, "{m} {v}");
+    }
+}
+
+#[test]
+fn what_cannot_be_is_refused() {
+    let raster = Raster::centred(61, 61, 0.003).expect("legal");
+    let defocus = |rms_um| WavefrontTerm { zernike: Zernike::noll(4).expect("known"), field_mm: Vec::new(), rms_um };
+    let new = |term| Psf::new(PsfParameters { wavefront: vec![term], ..round() }, &lens(50.0, 5.6), &raster);
+    assert!(matches!(new(defocus(vec![30.0])), Err(EffectsError::Slope { .. })));
+    assert_eq!(new(defocus(vec![0.1, 0.2])).expect_err("two"), EffectsError::Table);
+    assert!(new(defocus(vec![0.5])).is_ok());
+}
