@@ -11,10 +11,11 @@ use etendue_io::exr::{
 use etendue_io::{OutputFolder, Provenance, png, sidecar};
 use etendue_pipeline::film::Film;
 use etendue_pipeline::photograph::{Light, take};
-use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan};
+use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, Products};
 use etendue_pipeline::pupil_depth::{PupilDepth, pupil_depth};
 use etendue_pipeline::rays::ray_table;
 use etendue_pipeline::truth::{GroundTruth, ground_truth};
+use etendue_pipeline::twin::Twin;
 use etendue_sensor::{FrameAddress, SensorState};
 use etendue_tracer::accel::Simd;
 use std::ops::Range;
@@ -44,15 +45,22 @@ pub fn deliver(
     let mut results = Results { prefix: camera.name.clone(), folder };
     let depth = pupil_depth(plan, camera, simd);
     let light = Light::of_film(camera, film, depth.as_ref());
+    let scale = camera.products.undistorted;
+    let twin = scale.map(|scale| Twin::of(&camera.body, scale).expect("a compiled plan's camera has its twin"));
     spectra(plan, camera, &light, depth.as_ref(), &mut results)?;
     if let Some(electrons) = &light.electrons {
         self::electrons(plan, camera, electrons, &light, &mut results)?;
         let address = |frame| FrameAddress { seed: camera.settings.seed, camera: camera.index, frame, capture: 0 };
-        let wanted = Wanted { raw: camera.products.raw, picture: camera.products.picture };
+        let Products { raw, picture, .. } = camera.products;
+        let wanted = Wanted { raw, picture, undistorted: twin.as_ref() };
         photographs(&camera.body, electrons, frames, address, wanted, &mut results)?;
     }
     truth(plan, camera, simd, &mut results)?;
-    let facts = facts::sidecar(plan, camera, &Files::of(&camera.products, frames), not_finite);
+    if let Some(twin) = &twin {
+        undistorted(plan, camera, twin, simd, &mut results)?;
+    }
+    let mut facts = facts::sidecar(plan, camera, &Files::of(&camera.products, frames), not_finite);
+    facts["undistorted"] = twin.as_ref().map_or(serde_json::Value::Null, facts::undistorted);
     results.json(Files::SIDECAR, &facts)
 }
 
@@ -121,11 +129,13 @@ fn electrons(
 
 /// Which photographs are wanted.
 #[derive(Clone, Copy, Debug)]
-pub struct Wanted {
+pub struct Wanted<'a> {
     /// Digital numbers.
     pub raw: bool,
     /// Pictures.
     pub picture: bool,
+    /// The twin whose pictures are wanted as well.
+    pub undistorted: Option<&'a Twin>,
 }
 
 /// Takes frame after frame and writes what is wanted of each.
@@ -134,7 +144,7 @@ pub fn photographs(
     electrons: &Plane<Electrons>,
     frames: &Range<u32>,
     address: impl Fn(u32) -> FrameAddress,
-    wanted: Wanted,
+    wanted: Wanted<'_>,
     results: &mut Results<'_>,
 ) -> Result<(), Failure> {
     if !(wanted.raw || wanted.picture) {
@@ -153,6 +163,10 @@ pub fn photographs(
         }
         if let Some(picture) = frame.picture.filter(|_| wanted.picture) {
             results.write(&Files::picture(number), png::encode_display(&picture.display))?;
+            if let Some(twin) = wanted.undistorted {
+                let display = twin.picture(body, &picture.linear).expect("a picture was developed");
+                results.write(&Files::undistorted(&Files::picture(number)), png::encode_display(&display))?;
+            }
         }
     }
     Ok(())
@@ -175,6 +189,27 @@ fn truth(plan: &Plan, camera: &CameraPlan, simd: Simd, results: &mut Results<'_>
     }
     if let Some(per_metre) = products.depth_png_per_m {
         results.write(Files::DEPTH, png::encode_depth16(&truth.depth, per_metre))?;
+    }
+    Ok(())
+}
+
+/// Ground truth and rays of the undistorted twin.
+fn undistorted(
+    plan: &Plan,
+    camera: &CameraPlan,
+    twin: &Twin,
+    simd: Simd,
+    results: &mut Results<'_>,
+) -> Result<(), Failure> {
+    let facts = facts::undistorted_provenance(plan, camera, twin);
+    if camera.products.rays {
+        let table = ray_table(twin.body());
+        let bytes = encode_rays(&table.origin, &table.direction, &table.ray, &facts);
+        results.write(&Files::undistorted(Files::RAYS), bytes)?;
+    }
+    if camera.products.ground_truth {
+        let truth = ground_truth(plan, &twin.plan(camera), simd);
+        results.write(&Files::undistorted(Files::GROUND_TRUTH), encode_ground_truth(&planes(&truth), &facts))?;
     }
     Ok(())
 }

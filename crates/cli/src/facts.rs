@@ -1,10 +1,12 @@
 //! What every result says of itself: the side-car and the facts in EXR headers.
 
+use crate::calibration;
 use etendue_core::CameraPose;
 use etendue_core::quantity::{DigitalNumber, Electrons, Irradiance, Quantity, Radiance};
 use etendue_io::Provenance;
 use etendue_optics::{Cube, Face, Lens, PupilProjection, View, Window};
 use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, Products, Route};
+use etendue_pipeline::twin::Twin;
 use etendue_projection::Sense;
 use glam::DVec2;
 use serde_json::{Value, json};
@@ -28,6 +30,10 @@ const AT_PUPIL_CUBE: &str = "up to six perspective views from the centre of the 
                              the face's own grid of pupil_face_px x pupil_face_px that come first; tangent = (index + \
                              0.5) * 2 / pupil_face_px - 1; right, down, ahead: front x y z, right -z y x, left z y -x, \
                              top x z -y, bottom x -z y, back -x y -z";
+
+const UNDISTORTED: &str = "rectilinear from the centre of the entrance pupil: direction = ((x - cx) / fx, (y - cy) / fy, 1), pixel \
+                           centres at +0.5, x right, y down";
+const RASTER: &str = "raster: the top-left corner of the image is (0, 0), pixel centres at +0.5";
 
 /// The program's version.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -59,6 +65,29 @@ pub fn radiance_provenance(plan: &Plan, camera: &CameraPlan) -> Provenance {
         Route::Lens => facts,
         Route::Pupil(projection) => at_pupil(facts, projection, camera.index),
     }
+}
+
+/// The facts of an undistorted twin's results.
+pub fn undistorted_provenance(plan: &Plan, camera: &CameraPlan, twin: &Twin) -> Provenance {
+    let mut facts = provenance(plan, camera);
+    UNDISTORTED.clone_into(&mut facts.geometry);
+    let matrix = twin.matrix;
+    let numbers = [("fx_px", matrix.fx), ("fy_px", matrix.fy), ("cx_px", matrix.cx), ("cy_px", matrix.cy)];
+    facts.further.extend(numbers.map(|(name, number)| (name.to_owned(), number.to_string())));
+    facts
+}
+
+/// What the side-car says of an undistorted twin.
+pub fn undistorted(twin: &Twin) -> Value {
+    json!({
+        "camera_matrix": twin.matrix.rows(),
+        "camera_matrix_convention": RASTER,
+        "camera_matrix_opencv": twin.matrix.to_opencv().rows(),
+        "width_px": twin.body().raster.width(),
+        "height_px": twin.body().raster.height(),
+        "ground_truth": "traced along the twin's own rays from the centre of the entrance pupil",
+        "picture": "the camera's, resampled linearly in linear light; black where the camera does not look",
+    })
 }
 
 /// The facts of what another camera made of a stored radiance image.
@@ -197,10 +226,12 @@ pub fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>
 /// Lens and camera matrix.
 pub fn optics(body: &CameraBody) -> Value {
     let lens = &body.lens;
-    let matrix = match lens {
-        Lens::Calibrated(lens) => lens.parameters().calibration.matrix(),
-        _ => body.raster.camera_matrix(lens.principal_distance_mm()),
+    let calibration = match lens {
+        Lens::Calibrated(lens) => Some(&lens.parameters().calibration),
+        _ => None,
     };
+    let by_lens = || body.raster.camera_matrix(lens.principal_distance_mm());
+    let matrix = calibration.map_or_else(by_lens, etendue_projection::Calibration::matrix);
     json!({
         "model": lens.kind(),
         "focal_length_mm": lens.focal_length_mm(),
@@ -215,8 +246,9 @@ pub fn optics(body: &CameraBody) -> Value {
         "principal_distance_mm": lens.principal_distance_mm(),
         "transmittance": lens.transmittance(),
         "distortion": distortion(body),
+        "calibration": calibration.map(calibration::facts),
         "camera_matrix": matrix.rows(),
-        "camera_matrix_convention": "raster: the top-left corner of the image is (0, 0), pixel centres at +0.5",
+        "camera_matrix_convention": RASTER,
         "camera_matrix_opencv": matrix.to_opencv().rows(),
     })
 }
@@ -336,6 +368,11 @@ impl Files {
         format!("picture.{frame:04}.png")
     }
 
+    /// A file of the undistorted twin.
+    pub fn undistorted(name: &str) -> String {
+        format!("undistorted/{name}")
+    }
+
     /// All files of a camera over frames, with what they hold.
     pub fn of(p: &Products, frames: &std::ops::Range<u32>) -> BTreeMap<String, Value> {
         let mut files = BTreeMap::new();
@@ -351,7 +388,14 @@ impl Files {
         let depth_unit = format!("1/{} m", p.depth_png_per_m.unwrap_or(0.0));
         add(p.depth_png_per_m.is_some(), Self::DEPTH, entry("planar depth, 0 is invalid", &depth_unit));
         add(p.rays, Self::RAYS, entry("origin and direction of each pixel's ray, camera frame", "m, 1"));
+        let twin = p.undistorted.is_some();
+        let planes = entry("depth, distance, normal, position, ids of the undistorted twin", "m, m, 1, m, 1");
+        add(twin && p.ground_truth, &Self::undistorted(Self::GROUND_TRUTH), planes);
+        let rays = entry("origin and direction of each pixel's ray of the undistorted twin, camera frame", "m, 1");
+        add(twin && p.rays, &Self::undistorted(Self::RAYS), rays);
         for frame in frames.clone() {
+            let picture = entry("undistorted sRGB picture", "8 bits");
+            add(twin && p.picture, &Self::undistorted(&Self::picture(frame)), picture);
             add(p.raw, &Self::raw(frame), entry_of::<DigitalNumber>());
             add(p.picture, &Self::picture(frame), entry("sRGB picture", "8 bits"));
         }

@@ -4,6 +4,7 @@
 #![allow(unreachable_pub)]
 
 mod args;
+mod calibration;
 mod deliver;
 mod facts;
 mod failure;

@@ -22,6 +22,7 @@ pub mod render;
 pub mod summary;
 pub mod tile;
 pub mod truth;
+pub mod twin;
 
 pub use compile::{Choices, Quality, compile, compile_camera};
 pub use observer::{Observer, Unobserved};

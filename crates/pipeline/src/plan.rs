@@ -11,6 +11,7 @@ use etendue_tracer::accel::World;
 use etendue_tracer::integrator::Level;
 use etendue_tracer::lights::Sources;
 use etendue_tracer::materials::Palette;
+use std::fmt;
 
 /// What a rendering does, for all cameras of a job.
 #[derive(Clone, Debug)]
@@ -148,7 +149,7 @@ pub struct Settings {
 }
 
 /// What a camera delivers.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 pub struct Products {
     /// Spectral radiance.
     pub radiance: bool,
@@ -168,6 +169,23 @@ pub struct Products {
     pub depth_png_per_m: Option<f64>,
     /// Origin and direction of each pixel's ray.
     pub rays: bool,
+    /// Ground truth, rays and picture of the undistorted twin as well, by its focal length over the camera's.
+    pub undistorted: Option<f64>,
+}
+
+/// As derived, but that a twin nobody asks for is not named: plans without one keep their hash.
+impl fmt::Debug for Products {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut all = f.debug_struct("Products");
+        all.field("radiance", &self.radiance).field("irradiance", &self.irradiance).field("variance", &self.variance);
+        all.field("electrons", &self.electrons).field("raw", &self.raw).field("picture", &self.picture);
+        all.field("ground_truth", &self.ground_truth).field("depth_png_per_m", &self.depth_png_per_m);
+        all.field("rays", &self.rays);
+        if let Some(scale) = &self.undistorted {
+            all.field("undistorted", scale);
+        }
+        all.finish()
+    }
 }
 
 impl Products {

@@ -359,6 +359,7 @@ fn products(p: &Products) -> String {
         (p.ground_truth, "ground truth"),
         (p.depth_png_per_m.is_some(), "depth PNG"),
         (p.rays, "ray table"),
+        (p.undistorted.is_some(), "the undistorted twin of these"),
     ];
     let list: Vec<&str> = named.iter().filter(|(wanted, _)| *wanted).map(|(_, name)| *name).collect();
     if list.is_empty() { "nothing".to_owned() } else { list.join(", ") }

@@ -7,7 +7,7 @@ use core::f64::consts::TAU;
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec2, DVec3};
 
-use crate::model::{Model, field_angle};
+use crate::model::{Model, Sight, field_angle};
 use crate::raster::CameraMatrix;
 
 /// Why a calibration cannot be used.
@@ -148,6 +148,14 @@ impl Calibration {
             self.unproject(raster_px)?;
         }
         Some(self.model.solid_angle_per_area(point)? / self.matrix.area_px())
+    }
+
+    /// What a raster point sees: [`unproject`](Self::unproject) and [`solid_angle_per_area`](Self::solid_angle_per_area) (sr per
+    /// px²), for little more than one of them; `None` where nothing is seen.
+    #[must_use]
+    pub fn sight(&self, raster_px: DVec2) -> Option<Sight> {
+        let sight = self.model.sight(self.matrix.point(raster_px))?;
+        self.sees(sight.direction).then(|| sight.enlarged(self.matrix.area_px()))
     }
 
     /// Refuses a calibration that folds over inside the picture, with the radius at which it does. Parts of the picture

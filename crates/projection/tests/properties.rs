@@ -96,6 +96,9 @@ proptest! {
         if let Some(direction) = seen {
             prop_assert!((direction.length() - 1.0).abs() < 1e-14);
             prop_assert!(model.solid_angle_per_area(point) > Some(0.0));
+            // The same operations, done once.
+            let sight = model.sight(point).expect("seen");
+            prop_assert_eq!((sight.direction, Some(sight.sr_per_area)), (direction, model.solid_angle_per_area(point)));
             let back = model.project(direction);
             // Rounding may put a direction outside that is at the edge.
             prop_assert!(back.is_some() || !inside(&model, direction), "{} is not seen again", direction);

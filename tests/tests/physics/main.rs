@@ -4,6 +4,7 @@
 //! Šidák's correction, one wrong alarm in a thousand; see `etendue_testkit::judge`) or says where it comes from.
 
 mod caustics;
+mod charts;
 mod colour;
 mod cornell;
 mod dispersing_lens;

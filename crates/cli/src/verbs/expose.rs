@@ -67,6 +67,7 @@ fn products(body: &CameraBody) -> Products {
         ground_truth: false,
         depth_png_per_m: None,
         rays: false,
+        undistorted: None,
     }
 }
 
@@ -104,7 +105,7 @@ fn expose(
         let camera = stored.provenance.further.get("camera_index").and_then(|i| i.parse().ok()).unwrap_or(0);
         let address = |frame| FrameAddress { seed, camera, frame, capture: 0 };
         let products = products(body);
-        let wanted = Wanted { raw: products.raw, picture: products.picture };
+        let wanted = Wanted { raw: products.raw, picture: products.picture, undistorted: None };
         photographs(body, electrons, &arguments.frames, address, wanted, results)?;
     }
     results.json(Files::SIDECAR, &sidecar(body, stored, arguments, seed))

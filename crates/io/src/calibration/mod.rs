@@ -7,12 +7,14 @@
 //! | [`Kalibr`](CalibrationFormat::Kalibr) | camchain YAML | pinhole, omni, eucm, ds with radtan, equi, fov, none | (0, 0) |
 //! | [`Colmap`](CalibrationFormat::Colmap) | `cameras.txt` | all | (0.5, 0.5) |
 //! | [`Ocam`](CalibrationFormat::Ocam) | `calib_results.txt` | Scaramuzza's | (0, 0), row first |
+//! | [`FTheta`](CalibrationFormat::FTheta) | NVIDIA's rig or NCore JSON | f-theta | (0, 0) |
 //!
 //! All become a [`Calibration`] in raster coordinates, in which that centre is at (0.5, 0.5). What a file says beyond the
 //! camera (dates, boards, extrinsics, rectification) is passed over, and the [notes](ImportedCamera::notes) name it. A
 //! calibration that folds over inside its picture is read; [`Calibration::check`] refuses it.
 
 mod colmap;
+mod f_theta;
 mod kalibr;
 mod matrix;
 mod ocam;
@@ -56,6 +58,7 @@ pub fn read_calibration(file: &Path, format: CalibrationFormat, camera: Option<&
         CalibrationFormat::Kalibr => kalibr::read(text, camera),
         CalibrationFormat::Colmap => colmap::read(text, camera),
         CalibrationFormat::Ocam => ocam::read(text),
+        CalibrationFormat::FTheta => f_theta::read(text, camera),
     };
     let (name, calibration, notes) = read.and_then(|found| found.chosen(camera)).map_err(|fault| fault.of(file))?;
     Ok(ImportedCamera { name, calibration, notes, hash: hash::of_bytes(&bytes) })

@@ -38,6 +38,18 @@ pub struct Facts {
     pub corrected_pixels: usize,
 }
 
+impl Processing {
+    /// A picture in linear light as a display takes it: tone curve, then sharpening.
+    #[must_use]
+    pub fn displayed(&self, linear: &Plane<LinearRgb>) -> Plane<Display> {
+        let mut display = self.tone.encode_plane(linear);
+        if let Some(sharpening) = &self.sharpening {
+            sharpening.apply(&mut display);
+        }
+        display
+    }
+}
+
 /// Develops a raw picture. Runs in the rayon pool of the caller; the bits do not depend on it.
 ///
 /// # Errors
@@ -54,10 +66,7 @@ pub fn develop(raw: &RawPicture<'_>, processing: &Processing) -> Result<Develope
     balance(&mut samples, width, raw.mosaic, &gains);
     let linear = Plane::from_samples(width, raw.plane.height(), colours(&samples, width, raw.mosaic, processing));
     let linear = linear.expect("as many colours as samples");
-    let mut display = processing.tone.encode_plane(&linear);
-    if let Some(sharpening) = &processing.sharpening {
-        sharpening.apply(&mut display);
-    }
+    let display = processing.displayed(&linear);
     let facts = Facts { black_level_dn: black, white_balance: gains, corrected_pixels };
     Ok(Developed { linear, display, facts })
 }

@@ -140,28 +140,28 @@ impl Calibrated {
     }
 
     pub(super) fn principal_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
-        let direction = self.direction(sensor_mm)?;
-        let weight_sr = self.weight_sr(sensor_mm, direction)?;
-        Some(PupilRay { origin_m: DVec3::ZERO, direction, weight_sr })
+        let at_px = self.raster_px(sensor_mm);
+        if let Some(table) = &self.parameters.relative_illumination {
+            let direction = self.parameters.calibration.unproject(at_px)?;
+            self.foreshortening(direction)?;
+            return Some(at_the_centre(direction, self.scale * table.at(sensor_mm.length())));
+        }
+        let sight = self.parameters.calibration.sight(at_px)?;
+        let pitch = self.parameters.pixel_pitch_mm;
+        let weight_sr = self.scale * self.foreshortening(sight.direction)? * sight.sr_per_area / (pitch * pitch);
+        Some(at_the_centre(sight.direction, weight_sr))
     }
 
     pub(super) fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
         self.principal_ray(sensor_mm).map_or(0.0, |ray| ray.weight_sr)
     }
 
-    /// E/L of a direction; `None` where no light comes.
-    fn weight_sr(&self, sensor_mm: DVec2, direction: DVec3) -> Option<f64> {
-        let foreshortened = match self.pupil {
-            PupilStance::Flat if direction.z <= 0.0 => return None,
-            PupilStance::Flat => direction.z,
-            PupilStance::Turning => 1.0,
-        };
-        if let Some(table) = &self.parameters.relative_illumination {
-            return Some(self.scale * table.at(sensor_mm.length()));
+    /// The share of the pupil's area that a direction sees; `None` where no light comes.
+    fn foreshortening(&self, direction: DVec3) -> Option<f64> {
+        match self.pupil {
+            PupilStance::Flat => (direction.z > 0.0).then_some(direction.z),
+            PupilStance::Turning => Some(1.0),
         }
-        let pitch = self.parameters.pixel_pitch_mm;
-        let sr_per_px2 = self.parameters.calibration.solid_angle_per_area(self.raster_px(sensor_mm))?;
-        Some(self.scale * foreshortened * sr_per_px2 / (pitch * pitch))
     }
 
     pub(super) fn ray(&self, sensor_mm: DVec2, pupil: DVec2) -> Option<PupilRay> {
@@ -186,4 +186,8 @@ impl Calibrated {
         let direction = (sharp - origin_m / focus_m).normalize();
         PupilRay { origin_m, direction, ..principal }
     }
+}
+
+fn at_the_centre(direction: DVec3, weight_sr: f64) -> PupilRay {
+    PupilRay { origin_m: DVec3::ZERO, direction, weight_sr }
 }

@@ -6,6 +6,7 @@ use crate::block::Blocks;
 use crate::film::Film;
 use crate::gather::Layout;
 use crate::plan::{CameraBody, Products, Route, Settings};
+use crate::twin::Twin;
 use etendue_core::Bands;
 use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
 use etendue_optics::PupilProjection;
@@ -52,11 +53,32 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
         ground_truth: said(&output.ground_truth, true),
         depth_png_per_m: depth_png.then(|| output.depth_png_scale.as_ref().map_or(256.0, |s| s.per_metre())),
         rays: said(&output.rays, false),
+        undistorted: None,
     };
+    let products = Products { undistorted: undistorted(output, &products, body, context), ..products };
     if products.is_empty() {
         context.fault(&output.place, "the camera delivers nothing", "ask for at least one product in [output]");
     }
     products
+}
+
+/// The scale of the undistorted twin, where one is asked for and can be.
+fn undistorted(output: &Output, products: &Products, body: &CameraBody, context: &mut Context<'_>) -> Option<f64> {
+    let scale = &output.undistorted_scale;
+    let Some(key) = output.undistorted.as_ref().filter(|key| key.value) else {
+        if let Some(scale) = scale {
+            let problem = "\"undistorted_scale\" has no effect without undistorted = true";
+            context.fault(&scale.place, problem, "add it, or remove the scale");
+        }
+        return None;
+    };
+    if !(products.ground_truth || products.rays || products.picture) {
+        let problem =
+            "\"undistorted\" has no effect without \"ground_truth\", \"rays\" or \"picture\", of which it makes twins";
+        context.fault(&key.place, problem, "ask for one of them, or remove the key");
+    }
+    let scale = scale.as_ref().map_or(1.0, |scale| scale.value);
+    context.accept(&key.place, Twin::of(body, scale)).map(|_| scale)
 }
 
 fn need(key: &Option<Placed<bool>>, possible: bool, name: &str, lack: &str, remedy: &str, context: &mut Context<'_>) {

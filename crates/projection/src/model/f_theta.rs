@@ -60,6 +60,12 @@ impl FTheta {
         &self.0.profile.c
     }
 
+    /// The field angle up to which it holds, as stated, rad.
+    #[must_use]
+    pub fn greatest_angle_rad(&self) -> f64 {
+        self.0.profile.stated_rad
+    }
+
     /// The affine map.
     #[must_use]
     pub fn affine(&self) -> Affine {
@@ -76,6 +82,8 @@ struct Polynomial {
     sense: FThetaSense,
     c: Vec<f64>,
     slope: Vec<f64>,
+    /// The greatest angle as stated.
+    stated_rad: f64,
     /// The greatest argument: an angle or a radius.
     greatest: f64,
     edge: Edge,
@@ -89,7 +97,14 @@ impl Polynomial {
         let fold = first_sign_change(&slope, last);
         let greatest = fold.unwrap_or(last);
         let angle_rad = if by_angle { greatest } else { polynomial(&c, greatest).min(greatest_angle_rad) };
-        Self { sense, c, slope, greatest, edge: Edge { angle_rad, folds: fold.is_some() } }
+        Self {
+            sense,
+            c,
+            slope,
+            stated_rad: greatest_angle_rad,
+            greatest,
+            edge: Edge { angle_rad, folds: fold.is_some() },
+        }
     }
 
     fn value(&self, x: f64) -> [f64; 2] {

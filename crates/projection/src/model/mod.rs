@@ -58,9 +58,9 @@ pub use kannala_brandt::KannalaBrandt;
 pub use ocam::Ocam;
 pub use panorama::Panorama;
 pub use perspective::Perspective;
-pub use profile::Edge;
 use profile::Projection;
 pub(crate) use profile::field_angle;
+pub use profile::{Edge, Sight};
 pub use thin_prism_fisheye::ThinPrismFisheye;
 pub use unified::Unified;
 
@@ -112,6 +112,12 @@ impl Model {
     #[must_use]
     pub fn solid_angle_per_area(&self, point: DVec2) -> Option<f64> {
         self.projection().solid_angle_per_area(point)
+    }
+
+    /// The direction and the solid angle of an image point, for little more than one of them; `None` where nothing is seen.
+    #[must_use]
+    pub fn sight(&self, point: DVec2) -> Option<Sight> {
+        self.projection().sight(point)
     }
 
     /// Where the field ends.

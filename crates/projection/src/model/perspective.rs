@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 
 use super::ModelError;
 use super::error::{finite_list, legal};
-use super::profile::{Edge, Projection};
+use super::profile::{Edge, Projection, Sight};
 use crate::plane::{Distortion, DistortionTerms, Tilt};
 
 /// A perspective camera with the distortion of OpenCV.
@@ -81,6 +81,16 @@ impl Perspective {
         };
         self.distortion.ideal(upright)
     }
+
+    /// dΩ/dA of an image point whose gnomonic point is known.
+    fn per_area(&self, point: DVec2, ideal: DVec2) -> Option<f64> {
+        let square = 1.0 + ideal.length_squared();
+        let tilt = match &self.tilt {
+            Some(tilt) => tilt.area_ratio(tilt.upright(point)?),
+            None => 1.0,
+        };
+        Some(1.0 / (square * square.sqrt() * self.distortion.area_ratio(ideal) * tilt))
+    }
 }
 
 impl Projection for Perspective {
@@ -104,13 +114,12 @@ impl Projection for Perspective {
     }
 
     fn solid_angle_per_area(&self, point: DVec2) -> Option<f64> {
+        self.per_area(point, self.ideal(point)?)
+    }
+
+    fn sight(&self, point: DVec2) -> Option<Sight> {
         let ideal = self.ideal(point)?;
-        let square = 1.0 + ideal.length_squared();
-        let tilt = match &self.tilt {
-            Some(tilt) => tilt.area_ratio(tilt.upright(point)?),
-            None => 1.0,
-        };
-        Some(1.0 / (square * square.sqrt() * self.distortion.area_ratio(ideal) * tilt))
+        Some(Sight { direction: ideal.extend(1.0).normalize(), sr_per_area: self.per_area(point, ideal)? })
     }
 }
 

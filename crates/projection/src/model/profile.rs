@@ -44,6 +44,27 @@ pub(crate) trait Projection {
     fn project(&self, direction: DVec3) -> Option<DVec2>;
     fn unproject(&self, point: DVec2) -> Option<DVec3>;
     fn solid_angle_per_area(&self, point: DVec2) -> Option<f64>;
+
+    /// Both answers of an image point. Where the inverse is solved for, members solve once.
+    fn sight(&self, point: DVec2) -> Option<Sight> {
+        Some(Sight { direction: self.unproject(point)?, sr_per_area: self.solid_angle_per_area(point)? })
+    }
+}
+
+/// What an image point sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sight {
+    /// Unit direction.
+    pub direction: DVec3,
+    /// dΩ/dA, sr per unit area of the image plane.
+    pub sr_per_area: f64,
+}
+
+impl Sight {
+    /// The same seen through a map of the plane that makes areas `ratio` times as large.
+    pub(crate) fn enlarged(self, ratio: f64) -> Self {
+        Self { sr_per_area: self.sr_per_area / ratio, ..self }
+    }
 }
 
 /// r(θ), increasing from r(0) = 0 to the edge.
@@ -91,9 +112,22 @@ impl<P: Profile> Projection for P {
     fn solid_angle_per_area(&self, point: DVec2) -> Option<f64> {
         let radius = point.length();
         let angle = self.seen(radius)?;
-        let slope = self.slope(angle);
-        Some(if radius > 0.0 { sin(angle) / (radius * slope) } else { 1.0 / (slope * slope) })
+        Some(per_area(radius, sin(angle), self.slope(angle)))
     }
+
+    fn sight(&self, point: DVec2) -> Option<Sight> {
+        let radius = point.length();
+        let angle = self.seen(radius)?;
+        let (sin, cos) = sin_cos(angle);
+        let azimuth = if radius > 0.0 { point / radius } else { DVec2::ZERO };
+        let sr_per_area = per_area(radius, sin, self.slope(angle));
+        Some(Sight { direction: (azimuth * sin).extend(cos), sr_per_area })
+    }
+}
+
+/// sin θ/(r dr/dθ), or its limit on the axis.
+fn per_area(radius: f64, sin: f64, slope: f64) -> f64 {
+    if radius > 0.0 { sin / (radius * slope) } else { 1.0 / (slope * slope) }
 }
 
 /// The angle from the axis of a direction of any length, rad; `None` of what is no direction.

@@ -6,7 +6,7 @@
 use etendue_core::maths::f64::atan;
 use glam::{DVec2, DVec3};
 
-use super::profile::{Edge, Projection};
+use super::profile::{Edge, Projection, Sight};
 use crate::radial::RadialDistortion;
 
 impl Projection for RadialDistortion {
@@ -25,7 +25,17 @@ impl Projection for RadialDistortion {
     }
 
     fn solid_angle_per_area(&self, point: DVec2) -> Option<f64> {
-        let square = 1.0 + self.ideal(point)?.length_squared();
-        Some(self.ideal_area_per_observed(point.length())? / (square * square.sqrt()))
+        per_area(self, point, self.ideal(point)?)
     }
+
+    fn sight(&self, point: DVec2) -> Option<Sight> {
+        let ideal = self.ideal(point)?;
+        Some(Sight { direction: ideal.extend(1.0).normalize(), sr_per_area: per_area(self, point, ideal)? })
+    }
+}
+
+/// dΩ/dA of an image point whose gnomonic point is known.
+fn per_area(distortion: &RadialDistortion, point: DVec2, ideal: DVec2) -> Option<f64> {
+    let square = 1.0 + ideal.length_squared();
+    Some(distortion.ideal_area_per_observed(point.length())? / (square * square.sqrt()))
 }

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::profile::{Edge, Profile, Projection};
+use super::profile::{Edge, Profile, Projection, Sight};
 use crate::plane::{Affine, Distortion};
 
 /// r(θ), then a distortion.
@@ -31,6 +31,11 @@ impl<P: Profile> Projection for Distorted<P> {
         let ideal = self.distortion.ideal(point)?;
         Some(self.profile.solid_angle_per_area(ideal)? / self.distortion.area_ratio(ideal))
     }
+
+    fn sight(&self, point: DVec2) -> Option<Sight> {
+        let ideal = self.distortion.ideal(point)?;
+        Some(self.profile.sight(ideal)?.enlarged(self.distortion.area_ratio(ideal)))
+    }
 }
 
 /// r(θ), then an affine map.
@@ -55,5 +60,9 @@ impl<P: Profile> Projection for Stretched<P> {
 
     fn solid_angle_per_area(&self, point: DVec2) -> Option<f64> {
         Some(self.profile.solid_angle_per_area(self.affine.back(point))? / self.affine.area_ratio())
+    }
+
+    fn sight(&self, point: DVec2) -> Option<Sight> {
+        Some(self.profile.sight(self.affine.back(point))?.enlarged(self.affine.area_ratio()))
     }
 }

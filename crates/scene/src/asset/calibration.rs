@@ -19,6 +19,8 @@ choice! {
         "colmap" => Colmap,
         /// OCamCalib's calib_results.txt.
         "ocam" => Ocam,
+        /// NVIDIA's f-theta camera, JSON: a rig file of DriveWorks or a camera model of NCore.
+        "f_theta" => FTheta,
     }
 }
 

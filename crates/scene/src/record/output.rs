@@ -29,6 +29,13 @@ record! {
         /// Origin (m) and unit direction of each pixel's principal ray in the camera's frame, EXR: with the distance of the
         /// ground truth any pixel can be put back into space. Default: false.
         optional rays: Placed<bool> = flag();
+        /// The same ground truth, rays and picture once more in a folder "undistorted": those of the rectilinear twin with the same
+        /// pose and pupil, whose camera matrix the side-car states. Cameras that see 85° from the axis or more have none.
+        /// Default: false.
+        optional undistorted: Placed<bool> = flag();
+        /// With "undistorted": the twin's focal length over the camera's own, above 0; below 1 it shows more of a picture that
+        /// barrels. Default: 1.
+        optional undistorted_scale: Placed<f64> = number("").above(0.0);
     }
 }
 
@@ -88,6 +95,8 @@ impl Output {
             depth_png: None,
             depth_png_scale: None,
             rays: None,
+            undistorted: None,
+            undistorted_scale: None,
         }
     }
 
@@ -107,6 +116,8 @@ impl Output {
             depth_png: a.depth_png.or(b.depth_png),
             depth_png_scale: a.depth_png_scale.or(b.depth_png_scale),
             rays: a.rays.or(b.rays),
+            undistorted: a.undistorted.or(b.undistorted),
+            undistorted_scale: a.undistorted_scale.or(b.undistorted_scale),
         }
     }
 }

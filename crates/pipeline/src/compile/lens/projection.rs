@@ -3,7 +3,7 @@
 use super::super::context::Context;
 use etendue_projection::model::{
     Division, DoubleSphere, ExtendedUnified, FTheta, FThetaSense, FieldOfView, Ideal, KannalaBrandt, ModelError, Ocam,
-    Panorama, Perspective, Unified,
+    Panorama, Perspective, ThinPrismFisheye, Unified,
 };
 use etendue_projection::plane::{Affine, DistortionTerms};
 use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, Raster, Sense};
@@ -51,6 +51,7 @@ fn scale(record: &Projection) -> Scaling<'_> {
         Projection::Division(r) => &r.matrix,
         Projection::FieldOfView(r) => &r.matrix,
         Projection::KannalaBrandt(r) => &r.matrix,
+        Projection::ThinPrismFisheye(r) => &r.matrix,
         Projection::Unified(r) => &r.matrix,
         Projection::ExtendedUnified(r) => &r.matrix,
         Projection::DoubleSphere(r) => &r.matrix,
@@ -71,6 +72,7 @@ fn model(record: &Projection) -> Result<Model, ModelError> {
         Projection::Division(r) => Model::Division(Division::new(r.k.value)?),
         Projection::FieldOfView(r) => Model::FieldOfView(FieldOfView::new(r.omega_rad.value)?),
         Projection::KannalaBrandt(r) => Model::KannalaBrandt(KannalaBrandt::new(four(&r.k))?),
+        Projection::ThinPrismFisheye(r) => Model::ThinPrismFisheye(thin_prism(r)?),
         Projection::Unified(r) => Model::Unified(Unified::new(r.xi.value, mei(r.distortion.as_ref()))?),
         Projection::ExtendedUnified(r) => Model::ExtendedUnified(ExtendedUnified::new(r.alpha.value, r.beta.value)?),
         Projection::DoubleSphere(r) => Model::DoubleSphere(DoubleSphere::new(r.xi.value, r.alpha.value)?),
@@ -91,12 +93,27 @@ fn numbers<'a>(list: impl IntoIterator<Item = &'a Placed<f64>>) -> Vec<f64> {
 }
 
 fn four(list: &Placed<[Placed<f64>; 4]>) -> [f64; 4] {
-    [0, 1, 2, 3].map(|i| list.value[i].value)
+    exact(Some(list))
+}
+
+/// So many numbers, 0 where none are given.
+fn exact<const N: usize>(list: Option<&Placed<[Placed<f64>; N]>>) -> [f64; N] {
+    list.map_or([0.0; N], |list| core::array::from_fn(|i| list.value[i].value))
+}
+
+fn thin_prism(r: &record::ThinPrismFisheye) -> Result<ThinPrismFisheye, ModelError> {
+    let terms = DistortionTerms {
+        numerator: exact(r.plane_k.as_ref()),
+        tangential: exact(r.p.as_ref()),
+        prism: exact(r.s.as_ref()),
+        ..DistortionTerms::default()
+    };
+    ThinPrismFisheye::new(KannalaBrandt::long(exact(r.k.as_ref()))?, terms)
 }
 
 /// k1, k2, p1, p2.
 fn mei(list: Option<&Placed<[Placed<f64>; 4]>>) -> DistortionTerms {
-    let [k1, k2, p1, p2] = list.map_or([0.0; 4], four);
+    let [k1, k2, p1, p2] = exact(list);
     DistortionTerms { numerator: [k1, k2, 0.0, 0.0], tangential: [p1, p2], ..DistortionTerms::default() }
 }
 

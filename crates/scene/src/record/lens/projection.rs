@@ -41,6 +41,8 @@ variants! {
         "field_of_view" => FieldOfView(FieldOfView),
         /// OpenCV's fisheye: r = θ (1 + k1 θ² + k2 θ⁴ + k3 θ⁶ + k4 θ⁸).
         "kannala_brandt" => KannalaBrandt(KannalaBrandt),
+        /// A fisheye with tangential and thin-prism terms: r = θ (1 + k1 θ² + …), then the terms in that plane.
+        "thin_prism_fisheye" => ThinPrismFisheye(Box<ThinPrismFisheye>),
         /// Mei's unified model: a sphere, a shifted centre ξ, then OpenCV's distortion.
         "unified" => Unified(Unified),
         /// The extended unified model.
@@ -166,6 +168,23 @@ record! {
         inside matrix: Matrix;
         /// k1, k2, k3, k4.
         required k: Placed<[Placed<f64>; 4]> = exactly(number(""));
+    }
+}
+
+record! {
+    /// The fisheye with tangential and thin-prism terms.
+    pub struct ThinPrismFisheye {
+        /// Camera matrix.
+        inside matrix: Matrix;
+        /// Coefficients of the angle's polynomial, k1 … k6 (COLMAP's RAD_TAN_THIN_PRISM_FISHEYE, Aria's Fisheye624). Default: 0.
+        optional k: Placed<[Placed<f64>; 6]> = exactly(number(""));
+        /// Radial coefficients of the fisheye's plane, before p and s: x (1 + k1 r² + k2 r⁴ + k3 r⁶ + k4 r⁸) (COLMAP's
+        /// THIN_PRISM_FISHEYE). Default: 0.
+        optional plane_k: Placed<[Placed<f64>; 4]> = exactly(number(""));
+        /// p1, p2 in OpenCV's order. Default: 0.
+        optional p: Placed<[Placed<f64>; 2]> = exactly(number(""));
+        /// s1, s2 (x, by r² and r⁴), s3, s4 (y). Default: 0.
+        optional s: Placed<[Placed<f64>; 4]> = exactly(number(""));
     }
 }
 

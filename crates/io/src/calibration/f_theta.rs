@@ -1,0 +1,180 @@
+//! NVIDIA's f-theta cameras, JSON: rig files of DriveWorks and camera models of NCore.
+//!
+//! | DriveWorks (properties of a sensor) | NCore | is |
+//! | --- | --- | --- |
+//! | Model = "ftheta" | – | the model; any other is refused |
+//! | width, height | resolution | the picture, px |
+//! | cx, cy | principal_point | the principal point; the centre of the top-left pixel is (0, 0) |
+//! | polynomial-type | reference_poly | which way the polynomial runs |
+//! | polynomial, or bw-poly (pixel distance to angle) | pixeldist_to_angle_poly, angle_to_pixeldist_poly | c₀ … (px, rad), c₀ = 0 |
+//! | linear-c, linear-d, linear-e | linear_cde | x′ = c x + d y, y′ = e x + y; 1, 0, 0 where absent or all 0 |
+//! | – | max_angle | the field angle up to which it holds, rad; up to 180° where absent |
+//!
+//! The properties may stand at the root, under `properties`, or in `rig.sensors` with a `name`; NCore's parameters at the root
+//! or under `camera_model_parameters`. Of the two polynomials of NCore the one that `reference_poly` names is read; the other
+//! is a fit to its inverse, and the exact inverse is used. A second distortion by a wind-screen
+//! (`external_distortion_parameters`) is refused.
+
+use core::f64::consts::PI;
+
+use etendue_projection::model::{FTheta, FThetaSense};
+use etendue_projection::plane::Affine;
+use etendue_projection::{Calibration, CameraMatrix, Model};
+
+use super::opencv::wrong;
+use super::yaml::{self, Node};
+use super::{Fault, Found, Read, of_camera, passed_over};
+
+const DRIVE_WORKS: [&str; 11] = [
+    "Model",
+    "width",
+    "height",
+    "cx",
+    "cy",
+    "polynomial",
+    "polynomial-type",
+    "bw-poly",
+    "linear-c",
+    "linear-d",
+    "linear-e",
+];
+const NCORE: [&str; 6] =
+    ["resolution", "principal_point", "reference_poly", "max_angle", "linear_cde", "external_distortion_parameters"];
+const POLYNOMIALS: [&str; 2] = ["pixeldist_to_angle_poly", "angle_to_pixeldist_poly"];
+
+pub(super) fn read(text: &str, camera: Option<&str>) -> Read<Found> {
+    let root = yaml::parse(text)?;
+    if let Some(rig) = root.find("rig") {
+        let (name, properties) = sensor(rig, camera)?;
+        return Ok(Found { name, ..drive_works(properties)? });
+    }
+    let node = root.find("properties").or_else(|| root.find("camera_model_parameters")).unwrap_or(&root);
+    if node.find("resolution").is_some() { ncore(node) } else { drive_works(node) }
+}
+
+/// The camera of a rig: the one of a name, or its only f-theta camera.
+fn sensor<'a>(rig: &'a Node, camera: Option<&str>) -> Read<(String, &'a Node)> {
+    let sensors = rig.key("sensors")?.items().unwrap_or_default();
+    let cameras = sensors.iter().filter_map(|sensor| {
+        let (name, properties) = (sensor.find("name")?.text().ok()?, sensor.find("properties")?);
+        is_f_theta(properties).then_some((name, properties))
+    });
+    let cameras: Vec<(&str, &Node)> = cameras.collect();
+    let names = cameras.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+    let chosen = match (camera, &cameras[..]) {
+        (_, []) => return Err(Fault::at(rig.line, "holds no f-theta camera (properties with Model = \"ftheta\")")),
+        (None, [only]) => Some(only),
+        (None, _) => {
+            return Err(Fault::at(rig.line, format!("holds the f-theta cameras {names}; choose one by its name")));
+        }
+        (Some(asked), _) => cameras.iter().find(|(name, _)| *name == asked),
+    };
+    let asked = camera.unwrap_or_default();
+    let what = || format!("holds no f-theta camera \"{asked}\"; it holds {names}");
+    chosen.map(|(name, properties)| ((*name).to_owned(), *properties)).ok_or_else(|| Fault::at(rig.line, what()))
+}
+
+fn is_f_theta(properties: &Node) -> bool {
+    properties.find("Model").and_then(|model| model.text().ok()) == Some("ftheta")
+}
+
+/// What both programs say.
+struct Numbers {
+    line: usize,
+    size_px: [usize; 2],
+    centre_px: [f64; 2],
+    sense: FThetaSense,
+    polynomial: Vec<f64>,
+    greatest_angle_rad: f64,
+    linear: [f64; 3],
+}
+
+fn drive_works(node: &Node) -> Read<Found> {
+    let model = node.key("Model")?;
+    if !is_f_theta(node) {
+        return Err(Fault::at(model.line, "expected the model \"ftheta\""));
+    }
+    let or_zero = |key: &str| node.find(key).map_or(Ok(0.0), Node::number);
+    let (sense, polynomial) = match node.find("polynomial") {
+        Some(polynomial) => (sense(node.key("polynomial-type")?)?, polynomial),
+        None => (FThetaSense::RadiusToAngle, node.any(&["polynomial", "bw-poly"])?),
+    };
+    let numbers = Numbers {
+        line: polynomial.line,
+        size_px: [node.key("width")?.count()?, node.key("height")?.count()?],
+        centre_px: [node.key("cx")?.number()?, node.key("cy")?.number()?],
+        sense,
+        polynomial: words(polynomial)?,
+        greatest_angle_rad: PI,
+        linear: [or_zero("linear-c")?, or_zero("linear-d")?, or_zero("linear-e")?],
+    };
+    found(numbers, passed_over(&node.others(&DRIVE_WORKS)))
+}
+
+fn ncore(node: &Node) -> Read<Found> {
+    if let Some(external) = node.find("external_distortion_parameters")
+        && external.text().ok().is_none_or(|text| !matches!(text, "" | "null"))
+    {
+        return Err(Fault::at(external.line, "a distortion by a wind-screen, which is not read; expected null"));
+    }
+    let [width, height] = node.key("resolution")?.items().unwrap_or_default() else {
+        return Err(Fault::at(node.key("resolution")?.line, "expected [width, height]"));
+    };
+    let sense = sense(node.key("reference_poly")?)?;
+    let read = POLYNOMIALS[usize::from(sense == FThetaSense::AngleToRadius)];
+    let polynomial = node.key(read)?;
+    let numbers = Numbers {
+        line: polynomial.line,
+        size_px: [width.count()?, height.count()?],
+        centre_px: node.key("principal_point")?.exactly("u, v")?,
+        sense,
+        polynomial: polynomial.numbers()?,
+        greatest_angle_rad: node.find("max_angle").map_or(Ok(PI), Node::number)?,
+        linear: node.find("linear_cde").map_or(Ok([0.0; 3]), |node| node.exactly("c, d, e"))?,
+    };
+    found(numbers, passed_over(&node.others(&[&NCORE[..], &[read]].concat())))
+}
+
+fn sense(node: &Node) -> Read<FThetaSense> {
+    match node.text()? {
+        "pixeldistance-to-angle" | "PIXELDIST_TO_ANGLE" => Ok(FThetaSense::RadiusToAngle),
+        "angle-to-pixeldistance" | "ANGLE_TO_PIXELDIST" => Ok(FThetaSense::AngleToRadius),
+        other => {
+            let known = "pixeldistance-to-angle, angle-to-pixeldistance, PIXELDIST_TO_ANGLE, ANGLE_TO_PIXELDIST";
+            Err(Fault::at(node.line, format!("the polynomial's type {other} is none of {known}")))
+        }
+    }
+}
+
+/// Numbers of a list, or in one text.
+fn words(node: &Node) -> Read<Vec<f64>> {
+    let Ok(text) = node.text() else { return node.numbers() };
+    let number = |word: &str| {
+        let number = word.parse::<f64>().ok().filter(|x| x.is_finite());
+        number.ok_or_else(|| Fault::at(node.line, format!("found \"{word}\"; expected the polynomial's numbers")))
+    };
+    text.split_whitespace().map(number).collect()
+}
+
+fn found(numbers: Numbers, notes: Vec<String>) -> Read<Found> {
+    let Numbers { line, size_px, centre_px: [cx, cy], sense, polynomial, greatest_angle_rad, linear } = numbers;
+    let [c, d, e] = if linear == [0.0; 3] { [1.0, 0.0, 0.0] } else { linear };
+    if c <= 0.0 {
+        return Err(Fault::at(line, format!("the linear term c = {c}; expected a positive number")));
+    }
+    // (c x + d y, e x + y) stretches columns where `Affine` stretches rows: c goes into the unit of the radius.
+    let stretch = Affine { c: 1.0 / c, d: e / c, e: d / c };
+    let model = FTheta::new(sense, enlarged(sense, polynomial, c), greatest_angle_rad, stretch).map_err(wrong(line))?;
+    let matrix = CameraMatrix { fx: 1.0, fy: 1.0, skew: 0.0, cx, cy }.from_opencv();
+    let calibration = Calibration::new(Model::FTheta(model), matrix, size_px).map_err(of_camera(line))?;
+    Ok(Found { name: String::new(), calibration, notes })
+}
+
+/// The polynomial of a radius that is `ratio` times as large.
+fn enlarged(sense: FThetaSense, polynomial: Vec<f64>, ratio: f64) -> Vec<f64> {
+    let factors = std::iter::successors(Some(1.0), |factor| Some(factor / ratio));
+    match sense {
+        FThetaSense::AngleToRadius => polynomial.into_iter().map(|c| c * ratio).collect(),
+        FThetaSense::RadiusToAngle => polynomial.into_iter().zip(factors).map(|(c, factor)| c * factor).collect(),
+    }
+}
