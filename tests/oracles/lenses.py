@@ -1,4 +1,5 @@
-"""Figures of optiland and rayoptics for the published prescriptions of crates/optics: figures/lenses.json.
+"""Figures of optiland and rayoptics for the published prescriptions of crates/optics (figures/lenses.json) and for an aspheric
+lens (figures/aspheric.json).
 
 Both programs get the surfaces of crates/optics/data/lenses with the index of every glass as a number for each wavelength (their own
 models of glasses known by index and Abbe number differ); the Conrady curve of that model is solved here anew. Paraxial quantities and
@@ -16,6 +17,7 @@ import numpy as np
 from optiland.materials import IdealMaterial, Material
 from optiland.optic import Optic
 from optiland.rays import RealRays
+from rayoptics.elem.profiles import EvenPolynomial
 from rayoptics.environment import OpticalModel
 from rayoptics.raytr import raytrace
 from opticalglass import glassfactory
@@ -207,6 +209,83 @@ def catalogue():
     return rows
 
 
+# A lens of aspheres as telephones have, its numbers made up: radius, thickness, glass, semi-aperture, conic constant, terms of r⁴, r⁶ …
+ASPHERIC = [
+    (np.inf, 0.05, None, 0.75, 0.0, []),
+    (1.6, 0.8, (1.5445, 55.9), 0.9, -0.6, [1.2e-2, -3e-3, 1e-3]),
+    (-9.0, 0.35, None, 0.95, 0.0, [5e-2, -1.5e-2]),
+    (-2.5, 0.4, (1.64, 23.5), 1.05, 1.2, [-8e-2, 3e-2, -5e-3]),
+    (8.0, 0.6, None, 1.2, 0.0, [-4e-2, 1e-2]),
+    (2.2, 0.8, (1.5445, 55.9), 1.9, -3.0, [-5e-2, 8e-3, -5e-4]),
+    (3.0, 0.0, None, 2.1, -1.0, [-3e-2, 2e-3]),
+]
+ASPHERIC_BACK = 1.4
+
+
+def aspheric_lenses(nm):
+    """The aspheric lens in both programs."""
+    first, second = Optic(), OpticalModel()
+    first.add_surface(index=0, radius=np.inf, thickness=np.inf)
+    sequence = second.seq_model
+    second.radius_mode = True
+    sequence.gaps[0].thi = 50.0
+    for i, (radius, thickness, glass, _, conic, terms) in enumerate(ASPHERIC):
+        t = thickness if i + 1 < len(ASPHERIC) else ASPHERIC_BACK
+        n = index(glass, nm)
+        shape = {"surface_type": "even_asphere", "conic": conic, "coefficients": [0.0] + terms, "tol": 1e-14} if terms else {}
+        first.add_surface(index=i + 1, radius=radius, thickness=t, material=IdealMaterial(n), is_stop=i == 0, **shape)
+        sequence.add_surface([0.0 if np.isinf(radius) else radius, t] + ([] if n == 1.0 else [n]))
+        if terms:
+            sequence.ifcs[sequence.cur_surface].profile = EvenPolynomial(r=radius, cc=conic, coefs=[0.0] + terms)
+        if i == 0:
+            sequence.set_stop()
+    first.add_surface(index=len(ASPHERIC) + 1)
+    first.set_aperture("float_by_stop_size", 2.0 * ASPHERIC[0][3])
+    first.set_field_type("angle")
+    first.add_field(y=0.0)
+    first.add_wavelength(value=nm * 1e-3, is_primary=True)
+    second.optical_spec["wvls"].set_from_list([[nm, 1.0]])
+    second.update_model()
+    return first, second
+
+
+def both(first, second, surfaces, point, direction, nm):
+    """What both programs make of a ray: where it lands, and its direction there."""
+    rays, at = optiland_trace(first, [point], [direction], nm)
+    moved = point + direction * ((-50.0 - point[2]) / direction[2])
+    traced, _, _ = raytrace.trace(second.seq_model, np.array([moved[0], moved[1], 0.0]), direction, nm)
+    return {
+        "nm": nm, "point_mm": point.tolist(), "direction": direction.tolist(),
+        "optiland": {
+            "image_mm": at(surfaces + 1)[0][:2].tolist(),
+            "direction": [float(np.ravel(v)[0]) for v in (rays.L, rays.M, rays.N)],
+        },
+        "rayoptics": {"image_mm": list(map(float, traced[-1][0][:2])), "direction": list(map(float, traced[-2][1]))},
+    }
+
+
+def aspheric():
+    """Rays through the aspheric lens: figures/aspheric.json."""
+    rays = []
+    for nm in WAVELENGTHS:
+        first, second = aspheric_lenses(nm)
+        for angle in (0.0, 8.0, 16.0, 24.0):
+            a = np.radians(angle)
+            direction = np.array([0.0, np.sin(a), np.cos(a)])
+            for px, py in [*PUPIL, (0.0, 0.95), (-0.6, -0.6)]:
+                point = 0.75 * np.array([px, py, 0.0]) - 5.0 * direction
+                rays.append({"angle_deg": angle} | both(first, second, len(ASPHERIC), point, direction, nm))
+    keys = ("radius_mm", "thickness_mm", "glass", "semi_aperture_mm", "conic", "terms")
+    surfaces = [dict(zip(keys, s)) | {"radius_mm": None if np.isinf(s[0]) else s[0]} for s in ASPHERIC]
+    write("aspheric", {"back_mm": ASPHERIC_BACK, "surfaces": surfaces, "rays": rays})
+
+
+def write(name, figures):
+    programs = [f"{p} {version(p)}" for p in ("optiland", "rayoptics", "opticalglass")]
+    path = pathlib.Path(__file__).parent / "figures" / f"{name}.json"
+    path.write_text(json.dumps({"programs": programs} | figures, indent=1) + "\n")
+
+
 def main():
     lenses = []
     for name, (angles, heights) in LENSES.items():
@@ -221,10 +300,8 @@ def main():
             "rays": rays_of(name, surfaces, back, angles), "illumination": illumination(surfaces, back, heights),
         })
         print(name, back, lenses[-1]["illumination"]["relative"])
-    programs = [f"{p} {version(p)}" for p in ("optiland", "rayoptics", "opticalglass")]
-    figures = {"programs": programs, "lenses": lenses, "catalogue": catalogue()}
-    path = pathlib.Path(__file__).parent / "figures" / "lenses.json"
-    path.write_text(json.dumps(figures, indent=1) + "\n")
+    write("lenses", {"lenses": lenses, "catalogue": catalogue()})
+    aspheric()
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
-//! The published prescriptions against optiland and rayoptics (tests/oracles/lenses.py).
+//! The published prescriptions against optiland and rayoptics (tests/oracles/lenses.py, ghosts.py).
 
 use etendue_optics::prescription::coating::Coating;
+use etendue_optics::prescription::ghost::GhostPair;
 use etendue_optics::prescription::surface::Surface;
 use etendue_optics::prescription::trace::LensRay;
 use etendue_optics::prescription::{Focus, published};
@@ -10,6 +11,8 @@ use glam::{DVec2, DVec3};
 use serde_json::Value;
 
 const FIGURES: &str = include_str!("../../../tests/oracles/figures/lenses.json");
+const ASPHERIC: &str = include_str!("../../../tests/oracles/figures/aspheric.json");
+const GHOSTS: &str = include_str!("../../../tests/oracles/figures/ghosts.json");
 
 fn figures() -> Value {
     serde_json::from_str(FIGURES).expect("JSON")
@@ -86,6 +89,64 @@ fn real_rays_agree() {
             }
         }
         assert!(compared >= 20, "{}: {compared} rays", figures["name"]);
+    }
+}
+
+/// Compares a ray's end behind the last surface with both programs' to 1e-6 mm.
+fn agrees(lens: &Prescription, out: LensRay, row: &Value) {
+    let at = out.point + out.direction * ((lens.sensor_mm() - out.point.z) / out.direction.z);
+    for program in ["optiland", "rayoptics"] {
+        let [image, direction] = ["image_mm", "direction"].map(|key| list(&row[program][key]));
+        let miss = at.truncate() - DVec2::from_slice(&image);
+        assert!(miss.length() < 1e-6, "{program} {miss} {row}");
+        assert!((out.direction - DVec3::from_slice(&direction)).length() < 1e-7, "{program} {row}");
+    }
+}
+
+/// An aspheric surface of the figures.
+fn aspheric_surface(row: &Value, stop: bool) -> Surface {
+    let glass = match &row["glass"] {
+        Value::Null => glass::Dispersion::AIR,
+        of_abbe => glass::Dispersion::of_abbe(number(&of_abbe[0]), number(&of_abbe[1])).expect("a glass"),
+    };
+    let radius_mm = row["radius_mm"].as_f64().unwrap_or(f64::INFINITY);
+    let plain = Surface::sphere(radius_mm, number(&row["thickness_mm"]), glass, number(&row["semi_aperture_mm"]));
+    let mut surface = Surface { conic: number(&row["conic"]), stop, ..plain };
+    let terms = list(&row["terms"]);
+    surface.asphere[1..=terms.len()].copy_from_slice(&terms);
+    surface
+}
+
+#[test]
+fn rays_through_aspheres_agree() {
+    let figures: Value = serde_json::from_str(ASPHERIC).expect("JSON");
+    let rows = figures["surfaces"].as_array().expect("surfaces");
+    let surfaces = rows.iter().enumerate().map(|(i, row)| aspheric_surface(row, i == 0)).collect();
+    let focus = Focus::Fixed { back_focus_mm: number(&figures["back_mm"]) };
+    let parameters = PrescriptionParameters { surfaces, f_number: None, focus, defocus_mm: 0.0 };
+    let lens = Prescription::new(parameters).expect("a lens");
+    let mut compared = 0;
+    for row in figures["rays"].as_array().expect("rays") {
+        let ray = LensRay { point: vector(&row["point_mm"]), direction: vector(&row["direction"]).normalize() };
+        let Ok((out, _)) = lens.to_sensor(ray, number(&row["nm"])) else { continue };
+        agrees(&lens, out, row);
+        compared += 1;
+    }
+    assert!(compared >= 70, "{compared} rays");
+}
+
+#[test]
+fn ghosts_agree() {
+    let figures: Value = serde_json::from_str(GHOSTS).expect("JSON");
+    let published = published::named(figures["lens"].as_str().expect("a name")).expect("a published lens");
+    let focus = Focus::Fixed { back_focus_mm: number(&figures["back_mm"]) };
+    let parameters = PrescriptionParameters { surfaces: published.surfaces(), f_number: None, focus, defocus_mm: 0.0 };
+    let lens = Prescription::new(parameters).expect("a lens");
+    for row in figures["rays"].as_array().expect("rays") {
+        let [front, rear] = ["front", "rear"].map(|key| row[key].as_u64().expect("a surface") as usize);
+        let ray = LensRay { point: vector(&row["point_mm"]), direction: vector(&row["direction"]).normalize() };
+        let ghost = lens.ghost(GhostPair { front, rear }, ray, number(&row["nm"])).expect("through");
+        agrees(&lens, ghost.ray, row);
     }
 }
 

@@ -7,13 +7,13 @@
 //!
 //! **How.** All is deterministic; no random numbers.
 //! - *Sources.* The image is split into blocks as long as a block of more than one pixel sends more than 1/300 of
-//!   all light ([`source`]). A block acts from the centroid of its light: light moves by half a block at most,
+//!   all light (`source.rs`). A block acts from the centroid of its light: light moves by half a block at most,
 //!   bright lamps by none.
 //! - *Beams.* For 48 field angles a grid of 32 × 32 rays over what each pair lets pass is traced at wavelengths 100 nm
-//!   apart ([`footprint`]); between them places, weights and edges are interpolated, and the reflectances' product is taken at
+//!   apart (`footprint.rs`); between them places, weights and edges are interpolated, and the reflectances' product is taken at
 //!   each band itself.
-//! - *Pairs* that together bring at most 0.5 % of the ghost light of an angle are left out there ([`response`]).
-//! - *Laying down.* Each cell of a beam is spread over the sensor between its corners, its light kept ([`splat`]), on a grid
+//! - *Pairs* that together bring at most 0.5 % of the ghost light of an angle are left out there (`response.rs`).
+//! - *Laying down.* Each cell of a beam is spread over the sensor between its corners, its light kept (`splat.rs`), on a grid
 //!   as coarse as 32 cells across the ghost for a source of 1/300 of the light, finer for brighter ones.
 //!
 //! Ghosts are not in focus: the layer neither passes the point-spread function nor the glare kernel (scatter of ghosts is of
