@@ -192,8 +192,8 @@ pub struct MeasureLens {
     /// How many field heights, from the axis to the picture's edge
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u32).range(2..=1000))]
     pub fields: u32,
-    /// For a lens without a sensor: how far the picture reaches from the axis, mm [default: 21.64, or as far as there is
-    /// light]
+    /// For a lens without a sensor: how far the picture reaches from the axis, mm [default: the largest field that a lens
+    /// file states, otherwise 21.64; or as far as there is light]
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     pub picture_radius_mm: Option<f64>,
     /// Print JSON

@@ -36,7 +36,7 @@ pub use layer::layer;
 pub use report::{GhostReport, strongest};
 
 /// What a layer of ghosts is asked for.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GhostSettings {
     sensor_reflectance: f64,
 }

@@ -1,27 +1,26 @@
 //! `etendue measure lens`: what a lens does, without rendering.
 
+mod body;
+mod ghosts;
+
 use crate::args;
 use crate::failure::Failure;
-use crate::job::read_text;
 use crate::say;
-use etendue_io::load_assets;
-use etendue_optics::Lens;
+use body::body;
 use etendue_optics::lens::{FieldReport, ImageReport, LensReport};
-use etendue_pipeline::compile_camera;
+use etendue_optics::{Lens, Prescribed};
 use etendue_pipeline::plan::CameraBody;
-use etendue_scene::{Overrides, asset, load_camera};
 use glam::DVec2;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
 
 pub fn run(arguments: &args::Measure) -> Result<(), Failure> {
     let args::Measure::Lens(arguments) = arguments;
     let body = body(arguments)?;
     let fields = arguments.fields as usize;
     let text = match (&body.lens, arguments.json) {
-        (Lens::Prescription(lens), true) => json_text(&traced_json(&lens.report(fields))),
-        (Lens::Prescription(lens), false) => traced_text(&lens.report(fields)),
+        (Lens::Prescription(lens), true) => json_text(&traced_json(lens, &lens.report(fields))),
+        (Lens::Prescription(lens), false) => traced_text(lens, &lens.report(fields)),
         (_, true) => json_text(&simple_json(&body, fields)),
         (_, false) => simple_text(&body, fields),
     };
@@ -29,45 +28,20 @@ pub fn run(arguments: &args::Measure) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The camera: of a camera file, or about a lens file or a published lens.
-fn body(arguments: &args::MeasureLens) -> Result<CameraBody, Failure> {
-    let overrides = Overrides::new(&arguments.set);
-    let given = Path::new(&arguments.lens);
-    let is_camera = given.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
-    let made = (!is_camera).then(|| made_camera(&arguments.lens, arguments.picture_radius_mm));
-    if let (true, Some(_)) = (is_camera, arguments.picture_radius_mm) {
-        return Err(Failure::input("--picture-radius-mm: a camera file's sensor says how large the picture is"));
+/// A number to some decimals; what rounds to nothing has no sign.
+fn fixed(x: f64, decimals: usize) -> String {
+    let text = format!("{x:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(digits) if digits.chars().all(|c| c == '0' || c == '.') => digits.to_owned(),
+        _ => text,
     }
-    let file = if is_camera { given.to_owned() } else { PathBuf::from("measure.toml") };
-    let read = |path: &Path| match &made {
-        Some(text) if path == file => Ok(text.clone()),
-        _ => read_text(path),
-    };
-    let camera = load_camera(&file, &read, &overrides).map_err(|f| Failure::inputs(f.list()))?;
-    let assets = load_assets(&asset::of_camera(&camera)).map_err(Failure::inputs)?;
-    compile_camera(&camera, &assets).map_err(Failure::inputs)
-}
-
-/// A camera about a lens that brings no sensor: focused at infinity, a square picture of the radius asked for (half of a
-/// full-frame diagonal otherwise; a lens that lights less is measured as far as it lights).
-fn made_camera(lens: &str, radius_mm: Option<f64>) -> String {
-    const PIXELS: f64 = 1000.0;
-    let radius_mm = radius_mm.unwrap_or(21.64);
-    let pitch_um = 1000.0 * radius_mm * std::f64::consts::SQRT_2 / PIXELS;
-    let is_file = [".zmx", ".seq"].iter().any(|extension| lens.to_ascii_lowercase().ends_with(extension));
-    let key = if is_file { "file" } else { "published" };
-    let name = Value::from(lens);
-    format!(
-        "format = 1\n[lens]\nmodel = \"prescription\"\n{key} = {name}\nfocus_distance_m = \"infinity\"\n[sensor]\n\
-         width_px = {PIXELS}\nheight_px = {PIXELS}\npixel_pitch_um = {pitch_um}\n"
-    )
 }
 
 fn json_text(value: &Value) -> String {
     format!("{value:#}\n")
 }
 
-fn traced_json(r: &LensReport) -> Value {
+fn traced_json(lens: &Prescribed, r: &LensReport) -> Value {
     let p = &r.first_order;
     json!({
         "focal_length_mm": p.focal_length_mm,
@@ -88,7 +62,7 @@ fn traced_json(r: &LensReport) -> Value {
         "field_of_view_deg": r.field_of_view_rad.map(f64::to_degrees),
         "axial_colour_f_mm": r.axial_colour_f_mm,
         "axial_colour_c_mm": r.axial_colour_c_mm,
-        "fields": r.fields.iter().map(field_json).collect::<Vec<_>>(),
+        "fields": r.fields.iter().map(|field| field_json(lens, field)).collect::<Vec<_>>(),
     })
 }
 
@@ -97,7 +71,7 @@ fn finite(x: f64) -> Option<f64> {
     Some(x).filter(|x| x.is_finite())
 }
 
-fn field_json(field: &FieldReport) -> Value {
+fn field_json(lens: &Prescribed, field: &FieldReport) -> Value {
     let image = field.image.as_ref();
     let spot = image.and_then(|i| i.spot);
     json!({
@@ -112,13 +86,15 @@ fn field_json(field: &FieldReport) -> Value {
         "spot_radius_mm": spot.map(|s| s.radius_mm),
         "lateral_colour_f_mm": image.and_then(|i| i.lateral_f_mm),
         "lateral_colour_c_mm": image.and_then(|i| i.lateral_c_mm),
+        "ghosts": ghosts::json(lens, field.height_mm),
     })
 }
 
-fn traced_text(r: &LensReport) -> String {
+fn traced_text(lens: &Prescribed, r: &LensReport) -> String {
     let p = &r.first_order;
     let focus =
         if r.focus_distance_m.is_finite() { format!("{} m", r.focus_distance_m) } else { "infinity".to_owned() };
+    let mm = |x: f64| fixed(x, 4);
     let mut text = String::new();
     let mut line = |name: &str, value: String| {
         // Writing to a text does not fail.
@@ -132,17 +108,18 @@ fn traced_text(r: &LensReport) -> String {
     );
     line(
         "focal points",
-        format!("{:.4} mm from the first vertex, {:.4} mm from the last", p.front_focus_mm, p.back_focus_mm),
+        format!("{} mm from the first vertex, {} mm from the last", mm(p.front_focus_mm), mm(p.back_focus_mm)),
     );
-    line("principal planes", format!("{:.4} mm, {:.4} mm", p.front_principal_mm, p.rear_principal_mm));
-    line("entrance pupil", format!("{:.4} mm, {:.4} mm across", p.entrance_pupil_mm, 2.0 * p.entrance_radius_mm));
-    line("exit pupil", format!("{:.4} mm, {:.4} mm across", p.exit_pupil_mm, 2.0 * p.exit_radius_mm));
+    line("principal planes", format!("{} mm, {} mm", mm(p.front_principal_mm), mm(p.rear_principal_mm)));
+    line("entrance pupil", format!("{} mm, {:.4} mm across", mm(p.entrance_pupil_mm), 2.0 * p.entrance_radius_mm));
+    line("exit pupil", format!("{} mm, {:.4} mm across", mm(p.exit_pupil_mm), 2.0 * p.exit_radius_mm));
     line("Petzval radius", format!("{:.3} mm", p.petzval_radius_mm));
     line("field of view", r.field_of_view_rad.map_or("unknown".to_owned(), |a| format!("{:.3}°", a.to_degrees())));
-    line("axial colour", format!("F {:.4} mm, C {:.4} mm", r.axial_colour_f_mm, r.axial_colour_c_mm));
+    line("axial colour", format!("F {} mm, C {} mm", mm(r.axial_colour_f_mm), mm(r.axial_colour_c_mm)));
     text += "\nheight   angle    distortion  light    spot rms  spot max  tangential  sagittal  colour F  colour C\n\
              mm       deg      %           of axis  µm        µm        mm          mm        µm        µm\n";
     r.fields.iter().for_each(|field| text += &field_row(field));
+    text += &ghosts::text(lens, r.fields.iter().map(|field| field.height_mm));
     text
 }
 
@@ -150,15 +127,15 @@ fn field_row(field: &FieldReport) -> String {
     let (height, light) = (field.height_mm, field.relative_illumination);
     let Some(image) = &field.image else { return format!("{height:<8.3} –        –           {light:<8.4}\n") };
     let ImageReport { angle_rad, distortion, spot, lateral_f_mm, lateral_c_mm, .. } = image;
-    let micrometres = |mm: Option<f64>| mm.map_or("–".to_owned(), |mm| format!("{:.2}", 1000.0 * mm));
-    let distortion = distortion.map_or("–".to_owned(), |d| format!("{:.3}", 100.0 * d));
+    let micrometres = |mm: Option<f64>| mm.map_or("–".to_owned(), |mm| fixed(1000.0 * mm, 2));
+    let distortion = distortion.map_or("–".to_owned(), |d| fixed(100.0 * d, 3));
     let (rms, most) = (micrometres(spot.map(|s| s.rms_mm)), micrometres(spot.map(|s| s.radius_mm)));
     let (f, c) = (micrometres(*lateral_f_mm), micrometres(*lateral_c_mm));
     format!(
-        "{height:<8.3} {:<8.3} {distortion:<11} {light:<8.4} {rms:<9} {most:<9} {:<11.4} {:<9.4} {f:<9} {c}\n",
+        "{height:<8.3} {:<8.3} {distortion:<11} {light:<8.4} {rms:<9} {most:<9} {:<11} {:<9} {f:<9} {c}\n",
         angle_rad.to_degrees(),
-        image.tangential_mm,
-        image.sagittal_mm,
+        fixed(image.tangential_mm, 4),
+        fixed(image.sagittal_mm, 4),
     )
 }
 
@@ -200,7 +177,7 @@ fn simple_text(body: &CameraBody, fields: usize) -> String {
     for (at, height) in field_points(body, fields) {
         let (angle, distortion, light) = simple_field(lens, at);
         let angle = angle.map_or("–".to_owned(), |a| format!("{a:.3}"));
-        let distortion = distortion.map_or("–".to_owned(), |d| format!("{:.3}", 100.0 * d));
+        let distortion = distortion.map_or("–".to_owned(), |d| fixed(100.0 * d, 3));
         let _ = writeln!(text, "{height:<8.3} {angle:<8} {distortion:<11} {light:.4}");
     }
     text
