@@ -91,6 +91,12 @@ impl Results<'_> {
         let variance = light.irradiance_variance.as_ref().filter(|_| variance);
         self.write(Files::IRRADIANCE, encode_spectral(cube, variance, facts))
     }
+
+    /// Writes the part of the irradiance that is ghosts.
+    pub fn ghosts(&mut self, light: &Light, facts: &Provenance) -> Result<(), Failure> {
+        let Some(cube) = &light.ghosts else { return Ok(()) };
+        self.write(Files::GHOSTS, encode_spectral(cube, None, facts))
+    }
 }
 
 fn spectra(
@@ -109,6 +115,9 @@ fn spectra(
     }
     if products.irradiance {
         results.irradiance(light, products.variance, &facts::provenance(plan, camera))?;
+    }
+    if products.ghosts {
+        results.ghosts(light, &facts::provenance(plan, camera))?;
     }
     Ok(())
 }

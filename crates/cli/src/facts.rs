@@ -273,7 +273,8 @@ pub fn effects(body: &CameraBody) -> Option<Value> {
             "patches": psf.patches(),
         })
     });
-    Some(json!({ "margin_px": effects.margin_px(), "psf": psf, "glare": glare }))
+    let ghosts = effects.ghosts().map(|ghosts| json!({ "sensor_reflectance": ghosts.sensor_reflectance() }));
+    Some(json!({ "margin_px": effects.margin_px(), "psf": psf, "glare": glare, "ghosts": ghosts }))
 }
 
 /// A lens's distortion, and the one of the other direction that comes nearest over the picture.
@@ -352,6 +353,7 @@ pub struct Files;
 impl Files {
     pub const RADIANCE: &str = "radiance.exr";
     pub const IRRADIANCE: &str = "irradiance.exr";
+    pub const GHOSTS: &str = "ghosts.exr";
     pub const ELECTRONS: &str = "electrons.exr";
     pub const GROUND_TRUTH: &str = "ground_truth.exr";
     pub const DEPTH: &str = "depth.png";
@@ -383,6 +385,7 @@ impl Files {
         };
         add(p.radiance, Self::RADIANCE, entry_of::<Radiance>());
         add(p.irradiance, Self::IRRADIANCE, entry_of::<Irradiance>());
+        add(p.ghosts, Self::GHOSTS, entry_of::<Irradiance>());
         add(p.electrons, Self::ELECTRONS, entry_of::<Electrons>());
         add(p.ground_truth, Self::GROUND_TRUTH, entry("depth, distance, normal, position, ids", "m, m, 1, m, 1"));
         let depth_unit = format!("1/{} m", p.depth_png_per_m.unwrap_or(0.0));

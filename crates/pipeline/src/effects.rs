@@ -4,24 +4,50 @@ use crate::plan::CameraBody;
 use etendue_core::quantity::{Irradiance, Quantity, Variance};
 use etendue_core::{Plane, SpectralCube};
 use etendue_optics::effects::Prepared;
+use etendue_optics::{Lens, ghosts};
 use rayon::prelude::*;
+
+/// What effects leave of a film: a picture.
+pub(crate) struct Behind {
+    pub(crate) irradiance: SpectralCube<Irradiance>,
+    /// Without that of ghosts, which is far below the picture's own.
+    pub(crate) variance: Option<SpectralCube<Variance>>,
+    /// The part of the irradiance that is ghosts, where the camera has them.
+    pub(crate) ghosts: Option<SpectralCube<Irradiance>>,
+}
 
 /// The picture's irradiance and its variance, of the film's, on the caller's pool; the same where the camera has no effects.
 pub(crate) fn behind(
     body: &CameraBody,
     film: SpectralCube<Irradiance>,
     variance: Option<SpectralCube<Variance>>,
-) -> (SpectralCube<Irradiance>, Option<SpectralCube<Variance>>) {
+) -> Behind {
     if body.effects.is_idle() {
-        return (film, variance);
+        return Behind { irradiance: film, variance, ghosts: None };
     }
+    let ghosts = ghosts(body, &film);
     let bands = film.bands();
     let prepared = body.effects.prepared(&body.raster, (bands.low_nm(), bands.high_nm()));
     let of_band = |band: usize| of_band(&prepared, band, &film, variance.as_ref());
     let (means, variances): (Vec<_>, Vec<_>) = (0..film.planes().len()).into_par_iter().map(of_band).unzip();
-    let mean = SpectralCube::from_planes(bands, means).expect("planes of one picture");
+    let mut irradiance = SpectralCube::from_planes(bands, means).expect("planes of one picture");
+    if let Some(ghosts) = &ghosts {
+        irradiance.planes_mut().iter_mut().zip(ghosts.planes()).for_each(|(sum, plane)| add(sum, plane));
+    }
     let variances: Option<Vec<_>> = variances.into_iter().collect();
-    (mean, variances.and_then(|planes| SpectralCube::from_planes(bands, planes)))
+    Behind { irradiance, variance: variances.and_then(|planes| SpectralCube::from_planes(bands, planes)), ghosts }
+}
+
+/// The picture's ghosts, of the film's light.
+fn ghosts(body: &CameraBody, film: &SpectralCube<Irradiance>) -> Option<SpectralCube<Irradiance>> {
+    let (Some(settings), Lens::Prescription(lens)) = (body.effects.ghosts(), &body.lens) else { return None };
+    let layer =
+        ghosts::layer(film, lens, &body.film(), settings).expect("the film has the size that its effects ask for");
+    Some(picture(body, layer))
+}
+
+fn add(sum: &mut Plane<Irradiance>, plane: &Plane<Irradiance>) {
+    sum.samples_mut().iter_mut().zip(plane.samples()).for_each(|(sum, value)| *sum += value);
 }
 
 fn of_band(

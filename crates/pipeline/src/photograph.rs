@@ -1,6 +1,6 @@
 //! From light to photographs: irradiance, electrons, raw, picture.
 
-use crate::effects::{behind, picture};
+use crate::effects::{Behind, behind, picture};
 use crate::film::{CubeEstimate, Film};
 use crate::plan::{CameraBody, CameraPlan, Route};
 use crate::pupil_depth::PupilDepth;
@@ -20,6 +20,8 @@ pub struct Light {
     pub irradiance: Option<SpectralCube<Irradiance>>,
     /// Its variance; `None` on the route at the pupil, where only the radiance's is known.
     pub irradiance_variance: Option<SpectralCube<Variance>>,
+    /// The part of the irradiance that is ghosts, where the camera has them.
+    pub ghosts: Option<SpectralCube<Irradiance>>,
     /// Mean electrons of each pixel.
     pub electrons: Option<Plane<Electrons>>,
     /// Their variance; `None` where they come from a cube.
@@ -82,11 +84,13 @@ impl Light {
             variance: picture(body, variance),
         });
         let behind = film.cube.map(|c| behind(body, c.mean, Some(c.variance)));
-        let (irradiance, irradiance_variance) = behind.unzip();
-        let irradiance_variance = irradiance_variance.flatten();
+        let (irradiance, irradiance_variance, ghosts) = match behind {
+            Some(Behind { irradiance, variance, ghosts }) => (Some(irradiance), variance, ghosts),
+            None => (None, None, None),
+        };
         let (folded, electrons_variance) = film.electrons.map(|e| (e.mean, e.variance)).unzip();
         let electrons = folded.or_else(|| electrons(body, irradiance.as_ref()?));
-        Self { radiance, irradiance, irradiance_variance, electrons, electrons_variance }
+        Self { radiance, irradiance, irradiance_variance, ghosts, electrons, electrons_variance }
     }
 
     /// The light behind a lens of a stored radiance image (its radiance itself is not repeated).
@@ -96,12 +100,13 @@ impl Light {
     pub fn at_pupil(body: &CameraBody, stored: &Stored<'_>) -> Result<Self, OpticsError> {
         let margin = body.effects.margin_px();
         let Sight { radiance: seen, .. } = Stored { distance: None, ..*stored }.seen(body, margin)?;
-        let (irradiance, _) = behind(body, irradiance(&seen, &body.lens, &body.film())?, None);
+        let Behind { irradiance, ghosts, .. } = behind(body, irradiance(&seen, &body.lens, &body.film())?, None);
         Ok(Self {
             radiance: None,
             electrons: electrons(body, &irradiance),
             irradiance: Some(irradiance),
             irradiance_variance: None,
+            ghosts,
             electrons_variance: None,
         })
     }

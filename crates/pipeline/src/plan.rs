@@ -155,6 +155,8 @@ pub struct Products {
     pub radiance: bool,
     /// Spectral irradiance on the sensor.
     pub irradiance: bool,
+    /// The part of the irradiance that is ghosts.
+    pub ghosts: bool,
     /// Variances of what is estimated.
     pub variance: bool,
     /// Expected electrons.
@@ -192,7 +194,7 @@ impl Products {
     /// Whether nothing is delivered.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        let images = self.radiance || self.irradiance || self.electrons || self.raw || self.picture;
+        let images = self.radiance || self.irradiance || self.ghosts || self.electrons || self.raw || self.picture;
         !(images || self.ground_truth || self.depth_png_per_m.is_some() || self.rays)
     }
 }

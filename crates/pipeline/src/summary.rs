@@ -224,11 +224,13 @@ fn left_out(lens: &Lens, effects: &Effects) -> String {
     let missing = |words: &[&'static str]| {
         let models =
             |effect| effects.needs().iter().any(|n| n.effect == effect && n.verdict != effects::Verdict::Skipped);
-        let modelled = |word: &&&str| match **word {
-            "glare" => models(Effect::Glare),
-            "diffraction" => models(Effect::PointSpread),
-            _ => false,
+        let effect = |word: &str| match word {
+            "glare" => Some(Effect::Glare),
+            "diffraction" => Some(Effect::PointSpread),
+            "ghosts" => Some(Effect::Ghosts),
+            _ => None,
         };
+        let modelled = |word: &&&str| effect(word).is_some_and(models);
         list(&words.iter().filter(|word| !modelled(word)).copied().collect::<Vec<_>>())
     };
     match lens {
@@ -352,6 +354,7 @@ fn products(p: &Products) -> String {
     let named = [
         (p.radiance, "radiance"),
         (p.irradiance, "irradiance"),
+        (p.ghosts, "ghosts"),
         (p.variance, "variance"),
         (p.electrons, "electrons"),
         (p.raw, "raw"),

@@ -60,6 +60,7 @@ fn products(body: &CameraBody) -> Products {
     Products {
         radiance: false,
         irradiance: true,
+        ghosts: body.effects.ghosts().is_some(),
         variance: false,
         electrons: false,
         raw: body.sensor.is_some(),
@@ -101,6 +102,7 @@ fn expose(
     let seed = arguments.seed.unwrap_or(stored.provenance.seed);
     let facts = facts::exposed_provenance(&stored.provenance, &results.prefix, seed);
     results.irradiance(&light, false, &facts)?;
+    results.ghosts(&light, &facts)?;
     if let Some(electrons) = &light.electrons {
         let camera = stored.provenance.further.get("camera_index").and_then(|i| i.parse().ok()).unwrap_or(0);
         let address = |frame| FrameAddress { seed, camera, frame, capture: 0 };

@@ -14,6 +14,10 @@
 //! | --- | --- | --- |
 //! | 1 | [point spread](psf) | diffraction of the aperture, wavefront error |
 //! | 2 | [veiling glare](glare) | scatters a share of the light over the plane |
+//! | 3 | [ghosts](crate::ghosts) | adds light that two surfaces of the lens reflect |
+//!
+//! Ghosts are made of the film's own light, before the other effects, of all bands at once ([`crate::ghosts::layer`]), and are
+//! added behind them: they are out of focus, and what scatters of them is of second order.
 
 mod convolve;
 mod error;
@@ -26,6 +30,7 @@ pub use error::EffectsError;
 pub use glare::{Glare, GlareParameters};
 pub use psf::{Psf, PsfParameters, WavefrontTerm, Zernike};
 
+use crate::ghosts::GhostSettings;
 use convolve::{Convolver, Field, Region};
 use etendue_core::Plane;
 use etendue_core::quantity::{Irradiance, Quantity, Variance};
@@ -34,7 +39,7 @@ use glam::DVec2;
 use kernel::Kernel;
 
 /// The widest margin that is chosen without being asked for, as a share of the picture's width and height.
-const MARGIN_CAP: f64 = 0.25;
+pub const MARGIN_CAP: f64 = 0.25;
 
 /// The effects that there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,11 +48,13 @@ pub enum Effect {
     PointSpread,
     /// Light scattered in the lens.
     Glare,
+    /// Light that two surfaces reflect.
+    Ghosts,
 }
 
 impl Effect {
     /// All effects, in their order.
-    pub const ALL: [Self; 2] = [Self::PointSpread, Self::Glare];
+    pub const ALL: [Self; 3] = [Self::PointSpread, Self::Glare, Self::Ghosts];
 
     /// The effect's name in a plan.
     #[must_use]
@@ -55,6 +62,7 @@ impl Effect {
         match self {
             Self::PointSpread => "point spread",
             Self::Glare => "veiling glare",
+            Self::Ghosts => "ghosts",
         }
     }
 }
@@ -86,6 +94,7 @@ pub struct Need {
 pub struct Effects {
     psf: Option<Psf>,
     glare: Option<Glare>,
+    ghosts: Option<GhostSettings>,
     margin_px: [usize; 2],
 }
 
@@ -96,6 +105,8 @@ pub struct EffectsParameters {
     pub psf: Option<Psf>,
     /// Light scattered in the lens.
     pub glare: Option<Glare>,
+    /// Light that two surfaces reflect.
+    pub ghosts: Option<GhostSettings>,
     /// Width of the margin on every side as a share of the picture's width and height, 0 to 1; `None` for as far as the
     /// effects reach, at most a quarter.
     pub margin: Option<f64>,
@@ -107,8 +118,8 @@ impl Effects {
     /// # Errors
     /// Where the margin is out of range or serves nothing.
     pub fn new(parameters: EffectsParameters, picture: &Raster) -> Result<Self, EffectsError> {
-        let EffectsParameters { psf, glare, margin } = parameters;
-        let mut effects = Self { psf, glare, margin_px: [0, 0] };
+        let EffectsParameters { psf, glare, ghosts, margin } = parameters;
+        let mut effects = Self { psf, glare, ghosts, margin_px: [0, 0] };
         effects.margin_px = match margin {
             Some(margin) if !(0.0..=1.0).contains(&margin) => return Err(EffectsError::Margin { margin }),
             Some(_) if effects.is_idle() => return Err(EffectsError::IdleMargin),
@@ -123,7 +134,9 @@ impl Effects {
         let cap = share(MARGIN_CAP, picture);
         let glare = self.needs_glare().map(|glare| glare.reach_px(picture.pitch_mm()).unwrap_or(cap));
         let psf = self.psf.as_ref().map(|psf| psf.reach_px(picture.pitch_mm()));
-        let reach = [psf, glare].into_iter().flatten().fold([0, 0], |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
+        // Ghosts of sources beside the picture fall anywhere in it.
+        let ghosts = self.ghosts.map(|_| cap);
+        let reach = [psf, glare, ghosts].into_iter().flatten().fold([0, 0], |a, b| [a[0].max(b[0]), a[1].max(b[1])]);
         [reach[0].min(cap[0]), reach[1].min(cap[1])]
     }
 
@@ -134,6 +147,7 @@ impl Effects {
             let (verdict, reason) = match effect {
                 Effect::PointSpread => Psf::need(self.psf.as_ref()),
                 Effect::Glare => Glare::need(self.glare.as_ref()),
+                Effect::Ghosts => GhostSettings::need(self.ghosts.as_ref()),
             };
             Need { effect, verdict, reason }
         };
@@ -168,6 +182,12 @@ impl Effects {
     #[must_use]
     pub fn glare(&self) -> Option<&Glare> {
         self.glare.as_ref()
+    }
+
+    /// Ghosts, where they are made.
+    #[must_use]
+    pub fn ghosts(&self) -> Option<GhostSettings> {
+        self.ghosts
     }
 
     fn needs_glare(&self) -> Option<&Glare> {

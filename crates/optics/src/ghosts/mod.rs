@@ -29,6 +29,7 @@ mod response;
 mod source;
 mod splat;
 
+use crate::effects::Verdict;
 use crate::error::OpticsError;
 use crate::lens::Prescribed;
 
@@ -51,6 +52,23 @@ impl GhostSettings {
             Ok(Self { sensor_reflectance })
         } else {
             Err(OpticsError::SensorReflectance { value: sensor_reflectance })
+        }
+    }
+
+    /// Whether a camera needs ghosts, and why.
+    pub(crate) fn need(settings: Option<&Self>) -> (Verdict, String) {
+        match settings {
+            None => (Verdict::Skipped, "not asked for".to_owned()),
+            Some(Self { sensor_reflectance: 0.0 }) => (
+                Verdict::Required,
+                "every two surfaces of the lens, by their coatings; the sensor mirrors nothing".to_owned(),
+            ),
+            Some(Self { sensor_reflectance }) => {
+                let why = format!(
+                    "every two surfaces of the lens, by their coatings; the sensor mirrors {sensor_reflectance}"
+                );
+                (Verdict::Required, why)
+            }
         }
     }
 

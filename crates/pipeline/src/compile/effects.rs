@@ -1,9 +1,11 @@
 //! `[effects]`: from the record to the effects.
 
 use super::context::Context;
-use etendue_optics::effects::{WavefrontTerm, Zernike};
+use etendue_optics::effects::{MARGIN_CAP, WavefrontTerm, Zernike};
+use etendue_optics::ghosts::GhostSettings;
 use etendue_optics::{Effects, EffectsError, EffectsParameters, Glare, GlareParameters, Lens, Psf, PsfParameters};
 use etendue_projection::Raster;
+use etendue_scene::Placed;
 use etendue_scene::record::effects::{TermSize, ZernikeIndex};
 use etendue_scene::record::{self, effects as description};
 
@@ -25,9 +27,37 @@ pub(super) fn effects(
         Some(record) => Some(context.accept(&record.place, glare(record))?),
         None => None,
     };
-    let parameters = EffectsParameters { psf, glare, margin: record.margin.as_ref().map(|m| m.value) };
+    let ghosts = match &record.ghosts {
+        Some(asked) if asked.value => Some(ghosts(record, asked, lens, context)?),
+        _ => None,
+    };
+    let parameters = EffectsParameters { psf, glare, ghosts, margin: record.margin.as_ref().map(|m| m.value) };
     let place = record.margin.as_ref().map_or(&record.place, |m| &m.place);
     context.accept(place, Effects::new(parameters, picture))
+}
+
+fn ghosts(
+    record: &record::Effects,
+    asked: &Placed<bool>,
+    lens: &Lens,
+    context: &mut Context<'_>,
+) -> Option<GhostSettings> {
+    if !matches!(lens, Lens::Prescription(_)) {
+        let problem = format!("ghosts are light between the surfaces of a prescription; the lens is a {}", lens.kind());
+        context.fault(&asked.place, problem, "give a lens with model = \"prescription\", or remove the key");
+        return None;
+    }
+    let reflectance = record.sensor_reflectance.as_ref();
+    let place = reflectance.map_or(&asked.place, |r| &r.place);
+    context.accept(place, GhostSettings::new(reflectance.map_or(0.0, |r| r.value)))
+}
+
+/// The widest film that a camera's effects can ask for.
+pub(super) fn widest_film(record: Option<&record::Effects>, picture: &Raster) -> Raster {
+    let Some(record) = record else { return *picture };
+    let margin = record.margin.as_ref().map_or(MARGIN_CAP, |m| m.value);
+    let pixels = |count: usize| (margin * count as f64).ceil() as usize;
+    picture.widened([pixels(picture.width()), pixels(picture.height())])
 }
 
 fn glare(record: &description::Glare) -> Result<Glare, EffectsError> {

@@ -29,6 +29,8 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
     for (key, name) in [(&output.electrons, "electrons"), (&output.raw, "raw")] {
         need(key, electronics, name, "the sensor has no electronics", "add them to [sensor]", context);
     }
+    let ghosts = body.effects.ghosts().is_some();
+    need(&output.ghosts, ghosts, "ghosts", "the camera makes none", "add ghosts = true to its [effects]", context);
     let development = body.development.is_some();
     need(&output.picture, development, "picture", "the camera has no [processing]", "add it", context);
     let depth_png = said(&output.depth_png, false);
@@ -46,6 +48,7 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
     let products = Products {
         radiance: said(&output.radiance, !electronics),
         irradiance: said(&output.irradiance, false),
+        ghosts: said(&output.ghosts, false),
         variance: said(&output.variance, false),
         electrons: said(&output.electrons, false),
         raw: said(&output.raw, electronics),

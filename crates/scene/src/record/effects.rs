@@ -2,7 +2,7 @@
 
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{Rule, RuleExt as _, either, exactly, keyed, list, number, record, whole};
+use crate::reader::{Rule, RuleExt as _, either, exactly, flag, keyed, list, number, record, whole};
 
 record! {
     /// What becomes of the irradiance behind the lens, on either route. The film is rendered wider than the picture, for light
@@ -12,6 +12,11 @@ record! {
         optional psf: Psf = record();
         /// Light scattered in the lens. Default: none.
         optional glare: Glare = record();
+        /// Whether light that two surfaces of a prescription reflect is traced and added: its ghosts; only with a lens whose
+        /// "model" is "prescription". Default: false.
+        optional ghosts: Placed<bool> = flag();
+        /// With "ghosts": the share of light that the sensor itself mirrors, 0 … 0.5. Default: 0.
+        optional sensor_reflectance: Placed<f64> = number("").at_least(0.0).at_most(0.5);
         /// Width of what is rendered beyond the picture on every side, as a share of its width and height, 0 … 1. Default: as
         /// far as the effects reach, at most 0.25.
         optional margin: Placed<f64> = number("").at_least(0.0).at_most(1.0);
@@ -116,11 +121,13 @@ record! {
 }
 
 fn check(effects: &Effects, faults: &mut Faults) {
-    if effects.psf.is_none() && effects.glare.is_none() {
-        faults.add(
-            &effects.place,
-            "[effects] describes no effect",
-            "add [effects.psf] or [effects.glare], or remove the section",
-        );
+    if effects.psf.is_none() && effects.glare.is_none() && effects.ghosts.is_none() {
+        let remedy = "add [effects.psf], [effects.glare] or ghosts = true, or remove the section";
+        faults.add(&effects.place, "[effects] describes no effect", remedy);
+    }
+    if let (Some(reflectance), false) = (&effects.sensor_reflectance, effects.ghosts.as_ref().is_some_and(|g| g.value))
+    {
+        let problem = "\"sensor_reflectance\" has no effect without ghosts = true";
+        faults.add(&reflectance.place, problem, "add it, or remove the reflectance");
     }
 }

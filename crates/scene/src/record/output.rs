@@ -11,6 +11,8 @@ record! {
         optional radiance: Placed<bool> = flag();
         /// Spectral irradiance on the sensor plane, spectral EXR. Default: false.
         optional irradiance: Placed<bool> = flag();
+        /// The part of the irradiance that is ghosts, spectral EXR; needs ghosts = true in `[effects]`. Default: false.
+        optional ghosts: Placed<bool> = flag();
         /// Variance of the mean of what is estimated, EXR; needs two replicates or more. Default: false.
         optional variance: Placed<bool> = flag();
         /// Expected electrons of each pixel, EXR. Default: false.
@@ -87,6 +89,7 @@ impl Output {
             place,
             radiance: None,
             irradiance: None,
+            ghosts: None,
             variance: None,
             electrons: None,
             raw: None,
@@ -108,6 +111,7 @@ impl Output {
             place: a.place,
             radiance: a.radiance.or(b.radiance),
             irradiance: a.irradiance.or(b.irradiance),
+            ghosts: a.ghosts.or(b.ghosts),
             variance: a.variance.or(b.variance),
             electrons: a.electrons.or(b.electrons),
             raw: a.raw.or(b.raw),

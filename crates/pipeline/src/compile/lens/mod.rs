@@ -7,6 +7,7 @@ mod projection;
 mod tests;
 
 use super::context::Context;
+use super::effects::widest_film;
 use etendue_optics::lens::{self, ConstantPupil, PinholeParameters, PupilStatements, ThickParameters, ThinParameters};
 use etendue_optics::{Lens, OpticsError, ParallelParameters};
 use etendue_projection::{RadialDistortion, RadiusScales, RadiusUnit, Raster, Sense};
@@ -21,7 +22,10 @@ pub(super) fn lens(camera: &record::Camera, context: &mut Context<'_>) -> Option
     let raster = raster(&camera.sensor, context)?;
     let lens = match &camera.lens {
         record::Lens::Calibrated(record) => return calibrated::lens(record, &camera.sensor, &raster, context),
-        record::Lens::Prescription(record) => prescription::lens(record, &raster, context),
+        record::Lens::Prescription(record) => {
+            let film = widest_film(camera.effects.as_ref(), &raster);
+            prescription::lens(record, &raster, &film, context)
+        }
         record::Lens::Parallel(record) => context.accept(&record.place, parallel(record, &raster)),
         record::Lens::Pinhole(_) | record::Lens::Thin(_) | record::Lens::Thick(_) => {
             paraxial(&camera.lens, &raster, context)

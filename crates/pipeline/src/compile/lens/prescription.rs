@@ -22,14 +22,19 @@ struct Given {
     opening: Option<LensOpening>,
 }
 
-/// The lens for a picture.
-pub(super) fn lens(record: &record::Prescription, raster: &Raster, context: &mut Context<'_>) -> Option<Lens> {
+/// The lens for a picture, and for the film about it.
+pub(super) fn lens(
+    record: &record::Prescription,
+    raster: &Raster,
+    film: &Raster,
+    context: &mut Context<'_>,
+) -> Option<Lens> {
     let given = given(record, context);
     let filter = record.ir_cut.as_ref().map(|filter| ir_cut(filter, context));
     let given = given?;
     let prescription = focused(record, given).map_err(|error| refuse(record, &error, context)).ok()?;
     let filter = filter.map_or(Some(None), |filter| filter.map(Some))?;
-    let lens = Prescribed::new(prescription, filter, raster.max_radius_mm());
+    let lens = Prescribed::new(prescription, filter, film.max_radius_mm());
     let lens = context.accept(&record.place, lens)?;
     if lens.lit_radius_mm() < raster.max_radius_mm() * (1.0 - 1e-9) {
         let (lit, needed) = (lens.lit_radius_mm(), raster.max_radius_mm());
