@@ -31,7 +31,7 @@ pub(super) fn lens(
 ) -> Option<Lens> {
     let given = given(record, context);
     let filter = record.ir_cut.as_ref().map(|filter| ir_cut(filter, context));
-    let given = given?;
+    let given = given.map(|Given { surfaces, opening }| Given { surfaces: coated(surfaces, record), opening })?;
     let prescription = focused(record, given).map_err(|error| refuse(record, &error, context)).ok()?;
     let filter = filter.map_or(Some(None), |filter| filter.map(Some))?;
     let lens = Prescribed::new(prescription, filter, film.max_radius_mm());
@@ -140,6 +140,23 @@ fn surface(s: &record::Surface, context: &mut Context<'_>) -> Option<Surface> {
         stop: s.stop.as_ref().is_some_and(|stop| stop.value),
         ..Surface::sphere(radius_mm, number(&s.thickness_mm, 0.0), glass, s.semi_aperture_mm.value)
     })
+}
+
+/// The lens's coating on the surfaces against air that say nothing of their own.
+fn coated(mut surfaces: Vec<Surface>, record: &record::Prescription) -> Vec<Surface> {
+    let Some(coating) = record.coating.as_ref().map(coating) else { return surfaces };
+    let own = |i: usize| match &record.source {
+        Source::Surfaces(list) => list[i].coating.is_some(),
+        Source::Published(_) | Source::File(_) => false,
+    };
+    let mut before = Dispersion::AIR;
+    for (i, surface) in surfaces.iter_mut().enumerate() {
+        let sides = [core::mem::replace(&mut before, surface.glass), surface.glass];
+        if sides[0] != sides[1] && sides.contains(&Dispersion::AIR) && !own(i) {
+            surface.coating = coating;
+        }
+    }
+    surfaces
 }
 
 fn coating(record: &record::Coating) -> Coating {

@@ -26,6 +26,9 @@ record! {
         optional focus_by: FocusBy = focus_by();
         /// How far behind the paraxial image (at 587.56 nm) the sensor stands, mm: best focus of an aberrated lens. Default: 0.
         optional defocus_mm: Placed<f64> = number("mm");
+        /// What those surfaces let through that lie against air and say nothing of their own: as a surface's "coating".
+        /// Default: "uncoated".
+        optional coating: Coating = coating();
         /// An interference filter in front of the sensor that cuts the infrared off. Default: none.
         optional ir_cut: IrCut = record();
     }
@@ -60,7 +63,8 @@ record! {
         /// What fills the space behind it: a glass of the catalogues of Schott or Ohara by its name ("N-BK7"), or a table.
         /// Default: air.
         optional glass: Glass = glass();
-        /// What it lets through: "uncoated" (Fresnel), a share above 0 and at most 1, or a layer. Default: "uncoated".
+        /// What it lets through: "uncoated" (Fresnel), a share above 0 and at most 1, or a layer. Default: the
+        /// lens's.
         optional coating: Coating = coating();
         /// Whether it is the aperture stop. Default: false.
         optional stop: Placed<bool> = flag();
