@@ -3,8 +3,13 @@
 use crate::clock::timed;
 use crate::runs::{COUNT, Runs};
 use crate::table::Table;
+use etendue_core::quantity::Irradiance;
+use etendue_core::{Bands, SpectralCube};
+use etendue_optics::Lens;
+use etendue_optics::ghosts::{GhostSettings, layer};
 use etendue_pipeline::compile_camera;
 use etendue_pipeline::plan::CameraBody;
+use etendue_projection::Raster;
 use etendue_scene::asset::Assets;
 use etendue_scene::{Overrides, load_camera};
 use glam::DVec2;
@@ -58,6 +63,51 @@ pub fn table() -> Table {
         table.row([(*name).to_owned()].into_iter().chain(cells));
     }
     table
+}
+
+const GHOSTS_NOTE: &str = "A picture of 450 × 300 px in 8 bands with a lamp of 60 pixels, processor time of one thread: the \
+    double Gauss's ghosts, by what its surfaces are.";
+
+/// Milliseconds of a layer of ghosts.
+pub fn ghosts() -> Table {
+    let mut table = Table::new("Ghosts", GHOSTS_NOTE, &["surfaces", "ms a picture", "light of the picture", "spread"]);
+    for (name, coating) in [("bare", "\"uncoated\""), ("a quarter wave", "{ quarter_wave_nm = 550 }")] {
+        let lens = "model = \"prescription\"\npublished = \"double-gauss\"\nfocus_distance_m = \"infinity\"";
+        let body = body(&format!("{lens}\ncoating = {coating}"));
+        let (mut times, mut share) = (Runs::default(), 0.0);
+        for _ in 0..COUNT {
+            let (light, seconds) = timed(|| alone(|| light_of_ghosts(&body)));
+            times.add(1e3 * seconds);
+            share = light;
+        }
+        let cells =
+            [format!("{:.0}", times.median()), format!("{share:.1e}"), format!("± {:.0} %", 100.0 * times.spread())];
+        table.row([name.to_owned()].into_iter().chain(cells));
+    }
+    table
+}
+
+/// `work` on this thread alone.
+fn alone<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
+    pool.expect("one thread").install(work)
+}
+
+/// Light of the ghosts of a lamp before a dim ground, over that of the picture.
+fn light_of_ghosts(body: &CameraBody) -> f64 {
+    let Lens::Prescription(lens) = &body.lens else { panic!("a lens of surfaces") };
+    let raster = Raster::centred(450, 300, 0.08).expect("a raster");
+    let bands = Bands::new(400.0, 40.0, 8).expect("bands");
+    let mut picture = SpectralCube::new(450, 300, bands);
+    for plane in picture.planes_mut() {
+        plane.samples_mut().fill(1.0);
+        (0..60).for_each(|i| plane.set(100 + i % 8, 70 + i / 8, 1e5));
+    }
+    let layer = layer(&picture, lens, &raster, GhostSettings::default()).expect("of the raster's size");
+    let sum = |cube: &SpectralCube<Irradiance>| {
+        cube.planes().iter().flat_map(|plane| plane.samples()).map(|v| f64::from(*v)).sum::<f64>()
+    };
+    sum(&layer) / sum(&picture)
 }
 
 /// A camera with a picture of 36 × 24 mm.

@@ -9,6 +9,7 @@
 //! | `paths` | paths a second of the scenes that ship with the project, one thread and two |
 //! | `lamps` | cost and error of a path under 10 to 10 000 lamps |
 //! | `lenses` | nanoseconds of a ray through each kind of lens |
+//! | `ghosts` | milliseconds of a picture's layer of ghosts |
 //! | `trees` | time to build the accelerator, a triangle |
 //! | `memory` | peak memory of a scene, in a process of its own |
 //! | `frames` | raw and picture of a frame of two megapixels |
@@ -31,6 +32,7 @@ const BENCHMARKS: [Benchmark; 8] = [
     ("paths", paths::table),
     ("lamps", lamps::table),
     ("lenses", lenses::table),
+    ("ghosts", lenses::ghosts),
     ("trees", trees::table),
     ("memory", memory::table),
     ("frames", frames::table),

@@ -45,7 +45,33 @@ fn a_lens_is_measured_as_text_and_as_json() {
     // The patent's lens is one of 100 mm.
     assert!((json["focal_length_mm"].as_f64().expect("a number") - 100.0).abs() < 2.0, "{json}");
     assert_eq!(json["fields"].as_array().map(Vec::len), Some(4));
+    assert!(text.contains("ghosts of a far point") && !text.contains("-0.0000 "), "{text}");
+    let ghosts = json["fields"][0]["ghosts"].as_array().expect("ghosts");
+    assert_eq!(ghosts.len(), 3);
+    let light = |i: usize| ghosts[i]["light"].as_f64().expect("a number");
+    assert!(light(0) >= light(1) && light(0) < 0.01 && light(2) > 0.0, "{ghosts:?}");
     etendue(["measure", "lens", "biotar"]).refused(&["biotar", "double-gauss"]);
+}
+
+#[test]
+fn a_lens_file_is_measured_as_far_as_its_fields() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let file = place.path().join("singlet.seq");
+    let lens = |fields: &str| {
+        format!(
+            "RDM\nDIM M\nEPD 4\nWL 587.56\n{fields}\nSO 0 1e20\nS 50 4 NBK7_SCHOTT\nCIR 8\nSTO\nS -50 47\nCIR 8\nSI 0 0\nGO\n"
+        )
+    };
+    let radius = |fields: &str| {
+        std::fs::write(&file, lens(fields)).expect("written");
+        let path = file.to_str().expect("a path");
+        let text = etendue(["measure", "lens", path, "--json", "--fields", "2"]).ok().out;
+        let json: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        let edge = &json["fields"][1];
+        (edge["height_mm"].as_f64().expect("a number"), edge["angle_deg"].as_f64().expect("a number"))
+    };
+    assert!((radius("YIM 0 3 7").0 - 7.0).abs() < 1e-9);
+    assert!((radius("YAN 0 5 9").1 - 9.0).abs() < 1e-6, "{:?}", radius("YAN 0 5 9"));
 }
 
 #[test]

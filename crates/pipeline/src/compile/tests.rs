@@ -125,13 +125,20 @@ fn mixes_name_materials_in_any_order_and_not_themselves() {
 
 /// A camera that scatters light, with further keys of the effects and a section of rendering.
 fn scattering(effects: &str, render: &str) -> Result<Plan, String> {
+    const THIN: &str = "model = \"thin\", focal_length_mm = 6, f_number = 2.0, focus_distance_m = \"infinity\", distortion = \
+                        { k1 = -0.5, direction = \"ideal_to_observed\", radius_unit = \"focal_lengths\" }";
+    behind(THIN, effects, render)
+}
+
+/// A camera of a lens and effects, with a section of rendering.
+fn behind(lens: &str, effects: &str, render: &str) -> Result<Plan, String> {
     let text = format!(
         r#"format = 1
 [[cameras]]
 name = "front"
 position_m = [0, 0, 1]
 look_at_m = [10, 0, 1]
-lens = {{ model = "thin", focal_length_mm = 6, f_number = 2.0, focus_distance_m = "infinity", distortion = {{ k1 = -0.5, direction = "ideal_to_observed", radius_unit = "focal_lengths" }} }}
+lens = {{ {lens} }}
 effects = {{ {effects} }}
 [cameras.sensor]
 width_px = 80
@@ -184,4 +191,36 @@ fn effects_that_cannot_be_are_refused_where_they_stand() {
     // The distortion folds beyond the picture, within a margin of its own width.
     let plan = scattering(&format!("margin = 1, {GLARE}"), "").expect("it is dark there");
     assert!(plan.remarks.iter().any(|r| r.contains("some is missing")), "{:?}", plan.remarks);
+}
+
+const DOUBLE_GAUSS: &str = "model = \"prescription\", published = \"double-gauss\", focus_distance_m = \"infinity\"";
+
+#[test]
+fn ghosts_are_of_a_lens_of_surfaces() {
+    let plan = behind(DOUBLE_GAUSS, "ghosts = true", "[output]\nghosts = true").expect("no fault");
+    let camera = &plan.cameras[0];
+    assert!(camera.settings.bands.is_some() && !camera.settings.folded && camera.products.ghosts);
+    assert_eq!(camera.film_size(), (120, 90), "with light from a quarter of the picture beyond each edge");
+    // The lens is traced as far as the film reaches.
+    let lit_sr = camera.body.lens.etendue_sr(glam::DVec2::new(2.9, 2.2));
+    assert!(lit_sr > 0.0, "lit beyond the picture's corner");
+    let fault = |lens: &str, effects: &str, output: &str| behind(lens, effects, output).expect_err("a fault");
+    let said = fault("model = \"pinhole\", focal_length_mm = 6, f_number = 2", "ghosts = true", "");
+    assert!(said.contains("effects.ghosts") && said.contains("the lens is a pinhole"), "{said}");
+    let said = fault(DOUBLE_GAUSS, GLARE, "[output]\nghosts = true");
+    assert!(said.contains("output.ghosts") && said.contains("makes none"), "{said}");
+    let said = fault(DOUBLE_GAUSS, &format!("{GLARE}, sensor_reflectance = 0.1"), "");
+    assert!(said.contains("effects.sensor_reflectance") && said.contains("no effect without ghosts"), "{said}");
+}
+
+#[test]
+fn a_lenss_coating_is_that_of_its_surfaces_against_air() {
+    let of = |coating: &str| {
+        let plan = behind(&format!("{DOUBLE_GAUSS}{coating}"), GLARE, "").expect("no fault");
+        plan.cameras[0].body.lens.transmittance()
+    };
+    let (bare, coated, share) = (of(""), of(", coating = { quarter_wave_nm = 550 }"), of(", coating = 0.99"));
+    // Eight surfaces against air; the cemented two keep what they have, which is next to nothing.
+    assert!(bare < 0.65 && coated > 0.9, "{bare} {coated}");
+    assert!((share / 0.99_f64.powi(8) - 1.0).abs() < 1e-3, "{share}");
 }
