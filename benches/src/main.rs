@@ -27,7 +27,7 @@ use std::process::ExitCode;
 /// A benchmark: its name and what it answers.
 type Benchmark = (&'static str, fn() -> Table);
 
-const BENCHMARKS: [Benchmark; 8] = [
+const BENCHMARKS: [Benchmark; 9] = [
     ("rays", rays::table),
     ("paths", paths::table),
     ("lamps", lamps::table),
