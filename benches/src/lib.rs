@@ -19,3 +19,4 @@ pub mod table;
 pub mod terrain;
 pub mod threads;
 pub mod trees;
+pub mod views;

@@ -10,6 +10,7 @@
 //! | `lamps` | cost and error of a path under 10 to 10 000 lamps |
 //! | `lenses` | nanoseconds of a ray through each kind of lens |
 //! | `ghosts` | milliseconds of a picture's layer of ghosts |
+//! | `views` | a fisheye and a panorama, through the lens and by six views |
 //! | `trees` | time to build the accelerator, a triangle |
 //! | `memory` | peak memory of a scene, in a process of its own |
 //! | `frames` | raw and picture of a frame of two megapixels |
@@ -21,18 +22,19 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that reports to its user")]
 
 use etendue_benches::table::Table;
-use etendue_benches::{files, frames, lamps, lenses, machine, memory, paths, peer, rays, trees};
+use etendue_benches::{files, frames, lamps, lenses, machine, memory, paths, peer, rays, trees, views};
 use std::process::ExitCode;
 
 /// A benchmark: its name and what it answers.
 type Benchmark = (&'static str, fn() -> Table);
 
-const BENCHMARKS: [Benchmark; 9] = [
+const BENCHMARKS: [Benchmark; 10] = [
     ("rays", rays::table),
     ("paths", paths::table),
     ("lamps", lamps::table),
     ("lenses", lenses::table),
     ("ghosts", lenses::ghosts),
+    ("views", views::table),
     ("trees", trees::table),
     ("memory", memory::table),
     ("frames", frames::table),

@@ -114,6 +114,17 @@ pub enum OpticsError {
     /// A distortion of a lens that has its own.
     #[error("prescriptions, calibrated and parallel cameras have their own distortion: leave out the lens's")]
     OwnDistortion,
+    /// A lateral colour of a lens that cannot have it.
+    #[error(
+        "a {kind} takes no \"lateral_colour\": a prescription's glasses make their own, a parallel camera has none; remove it"
+    )]
+    OwnColour {
+        /// What the lens is.
+        kind: &'static str,
+    },
+    /// A lateral colour that is none.
+    #[error("a lateral colour is a list of two or more rising wavelengths (nm) and of magnifications above 0")]
+    LateralColour,
     /// A calibration that cannot serve.
     #[error(transparent)]
     Calibration(#[from] CalibrationError),

@@ -14,9 +14,9 @@ pub use defocus::{DepthOfField, FastBlend, FastParameters};
 pub use effects::{Effects, EffectsError, EffectsParameters, Glare, GlareParameters, Psf, PsfParameters};
 pub use error::{OpticsError, PRINCIPAL_NM};
 pub use lens::{
-    Calibrated, CalibratedParameters, ConstantPupil, Falloff, Lens, Parallel, ParallelParameters, Pinhole,
-    PinholeParameters, Prescribed, PupilStance, PupilStatements, Rim, Thick, ThickParameters, Thin, ThinParameters,
-    TruthRay,
+    Calibrated, CalibratedParameters, ConstantPupil, Falloff, LateralColour, Lens, Parallel, ParallelParameters,
+    Pinhole, PinholeParameters, Prescribed, PupilStance, PupilStatements, Rim, Thick, ThickParameters, Thin,
+    ThinParameters, TruthRay,
 };
 pub use prescription::{Prescription, PrescriptionError, PrescriptionParameters};
 pub use pupil_image::{Cube, Face, PupilProjection, Resampling, View, Window, irradiance};

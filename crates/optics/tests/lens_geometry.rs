@@ -82,7 +82,7 @@ fn rays_to_infinity_are_parallel() {
 fn both_sides_of_a_thick_lens_meet_its_principal_planes_at_one_height() {
     // Gauss: object-side ray at H and image-side ray at H′ are equally far from the axis.
     let lens = thick();
-    let wrapped = Lens::Thick(lens);
+    let wrapped = Lens::Thick(lens.clone());
     let exit_mm = lens.exit_pupil_mm();
     let exit_to_sensor_mm = lens.sensor_mm() - exit_mm;
     // Near the axis, where the scaling of the entrance pupil (1 + O(field²)) is below the tolerance.

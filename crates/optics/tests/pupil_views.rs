@@ -7,11 +7,11 @@ use etendue_core::quantity::{Length, Radiance};
 use etendue_core::wavelength::Bands;
 use etendue_optics::prescription::{Focus, published};
 use etendue_optics::{
-    CalibratedParameters, Cube, Face, Lens, OpticsError, PinholeParameters, Prescribed, Prescription,
-    PrescriptionParameters, PupilProjection, Resampling, Window,
+    CalibratedParameters, Cube, Face, LateralColour, Lens, OpticsError, PinholeParameters, Prescribed, Prescription,
+    PrescriptionParameters, PupilProjection, Resampling, ThinParameters, Window,
 };
 use etendue_projection::model::{Ideal, KannalaBrandt, Panorama, Perspective};
-use etendue_projection::{Calibration, CameraMatrix, Model, Raster};
+use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, Raster, Sense};
 use glam::{DVec2, DVec3};
 
 const PITCH_MM: f64 = 0.01;
@@ -293,4 +293,65 @@ fn sides_of_the_cube_are_where_the_axes_point() {
         assert!(tangent.abs().max_element() <= 1.0 + 1e-15 && (face.direction(tangent) - d).length() < 1e-15);
     }
     assert_eq!(Face::towards(DVec3::new(0.1, -0.9, 0.2)), Face::Top, "y points down");
+}
+
+/// The two routes disperse alike: what a band shows at a pixel is what the rays of its wavelength look at.
+#[test]
+fn lateral_colour_moves_each_band_as_its_rays_are_moved() {
+    let table = LateralColour::new(vec![(450.0, 1.02), (650.0, 0.98)]).expect("a table");
+    let thin = ThinParameters { focal_length_mm: 0.5, f_number: 2.0, focus_distance_m: 3.0, transmittance: 1.0 };
+    let barrel = RadialDistortion::new(Sense::IdealToObserved, -0.1, 0.0, 0.5).expect("legal");
+    let raster = Raster::centred(60, 40, PITCH_MM).expect("legal");
+    let thin = Lens::thin(thin).and_then(|lens| lens.with_distortion(barrel)).expect("legal");
+    let cameras = [
+        (thin.with_lateral_colour(table.clone()).expect("legal"), raster),
+        {
+            let (lens, raster) = equidistant(PI);
+            (lens.with_lateral_colour(table.clone()).expect("legal"), raster)
+        },
+        prescription("wide-angle", 19.2),
+    ];
+    for (lens, raster) in cameras {
+        assert!(lens.disperses() && lens.spreads_colours());
+        let range_nm = (bands().low_nm(), bands().high_nm());
+        let geometry = PupilProjection::covering(&lens, &raster, [0, 0], range_nm).expect("legal");
+        let resampling = Resampling::new(geometry, &lens, &raster, [0, 0], bands()).expect("covered");
+        let picture = resampling.apply(&stored(&geometry, smooth)).expect("size");
+        let mut apart = 0.0_f64;
+        for (x, y, at) in centres(&raster).filter(|(x, y, _)| (x + y) % 3 == 0) {
+            let seen: Vec<Option<f64>> = (0..2).map(|band| through(&lens, at, bands().centre_nm(band))).collect();
+            let [Some(a), Some(b)] = seen[..] else { continue };
+            apart = apart.max((a - b).abs());
+            for (band, direct) in [a, b].into_iter().enumerate() {
+                let value = f64::from(picture.planes()[band].at(x, y));
+                // As above; the mean over a pupil of f/2 and more differs from its centre by the field's curvature.
+                let spread = 2.0 * PI / 96.0;
+                let allowed = 2.3 * 0.25 * geometry.pitch_tan() + 2.0 * spread * spread;
+                assert!(value == 0.0 || (value - direct).abs() < allowed, "({x}, {y}) {band}: {value}, not {direct}");
+            }
+        }
+        assert!(apart > 1e-4, "the bands part by {apart}");
+    }
+    let (traced, _) = prescription("telephoto", 6.3);
+    assert!(matches!(traced.with_lateral_colour(table), Err(OpticsError::OwnColour { .. })));
+}
+
+/// The smooth field as the chief ray of a wavelength sees it.
+fn through(lens: &Lens, at: DVec2, nm: f64) -> Option<f64> {
+    let direction = match lens {
+        // The middle of the directions that pass: through a wide-angle lens, within the field's curvature of the chief ray.
+        Lens::Prescription(_) => {
+            let rays: Vec<DVec3> = (0..64).filter_map(|i| Some(lens.ray(at, pupil_point(i), nm)?.direction)).collect();
+            if rays.len() < 32 {
+                return None;
+            }
+            rays.into_iter().sum::<DVec3>()
+        }
+        _ => lens.ray(at, DVec2::splat(0.5), nm)?.direction,
+    };
+    Some(smooth(direction.normalize()))
+}
+
+fn pupil_point(i: u32) -> DVec2 {
+    (DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_3) * f64::from(i) + 0.5).fract()
 }

@@ -161,6 +161,16 @@ fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     };
     line(f, "lens", format!("{kind},{length} f/{n} (T {t:.3}), {focus}, {}", field_of_view(camera)))?;
     line(f, "distortion", distortion(lens))?;
+    if let Some(colour) = lens.lateral_colour() {
+        let size = |nm: f64| format!("{:.5} at {nm} nm", colour.at(nm));
+        let text = format!(
+            "image size {}, {}, {}: each path carries one wavelength through the lens",
+            size(450.0),
+            size(550.0),
+            size(650.0)
+        );
+        line(f, "lateral colour", text)?;
+    }
     match &camera.settings.route {
         Route::Lens => line(f, "route", "through the lens: vignetting, defocus and distortion by each sample's ray"),
         Route::Pupil(p) => {
@@ -234,6 +244,9 @@ fn left_out(lens: &Lens, effects: &Effects) -> String {
         list(&words.iter().filter(|word| !modelled(word)).copied().collect::<Vec<_>>())
     };
     match lens {
+        Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Calibrated(_) if lens.lateral_colour().is_some() => {
+            "aberrations but lateral colour, diffraction, glare and ghosts: not modelled".to_owned()
+        }
         Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Parallel(_) => {
             let missing = missing(&["aberrations", "diffraction", "glare", "ghosts"]);
             format!("{missing}: not modelled; dispersion: the lens has none")

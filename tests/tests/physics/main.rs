@@ -22,3 +22,4 @@ mod routes;
 mod signs;
 mod sky;
 mod spectral_routes;
+mod views;

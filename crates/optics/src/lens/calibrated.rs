@@ -13,14 +13,16 @@
 //!   principal ray meets the plane in focus (flat), or at the focus distance along it (turning). Weights stay those of the
 //!   principal ray. The calibration holds for the focus at which it was made: there is no breathing.
 //!
-//! Left out: what the projection does not hold: aberrations, dispersion, a pupil that moves with the field (all rays meet in
+//! Left out: what the projection does not hold: aberrations, colours (but for [`LateralColour`]), a pupil that moves with the field (all rays meet in
 //! one point), clipping.
 
 use super::body::Body;
 use super::falloff::Falloff;
+use super::lateral_colour::LateralColour;
 use crate::error::{OpticsError, positive};
 use crate::pupil::{MM, concentric_disc};
 use core::f64::consts::PI;
+use core::fmt::{self, Debug, Formatter};
 use etendue_core::ray::PupilRay;
 use etendue_projection::{Calibration, Raster};
 use glam::{DVec2, DVec3};
@@ -54,13 +56,27 @@ pub struct CalibratedParameters {
 }
 
 /// A calibrated camera.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Calibrated {
     parameters: CalibratedParameters,
+    pub(super) lateral_colour: Option<LateralColour>,
     pupil: PupilStance,
     focal_length_mm: f64,
     /// τ A_p in mm², or (where the illumination is measured) E/L on the axis, sr.
     scale: f64,
+}
+
+/// A camera without lateral colour has the text (and plans have the hashes) that it had before there was any.
+impl Debug for Calibrated {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let mut text = f.debug_struct("Calibrated");
+        text.field("parameters", &self.parameters).field("pupil", &self.pupil);
+        text.field("focal_length_mm", &self.focal_length_mm).field("scale", &self.scale);
+        if let Some(colour) = &self.lateral_colour {
+            text.field("lateral_colour", colour);
+        }
+        text.finish()
+    }
 }
 
 impl Calibrated {
@@ -86,7 +102,8 @@ impl Calibrated {
         let scale = if measured { axis_sr } else { axis_sr * focal_length_mm * focal_length_mm };
         let wide = parameters.calibration.model().edge().angle_rad > core::f64::consts::FRAC_PI_2;
         let by_field = if wide { PupilStance::Turning } else { PupilStance::Flat };
-        Ok(Self { pupil: parameters.pupil.unwrap_or(by_field), focal_length_mm, scale, parameters })
+        let pupil = parameters.pupil.unwrap_or(by_field);
+        Ok(Self { pupil, lateral_colour: None, focal_length_mm, scale, parameters })
     }
 
     /// What it was made of.
@@ -133,6 +150,10 @@ impl Calibrated {
         self.parameters.calibration.unproject(self.raster_px(sensor_mm))
     }
 
+    pub(super) fn direction_at(&self, sensor_mm: DVec2, nm: f64) -> Option<DVec3> {
+        self.direction(self.lateral_colour.as_ref().map_or(sensor_mm, |colour| sensor_mm / colour.at(nm)))
+    }
+
     pub(super) fn project(&self, direction: DVec3) -> Option<DVec2> {
         let matrix = self.parameters.calibration.matrix();
         let px = self.parameters.calibration.project(direction)?;
@@ -164,8 +185,11 @@ impl Calibrated {
         }
     }
 
-    pub(super) fn ray(&self, sensor_mm: DVec2, pupil: DVec2) -> Option<PupilRay> {
-        let principal = self.principal_ray(sensor_mm)?;
+    pub(super) fn ray(&self, sensor_mm: DVec2, pupil: DVec2, nm: f64) -> Option<PupilRay> {
+        let mut principal = self.principal_ray(sensor_mm)?;
+        if self.lateral_colour.is_some() {
+            principal.direction = self.direction_at(sensor_mm, nm)?;
+        }
         match self.parameters.focus_distance_m {
             None => Some(principal),
             Some(focus_m) => Some(self.through(principal, concentric_disc(pupil), focus_m)),

@@ -12,7 +12,7 @@
 //!   its inverse.
 //! - A calibrated camera and a parallel one say their own (`calibrated.rs`, `parallel.rs`).
 //! - A radial distortion, where there is one, maps the observed sensor point to the ideal one before the ray is made; the
-//!   weight is that of the observed point, where the light arrives.
+//!   weight is that of the observed point, where the light arrives. A lateral colour ([`LateralColour`]) acts before it.
 //! - f-number, of the paraxial lenses: a flat pupil disc, tan θ′ = 1/2N at infinity focus, so E = π τ L / (1 + 4N²) on the axis. (The pinhole is
 //!   the limit of small pupils: π τ L / 4N².)
 
@@ -20,6 +20,7 @@ mod body;
 mod calibrated;
 mod falloff;
 mod focus;
+mod lateral_colour;
 mod parallel;
 mod pinhole;
 mod prescribed;
@@ -27,7 +28,7 @@ mod statements;
 mod thick;
 mod thin;
 
-use crate::error::OpticsError;
+use crate::error::{OpticsError, PRINCIPAL_NM};
 use crate::pupil::MM;
 use etendue_core::maths::f64::atan2;
 use etendue_core::ray::PupilRay;
@@ -38,6 +39,7 @@ use std::sync::Arc;
 
 pub use calibrated::{Calibrated, CalibratedParameters, PupilStance};
 pub use falloff::Falloff;
+pub use lateral_colour::LateralColour;
 pub use parallel::{Parallel, ParallelParameters};
 pub use pinhole::{Pinhole, PinholeParameters};
 pub(crate) use prescribed::DIRECTIONS;
@@ -152,6 +154,31 @@ impl Lens {
         each!(self, lens => lens.body.distortion.as_ref(), Prescription(_) => None, Calibrated(_) => None, Parallel(_) => None)
     }
 
+    /// The same lens with lateral colour.
+    ///
+    /// # Errors
+    /// For a prescription, which has its own, and a parallel camera, which has no principal point to be large about.
+    pub fn with_lateral_colour(mut self, colour: LateralColour) -> Result<Self, OpticsError> {
+        each!(&mut self,
+            lens => lens.body.lateral_colour = Some(Arc::new(colour)),
+            Prescription(_) => return Err(OpticsError::OwnColour { kind: "prescription" }),
+            Calibrated(lens) => Arc::make_mut(lens).lateral_colour = Some(colour),
+            Parallel(_) => return Err(OpticsError::OwnColour { kind: "parallel camera" }),
+        );
+        Ok(self)
+    }
+
+    /// The lateral colour that was laid over the lens, where there is one.
+    #[must_use]
+    pub fn lateral_colour(&self) -> Option<&LateralColour> {
+        each!(self,
+            lens => lens.body.lateral_colour.as_deref(),
+            Prescription(_) => None,
+            Calibrated(lens) => lens.lateral_colour.as_ref(),
+            Parallel(_) => None,
+        )
+    }
+
     /// What the lens is, in words.
     #[must_use]
     pub fn kind(&self) -> &'static str {
@@ -180,9 +207,9 @@ impl Lens {
     #[must_use]
     pub fn ray(&self, sensor_mm: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<PupilRay> {
         each!(self,
-            lens => lens.ray(sensor_mm, pupil),
+            lens => lens.ray(sensor_mm, pupil, wavelength_nm),
             Prescription(lens) => lens.ray(sensor_mm, pupil, wavelength_nm),
-            Calibrated(lens) => lens.ray(sensor_mm, pupil),
+            Calibrated(lens) => lens.ray(sensor_mm, pupil, wavelength_nm),
             Parallel(lens) => Some(lens.principal_ray(sensor_mm)),
         )
     }
@@ -237,17 +264,18 @@ impl Lens {
         )
     }
 
-    /// Whether a ray or its weight depends on the wavelength: glasses that disperse, coatings, a filter. A sample's ray then
-    /// serves one wavelength only.
+    /// Whether a ray or its weight depends on the wavelength: glasses that disperse, coatings, a filter, lateral colour. A
+    /// sample's ray then serves one wavelength only.
     #[must_use]
     pub fn disperses(&self) -> bool {
-        matches!(self, Self::Prescription(lens) if lens.disperses())
+        self.lateral_colour().is_some() || matches!(self, Self::Prescription(lens) if lens.disperses())
     }
 
     /// Whether the chief ray of a sensor point depends on the wavelength: lateral colour.
     #[must_use]
     pub fn spreads_colours(&self) -> bool {
-        matches!(self, Self::Prescription(lens) if lens.prescription().disperses())
+        let traced = matches!(self, Self::Prescription(lens) if lens.prescription().disperses());
+        traced || self.lateral_colour().is_some()
     }
 
     /// Focal length, mm; infinite for a parallel camera.
@@ -436,20 +464,21 @@ impl Lens {
         (direction.z > 0.0).then(|| direction.truncate() / direction.z)
     }
 
-    /// [`Lens::direction`] at a wavelength: that of the lens's lateral colour.
+    /// [`Lens::direction`] at a wavelength where a lateral colour is laid over the lens. (A prescription's own is traced ray by
+    /// ray; its chief rays are those of 587.56 nm here.)
     #[must_use]
-    pub fn direction_at(&self, sensor_mm: DVec2, _nm: f64) -> Option<DVec3> {
-        self.direction(sensor_mm)
+    pub fn direction_at(&self, sensor_mm: DVec2, nm: f64) -> Option<DVec3> {
+        each!(self,
+            lens => Some((lens.body.ideal_at(sensor_mm, nm)? / self.principal_distance_mm()).extend(1.0)),
+            Prescription(lens) => lens.direction(sensor_mm),
+            Calibrated(lens) => lens.direction_at(sensor_mm, nm),
+            Parallel(_) => Some(DVec3::Z),
+        )
     }
 
     /// The direction (of any length) of the chief ray of a sensor point, clipped or not; `None` where there is none.
     #[must_use]
     pub fn direction(&self, sensor_mm: DVec2) -> Option<DVec3> {
-        each!(self,
-            lens => Some((lens.body.ideal(sensor_mm)? / self.principal_distance_mm()).extend(1.0)),
-            Prescription(lens) => lens.direction(sensor_mm),
-            Calibrated(lens) => lens.direction(sensor_mm),
-            Parallel(_) => Some(DVec3::Z),
-        )
+        self.direction_at(sensor_mm, PRINCIPAL_NM)
     }
 }

@@ -6,7 +6,7 @@
 //! unsharp or a large one blurred, is left out.
 
 use super::body::Body;
-use crate::error::{OpticsError, positive};
+use crate::error::{OpticsError, PRINCIPAL_NM, positive};
 use crate::pupil::{Pencil, PupilView};
 use etendue_core::ray::PupilRay;
 use glam::DVec2;
@@ -23,7 +23,7 @@ pub struct PinholeParameters {
 }
 
 /// A pinhole camera.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Pinhole {
     pub(super) body: Body,
     parameters: PinholeParameters,
@@ -49,14 +49,14 @@ impl Pinhole {
         &self.parameters
     }
 
-    pub(super) fn ray(&self, sensor_mm: DVec2, _pupil: DVec2) -> Option<PupilRay> {
-        self.principal_ray(sensor_mm)
+    pub(super) fn ray(&self, sensor_mm: DVec2, _pupil: DVec2, nm: f64) -> Option<PupilRay> {
+        let tangent = self.body.ideal_at(sensor_mm, nm)? / self.principal_distance_mm();
+        let pencil = Pencil { tangent, inverse_focus_per_mm: 0.0 };
+        Some(pencil.ray(DVec2::ZERO, self.body.transmittance * self.pupil.weight_sr(sensor_mm, DVec2::ZERO)))
     }
 
     pub(super) fn principal_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
-        let tangent = self.body.ideal(sensor_mm)? / self.principal_distance_mm();
-        let pencil = Pencil { tangent, inverse_focus_per_mm: 0.0 };
-        Some(pencil.ray(DVec2::ZERO, self.body.transmittance * self.pupil.weight_sr(sensor_mm, DVec2::ZERO)))
+        self.ray(sensor_mm, DVec2::ZERO, PRINCIPAL_NM)
     }
 
     pub(super) fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {

@@ -49,7 +49,7 @@
 use super::body::Body;
 use super::focus::{Conjugates, PupilSize};
 use super::statements::PupilStatements;
-use crate::error::{OpticsError, finite, positive};
+use crate::error::{OpticsError, PRINCIPAL_NM, finite, positive};
 use crate::overlap::{Disc, clipped_etendue_sr, open_centroid};
 use crate::pupil::{MM, Pencil, PupilView, concentric_disc};
 use etendue_core::ray::PupilRay;
@@ -97,7 +97,7 @@ pub struct Rim {
 }
 
 /// A thick lens.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Thick {
     pub(super) body: Body,
     parameters: ThickParameters,
@@ -178,23 +178,23 @@ impl Thick {
         self.pupil_magnification * self.conjugates.principal_distance_mm
     }
 
-    pub(super) fn ray(&self, sensor_mm: DVec2, pupil: DVec2) -> Option<PupilRay> {
-        self.through(sensor_mm, concentric_disc(pupil))
+    pub(super) fn ray(&self, sensor_mm: DVec2, pupil: DVec2, nm: f64) -> Option<PupilRay> {
+        self.through(sensor_mm, concentric_disc(pupil), nm)
     }
 
     pub(super) fn principal_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
-        self.through(sensor_mm, DVec2::ZERO)
+        self.through(sensor_mm, DVec2::ZERO, PRINCIPAL_NM)
     }
 
     /// The ray through the centroid of what the rims leave open of the pupil.
     pub(super) fn centroid_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
         let bundle = self.bundle(sensor_mm)?;
         let centroid = open_centroid(self.rim_discs(&bundle, sensor_mm.length()))?;
-        self.through(sensor_mm, sensor_mm.normalize_or(DVec2::X) * centroid)
+        self.through(sensor_mm, sensor_mm.normalize_or(DVec2::X) * centroid, PRINCIPAL_NM)
     }
 
     /// The ray through the point `q` of the unit disc that both pupils are; `None` where a rim stops it.
-    fn through(&self, sensor_mm: DVec2, q: DVec2) -> Option<PupilRay> {
+    fn through(&self, sensor_mm: DVec2, q: DVec2, nm: f64) -> Option<PupilRay> {
         let bundle = self.bundle(sensor_mm)?;
         let axis = sensor_mm.normalize_or(DVec2::X);
         let open = |disc: Disc| (q - axis * disc.centre).length_squared() <= disc.radius * disc.radius;
@@ -202,7 +202,11 @@ impl Thick {
             return None;
         }
         let weight_sr = self.body.transmittance * bundle.view.weight_sr(sensor_mm, q * bundle.view.radius_mm);
-        Some(bundle.pencil.ray(q * bundle.entrance_radius_mm, weight_sr))
+        let pencil = match &self.body.lateral_colour {
+            None => bundle.pencil,
+            Some(_) => Pencil { tangent: self.tangent(sensor_mm, nm)?, ..bundle.pencil },
+        };
+        Some(pencil.ray(q * bundle.entrance_radius_mm, weight_sr))
     }
 
     pub(super) fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
@@ -217,8 +221,14 @@ impl Thick {
             }
     }
 
+    /// Tangents of the chief ray at a wavelength.
+    fn tangent(&self, sensor_mm: DVec2, nm: f64) -> Option<DVec2> {
+        Some(self.body.ideal_at(sensor_mm, nm)? / self.conjugates.principal_distance_mm)
+    }
+
+    /// At 587.56 nm, as rims and pupils stay where they are at other wavelengths.
     fn bundle(&self, sensor_mm: DVec2) -> Option<Bundle> {
-        let tangent = self.body.ideal(sensor_mm)? / self.conjugates.principal_distance_mm;
+        let tangent = self.tangent(sensor_mm, PRINCIPAL_NM)?;
         let entrance_mm = self.size.entrance_radius_mm;
         let exit_mm = entrance_mm * self.pupil_magnification;
         let growth = self.exit_growth(sensor_mm, tangent)?;

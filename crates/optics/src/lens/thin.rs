@@ -12,7 +12,7 @@
 
 use super::body::Body;
 use super::focus::{Conjugates, PupilSize};
-use crate::error::OpticsError;
+use crate::error::{OpticsError, PRINCIPAL_NM};
 use crate::pupil::{Pencil, PupilView, concentric_disc};
 use etendue_core::ray::PupilRay;
 use glam::DVec2;
@@ -31,7 +31,7 @@ pub struct ThinParameters {
 }
 
 /// A thin lens.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Thin {
     pub(super) body: Body,
     parameters: ThinParameters,
@@ -56,19 +56,19 @@ impl Thin {
         &self.parameters
     }
 
-    pub(super) fn ray(&self, sensor_mm: DVec2, pupil: DVec2) -> Option<PupilRay> {
-        self.through(sensor_mm, concentric_disc(pupil))
+    pub(super) fn ray(&self, sensor_mm: DVec2, pupil: DVec2, nm: f64) -> Option<PupilRay> {
+        self.through(sensor_mm, concentric_disc(pupil), nm)
     }
 
     pub(super) fn principal_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {
-        self.through(sensor_mm, DVec2::ZERO)
+        self.through(sensor_mm, DVec2::ZERO, PRINCIPAL_NM)
     }
 
     /// The ray through the point `q` of the unit disc.
-    fn through(&self, sensor_mm: DVec2, q: DVec2) -> Option<PupilRay> {
+    fn through(&self, sensor_mm: DVec2, q: DVec2, nm: f64) -> Option<PupilRay> {
         let point_mm = q * self.size.entrance_radius_mm;
         let weight_sr = self.body.transmittance * self.view().weight_sr(sensor_mm, point_mm);
-        Some(self.pencil(sensor_mm)?.ray(point_mm, weight_sr))
+        Some(self.pencil(sensor_mm, nm)?.ray(point_mm, weight_sr))
     }
 
     pub(super) fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
@@ -82,8 +82,8 @@ impl Thin {
         PupilView { distance_mm: self.conjugates.principal_distance_mm, radius_mm: self.size.entrance_radius_mm }
     }
 
-    fn pencil(&self, sensor_mm: DVec2) -> Option<Pencil> {
-        let tangent = self.body.ideal(sensor_mm)? / self.conjugates.principal_distance_mm;
+    fn pencil(&self, sensor_mm: DVec2, nm: f64) -> Option<Pencil> {
+        let tangent = self.body.ideal_at(sensor_mm, nm)? / self.conjugates.principal_distance_mm;
         Some(Pencil { tangent, inverse_focus_per_mm: self.conjugates.inverse_focus_per_mm })
     }
 }

@@ -9,7 +9,7 @@ mod tests;
 use super::context::Context;
 use super::effects::widest_film;
 use etendue_optics::lens::{self, ConstantPupil, PinholeParameters, PupilStatements, ThickParameters, ThinParameters};
-use etendue_optics::{Lens, OpticsError, ParallelParameters};
+use etendue_optics::{LateralColour, Lens, OpticsError, ParallelParameters};
 use etendue_projection::{RadialDistortion, RadiusScales, RadiusUnit, Raster, Sense};
 use etendue_scene::Placed;
 use etendue_scene::record::{self, lens as description};
@@ -21,7 +21,10 @@ const UM_PER_MM: f64 = 1000.0;
 pub(super) fn lens(camera: &record::Camera, context: &mut Context<'_>) -> Option<(Lens, Raster)> {
     let raster = raster(&camera.sensor, context)?;
     let lens = match &camera.lens {
-        record::Lens::Calibrated(record) => return calibrated::lens(record, &camera.sensor, &raster, context),
+        record::Lens::Calibrated(record) => {
+            let (lens, raster) = calibrated::lens(record, &camera.sensor, &raster, context)?;
+            return Some((coloured(lens, lateral_colour(&camera.lens), context)?, raster));
+        }
         record::Lens::Prescription(record) => {
             let film = widest_film(camera.effects.as_ref(), &raster);
             prescription::lens(record, &raster, &film, context)
@@ -31,7 +34,25 @@ pub(super) fn lens(camera: &record::Camera, context: &mut Context<'_>) -> Option
             paraxial(&camera.lens, &raster, context)
         }
     };
-    Some((lens?, raster))
+    Some((coloured(lens?, lateral_colour(&camera.lens), context)?, raster))
+}
+
+/// The lateral colour that is laid over a lens.
+fn lateral_colour(record: &record::Lens) -> Option<&description::LateralColour> {
+    match record {
+        record::Lens::Pinhole(r) => r.lateral_colour.as_ref(),
+        record::Lens::Thin(r) => r.lateral_colour.as_ref(),
+        record::Lens::Thick(r) => r.lateral_colour.as_ref(),
+        record::Lens::Calibrated(r) => r.lateral_colour.as_ref(),
+        record::Lens::Prescription(_) | record::Lens::Parallel(_) => None,
+    }
+}
+
+fn coloured(lens: Lens, record: Option<&description::LateralColour>, context: &mut Context<'_>) -> Option<Lens> {
+    let Some(record) = record else { return Some(lens) };
+    let points = record.wavelength_nm.iter().zip(&record.magnification);
+    let colour = LateralColour::new(points.map(|(nm, m)| (nm.value, m.value)).collect());
+    context.accept(&record.place, colour.and_then(|colour| lens.with_lateral_colour(colour)))
 }
 
 fn parallel(r: &description::Parallel, raster: &Raster) -> Result<Lens, OpticsError> {

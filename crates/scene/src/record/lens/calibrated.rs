@@ -1,7 +1,7 @@
 //! A camera known by where its pixels look.
 
 use super::projection::{CalibrationFile, Projection};
-use super::{FocusDistance, f_number, focus_distance, share};
+use super::{FocusDistance, LateralColour, f_number, focus_distance, share};
 use crate::fault::Faults;
 use crate::place::Placed;
 use crate::reader::{choice, keyed, list, number, record};
@@ -25,6 +25,8 @@ record! {
         optional greatest_angle_deg: Placed<f64> = number("degrees").above(0.0).at_most(180.0);
         /// Share of light that the lens lets through, above 0 and at most 1. Default: 1.
         optional transmittance: Placed<f64> = share();
+        /// Image size by wavelength. Default: all colours alike.
+        optional lateral_colour: LateralColour = record();
     }
 }
 

@@ -4,8 +4,9 @@ pub mod calibrated;
 pub mod prescription;
 pub mod projection;
 
+use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{Number, Rule, RuleExt as _, choice, either, number, record, variants};
+use crate::reader::{Number, Rule, RuleExt as _, choice, either, list, number, record, variants};
 pub use calibrated::Calibrated;
 pub use prescription::Prescription;
 
@@ -38,6 +39,8 @@ record! {
         optional transmittance: Placed<f64> = share();
         /// Distortion. Default: none.
         optional distortion: Distortion = record();
+        /// Image size by wavelength. Default: all colours alike.
+        optional lateral_colour: LateralColour = record();
     }
 }
 
@@ -54,6 +57,8 @@ record! {
         optional transmittance: Placed<f64> = share();
         /// Distortion. Default: none.
         optional distortion: Distortion = record();
+        /// Image size by wavelength. Default: all colours alike.
+        optional lateral_colour: LateralColour = record();
     }
 }
 
@@ -70,6 +75,8 @@ record! {
         optional transmittance: Placed<f64> = share();
         /// Distortion. Default: none.
         optional distortion: Distortion = record();
+        /// Image size by wavelength. Default: all colours alike.
+        optional lateral_colour: LateralColour = record();
         /// The rear principal plane, from the front principal plane, mm; may be negative. Default: 0.
         optional principal_separation_mm: Placed<f64> = number("mm");
         /// The entrance pupil, from the front principal plane, mm; negative lies towards the scene. One statement about
@@ -148,6 +155,29 @@ record! {
         required direction: Placed<Direction> = choice();
         /// The unit of r and r′.
         required radius_unit: Placed<RadiusUnit> = choice();
+    }
+}
+
+record! {
+    /// Lateral colour: the image's size about the principal point, by wavelength. Linear between the points, the end values
+    /// hold beyond them.
+    pub struct LateralColour check(check_colour) {
+        /// Wavelengths, nm, rising; two or more.
+        required wavelength_nm: Vec<Placed<f64>> = list(number("nm").above(0.0), 1);
+        /// Image size over that at 587.56 nm (only ratios count), above 0; a good lens keeps within 0.999 and 1.001.
+        required magnification: Vec<Placed<f64>> = list(number("").above(0.0), 1);
+    }
+}
+
+fn check_colour(table: &LateralColour, faults: &mut Faults) {
+    let (wavelengths, sizes) = (&table.wavelength_nm, &table.magnification);
+    if wavelengths.len() != sizes.len() {
+        let problem = format!("{} wavelengths and {} magnifications", wavelengths.len(), sizes.len());
+        faults.add(&table.place, problem, "give as many of one as of the other");
+    }
+    if let Some(pair) = wavelengths.windows(2).find(|pair| pair[1].value <= pair[0].value) {
+        let problem = format!("{} does not lie beyond {}", pair[1].value, pair[0].value);
+        faults.add(&pair[1].place, problem, "give rising wavelengths");
     }
 }
 
