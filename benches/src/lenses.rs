@@ -20,7 +20,7 @@ const NOTE: &str = "One thread. Rays of pixels all over the picture, through poi
 
 const RAYS: u32 = 200_000;
 
-const LENSES: [(&str, &str); 9] = [
+const LENSES: [(&str, &str); 12] = [
     ("pinhole", "model = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4"),
     ("thin", "model = \"thin\"\nfocal_length_mm = 50\nf_number = 2\nfocus_distance_m = 5"),
     ("thick", "model = \"thick\"\nfocal_length_mm = 50\nf_number = 2\nfocus_distance_m = 5\nconstant_pupil = \"exit\""),
@@ -40,6 +40,21 @@ const LENSES: [(&str, &str); 9] = [
          k = [0.01, -0.002, 0.0003, 0] }",
     ),
     ("double Gauss, f/2.03", "model = \"prescription\"\npublished = \"double-gauss\"\nfocus_distance_m = 5"),
+    (
+        "pinhole behind a wind-screen",
+        "model = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4\n[front.windscreen]\ndistance_mm = 100\ntilt_deg = 60\n\
+         radius_across_mm = 3000\nradius_upright_mm = 8000",
+    ),
+    (
+        "pinhole behind a flat pane",
+        "model = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4\n[front.windscreen]\ndistance_mm = 100\n\
+         layers = [{ thickness_mm = 5, index = 1.52 }]\ndouble_image = false",
+    ),
+    (
+        "pinhole at a hyperbolic mirror",
+        "model = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4\n[front.mirror]\nshape = \"hyperboloid\"\nradius_mm = 30\n\
+         conic = -1.69\nrim_radius_mm = 40\nreflectance = 0.9",
+    ),
     ("telephoto, f/5.6", "model = \"prescription\"\npublished = \"telephoto\"\nfocus_distance_m = 5"),
 ];
 
@@ -126,7 +141,11 @@ fn rays(body: &CameraBody) -> u32 {
     let passes = |i: u32| {
         let (at, pupil) = ((step * f64::from(i)).fract() * size, (turn * f64::from(i)).fract());
         let nm = 400.0 + 300.0 * (0.618_033_988_749_895 * f64::from(i)).fract();
-        std::hint::black_box(body.lens.ray(body.raster.sensor_mm(at), pupil, nm)).is_some()
+        let at_mm = body.raster.sensor_mm(at);
+        match &body.front {
+            None => std::hint::black_box(body.lens.ray(at_mm, pupil, nm)).is_some(),
+            Some(front) => std::hint::black_box(front.ray(&body.lens, at_mm, pupil, nm)).is_some(),
+        }
     };
     (0..RAYS).map(|i| u32::from(passes(i))).sum()
 }

@@ -186,7 +186,10 @@ fn truth(plan: &Plan, camera: &CameraPlan, simd: Simd, results: &mut Results<'_>
     if products.rays {
         let table = ray_table(&camera.body);
         let facts = facts::provenance(plan, camera);
-        results.write(Files::RAYS, encode_rays(&table.origin, &table.direction, &table.ray, &facts))?;
+        results.write(
+            Files::RAYS,
+            encode_rays(&table.origin, &table.direction, &table.ray, table.path.as_ref(), &facts),
+        )?;
     }
     if !products.ground_truth && products.depth_png_per_m.is_none() {
         return Ok(());
@@ -213,7 +216,7 @@ fn undistorted(
     let facts = facts::undistorted_provenance(plan, camera, twin);
     if camera.products.rays {
         let table = ray_table(twin.body());
-        let bytes = encode_rays(&table.origin, &table.direction, &table.ray, &facts);
+        let bytes = encode_rays(&table.origin, &table.direction, &table.ray, table.path.as_ref(), &facts);
         results.write(&Files::undistorted(Files::RAYS), bytes)?;
     }
     if camera.products.ground_truth {
@@ -233,5 +236,6 @@ fn planes(truth: &GroundTruth) -> exr::GroundTruth<'_> {
         semantic: Some(&truth.semantic),
         material: Some(&truth.material),
         ray: Some(&truth.ray),
+        mirror: truth.mirror.as_ref(),
     }
 }

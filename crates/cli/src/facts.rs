@@ -4,7 +4,8 @@ use crate::calibration;
 use etendue_core::CameraPose;
 use etendue_core::quantity::{DigitalNumber, Electrons, Irradiance, Quantity, Radiance};
 use etendue_io::Provenance;
-use etendue_optics::{Cube, Face, Lens, PupilProjection, View, Window};
+use etendue_optics::front::Optic;
+use etendue_optics::{Cube, Face, Front, Lens, PupilProjection, View, Window};
 use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, Products, Route};
 use etendue_pipeline::twin::Twin;
 use etendue_projection::Sense;
@@ -213,6 +214,7 @@ pub fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>
                        centroid of the open pupil is taken",
             "depth.Z": "m along the optical axis from the entrance pupil; +inf: sky; NaN: no ray, or one that does not look ahead",
             "distance.Z": "m along the pixel's principal ray (587.56 nm) from its origin; +inf: sky; NaN: no ray",
+            "mirror": mirror(&camera.body),
             "N": "unit shading normal, world",
             "P": "position, world, m",
             "instances": plan.identities,
@@ -232,7 +234,7 @@ pub fn optics(body: &CameraBody) -> Value {
     };
     let by_lens = || body.raster.camera_matrix(lens.principal_distance_mm());
     let matrix = calibration.map_or_else(by_lens, etendue_projection::Calibration::matrix);
-    json!({
+    let mut facts = json!({
         "model": lens.kind(),
         "focal_length_mm": lens.focal_length_mm(),
         "f_number": lens.f_number(),
@@ -250,7 +252,11 @@ pub fn optics(body: &CameraBody) -> Value {
         "camera_matrix": matrix.rows(),
         "camera_matrix_convention": RASTER,
         "camera_matrix_opencv": matrix.to_opencv().rows(),
-    })
+    });
+    if let Some(optic) = body.front.as_ref().and_then(Front::optic) {
+        facts["in_front"] = json!(format!("{}: the camera matrix is that of the lens without it", optic.name()));
+    }
+    facts
 }
 
 /// The irradiance effects and their margin; null where there are none.
@@ -304,6 +310,17 @@ fn direction(sense: Sense) -> &'static str {
     match sense {
         Sense::IdealToObserved => "ideal_to_observed",
         Sense::ObservedToIdeal => "observed_to_ideal",
+    }
+}
+
+/// What the layer of a camera's mirror holds; nothing without one.
+fn mirror(body: &CameraBody) -> Option<&'static str> {
+    match body.front.as_ref().and_then(Front::optic)? {
+        Optic::Windscreen(_) => None,
+        Optic::Mirror(_) => Some(
+            "where the ray meets the mirror, m, camera frame; NaN: beside it. distance.Z counts from the \
+                                  pupil by way of the mirror, and depth.Z is NaN in it",
+        ),
     }
 }
 

@@ -54,6 +54,7 @@ fn ground_truth() -> Vec<u8> {
         semantic: Some(&ids),
         material: Some(&ids),
         ray: None,
+        mirror: None,
     };
     encode_ground_truth(&truth, &provenance()).expect("encodable")
 }

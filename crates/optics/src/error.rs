@@ -1,5 +1,6 @@
 //! Why a lens cannot be, or cannot serve a picture.
 
+use crate::front::FrontError;
 use crate::prescription::PrescriptionError;
 use etendue_projection::{CalibrationError, DistortionError};
 
@@ -170,6 +171,17 @@ pub enum OpticsError {
     SensorReflectance {
         /// Its value.
         value: f64,
+    },
+    /// What stands in front of the lens cannot be.
+    #[error(transparent)]
+    Front(#[from] FrontError),
+    /// What stands in front of the lens cannot be put on stored radiance.
+    #[error(
+        "the route at the pupil cannot serve a camera with a {what} in front of its lens: render it with route = \"lens\""
+    )]
+    FrontNeedsLens {
+        /// What it is.
+        what: &'static str,
     },
     /// A lens that the route at the pupil cannot serve.
     #[error("the route at the pupil needs one viewpoint; a {kind} has none: render it with route = \"lens\"")]

@@ -3,6 +3,7 @@
 pub mod defocus;
 pub mod effects;
 mod error;
+pub mod front;
 pub mod ghosts;
 pub mod lens;
 mod overlap;
@@ -13,6 +14,7 @@ pub mod pupil_image;
 pub use defocus::{DepthOfField, FastBlend, FastParameters};
 pub use effects::{Effects, EffectsError, EffectsParameters, Glare, GlareParameters, Psf, PsfParameters};
 pub use error::{OpticsError, PRINCIPAL_NM};
+pub use front::{Front, FrontError, FrontRay};
 pub use lens::{
     Calibrated, CalibratedParameters, ConstantPupil, Falloff, LateralColour, Lens, Parallel, ParallelParameters,
     Pinhole, PinholeParameters, Prescribed, PupilStance, PupilStatements, Rim, Thick, ThickParameters, Thin,

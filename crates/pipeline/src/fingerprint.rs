@@ -45,13 +45,14 @@ impl Hasher {
     }
 
     fn add_camera(&mut self, camera: &CameraPlan) {
-        let CameraBody { place: _, raster, lens, effects, aperture_px, sensor, development } = &camera.body;
+        let CameraBody { place: _, raster, lens, front, effects, aperture_px, sensor, development } = &camera.body;
         self.add(&(&camera.name, camera.index, camera.pose, camera.products));
         self.add(&(raster, lens, aperture_px, sensor, development));
         // A camera without effects is what it was before there were any.
         if !effects.is_idle() {
             self.add(effects);
         }
+        front.iter().for_each(|front| self.add(front));
         // The size of a tile does not change the result.
         self.add(&Settings { tile_px: 0, ..camera.settings });
     }

@@ -7,8 +7,11 @@ use crate::pupil_depth::PupilDepth;
 use etendue_core::quantity::{Electrons, Irradiance, Length, Radiance, Variance};
 use etendue_core::{Plane, SpectralCube};
 use etendue_isp::{Developed, RawPicture, develop};
+use etendue_optics::front::{Dirt, Front};
 use etendue_optics::{OpticsError, PupilProjection, Resampling, irradiance};
 use etendue_sensor::{FrameAddress, Raw, SensorState};
+use glam::DVec2;
+use rayon::prelude::*;
 
 /// A camera's light, sorted by what it is.
 #[derive(Clone, Debug)]
@@ -98,9 +101,14 @@ impl Light {
     /// # Errors
     /// Where the picture needs directions that the image does not hold.
     pub fn at_pupil(body: &CameraBody, stored: &Stored<'_>) -> Result<Self, OpticsError> {
+        front_on_picture(body)?;
         let margin = body.effects.margin_px();
         let Sight { radiance: seen, .. } = Stored { distance: None, ..*stored }.seen(body, margin)?;
-        let Behind { irradiance, ghosts, .. } = behind(body, irradiance(&seen, &body.lens, &body.film())?, None);
+        let mut irradiance = irradiance(&seen, &body.lens, &body.film())?;
+        if let Some(dirt) = body.front.as_ref().and_then(Front::dirt) {
+            soil(&mut irradiance, dirt, body);
+        }
+        let Behind { irradiance, ghosts, .. } = behind(body, irradiance, None);
         Ok(Self {
             radiance: None,
             electrons: electrons(body, &irradiance),
@@ -109,6 +117,25 @@ impl Light {
             ghosts,
             electrons_variance: None,
         })
+    }
+}
+
+/// Each pixel by the mean of the dirt over its footprint.
+fn soil(irradiance: &mut SpectralCube<Irradiance>, dirt: &Dirt, body: &CameraBody) {
+    let (width, raster) = (irradiance.width(), body.film());
+    let centre = |i: usize| raster.sensor_mm(DVec2::new((i % width) as f64, (i / width) as f64) + 0.5);
+    let pixels = (0..width * irradiance.height()).into_par_iter();
+    let shades: Vec<f64> = pixels.map(|i| dirt.shade(&body.lens, centre(i))).collect();
+    for plane in irradiance.planes_mut() {
+        plane.samples_mut().iter_mut().zip(&shades).for_each(|(e, shade)| *e = (f64::from(*e) * shade) as f32);
+    }
+}
+
+/// Refuses what cannot be put on a stored radiance image: what bends rays in front of the lens.
+pub(crate) fn front_on_picture(body: &CameraBody) -> Result<(), OpticsError> {
+    match body.front.as_ref().and_then(|front| front.optic()) {
+        None => Ok(()),
+        Some(optic) => Err(OpticsError::FrontNeedsLens { what: optic.name() }),
     }
 }
 

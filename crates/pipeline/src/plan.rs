@@ -3,7 +3,7 @@
 use crate::block::Blocks;
 use etendue_core::{Bands, CameraPose};
 use etendue_isp::{Mosaic, Processing};
-use etendue_optics::{Effects, Lens, PupilProjection};
+use etendue_optics::{Effects, Front, FrontRay, Lens, PupilProjection};
 use etendue_projection::Raster;
 use etendue_scene::Place;
 use etendue_sensor::Sensor;
@@ -11,6 +11,7 @@ use etendue_tracer::accel::World;
 use etendue_tracer::integrator::Level;
 use etendue_tracer::lights::Sources;
 use etendue_tracer::materials::Palette;
+use glam::DVec2;
 use std::fmt;
 
 /// What a rendering does, for all cameras of a job.
@@ -88,6 +89,8 @@ pub struct CameraBody {
     pub raster: Raster,
     /// The lens.
     pub lens: Lens,
+    /// What stands in front of it; `None` where nothing does.
+    pub front: Option<Front>,
     /// What becomes of the irradiance behind the lens.
     pub effects: Effects,
     /// Side of the photosensitive area, in pixels.
@@ -218,6 +221,23 @@ impl CameraBody {
     #[must_use]
     pub fn film(&self) -> Raster {
         self.effects.film(&self.raster)
+    }
+
+    /// The ray by which ground truth looks from a point of the picture (px), and whether it is off the pupil's centre;
+    /// `None` where no light comes.
+    #[must_use]
+    pub fn truth_ray(&self, raster_px: DVec2) -> Option<(FrontRay, bool)> {
+        let sensor_mm = self.raster.sensor_mm(raster_px);
+        match &self.front {
+            Some(front) => front.truth_ray(&self.lens, sensor_mm),
+            None => self.lens.truth_ray(sensor_mm).map(|truth| (FrontRay::bare(truth.ray), truth.off_centre)),
+        }
+    }
+
+    /// Whether a ray or its weight depends on the wavelength.
+    #[must_use]
+    pub fn disperses(&self) -> bool {
+        self.lens.disperses() || self.front.as_ref().is_some_and(Front::disperses)
     }
 }
 

@@ -8,6 +8,7 @@ use crate::plan::{CameraPlan, Plan, Route};
 use crate::truth::{Seen, seen};
 use etendue_core::quantity::Length;
 use etendue_core::{Plane, PupilRay};
+use etendue_optics::FrontRay;
 use etendue_tracer::accel::Simd;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -30,7 +31,8 @@ pub fn pupil_depth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> Option<Pupil
     let look = |i: usize| {
         let direction = projection.direction(DVec2::new((i % width) as f64, (i / width) as f64) + 0.5);
         direction.map_or(Seen::Nothing, |direction| {
-            seen(&view, &plan.palette, camera, &PupilRay { origin_m: DVec3::ZERO, direction, weight_sr: 1.0 })
+            let ray = PupilRay { origin_m: DVec3::ZERO, direction, weight_sr: 1.0 };
+            seen(&view, &plan.palette, camera, &FrontRay::bare(ray))
         })
     };
     let pairs = (0..width * height).into_par_iter().map(look).map(|seen| (seen.distance(), seen.depth()));

@@ -2,11 +2,13 @@
 //!
 //! The same rays as the ground truth's: of pixels' centres, through the centre of the pupil at 587.56 nm, or through the
 //! centroid of its open part where that is clipped. A point at distance d (`distance.Z` of the ground truth) is seen from
-//! pose · (origin + d direction), to rounding: 32-bit floats keep 6e-8 of the distance.
+//! pose · (origin + d direction), to rounding: 32-bit floats keep 6e-8 of the distance. Through a mirror the origin is the
+//! mirror's point and d counts from the pupil: pose · (origin + (d − path) direction).
 
 use crate::plan::CameraBody;
 use etendue_core::Plane;
-use etendue_core::quantity::{Identity, Vector};
+use etendue_core::quantity::{Identity, Length, Vector};
+use etendue_optics::FrontRay;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -19,6 +21,8 @@ pub struct RayTable {
     pub direction: Plane<Vector>,
     /// 0 no ray, 1 the principal ray, 2 one through the centroid of the open pupil.
     pub ray: Plane<Identity>,
+    /// Of a camera with a mirror, whose origins lie on it: the path from the pupil to there, m, 0 beside the mirror.
+    pub path: Option<Plane<Length>>,
 }
 
 /// The ray table of a camera, on the caller's pool.
@@ -29,17 +33,21 @@ pub fn ray_table(body: &CameraBody) -> RayTable {
         .into_par_iter()
         .map(|i| {
             let centre = DVec2::new((i % width) as f64, (i / width) as f64) + 0.5;
-            body.lens.truth_ray(body.raster.sensor_mm(centre))
+            body.truth_ray(centre)
         })
         .collect();
-    let vector = |of: fn(&etendue_core::PupilRay) -> DVec3| {
-        let samples = rays.iter().map(|r| r.as_ref().map_or([f32::NAN; 3], |r| of(&r.ray).as_vec3().to_array()));
+    let vector = |of: fn(&FrontRay) -> DVec3| {
+        let samples = rays.iter().map(|r| r.as_ref().map_or([f32::NAN; 3], |(ray, _)| of(ray).as_vec3().to_array()));
         Plane::from_samples(width, height, samples.collect()).expect("one sample a pixel")
     };
-    let kind = rays.iter().map(|r| r.as_ref().map_or(0, |r| 1 + u32::from(r.off_centre))).collect();
+    let kind = rays.iter().map(|r| r.as_ref().map_or(0, |(_, off_centre)| 1 + u32::from(*off_centre))).collect();
+    let path = |(ray, _): &(FrontRay, bool)| ray.mirror_m.map_or(0.0, |_| ray.path_m as f32);
+    let paths = rays.iter().map(|r| r.as_ref().map_or(f32::NAN, path)).collect();
+    let has_mirror = rays.iter().flatten().any(|(ray, _)| ray.mirror_m.is_some());
     RayTable {
-        origin: vector(|ray| ray.origin_m),
-        direction: vector(|ray| ray.direction),
+        origin: vector(FrontRay::truth_origin_m),
+        direction: vector(|ray| ray.ray.direction),
         ray: Plane::from_samples(width, height, kind).expect("one sample a pixel"),
+        path: has_mirror.then(|| Plane::from_samples(width, height, paths).expect("one sample a pixel")),
     }
 }

@@ -5,10 +5,11 @@ use crate::gather::Layout;
 use crate::light::{Cancelled, Exposure, RaySource, Sampling};
 use crate::mosaic::Mosaic;
 use crate::observer::Observer;
-use crate::plan::{CameraPlan, Plan, Route};
+use crate::plan::{CameraBody, CameraPlan, Plan, Route};
 use crate::tile::Shard;
 use etendue_core::PupilRay;
-use etendue_optics::{Lens, PupilProjection};
+use etendue_core::maths::f64::atan2;
+use etendue_optics::{Front, Lens, PupilProjection};
 use etendue_projection::Raster;
 use etendue_tracer::accel::Simd;
 use etendue_tracer::integrator::{PathSettings, PathTracer};
@@ -41,7 +42,12 @@ impl Default for Request {
 /// [`Cancelled`] where the observer asked to stop.
 pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn Observer) -> Result<Film, Cancelled> {
     match &camera.settings.route {
-        Route::Lens => through(plan, camera, request, observer, &LensSource::of(camera)),
+        Route::Lens => match &camera.body.front {
+            None => through(plan, camera, request, observer, &LensSource::of(camera)),
+            Some(front) => {
+                through(plan, camera, request, observer, &FrontSource { lens: LensSource::of(camera), front })
+            }
+        },
         Route::Pupil(projection) => through(plan, camera, request, observer, projection),
     }
 }
@@ -116,7 +122,8 @@ pub fn layout(camera: &CameraPlan) -> Layout {
 
 fn path_settings(camera: &CameraPlan) -> PathSettings {
     let pitch_tan = match &camera.settings.route {
-        Route::Lens => camera.body.raster.pitch_mm().x / camera.body.lens.principal_distance_mm(),
+        Route::Lens => front_pitch(&camera.body)
+            .unwrap_or_else(|| camera.body.raster.pitch_mm().x / camera.body.lens.principal_distance_mm()),
         Route::Pupil(projection) => projection.pitch_tan(),
     };
     let samples = camera.settings.spp / camera.settings.replicates;
@@ -129,6 +136,23 @@ fn path_settings(camera: &CameraPlan) -> PathSettings {
         caustics: camera.settings.caustics,
         ..PathSettings::default()
     }
+}
+
+/// Angle between what neighbouring pixels see in a mirror, which widens the view: the median over the picture.
+fn front_pitch(body: &CameraBody) -> Option<f64> {
+    const SIDE: u32 = 24;
+    body.front.as_ref()?;
+    let size = DVec2::new(body.raster.width() as f64, body.raster.height() as f64);
+    let seen =
+        |at: DVec2| body.truth_ray(at).filter(|(ray, _)| ray.mirror_m.is_some()).map(|(ray, _)| ray.ray.direction);
+    let angle = |i: u32| {
+        let at = size * (DVec2::new(f64::from(i % SIDE), f64::from(i / SIDE)) + 0.5) / f64::from(SIDE);
+        let (a, b) = (seen(at)?, seen(at + DVec2::X)?);
+        Some(atan2(a.cross(b).length(), a.dot(b)))
+    };
+    let mut angles: Vec<f64> = (0..SIDE * SIDE).filter_map(angle).collect();
+    angles.sort_by(f64::total_cmp);
+    angles.get(angles.len() / 2).copied()
 }
 
 /// Share of a pixel's width that one of its samples stands for: together they cover the pixel once, so that textures are
@@ -152,6 +176,19 @@ impl LensSource {
 impl RaySource for LensSource {
     fn ray(&self, raster_px: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<PupilRay> {
         self.lens.ray(self.raster.sensor_mm(raster_px), pupil, wavelength_nm)
+    }
+}
+
+/// Rays through a lens and what stands in front of it.
+struct FrontSource<'a> {
+    lens: LensSource,
+    front: &'a Front,
+}
+
+impl RaySource for FrontSource<'_> {
+    fn ray(&self, raster_px: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<PupilRay> {
+        let LensSource { lens, raster } = &self.lens;
+        self.front.ray(lens, raster.sensor_mm(raster_px), pupil, wavelength_nm).map(|front| front.ray)
     }
 }
 

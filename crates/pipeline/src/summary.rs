@@ -1,5 +1,7 @@
 //! The plan in words: what is modelled, what is left out and why, what it will cost.
 
+mod front;
+
 use crate::block::Blocks;
 use crate::film::Film;
 use crate::plan::{CameraPlan, Plan, Products, Route, Settings, SkyFacts};
@@ -115,7 +117,7 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let samples = count(s.spp as usize, "sample");
     let samples = format!("{samples} a pixel in {}", count(s.replicates as usize, "replicate"));
     let alone =
-        if s.wavelengths == 1 && camera.body.lens.disperses() { ", as the lens treats each differently" } else { "" };
+        if s.wavelengths == 1 && camera.body.disperses() { ", as the lens treats each differently" } else { "" };
     let wavelengths = count(s.wavelengths as usize, "wavelength");
     line(f, "sampling", format!("{samples}, seed {}, {wavelengths} a path{alone}", s.seed))?;
     line(f, "paths", level(s))?;
@@ -170,6 +172,9 @@ fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
             size(650.0)
         );
         line(f, "lateral colour", text)?;
+    }
+    for (i, text) in camera.body.front.iter().flat_map(front::front).enumerate() {
+        line(f, if i == 0 { "in front" } else { "" }, text)?;
     }
     match &camera.settings.route {
         Route::Lens => line(f, "route", "through the lens: vignetting, defocus and distortion by each sample's ray"),

@@ -2,9 +2,9 @@
 //! opacity is there where at least half of it is.
 
 use crate::plan::{CameraPlan, Plan};
+use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Length, Quantity, Vector};
-use etendue_core::{Plane, PupilRay};
-use etendue_optics::lens::TruthRay;
+use etendue_optics::front::{FrontRay, Optic};
 use etendue_tracer::accel::Simd;
 use etendue_tracer::geometry::SurfacePoint;
 use etendue_tracer::materials::Palette;
@@ -17,10 +17,11 @@ use rayon::prelude::*;
 #[derive(Clone, Debug, PartialEq)]
 pub struct GroundTruth {
     /// Distance along the camera's axis from the entrance pupil, m; +∞ for the sky, NaN where no principal ray passes and
-    /// where it looks sideways or back, so that depth along the axis means nothing.
+    /// where it looks sideways or back or at a mirror, so that depth along the axis means nothing.
     pub depth: Plane<Length>,
     /// Distance along the pixel's ray from its origin (which the ray table states; the centre of the entrance pupil but for
-    /// real pupils, which move with the field), m; +∞ for the sky, NaN where no ray passes.
+    /// real pupils, which move with the field), m; through a mirror the whole path from the pupil. +∞ for the sky, NaN
+    /// where no ray passes.
     pub distance: Plane<Length>,
     /// Unit shading normal in the world; zero for the sky.
     pub normal: Plane<Vector>,
@@ -35,6 +36,8 @@ pub struct GroundTruth {
     /// By which ray the pixel looks: 0 none passes the lens, 1 the principal ray, 2 that is clipped and the ray through
     /// the centroid of the open pupil is taken.
     pub ray: Plane<Identity>,
+    /// Of a camera with a mirror: where the ray meets it, in the camera frame, m; NaN where it does not.
+    pub mirror: Option<Plane<Vector>>,
 }
 
 /// What one pixel sees.
@@ -46,6 +49,7 @@ pub(crate) enum Seen {
     },
     Surface {
         depth_m: f64,
+        distance_m: f64,
         truth: Truth,
     },
 }
@@ -55,6 +59,7 @@ struct Look {
     /// As [`GroundTruth::ray`].
     ray: u32,
     seen: Seen,
+    mirror_m: Option<DVec3>,
 }
 
 /// The ground truth of a camera, along the principal rays (587.56 nm) of its pixels' centres, on the caller's pool.
@@ -77,27 +82,34 @@ pub fn ground_truth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> GroundTruth
         semantic: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.semantic_id)),
         material: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.material + 1)),
         ray: plane(&looks, width, height, |l| l.ray),
+        mirror: has_mirror(camera).then(|| plane(&looks, width, height, Look::mirror)),
     }
+}
+
+fn has_mirror(camera: &CameraPlan) -> bool {
+    matches!(camera.body.front.as_ref().and_then(|front| front.optic()), Some(Optic::Mirror(_)))
 }
 
 fn look(view: &View<'_>, palette: &Palette, camera: &CameraPlan, raster_px: DVec2) -> Look {
-    match camera.body.lens.truth_ray(camera.body.raster.sensor_mm(raster_px)) {
-        None => Look { ray: 0, seen: Seen::Nothing },
-        Some(TruthRay { ray, off_centre }) => {
-            Look { ray: 1 + u32::from(off_centre), seen: seen(view, palette, camera, &ray) }
+    match camera.body.truth_ray(raster_px) {
+        None => Look { ray: 0, seen: Seen::Nothing, mirror_m: None },
+        Some((front, off_centre)) => {
+            Look { ray: 1 + u32::from(off_centre), seen: seen(view, palette, camera, &front), mirror_m: front.mirror_m }
         }
     }
 }
 
-/// What a ray of the camera frame meets.
-pub(crate) fn seen(view: &View<'_>, palette: &Palette, camera: &CameraPlan, ray: &PupilRay) -> Seen {
+/// What a ray that left a camera meets.
+pub(crate) fn seen(view: &View<'_>, palette: &Palette, camera: &CameraPlan, front: &FrontRay) -> Seen {
+    let ray = &front.ray;
     let direction = camera.pose.direction_to_world(ray.direction);
+    let ahead = ray.direction.z > 0.0 && front.mirror_m.is_none();
     match view.truth(camera.pose.point_to_render(ray.origin_m), direction, |point| is_there(palette, point)) {
-        None => Seen::Sky { ahead: ray.direction.z > 0.0 },
-        Some(truth) if ray.direction.z > 0.0 => {
-            Seen::Surface { depth_m: truth.distance_m * ray.direction.z + ray.origin_m.z, truth }
+        None => Seen::Sky { ahead },
+        Some(truth) => {
+            let depth_m = if ahead { truth.distance_m * ray.direction.z + ray.origin_m.z } else { f64::NAN };
+            Seen::Surface { depth_m, distance_m: truth.distance_m + front.path_m, truth }
         }
-        Some(truth) => Seen::Surface { depth_m: f64::NAN, truth },
     }
 }
 
@@ -114,6 +126,12 @@ fn plane<Q: Quantity>(looks: &[Look], width: usize, height: usize, of: impl Fn(&
     Plane::from_samples(width, height, looks.iter().map(of).collect()).expect("one sample a pixel")
 }
 
+impl Look {
+    fn mirror(&self) -> [f32; 3] {
+        self.mirror_m.map_or([f32::NAN; 3], |m| m.as_vec3().to_array())
+    }
+}
+
 impl Seen {
     pub(crate) fn depth(&self) -> f32 {
         match self {
@@ -127,7 +145,7 @@ impl Seen {
         match self {
             Self::Nothing => f32::NAN,
             Self::Sky { .. } => f32::INFINITY,
-            Self::Surface { truth, .. } => truth.distance_m as f32,
+            Self::Surface { distance_m, .. } => *distance_m as f32,
         }
     }
 

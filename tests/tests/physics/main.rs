@@ -10,6 +10,7 @@ mod cornell;
 mod dispersing_lens;
 mod effects;
 mod extremes;
+mod front;
 mod furnace;
 mod ground_truth;
 mod irradiance;

@@ -27,6 +27,8 @@ pub struct GroundTruth<'a> {
     pub material: Option<&'a Plane<Identity>>,
     /// By which ray the pixel looks: 0 none, 1 the principal ray, 2 one through the centroid of the open pupil.
     pub ray: Option<&'a Plane<Identity>>,
+    /// Where the ray meets the camera's mirror, camera frame, m; NaN where it does not.
+    pub mirror: Option<&'a Plane<Vector>>,
 }
 
 /// The planes of `truth` in one file.
@@ -38,7 +40,7 @@ pub fn encode_ground_truth(truth: &GroundTruth<'_>, provenance: &Provenance) -> 
             image.float(name, plane.samples().to_vec());
         }
     }
-    for (layer, plane) in [("N", truth.normal), ("P", truth.position)] {
+    for (layer, plane) in [("N", truth.normal), ("P", truth.position), ("mirror", truth.mirror)] {
         if let Some(plane) = plane {
             add_vector(&mut image, layer, plane);
         }
@@ -52,6 +54,9 @@ pub fn encode_ground_truth(truth: &GroundTruth<'_>, provenance: &Provenance) -> 
     }
     image.state("quantity", "ground truth");
     image.state("units", "depth, distance, P: m; N: 1; ID: identity, 0 is the background");
+    if truth.mirror.is_some() {
+        image.state("mirror", "point of the mirror, camera frame (x right, y down, z forward), m; NaN: beside it");
+    }
     image.state("sampling", "point sample on the principal ray, never filtered; sky at +inf");
     image.into_bytes()
 }

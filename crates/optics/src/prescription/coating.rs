@@ -29,15 +29,15 @@ pub enum Coating {
 
 /// A refraction: indices and cosines (positive) on both sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Crossing {
-    pub(super) n: [f64; 2],
-    pub(super) cosine: [f64; 2],
+pub(crate) struct Crossing {
+    pub(crate) n: [f64; 2],
+    pub(crate) cosine: [f64; 2],
 }
 
 impl Coating {
     /// Transmittance at a wavelength.
     #[inline]
-    pub(super) fn transmittance(&self, crossing: &Crossing, nm: f64) -> f64 {
+    pub(crate) fn transmittance(&self, crossing: &Crossing, nm: f64) -> f64 {
         match *self {
             Self::Constant(value) => value,
             _ if crossing.n[0] == crossing.n[1] => 1.0,

@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use super::effects::effects;
+use super::front::front;
 use super::lens::lens;
 use super::sensor::{fill_factor, sensor};
 use super::spectrum::named_illuminant;
@@ -27,7 +28,8 @@ pub(super) fn body(camera: &Camera, context: &mut Context<'_>) -> Option<CameraB
     let place = camera.sensor.place.clone();
     let (lens, raster) = lens?;
     let effects = effects(camera.effects.as_ref(), &lens, &raster, context)?;
-    let body = CameraBody { place, raster, lens, effects, aperture_px, sensor, development };
+    let front = camera.front.as_ref().and_then(|record| front(record, &lens, &raster, context));
+    let body = CameraBody { place, raster, lens, front, effects, aperture_px, sensor, development };
     (context.faults.len() == before).then_some(body)
 }
 

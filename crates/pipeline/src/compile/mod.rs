@@ -6,6 +6,7 @@
 mod camera;
 mod context;
 mod effects;
+mod front;
 mod lamp;
 mod lens;
 mod light;

@@ -5,6 +5,7 @@ use super::{Choices, Quality};
 use crate::block::Blocks;
 use crate::film::Film;
 use crate::gather::Layout;
+use crate::photograph::front_on_picture;
 use crate::plan::{CameraBody, Products, Route, Settings};
 use crate::twin::Twin;
 use etendue_core::Bands;
@@ -139,7 +140,7 @@ pub(super) fn settings(
 /// of the others.
 fn wavelengths(render: &Render, body: &CameraBody, route: &Route, context: &mut Context<'_>) -> Option<u32> {
     let asked = render.wavelengths_per_path.as_ref();
-    if !(body.lens.disperses() && *route == Route::Lens) {
+    if !(body.disperses() && *route == Route::Lens) {
         return Some(asked.map_or(4, |n| n.value as u32));
     }
     if let Some(asked) = asked.filter(|n| n.value != 1) {
@@ -257,6 +258,7 @@ fn route(render: &Render, body: &CameraBody, context: &mut Context<'_>) -> Optio
     match render.route.as_ref().map(|r| (r.value, &r.place)) {
         None | Some((render::Route::Lens, _)) => Some(Route::Lens),
         Some((render::Route::Pupil, place)) => {
+            context.accept(place, front_on_picture(body))?;
             let range_nm = range(render, body, true);
             let covering = PupilProjection::covering(&body.lens, &body.raster, body.effects.margin_px(), range_nm);
             let covering = context.accept(place, covering)?;

@@ -5,13 +5,14 @@ use std::path::PathBuf;
 use super::CalibrationChoice;
 use crate::load::Description;
 use crate::place::{Place, Placed};
+use crate::record::front::mirror::{Finish, MirrorShape};
 use crate::record::lens::calibrated::View;
 use crate::record::lens::prescription::{IrCutCurve, Source};
 use crate::record::light::{Emission, Level, LightColour};
 use crate::record::material::{Absorption, Interface, LobeStrength, Metal, Sheeting, SheetingTable};
 use crate::record::reflectance::{Colour, Reflectance};
 use crate::record::sensor::QuantumEfficiency;
-use crate::record::{Camera, Curve, Environment, Lens, Light, Material, Surface};
+use crate::record::{Camera, Curve, Environment, Front, Lens, Light, Material, Surface};
 
 /// A file to be read, and where it is named.
 #[derive(Clone, Debug, PartialEq)]
@@ -252,8 +253,27 @@ impl List {
         }
     }
 
+    fn front(&mut self, front: &Front) {
+        if let Some(glass) = &front.windscreen {
+            glass.layers.iter().flatten().for_each(|layer| self.curve(&layer.index, Values::Index));
+            glass.internal_transmittance.iter().for_each(|colour| self.share(colour));
+        }
+        front.dirt.iter().for_each(|dirt| self.add(AssetKind::Image, &dirt.mask));
+        if let Some(mirror) = &front.mirror {
+            if let MirrorShape::Mesh(mesh) = &mirror.shape {
+                self.add(AssetKind::Mesh, &mesh.file);
+            }
+            match &mirror.finish {
+                Finish::Share(colour) => self.share(colour),
+                Finish::File(file) => self.add(AssetKind::ComplexIndex, file),
+                Finish::Named(_) => {}
+            }
+        }
+    }
+
     fn camera(&mut self, camera: &Camera) {
         self.lens(&camera.lens);
+        camera.front.iter().for_each(|front| self.front(front));
         match camera.sensor.electronics.as_ref().map(|e| &e.quantum_efficiency) {
             Some(QuantumEfficiency::Same(curve)) => self.curve(curve, Values::Share),
             Some(QuantumEfficiency::PerChannel(curves)) => curves.iter().for_each(|c| self.curve(c, Values::Share)),

@@ -1,6 +1,7 @@
 //! The camera: lens, effects, sensor, processing.
 
 use super::effects::Effects;
+use super::front::Front;
 use super::lens::Lens;
 use super::processing::Processing;
 use super::sensor::Sensor;
@@ -12,6 +13,8 @@ record! {
     pub struct Camera check(check) {
         /// The lens.
         required lens: Lens = record();
+        /// What stands in front of the lens, attached to the camera. Default: nothing.
+        optional front: Front = record();
         /// What becomes of the irradiance behind the lens. Default: nothing.
         optional effects: Effects = record();
         /// The sensor.

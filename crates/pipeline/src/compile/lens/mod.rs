@@ -14,6 +14,7 @@ use etendue_projection::{RadialDistortion, RadiusScales, RadiusUnit, Raster, Sen
 use etendue_scene::Placed;
 use etendue_scene::record::{self, lens as description};
 use glam::DVec2;
+pub(super) use prescription::coating;
 
 const UM_PER_MM: f64 = 1000.0;
 

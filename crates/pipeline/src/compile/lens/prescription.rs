@@ -159,7 +159,7 @@ fn coated(mut surfaces: Vec<Surface>, record: &record::Prescription) -> Vec<Surf
     surfaces
 }
 
-fn coating(record: &record::Coating) -> Coating {
+pub(in super::super) fn coating(record: &record::Coating) -> Coating {
     match record {
         record::Coating::Uncoated => Coating::Uncoated,
         record::Coating::Share(share) => Coating::Constant(share.value),

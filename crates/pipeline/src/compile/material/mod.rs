@@ -14,7 +14,9 @@ use etendue_scene::asset::SlotMaterial;
 use etendue_scene::record::{self, Scene};
 use etendue_tracer::MaterialId;
 use etendue_tracer::materials::{Material, Palette, Surface};
+pub(super) use metal::complex_index;
 use picture::Pictures;
+pub(super) use share::share;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 

@@ -10,7 +10,7 @@ use etendue_spectra::{Outside, Spectrum, colour, reflectance, upsample};
 use etendue_tracer::materials::{Emission, Glow, Reflectance};
 
 /// A share of light over the wavelength.
-pub(super) fn share(colour: &Colour, context: &mut Context<'_>) -> Option<Spectrum> {
+pub(in super::super) fn share(colour: &Colour, context: &mut Context<'_>) -> Option<Spectrum> {
     let rgb = |rgb: [f64; 3]| upsample::reflectance_spectrum(rgb.map(|v| v as f32));
     match colour {
         Colour::Grey(share) => Some(Spectrum::constant(share.value)),

@@ -172,7 +172,7 @@ fn glass() -> impl Rule<Out = Glass> {
     either(text("the name of a glass").map(Glass::Named), record::<GlassNumbers>().map(Glass::Numbers))
 }
 
-fn coating() -> impl Rule<Out = Coating> {
+pub(crate) fn coating() -> impl Rule<Out = Coating> {
     let share = number("").above(0.0).at_most(1.0).map(Coating::Share);
     let layer = record::<Layer>().map(|Layer::QuarterWave(nm)| Coating::QuarterWave(nm));
     either(choice::<Bare>().map(|_| Coating::Uncoated), either(share, layer))

@@ -1,0 +1,64 @@
+//! Mirrors and glass before the lens that cannot be: refused with file, line and key.
+
+use crate::support::{Ran, etendue, text};
+use std::fs;
+
+const CAMERA: &str = "format = 1\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm = 6\nf_number = 4\n[sensor]\nwidth_px = 8\n\
+                      height_px = 6\npixel_pitch_um = 100\n";
+const JOB: &str = "format = 1\nscene = {}\n[[cameras]]\nname = \"c\"\nfile = \"camera.toml\"\nposition_m = [0, 0, 1]\n\
+                   look_at_m = [9, 0, 1]\n";
+
+/// The plan of a job whose camera has this before its lens; `[front…]` is line 10 of its file.
+fn plan(front: &str, job: &str) -> Ran {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    fs::write(place.path().join("camera.toml"), format!("{CAMERA}{front}\n")).expect("written");
+    fs::write(place.path().join("job.toml"), format!("{JOB}{job}\n")).expect("written");
+    etendue(["plan", &text(&place.path().join("job.toml"))])
+}
+
+const SPHERE: &str = "[front.mirror]\nshape = \"sphere\"\nradius_mm = 30\nrim_radius_mm = 25\nreflectance = 0.9\n";
+const GLASS: &str = "[front.windscreen]\ndistance_mm = 100\n";
+
+#[test]
+fn mirrors_that_the_camera_cannot_look_at() {
+    plan(&format!("{SPHERE}distance_mm = 50"), "").ok();
+    plan(SPHERE, "").refused(&["camera.toml:10", "front.mirror", "distance_mm"]);
+    let turned = format!("{SPHERE}distance_mm = 50\nrotation_deg = [180, 0, 0]");
+    plan(&turned, "").refused(&["camera.toml:10", "front.mirror", "seen from inside"]);
+    let aside = format!("{SPHERE}distance_mm = 50\noffset_mm = [900, 0]");
+    plan(&aside, "").refused(&["camera.toml:10", "front.mirror", "no pixel"]);
+    let wide = SPHERE.replace("rim_radius_mm = 25", "rim_radius_mm = 31\ndistance_mm = 50");
+    plan(&wide, "").refused(&["camera.toml:10", "reaches only 30"]);
+    let hole = format!("{SPHERE}distance_mm = 50\nhole_radius_mm = 25");
+    plan(&hole, "").refused(&["hole_radius_mm = 25", "rim_radius_mm = 25"]);
+}
+
+#[test]
+fn glass_that_the_camera_cannot_look_through() {
+    plan(GLASS, "").ok();
+    plan(&GLASS.replace("100", "0"), "").refused(&["camera.toml:11", "front.windscreen.distance_mm"]);
+    plan(&format!("{GLASS}tilt_deg = 90"), "").refused(&["camera.toml:12", "front.windscreen.tilt_deg"]);
+    plan(&format!("{GLASS}reference_thickness_mm = 4"), "").refused(&["camera.toml:12", "no effect"]);
+    plan(&format!("{GLASS}double_image = false\ndouble_image_share = 0.5"), "").refused(&["no effect"]);
+    plan(&format!("{GLASS}internal_transmittance = 0"), "").refused(&["camera.toml:10", "internal_transmittance"]);
+    plan("[front]", "").refused(&["camera.toml:10", "nothing stands in front"]);
+    let both = format!("{GLASS}{SPHERE}distance_mm = 50");
+    let dirt = "[front.dirt]\nmask = \"m.png\"\nsize_mm = [90, 90]\ndistance_mm = 101\n";
+    plan(&format!("{GLASS}{dirt}"), "").refused(&[
+        "camera.toml:15",
+        "front.dirt.distance_mm",
+        "beyond the wind-screen",
+    ]);
+    plan(dirt, "").refused(&["camera.toml:11", "m.png"]);
+    plan(&both, "").refused(&["camera.toml:12", "not modelled", "keep one"]);
+}
+
+#[test]
+fn what_bends_rays_has_no_route_at_the_pupil() {
+    let route = "[render]\nroute = \"pupil\"";
+    plan(GLASS, route).refused(&["job.toml:9", "render.route", "wind-screen", "route = \"lens\""]);
+    plan(&format!("{SPHERE}distance_mm = 50"), route).refused(&["job.toml:9", "mirror", "route = \"lens\""]);
+    let tinted = format!("{GLASS}internal_transmittance = [0.7, 0.9, 0.8]");
+    plan(&tinted, "[render]\nwavelengths_per_path = 4").refused(&["job.toml:9", "each differently"]);
+    plan(&format!("{GLASS}internal_transmittance = 0.7"), "[render]\nwavelengths_per_path = 4").ok();
+}

@@ -1,0 +1,131 @@
+//! A mirror that the camera looks at: a catadioptric camera.
+//!
+//! Rays are reflected truly, d′ = d − 2 (d·n) n, whatever the mirror's shape and wherever the pupil stands; a single viewpoint
+//! is not assumed. It exists (Baker and Nayar, "A theory of single-viewpoint catadioptric image formation", 1999) for a
+//! hyperboloid with the pupil at its outer focus, and for a paraboloid under parallel rays.
+//!
+//! The mirror's frame: z along its axis, away from the camera as long as it is not turned; the reflecting side is the outer
+//! side of a convex quadric about +z, or the front (counter-clockwise) side of a mesh. The other side is black. A ray
+//! that misses the mirror or goes through its hole passes by. Left out: a second reflection at the mirror, the body of
+//! the camera (which a real one sees in the middle), roughness.
+
+mod mesh;
+mod quadric;
+mod reflectance;
+mod tree;
+
+use super::{Fate, FrontError, Line, Stand};
+use glam::DVec3;
+
+pub use mesh::MeshMirror;
+pub use quadric::{Quadric, QuadricKind};
+pub use reflectance::Reflectance;
+
+/// The surface of a mirror: the closed list.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MirrorShape {
+    /// Sphere, cone, paraboloid, hyperboloid.
+    Quadric(Quadric),
+    /// Triangles with smooth normals.
+    Mesh(Box<MeshMirror>),
+}
+
+/// What a mirror is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MirrorParameters {
+    /// Its surface.
+    pub shape: MirrorShape,
+    /// Where it stands: a quadric with its vertex (a cone with its apex) at the origin.
+    pub stand: Stand,
+    /// The share of light that it reflects.
+    pub reflectance: Reflectance,
+}
+
+/// A mirror.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mirror {
+    parameters: MirrorParameters,
+}
+
+/// A point of a mirror's surface in its frame, and the normal of the reflecting side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Touch {
+    pub(super) point_mm: DVec3,
+    /// The normal of the surface itself, which tells the sides apart.
+    pub(super) facing: DVec3,
+    /// The normal by which it reflects: of a mesh the smooth one.
+    pub(super) normal: DVec3,
+}
+
+/// How the camera sees the mirror along a ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sight {
+    Past,
+    Front,
+    Back,
+}
+
+impl Mirror {
+    /// A mirror.
+    ///
+    /// # Errors
+    /// Where its reflectance is none.
+    pub fn new(parameters: MirrorParameters) -> Result<Self, FrontError> {
+        parameters.reflectance.check()?;
+        Ok(Self { parameters })
+    }
+
+    /// What it was made of.
+    #[must_use]
+    pub fn parameters(&self) -> &MirrorParameters {
+        &self.parameters
+    }
+
+    /// The share of light that it reflects.
+    #[must_use]
+    pub fn reflectance(&self) -> &Reflectance {
+        &self.parameters.reflectance
+    }
+
+    fn touch(&self, local: &Line) -> Option<Touch> {
+        match &self.parameters.shape {
+            MirrorShape::Quadric(quadric) => quadric.touch(local),
+            MirrorShape::Mesh(mesh) => mesh.touch(local),
+        }
+    }
+
+    pub(super) fn reflect(&self, line: Line, nm: f64) -> Fate {
+        let local = self.parameters.stand.inward(line);
+        let Some(touch) = self.touch(&local) else { return Fate::Past };
+        if local.direction.dot(touch.facing) >= 0.0 {
+            return Fate::Lost;
+        }
+        let along = local.direction.dot(touch.normal);
+        let direction = (local.direction - touch.normal * (2.0 * along)).normalize();
+        let out = self.parameters.stand.outward(Line { point_mm: touch.point_mm, direction });
+        Fate::On(out, self.parameters.reflectance.at(nm, along.abs()))
+    }
+
+    fn sight(&self, line: &Line) -> Sight {
+        let local = self.parameters.stand.inward(*line);
+        match self.touch(&local) {
+            None => Sight::Past,
+            Some(touch) if local.direction.dot(touch.facing) < 0.0 => Sight::Front,
+            Some(_) => Sight::Back,
+        }
+    }
+
+    /// Whether the camera that looks along `lines` sees the mirror, and its right side.
+    pub(super) fn check(&self, lines: &[Line]) -> Result<(), FrontError> {
+        // Of a mesh, which may be open, the back alone tells.
+        let inside = |line: &Line| match &self.parameters.shape {
+            MirrorShape::Quadric(quadric) => quadric.holds(self.parameters.stand.inward(*line).point_mm),
+            MirrorShape::Mesh(_) => false,
+        };
+        let sees = |sight: Sight| lines.iter().any(|line| self.sight(line) == sight);
+        if lines.iter().any(inside) || (sees(Sight::Back) && !sees(Sight::Front)) {
+            return Err(FrontError::SeenFromInside);
+        }
+        if sees(Sight::Front) { Ok(()) } else { Err(FrontError::NotVisible) }
+    }
+}

@@ -1,0 +1,233 @@
+//! What stands in front of the lens and is attached to the camera: dirt, and a wind-screen or a mirror.
+//!
+//! # Contract
+//!
+//! - A lens makes a ray; the front carries it outwards, against the light, all in f64 and in the camera frame
+//!   (x right, y down, z forward, origin at the centre of the entrance pupil). What leaves is a [`FrontRay`].
+//! - Radiance in air is carried along rays without change, so a member changes only a ray's line and, by its losses, its
+//!   weight: the mean over pupil samples of weight × radiance stays the irradiance of the sensor point.
+//! - A ray that a member does not meet passes it by, unchanged.
+//! - Where a member has to choose ([`Windscreen`]: light that came straight or by two reflections), it uses up a part of
+//!   the pupil sample and stretches the rest to the whole square; weights are divided by the probability of the choice.
+//! - Members stand in the order dirt, then wind-screen or mirror. Both of the latter together are not modelled.
+
+mod curve;
+mod dirt;
+mod error;
+mod mirror;
+mod stand;
+mod windscreen;
+
+use crate::error::PRINCIPAL_NM;
+use crate::lens::Lens;
+use crate::pupil::MM;
+use etendue_core::ray::PupilRay;
+use etendue_projection::Raster;
+use glam::{DVec2, DVec3};
+
+pub use curve::Curve;
+pub use dirt::{Dirt, DirtParameters, Mask};
+pub use error::FrontError;
+pub use mirror::{MeshMirror, Mirror, MirrorParameters, MirrorShape, Quadric, QuadricKind, Reflectance};
+pub use stand::Stand;
+use windscreen::Way;
+pub use windscreen::{Layer, Tint, Windscreen, WindscreenParameters};
+
+/// What stands in front of a lens.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Front {
+    dirt: Option<Dirt>,
+    optic: Option<Optic>,
+}
+
+/// What bends rays: the closed list.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Optic {
+    /// Glass that the camera looks through.
+    Windscreen(Box<Windscreen>),
+    /// A mirror that the camera looks at.
+    Mirror(Box<Mirror>),
+}
+
+impl Optic {
+    /// What it is, in words.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Windscreen(_) => "wind-screen",
+            Self::Mirror(_) => "mirror",
+        }
+    }
+}
+
+/// A ray that leaves the front.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrontRay {
+    /// The ray from the last surface that it met, camera frame.
+    pub ray: PupilRay,
+    /// What a distance along `ray` lacks to the distance that ground truth states, m: see [`FrontRay::truth_origin_m`].
+    pub path_m: f64,
+    /// Where it met a mirror, camera frame, m.
+    pub mirror_m: Option<DVec3>,
+}
+
+/// A ray of a member, mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Line {
+    pub(crate) point_mm: DVec3,
+    pub(crate) direction: DVec3,
+}
+
+/// What a member makes of a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Fate {
+    /// It does not meet the member.
+    Past,
+    /// It ends: no light comes this way.
+    Lost,
+    /// It goes on here, with this factor on its weight.
+    On(Line, f64),
+}
+
+impl FrontRay {
+    /// A ray with nothing in front of the lens.
+    #[must_use]
+    pub fn bare(ray: PupilRay) -> Self {
+        Self { ray, path_m: 0.0, mirror_m: None }
+    }
+
+    /// Where the ray table says that the ray begins: at the mirror; else where distances count from.
+    #[must_use]
+    pub fn truth_origin_m(&self) -> DVec3 {
+        self.mirror_m.unwrap_or(self.ray.origin_m - self.ray.direction * self.path_m)
+    }
+}
+
+impl Front {
+    /// What stands in front of a lens; `None` where nothing does.
+    #[must_use]
+    pub fn new(dirt: Option<Dirt>, optic: Option<Optic>) -> Option<Self> {
+        (dirt.is_some() || optic.is_some()).then_some(Self { dirt, optic })
+    }
+
+    /// The dirt, where there is any.
+    #[must_use]
+    pub fn dirt(&self) -> Option<&Dirt> {
+        self.dirt.as_ref()
+    }
+
+    /// What bends rays, where anything does.
+    #[must_use]
+    pub fn optic(&self) -> Option<&Optic> {
+        self.optic.as_ref()
+    }
+
+    /// The ray of a sensor point (mm) through a lens and this front, as [`Lens::ray`].
+    #[must_use]
+    pub fn ray(&self, lens: &Lens, sensor_mm: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<FrontRay> {
+        let Some(Optic::Windscreen(glass)) = &self.optic else {
+            let ray = self.soiled(lens.ray(sensor_mm, pupil, wavelength_nm)?)?;
+            return self.carry(ray, wavelength_nm);
+        };
+        let (way, u, inverse) = glass.choose(pupil.x);
+        let mut ray = self.soiled(lens.ray(sensor_mm, DVec2::new(u, pupil.y), wavelength_nm)?)?;
+        ray.weight_sr *= inverse;
+        beyond(glass, ray, wavelength_nm, way)
+    }
+
+    /// The ray by which ground truth looks, as [`Lens::truth_ray`], and whether it is off the pupil's centre.
+    #[must_use]
+    pub fn truth_ray(&self, lens: &Lens, sensor_mm: DVec2) -> Option<(FrontRay, bool)> {
+        let truth = lens.truth_ray(sensor_mm)?;
+        Some((self.carry(truth.ray, PRINCIPAL_NM)?, truth.off_centre))
+    }
+
+    /// Whether a ray or its weight depends on the wavelength.
+    #[must_use]
+    pub fn disperses(&self) -> bool {
+        match &self.optic {
+            None => false,
+            Some(Optic::Windscreen(glass)) => glass.disperses(),
+            Some(Optic::Mirror(mirror)) => mirror.reflectance().varies(),
+        }
+    }
+
+    /// Refuses a front that the camera cannot look through or at.
+    ///
+    /// # Errors
+    /// Where the picture sees nothing of a mirror, or its back; where a wind-screen is not before the lens.
+    pub fn check(&self, lens: &Lens, raster: &Raster) -> Result<(), FrontError> {
+        let sights = sights(raster).filter_map(|s_mm| lens.truth_ray(s_mm));
+        let lines: Vec<Line> = sights.map(|truth| line(&truth.ray)).collect();
+        match &self.optic {
+            None => Ok(()),
+            Some(Optic::Windscreen(glass)) => {
+                let radius_mm = lens.entrance_pupil_radius_m() / MM;
+                let rims = [DVec3::X, DVec3::Y, -DVec3::X, -DVec3::Y].map(|side| side * radius_mm);
+                let points: Vec<DVec3> = lines.iter().map(|line| line.point_mm).chain(rims).collect();
+                glass.check(&points, &lines)
+            }
+            Some(Optic::Mirror(mirror)) => mirror.check(&lines),
+        }
+    }
+
+    /// A ray with what the dirt leaves of it; `None` where that is nothing.
+    fn soiled(&self, ray: PupilRay) -> Option<PupilRay> {
+        let Some(dirt) = &self.dirt else { return Some(ray) };
+        let weight_sr = ray.weight_sr * dirt.share(line(&ray));
+        (weight_sr > 0.0).then_some(PupilRay { weight_sr, ..ray })
+    }
+
+    /// The ray that ground truth and whatever needs no choice follow.
+    fn carry(&self, ray: PupilRay, nm: f64) -> Option<FrontRay> {
+        match &self.optic {
+            None => Some(FrontRay::bare(ray)),
+            Some(Optic::Windscreen(glass)) => beyond(glass, ray, nm, Way::Straight),
+            Some(Optic::Mirror(mirror)) => reflected(mirror, ray, nm),
+        }
+    }
+}
+
+/// A ray beyond glass. Its distances count from its point nearest to where it left the lens.
+fn beyond(glass: &Windscreen, ray: PupilRay, nm: f64, way: Way) -> Option<FrontRay> {
+    let from = line(&ray);
+    match glass.through(from, nm, way) {
+        // By the glass, light comes straight only.
+        Fate::Past => (way == Way::Straight).then(|| FrontRay::bare(ray)),
+        Fate::Lost => None,
+        Fate::On(to, share) => {
+            let path_m = (to.point_mm - from.point_mm).dot(to.direction) * MM;
+            Some(FrontRay { ray: outgoing(to, ray.weight_sr * share), path_m, mirror_m: None })
+        }
+    }
+}
+
+fn reflected(mirror: &Mirror, ray: PupilRay, nm: f64) -> Option<FrontRay> {
+    let from = line(&ray);
+    match mirror.reflect(from, nm) {
+        Fate::Past => Some(FrontRay::bare(ray)),
+        Fate::Lost => None,
+        Fate::On(to, share) => {
+            let ray = outgoing(to, ray.weight_sr * share);
+            let path_m = (to.point_mm - from.point_mm).length() * MM;
+            Some(FrontRay { ray, path_m, mirror_m: Some(ray.origin_m) })
+        }
+    }
+}
+
+/// Points of the picture, edges included, at which a front is looked at once.
+fn sights(raster: &Raster) -> impl Iterator<Item = DVec2> {
+    const SIDE: u32 = 48;
+    let size = DVec2::new(raster.width() as f64, raster.height() as f64);
+    let raster = *raster;
+    let at = |i: u32| f64::from(i) / f64::from(SIDE);
+    (0..=SIDE).flat_map(move |y| (0..=SIDE).map(move |x| raster.sensor_mm(size * DVec2::new(at(x), at(y)))))
+}
+
+fn line(ray: &PupilRay) -> Line {
+    Line { point_mm: ray.origin_m / MM, direction: ray.direction }
+}
+
+fn outgoing(line: Line, weight_sr: f64) -> PupilRay {
+    PupilRay { origin_m: line.point_mm * MM, direction: line.direction, weight_sr }
+}

@@ -1,0 +1,139 @@
+//! Faces of a wind-screen: parallel surfaces of constant distance from the inner one, but for the wedge.
+//!
+//! A section upwards is a circle of radius R_u that turns about an upright axis at the distance R_a behind the vertex: a
+//! torus, a sphere for R_a = R_u, a cylinder where one radius is infinite, a plane where both are. The height of a point over
+//! it, √((ρ − (R_a − R_u))² + y²) − R_u with ρ its distance from the axis, is its true distance, so that parallel
+//! faces are those of constant height.
+
+use super::super::Line;
+use super::WindscreenParameters;
+use etendue_core::maths::f64::sin_cos;
+use glam::{DMat3, DVec3};
+
+/// Newton steps at most; four or five serve.
+const STEPS: usize = 24;
+/// The height at which a point is on a face, mm: rounding of lengths of metres.
+const NEAR_MM: f64 = 1e-10;
+
+/// One face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Face {
+    across_mm: f64,
+    upright_mm: f64,
+    height_mm: f64,
+    /// From the wind-screen's frame to the inner face's, about the point of the face on the z axis: the wedge.
+    turn: DMat3,
+}
+
+/// The faces, from the camera outwards.
+pub(super) fn faces(p: &WindscreenParameters) -> Vec<Face> {
+    let middle = p.layers.len() / 2;
+    let mut height_mm = 0.0;
+    let heights = core::iter::once(0.0).chain(p.layers.iter().map(|layer| {
+        height_mm += layer.thickness_mm;
+        height_mm
+    }));
+    let face = |(i, height_mm): (usize, f64)| {
+        let (s, c) = if i > middle { sin_cos(p.wedge_rad) } else { (0.0, 1.0) };
+        let turn = DMat3::from_cols(DVec3::X, DVec3::new(0.0, c, s), DVec3::new(0.0, -s, c));
+        Face { across_mm: p.radius_across_mm, upright_mm: p.radius_upright_mm, height_mm, turn }
+    };
+    heights.enumerate().map(face).collect()
+}
+
+impl Face {
+    /// Distance of a point from the face, outwards, and its gradient, the outward normal.
+    pub(super) fn height(&self, p: DVec3) -> (f64, DVec3) {
+        if self.turn == DMat3::IDENTITY {
+            let (height, normal) = self.bare(p);
+            return (height - self.height_mm, normal);
+        }
+        let vertex = DVec3::new(0.0, 0.0, self.height_mm);
+        let (height, normal) = self.bare(self.turn * (p - vertex) + vertex);
+        (height - self.height_mm, self.turn.transpose() * normal)
+    }
+
+    fn bare(&self, p: DVec3) -> (f64, DVec3) {
+        let (across, upright) = (self.across_mm, self.upright_mm);
+        // Outwards from the axis: the height without curvature upwards, and its direction.
+        let (out, direction) = if across.is_finite() {
+            let (x, z) = (p.x, p.z + across);
+            let rho = (x * x + z * z).sqrt();
+            // ρ − R_a without loss of digits.
+            ((x * x + p.z * (p.z + 2.0 * across)) / (rho + across), DVec3::new(x / rho, 0.0, z / rho))
+        } else {
+            (p.z, DVec3::Z)
+        };
+        if !upright.is_finite() {
+            return (out, direction);
+        }
+        let z = out + upright;
+        let length = (z * z + p.y * p.y).sqrt();
+        let height = (p.y * p.y + out * (out + 2.0 * upright)) / (length + upright);
+        (height, direction * (z / length) + DVec3::Y * (p.y / length))
+    }
+
+    /// Where a ray crosses the face outwards (`sense` 1) or inwards (−1): the point and the outward normal.
+    pub(super) fn crossed(&self, line: &Line, sense: f64) -> Option<(DVec3, DVec3)> {
+        let mut p = line.point_mm;
+        for _ in 0..STEPS {
+            let (height, normal) = self.height(p);
+            let along = line.direction.dot(normal);
+            if along * sense <= 0.0 {
+                return None;
+            }
+            if height.abs() < NEAR_MM {
+                return ((p - line.point_mm).dot(line.direction) >= -NEAR_MM).then_some((p, normal));
+            }
+            p -= line.direction * (height / along);
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::front::windscreen::Layer;
+    use crate::front::{Curve, Stand};
+    use crate::prescription::coating::Coating;
+
+    fn faces_of(across_mm: f64, upright_mm: f64, wedge_rad: f64) -> Vec<Face> {
+        faces(&WindscreenParameters {
+            stand: Stand::turned(DVec3::ZERO, [0.0; 3]),
+            radius_across_mm: across_mm,
+            radius_upright_mm: upright_mm,
+            layers: vec![Layer { thickness_mm: 5.0, index: Curve::Constant(1.5) }],
+            wedge_rad,
+            tint: None,
+            coating: Coating::Uncoated,
+            double_share: None,
+        })
+    }
+
+    #[test]
+    fn heights_are_distances() {
+        let inf = f64::INFINITY;
+        for (across, upright) in [(inf, inf), (3000.0, inf), (inf, 8000.0), (3000.0, 3000.0), (3000.0, 8000.0)] {
+            let face = faces_of(across, upright, 0.0)[1];
+            let p = DVec3::new(210.0, -130.0, -20.0);
+            let (height, normal) = face.height(p);
+            assert!((normal.length() - 1.0).abs() < 1e-14);
+            // Down its normal lies the face, straight below.
+            let (rest, below) = face.height(p - normal * height);
+            assert!(rest.abs() < 1e-11 && (below - normal).length() < 1e-12, "{across} {upright}: {rest}");
+        }
+        let (height, _) = faces_of(3000.0, 3000.0, 0.0)[0].height(DVec3::new(100.0, 50.0, -7.0));
+        // A sphere about (0, 0, −3000).
+        let exact = (100.0_f64 * 100.0 + 50.0 * 50.0 + 2993.0 * 2993.0).sqrt() - 3000.0;
+        assert!((height - exact).abs() < 1e-11);
+    }
+
+    #[test]
+    fn a_positive_wedge_is_thicker_above() {
+        let outer = faces_of(f64::INFINITY, f64::INFINITY, 0.001)[1];
+        let (above, below) =
+            (outer.height(DVec3::new(0.0, -100.0, 5.0)).0, outer.height(DVec3::new(0.0, 100.0, 5.0)).0);
+        assert!((above + 0.1).abs() < 1e-6 && (below - 0.1).abs() < 1e-6, "{above} {below}: 100 mm by 1 mrad");
+    }
+}

@@ -1,0 +1,36 @@
+//! `[front]`: what stands in front of the lens.
+
+mod dirt;
+mod mirror;
+mod windscreen;
+
+use super::context::Context;
+use super::material::share;
+use etendue_optics::Lens;
+use etendue_optics::front::{Curve, Front, Optic};
+use etendue_projection::Raster;
+use etendue_scene::record::{self, Colour};
+
+/// The front of a camera, checked against what the camera sees; `None` with the faults noted.
+pub(super) fn front(record: &record::Front, lens: &Lens, raster: &Raster, context: &mut Context<'_>) -> Option<Front> {
+    let dirt = match &record.dirt {
+        Some(record) => Some(dirt::dirt(record, context)?),
+        None => None,
+    };
+    let (optic, place) = match (&record.windscreen, &record.mirror) {
+        (Some(glass), _) => (Some(Optic::Windscreen(Box::new(windscreen::windscreen(glass, context)?))), &glass.place),
+        (None, Some(mirror)) => (Some(Optic::Mirror(Box::new(mirror::mirror(mirror, context)?))), &mirror.place),
+        (None, None) => (None, &record.place),
+    };
+    let front = Front::new(dirt, optic)?;
+    context.accept(place, front.check(lens, raster))?;
+    Some(front)
+}
+
+/// A share of light over the wavelength.
+fn curve(colour: &Colour, context: &mut Context<'_>) -> Option<Curve> {
+    match colour {
+        Colour::Grey(share) => Some(Curve::Constant(share.value)),
+        _ => share(colour, context).map(|spectrum| Curve::Table(Box::new(spectrum))),
+    }
+}

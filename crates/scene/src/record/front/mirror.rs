@@ -1,0 +1,130 @@
+//! A mirror that the camera looks at.
+
+use std::path::PathBuf;
+
+use crate::fault::Faults;
+use crate::place::Placed;
+use crate::reader::{keyed, known, number, path, record, variants, vector};
+use crate::record::material::Metal;
+use crate::record::reflectance::{Colour, any_colour};
+use etendue_spectra::metal;
+
+record! {
+    /// A mirror that the camera looks at. Its frame has x to the right, y down and z away from the camera; its vertex is the
+    /// origin.
+    pub struct Mirror check(check) {
+        /// What surface it is.
+        inside shape: MirrorShape;
+        /// Distance of its vertex (of a mesh: its origin) from the centre of the entrance pupil, along the camera's axis, mm, above 0. Default, of a
+        /// hyperboloid only: where the pupil is its outer focus, so that there is a single viewpoint.
+        optional distance_mm: Placed<f64> = number("mm").above(0.0);
+        /// How far its vertex lies aside of the camera's axis, to the right and down, mm. Default: on the axis.
+        optional offset_mm: Placed<[f64; 2]> = vector::<2>(number("mm"));
+        /// How it is turned, right-handed about the camera's x, then its y, then its z axis, degrees. Default: not at all.
+        optional rotation_deg: Placed<[f64; 3]> = vector::<3>(number("°"));
+        /// How much light it reflects.
+        inside finish: Finish;
+    }
+}
+
+variants! {
+    /// The surface of a mirror. Quadrics are convex towards the camera.
+    pub enum MirrorShape by "shape" {
+        /// A sphere.
+        "sphere" => Sphere(Sphere),
+        /// A paraboloid; with a parallel camera it has a single viewpoint.
+        "paraboloid" => Paraboloid(Sphere),
+        /// A hyperboloid; with the pupil in its outer focus it has a single viewpoint.
+        "hyperboloid" => Hyperboloid(Hyperboloid),
+        /// A cone, its apex towards the camera.
+        "cone" => Cone(Cone),
+        /// A mesh, with its smooth normals.
+        "mesh" => Mesh(MeshFile),
+    }
+}
+
+record! {
+    /// A mesh in the mirror's frame: x to the right, y down, z away from the camera. Its reflecting side is where its triangles
+    /// are counter-clockwise.
+    pub struct MeshFile {
+        /// The file (Wavefront OBJ). Without normals, each corner has the mean of its triangles'.
+        required file: Placed<PathBuf> = path(&["obj"]);
+        /// Millimetres per unit of the file. Default: 1.
+        optional scale_mm: Placed<f64> = number("mm").above(0.0);
+    }
+}
+
+record! {
+    /// A sphere or a paraboloid.
+    pub struct Sphere {
+        /// Radius of curvature at the vertex, mm, above 0.
+        required radius_mm: Placed<f64> = number("mm").above(0.0);
+        /// Where it ends.
+        inside edges: Edges;
+    }
+}
+
+record! {
+    /// A hyperboloid r² + (1 + conic) z² = 2 radius_mm z.
+    pub struct Hyperboloid {
+        /// Radius of curvature at the vertex, mm, above 0.
+        required radius_mm: Placed<f64> = number("mm").above(0.0);
+        /// Conic constant, minus the square of the eccentricity e, from −1 000 to below −1. The outer focus lies radius_mm/(e − 1) before the
+        /// vertex.
+        required conic: Placed<f64> = number("").at_least(-1000.0).at_most(-1.000_001);
+        /// Where it ends.
+        inside edges: Edges;
+    }
+}
+
+record! {
+    /// A cone.
+    pub struct Cone {
+        /// Angle between its axis and its surface, degrees, above 0 and at most 89.
+        required half_angle_deg: Placed<f64> = number("°").above(0.0).at_most(89.0);
+        /// Where it ends.
+        inside edges: Edges;
+    }
+}
+
+record! {
+    /// Where a mirror ends; rays beyond look past it.
+    pub struct Edges {
+        /// Distance of its rim from its axis, mm, above 0.
+        required rim_radius_mm: Placed<f64> = number("mm").above(0.0);
+        /// Radius of a hole in its middle, mm, 0 or more. Default: none.
+        optional hole_radius_mm: Placed<f64> = number("mm").at_least(0.0);
+    }
+}
+
+keyed! {
+    /// How much light a mirror reflects.
+    pub enum Finish {
+        /// Share of light reflected at any angle: a number, `[r, g, b]` (linear sRGB), `{ srgb = [r, g, b] }`,
+        /// `{ spectrum = file }` or `{ named = "…" }`; 0 … 1.
+        reflectance => Share(Colour) = any_colour();
+        /// A clean metal, by Fresnel's equations: "Al", "Ag", "Au", "Cu", "Cr", "Fe".
+        metal => Named(Placed<String>) = known("a metal", metal::names());
+        /// The same by a table of three columns: wavelength in nm, n, k.
+        index_file => File(Placed<PathBuf>) = path(&["csv"]);
+    }
+}
+
+impl Finish {
+    /// The metal, where it is one.
+    #[must_use]
+    pub fn metal(&self) -> Option<Metal> {
+        match self {
+            Self::Share(_) => None,
+            Self::Named(name) => Some(Metal::Named(name.clone())),
+            Self::File(file) => Some(Metal::File(file.clone())),
+        }
+    }
+}
+
+fn check(mirror: &Mirror, faults: &mut Faults) {
+    if mirror.distance_mm.is_none() && !matches!(mirror.shape, MirrorShape::Hyperboloid(_)) {
+        let remedy = "add it: the distance of the mirror's vertex from the centre of the entrance pupil, mm";
+        faults.add(&mirror.place, "the key \"distance_mm\" is missing", remedy);
+    }
+}
