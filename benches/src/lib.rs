@@ -2,6 +2,7 @@
 //! it too.
 
 pub mod clock;
+pub mod defocus;
 pub mod files;
 pub mod flat;
 pub mod frames;

@@ -9,6 +9,7 @@
 //! | `paths` | paths a second of the scenes that ship with the project, one thread and two |
 //! | `lamps` | cost and error of a path under 10 to 10 000 lamps |
 //! | `lenses` | nanoseconds of a ray through each kind of lens |
+//! | `defocus` | depth of field through the lens, physical and fast: error of a point's blur, time |
 //! | `ghosts` | milliseconds of a picture's layer of ghosts |
 //! | `views` | a fisheye and a panorama, through the lens and by six views |
 //! | `trees` | time to build the accelerator, a triangle |
@@ -22,17 +23,18 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that reports to its user")]
 
 use etendue_benches::table::Table;
-use etendue_benches::{files, frames, lamps, lenses, machine, memory, paths, peer, rays, trees, views};
+use etendue_benches::{defocus, files, frames, lamps, lenses, machine, memory, paths, peer, rays, trees, views};
 use std::process::ExitCode;
 
 /// A benchmark: its name and what it answers.
 type Benchmark = (&'static str, fn() -> Table);
 
-const BENCHMARKS: [Benchmark; 10] = [
+const BENCHMARKS: [Benchmark; 11] = [
     ("rays", rays::table),
     ("paths", paths::table),
     ("lamps", lamps::table),
     ("lenses", lenses::table),
+    ("defocus", defocus::table),
     ("ghosts", lenses::ghosts),
     ("views", views::table),
     ("trees", trees::table),

@@ -77,6 +77,11 @@ pub fn plan_of(job: &Path, changes: &[&str], choices: &Choices) -> Plan {
     compiled(job, &read, changes, choices)
 }
 
+/// The plan of a job given as text, which names no files. Panics where it cannot be used.
+pub fn plan_of_text(job: &str) -> Plan {
+    compiled(Path::new("job.toml"), &|_| Ok(job.to_owned()), &[], &Choices::default())
+}
+
 fn read(path: &Path) -> Result<String, String> {
     std::fs::read_to_string(path).map_err(|error| error.to_string())
 }

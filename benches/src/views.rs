@@ -53,7 +53,9 @@ pub fn table() -> Table {
         for _ in 0..crate::runs::COUNT {
             lens.add(one.install(|| timed(|| std::hint::black_box(shot(&plan, &direct))).1));
             views.add(one.install(|| timed(|| std::hint::black_box(shot(&plan, &pupil))).1));
-            last.add(one.install(|| timed(|| std::hint::black_box(Light::at_pupil(&pupil.body, &stored))).1));
+            last.add(one.install(|| {
+                timed(|| std::hint::black_box(Light::at_pupil(&pupil.body, &stored, &pupil.depth_of_field))).1
+            }));
         }
         let pixels = (direct.body.raster.width() * direct.body.raster.height()) as f64;
         let seen: usize = projection.views().map(|v| v.size()[0] * v.size()[1]).sum();

@@ -1,6 +1,7 @@
 //! The command line, as typed.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use etendue_optics::{DepthOfField, FastBlend, FastParameters};
 use std::path::PathBuf;
 
 /// Spectral path tracing joined to a physical camera: from a scene file to the picture that camera would have taken.
@@ -136,6 +137,10 @@ pub struct Expose {
     /// Frames to take, first to last (the last excluded); each has its own sensor noise
     #[arg(long, value_name = "A..B", value_parser = frames, default_value = "0..1")]
     pub frames: std::ops::Range<u32>,
+    /// How things out of focus are blurred: physical, none, or a look, e.g.
+    /// fast:blur_px=8,near_m=0.5..2,far_m=10..40 [default: physical]
+    #[arg(long, value_name = "METHOD", value_parser = depth_of_field)]
+    pub depth_of_field: Option<DepthOfField>,
     #[command(flatten)]
     pub output: Output,
 }
@@ -228,6 +233,42 @@ fn frames(text: &str) -> Result<std::ops::Range<u32>, String> {
     if range.is_empty() { Err(expected()) } else { Ok(range) }
 }
 
+fn depth_of_field(text: &str) -> Result<DepthOfField, String> {
+    match text.split_once(':') {
+        None if text == "physical" => Ok(DepthOfField::Physical),
+        None if text == "none" => Ok(DepthOfField::None),
+        Some(("fast", keys)) => blend(keys).map(DepthOfField::Fast),
+        _ => Err(format!("expected physical, none or fast:blur_px=…, not '{text}'")),
+    }
+}
+
+fn blend(keys: &str) -> Result<FastBlend, String> {
+    let (mut near, mut far, mut blur_px) = (None, None, None);
+    for pair in keys.split(',') {
+        let expected = || format!("expected blur_px=NUMBER, near_m=FROM..TO or far_m=FROM..TO, not '{pair}'");
+        let number = |text: &str| text.trim().parse::<f64>().map_err(|_| expected());
+        let (key, value) = pair.split_once('=').ok_or_else(expected)?;
+        let range = || {
+            let (from, to) = value.split_once("..").ok_or_else(expected)?;
+            Ok::<_, String>((number(from)?, number(to)?))
+        };
+        match key.trim() {
+            "blur_px" => blur_px = Some(number(value)?),
+            "near_m" => near = Some(range()?),
+            "far_m" => far = Some(range()?),
+            _ => return Err(expected()),
+        }
+    }
+    let blur_px = blur_px.ok_or("the diameter of the blur is missing: add blur_px=NUMBER")?;
+    if near.is_none() && far.is_none() {
+        return Err("nothing is blurred by this: add near_m=FROM..TO or far_m=FROM..TO".to_owned());
+    }
+    let (blurred_near_m, sharp_near_m) = near.unwrap_or((0.0, 0.0));
+    let (sharp_far_m, blurred_far_m) = far.unwrap_or((f64::INFINITY, f64::INFINITY));
+    let parameters = FastParameters { sharp_near_m, sharp_far_m, blurred_near_m, blurred_far_m, blur_px };
+    FastBlend::new(parameters).map_err(|error| error.to_string())
+}
+
 fn shard(text: &str) -> Result<(u32, u32), String> {
     let expected = || format!("expected I/N with I < N, e.g. 0/3, not '{text}'");
     let (index, count) = text.split_once('/').ok_or_else(expected)?;
@@ -252,5 +293,26 @@ mod tests {
         assert!(frames("5..5").is_err() && frames("5").is_err() && frames("a..b").is_err());
         assert_eq!(shard("1/3"), Ok((1, 3)));
         assert!(shard("3/3").is_err() && shard("1").is_err());
+    }
+
+    #[test]
+    fn depth_of_field_is_a_word_or_a_look_with_numbers() {
+        assert_eq!(depth_of_field("physical"), Ok(DepthOfField::Physical));
+        assert_eq!(depth_of_field("none"), Ok(DepthOfField::None));
+        let look = depth_of_field("fast:blur_px=8,far_m=10..40");
+        let Ok(DepthOfField::Fast(blend)) = look else { panic!("{look:?}") };
+        let p = blend.parameters();
+        assert_eq!((p.blur_px, p.sharp_near_m, p.sharp_far_m, p.blurred_far_m), (8.0, 0.0, 10.0, 40.0));
+        let wrong = [
+            "fast",
+            "fast:",
+            "fast:blur_px=8",
+            "fast:far_m=10..40",
+            "fast:blur=8",
+            "sharp",
+            "fast:blur_px=8,far_m=10",
+            "fast:blur_px=8,far_m=40..10",
+        ];
+        assert!(wrong.iter().all(|text| depth_of_field(text).is_err()));
     }
 }

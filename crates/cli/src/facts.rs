@@ -5,7 +5,7 @@ use etendue_core::CameraPose;
 use etendue_core::quantity::{DigitalNumber, Electrons, Irradiance, Quantity, Radiance};
 use etendue_io::Provenance;
 use etendue_optics::front::Optic;
-use etendue_optics::{Cube, Face, Front, Lens, PupilProjection, View, Window};
+use etendue_optics::{Cube, DepthOfField, Face, Front, Lens, PupilProjection, View, Window};
 use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, Products, Route};
 use etendue_pipeline::twin::Twin;
 use etendue_projection::Sense;
@@ -205,6 +205,7 @@ pub fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>
             "range_nm": [settings.range_nm.0, settings.range_nm.1],
             "band_width_nm": settings.bands.map(etendue_core::Bands::width_nm),
             "route": if settings.route == Route::Lens { "lens" } else { "pupil" },
+            "depth_of_field": (settings.route != Route::Lens).then(|| depth_of_field(&camera.depth_of_field)),
             "samples_not_finite": not_finite,
         },
         "time_s": 0.0,
@@ -223,6 +224,23 @@ pub fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>
             "ids": "instances and materials: place in the list, from 1; 0 is the background",
         },
     })
+}
+
+/// How things out of focus were blurred in the picture.
+pub fn depth_of_field(method: &DepthOfField) -> Value {
+    match method {
+        DepthOfField::None => json!("none"),
+        DepthOfField::Physical => json!("physical"),
+        DepthOfField::Fast(blend) => {
+            let p = blend.parameters();
+            let finite = |m: f64| m.is_finite().then_some(m);
+            json!({ "fast": {
+                "near_m": [p.blurred_near_m, p.sharp_near_m],
+                "far_m": [finite(p.sharp_far_m), finite(p.blurred_far_m)],
+                "blur_px": p.blur_px,
+            } })
+        }
+    }
 }
 
 /// Lens and camera matrix.

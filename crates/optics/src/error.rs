@@ -205,9 +205,8 @@ pub enum OpticsError {
     },
     /// Distances of a blend that are not in order.
     #[error(
-        "a sharp range from {sharp_near_m} m to {sharp_far_m} m cannot be wholly blurred at {blurred_near_m} m and at \
-         {blurred_far_m} m: give blurred_near_m < sharp_near_m <= sharp_far_m < blurred_far_m (sharp_near_m = 0 or \
-         sharp_far_m = inf where one side stays sharp)"
+        "wholly blurred to {blurred_near_m} m, sharp from {sharp_near_m} m to {sharp_far_m} m, wholly blurred from \
+         {blurred_far_m} m on: these distances must rise"
     )]
     SharpRange {
         /// Blurred wholly from here to the camera, m.

@@ -1,6 +1,7 @@
 //! The hash of a plan: everything that decides its result, and nothing else (no path, no thread count, no tile size).
 
 use crate::plan::{CameraBody, CameraPlan, Plan, Settings};
+use etendue_optics::DepthOfField;
 use etendue_scene::asset::Assets;
 use etendue_tracer::geometry::Mesh;
 use sha2::{Digest, Sha256};
@@ -53,6 +54,10 @@ impl Hasher {
             self.add(effects);
         }
         front.iter().for_each(|front| self.add(front));
+        // Nor is one that blurs nothing in image space.
+        if camera.depth_of_field != DepthOfField::None {
+            self.add(&camera.depth_of_field);
+        }
         // The size of a tile does not change the result.
         self.add(&Settings { tile_px: 0, ..camera.settings });
     }

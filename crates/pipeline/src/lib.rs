@@ -6,6 +6,7 @@
 
 pub mod block;
 pub mod compile;
+pub mod defocus;
 mod effects;
 pub mod film;
 mod fingerprint;

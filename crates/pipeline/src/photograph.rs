@@ -1,5 +1,6 @@
 //! From light to photographs: irradiance, electrons, raw, picture.
 
+use crate::defocus;
 use crate::effects::{Behind, behind, picture};
 use crate::film::{CubeEstimate, Film};
 use crate::plan::{CameraBody, CameraPlan, Route};
@@ -8,7 +9,7 @@ use etendue_core::quantity::{Electrons, Irradiance, Length, Radiance, Variance};
 use etendue_core::{Plane, SpectralCube};
 use etendue_isp::{Developed, RawPicture, develop};
 use etendue_optics::front::{Dirt, Front};
-use etendue_optics::{OpticsError, PupilProjection, Resampling, irradiance};
+use etendue_optics::{DepthOfField, OpticsError, PupilProjection, Resampling, irradiance};
 use etendue_sensor::{FrameAddress, Raw, SensorState};
 use glam::DVec2;
 use rayon::prelude::*;
@@ -66,7 +67,8 @@ pub struct Sight {
 }
 
 impl Light {
-    /// The light of a camera's film; at the pupil with the distances of its pixels, where an operator needs them.
+    /// The light of a camera's film; at the pupil with the distances of its pixels, which its depth of field needs. Runs on
+    /// the caller's pool.
     #[must_use]
     pub fn of_film(camera: &CameraPlan, film: Film, depth: Option<&PupilDepth>) -> Self {
         match &camera.settings.route {
@@ -74,7 +76,8 @@ impl Light {
             Route::Pupil(projection) => {
                 let radiance = film.radiance().expect("the route at the pupil keeps a cube");
                 let distance = depth.map(|depth| &depth.distance);
-                let light = Self::at_pupil(&camera.body, &Stored { projection, radiance: &radiance.mean, distance });
+                let stored = Stored { projection, radiance: &radiance.mean, distance };
+                let light = Self::at_pupil(&camera.body, &stored, &camera.depth_of_field);
                 let light = light.expect("a compiled plan covers its own picture");
                 Self { radiance: Some(radiance), ..light }
             }
@@ -99,11 +102,14 @@ impl Light {
     /// The light behind a lens of a stored radiance image (its radiance itself is not repeated).
     ///
     /// # Errors
-    /// Where the picture needs directions that the image does not hold.
-    pub fn at_pupil(body: &CameraBody, stored: &Stored<'_>) -> Result<Self, OpticsError> {
+    /// Where the picture needs directions that the image does not hold, or the radiance is no finite number.
+    pub fn at_pupil(
+        body: &CameraBody,
+        stored: &Stored<'_>,
+        depth_of_field: &DepthOfField,
+    ) -> Result<Self, OpticsError> {
         front_on_picture(body)?;
-        let margin = body.effects.margin_px();
-        let Sight { radiance: seen, .. } = Stored { distance: None, ..*stored }.seen(body, margin)?;
+        let seen = defocus::seen(stored, body, depth_of_field)?;
         let mut irradiance = irradiance(&seen, &body.lens, &body.film())?;
         if let Some(dirt) = body.front.as_ref().and_then(Front::dirt) {
             soil(&mut irradiance, dirt, body);

@@ -3,7 +3,7 @@
 use crate::block::Blocks;
 use etendue_core::{Bands, CameraPose};
 use etendue_isp::{Mosaic, Processing};
-use etendue_optics::{Effects, Front, FrontRay, Lens, PupilProjection};
+use etendue_optics::{DepthOfField, Effects, Front, FrontRay, Lens, PupilProjection};
 use etendue_projection::Raster;
 use etendue_scene::Place;
 use etendue_sensor::Sensor;
@@ -76,6 +76,8 @@ pub struct CameraPlan {
     pub body: CameraBody,
     /// How its light is found.
     pub settings: Settings,
+    /// How things out of focus are blurred at the pupil; none through the lens, whose rays do it.
+    pub depth_of_field: DepthOfField,
     /// What it delivers.
     pub products: Products,
 }

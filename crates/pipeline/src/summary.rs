@@ -3,13 +3,14 @@
 mod front;
 
 use crate::block::Blocks;
+use crate::defocus::margin_px;
 use crate::film::Film;
 use crate::plan::{CameraPlan, Plan, Products, Route, Settings, SkyFacts};
 use crate::render::{census, layout};
 use etendue_core::Bands;
 use etendue_isp::WhiteBalance;
 use etendue_optics::effects::{self, Effect};
-use etendue_optics::{Effects, Lens, PupilProjection, PupilStance};
+use etendue_optics::{DepthOfField, Effects, Lens, PupilProjection, PupilStance};
 use etendue_projection::Sense;
 use etendue_sensor::Verdict;
 use etendue_tracer::geometry::Shape;
@@ -190,7 +191,7 @@ fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
                 p.width(),
                 p.height()
             );
-            line(f, "route", format!("{size}; defocus is left out ({})", blur(camera)))
+            line(f, "route", format!("{size}; {}", depth_of_field(camera)))
         }
     }?;
     line(f, "left out", left_out(lens, &camera.body.effects))
@@ -311,7 +312,35 @@ fn distortion(lens: &Lens) -> String {
     }
 }
 
-/// The blur that the route at the pupil leaves out.
+/// What becomes of defocus at the pupil.
+fn depth_of_field(camera: &CameraPlan) -> String {
+    match &camera.depth_of_field {
+        DepthOfField::None => format!("defocus is left out ({})", blur(camera)),
+        DepthOfField::Physical => {
+            let margin = margin_px(&camera.depth_of_field, &camera.body);
+            format!(
+                "defocus by the pupil's outline, spread in the order of depth ({}; {margin} px around the picture); what lies \
+                 behind edges is guessed from beside them",
+                blur(camera)
+            )
+        }
+        DepthOfField::Fast(blend) => {
+            let p = blend.parameters();
+            format!(
+                "a look of defocus: sharp from {} to {} m, blended with a copy blurred by {} px, wholly before {} m and beyond \
+                 {} m (the lens's own blur: {})",
+                p.sharp_near_m,
+                p.sharp_far_m,
+                p.blur_px,
+                p.blurred_near_m,
+                p.blurred_far_m,
+                blur(camera)
+            )
+        }
+    }
+}
+
+/// The blur of the lens.
 fn blur(camera: &CameraPlan) -> String {
     let pixels = |depth_m: f64| camera.body.lens.circle_of_confusion_mm(depth_m) / camera.body.raster.pitch_mm().x;
     format!("{:.2} px across at 1 m, {:.2} px at infinity", pixels(1.0), pixels(f64::INFINITY))

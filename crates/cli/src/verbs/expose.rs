@@ -7,12 +7,14 @@ use crate::facts::{self, Files};
 use crate::failure::Failure;
 use crate::job::read_text;
 use crate::machine;
+use crate::tell;
 use etendue_core::quantity::{Length, Radiance};
 use etendue_core::{Plane, SpectralCube};
 use etendue_io::exr::{SpectralImage, read_spectral};
 use etendue_io::{Provenance, load_assets};
-use etendue_optics::PupilProjection;
+use etendue_optics::{DepthOfField, OpticsError, PupilProjection};
 use etendue_pipeline::compile_camera;
+use etendue_pipeline::defocus::{held_margin_px, margin_px};
 use etendue_pipeline::photograph::{self, Light};
 use etendue_pipeline::plan::{CameraBody, Products};
 use etendue_scene::{Overrides, asset, load_camera};
@@ -95,10 +97,13 @@ fn expose(
 ) -> Result<(), Failure> {
     let Stored { radiance, projection, distance, .. } = stored;
     let at_pupil = photograph::Stored { projection, radiance, distance: distance.as_ref() };
-    let light = Light::at_pupil(body, &at_pupil).map_err(|error| {
+    let refuse = |error: OpticsError| {
         let (radiance, camera) = (arguments.radiance.display(), arguments.camera.display());
         Failure::input(format!("{radiance} through {camera}: {error}{}", margin(body)))
-    })?;
+    };
+    let depth_of_field = depth_of_field(body, stored, arguments)?;
+    remark_margin(body, stored, &depth_of_field).map_err(refuse)?;
+    let light = Light::at_pupil(body, &at_pupil, &depth_of_field).map_err(refuse)?;
     let seed = arguments.seed.unwrap_or(stored.provenance.seed);
     let facts = facts::exposed_provenance(&stored.provenance, &results.prefix, seed);
     results.irradiance(&light, false, &facts)?;
@@ -110,7 +115,7 @@ fn expose(
         let wanted = Wanted { raw: products.raw, picture: products.picture, undistorted: None };
         photographs(body, electrons, &arguments.frames, address, wanted, results)?;
     }
-    results.json(Files::SIDECAR, &sidecar(body, stored, arguments, seed))
+    results.json(Files::SIDECAR, &sidecar(body, stored, arguments, seed, &depth_of_field))
 }
 
 /// What the camera's effects need beyond its picture, where they need anything.
@@ -124,7 +129,51 @@ fn margin(body: &CameraBody) -> String {
     }
 }
 
-fn sidecar(body: &CameraBody, stored: &Stored, arguments: &args::Expose, seed: u64) -> serde_json::Value {
+/// The depth of field that is asked for; where nothing is said, the physical one as far as lens and image allow.
+fn depth_of_field(body: &CameraBody, stored: &Stored, arguments: &args::Expose) -> Result<DepthOfField, Failure> {
+    let blurs = body.lens.entrance_pupil_radius_m() > 0.0;
+    let file = arguments.radiance.display();
+    match arguments.depth_of_field {
+        Some(DepthOfField::None) => Ok(DepthOfField::None),
+        Some(_) if stored.distance.is_none() => Err(Failure::input(format!(
+            "{file}: it has no distances (channel distance.Z), which depth of field needs: render it anew, or give \
+             --depth-of-field none"
+        ))),
+        Some(DepthOfField::Physical) if !blurs => Err(Failure::input(format!(
+            "--depth-of-field physical has no effect: to the lens of {} everything is sharp",
+            arguments.camera.display()
+        ))),
+        Some(asked) => Ok(asked),
+        None if blurs && stored.distance.is_some() => Ok(DepthOfField::Physical),
+        None => {
+            if blurs {
+                tell(&format!("warning: {file} has no distances (channel distance.Z): defocus is left out\n"));
+            }
+            Ok(DepthOfField::None)
+        }
+    }
+}
+
+/// Says where blurs from outside of the picture are cut off.
+fn remark_margin(body: &CameraBody, stored: &Stored, depth_of_field: &DepthOfField) -> Result<(), OpticsError> {
+    let wanted = margin_px(depth_of_field, body);
+    let held = held_margin_px(&stored.projection, body, stored.radiance.bands(), depth_of_field)?;
+    if held < wanted {
+        tell(&format!(
+            "warning: depth of field needs {wanted} px around the picture and the image holds {held}: blurs are cut off at \
+             its edges; render with more overscan\n"
+        ));
+    }
+    Ok(())
+}
+
+fn sidecar(
+    body: &CameraBody,
+    stored: &Stored,
+    arguments: &args::Expose,
+    seed: u64,
+    depth_of_field: &DepthOfField,
+) -> serde_json::Value {
     json!({
         "program": "etendue",
         "version": facts::VERSION,
@@ -139,6 +188,7 @@ fn sidecar(body: &CameraBody, stored: &Stored, arguments: &args::Expose, seed: u
         "effects": facts::effects(body),
         "sensor": facts::sensor(body),
         "route": "pupil",
+        "depth_of_field": facts::depth_of_field(depth_of_field),
         "files": Files::of(&products(body), &arguments.frames),
         "time_s": stored.provenance.time_s,
     })

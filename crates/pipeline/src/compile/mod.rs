@@ -119,8 +119,9 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
 fn camera_plan(index: u32, setup: &CameraSetup, choices: &Choices, context: &mut Context<'_>) -> Option<CameraPlan> {
     let body = camera::body(&setup.camera, context)?;
     let products = settings::products(&setup.output, &body, context);
-    let settings = settings::settings(&setup.render, &body, &products, choices, context)?;
+    let depth_of_field = settings::depth_of_field(&setup.render, &body, context)?;
+    let settings = settings::settings(&setup.render, &body, &depth_of_field, &products, choices, context)?;
     // A pose that was read has been checked.
     let pose = setup.pose.to_camera_pose()?;
-    Some(CameraPlan { name: setup.name.value.clone(), index, pose, body, settings, products })
+    Some(CameraPlan { name: setup.name.value.clone(), index, pose, body, settings, depth_of_field, products })
 }

@@ -3,6 +3,7 @@
 use super::context::Context;
 use super::{Choices, Quality};
 use crate::block::Blocks;
+use crate::defocus::{margin_px, whole_margin_px};
 use crate::film::Film;
 use crate::gather::Layout;
 use crate::photograph::front_on_picture;
@@ -10,9 +11,9 @@ use crate::plan::{CameraBody, Products, Route, Settings};
 use crate::twin::Twin;
 use etendue_core::Bands;
 use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
-use etendue_optics::PupilProjection;
+use etendue_optics::{DepthOfField, FastBlend, FastParameters, PupilProjection};
 use etendue_scene::record::output::DepthScale;
-use etendue_scene::record::render::{self, Accumulate};
+use etendue_scene::record::render::{self, Accumulate, DepthMethod};
 use etendue_scene::record::{Output, Render};
 use etendue_scene::{Place, Placed};
 use etendue_tracer::integrator::Level;
@@ -102,13 +103,14 @@ fn need(key: &Option<Placed<bool>>, possible: bool, name: &str, lack: &str, reme
 pub(super) fn settings(
     render: &Render,
     body: &CameraBody,
+    depth_of_field: &DepthOfField,
     products: &Products,
     choices: &Choices,
     context: &mut Context<'_>,
 ) -> Option<Settings> {
     let (spp, replicates) = samples(render, choices, context)?;
     check_variance(products, replicates, render, context);
-    let route = route(render, body, context)?;
+    let route = route(render, body, depth_of_field, context)?;
     let (cube, folded) = accumulation(render, body, products, &route, context);
     let range_nm = range(render, body, cube);
     let bands = if cube { Some(bands(render, range_nm, context)?) } else { None };
@@ -254,13 +256,52 @@ fn remark_bands(render: &Render, cube: bool, context: &mut Context<'_>) {
     }
 }
 
-fn route(render: &Render, body: &CameraBody, context: &mut Context<'_>) -> Option<Route> {
+/// How things out of focus are blurred; through the lens its rays do it.
+pub(super) fn depth_of_field(render: &Render, body: &CameraBody, context: &mut Context<'_>) -> Option<DepthOfField> {
+    if render.route.as_ref().is_none_or(|r| r.value != render::Route::Pupil) {
+        return Some(DepthOfField::None);
+    }
+    let blurs = body.lens.entrance_pupil_radius_m() > 0.0;
+    match &render.depth_of_field {
+        None => Some(if blurs { DepthOfField::Physical } else { DepthOfField::None }),
+        Some(render::DepthOfField::Fast(blend)) => {
+            if blend.near_m.is_none() && blend.far_m.is_none() {
+                context.fault(&blend.place, "nothing is blurred by this", "add \"near_m\" or \"far_m\"");
+                return None;
+            }
+            context.accept(&blend.place, FastBlend::new(parameters(blend))).map(DepthOfField::Fast)
+        }
+        Some(render::DepthOfField::Named(method)) => match method.value {
+            DepthMethod::Physical if blurs => Some(DepthOfField::Physical),
+            DepthMethod::Physical => {
+                let remark = "to this lens everything is sharp, so depth_of_field blurs nothing";
+                context.remark(format!("{}: {remark}", method.place));
+                Some(DepthOfField::None)
+            }
+            DepthMethod::None => Some(DepthOfField::None),
+        },
+    }
+}
+
+fn parameters(blend: &render::FastBlend) -> FastParameters {
+    let [blurred_near_m, sharp_near_m] = blend.near_m.as_ref().map_or([0.0; 2], |range| range.value);
+    let [sharp_far_m, blurred_far_m] = blend.far_m.as_ref().map_or([f64::INFINITY; 2], |range| range.value);
+    FastParameters { sharp_near_m, sharp_far_m, blurred_near_m, blurred_far_m, blur_px: blend.blur_px.value }
+}
+
+fn route(
+    render: &Render,
+    body: &CameraBody,
+    depth_of_field: &DepthOfField,
+    context: &mut Context<'_>,
+) -> Option<Route> {
     match render.route.as_ref().map(|r| (r.value, &r.place)) {
         None | Some((render::Route::Lens, _)) => Some(Route::Lens),
         Some((render::Route::Pupil, place)) => {
             context.accept(place, front_on_picture(body))?;
             let range_nm = range(render, body, true);
-            let covering = PupilProjection::covering(&body.lens, &body.raster, body.effects.margin_px(), range_nm);
+            let margin = whole_margin_px(body, margin_px(depth_of_field, body));
+            let covering = PupilProjection::covering(&body.lens, &body.raster, margin, range_nm);
             let covering = context.accept(place, covering)?;
             Some(Route::Pupil(covering.overscanned(render.overscan.as_ref().map_or(0.0, |o| o.value))))
         }

@@ -2,7 +2,7 @@
 
 use crate::fault::Faults;
 use crate::place::{Place, Placed};
-use crate::reader::{among, choice, flag, number, record, vector, whole};
+use crate::reader::{Rule, RuleExt as _, among, choice, either, flag, keyed, number, record, vector, whole};
 
 record! {
     /// How the light is found.
@@ -41,6 +41,75 @@ record! {
         optional seed: Placed<u64> = whole(0, i64::MAX.cast_unsigned());
         /// With route "pupil": margin on every side, as a share of the picture's width and height, 0 … 1. Default: 0.
         optional overscan: Placed<f64> = number("").at_least(0.0).at_most(1.0);
+        /// With route "pupil": how things out of focus are blurred in the picture. Default: "physical".
+        optional depth_of_field: DepthOfField = depth_of_field();
+    }
+}
+
+/// How things out of focus are blurred behind stored radiance.
+#[derive(Clone, Debug)]
+pub enum DepthOfField {
+    /// By a method without parameters.
+    Named(Placed<DepthMethod>),
+    /// By a blend.
+    Fast(FastBlend),
+}
+
+choice! {
+    /// A method without parameters.
+    pub enum DepthMethod {
+        /// The pupil's own outline of each field point, spread in the order of depth.
+        "physical" => Physical,
+        /// Nothing is blurred.
+        "none" => None,
+    }
+}
+
+keyed! {
+    /// A method with parameters.
+    pub enum DepthOfFieldTable {
+        /// A look, by a blend with one blurred copy of the picture by distance.
+        fast => Fast(FastBlend) = record::<FastBlend>();
+    }
+}
+
+record! {
+    /// A blend with one blurred copy of the picture: none of it in the sharp range, all of it where things are blurred, and
+    /// linear in the distance (along the ray) between.
+    pub struct FastBlend check(check_blend) {
+        /// Two rising distances, m: to the first from the camera everything is blurred, from the second on it is sharp. Default:
+        /// nothing near is blurred.
+        optional near_m: Placed<[f64; 2]> = vector::<2>(number("m").at_least(0.0));
+        /// Two rising distances, m: to the first everything is sharp, from the second on it is blurred. Default: nothing far is
+        /// blurred.
+        optional far_m: Placed<[f64; 2]> = vector::<2>(number("m").at_least(0.0));
+        /// Diameter of the blur, px, above 0, at most 1 000: a bell as wide as a disc of it.
+        required blur_px: Placed<f64> = number("px").above(0.0).at_most(1000.0);
+    }
+}
+
+fn depth_of_field() -> impl Rule<Out = DepthOfField> {
+    let fast = record::<DepthOfFieldTable>().map(|DepthOfFieldTable::Fast(blend)| DepthOfField::Fast(blend));
+    either(choice().map(DepthOfField::Named), fast)
+}
+
+fn check_blend(blend: &FastBlend, faults: &mut Faults) {
+    for range in [&blend.near_m, &blend.far_m].into_iter().flatten() {
+        if range[0] >= range[1] {
+            let problem = format!("found {} m before {} m", range[0], range[1]);
+            faults.add(&range.place, problem, "give the shorter distance first and a longer one after it");
+        }
+    }
+}
+
+impl DepthOfField {
+    /// Where it stands.
+    #[must_use]
+    pub fn place(&self) -> &Place {
+        match self {
+            Self::Named(method) => &method.place,
+            Self::Fast(blend) => &blend.place,
+        }
     }
 }
 
@@ -98,6 +167,7 @@ impl Render {
             tile_px: None,
             seed: None,
             overscan: None,
+            depth_of_field: None,
         }
     }
 
@@ -136,6 +206,7 @@ impl Render {
             tile_px: a.tile_px.or(b.tile_px),
             seed: a.seed.or(b.seed),
             overscan: a.overscan.or(b.overscan),
+            depth_of_field: a.depth_of_field.or(b.depth_of_field),
         }
     }
 }
@@ -165,9 +236,21 @@ pub(crate) fn check_levels<'r>(cameras: impl Iterator<Item = &'r Render> + Clone
 
 /// Checks a record into which the job's has been merged. The default route is through the lens.
 pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
-    if let Some(overscan) = &render.overscan
-        && render.route.as_ref().is_none_or(|r| r.value == Route::Lens)
-    {
-        faults.add(&overscan.place, "\"overscan\" has no effect here, it belongs to route = \"pupil\"", "remove it");
+    if render.route.as_ref().is_some_and(|r| r.value == Route::Pupil) {
+        return;
+    }
+    let keys = [
+        ("overscan", render.overscan.as_ref().map(|o| &o.place), "remove it"),
+        (
+            "depth_of_field",
+            render.depth_of_field.as_ref().map(DepthOfField::place),
+            "remove it: through the lens the blur is the lens's own, by its f-number and focus",
+        ),
+    ];
+    for (key, place, remedy) in keys {
+        if let Some(place) = place {
+            let problem = format!("\"{key}\" has no effect here, it belongs to route = \"pupil\"");
+            faults.add(place, problem, remedy);
+        }
     }
 }
