@@ -188,8 +188,8 @@ fn array_samples(schema: &Json) -> Vec<Json> {
     let items = samples(&schema["items"]);
     let Some(count) = schema["maxItems"].as_u64() else { return vec![Json::Array(items)] };
     let scaled = |v: &Json, i: u64| match v.as_f64() {
-        Some(v) => json!(v * (1.0 + 0.01 * i as f64)),
-        None => v.clone(),
+        Some(number) if !v.is_u64() => json!(number * (1.0 + 0.01 * i as f64)),
+        _ => v.clone(),
     };
     items.iter().map(|v| (0..count).map(|i| scaled(v, i)).collect()).collect()
 }

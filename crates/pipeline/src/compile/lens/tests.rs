@@ -46,7 +46,9 @@ fn a_published_lens_is_traced_and_carries_one_wavelength_a_path() {
     assert!((lens.prescription().paraxial().f_number() - 4.0).abs() < 1e-9);
     assert_eq!(camera.settings.wavelengths, 1);
     refused(GAUSS, "[render]\nwavelengths_per_path = 8", &["wavelengths_per_path", "remove the key"]);
-    refused(GAUSS, "[render]\nroute = \"pupil\"", &["render.route", "a prescription is rendered with route"]);
+    // At the pupil each band is resampled by its own chief rays: paths carry four wavelengths.
+    let pupil = plan_with(GAUSS, "[render]\nroute = \"pupil\"", &Assets::default()).expect("a plan");
+    assert_eq!(pupil.cameras[0].settings.wavelengths, 4);
 }
 
 #[test]
@@ -144,7 +146,8 @@ fn faults_of_calibrations_name_their_place() {
     refused(&camera("type = \"kannala_brandt\", fx_px = 20, k = [-0.5, 0, 0, 0]"), "", &["folds", "radius"]);
     refused(&camera("type = \"equidistant\", focal_length_mm = 2, fy_px = 20"), "", &["fy_px", "no effect"]);
     refused(&camera("type = \"opencv\", fx_px = 60, distortion = [0.1, 0.2]"), "", &["lens"]);
-    refused(&camera("type = \"equidistant\", fx_px = 20"), "[render]\nroute = \"pupil\"", &["calibrated camera"]);
+    let parallel = "model = \"parallel\"\nfield_width_m = 3\nf_number = 2\n";
+    refused(parallel, "[render]\nroute = \"pupil\"", &["render.route", "parallel camera"]);
 }
 
 /// The ray table puts any pixel back: it is the calibration's own direction, and NaN where nothing is seen.
