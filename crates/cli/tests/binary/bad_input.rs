@@ -22,6 +22,16 @@ impl Spoilt {
         Self { place }
     }
 
+    /// Where the copy lies.
+    pub(crate) fn folder(&self) -> &std::path::Path {
+        self.place.path()
+    }
+
+    /// The job's path.
+    pub(crate) fn job(&self) -> String {
+        text(&self.path("small.toml"))
+    }
+
     fn path(&self, name: &str) -> PathBuf {
         self.place.path().join(name)
     }

@@ -12,5 +12,6 @@ mod goldens;
 mod help;
 mod identity;
 mod kenney;
+mod lenses;
 mod plans;
 mod support;

@@ -1,0 +1,209 @@
+//! Lenses from files on disk, what their results say, and unusable lenses: each is told with its file, line and key.
+
+use crate::bad_input::Spoilt;
+use crate::support::{contents, etendue, text};
+use etendue_io::exr::{ExrFile, Samples, read_exr};
+use serde_json::Value;
+use std::path::Path;
+
+/// The lens of the small job, which tests replace.
+const THIN: &str = "model = \"thin\"\nfocal_length_mm = 6\nf_number = 2\nfocus_distance_m = 5\ntransmittance = 0.9\n\
+                    distortion = { k1 = -0.1, k2 = 0.01, direction = \"ideal_to_observed\", radius_unit = \"focal_lengths\" }\n";
+
+/// A biconvex singlet behind its stop, as Zemax, CODE V and this project write it.
+const ZMX: &str = "MODE SEQ\nNAME singlet\nUNIT MM X W X CM MR CPMM\nENPD 2.0\nWAVM 1 5.875618E-1 1\nPWAV 1\n\
+SURF 0\n  TYPE STANDARD\n  CURV 0.0\n  DISZ INFINITY\n\
+SURF 1\n  STOP\n  TYPE STANDARD\n  CURV 0.0\n  DISZ 1.0\n  DIAM 1 1 0 0 1 \"\"\n\
+SURF 2\n  TYPE STANDARD\n  CURV 0.05\n  DISZ 2.0\n  GLAS N-BK7 0 0 1.5 4.0E+1 0 0 0 0 0 0\n  DIAM 5 1 0 0 1 \"\"\n\
+SURF 3\n  TYPE STANDARD\n  CURV -0.05\n  DISZ 18.0\n  DIAM 5 1 0 0 1 \"\"\n\
+SURF 4\n  TYPE STANDARD\n  CURV 0.0\n  DISZ 0\n";
+const SEQ: &str = "RDM;LEN       \"VERSION: 11.5\"\nTITLE 'singlet'\nEPD 2.0\nDIM M\nWL 587.5618\nREF 1\nYAN 0.0\n\
+SO 0.0 0.1e14\nS 0.0 1.0\n  STO\n  CIR 1\nS 20.0 2.0 NBK7_SCHOTT\n  CIR 5\nS -20.0 18.0\n  CIR 5\nSI 0.0 0.0\nGO\n";
+const SURFACES: &str = "surfaces = [\n{ thickness_mm = 1, semi_aperture_mm = 1, stop = true },\n\
+{ radius_mm = 20, thickness_mm = 2, semi_aperture_mm = 5, glass = \"N-BK7\" },\n{ radius_mm = -20, semi_aperture_mm = 5 },\n]";
+
+fn prescription(source: &str) -> String {
+    format!("model = \"prescription\"\nfocus_distance_m = 2\n{source}\n")
+}
+
+fn calibrated(source: &str) -> String {
+    format!("model = \"calibrated\"\nf_number = 2\n{source}\n")
+}
+
+/// The small job before another lens, without a spectrum, which files of tests do not need.
+fn with_lens(lens: &str) -> Spoilt {
+    let spoilt = Spoilt::new();
+    spoilt.spoil("small.toml", THIN, lens);
+    for product in ["radiance", "irradiance", "variance"] {
+        spoilt.spoil("small.toml", &format!("{product} = true\n"), "");
+    }
+    spoilt.spoil("small.toml", "band_width_nm = 50\n", "");
+    spoilt
+}
+
+/// What the plan says of a job's lens.
+fn lens_line(spoilt: &Spoilt) -> String {
+    let plan = etendue(["plan", &spoilt.job()]).ok().out;
+    plan.lines().find(|line| line.starts_with("  lens ")).expect("a lens").to_owned()
+}
+
+#[test]
+fn a_prescription_in_a_file_is_the_lens_of_its_surfaces() {
+    let in_place = lens_line(&with_lens(&prescription(SURFACES)));
+    assert!(in_place.contains("prescription, 19."), "{in_place}");
+    for (name, file) in [("lens.zmx", ZMX), ("lens.seq", SEQ)] {
+        let spoilt = with_lens(&prescription(&format!("file = \"{name}\"")));
+        spoilt.write(name, file);
+        assert_eq!(lens_line(&spoilt), in_place, "{name}");
+    }
+}
+
+const KANNALA: &str = "projection = { type = \"kannala_brandt\", fx_px = 25, fy_px = 26, cx_px = 23, cy_px = 14.5, k = [0.01, 0.002, 0, 0] }";
+const KALIBR: &str = "cam0:\n  camera_model: pinhole\n  distortion_model: equi\n  distortion_coeffs: [0.01, 0.002, 0, 0]\n  \
+intrinsics: [25, 26, 22.5, 14]\n  resolution: [45, 30]\n";
+const COLMAP: &str = "1 OPENCV_FISHEYE 45 30 25 26 23 14.5 0.01 0.002 0 0\n";
+const F_THETA: &str = "{\"Model\": \"ftheta\", \"width\": 45, \"height\": 30, \"cx\": 22.5, \"cy\": 14, \"polynomial\": \"0 0.04\", \
+\"polynomial-type\": \"pixeldistance-to-angle\"}";
+
+/// What a run writes, its side-car and its folder.
+fn rendered(spoilt: &Spoilt) -> (Value, std::path::PathBuf) {
+    let out = spoilt.folder().join("rendered");
+    etendue(["render", &spoilt.job(), "-o", &text(&out)]).ok();
+    let sidecar = contents(&out)["front/camera.json"].clone();
+    (serde_json::from_slice(&sidecar).expect("JSON"), out.join("front"))
+}
+
+#[test]
+fn a_calibration_in_a_file_is_the_camera_of_its_numbers_and_the_side_car_says_them() {
+    let in_place = lens_line(&with_lens(&calibrated(KANNALA)));
+    for (name, format, file) in [("camera.yaml", "kalibr", KALIBR), ("cameras.txt", "colmap", COLMAP)] {
+        let spoilt = with_lens(&calibrated(&format!("calibration = {{ file = \"{name}\", format = \"{format}\" }}")));
+        spoilt.write(name, file);
+        assert_eq!(lens_line(&spoilt), in_place, "{name}");
+        let said = rendered(&spoilt).0["optics"]["calibration"].clone();
+        let projection = &said["projection"];
+        assert_eq!((projection["type"].as_str(), projection["k"][1].as_f64()), (Some("kannala_brandt"), Some(0.002)));
+        assert_eq!((projection["fy_px"].as_f64(), projection["cx_px"].as_f64()), (Some(26.0), Some(23.0)));
+        assert!(said["convention"].as_str().is_some_and(|text| text.contains("pixel centres at +0.5")));
+    }
+    let spoilt = with_lens(&calibrated("calibration = { file = \"rig.json\", format = \"f_theta\" }"));
+    spoilt.write("rig.json", F_THETA);
+    assert!(lens_line(&spoilt).contains("calibrated camera, 3.0000 mm"), "25 px per rad of 120 µm");
+}
+
+/// Three channels of a file, pixel by pixel.
+fn vectors(file: &ExrFile, names: [&str; 3]) -> Vec<[f64; 3]> {
+    let channel = |name: &str| {
+        let found = file.channels.iter().find(|c| c.name == name).unwrap_or_else(|| panic!("no {name}"));
+        let Samples::Float(samples) = &found.samples else { panic!("{name} is not of 32-bit floats") };
+        samples.iter().map(|v| f64::from(*v)).collect::<Vec<f64>>()
+    };
+    let [x, y, z] = names.map(channel);
+    x.into_iter().zip(y).zip(z).map(|((x, y), z)| [x, y, z]).collect()
+}
+
+/// Every pixel goes back into space by its ray and its distance; how many saw a surface.
+fn put_back(folder: &Path, pose: &Value) -> usize {
+    let (rays, truth) = (read_exr(&folder.join("rays.exr")), read_exr(&folder.join("ground_truth.exr")));
+    let (rays, truth) = (rays.expect("readable"), truth.expect("readable"));
+    let origins = vectors(&rays, ["origin.X", "origin.Y", "origin.Z"]);
+    let directions = vectors(&rays, ["direction.X", "direction.Y", "direction.Z"]);
+    let positions = vectors(&truth, ["P.X", "P.Y", "P.Z"]);
+    let distances = vectors(&truth, ["distance.Z", "depth.Z", "distance.Z"]);
+    let number = |i: usize, j: usize| pose["camera_to_world"][i][j].as_f64().expect("a number");
+    let mut surfaces = 0;
+    for (((origin, direction), position), distance) in origins.iter().zip(&directions).zip(&positions).zip(&distances) {
+        if !distance[0].is_finite() {
+            continue;
+        }
+        surfaces += 1;
+        let point: [f64; 3] = std::array::from_fn(|i| origin[i] + distance[0] * direction[i]);
+        for (i, position) in position.iter().enumerate() {
+            let world = number(i, 3) + (0..3).map(|j| number(i, j) * point[j]).sum::<f64>();
+            // Direction, distance and position are rounded to 6e-8 of themselves.
+            assert!((world - position).abs() < 4e-7 * (1.0 + distance[0]), "{world} for {position}");
+        }
+    }
+    surfaces
+}
+
+#[test]
+fn rays_and_distances_put_every_pixel_back_and_so_do_the_undistorted_twin_s() {
+    for lens in [calibrated(KANNALA), prescription(SURFACES), THIN.to_owned()] {
+        let spoilt = with_lens(&lens);
+        spoilt.spoil("small.toml", "depth_png = true", "depth_png = true\nrays = true\nundistorted = true");
+        let (facts, folder) = rendered(&spoilt);
+        let of_lens = put_back(&folder, &facts["pose"]);
+        let of_twin = put_back(&folder.join("undistorted"), &facts["pose"]);
+        assert!(of_lens > 400 && of_twin > 400, "{of_lens} and {of_twin} pixels see a surface");
+        let matrix = &facts["undistorted"]["camera_matrix"];
+        let principal = facts["sensor"]["principal_point_px"].clone();
+        assert_eq!((&matrix[0][2], &matrix[1][2]), (&principal[0], &principal[1]));
+        assert!(folder.join("undistorted/picture.0000.png").exists());
+    }
+}
+
+/// The job before such a lens is refused at the line of `key` in the job, with all of `phrases`.
+#[track_caller]
+fn refused(lens: &str, key: &str, phrases: &[&str]) {
+    let spoilt = with_lens(lens);
+    let place = spoilt.spoil("small.toml", key, key);
+    let phrases: Vec<&str> =
+        [place.as_str(), "cameras.front.lens"].into_iter().chain(phrases.iter().copied()).collect();
+    spoilt.render(&[]).refused(&phrases);
+}
+
+#[test]
+fn surfaces_that_overlap() {
+    let lens = prescription(&SURFACES.replace("thickness_mm = 2", "thickness_mm = 0.5"));
+    refused(&lens, "{ radius_mm = -20", &["surfaces", "overlap"]);
+}
+
+#[test]
+fn a_glass_that_no_catalogue_has() {
+    refused(&prescription(&SURFACES.replace("N-BK7", "N-BK8")), "{ radius_mm = 20", &["glass", "N-BK8"]);
+    let spoilt = with_lens(&prescription("file = \"lens.zmx\""));
+    spoilt.write("lens.zmx", ZMX.replace("N-BK7", "N-BK8"));
+    spoilt.render(&[]).refused(&["lens.zmx", "N-BK8"]);
+}
+
+#[test]
+fn total_reflection_of_the_axial_bundle() {
+    // A hemisphere of high index, flat side to the light: rays beyond 1/n of the radius do not come out.
+    let ball = SURFACES
+        .replace("semi_aperture_mm = 1, stop", "semi_aperture_mm = 4.5, stop")
+        .replace("radius_mm = 20, thickness_mm = 2", "thickness_mm = 6")
+        .replace("radius_mm = -20", "radius_mm = -5.5")
+        .replace("\"N-BK7\"", "{ index = 1.9 }");
+    refused(&prescription(&ball), "{ radius_mm = -5.5", &["totally reflects"]);
+}
+
+#[test]
+fn a_focus_distance_of_zero_where_infinity_is_legal() {
+    for lens in [prescription(SURFACES), calibrated(&format!("focus_distance_m = 2\n{KANNALA}"))] {
+        refused(&lens.replace("focus_distance_m = 2", "focus_distance_m = 0"), "focus_distance_m = 0", &["above 0"]);
+        let endless = with_lens(&lens.replace("focus_distance_m = 2", "focus_distance_m = \"infinity\""));
+        etendue(["plan", &endless.job()]).ok();
+    }
+}
+
+#[test]
+fn a_polynomial_that_folds_inside_the_picture() {
+    let folds = KANNALA.replace("[0.01, 0.002, 0, 0]", "[-0.5, 0, 0, 0]");
+    refused(&calibrated(&folds), "[cameras.lens]", &["folds the picture over at a radius of"]);
+    let spoilt = with_lens(&calibrated("calibration = { file = \"camera.yaml\", format = \"kalibr\" }"));
+    spoilt.write("camera.yaml", KALIBR.replace("[0.01, 0.002, 0, 0]", "[-0.5, 0, 0, 0]"));
+    spoilt.render(&[]).refused(&["small.toml:", "calibration.file", "folds the picture over at a radius of"]);
+}
+
+#[test]
+fn an_undistorted_twin_that_cannot_be() {
+    let with_output = |lens: &str, keys: &str| {
+        let spoilt = with_lens(lens);
+        spoilt.spoil("small.toml", "depth_png = true", keys);
+        spoilt.render(&[])
+    };
+    let wide = calibrated("projection = { type = \"equidistant\", fx_px = 12 }");
+    with_output(&wide, "undistorted = true").refused(&["small.toml:", "output.undistorted", "85°"]);
+    with_output(THIN, "undistorted_scale = 0.5").refused(&["output.undistorted_scale", "undistorted = true"]);
+}
