@@ -186,10 +186,14 @@ fn short(value: &Json) -> Json {
 
 fn array_samples(schema: &Json) -> Vec<Json> {
     let items = samples(&schema["items"]);
-    let Some(count) = schema["maxItems"].as_u64() else { return vec![Json::Array(items)] };
-    let scaled = |v: &Json, i: u64| match v.as_f64() {
-        Some(number) if !v.is_u64() => json!(number * (1.0 + 0.01 * i as f64)),
-        _ => v.clone(),
+    let least = schema["minItems"].as_u64().unwrap_or(0) as usize;
+    let Some(count) = schema["maxItems"].as_u64() else {
+        let length = items.len().max(least);
+        return vec![items.iter().cycle().take(length).cloned().collect()];
+    };
+    let scaled = |v: &Json, i: u64| match v.as_f64().filter(|_| !v.is_u64()) {
+        Some(v) => json!(v * (1.0 + 0.01 * i as f64)),
+        None => v.clone(),
     };
     items.iter().map(|v| (0..count).map(|i| scaled(v, i)).collect()).collect()
 }
