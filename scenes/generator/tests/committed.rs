@@ -55,6 +55,9 @@ fn jobs_can_be_read() {
         "furnace/furnace.toml",
         "sphere-on-plane/sphere-on-plane.toml",
         "lenses/lenses.toml",
+        "lenses/ghosts.toml",
+        "lenses/night-flare.toml",
+        "lenses/pupil.toml",
     ];
     for job in jobs {
         let description = Description::load(&scenes().join(job), &read, &Overrides::default());
