@@ -5,6 +5,7 @@ use etendue_core::quantity::{Quantity, Variance};
 use etendue_pipeline::film::{CubeEstimate, Film};
 use etendue_pipeline::photograph::Light;
 use etendue_pipeline::plan::CameraPlan;
+use etendue_pipeline::pupil_depth::pupil_depth;
 use etendue_pipeline::render::{Request, light};
 use etendue_pipeline::truth::{GroundTruth, ground_truth};
 use etendue_pipeline::{Plan, Unobserved};
@@ -53,7 +54,8 @@ impl Shot {
     /// The light, sorted by what it is.
     #[must_use]
     pub fn light(&self) -> Light {
-        Light::of_film(self.camera(), self.film.clone(), None)
+        let depth = pupil_depth(&self.plan, self.camera(), Simd::Auto);
+        Light::of_film(self.camera(), self.film.clone(), depth.as_ref())
     }
 
     /// Mean electrons of every pixel.

@@ -7,6 +7,7 @@ mod caustics;
 mod charts;
 mod colour;
 mod cornell;
+mod defocus;
 mod dispersing_lens;
 mod effects;
 mod extremes;
