@@ -49,6 +49,14 @@ pub enum TwinError {
         "the camera sees nothing at its principal point, so that its undistorted twin has no focal length; remove the key"
     )]
     Blind,
+    /// Rays that something before the lens bends.
+    #[error(
+        "behind a {what} no camera matrix gives the rays: a camera with one has no undistorted twin; remove the key"
+    )]
+    Front {
+        /// What stands before the lens.
+        what: &'static str,
+    },
     /// A lens that cannot be.
     #[error(transparent)]
     Lens(#[from] OpticsError),
@@ -75,6 +83,9 @@ impl Twin {
     /// # Errors
     /// [`TwinError`].
     pub fn of(camera: &CameraBody, scale: f64) -> Result<Self, TwinError> {
+        if let Some(optic) = camera.front.as_ref().and_then(|front| front.optic()) {
+            return Err(TwinError::Front { what: optic.name() });
+        }
         let matrix = enlarged(own_matrix(camera)?, scale);
         let angle_deg = widest_deg(camera);
         if angle_deg >= WIDEST_DEG {

@@ -96,6 +96,11 @@ impl Dirt {
         &self.parameters
     }
 
+    /// Whether a ray starts on the camera's side of the dirt.
+    pub(super) fn is_after(&self, start: Line) -> bool {
+        self.parameters.stand.inward(start).point_mm.z < 0.0
+    }
+
     /// The share of a ray's light that passes.
     pub(super) fn share(&self, ray: Line) -> f64 {
         let Line { point_mm, direction } = self.parameters.stand.inward(ray);

@@ -53,6 +53,12 @@ pub enum FrontError {
     /// The lens reaches through the glass.
     #[error("the wind-screen cuts through the lens or stands behind it: move it farther (distance_mm) or tilt it less")]
     ThroughLens,
+    /// The lens reaches beyond the dirt.
+    #[error(
+        "the dirt lies within the lens or behind its front: distance_mm counts from the entrance pupil, which lies behind the first \
+         surface; move it farther, or tilt it less"
+    )]
+    DirtInLens,
     /// No ray goes through the glass.
     #[error("no pixel of the picture looks through the wind-screen: turn it towards the view (tilt_deg, yaw_deg)")]
     NotLookedThrough,

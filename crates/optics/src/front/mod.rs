@@ -159,15 +159,22 @@ impl Front {
     pub fn check(&self, lens: &Lens, raster: &Raster) -> Result<(), FrontError> {
         let sights = sights(raster).filter_map(|s_mm| lens.truth_ray(s_mm));
         let lines: Vec<Line> = sights.map(|truth| line(&truth.ray)).collect();
+        // Rays through a prescription start at its first surface, before the entrance pupil.
+        let rays = self::sights(raster).filter_map(|s_mm| lens.ray(s_mm, DVec2::splat(0.5), PRINCIPAL_NM));
+        let starts: Vec<Line> = rays.map(|ray| line(&ray)).collect();
+        if self.dirt.as_ref().is_some_and(|dirt| !starts.iter().all(|start| dirt.is_after(*start))) {
+            return Err(FrontError::DirtInLens);
+        }
         match &self.optic {
             None => Ok(()),
             Some(Optic::Windscreen(glass)) => {
                 let radius_mm = lens.entrance_pupil_radius_m() / MM;
                 let rims = [DVec3::X, DVec3::Y, -DVec3::X, -DVec3::Y].map(|side| side * radius_mm);
-                let points: Vec<DVec3> = lines.iter().map(|line| line.point_mm).chain(rims).collect();
+                let all = lines.iter().chain(&starts);
+                let points: Vec<DVec3> = all.map(|line| line.point_mm).chain(rims).collect();
                 glass.check(&points, &lines)
             }
-            Some(Optic::Mirror(mirror)) => mirror.check(&lines),
+            Some(Optic::Mirror(mirror)) => mirror.check(&lines).and_then(|()| mirror.check(&starts)),
         }
     }
 

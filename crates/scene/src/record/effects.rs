@@ -37,7 +37,8 @@ record! {
         /// Zernike terms of the wavefront's error; a ray through the point u of the pupil (of radius one) lands at 2N ∂W/∂u.
         /// Default: none.
         many wavefront: WavefrontTerm = list(record::<WavefrontTerm>(), 1);
-        /// Where the function ends, mm, above 0. Default: 256 λN at most, and 512 px.
+        /// Where the function ends, mm, above 0. Default: some 256 px, or 256 λN where λN is less
+        /// than a pixel.
         optional reach_mm: Placed<f64> = number("mm").above(0.0);
         /// Patches across and down the picture with a function each, 1 … 32. Default: one where the pattern is nearly the same
         /// everywhere, else five and three.

@@ -100,8 +100,10 @@ impl Mirror {
         if local.direction.dot(touch.facing) >= 0.0 {
             return Fate::Lost;
         }
-        let along = local.direction.dot(touch.normal);
-        let direction = (local.direction - touch.normal * (2.0 * along)).normalize();
+        // At the rim of a coarse mesh the smooth normal may look away: light would be thrown into the mirror.
+        let normal = if local.direction.dot(touch.normal) < 0.0 { touch.normal } else { touch.facing };
+        let along = local.direction.dot(normal);
+        let direction = (local.direction - normal * (2.0 * along)).normalize();
         let out = self.parameters.stand.outward(Line { point_mm: touch.point_mm, direction });
         Fate::On(out, self.parameters.reflectance.at(nm, along.abs()))
     }

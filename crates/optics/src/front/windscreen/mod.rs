@@ -61,6 +61,9 @@ pub struct WindscreenParameters {
     pub double_share: Option<f64>,
 }
 
+/// About R² of glass in air, twice 4 %.
+const USUAL_SHARE: f64 = 0.002;
+
 /// By which way light comes through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Way {
@@ -91,7 +94,7 @@ impl Windscreen {
         let mut glass = Self { parameters, faces, thickness_mm, double_share: 0.0 };
         glass.double_share = match glass.parameters.double_share {
             Some(share) => share,
-            None => glass.share_of_double(),
+            None => glass.untinted().share_of_double(),
         };
         Ok(glass)
     }
@@ -125,8 +128,16 @@ impl Windscreen {
         }
     }
 
+    /// The glass without its tint, which may be opaque at the wavelength of the axis's transmittances and not at others.
+    fn untinted(&self) -> Self {
+        let parameters = WindscreenParameters { tint: None, ..self.parameters.clone() };
+        Self { parameters, ..self.clone() }
+    }
+
+    /// The double image's share of the light on the axis; of usual glass where the axis does not meet this one.
     fn share_of_double(&self) -> f64 {
-        self.axial_transmittances().map_or(0.0, |[straight, doubled]| doubled / (straight + doubled))
+        let share = |[straight, doubled]: [f64; 2]| (straight > 0.0).then(|| doubled / (straight + doubled));
+        self.axial_transmittances().and_then(share).unwrap_or(USUAL_SHARE)
     }
 
     /// Whether a ray or its weight depends on the wavelength.
