@@ -55,7 +55,7 @@ impl Shot {
     #[must_use]
     pub fn light(&self) -> Light {
         let depth = pupil_depth(&self.plan, self.camera(), Simd::Auto);
-        Light::of_film(self.camera(), self.film.clone(), depth.as_ref())
+        Light::of_film(self.camera(), self.film.clone(), depth.as_ref()).expect("finite light")
     }
 
     /// Mean electrons of every pixel.

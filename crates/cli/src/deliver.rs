@@ -44,7 +44,8 @@ pub fn deliver(
     }
     let mut results = Results { prefix: camera.name.clone(), folder };
     let depth = pupil_depth(plan, camera, simd);
-    let light = Light::of_film(camera, film, depth.as_ref());
+    let light = Light::of_film(camera, film, depth.as_ref())
+        .map_err(|error| Failure::Run(format!("camera {}: {error}", camera.name)))?;
     let scale = camera.products.undistorted;
     let twin = scale.map(|scale| Twin::of(&camera.body, scale).expect("a compiled plan's camera has its twin"));
     spectra(plan, camera, &light, depth.as_ref(), &mut results)?;

@@ -69,17 +69,18 @@ pub struct Sight {
 impl Light {
     /// The light of a camera's film; at the pupil with the distances of its pixels, which its depth of field needs. Runs on
     /// the caller's pool.
-    #[must_use]
-    pub fn of_film(camera: &CameraPlan, film: Film, depth: Option<&PupilDepth>) -> Self {
+    ///
+    /// # Errors
+    /// Where depth of field meets a radiance that is no finite number. (A compiled plan covers its own picture.)
+    pub fn of_film(camera: &CameraPlan, film: Film, depth: Option<&PupilDepth>) -> Result<Self, OpticsError> {
         match &camera.settings.route {
-            Route::Lens => Self::through_lens(&camera.body, film),
+            Route::Lens => Ok(Self::through_lens(&camera.body, film)),
             Route::Pupil(projection) => {
                 let radiance = film.radiance().expect("the route at the pupil keeps a cube");
                 let distance = depth.map(|depth| &depth.distance);
                 let stored = Stored { projection, radiance: &radiance.mean, distance };
-                let light = Self::at_pupil(&camera.body, &stored, &camera.depth_of_field);
-                let light = light.expect("a compiled plan covers its own picture");
-                Self { radiance: Some(radiance), ..light }
+                let light = Self::at_pupil(&camera.body, &stored, &camera.depth_of_field)?;
+                Ok(Self { radiance: Some(radiance), ..light })
             }
         }
     }

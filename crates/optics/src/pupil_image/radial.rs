@@ -36,6 +36,11 @@ impl RadialEtendue {
         let lit = |i: usize| Some(at(i, PRINCIPAL_NM)).filter(|sr| *sr > 0.0);
         let knots = (0..KNOTS).into_par_iter().step_by(STRIDE);
         let found: Vec<Option<f64>> = knots.map(|i| Some(at(i, nm) / lit(i)?)).collect();
+        if found.iter().all(Option::is_none) {
+            // A filter that is shut at 587.56 nm says nothing of other wavelengths.
+            let values = (0..KNOTS).into_par_iter().map(|i| at(i, nm)).collect();
+            return Self { step_mm: self.step_mm, values };
+        }
         // Where it is dark at 587.56 nm nothing depends on the ratio but its neighbour's interpolation.
         let ratios: Vec<f64> = found
             .into_iter()
@@ -104,5 +109,16 @@ mod tests {
                 assert!((sr - exact).abs() < 4e-3 * table.values[0], "{nm} nm at {r} mm: {sr} for {exact}");
             }
         }
+    }
+
+    /// A band-pass filter of the near infrared: dark at 587.56 nm, and yet light comes.
+    #[test]
+    fn a_filter_that_is_shut_at_the_reference_shuts_no_other_wavelength() {
+        let points = [(800.0, 0.0), (820.0, 1.0), (880.0, 1.0), (900.0, 0.0)];
+        let pass = Spectrum::from_points(&points, Outside::Zero).expect("a table");
+        let lens = lens("double-gauss", 21.6, Some(InterferenceFilter::new(pass, 1.8).expect("legal")));
+        let band = RadialEtendue::new(&lens, 21.6).at_wavelength(&lens, 850.0);
+        let exact = lens.etendue_at_sr(0.0, 850.0, FEWER);
+        assert!(exact > 0.01 && band.values[0] == exact, "{} for {exact}", band.values[0]);
     }
 }
