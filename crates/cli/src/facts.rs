@@ -5,7 +5,7 @@ use etendue_core::CameraPose;
 use etendue_core::quantity::{DigitalNumber, Electrons, Irradiance, Quantity, Radiance};
 use etendue_io::Provenance;
 use etendue_optics::front::Optic;
-use etendue_optics::{Cube, DepthOfField, Face, Front, Lens, PupilProjection, View, Window};
+use etendue_optics::{Cube, DepthOfField, Face, Front, Lens, PointSpread, PupilProjection, View, Window};
 use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, Products, Route};
 use etendue_pipeline::twin::Twin;
 use etendue_projection::Sense;
@@ -284,21 +284,35 @@ pub fn effects(body: &CameraBody) -> Option<Value> {
         let p = glare.parameters();
         json!({ "scatter": p.scatter, "core_um": p.core_um, "exponent": p.exponent, "reach_mm": p.reach_mm })
     });
-    let psf = effects.psf().map(|psf| {
-        let p = psf.parameters();
-        json!({
-            "f_number": psf.f_number(),
-            "blades": p.blades,
-            "blade_curvature": p.curvature,
-            "rotation_deg": p.rotation_rad.to_degrees(),
-            "obstruction": p.obstruction,
-            "wavefront_terms": p.wavefront.len(),
-            "reach_mm": p.reach_mm,
-            "patches": psf.patches(),
-        })
-    });
+    let psf = effects.psf().map(point_spread);
     let ghosts = effects.ghosts().map(|ghosts| json!({ "sensor_reflectance": ghosts.sensor_reflectance() }));
     Some(json!({ "margin_px": effects.margin_px(), "psf": psf, "glare": glare, "ghosts": ghosts }))
+}
+
+fn point_spread(spread: &PointSpread) -> Value {
+    match spread {
+        PointSpread::Aperture(psf) => {
+            let p = psf.parameters();
+            json!({
+                "f_number": psf.f_number(),
+                "blades": p.blades,
+                "blade_curvature": p.curvature,
+                "rotation_deg": p.rotation_rad.to_degrees(),
+                "obstruction": p.obstruction,
+                "wavefront_terms": p.wavefront.len(),
+                "reach_mm": p.reach_mm,
+                "patches": psf.patches(),
+            })
+        }
+        PointSpread::Image(image) => {
+            let p = image.parameters();
+            json!({
+                "image_px": [p.width, p.height()],
+                "image_pitch_um": p.pitch_um,
+                "image_wavelength_nm": p.wavelength_nm,
+            })
+        }
+    }
 }
 
 /// A lens's distortion, and the one of the other direction that comes nearest over the picture.

@@ -12,7 +12,10 @@ mod pupil;
 pub mod pupil_image;
 
 pub use defocus::{DepthOfField, FastBlend, FastParameters};
-pub use effects::{Effects, EffectsError, EffectsParameters, Glare, GlareParameters, Psf, PsfParameters};
+pub use effects::{
+    Effects, EffectsError, EffectsParameters, Glare, GlareParameters, PointSpread, Psf, PsfParameters, SpreadImage,
+    SpreadImageParameters,
+};
 pub use error::{OpticsError, PRINCIPAL_NM};
 pub use front::{Front, FrontError, FrontRay};
 pub use lens::{

@@ -3,7 +3,9 @@
 use etendue_core::Plane;
 use etendue_core::quantity::{Irradiance, Variance};
 use etendue_optics::effects::{WavefrontTerm, Zernike};
-use etendue_optics::{Effects, EffectsError, EffectsParameters, Lens, PinholeParameters, Psf, PsfParameters};
+use etendue_optics::{
+    Effects, EffectsError, EffectsParameters, Lens, PinholeParameters, PointSpread, Psf, PsfParameters,
+};
 use etendue_projection::Raster;
 use glam::DVec2;
 
@@ -25,7 +27,11 @@ fn round() -> PsfParameters {
 
 fn effects(parameters: PsfParameters, lens: &Lens, raster: &Raster) -> Effects {
     let psf = Psf::new(parameters, lens, raster).expect("legal");
-    Effects::new(EffectsParameters { psf: Some(psf), margin: Some(0.0), ..Default::default() }, raster).expect("legal")
+    Effects::new(
+        EffectsParameters { psf: Some(PointSpread::Aperture(psf)), margin: Some(0.0), ..Default::default() },
+        raster,
+    )
+    .expect("legal")
 }
 
 fn point(raster: &Raster, x: usize, y: usize) -> Plane<Irradiance> {

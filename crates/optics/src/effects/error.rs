@@ -42,6 +42,50 @@ pub enum EffectsError {
         /// The steepest that is held, µm.
         limit_um: f64,
     },
+    /// A picture whose samples do not fill its rows.
+    #[error(
+        "a picture of {count} samples is no whole number of rows of {width}: give one sample or more, in full rows"
+    )]
+    Samples {
+        /// How many there are.
+        count: usize,
+        /// Samples in a row.
+        width: usize,
+    },
+    /// A sample of a picture that is no light.
+    #[error("column {column} of row {row} is {value}: the picture of a point's light has numbers from 0, none below")]
+    NoLight {
+        /// The column, from 0.
+        column: usize,
+        /// The row, from 0.
+        row: usize,
+        /// What it holds.
+        value: f32,
+    },
+    /// A picture without light.
+    #[error("the picture of a point's light is 0 everywhere: give one in which some light arrives")]
+    Dark,
+    /// A picture whose samples are farther apart than pixels.
+    #[error(
+        "the picture's samples lie {step_um:.3} µm apart on the sensor (at 780 nm, if it scales with the wavelength), farther than \
+         the pixels' {pixel_um:.3} µm: light would arrive in separate dots; give a finer picture and its \"image_pitch_um\""
+    )]
+    Coarse {
+        /// Distance of samples, µm.
+        step_um: f64,
+        /// Distance of pixels, µm.
+        pixel_um: f64,
+    },
+    /// A picture that is too wide.
+    #[error(
+        "the picture spreads light over {reach_px} px (at 780 nm, if it scales), and {most_px} is the most: crop it"
+    )]
+    Wide {
+        /// How far it reaches, px.
+        reach_px: usize,
+        /// How far it may.
+        most_px: usize,
+    },
     /// A margin that is no share.
     #[error("a margin of {margin} is not within 0 to 1 of the picture's size")]
     Margin {

@@ -12,7 +12,7 @@
 //!
 //! | order | effect | on |
 //! | --- | --- | --- |
-//! | 1 | [point spread](psf) | diffraction of the aperture, wavefront error |
+//! | 1 | [point spread](psf) | diffraction of the aperture, wavefront error; or [a picture](spread_image) |
 //! | 2 | [veiling glare](glare) | scatters a share of the light over the plane |
 //! | 3 | [ghosts](crate::ghosts) | adds light that two surfaces of the lens reflect |
 //!
@@ -24,11 +24,15 @@ mod error;
 mod fourier;
 pub mod glare;
 mod kernel;
+mod point_spread;
 pub mod psf;
+pub mod spread_image;
 
 pub use error::EffectsError;
 pub use glare::{Glare, GlareParameters};
+pub use point_spread::PointSpread;
 pub use psf::{Psf, PsfParameters, WavefrontTerm, Zernike};
+pub use spread_image::{SpreadImage, SpreadImageParameters};
 
 use crate::ghosts::GhostSettings;
 use convolve::{Convolver, Field, Region};
@@ -37,6 +41,7 @@ use etendue_core::quantity::{Irradiance, Quantity, Variance};
 use etendue_projection::Raster;
 use glam::DVec2;
 use kernel::Kernel;
+use point_spread::ReadySpread;
 
 /// The widest margin that is chosen without being asked for, as a share of the picture's width and height.
 pub const MARGIN_CAP: f64 = 0.25;
@@ -92,7 +97,7 @@ pub struct Need {
 /// The effects of a camera.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Effects {
-    psf: Option<Psf>,
+    psf: Option<PointSpread>,
     glare: Option<Glare>,
     ghosts: Option<GhostSettings>,
     margin_px: [usize; 2],
@@ -101,8 +106,8 @@ pub struct Effects {
 /// The members that a camera can have, and its margin.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EffectsParameters {
-    /// Diffraction and wavefront error.
-    pub psf: Option<Psf>,
+    /// Diffraction and wavefront error, or a picture.
+    pub psf: Option<PointSpread>,
     /// Light scattered in the lens.
     pub glare: Option<Glare>,
     /// Light that two surfaces reflect.
@@ -145,7 +150,7 @@ impl Effects {
     pub fn needs(&self) -> Vec<Need> {
         let need = |effect| {
             let (verdict, reason) = match effect {
-                Effect::PointSpread => Psf::need(self.psf.as_ref()),
+                Effect::PointSpread => PointSpread::need(self.psf.as_ref()),
                 Effect::Glare => Glare::need(self.glare.as_ref()),
                 Effect::Ghosts => GhostSettings::need(self.ghosts.as_ref()),
             };
@@ -174,7 +179,7 @@ impl Effects {
 
     /// The point-spread function, as described.
     #[must_use]
-    pub fn psf(&self) -> Option<&Psf> {
+    pub fn psf(&self) -> Option<&PointSpread> {
         self.psf.as_ref()
     }
 
@@ -258,13 +263,17 @@ impl Spread {
         let of = |kernel: &Kernel| Convolver::new(kernel, canvas.size(), canvas.whole());
         Self { mean: of(kernel), variance: of(&kernel.squared()) }
     }
+
+    fn apply(&self, light: &Field, variance: Option<&Field>) -> (Field, Option<Field>) {
+        (self.mean.apply(light), variance.map(|variance| self.variance.apply(variance)))
+    }
 }
 
 /// Effects that are ready to be applied.
 #[derive(Debug)]
 pub struct Prepared {
     canvas: Canvas,
-    psf: Option<psf::Ready>,
+    psf: Option<ReadySpread>,
     glare: Option<Spread>,
 }
 
@@ -291,8 +300,7 @@ impl Prepared {
             (light, variance) = psf.apply(band_nm, &light, variance.as_ref());
         }
         if let Some(glare) = &self.glare {
-            light = glare.mean.apply(&light);
-            variance = variance.map(|variance| glare.variance.apply(&variance));
+            (light, variance) = glare.apply(&light, variance.as_ref());
         }
         (light, variance)
     }

@@ -1,13 +1,18 @@
 //! `[effects]`: from the record to the effects.
 
 use super::context::Context;
+use super::picture::grey;
 use etendue_optics::effects::{MARGIN_CAP, WavefrontTerm, Zernike};
 use etendue_optics::ghosts::GhostSettings;
-use etendue_optics::{Effects, EffectsError, EffectsParameters, Glare, GlareParameters, Lens, Psf, PsfParameters};
+use etendue_optics::{
+    Effects, EffectsError, EffectsParameters, Glare, GlareParameters, Lens, PointSpread, Psf, PsfParameters,
+    SpreadImage, SpreadImageParameters,
+};
 use etendue_projection::Raster;
 use etendue_scene::Placed;
 use etendue_scene::record::effects::{TermSize, ZernikeIndex};
 use etendue_scene::record::{self, effects as description};
+use std::path::PathBuf;
 
 const NM_PER_UM: f64 = 1000.0;
 
@@ -20,7 +25,7 @@ pub(super) fn effects(
 ) -> Option<Effects> {
     let Some(record) = record else { return Some(Effects::default()) };
     let psf = match &record.psf {
-        Some(record) => Some(context.accept(&record.place, psf(record, lens, picture))?),
+        Some(record) => Some(point_spread(record, lens, picture, context)?),
         None => None,
     };
     let glare = match &record.glare {
@@ -67,6 +72,36 @@ fn glare(record: &description::Glare) -> Result<Glare, EffectsError> {
         exponent: record.exponent.value,
         reach_mm: record.reach_mm.as_ref().map(|r| r.value),
     })
+}
+
+fn point_spread(
+    record: &description::Psf,
+    lens: &Lens,
+    picture: &Raster,
+    context: &mut Context<'_>,
+) -> Option<PointSpread> {
+    match (&record.image, &record.image_pitch_um) {
+        (Some(file), Some(pitch)) => {
+            let wavelength = record.image_wavelength_nm.as_ref();
+            image(file, pitch, wavelength, picture, context).map(PointSpread::Image)
+        }
+        _ => context.accept(&record.place, psf(record, lens, picture)).map(PointSpread::Aperture),
+    }
+}
+
+/// A function from a picture; where its distances are at fault, the distance is.
+fn image(
+    file: &Placed<PathBuf>,
+    pitch: &Placed<f64>,
+    wavelength: Option<&Placed<f64>>,
+    picture: &Raster,
+    context: &mut Context<'_>,
+) -> Option<SpreadImage> {
+    let (width, light) = grey(file, context)?;
+    let (pitch_um, wavelength_nm) = (pitch.value, wavelength.map(|nm| nm.value));
+    let image = SpreadImage::new(SpreadImageParameters { width, light, pitch_um, wavelength_nm }, picture);
+    let of_pitch = matches!(image, Err(EffectsError::Coarse { .. }));
+    context.accept(if of_pitch { &pitch.place } else { &file.place }, image)
 }
 
 fn psf(record: &description::Psf, lens: &Lens, picture: &Raster) -> Result<Psf, EffectsError> {

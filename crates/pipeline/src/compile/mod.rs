@@ -11,6 +11,7 @@ mod lamp;
 mod lens;
 mod light;
 mod material;
+mod picture;
 mod sensor;
 mod settings;
 mod shape;

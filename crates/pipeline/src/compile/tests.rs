@@ -2,7 +2,8 @@
 
 use super::{Choices, compile};
 use crate::Plan;
-use etendue_scene::asset::Assets;
+use etendue_optics::PointSpread;
+use etendue_scene::asset::{Assets, ImageAsset, ImagePixels};
 use etendue_scene::{Description, Overrides, preset};
 use etendue_spectra::observer::luminance;
 use std::path::Path;
@@ -132,6 +133,10 @@ fn scattering(effects: &str, render: &str) -> Result<Plan, String> {
 
 /// A camera of a lens and effects, with a section of rendering.
 fn behind(lens: &str, effects: &str, render: &str) -> Result<Plan, String> {
+    behind_with(lens, effects, render, &Assets::default())
+}
+
+fn behind_with(lens: &str, effects: &str, render: &str, assets: &Assets) -> Result<Plan, String> {
     let text = format!(
         r#"format = 1
 [[cameras]]
@@ -161,7 +166,7 @@ bits = 12
     let read = |_: &Path| Ok(text.clone());
     let job = Description::load(Path::new("job.toml"), &read, &Overrides::default()).map_err(|f| f.to_string())?;
     let faults = |list: Vec<etendue_scene::Fault>| list.iter().map(|f| format!("{f}\n")).collect::<String>();
-    compile(&job, &Assets::default(), &Choices::default()).map_err(faults)
+    compile(&job, assets, &Choices::default()).map_err(faults)
 }
 
 const GLARE: &str = "glare = { scatter = 0.02, core_um = 10, exponent = 2.5 }";
@@ -191,6 +196,39 @@ fn effects_that_cannot_be_are_refused_where_they_stand() {
     // The distortion folds beyond the picture, within a margin of its own width.
     let plan = scattering(&format!("margin = 1, {GLARE}"), "").expect("it is dark there");
     assert!(plan.remarks.iter().any(|r| r.contains("some is missing")), "{:?}", plan.remarks);
+}
+
+const PINHOLE: &str = "model = \"pinhole\", focal_length_mm = 6, f_number = 2";
+
+#[test]
+fn a_point_spread_function_from_a_picture() {
+    let pixels = |pixels: ImagePixels| {
+        let image = ImageAsset { width: 3, height: pixels.len() as u32 / 3, pixels, hash: [0; 32] };
+        Assets { images: [("k.png".into(), image)].into(), ..Assets::default() }
+    };
+    let of = |keys: &str, assets: &Assets| {
+        behind_with(PINHOLE, &format!("psf = {{ image = \"k.png\", image_pitch_um = {keys} }}"), "", assets)
+    };
+    let dot = pixels(ImagePixels::Gray8(vec![0, 51, 0, 51, 255, 51]));
+    let plan = of("40, image_wavelength_nm = 650", &dot).expect("no fault");
+    let camera = &plan.cameras[0];
+    let Some(PointSpread::Image(image)) = camera.body.effects.psf() else { panic!("a picture") };
+    // Bytes are linear numbers: 51 of 255 is a fifth.
+    assert_eq!(image.parameters().light, [0.0, 0.2, 0.0, 0.2, 1.0, 0.2]);
+    assert!(camera.settings.bands.is_some() && camera.film_size() == (82, 62), "{:?}", camera.film_size());
+    let said = of("20", &Assets::default()).expect_err("no file");
+    assert!(said.starts_with("job.toml:7:") && said.contains("effects.psf.image: the picture k.png was not"), "{said}");
+    let said = of("20", &pixels(ImagePixels::Gray16(vec![0; 6]))).expect_err("dark");
+    assert!(
+        said.starts_with("job.toml:7:") && said.contains("effects.psf.image: ") && said.contains("0 everywhere"),
+        "{said}"
+    );
+    let said = of("20", &pixels(ImagePixels::Rgb32F(vec![[0.5, -2.0, 0.5]; 3]))).expect_err("negative");
+    assert!(said.contains("effects.psf.image: column 0 of row 0 is -0.33"), "{said}");
+    let said = of("60", &dot).expect_err("coarse");
+    assert!(said.contains("effects.psf.image_pitch_um: ") && said.contains("separate dots"), "{said}");
+    let said = behind(PINHOLE, "psf = { wavefront = [{ noll = 4, rms_um = 900 }] }", "").expect_err("steep");
+    assert!(said.starts_with("job.toml:7:") && said.contains("effects.psf: the wavefront's slope"), "{said}");
 }
 
 const DOUBLE_GAUSS: &str = "model = \"prescription\", published = \"double-gauss\", focus_distance_m = \"infinity\"";

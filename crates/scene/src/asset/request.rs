@@ -274,6 +274,8 @@ impl List {
     fn camera(&mut self, camera: &Camera) {
         self.lens(&camera.lens);
         camera.front.iter().for_each(|front| self.front(front));
+        let psf = camera.effects.as_ref().and_then(|effects| effects.psf.as_ref());
+        psf.and_then(|psf| psf.image.as_ref()).into_iter().for_each(|image| self.add(AssetKind::Image, image));
         match camera.sensor.electronics.as_ref().map(|e| &e.quantum_efficiency) {
             Some(QuantumEfficiency::Same(curve)) => self.curve(curve, Values::Share),
             Some(QuantumEfficiency::PerChannel(curves)) => curves.iter().for_each(|c| self.curve(c, Values::Share)),

@@ -1,14 +1,16 @@
 //! `[effects]`: what becomes of the irradiance behind the lens.
 
+use std::path::PathBuf;
+
 use crate::fault::Faults;
-use crate::place::Placed;
-use crate::reader::{Rule, RuleExt as _, either, exactly, flag, keyed, list, number, record, whole};
+use crate::place::{Place, Placed};
+use crate::reader::{Rule, RuleExt as _, either, exactly, flag, keyed, list, number, path, record, whole};
 
 record! {
     /// What becomes of the irradiance behind the lens, on either route. The film is rendered wider than the picture, for light
     /// that comes from beyond its edge, and spectral bands are kept.
     pub struct Effects check(check) {
-        /// Diffraction and wavefront error of the aperture. Default: none.
+        /// Diffraction and wavefront error of the aperture, or a picture of a point's light. Default: none.
         optional psf: Psf = record();
         /// Light scattered in the lens. Default: none.
         optional glare: Glare = record();
@@ -24,7 +26,8 @@ record! {
 }
 
 record! {
-    /// The point-spread function of the aperture: diffraction at the lens's working f-number, with the wavefront's error.
+    /// The point-spread function of the aperture: diffraction at the lens's working f-number, with the wavefront's error. Or, with
+    /// "image", what a picture shows, in place of both.
     pub struct Psf check(check_psf) {
         /// Blades of the diaphragm, 3 … 32. Default: a circle. The area is always that of the circle of the f-number.
         optional blades: Placed<u64> = whole(3, 32);
@@ -43,6 +46,16 @@ record! {
         /// Patches across and down the picture with a function each, 1 … 32. Default: one where the pattern is nearly the same
         /// everywhere, else five and three.
         optional patches: Placed<[Placed<u64>; 2]> = exactly(whole(1, 32));
+        /// A picture of a point's light on the sensor, in place of the aperture's function and all of its keys; with
+        /// "image_pitch_um". Its numbers are linear, those of 8 and 16 bits too, and are divided by their sum; of a coloured one
+        /// the mean of its channels. The point is in its middle; the first row is above it, the first column to its left, as in
+        /// the picture taken. Default: the aperture.
+        optional image: Placed<PathBuf> = path(&["png", "exr"]);
+        /// With "image": distance of its pixels on the sensor, µm, above 0, at most that of the sensor's pixels.
+        optional image_pitch_um: Placed<f64> = number("µm").above(0.0);
+        /// With "image": the wavelength of "image_pitch_um", nm, 300 … 1 100; at others the picture is larger in proportion to the
+        /// wavelength, as diffraction is. Default: the same at all wavelengths.
+        optional image_wavelength_nm: Placed<f64> = number("nm").at_least(300.0).at_most(1100.0);
     }
 }
 
@@ -86,9 +99,52 @@ fn sizes(unit: &'static str) -> impl Rule<Out = Vec<Placed<f64>>> {
 }
 
 fn check_psf(psf: &Psf, faults: &mut Faults) {
+    check_blades(psf, faults);
+    match &psf.image {
+        None => check_without_image(psf, faults),
+        Some(image) => check_image(psf, &image.place, faults),
+    }
+}
+
+fn check_without_image(psf: &Psf, faults: &mut Faults) {
+    let of_image = [(&psf.image_pitch_um, "image_pitch_um"), (&psf.image_wavelength_nm, "image_wavelength_nm")];
+    for (key, name) in of_image.into_iter().filter_map(|(key, name)| Some((key.as_ref()?, name))) {
+        faults.add(&key.place, format!("\"{name}\" has no effect without \"image\""), "give \"image\", or remove it");
+    }
+}
+
+fn check_image(psf: &Psf, image: &Place, faults: &mut Faults) {
+    if psf.image_pitch_um.is_none() {
+        let problem = "\"image\" does not say how far its pixels are apart on the sensor";
+        faults.add(image, problem, "add \"image_pitch_um\"");
+    }
+    for (place, name) in of_aperture(psf) {
+        let problem = format!("\"{name}\" contradicts \"image\", which is the whole point-spread function");
+        faults.add(place, problem, "remove one of them");
+    }
+}
+
+/// The keys that describe an aperture's function.
+fn of_aperture(psf: &Psf) -> impl Iterator<Item = (&Place, &'static str)> {
+    fn place<T>(key: &Option<Placed<T>>) -> Option<&Place> {
+        key.as_ref().map(|key| &key.place)
+    }
+    let keys = [
+        (place(&psf.blades), "blades"),
+        (place(&psf.blade_curvature), "blade_curvature"),
+        (place(&psf.rotation_deg), "rotation_deg"),
+        (place(&psf.obstruction), "obstruction"),
+        (psf.wavefront.first().map(|term| &term.place), "wavefront"),
+        (place(&psf.reach_mm), "reach_mm"),
+        (place(&psf.patches), "patches"),
+    ];
+    keys.into_iter().filter_map(|(place, name)| Some((place?, name)))
+}
+
+fn check_blades(psf: &Psf, faults: &mut Faults) {
     let of_blades = [(&psf.blade_curvature, "blade_curvature"), (&psf.rotation_deg, "rotation_deg")];
     for (key, name) in of_blades {
-        if let (Some(key), None) = (key, &psf.blades) {
+        if let (Some(key), None, None) = (key, &psf.blades, &psf.image) {
             faults.add(&key.place, format!("\"{name}\" has no effect on a circle"), "give \"blades\", or remove it");
         }
     }

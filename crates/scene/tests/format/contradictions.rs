@@ -179,3 +179,66 @@ fn levels_that_trace_no_paths() {
     let shared = format!("max_bounces = 8\n{second}");
     assert_eq!(level(&shared, "level = \"flat\""), "", "the other camera traces paths of eight bounces");
 }
+
+/// The faults of a camera with these keys in its [effects.psf], line 2 of the file `camera.toml`.
+fn psf(keys: &str) -> String {
+    let text = format!(
+        "format = 1\neffects = {{ psf = {{ {keys} }} }}\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm = 6\n\
+                        f_number = 2\n[sensor]\nwidth_px = 64\nheight_px = 48\npixel_pitch_um = 6\n"
+    );
+    let read = |_: &std::path::Path| Ok(text.clone());
+    let camera =
+        etendue_scene::load_camera(std::path::Path::new("camera.toml"), &read, &etendue_scene::Overrides::default());
+    camera.err().map_or(String::new(), |faults| faults.to_string())
+}
+
+#[test]
+fn a_point_spread_function_is_of_an_aperture_or_from_a_picture() {
+    assert_eq!(psf("blades = 6, rotation_deg = 10, wavefront = [{ noll = 4, rms_um = 0.1 }]"), "");
+    assert_eq!(psf("image = \"k.exr\", image_pitch_um = 2, image_wavelength_nm = 550"), "");
+    let says = |keys: &str, words: [&str; 2]| {
+        let said = psf(keys);
+        assert!(said.starts_with("camera.toml:2:") && words.iter().all(|w| said.contains(w)), "{keys}: {said}");
+        assert_eq!(said.lines().count(), 1, "{said}");
+    };
+    says("image = \"k.exr\"", ["effects.psf.image:", "add \"image_pitch_um\""]);
+    says("image = \"k.jpg\", image_pitch_um = 2", ["effects.psf.image:", "k.jpg"]);
+    says("image = \"k.exr\", image_pitch_um = 0", ["effects.psf.image_pitch_um:", "above 0"]);
+    says("image_pitch_um = 2", ["effects.psf.image_pitch_um:", "no effect without \"image\""]);
+    says("image_wavelength_nm = 550", ["effects.psf.image_wavelength_nm:", "no effect without \"image\""]);
+    says("image = \"k.exr\", image_pitch_um = 2, image_wavelength_nm = 200", ["psf.image_wavelength_nm:", "300"]);
+    for key in ["blades = 6", "blade_curvature = 0.5", "rotation_deg = 5", "obstruction = 0.3", "reach_mm = 1"] {
+        let name = key.split(' ').next().expect("a name");
+        says(
+            &format!("image = \"k.exr\", image_pitch_um = 2, {key}"),
+            [&format!("effects.psf.{name}:"), "contradicts"],
+        );
+    }
+    let with = |key: &str| format!("image = \"k.exr\", image_pitch_um = 2, {key}");
+    says(&with("patches = [2, 2]"), ["effects.psf.patches:", "contradicts \"image\""]);
+    says(&with("wavefront = [{ noll = 4, rms_um = 0.1 }]"), ["effects.psf.wavefront", "contradicts \"image\""]);
+}
+
+#[test]
+fn an_aperture_says_what_it_means() {
+    for (keys, words) in [
+        ("blades = 2", "effects.psf.blades: "),
+        ("blades = 33", "effects.psf.blades: "),
+        ("blade_curvature = 0.5", "no effect on a circle"),
+        ("rotation_deg = 10", "no effect on a circle"),
+        ("blades = 5, blade_curvature = 1.5", "effects.psf.blade_curvature: "),
+        ("obstruction = 0.95", "effects.psf.obstruction: "),
+        ("reach_mm = 0", "effects.psf.reach_mm: "),
+        ("patches = [0, 1]", "effects.psf.patches"),
+        ("patches = 3", "effects.psf.patches"),
+        ("bladse = 6", "effects.psf.bladse: "),
+        ("wavefront = [{ noll = 92, rms_um = 0.1 }]", "noll: "),
+        ("wavefront = [{ noll = 4, osa = 4, rms_um = 0.1 }]", "osa"),
+        ("wavefront = [{ noll = 4 }]", "rms_um"),
+        ("wavefront = [{ noll = 4, rms_waves = 0.1 }]", "add \"wavelength_nm\""),
+        ("wavefront = [{ noll = 4, rms_um = 0.1, wavelength_nm = 550 }]", "no effect with \"rms_um\""),
+    ] {
+        let said = psf(keys);
+        assert!(said.starts_with("camera.toml:2:") && said.contains(words), "{keys}: {said}");
+    }
+}

@@ -33,13 +33,14 @@ use outline::Outline;
 use pattern::{CELLS, Pattern, Pupil};
 
 const MM_PER_NM: f64 = 1e-6;
+pub(super) const MM_PER_UM: f64 = 1e-3;
 const NM_PER_UM: f64 = 1e3;
 /// Wavelengths of a band are at most this far apart, nm.
 const STEP_NM: f64 = 10.0;
 /// The farthest that a function reaches, px.
-const FARTHEST_PX: usize = 512;
+pub(super) const FARTHEST_PX: usize = 512;
 /// Wavelengths for which the pupil's lattice must hold the wavefront, nm.
-const VISIBLE_NM: (f64, f64) = (380.0, 780.0);
+pub(super) const VISIBLE_NM: (f64, f64) = (380.0, 780.0);
 /// Patches where the function varies and nothing is said.
 const PATCHES: [usize; 2] = [5, 3];
 /// A pattern that is wider by less in the picture's corner counts as the same everywhere.
@@ -144,19 +145,18 @@ impl Psf {
         self.f_number
     }
 
-    pub(super) fn need(psf: Option<&Self>) -> (Verdict, String) {
-        let Some(psf) = psf else { return (Verdict::Skipped, "no [effects.psf] is described".to_owned()) };
-        let shape = match psf.parameters.blades {
+    pub(super) fn need(&self) -> (Verdict, String) {
+        let shape = match self.parameters.blades {
             0 => "a circle".to_owned(),
-            n => format!("{n} blades of curvature {}", psf.parameters.curvature),
+            n => format!("{n} blades of curvature {}", self.parameters.curvature),
         };
-        let error = match psf.parameters.wavefront.len() {
+        let error = match self.parameters.wavefront.len() {
             0 => "no wavefront error".to_owned(),
             1 => "1 Zernike term".to_owned(),
             n => format!("{n} Zernike terms"),
         };
-        let [x, y] = psf.patches;
-        let n = (psf.f_number * 1e3).round() / 1e3;
+        let [x, y] = self.patches;
+        let n = (self.f_number * 1e3).round() / 1e3;
         (Verdict::Required, format!("diffraction of {shape} at f/{n}, {error}, in {x} × {y} patches"))
     }
 
@@ -313,13 +313,11 @@ impl Ready {
     }
 
     /// The kernel of a patch, its sum one.
-    fn kernel(&self, (low_nm, high_nm): (f64, f64), patch: &Patch) -> Kernel {
+    fn kernel(&self, band_nm: (f64, f64), patch: &Patch) -> Kernel {
         let pitch = self.canvas.pitch_mm();
-        let reach = self.psf.reach_px_of(high_nm, self.fineness, pitch.min_element(), patch.widest);
+        let reach = self.psf.reach_px_of(band_nm.1, self.fineness, pitch.min_element(), patch.widest);
         let mut kernel = Kernel::zeros([reach, reach]);
-        let parts = ((high_nm - low_nm) / STEP_NM).ceil().max(1.0);
-        for part in 0..parts as usize {
-            let nm = low_nm + (high_nm - low_nm) * (part as f64 + 0.5) / parts;
+        for nm in mid_wavelengths(band_nm) {
             let own = patch.wavefront_um.as_ref().map(|wavefront| {
                 let waves: Vec<f64> = wavefront.iter().map(|um| um * NM_PER_UM / nm).collect();
                 self.pupil.pattern(Some(&waves))
@@ -337,6 +335,12 @@ impl Ready {
         let sum = kernel.sum();
         kernel.scaled(1.0 / sum)
     }
+}
+
+/// The middles of the equal parts of a band, none wider than the step.
+pub(super) fn mid_wavelengths((low_nm, high_nm): (f64, f64)) -> impl Iterator<Item = f64> {
+    let parts = ((high_nm - low_nm) / STEP_NM).ceil().max(1.0);
+    (0..parts as usize).map(move |part| low_nm + (high_nm - low_nm) * (part as f64 + 0.5) / parts)
 }
 
 /// Adds a patch's part by its weights.

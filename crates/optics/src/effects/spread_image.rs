@@ -1,0 +1,181 @@
+//! A point-spread function from a picture: measured, or made by another program.
+//!
+//! The picture is what becomes of a point's light, its first row above, its first column on the left; the numbers are linear
+//! and are divided by their sum. Each sample holds its light in its middle: sample (i, j) of w × h lies at
+//! (i + ½ − w/2, j + ½ − h/2) times the pitch from the point, so the point is in the middle of the picture, whether it has an
+//! even or an odd number of samples. Light is shared among the pixels as that of every kernel (`kernel.rs`): sum and centroid
+//! are kept, and one sample is the identity.
+//!
+//! With a wavelength λ₀ the picture is as much larger as λ is longer, as diffraction is: the pitch is that times λ/λ₀, averaged
+//! over a band in steps of 10 nm at most. Without, it is the same at all wavelengths.
+//!
+//! Left out: a function that varies over the picture.
+
+use super::convolve::Field;
+use super::error::{EffectsError, positive};
+use super::kernel::Kernel;
+use super::psf::{FARTHEST_PX, MM_PER_UM, VISIBLE_NM, mid_wavelengths};
+use super::{Canvas, Spread, Verdict};
+use core::fmt;
+use etendue_projection::Raster;
+use glam::DVec2;
+
+/// The farthest that samples lie apart, px; the rest is rounding.
+const WIDEST_STEP_PX: f64 = 1.0 + 1e-9;
+
+/// A picture of a point's light.
+#[derive(Clone, PartialEq)]
+pub struct SpreadImageParameters {
+    /// Samples in a row.
+    pub width: usize,
+    /// Light of the samples, row by row, linear, in any unit.
+    pub light: Vec<f32>,
+    /// Distance of samples on the sensor, µm.
+    pub pitch_um: f64,
+    /// Where that is the distance, nm; elsewhere it is in proportion to the wavelength. `None` for the same everywhere.
+    pub wavelength_nm: Option<f64>,
+}
+
+impl fmt::Debug for SpreadImageParameters {
+    /// Without the samples, which are those of a file.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "SpreadImage({} × {}, {:?} µm, {:?} nm)",
+            self.width,
+            self.height(),
+            self.pitch_um,
+            self.wavelength_nm
+        )
+    }
+}
+
+impl SpreadImageParameters {
+    /// Rows.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.light.len() / self.width.max(1)
+    }
+}
+
+/// A point-spread function from a picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpreadImage {
+    parameters: SpreadImageParameters,
+}
+
+impl SpreadImage {
+    /// The function on the pixels of a picture.
+    ///
+    /// # Errors
+    /// Where the samples are no light, or are too far apart, or the function is too wide.
+    pub fn new(parameters: SpreadImageParameters, picture: &Raster) -> Result<Self, EffectsError> {
+        positive("image_pitch_um", parameters.pitch_um)?;
+        parameters.wavelength_nm.map_or(Ok(0.0), |nm| positive("image_wavelength_nm", nm))?;
+        check_light(&parameters)?;
+        let image = Self { parameters };
+        image.check_size(picture.pitch_mm())?;
+        Ok(image)
+    }
+
+    /// What it was made of.
+    #[must_use]
+    pub fn parameters(&self) -> &SpreadImageParameters {
+        &self.parameters
+    }
+
+    fn check_size(&self, pitch_mm: DVec2) -> Result<(), EffectsError> {
+        let (step_mm, pixel_mm) = (self.step_mm(VISIBLE_NM.1), pitch_mm.min_element());
+        if step_mm > WIDEST_STEP_PX * pixel_mm {
+            return Err(EffectsError::Coarse { step_um: step_mm / MM_PER_UM, pixel_um: pixel_mm / MM_PER_UM });
+        }
+        let [x, y] = self.reach_px(pitch_mm);
+        if x.max(y) > FARTHEST_PX {
+            return Err(EffectsError::Wide { reach_px: x.max(y), most_px: FARTHEST_PX });
+        }
+        Ok(())
+    }
+
+    pub(super) fn need(&self) -> (Verdict, String) {
+        let p = &self.parameters;
+        let scale = p.wavelength_nm.map_or("the same at all wavelengths".to_owned(), |nm| {
+            format!("at {nm} nm, in proportion to the wavelength elsewhere")
+        });
+        let size = format!("{} × {} samples, {} µm apart", p.width, p.height(), p.pitch_um);
+        (Verdict::Required, format!("a picture of {size}, {scale}"))
+    }
+
+    /// Columns and rows that light is spread over.
+    pub(super) fn reach_px(&self, pitch_mm: DVec2) -> [usize; 2] {
+        self.reach_px_at(VISIBLE_NM.1, pitch_mm)
+    }
+
+    fn reach_px_at(&self, nm: f64, pitch_mm: DVec2) -> [usize; 2] {
+        let reach = self.offset_mm(0, nm).abs() / pitch_mm;
+        [reach.x.ceil() as usize, reach.y.ceil() as usize]
+    }
+
+    /// Distance of samples.
+    fn step_mm(&self, nm: f64) -> f64 {
+        self.parameters.pitch_um * MM_PER_UM * self.parameters.wavelength_nm.map_or(1.0, |at| nm / at)
+    }
+
+    /// Where a sample lies from the point.
+    fn offset_mm(&self, index: usize, nm: f64) -> DVec2 {
+        let (width, height) = (self.parameters.width, self.parameters.height());
+        let middle = DVec2::new((index % width) as f64, (index / width) as f64) + 0.5;
+        (middle - 0.5 * DVec2::new(width as f64, height as f64)) * self.step_mm(nm)
+    }
+
+    /// The kernel of a band, its sum one.
+    fn kernel(&self, band_nm: (f64, f64), pitch_mm: DVec2) -> Kernel {
+        let mut kernel = Kernel::zeros(self.reach_px_at(band_nm.1, pitch_mm));
+        for nm in mid_wavelengths(band_nm) {
+            for (index, light) in self.parameters.light.iter().enumerate().filter(|(_, light)| **light > 0.0) {
+                kernel.deposit(self.offset_mm(index, nm) / pitch_mm, f64::from(*light));
+            }
+        }
+        let sum = kernel.sum();
+        kernel.scaled(1.0 / sum)
+    }
+
+    /// The function made ready for a film.
+    pub(super) fn ready(&self, canvas: &Canvas) -> ReadyImage {
+        let shared = self.parameters.wavelength_nm.is_none();
+        let shared = shared.then(|| Spread::new(&self.kernel(VISIBLE_NM, canvas.pitch_mm()), canvas));
+        ReadyImage { image: self.clone(), canvas: *canvas, shared }
+    }
+}
+
+fn check_light(parameters: &SpreadImageParameters) -> Result<(), EffectsError> {
+    let SpreadImageParameters { width, light, .. } = parameters;
+    if *width == 0 || light.is_empty() || light.len() % width != 0 {
+        return Err(EffectsError::Samples { count: light.len(), width: *width });
+    }
+    if let Some(index) = light.iter().position(|v| !(v.is_finite() && *v >= 0.0)) {
+        return Err(EffectsError::NoLight { column: index % width, row: index / width, value: light[index] });
+    }
+    if light.iter().all(|v| *v == 0.0) { Err(EffectsError::Dark) } else { Ok(()) }
+}
+
+/// The function of a film.
+#[derive(Debug)]
+pub(super) struct ReadyImage {
+    image: SpreadImage,
+    canvas: Canvas,
+    /// Where it is the same at all wavelengths.
+    shared: Option<Spread>,
+}
+
+impl ReadyImage {
+    /// The film's light and variance in a band.
+    pub(super) fn apply(&self, band_nm: (f64, f64), light: &Field, variance: Option<&Field>) -> (Field, Option<Field>) {
+        match &self.shared {
+            Some(shared) => shared.apply(light, variance),
+            None => {
+                let kernel = self.image.kernel(band_nm, self.canvas.pitch_mm());
+                Spread::new(&kernel, &self.canvas).apply(light, variance)
+            }
+        }
+    }
+}
