@@ -38,6 +38,8 @@ fn glass_that_the_camera_cannot_look_through() {
     plan(GLASS, "").ok();
     plan(&GLASS.replace("100", "0"), "").refused(&["camera.toml:11", "front.windscreen.distance_mm"]);
     plan(&format!("{GLASS}tilt_deg = 90"), "").refused(&["camera.toml:12", "front.windscreen.tilt_deg"]);
+    let wedge = format!("{GLASS}tilt_deg = 60\nwedge_mrad = 100");
+    plan(&wedge, "").refused(&["camera.toml:10", "front.windscreen", "faces cross", "wedge_mrad"]);
     plan(&format!("{GLASS}reference_thickness_mm = 4"), "").refused(&["camera.toml:12", "no effect"]);
     plan(&format!("{GLASS}double_image = false\ndouble_image_share = 0.5"), "").refused(&["no effect"]);
     plan(&format!("{GLASS}internal_transmittance = 0"), "").refused(&["camera.toml:10", "internal_transmittance"]);
@@ -61,4 +63,20 @@ fn what_bends_rays_has_no_route_at_the_pupil() {
     let tinted = format!("{GLASS}internal_transmittance = [0.7, 0.9, 0.8]");
     plan(&tinted, "[render]\nwavelengths_per_path = 4").refused(&["job.toml:9", "each differently"]);
     plan(&format!("{GLASS}internal_transmittance = 0.7"), "[render]\nwavelengths_per_path = 4").ok();
+}
+
+/// The command line reaches through the camera's file.
+#[test]
+fn what_stands_in_front_and_the_effects_can_be_set() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    fs::write(
+        place.path().join("camera.toml"),
+        format!("{CAMERA}{GLASS}[effects.glare]\nscatter = 0.01\ncore_um = 20\nexponent = 3\n"),
+    )
+    .expect("written");
+    fs::write(place.path().join("job.toml"), JOB).expect("written");
+    let job = text(&place.path().join("job.toml"));
+    let set = ["--set", "cameras.c.front.windscreen.tilt_deg=30", "--set", "cameras.c.effects.glare.scatter=0.02"];
+    let said = etendue(["plan", job.as_str()].into_iter().chain(set)).ok().out;
+    assert!(said.contains("30.0° from the axis") && said.contains("0.02 of the light"), "{said}");
 }

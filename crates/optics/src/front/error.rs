@@ -59,6 +59,12 @@ pub enum FrontError {
          surface; move it farther, or tilt it less"
     )]
     DirtInLens,
+    /// Faces that meet within the picture.
+    #[error(
+        "the picture looks through the wind-screen where its faces cross, or where light cannot leave it: make the wedge (wedge_mrad) \
+         smaller or the middle layer thicker, or curve it less"
+    )]
+    FacesCross,
     /// No ray goes through the glass.
     #[error("no pixel of the picture looks through the wind-screen: turn it towards the view (tilt_deg, yaw_deg)")]
     NotLookedThrough,

@@ -166,8 +166,15 @@ impl Windscreen {
         if !points.iter().all(|point| self.is_before(*point)) {
             return Err(FrontError::ThroughLens);
         }
-        let goes = |line: &Line| matches!(self.through(*line, PRINCIPAL_NM, Way::Straight), Fate::On(..));
-        if lines.iter().any(goes) { Ok(()) } else { Err(FrontError::NotLookedThrough) }
+        let mut goes = false;
+        for line in lines {
+            match self.through(*line, PRINCIPAL_NM, Way::Straight) {
+                Fate::Lost => return Err(FrontError::FacesCross),
+                Fate::On(..) => goes = true,
+                Fate::Past => {}
+            }
+        }
+        if goes { Ok(()) } else { Err(FrontError::NotLookedThrough) }
     }
 
     /// A ray from the camera, beyond the glass.
