@@ -1,7 +1,8 @@
 //! From a camera's film to its files.
 
-use crate::facts::{self, Files};
+use crate::facts;
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::tell;
 use etendue_core::Plane;
 use etendue_core::quantity::Electrons;

@@ -8,6 +8,7 @@ mod calibration;
 mod deliver;
 mod facts;
 mod failure;
+mod files;
 mod film_file;
 mod job;
 mod machine;

@@ -3,8 +3,9 @@
 use super::render::{claim, commit, open};
 use crate::args;
 use crate::deliver::{Results, Wanted, photographs};
-use crate::facts::{self, Files};
+use crate::facts;
 use crate::failure::Failure;
+use crate::files::Files;
 use crate::job::read_text;
 use crate::machine;
 use crate::tell;

@@ -1,0 +1,75 @@
+//! The files that a camera can deliver: their names, and what they hold.
+
+use etendue_core::quantity::{DigitalNumber, Electrons, Irradiance, Quantity, Radiance};
+use etendue_pipeline::plan::Products;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// What a file holds: its quantity and unit.
+fn entry(quantity: &str, unit: &str) -> Value {
+    json!({ "quantity": quantity, "unit": unit })
+}
+
+/// [`entry`] of a quantity of the core.
+fn entry_of<Q: Quantity>() -> Value {
+    entry(Q::NAME, Q::UNIT)
+}
+
+/// Names and entries of the files that a camera can deliver.
+pub struct Files;
+
+impl Files {
+    pub const RADIANCE: &str = "radiance.exr";
+    pub const IRRADIANCE: &str = "irradiance.exr";
+    pub const GHOSTS: &str = "ghosts.exr";
+    pub const ELECTRONS: &str = "electrons.exr";
+    pub const GROUND_TRUTH: &str = "ground_truth.exr";
+    pub const DEPTH: &str = "depth.png";
+    pub const RAYS: &str = "rays.exr";
+    pub const SIDECAR: &str = "camera.json";
+
+    /// The raw picture of a frame.
+    pub fn raw(frame: u32) -> String {
+        format!("raw.{frame:04}.png")
+    }
+
+    /// The picture of a frame.
+    pub fn picture(frame: u32) -> String {
+        format!("picture.{frame:04}.png")
+    }
+
+    /// A file of the undistorted twin.
+    pub fn undistorted(name: &str) -> String {
+        format!("undistorted/{name}")
+    }
+
+    /// All files of a camera over frames, with what they hold.
+    pub fn of(p: &Products, frames: &std::ops::Range<u32>) -> BTreeMap<String, Value> {
+        let mut files = BTreeMap::new();
+        let mut add = |wanted: bool, name: &str, entry: Value| {
+            if wanted {
+                files.insert(name.to_owned(), entry);
+            }
+        };
+        add(p.radiance, Self::RADIANCE, entry_of::<Radiance>());
+        add(p.irradiance, Self::IRRADIANCE, entry_of::<Irradiance>());
+        add(p.ghosts, Self::GHOSTS, entry_of::<Irradiance>());
+        add(p.electrons, Self::ELECTRONS, entry_of::<Electrons>());
+        add(p.ground_truth, Self::GROUND_TRUTH, entry("depth, distance, normal, position, ids", "m, m, 1, m, 1"));
+        let depth_unit = format!("1/{} m", p.depth_png_per_m.unwrap_or(0.0));
+        add(p.depth_png_per_m.is_some(), Self::DEPTH, entry("planar depth, 0 is invalid", &depth_unit));
+        add(p.rays, Self::RAYS, entry("origin and direction of each pixel's ray, camera frame", "m, 1"));
+        let twin = p.undistorted.is_some();
+        let planes = entry("depth, distance, normal, position, ids of the undistorted twin", "m, m, 1, m, 1");
+        add(twin && p.ground_truth, &Self::undistorted(Self::GROUND_TRUTH), planes);
+        let rays = entry("origin and direction of each pixel's ray of the undistorted twin, camera frame", "m, 1");
+        add(twin && p.rays, &Self::undistorted(Self::RAYS), rays);
+        for frame in frames.clone() {
+            let picture = entry("undistorted sRGB picture", "8 bits");
+            add(twin && p.picture, &Self::undistorted(&Self::picture(frame)), picture);
+            add(p.raw, &Self::raw(frame), entry_of::<DigitalNumber>());
+            add(p.picture, &Self::picture(frame), entry("sRGB picture", "8 bits"));
+        }
+        files
+    }
+}
