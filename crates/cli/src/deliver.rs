@@ -5,14 +5,15 @@ use crate::failure::Failure;
 use crate::files::Files;
 use crate::tell;
 use etendue_core::Plane;
-use etendue_core::quantity::Electrons;
+use etendue_core::quantity::{Display, Electrons};
 use etendue_io::exr::{
     self, EncodeError, Lengths, encode_ground_truth, encode_plane, encode_radiance, encode_rays, encode_spectral,
 };
+use etendue_io::jpeg::encode_jpeg;
 use etendue_io::{OutputFolder, Provenance, png, sidecar};
 use etendue_pipeline::film::Film;
 use etendue_pipeline::photograph::{Light, take};
-use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, Products};
+use etendue_pipeline::plan::{CameraBody, CameraPlan, PictureFormat, Plan, Products};
 use etendue_pipeline::pupil_depth::{PupilDepth, pupil_depth};
 use etendue_pipeline::rays::ray_table;
 use etendue_pipeline::truth::{GroundTruth, ground_truth};
@@ -24,7 +25,9 @@ use std::ops::Range;
 /// The names, relative to the output folder, of all files of a plan.
 pub fn names(plan: &Plan, frames: &Range<u32>) -> Vec<String> {
     let of_camera = |camera: &CameraPlan| {
-        let names = Files::of(&camera.products, frames).into_keys().chain([Files::SIDECAR.to_owned()]);
+        let names = Files::of(&camera.products, camera.body.picture_format(), frames)
+            .into_keys()
+            .chain([Files::SIDECAR.to_owned()]);
         names.map(|name| format!("{}/{name}", camera.name)).collect::<Vec<_>>()
     };
     plan.cameras.iter().flat_map(of_camera).collect()
@@ -61,7 +64,8 @@ pub fn deliver(
     if let Some(twin) = &twin {
         undistorted(plan, camera, twin, simd, &mut results)?;
     }
-    let mut facts = facts::sidecar(plan, camera, &Files::of(&camera.products, frames), not_finite);
+    let files = Files::of(&camera.products, camera.body.picture_format(), frames);
+    let mut facts = facts::sidecar(plan, camera, &files, not_finite);
     facts["undistorted"] = twin.as_ref().map_or(serde_json::Value::Null, facts::undistorted);
     results.json(Files::SIDECAR, &facts)
 }
@@ -149,6 +153,14 @@ pub struct Wanted<'a> {
     pub undistorted: Option<&'a Twin>,
 }
 
+fn encoded(picture: &Plane<Display>, format: PictureFormat) -> Result<Vec<u8>, EncodeError> {
+    match format {
+        PictureFormat::Jpeg { quality } => encode_jpeg(picture, quality),
+        PictureFormat::Png { bits: 8 } => png::encode_display(picture),
+        PictureFormat::Png { bits } => png::encode_display16(picture, bits),
+    }
+}
+
 /// Takes frame after frame and writes what is wanted of each.
 pub fn photographs(
     body: &CameraBody,
@@ -173,10 +185,12 @@ pub fn photographs(
             results.write(&Files::raw(number), png::encode_raw16(&frame.raw.plane))?;
         }
         if let Some(picture) = frame.picture.filter(|_| wanted.picture) {
-            results.write(&Files::picture(number), png::encode_display(&picture.display))?;
+            let format = body.picture_format();
+            let name = Files::picture(number, format);
+            results.write(&name, encoded(&picture.display, format))?;
             if let Some(twin) = wanted.undistorted {
-                let display = twin.picture(body, &picture.linear).expect("a picture was developed");
-                results.write(&Files::undistorted(&Files::picture(number)), png::encode_display(&display))?;
+                let display = twin.picture(body, &picture.linear, address(number)).expect("a picture was developed");
+                results.write(&Files::undistorted(&name), encoded(&display, format))?;
             }
         }
     }

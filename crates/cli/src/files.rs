@@ -1,7 +1,7 @@
 //! The files that a camera can deliver: their names, and what they hold.
 
 use etendue_core::quantity::{DigitalNumber, Electrons, Irradiance, Quantity, Radiance};
-use etendue_pipeline::plan::Products;
+use etendue_pipeline::plan::{PictureFormat, Products};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -34,8 +34,8 @@ impl Files {
     }
 
     /// The picture of a frame.
-    pub fn picture(frame: u32) -> String {
-        format!("picture.{frame:04}.png")
+    pub fn picture(frame: u32, format: PictureFormat) -> String {
+        format!("picture.{frame:04}.{}", format.extension())
     }
 
     /// A file of the undistorted twin.
@@ -44,7 +44,7 @@ impl Files {
     }
 
     /// All files of a camera over frames, with what they hold.
-    pub fn of(p: &Products, frames: &std::ops::Range<u32>) -> BTreeMap<String, Value> {
+    pub fn of(p: &Products, format: PictureFormat, frames: &std::ops::Range<u32>) -> BTreeMap<String, Value> {
         let mut files = BTreeMap::new();
         let mut add = |wanted: bool, name: &str, entry: Value| {
             if wanted {
@@ -64,11 +64,12 @@ impl Files {
         add(twin && p.ground_truth, &Self::undistorted(Self::GROUND_TRUTH), planes);
         let rays = entry("origin and direction of each pixel's ray of the undistorted twin, camera frame", "m, 1");
         add(twin && p.rays, &Self::undistorted(Self::RAYS), rays);
+        let bits = format!("{} bits", format.bits());
         for frame in frames.clone() {
-            let picture = entry("undistorted sRGB picture", "8 bits");
-            add(twin && p.picture, &Self::undistorted(&Self::picture(frame)), picture);
+            let picture = entry("undistorted sRGB picture", &bits);
+            add(twin && p.picture, &Self::undistorted(&Self::picture(frame, format)), picture);
             add(p.raw, &Self::raw(frame), entry_of::<DigitalNumber>());
-            add(p.picture, &Self::picture(frame), entry("sRGB picture", "8 bits"));
+            add(p.picture, &Self::picture(frame, format), entry("sRGB picture", &bits));
         }
         files
     }

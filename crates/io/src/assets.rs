@@ -9,7 +9,7 @@ use crate::photometry::read_photometry;
 use crate::picture::read_picture;
 use crate::prescription::read_prescription;
 use crate::spectrum::read_spectrum_of;
-use crate::table::{read_complex_index, read_retro_table};
+use crate::table::{read_complex_index, read_numbers, read_retro_table};
 
 /// Reads every file of `named` (as a description names them), and those that its meshes name in turn.
 ///
@@ -44,6 +44,7 @@ fn load(assets: &mut Assets, request: &AssetRequest) -> Result<(), Error> {
         AssetKind::Photometry => drop(assets.photometry.insert(key, read_photometry(path)?)),
         AssetKind::ComplexIndex => drop(assets.indices.insert(key, read_complex_index(path)?)),
         AssetKind::RetroTable => drop(assets.retro_tables.insert(key, read_retro_table(path)?)),
+        AssetKind::Numbers => drop(assets.numbers.insert(key, read_numbers(path)?)),
         AssetKind::Prescription => drop(assets.prescriptions.insert(key, read_prescription(path)?)),
         AssetKind::Calibration(choice) => {
             let camera = read_calibration(path, choice.format, choice.camera.as_deref())?;

@@ -27,6 +27,7 @@ pub mod error;
 pub mod exr;
 pub mod hash;
 pub mod inspect;
+pub mod jpeg;
 pub mod mesh;
 pub mod output;
 pub mod photometry;

@@ -5,6 +5,7 @@
 //! | [`encode_raw16`] | 16 bit grey | digital number as it left the converter, not stretched; the side-car states its bits |
 //! | [`encode_depth16`] | 16 bit grey | metres × the scale of the convention; 0 is invalid |
 //! | [`encode_display`] | 8 bit RGB | sRGB-encoded, with the sRGB chunk |
+//! | [`encode_display16`] | 16 bit RGB | the same of 10 to 16 bits, scaled to 16 by repeating the upper bits, with the sBIT chunk |
 
 use etendue_core::Plane;
 use etendue_core::quantity::{DigitalNumber, Display, Length};
@@ -40,6 +41,24 @@ pub fn encode_display(picture: &Plane<Display>) -> Result<Vec<u8>, EncodeError> 
     encode_rgb8(picture.width(), picture.height(), &bytes)
 }
 
+/// A display picture of 10 to 16 bits in a file of 16. Values outside 0–1 are cut; NaN is black. The number q of b bits is
+/// stored as q 2^(16−b) + ⌊q/2^(2b−16)⌋, so that black is 0 and white 65 535, and a reader that keeps the upper b bits (the
+/// sBIT chunk says how many; PNG specification, 11.3.2.4) has q again.
+pub fn encode_display16(picture: &Plane<Display>, bits: u32) -> Result<Vec<u8>, EncodeError> {
+    if !(9..=16).contains(&bits) {
+        return Err(EncodeError::Encoder(format!("a picture of {bits} bits does not belong in a PNG of 16")));
+    }
+    let largest = ((1_u32 << bits) - 1) as f32;
+    let stored = |v: &f32| {
+        let q = (v * largest).round() as u32;
+        let q = q.min((1 << bits) - 1);
+        ((q << (16 - bits)) | (q >> (2 * bits - 16))) as u16
+    };
+    let bytes: Vec<u8> = picture.samples().iter().flatten().flat_map(|v| stored(v).to_ne_bytes()).collect();
+    let file = encode(picture.width(), picture.height(), &bytes, ExtendedColorType::Rgb16)?;
+    Ok(with_chunk(with_srgb_chunk(file), *b"sBIT", &[bits as u8; 3]))
+}
+
 /// sRGB-encoded bytes, three a pixel.
 pub(crate) fn encode_rgb8(width: usize, height: usize, rgb: &[u8]) -> Result<Vec<u8>, EncodeError> {
     encode(width, height, rgb, ExtendedColorType::Rgb8).map(with_srgb_chunk)
@@ -66,11 +85,23 @@ fn encode(width: usize, height: usize, bytes: &[u8], kind: ExtendedColorType) ->
 }
 
 /// Puts the sRGB chunk (rendering intent: perceptual; PNG specification, 11.3.2.5) behind the header.
-fn with_srgb_chunk(mut file: Vec<u8>) -> Vec<u8> {
+fn with_srgb_chunk(file: Vec<u8>) -> Vec<u8> {
+    with_chunk(file, *b"sRGB", &[0])
+}
+
+/// Puts a chunk behind the header.
+fn with_chunk(mut file: Vec<u8>, name: [u8; 4], data: &[u8]) -> Vec<u8> {
     const AFTER_HEADER: usize = 8 + 4 + 4 + 13 + 4; // signature; length, name, data and checksum of IHDR
-    const SRGB: [u8; 13] = *b"\0\0\0\x01sRGB\0\xAE\xCE\x1C\xE9";
-    file.splice(AFTER_HEADER..AFTER_HEADER, SRGB);
+    let named = [&name[..], data].concat();
+    let chunk = [&(data.len() as u32).to_be_bytes()[..], &named, &checksum(&named).to_be_bytes()].concat();
+    file.splice(AFTER_HEADER..AFTER_HEADER, chunk);
     file
+}
+
+/// CRC-32 of ISO 3309, bit by bit: chunks are short.
+fn checksum(bytes: &[u8]) -> u32 {
+    let step = |crc: u32| if crc & 1 == 1 { (crc >> 1) ^ 0xedb8_8320 } else { crc >> 1 };
+    !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| step(crc)))
 }
 
 #[cfg(test)]
@@ -112,5 +143,28 @@ mod tests {
     #[test]
     fn a_picture_without_pixels_is_refused() {
         assert!(matches!(encode_raw16(&Plane::new(0, 4)), Err(EncodeError::Empty { .. })));
+    }
+
+    #[test]
+    fn pictures_of_more_than_8_bits_keep_them() {
+        let values = [0.0, 0.25, 0.5, 1.0, -1.0, 2.0, f32::NAN, 0.1, 0.9];
+        let rgb = values.chunks(3).map(|v| [v[0], v[1], v[2]]).collect();
+        let plane = Plane::from_samples(3, 1, rgb).expect("three pixels");
+        for bits in [10, 12, 16] {
+            let file = encode_display16(&plane, bits).expect("a picture");
+            assert_eq!((&file[37..41], &file[41..44]), (&b"sBIT"[..], &[bits as u8; 3][..]));
+            let read = image::load_from_memory(&file).expect("PNG with correct checksums").into_rgb16();
+            let white = ((1_u32 << bits) - 1) as f32;
+            let kept: Vec<u16> = read.into_raw().iter().map(|v| v >> (16 - bits)).collect();
+            let want: Vec<u16> = values.iter().map(|v| (v.clamp(0.0, 1.0) * white).round() as u16).collect();
+            assert_eq!(kept, want, "{bits}");
+        }
+        assert!(encode_display16(&plane, 8).is_err() && encode_display16(&plane, 17).is_err());
+    }
+
+    #[test]
+    fn checksums_are_those_of_png() {
+        // The CRC of an empty IEND chunk, and the sRGB chunk of rendering intent 0, as every PNG has them.
+        assert_eq!((checksum(b"IEND"), checksum(b"sRGB\0")), (0xae42_6082, 0xaece_1ce9));
     }
 }

@@ -9,8 +9,10 @@
 //! | 5 | demosaic | [`demosaic`] |
 //! | 6 | noise reduction | [`detail`] |
 //! | 7 | camera colours to linear sRGB, digital gain | [`colour_matrix`] |
-//! | 8 | clip, tone curve | [`tone`] |
-//! | 9 | sharpening | [`detail`] |
+//! | 8 | the paper's filters of linear light | [`paper`] |
+//! | 9 | clip, tone curve | [`tone`] |
+//! | 10 | sharpening | [`detail`] |
+//! | 11 | the paper's filters of encoded pictures | [`paper`] |
 //!
 //! Black level, white balance, demosaic, colour and tone are always there; the others only where they are asked for. This
 //! is a plain, stated way to look at a raw picture, not the look of any camera. Left out: highlight recovery, local tone
@@ -24,6 +26,7 @@ pub mod demosaic;
 pub mod detail;
 mod develop;
 mod mosaic;
+pub mod paper;
 mod raw;
 pub mod shading;
 pub mod tone;

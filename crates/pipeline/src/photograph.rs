@@ -3,11 +3,12 @@
 use crate::defocus;
 use crate::effects::{Behind, behind, picture};
 use crate::film::{CubeEstimate, Film};
-use crate::plan::{CameraBody, CameraPlan, Route};
+use crate::plan::{CameraBody, CameraPlan, Development, Route};
 use crate::pupil_depth::PupilDepth;
-use etendue_core::quantity::{Electrons, Irradiance, Length, Radiance, Variance};
+use etendue_core::quantity::{DigitalNumber, Electrons, Irradiance, Length, Radiance, Variance};
 use etendue_core::{Plane, SpectralCube};
-use etendue_isp::{Developed, RawPicture, develop};
+use etendue_isp::paper::PictureAddress;
+use etendue_isp::{BlackLevel, Developed, RawPicture, develop};
 use etendue_optics::front::{Dirt, Front};
 use etendue_optics::{DepthOfField, OpticsError, PupilProjection, Resampling, irradiance};
 use etendue_sensor::{FrameAddress, Raw, SensorState};
@@ -159,6 +160,36 @@ pub struct Frame {
     pub picture: Option<Developed>,
 }
 
+/// The picture of a raw frame.
+fn developed(raw: &Raw, development: &Development, address: FrameAddress) -> Developed {
+    let linear = raw.linear();
+    let shielded = (development.processing.black_level == BlackLevel::OpticalBlack).then(|| shielded(raw));
+    let picture = RawPicture {
+        plane: &linear.plane,
+        black_level_dn: linear.black_level_dn,
+        white_level_dn: linear.white_level_dn,
+        mosaic: &development.mosaic,
+        optical_black: shielded.as_ref(),
+    };
+    let FrameAddress { seed, camera, frame, .. } = address;
+    develop(&picture, &development.processing, PictureAddress { seed, camera, frame })
+        .expect("a compiled plan's processing fits its sensor")
+}
+
+/// Numbers of the pixels that no light reached, in one row, proportional to the reading.
+fn shielded(raw: &Raw) -> Plane<DigitalNumber> {
+    let (picture, width) = (raw.picture, raw.plane.width().max(1));
+    let inside =
+        |x: usize, y: usize| x.wrapping_sub(picture.x) < picture.width && y.wrapping_sub(picture.y) < picture.height;
+    let dark = raw.plane.samples().iter().enumerate().filter(|(i, _)| !inside(i % width, i / width));
+    let linear = |dn: u32| match &raw.companding {
+        Some(curve) => curve.linear(f64::from(dn)).round_ties_even() as u32,
+        None => dn,
+    };
+    let samples: Vec<u32> = dark.map(|(_, dn)| linear(*dn)).collect();
+    Plane::from_samples(samples.len(), 1, samples).expect("one row")
+}
+
 /// Takes one frame of `electrons`; the state is passed from frame to frame. `None` where the camera has no
 /// electronics.
 #[must_use]
@@ -169,15 +200,6 @@ pub fn take(
     address: FrameAddress,
 ) -> Option<(SensorState, Frame)> {
     let (state, raw) = body.sensor.as_ref()?.step(state, electrons, address);
-    let picture = body.development.as_ref().map(|development| {
-        let picture = RawPicture {
-            plane: &raw.plane,
-            black_level_dn: raw.black_level_dn,
-            white_level_dn: raw.white_level_dn,
-            mosaic: &development.mosaic,
-            optical_black: None,
-        };
-        develop(&picture, &development.processing).expect("a compiled plan's processing fits its sensor")
-    });
+    let picture = body.development.as_ref().map(|development| developed(&raw, development, address));
     Some((state, Frame { raw, picture }))
 }

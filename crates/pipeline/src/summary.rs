@@ -1,6 +1,7 @@
 //! The plan in words: what is modelled, what is left out and why, what it will cost.
 
 mod front;
+mod processing;
 
 use crate::block::Blocks;
 use crate::defocus::margin_px;
@@ -8,7 +9,6 @@ use crate::film::Film;
 use crate::plan::{CameraPlan, Plan, Products, Route, Settings, SkyFacts};
 use crate::render::{census, layout};
 use etendue_core::Bands;
-use etendue_isp::WhiteBalance;
 use etendue_optics::effects::{self, Effect};
 use etendue_optics::{DepthOfField, Effects, Lens, PupilProjection, PupilStance};
 use etendue_projection::Sense;
@@ -93,7 +93,7 @@ fn camera(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Resul
     lens(camera, f)?;
     effects(camera, f)?;
     sensor(camera, f)?;
-    processing(camera, f)?;
+    processing::processing(camera, f)?;
     line(f, "delivers", products(&camera.products))?;
     cost(camera, f)
 }
@@ -369,32 +369,6 @@ fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     }
     let silent: Vec<_> = silent.iter().map(|need| need.effect.name()).collect();
     line(f, "", format!("left out, as not described: {}", silent.join(", ")))
-}
-
-fn processing(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
-    match camera.body.development.as_ref().map(|d| &d.processing) {
-        None => line(f, "processing", "none: no picture is made"),
-        Some(processing) => {
-            let gain = processing.exposure_gain;
-            match &processing.colour {
-                None => line(f, "processing", format!("monochrome, gain {gain}, sRGB tone")),
-                Some(colour) => {
-                    let balance = match &colour.white_balance {
-                        WhiteBalance::GreyWorld => "white balance by grey world".to_owned(),
-                        WhiteBalance::Gains(gains) => {
-                            let gains: Vec<String> = gains.iter().map(|g| format!("{g:.4}")).collect();
-                            format!("white balance {}", gains.join(" "))
-                        }
-                    };
-                    line(
-                        f,
-                        "processing",
-                        format!("{balance}, bilinear demosaic, colour matrix, gain {gain}, sRGB tone"),
-                    )
-                }
-            }
-        }
-    }
 }
 
 fn products(p: &Products) -> String {

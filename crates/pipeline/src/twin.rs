@@ -17,10 +17,12 @@
 use crate::plan::{CameraBody, CameraPlan};
 use etendue_core::Plane;
 use etendue_core::quantity::{Display, LinearRgb};
+use etendue_isp::paper::PictureAddress;
 use etendue_optics::lens::PinholeParameters;
 use etendue_optics::{CalibratedParameters, Lens, OpticsError, PupilStance};
 use etendue_projection::model::Perspective;
 use etendue_projection::{Calibration, CalibrationError, CameraMatrix, Model, Raster, RasterError};
+use etendue_sensor::FrameAddress;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -129,11 +131,19 @@ impl Twin {
         Plane::from_samples(width, height, samples).expect("one sample a pixel")
     }
 
-    /// The same with the camera's tone curve and sharpening; `None` where it makes no picture.
+    /// The same with the camera's tone curve and sharpening; `None` where it makes no picture. The address is that of the
+    /// paper's noises.
     #[must_use]
-    pub fn picture(&self, camera: &CameraBody, linear: &Plane<LinearRgb>) -> Option<Plane<Display>> {
+    pub fn picture(
+        &self,
+        camera: &CameraBody,
+        linear: &Plane<LinearRgb>,
+        address: FrameAddress,
+    ) -> Option<Plane<Display>> {
         let processing = &camera.development.as_ref()?.processing;
-        Some(processing.displayed(&self.resampled(camera, linear)))
+        let FrameAddress { seed, camera: index, frame, .. } = address;
+        let address = PictureAddress { seed, camera: index, frame };
+        Some(processing.displayed(&self.resampled(camera, linear), address))
     }
 }
 

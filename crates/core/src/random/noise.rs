@@ -50,6 +50,12 @@ pub enum NoiseDraw {
     Blinking = 18,
     /// Fixed pattern: which pixels of a row have telegraph noise, and how much; at column 0.
     Telegraph = 19,
+    /// The paper's pulse noise on a finished picture.
+    PaperPulse = 64,
+    /// The paper's additive Gaussian noise on a finished picture.
+    PaperGaussian = 65,
+    /// The paper's multiplicative uniform noise on a finished picture.
+    PaperUniform = 66,
 }
 
 /// A draw of one (seed, camera, frame, capture), whose pixels' streams are asked for one after another.

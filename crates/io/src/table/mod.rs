@@ -3,6 +3,8 @@
 //! **Refractive indices**: three columns, wavelength in nm (rising, each once), n (above 0), k (0 or more), divided by
 //! commas or blanks; one header line may come first.
 //!
+//! **Numbers** (tone curves, maps of defects, grids of gains): rows of equal length; one header line may come first.
+//!
 //! **Coefficients of retro-reflection**: the first row holds the entrance angles β (degrees, rising, 0 … 90) behind one
 //! word of any kind; each further row an observation angle α (degrees, rising, 0 … 180) and R_A (cd·lx⁻¹·m⁻², 0 or
 //! more) for each β:
@@ -15,7 +17,7 @@
 
 use std::path::Path;
 
-use etendue_scene::asset::{ComplexIndexAsset, RetroTableAsset};
+use etendue_scene::asset::{ComplexIndexAsset, NumbersAsset, RetroTableAsset};
 
 use crate::source::{decode_text, read_bytes};
 use crate::{Error, hash};
@@ -110,6 +112,28 @@ fn angle(cell: &str, which: &str, most: f64, before: Option<&f64>) -> Result<f64
         Some(last) => Err(format!("{which} angle {found}° follows {last}°: sort the table by rising angle, each once")),
         None => Ok(found),
     }
+}
+
+/// Reads a table of numbers: rows of equal length; one header line may come first.
+///
+/// # Errors
+/// The first fault, with its line.
+pub fn read_numbers(file: &Path) -> Result<NumbersAsset, Error> {
+    let bytes = read_bytes(file, "numbers")?;
+    let mut table = NumbersAsset { hash: hash::of_bytes(&bytes), ..NumbersAsset::default() };
+    for (index, row) in rows(decode_text(file, &bytes)?).enumerate() {
+        if index == 0 && row.cells.iter().all(|cell| number(cell).is_none()) {
+            continue;
+        }
+        let values = row.numbers().map_err(|what| Error::at(file, row.line, what))?;
+        if table.columns != 0 && table.columns != values.len() {
+            let what = format!("found {} numbers; expected {} as in the rows before", values.len(), table.columns);
+            return Err(Error::at(file, row.line, what));
+        }
+        table.columns = values.len();
+        table.values.extend(values);
+    }
+    if table.values.is_empty() { Err(Error::new(file, "holds no row; expected rows of numbers")) } else { Ok(table) }
 }
 
 /// A row that holds something.

@@ -1,6 +1,7 @@
 //! Why a picture cannot be developed.
 
 use crate::detail::DetailError;
+use crate::paper::FilterError;
 use crate::shading::ShadingError;
 
 /// Why a picture cannot be developed.
@@ -57,6 +58,9 @@ pub enum DevelopError {
     /// Noise reduction or sharpening with a number out of range.
     #[error(transparent)]
     Detail(#[from] DetailError),
+    /// A filter of the paper that cannot be applied.
+    #[error(transparent)]
+    Paper(#[from] FilterError),
     /// Colour settings for a picture without colour.
     #[error("a mono picture has no colour to balance: leave white balance and colour matrix out")]
     ColourOfMono,

@@ -10,6 +10,7 @@ use crate::black_level::black_level;
 use crate::colour_matrix::ColourMatrix;
 use crate::defects;
 use crate::mosaic::{Mosaic, Tile};
+use crate::paper::{self, PictureAddress};
 use crate::raw::{RawPicture, normalised};
 use crate::white_balance::{WhiteBalance, grey_world};
 use etendue_core::Plane;
@@ -39,23 +40,30 @@ pub struct Facts {
 }
 
 impl Processing {
-    /// A picture in linear light as a display takes it: tone curve, then sharpening.
+    /// A picture in linear light as a display takes it: tone curve, sharpening, the paper's filters of encoded pictures with
+    /// the random numbers of `address`.
     #[must_use]
-    pub fn displayed(&self, linear: &Plane<LinearRgb>) -> Plane<Display> {
+    pub fn displayed(&self, linear: &Plane<LinearRgb>, address: PictureAddress) -> Plane<Display> {
         let mut display = self.tone.encode_plane(linear);
         if let Some(sharpening) = &self.sharpening {
             sharpening.apply(&mut display);
         }
+        paper::apply_display(&self.paper_filters, &mut display, address);
         display
     }
 }
 
-/// Develops a raw picture. Runs in the rayon pool of the caller; the bits do not depend on it.
+/// Develops a raw picture; `address` is that of the random numbers of the paper's noises. Runs in the rayon pool of the
+/// caller; the bits do not depend on it.
 ///
 /// # Errors
 /// Where picture and processing contradict each other or a number is out of range.
-pub fn develop(raw: &RawPicture<'_>, processing: &Processing) -> Result<Developed, DevelopError> {
-    processing.check(raw)?;
+pub fn develop(
+    raw: &RawPicture<'_>,
+    processing: &Processing,
+    address: PictureAddress,
+) -> Result<Developed, DevelopError> {
+    processing.check(raw.mosaic, raw.plane.width(), raw.plane.height())?;
     let black = black_level(processing.black_level, raw).ok_or(DevelopError::NoOpticalBlack)?;
     error::check_levels(black, raw.white_level_dn)?;
     let width = raw.plane.width();
@@ -65,8 +73,9 @@ pub fn develop(raw: &RawPicture<'_>, processing: &Processing) -> Result<Develope
     let gains = gains(&samples, raw, processing.colour.as_ref());
     balance(&mut samples, width, raw.mosaic, &gains);
     let linear = Plane::from_samples(width, raw.plane.height(), colours(&samples, width, raw.mosaic, processing));
-    let linear = linear.expect("as many colours as samples");
-    let display = processing.displayed(&linear);
+    let mut linear = linear.expect("as many colours as samples");
+    paper::apply_linear(&processing.paper_filters, &mut linear);
+    let display = processing.displayed(&linear, address);
     let facts = Facts { black_level_dn: black, white_balance: gains, corrected_pixels };
     Ok(Developed { linear, display, facts })
 }
@@ -179,7 +188,7 @@ mod tests {
 
     fn developed(dn: [Dn; 4], processing: &Processing) -> Developed {
         let plane = plane(8, 6, |x, y| dn[y % 2 * 2 + x % 2]);
-        develop(&raw(&plane, &bayer()), processing).expect("legal")
+        develop(&raw(&plane, &bayer()), processing, PictureAddress::default()).expect("legal")
     }
 
     #[test]
@@ -213,7 +222,8 @@ mod tests {
     #[test]
     fn mono_is_grey() {
         let plane = plane(3, 1, |x, _| [100, 600, 1100][x]);
-        let picture = develop(&raw(&plane, &Mosaic::Mono), &Processing::plain(None)).expect("legal");
+        let picture =
+            develop(&raw(&plane, &Mosaic::Mono), &Processing::plain(None), PictureAddress::default()).expect("legal");
         assert_eq!(picture.linear.samples(), [[0.0; 3], [0.5; 3], [1.0; 3]]);
     }
 
@@ -242,7 +252,7 @@ mod tests {
             ..Processing::plain(None)
         };
         let raw = RawPicture { optical_black: Some(&dark), ..raw(&shaded, &Mosaic::Mono) };
-        let picture = develop(&raw, &settings).expect("legal");
+        let picture = develop(&raw, &settings, PictureAddress::default()).expect("legal");
         assert_eq!((picture.facts.black_level_dn, picture.facts.corrected_pixels), (200.0, 1));
         let grey = |x: usize| f64::from(picture.linear.at(x, 2)[0]);
         let want = |x: usize| 0.5 * fall(x) * (2.0 - (x as f64 + 0.5) / 8.0);
@@ -258,7 +268,7 @@ mod tests {
             let white_balance = WhiteBalance::Gains(vec![1.0; matrix.channels()]);
             let plane = plane(6, 6, |x, y| dn[y % 2 * 2 + x % 2]);
             let settings = Processing::plain(Some(Colour { white_balance, matrix }));
-            develop(&raw(&plane, mosaic), &settings).expect("legal").linear.at(3, 3)
+            develop(&raw(&plane, mosaic), &settings, PictureAddress::default()).expect("legal").linear.at(3, 3)
         };
         // Red as it is, grey of clear.
         assert_eq!(of(&rccc, [vec![1.0, 0.0], vec![0.0, 1.0], vec![0.0, 1.0]], [350, 600, 600, 600]), [0.25, 0.5, 0.5]);
@@ -317,7 +327,7 @@ mod tests {
             ),
         ];
         for (raw, processing, error) in cases {
-            assert_eq!(develop(&raw, &processing), Err(error));
+            assert_eq!(develop(&raw, &processing, PictureAddress::default()), Err(error));
         }
     }
 
@@ -326,7 +336,7 @@ mod tests {
         let (plane, mosaic) = (plane(31, 17, |x, y| ((y * 31 + x) * 37 % 1200) as Dn), bayer());
         let with = |threads, settings: &Processing| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-            pool.install(|| develop(&raw(&plane, &mosaic), settings).expect("legal"))
+            pool.install(|| develop(&raw(&plane, &mosaic), settings, PictureAddress::default()).expect("legal"))
         };
         let bilateral = crate::Bilateral { radius_px: 1.5, range: 0.1 };
         let full = Processing {
@@ -334,6 +344,16 @@ mod tests {
             demosaic: Demosaic::HamiltonAdams,
             noise_reduction: Some(crate::NoiseReduction::Bilateral(bilateral)),
             sharpening: Some(crate::Unsharp { amount: 1.0, radius_px: 1.0, threshold: 0.0 }),
+            paper_filters: vec![
+                paper::Filter::Glow(paper::Glow {
+                    percentile: 50.0,
+                    target: 0.2,
+                    threshold: 0.5,
+                    radius_px: 2.0,
+                    strength: 0.5,
+                }),
+                paper::Filter::GaussianNoise(paper::GaussianNoise { sigma_dn: 4.0 }),
+            ],
             ..processing()
         };
         for settings in [processing(), full] {

@@ -7,7 +7,7 @@ use crate::defects::Defects;
 use crate::demosaic::Demosaic;
 use crate::detail::{NoiseReduction, Unsharp};
 use crate::mosaic::{Mosaic, Tile};
-use crate::raw::RawPicture;
+use crate::paper;
 use crate::shading::Shading;
 use crate::tone::ToneCurve;
 use crate::white_balance::WhiteBalance;
@@ -42,6 +42,8 @@ pub struct Processing {
     pub tone: ToneCurve,
     /// How the encoded picture is sharpened.
     pub sharpening: Option<Unsharp>,
+    /// The paper's filters, those of linear light first.
+    pub paper_filters: Vec<paper::Filter>,
 }
 
 impl Processing {
@@ -58,41 +60,46 @@ impl Processing {
             exposure_gain: 1.0,
             tone: ToneCurve::Srgb,
             sharpening: None,
+            paper_filters: Vec::new(),
         }
     }
 
-    /// Whether the settings are legal and fit the picture.
-    pub(super) fn check(&self, raw: &RawPicture<'_>) -> Result<(), DevelopError> {
+    /// Whether the settings are legal and fit pictures of this mosaic and size.
+    ///
+    /// # Errors
+    /// Where a number is out of range or settings and mosaic contradict each other.
+    pub fn check(&self, mosaic: &Mosaic, width: usize, height: usize) -> Result<(), DevelopError> {
         if !(self.exposure_gain.is_finite() && self.exposure_gain > 0.0) {
             return Err(DevelopError::ExposureGain(self.exposure_gain));
         }
-        check_defects(&self.defects, raw)?;
+        check_defects(&self.defects, width, height)?;
         self.shading.as_ref().map_or(Ok(()), Shading::check)?;
         self.noise_reduction.as_ref().map_or(Ok(()), NoiseReduction::check)?;
         self.sharpening.as_ref().map_or(Ok(()), Unsharp::check)?;
-        match (raw.mosaic, &self.colour) {
+        paper::check(&self.paper_filters)?;
+        match (mosaic, &self.colour) {
             (Mosaic::Mono, None) => Ok(()),
             (Mosaic::Mono, Some(_)) => Err(DevelopError::ColourOfMono),
             (Mosaic::Tile(_), None) => Err(DevelopError::NoColour),
             (Mosaic::Tile(tile), Some(colour)) => {
-                self.check_demosaic(raw, tile)?;
+                self.check_demosaic(mosaic, width, height)?;
                 check_colour(tile, colour)
             }
         }
     }
 
-    fn check_demosaic(&self, raw: &RawPicture<'_>, tile: &Tile) -> Result<(), DevelopError> {
-        if self.demosaic != Demosaic::Bilinear && !tile.is_bayer() {
+    fn check_demosaic(&self, mosaic: &Mosaic, width: usize, height: usize) -> Result<(), DevelopError> {
+        let bayer = matches!(mosaic, Mosaic::Tile(tile) if tile.is_bayer());
+        if self.demosaic != Demosaic::Bilinear && !bayer {
             return Err(DevelopError::NotBayer);
         }
-        let (width, height, least) = (raw.plane.width(), raw.plane.height(), self.demosaic.least_px(raw.mosaic));
+        let least = self.demosaic.least_px(mosaic);
         let fits = width.min(height) >= least;
         if fits { Ok(()) } else { Err(DevelopError::TooSmall { width, height, least }) }
     }
 }
 
-fn check_defects(defects: &Defects, raw: &RawPicture<'_>) -> Result<(), DevelopError> {
-    let (width, height) = (raw.plane.width(), raw.plane.height());
+fn check_defects(defects: &Defects, width: usize, height: usize) -> Result<(), DevelopError> {
     if let Some(threshold) = defects.outlier_threshold.filter(|t| !(t.is_finite() && *t > 0.0)) {
         return Err(DevelopError::OutlierThreshold(threshold));
     }

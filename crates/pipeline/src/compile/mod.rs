@@ -12,6 +12,7 @@ mod lens;
 mod light;
 mod material;
 mod picture;
+mod processing;
 mod sensor;
 mod settings;
 mod shape;

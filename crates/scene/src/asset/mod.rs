@@ -17,4 +17,4 @@ pub use prescription::{GlassAsset, LensFields, LensOpening, PrescriptionAsset, S
 pub(crate) use request::requests;
 pub use request::{AssetKind, AssetRequest, Values, of_camera};
 pub use store::Assets;
-pub use table::{ComplexIndexAsset, RetroTableAsset};
+pub use table::{ComplexIndexAsset, NumbersAsset, RetroTableAsset};

@@ -12,7 +12,7 @@ use crate::record::light::{Emission, Level, LightColour};
 use crate::record::material::{Absorption, Interface, LobeStrength, Metal, Sheeting, SheetingTable};
 use crate::record::reflectance::{Colour, Reflectance};
 use crate::record::sensor::QuantumEfficiency;
-use crate::record::{Camera, Curve, Environment, Front, Lens, Light, Material, Surface};
+use crate::record::{Camera, Curve, Environment, Front, Lens, Light, Material, Processing, Surface};
 
 /// A file to be read, and where it is named.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +40,8 @@ pub enum AssetKind {
     ComplexIndex,
     /// [`super::RetroTableAsset`].
     RetroTable,
+    /// [`super::NumbersAsset`].
+    Numbers,
     /// [`super::PrescriptionAsset`].
     Prescription,
     /// [`super::CalibrationAsset`] of this camera.
@@ -276,6 +278,7 @@ impl List {
         camera.front.iter().for_each(|front| self.front(front));
         let psf = camera.effects.as_ref().and_then(|effects| effects.psf.as_ref());
         psf.and_then(|psf| psf.image.as_ref()).into_iter().for_each(|image| self.add(AssetKind::Image, image));
+        camera.processing.iter().flat_map(Processing::files).for_each(|file| self.add(AssetKind::Numbers, file));
         match camera.sensor.electronics.as_ref().map(|e| &e.quantum_efficiency) {
             Some(QuantumEfficiency::Same(curve)) => self.curve(curve, Values::Share),
             Some(QuantumEfficiency::PerChannel(curves)) => curves.iter().for_each(|c| self.curve(c, Values::Share)),

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::mtl::SlotReflectance;
 use super::{
     AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, ImageAsset, MeshAsset,
-    PhotometryAsset, PrescriptionAsset, RetroTableAsset, SpectrumAsset,
+    NumbersAsset, PhotometryAsset, PrescriptionAsset, RetroTableAsset, SpectrumAsset,
 };
 use crate::place::Place;
 
@@ -27,6 +27,8 @@ pub struct Assets {
     pub indices: BTreeMap<PathBuf, ComplexIndexAsset>,
     /// Coefficients of retro-reflection by path.
     pub retro_tables: BTreeMap<PathBuf, RetroTableAsset>,
+    /// Tables of numbers by path.
+    pub numbers: BTreeMap<PathBuf, NumbersAsset>,
     /// Lenses by path.
     pub prescriptions: BTreeMap<PathBuf, PrescriptionAsset>,
     /// Calibrated cameras by path and by which of the file's they are.
@@ -53,6 +55,7 @@ impl Assets {
             AssetKind::Photometry => self.photometry.contains_key(path),
             AssetKind::ComplexIndex => self.indices.contains_key(path),
             AssetKind::RetroTable => self.retro_tables.contains_key(path),
+            AssetKind::Numbers => self.numbers.contains_key(path),
             AssetKind::Prescription => self.prescriptions.contains_key(path),
             AssetKind::Calibration(choice) => self.calibrations.contains_key(&(path.to_owned(), choice.clone())),
         }

@@ -30,3 +30,21 @@ impl RetroTableAsset {
         &self.coefficients[observation * columns..][..columns]
     }
 }
+
+/// Numbers in rows of equal length: a tone curve, a map of defects, a grid of gains.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct NumbersAsset {
+    /// Numbers of a row.
+    pub columns: usize,
+    /// All rows one after the other.
+    pub values: Vec<f64>,
+    /// SHA-256 of the file.
+    pub hash: [u8; 32],
+}
+
+impl NumbersAsset {
+    /// The rows.
+    pub fn rows(&self) -> impl Iterator<Item = &[f64]> {
+        self.values.chunks(self.columns.max(1))
+    }
+}

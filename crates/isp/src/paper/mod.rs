@@ -1,0 +1,217 @@
+//! The filters of the paper (Gruyer, Grapinet & De Souza 2012), beside the physical camera, for reproduction.
+//!
+//! They change a finished picture, as the paper's plug-ins change a rendered one, and know nothing of light and electrons:
+//! noise by them is not the noise of a sensor. The paper gives formulas for the noises and for the affine colour matrix,
+//! and only words for glow and tone mapping: what stands here for these is **an interpretation**, said in each file.
+//!
+//! | filter | works on | paper |
+//! | --- | --- | --- |
+//! | [`Glow`]: gain control by the histogram, blooming | linear light | in words |
+//! | [`ToneMap`]: the sensor's sensitivity curve, blended with the unmapped picture | linear light | in words |
+//! | [`ColourChange`]: a 4 × 4 affine matrix | either | formula |
+//! | [`PulseNoise`], [`GaussianNoise`], [`UniformNoise`] | the encoded picture | formula |
+//!
+//! Filters are applied in the order given, those of linear light before the tone curve, the others after sharpening.
+//! "Brightness" of a pixel is read as: all three channels alike, so each noise draws one number a pixel. Amplitudes of
+//! noise are digital numbers of an 8-bit picture (white is 255), whatever bits are written; every result of an encoded
+//! picture is clipped to 0 … 255.
+
+mod colour;
+mod gaussian_noise;
+mod glow;
+mod pulse_noise;
+mod tone_map;
+mod uniform_noise;
+
+pub use colour::{Affine, ColourChange, ColourSpace, Operation};
+pub use gaussian_noise::GaussianNoise;
+pub use glow::Glow;
+pub use pulse_noise::PulseNoise;
+pub use tone_map::{Sensitivity, ToneMap};
+pub use uniform_noise::UniformNoise;
+
+use etendue_core::Plane;
+use etendue_core::quantity::{Display, LinearRgb, Quantity};
+use etendue_core::random::{NoiseDraw, NoiseKey, NoiseStream, Pixel};
+use rayon::prelude::*;
+
+/// Which picture the random numbers are for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PictureAddress {
+    /// The job's seed.
+    pub seed: u64,
+    /// The camera's place in the job.
+    pub camera: u32,
+    /// The frame.
+    pub frame: u32,
+}
+
+/// One of the paper's filters.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Filter {
+    /// Gain control and blooming.
+    Glow(Glow),
+    /// From the scene's range to the sensor's.
+    ToneMap(ToneMap),
+    /// An affine matrix on colours.
+    Colour(ColourChange),
+    /// Some pixels brighter, some darker.
+    PulseNoise(PulseNoise),
+    /// A normal number added.
+    GaussianNoise(GaussianNoise),
+    /// A uniform number as a factor.
+    UniformNoise(UniformNoise),
+}
+
+/// What a filter works on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stage {
+    /// Linear light, before the tone curve; white is 1 and more is possible.
+    Linear,
+    /// The encoded picture, 0 to 1.
+    Display,
+}
+
+/// Why a filter cannot be applied.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FilterError {
+    /// A number out of its range.
+    #[error("{name} is {value}, but a number {range} is needed")]
+    Range {
+        /// Which number.
+        name: &'static str,
+        /// What it is.
+        value: f64,
+        /// What it should be.
+        range: &'static str,
+    },
+    /// A filter of linear light after one of the encoded picture.
+    #[error(
+        "filter {0} (from 1) works on linear light, but one before it on the encoded picture: give glow, tone map and linear colour first"
+    )]
+    Order(usize),
+    /// A conversion that belongs to the other stage.
+    #[error("conversions to and from {space} are for {wanted}: set \"on\" accordingly")]
+    Space {
+        /// The colour space.
+        space: &'static str,
+        /// The stage it is made for.
+        wanted: &'static str,
+    },
+}
+
+impl Filter {
+    /// What it works on.
+    #[must_use]
+    pub fn stage(&self) -> Stage {
+        match self {
+            Self::Glow(_) | Self::ToneMap(_) => Stage::Linear,
+            Self::Colour(change) => change.stage,
+            Self::PulseNoise(_) | Self::GaussianNoise(_) | Self::UniformNoise(_) => Stage::Display,
+        }
+    }
+
+    /// Whether its numbers are in range.
+    ///
+    /// # Errors
+    /// Where one is not.
+    pub fn check(&self) -> Result<(), FilterError> {
+        match self {
+            Self::Glow(filter) => filter.check(),
+            Self::ToneMap(filter) => filter.check(),
+            Self::Colour(filter) => filter.check(),
+            Self::PulseNoise(filter) => filter.check(),
+            Self::GaussianNoise(filter) => filter.check(),
+            Self::UniformNoise(filter) => filter.check(),
+        }
+    }
+
+    fn apply_linear(&self, picture: &mut Plane<LinearRgb>) {
+        match self {
+            Self::Glow(filter) => filter.apply(picture),
+            Self::ToneMap(filter) => filter.apply(picture),
+            Self::Colour(filter) => filter.apply_linear(picture),
+            Self::PulseNoise(_) | Self::GaussianNoise(_) | Self::UniformNoise(_) => {}
+        }
+    }
+
+    fn apply_display(&self, picture: &mut Plane<Display>, address: PictureAddress) {
+        match self {
+            Self::PulseNoise(filter) => filter.apply(picture, address),
+            Self::GaussianNoise(filter) => filter.apply(picture, address),
+            Self::UniformNoise(filter) => filter.apply(picture, address),
+            Self::Colour(filter) => filter.apply_display(picture),
+            Self::Glow(_) | Self::ToneMap(_) => {}
+        }
+    }
+}
+
+/// Whether a list of filters can be applied.
+///
+/// # Errors
+/// Where a number is out of range or the order mixes the stages.
+pub fn check(filters: &[Filter]) -> Result<(), FilterError> {
+    filters.iter().try_for_each(Filter::check)?;
+    let fault = filters.windows(2).position(|pair| pair[1].stage() < pair[0].stage());
+    fault.map_or(Ok(()), |i| Err(FilterError::Order(i + 2)))
+}
+
+/// Applies the filters of linear light.
+pub(crate) fn apply_linear(filters: &[Filter], picture: &mut Plane<LinearRgb>) {
+    filters.iter().filter(|f| f.stage() == Stage::Linear).for_each(|f| f.apply_linear(picture));
+}
+
+/// Applies the filters of the encoded picture.
+pub(crate) fn apply_display(filters: &[Filter], picture: &mut Plane<Display>, address: PictureAddress) {
+    filters.iter().filter(|f| f.stage() == Stage::Display).for_each(|f| f.apply_display(picture, address));
+}
+
+/// DN of white.
+const WHITE_DN: f64 = 255.0;
+
+/// Gives each pixel's channels the same change of brightness in DN, from a random number of its own, and clips.
+fn change_brightness(
+    picture: &mut Plane<Display>,
+    address: PictureAddress,
+    draw: NoiseDraw,
+    change: impl Fn(&mut NoiseStream) -> Change + Sync,
+) {
+    let (width, key) = (picture.width().max(1), NoiseKey::new(address.seed, address.camera, address.frame, 0, draw));
+    for_each(picture, |i, rgb| {
+        let mut stream = key.stream(Pixel { x: (i % width) as u32, y: (i / width) as u32 });
+        let Change { factor, offset_dn } = change(&mut stream);
+        rgb.map(|v| (f64::from(v) * factor + offset_dn / WHITE_DN).clamp(0.0, 1.0) as f32)
+    });
+}
+
+/// What happens to a pixel's brightness.
+struct Change {
+    factor: f64,
+    offset_dn: f64,
+}
+
+/// Replaces every pixel. Runs in the rayon pool of the caller.
+fn for_each<Q: Quantity<Sample = [f32; 3]>>(
+    picture: &mut Plane<Q>,
+    change: impl Fn(usize, [f32; 3]) -> [f32; 3] + Sync,
+) {
+    picture.samples_mut().par_iter_mut().enumerate().for_each(|(i, rgb)| *rgb = change(i, *rgb));
+}
+
+/// Refuses a number outside a range.
+fn demand(legal: bool, name: &'static str, value: f64, range: &'static str) -> Result<(), FilterError> {
+    if legal && value.is_finite() { Ok(()) } else { Err(FilterError::Range { name, value, range }) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn linear_filters_come_first() {
+        let noise = Filter::PulseNoise(PulseNoise { amplitude_dn: 9.0, probability: 0.1 });
+        let glow = Filter::Glow(Glow { percentile: 50.0, target: 0.2, threshold: 0.9, radius_px: 2.0, strength: 0.5 });
+        assert_eq!(check(&[glow.clone(), noise.clone()]), Ok(()));
+        assert_eq!(check(&[noise, glow]), Err(FilterError::Order(2)));
+    }
+}

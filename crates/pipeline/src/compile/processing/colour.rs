@@ -1,0 +1,178 @@
+//! Channels, white balance, demosaic and colour matrix.
+
+use super::super::context::Context;
+use super::super::spectrum::named_illuminant;
+use etendue_isp::{
+    Colour, ColourMatrix, Demosaic, Filter, Mosaic, NOISE_OF_MANY_CHANNELS, WhiteBalance, fit_colour_matrix,
+    white_balance_from_illuminant,
+};
+use etendue_scene::record;
+use etendue_scene::record::processing as description;
+use etendue_scene::{Place, Placed};
+use etendue_sensor::Sensor;
+use etendue_spectra::{Spectrum, chart};
+
+/// The sensor's filters in the words of development.
+pub(super) fn mosaic(record: &record::Processing, sensor: &Sensor, context: &mut Context<'_>) -> Option<Mosaic> {
+    if sensor.responsivities().len() == 1 {
+        return Some(Mosaic::Mono);
+    }
+    let filters = filters(record, sensor, context)?;
+    let cfa = &sensor.parameters().cfa;
+    let tile = cfa.channels().iter().map(|channel| filters[*channel]).collect();
+    context.accept(&record.place, Mosaic::tile(cfa.width(), cfa.height(), tile))
+}
+
+/// The filter of each of the sensor's channels, by its name.
+fn filters(record: &record::Processing, sensor: &Sensor, context: &mut Context<'_>) -> Option<Vec<Filter>> {
+    let filter = |name: &str| match name {
+        "red" => Some(Filter::Red),
+        "green" => Some(Filter::Green),
+        "blue" => Some(Filter::Blue),
+        "clear" | "white" => Some(Filter::Clear),
+        "infrared" => Some(Filter::Infrared),
+        "cyan" => Some(Filter::Cyan),
+        "magenta" => Some(Filter::Magenta),
+        "yellow" => Some(Filter::Yellow),
+        _ => None,
+    };
+    let channels = &sensor.parameters().channels;
+    if let Some(strange) = channels.iter().find(|channel| filter(&channel.name).is_none()) {
+        let problem = format!("the sensor's channel \"{}\" has no place in a picture", strange.name);
+        context.fault(&record.place, problem, "remove \"processing\", or name a filter array of known colours");
+        return None;
+    }
+    Some(channels.iter().filter_map(|channel| filter(&channel.name)).collect())
+}
+
+/// Responsivities in the order of the picture's channels.
+fn responsivities<'a>(sensor: &'a Sensor, mosaic: &Mosaic) -> Vec<&'a Spectrum> {
+    let cfa = &sensor.parameters().cfa;
+    let places = (0..cfa.channels().len()).map(|i| (i % cfa.width(), i / cfa.width()));
+    let owner = |channel: usize| places.clone().find(|(x, y)| mosaic.channel_at(*x, *y) == channel);
+    let of = |channel: usize| owner(channel).map(|(x, y)| &sensor.responsivities()[cfa.channel_at(x, y)]);
+    (0..mosaic.channels()).filter_map(of).collect()
+}
+
+/// White balance and matrix; `None` of a monochrome picture, or with the faults noted.
+pub(super) fn colour(
+    record: &record::Processing,
+    sensor: &Sensor,
+    mosaic: &Mosaic,
+    context: &mut Context<'_>,
+) -> Option<Colour> {
+    if *mosaic == Mosaic::Mono {
+        refuse_colour(record, context);
+        return None;
+    }
+    let channels = responsivities(sensor, mosaic);
+    let white_balance = white_balance(record, &channels, context);
+    let matrix = colour_matrix(record, mosaic, &channels, context);
+    Some(Colour { white_balance: white_balance?, matrix: matrix? })
+}
+
+/// A monochrome picture has no colour to process.
+fn refuse_colour(record: &record::Processing, context: &mut Context<'_>) {
+    if record.white_balance.is_some() || record.colour_matrix.is_some() {
+        let problem = "\"white_balance\" and \"colour_matrix\" have no effect on a monochrome sensor";
+        context.fault(&record.place, problem, "remove them");
+    }
+}
+
+pub(super) fn demosaic(
+    record: Option<&Placed<description::Demosaic>>,
+    mosaic: &Mosaic,
+    context: &mut Context<'_>,
+) -> Option<Demosaic> {
+    let Some(named) = record else { return Some(Demosaic::Bilinear) };
+    let bayer = matches!(mosaic, Mosaic::Tile(tile) if tile.is_bayer());
+    match (named.value, mosaic) {
+        (_, Mosaic::Mono) => {
+            context.fault(&named.place, "\"demosaic\" has no effect on a monochrome sensor", "remove it");
+            None
+        }
+        (description::Demosaic::Bilinear, _) => Some(Demosaic::Bilinear),
+        _ if !bayer => {
+            context.fault(&named.place, "this demosaic is made for Bayer filter arrays", "give \"bilinear\"");
+            None
+        }
+        (description::Demosaic::Malvar, _) => Some(Demosaic::MalvarHeCutler),
+        (description::Demosaic::HamiltonAdams, _) => Some(Demosaic::HamiltonAdams),
+    }
+}
+
+fn white_balance(
+    record: &record::Processing,
+    channels: &[&Spectrum],
+    context: &mut Context<'_>,
+) -> Option<WhiteBalance> {
+    match &record.white_balance {
+        None => Some(WhiteBalance::Gains(vec![1.0; channels.len()])),
+        Some(description::WhiteBalance::Factors(factors)) => self::factors(factors, channels.len(), context),
+        Some(description::WhiteBalance::Named(name)) if name.value == description::WhiteBalance::GREY_WORLD => {
+            Some(WhiteBalance::GreyWorld)
+        }
+        Some(description::WhiteBalance::Named(name)) => {
+            let illuminant = named_illuminant(name, context)?;
+            let gains = white_balance_from_illuminant(channels, &illuminant);
+            context.accept(&name.place, gains).map(WhiteBalance::Gains)
+        }
+    }
+}
+
+fn factors(factors: &[Placed<f64>], channels: usize, context: &mut Context<'_>) -> Option<WhiteBalance> {
+    let place = &factors.first()?.place;
+    check_count("\"white_balance\"", factors.len(), channels, place, context)?;
+    let values: Vec<f64> = factors.iter().map(|f| f.value).collect();
+    if values.iter().any(|f| *f < 1.0) {
+        let problem = format!("a factor of {values:?} is below 1 and would tint saturated pixels");
+        context.fault(place, problem, "divide all of them by the smallest");
+        return None;
+    }
+    Some(WhiteBalance::Gains(values))
+}
+
+/// One number a channel.
+fn check_count(name: &str, found: usize, channels: usize, place: &Place, context: &mut Context<'_>) -> Option<()> {
+    if found == channels {
+        return Some(());
+    }
+    let problem = format!("{name} has {found} numbers, and the sensor {channels} channels");
+    let order = "one a channel, in the order red, green, blue, clear, infrared, cyan, magenta, yellow";
+    context.fault(place, problem, format!("give {order}"));
+    None
+}
+
+fn colour_matrix(
+    record: &record::Processing,
+    mosaic: &Mosaic,
+    channels: &[&Spectrum],
+    context: &mut Context<'_>,
+) -> Option<ColourMatrix> {
+    match &record.colour_matrix {
+        None if is_rgb(mosaic) => Some(ColourMatrix::identity()),
+        None => {
+            let problem =
+                "the sensor's channels are not red, green and blue, and no \"colour_matrix\" says what they are";
+            context.fault(&record.place, problem, "add one, for example colour_matrix = { fit = \"D65\" }");
+            None
+        }
+        Some(description::ColourMatrix::Rows(rows)) => {
+            rows.value.iter().try_for_each(|row| {
+                check_count("a row of \"colour_matrix\"", row.len(), channels.len(), &rows.place, context)
+            })?;
+            let rows_of = rows.value.each_ref().map(|row| row.iter().map(|m| m.value).collect());
+            context.accept(&rows.place, ColourMatrix::new(rows_of))
+        }
+        Some(description::ColourMatrix::Fit(name)) => {
+            let illuminant = named_illuminant(name, context)?;
+            let patches = chart::colorchecker().iter().map(|patch| &patch.reflectance);
+            let noise = if channels.len() > 3 { NOISE_OF_MANY_CHANNELS } else { 0.0 };
+            context.accept(&name.place, fit_colour_matrix(channels, &illuminant, patches, noise))
+        }
+    }
+}
+
+fn is_rgb(mosaic: &Mosaic) -> bool {
+    matches!(mosaic, Mosaic::Tile(tile) if tile.filters() == [Filter::Red, Filter::Green, Filter::Blue])
+}

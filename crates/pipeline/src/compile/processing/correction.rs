@@ -1,0 +1,105 @@
+//! Black level, defects and shading.
+
+use super::super::context::Context;
+use etendue_isp::{BlackLevel, Defects, Shading};
+use etendue_projection::Raster;
+use etendue_scene::Placed;
+use etendue_scene::asset::NumbersAsset;
+use etendue_scene::record;
+use etendue_scene::record::processing as description;
+use etendue_scene::record::processing::correction::{BlackLevelRule, ShadingTable};
+use etendue_sensor::Sensor;
+use std::path::PathBuf;
+
+pub(super) fn black_level(
+    record: Option<&description::BlackLevel>,
+    sensor: &Sensor,
+    context: &mut Context<'_>,
+) -> Option<BlackLevel> {
+    match record {
+        None => Some(BlackLevel::Stated),
+        Some(description::BlackLevel::Dn(dn)) if dn.value < sensor.white_level_dn() => {
+            Some(BlackLevel::Fixed(dn.value))
+        }
+        Some(description::BlackLevel::Dn(dn)) => {
+            let problem = format!("found {}, and the sensor is saturated at {} DN", dn.value, sensor.white_level_dn());
+            context.fault(&dn.place, problem, "give a number below that");
+            None
+        }
+        Some(description::BlackLevel::Rule(rule)) => match rule.value {
+            BlackLevelRule::Sensor => Some(BlackLevel::Stated),
+            BlackLevelRule::OpticalBlack if has_shielded_pixels(sensor) => Some(BlackLevel::OpticalBlack),
+            BlackLevelRule::OpticalBlack => {
+                context.fault(
+                    &rule.place,
+                    "the sensor has no optical-black rows or columns",
+                    "give \"sensor\", or a number",
+                );
+                None
+            }
+        },
+    }
+}
+
+fn has_shielded_pixels(sensor: &Sensor) -> bool {
+    let dark = sensor.parameters().read_out.layout.optical_black;
+    dark.rows + dark.columns > 0
+}
+
+pub(super) fn defects(record: &record::Processing, raster: &Raster, context: &mut Context<'_>) -> Option<Defects> {
+    let map = match &record.defect_map {
+        None => Vec::new(),
+        Some(file) => defect_map(file, raster, context)?,
+    };
+    Some(Defects { map, outlier_threshold: record.defect_outlier_threshold.as_ref().map(|t| t.value) })
+}
+
+fn defect_map(file: &Placed<PathBuf>, raster: &Raster, context: &mut Context<'_>) -> Option<Vec<[u32; 2]>> {
+    let table = table(file, 2, "columns and rows of defective pixels", context)?;
+    let (width, height) = (raster.width(), raster.height());
+    let inside = |row: &[f64]| {
+        let whole = row.iter().all(|v| *v >= 0.0 && v.fract() == 0.0);
+        (whole && row[0] < width as f64 && row[1] < height as f64).then_some([row[0] as u32, row[1] as u32])
+    };
+    let pixels: Option<Vec<_>> = table.rows().map(inside).collect();
+    if pixels.is_none() {
+        let problem = format!("the map of defects names a pixel outside the picture of {width} × {height}");
+        context.fault(&file.place, problem, "give columns and rows as whole numbers, counted from 0");
+    }
+    pixels
+}
+
+pub(super) fn shading(
+    record: Option<&description::Shading>,
+    raster: &Raster,
+    context: &mut Context<'_>,
+) -> Option<Option<Shading>> {
+    let Some(record) = record else { return Some(None) };
+    let (shading, place) = match &record.table {
+        ShadingTable::Radial(gains) => {
+            let centre_px = record.centre_px.as_ref().map_or(raster.principal_px().to_array(), |c| c.value);
+            (Shading::Radial { centre_px, gains: gains.iter().map(|g| g.value).collect() }, &record.place)
+        }
+        ShadingTable::Grid(file) => {
+            let table = context.assets.numbers.get(&file.value)?;
+            (Shading::Grid { columns: table.columns, gains: table.values.clone() }, &file.place)
+        }
+    };
+    context.accept(place, shading.check()).map(|()| Some(shading))
+}
+
+/// A table of so many columns.
+pub(super) fn table<'a>(
+    file: &Placed<PathBuf>,
+    columns: usize,
+    of: &str,
+    context: &mut Context<'a>,
+) -> Option<&'a NumbersAsset> {
+    let table = context.assets.numbers.get(&file.value)?;
+    if table.columns == columns {
+        return Some(table);
+    }
+    let problem = format!("the table has {} columns; expected {columns}: {of}", table.columns);
+    context.fault(&file.place, problem, "correct the file");
+    None
+}

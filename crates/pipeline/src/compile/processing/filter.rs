@@ -1,0 +1,80 @@
+//! The paper's filters.
+
+use super::super::context::Context;
+use super::tone::tone_curve;
+use etendue_isp::paper::{
+    self, Affine, ColourChange, ColourSpace, Filter, GaussianNoise, Glow, Operation, PulseNoise, Sensitivity, Stage,
+    ToneMap, UniformNoise,
+};
+use etendue_scene::record::processing::PaperFilter;
+use etendue_scene::record::processing::filter as description;
+
+pub(super) fn filters(records: &[PaperFilter], context: &mut Context<'_>) -> Option<Vec<Filter>> {
+    let filters: Vec<Filter> = records.iter().map(|record| filter(record, context)).collect::<Option<_>>()?;
+    for (record, filter) in records.iter().zip(&filters) {
+        context.accept(record.place(), filter.check())?;
+    }
+    let last = records.last().map(PaperFilter::place);
+    last.map_or(Some(()), |place| context.accept(place, paper::check(&filters)))?;
+    Some(filters)
+}
+
+fn filter(record: &PaperFilter, context: &mut Context<'_>) -> Option<Filter> {
+    Some(match record {
+        PaperFilter::Glow(r) => Filter::Glow(Glow {
+            percentile: r.percentile.value,
+            target: r.target.value,
+            threshold: r.threshold.value,
+            radius_px: r.radius_px.value,
+            strength: r.strength.value,
+        }),
+        PaperFilter::ToneMap(r) => Filter::ToneMap(tone_map(r, context)?),
+        PaperFilter::Colour(r) => Filter::Colour(colour(r)),
+        PaperFilter::PulseNoise(r) => {
+            Filter::PulseNoise(PulseNoise { amplitude_dn: r.amplitude_dn.value, probability: r.probability.value })
+        }
+        PaperFilter::GaussianNoise(r) => Filter::GaussianNoise(GaussianNoise { sigma_dn: r.sigma_dn.value }),
+        PaperFilter::UniformNoise(r) => Filter::UniformNoise(UniformNoise { range: r.range.value }),
+    })
+}
+
+fn tone_map(record: &description::ToneMap, context: &mut Context<'_>) -> Option<ToneMap> {
+    let sensitivity = match &record.curve {
+        None => Sensitivity::Exponential,
+        Some(curve) => Sensitivity::Curve(tone_curve(curve, context)?),
+    };
+    let gain = record.gain.as_ref().map_or(1.0, |g| g.value);
+    Some(ToneMap { original_factor: record.original_factor.value, gain, sensitivity })
+}
+
+fn colour(record: &description::ColourChange) -> ColourChange {
+    let stage = match record.on.as_ref().map(|on| on.value) {
+        Some(description::Stage::Linear) => Stage::Linear,
+        Some(description::Stage::Display) | None => Stage::Display,
+    };
+    ColourChange { stage, operations: record.operations.iter().map(operation).collect() }
+}
+
+fn operation(record: &description::Operation) -> Operation {
+    match record {
+        description::Operation::Scale(v) => Operation::Scale(v.value),
+        description::Operation::Offset(v) => Operation::Offset(v.value),
+        description::Operation::Brightness(b) => Operation::Brightness(b.value),
+        description::Operation::Saturation(s) => Operation::Saturation(s.value),
+        description::Operation::HueRotation(angle) => Operation::HueRotationDeg(angle.value),
+        description::Operation::To(s) => Operation::To(space(s.value)),
+        description::Operation::From(s) => Operation::From(space(s.value)),
+        description::Operation::Matrix(rows) => Operation::Matrix(Affine(rows.value.each_ref().map(|row| row.value))),
+    }
+}
+
+fn space(named: description::ColourSpace) -> ColourSpace {
+    match named {
+        description::ColourSpace::RgbNtsc => ColourSpace::RgbNtsc,
+        description::ColourSpace::RgbPal => ColourSpace::RgbPal,
+        description::ColourSpace::Yuv => ColourSpace::Yuv,
+        description::ColourSpace::Yiq => ColourSpace::Yiq,
+        description::ColourSpace::YCbCr => ColourSpace::YCbCr,
+        description::ColourSpace::Cmy => ColourSpace::Cmy,
+    }
+}

@@ -1,0 +1,92 @@
+//! `[processing]`: from the record to the settings of development.
+
+mod colour;
+mod correction;
+mod filter;
+mod tone;
+
+use super::context::Context;
+use crate::plan::{Development, PictureFormat};
+use etendue_isp::{Bilateral, Mosaic, NoiseReduction, Processing, ToneCurve, Unsharp};
+use etendue_projection::Raster;
+use etendue_scene::record;
+use etendue_scene::record::processing::detail::NoiseReductionKind;
+use etendue_scene::record::processing::{self as description, output};
+use etendue_sensor::Sensor;
+
+/// How the sensor's raw pictures are developed; `None` with the faults noted.
+pub(super) fn development(
+    record: &record::Processing,
+    sensor: &Sensor,
+    raster: &Raster,
+    context: &mut Context<'_>,
+) -> Option<Development> {
+    let before = context.faults.len();
+    let black_level = correction::black_level(record.black_level.as_ref(), sensor, context);
+    let defects = correction::defects(record, raster, context);
+    let shading = correction::shading(record.shading.as_ref(), raster, context);
+    let mosaic = colour::mosaic(record, sensor, context);
+    let colour = mosaic.as_ref().and_then(|mosaic| colour::colour(record, sensor, mosaic, context));
+    let tone = record.tone_curve.as_ref().map_or(Some(ToneCurve::Srgb), |curve| tone::tone_curve(curve, context));
+    let paper_filters = filter::filters(&record.paper_filters, context);
+    let mosaic = mosaic?;
+    let demosaic = colour::demosaic(record.demosaic.as_ref(), &mosaic, context);
+    if context.faults.len() > before {
+        return None;
+    }
+    let processing = Processing {
+        black_level: black_level?,
+        defects: defects?,
+        shading: shading?,
+        demosaic: demosaic?,
+        noise_reduction: record.noise_reduction.as_ref().map(noise_reduction),
+        colour,
+        exposure_gain: record.exposure_gain.as_ref().map_or(1.0, |g| g.value),
+        tone: tone?,
+        sharpening: record.sharpening.as_ref().map(sharpening),
+        paper_filters: paper_filters?,
+    };
+    fits(record, &processing, &mosaic, raster, context)?;
+    Some(Development { mosaic, processing, format: format(record) })
+}
+
+/// Whether development will work, so that no frame fails.
+fn fits(
+    record: &record::Processing,
+    processing: &Processing,
+    mosaic: &Mosaic,
+    raster: &Raster,
+    context: &mut Context<'_>,
+) -> Option<()> {
+    let (width, height) = (raster.width(), raster.height());
+    context.accept(&record.place, processing.check(mosaic, width, height))
+}
+
+fn noise_reduction(record: &description::NoiseReduction) -> NoiseReduction {
+    match &record.kind {
+        NoiseReductionKind::Median(radius) => NoiseReduction::Median { radius_px: radius.value as usize },
+        NoiseReductionKind::Bilateral(radius) => NoiseReduction::Bilateral(Bilateral {
+            radius_px: radius.value,
+            range: record.range.as_ref().map_or(1.0, |r| r.value),
+        }),
+    }
+}
+
+fn sharpening(record: &description::Sharpening) -> Unsharp {
+    Unsharp {
+        amount: record.amount.value,
+        radius_px: record.radius_px.value,
+        threshold: record.threshold.as_ref().map_or(0.0, |t| t.value),
+    }
+}
+
+fn format(record: &record::Processing) -> PictureFormat {
+    match record.picture_format.as_ref().map(|f| f.value) {
+        Some(output::PictureFormat::Jpeg) => {
+            PictureFormat::Jpeg { quality: record.jpeg_quality.as_ref().map_or(90, |q| q.value as u8) }
+        }
+        Some(output::PictureFormat::Png) | None => {
+            PictureFormat::Png { bits: record.picture_bits.as_ref().map_or(8, |b| b.value as u32) }
+        }
+    }
+}

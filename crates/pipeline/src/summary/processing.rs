@@ -1,0 +1,111 @@
+//! Development in words: which steps there are, and why others are not.
+
+use super::line;
+use crate::plan::{CameraPlan, Development, PictureFormat};
+use etendue_isp::paper::{Filter, Stage};
+use etendue_isp::{BlackLevel, Demosaic, Mosaic, NoiseReduction, Processing, Shading, ToneCurve, WhiteBalance};
+use std::fmt::{self, Formatter};
+
+/// Writes the lines of a camera's development.
+pub(super) fn processing(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let Some(Development { mosaic, processing, format }) = &camera.body.development else {
+        return line(f, "processing", "none: no picture is made");
+    };
+    let steps = corrections(processing)
+        .into_iter()
+        .chain(colour(processing, mosaic))
+        .chain([format!("gain {}", processing.exposure_gain)])
+        .chain(paper(processing, Stage::Linear))
+        .chain([tone(&processing.tone)])
+        .chain(processing.sharpening.map(|s| format!("unsharp mask of {} px by {}", s.radius_px, s.amount)))
+        .chain(paper(processing, Stage::Display))
+        .chain([written(*format)]);
+    line(f, "processing", steps.collect::<Vec<_>>().join(", "))?;
+    line(f, "left out", left_out(processing))
+}
+
+fn corrections(p: &Processing) -> Vec<String> {
+    let black = match p.black_level {
+        BlackLevel::Stated => None,
+        BlackLevel::Fixed(dn) => Some(format!("black level {dn} DN")),
+        BlackLevel::OpticalBlack => Some("black level by shielded rows".to_owned()),
+    };
+    let map = (!p.defects.map.is_empty()).then(|| format!("{} mapped defects", p.defects.map.len()));
+    let outliers = p.defects.outlier_threshold.map(|t| format!("outliers beyond {t}"));
+    let shading = p.shading.as_ref().map(|shading| match shading {
+        Shading::Radial { gains, .. } => format!("shading by {} radial gains", gains.len()),
+        Shading::Grid { columns, gains } => format!("shading by a grid of {columns} × {}", gains.len() / columns),
+    });
+    [black, map, outliers, shading].into_iter().flatten().collect()
+}
+
+fn colour(p: &Processing, mosaic: &Mosaic) -> Vec<String> {
+    let Some(colour) = &p.colour else {
+        return std::iter::once("monochrome".to_owned()).chain(noise_reduction(p)).collect();
+    };
+    let balance = match &colour.white_balance {
+        WhiteBalance::GreyWorld => "white balance by grey world".to_owned(),
+        WhiteBalance::Gains(gains) => {
+            let gains: Vec<String> = gains.iter().map(|g| format!("{g:.4}")).collect();
+            format!("white balance {}", gains.join(" "))
+        }
+    };
+    let demosaic = match p.demosaic {
+        Demosaic::Bilinear => "bilinear demosaic",
+        Demosaic::MalvarHeCutler => "demosaic of Malvar, He and Cutler",
+        Demosaic::HamiltonAdams => "demosaic of Hamilton and Adams",
+    };
+    let matrix = match mosaic.channels() {
+        3 => "colour matrix".to_owned(),
+        n => format!("colour matrix of {n} channels"),
+    };
+    [balance, demosaic.to_owned()].into_iter().chain(noise_reduction(p)).chain([matrix]).collect()
+}
+
+fn noise_reduction(p: &Processing) -> Option<String> {
+    p.noise_reduction.map(|reduction| match reduction {
+        NoiseReduction::Bilateral(b) => format!("bilateral noise reduction of {} px and {}", b.radius_px, b.range),
+        NoiseReduction::Median { radius_px } => format!("median of {0} × {0} px", 2 * radius_px + 1),
+    })
+}
+
+fn tone(curve: &ToneCurve) -> String {
+    match curve {
+        ToneCurve::Srgb => "sRGB tone".to_owned(),
+        ToneCurve::Gamma(gamma) => format!("tone of gamma {gamma}"),
+        ToneCurve::SCurve(curve) => format!("S-curve of contrast {} about {}", curve.contrast(), curve.midpoint()),
+        ToneCurve::Table(_) => "tone by table".to_owned(),
+        ToneCurve::Oecf(_) => "tone by measured OECF".to_owned(),
+    }
+}
+
+fn paper(p: &Processing, stage: Stage) -> Vec<String> {
+    let name = |filter: &Filter| match filter {
+        Filter::Glow(_) => "the paper's glow",
+        Filter::ToneMap(_) => "the paper's tone map",
+        Filter::Colour(_) => "the paper's colour matrix",
+        Filter::PulseNoise(_) => "the paper's pulse noise",
+        Filter::GaussianNoise(_) => "the paper's Gaussian noise",
+        Filter::UniformNoise(_) => "the paper's uniform noise",
+    };
+    p.paper_filters.iter().filter(|filter| filter.stage() == stage).map(|filter| name(filter).to_owned()).collect()
+}
+
+fn written(format: PictureFormat) -> String {
+    match format {
+        PictureFormat::Png { bits } => format!("{bits} bits"),
+        PictureFormat::Jpeg { quality } => format!("8 bits, JPEG of quality {quality}"),
+    }
+}
+
+fn left_out(p: &Processing) -> String {
+    let absent = [
+        (p.defects.is_off(), "defect correction"),
+        (p.shading.is_none(), "shading correction"),
+        (p.noise_reduction.is_none(), "noise reduction"),
+        (p.sharpening.is_none(), "sharpening"),
+    ];
+    let list: Vec<&str> = absent.iter().filter(|(is, _)| *is).map(|(_, name)| *name).collect();
+    let asked = if list.is_empty() { String::new() } else { format!("{}: not asked for; ", list.join(", ")) };
+    format!("{asked}highlight recovery and local tone mapping: not modelled")
+}

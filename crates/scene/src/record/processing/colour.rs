@@ -1,0 +1,61 @@
+//! From the sensor's channels to colours.
+
+use super::super::light::illuminants;
+use crate::place::Placed;
+use crate::reader::{Rule, RuleExt as _, choice, either, exactly, keyed, known, list, number, record};
+use etendue_spectra::illuminant;
+
+choice! {
+    /// How the colours that a pixel did not measure are found.
+    pub enum Demosaic {
+        /// Weighted means of the neighbours of each colour.
+        "bilinear" => Bilinear,
+        /// Malvar, He & Cutler 2004: bilinear with a correction by the measured colour's own gradient.
+        "malvar" => Malvar,
+        /// Hamilton & Adams 1997: along the smaller gradient.
+        "hamilton_adams" => HamiltonAdams,
+    }
+}
+
+/// What makes grey grey.
+#[derive(Clone, Debug)]
+pub enum WhiteBalance {
+    /// Factors on the channels.
+    Factors(Vec<Placed<f64>>),
+    /// The illuminant that comes out neutral, or "grey_world".
+    Named(Placed<String>),
+}
+
+impl WhiteBalance {
+    /// The name of the rule that makes each picture's mean grey.
+    pub const GREY_WORLD: &str = "grey_world";
+}
+
+/// From the sensor's colours to linear sRGB.
+#[derive(Clone, Debug)]
+pub enum ColourMatrix {
+    /// By rows.
+    Rows(Placed<[Vec<Placed<f64>>; 3]>),
+    /// Fitted under an illuminant.
+    Fit(Placed<String>),
+}
+
+keyed! {
+    /// How a colour matrix is found.
+    pub enum ColourMatrixTable {
+        /// The name of the illuminant under which the colour chart is fitted.
+        fit => Fit(Placed<String>) = illuminants();
+    }
+}
+
+pub(super) fn white_balance() -> impl Rule<Out = WhiteBalance> {
+    let factors = list(number("").above(0.0), 2).map(WhiteBalance::Factors);
+    let names = [&[WhiteBalance::GREY_WORLD, "solar"], illuminant::names()].concat();
+    either(factors, known("a rule or an illuminant", &names).map(WhiteBalance::Named))
+}
+
+pub(super) fn colour_matrix() -> impl Rule<Out = ColourMatrix> {
+    let rows = exactly(list(number(""), 2)).map(ColourMatrix::Rows);
+    let fit = record::<ColourMatrixTable>().map(|ColourMatrixTable::Fit(name)| ColourMatrix::Fit(name));
+    either(rows, fit)
+}

@@ -1,0 +1,65 @@
+//! What is put right before colours are made.
+
+use crate::place::Placed;
+use crate::reader::{Rule, RuleExt as _, choice, either, keyed, list, number, path, record, vector};
+use std::path::PathBuf;
+
+/// What counts as no light.
+#[derive(Clone, Debug)]
+pub enum BlackLevel {
+    /// This digital number.
+    Dn(Placed<f64>),
+    /// A rule.
+    Rule(Placed<BlackLevelRule>),
+}
+
+choice! {
+    /// How the black level is found.
+    pub enum BlackLevelRule {
+        /// The sensor states it.
+        "sensor" => Sensor,
+        /// From the sensor's shielded rows, frame by frame.
+        "optical_black" => OpticalBlack,
+    }
+}
+
+pub(super) fn black_level() -> impl Rule<Out = BlackLevel> {
+    either(number("DN").at_least(0.0).map(BlackLevel::Dn), choice().map(BlackLevel::Rule))
+}
+
+keyed! {
+    /// Gains of a shading correction.
+    pub enum ShadingTable {
+        /// Gains at equal steps of the distance from the centre to the farthest corner of the picture, two or more, each 1
+        /// or more.
+        radial_gains => Radial(Vec<Placed<f64>>) = list(number("").at_least(1.0), 2);
+        /// A table of gains, 1 or more, laid over the picture, two by two or more, its outer entries on the corners.
+        grid => Grid(Placed<PathBuf>) = path(&["csv"]);
+    }
+}
+
+record! {
+    /// A shading correction.
+    pub struct Shading check(check_shading) {
+        /// Its gains.
+        inside table: ShadingTable;
+        /// With "radial_gains": the centre, raster coordinates, px. Default: the principal point.
+        optional centre_px: Placed<[f64; 2]> = vector::<2>(number("px"));
+    }
+}
+
+fn check_shading(shading: &Shading, faults: &mut crate::fault::Faults) {
+    if let (ShadingTable::Grid(_), Some(centre)) = (&shading.table, &shading.centre_px) {
+        faults.add(&centre.place, "\"centre_px\" has no effect here, it belongs to \"radial_gains\"", "remove it");
+    }
+}
+
+impl Shading {
+    /// The table that it names.
+    pub(super) fn file(&self) -> Option<&Placed<PathBuf>> {
+        match &self.table {
+            ShadingTable::Grid(file) => Some(file),
+            ShadingTable::Radial(_) => None,
+        }
+    }
+}

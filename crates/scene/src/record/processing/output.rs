@@ -1,0 +1,34 @@
+//! How pictures are written.
+
+use super::Processing;
+use crate::fault::Faults;
+use crate::reader::choice;
+
+choice! {
+    /// The kind of a picture's file.
+    pub enum PictureFormat {
+        /// Without loss.
+        "png" => Png,
+        /// With loss, 8 bits.
+        "jpeg" => Jpeg,
+    }
+}
+
+/// Bits and quality must fit the format.
+pub(super) fn check(processing: &Processing, faults: &mut Faults) {
+    let jpeg = processing.picture_format.as_ref().is_some_and(|f| f.value == PictureFormat::Jpeg);
+    if let Some(bits) = processing.picture_bits.as_ref().filter(|bits| jpeg && bits.value != 8) {
+        faults.add(
+            &bits.place,
+            format!("a JPEG cannot hold {} bits", bits.value),
+            "give 8, or picture_format = \"png\"",
+        );
+    }
+    if let Some(quality) = processing.jpeg_quality.as_ref().filter(|_| !jpeg) {
+        faults.add(
+            &quality.place,
+            "\"jpeg_quality\" has no effect on PNG",
+            "remove it, or add picture_format = \"jpeg\"",
+        );
+    }
+}
