@@ -1,0 +1,11 @@
+//! From pictures to parameters of cameras, each with its uncertainty.
+//!
+//! Works on pictures only, rendered or photographed alike: this crate does not know the tracer, the sensor or any file
+//! format. Positions are raster coordinates: pixel centres lie at +0.5, x to the right, y down, from the top left corner.
+//! All arithmetic is `f64`, in the order of the pixels, with the functions of `etendue_core::maths`: the same bits everywhere.
+
+pub mod estimate;
+pub mod picture;
+
+pub use estimate::Estimate;
+pub use picture::{Image, Reading};
