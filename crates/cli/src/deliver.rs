@@ -3,23 +3,24 @@
 use crate::facts;
 use crate::failure::Failure;
 use crate::files::Files;
+use crate::photographs::{Wanted, photographs};
 use crate::tell;
 use etendue_core::Plane;
-use etendue_core::quantity::{Display, Electrons};
+use etendue_core::quantity::Electrons;
 use etendue_io::exr::{
     self, EncodeError, Lengths, encode_ground_truth, encode_plane, encode_radiance, encode_rays, encode_spectral,
 };
-use etendue_io::jpeg::encode_jpeg;
 use etendue_io::{OutputFolder, Provenance, png, sidecar};
 use etendue_pipeline::film::Film;
-use etendue_pipeline::photograph::{Light, take};
-use etendue_pipeline::plan::{CameraBody, CameraPlan, PictureFormat, Plan, Products};
+use etendue_pipeline::photograph::Light;
+use etendue_pipeline::plan::{CameraPlan, Plan};
 use etendue_pipeline::pupil_depth::{PupilDepth, pupil_depth};
 use etendue_pipeline::rays::ray_table;
 use etendue_pipeline::truth::{GroundTruth, ground_truth};
 use etendue_pipeline::twin::Twin;
-use etendue_sensor::{FrameAddress, SensorState};
+use etendue_sensor::FrameAddress;
 use etendue_tracer::accel::Simd;
+use serde_json::Value;
 use std::ops::Range;
 
 /// The names, relative to the output folder, of all files of a plan.
@@ -53,12 +54,14 @@ pub fn deliver(
     let scale = camera.products.undistorted;
     let twin = scale.map(|scale| Twin::of(&camera.body, scale).expect("a compiled plan's camera has its twin"));
     spectra(plan, camera, &light, depth.as_ref(), &mut results)?;
+    let mut points = Vec::new();
     if let Some(electrons) = &light.electrons {
         self::electrons(plan, camera, electrons, &light, &mut results)?;
         let address = |frame| FrameAddress { seed: camera.settings.seed, camera: camera.index, frame, capture: 0 };
-        let Products { raw, picture, .. } = camera.products;
-        let wanted = Wanted { raw, picture, undistorted: twin.as_ref() };
-        photographs(&camera.body, electrons, frames, address, wanted, &mut results)?;
+        let facts = facts::provenance(plan, camera);
+        let products = &camera.products;
+        let wanted = Wanted { products, camera: &camera.name, facts: &facts, undistorted: twin.as_ref() };
+        points = photographs(&camera.body, electrons, frames, address, wanted, &mut results)?;
     }
     truth(plan, camera, simd, &mut results)?;
     if let Some(twin) = &twin {
@@ -66,7 +69,8 @@ pub fn deliver(
     }
     let files = Files::of(&camera.products, camera.body.picture_format(), frames);
     let mut facts = facts::sidecar(plan, camera, &files, not_finite);
-    facts["undistorted"] = twin.as_ref().map_or(serde_json::Value::Null, facts::undistorted);
+    facts["undistorted"] = twin.as_ref().map_or(Value::Null, facts::undistorted);
+    facts["frames"] = points.into();
     results.json(Files::SIDECAR, &facts)
 }
 
@@ -79,7 +83,8 @@ pub struct Results<'a> {
 }
 
 impl Results<'_> {
-    fn write(&mut self, name: &str, bytes: Result<Vec<u8>, EncodeError>) -> Result<(), Failure> {
+    /// Writes a file.
+    pub fn write(&mut self, name: &str, bytes: Result<Vec<u8>, EncodeError>) -> Result<(), Failure> {
         let name = format!("{}/{name}", self.prefix);
         let bytes = bytes.map_err(|error| Failure::Run(format!("{name}: {error}")))?;
         self.folder.write(&name, &bytes).map_err(Failure::run)
@@ -140,61 +145,6 @@ fn electrons(
     }
     let variance = light.electrons_variance.as_ref().filter(|_| camera.products.variance);
     results.write(Files::ELECTRONS, encode_plane(mean, variance, &facts::provenance(plan, camera)))
-}
-
-/// Which photographs are wanted.
-#[derive(Clone, Copy, Debug)]
-pub struct Wanted<'a> {
-    /// Digital numbers.
-    pub raw: bool,
-    /// Pictures.
-    pub picture: bool,
-    /// The twin whose pictures are wanted as well.
-    pub undistorted: Option<&'a Twin>,
-}
-
-fn encoded(picture: &Plane<Display>, format: PictureFormat) -> Result<Vec<u8>, EncodeError> {
-    match format {
-        PictureFormat::Jpeg { quality } => encode_jpeg(picture, quality),
-        PictureFormat::Png { bits: 8 } => png::encode_display(picture),
-        PictureFormat::Png { bits } => png::encode_display16(picture, bits),
-    }
-}
-
-/// Takes frame after frame and writes what is wanted of each.
-pub fn photographs(
-    body: &CameraBody,
-    electrons: &Plane<Electrons>,
-    frames: &Range<u32>,
-    address: impl Fn(u32) -> FrameAddress,
-    wanted: Wanted<'_>,
-    results: &mut Results<'_>,
-) -> Result<(), Failure> {
-    if !(wanted.raw || wanted.picture) {
-        return Ok(());
-    }
-    let mut state = SensorState::default();
-    for number in frames.clone() {
-        let Some((next, frame)) = take(body, state, electrons, address(number)) else { return Ok(()) };
-        state = next;
-        if !frame.raw.invalid.is_empty() {
-            let count = frame.raw.invalid.len();
-            tell(&format!("warning: frame {number}: {count} pixels have no valid light; their digital number is 0\n"));
-        }
-        if wanted.raw {
-            results.write(&Files::raw(number), png::encode_raw16(&frame.raw.plane))?;
-        }
-        if let Some(picture) = frame.picture.filter(|_| wanted.picture) {
-            let format = body.picture_format();
-            let name = Files::picture(number, format);
-            results.write(&name, encoded(&picture.display, format))?;
-            if let Some(twin) = wanted.undistorted {
-                let display = twin.picture(body, &picture.linear, address(number)).expect("a picture was developed");
-                results.write(&Files::undistorted(&name), encoded(&display, format))?;
-            }
-        }
-    }
-    Ok(())
 }
 
 fn truth(plan: &Plan, camera: &CameraPlan, simd: Simd, results: &mut Results<'_>) -> Result<(), Failure> {

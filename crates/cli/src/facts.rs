@@ -8,6 +8,7 @@ use etendue_optics::{Cube, DepthOfField, Face, Front, Lens, PointSpread, PupilPr
 use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, Route};
 use etendue_pipeline::twin::Twin;
 use etendue_projection::Sense;
+use etendue_sensor::{Raw, Sensor, Verdict};
 use glam::DVec2;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -370,6 +371,7 @@ pub fn sensor(body: &CameraBody) -> Value {
             "dark_current_e_s": p.charge.dark.current_e_s,
             "bits": sensor.delivered_bits(),
             "noise": p.noise,
+            "effects": sensor_effects(sensor),
             "cfa": {
                 "columns": p.cfa.width(),
                 "channels": p.cfa.channels().iter().map(|c| p.channels[*c].name.clone()).collect::<Vec<_>>(),
@@ -382,5 +384,35 @@ pub fn sensor(body: &CameraBody) -> Value {
         "pixel_pitch_um": 1000.0 * raster.pitch_mm().x,
         "principal_point_px": raster.principal_px().to_array(),
         "electronics": electronics,
+    })
+}
+
+/// What is modelled, in the words of the plan.
+fn sensor_effects(sensor: &Sensor) -> BTreeMap<&'static str, String> {
+    let modelled = sensor.needs().into_iter().filter(|need| need.verdict != Verdict::Skipped);
+    modelled.map(|need| (need.effect.name(), need.reason)).collect()
+}
+
+/// What a frame says of itself: exposure and gain, levels, and where overflowing charge went.
+pub fn frame(number: u32, raw: &Raw) -> Value {
+    let area = raw.picture;
+    let account = raw.account.map(|a| {
+        json!({
+            "generated": a.generated_e,
+            "collected": a.collected_e,
+            "drained": a.drained_e,
+            "spilt_off_the_edge": a.spilt_e,
+            "clipped": a.clipped_e,
+        })
+    });
+    json!({
+        "frame": number,
+        "exposure_s": raw.operating_point.exposure_s,
+        "analogue_gain": raw.operating_point.analogue_gain,
+        "black_level_dn": raw.black_level_dn,
+        "white_level_dn": raw.white_level_dn,
+        "picture_in_raw_px": [area.x, area.y, area.width, area.height],
+        "companding_knees_dn": raw.companding.as_ref().map(|c| c.knees.clone()),
+        "charge_e": account,
     })
 }

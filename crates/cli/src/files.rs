@@ -1,7 +1,7 @@
 //! The files that a camera can deliver: their names, and what they hold.
 
 use etendue_core::quantity::{DigitalNumber, Electrons, Irradiance, Quantity, Radiance};
-use etendue_pipeline::plan::{PictureFormat, Products};
+use etendue_pipeline::plan::{PictureFormat, Products, RawFormat};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -29,8 +29,13 @@ impl Files {
     pub const SIDECAR: &str = "camera.json";
 
     /// The raw picture of a frame.
-    pub fn raw(frame: u32) -> String {
-        format!("raw.{frame:04}.png")
+    pub fn raw(frame: u32, format: RawFormat) -> String {
+        format!("raw.{frame:04}.{}", format.extension())
+    }
+
+    /// What the raw picture of a frame is made of.
+    pub fn causes(frame: u32) -> String {
+        format!("causes.{frame:04}.exr")
     }
 
     /// The picture of a frame.
@@ -68,7 +73,8 @@ impl Files {
         for frame in frames.clone() {
             let picture = entry("undistorted sRGB picture", &bits);
             add(twin && p.picture, &Self::undistorted(&Self::picture(frame, format)), picture);
-            add(p.raw, &Self::raw(frame), entry_of::<DigitalNumber>());
+            add(p.raw, &Self::raw(frame, p.raw_format), entry_of::<DigitalNumber>());
+            add(p.causes, &Self::causes(frame), entry("causes of the digital number, one layer each", "e"));
             add(p.picture, &Self::picture(frame, format), entry("sRGB picture", &bits));
         }
         files

@@ -12,6 +12,7 @@ mod files;
 mod film_file;
 mod job;
 mod machine;
+mod photographs;
 mod progress;
 mod verbs;
 

@@ -10,7 +10,7 @@
 //! | in | spectra, refractive indices, coefficients of retro-reflection | [`spectrum`], [`mod@table`] |
 //! | in | everything a description names, with all errors at once | [`assets`] |
 //! | out and in | spectral EXR (layout of Fichet, Pacanowski and Wilkie 2021) | [`exr`] |
-//! | out | ground-truth EXR, planes as EXR, raw, depth and display PNG, side-car JSON | [`exr`], [`png`], [`sidecar`] |
+//! | out | ground-truth EXR, planes as EXR, raw, depth and display PNG, raw TIFF and DNG, side-car JSON | [`exr`], [`png`], [`mod@tiff`], [`sidecar`] |
 //! | look | two results, channel beside channel | [`compare`] |
 //! | look | what is in a file, with a picture of it | [`inspect`] |
 //!
@@ -39,6 +39,7 @@ pub mod sidecar;
 mod source;
 pub mod spectrum;
 pub mod table;
+pub mod tiff;
 
 pub use assets::load_assets;
 pub use error::Error;

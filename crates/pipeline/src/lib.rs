@@ -18,6 +18,7 @@ pub mod photograph;
 pub mod plan;
 pub mod pupil_depth;
 
+pub mod raw_colour;
 pub mod rays;
 pub mod render;
 pub mod summary;

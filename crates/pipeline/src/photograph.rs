@@ -3,15 +3,15 @@
 use crate::defocus;
 use crate::effects::{Behind, behind, picture};
 use crate::film::{CubeEstimate, Film};
-use crate::plan::{CameraBody, CameraPlan, Development, Route};
+use crate::plan::{CameraBody, CameraPlan, Route};
 use crate::pupil_depth::PupilDepth;
-use etendue_core::quantity::{DigitalNumber, Electrons, Irradiance, Length, Radiance, Variance};
+use etendue_core::quantity::{Electrons, Irradiance, Length, Radiance, Variance};
 use etendue_core::{Plane, SpectralCube};
 use etendue_isp::paper::PictureAddress;
-use etendue_isp::{BlackLevel, Developed, RawPicture, develop};
+use etendue_isp::{Developed, RawPicture, develop};
 use etendue_optics::front::{Dirt, Front};
 use etendue_optics::{DepthOfField, OpticsError, PupilProjection, Resampling, irradiance};
-use etendue_sensor::{FrameAddress, Raw, SensorState};
+use etendue_sensor::{Causes, FrameAddress, Raw, SensorState};
 use glam::DVec2;
 use rayon::prelude::*;
 
@@ -156,38 +156,26 @@ fn electrons(body: &CameraBody, irradiance: &SpectralCube<Irradiance>) -> Option
 pub struct Frame {
     /// Digital numbers.
     pub raw: Raw,
+    /// What they are made of, where that was asked for.
+    pub causes: Option<Causes>,
     /// The picture, where the camera makes one.
     pub picture: Option<Developed>,
 }
 
-/// The picture of a raw frame.
-fn developed(raw: &Raw, development: &Development, address: FrameAddress) -> Developed {
+/// The picture of the part of a raw that light reached, of numbers that are proportional to the reading.
+fn developed(body: &CameraBody, raw: &Raw, address: FrameAddress) -> Option<Developed> {
+    let development = body.development.as_ref()?;
     let linear = raw.linear();
-    let shielded = (development.processing.black_level == BlackLevel::OpticalBlack).then(|| shielded(raw));
     let picture = RawPicture {
         plane: &linear.plane,
         black_level_dn: linear.black_level_dn,
         white_level_dn: linear.white_level_dn,
         mosaic: &development.mosaic,
-        optical_black: shielded.as_ref(),
+        optical_black: linear.optical_black.as_ref(),
     };
     let FrameAddress { seed, camera, frame, .. } = address;
-    develop(&picture, &development.processing, PictureAddress { seed, camera, frame })
-        .expect("a compiled plan's processing fits its sensor")
-}
-
-/// Numbers of the pixels that no light reached, in one row, proportional to the reading.
-fn shielded(raw: &Raw) -> Plane<DigitalNumber> {
-    let (picture, width) = (raw.picture, raw.plane.width().max(1));
-    let inside =
-        |x: usize, y: usize| x.wrapping_sub(picture.x) < picture.width && y.wrapping_sub(picture.y) < picture.height;
-    let dark = raw.plane.samples().iter().enumerate().filter(|(i, _)| !inside(i % width, i / width));
-    let linear = |dn: u32| match &raw.companding {
-        Some(curve) => curve.linear(f64::from(dn)).round_ties_even() as u32,
-        None => dn,
-    };
-    let samples: Vec<u32> = dark.map(|(_, dn)| linear(*dn)).collect();
-    Plane::from_samples(samples.len(), 1, samples).expect("one row")
+    let address = PictureAddress { seed, camera, frame };
+    Some(develop(&picture, &development.processing, address).expect("a compiled plan's processing fits its sensor"))
 }
 
 /// Takes one frame of `electrons`; the state is passed from frame to frame. `None` where the camera has no
@@ -200,6 +188,19 @@ pub fn take(
     address: FrameAddress,
 ) -> Option<(SensorState, Frame)> {
     let (state, raw) = body.sensor.as_ref()?.step(state, electrons, address);
-    let picture = body.development.as_ref().map(|development| developed(&raw, development, address));
-    Some((state, Frame { raw, picture }))
+    let picture = developed(body, &raw, address);
+    Some((state, Frame { raw, causes: None, picture }))
+}
+
+/// The same frame, with what each pixel's digital number is made of.
+#[must_use]
+pub fn take_with_causes(
+    body: &CameraBody,
+    state: SensorState,
+    electrons: &Plane<Electrons>,
+    address: FrameAddress,
+) -> Option<(SensorState, Frame)> {
+    let (state, raw, causes) = body.sensor.as_ref()?.step_with_causes(state, electrons, address);
+    let picture = developed(body, &raw, address);
+    Some((state, Frame { raw, causes: Some(causes), picture }))
 }

@@ -198,6 +198,35 @@ pub struct Settings {
     pub seed: u64,
 }
 
+/// File format of digital numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RawFormat {
+    /// 16-bit PNG.
+    Png,
+    /// TIFF of 16 or 32 bits.
+    Tiff,
+    /// Digital Negative.
+    Dng,
+}
+
+impl RawFormat {
+    /// The one that a sensor's numbers have unless another is asked for.
+    #[must_use]
+    pub fn usual(sensor: Option<&Sensor>) -> Self {
+        if sensor.is_some_and(|s| s.delivered_bits() > 16) { Self::Tiff } else { Self::Png }
+    }
+
+    /// The extension of its files.
+    #[must_use]
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Tiff => "tif",
+            Self::Dng => "dng",
+        }
+    }
+}
+
 /// What a camera delivers.
 #[derive(Clone, Copy, PartialEq)]
 pub struct Products {
@@ -213,6 +242,10 @@ pub struct Products {
     pub electrons: bool,
     /// Digital numbers.
     pub raw: bool,
+    /// Their file format.
+    pub raw_format: RawFormat,
+    /// What each pixel's digital number is made of.
+    pub causes: bool,
     /// The picture.
     pub picture: bool,
     /// Depth, normals, positions, identities.
@@ -225,7 +258,7 @@ pub struct Products {
     pub undistorted: Option<f64>,
 }
 
-/// As derived, but that a twin nobody asks for is not named: plans without one keep their hash.
+/// As derived, but that a twin, causes and a raw format nobody asks for are not named: plans without keep their hash.
 impl fmt::Debug for Products {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut all = f.debug_struct("Products");
@@ -236,6 +269,12 @@ impl fmt::Debug for Products {
         if let Some(scale) = &self.undistorted {
             all.field("undistorted", scale);
         }
+        if self.raw_format != RawFormat::Png {
+            all.field("raw_format", &self.raw_format);
+        }
+        if self.causes {
+            all.field("causes", &self.causes);
+        }
         all.finish()
     }
 }
@@ -244,7 +283,8 @@ impl Products {
     /// Whether nothing is delivered.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        let images = self.radiance || self.irradiance || self.ghosts || self.electrons || self.raw || self.picture;
+        let light = self.radiance || self.irradiance || self.ghosts || self.electrons;
+        let images = light || self.raw || self.picture || self.causes;
         !(images || self.ground_truth || self.depth_png_per_m.is_some() || self.rays)
     }
 }

@@ -6,7 +6,7 @@ mod processing;
 use crate::block::Blocks;
 use crate::defocus::margin_px;
 use crate::film::Film;
-use crate::plan::{CameraPlan, Plan, Products, Route, Settings, SkyFacts};
+use crate::plan::{CameraPlan, Plan, Products, RawFormat, Route, Settings, SkyFacts};
 use crate::render::{census, layout};
 use etendue_core::Bands;
 use etendue_optics::effects::{self, Effect};
@@ -371,6 +371,14 @@ fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     line(f, "", format!("left out, as not described: {}", silent.join(", ")))
 }
 
+fn raw_name(format: RawFormat) -> &'static str {
+    match format {
+        RawFormat::Png => "raw",
+        RawFormat::Tiff => "raw TIFF",
+        RawFormat::Dng => "raw DNG",
+    }
+}
+
 fn products(p: &Products) -> String {
     let named = [
         (p.radiance, "radiance"),
@@ -378,7 +386,8 @@ fn products(p: &Products) -> String {
         (p.ghosts, "ghosts"),
         (p.variance, "variance"),
         (p.electrons, "electrons"),
-        (p.raw, "raw"),
+        (p.raw, raw_name(p.raw_format)),
+        (p.causes, "causes"),
         (p.picture, "picture"),
         (p.ground_truth, "ground truth"),
         (p.depth_png_per_m.is_some(), "depth PNG"),

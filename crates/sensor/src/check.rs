@@ -46,6 +46,17 @@ pub enum SensorError {
     },
 }
 
+impl SensorError {
+    /// The parameter at fault, as camera files name it; `None` where it is a channel.
+    #[must_use]
+    pub fn key(&self) -> Option<&'static str> {
+        match self {
+            Self::Range { key, .. } | Self::Conflict { key, .. } => Some(key),
+            Self::Efficiency { .. } | Self::NoSuchChannel { .. } | Self::UnusedChannel(_) => None,
+        }
+    }
+}
+
 /// Collects what is wrong with a sensor's parameters.
 #[derive(Debug, Default)]
 pub(crate) struct Checks {

@@ -37,16 +37,18 @@ impl ExposureControl {
         checks.legal("auto_exposure.target", self.target, inside(self.target), "a share between 0 and 1");
         checks.share_above_0("auto_exposure.damping", self.damping);
         let [low, high] = self.exposure_s;
-        checks.positive("auto_exposure.exposure_s", low);
+        checks.positive("auto_exposure.exposure_limits_s", low);
         let around = |[low, high]: [f64; 2], v: f64| low <= v && v <= high && high.is_finite();
-        checks.agree("auto_exposure.exposure_s", around(self.exposure_s, p.exposure.exposure_s), || {
+        checks.agree("auto_exposure.exposure_limits_s", around(self.exposure_s, p.exposure.exposure_s), || {
             format!("the limits must rise and hold the exposure of the first frame, {} s", p.exposure.exposure_s)
         });
-        checks.agree("auto_exposure.exposure_s", p.exposure.frame_period_s.is_none_or(|period| high <= period), || {
-            "the longest exposure is longer than \"frame_period_s\"".to_owned()
-        });
-        checks.positive("auto_exposure.analogue_gain", self.analogue_gain[0]);
-        checks.agree("auto_exposure.analogue_gain", around(self.analogue_gain, p.read_out.analogue_gain), || {
+        checks.agree(
+            "auto_exposure.exposure_limits_s",
+            p.exposure.frame_period_s.is_none_or(|period| high <= period),
+            || "the longest exposure is longer than \"frame_period_s\"".to_owned(),
+        );
+        checks.positive("auto_exposure.gain_limits", self.analogue_gain[0]);
+        checks.agree("auto_exposure.gain_limits", around(self.analogue_gain, p.read_out.analogue_gain), || {
             format!("the limits must rise and hold the gain of the first frame, {}", p.read_out.analogue_gain)
         });
     }

@@ -266,6 +266,8 @@ mod tests {
         p.charge.dark.current_e_s = 10.0 / p.exposure.exposure_s;
         p.read_out.layout.optical_black = OpticalBlack { rows: 2, columns: 3 };
         let raw = run(&p, &Plane::filled(5, 4, 500.0), ADDRESS);
+        let black = raw.linear().optical_black.expect("rows without light");
+        assert!(black.height() == 2 && black.samples().iter().all(|dn| *dn == 10));
         assert_eq!(raw.picture, Region { x: 3, y: 2, width: 5, height: 4 });
         for (x, y) in (0..48).map(|i| (i % 8, i / 8)) {
             assert_eq!(raw.plane.at(x, y), if x >= 3 && y >= 2 { 510 } else { 10 });

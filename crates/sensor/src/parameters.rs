@@ -178,7 +178,7 @@ impl SensorParameters {
         }
         self.pattern.photo_response.check(checks);
         self.pattern.offset.check(checks);
-        checks.share("dead_share", self.pattern.dead_share);
+        checks.share("non_uniformity.dead_share", self.pattern.dead_share);
     }
 
     fn check_charge(&self, checks: &mut Checks) {

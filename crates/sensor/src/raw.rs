@@ -42,6 +42,8 @@ pub struct LinearRaw<'a> {
     pub black_level_dn: f64,
     /// Digital number of a saturated pixel.
     pub white_level_dn: f64,
+    /// The rows above the picture that no light reaches, where there are some.
+    pub optical_black: Option<Plane<DigitalNumber>>,
 }
 
 impl Raw {
@@ -50,16 +52,20 @@ impl Raw {
     pub fn linear(&self) -> LinearRaw<'_> {
         let whole = (self.picture.width, self.picture.height) == (self.plane.width(), self.plane.height());
         let part = if whole { Cow::Borrowed(&self.plane) } else { Cow::Owned(self.picture.of(&self.plane)) };
+        let above = Region { x: self.picture.x, y: 0, width: self.picture.width, height: self.picture.y };
+        let optical_black = (above.height > 0).then(|| above.of(&self.plane));
         let Some(curve) = &self.companding else {
             let (black_level_dn, white_level_dn) = (self.black_level_dn, self.white_level_dn);
-            return LinearRaw { plane: part, black_level_dn, white_level_dn };
+            return LinearRaw { plane: part, black_level_dn, white_level_dn, optical_black };
         };
-        let table: Vec<u32> =
-            (0..1_u32 << self.bits).map(|y| curve.linear(f64::from(y)).round_ties_even() as u32).collect();
+        let linear = |dn: u32| curve.linear(f64::from(dn)).round_ties_even() as u32;
+        let table: Vec<u32> = (0..1_u32 << self.bits).map(linear).collect();
+        let expanded = |plane: &Plane<DigitalNumber>| plane.map(|dn| table[dn as usize]);
         LinearRaw {
-            plane: Cow::Owned(part.map(|dn| table[dn as usize])),
+            plane: Cow::Owned(expanded(&part)),
             black_level_dn: curve.linear(self.black_level_dn),
             white_level_dn: curve.linear(self.white_level_dn),
+            optical_black: optical_black.as_ref().map(expanded),
         }
     }
 }

@@ -2,12 +2,13 @@
 
 use super::render::{claim, commit, open};
 use crate::args;
-use crate::deliver::{Results, Wanted, photographs};
+use crate::deliver::Results;
 use crate::facts;
 use crate::failure::Failure;
 use crate::files::Files;
 use crate::job::read_text;
 use crate::machine;
+use crate::photographs::{Wanted, photographs};
 use crate::tell;
 use etendue_core::quantity::{Length, Radiance};
 use etendue_core::{Plane, SpectralCube};
@@ -17,7 +18,7 @@ use etendue_optics::{DepthOfField, OpticsError, PupilProjection};
 use etendue_pipeline::compile_camera;
 use etendue_pipeline::defocus::{held_margin_px, margin_px};
 use etendue_pipeline::photograph::{self, Light};
-use etendue_pipeline::plan::{CameraBody, Products};
+use etendue_pipeline::plan::{CameraBody, Products, RawFormat};
 use etendue_scene::{Overrides, asset, load_camera};
 use etendue_sensor::FrameAddress;
 use serde_json::json;
@@ -67,6 +68,8 @@ fn products(body: &CameraBody) -> Products {
         variance: false,
         electrons: false,
         raw: body.sensor.is_some(),
+        raw_format: RawFormat::usual(body.sensor.as_ref()),
+        causes: false,
         picture: body.development.is_some(),
         ground_truth: false,
         depth_png_per_m: None,
@@ -109,14 +112,17 @@ fn expose(
     let facts = facts::exposed_provenance(&stored.provenance, &results.prefix, seed);
     results.irradiance(&light, false, &facts)?;
     results.ghosts(&light, &facts)?;
+    let mut points = Vec::new();
     if let Some(electrons) = &light.electrons {
         let camera = stored.provenance.further.get("camera_index").and_then(|i| i.parse().ok()).unwrap_or(0);
         let address = |frame| FrameAddress { seed, camera, frame, capture: 0 };
         let products = products(body);
-        let wanted = Wanted { raw: products.raw, picture: products.picture, undistorted: None };
-        photographs(body, electrons, &arguments.frames, address, wanted, results)?;
+        let wanted = Wanted { products: &products, camera: &results.prefix.clone(), facts: &facts, undistorted: None };
+        points = photographs(body, electrons, &arguments.frames, address, wanted, results)?;
     }
-    results.json(Files::SIDECAR, &sidecar(body, stored, arguments, seed, &depth_of_field))
+    let mut facts = sidecar(body, stored, arguments, seed, &depth_of_field);
+    facts["frames"] = points.into();
+    results.json(Files::SIDECAR, &facts)
 }
 
 /// What the camera's effects need beyond its picture, where they need anything.

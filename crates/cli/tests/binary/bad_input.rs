@@ -118,7 +118,7 @@ fn a_focal_length_of_zero() {
 
 #[test]
 fn an_image_without_width() {
-    job_refused("width_px = 45", "width_px = 0", &["cameras.front.sensor.width_px", "1"]);
+    job_refused("width_px = 46", "width_px = 0", &["cameras.front.sensor.width_px", "1"]);
 }
 
 #[test]

@@ -39,7 +39,7 @@ fn a_city_made_elsewhere_stands_upright_in_colour_and_in_scale() {
     let small = [
         "--spp=4",
         "--set=cameras.front.sensor.width_px=120",
-        "--set=cameras.front.sensor.height_px=75",
+        "--set=cameras.front.sensor.height_px=76",
         "--set=cameras.front.sensor.pixel_pitch_um=48",
     ];
     etendue(["render", &job, "-o", &output].iter().chain(&small)).ok();

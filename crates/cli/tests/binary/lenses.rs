@@ -60,9 +60,9 @@ fn a_prescription_in_a_file_is_the_lens_of_its_surfaces() {
 
 const KANNALA: &str = "projection = { type = \"kannala_brandt\", fx_px = 25, fy_px = 26, cx_px = 23, cy_px = 14.5, k = [0.01, 0.002, 0, 0] }";
 const KALIBR: &str = "cam0:\n  camera_model: pinhole\n  distortion_model: equi\n  distortion_coeffs: [0.01, 0.002, 0, 0]\n  \
-intrinsics: [25, 26, 22.5, 14]\n  resolution: [45, 30]\n";
-const COLMAP: &str = "1 OPENCV_FISHEYE 45 30 25 26 23 14.5 0.01 0.002 0 0\n";
-const F_THETA: &str = "{\"Model\": \"ftheta\", \"width\": 45, \"height\": 30, \"cx\": 22.5, \"cy\": 14, \"polynomial\": \"0 0.04\", \
+intrinsics: [25, 26, 22.5, 14]\n  resolution: [46, 30]\n";
+const COLMAP: &str = "1 OPENCV_FISHEYE 46 30 25 26 23 14.5 0.01 0.002 0 0\n";
+const F_THETA: &str = "{\"Model\": \"ftheta\", \"width\": 46, \"height\": 30, \"cx\": 22.5, \"cy\": 14, \"polynomial\": \"0 0.04\", \
 \"polynomial-type\": \"pixeldistance-to-angle\"}";
 
 /// What a run writes, its side-car and its folder.

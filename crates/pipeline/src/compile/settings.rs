@@ -7,12 +7,13 @@ use crate::defocus::{margin_px, whole_margin_px};
 use crate::film::Film;
 use crate::gather::Layout;
 use crate::photograph::front_on_picture;
-use crate::plan::{CameraBody, Products, Route, Settings};
+use crate::plan::{CameraBody, Products, RawFormat, Route, Settings};
+use crate::raw_colour::RawColour;
 use crate::twin::Twin;
 use etendue_core::Bands;
 use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
 use etendue_optics::{DepthOfField, FastBlend, FastParameters, PupilProjection};
-use etendue_scene::record::output::DepthScale;
+use etendue_scene::record::output::{self, DepthScale};
 use etendue_scene::record::render::{self, Accumulate, DepthMethod};
 use etendue_scene::record::{Output, Render};
 use etendue_scene::{Place, Placed};
@@ -28,7 +29,7 @@ const REPLICATES: u64 = 4;
 pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> Products {
     let electronics = body.sensor.is_some();
     let said = |key: &Option<Placed<bool>>, default: bool| key.as_ref().map_or(default, |v| v.value);
-    for (key, name) in [(&output.electrons, "electrons"), (&output.raw, "raw")] {
+    for (key, name) in [(&output.electrons, "electrons"), (&output.raw, "raw"), (&output.causes, "causes")] {
         need(key, electronics, name, "the sensor has no electronics", "add them to [sensor]", context);
     }
     let ghosts = body.effects.ghosts().is_some();
@@ -54,6 +55,8 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
         variance: said(&output.variance, false),
         electrons: said(&output.electrons, false),
         raw: said(&output.raw, electronics),
+        raw_format: raw_format(output, body, context),
+        causes: said(&output.causes, false),
         picture: said(&output.picture, development),
         ground_truth: said(&output.ground_truth, true),
         depth_png_per_m: depth_png.then(|| output.depth_png_scale.as_ref().map_or(256.0, |s| s.per_metre())),
@@ -82,8 +85,38 @@ fn undistorted(output: &Output, products: &Products, body: &CameraBody, context:
             "\"undistorted\" has no effect without \"ground_truth\", \"rays\" or \"picture\", of which it makes twins";
         context.fault(&key.place, problem, "ask for one of them, or remove the key");
     }
+    let layout = body.sensor.as_ref().map(|sensor| sensor.parameters().read_out.layout);
+    if products.picture && layout.is_some_and(|l| l.region.is_some() || l.binning.is_some()) {
+        let problem = "pictures of a region or of binned pixels have no undistorted twins";
+        context.fault(&key.place, problem, "remove the key, or \"region_px\" and \"binning\" of the sensor");
+    }
     let scale = scale.as_ref().map_or(1.0, |scale| scale.value);
     context.accept(&key.place, Twin::of(body, scale)).map(|_| scale)
+}
+
+/// The raw's file format; what cannot hold it is refused.
+fn raw_format(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> RawFormat {
+    let usual = RawFormat::usual(body.sensor.as_ref());
+    let Some(key) = &output.raw_format else { return usual };
+    if body.sensor.is_none() || output.raw.as_ref().is_some_and(|raw| !raw.value) {
+        context.fault(&key.place, "\"raw_format\" has no effect without raw", "ask for \"raw\", or remove it");
+    }
+    let format = match key.value {
+        output::RawFormat::Png => RawFormat::Png,
+        output::RawFormat::Tiff => RawFormat::Tiff,
+        output::RawFormat::Dng => RawFormat::Dng,
+    };
+    if format == RawFormat::Png && usual != RawFormat::Png {
+        context.fault(
+            &key.place,
+            "the digital numbers have more than 16 bits, which PNG does not hold",
+            "give \"tiff\"",
+        );
+    }
+    if format == RawFormat::Dng && body.sensor.as_ref().is_some_and(|s| RawColour::of(s).is_none()) {
+        context.fault(&key.place, "a DNG holds one channel, or red, green and blue", "give \"png\" or \"tiff\"");
+    }
+    format
 }
 
 fn need(key: &Option<Placed<bool>>, possible: bool, name: &str, lack: &str, remedy: &str, context: &mut Context<'_>) {

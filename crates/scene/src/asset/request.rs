@@ -282,6 +282,7 @@ impl List {
         match camera.sensor.electronics.as_ref().map(|e| &e.quantum_efficiency) {
             Some(QuantumEfficiency::Same(curve)) => self.curve(curve, Values::Share),
             Some(QuantumEfficiency::PerChannel(curves)) => curves.iter().for_each(|c| self.curve(c, Values::Share)),
+            Some(QuantumEfficiency::Named(list)) => list.iter().for_each(|(_, c)| self.curve(c, Values::Share)),
             Some(QuantumEfficiency::Measured { .. }) | None => {}
         }
     }

@@ -17,8 +17,12 @@ record! {
         optional variance: Placed<bool> = flag();
         /// Expected electrons of each pixel, EXR. Default: false.
         optional electrons: Placed<bool> = flag();
-        /// Digital numbers, 16-bit PNG. Default: true for a sensor with electronics.
+        /// Digital numbers, in the format of "raw_format". Default: true for a sensor with electronics.
         optional raw: Placed<bool> = flag();
+        /// File format of the digital numbers. Default: "png", or "tiff" where they have more than 16 bits.
+        optional raw_format: Placed<RawFormat> = choice();
+        /// What each pixel's digital number is made of, one layer a cause, in electrons, EXR. Default: false.
+        optional causes: Placed<bool> = flag();
         /// The picture, 8-bit PNG. Default: true for a camera with `[processing]`.
         optional picture: Placed<bool> = flag();
         /// Depth, distance, normals, positions and identities of the ground truth, EXR. Default: true.
@@ -38,6 +42,18 @@ record! {
         /// With "undistorted": the twin's focal length over the camera's own, above 0; below 1 it shows more of a picture that
         /// barrels. Default: 1.
         optional undistorted_scale: Placed<f64> = number("").above(0.0);
+    }
+}
+
+choice! {
+    /// A file format of digital numbers.
+    pub enum RawFormat {
+        /// 16-bit PNG.
+        "png" => Png,
+        /// 16-bit TIFF, 32-bit for more than 16 bits.
+        "tiff" => Tiff,
+        /// Digital Negative, for raw readers.
+        "dng" => Dng,
     }
 }
 
@@ -93,6 +109,8 @@ impl Output {
             variance: None,
             electrons: None,
             raw: None,
+            raw_format: None,
+            causes: None,
             picture: None,
             ground_truth: None,
             depth_png: None,
@@ -115,6 +133,8 @@ impl Output {
             variance: a.variance.or(b.variance),
             electrons: a.electrons.or(b.electrons),
             raw: a.raw.or(b.raw),
+            raw_format: a.raw_format.or(b.raw_format),
+            causes: a.causes.or(b.causes),
             picture: a.picture.or(b.picture),
             ground_truth: a.ground_truth.or(b.ground_truth),
             depth_png: a.depth_png.or(b.depth_png),

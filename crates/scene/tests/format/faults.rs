@@ -335,7 +335,7 @@ fn text_that_is_not_toml() {
 fn several_faults_at_once() {
     let mut files = Files::of_example(&doc());
     files.edit("job.toml", "spp = 64", "spp = -64");
-    files.edit("camera.toml", "bits = 12", "bits = 17");
+    files.edit("camera.toml", "bits = 12", "bits = 33");
     files.edit("camera.toml", "fill_factor", "fil_factor");
     files.edit("scene.toml", "class = \"road\"", "class = \"raod\"");
     files.edit("scene.toml", "illuminance_lx", "illuminance_lux");

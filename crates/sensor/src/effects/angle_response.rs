@@ -24,12 +24,12 @@ pub struct AngleResponse {
 
 impl AngleResponse {
     pub(crate) fn check(&self, checks: &mut Checks) {
-        checks.positive("exit_pupil_mm", self.exit_pupil_mm);
-        let rising = self.table.windows(2).all(|pair| pair[0][0] < pair[1][0]);
+        checks.positive("angle_response.exit_pupil_mm", self.exit_pupil_mm);
+        let rising = self.table.len() > 1 && self.table.windows(2).all(|pair| pair[0][0] < pair[1][0]);
         let starts = self.table.first().is_some_and(|[angle, response]| *angle == 0.0 && *response == 1.0);
         let ends = self.table.last().is_some_and(|[angle, _]| *angle < 90.0);
         checks.agree("angle_response", rising && starts && ends, || {
-            "angles must rise from 0 (where the response is 1) to less than 90 degrees".to_owned()
+            "two angles or more must rise from 0 (where the response is 1) to less than 90 degrees".to_owned()
         });
         self.table.iter().for_each(|[_, response]| checks.share("angle_response", *response));
     }

@@ -81,15 +81,15 @@ impl DarkCurrent {
         if let Some(temperature) = &self.temperature {
             temperature.check(checks);
         }
-        checks.not_negative("dark_spread", self.spread.white);
-        checks.not_negative("dark_spread_row", self.spread.row);
-        checks.not_negative("dark_spread_column", self.spread.column);
+        checks.not_negative("dark.spread", self.spread.white);
+        checks.not_negative("dark.spread_row", self.spread.row);
+        checks.not_negative("dark.spread_column", self.spread.column);
         if let Some(hot) = &self.hot {
-            checks.share_above_0("hot_share", hot.share);
-            checks.positive("hot_mean_e_s", hot.mean_e_s);
+            checks.share_above_0("dark.hot.share", hot.share);
+            checks.positive("dark.hot.mean_e_s", hot.mean_e_s);
         }
         if let Some(blinking) = &self.blinking {
-            blinking.check(["blinking_share", "blinking_mean_e_s", "blinking_dwell_frames"], checks);
+            blinking.check(["dark.blinking.share", "dark.blinking.mean_e_s", "dark.blinking.dwell_frames"], checks);
         }
     }
 

@@ -37,10 +37,10 @@ pub enum Blooming {
 impl Blooming {
     pub(crate) fn check(&self, checks: &mut Checks) {
         match *self {
-            Self::Column { spill } => checks.share_above_0("blooming_spill", spill),
+            Self::Column { spill } => checks.share_above_0("blooming.spill", spill),
             // Without any drain, charge of a wide light would spread without end.
             Self::Around { spill } => {
-                checks.legal("blooming_spill", spill, spill > 0.0 && spill <= 0.95, "a share above 0 and up to 0.95");
+                checks.legal("blooming.spill", spill, spill > 0.0 && spill <= 0.95, "a share above 0 and up to 0.95");
             }
         }
     }

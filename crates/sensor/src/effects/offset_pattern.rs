@@ -24,9 +24,9 @@ pub struct OffsetPattern {
 
 impl OffsetPattern {
     pub(crate) fn check(&self, checks: &mut Checks) {
-        checks.not_negative("dsnu_e", self.white_e);
-        checks.not_negative("dsnu_row_e", self.row_e);
-        checks.not_negative("dsnu_column_e", self.column_e);
+        checks.not_negative("non_uniformity.dsnu_e", self.white_e);
+        checks.not_negative("non_uniformity.dsnu_row_e", self.row_e);
+        checks.not_negative("non_uniformity.dsnu_column_e", self.column_e);
     }
 
     fn sigmas(self) -> Sigmas {

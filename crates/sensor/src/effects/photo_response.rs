@@ -24,9 +24,9 @@ pub struct PhotoResponse {
 
 impl PhotoResponse {
     pub(crate) fn check(&self, checks: &mut Checks) {
-        checks.share("prnu", self.white);
-        checks.share("prnu_row", self.row);
-        checks.share("prnu_column", self.column);
+        checks.share("non_uniformity.prnu", self.white);
+        checks.share("non_uniformity.prnu_row", self.row);
+        checks.share("non_uniformity.prnu_column", self.column);
     }
 
     fn sigmas(self) -> Sigmas {

@@ -40,11 +40,11 @@ impl Response {
     pub(crate) fn check(&self, checks: &mut Checks) {
         match self {
             Self::Linear => {}
-            Self::Logarithmic { from_e } => checks.positive("response_logarithmic_from_e", *from_e),
+            Self::Logarithmic { from_e } => checks.positive("response.from_e", *from_e),
             Self::Knees(knees) => {
                 let rising = knees.windows(2).all(|k| k[0].at_e < k[1].at_e && k[0].slope > k[1].slope);
                 let legal = knees.iter().all(|k| k.at_e > 0.0 && k.at_e.is_finite() && k.slope > 0.0 && k.slope < 1.0);
-                checks.agree("response_knees", rising && legal && !knees.is_empty(), || {
+                checks.agree("response.knees", rising && legal && !knees.is_empty(), || {
                     "charges must rise from above 0, and slopes must fall from below 1 to above 0".to_owned()
                 });
             }

@@ -42,13 +42,13 @@ impl Smear {
         match *self {
             Self::Interline { smear_db, measured_exposure_share } => {
                 let legal = smear_db.is_finite() && smear_db <= -20.0;
-                checks.legal("smear_db", smear_db, legal, "a data sheet's figure of at most -20 dB");
-                checks.share_above_0("smear_measured_exposure_share", measured_exposure_share);
-                checks.agree("smear_db", p.exposure.frame_period_s.is_some(), || {
+                checks.legal("smear.smear_db", smear_db, legal, "a data sheet's figure of at most -20 dB");
+                checks.share_above_0("smear.measured_exposure_share", measured_exposure_share);
+                checks.agree("smear.smear_db", p.exposure.frame_period_s.is_some(), || {
                     "smear grows with the time of a whole frame: give \"frame_period_s\"".to_owned()
                 });
             }
-            Self::FrameTransfer { line_shift_s } => checks.positive("smear_line_shift_s", line_shift_s),
+            Self::FrameTransfer { line_shift_s } => checks.positive("smear.line_shift_s", line_shift_s),
         }
         checks.agree("smear", p.exposure.exposure_s > 0.0, || {
             "the rate of light is not known at an exposure_s of 0: give a longer one".to_owned()

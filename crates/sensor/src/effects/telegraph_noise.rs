@@ -14,7 +14,7 @@ pub struct TelegraphNoise(pub TwoLevel);
 
 impl TelegraphNoise {
     pub(crate) fn check(&self, checks: &mut Checks) {
-        self.0.check(["telegraph_share", "telegraph_mean_e", "telegraph_dwell_frames"], checks);
+        self.0.check(["telegraph.share", "telegraph.mean_e", "telegraph.dwell_frames"], checks);
     }
 }
 

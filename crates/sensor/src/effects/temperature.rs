@@ -39,11 +39,11 @@ const BOLTZMANN_EV_K: f64 = 1.380_649e-23 / 1.602_176_634e-19;
 
 impl Temperature {
     pub(crate) fn check(&self, checks: &mut Checks) {
-        checks.positive("temperature_c", self.sensor_k);
-        checks.positive("dark_reference_c", self.reference_k);
+        checks.positive("dark.temperature_c", self.sensor_k);
+        checks.positive("dark.reference_c", self.reference_k);
         match self.law {
-            TemperatureLaw::Doubling { step_k } => checks.positive("dark_doubling_k", step_k),
-            TemperatureLaw::BandGap { diffusion_share } => checks.share("dark_diffusion_share", diffusion_share),
+            TemperatureLaw::Doubling { step_k } => checks.positive("dark.doubling_k", step_k),
+            TemperatureLaw::BandGap { diffusion_share } => checks.share("dark.diffusion_share", diffusion_share),
         }
     }
 

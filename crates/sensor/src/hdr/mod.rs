@@ -75,17 +75,17 @@ impl Capture {
     }
 
     fn check(&self, checks: &mut Checks) {
-        checks.share_above_0("captures.exposure_share", self.exposure_share);
-        checks.share_above_0("captures.sensitivity_share", self.sensitivity_share);
-        checks.share_above_0("captures.gain_share", self.gain_share);
+        checks.share_above_0("hdr.captures.exposure_share", self.exposure_share);
+        checks.share_above_0("hdr.captures.sensitivity_share", self.sensitivity_share);
+        checks.share_above_0("hdr.captures.gain_share", self.gain_share);
         if let Some(e) = self.full_well_e {
-            checks.positive("captures.full_well_e", e);
+            checks.positive("hdr.captures.full_well_e", e);
         }
         if let Some(e) = self.read_noise_e {
-            checks.not_negative("captures.read_noise_e", e);
+            checks.not_negative("hdr.captures.read_noise_e", e);
         }
         let read_only = self.exposure_share == 1.0 && self.sensitivity_share == 1.0 && self.full_well_e.is_none();
-        checks.agree("captures.same_charge", !self.same_charge || read_only, || {
+        checks.agree("hdr.captures.same_charge", !self.same_charge || read_only, || {
             "charge that is read again has the exposure, photodiode and full well it had: remove those, or \"same_charge\"".to_owned()
         });
     }
@@ -142,9 +142,10 @@ impl HighDynamicRange {
     pub(crate) fn check(&self, p: &SensorParameters, checks: &mut Checks) {
         self.captures.iter().for_each(|capture| capture.check(checks));
         if let Some(share) = self.switch_at {
-            checks.legal("switch_at", share, share > 0.0 && share < 1.0, "a share between 0 and 1");
-            checks
-                .agree("switch_at", !self.captures.is_empty(), || "there are no captures to switch between".to_owned());
+            checks.legal("hdr.switch_at", share, share > 0.0 && share < 1.0, "a share between 0 and 1");
+            checks.agree("hdr.switch_at", !self.captures.is_empty(), || {
+                "there are no captures to switch between".to_owned()
+            });
         }
         if checks.errors.is_empty() {
             self.check_bits(p, checks);
@@ -156,19 +157,21 @@ impl HighDynamicRange {
 
     fn check_bits(&self, p: &SensorParameters, checks: &mut Checks) {
         let Some(bits) = self.bits else {
-            checks
-                .agree("merged_bits", self.captures.is_empty(), || "several captures need \"merged_bits\"".to_owned());
+            checks.agree("hdr.merged_bits", self.captures.is_empty(), || {
+                "several captures need \"merged_bits\"".to_owned()
+            });
             return;
         };
-        checks
-            .agree("merged_bits", !self.captures.is_empty(), || "there are no captures to merge: remove it".to_owned());
+        checks.agree("hdr.merged_bits", !self.captures.is_empty(), || {
+            "there are no captures to merge: remove it".to_owned()
+        });
         let legal = (p.read_out.bits..=24).contains(&bits);
-        checks.legal("merged_bits", f64::from(bits), legal, "a whole number from the converter's bits to 24");
+        checks.legal("hdr.merged_bits", f64::from(bits), legal, "a whole number from the converter's bits to 24");
         let rising = (1..=self.captures.len()).all(|k| self.scale(k) >= self.scale(k - 1));
-        checks.agree("captures", rising, || "captures must be listed by falling sensitivity".to_owned());
+        checks.agree("hdr.captures", rising, || "captures must be listed by falling sensitivity".to_owned());
         if checks.errors.is_empty() {
             let white = self.white_level_dn(p, Operation::described(p));
-            checks.agree("merged_bits", white < f64::from(1_u32 << bits), || {
+            checks.agree("hdr.merged_bits", white < f64::from(1_u32 << bits), || {
                 format!("the merged range reaches {white:.0} DN, and {bits} bits end at {}: give more bits or fewer captures", (1_u32 << bits) - 1)
             });
         }

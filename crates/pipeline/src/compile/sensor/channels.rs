@@ -1,0 +1,58 @@
+//! Which pixel measures what, and how well.
+
+use super::super::context::Context;
+use super::super::spectrum::curve;
+use etendue_scene::record;
+use etendue_scene::record::sensor::QuantumEfficiency;
+use etendue_scene::record::sensor::cfa::CfaSource;
+use etendue_scene::{Place, Placed};
+use etendue_sensor::{Cfa, Channel};
+use etendue_spectra::{Outside, Spectrum, camera};
+
+/// The tile, over the channels in their order.
+pub(super) fn cfa(source: &CfaSource, place: &Place, context: &mut Context<'_>) -> Option<Cfa> {
+    let (columns, names) = source.tile();
+    let channels = source.channels();
+    let number = |name: &&str| channels.iter().position(|c| c == name).expect("channels are those of the tile");
+    let numbers: Vec<usize> = names.iter().map(number).collect();
+    context.accept(place, Cfa::tile(columns, numbers.len() / columns, numbers))
+}
+
+pub(super) fn cfa_place(source: &CfaSource) -> &Place {
+    match source {
+        CfaSource::Named(name) => &name.place,
+        CfaSource::Tile(tile) => &tile.place,
+    }
+}
+
+/// The channels, in the order of [`CfaSource::channels`].
+pub(super) fn channels(electronics: &record::Electronics, context: &mut Context<'_>) -> Option<Vec<Channel>> {
+    let names = electronics.cfa.channels();
+    let spectra: Vec<Spectrum> = match &electronics.quantum_efficiency {
+        QuantumEfficiency::Same(one) => vec![curve(one, Outside::Zero, context)?; names.len()],
+        QuantumEfficiency::PerChannel(curves) => {
+            curves.value.iter().map(|c| curve(c, Outside::Zero, context)).collect::<Option<_>>()?
+        }
+        QuantumEfficiency::Measured { camera, peak } => measured(camera, peak.value, context)?.into(),
+        QuantumEfficiency::Named(list) => {
+            let of = |name: &&str| list.iter().find(|(n, _)| n.value == **name).map(|(_, curve)| curve);
+            names.iter().map(|name| curve(of(name)?, Outside::Zero, context)).collect::<Option<_>>()?
+        }
+    };
+    let channel = |(name, quantum_efficiency): (&&str, _)| Channel { name: (*name).to_owned(), quantum_efficiency };
+    Some(names.iter().zip(spectra).map(channel).collect())
+}
+
+/// Measured relative sensitivities (per radiant power, so divided by the wavelength), scaled together so that the
+/// largest quantum efficiency is `peak`.
+fn measured(name: &Placed<String>, peak: f64, context: &mut Context<'_>) -> Option<[Spectrum; 3]> {
+    let Some(found) = camera::named(&name.value) else {
+        let known = camera::names().join(", ");
+        context.fault(&name.place, format!("there is no camera \"{}\"", name.value), format!("give one of {known}"));
+        return None;
+    };
+    let per_photon = Spectrum::from_fn(|nm| 1.0 / nm);
+    let channels = [&found.r, &found.g, &found.b].map(|s| s.product(&per_photon));
+    let largest = channels.iter().map(|s| f64::from(s.max_value())).fold(0.0, f64::max);
+    Some(channels.map(|s| s.scaled(peak / largest)))
+}

@@ -1,0 +1,84 @@
+//! `[sensor]`: from the record to the sensor's model.
+
+mod channels;
+mod charge;
+mod light;
+mod read_out;
+
+use super::context::Context;
+use channels::{cfa, channels};
+use etendue_scene::Place;
+use etendue_scene::record;
+use etendue_sensor::{Pixel, Sensor, SensorError, SensorParameters};
+
+/// The sensor with its electronics; `None` where the record has none or they are faulty.
+pub(super) fn sensor(record: &record::Sensor, context: &mut Context<'_>) -> Option<Sensor> {
+    let electronics = record.electronics.as_ref()?;
+    let channels = channels(electronics, context)?;
+    let parameters = SensorParameters {
+        pixel: Pixel { pitch_um: record.pixel_pitch_um.value, fill_factor: fill_factor(record) },
+        cfa: cfa(&electronics.cfa, &record.place, context)?,
+        channels,
+        exposure: light::exposure(electronics),
+        optics: light::optics(record, electronics),
+        pattern: charge::pattern(electronics),
+        charge: charge::charge(electronics),
+        read_out: read_out::read_out(electronics),
+        hdr: read_out::hdr(electronics),
+        noise: electronics.noise.as_ref().is_none_or(|n| n.value),
+    };
+    let sensor = Sensor::new(parameters).map_err(|errors| refuse(record, electronics, &errors, context)).ok()?;
+    let misfits = sensor.misfits(record.width_px.value as usize, record.height_px.value as usize);
+    refuse(record, electronics, &misfits, context);
+    misfits.is_empty().then_some(sensor)
+}
+
+fn refuse(
+    record: &record::Sensor,
+    electronics: &record::Electronics,
+    errors: &[SensorError],
+    context: &mut Context<'_>,
+) {
+    for error in errors {
+        let place = error.key().map_or(&record.place, |key| place(record, electronics, key));
+        context.fault(place, error.to_string(), "");
+    }
+}
+
+/// Where the table or key stands that a key of the model belongs to.
+fn place<'a>(record: &'a record::Sensor, e: &'a record::Electronics, key: &str) -> &'a Place {
+    let table = key.split('.').next().unwrap_or(key);
+    let found = match table {
+        "frame_period_s" => e.frame_period_s.as_ref().map(|k| &k.place),
+        "auto_exposure" => e.auto_exposure.as_ref().map(|t| &t.place),
+        "angle_response" => e.angle_response.as_ref().map(|t| &t.place),
+        "cross_talk" => e.cross_talk.as_ref().map(|t| &t.place),
+        "pixel_capacitance" => e.pixel_capacitance.as_ref().map(|t| &t.place),
+        "non_uniformity" => e.non_uniformity.as_ref().map(|t| &t.place),
+        "dark" => e.dark.as_ref().map(|t| &t.place),
+        "smear" => e.smear.as_ref().map(charge::smear_place),
+        "lag" => e.lag.first().map(|t| &t.place),
+        "brighter_fatter_per_e" => e.brighter_fatter_per_e.as_ref().map(|k| &k.place),
+        "blooming" => e.blooming.as_ref().map(|t| &t.place),
+        "response" => e.response.as_ref().map(read_out::response_place),
+        "telegraph" => e.telegraph.as_ref().map(|t| &t.place),
+        "optical_black" => e.optical_black.as_ref().map(|t| &t.place),
+        "region_px" => e.region_px.as_ref().map(|k| &k.place),
+        "binning" => e.binning.as_ref().map(|t| &t.place),
+        "hdr" => e.hdr.as_ref().map(|t| &t.place),
+        "companding" => e.companding.as_ref().map(|t| &t.place),
+        "cfa" => Some(channels::cfa_place(&e.cfa)),
+        _ => None,
+    };
+    found.unwrap_or(&record.place)
+}
+
+/// Share of a pixel's area that is sensitive.
+pub(super) fn fill_factor(record: &record::Sensor) -> f64 {
+    record.fill_factor.as_ref().map_or(1.0, |f| f.value)
+}
+
+/// A key's number, or what stands for its absence.
+fn or(key: Option<&etendue_scene::Placed<f64>>, default: f64) -> f64 {
+    key.map_or(default, |k| k.value)
+}

@@ -1,0 +1,101 @@
+//! From charge to digital numbers.
+
+use super::light::neighbours;
+use super::or;
+use etendue_scene::Place;
+use etendue_scene::record;
+use etendue_scene::record::sensor::{hdr as of_hdr, read_out as description};
+use etendue_sensor::ReadOut;
+use etendue_sensor::effects::capacitance::Capacitance;
+use etendue_sensor::effects::read_noise::ReadNoise;
+use etendue_sensor::effects::response::{Knee, Response};
+use etendue_sensor::effects::telegraph_noise::TelegraphNoise;
+use etendue_sensor::effects::two_level::TwoLevel;
+use etendue_sensor::hdr::companding::Companding;
+use etendue_sensor::hdr::{Capture, HighDynamicRange};
+use etendue_sensor::layout::{Binning, BinningOf, Layout, OpticalBlack, Region};
+
+pub(super) fn read_out(e: &record::Electronics) -> ReadOut {
+    ReadOut {
+        response: e.response.as_ref().map_or(Response::Linear, response),
+        capacitance: e.pixel_capacitance.as_ref().map(|shares| Capacitance(neighbours(shares))),
+        noise: ReadNoise {
+            white_e: e.read_noise_e.value,
+            row_e: or(e.row_noise_e.as_ref(), 0.0),
+            column_e: or(e.column_noise_e.as_ref(), 0.0),
+        },
+        telegraph: e.telegraph.as_ref().map(|t| {
+            TelegraphNoise(TwoLevel { share: t.share.value, mean: t.mean_e.value, dwell_frames: t.dwell_frames.value })
+        }),
+        gain_dn_e: e.gain_dn_per_e.value,
+        analogue_gain: or(e.analogue_gain.as_ref(), 1.0),
+        black_level_dn: e.black_level_dn.value,
+        bits: e.bits.value as u32,
+        digital_gain: or(e.digital_gain.as_ref(), 1.0),
+        layout: layout(e),
+    }
+}
+
+fn response(record: &description::Response) -> Response {
+    match record {
+        description::Response::Knees(record) => {
+            Response::Knees(record.knees.iter().map(|k| Knee { at_e: k.value[0], slope: k.value[1] }).collect())
+        }
+        description::Response::Logarithmic(record) => Response::Logarithmic { from_e: record.from_e.value },
+    }
+}
+
+pub(super) fn response_place(record: &description::Response) -> &Place {
+    match record {
+        description::Response::Knees(record) => &record.place,
+        description::Response::Logarithmic(record) => &record.place,
+    }
+}
+
+fn layout(e: &record::Electronics) -> Layout {
+    let dark = e.optical_black.as_ref();
+    let pixels = |key: Option<&etendue_scene::Placed<u64>>| key.map_or(0, |k| k.value as usize);
+    Layout {
+        optical_black: OpticalBlack {
+            rows: pixels(dark.and_then(|d| d.rows_px.as_ref())),
+            columns: pixels(dark.and_then(|d| d.columns_px.as_ref())),
+        },
+        region: e.region_px.as_ref().map(|region| {
+            let [x, y, width, height] = region.value.map(|v| v as usize);
+            Region { x, y, width, height }
+        }),
+        binning: e.binning.as_ref().map(|b| Binning {
+            columns: b.columns.value as usize,
+            rows: b.rows.value as usize,
+            of: match b.of.value {
+                description::BinningOf::Charge => BinningOf::Charge,
+                description::BinningOf::Numbers => BinningOf::Numbers,
+            },
+        }),
+    }
+}
+
+pub(super) fn hdr(e: &record::Electronics) -> HighDynamicRange {
+    let captures = e.hdr.iter().flat_map(|hdr| &hdr.captures).map(capture).collect();
+    let companding = e
+        .companding
+        .as_ref()
+        .map(|c| Companding { knees: c.knees.iter().map(|knee| knee.value).collect(), bits: c.bits.value as u32 });
+    HighDynamicRange {
+        captures,
+        switch_at: e.hdr.as_ref().and_then(|hdr| hdr.switch_at.as_ref()).map(|k| k.value),
+        bits: e.hdr.as_ref().map(|hdr| hdr.merged_bits.value as u32),
+        companding,
+    }
+}
+
+fn capture(record: &of_hdr::Capture) -> Capture {
+    Capture {
+        exposure_share: or(record.exposure_share.as_ref(), 1.0),
+        sensitivity_share: or(record.sensitivity_share.as_ref(), 1.0),
+        gain_share: or(record.gain_share.as_ref(), 1.0),
+        full_well_e: record.full_well_e.as_ref().map(|k| k.value),
+        read_noise_e: record.read_noise_e.as_ref().map(|k| k.value),
+        same_charge: record.same_charge.as_ref().is_some_and(|k| k.value),
+    }
+}

@@ -1,0 +1,169 @@
+//! What happens to charge in its pixel, and how pixels differ.
+
+use crate::fault::Faults;
+use crate::place::Placed;
+use crate::reader::{choice, number, record, variants, whole};
+
+record! {
+    /// How pixels differ, frame after frame the same. Spreads are standard deviations.
+    pub struct NonUniformity {
+        /// Which specimen this is: the same number, the same pattern. Default: one of its own for each camera of a job.
+        optional seed: Placed<u64> = whole(0, 9_007_199_254_740_991);
+        /// Spread of the response to light from pixel to pixel, as a share (PRNU). Default: 0.
+        optional prnu: Placed<f64> = spread();
+        /// The same from row to row. Default: 0.
+        optional prnu_row: Placed<f64> = spread();
+        /// The same from column to column. Default: 0.
+        optional prnu_column: Placed<f64> = spread();
+        /// Spread of the offset from pixel to pixel, e⁻ (DSNU after no time). Default: 0.
+        optional dsnu_e: Placed<f64> = number("e⁻").at_least(0.0);
+        /// The same from row to row. Default: 0.
+        optional dsnu_row_e: Placed<f64> = number("e⁻").at_least(0.0);
+        /// The same from column to column. Default: 0.
+        optional dsnu_column_e: Placed<f64> = number("e⁻").at_least(0.0);
+        /// Share of pixels that hold no charge. Default: 0.
+        optional dead_share: Placed<f64> = spread();
+    }
+}
+
+fn spread() -> crate::reader::Number {
+    number("").at_least(0.0).at_most(1.0)
+}
+
+record! {
+    /// Dark current over temperature and over pixels. All currents are those at "reference_c".
+    pub struct Dark check(check_dark) {
+        /// Temperature of the sensor, °C, above absolute zero. Default: that of the stated current.
+        optional temperature_c: Placed<f64> = number("°C").above(-273.15);
+        /// Temperature of the stated current, °C; with "temperature_c".
+        optional reference_c: Placed<f64> = number("°C").above(-273.15);
+        /// Kelvin for a factor of two; with "temperature_c". Default: the band gap of silicon decides.
+        optional doubling_k: Placed<f64> = number("K").above(0.0);
+        /// With "temperature_c" and without "doubling_k": share of diffusion in the stated current, 0 … 1; the rest is
+        /// generated. Default: 0.
+        optional diffusion_share: Placed<f64> = spread();
+        /// Spread of the current from pixel to pixel, as a share of its mean. Default: 0.
+        optional spread: Placed<f64> = number("").at_least(0.0);
+        /// The same from row to row. Default: 0.
+        optional spread_row: Placed<f64> = number("").at_least(0.0);
+        /// The same from column to column. Default: 0.
+        optional spread_column: Placed<f64> = number("").at_least(0.0);
+        /// Shape of the spread from pixel to pixel. Default: "normal".
+        optional tail: Placed<Tail> = choice();
+        /// Pixels with far more current. Default: none.
+        optional hot: Hot = record();
+        /// Pixels that have more current at one of two levels. Default: none.
+        optional blinking: Blinking = record();
+    }
+}
+
+choice! {
+    /// Shape of a distribution.
+    pub enum Tail {
+        /// Normal, cut at 0.
+        "normal" => Normal,
+        /// Log-normal, of the same mean and spread.
+        "log_normal" => LogNormal,
+    }
+}
+
+record! {
+    /// Hot pixels.
+    pub struct Hot {
+        /// Share of pixels, above 0.
+        required share: Placed<f64> = number("").above(0.0).at_most(1.0);
+        /// Mean of their additional current (exponential), e⁻/s, above 0.
+        required mean_e_s: Placed<f64> = number("e⁻/s").above(0.0);
+    }
+}
+
+record! {
+    /// Blinking pixels.
+    pub struct Blinking {
+        /// Share of pixels, above 0.
+        required share: Placed<f64> = number("").above(0.0).at_most(1.0);
+        /// Mean of their additional current at the upper level (exponential), e⁻/s, above 0.
+        required mean_e_s: Placed<f64> = number("e⁻/s").above(0.0);
+        /// Mean number of frames at a level, 1 or more.
+        required dwell_frames: Placed<f64> = number("").at_least(1.0);
+    }
+}
+
+fn check_dark(dark: &Dark, faults: &mut Faults) {
+    let law = [&dark.reference_c, &dark.doubling_k, &dark.diffusion_share];
+    match (&dark.temperature_c, &dark.reference_c) {
+        (None, _) => {
+            for key in law.into_iter().flatten() {
+                faults.add(&key.place, "this has no effect without \"temperature_c\"", "add it, or remove this");
+            }
+        }
+        (Some(temperature), None) => {
+            faults.add(&temperature.place, "the temperature of the stated current is missing", "add \"reference_c\"");
+        }
+        (Some(_), Some(_)) => {}
+    }
+    if let (Some(_), Some(share)) = (&dark.doubling_k, &dark.diffusion_share) {
+        faults.add(&share.place, "\"diffusion_share\" has no effect beside \"doubling_k\"", "remove one of both");
+    }
+    if let (Some(tail), None) = (&dark.tail, &dark.spread) {
+        faults.add(&tail.place, "\"tail\" has no effect without \"spread\"", "add it, or remove this");
+    }
+}
+
+variants! {
+    /// Smear of a CCD.
+    pub enum Smear by "kind" {
+        /// Charge is moved down a covered register beside the pixels.
+        "interline" => Interline(Interline),
+        /// Charge is moved through the pixels themselves, fast.
+        "frame_transfer" => FrameTransfer(FrameTransfer),
+    }
+}
+
+record! {
+    /// Smear by a leak of the register's cover.
+    pub struct Interline {
+        /// The data sheet's figure for a spot of a tenth of the picture's height, dB, −200 … −20.
+        required smear_db: Placed<f64> = number("dB").at_least(-200.0).at_most(-20.0);
+        /// Accumulation time over frame time of the data sheet's measurement, above 0 and at most 1. Default: 1.
+        optional measured_exposure_share: Placed<f64> = number("").above(0.0).at_most(1.0);
+    }
+}
+
+record! {
+    /// Smear by the shift itself.
+    pub struct FrameTransfer {
+        /// Time of a shift by one row, s, above 0.
+        required line_shift_s: Placed<f64> = number("s").above(0.0);
+    }
+}
+
+record! {
+    /// A kind of trap.
+    pub struct Trap {
+        /// Share of a frame's charge that it keeps, above 0.
+        required share: Placed<f64> = number("").above(0.0).at_most(0.5);
+        /// Time after which 1/e of it is left, s, above 0.
+        required time_constant_s: Placed<f64> = number("s").above(0.0);
+    }
+}
+
+record! {
+    /// Overflow into other pixels.
+    pub struct Blooming {
+        /// Which way it goes.
+        required direction: Placed<Direction> = choice();
+        /// Share of what a pixel cannot hold that goes on, above 0; the rest is drained.
+        required spill: Placed<f64> = number("").above(0.0).at_most(1.0);
+    }
+}
+
+choice! {
+    /// Which way charge overflows.
+    pub enum Direction {
+        /// Half up and half down the column: a CCD.
+        "column" => Column,
+        /// To all sides: a CMOS sensor; "spill" is at most 0.95.
+        "around" => Around,
+    }
+}

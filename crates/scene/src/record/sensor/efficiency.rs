@@ -1,0 +1,118 @@
+//! `quantum_efficiency`: electrons a photon.
+
+use super::Electronics;
+use crate::fault::Faults;
+use crate::place::Placed;
+use crate::reader::{Rule, RuleExt as _, either, exactly, keyed, keyed_by_name, known, number, record};
+use crate::record::curve::{Curve, curve, spectrum_file};
+use etendue_spectra::camera;
+
+/// Electrons per photon on the sensitive area.
+#[derive(Clone, Debug)]
+pub enum QuantumEfficiency {
+    /// The same in all pixels.
+    Same(Curve),
+    /// For red, green and blue.
+    PerChannel(Placed<[Curve; 3]>),
+    /// The measured relative sensitivities of a camera, scaled together so that the largest is `peak`.
+    Measured {
+        /// The camera's name.
+        camera: Placed<String>,
+        /// The largest quantum efficiency.
+        peak: Placed<f64>,
+    },
+    /// For each channel by its name.
+    Named(Vec<(Placed<String>, Curve)>),
+}
+
+keyed! {
+    /// Where quantum efficiencies are tabulated.
+    pub enum QuantumEfficiencyTable {
+        /// A table of two columns, wavelength in nm and quantum efficiency 0 … 1.
+        spectrum => Spectrum(Placed<std::path::PathBuf>) = spectrum_file();
+        /// A camera whose relative sensitivities were measured, with "peak".
+        camera => Camera(Placed<String>) = known("a measured camera", camera::names());
+        /// One for each channel of the filter array, by its name: a number 0 … 1, or `{ spectrum = file }`.
+        channels => Channels(Vec<(Placed<String>, Curve)>) = keyed_by_name(curve(share()));
+    }
+}
+
+record! {
+    /// A quantum efficiency that needs a word.
+    pub struct QuantumEfficiencySource check(check_source) {
+        /// Where it is tabulated.
+        inside table: QuantumEfficiencyTable;
+        /// With "camera": the largest quantum efficiency of the three channels, above 0 and at most 1.
+        optional peak: Placed<f64> = number("").above(0.0).at_most(1.0);
+    }
+}
+
+fn share() -> crate::reader::Number {
+    number("").at_least(0.0).at_most(1.0)
+}
+
+pub(super) fn quantum_efficiency() -> impl Rule<Out = QuantumEfficiency> {
+    let same = share().map(|v| QuantumEfficiency::Same(Curve::Constant(v)));
+    let source = record::<QuantumEfficiencySource>().map(QuantumEfficiencySource::resolve);
+    either(same, either(source, exactly(curve(share())).map(QuantumEfficiency::PerChannel)))
+}
+
+impl QuantumEfficiencySource {
+    fn resolve(self) -> QuantumEfficiency {
+        match (self.table, self.peak) {
+            (QuantumEfficiencyTable::Spectrum(file), _) => QuantumEfficiency::Same(Curve::File(file)),
+            (QuantumEfficiencyTable::Channels(list), _) => QuantumEfficiency::Named(list),
+            (QuantumEfficiencyTable::Camera(camera), peak) => {
+                let peak = peak.unwrap_or_else(|| Placed::new(1.0, camera.place.clone()));
+                QuantumEfficiency::Measured { camera, peak }
+            }
+        }
+    }
+}
+
+fn check_source(source: &QuantumEfficiencySource, faults: &mut Faults) {
+    match (&source.table, &source.peak) {
+        (QuantumEfficiencyTable::Spectrum(_) | QuantumEfficiencyTable::Channels(_), Some(peak)) => {
+            faults.add(&peak.place, "\"peak\" has no effect here, it belongs to \"camera\"", "remove it");
+        }
+        (QuantumEfficiencyTable::Camera(camera), None) => faults.add(
+            &camera.place,
+            "measured sensitivities are relative and need \"peak\"",
+            "add \"peak\": the largest quantum efficiency, above 0 and at most 1",
+        ),
+        _ => {}
+    }
+}
+
+/// Whether quantum efficiencies are those of the filter array's channels.
+pub(super) fn check_channels(electronics: &Electronics, faults: &mut Faults) {
+    let channels = electronics.cfa.channels();
+    match &electronics.quantum_efficiency {
+        QuantumEfficiency::Same(_) => {}
+        QuantumEfficiency::PerChannel(list) => check_colours(&list.place, &channels, faults),
+        QuantumEfficiency::Measured { camera, .. } => check_colours(&camera.place, &channels, faults),
+        QuantumEfficiency::Named(list) => check_names(electronics, list, &channels, faults),
+    }
+}
+
+fn check_colours(place: &crate::place::Place, channels: &[&str], faults: &mut Faults) {
+    if channels == ["mono"] {
+        let remedy = "give one number or one spectrum, or a \"cfa\" with colours";
+        faults.add(place, "a quantum efficiency of three channels contradicts cfa = \"mono\"", remedy);
+    } else if channels != ["red", "green", "blue"] {
+        let problem =
+            format!("a quantum efficiency of red, green and blue does not fit the channels {}", channels.join(", "));
+        faults.add(place, problem, "give { channels = { … } } with one for each");
+    }
+}
+
+fn check_names(electronics: &Electronics, list: &[(Placed<String>, Curve)], channels: &[&str], faults: &mut Faults) {
+    for (name, _) in list.iter().filter(|(name, _)| !channels.contains(&name.value.as_str())) {
+        let problem = format!("the filter array has no channel \"{}\"", name.value);
+        faults.add(&name.place, problem, format!("give one of {}", channels.join(", ")));
+    }
+    for channel in channels.iter().filter(|c| !list.iter().any(|(name, _)| name.value == **c)) {
+        let place = list.first().map_or(&electronics.place, |(name, _)| &name.place);
+        faults.add(place, format!("the channel \"{channel}\" has no quantum efficiency"), format!("add \"{channel}\""));
+    }
+}
