@@ -4,6 +4,7 @@
 //! | --- | --- | --- |
 //! | in | Wavefront OBJ with its MTL | [`mesh`] |
 //! | in | PNG, JPEG, Radiance HDR, OpenEXR pictures | [`picture`] |
+//! | in | PNG, JPEG, TIFF, OpenEXR and raw pictures to be measured | [`photograph`] |
 //! | in | measured lamps: IES LM-63, EULUMDAT | [`photometry`] |
 //! | in | lens prescriptions: Zemax, CODE V | [`prescription`] |
 //! | in | calibrated cameras: OpenCV, ROS, Kalibr, COLMAP, OCamCalib | [`calibration`] |
@@ -30,6 +31,7 @@ pub mod inspect;
 pub mod jpeg;
 pub mod mesh;
 pub mod output;
+pub mod photograph;
 pub mod photometry;
 pub mod picture;
 pub mod png;

@@ -1,0 +1,35 @@
+//! PNG, JPEG and Radiance HDR.
+
+use std::path::Path;
+
+use image::DynamicImage;
+
+use super::{Encoding, Photograph, channel_names, separated};
+use crate::Error;
+use crate::picture::decode_raster;
+
+pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
+    let (_, picture) = decode_raster(file, bytes)?;
+    let (width, height, colour) = (picture.width() as usize, picture.height() as usize, picture.color());
+    let (samples, full_scale) = samples(&picture);
+    let channels = usize::from(colour.channel_count());
+    let names =
+        channel_names(channels).ok_or_else(|| Error::new(file, format!("{channels} channels; expected 1 to 4")))?;
+    let wide_grey = full_scale == Some(65_535.0) && !colour.has_color();
+    let linear = full_scale.is_none() || wide_grey;
+    let encoding = if linear { Encoding::Linear } else { Encoding::Srgb };
+    Ok(Photograph { width, height, channels: separated(names, &samples), full_scale, encoding, raw: None })
+}
+
+/// All samples, channels side by side, and the largest number that fits.
+fn samples(picture: &DynamicImage) -> (Vec<f32>, Option<f64>) {
+    let (bytes, colour) = (picture.as_bytes(), picture.color());
+    match colour.bytes_per_pixel() / colour.channel_count() {
+        1 => (bytes.iter().map(|b| f32::from(*b)).collect(), Some(255.0)),
+        2 => {
+            let of = |b: &[u8]| f32::from(u16::from_ne_bytes([b[0], b[1]]));
+            (bytes.chunks_exact(2).map(of).collect(), Some(65_535.0))
+        }
+        _ => (bytes.chunks_exact(4).map(|b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]])).collect(), None),
+    }
+}

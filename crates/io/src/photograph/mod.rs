@@ -1,0 +1,173 @@
+//! Photographs to be measured: channels as stored, and what is known of them.
+//!
+//! | file | channels | numbers | taken for |
+//! | --- | --- | --- | --- |
+//! | PNG, JPEG, TIFF of 8 bits | Y, or R, G, B; A | 0–255 | sRGB-encoded |
+//! | colour PNG, TIFF of 16 bits | R, G, B; A | 0–65 535 | sRGB-encoded |
+//! | grey PNG, TIFF of 16 bits; whole numbers of 32 bits | Y, or R, G, B; A | digital numbers | linear |
+//! | TIFF of floats, Radiance HDR | Y, or R, G, B; A | as stored | linear |
+//! | OpenEXR | all, by their full names | as stored | linear |
+//!
+//! A grey picture that a side-car `camera.json` beside it lists as digital numbers is raw: linear, with the levels and the
+//! colour filters that the side-car states. Numbers are not scaled; whole numbers above 2²⁴ are rounded to the nearest float.
+//! The kind is told by the first bytes, not by the name. Left out: DNG and other raw files of cameras, TIFF of several
+//! pictures, of separate planes, or in CMYK, Lab or a palette (refused).
+
+mod grid;
+mod raw;
+mod tiff;
+
+use std::path::Path;
+
+use etendue_spectra::colour;
+
+pub use raw::{FilterTile, RawFacts};
+
+use crate::Error;
+use crate::exr::decode_exr;
+use crate::picture::EXR_MAGIC;
+use crate::source::read_bytes;
+
+/// How a photograph's numbers relate to light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Encoding {
+    /// In proportion to light, but for a black level.
+    Linear,
+    /// Encoded for display after IEC 61966-2-1; white is the full scale.
+    Srgb,
+}
+
+/// One channel, row by row from the top left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    /// Name: Y, R, G, B, A, or an EXR channel's full name.
+    pub name: String,
+    /// Numbers as stored.
+    pub samples: Vec<f32>,
+}
+
+/// A picture to be measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Photograph {
+    /// Pixels a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Channels of equal size, in the order of the file.
+    pub channels: Vec<Channel>,
+    /// The largest number that the file can hold; `None` for floats.
+    pub full_scale: Option<f64>,
+    /// What the numbers are taken for; a caller who is told otherwise changes it.
+    pub encoding: Encoding,
+    /// What a side-car states of a raw picture.
+    pub raw: Option<RawFacts>,
+}
+
+impl Photograph {
+    /// The channel of that name.
+    #[must_use]
+    pub fn channel(&self, name: &str) -> Option<&Channel> {
+        self.channels.iter().find(|c| c.name == name)
+    }
+
+    /// The names of all channels.
+    #[must_use]
+    pub fn names(&self) -> Vec<&str> {
+        self.channels.iter().map(|c| c.name.as_str()).collect()
+    }
+
+    /// A channel's numbers in proportion to light: as stored where they are linear, decoded and in units of the full scale
+    /// where they are encoded for display.
+    #[must_use]
+    pub fn linear(&self, channel: &Channel) -> Vec<f32> {
+        match (self.encoding, self.full_scale) {
+            (Encoding::Linear, _) => channel.samples.clone(),
+            (Encoding::Srgb, full_scale) => decoded(&channel.samples, full_scale.unwrap_or(1.0) as f32),
+        }
+    }
+}
+
+/// Numbers of 8 and 16 bits repeat: each is decoded once.
+fn decoded(samples: &[f32], full_scale: f32) -> Vec<f32> {
+    let whole = full_scale > 1.0 && full_scale <= 65_535.0;
+    let table: Vec<f32> = if whole {
+        (0..=full_scale as u32).map(|v| colour::decode(v as f32 / full_scale)).collect()
+    } else {
+        Vec::new()
+    };
+    let decode = |v: &f32| match table.get(*v as usize) {
+        Some(light) if v.fract() == 0.0 && *v >= 0.0 => *light,
+        _ => colour::decode(v / full_scale),
+    };
+    samples.iter().map(decode).collect()
+}
+
+/// Reads a photograph and, of a raw one, the side-car beside it.
+///
+/// # Errors
+/// Where the file is missing, of another kind, damaged or not finite, or the side-car beside it is unreadable.
+pub fn read_photograph(file: &Path) -> Result<Photograph, Error> {
+    let mut photograph = decode_photograph(file, &read_bytes(file, "picture")?)?;
+    if let [_] = photograph.channels[..]
+        && let Some(facts) = raw::facts_beside(file)?
+    {
+        photograph.encoding = Encoding::Linear;
+        photograph.raw = Some(facts);
+    }
+    Ok(photograph)
+}
+
+/// The photograph in the bytes of `file`, without a side-car.
+///
+/// # Errors
+/// As [`read_photograph`].
+pub fn decode_photograph(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
+    let photograph = if bytes.starts_with(&EXR_MAGIC) {
+        of_exr(file, bytes)?
+    } else if tiff::is_tiff(bytes) {
+        tiff::decode(file, bytes)?
+    } else {
+        grid::decode(file, bytes)?
+    };
+    if photograph.width == 0 || photograph.height == 0 || photograph.channels.is_empty() {
+        return Err(Error::new(file, "a picture without pixels; expected at least one pixel of one channel"));
+    }
+    Ok(photograph)
+}
+
+fn of_exr(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
+    let exr = decode_exr(file, bytes)?;
+    let channel = |c: crate::exr::ExrChannel| Channel { name: c.name, samples: c.samples.to_floats() };
+    let channels = exr.channels.into_iter().map(channel).collect();
+    Ok(Photograph {
+        width: exr.width,
+        height: exr.height,
+        channels,
+        full_scale: None,
+        encoding: Encoding::Linear,
+        raw: None,
+    })
+}
+
+/// Y, or R, G, B, each with A where there is one more.
+fn channel_names(count: usize) -> Option<&'static [&'static str]> {
+    match count {
+        1 => Some(&["Y"]),
+        2 => Some(&["Y", "A"]),
+        3 => Some(&["R", "G", "B"]),
+        4 => Some(&["R", "G", "B", "A"]),
+        _ => None,
+    }
+}
+
+/// Channels of samples that lie side by side.
+fn separated(names: &[&str], samples: &[f32]) -> Vec<Channel> {
+    let channel = |(i, name): (usize, &&str)| Channel {
+        name: (*name).to_owned(),
+        samples: samples.iter().skip(i).step_by(names.len()).copied().collect(),
+    };
+    names.iter().enumerate().map(channel).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,84 @@
+//! TIFF of one picture (TIFF 6.0, Adobe 1992), as the tiff crate reads it.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use ::tiff::ColorType;
+use ::tiff::decoder::{Decoder, DecodingResult, Limits};
+use ::tiff::tags::Tag;
+
+use super::{Encoding, Photograph, channel_names, separated};
+use crate::Error;
+
+/// Whether the bytes begin as a TIFF, of either byte order, plain or big.
+pub(super) fn is_tiff(bytes: &[u8]) -> bool {
+    let beginnings: [&[u8]; 4] = [b"II\x2a\0", b"MM\0\x2a", b"II\x2b\0", b"MM\0\x2b"];
+    beginnings.iter().any(|b| bytes.starts_with(b))
+}
+
+pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
+    let damaged = |cause: ::tiff::TiffError| {
+        Error::new(
+            file,
+            format!(
+                "not a readable TIFF ({cause}); it may be truncated, or of a kind that is not supported: store it as plain grey or RGB"
+            ),
+        )
+    };
+    let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(damaged)?.with_limits(limits());
+    let (width, height) = decoder.dimensions().map_err(damaged)?;
+    let colour = decoder.colortype().map_err(damaged)?;
+    let grey = matches!(colour, ColorType::Gray(_) | ColorType::GrayA(_));
+    if !(grey || matches!(colour, ColorType::RGB(_) | ColorType::RGBA(_))) {
+        return Err(Error::new(file, format!("a TIFF of {colour:?}; expected grey or RGB: convert it")));
+    }
+    let count = usize::from(colour.num_samples());
+    const SEPARATE: u16 = 2;
+    let planes = decoder.find_tag_unsigned::<u16>(Tag::PlanarConfiguration).map_err(damaged)?;
+    if count > 1 && planes == Some(SEPARATE) {
+        return Err(Error::new(file, "a TIFF of separate planes; store the samples of a pixel side by side"));
+    }
+    if decoder.more_images() {
+        return Err(Error::new(file, "a TIFF of several pictures; store each as a file of its own"));
+    }
+    let (samples, full_scale) = numbers(file, decoder.read_image().map_err(damaged)?)?;
+    let names = channel_names(count).ok_or_else(|| Error::new(file, format!("{count} channels; expected 1 to 4")))?;
+    let linear = full_scale.is_none_or(|full| full > 65_535.0 || (full > 255.0 && grey));
+    Ok(Photograph {
+        width: width as usize,
+        height: height as usize,
+        channels: separated(names, &samples),
+        full_scale,
+        encoding: if linear { Encoding::Linear } else { Encoding::Srgb },
+        raw: None,
+    })
+}
+
+/// Room for 400 megapixels of RGB floats.
+fn limits() -> Limits {
+    let mut limits = Limits::default();
+    limits.decoding_buffer_size = 5 << 30;
+    limits
+}
+
+/// The samples, and the largest number that fits.
+fn numbers(file: &Path, samples: DecodingResult) -> Result<(Vec<f32>, Option<f64>), Error> {
+    let (samples, full_scale): (Vec<f32>, _) = match samples {
+        DecodingResult::U8(v) => (v.into_iter().map(f32::from).collect(), Some(f64::from(u8::MAX))),
+        DecodingResult::U16(v) => (v.into_iter().map(f32::from).collect(), Some(f64::from(u16::MAX))),
+        DecodingResult::U32(v) => (v.into_iter().map(|n| n as f32).collect(), Some(f64::from(u32::MAX))),
+        DecodingResult::F16(v) => (v.into_iter().map(f32::from).collect(), None),
+        DecodingResult::F32(v) => (v, None),
+        DecodingResult::F64(v) => (v.into_iter().map(|n| n as f32).collect(), None),
+        _ => {
+            return Err(Error::new(
+                file,
+                "a TIFF of signed or 64-bit numbers; expected unsigned ones of up to 32 bits, or floats",
+            ));
+        }
+    };
+    match samples.iter().position(|v| !v.is_finite()) {
+        None => Ok((samples, full_scale)),
+        Some(at) => Err(Error::new(file, format!("sample {at} is {}; expected finite numbers", samples[at]))),
+    }
+}
