@@ -6,6 +6,7 @@
 mod caustics;
 mod charts;
 mod colour;
+mod colour_chart;
 mod cornell;
 mod defocus;
 mod dispersing_lens;

@@ -230,32 +230,6 @@ mod tests {
         (mean, matrix.rows().iter().flatten().fold(0.0, |m: f64, e| m.max(e.abs())))
     }
 
-    /// Mean and largest ΔE₀₀ of the chart seen under a light, against the chart under D65.
-    fn chart_errors(name: &str, light: &Spectrum) -> (f64, f64) {
-        let camera = camera::named(name).expect("a camera");
-        let channels = [&camera.r, &camera.g, &camera.b];
-        let matrix = fit_colour_matrix(&channels, light, chart_spectra(), 0.0).expect("a matrix");
-        let error = |patch: &'static Spectrum| {
-            let seen = matrix.apply(&balanced_response(&channels, light, patch).expect("light"));
-            colour::ciede2000(lab_of(seen), lab_of(reference(patch)))
-        };
-        let errors: Vec<f64> = chart_spectra().map(error).collect();
-        (errors.iter().sum::<f64>() / 24.0, errors.iter().copied().fold(0.0, f64::max))
-    }
-
-    #[test]
-    fn the_table_of_the_documentation_holds() {
-        let page = include_str!("../../../../docs/processing.md");
-        let row = |name: &&str| {
-            let (d65, a) =
-                (chart_errors(name, illuminant::d65()), chart_errors(name, illuminant::named("A").expect("A")));
-            assert!(d65.0 < 3.0, "{name}: {d65:?}");
-            format!("| `{name}` | {:.2} | {:.2} | {:.2} | {:.2} |", d65.0, d65.1, a.0, a.1)
-        };
-        let missing: Vec<String> = camera::names().iter().map(row).filter(|row| !page.contains(row)).collect();
-        assert!(missing.is_empty(), "docs/processing.md lacks\n{}", missing.join("\n"));
-    }
-
     /// A clear channel: what the three see together, and more between.
     fn clear() -> Spectrum {
         let [r, g, b] = canon();
