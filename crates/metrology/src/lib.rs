@@ -5,6 +5,8 @@
 //! All arithmetic is `f64`, in the order of the pixels, with the functions of `etendue_core::maths`: the same bits everywhere.
 
 pub mod estimate;
+mod fourier;
+pub mod photon_transfer;
 pub mod picture;
 
 pub use estimate::Estimate;

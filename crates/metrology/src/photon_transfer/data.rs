@@ -1,0 +1,145 @@
+//! Levels of light in order, and the points that the standard's fits use.
+
+use super::{LevelStatistics, TransferError};
+use crate::Estimate;
+
+/// One level of light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Level {
+    /// Exposure time, s.
+    pub exposure_s: f64,
+    /// Photons a pixel; 0 without light.
+    pub photons: f64,
+    /// What its frames say.
+    pub statistics: LevelStatistics,
+}
+
+/// All levels of a measurement, in order of their light, each with its dark level.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TransferData {
+    bright: Vec<Level>,
+    dark: Vec<Level>,
+    /// For each bright level the dark one of its exposure time.
+    dark_of: Vec<usize>,
+    saturation: usize,
+    saturation_reached: bool,
+}
+
+impl TransferData {
+    /// Puts levels in order and finds the saturation point: the level of most temporal variance, searched downwards from the
+    /// brightest until the variance has fallen over two levels (a single dip is noise), EMVA 1288, section 6.6.
+    ///
+    /// # Errors
+    /// Where an exposure time has no dark level, light is no positive number, or fewer than three levels lie below 70 % of
+    /// saturation.
+    pub fn new(levels: &[Level]) -> Result<Self, TransferError> {
+        if let Some(level) = levels.iter().find(|l| !(l.photons >= 0.0 && l.photons.is_finite())) {
+            return Err(TransferError::Light(level.photons));
+        }
+        let (mut dark, mut bright): (Vec<Level>, Vec<Level>) = levels.iter().partition(|l| l.photons == 0.0);
+        dark.sort_by(|a, b| a.exposure_s.total_cmp(&b.exposure_s));
+        bright.sort_by(|a, b| a.photons.total_cmp(&b.photons).then(a.exposure_s.total_cmp(&b.exposure_s)));
+        let find = |level: &Level| {
+            let exposure_s = level.exposure_s;
+            dark.iter().position(|d| d.exposure_s == exposure_s).ok_or(TransferError::NoDark { exposure_s })
+        };
+        let dark_of = bright.iter().map(find).collect::<Result<Vec<_>, _>>()?;
+        if bright.len() < 3 {
+            return Err(TransferError::TooFewLevels { levels: bright.len() });
+        }
+        let saturation = saturation(&bright);
+        let saturation_reached = saturation + 1 < bright.len();
+        let data = Self { bright, dark, dark_of, saturation, saturation_reached };
+        data.check()?;
+        Ok(data)
+    }
+
+    fn check(&self) -> Result<(), TransferError> {
+        if self.signal_dn(self.saturation) <= 0.0 {
+            return Err(TransferError::NoResponse);
+        }
+        let levels = self.sensitivity_end();
+        if levels < 3 { Err(TransferError::TooFewLevels { levels }) } else { Ok(()) }
+    }
+
+    /// Levels with light, dimmest first.
+    #[must_use]
+    pub fn bright(&self) -> &[Level] {
+        &self.bright
+    }
+
+    /// Levels without light, shortest exposure first.
+    #[must_use]
+    pub fn dark(&self) -> &[Level] {
+        &self.dark
+    }
+
+    /// The dark level of a bright one.
+    #[must_use]
+    pub fn dark_of(&self, level: usize) -> &Level {
+        &self.dark[self.dark_of[level]]
+    }
+
+    pub(super) fn dark_index(&self, level: usize) -> usize {
+        self.dark_of[level]
+    }
+
+    /// Which level is the saturation point.
+    #[must_use]
+    pub fn saturation(&self) -> usize {
+        self.saturation
+    }
+
+    /// Whether the variance falls beyond the saturation point. Where it does not, saturation lies at or above the brightest
+    /// level, and capacity and dynamic range are lower bounds.
+    #[must_use]
+    pub fn saturation_reached(&self) -> bool {
+        self.saturation_reached
+    }
+
+    /// Mean less dark mean, DN.
+    #[must_use]
+    pub fn signal_dn(&self, level: usize) -> f64 {
+        self.bright[level].statistics.mean_dn.value - self.dark_of(level).statistics.mean_dn.value
+    }
+
+    /// The levels from the dimmest to the last one up to 70 % of saturation: of the fits for K and R.
+    #[must_use]
+    pub fn sensitivity_end(&self) -> usize {
+        self.last_up_to(0.7) + 1
+    }
+
+    /// The levels from 5 % to 95 % of saturation: of the linearity fit.
+    #[must_use]
+    pub fn linearity_range(&self) -> core::ops::Range<usize> {
+        let least = 0.05 * self.signal_dn(self.saturation);
+        let first = (0..self.bright.len()).find(|i| self.signal_dn(*i) >= least).unwrap_or(0);
+        first..self.last_up_to(0.95) + 1
+    }
+
+    fn last_up_to(&self, share: f64) -> usize {
+        let most = share * self.signal_dn(self.saturation);
+        (0..self.bright.len()).rev().find(|i| self.signal_dn(*i) <= most).unwrap_or(0)
+    }
+
+    /// The saturation point's light: known to the spacing of the levels, spread evenly (σ = width/√12).
+    pub(super) fn saturation_photons(&self) -> Estimate {
+        let last = self.bright.len() - 1;
+        let (below, above) = (self.saturation.saturating_sub(1), (self.saturation + 1).min(last));
+        let width = (self.bright[above].photons - self.bright[below].photons) / (above - below) as f64;
+        Estimate::new(self.bright[self.saturation].photons, width / 12.0_f64.sqrt())
+    }
+}
+
+fn saturation(bright: &[Level]) -> usize {
+    let variance = |i: usize| bright[i].statistics.variance_dn2.value;
+    let mut best = bright.len() - 1;
+    for i in (0..best).rev() {
+        if variance(i) > variance(best) {
+            best = i;
+        } else if i == 0 || variance(i - 1) < variance(best) {
+            break;
+        }
+    }
+    best
+}

@@ -1,0 +1,119 @@
+//! Photon transfer after EMVA 1288, release 4.0, linear model (the figures of 3.1 among them).
+//!
+//! ```text
+//! μ_e = η μ_p        μ_y = μ_y.dark + K μ_e        σ_y² = K² σ_d² + 1/12 + K (μ_y − μ_y.dark)
+//! ```
+//!
+//! | module | finds |
+//! | --- | --- |
+//! | [`Stack`] | mean and temporal variance of one level of light, from frames fed one at a time |
+//! | [`Pattern`] | spatial variances of a stack, with row, column and pixel parts |
+//! | [`TransferData`] | saturation, K, η, dark noise, thresholds, dynamic range, linearity, dark current: [`Figures`] |
+//! | [`nonuniformity()`] | DSNU and PRNU |
+//! | [`temperature`] | how the dark current grows with temperature |
+//! | [`spectrogram`] | power spectra of rows and columns |
+//!
+//! Units: readings DN, light photons a pixel and exposure, charge e⁻, time s. Where only relative light is known (an
+//! exposure series under a steady lamp of unknown strength), "photons" are any unit of light, and η and the thresholds in
+//! photons mean nothing; all figures in e⁻ and DN hold.
+//!
+//! Left out: the general model of release 4.0 (cameras that are not linear), multi-channel and polarisation cameras as wholes (measure one
+//! colour's pixels at a time), spectral sensitivity.
+
+mod data;
+mod figures;
+mod nonuniformity;
+mod propagate;
+mod spatial;
+pub mod spectrogram;
+mod stack;
+pub mod temperature;
+#[cfg(test)]
+mod tests;
+
+pub use data::{Level, TransferData};
+pub use figures::{Figures, SnrPoint, model_snr};
+pub use nonuniformity::{Nonuniformity, nonuniformity};
+pub use spatial::{Parts, Pattern};
+pub use stack::{LevelStatistics, Stack};
+
+/// Why frames cannot be measured.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TransferError {
+    /// Frames of different sizes.
+    #[error(
+        "a frame is {} × {} pixels, the frames before it {} × {}: all frames must have one size",
+        size.0, size.1, expected.0, expected.1
+    )]
+    Size {
+        /// Width and height of the frame.
+        size: (usize, usize),
+        /// Width and height of those before it.
+        expected: (usize, usize),
+    },
+    /// A reading is NaN or infinite.
+    #[error("a frame holds readings that are no numbers: give finite values")]
+    NotFinite,
+    /// Two frames are the same.
+    #[error(
+        "two frames are copies of one another, pixel by pixel: noise cannot be measured from copies; give frames taken one after another"
+    )]
+    Copies,
+    /// A level with one frame.
+    #[error("temporal noise needs at least two frames of two or more pixels a level, not {frames} frame(s)")]
+    TooFewFrames {
+        /// How many there are.
+        frames: usize,
+    },
+    /// Too few rows or columns to tell them apart.
+    #[error("a pattern's row and column parts need at least 3 × 3 pixels, not {width} × {height}")]
+    TooSmall {
+        /// Pixels a row.
+        width: usize,
+        /// Rows.
+        height: usize,
+    },
+    /// No frames without light.
+    #[error(
+        "no dark frames were given for an exposure time of {exposure_s} s: every exposure time needs a level without light"
+    )]
+    NoDark {
+        /// The exposure time.
+        exposure_s: f64,
+    },
+    /// A curve of too few points.
+    #[error(
+        "a photon transfer curve needs at least three levels of light below 70 % of saturation, not {levels}: give more exposures"
+    )]
+    TooFewLevels {
+        /// How many there are.
+        levels: usize,
+    },
+    /// The light of a level is no positive number.
+    #[error("a level's light must be a positive number, not {0}")]
+    Light(f64),
+    /// Readings do not grow with the light.
+    #[error("the readings do not grow with the light: is the sensor saturated throughout, or are levels mixed up?")]
+    NoResponse,
+    /// Variance does not grow with the signal.
+    #[error(
+        "the temporal variance does not grow with the signal: photon transfer needs linear raw frames with their shot noise, not processed or averaged pictures"
+    )]
+    NoShotNoise,
+    /// The stack for PRNU is saturated.
+    #[error(
+        "the bright stack's mean of {mean_dn} DN lies at or above saturation ({saturation_dn} DN): give one at half of saturation"
+    )]
+    SaturatedStack {
+        /// Mean of the stack.
+        mean_dn: f64,
+        /// Mean at the saturation point.
+        saturation_dn: f64,
+    },
+    /// Two stacks that must share their size and do not, or a bright one that is no brighter.
+    #[error("the bright stack is no brighter than the dark one: PRNU needs one at about half of saturation")]
+    NotBrighter,
+    /// Dark currents at too few temperatures, or none above zero.
+    #[error("the dark current's growth needs at least three temperatures with a dark current above zero, not {0}")]
+    TooFewTemperatures(usize),
+}

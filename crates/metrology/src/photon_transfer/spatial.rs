@@ -1,0 +1,240 @@
+//! What differs from pixel to pixel and stays: variances over the picture with the temporal part removed.
+//!
+//! EMVA 1288 release 4.0 (linear), section on spatial nonuniformity. M rows, N columns, L frames, ȳ the average frame:
+//!
+//! ```text
+//! s²    = Var(ȳ) − σ²/L                       (denominator MN − 1)
+//! s_rav² = ⟨(row average − mean)²⟩ − σ_r²/L   σ_r²: temporal variance of row averages
+//! s_cav² = ⟨(column average − mean)²⟩ − σ_c²/L
+//! s_col² = ((MN − M) s_cav² − N (s² − s_rav²))/D          D = MN − M − N
+//! s_row² = ((MN − N) s_rav² − M (s² − s_cav²))/D
+//! s_pix² = MN (s² − s_cav² − s_rav²)/D
+//! ```
+//!
+//! The standard takes σ²/N for σ_r² and σ²/M for σ_c², right for noise that is independent from pixel to pixel; here they
+//! are measured, so that rows whose offset jumps from frame to frame do not count as a fixed pattern. Where there is no such
+//! noise the two agree.
+//!
+//! Uncertainty. All of these are linear in three mean squares of the analysis of variance (rows, columns, residual), which
+//! for normal patterns are independent scaled χ² of M − 1, N − 1 and (M − 1)(N − 1) degrees of freedom: exact up to the
+//! temporal terms, which are added as independent. The residual's is widened by its measured kurtosis (hot pixels). It is the uncertainty
+//! of the **population** that this sensor is a sample of: compare it with declared parameters.
+
+use super::{Stack, TransferError};
+use crate::Estimate;
+
+/// Variances, DN², of a pattern and of its parts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Parts<T> {
+    /// All of it.
+    pub total: T,
+    /// From row to row.
+    pub row: T,
+    /// From column to column.
+    pub column: T,
+    /// From pixel to pixel.
+    pub pixel: T,
+}
+
+impl<T> Parts<T> {
+    /// The parts in one order: total, row, column, pixel.
+    pub fn map<U>(self, f: impl FnMut(T) -> U) -> Parts<U> {
+        let [total, row, column, pixel] = [self.total, self.row, self.column, self.pixel].map(f);
+        Parts { total, row, column, pixel }
+    }
+}
+
+/// A stack's fixed pattern in the terms of the analysis of variance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pattern {
+    rows: f64,
+    columns: f64,
+    frames: f64,
+    /// Mean, DN.
+    pub mean_dn: Estimate,
+    /// Mean squares of rows, columns and residual, DN², over their degrees of freedom.
+    squares: [f64; 3],
+    /// Excess kurtosis of the residual.
+    kurtosis: f64,
+    /// Temporal variance of pixels, row averages and column averages, DN².
+    temporal: [f64; 3],
+}
+
+impl Pattern {
+    /// Of a stack of frames.
+    ///
+    /// # Errors
+    /// Where there are fewer than two frames, or fewer than three rows or columns.
+    pub fn of(stack: &Stack) -> Result<Self, TransferError> {
+        let (width, height) = (stack.width(), stack.height());
+        let temporal = stack.temporal()?;
+        if width < 3 || height < 3 {
+            return Err(TransferError::TooSmall { width, height });
+        }
+        let (average, mean_dn) = (stack.average(), stack.statistics()?.mean_dn);
+        let (rows, columns) = deviations(&average, width, mean_dn.value);
+        let square = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>();
+        let residual = residual(&average, &rows, &columns, mean_dn.value);
+        let (m, n) = (height as f64, width as f64);
+        let squares = [
+            n * square(&rows) / (m - 1.0),
+            m * square(&columns) / (n - 1.0),
+            residual.second * m * n / ((m - 1.0) * (n - 1.0)),
+        ];
+        Ok(Self {
+            rows: m,
+            columns: n,
+            frames: stack.frames() as f64,
+            mean_dn,
+            squares,
+            kurtosis: residual.kurtosis(),
+            temporal,
+        })
+    }
+
+    /// The variances with their uncertainties.
+    #[must_use]
+    pub fn variances_dn2(&self) -> Parts<Estimate> {
+        self.parts_with(|k| self.spread(k) * self.squares[k] * self.squares[k])
+    }
+
+    /// This pattern's variances less those of `dark`, which shares its offsets: the dark pattern's own scatter is in both and
+    /// cancels.
+    #[must_use]
+    pub fn less(&self, dark: &Self) -> Parts<Estimate> {
+        let variance = |k: usize| {
+            let common = (dark.squares[k] - dark.remainder(k)).max(0.0);
+            let own = self.squares[k] * self.squares[k] + dark.squares[k] * dark.squares[k];
+            self.spread(k).max(dark.spread(k)) * (own - 2.0 * common * common).max(0.0)
+        };
+        let own = self.parts_with(variance).map(|e| e);
+        let other = dark.values();
+        let less = |e: Estimate, dark: f64| Estimate::new(e.value - dark, e.standard_uncertainty);
+        Parts {
+            total: less(own.total, other.total),
+            row: less(own.row, other.row),
+            column: less(own.column, other.column),
+            pixel: less(own.pixel, other.pixel),
+        }
+    }
+
+    /// Temporal variance of single pixels, DN².
+    #[must_use]
+    pub fn temporal_dn2(&self) -> f64 {
+        self.temporal[0]
+    }
+
+    /// Temporal variance that whole rows and whole columns share, DN²: that of their averages beyond σ²/N and σ²/M.
+    #[must_use]
+    pub fn shared_temporal_dn2(&self) -> (f64, f64) {
+        let [pixel, row, column] = self.temporal;
+        ((row - pixel / self.columns).max(0.0), (column - pixel / self.rows).max(0.0))
+    }
+
+    fn values(&self) -> Parts<f64> {
+        self.parts(self.squares, self.temporal)
+    }
+
+    /// What time leaves in a mean square: the expectation of its temporal part.
+    fn remainder(&self, k: usize) -> f64 {
+        let [pixel, row, column] = self.temporal;
+        [row * self.columns, column * self.rows, pixel][k] / self.frames
+    }
+
+    fn degrees_of_freedom(&self, k: usize) -> f64 {
+        [self.rows - 1.0, self.columns - 1.0, (self.rows - 1.0) * (self.columns - 1.0)][k]
+    }
+
+    /// Var(mean square) over its square.
+    fn spread(&self, k: usize) -> f64 {
+        let tails = if k == 2 { self.kurtosis.max(0.0) / (self.rows * self.columns) } else { 0.0 };
+        2.0 / self.degrees_of_freedom(k) + tails
+    }
+
+    /// The variances, given mean squares and temporal variances: linear in both.
+    fn parts(&self, squares: [f64; 3], temporal: [f64; 3]) -> Parts<f64> {
+        let (m, n, frames) = (self.rows, self.columns, self.frames);
+        let dof: [f64; 3] = core::array::from_fn(|k| self.degrees_of_freedom(k));
+        let measured = (0..3).map(|k| dof[k] * squares[k]).sum::<f64>() / (m * n - 1.0);
+        let total = measured - temporal[0] / frames;
+        let rav = dof[0] / m * squares[0] / n - temporal[1] / frames;
+        let cav = dof[1] / n * squares[1] / m - temporal[2] / frames;
+        let d = m * n - m - n;
+        Parts {
+            total,
+            row: ((m * n - n) * rav - m * (total - cav)) / d,
+            column: ((m * n - m) * cav - n * (total - rav)) / d,
+            pixel: m * n * (total - cav - rav) / d,
+        }
+    }
+
+    /// The variances, with uncertainties from those of the mean squares and of the temporal variances.
+    fn parts_with(&self, variance_of_square: impl Fn(usize) -> f64) -> Parts<Estimate> {
+        let mut sum = Parts::default();
+        let mut add = |slope: Parts<f64>, variance: f64| {
+            let Parts { total, row, column, pixel } = &mut sum;
+            for (sum, slope) in
+                [total, row, column, pixel].into_iter().zip([slope.total, slope.row, slope.column, slope.pixel])
+            {
+                *sum += slope * slope * variance;
+            }
+        };
+        let unit = |k: usize| core::array::from_fn(|i| f64::from(u8::from(i == k)));
+        for k in 0..3 {
+            add(self.parts(unit(k), [0.0; 3]), variance_of_square(k));
+            add(self.parts([0.0; 3], unit(k)), self.variance_of_temporal(k));
+        }
+        let values = self.values();
+        let estimate = |value: f64, variance: f64| Estimate::new(value, variance.sqrt());
+        Parts {
+            total: estimate(values.total, sum.total),
+            row: estimate(values.row, sum.row),
+            column: estimate(values.column, sum.column),
+            pixel: estimate(values.pixel, sum.pixel),
+        }
+    }
+
+    /// χ² of (L − 1) times as many numbers as there are averages.
+    fn variance_of_temporal(&self, k: usize) -> f64 {
+        let numbers = [self.rows * self.columns, self.rows, self.columns][k];
+        2.0 * self.temporal[k] * self.temporal[k] / (numbers * (self.frames - 1.0))
+    }
+}
+
+/// Row and column averages less the mean.
+fn deviations(average: &[f64], width: usize, mean: f64) -> (Vec<f64>, Vec<f64>) {
+    let height = average.len() / width;
+    let mut columns = vec![0.0; width];
+    let mut rows = Vec::with_capacity(height);
+    for row in average.chunks_exact(width) {
+        rows.push(row.iter().sum::<f64>() / width as f64 - mean);
+        columns.iter_mut().zip(row).for_each(|(sum, y)| *sum += y);
+    }
+    columns.iter_mut().for_each(|sum| *sum = *sum / height as f64 - mean);
+    (rows, columns)
+}
+
+/// Second and fourth moments of what rows and columns do not explain.
+struct Residual {
+    second: f64,
+    fourth: f64,
+}
+
+impl Residual {
+    fn kurtosis(&self) -> f64 {
+        if self.second > 0.0 { self.fourth / (self.second * self.second) - 3.0 } else { 0.0 }
+    }
+}
+
+fn residual(average: &[f64], rows: &[f64], columns: &[f64], mean: f64) -> Residual {
+    let (mut second, mut fourth) = (0.0, 0.0);
+    for (row, row_deviation) in average.chunks_exact(columns.len()).zip(rows) {
+        for (y, column_deviation) in row.iter().zip(columns) {
+            let square = (y - mean - row_deviation - column_deviation) * (y - mean - row_deviation - column_deviation);
+            second += square;
+            fourth += square * square;
+        }
+    }
+    let count = average.len() as f64;
+    Residual { second: second / count, fourth: fourth / count }
+}
