@@ -135,6 +135,11 @@ impl Footprints {
     }
 }
 
+/// The area of a polygon, px².
+pub(super) fn area(polygon: &Polygon) -> f64 {
+    (0..VERTICES).map(|k| 0.5 * polygon[k].perp_dot(polygon[(k + 1) % VERTICES])).sum::<f64>().abs()
+}
+
 /// The middle of a polygon's bounding box.
 pub(super) fn middle(polygon: &Polygon) -> DVec2 {
     let low = polygon.iter().copied().fold(DVec2::INFINITY, DVec2::min);
@@ -264,10 +269,6 @@ mod tests {
     use etendue_core::plane::{Plane, SpectralCube};
     use etendue_core::wavelength::Bands;
     use etendue_projection::Raster;
-
-    fn area(polygon: &Polygon) -> f64 {
-        (0..VERTICES).map(|k| 0.5 * polygon[k].perp_dot(polygon[(k + 1) % VERTICES])).sum::<f64>().abs()
-    }
 
     /// Areas of the footprints of a lens at f/8, focused at 2 m, of things at `distance_m`, over the middle of the picture and
     /// beside it, by that of the circle of confusion.

@@ -19,7 +19,7 @@ use super::Sight;
 use super::footprint::Footprints;
 use super::hidden::Fill;
 use super::layers::{Layer, Layers};
-use super::scan::{Scan, Step};
+use super::scan::{Scan, Step, Window};
 use super::strip::Strip;
 use core::ops::Range;
 use etendue_core::plane::SpectralCube;
@@ -146,7 +146,11 @@ impl Splat<'_> {
             }
             let px = DVec2::new(place[0] as f64, place[1] as f64) + 0.5;
             let polygon = self.footprints.landing(px, inverse);
-            self.scan.spread(&polygon, |down, steps| strip.add(row + down, column, steps, light));
+            let window = Window {
+                columns: -column..self.sight.raster.width() as i64 - column,
+                rows: rows.start as i64 - row..rows.end as i64 - row,
+            };
+            self.scan.spread(&polygon, &window, |down, steps| strip.add(row + down, column, steps, light));
         }
     }
 

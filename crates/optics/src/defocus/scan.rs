@@ -2,15 +2,20 @@
 //!
 //! A row's coverage is kept as differences: running sums of them are the coverage. A wide blur then costs its rim and not its
 //! area. Rows are cut into lines, more of them for small polygons; along a line coverage is exact. A polygon smaller than a
-//! pixel is a pixel's square about its middle, which in its own pixel changes nothing and elsewhere interpolates.
+//! pixel is a pixel's square about its middle, which in its own pixel changes nothing and elsewhere interpolates. Of large
+//! polygons only the rows that are asked for are looked at.
 
-use super::footprint::{Polygon, VERTICES};
+use super::footprint::{Polygon, VERTICES, area};
+use core::ops::Range;
 use glam::DVec2;
 
 /// Lines that a polygon is cut into at least, where a row has several.
 const LINES: f64 = 48.0;
 /// Lines of a row at most.
 const LINES_A_ROW: f64 = 16.0;
+/// Lines from which on the sum of their lengths is taken to be the polygon's area: the two differ by less than
+/// LINES^−1.5, 3e-4.
+const MANY_LINES: i64 = 256;
 /// Shifts below this leave a small footprint on its pixel, px.
 const STILL_PX: f64 = 0.02;
 /// The least side of a polygon, px, before it is widened to a pixel.
@@ -24,6 +29,25 @@ pub(super) struct Step {
     pub(super) share: f64,
 }
 
+/// The pixels that are asked for, counted from the pixel that spreads its light.
+#[derive(Clone, Debug)]
+pub(super) struct Window {
+    pub(super) columns: Range<i64>,
+    pub(super) rows: Range<i64>,
+}
+
+impl Window {
+    /// Whether light between two corners (px) can reach it: coverage in a row changes what lies to its right.
+    fn is_reached(&self, low: DVec2, high: DVec2) -> bool {
+        let before = |limit: i64, value: f64| value < limit as f64 + 2.0;
+        let after = |limit: i64, value: f64| value > limit as f64 - 2.0;
+        before(self.rows.end, low.y)
+            && after(self.rows.start, high.y)
+            && before(self.columns.end, low.x)
+            && after(self.columns.start, high.x)
+    }
+}
+
 /// Room for scanning, used again and again.
 #[derive(Debug, Default)]
 pub(super) struct Scan {
@@ -35,11 +59,14 @@ pub(super) struct Scan {
 }
 
 impl Scan {
-    /// Calls `emit` with each row (counted from the pixel's) and the steps in it of what a pixel spreads over `polygon`
-    /// (px, from the pixel's centre). Shares sum to one.
-    pub(super) fn spread(&mut self, polygon: &Polygon, mut emit: impl FnMut(i64, &[Step])) {
+    /// Calls `emit` with each row (counted from the pixel's) of a window and the steps in it of what a pixel spreads over
+    /// `polygon` (px, from the pixel's centre). Shares of all rows sum to one.
+    pub(super) fn spread(&mut self, polygon: &Polygon, window: &Window, mut emit: impl FnMut(i64, &[Step])) {
         let low = polygon.iter().copied().fold(DVec2::INFINITY, DVec2::min);
         let high = polygon.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+        if !window.is_reached(low, high) {
+            return;
+        }
         let (size, centre) = (high - low, 0.5 * (low + high));
         if size.max_element() < 1.0 {
             return self.shift(if centre.length() < STILL_PX { DVec2::ZERO } else { centre }, emit);
@@ -50,8 +77,14 @@ impl Scan {
         let rows = (LINES / (2.0 * half)).ceil().clamp(1.0, LINES_A_ROW);
         let first = ((centre.y + 0.5 - half) * rows).floor() as i64;
         let last = ((centre.y + 0.5 + half) * rows).floor() as i64;
-        let whole = self.cut(&grown, rows, first, last);
-        self.rows(rows as i64, first, whole, &mut emit);
+        if last - first < MANY_LINES {
+            let whole = self.cut(&grown, rows, first, last);
+            self.rows(rows as i64, first, whole, window, &mut emit);
+        } else {
+            let first = first.max(window.rows.start);
+            self.cut(&grown, 1.0, first, last.min(window.rows.end - 1));
+            self.rows(1, first, area(&grown), window, &mut emit);
+        }
     }
 
     /// A pixel's square moved by less than a footprint.
@@ -69,7 +102,7 @@ impl Scan {
     /// Ends of the lines `first` to `last`, `a_row` of them a row, between the sides of a polygon; the sum of their lengths.
     fn cut(&mut self, polygon: &Polygon, a_row: f64, first: i64, last: i64) -> f64 {
         self.lines.clear();
-        self.lines.resize((last - first + 1) as usize, [f64::INFINITY, f64::NEG_INFINITY]);
+        self.lines.resize((last - first + 1).max(0) as usize, [f64::INFINITY, f64::NEG_INFINITY]);
         for k in 0..VERTICES {
             let (a, b) = (polygon[k], polygon[(k + 1) % VERTICES]);
             let (upper, lower) = if a.y <= b.y { (a, b) } else { (b, a) };
@@ -86,10 +119,11 @@ impl Scan {
         self.lines.iter().map(|[left, right]| (right - left).max(0.0)).sum()
     }
 
-    /// Emits the rows of the lines that were cut.
-    fn rows(&mut self, a_row: i64, first: i64, whole: f64, emit: &mut impl FnMut(i64, &[Step])) {
+    /// Emits the rows of a window from the lines that were cut.
+    fn rows(&mut self, a_row: i64, first: i64, whole: f64, window: &Window, emit: &mut impl FnMut(i64, &[Step])) {
         let last = first + self.lines.len() as i64 - 1;
-        for row in first.div_euclid(a_row)..=last.div_euclid(a_row) {
+        let (top, bottom) = (first.div_euclid(a_row), last.div_euclid(a_row));
+        for row in top.max(window.rows.start)..(bottom + 1).min(window.rows.end) {
             let lines = (row * a_row).max(first)..=(row * a_row + a_row - 1).min(last);
             let of = |lines: &[[f64; 2]], j: i64| lines[(j - first) as usize];
             let (left, right) = lines.clone().fold((f64::INFINITY, f64::NEG_INFINITY), |(left, right), j| {
@@ -99,11 +133,15 @@ impl Scan {
             if left >= right {
                 continue;
             }
+            if a_row == 1 {
+                emit(row, &ends([left, right], 1.0 / whole));
+                continue;
+            }
             let column = self.clear(left, right);
             for j in lines {
-                let ends = of(&self.lines, j);
-                if ends[0] < ends[1] {
-                    self.add(column, ends, 1.0 / whole);
+                let line = of(&self.lines, j);
+                if line[0] < line[1] {
+                    self.add(column, line, 1.0 / whole);
                 }
             }
             emit(row, self.stepped(column));
@@ -119,12 +157,9 @@ impl Scan {
     }
 
     /// Adds an interval with `share` a pixel's length.
-    fn add(&mut self, first: i64, ends: [f64; 2], share: f64) {
-        for (end, share) in ends.into_iter().zip([share, -share]) {
-            let column = end.floor();
-            let (i, part) = ((column as i64 - first) as usize, end - column);
-            self.row[i] += share * (1.0 - part);
-            self.row[i + 1] += share * part;
+    fn add(&mut self, first: i64, line: [f64; 2], share: f64) {
+        for step in ends(line, share) {
+            self.row[(step.column - first) as usize] += step.share;
         }
     }
 
@@ -137,6 +172,16 @@ impl Scan {
     }
 }
 
+/// The steps of an interval with `share` a pixel's length.
+fn ends(line: [f64; 2], share: f64) -> [Step; 4] {
+    let end = |at: f64, share: f64| {
+        let (column, part) = (at.floor() as i64, at - at.floor());
+        [Step { column, share: share * (1.0 - part) }, Step { column: column + 1, share: share * part }]
+    };
+    let ([a, b], [c, d]) = (end(line[0], share), end(line[1], -share));
+    [a, b, c, d]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -147,9 +192,10 @@ mod tests {
     fn coverage(polygon: &Polygon, reach: i64) -> Vec<f64> {
         let side = 2 * reach + 1;
         let mut steps = vec![0.0; (side * side) as usize];
-        Scan::default().spread(polygon, |row, found| {
+        let window = Window { columns: -reach..reach + 1, rows: -reach..reach + 1 };
+        Scan::default().spread(polygon, &window, |row, found| {
             for step in found.iter().filter(|s| s.column <= reach) {
-                steps[((row + reach) * side + step.column + reach) as usize] += step.share;
+                steps[((row + reach) * side + step.column.max(-reach) + reach) as usize] += step.share;
             }
         });
         for row in steps.chunks_exact_mut(side as usize) {
@@ -203,8 +249,31 @@ mod tests {
     #[test]
     fn what_is_smaller_than_a_pixel_stays_in_it() {
         let mut seen = Vec::new();
-        Scan::default().spread(&disc(DVec2::ZERO, DVec2::splat(0.49)), |row, steps| seen.push((row, steps.to_vec())));
+        let window = Window { columns: -1..2, rows: -1..2 };
+        Scan::default()
+            .spread(&disc(DVec2::ZERO, DVec2::splat(0.49)), &window, |row, steps| seen.push((row, steps.to_vec())));
         let one = |column, share| Step { column, share };
         assert_eq!(seen, [(0, vec![one(0, 1.0), one(1, -1.0)])]);
+    }
+
+    /// The middle of a disc of thousands of pixels, cut out of the whole: even, by the polygon's own area.
+    #[test]
+    fn a_window_into_a_large_disc_is_even() {
+        for radius in [60.0, 700.0, 5000.0] {
+            let c = coverage(&disc(DVec2::new(0.3, -7.2), DVec2::splat(radius)), 20);
+            // 48 vertices leave 0.3 % of the circle's area.
+            let even = 1.0 / (PI * radius * radius);
+            assert!(c.iter().all(|share| (share / even - 1.0).abs() < 4e-3), "{radius}: {:?} {even}", &c[..3]);
+        }
+    }
+
+    #[test]
+    fn what_lies_beside_a_window_is_left_out() {
+        let window = Window { columns: 40..50, rows: 0..10 };
+        let mut count = 0;
+        Scan::default().spread(&disc(DVec2::ZERO, DVec2::splat(30.0)), &window, |_, _| count += 1);
+        assert_eq!(count, 0);
+        Scan::default().spread(&disc(DVec2::new(30.0, 0.0), DVec2::splat(30.0)), &window, |_, _| count += 1);
+        assert_eq!(count, 10);
     }
 }
