@@ -16,6 +16,7 @@ pub mod questions;
 pub mod rays;
 pub mod runs;
 pub mod scenes;
+pub mod sensor;
 pub mod table;
 pub mod terrain;
 pub mod threads;

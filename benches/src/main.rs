@@ -15,6 +15,7 @@
 //! | `trees` | time to build the accelerator, a triangle |
 //! | `memory` | peak memory of a scene, in a process of its own |
 //! | `frames` | raw and picture of a frame of two megapixels |
+//! | `sensor` | mean electrons to digital numbers: all noises, all effects, each alone; time and memory |
 //! | `files` | megabytes a second into a spectral EXR |
 //!
 //! Times are processor times of one thread, medians of several runs that take turns, so that a busy machine disturbs
@@ -23,13 +24,15 @@
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that reports to its user")]
 
 use etendue_benches::table::Table;
-use etendue_benches::{defocus, files, frames, lamps, lenses, machine, memory, paths, peer, rays, trees, views};
+use etendue_benches::{
+    defocus, files, frames, lamps, lenses, machine, memory, paths, peer, rays, sensor, trees, views,
+};
 use std::process::ExitCode;
 
 /// A benchmark: its name and what it answers.
 type Benchmark = (&'static str, fn() -> Table);
 
-const BENCHMARKS: [Benchmark; 11] = [
+const BENCHMARKS: [Benchmark; 12] = [
     ("rays", rays::table),
     ("paths", paths::table),
     ("lamps", lamps::table),
@@ -40,6 +43,7 @@ const BENCHMARKS: [Benchmark; 11] = [
     ("trees", trees::table),
     ("memory", memory::table),
     ("frames", frames::table),
+    ("sensor", sensor::table),
     ("files", files::table),
 ];
 
@@ -48,6 +52,10 @@ fn main() -> ExitCode {
     match arguments.as_slice() {
         [flag, scene] if flag == memory::CHILD => {
             println!("{}", memory::child(scene));
+            ExitCode::SUCCESS
+        }
+        [flag, name] if flag == sensor::CHILD => {
+            println!("{}", sensor::child(name));
             ExitCode::SUCCESS
         }
         [flag, order @ ..] if flag == peer::FLAG => answer(peer::rendered(order)),

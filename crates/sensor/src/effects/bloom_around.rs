@@ -25,12 +25,12 @@ pub(super) fn apply(plane: &mut Plane<Electrons>, well: f32, spill: f64, account
     while tally.largest > NEGLIGIBLE_E {
         account.drained_e += (1.0 - spill) * tally.sum;
         account.spilt_e += spill * lost_at_edges(&excess, width, height);
-        rows = widened(&tally.rows, height);
+        let before = std::mem::replace(&mut rows, widened(&tally.rows, height));
         spread(plane.samples_mut(), &excess, width, &rows, spill as f32);
+        // What is left of earlier rounds lies in rows that the round before settled or cleared.
+        next[width * before.start..width * before.end].fill(0.0);
         tally = settle(plane.samples_mut(), &mut next, width, &rows, well);
         std::mem::swap(&mut excess, &mut next);
-        // Rows outside of those just settled hold nothing in excess.
-        clear_outside(&mut excess, width, &rows);
     }
     account.clipped_e += tally.sum;
 }
@@ -120,11 +120,6 @@ fn lost_at_edges(excess: &[f32], width: usize, height: usize) -> f64 {
     let between = 1..height.saturating_sub(1).max(1);
     let sides: f64 = ends(width).into_iter().map(|x| between.clone().map(|y| at(x, y)).sum::<f64>()).sum();
     top_and_bottom + sides
-}
-
-fn clear_outside(excess: &mut [f32], width: usize, rows: &Range<usize>) {
-    excess[..rows.start * width].fill(0.0);
-    excess[rows.end * width..].fill(0.0);
 }
 
 #[cfg(test)]

@@ -1,0 +1,107 @@
+//! From planes of mean electrons to digital numbers in memory, two megapixels: all noises, all effects, each alone.
+
+mod memory;
+mod sensors;
+
+use crate::clock::{clock_s, cpu_s, timed};
+use crate::runs::Runs;
+use crate::table::Table;
+use crate::threads::pool;
+use etendue_core::Plane;
+use etendue_core::quantity::Electrons;
+use etendue_sensor::{FrameAddress, Raw, Sensor, SensorState};
+use rayon::ThreadPool;
+use sensors::{bare, kinds};
+
+pub use memory::{CHILD, child};
+
+const NOTE: &str = "1920 × 1080 px, a ramp of light from none to the full well with a lamp of a hundred wells (48 px wide) in it, \
+    from mean electrons to digital numbers in memory. One thread: processor time. Two threads: by the clock, and the \
+    processor time of the busier one. Beside: run by run, over the bare converter (one thread). Memory: most of it above \
+    the means, the numbers included. \"Described, without strength\" has every effect in its description, at a strength of \
+    zero or switched off.";
+const WIDTH: usize = 1920;
+const HEIGHT: usize = 1080;
+const PIXELS: f64 = (WIDTH * HEIGHT) as f64;
+
+/// Time and memory of a frame, for all noises, all effects, and each effect alone.
+pub fn table() -> Table {
+    let head =
+        ["sensor", "1 thread, ms", "ns a pixel", "2, clock, ms", "2, busier, ms", "over bare", "spread", "B a pixel"];
+    let mut table = Table::new("The sensor", NOTE, &head);
+    let pools = [pool(1), pool(2)];
+    let means = scene();
+    let bare = Sensor::new(bare()).expect("legal");
+    for (name, parameters) in kinds() {
+        let sensor = Sensor::new(parameters).expect("a legal sensor");
+        table.row(row(name, &Measured::of(&sensor, &bare, &means, &pools)));
+    }
+    table
+}
+
+fn row(name: &str, m: &Measured) -> Vec<String> {
+    let ms = |runs: &Runs| format!("{:.0}", runs.median() * 1e3);
+    vec![
+        name.to_owned(),
+        ms(&m.one),
+        format!("{:.1}", m.one.median() / PIXELS * 1e9),
+        ms(&m.two_clock),
+        ms(&m.two_busier),
+        format!("{:.3}", m.over_bare.median()),
+        m.one.spread_text(),
+        memory::bytes_a_pixel(name),
+    ]
+}
+
+/// What is measured of a sensor.
+#[derive(Default)]
+struct Measured {
+    one: Runs,
+    two_clock: Runs,
+    two_busier: Runs,
+    over_bare: Runs,
+}
+
+impl Measured {
+    fn of(sensor: &Sensor, bare: &Sensor, means: &Plane<Electrons>, [one, two]: &[ThreadPool; 2]) -> Self {
+        let mut measured = Self::default();
+        for _ in 0..crate::runs::COUNT {
+            let alone = |sensor| one.install(|| timed(|| std::hint::black_box(expose(sensor, means))).1);
+            let (before, own, after) = (alone(bare), alone(sensor), alone(bare));
+            measured.one.add(own);
+            measured.over_bare.add(own / (0.5 * (before + after)));
+            let (clock, busier) = shared(sensor, means, two);
+            measured.two_clock.add(clock);
+            measured.two_busier.add(busier);
+        }
+        measured
+    }
+}
+
+/// Time of a frame on a pool: by the clock, and the busiest thread's.
+fn shared(sensor: &Sensor, means: &Plane<Electrons>, pool: &ThreadPool) -> (f64, f64) {
+    let accounts = || pool.broadcast(|_| cpu_s());
+    let (start, before) = (clock_s(), accounts());
+    pool.install(|| std::hint::black_box(expose(sensor, means)));
+    let clock = clock_s() - start;
+    let busiest = accounts().iter().zip(&before).map(|(after, before)| after - before).fold(0.0, f64::max);
+    (clock, busiest)
+}
+
+/// A ramp from none to the full well, with a lamp in it.
+fn scene() -> Plane<Electrons> {
+    let mean = |i: usize| {
+        let (x, y) = (i % WIDTH, i / WIDTH);
+        let in_lamp = (x.abs_diff(1300).pow(2) + y.abs_diff(500).pow(2)) < 24 * 24;
+        if in_lamp {
+            100.0 * sensors::FULL_WELL_E as f32
+        } else {
+            (sensors::FULL_WELL_E * x as f64 / WIDTH as f64) as f32
+        }
+    };
+    Plane::from_samples(WIDTH, HEIGHT, (0..WIDTH * HEIGHT).map(mean).collect()).expect("one mean a pixel")
+}
+
+fn expose(sensor: &Sensor, means: &Plane<Electrons>) -> (SensorState, Raw) {
+    sensor.step(SensorState::default(), means, FrameAddress { seed: 1, camera: 0, frame: 0, capture: 0 })
+}

@@ -1,0 +1,172 @@
+//! The sensors that are measured.
+
+use etendue_sensor::cfa::Cfa;
+use etendue_sensor::effects::angle_response::AngleResponse;
+use etendue_sensor::effects::capacitance::Capacitance;
+use etendue_sensor::effects::cross_talk::CrossTalk;
+use etendue_sensor::effects::dark_current::{DarkCurrent, DarkSpread, Hot, Tail};
+use etendue_sensor::effects::full_well::Blooming;
+use etendue_sensor::effects::lag::Trap;
+use etendue_sensor::effects::neighbours::Neighbours;
+use etendue_sensor::effects::offset_pattern::OffsetPattern;
+use etendue_sensor::effects::photo_response::PhotoResponse;
+use etendue_sensor::effects::read_noise::ReadNoise;
+use etendue_sensor::effects::response::{Knee, Response};
+use etendue_sensor::effects::smear::Smear;
+use etendue_sensor::effects::telegraph_noise::TelegraphNoise;
+use etendue_sensor::effects::two_level::TwoLevel;
+use etendue_sensor::hdr::{Capture, HighDynamicRange};
+use etendue_sensor::{Channel, Charge, Exposure, FixedPattern, Optics, Pixel, ReadOut, SensorParameters};
+use etendue_spectra::Spectrum;
+
+/// Electrons that a pixel holds.
+pub(super) const FULL_WELL_E: f64 = 20_000.0;
+
+/// A name in the table, and its sensor.
+type Kind = (&'static str, SensorParameters);
+
+/// The converter alone, with the well that every sensor has.
+pub(super) fn bare() -> SensorParameters {
+    SensorParameters {
+        pixel: Pixel { pitch_um: 3.0, fill_factor: 1.0 },
+        channels: vec![Channel { name: "mono".into(), quantum_efficiency: Spectrum::constant(0.5) }],
+        cfa: Cfa::mono(),
+        exposure: Exposure { exposure_s: 0.01, frame_period_s: Some(0.04), control: None },
+        optics: Optics::default(),
+        pattern: FixedPattern::default(),
+        charge: Charge::plain(FULL_WELL_E, 0.0),
+        read_out: ReadOut::linear(0.7, 100.0, 14, 0.0),
+        hdr: HighDynamicRange::default(),
+        noise: true,
+    }
+    .quiet()
+}
+
+/// Changes of a sensor, in words that read well.
+trait Change: Sized {
+    fn quiet(self) -> Self;
+    fn with(self, change: impl FnOnce(&mut Self)) -> Self;
+}
+
+impl Change for SensorParameters {
+    fn quiet(self) -> Self {
+        self.with(|p| p.noise = false)
+    }
+
+    fn with(mut self, change: impl FnOnce(&mut Self)) -> Self {
+        change(&mut self);
+        self
+    }
+}
+
+/// All sensors, in the order of the table.
+pub(super) fn kinds() -> Vec<Kind> {
+    let all = |p: &mut SensorParameters| {
+        noises(p);
+        the_rest(p);
+    };
+    let together = [
+        ("bare converter", bare()),
+        ("described, without strength", bare().with(silent)),
+        ("all noises", bare().with(noises)),
+        ("all effects", bare().with(all)),
+        ("four captures, all noises", bare().with(captures)),
+    ];
+    together.into_iter().chain(EACH.map(|(name, change)| (name, bare().with(change)))).collect()
+}
+
+/// A name in the table, and what a sensor has beside the bare converter.
+type Addition = (&'static str, fn(&mut SensorParameters));
+
+const EACH: [Addition; 18] = [
+    ("shot noise", |p| p.noise = true),
+    ("angle response", angle),
+    ("cross-talk", |p| p.optics.cross_talk = Some(CrossTalk(SHARES))),
+    ("photo-response pattern", |p| p.pattern.photo_response = PhotoResponse { white: 0.01, row: 0.002, column: 0.002 }),
+    ("smear", |p| p.charge.smear = Some(Smear::Interline { smear_db: -100.0, measured_exposure_share: 1.0 })),
+    ("dark current, even", |p| p.charge.dark = DarkCurrent::even(500.0)),
+    ("dark current with pattern", |p| p.charge.dark = patterned_dark()),
+    ("lag", |p| p.charge.traps = vec![Trap { share: 0.02, time_constant_s: 0.1 }]),
+    ("brighter-fatter", |p| p.charge.brighter_fatter_per_e = 1e-6),
+    ("blooming along the column", |p| p.charge.blooming = Some(Blooming::Column { spill: 0.9 })),
+    ("blooming around", |p| p.charge.blooming = Some(Blooming::Around { spill: 0.6 })),
+    ("dead pixels", |p| p.pattern.dead_share = 1e-4),
+    ("response, two knees", |p| p.read_out.response = knees()),
+    ("capacitance", |p| p.read_out.capacitance = Some(Capacitance(SHARES))),
+    ("offset pattern", |p| p.pattern.offset = OffsetPattern { white_e: 2.0, row_e: 1.0, column_e: 1.0 }),
+    ("shot and read noise", |p| (p.noise, p.read_out.noise) = (true, READ)),
+    ("shot and telegraph noise", |p| (p.noise, p.read_out.telegraph) = (true, Some(TelegraphNoise(TWO)))),
+    ("digital gain", |p| p.read_out.digital_gain = 1.5),
+];
+
+const SHARES: Neighbours = Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.002 };
+const READ: ReadNoise = ReadNoise { white_e: 5.0, row_e: 0.5, column_e: 0.5 };
+const TWO: TwoLevel = TwoLevel { share: 0.001, mean: 20.0, dwell_frames: 5.0 };
+
+fn noises(p: &mut SensorParameters) {
+    (p.noise, p.read_out.noise) = (true, READ);
+    p.read_out.telegraph = Some(TelegraphNoise(TWO));
+    p.charge.dark = patterned_dark();
+    p.pattern.photo_response = PhotoResponse { white: 0.01, row: 0.002, column: 0.002 };
+    p.pattern.offset = OffsetPattern { white_e: 2.0, row_e: 1.0, column_e: 1.0 };
+    p.pattern.dead_share = 1e-4;
+}
+
+fn the_rest(p: &mut SensorParameters) {
+    angle(p);
+    p.optics.cross_talk = Some(CrossTalk(SHARES));
+    p.charge.smear = Some(Smear::Interline { smear_db: -100.0, measured_exposure_share: 1.0 });
+    p.charge.traps = vec![Trap { share: 0.02, time_constant_s: 0.1 }];
+    p.charge.brighter_fatter_per_e = 1e-6;
+    p.charge.blooming = Some(Blooming::Around { spill: 0.6 });
+    p.read_out.response = knees();
+    p.read_out.capacitance = Some(Capacitance(SHARES));
+    p.read_out.digital_gain = 1.5;
+}
+
+/// Everything described, nothing with strength.
+fn silent(p: &mut SensorParameters) {
+    p.charge.dark = DarkCurrent { spread: spread(), ..DarkCurrent::even(0.0) };
+    p.read_out.noise = READ;
+    p.read_out.telegraph = Some(TelegraphNoise(TWO));
+    p.pattern.photo_response = PhotoResponse::default();
+    p.pattern.offset = OffsetPattern::default();
+}
+
+fn captures(p: &mut SensorParameters) {
+    noises(p);
+    let like = Capture {
+        exposure_share: 1.0,
+        sensitivity_share: 1.0,
+        gain_share: 1.0,
+        full_well_e: None,
+        read_noise_e: None,
+        same_charge: false,
+    };
+    let again = Capture { gain_share: 1.0 / 16.0, same_charge: true, ..like };
+    let small = Capture { sensitivity_share: 0.01, gain_share: 0.5, ..like };
+    p.hdr.captures = vec![again, small, Capture { gain_share: 1.0 / 8.0, ..again }];
+    p.hdr.bits = Some(24);
+}
+
+fn angle(p: &mut SensorParameters) {
+    let table = vec![[0.0, 1.0], [10.0, 0.97], [20.0, 0.88], [30.0, 0.7]];
+    p.optics.angle_response = Some(AngleResponse { table, exit_pupil_mm: 8.0, principal_px: [960.0, 540.0] });
+}
+
+fn spread() -> DarkSpread {
+    DarkSpread { white: 0.4, row: 0.02, column: 0.02, tail: Tail::LogNormal }
+}
+
+fn patterned_dark() -> DarkCurrent {
+    DarkCurrent {
+        spread: spread(),
+        hot: Some(Hot { share: 1e-4, mean_e_s: 1e5 }),
+        blinking: Some(TwoLevel { mean: 1e4, ..TWO }),
+        ..DarkCurrent::even(500.0)
+    }
+}
+
+fn knees() -> Response {
+    Response::Knees(vec![Knee { at_e: 10_000.0, slope: 0.5 }, Knee { at_e: 15_000.0, slope: 0.2 }])
+}
