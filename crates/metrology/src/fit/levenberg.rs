@@ -1,0 +1,327 @@
+//! Non-linear least squares after Levenberg (1944) and Marquardt (1963).
+//!
+//! The step solves (JᵀJ + λ D) δ = −Jᵀ r, D the diagonal of JᵀJ; λ falls tenfold after a step that lowers Σ r², and rises
+//! tenfold until one does. J is of central differences, with an error of about 1e-9 of its columns. Residuals come in
+//! blocks, so that a parameter of one view costs one view.
+//!
+//! Uncertainty: covariance = s² (JᵀJ)⁻¹ with s² = Σ r²/ν, ν residuals less parameters: the residuals themselves say how
+//! well they are known (GUM, type A), on the premise that they are independent, of equal variance, and that the model holds.
+//! A direction in which JᵀJ, scaled to a unit diagonal, has less than 1e-9 is one that the observations say nothing about:
+//! its parameters are infinitely uncertain.
+//!
+//! Left out: bounds (a problem answers `None` where it cannot be evaluated, and the step is shortened), robust losses
+//! (a problem may weight its residuals).
+
+use crate::Estimate;
+use crate::linear::{Cholesky, Matrix, eigen};
+
+/// What is to be fitted.
+pub trait Problem {
+    /// What a set of parameters means, made once for all blocks.
+    type State;
+
+    /// Makes it; `None` where the parameters are illegal.
+    fn state(&self, parameters: &[f64]) -> Option<Self::State>;
+
+    /// The number of blocks of residuals.
+    fn blocks(&self) -> usize;
+
+    /// The residuals of a block, always as many; `None` where they do not exist.
+    fn residuals(&self, state: &Self::State, block: usize) -> Option<Vec<f64>>;
+
+    /// Whether a block depends on a parameter.
+    fn depends(&self, block: usize, parameter: usize) -> bool;
+
+    /// A change of a parameter over which the residuals are all but linear: the difference's step is 1e-3 of it.
+    fn reach(&self, parameter: usize) -> f64;
+}
+
+/// A fit's result.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// The parameters at the least sum of squares.
+    pub parameters: Vec<f64>,
+    /// Their covariance; infinite on the diagonal (and 0 beside it) of what is not determined.
+    pub covariance: Matrix,
+    /// √(Σ r²/ν), in the residuals' unit.
+    pub sigma: f64,
+    /// ν: residuals less parameters.
+    pub degrees_of_freedom: usize,
+    /// The residuals of each block.
+    pub residuals: Vec<Vec<f64>>,
+}
+
+impl Fit {
+    /// A parameter with its standard uncertainty.
+    #[must_use]
+    pub fn estimate(&self, parameter: usize) -> Estimate {
+        Estimate::new(self.parameters[parameter], self.covariance.at(parameter, parameter).sqrt())
+    }
+}
+
+/// Why there is no fit.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FitError {
+    /// Too little was observed.
+    #[error(
+        "{residuals} observed numbers do not determine {parameters} parameters: give more points or views, or fit fewer coefficients"
+    )]
+    Few {
+        /// Residuals.
+        residuals: usize,
+        /// Parameters.
+        parameters: usize,
+    },
+    /// It cannot begin.
+    #[error("the fit's first guess cannot be evaluated: the points do not suit the model; choose another model")]
+    Start,
+    /// It does not end.
+    #[error(
+        "the fit does not settle after {steps} steps: the model does not suit the points; choose another model, or fit fewer coefficients"
+    )]
+    Restless {
+        /// Steps taken.
+        steps: usize,
+    },
+}
+
+/// Least relative gain of Σ r² that counts as progress.
+const GAIN: f64 = 1e-12;
+const STEPS: usize = 200;
+
+/// Fits from a first guess.
+///
+/// # Errors
+/// [`FitError`].
+pub fn fit<P: Problem>(problem: &P, start: &[f64]) -> Result<Fit, FitError> {
+    let mut at = start.to_vec();
+    let mut residuals = evaluate(problem, &at).ok_or(FitError::Start)?;
+    let count: usize = residuals.iter().map(Vec::len).sum();
+    if count <= at.len() {
+        return Err(FitError::Few { residuals: count, parameters: at.len() });
+    }
+    let mut lambda = 1e-3;
+    for _ in 0..STEPS {
+        let (normal, gradient) = normal_equations(problem, &at, &residuals).ok_or(FitError::Start)?;
+        let Some(better) = improved(problem, &at, &residuals, (&normal, &gradient), &mut lambda) else {
+            return Ok(finished(at, residuals, &normal, count));
+        };
+        let settled = squares(&residuals) - squares(&better.1) <= GAIN * squares(&residuals);
+        (at, residuals) = better;
+        if settled {
+            let (normal, _) = normal_equations(problem, &at, &residuals).ok_or(FitError::Start)?;
+            return Ok(finished(at, residuals, &normal, count));
+        }
+    }
+    Err(FitError::Restless { steps: STEPS })
+}
+
+fn evaluate<P: Problem>(problem: &P, at: &[f64]) -> Option<Vec<Vec<f64>>> {
+    let state = problem.state(at)?;
+    let residuals: Vec<_> = (0..problem.blocks()).map(|b| problem.residuals(&state, b)).collect::<Option<_>>()?;
+    residuals.iter().flatten().all(|r| r.is_finite()).then_some(residuals)
+}
+
+fn squares(residuals: &[Vec<f64>]) -> f64 {
+    residuals.iter().flatten().map(|r| r * r).sum()
+}
+
+type Point = (Vec<f64>, Vec<Vec<f64>>);
+
+/// The first step, from a λ on, that lowers the sum of squares; `None` where none does.
+fn improved<P: Problem>(
+    problem: &P,
+    at: &[f64],
+    residuals: &[Vec<f64>],
+    (normal, gradient): (&Matrix, &[f64]),
+    lambda: &mut f64,
+) -> Option<Point> {
+    const LARGEST: f64 = 1e12;
+    while *lambda < LARGEST {
+        let tried = step(normal, gradient, *lambda).and_then(|step| {
+            let next: Vec<f64> = at.iter().zip(&step).map(|(p, d)| p + d).collect();
+            let found = evaluate(problem, &next)?;
+            (squares(&found) < squares(residuals)).then_some((next, found))
+        });
+        match tried {
+            Some(better) => {
+                *lambda = (*lambda * 0.1).max(1e-12);
+                return Some(better);
+            }
+            None => *lambda *= 10.0,
+        }
+    }
+    None
+}
+
+fn step(normal: &Matrix, gradient: &[f64], lambda: f64) -> Option<Vec<f64>> {
+    let n = gradient.len();
+    let scale = scales(normal);
+    let mut damped = scaled(normal, &scale);
+    (0..n).for_each(|i| *damped.at_mut(i, i) += lambda);
+    let right: Vec<f64> = gradient.iter().zip(&scale).map(|(g, s)| -g * s).collect();
+    let step = Cholesky::of(&damped, 1e-15)?.solve(&right);
+    Some(step.iter().zip(&scale).map(|(d, s)| d * s).collect())
+}
+
+/// 1/√ of the diagonal; 0 for a parameter that nothing depends on.
+fn scales(normal: &Matrix) -> Vec<f64> {
+    let inverse = |d: f64| if d > 0.0 { 1.0 / d.sqrt() } else { 0.0 };
+    (0..normal.rows()).map(|i| inverse(normal.at(i, i))).collect()
+}
+
+fn scaled(normal: &Matrix, scale: &[f64]) -> Matrix {
+    let n = scale.len();
+    Matrix::from_rows(n, (0..n).map(|i| (0..n).map(|j| normal.at(i, j) * scale[i] * scale[j]).collect::<Vec<_>>()))
+}
+
+/// JᵀJ and Jᵀr.
+fn normal_equations<P: Problem>(problem: &P, at: &[f64], residuals: &[Vec<f64>]) -> Option<(Matrix, Vec<f64>)> {
+    let (n, blocks) = (at.len(), problem.blocks());
+    let mut columns: Vec<Vec<(usize, Vec<f64>)>> = vec![Vec::new(); blocks];
+    for parameter in 0..n {
+        let step = 1e-3 * problem.reach(parameter);
+        let moved = |sign: f64| {
+            let mut moved = at.to_vec();
+            moved[parameter] += sign * step;
+            problem.state(&moved)
+        };
+        let (up, down) = (moved(1.0)?, moved(-1.0)?);
+        for block in (0..blocks).filter(|b| problem.depends(*b, parameter)) {
+            let (up, down) = (problem.residuals(&up, block)?, problem.residuals(&down, block)?);
+            let slope = up.iter().zip(&down).map(|(u, d)| (u - d) / (2.0 * step)).collect();
+            columns[block].push((parameter, slope));
+        }
+    }
+    let (mut normal, mut gradient) = (Matrix::zeros(n, n), vec![0.0; n]);
+    for (columns, residuals) in columns.iter().zip(residuals) {
+        for (k, (i, a)) in columns.iter().enumerate() {
+            gradient[*i] += crate::linear::matrix::dot(a, residuals);
+            for (j, b) in &columns[..=k] {
+                let product = crate::linear::matrix::dot(a, b);
+                *normal.at_mut(*i, *j) += product;
+                if i != j {
+                    *normal.at_mut(*j, *i) += product;
+                }
+            }
+        }
+    }
+    Some((normal, gradient))
+}
+
+fn finished(parameters: Vec<f64>, residuals: Vec<Vec<f64>>, normal: &Matrix, count: usize) -> Fit {
+    let degrees_of_freedom = count - parameters.len();
+    let sigma = (squares(&residuals) / degrees_of_freedom as f64).sqrt();
+    let covariance = covariance(normal, sigma * sigma);
+    Fit { parameters, covariance, sigma, degrees_of_freedom, residuals }
+}
+
+/// Least eigenvalue of the scaled normal matrix that counts as an observation.
+const LEAST: f64 = 1e-9;
+
+fn covariance(normal: &Matrix, variance: f64) -> Matrix {
+    let n = normal.rows();
+    let scale = scales(normal);
+    let found = eigen(&scaled(normal, &scale));
+    let mut covariance = Matrix::zeros(n, n);
+    let mut open = vec![false; n];
+    for (value, vector) in found.values.iter().zip(&found.vectors) {
+        if *value < LEAST {
+            // A part of 1e-3 in a unit vector: what this direction does not move beyond the other uncertainties.
+            open.iter_mut().zip(vector).for_each(|(open, v)| *open |= v.abs() > 1e-3);
+            continue;
+        }
+        for i in 0..n {
+            for j in 0..n {
+                *covariance.at_mut(i, j) += variance * vector[i] * vector[j] / value * scale[i] * scale[j];
+            }
+        }
+    }
+    for i in (0..n).filter(|i| open[*i]) {
+        for j in 0..n {
+            (*covariance.at_mut(i, j), *covariance.at_mut(j, i)) = (0.0, 0.0);
+        }
+        *covariance.at_mut(i, i) = f64::INFINITY;
+    }
+    covariance
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_core::maths::f64::exp;
+
+    /// y = a exp(−b t), with a third parameter that adds to a where `doubled`.
+    struct Decay {
+        times: Vec<f64>,
+        values: Vec<f64>,
+        doubled: bool,
+    }
+
+    impl Problem for Decay {
+        type State = Vec<f64>;
+        fn state(&self, parameters: &[f64]) -> Option<Vec<f64>> {
+            Some(parameters.to_vec())
+        }
+        fn blocks(&self) -> usize {
+            1
+        }
+        fn residuals(&self, p: &Vec<f64>, _: usize) -> Option<Vec<f64>> {
+            let height = p[0] + if self.doubled { p[2] } else { 0.0 };
+            Some(self.times.iter().zip(&self.values).map(|(t, y)| height * exp(-p[1] * t) - y).collect())
+        }
+        fn depends(&self, _: usize, _: usize) -> bool {
+            true
+        }
+        fn reach(&self, _: usize) -> f64 {
+            0.1
+        }
+    }
+
+    fn decay(noise: &[f64]) -> Decay {
+        let times: Vec<f64> = (0..noise.len()).map(|i| i as f64 * 0.25).collect();
+        let values = times.iter().zip(noise).map(|(t, n)| 3.0 * exp(-0.7 * t) + n).collect();
+        Decay { times, values, doubled: false }
+    }
+
+    #[test]
+    fn exact_observations_give_exact_parameters() {
+        let fit = fit(&decay(&[0.0; 20]), &[1.0, 0.1]).expect("settles");
+        assert!((fit.parameters[0] - 3.0).abs() < 1e-9 && (fit.parameters[1] - 0.7).abs() < 1e-9, "{fit:?}");
+        assert!(matches!(
+            super::fit(&decay(&[0.0; 2]), &[1.0, 0.1]),
+            Err(FitError::Few { residuals: 2, parameters: 2 })
+        ));
+    }
+
+    #[test]
+    fn the_uncertainty_is_that_of_many_repetitions() {
+        use etendue_stats::normal;
+        let (mut squares, mut told, runs) = (0.0, 0.0, 400);
+        let mut word = 12_345_u64;
+        for _ in 0..runs {
+            let noise: Vec<f64> = (0..20)
+                .map(|_| {
+                    word = word.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                    0.05 * normal::quantile(etendue_core::random::unit_f64(word).clamp(1e-12, 1.0 - 1e-12))
+                })
+                .collect();
+            let rate = fit(&decay(&noise), &[2.0, 0.5]).expect("settles").estimate(1);
+            squares += (rate.value - 0.7) * (rate.value - 0.7);
+            told += rate.standard_uncertainty * rate.standard_uncertainty;
+        }
+        // Mean squares of 400 runs have a relative standard deviation of √(2/400) = 7 %; three of them, and curvature.
+        let ratio = squares / told;
+        assert!((ratio - 1.0).abs() < 0.23, "{ratio}");
+    }
+
+    #[test]
+    fn what_cannot_be_told_apart_is_infinitely_uncertain() {
+        let problem = Decay { doubled: true, ..decay(&[0.01, -0.01, 0.02, 0.0, -0.02, 0.01, 0.0, -0.01]) };
+        let fit = fit(&problem, &[1.0, 0.5, 0.5]).expect("settles");
+        assert!(
+            fit.estimate(0).standard_uncertainty.is_infinite() && fit.estimate(2).standard_uncertainty.is_infinite()
+        );
+        assert!(fit.estimate(1).standard_uncertainty < 0.1, "{:?}", fit.estimate(1));
+    }
+}

@@ -1,0 +1,121 @@
+//! Least squares by Householder reflections: the conditioning of A, not of AᵀA.
+
+use super::Matrix;
+use super::matrix::dot;
+
+/// A factored design matrix A = Q R of at least as many rows as columns.
+#[derive(Clone, Debug)]
+pub struct Orthogonal {
+    /// R above the diagonal and on it, the reflections' vectors below (their heads apart).
+    packed: Matrix,
+    heads: Vec<f64>,
+}
+
+/// Least squares' answer.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// The parameters.
+    pub parameters: Vec<f64>,
+    /// The sum of squared residuals.
+    pub residual_squares: f64,
+}
+
+impl Orthogonal {
+    /// Factors; `None` where there are fewer rows than columns, or a column is explained by those before it to within
+    /// `least` of its length.
+    #[must_use]
+    pub fn of(a: &Matrix, least: f64) -> Option<Self> {
+        let (m, n) = (a.rows(), a.columns());
+        if m < n {
+            return None;
+        }
+        let mut packed = a.clone();
+        let mut heads = Vec::with_capacity(n);
+        for k in 0..n {
+            let whole = (0..m).map(|i| a.at(i, k) * a.at(i, k)).sum::<f64>().sqrt();
+            let rest = (k..m).map(|i| packed.at(i, k) * packed.at(i, k)).sum::<f64>().sqrt();
+            if rest.is_nan() || rest <= least * whole {
+                return None;
+            }
+            let diagonal = if packed.at(k, k) > 0.0 { -rest } else { rest };
+            heads.push(packed.at(k, k) - diagonal);
+            *packed.at_mut(k, k) = diagonal;
+            let column = packed.clone_column(k);
+            for j in k + 1..n {
+                let part = reflect(&column, heads[k], k, |i| packed.at(i, j));
+                part.into_iter().enumerate().for_each(|(i, value)| *packed.at_mut(k + i, j) = value);
+            }
+        }
+        Some(Self { packed, heads })
+    }
+
+    /// The parameters that come nearest to `b`.
+    #[must_use]
+    pub fn solve(&self, b: &[f64]) -> Solution {
+        let (m, n) = (self.packed.rows(), self.packed.columns());
+        let mut turned = b.to_vec();
+        for k in 0..n {
+            let column = self.packed.clone_column(k);
+            let part = reflect(&column, self.heads[k], k, |i| turned[i]);
+            turned[k..m].copy_from_slice(&part);
+        }
+        let mut parameters = turned[..n].to_vec();
+        for i in (0..n).rev() {
+            let known = dot(&self.packed.row(i)[i + 1..], &parameters[i + 1..]);
+            parameters[i] = (parameters[i] - known) / self.packed.at(i, i);
+        }
+        Solution { parameters, residual_squares: turned[n..].iter().map(|r| r * r).sum() }
+    }
+
+    /// (AᵀA)⁻¹ = R⁻¹ R⁻ᵀ: the covariance of the parameters for observations of unit variance.
+    #[must_use]
+    pub fn unit_covariance(&self) -> Matrix {
+        let n = self.packed.columns();
+        let mut inverse = Matrix::zeros(n, n);
+        for j in 0..n {
+            *inverse.at_mut(j, j) = 1.0 / self.packed.at(j, j);
+            for i in (0..j).rev() {
+                let known: f64 = (i + 1..=j).map(|k| self.packed.at(i, k) * inverse.at(k, j)).sum();
+                *inverse.at_mut(i, j) = -known / self.packed.at(i, i);
+            }
+        }
+        Matrix::from_rows(n, (0..n).map(|i| (0..n).map(|j| dot(inverse.row(i), inverse.row(j))).collect::<Vec<_>>()))
+    }
+}
+
+impl Matrix {
+    fn clone_column(&self, j: usize) -> Vec<f64> {
+        (0..self.rows()).map(|i| self.at(i, j)).collect()
+    }
+}
+
+/// From row k on: a column reflected at the plane across v = (head, column below the diagonal).
+fn reflect(column: &[f64], head: f64, k: usize, value: impl Fn(usize) -> f64) -> Vec<f64> {
+    let below = &column[k + 1..];
+    let v_v = head * head + below.iter().map(|v| v * v).sum::<f64>();
+    let v_b = head * value(k) + below.iter().enumerate().map(|(i, v)| v * value(k + 1 + i)).sum::<f64>();
+    let share = 2.0 * v_b / v_v;
+    std::iter::once(value(k) - share * head)
+        .chain(below.iter().enumerate().map(|(i, v)| value(k + 1 + i) - share * v))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_through_points_with_its_uncertainty() {
+        // y = 1 + 2 x, residuals +1, −2, +1: Σ = 6; (AᵀA)⁻¹ of x = 0, 1, 2 by hand: [5/6, −1/2; −1/2, 1/2].
+        let a = Matrix::from_rows(2, [[1.0, 0.0], [1.0, 1.0], [1.0, 2.0]]);
+        let fit = Orthogonal::of(&a, 1e-12).expect("two columns");
+        let solution = fit.solve(&[2.0, 1.0, 6.0]);
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-14;
+        assert!(near(solution.parameters[0], 1.0) && near(solution.parameters[1], 2.0), "{solution:?}");
+        assert!((solution.residual_squares - 6.0).abs() < 1e-13, "{solution:?}");
+        let c = fit.unit_covariance();
+        assert!(near(c.at(0, 0), 5.0 / 6.0) && near(c.at(0, 1), -0.5) && near(c.at(1, 1), 0.5), "{c:?}");
+        assert!(Orthogonal::of(&Matrix::from_rows(2, [[1.0, 2.0], [2.0, 4.0], [3.0, 6.0]]), 1e-12).is_none());
+        assert!(Orthogonal::of(&Matrix::from_rows(2, [[1.0, 2.0]]), 1e-12).is_none());
+    }
+}

@@ -1,0 +1,130 @@
+//! Checkerboards: the corners of four squares.
+//!
+//! Candidates come from [`chess`](super::chess), in the picture and in copies of half, a quarter and an eighth of its size
+//! (defocused corners look sharp there); they are refined ([`saddle`](super::saddle)), joined where the line between two has
+//! a dark side and a bright one all along, and grown to a lattice. The copy that gives the most corners is taken, and
+//! each corner is found again in the picture itself by a model of it ([`crossing`]), over a disc of 0.4 of the distance
+//! to its nearest neighbour, 3 to 12 px.
+
+use super::crossing::Corner;
+use super::lattice::{self, Places};
+use super::neighbours::Neighbours;
+use super::{Grid, chess, crossing, saddle};
+use crate::Image;
+use glam::DVec2;
+use rayon::prelude::*;
+
+/// Radius of the window, in steps to the nearest neighbour, and its limits, px.
+const WINDOW: f64 = 0.4;
+const WINDOW_PX: [f64; 2] = [3.0, 12.0];
+
+/// The largest board of a picture, however small.
+pub(super) fn find(image: &Image) -> Grid {
+    const COPIES: usize = 4;
+    let mut best = (Places::new(), Vec::new());
+    let mut copy = image.clone();
+    for level in 0..COPIES {
+        let scale = f64::from(1_u32 << level);
+        let (places, points) = board(&copy);
+        if places.len() > best.0.len() {
+            best = (places, points.iter().map(|p| *p * scale).collect());
+        }
+        copy = halved(&copy);
+    }
+    let (places, mut points) = best;
+    let refined = refine(image, &places, &points);
+    let kept: Places = places.into_iter().filter(|(_, i)| refined[*i].is_some()).collect();
+    points.iter_mut().zip(&refined).for_each(|(p, r)| *p = r.map_or(*p, |r| r.at));
+    let uncertainties: Vec<f64> = refined.iter().map(|r| r.map_or(f64::INFINITY, |r| r.uncertainty_px)).collect();
+    Grid::of(&kept, &points, &uncertainties)
+}
+
+fn board(image: &Image) -> (Places, Vec<DVec2>) {
+    // Less contrast than a twentieth of the picture's is no square of a board.
+    let least = 0.05 * contrast(image);
+    let rough = chess::candidates(image, least);
+    let radius = chess::RING_PX as f64;
+    let points: Vec<DVec2> = rough
+        .iter()
+        .filter_map(|[x, y]| saddle::refined(image, DVec2::new(*x as f64 + 0.5, *y as f64 + 0.5), radius, 3.0))
+        .collect();
+    let points = single(points);
+    let linked = |a: usize, b: usize| is_edge(image, points[a], points[b], least);
+    let places = lattice::largest(&points, &linked);
+    (places, points)
+}
+
+/// Without points that are another's, found twice.
+fn single(points: Vec<DVec2>) -> Vec<DVec2> {
+    let neighbours = Neighbours::of(&points);
+    let first = |i: &usize| neighbours.within(points[*i], 1.5).iter().all(|j| j >= i);
+    (0..points.len()).filter(first).map(|i| points[i]).collect()
+}
+
+/// The difference of the picture's 2nd and 98th hundredth, by every 7th pixel.
+fn contrast(image: &Image) -> f32 {
+    let mut values: Vec<f32> = image.samples().iter().step_by(7).copied().collect();
+    if values.len() < 2 {
+        return 0.0;
+    }
+    let (low, high) = (values.len() / 50, values.len() - 1 - values.len() / 50);
+    let high = *values.select_nth_unstable_by(high, f32::total_cmp).1;
+    let low = *values.select_nth_unstable_by(low, f32::total_cmp).1;
+    high - low
+}
+
+/// Whether the line from a to b has a bright and a dark side, the same all along.
+fn is_edge(image: &Image, a: DVec2, b: DVec2, least: f32) -> bool {
+    let along = b - a;
+    let aside = along.perp() * 0.15;
+    let difference = |t: f64| Some(sample(image, a + along * t + aside)? - sample(image, a + along * t - aside)?);
+    let all: Option<Vec<f32>> = [0.25, 0.5, 0.75].into_iter().map(difference).collect();
+    all.is_some_and(|d| d.iter().all(|d| *d > 0.5 * least) || d.iter().all(|d| *d < -0.5 * least))
+}
+
+/// The pixel at a place; `None` outside.
+fn sample(image: &Image, at: DVec2) -> Option<f32> {
+    let inside = at.x >= 0.0 && at.y >= 0.0 && at.x < image.width() as f64 && at.y < image.height() as f64;
+    inside.then(|| image.at(at.x as usize, at.y as usize))
+}
+
+/// Each placed point by the picture itself; `None` where it does not hold there.
+fn refine(image: &Image, places: &Places, points: &[DVec2]) -> Vec<Option<Corner>> {
+    let placed: Vec<(&[i32; 2], &usize)> = places.iter().collect();
+    let corners: Vec<(usize, Option<Corner>)> =
+        placed.into_par_iter().map(|(place, i)| (*i, corner(image, places, points, *place, *i))).collect();
+    let mut refined = vec![None; points.len()];
+    corners.into_iter().for_each(|(i, corner)| refined[i] = corner);
+    refined
+}
+
+fn corner(image: &Image, places: &Places, points: &[DVec2], place: [i32; 2], i: usize) -> Option<Corner> {
+    let step = |x: i32, y: i32| {
+        let other = places.get(&[place[0] + x, place[1] + y])?;
+        Some((points[*other] - points[i]) * f64::from(x + y))
+    };
+    let across = [step(1, 0), step(-1, 0)];
+    let down = [step(0, 1), step(0, -1)];
+    let all = || across.iter().chain(&down).flatten();
+    let nearest = all().map(|s| s.length()).fold(f64::INFINITY, f64::min);
+    let radius = (WINDOW * nearest).clamp(WINDOW_PX[0], WINDOW_PX[1]);
+    let mean = |steps: [Option<DVec2>; 2]| match steps {
+        [Some(a), Some(b)] => Some(0.5 * (a + b)),
+        [a, b] => a.or(b),
+    };
+    let rough = saddle::refined(image, points[i], radius, radius)?;
+    crossing::fitted(image, rough, [mean(across)?, mean(down)?], radius)
+}
+
+/// Half the size, by means of four; an odd last row or column is left out.
+fn halved(image: &Image) -> Image {
+    let (width, height) = (image.width() / 2, image.height() / 2);
+    let samples = image.samples();
+    let mut half = Vec::with_capacity(width * height);
+    for y in 0..height {
+        let row = |dy: usize| &samples[(2 * y + dy) * image.width()..][..2 * width];
+        let pairs = row(0).chunks_exact(2).zip(row(1).chunks_exact(2));
+        half.extend(pairs.map(|(a, b)| 0.25 * (a[0] + a[1] + b[0] + b[1])));
+    }
+    Image::from_samples(width, height, half).unwrap_or_else(|| Image::new(0, 0))
+}

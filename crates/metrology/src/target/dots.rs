@@ -1,0 +1,101 @@
+//! Dots: grids of discs, dark on bright or bright on dark.
+//!
+//! Dark regions ([`components`]) under a threshold that follows the light ([`threshold`](super::threshold)), at least four
+//! pixels across, not cut by the border, and as large as the ellipse of their own second moments (to 12 %), are dots, put
+//! in rows and columns by where they are ([`lattice`]). Then each is measured ([`centroid`](super::centroid)).
+
+use super::centroid::{Blob, Centroid, Moments};
+use super::components::{self, Run};
+use super::lattice::{self, Places};
+use super::threshold::Threshold;
+use super::{Grid, centroid};
+use crate::Image;
+use glam::{DMat2, DVec2};
+use rayon::prelude::*;
+
+/// The largest grid of dots of a picture, however small.
+pub(super) fn find(image: &Image) -> Grid {
+    // Shares of the picture's shorter side: from dots of some pixels to dots of a tenth of the picture.
+    const BLOCKS: [usize; 3] = [48, 20, 8];
+    let turned = image.map(|v| -v);
+    let mut best = (Places::new(), Vec::new(), false);
+    for share in BLOCKS {
+        let block = (image.width().min(image.height()) / share).max(8);
+        for (image, bright) in [(image, false), (&turned, true)] {
+            let blobs = blobs(image, block);
+            let places = places(&blobs);
+            if places.len() > best.0.len() {
+                best = (places, blobs, bright);
+            }
+        }
+    }
+    let (places, blobs, bright) = best;
+    measured(if bright { &turned } else { image }, &places, &blobs, bright)
+}
+
+fn blobs(image: &Image, block: usize) -> Vec<Blob> {
+    let regions = components::dark(image, &Threshold::of(image, block));
+    regions.iter().filter_map(|runs| blob(image, runs)).collect()
+}
+
+/// A region that is whole, large enough and an ellipse.
+fn blob(image: &Image, runs: &[Run]) -> Option<Blob> {
+    const LEAST_PX: f64 = 12.0;
+    let inside = |r: &Run| r.row > 0 && r.row + 1 < image.height() && r.from > 0 && r.to < image.width();
+    let pixels: usize = runs.iter().map(|r| r.to - r.from).sum();
+    if (pixels as f64) < LEAST_PX || pixels > image.samples().len() / 10 || !runs.iter().all(inside) {
+        return None;
+    }
+    let mut moments = Moments::default();
+    let mut darkest = f32::INFINITY;
+    for run in runs {
+        for x in run.from..run.to {
+            moments.add(DVec2::new(x as f64 + 0.5, run.row as f64 + 0.5), 1.0);
+            darkest = darkest.min(image.at(x, run.row));
+        }
+    }
+    let blob = Blob { darkest: f64::from(darkest), ..moments.blob()? };
+    let ellipse = 4.0 * std::f64::consts::PI * blob.covariance.determinant().max(0.0).sqrt();
+    ((blob.area / ellipse - 1.0).abs() < 0.12).then_some(blob)
+}
+
+fn places(blobs: &[Blob]) -> Places {
+    let points: Vec<DVec2> = blobs.iter().map(|b| b.at).collect();
+    let alike = |a: usize, b: usize| (0.4..2.5).contains(&(blobs[a].area / blobs[b].area));
+    lattice::largest(&points, &alike)
+}
+
+/// The grid of the dots' centroids; those that cannot be measured are left out.
+fn measured(image: &Image, places: &Places, blobs: &[Blob], bright: bool) -> Grid {
+    let rough = radius_steps(places, |i| (blobs[i].at, blobs[i].area));
+    // An ellipse larger by this factor touches that of the next dot.
+    let room = rough.map_or(1.5, |r| 0.5 / r);
+    let placed: Vec<usize> = places.values().copied().collect();
+    let found: Vec<Option<Centroid>> =
+        placed.par_iter().map(|i| centroid::measured(image, &blobs[*i], room, bright)).collect();
+    let mut centroids = vec![None; blobs.len()];
+    placed.iter().zip(found).for_each(|(i, c)| centroids[*i] = c);
+    let places: Places = places.iter().filter(|(_, i)| centroids[**i].is_some()).map(|(p, i)| (*p, *i)).collect();
+    let points: Vec<DVec2> = (0..blobs.len()).map(|i| centroids[i].map_or(blobs[i].at, |c| c.at)).collect();
+    let uncertainties: Vec<f64> = centroids.iter().map(|c| c.map_or(f64::INFINITY, |c| c.uncertainty_px)).collect();
+    let disc_radius_steps = radius_steps(&places, |i| (points[i], centroids[i].map_or(blobs[i].area, |c| c.area)));
+    Grid { disc_radius_steps, ..Grid::of(&places, &points, &uncertainties) }
+}
+
+/// Radius of the discs in steps, from the areas of dots and of the cells between their neighbours: the mean over all dots.
+fn radius_steps(places: &Places, dot: impl Fn(usize) -> (DVec2, f64)) -> Option<f64> {
+    let radius = |(place, i): (&[i32; 2], &usize)| {
+        let step = |axis: usize| {
+            let at = |by: i32| {
+                let mut other = *place;
+                other[axis] += by;
+                places.get(&other).map(|i| dot(*i).0)
+            };
+            Some(0.5 * (at(1)? - at(-1)?))
+        };
+        let cell = DMat2::from_cols(step(0)?, step(1)?).determinant().abs();
+        Some((dot(*i).1 / (std::f64::consts::PI * cell)).sqrt())
+    };
+    let all: Vec<f64> = places.iter().filter_map(radius).collect();
+    (!all.is_empty()).then(|| all.iter().sum::<f64>() / all.len() as f64)
+}

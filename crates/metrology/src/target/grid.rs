@@ -1,0 +1,77 @@
+//! A chart's points as they were found in a picture.
+
+use super::lattice::Places;
+use glam::DVec2;
+
+/// A point of a chart: its column and row, and where it is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node {
+    /// Column and row, from 0.
+    pub index: [usize; 2],
+    /// Raster coordinates, px.
+    pub at: DVec2,
+    /// The standard uncertainty of each coordinate that the picture's noise makes, px.
+    pub uncertainty_px: f64,
+}
+
+/// Points of a square grid. Columns count to the right as the picture shows them, rows down, from the first seen: a grid
+/// that is seen in part is not placed on its chart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Grid {
+    /// The points, row by row.
+    pub nodes: Vec<Node>,
+    /// Columns and rows between the first and the last point.
+    pub size: [usize; 2],
+    /// Of discs: radius over step, both on the chart.
+    pub disc_radius_steps: Option<f64>,
+}
+
+impl Grid {
+    /// The point of a column and row.
+    #[must_use]
+    pub fn node(&self, index: [usize; 2]) -> Option<&Node> {
+        let key = |n: &Node| [n.index[1], n.index[0]];
+        self.nodes.binary_search_by_key(&[index[1], index[0]], key).ok().map(|i| &self.nodes[i])
+    }
+
+    /// The share of its places at which a point was found.
+    #[must_use]
+    pub fn filled(&self) -> f64 {
+        self.nodes.len() as f64 / (self.size[0] * self.size[1]) as f64
+    }
+
+    /// The grid of a lattice over points, turned so that columns lead to the right and rows down.
+    pub(super) fn of(places: &Places, points: &[DVec2], uncertainties_px: &[f64]) -> Self {
+        let turn = upright(places, points);
+        let turned: Vec<([i32; 2], usize)> = places.iter().map(|(place, i)| (turn(*place), *i)).collect();
+        let low = [0, 1].map(|a| turned.iter().map(|(p, _)| p[a]).min().unwrap_or(0));
+        let high = [0, 1].map(|a| turned.iter().map(|(p, _)| p[a]).max().unwrap_or(0));
+        let node = |(place, i): &([i32; 2], usize)| Node {
+            index: [0, 1].map(|a| (place[a] - low[a]) as usize),
+            at: points[*i],
+            uncertainty_px: uncertainties_px[*i],
+        };
+        let mut nodes: Vec<Node> = turned.iter().map(node).collect();
+        nodes.sort_by_key(|n| [n.index[1], n.index[0]]);
+        Self { nodes, size: [0, 1].map(|a| (high[a] - low[a] + 1) as usize), disc_radius_steps: None }
+    }
+}
+
+/// The exchange of axes and signs after which columns lead most to the right, and rows down.
+fn upright(places: &Places, points: &[DVec2]) -> impl Fn([i32; 2]) -> [i32; 2] {
+    let mean_step = |axis: usize| {
+        let steps = places.iter().filter_map(|(place, i)| {
+            let mut next = *place;
+            next[axis] += 1;
+            Some(points[*places.get(&next)?] - points[*i])
+        });
+        steps.sum::<DVec2>()
+    };
+    let [a, b] = [mean_step(0), mean_step(1)];
+    let share = |v: DVec2| v.x.abs() / v.length().max(f64::MIN_POSITIVE);
+    let (column, right, row, down) = if share(a) >= share(b) { (0, a, 1, b) } else { (1, b, 0, a) };
+    let right_sign = if right.x < 0.0 { -1 } else { 1 };
+    // A photograph is not mirrored: rows go where the columns' direction, turned clockwise as seen, leads.
+    let down_sign = if (f64::from(right_sign) * right).perp_dot(down) < 0.0 { -1 } else { 1 };
+    move |place| [right_sign * place[column], down_sign * place[row]]
+}

@@ -1,0 +1,88 @@
+//! Charts of points in a picture: what is seen where.
+//!
+//! | chart | points | accuracy of a sharp picture | file |
+//! | --- | --- | --- | --- |
+//! | checkerboard | inner corners | 0.02 px | `checkerboard.rs`, on `chess.rs`, `saddle.rs`, `crossing.rs` |
+//! | dots: discs, dark or bright | centroids | 0.01 px | `dots.rs`, on `threshold.rs`, `components.rs`, `centroid.rs` |
+//!
+//! Both are put in rows and columns by [`lattice`], robust to perspective and strong distortion. Points and numbers only
+//! come from the picture: neither the chart's size nor the lens is needed. The picture should be linear in light (a
+//! display encoding moves the edges of dots, not the corners of squares).
+//!
+//! Left out: charts that number their points (a grid that is seen in part is found, its place on the chart is not), rings.
+
+mod centroid;
+mod checkerboard;
+mod chess;
+mod components;
+mod crossing;
+mod dots;
+mod error;
+mod grid;
+mod lattice;
+mod neighbours;
+mod saddle;
+mod threshold;
+
+pub use error::TargetError;
+pub use grid::{Grid, Node};
+
+use crate::Image;
+
+/// Kinds of charts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// Dark and bright squares; its points are the corners of four.
+    Checkerboard,
+    /// A square grid of discs.
+    Dots,
+}
+
+/// What is looked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sought {
+    /// The kind; `None` for whichever shows more points.
+    pub target: Option<Target>,
+    /// Columns and rows of points that the chart has, either way round; a picture may show fewer, not more.
+    pub size: Option<[usize; 2]>,
+}
+
+/// Least points of a grid whose size is not stated.
+const LEAST: usize = 12;
+
+/// The chart's points.
+///
+/// # Errors
+/// Where there is no such chart.
+pub fn find(image: &Image, sought: Sought) -> Result<Grid, TargetError> {
+    let (grid, name) = match sought.target {
+        Some(Target::Checkerboard) => (checkerboard::find(image), "checkerboard"),
+        Some(Target::Dots) => (dots::find(image), "grid of dots"),
+        None => (either(image), "checkerboard or grid of dots"),
+    };
+    checked(grid, sought.size, name)
+}
+
+fn either(image: &Image) -> Grid {
+    let board = checkerboard::find(image);
+    let dots = dots::find(image);
+    if board.nodes.len() >= dots.nodes.len() { board } else { dots }
+}
+
+fn checked(grid: Grid, stated: Option<[usize; 2]>, sought: &'static str) -> Result<Grid, TargetError> {
+    let least = stated.map_or(LEAST, |[a, b]| LEAST.min(a * b / 2).max(4));
+    let best = grid.nodes.len();
+    if best < least || grid.size.iter().any(|n| *n < 2) {
+        return Err(TargetError::None { sought, best, least });
+    }
+    if grid.filled() < 0.5 {
+        return Err(TargetError::Gaps { points: best, size: grid.size });
+    }
+    let larger = |stated: [usize; 2]| grid.size[0] > stated[0] || grid.size[1] > stated[1];
+    match stated {
+        Some([a, b]) if larger([a, b]) && larger([b, a]) => {
+            Err(TargetError::Larger { found: grid.size, stated: [a, b] })
+        }
+        _ => Ok(grid),
+    }
+}
