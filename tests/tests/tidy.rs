@@ -17,6 +17,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("isp", &["core", "spectra"]),
     ("pipeline", &["core", "stats", "spectra", "projection", "scene", "tracer", "optics", "sensor", "isp"]),
     ("io", &["core", "spectra", "projection", "scene"]),
+    ("charts", &["core", "spectra", "scene"]),
     ("metrology", &["core", "stats", "spectra", "projection"]),
     (
         "cli",
@@ -32,6 +33,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "isp",
             "pipeline",
             "io",
+            "charts",
             "metrology",
         ],
     ),

@@ -30,6 +30,9 @@ pub enum Verb {
     Inspect(Inspect),
     /// Compare two results: errors with their uncertainty; exit status 1 where they differ
     Compare(Compare),
+    /// Make a test chart as a scene ready to render, with its truth beside it
+    #[command(subcommand)]
+    Chart(crate::chart_args::Chart),
     /// Measure a part of a camera without rendering
     #[command(subcommand)]
     Measure(Measure),

@@ -5,6 +5,7 @@
 
 mod args;
 mod calibration;
+mod chart_args;
 mod deliver;
 mod facts;
 mod failure;
@@ -40,6 +41,7 @@ fn run(verb: &Verb) -> Result<(), Failure> {
         Verb::Expose(arguments) => verbs::expose::run(arguments),
         Verb::Inspect(arguments) => verbs::inspect::run(arguments),
         Verb::Compare(arguments) => verbs::compare::run(arguments),
+        Verb::Chart(arguments) => verbs::chart::run(arguments),
         Verb::Measure(arguments) => verbs::measure::run(arguments),
         Verb::Schema(arguments) => verbs::schema::run(arguments),
     }

@@ -12,6 +12,7 @@ pub mod film;
 mod fingerprint;
 pub mod gather;
 pub mod light;
+pub mod light_meter;
 pub mod mosaic;
 mod observer;
 pub mod photograph;

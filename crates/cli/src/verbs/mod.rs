@@ -1,5 +1,6 @@
 //! One verb a file.
 
+pub mod chart;
 pub mod compare;
 mod difference;
 pub mod expose;

@@ -12,6 +12,7 @@ fn help_names_every_verb_and_the_exit_statuses() {
         "expose",
         "inspect",
         "compare",
+        "chart",
         "measure",
         "schema",
         "Exit status: 0 done, 1",

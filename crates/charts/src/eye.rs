@@ -1,0 +1,210 @@
+//! A camera as a function from raster points to rays, what it sees of a plane, and its inverse.
+
+use crate::error::ChartError;
+use etendue_core::maths::f64::{cos, tan};
+use glam::{DMat2, DVec2, DVec3};
+
+/// The ray of a raster point, camera frame (x right, y down, z forward; m).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RasterRay {
+    /// Where it begins.
+    pub origin_m: DVec3,
+    /// Unit direction.
+    pub direction: DVec3,
+}
+
+/// A camera: the size of its picture and the ray of each raster point (top left corner 0, 0; pixel centres at +0.5).
+pub struct Eye<'a> {
+    /// Columns and rows.
+    pub size_px: DVec2,
+    /// The ray of a raster point; `None` where no light comes.
+    pub ray: &'a dyn Fn(DVec2) -> Option<RasterRay>,
+}
+
+/// Rays further from the axis than this are not asked to meet the sheet: it would have no end.
+const WIDEST_DEG: f64 = 60.0;
+/// Points of a side at which the picture's border is followed.
+const BORDER: usize = 32;
+/// Points of a side of the lattice from which an inversion starts.
+const LATTICE: usize = 24;
+/// Steps of Newton's method.
+const STEPS: usize = 40;
+/// Newton's method ends at steps below this, px.
+const EXACT_PX: f64 = 1e-9;
+/// Step of the derivative, px.
+const STEP_PX: f64 = 1e-2;
+
+/// What a camera sees of the sheet's plane at a distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Footprint {
+    /// Distance of the plane from the entrance pupil, m.
+    pub distance_m: f64,
+    /// Size of the least rectangle about the sheet's middle around all that is seen, mm.
+    pub outer_mm: DVec2,
+    /// Size of the largest rectangle of that shape of which all is seen, mm.
+    pub inner_mm: DVec2,
+    /// Millimetres that a pixel in the middle of the picture covers.
+    pub pixel_mm: f64,
+    /// Whether the outer rectangle covers the picture; wider cameras see beyond.
+    pub fills: bool,
+}
+
+impl Eye<'_> {
+    /// What is seen of the plane square to the axis at `distance_m`.
+    ///
+    /// # Errors
+    /// Where the camera does not look ahead in the middle of its picture.
+    pub fn footprint(&self, distance_m: f64) -> Result<Footprint, ChartError> {
+        let middle = self.size_px / 2.0;
+        let meets = |at: DVec2| (self.ray)(at).and_then(|ray| on_plane(&ray, distance_m));
+        let ahead = |met: &(DVec2, bool)| met.1;
+        let [left, right] = [-0.5, 0.5].map(|x| meets(middle + DVec2::new(x, 0.0)).filter(ahead));
+        let (Some((left, _)), Some((right, _))) = (left, right) else { return Err(sideways()) };
+        let border: Vec<(DVec2, bool)> = self.border().filter_map(meets).collect();
+        if border.is_empty() {
+            return Err(sideways());
+        }
+        let half = border.iter().fold(DVec2::ZERO, |most, (at, _)| most.max(at.abs()));
+        let share = border.iter().map(|(at, _)| (at.abs() / half).max_element()).fold(1.0, f64::min);
+        let fills = border.len() == 4 * BORDER && border.iter().all(|(_, whole)| *whole);
+        let pixel_mm = 1e3 * (right - left).length();
+        Ok(Footprint { distance_m, outer_mm: 2e3 * half, inner_mm: 2e3 * share * half, pixel_mm, fills })
+    }
+
+    fn border(&self) -> impl Iterator<Item = DVec2> + '_ {
+        let along = (0..BORDER).map(|i| i as f64 / BORDER as f64);
+        let corners = |t: f64| [(t, 0.0), (1.0, t), (1.0 - t, 1.0), (0.0, 1.0 - t)];
+        along.flat_map(corners).map(|(x, y)| DVec2::new(x, y) * self.size_px)
+    }
+
+    /// A lattice of rays from which inversions start.
+    #[must_use]
+    pub fn starts(&self) -> Vec<(DVec2, RasterRay)> {
+        let at = |i: usize| (i as f64 + 0.5) / LATTICE as f64;
+        let points = (0..LATTICE * LATTICE).map(|i| DVec2::new(at(i % LATTICE), at(i / LATTICE)) * self.size_px);
+        points.filter_map(|point| Some((point, (self.ray)(point)?))).collect()
+    }
+
+    /// Where in the raster a point of the camera frame (m) is seen, by Newton's method on the rays; `None` outside the
+    /// picture.
+    #[must_use]
+    pub fn project(&self, starts: &[(DVec2, RasterRay)], point_m: DVec3) -> Option<DVec2> {
+        let near = |ray: &RasterRay| ray.direction.dot((point_m - ray.origin_m).normalize_or_zero());
+        let (start, _) = starts.iter().max_by(|a, b| near(&a.1).total_cmp(&near(&b.1)))?;
+        let found = self.newton(*start, point_m)?;
+        let inside = found.cmpge(DVec2::splat(-EXACT_PX)).all() && found.cmple(self.size_px + EXACT_PX).all();
+        inside.then_some(found)
+    }
+
+    fn newton(&self, start: DVec2, point_m: DVec3) -> Option<DVec2> {
+        let mut at = start;
+        for _ in 0..STEPS {
+            let ray = (self.ray)(at)?;
+            let error = miss(&ray, &ray, point_m)?;
+            let slope = |step: DVec2| {
+                let (sign, other) = [1.0, -1.0].into_iter().find_map(|s| Some((s, (self.ray)(at + s * step)?)))?;
+                Some((miss(&ray, &other, point_m)? - error) * (sign / STEP_PX))
+            };
+            let jacobian = DMat2::from_cols(slope(DVec2::new(STEP_PX, 0.0))?, slope(DVec2::new(0.0, STEP_PX))?);
+            let step = jacobian.inverse() * error;
+            if !step.is_finite() {
+                return None;
+            }
+            // A step across the whole picture is no step of a smooth lens: half of it at most.
+            let longest = self.size_px.max_element() / 2.0;
+            at -= step.clamp_length_max(longest);
+            at = at.clamp(DVec2::splat(-1.0), self.size_px + 1.0);
+            if step.length() < EXACT_PX {
+                return Some(at);
+            }
+        }
+        None
+    }
+}
+
+fn sideways() -> ChartError {
+    let told = "this camera does not look ahead in the middle of its picture, so that no flat chart fills its field: take a camera \
+                without a mirror, or turn its lens forward";
+    ChartError::Camera(told.to_owned())
+}
+
+/// Where a ray meets the plane z = distance, m from the axis, and whether it is near enough to it; farther ones are
+/// taken at the widest angle in their direction.
+fn on_plane(ray: &RasterRay, distance_m: f64) -> Option<(DVec2, bool)> {
+    let widest = WIDEST_DEG.to_radians();
+    let across = ray.direction.truncate();
+    if ray.direction.z > cos(widest) {
+        let t = (distance_m - ray.origin_m.z) / ray.direction.z;
+        return (t > 0.0).then(|| (ray.origin_m.truncate() + t * across, true));
+    }
+    Some((distance_m * tan(widest) * across.normalize_or_zero(), false))
+}
+
+/// By how much a ray's direction misses a point: its parts across the direction in which `about` should look, over its
+/// part along it. `None` for rays that look away.
+fn miss(about: &RasterRay, ray: &RasterRay, point_m: DVec3) -> Option<DVec2> {
+    let axis = (point_m - about.origin_m).try_normalize()?;
+    let (x, y) = axis.any_orthonormal_pair();
+    let towards = (point_m - ray.origin_m).try_normalize()?;
+    let (d, u) = (ray.direction, towards);
+    let (along_d, along_u) = (d.dot(axis), u.dot(axis));
+    (along_d > 0.0 && along_u > 0.0)
+        .then(|| DVec2::new(d.dot(x), d.dot(y)) / along_d - DVec2::new(u.dot(x), u.dot(y)) / along_u)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SIZE: DVec2 = DVec2::new(640.0, 480.0);
+
+    /// A pinhole of 500 px with a barrel.
+    fn barrel(at: DVec2) -> Option<RasterRay> {
+        let p = (at - SIZE / 2.0) / 500.0;
+        let ideal = p * (1.0 + 0.2 * p.length_squared());
+        Some(RasterRay { origin_m: DVec3::ZERO, direction: ideal.extend(1.0).normalize() })
+    }
+
+    #[test]
+    fn projection_inverts_the_rays() {
+        let eye = Eye { size_px: SIZE, ray: &barrel };
+        let starts = eye.starts();
+        for (x, y) in [(0.0, 0.0), (3.25, 470.0), (320.0, 240.0), (639.9, 0.1), (100.7, 300.3)] {
+            let at = DVec2::new(x, y);
+            let ray = barrel(at).expect("everywhere");
+            let found = eye.project(&starts, ray.origin_m + 2.5 * ray.direction).expect("inside");
+            assert!((found - at).length() < 1e-7, "{at} {found}");
+        }
+        assert_eq!(eye.project(&starts, DVec3::new(3.0, 0.0, 1.0)), None);
+        assert_eq!(eye.project(&starts, DVec3::new(0.1, 0.0, -1.0)), None);
+    }
+
+    #[test]
+    fn a_footprint_holds_the_field() {
+        let eye = Eye { size_px: SIZE, ray: &barrel };
+        let seen = eye.footprint(2.0).expect("ahead");
+        // The corner: p = (0.64, 0.48), r² = 0.64, ideal = 1.128 p.
+        assert!((seen.outer_mm - 4000.0 * 1.128 * DVec2::new(0.64, 0.48)).length() < 1e-9, "{seen:?}");
+        // The tightest: the middle of the upper side, ideal y = 0.48 (1 + 0.2 · 0.2304).
+        let share = (1.0 + 0.2 * 0.2304) / 1.128;
+        assert!((seen.inner_mm - share * seen.outer_mm).length() < 1e-9);
+        assert!((seen.pixel_mm - 4.0).abs() < 1e-5 && seen.fills);
+    }
+
+    #[test]
+    fn a_wide_camera_is_taken_to_60_degrees_and_a_sideways_one_refused() {
+        let equidistant = |at: DVec2| {
+            let p = (at - SIZE / 2.0) / 200.0;
+            let theta = p.length();
+            let (s, c) = etendue_core::maths::f64::sin_cos(theta);
+            let across = p.normalize_or_zero() * s;
+            Some(RasterRay { origin_m: DVec3::ZERO, direction: across.extend(c) })
+        };
+        let eye = Eye { size_px: SIZE, ray: &equidistant };
+        let seen = eye.footprint(1.0).expect("ahead");
+        assert!(!seen.fills && (seen.outer_mm.x - 2000.0 * 3.0_f64.sqrt()).abs() < 1e-6, "{seen:?}");
+        let mirrored = |_| Some(RasterRay { origin_m: DVec3::ZERO, direction: DVec3::X });
+        let eye = Eye { size_px: SIZE, ray: &mirrored };
+        assert!(matches!(eye.footprint(1.0), Err(ChartError::Camera(_))));
+    }
+}

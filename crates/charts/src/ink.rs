@@ -1,0 +1,117 @@
+//! Inks: what the pieces of a sheet are printed with, and how that looks under the chart's light.
+
+use crate::light::Light;
+use etendue_spectra::colour::{Lab, lab, linear_srgb_from_xyz};
+use etendue_spectra::observer::{xyz, xyz_of_reflectance};
+use etendue_spectra::{Spectrum, illuminant};
+
+/// An ink and its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ink {
+    /// Letters, digits and `-`: its name in the mesh, the scene and the truth.
+    pub name: String,
+    /// What it does with light.
+    pub paint: Paint,
+}
+
+/// What an ink does with light.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Paint {
+    /// Lambert's law, the same reflectance at all wavelengths, 0 … 1.
+    Grey(f64),
+    /// Lambert's law with a measured reflectance.
+    Spectral(Spectrum),
+    /// Gives light of its own: this share of the light's luminance, in its spectrum. Reflects nothing.
+    Glow(f64),
+    /// Lambert's law with the reflectances of a texture of the drawing; their mean.
+    Texture {
+        /// The texture's place in the drawing's list.
+        texture: usize,
+        /// Mean reflectance.
+        mean: f64,
+    },
+}
+
+impl Ink {
+    /// An ink.
+    #[must_use]
+    pub fn new(name: impl Into<String>, paint: Paint) -> Self {
+        Self { name: name.into(), paint }
+    }
+
+    /// A grey ink.
+    #[must_use]
+    pub fn grey(name: impl Into<String>, reflectance: f64) -> Self {
+        Self::new(name, Paint::Grey(reflectance))
+    }
+
+    /// Radiance of the ink as the light shows it, W·m⁻²·sr⁻¹·nm⁻¹: reflectance × that of the perfect diffuser under even light
+    /// from everywhere.
+    #[must_use]
+    pub fn radiance(&self, light: &Light) -> Spectrum {
+        match &self.paint {
+            Paint::Grey(share) | Paint::Glow(share) | Paint::Texture { mean: share, .. } => {
+                light.radiance().scaled(*share)
+            }
+            Paint::Spectral(reflectance) => light.radiance().product(reflectance),
+        }
+    }
+
+    /// Luminance as the light shows it, cd/m².
+    #[must_use]
+    pub fn luminance_cd_m2(&self, light: &Light) -> f64 {
+        xyz(&self.radiance(light))[1]
+    }
+
+    /// Luminance over the perfect diffuser's: the luminous reflectance.
+    #[must_use]
+    pub fn luminous_share(&self, light: &Light) -> f64 {
+        match &self.paint {
+            Paint::Grey(share) | Paint::Glow(share) | Paint::Texture { mean: share, .. } => *share,
+            Paint::Spectral(reflectance) => xyz_of_reflectance(reflectance, light.spectrum())[1],
+        }
+    }
+
+    /// Linear sRGB of a print of it, white 1, seen in daylight (D65), cut to what a screen can show.
+    #[must_use]
+    pub fn print_rgb(&self) -> [f64; 3] {
+        let own = match &self.paint {
+            Paint::Spectral(reflectance) => linear_srgb_from_xyz(xyz_of_reflectance(reflectance, illuminant::d65())),
+            Paint::Grey(share) | Paint::Glow(share) | Paint::Texture { mean: share, .. } => [*share; 3],
+        };
+        own.map(|v| v.clamp(0.0, 1.0))
+    }
+
+    /// CIELAB with the light itself as white.
+    #[must_use]
+    pub fn lab(&self, light: &Light) -> Lab {
+        let white = xyz_of_reflectance(&Spectrum::constant(1.0), light.spectrum());
+        let own = match &self.paint {
+            Paint::Spectral(reflectance) => xyz_of_reflectance(reflectance, light.spectrum()),
+            _ => white.map(|v| v * self.luminous_share(light)),
+        };
+        lab(own, white)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_spectra::chart::colorchecker;
+
+    #[test]
+    fn greys_and_spectra_are_shown_by_the_light() {
+        let light = Light::named("D65", 1000.0).expect("an illuminant");
+        let grey = Ink::grey("grey", 0.18);
+        assert!((grey.luminance_cd_m2(&light) - 180.0).abs() < 1e-3);
+        // L* = 116 (0.18)^(1/3) − 16 = 49.496.
+        let lab = grey.lab(&light);
+        assert!((lab.l - 49.496).abs() < 1e-3 && lab.a.abs() < 1e-6 && lab.b.abs() < 1e-6, "{lab:?}");
+        let red = Ink::new("red", Paint::Spectral(colorchecker()[14].reflectance.clone()));
+        let share = red.luminous_share(&light);
+        assert!((red.luminance_cd_m2(&light) / 1000.0 / share - 1.0).abs() < 1e-5);
+        // BabelColor's averages: the red patch is near L* 42, a* 54, b* 28.
+        let lab = red.lab(&light);
+        assert!((lab.l - 42.0).abs() < 2.5 && lab.a > 45.0 && lab.b > 18.0, "{lab:?}");
+    }
+}

@@ -1,0 +1,72 @@
+//! The light that a chart stands in, and what a camera makes of it.
+
+use crate::error::ChartError;
+use etendue_spectra::observer::with_luminance;
+use etendue_spectra::{Spectrum, illuminant};
+
+/// The light of a chart: an illuminant at a luminance, that of the perfect diffuser or of the brightest glow.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Light {
+    name: String,
+    radiance: Spectrum,
+    luminance_cd_m2: f64,
+}
+
+impl Light {
+    /// A tabulated illuminant at a luminance.
+    ///
+    /// # Errors
+    /// Where the name is not known or the luminance not above 0.
+    pub fn named(name: &str, luminance_cd_m2: f64) -> Result<Self, ChartError> {
+        let unknown =
+            || ChartError::option("illuminant", name, format!("give one of {}", illuminant::names().join(", ")));
+        let spectrum = illuminant::named(name).ok_or_else(unknown)?;
+        let legal = luminance_cd_m2.is_finite() && luminance_cd_m2 > 0.0;
+        let radiance = with_luminance(spectrum, luminance_cd_m2).filter(|_| legal);
+        let told = || ChartError::option("luminance-cd-m2", luminance_cd_m2, "expected a luminance above 0, cd/m²");
+        Ok(Self { name: name.to_owned(), radiance: radiance.ok_or_else(told)?, luminance_cd_m2 })
+    }
+
+    /// The illuminant's name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Its luminance, cd/m².
+    #[must_use]
+    pub fn luminance_cd_m2(&self) -> f64 {
+        self.luminance_cd_m2
+    }
+
+    /// Radiance of the perfect diffuser, W·m⁻²·sr⁻¹·nm⁻¹.
+    #[must_use]
+    pub fn radiance(&self) -> &Spectrum {
+        &self.radiance
+    }
+
+    /// The spectrum, of any scale.
+    pub(crate) fn spectrum(&self) -> &Spectrum {
+        &self.radiance
+    }
+}
+
+/// What a camera makes of light, in the middle of its picture.
+pub struct Meter<'a> {
+    /// The exposure that its file describes, s.
+    pub exposure_s: f64,
+    /// The longest exposure that it allows, s.
+    pub longest_s: Option<f64>,
+    /// Electrons at which a pixel or its converter is full.
+    pub saturation_e: f64,
+    /// Mean electrons of each channel in that exposure, by its name, for an even radiance, W·m⁻²·sr⁻¹·nm⁻¹.
+    pub electrons: &'a dyn Fn(&Spectrum) -> Vec<(String, f64)>,
+}
+
+impl Meter<'_> {
+    /// The greatest channel's electrons over saturation, for a radiance.
+    #[must_use]
+    pub fn share(&self, radiance: &Spectrum) -> f64 {
+        (self.electrons)(radiance).iter().map(|(_, e)| *e).fold(0.0, f64::max) / self.saturation_e
+    }
+}

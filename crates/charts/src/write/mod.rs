@@ -1,0 +1,92 @@
+//! A drawing as files: meshes, scene, cameras, job, truth, print.
+
+mod job;
+mod obj;
+mod picture;
+mod scene;
+mod svg;
+mod truth;
+
+use crate::design::Chart;
+use crate::drawing::Drawing;
+use crate::error::ChartError;
+use crate::eye::{Eye, Footprint};
+use crate::light::{Light, Meter};
+use crate::station::Station;
+
+pub use picture::picture;
+
+/// What a file holds.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Contents {
+    /// Text.
+    Text(String),
+    /// A grey picture of 16 bits: columns, rows, values row by row.
+    Grey16(usize, usize, Vec<u16>),
+}
+
+/// A file and its name below the chart's folder.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChartFile {
+    /// Its name.
+    pub name: String,
+    /// What it holds.
+    pub contents: Contents,
+}
+
+/// Everything that decides a chart's files.
+pub struct Request<'a> {
+    /// The chart.
+    pub chart: &'a Chart,
+    /// Its drawing.
+    pub drawing: &'a Drawing,
+    /// What the camera sees of its plane.
+    pub seen: Footprint,
+    /// The camera's rays.
+    pub eye: &'a Eye<'a>,
+    /// What the camera makes of light; `None` without electronics.
+    pub meter: Option<&'a Meter<'a>>,
+    /// The light.
+    pub light: &'a Light,
+    /// The cameras of the job.
+    pub stations: &'a [Station],
+    /// The camera file that the job's cameras build on, as a path from the chart's folder.
+    pub camera: &'a str,
+    /// Keys that are taken out of it.
+    pub without: &'a [&'a str],
+    /// The specimen that all cameras of a series share, where the camera file does not say one.
+    pub specimen: Option<u64>,
+    /// The seed.
+    pub seed: u64,
+}
+
+/// The files of a chart.
+///
+/// # Errors
+/// Where the chart cannot be seen by the camera.
+pub fn files(request: &Request<'_>) -> Result<Vec<ChartFile>, ChartError> {
+    let text = |name: &str, text: String| ChartFile { name: name.to_owned(), contents: Contents::Text(text) };
+    let drawing = request.drawing;
+    let mut files = vec![
+        text("job.toml", job::job(request)),
+        text("scene.toml", scene::scene(drawing, request.light)),
+        text("truth.json", truth::truth(request)),
+        text("chart.svg", svg::svg(drawing)),
+    ];
+    files.extend(
+        drawing.panels.iter().enumerate().map(|(i, panel)| text(&format!("{}.obj", panel.name), obj::mesh(drawing, i))),
+    );
+    files.extend(scene::spectra(drawing).into_iter().map(|(name, csv)| text(&name, csv)));
+    files.extend(drawing.textures.iter().map(|texture| ChartFile {
+        name: format!("{}.png", texture.name),
+        contents: Contents::Grey16(texture.width, texture.height, texture.values.clone()),
+    }));
+    files.extend(
+        request
+            .stations
+            .iter()
+            .filter(|s| !s.dark)
+            .map(|station| text(&job::camera_file(station), job::camera(request, station))),
+    );
+    Ok(files)
+}

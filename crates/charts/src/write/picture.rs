@@ -1,0 +1,125 @@
+//! The print as pixels: each pixel the mean of what the pieces cover of it.
+
+use crate::drawing::Drawing;
+use crate::error::ChartError;
+use crate::ink::Paint;
+use crate::shape::{Fill, area, bounds};
+use etendue_core::Plane;
+use etendue_core::quantity::Display;
+use etendue_spectra::colour::encode;
+use glam::DVec2;
+
+/// More pixels than this are taken for a slip.
+const MOST_PX: f64 = 2e8;
+const MM_PER_INCH: f64 = 25.4;
+
+/// The first sheet, sRGB-encoded, at `dpi` pixels an inch. Coverage is exact; colours are mixed in linear light.
+///
+/// # Errors
+/// Where that makes no picture of reasonable size.
+pub fn picture(drawing: &Drawing, dpi: f64) -> Result<Plane<Display>, ChartError> {
+    let sheet = &drawing.panels[0].sheet;
+    let px_per_mm = dpi / MM_PER_INCH;
+    let size = (sheet.size_mm * px_per_mm).round();
+    if !(dpi > 0.0 && size.min_element() >= 1.0 && size.element_product() <= MOST_PX) {
+        let [w, h] = sheet.size_mm.to_array();
+        let told =
+            format!("a sheet of {w:.0} x {h:.0} mm has {:.0} x {:.0} pixels then; expected 1 to 2e8", size.x, size.y);
+        return Err(ChartError::option("png", dpi, told));
+    }
+    let (width, height) = (size.x as usize, size.y as usize);
+    let mut linear = vec![[0.0_f64; 3]; width * height];
+    let scale = size / sheet.size_mm;
+    for piece in &sheet.pieces {
+        let corners: Vec<DVec2> = piece.outline.iter().map(|p| (*p + sheet.size_mm / 2.0) * scale).collect();
+        let ink = match piece.fill {
+            Fill::Ink(ink) => &drawing.inks[ink],
+            Fill::Hole => continue,
+        };
+        let plain = ink.print_rgb();
+        let texture = match ink.paint {
+            Paint::Texture { texture, .. } => Some(&drawing.textures[texture]),
+            _ => None,
+        };
+        let (low, high) = bounds(&corners);
+        cover(&corners, width, height, |x, y, share| {
+            let colour = texture.map_or(plain, |texture| {
+                let at = (DVec2::new(x as f64, y as f64) + 0.5 - low) / (high - low);
+                let place = |t: f64, n: usize| ((t * n as f64).max(0.0) as usize).min(n - 1);
+                let (column, row) = (place(at.x, texture.width), place(at.y, texture.height));
+                [f64::from(texture.values[row * texture.width + column]) / 65_535.0; 3]
+            });
+            let pixel = &mut linear[y * width + x];
+            (0..3).for_each(|c| pixel[c] += share * colour[c]);
+        });
+    }
+    let encoded = linear.into_iter().map(|rgb| rgb.map(|v| encode(v as f32))).collect();
+    Ok(Plane::from_samples(width, height, encoded).expect("one sample a pixel"))
+}
+
+/// Gives `take` each pixel that a convex outline (px) touches, and the share of it that it covers.
+fn cover(outline: &[DVec2], width: usize, height: usize, mut take: impl FnMut(usize, usize, f64)) {
+    let (low, high) = bounds(outline);
+    for y in cells(low.y, high.y, height) {
+        let row = between(outline, DVec2::Y, y as f64);
+        if row.len() < 3 {
+            continue;
+        }
+        let (low, high) = bounds(&row);
+        for x in cells(low.x, high.x, width) {
+            let share = area(&between(&row, DVec2::X, x as f64));
+            if share > 0.0 {
+                take(x, y, share);
+            }
+        }
+    }
+}
+
+fn cells(low: f64, high: f64, count: usize) -> std::ops::Range<usize> {
+    (low.max(0.0) as usize)..(high.ceil().max(0.0) as usize).min(count)
+}
+
+/// What of a convex outline lies from `start` to `start` + 1 along an axis.
+fn between(outline: &[DVec2], axis: DVec2, start: f64) -> Vec<DVec2> {
+    let above = cut(outline, |p| p.dot(axis) - start);
+    cut(&above, |p| start + 1.0 - p.dot(axis))
+}
+
+/// What of a convex outline lies where `side` is positive (Sutherland and Hodgman 1974).
+fn cut(outline: &[DVec2], side: impl Fn(DVec2) -> f64) -> Vec<DVec2> {
+    let mut kept = Vec::with_capacity(outline.len() + 1);
+    for (i, a) in outline.iter().enumerate() {
+        let b = outline[(i + 1) % outline.len()];
+        let (at_a, at_b) = (side(*a), side(b));
+        if at_a >= 0.0 {
+            kept.push(*a);
+        }
+        if (at_a > 0.0 && at_b < 0.0) || (at_a < 0.0 && at_b > 0.0) {
+            kept.push(*a + (b - *a) * (at_a / (at_a - at_b)));
+        }
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shape::disc;
+
+    #[test]
+    fn coverage_is_exact() {
+        let outline = disc(DVec2::new(10.3, 7.7), 5.0, 64, 0.1);
+        let (mut sum, mut largest) = (0.0, 0.0_f64);
+        cover(&outline, 30, 30, |_, _, share| {
+            sum += share;
+            largest = largest.max(share);
+        });
+        assert!((sum / area(&outline) - 1.0).abs() < 1e-12 && (largest - 1.0).abs() < 1e-12);
+        let mut beyond = 0.0;
+        cover(&outline, 10, 30, |x, _, share| {
+            assert!(x < 10);
+            beyond += share;
+        });
+        assert!(beyond < sum && beyond > 0.0);
+    }
+}

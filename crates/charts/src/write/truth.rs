@@ -1,0 +1,231 @@
+//! What is true of a chart: sizes, light, features, patches, and where each camera sees them.
+
+use super::Request;
+use crate::drawing::{Feature, Kind, Patch};
+use crate::eye::RasterRay;
+use crate::ink::{Ink, Paint};
+use crate::panel::Panel;
+use crate::shape::{centroid, disc};
+use crate::station::Station;
+use etendue_core::CameraPose;
+use glam::{DVec2, DVec3};
+use serde_json::{Map, Value, json};
+use std::fmt::Write as _;
+
+/// Points of a dot's outline at which its image is followed.
+const OUTLINE: usize = 32;
+
+/// `truth.json`.
+pub(super) fn truth(request: &Request<'_>) -> String {
+    let drawing = request.drawing;
+    let facts = json!({
+        "format": 1,
+        "program": "etendue",
+        "chart": request.chart.name(),
+        "seed": request.seed,
+        "sizes": drawing.facts,
+        "conventions": {
+            "sheet_mm": "mm, x right, y down as the camera sees it, origin in the sheet's middle",
+            "world_m": "m, x forward, y left, z up",
+            "raster_px": "px, x right, y down, the top-left corner of the picture is (0, 0), pixel centres at +0.5; null: not in the \
+                          picture. By the rays of the ground truth (587.56 nm, through the pupil's centre)",
+            "image_centroids_px": "of discs: the centroid of the disc's image, which is not the image of its centre",
+            "electrons": "mean photo-electrons of a pixel in the middle of the picture, by channel, in the exposure of the camera's own \
+                          file, before every effect of the sensor but its quantum efficiency",
+        },
+        "seen": {
+            "distance_m": request.seen.distance_m,
+            "field_mm": request.seen.outer_mm.to_array(),
+            "whole_field_mm": request.seen.inner_mm.to_array(),
+            "pixel_mm": request.seen.pixel_mm,
+            "fills_the_field": request.seen.fills,
+        },
+        "light": {
+            "kind": if drawing.lit { "even, from everywhere" } else { "the chart's own, in the dark" },
+            "illuminant": request.light.name(),
+            "luminance_cd_m2": request.light.luminance_cd_m2(),
+        },
+        "panels": drawing.panels.iter().map(panel).collect::<Vec<_>>(),
+        "inks": drawing.inks.iter().map(|one| ink(one, request)).collect::<Vec<_>>(),
+        "features": drawing.features.iter().map(|f| feature(f, &drawing.panels)).collect::<Vec<_>>(),
+        "patches": drawing.patches.iter().map(|p| patch(p, request)).collect::<Vec<_>>(),
+        "cameras": cameras(request),
+    });
+    let mut text = String::new();
+    lay_out(&facts, 0, &mut text);
+    text.push('\n');
+    text
+}
+
+/// How deep tables and lists are broken into lines.
+const BROKEN: usize = 3;
+
+/// JSON for people: a line for each entry of what holds tables or long lists, to a depth.
+fn lay_out(value: &Value, depth: usize, text: &mut String) {
+    let indent = "  ".repeat(depth + 1);
+    let mut list = |open: char, close: char, entries: Vec<(String, &Value)>| {
+        text.push(open);
+        for (i, (key, entry)) in entries.iter().enumerate() {
+            let comma = if i == 0 { "" } else { "," };
+            let _ = write!(text, "{comma}\n{indent}{key}");
+            lay_out(entry, depth + 1, text);
+        }
+        let _ = write!(text, "\n{}{close}", "  ".repeat(depth));
+    };
+    match value {
+        Value::Object(map) if depth < BROKEN && !map.is_empty() => {
+            list('{', '}', map.iter().map(|(key, entry)| (format!("{key:?}: "), entry)).collect());
+        }
+        Value::Array(all) if depth < BROKEN && all.iter().any(|v| v.is_object() || v.is_array()) => {
+            list('[', ']', all.iter().map(|entry| (String::new(), entry)).collect());
+        }
+        plain => text.push_str(&plain.to_string()),
+    }
+}
+
+fn panel(panel: &Panel) -> Value {
+    let column = |i: usize| (panel.rotation.col(i) / 1e3).to_array();
+    let rows: [[f64; 4]; 3] = std::array::from_fn(|r| [column(0)[r], column(1)[r], column(2)[r], panel.position_m[r]]);
+    json!({ "name": panel.name, "size_mm": panel.sheet.size_mm.to_array(), "sheet_mm_to_world_m": rows })
+}
+
+fn ink(ink: &Ink, request: &Request<'_>) -> Value {
+    let light = request.light;
+    let lab = ink.lab(light);
+    let kind = match &ink.paint {
+        Paint::Grey(_) => "flat reflectance",
+        Paint::Spectral(_) => "measured reflectance",
+        Paint::Glow(_) => "gives light",
+        Paint::Texture { .. } => "texture, its mean",
+    };
+    let mut facts = json!({
+        "name": ink.name,
+        "kind": kind,
+        "luminous_share": ink.luminous_share(light),
+        "luminance_cd_m2": ink.luminance_cd_m2(light),
+        "lab": [lab.l, lab.a, lab.b],
+    });
+    if let Some(meter) = request.meter {
+        let channels = (meter.electrons)(&ink.radiance(light)).into_iter();
+        facts["electrons"] = channels.map(|(name, electrons)| (name, json!(electrons))).collect::<Map<_, _>>().into();
+    }
+    facts
+}
+
+fn feature(feature: &Feature, panels: &[Panel]) -> Value {
+    let panel = &panels[feature.panel];
+    let mut facts = json!({
+        "kind": feature.kind.name(),
+        "sheet_mm": feature.points_mm.iter().map(|p| p.to_array()).collect::<Vec<_>>(),
+        "world_m": feature.points_mm.iter().map(|p| panel.world_m(*p).to_array()).collect::<Vec<_>>(),
+    });
+    let mut add = |key: &str, value: Option<Value>| {
+        if let Some(value) = value {
+            facts[key] = value;
+        }
+    };
+    add("index", feature.index.map(|i| json!(i)));
+    add("diameter_mm", feature.radius_mm.map(|r| json!(2.0 * r)));
+    add("panel", (feature.panel > 0).then(|| json!(panel.name)));
+    facts
+}
+
+fn patch(patch: &Patch, request: &Request<'_>) -> Value {
+    let ink = &request.drawing.inks[patch.ink];
+    json!({
+        "name": patch.name,
+        "ink": ink.name,
+        "panel": request.drawing.panels[patch.panel].name,
+        "outline_sheet_mm": patch.outline_mm.iter().map(|p| p.to_array()).collect::<Vec<_>>(),
+    })
+}
+
+/// Each camera's pose and exposure, and where it sees what. Cameras of one pose share what they see.
+fn cameras(request: &Request<'_>) -> Vec<Value> {
+    let starts = request.eye.starts();
+    let mut told: Vec<(CameraPose, Map<String, Value>)> = Vec::new();
+    let mut of = |station: &Station| {
+        let pose = station.pose();
+        let known = told.iter().find(|(other, _)| *other == pose).map(|(_, seen)| seen.clone());
+        let seen = known.unwrap_or_else(|| {
+            let view = View { request, starts: &starts, pose };
+            let seen = if station.dark { Map::new() } else { view.seen() };
+            told.push((pose, seen.clone()));
+            seen
+        });
+        let mut facts = camera(request, station, &pose);
+        facts.extend(seen);
+        Value::Object(facts)
+    };
+    request.stations.iter().map(&mut of).collect()
+}
+
+fn camera(request: &Request<'_>, station: &Station, pose: &CameraPose) -> Map<String, Value> {
+    let rows: [[f64; 4]; 3] = std::array::from_fn(|i| {
+        let row = pose.rotation.row(i);
+        [row.x, row.y, row.z, pose.position_m[i]]
+    });
+    let exposure_s = station.exposure_s.or(request.meter.map(|m| m.exposure_s));
+    let white = request
+        .meter
+        .zip(exposure_s)
+        .map(|(meter, exposure_s)| meter.share(request.light.radiance()) * exposure_s / meter.exposure_s);
+    let mut facts = Map::new();
+    facts.insert("name".into(), json!(station.name));
+    facts.insert("file".into(), json!(super::job::camera_file(station)));
+    facts.insert("dark".into(), json!(station.dark));
+    facts.insert("exposure_s".into(), json!(exposure_s));
+    facts.insert("saturation_share_of_the_light".into(), json!(white));
+    facts.insert("camera_to_world".into(), json!(rows));
+    facts
+}
+
+/// A camera in its place.
+struct View<'a> {
+    request: &'a Request<'a>,
+    starts: &'a [(DVec2, RasterRay)],
+    pose: CameraPose,
+}
+
+impl View<'_> {
+    fn seen(&self) -> Map<String, Value> {
+        let drawing = self.request.drawing;
+        let points = |feature: &Feature| {
+            let of = |p: &DVec2| self.raster(&drawing.panels[feature.panel], *p);
+            feature.points_mm.iter().map(of).collect::<Vec<Value>>()
+        };
+        let outline = |patch: &Patch| {
+            let of = |p: &DVec2| self.raster(&drawing.panels[patch.panel], *p);
+            patch.outline_mm.iter().map(of).collect::<Vec<Value>>()
+        };
+        let mut seen = Map::new();
+        if !drawing.features.is_empty() {
+            seen.insert("features_px".into(), drawing.features.iter().map(points).collect());
+        }
+        if drawing.features.iter().any(|f| f.kind == Kind::Dot) {
+            seen.insert("image_centroids_px".into(), drawing.features.iter().map(|f| self.centroid(f)).collect());
+        }
+        if !drawing.patches.is_empty() {
+            seen.insert("patches_px".into(), drawing.patches.iter().map(outline).collect());
+        }
+        seen
+    }
+
+    fn project(&self, panel: &Panel, point_mm: DVec2) -> Option<DVec2> {
+        let point_m: DVec3 = self.pose.rotation.transpose() * (panel.world_m(point_mm) - self.pose.position_m);
+        self.request.eye.project(self.starts, point_m)
+    }
+
+    fn raster(&self, panel: &Panel, point_mm: DVec2) -> Value {
+        self.project(panel, point_mm).map_or(Value::Null, |at| json!(at.to_array()))
+    }
+
+    /// The centroid of a disc's image; null where it is not wholly seen.
+    fn centroid(&self, feature: &Feature) -> Value {
+        let panel = &self.request.drawing.panels[feature.panel];
+        let Some(radius) = feature.radius_mm else { return Value::Null };
+        let outline = disc(feature.points_mm[0], radius, OUTLINE, 0.0);
+        let image: Option<Vec<DVec2>> = outline.iter().map(|p| self.project(panel, *p)).collect();
+        image.map_or(Value::Null, |image| json!(centroid(&image).to_array()))
+    }
+}

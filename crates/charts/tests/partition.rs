@@ -1,0 +1,98 @@
+//! Sheets are partitions: what the pieces cover adds up to the sheet, no point is covered twice, and no corner lies within
+//! another piece's edge.
+
+use etendue_charts::design::{Backlit, Checkerboard, Circles, Dots, FlatField, GridSize};
+use etendue_charts::shape::{Sheet, area};
+use etendue_charts::{Chart, Drawing, Footprint};
+use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
+use glam::DVec2;
+
+fn seen() -> Footprint {
+    Footprint {
+        distance_m: 2.0,
+        outer_mm: DVec2::new(2300.0, 1840.0),
+        inner_mm: DVec2::new(2000.0, 1600.0),
+        pixel_mm: 1.8,
+        fills: true,
+    }
+}
+
+fn charts() -> Vec<Chart> {
+    let size = GridSize::default();
+    let few = GridSize { columns: Some(5), rows: Some(4), pitch_mm: None };
+    vec![
+        Chart::Dots(Dots { size: few, dot_share: 0.5 }),
+        Chart::Checkerboard(Checkerboard { size }),
+        Chart::Circles(Circles { size: few, asymmetric: false }),
+        Chart::Circles(Circles { size, asymmetric: true }),
+        Chart::FlatField(FlatField { reflectance: 0.9 }),
+        Chart::Backlit(Backlit),
+    ]
+}
+
+fn drawings() -> Vec<(&'static str, Drawing)> {
+    charts().iter().map(|chart| (chart.name(), chart.draw(&seen(), 1).expect("a legal chart"))).collect()
+}
+
+fn sheets(drawing: &Drawing) -> impl Iterator<Item = &Sheet> {
+    drawing.panels.iter().map(|panel| &panel.sheet)
+}
+
+#[test]
+fn areas_add_up() {
+    for (name, drawing) in drawings() {
+        for sheet in sheets(&drawing) {
+            let areas: Vec<f64> = sheet.pieces.iter().map(|piece| area(&piece.outline)).collect();
+            let whole = sheet.size_mm.element_product();
+            assert!(areas.iter().all(|a| *a > 0.0), "{name}: a piece is turned over or empty");
+            // Sums of a few thousand areas round to 1e-12.
+            assert!((areas.iter().sum::<f64>() / whole - 1.0).abs() < 1e-9, "{name}");
+        }
+    }
+}
+
+/// By how much a point lies inside a convex outline: its least distance from an edge, negative outside.
+fn depth(outline: &[DVec2], point: DVec2) -> f64 {
+    let next = outline.iter().cycle().skip(1);
+    let inside = |(a, b): (&DVec2, &DVec2)| (*b - *a).normalize().perp_dot(point - *a);
+    outline.iter().zip(next).map(inside).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn no_point_is_covered_twice_or_left_out() {
+    let mut random = NoiseStream::new(1, 0, 0, 0, Pixel { x: 0, y: 0 }, NoiseDraw::Shot);
+    for (name, drawing) in drawings() {
+        for sheet in sheets(&drawing) {
+            for _ in 0..200 {
+                let at = (DVec2::new(random.unit_f64(), random.unit_f64()) - 0.5) * sheet.size_mm;
+                let depths = sheet.pieces.iter().map(|piece| depth(&piece.outline, at));
+                let (mut within, mut near) = (0, false);
+                depths.for_each(|d| {
+                    within += usize::from(d > 0.0);
+                    near |= d.abs() < 1e-9;
+                });
+                assert!(within == 1 || near, "{name}: {at} lies in {within} pieces");
+            }
+        }
+    }
+}
+
+#[test]
+fn neighbours_share_their_corners() {
+    for (name, drawing) in drawings() {
+        for sheet in sheets(&drawing).filter(|sheet| sheet.pieces.len() < 4000) {
+            let corners: Vec<DVec2> = sheet.pieces.iter().flat_map(|piece| piece.outline.iter().copied()).collect();
+            for piece in &sheet.pieces {
+                let next = piece.outline.iter().cycle().skip(1);
+                for (a, b) in piece.outline.iter().zip(next) {
+                    let (along, length) = ((*b - *a).normalize(), (*b - *a).length());
+                    let splits = |c: &DVec2| {
+                        let t = (*c - *a).dot(along);
+                        t > 1e-9 * length && t < length * (1.0 - 1e-9) && along.perp_dot(*c - *a).abs() < 1e-9
+                    };
+                    assert!(!corners.iter().any(splits), "{name}: a corner lies within the edge {a} {b}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! The command line of `etendue chart`, as typed: a subcommand a chart, each with its own options.
+
+use crate::args::Output;
+use clap::{Args, Subcommand, ValueEnum};
+
+/// `etendue chart`
+#[derive(Debug, Subcommand)]
+pub enum Chart {
+    /// Black dots over all of the field: focal length, distortion, chromatic displacement (ISO 17850, ISO 19084)
+    Dots(Dots),
+    /// A checkerboard, all of it in view: calibration
+    Checkerboard(Checkerboard),
+    /// Circles in a square or a staggered lattice, all in view: calibration
+    Circles(Circles),
+    /// An even white sheet in even light: vignetting, shading, photon transfer (ISO 17957, EMVA 1288)
+    FlatField(FlatField),
+    /// A panel that shines by itself in the dark, with a series of exposures: tone curve, photon transfer
+    Backlit(Backlit),
+}
+
+/// What all charts have in common.
+#[derive(Debug, Args)]
+pub struct Common {
+    /// The camera: a camera file (TOML), or a stand-in: web, ccd-mono, ccd-bayer, automotive, laboratory
+    #[arg(long, value_name = "CAMERA.toml", default_value = "web")]
+    pub camera: String,
+    /// Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1]
+    #[arg(long, value_name = "M", conflicts_with = "width_mm", allow_negative_numbers = true)]
+    pub distance_m: Option<f64>,
+    /// Width of what the camera sees of the sheet, mm: the distance follows
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub width_mm: Option<f64>,
+    /// The light's spectrum: D65, A, E, LED-B3, …
+    #[arg(long, value_name = "NAME", default_value = "D65")]
+    pub illuminant: String,
+    /// Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for]
+    #[arg(long, value_name = "CD_M2", conflicts_with = "white", allow_negative_numbers = true)]
+    pub luminance_cd_m2: Option<f64>,
+    /// The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure
+    #[arg(long, value_name = "SHARE", default_value_t = 0.7, allow_negative_numbers = true)]
+    pub white: f64,
+    /// The seed of all random numbers
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
+    pub seed: u64,
+    /// Write the print as chart.png too, at this many pixels an inch
+    #[arg(long, value_name = "DPI", allow_negative_numbers = true)]
+    pub png: Option<f64>,
+    #[command(flatten)]
+    pub output: Output,
+}
+
+/// How many figures, and how far apart.
+#[derive(Debug, Args)]
+pub struct Size {
+    /// Columns [default: as many as the field takes]
+    #[arg(long, value_name = "N")]
+    pub columns: Option<u32>,
+    /// Rows [default: as many as the field takes]
+    #[arg(long, value_name = "N")]
+    pub rows: Option<u32>,
+    /// Distance from centre to centre (of squares: their side), mm [default: what the columns allow]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub pitch_mm: Option<f64>,
+}
+
+/// How many cameras look at the chart.
+#[derive(Debug, Args)]
+pub struct Views {
+    /// Views of the chart: the first square to it, the others tilted by 25 degrees all round
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=200))]
+    pub views: u32,
+}
+
+/// `etendue chart dots`
+#[derive(Debug, Args)]
+pub struct Dots {
+    #[command(flatten)]
+    pub size: Size,
+    /// Diameter of a dot over the distance between centres
+    #[arg(long, value_name = "SHARE", default_value_t = 0.5, allow_negative_numbers = true)]
+    pub dot_share: f64,
+    #[command(flatten)]
+    pub views: Views,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// `etendue chart checkerboard`
+#[derive(Debug, Args)]
+pub struct Checkerboard {
+    #[command(flatten)]
+    pub size: Size,
+    #[command(flatten)]
+    pub views: Views,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// `etendue chart circles`
+#[derive(Debug, Args)]
+pub struct Circles {
+    #[command(flatten)]
+    pub size: Size,
+    /// A staggered lattice: every other cell of each row holds a circle
+    #[arg(long)]
+    pub asymmetric: bool,
+    #[command(flatten)]
+    pub views: Views,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// A series of exposures.
+#[derive(Debug, Args)]
+pub struct Series {
+    /// How many exposures, one camera each
+    #[arg(long, value_name = "N", conflicts_with = "levels", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub exposures: Option<u32>,
+    /// How they are spaced from --lowest to --highest [default: log]
+    #[arg(long, value_enum, conflicts_with = "levels")]
+    pub spacing: Option<Spacing>,
+    /// Share of saturation that white reaches in the shortest [default: 0.003]
+    #[arg(long, value_name = "SHARE", conflicts_with = "levels", allow_negative_numbers = true)]
+    pub lowest: Option<f64>,
+    /// The same in the longest [default: 1.3]
+    #[arg(long, value_name = "SHARE", conflicts_with = "levels", allow_negative_numbers = true)]
+    pub highest: Option<f64>,
+    /// The shares themselves, e.g. 0.01,0.1,0.5,1.2
+    #[arg(long, value_name = "SHARES", value_delimiter = ',', allow_negative_numbers = true)]
+    pub levels: Option<Vec<f64>>,
+}
+
+/// How exposures are spaced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Spacing {
+    /// Equal ratios
+    Log,
+    /// Equal steps
+    Linear,
+}
+
+/// `etendue chart flat-field`
+#[derive(Debug, Args)]
+pub struct FlatField {
+    /// Reflectance of the sheet
+    #[arg(long, value_name = "SHARE", default_value_t = 0.9, allow_negative_numbers = true)]
+    pub reflectance: f64,
+    #[command(flatten)]
+    pub series: Series,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// `etendue chart backlit`
+#[derive(Debug, Args)]
+pub struct Backlit {
+    #[command(flatten)]
+    pub series: Series,
+    /// A dark frame for each exposure
+    #[arg(long)]
+    pub dark: bool,
+    #[command(flatten)]
+    pub common: Common,
+}
