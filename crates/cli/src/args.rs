@@ -1,5 +1,6 @@
 //! The command line, as typed.
 
+use crate::raw_file::Levels;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use etendue_optics::{DepthOfField, FastBlend, FastParameters};
 use std::path::PathBuf;
@@ -26,6 +27,8 @@ pub enum Verb {
     Plan(Plan),
     /// Photograph a stored radiance image (rendered with route = "pupil") by another lens and sensor
     Expose(Expose),
+    /// Make pictures of raws that were taken before, by another processing
+    Develop(Develop),
     /// Say what is in a file, with units; make a picture of it
     Inspect(Inspect),
     /// Compare two results: errors with their uncertainty; exit status 1 where they differ
@@ -148,6 +151,28 @@ pub struct Expose {
     pub output: Output,
 }
 
+/// `etendue develop`
+#[derive(Debug, Args)]
+pub struct Develop {
+    /// Raws (PNG, TIFF, DNG), each with its side-car camera.json beside it
+    #[arg(required = true, value_name = "RAW")]
+    pub raws: Vec<PathBuf>,
+    /// The camera file (TOML) whose sensor took them and whose processing makes the pictures
+    #[arg(long, value_name = "CAMERA.toml")]
+    pub camera: PathBuf,
+    /// Change a key of the camera file, e.g. --set processing.demosaic=malvar
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// For raws without a side-car: digital numbers of no light and of a saturated pixel, e.g. 64..4095
+    #[arg(long, value_name = "BLACK..WHITE", value_parser = levels)]
+    pub levels: Option<Levels>,
+    /// The seed of the paper's noises [default: that of the side-car, or 0]
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    #[command(flatten)]
+    pub output: Output,
+}
+
 /// `etendue inspect`
 #[derive(Debug, Args)]
 pub struct Inspect {
@@ -236,6 +261,15 @@ fn frames(text: &str) -> Result<std::ops::Range<u32>, String> {
     if range.is_empty() { Err(expected()) } else { Ok(range) }
 }
 
+fn levels(text: &str) -> Result<Levels, String> {
+    let expected = || format!("expected BLACK..WHITE with BLACK < WHITE, e.g. 64..4095, not '{text}'");
+    let (black, white) = text.split_once("..").ok_or_else(expected)?;
+    let number = |s: &str| s.trim().parse::<f64>().map_err(|_| expected());
+    let (black_dn, white_dn) = (number(black)?, number(white)?);
+    let legal = black_dn >= 0.0 && black_dn < white_dn && white_dn.is_finite();
+    legal.then_some(Levels { black_dn, white_dn }).ok_or_else(expected)
+}
+
 fn depth_of_field(text: &str) -> Result<DepthOfField, String> {
     match text.split_once(':') {
         None if text == "physical" => Ok(DepthOfField::Physical),
@@ -296,6 +330,8 @@ mod tests {
         assert!(frames("5..5").is_err() && frames("5").is_err() && frames("a..b").is_err());
         assert_eq!(shard("1/3"), Ok((1, 3)));
         assert!(shard("3/3").is_err() && shard("1").is_err());
+        assert_eq!(levels("63.5..4095"), Ok(Levels { black_dn: 63.5, white_dn: 4095.0 }));
+        assert!(["64", "5..5", "-1..5", "0..inf", "a..b"].iter().all(|text| levels(text).is_err()));
     }
 
     #[test]

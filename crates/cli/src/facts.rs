@@ -188,6 +188,7 @@ pub fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>
         "plan_hash": plan.hash_text(),
         "seed": settings.seed,
         "camera": camera.name,
+        "camera_index": camera.index,
         "pose": {
             "camera_to_world": pose_rows(&camera.pose),
             "convention": "camera x right, y down, z forward (OpenCV), origin at the centre of the entrance pupil; \
@@ -393,8 +394,8 @@ fn sensor_effects(sensor: &Sensor) -> BTreeMap<&'static str, String> {
     modelled.map(|need| (need.effect.name(), need.reason)).collect()
 }
 
-/// What a frame says of itself: exposure and gain, levels, and where overflowing charge went.
-pub fn frame(number: u32, raw: &Raw) -> Value {
+/// What a frame says of itself: the file of its raw, exposure and gain, levels, and where overflowing charge went.
+pub fn frame(number: u32, file: Option<String>, raw: &Raw) -> Value {
     let area = raw.picture;
     let account = raw.account.map(|a| {
         json!({
@@ -407,6 +408,7 @@ pub fn frame(number: u32, raw: &Raw) -> Value {
     });
     json!({
         "frame": number,
+        "raw": file,
         "exposure_s": raw.operating_point.exposure_s,
         "analogue_gain": raw.operating_point.analogue_gain,
         "black_level_dn": raw.black_level_dn,

@@ -27,6 +27,7 @@ impl Files {
     pub const DEPTH: &str = "depth.png";
     pub const RAYS: &str = "rays.exr";
     pub const SIDECAR: &str = "camera.json";
+    pub const DEVELOPMENT: &str = "develop.json";
 
     /// The raw picture of a frame.
     pub fn raw(frame: u32, format: RawFormat) -> String {
@@ -41,6 +42,11 @@ impl Files {
     /// The picture of a frame.
     pub fn picture(frame: u32, format: PictureFormat) -> String {
         format!("picture.{frame:04}.{}", format.extension())
+    }
+
+    /// What the picture of a frame holds.
+    pub fn picture_entry(format: PictureFormat) -> Value {
+        entry("sRGB picture", &format!("{} bits", format.bits()))
     }
 
     /// A file of the undistorted twin.
@@ -75,7 +81,7 @@ impl Files {
             add(twin && p.picture, &Self::undistorted(&Self::picture(frame, format)), picture);
             add(p.raw, &Self::raw(frame, p.raw_format), entry_of::<DigitalNumber>());
             add(p.causes, &Self::causes(frame), entry("causes of the digital number, one layer each", "e"));
-            add(p.picture, &Self::picture(frame, format), entry("sRGB picture", &bits));
+            add(p.picture, &Self::picture(frame, format), Self::picture_entry(format));
         }
         files
     }

@@ -5,6 +5,7 @@
 
 mod args;
 mod calibration;
+mod camera_file;
 mod chart_args;
 mod deliver;
 mod facts;
@@ -15,6 +16,7 @@ mod job;
 mod machine;
 mod photographs;
 mod progress;
+mod raw_file;
 mod verbs;
 
 use args::{Arguments, Verb};
@@ -39,6 +41,7 @@ fn run(verb: &Verb) -> Result<(), Failure> {
         Verb::Merge(arguments) => verbs::merge::run(arguments),
         Verb::Plan(arguments) => verbs::plan::run(arguments),
         Verb::Expose(arguments) => verbs::expose::run(arguments),
+        Verb::Develop(arguments) => verbs::develop::run(arguments),
         Verb::Inspect(arguments) => verbs::inspect::run(arguments),
         Verb::Compare(arguments) => verbs::compare::run(arguments),
         Verb::Chart(arguments) => verbs::chart::run(arguments),

@@ -32,7 +32,8 @@ pub struct Wanted<'a> {
     pub undistorted: Option<&'a Twin>,
 }
 
-fn encoded(picture: &Plane<Display>, format: PictureFormat) -> Result<Vec<u8>, EncodeError> {
+/// The file of a picture.
+pub fn encoded(picture: &Plane<Display>, format: PictureFormat) -> Result<Vec<u8>, EncodeError> {
     match format {
         PictureFormat::Jpeg { quality } => encode_jpeg(picture, quality),
         PictureFormat::Png { bits: 8 } => png::encode_display(picture),
@@ -63,7 +64,8 @@ pub fn photographs(
             let count = frame.raw.invalid.len();
             tell(&format!("warning: frame {number}: {count} pixels have no valid light; their digital number is 0\n"));
         }
-        points.push(facts::frame(number, &frame.raw));
+        let file = products.raw.then(|| Files::raw(number, products.raw_format));
+        points.push(facts::frame(number, file, &frame.raw));
         self::frame(body, frame, address(number), wanted, results)?;
     }
     Ok(points)

@@ -3,7 +3,8 @@
 //! From shielded pixels it is their interquartile mean: the mean of what is left without the lowest and the highest
 //! quarter, so that hot and dead pixels do not move it, and yet finer than one digital number. Of Gaussian noise of σ its
 //! standard error is 1.09 σ/√n (Tukey 1962, trimmed means). One level serves the whole picture; what differs from row to
-//! row stays.
+//! row stays. It is at least 1 DN below the white level: a frame whose shielded pixels are saturated (by heat) is a picture all
+//! the same, of which nothing is seen.
 
 use crate::raw::{RawPicture, real};
 
@@ -26,7 +27,8 @@ pub(crate) fn black_level(rule: BlackLevel, raw: &RawPicture<'_>) -> Option<f64>
         BlackLevel::Fixed(dn) => Some(dn),
         BlackLevel::OpticalBlack => {
             let shielded = raw.optical_black.filter(|plane| !plane.samples().is_empty())?;
-            Some(interquartile_mean(shielded.samples().iter().map(|dn| real(*dn)).collect()))
+            let mean = interquartile_mean(shielded.samples().iter().map(|dn| real(*dn)).collect());
+            Some(mean.min(raw.white_level_dn - 1.0))
         }
     }
 }
@@ -67,6 +69,9 @@ mod tests {
         assert!((63.75..=63.8).contains(&found), "{found}");
         assert_eq!(black_level(BlackLevel::Stated, &raw), Some(10.0));
         assert_eq!(black_level(BlackLevel::Fixed(12.5), &raw), Some(12.5));
+        let hot = Plane::filled(4, 4, 255_u8.into());
+        let saturated = RawPicture { optical_black: Some(&hot), ..raw };
+        assert_eq!(black_level(BlackLevel::OpticalBlack, &saturated), Some(254.0));
         let bare = RawPicture { optical_black: None, ..raw };
         assert_eq!(black_level(BlackLevel::OpticalBlack, &bare), None);
     }

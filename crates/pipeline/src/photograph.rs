@@ -3,12 +3,13 @@
 use crate::defocus;
 use crate::effects::{Behind, behind, picture};
 use crate::film::{CubeEstimate, Film};
-use crate::plan::{CameraBody, CameraPlan, Route};
+use crate::plan::{CameraBody, CameraPlan, Development, Route};
 use crate::pupil_depth::PupilDepth;
 use etendue_core::quantity::{Electrons, Irradiance, Length, Radiance, Variance};
 use etendue_core::{Plane, SpectralCube};
 use etendue_isp::paper::PictureAddress;
-use etendue_isp::{Developed, RawPicture, develop};
+pub use etendue_isp::{DevelopError, Developed};
+use etendue_isp::{RawPicture, develop};
 use etendue_optics::front::{Dirt, Front};
 use etendue_optics::{DepthOfField, OpticsError, PupilProjection, Resampling, irradiance};
 use etendue_sensor::{Causes, FrameAddress, Raw, SensorState};
@@ -162,9 +163,12 @@ pub struct Frame {
     pub picture: Option<Developed>,
 }
 
-/// The picture of the part of a raw that light reached, of numbers that are proportional to the reading.
-fn developed(body: &CameraBody, raw: &Raw, address: FrameAddress) -> Option<Developed> {
-    let development = body.development.as_ref()?;
+/// The picture of the part of a raw that light reached, of numbers that are proportional to the reading, by the processing of
+/// a camera. Runs on the caller's pool.
+///
+/// # Errors
+/// Where the raw is not one of the camera's sensor.
+pub fn developed(development: &Development, raw: &Raw, address: FrameAddress) -> Result<Developed, DevelopError> {
     let linear = raw.linear();
     let picture = RawPicture {
         plane: &linear.plane,
@@ -174,8 +178,13 @@ fn developed(body: &CameraBody, raw: &Raw, address: FrameAddress) -> Option<Deve
         optical_black: linear.optical_black.as_ref(),
     };
     let FrameAddress { seed, camera, frame, .. } = address;
-    let address = PictureAddress { seed, camera, frame };
-    Some(develop(&picture, &development.processing, address).expect("a compiled plan's processing fits its sensor"))
+    develop(&picture, &development.processing, PictureAddress { seed, camera, frame })
+}
+
+/// The picture of a frame of the camera's own, where it makes one.
+fn own_picture(body: &CameraBody, raw: &Raw, address: FrameAddress) -> Option<Developed> {
+    let development = body.development.as_ref()?;
+    Some(developed(development, raw, address).expect("a compiled plan's processing fits its sensor"))
 }
 
 /// Takes one frame of `electrons`; the state is passed from frame to frame. `None` where the camera has no
@@ -188,7 +197,7 @@ pub fn take(
     address: FrameAddress,
 ) -> Option<(SensorState, Frame)> {
     let (state, raw) = body.sensor.as_ref()?.step(state, electrons, address);
-    let picture = developed(body, &raw, address);
+    let picture = own_picture(body, &raw, address);
     Some((state, Frame { raw, causes: None, picture }))
 }
 
@@ -201,6 +210,6 @@ pub fn take_with_causes(
     address: FrameAddress,
 ) -> Option<(SensorState, Frame)> {
     let (state, raw, causes) = body.sensor.as_ref()?.step_with_causes(state, electrons, address);
-    let picture = developed(body, &raw, address);
+    let picture = own_picture(body, &raw, address);
     Some((state, Frame { raw, causes: Some(causes), picture }))
 }

@@ -161,6 +161,20 @@ impl Layout {
         Region { x, y, width: width - x, height: height - y }
     }
 
+    /// Columns and rows of the delivered picture of a sensor of `width` × `height` pixels.
+    pub(crate) fn picture_size(&self, width: usize, height: usize) -> (usize, usize) {
+        let (n, m) = self.binning.map_or((1, 1), |b| (b.columns, b.rows));
+        let (width, height) = self.region.map_or((width, height), |r| (r.width, r.height));
+        (width / n, height / m)
+    }
+
+    /// Where a point of the sensor (pixels, the top left corner is 0, 0) lies in the delivered picture.
+    pub(crate) fn in_picture(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let (n, m) = self.binning.map_or((1, 1), |b| (b.columns, b.rows));
+        let (left, top) = self.region.map_or((0, 0), |r| (r.x, r.y));
+        [(x - left as f64) / n as f64, (y - top as f64) / m as f64]
+    }
+
     /// Where pixel (x, y) of the array is found in the raw.
     pub(crate) fn raw_of_array(&self, cfa: &Cfa, (x, y): (usize, usize)) -> Option<(usize, usize)> {
         let along = |i: usize, tile: usize, n: usize| i / (tile * n) * tile + i % tile;
@@ -261,6 +275,18 @@ mod tests {
     }
 
     #[test]
+    fn the_delivered_picture_has_its_size_and_its_coordinates() {
+        let mut p = quiet();
+        p.read_out.layout.region = Some(Region { x: 2, y: 2, width: 8, height: 4 });
+        p.read_out.layout.binning = Some(Binning { columns: 2, rows: 1, of: BinningOf::Numbers });
+        let raw = run(&p, &Plane::filled(10, 6, 500.0), ADDRESS);
+        let sensor = Sensor::new(p).expect("legal");
+        assert_eq!((raw.plane.width(), raw.plane.height()), (4, 4));
+        assert_eq!(sensor.picture_size(10, 6), (4, 4));
+        assert_eq!(sensor.in_picture([5.0, 3.0]), [1.5, 1.0]);
+    }
+
+    #[test]
     fn optical_black_sees_heat_and_no_light() {
         let mut p = quiet();
         p.charge.dark.current_e_s = 10.0 / p.exposure.exposure_s;
@@ -268,6 +294,10 @@ mod tests {
         let raw = run(&p, &Plane::filled(5, 4, 500.0), ADDRESS);
         let black = raw.linear().optical_black.expect("rows without light");
         assert!(black.height() == 2 && black.samples().iter().all(|dn| *dn == 10));
+        p.read_out.layout.optical_black = OpticalBlack { rows: 0, columns: 3 };
+        let beside =
+            run(&p, &Plane::filled(5, 4, 500.0), ADDRESS).linear().optical_black.expect("columns without light");
+        assert!((beside.width(), beside.height()) == (3, 4) && beside.samples().iter().all(|dn| *dn == 10));
         assert_eq!(raw.picture, Region { x: 3, y: 2, width: 5, height: 4 });
         for (x, y) in (0..48).map(|i| (i % 8, i / 8)) {
             assert_eq!(raw.plane.at(x, y), if x >= 3 && y >= 2 { 510 } else { 10 });

@@ -42,18 +42,25 @@ pub struct LinearRaw<'a> {
     pub black_level_dn: f64,
     /// Digital number of a saturated pixel.
     pub white_level_dn: f64,
-    /// The rows above the picture that no light reaches, where there are some.
+    /// The rows above the picture that no light reaches, or else the columns left of it, where there are some.
     pub optical_black: Option<Plane<DigitalNumber>>,
 }
 
 impl Raw {
+    /// The rows above the picture, or else the columns left of it.
+    fn shielded(&self) -> Option<Region> {
+        let Region { x, y, width, height } = self.picture;
+        let above = Region { x, y: 0, width, height: y };
+        let beside = Region { x: 0, y, width: x, height };
+        [above, beside].into_iter().find(|region| region.width > 0 && region.height > 0)
+    }
+
     /// The picture without optical black and without companding.
     #[must_use]
     pub fn linear(&self) -> LinearRaw<'_> {
         let whole = (self.picture.width, self.picture.height) == (self.plane.width(), self.plane.height());
         let part = if whole { Cow::Borrowed(&self.plane) } else { Cow::Owned(self.picture.of(&self.plane)) };
-        let above = Region { x: self.picture.x, y: 0, width: self.picture.width, height: self.picture.y };
-        let optical_black = (above.height > 0).then(|| above.of(&self.plane));
+        let optical_black = self.shielded().map(|region| region.of(&self.plane));
         let Some(curve) = &self.companding else {
             let (black_level_dn, white_level_dn) = (self.black_level_dn, self.white_level_dn);
             return LinearRaw { plane: part, black_level_dn, white_level_dn, optical_black };

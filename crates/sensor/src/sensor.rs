@@ -69,6 +69,18 @@ impl Sensor {
         self.parameters.read_out.layout.errors(&self.parameters.cfa, width, height)
     }
 
+    /// Columns and rows of the delivered picture of a sensor of `width` × `height` pixels: those of its region, binned.
+    #[must_use]
+    pub fn picture_size(&self, width: usize, height: usize) -> (usize, usize) {
+        self.parameters.read_out.layout.picture_size(width, height)
+    }
+
+    /// Where a point of the sensor lies in the delivered picture; raster coordinates of both, px.
+    #[must_use]
+    pub fn in_picture(&self, raster_px: [f64; 2]) -> [f64; 2] {
+        self.parameters.read_out.layout.in_picture(raster_px)
+    }
+
     /// Bits of the numbers that are delivered: the converter's, or those after merging and companding.
     #[must_use]
     pub fn delivered_bits(&self) -> u32 {

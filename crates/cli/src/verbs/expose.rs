@@ -2,24 +2,22 @@
 
 use super::render::{claim, commit, open};
 use crate::args;
+use crate::camera_file;
 use crate::deliver::Results;
 use crate::facts;
 use crate::failure::Failure;
 use crate::files::Files;
-use crate::job::read_text;
 use crate::machine;
 use crate::photographs::{Wanted, photographs};
 use crate::tell;
 use etendue_core::quantity::{Length, Radiance};
 use etendue_core::{Plane, SpectralCube};
+use etendue_io::Provenance;
 use etendue_io::exr::{SpectralImage, read_spectral};
-use etendue_io::{Provenance, load_assets};
 use etendue_optics::{DepthOfField, OpticsError, PupilProjection};
-use etendue_pipeline::compile_camera;
 use etendue_pipeline::defocus::{held_margin_px, margin_px};
 use etendue_pipeline::photograph::{self, Light};
 use etendue_pipeline::plan::{CameraBody, Products, RawFormat};
-use etendue_scene::{Overrides, asset, load_camera};
 use etendue_sensor::FrameAddress;
 use serde_json::json;
 use std::path::Path;
@@ -33,11 +31,18 @@ struct Stored {
     provenance: Provenance,
 }
 
+impl Stored {
+    /// The place of the camera that rendered it in its job; 0 in files of former versions.
+    fn camera_index(&self) -> u32 {
+        self.provenance.further.get("camera_index").and_then(|i| i.parse().ok()).unwrap_or(0)
+    }
+}
+
 pub fn run(arguments: &args::Expose) -> Result<(), Failure> {
-    let body = camera(arguments)?;
+    let body = camera_file::load(&arguments.camera, &arguments.set)?;
     let stored = stored(&arguments.radiance)?;
     let mut folder = open(&arguments.output)?;
-    let name = camera_name(&arguments.camera);
+    let name = camera_file::name(&arguments.camera);
     let files = Files::of(&products(&body), body.picture_format(), &arguments.frames);
     let claimed = files.keys().map(String::as_str).chain([Files::SIDECAR]);
     claim(&folder, claimed.map(|file| format!("{name}/{file}")))?;
@@ -45,18 +50,6 @@ pub fn run(arguments: &args::Expose) -> Result<(), Failure> {
     let pool = machine::pool(None)?;
     pool.install(|| expose(&body, &stored, arguments, &mut results))?;
     commit(folder)
-}
-
-fn camera(arguments: &args::Expose) -> Result<CameraBody, Failure> {
-    let overrides = Overrides::new(&arguments.set);
-    let camera = load_camera(&arguments.camera, &read_text, &overrides).map_err(|f| Failure::inputs(f.list()))?;
-    let assets = load_assets(&asset::of_camera(&camera)).map_err(Failure::inputs)?;
-    compile_camera(&camera, &assets).map_err(Failure::inputs)
-}
-
-/// The camera file's stem: the name of the results' folder.
-fn camera_name(file: &Path) -> String {
-    file.file_stem().map_or_else(|| "camera".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
 /// Everything that the camera can make of the light.
@@ -114,8 +107,7 @@ fn expose(
     results.ghosts(&light, &facts)?;
     let mut points = Vec::new();
     if let Some(electrons) = &light.electrons {
-        let camera = stored.provenance.further.get("camera_index").and_then(|i| i.parse().ok()).unwrap_or(0);
-        let address = |frame| FrameAddress { seed, camera, frame, capture: 0 };
+        let address = |frame| FrameAddress { seed, camera: stored.camera_index(), frame, capture: 0 };
         let products = products(body);
         let wanted = Wanted { products: &products, camera: &results.prefix.clone(), facts: &facts, undistorted: None };
         points = photographs(body, electrons, &arguments.frames, address, wanted, results)?;
@@ -185,6 +177,7 @@ fn sidecar(
         "program": "etendue",
         "version": facts::VERSION,
         "seed": seed,
+        "camera_index": stored.camera_index(),
         "radiance": {
             "plan_hash": stored.provenance.plan_hash,
             "version": stored.provenance.version,

@@ -2,6 +2,7 @@
 
 pub mod chart;
 pub mod compare;
+pub mod develop;
 mod difference;
 pub mod expose;
 pub mod inspect;

@@ -5,8 +5,10 @@
 mod bad_fronts;
 mod bad_input;
 mod bad_lights;
+mod bad_processing;
 mod bad_results;
 mod bytes;
+mod develop;
 mod dropped;
 mod goldens;
 mod help;

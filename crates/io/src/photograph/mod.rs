@@ -4,14 +4,14 @@
 //! | --- | --- | --- | --- |
 //! | PNG, JPEG, TIFF of 8 bits | Y, or R, G, B; A | 0–255 | sRGB-encoded |
 //! | colour PNG, TIFF of 16 bits | R, G, B; A | 0–65 535 | sRGB-encoded |
-//! | grey PNG, TIFF of 16 bits; whole numbers of 32 bits | Y, or R, G, B; A | digital numbers | linear |
+//! | grey PNG, TIFF, DNG of 16 bits; whole numbers of 32 bits | Y, or R, G, B; A | digital numbers | linear |
 //! | TIFF of floats, Radiance HDR | Y, or R, G, B; A | as stored | linear |
 //! | OpenEXR | all, by their full names | as stored | linear |
 //!
 //! A grey picture that a side-car `camera.json` beside it lists as digital numbers is raw: linear, with the levels and the
 //! colour filters that the side-car states. Numbers are not scaled; whole numbers above 2²⁴ are rounded to the nearest float.
-//! The kind is told by the first bytes, not by the name. Left out: DNG and other raw files of cameras, TIFF of several
-//! pictures, of separate planes, or in CMYK, Lab or a palette (refused).
+//! The kind is told by the first bytes, not by the name. Left out: compressed DNG and other raw
+//! files of cameras, TIFF of several pictures, of separate planes, or in CMYK, Lab or a palette (refused).
 
 mod grid;
 mod raw;
@@ -21,7 +21,7 @@ use std::path::Path;
 
 use etendue_spectra::colour;
 
-pub use raw::{FilterTile, RawFacts};
+pub use raw::{FilterTile, RawFacts, RawFrame};
 
 use crate::Error;
 use crate::exr::decode_exr;

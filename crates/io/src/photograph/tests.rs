@@ -96,3 +96,55 @@ fn a_side_car_makes_a_grey_picture_raw() {
     assert_eq!(sidecar("planar depth, 0 is invalid", "64").expect("readable"), None);
     assert!(sidecar("digital number", "null").expect_err("no level").to_string().contains("lacks levels"));
 }
+
+#[test]
+fn a_digital_negative_of_ours_is_grey_of_its_numbers() {
+    let facts = |bits| crate::tiff::DngFacts {
+        camera: "front".into(),
+        software: "etendue".into(),
+        bits,
+        black_level_dn: 64.0,
+        white_level_dn: 4000.0,
+        tile: (bits == 12).then(|| (2, vec![0, 1, 1, 2])),
+        xyz_to_camera: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        neutral: [1.0; 3],
+        active: [0, 0, 2, 2],
+    };
+    for (bits, numbers) in [(12, [64, 100, 4095, 7]), (24, [64, 100, 16_777_215, 7])] {
+        let raw = etendue_core::Plane::from_samples(2, 2, numbers.to_vec()).expect("four pixels");
+        let photograph = read(&crate::tiff::encode_dng(&raw, &facts(bits)).expect("a file")).expect("readable");
+        assert_eq!(photograph.encoding, Encoding::Linear);
+        assert!(photograph.channels[0].samples.iter().map(|v| *v as u32).eq(numbers), "{photograph:?}");
+    }
+    // A file that ends in its directory is told, whatever it says before.
+    let cut = crate::tiff::encode_dng(&etendue_core::Plane::new(2, 2), &facts(12)).expect("a file");
+    assert!((4..60).all(|length| read(&cut[..length]).is_err()));
+}
+
+#[test]
+fn a_side_car_states_the_frame() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("raw.0003.png");
+    let grey = DynamicImage::ImageLuma16(ImageBuffer::from_pixel(1, 1, Luma([100_u16])));
+    std::fs::write(&file, encoded(grey, ImageFormat::Png)).expect("written");
+    let text = r#"{"program": "etendue", "seed": 5, "camera_index": 1,
+        "files": {"raw.0003.png": {"quantity": "digital number"}},
+        "sensor": {"electronics": {"black_level_dn": 1, "white_level_dn": 2, "exposure_s": 3, "bits": 12,
+            "cfa": {"columns": 1, "channels": ["mono"]}}},
+        "frames": [{"frame": 2, "raw": "raw.0002.png"}, {"frame": 3, "raw": "raw.0003.png", "exposure_s": 0.5,
+            "black_level_dn": 10, "white_level_dn": 20, "picture_in_raw_px": [0, 4, 8, 6],
+            "companding_knees_dn": [[8, 8], [64, 16]]}]}"#;
+    std::fs::write(folder.path().join("camera.json"), text).expect("written");
+    let facts = read_photograph(&file).expect("readable").raw.expect("raw");
+    assert_eq!((facts.black_level_dn, facts.white_level_dn, facts.exposure_s), (10.0, 20.0, 0.5));
+    let knees = Some(vec![[8.0, 8.0], [64.0, 16.0]]);
+    let frame = RawFrame {
+        number: 3,
+        seed: 5,
+        camera_index: 1,
+        bits: 12,
+        picture_px: [0, 4, 8, 6],
+        companding_knees_dn: knees,
+    };
+    assert_eq!(facts.frame, Some(frame));
+}

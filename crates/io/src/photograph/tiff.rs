@@ -1,5 +1,7 @@
-//! TIFF of one picture (TIFF 6.0, Adobe 1992), as the tiff crate reads it.
+//! TIFF of one picture (TIFF 6.0, Adobe 1992), as the tiff crate reads it; a DNG of one plain picture, as this program
+//! writes it (Digital Negative 1.4, Adobe 2012), is read as the grey TIFF that it is but for its kind of picture.
 
+use std::borrow::Cow;
 use std::io::Cursor;
 use std::path::Path;
 
@@ -25,7 +27,8 @@ pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
             ),
         )
     };
-    let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(damaged)?.with_limits(limits());
+    let bytes = digital_negative_as_grey(bytes);
+    let mut decoder = Decoder::new(Cursor::new(&bytes[..])).map_err(damaged)?.with_limits(limits());
     let (width, height) = decoder.dimensions().map_err(damaged)?;
     let colour = decoder.colortype().map_err(damaged)?;
     let grey = matches!(colour, ColorType::Gray(_) | ColorType::GrayA(_));
@@ -52,6 +55,38 @@ pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
         encoding: if linear { Encoding::Linear } else { Encoding::Srgb },
         raw: None,
     })
+}
+
+/// The same file with the kind of picture "colour filter array" or "linear raw" replaced by grey, which the tiff crate
+/// knows.
+fn digital_negative_as_grey(bytes: &[u8]) -> Cow<'_, [u8]> {
+    const FILTER_ARRAY: u16 = 32_803;
+    const LINEAR_RAW: u16 = 34_892;
+    const BLACK_IS_ZERO: u16 = 1;
+    let big = bytes.starts_with(b"MM");
+    let Some((at, kind)) = kind_of_picture(bytes, big) else { return Cow::Borrowed(bytes) };
+    if kind != FILTER_ARRAY && kind != LINEAR_RAW {
+        return Cow::Borrowed(bytes);
+    }
+    let mut grey = bytes.to_vec();
+    let value = if big { BLACK_IS_ZERO.to_be_bytes() } else { BLACK_IS_ZERO.to_le_bytes() };
+    grey[at..at + 2].copy_from_slice(&value);
+    Cow::Owned(grey)
+}
+
+/// Where the first directory of a plain TIFF states the kind of picture, and which it is.
+fn kind_of_picture(bytes: &[u8], big: bool) -> Option<(usize, u16)> {
+    const KIND: u16 = 262;
+    const ENTRY: usize = 12;
+    let short = |at: usize| {
+        let two: [u8; 2] = bytes.get(at..at.checked_add(2)?)?.try_into().ok()?;
+        Some(if big { u16::from_be_bytes(two) } else { u16::from_le_bytes(two) })
+    };
+    let long: [u8; 4] = bytes.get(4..8)?.try_into().ok()?;
+    let directory = if big { u32::from_be_bytes(long) } else { u32::from_le_bytes(long) } as usize;
+    let entries = directory + 2..directory + 2 + ENTRY * usize::from(short(directory)?);
+    let entry = entries.step_by(ENTRY).find(|at| short(*at) == Some(KIND))?;
+    Some((entry + 8, short(entry + 8)?))
 }
 
 /// Room for 400 megapixels of RGB floats.

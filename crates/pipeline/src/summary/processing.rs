@@ -8,20 +8,28 @@ use std::fmt::{self, Formatter};
 
 /// Writes the lines of a camera's development.
 pub(super) fn processing(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
-    let Some(Development { mosaic, processing, format }) = &camera.body.development else {
+    let Some(development) = &camera.body.development else {
         return line(f, "processing", "none: no picture is made");
     };
-    let steps = corrections(processing)
-        .into_iter()
-        .chain(colour(processing, mosaic))
-        .chain([format!("gain {}", processing.exposure_gain)])
-        .chain(paper(processing, Stage::Linear))
-        .chain([tone(&processing.tone)])
-        .chain(processing.sharpening.map(|s| format!("unsharp mask of {} px by {}", s.radius_px, s.amount)))
-        .chain(paper(processing, Stage::Display))
-        .chain([written(*format)]);
-    line(f, "processing", steps.collect::<Vec<_>>().join(", "))?;
-    line(f, "left out", left_out(processing))
+    line(f, "processing", development.to_string())?;
+    line(f, "left out", left_out(&development.processing))
+}
+
+/// The steps, in their order.
+impl fmt::Display for Development {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { mosaic, processing, format } = self;
+        let steps = corrections(processing)
+            .into_iter()
+            .chain(colour(processing, mosaic))
+            .chain([format!("gain {}", processing.exposure_gain)])
+            .chain(paper(processing, Stage::Linear))
+            .chain([tone(&processing.tone)])
+            .chain(processing.sharpening.map(|s| format!("unsharp mask of {} px by {}", s.radius_px, s.amount)))
+            .chain(paper(processing, Stage::Display))
+            .chain([written(*format)]);
+        f.write_str(&steps.collect::<Vec<_>>().join(", "))
+    }
 }
 
 fn corrections(p: &Processing) -> Vec<String> {

@@ -1,8 +1,8 @@
 //! Black level, defects and shading.
 
 use super::super::context::Context;
+use super::Delivered;
 use etendue_isp::{BlackLevel, Defects, Shading};
-use etendue_projection::Raster;
 use etendue_scene::Placed;
 use etendue_scene::asset::NumbersAsset;
 use etendue_scene::record;
@@ -46,17 +46,17 @@ fn has_shielded_pixels(sensor: &Sensor) -> bool {
     dark.rows + dark.columns > 0
 }
 
-pub(super) fn defects(record: &record::Processing, raster: &Raster, context: &mut Context<'_>) -> Option<Defects> {
+pub(super) fn defects(record: &record::Processing, picture: &Delivered, context: &mut Context<'_>) -> Option<Defects> {
     let map = match &record.defect_map {
         None => Vec::new(),
-        Some(file) => defect_map(file, raster, context)?,
+        Some(file) => defect_map(file, picture, context)?,
     };
     Some(Defects { map, outlier_threshold: record.defect_outlier_threshold.as_ref().map(|t| t.value) })
 }
 
-fn defect_map(file: &Placed<PathBuf>, raster: &Raster, context: &mut Context<'_>) -> Option<Vec<[u32; 2]>> {
+fn defect_map(file: &Placed<PathBuf>, picture: &Delivered, context: &mut Context<'_>) -> Option<Vec<[u32; 2]>> {
     let table = table(file, 2, "columns and rows of defective pixels", context)?;
-    let (width, height) = (raster.width(), raster.height());
+    let Delivered { width, height, .. } = *picture;
     let inside = |row: &[f64]| {
         let whole = row.iter().all(|v| *v >= 0.0 && v.fract() == 0.0);
         (whole && row[0] < width as f64 && row[1] < height as f64).then_some([row[0] as u32, row[1] as u32])
@@ -71,13 +71,13 @@ fn defect_map(file: &Placed<PathBuf>, raster: &Raster, context: &mut Context<'_>
 
 pub(super) fn shading(
     record: Option<&description::Shading>,
-    raster: &Raster,
+    picture: &Delivered,
     context: &mut Context<'_>,
 ) -> Option<Option<Shading>> {
     let Some(record) = record else { return Some(None) };
     let (shading, place) = match &record.table {
         ShadingTable::Radial(gains) => {
-            let centre_px = record.centre_px.as_ref().map_or(raster.principal_px().to_array(), |c| c.value);
+            let centre_px = record.centre_px.as_ref().map_or(picture.principal_px, |c| c.value);
             (Shading::Radial { centre_px, gains: gains.iter().map(|g| g.value).collect() }, &record.place)
         }
         ShadingTable::Grid(file) => {

@@ -7,7 +7,7 @@ mod tone;
 
 use super::context::Context;
 use crate::plan::{Development, PictureFormat};
-use etendue_isp::{Bilateral, Mosaic, NoiseReduction, Processing, ToneCurve, Unsharp};
+use etendue_isp::{Bilateral, NoiseReduction, Processing, ToneCurve, Unsharp};
 use etendue_projection::Raster;
 use etendue_scene::record;
 use etendue_scene::record::processing::detail::NoiseReductionKind;
@@ -22,9 +22,10 @@ pub(super) fn development(
     context: &mut Context<'_>,
 ) -> Option<Development> {
     let before = context.faults.len();
+    let picture = Delivered::of(sensor, raster);
     let black_level = correction::black_level(record.black_level.as_ref(), sensor, context);
-    let defects = correction::defects(record, raster, context);
-    let shading = correction::shading(record.shading.as_ref(), raster, context);
+    let defects = correction::defects(record, &picture, context);
+    let shading = correction::shading(record.shading.as_ref(), &picture, context);
     let mosaic = colour::mosaic(record, sensor, context);
     let colour = mosaic.as_ref().and_then(|mosaic| colour::colour(record, sensor, mosaic, context));
     let tone = record.tone_curve.as_ref().map_or(Some(ToneCurve::Srgb), |curve| tone::tone_curve(curve, context));
@@ -46,20 +47,24 @@ pub(super) fn development(
         sharpening: record.sharpening.as_ref().map(sharpening),
         paper_filters: paper_filters?,
     };
-    fits(record, &processing, &mosaic, raster, context)?;
+    // What is accepted here fails in no frame.
+    context.accept(&record.place, processing.check(&mosaic, picture.width, picture.height))?;
     Some(Development { mosaic, processing, format: format(record) })
 }
 
-/// Whether development will work, so that no frame fails.
-fn fits(
-    record: &record::Processing,
-    processing: &Processing,
-    mosaic: &Mosaic,
-    raster: &Raster,
-    context: &mut Context<'_>,
-) -> Option<()> {
-    let (width, height) = (raster.width(), raster.height());
-    context.accept(&record.place, processing.check(mosaic, width, height))
+/// The picture that a sensor delivers: its region, binned.
+struct Delivered {
+    width: usize,
+    height: usize,
+    /// Where the optical axis meets it, px.
+    principal_px: [f64; 2],
+}
+
+impl Delivered {
+    fn of(sensor: &Sensor, raster: &Raster) -> Self {
+        let (width, height) = sensor.picture_size(raster.width(), raster.height());
+        Self { width, height, principal_px: sensor.in_picture(raster.principal_px().to_array()) }
+    }
 }
 
 fn noise_reduction(record: &description::NoiseReduction) -> NoiseReduction {

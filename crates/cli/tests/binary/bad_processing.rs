@@ -1,0 +1,165 @@
+//! Faults of `[processing]`: each is told with its file, line and key, and nothing is written.
+
+use crate::bad_input::Spoilt;
+use crate::support::Ran;
+
+const WHITE_BALANCE: &str = "white_balance = \"D65\"";
+const MATRIX: &str = "colour_matrix = { fit = \"D65\" }";
+
+/// The small job with `keys` in place of its white balance.
+fn with(keys: &str) -> (Spoilt, String) {
+    let spoilt = Spoilt::new();
+    let place = spoilt.spoil("small.toml", WHITE_BALANCE, keys);
+    (spoilt, place)
+}
+
+fn plan(spoilt: &Spoilt) -> Ran {
+    crate::support::etendue(["plan".to_owned(), spoilt.job()])
+}
+
+/// The job with this key in its processing is refused at the line of the key, in these words.
+#[track_caller]
+fn refused(keys: &str, phrases: &[&str]) {
+    let (spoilt, place) = with(keys);
+    let key = keys.split(" =").next().unwrap_or(keys);
+    plan(&spoilt).refused(&[&[place.as_str(), "cameras.front.processing", key], phrases].concat());
+}
+
+/// The same with a table beside the job.
+#[track_caller]
+fn table_refused(keys: &str, table: &str, phrases: &[&str]) {
+    let (spoilt, place) = with(keys);
+    spoilt.write("table.csv", table);
+    plan(&spoilt).refused(&[&[place.as_str()], phrases].concat());
+}
+
+/// A monochrome sensor with this processing is refused.
+#[track_caller]
+fn mono_refused(keys: &str, phrases: &[&str]) {
+    let (spoilt, _) = with(keys);
+    spoilt.spoil("small.toml", &format!("{MATRIX}\n"), "\n");
+    spoilt.spoil("small.toml", "cfa = \"rggb\"", "cfa = \"mono\"");
+    spoilt.spoil("small.toml", "{ camera = \"nikon-d5100\", peak = 0.5 }", "0.5");
+    plan(&spoilt).refused(&[&["small.toml:"], phrases].concat());
+}
+
+#[test]
+fn black_levels_that_cannot_be() {
+    refused("black_level = 4095", &["4095", "4024", "below"]);
+    refused("black_level = -1", &["-1"]);
+    refused("black_level = \"dark\"", &["optical_black"]);
+    refused("black_level = \"optical_black\"", &["no optical-black rows"]);
+}
+
+#[test]
+fn corrections_that_cannot_be() {
+    refused("defect_outlier_threshold = 0", &["above 0"]);
+    table_refused("defect_map = \"table.csv\"", "x,y\n3,4\n46,4\n", &["defect_map", "outside the picture of 46 × 30"]);
+    table_refused("defect_map = \"table.csv\"", "x,y\n3,4.5\n", &["defect_map", "whole numbers"]);
+    table_refused("defect_map = \"table.csv\"", "x,y,z\n3,4,5\n", &["defect_map", "3 columns", "expected 2"]);
+    refused("shading = { radial_gains = [1, 0.9] }", &["0.9", "1"]);
+    refused("shading = { radial_gains = [1] }", &["radial_gains"]);
+    table_refused("shading = { grid = \"table.csv\" }", "1,1\n1,0.5\n", &["shading", "0.5", "at least 1"]);
+    table_refused("shading = { grid = \"table.csv\" }", "1,1,2\n", &["shading", "two by two"]);
+    table_refused("shading = { grid = \"table.csv\", centre_px = [1, 2] }", "1,1\n1,1\n", &["centre_px", "no effect"]);
+    refused("defect_map = \"none.csv\"", &["none.csv"]);
+}
+
+#[test]
+fn the_defect_map_is_that_of_the_delivered_picture() {
+    let (spoilt, _) = with("defect_map = \"table.csv\"");
+    spoilt.write("table.csv", "x,y\n22,14\n");
+    spoilt.spoil("small.toml", "bits = 12", "bits = 12\nbinning = { columns = 1, rows = 3, of = \"numbers\" }");
+    plan(&spoilt).refused(&["small.toml:", "defect_map", "46 × 10"]);
+    spoilt.write("table.csv", "x,y\n22,9\n");
+    plan(&spoilt).ok();
+}
+
+#[test]
+fn colours_that_cannot_be() {
+    refused("white_balance = [0.5, 1, 2]", &["below 1", "divide"]);
+    refused("white_balance = [1, 2]", &["2 numbers", "3 channels"]);
+    refused("white_balance = \"moonlight\"", &["moonlight", "grey_world"]);
+    refused("demosaic = \"best\"", &["best", "hamilton_adams"]);
+    let (spoilt, _) = with(WHITE_BALANCE);
+    let place = spoilt.spoil("small.toml", MATRIX, "colour_matrix = [[1, 0], [0, 1], [1, 0]]");
+    plan(&spoilt).refused(&[&place, "colour_matrix", "2 numbers", "3 channels"]);
+}
+
+#[test]
+fn colours_of_a_monochrome_sensor() {
+    mono_refused("demosaic = \"malvar\"", &["demosaic", "monochrome", "remove it"]);
+    mono_refused(WHITE_BALANCE, &["white_balance", "no effect", "monochrome"]);
+}
+
+#[test]
+fn other_filter_arrays_than_bayer() {
+    let rccb = |keys: &str, matrix: &str| {
+        let (spoilt, place) = with(keys);
+        spoilt.spoil("small.toml", MATRIX, matrix);
+        spoilt.spoil("small.toml", "cfa = \"rggb\"", "cfa = \"rccb\"");
+        let quantum_efficiency = "{ channels = { red = 0.3, clear = 0.6, blue = 0.25 } }";
+        spoilt.spoil("small.toml", "{ camera = \"nikon-d5100\", peak = 0.5 }", quantum_efficiency);
+        (plan(&spoilt), place)
+    };
+    let (refused, place) = rccb("demosaic = \"malvar\"", "colour_matrix = [[1, 0, 0], [-1, 2, -1], [0, 0, 1]]");
+    refused.refused(&[&place, "demosaic", "Bayer", "bilinear"]);
+    rccb("white_balance = \"D65\"", "").0.refused(&["small.toml:", "not red, green and blue", "colour_matrix"]);
+    rccb("white_balance = \"D65\"", MATRIX).0.refused(&["small.toml:", "colour_matrix", "look the same"]);
+    let own = rccb("white_balance = \"D65\"", "colour_matrix = [[1, 0, 0], [-1, 0, 2], [0, 1, 0]]").0.ok();
+    assert!(own.out.contains("colour matrix"), "{}", own.out);
+}
+
+#[test]
+fn detail_that_cannot_be() {
+    refused("noise_reduction = { bilateral_px = 2 }", &["range"]);
+    refused("noise_reduction = { median_px = 4 }", &["3"]);
+    refused("noise_reduction = { median_px = 1, range = 0.1 }", &["range", "no effect"]);
+    refused("sharpening = { amount = 0, radius_px = 1 }", &["amount", "above 0"]);
+    refused("sharpening = { amount = 1 }", &["radius_px"]);
+    refused("exposure_gain = 0", &["above 0"]);
+}
+
+#[test]
+fn tone_curves_that_cannot_be() {
+    refused("tone_curve = { gamma = 0 }", &["gamma", "above 0"]);
+    refused("tone_curve = { contrast = 1.5, midpoint = 1 }", &["midpoint"]);
+    refused("tone_curve = { gamma = 2, midpoint = 0.4 }", &["midpoint", "no effect"]);
+    let (table, oecf) = ("tone_curve = { table = \"table.csv\" }", "tone_curve = { oecf = \"table.csv\" }");
+    table_refused(table, "0,0\n0.6,0.5\n0.5,0.7\n1,1\n", &["tone_curve", "point 3", "rise"]);
+    table_refused(table, "0,0\n0.5,0.7\n1,0.6\n", &["tone_curve", "point 3", "never fall"]);
+    table_refused(table, "0.1,0\n1,1\n", &["tone_curve", "from input 0 to input 1"]);
+    table_refused(table, "0,0,0\n1,1,1\n", &["tone_curve", "3 columns"]);
+    table_refused(oecf, "1,10\n2,300\n", &["tone_curve", "largest level"]);
+    table_refused(oecf, "0,10\n2,200\n", &["tone_curve", "above 0"]);
+}
+
+#[test]
+fn pictures_that_cannot_be_written() {
+    refused("picture_bits = 9", &["8", "16"]);
+    refused("picture_bits = 24", &["8", "16"]);
+    refused("picture_format = \"tiff\"", &["png", "jpeg"]);
+    refused("picture_bits = 16\npicture_format = \"jpeg\"", &["JPEG", "16 bits", "png"]);
+    refused("jpeg_quality = 90", &["no effect", "jpeg"]);
+    refused("jpeg_quality = 0\npicture_format = \"jpeg\"", &["1"]);
+}
+
+#[test]
+fn filters_of_the_paper_that_cannot_be() {
+    let filter = |keys: &str, phrases: &[&str]| refused(&format!("paper_filters = [{{ filter = {keys} }}]"), phrases);
+    filter("\"pulse_noise\", amplitude_dn = 10, probability = 0.51", &["probability", "0.5"]);
+    filter("\"pulse_noise\", amplitude_dn = 256, probability = 0.1", &["amplitude_dn", "255"]);
+    filter("\"gaussian_noise\", sigma_dn = -1", &["sigma_dn"]);
+    filter("\"uniform_noise\", range = 2.5", &["range", "2"]);
+    filter("\"tone_map\", original_factor = 1.1", &["original_factor", "1"]);
+    filter("\"tone_map\", original_factor = 0.4, gain = 0", &["gain", "above 0"]);
+    filter("\"colour\", operations = []", &["operations"]);
+    filter("\"colour\", operations = [{ to = \"rgb_ntsc\" }]", &["RGB NTSC", "linear light", "on"]);
+    filter("\"colour\", on = \"linear\", operations = [{ from = \"yuv\" }]", &["YUV", "encoded pictures"]);
+    filter("\"colour\", operations = [{ to = \"cmyk\" }]", &["cmyk", "cmy"]);
+    filter("\"colour\", operations = [{ saturation = -1 }]", &["saturation"]);
+    filter("\"glow\", percentile = 0, target = 1, threshold = 1, radius_px = 1, strength = 1", &["percentile"]);
+    filter("\"sepia\"", &["sepia", "glow"]);
+    let late = "\"uniform_noise\", range = 1 }, { filter = \"tone_map\", original_factor = 0";
+    filter(late, &["filter 2", "linear light", "first"]);
+}

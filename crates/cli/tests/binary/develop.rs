@@ -1,0 +1,232 @@
+//! `etendue develop`: raws of every kind again, and raws that contradict their camera.
+
+use crate::support::{Ran, contents, etendue, text};
+use std::fs;
+use std::path::Path;
+use tempfile::TempDir;
+
+const CAMERA: &str = r#"
+format = 1
+[lens]
+model = "thin"
+focal_length_mm = 6
+f_number = 2
+focus_distance_m = 5
+[sensor]
+width_px = 32
+height_px = 24
+pixel_pitch_um = 150
+exposure_s = 1e-7
+frame_period_s = 1e-3
+cfa = "rggb"
+quantum_efficiency = { camera = "nikon-d5100", peak = 0.5 }
+full_well_e = 12_000
+read_noise_e = 4
+dark_current_e_s = 10
+gain_dn_per_e = 0.33
+black_level_dn = 64
+bits = 12
+[processing]
+white_balance = "D65"
+colour_matrix = { fit = "D65" }
+exposure_gain = 1.5
+[[processing.paper_filters]]
+filter = "pulse_noise"
+amplitude_dn = 40
+probability = 0.1
+"#;
+
+/// Shielded rows, and an exposure that changes from frame to frame.
+const MONO: &str = r#"
+[sensor.optical_black]
+rows_px = 4
+[sensor.auto_exposure]
+percentile = 0.9
+target = 0.5
+damping = 0.7
+exposure_limits_s = [1e-8, 1e-4]
+gain_limits = [1, 8]
+"#;
+
+/// Numbers of 20 bits in 12, and two by two pixels in one.
+const HDR: &str = r#"
+[sensor.hdr]
+merged_bits = 20
+captures = [{ exposure_share = 0.01 }]
+[sensor.companding]
+bits = 12
+knees = [[512, 512], [4096, 1408], [65536, 2368], [1048575, 4095]]
+[sensor.binning]
+columns = 2
+rows = 2
+of = "numbers"
+"#;
+
+const JOB: &str = r#"
+format = 1
+[scene]
+environment = { type = "uniform", luminance_cd_m2 = 8000, illuminant = "D65" }
+[[scene.materials]]
+name = "ground"
+type = "diffuse"
+reflectance = [0.4, 0.2, 0.1]
+[[scene.objects]]
+name = "ground"
+shape = { type = "quad", size_m = [30, 30] }
+material = "ground"
+[render]
+spp = 4
+level = "direct"
+[output]
+raw = true
+picture = true
+"#;
+
+/// A folder with the job, its cameras, and what was rendered of it: two frames of each camera.
+struct Shots {
+    place: TempDir,
+}
+
+impl Shots {
+    fn taken() -> Self {
+        let shots = Self { place: tempfile::tempdir().expect("a temporary folder") };
+        let colour = "white_balance = \"D65\"\ncolour_matrix = { fit = \"D65\" }\n";
+        let mono = CAMERA
+            .replace("cfa = \"rggb\"", "cfa = \"mono\"")
+            .replace("{ camera = \"nikon-d5100\", peak = 0.5 }", "0.5")
+            .replace(colour, "black_level = \"optical_black\"\n");
+        shots.write("bayer.toml", CAMERA);
+        shots.write("mono.toml", &format!("{mono}{MONO}"));
+        shots.write("hdr.toml", &format!("{CAMERA}{HDR}"));
+        let setup = |(name, format)| {
+            format!(
+                "[[cameras]]\nname = \"{name}\"\nfile = \"{name}.toml\"\nposition_m = [0, 0, 1.5]\n\
+                 look_at_m = [6, 0, 0.9]\noutput = {{ raw_format = \"{format}\" }}\n"
+            )
+        };
+        let cameras = [("bayer", "dng"), ("mono", "tiff"), ("hdr", "png")].map(setup).concat();
+        shots.write("job.toml", &format!("{JOB}\n{cameras}"));
+        etendue(["render", &shots.path("job.toml"), "-o", &shots.path("out"), "--frames", "0..2", "--seed", "9"]).ok();
+        shots
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        fs::write(self.place.path().join(name), text).expect("written");
+    }
+
+    fn path(&self, name: &str) -> String {
+        text(&self.place.path().join(name))
+    }
+
+    /// Develops raws, named from the folder, into the folder `made`.
+    fn develop(&self, raws: &[&str], camera: &str, options: &[&str]) -> Ran {
+        let raws: Vec<String> = raws.iter().map(|raw| self.path(raw)).collect();
+        let rest = ["--camera", &self.path(camera), "-o", &self.path("made"), "--overwrite"].map(str::to_owned);
+        let options = options.iter().map(|option| (*option).to_owned());
+        etendue(["develop".to_owned()].into_iter().chain(raws).chain(rest).chain(options))
+    }
+
+    /// Refused for these reasons, and nothing was written.
+    #[track_caller]
+    fn refused(&self, raws: &[&str], camera: &str, options: &[&str], phrases: &[&str]) {
+        self.develop(raws, camera, options).refused(phrases);
+        assert!(contents(Path::new(&self.path("made"))).is_empty(), "something was written");
+    }
+}
+
+#[test]
+fn every_kind_of_raw_gives_the_same_picture_again() {
+    let shots = Shots::taken();
+    for (camera, extension) in [("bayer", "dng"), ("mono", "tif"), ("hdr", "png")] {
+        let raws = [0, 1].map(|frame| format!("out/{camera}/raw.000{frame}.{extension}"));
+        shots.develop(&raws.each_ref().map(String::as_str), &format!("{camera}.toml"), &[]).ok();
+        let (own, made) = (shots.path(&format!("out/{camera}")), shots.path(&format!("made/{camera}")));
+        let (own, made) = (contents(Path::new(&own)), contents(Path::new(&made)));
+        for picture in ["picture.0000.png", "picture.0001.png"] {
+            assert!(own[picture] == made[picture], "{camera}: {picture} has other bytes");
+        }
+        assert_ne!(made["picture.0000.png"], made["picture.0001.png"], "frames have their own noise");
+        let facts: serde_json::Value = serde_json::from_slice(&made["develop.json"]).expect("JSON");
+        assert_eq!((&facts["frames"][1]["frame"], &facts["frames"][1]["seed"]), (&1.into(), &9.into()));
+    }
+}
+
+#[test]
+fn another_processing_gives_another_picture() {
+    let shots = Shots::taken();
+    let developed = |options: &[&str]| {
+        shots.develop(&["out/bayer/raw.0000.dng"], "bayer.toml", options).ok();
+        let mut files = contents(Path::new(&shots.path("made/bayer")));
+        fs::remove_dir_all(shots.path("made")).expect("removed");
+        files.remove("develop.json");
+        files
+    };
+    let plain = developed(&[]);
+    for option in [
+        "processing.demosaic=malvar",
+        "processing.white_balance=grey_world",
+        "processing.tone_curve=linear",
+        "processing.sharpening={ amount = 1, radius_px = 1 }",
+        "processing.noise_reduction={ median_px = 1 }",
+        "processing.black_level=20",
+        "processing.shading={ radial_gains = [1, 2] }",
+        "processing.defect_outlier_threshold=0.02",
+        "processing.picture_bits=16",
+        "processing.picture_format=jpeg",
+    ] {
+        assert_ne!(developed(&["--set", option]), plain, "{option}");
+    }
+    assert_ne!(developed(&["--seed", "8"]), plain, "the paper's noises have the seed");
+}
+
+#[test]
+fn a_raw_without_a_side_car_needs_its_levels() {
+    let shots = Shots::taken();
+    let (raw, lone) = ("out/bayer/raw.0000.dng", "lone.dng");
+    fs::copy(shots.path(raw), shots.path(lone)).expect("copied");
+    shots.refused(&[lone], "bayer.toml", &[], &["lone.dng", "camera.json", "--levels"]);
+    shots.refused(&[raw], "bayer.toml", &["--levels", "64..4024"], &["raw.0000.dng", "leave --levels out"]);
+    shots.refused(&[lone], "bayer.toml", &["--levels", "64..64"], &["--levels", "BLACK < WHITE"]);
+    shots.refused(&[lone], "hdr.toml", &["--levels", "64..4024"], &["lone.dng", "companded", "side-car"]);
+    shots.develop(&[lone], "bayer.toml", &["--levels", "64..4024", "--seed", "9"]).ok();
+    let picture = |folder: &str| fs::read(shots.path(&format!("{folder}/bayer/picture.0000.png"))).expect("a picture");
+    assert!(picture("made") == picture("out"), "levels, seed and frame are those of the side-car");
+}
+
+#[test]
+fn raws_that_contradict_their_camera_are_refused() {
+    let shots = Shots::taken();
+    let (bayer, hdr) = ("out/bayer/raw.0000.dng", "out/hdr/raw.0000.png");
+    let sidecar = shots.path("out/bayer/camera.json");
+    shots.refused(&[bayer], "mono.toml", &[], &[bayer, "red green green blue", "mono", "the camera that took it"]);
+    shots.refused(&[hdr], "bayer.toml", &[], &[hdr, "companding", "the camera that took it"]);
+    shots.refused(&[bayer], "bayer.toml", &["--set", "sensor.width_px=40"], &[bayer, "32 × 24", "40 × 24"]);
+    shots.refused(&[bayer, bayer], "bayer.toml", &[], &[bayer, "another raw is frame 0"]);
+    shots.refused(&["out/bayer/camera.json"], "bayer.toml", &[], &["camera.json", "not a picture"]);
+    shots.refused(&["out/bayer/none.png"], "bayer.toml", &[], &["none.png"]);
+    let colour = ["--levels", "0..255"];
+    shots.refused(&["out/bayer/picture.0000.png"], "bayer.toml", &colour, &["picture.0000.png", "grey", "R, G, B"]);
+    let optical = ["--set", "processing.black_level=optical_black"];
+    shots.refused(&[bayer], "bayer.toml", &optical, &["processing.black_level", "optical-black"]);
+
+    let said = fs::read_to_string(&sidecar).expect("a side-car");
+    let spoilt = |from: &str, to: &str, phrases: &[&str]| {
+        let raw = "out/bayer/raw.0001.dng";
+        let text = said.replace(from, to);
+        assert_ne!(text, said, "the side-car lacks {from}");
+        fs::write(&sidecar, text).expect("written");
+        shots.refused(&[raw], "bayer.toml", &[], &[&[raw], phrases].concat());
+    };
+    spoilt("\"raw\": \"raw.0001.dng\"", "\"raw\": null", &["former version", "render again"]);
+    spoilt("\"bits\": 12", "\"bits\": 8", &["bits", "the camera that took it"]);
+    spoilt("\"white_level_dn\": 4024.0", "\"white_level_dn\": 64.0", &["white must be above black"]);
+    spoilt("        32,\n        24\n", "        32,\n        25\n", &["32 × 25 pixels at column 0", "32 × 24"]);
+}
+
+#[test]
+fn a_camera_without_processing_makes_no_pictures() {
+    let shots = Shots::taken();
+    let at = CAMERA.find("[processing]").expect("a processing");
+    shots.write("plain.toml", &CAMERA[..at]);
+    shots.refused(&["out/bayer/raw.0000.dng"], "plain.toml", &[], &["plain.toml", "[processing]", "add it"]);
+}
