@@ -81,6 +81,12 @@ pub struct Patch {
 pub struct Texture {
     /// Its name.
     pub name: String,
+    /// The name of its file; textures of the same numbers share one.
+    pub file: String,
+    /// On which panel.
+    pub panel: usize,
+    /// Where on it the picture lies, by its top left and bottom right corners, mm; it is mirrored beyond.
+    pub place_mm: (DVec2, DVec2),
     /// Columns.
     pub width: usize,
     /// Rows.
@@ -140,6 +146,12 @@ impl Drawing {
             spp: 64,
             facts: Map::new(),
         }
+    }
+
+    /// Whether it can be printed: it is one flat sheet.
+    #[must_use]
+    pub fn is_flat(&self) -> bool {
+        self.panels.len() == 1
     }
 
     /// Notes a size or setting for the truth.

@@ -24,15 +24,6 @@ impl Panel {
         Self { name: name.into(), sheet, position_m: DVec3::X * distance_m, rotation }
     }
 
-    /// The same turned about the vertical through its middle: its right side comes nearer by positive angles.
-    #[must_use]
-    pub fn turned(mut self, yaw_rad: f64) -> Self {
-        let (sin, cos) = etendue_core::maths::f64::sin_cos(yaw_rad);
-        let about_y = DMat3::from_cols(DVec3::new(cos, 0.0, -sin), DVec3::Y, DVec3::new(sin, 0.0, cos));
-        self.rotation *= about_y;
-        self
-    }
-
     /// A point of the sheet (mm) in the world, m.
     #[must_use]
     pub fn world_m(&self, point_mm: DVec2) -> DVec3 {

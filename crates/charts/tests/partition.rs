@@ -1,7 +1,10 @@
 //! Sheets are partitions: what the pieces cover adds up to the sheet, no point is covered twice, and no corner lies within
 //! another piece's edge.
 
-use etendue_charts::design::{Backlit, Checkerboard, Circles, Dots, FlatField, GridSize};
+use etendue_charts::design::{
+    Backlit, Checkerboard, Circles, ColorChecker, ContrastPatches, DeadLeaves, DepthWedge, Dots, Flare, FlatField,
+    GridSize, OecfSteps, Points, SiemensStar, SlantedEdges, SlantedStar,
+};
 use etendue_charts::shape::{Sheet, area};
 use etendue_charts::{Chart, Drawing, Footprint};
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
@@ -27,6 +30,19 @@ fn charts() -> Vec<Chart> {
         Chart::Circles(Circles { size, asymmetric: true }),
         Chart::FlatField(FlatField { reflectance: 0.9 }),
         Chart::Backlit(Backlit),
+        Chart::SlantedEdges(SlantedEdges { size, angle_deg: 5.0, contrast: 4.0 }),
+        Chart::SlantedEdges(SlantedEdges { size: few, angle_deg: -43.0, contrast: 40.0 }),
+        Chart::SlantedStar(SlantedStar { size, spokes: 8, angle_deg: 5.0, contrast: 4.0 }),
+        Chart::SiemensStar(SiemensStar { cycles: 36, binary: false }),
+        Chart::SiemensStar(SiemensStar { cycles: 12, binary: true }),
+        Chart::DeadLeaves(DeadLeaves { smallest_px: 20.0, largest_share: 0.2 }),
+        Chart::OecfSteps(OecfSteps { steps: 12, density: 2.0, backlit: false }),
+        Chart::OecfSteps(OecfSteps { steps: 20, density: 3.0, backlit: true }),
+        Chart::ColorChecker(ColorChecker),
+        Chart::ContrastPatches(ContrastPatches { size, decades: 3.0 }),
+        Chart::Flare(Flare { size, trap_share: 0.25 }),
+        Chart::Points(Points { size: few, diameter_px: 0.5 }),
+        Chart::DepthWedge(DepthWedge { steps: 5, far_ratio: 3.0 }),
     ]
 }
 

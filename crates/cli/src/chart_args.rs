@@ -16,6 +16,26 @@ pub enum Chart {
     FlatField(FlatField),
     /// A panel that shines by itself in the dark, with a series of exposures: tone curve, photon transfer
     Backlit(Backlit),
+    /// Squares turned by a small angle over the field: spatial frequency response by place and direction (ISO 12233)
+    SlantedEdges(SlantedEdges),
+    /// Stars of slanted wedges: spatial frequency response in many directions (ISO 12233)
+    SlantedStar(SlantedStar),
+    /// A star of many cycles: modulation over spatial frequency (ISO 12233)
+    SiemensStar(SiemensStar),
+    /// Discs upon discs, with the statistics of natural scenes: loss of texture (ISO 19567-2)
+    DeadLeaves(DeadLeaves),
+    /// Grey steps around a ring: opto-electronic conversion function (ISO 14524)
+    OecfSteps(OecfSteps),
+    /// The 24 patches of the ColorChecker by their measured spectra: colour error
+    Colorchecker(Plain),
+    /// Shining grey patches over several decades: contrast detection probability
+    ContrastPatches(ContrastPatches),
+    /// A white field with light traps: veiling glare (ISO 18844)
+    Flare(Flare),
+    /// Small lamps in the dark: point-spread function, chromatic displacement
+    Points(Points),
+    /// A staircase and a slanted plane with texture at known distances: depth
+    DepthWedge(DepthWedge),
 }
 
 /// What all charts have in common.
@@ -159,6 +179,137 @@ pub struct Backlit {
     /// A dark frame for each exposure
     #[arg(long)]
     pub dark: bool,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// A chart without options of its own.
+#[derive(Debug, Args)]
+pub struct Plain {
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// `etendue chart slanted-edges`
+#[derive(Debug, Args)]
+pub struct SlantedEdges {
+    #[command(flatten)]
+    pub size: Size,
+    /// By how much the squares are turned clockwise, degrees, -45 … 45
+    #[arg(long, value_name = "DEG", default_value_t = 5.0, allow_negative_numbers = true)]
+    pub angle_deg: f64,
+    /// Luminance of light over dark
+    #[arg(long, value_name = "RATIO", default_value_t = 4.0, allow_negative_numbers = true)]
+    pub contrast: f64,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// `etendue chart slanted-star`
+#[derive(Debug, Args)]
+pub struct SlantedStar {
+    #[command(flatten)]
+    pub size: Size,
+    /// Dark wedges of a star
+    #[arg(long, value_name = "N", default_value_t = 8)]
+    pub spokes: u32,
+    /// Direction of the first edge from the level, clockwise, degrees, -45 … 45
+    #[arg(long, value_name = "DEG", default_value_t = 5.0, allow_negative_numbers = true)]
+    pub angle_deg: f64,
+    /// Luminance of light over dark
+    #[arg(long, value_name = "RATIO", default_value_t = 4.0, allow_negative_numbers = true)]
+    pub contrast: f64,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// `etendue chart siemens-star`
+#[derive(Debug, Args)]
+pub struct SiemensStar {
+    /// Cycles around the centre
+    #[arg(long, value_name = "N", default_value_t = 72)]
+    pub cycles: u32,
+    /// In black and white instead of a cosine
+    #[arg(long)]
+    pub binary: bool,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// `etendue chart dead-leaves`
+#[derive(Debug, Args)]
+pub struct DeadLeaves {
+    /// Radius of the smallest leaves, px
+    #[arg(long, value_name = "PX", default_value_t = 1.0, allow_negative_numbers = true)]
+    pub smallest_px: f64,
+    /// Radius of the largest leaves over the side of the chart
+    #[arg(long, value_name = "SHARE", default_value_t = 0.2, allow_negative_numbers = true)]
+    pub largest_share: f64,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// `etendue chart oecf-steps`
+#[derive(Debug, Args)]
+pub struct OecfSteps {
+    /// How many steps
+    #[arg(long, value_name = "N", default_value_t = 12)]
+    pub steps: u32,
+    /// Density of the darkest step [default: 2, with --backlit 3]
+    #[arg(long, value_name = "D", allow_negative_numbers = true)]
+    pub density: Option<f64>,
+    /// A transparency on a light box in the dark instead of a print in even light
+    #[arg(long)]
+    pub backlit: bool,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// `etendue chart contrast-patches`
+#[derive(Debug, Args)]
+pub struct ContrastPatches {
+    #[command(flatten)]
+    pub size: Size,
+    /// Decades of luminance from the brightest patch to the darkest
+    #[arg(long, value_name = "N", default_value_t = 3.0, allow_negative_numbers = true)]
+    pub decades: f64,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// `etendue chart flare`
+#[derive(Debug, Args)]
+pub struct Flare {
+    #[command(flatten)]
+    pub size: Size,
+    /// Diameter of a trap's opening over the distance between traps
+    #[arg(long, value_name = "SHARE", default_value_t = 0.25, allow_negative_numbers = true)]
+    pub trap_share: f64,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// `etendue chart points`
+#[derive(Debug, Args)]
+pub struct Points {
+    #[command(flatten)]
+    pub size: Size,
+    /// Diameter of a lamp, px of the picture's middle
+    #[arg(long, value_name = "PX", default_value_t = 0.5, allow_negative_numbers = true)]
+    pub diameter_px: f64,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// `etendue chart depth-wedge`
+#[derive(Debug, Args)]
+pub struct DepthWedge {
+    /// Steps of the staircase
+    #[arg(long, value_name = "N", default_value_t = 8)]
+    pub steps: u32,
+    /// Distance of the farthest panel over that of the nearest
+    #[arg(long, value_name = "RATIO", default_value_t = 3.0, allow_negative_numbers = true)]
+    pub far_ratio: f64,
     #[command(flatten)]
     pub common: Common,
 }

@@ -7,9 +7,18 @@
 
 mod checkerboard;
 mod circles;
+mod dead_leaves;
+mod depth_wedge;
 mod dots;
+mod flare;
 mod flat;
 mod grid;
+mod oecf_steps;
+mod patches;
+mod points;
+mod siemens_star;
+mod slanted_edges;
+mod slanted_star;
 
 use crate::drawing::Drawing;
 use crate::error::ChartError;
@@ -17,9 +26,18 @@ use crate::eye::Footprint;
 
 pub use checkerboard::Checkerboard;
 pub use circles::Circles;
+pub use dead_leaves::DeadLeaves;
+pub use depth_wedge::DepthWedge;
 pub use dots::Dots;
+pub use flare::Flare;
 pub use flat::{Backlit, FlatField};
 pub use grid::GridSize;
+pub use oecf_steps::OecfSteps;
+pub use patches::{ColorChecker, ContrastPatches};
+pub use points::Points;
+pub use siemens_star::SiemensStar;
+pub use slanted_edges::SlantedEdges;
+pub use slanted_star::SlantedStar;
 
 /// A chart: the closed list.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +52,26 @@ pub enum Chart {
     FlatField(FlatField),
     /// An even panel that shines by itself.
     Backlit(Backlit),
+    /// Squares with slanted edges over the field.
+    SlantedEdges(SlantedEdges),
+    /// Stars of slanted wedges.
+    SlantedStar(SlantedStar),
+    /// A star of many cycles.
+    SiemensStar(SiemensStar),
+    /// Discs upon discs.
+    DeadLeaves(DeadLeaves),
+    /// Grey steps around a ring.
+    OecfSteps(OecfSteps),
+    /// 24 measured colours.
+    ColorChecker(ColorChecker),
+    /// Shining greys over decades.
+    ContrastPatches(ContrastPatches),
+    /// White with light traps.
+    Flare(Flare),
+    /// Small lamps in the dark.
+    Points(Points),
+    /// Panels at known distances.
+    DepthWedge(DepthWedge),
 }
 
 impl Chart {
@@ -46,6 +84,16 @@ impl Chart {
             Self::Circles(_) => "circles",
             Self::FlatField(_) => "flat-field",
             Self::Backlit(_) => "backlit",
+            Self::SlantedEdges(_) => "slanted-edges",
+            Self::SlantedStar(_) => "slanted-star",
+            Self::SiemensStar(_) => "siemens-star",
+            Self::DeadLeaves(_) => "dead-leaves",
+            Self::OecfSteps(_) => "oecf-steps",
+            Self::ColorChecker(_) => "colorchecker",
+            Self::ContrastPatches(_) => "contrast-patches",
+            Self::Flare(_) => "flare",
+            Self::Points(_) => "points",
+            Self::DepthWedge(_) => "depth-wedge",
         }
     }
 
@@ -53,13 +101,23 @@ impl Chart {
     ///
     /// # Errors
     /// Where a size or number is one that the chart cannot have.
-    pub fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
+    pub fn draw(&self, seen: &Footprint, seed: u64) -> Result<Drawing, ChartError> {
         match self {
             Self::Dots(chart) => chart.draw(seen),
             Self::Checkerboard(chart) => chart.draw(seen),
             Self::Circles(chart) => chart.draw(seen),
             Self::FlatField(chart) => chart.draw(seen),
             Self::Backlit(chart) => Ok(chart.draw(seen)),
+            Self::SlantedEdges(chart) => chart.draw(seen),
+            Self::SlantedStar(chart) => chart.draw(seen),
+            Self::SiemensStar(chart) => chart.draw(seen),
+            Self::DeadLeaves(chart) => chart.draw(seen, seed),
+            Self::OecfSteps(chart) => chart.draw(seen),
+            Self::ColorChecker(chart) => chart.draw(seen),
+            Self::ContrastPatches(chart) => chart.draw(seen),
+            Self::Flare(chart) => chart.draw(seen),
+            Self::Points(chart) => chart.draw(seen),
+            Self::DepthWedge(chart) => chart.draw(seen, seed),
         }
     }
 }
@@ -76,4 +134,18 @@ const BLACK: f64 = 0.03;
 fn share(option: &'static str, value: f64) -> Result<f64, ChartError> {
     let legal = (0.0..=1.0).contains(&value);
     legal.then_some(value).ok_or_else(|| ChartError::option(option, value, "expected a share, 0 … 1"))
+}
+
+/// An angle that edges are turned by, degrees, in radians.
+fn angle(degrees: f64) -> Result<f64, ChartError> {
+    let legal = (-45.0..=45.0).contains(&degrees);
+    legal.then_some(degrees.to_radians()).ok_or_else(|| ChartError::option("angle-deg", degrees, "expected -45 … 45"))
+}
+
+/// A ratio of luminances.
+fn contrast(ratio: f64) -> Result<f64, ChartError> {
+    let legal = ratio > 1.0 && ratio <= 1000.0;
+    legal
+        .then_some(ratio)
+        .ok_or_else(|| ChartError::option("contrast", ratio, "expected a ratio above 1 and up to 1000"))
 }

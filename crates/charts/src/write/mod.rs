@@ -9,7 +9,6 @@ mod truth;
 
 use crate::design::Chart;
 use crate::drawing::Drawing;
-use crate::error::ChartError;
 use crate::eye::{Eye, Footprint};
 use crate::light::{Light, Meter};
 use crate::station::Station;
@@ -61,32 +60,33 @@ pub struct Request<'a> {
 }
 
 /// The files of a chart.
-///
-/// # Errors
-/// Where the chart cannot be seen by the camera.
-pub fn files(request: &Request<'_>) -> Result<Vec<ChartFile>, ChartError> {
+#[must_use]
+pub fn files(request: &Request<'_>) -> Vec<ChartFile> {
     let text = |name: &str, text: String| ChartFile { name: name.to_owned(), contents: Contents::Text(text) };
     let drawing = request.drawing;
     let mut files = vec![
         text("job.toml", job::job(request)),
         text("scene.toml", scene::scene(drawing, request.light)),
         text("truth.json", truth::truth(request)),
-        text("chart.svg", svg::svg(drawing)),
     ];
-    files.extend(
-        drawing.panels.iter().enumerate().map(|(i, panel)| text(&format!("{}.obj", panel.name), obj::mesh(drawing, i))),
-    );
+    if drawing.is_flat() {
+        files.push(text("chart.svg", svg::svg(drawing)));
+    }
+    let meshes = drawing.panels.iter().enumerate();
+    files.extend(meshes.map(|(i, panel)| text(&format!("{}.obj", panel.name), obj::mesh(drawing, i))));
     files.extend(scene::spectra(drawing).into_iter().map(|(name, csv)| text(&name, csv)));
-    files.extend(drawing.textures.iter().map(|texture| ChartFile {
-        name: format!("{}.png", texture.name),
-        contents: Contents::Grey16(texture.width, texture.height, texture.values.clone()),
-    }));
-    files.extend(
-        request
-            .stations
-            .iter()
-            .filter(|s| !s.dark)
-            .map(|station| text(&job::camera_file(station), job::camera(request, station))),
-    );
-    Ok(files)
+    for texture in &drawing.textures {
+        if files.iter().all(|file| file.name != texture.file) {
+            let contents = Contents::Grey16(texture.width, texture.height, texture.values.clone());
+            files.push(ChartFile { name: texture.file.clone(), contents });
+        }
+    }
+    let lit = request.stations.iter().filter(|station| !station.dark);
+    for station in lit {
+        let name = job::camera_file(station);
+        if files.iter().all(|file| file.name != name) {
+            files.push(text(&name, job::camera(request, station)));
+        }
+    }
+    files
 }

@@ -4,6 +4,7 @@ use crate::drawing::Drawing;
 use crate::ink::{Ink, Paint};
 use crate::light::Light;
 use etendue_spectra::Spectrum;
+use glam::DVec2;
 use std::fmt::Write as _;
 
 /// The scene file.
@@ -19,10 +20,11 @@ pub(super) fn scene(drawing: &Drawing, light: &Light) -> String {
         text.push('\n');
     }
     for texture in &drawing.textures {
-        let name = &texture.name;
+        let (scale, offset) = mapping(drawing.panels[texture.panel].sheet.size_mm, texture.place_mm);
         let _ = write!(
             text,
-            "\n[[textures]]\nname = \"{name}\"\nfile = \"{name}.png\"\nencoding = \"linear\"\nwrap = \"clamp\"\n"
+            "\n[[textures]]\nname = \"{}\"\nfile = \"{}\"\nencoding = \"linear\"\nwrap = \"mirror\"\nuv_scale = {scale:?}\nuv_offset = {offset:?}\n",
+            texture.name, texture.file
         );
     }
     for ink in &drawing.inks {
@@ -38,6 +40,14 @@ pub(super) fn scene(drawing: &Drawing, light: &Light) -> String {
         );
     }
     text
+}
+
+/// How often a picture stands along a sheet's u and v, and where in the picture the sheet's lower left corner lies.
+fn mapping(size_mm: DVec2, (low, high): (DVec2, DVec2)) -> ([f64; 2], [f64; 2]) {
+    let scale = size_mm / (high - low);
+    // The sheet's left and lower edges, from the picture's left and lower ones; y runs down.
+    let corner = DVec2::new(-size_mm.x / 2.0 - low.x, high.y - size_mm.y / 2.0);
+    (scale.to_array(), (corner / (high - low)).to_array())
 }
 
 /// A luminance in the light's colour, its keys parted by `between`.

@@ -24,7 +24,7 @@ pub(super) fn svg(drawing: &Drawing) -> String {
     path(&mut text, sheet, Fill::Hole, "#000000");
     for (i, ink) in drawing.inks.iter().enumerate() {
         if let Paint::Texture { texture, .. } = ink.paint {
-            pictures(&mut text, sheet, i, &drawing.textures[texture].name);
+            pictures(&mut text, sheet, i, &drawing.textures[texture].file);
         }
     }
     text.push_str("</svg>\n");
@@ -51,13 +51,13 @@ fn path(text: &mut String, sheet: &Sheet, fill: Fill, colour: &str) {
 }
 
 /// A texture over all of the sheet, shown where its ink is; textured pieces are rectangles.
-fn pictures(text: &mut String, sheet: &Sheet, ink: usize, name: &str) {
+fn pictures(text: &mut String, sheet: &Sheet, ink: usize, file: &str) {
     for piece in sheet.pieces.iter().filter(|piece| piece.fill == Fill::Ink(ink)) {
         let (low, high) = crate::shape::bounds(&piece.outline);
         let DVec2 { x: w, y: h } = high - low;
         let _ = writeln!(
             text,
-            "<image href=\"{name}.png\" x=\"{}\" y=\"{}\" width=\"{w}\" height=\"{h}\" preserveAspectRatio=\"none\"/>",
+            "<image href=\"{file}\" x=\"{}\" y=\"{}\" width=\"{w}\" height=\"{h}\" preserveAspectRatio=\"none\"/>",
             low.x, low.y
         );
     }

@@ -1,7 +1,10 @@
 //! From the command line to a chart, its light and its exposures.
 
 use crate::chart_args::{self, Common, Series, Size};
-use etendue_charts::design::{Backlit, Checkerboard, Circles, Dots, FlatField, GridSize};
+use etendue_charts::design::{
+    Backlit, Checkerboard, Circles, ColorChecker, ContrastPatches, DeadLeaves, DepthWedge, Dots, Flare, FlatField,
+    GridSize, OecfSteps, Points, SiemensStar, SlantedEdges, SlantedStar,
+};
 use etendue_charts::{Chart, ChartError, Drawing, Exposures, Light, Meter, Spacing};
 
 /// What is asked for.
@@ -28,29 +31,18 @@ impl<'a> Choice<'a> {
     /// What the arguments ask for.
     pub(super) fn of(arguments: &'a chart_args::Chart) -> Result<Self, ChartError> {
         use chart_args::Chart as Asked;
-        let plain = |chart, common| Self { chart, common, views: 1, dark: false, exposures: None, usual: false };
+        let (chart, common) = chart(arguments);
+        let plain = Self { chart, common, views: 1, dark: false, exposures: None, usual: false };
         Ok(match arguments {
-            Asked::Dots(a) => {
-                let chart = Chart::Dots(Dots { size: size(&a.size), dot_share: a.dot_share });
-                Self { views: a.views.views, ..plain(chart, &a.common) }
-            }
-            Asked::Checkerboard(a) => {
-                let chart = Chart::Checkerboard(Checkerboard { size: size(&a.size) });
-                Self { views: a.views.views, ..plain(chart, &a.common) }
-            }
-            Asked::Circles(a) => {
-                let chart = Chart::Circles(Circles { size: size(&a.size), asymmetric: a.asymmetric });
-                Self { views: a.views.views, ..plain(chart, &a.common) }
-            }
-            Asked::FlatField(a) => {
-                let chart = Chart::FlatField(FlatField { reflectance: a.reflectance });
-                Self { exposures: exposures(&a.series, None)?, ..plain(chart, &a.common) }
-            }
+            Asked::Dots(a) => Self { views: a.views.views, ..plain },
+            Asked::Checkerboard(a) => Self { views: a.views.views, ..plain },
+            Asked::Circles(a) => Self { views: a.views.views, ..plain },
+            Asked::FlatField(a) => Self { exposures: exposures(&a.series, None)?, ..plain },
             Asked::Backlit(a) => {
-                let exposures = exposures(&a.series, Some(FIFTEEN))?;
                 let usual = a.series.exposures.is_none() && a.series.levels.is_none();
-                Self { exposures, usual, dark: a.dark, ..plain(Chart::Backlit(Backlit), &a.common) }
+                Self { exposures: exposures(&a.series, Some(FIFTEEN))?, usual, dark: a.dark, ..plain }
             }
+            _ => plain,
         })
     }
 
@@ -67,6 +59,42 @@ impl<'a> Choice<'a> {
         let unit = named(1.0)?;
         let share = meter.map(|meter| meter.share(unit.radiance())).filter(|share| *share > 0.0);
         named(share.map_or(otherwise_cd_m2, |share| white / share))
+    }
+}
+
+/// The chart and what it has in common with all.
+fn chart(arguments: &chart_args::Chart) -> (Chart, &Common) {
+    use chart_args::Chart as Asked;
+    match arguments {
+        Asked::Dots(a) => (Chart::Dots(Dots { size: size(&a.size), dot_share: a.dot_share }), &a.common),
+        Asked::Checkerboard(a) => (Chart::Checkerboard(Checkerboard { size: size(&a.size) }), &a.common),
+        Asked::Circles(a) => (Chart::Circles(Circles { size: size(&a.size), asymmetric: a.asymmetric }), &a.common),
+        Asked::FlatField(a) => (Chart::FlatField(FlatField { reflectance: a.reflectance }), &a.common),
+        Asked::Backlit(a) => (Chart::Backlit(Backlit), &a.common),
+        Asked::SlantedEdges(a) => {
+            let chart = SlantedEdges { size: size(&a.size), angle_deg: a.angle_deg, contrast: a.contrast };
+            (Chart::SlantedEdges(chart), &a.common)
+        }
+        Asked::SlantedStar(a) => {
+            let (spokes, angle_deg, contrast) = (a.spokes, a.angle_deg, a.contrast);
+            (Chart::SlantedStar(SlantedStar { size: size(&a.size), spokes, angle_deg, contrast }), &a.common)
+        }
+        Asked::SiemensStar(a) => (Chart::SiemensStar(SiemensStar { cycles: a.cycles, binary: a.binary }), &a.common),
+        Asked::DeadLeaves(a) => {
+            let chart = DeadLeaves { smallest_px: a.smallest_px, largest_share: a.largest_share };
+            (Chart::DeadLeaves(chart), &a.common)
+        }
+        Asked::OecfSteps(a) => {
+            let density = a.density.unwrap_or(if a.backlit { 3.0 } else { 2.0 });
+            (Chart::OecfSteps(OecfSteps { steps: a.steps, density, backlit: a.backlit }), &a.common)
+        }
+        Asked::Colorchecker(a) => (Chart::ColorChecker(ColorChecker), &a.common),
+        Asked::ContrastPatches(a) => {
+            (Chart::ContrastPatches(ContrastPatches { size: size(&a.size), decades: a.decades }), &a.common)
+        }
+        Asked::Flare(a) => (Chart::Flare(Flare { size: size(&a.size), trap_share: a.trap_share }), &a.common),
+        Asked::Points(a) => (Chart::Points(Points { size: size(&a.size), diameter_px: a.diameter_px }), &a.common),
+        Asked::DepthWedge(a) => (Chart::DepthWedge(DepthWedge { steps: a.steps, far_ratio: a.far_ratio }), &a.common),
     }
 }
 

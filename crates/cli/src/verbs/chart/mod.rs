@@ -93,7 +93,7 @@ fn write(
     choice: &Choice<'_>,
     folder: &mut OutputFolder,
 ) -> Result<(), Failure> {
-    let files = files(request).map_err(refused)?;
+    let files = files(request);
     let print = choice.common.png.map(|dpi| picture(request.drawing, dpi)).transpose().map_err(refused)?;
     let print = print.map(|plane| encode_display(&plane)).transpose().map_err(Failure::run)?;
     let stand_in = camera.stand_in().map(|(name, text)| (name, text.as_bytes().to_vec()));

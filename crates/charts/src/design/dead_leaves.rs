@@ -1,0 +1,130 @@
+//! Dead leaves: discs upon discs, their radii by the power law r⁻³ between limits, their greys even, so that the picture has
+//! the statistics of natural scenes at every scale (after Lee, Mumford and Huang 2001; ISO 19567-2). Texture loss.
+//!
+//! The leaves are laid from the top down: a texel takes the first leaf that covers it. The texture has some texels a pixel
+//! each way; its numbers are reflectances.
+
+use super::BLEED;
+use crate::drawing::{Drawing, Patch, Texture};
+use crate::error::ChartError;
+use crate::eye::Footprint;
+use crate::ink::{Ink, Paint};
+use crate::panel::Panel;
+use crate::shape::{Cell, Fill, Lattice, rectangle};
+use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
+use glam::DVec2;
+
+/// Side over the height that is wholly seen.
+const REACH: f64 = 0.8;
+/// Texels of a pixel, each way.
+const TEXELS: f64 = 4.0;
+/// Largest side of a texture.
+const MOST_TEXELS: f64 = 6000.0;
+/// Darkest and lightest leaf.
+const GREYS: (f64, f64) = (0.1, 0.7);
+
+/// A chart of dead leaves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DeadLeaves {
+    /// Radius of the smallest leaves, pixels of the picture's middle.
+    pub smallest_px: f64,
+    /// Radius of the largest leaves over the chart's side.
+    pub largest_share: f64,
+}
+
+impl DeadLeaves {
+    pub(super) fn draw(&self, seen: &Footprint, seed: u64) -> Result<Drawing, ChartError> {
+        let side = REACH * seen.inner_mm.min_element();
+        let texels = (TEXELS * side / seen.pixel_mm).min(MOST_TEXELS).round().max(16.0);
+        let (smallest, largest) = (self.smallest_px * seen.pixel_mm / side, self.largest_share);
+        if !(self.smallest_px > 0.0 && smallest < largest) {
+            let told = "expected a radius above 0 px and below that of the largest leaves";
+            return Err(ChartError::option("smallest-px", self.smallest_px, told));
+        }
+        if !(largest > 0.0 && largest <= 0.5) {
+            return Err(ChartError::option(
+                "largest-share",
+                largest,
+                "expected a share of the side, above 0 and at most 0.5",
+            ));
+        }
+        let half = DVec2::splat(side / 2.0);
+        let (leaves, laid) = leaves(texels as usize, smallest * texels, largest * texels, seed);
+        let mean = leaves.iter().map(|v| f64::from(*v)).sum::<f64>() / leaves.len() as f64 / 65_535.0;
+        let lattice = Lattice::framed(1, 1, 2.0 * half, seen.outer_mm * BLEED);
+        let sheet = lattice.sheet(|column, row| Cell::Plain(Fill::Ink(usize::from(lattice.is_inside(column, row)))));
+        let inks = vec![
+            Ink::grey("ground", (GREYS.0 + GREYS.1) / 2.0),
+            Ink::new("leaves", Paint::Texture { texture: 0, mean }),
+        ];
+        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), inks);
+        let outline_mm = rectangle(-half, half);
+        let (width, height) = (texels as usize, texels as usize);
+        let (name, file) = ("leaves".to_owned(), "leaves.png".to_owned());
+        let place_mm = (-half, half);
+        drawing.textures.push(Texture { name, file, panel: 0, place_mm, width, height, values: leaves });
+        drawing.patches.push(Patch { name: "leaves".into(), panel: 0, ink: 1, outline_mm });
+        drawing.note("side_mm", side);
+        drawing.note("texels_of_a_pixel", texels * seen.pixel_mm / side);
+        drawing.note("radii_mm", vec![smallest * side, largest * side]);
+        drawing.note("reflectances", vec![GREYS.0, GREYS.1]);
+        drawing.note("leaves", laid);
+        Ok(drawing)
+    }
+}
+
+/// A square of leaves, and how many were laid; radii in texels.
+pub(super) fn leaves(side: usize, smallest: f64, largest: f64, seed: u64) -> (Vec<u16>, u64) {
+    let mut random = NoiseStream::new(seed, 0, 0, 0, Pixel { x: 0, y: 0 }, NoiseDraw::Shot);
+    let mut values = vec![None::<u16>; side * side];
+    let (mut open, mut laid) = (values.len(), 0);
+    let [small, large] = [smallest, largest].map(|r| 1.0 / (r * r));
+    while open > 0 {
+        // Density r⁻³: 1/r² is even between its limits.
+        let radius = 1.0 / (small - random.unit_f64() * (small - large)).sqrt();
+        let mut place = || random.unit_f64() * (side as f64 + 2.0 * largest) - largest;
+        let centre = DVec2::new(place(), place());
+        let grey = GREYS.0 + random.unit_f64() * (GREYS.1 - GREYS.0);
+        open -= lay(&mut values, side, centre, radius, (grey * 65_535.0).round() as u16);
+        laid += 1;
+    }
+    (values.into_iter().map(|v| v.expect("all are covered")).collect(), laid)
+}
+
+/// Gives a leaf's grey to the texels under it that have none yet; how many these are.
+fn lay(values: &mut [Option<u16>], side: usize, centre: DVec2, radius: f64, grey: u16) -> usize {
+    // Texels by their middles.
+    let range = |middle: f64, reach: f64| {
+        let first = (middle - reach - 0.5).ceil().max(0.0) as usize;
+        let end = (middle + reach + 0.5).floor().clamp(0.0, side as f64) as usize;
+        first..end
+    };
+    let mut taken = 0;
+    for y in range(centre.y, radius) {
+        let off = y as f64 + 0.5 - centre.y;
+        let reach = (radius * radius - off * off).max(0.0).sqrt();
+        for x in range(centre.x, reach) {
+            let value = &mut values[y * side + x];
+            taken += usize::from(value.is_none());
+            value.get_or_insert(grey);
+        }
+    }
+    taken
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn leaves_cover_the_square_with_the_greys_asked_for() {
+        let (values, laid) = leaves(200, 2.0, 40.0, 7);
+        let greys: Vec<f64> = values.iter().map(|v| f64::from(*v) / 65_535.0).collect();
+        assert!(laid > 100 && greys.iter().all(|g| (0.0999..0.7001).contains(g)));
+        assert_eq!(leaves(200, 2.0, 40.0, 7).0, values);
+        assert_ne!(leaves(200, 2.0, 40.0, 8).0, values);
+        // A texel's neighbour is another leaf's for about one in 2 ⟨r⟩/⟨r²⟩ · 2/π: far from never, far from always.
+        let changes = values.windows(2).filter(|w| w[0] != w[1]).count();
+        assert!((1000..16_000).contains(&changes), "{changes}");
+    }
+}

@@ -1,0 +1,108 @@
+//! Depth wedge: on the left a staircase of panels from near to far, on the right one slanted plane back from far to near, all
+//! with texture, before a wall. Depth by stereo, focus or a network; the ground truth's depth is the truth.
+
+use super::BLEED;
+use super::dead_leaves::leaves;
+use crate::drawing::{Drawing, Patch, Texture};
+use crate::error::ChartError;
+use crate::eye::Footprint;
+use crate::ink::{Ink, Paint};
+use crate::panel::Panel;
+use crate::shape::{Sheet, rectangle};
+use etendue_core::maths::f64::{exp, ln};
+use glam::{DMat3, DVec2, DVec3};
+use serde_json::json;
+
+/// Side of the texture, texels; it is mirrored from tile to tile.
+const SIDE: usize = 512;
+/// Pixels that a tile covers, each way.
+const TILE_PX: f64 = 200.0;
+/// Radii of its leaves, texels.
+const RADII: [f64; 2] = [2.5, 60.0];
+/// The wall's distance over that of the farthest panel.
+const WALL: f64 = 1.25;
+/// How far a panel reaches behind the one before it, as a share of its width.
+const BEHIND: f64 = 0.05;
+
+/// A staircase and a slanted plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DepthWedge {
+    /// Steps of the staircase.
+    pub steps: u32,
+    /// Distance of the farthest panel over that of the nearest, which stands at the chart's distance.
+    pub far_ratio: f64,
+}
+
+impl DepthWedge {
+    pub(super) fn draw(&self, seen: &Footprint, seed: u64) -> Result<Drawing, ChartError> {
+        if !(2..=100).contains(&self.steps) {
+            return Err(ChartError::option("steps", self.steps, "expected 2 … 100 steps"));
+        }
+        if !(self.far_ratio > 1.0 && self.far_ratio <= 1000.0) {
+            return Err(ChartError::option("far-ratio", self.far_ratio, "expected a ratio above 1 and up to 1000"));
+        }
+        // Half of the field over the distance: a point at tangent t and distance d lies d t from the axis.
+        let tangent = seen.outer_mm * BLEED / (2e3 * seen.distance_m);
+        let distances_m = self.distances_m(seen.distance_m);
+        let mut panels = vec![wall(seen.distance_m * self.far_ratio * WALL, tangent)];
+        let width = tangent.x / f64::from(self.steps);
+        panels.extend(distances_m.iter().enumerate().map(|(i, distance_m)| {
+            let from = -tangent.x + width * i as f64;
+            step(i, *distance_m, from - if i == 0 { 0.0 } else { BEHIND * width }, from + width, tangent.y)
+        }));
+        panels.push(slant(seen.distance_m * self.far_ratio, seen.distance_m, tangent));
+        let mut drawing = Drawing::printed(panels.remove(0), Vec::new());
+        drawing.panels.extend(panels);
+        self.paint(&mut drawing, seen, seed);
+        drawing.note("steps_m", json!(distances_m));
+        drawing.note("slant_m", json!([seen.distance_m * self.far_ratio, seen.distance_m]));
+        drawing.note("wall_m", seen.distance_m * self.far_ratio * WALL);
+        Ok(drawing)
+    }
+
+    /// Distances in equal ratios, the near first.
+    fn distances_m(&self, near_m: f64) -> Vec<f64> {
+        let at = |i: u32| near_m * exp(ln(self.far_ratio) * f64::from(i) / f64::from(self.steps - 1));
+        (0..self.steps).map(at).collect()
+    }
+
+    /// A texture of its own scale on each panel: alike in the picture, whatever the distance.
+    fn paint(&self, drawing: &mut Drawing, seen: &Footprint, seed: u64) {
+        let (values, _) = leaves(SIDE, RADII[0], RADII[1], seed);
+        let mean = values.iter().map(|v| f64::from(*v)).sum::<f64>() / values.len() as f64 / 65_535.0;
+        for (i, panel) in drawing.panels.iter_mut().enumerate() {
+            let nearest_m = panel.position_m.x.min(panel.world_m(DVec2::new(panel.sheet.size_mm.x / 2.0, 0.0)).x);
+            let tile = DVec2::splat(TILE_PX * seen.pixel_mm * nearest_m / seen.distance_m);
+            let (name, file) = (format!("{}-texture", panel.name), "leaves.png".to_owned());
+            let place_mm = (-panel.sheet.size_mm / 2.0, -panel.sheet.size_mm / 2.0 + tile);
+            let values = values.clone();
+            drawing.textures.push(Texture { name, file, panel: i, place_mm, width: SIDE, height: SIDE, values });
+            drawing.inks.push(Ink::new(panel.name.clone(), Paint::Texture { texture: i, mean }));
+            let half = panel.sheet.size_mm / 2.0;
+            panel.sheet = Sheet::plain(panel.sheet.size_mm, i);
+            let outline_mm = rectangle(-half, half);
+            drawing.patches.push(Patch { name: panel.name.clone(), panel: i, ink: i, outline_mm });
+        }
+    }
+}
+
+fn wall(distance_m: f64, tangent: DVec2) -> Panel {
+    Panel::facing("wall", Sheet::new(2e3 * distance_m * tangent), distance_m)
+}
+
+/// A step that is seen between two tangents.
+fn step(i: usize, distance_m: f64, from: f64, to: f64, upright: f64) -> Panel {
+    let size = 1e3 * distance_m * DVec2::new(to - from, 2.0 * upright);
+    let mut panel = Panel::facing(format!("step-{:02}", i + 1), Sheet::new(size), distance_m);
+    panel.position_m.y = -distance_m * (from + to) / 2.0;
+    panel
+}
+
+/// The plane from the middle of the picture, far away, to its right edge, near.
+fn slant(far_m: f64, near_m: f64, tangent: DVec2) -> Panel {
+    let (start, end) = (DVec3::new(far_m, 0.0, 0.0), DVec3::new(near_m, -near_m * tangent.x, 0.0));
+    let along = (end - start).normalize();
+    let size = DVec2::new((end - start).length(), 2.0 * far_m * tangent.y) * 1e3;
+    let rotation = DMat3::from_cols(along, DVec3::NEG_Z, along.cross(DVec3::NEG_Z));
+    Panel { name: "slant".into(), sheet: Sheet::new(size), position_m: (start + end) / 2.0, rotation }
+}

@@ -1,0 +1,59 @@
+//! Slanted edges over the field: dark squares, turned by a small angle, each with two edges near the upright and two near the
+//! level (ISO 12233). Spatial frequency response by place and direction.
+
+use super::{BLEED, GridSize, angle, contrast};
+use crate::drawing::{Drawing, Feature, Patch};
+use crate::error::ChartError;
+use crate::eye::Footprint;
+use crate::ink::Ink;
+use crate::panel::Panel;
+use crate::shape::{Cell, Figure, Fill, Lattice, rectangle, turned};
+use glam::DVec2;
+
+/// Side of a square over the distance between centres.
+const SIDE: f64 = 0.55;
+/// Reflectance of the ground.
+const LIGHT: f64 = 0.72;
+
+/// Slanted squares.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlantedEdges {
+    /// How many squares and how far apart. Default: 5 columns over what is wholly seen.
+    pub size: GridSize,
+    /// By how much the squares are turned clockwise, degrees.
+    pub angle_deg: f64,
+    /// Luminance of the ground over the squares'.
+    pub contrast: f64,
+}
+
+impl SlantedEdges {
+    pub(super) fn draw(&self, seen: &Footprint) -> Result<Drawing, ChartError> {
+        let (turn, contrast) = (angle(self.angle_deg)?, contrast(self.contrast)?);
+        let grid = self.size.in_room(seen.inner_mm, 5, 1)?;
+        let pitch = DVec2::splat(grid.pitch_mm);
+        let lattice = Lattice::framed(grid.columns, grid.rows, pitch, seen.outer_mm * BLEED);
+        let (mut features, mut patches) = (Vec::new(), Vec::new());
+        let sheet = lattice.sheet(|column, row| {
+            if !lattice.is_inside(column, row) {
+                return Cell::Plain(Fill::Ink(0));
+            }
+            let (centre, half) = (lattice.middle(column, row), DVec2::splat(SIDE * grid.pitch_mm / 2.0));
+            let square = turned(&rectangle(centre - half, centre + half), centre, turn);
+            let index = [column - 1, row - 1];
+            features.extend((0..4).map(|i| Feature::edge(index, square[i], square[(i + 1) % 4])));
+            let name = format!("square-{}-{}", index[0], index[1]);
+            patches.push(Patch { name, panel: 0, ink: 1, outline_mm: square.clone() });
+            Cell::Figure(Figure::one(centre, square, 1), Fill::Ink(0))
+        });
+        let inks = vec![Ink::grey("light", LIGHT), Ink::grey("dark", LIGHT / contrast)];
+        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), inks);
+        (drawing.features, drawing.patches) = (features, patches);
+        drawing.note("squares", vec![grid.columns, grid.rows]);
+        drawing.note("pitch_mm", grid.pitch_mm);
+        drawing.note("side_mm", SIDE * grid.pitch_mm);
+        drawing.note("angle_deg", self.angle_deg);
+        drawing.note("contrast", contrast);
+        drawing.spp = 256;
+        Ok(drawing)
+    }
+}

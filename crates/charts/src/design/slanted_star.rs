@@ -1,0 +1,73 @@
+//! Slanted stars: dark and light wedges about a centre, turned so that no edge is upright or level; after the star of ISO
+//! 12233:2023. Spatial frequency response in many directions, radial and tangential, at several places.
+
+use super::{BLEED, GridSize, angle, contrast};
+use crate::drawing::{Drawing, Feature, Kind};
+use crate::error::ChartError;
+use crate::eye::Footprint;
+use crate::ink::Ink;
+use crate::panel::Panel;
+use crate::shape::{Cell, Figure, Fill, Lattice, Zone, disc};
+use glam::DVec2;
+use serde_json::json;
+
+/// Outer radius over the distance between centres.
+const OUTER: f64 = 0.46;
+/// Inner radius over the outer one.
+const INNER: f64 = 0.12;
+/// Reflectance of the light wedges and of the ground.
+const LIGHT: f64 = 0.72;
+
+/// Slanted stars.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SlantedStar {
+    /// How many stars and how far apart. Default: 3 columns over what is wholly seen.
+    pub size: GridSize,
+    /// Dark wedges.
+    pub spokes: u32,
+    /// Direction of the first edge from the level, clockwise, degrees.
+    pub angle_deg: f64,
+    /// Luminance of light over dark.
+    pub contrast: f64,
+}
+
+impl SlantedStar {
+    pub(super) fn draw(&self, seen: &Footprint) -> Result<Drawing, ChartError> {
+        let (turn, contrast) = (angle(self.angle_deg)?, contrast(self.contrast)?);
+        if !(2..=36).contains(&self.spokes) {
+            return Err(ChartError::option("spokes", self.spokes, "expected 2 … 36 dark wedges"));
+        }
+        let grid = self.size.in_room(seen.inner_mm, 3, 1)?;
+        let pitch = DVec2::splat(grid.pitch_mm);
+        let lattice = Lattice::framed(grid.columns, grid.rows, pitch, seen.outer_mm * BLEED);
+        let (outer, corners) = (OUTER * grid.pitch_mm, 2 * self.spokes as usize);
+        let mut features = Vec::new();
+        let sheet = lattice.sheet(|column, row| {
+            if !lattice.is_inside(column, row) {
+                return Cell::Plain(Fill::Ink(0));
+            }
+            let (centre, index) = (lattice.middle(column, row), [column - 1, row - 1]);
+            let [within, around] = [INNER * outer, outer].map(|radius| disc(centre, radius, corners, turn));
+            features.push(Feature::at(Kind::Centre, index, centre));
+            // Even corners begin a dark wedge: walked outwards it lies on the right (clockwise); odd ones end it.
+            features.extend((0..corners).map(|i| match i % 2 {
+                0 => Feature::edge(index, within[i], around[i]),
+                _ => Feature::edge(index, around[i], within[i]),
+            }));
+            let wedges = (0..corners).map(|i| Fill::Ink(1 - i % 2)).collect();
+            let zones = vec![Zone::even(within, 0), Zone { outline: around, fills: wedges }];
+            Cell::Figure(Figure { centre, zones }, Fill::Ink(0))
+        });
+        let inks = vec![Ink::grey("light", LIGHT), Ink::grey("dark", LIGHT / contrast)];
+        let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), inks);
+        drawing.features = features;
+        drawing.note("stars", vec![grid.columns, grid.rows]);
+        drawing.note("pitch_mm", grid.pitch_mm);
+        drawing.note("dark_wedges", self.spokes);
+        drawing.note("radii_mm", json!([INNER * outer, outer]));
+        drawing.note("angle_deg", self.angle_deg);
+        drawing.note("contrast", contrast);
+        drawing.spp = 256;
+        Ok(drawing)
+    }
+}
