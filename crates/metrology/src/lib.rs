@@ -4,6 +4,7 @@
 //! format. Positions are raster coordinates: pixel centres lie at +0.5, x to the right, y down, from the top left corner.
 //! All arithmetic is `f64`, in the order of the pixels, with the functions of `etendue_core::maths`: the same bits everywhere.
 
+pub mod calibrate;
 pub mod disc;
 pub mod estimate;
 pub mod fit;

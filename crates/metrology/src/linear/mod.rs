@@ -5,7 +5,7 @@
 //! | [`Matrix`] | row-major storage | `matrix.rs` |
 //! | [`Cholesky`] | normal equations, covariance | `cholesky.rs` |
 //! | [`Orthogonal`] | least squares whose conditioning counts | `orthogonal.rs` |
-//! | [`eigen`] | null vectors, what a fit cannot tell | `eigen.rs` |
+//! | [`eigen()`] | null vectors, what a fit cannot tell | `eigen.rs` |
 //!
 //! Golub & Van Loan, Matrix Computations (4th ed., 2013): algorithms 4.2.1, 5.2.1 and 8.5.2. Sums run in index order.
 //! Left out: pivoting, sparse matrices, anything of more than some thousand columns.

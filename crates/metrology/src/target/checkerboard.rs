@@ -1,7 +1,7 @@
 //! Checkerboards: the corners of four squares.
 //!
-//! Candidates come from [`chess`](super::chess), in the picture and in copies of half, a quarter and an eighth of its size
-//! (defocused corners look sharp there); they are refined ([`saddle`](super::saddle)), joined where the line between two has
+//! Candidates come from [`chess`], in the picture and in copies of half, a quarter and an eighth of its size
+//! (defocused corners look sharp there); they are refined ([`saddle`]), joined where the line between two has
 //! a dark side and a bright one all along, and grown to a lattice. The copy that gives the most corners is taken, and
 //! each corner is found again in the picture itself by a model of it ([`crossing`]), over a disc of 0.4 of the distance
 //! to its nearest neighbour, 3 to 12 px.
@@ -88,17 +88,37 @@ fn sample(image: &Image, at: DVec2) -> Option<f32> {
     inside.then(|| image.at(at.x as usize, at.y as usize))
 }
 
-/// Each placed point by the picture itself; `None` where it does not hold there.
+/// Each placed point by the picture itself; `None` where it does not hold there. Where the disc reaches beyond a narrow outer
+/// square, or what is there is no corner, its uncertainty stands out: half the radius is tried, and what stands out still is
+/// dropped.
 fn refine(image: &Image, places: &Places, points: &[DVec2]) -> Vec<Option<Corner>> {
-    let placed: Vec<(&[i32; 2], &usize)> = places.iter().collect();
-    let corners: Vec<(usize, Option<Corner>)> =
-        placed.into_par_iter().map(|(place, i)| (*i, corner(image, places, points, *place, *i))).collect();
+    const OUTSTANDING: f64 = 3.0;
+    const GOOD_PX: f64 = 0.05;
+    let placed: Vec<([i32; 2], usize)> = places.iter().map(|(place, i)| (*place, *i)).collect();
+    let found = |window: f64| {
+        let find = |(place, i): &([i32; 2], usize)| corner(image, places, points, *place, *i, window);
+        placed.par_iter().map(find).collect::<Vec<_>>()
+    };
+    let wide = found(WINDOW);
+    let typical = median(wide.iter().flatten().map(|c| c.uncertainty_px));
+    let stands_out = |c: &Option<Corner>, factor: f64| {
+        c.is_none_or(|c| c.uncertainty_px > factor * (OUTSTANDING * typical).max(GOOD_PX))
+    };
     let mut refined = vec![None; points.len()];
-    corners.into_iter().for_each(|(i, corner)| refined[i] = corner);
+    for ((place, i), wide) in placed.iter().zip(wide) {
+        let narrow = || corner(image, places, points, *place, *i, 0.5 * WINDOW).filter(|c| !stands_out(&Some(*c), 2.0));
+        refined[*i] = if stands_out(&wide, 1.0) { narrow() } else { wide };
+    }
     refined
 }
 
-fn corner(image: &Image, places: &Places, points: &[DVec2], place: [i32; 2], i: usize) -> Option<Corner> {
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
+}
+
+fn corner(image: &Image, places: &Places, points: &[DVec2], place: [i32; 2], i: usize, window: f64) -> Option<Corner> {
     let step = |x: i32, y: i32| {
         let other = places.get(&[place[0] + x, place[1] + y])?;
         Some((points[*other] - points[i]) * f64::from(x + y))
@@ -107,7 +127,7 @@ fn corner(image: &Image, places: &Places, points: &[DVec2], place: [i32; 2], i: 
     let down = [step(0, 1), step(0, -1)];
     let all = || across.iter().chain(&down).flatten();
     let nearest = all().map(|s| s.length()).fold(f64::INFINITY, f64::min);
-    let radius = (WINDOW * nearest).clamp(WINDOW_PX[0], WINDOW_PX[1]);
+    let radius = (window * nearest).clamp(WINDOW_PX[0], WINDOW_PX[1]);
     let mean = |steps: [Option<DVec2>; 2]| match steps {
         [Some(a), Some(b)] => Some(0.5 * (a + b)),
         [a, b] => a.or(b),

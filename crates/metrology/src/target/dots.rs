@@ -2,7 +2,7 @@
 //!
 //! Dark regions ([`components`]) under a threshold that follows the light ([`threshold`](super::threshold)), at least four
 //! pixels across, not cut by the border, and as large as the ellipse of their own second moments (to 12 %), are dots, put
-//! in rows and columns by where they are ([`lattice`]). Then each is measured ([`centroid`](super::centroid)).
+//! in rows and columns by where they are ([`lattice`]). Then each is measured ([`centroid`]).
 
 use super::centroid::{Blob, Centroid, Moments};
 use super::components::{self, Run};

@@ -5,7 +5,7 @@
 //! | checkerboard | inner corners | 0.02 px | `checkerboard.rs`, on `chess.rs`, `saddle.rs`, `crossing.rs` |
 //! | dots: discs, dark or bright | centroids | 0.01 px | `dots.rs`, on `threshold.rs`, `components.rs`, `centroid.rs` |
 //!
-//! Both are put in rows and columns by [`lattice`], robust to perspective and strong distortion. Points and numbers only
+//! Both are put in rows and columns (`lattice.rs`), robust to perspective and strong distortion. Points and numbers only
 //! come from the picture: neither the chart's size nor the lens is needed. The picture should be linear in light (a
 //! display encoding moves the edges of dots, not the corners of squares).
 //!

@@ -1,5 +1,7 @@
 //! The geometry of cameras from pictures in closed form.
 
+mod calibration;
 mod cameras;
 mod detection;
+mod opencv;
 mod paint;

@@ -1,0 +1,46 @@
+//! Why there is no camera.
+
+use crate::fit::FitError;
+use etendue_projection::{CalibrationError, model::ModelError};
+
+/// Why views give no camera.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum CalibrateError {
+    /// No views at all.
+    #[error("no views: give at least one picture of the chart")]
+    NoViews,
+    /// A view of too few points.
+    #[error("view {} shows {points} points of the chart; at least {least} are needed: leave it out", view + 1)]
+    Sparse {
+        /// The view, from 0.
+        view: usize,
+        /// Its points.
+        points: usize,
+        /// Points that would do.
+        least: usize,
+    },
+    /// No first guess.
+    #[error(
+        "the points lie on no plane chart as this model would see it: check the order of the points and the model (a fisheye for \
+         very wide fields)"
+    )]
+    Start,
+    /// The fit failed.
+    #[error(transparent)]
+    Fit(#[from] FitError),
+    /// The fitted coefficients are no model.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The fitted numbers are no camera.
+    #[error(transparent)]
+    Camera(#[from] CalibrationError),
+    /// Numbers that the views do not tell.
+    #[error(
+        "the views do not determine {}: add views with the chart turned by 20° to 45° about different axes, state the distance of \
+         the chart or the focal length, or fit fewer coefficients", names.join(", ")
+    )]
+    Undetermined {
+        /// Their names.
+        names: Vec<String>,
+    },
+}

@@ -1,0 +1,128 @@
+//! Cameras from views of a plane chart whose points are known.
+//!
+//! Unknown are the camera matrix (fx, fy, cx, cy; no skew), the coefficients of a model of the projection crate
+//! ([`Family`]), and of each view where the chart stands (turn as a vector, place). Steps:
+//!
+//! 1. For some focal lengths, each view's points become directions by the model's first guess, and the homography from the
+//!    chart to these directions gives the chart's pose; the focal length whose poses throw the points nearest to where
+//!    they are seen is taken (`start.rs`). That is Zhang's (2000) condition, that the homography's first two columns are
+//!    orthonormal, searched instead of solved: it holds for wide fields and strong distortion as well.
+//! 2. All numbers together by Levenberg and Marquardt: least squares of the distances in the picture (`problem.rs`).
+//! 3. Of discs: the shift of each centroid ([`disc`](crate::disc)) by the camera just found is taken off, and 2 repeated
+//!    until it stays.
+//!
+//! Lengths of charts, poses and distances are in one unit of the caller's. Uncertainty: the covariance of 2, from the
+//! residuals (degrees of freedom: coordinates less numbers); a stated distance adds its own. What the views do not
+//! determine, such as the focal length of one view from the front, is refused ([`CalibrateError::Undetermined`]).
+//!
+//! Robust weights are off unless asked for ([`Options::robust`]): then, after 2, a point whose distance d is beyond 2.5 σ
+//! (σ from the median) counts with √(2.5 σ/d) (Huber 1964), and 2 is repeated five times.
+//!
+//! Left out: skew, charts that are not flat or not known, several cameras.
+
+mod error;
+mod family;
+mod pose;
+mod problem;
+mod result;
+mod start;
+
+use crate::Estimate;
+use crate::fit::{Fit, fit};
+use glam::DVec2;
+
+pub use error::CalibrateError;
+pub use family::{Family, Radial};
+pub use pose::Pose;
+pub use result::{Calibrated, Parameter};
+
+use problem::Bundle;
+
+/// A point of a chart and where it is seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sighting {
+    /// On the chart, in the caller's unit of length.
+    pub chart: DVec2,
+    /// Raster coordinates, px.
+    pub at: DVec2,
+}
+
+/// One picture of the chart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sightings {
+    /// Its points.
+    pub points: Vec<Sighting>,
+    /// Of discs, whose centroids were seen: their radius, in the caller's unit of length.
+    pub disc_radius: Option<f64>,
+}
+
+impl Sightings {
+    /// The points of a grid whose steps on the chart have a length.
+    #[must_use]
+    pub fn of_grid(grid: &crate::target::Grid, step: f64) -> Self {
+        let chart = |[i, j]: [usize; 2]| DVec2::new(i as f64, j as f64) * step;
+        let points = grid.nodes.iter().map(|n| Sighting { chart: chart(n.index), at: n.at });
+        Self { points: points.collect(), disc_radius: grid.disc_radius_steps.map(|r| r * step) }
+    }
+}
+
+/// What is known before.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Options {
+    /// fx = fy.
+    pub square_pixels: bool,
+    /// The principal point is this, raster coordinates; otherwise it is fitted.
+    pub principal_px: Option<DVec2>,
+    /// The focal length (principal distance) is this, px; otherwise it is fitted.
+    pub focal_px: Option<f64>,
+    /// The entrance pupil is at this distance from the chart's plane in every view, in the caller's unit of length.
+    pub distance: Option<Estimate>,
+    /// Points far from the fit count less.
+    pub robust: bool,
+}
+
+/// Least of points of a view.
+const LEAST_POINTS: usize = 6;
+
+/// The camera of a picture size that saw the views.
+///
+/// # Errors
+/// [`CalibrateError`].
+pub fn calibrate(
+    views: &[Sightings],
+    size_px: [usize; 2],
+    family: Family,
+    options: Options,
+) -> Result<Calibrated, CalibrateError> {
+    if let Some(view) = views.iter().position(|v| v.points.len() < LEAST_POINTS) {
+        return Err(CalibrateError::Sparse { view, points: views[view].points.len(), least: LEAST_POINTS });
+    }
+    if views.is_empty() {
+        return Err(CalibrateError::NoViews);
+    }
+    let mut bundle = Bundle::new(views, size_px, family, options);
+    let start = start::guess(&bundle).ok_or(CalibrateError::Start)?;
+    let mut found = fit(&bundle, &start)?;
+    if options.robust {
+        for _ in 0..5 {
+            bundle.reweigh(&found);
+            found = fit(&bundle, &found.parameters)?;
+        }
+    }
+    found = without_shifts(&mut bundle, found)?;
+    result::result(&bundle, found)
+}
+
+/// The fit to where the discs' centres are seen.
+fn without_shifts(bundle: &mut Bundle<'_>, mut found: Fit) -> Result<Fit, CalibrateError> {
+    const ROUNDS: usize = 6;
+    const STILL_PX: f64 = 1e-4;
+    for _ in 0..ROUNDS {
+        let moved = bundle.shift(&found.parameters);
+        if moved < STILL_PX {
+            break;
+        }
+        found = fit(bundle, &found.parameters)?;
+    }
+    Ok(found)
+}

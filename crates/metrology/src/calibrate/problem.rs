@@ -1,0 +1,184 @@
+//! All numbers of a camera and its views, and what they leave of the sightings.
+
+use super::{Family, Options, Pose, Sightings};
+use crate::disc::centroid_shift;
+use crate::fit::{Fit, Problem};
+use etendue_projection::{Calibration, CameraMatrix};
+use glam::DVec2;
+
+/// Views, and which numbers are fitted: fx, fy (where not equal), cx, cy (where free), coefficients, then six of each view.
+#[derive(Clone, Debug)]
+pub(super) struct Bundle<'a> {
+    pub(super) views: &'a [Sightings],
+    pub(super) size_px: [usize; 2],
+    pub(super) family: Family,
+    pub(super) options: Options,
+    /// What was taken off each sighting, px.
+    shifts: Vec<Vec<DVec2>>,
+    /// Square roots of weights.
+    weights: Vec<Vec<f64>>,
+}
+
+/// A camera and the poses of its charts.
+pub(super) struct Placed {
+    pub(super) calibration: Calibration,
+    pub(super) poses: Vec<Pose>,
+}
+
+/// Weight of a stated distance: a hundred-thousandth of it counts as a pixel.
+const DISTANCE_WEIGHT: f64 = 1e5;
+
+impl<'a> Bundle<'a> {
+    pub(super) fn new(views: &'a [Sightings], size_px: [usize; 2], family: Family, options: Options) -> Self {
+        let shifts = views.iter().map(|v| vec![DVec2::ZERO; v.points.len()]).collect();
+        let weights = views.iter().map(|v| vec![1.0; v.points.len()]).collect();
+        Self { views, size_px, family, options, shifts, weights }
+    }
+
+    /// Names of the numbers before the views'.
+    pub(super) fn names(&self) -> Vec<&'static str> {
+        let mut names = Vec::new();
+        if self.options.focal_px.is_none() {
+            names.push("fx_px");
+            if !self.options.square_pixels {
+                names.push("fy_px");
+            }
+        }
+        if self.options.principal_px.is_none() {
+            names.extend(["cx_px", "cy_px"]);
+        }
+        names.extend(self.family.names());
+        names
+    }
+
+    /// The numbers of a camera.
+    pub(super) fn numbers(&self, matrix: CameraMatrix, coefficients: &[f64]) -> Vec<f64> {
+        let of_name = |name: &str| match name {
+            "fx_px" if self.options.square_pixels => Some(0.5 * (matrix.fx + matrix.fy)),
+            "fx_px" => Some(matrix.fx),
+            "fy_px" => Some(matrix.fy),
+            "cx_px" => Some(matrix.cx),
+            "cy_px" => Some(matrix.cy),
+            _ => None,
+        };
+        self.names().iter().filter_map(|name| of_name(name)).chain(coefficients.iter().copied()).collect()
+    }
+
+    /// The principal point before it is fitted: as stated, or the picture's middle.
+    pub(super) fn principal(&self) -> DVec2 {
+        let [width, height] = self.size_px.map(|n| n as f64);
+        self.options.principal_px.unwrap_or(DVec2::new(0.5 * width, 0.5 * height))
+    }
+
+    /// The camera of numbers.
+    pub(super) fn calibration(&self, parameters: &[f64]) -> Option<Calibration> {
+        let names = self.names();
+        let at = |name: &str| names.iter().position(|n| *n == name).map(|i| parameters[i]);
+        let fx = self.options.focal_px.or_else(|| at("fx_px"))?;
+        let fy = at("fy_px").unwrap_or(fx);
+        let principal = self.principal();
+        let (cx, cy) = (at("cx_px").unwrap_or(principal.x), at("cy_px").unwrap_or(principal.y));
+        let coefficients = &parameters[names.len() - self.family.names().len()..names.len()];
+        let model = self.family.model(coefficients).ok()?;
+        Calibration::new(model, CameraMatrix { fx, fy, skew: 0.0, cx, cy }, self.size_px).ok()
+    }
+
+    /// A sighting without what discs shift it by.
+    pub(super) fn seen(&self, view: usize, point: usize) -> DVec2 {
+        self.views[view].points[point].at - self.shifts[view][point]
+    }
+
+    /// Takes off what discs shift their centroids by; the largest change, px.
+    pub(super) fn shift(&mut self, parameters: &[f64]) -> f64 {
+        let Some(placed) = self.state(parameters) else { return 0.0 };
+        let mut largest: f64 = 0.0;
+        for (v, view) in self.views.iter().enumerate() {
+            let Some(radius) = view.disc_radius else { continue };
+            let map = |chart: DVec2| placed.calibration.project(placed.poses[v].camera(chart));
+            for (p, point) in view.points.iter().enumerate() {
+                let shift = centroid_shift(map, point.chart, radius).unwrap_or(DVec2::ZERO);
+                largest = largest.max((shift - self.shifts[v][p]).length());
+                self.shifts[v][p] = shift;
+            }
+        }
+        largest
+    }
+
+    /// Huber's weights by the distances of a fit.
+    pub(super) fn reweigh(&mut self, fit: &Fit) {
+        let distance = |v: usize, p: usize| {
+            let [x, y] = [0, 1].map(|c| fit.residuals[v][2 * p + c] / self.weights[v][p]);
+            DVec2::new(x, y).length()
+        };
+        let all: Vec<Vec<f64>> = self
+            .views
+            .iter()
+            .enumerate()
+            .map(|(v, view)| (0..view.points.len()).map(|p| distance(v, p)).collect())
+            .collect();
+        let mut sorted: Vec<f64> = all.iter().flatten().copied().collect();
+        sorted.sort_by(f64::total_cmp);
+        // The median of a Rayleigh distribution is √(2 ln 2) = 1.1774 σ.
+        let sigma = sorted[sorted.len() / 2] / 1.177_41;
+        let weight = |d: &f64| if *d > 2.5 * sigma { (2.5 * sigma / d).sqrt() } else { 1.0 };
+        self.weights = all.iter().map(|view| view.iter().map(weight).collect()).collect();
+    }
+}
+
+impl Problem for Bundle<'_> {
+    type State = Placed;
+
+    fn state(&self, parameters: &[f64]) -> Option<Placed> {
+        let first = self.names().len();
+        let poses = parameters[first..].chunks_exact(6).map(Pose::of).collect();
+        Some(Placed { calibration: self.calibration(parameters)?, poses })
+    }
+
+    fn changed(&self, placed: &Placed, parameters: &[f64], changed: usize) -> Option<Placed> {
+        let first = self.names().len();
+        if changed < first {
+            let calibration = self.calibration(parameters)?;
+            return Some(Placed { calibration, poses: placed.poses.clone() });
+        }
+        let view = (changed - first) / 6;
+        let mut poses = placed.poses.clone();
+        poses[view] = Pose::of(&parameters[first + 6 * view..][..6]);
+        Some(Placed { calibration: placed.calibration.clone(), poses })
+    }
+
+    fn blocks(&self) -> usize {
+        self.views.len()
+    }
+
+    fn residuals(&self, placed: &Placed, view: usize) -> Option<Vec<f64>> {
+        let pose = &placed.poses[view];
+        let mut residuals = Vec::with_capacity(2 * self.views[view].points.len() + 1);
+        for (p, point) in self.views[view].points.iter().enumerate() {
+            let off =
+                (placed.calibration.project(pose.camera(point.chart))? - self.seen(view, p)) * self.weights[view][p];
+            residuals.extend(off.to_array());
+        }
+        residuals.extend(self.options.distance.map(|d| DISTANCE_WEIGHT * (pose.distance() / d.value - 1.0)));
+        Some(residuals)
+    }
+
+    fn depends(&self, block: usize, parameter: usize) -> bool {
+        let first = self.names().len();
+        parameter < first || (parameter - first) / 6 == block
+    }
+
+    fn reach(&self, parameter: usize) -> f64 {
+        let names = self.names();
+        let diagonal = DVec2::new(self.size_px[0] as f64, self.size_px[1] as f64).length();
+        match names.get(parameter) {
+            Some(name) if name.ends_with("_px") => 0.01 * diagonal,
+            Some(_) => 0.03,
+            None if (parameter - names.len()) % 6 < 3 => 0.03,
+            None => {
+                let points = &self.views[(parameter - names.len()) / 6].points;
+                let centre = points.iter().map(|p| p.chart).sum::<DVec2>() / points.len() as f64;
+                0.03 * points.iter().map(|p| (p.chart - centre).length()).fold(0.0, f64::max)
+            }
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! A camera as it was found.
+
+use super::problem::Bundle;
+use super::{CalibrateError, Pose};
+use crate::Estimate;
+use crate::fit::{Fit, Problem};
+use crate::linear::Matrix;
+use etendue_projection::Calibration;
+use glam::DVec2;
+
+/// A fitted number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Its name: fx_px, fy_px, cx_px, cy_px (raster coordinates), then the model's.
+    pub name: &'static str,
+    /// Its value.
+    pub estimate: Estimate,
+}
+
+/// A camera from views.
+#[derive(Clone, Debug)]
+pub struct Calibrated {
+    /// The camera.
+    pub calibration: Calibration,
+    /// What was fitted, of the camera.
+    pub parameters: Vec<Parameter>,
+    /// Their covariance, in their order.
+    pub covariance: Matrix,
+    /// Where the chart stood in each view.
+    pub poses: Vec<Pose>,
+    /// Fitted less seen, px, of every point of each view.
+    pub residuals_px: Vec<Vec<DVec2>>,
+    /// Standard deviation of a coordinate, px: √(Σ r²/ν).
+    pub sigma_px: f64,
+    /// ν.
+    pub degrees_of_freedom: usize,
+}
+
+impl Calibrated {
+    /// The fitted number of a name.
+    #[must_use]
+    pub fn estimate(&self, name: &str) -> Option<Estimate> {
+        self.parameters.iter().find(|p| p.name == name).map(|p| p.estimate)
+    }
+
+    /// Root mean square distance of a view's points, px.
+    #[must_use]
+    pub fn view_rms_px(&self, view: usize) -> f64 {
+        let residuals = &self.residuals_px[view];
+        (residuals.iter().map(|r| r.length_squared()).sum::<f64>() / residuals.len() as f64).sqrt()
+    }
+
+    /// Root mean square distance of all points, px.
+    #[must_use]
+    pub fn rms_px(&self) -> f64 {
+        let count: usize = self.residuals_px.iter().map(Vec::len).sum();
+        let squares: f64 = self.residuals_px.iter().flatten().map(|r| r.length_squared()).sum();
+        (squares / count as f64).sqrt()
+    }
+}
+
+/// Relative standard uncertainty of a focal length beyond which it is not known.
+const FOCAL_LIMIT: f64 = 0.05;
+
+pub(super) fn result(bundle: &Bundle<'_>, fit: Fit) -> Result<Calibrated, CalibrateError> {
+    let names = bundle.names();
+    let mut covariance = Matrix::zeros(names.len(), names.len());
+    for i in 0..names.len() {
+        for j in 0..names.len() {
+            *covariance.at_mut(i, j) = fit.covariance.at(i, j);
+        }
+    }
+    add_distance(bundle, &names, &fit, &mut covariance);
+    let parameter = |(i, name): (usize, &&'static str)| Parameter {
+        name,
+        estimate: Estimate::new(fit.parameters[i], covariance.at(i, i).sqrt()),
+    };
+    let parameters: Vec<Parameter> = names.iter().enumerate().map(parameter).collect();
+    let unknown: Vec<String> = parameters.iter().filter(|p| is_unknown(p)).map(|p| p.name.to_owned()).collect();
+    if !unknown.is_empty() {
+        return Err(CalibrateError::Undetermined { names: unknown });
+    }
+    let placed = bundle.state(&fit.parameters).ok_or(CalibrateError::Start)?;
+    let off = |v: usize, p: usize| {
+        let image = placed.calibration.project(placed.poses[v].camera(bundle.views[v].points[p].chart));
+        image.map(|image| image - bundle.seen(v, p))
+    };
+    let residuals_px: Option<Vec<Vec<DVec2>>> =
+        (0..bundle.views.len()).map(|v| (0..bundle.views[v].points.len()).map(|p| off(v, p)).collect()).collect();
+    Ok(Calibrated {
+        calibration: placed.calibration,
+        parameters,
+        covariance,
+        poses: placed.poses,
+        residuals_px: residuals_px.ok_or(CalibrateError::Start)?,
+        sigma_px: fit.sigma,
+        degrees_of_freedom: fit.degrees_of_freedom,
+    })
+}
+
+fn is_unknown(p: &Parameter) -> bool {
+    let Estimate { value, standard_uncertainty } = p.estimate;
+    let focal = p.name == "fx_px" || p.name == "fy_px";
+    !standard_uncertainty.is_finite() || (focal && standard_uncertainty > FOCAL_LIMIT * value)
+}
+
+/// A distance stated too long makes the focal lengths too long in proportion; what the points say of the focal length beside
+/// the distance is left out.
+fn add_distance(bundle: &Bundle<'_>, names: &[&str], fit: &Fit, covariance: &mut Matrix) {
+    let Some(distance) = bundle.options.distance else { return };
+    let relative = distance.standard_uncertainty / distance.value;
+    let share = |i: usize| if names[i].starts_with('f') { fit.parameters[i] * relative } else { 0.0 };
+    for i in 0..names.len() {
+        for j in 0..names.len() {
+            *covariance.at_mut(i, j) += share(i) * share(j);
+        }
+    }
+}
