@@ -5,6 +5,7 @@
 //! 0 … 1.
 
 use super::{DetailError, blur, within};
+use crate::luma::luma;
 use etendue_core::Plane;
 use etendue_core::quantity::Display;
 use rayon::prelude::*;
@@ -46,10 +47,6 @@ impl Unsharp {
             }
         });
     }
-}
-
-fn luma([r, g, b]: [f32; 3]) -> f32 {
-    0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@
 //!
 //! One n a pixel, all channels alike; p₁ in DN of an 8-bit picture, clipped to 0 … 255. n by Box & Muller 1958.
 
-use super::{Change, FilterError, PictureAddress, change_brightness, demand};
+use super::{Change, FilterAddress, FilterError, change_brightness, demand};
 use core::f64::consts::TAU;
 use etendue_core::Plane;
 use etendue_core::maths::f64::{cos, ln};
@@ -25,7 +25,7 @@ impl GaussianNoise {
         demand((0.0..=255.0).contains(&self.sigma_dn), "sigma_dn", self.sigma_dn, "from 0 to 255")
     }
 
-    pub(super) fn apply(&self, picture: &mut Plane<Display>, address: PictureAddress) {
+    pub(super) fn apply(&self, picture: &mut Plane<Display>, address: FilterAddress) {
         change_brightness(picture, address, NoiseDraw::PaperGaussian, |stream| Change {
             factor: 1.0,
             offset_dn: self.sigma_dn * standard_normal(stream),
@@ -41,11 +41,12 @@ fn standard_normal(stream: &mut NoiseStream) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::paper::tests::address;
 
     #[test]
     fn mean_spread_and_shape_are_those_of_a_normal_number() {
         let mut picture = Plane::filled(200, 200, [0.5; 3]);
-        GaussianNoise { sigma_dn: 10.0 }.apply(&mut picture, PictureAddress { seed: 3, camera: 0, frame: 1 });
+        GaussianNoise { sigma_dn: 10.0 }.apply(&mut picture, address(3, 0, 1));
         let values: Vec<f64> = picture.samples().iter().map(|rgb| (f64::from(rgb[1]) - 0.5) * 25.5).collect();
         assert!(picture.samples().iter().all(|rgb| rgb[0] == rgb[1] && rgb[1] == rgb[2]));
         let n = values.len() as f64;
@@ -59,7 +60,7 @@ mod tests {
     fn another_frame_has_other_noise_and_the_same_has_the_same() {
         let noisy = |frame| {
             let mut picture = Plane::filled(8, 8, [0.5; 3]);
-            GaussianNoise { sigma_dn: 10.0 }.apply(&mut picture, PictureAddress { seed: 3, camera: 0, frame });
+            GaussianNoise { sigma_dn: 10.0 }.apply(&mut picture, address(3, 0, frame));
             picture
         };
         assert!(noisy(0) == noisy(0) && noisy(0) != noisy(1));

@@ -4,14 +4,17 @@
 //! ```text
 //! g = target / L_p                    L_p: the percentile p of the luminances of the picture (nearest rank)
 //! e = max(g x − threshold, 0)         what exceeds the threshold after the gain, by channel
-//! y = g x + strength · (k ∗ e)        k: a Gaussian of σ = radius, cut at 3 σ, normalised
+//! y = g x + strength · (k ∗ e)        k: a Gaussian of σ = radius, cut at 5 σ, normalised
 //! ```
 //!
 //! Luminance is 0.2126 R + 0.7152 G + 0.0722 B. Of a picture whose L_p is 0 or less the gain is 1. Light is added, not
-//! moved: unlike the sensor's own blooming, this does not conserve charge. The result is not clipped.
+//! moved: unlike the sensor's own blooming, this does not conserve charge. The result is not clipped. A raw ends at its white level, so
+//! in a developed picture no x exceeds the exposure gain by much, and lamps exceed a threshold near white only where g lifts
+//! them there; pictures of a sensor of high dynamic range hold more.
 
 use super::{FilterError, demand, for_each};
 use crate::detail::blur;
+use crate::luma::luma;
 use etendue_core::Plane;
 use etendue_core::quantity::LinearRgb;
 use rayon::prelude::*;
@@ -53,16 +56,12 @@ impl Glow {
 
     /// What brings the percentile to the target.
     fn gain(&self, picture: &Plane<LinearRgb>) -> f64 {
-        let mut luminances: Vec<f32> = picture.samples().par_iter().map(|rgb| luminance(*rgb)).collect();
+        let mut luminances: Vec<f32> = picture.samples().par_iter().map(|rgb| luma(*rgb)).collect();
         let Some(last) = luminances.len().checked_sub(1) else { return 1.0 };
         let rank = (self.percentile / 100.0 * luminances.len() as f64).ceil() as usize;
         let (_, found, _) = luminances.select_nth_unstable_by(rank.saturating_sub(1).min(last), f32::total_cmp);
         if *found > 0.0 { self.target / f64::from(*found) } else { 1.0 }
     }
-}
-
-fn luminance([r, g, b]: [f32; 3]) -> f32 {
-    0.2126 * r + 0.7152 * g + 0.0722 * b
 }
 
 #[cfg(test)]

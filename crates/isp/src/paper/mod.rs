@@ -46,6 +46,14 @@ pub struct PictureAddress {
     pub frame: u32,
 }
 
+/// Which filter of a picture the random numbers are for: two of a kind have their own.
+#[derive(Clone, Copy, Debug, Default)]
+struct FilterAddress {
+    picture: PictureAddress,
+    /// Its place among the filters of the encoded picture.
+    place: u32,
+}
+
 /// One of the paper's filters.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Filter {
@@ -135,7 +143,7 @@ impl Filter {
         }
     }
 
-    fn apply_display(&self, picture: &mut Plane<Display>, address: PictureAddress) {
+    fn apply_display(&self, picture: &mut Plane<Display>, address: FilterAddress) {
         match self {
             Self::PulseNoise(filter) => filter.apply(picture, address),
             Self::GaussianNoise(filter) => filter.apply(picture, address),
@@ -163,7 +171,9 @@ pub(crate) fn apply_linear(filters: &[Filter], picture: &mut Plane<LinearRgb>) {
 
 /// Applies the filters of the encoded picture.
 pub(crate) fn apply_display(filters: &[Filter], picture: &mut Plane<Display>, address: PictureAddress) {
-    filters.iter().filter(|f| f.stage() == Stage::Display).for_each(|f| f.apply_display(picture, address));
+    for (place, filter) in filters.iter().filter(|f| f.stage() == Stage::Display).enumerate() {
+        filter.apply_display(picture, FilterAddress { picture: address, place: place as u32 });
+    }
 }
 
 /// DN of white.
@@ -172,11 +182,12 @@ const WHITE_DN: f64 = 255.0;
 /// Gives each pixel's channels the same change of brightness in DN, from a random number of its own, and clips.
 fn change_brightness(
     picture: &mut Plane<Display>,
-    address: PictureAddress,
+    FilterAddress { picture: address, place }: FilterAddress,
     draw: NoiseDraw,
     change: impl Fn(&mut NoiseStream) -> Change + Sync,
 ) {
-    let (width, key) = (picture.width().max(1), NoiseKey::new(address.seed, address.camera, address.frame, 0, draw));
+    let (width, key) =
+        (picture.width().max(1), NoiseKey::new(address.seed, address.camera, address.frame, place, draw));
     for_each(picture, |i, rgb| {
         let mut stream = key.stream(Pixel { x: (i % width) as u32, y: (i / width) as u32 });
         let Change { factor, offset_dn } = change(&mut stream);
@@ -204,8 +215,39 @@ fn demand(legal: bool, name: &'static str, value: f64, range: &'static str) -> R
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
+
+    /// The first filter of a frame.
+    pub(crate) fn address(seed: u64, camera: u32, frame: u32) -> FilterAddress {
+        FilterAddress { picture: PictureAddress { seed, camera, frame }, place: 0 }
+    }
+
+    fn spread(picture: &Plane<Display>) -> f64 {
+        let n = picture.samples().len() as f64;
+        let values = || picture.samples().iter().map(|rgb| WHITE_DN * f64::from(rgb[1]));
+        let mean = values().sum::<f64>() / n;
+        (values().map(|v| (v - mean) * (v - mean)).sum::<f64>() / n).sqrt()
+    }
+
+    #[test]
+    fn two_noises_of_a_kind_are_independent() {
+        let noise = Filter::GaussianNoise(GaussianNoise { sigma_dn: 6.0 });
+        let mut picture = Plane::filled(200, 200, [0.5; 3]);
+        apply_display(&[noise.clone(), noise], &mut picture, PictureAddress::default());
+        // √2 · 6 DN; of 40 000 numbers 4.5 standard errors are 1.6 %. The same numbers twice would give 12 DN.
+        assert!((spread(&picture) / 72.0_f64.sqrt() - 1.0).abs() < 0.016, "{}", spread(&picture));
+    }
+
+    #[test]
+    fn numbers_are_those_of_an_8_bit_picture_and_clip_at_its_ends() {
+        let (pulse, seed) = (PulseNoise { amplitude_dn: 51.0, probability: 0.5 }, PictureAddress::default());
+        let mut picture = Plane::filled(64, 64, [0.1, 0.5, 0.9]);
+        apply_display(&[Filter::PulseNoise(pulse)], &mut picture, seed);
+        // 51 of 255 are 0.2; black and white are the ends.
+        let near = |a: [f32; 3], b: [f32; 3]| (0..3).all(|c| (a[c] - b[c]).abs() < 1e-6);
+        assert!(picture.samples().iter().all(|rgb| near(*rgb, [0.3, 0.7, 1.0]) || near(*rgb, [0.0, 0.3, 0.7])));
+    }
 
     #[test]
     fn linear_filters_come_first() {

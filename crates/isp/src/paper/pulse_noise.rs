@@ -7,7 +7,7 @@
 //! One u a pixel, all channels alike; p₁ in DN of an 8-bit picture, clipped to 0 … 255; p₂ at most 1/2, beyond which the
 //! two cases overlap (at 1/2 itself the first holds).
 
-use super::{Change, FilterError, PictureAddress, change_brightness, demand};
+use super::{Change, FilterAddress, FilterError, change_brightness, demand};
 use etendue_core::Plane;
 use etendue_core::quantity::Display;
 use etendue_core::random::NoiseDraw;
@@ -27,7 +27,7 @@ impl PulseNoise {
         demand((0.0..=0.5).contains(&self.probability), "probability", self.probability, "from 0 to 0.5")
     }
 
-    pub(super) fn apply(&self, picture: &mut Plane<Display>, address: PictureAddress) {
+    pub(super) fn apply(&self, picture: &mut Plane<Display>, address: FilterAddress) {
         change_brightness(picture, address, NoiseDraw::PaperPulse, |stream| {
             let u = stream.unit_f64();
             let sign = if u <= self.probability {
@@ -45,12 +45,13 @@ impl PulseNoise {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::paper::tests::address;
 
     #[test]
     fn pixels_rise_and_fall_as_often_as_said_and_all_channels_alike() {
         let noise = PulseNoise { amplitude_dn: 51.0, probability: 0.2 };
         let mut picture = Plane::filled(200, 200, [0.4, 0.5, 0.6]);
-        noise.apply(&mut picture, PictureAddress { seed: 5, camera: 1, frame: 2 });
+        noise.apply(&mut picture, address(5, 1, 2));
         let (mut up, mut down) = (0, 0);
         for rgb in picture.samples() {
             let change = rgb[0] - 0.4;
@@ -66,7 +67,7 @@ mod tests {
     fn half_and_half_leaves_no_pixel_and_the_ends_clip() {
         let noise = PulseNoise { amplitude_dn: 255.0, probability: 0.5 };
         let mut picture = Plane::filled(40, 40, [0.5; 3]);
-        noise.apply(&mut picture, PictureAddress::default());
+        noise.apply(&mut picture, FilterAddress::default());
         assert!(picture.samples().iter().all(|rgb| *rgb == [0.0; 3] || *rgb == [1.0; 3]));
     }
 

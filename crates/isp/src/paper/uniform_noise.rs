@@ -6,7 +6,7 @@
 //!
 //! One u a pixel, all channels alike; p₁ has no unit (the factor is the same at any scale of DN); clipped to 0 … 255.
 
-use super::{Change, FilterError, PictureAddress, change_brightness, demand};
+use super::{Change, FilterAddress, FilterError, change_brightness, demand};
 use etendue_core::Plane;
 use etendue_core::quantity::Display;
 use etendue_core::random::NoiseDraw;
@@ -23,7 +23,7 @@ impl UniformNoise {
         demand((0.0..=2.0).contains(&self.range), "range", self.range, "from 0 to 2")
     }
 
-    pub(super) fn apply(&self, picture: &mut Plane<Display>, address: PictureAddress) {
+    pub(super) fn apply(&self, picture: &mut Plane<Display>, address: FilterAddress) {
         change_brightness(picture, address, NoiseDraw::PaperUniform, |stream| Change {
             factor: 1.0 + self.range * (stream.unit_f64() - 0.5),
             offset_dn: 0.0,
@@ -34,11 +34,12 @@ impl UniformNoise {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::paper::tests::address;
 
     #[test]
     fn factors_fill_their_range_evenly_and_keep_the_hue() {
         let mut picture = Plane::filled(200, 200, [0.2, 0.4, 0.6]);
-        UniformNoise { range: 0.5 }.apply(&mut picture, PictureAddress { seed: 9, camera: 0, frame: 0 });
+        UniformNoise { range: 0.5 }.apply(&mut picture, address(9, 0, 0));
         let mut bins = [0_u32; 10];
         for rgb in picture.samples() {
             let factor = f64::from(rgb[1]) / 0.4;
@@ -53,7 +54,7 @@ mod tests {
     #[test]
     fn the_ends_clip_and_ranges_have_bounds() {
         let mut picture = Plane::filled(30, 30, [1.0; 3]);
-        UniformNoise { range: 2.0 }.apply(&mut picture, PictureAddress::default());
+        UniformNoise { range: 2.0 }.apply(&mut picture, FilterAddress::default());
         assert!(picture.samples().iter().flatten().all(|v| (0.0..=1.0).contains(v)));
         assert!(UniformNoise { range: 2.1 }.check().is_err() && UniformNoise { range: f64::NAN }.check().is_err());
     }

@@ -5,7 +5,7 @@
 //! to the exposure. The output is over the largest output level that the camera can give (255 of 8 bits).
 
 use super::ToneError;
-use super::table::check_order;
+use super::table::{by_output, check_order};
 use etendue_core::maths::f64::{exp, ln};
 
 /// Output over exposure.
@@ -48,12 +48,12 @@ impl Oecf {
     /// The darkest linear light of an output; 1 beyond the largest.
     pub(super) fn exposure(&self, y: f32) -> f32 {
         let y = f64::from(y);
-        let after = self.points.partition_point(|p| p.1 < y);
-        let Some((h1, y1)) = self.points.get(after) else { return 1.0 };
-        let Some((h0, y0)) = after.checked_sub(1).map(|before| self.points[before]) else {
-            return if *y1 > 0.0 { (exp(*h1) * y / y1) as f32 } else { 0.0 };
-        };
-        exp(h0 + (y - y0) * (h1 - h0) / (y1 - y0)) as f32
+        match by_output(&self.points, y) {
+            (_, None) => 1.0,
+            (None, Some((h1, y1))) if y1 > 0.0 => (exp(h1) * y / y1) as f32,
+            (None, Some(_)) => 0.0,
+            (Some((h0, y0)), Some((h1, y1))) => exp(h0 + (y - y0) * (h1 - h0) / (y1 - y0)) as f32,
+        }
     }
 }
 

@@ -36,11 +36,18 @@ impl Table {
     /// The smallest input of an output; beyond the table's outputs its end.
     pub(super) fn inverse(&self, y: f32) -> f32 {
         let y = f64::from(y);
-        let after = self.points.partition_point(|p| p.1 < y);
-        let Some((x1, y1)) = self.points.get(after) else { return 1.0 };
-        let Some((x0, y0)) = after.checked_sub(1).map(|before| self.points[before]) else { return 0.0 };
-        (x0 + (y - y0) * (x1 - x0) / (y1 - y0)) as f32
+        match by_output(&self.points, y) {
+            (_, None) => 1.0,
+            (None, Some(_)) => 0.0,
+            (Some((x0, y0)), Some((x1, y1))) => (x0 + (y - y0) * (x1 - x0) / (y1 - y0)) as f32,
+        }
     }
+}
+
+/// The last point whose output is below `y`, and the first whose output is not.
+pub(super) fn by_output(points: &[(f64, f64)], y: f64) -> (Option<(f64, f64)>, Option<(f64, f64)>) {
+    let after = points.partition_point(|p| p.1 < y);
+    (after.checked_sub(1).map(|before| points[before]), points.get(after).copied())
 }
 
 /// At least two finite points, inputs rising, outputs not falling.

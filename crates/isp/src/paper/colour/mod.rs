@@ -68,6 +68,28 @@ mod tests {
     use super::*;
 
     #[test]
+    fn pictures_come_back_from_every_space() {
+        for (space, stage) in ColourSpace::ALL.into_iter().flat_map(|s| [Stage::Linear, Stage::Display].map(|t| (s, t)))
+        {
+            let change = ColourChange { stage, operations: vec![Operation::To(space), Operation::From(space)] };
+            if change.check().is_err() {
+                continue;
+            }
+            let colour = |i: usize| [i % 11, i / 11 % 11, i / 121].map(|v| v as f32 / 10.0);
+            let before: Vec<[f32; 3]> = (0..1331).map(colour).collect();
+            let far = |after: &[[f32; 3]]| {
+                let pairs = after.as_flattened().iter().zip(before.as_flattened());
+                pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
+            };
+            let mut linear = Plane::from_samples(121, 11, before.clone()).expect("filled");
+            change.apply_linear(&mut linear);
+            let mut display = Plane::from_samples(121, 11, before.clone()).expect("filled");
+            change.apply_display(&mut display);
+            assert!(far(linear.samples()) < 1e-6 && far(display.samples()) < 1e-6, "{space:?}");
+        }
+    }
+
+    #[test]
     fn operations_become_one_matrix_without_a_clip_between() {
         let operations =
             vec![Operation::Offset([2.0; 3]), Operation::To(ColourSpace::Yuv), Operation::From(ColourSpace::Yuv)];

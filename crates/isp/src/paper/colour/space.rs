@@ -137,6 +137,26 @@ mod tests {
     }
 
     #[test]
+    fn primaries_have_their_chromaticities() {
+        let white_c = white_of([0.3101, 0.3162]);
+        let spaces = [
+            (ColourSpace::RgbPal, PAL_PRIMARIES, Affine::IDENTITY),
+            (ColourSpace::RgbNtsc, NTSC_PRIMARIES, adaptation(D65_WHITE, white_c)),
+        ];
+        for (space, primaries, seen) in spaces {
+            for (i, [x, y]) in primaries.into_iter().enumerate() {
+                let lone = core::array::from_fn(|c| f64::from(u8::from(c == i)));
+                let xyz = seen.apply(Affine::new(XYZ_FROM_SRGB, [0.0; 3]).apply(space.to_rgb().apply(lone)));
+                let sum: f64 = xyz.iter().sum();
+                assert!((xyz[0] / sum - x).abs() < 1e-12 && (xyz[1] / sum - y).abs() < 1e-12, "{space:?} {i}: {xyz:?}");
+            }
+        }
+        // sRGB has PAL's red and blue, nearly its green: red and blue keep their hue, and white is white.
+        let red = ColourSpace::RgbPal.from_rgb().apply([1.0, 0.0, 0.0]);
+        assert!(red[1].abs() < 1e-3 && red[2].abs() < 1e-3 && (0.95..1.05).contains(&red[0]), "{red:?}");
+    }
+
+    #[test]
     fn greys_are_neutral_in_every_space() {
         for grey in [0.0, 0.5, 1.0] {
             for space in [ColourSpace::Yuv, ColourSpace::Yiq, ColourSpace::YCbCr] {
