@@ -5,7 +5,7 @@
 //! | 1 | black level off, white level to 1 | [`black_level`] |
 //! | 2 | defective pixels | [`defects`] |
 //! | 3 | shading | [`shading`] |
-//! | 4 | white balance, highlights clipped at 1 | [`white_balance`] |
+//! | 4 | white balance, highlights clipped at what is shown as white | [`white_balance`] |
 //! | 5 | demosaic | [`demosaic`] |
 //! | 6 | noise reduction | [`detail`] |
 //! | 7 | camera colours to linear sRGB, digital gain | [`colour_matrix`] |

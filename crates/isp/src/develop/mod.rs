@@ -10,7 +10,7 @@ use crate::black_level::black_level;
 use crate::colour_matrix::ColourMatrix;
 use crate::defects;
 use crate::mosaic::{Mosaic, Tile};
-use crate::paper::{self, PictureAddress};
+use crate::paper::{self, PictureAddress, Stage};
 use crate::raw::{RawPicture, normalised};
 use crate::white_balance::{WhiteBalance, grey_world};
 use etendue_core::Plane;
@@ -20,7 +20,8 @@ use rayon::prelude::*;
 /// A developed picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Developed {
-    /// Linear sRGB, not clipped below 0 nor above 1.
+    /// Linear sRGB, neither clipped below 0 nor above 1; channels of the camera end at white, unless filters of linear light
+    /// use what is above it.
     pub linear: Plane<LinearRgb>,
     /// The same, clipped and encoded.
     pub display: Plane<Display>,
@@ -40,6 +41,14 @@ pub struct Facts {
 }
 
 impl Processing {
+    /// The largest sample behind white balance: what is shown as white, but all that there is where filters of linear light
+    /// have a use for it. Interpolated next to a lamp a hundred times white, a wall ten times white would get the lamp's light
+    /// in some channels and not in others, and a rim of pure colours where all is white.
+    fn ceiling(&self) -> f32 {
+        let headroom = self.paper_filters.iter().any(|filter| filter.stage() == Stage::Linear);
+        if headroom { 1.0 } else { (1.0 / self.exposure_gain).min(1.0) as f32 }
+    }
+
     /// A picture in linear light as a display takes it: tone curve, sharpening, the paper's filters of encoded pictures with
     /// the random numbers of `address`.
     #[must_use]
@@ -71,7 +80,7 @@ pub fn develop(
     let (mut samples, corrected_pixels) = defects::corrected(samples, width, raw.mosaic, &processing.defects);
     shade(&mut samples, raw, processing);
     let gains = gains(&samples, raw, processing.colour.as_ref());
-    balance(&mut samples, width, raw.mosaic, &gains);
+    balance(&mut samples, width, raw.mosaic, &gains, processing.ceiling());
     let linear = Plane::from_samples(width, raw.plane.height(), colours(&samples, width, raw.mosaic, processing));
     let mut linear = linear.expect("as many colours as samples");
     paper::apply_linear(&processing.paper_filters, &mut linear);
@@ -100,13 +109,13 @@ fn gains(samples: &[f32], raw: &RawPicture<'_>, colour: Option<&Colour>) -> Vec<
     }
 }
 
-/// White balance; no sample exceeds 1. Noise below black stays negative.
-fn balance(samples: &mut [f32], width: usize, mosaic: &Mosaic, gains: &[f64]) {
+/// White balance; no sample exceeds `ceiling`. Noise below black stays negative.
+fn balance(samples: &mut [f32], width: usize, mosaic: &Mosaic, gains: &[f64], ceiling: f32) {
     let Mosaic::Tile(tile) = mosaic else { return };
     let gains: Vec<f32> = gains.iter().map(|g| *g as f32).collect();
     samples.par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
         for (x, v) in row.iter_mut().enumerate() {
-            *v = (*v * gains[tile.at(x, y)]).min(1.0);
+            *v = (*v * gains[tile.at(x, y)]).min(ceiling);
         }
     });
 }
@@ -210,6 +219,25 @@ mod tests {
             assert!(picture.linear.samples().iter().flatten().all(|v| (v - 1.0).abs() < 1e-6));
             assert!(to_8_bit(&picture.display).iter().all(|rgb| *rgb == [255; 3]));
         }
+    }
+
+    #[test]
+    fn what_is_shown_as_white_has_no_coloured_rims() {
+        // A lamp of white beside a wall of an eighth of it, in a picture of gain 64: both are white, and so is their border.
+        let lamp = |x: usize, y: usize| if (x / 3 + y / 3).is_multiple_of(2) { 1100 } else { 225 };
+        let plane = plane(18, 18, lamp);
+        let bright = |filters| {
+            let settings = Processing { exposure_gain: 64.0, paper_filters: filters, ..processing() };
+            develop(&raw(&plane, &bayer()), &settings, PictureAddress::default()).expect("legal")
+        };
+        let whole = bright(Vec::new());
+        assert!(to_8_bit(&whole.display).iter().all(|rgb| *rgb == [255; 3]));
+        assert!(whole.linear.samples().iter().flatten().all(|v| (v - 1.0).abs() < 1e-5));
+        // A filter of linear light has all that the raw holds: 64 times white.
+        let halved = paper::ColourChange { stage: Stage::Linear, operations: vec![paper::Operation::Brightness(0.5)] };
+        let largest =
+            bright(vec![paper::Filter::Colour(halved)]).linear.samples().iter().fold(0.0, |m: f32, v| m.max(v[1]));
+        assert!((31.9..50.0).contains(&largest), "{largest}");
     }
 
     #[test]

@@ -215,11 +215,11 @@ fn demand(legal: bool, name: &'static str, value: f64, range: &'static str) -> R
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
+mod tests {
     use super::*;
 
     /// The first filter of a frame.
-    pub(crate) fn address(seed: u64, camera: u32, frame: u32) -> FilterAddress {
+    pub(super) fn address(seed: u64, camera: u32, frame: u32) -> FilterAddress {
         FilterAddress { picture: PictureAddress { seed, camera, frame }, place: 0 }
     }
 

@@ -44,8 +44,11 @@ impl Table {
     }
 }
 
+/// An input and its output.
+type Point = (f64, f64);
+
 /// The last point whose output is below `y`, and the first whose output is not.
-pub(super) fn by_output(points: &[(f64, f64)], y: f64) -> (Option<(f64, f64)>, Option<(f64, f64)>) {
+pub(super) fn by_output(points: &[Point], y: f64) -> (Option<Point>, Option<Point>) {
     let after = points.partition_point(|p| p.1 < y);
     (after.checked_sub(1).map(|before| points[before]), points.get(after).copied())
 }
