@@ -28,7 +28,8 @@ impl RawColour {
         match names.as_slice() {
             [_] => Some(Self { tile: None, xyz_to_camera: DMat3::IDENTITY.to_cols_array_2d(), neutral: [1.0; 3] }),
             ["red", "green", "blue"] => {
-                let channels = [0, 1, 2].map(|c| sensor.responsivity(c));
+                let measured = sensor.picture_responsivities();
+                let channels = [0, 1, 2].map(|c| &measured[c]);
                 let white = DVec3::from_array(channels.map(|c| response(c, None)));
                 let scale = 1.0 / white.max_element();
                 Some(Self {

@@ -25,6 +25,7 @@ pub mod exposure_control;
 mod frame;
 pub mod hdr;
 pub mod layout;
+mod mixture;
 mod operation;
 mod parameters;
 pub mod photon;

@@ -45,12 +45,12 @@ fn filters(record: &record::Processing, sensor: &Sensor, context: &mut Context<'
     Some(channels.iter().filter_map(|channel| filter(&channel.name)).collect())
 }
 
-/// Responsivities in the order of the picture's channels.
-fn responsivities<'a>(sensor: &'a Sensor, mosaic: &Mosaic) -> Vec<&'a Spectrum> {
-    let cfa = &sensor.parameters().cfa;
+/// What the sensor's picture measures, in the order of the picture's channels.
+fn responsivities(sensor: &Sensor, mosaic: &Mosaic) -> Vec<Spectrum> {
+    let (cfa, measured) = (&sensor.parameters().cfa, sensor.picture_responsivities());
     let places = (0..cfa.channels().len()).map(|i| (i % cfa.width(), i / cfa.width()));
     let owner = |channel: usize| places.clone().find(|(x, y)| mosaic.channel_at(*x, *y) == channel);
-    let of = |channel: usize| owner(channel).map(|(x, y)| &sensor.responsivities()[cfa.channel_at(x, y)]);
+    let of = |channel: usize| owner(channel).map(|(x, y)| measured[cfa.channel_at(x, y)].clone());
     (0..mosaic.channels()).filter_map(of).collect()
 }
 
@@ -65,7 +65,8 @@ pub(super) fn colour(
         refuse_colour(record, context);
         return None;
     }
-    let channels = responsivities(sensor, mosaic);
+    let measured = responsivities(sensor, mosaic);
+    let channels: Vec<&Spectrum> = measured.iter().collect();
     let white_balance = white_balance(record, &channels, context);
     let matrix = colour_matrix(record, mosaic, &channels, context);
     Some(Colour { white_balance: white_balance?, matrix: matrix? })

@@ -1,0 +1,125 @@
+//! What the channels of an even picture measure: neighbours of other colours mix in.
+//!
+//! Optical cross-talk and inter-pixel capacitance bring part of each pixel's signal from its neighbours, which sit under other filters:
+//! a picture's red is R' = Σ w_c R_c over the channels c. White balance and colour matrices belong to these responsivities, as they
+//! would if they were measured on the camera. The weights of a channel are the mean over its pixels in the tile.
+
+use crate::cfa::Cfa;
+use crate::effects::neighbours::Neighbours;
+use crate::sensor::Sensor;
+use etendue_spectra::Spectrum;
+
+impl Sensor {
+    /// Responsivities of all channels as an even picture shows them, e⁻ per W·m⁻² during the exposure.
+    #[must_use]
+    pub fn picture_responsivities(&self) -> Vec<Spectrum> {
+        let own = self.responsivities();
+        let mixed = |weights: &Vec<f64>| {
+            Spectrum::from_fn(|nm| own.iter().zip(weights).map(|(r, weight)| weight * f64::from(r.at(nm as f32))).sum())
+        };
+        self.channel_weights().iter().map(mixed).collect()
+    }
+
+    /// The weight of each channel's light (second index) in each channel's pixels (first).
+    fn channel_weights(&self) -> Vec<Vec<f64>> {
+        let p = self.parameters();
+        let exchanges = [p.optics.cross_talk.map(|c| c.0), p.read_out.capacitance.map(|c| c.0)];
+        let one_hot = |channel: &usize| (0..p.channels.len()).map(|c| f64::from(u8::from(c == *channel))).collect();
+        let tile: Vec<Vec<f64>> = p.cfa.channels().iter().map(one_hot).collect();
+        let tile = exchanges.iter().flatten().fold(tile, |tile, shares| exchanged(&p.cfa, &tile, shares));
+        (0..p.channels.len()).map(|channel| mean_of(channel, &p.cfa, &tile)).collect()
+    }
+}
+
+/// The weights of each place of a tile after an exchange with the eight neighbours.
+fn exchanged(cfa: &Cfa, tile: &[Vec<f64>], shares: &Neighbours) -> Vec<Vec<f64>> {
+    let (width, height) = (cfa.width(), cfa.height());
+    let share = |dx: usize, dy: usize| match (dx, dy) {
+        (1, 1) => 1.0 - shares.given(),
+        (_, 1) => shares.horizontal,
+        (1, _) => shares.vertical,
+        _ => shares.corner,
+    };
+    let place = |i: usize| {
+        let mut sum = vec![0.0; tile[i].len()];
+        for (dx, dy) in (0..9).map(|n| (n % 3, n / 3)) {
+            let from = (i / width + dy + height - 1) % height * width + (i % width + dx + width - 1) % width;
+            sum.iter_mut().zip(&tile[from]).for_each(|(to, weight)| *to += share(dx, dy) * weight);
+        }
+        sum
+    };
+    (0..tile.len()).map(place).collect()
+}
+
+/// The mean weights of the places of a channel; its own alone where the tile has none.
+fn mean_of(channel: usize, cfa: &Cfa, tile: &[Vec<f64>]) -> Vec<f64> {
+    let places: Vec<&Vec<f64>> =
+        cfa.channels().iter().zip(tile).filter(|(c, _)| **c == channel).map(|(_, w)| w).collect();
+    let count = places.len().max(1) as f64;
+    (0..tile[0].len()).map(|c| places.iter().map(|weights| weights[c]).sum::<f64>() / count).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Channel;
+    use crate::cfa::{BayerPhase, Cfa};
+    use crate::effects::capacitance::Capacitance;
+    use crate::effects::cross_talk::CrossTalk;
+    use crate::effects::neighbours::Neighbours;
+    use crate::frame::tests::{ADDRESS, quiet, run};
+    use crate::sensor::Sensor;
+    use etendue_core::Plane;
+    use etendue_spectra::Spectrum;
+
+    fn bayer(phase: BayerPhase) -> crate::SensorParameters {
+        let mut p = quiet();
+        p.cfa = Cfa::bayer(phase);
+        let channel = |name: &str, qe| Channel { name: name.into(), quantum_efficiency: Spectrum::constant(qe) };
+        p.channels = vec![channel("red", 0.2), channel("green", 0.6), channel("blue", 0.4)];
+        p
+    }
+
+    #[test]
+    fn without_exchange_they_are_the_channels_own() {
+        let sensor = Sensor::new(bayer(BayerPhase::Rggb)).expect("legal");
+        assert_eq!(sensor.picture_responsivities(), sensor.responsivities());
+    }
+
+    /// By hand for Bayer: red has four greens beside it and four blues across its corners.
+    #[test]
+    fn red_takes_from_green_and_blue() {
+        let mut p = bayer(BayerPhase::Gbrg);
+        p.optics.cross_talk = Some(CrossTalk(Neighbours { horizontal: 0.02, vertical: 0.03, corner: 0.01 }));
+        let sensor = Sensor::new(p).expect("legal");
+        let of = |c: usize| f64::from(sensor.responsivity(c).at(500.0));
+        let red = f64::from(sensor.picture_responsivities()[0].at(500.0));
+        let expected = 0.86 * of(0) + 0.1 * of(1) + 0.04 * of(2);
+        assert!((red / expected - 1.0).abs() < 1e-6, "{red} {expected}");
+    }
+
+    /// The same as the numbers that the sensor delivers of even light, channel by channel.
+    #[test]
+    fn an_even_picture_has_them() {
+        let mut p = bayer(BayerPhase::Grbg);
+        p.optics.cross_talk = Some(CrossTalk(Neighbours { horizontal: 0.05, vertical: 0.02, corner: 0.004 }));
+        p.read_out.capacitance = Some(Capacitance(Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.0 }));
+        (p.charge.full_well_e, p.read_out.bits) = (1e6, 20);
+        let sensor = Sensor::new(p.clone()).expect("legal");
+        let level = |r: &Spectrum| f64::from(r.at(500.0)) / f64::from(sensor.responsivity(1).at(500.0)) * 1e5;
+        let mut means = Plane::new(8, 8);
+        for i in 0..64 {
+            means.set(i % 8, i / 8, level(sensor.responsivity(p.cfa.channel_at(i % 8, i / 8))) as f32);
+        }
+        let raw = run(&p, &means, ADDRESS);
+        for (channel, mixed) in sensor.picture_responsivities().iter().enumerate() {
+            let inside = (2..6).flat_map(|y| (2..6).map(move |x| (x, y)));
+            let of: Vec<f64> = inside
+                .filter(|(x, y)| p.cfa.channel_at(*x, *y) == channel)
+                .map(|(x, y)| f64::from(raw.plane.at(x, y)))
+                .collect();
+            let mean = of.iter().sum::<f64>() / of.len() as f64 - p.read_out.black_level_dn;
+            // One digital number an electron: rounding.
+            assert!((mean - level(mixed) * p.read_out.gain_dn_e).abs() < 0.6, "{channel}: {mean} {}", level(mixed));
+        }
+    }
+}
