@@ -5,7 +5,9 @@
 //! All arithmetic is `f64`, in the order of the pixels, with the functions of `etendue_core::maths`: the same bits everywhere.
 
 pub mod calibrate;
+pub mod chromatic;
 pub mod disc;
+pub mod distortion;
 pub mod estimate;
 pub mod fit;
 mod fourier;

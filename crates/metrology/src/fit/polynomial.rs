@@ -96,7 +96,7 @@ impl PolynomialMap {
     /// The image of a point.
     #[must_use]
     pub fn image(&self, point: DVec2) -> DVec2 {
-        self.sum(&basis(self.degree, (point - self.centre) / self.scale))
+        self.sum(&self.row(point))
     }
 
     /// The image and its derivatives.
@@ -115,22 +115,25 @@ impl PolynomialMap {
         }
     }
 
-    /// The standard uncertainty of a coordinate of a point's image.
+    /// How a coordinate of a point's image depends on its coefficients.
     #[must_use]
-    pub fn uncertainty(&self, point: DVec2) -> f64 {
-        let row = basis(self.degree, (point - self.centre) / self.scale);
-        self.sigma * self.unit_covariance.form(&row).sqrt()
+    pub fn row(&self, point: DVec2) -> Vec<f64> {
+        basis(self.degree, (point - self.centre) / self.scale)
     }
 
-    /// The standard uncertainty of a coordinate of the slope along `direction` at a point.
+    /// How a coordinate of the slope along a direction depends on its coefficients.
     #[must_use]
-    pub fn slope_uncertainty(&self, point: DVec2, direction: DVec2) -> f64 {
+    pub fn slope_row(&self, point: DVec2, direction: DVec2) -> Vec<f64> {
         let at = (point - self.centre) / self.scale;
         let (u, v) = (chebyshev(at.x, self.degree), chebyshev(at.y, self.degree));
-        let row: Vec<f64> = terms(self.degree)
-            .map(|(i, j)| direction.x * u[i][1] * v[j][0] + direction.y * u[i][0] * v[j][1])
-            .collect();
-        self.sigma * self.unit_covariance.form(&row).sqrt() / self.scale
+        let along = direction / self.scale;
+        terms(self.degree).map(|(i, j)| along.x * u[i][1] * v[j][0] + along.y * u[i][0] * v[j][1]).collect()
+    }
+
+    /// The variance of what depends on a coordinate's coefficients by a row.
+    #[must_use]
+    pub fn variance(&self, row: &[f64]) -> f64 {
+        self.sigma * self.sigma * self.unit_covariance.form(row)
     }
 
     fn sum(&self, row: &[f64]) -> DVec2 {

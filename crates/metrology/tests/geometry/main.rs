@@ -3,5 +3,6 @@
 mod calibration;
 mod cameras;
 mod detection;
+mod distortion;
 mod opencv;
 mod paint;

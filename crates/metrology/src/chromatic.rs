@@ -1,0 +1,100 @@
+//! Lateral chromatic displacement after ISO 19084:2015.
+//!
+//! The points of a chart are found in each channel by itself; the displacement of a point is where red, or blue, shows it less
+//! where green does (vector, px). Its radial part (positive: farther from the centre than green) and its tangential part
+//! (positive: turned from x towards y) are taken about the picture's centre. Points belong together where they are nearest,
+//! within half a step. By rings of a tenth of the half diagonal: the means, with their standard uncertainty from the scatter
+//! within the ring, or from the points' own uncertainties where that is more.
+//!
+//! Discs' shifts by perspective are the same in all channels to second order, and not taken off.
+
+use crate::Estimate;
+use crate::target::Grid;
+use glam::DVec2;
+
+/// The displacement at a point of the chart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Displacement {
+    /// Where green shows it, px.
+    pub at: DVec2,
+    /// The other channel less green, px.
+    pub by: DVec2,
+    /// The radial part, px.
+    pub radial: f64,
+    /// The tangential part, px.
+    pub tangential: f64,
+    /// Distance from the centre, in half diagonals.
+    pub field: f64,
+    /// Standard uncertainty of a coordinate of `by`, px.
+    pub uncertainty_px: f64,
+}
+
+/// The mean over a ring.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ring {
+    /// Mean field of its points, in half diagonals.
+    pub field: f64,
+    /// Mean radial displacement, px.
+    pub radial: Estimate,
+    /// Mean tangential displacement, px.
+    pub tangential: Estimate,
+    /// Number of points.
+    pub points: usize,
+}
+
+/// Displacements of a channel against green, about a picture's middle.
+#[must_use]
+pub fn displacements(green: &Grid, other: &Grid, size_px: [usize; 2]) -> Vec<Displacement> {
+    let size = DVec2::new(size_px[0] as f64, size_px[1] as f64);
+    let (centre, half_diagonal) = (0.5 * size, 0.5 * size.length());
+    let at = |node: &crate::target::Node| {
+        let nearest = other
+            .nodes
+            .iter()
+            .min_by(|a, b| (a.at - node.at).length_squared().total_cmp(&(b.at - node.at).length_squared()))?;
+        let by = nearest.at - node.at;
+        (by.length() < 0.5 * step(green, node)?).then_some(())?;
+        let from = node.at - centre;
+        let outwards = from.normalize_or_zero();
+        Some(Displacement {
+            at: node.at,
+            by,
+            radial: outwards.dot(by),
+            tangential: outwards.perp_dot(by),
+            field: from.length() / half_diagonal,
+            uncertainty_px: etendue_core::maths::f64::hypot(node.uncertainty_px, nearest.uncertainty_px),
+        })
+    };
+    green.nodes.iter().filter_map(at).collect()
+}
+
+/// The length of the shortest step to a neighbour, px.
+fn step(grid: &Grid, node: &crate::target::Node) -> Option<f64> {
+    let [i, j] = node.index;
+    let beside = [[i + 1, j], [i.wrapping_sub(1), j], [i, j + 1], [i, j.wrapping_sub(1)]];
+    beside.iter().filter_map(|index| Some((grid.node(*index)?.at - node.at).length())).min_by(f64::total_cmp)
+}
+
+/// Rings of a tenth of the half diagonal that hold at least three points.
+#[must_use]
+pub fn rings(displacements: &[Displacement]) -> Vec<Ring> {
+    const RINGS: i32 = 10;
+    let ring = |i: i32| {
+        let within = |d: &&Displacement| (d.field * f64::from(RINGS)).floor() == f64::from(i);
+        let points: Vec<&Displacement> = displacements.iter().filter(within).collect();
+        let count = points.len() as f64;
+        let own = points.iter().map(|d| d.uncertainty_px * d.uncertainty_px).sum::<f64>() / count;
+        let mean = |part: fn(&Displacement) -> f64| {
+            let mean = points.iter().map(|d| part(d)).sum::<f64>() / count;
+            let scatter = points.iter().map(|d| (part(d) - mean) * (part(d) - mean)).sum::<f64>() / (count - 1.0);
+            Estimate::new(mean, (scatter.max(own) / count).sqrt())
+        };
+        (points.len() >= 3).then(|| Ring {
+            field: points.iter().map(|d| d.field).sum::<f64>() / count,
+            radial: mean(|d| d.radial),
+            tangential: mean(|d| d.tangential),
+            points: points.len(),
+        })
+    };
+    (0..RINGS).filter_map(ring).collect()
+}

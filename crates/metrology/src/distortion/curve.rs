@@ -1,0 +1,65 @@
+//! Distortion against field: the curve of the paper's figure 11.
+
+use super::Ideal;
+use crate::Estimate;
+use crate::target::Node;
+use etendue_core::maths::f64::sin_cos;
+use glam::DVec2;
+use std::collections::BTreeSet;
+
+/// A point of the curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CurvePoint {
+    /// Observed distance from the centre, in half diagonals.
+    pub field: f64,
+    /// Observed over ideal distance, the mean over the directions in which the chart reaches there.
+    pub ratio: Estimate,
+    /// The share of directions in which it does.
+    pub covered: f64,
+    /// Standard deviation of the ratio over directions: what is not radial.
+    pub spread: f64,
+}
+
+/// Steps of field, and directions of each ring.
+const STEPS: i32 = 40;
+const DIRECTIONS: i32 = 72;
+
+/// The curve at steps of 2.5 % of the half diagonal.
+pub(super) fn curve(ideal: &Ideal, nodes: &[Node], half_diagonal_px: f64) -> Vec<CurvePoint> {
+    let seen: BTreeSet<[i64; 2]> = nodes.iter().map(|n| n.index.map(|i| i as i64)).collect();
+    (1..=STEPS).filter_map(|i| point(ideal, &seen, f64::from(i) / f64::from(STEPS), half_diagonal_px)).collect()
+}
+
+fn point(ideal: &Ideal, seen: &BTreeSet<[i64; 2]>, field: f64, half_diagonal_px: f64) -> Option<CurvePoint> {
+    let radius = field * half_diagonal_px;
+    let place = |i: i32| {
+        let (sin, cos) = sin_cos(std::f64::consts::TAU * f64::from(i) / f64::from(DIRECTIONS));
+        ideal.centre() + radius * DVec2::new(cos, sin)
+    };
+    // Between points of the chart, or beyond them by half a step at most.
+    let within = |at: &DVec2| seen.contains(&ideal.chart(*at).to_array().map(|c| c.round() as i64));
+    let places: Vec<DVec2> = (0..DIRECTIONS).map(place).filter(within).collect();
+    let ratios: Vec<f64> = places.iter().map(|at| radius / (ideal.place(*at) - ideal.centre()).length()).collect();
+    let count = ratios.len() as f64;
+    // A direction to each corner of the picture.
+    if ratios.len() < 4 {
+        return None;
+    }
+    let mean = ratios.iter().sum::<f64>() / count;
+    let spread = (ratios.iter().map(|r| (r - mean) * (r - mean)).sum::<f64>() / count).sqrt();
+    let mut rows: Option<[Vec<f64>; 2]> = None;
+    for (at, ratio) in places.iter().zip(&ratios) {
+        let more = ideal.log_distance_rows(*at).map(|row| row.iter().map(|r| -ratio * r / count).collect::<Vec<_>>());
+        rows = Some(match rows {
+            None => more,
+            Some(sum) => std::array::from_fn(|c| sum[c].iter().zip(&more[c]).map(|(a, b)| a + b).collect()),
+        });
+    }
+    let variance: f64 = rows?.iter().map(|row| ideal.variance(row)).sum();
+    Some(CurvePoint {
+        field,
+        ratio: Estimate::new(mean, variance.sqrt()),
+        covered: count / f64::from(DIRECTIONS),
+        spread,
+    })
+}

@@ -1,0 +1,116 @@
+//! k₁ and k₂ of one picture of a chart.
+
+use crate::Estimate;
+use crate::calibrate::Sighting;
+use crate::fit::{FitError, Homography, Problem, fit};
+use etendue_projection::{RadialDistortion, Sense};
+use glam::{DMat3, DVec2};
+
+/// The radial polynomial r′ = r (1 + k₁ r² + k₂ r⁴) nearest to a picture, r and r′ in half diagonals about its own centre, after
+/// a homography from the chart (eight numbers more).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RadialFit {
+    /// From ideal to observed, or back.
+    pub sense: Sense,
+    /// k₁, per half diagonal squared.
+    pub k1: Estimate,
+    /// k₂, per half diagonal to the fourth.
+    pub k2: Estimate,
+    /// The distortion's centre, raster coordinates; uncertain without limit where the distortion is too weak to show it
+    /// (then the curve's centre was taken).
+    pub centre_px: [Estimate; 2],
+    /// Root mean square distance of the points from the fit, px.
+    pub rms_px: f64,
+}
+
+impl RadialFit {
+    pub(super) fn of(
+        points: &[Sighting],
+        sense: Sense,
+        centre: DVec2,
+        half_diagonal_px: f64,
+    ) -> Result<Self, FitError> {
+        let pairs: Vec<[DVec2; 2]> = points.iter().map(|p| [p.chart, p.at]).collect();
+        let (start, _) = Homography::fitted(&pairs)?;
+        let (chart, size) = middle(&pairs);
+        let mut problem = Radial { points, sense, half_diagonal_px, centre, free: true, chart, size };
+        let mut numbers = problem.first(&start);
+        numbers.extend([0.0, 0.0, centre.x, centre.y]);
+        let free = fit(&problem, &numbers);
+        // A centre known no better than a twentieth of the half diagonal is not known.
+        let known =
+            |f: &crate::fit::Fit| (10..12).all(|i| f.estimate(i).standard_uncertainty < 0.05 * half_diagonal_px);
+        let (found, centre_px) = match free {
+            Ok(found) if known(&found) => (found.clone(), [found.estimate(10), found.estimate(11)]),
+            _ => {
+                problem.free = false;
+                let open = [centre.x, centre.y].map(|c| Estimate::new(c, f64::INFINITY));
+                (fit(&problem, &numbers[..10])?, open)
+            }
+        };
+        let squares: f64 = found.residuals.iter().flatten().map(|r| r * r).sum();
+        let rms_px = (squares / points.len() as f64).sqrt();
+        Ok(Self { sense, k1: found.estimate(8), k2: found.estimate(9), centre_px, rms_px })
+    }
+}
+
+fn middle(pairs: &[[DVec2; 2]]) -> (DVec2, f64) {
+    let centre = pairs.iter().map(|p| p[0]).sum::<DVec2>() / pairs.len() as f64;
+    (centre, pairs.iter().map(|p| (p[0] - centre).length()).fold(0.0, f64::max))
+}
+
+/// Numbers: the homography from the chart (moved to its middle, of size 1) to half diagonals about `centre`, row by row but for
+/// the last; k₁, k₂; the centre where it is free.
+struct Radial<'a> {
+    points: &'a [Sighting],
+    sense: Sense,
+    half_diagonal_px: f64,
+    centre: DVec2,
+    free: bool,
+    chart: DVec2,
+    size: f64,
+}
+
+impl Radial<'_> {
+    fn first(&self, start: &Homography) -> Vec<f64> {
+        let unit = |centre: DVec2, size: f64| DMat3::from_translation(centre) * DMat3::from_scale(DVec2::splat(size));
+        let matrix = unit(self.centre, self.half_diagonal_px).inverse() * start.matrix * unit(self.chart, self.size);
+        let rows = (matrix / matrix.z_axis.z).transpose().to_cols_array();
+        rows[..8].to_vec()
+    }
+}
+
+impl Problem for Radial<'_> {
+    type State = (Homography, RadialDistortion, DVec2);
+
+    fn state(&self, p: &[f64]) -> Option<Self::State> {
+        let rows = [p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], 1.0];
+        let homography = Homography { matrix: DMat3::from_cols_array(&rows).transpose() };
+        let centre = if self.free { DVec2::new(p[10], p[11]) } else { self.centre };
+        Some((homography, RadialDistortion::new(self.sense, p[8], p[9], 1.0).ok()?, centre))
+    }
+
+    fn blocks(&self) -> usize {
+        1
+    }
+
+    fn residuals(&self, (homography, distortion, centre): &Self::State, _: usize) -> Option<Vec<f64>> {
+        let mut residuals = Vec::with_capacity(2 * self.points.len());
+        for point in self.points {
+            let undistorted = homography.image((point.chart - self.chart) / self.size)?;
+            // In half diagonals about the distortion's own centre.
+            let moved = undistorted - (*centre - self.centre) / self.half_diagonal_px;
+            let observed = distortion.observed(moved)?;
+            residuals.extend((*centre + observed * self.half_diagonal_px - point.at).to_array());
+        }
+        Some(residuals)
+    }
+
+    fn depends(&self, _: usize, _: usize) -> bool {
+        true
+    }
+
+    fn reach(&self, parameter: usize) -> f64 {
+        if parameter < 10 { 0.03 } else { 0.03 * self.half_diagonal_px }
+    }
+}
