@@ -34,7 +34,7 @@ pub mod tone;
 pub mod white_balance;
 
 pub use black_level::BlackLevel;
-pub use colour_matrix::{ColourMatrix, FitError, MatrixError, NOISE_OF_MANY_CHANNELS, fit_colour_matrix};
+pub use colour_matrix::{ColourMatrix, FitError, MatrixError, NOISE_OF_OTHER_CHANNELS, fit_colour_matrix};
 pub use defects::Defects;
 pub use demosaic::Demosaic;
 pub use detail::{Bilateral, DetailError, NoiseReduction, Unsharp};

@@ -5,7 +5,7 @@
 
 mod fit;
 
-pub use fit::{FitError, NOISE_OF_MANY_CHANNELS, fit_colour_matrix};
+pub use fit::{FitError, NOISE_OF_OTHER_CHANNELS, fit_colour_matrix};
 
 /// Rows give red, green and blue of linear sRGB, columns are the channels.
 #[derive(Clone, Debug, PartialEq)]

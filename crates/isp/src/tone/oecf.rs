@@ -5,7 +5,7 @@
 //! to the exposure. The output is over the largest output level that the camera can give (255 of 8 bits).
 
 use super::ToneError;
-use super::table::{by_output, check_order};
+use super::table::{along, by_output, check_order};
 use etendue_core::maths::f64::{exp, ln};
 
 /// Output over exposure.
@@ -39,10 +39,7 @@ impl Oecf {
         if x <= exp(lowest) {
             return (floor * x / exp(lowest)) as f32;
         }
-        let h = ln(x);
-        let after = self.points.partition_point(|p| p.0 < h).clamp(1, self.points.len() - 1);
-        let ((h0, y0), (h1, y1)) = (self.points[after - 1], self.points[after]);
-        (y0 + (h - h0) * (y1 - y0) / (h1 - h0)) as f32
+        along(&self.points, ln(x)) as f32
     }
 
     /// The darkest linear light of an output; 1 beyond the largest.

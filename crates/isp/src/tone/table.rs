@@ -27,10 +27,7 @@ impl Table {
 
     /// The output of an input 0 … 1; of a NaN a NaN.
     pub(super) fn at(&self, x: f32) -> f32 {
-        let x = f64::from(x);
-        let after = self.points.partition_point(|p| p.0 < x).clamp(1, self.points.len() - 1);
-        let ((x0, y0), (x1, y1)) = (self.points[after - 1], self.points[after]);
-        (y0 + (x - x0) * (y1 - y0) / (x1 - x0)) as f32
+        along(&self.points, f64::from(x)) as f32
     }
 
     /// The smallest input of an output; beyond the table's outputs its end.
@@ -46,6 +43,13 @@ impl Table {
 
 /// An input and its output.
 type Point = (f64, f64);
+
+/// On the straight line between the two points about `x`, or on that of the first or the last two; of a NaN a NaN.
+pub(super) fn along(points: &[Point], x: f64) -> f64 {
+    let after = points.partition_point(|p| p.0 < x).clamp(1, points.len() - 1);
+    let ((x0, y0), (x1, y1)) = (points[after - 1], points[after]);
+    y0 + (x - x0) * (y1 - y0) / (x1 - x0)
+}
 
 /// The last point whose output is below `y`, and the first whose output is not.
 pub(super) fn by_output(points: &[Point], y: f64) -> (Option<Point>, Option<Point>) {

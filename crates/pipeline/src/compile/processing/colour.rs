@@ -3,7 +3,7 @@
 use super::super::context::Context;
 use super::super::spectrum::named_illuminant;
 use etendue_isp::{
-    Colour, ColourMatrix, Demosaic, Filter, Mosaic, NOISE_OF_MANY_CHANNELS, WhiteBalance, fit_colour_matrix,
+    Colour, ColourMatrix, Demosaic, Filter, Mosaic, NOISE_OF_OTHER_CHANNELS, WhiteBalance, fit_colour_matrix,
     white_balance_from_illuminant,
 };
 use etendue_scene::record;
@@ -168,7 +168,7 @@ fn colour_matrix(
         Some(description::ColourMatrix::Fit(name)) => {
             let illuminant = named_illuminant(name, context)?;
             let patches = chart::colorchecker().iter().map(|patch| &patch.reflectance);
-            let noise = if channels.len() > 3 { NOISE_OF_MANY_CHANNELS } else { 0.0 };
+            let noise = if is_rgb(mosaic) { 0.0 } else { NOISE_OF_OTHER_CHANNELS };
             context.accept(&name.place, fit_colour_matrix(channels, &illuminant, patches, noise))
         }
     }
