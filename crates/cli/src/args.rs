@@ -29,6 +29,10 @@ pub enum Verb {
     Expose(Expose),
     /// Make pictures of raws that were taken before, by another processing
     Develop(Develop),
+    /// Photograph even light by a camera's bare sensor, or take the series by which EMVA 1288 measures; nothing is traced
+    Flat(crate::sensor_args::Flat),
+    /// Make a camera file of an EMVA 1288 data sheet; figures that contradict each other are refused
+    Datasheet(crate::sensor_args::DataSheet),
     /// Say what is in a file, with units; make a picture of it
     Inspect(Inspect),
     /// Compare two results: errors with their uncertainty; exit status 1 where they differ
@@ -251,9 +255,11 @@ pub enum SchemaKind {
     Camera,
     /// Scene, cameras, render and output settings
     Job,
+    /// What `etendue datasheet` reads
+    Datasheet,
 }
 
-fn frames(text: &str) -> Result<std::ops::Range<u32>, String> {
+pub fn frames(text: &str) -> Result<std::ops::Range<u32>, String> {
     let expected = || format!("expected FIRST..END with FIRST < END, e.g. 0..10, not '{text}'");
     let (first, end) = text.split_once("..").ok_or_else(expected)?;
     let number = |s: &str| s.trim().parse::<u32>().map_err(|_| expected());

@@ -17,6 +17,7 @@ mod machine;
 mod photographs;
 mod progress;
 mod raw_file;
+mod sensor_args;
 mod verbs;
 
 use args::{Arguments, Verb};
@@ -42,6 +43,8 @@ fn run(verb: &Verb) -> Result<(), Failure> {
         Verb::Plan(arguments) => verbs::plan::run(arguments),
         Verb::Expose(arguments) => verbs::expose::run(arguments),
         Verb::Develop(arguments) => verbs::develop::run(arguments),
+        Verb::Flat(arguments) => verbs::flat::run(arguments),
+        Verb::Datasheet(arguments) => verbs::datasheet::run(arguments),
         Verb::Inspect(arguments) => verbs::inspect::run(arguments),
         Verb::Compare(arguments) => verbs::compare::run(arguments),
         Verb::Chart(arguments) => verbs::chart::run(arguments),

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::files::Files;
 use crate::tell;
 use etendue_core::Plane;
-use etendue_core::quantity::{Display, Electrons};
+use etendue_core::quantity::{DigitalNumber, Display, Electrons};
 use etendue_io::exr::{self, EncodeError};
 use etendue_io::jpeg::encode_jpeg;
 use etendue_io::tiff::{self, DngFacts};
@@ -82,9 +82,8 @@ fn frame(
     let (products, number) = (wanted.products, address.frame);
     if products.raw {
         let bytes = match products.raw_format {
-            RawFormat::Png => png::encode_raw16(&frame.raw.plane),
-            RawFormat::Tiff => tiff::encode_raw_tiff(&frame.raw.plane, frame.raw.bits),
             RawFormat::Dng => dng(body, &frame.raw, wanted.camera),
+            format => encoded_raw(&frame.raw.plane, frame.raw.bits, format),
         };
         results.write(&Files::raw(number, products.raw_format), bytes)?;
     }
@@ -102,6 +101,14 @@ fn frame(
         }
     }
     Ok(())
+}
+
+/// Digital numbers without facts: TIFF or PNG.
+pub fn encoded_raw(plane: &Plane<DigitalNumber>, bits: u32, format: RawFormat) -> Result<Vec<u8>, EncodeError> {
+    match format {
+        RawFormat::Tiff => tiff::encode_raw_tiff(plane, bits),
+        RawFormat::Png | RawFormat::Dng => png::encode_raw16(plane),
+    }
 }
 
 fn encode_causes(causes: &Causes, facts: &Provenance) -> Result<Vec<u8>, EncodeError> {

@@ -6,10 +6,12 @@
 
 pub mod block;
 pub mod compile;
+pub mod datasheet;
 pub mod defocus;
 mod effects;
 pub mod film;
 mod fingerprint;
+pub mod flat;
 pub mod gather;
 pub mod light;
 pub mod light_meter;
@@ -18,7 +20,6 @@ mod observer;
 pub mod photograph;
 pub mod plan;
 pub mod pupil_depth;
-
 pub mod raw_colour;
 pub mod rays;
 pub mod render;

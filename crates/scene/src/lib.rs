@@ -26,7 +26,7 @@ mod schema;
 mod suggest;
 
 pub use fault::{Fault, Faults};
-pub use load::{CameraSetup, Description, ReadText, load_camera};
+pub use load::{CameraSetup, Description, ReadText, load_camera, load_datasheet};
 pub use overrides::Overrides;
 pub use place::{Place, Placed};
 pub use schema::{FileKind, schema};

@@ -3,7 +3,7 @@
 use serde_json::{Value as Json, json};
 
 use crate::reader::{Record, Rule as _, record};
-use crate::record::{Camera, Job, Scene};
+use crate::record::{Camera, DataSheet, Job, Scene};
 
 /// The kinds of file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +14,8 @@ pub enum FileKind {
     Camera,
     /// What is rendered.
     Job,
+    /// What a camera's maker measured after EMVA 1288.
+    DataSheet,
 }
 
 /// The JSON Schema (draft 2020-12) of a kind of file. That of scenes and cameras is a choice: a file with a `base` ("then")
@@ -23,12 +25,16 @@ pub fn schema(kind: FileKind) -> Json {
     match kind {
         FileKind::Scene => based::<Scene>("Étendue scene"),
         FileKind::Camera => based::<Camera>("Étendue camera"),
-        FileKind::Job => {
-            let mut schema = whole::<Job>();
-            head(&mut schema, "Étendue job");
-            schema
-        }
+        FileKind::Job => unbased::<Job>("Étendue job"),
+        FileKind::DataSheet => unbased::<DataSheet>("EMVA 1288 data sheet"),
     }
+}
+
+/// A file that builds on no other.
+fn unbased<T: Record>(title: &str) -> Json {
+    let mut schema = whole::<T>();
+    head(&mut schema, title);
+    schema
 }
 
 fn head(schema: &mut Json, title: &str) {

@@ -21,6 +21,7 @@ pub mod cfa;
 mod check;
 pub mod effects;
 mod electrons;
+pub mod emva1288;
 pub mod exposure_control;
 mod frame;
 pub mod hdr;

@@ -11,6 +11,7 @@ mod cornell;
 mod defocus;
 mod dispersing_lens;
 mod effects;
+mod emva;
 mod extremes;
 mod front;
 mod furnace;

@@ -10,6 +10,7 @@ pub fn run(arguments: &args::Schema) -> Result<(), Failure> {
         SchemaKind::Scene => FileKind::Scene,
         SchemaKind::Camera => FileKind::Camera,
         SchemaKind::Job => FileKind::Job,
+        SchemaKind::Datasheet => FileKind::DataSheet,
     };
     let text = serde_json::to_string_pretty(&schema(kind)).map_err(|error| Failure::Run(error.to_string()))?;
     say(&format!("{text}\n"));

@@ -11,6 +11,8 @@ fn help_names_every_verb_and_the_exit_statuses() {
         "plan",
         "expose",
         "develop",
+        "flat",
+        "datasheet",
         "inspect",
         "compare",
         "chart",
@@ -25,7 +27,7 @@ fn help_names_every_verb_and_the_exit_statuses() {
 
 #[test]
 fn every_option_explains_itself() {
-    for verb in ["render", "merge", "plan", "expose", "develop", "inspect", "compare", "schema"] {
+    for verb in ["render", "merge", "plan", "expose", "develop", "flat", "datasheet", "inspect", "compare", "schema"] {
         let help = etendue(["help", verb]).ok().out;
         let options = help.lines().filter(|line| line.trim_start().starts_with("--")).count();
         let lines: Vec<&str> = help.lines().collect();

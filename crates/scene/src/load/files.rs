@@ -106,6 +106,11 @@ pub(super) fn open(
     Some(tree)
 }
 
+/// The tree of a data sheet, which has no base; its format is checked and taken out.
+pub(super) fn sheet(file: &Path, read: &ReadText<'_>, faults: &mut Faults) -> Option<Node> {
+    own_tree(file, read, &Place::file_head(file), faults)
+}
+
 /// What a file itself says.
 fn own_tree(file: &Path, read: &ReadText<'_>, named: &Place, faults: &mut Faults) -> Option<Node> {
     let text = match read(file) {

@@ -15,7 +15,7 @@ use crate::preset;
 use crate::reader::{Rule as _, record};
 use crate::record::job::CameraSource;
 use crate::record::render::{check_levels, check_merged};
-use crate::record::{Camera, CameraEntry, Job, Output, Pose, Render, Scene};
+use crate::record::{Camera, CameraEntry, DataSheet, Job, Output, Pose, Render, Scene};
 
 /// Reads the text of a file; the error says in a few words why it cannot.
 pub type ReadText<'r> = dyn Fn(&Path) -> Result<String, String> + 'r;
@@ -108,4 +108,15 @@ pub fn load_camera(file: &Path, read: &ReadText<'_>, overrides: &Overrides) -> R
     }
     let camera = document.and_then(|d| record::<Camera>().read(&d, &mut faults));
     faults.or(camera)
+}
+
+/// Reads an EMVA 1288 data sheet.
+///
+/// # Errors
+/// All faults of the file.
+pub fn load_datasheet(file: &Path, read: &ReadText<'_>) -> Result<DataSheet, Faults> {
+    let mut faults = Faults::none();
+    let document = files::sheet(file, read, &mut faults);
+    let sheet = document.and_then(|d| record::<DataSheet>().read(&d, &mut faults));
+    faults.or(sheet)
 }

@@ -5,6 +5,7 @@
 
 pub mod camera;
 pub mod curve;
+pub mod datasheet;
 pub mod effects;
 pub mod environment;
 pub mod front;
@@ -28,6 +29,7 @@ pub mod transform;
 
 pub use camera::Camera;
 pub use curve::Curve;
+pub use datasheet::DataSheet;
 pub use effects::Effects;
 pub use environment::Environment;
 pub use front::Front;

@@ -215,7 +215,13 @@ fn presets() -> String {
 #[test]
 fn the_reference_is_in_step_with_the_schema() {
     let mut page = Page::default();
-    for (title, kind) in [("Scene", FileKind::Scene), ("Camera", FileKind::Camera), ("Job", FileKind::Job)] {
+    let kinds = [
+        ("Scene", FileKind::Scene),
+        ("Camera", FileKind::Camera),
+        ("Job", FileKind::Job),
+        ("Data sheet", FileKind::DataSheet),
+    ];
+    for (title, kind) in kinds {
         // Of scenes and cameras the whole files, not those over a base.
         let schema = schema(kind);
         page.title(title, schema.get("else").unwrap_or(&schema));

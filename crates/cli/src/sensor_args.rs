@@ -1,0 +1,69 @@
+//! Arguments of the verbs about sensors by themselves.
+
+use crate::args::{Output, frames};
+use clap::Args;
+use std::path::PathBuf;
+
+/// `etendue flat`
+#[derive(Debug, Args)]
+pub struct Flat {
+    /// The camera file (TOML); its lens is taken off
+    #[arg(value_name = "CAMERA.toml")]
+    pub camera: PathBuf,
+    /// Wavelength of the light, nm
+    #[arg(long, value_name = "NM", value_parser = wavelength_nm)]
+    pub wavelength_nm: f64,
+    #[command(flatten)]
+    pub light: FlatLight,
+    /// With --photon-transfer: frames of the stacks at half of saturation and in the dark
+    #[arg(long, value_name = "N", default_value_t = 100, conflicts_with = "irradiance_w_m2")]
+    #[arg(value_parser = clap::value_parser!(u32).range(3..=10_000))]
+    pub stack: u32,
+    /// Frames to take, first to last (the last excluded); each has its own sensor noise
+    #[arg(long, value_name = "A..B", value_parser = frames, default_value = "0..1", conflicts_with = "photon_transfer")]
+    pub frames: std::ops::Range<u32>,
+    /// Write what each pixel's digital number is made of
+    #[arg(long, conflicts_with = "photon_transfer")]
+    pub causes: bool,
+    /// Change a key of the camera file, e.g. --set sensor.exposure_s=0.002
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// The seed of the sensor's noise [default: 0]
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    #[command(flatten)]
+    pub output: Output,
+}
+
+/// How bright even light is.
+#[derive(Debug, Args)]
+#[group(required = true, multiple = false)]
+pub struct FlatLight {
+    /// Irradiance of the sensor, W/m²; 0 is dark
+    #[arg(long, value_name = "E", value_parser = irradiance_w_m2)]
+    pub irradiance_w_m2: Option<f64>,
+    /// The series of EMVA 1288 instead: so many exposures up to the camera's exposure_s, where the light just saturates, two
+    /// bright and two dark frames each; then a stack at half of saturation and one in the dark
+    #[arg(long, value_name = "LEVELS", value_parser = clap::value_parser!(u32).range(3..=10_000))]
+    pub photon_transfer: Option<u32>,
+}
+
+/// `etendue datasheet`
+#[derive(Debug, Args)]
+pub struct DataSheet {
+    /// The data sheet's figures (TOML; docs/scene-format.md has the keys)
+    #[arg(value_name = "SHEET.toml")]
+    pub sheet: PathBuf,
+    #[command(flatten)]
+    pub output: Output,
+}
+
+fn wavelength_nm(text: &str) -> Result<f64, String> {
+    let nm = text.parse().ok().filter(|nm| (300.0..=1100.0).contains(nm));
+    nm.ok_or_else(|| format!("expected a wavelength of 300 to 1100 nm, not '{text}'"))
+}
+
+fn irradiance_w_m2(text: &str) -> Result<f64, String> {
+    let e = text.parse().ok().filter(|e: &f64| e.is_finite() && *e >= 0.0);
+    e.ok_or_else(|| format!("expected an irradiance of 0 W/m² or more, not '{text}'"))
+}

@@ -1,0 +1,133 @@
+//! Even light on bare sensors from the command line.
+
+use crate::support::{Ran, contents, etendue, text};
+use etendue_io::exr::{Samples, read_exr};
+use etendue_io::picture::read_picture;
+use etendue_scene::asset::ImagePixels;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+const WEB: &str = "scenes/cameras/web.toml";
+const SMALL: [&str; 4] = ["--set", "sensor.width_px=16", "--set", "sensor.height_px=8"];
+
+/// The run, and the camera's files.
+fn flat(camera: &str, options: &[&str]) -> (Ran, BTreeMap<String, Vec<u8>>) {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let out = text(&place.path().join("out"));
+    let arguments = ["flat", camera, "--wavelength-nm", "525", "-o", &out];
+    let ran = etendue(arguments.iter().copied().chain(options.iter().copied()));
+    let files = contents(&place.path().join("out"));
+    (ran, files)
+}
+
+/// A file of its own.
+fn stored(bytes: &[u8], name: &str) -> (tempfile::TempDir, PathBuf) {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let path = place.path().join(name);
+    std::fs::write(&path, bytes).expect("written");
+    (place, path)
+}
+
+/// The numbers of a raw, and its columns and rows.
+fn numbers(bytes: &[u8]) -> (Vec<u16>, [u32; 2]) {
+    let (_place, path) = stored(bytes, "raw.png");
+    let picture = read_picture(&path).expect("a picture");
+    let ImagePixels::Gray16(samples) = picture.pixels else { panic!("16 bits") };
+    (samples, [picture.width, picture.height])
+}
+
+#[test]
+fn single_frames_have_raw_picture_and_side_car_and_a_seed() {
+    let options = [&SMALL[..], &["--irradiance-w-m2", "0.002", "--frames", "3..5"]].concat();
+    let (ran, files) = flat(WEB, &options);
+    ran.ok();
+    let names = ["camera.json", "picture.0003.png", "picture.0004.png", "raw.0003.png", "raw.0004.png"];
+    assert_eq!(files.keys().cloned().collect::<Vec<_>>(), names.map(|n| format!("web/{n}")));
+    assert_ne!(files["web/raw.0003.png"], files["web/raw.0004.png"]);
+    let facts: serde_json::Value = serde_json::from_slice(&files["web/camera.json"]).expect("JSON");
+    // 3.6 µm, 10 ms, 525 nm, 2 mW/m²: the standard's 50.34 photons.
+    let photons = facts["light"]["photons_per_pixel"].as_f64().expect("a number");
+    assert!((photons - 50.341_165_675_4 * 12.96 * 10.0 * 0.525 * 0.2).abs() < 1e-6 * photons, "{photons}");
+    // No exposure control: the camera has it, a bench has not.
+    assert!(facts["frames"].as_array().expect("frames").iter().all(|f| f["exposure_s"] == 0.01));
+    let (_, again) = flat(WEB, &options);
+    assert_eq!(files, again);
+    let (_, other) = flat(WEB, &[&options[..], &["--seed", "7"]].concat());
+    assert_ne!(files["web/raw.0003.png"], other["web/raw.0003.png"]);
+}
+
+#[test]
+fn causes_make_up_the_numbers_and_do_not_change_them() {
+    let options = [&SMALL[..], &["--irradiance-w-m2", "0.05"]].concat();
+    for camera in [WEB, "scenes/cameras/ccd-mono.toml", "scenes/cameras/ccd-bayer.toml"] {
+        let (ran, plain) = flat(camera, &options);
+        ran.ok();
+        let (ran, files) = flat(camera, &[&options[..], &["--causes"]].concat());
+        ran.ok();
+        let name = files.keys().find(|n| n.ends_with("causes.0000.exr")).expect("causes").clone();
+        let raw = name.replace("causes.0000.exr", "raw.0000.png");
+        assert_eq!(files[&raw], plain[&raw], "{camera}");
+        let (_place, path) = stored(&files[&name], "causes.exr");
+        let causes = read_exr(&path).expect("an EXR");
+        let (raw, _) = numbers(&files[&raw]);
+        let electronics: serde_json::Value =
+            serde_json::from_slice(&files[&name.replace("causes.0000.exr", "camera.json")]).expect("JSON");
+        let electronics = &electronics["sensor"]["electronics"];
+        let [gain, black] = ["gain_dn_per_e", "black_level_dn"].map(|k| electronics[k].as_f64().expect("a number"));
+        let layers: Vec<&Vec<f32>> = causes
+            .channels
+            .iter()
+            .filter(|channel| channel.name != "saturated")
+            .map(|channel| match &channel.samples {
+                Samples::Float(values) => values,
+                other => panic!("{other:?}"),
+            })
+            .collect();
+        assert_eq!(layers.len(), 9, "{camera}");
+        for (i, dn) in raw.iter().enumerate() {
+            let sum: f64 = layers.iter().map(|layer| f64::from(layer[i])).sum();
+            let electrons = (f64::from(*dn) - black) / gain;
+            // Layers are f32, of up to 20 000 electrons.
+            assert!((sum - electrons).abs() < 0.02, "{camera}: pixel {i}: {sum}, {electrons}");
+        }
+    }
+}
+
+#[test]
+fn the_series_of_the_standard_names_all_its_frames() {
+    let options = [&SMALL[..], &["--photon-transfer", "4", "--stack", "3"]].concat();
+    let (ran, files) = flat("scenes/cameras/ccd-mono.toml", &options);
+    ran.ok();
+    assert_eq!(files.len(), 4 * 4 + 6 + 2);
+    let descriptor = String::from_utf8(files["ccd-mono/emva1288.txt"].clone()).expect("UTF-8");
+    let lines: Vec<&str> = descriptor.lines().collect();
+    // Bits, columns and rows of the picture: the optical black is left out.
+    assert_eq!(lines[..2], ["v 4.0", "n 12 16 8"]);
+    let heads: Vec<&str> = lines.iter().filter(|l| !l.starts_with('i')).skip(2).copied().collect();
+    assert_eq!(heads.len(), 10);
+    assert!(heads[0].starts_with("b 250000.000 ") && heads[1] == "d 250000.000", "{heads:?}");
+    let images = lines.iter().filter_map(|l| l.strip_prefix("i "));
+    assert!(images.clone().all(|name| files.contains_key(&format!("ccd-mono/{name}"))));
+    assert_eq!(images.count(), 22);
+    assert_eq!(numbers(&files["ccd-mono/raw.0000.png"]).1, [16, 8]);
+}
+
+#[test]
+fn what_cannot_be_measured_is_refused() {
+    flat("scenes/cameras/laboratory.toml", &["--irradiance-w-m2", "1"])
+        .0
+        .refused(&["laboratory.toml", "no electronics"]);
+    flat("scenes/cameras/automotive-hdr.toml", &["--photon-transfer", "9"]).0.refused(&["automotive-hdr.toml", "hdr"]);
+    for wrong in [
+        &["--irradiance-w-m2", "-1"][..],
+        &["--photon-transfer", "2"],
+        &["--irradiance-w-m2", "1", "--photon-transfer", "9"],
+        &["--irradiance-w-m2", "1", "--stack", "9"],
+        &["--photon-transfer", "9", "--causes"],
+        &[],
+    ] {
+        assert_eq!(flat(WEB, wrong).0.status, 2, "{wrong:?}");
+    }
+    let (ran, _) = flat(WEB, &[&SMALL[..], &["--photon-transfer", "3", "--stack", "3"]].concat());
+    ran.ok().says(&["warning", "3 kinds of pixel"]);
+}

@@ -1,0 +1,67 @@
+//! The tolerance of printed digits.
+
+use etendue_core::maths::f64::pow;
+
+/// Numbers that would be printed alike, and the printed one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Span {
+    pub(super) low: f64,
+    pub(super) printed: f64,
+    pub(super) high: f64,
+}
+
+impl Span {
+    /// What prints as `value`: half a unit of its last digit to both sides.
+    pub(super) fn printed(value: f64) -> Self {
+        let text = format!("{value}");
+        let decimals = text.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+        let half = 0.5 * pow(10.0, -(decimals as f64));
+        Self { low: (value - half).max(0.0), printed: value, high: value + half }
+    }
+
+    /// Through a function that rises.
+    pub(super) fn rising(self, f: impl Fn(f64) -> f64) -> Self {
+        Self { low: f(self.low), printed: f(self.printed), high: f(self.high) }
+    }
+
+    /// Through a function that falls.
+    pub(super) fn falling(self, f: impl Fn(f64) -> f64) -> Self {
+        Self { low: f(self.high), printed: f(self.printed), high: f(self.low) }
+    }
+
+    /// With another, through a function that rises with both.
+    pub(super) fn with(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        Self { low: f(self.low, other.low), printed: f(self.printed, other.printed), high: f(self.high, other.high) }
+    }
+
+    pub(super) fn times(self, other: Self) -> Self {
+        self.with(other, |a, b| a * b)
+    }
+
+    pub(super) fn over(self, other: Self) -> Self {
+        self.times(other.falling(|x| 1.0 / x))
+    }
+
+    /// Whether both hold a number in common. Rounding of the bounds is no contradiction.
+    pub(super) fn meets(self, other: Self) -> bool {
+        let slack = 1e-9 * self.high.abs().max(other.high.abs());
+        self.low <= other.high + slack && other.low <= self.high + slack
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_say_how_far_a_number_may_be_off() {
+        let near = |span: Span, low: f64, high: f64| {
+            assert!((span.low - low).abs() < 1e-12 && (span.high - high).abs() < 1e-12, "{span:?}");
+        };
+        near(Span::printed(40.1), 40.05, 40.15);
+        near(Span::printed(10_000.0), 9999.5, 10_000.5);
+        near(Span::printed(0.25).falling(|x| 1.0 / x), 1.0 / 0.255, 1.0 / 0.245);
+        near(Span::printed(8.0).over(Span::printed(2.0)), 7.5 / 2.5, 8.5 / 1.5);
+        assert!(Span::printed(1.0).meets(Span::printed(2.0)) && !Span::printed(1.0).meets(Span::printed(2.1)));
+    }
+}

@@ -1,0 +1,217 @@
+//! Even light on the bare sensor, as EMVA 1288 measures with: no lens, no scene, and nothing is traced.
+//!
+//! Light of one wavelength λ falls along the normal on all pixels alike. Mean electrons have a closed form, μ = E R(λ), E the
+//! irradiance (W·m⁻²) and R the responsivity of the pixel's channel (e⁻ per W·m⁻²). Photons are counted on the whole square
+//! of a pixel, as the standard does: μ_p = A E t λ/(hc), so that its quantum efficiency has the fill factor in it.
+//!
+//! [`photon_transfer`] is the standard's series (release 4.0 Linear, method of changing exposure time): levels of equal steps up to a
+//! little above saturation, two bright and two dark frames each, then a stack of bright frames at half of saturation and one of dark ones.
+
+use crate::plan::CameraBody;
+use etendue_core::Plane;
+use etendue_core::quantity::Electrons;
+use etendue_sensor::effects::response::Response;
+use etendue_sensor::hdr::HighDynamicRange;
+use etendue_sensor::photon::photons_per_joule;
+use etendue_sensor::{OperatingPoint, Sensor, SensorState};
+use std::ops::Range;
+
+/// The last level over saturation: the largest temporal variance, which marks saturation, lies within the series.
+const LAST_LEVEL: f64 = 1.05;
+
+/// Even light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlatLight {
+    /// Its wavelength, nm.
+    pub wavelength_nm: f64,
+    /// Irradiance of the sensor, W·m⁻².
+    pub irradiance_w_m2: f64,
+}
+
+/// The camera without what only light through a lens meets (the angle response), and without exposure control; `None` where it
+/// has no electronics.
+#[must_use]
+pub fn bare(body: &CameraBody) -> Option<CameraBody> {
+    let mut parameters = body.sensor.as_ref()?.parameters().clone();
+    parameters.optics.angle_response = None;
+    parameters.exposure.control = None;
+    let sensor = Sensor::new(parameters).expect("what can be can be without a part");
+    Some(CameraBody { sensor: Some(sensor), ..body.clone() })
+}
+
+/// Mean electrons of every pixel in the described exposure; `None` where the camera has no electronics.
+#[must_use]
+pub fn electrons(body: &CameraBody, light: FlatLight) -> Option<Plane<Electrons>> {
+    let sensor = body.sensor.as_ref()?;
+    let means =
+        |channel| light.irradiance_w_m2 * f64::from(sensor.responsivity(channel).at(light.wavelength_nm as f32));
+    let means: Vec<f32> = (0..sensor.responsivities().len()).map(|channel| means(channel) as f32).collect();
+    let (width, height) = (body.raster.width(), body.raster.height());
+    let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let samples = pixels.map(|(x, y)| means[sensor.channel_at(x, y)]).collect();
+    Plane::from_samples(width, height, samples)
+}
+
+/// Photons that fall on a pixel's square in a time.
+#[must_use]
+pub fn photons(sensor: &Sensor, light: FlatLight, exposure_s: f64) -> f64 {
+    let pitch_m = sensor.parameters().pixel.pitch_um * 1e-6;
+    pitch_m * pitch_m * light.irradiance_w_m2 * exposure_s * photons_per_joule(light.wavelength_nm)
+}
+
+/// Why a sensor has no photon transfer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FlatError {
+    /// No channel responds.
+    #[error(
+        "the sensor does not respond to light of that wavelength: give one at which its quantum efficiency is above 0"
+    )]
+    Blind,
+    /// Numbers are not proportional to the charge of single pixels.
+    #[error(
+        "photon transfer needs numbers proportional to the charge of single pixels: take \"hdr\", \"companding\", \"response\" and \
+         \"binning\" out of the camera's [sensor] (a file with \"base\" and \"without\" does)"
+    )]
+    NotLinear,
+}
+
+/// Frames taken one after the other, of the same light and exposure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stack {
+    /// Exposure time, s.
+    pub exposure_s: f64,
+    /// Photons a pixel; 0 in the dark.
+    pub photons: f64,
+    /// Their numbers.
+    pub frames: Range<u32>,
+}
+
+impl Stack {
+    /// The state of its next frame after one that left `state`; before the first a sensor that has rested.
+    #[must_use]
+    pub fn state(&self, sensor: &Sensor, state: SensorState) -> SensorState {
+        let analogue_gain = sensor.parameters().read_out.analogue_gain;
+        SensorState { operating_point: Some(OperatingPoint { exposure_s: self.exposure_s, analogue_gain }), ..state }
+    }
+}
+
+/// The standard's series.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PhotonTransfer {
+    /// The light of the bright frames.
+    pub light: FlatLight,
+    /// All stacks, in the order they are taken.
+    pub stacks: Vec<Stack>,
+}
+
+/// The series of a bare sensor: `levels` exposures up to the described one, at which the most sensitive channel is a little above
+/// saturation, and two stacks of `many` frames.
+///
+/// # Errors
+/// [`FlatError`].
+pub fn photon_transfer(
+    sensor: &Sensor,
+    wavelength_nm: f64,
+    levels: u32,
+    many: u32,
+) -> Result<PhotonTransfer, FlatError> {
+    let p = sensor.parameters();
+    let linear = p.hdr == HighDynamicRange::default() && p.read_out.response == Response::Linear;
+    if !linear || p.read_out.layout.binning.is_some() {
+        return Err(FlatError::NotLinear);
+    }
+    let most = sensor.responsivities().iter().map(|r| f64::from(r.at(wavelength_nm as f32))).fold(0.0, f64::max);
+    if most <= 0.0 {
+        return Err(FlatError::Blind);
+    }
+    let light = FlatLight { wavelength_nm, irradiance_w_m2: LAST_LEVEL * saturation_e(sensor) / most };
+    let longest_s = p.exposure.exposure_s;
+    let mut series = PhotonTransfer { light, stacks: Vec::new() };
+    for level in 1..=levels {
+        series.add(sensor, longest_s * f64::from(level) / f64::from(levels), 2);
+    }
+    series.add(sensor, 0.5 * longest_s / LAST_LEVEL, many);
+    Ok(series)
+}
+
+/// Electrons at which a number ends: the full well's, or the converter's where that comes first.
+fn saturation_e(sensor: &Sensor) -> f64 {
+    let read_out = &sensor.parameters().read_out;
+    let dn = sensor.white_level_dn() - sensor.black_level_dn();
+    dn / (read_out.gain_dn_e * read_out.analogue_gain * read_out.digital_gain)
+}
+
+impl PhotonTransfer {
+    /// Bright frames, and as many dark ones.
+    fn add(&mut self, sensor: &Sensor, exposure_s: f64, count: u32) {
+        for photons in [photons(sensor, self.light, exposure_s), 0.0] {
+            let first = self.stacks.last().map_or(0, |stack| stack.frames.end);
+            self.stacks.push(Stack { exposure_s, photons, frames: first..first + count });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compile_camera;
+    use etendue_scene::asset::Assets;
+    use etendue_scene::{Overrides, load_camera};
+    use std::path::Path;
+
+    const CAMERA: &str = "format = 1\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm = 5\nf_number = 8\n[sensor]\nwidth_px = 4\n\
+        height_px = 2\npixel_pitch_um = 5\nfill_factor = 0.5\nexposure_s = 0.01\ncfa = \"rggb\"\nquantum_efficiency = [0.2, 0.6, 0.4]\n\
+        full_well_e = 10000\nread_noise_e = 0\ndark_current_e_s = 0\ngain_dn_per_e = 0.1\nblack_level_dn = 10\nbits = 12\n\
+        auto_exposure = { percentile = 0.5, target = 0.5, exposure_limits_s = [0.001, 0.1], gain_limits = [1, 2] }\n\
+        angle_response = { table = [[0, 1], [30, 0.5]], exit_pupil_mm = 5 }\n";
+
+    fn body(more: &str) -> CameraBody {
+        body_of(&format!("{CAMERA}{more}"))
+    }
+
+    fn body_of(text: &str) -> CameraBody {
+        let read = |_: &Path| Ok(text.to_owned());
+        let camera = load_camera(Path::new("camera.toml"), &read, &Overrides::default()).expect("a camera");
+        bare(&compile_camera(&camera, &Assets::default()).expect("it compiles")).expect("it has electronics")
+    }
+
+    #[test]
+    fn even_light_gives_each_channel_its_efficiency_of_the_photons() {
+        let body = body("");
+        let sensor = body.sensor.as_ref().expect("electronics");
+        let light = FlatLight { wavelength_nm: 550.0, irradiance_w_m2: 0.01 };
+        let electrons = electrons(&body, light).expect("electronics");
+        let photons = photons(sensor, light, 0.01);
+        // Responsivities are f32. The fill factor is part of the standard's efficiency.
+        for (x, y, efficiency) in [(0, 0, 0.2), (1, 0, 0.6), (2, 1, 0.6), (3, 1, 0.4)] {
+            let found = f64::from(electrons.at(x, y)) / photons;
+            assert!((found / (0.5 * efficiency) - 1.0).abs() < 3e-7, "{x} {y}: {found}");
+        }
+        // 5 µm, 10 ms, 550 nm, 1 µW/cm²: the standard's handy form.
+        assert!((photons / (50.341_165_675_4 * 25.0 * 10.0 * 0.55) - 1.0).abs() < 1e-9, "{photons}");
+    }
+
+    #[test]
+    fn the_series_passes_saturation_and_halves_it() {
+        let body = body("");
+        let sensor = body.sensor.as_ref().expect("electronics");
+        let series = photon_transfer(sensor, 550.0, 50, 100).expect("linear");
+        assert_eq!(series.stacks.len(), 102);
+        let frames: Vec<u32> = series.stacks.iter().flat_map(|s| s.frames.clone()).collect();
+        assert_eq!(frames, (0..400).collect::<Vec<u32>>());
+        let electrons = |i: usize| 0.3 * series.stacks[i].photons;
+        assert!((electrons(98) - 10_500.0).abs() < 0.01 && (electrons(100) - 5000.0).abs() < 0.01);
+        assert_eq!((series.stacks[99].photons, series.stacks[98].exposure_s), (0.0, 0.01));
+        assert!(sensor.parameters().exposure.control.is_none() && sensor.parameters().optics.angle_response.is_none());
+    }
+
+    #[test]
+    fn what_has_no_photon_transfer_is_refused() {
+        let curved = body("response = { kind = \"logarithmic\", from_e = 1000 }\n");
+        let sensor = curved.sensor.as_ref().expect("electronics");
+        assert_eq!(photon_transfer(sensor, 550.0, 50, 100), Err(FlatError::NotLinear));
+        let blind = body_of(&CAMERA.replace("[0.2, 0.6, 0.4]", "0"));
+        let sensor = blind.sensor.as_ref().expect("electronics");
+        assert_eq!(photon_transfer(sensor, 550.0, 50, 100), Err(FlatError::Blind));
+    }
+}

@@ -1,0 +1,163 @@
+//! A camera's EMVA 1288 data sheet, as printed: what `etendue datasheet` makes a camera file of.
+
+use super::sensor::cfa::Cfa;
+use crate::fault::Faults;
+use crate::place::Placed;
+use crate::reader::{Rule, RuleExt as _, choice, either, keyed_by_name, list, number, record, text, vector, whole};
+
+/// Points of a curve: wavelength, nm, and quantum efficiency, %.
+pub type Points = Vec<Placed<[f64; 2]>>;
+
+record! {
+    /// A data sheet after EMVA 1288. Figures that follow from others are checked and need not be given.
+    pub struct DataSheet check(check) {
+        /// The camera's name.
+        required camera: Placed<String> = text("the camera's name");
+        /// Width of the picture, px.
+        required width_px: Placed<u64> = whole(1, 65_536);
+        /// Height of the picture, px.
+        required height_px: Placed<u64> = whole(1, 65_536);
+        /// Distance of the pixels' centres, µm.
+        required pixel_pitch_um: Placed<f64> = number("µm").above(0.0);
+        /// Colour filter array, by its name. Default: "mono".
+        optional cfa: Placed<Cfa> = choice();
+        /// Total quantum efficiency (fill factor included), %: pairs of wavelength, nm, and efficiency; for a colour camera a table
+        /// of such lists by channel.
+        required quantum_efficiency_percent: SheetEfficiency = efficiency();
+        /// Wavelength of the photons of "saturation_capacity_p" and "sensitivity_threshold_p", nm. Default: the only one of
+        /// "quantum_efficiency_percent".
+        optional measured_at_nm: Placed<f64> = number("nm").above(0.0);
+        /// Bits of the converter.
+        required bits: Placed<u64> = whole(1, 24);
+        /// System gain K, DN/e⁻.
+        optional gain_dn_per_e: Placed<f64> = number("DN/e⁻").above(0.0);
+        /// Its inverse 1/K, e⁻/DN.
+        optional inverse_gain_e_per_dn: Placed<f64> = number("e⁻/DN").above(0.0);
+        /// Temporal dark noise σ_d, e⁻, without quantisation.
+        optional temporal_dark_noise_e: Placed<f64> = number("e⁻").at_least(0.0);
+        /// Temporal dark noise σ_y.dark, DN, with quantisation.
+        optional temporal_dark_noise_dn: Placed<f64> = number("DN").above(0.0);
+        /// Saturation capacity, e⁻.
+        required saturation_capacity_e: Placed<f64> = number("e⁻").above(0.0);
+        /// Saturation capacity, photons.
+        optional saturation_capacity_p: Placed<f64> = number("photons").above(0.0);
+        /// Greatest signal-to-noise ratio.
+        optional snr_max: Placed<f64> = number("").above(0.0);
+        /// The same, dB.
+        optional snr_max_db: Placed<f64> = number("dB").above(0.0);
+        /// The same, bit.
+        optional snr_max_bit: Placed<f64> = number("bit").above(0.0);
+        /// Dynamic range.
+        optional dynamic_range: Placed<f64> = number("").above(0.0);
+        /// The same, dB.
+        optional dynamic_range_db: Placed<f64> = number("dB").above(0.0);
+        /// The same, bit.
+        optional dynamic_range_bit: Placed<f64> = number("bit").above(0.0);
+        /// Absolute sensitivity threshold, e⁻.
+        optional sensitivity_threshold_e: Placed<f64> = number("e⁻").above(0.0);
+        /// Absolute sensitivity threshold, photons.
+        optional sensitivity_threshold_p: Placed<f64> = number("photons").above(0.0);
+        /// Dark-signal non-uniformity, e⁻. Default: 0, with a warning.
+        optional dsnu_e: Placed<f64> = number("e⁻").at_least(0.0);
+        /// Photo-response non-uniformity, %. Default: 0, with a warning.
+        optional prnu_percent: Placed<f64> = number("%").at_least(0.0).at_most(100.0);
+        /// Dark current, e⁻/s. Default: 0, with a warning.
+        optional dark_current_e_s: Placed<f64> = number("e⁻/s").at_least(0.0);
+        /// Temperature at which it was measured, °C.
+        optional dark_current_at_c: Placed<f64> = number("°C").above(-273.15);
+        /// Kelvin that double it.
+        optional doubling_k: Placed<f64> = number("K").above(0.0);
+        /// Linearity error, %. It is written down and not modelled.
+        optional linearity_error_percent: Placed<f64> = number("%").at_least(0.0);
+        /// Digital number of no signal, DN. Default: one that keeps dark noise off zero.
+        optional black_level_dn: Placed<f64> = number("DN").at_least(0.0);
+    }
+}
+
+/// Quantum efficiencies as printed.
+#[derive(Clone, Debug)]
+pub enum SheetEfficiency {
+    /// Of the only channel.
+    Mono(Points),
+    /// By channel.
+    Channels(Vec<(Placed<String>, Points)>),
+}
+
+impl SheetEfficiency {
+    /// The curves with the names of their channels.
+    #[must_use]
+    pub fn curves(&self) -> Vec<(&str, &Points)> {
+        match self {
+            Self::Mono(points) => vec![("mono", points)],
+            Self::Channels(list) => list.iter().map(|(name, points)| (name.value.as_str(), points)).collect(),
+        }
+    }
+}
+
+fn points() -> impl Rule<Out = Points> {
+    list(vector::<2>(number("").at_least(0.0)), 1)
+}
+
+fn efficiency() -> impl Rule<Out = SheetEfficiency> {
+    either(points().map(SheetEfficiency::Mono), keyed_by_name(points()).map(SheetEfficiency::Channels))
+}
+
+impl DataSheet {
+    /// The filter array.
+    #[must_use]
+    pub fn filters(&self) -> Cfa {
+        self.cfa.as_ref().map_or(Cfa::Mono, |cfa| cfa.value)
+    }
+}
+
+fn check(sheet: &DataSheet, faults: &mut Faults) {
+    let either_of = |given: bool, names: &str, faults: &mut Faults| {
+        if !given {
+            faults.add(&sheet.place, format!("{names} are both missing"), "give one of them");
+        }
+    };
+    let gain = sheet.gain_dn_per_e.is_some() || sheet.inverse_gain_e_per_dn.is_some();
+    either_of(gain, "\"gain_dn_per_e\" and \"inverse_gain_e_per_dn\"", faults);
+    let noise = sheet.temporal_dark_noise_e.is_some() || sheet.temporal_dark_noise_dn.is_some();
+    either_of(noise, "\"temporal_dark_noise_e\" and \"temporal_dark_noise_dn\"", faults);
+    let pairs = [
+        (&sheet.dark_current_at_c, sheet.dark_current_e_s.is_some(), "dark_current_e_s"),
+        (&sheet.doubling_k, sheet.dark_current_at_c.is_some(), "dark_current_at_c"),
+    ];
+    for (key, given, needed) in pairs {
+        if let (Some(key), false) = (key, given) {
+            faults.add(&key.place, format!("this has no effect without \"{needed}\""), "add it, or remove this");
+        }
+    }
+    let photons = sheet.saturation_capacity_p.is_some() || sheet.sensitivity_threshold_p.is_some();
+    if let (Some(key), false) = (&sheet.measured_at_nm, photons) {
+        let problem = "this has no effect without \"saturation_capacity_p\" or \"sensitivity_threshold_p\"";
+        faults.add(&key.place, problem, "add one, or remove this");
+    }
+    check_curves(sheet, faults);
+}
+
+fn check_curves(sheet: &DataSheet, faults: &mut Faults) {
+    for (_, points) in sheet.quantum_efficiency_percent.curves() {
+        for point in points.iter().filter(|p| p.value[1] > 100.0) {
+            faults.add(&point.place, format!("an efficiency of {} %", point.value[1]), "give at most 100");
+        }
+        for pair in points.windows(2).filter(|pair| pair[0].value[0] >= pair[1].value[0]) {
+            let problem = format!("{} nm comes after {} nm", pair[1].value[0], pair[0].value[0]);
+            faults.add(&pair[1].place, problem, "give wavelengths that rise");
+        }
+    }
+    let mut wanted = sheet.filters().tile().to_vec();
+    wanted.sort_unstable();
+    wanted.dedup();
+    let mut given: Vec<&str> = sheet.quantum_efficiency_percent.curves().iter().map(|(name, _)| *name).collect();
+    given.sort_unstable();
+    if wanted != given {
+        let problem = format!("quantum efficiencies of {} for the channels {}", given.join(", "), wanted.join(", "));
+        faults.add(
+            &sheet.place,
+            problem,
+            "give one list for each channel of \"cfa\", in a table by channel for colours",
+        );
+    }
+}
