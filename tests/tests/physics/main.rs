@@ -8,6 +8,7 @@ mod charts;
 mod colour;
 mod colour_chart;
 mod cornell;
+mod datasheet;
 mod defocus;
 mod dispersing_lens;
 mod effects;
