@@ -1,6 +1,7 @@
 //! The command line, as typed.
 
 use crate::raw_file::Levels;
+use crate::verbs::measure;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use etendue_optics::{DepthOfField, FastBlend, FastParameters};
 use std::path::PathBuf;
@@ -40,7 +41,7 @@ pub enum Verb {
     /// Make a test chart as a scene ready to render, with its truth beside it
     #[command(subcommand)]
     Chart(crate::chart_args::Chart),
-    /// Measure a part of a camera without rendering
+    /// Measure a camera: from pictures, or its lens without rendering
     #[command(subcommand)]
     Measure(Measure),
     /// Print the JSON Schema of a file kind, for editors
@@ -214,6 +215,33 @@ pub enum Measure {
     /// Focal lengths, principal planes, pupils and field of view; by field: distortion, illumination, spots, field
     /// curvature, colour
     Lens(MeasureLens),
+    /// Photon transfer after EMVA 1288: gain, quantum efficiency, dark noise, saturation, linearity, DSNU, PRNU
+    Ptc(measure::ptc::Ptc),
+    /// Slanted edges: the spatial frequency response with MTF50 and MTF10 (ISO 12233)
+    Sfr(measure::sfr::SfrArguments),
+    /// The tone curve from a series of exposures or from steps, with linearity and dynamic range (ISO 14524); the camera's
+    /// response from a scene at exposures known relatively
+    Oecf(measure::oecf::OecfArguments),
+    /// A flat field's fall-off over the radial field position
+    Vignetting(measure::shading::FlatField),
+    /// A flat field's fall-off as a map, and its colour shading (ISO 17957)
+    Shading(measure::shading::FlatField),
+    /// Temporal and fixed-pattern noise of an even surface (ISO 15739)
+    Noise(measure::noise::NoiseArguments),
+    /// Light in traps that send none (ISO 18844)
+    Flare(measure::flare::Flare),
+    /// Colours of a ColorChecker after a fitted matrix, CIEDE2000
+    Colour(measure::colour::Colour),
+    /// Contrast detection probability of pairs of patches (IEEE P2020)
+    Cdp(measure::cdp::Cdp),
+    /// An estimated depth picture against the truth: bias, error and outliers by range, edges apart
+    Depth(measure::depth::Depth),
+    /// The dark current's growth with temperature, by three laws
+    DarkCurrent(measure::dark_current::DarkCurrent),
+    /// A Siemens star: response over frequency (ISO 12233)
+    Star(measure::texture::StarArguments),
+    /// Texture such as dead leaves against its reference: response, invented structure, coherence
+    Texture(measure::texture::Texture),
 }
 
 /// `etendue measure lens`

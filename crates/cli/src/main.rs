@@ -15,6 +15,7 @@ mod film_file;
 mod job;
 mod machine;
 mod photographs;
+mod plot;
 mod progress;
 mod raw_file;
 mod sensor_args;

@@ -24,6 +24,7 @@
 pub mod assets;
 pub mod calibration;
 pub mod compare;
+pub mod emva_descriptor;
 pub mod error;
 pub mod exr;
 pub mod hash;

@@ -6,15 +6,27 @@
 
 pub mod calibrate;
 pub mod chromatic;
+pub mod colour;
+pub mod contrast;
+pub mod depth;
 pub mod disc;
 pub mod distortion;
 pub mod estimate;
 pub mod fit;
+pub mod flare;
+mod flat;
 mod fourier;
 pub mod linear;
+pub mod noise;
+pub mod oecf;
 pub mod photon_transfer;
 pub mod picture;
+mod propagate;
+pub mod sfr;
+pub mod shading;
+mod solve;
 pub mod target;
+pub mod texture;
 
 pub use estimate::Estimate;
 pub use picture::{Image, Reading};

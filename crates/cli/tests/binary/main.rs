@@ -17,6 +17,7 @@ mod help;
 mod identity;
 mod kenney;
 mod lenses;
+mod measures;
 mod plans;
 mod raw_files;
 mod support;

@@ -16,9 +16,9 @@
 //! below a per cent of either. The uncertainty of the photon scale itself is not in η, μ_p.min and μ_p.sat: add what the
 //! light's calibration states.
 
-use super::propagate::propagate;
 use super::{TransferData, TransferError};
 use crate::Estimate;
+use crate::propagate::propagate;
 
 /// Quantisation noise, DN².
 const QUANTISATION_DN2: f64 = 1.0 / 12.0;

@@ -23,7 +23,6 @@
 mod data;
 mod figures;
 mod nonuniformity;
-mod propagate;
 mod spatial;
 pub mod spectrogram;
 mod stack;

@@ -7,10 +7,10 @@
 //!
 //! (EMVA 1288 release 4.0 linear, section on spatial nonuniformity; stacks of L frames without light and at 50 % of saturation.)
 
-use super::propagate::{propagate, root};
 use super::spatial::{Parts, Pattern};
 use super::{TransferData, TransferError};
 use crate::Estimate;
+use crate::propagate::{propagate, root};
 
 /// Fixed patterns of a sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]

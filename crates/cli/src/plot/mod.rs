@@ -1,0 +1,79 @@
+//! Plots as SVG: one pair of axes, lines, points, error bars, a legend.
+//!
+//! Ranges follow from the data unless stated. The text of a plot depends on its data alone.
+
+mod axis;
+mod draw;
+
+/// How an axis maps its numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    Linear,
+    /// By powers of ten; numbers that are not positive are left out.
+    Log,
+}
+
+/// An axis.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    pub label: String,
+    pub scale: Scale,
+    /// The least range that it must show.
+    pub shows: Vec<f64>,
+}
+
+impl Axis {
+    pub fn linear(label: &str) -> Self {
+        Self { label: label.to_owned(), scale: Scale::Linear, shows: Vec::new() }
+    }
+
+    pub fn log(label: &str) -> Self {
+        Self { scale: Scale::Log, ..Self::linear(label) }
+    }
+
+    pub fn showing(self, values: &[f64]) -> Self {
+        Self { shows: values.to_vec(), ..self }
+    }
+}
+
+/// How a series is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    Line,
+    /// A thin broken line: limits and models.
+    Broken,
+    Points,
+}
+
+/// A series of points with the half heights of their error bars.
+#[derive(Clone, Debug)]
+pub struct Series {
+    pub name: String,
+    pub mark: Mark,
+    /// (x, y, half an error bar).
+    pub points: Vec<[f64; 3]>,
+}
+
+impl Series {
+    pub fn new(name: &str, mark: Mark, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        Self::with_errors(name, mark, points.into_iter().map(|(x, y)| (x, y, 0.0)))
+    }
+
+    pub fn with_errors(name: &str, mark: Mark, points: impl IntoIterator<Item = (f64, f64, f64)>) -> Self {
+        Self { name: name.to_owned(), mark, points: points.into_iter().map(<[f64; 3]>::from).collect() }
+    }
+}
+
+/// A pair of axes with series.
+#[derive(Clone, Debug)]
+pub struct Plot {
+    pub title: String,
+    pub x: Axis,
+    pub y: Axis,
+    pub series: Vec<Series>,
+}
+
+/// Plots one below the other as one SVG file.
+pub fn svg(plots: &[Plot]) -> String {
+    draw::document(plots)
+}

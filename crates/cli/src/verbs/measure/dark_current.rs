@@ -1,0 +1,83 @@
+//! `etendue measure dark-current`: its growth with temperature.
+
+use super::ptc::{Ptc, measured};
+use super::readings::Selection;
+use super::report::{Cell, Report, Table, Telling};
+use crate::failure::Failure;
+use crate::plot::{Axis, Mark, Plot, Series};
+use clap::Args;
+use etendue_metrology::Estimate;
+use etendue_metrology::photon_transfer::temperature::{Growth, Law, fit};
+use etendue_stats::chi_square;
+use std::path::PathBuf;
+
+/// `etendue measure dark-current`
+#[derive(Debug, Args)]
+pub struct DarkCurrent {
+    /// Descriptors of photon transfer at several temperatures of the sensor in °C, three or more
+    #[arg(value_name = "CELSIUS:DESCRIPTOR.txt", required = true, value_parser = series)]
+    pub series: Vec<(f64, PathBuf)>,
+    /// The temperature that the dark current is told at, °C
+    #[arg(long, value_name = "CELSIUS", default_value_t = 25.0, allow_negative_numbers = true)]
+    pub reference_c: f64,
+    #[command(flatten)]
+    pub selection: Selection,
+    #[command(flatten)]
+    pub telling: Telling,
+}
+
+fn series(text: &str) -> Result<(f64, PathBuf), String> {
+    let both = text.split_once(':').and_then(|(celsius, file)| Some((celsius.parse().ok()?, PathBuf::from(file))));
+    both.ok_or_else(|| format!("expected CELSIUS:DESCRIPTOR.txt, e.g. 45:warm/list.txt, not '{text}'"))
+}
+
+fn name(law: Law) -> (&'static str, &'static str) {
+    match law {
+        Law::Doubling => ("doubling", "doubles every so many kelvin"),
+        Law::Generation => ("generation", "generation in depleted silicon"),
+        Law::Diffusion => ("diffusion", "diffusion in silicon"),
+    }
+}
+
+pub(super) fn run(arguments: &DarkCurrent) -> Result<(), Failure> {
+    let current = |(celsius, descriptor): &(f64, PathBuf)| {
+        let figures = measured(&Ptc::of(descriptor.clone(), &arguments.selection))?;
+        let current = figures.dark_current_mean_e_per_s.ok_or_else(|| {
+            Failure::input(format!("{}: expected dark levels of at least three exposure times", descriptor.display()))
+        })?;
+        Ok((*celsius, current))
+    };
+    let currents = arguments.series.iter().map(current).collect::<Result<Vec<_>, Failure>>()?;
+    let growths = Law::ALL
+        .into_iter()
+        .map(|law| fit(law, &currents, arguments.reference_c).map_err(Failure::input))
+        .collect::<Result<Vec<_>, _>>()?;
+    report(&currents, &growths, arguments.reference_c).tell(&arguments.telling)
+}
+
+fn report(currents: &[(f64, Estimate)], growths: &[Growth], reference_c: f64) -> Report {
+    let method =
+        "dark current over temperature, EMVA 1288 section 7 and the laws of silicon (± one standard uncertainty)";
+    let mut report = Report::new("dark-current", method);
+    for growth in growths {
+        let (key, label) = name(growth.law);
+        let at = format!("at {reference_c} °C: {label}");
+        report.figure(&format!("{key}_reference_e_per_s"), &at, "e⁻/s", growth.reference_e_per_s);
+        report.figure(&format!("{key}_doubling_k"), "  doubles within", "K", growth.doubling_k);
+        let p = chi_square::p_value(growth.chi_square, growth.degrees_of_freedom as f64);
+        report.figure(&format!("{key}_p_value"), "  probability of a fit no better", "", Estimate::new(p, 0.0));
+    }
+    report.table(Table {
+        key: "temperatures",
+        columns: vec![("celsius", "°C"), ("dark_current_e_per_s", "dark current e⁻/s")],
+        rows: currents.iter().map(|(t, e)| vec![Cell::Number(*t, 2), Cell::Estimate(*e)]).collect(),
+    });
+    let points = currents.iter().map(|(t, e)| (*t, e.value, 2.0 * e.standard_uncertainty));
+    report.plot(Plot {
+        title: "dark current (bars: 95 %)".to_owned(),
+        x: Axis::linear("temperature, °C"),
+        y: Axis::log("dark current, e⁻/s"),
+        series: vec![Series::with_errors("measured", Mark::Points, points)],
+    });
+    report
+}

@@ -1,0 +1,129 @@
+//! `etendue measure depth`: how good an estimated depth picture is against the truth.
+
+use super::report::{Cell, Report, Table, Telling};
+use crate::failure::Failure;
+use clap::Args;
+use etendue_io::photograph::{Photograph, read_photograph};
+use etendue_metrology::Image;
+use etendue_metrology::depth::{DepthErrors, DepthSettings, measure_depth};
+use std::path::{Path, PathBuf};
+
+/// The depth channel of this program's ground truth.
+const DEPTH: &str = "depth.Z";
+
+/// `etendue measure depth`
+#[derive(Debug, Args)]
+pub struct Depth {
+    /// The estimate: one channel of depth
+    #[arg(value_name = "ESTIMATE")]
+    pub estimate: PathBuf,
+    /// The truth: a ground-truth EXR, or one channel of depth
+    #[arg(value_name = "TRUTH")]
+    pub truth: PathBuf,
+    /// The estimate's channel [default: depth.Z, or the only one]
+    #[arg(long, value_name = "NAME")]
+    pub estimate_channel: Option<String>,
+    /// The truth's channel [default: depth.Z, or the only one]
+    #[arg(long, value_name = "NAME")]
+    pub truth_channel: Option<String>,
+    /// Metres a number of the estimate, e.g. 0.001 for millimetres
+    #[arg(long, value_name = "M", default_value_t = 1.0, allow_negative_numbers = true)]
+    pub estimate_unit_m: f64,
+    /// Metres a number of the truth
+    #[arg(long, value_name = "M", default_value_t = 1.0, allow_negative_numbers = true)]
+    pub truth_unit_m: f64,
+    /// Limits of the ranges, m, e.g. 0,10,30,100
+    #[arg(long, value_name = "M,…", value_delimiter = ',')]
+    pub ranges_m: Vec<f64>,
+    /// An outlier is off by more than this share of the depth
+    #[arg(long, value_name = "SHARE", default_value_t = 0.05, allow_negative_numbers = true)]
+    pub outlier_share: f64,
+    /// … and by more than this, m
+    #[arg(long, value_name = "M", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub outlier_least_m: f64,
+    /// A jump of the truth by more than this share of the depth is an edge
+    #[arg(long, value_name = "SHARE", default_value_t = 0.1, allow_negative_numbers = true)]
+    pub edge_share: f64,
+    /// Pixels this near to an edge are told apart
+    #[arg(long, value_name = "PX", default_value_t = 2, value_parser = clap::value_parser!(u32).range(0..=100))]
+    pub edge_px: u32,
+    #[command(flatten)]
+    pub telling: Telling,
+}
+
+pub(super) fn run(arguments: &Depth) -> Result<(), Failure> {
+    for (name, unit) in [("estimate", arguments.estimate_unit_m), ("truth", arguments.truth_unit_m)] {
+        if !(unit > 0.0 && unit.is_finite()) {
+            return Err(Failure::input(format!("--{name}-unit-m: expected a number above 0, not {unit}")));
+        }
+    }
+    let estimate = depth(&arguments.estimate, arguments.estimate_channel.as_deref(), arguments.estimate_unit_m)?;
+    let truth = depth(&arguments.truth, arguments.truth_channel.as_deref(), arguments.truth_unit_m)?;
+    let usual = DepthSettings::default();
+    let settings = DepthSettings {
+        ranges_m: if arguments.ranges_m.is_empty() { usual.ranges_m } else { arguments.ranges_m.clone() },
+        outlier_share: arguments.outlier_share,
+        outlier_least_m: arguments.outlier_least_m,
+        edge_share: arguments.edge_share,
+        edge_px: arguments.edge_px as usize,
+    };
+    let found = measure_depth(&estimate, &truth, &settings).map_err(Failure::input)?;
+    let mut report =
+        Report::new("depth", "depth against the truth, pixels at edges apart (± one standard uncertainty)");
+    report.figure("bias_m", "bias", "m", found.all.bias_m);
+    report.figure("rmse_m", "root mean square error", "m", found.all.rmse_m);
+    let all = ("all".to_owned(), &found.all);
+    let limits =
+        |low: f64, high: f64| if high.is_finite() { format!("{low}–{high} m") } else { format!("{low} m on") };
+    let ranges = found.ranges.iter().map(|(low, high, errors)| (limits(*low, *high), errors));
+    let edges = ("edges".to_owned(), &found.edges);
+    let rows = std::iter::once(all).chain(ranges).chain([edges]);
+    report.table(Table {
+        key: "ranges",
+        columns: vec![
+            ("range", "range"),
+            ("pixels", "pixels"),
+            ("missing", "missing"),
+            ("bias_m", "bias m"),
+            ("rmse_m", "RMSE m"),
+            ("relative_percent", "relative %"),
+            ("outliers_percent", "outliers %"),
+            ("within_1_25_percent", "δ1 %"),
+            ("within_1_5625_percent", "δ2 %"),
+            ("within_1_953_percent", "δ3 %"),
+        ],
+        rows: rows.map(|(name, errors)| row(name, errors)).collect(),
+    });
+    report.tell(&arguments.telling)
+}
+
+fn row(name: String, e: &DepthErrors) -> Vec<Cell> {
+    let counts = [Cell::Text(name), Cell::Number(e.pixels as f64, 0), Cell::Number(e.missing as f64, 0)];
+    if e.pixels == 0 {
+        return counts.into_iter().chain((0..7).map(|_| Cell::Nothing)).collect();
+    }
+    let percent = |share: f64| Cell::Number(100.0 * share, 2);
+    let errors = [Cell::Estimate(e.bias_m), Cell::Estimate(e.rmse_m), percent(e.relative), percent(e.outliers)];
+    counts.into_iter().chain(errors).chain(e.within.map(percent)).collect()
+}
+
+fn depth(file: &Path, channel: Option<&str>, unit_m: f64) -> Result<Image, Failure> {
+    let photograph = read_photograph(file).map_err(Failure::input)?;
+    let samples = chosen(file, &photograph, channel)?;
+    let metres = samples.iter().map(|s| (f64::from(*s) * unit_m) as f32).collect();
+    Ok(Image::from_samples(photograph.width, photograph.height, metres).expect("a photograph's channels fill it"))
+}
+
+/// The named channel's numbers, or depth.Z, or the only one.
+fn chosen<'a>(file: &Path, photograph: &'a Photograph, channel: Option<&str>) -> Result<&'a [f32], Failure> {
+    let named = |name: &str| photograph.channel(name).map(|c| c.samples.as_slice());
+    let found = match (channel, &photograph.channels[..]) {
+        (Some(name), _) => named(name),
+        (None, [only]) => Some(only.samples.as_slice()),
+        (None, _) => named(DEPTH),
+    };
+    found.ok_or_else(|| {
+        let names = photograph.names().join(", ");
+        Failure::input(format!("{}: name the channel of the depth; it has {names}", file.display()))
+    })
+}

@@ -1,0 +1,172 @@
+//! `etendue measure lens`: what a lens does, without rendering.
+
+use super::body::body;
+use super::{fixed, ghosts};
+use crate::args;
+use crate::failure::Failure;
+use crate::say;
+use etendue_optics::lens::{FieldReport, ImageReport, LensReport};
+use etendue_optics::{Lens, Prescribed};
+use etendue_pipeline::plan::CameraBody;
+use glam::DVec2;
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+
+pub(super) fn run(arguments: &args::MeasureLens) -> Result<(), Failure> {
+    let body = body(arguments)?;
+    let fields = arguments.fields as usize;
+    let text = match (&body.lens, arguments.json) {
+        (Lens::Prescription(lens), true) => json_text(&traced_json(lens, &lens.report(fields))),
+        (Lens::Prescription(lens), false) => traced_text(lens, &lens.report(fields)),
+        (_, true) => json_text(&simple_json(&body, fields)),
+        (_, false) => simple_text(&body, fields),
+    };
+    say(&text);
+    Ok(())
+}
+
+fn json_text(value: &Value) -> String {
+    format!("{value:#}\n")
+}
+
+fn traced_json(lens: &Prescribed, r: &LensReport) -> Value {
+    let p = &r.first_order;
+    json!({
+        "focal_length_mm": p.focal_length_mm,
+        "f_number": r.f_number,
+        "transmittance": r.transmittance,
+        "focus_distance_m": finite(r.focus_distance_m),
+        "magnification": r.magnification,
+        "front_focus_from_first_vertex_mm": p.front_focus_mm,
+        "back_focus_from_last_vertex_mm": p.back_focus_mm,
+        "front_principal_from_first_vertex_mm": p.front_principal_mm,
+        "rear_principal_from_last_vertex_mm": p.rear_principal_mm,
+        "entrance_pupil_from_first_vertex_mm": p.entrance_pupil_mm,
+        "entrance_pupil_diameter_mm": 2.0 * p.entrance_radius_mm,
+        "exit_pupil_from_last_vertex_mm": finite(p.exit_pupil_mm),
+        "exit_pupil_diameter_mm": finite(2.0 * p.exit_radius_mm),
+        "petzval_radius_mm": finite(p.petzval_radius_mm),
+        "sensor_from_last_vertex_mm": r.sensor_mm,
+        "field_of_view_deg": r.field_of_view_rad.map(f64::to_degrees),
+        "axial_colour_f_mm": r.axial_colour_f_mm,
+        "axial_colour_c_mm": r.axial_colour_c_mm,
+        "fields": r.fields.iter().map(|field| field_json(lens, field)).collect::<Vec<_>>(),
+    })
+}
+
+/// JSON knows no infinity.
+fn finite(x: f64) -> Option<f64> {
+    Some(x).filter(|x| x.is_finite())
+}
+
+fn field_json(lens: &Prescribed, field: &FieldReport) -> Value {
+    let image = field.image.as_ref();
+    let spot = image.and_then(|i| i.spot);
+    json!({
+        "height_mm": field.height_mm,
+        "relative_illumination": field.relative_illumination,
+        "angle_deg": image.map(|i| i.angle_rad.to_degrees()),
+        "distortion": image.and_then(|i| i.distortion),
+        "equidistant_distortion": image.map(|i| i.equidistant_distortion),
+        "tangential_focus_mm": image.map(|i| i.tangential_mm),
+        "sagittal_focus_mm": image.map(|i| i.sagittal_mm),
+        "spot_rms_mm": spot.map(|s| s.rms_mm),
+        "spot_radius_mm": spot.map(|s| s.radius_mm),
+        "lateral_colour_f_mm": image.and_then(|i| i.lateral_f_mm),
+        "lateral_colour_c_mm": image.and_then(|i| i.lateral_c_mm),
+        "ghosts": ghosts::json(lens, field.height_mm),
+    })
+}
+
+fn traced_text(lens: &Prescribed, r: &LensReport) -> String {
+    let p = &r.first_order;
+    let focus =
+        if r.focus_distance_m.is_finite() { format!("{} m", r.focus_distance_m) } else { "infinity".to_owned() };
+    let mm = |x: f64| fixed(x, 4);
+    let mut text = String::new();
+    let mut line = |name: &str, value: String| {
+        // Writing to a text does not fail.
+        let _ = writeln!(text, "{name:<22} {value}");
+    };
+    line("focal length", format!("{:.4} mm, f/{:.3}", p.focal_length_mm, r.f_number));
+    line("transmittance", format!("{:.4} on the axis", r.transmittance));
+    line(
+        "focus",
+        format!("{focus}, magnification {:.5}, sensor {:.4} mm behind the last vertex", r.magnification, r.sensor_mm),
+    );
+    line(
+        "focal points",
+        format!("{} mm from the first vertex, {} mm from the last", mm(p.front_focus_mm), mm(p.back_focus_mm)),
+    );
+    line("principal planes", format!("{} mm, {} mm", mm(p.front_principal_mm), mm(p.rear_principal_mm)));
+    line("entrance pupil", format!("{} mm, {:.4} mm across", mm(p.entrance_pupil_mm), 2.0 * p.entrance_radius_mm));
+    line("exit pupil", format!("{} mm, {:.4} mm across", mm(p.exit_pupil_mm), 2.0 * p.exit_radius_mm));
+    line("Petzval radius", format!("{:.3} mm", p.petzval_radius_mm));
+    line("field of view", r.field_of_view_rad.map_or("unknown".to_owned(), |a| format!("{:.3}°", a.to_degrees())));
+    line("axial colour", format!("F {} mm, C {} mm", mm(r.axial_colour_f_mm), mm(r.axial_colour_c_mm)));
+    text += "\nheight   angle    distortion  light    spot rms  spot max  tangential  sagittal  colour F  colour C\n\
+             mm       deg      %           of axis  µm        µm        mm          mm        µm        µm\n";
+    r.fields.iter().for_each(|field| text += &field_row(field));
+    text += &ghosts::text(lens, r.fields.iter().map(|field| field.height_mm));
+    text
+}
+
+fn field_row(field: &FieldReport) -> String {
+    let (height, light) = (field.height_mm, field.relative_illumination);
+    let Some(image) = &field.image else { return format!("{height:<8.3} –        –           {light:<8.4}\n") };
+    let ImageReport { angle_rad, distortion, spot, lateral_f_mm, lateral_c_mm, .. } = image;
+    let micrometres = |mm: Option<f64>| mm.map_or("–".to_owned(), |mm| fixed(1000.0 * mm, 2));
+    let distortion = distortion.map_or("–".to_owned(), |d| fixed(100.0 * d, 3));
+    let (rms, most) = (micrometres(spot.map(|s| s.rms_mm)), micrometres(spot.map(|s| s.radius_mm)));
+    let (f, c) = (micrometres(*lateral_f_mm), micrometres(*lateral_c_mm));
+    format!(
+        "{height:<8.3} {:<8.3} {distortion:<11} {light:<8.4} {rms:<9} {most:<9} {:<11} {:<9} {f:<9} {c}\n",
+        angle_rad.to_degrees(),
+        fixed(image.tangential_mm, 4),
+        fixed(image.sagittal_mm, 4),
+    )
+}
+
+/// Field points of a lens that is no prescription: along the picture's half diagonal, from the principal point.
+fn field_points(body: &CameraBody, fields: usize) -> Vec<(DVec2, f64)> {
+    let edge = fields.max(2) - 1;
+    let raster = &body.raster;
+    let size = DVec2::new(raster.width() as f64, raster.height() as f64);
+    let corner = raster.sensor_mm(size);
+    (0..=edge).map(|i| corner * (i as f64 / edge as f64)).map(|at| (at, at.length())).collect()
+}
+
+/// Angle from the axis in degrees, distortion against c tan θ, light over the axis's.
+fn simple_field(lens: &Lens, at_mm: DVec2) -> (Option<f64>, Option<f64>, f64) {
+    let angle = lens.angle_between_rad(DVec2::ZERO, at_mm).map(f64::to_degrees);
+    let ideal = lens.tangent(at_mm).map(|t| t.length() * lens.principal_distance_mm());
+    let distortion = ideal.filter(|r| r.is_finite() && *r > 0.0).map(|r| at_mm.length() / r - 1.0);
+    (angle, distortion, lens.etendue_sr(at_mm) / lens.etendue_sr(DVec2::ZERO))
+}
+
+fn simple_json(body: &CameraBody, fields: usize) -> Value {
+    let field = |(at, height): (DVec2, f64)| {
+        let (angle_deg, distortion, light) = simple_field(&body.lens, at);
+        json!({ "height_mm": height, "angle_deg": angle_deg, "distortion": distortion, "relative_illumination": light })
+    };
+    let rows: Vec<Value> = field_points(body, fields).into_iter().map(field).collect();
+    json!({ "optics": crate::facts::optics(body), "fields": rows })
+}
+
+fn simple_text(body: &CameraBody, fields: usize) -> String {
+    let lens = &body.lens;
+    let mut text = format!(
+        "{}, {:.4} mm, f/{:.3}, T {:.3}\nheight   angle    distortion  light\nmm       deg      %           of axis\n",
+        lens.kind(),
+        lens.focal_length_mm(),
+        lens.f_number(),
+        lens.t_number()
+    );
+    for (at, height) in field_points(body, fields) {
+        let (angle, distortion, light) = simple_field(lens, at);
+        let angle = angle.map_or("–".to_owned(), |a| format!("{a:.3}"));
+        let distortion = distortion.map_or("–".to_owned(), |d| fixed(100.0 * d, 3));
+        let _ = writeln!(text, "{height:<8.3} {angle:<8} {distortion:<11} {light:.4}");
+    }
+    text
+}

@@ -1,0 +1,250 @@
+//! `etendue measure oecf`: the tone curve from a series of exposures, or from steps in one picture.
+
+use super::readings::{Levels, Readings, Selection, part};
+use super::report::{Cell, Report, Table, Telling};
+use crate::failure::Failure;
+use crate::plot::{Axis, Mark, Plot, Series};
+use clap::Args;
+use etendue_metrology::oecf::response::{Response, ResponseSettings, camera_response};
+use etendue_metrology::oecf::{ExposurePoint, Oecf};
+use etendue_metrology::{Estimate, Image};
+use etendue_stats::Moments;
+use std::path::{Path, PathBuf};
+
+/// `etendue measure oecf`
+#[derive(Debug, Args)]
+pub struct OecfArguments {
+    /// Pictures of one even surface, one an exposure; with --steps one picture
+    #[arg(value_name = "PICTURE", required = true)]
+    pub pictures: Vec<PathBuf>,
+    /// Exposure of each picture in their order, any unit [default: the side-cars' exposure_s]
+    #[arg(long, value_name = "H,…", value_delimiter = ',', conflicts_with = "steps", allow_negative_numbers = true)]
+    pub exposures: Vec<f64>,
+    /// A table of steps in the picture: x, y, width, height, luminance; one step a line, # for comments
+    #[arg(long, value_name = "STEPS.csv")]
+    pub steps: Option<PathBuf>,
+    /// Find the camera's response from pictures of one scene (not even) at exposures known relatively
+    #[arg(long, conflicts_with = "steps")]
+    pub response: bool,
+    /// With --response: find the ratios of the exposures too
+    #[arg(long, requires = "response")]
+    pub refine: bool,
+    #[command(flatten)]
+    pub selection: Selection,
+    #[command(flatten)]
+    pub levels: Levels,
+    #[command(flatten)]
+    pub telling: Telling,
+}
+
+/// The largest degree of a response.
+const DEGREE: usize = 8;
+
+pub(super) fn run(arguments: &OecfArguments) -> Result<(), Failure> {
+    if arguments.response {
+        return response(arguments);
+    }
+    let (points, black) = match &arguments.steps {
+        Some(table) => steps(arguments, table)?,
+        None => exposures(arguments)?,
+    };
+    let oecf = Oecf::new(points).map_err(Failure::input)?;
+    report(&oecf, black).tell(&arguments.telling)
+}
+
+/// Pictures with their exposures.
+fn series(arguments: &OecfArguments) -> Result<Vec<(f64, Readings)>, Failure> {
+    let count = (arguments.pictures.len(), arguments.exposures.len());
+    if count.1 > 0 && count.0 != count.1 {
+        let message = format!("--exposures: expected one a picture, {} of them, not {}", count.0, count.1);
+        return Err(Failure::input(message));
+    }
+    let told = |i: usize, file: &Path| match arguments.exposures.get(i) {
+        Some(exposure) => Ok(*exposure),
+        None => exposure_beside(file),
+    };
+    let one = |(i, file): (usize, &PathBuf)| Ok((told(i, file)?, arguments.selection.stored(file)?));
+    let series = arguments.pictures.iter().enumerate().map(one).collect::<Result<Vec<_>, Failure>>()?;
+    let size = |r: &Readings| (r.image.width(), r.image.height());
+    if let Some(other) = series.iter().position(|(_, r)| size(r) != size(&series[0].1)) {
+        let (a, b) = (size(&series[other].1), size(&series[0].1));
+        let file = arguments.pictures[other].display();
+        return Err(Failure::input(format!("{file}: {} × {} pixels, the first {} × {}", a.0, a.1, b.0, b.1)));
+    }
+    copies(arguments, &series)?;
+    Ok(series)
+}
+
+/// Two pictures with noise that are the same pixel by pixel are one picture given twice.
+fn copies(arguments: &OecfArguments, series: &[(f64, Readings)]) -> Result<(), Failure> {
+    let noisy = |image: &Image| image.samples().iter().any(|s| *s != image.samples()[0]);
+    for (i, (_, a)) in series.iter().enumerate() {
+        if let Some(j) = (0..i).find(|j| series[*j].1.image == a.image && noisy(&a.image)) {
+            let (a, b) = (arguments.pictures[j].display(), arguments.pictures[i].display());
+            return Err(Failure::input(format!("{a} and {b} are copies of one another: give one picture an exposure")));
+        }
+    }
+    Ok(())
+}
+
+fn exposure_beside(file: &Path) -> Result<f64, Failure> {
+    let photograph = etendue_io::photograph::read_photograph(file).map_err(Failure::input)?;
+    let lacks = || Failure::input(format!("{}: its exposure is not known: give --exposures", file.display()));
+    photograph.raw.map(|facts| facts.exposure_s).ok_or_else(lacks)
+}
+
+fn exposures(arguments: &OecfArguments) -> Result<(Vec<ExposurePoint>, f64), Failure> {
+    let series = series(arguments)?;
+    let black = arguments.levels.black(&series[0].1);
+    Ok((series.iter().map(|(exposure, readings)| point(*exposure, &readings.image)).collect(), black))
+}
+
+/// Mean and scatter of an even surface.
+fn point(exposure: f64, image: &Image) -> ExposurePoint {
+    let moments = Moments::of(image.samples().iter().map(|s| f64::from(*s)));
+    let variance = moments.variance().unwrap_or(0.0);
+    let u = moments.variance_of_mean().unwrap_or(0.0).sqrt();
+    ExposurePoint { exposure, reading: Estimate::new(moments.mean(), u), noise: Some(variance.sqrt()) }
+}
+
+fn steps(arguments: &OecfArguments, table: &Path) -> Result<(Vec<ExposurePoint>, f64), Failure> {
+    let [picture] = &arguments.pictures[..] else {
+        return Err(Failure::input("--steps: expected one picture that holds all steps"));
+    };
+    let readings = arguments.selection.stored(picture)?;
+    let text = crate::job::read_text(table).map_err(Failure::input)?;
+    let lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.trim().starts_with('#'));
+    let step = |(number, line): (u32, &str)| {
+        let place = format!("{}: line {number}", table.display());
+        let words: Vec<f64> = line.split(',').filter_map(|word| word.trim().parse().ok()).collect();
+        let [x, y, width, height, luminance] = words[..] else {
+            return Err(Failure::input(format!("{place}: expected x, y, width, height, luminance, not '{line}'")));
+        };
+        let whole = [x, y, width, height];
+        if whole.iter().any(|v| *v < 0.0 || v.fract() != 0.0) || width < 2.0 || height < 2.0 {
+            return Err(Failure::input(format!(
+                "{place}: expected whole pixels, two or more wide and high, not '{line}'"
+            )));
+        }
+        Ok(point(luminance, &part(&readings.image, whole.map(|v| v as usize), &place)?))
+    };
+    Ok((lines.map(step).collect::<Result<_, _>>()?, arguments.levels.black(&readings)))
+}
+
+fn report(oecf: &Oecf, black: f64) -> Report {
+    let mut report =
+        Report::new("oecf", "opto-electronic conversion function after ISO 14524 (± one standard uncertainty)");
+    let exact = |x: f64| Estimate::new(x, 0.0);
+    let line = oecf.linearity(black);
+    if let Some(line) = &line {
+        report.figure("slope", "slope of the straight line", "", exact(line.slope));
+        report.figure("offset", "offset of the straight line", "", exact(line.offset));
+        report.figure("linearity_error_percent", "largest deviation, 5 to 95 %", "%", exact(100.0 * line.largest));
+    }
+    if let Some(range) = oecf.dynamic_range() {
+        report.figure("dynamic_range", "dynamic range (SNR 1 to saturation)", "", exact(range));
+    }
+    match oecf.points().get(oecf.saturation()) {
+        Some(point) => report.figure("saturation_exposure", "first saturated exposure", "", exact(point.exposure)),
+        None => report.note("no exposure saturates: the dynamic range is a lower bound"),
+    }
+    let row = |(i, p): (usize, &ExposurePoint)| {
+        let deviation = line.as_ref().map_or(Cell::Nothing, |line| Cell::Number(100.0 * line.deviations[i], 3));
+        vec![
+            Cell::Estimate(exact(p.exposure)),
+            Cell::Estimate(p.reading),
+            p.noise.map_or(Cell::Nothing, |n| Cell::Number(n, 4)),
+            Cell::Number(oecf.gain(p.exposure), 4),
+            deviation,
+        ]
+    };
+    report.table(Table {
+        key: "points",
+        columns: vec![
+            ("exposure", "exposure"),
+            ("reading", "reading"),
+            ("noise", "noise"),
+            ("gain", "slope"),
+            ("deviation_percent", "deviation %"),
+        ],
+        rows: oecf.points().iter().enumerate().map(row).collect(),
+    });
+    report.plot(plot(oecf, line.map(|l| (l.offset, l.slope))));
+    report
+}
+
+fn plot(oecf: &Oecf, line: Option<(f64, f64)>) -> Plot {
+    let points = oecf.points();
+    let (first, last) = (points[0].exposure, points[points.len() - 1].exposure);
+    let at = |i: i32| first + (last - first) * f64::from(i) / 200.0;
+    let measured = points.iter().map(|p| (p.exposure, p.reading.value, 2.0 * p.reading.standard_uncertainty));
+    let mut series = vec![
+        Series::with_errors("measured", Mark::Points, measured),
+        Series::new("monotone cubic", Mark::Line, (0..=200).map(at).map(|h| (h, oecf.reading(h)))),
+    ];
+    if let Some((offset, slope)) = line {
+        let top = points[points.len() - 1].reading.value;
+        let end = ((top - offset) / slope).min(last);
+        series.push(Series::new("straight line", Mark::Broken, [first, end].map(|h| (h, offset + slope * h))));
+    }
+    Plot {
+        title: "tone curve".to_owned(),
+        x: Axis::linear("exposure").showing(&[0.0]),
+        y: Axis::linear("reading").showing(&[0.0]),
+        series,
+    }
+}
+
+fn response(arguments: &OecfArguments) -> Result<(), Failure> {
+    let series = series(arguments)?;
+    let full_scale = arguments.levels.full_scale(&series[0].1);
+    let full_scale =
+        full_scale.ok_or_else(|| Failure::input("--full-scale: a response needs the reading of a saturated pixel"))?;
+    let settings = ResponseSettings {
+        full_scale,
+        black: arguments.levels.black(&series[0].1),
+        degree: DEGREE,
+        refine: arguments.refine,
+    };
+    let pictures: Vec<(f64, &Image)> = series.iter().map(|(exposure, r)| (*exposure, &r.image)).collect();
+    let found = camera_response(&pictures, &settings).map_err(Failure::input)?;
+    response_report(&found).tell(&arguments.telling)
+}
+
+fn response_report(found: &Response) -> Report {
+    let method =
+        "camera response from exposures known relatively, after Mitsunaga and Nayar (± one standard uncertainty)";
+    let mut report = Report::new("response", method);
+    for (n, c) in found.coefficients.iter().enumerate().skip(1) {
+        report.figure(&format!("c{n}"), &format!("coefficient of M^{n}"), "", Estimate::new(*c, 0.0));
+    }
+    report.figure(
+        "residual_percent",
+        "noise of a reading, of full scale",
+        "%",
+        Estimate::new(100.0 * found.residual, 0.0),
+    );
+    let row = |i: i32| {
+        let reading = f64::from(i) / 20.0;
+        vec![Cell::Number(100.0 * reading, 0), Cell::Estimate(found.estimate(reading).scaled(100.0))]
+    };
+    report.table(Table {
+        key: "response",
+        columns: vec![("reading_percent", "reading %"), ("light_percent", "light %")],
+        rows: (0..=20).map(row).collect(),
+    });
+    let ratios = found.ratios.iter().enumerate();
+    report.table(Table {
+        key: "exposures",
+        columns: vec![("picture", "picture"), ("ratio", "exposure over the first's")],
+        rows: ratios.map(|(i, r)| vec![Cell::Number(i as f64 + 1.0, 0), Cell::Number(*r, 5)]).collect(),
+    });
+    let curve = (0..=100).map(|i| f64::from(i) / 100.0).map(|m| (found.light(m), m));
+    report.plot(Plot {
+        title: "camera response".to_owned(),
+        x: Axis::linear("light, of the largest"),
+        y: Axis::linear("reading over full scale"),
+        series: vec![Series::new("", Mark::Line, curve)],
+    });
+    report
+}

@@ -1,0 +1,233 @@
+//! Which readings of a picture file are measured.
+
+use crate::failure::Failure;
+use clap::Args;
+use etendue_io::photograph::{Encoding, FilterTile, Photograph, read_photograph};
+use etendue_metrology::Image;
+use std::path::Path;
+
+/// Choice of a part of a picture.
+#[derive(Clone, Debug, Args)]
+pub struct Selection {
+    /// The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only
+    /// one, or the luminance]
+    #[arg(long, value_name = "NAME")]
+    pub channel: Option<String>,
+    /// The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB
+    #[arg(long, value_name = "TILE", value_parser = tile)]
+    pub cfa: Option<String>,
+    /// Measure this part only: left column, top row, width and height, pixels of the file
+    #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
+    pub region: Option<[usize; 4]>,
+}
+
+fn tile(text: &str) -> Result<String, String> {
+    let whole = text.chars().count() == 4 && text.chars().all(|c| c.is_ascii_alphabetic());
+    if whole { Ok(text.to_ascii_uppercase()) } else { Err(format!("expected four letters, e.g. RGGB, not '{text}'")) }
+}
+
+pub(super) fn region(text: &str) -> Result<[usize; 4], String> {
+    let numbers: Option<Vec<usize>> = text.split(',').map(|word| word.trim().parse().ok()).collect();
+    let expected = || format!("expected X,Y,WIDTH,HEIGHT in whole pixels, not '{text}'");
+    let numbers: [usize; 4] = numbers.ok_or_else(expected)?.try_into().map_err(|_| expected())?;
+    if numbers[2] > 0 && numbers[3] > 0 { Ok(numbers) } else { Err(expected()) }
+}
+
+/// The readings of a picture in proportion to light, as far as the file says: luminance where it is in colour and no channel
+/// is named.
+pub(super) struct Readings {
+    pub image: Image,
+    /// The largest reading that the file can hold, in the readings' own unit.
+    pub full_scale: Option<f64>,
+    /// The reading of no light, where a side-car states it.
+    pub black: Option<f64>,
+}
+
+/// Weights of linear sRGB in the luminance (IEC 61966-2-1).
+const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
+
+impl Selection {
+    /// One channel's readings as stored.
+    pub(super) fn stored(&self, file: &Path) -> Result<Readings, Failure> {
+        let mut photograph = read_photograph(file).map_err(Failure::input)?;
+        photograph.encoding = Encoding::Linear;
+        if self.channel.is_none() && photograph.channel("R").is_some() {
+            let names = photograph.names().join(", ");
+            let file = file.display();
+            return Err(Failure::input(format!(
+                "{file}: say which of its channels to measure with --channel: {names}"
+            )));
+        }
+        self.of(file, &photograph)
+    }
+
+    /// One channel's readings, decoded to linear where the file is encoded for display.
+    pub(super) fn linear(&self, file: &Path) -> Result<Readings, Failure> {
+        self.of(file, &read_photograph(file).map_err(Failure::input)?)
+    }
+
+    /// Red, green and blue of a picture in colour, decoded to linear; `None` where it is not in colour.
+    pub(super) fn colours(&self, file: &Path) -> Result<Option<[Readings; 3]>, Failure> {
+        let photograph = read_photograph(file).map_err(Failure::input)?;
+        let tile = self.mosaic(&photograph);
+        let has = |name: &str| match &tile {
+            Some(tile) => tile.channels.iter().any(|c| c == name),
+            None => photograph.channel(name).is_some(),
+        };
+        if self.channel.is_some() || !["R", "G", "B"].into_iter().all(has) {
+            return Ok(None);
+        }
+        let one = |name: &str| {
+            let channel = Some(name.to_owned());
+            Self { channel, cfa: self.cfa.clone(), region: self.region }.of(file, &photograph)
+        };
+        Ok(Some([one("R")?, one("G")?, one("B")?]))
+    }
+
+    fn of(&self, file: &Path, photograph: &Photograph) -> Result<Readings, Failure> {
+        let linear = |name: &str| photograph.channel(name).map(|c| photograph.linear(c));
+        let samples = match (&self.channel, self.mosaic(photograph)) {
+            (_, Some(_)) => photograph.linear(&photograph.channels[0]),
+            (Some(name), None) => linear(name).ok_or_else(|| no_channel(file, name, &photograph.names()))?,
+            (None, None) => luminance(file, photograph, linear)?,
+        };
+        let decoded = photograph.encoding == Encoding::Srgb;
+        let full_scale = if decoded { Some(1.0) } else { photograph.full_scale };
+        self.part(file, photograph, samples, full_scale)
+    }
+
+    /// One channel's readings as stored, of a raw picture.
+    pub(super) fn raw(&self, file: &Path) -> Result<Readings, Failure> {
+        let photograph = read_photograph(file).map_err(Failure::input)?;
+        let colours: Vec<_> = photograph.channels.iter().filter(|c| c.name != "A").collect();
+        let [only] = colours[..] else {
+            let names = photograph.names().join(", ");
+            let error = format!(
+                "{}: a colour picture ({names}) where linear raw is needed: its channels are processed; give raw frames of one channel",
+                file.display()
+            );
+            return Err(Failure::input(error));
+        };
+        let samples = only.samples.clone();
+        self.part(file, &photograph, samples, photograph.full_scale)
+    }
+
+    fn part(
+        &self,
+        file: &Path,
+        photograph: &Photograph,
+        samples: Vec<f32>,
+        full_scale: Option<f64>,
+    ) -> Result<Readings, Failure> {
+        let whole = Image::from_samples(photograph.width, photograph.height, samples);
+        let image = self.cropped(file, whole.expect("a photograph's channels fill it"))?;
+        let image = match self.mosaic(photograph) {
+            Some(tile) => self.sites(file, &image, &tile)?,
+            None => image,
+        };
+        let facts = photograph.raw.as_ref();
+        let full_scale = facts.map_or(full_scale, |f| Some(f.white_level_dn));
+        Ok(Readings { image, full_scale, black: facts.map(|f| f.black_level_dn) })
+    }
+
+    /// The colour filters: as told, or of the side-car; `None` where there is one colour only.
+    fn mosaic(&self, photograph: &Photograph) -> Option<FilterTile> {
+        let told =
+            self.cfa.as_ref().map(|text| FilterTile { columns: 2, channels: text.chars().map(String::from).collect() });
+        let tile = told.or_else(|| photograph.raw.as_ref().map(|facts| facts.filters.clone()))?;
+        (photograph.channels.len() == 1 && tile.channels.len() > 1).then_some(tile)
+    }
+
+    fn cropped(&self, file: &Path, image: Image) -> Result<Image, Failure> {
+        let Some([x, y, width, height]) = self.region else { return Ok(image) };
+        let (columns, rows) = (image.width(), image.height());
+        if x.saturating_add(width) > columns || y.saturating_add(height) > rows {
+            let file = file.display();
+            return Err(Failure::input(format!(
+                "{file}: --region lies beyond the picture's {columns} × {rows} pixels"
+            )));
+        }
+        Ok(image.part(x, y, width, height))
+    }
+
+    /// The pixels under one colour of a mosaic: the first of its name in the tile.
+    fn sites(&self, file: &Path, image: &Image, tile: &FilterTile) -> Result<Image, Failure> {
+        let Some(name) = &self.channel else {
+            let file = file.display();
+            let names = tile.channels.join(", ");
+            return Err(Failure::input(format!(
+                "{file}: a raw mosaic of the colours {names}: say which one to measure with --channel"
+            )));
+        };
+        let at = tile.channels.iter().position(|c| c == name);
+        let names: Vec<&str> = tile.channels.iter().map(String::as_str).collect();
+        let at = at.ok_or_else(|| no_channel(file, name, &names))?;
+        let (columns, rows) = (tile.columns, tile.channels.len() / tile.columns);
+        // A region that starts within a tile starts at another colour.
+        let [left, top, ..] = self.region.unwrap_or_default();
+        let first = |at: usize, start: usize, period: usize| (at + period - start % period) % period;
+        let (x, y) = (first(at % columns, left, columns), first(at / columns, top, rows));
+        let every = |first: usize, step: usize, end: usize| (first..end).step_by(step);
+        let (width, height) = (every(x, columns, image.width()).count(), every(y, rows, image.height()).count());
+        let rows = every(y, rows, image.height());
+        let samples = rows.flat_map(|row| every(x, columns, image.width()).map(move |column| image.at(column, row)));
+        Ok(Image::from_samples(width, height, samples.collect()).expect("counted"))
+    }
+}
+
+fn luminance(
+    file: &Path,
+    photograph: &Photograph,
+    linear: impl Fn(&str) -> Option<Vec<f32>>,
+) -> Result<Vec<f32>, Failure> {
+    if let Some(grey) = linear("Y") {
+        return Ok(grey);
+    }
+    if let [only] = &photograph.channels[..] {
+        return Ok(photograph.linear(only));
+    }
+    let Some(((r, g), b)) = linear("R").zip(linear("G")).zip(linear("B")) else {
+        return Err(Failure::input(format!(
+            "{}: say which of its channels to measure with --channel: {}",
+            file.display(),
+            photograph.names().join(", ")
+        )));
+    };
+    let [red, green, blue] = LUMINANCE;
+    Ok(r.iter().zip(&g).zip(&b).map(|((r, g), b)| red * r + green * g + blue * b).collect())
+}
+
+fn no_channel(file: &Path, name: &str, names: &[&str]) -> Failure {
+    Failure::input(format!("{}: no channel '{name}'; it has {}", file.display(), names.join(", ")))
+}
+
+/// What a picture's numbers mean, where the file does not say.
+#[derive(Debug, Args)]
+pub struct Levels {
+    /// The reading of no light [default: the side-car's, or 0]
+    #[arg(long, value_name = "READING", allow_negative_numbers = true)]
+    pub black: Option<f64>,
+    /// The reading of a saturated pixel [default: the side-car's, or the largest that the file can hold]
+    #[arg(long, value_name = "READING", allow_negative_numbers = true)]
+    pub full_scale: Option<f64>,
+}
+
+impl Levels {
+    pub(super) fn black(&self, readings: &Readings) -> f64 {
+        self.black.or(readings.black).unwrap_or(0.0)
+    }
+
+    pub(super) fn full_scale(&self, readings: &Readings) -> Option<f64> {
+        self.full_scale.or(readings.full_scale)
+    }
+}
+
+/// A part of readings; the region must lie within them.
+pub(super) fn part(image: &Image, region: [usize; 4], name: &str) -> Result<Image, Failure> {
+    let [x, y, width, height] = region;
+    if x.saturating_add(width) > image.width() || y.saturating_add(height) > image.height() {
+        let (columns, rows) = (image.width(), image.height());
+        return Err(Failure::input(format!("{name}: lies beyond the {columns} × {rows} pixels that are measured")));
+    }
+    Ok(image.part(x, y, width, height))
+}

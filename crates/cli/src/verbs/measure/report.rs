@@ -1,0 +1,247 @@
+//! What a measurement found: a table for people, JSON for programs, a plot.
+
+use super::fixed;
+use crate::failure::Failure;
+use crate::plot::{Plot, svg};
+use crate::say;
+use clap::Args;
+use etendue_core::maths::f64::log10;
+use etendue_metrology::Estimate;
+use serde_json::{Map, Value, json};
+use std::path::{Path, PathBuf};
+
+/// How results are told.
+#[derive(Debug, Args)]
+pub struct Telling {
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Draw the curves here
+    #[arg(long, value_name = "FILE.svg")]
+    pub plot: Option<PathBuf>,
+    /// Write what was found as keys of a camera file (of ptc and vignetting)
+    #[arg(long, value_name = "CAMERA.toml")]
+    pub camera_out: Option<PathBuf>,
+}
+
+/// One number of a report.
+#[derive(Clone, Debug)]
+struct Figure {
+    key: String,
+    label: String,
+    unit: &'static str,
+    value: Estimate,
+}
+
+/// A cell of a table.
+#[derive(Clone, Debug)]
+pub(super) enum Cell {
+    /// A number to some decimals.
+    Number(f64, usize),
+    /// A number with its standard uncertainty.
+    Estimate(Estimate),
+    /// A word.
+    Text(String),
+    /// Nothing known.
+    Nothing,
+}
+
+/// A table: column keys with headings, and rows of cells.
+#[derive(Clone, Debug)]
+pub(super) struct Table {
+    pub key: &'static str,
+    pub columns: Vec<(&'static str, &'static str)>,
+    pub rows: Vec<Vec<Cell>>,
+}
+
+/// A measurement's results.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Report {
+    kind: &'static str,
+    method: &'static str,
+    figures: Vec<Figure>,
+    tables: Vec<Table>,
+    notes: Vec<String>,
+    plots: Vec<Plot>,
+    camera: Option<String>,
+}
+
+impl Report {
+    pub(super) fn new(kind: &'static str, method: &'static str) -> Self {
+        Self { kind, method, ..Self::default() }
+    }
+
+    pub(super) fn figure(&mut self, key: &str, label: &str, unit: &'static str, value: Estimate) {
+        self.figures.push(Figure { key: key.to_owned(), label: label.to_owned(), unit, value });
+    }
+
+    pub(super) fn table(&mut self, table: Table) {
+        self.tables.push(table);
+    }
+
+    pub(super) fn note(&mut self, note: impl Into<String>) {
+        self.notes.push(note.into());
+    }
+
+    /// What a camera file says of what was found.
+    pub(super) fn camera(&mut self, text: String) {
+        self.camera = Some(text);
+    }
+
+    pub(super) fn plot(&mut self, plot: Plot) {
+        self.plots.push(plot);
+    }
+
+    /// Prints the report and draws its plots.
+    pub(super) fn tell(&self, telling: &Telling) -> Result<(), Failure> {
+        if let Some(file) = &telling.plot {
+            if self.plots.is_empty() {
+                return Err(Failure::input("--plot: this measurement has no curve to draw"));
+            }
+            written(file, &svg(&self.plots))?;
+        }
+        if let Some(file) = &telling.camera_out {
+            let text = self.camera.as_ref();
+            written(
+                file,
+                text.ok_or_else(|| Failure::input("--camera-out: no key of a camera file says what this finds"))?,
+            )?;
+        }
+        say(&if telling.json { format!("{:#}\n", self.json()) } else { self.text() });
+        Ok(())
+    }
+
+    fn json(&self) -> Value {
+        let figure = |f: &Figure| {
+            let Value::Object(mut map) = json_estimate(f.value) else { return (f.key.clone(), Value::Null) };
+            map.insert("unit".to_owned(), f.unit.into());
+            (f.key.clone(), Value::Object(map))
+        };
+        let tables: Map<String, Value> = self.tables.iter().map(|t| (t.key.to_owned(), t.json())).collect();
+        json!({
+            "measurement": self.kind,
+            "method": self.method,
+            "figures": self.figures.iter().map(figure).collect::<Map<_, _>>(),
+            "tables": tables,
+            "notes": self.notes,
+        })
+    }
+
+    fn text(&self) -> String {
+        let width = |f: fn(&Figure) -> usize| self.figures.iter().map(f).max().unwrap_or(0);
+        let label = width(|f| f.label.chars().count());
+        let mut text = format!("{}\n", self.method);
+        for figure in &self.figures {
+            text += &format!("{:<label$}  {} {}", figure.label, with_uncertainty(figure.value), figure.unit);
+            text = text.trim_end().to_owned() + "\n";
+        }
+        self.tables.iter().for_each(|table| text += &format!("\n{}", table.text()));
+        self.notes.iter().for_each(|note| text += &format!("note: {note}\n"));
+        text
+    }
+}
+
+impl Table {
+    fn json(&self) -> Value {
+        let row = |cells: &Vec<Cell>| {
+            let pairs = self.columns.iter().zip(cells).map(|((key, _), cell)| ((*key).to_owned(), cell.json()));
+            Value::Object(pairs.collect())
+        };
+        self.rows.iter().map(row).collect()
+    }
+
+    fn text(&self) -> String {
+        let headings = self.columns.iter().map(|(_, heading)| (*heading).to_owned()).collect::<Vec<_>>();
+        let rows = self.rows.iter().map(|row| row.iter().map(Cell::text).collect::<Vec<_>>());
+        let lines: Vec<Vec<String>> = std::iter::once(headings).chain(rows).collect();
+        let width = |i: usize| lines.iter().map(|line| line[i].chars().count()).max().unwrap_or(0);
+        let widths: Vec<usize> = (0..self.columns.len()).map(width).collect();
+        let line = |cells: &Vec<String>| {
+            let padded: Vec<String> = cells.iter().zip(&widths).map(|(cell, w)| format!("{cell:<w$}")).collect();
+            padded.join("  ").trim_end().to_owned() + "\n"
+        };
+        lines.iter().map(line).collect()
+    }
+}
+
+impl Cell {
+    fn json(&self) -> Value {
+        match self {
+            Self::Number(x, _) => finite(*x),
+            Self::Estimate(e) => json_estimate(*e),
+            Self::Text(text) => text.as_str().into(),
+            Self::Nothing => Value::Null,
+        }
+    }
+
+    fn text(&self) -> String {
+        match self {
+            Self::Number(x, _) if !x.is_finite() => "–".to_owned(),
+            Self::Number(x, decimals) => fixed(*x, *decimals),
+            Self::Estimate(e) => with_uncertainty(*e),
+            Self::Text(text) => text.clone(),
+            Self::Nothing => "–".to_owned(),
+        }
+    }
+}
+
+fn written(file: &Path, text: &str) -> Result<(), Failure> {
+    std::fs::write(file, text).map_err(|cause| Failure::run(format!("{}: cannot be written: {cause}", file.display())))
+}
+
+/// JSON knows no infinity.
+fn finite(x: f64) -> Value {
+    if x.is_finite() { (x + 0.0).into() } else { Value::Null }
+}
+
+pub(super) fn json_estimate(e: Estimate) -> Value {
+    json!({ "value": finite(e.value), "standard_uncertainty": finite(e.standard_uncertainty) })
+}
+
+/// Value ± standard uncertainty, to two digits of the uncertainty (GUM 7.2.6).
+pub(super) fn with_uncertainty(e: Estimate) -> String {
+    let (value, u) = (e.value, e.standard_uncertainty);
+    if !value.is_finite() {
+        return "unknown".to_owned();
+    }
+    if !u.is_finite() {
+        return format!("{} ± unknown", digits(value, 4));
+    }
+    if u <= 0.0 {
+        return digits(value, 6);
+    }
+    let place = log10(u).floor();
+    if place > 4.0 || value.abs() >= 1e9 || place < -7.0 {
+        return format!("{value:.4e} ± {u:.1e}");
+    }
+    let decimals = (1.0 - place).max(0.0) as usize;
+    format!("{} ± {}", fixed(value, decimals), fixed(u, decimals))
+}
+
+/// A number to so many digits.
+fn digits(value: f64, digits: usize) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let place = log10(value.abs()).floor();
+    if !(-5.0..9.0).contains(&place) {
+        return format!("{value:.0$e}", digits - 1);
+    }
+    fixed(value, (digits as f64 - 1.0 - place).max(0.0) as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_told_to_two_digits_of_their_uncertainty() {
+        let told = |value, u| with_uncertainty(Estimate::new(value, u));
+        assert_eq!(told(0.196_482, 0.000_913), "0.19648 ± 0.00091");
+        assert_eq!(told(12_903.2, 230.0), "12903 ± 230");
+        assert_eq!(told(0.0, 0.0), "0");
+        assert_eq!(told(1288.0, 0.0), "1288.00");
+        assert_eq!(told(1.0, f64::INFINITY), "1.000 ± unknown");
+        assert_eq!(told(f64::NAN, 1.0), "unknown");
+    }
+}

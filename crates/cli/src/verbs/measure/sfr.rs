@@ -1,0 +1,134 @@
+//! `etendue measure sfr`: the response of slanted edges.
+
+use super::readings::{Levels, Selection, part, region};
+use super::report::{Cell, Report, Table, Telling};
+use crate::failure::Failure;
+use crate::plot::{Axis, Mark, Plot, Series};
+use clap::Args;
+use etendue_metrology::Estimate;
+use etendue_metrology::sfr::{Orientation, Sfr, SfrPoint, SfrSettings, measure_edge};
+use std::path::PathBuf;
+
+/// `etendue measure sfr`
+#[derive(Debug, Args)]
+pub struct SfrArguments {
+    /// A picture of one or more slanted edges
+    #[arg(value_name = "PICTURE")]
+    pub picture: PathBuf,
+    /// A part of the picture that holds one edge: left column, top row, width, height; once an edge [default: all of it]
+    #[arg(long = "edge", value_name = "X,Y,W,H", value_parser = region)]
+    pub edges: Vec<[usize; 4]>,
+    /// Degree of the curve that the edges follow: 2 or 3 where the lens bends them
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=5))]
+    pub edge_degree: u8,
+    /// How far from the edge its profile has fine detail, pixels [default: 10]
+    #[arg(long, value_name = "PX", allow_negative_numbers = true)]
+    pub reach_px: Option<f64>,
+    #[command(flatten)]
+    pub selection: Selection,
+    #[command(flatten)]
+    pub levels: Levels,
+    #[command(flatten)]
+    pub telling: Telling,
+}
+
+pub(super) fn run(arguments: &SfrArguments) -> Result<(), Failure> {
+    let readings = arguments.selection.linear(&arguments.picture)?;
+    let (width, height) = (readings.image.width(), readings.image.height());
+    let regions = if arguments.edges.is_empty() { vec![[0, 0, width, height]] } else { arguments.edges.clone() };
+    let settings = SfrSettings {
+        edge_degree: arguments.edge_degree.into(),
+        reach_px: arguments.reach_px,
+        full_scale: arguments.levels.full_scale(&readings),
+        ..SfrSettings::default()
+    };
+    let measured = |at: &[usize; 4]| {
+        let image = part(&readings.image, *at, "--edge")?;
+        let place = format!("{}: edge at {},{}", arguments.picture.display(), at[0], at[1]);
+        measure_edge(&image, &settings).map_err(|error| Failure::input(format!("{place}: {error}")))
+    };
+    let found = regions.iter().map(measured).collect::<Result<Vec<Sfr>, _>>()?;
+    report(&regions, &found, (width, height)).tell(&arguments.telling)
+}
+
+fn report(regions: &[[usize; 4]], found: &[Sfr], size: (usize, usize)) -> Report {
+    let mut report = Report::new("sfr", "slanted edges after ISO 12233:2023 (± one standard uncertainty)");
+    let row = |(at, sfr): (&[usize; 4], &Sfr)| {
+        let estimate = |e: Option<Estimate>| e.map_or(Cell::Nothing, Cell::Estimate);
+        let nyquist = sfr.curve.iter().find(|p| (p.frequency - 0.5).abs() < 1e-9).map(|p| p.response);
+        let towards = match sfr.orientation {
+            Orientation::Vertical => "horizontal",
+            Orientation::Horizontal => "vertical",
+        };
+        vec![
+            Cell::Text(format!("{},{}", at[0], at[1])),
+            Cell::Number(100.0 * field_position(at, size), 1),
+            Cell::Text(towards.to_owned()),
+            Cell::Number(sfr.angle_deg, 3),
+            estimate(sfr.mtf50),
+            estimate(sfr.mtf10),
+            estimate(nyquist),
+            Cell::Number(sfr.noise / (sfr.levels[1] - sfr.levels[0]), 5),
+        ]
+    };
+    report.table(Table {
+        key: "edges",
+        columns: vec![
+            ("at_px", "at px"),
+            ("field_percent", "field %"),
+            ("direction", "direction"),
+            ("angle_deg", "angle °"),
+            ("mtf50_cycles_per_px", "MTF50 c/px"),
+            ("mtf10_cycles_per_px", "MTF10 c/px"),
+            ("response_at_half", "at 0.5 c/px"),
+            ("residual_share", "residual"),
+        ],
+        rows: regions.iter().zip(found).map(row).collect(),
+    });
+    report.table(curves(regions, found));
+    plots(&mut report, regions, found);
+    report
+}
+
+/// Distance of an edge's middle from the picture's, of the half diagonal.
+fn field_position(at: &[usize; 4], (width, height): (usize, usize)) -> f64 {
+    let from = |start: usize, length: usize, whole: usize| start as f64 + 0.5 * length as f64 - 0.5 * whole as f64;
+    let (x, y) = (from(at[0], at[2], width), from(at[1], at[3], height));
+    let (w, h) = (0.5 * width as f64, 0.5 * height as f64);
+    ((x * x + y * y) / (w * w + h * h)).sqrt()
+}
+
+/// Every twentieth of a cycle a pixel.
+fn curves(regions: &[[usize; 4]], found: &[Sfr]) -> Table {
+    let row = |at: &[usize; 4], point: &SfrPoint| {
+        let place = Cell::Text(format!("{},{}", at[0], at[1]));
+        vec![place, Cell::Number(point.frequency, 2), Cell::Estimate(point.response)]
+    };
+    let rows = |(at, sfr): (&[usize; 4], &Sfr)| sfr.curve.iter().step_by(5).map(|p| row(at, p)).collect::<Vec<_>>();
+    Table {
+        key: "response",
+        columns: vec![("at_px", "at px"), ("cycles_per_px", "c/px"), ("response", "response")],
+        rows: regions.iter().zip(found).flat_map(rows).collect(),
+    }
+}
+
+fn plots(report: &mut Report, regions: &[[usize; 4]], found: &[Sfr]) {
+    let name = |at: &[usize; 4]| format!("edge at {},{}", at[0], at[1]);
+    let response = |(at, sfr): (&[usize; 4], &Sfr)| {
+        let points = sfr.curve.iter().map(|p| (p.frequency, p.response.value, 2.0 * p.response.standard_uncertainty));
+        Series::with_errors(&name(at), Mark::Line, points)
+    };
+    report.plot(Plot {
+        title: "spatial frequency response (bars: 95 %)".to_owned(),
+        x: Axis::linear("cycles a pixel"),
+        y: Axis::linear("response").showing(&[0.0, 1.0]),
+        series: regions.iter().zip(found).map(response).collect(),
+    });
+    let profile = |(at, sfr): (&[usize; 4], &Sfr)| Series::new(&name(at), Mark::Line, sfr.profile.iter().copied());
+    report.plot(Plot {
+        title: "edge profile".to_owned(),
+        x: Axis::linear("distance from the edge, pixels"),
+        y: Axis::linear("reading"),
+        series: regions.iter().zip(found).map(profile).collect(),
+    });
+}

@@ -1,0 +1,195 @@
+//! `etendue measure vignetting` and `etendue measure shading`: a flat field.
+
+use super::readings::{Levels, Readings, Selection};
+use super::report::{Cell, Report, Table, Telling};
+use crate::failure::Failure;
+use crate::plot::{Axis, Mark, Plot, Series};
+use clap::Args;
+use etendue_metrology::Estimate;
+use etendue_metrology::shading::{
+    ColourShading, Shading, ShadingError, ShadingSettings, colour_shading, measure_shading,
+};
+use std::path::PathBuf;
+
+/// `etendue measure vignetting` and `etendue measure shading`
+#[derive(Debug, Args)]
+pub struct FlatField {
+    /// A picture of an evenly lit surface
+    #[arg(value_name = "PICTURE")]
+    pub picture: PathBuf,
+    /// Centre of the fall-off, raster coordinates [default: the picture's]
+    #[arg(long, value_name = "X,Y", value_parser = point)]
+    pub centre_px: Option<(f64, f64)>,
+    /// Rings of the profile over the radial field position
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(4..=1000))]
+    pub rings: u32,
+    /// Blocks of the map along each side, an odd number
+    #[arg(long, value_name = "N", default_value_t = 11, value_parser = clap::value_parser!(u32).range(1..=501))]
+    pub blocks: u32,
+    /// The pixels' pitch, µm, for --camera-out
+    #[arg(long, value_name = "UM", allow_negative_numbers = true)]
+    pub pixel_pitch_um: Option<f64>,
+    #[command(flatten)]
+    pub selection: Selection,
+    #[command(flatten)]
+    pub levels: Levels,
+    #[command(flatten)]
+    pub telling: Telling,
+}
+
+pub(super) fn point(text: &str) -> Result<(f64, f64), String> {
+    let both = text.split_once(',').and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)));
+    both.ok_or_else(|| format!("expected X,Y, not '{text}'"))
+}
+
+impl FlatField {
+    fn settings(&self, readings: &Readings) -> ShadingSettings {
+        ShadingSettings {
+            black: self.levels.black(readings),
+            full_scale: self.levels.full_scale(readings),
+            centre_px: self.centre_px,
+            rings: self.rings as usize,
+            blocks: self.blocks as usize,
+        }
+    }
+
+    fn refused(&self, error: &ShadingError) -> Failure {
+        Failure::input(format!("{}: {error}", self.picture.display()))
+    }
+
+    fn measured(&self) -> Result<(Shading, (f64, f64)), Failure> {
+        let readings = self.selection.linear(&self.picture)?;
+        let shading = measure_shading(&readings.image, &self.settings(&readings)).map_err(|e| self.refused(&e))?;
+        Ok((shading, (readings.image.width() as f64, readings.image.height() as f64)))
+    }
+
+    /// Relative illumination as a lens states it, over millimetres.
+    fn camera(&self, shading: &Shading, (width, height): (f64, f64)) -> Result<String, Failure> {
+        let needed = || {
+            Failure::input(
+                "--camera-out: expected --pixel-pitch-um above 0, as a lens states its fall-off over millimetres",
+            )
+        };
+        let pitch_um = self.pixel_pitch_um.filter(|p| *p > 0.0 && p.is_finite()).ok_or_else(needed)?;
+        let (x, y) = self.centre_px.unwrap_or((0.5 * width, 0.5 * height));
+        let (x, y) = (x.max(width - x), y.max(height - y));
+        let corner_mm = (x * x + y * y).sqrt() * pitch_um / 1000.0;
+        let steps = || (0..=20).map(|i| f64::from(i) / 20.0);
+        let list = |values: Vec<f64>| values.iter().map(|v| format!("{v:.6}")).collect::<Vec<_>>().join(", ");
+        // The last step lies a little beyond the corner, as the lens's table must reach it.
+        let radii = list(steps().map(|p| p * corner_mm * (1.0 + 1e-6)).collect());
+        let ratios = list(steps().map(|p| shading.falloff(p).max(0.0)).collect());
+        Ok(format!(
+            "# Measured relative illumination, corner ± {:.1e}: for [lens] of a camera file.\nformat = 1\n\n\
+             [lens.relative_illumination]\nradius_mm = [{radii}]\nratio = [{ratios}]\n",
+            shading.corner.standard_uncertainty
+        ))
+    }
+}
+
+pub(super) fn vignetting(arguments: &FlatField) -> Result<(), Failure> {
+    let (shading, size) = arguments.measured()?;
+    let mut report = Report::new(
+        "vignetting",
+        "relative illumination of a flat field over the radial field position (± one standard uncertainty)",
+    );
+    report.figure("centre", "reading of the centre, less black", "", shading.centre);
+    report.figure("corner_percent", "illumination of the corner", "%", shading.corner.scaled(100.0));
+    for (key, label, value) in [("a2", "a₂ of 1 + a₂ r² + a₄ r⁴ + a₆ r⁶", 0), ("a4", "a₄", 1), ("a6", "a₆", 2)]
+        .map(|(k, l, i)| (k, l, shading.coefficients[i]))
+    {
+        report.figure(key, label, "", value);
+    }
+    let percent = |e: Estimate| e.scaled(100.0);
+    report.table(Table {
+        key: "profile",
+        columns: vec![("field_percent", "field %"), ("illumination_percent", "illumination %")],
+        rows: shading
+            .profile
+            .iter()
+            .map(|ring| vec![Cell::Number(100.0 * ring.position, 2), Cell::Estimate(percent(ring.relative))])
+            .collect(),
+    });
+    report.plot(profile_plot(&[("", &shading)]));
+    if arguments.telling.camera_out.is_some() {
+        report.camera(arguments.camera(&shading, size)?);
+    }
+    report.tell(&arguments.telling)
+}
+
+pub(super) fn shading(arguments: &FlatField) -> Result<(), Failure> {
+    let method = "shading of a flat field after ISO 17957: blocks relative to the centre (± one standard uncertainty)";
+    let mut report = Report::new("shading", method);
+    match arguments.selection.colours(&arguments.picture)? {
+        Some(colours) => {
+            let settings = arguments.settings(&colours[1]);
+            let [red, green, blue] = &colours;
+            let found = colour_shading([&red.image, &green.image, &blue.image], &settings);
+            in_colour(&mut report, &found.map_err(|e| arguments.refused(&e))?);
+        }
+        None => {
+            let (found, _) = arguments.measured()?;
+            extreme(&mut report, "illumination", "least illumination", &found.map);
+            report.table(map("illumination_percent", &found.map));
+            report.plot(profile_plot(&[("", &found)]));
+        }
+    }
+    report.tell(&arguments.telling)
+}
+
+fn in_colour(report: &mut Report, found: &ColourShading) {
+    let [red, blue] = found.extremes();
+    report.figure("red_percent", "red over green, farthest from the centre's", "%", red.scaled(100.0));
+    report.figure("blue_percent", "blue over green, farthest from the centre's", "%", blue.scaled(100.0));
+    for (key, label, channel) in [("red", "least red", 0), ("green", "least green", 1), ("blue", "least blue", 2)] {
+        extreme(report, key, label, &found.channels[channel].map);
+    }
+    report.table(map("green_percent", &found.channels[1].map));
+    report.table(map("red_over_green_percent", &found.red));
+    report.table(map("blue_over_green_percent", &found.blue));
+    let [red, green, blue] = &found.channels;
+    report.plot(profile_plot(&[("blue", blue), ("red", red), ("green", green)]));
+}
+
+fn extreme(report: &mut Report, key: &str, label: &str, map: &[Vec<Estimate>]) {
+    let lower = |a: Estimate, b: Estimate| if b.value < a.value { b } else { a };
+    let least = map.iter().flatten().copied().reduce(lower).unwrap_or(Estimate::new(1.0, 0.0));
+    report.figure(&format!("{key}_least_percent"), label, "%", least.scaled(100.0));
+}
+
+/// A map as a table: one row of blocks a row.
+fn map(key: &'static str, map: &[Vec<Estimate>]) -> Table {
+    let row = |(i, blocks): (usize, &Vec<Estimate>)| {
+        let cells = blocks.iter().map(|e| format!("{:6.2}", 100.0 * e.value)).collect::<Vec<_>>();
+        vec![Cell::Number(i as f64 + 1.0, 0), Cell::Text(cells.join(" "))]
+    };
+    Table {
+        key,
+        columns: vec![("row", "row"), ("blocks", heading(key))],
+        rows: map.iter().enumerate().map(row).collect(),
+    }
+}
+
+fn heading(key: &str) -> &'static str {
+    match key {
+        "green_percent" => "green %",
+        "red_over_green_percent" => "red over green %",
+        "blue_over_green_percent" => "blue over green %",
+        _ => "illumination %",
+    }
+}
+
+fn profile_plot(channels: &[(&str, &Shading)]) -> Plot {
+    let series = channels.iter().map(|(name, shading)| {
+        let ring = |r: &etendue_metrology::shading::Ring| {
+            (100.0 * r.position, 100.0 * r.relative.value, 200.0 * r.relative.standard_uncertainty)
+        };
+        Series::with_errors(name, Mark::Points, shading.profile.iter().map(ring))
+    });
+    Plot {
+        title: "relative illumination (bars: 95 %)".to_owned(),
+        x: Axis::linear("radial field position, % of the half diagonal").showing(&[0.0, 100.0]),
+        y: Axis::linear("illumination, % of the centre").showing(&[100.0]),
+        series: series.collect(),
+    }
+}

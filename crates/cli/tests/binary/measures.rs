@@ -1,0 +1,215 @@
+//! `etendue measure` on pictures.
+
+use crate::support::{etendue, root, text};
+use etendue_core::Plane;
+use etendue_core::quantity::{DigitalNumber, Display};
+use etendue_io::png::{encode_display, encode_raw16};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// The reference program's own stacks and figures: tests/oracles/photon_transfer.py.
+fn oracle() -> PathBuf {
+    root().join("tests/oracles/figures/emva1288")
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let arguments = arguments.iter().copied().chain(["--json"]);
+    serde_json::from_str(&etendue(["measure"].into_iter().chain(arguments)).ok().out).expect("JSON")
+}
+
+fn figure(report: &Value, key: &str) -> f64 {
+    report["figures"][key]["value"].as_f64().unwrap_or_else(|| panic!("{key} is missing in {report}"))
+}
+
+/// A raw picture of 16 bits.
+fn raw(folder: &Path, name: &str, size: (usize, usize), reading: impl Fn(usize, usize) -> f64) -> String {
+    let samples = (0..size.0 * size.1).map(|i| reading(i % size.0, i / size.0).round().clamp(0.0, 65_535.0) as u32);
+    let plane = Plane::<DigitalNumber>::from_samples(size.0, size.1, samples.collect()).expect("a rectangle");
+    let file = folder.join(name);
+    std::fs::write(&file, encode_raw16(&plane).expect("a picture")).expect("a temporary file");
+    text(&file)
+}
+
+/// A number in −1 to 1 that differs from place to place and frame to frame.
+fn scatter(x: usize, y: usize, frame: usize) -> f64 {
+    let mixed = (x * 73_856_093) ^ (y * 19_349_663) ^ (frame * 83_492_791 + 12_345);
+    let mixed = (mixed ^ (mixed >> 13)).wrapping_mul(0x5bd1_e995) % 65_537;
+    mixed as f64 / 32_768.0 - 1.0
+}
+
+/// Within 1 %, as the bench asks; figures of the reference program in its own units.
+#[test]
+fn photon_transfer_agrees_with_the_reference_program_on_its_own_stacks() {
+    let report = json(&["ptc", &text(&oracle().join("EMVA1288descriptor.txt"))]);
+    let stored = std::fs::read_to_string(oracle().join("figures.json")).expect("the oracle's figures");
+    let stored: Value = serde_json::from_str(&stored).expect("JSON");
+    for (theirs, ours, factor) in [
+        ("K", "gain_dn_per_e", 1.0),
+        ("R", "responsivity_dn_per_photon", 1.0),
+        ("QE", "quantum_efficiency", 100.0),
+        ("sigma_y_dark", "dark_noise_dn", 1.0),
+        ("sigma_d", "dark_noise_e", 1.0),
+        ("u_p_min", "threshold_photons", 1.0),
+        ("u_e_min", "threshold_e", 1.0),
+        ("u_p_sat", "saturation_photons", 1.0),
+        ("u_e_sat", "saturation_e", 1.0),
+        ("SNR_max", "snr_max", 1.0),
+        ("DR", "dynamic_range", 1.0),
+        ("LE_min", "linearity_error_min_percent", 1.0),
+        ("LE_max", "linearity_error_max_percent", 1.0),
+        ("u_I_mean", "dark_current_mean_e_per_s", 1.0),
+        ("u_I_var", "dark_current_variance_e_per_s", 1.0),
+        ("DSNU1288", "dsnu_e", 1.0),
+        ("DSNU1288_row", "dsnu_e_row", 1.0),
+        ("DSNU1288_col", "dsnu_e_column", 1.0),
+        ("DSNU1288_pixel", "dsnu_e_pixel", 1.0),
+        ("PRNU1288", "prnu_percent", 1.0),
+        ("PRNU1288_row", "prnu_percent_row", 1.0),
+        ("PRNU1288_col", "prnu_percent_column", 1.0),
+        ("PRNU1288_pixel", "prnu_percent_pixel", 1.0),
+    ] {
+        let (theirs, ours) =
+            (stored["figures"][theirs].as_f64().expect("a figure"), (ours, factor * figure(&report, ours)));
+        assert!((ours.1 / theirs - 1.0).abs() < 0.01, "{}: {} against {theirs}", ours.0, ours.1);
+    }
+}
+
+#[test]
+fn photon_transfer_refuses_what_it_cannot_measure() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let stored = std::fs::read_to_string(oracle().join("EMVA1288descriptor.txt")).expect("the oracle's descriptor");
+    let images = text(&oracle().join("images")) + "/";
+    let stored = stored.replace("images\\", &images);
+    let describe = |content: String| {
+        let file = folder.path().join("descriptor.txt");
+        std::fs::write(&file, content).expect("a temporary file");
+        etendue(["measure", "ptc", &text(&file)])
+    };
+    describe(stored.clone()).ok();
+    describe(stored.replace("image5.png", "image4.png")).refused(&["image4.png", "copies of one another"]);
+    let one: Vec<&str> = stored.lines().take(8).collect();
+    describe(one.join("\n")).refused(&["at least three levels", "not 1"]);
+    describe(stored.replace("n 12 48 40", "n 12 40 48")).refused(&["one size"]);
+    let colour = Plane::<Display>::filled(48, 40, [0.9, 0.8, 0.7]);
+    let file = folder.path().join("colour.png");
+    std::fs::write(&file, encode_display(&colour).expect("a picture")).expect("a temporary file");
+    let coloured = stored.replacen(&(images + "image4.png"), &text(&file), 1);
+    describe(coloured).refused(&["colour.png", "linear raw is needed"]);
+    describe(stored.replace("i ", "j ")).refused(&["line 4", "v, n, b, d or i"]);
+}
+
+#[test]
+fn a_flat_field_gives_its_fall_off_and_a_saturated_one_none() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let falloff = |x: usize, y: usize| {
+        let (x, y) = (x as f64 + 0.5 - 60.0, y as f64 + 0.5 - 45.0);
+        1.0 - 0.3 * (x * x + y * y) / (60.0 * 60.0 + 45.0 * 45.0)
+    };
+    let flat =
+        raw(folder.path(), "flat.png", (120, 90), |x, y| 200.0 + 30_000.0 * falloff(x, y) + 30.0 * scatter(x, y, 0));
+    let plot = text(&folder.path().join("plot.svg"));
+    let report = json(&["vignetting", &flat, "--black", "200", "--plot", &plot]);
+    // Quantised noise of 17 counts in 30 000 over 10 800 pixels: the corner is known to about 1e-4.
+    assert!((figure(&report, "corner_percent") - 70.0).abs() < 0.1, "{report}");
+    assert!(std::fs::read_to_string(&plot).expect("a plot").starts_with("<svg"));
+    let map = json(&["shading", &flat, "--black", "200"]);
+    assert!(figure(&map, "illumination_least_percent") > 72.0);
+    etendue(["measure", "vignetting", &flat, "--full-scale", "29000"]).refused(&["flat.png", "saturated"]);
+    etendue(["measure", "shading", &flat, "--blocks", "10"]).refused(&["odd number of blocks"]);
+    let cfa = json(&["vignetting", &flat, "--black", "200", "--cfa", "RGGB", "--channel", "G"]);
+    assert!((figure(&cfa, "corner_percent") - 70.0).abs() < 0.5, "{cfa}");
+    etendue(["measure", "vignetting", &flat, "--cfa", "RGGB"]).refused(&["--channel"]);
+}
+
+#[test]
+fn a_slanted_edge_gives_its_response() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // The box of a pixel, 5.7° steep: tan = 0.1, along rows exactly a ramp.
+    let edge = |x: usize, y: usize| (x as f64 + 0.5 - 30.0 - 0.1 * (y as f64 - 31.5) + 0.5).clamp(0.0, 1.0);
+    let file =
+        raw(folder.path(), "edge.png", (64, 64), |x, y| 5_000.0 + 40_000.0 * edge(x, y) + 20.0 * scatter(x, y, 0));
+    let plot = text(&folder.path().join("sfr.svg"));
+    let report = json(&["sfr", &file, "--plot", &plot]);
+    let angle = report["tables"]["edges"][0]["angle_deg"].as_f64().expect("an angle");
+    assert!((angle - 5.711).abs() < 0.01, "{report}");
+    let half = report["tables"]["edges"][0]["response_at_half"]["value"].as_f64().expect("a response");
+    // A ramp of one pixel along rows is cos θ = 0.995037 wide along the normal: sinc(0.5 cos θ).
+    assert!((half - 0.639_78).abs() < 0.005, "{half}");
+    assert_eq!(std::fs::read_to_string(&plot).expect("a plot").matches("<polyline").count(), 2);
+    let upright = raw(folder.path(), "upright.png", (64, 64), |x, _| if x < 30 { 5_000.0 } else { 40_000.0 });
+    etendue(["measure", "sfr", &upright]).refused(&["upright.png", "0.00°", "2° to 43°"]);
+    let flat = raw(folder.path(), "flat.png", (64, 64), |x, y| 5_000.0 + 100.0 * scatter(x, y, 3));
+    etendue(["measure", "sfr", &flat]).refused(&["no slanted edge"]);
+}
+
+#[test]
+fn exposures_give_a_tone_curve_and_copies_none() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let shot = |i: usize| {
+        let light = 3_000.0 * i as f64;
+        raw(folder.path(), &format!("{i}.png"), (32, 32), |x, y| {
+            (400.0 + light + 60.0 * scatter(x, y, i)).min(40_000.0)
+        })
+    };
+    let files: Vec<String> = (1..=15).map(shot).collect();
+    let exposures: Vec<String> = (1..=15).map(|i| (f64::from(i) / 1000.0).to_string()).collect();
+    let exposures = exposures.join(",");
+    let all: Vec<&str> = std::iter::once("oecf").chain(files.iter().map(String::as_str)).collect();
+    let report = json(&[&all[..], &["--exposures", &exposures, "--black", "400"]].concat());
+    assert!((figure(&report, "slope") / 3e6 - 1.0).abs() < 1e-3, "{report}");
+    assert_eq!(figure(&report, "saturation_exposure"), 0.014);
+    etendue(["measure", "oecf", &files[0]]).refused(&["--exposures"]);
+    etendue(["measure", "oecf", &files[0], "--exposures", "1"]).refused(&["at least three exposures", "not 1"]);
+    etendue(["measure", "oecf", &files[0], &files[1], &files[0], "--exposures", "1,2,3"]).refused(&["copies"]);
+    let table = folder.path().join("steps.csv");
+    std::fs::write(&table, "# x, y, width, height, luminance\n0,0,16,16,10\n").expect("a temporary file");
+    etendue(["measure", "oecf", &files[0], "--steps", &text(&table)]).refused(&["at least three exposures"]);
+}
+
+#[test]
+fn patches_give_noise_flare_and_contrast() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let patches = |frame: usize| {
+        move |x: usize, y: usize| {
+            let level = [600.0, 20_000.0, 30_000.0][x / 20];
+            level + 300.0 * scatter(x, y, frame)
+        }
+    };
+    let files: Vec<String> = (0..8).map(|i| raw(folder.path(), &format!("{i}.png"), (60, 20), patches(i))).collect();
+    let names: Vec<&str> = std::iter::once("noise").chain(files.iter().map(String::as_str)).collect();
+    let noise = json(&[&names[..], &["--region", "20,0,20,20"]].concat());
+    // Even over ±300: 300/√3.
+    assert!((figure(&noise, "temporal_noise") / 173.2 - 1.0).abs() < 0.05, "{noise}");
+    etendue(["measure", "noise", &files[0], &files[1]]).refused(&["at least 8 frames"]);
+    let flare = json(&["flare", &files[0], "--trap", "0,0,20,20", "--white", "40,0,20,20", "--black", "300"]);
+    assert!((figure(&flare, "flare_percent") - 100.0 * 300.0 / 29_700.0).abs() < 0.15, "{flare}");
+    let pair = ["--darker", "20,0,20,20", "--brighter", "40,0,20,20", "--contrast", "0.5"];
+    let cdp = json(&[&["cdp", files[0].as_str()], &pair[..]].concat());
+    let found = cdp["tables"]["pairs"][0]["cdp"]["value"].as_f64().expect("a probability");
+    assert!(found > 0.99, "{cdp}");
+    etendue(["measure", "cdp", &files[0], "--darker", "0,0,9,9", "--brighter", "0,0,9,9", "--contrast", "-1"])
+        .refused(&["contrast must be a number above 0"]);
+}
+
+#[test]
+fn depth_is_judged_by_range() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let truth = raw(folder.path(), "truth.png", (64, 48), |x, _| if x < 32 { 4_000.0 } else { 20_000.0 });
+    let estimate = raw(folder.path(), "estimate.png", (64, 48), |x, _| if x < 32 { 4_100.0 } else { 22_000.0 });
+    let units = ["--estimate-unit-m", "0.001", "--truth-unit-m", "0.001", "--ranges-m", "0,10,100"];
+    let report = json(&[&["depth", estimate.as_str(), truth.as_str()], &units[..]].concat());
+    let near = &report["tables"]["ranges"][1];
+    assert!((near["bias_m"]["value"].as_f64().expect("a bias") - 0.1).abs() < 1e-6, "{report}");
+    assert_eq!(report["tables"]["ranges"][2]["outliers_percent"].as_f64(), Some(100.0));
+    let small = raw(folder.path(), "small.png", (32, 48), |_, _| 4_000.0);
+    etendue(["measure", "depth", &small, &truth]).refused(&["one size"]);
+}
+
+#[test]
+fn a_colour_chart_needs_colours() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let grey = raw(folder.path(), "grey.png", (60, 40), |x, _| 100.0 * x as f64);
+    let corners = ["--corners", "5,5", "55,5", "55,35", "5,35"];
+    etendue([&["measure", "colour", grey.as_str()], &corners[..]].concat())
+        .refused(&["grey.png", "channels R, G and B"]);
+}

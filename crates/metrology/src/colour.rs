@@ -1,0 +1,166 @@
+//! Colour error of a chart's patches after a fitted matrix.
+//!
+//! ```text
+//! M minimises Σ |M c − t|²          c: mean readings of a patch less black, t: its CIE XYZ under the reference illuminant
+//! ΔE00 of (M c) against t           CIEDE2000, L*a*b* against the reference white
+//! ```
+//!
+//! The camera's exposure is in M. Uncertainty of each ΔE00: of the patch's own means, propagated; that of M is common to all and left out. Left out: matrices that keep
+//! white, weights by perceived difference, more than three channels.
+
+use crate::flare::mean;
+use crate::flat::{SATURATED_SHARE, saturated_share};
+use crate::propagate::propagate;
+use crate::solve::Normal;
+use crate::{Estimate, Image};
+use etendue_spectra::colour::{ciede2000, lab};
+
+/// A patch of a chart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ColourPatch {
+    /// Its name.
+    pub name: String,
+    /// Its pixels: red, green, blue.
+    pub pixels: [Image; 3],
+    /// CIE XYZ under the reference illuminant, Y of white 1.
+    pub reference: [f64; 3],
+}
+
+/// The matrix and what it leaves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ColourError {
+    /// From readings less black to XYZ, row by row.
+    pub matrix: [[f64; 3]; 3],
+    /// ΔE00 of each patch.
+    pub differences: Vec<Estimate>,
+    /// Their mean.
+    pub mean: Estimate,
+    /// The largest.
+    pub largest: Estimate,
+    /// L*a*b* of each patch as the matrix gives it, and as the reference is.
+    pub colours: Vec<[[f64; 3]; 2]>,
+}
+
+/// Why colours cannot be measured.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ColourFault {
+    /// Too few patches for a matrix.
+    #[error("a colour matrix needs at least six patches, not {0}")]
+    TooFew(usize),
+    /// A patch is tiny.
+    #[error("the patch {0} has fewer than four pixels")]
+    TooSmall(String),
+    /// A patch is clipped.
+    #[error("{percent:.1} % of the patch {name} is saturated: expose less")]
+    Saturated {
+        /// The patch.
+        name: String,
+        /// Share of pixels.
+        percent: f64,
+    },
+    /// The patches do not tell the channels apart.
+    #[error(
+        "the patches look the same to two of the camera's channels, so no colour matrix can be fitted: is this a colour picture of the chart?"
+    )]
+    Ambiguous,
+}
+
+/// Fits the matrix and tells what colours it leaves wrong; `white` is the XYZ of the reference white.
+///
+/// # Errors
+/// Where there are too few patches, or they are tiny, clipped or grey.
+pub fn measure_colour(
+    patches: &[ColourPatch],
+    black: f64,
+    full_scale: Option<f64>,
+    white: [f64; 3],
+) -> Result<ColourError, ColourFault> {
+    if patches.len() < 6 {
+        return Err(ColourFault::TooFew(patches.len()));
+    }
+    patches.iter().try_for_each(|patch| check(patch, full_scale))?;
+    let less_black = |e: Estimate| Estimate::new(e.value - black, e.standard_uncertainty);
+    let means: Vec<[Estimate; 3]> =
+        patches.iter().map(|p| core::array::from_fn(|c| less_black(mean(&p.pixels[c])))).collect();
+    let matrix = fitted(patches, &means).ok_or(ColourFault::Ambiguous)?;
+    let of = |reading: &[f64]| matrix.map(|row| row.iter().zip(reading).map(|(m, r)| m * r).sum::<f64>());
+    let difference = |(patch, means): (&ColourPatch, &[Estimate; 3])| {
+        let reference = lab(patch.reference, white);
+        propagate(means, |reading| [ciede2000(lab(of(reading), white), reference)])[0]
+    };
+    let differences: Vec<Estimate> = patches.iter().zip(&means).map(difference).collect();
+    let count = differences.len() as f64;
+    let squares = differences.iter().map(|d| d.standard_uncertainty * d.standard_uncertainty).sum::<f64>();
+    let average = differences.iter().map(|d| d.value).sum::<f64>() / count;
+    let larger = |a: Estimate, b: Estimate| if b.value > a.value { b } else { a };
+    let triple = |xyz| {
+        let colour = lab(xyz, white);
+        [colour.l, colour.a, colour.b]
+    };
+    let colours = patches.iter().zip(&means).map(|(p, m)| [triple(of(&m.map(|e| e.value))), triple(p.reference)]);
+    Ok(ColourError {
+        matrix,
+        mean: Estimate::new(average, squares.sqrt() / count),
+        largest: differences.iter().copied().fold(Estimate::new(0.0, 0.0), larger),
+        colours: colours.collect(),
+        differences,
+    })
+}
+
+fn check(patch: &ColourPatch, full_scale: Option<f64>) -> Result<(), ColourFault> {
+    if patch.pixels.iter().any(|p| p.samples().len() < 4) {
+        return Err(ColourFault::TooSmall(patch.name.clone()));
+    }
+    let share = patch.pixels.iter().map(|p| saturated_share(p.samples(), full_scale.or(Some(f64::INFINITY))));
+    let share = share.fold(0.0, f64::max);
+    let name = patch.name.clone();
+    if share > SATURATED_SHARE { Err(ColourFault::Saturated { name, percent: 100.0 * share }) } else { Ok(()) }
+}
+
+fn fitted(patches: &[ColourPatch], means: &[[Estimate; 3]]) -> Option<[[f64; 3]; 3]> {
+    let row = |c: usize| {
+        let mut normal = Normal::new(3);
+        for (patch, reading) in patches.iter().zip(means) {
+            normal.add(&reading.map(|e| e.value), patch.reference[c], 1.0);
+        }
+        let row = normal.solve()?;
+        Some([row[0], row[1], row[2]])
+    };
+    Some([row(0)?, row(1)?, row(2)?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_spectra::{chart::colorchecker, colour::D65_WHITE, illuminant, observer};
+
+    fn patches(readings: impl Fn([f64; 3]) -> [f64; 3]) -> Vec<ColourPatch> {
+        let patch = |p: &etendue_spectra::chart::Patch| {
+            let reference = observer::xyz_of_reflectance(&p.reflectance, illuminant::d65());
+            let pixels = readings(reference).map(|r| Image::filled(4, 4, (r + 16.0) as f32));
+            ColourPatch { name: p.name.to_owned(), pixels, reference }
+        };
+        colorchecker().iter().map(patch).collect()
+    }
+
+    #[test]
+    fn a_camera_that_is_a_matrix_of_xyz_has_no_error() {
+        let camera =
+            |[x, y, z]: [f64; 3]| [500.0 * x + 90.0 * y, 40.0 * x + 600.0 * y + 20.0 * z, 70.0 * y + 450.0 * z];
+        let found = measure_colour(&patches(camera), 16.0, Some(1023.0), D65_WHITE).expect("a chart");
+        // Readings are kept in f32.
+        assert!(found.largest.value < 1e-3, "{:?}", found.largest);
+        let white = camera(D65_WHITE);
+        let back = found.matrix.map(|row| row.iter().zip(white).map(|(m, w)| m * w).sum::<f64>());
+        assert!(back.iter().zip(D65_WHITE).all(|(a, b)| (a - b).abs() < 1e-5));
+    }
+
+    #[test]
+    fn what_is_no_colour_chart_is_refused() {
+        let grey = measure_colour(&patches(|[_, y, _]| [500.0 * y; 3]), 16.0, None, D65_WHITE);
+        assert_eq!(grey, Err(ColourFault::Ambiguous));
+        let clipped = measure_colour(&patches(|xyz| xyz.map(|v| 1200.0 * v)), 16.0, Some(1000.0), D65_WHITE);
+        assert!(matches!(clipped, Err(ColourFault::Saturated { .. })));
+        assert_eq!(measure_colour(&[], 0.0, None, D65_WHITE), Err(ColourFault::TooFew(0)));
+    }
+}

@@ -1,0 +1,142 @@
+//! Contrast detection: how surely a camera shows a contrast of the scene.
+//!
+//! After the IEEE P2020 white paper (2018) and the abstracts on its later working draft. Weber contrast of two patches of readings x
+//! and y is K = y/x − 1. With K the scene's contrast and K_m that of a pair of pixels, one of each patch:
+//!
+//! ```text
+//! CDP = P(K (1 − ε) ≤ K_m ≤ K (1 + ε))          ε = 0.5 in the white paper
+//! P(K_m ≤ k) = Φ(((1 + k) μ_x − μ_y)/√(σ_y² + (1 + k)² σ_x²))       ratio of two Gaussians, x > 0
+//! CTA = ⟨K_m⟩/K with ⟨K_m⟩ = μ_y/μ_x − 1        contrast transfer accuracy: 1 where contrast is kept (our reading)
+//! CSNR = (μ_y − μ_x)/√(σ_x² + σ_y²)
+//! ```
+//!
+//! Means and variances of patches replace all pairs of pixels (an error below 0.04 where readings are near Gaussian and positive).
+//! Uncertainty: of means σ/√n and of variances σ² √(2/(n − 1)), propagated.
+
+use crate::propagate::propagate;
+use crate::{Estimate, Image};
+use etendue_stats::{Moments, normal};
+
+/// A pair of patches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContrastPair {
+    /// Mean measured contrast.
+    pub measured: Estimate,
+    /// Contrast detection probability.
+    pub detection: Estimate,
+    /// Contrast transfer accuracy.
+    pub transfer: Estimate,
+    /// Contrast-to-noise ratio.
+    pub contrast_snr: Estimate,
+}
+
+/// Why a contrast cannot be measured.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ContrastError {
+    /// A patch of fewer than four pixels.
+    #[error("a contrast needs patches of at least four pixels each")]
+    TooSmall,
+    /// The scene's contrast is zero or no number.
+    #[error("the scene's contrast must be a number above 0, not {0}: name the darker patch first")]
+    Contrast(f64),
+    /// The share is outside 0 to 1.
+    #[error("the tolerated share must lie above 0 and at most 1, not {0}")]
+    Share(f64),
+    /// The darker patch has no light.
+    #[error("the darker patch reads no more than black: a Weber contrast needs light in it")]
+    Dark,
+}
+
+/// The contrast of a darker and a brighter patch against the scene's.
+///
+/// # Errors
+/// Where patches are too small or dark, or the scene's contrast or the share make no sense.
+pub fn measure_contrast(
+    darker: &Image,
+    brighter: &Image,
+    black: f64,
+    scene_contrast: f64,
+    share: f64,
+) -> Result<ContrastPair, ContrastError> {
+    if darker.samples().len() < 4 || brighter.samples().len() < 4 {
+        return Err(ContrastError::TooSmall);
+    }
+    if !(scene_contrast > 0.0 && scene_contrast.is_finite()) {
+        return Err(ContrastError::Contrast(scene_contrast));
+    }
+    if !(share > 0.0 && share <= 1.0) {
+        return Err(ContrastError::Share(share));
+    }
+    let [x, xx] = moments(darker, black);
+    let [y, yy] = moments(brighter, black);
+    if x.value <= 0.0 {
+        return Err(ContrastError::Dark);
+    }
+    let figures = propagate(&[x, xx, y, yy], |v| {
+        let measured = v[2] / v[0] - 1.0;
+        let snr = (v[2] - v[0]) / (v[1] + v[3]).sqrt();
+        [measured, detection_probability([v[0], v[1]], [v[2], v[3]], scene_contrast, share), snr]
+    });
+    let [measured, detection, contrast_snr] = figures;
+    Ok(ContrastPair { measured, detection, transfer: measured.scaled(1.0 / scene_contrast), contrast_snr })
+}
+
+/// CDP of two Gaussians (mean, variance) for a contrast of the scene.
+#[must_use]
+pub fn detection_probability(darker: [f64; 2], brighter: [f64; 2], scene_contrast: f64, share: f64) -> f64 {
+    let below = |contrast: f64| {
+        let ratio = 1.0 + contrast;
+        let spread = (brighter[1] + ratio * ratio * darker[1]).max(0.0).sqrt();
+        let distance = ratio * darker[0] - brighter[0];
+        // Without noise the probability is a step.
+        if spread > 0.0 { normal::cdf(distance / spread) } else { f64::from(u8::from(distance >= 0.0)) }
+    };
+    below(scene_contrast * (1.0 + share)) - below(scene_contrast * (1.0 - share))
+}
+
+/// Mean less black, and variance.
+fn moments(patch: &Image, black: f64) -> [Estimate; 2] {
+    let moments = Moments::of(patch.samples().iter().map(|s| f64::from(*s) - black));
+    let (count, variance) = (moments.count() as f64, moments.variance().unwrap_or(0.0));
+    [
+        Estimate::new(moments.mean(), (variance / count).sqrt()),
+        Estimate::new(variance, variance * (2.0 / (count - 1.0)).sqrt()),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
+    use rand_distr::{Distribution, Normal};
+
+    #[test]
+    fn known_probabilities() {
+        // Check values by simulation, to their third digit.
+        let cdp = |s: f64, t: f64| detection_probability([1000.0, s * s], [1500.0, t * t], 0.5, 0.5);
+        assert!((cdp(60.0, 75.0) - 0.964).abs() < 1e-3, "{}", cdp(60.0, 75.0));
+        assert!((cdp(300.0, 360.0) - 0.338).abs() < 1e-3, "{}", cdp(300.0, 360.0));
+        assert_eq!(cdp(0.0, 0.0), 1.0);
+    }
+
+    /// All pairs of pixels counted, against means and variances.
+    #[test]
+    fn counting_pairs_agrees() {
+        let patch = |mean: f64, sigma: f64, frame: u32| {
+            let normal = Normal::new(mean, sigma).expect("a width");
+            let sample = |i: u32| {
+                normal.sample(&mut NoiseStream::new(2, 0, frame, 0, Pixel { x: i, y: 0 }, NoiseDraw::Read)) as f32
+            };
+            Image::from_samples(20, 20, (0..400).map(sample).collect()).expect("a square")
+        };
+        let (dark, light) = (patch(1000.0, 120.0, 0), patch(1500.0, 150.0, 1));
+        let pair = measure_contrast(&dark, &light, 0.0, 0.5, 0.5).expect("patches");
+        let contrasts = dark.samples().iter().flat_map(|x| light.samples().iter().map(move |y| f64::from(y / x) - 1.0));
+        let counted = contrasts.filter(|k| (0.25..=0.75).contains(k)).count() as f64 / 160_000.0;
+        // Some 400 independent pairs: 2 %.
+        assert!((pair.detection.value - counted).abs() < 0.03, "{pair:?} {counted}");
+        assert!((pair.transfer.value - 1.0).abs() < 3.0 * pair.transfer.standard_uncertainty);
+        assert!(matches!(measure_contrast(&dark, &light, 2000.0, 0.5, 0.5), Err(ContrastError::Dark)));
+        assert!(matches!(measure_contrast(&dark, &light, 0.0, -0.5, 0.5), Err(ContrastError::Contrast(_))));
+    }
+}

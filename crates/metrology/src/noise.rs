@@ -1,0 +1,119 @@
+//! Noise of a picture of an even surface.
+//!
+//! ISO 15739:2023, temporal and fixed-pattern noise from n frames (at least eight) of one patch, y_l frame l, ȳ their average:
+//!
+//! ```text
+//! σ_temp² = n/(n − 1) ⟨(y_l − ȳ)²⟩            over pixels and frames
+//! σ_fp²   = Var(ȳ) − σ_temp²/n                over pixels
+//! σ_total² = σ_temp² + σ_fp²
+//! SNR = (mean − black)/σ
+//! ```
+//!
+//! For SNR at the scene instead of in the picture divide the mean by the incremental gain's share as the OECF gives it; for linear
+//! readings both are the same. Uncertainties: of σ_temp from the scatter over pixels, of σ_fp² that of χ² with the numbers of rows,
+//! columns and pixels ([`Pattern`]). Left out: the visual weighting of the standard's annex, removal of
+//! low-frequency shading (take a patch that is even).
+
+use crate::Estimate;
+use crate::photon_transfer::{Pattern, Stack, TransferError};
+use crate::propagate::root;
+
+/// The least number of frames that the standard lets.
+pub const LEAST_FRAMES: usize = 8;
+
+/// Noise of a patch, in readings.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// Mean reading less black.
+    pub signal: Estimate,
+    /// Temporal noise.
+    pub temporal: Estimate,
+    /// Fixed-pattern noise.
+    pub fixed: Estimate,
+    /// Both.
+    pub total: Estimate,
+}
+
+impl Noise {
+    /// Signal over total, temporal and fixed-pattern noise.
+    #[must_use]
+    pub fn snr(&self) -> [Estimate; 3] {
+        [self.total, self.temporal, self.fixed].map(|noise| {
+            let ratio = self.signal.value / noise.value;
+            let relative = noise.standard_uncertainty / noise.value;
+            let own = self.signal.standard_uncertainty / self.signal.value;
+            Estimate::new(ratio, ratio.abs() * (relative * relative + own * own).sqrt())
+        })
+    }
+}
+
+/// Why noise cannot be measured.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum NoiseError {
+    /// The frames themselves.
+    #[error(transparent)]
+    Frames(#[from] TransferError),
+    /// Fewer than eight frames.
+    #[error("noise needs at least {LEAST_FRAMES} frames of the same patch (ISO 15739), not {0}")]
+    TooFew(usize),
+}
+
+/// The noise of a stack of frames of a patch.
+///
+/// # Errors
+/// Where there are too few frames or pixels.
+pub fn measure_noise(stack: &Stack, black: f64) -> Result<Noise, NoiseError> {
+    if stack.frames() < LEAST_FRAMES {
+        return Err(NoiseError::TooFew(stack.frames()));
+    }
+    let (statistics, pattern) = (stack.statistics()?, Pattern::of(stack)?);
+    let (temporal, fixed) = (statistics.variance_dn2, pattern.variances_dn2().total);
+    let variance = temporal.value + fixed.value.max(0.0);
+    let u = (temporal.standard_uncertainty * temporal.standard_uncertainty
+        + fixed.standard_uncertainty * fixed.standard_uncertainty)
+        .sqrt();
+    let mean = statistics.mean_dn;
+    Ok(Noise {
+        signal: Estimate::new(mean.value - black, mean.standard_uncertainty),
+        temporal: root(temporal),
+        fixed: root(fixed),
+        total: root(Estimate::new(variance, u)),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Image;
+    use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
+    use rand_distr::{Distribution, Normal};
+
+    fn stack(frames: u32) -> Stack {
+        let normal = Normal::new(0.0, 1.0).expect("a width");
+        let mut stack = Stack::new(64, 64);
+        for frame in 0..frames {
+            let draw = |i: usize, frame, draw| {
+                let pixel = Pixel { x: (i % 64) as u32, y: (i / 64) as u32 };
+                normal.sample(&mut NoiseStream::new(5, 0, frame, 0, pixel, draw))
+            };
+            let sample = |i: usize| {
+                (200.0 + 4.0 * draw(i, frame, NoiseDraw::Read) + 3.0 * draw(i, 0, NoiseDraw::PixelOffset)) as f32
+            };
+            let image = Image::from_samples(64, 64, (0..64 * 64).map(sample).collect()).expect("a square");
+            stack.push(&image).expect("a frame");
+        }
+        stack
+    }
+
+    #[test]
+    fn the_parts_of_noise_are_told_apart() {
+        let noise = measure_noise(&stack(8), 40.0).expect("eight frames");
+        for (found, truth) in [(noise.temporal, 4.0), (noise.fixed, 3.0), (noise.total, 5.0)] {
+            assert!((found.value - truth).abs() < 3.0 * found.standard_uncertainty, "{found:?} {truth}");
+            assert!(found.standard_uncertainty < 0.02 * truth, "{found:?}");
+        }
+        let [total, ..] = noise.snr();
+        assert!((total.value - 32.0).abs() < 3.0 * total.standard_uncertainty);
+        assert_eq!(measure_noise(&stack(7), 40.0), Err(NoiseError::TooFew(7)));
+    }
+}

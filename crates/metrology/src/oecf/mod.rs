@@ -1,0 +1,242 @@
+//! Opto-electronic conversion function: readings against exposure.
+//!
+//! ISO 14524:2009 (focal-plane OECF) from pictures of one surface at many exposures, or from steps of known luminance in one
+//! picture; figure 13 of Gruyer, Grapinet & De Souza uses fifteen exposures of a back-lit panel. What is found:
+//!
+//! ```text
+//! points      mean reading against exposure, with its standard uncertainty σ/√n
+//! curve       monotone cubic through the points (Fritsch & Carlson 1980), and its slope (incremental gain)
+//! linearity   straight line y = a + b H over 5…95 % of the range, weights 1/(y − black)² (EMVA 1288): largest relative deviation
+//! range       exposure at saturation over that of SNR 1, from the noise of the points (ISO 15739, 6.3: signal over temporal noise
+//!             referred to the exposure: H (dy/dH)/σ)
+//! ```
+//!
+//! Saturation is the first point that rises by less than a tenth of what the straight part would.
+//!
+//! Refused: fewer than three exposures, exposures that are no positive numbers or equal, readings that fall.
+
+pub mod response;
+#[cfg(test)]
+mod tests;
+
+use crate::Estimate;
+use etendue_core::maths::f64::{exp, ln};
+
+/// A surface at one exposure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ExposurePoint {
+    /// Exposure or luminance, any unit.
+    pub exposure: f64,
+    /// Mean reading.
+    pub reading: Estimate,
+    /// Standard deviation of a single pixel's reading over time (or within the surface), where it is known.
+    pub noise: Option<f64>,
+}
+
+/// A tone curve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Oecf {
+    points: Vec<ExposurePoint>,
+    slopes: Vec<f64>,
+    saturation: usize,
+}
+
+/// A straight line through the points below saturation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Linearity {
+    /// Reading of no exposure.
+    pub offset: f64,
+    /// Reading a unit of exposure.
+    pub slope: f64,
+    /// Relative deviation of each point from the line.
+    pub deviations: Vec<f64>,
+    /// The largest magnitude among the points of the fit.
+    pub largest: f64,
+}
+
+/// Why there is no tone curve.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum OecfError {
+    /// Too few points.
+    #[error("a tone curve needs at least three exposures, not {0}: give more pictures or steps")]
+    TooFew(usize),
+    /// An exposure is no positive number.
+    #[error("exposures must be positive numbers, not {0}")]
+    Exposure(f64),
+    /// Two points share their exposure.
+    #[error("two points share the exposure {0}: give each exposure once")]
+    Twice(f64),
+    /// More exposure, lower reading.
+    #[error(
+        "the reading falls from {from:.2} to {to:.2} between the exposures {low} and {high}: are the exposures in the wrong order?"
+    )]
+    Falls {
+        /// The lower exposure.
+        low: f64,
+        /// The higher one.
+        high: f64,
+        /// Reading at the lower one.
+        from: f64,
+        /// Reading at the higher one.
+        to: f64,
+    },
+    /// Readings do not change.
+    #[error("the readings do not change with the exposure: is every picture saturated, or the same?")]
+    Flat,
+}
+
+impl Oecf {
+    /// The curve through points in any order.
+    ///
+    /// # Errors
+    /// Where there are too few, exposures are unusable, or readings fall by more than four standard uncertainties.
+    pub fn new(mut points: Vec<ExposurePoint>) -> Result<Self, OecfError> {
+        if points.len() < 3 {
+            return Err(OecfError::TooFew(points.len()));
+        }
+        if let Some(point) = points.iter().find(|p| !(p.exposure > 0.0 && p.exposure.is_finite())) {
+            return Err(OecfError::Exposure(point.exposure));
+        }
+        points.sort_by(|a, b| a.exposure.total_cmp(&b.exposure));
+        for pair in points.windows(2) {
+            rises(pair[0], pair[1])?;
+        }
+        let (first, last) = (points[0].reading.value, points[points.len() - 1].reading.value);
+        if last <= first {
+            return Err(OecfError::Flat);
+        }
+        let slopes = monotone_slopes(&points);
+        let saturation = saturation(&points);
+        Ok(Self { points, slopes, saturation })
+    }
+
+    /// The points, least exposure first.
+    #[must_use]
+    pub fn points(&self) -> &[ExposurePoint] {
+        &self.points
+    }
+
+    /// The first saturated point; the number of points where none is.
+    #[must_use]
+    pub fn saturation(&self) -> usize {
+        self.saturation
+    }
+
+    /// The reading at an exposure within the range; its nearest end's beyond.
+    #[must_use]
+    pub fn reading(&self, exposure: f64) -> f64 {
+        let (k, t, width) = self.place(exposure);
+        let (a, b) = (self.points[k].reading.value, self.points[k + 1].reading.value);
+        let (s, square) = (1.0 - t, t * t);
+        let hermite = s * s * (1.0 + 2.0 * t) * a + square * (1.0 + 2.0 * s) * b;
+        hermite + width * (s * s * t * self.slopes[k] - square * s * self.slopes[k + 1])
+    }
+
+    /// The curve's slope at an exposure: the incremental gain.
+    #[must_use]
+    pub fn gain(&self, exposure: f64) -> f64 {
+        let (k, t, width) = self.place(exposure);
+        let rise = self.points[k + 1].reading.value - self.points[k].reading.value;
+        let (m, n) = (self.slopes[k], self.slopes[k + 1]);
+        6.0 * t * (1.0 - t) * rise / width + (1.0 - t) * (1.0 - 3.0 * t) * m + t * (3.0 * t - 2.0) * n
+    }
+
+    /// The interval of an exposure, where in it, and its width.
+    fn place(&self, exposure: f64) -> (usize, f64, f64) {
+        let above = self.points.partition_point(|p| p.exposure <= exposure);
+        let k = above.clamp(1, self.points.len() - 1) - 1;
+        let width = self.points[k + 1].exposure - self.points[k].exposure;
+        (k, ((exposure - self.points[k].exposure) / width).clamp(0.0, 1.0), width)
+    }
+
+    /// The straight line over the points of 5 to 95 % of the range above `black`, below saturation; `None` with fewer than three of
+    /// them.
+    #[must_use]
+    pub fn linearity(&self, black: f64) -> Option<Linearity> {
+        let top = self.points[self.saturation.min(self.points.len()) - 1].reading.value - black;
+        let within = |p: &&ExposurePoint| (0.05 * top..=0.95 * top).contains(&(p.reading.value - black));
+        let used: Vec<&ExposurePoint> = self.points[..self.saturation].iter().filter(within).collect();
+        if used.len() < 3 {
+            return None;
+        }
+        let weight = |p: &ExposurePoint| 1.0 / ((p.reading.value - black) * (p.reading.value - black));
+        let sum = |f: &dyn Fn(&ExposurePoint) -> f64| used.iter().map(|p| weight(p) * f(p)).sum::<f64>();
+        let (w, x, y) = (sum(&|_| 1.0), sum(&|p| p.exposure), sum(&|p| p.reading.value));
+        let (xx, xy) = (sum(&|p| p.exposure * p.exposure), sum(&|p| p.exposure * p.reading.value));
+        let slope = (w * xy - x * y) / (w * xx - x * x);
+        let offset = (y - slope * x) / w;
+        let deviation = |p: &ExposurePoint| (p.reading.value - offset - slope * p.exposure) / (slope * p.exposure);
+        let largest = used.iter().map(|p| deviation(p).abs()).fold(0.0, f64::max);
+        Some(Linearity { offset, slope, deviations: self.points.iter().map(deviation).collect(), largest })
+    }
+
+    /// Exposure at saturation (or the highest) over that at which the signal equals the noise; `None` where noise is unknown, or
+    /// above the signal even at the lowest exposure is not reached: then the noise of the lowest point is carried down.
+    #[must_use]
+    pub fn dynamic_range(&self) -> Option<f64> {
+        let snr = |p: &ExposurePoint| Some(p.exposure * self.gain(p.exposure) / p.noise.filter(|n| *n > 0.0)?);
+        let ratios: Vec<f64> = self.points.iter().map(snr).map_while(|r| r).collect();
+        let top = self.points[self.saturation.clamp(1, self.points.len()) - 1].exposure;
+        let first = ratios.first()?;
+        let least = if *first >= 1.0 {
+            // Below the first point noise and gain stay: SNR falls in proportion.
+            self.points[0].exposure / first
+        } else {
+            let k = ratios.windows(2).position(|pair| pair[0] < 1.0 && pair[1] >= 1.0)?;
+            let (a, b) = (ln(ratios[k]), ln(ratios[k + 1]));
+            let (low, high) = (ln(self.points[k].exposure), ln(self.points[k + 1].exposure));
+            exp(low + (high - low) * -a / (b - a))
+        };
+        Some(top / least)
+    }
+}
+
+fn rises(a: ExposurePoint, b: ExposurePoint) -> Result<(), OecfError> {
+    if a.exposure == b.exposure {
+        return Err(OecfError::Twice(a.exposure));
+    }
+    let (from, to) = (a.reading.value, b.reading.value);
+    let u = a.reading.standard_uncertainty.max(b.reading.standard_uncertainty);
+    // Saturated means jitter by less than a thousandth.
+    if to < from - 4.0 * u - 1e-3 * from.abs() {
+        return Err(OecfError::Falls { low: a.exposure, high: b.exposure, from, to });
+    }
+    Ok(())
+}
+
+/// Fritsch and Carlson's slopes: harmonic means of the secants, 0 where the curve turns or stays.
+fn monotone_slopes(points: &[ExposurePoint]) -> Vec<f64> {
+    let secant = |pair: &[ExposurePoint]| {
+        (pair[1].reading.value - pair[0].reading.value) / (pair[1].exposure - pair[0].exposure)
+    };
+    let secants: Vec<f64> = points.windows(2).map(secant).collect();
+    let width = |k: usize| points[k + 1].exposure - points[k].exposure;
+    let inner = |k: usize| {
+        let (a, b) = (secants[k - 1], secants[k]);
+        if a * b <= 0.0 {
+            return 0.0;
+        }
+        let (w, v) = (2.0 * width(k) + width(k - 1), width(k) + 2.0 * width(k - 1));
+        (w + v) / (w / a + v / b)
+    };
+    let last = points.len() - 1;
+    (0..=last)
+        .map(|k| match k {
+            0 => secants[0],
+            k if k == last => secants[last - 1],
+            k => inner(k),
+        })
+        .collect()
+}
+
+/// The first point from which on the curve stays: its rise is below a tenth of the median secant before it.
+fn saturation(points: &[ExposurePoint]) -> usize {
+    let top = points[points.len() - 1].reading.value;
+    let range = top - points[0].reading.value;
+    let stays = |k: &usize| {
+        let rest = top - points[*k].reading.value;
+        let share = (points[points.len() - 1].exposure - points[*k].exposure) / points[points.len() - 1].exposure;
+        rest <= 0.1 * range * share && rest <= 0.01 * range
+    };
+    (1..points.len() - 1).find(stays).unwrap_or(points.len())
+}

@@ -1,0 +1,93 @@
+//! Known curves, known cameras.
+
+use super::response::{ResponseSettings, camera_response};
+use super::*;
+use crate::Image;
+use etendue_core::maths::f64::pow;
+use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
+use rand_distr::{Distribution, Normal};
+
+fn point(exposure: f64, reading: f64) -> ExposurePoint {
+    ExposurePoint { exposure, reading: Estimate::new(reading, 0.01), noise: Some(2.0) }
+}
+
+fn series(f: impl Fn(f64) -> f64) -> Vec<ExposurePoint> {
+    (1..=15).map(|i| f64::from(i) * 0.1).map(|h| point(h, f(h))).collect()
+}
+
+#[test]
+fn a_straight_sensor_is_straight_up_to_its_saturation() {
+    let oecf = Oecf::new(series(|h| (20.0 + 900.0 * h).min(1023.0))).expect("a curve");
+    // 1.2 is the first exposure above (1023 − 20)/900 = 1.114.
+    assert_eq!(oecf.points()[oecf.saturation()].exposure, 1.2000000000000002);
+    let line = oecf.linearity(20.0).expect("eleven points");
+    assert!((line.slope / 900.0 - 1.0).abs() < 1e-12 && (line.offset - 20.0).abs() < 1e-9 && line.largest < 1e-12);
+    assert!((oecf.reading(0.55) - 515.0).abs() < 1e-9 && (oecf.gain(0.55) - 900.0).abs() < 1e-6);
+    // SNR 1 where 900 H = 2, saturated from 1.1 on.
+    let range = oecf.dynamic_range().expect("noise is known");
+    assert!((range / (1.1 * 900.0 / 2.0) - 1.0).abs() < 0.01, "{range}");
+}
+
+#[test]
+fn a_tone_curve_is_met_between_its_points() {
+    let tone = |h: f64| 255.0 * pow(h / 1.6, 1.0 / 2.2);
+    let oecf = Oecf::new(series(tone)).expect("a curve");
+    assert_eq!(oecf.saturation(), 15);
+    for i in 20..150 {
+        let h = f64::from(i) * 0.01;
+        // A cubic over intervals of 0.1: the fourth derivative is largest at the dim end.
+        assert!((oecf.reading(h) - tone(h)).abs() < 0.4, "{h}: {} {}", oecf.reading(h), tone(h));
+        assert!(oecf.gain(h) > 0.0);
+    }
+    assert!(oecf.linearity(0.0).expect("enough points").largest > 0.1);
+}
+
+#[test]
+fn curves_that_are_none_are_refused() {
+    let of = |points: &[ExposurePoint]| Oecf::new(points.to_vec()).map(|_| ());
+    assert_eq!(of(&[point(1.0, 5.0)]), Err(OecfError::TooFew(1)));
+    assert_eq!(of(&[point(1.0, 5.0), point(1.0, 6.0), point(2.0, 7.0)]), Err(OecfError::Twice(1.0)));
+    assert_eq!(of(&[point(0.0, 5.0), point(1.0, 6.0), point(2.0, 7.0)]), Err(OecfError::Exposure(0.0)));
+    assert!(matches!(of(&[point(1.0, 5.0), point(2.0, 9.0), point(3.0, 7.0)]), Err(OecfError::Falls { .. })));
+    assert_eq!(of(&[point(1.0, 255.0), point(2.0, 255.0), point(3.0, 255.0)]), Err(OecfError::Flat));
+}
+
+/// A scene of all lights, by a camera of a given curve with noise of 0.2 %.
+fn picture(exposure: f64, curve: impl Fn(f64) -> f64, frame: u32) -> Image {
+    let normal = Normal::new(0.0, 0.002).expect("a width");
+    let sample = |i: usize| {
+        let pixel = Pixel { x: (i % 128) as u32, y: (i / 128) as u32 };
+        let light = 0.02 + 0.98 * (i % 128) as f64 / 128.0;
+        let noise = normal.sample(&mut NoiseStream::new(1, 0, frame, 0, pixel, NoiseDraw::Read));
+        (1000.0 * (curve((light * exposure).min(1.0)) + noise)).clamp(0.0, 1000.0) as f32
+    };
+    Image::from_samples(128, 64, (0..128 * 64).map(sample).collect()).expect("a rectangle")
+}
+
+#[test]
+fn the_response_comes_back_from_relative_exposures() {
+    let srgb = |l: f64| if l <= 0.003_130_8 { 12.92 * l } else { 1.055 * pow(l, 1.0 / 2.4) - 0.055 };
+    let decode = |m: f64| if m <= 0.040_45 { m / 12.92 } else { pow((m + 0.055) / 1.055, 2.4) };
+    let images: Vec<(f64, Image)> =
+        (0..5).map(|i| (f64::from(1 << i), picture(f64::from(1 << i) / 16.0, srgb, i))).collect();
+    let given: Vec<(f64, &Image)> = images.iter().map(|(e, image)| (3.0 * e, image)).collect();
+    let settings = ResponseSettings { full_scale: 1000.0, black: 0.0, degree: 8, refine: false };
+    let response = camera_response(&given, &settings).expect("five pictures");
+    for i in 1..=20 {
+        let m = f64::from(i) * 0.05;
+        let found = response.estimate(m);
+        // Half a per cent of full scale is what the bench asks.
+        assert!(
+            (found.value - decode(m)).abs() < 0.005,
+            "{m}: {found:?} for {} of degree {}",
+            decode(m),
+            response.coefficients.len()
+        );
+    }
+    let linear: Vec<(f64, Image)> =
+        (0..4).map(|i| (f64::from(1 << i), picture(f64::from(1 << i) / 8.0, |l| l, i))).collect();
+    let given: Vec<(f64, &Image)> = linear.iter().map(|(e, image)| (*e, image)).collect();
+    let response = camera_response(&given, &settings).expect("four pictures");
+    assert!((response.light(0.5) - 0.5).abs() < 0.002, "{response:?}");
+    assert_eq!(camera_response(&given[..1], &settings), Err(OecfError::TooFew(1)));
+}

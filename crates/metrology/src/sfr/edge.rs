@@ -1,0 +1,150 @@
+//! Where an edge lies: a polynomial over the rows, its start from the gradients.
+
+use super::SfrError;
+use crate::Image;
+use etendue_core::maths::f64::{atan, atan2, tan};
+
+/// Angles to rows, columns and diagonals that are refused, degrees.
+const LEAST_ANGLE_DEG: f64 = 1.9;
+/// The same of the first estimate, which is a third of a degree off at worst.
+const LEAST_FIRST_ANGLE_DEG: f64 = 0.8;
+/// The share of the gradients' power that an edge's normal must hold over noise that has no direction.
+const LEAST_ANISOTROPY: f64 = 0.2;
+
+/// What an edge runs along, nearly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Orientation {
+    /// Columns: the response is that across columns (horizontal).
+    Vertical,
+    /// Rows: the response is that across rows (vertical).
+    Horizontal,
+}
+
+/// An edge in a picture turned so that it runs from top to bottom: x = Σ c_k ((y − y₀)/y₀)^k.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Edge {
+    orientation: Orientation,
+    /// Middle of the rows, px.
+    middle: f64,
+    coefficients: Vec<f64>,
+}
+
+impl Edge {
+    /// From the structure tensor of the picture's gradients (its principal direction is the edge's normal; noise without direction
+    /// does not turn it) and the centre of the gradients along it.
+    pub(super) fn from_gradients(image: &Image) -> Result<Self, SfrError> {
+        let gradients: Vec<Gradient> = gradients(image).collect();
+        let sum = |f: fn(&Gradient) -> f64| gradients.iter().map(f).sum::<f64>();
+        let (xx, yy, xy) = (sum(|g| g.x * g.x), sum(|g| g.y * g.y), sum(|g| g.x * g.y));
+        if xx + yy <= 0.0 {
+            return Err(SfrError::NoEdge("the picture is even"));
+        }
+        let spread = ((xx - yy) * (xx - yy) + 4.0 * xy * xy).sqrt();
+        if spread < LEAST_ANISOTROPY * (xx + yy) {
+            return Err(SfrError::NoEdge("its gradients have no common direction"));
+        }
+        let normal_rad = 0.5 * atan2(2.0 * xy, xx - yy);
+        let vertical = xx >= yy;
+        // The normal (cos α, sin α) of an edge x = c + s y is (1, −s); with x and y exchanged for a flat one.
+        let slope = if vertical { -tan(normal_rad) } else { -1.0 / tan(normal_rad) };
+        let angle_deg = atan(slope.abs()).to_degrees();
+        if !(LEAST_FIRST_ANGLE_DEG..=45.0 - LEAST_FIRST_ANGLE_DEG).contains(&angle_deg) {
+            return Err(SfrError::Angle { angle_deg });
+        }
+        let (height, middle) = if vertical { (image.height(), image.height()) } else { (image.width(), image.width()) };
+        let middle = (0.5 * middle as f64).min(0.5 * height as f64);
+        let place = |g: &Gradient| {
+            let (across, along, weight) = if vertical { (g.at.0, g.at.1, g.x) } else { (g.at.1, g.at.0, g.y) };
+            [weight * (across - slope * (along - middle)), weight]
+        };
+        let [moment, weight] = gradients.iter().map(place).fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
+        let at = moment / weight;
+        let width = if vertical { image.width() } else { image.height() } as f64;
+        if !(at > 0.0 && at < width) {
+            return Err(SfrError::NoEdge("its gradients cancel"));
+        }
+        let orientation = if vertical { Orientation::Vertical } else { Orientation::Horizontal };
+        Ok(Self { orientation, middle, coefficients: vec![at, slope * middle] })
+    }
+
+    /// The picture as this edge's own frame sees it: a flat edge's with rows and columns exchanged.
+    pub(super) fn upright(&self, image: &Image) -> Image {
+        match self.orientation {
+            Orientation::Vertical => image.clone(),
+            Orientation::Horizontal => {
+                let (width, height) = (image.width(), image.height());
+                let samples = (0..width).flat_map(|x| (0..height).map(move |y| image.at(x, y))).collect();
+                Image::from_samples(height, width, samples).expect("as many pixels")
+            }
+        }
+    }
+
+    /// What it runs along.
+    #[must_use]
+    pub fn orientation(&self) -> Orientation {
+        self.orientation
+    }
+
+    /// The angle to rows or columns at the picture's middle, degrees.
+    #[must_use]
+    pub fn angle_deg(&self) -> f64 {
+        atan(self.slope(self.middle).abs()).to_degrees()
+    }
+
+    fn argument(&self, y: f64) -> f64 {
+        (y - self.middle) / self.middle
+    }
+
+    fn x(&self, y: f64) -> f64 {
+        let t = self.argument(y);
+        self.coefficients.iter().rev().fold(0.0, |sum, c| sum * t + c)
+    }
+
+    fn slope(&self, y: f64) -> f64 {
+        let t = self.argument(y);
+        let terms = self.coefficients.iter().enumerate().skip(1).rev();
+        terms.fold(0.0, |sum, (k, c)| sum * t + k as f64 * c) / self.middle
+    }
+
+    /// Distance of a point from the edge along the normal, px, positive to the right.
+    pub(super) fn distance(&self, x: f64, y: f64) -> f64 {
+        let slope = self.slope(y);
+        (x - self.x(y)) / (1.0 + slope * slope).sqrt()
+    }
+
+    /// How a pixel's distance changes with the coefficients, first order: −t^k cos θ.
+    pub(super) fn sensitivities(&self, y: f64, degree: usize) -> Vec<f64> {
+        let (t, slope) = (self.argument(y), self.slope(y));
+        let cosine = 1.0 / (1.0 + slope * slope).sqrt();
+        core::iter::successors(Some(-cosine), |s| Some(s * t)).take(degree + 1).collect()
+    }
+
+    /// The edge with its coefficients moved.
+    pub(super) fn moved(&self, by: &[f64]) -> Self {
+        let coefficient = |k: usize| self.coefficients.get(k).copied().unwrap_or(0.0) + by[k];
+        Self { coefficients: (0..by.len()).map(coefficient).collect(), ..self.clone() }
+    }
+
+    /// Whether its angle can be measured.
+    pub(super) fn check(&self) -> Result<(), SfrError> {
+        let angle_deg = self.angle_deg();
+        let legal = (LEAST_ANGLE_DEG..=45.0 - LEAST_ANGLE_DEG).contains(&angle_deg);
+        if legal { Ok(()) } else { Err(SfrError::Angle { angle_deg }) }
+    }
+}
+
+struct Gradient {
+    at: (f64, f64),
+    x: f64,
+    y: f64,
+}
+
+/// Gradients between four pixels, averaged over each pair (Roberts' cross turned upright).
+fn gradients(image: &Image) -> impl Iterator<Item = Gradient> {
+    let at = |x: usize, y: usize| f64::from(image.at(x, y));
+    let places = (1..image.height()).flat_map(|y| (1..image.width()).map(move |x| (x, y)));
+    places.map(move |(x, y)| {
+        let [a, b, c, d] = [at(x - 1, y - 1), at(x, y - 1), at(x - 1, y), at(x, y)];
+        Gradient { at: (x as f64, y as f64), x: 0.5 * (b + d - a - c), y: 0.5 * (c + d - a - b) }
+    })
+}

@@ -1,0 +1,305 @@
+//! The edge's profile: a spline through all pixels' distances, and the response that follows.
+
+use super::spline::{SUPPORT, bell, step};
+use super::{Edge, SfrError, SfrPoint, SfrSettings};
+use crate::solve::Normal;
+use crate::{Estimate, Image};
+use core::f64::consts::{PI, TAU};
+use etendue_core::maths::f64::{sin, sin_cos};
+
+/// The finest step of the splines, px.
+const FINEST_STEP_PX: f64 = 0.25;
+/// The widest gap between distances. Steps are wider than gaps, as least squares on evenly clustered distances needs: 0.58 pixels then,
+/// where a fit of degree 5 at 0.5 cycles a pixel still keeps aliases below (0.29/0.71)⁶ = 0.5 % of the response.
+const WIDEST_GAP_PX: f64 = 0.46;
+const STEP_OVER_GAP: f64 = 1.25;
+/// How far the fine splines reach unless told, px.
+const USUAL_REACH_PX: f64 = 10.0;
+/// The step of the splines beyond, px, and how far they go.
+const COARSE_STEP_PX: f64 = 2.0;
+const FARTHEST_PX: f64 = 100.0;
+/// Rounds of the edge's refinement; each is quadratic.
+const ROUNDS: usize = 6;
+
+/// A pixel: its distance from the edge, its row, and its reading.
+#[derive(Clone, Copy)]
+struct Sample {
+    distance: f64,
+    row: f64,
+    reading: f64,
+}
+
+/// A profile fitted to the pixels.
+pub(super) struct Profile {
+    step_px: f64,
+    reach_px: f64,
+    /// Coefficients: levels of the fine B-splines of degree 5, whose steps are their differences; then heights of coarse steps.
+    values: Vec<f64>,
+    /// Their covariance.
+    covariance: Vec<Vec<f64>>,
+    /// Where the coarse steps lie, px.
+    coarse: Vec<f64>,
+    noise: f64,
+}
+
+impl Profile {
+    /// Fits edge and profile in turn.
+    pub(super) fn fitted(image: &Image, start: Edge, settings: &SfrSettings) -> Result<(Edge, Self), SfrError> {
+        let mut edge = start;
+        for _ in 0..ROUNDS {
+            let samples = samples(image, &edge);
+            let knots = Knots::new(image, &edge, &samples, settings)?;
+            let levels = knots.normal(&samples).solve().ok_or(SfrError::NoEdge("its profile has gaps"))?;
+            let by = knots.correction(&samples, &levels, &edge, settings.edge_degree)?;
+            edge = edge.moved(&by);
+            edge.check()?;
+        }
+        let samples = samples(image, &edge);
+        let knots = Knots::new(image, &edge, &samples, settings)?;
+        let profile = knots.profile(&samples).ok_or(SfrError::NoEdge("its profile has gaps"))?;
+        profile.check()?;
+        Ok((edge, profile))
+    }
+
+    /// Whether what was fitted is an edge: residuals below a tenth of its height.
+    fn check(&self) -> Result<(), SfrError> {
+        let [dark, bright] = self.levels();
+        if self.noise.is_nan() || self.noise > 0.1 * (bright - dark) {
+            return Err(SfrError::NoEdge(
+                "the picture differs from a straight edge by more than a tenth of its height",
+            ));
+        }
+        Ok(())
+    }
+
+    /// The steps of the line spread: place, px, width, px, and the coefficients whose difference (or which alone) is the height.
+    fn steps(&self) -> impl Iterator<Item = Step> + '_ {
+        let fine = self.values.len() - self.coarse.len();
+        let place = |j: usize| -self.reach_px + (j as f64 + 0.5 * SUPPORT as f64) * self.step_px;
+        let near = (1..fine).map(move |k| Step { at: place(k - 1), width: self.step_px, up: k, down: Some(k - 1) });
+        let far = self.coarse.iter().enumerate();
+        near.chain(far.map(move |(i, at)| Step { at: *at, width: COARSE_STEP_PX, up: fine + i, down: None }))
+    }
+
+    fn height(&self, step: &Step) -> f64 {
+        self.values[step.up] - step.down.map_or(0.0, |k| self.values[k])
+    }
+
+    pub(super) fn levels(&self) -> [f64; 2] {
+        let left = self.reading(-2.0 * FARTHEST_PX);
+        let right = self.reading(2.0 * FARTHEST_PX);
+        [left.min(right), left.max(right)]
+    }
+
+    pub(super) fn noise(&self) -> f64 {
+        self.noise
+    }
+
+    pub(super) fn step_px(&self) -> f64 {
+        self.step_px
+    }
+
+    /// The profile at every quarter step.
+    pub(super) fn samples(&self) -> Vec<(f64, f64)> {
+        let count = (8.0 * self.reach_px / self.step_px).floor() as usize;
+        let at = |i: usize| -self.reach_px + 2.0 * self.reach_px * i as f64 / count as f64;
+        (0..=count).map(at).map(|d| (d, self.reading(d))).collect()
+    }
+
+    fn reading(&self, distance: f64) -> f64 {
+        let value = |s: Step| {
+            let climbed = step((distance - s.at) / s.width);
+            self.height(&s) * if s.down.is_none() && s.at < 0.0 { climbed - 1.0 } else { climbed }
+        };
+        self.values[0] + self.steps().map(value).sum::<f64>()
+    }
+
+    /// |M(f)|/M(0) and its uncertainty: M(f) = Σ (height of a step) sinc(f h)⁵ exp(−2πi f t) is linear in the coefficients.
+    pub(super) fn response(&self, frequency: f64) -> SfrPoint {
+        let waves: Vec<(Step, [f64; 2])> = self.steps().map(|s| (s, s.wave(frequency))).collect();
+        let total: f64 = waves.iter().map(|(s, _)| self.height(s)).sum();
+        let [re, im] = waves.iter().fold([0.0; 2], |[re, im], (s, wave)| {
+            let height = self.height(s);
+            [re + height * wave[0], im + height * wave[1]]
+        });
+        let magnitude = (re * re + im * im).sqrt();
+        let value = magnitude / total.abs();
+        let mut slopes = vec![0.0; self.values.len()];
+        for (s, wave) in &waves {
+            // Along its own phase the magnitude is linear in the heights.
+            let along = if magnitude > 0.0 { (re * wave[0] + im * wave[1]) / magnitude } else { 0.0 };
+            let slope = (along - total.signum() * value) / total.abs();
+            slopes[s.up] += slope;
+            s.down.into_iter().for_each(|k| slopes[k] -= slope);
+        }
+        let variance: f64 = self.covariance.iter().zip(&slopes).map(|(row, s)| s * dot(row, &slopes)).sum();
+        SfrPoint { frequency, response: Estimate::new(value, variance.max(0.0).sqrt()) }
+    }
+}
+
+/// A step of the profile.
+#[derive(Clone, Copy)]
+struct Step {
+    at: f64,
+    width: f64,
+    up: usize,
+    down: Option<usize>,
+}
+
+impl Step {
+    /// The Fourier transform of its slope.
+    fn wave(&self, frequency: f64) -> [f64; 2] {
+        let bell = sinc(frequency * self.width);
+        let bell = bell * bell * bell * bell * bell;
+        let (sine, cosine) = sin_cos(-TAU * frequency * self.at);
+        [bell * cosine, bell * sine]
+    }
+}
+
+fn sinc(x: f64) -> f64 {
+    if x == 0.0 { 1.0 } else { sin(PI * x) / (PI * x) }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn samples(image: &Image, edge: &Edge) -> Vec<Sample> {
+    let place = |y: usize| (0..image.width()).map(move |x| (x, y));
+    let sample = |(x, y): (usize, usize)| {
+        let (column, row) = (x as f64 + 0.5, y as f64 + 0.5);
+        Sample { distance: edge.distance(column, row), row, reading: f64::from(image.at(x, y)) }
+    };
+    (0..image.height()).flat_map(place).map(sample).collect()
+}
+
+/// Where the splines lie.
+struct Knots {
+    step_px: f64,
+    reach_px: f64,
+    count: usize,
+    coarse: Vec<f64>,
+}
+
+impl Knots {
+    fn new(image: &Image, edge: &Edge, samples: &[Sample], settings: &SfrSettings) -> Result<Self, SfrError> {
+        // Both plateaus must be seen beyond the reach, from somewhere.
+        let widest = |sign: f64| samples.iter().map(|s| sign * s.distance).fold(0.0, f64::max) - 1.0;
+        let most = widest(1.0).min(widest(-1.0)).min(0.5 * image.width() as f64);
+        let reach_px = settings.reach_px.unwrap_or(USUAL_REACH_PX).min(most);
+        if reach_px < 2.0 {
+            return Err(SfrError::NoEdge("the edge lies too near to the picture's border"));
+        }
+        let gap_px = widest_gap(samples, reach_px);
+        if gap_px > WIDEST_GAP_PX {
+            return Err(SfrError::Gaps { gap_px, angle_deg: edge.angle_deg() });
+        }
+        let step_px = (STEP_OVER_GAP * gap_px).max(FINEST_STEP_PX);
+        let count = (2.0 * reach_px / step_px).floor() as usize + 1 - SUPPORT;
+        if count < 2 * SUPPORT {
+            return Err(SfrError::NoEdge("the edge lies too near to the picture's border"));
+        }
+        let reach_px = 0.5 * step_px * (count + SUPPORT - 1) as f64;
+        Ok(Self { step_px, reach_px, count, coarse: coarse(reach_px, most.min(FARTHEST_PX)) })
+    }
+
+    /// The coefficients that a reading depends on, and how: the fine splines of degree 5 that differ from 0 there (the first and the
+    /// last of all are constant outwards), and the coarse steps (those on the left from −1 to 0, those on the right from 0 to 1).
+    fn basis(&self, distance: f64) -> (Vec<usize>, Vec<f64>) {
+        let u = (distance + self.reach_px) / self.step_px;
+        let first = self.first(u);
+        let climbed = |k: usize| match k {
+            0 => 1.0,
+            k if k > self.count => 0.0,
+            k => step(u - (k - 1) as f64 - 0.5 * SUPPORT as f64),
+        };
+        let fine = (first..=first + SUPPORT).map(|k| (k, climbed(k) - climbed(k + 1)));
+        let far = self.coarse.iter().zip(self.count + 1..).map(|(at, k)| {
+            let climbed = step((distance - at) / COARSE_STEP_PX);
+            (k, if *at < 0.0 { climbed - 1.0 } else { climbed })
+        });
+        fine.chain(far.filter(|(_, value)| *value != 0.0)).unzip()
+    }
+
+    fn first(&self, u: f64) -> usize {
+        ((u - SUPPORT as f64).ceil().max(0.0) as usize).min(self.count - SUPPORT)
+    }
+
+    fn normal(&self, samples: &[Sample]) -> Normal {
+        let mut normal = Normal::new(self.count + 1 + self.coarse.len());
+        for sample in samples {
+            let (places, values) = self.basis(sample.distance);
+            normal.add_at(&places, &values, sample.reading, 1.0);
+        }
+        normal
+    }
+
+    fn residual(&self, sample: &Sample, values: &[f64]) -> f64 {
+        let (places, slopes) = self.basis(sample.distance);
+        sample.reading - places.iter().zip(&slopes).map(|(k, slope)| values[*k] * slope).sum::<f64>()
+    }
+
+    /// One Gauss–Newton step of the edge's coefficients: the residuals against the profile's slope.
+    fn correction(&self, samples: &[Sample], levels: &[f64], edge: &Edge, degree: usize) -> Result<Vec<f64>, SfrError> {
+        let mut normal = Normal::new(degree + 1);
+        for sample in samples.iter().filter(|s| s.distance.abs() < self.reach_px) {
+            let residual = self.residual(sample, levels);
+            let slope = self.slope(sample.distance, levels);
+            let row: Vec<f64> = edge.sensitivities(sample.row, degree).iter().map(|s| s * slope).collect();
+            normal.add(&row, residual, 1.0);
+        }
+        normal.solve().ok_or(SfrError::NoEdge("the edge crosses too few rows"))
+    }
+
+    fn slope(&self, distance: f64, levels: &[f64]) -> f64 {
+        let u = (distance + self.reach_px) / self.step_px;
+        let first = self.first(u);
+        let term = |j: usize| (levels[j + 1] - levels[j]) * bell(u - j as f64 - 0.5 * SUPPORT as f64);
+        (first..first + SUPPORT).map(term).sum::<f64>() / self.step_px
+    }
+
+    fn profile(self, samples: &[Sample]) -> Option<Profile> {
+        let normal = self.normal(samples);
+        let values = normal.solve()?;
+        let inverse = normal.inverse()?;
+        let mut meat = Normal::new(values.len());
+        let mut squares = 0.0;
+        for sample in samples {
+            let (places, slopes) = self.basis(sample.distance);
+            let residual = self.residual(sample, &values);
+            squares += residual * residual;
+            meat.add_at(&places, &slopes, 0.0, residual * residual);
+        }
+        // Parameters use up freedom: the residuals are that much too small.
+        let free = samples.len() as f64 - values.len() as f64;
+        let covariance = sandwich(&inverse, meat.matrix(), samples.len() as f64 / free);
+        let (step_px, reach_px, coarse) = (self.step_px, self.reach_px, self.coarse);
+        Some(Profile { step_px, reach_px, values, covariance, coarse, noise: (squares / free).sqrt() })
+    }
+}
+
+/// Places of the coarse steps beyond the fine splines: those whose support leaves the fine splines' range, so that no coarse step is
+/// a sum of fine ones (Kraft 1997), as far as there are pixels.
+fn coarse(reach_px: f64, most: f64) -> Vec<f64> {
+    let first = reach_px - 1.5 * COARSE_STEP_PX;
+    let right: Vec<f64> =
+        (0..).map(|i| first + f64::from(i) * COARSE_STEP_PX).take_while(|at| at + COARSE_STEP_PX <= most).collect();
+    right.iter().map(|at| -at).chain(right.iter().copied()).collect()
+}
+
+/// A B A, scaled.
+fn sandwich(outer: &[Vec<f64>], inner: &[Vec<f64>], scale: f64) -> Vec<Vec<f64>> {
+    let product = |a: &[Vec<f64>], b: &[Vec<f64>]| -> Vec<Vec<f64>> {
+        // Both are symmetric: rows serve as columns.
+        a.iter().map(|row| b.iter().map(|column| dot(row, column)).collect()).collect()
+    };
+    let left = product(outer, inner);
+    left.iter().map(|row| outer.iter().map(|column| scale * dot(row, column)).collect()).collect()
+}
+
+/// The widest gap between neighbouring distances within the reach.
+fn widest_gap(samples: &[Sample], reach_px: f64) -> f64 {
+    let mut distances: Vec<f64> = samples.iter().map(|s| s.distance).filter(|d| d.abs() <= reach_px).collect();
+    distances.sort_unstable_by(f64::total_cmp);
+    distances.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
+}

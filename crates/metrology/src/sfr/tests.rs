@@ -1,0 +1,208 @@
+//! Edges in closed form: the pixel's square times a lens.
+
+use super::*;
+use core::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
+use etendue_core::maths::f64::{acos, asin, cos, exp, sin, sin_cos};
+use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
+use etendue_stats::special::erfc;
+use rand_distr::{Distribution, Normal};
+use rayon::prelude::*;
+
+/// A lens by its line spread's integral and its response.
+#[derive(Clone, Copy, Debug)]
+enum Lens {
+    /// Standard deviation, px.
+    Gaussian(f64),
+    /// First frequency without response, cycles a pixel.
+    Diffraction(f64),
+    /// Radius of the circle of confusion, px.
+    Defocus(f64),
+}
+
+impl Lens {
+    fn edge(self, d: f64) -> f64 {
+        match self {
+            Self::Gaussian(sigma) => 0.5 * erfc(-d / sigma * FRAC_1_SQRT_2),
+            Self::Defocus(radius) => {
+                let u = (d / radius).clamp(-1.0, 1.0);
+                0.5 + (asin(u) + u * (1.0 - u * u).sqrt()) / PI
+            }
+            // 1/2 + ∫ MTF(f) sin(2π f d)/(π f) df by Simpson's rule.
+            Self::Diffraction(last) => {
+                let count = 400;
+                let term = |i: usize| {
+                    let f = last * i as f64 / count as f64;
+                    let sine = if i == 0 { 2.0 * d } else { sin(TAU * f * d) / (PI * f) };
+                    self.response(f) * sine * if i == 0 || i == count { 1.0 } else { 2.0 + 2.0 * (i % 2) as f64 }
+                };
+                0.5 + (0..=count).map(term).sum::<f64>() * last / count as f64 / 3.0
+            }
+        }
+    }
+
+    fn response(self, f: f64) -> f64 {
+        match self {
+            Self::Gaussian(sigma) => exp(-2.0 * PI * PI * sigma * sigma * f * f),
+            Self::Diffraction(last) => {
+                let v = (f / last).min(1.0);
+                2.0 / PI * (acos(v) - v * (1.0 - v * v).sqrt())
+            }
+            // The chords of the disc: 4/π ∫ √(1 − u²) cos(2π R f u) du from 0 to 1, with u = sin a, by the midpoint rule.
+            Self::Defocus(radius) => {
+                let count = 400;
+                let angle = |i: i32| 0.5 * PI * (f64::from(i) + 0.5) / f64::from(count);
+                let term = |a: f64| cos(a) * cos(a) * cos(TAU * radius * f * sin(a));
+                4.0 / PI * (0..count).map(angle).map(term).sum::<f64>() * 0.5 * PI / f64::from(count)
+            }
+        }
+    }
+}
+
+/// Nodes and weights of Gauss and Legendre's rule of 8 points on −1/2 to 1/2.
+const NODES: [(f64, f64); 4] = [
+    (0.480_144_928_248_768, 0.050_614_268_145_188),
+    (0.398_333_238_706_813, 0.111_190_517_226_687),
+    (0.262_766_204_958_165, 0.156_853_322_938_944),
+    (0.091_717_321_247_825, 0.181_341_891_689_181),
+];
+
+/// An edge at an angle to the columns, through a point near the middle, seen by square pixels.
+fn picture(lens: Lens, angle_deg: f64, size: usize) -> Image {
+    let (sine, cosine) = sin_cos(angle_deg.to_radians());
+    let centre = 0.5 * size as f64 + 0.137;
+    // The edge spread is tabulated: 64 steps a pixel, by parabolas.
+    let steps = 64.0;
+    let reach = 1.5 * size as f64;
+    let table: Vec<f64> =
+        (0..=(2.0 * reach * steps) as usize).into_par_iter().map(|i| lens.edge(i as f64 / steps - reach)).collect();
+    let edge = |d: f64| {
+        let u = (d + reach) * steps;
+        let i = (u.round() as usize).clamp(1, table.len() - 2);
+        let t = u - i as f64;
+        let [a, b, c] = [table[i - 1], table[i], table[i + 1]];
+        b + 0.5 * t * (c - a) + 0.5 * t * t * (a - 2.0 * b + c)
+    };
+    let points = || NODES.iter().flat_map(|(x, w)| [(*x, *w), (-x, *w)]);
+    let pixel = |x: usize, y: usize| {
+        let (x, y) = (x as f64 + 0.5 - centre, y as f64 + 0.5 - centre);
+        let value = |(dx, u): (f64, f64)| {
+            points().map(|(dy, v)| u * v * edge((x + dx) * cosine - (y + dy) * sine)).sum::<f64>()
+        };
+        points().map(value).sum::<f64>()
+    };
+    let samples =
+        (0..size * size).into_par_iter().map(|i| (100.0 + 800.0 * pixel(i % size, i / size)) as f32).collect();
+    Image::from_samples(size, size, samples).expect("a square")
+}
+
+fn aperture(angle_deg: f64, f: f64) -> f64 {
+    let (sine, cosine) = sin_cos(angle_deg.to_radians());
+    let sinc = |x: f64| if x == 0.0 { 1.0 } else { sin(PI * x) / (PI * x) };
+    sinc(f * cosine) * sinc(f * sine)
+}
+
+fn worst(lens: Lens, angle_deg: f64) -> (f64, Sfr) {
+    let sfr = measure_edge(&picture(lens, angle_deg, 80), &SfrSettings::default());
+    let sfr = sfr.unwrap_or_else(|e| panic!("{lens:?} {angle_deg}: {e}"));
+    let error = |p: &SfrPoint| {
+        let truth = (lens.response(p.frequency) * aperture(angle_deg, p.frequency)).abs();
+        (p.response.value - truth).abs()
+    };
+    let worst = sfr.curve.iter().filter(|p| p.frequency <= 0.5).map(error).fold(0.0, f64::max);
+    (worst, sfr)
+}
+
+/// The bound of the issue.
+const BOUND: f64 = 0.005;
+
+#[test]
+fn edges_in_closed_form_give_their_response_from_2_to_43_degrees() {
+    let lenses = [Lens::Gaussian(0.3), Lens::Gaussian(0.7), Lens::Diffraction(0.9), Lens::Defocus(1.5)];
+    let angles = [2.0, 3.3, 5.0, 8.0, 11.31, 14.036, 18.435, 22.0, 26.0, 26.565, 30.0, 33.69, 36.87, 40.0, 43.0];
+    for (i, angle_deg) in angles.into_iter().enumerate() {
+        for lens in [lenses[i % 4], lenses[(i + 1) % 4]] {
+            let (worst, sfr) = worst(lens, angle_deg);
+            assert!(worst < BOUND, "{lens:?} {angle_deg}°: {worst}, step {}", sfr.step_px);
+            assert!((sfr.angle_deg - angle_deg).abs() < 0.02, "{lens:?} {angle_deg}°: {}", sfr.angle_deg);
+        }
+    }
+}
+
+#[test]
+fn rows_serve_as_columns_and_dark_may_lie_on_either_side() {
+    let lens = Lens::Gaussian(0.5);
+    let image = picture(lens, 6.0, 64);
+    let upright = measure_edge(&image, &SfrSettings::default()).expect("an edge");
+    let turned = |f: &dyn Fn(usize, usize) -> f32| {
+        let samples = (0..64 * 64).map(|i| f(i % 64, i / 64)).collect();
+        measure_edge(&Image::from_samples(64, 64, samples).expect("a square"), &SfrSettings::default())
+            .expect("an edge")
+    };
+    let flat = turned(&|x, y| image.at(y, x));
+    assert_eq!((upright.orientation, flat.orientation), (Orientation::Vertical, Orientation::Horizontal));
+    let mirrored = turned(&|x, y| image.at(63 - x, y));
+    for other in [flat, mirrored] {
+        for (a, b) in upright.curve.iter().zip(&other.curve) {
+            assert!((a.response.value - b.response.value).abs() < 1e-3, "{a:?} {b:?}");
+        }
+    }
+}
+
+/// 95 % intervals of noisy edges cover the truth in 90 to 99 % of 200 seeds, at several frequencies and for MTF50.
+#[test]
+fn noise_stays_within_the_stated_uncertainty() {
+    const SEEDS: u64 = 200;
+    let (lens, angle_deg) = (Lens::Gaussian(0.5), 7.0);
+    let clean = picture(lens, angle_deg, 64);
+    let truth = |f: f64| lens.response(f) * aperture(angle_deg, f);
+    let noisy = |seed: u64| {
+        let normal = Normal::new(0.0, 1.0).expect("a width");
+        let sample = |i: usize| {
+            let pixel = Pixel { x: (i % 64) as u32, y: (i / 64) as u32 };
+            let mean = f64::from(clean.samples()[i]);
+            // Shot noise of the two sides differs.
+            let sigma = (25.0 + 0.4 * mean).sqrt();
+            (mean + sigma * normal.sample(&mut NoiseStream::new(seed, 0, 0, 0, pixel, NoiseDraw::Read))) as f32
+        };
+        let image = Image::from_samples(64, 64, (0..64 * 64).map(sample).collect()).expect("a square");
+        measure_edge(&image, &SfrSettings::default()).expect("an edge")
+    };
+    let runs: Vec<Sfr> = (0..SEEDS).into_par_iter().map(noisy).collect();
+    let covered = |found: &dyn Fn(&Sfr) -> Estimate, truth: f64| {
+        let inside = |e: Estimate| (e.value - truth).abs() <= 1.96 * e.standard_uncertainty;
+        runs.iter().filter(|run| inside(found(run))).count()
+    };
+    for k in [10, 25, 40, 50] {
+        let found = |run: &Sfr| run.curve[k].response;
+        let count = covered(&found, truth(runs[0].curve[k].frequency));
+        assert!((180..=198).contains(&count), "{k}: {count} of {SEEDS}, {:?}", found(&runs[0]));
+    }
+    let half = (0..100_000).map(|i| f64::from(i) * 1e-5).find(|f| truth(*f) <= 0.5).expect("a half");
+    let found = |run: &Sfr| run.mtf50.expect("a half");
+    let count = covered(&found, half);
+    assert!((180..=198).contains(&count), "MTF50: {count} of {SEEDS}, {:?}", found(&runs[0]));
+}
+
+#[test]
+fn what_is_no_slanted_edge_is_refused() {
+    let lens = Lens::Gaussian(0.5);
+    let measure = |image: &Image| measure_edge(image, &SfrSettings::default());
+    for angle_deg in [0.0, 1.0, 44.0, 45.0] {
+        assert!(matches!(measure(&picture(lens, angle_deg, 64)), Err(SfrError::Angle { .. })), "{angle_deg}°");
+    }
+    let of = |f: fn(usize, usize) -> f32| {
+        Image::from_samples(64, 64, (0..64 * 64).map(|i| f(i % 64, i / 64)).collect()).expect("a square")
+    };
+    assert!(matches!(measure(&of(|_, _| 5.0)), Err(SfrError::NoEdge(_))));
+    assert!(matches!(
+        measure(&of(|x, y| ((x * 7919 + y * 104_729) % 97) as f32)),
+        Err(SfrError::NoEdge(_) | SfrError::Angle { .. })
+    ));
+    assert!(matches!(measure(&of(|x, y| if (x + y / 9) % 20 < 10 { 1.0 } else { 0.0 })), Err(SfrError::NoEdge(_))));
+    let edge = picture(lens, 5.0, 64);
+    let clipped = SfrSettings { full_scale: Some(850.0), ..SfrSettings::default() };
+    assert!(matches!(measure_edge(&edge, &clipped), Err(SfrError::Saturated { .. })));
+    assert!(matches!(measure(&edge.part(0, 0, 12, 64)), Err(SfrError::TooSmall { .. })));
+    // Two degrees over so few rows leave the profile unsampled.
+    assert!(matches!(measure(&picture(lens, 2.0, 64).part(8, 24, 48, 16)), Err(SfrError::Gaps { .. })));
+}

@@ -1,0 +1,95 @@
+//! Flat fields of a known fall-off.
+
+use super::*;
+use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
+use rand_distr::{Distribution, Normal};
+use rayon::prelude::*;
+
+const SIZE: (usize, usize) = (120, 90);
+
+/// cos⁴ of a field that reaches 30° in the corner.
+fn falloff(position: f64) -> f64 {
+    let square = position * position / 3.0;
+    1.0 / ((1.0 + square) * (1.0 + square))
+}
+
+fn field(seed: u64, noise: f64) -> Image {
+    let (width, height) = SIZE;
+    let square = square_position(&Image::new(width, height), &ShadingSettings::default());
+    let normal = Normal::new(0.0, 1.0).expect("a width");
+    let sample = |i: usize| {
+        let (x, y) = (i % width, i / width);
+        let pixel = Pixel { x: x as u32, y: y as u32 };
+        let light = 800.0 * falloff(square(x, y).sqrt());
+        let scatter = noise * (light / 800.0).sqrt();
+        (40.0 + light + scatter * normal.sample(&mut NoiseStream::new(seed, 0, 0, 0, pixel, NoiseDraw::Read))) as f32
+    };
+    Image::from_samples(width, height, (0..width * height).map(sample).collect()).expect("a rectangle")
+}
+
+fn settings() -> ShadingSettings {
+    ShadingSettings { black: 40.0, full_scale: Some(1023.0), ..ShadingSettings::default() }
+}
+
+#[test]
+fn a_fall_off_without_noise_comes_back() {
+    let shading = measure_shading(&field(0, 0.0), &settings()).expect("a flat field");
+    for ring in &shading.profile {
+        // The fit's centre misses cos⁴ to 30° by 3e-4; rings are 1/20 wide: the curvature within one is 1e-4.
+        assert!((ring.relative.value - falloff(ring.position)).abs() < 5e-4, "{ring:?}");
+    }
+    assert!((shading.corner.value - falloff(1.0)).abs() < 1.5e-3, "{:?}", shading.corner);
+    assert!((shading.centre.value / 800.0 - 1.0).abs() < 5e-4);
+    assert_eq!(shading.map[5][5].value, 1.0);
+    let [top, bottom] = [shading.map[0][0], shading.map[10][10]];
+    assert!((top.value - bottom.value).abs() < 1e-2 && top.value < 0.65, "{top:?}");
+}
+
+/// 95 % intervals cover the truth in 90 to 99 % of 200 seeds.
+#[test]
+fn stated_intervals_cover_the_fall_off() {
+    const SEEDS: u64 = 200;
+    let measured = |seed: u64| measure_shading(&field(seed, 16.0), &settings()).expect("a flat field");
+    let runs: Vec<Shading> = (0..SEEDS).into_par_iter().map(measured).collect();
+    let covered = |found: &dyn Fn(&Shading) -> Estimate, truth: f64| {
+        let inside = |e: Estimate| (e.value - truth).abs() <= 1.96 * e.standard_uncertainty;
+        runs.iter().filter(|run| inside(found(run))).count()
+    };
+    for k in [4, 8, 12, 16, 19] {
+        let truth = falloff(runs[0].profile[k].position);
+        let count = covered(&|run| run.profile[k].relative, truth);
+        assert!((180..=198).contains(&count), "ring {k}: {count}, {:?} for {truth}", runs[0].profile[k]);
+    }
+    let count = covered(&|run| run.corner, falloff(1.0));
+    assert!((180..=198).contains(&count), "corner: {count}, {:?}", runs[0].corner);
+}
+
+#[test]
+fn colour_shading_is_the_ratio_of_channels() {
+    let (red, green) = (field(1, 0.0), field(1, 0.0));
+    let tilted = |x: usize| 1.0 + 0.1 * (x as f32 / SIZE.0 as f32 - 0.5);
+    let samples = green.samples().iter().enumerate().map(|(i, s)| 40.0 + (s - 40.0) * tilted(i % SIZE.0)).collect();
+    let blue = Image::from_samples(SIZE.0, SIZE.1, samples).expect("a rectangle");
+    let shading = colour_shading([&red, &green, &blue], &settings()).expect("flat fields");
+    let [r, b] = shading.extremes();
+    // The outer blocks' middles lie 5/11 from the centre.
+    assert!((r.value - 1.0).abs() < 1e-12 && ((b.value - 1.0).abs() - 0.1 * 5.0 / 11.0).abs() < 1e-3, "{r:?} {b:?}");
+}
+
+#[test]
+fn what_is_no_flat_field_is_refused() {
+    let clipped = |settings: ShadingSettings| {
+        let image = field(0, 5.0).map(|s| s.min(700.0));
+        measure_shading(&image, &settings)
+    };
+    let full_scale = Some(700.0);
+    assert!(matches!(clipped(ShadingSettings { full_scale, ..settings() }), Err(ShadingError::Saturated { .. })));
+    // The plateau tells where nobody says what full scale is.
+    assert!(matches!(clipped(ShadingSettings { full_scale: None, ..settings() }), Err(ShadingError::Saturated { .. })));
+    let measure = |image: &Image| measure_shading(image, &settings());
+    assert!(matches!(measure(&Image::filled(120, 90, 39.0)), Err(ShadingError::Dark { .. })));
+    assert!(matches!(measure(&Image::filled(30, 90, 39.0)), Err(ShadingError::TooSmall { .. })));
+    let stripes = (0..120 * 90).map(|i| if i % 120 / 20 % 2 == 0 { 100.0 } else { 700.0 }).collect();
+    let stripes = Image::from_samples(120, 90, stripes).expect("a rectangle");
+    assert!(matches!(measure(&stripes), Err(ShadingError::NotFlat { .. })));
+}

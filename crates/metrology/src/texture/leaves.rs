@@ -1,0 +1,193 @@
+//! Response to a texture against its reference.
+//!
+//! A camera's picture y and the texture's own picture x at the same place, pixel by pixel (for a rendered chart: a sharp render without
+//! noise). Over blocks of 64 × 64 pixels that overlap by half, under a Hann window (Welch 1967), radially averaged:
+//!
+//! ```text
+//! S_xx = ⟨|X|²⟩    S_yy = ⟨|Y|²⟩    S_xy = ⟨X* Y⟩
+//! response   |S_xy|/S_xx                         what is kept of the texture (Kirk et al. 2014, "dead leaves cross")
+//! direct     √((S_yy − S_noise)/S_xx)            texture and artefacts alike (Cao, Guichard & Hornung 2009; McElvain et al. 2010)
+//! coherence  γ² = |S_xy|²/(S_xx S_yy)            1 where nothing was added
+//! u(response) = response √((1 − γ²)/(2 n γ²))    n independent blocks and frequencies (Bendat & Piersol)
+//! ```
+//!
+//! Both are over their value at the lowest frequency band but zero, so that exposure does not count. The two part where noise reduction invents or
+//! smears texture.
+
+use super::TextureError;
+use crate::fourier::{Complex, transform};
+use crate::{Estimate, Image};
+use core::f64::consts::TAU;
+use etendue_core::maths::f64::{cos, hypot};
+
+/// Side of a block, px.
+const BLOCK: usize = 64;
+/// Bands of frequency from 0 to 0.5 cycles a pixel.
+const BANDS: usize = 32;
+/// Neighbours under a Hann window share what they say: of overlapping blocks and bins so many are independent.
+const INDEPENDENT: f64 = 0.25;
+
+/// A band of frequency.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TexturePoint {
+    /// Cycles a pixel, in any direction.
+    pub frequency: f64,
+    /// What is kept of the texture.
+    pub response: Estimate,
+    /// Structure of any kind over the texture's.
+    pub direct: f64,
+    /// 1 where the picture holds nothing but the texture.
+    pub coherence: f64,
+}
+
+/// The response to a texture, lowest frequency first. `noise` is a picture of an even surface of the same brightness; without it
+/// noise counts as structure in `direct`.
+///
+/// # Errors
+/// Where sizes differ or are too small, or picture and reference have nothing in common.
+pub fn measure_texture(
+    picture: &Image,
+    reference: &Image,
+    noise: Option<&Image>,
+) -> Result<Vec<TexturePoint>, TextureError> {
+    let size = |image: &Image| (image.width(), image.height());
+    if size(picture) != size(reference) || picture.width().min(picture.height()) < BLOCK {
+        return Err(TextureError::Size { least: BLOCK, picture: size(picture), reference: size(reference) });
+    }
+    if picture.samples().iter().chain(reference.samples()).any(|s| !s.is_finite()) {
+        return Err(TextureError::NotFinite);
+    }
+    let sums = Spectra::of(reference, picture);
+    let floor = noise.filter(|n| n.width().min(n.height()) >= BLOCK).map(|n| Spectra::of(n, n));
+    let points: Vec<TexturePoint> = (1..BANDS).map(|k| sums.point(k, floor.as_ref())).collect();
+    let first = points[0];
+    if first.coherence.is_nan() || first.coherence < 0.2 {
+        return Err(TextureError::Unlike);
+    }
+    let scaled = |p: TexturePoint| TexturePoint {
+        response: p.response.scaled(1.0 / first.response.value),
+        direct: p.direct / first.direct,
+        ..p
+    };
+    Ok(points.into_iter().map(scaled).collect())
+}
+
+/// Sums over blocks and bins, by band.
+struct Spectra {
+    xx: Vec<f64>,
+    yy: Vec<f64>,
+    xy: Vec<Complex>,
+    bins: Vec<f64>,
+    blocks: f64,
+}
+
+impl Spectra {
+    fn of(x: &Image, y: &Image) -> Self {
+        let none = || vec![0.0; BANDS];
+        let mut sums = Self { xx: none(), yy: none(), xy: vec![[0.0; 2]; BANDS], bins: none(), blocks: 0.0 };
+        let places = |length: usize| (0..=length - BLOCK).step_by(BLOCK / 2);
+        for top in places(x.height()) {
+            for left in places(x.width()) {
+                sums.add(&block(x, left, top), &block(y, left, top));
+            }
+        }
+        sums
+    }
+
+    fn add(&mut self, x: &[Complex], y: &[Complex]) {
+        self.blocks += 1.0;
+        let signed = |k: usize| if k > BLOCK / 2 { k as f64 - BLOCK as f64 } else { k as f64 };
+        for (i, (a, b)) in x.iter().zip(y).enumerate() {
+            let radius = hypot(signed(i % BLOCK), signed(i / BLOCK));
+            let band = (radius + 0.5) as usize;
+            if band < BANDS {
+                self.bins[band] += 1.0;
+                self.xx[band] += a[0] * a[0] + a[1] * a[1];
+                self.yy[band] += b[0] * b[0] + b[1] * b[1];
+                self.xy[band][0] += a[0] * b[0] + a[1] * b[1];
+                self.xy[band][1] += a[0] * b[1] - a[1] * b[0];
+            }
+        }
+    }
+
+    fn point(&self, k: usize, floor: Option<&Self>) -> TexturePoint {
+        let cross = hypot(self.xy[k][0], self.xy[k][1]);
+        let value = cross / self.xx[k];
+        let coherence = cross * cross / (self.xx[k] * self.yy[k]);
+        // Half of the bins repeat the others: pictures are real.
+        let count = 0.5 * INDEPENDENT * self.bins[k];
+        let u = value * ((1.0 - coherence).max(0.0) / (2.0 * coherence * count)).sqrt();
+        let noise = floor.map_or(0.0, |f| f.yy[k] / f.blocks * self.blocks);
+        TexturePoint {
+            frequency: k as f64 / BLOCK as f64,
+            response: Estimate::new(value, u),
+            direct: ((self.yy[k] - noise).max(0.0) / self.xx[k]).sqrt(),
+            coherence,
+        }
+    }
+}
+
+/// The transform of a block less its mean under a Hann window, row by row.
+fn block(image: &Image, left: usize, top: usize) -> Vec<Complex> {
+    let part = image.part(left, top, BLOCK, BLOCK);
+    let mean = part.samples().iter().map(|s| f64::from(*s)).sum::<f64>() / part.samples().len() as f64;
+    let window: Vec<f64> = (0..BLOCK).map(|i| 0.5 - 0.5 * cos(TAU * (i as f64 + 0.5) / BLOCK as f64)).collect();
+    let value = |(i, s): (usize, &f32)| [(f64::from(*s) - mean) * window[i % BLOCK] * window[i / BLOCK], 0.0];
+    let windowed: Vec<Complex> = part.samples().iter().enumerate().map(value).collect();
+    let rows: Vec<Vec<Complex>> = windowed.chunks_exact(BLOCK).map(transform).collect();
+    let columns: Vec<Vec<Complex>> =
+        (0..BLOCK).map(|x| transform(&rows.iter().map(|row| row[x]).collect::<Vec<_>>())).collect();
+    (0..BLOCK * BLOCK).map(|i| columns[i % BLOCK][i / BLOCK]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::f64::consts::PI;
+    use etendue_core::maths::f64::exp;
+    use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
+
+    fn texture(seed: u64, amplitude: f64) -> Image {
+        let draw = |i: usize| {
+            let pixel = Pixel { x: (i % 192) as u32, y: (i / 192) as u32 };
+            (500.0 + amplitude * (NoiseStream::new(seed, 0, 0, 0, pixel, NoiseDraw::Read).unit_f64() - 0.5)) as f32
+        };
+        Image::from_samples(192, 192, (0..192 * 192).map(draw).collect()).expect("a square")
+    }
+
+    /// By a Gaussian, its samples summing to 1, with noise added.
+    fn blurred(image: &Image, sigma: f64, noise: &Image) -> Image {
+        let kernel: Vec<f64> = (-5..=5).map(|k| exp(-0.5 * f64::from(k * k) / (sigma * sigma))).collect();
+        let total: f64 = kernel.iter().sum();
+        let pass = |image: &Image, step: (i64, i64)| {
+            let sample = |i: usize| {
+                let (x, y) = ((i % 192) as i64, (i / 192) as i64);
+                let at = |k: i64| {
+                    let (x, y) = ((x + k * step.0).rem_euclid(192), (y + k * step.1).rem_euclid(192));
+                    f64::from(image.at(x as usize, y as usize))
+                };
+                (kernel.iter().zip(-5..).map(|(w, k)| w * at(k)).sum::<f64>() / total) as f32
+            };
+            Image::from_samples(192, 192, (0..192 * 192).map(sample).collect()).expect("a square")
+        };
+        let soft = pass(&pass(image, (1, 0)), (0, 1));
+        let sum = soft.samples().iter().zip(noise.samples()).map(|(a, b)| a + b - 500.0).collect();
+        Image::from_samples(192, 192, sum).expect("a square")
+    }
+
+    #[test]
+    fn a_blurred_texture_with_noise_gives_the_blur() {
+        let (reference, noise, sigma) = (texture(1, 400.0), texture(2, 40.0), 0.8);
+        let points = measure_texture(&blurred(&reference, sigma, &noise), &reference, Some(&noise)).expect("a texture");
+        let truth = |f: f64| exp(-2.0 * PI * PI * sigma * sigma * f * f);
+        for point in points.iter().filter(|p| p.frequency <= 0.45) {
+            let want = truth(point.frequency) / truth(points[0].frequency);
+            let tolerance = 4.0 * point.response.standard_uncertainty + 0.02;
+            assert!((point.response.value - want).abs() < tolerance, "{point:?} {want}");
+            assert!((point.direct - want).abs() < 0.08, "{point:?} {want}");
+        }
+        // Noise invents structure: coherence falls with the signal.
+        assert!(points[0].coherence > 0.95 && points[28].coherence < 0.8, "{points:?}");
+        assert_eq!(measure_texture(&texture(3, 400.0), &reference, None), Err(TextureError::Unlike));
+    }
+}
