@@ -1,5 +1,9 @@
 //! What every result says of itself: the side-car and the facts in EXR headers.
 
+mod sensor;
+
+pub use sensor::{frame, sensor};
+
 use crate::calibration;
 use etendue_core::CameraPose;
 use etendue_io::Provenance;
@@ -8,7 +12,6 @@ use etendue_optics::{Cube, DepthOfField, Face, Front, Lens, PointSpread, PupilPr
 use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, Route};
 use etendue_pipeline::twin::Twin;
 use etendue_projection::Sense;
-use etendue_sensor::{Raw, Sensor, Verdict};
 use glam::DVec2;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -355,66 +358,4 @@ fn mirror(body: &CameraBody) -> Option<&'static str> {
                                   pupil by way of the mirror, and depth.Z is NaN in it",
         ),
     }
-}
-
-/// The sensor's geometry and, where it has electronics, their figures.
-pub fn sensor(body: &CameraBody) -> Value {
-    let raster = &body.raster;
-    let electronics = body.sensor.as_ref().map(|sensor| {
-        let p = sensor.parameters();
-        json!({
-            "exposure_s": p.exposure.exposure_s,
-            "gain_dn_per_e": p.read_out.gain_dn_e,
-            "black_level_dn": sensor.black_level_dn(),
-            "white_level_dn": sensor.white_level_dn(),
-            "full_well_e": p.charge.full_well_e,
-            "read_noise_e": p.read_out.noise.white_e,
-            "dark_current_e_s": p.charge.dark.current_e_s,
-            "bits": sensor.delivered_bits(),
-            "noise": p.noise,
-            "effects": sensor_effects(sensor),
-            "cfa": {
-                "columns": p.cfa.width(),
-                "channels": p.cfa.channels().iter().map(|c| p.channels[*c].name.clone()).collect::<Vec<_>>(),
-            },
-        })
-    });
-    json!({
-        "width_px": raster.width(),
-        "height_px": raster.height(),
-        "pixel_pitch_um": 1000.0 * raster.pitch_mm().x,
-        "principal_point_px": raster.principal_px().to_array(),
-        "electronics": electronics,
-    })
-}
-
-/// What is modelled, in the words of the plan.
-fn sensor_effects(sensor: &Sensor) -> BTreeMap<&'static str, String> {
-    let modelled = sensor.needs().into_iter().filter(|need| need.verdict != Verdict::Skipped);
-    modelled.map(|need| (need.effect.name(), need.reason)).collect()
-}
-
-/// What a frame says of itself: the file of its raw, exposure and gain, levels, and where overflowing charge went.
-pub fn frame(number: u32, file: Option<String>, raw: &Raw) -> Value {
-    let area = raw.picture;
-    let account = raw.account.map(|a| {
-        json!({
-            "generated": a.generated_e,
-            "collected": a.collected_e,
-            "drained": a.drained_e,
-            "spilt_off_the_edge": a.spilt_e,
-            "clipped": a.clipped_e,
-        })
-    });
-    json!({
-        "frame": number,
-        "raw": file,
-        "exposure_s": raw.operating_point.exposure_s,
-        "analogue_gain": raw.operating_point.analogue_gain,
-        "black_level_dn": raw.black_level_dn,
-        "white_level_dn": raw.white_level_dn,
-        "picture_in_raw_px": [area.x, area.y, area.width, area.height],
-        "companding_knees_dn": raw.companding.as_ref().map(|c| c.knees.clone()),
-        "charge_e": account,
-    })
 }

@@ -93,7 +93,7 @@ fn raw(
         companding: sensor.parameters().hdr.companding.clone(),
         picture: Region { x, y, width, height },
         operating_point,
-        account: None,
+        accounts: Vec::new(),
         invalid: Vec::new(),
     }
 }

@@ -13,6 +13,7 @@ use etendue_optics::effects::{self, Effect};
 use etendue_optics::{DepthOfField, Effects, Lens, PupilProjection, PupilStance};
 use etendue_projection::Sense;
 use etendue_sensor::Verdict;
+use etendue_sensor::dynamic_range::{DynamicRange, Switch, ratio_db};
 use etendue_tracer::geometry::Shape;
 use etendue_tracer::integrator::Level;
 use std::fmt::{self, Display, Formatter};
@@ -368,7 +369,20 @@ fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
         line(f, "", format!("{}: {verdict}: {}", need.effect.name(), need.reason))?;
     }
     let silent: Vec<_> = silent.iter().map(|need| need.effect.name()).collect();
-    line(f, "", format!("left out, as not described: {}", silent.join(", ")))
+    line(f, "", format!("left out, as not described: {}", silent.join(", ")))?;
+    line(f, "", range(&sensor.dynamic_range()))
+}
+
+/// What range of light a frame holds.
+fn range(range: &DynamicRange) -> String {
+    if range.most_e <= range.least_e {
+        return "dynamic range: none; the well or the converter ends below the noise".into();
+    }
+    let switch = |s: &Switch| {
+        format!("; at {:.4e} e⁻ the next capture: S/N {:.1} to {:.1} dB", s.at_e, ratio_db(s.before), ratio_db(s.after))
+    };
+    let switches: String = range.switches.iter().map(switch).collect();
+    format!("dynamic range: {:.1} dB, {:.4} to {:.4e} e⁻{switches}", range.db(), range.least_e, range.most_e)
 }
 
 fn raw_name(format: RawFormat) -> &'static str {

@@ -1,7 +1,8 @@
 //! What each pixel's digital number is made of: one layer a cause, in electrons at the converter's input.
 //!
 //! Every effect's layer is what it added to the pixel (negative where it took). Their sum is the digital number less the black
-//! level, over the gain. The layers are noted beside the raw and never change it. Of several captures those of the first.
+//! level, over the gain. The layers are noted beside the raw and never change it. Of several captures they are
+//! those of the one that the pixel's number was taken from, in electrons of the first; companding comes after them.
 
 use etendue_core::Plane;
 use etendue_core::quantity::Electrons;
@@ -86,6 +87,17 @@ impl Causes {
         let pairs = before.samples().iter().zip(after.samples());
         for (layer, (before, after)) in self.layers[cause as usize].samples_mut().iter_mut().zip(pairs) {
             *layer += after - before;
+        }
+    }
+
+    /// Puts the layers of another capture, times a factor, in the place of those of some pixels.
+    pub(crate) fn replace(&mut self, pixels: &[bool], by: &Self, factor: f64) {
+        for (cause, (own, by)) in Cause::ALL.into_iter().zip(self.layers.iter_mut().zip(&by.layers)) {
+            let factor = if cause == Cause::Saturated { 1.0 } else { factor };
+            for ((own, by), _) in own.samples_mut().iter_mut().zip(by.samples()).zip(pixels).filter(|(_, here)| **here)
+            {
+                *own = (factor * f64::from(*by)) as f32;
+            }
         }
     }
 

@@ -10,10 +10,11 @@ use crate::sensor::Sensor;
 use etendue_spectra::Spectrum;
 
 impl Sensor {
-    /// Responsivities of all channels as an even picture shows them, e⁻ per W·m⁻² during the exposure.
+    /// Responsivities of all channels as an even picture shows them, e⁻ per W·m⁻² during the exposure; during a second where that
+    /// is zero, as colours want them in any common scale.
     #[must_use]
     pub fn picture_responsivities(&self) -> Vec<Spectrum> {
-        let own = self.responsivities();
+        let own = self.colour_responsivities();
         let mixed = |weights: &Vec<f64>| {
             Spectrum::from_fn(|nm| own.iter().zip(weights).map(|(r, weight)| weight * f64::from(r.at(nm as f32))).sum())
         };

@@ -10,6 +10,7 @@ use crate::parameters::{Channel, SensorParameters};
 use crate::photon::photons_per_joule;
 use crate::state::OperatingPoint;
 use etendue_spectra::Spectrum;
+use std::borrow::Cow;
 
 /// A sensor that can be.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,7 +29,7 @@ impl Sensor {
         if !errors.is_empty() {
             return Err(errors);
         }
-        let responsivities = parameters.channels.iter().map(|c| responsivity(&parameters, c)).collect();
+        let responsivities = responsivities(&parameters, parameters.exposure.exposure_s);
         Ok(Self { parameters, responsivities })
     }
 
@@ -48,6 +49,16 @@ impl Sensor {
     #[must_use]
     pub fn responsivities(&self) -> &[Spectrum] {
         &self.responsivities
+    }
+
+    /// Responsivities of all channels for what needs them in any common scale, such as white balance: those of a second
+    /// where the exposure is zero.
+    #[must_use]
+    pub(crate) fn colour_responsivities(&self) -> Cow<'_, [Spectrum]> {
+        if self.parameters.exposure.exposure_s > 0.0 {
+            return Cow::Borrowed(&self.responsivities);
+        }
+        Cow::Owned(responsivities(&self.parameters, 1.0))
     }
 
     /// The channel of the pixel in column `x`, row `y`.
@@ -119,13 +130,16 @@ impl Sensor {
     }
 }
 
-/// R(λ) of a channel, e⁻ per W·m⁻².
-fn responsivity(p: &SensorParameters, channel: &Channel) -> Spectrum {
+/// R(λ) of all channels for an exposure, e⁻ per W·m⁻².
+fn responsivities(p: &SensorParameters, exposure_s: f64) -> Vec<Spectrum> {
     let area_m2 = p.pixel.pitch_um * p.pixel.pitch_um * 1e-12 * p.pixel.fill_factor;
-    Spectrum::from_fn(|nm| {
-        let quantum_efficiency = f64::from(channel.quantum_efficiency.at(nm as f32));
-        area_m2 * p.exposure.exposure_s * quantum_efficiency * photons_per_joule(nm)
-    })
+    let of = |channel: &Channel| {
+        Spectrum::from_fn(|nm| {
+            let quantum_efficiency = f64::from(channel.quantum_efficiency.at(nm as f32));
+            area_m2 * exposure_s * quantum_efficiency * photons_per_joule(nm)
+        })
+    };
+    p.channels.iter().map(of).collect()
 }
 
 #[cfg(test)]
@@ -151,6 +165,17 @@ mod tests {
         let irradiance_w_m2 = PI * (100.0 / 683.0) / (1.0 + 4.0 * 2.0 * 2.0);
         let photons = f64::from(sensor.responsivity(0).at(555.0)) * irradiance_w_m2;
         assert!((photons - 6803.6).abs() < 0.05, "{photons}");
+    }
+
+    #[test]
+    fn colours_do_not_depend_on_the_exposure() {
+        let mut p = ideal();
+        p.exposure.exposure_s = 0.0;
+        let dark = Sensor::new(p.clone()).expect("legal");
+        p.exposure.exposure_s = 1.0;
+        let lit = Sensor::new(p).expect("legal");
+        assert_eq!(dark.responsivity(0).max_value(), 0.0);
+        assert_eq!(dark.colour_responsivities(), lit.colour_responsivities());
     }
 
     #[test]

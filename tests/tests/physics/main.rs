@@ -17,6 +17,7 @@ mod extremes;
 mod front;
 mod furnace;
 mod ground_truth;
+mod high_range;
 mod irradiance;
 mod lamps;
 mod lens_light;

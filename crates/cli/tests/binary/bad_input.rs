@@ -108,7 +108,7 @@ fn a_wrong_type() {
 
 #[test]
 fn a_negative_exposure() {
-    job_refused("exposure_s = 1e-6", "exposure_s = -1e-6", &["cameras.front.sensor.exposure_s", "above 0"]);
+    job_refused("exposure_s = 1e-6", "exposure_s = -1e-6", &["cameras.front.sensor.exposure_s", "at least 0"]);
 }
 
 #[test]

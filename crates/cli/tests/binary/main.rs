@@ -7,6 +7,7 @@ mod bad_input;
 mod bad_lights;
 mod bad_processing;
 mod bad_results;
+mod bad_sensors;
 mod bytes;
 mod datasheet;
 mod develop;

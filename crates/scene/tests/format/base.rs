@@ -63,7 +63,7 @@ fn entries_are_replaced_by_name_added_and_taken_out() {
 fn faults_name_the_file_that_says_it() {
     assert_eq!(
         faults("", "[sensor]\nexposure_s = -1\n"),
-        "camera.toml:4:14: sensor.exposure_s: found -1; give a number above 0 (s)"
+        "camera.toml:4:14: sensor.exposure_s: found -1; give a number of at least 0 (s)"
     );
     assert_eq!(
         faults("without = [\"lights.son\"]\n", ""),

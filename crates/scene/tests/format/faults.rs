@@ -108,7 +108,7 @@ fn a_negative_exposure() {
     let mut files = Files::of_example(&doc());
     files.edit("camera.toml", "exposure_s = 0.002", "exposure_s = -0.002");
     let text = load(&files, &[]).expect_err("negative").to_string();
-    assert_eq!(text, "camera.toml:16:14: sensor.exposure_s: found -0.002; give a number above 0 (s)");
+    assert_eq!(text, "camera.toml:16:14: sensor.exposure_s: found -0.002; give a number of at least 0 (s)");
 }
 
 #[test]

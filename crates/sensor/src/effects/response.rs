@@ -69,6 +69,16 @@ impl Response {
         }
     }
 
+    /// Slope of the voltage over the charge.
+    #[must_use]
+    pub fn slope(&self, charge_e: f64) -> f64 {
+        match self {
+            Self::Logarithmic { from_e } => (from_e / charge_e.max(*from_e)).min(1.0),
+            Self::Knees(knees) => knees.iter().rfind(|k| k.at_e < charge_e).map_or(1.0, |k| k.slope),
+            Self::Linear => 1.0,
+        }
+    }
+
     /// The charge of a voltage, e⁻.
     #[must_use]
     pub fn charge_e(&self, voltage_e: f64) -> f64 {

@@ -27,7 +27,8 @@ pub(crate) struct Memory {
 struct Taken {
     numbers: Plane<DigitalNumber>,
     causes: Option<Causes>,
-    account: Option<ChargeAccount>,
+    /// Of each capture that has charge of its own: its place, and where its charge went where it overflows.
+    accounts: Vec<(usize, ChargeAccount)>,
 }
 
 impl Sensor {
@@ -101,7 +102,8 @@ impl Sensor {
         let stages = [chain::charge(&context, memory), chain::reading(&context, memory)].concat();
         pass.run(stages, &context, &mut memory.after.trapped_e);
         let linear = self.merged_of(pass.convert(&Converter::new(&context), self.capture_white_dn(&operation)));
-        Taken { numbers: linear, causes: pass.causes, account: pass.account }
+        let accounts = pass.account.map(|account| (0, account)).into_iter().collect();
+        Taken { numbers: linear, causes: pass.causes, accounts }
     }
 
     /// Companding of a single capture.
@@ -122,38 +124,29 @@ impl Sensor {
         with_causes: bool,
     ) -> Taken {
         let p = self.parameters();
-        let mut held: Option<Pass<'_>> = None;
-        let mut merged: Option<(Merged, usize)> = None;
-        let mut taken = (None, None);
+        let mut merged = Merged::new(p.read_out.black_level_dn);
+        let (mut held, mut accounts): (Option<Pass<'_>>, _) = (None, Vec::new());
         for (k, operation) in p.hdr.operations(first).into_iter().enumerate() {
             let address = FrameAddress { capture: address.capture + k as u32, ..address };
             let context = self.context(array, operation, address);
-            let reads_again = k > 0 && p.hdr.captures[k - 1].same_charge;
-            if !reads_again {
-                let mut pass = Pass::new(array, operation.light, with_causes && k == 0);
+            if k == 0 || !p.hdr.captures[k - 1].same_charge {
+                let mut pass = Pass::new(array, operation.light, with_causes);
                 pass.run(chain::charge(&context, memory), &context, &mut memory.after.trapped_e);
                 pass.settle();
+                accounts.extend(pass.account.map(|account| (k, account)));
                 held = Some(pass);
             }
-            let Some(charge) = &mut held else { continue };
-            let causes = charge.causes.take();
-            let account = charge.account.take();
+            let Some(charge) = &held else { continue };
             let mut pass = charge.again();
-            pass.causes = causes;
             pass.run(chain::reading(&context, memory), &context, &mut memory.after.trapped_e);
             let white_dn = self.capture_white_dn(&operation);
             let numbers = pass.convert(&Converter::new(&context), white_dn);
             let black_dn = p.read_out.black_level_dn;
-            let (merged, _) =
-                merged.get_or_insert_with(|| (Merged::new(numbers.samples().len(), black_dn), numbers.width()));
-            merged.take(&numbers, p.hdr.scale(k), black_dn + p.hdr.switch() * (white_dn - black_dn));
-            if k == 0 {
-                taken = (pass.causes, account);
-            }
+            let switch_dn = black_dn + p.hdr.switch() * (white_dn - black_dn);
+            let factor = p.hdr.scale(k) * operation.gain_dn_e / first.gain_dn_e;
+            merged.take(&numbers, p.hdr.scale(k), switch_dn, pass.causes.as_ref().map(|causes| (causes, factor)));
         }
-        let (merged, width) = merged.expect("a frame has a first capture");
-        let (causes, account) = taken;
-        Taken { numbers: self.rounded(&merged, width), causes, account }
+        Taken { numbers: self.rounded(&merged), causes: merged.into_causes(), accounts }
     }
 
     /// The digital number of a saturated pixel of one capture.
@@ -164,20 +157,21 @@ impl Sensor {
     }
 
     /// Merged numbers, companded where there is a curve, rounded once.
-    fn rounded(&self, merged: &Merged, width: usize) -> Plane<DigitalNumber> {
+    fn rounded(&self, merged: &Merged) -> Plane<DigitalNumber> {
         let hdr = &self.parameters().hdr;
         let largest = f64::from((1_u32 << self.delivered_bits()) - 1);
         let curve = |v: f64| hdr.companding.as_ref().map_or(v, |c| c.companded(v));
         let number = |v: &f32| curve(f64::from(*v)).round_ties_even().clamp(0.0, largest) as u32;
-        let samples: Vec<u32> = merged.values().iter().map(number).collect();
-        Plane::from_samples(width, samples.len() / width.max(1), samples).expect("whole rows")
+        let samples = merged.values().iter().map(number).collect();
+        let (width, height) = merged.size();
+        Plane::from_samples(width, height, samples).expect("whole rows")
     }
 
     /// The raw of what was taken: numbers put together, the part that is read, what was no light.
     fn raw(&self, taken: Taken, array: &Plane<Electrons>, point: OperatingPoint) -> (Raw, Option<Causes>) {
         let p = self.parameters();
         let layout = &p.read_out.layout;
-        let Taken { mut numbers, mut causes, account } = taken;
+        let Taken { mut numbers, mut causes, accounts } = taken;
         if let Some(binning) = layout.number_binning() {
             numbers = binning.averaged(&p.cfa, &numbers);
             causes = causes.map(|c| c.mapped(|layer| binning.mean(&p.cfa, layer)));
@@ -199,7 +193,7 @@ impl Sensor {
             bits: self.delivered_bits(),
             companding: p.hdr.companding.clone(),
             operating_point: point,
-            account,
+            accounts,
             invalid,
         };
         (raw, causes)
@@ -212,5 +206,7 @@ fn invalid_pixels(means: &Plane<Electrons>) -> Vec<Pixel> {
     wrong.map(|(i, _)| Pixel { x: (i % width) as u32, y: (i / width) as u32 }).collect()
 }
 
+#[cfg(test)]
+mod extremes;
 #[cfg(test)]
 pub(crate) mod tests;

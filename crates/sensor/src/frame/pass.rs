@@ -35,13 +35,13 @@ impl<'a> Pass<'a> {
         Self { plane: Cow::Borrowed(means), light: Some(light), waiting: Vec::new(), causes, account: None }
     }
 
-    /// Another reading of the same charge; nothing is noted of it.
+    /// A reading of this charge.
     pub(super) fn again(&self) -> Pass<'_> {
         Pass {
             plane: Cow::Borrowed(&self.plane),
             light: self.light,
             waiting: self.waiting.clone(),
-            causes: None,
+            causes: self.causes.clone(),
             account: None,
         }
     }

@@ -4,6 +4,7 @@
 //! s_k the product of what the capture lost in time, sensitivity and gain. The value is in numbers of the first capture.
 //! Left out: blending around the switch, weights by noise.
 
+use crate::causes::Causes;
 use etendue_core::Plane;
 use etendue_core::quantity::DigitalNumber;
 
@@ -11,18 +12,36 @@ use etendue_core::quantity::DigitalNumber;
 #[derive(Clone, Debug)]
 pub(crate) struct Merged {
     black_level_dn: f64,
+    width: usize,
     values: Vec<f32>,
     /// Whether no capture so far was below its switch.
     pending: Vec<bool>,
+    /// Causes of the captures that were taken, where they are noted.
+    causes: Option<Causes>,
 }
 
 impl Merged {
-    pub(crate) fn new(pixels: usize, black_level_dn: f64) -> Self {
-        Self { black_level_dn, values: vec![0.0; pixels], pending: vec![true; pixels] }
+    /// None yet.
+    pub(crate) fn new(black_level_dn: f64) -> Self {
+        Self { black_level_dn, width: 0, values: Vec::new(), pending: Vec::new(), causes: None }
     }
 
-    /// Takes the next capture; numbers up to `switch_dn` are good. Values have 24 bits, which f32 holds.
-    pub(crate) fn take(&mut self, numbers: &Plane<DigitalNumber>, scale: f64, switch_dn: f64) {
+    /// Takes the next capture; numbers up to `switch_dn` are good. Values have 24 bits, which f32 holds. `causes`: those of the
+    /// capture, and what an electron of it is in electrons of the first.
+    pub(crate) fn take(
+        &mut self,
+        numbers: &Plane<DigitalNumber>,
+        scale: f64,
+        switch_dn: f64,
+        causes: Option<(&Causes, f64)>,
+    ) {
+        let pixels = numbers.samples().len();
+        self.width = numbers.width();
+        self.values.resize(pixels, 0.0);
+        self.pending.resize(pixels, true);
+        if let Some((causes, factor)) = causes {
+            self.causes.get_or_insert_with(|| causes.clone()).replace(&self.pending, causes, factor);
+        }
         for ((value, pending), dn) in self.values.iter_mut().zip(&mut self.pending).zip(numbers.samples()) {
             if *pending {
                 let dn = f64::from(*dn);
@@ -32,9 +51,19 @@ impl Merged {
         }
     }
 
+    /// Columns and rows.
+    pub(crate) fn size(&self) -> (usize, usize) {
+        (self.width, self.values.len() / self.width.max(1))
+    }
+
     /// The merged numbers before rounding.
     pub(crate) fn values(&self) -> &[f32] {
         &self.values
+    }
+
+    /// Causes of the merged numbers, where they are noted.
+    pub(crate) fn into_causes(self) -> Option<Causes> {
+        self.causes
     }
 }
 
@@ -98,6 +127,42 @@ mod tests {
         // μ/√(μ + σ² + 1/12) of the capture that is used; 65 536 pixels know it to 0.28 %, four of those.
         let of = |e: f64| e / (e + 4.0 + 1.0 / 12.0).sqrt();
         assert!((before / of(3200.0) - 1.0).abs() < 0.0112 && (after / of(4200.0 / 16.0) - 1.0).abs() < 0.0112);
+    }
+
+    #[test]
+    fn causes_are_those_of_the_capture_that_is_used() {
+        use crate::{Cause, Sensor, SensorState};
+        let mut p = three_exposures();
+        (p.noise, p.read_out.noise.white_e, p.charge.dark.current_e_s) = (true, 2.0, 1000.0);
+        let again = Capture { gain_share: 1.0 / 4.0, same_charge: true, ..SAME };
+        p.hdr.captures.insert(0, again);
+        let sensor = Sensor::new(p).expect("legal");
+        let means = Plane::from_samples(5, 1, vec![0.0, 3000.0, 3800.0, 40_000.0, 700_000.0]).expect("filled");
+        let raw = sensor.step(SensorState::default(), &means, ADDRESS).1;
+        let (_, same, causes) = sensor.step_with_causes(SensorState::default(), &means, ADDRESS);
+        assert_eq!(raw, same);
+        for x in 0..5 {
+            let of = |cause: Cause| f64::from(causes.layer(cause).at(x, 0));
+            let sum: f64 = Cause::ALL.into_iter().filter(|c| *c != Cause::Saturated).map(of).sum();
+            // Ten layers of f32, each up to the signal.
+            assert!((sum - (f64::from(raw.plane.at(x, 0)) - 100.0)).abs() < 0.05 + 1e-6 * sum.abs(), "{x}: {sum}");
+            assert!((of(Cause::Signal) / f64::from(means.at(x, 0)).max(1e-9) - 1.0).abs() < 1e-6 || x == 0);
+        }
+        // Counts of a capture of 1/256 of the time are counts of 256.
+        let counted = (causes.layer(Cause::Signal).at(4, 0) + causes.layer(Cause::Shot).at(4, 0)) / 256.0;
+        assert!((counted - counted.round()).abs() < 1e-3 && counted > 2000.0, "{counted}");
+    }
+
+    #[test]
+    fn every_capture_has_its_account_of_charge() {
+        let mut p = three_exposures();
+        p.charge.blooming = Some(crate::effects::full_well::Blooming::Around { spill: 0.5 });
+        p.hdr.captures.insert(0, Capture { gain_share: 0.5, same_charge: true, ..SAME });
+        let raw = run(&p, &Plane::filled(9, 9, 100_000.0), ADDRESS);
+        let places: Vec<usize> = raw.accounts.iter().map(|(k, _)| *k).collect();
+        assert_eq!(places, [0, 2, 3]);
+        let generated: Vec<f64> = raw.accounts.iter().map(|(_, a)| a.generated_e.round()).collect();
+        assert_eq!(generated, [8_100_000.0, 506_250.0, 31_641.0]);
     }
 
     #[test]

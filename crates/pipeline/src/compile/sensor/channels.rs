@@ -3,6 +3,7 @@
 use super::super::context::Context;
 use super::super::spectrum::curve;
 use etendue_scene::record;
+use etendue_scene::record::Curve;
 use etendue_scene::record::sensor::QuantumEfficiency;
 use etendue_scene::record::sensor::cfa::CfaSource;
 use etendue_scene::{Place, Placed};
@@ -10,18 +11,31 @@ use etendue_sensor::{Cfa, Channel};
 use etendue_spectra::{Outside, Spectrum, camera};
 
 /// The tile, over the channels in their order.
-pub(super) fn cfa(source: &CfaSource, place: &Place, context: &mut Context<'_>) -> Option<Cfa> {
+pub(super) fn cfa(source: &CfaSource, context: &mut Context<'_>) -> Option<Cfa> {
     let (columns, names) = source.tile();
     let channels = source.channels();
     let number = |name: &&str| channels.iter().position(|c| c == name).expect("channels are those of the tile");
     let numbers: Vec<usize> = names.iter().map(number).collect();
-    context.accept(place, Cfa::tile(columns, numbers.len() / columns, numbers))
+    context.accept(cfa_place(source), Cfa::tile(columns, numbers.len() / columns, numbers))
 }
 
 pub(super) fn cfa_place(source: &CfaSource) -> &Place {
     match source {
         CfaSource::Named(name) => &name.place,
         CfaSource::Tile(tile) => &tile.place,
+    }
+}
+
+/// Where a quantum efficiency stands, the first of several.
+pub(super) fn efficiency_place(source: &QuantumEfficiency) -> Option<&Place> {
+    match source {
+        QuantumEfficiency::Same(curve) => Some(match curve {
+            Curve::Constant(number) => &number.place,
+            Curve::File(file) => &file.place,
+        }),
+        QuantumEfficiency::PerChannel(curves) => Some(&curves.place),
+        QuantumEfficiency::Measured { camera, .. } => Some(&camera.place),
+        QuantumEfficiency::Named(list) => list.first().map(|(name, _)| &name.place),
     }
 }
 

@@ -17,7 +17,7 @@ pub(super) fn sensor(record: &record::Sensor, context: &mut Context<'_>) -> Opti
     let channels = channels(electronics, context)?;
     let parameters = SensorParameters {
         pixel: Pixel { pitch_um: record.pixel_pitch_um.value, fill_factor: fill_factor(record) },
-        cfa: cfa(&electronics.cfa, &record.place, context)?,
+        cfa: cfa(&electronics.cfa, context)?,
         channels,
         exposure: light::exposure(electronics),
         optics: light::optics(record, electronics),
@@ -40,8 +40,12 @@ fn refuse(
     context: &mut Context<'_>,
 ) {
     for error in errors {
-        let place = error.key().map_or(&record.place, |key| place(record, electronics, key));
-        context.fault(place, error.to_string(), "");
+        let place = match (error, error.key()) {
+            (SensorError::Efficiency { .. }, _) => channels::efficiency_place(&electronics.quantum_efficiency),
+            (_, Some(key)) => Some(place(record, electronics, key)),
+            (_, None) => None,
+        };
+        context.fault(place.unwrap_or(&record.place), error.to_string(), "");
     }
 }
 

@@ -40,8 +40,8 @@ record! {
 record! {
     /// What turns light to digital numbers.
     pub struct Electronics {
-        /// Exposure time, s, above 0.
-        required exposure_s: Placed<f64> = number("s").above(0.0);
+        /// Exposure time, s, 0 or more; at 0 only what needs no time is left.
+        required exposure_s: Placed<f64> = number("s").at_least(0.0);
         /// Colour filter array: a name, of the first two rows from the top-left pixel, or `{ columns = …, channels = […] }`.
         required cfa: CfaSource = cfa();
         /// Electrons per photon on the sensitive area, filter included, 0 … 1: a number, `{ spectrum = file }`, a list of

@@ -1,0 +1,73 @@
+//! Sensors that cannot be: each is told with its file, line and key, and nothing is written.
+
+use crate::bad_input::Spoilt;
+
+const EFFICIENCY: &str = "quantum_efficiency = { camera = \"nikon-d5100\", peak = 0.5 }";
+const BITS: &str = "bits = 12";
+
+/// The job with `from` replaced by `to` is refused at line `below` that, with all of `phrases`.
+#[track_caller]
+fn refused_below(below: usize, from: &str, to: &str, phrases: &[&str]) {
+    let spoilt = Spoilt::new();
+    let place = spoilt.spoil("small.toml", from, to);
+    refused(&spoilt, &place, below, phrases);
+}
+
+#[track_caller]
+fn refused(spoilt: &Spoilt, place: &str, below: usize, phrases: &[&str]) {
+    let (file, line) = place.split_once(':').expect("a line");
+    let line = format!("{file}:{}:", line.parse::<usize>().expect("a number") + below);
+    let phrases: Vec<&str> = [line.as_str()].into_iter().chain(phrases.iter().copied()).collect();
+    spoilt.render(&[]).refused(&phrases);
+}
+
+#[test]
+fn an_efficiency_below_nothing_or_above_all() {
+    for (value, phrase) in [("-0.1", "-0.1"), ("1.5", "1.5"), ("[0.5, 1.2, 0.3]", "1.2")] {
+        let to = format!("quantum_efficiency = {value}");
+        refused_below(0, EFFICIENCY, &to, &["cameras.front.sensor.quantum_efficiency", phrase, "at most 1"]);
+    }
+    let to = EFFICIENCY.replace("0.5", "1.01");
+    refused_below(0, EFFICIENCY, &to, &["cameras.front.sensor.quantum_efficiency.peak", "1.01"]);
+}
+
+#[test]
+fn a_table_of_efficiencies_above_all() {
+    for (table, phrase) in [("400,0.5\n550,1.4\n700,0.2\n", "1.4"), ("400,0.5\n550,-0.4\n700,0.2\n", "-0.4")] {
+        let spoilt = Spoilt::new();
+        spoilt.write("efficiency.csv", table);
+        let place = spoilt.spoil("small.toml", EFFICIENCY, "quantum_efficiency = { spectrum = \"efficiency.csv\" }");
+        refused(&spoilt, &place, 0, &["cameras.front.sensor.quantum_efficiency", phrase, "550 nm", "between 0 and 1"]);
+    }
+}
+
+#[test]
+fn a_converter_without_gain() {
+    // Whether its end or the well comes first is not known then: nothing is assumed.
+    let spoilt = Spoilt::new();
+    spoilt.spoil("small.toml", "full_well_e = 12_000", "full_well_e = 1_000");
+    let table = spoilt.spoil("small.toml", "[cameras.sensor]", "[cameras.sensor]");
+    spoilt.spoil("small.toml", "gain_dn_per_e = 0.33\n", "");
+    refused(&spoilt, &table, 0, &["cameras.front.sensor", "\"gain_dn_per_e\" is missing"]);
+}
+
+#[test]
+fn a_tile_that_does_not_tile_the_sensor() {
+    refused_below(5, "width_px = 46", "width_px = 45", &["cameras.front.sensor.cfa", "2 × 2", "45 × 30", "multiples"]);
+    let tile = "cfa = { columns = 3, channels = [\"red\", \"green\", \"blue\", \"green\"] }";
+    refused_below(0, "cfa = \"rggb\"", tile, &["cameras.front.sensor", "3"]);
+}
+
+#[test]
+fn a_sensor_below_absolute_zero() {
+    let dark = format!("{BITS}\ndark = {{ temperature_c = -273.16, reference_c = 20 }}");
+    refused_below(1, BITS, &dark, &["cameras.front.sensor.dark.temperature_c", "-273.16", "above -273.15"]);
+}
+
+#[test]
+fn a_converter_of_no_bits_or_too_many() {
+    for bits in ["0", "33"] {
+        let to = format!("bits = {bits}");
+        refused_below(0, BITS, &to, &["cameras.front.sensor.bits", &format!("found {bits}"), "1 to 24"]);
+    }
+}
