@@ -1,9 +1,10 @@
 //! Prescriptions against closed forms.
 
+use etendue_optics::lens::Prescribed;
 use etendue_optics::prescription::surface::Surface;
 use etendue_optics::prescription::trace::{LensRay, Loss};
 use etendue_optics::prescription::{Focus, published};
-use etendue_optics::{Prescription, PrescriptionError, PrescriptionParameters};
+use etendue_optics::{Lens, Prescription, PrescriptionError, PrescriptionParameters};
 use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
 
@@ -43,6 +44,20 @@ fn the_lensmakers_equation() {
     let image = 1.0 / (1.0 / f - 1.0 / s);
     assert!((p.exit_pupil_mm - (p.rear_principal_mm + image)).abs() < 1e-10);
     assert!((p.exit_radius_mm - 4.0 * (image / s).abs()).abs() < 1e-12);
+}
+
+/// The edge of the exit pupil, seen from the sensor, is the f-number: N = d′/(2 a′) at infinity focus.
+#[test]
+fn the_exit_pupil_lies_where_the_f_number_says() {
+    for name in ["double-gauss", "wide-angle", "telephoto"] {
+        let surfaces = published::named(name).expect("published").surfaces();
+        let prescription = lens(surfaces);
+        let radius_mm = prescription.paraxial().exit_radius_mm;
+        let lens = Lens::prescription(Prescribed::new(prescription, None, 1.0).expect("lit"));
+        let ratio = lens.exit_pupil_distance_mm() / (2.0 * radius_mm) / lens.working_f_number();
+        // The published back focus is rounded to 1e-4 of the focal length or so, and focusing is by the sensor.
+        assert!((ratio - 1.0).abs() < 1e-6, "{name}: {ratio}");
+    }
 }
 
 #[test]

@@ -37,9 +37,7 @@ impl Lens {
         match self {
             Self::Pinhole(_) | Self::Thin(_) | Self::Calibrated(_) | Self::Parallel(_) => self.principal_distance_mm(),
             Self::Thick(lens) => lens.sensor_mm() - lens.exit_pupil_mm(),
-            Self::Prescription(lens) => {
-                (lens.prescription().sensor_mm() - lens.prescription().paraxial().exit_pupil_mm).abs()
-            }
+            Self::Prescription(lens) => lens.prescription().exit_distance_mm().abs(),
         }
     }
 

@@ -262,3 +262,29 @@ fn a_lenss_coating_is_that_of_its_surfaces_against_air() {
     assert!(bare < 0.65 && coated > 0.9, "{bare} {coated}");
     assert!((share / [0.99_f64; 8].iter().product::<f64>() - 1.0).abs() < 1e-3, "{share}");
 }
+
+/// The response of micro-lenses over the angle needs the exit pupil: the lens has one.
+#[test]
+fn chief_rays_come_from_the_lens() {
+    let exit_mm = |lens: &str, more: &str| {
+        let sensor = format!(
+            "width_px = 8, height_px = 6, pixel_pitch_um = 6.0, cfa = \"mono\", quantum_efficiency = 0.5, exposure_s = 1, \
+             full_well_e = 1e4, read_noise_e = 1, dark_current_e_s = 0, gain_dn_per_e = 0.1, black_level_dn = 0, bits = 12, \
+             angle_response = {{ table = [[0, 1], [30, 0.5]]{more} }}"
+        );
+        let camera = CAMERA.replace("model = \"pinhole\", focal_length_mm = 6, f_number = 2.0", lens);
+        let text = camera.replace("width_px = 8, height_px = 6, pixel_pitch_um = 6.0", &sensor) + "[scene]\n";
+        let read = |_: &Path| Ok(text.clone());
+        let job = Description::load(Path::new("job.toml"), &read, &Overrides::default()).expect("a job");
+        let plan = compile(&job, &Assets::default(), &Choices::default()).expect("a plan");
+        let body = &plan.cameras[0].body;
+        let response = body.sensor.as_ref().expect("a sensor").parameters().optics.angle_response.as_ref();
+        (response.map(|r| r.exit_pupil_mm), body.lens.exit_pupil_distance_mm())
+    };
+    let gauss = "model = \"prescription\", published = \"double-gauss\", focus_distance_m = 2";
+    let (used, of_lens) = exit_mm(gauss, "");
+    assert_eq!(used, Some(of_lens));
+    assert_eq!(exit_mm(gauss, ", exit_pupil_mm = 40").0, Some(40.0));
+    assert_eq!(exit_mm("model = \"pinhole\", focal_length_mm = 6, f_number = 2.0", "").0, Some(6.0));
+    assert_eq!(exit_mm("model = \"parallel\", field_width_m = 1, f_number = 4.0", "").0, None, "all light at 0°");
+}

@@ -2,7 +2,7 @@
 
 use super::or;
 use etendue_scene::record;
-use etendue_scene::record::sensor::exposure::{AutoExposure, Exchange};
+use etendue_scene::record::sensor::exposure::{self, AutoExposure, Exchange};
 use etendue_sensor::effects::angle_response::AngleResponse;
 use etendue_sensor::effects::cross_talk::CrossTalk;
 use etendue_sensor::effects::neighbours::Neighbours;
@@ -27,14 +27,17 @@ fn control(record: &AutoExposure) -> ExposureControl {
     }
 }
 
-pub(super) fn optics(sensor: &record::Sensor, e: &record::Electronics) -> Optics {
+/// `exit_pupil_mm` is the lens's own.
+pub(super) fn optics(sensor: &record::Sensor, e: &record::Electronics, exit_pupil_mm: f64) -> Optics {
     let middle = [0.5 * sensor.width_px.value as f64, 0.5 * sensor.height_px.value as f64];
     let principal_px = sensor.principal_point_px.as_ref().map_or(middle, |p| p.value);
-    let angle_response = e.angle_response.as_ref().map(|record| AngleResponse {
+    let response = |record: &exposure::AngleResponse| AngleResponse {
         table: record.table.iter().map(|row| row.value).collect(),
-        exit_pupil_mm: record.exit_pupil_mm.value,
+        exit_pupil_mm: or(record.exit_pupil_mm.as_ref(), exit_pupil_mm),
         principal_px,
-    });
+    };
+    // From infinitely far all light comes at 0°, where the response is 1.
+    let angle_response = e.angle_response.as_ref().map(response).filter(|r| r.exit_pupil_mm.is_finite());
     Optics { angle_response, cross_talk: e.cross_talk.as_ref().map(|shares| CrossTalk(neighbours(shares))) }
 }
 

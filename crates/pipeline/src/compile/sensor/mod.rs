@@ -11,8 +11,9 @@ use etendue_scene::Place;
 use etendue_scene::record;
 use etendue_sensor::{Pixel, Sensor, SensorError, SensorParameters};
 
-/// The sensor with its electronics; `None` where the record has none or they are faulty.
-pub(super) fn sensor(record: &record::Sensor, context: &mut Context<'_>) -> Option<Sensor> {
+/// The sensor with its electronics, `exit_pupil_mm` behind its lens's exit pupil; `None` where the record has none or they are
+/// faulty.
+pub(super) fn sensor(record: &record::Sensor, exit_pupil_mm: f64, context: &mut Context<'_>) -> Option<Sensor> {
     let electronics = record.electronics.as_ref()?;
     let channels = channels(electronics, context)?;
     let parameters = SensorParameters {
@@ -20,7 +21,7 @@ pub(super) fn sensor(record: &record::Sensor, context: &mut Context<'_>) -> Opti
         cfa: cfa(&electronics.cfa, context)?,
         channels,
         exposure: light::exposure(electronics),
-        optics: light::optics(record, electronics),
+        optics: light::optics(record, electronics, exit_pupil_mm),
         pattern: charge::pattern(electronics),
         charge: charge::charge(electronics),
         read_out: read_out::read_out(electronics),

@@ -24,8 +24,9 @@ record! {
     pub struct AngleResponse {
         /// Pairs of an angle, degrees, and the response there, 0 … 1; angles rise from 0, where it is 1.
         required table: Vec<Placed<[f64; 2]>> = list(vector::<2>(number("").at_least(0.0)), 1);
-        /// Distance of the exit pupil, from which chief rays come, from the sensor, mm, above 0.
-        required exit_pupil_mm: Placed<f64> = number("mm").above(0.0);
+        /// Distance of the exit pupil, from which chief rays come, from the sensor, mm, above 0. Default: the lens's own, on the
+        /// axis; of a pinhole, a thin lens and a calibrated camera its focal length.
+        optional exit_pupil_mm: Placed<f64> = number("mm").above(0.0);
     }
 }
 
