@@ -60,13 +60,15 @@ impl Eye<'_> {
         let ahead = |met: &(DVec2, bool)| met.1;
         let [left, right] = [-0.5, 0.5].map(|x| meets(middle + DVec2::new(x, 0.0)).filter(ahead));
         let (Some((left, _)), Some((right, _))) = (left, right) else { return Err(sideways()) };
-        let border: Vec<(DVec2, bool)> = self.border().filter_map(meets).collect();
-        if border.is_empty() {
-            return Err(sideways());
-        }
+        // Where the border is dark, as a fisheye's, what is seen on the way to it.
+        let inwards = |at: DVec2| {
+            let on_the_way = |i: usize| meets(middle + (at - middle) * (i as f64 / BORDER as f64));
+            meets(at).or_else(|| (1..BORDER).rev().find_map(on_the_way).map(|(met, _)| (met, false)))
+        };
+        let border: Vec<(DVec2, bool)> = self.border().filter_map(inwards).collect();
         let half = border.iter().fold(DVec2::ZERO, |most, (at, _)| most.max(at.abs()));
         let share = border.iter().map(|(at, _)| (at.abs() / half).max_element()).fold(1.0, f64::min);
-        let fills = border.len() == 4 * BORDER && border.iter().all(|(_, whole)| *whole);
+        let fills = border.iter().all(|(_, whole)| *whole);
         let pixel_mm = 1e3 * (right - left).length();
         Ok(Footprint { distance_m, outer_mm: 2e3 * half, inner_mm: 2e3 * share * half, pixel_mm, fills })
     }
@@ -198,7 +200,7 @@ mod tests {
             let theta = p.length();
             let (s, c) = etendue_core::maths::f64::sin_cos(theta);
             let across = p.normalize_or_zero() * s;
-            Some(RasterRay { origin_m: DVec3::ZERO, direction: across.extend(c) })
+            (theta < 1.15).then_some(RasterRay { origin_m: DVec3::ZERO, direction: across.extend(c) })
         };
         let eye = Eye { size_px: SIZE, ray: &equidistant };
         let seen = eye.footprint(1.0).expect("ahead");

@@ -113,9 +113,11 @@ pub fn stations(distance_m: f64, views: u32, exposures_s: &[f64], dark: bool) ->
 /// Tilt of the views against the sheet.
 const TILT_DEG: f64 = 25.0;
 /// How much farther away tilted views are.
-const FARTHER: f64 = 1.3;
+const FARTHER: f64 = 1.45;
+/// Roll of the views about their own axis, in turn.
+const ROLLS_DEG: [f64; 3] = [0.0, 10.0, -10.0];
 
-/// View `i` of `count`: the first square, the others around it in even steps, each rolled by another angle.
+/// View `i` of `count`: the first square, the others around it in even steps, rolled in turn.
 fn view(distance_m: f64, i: u32, count: u32) -> Station {
     let centre = DVec3::X * distance_m;
     let turn = TAU * f64::from(i.saturating_sub(1)) / f64::from(count - 1);
@@ -123,7 +125,7 @@ fn view(distance_m: f64, i: u32, count: u32) -> Station {
     let (across, along) = sin_cos(tilt);
     let (up, left) = sin_cos(turn);
     let from = DVec3::new(-along, across * left, across * up) * distance_m * away;
-    let (sin, cos) = sin_cos(if i % 2 == 1 { 0.3 * turn } else { 0.0 });
+    let (sin, cos) = sin_cos(ROLLS_DEG[i as usize % 3].to_radians());
     Station {
         name: String::new(),
         position_m: centre + from,
@@ -156,7 +158,7 @@ mod tests {
         for view in &views[1..] {
             let axis = view.pose().rotation.z_axis;
             assert!((axis.x - sin_cos(TILT_DEG.to_radians()).1).abs() < 1e-12, "{axis}");
-            assert!(((view.position_m - DVec3::X * 2.0).length() - 2.6).abs() < 1e-12);
+            assert!(((view.position_m - DVec3::X * 2.0).length() - 2.9).abs() < 1e-12);
         }
         let series = stations(2.0, 1, &[0.1, 0.2], true);
         let names: Vec<&str> = series.iter().map(|s| s.name.as_str()).collect();

@@ -10,15 +10,16 @@ use crate::ink::{Ink, Paint};
 use crate::panel::Panel;
 use crate::shape::{Sheet, rectangle};
 use etendue_core::maths::f64::{exp, ln};
+use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
 use glam::{DMat3, DVec2, DVec3};
 use serde_json::json;
 
 /// Side of the texture, texels; it is mirrored from tile to tile.
-const SIDE: usize = 512;
-/// Pixels that a tile covers, each way.
-const TILE_PX: f64 = 200.0;
+const SIDE: usize = 1024;
+/// Pixels that a tile covers, each way: wider than a step, so that nothing repeats along a row of it.
+const TILE_PX: f64 = 512.0;
 /// Radii of its leaves, texels.
-const RADII: [f64; 2] = [2.5, 60.0];
+const RADII: [f64; 2] = [2.0, 120.0];
 /// The wall's distance over that of the farthest panel.
 const WALL: f64 = 1.25;
 /// How far a panel reaches behind the one before it, as a share of its width.
@@ -70,11 +71,14 @@ impl DepthWedge {
     fn paint(&self, drawing: &mut Drawing, seen: &Footprint, seed: u64) {
         let (values, _) = leaves(SIDE, RADII[0], RADII[1], seed);
         let mean = values.iter().map(|v| f64::from(*v)).sum::<f64>() / values.len() as f64 / 65_535.0;
+        let mut random = NoiseStream::new(seed, 0, 0, 0, Pixel { x: 1, y: 0 }, NoiseDraw::Shot);
         for (i, panel) in drawing.panels.iter_mut().enumerate() {
             let nearest_m = panel.position_m.x.min(panel.world_m(DVec2::new(panel.sheet.size_mm.x / 2.0, 0.0)).x);
             let tile = DVec2::splat(TILE_PX * seen.pixel_mm * nearest_m / seen.distance_m);
             let (name, file) = (format!("{}-texture", panel.name), "leaves.png".to_owned());
-            let place_mm = (-panel.sheet.size_mm / 2.0, -panel.sheet.size_mm / 2.0 + tile);
+            // Every panel begins elsewhere in the picture: neighbours do not look alike.
+            let corner = -panel.sheet.size_mm / 2.0 - tile * DVec2::new(random.unit_f64(), random.unit_f64());
+            let place_mm = (corner, corner + tile);
             let values = values.clone();
             drawing.textures.push(Texture { name, file, panel: i, place_mm, width: SIDE, height: SIDE, values });
             drawing.inks.push(Ink::new(panel.name.clone(), Paint::Texture { texture: i, mean }));

@@ -43,7 +43,7 @@ impl Points {
         });
         // A pixel that holds a whole lamp is as bright as if the light of the chart filled it.
         let share = 1.0 / (PI * self.diameter_px * self.diameter_px / 4.0).min(1.0);
-        let inks = vec![Ink::grey("dark", 0.0), Ink::new("lamp", Paint::Glow(share))];
+        let inks = vec![Ink::new("dark", Paint::Glow(0.0)), Ink::new("lamp", Paint::Glow(share))];
         let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), inks);
         drawing.lit = false;
         drawing.features = features;
@@ -51,7 +51,7 @@ impl Points {
         drawing.note("pitch_mm", grid.pitch_mm);
         drawing.note("diameter_mm", 2.0 * radius);
         drawing.note("diameter_px", self.diameter_px);
-        drawing.spp = 1024;
+        drawing.spp = 256;
         Ok(drawing)
     }
 }

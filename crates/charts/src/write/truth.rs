@@ -28,7 +28,8 @@ pub(super) fn truth(request: &Request<'_>) -> String {
             "sheet_mm": "mm, x right, y down as the camera sees it, origin in the sheet's middle",
             "world_m": "m, x forward, y left, z up",
             "raster_px": "px, x right, y down, the top-left corner of the picture is (0, 0), pixel centres at +0.5; null: not in the \
-                          picture. By the rays of the ground truth (587.56 nm, through the pupil's centre)",
+                          picture. By the rays of the ground truth (587.56 nm, through the pupil's centre), of the whole picture: \
+                          dark columns and rows of a raw file, regions and binning are not counted in",
             "image_centroids_px": "of discs: the centroid of the disc's image, which is not the image of its centre",
             "electrons": "mean photo-electrons of a pixel in the middle of the picture, by channel, in the exposure of the camera's own \
                           file, before every effect of the sensor but its quantum efficiency",

@@ -9,6 +9,7 @@ mod bad_processing;
 mod bad_results;
 mod bad_sensors;
 mod bytes;
+mod charts;
 mod datasheet;
 mod develop;
 mod dropped;
