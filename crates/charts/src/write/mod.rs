@@ -8,10 +8,11 @@ mod svg;
 mod truth;
 
 use crate::design::Chart;
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, Texture};
 use crate::eye::{Eye, Footprint};
 use crate::light::{Light, Meter};
 use crate::station::Station;
+use etendue_spectra::colour::encode;
 
 pub use picture::picture;
 
@@ -75,6 +76,9 @@ pub fn files(request: &Request<'_>) -> Vec<ChartFile> {
     let meshes = drawing.panels.iter().enumerate();
     files.extend(meshes.map(|(i, panel)| text(&format!("{}.obj", panel.name), obj::mesh(drawing, i))));
     files.extend(scene::spectra(drawing).into_iter().map(|(name, csv)| text(&name, csv)));
+    if drawing.is_flat() {
+        files.extend(drawing.textures.iter().map(print_of));
+    }
     for texture in &drawing.textures {
         if files.iter().all(|file| file.name != texture.file) {
             let contents = Contents::Grey16(texture.width, texture.height, texture.values.clone());
@@ -89,4 +93,16 @@ pub fn files(request: &Request<'_>) -> Vec<ChartFile> {
         }
     }
     files
+}
+
+/// A texture encoded as sRGB, for the print.
+fn print_of(texture: &Texture) -> ChartFile {
+    let encoded = |v: &u16| (encode(f32::from(*v) / 65_535.0) * 65_535.0).round() as u16;
+    let values = texture.values.iter().map(encoded).collect();
+    ChartFile { name: print_name(texture), contents: Contents::Grey16(texture.width, texture.height, values) }
+}
+
+/// The file's name of a texture for the print.
+fn print_name(texture: &Texture) -> String {
+    format!("{}-print.png", texture.name)
 }

@@ -24,7 +24,7 @@ pub(super) fn svg(drawing: &Drawing) -> String {
     path(&mut text, sheet, Fill::Hole, "#000000");
     for (i, ink) in drawing.inks.iter().enumerate() {
         if let Paint::Texture { texture, .. } = ink.paint {
-            pictures(&mut text, sheet, i, &drawing.textures[texture].file);
+            pictures(&mut text, sheet, i, &super::print_name(&drawing.textures[texture]));
         }
     }
     text.push_str("</svg>\n");
