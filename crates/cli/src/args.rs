@@ -44,6 +44,8 @@ pub enum Verb {
     /// Measure a camera: from pictures, or its lens without rendering
     #[command(subcommand)]
     Measure(Measure),
+    /// Find a camera's intrinsics and distortion from several pictures of a chart, as a camera file
+    Calibrate(crate::verbs::measure::calibrate::CalibrateArguments),
     /// Print the JSON Schema of a file kind, for editors
     Schema(Schema),
 }
@@ -215,6 +217,13 @@ pub enum Measure {
     /// Focal lengths, principal planes, pupils and field of view; by field: distortion, illumination, spots, field
     /// curvature, colour
     Lens(MeasureLens),
+    /// Distortion from one picture of a plane chart, without a model: the curve over the field, line distortion, k1 and k2 (ISO
+    /// 17850)
+    Distortion(crate::verbs::measure::distortion::DistortionArguments),
+    /// Focal length and principal point, from one picture of a chart at a known distance or from several
+    Focal(crate::verbs::measure::focal::FocalArguments),
+    /// Lateral chromatic displacement of red and blue against green (ISO 19084)
+    Chromatic(crate::verbs::measure::chromatic::ChromaticArguments),
     /// Photon transfer after EMVA 1288: gain, quantum efficiency, dark noise, saturation, linearity, DSNU, PRNU
     Ptc(measure::ptc::Ptc),
     /// Slanted edges: the spatial frequency response with MTF50 and MTF10 (ISO 12233)

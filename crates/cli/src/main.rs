@@ -50,6 +50,7 @@ fn run(verb: &Verb) -> Result<(), Failure> {
         Verb::Compare(arguments) => verbs::compare::run(arguments),
         Verb::Chart(arguments) => verbs::chart::run(arguments),
         Verb::Measure(arguments) => verbs::measure::run(arguments),
+        Verb::Calibrate(arguments) => verbs::measure::calibrate::run(arguments),
         Verb::Schema(arguments) => verbs::schema::run(arguments),
     }
 }

@@ -17,6 +17,7 @@ fn help_names_every_verb_and_the_exit_statuses() {
         "compare",
         "chart",
         "measure",
+        "calibrate",
         "schema",
         "Exit status: 0 done, 1",
         "2 unusable",
@@ -27,7 +28,19 @@ fn help_names_every_verb_and_the_exit_statuses() {
 
 #[test]
 fn every_option_explains_itself() {
-    for verb in ["render", "merge", "plan", "expose", "develop", "flat", "datasheet", "inspect", "compare", "schema"] {
+    for verb in [
+        "render",
+        "merge",
+        "plan",
+        "expose",
+        "develop",
+        "flat",
+        "datasheet",
+        "inspect",
+        "compare",
+        "calibrate",
+        "schema",
+    ] {
         let help = etendue(["help", verb]).ok().out;
         let options = help.lines().filter(|line| line.trim_start().starts_with("--")).count();
         let lines: Vec<&str> = help.lines().collect();

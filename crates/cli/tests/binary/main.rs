@@ -14,6 +14,7 @@ mod datasheet;
 mod develop;
 mod dropped;
 mod flat;
+mod geometry;
 mod goldens;
 mod help;
 mod identity;

@@ -51,6 +51,19 @@ fn chebyshev(x: f64, degree: usize) -> Vec<[f64; 3]> {
     list
 }
 
+/// Highest degree.
+const HIGHEST: usize = 12;
+
+/// T_0 … at x.
+fn values(x: f64) -> [f64; HIGHEST + 1] {
+    let mut values = [1.0; HIGHEST + 1];
+    values[1] = x;
+    for n in 2..=HIGHEST {
+        values[n] = 2.0 * x * values[n - 1] - values[n - 2];
+    }
+    values
+}
+
 impl PolynomialMap {
     /// The number of coefficients of one coordinate.
     #[must_use]
@@ -63,6 +76,7 @@ impl PolynomialMap {
     /// # Errors
     /// Where there are too few points, or they lie on too few lines, for the degree.
     pub fn fitted(degree: usize, pairs: &[[DVec2; 2]]) -> Result<Self, FitError> {
+        assert!(degree <= HIGHEST, "a polynomial of degree {degree}, beyond {HIGHEST}");
         let count = Self::count(degree);
         let few = || FitError::Few { residuals: pairs.len(), parameters: count };
         if pairs.len() <= count {
@@ -96,7 +110,13 @@ impl PolynomialMap {
     /// The image of a point.
     #[must_use]
     pub fn image(&self, point: DVec2) -> DVec2 {
-        self.sum(&self.row(point))
+        let at = (point - self.centre) / self.scale;
+        let (u, v) = (values(at.x), values(at.y));
+        let mut sum = DVec2::ZERO;
+        for ((i, j), (x, y)) in terms(self.degree).zip(self.coefficients[0].iter().zip(&self.coefficients[1])) {
+            sum += u[i] * v[j] * DVec2::new(*x, *y);
+        }
+        sum
     }
 
     /// The image and its derivatives.
@@ -143,8 +163,8 @@ impl PolynomialMap {
 }
 
 fn basis(degree: usize, at: DVec2) -> Vec<f64> {
-    let (u, v) = (chebyshev(at.x, degree), chebyshev(at.y, degree));
-    terms(degree).map(|(i, j)| u[i][0] * v[j][0]).collect()
+    let (u, v) = (values(at.x), values(at.y));
+    terms(degree).map(|(i, j)| u[i] * v[j]).collect()
 }
 
 #[cfg(test)]

@@ -49,16 +49,22 @@ fn responses(image: &Image, y: usize) -> Vec<f32> {
         &samples[row + (RING_PX as isize + dx) as usize..][..count]
     };
     let ring = RING.map(|[dx, dy]| from(dx, dy));
-    let (middle, left, right, above, below) = (from(0, 0), from(-1, 0), from(1, 0), from(0, -1), from(0, 1));
     let mut out = vec![0.0_f32; count];
-    for x in 0..count {
-        let i: [f32; 16] = std::array::from_fn(|n| ring[n][x]);
-        let crossed: f32 = (0..4).map(|n| (i[n] + i[n + 8] - i[n + 4] - i[n + 12]).abs()).sum();
-        let straight: f32 = (0..8).map(|n| (i[n] - i[n + 8]).abs()).sum();
-        let mean = i.iter().sum::<f32>() / 16.0;
-        let inner = (middle[x] + left[x] + right[x] + above[x] + below[x]) / 5.0;
-        out[x] = crossed - straight - 16.0 * (inner - mean).abs();
+    for n in 0..4 {
+        let pairs = ring[n].iter().zip(ring[n + 8]).zip(ring[n + 4].iter().zip(ring[n + 12]));
+        out.iter_mut().zip(pairs).for_each(|(o, ((a, b), (c, d)))| *o += (a + b - c - d).abs());
     }
+    for n in 0..8 {
+        out.iter_mut().zip(ring[n].iter().zip(ring[n + 8])).for_each(|(o, (a, b))| *o -= (a - b).abs());
+    }
+    let mut difference = vec![0.0_f32; count];
+    for slice in ring {
+        difference.iter_mut().zip(slice).for_each(|(d, v)| *d -= v);
+    }
+    for slice in [from(0, 0), from(-1, 0), from(1, 0), from(0, -1), from(0, 1)] {
+        difference.iter_mut().zip(slice).for_each(|(d, v)| *d += 3.2 * v);
+    }
+    out.iter_mut().zip(&difference).for_each(|(o, d)| *o -= d.abs());
     out
 }
 

@@ -29,7 +29,7 @@ const COUNT: usize = 11;
 type Numbers = [f64; COUNT];
 
 /// Sharpest and softest profile, px.
-const SOFTNESS_PX: [f64; 2] = [0.02, 6.0];
+const SOFTNESS_PX: [f64; 2] = [0.05, 6.0];
 
 /// The corner near `start`, whose edges lead along `steps`, by the pixels within `radius` px; `None` where the model does
 /// not settle within half of that.
@@ -53,7 +53,8 @@ pub(super) fn fitted(image: &Image, start: DVec2, steps: [DVec2; 2], radius: f64
             continue;
         }
         let shift = DVec2::new(next[0] - at[0], next[1] - at[1]).length();
-        let settled = shift < 1e-5 && squares - next_squares <= 1e-7 * squares;
+        // Undamped, convergence is quadratic: the next step would be a millionth.
+        let settled = lambda < 1e-2 && shift < 1e-3 && squares - next_squares <= 1e-4 * squares;
         (at, normal, squares) = (next, next_normal, next_squares);
         lambda = (0.1 * lambda).max(1e-9);
         if settled {
@@ -96,11 +97,17 @@ fn first_guess(pixels: &[(DVec2, f64)], start: DVec2, steps: [DVec2; 2]) -> Numb
     numbers
 }
 
+/// −ln of what a profile may be away from its end, to be there.
+const FLAT: f64 = 20.0;
+
 /// S, dS/dl and dS/ds.
 fn profile(l: f64, s: f64) -> [f64; 3] {
     // s ln(2 cosh(x/s)) = |x| + s ln(1 + e), e = exp(−2 |x|/s).
     let end = |x: f64| {
         let ratio = 2.0 * x.abs() / s;
+        if ratio > FLAT {
+            return [x.abs(), x.signum(), 0.0];
+        }
         let e = exp(-ratio);
         let log = ln_1p(e);
         [x.abs() + s * log, x.signum() * (1.0 - e) / (1.0 + e), log + ratio * e / (1.0 + e)]
@@ -154,6 +161,8 @@ fn equations(pixels: &[(DVec2, f64)], at: &Numbers) -> ((Matrix, Numbers), f64) 
             }
         }
     }
+    // Edges sharper than the pixels can tell leave s where it is.
+    upper[6][6] += 1e-6 * upper[8][8];
     let row = |i: usize| std::array::from_fn::<f64, COUNT, _>(|j| upper[i.min(j)][i.max(j)]);
     ((Matrix::from_rows(COUNT, (0..COUNT).map(row)), gradient), squares)
 }

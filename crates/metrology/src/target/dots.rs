@@ -1,7 +1,8 @@
 //! Dots: grids of discs, dark on bright or bright on dark.
 //!
 //! Dark regions ([`components`]) under a threshold that follows the light ([`threshold`](super::threshold)), at least four
-//! pixels across, not cut by the border, and as large as the ellipse of their own second moments (to 12 %), are dots, put
+//! pixels across, not cut by the border, and as large as the ellipse of their own second moments (to 4 %, small ones to 12 %; a
+//! rectangle has 4.5 % less), are dots, put
 //! in rows and columns by where they are ([`lattice`]). Then each is measured ([`centroid`]).
 
 use super::centroid::{Blob, Centroid, Moments};
@@ -41,6 +42,7 @@ fn blobs(image: &Image, block: usize) -> Vec<Blob> {
 /// A region that is whole, large enough and an ellipse.
 fn blob(image: &Image, runs: &[Run]) -> Option<Blob> {
     const LEAST_PX: f64 = 12.0;
+    const SMALL_PX: usize = 200;
     let inside = |r: &Run| r.row > 0 && r.row + 1 < image.height() && r.from > 0 && r.to < image.width();
     let pixels: usize = runs.iter().map(|r| r.to - r.from).sum();
     if (pixels as f64) < LEAST_PX || pixels > image.samples().len() / 10 || !runs.iter().all(inside) {
@@ -56,7 +58,8 @@ fn blob(image: &Image, runs: &[Run]) -> Option<Blob> {
     }
     let blob = Blob { darkest: f64::from(darkest), ..moments.blob()? };
     let ellipse = 4.0 * std::f64::consts::PI * blob.covariance.determinant().max(0.0).sqrt();
-    ((blob.area / ellipse - 1.0).abs() < 0.12).then_some(blob)
+    let tolerance = if pixels < SMALL_PX { 0.12 } else { 0.04 };
+    ((blob.area / ellipse - 1.0).abs() < tolerance).then_some(blob)
 }
 
 fn places(blobs: &[Blob]) -> Places {

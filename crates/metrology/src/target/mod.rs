@@ -75,7 +75,7 @@ fn checked(grid: Grid, stated: Option<[usize; 2]>, sought: &'static str) -> Resu
     if best < least || grid.size.iter().any(|n| *n < 2) {
         return Err(TargetError::None { sought, best, least });
     }
-    if grid.filled() < 0.5 {
+    if grid.filled() < 0.6 {
         return Err(TargetError::Gaps { points: best, size: grid.size });
     }
     let larger = |stated: [usize; 2]| grid.size[0] > stated[0] || grid.size[1] > stated[1];

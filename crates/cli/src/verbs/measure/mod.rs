@@ -1,11 +1,16 @@
 //! `etendue measure`: one kind of measurement a file.
 
 mod body;
+pub mod calibrate;
 pub mod cdp;
+mod chart_points;
+pub mod chromatic;
 pub mod colour;
 pub mod dark_current;
 pub mod depth;
+pub mod distortion;
 pub mod flare;
+pub mod focal;
 mod ghosts;
 mod lens;
 pub mod noise;
@@ -16,6 +21,7 @@ mod report;
 pub mod sfr;
 pub mod shading;
 pub mod texture;
+mod views;
 
 use crate::args::{self, Measure};
 use crate::failure::Failure;
@@ -36,6 +42,9 @@ pub fn run(arguments: &args::Measure) -> Result<(), Failure> {
         Measure::DarkCurrent(arguments) => dark_current::run(arguments),
         Measure::Star(arguments) => texture::star(arguments),
         Measure::Texture(arguments) => texture::texture(arguments),
+        Measure::Distortion(arguments) => distortion::run(arguments),
+        Measure::Focal(arguments) => focal::run(arguments),
+        Measure::Chromatic(arguments) => chromatic::run(arguments),
     }
 }
 

@@ -19,7 +19,7 @@ pub struct Telling {
     /// Draw the curves here
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
-    /// Write what was found as keys of a camera file (of ptc and vignetting)
+    /// Write what was found as keys of a camera file (of ptc, vignetting, distortion and focal)
     #[arg(long, value_name = "CAMERA.toml")]
     pub camera_out: Option<PathBuf>,
 }

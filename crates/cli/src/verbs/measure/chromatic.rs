@@ -1,0 +1,100 @@
+//! `etendue measure chromatic`: lateral chromatic displacement.
+
+use super::chart_points::{ChartArguments, channel, read};
+use super::report::{Cell, Report, Table, Telling};
+use crate::failure::Failure;
+use crate::machine;
+use crate::plot::{Axis, Mark, Plot, Series};
+use clap::Args;
+use etendue_metrology::Estimate;
+use etendue_metrology::chromatic::{Displacement, displacements, rings};
+use std::path::PathBuf;
+
+/// `etendue measure chromatic`
+#[derive(Debug, Args)]
+pub struct ChromaticArguments {
+    /// A picture in colour of a plane chart that fills the field
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    #[command(flatten)]
+    pub chart: ChartArguments,
+    #[command(flatten)]
+    pub telling: Telling,
+}
+
+pub(super) fn run(arguments: &ChromaticArguments) -> Result<(), Failure> {
+    let file = &arguments.file;
+    if arguments.chart.channel.is_some() {
+        return Err(Failure::input("--channel: lateral colour is measured in red, green and blue; leave it out"));
+    }
+    let photograph = read(file)?;
+    if let Some(missing) = ["R", "G", "B"].iter().find(|name| photograph.channel(name).is_none()) {
+        return Err(Failure::input(format!("{}: no channel {missing}; expected a picture in colour", file.display())));
+    }
+    let grid = |name: &str| Ok::<_, Failure>(arguments.chart.seen_in(file, &channel(file, &photograph, name)?)?.grid);
+    let pool = machine::pool(None)?;
+    let [red, green, blue] = pool.install(|| Ok::<_, Failure>([grid("R")?, grid("G")?, grid("B")?]))?;
+    let size = [photograph.width, photograph.height];
+    let found = [("red", displacements(&green, &red, size)), ("blue", displacements(&green, &blue, size))];
+    if let Some((name, _)) = found.iter().find(|(_, list)| list.is_empty()) {
+        let file = file.display();
+        return Err(Failure::input(format!(
+            "{file}: the chart's points in {name} belong to none in green: are these colours of one picture?"
+        )));
+    }
+    report(&found).tell(&arguments.telling)
+}
+
+fn report(found: &[(&'static str, Vec<Displacement>)]) -> Report {
+    let mut report = Report::new(
+        "chromatic",
+        "lateral chromatic displacement against green, about the picture's middle (ISO 19084)",
+    );
+    let mut rows = Vec::new();
+    let mut series = Vec::new();
+    for (name, list) in found {
+        let worst = list.iter().max_by(|a, b| a.by.length().total_cmp(&b.by.length()));
+        if let Some(worst) = worst {
+            let value = Estimate::new(worst.by.length(), worst.uncertainty_px);
+            report.figure(&format!("{name}_largest_px"), &format!("{name}, largest displacement"), "px", value);
+            let field = Estimate::new(100.0 * worst.field, 0.0);
+            report.figure(
+                &format!("{name}_largest_at_percent"),
+                &format!("{name}, at"),
+                "% of the half diagonal",
+                field,
+            );
+        }
+        for ring in rings(list) {
+            rows.push(vec![
+                Cell::Text((*name).to_owned()),
+                Cell::Number(100.0 * ring.field, 1),
+                Cell::Estimate(ring.radial),
+                Cell::Estimate(ring.tangential),
+                Cell::Number(ring.points as f64, 0),
+            ]);
+        }
+        series.push(Series::new(name, Mark::Points, list.iter().map(|d| (100.0 * d.field, d.radial))));
+        let mean =
+            rings(list).into_iter().map(|r| (100.0 * r.field, r.radial.value, 2.0 * r.radial.standard_uncertainty));
+        series.push(Series::with_errors(&format!("{name}, rings"), Mark::Line, mean));
+    }
+    report.table(Table {
+        key: "rings",
+        columns: vec![
+            ("channel", "channel"),
+            ("field_percent", "field %"),
+            ("radial_px", "radial px"),
+            ("tangential_px", "tangential px"),
+            ("points", "points"),
+        ],
+        rows,
+    });
+    report.plot(Plot {
+        title: "Lateral colour".to_owned(),
+        x: Axis::linear("radial field position, % of the half diagonal").showing(&[0.0, 100.0]),
+        y: Axis::linear("radial displacement against green, px").showing(&[0.0]),
+        series,
+    });
+    report
+}

@@ -1,0 +1,144 @@
+//! `etendue measure distortion`: from one picture of a plane chart.
+
+use super::chart_points::{ChartArguments, Seen};
+use super::report::{Cell, Report, Table, Telling};
+use crate::failure::Failure;
+use crate::machine;
+use crate::plot::{Axis, Mark, Plot, Series};
+use clap::Args;
+use etendue_metrology::Estimate;
+use etendue_metrology::distortion::{Distortion, LineBow, RadialFit, distortion};
+use etendue_projection::Sense;
+use glam::DVec2;
+use std::path::PathBuf;
+
+/// `etendue measure distortion`
+#[derive(Debug, Args)]
+pub struct DistortionArguments {
+    /// A picture of a plane chart that fills the field: many dots, or a checkerboard
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    #[command(flatten)]
+    pub chart: ChartArguments,
+    /// The point to which distances are taken, raster coordinates, px [default: the picture's middle]
+    #[arg(long, value_name = "X,Y", value_parser = place)]
+    pub centre_px: Option<[f64; 2]>,
+    #[command(flatten)]
+    pub telling: Telling,
+}
+
+pub(super) fn place(text: &str) -> Result<[f64; 2], String> {
+    let expected = || format!("expected two numbers X,Y, not '{text}'");
+    let (x, y) = text.split_once(',').ok_or_else(expected)?;
+    let number = |s: &str| s.trim().parse::<f64>().ok().filter(|v| v.is_finite()).ok_or_else(expected);
+    Ok([number(x)?, number(y)?])
+}
+
+pub(super) fn run(arguments: &DistortionArguments) -> Result<(), Failure> {
+    let pool = machine::pool(None)?;
+    let seen = pool.install(|| arguments.chart.seen(&arguments.file))?;
+    let centre = arguments.centre_px.map(DVec2::from);
+    let told = |error| Failure::input(format!("{}: {error}", arguments.file.display()));
+    let found = distortion(&seen.grid, seen.size_px, centre).map_err(told)?;
+    report(&seen, &found).tell(&arguments.telling)
+}
+
+fn report(seen: &Seen, found: &Distortion) -> Report {
+    let method =
+        "distortion without a model: ideal places by a polynomial and its homography at the centre (ISO 17850)";
+    let mut report = Report::new("distortion", method);
+    let exact = |value: f64| Estimate::new(value, 0.0);
+    report.figure("points", "points of the chart", "", exact(seen.grid.nodes.len() as f64));
+    report.figure("columns", "columns", "", exact(seen.grid.size[0] as f64));
+    report.figure("rows", "rows", "", exact(seen.grid.size[1] as f64));
+    report.figure("step_px", "step of the chart at the centre", "px", exact(found.ideal.step_px()));
+    report.figure("degree", "degree of the polynomial", "", exact(found.ideal.degree() as f64));
+    report.figure("sigma_px", "standard deviation of points about it", "px", exact(found.ideal.sigma_px()));
+    if let Some(last) = found.curve.last() {
+        let percent = Estimate::new(100.0 * (last.ratio.value - 1.0), 100.0 * last.ratio.standard_uncertainty);
+        report.figure("field_reached_percent", "field reached", "% of the half diagonal", exact(100.0 * last.field));
+        report.figure("distortion_there_percent", "distortion there", "%", percent);
+    }
+    lines(&mut report, &found.lines);
+    radial(&mut report, "forward", &found.forward);
+    radial(&mut report, "backward", &found.backward);
+    report.note(
+        "k1 and k2 in half diagonals, r' = r (1 + k1 r² + k2 r⁴); centres in raster coordinates, pixel centres at +0.5",
+    );
+    report.table(curve(found));
+    report.plot(plot(found));
+    report.camera(camera(&found.backward));
+    report
+}
+
+fn lines(report: &mut Report, lines: &[LineBow]) {
+    for (is_row, key, label) in
+        [(true, "row_bow_percent", "bow of rows, largest"), (false, "column_bow_percent", "bow of columns, largest")]
+    {
+        let all = lines.iter().filter(|l| l.is_row == is_row).map(|l| l.bow);
+        if let Some(bow) = all.reduce(|a, b| if b.abs() > a.abs() { b } else { a }) {
+            report.figure(key, label, "% of the picture's height", Estimate::new(100.0 * bow, 0.0));
+        }
+    }
+}
+
+fn radial(report: &mut Report, key: &str, fit: &RadialFit) {
+    let way = match fit.sense {
+        Sense::IdealToObserved => "ideal to observed",
+        Sense::ObservedToIdeal => "observed to ideal",
+    };
+    let mut figure =
+        |name: &str, unit, value| report.figure(&format!("{key}_{name}"), &format!("{name}, {way}"), unit, value);
+    figure("k1", "", fit.k1);
+    figure("k2", "", fit.k2);
+    figure("centre_x_px", "px", fit.centre_px[0]);
+    figure("centre_y_px", "px", fit.centre_px[1]);
+    figure("rms_px", "px", Estimate::new(fit.rms_px, 0.0));
+}
+
+fn curve(found: &Distortion) -> Table {
+    let row = |p: &etendue_metrology::distortion::CurvePoint| {
+        let percent = Estimate::new(100.0 * (p.ratio.value - 1.0), 100.0 * p.ratio.standard_uncertainty);
+        let share = |x: f64| Cell::Number(100.0 * x, 1);
+        vec![
+            share(p.field),
+            Cell::Estimate(p.ratio),
+            Cell::Estimate(percent),
+            Cell::Number(p.spread, 6),
+            share(p.covered),
+        ]
+    };
+    Table {
+        key: "curve",
+        columns: vec![
+            ("field_percent", "field %"),
+            ("ratio", "observed/ideal"),
+            ("distortion_percent", "distortion %"),
+            ("spread", "spread"),
+            ("covered_percent", "covered %"),
+        ],
+        rows: found.curve.iter().map(row).collect(),
+    }
+}
+
+fn plot(found: &Distortion) -> Plot {
+    let curve = found.curve.iter().map(|p| (100.0 * p.field, p.ratio.value, 2.0 * p.ratio.standard_uncertainty));
+    let local = found.local.iter().map(|l| (100.0 * l.field, 1.0 + l.distortion));
+    Plot {
+        title: "Distortion".to_owned(),
+        x: Axis::linear("radial field position, % of the half diagonal").showing(&[0.0, 100.0]),
+        y: Axis::linear("observed over ideal distance from the centre").showing(&[1.0]),
+        series: vec![
+            Series::new("points of the chart", Mark::Points, local),
+            Series::with_errors("mean over directions", Mark::Line, curve),
+        ],
+    }
+}
+
+fn camera(fit: &RadialFit) -> String {
+    format!(
+        "# Measured by etendue measure distortion. Further keys of [lens] go above.\n[lens.distortion]\nk1 = {}\nk2 = {}\n\
+         direction = \"observed_to_ideal\"\nradius_unit = \"half_diagonals\"\n",
+        fit.k1.value, fit.k2.value
+    )
+}

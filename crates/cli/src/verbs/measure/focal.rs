@@ -1,0 +1,67 @@
+//! `etendue measure focal`: focal length and principal point.
+
+use super::report::{Report, Telling};
+use super::views::{Found, ViewsArguments};
+use crate::failure::Failure;
+use clap::Args;
+use etendue_core::maths::f64::acos;
+use etendue_metrology::Estimate;
+use etendue_metrology::calibrate::Options;
+use glam::DVec2;
+
+/// `etendue measure focal`
+#[derive(Debug, Args)]
+#[command(
+    after_help = "One picture needs --distance-mm; its principal point is taken for the picture's middle unless --principal-px \
+    says otherwise. What is told is the principal distance (camera constant): the focal length for a lens focused at infinity; at \
+    a distance D it is longer, f D/(D − f)."
+)]
+pub struct FocalArguments {
+    #[command(flatten)]
+    pub views: ViewsArguments,
+    #[command(flatten)]
+    pub telling: Telling,
+}
+
+pub(super) fn run(arguments: &FocalArguments) -> Result<(), Failure> {
+    let views = &arguments.views;
+    let options = views.options();
+    if views.files.len() == 1 && options.distance.is_none() {
+        let told = "one picture alone does not tell the focal length from the distance: add --distance-mm, or more pictures with the \
+                    chart turned";
+        return Err(Failure::input(told));
+    }
+    let found = match (views.files.len(), options.principal_px) {
+        (1, None) => views.found(Options { principal_px: Some(middle(arguments)?), square_pixels: true, ..options })?,
+        _ => views.found(options)?,
+    };
+    let mut report = Report::new("focal", "focal length by views of a plane chart");
+    found.tell(&mut report, views.pixel_pitch_um);
+    field_of_view(&mut report, &found);
+    if let Some(pitch_um) = views.pixel_pitch_um {
+        report.camera(found.camera_file(pitch_um, None));
+    } else if arguments.telling.camera_out.is_some() {
+        return Err(Failure::input("--camera-out: a camera file needs the pixels' size: add --pixel-pitch-um"));
+    }
+    report.tell(&arguments.telling)
+}
+
+fn middle(arguments: &FocalArguments) -> Result<DVec2, Failure> {
+    let photograph = super::chart_points::read(&arguments.views.files[0])?;
+    Ok(0.5 * DVec2::new(photograph.width as f64, photograph.height as f64))
+}
+
+/// Angles between the middles of opposite sides, and between opposite corners.
+fn field_of_view(report: &mut Report, found: &Found) {
+    let camera = &found.camera.calibration;
+    let [w, h] = camera.size_px().map(|n| n as f64);
+    let mut line = |key: &str, label: &str, a: [f64; 2], b: [f64; 2]| {
+        if let (Some(a), Some(b)) = (camera.unproject(a.into()), camera.unproject(b.into())) {
+            let angle = acos(a.dot(b).clamp(-1.0, 1.0)).to_degrees();
+            report.figure(key, label, "°", Estimate::new(angle, 0.0));
+        }
+    };
+    line("field_of_view_horizontal_deg", "field of view, horizontal", [0.0, 0.5 * h], [w, 0.5 * h]);
+    line("field_of_view_vertical_deg", "field of view, vertical", [0.5 * w, 0.0], [0.5 * w, h]);
+    line("field_of_view_diagonal_deg", "field of view, diagonal", [0.0, 0.0], [w, h]);
+}

@@ -1,0 +1,256 @@
+//! Cameras from views of a chart: what `measure focal` and `calibrate` share.
+
+use super::chart_points::{ChartArguments, Seen, all};
+use super::distortion::place;
+use super::report::{Cell, Report, Table};
+use crate::calibration;
+use crate::failure::Failure;
+use crate::machine;
+use crate::plot::{Axis, Mark, Plot, Series};
+use clap::{Args, ValueEnum};
+use etendue_core::maths::f64::{acos, atan};
+use etendue_metrology::Estimate;
+use etendue_metrology::calibrate::{Calibrated, Family, Options, Radial, Sightings, calibrate};
+use etendue_projection::Sense;
+use etendue_projection::model::Ideal;
+use glam::DVec2;
+use serde_json::Value;
+use std::path::PathBuf;
+
+/// The pictures, the chart and what is known of the camera.
+#[derive(Debug, Args)]
+pub struct ViewsArguments {
+    /// Pictures of the chart by one camera: turned by 20° to 45° about different axes, filling the field together
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<PathBuf>,
+    #[command(flatten)]
+    pub chart: ChartArguments,
+    /// The distance of neighbouring points of the chart, mm
+    #[arg(long, value_name = "MM", value_parser = positive)]
+    pub pitch_mm: f64,
+    /// The camera model
+    #[arg(long, value_enum, default_value_t = ModelArgument::Opencv)]
+    pub model: ModelArgument,
+    /// Pixels are square: one focal length for columns and rows
+    #[arg(long)]
+    pub square_pixels: bool,
+    /// The principal point is known, raster coordinates, px
+    #[arg(long, value_name = "X,Y", value_parser = place)]
+    pub principal_px: Option<[f64; 2]>,
+    /// The distance from the entrance pupil to the chart's plane, mm, the same in every picture
+    #[arg(long, value_name = "MM", value_parser = positive)]
+    pub distance_mm: Option<f64>,
+    /// Its standard uncertainty, mm
+    #[arg(long, value_name = "MM", value_parser = positive, requires = "distance_mm")]
+    pub distance_uncertainty_mm: Option<f64>,
+    /// The distance of neighbouring pixels of the sensor, µm: then focal lengths are told in mm as well
+    #[arg(long, value_name = "UM", value_parser = positive)]
+    pub pixel_pitch_um: Option<f64>,
+    /// Points far from the fit count less (Huber)
+    #[arg(long)]
+    pub robust: bool,
+}
+
+pub(super) fn positive(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse::<f64>().ok().filter(|v| v.is_finite() && *v > 0.0);
+    number.ok_or_else(|| format!("expected a number above 0, not '{text}'"))
+}
+
+/// Models that can be fitted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ModelArgument {
+    /// No distortion
+    Pinhole,
+    /// k1 k2 p1 p2
+    Opencv,
+    /// k1 k2 p1 p2 k3
+    Opencv5,
+    /// k1 … k6 p1 p2
+    Opencv8,
+    /// k1 k2, from ideal to observed
+    Radial,
+    /// k1 k2, from observed to ideal
+    RadialInverse,
+    /// Polynomial fisheye, k1 … k4
+    KannalaBrandt,
+    /// Division model
+    Division,
+    /// FOV model
+    FieldOfView,
+    /// Unified omnidirectional, with k1 k2
+    Unified,
+    /// Extended unified
+    ExtendedUnified,
+    /// Double sphere
+    DoubleSphere,
+    /// Ideal fisheye, r = f θ
+    Equidistant,
+    /// Ideal fisheye of equal areas
+    Equisolid,
+    /// Ideal fisheye that keeps angles
+    Stereographic,
+    /// r = f sin θ
+    Orthographic,
+}
+
+impl ModelArgument {
+    fn family(self) -> Family {
+        let perspective = |radial, tangential| Family::Perspective { radial, tangential };
+        match self {
+            Self::Pinhole => perspective(Radial::Polynomial(0), false),
+            Self::Opencv => perspective(Radial::Polynomial(2), true),
+            Self::Opencv5 => perspective(Radial::Polynomial(3), true),
+            Self::Opencv8 => perspective(Radial::Rational, true),
+            Self::Radial => Family::Polynomial(Sense::IdealToObserved),
+            Self::RadialInverse => Family::Polynomial(Sense::ObservedToIdeal),
+            Self::KannalaBrandt => Family::KannalaBrandt(4),
+            Self::Division => Family::Division,
+            Self::FieldOfView => Family::FieldOfView,
+            Self::Unified => Family::Unified,
+            Self::ExtendedUnified => Family::ExtendedUnified,
+            Self::DoubleSphere => Family::DoubleSphere,
+            Self::Equidistant => Family::Ideal(Ideal::Equidistant),
+            Self::Equisolid => Family::Ideal(Ideal::Equisolid),
+            Self::Stereographic => Family::Ideal(Ideal::Stereographic),
+            Self::Orthographic => Family::Ideal(Ideal::Orthographic),
+        }
+    }
+}
+
+/// The views and the camera that saw them.
+pub(super) struct Found {
+    pub views: Vec<Seen>,
+    pub camera: Calibrated,
+}
+
+impl ViewsArguments {
+    pub(super) fn found(&self, options: Options) -> Result<Found, Failure> {
+        machine::pool(None)?.install(|| {
+            let views = all(&self.chart, &self.files)?;
+            let sightings: Vec<Sightings> = views.iter().map(|v| Sightings::of_grid(&v.grid, self.pitch_mm)).collect();
+            let size = views[0].size_px;
+            let camera = calibrate(&sightings, size, self.model.family(), options).map_err(Failure::input)?;
+            camera.calibration.check().map_err(Failure::input)?;
+            Ok(Found { views, camera })
+        })
+    }
+
+    /// What is told of the camera.
+    pub(super) fn options(&self) -> Options {
+        let uncertainty = self.distance_uncertainty_mm.unwrap_or(0.0);
+        Options {
+            square_pixels: self.square_pixels,
+            principal_px: self.principal_px.map(DVec2::from),
+            focal_px: None,
+            distance: self.distance_mm.map(|d| Estimate::new(d, uncertainty)),
+            robust: self.robust,
+        }
+    }
+}
+
+/// Unit of a parameter, by its name.
+fn unit(name: &str) -> &'static str {
+    match name {
+        _ if name.ends_with("_px") => "px",
+        _ if name.ends_with("_rad") => "rad",
+        _ => "",
+    }
+}
+
+impl Found {
+    /// Parameters, how well the views fit, and the views.
+    pub(super) fn tell(&self, report: &mut Report, pixel_pitch_um: Option<f64>) {
+        let exact = |value: f64| Estimate::new(value, 0.0);
+        for p in &self.camera.parameters {
+            report.figure(p.name, p.name.trim_end_matches("_px"), unit(p.name), p.estimate);
+            if let Some(pitch_um) = pixel_pitch_um.filter(|_| p.name.starts_with('f')) {
+                let mm = p.estimate.scaled(0.001 * pitch_um);
+                report.figure(&p.name.replace("_px", "_mm"), p.name.trim_end_matches("_px"), "mm", mm);
+            }
+        }
+        report.figure("rms_px", "distance of points from the fit, rms", "px", exact(self.camera.rms_px()));
+        report.figure("sigma_px", "standard deviation of a coordinate", "px", exact(self.camera.sigma_px));
+        let freedom = self.camera.degrees_of_freedom as f64;
+        report.figure("degrees_of_freedom", "degrees of freedom", "", exact(freedom));
+        report.note("raster coordinates, pixel centres at +0.5 (OpenCV's and ROS's cx and cy are less by 0.5); ± one standard uncertainty");
+        report.table(self.table());
+        report.plot(self.residuals());
+        report.plot(self.projection());
+    }
+
+    fn table(&self) -> Table {
+        let row = |(v, seen): (usize, &Seen)| {
+            let pose = &self.camera.poses[v];
+            let tilt = acos(pose.turn.z_axis.z.clamp(-1.0, 1.0)).to_degrees();
+            vec![
+                Cell::Text(seen.file.display().to_string()),
+                Cell::Number(seen.grid.nodes.len() as f64, 0),
+                Cell::Number(self.camera.view_rms_px(v), 4),
+                Cell::Number(pose.distance(), 2),
+                Cell::Number(tilt, 2),
+            ]
+        };
+        Table {
+            key: "views",
+            columns: vec![
+                ("file", "file"),
+                ("points", "points"),
+                ("rms_px", "rms px"),
+                ("distance_mm", "distance mm"),
+                ("tilt_deg", "tilt °"),
+            ],
+            rows: self.views.iter().enumerate().map(row).collect(),
+        }
+    }
+
+    fn residuals(&self) -> Plot {
+        let points = self.camera.residuals_px.iter().flatten().map(|r| (r.x, r.y));
+        Plot {
+            title: "Fitted less seen".to_owned(),
+            x: Axis::linear("columns, px").showing(&[0.0]),
+            y: Axis::linear("rows, px").showing(&[0.0]),
+            series: vec![Series::new("points", Mark::Points, points)],
+        }
+    }
+
+    /// Field angle against distance from the principal point, towards the picture's farthest corner.
+    fn projection(&self) -> Plot {
+        const STEPS: i32 = 60;
+        let camera = &self.camera.calibration;
+        let (matrix, [width, height]) = (camera.matrix(), camera.size_px().map(|n| n as f64));
+        let principal = DVec2::new(matrix.cx, matrix.cy);
+        let corner = |x: f64, y: f64| DVec2::new(x, y) - principal;
+        let corners = [corner(0.0, 0.0), corner(width, 0.0), corner(0.0, height), corner(width, height)];
+        let farthest = corners.into_iter().fold(DVec2::ZERO, |a, b| if b.length() > a.length() { b } else { a });
+        let at = |i: i32| farthest * (f64::from(i) / f64::from(STEPS));
+        let angle =
+            |v: DVec2| Some((v.length(), acos(camera.unproject(principal + v)?.z.clamp(-1.0, 1.0)).to_degrees()));
+        let pinhole = |v: DVec2| (v.length(), atan(DVec2::new(v.x / matrix.fx, v.y / matrix.fy).length()).to_degrees());
+        Plot {
+            title: "Projection".to_owned(),
+            x: Axis::linear("distance from the principal point, px").showing(&[0.0]),
+            y: Axis::linear("field angle, °").showing(&[0.0]),
+            series: vec![
+                Series::new("camera", Mark::Line, (0..=STEPS).filter_map(|i| angle(at(i)))),
+                Series::new("without distortion, same focal length", Mark::Broken, (0..=STEPS).map(|i| pinhole(at(i)))),
+            ],
+        }
+    }
+
+    /// A camera file; the f-number cannot be told from these pictures.
+    pub(super) fn camera_file(&self, pixel_pitch_um: f64, f_number: Option<f64>) -> String {
+        let facts = calibration::facts(&self.camera.calibration);
+        let keys = facts["projection"].as_object().expect("a projection is an object").iter();
+        let keys: Vec<String> = keys.map(|(key, value): (&String, &Value)| format!("{key} = {value}")).collect();
+        let [width, height] = self.camera.calibration.size_px();
+        let (f_number, told) = f_number.map_or((4.0, "  # a stand-in: not measured"), |n| (n, ""));
+        format!(
+            "# Found by etendue calibrate from {} views; points lie {:.4} px (rms) from the fit.\nformat = 1\n\n[lens]\nmodel = \
+             \"calibrated\"\nf_number = {f_number}{told}\nprojection = {{ {} }}\n\n[sensor]\nwidth_px = {width}\nheight_px = \
+             {height}\npixel_pitch_um = {pixel_pitch_um}\n",
+            self.views.len(),
+            self.camera.rms_px(),
+            keys.join(", ")
+        )
+    }
+}

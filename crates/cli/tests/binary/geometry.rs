@@ -1,0 +1,152 @@
+//! `etendue measure distortion`, `focal`, `chromatic` and `etendue calibrate`.
+
+use crate::support::{etendue, root, text};
+use etendue_core::Plane;
+use etendue_core::maths::f64::sin_cos;
+use etendue_core::quantity::{DigitalNumber, Display};
+use etendue_io::png::{encode_display, encode_raw16};
+use serde_json::Value;
+use std::path::Path;
+
+/// One of OpenCV's photographs: tests/oracles/checkerboard.py.
+fn photograph() -> String {
+    text(&root().join("tests/oracles/figures/checkerboard/left01.jpg"))
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let arguments = arguments.iter().copied().chain(["--json"]);
+    serde_json::from_str(&etendue(arguments).ok().out).expect("JSON")
+}
+
+fn figure(report: &Value, key: &str) -> [f64; 2] {
+    let number = |part: &str| report["figures"][key][part].as_f64();
+    let value = number("value").unwrap_or_else(|| panic!("{key} is missing in {report}"));
+    [value, number("standard_uncertainty").unwrap_or(f64::INFINITY)]
+}
+
+/// A picture of brightnesses 0 to 1, each pixel the mean of 16 samples.
+fn picture(folder: &Path, name: &str, [w, h]: [usize; 2], brightness: impl Fn(f64, f64) -> f64) -> String {
+    let pixel = |i: usize| {
+        let at = |k: usize| (k as f64 + 0.5) / 4.0;
+        let samples = (0..16).map(|k| brightness((i % w) as f64 + at(k % 4), (i / w) as f64 + at(k / 4)));
+        (60_000.0 * samples.sum::<f64>() / 16.0).round() as u32
+    };
+    let plane = Plane::<DigitalNumber>::from_samples(w, h, (0..w * h).map(pixel).collect()).expect("a rectangle");
+    let file = folder.join(name);
+    std::fs::write(&file, encode_raw16(&plane).expect("a picture")).expect("a temporary file");
+    text(&file)
+}
+
+/// Discs of a quarter of the step about whole numbers.
+fn dot(x: f64, y: f64) -> f64 {
+    let (u, v) = (x - x.round(), y - y.round());
+    if u * u + v * v < 0.0625 { 0.1 } else { 0.9 }
+}
+
+const SIZE: [usize; 2] = [400, 300];
+const HALF_DIAGONAL_PX: f64 = 250.0;
+
+#[test]
+fn the_distortion_of_dots_is_the_one_they_were_drawn_with() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (k1, k2) = (0.12, 0.02);
+    let file = picture(folder.path(), "dots.png", SIZE, |x, y| {
+        let (u, v) = ((x - 200.0) / HALF_DIAGONAL_PX, (y - 150.0) / HALF_DIAGONAL_PX);
+        let r2 = u * u + v * v;
+        let scale = HALF_DIAGONAL_PX * (1.0 + k1 * r2 + k2 * r2 * r2) / 20.0;
+        dot(u * scale + 0.3, v * scale)
+    });
+    let camera = text(&folder.path().join("distortion.toml"));
+    let plot = text(&folder.path().join("distortion.svg"));
+    let found = json(&["measure", "distortion", &file, "--target", "dots", "--camera-out", &camera, "--plot", &plot]);
+    for point in found["tables"]["curve"].as_array().expect("a curve") {
+        let field = point["field_percent"].as_f64().expect("a number") / 100.0;
+        let ratio = point["ratio"]["value"].as_f64().expect("a number");
+        let want = 1.0 / (1.0 + k1 * field * field + k2 * field * field * field * field);
+        // The bench's 0.1 % of the field, of distances that are a part of it.
+        assert!((ratio - want).abs() * field < 1e-3, "{field}: {ratio} {want}");
+    }
+    assert!((figure(&found, "backward_k1")[0] - k1).abs() < 3e-3, "{found}");
+    assert!((figure(&found, "backward_centre_x_px")[0] - 200.0).abs() < 0.3, "{found}");
+    let keys = std::fs::read_to_string(&camera).expect("written");
+    let lens =
+        "format = 1\n[lens]\nmodel = \"thin\"\nfocal_length_mm = 6\nf_number = 2\nfocus_distance_m = \"infinity\"\n";
+    let sensor = "[sensor]\nwidth_px = 400\nheight_px = 300\npixel_pitch_um = 6\n";
+    let whole = folder.path().join("camera.toml");
+    std::fs::write(&whole, format!("{lens}{keys}{sensor}")).expect("written");
+    etendue(["measure", "lens", &text(&whole)]).ok();
+    assert!(std::fs::read_to_string(&plot).expect("drawn").contains("half diagonal"));
+}
+
+/// A checkerboard of corners 0 … 8 by 0 … 5 through a pinhole of f = 320 px, turned by angles about x and y.
+fn board(folder: &Path, name: &str, [about_x, about_y]: [f64; 2]) -> String {
+    let ((sx, cx), (sy, cy)) = (sin_cos(about_x), sin_cos(about_y));
+    // Columns of the rotation: the chart's axes in the camera's frame.
+    let (a, b, n) = ([cy, sx * sy, -cx * sy], [0.0, cx, sx], [sy, -sx * cy, cx * cy]);
+    let dot = |p: [f64; 3], q: [f64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+    picture(folder, name, SIZE, |x, y| {
+        let ray = [(x - 205.0) / 320.0, (y - 148.0) / 320.0, 1.0];
+        // The chart's middle stands 13 steps ahead.
+        let t = 13.0 * n[2] / dot(n, ray);
+        let hit = [t * ray[0], t * ray[1], t * ray[2] - 13.0];
+        let (u, v) = ((dot(hit, a) + 4.0).floor() as i32, (dot(hit, b) + 2.5).floor() as i32);
+        let inside = (-1..9).contains(&u) && (-1..6).contains(&v);
+        if inside && (u + v).rem_euclid(2) == 0 { 0.1 } else { 0.9 }
+    })
+}
+
+#[test]
+fn a_pinhole_is_calibrated_from_its_views() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let turns = [[0.0, 0.0], [0.5, 0.0], [-0.4, 0.3], [0.1, -0.5]];
+    let views: Vec<String> =
+        turns.iter().enumerate().map(|(i, t)| board(folder.path(), &format!("view{i}.png"), *t)).collect();
+    let camera = text(&folder.path().join("camera.toml"));
+    let mut arguments = vec!["calibrate"];
+    arguments.extend(views.iter().map(String::as_str));
+    arguments.extend(["--grid", "9x6", "--pitch-mm", "30", "--pixel-pitch-um", "6", "-o", &camera]);
+    let found = json(&arguments);
+    for (key, want) in [("fx_px", 320.0), ("fy_px", 320.0), ("cx_px", 205.0), ("cy_px", 148.0), ("k1", 0.0)] {
+        let [value, uncertainty] = figure(&found, key);
+        // Errors of 16 samples a pixel are not noise: wider than three standard uncertainties.
+        assert!(
+            (value - want).abs() < 5.0 * uncertainty && uncertainty < 1e-2 * (want + 1.0),
+            "{key}: {value} {uncertainty}"
+        );
+    }
+    let distance = found["tables"]["views"][0]["distance_mm"].as_f64().expect("a number");
+    assert!((distance - 390.0).abs() < 0.5, "{distance}");
+    etendue(["measure", "lens", &camera]).ok();
+    let one = ["measure", "focal", &views[0], "--pitch-mm", "30"];
+    etendue(one).refused(&["one picture alone", "--distance-mm"]);
+    let at = |more: &[&str]| etendue(one.iter().chain(more).copied());
+    at(&["--distance-mm", "390", "--model", "pinhole"]).ok();
+    etendue(["calibrate", &views[0], "--pitch-mm", "30"]).refused(&["do not determine", "fx_px"]);
+    etendue(["calibrate", &views[0], &views[1], &views[0], "--pitch-mm", "30"]).refused(&["exactly as", "view0.png"]);
+    etendue(["calibrate", &views[0], &photograph(), "--pitch-mm", "30"]).refused(&["left01.jpg", "640 × 480"]);
+    etendue(["measure", "distortion", &views[0], "--grid", "5x4"]).refused(&["9 × 6", "5 × 4"]);
+}
+
+#[test]
+fn colours_that_are_displaced_are_told_and_grey_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let level = |x: f64, y: f64, shift: f64| {
+        let at = |k: usize| (k as f64 + 0.5) / 4.0;
+        let samples = (0..16).map(|k| dot((x + at(k % 4) - shift) / 20.0 + 0.25, (y + at(k / 4)) / 20.0 + 0.25));
+        etendue_spectra::colour::encode(samples.sum::<f64>() as f32 / 16.0)
+    };
+    let pixels = (0..400 * 300).map(|i| {
+        let (x, y) = ((i % 400) as f64, (i / 400) as f64);
+        [level(x, y, 0.4), level(x, y, 0.0), level(x, y, -0.2)]
+    });
+    let plane = Plane::<Display>::from_samples(400, 300, pixels.collect()).expect("a rectangle");
+    let file = folder.path().join("colours.png");
+    std::fs::write(&file, encode_display(&plane).expect("a picture")).expect("written");
+    let found = json(&["measure", "chromatic", &text(&file)]);
+    // 16 samples and 8 bits: some hundredths of a pixel.
+    assert!((figure(&found, "red_largest_px")[0] - 0.4).abs() < 0.06, "{found}");
+    assert!((figure(&found, "blue_largest_px")[0] - 0.2).abs() < 0.06, "{found}");
+    etendue(["measure", "chromatic", &photograph()]).refused(&["left01.jpg", "no channel R"]);
+    let plain = picture(folder.path(), "plain.png", [64, 48], |_, _| 0.5);
+    etendue(["measure", "distortion", &plain]).refused(&["plain.png", "was found"]);
+}
