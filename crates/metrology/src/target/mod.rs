@@ -48,7 +48,7 @@ pub struct Sought {
 }
 
 /// Least points of a grid whose size is not stated.
-const LEAST: usize = 12;
+const LEAST: usize = 16;
 
 /// The chart's points.
 ///
