@@ -136,7 +136,7 @@ fn colours_that_are_displaced_are_told_and_grey_is_refused() {
         etendue_spectra::colour::encode(samples.sum::<f64>() as f32 / 16.0)
     };
     let pixels = (0..400 * 300).map(|i| {
-        let (x, y) = ((i % 400) as f64, (i / 400) as f64);
+        let (x, y) = (f64::from(i % 400), f64::from(i / 400));
         [level(x, y, 0.4), level(x, y, 0.0), level(x, y, -0.2)]
     });
     let plane = Plane::<Display>::from_samples(400, 300, pixels.collect()).expect("a rectangle");
