@@ -22,12 +22,13 @@ pub(crate) fn propagate<const N: usize>(inputs: &[Estimate], f: impl Fn(&[f64]) 
     core::array::from_fn(|k| Estimate::new(values[k], variances[k].sqrt()))
 }
 
-/// √x of a variance that may have come out negative: 0 then. Its uncertainty is how far one standard uncertainty upwards
-/// reaches, u/(2 √x) where x is well known and √u where it is not told from 0.
+/// √x of a variance that may have come out negative: 0 then. Its uncertainty is half the way to the farther end of the 95 %
+/// interval, √(x ± 2 u): u/(2 √x) where x is well known, √(u/2) where it is not told from 0.
 pub(crate) fn root(x: Estimate) -> Estimate {
-    let root = x.value.max(0.0).sqrt();
-    let above = (root * root + x.standard_uncertainty).sqrt();
-    Estimate::new(root, above - root)
+    let at = |variance: f64| variance.max(0.0).sqrt();
+    let (root, two) = (at(x.value), 2.0 * x.standard_uncertainty);
+    let (above, below) = (at(x.value.max(0.0) + two) - root, root - at(x.value - two));
+    Estimate::new(root, 0.5 * above.max(below))
 }
 
 #[cfg(test)]
@@ -47,6 +48,6 @@ mod tests {
     fn roots_of_known_and_unknown_variances() {
         let known = root(Estimate::new(4.0, 0.004));
         assert!((known.standard_uncertainty - 0.001).abs() < 1e-6);
-        assert_eq!(root(Estimate::new(-1.0, 0.04)), Estimate::new(0.0, 0.04_f64.sqrt()));
+        assert_eq!(root(Estimate::new(-1.0, 0.08)), Estimate::new(0.0, 0.2));
     }
 }

@@ -106,10 +106,21 @@ impl<'a> Drawing<'a> {
         }
     }
 
+    /// Whether more points lie in the upper left than in the upper right: the legend then goes to the right.
+    fn crowded_left(&self) -> bool {
+        let placed = self.plot.series.iter().flat_map(|s| &s.points);
+        let places: Vec<(f64, f64)> =
+            placed.filter_map(|p| Some((self.x.place(p[0])?, self.y.place(p[1])?))).filter(|(_, y)| *y > 0.6).collect();
+        let (left, right) = (places.iter().filter(|p| p.0 < 0.4).count(), places.iter().filter(|p| p.0 > 0.6).count());
+        left > right
+    }
+
     fn legend(&self, out: &mut String) {
+        let longest = self.plot.series.iter().map(|s| s.name.chars().count()).max().unwrap_or(0);
+        let left = if self.crowded_left() { WIDTH - RIGHT - 56.0 - 7.5 * longest as f64 } else { LEFT + 14.0 };
         let named = self.plot.series.iter().enumerate().filter(|(_, s)| !s.name.is_empty());
         for (row, (i, series)) in named.enumerate() {
-            let (x, y) = (LEFT + 14.0, TOP + 20.0 + 18.0 * row as f64);
+            let (x, y) = (left.max(LEFT + 14.0), TOP + 20.0 + 18.0 * row as f64);
             let colour = COLOURS[i % COLOURS.len()];
             match series.mark {
                 Mark::Points => {

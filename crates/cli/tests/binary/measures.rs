@@ -2,6 +2,7 @@
 
 use crate::support::{etendue, root, text};
 use etendue_core::Plane;
+use etendue_core::maths::f64::{atan2, cos};
 use etendue_core::quantity::{DigitalNumber, Display};
 use etendue_io::png::{encode_display, encode_raw16};
 use serde_json::Value;
@@ -96,6 +97,54 @@ fn photon_transfer_refuses_what_it_cannot_measure() {
     let coloured = stored.replacen(&(images + "image4.png"), &text(&file), 1);
     describe(coloured).refused(&["colour.png", "linear raw is needed"]);
     describe(stored.replace("i ", "j ")).refused(&["line 4", "v, n, b, d or i"]);
+}
+
+#[test]
+fn what_was_found_is_written_as_keys_of_a_camera_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (camera, descriptor) = (folder.path().join("sensor.toml"), text(&oracle().join("EMVA1288descriptor.txt")));
+    etendue(["measure", "ptc", &descriptor, "--camera-out", &text(&camera)]).ok();
+    let written = std::fs::read_to_string(&camera).expect("a file");
+    for key in ["gain_dn_per_e = 0.196", "read_noise_e = 10.1", "[sensor.non_uniformity]", "prnu_row = 0.0074"] {
+        assert!(written.contains(key), "{key} is missing in:\n{written}");
+    }
+    let flat = raw(folder.path(), "flat.png", (64, 64), |x, y| 9000.0 + 50.0 * scatter(x, y, 0));
+    etendue(["measure", "vignetting", &flat, "--camera-out", &text(&camera)]).refused(&["--pixel-pitch-um"]);
+    etendue(["measure", "vignetting", &flat, "--camera-out", &text(&camera), "--pixel-pitch-um", "5"]).ok();
+    let written = std::fs::read_to_string(&camera).expect("a file");
+    assert!(written.contains("[lens.relative_illumination]") && written.contains("ratio = [1.000000, "), "{written}");
+    let edge = raw(folder.path(), "edge.png", (64, 64), |x, y| if 10 * x > 280 + y { 9000.0 } else { 900.0 });
+    etendue(["measure", "sfr", &edge, "--camera-out", &text(&camera)]).refused(&["--camera-out"]);
+}
+
+/// The same stacks at three temperatures: no growth.
+#[test]
+fn a_dark_current_needs_three_temperatures() {
+    let descriptor = text(&oracle().join("EMVA1288descriptor.txt"));
+    let at = |celsius: u32| format!("{celsius}:{descriptor}");
+    let report = json(&["dark-current", &at(20), &at(30), &at(40)]);
+    assert!((figure(&report, "doubling_reference_e_per_s") / 3052.0 - 1.0).abs() < 0.01, "{report}");
+    assert!(figure(&report, "doubling_p_value") > 0.99 && figure(&report, "diffusion_p_value") < 1e-6, "{report}");
+    etendue(["measure", "dark-current", &at(20), &at(30)]).refused(&["at least three temperatures"]);
+    etendue(["measure", "dark-current", &descriptor]).refused(&["CELSIUS"]);
+}
+
+#[test]
+fn stars_and_textures_give_their_response() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let wave = |x: usize, y: usize| cos(24.0 * atan2(y as f64 + 0.5 - 64.0, x as f64 + 0.5 - 64.0));
+    let star = raw(folder.path(), "star.png", (128, 128), |x, y| 20_000.0 + 9_000.0 * wave(x, y));
+    let places = ["--centre-px", "64,64", "--cycles", "24", "--inner-px", "15", "--outer-px", "55"];
+    let report = json(&[&["star", star.as_str()], &places[..]].concat());
+    let circles = report["tables"]["circles"].as_array().expect("circles");
+    // Sampled at points, nothing is lost.
+    assert!(circles.iter().all(|c| (c["response"]["value"].as_f64().expect("a value") - 1.0).abs() < 0.01), "{report}");
+    let even = raw(folder.path(), "even.png", (128, 128), |_, _| 20_000.0);
+    etendue([&["measure", "star", even.as_str()], &places[..]].concat()).refused(&["star"]);
+    let leaves = raw(folder.path(), "leaves.png", (128, 128), |x, y| 20_000.0 + 9_000.0 * scatter(x, y, 1));
+    let report = json(&["texture", &leaves, &leaves]);
+    assert_eq!(report["tables"]["bands"][20]["coherence"].as_f64().map(|c| c > 0.999_999), Some(true));
+    etendue(["measure", "texture", &even, &leaves]).refused(&["share no texture"]);
 }
 
 #[test]

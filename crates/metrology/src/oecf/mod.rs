@@ -219,11 +219,21 @@ fn monotone_slopes(points: &[ExposurePoint]) -> Vec<f64> {
         let (w, v) = (2.0 * width(k) + width(k - 1), width(k) + 2.0 * width(k - 1));
         (w + v) / (w / a + v / b)
     };
+    // Three-point slopes at the ends, as far as the curve stays monotone.
+    let end = |near: usize, far: usize| {
+        let (a, b) = (width(near), width(far));
+        let slope = ((2.0 * a + b) * secants[near] - a * secants[far]) / (a + b);
+        if slope * secants[near] <= 0.0 {
+            0.0
+        } else {
+            slope.clamp(-3.0 * secants[near].abs(), 3.0 * secants[near].abs())
+        }
+    };
     let last = points.len() - 1;
     (0..=last)
         .map(|k| match k {
-            0 => secants[0],
-            k if k == last => secants[last - 1],
+            0 => end(0, 1),
+            k if k == last => end(last - 1, last - 2),
             k => inner(k),
         })
         .collect()

@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! profile: mean of y − b over rings of equal width, at √⟨r²⟩, over the centre's value
-//! centre:  I₀ of I₀ (1 + a₂ r² + a₄ r⁴ + a₆ r⁶), fitted to the rings by weighted least squares; r = 1 in the corner
+//! centre:  I₀ of I₀ (1 + a₂ r² + a₄ r⁴ + a₆ r⁶ + a₈ r⁸), fitted to the rings by weighted least squares; r = 1 in the corner
 //! map:     means of blocks over the mean of the block in the centre (odd numbers of blocks)
 //! ```
 //!
@@ -61,8 +61,8 @@ pub struct Shading {
     pub profile: Vec<Ring>,
     /// The centre's reading less black.
     pub centre: Estimate,
-    /// a₂, a₄, a₆ of the fitted fall-off, positions as shares.
-    pub coefficients: [Estimate; 3],
+    /// a₂, a₄, a₆, a₈ of the fitted fall-off, positions as shares.
+    pub coefficients: [Estimate; 4],
     /// Fitted illumination at the farthest corner relative to the centre.
     pub corner: Estimate,
     /// Block means relative to the central one, rows from the top.
@@ -144,7 +144,7 @@ pub fn measure_shading(image: &Image, settings: &ShadingSettings) -> Result<Shad
     Ok(Shading {
         profile: rings.iter().map(|ring| fit.ring(ring)).collect(),
         centre,
-        coefficients: [1, 2, 3].map(|k| fit.ratio(k)),
+        coefficients: [1, 2, 3, 4].map(|k| fit.ratio(k)),
         corner: fit.corner(),
         map,
     })
@@ -168,8 +168,8 @@ fn check(image: &Image, settings: &ShadingSettings) -> Result<(), ShadingError> 
 struct Sums {
     count: f64,
     reading: f64,
-    /// Of the positions: Σ r², Σ r⁴, Σ r⁶.
-    powers: [f64; 3],
+    /// Of the positions: Σ 1, Σ r², … Σ r⁸.
+    powers: [f64; TERMS],
     variance: f64,
     pairs: f64,
 }
@@ -178,8 +178,7 @@ impl Sums {
     fn add(&mut self, reading: f64, square_position: f64) {
         self.count += 1.0;
         self.reading += reading;
-        let [_, second, fourth, sixth] = powers(square_position);
-        self.powers = [self.powers[0] + second, self.powers[1] + fourth, self.powers[2] + sixth];
+        self.powers.iter_mut().zip(powers(square_position)).for_each(|(sum, power)| *sum += power);
     }
 
     fn mean(&self) -> f64 {
@@ -187,13 +186,12 @@ impl Sums {
     }
 
     fn square_position(&self) -> f64 {
-        self.powers[0] / self.count
+        self.powers[1] / self.count
     }
 
-    /// Means of 1, r², r⁴, r⁶.
-    fn mean_powers(&self) -> [f64; 4] {
-        let [second, fourth, sixth] = self.powers.map(|sum| sum / self.count);
-        [1.0, second, fourth, sixth]
+    /// Means of 1, r², … r⁸.
+    fn mean_powers(&self) -> [f64; TERMS] {
+        self.powers.map(|sum| sum / self.count)
     }
 
     /// Of the mean.
@@ -237,25 +235,35 @@ fn square_position(image: &Image, settings: &ShadingSettings) -> impl Fn(usize, 
     }
 }
 
-/// I₀ (1 + a₂ r² + a₄ r⁴ + a₆ r⁶) as b₀ + b₁ r² + b₂ r⁴ + b₃ r⁶.
+/// Coefficients of the fall-off: of 1, r², … r⁸.
+const TERMS: usize = 5;
+
+/// I₀ (1 + a₂ r² + …) as b₀ + b₁ r² + ….
 struct Falloff {
     b: Vec<f64>,
     covariance: Vec<Vec<f64>>,
 }
 
-fn powers(square: f64) -> [f64; 4] {
-    [1.0, square, square * square, square * square * square]
+fn powers(square: f64) -> [f64; TERMS] {
+    let mut powers = [1.0; TERMS];
+    (1..TERMS).for_each(|k| powers[k] = powers[k - 1] * square);
+    powers
 }
 
 /// The noise of a pixel that the fit assumes at least, of its reading, so that no ring rules alone.
 const LEAST_NOISE: f64 = 1e-3;
 
+/// A ring's weight in the fit.
+fn weight(ring: &Sums) -> f64 {
+    let (u, least) = (ring.standard_uncertainty(), LEAST_NOISE * ring.mean().abs() / ring.count.sqrt());
+    1.0 / (u * u + least * least).max(f64::MIN_POSITIVE)
+}
+
 impl Falloff {
     fn fitted(rings: &[Sums]) -> Result<Self, ShadingError> {
-        let mut normal = Normal::new(4);
+        let mut normal = Normal::new(TERMS);
         for ring in rings {
-            let (u, least) = (ring.standard_uncertainty(), LEAST_NOISE * ring.mean().abs() / ring.count.sqrt());
-            normal.add(&ring.mean_powers(), ring.mean(), 1.0 / (u * u + least * least).max(f64::MIN_POSITIVE));
+            normal.add(&ring.mean_powers(), ring.mean(), weight(ring));
         }
         let none = ShadingError::NotFlat { percent: f64::NAN, blocks: 0 };
         let (b, covariance) = normal.solve().zip(normal.inverse()).ok_or(none)?;
@@ -273,22 +281,23 @@ impl Falloff {
         pixels.mean_powers().iter().zip(&self.b).map(|(p, b)| p * b).sum()
     }
 
+    /// A ring over the centre, which depends on the ring itself by its share in the fit.
     fn ring(&self, ring: &Sums) -> Ring {
-        let (value, u) = (ring.mean() / self.b[0], ring.standard_uncertainty() / self.b[0]);
-        let centre = value * self.covariance[0][0].sqrt() / self.b[0];
-        Ring {
-            position: ring.square_position().sqrt(),
-            relative: Estimate::new(value, (u * u + centre * centre).sqrt()),
-        }
+        let (value, u) = (ring.mean() / self.b[0], ring.standard_uncertainty());
+        let along: f64 = self.covariance[0].iter().zip(ring.mean_powers()).map(|(c, p)| c * p).sum();
+        let common = u * u * along * weight(ring);
+        let variance = u * u + value * value * self.covariance[0][0] - 2.0 * value * common;
+        let u = variance.max(0.0).sqrt() / self.b[0];
+        Ring { position: ring.square_position().sqrt(), relative: Estimate::new(value, u) }
     }
 
     /// A linear form of the coefficients over b₀.
-    fn over_centre(&self, form: [f64; 4]) -> Estimate {
+    fn over_centre(&self, form: [f64; TERMS]) -> Estimate {
         let value = form.iter().zip(&self.b).map(|(f, b)| f * b).sum::<f64>() / self.b[0];
         let mut slopes = form.map(|f| f / self.b[0]);
         slopes[0] -= value / self.b[0];
-        let row = |i: usize| (0..4).map(|j| self.covariance[i][j] * slopes[j]).sum::<f64>();
-        let variance = (0..4).map(|i| slopes[i] * row(i)).sum::<f64>();
+        let row = |i: usize| (0..TERMS).map(|j| self.covariance[i][j] * slopes[j]).sum::<f64>();
+        let variance = (0..TERMS).map(|i| slopes[i] * row(i)).sum::<f64>();
         Estimate::new(value, variance.max(0.0).sqrt())
     }
 
@@ -297,7 +306,7 @@ impl Falloff {
     }
 
     fn corner(&self) -> Estimate {
-        self.over_centre([1.0; 4])
+        self.over_centre([1.0; TERMS])
     }
 }
 

@@ -40,6 +40,8 @@ pub(super) enum Cell {
     Number(f64, usize),
     /// A number with its standard uncertainty.
     Estimate(Estimate),
+    /// Numbers in a row, to some decimals.
+    List(Vec<f64>, usize),
     /// A word.
     Text(String),
     /// Nothing known.
@@ -169,6 +171,7 @@ impl Cell {
         match self {
             Self::Number(x, _) => finite(*x),
             Self::Estimate(e) => json_estimate(*e),
+            Self::List(list, _) => list.iter().copied().map(finite).collect(),
             Self::Text(text) => text.as_str().into(),
             Self::Nothing => Value::Null,
         }
@@ -179,6 +182,11 @@ impl Cell {
             Self::Number(x, _) if !x.is_finite() => "–".to_owned(),
             Self::Number(x, decimals) => fixed(*x, *decimals),
             Self::Estimate(e) => with_uncertainty(*e),
+            Self::List(list, decimals) => {
+                let texts: Vec<String> =
+                    list.iter().map(|x| format!("{:>1$}", fixed(*x, *decimals), 4 + decimals)).collect();
+                texts.join(" ")
+            }
             Self::Text(text) => text.clone(),
             Self::Nothing => "–".to_owned(),
         }

@@ -95,9 +95,8 @@ pub(super) fn vignetting(arguments: &FlatField) -> Result<(), Failure> {
     );
     report.figure("centre", "reading of the centre, less black", "", shading.centre);
     report.figure("corner_percent", "illumination of the corner", "%", shading.corner.scaled(100.0));
-    for (key, label, value) in [("a2", "a₂ of 1 + a₂ r² + a₄ r⁴ + a₆ r⁶", 0), ("a4", "a₄", 1), ("a6", "a₆", 2)]
-        .map(|(k, l, i)| (k, l, shading.coefficients[i]))
-    {
+    let labels = [("a2", "a₂ of 1 + a₂ r² + a₄ r⁴ + a₆ r⁶ + a₈ r⁸"), ("a4", "a₄"), ("a6", "a₆"), ("a8", "a₈")];
+    for ((key, label), value) in labels.into_iter().zip(shading.coefficients) {
         report.figure(key, label, "", value);
     }
     let percent = |e: Estimate| e.scaled(100.0);
@@ -160,8 +159,7 @@ fn extreme(report: &mut Report, key: &str, label: &str, map: &[Vec<Estimate>]) {
 /// A map as a table: one row of blocks a row.
 fn map(key: &'static str, map: &[Vec<Estimate>]) -> Table {
     let row = |(i, blocks): (usize, &Vec<Estimate>)| {
-        let cells = blocks.iter().map(|e| format!("{:6.2}", 100.0 * e.value)).collect::<Vec<_>>();
-        vec![Cell::Number(i as f64 + 1.0, 0), Cell::Text(cells.join(" "))]
+        vec![Cell::Number(i as f64 + 1.0, 0), Cell::List(blocks.iter().map(|e| 100.0 * e.value).collect(), 2)]
     };
     Table {
         key,
