@@ -2,7 +2,7 @@
 
 use crate::Estimate;
 use crate::calibrate::Sighting;
-use crate::fit::{FitError, Homography, Problem, fit};
+use crate::fit::{Fit, FitError, Homography, Problem, fit};
 use etendue_projection::{RadialDistortion, Sense};
 use glam::{DMat3, DVec2};
 
@@ -34,20 +34,18 @@ impl RadialFit {
         let few = FitError::Few { residuals: 2 * pairs.len(), parameters: 12 };
         let start = Homography::direct(&pairs).ok_or(few)?;
         let (chart, size) = middle(&pairs);
-        let mut problem = Radial { points, sense, half_diagonal_px, centre, free: true, chart, size };
+        let problem = Radial { points, sense, half_diagonal_px, centre, free: false, chart, size };
         let mut numbers = problem.first(&start);
-        numbers.extend([0.0, 0.0, centre.x, centre.y]);
-        let free = fit(&problem, &numbers);
+        numbers.extend([0.0; 2]);
+        // Without distortion every centre is as good: it is set free when k₁ and k₂ are known.
+        let held = fit(&problem, &numbers)?;
+        let numbers = [&held.parameters[..], &centre.to_array()].concat();
+        let free = fit(&Radial { free: true, ..problem }, &numbers).ok();
         // A centre known no better than a twentieth of the half diagonal is not known.
-        let known =
-            |f: &crate::fit::Fit| (10..12).all(|i| f.estimate(i).standard_uncertainty < 0.05 * half_diagonal_px);
-        let (found, centre_px) = match free {
-            Ok(found) if known(&found) => (found.clone(), [found.estimate(10), found.estimate(11)]),
-            _ => {
-                problem.free = false;
-                let open = [centre.x, centre.y].map(|c| Estimate::new(c, f64::INFINITY));
-                (fit(&problem, &numbers[..10])?, open)
-            }
+        let known = |f: &Fit| (10..12).all(|i| f.estimate(i).standard_uncertainty < 0.05 * half_diagonal_px);
+        let (found, centre_px) = match free.filter(known) {
+            Some(found) => (found.clone(), [found.estimate(10), found.estimate(11)]),
+            None => (held, [centre.x, centre.y].map(|c| Estimate::new(c, f64::INFINITY))),
         };
         let squares: f64 = found.residuals.iter().flatten().map(|r| r * r).sum();
         let rms_px = (squares / points.len() as f64).sqrt();

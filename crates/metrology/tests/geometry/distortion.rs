@@ -50,8 +50,9 @@ fn the_curve_is_the_camera_s() {
         let fit = if sense == Sense::IdealToObserved { found.forward } else { found.backward };
         assert!(fit.rms_px < 0.02, "{fit:?}");
         assert!((fit.k1.value - k1).abs() < 1e-3 && (fit.k2.value - k2).abs() < 1e-3, "{fit:?}");
-        let [x, y] = fit.centre_px.map(|c| c.value);
-        assert!((x - 400.0).abs() < 0.3 && (y - 300.0).abs() < 0.3, "{fit:?}");
+        let off = fit.centre_px.iter().zip([400.0, 300.0]).map(|(c, want)| (c.value - want, c.standard_uncertainty));
+        // Of 0.01 px of noise a thirtieth remains, over a distortion of a tenth; no more than a few standard uncertainties.
+        assert!(off.into_iter().all(|(off, u)| off.abs() < 0.3 && u < 0.3), "{fit:?}");
         let worst = found.local.iter().filter(|l| l.field > 0.2);
         let off = worst.map(|l| (l.distortion + 1.0 - ratio(&camera, l.field)).abs()).fold(0.0, f64::max);
         assert!(off < 5e-4, "{off}");
