@@ -185,6 +185,14 @@ fn a_slanted_edge_gives_its_response() {
     // A ramp of one pixel along rows is cos θ = 0.995037 wide along the normal: sinc(0.5 cos θ).
     assert!((half - 0.639_78).abs() < 0.005, "{half}");
     assert_eq!(std::fs::read_to_string(&plot).expect("a plot").matches("<polyline").count(), 2);
+    let truth = folder.path().join("truth.json");
+    let ends = r#""features":[{"kind":"edge"},{"kind":"edge"}],"cameras":[{"name":"a","features_px":[[[26.8,0],[33.2,64]],[null,null]]}]"#;
+    std::fs::write(&truth, format!("{{{ends}}}")).expect("a temporary file");
+    let told = json(&["sfr", &file, "--truth", &text(&truth)]);
+    // Once the edge that is seen: 0.5 of its length across it, 0.6 along it, about its middle.
+    assert_eq!(told["tables"]["edges"].as_array().map(Vec::len), Some(1), "{told}");
+    assert_eq!(told["tables"]["edges"][0]["at_px"], "14,12", "{told}");
+    etendue(["measure", "sfr", &file, "--truth", &text(&truth), "--camera", "b"]).refused(&["no camera 'b'", "a"]);
     let upright = raw(folder.path(), "upright.png", (64, 64), |x, _| if x < 30 { 5_000.0 } else { 40_000.0 });
     etendue(["measure", "sfr", &upright]).refused(&["upright.png", "0.00°", "2° to 43°"]);
     let flat = raw(folder.path(), "flat.png", (64, 64), |x, y| 5_000.0 + 100.0 * scatter(x, y, 3));

@@ -21,6 +21,7 @@ mod report;
 pub mod sfr;
 pub mod shading;
 pub mod texture;
+mod truth;
 mod views;
 
 use crate::args::{self, Measure};

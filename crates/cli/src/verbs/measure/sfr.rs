@@ -2,6 +2,7 @@
 
 use super::readings::{Levels, Selection, part, region};
 use super::report::{Cell, Report, Table, Telling};
+use super::truth;
 use crate::failure::Failure;
 use crate::plot::{Axis, Mark, Plot, Series};
 use clap::Args;
@@ -18,6 +19,12 @@ pub struct SfrArguments {
     /// A part of the picture that holds one edge: left column, top row, width, height; once an edge [default: all of it]
     #[arg(long = "edge", value_name = "X,Y,W,H", value_parser = region)]
     pub edges: Vec<[usize; 4]>,
+    /// The truth.json of `etendue chart slanted-edges`: measure every edge that is whole in the picture
+    #[arg(long, value_name = "truth.json", conflicts_with = "edges")]
+    pub truth: Option<PathBuf>,
+    /// With --truth: the camera that took the picture [default: the first]
+    #[arg(long, value_name = "NAME", requires = "truth")]
+    pub camera: Option<String>,
     /// Degree of the curve that the edges follow: 2 or 3 where the lens bends them
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=5))]
     pub edge_degree: u8,
@@ -35,7 +42,11 @@ pub struct SfrArguments {
 pub(super) fn run(arguments: &SfrArguments) -> Result<(), Failure> {
     let readings = arguments.selection.linear(&arguments.picture)?;
     let (width, height) = (readings.image.width(), readings.image.height());
-    let regions = if arguments.edges.is_empty() { vec![[0, 0, width, height]] } else { arguments.edges.clone() };
+    let regions = match &arguments.truth {
+        Some(file) => truth::edges(file, arguments.camera.as_deref(), (width, height))?,
+        None if arguments.edges.is_empty() => vec![[0, 0, width, height]],
+        None => arguments.edges.clone(),
+    };
     let settings = SfrSettings {
         edge_degree: arguments.edge_degree.into(),
         reach_px: arguments.reach_px,
