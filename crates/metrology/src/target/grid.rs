@@ -34,10 +34,19 @@ impl Grid {
         self.nodes.binary_search_by_key(&[index[1], index[0]], key).ok().map(|i| &self.nodes[i])
     }
 
-    /// The share of its places at which a point was found.
+    /// The share of places between the first and the last point of each row, and of each column (whichever is less), at which
+    /// a point was found: 1 for a grid that is cut by the picture, or staggered, and has no gaps.
     #[must_use]
     pub fn filled(&self) -> f64 {
-        self.nodes.len() as f64 / (self.size[0] * self.size[1]) as f64
+        let spans = |axis: usize| {
+            let mut ends = vec![None::<[usize; 2]>; self.size[1 - axis]];
+            for node in &self.nodes {
+                let (line, at) = (&mut ends[node.index[1 - axis]], node.index[axis]);
+                *line = Some(line.map_or([at; 2], |[first, last]| [first.min(at), last.max(at)]));
+            }
+            ends.iter().flatten().map(|[first, last]| last - first + 1).sum::<usize>()
+        };
+        self.nodes.len() as f64 / spans(0).max(spans(1)).max(1) as f64
     }
 
     /// The grid of a lattice over points, turned so that columns lead to the right and rows down.

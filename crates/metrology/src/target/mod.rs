@@ -9,6 +9,8 @@
 //! come from the picture: neither the chart's size nor the lens is needed. The picture should be linear in light (a
 //! display encoding moves the edges of dots, not the corners of squares).
 //!
+//! A staggered grid of discs is a square one that stands on its corner: its steps are the distances of nearest neighbours.
+//!
 //! Left out: charts that number their points (a grid that is seen in part is found, its place on the chart is not), rings.
 
 mod centroid;
@@ -75,7 +77,7 @@ fn checked(grid: Grid, stated: Option<[usize; 2]>, sought: &'static str) -> Resu
     if best < least || grid.size.iter().any(|n| *n < 2) {
         return Err(TargetError::None { sought, best, least });
     }
-    if grid.filled() < 0.6 {
+    if grid.filled() < 0.9 {
         return Err(TargetError::Gaps { points: best, size: grid.size });
     }
     let larger = |stated: [usize; 2]| grid.size[0] > stated[0] || grid.size[1] > stated[1];

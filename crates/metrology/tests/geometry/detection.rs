@@ -112,6 +112,32 @@ fn shading_does_not_move_dots() {
 }
 
 #[test]
+fn a_staggered_grid_is_a_square_one_on_its_corner() {
+    let camera = perspective(500.0, &[-0.1, 0.0, 0.0, 0.0], [640, 480]);
+    let view = View::new(&camera, [0.2, -0.1, 0.0], DVec2::new(5.0, 4.0), DVec3::new(0.0, 0.0, 14.0));
+    // Dots where column and row are both even or both odd.
+    let all = dots(11, 9, 0.35);
+    let staggered = move |p: DVec2| {
+        let [x, y] = p.round().to_array().map(|c| c as i32);
+        if (x + y) % 2 == 0 { all(p) } else { 0.9 }
+    };
+    let grid = find(&view.picture(8, &staggered), DOTS).expect("dots");
+    assert_eq!(grid.nodes.len(), 50);
+    let nearest = |at: DVec2| {
+        let places =
+            (0..99).filter(|i| (i % 11 + i / 11) % 2 == 0).map(|i| DVec2::new(f64::from(i % 11), f64::from(i / 11)));
+        let off = places.map(|p| {
+            let shift = centroid_shift(|q| view.image(q), p, 0.35).expect("in the field");
+            (view.image(p).expect("in the field") + shift - at).length()
+        });
+        off.fold(f64::INFINITY, f64::min)
+    };
+    assert!(grid.nodes.iter().all(|n| nearest(n.at) < 0.02));
+    // The disc's radius over the step, √2.
+    assert!((grid.disc_radius_steps.expect("dots") * std::f64::consts::SQRT_2 / 0.35 - 1.0).abs() < 5e-3);
+}
+
+#[test]
 fn a_picture_without_a_chart_is_refused() {
     let plain = Image::filled(320, 240, 0.5);
     let noise = noisy(&plain, 0.1, 7);
