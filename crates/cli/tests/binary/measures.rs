@@ -192,6 +192,9 @@ fn a_slanted_edge_gives_its_response() {
     // Once the edge that is seen: 0.5 of its length across it, 0.6 along it, about its middle.
     assert_eq!(told["tables"]["edges"].as_array().map(Vec::len), Some(1), "{told}");
     assert_eq!(told["tables"]["edges"][0]["at_px"], "14,12", "{told}");
+    // Of a mosaic every other pixel is read: half the distances.
+    let mosaic = json(&["sfr", &file, "--truth", &text(&truth), "--cfa", "RGGB", "--channel", "R"]);
+    assert_eq!(mosaic["tables"]["edges"][0]["at_px"], "7,6", "{mosaic}");
     etendue(["measure", "sfr", &file, "--truth", &text(&truth), "--camera", "b"]).refused(&["no camera 'b'", "a"]);
     let upright = raw(folder.path(), "upright.png", (64, 64), |x, _| if x < 30 { 5_000.0 } else { 40_000.0 });
     etendue(["measure", "sfr", &upright]).refused(&["upright.png", "0.00°", "2° to 43°"]);

@@ -41,6 +41,8 @@ pub(super) struct Readings {
     pub full_scale: Option<f64>,
     /// The reading of no light, where a side-car states it.
     pub black: Option<f64>,
+    /// Columns and rows of the file from one reading to the next: those of a mosaic's tile, else 1.
+    pub period: (usize, usize),
 }
 
 /// Weights of linear sRGB in the luminance (IEC 61966-2-1).
@@ -121,13 +123,16 @@ impl Selection {
     ) -> Result<Readings, Failure> {
         let whole = Image::from_samples(photograph.width, photograph.height, samples);
         let image = self.cropped(file, whole.expect("a photograph's channels fill it"))?;
-        let image = match self.mosaic(photograph) {
-            Some(tile) => self.sites(file, &image, &tile)?,
-            None => image,
+        let (image, period) = match self.mosaic(photograph) {
+            Some(tile) => {
+                let period = (tile.columns, tile.channels.len() / tile.columns);
+                (self.sites(file, &image, &tile)?, period)
+            }
+            None => (image, (1, 1)),
         };
         let facts = photograph.raw.as_ref();
         let full_scale = facts.map_or(full_scale, |f| Some(f.white_level_dn));
-        Ok(Readings { image, full_scale, black: facts.map(|f| f.black_level_dn) })
+        Ok(Readings { image, full_scale, black: facts.map(|f| f.black_level_dn), period })
     }
 
     /// The colour filters: as told, or of the side-car; `None` where there is one colour only.

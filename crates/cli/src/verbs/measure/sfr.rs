@@ -20,7 +20,7 @@ pub struct SfrArguments {
     #[arg(long = "edge", value_name = "X,Y,W,H", value_parser = region)]
     pub edges: Vec<[usize; 4]>,
     /// The truth.json of `etendue chart slanted-edges`: measure every edge that is whole in the picture
-    #[arg(long, value_name = "truth.json", conflicts_with = "edges")]
+    #[arg(long, value_name = "truth.json", conflicts_with_all = ["edges", "region"])]
     pub truth: Option<PathBuf>,
     /// With --truth: the camera that took the picture [default: the first]
     #[arg(long, value_name = "NAME", requires = "truth")]
@@ -43,7 +43,7 @@ pub(super) fn run(arguments: &SfrArguments) -> Result<(), Failure> {
     let readings = arguments.selection.linear(&arguments.picture)?;
     let (width, height) = (readings.image.width(), readings.image.height());
     let regions = match &arguments.truth {
-        Some(file) => truth::edges(file, arguments.camera.as_deref(), (width, height))?,
+        Some(file) => truth::edges(file, arguments.camera.as_deref(), (width, height), readings.period)?,
         None if arguments.edges.is_empty() => vec![[0, 0, width, height]],
         None => arguments.edges.clone(),
     };

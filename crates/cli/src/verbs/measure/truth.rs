@@ -8,8 +8,14 @@ use std::path::Path;
 const ALONG: f64 = 0.6;
 const ACROSS: f64 = 0.5;
 
-/// Regions about the edges of a chart as a camera sees them, whole within the picture: left column, top row, width, height.
-pub(super) fn edges(file: &Path, camera: Option<&str>, size: (usize, usize)) -> Result<Vec<[usize; 4]>, Failure> {
+/// Regions about the edges of a chart as a camera sees them, whole within the picture: left column, top row, width, height, in
+/// readings that lie `period` columns and rows of the file apart.
+pub(super) fn edges(
+    file: &Path,
+    camera: Option<&str>,
+    size: (usize, usize),
+    period: (usize, usize),
+) -> Result<Vec<[usize; 4]>, Failure> {
     let text = crate::job::read_text(file).map_err(Failure::input)?;
     let refused = |what: String| Failure::input(format!("{}: {what}", file.display()));
     let truth: Value = serde_json::from_str(&text).map_err(|cause| refused(format!("not JSON ({cause})")))?;
@@ -23,7 +29,7 @@ pub(super) fn edges(file: &Path, camera: Option<&str>, size: (usize, usize)) -> 
     let places = truth["features"].as_array().zip(seen["features_px"].as_array());
     let (features, places) = places.ok_or_else(|| refused("no truth of a chart: it lacks features".to_owned()))?;
     let pairs = features.iter().zip(places).filter(|(feature, _)| feature["kind"] == "edge");
-    let regions: Vec<[usize; 4]> = pairs.filter_map(|(_, ends)| region(ends, size)).collect();
+    let regions: Vec<[usize; 4]> = pairs.filter_map(|(_, ends)| region(ends, size, period)).collect();
     if regions.is_empty() {
         return Err(refused("the camera sees no whole edge of this chart: is it a chart of slanted edges?".to_owned()));
     }
@@ -31,8 +37,8 @@ pub(super) fn edges(file: &Path, camera: Option<&str>, size: (usize, usize)) -> 
 }
 
 /// About an edge from one end to the other.
-fn region(ends: &Value, size: (usize, usize)) -> Option<[usize; 4]> {
-    let point = |i: usize| Some([ends[i][0].as_f64()?, ends[i][1].as_f64()?]);
+fn region(ends: &Value, size: (usize, usize), period: (usize, usize)) -> Option<[usize; 4]> {
+    let point = |i: usize| Some([ends[i][0].as_f64()? / period.0 as f64, ends[i][1].as_f64()? / period.1 as f64]);
     let (a, b) = (point(0)?, point(1)?);
     let run = [(b[0] - a[0]).abs(), (b[1] - a[1]).abs()];
     let length = run[0].max(run[1]);
