@@ -159,3 +159,14 @@ fn nothing_names_a_machine() {
     }
     assert!(faults.is_empty(), "{faults:#?}");
 }
+
+#[test]
+fn no_merge_is_left_undone() {
+    let marks = ["<<<<<<< ", "||||||| ", ">>>>>>> "];
+    let mut faults = Vec::new();
+    for (name, text) in tracked(&[".rs", ".toml", ".md", ".py", ".json", ".yml", "justfile"]) {
+        let marked = text.lines().enumerate().filter(|(_, line)| marks.iter().any(|mark| line.starts_with(mark)));
+        faults.extend(marked.map(|(i, _)| format!("{name}:{}", i + 1)));
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+}

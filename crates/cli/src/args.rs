@@ -60,7 +60,7 @@ pub struct Job {
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// Samples a pixel, over all replicates [default: the job's, or the quality's]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole(1, u32::MAX))]
     pub spp: Option<u32>,
     /// A preset of samples and bounces, for what the job file leaves open
     #[arg(long, value_enum)]
@@ -108,7 +108,7 @@ pub struct Render {
     #[arg(long, value_name = "A..B", value_parser = frames, default_value = "0..1")]
     pub frames: std::ops::Range<u32>,
     /// Worker threads [default: one a processor]. The result does not depend on it
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole(1, u32::MAX))]
     pub threads: Option<u32>,
     /// Render only the tiles whose number is I modulo N; join the shards with `etendue merge`
     #[arg(long, value_name = "I/N", value_parser = shard)]
@@ -264,7 +264,7 @@ pub struct MeasureLens {
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// How many field heights, from the axis to the picture's edge
-    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u32).range(2..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = whole(2, 1000))]
     pub fields: u32,
     /// For a lens without a sensor: how far the picture reaches from the axis, mm [default: the largest field that a lens
     /// file states, otherwise 21.64; or as far as there is light]
@@ -302,6 +302,18 @@ pub fn frames(text: &str) -> Result<std::ops::Range<u32>, String> {
     let number = |s: &str| s.trim().parse::<u32>().map_err(|_| expected());
     let range = number(first)?..number(end)?;
     if range.is_empty() { Err(expected()) } else { Ok(range) }
+}
+
+/// A whole number from `least` to `most`.
+pub fn whole(least: u32, most: u32) -> impl Fn(&str) -> Result<u32, String> + Clone {
+    let range = match most {
+        u32::MAX => format!("of at least {least}"),
+        _ => format!("from {least} to {most}"),
+    };
+    move |text| {
+        let number = text.parse().ok().filter(|n| (least..=most).contains(n));
+        number.ok_or_else(|| format!("expected a whole number {range}, not '{text}'"))
+    }
 }
 
 fn levels(text: &str) -> Result<Levels, String> {
@@ -365,6 +377,13 @@ mod tests {
     #[test]
     fn the_command_line_is_well_formed() {
         Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn whole_numbers_have_ranges() {
+        assert_eq!((whole(3, 10)("3"), whole(3, 10)("10")), (Ok(3), Ok(10)));
+        assert_eq!(whole(3, 10)("2"), Err("expected a whole number from 3 to 10, not '2'".to_owned()));
+        assert_eq!(whole(1, u32::MAX)("1.5"), Err("expected a whole number of at least 1, not '1.5'".to_owned()));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Arguments of the verbs about sensors by themselves.
 
-use crate::args::{Output, frames};
+use crate::args::{Output, frames, whole};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -11,13 +11,13 @@ pub struct Flat {
     #[arg(value_name = "CAMERA.toml")]
     pub camera: PathBuf,
     /// Wavelength of the light, nm
-    #[arg(long, value_name = "NM", value_parser = wavelength_nm)]
+    #[arg(long, value_name = "NM", value_parser = wavelength_nm, allow_negative_numbers = true)]
     pub wavelength_nm: f64,
     #[command(flatten)]
     pub light: FlatLight,
     /// With --photon-transfer: frames of the stacks at half of saturation and in the dark
     #[arg(long, value_name = "N", default_value_t = 100, conflicts_with = "irradiance_w_m2")]
-    #[arg(value_parser = clap::value_parser!(u32).range(3..=10_000))]
+    #[arg(value_parser = whole(3, 10_000))]
     pub stack: u32,
     /// Frames to take, first to last (the last excluded); each has its own sensor noise
     #[arg(long, value_name = "A..B", value_parser = frames, default_value = "0..1", conflicts_with = "photon_transfer")]
@@ -40,11 +40,11 @@ pub struct Flat {
 #[group(required = true, multiple = false)]
 pub struct FlatLight {
     /// Irradiance of the sensor, W/m²; 0 is dark
-    #[arg(long, value_name = "E", value_parser = irradiance_w_m2)]
+    #[arg(long, value_name = "E", value_parser = irradiance_w_m2, allow_negative_numbers = true)]
     pub irradiance_w_m2: Option<f64>,
     /// The series of EMVA 1288 instead: so many exposures up to the camera's exposure_s, where the light just saturates, two
     /// bright and two dark frames each; then a stack at half of saturation and one in the dark
-    #[arg(long, value_name = "LEVELS", value_parser = clap::value_parser!(u32).range(3..=10_000))]
+    #[arg(long, value_name = "LEVELS", value_parser = whole(3, 10_000), allow_negative_numbers = true)]
     pub photon_transfer: Option<u32>,
 }
 

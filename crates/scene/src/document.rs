@@ -115,11 +115,15 @@ impl Node {
     }
 }
 
-/// Gives the tree of a file's text; notes every syntax fault.
+/// How many syntax faults of a file are told: what follows the first is often its consequence.
+const SYNTAX_FAULTS: usize = 3;
+
+/// Gives the tree of a file's text; notes its first syntax faults.
 pub(crate) fn parse(file: &Arc<Path>, text: &str, faults: &mut Faults) -> Node {
-    let (table, errors) = DeTable::parse_recoverable(text);
+    let (table, mut errors) = DeTable::parse_recoverable(text);
+    errors.sort_by_key(|error| error.span().map_or(0, |s| s.start));
     let builder = Builder { spots: Spots::of_file(file, text) };
-    for error in errors {
+    for error in errors.iter().take(SYNTAX_FAULTS) {
         let place = builder.spots.place(error.span().map_or(0, |s| s.start), "");
         faults.add(&place, format!("this is not TOML: {}", error.message()), "correct the syntax");
     }

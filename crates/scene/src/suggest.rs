@@ -1,9 +1,10 @@
 //! The nearest legal word to a misspelt one.
 
 /// The word nearest to `found` (optimal string alignment distance), if it is near enough to be meant: at most a third
-/// of its letters and one differ.
+/// of its letters and one differ. Capitals count as small letters.
 pub(crate) fn nearest<'w>(found: &str, words: &[&'w str]) -> Option<&'w str> {
-    let scored = words.iter().map(|w| (distance(found, w), *w));
+    let found = found.to_lowercase();
+    let scored = words.iter().map(|w| (distance(&found, &w.to_lowercase()), *w));
     scored.filter(|(d, w)| *d <= w.chars().count() / 3 + 1).min_by_key(|(d, _)| *d).map(|(_, w)| w)
 }
 
@@ -45,6 +46,8 @@ mod tests {
     #[test]
     fn far_words_are_not_suggested() {
         assert_eq!(nearest("exposure", &["exposure_s", "width_px"]), Some("exposure_s"));
+        assert_eq!(nearest("PRNU", &["seed", "prnu"]), Some("prnu"));
+        assert_eq!(nearest("d65", &["A", "D50", "D65"]), Some("D65"));
         assert_eq!(nearest("banana", &["exposure_s", "width_px"]), None);
     }
 }

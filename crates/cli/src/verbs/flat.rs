@@ -21,6 +21,9 @@ use std::fmt::Write as _;
 /// The series as the standard's reference program reads it.
 const DESCRIPTOR: &str = "emva1288.txt";
 
+/// Electrons are whole numbers up to here, 2⁵³.
+const MOST_E: f32 = 9_007_199_254_740_992.0;
+
 pub fn run(arguments: &sensor_args::Flat) -> Result<(), Failure> {
     let body = body(arguments)?;
     let name = camera_file::name(&arguments.camera);
@@ -94,6 +97,10 @@ impl Task<'_> {
         let irradiance_w_m2 = self.arguments.light.irradiance_w_m2.unwrap_or(0.0);
         let light = FlatLight { wavelength_nm: self.arguments.wavelength_nm, irradiance_w_m2 };
         let electrons = flat::electrons(self.body, light).expect("it has electronics");
+        if let Some(most) = electrons.samples().iter().find(|e| **e > MOST_E) {
+            let why = format!("makes {most:.1e} electrons a pixel, and at most {MOST_E:.0e} can be counted: give less");
+            return Err(Failure::input(format!("--irradiance-w-m2 {irradiance_w_m2:e}: {why}")));
+        }
         let (products, facts, camera) = (self.products(), self.provenance(results), results.prefix.clone());
         let wanted = Wanted { products: &products, camera: &camera, facts: &facts, undistorted: None };
         let points = photographs(self.body, &electrons, &self.arguments.frames, |n| self.address(n), wanted, results)?;

@@ -1,6 +1,7 @@
 //! Sensors that cannot be: each is told with its file, line and key, and nothing is written.
 
 use crate::bad_input::Spoilt;
+use crate::support::etendue;
 
 const EFFICIENCY: &str = "quantum_efficiency = { camera = \"nikon-d5100\", peak = 0.5 }";
 const BITS: &str = "bits = 12";
@@ -56,6 +57,28 @@ fn a_tile_that_does_not_tile_the_sensor() {
     refused_below(5, "width_px = 46", "width_px = 45", &["cameras.front.sensor.cfa", "2 × 2", "45 × 30", "multiples"]);
     let tile = "cfa = { columns = 3, channels = [\"red\", \"green\", \"blue\", \"green\"] }";
     refused_below(0, "cfa = \"rggb\"", tile, &["cameras.front.sensor", "3"]);
+}
+
+#[test]
+fn captures_that_do_not_go_together() {
+    let hdr = |bits: u32, more: &str| {
+        format!(
+            "{BITS}\n[cameras.sensor.hdr]\nmerged_bits = {bits}\ncaptures = [{{ exposure_share = 0.1 }}, {more}]\n#"
+        )
+    };
+    let more = "{ exposure_share = 0.5 }";
+    refused_below(3, BITS, &hdr(20, more), &["cameras.front.sensor.hdr", "entry 1 (from 0) is more sensitive"]);
+    let more = "{ exposure_share = 0.1, same_charge = true }";
+    refused_below(3, BITS, &hdr(20, more), &["cameras.front.sensor.hdr", "entry 1 (from 0): charge that is read"]);
+    let more = "{ exposure_share = 0.01 }";
+    refused_below(2, BITS, &hdr(13, more), &["cameras.front.sensor.hdr.merged_bits", "13 bits end at 8191"]);
+}
+
+#[test]
+fn a_fault_of_the_job_is_told_once_for_all_cameras() {
+    let ran = etendue(["plan", "scenes/sensors/sensors.toml", "--spp", "7"]);
+    let ran = ran.refused(&["--spp 7 cannot be shared evenly among 4 replicates"]);
+    assert_eq!(ran.err.matches("cannot be shared evenly").count(), 1, "{ran:?}");
 }
 
 #[test]

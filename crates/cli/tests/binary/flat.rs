@@ -128,6 +128,16 @@ fn what_cannot_be_measured_is_refused() {
     ] {
         assert_eq!(flat(WEB, wrong).0.status, 2, "{wrong:?}");
     }
+    for (option, value, phrase) in [
+        ("--irradiance-w-m2", "-0.01", "expected an irradiance of 0 W/m² or more"),
+        ("--irradiance-w-m2", "1e300", "--irradiance-w-m2 1e300: makes inf electrons"),
+        ("--irradiance-w-m2", "1e15", "at most 9e15"),
+        ("--photon-transfer", "2", "expected a whole number from 3 to 10000"),
+    ] {
+        let (ran, files) = flat(WEB, &[&SMALL[..], &[option, value]].concat());
+        assert_eq!((ran.status, files.len()), (2, 0), "{value}");
+        ran.says(&[phrase]);
+    }
     let (ran, _) = flat(WEB, &[&SMALL[..], &["--photon-transfer", "3", "--stack", "3"]].concat());
     ran.ok().says(&["warning", "3 kinds of pixel"]);
 }

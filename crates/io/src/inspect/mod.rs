@@ -1,6 +1,6 @@
 //! What is in a file, with units, and a picture of it.
 //!
-//! Any EXR, PNG, JPEG, HDR, OBJ, side-car JSON, CSV of spectra, refractive indices or retro-reflection, and measured lamp (IES, EULUMDAT). Statistics leave out values that are not finite and
+//! Any EXR, PNG, JPEG, HDR, TIFF, DNG, OBJ, side-car JSON, CSV of spectra, refractive indices or retro-reflection, and measured lamp (IES, EULUMDAT). Statistics leave out values that are not finite and
 //! count them.
 
 mod exr;
@@ -9,6 +9,7 @@ mod picture;
 mod preview;
 mod statistics;
 mod text;
+mod tiff;
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -19,6 +20,7 @@ pub use preview::Preview;
 pub use statistics::ChannelReport;
 
 use crate::Error;
+use crate::photograph::is_tiff;
 use crate::picture::EXR_MAGIC;
 use crate::source::read_bytes;
 
@@ -64,6 +66,7 @@ pub fn inspect(file: &Path) -> Result<FileReport, Error> {
         Some("toml") => {
             Err(Error::new(file, "a description, neither result nor asset; `etendue plan` says what a job describes"))
         }
+        _ if is_tiff(&bytes) => tiff::report(file, &bytes),
         _ => picture::report(file, &bytes),
     }
 }

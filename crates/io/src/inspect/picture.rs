@@ -7,10 +7,11 @@ use image::{ColorType, DynamicImage};
 use super::statistics::ChannelReport;
 use super::{FileReport, Preview};
 use crate::Error;
+use crate::photograph::KINDS;
 use crate::picture::decode_raster;
 
 pub(super) fn report(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
-    let (format, picture) = decode_raster(file, bytes)?;
+    let (format, picture) = decode_raster(file, bytes, KINDS)?;
     let mut report = FileReport::new(file, format!("picture, {}", format!("{format:?}").to_uppercase()));
     let (width, height) = (picture.width() as usize, picture.height() as usize);
     report.state("size", format!("{width} x {height} pixels"));

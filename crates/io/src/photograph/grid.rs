@@ -9,7 +9,7 @@ use crate::Error;
 use crate::picture::decode_raster;
 
 pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
-    let (_, picture) = decode_raster(file, bytes)?;
+    let (_, picture) = decode_raster(file, bytes, super::KINDS)?;
     let (width, height, colour) = (picture.width() as usize, picture.height() as usize, picture.color());
     let (samples, full_scale) = samples(&picture);
     let channels = usize::from(colour.channel_count());

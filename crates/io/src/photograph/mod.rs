@@ -21,12 +21,17 @@ use std::path::Path;
 
 use etendue_spectra::colour;
 
+pub(crate) use tiff::is_tiff;
+
 pub use raw::{FilterTile, RawFacts, RawFrame};
 
 use crate::Error;
 use crate::exr::decode_exr;
 use crate::picture::EXR_MAGIC;
 use crate::source::read_bytes;
+
+/// All kinds of file that are read.
+pub(crate) const KINDS: &str = "PNG, JPEG, TIFF, uncompressed DNG, Radiance HDR or OpenEXR";
 
 /// How a photograph's numbers relate to light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

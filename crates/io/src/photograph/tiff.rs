@@ -13,7 +13,7 @@ use super::{Encoding, Photograph, channel_names, separated};
 use crate::Error;
 
 /// Whether the bytes begin as a TIFF, of either byte order, plain or big.
-pub(super) fn is_tiff(bytes: &[u8]) -> bool {
+pub(crate) fn is_tiff(bytes: &[u8]) -> bool {
     let beginnings: [&[u8]; 4] = [b"II\x2a\0", b"MM\0\x2a", b"II\x2b\0", b"MM\0\x2b"];
     beginnings.iter().any(|b| bytes.starts_with(b))
 }

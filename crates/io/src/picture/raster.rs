@@ -10,16 +10,16 @@ use crate::Error;
 
 /// Decodes `bytes` by their first bytes.
 pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Picture, Error> {
-    let (_, picture) = decode_raster(file, bytes)?;
+    let (_, picture) = decode_raster(file, bytes, "PNG, JPEG, Radiance HDR or OpenEXR")?;
     Ok((picture.width(), picture.height(), pixels(picture)))
 }
 
-/// The picture as stored, with its format.
-pub(crate) fn decode_raster(file: &Path, bytes: &[u8]) -> Result<(ImageFormat, DynamicImage), Error> {
+/// The picture as stored, with its format; a file of none is told that it should be one of `kinds`.
+pub(crate) fn decode_raster(file: &Path, bytes: &[u8], kinds: &str) -> Result<(ImageFormat, DynamicImage), Error> {
     let known = [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Hdr];
     let format = image::guess_format(bytes).ok().filter(|format| known.contains(format));
-    let unknown = "not a picture of a known kind; expected PNG, JPEG, Radiance HDR or OpenEXR";
-    let format = format.ok_or_else(|| Error::new(file, unknown))?;
+    let unknown = || Error::new(file, format!("not a picture of a known kind; expected {kinds}"));
+    let format = format.ok_or_else(unknown)?;
     if format == ImageFormat::Jpeg && !jpeg_is_whole(bytes) {
         return Err(Error::new(file, "this JPEG has no end marker: it is truncated; make or fetch it again"));
     }

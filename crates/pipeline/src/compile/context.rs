@@ -27,6 +27,17 @@ impl<'a> Context<'a> {
         result.map_err(|error| self.fault(place, error.to_string(), "")).ok()
     }
 
+    /// The faults found, each once: a key of the job is looked at for every camera.
+    pub(super) fn into_faults(self) -> Vec<Fault> {
+        let mut faults: Vec<Fault> = Vec::new();
+        for fault in self.faults {
+            if !faults.contains(&fault) {
+                faults.push(fault);
+            }
+        }
+        faults
+    }
+
     /// A remark that the plan prints, once.
     pub(super) fn remark(&mut self, text: String) {
         if !self.remarks.contains(&text) {

@@ -82,7 +82,7 @@ impl Quality {
 pub fn compile(description: &Description, assets: &Assets, choices: &Choices) -> Result<Plan, Vec<Fault>> {
     let mut context = Context::new(assets);
     let plan = planned(description, choices, &mut context);
-    let faults = context.faults;
+    let faults = context.into_faults();
     plan.filter(|_| faults.is_empty()).ok_or(faults)
 }
 
@@ -93,7 +93,7 @@ pub fn compile(description: &Description, assets: &Assets, choices: &Choices) ->
 pub fn compile_camera(camera: &Camera, assets: &Assets) -> Result<CameraBody, Vec<Fault>> {
     let mut context = Context::new(assets);
     let body = camera::body(camera, &mut context);
-    let faults = context.faults;
+    let faults = context.into_faults();
     body.filter(|_| faults.is_empty()).ok_or(faults)
 }
 

@@ -113,8 +113,12 @@ fn raw_format(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> 
             "give \"tiff\"",
         );
     }
-    if format == RawFormat::Dng && body.sensor.as_ref().is_some_and(|s| RawColour::of(s).is_none()) {
-        context.fault(&key.place, "a DNG holds one channel, or red, green and blue", "give \"png\" or \"tiff\"");
+    if format == RawFormat::Dng
+        && let Some(sensor) = body.sensor.as_ref().filter(|s| RawColour::of(s).is_none())
+    {
+        let names: Vec<&str> = sensor.parameters().channels.iter().map(|c| c.name.as_str()).collect();
+        let problem = format!("a DNG holds one channel, or red, green and blue, and a sensor has {}", names.join(", "));
+        context.fault(&key.place, problem, "give \"png\" or \"tiff\"");
     }
     format
 }

@@ -140,7 +140,7 @@ impl<R: Rule> Rule for List<R> {
         kind == Kind::List
     }
     fn expected(&self) -> String {
-        let least = if self.least == 0 { String::new() } else { format!(" ({} or more)", self.least) };
+        let least = if self.least == 0 { String::new() } else { format!(" of {} or more", self.least) };
         format!("a list{least}, each {}", self.rule.expected())
     }
     fn schema(&self) -> Json {

@@ -329,6 +329,9 @@ fn text_that_is_not_toml() {
     assert!(text.starts_with("job.toml:11:12: this is not TOML: "), "{text}");
     let text = faults_of("f_number = 2.0", "f_number = 2.0\nf_number = 2.0");
     assert!(text.contains("job.toml:12:1: this is not TOML: duplicate key"), "{text}");
+    // A quotation mark that is missing makes every later line wrong: the first place is told, and not all of them.
+    let text = faults_of("format = 1", "format = { a = \"");
+    assert!(text.starts_with("job.toml:1:") && text.lines().count() <= 3, "{text}");
 }
 
 #[test]
@@ -395,5 +398,5 @@ fn cameras_that_look_nowhere() {
 fn one_camera_at_least() {
     let files = Files::of_job("format = 1\ncameras = []\nscene = {}\n");
     let text = load(&files, &[]).expect_err("no camera").to_string();
-    assert!(text.starts_with("job.toml:2:11: cameras: found a list of 0; give a list (1 or more)"), "{text}");
+    assert!(text.starts_with("job.toml:2:11: cameras: found a list of 0; give a list of 1 or more"), "{text}");
 }

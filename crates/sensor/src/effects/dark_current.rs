@@ -115,12 +115,18 @@ pub(super) fn need(p: &SensorParameters, operation: &Operation) -> (Verdict, Str
             format!("{} e-/s over {} s frees no electron", dark.current_e_s, operation.exposure_s),
         );
     }
+    let mean_e = four_digits(mean_e);
     let counted = if p.noise {
         format!("{mean_e} e⁻ a pixel on average, Poisson")
     } else {
         format!("{mean_e} e⁻ a pixel; its shot noise is switched off")
     };
     (Verdict::Required, counted + &differences(dark))
+}
+
+/// A number as it is told, to four digits.
+fn four_digits(x: f64) -> f64 {
+    format!("{x:.3e}").parse().unwrap_or(x)
 }
 
 fn differences(dark: &DarkCurrent) -> String {

@@ -49,7 +49,7 @@ impl Blooming {
 pub(super) fn need(p: &SensorParameters, operation: &Operation) -> (Verdict, String) {
     let capacity = operation.full_well_e;
     let clips = match p.charge.blooming {
-        None => format!("clips rows in which a pixel collects more than {capacity} e⁻"),
+        None => format!("a pixel's charge above {capacity} e⁻ is lost"),
         Some(Blooming::Column { spill }) => {
             format!("of what exceeds {capacity} e⁻, {spill} goes on along the column, the rest is drained")
         }

@@ -74,7 +74,7 @@ impl Capture {
         }
     }
 
-    fn check(&self, checks: &mut Checks) {
+    fn check(&self, number: usize, checks: &mut Checks) {
         checks.share_above_0("hdr.captures.exposure_share", self.exposure_share);
         checks.share_above_0("hdr.captures.sensitivity_share", self.sensitivity_share);
         checks.share_above_0("hdr.captures.gain_share", self.gain_share);
@@ -86,7 +86,7 @@ impl Capture {
         }
         let read_only = self.exposure_share == 1.0 && self.sensitivity_share == 1.0 && self.full_well_e.is_none();
         checks.agree("hdr.captures.same_charge", !self.same_charge || read_only, || {
-            "charge that is read again has the exposure, photodiode and full well it had: remove those, or \"same_charge\"".to_owned()
+            format!("entry {number} (from 0): charge that is read again has the exposure, photodiode and full well it had: remove those, or \"same_charge\"")
         });
     }
 }
@@ -140,7 +140,7 @@ impl HighDynamicRange {
     }
 
     pub(crate) fn check(&self, p: &SensorParameters, checks: &mut Checks) {
-        self.captures.iter().for_each(|capture| capture.check(checks));
+        self.captures.iter().enumerate().for_each(|(i, capture)| capture.check(i, checks));
         if let Some(share) = self.switch_at {
             checks.legal("hdr.switch_at", share, share > 0.0 && share < 1.0, "a share between 0 and 1");
             checks.agree("hdr.switch_at", !self.captures.is_empty(), || {
@@ -167,8 +167,13 @@ impl HighDynamicRange {
         });
         let legal = (p.read_out.bits..=24).contains(&bits);
         checks.legal("hdr.merged_bits", f64::from(bits), legal, "a whole number from the converter's bits to 24");
-        let rising = (1..=self.captures.len()).all(|k| self.scale(k) >= self.scale(k - 1));
-        checks.agree("hdr.captures", rising, || "captures must be listed by falling sensitivity".to_owned());
+        let more_sensitive = (1..=self.captures.len()).find(|k| self.scale(*k) < self.scale(*k - 1));
+        checks.agree("hdr.captures", more_sensitive.is_none(), || {
+            let number = more_sensitive.unwrap_or(1) - 1;
+            format!(
+                "entry {number} (from 0) is more sensitive than the one before it: list them by falling sensitivity"
+            )
+        });
         if checks.errors.is_empty() {
             let white = self.white_level_dn(p, Operation::described(p));
             checks.agree("hdr.merged_bits", white < f64::from(1_u32 << bits), || {

@@ -70,7 +70,7 @@ fn place<'a>(record: &'a record::Sensor, e: &'a record::Electronics, key: &str) 
         "optical_black" => e.optical_black.as_ref().map(|t| &t.place),
         "region_px" => e.region_px.as_ref().map(|k| &k.place),
         "binning" => e.binning.as_ref().map(|t| &t.place),
-        "hdr" => e.hdr.as_ref().map(|t| &t.place),
+        "hdr" => e.hdr.as_ref().map(|t| read_out::hdr_place(t, key)),
         "companding" => e.companding.as_ref().map(|t| &t.place),
         "cfa" => Some(channels::cfa_place(&e.cfa)),
         _ => None,

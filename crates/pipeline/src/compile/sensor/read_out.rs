@@ -36,6 +36,16 @@ pub(super) fn read_out(e: &record::Electronics) -> ReadOut {
     }
 }
 
+/// Where the entry of `[sensor.hdr]` stands that a key of the model belongs to.
+pub(super) fn hdr_place<'a>(record: &'a of_hdr::Hdr, key: &str) -> &'a Place {
+    match key {
+        "hdr.merged_bits" => &record.merged_bits.place,
+        "hdr.switch_at" => record.switch_at.as_ref().map_or(&record.place, |s| &s.place),
+        key if key.starts_with("hdr.captures") => record.captures.first().map_or(&record.place, |c| &c.place),
+        _ => &record.place,
+    }
+}
+
 fn response(record: &description::Response) -> Response {
     match record {
         description::Response::Knees(record) => {

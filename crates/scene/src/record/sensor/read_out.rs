@@ -58,7 +58,7 @@ record! {
         required columns: Placed<u64> = whole(1, 64);
         /// Pixels of a column.
         required rows: Placed<u64> = whole(1, 64);
-        /// What is put together.
+        /// What is put together: "charge" is added before it is read, digital "numbers" are averaged.
         required of: Placed<BinningOf> = choice();
     }
 }
