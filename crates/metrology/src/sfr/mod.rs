@@ -17,7 +17,7 @@
 //!
 //! d is the distance from the edge along its normal, pixels; f in cycles a pixel along the normal. The step h is 1/4 pixel, or as wide as
 //! 5/4 of the widest gap between the distances that the slope leaves (0.45 pixels at tan θ = 1/2), which least squares needs. Beyond 10
-//! pixels, where only glare and the tails of diffraction change the profile, the step is 2 pixels: less noise. Beyond the picture's
+//! pixels, where only glare and the tails of diffraction change the profile, the step is 2 pixels: less noise. Beyond 0.65 of the picture's
 //! nearer side the profile is constant; what a lens spreads farther is missing from the response at 0, as in the standard. What is measured includes the pixel's aperture, |sinc(f cos θ) sinc(f sin θ)|
 //! for a full square pixel.
 //!

@@ -18,8 +18,12 @@ const USUAL_REACH_PX: f64 = 10.0;
 /// The step of the splines beyond, px, and how far they go.
 const COARSE_STEP_PX: f64 = 2.0;
 const FARTHEST_PX: f64 = 100.0;
-/// Rounds of the edge's refinement; each is quadratic.
-const ROUNDS: usize = 6;
+/// How much of the picture's nearer side the profile may change in; the rest is plateau, whose mean the response at 0 rests on.
+const CHANGING: f64 = 0.65;
+/// Rounds of the edge's refinement at most, and the step that ends it, px: a profile fitted to an edge that is off holds it back, so that
+/// noisy edges need many.
+const ROUNDS: usize = 60;
+const LEAST_MOVE_PX: f64 = 1e-4;
 
 /// A pixel: its distance from the edge, its row, and its reading.
 #[derive(Clone, Copy)]
@@ -53,6 +57,9 @@ impl Profile {
             let by = knots.correction(&samples, &levels, &edge, settings.edge_degree)?;
             edge = edge.moved(&by);
             edge.check()?;
+            if by.iter().all(|move_px| move_px.abs() < LEAST_MOVE_PX) {
+                break;
+            }
         }
         let samples = samples(image, &edge);
         let knots = Knots::new(image, &edge, &samples, settings)?;
@@ -200,7 +207,7 @@ impl Knots {
             return Err(SfrError::NoEdge("the edge lies too near to the picture's border"));
         }
         let reach_px = 0.5 * step_px * (count + SUPPORT - 1) as f64;
-        Ok(Self { step_px, reach_px, count, coarse: coarse(reach_px, most.min(FARTHEST_PX)) })
+        Ok(Self { step_px, reach_px, count, coarse: coarse(reach_px, (CHANGING * most).min(FARTHEST_PX)) })
     }
 
     /// The coefficients that a reading depends on, and how: the fine splines of degree 5 that differ from 0 there (the first and the
