@@ -67,6 +67,9 @@ pub enum FlatError {
         "the sensor does not respond to light of that wavelength: give one at which its quantum efficiency is above 0"
     )]
     Blind,
+    /// The longest exposure of the series is none.
+    #[error("photon transfer takes exposures up to the camera's \"exposure_s\", which is 0: give a longer one")]
+    NoTime,
     /// Numbers are not proportional to the charge of single pixels.
     #[error(
         "photon transfer needs numbers proportional to the charge of single pixels: take \"hdr\", \"companding\", \"response\" and \
@@ -119,6 +122,9 @@ pub fn photon_transfer(
     let linear = p.hdr == HighDynamicRange::default() && p.read_out.response == Response::Linear;
     if !linear || p.read_out.layout.binning.is_some() {
         return Err(FlatError::NotLinear);
+    }
+    if p.exposure.exposure_s <= 0.0 {
+        return Err(FlatError::NoTime);
     }
     let most = sensor.responsivities().iter().map(|r| f64::from(r.at(wavelength_nm as f32))).fold(0.0, f64::max);
     if most <= 0.0 {
@@ -210,6 +216,9 @@ mod tests {
         let curved = body("response = { kind = \"logarithmic\", from_e = 1000 }\n");
         let sensor = curved.sensor.as_ref().expect("electronics");
         assert_eq!(photon_transfer(sensor, 550.0, 50, 100), Err(FlatError::NotLinear));
+        let timeless = body_of(&CAMERA.replace("exposure_s = 0.01", "exposure_s = 0").replace("auto_exposure", "#"));
+        let sensor = timeless.sensor.as_ref().expect("electronics");
+        assert_eq!(photon_transfer(sensor, 550.0, 50, 100), Err(FlatError::NoTime));
         let blind = body_of(&CAMERA.replace("[0.2, 0.6, 0.4]", "0"));
         let sensor = blind.sensor.as_ref().expect("electronics");
         assert_eq!(photon_transfer(sensor, 550.0, 50, 100), Err(FlatError::Blind));

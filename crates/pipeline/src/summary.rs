@@ -13,7 +13,8 @@ use etendue_optics::effects::{self, Effect};
 use etendue_optics::{DepthOfField, Effects, Lens, PupilProjection, PupilStance};
 use etendue_projection::Sense;
 use etendue_sensor::Verdict;
-use etendue_sensor::dynamic_range::{DynamicRange, Switch, ratio_db};
+use etendue_sensor::dynamic_range::{DynamicRange, Switch};
+use etendue_sensor::emva1288::db;
 use etendue_tracer::geometry::Shape;
 use etendue_tracer::integrator::Level;
 use std::fmt::{self, Display, Formatter};
@@ -379,7 +380,7 @@ fn range(range: &DynamicRange) -> String {
         return "dynamic range: none; the well or the converter ends below the noise".into();
     }
     let switch = |s: &Switch| {
-        format!("; at {:.4e} e⁻ the next capture: S/N {:.1} to {:.1} dB", s.at_e, ratio_db(s.before), ratio_db(s.after))
+        format!("; at {:.4e} e⁻ the next capture: S/N {:.1} to {:.1} dB", s.at_e, db(s.before), db(s.after))
     };
     let switches: String = range.switches.iter().map(switch).collect();
     format!("dynamic range: {:.1} dB, {:.4} to {:.4e} e⁻{switches}", range.db(), range.least_e, range.most_e)

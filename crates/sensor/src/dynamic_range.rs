@@ -8,11 +8,10 @@
 //! that this capture has of the light, to that of the next one. Fixed patterns are no part of it.
 
 use crate::effects::converter::Converter;
+use crate::emva1288::db;
 use crate::operation::Operation;
 use crate::parameters::SensorParameters;
 use crate::sensor::Sensor;
-use core::f64::consts::LN_10;
-use etendue_core::maths::f64::ln;
 
 /// The range of light of one frame, in photo-electrons of the first capture.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,14 +39,8 @@ impl DynamicRange {
     /// The range, dB.
     #[must_use]
     pub fn db(&self) -> f64 {
-        ratio_db(self.most_e / self.least_e)
+        db(self.most_e / self.least_e)
     }
-}
-
-/// A ratio of amplitudes in dB.
-#[must_use]
-pub fn ratio_db(ratio: f64) -> f64 {
-    20.0 / LN_10 * ln(ratio)
 }
 
 impl Sensor {
@@ -80,7 +73,7 @@ struct Reading<'a> {
 fn readings(p: &SensorParameters) -> Vec<Reading<'_>> {
     let of = |operation: Operation| {
         let dark = &p.charge.dark;
-        let dark_e = dark.current_e_s * dark.temperature_factor() * operation.exposure_s;
+        let dark_e = p.wells_read() * dark.current_e_s * dark.temperature_factor() * operation.exposure_s;
         Reading { p, operation, light: operation.light, dark_e }
     };
     p.hdr.operations(Operation::described(p)).into_iter().map(of).collect()
@@ -90,8 +83,7 @@ impl Reading<'_> {
     /// The signal (e⁻ of the first capture) that brings this one to a share of its range.
     fn signal_e(&self, share: f64) -> f64 {
         let (response, converter) = (&self.p.read_out.response, Converter::of(self.p, &self.operation));
-        let wells = self.p.read_out.layout.charge_binning().map_or(1, |b| b.columns * b.rows) as f64;
-        let white = converter.level_dn(response.voltage_e(wells * self.operation.full_well_e));
+        let white = self.p.capture_white_dn(&self.operation);
         let charge_e = response.charge_e(share * converter.electrons(white));
         (charge_e - self.dark_e).max(0.0) / self.light
     }
@@ -127,6 +119,19 @@ mod tests {
         // The standard's approximation misses by 1/(8 σ).
         assert!((range.least_e - approximate).abs() < 0.03 && (range.most_e - 60_000.0).abs() < 1e-6);
         assert!((range.db() - 80.5).abs() < 0.05 && range.switches.is_empty(), "{}", range.db());
+    }
+
+    #[test]
+    fn binned_wells_bring_their_dark_electrons() {
+        let mut p = ideal();
+        (p.charge.dark.current_e_s, p.exposure.exposure_s) = (100.0, 1.0);
+        (p.charge.full_well_e, p.read_out.gain_dn_e) = (10_000.0, 1.0);
+        let of = crate::layout::BinningOf::Charge;
+        p.read_out.layout.binning = Some(crate::layout::Binning { columns: 2, rows: 2, of });
+        let range = Sensor::new(p).expect("legal").dynamic_range();
+        let variance = 25.0 + 400.0 + 1.0 / 12.0;
+        let least = 0.5 * (1.0 + f64::sqrt(1.0 + 4.0 * variance));
+        assert!((range.most_e - 39_600.0).abs() < 1e-6 && (range.least_e - least).abs() < 1e-9, "{range:?}");
     }
 
     #[test]

@@ -113,7 +113,9 @@ impl Layout {
                 whole(r.x, r.y) && whole(r.width, r.height) && r.width > 0 && r.height > 0,
                 multiples,
             );
-            checks.agree("region_px", r.x + r.width <= width && r.y + r.height <= height, || {
+            let ends_inside =
+                |from: usize, length: usize, all: usize| from.checked_add(length).is_some_and(|end| end <= all);
+            checks.agree("region_px", ends_inside(r.x, r.width, width) && ends_inside(r.y, r.height, height), || {
                 format!("it ends beyond the picture of {width} × {height} pixels")
             });
             checks.agree("region_px", dark == OpticalBlack::default(), || {
@@ -317,6 +319,8 @@ mod tests {
             errors(&|p| p.read_out.layout.binning = Some(Binning { columns: 3, rows: 1, of: BinningOf::Charge })),
             1
         );
-        assert_eq!(errors(&|p| p.read_out.layout.region = Some(Region { x: 8, y: 0, width: 4, height: 1 })), 1);
+        for x in [8, usize::MAX] {
+            assert_eq!(errors(&|p| p.read_out.layout.region = Some(Region { x, y: 0, width: 4, height: 1 })), 1);
+        }
     }
 }

@@ -4,6 +4,7 @@ use crate::cfa::Cfa;
 use crate::check::{Checks, SensorError};
 use crate::effects::angle_response::AngleResponse;
 use crate::effects::capacitance::Capacitance;
+use crate::effects::converter::Converter;
 use crate::effects::cross_talk::CrossTalk;
 use crate::effects::dark_current::DarkCurrent;
 use crate::effects::full_well::Blooming;
@@ -17,6 +18,8 @@ use crate::effects::telegraph_noise::TelegraphNoise;
 use crate::exposure_control::ExposureControl;
 use crate::hdr::HighDynamicRange;
 use crate::layout::Layout;
+use crate::operation::Operation;
+use crate::state::OperatingPoint;
 use etendue_spectra::Spectrum;
 
 /// One kind of pixel.
@@ -144,6 +147,24 @@ impl SensorParameters {
         f64::from((1_u32 << self.read_out.bits) - 1)
     }
 
+    /// The digital number of a saturated pixel of one capture.
+    pub(crate) fn capture_white_dn(&self, operation: &Operation) -> f64 {
+        let charge_e = self.wells_read() * operation.full_well_e;
+        Converter::of(self, operation).level_dn(self.read_out.response.voltage_e(charge_e))
+    }
+
+    /// How many pixels' charge is read together.
+    pub(crate) fn wells_read(&self) -> f64 {
+        self.read_out.layout.charge_binning().map_or(1, |b| b.columns * b.rows) as f64
+    }
+
+    /// The point of the smallest gain that the sensor can come to.
+    pub(crate) fn least_point(&self) -> OperatingPoint {
+        let point = OperatingPoint::described(self);
+        let analogue_gain = self.exposure.control.map_or(point.analogue_gain, |control| control.analogue_gain[0]);
+        OperatingPoint { analogue_gain, ..point }
+    }
+
     /// All contradictions, in the order of the parameters.
     pub(crate) fn errors(&self) -> Vec<SensorError> {
         let mut checks = Checks::default();
@@ -154,7 +175,20 @@ impl SensorParameters {
         if checks.errors.is_empty() {
             self.hdr.check(self, &mut checks);
         }
+        if checks.errors.is_empty() {
+            self.check_range(&mut checks);
+        }
         checks.errors
+    }
+
+    /// Whether light has numbers of its own.
+    fn check_range(&self, checks: &mut Checks) {
+        let white = self.hdr.white_level_dn(self, Operation::base(self, self.least_point()));
+        checks.agree("gain_dn_per_e", white > self.read_out.black_level_dn, || {
+            format!(
+                "the gain is so small that a full pixel has the number of a dark one, {white} DN: give a larger one"
+            )
+        });
     }
 
     fn check_exposure(&self, checks: &mut Checks) {
@@ -299,6 +333,9 @@ pub(crate) mod tests {
         let errors = p.errors();
         assert_eq!(errors.len(), 5, "{errors:?}");
         assert_eq!(errors[0].to_string(), "exposure_s is -1, but a finite number of at least 0 is needed");
+        let mut p = ideal();
+        p.read_out.gain_dn_e = 1e-30;
+        assert!(p.errors()[0].to_string().starts_with("gain_dn_per_e: the gain is so small"), "{:?}", p.errors());
         let mut p = ideal();
         p.cfa = Cfa::tile(2, 1, vec![0, 3]).expect("a rectangle");
         assert_eq!(p.errors().len(), 1);

@@ -112,6 +112,12 @@ impl Sensor {
         self.white_level_at(OperatingPoint::described(&self.parameters))
     }
 
+    /// The same at the smallest gain that exposure control can come to.
+    #[must_use]
+    pub fn least_white_level_dn(&self) -> f64 {
+        self.white_level_at(self.parameters.least_point())
+    }
+
     /// The same at another exposure and gain.
     pub(crate) fn white_level_at(&self, point: OperatingPoint) -> f64 {
         let p = &self.parameters;

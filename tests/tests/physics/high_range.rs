@@ -5,7 +5,7 @@ use etendue_core::quantity::Electrons;
 use etendue_pipeline::{Choices, Plan, compile};
 use etendue_scene::asset::Assets;
 use etendue_scene::{Description, Overrides};
-use etendue_sensor::dynamic_range::ratio_db;
+use etendue_sensor::emva1288::db;
 use etendue_sensor::{FrameAddress, Raw, Sensor, SensorState};
 use etendue_stats::Moments;
 use etendue_tests::Shot;
@@ -83,7 +83,7 @@ fn the_declared_range_is_that_of_its_frames() {
     let last = (0..200).rev().find(|x| column(*x) < 0.995 * declared.most_e).expect("half the range is not white");
     assert!(last < 199, "white is reached");
     let most_e = f64::from(ramp(last));
-    let measured_db = ratio_db(most_e / least_e);
+    let measured_db = db(most_e / least_e);
     assert!((measured_db - declared.db()).abs() < 1.0, "{measured_db} dB, declared {}", declared.db());
     assert!(declared.db() > 140.0);
     for switch in &declared.switches {

@@ -52,6 +52,25 @@ fn black_levels_that_cannot_be() {
 }
 
 #[test]
+fn a_black_level_above_white_at_the_smallest_gain() {
+    let (spoilt, _) = with("black_level = 3000");
+    plan(&spoilt).ok();
+    let control = "exposure_s = 1e-6\nauto_exposure = { percentile = 0.5, target = 0.5, exposure_limits_s = [1e-7, 1e-3], gain_limits = [0.5, 2] }";
+    spoilt.spoil("small.toml", "exposure_s = 1e-6", control);
+    plan(&spoilt).refused(&["cameras.front.processing.black_level", "3000", "saturated at"]);
+}
+
+#[test]
+fn a_dng_of_companded_numbers() {
+    let (spoilt, _) = with(WHITE_BALANCE);
+    let companding = "exposure_s = 1e-6\ncompanding = { bits = 8, knees = [[100, 100], [4095, 255]] }";
+    spoilt.spoil("small.toml", "exposure_s = 1e-6", companding);
+    plan(&spoilt).ok();
+    crate::support::etendue(["plan", &spoilt.job(), "--set", "output.raw_format=\"dng\""])
+        .refused(&["raw_format", "companded"]);
+}
+
+#[test]
 fn corrections_that_cannot_be() {
     refused("defect_outlier_threshold = 0", &["above 0"]);
     table_refused("defect_map = \"table.csv\"", "x,y\n3,4\n46,4\n", &["defect_map", "outside the picture of 46 × 30"]);

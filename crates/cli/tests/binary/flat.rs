@@ -94,6 +94,30 @@ fn causes_make_up_the_numbers_and_do_not_change_them() {
 }
 
 #[test]
+fn a_picture_of_no_time_is_dark() {
+    let no_time = [&SMALL[..], &["--set", "sensor.exposure_s=0"]].concat();
+    let lit = [&no_time[..], &["--irradiance-w-m2", "1"]].concat();
+    let (ran, files) = flat("scenes/cameras/automotive.toml", &lit);
+    ran.ok();
+    assert!(files.contains_key("automotive/picture.0000.png"));
+    let (_, dark) = flat("scenes/cameras/automotive.toml", &[&no_time[..], &["--irradiance-w-m2", "0"]].concat());
+    assert_eq!(files["automotive/raw.0000.png"], dark["automotive/raw.0000.png"]);
+    let series = [&no_time[..], &["--photon-transfer", "3"]].concat();
+    flat("scenes/cameras/automotive.toml", &series).0.refused(&["\"exposure_s\"", "which is 0"]);
+    // What needs a rate of light has none.
+    flat("scenes/cameras/ccd-mono.toml", &lit).0.refused(&["smear", "exposure_s of 0"]);
+}
+
+#[test]
+fn sensors_that_cannot_be_are_refused() {
+    let refused = |set: &str, phrases: &[&str]| {
+        flat(WEB, &[&SMALL[..], &["--set", set, "--irradiance-w-m2", "1"]].concat()).0.refused(phrases)
+    };
+    refused("sensor.gain_dn_per_e=1e-30", &["gain_dn_per_e", "so small"]);
+    refused("sensor.region_px=[1e300,0,4,4]", &["region_px", "beyond the picture"]);
+}
+
+#[test]
 fn the_series_of_the_standard_names_all_its_frames() {
     let options = [&SMALL[..], &["--photon-transfer", "4", "--stack", "3"]].concat();
     let (ran, files) = flat("scenes/cameras/ccd-mono.toml", &options);

@@ -71,8 +71,10 @@ fn ascii(text: &str) -> String {
     text.chars().map(|c| if c.is_ascii() && !c.is_ascii_control() { c } else { '_' }).collect()
 }
 
+/// To four decimals; to two where four of a level of 20 bits and more have no room.
 fn rational(v: f64) -> (u32, u32) {
-    ((v * 10_000.0).round() as u32, 10_000)
+    let denominator = if v < 400_000.0 { 10_000 } else { 100 };
+    ((v * f64::from(denominator)).round() as u32, denominator)
 }
 
 fn signed_rational(v: f64) -> (i32, i32) {
@@ -82,6 +84,14 @@ fn signed_rational(v: f64) -> (i32, i32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn levels_of_all_bits_have_their_fraction() {
+        for v in [0.0, 64.25, 399_999.5, 400_000.25, 16_777_214.5] {
+            let (numerator, denominator) = rational(v);
+            assert_eq!(f64::from(numerator) / f64::from(denominator), v);
+        }
+    }
 
     #[test]
     fn levels_filters_and_colours_are_in_the_file() {

@@ -120,6 +120,10 @@ fn raw_format(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> 
         let problem = format!("a DNG holds one channel, or red, green and blue, and a sensor has {}", names.join(", "));
         context.fault(&key.place, problem, "give \"png\" or \"tiff\"");
     }
+    if format == RawFormat::Dng && body.sensor.as_ref().is_some_and(|s| s.parameters().hdr.companding.is_some()) {
+        let problem = "the numbers are companded, and raw readers would take a DNG's for linear";
+        context.fault(&key.place, problem, "give \"png\" or \"tiff\", or remove \"companding\"");
+    }
     format
 }
 

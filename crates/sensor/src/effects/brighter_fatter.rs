@@ -21,11 +21,12 @@ use rayon::prelude::*;
 pub(crate) fn check(p: &SensorParameters, checks: &mut Checks) {
     let a = p.charge.brighter_fatter_per_e;
     checks.not_negative("brighter_fatter_per_e", a);
-    checks.agree("brighter_fatter_per_e", a * p.charge.full_well_e <= 0.25, || {
+    let full_well_e = p.hdr.captures.iter().filter_map(|c| c.full_well_e).fold(p.charge.full_well_e, f64::max);
+    checks.agree("brighter_fatter_per_e", a * full_well_e <= 0.25, || {
         format!(
             "a full well would move its borders by {} pixels, and the model holds for small shifts: give at most {}",
-            a * p.charge.full_well_e,
-            0.25 / p.charge.full_well_e
+            a * full_well_e,
+            0.25 / full_well_e
         )
     });
 }
@@ -115,7 +116,19 @@ mod tests {
         let sum = |p: &Plane<Electrons>| p.samples().iter().map(|q| f64::from(*q)).sum::<f64>();
         assert!((sum(&out) / sum(&plane) - 1.0).abs() < 1e-7);
         assert!(out.samples().iter().all(|q| *q >= 0.0));
+        let refused = |p: &SensorParameters| {
+            let mut checks = Checks::default();
+            check(p, &mut checks);
+            !checks.errors.is_empty()
+        };
+        assert!(!refused(&p));
+        // A capture with a larger well, too.
+        let larger = crate::hdr::Capture { full_well_e: Some(2e5), ..crate::hdr::merge::tests::SAME };
+        assert!(refused(&SensorParameters {
+            hdr: crate::hdr::HighDynamicRange { captures: vec![larger], ..Default::default() },
+            ..p.clone()
+        }));
         p.charge.brighter_fatter_per_e = 1e-5;
-        assert!(crate::Sensor::new(p).is_err());
+        assert!(refused(&p));
     }
 }

@@ -3,7 +3,7 @@
 //! k ~ Poisson(I t), I the dark current (e⁻/s) of the pixel at the sensor's temperature ([`temperature`](super::temperature)); the
 //! mean I t itself where noise is off. I is the same for all pixels unless the description says how they differ:
 //!
-//! - spread: I f, f of mean 1 with a white, a row and a column part of stated standard deviation (shares of the mean). Normal:
+//! - spread: I f, f of mean 1 (but for the cut) with a white, a row and a column part of stated standard deviation (shares of the mean). Normal:
 //!   f = max(1 + d, 0). Log-normal (the long tail of most sensors): the white part is exp(s z − s²/2), s² = ln(1 + σ²);
 //! - hot pixels: a share of pixels has an exponential current more, of a stated mean;
 //! - blinking pixels: a share of pixels has it only at the upper one of two levels ([`two_level`](super::two_level)).

@@ -6,6 +6,7 @@
 //! - released: r_k = Q_k (1 − exp(−T/τ_k)), added to the pixel;
 //! - caught: c_k = f_k min(q + Σ r, full well), taken from it; Q_k ← Q_k − r_k + c_k.
 //!
+//! Several captures of a pixel's one photodiode follow each other at equal parts of the frame period, and share its traps.
 //! Charge is conserved: q + Σ Q_k before is q + Σ Q_k after. (The linear limit of the trap model in Pyxel's `persistence`
 //! and of Smith et al. 2008.) Left out: shot noise of catching and releasing, traps that fill up, dependence on temperature.
 
@@ -33,6 +34,9 @@ impl Trap {
         checks.positive("lag.time_constant_s", self.time_constant_s);
         checks.agree("lag", p.exposure.frame_period_s.is_some(), || {
             "what is given back depends on the time between frames: give \"frame_period_s\"".to_owned()
+        });
+        checks.agree("lag", p.hdr.captures.iter().all(|capture| capture.sensitivity_share == 1.0), || {
+            "traps are those of one photodiode, and a capture of another sensitivity has its own: remove one of both".to_owned()
         });
     }
 }
@@ -62,7 +66,9 @@ pub(crate) struct Traps {
 
 impl Traps {
     pub(crate) fn new(context: &Context<'_>) -> Self {
-        let period_s = context.p.exposure.frame_period_s.expect("checked with the parameters");
+        let frame_s = context.p.exposure.frame_period_s.expect("checked with the parameters");
+        let exposures = 1 + context.p.hdr.captures.iter().filter(|capture| !capture.same_charge).count();
+        let period_s = frame_s / exposures as f64;
         let kinds = context.p.charge.traps.iter().map(|t| (t.share, 1.0 - exp(-period_s / t.time_constant_s)));
         Self { kinds: kinds.collect(), full_well_e: context.operation.full_well_e }
     }
@@ -103,6 +109,27 @@ mod tests {
         (p.exposure.frame_period_s, p.charge.full_well_e) = (Some(0.04), 1e6);
         p.charge.traps = vec![Trap { share: 0.05, time_constant_s: 0.04 }, Trap { share: 0.01, time_constant_s: 1.0 }];
         Sensor::new(p).expect("legal")
+    }
+
+    /// Two captures a frame: in the dark, traps keep as much from frame to frame as with one.
+    #[test]
+    fn captures_share_the_time_of_a_frame() {
+        use crate::hdr::{Capture, HighDynamicRange, merge::tests::SAME};
+        let mut p = lagging().parameters().clone();
+        p.read_out.bits = 20;
+        p.charge.traps.remove(0);
+        let second = Capture { exposure_share: 0.5, ..SAME };
+        let again = Capture { gain_share: 0.5, same_charge: true, ..SAME };
+        p.hdr = HighDynamicRange { captures: vec![second, again], bits: Some(24), ..HighDynamicRange::default() };
+        let sensor = Sensor::new(p.clone()).expect("legal");
+        let kept = SensorState { trapped_e: vec![vec![1000.0; 4]], ..SensorState::default() };
+        let (after, _) = sensor.step(kept, &Plane::new(2, 2), FrameAddress { frame: 1, ..ADDRESS });
+        // One second of time constant, two of 20 ms; each catches 1 % of what has come back.
+        let half = exp(-0.02);
+        let want = 1000.0 * (half + 0.01 * (1.0 - half)) * (half + 0.01 * (1.0 - half));
+        assert!((f64::from(after.trapped_e[0][0]) - want).abs() < 1e-3, "{} {want}", after.trapped_e[0][0]);
+        p.hdr.captures[0].sensitivity_share = 0.5;
+        assert!(Sensor::new(p).is_err());
     }
 
     #[test]

@@ -45,6 +45,9 @@ impl Temperature {
             TemperatureLaw::Doubling { step_k } => checks.positive("dark.doubling_k", step_k),
             TemperatureLaw::BandGap { diffusion_share } => checks.share("dark.diffusion_share", diffusion_share),
         }
+        checks.agree("dark.temperature_c", !checks.errors.is_empty() || self.factor().is_finite(), || {
+            "the dark current would be larger than any number: give temperatures nearer to each other".to_owned()
+        });
     }
 
     /// Dark current at the sensor's temperature over the stated one.
@@ -93,6 +96,17 @@ mod tests {
             assert!((step(0.0, t) - generation).abs() < 0.06, "{t}: {}", step(0.0, t));
             assert!((step(1.0, t) - diffusion).abs() < 0.06, "{t}: {}", step(1.0, t));
         }
+    }
+
+    #[test]
+    fn a_factor_beyond_all_numbers_is_refused() {
+        let errors = |sensor_k| {
+            let mut checks = Checks::default();
+            let law = TemperatureLaw::Doubling { step_k: 0.1 };
+            Temperature { sensor_k, reference_k: 300.0, law }.check(&mut checks);
+            checks.errors.len()
+        };
+        assert_eq!((errors(310.0), errors(500.0), errors(-1.0)), (0, 1, 1));
     }
 
     #[test]

@@ -101,7 +101,7 @@ impl Sensor {
         let mut pass = Pass::new(array, operation.light, with_causes);
         let stages = [chain::charge(&context, memory), chain::reading(&context, memory)].concat();
         pass.run(stages, &context, &mut memory.after.trapped_e);
-        let linear = self.merged_of(pass.convert(&Converter::new(&context), self.capture_white_dn(&operation)));
+        let linear = self.merged_of(pass.convert(&Converter::new(&context), context.p.capture_white_dn(&operation)));
         let accounts = pass.account.map(|account| (0, account)).into_iter().collect();
         Taken { numbers: linear, causes: pass.causes, accounts }
     }
@@ -139,7 +139,7 @@ impl Sensor {
             let Some(charge) = &held else { continue };
             let mut pass = charge.again();
             pass.run(chain::reading(&context, memory), &context, &mut memory.after.trapped_e);
-            let white_dn = self.capture_white_dn(&operation);
+            let white_dn = p.capture_white_dn(&operation);
             let numbers = pass.convert(&Converter::new(&context), white_dn);
             let black_dn = p.read_out.black_level_dn;
             let switch_dn = black_dn + p.hdr.switch() * (white_dn - black_dn);
@@ -147,13 +147,6 @@ impl Sensor {
             merged.take(&numbers, p.hdr.scale(k), switch_dn, pass.causes.as_ref().map(|causes| (causes, factor)));
         }
         Taken { numbers: self.rounded(&merged), causes: merged.into_causes(), accounts }
-    }
-
-    /// The digital number of a saturated pixel of one capture.
-    fn capture_white_dn(&self, operation: &Operation) -> f64 {
-        let p = self.parameters();
-        let wells = p.read_out.layout.charge_binning().map_or(1, |b| b.columns * b.rows) as f64;
-        Converter::of(p, operation).level_dn(p.read_out.response.voltage_e(wells * operation.full_well_e))
     }
 
     /// Merged numbers, companded where there is a curve, rounded once.

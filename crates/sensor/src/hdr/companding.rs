@@ -53,23 +53,23 @@ impl Companding {
     /// The companded number of a linear one, not rounded.
     #[must_use]
     pub fn companded(&self, linear: f64) -> f64 {
-        along(self.ends(), linear)
+        along(&self.knees, linear, |[x, y]| [x, y])
     }
 
     /// The linear number of a companded one.
     #[must_use]
     pub fn linear(&self, companded: f64) -> f64 {
-        along(self.ends().into_iter().map(|[x, y]| [y, x]).collect(), companded)
+        along(&self.knees, companded, |[x, y]| [y, x])
     }
 }
 
-/// Linear interpolation, constant beyond the last point.
-fn along(points: Vec<[f64; 2]>, x: f64) -> f64 {
-    let above = points.partition_point(|p| p[0] <= x);
-    match (above.checked_sub(1).map(|i| points[i]), points.get(above)) {
-        (Some([x0, y0]), Some([x1, y1])) => y0 + (x - x0) * ((y1 - y0) / (x1 - x0)),
-        (Some([_, y]), None) => y,
-        (None, _) => 0.0,
+/// Linear interpolation from (0, 0) over the knees as `turned`, constant beyond the last.
+fn along(knees: &[[f64; 2]], x: f64, turned: impl Fn([f64; 2]) -> [f64; 2]) -> f64 {
+    let above = knees.partition_point(|knee| turned(*knee)[0] <= x);
+    let [x0, y0] = above.checked_sub(1).map_or([0.0, 0.0], |i| turned(knees[i]));
+    match knees.get(above).map(|knee| turned(*knee)) {
+        Some([x1, y1]) => y0 + (x.max(0.0) - x0) * ((y1 - y0) / (x1 - x0)),
+        None => y0,
     }
 }
 

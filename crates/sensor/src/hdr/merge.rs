@@ -68,14 +68,14 @@ impl Merged {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use crate::frame::tests::{ADDRESS, quiet, run};
     use crate::hdr::Capture;
     use crate::parameters::SensorParameters;
     use etendue_core::Plane;
     use etendue_stats::Moments;
 
-    const SAME: Capture = Capture {
+    pub(crate) const SAME: Capture = Capture {
         exposure_share: 1.0,
         sensitivity_share: 1.0,
         gain_share: 1.0,
@@ -193,5 +193,8 @@ mod tests {
         assert!(refused(&|p| p.hdr.bits = None));
         assert!(refused(&|p| p.hdr.captures.reverse()));
         assert!(refused(&|p| p.hdr.captures[0].same_charge = true));
+        // The third capture has to go on where the second ends: 0.9 · 3900 · 16 e⁻, of which its well holds 256th parts.
+        assert!(!refused(&|p| p.hdr.captures[1].full_well_e = Some(220.0)));
+        assert!(refused(&|p| p.hdr.captures[1].full_well_e = Some(219.0)));
     }
 }

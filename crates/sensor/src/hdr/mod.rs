@@ -20,7 +20,6 @@ pub mod companding;
 pub mod merge;
 
 use crate::check::Checks;
-use crate::effects::converter::Converter;
 use crate::effects::{NOT_DESCRIBED, Verdict};
 use crate::operation::Operation;
 use crate::parameters::SensorParameters;
@@ -132,11 +131,12 @@ impl HighDynamicRange {
     /// Merged white level, DN, where the first capture is `first`.
     pub(crate) fn white_level_dn(&self, p: &SensorParameters, first: Operation) -> f64 {
         let last = self.captures.len();
-        let operation = self.operations(first)[last];
-        let wells = p.read_out.layout.charge_binning().map_or(1, |b| b.columns * b.rows) as f64;
-        let voltage_e = p.read_out.response.voltage_e(wells * operation.full_well_e);
-        let level = Converter::of(p, &operation).level_dn(voltage_e);
-        p.read_out.black_level_dn + self.scale(last) * (level - p.read_out.black_level_dn)
+        p.read_out.black_level_dn + self.range_dn(p, last, &self.operations(first)[last])
+    }
+
+    /// Merged numbers from black to where capture `k` is saturated.
+    fn range_dn(&self, p: &SensorParameters, k: usize, operation: &Operation) -> f64 {
+        self.scale(k) * (p.capture_white_dn(operation) - p.read_out.black_level_dn)
     }
 
     pub(crate) fn check(&self, p: &SensorParameters, checks: &mut Checks) {
@@ -174,10 +174,28 @@ impl HighDynamicRange {
                 "entry {number} (from 0) is more sensitive than the one before it: list them by falling sensitivity"
             )
         });
+        self.check_ranges(p, checks);
         if checks.errors.is_empty() {
             let white = self.white_level_dn(p, Operation::described(p));
             checks.agree("hdr.merged_bits", white < f64::from(1_u32 << bits), || {
                 format!("the merged range reaches {white:.0} DN, and {bits} bits end at {}: give more bits or fewer captures", (1_u32 << bits) - 1)
+            });
+        }
+    }
+
+    /// Each capture has to reach beyond what the one before is used for. At a larger gain, where the converter ends before the
+    /// well, it does so all the more.
+    fn check_ranges(&self, p: &SensorParameters, checks: &mut Checks) {
+        let operations = self.operations(Operation::base(p, p.least_point()));
+        let ranges: Vec<f64> = (0..).zip(&operations).map(|(k, operation)| self.range_dn(p, k, operation)).collect();
+        for (k, pair) in ranges.windows(2).enumerate() {
+            let used = self.switch() * pair[0];
+            checks.agree("hdr.captures", pair[1] > used, || {
+                format!(
+                    "entry {k} (from 0) is saturated {:.0} merged DN above black, and the one before it is used up to {used:.0}: give it \
+                     a larger \"full_well_e\" or a smaller share",
+                    pair[1]
+                )
             });
         }
     }

@@ -39,6 +39,8 @@ pub fn run(arguments: &chart_args::Chart) -> Result<(), Failure> {
         saturation_e: meter.saturation_e(),
         electrons: &electrons,
     });
+    // Nothing is measured in no time.
+    let meter = meter.filter(|meter| meter.exposure_s > 0.0);
     let seen = footprint(&choice, &camera, &eye)?;
     let drawing = choice.chart.draw(&seen, choice.common.seed).map_err(refused)?;
     let light = choice.light(meter.as_ref(), LUMINANCE_CD_M2).map_err(refused)?;

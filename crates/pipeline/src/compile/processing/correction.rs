@@ -18,11 +18,12 @@ pub(super) fn black_level(
 ) -> Option<BlackLevel> {
     match record {
         None => Some(BlackLevel::Stated),
-        Some(description::BlackLevel::Dn(dn)) if dn.value < sensor.white_level_dn() => {
+        Some(description::BlackLevel::Dn(dn)) if dn.value < sensor.least_white_level_dn() => {
             Some(BlackLevel::Fixed(dn.value))
         }
         Some(description::BlackLevel::Dn(dn)) => {
-            let problem = format!("found {}, and the sensor is saturated at {} DN", dn.value, sensor.white_level_dn());
+            let white = sensor.least_white_level_dn();
+            let problem = format!("found {}, and the sensor is saturated at {white} DN", dn.value);
             context.fault(&dn.place, problem, "give a number below that");
             None
         }

@@ -54,6 +54,7 @@ fn refuse(
 fn place<'a>(record: &'a record::Sensor, e: &'a record::Electronics, key: &str) -> &'a Place {
     let table = key.split('.').next().unwrap_or(key);
     let found = match table {
+        "gain_dn_per_e" => Some(&e.gain_dn_per_e.place),
         "frame_period_s" => e.frame_period_s.as_ref().map(|k| &k.place),
         "auto_exposure" => e.auto_exposure.as_ref().map(|t| &t.place),
         "angle_response" => e.angle_response.as_ref().map(|t| &t.place),
