@@ -97,6 +97,9 @@ impl Layout {
         checks.agree("binning", (1..=64).contains(&n) && (1..=64).contains(&m), || {
             format!("{n} × {m} pixels cannot be read together: give 1 to 64 each")
         });
+        checks.agree("binning", self.binning.is_none() || (n, m) != (1, 1), || {
+            "1 × 1 pixels are each on their own: give more, or remove it".to_owned()
+        });
         if !checks.errors.is_empty() {
             return checks.errors;
         }

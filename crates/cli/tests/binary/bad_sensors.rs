@@ -70,8 +70,23 @@ fn captures_that_do_not_go_together() {
     refused_below(3, BITS, &hdr(20, more), &["cameras.front.sensor.hdr", "entry 1 (from 0) is more sensitive"]);
     let more = "{ exposure_share = 0.1, same_charge = true }";
     refused_below(3, BITS, &hdr(20, more), &["cameras.front.sensor.hdr", "entry 1 (from 0): charge that is read"]);
+    let more = "{ exposure_share = 0.1, read_noise_e = 1 }";
+    refused_below(3, BITS, &hdr(20, more), &["cameras.front.sensor.hdr", "entry 1 (from 0) reaches no further"]);
     let more = "{ exposure_share = 0.01 }";
     refused_below(2, BITS, &hdr(13, more), &["cameras.front.sensor.hdr.merged_bits", "13 bits end at 8191"]);
+}
+
+#[test]
+fn tables_that_say_nothing() {
+    let with = |table: &str| format!("{BITS}\n{table}");
+    refused_below(
+        1,
+        BITS,
+        &with("optical_black = {}"),
+        &["cameras.front.sensor.optical_black", "neither rows nor columns"],
+    );
+    let binning = "binning = { columns = 1, rows = 1, of = \"charge\" }";
+    refused_below(1, BITS, &with(binning), &["cameras.front.sensor.binning", "1 × 1", "remove it"]);
 }
 
 #[test]

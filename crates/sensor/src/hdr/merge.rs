@@ -69,6 +69,7 @@ impl Merged {
 
 #[cfg(test)]
 pub(crate) mod tests {
+    use crate::effects::response::Response;
     use crate::frame::tests::{ADDRESS, quiet, run};
     use crate::hdr::Capture;
     use crate::parameters::SensorParameters;
@@ -193,6 +194,11 @@ pub(crate) mod tests {
         assert!(refused(&|p| p.hdr.bits = None));
         assert!(refused(&|p| p.hdr.captures.reverse()));
         assert!(refused(&|p| p.hdr.captures[0].same_charge = true));
+        assert!(refused(&|p| p.hdr.captures.insert(0, SAME)), "a capture that is never used");
+        assert!(refused(&|p| p.read_out.response = Response::Logarithmic { from_e: 1000.0 }), "merging is linear");
+        // Exposures of 1, 1/16 and 1/256 of a second follow each other on the one photodiode.
+        let period = |s: f64| refused(&|p| p.exposure.frame_period_s = Some(s * p.exposure.exposure_s));
+        assert!(period(1.06) && !period(1.07));
         // The third capture has to go on where the second ends: 0.9 · 3900 · 16 e⁻, of which its well holds 256th parts.
         assert!(!refused(&|p| p.hdr.captures[1].full_well_e = Some(220.0)));
         assert!(refused(&|p| p.hdr.captures[1].full_well_e = Some(219.0)));

@@ -20,6 +20,7 @@ pub mod companding;
 pub mod merge;
 
 use crate::check::Checks;
+use crate::effects::response::Response;
 use crate::effects::{NOT_DESCRIBED, Verdict};
 use crate::operation::Operation;
 use crate::parameters::SensorParameters;
@@ -147,12 +148,43 @@ impl HighDynamicRange {
                 "there are no captures to switch between".to_owned()
             });
         }
+        self.check_captures(p, checks);
         if checks.errors.is_empty() {
             self.check_bits(p, checks);
         }
         if let Some(companding) = &self.companding {
             companding.check(self.bits.unwrap_or(p.read_out.bits), checks);
         }
+    }
+
+    /// Whether captures can be taken and merged together.
+    fn check_captures(&self, p: &SensorParameters, checks: &mut Checks) {
+        let linear = p.read_out.response == Response::Linear;
+        checks.agree("hdr.captures", linear || self.captures.is_empty(), || {
+            "captures are merged in proportion to the light, which \"response\" bends: remove one of both".to_owned()
+        });
+        let operations = self.operations(Operation::described(p));
+        for (k, pair) in operations.windows(2).enumerate() {
+            let same = self.scale(k + 1) == self.scale(k) && pair[1].full_well_e == pair[0].full_well_e;
+            checks.agree("hdr.captures", !same, || {
+                format!("entry {k} (from 0) reaches no further than the capture before it and is never used: remove it")
+            });
+        }
+        if let Some(period_s) = p.exposure.frame_period_s {
+            let sum_s = self.longest_s(p.exposure.exposure_s);
+            checks.agree("hdr.captures", sum_s <= period_s, || {
+                format!("the exposures of a photodiode follow each other and take {sum_s} s together, more than frame_period_s, {period_s} s")
+            });
+        }
+    }
+
+    /// The time that the exposures of one photodiode take one after the other, s, the greatest of all photodiodes; those of one
+    /// sensitivity are of one photodiode.
+    fn longest_s(&self, exposure_s: f64) -> f64 {
+        let exposed = self.captures.iter().filter(|c| !c.same_charge).map(|c| (c.sensitivity_share, c.exposure_share));
+        let all: Vec<(f64, f64)> = core::iter::once((1.0, 1.0)).chain(exposed).collect();
+        let sum = |sensitivity: f64| all.iter().filter(|(s, _)| *s == sensitivity).map(|(_, share)| share).sum::<f64>();
+        exposure_s * all.iter().map(|(sensitivity, _)| sum(*sensitivity)).fold(0.0, f64::max)
     }
 
     fn check_bits(&self, p: &SensorParameters, checks: &mut Checks) {

@@ -7,14 +7,16 @@ mod read_out;
 
 use super::context::Context;
 use channels::{cfa, channels};
-use etendue_scene::Place;
 use etendue_scene::record;
+use etendue_scene::record::sensor::read_out::OpticalBlack;
+use etendue_scene::{Place, Placed};
 use etendue_sensor::{Pixel, Sensor, SensorError, SensorParameters};
 
 /// The sensor with its electronics, `exit_pupil_mm` behind its lens's exit pupil; `None` where the record has none or they are
 /// faulty.
 pub(super) fn sensor(record: &record::Sensor, exit_pupil_mm: f64, context: &mut Context<'_>) -> Option<Sensor> {
     let electronics = record.electronics.as_ref()?;
+    refuse_no_shield(electronics.optical_black.as_ref(), context);
     let channels = channels(electronics, context)?;
     let parameters = SensorParameters {
         pixel: Pixel { pitch_um: record.pixel_pitch_um.value, fill_factor: fill_factor(record) },
@@ -32,6 +34,15 @@ pub(super) fn sensor(record: &record::Sensor, exit_pupil_mm: f64, context: &mut 
     let misfits = sensor.misfits(record.width_px.value as usize, record.height_px.value as usize);
     refuse(record, electronics, &misfits, context);
     misfits.is_empty().then_some(sensor)
+}
+
+/// Optical black of no pixels says nothing.
+fn refuse_no_shield(record: Option<&OpticalBlack>, context: &mut Context<'_>) {
+    let none = |key: Option<&Placed<u64>>| key.is_none_or(|k| k.value == 0);
+    if let Some(dark) = record.filter(|d| none(d.rows_px.as_ref()) && none(d.columns_px.as_ref())) {
+        let problem = "\"optical_black\" has neither rows nor columns";
+        context.fault(&dark.place, problem, "give \"rows_px\" or \"columns_px\", or remove it");
+    }
 }
 
 fn refuse(

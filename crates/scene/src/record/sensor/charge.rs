@@ -42,12 +42,12 @@ record! {
         /// With "temperature_c" and without "doubling_k": share of diffusion in the stated current, 0 … 1; the rest is
         /// generated. Default: 0.
         optional diffusion_share: Placed<f64> = spread();
-        /// Spread of the current from pixel to pixel, as a share of its mean. Default: 0.
-        optional spread: Placed<f64> = number("").at_least(0.0);
+        /// Spread of the current from pixel to pixel, as a share of its mean, 0 … 10. Default: 0.
+        optional spread: Placed<f64> = number("").at_least(0.0).at_most(10.0);
         /// The same from row to row. Default: 0.
-        optional spread_row: Placed<f64> = number("").at_least(0.0);
+        optional spread_row: Placed<f64> = number("").at_least(0.0).at_most(10.0);
         /// The same from column to column. Default: 0.
-        optional spread_column: Placed<f64> = number("").at_least(0.0);
+        optional spread_column: Placed<f64> = number("").at_least(0.0).at_most(10.0);
         /// Shape of the spread from pixel to pixel. Default: "normal".
         optional tail: Placed<Tail> = choice();
         /// Pixels with far more current. Default: none.
