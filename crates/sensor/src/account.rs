@@ -15,7 +15,26 @@ pub struct ChargeAccount {
     pub clipped_e: f64,
 }
 
+/// Charge of a row at the full well, e⁻.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct RowTally {
+    pub(crate) generated_e: f64,
+    pub(crate) collected_e: f64,
+    pub(crate) clipped_e: f64,
+}
+
 impl ChargeAccount {
+    /// The sums over rows, in their order.
+    pub(crate) fn of_rows(rows: &[RowTally]) -> Self {
+        let sum = |of: fn(&RowTally) -> f64| rows.iter().map(of).sum();
+        Self {
+            generated_e: sum(|row| row.generated_e),
+            collected_e: sum(|row| row.collected_e),
+            clipped_e: sum(|row| row.clipped_e),
+            ..Self::default()
+        }
+    }
+
     /// What is missing in the balance, e⁻.
     #[must_use]
     pub fn imbalance_e(&self) -> f64 {

@@ -26,7 +26,7 @@ pub struct Raw {
     pub picture: Region,
     /// Exposure time and gain of the frame.
     pub operating_point: OperatingPoint,
-    /// Where the charge went, where pixels overflow into others: of each capture that has charge of its own, with its place.
+    /// Where the charge went at the full well: of each capture that has charge of its own, with its place.
     pub accounts: Vec<(usize, ChargeAccount)>,
     /// Pixels whose mean electrons were not a number, infinite or negative, in raster order of the array. The digital
     /// numbers they go into are 0, and mean nothing.

@@ -1,7 +1,7 @@
 //! Faults of `[processing]`: each is told with its file, line and key, and nothing is written.
 
 use crate::bad_input::Spoilt;
-use crate::support::Ran;
+use crate::support::{Ran, etendue};
 
 const WHITE_BALANCE: &str = "white_balance = \"D65\"";
 const MATRIX: &str = "colour_matrix = { fit = \"D65\" }";
@@ -14,7 +14,7 @@ fn with(keys: &str) -> (Spoilt, String) {
 }
 
 fn plan(spoilt: &Spoilt) -> Ran {
-    crate::support::etendue(["plan".to_owned(), spoilt.job()])
+    etendue(["plan".to_owned(), spoilt.job()])
 }
 
 /// The job with this key in its processing is refused at the line of the key, in these words.
@@ -66,8 +66,7 @@ fn a_dng_of_companded_numbers() {
     let companding = "exposure_s = 1e-6\ncompanding = { bits = 8, knees = [[100, 100], [4095, 255]] }";
     spoilt.spoil("small.toml", "exposure_s = 1e-6", companding);
     plan(&spoilt).ok();
-    crate::support::etendue(["plan", &spoilt.job(), "--set", "output.raw_format=\"dng\""])
-        .refused(&["raw_format", "companded"]);
+    etendue(["plan", &spoilt.job(), "--set", "output.raw_format=\"dng\""]).refused(&["raw_format", "companded"]);
 }
 
 #[test]
@@ -181,4 +180,12 @@ fn filters_of_the_paper_that_cannot_be() {
     filter("\"sepia\"", &["sepia", "glow"]);
     let late = "\"uniform_noise\", range = 1 }, { filter = \"tone_map\", original_factor = 0";
     filter(late, &["filter 2", "linear light", "first"]);
+}
+
+#[test]
+fn a_picture_wider_than_a_jpeg() {
+    let wide = "--set=cameras.front.sensor.width_px=65536";
+    let small = Spoilt::new();
+    let plan = etendue(["plan", &small.job(), wide, "--set=cameras.front.processing.picture_format=jpeg"]);
+    plan.refused(&["cameras.front.processing.picture_format", "65535", "png"]);
 }

@@ -11,7 +11,7 @@
 
 use super::Verdict;
 use super::{bloom_around, bloom_column};
-use crate::account::ChargeAccount;
+use crate::account::{ChargeAccount, RowTally};
 use crate::check::Checks;
 use crate::operation::{Context, Operation};
 use crate::parameters::SensorParameters;
@@ -76,12 +76,26 @@ impl Clip {
         Self { capacity_e: context.operation.full_well_e }
     }
 
-    /// Clips, where a pixel of the row needs it.
-    pub(crate) fn apply(&self, electrons: &mut [f64]) {
+    /// Clips, where a pixel of the row needs it, and notes the row's charge.
+    pub(crate) fn apply(&self, electrons: &mut [f64], tally: &mut RowTally) {
+        let generated_e = row_sum(electrons);
+        *tally = RowTally { generated_e, collected_e: generated_e, clipped_e: 0.0 };
         if electrons.iter().any(|e| *e > self.capacity_e) {
+            tally.clipped_e = electrons.iter().map(|e| (e - self.capacity_e).max(0.0)).sum();
             electrons.iter_mut().for_each(|e| *e = e.min(self.capacity_e));
+            tally.collected_e = row_sum(electrons);
         }
     }
+}
+
+/// Sum of a row in eight strands, which always go the same way.
+fn row_sum(electrons: &[f64]) -> f64 {
+    let (strands, rest) = electrons.as_chunks::<8>();
+    let mut sums = [0.0; 8];
+    for strand in strands {
+        sums.iter_mut().zip(strand).for_each(|(sum, e)| *sum += e);
+    }
+    sums.iter().chain(rest).sum()
 }
 
 /// Full well with blooming, prepared.
@@ -118,4 +132,24 @@ fn sum(plane: &Plane<Electrons>) -> f64 {
     let rows = plane.samples().par_chunks(plane.width().max(1));
     let sums: Vec<f64> = rows.map(|row| row.iter().map(|q| f64::from(*q)).sum()).collect();
     sums.iter().sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::frame::tests::{ADDRESS, quiet, run};
+    use etendue_core::Plane;
+
+    /// 10 × 3 pixels of 500 e⁻, one of them with 5000, in wells of 2000: by hand, to rounding.
+    #[test]
+    fn what_a_full_well_loses_is_accounted() {
+        let mut p = quiet();
+        p.charge.full_well_e = 2000.0;
+        let mut means = Plane::filled(10, 3, 500.0);
+        means.set(7, 1, 5000.0);
+        let [(0, account)] = run(&p, &means, ADDRESS).accounts[..] else { panic!("one capture, one account") };
+        assert_eq!(account.generated_e, 29.0 * 500.0 + 5000.0);
+        assert_eq!(account.collected_e, 29.0 * 500.0 + 2000.0);
+        assert_eq!([account.clipped_e, account.drained_e, account.spilt_e], [3000.0, 0.0, 0.0]);
+        assert_eq!(account.imbalance_e(), 0.0);
+    }
 }

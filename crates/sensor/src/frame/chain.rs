@@ -1,7 +1,7 @@
 //! The needed effects of a capture, prepared, in physical order.
 
 use super::Memory;
-use crate::account::ChargeAccount;
+use crate::account::{ChargeAccount, RowTally};
 use crate::effects::angle_response::AngleFactors;
 use crate::effects::brighter_fatter::MovedBorders;
 use crate::effects::dark_current::DarkElectrons;
@@ -40,13 +40,14 @@ pub(super) enum RowEffect {
 }
 
 impl RowEffect {
-    pub(super) fn apply(&self, electrons: &mut [f64], y: u32) {
+    /// Full wells note the row's charge in `tally`.
+    pub(super) fn apply(&self, electrons: &mut [f64], y: u32, tally: &mut RowTally) {
         match self {
             Self::Angle(effect) => effect.apply(electrons, y),
             Self::PhotoResponse(effect) => effect.apply(electrons, y),
             Self::Shot(effect) => effect.apply(electrons, y),
             Self::Dark(effect) => effect.apply(electrons, y),
-            Self::Clip(effect) => effect.apply(electrons),
+            Self::Clip(effect) => effect.apply(electrons, tally),
             Self::Dead(effect) => effect.apply(electrons, y),
             Self::Response(effect) => effect.apply(electrons),
             Self::Offsets(effect) => effect.apply(electrons, y),

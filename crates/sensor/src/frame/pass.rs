@@ -4,7 +4,7 @@
 //! reading, and never where there is neither: an ordinary sensor goes from means to digital numbers row by row.
 
 use super::chain::{RowEffect, Stage};
-use crate::account::ChargeAccount;
+use crate::account::{ChargeAccount, RowTally};
 use crate::causes::{Cause, CauseRow, Causes};
 use crate::effects::Effect;
 use crate::effects::converter::Converter;
@@ -25,7 +25,7 @@ pub(super) struct Pass<'a> {
     waiting: Vec<(Effect, RowEffect)>,
     /// What is noted, where it is asked for.
     pub(super) causes: Option<Causes>,
-    /// Where charge went, where it overflowed.
+    /// Where charge went at the full well.
     pub(super) account: Option<ChargeAccount>,
 }
 
@@ -78,9 +78,10 @@ impl<'a> Pass<'a> {
         let (width, height) = (self.plane.width(), self.plane.height());
         let mut out = Plane::new(width, height);
         let source = Source { plane: &self.plane, light: self.light, effects: &self.waiting };
-        source.rows(out.samples_mut(), self.causes.as_mut(), |out, electrons, _| {
+        let account = source.rows(out.samples_mut(), self.causes.as_mut(), |out, electrons, _| {
             out.iter_mut().zip(electrons).for_each(|(out, e)| *out = *e as f32);
         });
+        self.account = self.account.or(account);
         self.waiting.clear();
         (self.plane, self.light) = (Cow::Owned(out), None);
     }
@@ -89,7 +90,7 @@ impl<'a> Pass<'a> {
     pub(super) fn convert(&mut self, converter: &Converter, white_dn: f64) -> Plane<DigitalNumber> {
         let mut numbers = Plane::new(self.plane.width(), self.plane.height());
         let source = Source { plane: &self.plane, light: self.light, effects: &self.waiting };
-        source.rows(numbers.samples_mut(), self.causes.as_mut(), |out, electrons, notes| {
+        let account = source.rows(numbers.samples_mut(), self.causes.as_mut(), |out, electrons, notes| {
             out.iter_mut().zip(electrons).for_each(|(dn, e)| *dn = converter.digital_number(*e));
             let Some(notes) = notes else { return };
             for (x, (dn, e)) in out.iter().zip(electrons).enumerate() {
@@ -98,6 +99,7 @@ impl<'a> Pass<'a> {
                 notes.add(Cause::Saturated, x, f64::from(u8::from(dn >= white_dn.floor())));
             }
         });
+        self.account = self.account.or(account);
         numbers
     }
 }
@@ -133,32 +135,39 @@ struct Source<'a> {
 }
 
 impl Source<'_> {
-    /// Runs all rows in the caller's rayon pool; `finish` stores each.
+    /// Runs all rows in the caller's rayon pool; `finish` stores each. Answers where charge went, if a full well is among the
+    /// effects.
     fn rows<T: Send>(
         &self,
         out: &mut [T],
         causes: Option<&mut Causes>,
         finish: impl Fn(&mut [T], &[f64], Option<&mut CauseRow<'_>>) + Sync,
-    ) {
+    ) -> Option<ChargeAccount> {
         let width = self.plane.width();
         if width == 0 {
-            return;
+            return None;
         }
-        let whole = out.par_chunks_mut(width).zip(self.plane.samples().par_chunks(width)).enumerate();
+        let mut tallies = vec![RowTally::default(); self.plane.height()];
+        let rows = out.par_chunks_mut(width).zip(self.plane.samples().par_chunks(width));
+        let whole = rows.zip(&mut tallies).enumerate();
         match causes {
             None => whole.for_each_init(
                 || vec![0.0; width],
-                |electrons, (y, (out, source))| {
+                |electrons, (y, ((out, source), tally))| {
                     self.load(electrons, source);
-                    self.effects.iter().for_each(|(_, effect)| effect.apply(electrons, y as u32));
+                    self.effects.iter().for_each(|(_, effect)| effect.apply(electrons, y as u32, tally));
                     finish(out, electrons, None);
                 },
             ),
-            Some(causes) => whole.zip(causes.rows().into_par_iter()).for_each(|((y, (out, source)), mut notes)| {
-                let electrons = self.noted_row(source, y as u32, &mut notes);
-                finish(out, &electrons, Some(&mut notes));
-            }),
+            Some(causes) => {
+                whole.zip(causes.rows().into_par_iter()).for_each(|((y, ((out, source), tally)), mut notes)| {
+                    let electrons = self.noted_row(source, y as u32, &mut notes, tally);
+                    finish(out, &electrons, Some(&mut notes));
+                });
+            }
         }
+        let has_well = self.effects.iter().any(|(effect, _)| *effect == Effect::FullWell);
+        has_well.then(|| ChargeAccount::of_rows(&tallies))
     }
 
     /// Fetches a row; what is no mean counts as none.
@@ -173,7 +182,7 @@ impl Source<'_> {
         }
     }
 
-    fn noted_row(&self, source: &[f32], y: u32, notes: &mut CauseRow<'_>) -> Vec<f64> {
+    fn noted_row(&self, source: &[f32], y: u32, notes: &mut CauseRow<'_>, tally: &mut RowTally) -> Vec<f64> {
         let mut electrons = vec![0.0; source.len()];
         self.load(&mut electrons, source);
         if self.light.is_some() {
@@ -181,7 +190,7 @@ impl Source<'_> {
         }
         for (effect, apply) in self.effects {
             let before = electrons.clone();
-            apply.apply(&mut electrons, y);
+            apply.apply(&mut electrons, y, tally);
             notes.note(effect.cause(), &before, &electrons);
         }
         electrons

@@ -49,7 +49,7 @@ pub(super) fn development(
     };
     // What is accepted here fails in no frame.
     context.accept(&record.place, processing.check(&mosaic, picture.width, picture.height))?;
-    Some(Development { mosaic, processing, format: format(record) })
+    Some(Development { mosaic, processing, format: format(record, &picture, context)? })
 }
 
 /// The picture that a sensor delivers: its region, binned.
@@ -85,13 +85,19 @@ fn sharpening(record: &description::Sharpening) -> Unsharp {
     }
 }
 
-fn format(record: &record::Processing) -> PictureFormat {
-    match record.picture_format.as_ref().map(|f| f.value) {
-        Some(output::PictureFormat::Jpeg) => {
-            PictureFormat::Jpeg { quality: record.jpeg_quality.as_ref().map_or(90, |q| q.value as u8) }
+/// Columns or rows of a JPEG at most (ISO/IEC 10918-1, B.2.2).
+const JPEG_PX: usize = 65_535;
+
+fn format(record: &record::Processing, picture: &Delivered, context: &mut Context<'_>) -> Option<PictureFormat> {
+    match &record.picture_format {
+        Some(key) if key.value == output::PictureFormat::Jpeg => {
+            if picture.width.max(picture.height) > JPEG_PX {
+                let problem = format!("a JPEG has at most {JPEG_PX} columns and rows");
+                context.fault(&key.place, problem, "give picture_format = \"png\"");
+                return None;
+            }
+            Some(PictureFormat::Jpeg { quality: record.jpeg_quality.as_ref().map_or(90, |q| q.value as u8) })
         }
-        Some(output::PictureFormat::Png) | None => {
-            PictureFormat::Png { bits: record.picture_bits.as_ref().map_or(8, |b| b.value as u32) }
-        }
+        _ => Some(PictureFormat::Png { bits: record.picture_bits.as_ref().map_or(8, |b| b.value as u32) }),
     }
 }
