@@ -251,6 +251,8 @@ pub enum Measure {
     Star(measure::texture::StarArguments),
     /// Texture such as dead leaves against its reference: response, invented structure, coherence
     Texture(measure::texture::Texture),
+    /// Two cameras' measurements side by side, or a camera file against what was measured; exit status 1 where they differ
+    Compare(measure::compare::CompareArguments),
 }
 
 /// `etendue measure lens`

@@ -10,6 +10,7 @@ mod bad_results;
 mod bad_sensors;
 mod bytes;
 mod charts;
+mod compared;
 mod datasheet;
 mod develop;
 mod dropped;

@@ -35,7 +35,8 @@ impl AngleResponse {
     }
 
     /// The response at an angle, degrees.
-    fn at(&self, angle_deg: f64) -> f64 {
+    #[must_use]
+    pub fn at(&self, angle_deg: f64) -> f64 {
         let above = self.table.partition_point(|[angle, _]| *angle <= angle_deg);
         let [low, before] = self.table[above - 1];
         match self.table.get(above) {

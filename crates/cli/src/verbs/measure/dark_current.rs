@@ -65,7 +65,7 @@ fn report(currents: &[(f64, Estimate)], growths: &[Growth], reference_c: f64) ->
         report.figure(&format!("{key}_reference_e_per_s"), &at, "e⁻/s", growth.reference_e_per_s);
         report.figure(&format!("{key}_doubling_k"), "  doubles within", "K", growth.doubling_k);
         let p = chi_square::p_value(growth.chi_square, growth.degrees_of_freedom as f64);
-        report.figure(&format!("{key}_p_value"), "  probability of a fit no better", "", Estimate::new(p, 0.0));
+        report.fact(&format!("{key}_p_value"), "  probability of a fit no better", "", p);
     }
     report.table(Table {
         key: "temperatures",

@@ -47,16 +47,15 @@ fn report(seen: &Seen, found: &Distortion) -> Report {
     let method =
         "distortion without a model: ideal places by a polynomial and its homography at the centre (ISO 17850)";
     let mut report = Report::new("distortion", method);
-    let exact = |value: f64| Estimate::new(value, 0.0);
-    report.figure("points", "points of the chart", "", exact(seen.grid.nodes.len() as f64));
-    report.figure("columns", "columns", "", exact(seen.grid.size[0] as f64));
-    report.figure("rows", "rows", "", exact(seen.grid.size[1] as f64));
-    report.figure("step_px", "step of the chart at the centre", "px", exact(found.ideal.step_px()));
-    report.figure("degree", "degree of the polynomial", "", exact(found.ideal.degree() as f64));
-    report.figure("sigma_px", "standard deviation of points about it", "px", exact(found.ideal.sigma_px()));
+    report.fact("points", "points of the chart", "", seen.grid.nodes.len() as f64);
+    report.fact("columns", "columns", "", seen.grid.size[0] as f64);
+    report.fact("rows", "rows", "", seen.grid.size[1] as f64);
+    report.fact("step_px", "step of the chart at the centre", "px", found.ideal.step_px());
+    report.fact("degree", "degree of the polynomial", "", found.ideal.degree() as f64);
+    report.fact("sigma_px", "standard deviation of points about it", "px", found.ideal.sigma_px());
     if let Some(last) = found.curve.last() {
         let percent = Estimate::new(100.0 * (last.ratio.value - 1.0), 100.0 * last.ratio.standard_uncertainty);
-        report.figure("field_reached_percent", "field reached", "% of the half diagonal", exact(100.0 * last.field));
+        report.fact("field_reached_percent", "field reached", "% of the half diagonal", 100.0 * last.field);
         report.figure("distortion_there_percent", "distortion there", "%", percent);
     }
     lines(&mut report, &found.lines);
@@ -77,7 +76,7 @@ fn lines(report: &mut Report, lines: &[LineBow]) {
     {
         let all = lines.iter().filter(|l| l.is_row == is_row).map(|l| l.bow);
         if let Some(bow) = all.reduce(|a, b| if b.abs() > a.abs() { b } else { a }) {
-            report.figure(key, label, "% of the picture's height", Estimate::new(100.0 * bow, 0.0));
+            report.fact(key, label, "% of the picture's height", 100.0 * bow);
         }
     }
 }
@@ -93,7 +92,7 @@ fn radial(report: &mut Report, key: &str, fit: &RadialFit) {
     figure("k2", "", fit.k2);
     figure("centre_x_px", "px", fit.centre_px[0]);
     figure("centre_y_px", "px", fit.centre_px[1]);
-    figure("rms_px", "px", Estimate::new(fit.rms_px, 0.0));
+    report.fact(&format!("{key}_rms_px"), &format!("rms_px, {way}"), "px", fit.rms_px);
 }
 
 fn curve(found: &Distortion) -> Table {

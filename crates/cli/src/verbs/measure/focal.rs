@@ -5,7 +5,6 @@ use super::views::{Found, ViewsArguments};
 use crate::failure::Failure;
 use clap::Args;
 use etendue_core::maths::f64::acos;
-use etendue_metrology::Estimate;
 use etendue_metrology::calibrate::Options;
 use glam::DVec2;
 
@@ -58,7 +57,7 @@ fn field_of_view(report: &mut Report, found: &Found) {
     let mut line = |key: &str, label: &str, a: [f64; 2], b: [f64; 2]| {
         if let (Some(a), Some(b)) = (camera.unproject(a.into()), camera.unproject(b.into())) {
             let angle = acos(a.dot(b).clamp(-1.0, 1.0)).to_degrees();
-            report.figure(key, label, "°", Estimate::new(angle, 0.0));
+            report.fact(key, label, "°", angle);
         }
     };
     line("field_of_view_horizontal_deg", "field of view, horizontal", [0.0, 0.5 * h], [w, 0.5 * h]);

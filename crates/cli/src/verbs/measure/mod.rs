@@ -6,6 +6,7 @@ pub mod cdp;
 mod chart_points;
 pub mod chromatic;
 pub mod colour;
+pub mod compare;
 pub mod dark_current;
 pub mod depth;
 pub mod distortion;
@@ -46,6 +47,7 @@ pub fn run(arguments: &args::Measure) -> Result<(), Failure> {
         Measure::Distortion(arguments) => distortion::run(arguments),
         Measure::Focal(arguments) => focal::run(arguments),
         Measure::Chromatic(arguments) => chromatic::run(arguments),
+        Measure::Compare(arguments) => compare::run(arguments),
     }
 }
 

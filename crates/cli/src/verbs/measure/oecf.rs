@@ -134,24 +134,23 @@ fn steps(arguments: &OecfArguments, table: &Path) -> Result<(Vec<ExposurePoint>,
 fn report(oecf: &Oecf, black: f64) -> Report {
     let mut report =
         Report::new("oecf", "opto-electronic conversion function after ISO 14524 (± one standard uncertainty)");
-    let exact = |x: f64| Estimate::new(x, 0.0);
     let line = oecf.linearity(black);
     if let Some(line) = &line {
-        report.figure("slope", "slope of the straight line", "", exact(line.slope));
-        report.figure("offset", "offset of the straight line", "", exact(line.offset));
-        report.figure("linearity_error_percent", "largest deviation, 5 to 95 %", "%", exact(100.0 * line.largest));
+        report.fact("slope", "slope of the straight line", "", line.slope);
+        report.fact("offset", "offset of the straight line", "", line.offset);
+        report.fact("linearity_error_percent", "largest deviation, 5 to 95 %", "%", 100.0 * line.largest);
     }
     if let Some(range) = oecf.dynamic_range() {
-        report.figure("dynamic_range", "dynamic range (SNR 1 to saturation)", "", exact(range));
+        report.fact("dynamic_range", "dynamic range (SNR 1 to saturation)", "", range);
     }
     match oecf.points().get(oecf.saturation()) {
-        Some(point) => report.figure("saturation_exposure", "first saturated exposure", "", exact(point.exposure)),
+        Some(point) => report.fact("saturation_exposure", "first saturated exposure", "", point.exposure),
         None => report.note("no exposure saturates: the dynamic range is a lower bound"),
     }
     let row = |(i, p): (usize, &ExposurePoint)| {
         let deviation = line.as_ref().map_or(Cell::Nothing, |line| Cell::Number(100.0 * line.deviations[i], 3));
         vec![
-            Cell::Estimate(exact(p.exposure)),
+            Cell::Estimate(Estimate::new(p.exposure, 0.0)),
             Cell::Estimate(p.reading),
             p.noise.map_or(Cell::Nothing, |n| Cell::Number(n, 4)),
             Cell::Number(oecf.gain(p.exposure), 4),
@@ -216,14 +215,9 @@ fn response_report(found: &Response) -> Report {
         "camera response from exposures known relatively, after Mitsunaga and Nayar (± one standard uncertainty)";
     let mut report = Report::new("response", method);
     for (n, c) in found.coefficients.iter().enumerate().skip(1) {
-        report.figure(&format!("c{n}"), &format!("coefficient of M^{n}"), "", Estimate::new(*c, 0.0));
+        report.fact(&format!("c{n}"), &format!("coefficient of M^{n}"), "", *c);
     }
-    report.figure(
-        "residual_percent",
-        "noise of a reading, of full scale",
-        "%",
-        Estimate::new(100.0 * found.residual, 0.0),
-    );
+    report.fact("residual_percent", "noise of a reading, of full scale", "%", 100.0 * found.residual);
     let row = |i: i32| {
         let reading = f64::from(i) / 20.0;
         vec![Cell::Number(100.0 * reading, 0), Cell::Estimate(found.estimate(reading).scaled(100.0))]

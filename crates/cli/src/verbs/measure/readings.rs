@@ -122,11 +122,12 @@ impl Selection {
         full_scale: Option<f64>,
     ) -> Result<Readings, Failure> {
         let whole = Image::from_samples(photograph.width, photograph.height, samples);
-        let image = self.cropped(file, whole.expect("a photograph's channels fill it"))?;
+        let area = self.area(photograph);
+        let image = cropped(file, whole.expect("a photograph's channels fill it"), area)?;
         let (image, period) = match self.mosaic(photograph) {
             Some(tile) => {
                 let period = (tile.columns, tile.channels.len() / tile.columns);
-                (self.sites(file, &image, &tile)?, period)
+                (self.sites(file, &image, &tile, area)?, period)
             }
             None => (image, (1, 1)),
         };
@@ -143,20 +144,13 @@ impl Selection {
         (photograph.channels.len() == 1 && tile.channels.len() > 1).then_some(tile)
     }
 
-    fn cropped(&self, file: &Path, image: Image) -> Result<Image, Failure> {
-        let Some([x, y, width, height]) = self.region else { return Ok(image) };
-        let (columns, rows) = (image.width(), image.height());
-        if x.saturating_add(width) > columns || y.saturating_add(height) > rows {
-            let file = file.display();
-            return Err(Failure::input(format!(
-                "{file}: --region lies beyond the picture's {columns} × {rows} pixels"
-            )));
-        }
-        Ok(image.part(x, y, width, height))
+    /// The part that is measured: as told, or what the side-car says is picture; dark rows and columns are not.
+    fn area(&self, photograph: &Photograph) -> Option<[usize; 4]> {
+        self.region.or_else(|| Some(photograph.raw.as_ref()?.frame.as_ref()?.picture_px))
     }
 
     /// The pixels under one colour of a mosaic: the first of its name in the tile.
-    fn sites(&self, file: &Path, image: &Image, tile: &FilterTile) -> Result<Image, Failure> {
+    fn sites(&self, file: &Path, image: &Image, tile: &FilterTile, area: Option<[usize; 4]>) -> Result<Image, Failure> {
         let Some(name) = &self.channel else {
             let file = file.display();
             let names = tile.channels.join(", ");
@@ -169,7 +163,7 @@ impl Selection {
         let at = at.ok_or_else(|| no_channel(file, name, &names))?;
         let (columns, rows) = (tile.columns, tile.channels.len() / tile.columns);
         // A region that starts within a tile starts at another colour.
-        let [left, top, ..] = self.region.unwrap_or_default();
+        let [left, top, ..] = area.unwrap_or_default();
         let first = |at: usize, start: usize, period: usize| (at + period - start % period) % period;
         let (x, y) = (first(at % columns, left, columns), first(at / columns, top, rows));
         let every = |first: usize, step: usize, end: usize| (first..end).step_by(step);
@@ -178,6 +172,18 @@ impl Selection {
         let samples = rows.flat_map(|row| every(x, columns, image.width()).map(move |column| image.at(column, row)));
         Ok(Image::from_samples(width, height, samples.collect()).expect("counted"))
     }
+}
+
+fn cropped(file: &Path, image: Image, area: Option<[usize; 4]>) -> Result<Image, Failure> {
+    let Some([x, y, width, height]) = area else { return Ok(image) };
+    let (columns, rows) = (image.width(), image.height());
+    if x.saturating_add(width) > columns || y.saturating_add(height) > rows {
+        let (file, told) = (file.display(), format!("{x},{y},{width},{height}"));
+        return Err(Failure::input(format!(
+            "{file}: the region {told} lies beyond the picture's {columns} × {rows} pixels"
+        )));
+    }
+    Ok(image.part(x, y, width, height))
 }
 
 fn luminance(

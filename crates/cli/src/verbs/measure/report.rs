@@ -31,6 +31,8 @@ struct Figure {
     label: String,
     unit: &'static str,
     value: Estimate,
+    /// Whether the value's uncertainty is known: not of counts and of what describes the measurement itself.
+    stated: bool,
 }
 
 /// A cell of a table.
@@ -61,6 +63,7 @@ pub(super) struct Table {
 pub(super) struct Report {
     kind: &'static str,
     method: &'static str,
+    settings: Vec<(&'static str, String)>,
     figures: Vec<Figure>,
     tables: Vec<Table>,
     notes: Vec<String>,
@@ -74,7 +77,21 @@ impl Report {
     }
 
     pub(super) fn figure(&mut self, key: &str, label: &str, unit: &'static str, value: Estimate) {
-        self.figures.push(Figure { key: key.to_owned(), label: label.to_owned(), unit, value });
+        self.push(key, label, unit, value, true);
+    }
+
+    /// A number whose uncertainty is not stated: a count, or what describes the measurement itself.
+    pub(super) fn fact(&mut self, key: &str, label: &str, unit: &'static str, value: f64) {
+        self.push(key, label, unit, Estimate::new(value, 0.0), false);
+    }
+
+    fn push(&mut self, key: &str, label: &str, unit: &'static str, value: Estimate, stated: bool) {
+        self.figures.push(Figure { key: key.to_owned(), label: label.to_owned(), unit, value, stated });
+    }
+
+    /// What was chosen and decides what figures mean, such as the camera model.
+    pub(super) fn setting(&mut self, key: &'static str, value: String) {
+        self.settings.push((key, value));
     }
 
     pub(super) fn table(&mut self, table: Table) {
@@ -117,12 +134,16 @@ impl Report {
         let figure = |f: &Figure| {
             let Value::Object(mut map) = json_estimate(f.value) else { return (f.key.clone(), Value::Null) };
             map.insert("unit".to_owned(), f.unit.into());
+            if !f.stated {
+                map.insert("standard_uncertainty".to_owned(), Value::Null);
+            }
             (f.key.clone(), Value::Object(map))
         };
         let tables: Map<String, Value> = self.tables.iter().map(|t| (t.key.to_owned(), t.json())).collect();
         json!({
             "measurement": self.kind,
             "method": self.method,
+            "settings": self.settings.iter().map(|(key, value)| ((*key).to_owned(), value.as_str().into())).collect::<Map<_, _>>(),
             "figures": self.figures.iter().map(figure).collect::<Map<_, _>>(),
             "tables": tables,
             "notes": self.notes,

@@ -119,6 +119,8 @@ impl ModelArgument {
 
 /// The views and the camera that saw them.
 pub(super) struct Found {
+    /// The model's name.
+    pub model: String,
     pub views: Vec<Seen>,
     pub camera: Calibrated,
 }
@@ -131,7 +133,8 @@ impl ViewsArguments {
             let size = views[0].size_px;
             let camera = calibrate(&sightings, size, self.model.family(), options).map_err(Failure::input)?;
             camera.calibration.check().map_err(Failure::input)?;
-            Ok(Found { views, camera })
+            let model = self.model.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned());
+            Ok(Found { model, views, camera })
         })
     }
 
@@ -160,7 +163,7 @@ fn unit(name: &str) -> &'static str {
 impl Found {
     /// Parameters, how well the views fit, and the views.
     pub(super) fn tell(&self, report: &mut Report, pixel_pitch_um: Option<f64>) {
-        let exact = |value: f64| Estimate::new(value, 0.0);
+        report.setting("model", self.model.clone());
         for p in &self.camera.parameters {
             report.figure(p.name, p.name.trim_end_matches("_px"), unit(p.name), p.estimate);
             if let Some(pitch_um) = pixel_pitch_um.filter(|_| p.name.starts_with('f')) {
@@ -168,10 +171,10 @@ impl Found {
                 report.figure(&p.name.replace("_px", "_mm"), p.name.trim_end_matches("_px"), "mm", mm);
             }
         }
-        report.figure("rms_px", "distance of points from the fit, rms", "px", exact(self.camera.rms_px()));
-        report.figure("sigma_px", "standard deviation of a coordinate", "px", exact(self.camera.sigma_px));
+        report.fact("rms_px", "distance of points from the fit, rms", "px", self.camera.rms_px());
+        report.fact("sigma_px", "standard deviation of a coordinate", "px", self.camera.sigma_px);
         let freedom = self.camera.degrees_of_freedom as f64;
-        report.figure("degrees_of_freedom", "degrees of freedom", "", exact(freedom));
+        report.fact("degrees_of_freedom", "degrees of freedom", "", freedom);
         report.note("raster coordinates, pixel centres at +0.5 (OpenCV's and ROS's cx and cy are less by 0.5); ± one standard uncertainty");
         report.table(self.table());
         report.plot(self.residuals());

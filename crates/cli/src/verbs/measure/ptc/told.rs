@@ -101,9 +101,8 @@ fn nonuniformities(report: &mut Report, n: &Nonuniformity) {
     parts("dsnu_e", "DSNU", "e⁻", n.dsnu_e);
     parts("dsnu_dn", "DSNU", "DN", n.dsnu_dn);
     parts("prnu_percent", "PRNU", "%", n.prnu.map(|e| e.scaled(100.0)));
-    let shared = |dn: f64| Estimate::new(dn, 0.0);
-    report.figure("row_noise_dn", "temporal noise of rows, dark", "DN", shared(n.row_noise_dn));
-    report.figure("column_noise_dn", "temporal noise of columns, dark", "DN", shared(n.column_noise_dn));
+    report.fact("row_noise_dn", "temporal noise of rows, dark", "DN", n.row_noise_dn);
+    report.fact("column_noise_dn", "temporal noise of columns, dark", "DN", n.column_noise_dn);
 }
 
 fn curve(data: &TransferData) -> Table {

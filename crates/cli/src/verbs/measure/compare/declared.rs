@@ -1,0 +1,190 @@
+//! What a camera file declares of what a measurement found: the same keys and units, exact.
+//!
+//! | measurement | declared |
+//! | --- | --- |
+//! | distortion | k1, k2 in half diagonals in the direction that the file states, the curve r / (c tan θ) along the half diagonal |
+//! | focal, calibrate | principal distance in pixels and mm, principal point, k1 and k2 where the model measured means the same |
+//! | vignetting | étendue of a pixel relative to the centre, the mean of the four half diagonals, with the pixels' response over angle |
+//! | ptc | gain, dark noise, DSNU and PRNU of pixels, rows and columns, dark current, quantum efficiency at a wavelength |
+//! | sfr | the pixel's aperture, sinc(a ν), with what neighbours exchange; of a lens in focus without diffraction |
+//!
+//! Left out: what the file does not state but causes (shifts by aberrations, charge that blooms).
+
+use super::curve::Curve;
+use super::side::{Quantity, Side};
+use etendue_core::maths::f64::{atan, cos, sin};
+use etendue_metrology::Estimate;
+use etendue_pipeline::plan::CameraBody;
+use etendue_projection::Sense;
+use etendue_sensor::SensorParameters;
+use glam::DVec2;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+type Quantities = BTreeMap<String, Quantity>;
+
+/// The camera's own side of a measurement.
+pub(super) fn side(body: &CameraBody, measured: &Side, wavelength_nm: Option<f64>) -> Result<Side, String> {
+    if wavelength_nm.is_some() && measured.kind != "ptc" {
+        return Err("--wavelength-nm belongs to photon transfer (ptc)".to_owned());
+    }
+    let mut quantities = Quantities::new();
+    let mut put = |key: &str, value: f64, unit: &str| {
+        quantities.insert(key.to_owned(), Quantity::declared(value, unit));
+    };
+    let curves = match measured.kind.as_str() {
+        "distortion" => {
+            distortion(body, &mut put);
+            along(measured, |field| ratio(body, field))
+        }
+        "focal" | "calibrate" => {
+            intrinsics(body, measured, &mut put);
+            Vec::new()
+        }
+        "vignetting" => {
+            put("corner_percent", 100.0 * illumination(body, 1.0), "%");
+            along(measured, |field| Some(100.0 * illumination(body, field)))
+        }
+        "ptc" => {
+            electronics(body, wavelength_nm, &mut put)?;
+            Vec::new()
+        }
+        "sfr" => {
+            in_closed_form(body)?;
+            measured.curves.iter().map(|c| at_points(c, |nu| Some(aperture(body, nu)))).collect()
+        }
+        kind => return Err(format!("a camera file declares nothing that measure {kind} finds")),
+    };
+    Ok(Side { kind: measured.kind.clone(), settings: measured.settings.clone(), quantities, curves })
+}
+
+/// The declared curve at the places of the measured one.
+fn along(measured: &Side, at: impl Fn(f64) -> Option<f64>) -> Vec<Curve> {
+    measured.curves.iter().map(|c| at_points(c, |percent| at(percent / 100.0))).collect()
+}
+
+fn at_points(measured: &Curve, at: impl Fn(f64) -> Option<f64>) -> Curve {
+    let point = |(x, _): &(f64, Estimate)| Some((*x, Estimate::new(at(*x)?, 0.0)));
+    Curve { points: measured.points.iter().filter_map(point).collect(), ..measured.clone() }
+}
+
+/// The four places of a radial field position, mm from the principal point.
+fn places(body: &CameraBody, field: f64) -> [DVec2; 4] {
+    let half = 0.5 * DVec2::new(body.raster.width() as f64, body.raster.height() as f64);
+    [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]]
+        .map(|sign| body.raster.sensor_mm(half + field * half * DVec2::from(sign)))
+}
+
+fn distortion(body: &CameraBody, put: &mut impl FnMut(&str, f64, &str)) {
+    let Some(d) = body.lens.distortion() else { return };
+    let way = match d.sense() {
+        Sense::IdealToObserved => "forward",
+        Sense::ObservedToIdeal => "backward",
+    };
+    let unit = body.raster.half_diagonal_mm() / d.unit_mm();
+    let [k1, k2] = d.coefficients();
+    put(&format!("{way}_k1"), k1 * unit * unit, "");
+    put(&format!("{way}_k2"), k2 * unit * unit * unit * unit, "");
+    put(&format!("{way}_centre_x_px"), body.raster.principal_px().x, "px");
+    put(&format!("{way}_centre_y_px"), body.raster.principal_px().y, "px");
+}
+
+/// Observed over ideal distance from the principal point.
+fn ratio(body: &CameraBody, field: f64) -> Option<f64> {
+    let of = |at: DVec2| Some(at.length() / (body.lens.principal_distance_mm() * body.lens.tangent(at)?.length()));
+    places(body, field).into_iter().try_fold(0.0, |sum, at| Some(sum + 0.25 * of(at)?))
+}
+
+fn intrinsics(body: &CameraBody, measured: &Side, put: &mut impl FnMut(&str, f64, &str)) {
+    let matrix = body.raster.camera_matrix(body.lens.principal_distance_mm());
+    let pitch = body.raster.pitch_mm();
+    for (key, px, pitch) in [("fx", matrix.fx, pitch.x), ("fy", matrix.fy, pitch.y)] {
+        put(&format!("{key}_px"), px, "px");
+        put(&format!("{key}_mm"), px * pitch, "mm");
+    }
+    put("cx_px", matrix.cx, "px");
+    put("cy_px", matrix.cy, "px");
+    let sense = match measured.settings.get("model").map_or("", String::as_str) {
+        "opencv" | "opencv5" | "radial" => Sense::IdealToObserved,
+        "radial-inverse" => Sense::ObservedToIdeal,
+        _ => return,
+    };
+    let Some(d) = body.lens.distortion().filter(|d| d.sense() == sense) else { return };
+    let unit = body.lens.principal_distance_mm() / d.unit_mm();
+    let [k1, k2] = d.coefficients();
+    put("k1", k1 * unit * unit, "");
+    put("k2", k2 * unit * unit * unit * unit, "");
+}
+
+/// Light on a pixel over that in the picture's middle.
+fn illumination(body: &CameraBody, field: f64) -> f64 {
+    let angles = body.sensor.as_ref().and_then(|s| s.parameters().optics.angle_response.as_ref());
+    let response = |at: DVec2| angles.map_or(1.0, |a| a.at(atan(at.length() / a.exit_pupil_mm).to_degrees()));
+    let light =
+        |field: f64| places(body, field).iter().map(|at| body.lens.etendue_sr(*at) * response(*at)).sum::<f64>();
+    light(field) / light(0.0)
+}
+
+fn electronics(
+    body: &CameraBody,
+    wavelength_nm: Option<f64>,
+    put: &mut impl FnMut(&str, f64, &str),
+) -> Result<(), String> {
+    let sensor = body.sensor.as_ref().ok_or("the camera has no electronics, of which photon transfer tells")?;
+    let p = sensor.parameters();
+    let gain = p.read_out.gain_dn_e * p.read_out.analogue_gain * p.read_out.digital_gain;
+    put("gain_dn_per_e", gain, "DN/e⁻");
+    put("dark_noise_e", dark_noise_e(p), "e⁻");
+    put("dark_current_mean_e_per_s", p.charge.dark.current_e_s * p.charge.dark.temperature_factor(), "e⁻/s");
+    let (offset, response) = (p.pattern.offset, p.pattern.photo_response);
+    for (part, e, share) in [
+        ("pixel", offset.white_e, response.white),
+        ("row", offset.row_e, response.row),
+        ("column", offset.column_e, response.column),
+    ] {
+        put(&format!("dsnu_e_{part}"), e, "e⁻");
+        put(&format!("prnu_percent_{part}"), 100.0 * share, "%");
+    }
+    if let Some(nm) = wavelength_nm {
+        let [channel] = p.channels.as_slice() else {
+            return Err("--wavelength-nm: the pixels have colours, each with its own quantum efficiency".to_owned());
+        };
+        let efficiency = f64::from(channel.quantum_efficiency.at(nm as f32)) * p.pixel.fill_factor;
+        put("quantum_efficiency", efficiency, "");
+    }
+    Ok(())
+}
+
+/// Noise of the chain in a pixel without light, at exposures too short for dark current.
+fn dark_noise_e(p: &SensorParameters) -> f64 {
+    let noise = &p.read_out.noise;
+    (noise.white_e * noise.white_e + noise.row_e * noise.row_e + noise.column_e * noise.column_e).sqrt()
+}
+
+/// Whether the response is that of the pixels alone.
+fn in_closed_form(body: &CameraBody) -> Result<(), String> {
+    let thin = ["thin lens", "pinhole"].contains(&body.lens.kind());
+    let exchanged = body.sensor.as_ref().and_then(|s| s.parameters().optics.cross_talk);
+    if exchanged.is_some_and(|c| c.0.horizontal != c.0.vertical) {
+        return Err(
+            "the response along rows and columns differs by cross-talk: no one curve says what is declared".to_owned()
+        );
+    }
+    if thin && body.effects.is_idle() && body.front.is_none() {
+        return Ok(());
+    }
+    Err("the response of this lens has no closed form here: expected a thin lens or pinhole without [effects] and [front]"
+        .to_owned())
+}
+
+/// Response of the pixel's aperture with what neighbours catch, along rows or columns.
+fn aperture(body: &CameraBody, cycles_per_px: f64) -> f64 {
+    let x = PI * cycles_per_px * body.aperture_px;
+    let sinc = if x == 0.0 { 1.0 } else { sin(x) / x };
+    let exchanged = body
+        .sensor
+        .as_ref()
+        .and_then(|s| s.parameters().optics.cross_talk)
+        .map_or(0.0, |c| 2.0 * c.0.horizontal + 4.0 * c.0.corner);
+    sinc * (1.0 - exchanged * (1.0 - cos(2.0 * PI * cycles_per_px)))
+}

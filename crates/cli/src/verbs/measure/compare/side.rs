@@ -1,0 +1,88 @@
+//! One side of a comparison: a measurement's JSON, or what a camera file declares of the same.
+
+use super::curve::{Curve, curves};
+use super::declared;
+use crate::camera_file;
+use crate::failure::Failure;
+use crate::job::read_text;
+use etendue_metrology::Estimate;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// A number with its unit; without an uncertainty where the measurement states none.
+#[derive(Clone, Debug)]
+pub(super) struct Quantity {
+    pub value: f64,
+    pub standard_uncertainty: Option<f64>,
+    pub unit: String,
+}
+
+impl Quantity {
+    /// What a camera file states: exact by itself.
+    pub(super) fn declared(value: f64, unit: &str) -> Self {
+        Self { value, standard_uncertainty: Some(0.0), unit: unit.to_owned() }
+    }
+}
+
+/// What is known of a camera on one side.
+#[derive(Clone, Debug)]
+pub(super) struct Side {
+    pub kind: String,
+    pub settings: BTreeMap<String, String>,
+    pub quantities: BTreeMap<String, Quantity>,
+    pub curves: Vec<Curve>,
+}
+
+fn is_camera(file: &Path) -> bool {
+    file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"))
+}
+
+/// Both sides; a camera file declares what the other side measured.
+pub(super) fn sides(a: &Path, b: &Path, wavelength_nm: Option<f64>, set: &[String]) -> Result<[Side; 2], Failure> {
+    let declaration = |file: &Path, measured: &Side| {
+        let body = camera_file::load(file, set)?;
+        let said = |reason: String| Failure::input(format!("{}: {reason}", file.display()));
+        declared::side(&body, measured, wavelength_nm).map_err(said)
+    };
+    match (is_camera(a), is_camera(b)) {
+        (true, true) => Err(Failure::input(
+            "measure compare: two camera files: at least one side must be a measurement (the output of --json)",
+        )),
+        (true, false) => measurement(b).and_then(|b| Ok([declaration(a, &b)?, b])),
+        (false, true) => measurement(a).and_then(|a| Ok([a.clone(), declaration(b, &a)?])),
+        (false, false) => {
+            if wavelength_nm.is_some() || !set.is_empty() {
+                let told = "--wavelength-nm and --set belong to a camera file, and neither side is one";
+                return Err(Failure::input(told));
+            }
+            Ok([measurement(a)?, measurement(b)?])
+        }
+    }
+}
+
+fn measurement(file: &Path) -> Result<Side, Failure> {
+    let text = read_text(file).map_err(Failure::input)?;
+    let what = "expected the JSON that etendue measure or calibrate prints with --json, or a camera file (.toml)";
+    let no = |cause: &str| Failure::input(format!("{}: {what}: {cause}", file.display()));
+    let report: Value = serde_json::from_str(&text).map_err(|cause| no(&cause.to_string()))?;
+    let kind = report["measurement"].as_str().ok_or_else(|| no("\"measurement\" is missing"))?.to_owned();
+    let figures = report["figures"].as_object().ok_or_else(|| no("\"figures\" is missing"))?;
+    let quantities = figures.iter().filter_map(|(key, figure)| Some((key.clone(), quantity(figure)?))).collect();
+    let settings = report["settings"].as_object().into_iter().flatten();
+    let settings = settings.filter_map(|(key, value)| Some((key.clone(), value.as_str()?.to_owned()))).collect();
+    Ok(Side { kind, settings, quantities, curves: curves(&report["tables"]) })
+}
+
+fn quantity(figure: &Value) -> Option<Quantity> {
+    Some(Quantity {
+        value: figure["value"].as_f64()?,
+        standard_uncertainty: figure["standard_uncertainty"].as_f64(),
+        unit: figure["unit"].as_str()?.to_owned(),
+    })
+}
+
+/// An estimate of a table's cell.
+pub(super) fn estimate(cell: &Value) -> Option<Estimate> {
+    Some(Estimate::new(cell["value"].as_f64()?, cell["standard_uncertainty"].as_f64()?))
+}
