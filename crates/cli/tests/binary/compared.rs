@@ -81,7 +81,8 @@ fn a_camera_file_declares_what_was_measured() {
     let folder = tempfile::tempdir().expect("a folder");
     let camera = text(&root().join("scenes/cameras/automotive.toml"));
     let half_diagonal_mm = 0.006 * 0.5 * (960.0_f64 * 960.0 + 600.0 * 600.0).sqrt();
-    let k1 = -0.12 * (half_diagonal_mm / (4.6 * 10.0 / (10.0 - 0.0046))).powi(2);
+    let radius = half_diagonal_mm / (4.6 * 10.0 / (10.0 - 0.0046));
+    let k1 = -0.12 * radius * radius;
     let measured = |k1: f64| {
         let figures = json!({ "forward_k1": { "value": k1, "standard_uncertainty": 1e-5, "unit": "" } });
         let report = json!({ "measurement": "distortion", "figures": figures, "tables": {} });
