@@ -4,13 +4,12 @@ use crate::facts;
 use crate::failure::Failure;
 use crate::files::Files;
 use crate::photographs::{Wanted, photographs};
+use crate::results::Results;
 use crate::tell;
 use etendue_core::Plane;
 use etendue_core::quantity::Electrons;
-use etendue_io::exr::{
-    self, EncodeError, Lengths, encode_ground_truth, encode_plane, encode_radiance, encode_rays, encode_spectral,
-};
-use etendue_io::{OutputFolder, Provenance, png, sidecar};
+use etendue_io::exr::{self, Lengths, encode_ground_truth, encode_plane, encode_radiance, encode_rays};
+use etendue_io::{OutputFolder, png};
 use etendue_pipeline::film::Film;
 use etendue_pipeline::photograph::Light;
 use etendue_pipeline::plan::{CameraPlan, Plan};
@@ -72,42 +71,6 @@ pub fn deliver(
     facts["undistorted"] = twin.as_ref().map_or(Value::Null, facts::undistorted);
     facts["frames"] = points.into();
     results.json(Files::SIDECAR, &facts)
-}
-
-/// Where the results of one camera go.
-pub struct Results<'a> {
-    /// Folder of the camera within the output folder.
-    pub prefix: String,
-    /// The output folder.
-    pub folder: &'a mut OutputFolder,
-}
-
-impl Results<'_> {
-    /// Writes a file.
-    pub fn write(&mut self, name: &str, bytes: Result<Vec<u8>, EncodeError>) -> Result<(), Failure> {
-        let name = format!("{}/{name}", self.prefix);
-        let bytes = bytes.map_err(|error| Failure::Run(format!("{name}: {error}")))?;
-        self.folder.write(&name, &bytes).map_err(Failure::run)
-    }
-
-    /// Writes a side-car.
-    pub fn json(&mut self, name: &str, facts: &serde_json::Value) -> Result<(), Failure> {
-        let bytes = sidecar::encode(facts).map_err(|error| Failure::Run(format!("{name}: {error}")))?;
-        self.write(name, Ok(bytes))
-    }
-
-    /// Writes an irradiance image.
-    pub fn irradiance(&mut self, light: &Light, variance: bool, facts: &Provenance) -> Result<(), Failure> {
-        let Some(cube) = &light.irradiance else { return Ok(()) };
-        let variance = light.irradiance_variance.as_ref().filter(|_| variance);
-        self.write(Files::IRRADIANCE, encode_spectral(cube, variance, facts))
-    }
-
-    /// Writes the part of the irradiance that is ghosts.
-    pub fn ghosts(&mut self, light: &Light, facts: &Provenance) -> Result<(), Failure> {
-        let Some(cube) = &light.ghosts else { return Ok(()) };
-        self.write(Files::GHOSTS, encode_spectral(cube, None, facts))
-    }
 }
 
 fn spectra(

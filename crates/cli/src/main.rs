@@ -18,6 +18,7 @@ mod photographs;
 mod plot;
 mod progress;
 mod raw_file;
+mod results;
 mod sensor_args;
 mod verbs;
 

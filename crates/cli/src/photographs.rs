@@ -1,9 +1,9 @@
 //! Photographs of a camera, frame after frame, as files.
 
-use crate::deliver::Results;
 use crate::facts;
 use crate::failure::Failure;
 use crate::files::Files;
+use crate::results::Results;
 use crate::tell;
 use etendue_core::Plane;
 use etendue_core::quantity::{DigitalNumber, Display, Electrons};

@@ -3,13 +3,13 @@
 use super::render::{claim, commit, open};
 use crate::args;
 use crate::camera_file;
-use crate::deliver::Results;
 use crate::facts;
 use crate::failure::Failure;
 use crate::files::Files;
 use crate::machine;
 use crate::photographs::encoded;
 use crate::raw_file::{Taken, taken};
+use crate::results::Results;
 use etendue_pipeline::photograph::{Developed, developed};
 use etendue_pipeline::plan::{CameraBody, Development};
 use etendue_sensor::Sensor;

@@ -3,12 +3,12 @@
 use super::render::{claim, commit, open};
 use crate::args;
 use crate::camera_file;
-use crate::deliver::Results;
 use crate::facts;
 use crate::failure::Failure;
 use crate::files::Files;
 use crate::machine;
 use crate::photographs::{Wanted, photographs};
+use crate::results::Results;
 use crate::tell;
 use etendue_core::quantity::{Length, Radiance};
 use etendue_core::{Plane, SpectralCube};

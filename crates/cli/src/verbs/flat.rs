@@ -2,12 +2,12 @@
 
 use super::render::{claim, commit, open};
 use crate::camera_file;
-use crate::deliver::Results;
 use crate::facts;
 use crate::failure::Failure;
 use crate::files::Files;
 use crate::machine;
 use crate::photographs::{Wanted, encoded_raw, photographs};
+use crate::results::Results;
 use crate::sensor_args;
 use crate::tell;
 use etendue_io::Provenance;
