@@ -23,6 +23,10 @@ scenes:
 oracles:
     tests/oracles/run
 
+# Recover the declared parameters of stand-in cameras from renders of charts: writes docs/validation.md
+validate *cameras:
+    charts/validate {{cameras}}
+
 # Efficiency beside Mitsuba 3 and Cycles (needs Python 3.11, PyPI, libllvm19)
 peers *arguments:
     benches/peers/run {{arguments}}
