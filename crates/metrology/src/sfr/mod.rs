@@ -4,7 +4,7 @@
 //!
 //! | step of the standard | here |
 //! | --- | --- |
-//! | row-by-row centroids, then a line or polynomial | the same quantity by least squares on all pixels: start from the gradients, then Gauss–Newton on the edge's own profile |
+//! | row-by-row centroids, then a line or polynomial | the same quantity by least squares on all pixels: start from the gradients of a median-filtered picture, then Gauss–Newton on edge and profile at once (separable least squares, Golub & Pereyra 1973), pixels that are defects left out |
 //! | distances across the edge into quarter-pixel bins | a spline through the distances themselves: no bins, so no bin response and no empty bins at near-rational slopes |
 //! | finite differences, then a corrected window and transform | the spline's derivative and its Fourier transform in closed form: no derivative response, no window |
 //!

@@ -20,10 +20,16 @@ const COARSE_STEP_PX: f64 = 2.0;
 const FARTHEST_PX: f64 = 100.0;
 /// How much of the picture's nearer side the profile may change in; the rest is plateau, whose mean the response at 0 rests on.
 const CHANGING: f64 = 0.65;
-/// Rounds of the edge's refinement at most, and the step that ends it, px: a profile fitted to an edge that is off holds it back, so that
-/// noisy edges need many.
-const ROUNDS: usize = 60;
+/// Rounds of the refinement at most, the move that ends it, px, and the largest move of a round, px.
+const ROUNDS: usize = 30;
 const LEAST_MOVE_PX: f64 = 1e-4;
+const LARGEST_MOVE_PX: f64 = 2.0;
+/// Pixels that differ from the fit by more than so many robust standard deviations (1.4826 times the median of the residuals' magnitudes)
+/// and more than so much of the edge's height are defects, and left out; the share of them at most, and how often they are sought.
+const OUTLIER_SIGMAS: f64 = 6.0;
+const OUTLIER_SHARE: f64 = 0.05;
+const MOST_OUTLIERS: f64 = 0.02;
+const REJECTIONS: usize = 8;
 
 /// A pixel: its distance from the edge, its row, and its reading.
 #[derive(Clone, Copy)]
@@ -47,21 +53,20 @@ pub(super) struct Profile {
 }
 
 impl Profile {
-    /// Fits edge and profile in turn.
+    /// Fits edge and profile at once, and again without the pixels that are defects.
     pub(super) fn fitted(image: &Image, start: Edge, settings: &SfrSettings) -> Result<(Edge, Self), SfrError> {
-        let mut edge = start;
-        for _ in 0..ROUNDS {
-            let samples = samples(image, &edge);
-            let knots = Knots::new(image, &edge, &samples, settings)?;
-            let levels = knots.normal(&samples).solve().ok_or(SfrError::NoEdge("its profile has gaps"))?;
-            let by = knots.correction(&samples, &levels, &edge, settings.edge_degree)?;
-            edge = edge.moved(&by);
-            edge.check()?;
-            if by.iter().all(|move_px| move_px.abs() < LEAST_MOVE_PX) {
+        let mut kept = vec![true; image.samples().len()];
+        let mut edge = settled(image, start, &kept, settings)?;
+        for _ in 0..REJECTIONS {
+            let found = regular(image, &edge, &kept, settings)?;
+            if found == kept {
                 break;
             }
+            kept = found;
+            edge = settled(image, edge, &kept, settings)?;
         }
-        let samples = samples(image, &edge);
+        edge.check()?;
+        let samples = samples(image, &edge, &kept);
         let knots = Knots::new(image, &edge, &samples, settings)?;
         let profile = knots.profile(&samples).ok_or(SfrError::NoEdge("its profile has gaps"))?;
         profile.check()?;
@@ -171,13 +176,57 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-fn samples(image: &Image, edge: &Edge) -> Vec<Sample> {
-    let place = |y: usize| (0..image.width()).map(move |x| (x, y));
-    let sample = |(x, y): (usize, usize)| {
+fn samples(image: &Image, edge: &Edge, kept: &[bool]) -> Vec<Sample> {
+    let sample = |i: usize| {
+        let (x, y) = (i % image.width(), i / image.width());
         let (column, row) = (x as f64 + 0.5, y as f64 + 0.5);
         Sample { distance: edge.distance(column, row), row, reading: f64::from(image.at(x, y)) }
     };
-    (0..image.height()).flat_map(place).map(sample).collect()
+    (0..kept.len()).filter(|i| kept[*i]).map(sample).collect()
+}
+
+/// The edge that the pixels fit best: Gauss–Newton on edge and profile together, so that neither holds the other back.
+fn settled(image: &Image, start: Edge, kept: &[bool], settings: &SfrSettings) -> Result<Edge, SfrError> {
+    let mut edge = start;
+    let mut best: Option<(f64, Edge, Vec<f64>)> = None;
+    for _ in 0..ROUNDS {
+        let samples = samples(image, &edge, kept);
+        let knots = Knots::new(image, &edge, &samples, settings)?;
+        let (squares, mut by) = knots.correction(&samples, &edge, settings.edge_degree)?;
+        // A move that made the fit worse went too far: half of it.
+        match best.as_mut().filter(|(least, ..)| squares > *least) {
+            Some((_, from, last)) => {
+                last.iter_mut().for_each(|v| *v *= 0.5);
+                (edge, by) = (from.clone(), last.clone());
+            }
+            None => best = Some((squares, edge.clone(), by.clone())),
+        }
+        edge = edge.moved(&by);
+        if by.iter().all(|move_px| move_px.abs() < LEAST_MOVE_PX) {
+            break;
+        }
+    }
+    Ok(edge)
+}
+
+/// Which pixels are no defects, judged by their residuals from the profile of those that were none so far.
+fn regular(image: &Image, edge: &Edge, kept: &[bool], settings: &SfrSettings) -> Result<Vec<bool>, SfrError> {
+    let believed = samples(image, edge, kept);
+    let knots = Knots::new(image, edge, &believed, settings)?;
+    let levels = knots.normal(&believed).solve().ok_or(SfrError::NoEdge("its profile has gaps"))?;
+    let samples = samples(image, edge, &vec![true; kept.len()]);
+    let residuals: Vec<f64> = samples.iter().map(|s| knots.residual(s, &levels).abs()).collect();
+    let mut sorted = residuals.clone();
+    sorted.sort_unstable_by(f64::total_cmp);
+    let sigma = 1.4826 * sorted[sorted.len() / 2];
+    let [left, right] = knots.plateaus(&levels);
+    let limit = (OUTLIER_SIGMAS * sigma).max(OUTLIER_SHARE * (right - left).abs());
+    let kept: Vec<bool> = residuals.iter().map(|r| *r <= limit).collect();
+    let outliers = kept.iter().filter(|kept| !**kept).count();
+    if outliers as f64 > MOST_OUTLIERS * kept.len() as f64 {
+        return Err(SfrError::NoEdge("more than a fiftieth of the pixels are far from one straight edge"));
+    }
+    Ok(kept)
 }
 
 /// Where the splines lie.
@@ -246,16 +295,60 @@ impl Knots {
         sample.reading - places.iter().zip(&slopes).map(|(k, slope)| values[*k] * slope).sum::<f64>()
     }
 
-    /// One Gauss–Newton step of the edge's coefficients: the residuals against the profile's slope.
-    fn correction(&self, samples: &[Sample], levels: &[f64], edge: &Edge, degree: usize) -> Result<Vec<f64>, SfrError> {
-        let mut normal = Normal::new(degree + 1);
-        for sample in samples.iter().filter(|s| s.distance.abs() < self.reach_px) {
-            let residual = self.residual(sample, levels);
-            let slope = self.slope(sample.distance, levels);
-            let row: Vec<f64> = edge.sensitivities(sample.row, degree).iter().map(|s| s * slope).collect();
-            normal.add(&row, residual, 1.0);
+    /// The move of the edge's coefficients by one step of Gauss–Newton on edge and profile at once. The edge's place alone is the
+    /// profile's own (a moved profile is a profile): it follows from the middle of the profile's climb, which keeps it among the fine
+    /// splines; where it is far from them the edge is only moved there.
+    fn correction(&self, samples: &[Sample], edge: &Edge, degree: usize) -> Result<(f64, Vec<f64>), SfrError> {
+        let failed = || SfrError::NoEdge("the edge crosses too few rows");
+        let levels = self.normal(samples).solve().ok_or_else(failed)?;
+        let mut by = vec![0.0; degree + 1];
+        by[0] = self.middle_px(&levels);
+        if by[0].abs() > LARGEST_MOVE_PX {
+            return Ok((f64::INFINITY, by));
         }
-        normal.solve().ok_or(SfrError::NoEdge("the edge crosses too few rows"))
+        let linear = levels.len();
+        let mut normal = Normal::new(linear + degree);
+        let mut squares = 0.0;
+        for sample in samples {
+            let (mut places, mut values) = self.basis(sample.distance);
+            if sample.distance.abs() < self.reach_px {
+                let slope = self.slope(sample.distance, &levels);
+                places.extend(linear..linear + degree);
+                values.extend(edge.sensitivities(sample.row, degree)[1..].iter().map(|s| s * slope));
+            }
+            let residual = self.residual(sample, &levels);
+            squares += residual * residual;
+            normal.add_at(&places, &values, residual, 1.0);
+        }
+        let moves = normal.solve().ok_or_else(failed)?;
+        let bounded = |v: &f64| v.clamp(-LARGEST_MOVE_PX, LARGEST_MOVE_PX);
+        by[1..].iter_mut().zip(moves[linear..].iter().map(bounded)).for_each(|(b, v)| *b = v);
+        Ok((squares, by))
+    }
+
+    /// How far the profile may change, px.
+    fn extent_px(&self) -> f64 {
+        self.coarse.last().map_or(self.reach_px, |at| at + COARSE_STEP_PX)
+    }
+
+    /// The profile's readings on both sides.
+    fn plateaus(&self, levels: &[f64]) -> [f64; 2] {
+        [-self.extent_px(), self.extent_px()].map(|distance| self.value(distance, levels))
+    }
+
+    fn value(&self, distance: f64, levels: &[f64]) -> f64 {
+        -self.residual(&Sample { distance, row: 0.0, reading: 0.0 }, levels)
+    }
+
+    /// Where the profile has climbed half-way, by the share of it that lies nearer to the left plateau; nothing below half a pixel.
+    fn middle_px(&self, levels: &[f64]) -> f64 {
+        let [left, right] = self.plateaus(levels);
+        let (extent, step) = (self.extent_px(), FINEST_STEP_PX);
+        let count = (2.0 * extent / step).floor() as usize;
+        let at = |i: usize| -extent + (i as f64 + 0.5) * step;
+        let nearer = |d: &f64| (self.value(*d, levels) - left) / (right - left) < 0.5;
+        let middle = (0..count).map(at).filter(nearer).count() as f64 * step - extent;
+        if middle.abs() < 0.5 { 0.0 } else { middle }
     }
 
     fn slope(&self, distance: f64, levels: &[f64]) -> f64 {

@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::plot::{Axis, Mark, Plot, Series};
 use clap::Args;
 use etendue_metrology::Estimate;
-use etendue_metrology::sfr::{Orientation, Sfr, SfrPoint, SfrSettings, measure_edge};
+use etendue_metrology::sfr::{Orientation, Sfr, SfrError, SfrPoint, SfrSettings, measure_edge};
 use std::path::PathBuf;
 
 /// `etendue measure sfr`
@@ -53,13 +53,42 @@ pub(super) fn run(arguments: &SfrArguments) -> Result<(), Failure> {
         full_scale: arguments.levels.full_scale(&readings),
         ..SfrSettings::default()
     };
-    let measured = |at: &[usize; 4]| {
-        let image = part(&readings.image, *at, "--edge")?;
-        let place = format!("{}: edge at {},{}", arguments.picture.display(), at[0], at[1]);
-        measure_edge(&image, &settings).map_err(|error| Failure::input(format!("{place}: {error}")))
+    let mut found = Vec::new();
+    let mut refused = Vec::new();
+    for at in &regions {
+        match measure_edge(&part(&readings.image, *at, "--edge")?, &settings) {
+            Ok(sfr) => found.push((*at, sfr)),
+            Err(error) if arguments.truth.is_some() => refused.push((*at, error)),
+            Err(error) => return Err(failure(arguments, *at, &error)),
+        }
+    }
+    if found.is_empty() {
+        let (at, error) = &refused[0];
+        return Err(failure(arguments, *at, error));
+    }
+    let (regions, found): (Vec<[usize; 4]>, Vec<Sfr>) = found.into_iter().unzip();
+    let mut report = report(&regions, &found, (width, height));
+    if !refused.is_empty() {
+        report.note(format!("{} of {} edges could not be measured", refused.len(), refused.len() + found.len()));
+        report.table(refusals(&refused));
+    }
+    report.tell(&arguments.telling)
+}
+
+fn failure(arguments: &SfrArguments, at: [usize; 4], error: &SfrError) -> Failure {
+    Failure::input(format!("{}: edge at {},{}: {error}", arguments.picture.display(), at[0], at[1]))
+}
+
+/// The edges of a chart that could not be measured, and why.
+fn refusals(refused: &[([usize; 4], SfrError)]) -> Table {
+    let row = |(at, error): &([usize; 4], SfrError)| {
+        vec![Cell::Text(format!("{},{}", at[0], at[1])), Cell::Text(error.to_string())]
     };
-    let found = regions.iter().map(measured).collect::<Result<Vec<Sfr>, _>>()?;
-    report(&regions, &found, (width, height)).tell(&arguments.telling)
+    Table {
+        key: "refused",
+        columns: vec![("at_px", "at px"), ("reason", "not measured because")],
+        rows: refused.iter().map(row).collect(),
+    }
 }
 
 fn report(regions: &[[usize; 4]], found: &[Sfr], size: (usize, usize)) -> Report {
