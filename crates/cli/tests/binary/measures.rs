@@ -97,6 +97,15 @@ fn photon_transfer_refuses_what_it_cannot_measure() {
     let coloured = stored.replacen(&(images + "image4.png"), &text(&file), 1);
     describe(coloured).refused(&["colour.png", "linear raw is needed"]);
     describe(stored.replace("i ", "j ")).refused(&["line 4", "v, n, b, d or i"]);
+    // Frames of one channel without a side-car: which pixels are green is not known, and nobody says it.
+    std::fs::write(folder.path().join("descriptor.txt"), &stored).expect("a temporary file");
+    let descriptor = text(&folder.path().join("descriptor.txt"));
+    etendue(["measure", "ptc", &descriptor, "--channel", "green"]).refused(&["--channel green", "give --cfa"]);
+    etendue(["measure", "vignetting", &text(&file), "--cfa", "RGGB", "--channel", "G"]).refused(&[
+        "colour.png",
+        "--cfa RGGB has no effect",
+        "leave it out",
+    ]);
 }
 
 #[test]
@@ -113,7 +122,8 @@ fn what_was_found_is_written_as_keys_of_a_camera_file() {
     etendue(["measure", "vignetting", &flat, "--camera-out", &text(&camera), "--pixel-pitch-um", "5"]).ok();
     let written = std::fs::read_to_string(&camera).expect("a file");
     assert!(written.contains("[lens.relative_illumination]") && written.contains("ratio = [1.000000, "), "{written}");
-    let edge = raw(folder.path(), "edge.png", (64, 64), |x, y| if 10 * x > 280 + y { 9000.0 } else { 900.0 });
+    let covered = |x: usize, y: usize| (x as f64 - 29.0 - 0.1 * (y as f64 - 31.5)).clamp(0.0, 1.0);
+    let edge = raw(folder.path(), "edge.png", (64, 64), |x, y| 900.0 + 8_100.0 * covered(x, y));
     etendue(["measure", "sfr", &edge, "--camera-out", &text(&camera)]).refused(&["--camera-out"]);
 }
 

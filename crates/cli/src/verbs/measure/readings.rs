@@ -87,6 +87,7 @@ impl Selection {
     }
 
     fn of(&self, file: &Path, photograph: &Photograph) -> Result<Readings, Failure> {
+        self.check_cfa(file, photograph)?;
         let linear = |name: &str| photograph.channel(name).map(|c| photograph.linear(c));
         let samples = match (&self.channel, self.mosaic(photograph)) {
             (_, Some(_)) => photograph.linear(&photograph.channels[0]),
@@ -110,6 +111,14 @@ impl Selection {
             );
             return Err(Failure::input(error));
         };
+        self.check_cfa(file, &photograph)?;
+        if let (Some(name), None) = (&self.channel, self.mosaic(&photograph)) {
+            let error = format!(
+                "{}: --channel {name}: nothing says which pixels are under which filter: give --cfa, or leave it out",
+                file.display()
+            );
+            return Err(Failure::input(error));
+        }
         let samples = only.samples.clone();
         self.part(file, &photograph, samples, photograph.full_scale)
     }
@@ -134,6 +143,21 @@ impl Selection {
         let facts = photograph.raw.as_ref();
         let full_scale = facts.map_or(full_scale, |f| Some(f.white_level_dn));
         Ok(Readings { image, full_scale, black: facts.map(|f| f.black_level_dn), period })
+    }
+
+    /// Filters are told of pictures of one channel only.
+    fn check_cfa(&self, file: &Path, photograph: &Photograph) -> Result<(), Failure> {
+        match &self.cfa {
+            Some(cfa) if photograph.channels.len() != 1 => {
+                let names = photograph.names().join(", ");
+                let error = format!(
+                    "{}: --cfa {cfa} has no effect on a picture of the channels {names}: it is for raw mosaics; leave it out",
+                    file.display()
+                );
+                Err(Failure::input(error))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The colour filters: as told, or of the side-car; `None` where there is one colour only.
