@@ -1,16 +1,21 @@
 //! Weighted linear least squares by the normal equations.
 
+use crate::linear::{Cholesky, Matrix};
+
+/// A pivot below this share of its diagonal element is rounding: the equations do not determine their unknowns.
+const LEAST_PIVOT: f64 = 1e-12;
+
 /// AᵀWA and AᵀWb, gathered row by row.
 #[derive(Clone, Debug)]
 pub(crate) struct Normal {
-    matrix: Vec<Vec<f64>>,
+    matrix: Matrix,
     right: Vec<f64>,
 }
 
 impl Normal {
     /// For so many unknowns.
     pub(crate) fn new(unknowns: usize) -> Self {
-        Self { matrix: vec![vec![0.0; unknowns]; unknowns], right: vec![0.0; unknowns] }
+        Self { matrix: Matrix::zeros(unknowns, unknowns), right: vec![0.0; unknowns] }
     }
 
     /// Takes in the equation row · x = b of a weight.
@@ -24,63 +29,24 @@ impl Normal {
         for (i, a) in places.iter().zip(values) {
             let weighted = weight * a;
             self.right[*i] += weighted * b;
-            let line = &mut self.matrix[*i];
-            places.iter().zip(values).for_each(|(j, other)| line[*j] += weighted * other);
+            places.iter().zip(values).for_each(|(j, other)| *self.matrix.at_mut(*i, *j) += weighted * other);
         }
     }
 
     /// AᵀWA.
-    pub(crate) fn matrix(&self) -> &[Vec<f64>] {
+    pub(crate) fn matrix(&self) -> &Matrix {
         &self.matrix
     }
 
     /// The solution; `None` where the equations do not determine it.
     pub(crate) fn solve(&self) -> Option<Vec<f64>> {
-        Some(substitute(&cholesky(&self.matrix)?, &self.right))
+        Some(Cholesky::of(&self.matrix, LEAST_PIVOT)?.solve(&self.right))
     }
 
     /// The inverse of AᵀWA: the covariance of the solution for weights that are inverse variances.
-    pub(crate) fn inverse(&self) -> Option<Vec<Vec<f64>>> {
-        let lower = cholesky(&self.matrix)?;
-        let count = self.right.len();
-        let unit = |i: usize| (0..count).map(|j| f64::from(u8::from(i == j))).collect::<Vec<_>>();
-        Some((0..count).map(|i| substitute(&lower, &unit(i))).collect())
+    pub(crate) fn inverse(&self) -> Option<Matrix> {
+        Some(Cholesky::of(&self.matrix, LEAST_PIVOT)?.inverse())
     }
-}
-
-/// The lower factor of a symmetric matrix; `None` where it is singular to rounding.
-fn cholesky(matrix: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
-    let count = matrix.len();
-    let mut lower = vec![vec![0.0; count]; count];
-    for i in 0..count {
-        for j in 0..=i {
-            let known: f64 = (0..j).map(|k| lower[i][k] * lower[j][k]).sum();
-            let rest = matrix[i][j] - known;
-            if i == j {
-                if rest.is_nan() || rest <= 1e-12 * matrix[i][i] {
-                    return None;
-                }
-                lower[i][i] = rest.sqrt();
-            } else {
-                lower[i][j] = rest / lower[j][j];
-            }
-        }
-    }
-    Some(lower)
-}
-
-fn substitute(lower: &[Vec<f64>], right: &[f64]) -> Vec<f64> {
-    let count = right.len();
-    let mut x = right.to_vec();
-    for i in 0..count {
-        let known: f64 = (0..i).map(|k| lower[i][k] * x[k]).sum();
-        x[i] = (x[i] - known) / lower[i][i];
-    }
-    for i in (0..count).rev() {
-        let known: f64 = (i + 1..count).map(|k| lower[k][i] * x[k]).sum();
-        x[i] = (x[i] - known) / lower[i][i];
-    }
-    x
 }
 
 #[cfg(test)]
@@ -97,7 +63,7 @@ mod tests {
         assert!((x[0] - 3.0).abs() < 1e-12 && (x[1] - 2.0).abs() < 1e-12);
         // Σ(x − x̄)² = 10, weight 4.
         let covariance = normal.inverse().expect("it is determined");
-        assert!((covariance[1][1] - 1.0 / 40.0).abs() < 1e-14);
+        assert!((covariance.at(1, 1) - 1.0 / 40.0).abs() < 1e-14);
         let mut singular = Normal::new(2);
         singular.add(&[1.0, 2.0], 1.0, 1.0);
         assert!(singular.solve().is_none());

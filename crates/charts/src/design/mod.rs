@@ -9,6 +9,7 @@ mod checkerboard;
 mod circles;
 mod dead_leaves;
 mod depth_wedge;
+mod discs;
 mod dots;
 mod flare;
 mod flat;

@@ -83,6 +83,19 @@ impl Matrix {
         gram
     }
 
+    /// The product with a symmetric matrix.
+    #[must_use]
+    pub fn times_symmetric(&self, other: &Self) -> Self {
+        Self::from_rows(other.columns, (0..self.rows).map(|i| other.times(self.row(i))))
+    }
+
+    /// The same, `factor` times.
+    #[must_use]
+    pub fn scaled(mut self, factor: f64) -> Self {
+        self.values.iter_mut().for_each(|value| *value *= factor);
+        self
+    }
+
     /// vᵀ A v.
     #[must_use]
     pub fn form(&self, v: &[f64]) -> f64 {

@@ -16,6 +16,7 @@
 //! Refused: fewer than two pictures, pictures of equal exposure, too few usable pixels.
 
 use super::OecfError;
+use crate::linear::Matrix;
 use crate::solve::Normal;
 use crate::{Estimate, Image};
 
@@ -25,7 +26,7 @@ pub struct Response {
     /// c₀ … c_N.
     pub coefficients: Vec<f64>,
     /// Covariance of c₁ … c_N.
-    covariance: Vec<Vec<f64>>,
+    covariance: Matrix,
     /// Exposure of each picture over the first's.
     pub ratios: Vec<f64>,
     /// Root mean square disagreement of pairs, of the largest light.
@@ -127,7 +128,7 @@ fn search(pairs: &[Pair], exposures: &[f64], most: usize) -> Result<Response, Oe
 fn fitted(pairs: &[Pair], exposures: &[f64], degree: usize, noise: f64) -> Option<Response> {
     let mut response = Response {
         coefficients: [0.0, 1.0].into_iter().chain(core::iter::repeat_n(0.0, degree - 1)).collect(),
-        covariance: Vec::new(),
+        covariance: Matrix::zeros(0, 0),
         ratios: exposures.to_vec(),
         residual: f64::NAN,
     };
@@ -148,9 +149,8 @@ fn fitted(pairs: &[Pair], exposures: &[f64], degree: usize, noise: f64) -> Optio
             normal.add(&gradient(pair.low, degree, ratio), -ratio, -weight * noise);
         }
         let solved = normal.solve()?;
-        let covariance = normal.inverse()?;
         let variance = squares / (weights - degree as f64);
-        response.covariance = covariance.iter().map(|row| row.iter().map(|c| c * variance).collect()).collect();
+        response.covariance = normal.inverse()?.scaled(variance);
         response.coefficients = core::iter::once(0.0).chain(solved).collect();
         // f(1) = 1 fixes the scale.
         response.normalise();
@@ -205,9 +205,7 @@ impl Response {
     pub fn estimate(&self, reading: f64) -> Estimate {
         let slope = |n: usize| if n == 1 { 0.0 } else { (1..n).fold(reading, |p, _| p * reading) - reading };
         let slopes: Vec<f64> = (1..self.coefficients.len()).map(slope).collect();
-        let along = |row: &Vec<f64>| row.iter().zip(&slopes).map(|(c, s)| c * s).sum::<f64>();
-        let variance: f64 = self.covariance.iter().zip(&slopes).map(|(row, s)| s * along(row)).sum();
-        Estimate::new(self.light(reading), variance.max(0.0).sqrt())
+        Estimate::new(self.light(reading), self.covariance.form(&slopes).max(0.0).sqrt())
     }
 
     fn slope(&self, reading: f64) -> f64 {

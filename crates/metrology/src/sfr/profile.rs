@@ -2,6 +2,7 @@
 
 use super::spline::{SUPPORT, bell, step};
 use super::{Edge, SfrError, SfrPoint, SfrSettings};
+use crate::linear::Matrix;
 use crate::solve::Normal;
 use crate::{Estimate, Image};
 use core::f64::consts::{PI, TAU};
@@ -46,7 +47,7 @@ pub(super) struct Profile {
     /// Coefficients: levels of the fine B-splines of degree 5, whose steps are their differences; then heights of coarse steps.
     values: Vec<f64>,
     /// Their covariance.
-    covariance: Vec<Vec<f64>>,
+    covariance: Matrix,
     /// Where the coarse steps lie, px.
     coarse: Vec<f64>,
     noise: f64,
@@ -144,8 +145,8 @@ impl Profile {
             slopes[s.up] += slope;
             s.down.into_iter().for_each(|k| slopes[k] -= slope);
         }
-        let variance: f64 = self.covariance.iter().zip(&slopes).map(|(row, s)| s * dot(row, &slopes)).sum();
-        SfrPoint { frequency, response: Estimate::new(value, variance.max(0.0).sqrt()) }
+        let variance = self.covariance.form(&slopes).max(0.0);
+        SfrPoint { frequency, response: Estimate::new(value, variance.sqrt()) }
     }
 }
 
@@ -170,10 +171,6 @@ impl Step {
 
 fn sinc(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { sin(PI * x) / (PI * x) }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn samples(image: &Image, edge: &Edge, kept: &[bool]) -> Vec<Sample> {
@@ -372,7 +369,8 @@ impl Knots {
         }
         // Parameters use up freedom: the residuals are that much too small.
         let free = samples.len() as f64 - values.len() as f64;
-        let covariance = sandwich(&inverse, meat.matrix(), samples.len() as f64 / free);
+        let bread = inverse.times_symmetric(meat.matrix()).times_symmetric(&inverse);
+        let covariance = bread.scaled(samples.len() as f64 / free);
         let (step_px, reach_px, coarse) = (self.step_px, self.reach_px, self.coarse);
         Some(Profile { step_px, reach_px, values, covariance, coarse, noise: (squares / free).sqrt() })
     }
@@ -385,16 +383,6 @@ fn coarse(reach_px: f64, most: f64) -> Vec<f64> {
     let right: Vec<f64> =
         (0..).map(|i| first + f64::from(i) * COARSE_STEP_PX).take_while(|at| at + COARSE_STEP_PX <= most).collect();
     right.iter().map(|at| -at).chain(right.iter().copied()).collect()
-}
-
-/// A B A, scaled.
-fn sandwich(outer: &[Vec<f64>], inner: &[Vec<f64>], scale: f64) -> Vec<Vec<f64>> {
-    let product = |a: &[Vec<f64>], b: &[Vec<f64>]| -> Vec<Vec<f64>> {
-        // Both are symmetric: rows serve as columns.
-        a.iter().map(|row| b.iter().map(|column| dot(row, column)).collect()).collect()
-    };
-    let left = product(outer, inner);
-    left.iter().map(|row| outer.iter().map(|column| scale * dot(row, column)).collect()).collect()
 }
 
 /// The widest gap between neighbouring distances within the reach.

@@ -19,6 +19,7 @@ mod colour;
 mod tests;
 
 use crate::flat::{SATURATED_SHARE, neighbour_variances, saturated_share};
+use crate::linear::Matrix;
 use crate::solve::Normal;
 use crate::{Estimate, Image};
 
@@ -241,7 +242,7 @@ const TERMS: usize = 5;
 /// I₀ (1 + a₂ r² + …) as b₀ + b₁ r² + ….
 struct Falloff {
     b: Vec<f64>,
-    covariance: Vec<Vec<f64>>,
+    covariance: Matrix,
 }
 
 fn powers(square: f64) -> [f64; TERMS] {
@@ -271,7 +272,7 @@ impl Falloff {
     }
 
     fn centre(&self, settings: &ShadingSettings) -> Result<Estimate, ShadingError> {
-        let centre = Estimate::new(self.b[0], self.covariance[0][0].sqrt());
+        let centre = Estimate::new(self.b[0], self.covariance.at(0, 0).sqrt());
         let dark = ShadingError::Dark { reading: centre.value + settings.black, black: settings.black };
         if centre.value > 3.0 * centre.standard_uncertainty && centre.value > 0.0 { Ok(centre) } else { Err(dark) }
     }
@@ -284,9 +285,9 @@ impl Falloff {
     /// A ring over the centre, which depends on the ring itself by its share in the fit.
     fn ring(&self, ring: &Sums) -> Ring {
         let (value, u) = (ring.mean() / self.b[0], ring.standard_uncertainty());
-        let along: f64 = self.covariance[0].iter().zip(ring.mean_powers()).map(|(c, p)| c * p).sum();
+        let along: f64 = self.covariance.row(0).iter().zip(ring.mean_powers()).map(|(c, p)| c * p).sum();
         let common = u * u * along * weight(ring);
-        let variance = u * u + value * value * self.covariance[0][0] - 2.0 * value * common;
+        let variance = u * u + value * value * self.covariance.at(0, 0) - 2.0 * value * common;
         let u = variance.max(0.0).sqrt() / self.b[0];
         Ring { position: ring.square_position().sqrt(), relative: Estimate::new(value, u) }
     }
@@ -296,9 +297,7 @@ impl Falloff {
         let value = form.iter().zip(&self.b).map(|(f, b)| f * b).sum::<f64>() / self.b[0];
         let mut slopes = form.map(|f| f / self.b[0]);
         slopes[0] -= value / self.b[0];
-        let row = |i: usize| (0..TERMS).map(|j| self.covariance[i][j] * slopes[j]).sum::<f64>();
-        let variance = (0..TERMS).map(|i| slopes[i] * row(i)).sum::<f64>();
-        Estimate::new(value, variance.max(0.0).sqrt())
+        Estimate::new(value, self.covariance.form(&slopes).max(0.0).sqrt())
     }
 
     fn ratio(&self, k: usize) -> Estimate {

@@ -117,8 +117,7 @@ fn modulation(image: &Image, star: &Star, radius: f64) -> Option<Estimate> {
         return None;
     }
     let slopes = [-amplitude / (a * a), b / (amplitude * a), c / (amplitude * a)];
-    let row = |i: usize| (0..3).map(|j| inverse[i][j] * slopes[j]).sum::<f64>();
-    let spread: f64 = (0..3).map(|i| slopes[i] * row(i)).sum();
+    let spread = inverse.form(&slopes);
     Some(Estimate::new(amplitude / a, (variance * spread).max(0.0).sqrt()))
 }
 
