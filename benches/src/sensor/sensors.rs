@@ -135,14 +135,7 @@ fn silent(p: &mut SensorParameters) {
 
 fn captures(p: &mut SensorParameters) {
     noises(p);
-    let like = Capture {
-        exposure_share: 1.0,
-        sensitivity_share: 1.0,
-        gain_share: 1.0,
-        full_well_e: None,
-        read_noise_e: None,
-        same_charge: false,
-    };
+    let like = Capture::default();
     let again = Capture { gain_share: 1.0 / 16.0, same_charge: true, ..like };
     let small = Capture { sensitivity_share: 0.01, gain_share: 0.5, ..like };
     p.hdr.captures = vec![again, small, Capture { gain_share: 1.0 / 8.0, ..again }];

@@ -195,12 +195,8 @@ pub struct Plain {
 pub struct SlantedEdges {
     #[command(flatten)]
     pub size: Size,
-    /// By how much the squares are turned clockwise, degrees, -45 … 45
-    #[arg(long, value_name = "DEG", default_value_t = 5.0, allow_negative_numbers = true)]
-    pub angle_deg: f64,
-    /// Luminance of light over dark
-    #[arg(long, value_name = "RATIO", default_value_t = 4.0, allow_negative_numbers = true)]
-    pub contrast: f64,
+    #[command(flatten)]
+    pub edge: Edge,
     #[command(flatten)]
     pub common: Common,
 }
@@ -213,14 +209,21 @@ pub struct SlantedStar {
     /// Dark wedges of a star
     #[arg(long, value_name = "N", default_value_t = 8)]
     pub spokes: u32,
-    /// Direction of the first edge from the level, clockwise, degrees, -45 … 45
+    #[command(flatten)]
+    pub edge: Edge,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// How a slanted edge lies between light and dark.
+#[derive(Debug, Args)]
+pub struct Edge {
+    /// By how much it is turned clockwise, degrees, -45 … 45: a square, or the first edge of a star
     #[arg(long, value_name = "DEG", default_value_t = 5.0, allow_negative_numbers = true)]
     pub angle_deg: f64,
     /// Luminance of light over dark
     #[arg(long, value_name = "RATIO", default_value_t = 4.0, allow_negative_numbers = true)]
     pub contrast: f64,
-    #[command(flatten)]
-    pub common: Common,
 }
 
 /// `etendue chart siemens-star`

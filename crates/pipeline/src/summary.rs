@@ -8,11 +8,10 @@ use crate::defocus::margin_px;
 use crate::film::Film;
 use crate::plan::{CameraPlan, Plan, Products, RawFormat, Route, Settings, SkyFacts};
 use crate::render::{census, layout};
-use etendue_core::Bands;
-use etendue_optics::effects::{self, Effect};
+use etendue_core::{Bands, Verdict};
+use etendue_optics::effects::Effect;
 use etendue_optics::{DepthOfField, Effects, Lens, PupilProjection, PupilStance};
 use etendue_projection::Sense;
-use etendue_sensor::Verdict;
 use etendue_sensor::dynamic_range::{DynamicRange, Switch};
 use etendue_sensor::emva1288::db;
 use etendue_tracer::geometry::Shape;
@@ -219,12 +218,7 @@ fn effects(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     };
     line(f, "effects", about)?;
     for need in effects.needs() {
-        let verdict = match need.verdict {
-            effects::Verdict::Required => "modelled",
-            effects::Verdict::Guarded => "where the data need it",
-            effects::Verdict::Skipped => "left out",
-        };
-        line(f, "", format!("{}: {verdict}: {}", need.effect.name(), need.reason))?;
+        line(f, "", format!("{}: {}: {}", need.effect.name(), need.verdict, need.reason))?;
     }
     Ok(())
 }
@@ -240,8 +234,7 @@ fn list(words: &[&str]) -> String {
 
 fn left_out(lens: &Lens, effects: &Effects) -> String {
     let missing = |words: &[&'static str]| {
-        let models =
-            |effect| effects.needs().iter().any(|n| n.effect == effect && n.verdict != effects::Verdict::Skipped);
+        let models = |effect| effects.needs().iter().any(|n| n.effect == effect && n.verdict != Verdict::Skipped);
         let effect = |word: &str| match word {
             "glare" => Some(Effect::Glare),
             "diffraction" => Some(Effect::PointSpread),
@@ -362,12 +355,7 @@ fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     )?;
     let (silent, said): (Vec<_>, Vec<_>) = sensor.needs().into_iter().partition(etendue_sensor::Need::is_silent);
     for need in said {
-        let verdict = match need.verdict {
-            Verdict::Required => "modelled",
-            Verdict::Guarded => "where the data need it",
-            Verdict::Skipped => "left out",
-        };
-        line(f, "", format!("{}: {verdict}: {}", need.effect.name(), need.reason))?;
+        line(f, "", format!("{}: {}: {}", need.effect.name(), need.verdict, need.reason))?;
     }
     let silent: Vec<_> = silent.iter().map(|need| need.effect.name()).collect();
     line(f, "", format!("left out, as not described: {}", silent.join(", ")))?;

@@ -41,3 +41,23 @@ impl ChargeAccount {
         self.generated_e - self.collected_e - self.drained_e - self.spilt_e - self.clipped_e
     }
 }
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::ChargeAccount;
+    use etendue_core::Plane;
+    use etendue_core::quantity::Electrons;
+
+    /// What an effect that moves charge makes of a plane, and the account of it.
+    pub(crate) fn accounted(
+        plane: &Plane<Electrons>,
+        effect: impl Fn(&mut Plane<Electrons>, &mut ChargeAccount),
+    ) -> (Plane<Electrons>, ChargeAccount) {
+        let sum = |p: &Plane<Electrons>| p.samples().iter().map(|q| f64::from(*q)).sum::<f64>();
+        let mut out = plane.clone();
+        let mut account = ChargeAccount { generated_e: sum(plane), ..ChargeAccount::default() };
+        effect(&mut out, &mut account);
+        account.collected_e = sum(&out);
+        (out, account)
+    }
+}

@@ -29,6 +29,19 @@ impl Sheet {
     fn run(&self) -> Ran {
         etendue(["datasheet", &text(&self.place.path().join("sheet.toml")), "-o", &text(&self.folder())])
     }
+
+    /// The camera that was written takes a frame.
+    fn takes_a_frame(&self) {
+        let camera = text(&self.folder().join("sheet.toml"));
+        let out = text(&self.place.path().join("flat"));
+        let small = ["--set", "sensor.width_px=8", "--set", "sensor.height_px=4"];
+        etendue(
+            ["flat", &camera, "--wavelength-nm", "525", "--irradiance-w-m2", "0.001", "-o", &out]
+                .into_iter()
+                .chain(small),
+        )
+        .ok();
+    }
 }
 
 #[test]
@@ -44,13 +57,7 @@ fn the_example_is_consistent_and_its_camera_can_be_used() {
     {
         assert!(camera.contains(line), "{line} is missing in\n{camera}");
     }
-    let camera = text(&sheet.folder().join("sheet.toml"));
-    let out = text(&sheet.place.path().join("flat"));
-    let small = ["--set", "sensor.width_px=8", "--set", "sensor.height_px=4"];
-    etendue(
-        ["flat", &camera, "--wavelength-nm", "525", "--irradiance-w-m2", "0.001", "-o", &out].into_iter().chain(small),
-    )
-    .ok();
+    sheet.takes_a_frame();
 }
 
 #[test]
@@ -73,13 +80,7 @@ fn colour_cameras_have_a_curve_a_channel() {
     sheet.run().ok().says(&["warning", "\"red\" at 620 nm", "all wavelengths"]);
     let files = contents(&sheet.folder());
     assert_eq!(files.keys().collect::<Vec<_>>(), ["sheet-green.csv", "sheet.toml"]);
-    let camera = text(&sheet.folder().join("sheet.toml"));
-    let out = text(&sheet.place.path().join("flat"));
-    let small = ["--set", "sensor.width_px=8", "--set", "sensor.height_px=4"];
-    etendue(
-        ["flat", &camera, "--wavelength-nm", "525", "--irradiance-w-m2", "0.001", "-o", &out].into_iter().chain(small),
-    )
-    .ok();
+    sheet.takes_a_frame();
 }
 
 #[test]

@@ -29,6 +29,7 @@ pub mod psf;
 pub mod spread_image;
 
 pub use error::EffectsError;
+pub use etendue_core::Verdict;
 pub use glare::{Glare, GlareParameters};
 pub use point_spread::PointSpread;
 pub use psf::{Psf, PsfParameters, WavefrontTerm, Zernike};
@@ -70,17 +71,6 @@ impl Effect {
             Self::Ghosts => "ghosts",
         }
     }
-}
-
-/// Whether an effect is modelled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// Always run.
-    Required,
-    /// Where the data need it.
-    Guarded,
-    /// Absent.
-    Skipped,
 }
 
 /// What a plan says about an effect.

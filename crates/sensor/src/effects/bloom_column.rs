@@ -77,14 +77,10 @@ impl Column {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::account::tests::accounted;
 
     fn bloomed(plane: &Plane<Electrons>, well: f32, spill: f64) -> (Plane<Electrons>, ChargeAccount) {
-        let sum = |p: &Plane<Electrons>| p.samples().iter().map(|q| f64::from(*q)).sum::<f64>();
-        let mut out = plane.clone();
-        let mut account = ChargeAccount { generated_e: sum(plane), ..ChargeAccount::default() };
-        apply(&mut out, well, spill, &mut account);
-        account.collected_e = sum(&out);
-        (out, account)
+        accounted(plane, |out, account| apply(out, well, spill, account))
     }
 
     #[test]

@@ -123,7 +123,7 @@ mod tests {
         };
         assert!(!refused(&p));
         // A capture with a larger well, too.
-        let larger = crate::hdr::Capture { full_well_e: Some(2e5), ..crate::hdr::merge::tests::SAME };
+        let larger = crate::hdr::Capture { full_well_e: Some(2e5), ..crate::hdr::Capture::default() };
         assert!(refused(&SensorParameters {
             hdr: crate::hdr::HighDynamicRange { captures: vec![larger], ..Default::default() },
             ..p.clone()

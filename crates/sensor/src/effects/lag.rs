@@ -114,12 +114,12 @@ mod tests {
     /// Two captures a frame: in the dark, traps keep as much from frame to frame as with one.
     #[test]
     fn captures_share_the_time_of_a_frame() {
-        use crate::hdr::{Capture, HighDynamicRange, merge::tests::SAME};
+        use crate::hdr::{Capture, HighDynamicRange};
         let mut p = lagging().parameters().clone();
         p.read_out.bits = 20;
         p.charge.traps.remove(0);
-        let second = Capture { exposure_share: 0.5, ..SAME };
-        let again = Capture { gain_share: 0.5, same_charge: true, ..SAME };
+        let second = Capture { exposure_share: 0.5, ..Capture::default() };
+        let again = Capture { gain_share: 0.5, same_charge: true, ..Capture::default() };
         p.hdr = HighDynamicRange { captures: vec![second, again], bits: Some(24), ..HighDynamicRange::default() };
         let sensor = Sensor::new(p.clone()).expect("legal");
         let kept = SensorState { trapped_e: vec![vec![1000.0; 4]], ..SensorState::default() };

@@ -49,6 +49,8 @@ pub mod telegraph_noise;
 pub mod temperature;
 pub mod two_level;
 
+pub use etendue_core::Verdict;
+
 use crate::causes::Cause;
 use crate::operation::Operation;
 use crate::parameters::SensorParameters;
@@ -188,17 +190,6 @@ impl Effect {
             _ => Cause::Transfer,
         }
     }
-}
-
-/// Whether an effect is modelled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
-    /// Always run.
-    Required,
-    /// A cheap test of the data decides.
-    Guarded,
-    /// Absent.
-    Skipped,
 }
 
 /// What a plan says about an effect.

@@ -76,21 +76,14 @@ pub(crate) mod tests {
     use etendue_core::Plane;
     use etendue_stats::Moments;
 
-    pub(crate) const SAME: Capture = Capture {
-        exposure_share: 1.0,
-        sensitivity_share: 1.0,
-        gain_share: 1.0,
-        full_well_e: None,
-        read_noise_e: None,
-        same_charge: false,
-    };
-
     /// 12 bits; a well of 4000 e⁻ at one DN an electron.
     fn three_exposures() -> SensorParameters {
         let mut p = quiet();
         (p.charge.full_well_e, p.read_out.bits, p.read_out.black_level_dn) = (3900.0, 12, 100.0);
-        p.hdr.captures =
-            vec![Capture { exposure_share: 1.0 / 16.0, ..SAME }, Capture { exposure_share: 1.0 / 256.0, ..SAME }];
+        p.hdr.captures = vec![
+            Capture { exposure_share: 1.0 / 16.0, ..Capture::default() },
+            Capture { exposure_share: 1.0 / 256.0, ..Capture::default() },
+        ];
         p.hdr.bits = Some(20);
         p
     }
@@ -135,7 +128,7 @@ pub(crate) mod tests {
         use crate::{Cause, Sensor, SensorState};
         let mut p = three_exposures();
         (p.noise, p.read_out.noise.white_e, p.charge.dark.current_e_s) = (true, 2.0, 1000.0);
-        let again = Capture { gain_share: 1.0 / 4.0, same_charge: true, ..SAME };
+        let again = Capture { gain_share: 1.0 / 4.0, same_charge: true, ..Capture::default() };
         p.hdr.captures.insert(0, again);
         let sensor = Sensor::new(p).expect("legal");
         let means = Plane::from_samples(5, 1, vec![0.0, 3000.0, 3800.0, 40_000.0, 700_000.0]).expect("filled");
@@ -158,7 +151,7 @@ pub(crate) mod tests {
     fn every_capture_has_its_account_of_charge() {
         let mut p = three_exposures();
         p.charge.blooming = Some(crate::effects::full_well::Blooming::Around { spill: 0.5 });
-        p.hdr.captures.insert(0, Capture { gain_share: 0.5, same_charge: true, ..SAME });
+        p.hdr.captures.insert(0, Capture { gain_share: 0.5, same_charge: true, ..Capture::default() });
         let raw = run(&p, &Plane::filled(9, 9, 100_000.0), ADDRESS);
         let places: Vec<usize> = raw.accounts.iter().map(|(k, _)| *k).collect();
         assert_eq!(places, [0, 2, 3]);
@@ -170,7 +163,7 @@ pub(crate) mod tests {
     fn dual_gain_reads_the_same_charge_twice() {
         let mut p = quiet();
         (p.noise, p.charge.full_well_e, p.read_out.bits) = (true, 60_000.0, 12);
-        p.hdr.captures = vec![Capture { gain_share: 1.0 / 16.0, same_charge: true, ..SAME }];
+        p.hdr.captures = vec![Capture { gain_share: 1.0 / 16.0, same_charge: true, ..Capture::default() }];
         p.hdr.bits = Some(16);
         let means = Plane::filled(64, 64, 20_000.0);
         let merged = run(&p, &means, ADDRESS);
@@ -194,7 +187,7 @@ pub(crate) mod tests {
         assert!(refused(&|p| p.hdr.bits = None));
         assert!(refused(&|p| p.hdr.captures.reverse()));
         assert!(refused(&|p| p.hdr.captures[0].same_charge = true));
-        assert!(refused(&|p| p.hdr.captures.insert(0, SAME)), "a capture that is never used");
+        assert!(refused(&|p| p.hdr.captures.insert(0, Capture::default())), "a capture that is never used");
         assert!(refused(&|p| p.read_out.response = Response::Logarithmic { from_e: 1000.0 }), "merging is linear");
         // Exposures of 1, 1/16 and 1/256 of a second follow each other on the one photodiode.
         let period = |s: f64| refused(&|p| p.exposure.frame_period_s = Some(s * p.exposure.exposure_s));

@@ -43,6 +43,20 @@ pub struct Capture {
     pub same_charge: bool,
 }
 
+/// The first capture once more.
+impl Default for Capture {
+    fn default() -> Self {
+        Self {
+            exposure_share: 1.0,
+            sensitivity_share: 1.0,
+            gain_share: 1.0,
+            full_well_e: None,
+            read_noise_e: None,
+            same_charge: false,
+        }
+    }
+}
+
 /// Several captures a frame, and fewer bits by a curve.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HighDynamicRange {

@@ -72,11 +72,11 @@ fn chart(arguments: &chart_args::Chart) -> (Chart, &Common) {
         Asked::FlatField(a) => (Chart::FlatField(FlatField { reflectance: a.reflectance }), &a.common),
         Asked::Backlit(a) => (Chart::Backlit(Backlit), &a.common),
         Asked::SlantedEdges(a) => {
-            let chart = SlantedEdges { size: size(&a.size), angle_deg: a.angle_deg, contrast: a.contrast };
+            let chart = SlantedEdges { size: size(&a.size), angle_deg: a.edge.angle_deg, contrast: a.edge.contrast };
             (Chart::SlantedEdges(chart), &a.common)
         }
         Asked::SlantedStar(a) => {
-            let (spokes, angle_deg, contrast) = (a.spokes, a.angle_deg, a.contrast);
+            let (spokes, angle_deg, contrast) = (a.spokes, a.edge.angle_deg, a.edge.contrast);
             (Chart::SlantedStar(SlantedStar { size: size(&a.size), spokes, angle_deg, contrast }), &a.common)
         }
         Asked::SiemensStar(a) => (Chart::SiemensStar(SiemensStar { cycles: a.cycles, binary: a.binary }), &a.common),
