@@ -18,6 +18,8 @@ pub enum Kind {
     Centre,
     /// A lamp smaller than a pixel.
     Point,
+    /// The rim of a round figure, all round.
+    Rim,
 }
 
 impl Kind {
@@ -30,6 +32,7 @@ impl Kind {
             Self::Edge => "edge",
             Self::Centre => "centre",
             Self::Point => "point",
+            Self::Rim => "rim",
         }
     }
 }
@@ -43,7 +46,7 @@ pub struct Feature {
     pub panel: usize,
     /// Column and row in the chart's order, from 0 at the top left, where it has such.
     pub index: Option<[usize; 2]>,
-    /// Where: one point, or the two ends of an edge, mm.
+    /// Where: one point, the two ends of an edge, or the corners of a rim, mm.
     pub points_mm: Vec<DVec2>,
     /// The radius of a disc, mm.
     pub radius_mm: Option<f64>,

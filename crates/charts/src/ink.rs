@@ -82,15 +82,19 @@ impl Ink {
         own.map(|v| v.clamp(0.0, 1.0))
     }
 
+    /// CIE XYZ in the light, Y of the perfect diffuser 1.
+    #[must_use]
+    pub fn xyz(&self, light: &Light) -> [f64; 3] {
+        match &self.paint {
+            Paint::Spectral(reflectance) => xyz_of_reflectance(reflectance, light.spectrum()),
+            _ => light.white_xyz().map(|v| v * self.luminous_share(light)),
+        }
+    }
+
     /// CIELAB with the light itself as white.
     #[must_use]
     pub fn lab(&self, light: &Light) -> Lab {
-        let white = xyz_of_reflectance(&Spectrum::constant(1.0), light.spectrum());
-        let own = match &self.paint {
-            Paint::Spectral(reflectance) => xyz_of_reflectance(reflectance, light.spectrum()),
-            _ => white.map(|v| v * self.luminous_share(light)),
-        };
-        lab(own, white)
+        lab(self.xyz(light), light.white_xyz())
     }
 }
 

@@ -1,7 +1,7 @@
 //! The light that a chart stands in, and what a camera makes of it.
 
 use crate::error::ChartError;
-use etendue_spectra::observer::with_luminance;
+use etendue_spectra::observer::{with_luminance, xyz_of_reflectance};
 use etendue_spectra::{Spectrum, illuminant};
 
 /// The light of a chart: an illuminant at a luminance, that of the perfect diffuser or of the brightest glow.
@@ -43,6 +43,12 @@ impl Light {
     #[must_use]
     pub fn radiance(&self) -> &Spectrum {
         &self.radiance
+    }
+
+    /// CIE XYZ of the perfect diffuser, Y 1.
+    #[must_use]
+    pub fn white_xyz(&self) -> [f64; 3] {
+        xyz_of_reflectance(&Spectrum::constant(1.0), &self.radiance)
     }
 
     /// The spectrum, of any scale.

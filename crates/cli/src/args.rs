@@ -232,9 +232,9 @@ pub enum Measure {
     /// response from a scene at exposures known relatively
     Oecf(measure::oecf::OecfArguments),
     /// A flat field's fall-off over the radial field position
-    Vignetting(measure::shading::FlatField),
+    Vignetting(measure::shading::Vignetting),
     /// A flat field's fall-off as a map, and its colour shading (ISO 17957)
-    Shading(measure::shading::FlatField),
+    Shading(measure::shading::ShadingArguments),
     /// Temporal and fixed-pattern noise of an even surface (ISO 15739)
     Noise(measure::noise::NoiseArguments),
     /// Light in traps that send none (ISO 18844)

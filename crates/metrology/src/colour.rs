@@ -9,7 +9,7 @@
 //! white, weights by perceived difference, more than three channels.
 
 use crate::flare::mean;
-use crate::flat::{SATURATED_SHARE, saturated_share};
+use crate::flat::saturated_percent;
 use crate::propagate::propagate;
 use crate::solve::Normal;
 use crate::{Estimate, Image};
@@ -111,10 +111,10 @@ fn check(patch: &ColourPatch, full_scale: Option<f64>) -> Result<(), ColourFault
     if patch.pixels.iter().any(|p| p.samples().len() < 4) {
         return Err(ColourFault::TooSmall(patch.name.clone()));
     }
-    let share = patch.pixels.iter().map(|p| saturated_share(p.samples(), full_scale.or(Some(f64::INFINITY))));
-    let share = share.fold(0.0, f64::max);
-    let name = patch.name.clone();
-    if share > SATURATED_SHARE { Err(ColourFault::Saturated { name, percent: 100.0 * share }) } else { Ok(()) }
+    match saturated_percent(&patch.pixels, full_scale) {
+        Some(percent) => Err(ColourFault::Saturated { name: patch.name.clone(), percent }),
+        None => Ok(()),
+    }
 }
 
 fn fitted(patches: &[ColourPatch], means: &[[Estimate; 3]]) -> Option<[[f64; 3]; 3]> {

@@ -13,6 +13,7 @@
 //! Means and variances of patches replace all pairs of pixels (an error below 0.04 where readings are near Gaussian and positive).
 //! Uncertainty: of means σ/√n and of variances σ² √(2/(n − 1)), propagated.
 
+use crate::flat::saturated_percent;
 use crate::propagate::propagate;
 use crate::{Estimate, Image};
 use etendue_stats::{Moments, normal};
@@ -30,6 +31,17 @@ pub struct ContrastPair {
     pub contrast_snr: Estimate,
 }
 
+/// How contrasts are measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ContrastSettings {
+    /// Reading of no light.
+    pub black: f64,
+    /// Reading of a saturated pixel.
+    pub full_scale: Option<f64>,
+    /// How much a measured contrast may differ from the scene's, ε.
+    pub share: f64,
+}
+
 /// Why a contrast cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ContrastError {
@@ -42,6 +54,14 @@ pub enum ContrastError {
     /// The share is outside 0 to 1.
     #[error("the tolerated share must lie above 0 and at most 1, not {0}")]
     Share(f64),
+    /// A patch is clipped.
+    #[error(
+        "{percent:.1} % of a patch is saturated, which lowers its contrast and its noise: expose less, or leave it out"
+    )]
+    Saturated {
+        /// Share of pixels.
+        percent: f64,
+    },
     /// The darker patch has no light.
     #[error("the darker patch reads no more than black: a Weber contrast needs light in it")]
     Dark,
@@ -54,9 +74,8 @@ pub enum ContrastError {
 pub fn measure_contrast(
     darker: &Image,
     brighter: &Image,
-    black: f64,
     scene_contrast: f64,
-    share: f64,
+    settings: &ContrastSettings,
 ) -> Result<ContrastPair, ContrastError> {
     if darker.samples().len() < 4 || brighter.samples().len() < 4 {
         return Err(ContrastError::TooSmall);
@@ -64,8 +83,12 @@ pub fn measure_contrast(
     if !(scene_contrast > 0.0 && scene_contrast.is_finite()) {
         return Err(ContrastError::Contrast(scene_contrast));
     }
+    let &ContrastSettings { black, full_scale, share } = settings;
     if !(share > 0.0 && share <= 1.0) {
         return Err(ContrastError::Share(share));
+    }
+    if let Some(percent) = saturated_percent([darker, brighter], full_scale) {
+        return Err(ContrastError::Saturated { percent });
     }
     let [x, xx] = moments(darker, black);
     let [y, yy] = moments(brighter, black);
@@ -130,13 +153,17 @@ mod tests {
             Image::from_samples(20, 20, (0..400).map(sample).collect()).expect("a square")
         };
         let (dark, light) = (patch(1000.0, 120.0, 0), patch(1500.0, 150.0, 1));
-        let pair = measure_contrast(&dark, &light, 0.0, 0.5, 0.5).expect("patches");
+        let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5 };
+        let pair = measure_contrast(&dark, &light, 0.5, &settings).expect("patches");
         let contrasts = dark.samples().iter().flat_map(|x| light.samples().iter().map(move |y| f64::from(y / x) - 1.0));
         let counted = contrasts.filter(|k| (0.25..=0.75).contains(k)).count() as f64 / 160_000.0;
         // Some 400 independent pairs: 2 %.
         assert!((pair.detection.value - counted).abs() < 0.03, "{pair:?} {counted}");
         assert!((pair.transfer.value - 1.0).abs() < 3.0 * pair.transfer.standard_uncertainty);
-        assert!(matches!(measure_contrast(&dark, &light, 2000.0, 0.5, 0.5), Err(ContrastError::Dark)));
-        assert!(matches!(measure_contrast(&dark, &light, 0.0, -0.5, 0.5), Err(ContrastError::Contrast(_))));
+        let black = ContrastSettings { black: 2000.0, ..settings };
+        assert!(matches!(measure_contrast(&dark, &light, 0.5, &black), Err(ContrastError::Dark)));
+        assert!(matches!(measure_contrast(&dark, &light, -0.5, &settings), Err(ContrastError::Contrast(_))));
+        let clipped = ContrastSettings { full_scale: Some(1600.0), ..settings };
+        assert!(matches!(measure_contrast(&dark, &light, 0.5, &clipped), Err(ContrastError::Saturated { .. })));
     }
 }

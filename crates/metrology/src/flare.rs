@@ -6,11 +6,11 @@
 //! F = (Y_black − b)/(Y_white − b) · 100 %        b: reading of no light
 //! ```
 //!
-//! at each trap against the white about it. Uncertainty: the scatter of the pixels within each region over √n; light that the
-//! traps themselves reflect is not in it. IEEE 2020 adds a source within or outside the field: measure its traps the same way with the
+//! at each trap against the white about it, the mean of one or more regions. Uncertainty: the scatter of the pixels within each region
+//! over √n; light that the traps themselves reflect is not in it. IEEE 2020 adds a source within or outside the field: measure its traps the same way with the
 //! source on.
 
-use crate::flat::{SATURATED_SHARE, saturated_share};
+use crate::flat::saturated_percent;
 use crate::{Estimate, Image};
 use etendue_stats::Moments;
 
@@ -36,25 +36,27 @@ pub enum FlareError {
     },
 }
 
-/// Flare of each trap, a share of the white.
+/// Flare of a trap, a share of the white about it.
 ///
 /// # Errors
-/// Where regions are too small, the white is saturated, or no brighter than the traps.
+/// Where regions are too small, the white is saturated, or no brighter than the trap.
 pub fn measure_flare(
-    traps: &[Image],
-    white: &Image,
+    trap: &Image,
+    whites: &[Image],
     black: f64,
     full_scale: Option<f64>,
-) -> Result<Vec<Estimate>, FlareError> {
-    if traps.is_empty() || traps.iter().chain([white]).any(|region| region.samples().len() < 4) {
+) -> Result<Estimate, FlareError> {
+    if whites.is_empty() || whites.iter().chain([trap]).any(|region| region.samples().len() < 4) {
         return Err(FlareError::TooSmall);
     }
-    let share = saturated_share(white.samples(), full_scale.or(Some(f64::INFINITY)));
-    if share > SATURATED_SHARE {
-        return Err(FlareError::Saturated { percent: 100.0 * share });
+    if let Some(percent) = saturated_percent(whites, full_scale) {
+        return Err(FlareError::Saturated { percent });
     }
-    let white = mean(white);
-    traps.iter().map(|trap| flare(mean(trap), white, black)).collect()
+    let count = whites.len() as f64;
+    let all = whites.iter().map(mean).fold([0.0; 2], |[value, squares], e| {
+        [value + e.value, squares + e.standard_uncertainty * e.standard_uncertainty]
+    });
+    flare(mean(trap), Estimate::new(all[0] / count, all[1].sqrt() / count), black)
 }
 
 fn flare(trap: Estimate, white: Estimate, black: f64) -> Result<Estimate, FlareError> {
@@ -81,18 +83,17 @@ mod tests {
     fn flare_is_the_traps_light_over_the_white() {
         let region = |a: f32, b: f32| Image::from_samples(4, 2, vec![a, b, a, b, a, b, a, b]).expect("a rectangle");
         let (trap, white) = (region(29.0, 31.0), region(995.0, 1005.0));
-        let [flare] = measure_flare(core::slice::from_ref(&trap), &white, 20.0, None).expect("regions")[..] else {
-            panic!()
-        };
+        let flare = measure_flare(&trap, core::slice::from_ref(&white), 20.0, None).expect("regions");
         assert!((flare.value - 10.0 / 980.0).abs() < 1e-12);
         // Scatter of ±1: variance 8/7, mean of eight.
         assert!((flare.standard_uncertainty - (8.0_f64 / 7.0 / 8.0).sqrt() / 980.0).abs() < 1e-6);
-        assert!(matches!(
-            measure_flare(core::slice::from_ref(&white), &trap, 20.0, None),
-            Err(FlareError::NotWhite { .. })
-        ));
-        let clipped = measure_flare(core::slice::from_ref(&trap), &white, 20.0, Some(1000.0));
+        // Two whites of 980 and 480 above black.
+        let two = measure_flare(&trap, &[white.clone(), region(495.0, 505.0)], 20.0, None).expect("regions");
+        assert!((two.value - 10.0 / 730.0).abs() < 1e-12, "{two:?}");
+        let mixed = measure_flare(&white, core::slice::from_ref(&trap), 20.0, None);
+        assert!(matches!(mixed, Err(FlareError::NotWhite { .. })));
+        let clipped = measure_flare(&trap, core::slice::from_ref(&white), 20.0, Some(1000.0));
         assert!(matches!(clipped, Err(FlareError::Saturated { .. })));
-        assert_eq!(measure_flare(&[], &white, 0.0, None), Err(FlareError::TooSmall));
+        assert_eq!(measure_flare(&trap, &[], 0.0, None), Err(FlareError::TooSmall));
     }
 }

@@ -18,6 +18,17 @@ pub(crate) fn saturated_share(samples: &[f32], full_scale: Option<f64>) -> f64 {
     if plateau > 0.01 && plateau < 1.0 { plateau } else { 0.0 }
 }
 
+/// Percent of the pixels of parts of a picture, that of the worst part, at or above a known full scale, where that is more than a
+/// measurement lets pass.
+pub(crate) fn saturated_percent<'a>(
+    parts: impl IntoIterator<Item = &'a Image>,
+    full_scale: Option<f64>,
+) -> Option<f64> {
+    let full = full_scale?;
+    let share = parts.into_iter().map(|part| saturated_share(part.samples(), Some(full))).fold(0.0, f64::max);
+    (share > SATURATED_SHARE).then_some(100.0 * share)
+}
+
 /// A sixth of the squared second differences of neighbours in a row, at the middle one: unbiased for independent noise on a level
 /// that changes evenly from pixel to pixel.
 pub(crate) fn neighbour_variances(image: &Image) -> impl Iterator<Item = (usize, usize, f64)> + '_ {

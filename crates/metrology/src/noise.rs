@@ -14,9 +14,10 @@
 //! columns and pixels ([`Pattern`]). Left out: the visual weighting of the standard's annex, removal of
 //! low-frequency shading (take a patch that is even).
 
-use crate::Estimate;
+use crate::flat::saturated_percent;
 use crate::photon_transfer::{Pattern, Stack, TransferError};
 use crate::propagate::root;
+use crate::{Estimate, Image};
 
 /// The least number of frames that the standard lets.
 pub const LEAST_FRAMES: usize = 8;
@@ -56,6 +57,20 @@ pub enum NoiseError {
     /// Fewer than eight frames.
     #[error("noise needs at least {LEAST_FRAMES} frames of the same patch (ISO 15739), not {0}")]
     TooFew(usize),
+    /// A frame is clipped.
+    #[error("{percent:.1} % of the pixels are saturated, which cuts their noise: expose less")]
+    Saturated {
+        /// Share of pixels.
+        percent: f64,
+    },
+}
+
+/// Whether a frame keeps its noise: its pixels are not saturated.
+///
+/// # Errors
+/// Where they are.
+pub fn check_frame(frame: &Image, full_scale: Option<f64>) -> Result<(), NoiseError> {
+    saturated_percent([frame], full_scale).map_or(Ok(()), |percent| Err(NoiseError::Saturated { percent }))
 }
 
 /// The noise of a stack of frames of a patch.
@@ -84,7 +99,6 @@ pub fn measure_noise(stack: &Stack, black: f64) -> Result<Noise, NoiseError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Image;
     use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
     use rand_distr::{Distribution, Normal};
 
@@ -115,5 +129,8 @@ mod tests {
         let [total, ..] = noise.snr();
         assert!((total.value - 32.0).abs() < 3.0 * total.standard_uncertainty);
         assert_eq!(measure_noise(&stack(7), 40.0), Err(NoiseError::TooFew(7)));
+        let frame = Image::from_samples(4, 1, vec![10.0, 20.0, 30.0, 30.0]).expect("a row");
+        assert_eq!(check_frame(&frame, Some(30.0)), Err(NoiseError::Saturated { percent: 50.0 }));
+        assert_eq!(check_frame(&frame, Some(31.0)), Ok(()));
     }
 }

@@ -52,6 +52,7 @@ impl SiemensStar {
             outline_mm: outline.iter().step_by(corners / 64).copied().collect(),
         };
         let patches = vec![patch("centre", &within)];
+        let rim = around.iter().step_by(corners / 64).copied().collect();
         let zones = vec![Zone::even(within, 0), Zone { outline: around, fills: self.fills(corners) }];
         let lattice = Lattice::framed(1, 1, DVec2::splat(2.04 * outer), seen.outer_mm * BLEED);
         let figure = Figure { centre: DVec2::ZERO, zones };
@@ -61,6 +62,7 @@ impl SiemensStar {
         });
         let mut drawing = Drawing::printed(Panel::facing("chart", sheet, seen.distance_m), self.inks());
         drawing.features.push(Feature::at(Kind::Centre, [0, 0], DVec2::ZERO));
+        drawing.features.push(Feature { points_mm: rim, ..Feature::at(Kind::Rim, [0, 0], DVec2::ZERO) });
         drawing.patches = patches;
         drawing.note("cycles", self.cycles);
         drawing.note("binary", self.binary);

@@ -45,6 +45,7 @@ pub(super) fn truth(request: &Request<'_>) -> String {
             "kind": if drawing.lit { "even, from everywhere" } else { "the chart's own, in the dark" },
             "illuminant": request.light.name(),
             "luminance_cd_m2": request.light.luminance_cd_m2(),
+            "xyz": request.light.white_xyz(),
         },
         "panels": drawing.panels.iter().map(panel).collect::<Vec<_>>(),
         "inks": drawing.inks.iter().map(|one| ink(one, request)).collect::<Vec<_>>(),
@@ -105,6 +106,7 @@ fn ink(ink: &Ink, request: &Request<'_>) -> Value {
         "luminous_share": ink.luminous_share(light),
         "luminance_cd_m2": ink.luminance_cd_m2(light),
         "lab": [lab.l, lab.a, lab.b],
+        "xyz": ink.xyz(light),
     });
     if let Some(meter) = request.meter {
         let channels = (meter.electrons)(&ink.radiance(light)).into_iter();
@@ -175,6 +177,8 @@ fn camera(request: &Request<'_>, station: &Station, pose: &CameraPose) -> Map<St
     facts.insert("name".into(), json!(station.name));
     facts.insert("file".into(), json!(super::job::camera_file(station)));
     facts.insert("dark".into(), json!(station.dark));
+    let size = request.eye.size_px;
+    facts.insert("picture_px".into(), json!([size.x as u32, size.y as u32]));
     facts.insert("exposure_s".into(), json!(exposure_s));
     facts.insert("saturation_share_of_the_light".into(), json!(white));
     facts.insert("camera_to_world".into(), json!(rows));

@@ -25,3 +25,4 @@ mod measures;
 mod plans;
 mod raw_files;
 mod support;
+mod truths;

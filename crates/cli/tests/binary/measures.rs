@@ -196,7 +196,7 @@ fn a_slanted_edge_gives_its_response() {
     assert!((half - 0.639_78).abs() < 0.005, "{half}");
     assert_eq!(std::fs::read_to_string(&plot).expect("a plot").matches("<polyline").count(), 2);
     let truth = folder.path().join("truth.json");
-    let ends = r#""features":[{"kind":"edge"},{"kind":"edge"}],"cameras":[{"name":"a","features_px":[[[26.8,0],[33.2,64]],[null,null]]}]"#;
+    let ends = r#""chart":"slanted-edges","sizes":{},"seen":{"fills_the_field":true},"light":{"luminance_cd_m2":1,"xyz":[1,1,1]},"inks":[],"features":[{"kind":"edge"},{"kind":"edge"}],"cameras":[{"name":"a","dark":false,"picture_px":[64,64],"features_px":[[[26.8,0],[33.2,64]],[null,null]]}]"#;
     std::fs::write(&truth, format!("{{{ends}}}")).expect("a temporary file");
     let told = json(&["sfr", &file, "--truth", &text(&truth)]);
     // Once the edge that is seen: 0.5 of its length across it, 0.6 along it, about its middle.

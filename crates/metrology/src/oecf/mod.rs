@@ -11,7 +11,8 @@
 //!             referred to the exposure: H (dy/dH)/σ)
 //! ```
 //!
-//! Saturation is the first point that rises by less than a tenth of what the straight part would.
+//! Saturation is the first point that rises by less than a tenth of what the straight part would, or more than a thousandth of whose
+//! pixels are at full scale, where that is known.
 //!
 //! Refused: fewer than three exposures, exposures that are no positive numbers or equal, readings that fall.
 
@@ -19,8 +20,10 @@ pub mod response;
 #[cfg(test)]
 mod tests;
 
-use crate::Estimate;
+use crate::flat::saturated_percent;
+use crate::{Estimate, Image};
 use etendue_core::maths::f64::{exp, ln};
+use etendue_stats::Moments;
 
 /// A surface at one exposure.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,6 +34,23 @@ pub struct ExposurePoint {
     pub reading: Estimate,
     /// Standard deviation of a single pixel's reading over time (or within the surface), where it is known.
     pub noise: Option<f64>,
+    /// Whether pixels are saturated, which lowers mean and noise.
+    pub clipped: bool,
+}
+
+impl ExposurePoint {
+    /// Mean and scatter of an even surface; `full_scale` is the reading of a saturated pixel.
+    #[must_use]
+    pub fn of(exposure: f64, surface: &Image, full_scale: Option<f64>) -> Self {
+        let moments = Moments::of(surface.samples().iter().map(|s| f64::from(*s)));
+        let u = moments.variance_of_mean().unwrap_or(0.0).sqrt();
+        Self {
+            exposure,
+            reading: Estimate::new(moments.mean(), u),
+            noise: Some(moments.variance().unwrap_or(0.0).sqrt()),
+            clipped: saturated_percent([surface], full_scale).is_some(),
+        }
+    }
 }
 
 /// A tone curve.
@@ -83,6 +103,9 @@ pub enum OecfError {
     /// Readings do not change.
     #[error("the readings do not change with the exposure: is every picture saturated, or the same?")]
     Flat,
+    /// The least exposure is saturated.
+    #[error("even the least exposure, {0}, is saturated: expose less")]
+    Saturated(f64),
 }
 
 impl Oecf {
@@ -105,8 +128,12 @@ impl Oecf {
         if last <= first {
             return Err(OecfError::Flat);
         }
+        if points[0].clipped {
+            return Err(OecfError::Saturated(points[0].exposure));
+        }
         let slopes = monotone_slopes(&points);
-        let saturation = saturation(&points);
+        let clipped = points.iter().position(|p| p.clipped).unwrap_or(points.len());
+        let saturation = saturation(&points).min(clipped);
         Ok(Self { points, slopes, saturation })
     }
 

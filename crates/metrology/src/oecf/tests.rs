@@ -8,7 +8,7 @@ use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
 use rand_distr::{Distribution, Normal};
 
 fn point(exposure: f64, reading: f64) -> ExposurePoint {
-    ExposurePoint { exposure, reading: Estimate::new(reading, 0.01), noise: Some(2.0) }
+    ExposurePoint { exposure, reading: Estimate::new(reading, 0.01), noise: Some(2.0), clipped: false }
 }
 
 fn series(f: impl Fn(f64) -> f64) -> Vec<ExposurePoint> {
@@ -50,6 +50,24 @@ fn curves_that_are_none_are_refused() {
     assert_eq!(of(&[point(0.0, 5.0), point(1.0, 6.0), point(2.0, 7.0)]), Err(OecfError::Exposure(0.0)));
     assert!(matches!(of(&[point(1.0, 5.0), point(2.0, 9.0), point(3.0, 7.0)]), Err(OecfError::Falls { .. })));
     assert_eq!(of(&[point(1.0, 255.0), point(2.0, 255.0), point(3.0, 255.0)]), Err(OecfError::Flat));
+}
+
+/// Noise at the full scale is cut: the mean is still rising there, but no longer right.
+#[test]
+fn clipped_light_is_no_part_of_the_straight_line() {
+    let shot = |i: u32| {
+        let exposure = f64::from(i) * 0.1;
+        let clipped = picture(1.0, |_| 0.0, i);
+        let sample = |s: &f32| (f64::from(*s) * 50.0 + 900.0 * exposure).min(1000.0) as f32;
+        let samples = clipped.samples().iter().map(sample).collect();
+        ExposurePoint::of(exposure, &Image::from_samples(128, 64, samples).expect("a rectangle"), Some(1000.0))
+    };
+    let points: Vec<ExposurePoint> = (1..=15).map(shot).collect();
+    let told = |points: &[ExposurePoint]| Oecf::new(points.to_vec()).expect("a curve");
+    let (known, unknown) =
+        (told(&points), told(&points.iter().map(|p| ExposurePoint { clipped: false, ..*p }).collect::<Vec<_>>()));
+    assert!(known.saturation() < unknown.saturation(), "{} {}", known.saturation(), unknown.saturation());
+    assert!(Oecf::new(points[13..].iter().chain(&points[12..13]).copied().collect()).is_err());
 }
 
 /// A scene of all lights, by a camera of a given curve with noise of 0.2 %.

@@ -129,6 +129,12 @@ impl Stack {
         self.frame_means.len()
     }
 
+    /// Mean of each frame, DN.
+    #[must_use]
+    pub fn frame_means(&self) -> &[f64] {
+        &self.frame_means
+    }
+
     /// Marks of the frames that are not all one value: equal marks, equal frames.
     #[must_use]
     pub fn fingerprints(&self) -> &[u64] {

@@ -15,6 +15,7 @@
 //! smears texture.
 
 use super::TextureError;
+use crate::flat::saturated_percent;
 use crate::fourier::{Complex, transform};
 use crate::{Estimate, Image};
 use core::f64::consts::TAU;
@@ -49,6 +50,7 @@ pub fn measure_texture(
     picture: &Image,
     reference: &Image,
     noise: Option<&Image>,
+    full_scale: Option<f64>,
 ) -> Result<Vec<TexturePoint>, TextureError> {
     let size = |image: &Image| (image.width(), image.height());
     if size(picture) != size(reference) || picture.width().min(picture.height()) < BLOCK {
@@ -56,6 +58,9 @@ pub fn measure_texture(
     }
     if picture.samples().iter().chain(reference.samples()).any(|s| !s.is_finite()) {
         return Err(TextureError::NotFinite);
+    }
+    if let Some(percent) = saturated_percent([picture], full_scale) {
+        return Err(TextureError::Saturated { percent });
     }
     let sums = Spectra::of(reference, picture);
     let floor = noise.filter(|n| n.width().min(n.height()) >= BLOCK).map(|n| Spectra::of(n, n));
@@ -178,7 +183,8 @@ mod tests {
     #[test]
     fn a_blurred_texture_with_noise_gives_the_blur() {
         let (reference, noise, sigma) = (texture(1, 400.0), texture(2, 40.0), 0.8);
-        let points = measure_texture(&blurred(&reference, sigma, &noise), &reference, Some(&noise)).expect("a texture");
+        let points =
+            measure_texture(&blurred(&reference, sigma, &noise), &reference, Some(&noise), None).expect("a texture");
         let truth = |f: f64| exp(-2.0 * PI * PI * sigma * sigma * f * f);
         for point in points.iter().filter(|p| p.frequency <= 0.45) {
             let want = truth(point.frequency) / truth(points[0].frequency);
@@ -188,6 +194,8 @@ mod tests {
         }
         // Noise invents structure: coherence falls with the signal.
         assert!(points[0].coherence > 0.95 && points[28].coherence < 0.8, "{points:?}");
-        assert_eq!(measure_texture(&texture(3, 400.0), &reference, None), Err(TextureError::Unlike));
+        assert_eq!(measure_texture(&texture(3, 400.0), &reference, None, None), Err(TextureError::Unlike));
+        let clipped = measure_texture(&reference, &reference, None, Some(600.0));
+        assert!(matches!(clipped, Err(TextureError::Saturated { .. })), "{clipped:?}");
     }
 }

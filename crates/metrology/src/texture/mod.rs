@@ -20,6 +20,12 @@ pub enum TextureError {
         /// Modulation.
         percent: f64,
     },
+    /// It is clipped.
+    #[error("{percent:.1} % of the pixels are saturated, which bends light and dark apart: expose less")]
+    Saturated {
+        /// Share of pixels.
+        percent: f64,
+    },
     /// A reading is NaN or infinite.
     #[error("the picture holds readings that are no numbers: give finite values")]
     NotFinite,

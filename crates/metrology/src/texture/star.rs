@@ -13,6 +13,7 @@
 //! circle. At n cycles the circle curves by 1/r: the response is that of the tangent's frequency to (n/2πr)²/n² of itself.
 
 use super::TextureError;
+use crate::flat::saturated_percent;
 use crate::solve::Normal;
 use crate::{Estimate, Image};
 use core::f64::consts::TAU;
@@ -31,6 +32,8 @@ pub struct Star {
     pub outer_px: f64,
     /// Reading of no light.
     pub black: f64,
+    /// Reading of a saturated pixel.
+    pub full_scale: Option<f64>,
 }
 
 /// A circle's modulation.
@@ -84,7 +87,12 @@ fn check(image: &Image, star: &Star) -> Result<(), TextureError> {
     if room.is_nan() || room < star.outer_px + 2.5 {
         return Err(TextureError::Star("2.5 pixels between its outer circle and the border"));
     }
-    Ok(())
+    let side = (2.0 * star.outer_px).ceil() as usize;
+    let whole = image.part((x - star.outer_px) as usize, (y - star.outer_px) as usize, side, side);
+    match saturated_percent([&whole], star.full_scale) {
+        Some(percent) => Err(TextureError::Saturated { percent }),
+        None => Ok(()),
+    }
 }
 
 /// Modulation of the pixels within half a pixel of a circle.
@@ -169,7 +177,14 @@ mod tests {
     fn a_star_gives_the_response_of_lens_and_pixel() {
         let (centre, sigma) = ((80.6, 79.2), 0.5);
         let image = picture(centre, 48.0, sigma);
-        let star = Star { centre_px: (80.0, 80.0), cycles: 48, inner_px: 20.0, outer_px: 75.0, black: 100.0 };
+        let star = Star {
+            centre_px: (80.0, 80.0),
+            cycles: 48,
+            inner_px: 20.0,
+            outer_px: 75.0,
+            black: 100.0,
+            full_scale: None,
+        };
         let (points, found) = measure_star(&image, &star).expect("a star");
         assert!(hypot(found.0 - centre.0, found.1 - centre.1) < 0.05, "{found:?}");
         // The square pixel, averaged over the directions of the tangent.
@@ -188,10 +203,14 @@ mod tests {
 
     #[test]
     fn what_is_no_star_is_refused() {
-        let star = Star { centre_px: (80.0, 80.0), cycles: 48, inner_px: 20.0, outer_px: 75.0, black: 0.0 };
+        let star =
+            Star { centre_px: (80.0, 80.0), cycles: 48, inner_px: 20.0, outer_px: 75.0, black: 0.0, full_scale: None };
         let even = Image::filled(160, 160, 7.0);
         assert!(matches!(measure_star(&even, &star), Err(TextureError::NoStar { .. } | TextureError::Star(_))));
         let large = Star { outer_px: 79.0, ..star };
         assert!(matches!(measure_star(&even, &large), Err(TextureError::Star(_))));
+        let clipped = Star { full_scale: Some(1500.0), ..star };
+        let bright = picture(star.centre_px, 48.0, 0.5);
+        assert!(matches!(measure_star(&bright, &clipped), Err(TextureError::Saturated { .. })));
     }
 }

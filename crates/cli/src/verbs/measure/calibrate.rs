@@ -1,6 +1,6 @@
 //! `etendue calibrate`: a camera file from several views of a chart.
 
-use super::report::{Report, Telling};
+use super::report::{CameraOut, Report, Telling};
 use super::views::{ViewsArguments, positive};
 use crate::failure::Failure;
 use clap::Args;
@@ -17,12 +17,8 @@ pub struct CalibrateArguments {
     /// The lens's f-number, for the camera file [default: 4, which is marked as a stand-in]
     #[arg(long, value_name = "N", value_parser = positive, requires = "output")]
     pub f_number: Option<f64>,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
-    /// Draw residuals and projection here
-    #[arg(long, value_name = "FILE.svg")]
-    pub plot: Option<PathBuf>,
+    #[command(flatten)]
+    pub telling: Telling,
 }
 
 pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
@@ -33,6 +29,5 @@ pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
     if let Some(pitch_um) = views.pixel_pitch_um {
         report.camera(found.camera_file(pitch_um, arguments.f_number));
     }
-    let (json, plot, camera_out) = (arguments.json, arguments.plot.clone(), arguments.output.clone());
-    report.tell(&Telling { json, plot, camera_out })
+    report.tell_with_camera(&arguments.telling, &CameraOut { camera_out: arguments.output.clone() })
 }

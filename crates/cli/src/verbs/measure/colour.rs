@@ -1,8 +1,11 @@
 //! `etendue measure colour`: the colours of a ColorChecker after a fitted matrix.
 
-use super::readings::{Levels, Readings, Selection, part};
-use super::report::{Cell, Report, Table, Telling};
+use super::common::{Common, refused};
+use super::readings::{Readings, part};
+use super::report::{Cell, Report, Table};
+use super::truth::{Patch, Truth};
 use crate::failure::Failure;
+use crate::plot::{Axis, Mark, Plot, Series};
 use clap::Args;
 use etendue_metrology::Estimate;
 use etendue_metrology::colour::{ColourError, ColourPatch, measure_colour};
@@ -18,79 +21,81 @@ pub struct Colour {
     #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
     /// Middles of the four corner patches, raster coordinates, in the chart's order: dark skin, bluish green, black, white
-    #[arg(long, value_name = "X,Y", num_args = 4, value_parser = corner, required = true)]
+    #[arg(long, value_name = "X,Y", num_args = 4, value_parser = corner, required_unless_present = "truth", conflicts_with = "truth")]
     pub corners: Vec<DVec2>,
     /// Side of the squares that are read, of the distance of patches
-    #[arg(long, value_name = "SHARE", default_value_t = 0.5, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE", default_value_t = 0.5, conflicts_with = "truth", allow_negative_numbers = true)]
     pub patch: f64,
     #[command(flatten)]
-    pub selection: Selection,
-    #[command(flatten)]
-    pub levels: Levels,
-    #[command(flatten)]
-    pub telling: Telling,
+    pub common: Common,
 }
 
 fn corner(text: &str) -> Result<DVec2, String> {
-    let both = text.split_once(',').and_then(|(x, y)| Some(DVec2::new(x.trim().parse().ok()?, y.trim().parse().ok()?)));
-    both.ok_or_else(|| format!("expected X,Y, not '{text}'"))
+    super::shading::point(text).map(|(x, y)| DVec2::new(x, y))
 }
 
 /// Columns and rows of the chart.
 const CHART: (usize, usize) = (6, 4);
 
 pub(super) fn run(arguments: &Colour) -> Result<(), Failure> {
-    let Some(colours) = arguments.selection.colours(&arguments.picture)? else {
-        let file = arguments.picture.display();
-        return Err(Failure::input(format!(
-            "{file}: expected a picture in colour: channels R, G and B, or a raw mosaic of them"
-        )));
+    let Some(colours) = arguments.common.selection.colours(&arguments.picture)? else {
+        let expected = "expected a picture in colour: channels R, G and B, or a raw mosaic of them";
+        return Err(refused(&arguments.picture, expected));
     };
-    let patches = patches(arguments, &colours)?;
-    let black = arguments.levels.black(&colours[1]);
-    let found = measure_colour(&patches, black, arguments.levels.full_scale(&colours[1]), colour::D65_WHITE);
-    let found = found.map_err(|error| Failure::input(format!("{}: {error}", arguments.picture.display())))?;
-    report(&patches, &found).tell(&arguments.telling)
+    let (patches, white) = match arguments.common.truth(&["colorchecker"], &arguments.picture, &colours[1])? {
+        Some(truth) => (told(&truth, &colours)?, truth.white_xyz()),
+        None => (between_corners(arguments, &colours)?, colour::D65_WHITE),
+    };
+    let levels = &arguments.common.levels;
+    let (black, full_scale) = (levels.black(&colours[1]), levels.full_scale(&colours[1]));
+    let found = measure_colour(&patches, black, full_scale, white);
+    let found = found.map_err(|error| refused(&arguments.picture, error))?;
+    arguments.common.tell(&report(&patches, &found))
 }
 
-fn patches(arguments: &Colour, colours: &[Readings; 3]) -> Result<Vec<ColourPatch>, Failure> {
+/// The patches that a chart's truth places and describes, in its own light.
+fn told(truth: &Truth, colours: &[Readings; 3]) -> Result<Vec<ColourPatch>, Failure> {
+    let lists: Vec<Vec<Patch>> = colours.iter().map(|one| Ok(truth.patches(one)?.0)).collect::<Result<_, Failure>>()?;
+    let one = |patch: &Patch| {
+        let pixels = |c: usize| {
+            let place = lists[c].iter().find(|other| other.name == patch.name)?;
+            part(&colours[c].image, place.at, &patch.name).ok()
+        };
+        let pixels = [pixels(0)?, pixels(1)?, pixels(2)?];
+        Some(ColourPatch { name: patch.name.clone(), pixels, reference: patch.xyz })
+    };
+    Ok(lists[1].iter().filter_map(one).collect())
+}
+
+fn between_corners(arguments: &Colour, colours: &[Readings; 3]) -> Result<Vec<ColourPatch>, Failure> {
     if !(arguments.patch > 0.0 && arguments.patch <= 1.0) {
         return Err(Failure::input("--patch: expected a share above 0 and at most 1"));
     }
     let [a, b, c, d] = arguments.corners[..] else { return Err(Failure::input("--corners: expected four of them")) };
-    // A mosaic's pixels of one colour lie twice as far apart as the file's.
-    let scale = mosaic_scale(arguments);
     let (columns, rows) = ((CHART.0 - 1) as f64, (CHART.1 - 1) as f64);
     // Bilinear between the corners: exact where the chart is parallel to the sensor, near it otherwise.
     let middle = |i: usize| {
         let (u, v) = ((i % CHART.0) as f64 / columns, (i / CHART.0) as f64 / rows);
-        ((a * (1.0 - u) + b * u) * (1.0 - v) + (d * (1.0 - u) + c * u) * v) * scale
+        (a * (1.0 - u) + b * u) * (1.0 - v) + (d * (1.0 - u) + c * u) * v
     };
-    let distance = ((b - a).length() / columns).min((d - a).length() / rows) * scale;
-    let side = (arguments.patch * distance).floor().max(2.0);
+    let half = 0.5 * arguments.patch * ((b - a).length() / columns).min((d - a).length() / rows);
     let patch = |(i, patch): (usize, &etendue_spectra::chart::Patch)| {
-        let corner = (middle(i) - 0.5 * side).round();
-        if corner.x < 0.0 || corner.y < 0.0 {
-            return Err(Failure::input("--corners: a patch lies beyond the picture"));
-        }
-        let at = [corner.x as usize, corner.y as usize, side as usize, side as usize];
-        let one = |c: usize| part(&colours[c].image, at, "--corners: a patch");
+        let (low, high) = (middle(i) - half, middle(i) + half);
+        let one = |c: usize| {
+            let [width, height] = [colours[c].picture_px.0, colours[c].picture_px.1].map(|n| n as f64);
+            let inside = low.min_element() >= 0.0 && high.x <= width && high.y <= height;
+            let at = colours[c].between(low.into(), high.into()).filter(|_| inside);
+            let beyond = || Failure::input("--corners: a patch lies beyond the picture, or is smaller than a pixel");
+            part(&colours[c].image, at.ok_or_else(beyond)?, "--corners: a patch")
+        };
         let reference = observer::xyz_of_reflectance(&patch.reflectance, illuminant::d65());
         Ok(ColourPatch { name: patch.name.to_owned(), pixels: [one(0)?, one(1)?, one(2)?], reference })
     };
     colorchecker().iter().enumerate().map(patch).collect()
 }
 
-/// The side of the whole picture over that of one colour's pixels, inverted.
-fn mosaic_scale(arguments: &Colour) -> f64 {
-    let mosaic = arguments.selection.cfa.is_some()
-        || etendue_io::photograph::read_photograph(&arguments.picture)
-            .is_ok_and(|p| p.raw.is_some_and(|facts| facts.filters.channels.len() > 1));
-    if mosaic { 0.5 } else { 1.0 }
-}
-
 fn report(patches: &[ColourPatch], found: &ColourError) -> Report {
-    let method = "ColorChecker under D65 after a fitted 3 × 3 matrix, CIEDE2000 (± one standard uncertainty)";
+    let method = "ColorChecker after a fitted 3 × 3 matrix, CIEDE2000 (± one standard uncertainty)";
     let mut report = Report::new("colour", method);
     report.figure("mean_delta_e00", "mean ΔE00", "", found.mean);
     report.figure("largest_delta_e00", "largest ΔE00", "", found.largest);
@@ -126,5 +131,19 @@ fn report(patches: &[ColourPatch], found: &ColourError) -> Report {
             })
             .collect(),
     });
+    report.plot(plot(found));
     report
+}
+
+/// Redness and yellowness of the patches, as they are and as the matrix gives them.
+fn plot(found: &ColourError) -> Plot {
+    let places = |name: &str, which: usize| {
+        Series::new(name, Mark::Points, found.colours.iter().map(move |pair| (pair[which][1], pair[which][2])))
+    };
+    Plot {
+        title: "colours of the patches".to_owned(),
+        x: Axis::linear("a*"),
+        y: Axis::linear("b*"),
+        series: vec![places("true", 1), places("measured", 0)],
+    }
 }

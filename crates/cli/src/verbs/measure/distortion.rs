@@ -1,7 +1,7 @@
 //! `etendue measure distortion`: from one picture of a plane chart.
 
 use super::chart_points::{ChartArguments, Seen};
-use super::report::{Cell, Report, Table, Telling};
+use super::report::{CameraOut, Cell, Report, Table, Telling};
 use crate::failure::Failure;
 use crate::machine;
 use crate::plot::{Axis, Mark, Plot, Series};
@@ -25,6 +25,8 @@ pub struct DistortionArguments {
     pub centre_px: Option<[f64; 2]>,
     #[command(flatten)]
     pub telling: Telling,
+    #[command(flatten)]
+    pub out: CameraOut,
 }
 
 pub(super) fn place(text: &str) -> Result<[f64; 2], String> {
@@ -40,7 +42,7 @@ pub(super) fn run(arguments: &DistortionArguments) -> Result<(), Failure> {
     let centre = arguments.centre_px.map(DVec2::from);
     let told = |error| Failure::input(format!("{}: {error}", arguments.file.display()));
     let found = distortion(&seen.grid, seen.size_px, centre).map_err(told)?;
-    report(&seen, &found).tell(&arguments.telling)
+    report(&seen, &found).tell_with_camera(&arguments.telling, &arguments.out)
 }
 
 fn report(seen: &Seen, found: &Distortion) -> Report {

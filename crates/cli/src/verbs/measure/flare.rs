@@ -1,8 +1,11 @@
 //! `etendue measure flare`: light in traps that send none.
 
-use super::readings::{Levels, Selection, part, region};
-use super::report::{Cell, Report, Table, Telling};
+use super::common::{Common, refused};
+use super::readings::{Readings, field_position, part, region};
+use super::report::{Cell, Report, Table};
+use super::truth::TrapPlace;
 use crate::failure::Failure;
+use crate::plot::{Axis, Mark, Plot, Series};
 use clap::Args;
 use etendue_metrology::Estimate;
 use etendue_metrology::flare::measure_flare;
@@ -15,36 +18,66 @@ pub struct Flare {
     #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
     /// A part of a light trap: left column, top row, width, height; once a trap
-    #[arg(long = "trap", value_name = "X,Y,W,H", value_parser = region, required = true)]
+    #[arg(long = "trap", value_name = "X,Y,W,H", value_parser = region, required_unless_present = "truth", conflicts_with = "truth")]
     pub traps: Vec<[usize; 4]>,
     /// A part of the white field
-    #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
-    pub white: [usize; 4],
+    #[arg(long, value_name = "X,Y,W,H", value_parser = region, required_unless_present = "truth", conflicts_with = "truth")]
+    pub white: Option<[usize; 4]>,
     #[command(flatten)]
-    pub selection: Selection,
-    #[command(flatten)]
-    pub levels: Levels,
-    #[command(flatten)]
-    pub telling: Telling,
+    pub common: Common,
 }
 
 pub(super) fn run(arguments: &Flare) -> Result<(), Failure> {
-    let readings = arguments.selection.linear(&arguments.picture)?;
-    let traps = arguments.traps.iter().map(|at| part(&readings.image, *at, "--trap")).collect::<Result<Vec<_>, _>>()?;
-    let white = part(&readings.image, arguments.white, "--white")?;
-    let (black, full_scale) = (arguments.levels.black(&readings), arguments.levels.full_scale(&readings));
-    let named = |error| Failure::input(format!("{}: {error}", arguments.picture.display()));
-    let flare = measure_flare(&traps, &white, black, full_scale).map_err(named)?;
+    let readings = arguments.common.linear(&arguments.picture)?;
+    let traps = traps(arguments, &readings)?;
+    let levels = &arguments.common.levels;
+    let (black, full_scale) = (levels.black(&readings), levels.full_scale(&readings));
+    let measured = |place: &TrapPlace| {
+        let trap = part(&readings.image, place.trap, "--trap")?;
+        let whites = place.whites.iter().map(|at| part(&readings.image, *at, "--white"));
+        let whites = whites.collect::<Result<Vec<_>, _>>()?;
+        measure_flare(&trap, &whites, black, full_scale).map_err(|error| refused(&arguments.picture, error))
+    };
+    let found = traps.iter().map(measured).collect::<Result<Vec<_>, Failure>>()?;
+    let places: Vec<[usize; 4]> = traps.iter().map(|t| t.trap).collect();
+    arguments.common.tell(&report(&places, &found, readings.size()))
+}
+
+fn traps(arguments: &Flare, readings: &Readings) -> Result<Vec<TrapPlace>, Failure> {
+    match arguments.common.truth(&["flare"], &arguments.picture, readings)? {
+        Some(truth) => truth.traps(readings),
+        None => {
+            let whites: Vec<[usize; 4]> = arguments.white.into_iter().collect();
+            Ok(arguments.traps.iter().map(|trap| TrapPlace { trap: *trap, whites: whites.clone() }).collect())
+        }
+    }
+}
+
+fn report(traps: &[[usize; 4]], found: &[Estimate], size: (usize, usize)) -> Report {
     let mut report = Report::new("flare", "flare after ISO 18844: light in traps over the white field's");
-    let largest = flare.iter().copied().reduce(|a, b| if b.value > a.value { b } else { a });
+    let largest = found.iter().copied().reduce(|a, b| if b.value > a.value { b } else { a });
     report.figure("flare_percent", "largest flare", "%", largest.unwrap_or(Estimate::new(0.0, 0.0)).scaled(100.0));
     let row = |(at, value): (&[usize; 4], &Estimate)| {
-        vec![Cell::Text(format!("{},{}", at[0], at[1])), Cell::Estimate(value.scaled(100.0))]
+        vec![
+            Cell::Text(format!("{},{}", at[0], at[1])),
+            Cell::Number(100.0 * field_position(at, size), 1),
+            Cell::Estimate(value.scaled(100.0)),
+        ]
     };
     report.table(Table {
         key: "traps",
-        columns: vec![("at_px", "at px"), ("flare_percent", "flare %")],
-        rows: arguments.traps.iter().zip(&flare).map(row).collect(),
+        columns: vec![("at_px", "at px"), ("field_percent", "field %"), ("flare_percent", "flare %")],
+        rows: traps.iter().zip(found).map(row).collect(),
     });
-    report.tell(&arguments.telling)
+    let points = traps
+        .iter()
+        .zip(found)
+        .map(|(at, flare)| (100.0 * field_position(at, size), 100.0 * flare.value, 200.0 * flare.standard_uncertainty));
+    report.plot(Plot {
+        title: "flare (bars: 95 %)".to_owned(),
+        x: Axis::linear("radial field position, % of the half diagonal").showing(&[0.0, 100.0]),
+        y: Axis::linear("flare, %").showing(&[0.0]),
+        series: vec![Series::with_errors("", Mark::Points, points)],
+    });
+    report
 }

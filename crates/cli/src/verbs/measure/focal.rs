@@ -1,6 +1,6 @@
 //! `etendue measure focal`: focal length and principal point.
 
-use super::report::{Report, Telling};
+use super::report::{CameraOut, Report, Telling};
 use super::views::{Found, ViewsArguments};
 use crate::failure::Failure;
 use clap::Args;
@@ -20,11 +20,16 @@ pub struct FocalArguments {
     pub views: ViewsArguments,
     #[command(flatten)]
     pub telling: Telling,
+    #[command(flatten)]
+    pub out: CameraOut,
 }
 
 pub(super) fn run(arguments: &FocalArguments) -> Result<(), Failure> {
     let views = &arguments.views;
     let options = views.options();
+    if arguments.out.camera_out.is_some() && views.pixel_pitch_um.is_none() {
+        return Err(Failure::input("--camera-out: a camera file needs the pixels' size: add --pixel-pitch-um"));
+    }
     if views.files.len() == 1 && options.distance.is_none() {
         let told = "one picture alone does not tell the focal length from the distance: add --distance-mm, or more pictures with the \
                     chart turned";
@@ -39,10 +44,8 @@ pub(super) fn run(arguments: &FocalArguments) -> Result<(), Failure> {
     field_of_view(&mut report, &found);
     if let Some(pitch_um) = views.pixel_pitch_um {
         report.camera(found.camera_file(pitch_um, None));
-    } else if arguments.telling.camera_out.is_some() {
-        return Err(Failure::input("--camera-out: a camera file needs the pixels' size: add --pixel-pitch-um"));
     }
-    report.tell(&arguments.telling)
+    report.tell_with_camera(&arguments.telling, &arguments.out)
 }
 
 fn middle(arguments: &FocalArguments) -> Result<DVec2, Failure> {

@@ -6,6 +6,7 @@ pub mod cdp;
 mod chart_points;
 pub mod chromatic;
 pub mod colour;
+mod common;
 pub mod compare;
 pub mod dark_current;
 pub mod depth;

@@ -1,40 +1,37 @@
 //! `etendue measure oecf`: the tone curve from a series of exposures, or from steps in one picture.
 
-use super::readings::{Levels, Readings, Selection, part};
-use super::report::{Cell, Report, Table, Telling};
+use super::common::{Common, refused};
+use super::readings::{Readings, part};
+use super::report::{Cell, Report, Table};
+use super::truth::Truth;
 use crate::failure::Failure;
 use crate::plot::{Axis, Mark, Plot, Series};
 use clap::Args;
 use etendue_metrology::oecf::response::{Response, ResponseSettings, camera_response};
 use etendue_metrology::oecf::{ExposurePoint, Oecf};
 use etendue_metrology::{Estimate, Image};
-use etendue_stats::Moments;
 use std::path::{Path, PathBuf};
 
 /// `etendue measure oecf`
 #[derive(Debug, Args)]
 pub struct OecfArguments {
-    /// Pictures of one even surface, one an exposure; with --steps one picture
+    /// Pictures of one even surface, one an exposure; with --steps, or the --truth of a chart of steps, one picture
     #[arg(value_name = "PICTURE", required = true)]
     pub pictures: Vec<PathBuf>,
     /// Exposure of each picture in their order, any unit [default: the side-cars' exposure_s]
-    #[arg(long, value_name = "H,…", value_delimiter = ',', conflicts_with = "steps", allow_negative_numbers = true)]
+    #[arg(long, value_name = "H,…", value_delimiter = ',', conflicts_with_all = ["steps", "truth"], allow_negative_numbers = true)]
     pub exposures: Vec<f64>,
     /// A table of steps in the picture: x, y, width, height, luminance; one step a line, # for comments
-    #[arg(long, value_name = "STEPS.csv")]
+    #[arg(long, value_name = "STEPS.csv", conflicts_with = "truth")]
     pub steps: Option<PathBuf>,
     /// Find the camera's response from pictures of one scene (not even) at exposures known relatively
-    #[arg(long, conflicts_with = "steps")]
+    #[arg(long, conflicts_with_all = ["steps", "truth"])]
     pub response: bool,
     /// With --response: find the ratios of the exposures too
     #[arg(long, requires = "response")]
     pub refine: bool,
     #[command(flatten)]
-    pub selection: Selection,
-    #[command(flatten)]
-    pub levels: Levels,
-    #[command(flatten)]
-    pub telling: Telling,
+    pub common: Common,
 }
 
 /// The largest degree of a response.
@@ -44,12 +41,35 @@ pub(super) fn run(arguments: &OecfArguments) -> Result<(), Failure> {
     if arguments.response {
         return response(arguments);
     }
-    let (points, black) = match &arguments.steps {
-        Some(table) => steps(arguments, table)?,
-        None => exposures(arguments)?,
+    let truth = arguments.common.truth.read(&CHARTS)?;
+    let measured = match (&arguments.steps, &truth) {
+        (Some(table), _) => steps(arguments, table)?,
+        (None, Some(truth)) if EVEN.contains(&truth.chart()) => shots(arguments, truth)?,
+        (None, Some(truth)) => patches(arguments, truth)?,
+        (None, None) => exposures(arguments)?,
     };
-    let oecf = Oecf::new(points).map_err(Failure::input)?;
-    report(&oecf, black).tell(&arguments.telling)
+    let oecf = Oecf::new(measured.points).map_err(|error| refused(&arguments.pictures[0], error))?;
+    let mut report = report(&oecf, measured.black, measured.unit);
+    measured.left_out.iter().for_each(|name| report.note(format!("left out: {name} is not whole in the picture")));
+    arguments.common.tell(&report)
+}
+
+/// Charts of one even surface, and of steps.
+const EVEN: [&str; 2] = ["flat-field", "backlit"];
+const CHARTS: [&str; 3] = ["oecf-steps", "flat-field", "backlit"];
+
+/// Points of the curve, the reading of no light, the unit of the exposures, and patches that are not seen.
+struct Measured {
+    points: Vec<ExposurePoint>,
+    black: f64,
+    unit: &'static str,
+    left_out: Vec<String>,
+}
+
+impl Measured {
+    fn new(points: Vec<ExposurePoint>, black: f64) -> Self {
+        Self { points, black, unit: "", left_out: Vec::new() }
+    }
 }
 
 /// Pictures with their exposures.
@@ -63,7 +83,7 @@ fn series(arguments: &OecfArguments) -> Result<Vec<(f64, Readings)>, Failure> {
         Some(exposure) => Ok(*exposure),
         None => exposure_beside(file),
     };
-    let one = |(i, file): (usize, &PathBuf)| Ok((told(i, file)?, arguments.selection.stored(file)?));
+    let one = |(i, file): (usize, &PathBuf)| Ok((told(i, file)?, arguments.common.selection.stored(file)?));
     let series = arguments.pictures.iter().enumerate().map(one).collect::<Result<Vec<_>, Failure>>()?;
     let size = |r: &Readings| (r.image.width(), r.image.height());
     if let Some(other) = series.iter().position(|(_, r)| size(r) != size(&series[0].1)) {
@@ -93,25 +113,66 @@ fn exposure_beside(file: &Path) -> Result<f64, Failure> {
     photograph.raw.map(|facts| facts.exposure_s).ok_or_else(lacks)
 }
 
-fn exposures(arguments: &OecfArguments) -> Result<(Vec<ExposurePoint>, f64), Failure> {
+fn exposures(arguments: &OecfArguments) -> Result<Measured, Failure> {
     let series = series(arguments)?;
-    let black = arguments.levels.black(&series[0].1);
-    Ok((series.iter().map(|(exposure, readings)| point(*exposure, &readings.image)).collect(), black))
+    let levels = &arguments.common.levels;
+    let point = |(exposure, r): &(f64, Readings)| ExposurePoint::of(*exposure, &r.image, levels.full_scale(r));
+    Ok(Measured::new(series.iter().map(point).collect(), levels.black(&series[0].1)))
 }
 
-/// Mean and scatter of an even surface.
-fn point(exposure: f64, image: &Image) -> ExposurePoint {
-    let moments = Moments::of(image.samples().iter().map(|s| f64::from(*s)));
-    let variance = moments.variance().unwrap_or(0.0);
-    let u = moments.variance_of_mean().unwrap_or(0.0).sqrt();
-    ExposurePoint { exposure, reading: Estimate::new(moments.mean(), u), noise: Some(variance.sqrt()) }
-}
-
-fn steps(arguments: &OecfArguments, table: &Path) -> Result<(Vec<ExposurePoint>, f64), Failure> {
-    let [picture] = &arguments.pictures[..] else {
-        return Err(Failure::input("--steps: expected one picture that holds all steps"));
+/// The middle of an even chart at its cameras' exposures; each picture lies in the folder of its camera.
+fn shots(arguments: &OecfArguments, truth: &Truth) -> Result<Measured, Failure> {
+    if arguments.common.truth.camera.is_some() {
+        return Err(Failure::input("--camera: has no effect on a series: each picture's folder names its camera"));
+    }
+    let exposures = truth.exposures()?;
+    let mut series = Vec::new();
+    for file in &arguments.pictures {
+        let folder = file.parent().and_then(Path::file_name).and_then(|name| name.to_str()).unwrap_or_default();
+        let known = exposures.iter().find(|(name, _)| *name == folder).map(|(_, exposure)| *exposure);
+        let names = || exposures.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+        let lacks =
+            || refused(file, format!("lies in the folder '{folder}', which is none of the cameras {}", names()));
+        let exposure = known.ok_or_else(lacks)?;
+        let readings = arguments.common.selection.stored(file)?;
+        truth.fits(file, &readings)?;
+        series.push((exposure, readings));
+    }
+    copies(arguments, &series)?;
+    let levels = &arguments.common.levels;
+    let point = |(exposure, r): &(f64, Readings)| {
+        let middle = part(&r.image, truth.middle(r)?, "--truth")?;
+        Ok(ExposurePoint::of(*exposure, &middle, levels.full_scale(r)))
     };
-    let readings = arguments.selection.stored(picture)?;
+    let points = series.iter().map(point).collect::<Result<Vec<_>, Failure>>()?;
+    Ok(Measured { unit: "cd s/m²", ..Measured::new(points, levels.black(&series[0].1)) })
+}
+
+fn only_picture<'a>(arguments: &'a OecfArguments, option: &str) -> Result<&'a Path, Failure> {
+    match &arguments.pictures[..] {
+        [picture] => Ok(picture),
+        more => Err(Failure::input(format!("{option}: expected one picture that holds all steps, not {}", more.len()))),
+    }
+}
+
+/// The steps of a chart.
+fn patches(arguments: &OecfArguments, truth: &Truth) -> Result<Measured, Failure> {
+    let picture = only_picture(arguments, "--truth")?;
+    let readings = arguments.common.selection.stored(picture)?;
+    truth.fits(picture, &readings)?;
+    let (patches, left_out) = truth.patches(&readings)?;
+    let levels = &arguments.common.levels;
+    let point = |patch: &super::truth::Patch| {
+        let surface = part(&readings.image, patch.at, &patch.name)?;
+        Ok(ExposurePoint::of(patch.luminance_cd_m2, &surface, levels.full_scale(&readings)))
+    };
+    let points = patches.iter().map(point).collect::<Result<Vec<_>, Failure>>()?;
+    Ok(Measured { unit: "cd/m²", left_out, ..Measured::new(points, levels.black(&readings)) })
+}
+
+fn steps(arguments: &OecfArguments, table: &Path) -> Result<Measured, Failure> {
+    let picture = only_picture(arguments, "--steps")?;
+    let readings = arguments.common.selection.stored(picture)?;
     let text = crate::job::read_text(table).map_err(Failure::input)?;
     let lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.trim().starts_with('#'));
     let step = |(number, line): (u32, &str)| {
@@ -126,12 +187,13 @@ fn steps(arguments: &OecfArguments, table: &Path) -> Result<(Vec<ExposurePoint>,
                 "{place}: expected whole pixels, two or more wide and high, not '{line}'"
             )));
         }
-        Ok(point(luminance, &part(&readings.image, whole.map(|v| v as usize), &place)?))
+        let surface = part(&readings.image, whole.map(|v| v as usize), &place)?;
+        Ok(ExposurePoint::of(luminance, &surface, arguments.common.levels.full_scale(&readings)))
     };
-    Ok((lines.map(step).collect::<Result<_, _>>()?, arguments.levels.black(&readings)))
+    Ok(Measured::new(lines.map(step).collect::<Result<_, _>>()?, arguments.common.levels.black(&readings)))
 }
 
-fn report(oecf: &Oecf, black: f64) -> Report {
+fn report(oecf: &Oecf, black: f64, unit: &'static str) -> Report {
     let mut report =
         Report::new("oecf", "opto-electronic conversion function after ISO 14524 (± one standard uncertainty)");
     let line = oecf.linearity(black);
@@ -144,7 +206,7 @@ fn report(oecf: &Oecf, black: f64) -> Report {
         report.fact("dynamic_range", "dynamic range (SNR 1 to saturation)", "", range);
     }
     match oecf.points().get(oecf.saturation()) {
-        Some(point) => report.fact("saturation_exposure", "first saturated exposure", "", point.exposure),
+        Some(point) => report.fact("saturation_exposure", "first saturated exposure", unit, point.exposure),
         None => report.note("no exposure saturates: the dynamic range is a lower bound"),
     }
     let row = |(i, p): (usize, &ExposurePoint)| {
@@ -168,11 +230,12 @@ fn report(oecf: &Oecf, black: f64) -> Report {
         ],
         rows: oecf.points().iter().enumerate().map(row).collect(),
     });
-    report.plot(plot(oecf, line.map(|l| (l.offset, l.slope))));
+    report.plot(plot(oecf, line.map(|l| (l.offset, l.slope)), unit));
     report
 }
 
-fn plot(oecf: &Oecf, line: Option<(f64, f64)>) -> Plot {
+fn plot(oecf: &Oecf, line: Option<(f64, f64)>, unit: &str) -> Plot {
+    let exposure = if unit.is_empty() { "exposure".to_owned() } else { format!("exposure, {unit}") };
     let points = oecf.points();
     let (first, last) = (points[0].exposure, points[points.len() - 1].exposure);
     let at = |i: i32| first + (last - first) * f64::from(i) / 200.0;
@@ -188,7 +251,7 @@ fn plot(oecf: &Oecf, line: Option<(f64, f64)>) -> Plot {
     }
     Plot {
         title: "tone curve".to_owned(),
-        x: Axis::linear("exposure").showing(&[0.0]),
+        x: Axis::linear(&exposure).showing(&[0.0]),
         y: Axis::linear("reading").showing(&[0.0]),
         series,
     }
@@ -196,18 +259,18 @@ fn plot(oecf: &Oecf, line: Option<(f64, f64)>) -> Plot {
 
 fn response(arguments: &OecfArguments) -> Result<(), Failure> {
     let series = series(arguments)?;
-    let full_scale = arguments.levels.full_scale(&series[0].1);
+    let full_scale = arguments.common.levels.full_scale(&series[0].1);
     let full_scale =
         full_scale.ok_or_else(|| Failure::input("--full-scale: a response needs the reading of a saturated pixel"))?;
     let settings = ResponseSettings {
         full_scale,
-        black: arguments.levels.black(&series[0].1),
+        black: arguments.common.levels.black(&series[0].1),
         degree: DEGREE,
         refine: arguments.refine,
     };
     let pictures: Vec<(f64, &Image)> = series.iter().map(|(exposure, r)| (*exposure, &r.image)).collect();
-    let found = camera_response(&pictures, &settings).map_err(Failure::input)?;
-    response_report(&found).tell(&arguments.telling)
+    let found = camera_response(&pictures, &settings).map_err(|error| refused(&arguments.pictures[0], error))?;
+    arguments.common.tell(&response_report(&found))
 }
 
 fn response_report(found: &Response) -> Report {

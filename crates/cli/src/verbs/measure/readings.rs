@@ -43,6 +43,37 @@ pub(super) struct Readings {
     pub black: Option<f64>,
     /// Columns and rows of the file from one reading to the next: those of a mosaic's tile, else 1.
     pub period: (usize, usize),
+    /// Column and row of the first reading within the picture.
+    pub first: (usize, usize),
+    /// Columns and rows of the picture, of all colours.
+    pub picture_px: (usize, usize),
+}
+
+impl Readings {
+    pub(super) fn size(&self) -> (usize, usize) {
+        (self.image.width(), self.image.height())
+    }
+
+    /// Where a point of the picture lies among the readings, raster coordinates both.
+    pub(super) fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let along = |at: f64, first: usize, period: usize| (at - first as f64 - 0.5) / period as f64 + 0.5;
+        [along(x, self.first.0, self.period.0), along(y, self.first.1, self.period.1)]
+    }
+
+    /// The readings whose pixels lie wholly between two corners of the picture: left column, top row, width, height.
+    pub(super) fn between(&self, low: [f64; 2], high: [f64; 2]) -> Option<[usize; 4]> {
+        let along = |k: usize, first: usize, period: usize, count: usize| {
+            let (first, period) = (first as f64, period as f64);
+            let from = ((low[k] - first) / period).ceil().max(0.0) as usize;
+            let end = ((high[k] - 1.0 - first) / period).floor() + 1.0;
+            let end = (end.max(0.0) as usize).min(count);
+            (end > from).then(|| (from, end - from))
+        };
+        let (width, height) = self.size();
+        let (left, columns) = along(0, self.first.0, self.period.0, width)?;
+        let (top, rows) = along(1, self.first.1, self.period.1, height)?;
+        Some([left, top, columns, rows])
+    }
 }
 
 /// Weights of linear sRGB in the luminance (IEC 61966-2-1).
@@ -73,7 +104,7 @@ impl Selection {
         let photograph = read_photograph(file).map_err(Failure::input)?;
         let tile = self.mosaic(&photograph);
         let has = |name: &str| match &tile {
-            Some(tile) => tile.channels.iter().any(|c| c == name),
+            Some(tile) => tile.channels.iter().any(|c| is_colour(c, name)),
             None => photograph.channel(name).is_some(),
         };
         if self.channel.is_some() || !["R", "G", "B"].into_iter().all(has) {
@@ -133,16 +164,18 @@ impl Selection {
         let whole = Image::from_samples(photograph.width, photograph.height, samples);
         let area = self.area(photograph);
         let image = cropped(file, whole.expect("a photograph's channels fill it"), area)?;
-        let (image, period) = match self.mosaic(photograph) {
+        let picture_px = (image.width(), image.height());
+        let (image, period, first) = match self.mosaic(photograph) {
             Some(tile) => {
                 let period = (tile.columns, tile.channels.len() / tile.columns);
-                (self.sites(file, &image, &tile, area)?, period)
+                let (sites, first) = self.sites(file, &image, &tile, area)?;
+                (sites, period, first)
             }
-            None => (image, (1, 1)),
+            None => (image, (1, 1), (0, 0)),
         };
         let facts = photograph.raw.as_ref();
         let full_scale = facts.map_or(full_scale, |f| Some(f.white_level_dn));
-        Ok(Readings { image, full_scale, black: facts.map(|f| f.black_level_dn), period })
+        Ok(Readings { image, full_scale, black: facts.map(|f| f.black_level_dn), period, first, picture_px })
     }
 
     /// Filters are told of pictures of one channel only.
@@ -173,8 +206,14 @@ impl Selection {
         self.region.or_else(|| Some(photograph.raw.as_ref()?.frame.as_ref()?.picture_px))
     }
 
-    /// The pixels under one colour of a mosaic: the first of its name in the tile.
-    fn sites(&self, file: &Path, image: &Image, tile: &FilterTile, area: Option<[usize; 4]>) -> Result<Image, Failure> {
+    /// The pixels under one colour of a mosaic, the first of its name in the tile, and the column and row of the first of them.
+    fn sites(
+        &self,
+        file: &Path,
+        image: &Image,
+        tile: &FilterTile,
+        area: Option<[usize; 4]>,
+    ) -> Result<(Image, (usize, usize)), Failure> {
         let Some(name) = &self.channel else {
             let file = file.display();
             let names = tile.channels.join(", ");
@@ -182,7 +221,7 @@ impl Selection {
                 "{file}: a raw mosaic of the colours {names}: say which one to measure with --channel"
             )));
         };
-        let at = tile.channels.iter().position(|c| c == name);
+        let at = tile.channels.iter().position(|c| is_colour(c, name));
         let names: Vec<&str> = tile.channels.iter().map(String::as_str).collect();
         let at = at.ok_or_else(|| no_channel(file, name, &names))?;
         let (columns, rows) = (tile.columns, tile.channels.len() / tile.columns);
@@ -194,8 +233,14 @@ impl Selection {
         let (width, height) = (every(x, columns, image.width()).count(), every(y, rows, image.height()).count());
         let rows = every(y, rows, image.height());
         let samples = rows.flat_map(|row| every(x, columns, image.width()).map(move |column| image.at(column, row)));
-        Ok(Image::from_samples(width, height, samples.collect()).expect("counted"))
+        Ok((Image::from_samples(width, height, samples.collect()).expect("counted"), (x, y)))
     }
+}
+
+/// Whether a filter has this name, or the other usual one of its colour.
+fn is_colour(filter: &str, name: &str) -> bool {
+    let usual = [("R", "red"), ("G", "green"), ("B", "blue")];
+    filter == name || usual.iter().any(|(a, b)| (filter, name) == (a, b) || (filter, name) == (b, a))
 }
 
 fn cropped(file: &Path, image: Image, area: Option<[usize; 4]>) -> Result<Image, Failure> {
@@ -265,4 +310,12 @@ pub(super) fn part(image: &Image, region: [usize; 4], name: &str) -> Result<Imag
         return Err(Failure::input(format!("{name}: lies beyond the {columns} × {rows} pixels that are measured")));
     }
     Ok(image.part(x, y, width, height))
+}
+
+/// Distance of a part's middle from the picture's, of the half diagonal.
+pub(super) fn field_position(at: &[usize; 4], (width, height): (usize, usize)) -> f64 {
+    let from = |start: usize, length: usize, whole: usize| start as f64 + 0.5 * length as f64 - 0.5 * whole as f64;
+    let (x, y) = (from(at[0], at[2], width), from(at[1], at[3], height));
+    let (w, h) = (0.5 * width as f64, 0.5 * height as f64);
+    ((x * x + y * y) / (w * w + h * h)).sqrt()
 }

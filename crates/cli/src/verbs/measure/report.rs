@@ -19,7 +19,12 @@ pub struct Telling {
     /// Draw the curves here
     #[arg(long, value_name = "FILE.svg")]
     pub plot: Option<PathBuf>,
-    /// Write what was found as keys of a camera file (of ptc, vignetting, distortion and focal)
+}
+
+/// Of measurements of what a camera file states.
+#[derive(Debug, Default, Args)]
+pub struct CameraOut {
+    /// Write what was found as keys of a camera file
     #[arg(long, value_name = "CAMERA.toml")]
     pub camera_out: Option<PathBuf>,
 }
@@ -119,15 +124,16 @@ impl Report {
             }
             written(file, &svg(&self.plots))?;
         }
-        if let Some(file) = &telling.camera_out {
-            let text = self.camera.as_ref();
-            written(
-                file,
-                text.ok_or_else(|| Failure::input("--camera-out: no key of a camera file says what this finds"))?,
-            )?;
-        }
         say(&if telling.json { format!("{:#}\n", self.json()) } else { self.text() });
         Ok(())
+    }
+
+    /// The same, and writes the keys of a camera file where it is asked for.
+    pub(super) fn tell_with_camera(&self, telling: &Telling, out: &CameraOut) -> Result<(), Failure> {
+        if let Some((file, text)) = out.camera_out.as_ref().zip(self.camera.as_ref()) {
+            written(file, text)?;
+        }
+        self.tell(telling)
     }
 
     fn json(&self) -> Value {

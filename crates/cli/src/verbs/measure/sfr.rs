@@ -1,8 +1,8 @@
 //! `etendue measure sfr`: the response of slanted edges.
 
-use super::readings::{Levels, Selection, part, region};
-use super::report::{Cell, Report, Table, Telling};
-use super::truth;
+use super::common::{Common, refused};
+use super::readings::{field_position, part, region};
+use super::report::{Cell, Report, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Mark, Plot, Series};
 use clap::Args;
@@ -17,14 +17,8 @@ pub struct SfrArguments {
     #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
     /// A part of the picture that holds one edge: left column, top row, width, height; once an edge [default: all of it]
-    #[arg(long = "edge", value_name = "X,Y,W,H", value_parser = region)]
+    #[arg(long = "edge", value_name = "X,Y,W,H", value_parser = region, conflicts_with = "truth")]
     pub edges: Vec<[usize; 4]>,
-    /// The truth.json of `etendue chart slanted-edges`: measure every edge that is whole in the picture
-    #[arg(long, value_name = "truth.json", conflicts_with_all = ["edges", "region"])]
-    pub truth: Option<PathBuf>,
-    /// With --truth: the camera that took the picture [default: the first]
-    #[arg(long, value_name = "NAME", requires = "truth")]
-    pub camera: Option<String>,
     /// Degree of the curve that the edges follow: 2 or 3 where the lens bends them
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=5))]
     pub edge_degree: u8,
@@ -32,25 +26,22 @@ pub struct SfrArguments {
     #[arg(long, value_name = "PX", allow_negative_numbers = true)]
     pub reach_px: Option<f64>,
     #[command(flatten)]
-    pub selection: Selection,
-    #[command(flatten)]
-    pub levels: Levels,
-    #[command(flatten)]
-    pub telling: Telling,
+    pub common: Common,
 }
 
 pub(super) fn run(arguments: &SfrArguments) -> Result<(), Failure> {
-    let readings = arguments.selection.linear(&arguments.picture)?;
-    let (width, height) = (readings.image.width(), readings.image.height());
-    let regions = match &arguments.truth {
-        Some(file) => truth::edges(file, arguments.camera.as_deref(), (width, height), readings.period)?,
+    let readings = arguments.common.linear(&arguments.picture)?;
+    let (width, height) = readings.size();
+    let truth = arguments.common.truth(&["slanted-edges"], &arguments.picture, &readings)?;
+    let regions = match &truth {
+        Some(truth) => truth.edges(&readings)?,
         None if arguments.edges.is_empty() => vec![[0, 0, width, height]],
         None => arguments.edges.clone(),
     };
     let settings = SfrSettings {
         edge_degree: arguments.edge_degree.into(),
         reach_px: arguments.reach_px,
-        full_scale: arguments.levels.full_scale(&readings),
+        full_scale: arguments.common.levels.full_scale(&readings),
         ..SfrSettings::default()
     };
     let mut found = Vec::new();
@@ -58,7 +49,7 @@ pub(super) fn run(arguments: &SfrArguments) -> Result<(), Failure> {
     for at in &regions {
         match measure_edge(&part(&readings.image, *at, "--edge")?, &settings) {
             Ok(sfr) => found.push((*at, sfr)),
-            Err(error) if arguments.truth.is_some() => refused.push((*at, error)),
+            Err(error) if truth.is_some() => refused.push((*at, error)),
             Err(error) => return Err(failure(arguments, *at, &error)),
         }
     }
@@ -72,11 +63,11 @@ pub(super) fn run(arguments: &SfrArguments) -> Result<(), Failure> {
         report.note(format!("{} of {} edges could not be measured", refused.len(), refused.len() + found.len()));
         report.table(refusals(&refused));
     }
-    report.tell(&arguments.telling)
+    arguments.common.tell(&report)
 }
 
 fn failure(arguments: &SfrArguments, at: [usize; 4], error: &SfrError) -> Failure {
-    Failure::input(format!("{}: edge at {},{}: {error}", arguments.picture.display(), at[0], at[1]))
+    refused(&arguments.picture, format!("edge at {},{}: {error}", at[0], at[1]))
 }
 
 /// The edges of a chart that could not be measured, and why.
@@ -128,14 +119,6 @@ fn report(regions: &[[usize; 4]], found: &[Sfr], size: (usize, usize)) -> Report
     report.table(curves(regions, found));
     plots(&mut report, regions, found);
     report
-}
-
-/// Distance of an edge's middle from the picture's, of the half diagonal.
-fn field_position(at: &[usize; 4], (width, height): (usize, usize)) -> f64 {
-    let from = |start: usize, length: usize, whole: usize| start as f64 + 0.5 * length as f64 - 0.5 * whole as f64;
-    let (x, y) = (from(at[0], at[2], width), from(at[1], at[3], height));
-    let (w, h) = (0.5 * width as f64, 0.5 * height as f64);
-    ((x * x + y * y) / (w * w + h * h)).sqrt()
 }
 
 /// Every twentieth of a cycle a pixel.

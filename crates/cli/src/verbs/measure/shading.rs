@@ -1,7 +1,8 @@
 //! `etendue measure vignetting` and `etendue measure shading`: a flat field.
 
-use super::readings::{Levels, Readings, Selection};
-use super::report::{Cell, Report, Table, Telling};
+use super::common::{Common, refused};
+use super::readings::Readings;
+use super::report::{CameraOut, Cell, Report, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Mark, Plot, Series};
 use clap::Args;
@@ -11,7 +12,7 @@ use etendue_metrology::shading::{
 };
 use std::path::PathBuf;
 
-/// `etendue measure vignetting` and `etendue measure shading`
+/// A picture of an evenly lit surface, and about which centre.
 #[derive(Debug, Args)]
 pub struct FlatField {
     /// A picture of an evenly lit surface
@@ -23,19 +24,36 @@ pub struct FlatField {
     /// Rings of the profile over the radial field position
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(4..=1000))]
     pub rings: u32,
-    /// Blocks of the map along each side, an odd number
-    #[arg(long, value_name = "N", default_value_t = 11, value_parser = clap::value_parser!(u32).range(1..=501))]
-    pub blocks: u32,
-    /// The pixels' pitch, µm, for --camera-out
-    #[arg(long, value_name = "UM", allow_negative_numbers = true)]
-    pub pixel_pitch_um: Option<f64>,
     #[command(flatten)]
-    pub selection: Selection,
-    #[command(flatten)]
-    pub levels: Levels,
-    #[command(flatten)]
-    pub telling: Telling,
+    pub common: Common,
 }
+
+/// `etendue measure vignetting`
+#[derive(Debug, Args)]
+pub struct Vignetting {
+    #[command(flatten)]
+    pub flat: FlatField,
+    #[command(flatten)]
+    pub out: CameraOut,
+    /// The pixels' pitch, µm, for --camera-out
+    #[arg(long, value_name = "UM", allow_negative_numbers = true, requires = "camera_out")]
+    pub pixel_pitch_um: Option<f64>,
+}
+
+/// `etendue measure shading`
+#[derive(Debug, Args)]
+pub struct ShadingArguments {
+    #[command(flatten)]
+    pub flat: FlatField,
+    /// Blocks of the map along each side, an odd number
+    #[arg(long, value_name = "N", default_value_t = BLOCKS, value_parser = clap::value_parser!(u32).range(1..=501))]
+    pub blocks: u32,
+}
+
+/// Blocks of the map along each side (ISO 17957).
+const BLOCKS: u32 = 11;
+/// Charts of one even surface.
+const CHARTS: [&str; 2] = ["flat-field", "backlit"];
 
 pub(super) fn point(text: &str) -> Result<(f64, f64), String> {
     let both = text.split_once(',').and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)));
@@ -43,35 +61,48 @@ pub(super) fn point(text: &str) -> Result<(f64, f64), String> {
 }
 
 impl FlatField {
-    fn settings(&self, readings: &Readings) -> ShadingSettings {
+    fn settings(&self, readings: &Readings, blocks: u32) -> ShadingSettings {
         ShadingSettings {
-            black: self.levels.black(readings),
-            full_scale: self.levels.full_scale(readings),
+            black: self.common.levels.black(readings),
+            full_scale: self.common.levels.full_scale(readings),
             centre_px: self.centre_px,
             rings: self.rings as usize,
-            blocks: self.blocks as usize,
+            blocks: blocks as usize,
         }
     }
 
     fn refused(&self, error: &ShadingError) -> Failure {
-        Failure::input(format!("{}: {error}", self.picture.display()))
+        refused(&self.picture, error)
     }
 
-    fn measured(&self) -> Result<(Shading, (f64, f64)), Failure> {
-        let readings = self.selection.linear(&self.picture)?;
-        let shading = measure_shading(&readings.image, &self.settings(&readings)).map_err(|e| self.refused(&e))?;
+    /// Where a chart's truth is given: whether it is even and fills this picture.
+    fn check(&self, readings: &Readings) -> Result<(), Failure> {
+        self.common.truth(&CHARTS, &self.picture, readings)?.map_or(Ok(()), |truth| truth.filled())
+    }
+
+    fn measured(&self, blocks: u32) -> Result<(Shading, (f64, f64)), Failure> {
+        let readings = self.common.linear(&self.picture)?;
+        self.check(&readings)?;
+        let shading =
+            measure_shading(&readings.image, &self.settings(&readings, blocks)).map_err(|e| self.refused(&e))?;
         Ok((shading, (readings.image.width() as f64, readings.image.height() as f64)))
     }
+}
 
-    /// Relative illumination as a lens states it, over millimetres.
-    fn camera(&self, shading: &Shading, (width, height): (f64, f64)) -> Result<String, Failure> {
+impl Vignetting {
+    fn pitch_um(&self) -> Result<Option<f64>, Failure> {
         let needed = || {
             Failure::input(
                 "--camera-out: expected --pixel-pitch-um above 0, as a lens states its fall-off over millimetres",
             )
         };
-        let pitch_um = self.pixel_pitch_um.filter(|p| *p > 0.0 && p.is_finite()).ok_or_else(needed)?;
-        let (x, y) = self.centre_px.unwrap_or((0.5 * width, 0.5 * height));
+        let pitch_um = self.pixel_pitch_um.filter(|p| *p > 0.0 && p.is_finite());
+        if self.out.camera_out.is_some() { pitch_um.ok_or_else(needed).map(Some) } else { Ok(None) }
+    }
+
+    /// Relative illumination as a lens states it, over millimetres.
+    fn camera(&self, shading: &Shading, (width, height): (f64, f64), pitch_um: f64) -> String {
+        let (x, y) = self.flat.centre_px.unwrap_or((0.5 * width, 0.5 * height));
         let (x, y) = (x.max(width - x), y.max(height - y));
         let corner_mm = (x * x + y * y).sqrt() * pitch_um / 1000.0;
         let steps = || (0..=20).map(|i| f64::from(i) / 20.0);
@@ -79,16 +110,17 @@ impl FlatField {
         // The last step lies a little beyond the corner, as the lens's table must reach it.
         let radii = list(steps().map(|p| p * corner_mm * (1.0 + 1e-6)).collect());
         let ratios = list(steps().map(|p| shading.falloff(p).max(0.0)).collect());
-        Ok(format!(
+        format!(
             "# Measured relative illumination, corner ± {:.1e}: for [lens] of a camera file.\nformat = 1\n\n\
              [lens.relative_illumination]\nradius_mm = [{radii}]\nratio = [{ratios}]\n",
             shading.corner.standard_uncertainty
-        ))
+        )
     }
 }
 
-pub(super) fn vignetting(arguments: &FlatField) -> Result<(), Failure> {
-    let (shading, size) = arguments.measured()?;
+pub(super) fn vignetting(arguments: &Vignetting) -> Result<(), Failure> {
+    let pitch_um = arguments.pitch_um()?;
+    let (shading, size) = arguments.flat.measured(BLOCKS)?;
     let mut report = Report::new(
         "vignetting",
         "relative illumination of a flat field over the radial field position (± one standard uncertainty)",
@@ -110,30 +142,32 @@ pub(super) fn vignetting(arguments: &FlatField) -> Result<(), Failure> {
             .collect(),
     });
     report.plot(profile_plot(&[("", &shading)]));
-    if arguments.telling.camera_out.is_some() {
-        report.camera(arguments.camera(&shading, size)?);
+    if let Some(pitch_um) = pitch_um {
+        report.camera(arguments.camera(&shading, size, pitch_um));
     }
-    report.tell(&arguments.telling)
+    report.tell_with_camera(&arguments.flat.common.telling, &arguments.out)
 }
 
-pub(super) fn shading(arguments: &FlatField) -> Result<(), Failure> {
+pub(super) fn shading(arguments: &ShadingArguments) -> Result<(), Failure> {
     let method = "shading of a flat field after ISO 17957: blocks relative to the centre (± one standard uncertainty)";
     let mut report = Report::new("shading", method);
-    match arguments.selection.colours(&arguments.picture)? {
+    let (flat, blocks) = (&arguments.flat, arguments.blocks);
+    match flat.common.selection.colours(&flat.picture)? {
         Some(colours) => {
-            let settings = arguments.settings(&colours[1]);
+            flat.check(&colours[1])?;
+            let settings = flat.settings(&colours[1], blocks);
             let [red, green, blue] = &colours;
             let found = colour_shading([&red.image, &green.image, &blue.image], &settings);
-            in_colour(&mut report, &found.map_err(|e| arguments.refused(&e))?);
+            in_colour(&mut report, &found.map_err(|e| flat.refused(&e))?);
         }
         None => {
-            let (found, _) = arguments.measured()?;
+            let (found, _) = flat.measured(blocks)?;
             extreme(&mut report, "illumination", "least illumination", &found.map);
             report.table(map("illumination_percent", &found.map));
             report.plot(profile_plot(&[("", &found)]));
         }
     }
-    report.tell(&arguments.telling)
+    flat.common.tell(&report)
 }
 
 fn in_colour(report: &mut Report, found: &ColourShading) {

@@ -1,14 +1,15 @@
 //! `etendue measure star` and `etendue measure texture`: fine structure.
 
-use super::readings::{Levels, Selection};
-use super::report::{Cell, Report, Table, Telling};
+use super::common::{Common, refused};
+use super::readings::{Readings, part};
+use super::report::{Cell, Report, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Mark, Plot, Series};
 use clap::Args;
-use etendue_metrology::Estimate;
 use etendue_metrology::texture::leaves::{TexturePoint, measure_texture};
 use etendue_metrology::texture::star::{Star, StarPoint, measure_star};
-use std::path::PathBuf;
+use etendue_metrology::{Estimate, Image};
+use std::path::{Path, PathBuf};
 
 /// `etendue measure star`
 #[derive(Debug, Args)]
@@ -17,23 +18,19 @@ pub struct StarArguments {
     #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
     /// The star's centre, raster coordinates, within two pixels
-    #[arg(long, value_name = "X,Y", value_parser = super::shading::point)]
-    pub centre_px: (f64, f64),
+    #[arg(long, value_name = "X,Y", value_parser = super::shading::point, required_unless_present = "truth", conflicts_with = "truth")]
+    pub centre_px: Option<(f64, f64)>,
     /// Cycles of dark and bright all round
-    #[arg(long, value_name = "N")]
-    pub cycles: u32,
-    /// The smallest circle, px
-    #[arg(long, value_name = "PX", allow_negative_numbers = true)]
-    pub inner_px: f64,
-    /// The largest circle, px: the response is 1 there
-    #[arg(long, value_name = "PX", allow_negative_numbers = true)]
-    pub outer_px: f64,
+    #[arg(long, value_name = "N", required_unless_present = "truth", conflicts_with = "truth")]
+    pub cycles: Option<u32>,
+    /// The smallest circle, px [with --truth: where the star has half a cycle a pixel, or begins]
+    #[arg(long, value_name = "PX", required_unless_present = "truth", allow_negative_numbers = true)]
+    pub inner_px: Option<f64>,
+    /// The largest circle, px: the response is 1 there [with --truth: a little within the star's rim]
+    #[arg(long, value_name = "PX", required_unless_present = "truth", allow_negative_numbers = true)]
+    pub outer_px: Option<f64>,
     #[command(flatten)]
-    pub selection: Selection,
-    #[command(flatten)]
-    pub levels: Levels,
-    #[command(flatten)]
-    pub telling: Telling,
+    pub common: Common,
 }
 
 /// `etendue measure texture`
@@ -49,21 +46,50 @@ pub struct Texture {
     #[arg(long, value_name = "PICTURE")]
     pub even: Option<PathBuf>,
     #[command(flatten)]
-    pub selection: Selection,
-    #[command(flatten)]
-    pub telling: Telling,
+    pub common: Common,
+}
+
+/// What is left out of a star at its rim, share of its radius and at least this many pixels of blur.
+const RIM_SHARE: f64 = 0.03;
+const RIM_PX: f64 = 2.0;
+
+/// The star as told by options or by the chart's truth, whose circles begin where half a cycle fills a pixel.
+fn star_told(arguments: &StarArguments, readings: &Readings) -> Result<Star, Failure> {
+    let levels = &arguments.common.levels;
+    let (black, full_scale) = (levels.black(readings), levels.full_scale(readings));
+    let needed = || Failure::input("expected --centre-px, --cycles, --inner-px and --outer-px, or --truth");
+    let star =
+        |centre_px, cycles, inner_px, outer_px| Star { centre_px, cycles, inner_px, outer_px, black, full_scale };
+    let Some(truth) = arguments.common.truth(&["siemens-star"], &arguments.picture, readings)? else {
+        let circles = arguments.inner_px.zip(arguments.outer_px);
+        let (inner_px, outer_px) = circles.ok_or_else(needed)?;
+        let (centre_px, cycles) = arguments.centre_px.zip(arguments.cycles).ok_or_else(needed)?;
+        return Ok(star(centre_px, cycles, inner_px, outer_px));
+    };
+    if readings.period != (1, 1) {
+        let mosaic = "one colour of a mosaic sees a star too coarsely: measure the developed picture";
+        return Err(refused(&arguments.picture, mosaic));
+    }
+    let seen = truth.star(readings)?;
+    let nyquist_px = f64::from(seen.cycles) / core::f64::consts::PI;
+    let outer_px = arguments.outer_px.unwrap_or(seen.outer_px - RIM_PX.max(RIM_SHARE * seen.outer_px));
+    let inner_px = arguments.inner_px.unwrap_or((seen.inner_px + RIM_PX).max(nyquist_px));
+    if inner_px + 2.0 > outer_px {
+        let coarse = f64::from(seen.cycles) / (core::f64::consts::TAU * outer_px);
+        return Err(refused(
+            &arguments.picture,
+            format!(
+                "the star is too small: its rim has {coarse:.2} cycles a pixel, and 0.5 is the most that pixels tell; take fewer cycles"
+            ),
+        ));
+    }
+    Ok(star(seen.centre_px.into(), seen.cycles, inner_px, outer_px))
 }
 
 pub(super) fn star(arguments: &StarArguments) -> Result<(), Failure> {
-    let readings = arguments.selection.linear(&arguments.picture)?;
-    let star = Star {
-        centre_px: arguments.centre_px,
-        cycles: arguments.cycles,
-        inner_px: arguments.inner_px,
-        outer_px: arguments.outer_px,
-        black: arguments.levels.black(&readings),
-    };
-    let named = |error| Failure::input(format!("{}: {error}", arguments.picture.display()));
+    let readings = arguments.common.linear(&arguments.picture)?;
+    let star = star_told(arguments, &readings)?;
+    let named = |error| refused(&arguments.picture, error);
     let (points, (x, y)) = measure_star(&readings.image, &star).map_err(named)?;
     let mut report =
         Report::new("star", "Siemens star after ISO 12233, over its outer circle (± one standard uncertainty)");
@@ -78,7 +104,7 @@ pub(super) fn star(arguments: &StarArguments) -> Result<(), Failure> {
     });
     let curve = points.iter().map(|p| (p.frequency, p.response.value, 2.0 * p.response.standard_uncertainty));
     report.plot(response_plot("response of the star (bars: 95 %)", vec![Series::with_errors("", Mark::Line, curve)]));
-    report.tell(&arguments.telling)
+    arguments.common.tell(&report)
 }
 
 fn response_plot(title: &str, series: Vec<Series>) -> Plot {
@@ -90,11 +116,24 @@ fn response_plot(title: &str, series: Vec<Series>) -> Plot {
     }
 }
 
+/// A picture of the leaves, cut to them where the chart's truth says where they are, and its reading of saturation.
+fn leaves(arguments: &Texture, file: &Path) -> Result<(Image, Option<f64>), Failure> {
+    let common = &arguments.common;
+    let readings = common.linear(file)?;
+    let full_scale = common.levels.full_scale(&readings);
+    let image = match common.truth(&["dead-leaves"], file, &readings)? {
+        Some(truth) => part(&readings.image, truth.patches(&readings)?.0[0].at, "--truth: the leaves")?,
+        None => readings.image,
+    };
+    Ok((image, full_scale))
+}
+
 pub(super) fn texture(arguments: &Texture) -> Result<(), Failure> {
-    let read = |file: &PathBuf| Ok(arguments.selection.linear(file)?.image);
-    let (picture, reference) = (read(&arguments.picture)?, read(&arguments.reference)?);
-    let even = arguments.even.as_ref().map(read).transpose()?;
-    let points = measure_texture(&picture, &reference, even.as_ref()).map_err(Failure::input)?;
+    let (picture, full_scale) = leaves(arguments, &arguments.picture)?;
+    let (reference, _) = leaves(arguments, &arguments.reference)?;
+    let even = arguments.even.as_ref().map(|file| leaves(arguments, file)).transpose()?.map(|(image, _)| image);
+    let points = measure_texture(&picture, &reference, even.as_ref(), full_scale);
+    let points = points.map_err(|error| refused(&arguments.picture, error))?;
     let mut report = Report::new("texture", "response to a texture against its reference (± one standard uncertainty)");
     if even.is_none() {
         report.note("without --even noise counts as structure in 'direct'");
@@ -125,5 +164,5 @@ pub(super) fn texture(arguments: &Texture) -> Result<(), Failure> {
             Series::new("structure of any kind", Mark::Broken, points.iter().map(|p| (p.frequency, p.direct))),
         ],
     ));
-    report.tell(&arguments.telling)
+    arguments.common.tell(&report)
 }

@@ -4,7 +4,7 @@ mod plots;
 mod told;
 
 use super::readings::Selection;
-use super::report::Telling;
+use super::report::{CameraOut, Telling};
 use crate::failure::Failure;
 use crate::progress::PictureBar;
 use clap::Args;
@@ -30,13 +30,15 @@ pub struct Ptc {
     pub selection: Selection,
     #[command(flatten)]
     pub telling: Telling,
+    #[command(flatten)]
+    pub out: CameraOut,
 }
 
 impl Ptc {
     /// A measurement that is not told by itself.
     pub(super) fn of(descriptor: PathBuf, selection: &Selection) -> Self {
-        let telling = Telling { json: false, plot: None, camera_out: None };
-        Self { descriptor, relative_light: true, selection: selection.clone(), telling }
+        let telling = Telling { json: false, plot: None };
+        Self { descriptor, relative_light: true, selection: selection.clone(), telling, out: CameraOut::default() }
     }
 }
 
@@ -67,7 +69,7 @@ struct Fixed {
 pub(super) fn run(arguments: &Ptc) -> Result<(), Failure> {
     let descriptor = read_emva_descriptor(&arguments.descriptor).map_err(Failure::input)?;
     let found = measure(arguments, &descriptor)?;
-    told::report(arguments, &found).tell(&arguments.telling)
+    told::report(arguments, &found).tell_with_camera(&arguments.telling, &arguments.out)
 }
 
 /// The curve's figures.

@@ -1,0 +1,258 @@
+//! What the truth.json of a chart says of a picture of it.
+
+mod outline;
+mod said;
+
+use super::readings::Readings;
+use crate::failure::Failure;
+use clap::Args;
+use glam::DVec2;
+use said::{CameraSaid, Said};
+use std::path::{Path, PathBuf};
+
+/// Where the chart's truth lies.
+#[derive(Clone, Debug, Args)]
+pub struct TruthArguments {
+    /// The truth.json of `etendue chart`, which says what is in the picture and where
+    #[arg(long, value_name = "truth.json", conflicts_with = "region")]
+    pub truth: Option<PathBuf>,
+    /// With --truth: the camera that took the picture [default: the first]
+    #[arg(long, value_name = "NAME", requires = "truth")]
+    pub camera: Option<String>,
+}
+
+/// How much of an edge's length its region takes along it, and across it to both sides together.
+const ALONG: f64 = 0.6;
+const ACROSS: f64 = 0.5;
+/// What is left out at a patch's outline: this many pixels of the picture, which lenses blur and demosaicing mixes, and at least this
+/// share of half its side.
+const MARGIN_PX: f64 = 2.0;
+const MARGIN_SHARE: f64 = 0.2;
+/// Part of an even surface that is measured, along each side, where a fall-off must not count.
+const MIDDLE: f64 = 0.25;
+
+/// A chart's truth as one of its cameras sees it.
+pub(super) struct Truth {
+    file: PathBuf,
+    said: Said,
+    camera: usize,
+}
+
+/// A patch among the readings.
+#[derive(Clone, Debug)]
+pub(super) struct Patch {
+    pub name: String,
+    /// Left column, top row, width, height.
+    pub at: [usize; 4],
+    /// Its luminance, cd/m².
+    pub luminance_cd_m2: f64,
+    /// CIE XYZ, Y of the perfect diffuser 1.
+    pub xyz: [f64; 3],
+}
+
+/// A star in the picture.
+pub(super) struct StarPlace {
+    /// Among the readings.
+    pub centre_px: [f64; 2],
+    pub cycles: u32,
+    /// The rim of its ground and its own, in the picture.
+    pub inner_px: f64,
+    pub outer_px: f64,
+}
+
+/// A light trap and the white about it.
+pub(super) struct TrapPlace {
+    pub trap: [usize; 4],
+    pub whites: Vec<[usize; 4]>,
+}
+
+impl TruthArguments {
+    /// The truth of one of these charts; `None` where none is given.
+    pub(super) fn read(&self, charts: &[&str]) -> Result<Option<Truth>, Failure> {
+        self.truth.as_deref().map(|file| Truth::read(file, self.camera.as_deref(), charts)).transpose()
+    }
+}
+
+impl Truth {
+    fn read(file: &Path, camera: Option<&str>, charts: &[&str]) -> Result<Self, Failure> {
+        let said = said::read(file)?;
+        let refused = |what: String| Failure::input(format!("{}: {what}", file.display()));
+        if !charts.contains(&said.chart.as_str()) {
+            let wanted = charts.join(", ");
+            return Err(refused(format!("the truth of the chart {}; this measurement takes {wanted}", said.chart)));
+        }
+        let named = |c: &CameraSaid| camera.is_none_or(|name| c.name == name) && (camera.is_some() || !c.dark);
+        let camera = said.cameras.iter().position(named).ok_or_else(|| {
+            let names: Vec<&str> = said.cameras.iter().map(|c| c.name.as_str()).collect();
+            refused(format!("no camera '{}'; it has {}", camera.unwrap_or_default(), names.join(", ")))
+        })?;
+        Ok(Self { file: file.to_owned(), said, camera })
+    }
+
+    pub(super) fn chart(&self) -> &str {
+        &self.said.chart
+    }
+
+    fn refused(&self, what: impl std::fmt::Display) -> Failure {
+        Failure::input(format!("{}: {what}", self.file.display()))
+    }
+
+    fn seen(&self) -> &CameraSaid {
+        &self.said.cameras[self.camera]
+    }
+
+    /// Whether a picture has the size of the camera's.
+    pub(super) fn fits(&self, picture: &Path, readings: &Readings) -> Result<(), Failure> {
+        let ((width, height), camera) = (readings.picture_px, self.seen());
+        let [columns, rows] = camera.picture_px;
+        if (width, height) == (columns, rows) {
+            return Ok(());
+        }
+        Err(Failure::input(format!(
+            "{}: {width} × {height} pixels, where the camera '{}' of {} takes {columns} × {rows}: give its whole picture, neither \
+             cut nor scaled",
+            picture.display(),
+            camera.name,
+            self.file.display()
+        )))
+    }
+
+    /// XYZ of the light.
+    pub(super) fn white_xyz(&self) -> [f64; 3] {
+        self.said.light.xyz
+    }
+
+    /// The middle of an even surface that fills the picture.
+    pub(super) fn middle(&self, readings: &Readings) -> Result<[usize; 4], Failure> {
+        self.filled()?;
+        let [w, h] = self.seen().picture_px.map(|n| n as f64);
+        let side = |share: f64| [share * w, share * h];
+        readings
+            .between(side(0.5 - 0.5 * MIDDLE), side(0.5 + 0.5 * MIDDLE))
+            .ok_or_else(|| self.refused("the picture is too small"))
+    }
+
+    /// Refuses a sheet that the camera sees past.
+    pub(super) fn filled(&self) -> Result<(), Failure> {
+        match self.said.seen.fills_the_field {
+            true => Ok(()),
+            false => {
+                Err(self.refused("the camera sees past the sheet's edge: measure a --region of it, without --truth"))
+            }
+        }
+    }
+
+    /// Luminance and exposure time of each camera that sees the light, in their order: cd s/m².
+    pub(super) fn exposures(&self) -> Result<Vec<(&str, f64)>, Failure> {
+        let lit = self.said.cameras.iter().filter(|c| !c.dark);
+        let exposure = |c: &'_ CameraSaid| c.exposure_s.map(|s| s * self.said.light.luminance_cd_m2);
+        lit.map(|c| exposure(c).map(|h| (c.name.as_str(), h)).ok_or_else(|| self.refused("a camera has no exposure")))
+            .collect()
+    }
+
+    /// The patches that are whole in the picture and large enough, and the names of the others.
+    pub(super) fn patches(&self, readings: &Readings) -> Result<(Vec<Patch>, Vec<String>), Failure> {
+        let (mut found, mut left_out) = (Vec::new(), Vec::new());
+        for (patch, places) in self.said.patches.iter().zip(&self.seen().patches_px) {
+            let ink = self.said.inks.iter().find(|ink| ink.name == patch.ink);
+            let ink = ink.ok_or_else(|| self.refused(format!("the patch {} has no ink", patch.name)))?;
+            match whole(places).and_then(|outline| square(&outline, readings)) {
+                Some(at) => found.push(Patch {
+                    name: patch.name.clone(),
+                    at,
+                    luminance_cd_m2: ink.luminance_cd_m2,
+                    xyz: ink.xyz,
+                }),
+                None => left_out.push(patch.name.clone()),
+            }
+        }
+        if found.is_empty() {
+            return Err(self.refused("no patch is whole in the picture and large enough to be measured"));
+        }
+        Ok((found, left_out))
+    }
+
+    /// Light traps that are whole in the picture with the white midway to their neighbours.
+    pub(super) fn traps(&self, readings: &Readings) -> Result<Vec<TrapPlace>, Failure> {
+        let opening = self.said.size("opening_mm").zip(self.said.size("pitch_mm"));
+        let (opening, pitch) = opening.ok_or_else(|| self.refused("lacks the sizes of the traps"))?;
+        let trap = |places: &Vec<Option<[f64; 2]>>| {
+            let outline = whole(places)?;
+            let trap = square(&outline, readings)?;
+            let whites = outline::beside(&outline, opening, pitch).into_iter();
+            let whites: Vec<[usize; 4]> = whites.filter_map(|white| self.within(&white, readings)).collect();
+            (!whites.is_empty()).then_some(TrapPlace { trap, whites })
+        };
+        let found: Vec<TrapPlace> = self.seen().patches_px.iter().filter_map(trap).collect();
+        if found.is_empty() {
+            return Err(self.refused("no trap is whole in the picture and large enough, with white beside it"));
+        }
+        Ok(found)
+    }
+
+    /// A square of a middle and half a side, if it is in the picture.
+    fn within(&self, (middle, half): &(DVec2, f64), readings: &Readings) -> Option<[usize; 4]> {
+        let (low, high) = (*middle - *half, *middle + *half);
+        let size = self.seen().picture_px.map(|n| n as f64);
+        let inside = low.min_element() >= 0.0 && high.x <= size[0] && high.y <= size[1];
+        readings.between(low.into(), high.into()).filter(|at| inside && at[2] > 1 && at[3] > 1)
+    }
+
+    /// The Siemens star.
+    pub(super) fn star(&self, readings: &Readings) -> Result<StarPlace, Failure> {
+        let lacks = || self.refused("the star is not wholly in the picture");
+        let feature = |kind: &str| {
+            let at = self.said.features.iter().position(|f| f.kind == kind)?;
+            whole(self.seen().features_px.get(at)?)
+        };
+        let (centre, rim) = (feature("centre").ok_or_else(lacks)?[0], feature("rim").ok_or_else(lacks)?);
+        let ground = self.seen().patches_px.first().and_then(|places| whole(places)).ok_or_else(lacks)?;
+        let radii = |outline: &[DVec2]| outline.iter().map(|p| (*p - centre).length()).collect::<Vec<f64>>();
+        let cycles = self.said.size("cycles").ok_or_else(lacks)? as u32;
+        Ok(StarPlace {
+            centre_px: readings.place(centre.into()),
+            cycles,
+            inner_px: radii(&ground).into_iter().fold(0.0, f64::max),
+            outer_px: radii(&rim).into_iter().fold(f64::INFINITY, f64::min),
+        })
+    }
+
+    /// Regions about the edges of squares that are whole in the picture.
+    pub(super) fn edges(&self, readings: &Readings) -> Result<Vec<[usize; 4]>, Failure> {
+        let pairs = self.said.features.iter().zip(&self.seen().features_px).filter(|(f, _)| f.kind == "edge");
+        let regions: Vec<[usize; 4]> = pairs.filter_map(|(_, ends)| region(&whole(ends)?, readings)).collect();
+        if regions.is_empty() {
+            return Err(self.refused("the camera sees no whole edge of this chart"));
+        }
+        Ok(regions)
+    }
+}
+
+/// The points of an outline or edge that are all in the picture.
+fn whole(places: &[Option<[f64; 2]>]) -> Option<Vec<DVec2>> {
+    let points: Option<Vec<DVec2>> = places.iter().map(|p| p.map(DVec2::from)).collect();
+    points.filter(|points| !points.is_empty())
+}
+
+/// The readings of the largest square within an outline, less its margin.
+fn square(outline: &[DVec2], readings: &Readings) -> Option<[usize; 4]> {
+    let (middle, half) = outline::largest_square(outline);
+    let side = half - MARGIN_PX.max(MARGIN_SHARE * half);
+    let at = readings.between((middle - side).into(), (middle + side).into())?;
+    (side > 0.0 && at[2] > 1 && at[3] > 1).then_some(at)
+}
+
+/// About an edge from one end to the other.
+fn region(ends: &[DVec2], readings: &Readings) -> Option<[usize; 4]> {
+    let [a, b] = [ends.first()?, ends.get(1)?].map(|p| readings.place((*p).into()));
+    let run = [(b[0] - a[0]).abs(), (b[1] - a[1]).abs()];
+    let length = run[0].max(run[1]);
+    let sides = if run[1] > run[0] { [ACROSS, ALONG] } else { [ALONG, ACROSS] }.map(|share| share * length);
+    let start = [0, 1].map(|i| 0.5 * (a[i] + b[i]) - 0.5 * sides[i]);
+    let (width, height) = readings.size();
+    let within = start[0] >= 0.0
+        && start[1] >= 0.0
+        && start[0] + sides[0] <= width as f64
+        && start[1] + sides[1] <= height as f64;
+    within.then(|| [start[0], start[1], sides[0], sides[1]].map(|v| v as usize))
+}

@@ -1,0 +1,80 @@
+//! The parts of a truth.json that measurements read.
+
+use crate::failure::Failure;
+use serde::Deserialize;
+use serde_json::{Map, Value};
+use std::path::Path;
+
+/// Points of the picture, px; `None` beyond it.
+type Places = Vec<Option<[f64; 2]>>;
+
+#[derive(Debug, Deserialize)]
+pub(super) struct Said {
+    pub chart: String,
+    pub sizes: Map<String, Value>,
+    pub seen: SeenSaid,
+    pub light: LightSaid,
+    pub inks: Vec<InkSaid>,
+    #[serde(default)]
+    pub features: Vec<FeatureSaid>,
+    #[serde(default)]
+    pub patches: Vec<PatchSaid>,
+    pub cameras: Vec<CameraSaid>,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct SeenSaid {
+    pub fills_the_field: bool,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct LightSaid {
+    pub luminance_cd_m2: f64,
+    pub xyz: [f64; 3],
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct InkSaid {
+    pub name: String,
+    pub luminance_cd_m2: f64,
+    pub xyz: [f64; 3],
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct FeatureSaid {
+    pub kind: String,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct PatchSaid {
+    pub name: String,
+    pub ink: String,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct CameraSaid {
+    pub name: String,
+    pub dark: bool,
+    pub picture_px: [usize; 2],
+    pub exposure_s: Option<f64>,
+    #[serde(default)]
+    pub features_px: Vec<Places>,
+    #[serde(default)]
+    pub patches_px: Vec<Places>,
+}
+
+impl Said {
+    /// A number among the chart's sizes.
+    pub(super) fn size(&self, key: &str) -> Option<f64> {
+        self.sizes.get(key)?.as_f64()
+    }
+}
+
+pub(super) fn read(file: &Path) -> Result<Said, Failure> {
+    let text = crate::job::read_text(file).map_err(Failure::input)?;
+    let refused = |cause: serde_json::Error| {
+        Failure::input(format!("{}: no truth of a chart ({cause}): draw the chart with this program", file.display()))
+    };
+    let said: Said = serde_json::from_str(&text).map_err(refused)?;
+    Ok(said)
+}

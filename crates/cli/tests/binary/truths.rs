@@ -1,0 +1,209 @@
+//! From a chart to a number: drawn, rendered, measured where its truth says, against the known answer.
+
+use crate::support::{Ran, etendue, text};
+use serde_json::Value;
+use std::path::PathBuf;
+
+/// A small camera whose response is the pixel's aperture alone: its readings are 500 + 1.5 electrons.
+const CAMERA: &str = "format = 1\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm = 16\nf_number = 4\n[sensor]\nwidth_px = \
+                      160\nheight_px = 120\npixel_pitch_um = 8\nexposure_s = 0.01\nfull_well_e = 40000\nread_noise_e = \
+                      5\ndark_current_e_s = 0\ngain_dn_per_e = 1.5\nblack_level_dn = 500\nbits = 16\n";
+const MONO: &str = "cfa = \"mono\"\nquantum_efficiency = 0.5\n";
+const BAYER: &str = "cfa = \"rggb\"\nquantum_efficiency = { camera = \"nikon-d5100\", peak = 0.35 }\n[processing]\nwhite_balance = \
+                     \"D65\"\ncolour_matrix = { fit = \"D65\" }\n";
+
+/// A chart with its pictures.
+struct Shot {
+    folder: tempfile::TempDir,
+    output: String,
+}
+
+impl Shot {
+    fn of(chart: &str, sensor: &str, options: &[&str], rendering: &[&str]) -> Self {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let at = |name: &str| text(&folder.path().join(name));
+        std::fs::write(at("camera.toml"), format!("{CAMERA}{sensor}")).expect("written");
+        let drawn = ["chart", chart, "--camera", &at("camera.toml"), "-o", &at("chart")];
+        etendue(drawn.iter().chain(options)).ok();
+        let output = at("out");
+        let job = at("chart/job.toml");
+        etendue(["render", &job, "-o", &output, "--set", "output.ground_truth=false"].iter().chain(rendering)).ok();
+        Self { folder, output }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn truth(&self) -> String {
+        text(&self.path("chart/truth.json"))
+    }
+
+    fn picture(&self, name: &str) -> String {
+        format!("{}/{name}", self.output)
+    }
+
+    /// Measures pictures by the chart's truth.
+    fn measure(&self, kind: &str, pictures: &[&str], options: &[&str]) -> Ran {
+        let pictures: Vec<String> = pictures.iter().map(|name| self.picture(name)).collect();
+        let (truth, plot) = (self.truth(), text(&self.path("plot.svg")));
+        let told = ["--truth", &truth, "--plot", &plot, "--json"];
+        let pictures = pictures.iter().map(String::as_str);
+        etendue(["measure", kind].into_iter().chain(pictures).chain(told).chain(options.iter().copied()))
+    }
+
+    /// Of the first picture.
+    fn json(&self, kind: &str, options: &[&str]) -> Value {
+        self.series(kind, &["camera/raw.0000.png"], options)
+    }
+
+    fn series(&self, kind: &str, pictures: &[&str], options: &[&str]) -> Value {
+        serde_json::from_str(&self.measure(kind, pictures, options).ok().out).expect("JSON")
+    }
+}
+
+fn figure(report: &Value, key: &str) -> f64 {
+    report["figures"][key]["value"].as_f64().unwrap_or_else(|| panic!("{key} is missing in {report}"))
+}
+
+fn rows<'a>(report: &'a Value, table: &str) -> &'a Vec<Value> {
+    report["tables"][table].as_array().unwrap_or_else(|| panic!("{table} is missing in {report}"))
+}
+
+fn value(cell: &Value) -> f64 {
+    cell["value"].as_f64().or(cell.as_f64()).expect("a number")
+}
+
+/// The truth's electrons of an ink in the middle of the picture.
+fn electrons(shot: &Shot, ink: usize) -> f64 {
+    let truth: Value = serde_json::from_str(&std::fs::read_to_string(shot.truth()).expect("a truth")).expect("JSON");
+    truth["inks"][ink]["electrons"]["mono"].as_f64().expect("electrons")
+}
+
+#[test]
+fn steps_and_exposures_give_the_line_of_the_sensor() {
+    let shot = Shot::of("oecf-steps", MONO, &["--steps", "8", "--density", "1.5"], &["--spp", "64"]);
+    let report = shot.json("oecf", &[]);
+    assert_eq!(rows(&report, "points").len(), 8);
+    // 500 + 1.5 electrons a reading; the ring lies 40 px from the middle, cos⁴ of 1.1°: 0.07 % less. 64 samples leave half a per cent
+    // in a pixel, of some 100 to a step.
+    let truth: Value = serde_json::from_str(&std::fs::read_to_string(shot.truth()).expect("a truth")).expect("JSON");
+    let ink = &truth["inks"][1];
+    let slope = 1.5 * ink["electrons"]["mono"].as_f64().expect("electrons") / value(&ink["luminance_cd_m2"]);
+    assert!((figure(&report, "slope") / slope - 1.0).abs() < 3e-3, "{slope} {report}");
+    assert!(
+        (figure(&report, "offset") - 500.0).abs() < 12.0 && figure(&report, "linearity_error_percent") < 0.5,
+        "{report}"
+    );
+    shot.measure("noise", &["camera/raw.0000.png"], &[]).refused(&["at least 8 frames"]);
+    let series = Shot::of("backlit", MONO, &["--levels", "0.1,0.2,0.4,0.7,1.2"], &["--spp", "64"]);
+    let names: Vec<String> = (1..=5).map(|i| format!("exposure-0{i}/raw.0000.png")).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let report = series.series("oecf", &names, &[]);
+    let truth: Value = serde_json::from_str(&std::fs::read_to_string(series.truth()).expect("a truth")).expect("JSON");
+    let slope = 1.5 * electrons(&series, 0) / 0.01 / value(&truth["light"]["luminance_cd_m2"]);
+    assert!((figure(&report, "slope") / slope - 1.0).abs() < 3e-3, "{slope} {report}");
+    // The last is saturated.
+    assert!(
+        (figure(&report, "saturation_exposure") / value(&rows(&report, "points")[4]["exposure"]) - 1.0).abs() < 1e-9
+    );
+    series.measure("oecf", &["exposure-01/camera.json"], &[]).refused(&["camera.json"]);
+    let elsewhere = series.path("copy.png");
+    std::fs::copy(series.picture(names[0]), &elsewhere).expect("copied");
+    let run = etendue(["measure", "oecf", &text(&elsewhere), "--truth", &series.truth()]);
+    run.refused(&["copy.png", "none of the cameras exposure-01"]);
+}
+
+#[test]
+fn patches_in_their_light_give_noise_and_contrast() {
+    let options = ["--columns", "4", "--decades", "1.5"];
+    let shot = Shot::of("contrast-patches", MONO, &options, &["--spp", "64", "--frames", "0..8"]);
+    let report = shot.json("cdp", &[]);
+    let pairs = rows(&report, "pairs");
+    assert_eq!(pairs.len(), 11);
+    for pair in pairs {
+        // Twelve patches over 1.5 decades: 10^(1.5/11) − 1 = 0.3689.
+        assert!((value(&pair["scene_contrast"]) - 0.368_9).abs() < 1e-4, "{pair}");
+        // Shot noise of 1 700 electrons or more: the contrast is hardly ever out of 50 %.
+        assert!(value(&pair["cdp"]) > 0.98 && (value(&pair["cta"]) - 1.0).abs() < 0.03, "{pair}");
+    }
+    let frames: Vec<String> = (0..8).map(|i| format!("camera/raw.{i:04}.png")).collect();
+    let frames: Vec<&str> = frames.iter().map(String::as_str).collect();
+    let noise = shot.series("noise", &frames, &[]);
+    assert_eq!(rows(&noise, "patches").len(), 12);
+    for patch in rows(&noise, "patches") {
+        let electrons = value(&patch["signal"]) / 1.5;
+        // Shot noise, 5 electrons of reading and a quantiser of one count.
+        let expected = (1.5 * 1.5 * (electrons + 25.0) + 1.0 / 12.0).sqrt();
+        let (found, u) = (value(&patch["temporal_noise"]), &patch["temporal_noise"]["standard_uncertainty"]);
+        assert!((found - expected).abs() < 4.0 * value(u), "{found} {expected} {patch}");
+    }
+}
+
+#[test]
+fn traps_and_stars_give_what_the_chart_sends() {
+    let shot = Shot::of("flare", MONO, &["--columns", "3"], &["--spp", "64"]);
+    let report = shot.json("flare", &[]);
+    assert_eq!(rows(&report, "traps").len(), 6);
+    // A pinhole has no flare: what is left is the light of the traps' own insides, 0.01/(1 + 36)/0.9 = 0.03 % of the white from the bottom
+    // and as much again, or twice it, from the walls.
+    assert!((0.0..0.15).contains(&figure(&report, "flare_percent")), "{report}");
+    let shot = Shot::of("siemens-star", MONO, &["--cycles", "24"], &["--spp", "256"]);
+    let report = shot.json("star", &[]);
+    assert!(
+        (figure(&report, "centre_x_px") - 80.0).abs() < 0.05 && (figure(&report, "centre_y_px") - 60.0).abs() < 0.05
+    );
+    let sinc = |x: f64| etendue_core::maths::f64::sin(x) / x;
+    // The square pixel over the directions of the tangent, over that at the rim.
+    let aperture = |f: f64| {
+        let part = |k: i32| {
+            let (sine, cosine) = etendue_core::maths::f64::sin_cos(0.1 * f64::from(k) + 0.05);
+            sinc(std::f64::consts::PI * f * sine) * sinc(std::f64::consts::PI * f * cosine)
+        };
+        (0..63).map(part).sum::<f64>() / 63.0
+    };
+    let circles = rows(&report, "circles");
+    let rim = aperture(value(&circles[0]["cycles_per_px"]));
+    let last = value(&circles[circles.len() - 1]["cycles_per_px"]);
+    assert!((0.4..=0.5).contains(&last), "{last}");
+    for circle in circles {
+        let (f, found) = (value(&circle["cycles_per_px"]), value(&circle["response"]));
+        let u = value(&circle["response"]["standard_uncertainty"]);
+        assert!((found - aperture(f) / rim).abs() < 0.005 + 4.0 * u, "{f}: {found} ± {u}, {}", aperture(f) / rim);
+    }
+}
+
+/// With the matrix that fits the patches best: raw and developed picture, in the light of the chart, not only in daylight.
+#[test]
+fn a_colour_chart_is_seen_in_its_own_light() {
+    let shot = Shot::of("colorchecker", BAYER, &["--illuminant", "A", "--white", "0.3"], &["--spp", "64"]);
+    for picture in ["camera/raw.0000.png", "camera/picture.0000.png"] {
+        let report = shot.series("colour", &[picture], &[]);
+        assert_eq!(rows(&report, "patches").len(), 24);
+        // A camera that is no matrix of the eye: the least-squares matrix of the D5100's curves leaves about 1 (measured here, and 0.9 to 1.5
+        // in the literature for such cameras).
+        let mean = figure(&report, "mean_delta_e00");
+        assert!((0.3..2.0).contains(&mean), "{picture}: {mean}");
+        // True colours are those of the chart's light: L* of white is 95 to 97 in any.
+        let white = &rows(&report, "patches")[18];
+        assert!(
+            (value(&white["reference_l"]) - 96.0).abs() < 1.5 && value(&white["reference_b"]).abs() < 4.0,
+            "{white}"
+        );
+    }
+    let green = ["--channel", "G"];
+    shot.measure("colour", &["camera/raw.0000.png"], &green).refused(&["a picture in colour"]);
+    shot.measure("sfr", &["camera/picture.0000.png"], &[]).refused(&["the chart colorchecker", "slanted-edges"]);
+    let small = Shot::of("flat-field", MONO, &["--png", "10"], &["--spp", "4"]);
+    let cut = text(&small.path("chart/chart.png"));
+    etendue(["measure", "vignetting", &cut, "--truth", &small.truth()]).refused(&[
+        "chart.png",
+        "160 × 120",
+        "neither cut nor scaled",
+    ]);
+    etendue(["measure", "vignetting", &cut, "--truth", &shot.truth()])
+        .refused(&["the chart colorchecker", "flat-field, backlit"]);
+    small.json("vignetting", &[]);
+    small.json("shading", &[]);
+    small.measure("star", &["camera/raw.0000.png"], &[]).refused(&["the chart flat-field", "siemens-star"]);
+}
