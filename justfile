@@ -27,6 +27,10 @@ oracles:
 validate *cameras:
     charts/validate {{cameras}}
 
+# Cameras with a fault beside their files without it: every fault must be flagged; writes docs/faults.md
+faults:
+    ETENDUE_BLESS=1 cargo test -p etendue-cli --test binary faults::
+
 # Efficiency beside Mitsuba 3 and Cycles (needs Python 3.11, PyPI, libllvm19)
 peers *arguments:
     benches/peers/run {{arguments}}

@@ -4,7 +4,9 @@
 //! where green does (vector, px). Its radial part (positive: farther from the centre than green) and its tangential part
 //! (positive: turned from x towards y) are taken about the picture's centre. Points belong together where they are nearest,
 //! within half a step. By rings of a tenth of the half diagonal: the means, with their standard uncertainty from the scatter
-//! within the ring, or from the points' own uncertainties where that is more.
+//! within the ring, or from the points' own uncertainties where that is more. The mean of all points is the channel's shift as a
+//! whole, which rings about the centre do not show; of a chart that lies evenly about the centre, a difference in scale is not in it.
+//! The largest displacement is the longest of many lengths, noise and all: longer than the truth, and no uncertainty is stated.
 //!
 //! Discs' shifts by perspective are the same in all channels to second order, and not taken off.
 
@@ -82,19 +84,28 @@ pub fn rings(displacements: &[Displacement]) -> Vec<Ring> {
     let ring = |i: i32| {
         let within = |d: &&Displacement| (d.field * f64::from(RINGS)).floor() == f64::from(i);
         let points: Vec<&Displacement> = displacements.iter().filter(within).collect();
-        let count = points.len() as f64;
-        let own = points.iter().map(|d| d.uncertainty_px * d.uncertainty_px).sum::<f64>() / count;
-        let mean = |part: fn(&Displacement) -> f64| {
-            let mean = points.iter().map(|d| part(d)).sum::<f64>() / count;
-            let scatter = points.iter().map(|d| (part(d) - mean) * (part(d) - mean)).sum::<f64>() / (count - 1.0);
-            Estimate::new(mean, (scatter.max(own) / count).sqrt())
-        };
         (points.len() >= 3).then(|| Ring {
-            field: points.iter().map(|d| d.field).sum::<f64>() / count,
-            radial: mean(|d| d.radial),
-            tangential: mean(|d| d.tangential),
+            field: points.iter().map(|d| d.field).sum::<f64>() / points.len() as f64,
+            radial: mean(&points, |d| d.radial),
+            tangential: mean(&points, |d| d.tangential),
             points: points.len(),
         })
     };
     (0..RINGS).filter_map(ring).collect()
+}
+
+/// The mean displacement along x and along y, px; `None` of fewer than three points.
+#[must_use]
+pub fn shift(displacements: &[Displacement]) -> Option<[Estimate; 2]> {
+    let points: Vec<&Displacement> = displacements.iter().collect();
+    (points.len() >= 3).then(|| [mean(&points, |d| d.by.x), mean(&points, |d| d.by.y)])
+}
+
+/// Of a part of the displacements: its scatter, or the points' own uncertainties where these are more.
+fn mean(points: &[&Displacement], part: fn(&Displacement) -> f64) -> Estimate {
+    let count = points.len() as f64;
+    let own = points.iter().map(|d| d.uncertainty_px * d.uncertainty_px).sum::<f64>() / count;
+    let mean = points.iter().map(|d| part(d)).sum::<f64>() / count;
+    let scatter = points.iter().map(|d| (part(d) - mean) * (part(d) - mean)).sum::<f64>() / (count - 1.0);
+    Estimate::new(mean, (scatter.max(own) / count).sqrt())
 }

@@ -14,6 +14,7 @@ mod compared;
 mod datasheet;
 mod develop;
 mod dropped;
+mod faults;
 mod flat;
 mod geometry;
 mod goldens;

@@ -18,7 +18,7 @@ use etendue_core::maths::f64::{exp, ln};
 /// Boltzmann's constant, eV/K (exact in SI, rounded).
 const BOLTZMANN_EV_PER_K: f64 = 8.617_333_262e-5;
 /// 0 °C in kelvin.
-const ZERO_CELSIUS_K: f64 = 273.15;
+pub const ZERO_CELSIUS_K: f64 = 273.15;
 
 /// A law of growth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,8 +6,7 @@ use crate::failure::Failure;
 use crate::machine;
 use crate::plot::{Axis, Mark, Plot, Series};
 use clap::Args;
-use etendue_metrology::Estimate;
-use etendue_metrology::chromatic::{Displacement, displacements, rings};
+use etendue_metrology::chromatic::{Displacement, displacements, rings, shift};
 use std::path::PathBuf;
 
 /// `etendue measure chromatic`
@@ -55,15 +54,13 @@ fn report(found: &[(&'static str, Vec<Displacement>)]) -> Report {
     for (name, list) in found {
         let worst = list.iter().max_by(|a, b| a.by.length().total_cmp(&b.by.length()));
         if let Some(worst) = worst {
-            let value = Estimate::new(worst.by.length(), worst.uncertainty_px);
-            report.figure(&format!("{name}_largest_px"), &format!("{name}, largest displacement"), "px", value);
-            let field = Estimate::new(100.0 * worst.field, 0.0);
-            report.figure(
-                &format!("{name}_largest_at_percent"),
-                &format!("{name}, at"),
-                "% of the half diagonal",
-                field,
-            );
+            let label = format!("{name}, largest displacement");
+            report.fact(&format!("{name}_largest_px"), &label, "px", worst.by.length());
+            let (key, label) = (format!("{name}_largest_at_percent"), format!("{name}, at"));
+            report.fact(&key, &label, "% of the half diagonal", 100.0 * worst.field);
+        }
+        for (axis, mean) in ["x", "y"].iter().zip(shift(list).into_iter().flatten()) {
+            report.figure(&format!("{name}_shift_{axis}_px"), &format!("{name}, mean along {axis}"), "px", mean);
         }
         for ring in rings(list) {
             rows.push(vec![

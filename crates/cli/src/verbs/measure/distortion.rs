@@ -49,6 +49,7 @@ fn report(seen: &Seen, found: &Distortion) -> Report {
     let method =
         "distortion without a model: ideal places by a polynomial and its homography at the centre (ISO 17850)";
     let mut report = Report::new("distortion", method);
+    report.setting("centre_px", centre_words(found.centre_px));
     report.fact("points", "points of the chart", "", seen.grid.nodes.len() as f64);
     report.fact("columns", "columns", "", seen.grid.size[0] as f64);
     report.fact("rows", "rows", "", seen.grid.size[1] as f64);
@@ -70,6 +71,11 @@ fn report(seen: &Seen, found: &Distortion) -> Report {
     report.plot(plot(found));
     report.camera(camera(&found.backward));
     report
+}
+
+/// The curve's centre, as comparisons tell it from another.
+pub(super) fn centre_words(centre_px: DVec2) -> String {
+    format!("{:.2}, {:.2}", centre_px.x, centre_px.y)
 }
 
 fn lines(report: &mut Report, lines: &[LineBow]) {

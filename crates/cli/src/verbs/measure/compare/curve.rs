@@ -11,13 +11,14 @@ use etendue_stats::normal::{quantile, two_sided_p};
 use serde_json::Value;
 
 /// Tables that are curves: table, abscissa, what is drawn over it, and its words.
-const KNOWN: [(&str, &str, &str, &str); 6] = [
+const KNOWN: [(&str, &str, &str, &str); 7] = [
     ("curve", "field_percent", "ratio", "observed over ideal distance"),
     ("profile", "field_percent", "illumination_percent", "illumination, % of the centre"),
     ("rings", "field_percent", "radial_px", "radial displacement, px"),
     ("response", "cycles_per_px", "response", "response"),
     ("response", "reading_percent", "light_percent", "light, %"),
     ("points", "exposure", "reading", "reading"),
+    ("temperatures", "celsius", "dark_current_e_per_s", "dark current, e⁻/s"),
 ];
 
 /// A curve of a measurement.

@@ -2,21 +2,26 @@
 //!
 //! | measurement | declared |
 //! | --- | --- |
-//! | distortion | k1, k2 in half diagonals in the direction that the file states, the curve r / (c tan θ) along the half diagonal |
+//! | distortion | k1, k2 in half diagonals in the direction that the file states, the curve r / (c tan θ) along the half diagonal (where it was measured about the principal point) |
 //! | focal, calibrate | principal distance in pixels and mm, principal point, k1 and k2 where the model measured means the same |
 //! | vignetting | étendue of a pixel relative to the centre, the mean of the four half diagonals, with the pixels' response over angle |
 //! | ptc | gain, dark noise, DSNU and PRNU of pixels, rows and columns, dark current, quantum efficiency at a wavelength |
+//! | dark-current | the dark current at each temperature by the file's law, and its doubling temperature where the law is that |
+//! | chromatic | no displacement, of a lens that images all colours alike |
 //! | sfr | the pixel's aperture, sinc(a ν), with what neighbours exchange; of a lens in focus without diffraction |
 //!
 //! Left out: what the file does not state but causes (shifts by aberrations, charge that blooms).
 
+use super::super::distortion::centre_words;
 use super::curve::Curve;
 use super::side::{Quantity, Side};
 use etendue_core::maths::f64::{atan, cos, sin};
 use etendue_metrology::Estimate;
+use etendue_metrology::photon_transfer::temperature::ZERO_CELSIUS_K;
 use etendue_pipeline::plan::CameraBody;
 use etendue_projection::Sense;
 use etendue_sensor::SensorParameters;
+use etendue_sensor::effects::temperature::{Temperature, TemperatureLaw};
 use glam::DVec2;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -35,7 +40,10 @@ pub(super) fn side(body: &CameraBody, measured: &Side, wavelength_nm: Option<f64
     let curves = match measured.kind.as_str() {
         "distortion" => {
             distortion(body, &mut put);
-            along(measured, |field| ratio(body, field))
+            // The declared curve is that about the principal point.
+            let own = centre_words(body.raster.principal_px());
+            let same = measured.settings.get("centre_px").is_none_or(|centre| *centre == own);
+            if same { along(measured, |field| ratio(body, field)) } else { Vec::new() }
         }
         "focal" | "calibrate" => {
             intrinsics(body, measured, &mut put);
@@ -48,6 +56,11 @@ pub(super) fn side(body: &CameraBody, measured: &Side, wavelength_nm: Option<f64
         "ptc" => {
             electronics(body, wavelength_nm, &mut put)?;
             Vec::new()
+        }
+        "dark-current" => growth(body, measured, &mut put)?,
+        "chromatic" => {
+            achromatic(body, &mut put)?;
+            along(measured, |_| Some(0.0))
         }
         "sfr" => {
             in_closed_form(body)?;
@@ -68,11 +81,15 @@ fn at_points(measured: &Curve, at: impl Fn(f64) -> Option<f64>) -> Curve {
     Curve { points: measured.points.iter().filter_map(point).collect(), ..measured.clone() }
 }
 
-/// The four places of a radial field position, mm from the principal point.
-fn places(body: &CameraBody, field: f64) -> [DVec2; 4] {
-    let half = 0.5 * DVec2::new(body.raster.width() as f64, body.raster.height() as f64);
+/// Half the picture's diagonal, px.
+fn half_px(body: &CameraBody) -> DVec2 {
+    0.5 * DVec2::new(body.raster.width() as f64, body.raster.height() as f64)
+}
+
+/// The four places of a radial field position about a point of the picture, mm from the principal point.
+fn places(body: &CameraBody, field: f64, about_px: DVec2) -> [DVec2; 4] {
     [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]]
-        .map(|sign| body.raster.sensor_mm(half + field * half * DVec2::from(sign)))
+        .map(|sign| body.raster.sensor_mm(about_px + field * half_px(body) * DVec2::from(sign)))
 }
 
 fn distortion(body: &CameraBody, put: &mut impl FnMut(&str, f64, &str)) {
@@ -92,7 +109,7 @@ fn distortion(body: &CameraBody, put: &mut impl FnMut(&str, f64, &str)) {
 /// Observed over ideal distance from the principal point.
 fn ratio(body: &CameraBody, field: f64) -> Option<f64> {
     let of = |at: DVec2| Some(at.length() / (body.lens.principal_distance_mm() * body.lens.tangent(at)?.length()));
-    places(body, field).into_iter().try_fold(0.0, |sum, at| Some(sum + 0.25 * of(at)?))
+    places(body, field, body.raster.principal_px()).into_iter().try_fold(0.0, |sum, at| Some(sum + 0.25 * of(at)?))
 }
 
 fn intrinsics(body: &CameraBody, measured: &Side, put: &mut impl FnMut(&str, f64, &str)) {
@@ -120,8 +137,9 @@ fn intrinsics(body: &CameraBody, measured: &Side, put: &mut impl FnMut(&str, f64
 fn illumination(body: &CameraBody, field: f64) -> f64 {
     let angles = body.sensor.as_ref().and_then(|s| s.parameters().optics.angle_response.as_ref());
     let response = |at: DVec2| angles.map_or(1.0, |a| a.at(atan(at.length() / a.exit_pupil_mm).to_degrees()));
-    let light =
-        |field: f64| places(body, field).iter().map(|at| body.lens.etendue_sr(*at) * response(*at)).sum::<f64>();
+    let light = |field: f64| {
+        places(body, field, half_px(body)).iter().map(|at| body.lens.etendue_sr(*at) * response(*at)).sum::<f64>()
+    };
     light(field) / light(0.0)
 }
 
@@ -151,6 +169,32 @@ fn electronics(
         };
         let efficiency = f64::from(channel.quantum_efficiency.at(nm as f32)) * p.pixel.fill_factor;
         put("quantum_efficiency", efficiency, "");
+    }
+    Ok(())
+}
+
+/// The dark current at the temperatures that were measured.
+fn growth(body: &CameraBody, measured: &Side, put: &mut impl FnMut(&str, f64, &str)) -> Result<Vec<Curve>, String> {
+    let dark = body.sensor.as_ref().map(|s| s.parameters().charge.dark);
+    let (dark, stated) = dark.and_then(|dark| Some((dark, dark.temperature?))).ok_or(
+        "the camera states no temperature of its dark current: give [sensor.dark] temperature_c and reference_c",
+    )?;
+    if let TemperatureLaw::Doubling { step_k } = stated.law {
+        put("doubling_doubling_k", step_k, "K");
+    }
+    let at = |celsius: f64| dark.current_e_s * Temperature { sensor_k: celsius + ZERO_CELSIUS_K, ..stated }.factor();
+    Ok(measured.curves.iter().map(|c| at_points(c, |celsius| Some(at(celsius)))).collect())
+}
+
+/// Red and blue stand where green does.
+fn achromatic(body: &CameraBody, put: &mut impl FnMut(&str, f64, &str)) -> Result<(), String> {
+    if body.lens.spreads_colours() || body.front.is_some() {
+        let why =
+            "what this lens does to colours has no closed form here: expected one without lateral_colour and [front]";
+        return Err(why.to_owned());
+    }
+    for channel in ["red", "blue"] {
+        ["x", "y"].iter().for_each(|axis| put(&format!("{channel}_shift_{axis}_px"), 0.0, "px"));
     }
     Ok(())
 }

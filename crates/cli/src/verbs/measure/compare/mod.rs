@@ -194,6 +194,7 @@ fn x_axis(curve: &Curve) -> Axis {
         "field_percent" => "radial field position, % of the half diagonal",
         "cycles_per_px" => "cycles a pixel",
         "reading_percent" => "reading, %",
+        "celsius" => "temperature of the sensor, °C",
         _ => "exposure",
     })
 }
@@ -225,8 +226,9 @@ fn error(a: &Curve, gaps: &[Gap]) -> Plot {
 /// What only one side knows.
 fn unmatched(report: &mut Report, a: &Side, b: &Side) {
     for (name, this, other) in [("A", a, b), ("B", b, a)] {
-        let alone: Vec<&str> =
-            this.quantities.keys().filter(|key| !other.quantities.contains_key(*key)).map(String::as_str).collect();
+        let quantities = this.quantities.keys().filter(|key| !other.quantities.contains_key(*key));
+        let curves = this.curves.iter().map(|c| &c.name).filter(|name| other.curves.iter().all(|c| c.name != **name));
+        let alone: Vec<&str> = quantities.chain(curves).map(String::as_str).collect();
         if !alone.is_empty() {
             report.note(format!("only {name} has {}", alone.join(", ")));
         }

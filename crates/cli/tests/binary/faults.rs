@@ -1,0 +1,125 @@
+//! The bench is no mirror of itself: a camera with a fault is laid beside the file without it, and the fault is flagged by the
+//! quantity that it belongs to; the same camera without the fault, by the same seeds, is not. docs/faults.md is the table, written by
+//! `just faults`.
+
+mod geometry;
+mod light;
+mod sensor;
+
+use crate::support::{bless, etendue, root, text};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+const CAMERA: &str = "charts/faults/camera.toml";
+/// The same with colours.
+const COLOUR: &str = "charts/faults/colour.toml";
+const PAGE: &str = "docs/faults.md";
+/// Tests of one run write the page one after another.
+static WRITING: Mutex<()> = Mutex::new(());
+
+/// A quantity or curve of a comparison: its largest E_n, and what is flagged beyond.
+#[derive(Clone, Copy, Debug)]
+struct Test {
+    e_n: f64,
+    limit: f64,
+}
+
+impl Test {
+    fn differs(self) -> bool {
+        self.e_n.abs() > self.limit
+    }
+}
+
+/// A comparison, by quantity and curve.
+type Compared = BTreeMap<String, Test>;
+
+/// A folder of one test.
+struct Bench(tempfile::TempDir);
+
+impl Bench {
+    fn new() -> Self {
+        Self(tempfile::tempdir().expect("a folder"))
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    /// A chart for the declared camera.
+    fn chart(&self, name: &str, camera: &str, options: &[&str]) -> PathBuf {
+        let folder = self.path(name);
+        let arguments = ["chart", name, "--camera", camera, "-o"].map(str::to_owned).into_iter().chain([text(&folder)]);
+        etendue(arguments.chain(options.iter().map(|o| (*o).to_owned()))).ok();
+        folder
+    }
+
+    /// A render of a chart's job: the folder of the camera's files.
+    fn rendered(&self, chart: &Path, name: &str, options: &[&str]) -> PathBuf {
+        let output = self.path(name);
+        let arguments = ["render".to_owned(), text(&chart.join("job.toml")), "-o".to_owned(), text(&output)];
+        etendue(arguments.into_iter().chain(options.iter().map(|o| (*o).to_owned()))).ok();
+        output.join("camera")
+    }
+
+    /// What a measurement (its arguments) finds, beside what a camera file declares.
+    #[track_caller]
+    fn beside(&self, measure: &[&str], camera: &str, options: &[&str]) -> Compared {
+        let found = etendue(["measure"].iter().chain(measure).chain(&["--json"])).ok().out;
+        let file = self.path("measured.json");
+        std::fs::write(&file, found).expect("a temporary file");
+        let compare = ["measure", "compare", &text(&file), camera, "--json"].map(str::to_owned);
+        let ran = etendue(compare.into_iter().chain(options.iter().map(|o| (*o).to_owned())));
+        let report: Value = serde_json::from_str(&ran.out).unwrap_or_else(|_| panic!("{ran:?}"));
+        let compared = tests(&report);
+        assert_eq!(ran.status, i32::from(compared.values().any(|t| t.differs())), "{ran:?}");
+        compared
+    }
+}
+
+/// What a comparison tested.
+fn tests(report: &Value) -> Compared {
+    let rows = |table: &str| report["tables"][table].as_array().cloned().unwrap_or_default();
+    let test = |row: &Value, name: &str| {
+        Some((
+            row[name].as_str()?.to_owned(),
+            Test { e_n: row["e_n"].as_f64()?, limit: row["limit"].as_f64().unwrap_or(1.0) },
+        ))
+    };
+    let quantities = rows("quantities").into_iter().filter_map(|row| test(&row, "quantity"));
+    quantities.chain(rows("curves").into_iter().filter_map(|row| test(&row, "curve"))).collect()
+}
+
+/// A camera without fault: nothing is flagged.
+#[track_caller]
+fn sound(compared: &Compared) {
+    assert!(!compared.is_empty() && compared.values().all(|t| !t.differs()), "a sound camera is flagged: {compared:?}");
+}
+
+/// The fault is flagged by its quantity, which the sound camera passes.
+#[track_caller]
+fn flagged(fault: &str, seeded: &str, quantity: &str, faulty: &Compared, healthy: &Compared) {
+    let (with, without) = (faulty[quantity], healthy[quantity]);
+    assert!(with.differs() && !without.differs(), "{fault}: {quantity} {with:?}, without it {without:?}");
+    told(fault, seeded, quantity, with, without);
+}
+
+/// The page has the fault's row; its numbers are those of the last `just faults`.
+#[track_caller]
+fn told(fault: &str, seeded: &str, quantity: &str, with: Test, without: Test) {
+    let head = format!("| {fault} | {seeded} | `{quantity}` |");
+    let _one = WRITING.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let page = std::fs::read_to_string(root().join(PAGE)).expect("the page");
+    if !bless() {
+        assert!(page.lines().any(|line| line.starts_with(&head)), "{PAGE} lacks {head}: run just faults");
+        return;
+    }
+    let row = format!("{head} {:.2} | {:.2} | {:.2} |", with.e_n, without.e_n, with.limit);
+    let old = format!("| {fault} |");
+    let known = page.lines().any(|line| line.starts_with(&old));
+    let lines = page.lines().map(|line| if line.starts_with(&old) { row.clone() } else { line.to_owned() });
+    let further = (!known).then(|| row.clone());
+    let page: String = lines.chain(further).map(|line| line + "\n").collect();
+    std::fs::write(root().join(PAGE), page).expect("the page is written");
+}

@@ -1,0 +1,60 @@
+//! Faults of the sensor: gain, noise, patterns, filters, dark current.
+
+use super::{Bench, CAMERA, flagged, sound};
+use crate::support::{etendue, text};
+
+const SMALL: [&str; 4] = ["--set", "sensor.width_px=240", "--set", "sensor.height_px=180"];
+
+/// The series of photon transfer of a camera: its descriptor.
+fn series(bench: &Bench, camera: &str, name: &str, options: &[&str]) -> String {
+    let folder = bench.path(name);
+    let output = text(&folder);
+    etendue([&["flat", camera, "--wavelength-nm", "550", "-o", &output], options].concat()).ok();
+    let stem = std::path::Path::new(camera).file_stem().expect("a file");
+    text(&folder.join(stem).join("emva1288.txt"))
+}
+
+#[test]
+fn faults_of_gain_noise_and_pattern_are_flagged() {
+    let bench = Bench::new();
+    let measured = |name: &str, fault: &[&str]| {
+        let levels = ["--photon-transfer", "15", "--stack", "16", "--seed", "1"];
+        let descriptor = series(&bench, CAMERA, name, &[&SMALL[..], &levels, fault].concat());
+        bench.beside(&["ptc", &descriptor], CAMERA, &["--wavelength-nm", "550"])
+    };
+    let healthy = measured("healthy", &[]);
+    sound(&healthy);
+    let flags = |fault: &str, key: &str, set: &str, declared: &str, quantity: &str| {
+        let faulty = measured(&fault.replace(' ', "-"), &["--set", &format!("{key}={set}")]);
+        flagged(fault, &format!("`{key}` {set} for {declared}"), quantity, &faulty, &healthy);
+    };
+    flags("gain + 2 %", "sensor.gain_dn_per_e", "0.204", "0.2", "gain_dn_per_e");
+    flags("read noise + 10 %", "sensor.read_noise_e", "11", "10", "dark_noise_e");
+    flags("PRNU doubled", "sensor.non_uniformity.prnu", "0.016", "0.008", "prnu_percent_pixel");
+}
+
+/// Declared is a doubling every 8 K.
+#[test]
+fn a_swapped_law_of_the_dark_current_is_flagged() {
+    let bench = Bench::new();
+    let law = ["--set", "sensor.dark.reference_c=25", "--set", "sensor.dark.doubling_k=8"];
+    let declared = [&law[..], &["--set", "sensor.dark.temperature_c=25"]].concat();
+    let measured = |name: &str, law: &[&str]| {
+        let at = |celsius: &str| {
+            let warm = format!("sensor.dark.temperature_c={celsius}");
+            let long = ["--set", "sensor.exposure_s=40", "--set", "sensor.frame_period_s=50"];
+            let levels = ["--photon-transfer", "8", "--stack", "3", "--set", &warm];
+            let small = ["--set", "sensor.width_px=96", "--set", "sensor.height_px=64"];
+            let folder = format!("{name}-{celsius}");
+            format!("{celsius}:{}", series(&bench, CAMERA, &folder, &[&small[..], &long, &levels, law].concat()))
+        };
+        let [a, b, c, d] = ["25", "35", "45", "55"].map(at);
+        bench.beside(&["dark-current", &a, &b, &c, &d, "--reference-c", "25"], CAMERA, &declared)
+    };
+    let healthy = measured("healthy", &law);
+    sound(&healthy);
+    let faulty = measured("swapped", &["--set", "sensor.dark.reference_c=25"]);
+    let seeded = "silicon's band gap for `sensor.dark.doubling_k` 8";
+    flagged("dark current law swapped", seeded, "temperatures", &faulty, &healthy);
+    assert!(faulty["doubling_doubling_k"].differs(), "{faulty:?}");
+}
