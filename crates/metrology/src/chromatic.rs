@@ -4,8 +4,9 @@
 //! where green does (vector, px). Its radial part (positive: farther from the centre than green) and its tangential part
 //! (positive: turned from x towards y) are taken about the picture's centre. Points belong together where they are nearest,
 //! within half a step. By rings of a tenth of the half diagonal: the means, with their standard uncertainty from the scatter
-//! within the ring, or from the points' own uncertainties where that is more. The mean of all points is the channel's shift as a
-//! whole, which rings about the centre do not show; of a chart that lies evenly about the centre, a difference in scale is not in it.
+//! within the ring of what a shift and another scale of the whole channel leave, or from the points' own uncertainties where that is
+//! more. The mean of all points is the channel's shift as a whole, which rings about the centre do not show; of a chart that lies evenly
+//! about the centre, a difference in scale is not in it.
 //! The largest displacement is the longest of many lengths, noise and all: longer than the truth, and no uncertainty is stated.
 //!
 //! Discs' shifts by perspective are the same in all channels to second order, and not taken off.
@@ -21,6 +22,8 @@ pub struct Displacement {
     pub at: DVec2,
     /// The other channel less green, px.
     pub by: DVec2,
+    /// The direction from the picture's centre to it.
+    pub outwards: DVec2,
     /// The radial part, px.
     pub radial: f64,
     /// The tangential part, px.
@@ -61,6 +64,7 @@ pub fn displacements(green: &Grid, other: &Grid, size_px: [usize; 2]) -> Vec<Dis
         Some(Displacement {
             at: node.at,
             by,
+            outwards,
             radial: outwards.dot(by),
             tangential: outwards.perp_dot(by),
             field: from.length() / half_diagonal,
@@ -81,13 +85,15 @@ fn step(grid: &Grid, node: &crate::target::Node) -> Option<f64> {
 #[must_use]
 pub fn rings(displacements: &[Displacement]) -> Vec<Ring> {
     const RINGS: i32 = 10;
+    let rest = rest(displacements);
     let ring = |i: i32| {
-        let within = |d: &&Displacement| (d.field * f64::from(RINGS)).floor() == f64::from(i);
-        let points: Vec<&Displacement> = displacements.iter().filter(within).collect();
+        let within = |d: &Displacement| (d.field * f64::from(RINGS)).floor() == f64::from(i);
+        let (points, rest): (Vec<&Displacement>, Vec<&Displacement>) =
+            displacements.iter().zip(&rest).filter(|(d, _)| within(d)).unzip();
         (points.len() >= 3).then(|| Ring {
             field: points.iter().map(|d| d.field).sum::<f64>() / points.len() as f64,
-            radial: mean(&points, |d| d.radial),
-            tangential: mean(&points, |d| d.tangential),
+            radial: mean(&points, &rest, |d| d.radial),
+            tangential: mean(&points, &rest, |d| d.tangential),
             points: points.len(),
         })
     };
@@ -97,15 +103,32 @@ pub fn rings(displacements: &[Displacement]) -> Vec<Ring> {
 /// The mean displacement along x and along y, px; `None` of fewer than three points.
 #[must_use]
 pub fn shift(displacements: &[Displacement]) -> Option<[Estimate; 2]> {
-    let points: Vec<&Displacement> = displacements.iter().collect();
-    (points.len() >= 3).then(|| [mean(&points, |d| d.by.x), mean(&points, |d| d.by.y)])
+    let (points, rest) = (displacements.iter().collect::<Vec<_>>(), rest(displacements));
+    let rest: Vec<&Displacement> = rest.iter().collect();
+    (points.len() >= 3).then(|| [mean(&points, &rest, |d| d.by.x), mean(&points, &rest, |d| d.by.y)])
 }
 
-/// Of a part of the displacements: its scatter, or the points' own uncertainties where these are more.
-fn mean(points: &[&Displacement], part: fn(&Displacement) -> f64) -> Estimate {
+/// Displacements less what a shift and another scale make of them (least squares): what scatters from point to point.
+fn rest(displacements: &[Displacement]) -> Vec<Displacement> {
+    let count = displacements.len().max(1) as f64;
+    let mean = |of: fn(&Displacement) -> DVec2| displacements.iter().map(of).sum::<DVec2>() / count;
+    let (at, by) = (mean(|d| d.at), mean(|d| d.by));
+    let sum = |f: &dyn Fn(&Displacement) -> f64| displacements.iter().map(f).sum::<f64>();
+    let scale = sum(&|d| (d.at - at).dot(d.by - by)) / sum(&|d| (d.at - at).length_squared()).max(f64::MIN_POSITIVE);
+    let less = |d: &Displacement| {
+        let left = d.by - by - scale * (d.at - at);
+        Displacement { by: left, radial: d.outwards.dot(left), tangential: d.outwards.perp_dot(left), ..*d }
+    };
+    displacements.iter().map(less).collect()
+}
+
+/// Of a part of the displacements: its mean, by the scatter of what is left of them or by the points' own uncertainties, whichever
+/// is more.
+fn mean(points: &[&Displacement], rest: &[&Displacement], part: fn(&Displacement) -> f64) -> Estimate {
     let count = points.len() as f64;
     let own = points.iter().map(|d| d.uncertainty_px * d.uncertainty_px).sum::<f64>() / count;
-    let mean = points.iter().map(|d| part(d)).sum::<f64>() / count;
-    let scatter = points.iter().map(|d| (part(d) - mean) * (part(d) - mean)).sum::<f64>() / (count - 1.0);
-    Estimate::new(mean, (scatter.max(own) / count).sqrt())
+    let average = |list: &[&Displacement]| list.iter().map(|d| part(d)).sum::<f64>() / count;
+    let left = average(rest);
+    let scatter = rest.iter().map(|d| (part(d) - left) * (part(d) - left)).sum::<f64>() / (count - 1.0);
+    Estimate::new(average(points), (scatter.max(own) / count).sqrt())
 }

@@ -8,6 +8,8 @@ pub mod calibrate;
 pub mod chromatic;
 pub mod colour;
 pub mod contrast;
+#[cfg(test)]
+mod coverage;
 pub mod depth;
 pub mod disc;
 pub mod distortion;

@@ -12,13 +12,15 @@
 //! ```
 //!
 //! Standard uncertainties: the law of propagation through every mean and variance of every level, bright and dark, and the
-//! spacing of levels about saturation; the choice of levels is held. The covariance of a level's mean with its variance (the shot noise's skewness) is left out: it is
+//! spacing of levels about saturation; the choice of levels is held. The linearity error and its extremes state none: a mean of magnitudes
+//! and extremes of noisy numbers are never 0, however straight the sensor is. What noise alone makes of a straight one's
+//! error, √(2/π) times the mean standard uncertainty of the deviations, is told beside them. The covariance of a level's mean with its variance (the shot noise's skewness) is left out: it is
 //! below a per cent of either. The uncertainty of the photon scale itself is not in η, μ_p.min and μ_p.sat: add what the
 //! light's calibration states.
 
 use super::{TransferData, TransferError};
 use crate::Estimate;
-use crate::propagate::propagate;
+use crate::propagate::{propagate, propagate_curved};
 
 /// Quantisation noise, DN².
 const QUANTISATION_DN2: f64 = 1.0 / 12.0;
@@ -51,11 +53,13 @@ pub struct Figures {
     /// Dynamic range μ_p.sat/μ_p.min.
     pub dynamic_range: Estimate,
     /// Mean of the magnitudes of relative deviations from the straight line, 5…95 % of saturation.
-    pub linearity_error: Estimate,
+    pub linearity_error: f64,
+    /// The same that a straight sensor has on average, by the noise of its levels.
+    pub linearity_error_of_noise: f64,
     /// Most negative relative deviation.
-    pub linearity_error_min: Estimate,
+    pub linearity_error_min: f64,
     /// Most positive relative deviation.
-    pub linearity_error_max: Estimate,
+    pub linearity_error_max: f64,
     /// Dark mean at no exposure time, DN.
     pub dark_level_dn: Estimate,
     /// Dark current from the dark mean, e⁻/s; none for fewer than three exposure times.
@@ -90,8 +94,8 @@ impl TransferData {
         }
         let figures = propagate(&inputs, values);
         let current = |figure: Estimate| (self.dark().len() >= 3).then_some(figure);
-        let [k, r, eta, sd_dn, sd, pmin, emin, psat, esat, snr, dr, le, le_min, le_max, level, mean, variance] =
-            figures;
+        let [k, r, eta, sd_dn, sd, pmin, emin, psat, esat, snr, dr, level, mean, variance] = figures;
+        let [error, least, most] = Values::new(self, &at(&inputs)).linearity();
         Ok(Figures {
             gain_dn_per_e: k,
             responsivity_dn_per_photon: r,
@@ -104,9 +108,10 @@ impl TransferData {
             saturation_e: esat,
             snr_max: snr,
             dynamic_range: dr,
-            linearity_error: le,
-            linearity_error_min: le_min,
-            linearity_error_max: le_max,
+            linearity_error: error,
+            linearity_error_of_noise: self.linearity_noise(&inputs),
+            linearity_error_min: least,
+            linearity_error_max: most,
             dark_level_dn: level,
             dark_current_mean_e_per_s: current(mean),
             dark_current_variance_e_per_s: current(variance),
@@ -130,6 +135,14 @@ impl TransferData {
         let levels = self.bright().iter().chain(self.dark());
         let pairs = levels.flat_map(|l| [l.statistics.mean_dn, l.statistics.variance_dn2]);
         pairs.chain([self.saturation_photons()]).collect()
+    }
+
+    /// √(2/π) of the mean standard uncertainty of the deviations: what noise makes of their mean magnitude.
+    fn linearity_noise(&self, inputs: &[Estimate]) -> f64 {
+        let range = self.linearity_range();
+        let deviations = propagate_curved(inputs, |x| Values::new(self, x).deviations(range.clone()));
+        let sum: f64 = deviations.iter().map(|d| d.first_order.standard_uncertainty).sum();
+        core::f64::consts::FRAC_2_PI.sqrt() * sum / deviations.len() as f64
     }
 
     /// Relative deviation of each level from the straight line of the linearity fit.
@@ -174,7 +187,7 @@ impl<'a> Values<'a> {
         (self.data.bright()[i].photons, self.x[2 * i] - mean, self.x[2 * i + 1] - variance)
     }
 
-    fn figures(&self) -> [f64; 17] {
+    fn figures(&self) -> [f64; 14] {
         let end = self.data.sensitivity_end();
         let k = through_zero((0..end).map(|i| (self.point(i).1, self.point(i).2)));
         let r = through_zero((0..end).map(|i| (self.point(i).0, self.point(i).1)));
@@ -185,7 +198,6 @@ impl<'a> Values<'a> {
         let emin = variance.sqrt() / k + 0.5;
         let psat = self.x[self.x.len() - 1];
         let esat = eta * psat;
-        let [le, le_min, le_max] = self.linearity();
         [
             k,
             r,
@@ -198,9 +210,6 @@ impl<'a> Values<'a> {
             esat,
             esat.sqrt(),
             esat / emin,
-            le,
-            le_min,
-            le_max,
             level,
             mean_slope / k,
             variance_slope / (k * k),

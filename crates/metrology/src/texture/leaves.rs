@@ -70,11 +70,17 @@ pub fn measure_texture(
         return Err(TextureError::Unlike);
     }
     let scaled = |p: TexturePoint| TexturePoint {
-        response: p.response.scaled(1.0 / first.response.value),
+        response: over(p.response, first.response),
         direct: p.direct / first.direct,
         ..p
     };
     Ok(points.into_iter().map(scaled).collect())
+}
+
+/// A response over that of the lowest band, which shares no frequency with it: relative variances add.
+fn over(own: Estimate, first: Estimate) -> Estimate {
+    let value = own.value / first.value;
+    Estimate::new(value, hypot(own.standard_uncertainty, value * first.standard_uncertainty) / first.value)
 }
 
 /// Sums over blocks and bins, by band.

@@ -2,7 +2,14 @@
 
 mod calibration;
 mod cameras;
+#[path = "../../src/coverage.rs"]
+mod coverage;
 mod detection;
 mod distortion;
+#[path = "../intervals/draws.rs"]
+mod draws;
+mod intervals;
 mod opencv;
 mod paint;
+
+use etendue_metrology::Estimate;

@@ -98,7 +98,7 @@ fn report(patches: &[ColourPatch], found: &ColourError) -> Report {
     let method = "ColorChecker after a fitted 3 × 3 matrix, CIEDE2000 (± one standard uncertainty)";
     let mut report = Report::new("colour", method);
     report.figure("mean_delta_e00", "mean ΔE00", "", found.mean);
-    report.figure("largest_delta_e00", "largest ΔE00", "", found.largest);
+    report.fact("largest_delta_e00", "largest ΔE00", "", found.largest);
     let number = |x: f64| Cell::Number(x, 2);
     let row = |((patch, difference), [seen, reference]): ((&ColourPatch, &Estimate), &[[f64; 3]; 2])| {
         let lab = seen.iter().chain(reference).map(|x| number(*x));

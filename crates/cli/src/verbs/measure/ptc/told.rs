@@ -46,9 +46,19 @@ fn figures(report: &mut Report, f: &Figures, relative: bool) {
     line("snr_max_db", "largest SNR", "dB", decibels(f.snr_max));
     line("dynamic_range", "dynamic range", "", f.dynamic_range);
     line("dynamic_range_db", "dynamic range", "dB", decibels(f.dynamic_range));
-    line("linearity_error_percent", "linearity error LE", "%", f.linearity_error.scaled(100.0));
-    line("linearity_error_min_percent", "linearity error, least", "%", f.linearity_error_min.scaled(100.0));
-    line("linearity_error_max_percent", "linearity error, most", "%", f.linearity_error_max.scaled(100.0));
+    for (key, label, value) in [
+        ("linearity_error_percent", "linearity error LE", f.linearity_error),
+        (
+            "linearity_error_of_noise_percent",
+            "linearity error of a straight sensor, by noise",
+            f.linearity_error_of_noise,
+        ),
+        ("linearity_error_min_percent", "linearity error, least", f.linearity_error_min),
+        ("linearity_error_max_percent", "linearity error, most", f.linearity_error_max),
+    ] {
+        report.fact(key, label, "%", 100.0 * value);
+    }
+    let mut line = |key: &str, label: &str, unit, value| report.figure(key, label, unit, value);
     if let (Some(mean), Some(variance)) = (f.dark_current_mean_e_per_s, f.dark_current_variance_e_per_s) {
         line("dark_current_mean_e_per_s", "dark current, from means", "e⁻/s", mean);
         line("dark_current_variance_e_per_s", "dark current, from variances", "e⁻/s", variance);

@@ -1,0 +1,10 @@
+//! Numbers by chance.
+
+use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
+use rand_distr::{Distribution, StandardNormal};
+
+/// Standard normal numbers, a series a seed and a purpose.
+pub(crate) fn normals(seed: u64, purpose: u32) -> impl FnMut() -> f64 {
+    let mut stream = NoiseStream::new(seed, 0, purpose, 0, Pixel { x: 0, y: 0 }, NoiseDraw::Read);
+    move || StandardNormal.sample(&mut stream)
+}
