@@ -1,14 +1,20 @@
 //! The corner of four squares by a model of the picture there.
 //!
 //! ```text
-//! I(p) = m + g · d + c S(l₁) S(l₂)      d = p − q      lᵢ = nᵢ · d + κᵢ (tᵢ · d)²
+//! I(p) = m + g · d + c P + b (1 − P²)      P = S(l₁) S(l₂)      d = p − q      lᵢ = nᵢ · d + κᵢ (tᵢ · d)²
 //! ```
 //!
 //! q is the corner, t₁ and t₂ the edges' directions there, n their normals, κ their bend. S is the profile of a blurred
 //! edge, tanh(l/s), averaged over a pixel's width: S(l) = s ln cosh((l + ½)/s) − s ln cosh((l − ½)/s). A pixel is a square of
 //! variance 1/12 px² along any direction, as is this width, so that edges of any sharpness, of pixels only included, are
-//! met without the bias that gradients have there. Least squares of eleven numbers over the pixels within a radius
-//! (Gauss & Newton, damped); the standard uncertainty of q is that of the residuals, taken for noise.
+//! met without the bias that gradients have there. b is what the edges themselves are brighter: squares of one kind that are
+//! larger than those of the other (print, bleeding light), or a picture that is not linear in light. Least squares of twelve
+//! numbers over the pixels within a radius (Gauss & Newton, damped).
+//!
+//! The standard uncertainty of q is what the residuals rᵢ make of it, as if they were noise: with aᵢ the change of q for a
+//! change of pixel i, the larger of σ² Σ aᵢ² and Σᵢⱼ k aᵢ rᵢ aⱼ rⱼ over pixels that lie less than four apart (k falls linearly,
+//! Newey & West 1987, Conley 1999): compressed pictures, demosaicked ones and what the model cannot follow leave residuals
+//! that belong together.
 //!
 //! Left out: asymmetric blur (coma moves the corner by its centroid), squares of unequal brightness on one side.
 
@@ -24,8 +30,8 @@ pub(super) struct Corner {
     pub(super) uncertainty_px: f64,
 }
 
-/// Numbers of the model: q, θ₁, θ₂, κ₁, κ₂, s, m, c, g.
-const COUNT: usize = 11;
+/// Numbers of the model: q, θ₁, θ₂, κ₁, κ₂, s, m, c, g, b.
+const COUNT: usize = 12;
 type Numbers = [f64; COUNT];
 
 /// Sharpest and softest profile, px.
@@ -64,8 +70,37 @@ pub(super) fn fitted(image: &Image, start: DVec2, steps: [DVec2; 2], radius: f64
     let found = DVec2::new(at[0], at[1]);
     let variance = squares / (pixels.len() - COUNT) as f64;
     let covariance = Cholesky::of(&normal.0, 1e-14)?.inverse();
-    let uncertainty_px = (0.5 * variance * (covariance.at(0, 0) + covariance.at(1, 1))).sqrt();
+    let white = variance * (covariance.at(0, 0) + covariance.at(1, 1));
+    let uncertainty_px = (0.5 * white.max(correlated(&pixels, &at, &covariance))).sqrt();
     ((found - start).length() < 0.5 * radius).then_some(Corner { at: found, uncertainty_px })
+}
+
+/// The variance of q, both coordinates together, that residuals make which neighbours share.
+fn correlated(pixels: &[(DVec2, f64)], at: &Numbers, covariance: &Matrix) -> f64 {
+    const REACH: isize = 4;
+    let corner = pixels.iter().fold(DVec2::INFINITY, |low, (p, _)| low.min(*p));
+    let side = pixels.iter().fold(0.0, |side: f64, (p, _)| side.max((*p - corner).max_element())) as isize + 1;
+    let mut pulls = vec![DVec2::ZERO; (side * side) as usize];
+    let place = |p: DVec2| ((p.y - corner.y) as isize, (p.x - corner.x) as isize);
+    for (p, value) in pixels {
+        let (model, by) = model(at, *p);
+        let lever = |row: usize| by.iter().enumerate().map(|(i, b)| covariance.at(row, i) * b).sum::<f64>();
+        let (y, x) = place(*p);
+        pulls[(y * side + x) as usize] = (model - value) * DVec2::new(lever(0), lever(1));
+    }
+    let near = |y: isize, x: isize, by: [isize; 2]| {
+        let (v, u) = (y + by[0], x + by[1]);
+        let inside = (0..side).contains(&v) && (0..side).contains(&u);
+        if inside { pulls[(v * side + u) as usize] } else { DVec2::ZERO }
+    };
+    let share = |by: isize| 1.0 - by.abs() as f64 / REACH as f64;
+    let offsets = || (1 - REACH..REACH).flat_map(|v| (1 - REACH..REACH).map(move |u| [v, u]));
+    let shared = |p: DVec2| {
+        let (y, x) = place(p);
+        let around: DVec2 = offsets().map(|by| share(by[0]) * share(by[1]) * near(y, x, by)).sum();
+        pulls[(y * side + x) as usize].dot(around)
+    };
+    pixels.iter().map(|(p, _)| shared(*p)).sum()
 }
 
 /// Centres and values within a radius; `None` where the picture does not hold them all.
@@ -83,7 +118,7 @@ fn pixels(image: &Image, centre: DVec2, radius: f64) -> Option<Vec<(DVec2, f64)>
 
 fn first_guess(pixels: &[(DVec2, f64)], start: DVec2, steps: [DVec2; 2]) -> Numbers {
     let [a, b] = steps.map(|s| atan2(s.y, s.x));
-    let mut numbers = [start.x, start.y, a, b, 0.0, 0.0, 0.7, 0.0, 1.0, 0.0, 0.0];
+    let mut numbers = [start.x, start.y, a, b, 0.0, 0.0, 0.7, 0.0, 1.0, 0.0, 0.0, 0.0];
     let count = pixels.len() as f64;
     let mean = pixels.iter().map(|(_, v)| v).sum::<f64>() / count;
     numbers[7] = 0.0;
@@ -118,7 +153,7 @@ fn profile(l: f64, s: f64) -> [f64; 3] {
 
 /// The model at a pixel and its derivatives.
 fn model(n: &Numbers, pixel: DVec2) -> (f64, Numbers) {
-    let [x, y, angle_1, angle_2, bend_1, bend_2, s, m, c, slope_x, slope_y] = *n;
+    let [x, y, angle_1, angle_2, bend_1, bend_2, s, m, c, slope_x, slope_y, rim] = *n;
     let d = pixel - DVec2::new(x, y);
     let edge = |angle: f64, bend: f64| {
         let (sin, cos) = sin_cos(angle);
@@ -129,8 +164,11 @@ fn model(n: &Numbers, pixel: DVec2) -> (f64, Numbers) {
     };
     let ([s1, d1, e1], q1, a1, b1) = edge(angle_1, bend_1);
     let ([s2, d2, e2], q2, a2, b2) = edge(angle_2, bend_2);
+    let product = s1 * s2;
+    let value = m + slope_x * d.x + slope_y * d.y + c * product + rim * (1.0 - product * product);
+    // dI/dP.
+    let c = c - 2.0 * rim * product;
     let q = c * (d1 * s2 * q1 + s1 * d2 * q2) - DVec2::new(slope_x, slope_y);
-    let value = m + slope_x * d.x + slope_y * d.y + c * s1 * s2;
     let by = [
         q.x,
         q.y,
@@ -140,9 +178,10 @@ fn model(n: &Numbers, pixel: DVec2) -> (f64, Numbers) {
         c * s1 * d2 * b2,
         c * (e1 * s2 + s1 * e2),
         1.0,
-        s1 * s2,
+        product,
         d.x,
         d.y,
+        1.0 - product * product,
     ];
     (value, by)
 }

@@ -24,6 +24,14 @@ pub enum TargetError {
         /// Columns and rows.
         size: [usize; 2],
     },
+    /// Too small to be a chart that can be measured.
+    #[error("the points in rows and columns lie {step_px:.1} px apart, {least_px} px are needed: a pattern that is no chart, or a chart too far away")]
+    Small {
+        /// The median distance of neighbours, px.
+        step_px: f64,
+        /// What would do, px.
+        least_px: f64,
+    },
     /// Another chart than stated.
     #[error("a grid of {} × {} points was found where {} × {} were stated; a checkerboard counts its inner corners", found[0], found[1], stated[0], stated[1])]
     Larger {

@@ -34,6 +34,18 @@ impl Grid {
         self.nodes.binary_search_by_key(&[index[1], index[0]], key).ok().map(|i| &self.nodes[i])
     }
 
+    /// The median distance of neighbours in a row or a column, px; 0 where no point has one.
+    #[must_use]
+    pub fn step_px(&self) -> f64 {
+        let beside = |n: &Node| {
+            let [i, j] = n.index;
+            [[i + 1, j], [i, j + 1]].map(|index| self.node(index).map(|other| (other.at - n.at).length()))
+        };
+        let mut steps: Vec<f64> = self.nodes.iter().flat_map(beside).flatten().collect();
+        steps.sort_by(f64::total_cmp);
+        steps.get(steps.len() / 2).copied().unwrap_or(0.0)
+    }
+
     /// The share of places between the first and the last point of each row, and of each column (whichever is less), at which
     /// a point was found: 1 for a grid that is cut by the picture, or staggered, and has no gaps.
     #[must_use]
