@@ -53,10 +53,7 @@ pub fn displacements(green: &Grid, other: &Grid, size_px: [usize; 2]) -> Vec<Dis
     let size = DVec2::new(size_px[0] as f64, size_px[1] as f64);
     let (centre, half_diagonal) = (0.5 * size, 0.5 * size.length());
     let at = |node: &crate::target::Node| {
-        let nearest = other
-            .nodes
-            .iter()
-            .min_by(|a, b| (a.at - node.at).length_squared().total_cmp(&(b.at - node.at).length_squared()))?;
+        let nearest = other.nearest(node.at)?;
         let by = nearest.at - node.at;
         (by.length() < 0.5 * step(green, node)?).then_some(())?;
         let from = node.at - centre;

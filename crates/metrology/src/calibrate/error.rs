@@ -1,5 +1,6 @@
 //! Why there is no camera.
 
+use crate::Estimate;
 use crate::fit::FitError;
 use etendue_projection::{CalibrationError, model::ModelError};
 
@@ -34,6 +35,17 @@ pub enum CalibrateError {
     /// The fitted numbers are no camera.
     #[error(transparent)]
     Camera(#[from] CalibrationError),
+    /// What is stated is not what the views show.
+    #[error(
+        "the stated distance, {} ± {}, is not what the views show, {:.6} ± {:.2} (in the pitch's unit): check distance and pitch, state the \
+         distance's uncertainty, or leave it out", stated.value, stated.standard_uncertainty, shown.value, shown.standard_uncertainty
+    )]
+    Distance {
+        /// As stated.
+        stated: Estimate,
+        /// As the views show it.
+        shown: Estimate,
+    },
     /// Numbers that the views do not tell.
     #[error(
         "the views do not determine {}: add views with the chart turned by 20° to 45° about different axes, state the distance of \

@@ -12,11 +12,13 @@
 //!    until it stays.
 //!
 //! Lengths of charts, poses and distances are in one unit of the caller's. Uncertainty: the covariance of 2, from the
-//! residuals (degrees of freedom: coordinates less numbers); a stated distance adds its own. What the views do not
+//! residuals (degrees of freedom: coordinates less numbers). A stated distance is one observation with its own uncertainty, 0
+//! being exact, beside the points; a distance that is not what the views show is refused. What the views do not
 //! determine, such as the focal length of one view from the front, is refused ([`CalibrateError::Undetermined`]).
 //!
 //! Robust weights are off unless asked for ([`Options::robust`]): then, after 2, a point whose distance d is beyond 2.5 σ
-//! (σ from the median) counts with √(2.5 σ/d) (Huber 1964), and 2 is repeated five times.
+//! (σ from the median) counts with √(2.5 σ/d) (Huber 1964), and 2 is repeated five times; the covariance is widened by what
+//! these weights take from it (Huber 1981).
 //!
 //! Left out: skew, charts that are not flat or not known, several cameras.
 
@@ -100,9 +102,30 @@ pub fn calibrate(
     if views.is_empty() {
         return Err(CalibrateError::NoViews);
     }
+    let found = solved(views, size_px, family, options)?;
+    if let Some(stated) = options.distance {
+        // What cannot be told without the distance does not speak against it.
+        if let Ok(free) = solved(views, size_px, family, Options { distance: None, ..options }) {
+            contradiction(stated, &free).map_or(Ok(()), Err)?;
+        }
+    }
+    Ok(found)
+}
+
+fn solved(
+    views: &[Sightings],
+    size_px: [usize; 2],
+    family: Family,
+    options: Options,
+) -> Result<Calibrated, CalibrateError> {
     let mut bundle = Bundle::new(views, size_px, family, options);
     let start = start::guess(&bundle).ok_or(CalibrateError::Start)?;
     let mut found = fit(&bundle, &start)?;
+    // The weight of the distance follows from what the points leave.
+    for _ in 0..options.distance.map_or(0, |_| 2) {
+        bundle.weigh_distance(&found);
+        found = fit(&bundle, &found.parameters)?;
+    }
     if options.robust {
         for _ in 0..5 {
             bundle.reweigh(&found);
@@ -111,6 +134,19 @@ pub fn calibrate(
     }
     found = without_shifts(&mut bundle, found)?;
     result::result(&bundle, found)
+}
+
+/// Where the distance that the views show by themselves is off the stated one by more than three standard uncertainties of the
+/// difference.
+fn contradiction(stated: Estimate, free: &Calibrated) -> Option<CalibrateError> {
+    const LIMIT: f64 = 3.0;
+    // The distance is known as well as the focal length, in proportion.
+    let focal = free.estimate("fx_px")?;
+    let distance = free.poses[0].distance();
+    let shown = Estimate::new(distance, distance * focal.standard_uncertainty / focal.value);
+    let variance = |e: Estimate| e.standard_uncertainty * e.standard_uncertainty;
+    let joint = (variance(stated) + variance(shown)).sqrt();
+    ((shown.value - stated.value).abs() > LIMIT * joint).then_some(CalibrateError::Distance { stated, shown })
 }
 
 /// The fit to where the discs' centres are seen.

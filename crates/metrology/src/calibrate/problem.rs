@@ -17,6 +17,8 @@ pub(super) struct Bundle<'a> {
     shifts: Vec<Vec<DVec2>>,
     /// Square roots of weights.
     weights: Vec<Vec<f64>>,
+    /// Of the stated distance: pixels for its whole.
+    distance_weight: f64,
 }
 
 /// A camera and the poses of its charts.
@@ -25,14 +27,19 @@ pub(super) struct Placed {
     pub(super) poses: Vec<Pose>,
 }
 
-/// Weight of a stated distance: a hundred-thousandth of it counts as a pixel.
-const DISTANCE_WEIGHT: f64 = 1e5;
+/// Weight of a distance that is exact: a ten-thousandth of it counts as a pixel, so that it holds to some 10⁻⁵ beside points
+/// that scatter by a tenth. A larger one makes a valley in which the fit hardly moves.
+const EXACT: f64 = 1e4;
+/// Standard deviation of a coordinate before a fit says it, px.
+const FIRST_SIGMA_PX: f64 = 0.1;
 
 impl<'a> Bundle<'a> {
     pub(super) fn new(views: &'a [Sightings], size_px: [usize; 2], family: Family, options: Options) -> Self {
         let shifts = views.iter().map(|v| vec![DVec2::ZERO; v.points.len()]).collect();
         let weights = views.iter().map(|v| vec![1.0; v.points.len()]).collect();
-        Self { views, size_px, family, options, shifts, weights }
+        let mut bundle = Self { views, size_px, family, options, shifts, weights, distance_weight: EXACT };
+        bundle.weigh_by(FIRST_SIGMA_PX);
+        bundle
     }
 
     /// Names of the numbers before the views'.
@@ -104,6 +111,38 @@ impl<'a> Bundle<'a> {
         largest
     }
 
+    /// One observation of the stated distance, shared among the views: all together weigh as a coordinate does whose standard
+    /// deviation is what the points of a fit leave.
+    pub(super) fn weigh_distance(&mut self, fit: &Fit) {
+        let points = |v: usize| &fit.residuals[v][..2 * self.views[v].points.len()];
+        let squares: f64 = (0..self.views.len()).flat_map(points).map(|r| r * r).sum();
+        self.weigh_by((squares / fit.degrees_of_freedom as f64).sqrt());
+    }
+
+    fn weigh_by(&mut self, sigma: f64) {
+        if let Some(distance) = self.options.distance.filter(|d| d.standard_uncertainty > 0.0) {
+            let each = distance.standard_uncertainty * (self.views.len() as f64).sqrt();
+            self.distance_weight = (sigma * distance.value / each).min(EXACT);
+        }
+    }
+
+    /// What of the covariance Huber's weights take away (Huber 1981, section 6.5, to the mean of his matrices): Σ ψ²/ν over the
+    /// square of the mean of ψ′, which is 1 within the limit and, across the line to the fit, w beyond it.
+    pub(super) fn widening(&self, fit: &Fit) -> f64 {
+        let (mut weighted, mut squares, mut weights, mut slopes, mut count) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for (view, residuals) in self.weights.iter().zip(&fit.residuals) {
+            for (root, r) in view.iter().zip(residuals.chunks_exact(2)) {
+                let (weight, square) = (root * root, r[0] * r[0] + r[1] * r[1]);
+                weighted += weight * square;
+                squares += square;
+                weights += weight;
+                slopes += if weight < 1.0 { 0.5 * weight } else { 1.0 };
+                count += 1.0;
+            }
+        }
+        if squares > 0.0 { weighted / squares * (weights / count) * (count / slopes) * (count / slopes) } else { 1.0 }
+    }
+
     /// Huber's weights by the distances of a fit.
     pub(super) fn reweigh(&mut self, fit: &Fit) {
         let distance = |v: usize, p: usize| {
@@ -158,7 +197,7 @@ impl Problem for Bundle<'_> {
                 (placed.calibration.project(pose.camera(point.chart))? - self.seen(view, p)) * self.weights[view][p];
             residuals.extend(off.to_array());
         }
-        residuals.extend(self.options.distance.map(|d| DISTANCE_WEIGHT * (pose.distance() / d.value - 1.0)));
+        residuals.extend(self.options.distance.map(|d| self.distance_weight * (pose.distance() / d.value - 1.0)));
         Some(residuals)
     }
 

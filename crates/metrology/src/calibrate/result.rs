@@ -64,13 +64,13 @@ const FOCAL_LIMIT: f64 = 0.05;
 
 pub(super) fn result(bundle: &Bundle<'_>, fit: Fit) -> Result<Calibrated, CalibrateError> {
     let names = bundle.names();
+    let widening = if bundle.options.robust { bundle.widening(&fit) } else { 1.0 };
     let mut covariance = Matrix::zeros(names.len(), names.len());
     for i in 0..names.len() {
         for j in 0..names.len() {
-            *covariance.at_mut(i, j) = fit.covariance.at(i, j);
+            *covariance.at_mut(i, j) = widening * fit.covariance.at(i, j);
         }
     }
-    add_distance(bundle, &names, &fit, &mut covariance);
     let parameter = |(i, name): (usize, &&'static str)| Parameter {
         name,
         estimate: Estimate::new(fit.parameters[i], covariance.at(i, i).sqrt()),
@@ -102,17 +102,4 @@ fn is_unknown(p: &Parameter) -> bool {
     let Estimate { value, standard_uncertainty } = p.estimate;
     let focal = p.name == "fx_px" || p.name == "fy_px";
     !standard_uncertainty.is_finite() || (focal && standard_uncertainty > FOCAL_LIMIT * value)
-}
-
-/// A distance stated too long makes the focal lengths too long in proportion; what the points say of the focal length beside
-/// the distance is left out.
-fn add_distance(bundle: &Bundle<'_>, names: &[&str], fit: &Fit, covariance: &mut Matrix) {
-    let Some(distance) = bundle.options.distance else { return };
-    let relative = distance.standard_uncertainty / distance.value;
-    let share = |i: usize| if names[i].starts_with('f') { fit.parameters[i] * relative } else { 0.0 };
-    for i in 0..names.len() {
-        for j in 0..names.len() {
-            *covariance.at_mut(i, j) += share(i) * share(j);
-        }
-    }
 }

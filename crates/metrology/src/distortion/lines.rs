@@ -1,5 +1,6 @@
-//! Line distortion: how far rows and columns bow.
+//! Line distortion: how far rows and columns bow, and how much higher the picture is at its sides.
 
+use crate::Estimate;
 use crate::target::Node;
 use glam::DVec2;
 
@@ -24,6 +25,23 @@ pub(super) fn bows(nodes: &[Node], size: [usize; 2], centre: DVec2, height_px: f
     };
     let rows = (0..size[1]).filter_map(|i| line(1, i));
     rows.chain((0..size[0]).filter_map(|i| line(0, i))).collect()
+}
+
+/// The distance of the first row that reaches from side to side from the last such, at the sides (mean) over that in the middle,
+/// less 1: positive for a pincushion. The mean of both sides has no tilt of the chart in it, to first order.
+pub(super) fn picture_height(nodes: &[Node], [columns, rows]: [usize; 2]) -> Option<Estimate> {
+    let row = |index: usize| {
+        let points: Vec<&Node> = nodes.iter().filter(|n| n.index[1] == index).collect();
+        let column = |i: usize| points.iter().find(|n| n.index[0] == i).copied();
+        Some([column(0)?, column(columns / 2)?, column(columns.checked_sub(1)?)?])
+    };
+    let whole: Vec<[&Node; 3]> = (0..rows).filter_map(row).collect();
+    let (first, last) = (whole.first()?, whole.last()?);
+    let [left, middle, right] = [0, 1, 2].map(|i| (last[i].at - first[i].at).length());
+    let variance = |i: usize| [first, last].iter().map(|r| r[i].uncertainty_px * r[i].uncertainty_px).sum::<f64>();
+    let ratio = 0.5 * (left + right) / middle;
+    let relative = (0.25 * (variance(0) + variance(2)) + ratio * ratio * variance(1)).sqrt() / middle;
+    (whole.len() > 1 && middle > 0.0).then(|| Estimate::new(ratio - 1.0, relative))
 }
 
 /// px; `None` of fewer than five points.

@@ -8,7 +8,9 @@
 //!    observed over ideal, against the observed one in half diagonals, is the distortion curve ([`curve`](CurvePoint)); less 1
 //!    it is the local geometric distortion of ISO 17850:2015, whose ideal scale is that of the dots about the centre as well.
 //! 4. The bow of rows and columns in the picture's height is ISO 17850's line distortion ([`LineBow`]).
-//! 5. k₁ and k₂ of the radial polynomial in either direction, in half diagonals, and its centre, are fitted beside
+//! 5. The height of the picture at its sides over that in the middle, from the outermost rows that reach from side to side, is
+//!    the picture-height (television) distortion.
+//! 6. k₁ and k₂ of the radial polynomial in either direction, in half diagonals, and its centre, are fitted beside
 //!    ([`RadialFit`]).
 //!
 //! Positions are raster coordinates, px; ratios are pure. Uncertainty: the polynomial's covariance, from its residuals, to
@@ -25,6 +27,7 @@ pub use ideal::Ideal;
 pub use lines::LineBow;
 pub use radial::RadialFit;
 
+use crate::Estimate;
 use crate::calibrate::Sightings;
 use crate::fit::FitError;
 use crate::target::{Grid, Node};
@@ -66,8 +69,11 @@ pub struct LocalDistortion {
     pub ideal: DVec2,
     /// Its distance from the centre, in half diagonals.
     pub field: f64,
-    /// (Observed − ideal)/ideal distance from the centre.
-    pub distortion: f64,
+    /// (Observed − ideal)/ideal distance from the centre. Its uncertainty is that of the point alone: that of the ideal places,
+    /// which neighbours share, is the curve's.
+    pub distortion: Estimate,
+    /// Standard uncertainty of a coordinate of `at`, px.
+    pub uncertainty_px: f64,
 }
 
 /// The distortion of a picture.
@@ -85,6 +91,9 @@ pub struct Distortion {
     pub local: Vec<LocalDistortion>,
     /// Rows and columns.
     pub lines: Vec<LineBow>,
+    /// Picture-height distortion: the height at the sides over that in the middle, less 1 ([`picture_height`](lines)); `None`
+    /// where no two rows reach from side to side.
+    pub height: Option<Estimate>,
     /// k₁, k₂ from ideal to observed.
     pub forward: RadialFit,
     /// k₁, k₂ from observed to ideal.
@@ -108,6 +117,7 @@ pub fn distortion(grid: &Grid, size_px: [usize; 2], centre_px: Option<DVec2>) ->
         curve: curve::curve(&ideal, &nodes, half_diagonal_px),
         local: nodes.iter().filter_map(|n| local(&ideal, n, half_diagonal_px)).collect(),
         lines: lines::bows(&nodes, grid.size, centre, size.y),
+        height: lines::picture_height(&nodes, grid.size),
         forward: RadialFit::of(&sightings.points, Sense::IdealToObserved, centre, half_diagonal_px)?,
         backward: RadialFit::of(&sightings.points, Sense::ObservedToIdeal, centre, half_diagonal_px)?,
         ideal,
@@ -119,11 +129,13 @@ fn local(ideal: &Ideal, node: &Node, half_diagonal_px: f64) -> Option<LocalDisto
     let place = ideal.place(node.at);
     // At the centre itself a ratio says nothing.
     let far = seen.length() > 0.02 * half_diagonal_px;
+    let ratio = seen.length() / (place - ideal.centre()).length();
     far.then(|| LocalDistortion {
         index: node.index,
         at: node.at,
         ideal: place,
         field: seen.length() / half_diagonal_px,
-        distortion: seen.length() / (place - ideal.centre()).length() - 1.0,
+        distortion: Estimate::new(ratio - 1.0, ratio * node.uncertainty_px / seen.length()),
+        uncertainty_px: node.uncertainty_px,
     })
 }

@@ -19,6 +19,8 @@ pub struct RadialFit {
     /// The distortion's centre, raster coordinates; uncertain without limit where the distortion is too weak to show it
     /// (then the curve's centre was taken).
     pub centre_px: [Estimate; 2],
+    /// Covariance of k₁, k₂ and the centre's x and y.
+    pub covariance: [[f64; 4]; 4],
     /// Root mean square distance of the points from the fit, px.
     pub rms_px: f64,
 }
@@ -49,7 +51,12 @@ impl RadialFit {
         };
         let squares: f64 = found.residuals.iter().flatten().map(|r| r * r).sum();
         let rms_px = (squares / points.len() as f64).sqrt();
-        Ok(Self { sense, k1: found.estimate(8), k2: found.estimate(9), centre_px, rms_px })
+        let unknown = |i: usize, j: usize| if i == j { f64::INFINITY } else { 0.0 };
+        let fitted = found.parameters.len() - 8;
+        let covariance =
+            |i: usize, j: usize| if i.max(j) < fitted { found.covariance.at(8 + i, 8 + j) } else { unknown(i, j) };
+        let covariance = std::array::from_fn(|i| std::array::from_fn(|j| covariance(i, j)));
+        Ok(Self { sense, k1: found.estimate(8), k2: found.estimate(9), centre_px, covariance, rms_px })
     }
 }
 

@@ -1,10 +1,8 @@
 //! Plane to plane in perspective: x′ ~ H x.
 //!
-//! First guess: the normalised direct linear transformation (Hartley & Zisserman, Multiple View Geometry, 2nd ed. 2004,
-//! algorithm 4.2), both sets moved to their centroid and scaled to a mean distance of √2. Then the distances in the second
-//! plane are least squares of eight numbers, with covariance ([`levenberg`](super::levenberg)).
+//! By the normalised direct linear transformation (Hartley & Zisserman, Multiple View Geometry, 2nd ed. 2004,
+//! algorithm 4.2), both sets moved to their centroid and scaled to a mean distance of √2.
 
-use super::levenberg::{Fit, FitError, Problem, fit};
 use crate::linear::{Matrix, eigen};
 use glam::{DMat3, DVec2, DVec3};
 
@@ -21,13 +19,6 @@ impl Homography {
     pub fn image(&self, point: DVec2) -> Option<DVec2> {
         let image = self.matrix * point.extend(1.0);
         (image.z > 0.0).then(|| image.truncate() / image.z)
-    }
-
-    /// The way back; `None` where there is none.
-    #[must_use]
-    pub fn inverse(&self) -> Option<Self> {
-        let inverse = self.matrix.inverse();
-        inverse.is_finite().then(|| Self { matrix: inverse / inverse.z_axis.z })
     }
 
     /// The homography nearest to pairs of points by the direct linear transformation; `None` where they do not determine one
@@ -49,23 +40,6 @@ impl Homography {
         let matrix = matrix / matrix.z_axis.z;
         (matrix.is_finite() && matrix.determinant().abs() > 0.0).then_some(Self { matrix })
     }
-
-    /// The homography with the least squared distances in the second plane, and the fit of its eight numbers (row by row).
-    ///
-    /// # Errors
-    /// As [`fit`].
-    pub fn fitted(pairs: &[[DVec2; 2]]) -> Result<(Self, Fit), FitError> {
-        let start = Self::direct(pairs).ok_or(FitError::Few { residuals: 2 * pairs.len(), parameters: 8 })?;
-        let rows = start.matrix.transpose().to_cols_array();
-        let reach: Vec<f64> = reaches(&start, pairs);
-        let fit = fit(&Distances { pairs, reach }, &rows[..8])?;
-        Ok((Self::of(&fit.parameters), fit))
-    }
-
-    fn of(p: &[f64]) -> Self {
-        let rows = [DVec3::new(p[0], p[3], p[6]), DVec3::new(p[1], p[4], p[7]), DVec3::new(p[2], p[5], 1.0)];
-        Self { matrix: DMat3::from_cols(rows[0], rows[1], rows[2]) }
-    }
 }
 
 /// The moving and scaling that brings points to the origin at a mean distance of √2.
@@ -86,50 +60,6 @@ pub fn null_vector(a: &Matrix) -> Option<Vec<f64>> {
     single.then(|| found.vectors[0].clone())
 }
 
-/// Changes of the eight numbers that move the image by about a unit of its size.
-fn reaches(start: &Homography, pairs: &[[DVec2; 2]]) -> Vec<f64> {
-    let size = |side: usize| {
-        let centre = pairs.iter().map(|p| p[side]).sum::<DVec2>() / pairs.len() as f64;
-        pairs.iter().map(|p| (p[side] - centre).length()).fold(0.0, f64::max)
-    };
-    let from = size(0) + (pairs.iter().map(|p| p[0]).sum::<DVec2>() / pairs.len() as f64).length();
-    let unit = size(1) * start.matrix.z_axis.z;
-    let far = size(1) + (pairs.iter().map(|p| p[1]).sum::<DVec2>() / pairs.len() as f64).length();
-    let slope = unit / from;
-    let tilt = slope / far;
-    [slope, slope, unit, slope, slope, unit, tilt, tilt].map(|r| 0.01 * r).to_vec()
-}
-
-struct Distances<'a> {
-    pairs: &'a [[DVec2; 2]],
-    reach: Vec<f64>,
-}
-
-impl Problem for Distances<'_> {
-    type State = Homography;
-
-    fn state(&self, parameters: &[f64]) -> Option<Homography> {
-        Some(Homography::of(parameters))
-    }
-
-    fn blocks(&self) -> usize {
-        1
-    }
-
-    fn residuals(&self, state: &Homography, _: usize) -> Option<Vec<f64>> {
-        let each = self.pairs.iter().map(|[from, to]| state.image(*from).map(|image| (image - *to).to_array()));
-        each.collect::<Option<Vec<_>>>().map(|list| list.concat())
-    }
-
-    fn depends(&self, _: usize, _: usize) -> bool {
-        true
-    }
-
-    fn reach(&self, parameter: usize) -> f64 {
-        self.reach[parameter]
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -143,13 +73,11 @@ mod tests {
         let rows = [[2.0, 0.3, 100.0], [-0.2, 1.8, 700.0], [4e-4, -2e-4, 1.0]];
         let truth = Homography { matrix: DMat3::from_cols_array_2d(&rows).transpose() };
         let pairs: Vec<_> = grid().map(|p| [p, truth.image(p).expect("before the plane")]).collect();
-        let (found, _) = Homography::fitted(&pairs).expect("determined");
+        let found = Homography::direct(&pairs).expect("determined");
         for [from, to] in &pairs {
             // A thousand pixels, conditioned by normalisation: some hundred roundings.
             assert!((found.image(*from).expect("finite") - *to).length() < 1e-9, "{found:?}");
         }
-        let back = found.inverse().expect("regular");
-        assert!((back.image(pairs[7][1]).expect("finite") - pairs[7][0]).length() < 1e-9);
     }
 
     #[test]

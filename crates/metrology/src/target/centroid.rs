@@ -3,7 +3,8 @@
 //! w = 1 − I/B, B a plane through the background around the dot, over the ellipse of the dot's second moments, enlarged by
 //! some pixels for the blurred edge: pixels that are dark in part count in part, and multiplicative shading does not move
 //! the centroid. (For bright dots the picture is turned over first, and w = B − I.) The standard uncertainty is what the
-//! background's own scatter, in every pixel of the ellipse, does to the centroid.
+//! pixels' own scatter does to the centroid: a variance that goes from that of the background to that of the dot's middle as w
+//! does (bright dots have more of it, from their own photons, dark dots less).
 //!
 //! That is where the disc's centre of area is seen. Perspective and distortion shift it from where the disc's centre is
 //! seen; [`disc`](crate::disc) says by how much, once the map from the chart to the picture is known.
@@ -68,6 +69,8 @@ impl Moments {
 /// Room for a blurred edge, and for the background beyond it, px.
 const EDGE_PX: f64 = 3.0;
 const BACKGROUND_PX: f64 = 1.5;
+/// Pixels of the dot's middle whose scatter tells its noise.
+const CORE_PX: u64 = 9;
 
 /// The dot of a region; its ellipse may be enlarged `room` times at most. `None` where there is no background or no dot.
 pub(super) fn measured(image: &Image, blob: &Blob, room: f64, bright: bool) -> Option<Centroid> {
@@ -90,12 +93,15 @@ pub(super) fn measured(image: &Image, blob: &Blob, room: f64, bright: bool) -> O
     let mut moments = Moments::default();
     pixels.iter().for_each(|p| moments.add(p.0, taken(p)));
     let at = moments.mean()?;
-    let levers: f64 = pixels.iter().map(|(p, _)| (*p - at).length_squared()).sum();
     let relative = if bright { noise } else { noise / plane[0] };
-    let middle: Vec<f64> = pixels.iter().filter(|(p, _)| distance(*p) < 0.5).map(taken).collect();
-    let core = middle.iter().sum::<f64>() / middle.len() as f64;
+    let middle = etendue_stats::Moments::of(pixels.iter().filter(|(p, _)| distance(*p) < 0.5).map(taken));
+    let core = middle.mean();
+    let around = relative * relative;
+    let within = middle.variance().filter(|_| middle.count() >= CORE_PX).unwrap_or(around);
+    let variance = |p: &(DVec2, f64)| around + (within - around) * (taken(p) / core).clamp(0.0, 1.0);
+    let levers: f64 = pixels.iter().map(|p| (p.0 - at).length_squared() * variance(p)).sum();
     let area = moments.sum / core;
-    let uncertainty_px = relative * (0.5 * levers).sqrt() / moments.sum;
+    let uncertainty_px = (0.5 * levers).sqrt() / moments.sum;
     (area > 0.0 && core > 0.0 && uncertainty_px.is_finite()).then_some(Centroid { at, area, uncertainty_px })
 }
 

@@ -33,10 +33,30 @@ pub(super) fn find(image: &Image) -> Grid {
     }
     let (places, mut points) = best;
     let refined = refine(image, &places, &points);
-    let kept: Places = places.into_iter().filter(|(_, i)| refined[*i].is_some()).collect();
+    let kept = without_stragglers(places.into_iter().filter(|(_, i)| refined[*i].is_some()).collect());
     points.iter_mut().zip(&refined).for_each(|(p, r)| *p = r.map_or(*p, |r| r.at));
     let uncertainties: Vec<f64> = refined.iter().map(|r| r.map_or(f64::INFINITY, |r| r.uncertainty_px)).collect();
     Grid::of(&kept, &points, &uncertainties)
+}
+
+/// Without outer rows and columns that hold one point, or less than a fifth of the longest: what is taken for a corner beyond
+/// the board, where its border meets what is around it.
+fn without_stragglers(mut places: Places) -> Places {
+    const SHARE: usize = 5;
+    loop {
+        let stray = (0..2).find_map(|axis| {
+            let count = |line: i32| places.keys().filter(|p| p[axis] == line).count();
+            let lines = || places.keys().map(|p| p[axis]);
+            let (low, high) = (lines().min()?, lines().max()?);
+            let longest = (low..=high).map(count).max()?;
+            let few = |line: &i32| count(*line) < 2.max(longest.div_ceil(SHARE));
+            [low, high].into_iter().find(|line| longest > 1 && few(line)).map(|line| (axis, line))
+        });
+        match stray {
+            Some((axis, line)) => places.retain(|p, _| p[axis] != line),
+            None => return places,
+        }
+    }
 }
 
 fn board(image: &Image) -> (Places, Vec<DVec2>) {

@@ -25,7 +25,9 @@ pub enum TargetError {
         size: [usize; 2],
     },
     /// Too small to be a chart that can be measured.
-    #[error("the points in rows and columns lie {step_px:.1} px apart, {least_px} px are needed: a pattern that is no chart, or a chart too far away")]
+    #[error(
+        "the points in rows and columns lie {step_px:.1} px apart, {least_px} px are needed: a pattern that is no chart, or a chart too far away"
+    )]
     Small {
         /// The median distance of neighbours, px.
         step_px: f64,

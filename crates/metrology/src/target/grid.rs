@@ -46,6 +46,35 @@ impl Grid {
         steps.get(steps.len() / 2).copied().unwrap_or(0.0)
     }
 
+    /// Of grids of one chart in one picture, the points that all of them show, where they show them in the mean: points belong
+    /// together where they are nearest, within half a step. The uncertainties are taken for independent.
+    ///
+    /// # Panics
+    /// Without a grid.
+    #[must_use]
+    pub fn mean(grids: &[Self]) -> Self {
+        let [first, others @ ..] = grids else { panic!("at least one grid") };
+        let reach = 0.5 * first.step_px();
+        let mean = |node: &Node| {
+            let nearest =
+                others.iter().map(|other| other.nearest(node.at).filter(|n| (n.at - node.at).length() < reach));
+            let all: Vec<&Node> = std::iter::once(Some(node)).chain(nearest).collect::<Option<_>>()?;
+            let count = all.len() as f64;
+            let squares: f64 = all.iter().map(|n| n.uncertainty_px * n.uncertainty_px).sum();
+            let at = all.iter().map(|n| n.at).sum::<DVec2>() / count;
+            Some(Node { at, uncertainty_px: squares.sqrt() / count, ..*node })
+        };
+        let nodes = first.nodes.iter().filter_map(mean).collect();
+        Self { nodes, ..*first }
+    }
+
+    /// The point nearest to a place.
+    #[must_use]
+    pub fn nearest(&self, at: DVec2) -> Option<&Node> {
+        let from = |n: &&Node| (n.at - at).length_squared();
+        self.nodes.iter().min_by(|a, b| from(a).total_cmp(&from(b)))
+    }
+
     /// The share of places between the first and the last point of each row, and of each column (whichever is less), at which
     /// a point was found: 1 for a grid that is cut by the picture, or staggered, and has no gaps.
     #[must_use]

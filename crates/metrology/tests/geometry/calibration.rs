@@ -108,6 +108,52 @@ fn one_view_from_the_front_has_no_focal_length() {
 }
 
 #[test]
+fn a_stated_distance_counts_as_much_as_it_is_known() {
+    let camera = perspective(500.0, &[-0.2, 0.05, 0.001, -0.002], SIZE);
+    const DISTANCE: f64 = 0.5;
+    // Turned charts whose planes are all as far away.
+    let level = |v: &View| {
+        let far = v.turn.z_axis.dot(v.place);
+        View { place: v.place + v.turn.z_axis * (DISTANCE - far), ..v.clone() }
+    };
+    let mut word = 11;
+    let seen: Vec<Sightings> =
+        views(&camera, DISTANCE).iter().map(level).map(|v| self::seen(&v, 0.05, &mut word)).collect();
+    let found = |views: &[Sightings], value: f64, u: f64| {
+        let distance = Some(Estimate::new(value, u));
+        let options = Options { distance, ..Options::default() };
+        calibrate(views, SIZE, BROWN, options)
+    };
+    let focal = |value, u| found(&seen, value, u).expect("determined").estimate("fx_px").expect("fitted");
+    let free = calibrate(&seen, SIZE, BROWN, Options::default()).expect("determined");
+    let free = free.estimate("fx_px").expect("fitted");
+    // One standard uncertainty off, which says next to nothing beside what the views know of it.
+    let vague = focal(0.52, 0.02);
+    assert!((vague.value - free.value).abs() < 0.2 * free.standard_uncertainty, "{vague:?} {free:?}");
+    // The views know the distance to some 2·10⁻⁴; one that is stated better decides.
+    let sharp = focal(DISTANCE, 1e-5);
+    assert!(sharp.standard_uncertainty < 0.5 * free.standard_uncertainty, "{sharp:?} {free:?}");
+    assert!((sharp.value - 500.0).abs() < 3.0 * sharp.standard_uncertainty, "{sharp:?}");
+    // A wrong one is refused, exact or not.
+    for u in [0.0, 0.005] {
+        assert!(matches!(found(&seen, 0.55, u), Err(CalibrateError::Distance { .. })));
+    }
+    // Where the views say nothing, its uncertainty is the focal length's.
+    let front = Options {
+        distance: Some(Estimate::new(DISTANCE, 0.005)),
+        square_pixels: true,
+        principal_px: Some(DVec2::new(camera.matrix().cx, camera.matrix().cy)),
+        ..Options::default()
+    };
+    let alone =
+        calibrate(&seen[..1], SIZE, Family::Perspective { radial: Radial::Polynomial(2), tangential: false }, front)
+            .expect("determined")
+            .estimate("fx_px")
+            .expect("fitted");
+    assert!((alone.standard_uncertainty / alone.value - 0.01).abs() < 2e-3, "{alone:?}");
+}
+
+#[test]
 fn outliers_spoil_a_fit_unless_it_is_robust() {
     let camera = perspective(500.0, &[-0.2, 0.05, 0.0, 0.0], SIZE);
     let mut views = all(&camera, 0.5, 0.05, 5);

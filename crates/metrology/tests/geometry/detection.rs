@@ -95,6 +95,22 @@ fn dots_of_a_fisheye_lie_where_the_discs_centres_of_area_are_seen() {
 }
 
 #[test]
+fn the_photons_of_bright_dots_count_in_their_uncertainty() {
+    let camera = perspective(500.0, &[], [640, 480]);
+    let view = View::new(&camera, [0.0; 3], DVec2::new(5.0, 3.5), DVec3::new(0.0, 0.0, 12.0));
+    // Bright dots: a variance in proportion to the light, five times as much deviation in the dots as around them.
+    let picture: Image = view.picture(16, &dots(11, 8, 0.3)).map(|v| if v < 0.899 { 0.9 - v + 0.036 } else { 0.036 });
+    let unit = noisy(&Image::filled(640, 480, 0.0), 1.0, 5);
+    let both = picture.samples().iter().zip(unit.samples());
+    let shot = both.map(|(v, n): (&f32, &f32)| v + 0.03 * v.max(0.0).sqrt() * n);
+    let grid = find(&Image::from_samples(640, 480, shot.collect()).expect("as large"), DOTS).expect("dots");
+    let told = rms(&grid.nodes.iter().map(|n| std::f64::consts::SQRT_2 * n.uncertainty_px).collect::<Vec<_>>());
+    let ratio = rms(&errors(&view, &grid, [11, 8])) / told;
+    // 176 coordinates: 5 %; four of them, and as much for the edges, whose variance lies between.
+    assert!((ratio - 1.0).abs() < 0.3, "{ratio}");
+}
+
+#[test]
 fn shading_does_not_move_dots() {
     let camera = perspective(500.0, &[], [640, 480]);
     let view = View::new(&camera, [0.0; 3], DVec2::new(5.0, 3.5), DVec3::new(0.0, 0.0, 12.0));

@@ -54,7 +54,7 @@ fn the_curve_is_the_camera_s() {
         // Of 0.01 px of noise a thirtieth remains, over a distortion of a tenth; no more than a few standard uncertainties.
         assert!(off.into_iter().all(|(off, u)| off.abs() < 0.3 && u < 0.3), "{fit:?}");
         let worst = found.local.iter().filter(|l| l.field > 0.2);
-        let off = worst.map(|l| (l.distortion + 1.0 - ratio(&camera, l.field)).abs()).fold(0.0, f64::max);
+        let off = worst.map(|l| (l.distortion.value + 1.0 - ratio(&camera, l.field)).abs()).fold(0.0, f64::max);
         assert!(off < 5e-4, "{off}");
         let bow = found.lines.iter().find(|l| l.is_row).expect("rows").bow;
         assert!(if sense == Sense::ObservedToIdeal { bow < -0.005 } else { bow > 0.002 }, "{bow}");

@@ -1,13 +1,13 @@
-//! Beside OpenCV, on its own photographs: tests/oracles/checkerboard.py.
+//! Beside OpenCV, on its own photographs: tests/oracles/checkerboard.py, corners.py.
 
 use etendue_metrology::calibrate::{Family, Options, Radial, Sighting, Sightings, calibrate};
-use etendue_metrology::target::{Sought, Target, find};
+use etendue_metrology::target::{Node, Sought, Target, TargetError, find};
 use etendue_metrology::{Estimate, Image};
 use glam::DVec2;
 use serde_json::Value;
 
 const FIGURES: &str = include_str!("../../../../tests/oracles/figures/checkerboard/opencv.json");
-const PHOTOGRAPH: &[u8] = include_bytes!("../../../../tests/oracles/figures/checkerboard/left01.jpg");
+const CORNERS: &str = include_str!("../../../../tests/oracles/figures/checkerboard/corners.json");
 
 fn figures() -> Value {
     serde_json::from_str(FIGURES).expect("JSON")
@@ -20,26 +20,115 @@ fn corners(list: &Value) -> Vec<DVec2> {
     list.iter().map(|p| DVec2::new(number(&p[0]), number(&p[1])) + 0.5).collect()
 }
 
-fn photograph() -> Image {
-    let read = image::load_from_memory(PHOTOGRAPH).expect("JPEG").into_luma8();
+fn file(name: &str) -> Image {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/oracles/figures/checkerboard");
+    let read = image::open(folder.join(name)).expect("a picture").into_luma8();
     let samples = read.as_raw().iter().map(|v| f32::from(*v)).collect();
     Image::from_samples(read.width() as usize, read.height() as usize, samples).expect("as large")
 }
 
+/// Corners found in a picture, each with what is nearest in a list.
+fn beside(name: &str, list: &[DVec2]) -> Vec<(Node, DVec2)> {
+    let sought = Sought { target: Some(Target::Checkerboard), size: Some([9, 6]) };
+    let ours = find(&file(name), sought).unwrap_or_else(|error| panic!("{name}: {error}"));
+    let from = |at: DVec2, other: &DVec2| (*other - at).length_squared();
+    let nearest = |n: &Node| list.iter().copied().min_by(|a, b| from(n.at, a).total_cmp(&from(n.at, b)));
+    ours.nodes.iter().map(|n| (*n, nearest(n).expect("a list of corners"))).collect()
+}
+
+/// Standard deviation of a coordinate of OpenCV's corners in a picture that is drawn like the photograph.
+fn deviation(name: &str) -> f64 {
+    corner_figures()["photographs"][name]["opencv_deviation_px"].as_f64().expect("a number")
+}
+
+fn corner_figures() -> Value {
+    serde_json::from_str(CORNERS).expect("JSON")
+}
+
 #[test]
-fn corners_of_a_photograph_are_opencv_s() {
-    let theirs = corners(&figures()["views"]["left01.jpg"]);
-    let ours = find(&photograph(), Sought { target: Some(Target::Checkerboard), size: Some([9, 6]) }).expect("a board");
-    assert_eq!((ours.size, ours.nodes.len()), ([9, 6], 54));
-    let nearest = |at: DVec2| {
-        theirs.iter().map(|t| *t - at).fold(DVec2::INFINITY, |a, d| if d.length() < a.length() { d } else { a })
+fn corners_of_photographs_are_opencv_s_within_their_joint_uncertainty() {
+    let figures = figures();
+    let (mut agreeing, mut all) = (0, 0);
+    for (name, list) in figures["views"].as_object().expect("views") {
+        let pairs = beside(name, &corners(list));
+        assert!(pairs.len() >= 52, "{name}: {}", pairs.len());
+        let off: Vec<DVec2> = pairs.iter().map(|(n, theirs)| *theirs - n.at).collect();
+        let mean = off.iter().sum::<DVec2>() / off.len() as f64;
+        // 0.05 px, and twice what OpenCV's scatter of 0.12 px at most leaves of a mean of 54.
+        assert!(mean.abs().max_element() < 0.05 + 0.033, "{name}: {mean}");
+        let within = |((n, _), d): &(&(Node, DVec2), &DVec2)| {
+            let joint = etendue_core::maths::f64::hypot(n.uncertainty_px, deviation(name));
+            d.abs().to_array().iter().filter(|c| **c <= 0.05 + 2.0 * joint).count()
+        };
+        agreeing += pairs.iter().zip(&off).map(|pair| within(&pair)).sum::<usize>();
+        all += 2 * off.len();
+    }
+    // The share of coordinates within 0.05 px and the expanded joint uncertainty: what 95 % intervals promise.
+    let share = agreeing as f64 / all as f64;
+    assert!(share >= 0.95, "{share}");
+}
+
+#[test]
+fn corners_of_drawn_photographs_are_nearer_to_the_truth_than_opencv_s() {
+    let figures = corner_figures();
+    for (name, list) in figures["drawn"].as_object().expect("drawn") {
+        let pairs = beside(&format!("drawn-{name}"), &corners(list));
+        let mean = |value: &dyn Fn(&(Node, DVec2)) -> f64| pairs.iter().map(value).sum::<f64>() / pairs.len() as f64;
+        let error = (0.5 * mean(&|(n, truth)| (n.at - *truth).length_squared())).sqrt();
+        assert!(error < 0.5 * deviation(name), "{name}: {error}");
+        let normal = (0.5 * mean(&|(n, truth)| (n.at - *truth).length_squared() / n.uncertainty_px.powi(2))).sqrt();
+        // 108 coordinates: 7 %; four of them. What compression leaves is no noise: some tenths more.
+        assert!((0.6..1.5).contains(&normal), "{name}: {normal}");
+    }
+}
+
+#[test]
+fn cameras_from_both_s_corners_agree_within_their_joint_uncertainty() {
+    let figures = figures();
+    let views: Vec<Sightings> = figures["views"]
+        .as_object()
+        .expect("views")
+        .iter()
+        .map(|(name, list)| {
+            let theirs = corners(list);
+            let index = |at: DVec2| theirs.iter().position(|t| *t == at).expect("of the list");
+            let chart = |i: usize| DVec2::new((i % 9) as f64, (i / 9) as f64);
+            let points = beside(name, &theirs).into_iter().map(|(n, t)| Sighting { chart: chart(index(t)), at: n.at });
+            Sightings { points: points.collect(), disc_radius: None }
+        })
+        .collect();
+    let found = calibrate(&views, [640, 480], FAMILY, Options::default()).expect("settles");
+    for (key, theirs) in camera(&figures) {
+        let ours = found.estimate(&key).expect("fitted");
+        let e_n = (ours.value - theirs.value)
+            / (2.0 * etendue_core::maths::f64::hypot(ours.standard_uncertainty, theirs.standard_uncertainty));
+        assert!(e_n.abs() < 1.0, "{key}: {ours:?} {theirs:?}");
+    }
+    // Their corners leave 0.195 px.
+    assert!(found.rms_px() < 0.17, "{}", found.rms_px());
+}
+
+const FAMILY: Family = Family::Perspective { radial: Radial::Polynomial(3), tangential: true };
+
+/// OpenCV's camera, in raster coordinates, by our names.
+fn camera(figures: &Value) -> Vec<(String, Estimate)> {
+    let named = |(name, theirs): (&String, &Value)| {
+        let number = |key: &str| theirs[key].as_f64().expect("a number");
+        let centre = if name.starts_with('c') { 0.5 } else { 0.0 };
+        let unit = if ["fx", "fy", "cx", "cy"].contains(&name.as_str()) { "_px" } else { "" };
+        (format!("{name}{unit}"), Estimate::new(number("value") + centre, number("standard_deviation")))
     };
-    let off: Vec<DVec2> = ours.nodes.iter().map(|n| nearest(n.at)).collect();
-    let mean = off.iter().sum::<DVec2>() / 54.0;
-    let rms = (off.iter().map(|d| d.length_squared()).sum::<f64>() / 54.0).sqrt();
-    // The corners of all thirteen photographs leave 0.195 px of the camera fitted to them where OpenCV found them, and 0.163 px
-    // where they are found here: OpenCV's scatter by √(0.195² − 0.163²) = 0.107 px about these. As a whole they lie where these do, to the 0.05 px asked for (pixel centres: 0.5).
-    assert!(rms < 0.107 && mean.length() < 0.05, "{rms} {mean}");
+    figures["camera"].as_object().expect("a camera").iter().map(named).collect()
+}
+
+#[test]
+fn a_pattern_that_is_no_chart_is_refused() {
+    // Another of OpenCV's pictures: a print whose moiré lies in rows and columns, 8 px apart. Of the 152 pictures of
+    // Debian's opencv-doc it is the nearest to a chart of those that are none (tests/oracles/figures/checkerboard/no_chart.txt).
+    for target in [Some(Target::Checkerboard), Some(Target::Dots), None] {
+        let told = find(&file("pic4.png"), Sought { target, size: None });
+        assert!(matches!(told, Err(TargetError::None { .. } | TargetError::Small { .. })), "{told:?}");
+    }
 }
 
 #[test]
@@ -55,18 +144,10 @@ fn the_camera_from_opencv_s_corners_is_opencv_s() {
             Sightings { points: points.collect(), disc_radius: None }
         })
         .collect();
-    let family = Family::Perspective { radial: Radial::Polynomial(3), tangential: true };
-    let found = calibrate(&views, [640, 480], family, Options::default()).expect("settles");
-    for (name, theirs) in figures["camera"].as_object().expect("a camera") {
-        let number = |key: &str| theirs[key].as_f64().expect("a number");
-        let centre = if name.starts_with('c') { 0.5 } else { 0.0 };
-        let theirs = Estimate::new(number("value") + centre, number("standard_deviation"));
-        let key = if name.len() == 2 && ["fx", "fy", "cx", "cy"].contains(&name.as_str()) {
-            format!("{name}_px")
-        } else {
-            name.clone()
-        };
-        let ours = found.estimate(&key).expect("fitted");
+    let found = calibrate(&views, [640, 480], FAMILY, Options::default()).expect("settles");
+    for (name, theirs) in camera(&figures) {
+        let key = &name;
+        let ours = found.estimate(key).expect("fitted");
         // The same points and the same sum of squares: the numbers agree to a thousandth of their uncertainty, and the
         // uncertainties to the linearisation.
         assert!((ours.value - theirs.value).abs() < 0.01 * theirs.standard_uncertainty, "{name}: {ours:?} {theirs:?}");

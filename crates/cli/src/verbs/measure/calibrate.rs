@@ -25,7 +25,7 @@ pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
     let views = &arguments.views;
     let found = views.found(views.options())?;
     let mut report = Report::new("calibrate", "camera from views of a plane chart, least squares of all points");
-    found.tell(&mut report, views.pixel_pitch_um);
+    found.tell(&mut report, views);
     if let Some(pitch_um) = views.pixel_pitch_um {
         report.camera(found.camera_file(pitch_um, arguments.f_number));
     }

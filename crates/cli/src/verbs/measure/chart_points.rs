@@ -1,11 +1,12 @@
 //! The points of a chart in picture files.
 
+use super::common::refused;
+use super::readings::{Readings, Selection, tile};
 use crate::failure::Failure;
+use crate::progress::PictureBar;
 use clap::{Args, ValueEnum};
 use etendue_io::photograph::{Photograph, read_photograph};
-use etendue_metrology::Image;
-use etendue_metrology::target::{Grid, Sought, Target, find};
-use etendue_spectra::colour::XYZ_FROM_SRGB;
+use etendue_metrology::target::{Grid, Sought, Target, TargetError, find};
 use std::path::{Path, PathBuf};
 
 /// The chart that is photographed.
@@ -17,9 +18,16 @@ pub struct ChartArguments {
     /// Columns and rows of its points, e.g. 11x8: inner corners of a checkerboard, dots [default: as found]
     #[arg(long, value_name = "NxM", value_parser = grid)]
     pub grid: Option<[usize; 2]>,
-    /// The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name [default: the luminance]
+    /// The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic [default:
+    /// the luminance]
     #[arg(long, value_name = "NAME")]
     pub channel: Option<String>,
+    /// The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB
+    #[arg(long, value_name = "TILE", value_parser = tile)]
+    pub cfa: Option<String>,
+    /// List every point of the chart in the text, too; JSON has them anyway
+    #[arg(long)]
+    pub points: bool,
 }
 
 /// Kinds of charts.
@@ -55,73 +63,47 @@ impl ChartArguments {
         Sought { target, size: self.grid }
     }
 
+    pub(super) fn selection(&self, channel: Option<&str>) -> Selection {
+        Selection { channel: channel.map(str::to_owned), cfa: self.cfa.clone(), region: None }
+    }
+
     /// The chart in a picture.
     pub(super) fn seen(&self, file: &Path) -> Result<Seen, Failure> {
-        let photograph = read(file)?;
-        let image = match &self.channel {
-            Some(name) => channel(file, &photograph, name)?,
-            None => luminance(file, &photograph)?,
-        };
-        self.seen_in(file, &image)
+        let photograph = read_photograph(file).map_err(Failure::input)?;
+        self.seen_in(file, &photograph, self.channel.as_deref())
     }
 
-    /// The chart in one channel.
-    pub(super) fn seen_in(&self, file: &Path, image: &Image) -> Result<Seen, Failure> {
-        let told = |error| Failure::input(format!("{}: {error}", file.display()));
-        let grid = find(image, self.sought()).map_err(told)?;
-        Ok(Seen { file: file.to_owned(), size_px: [image.width(), image.height()], grid })
+    /// The chart in one channel. In the mosaic of a colour that has several places in the tile, each point is the mean of where
+    /// these show it: what each of them misses between its pixels the others see.
+    pub(super) fn seen_in(&self, file: &Path, photograph: &Photograph, channel: Option<&str>) -> Result<Seen, Failure> {
+        let planes = self.selection(channel).planes(file, photograph)?;
+        let grids = planes.iter().map(|plane| self.grid(plane).map_err(|error| refused(file, error)));
+        let grid = Grid::mean(&grids.collect::<Result<Vec<_>, _>>()?);
+        let (width, height) = planes[0].picture_px;
+        Ok(Seen { file: file.to_owned(), size_px: [width, height], grid })
     }
-}
 
-/// A picture without a mosaic: its points would lie in other places in each colour.
-pub(super) fn read(file: &Path) -> Result<Photograph, Failure> {
-    let photograph = read_photograph(file).map_err(Failure::input)?;
-    let mosaic = photograph.raw.as_ref().is_some_and(|raw| raw.filters.channels.len() > 1);
-    if mosaic {
-        let file = file.display();
-        return Err(Failure::input(format!("{file}: a raw mosaic of colours; give the developed picture instead")));
+    /// The chart among readings, in the picture's raster coordinates.
+    fn grid(&self, plane: &Readings) -> Result<Grid, TargetError> {
+        let mut grid = find(&plane.image, self.sought())?;
+        let scale = 0.5 * (plane.period.0 + plane.period.1) as f64;
+        for node in &mut grid.nodes {
+            node.at = plane.in_picture(node.at.to_array()).into();
+            node.uncertainty_px *= scale;
+        }
+        Ok(grid)
     }
-    Ok(photograph)
-}
-
-/// A channel in proportion to light.
-pub(super) fn channel(file: &Path, photograph: &Photograph, name: &str) -> Result<Image, Failure> {
-    let found = photograph.channel(name).ok_or_else(|| {
-        let (file, names) = (file.display(), photograph.names().join(", "));
-        Failure::input(format!("{file}: no channel '{name}'; it has {names}"))
-    })?;
-    Ok(image(photograph, photograph.linear(found)))
-}
-
-fn image(photograph: &Photograph, samples: Vec<f32>) -> Image {
-    Image::from_samples(photograph.width, photograph.height, samples).expect("a photograph's channels fill it")
-}
-
-fn luminance(file: &Path, photograph: &Photograph) -> Result<Image, Failure> {
-    if photograph.channel("R").is_none() {
-        let grey: Vec<&str> = photograph.names().into_iter().filter(|n| *n != "A").collect();
-        return match grey[..] {
-            [only] => channel(file, photograph, only),
-            _ => {
-                let (file, names) = (file.display(), grey.join(", "));
-                Err(Failure::input(format!("{file}: say which of its channels to look at with --channel: {names}")))
-            }
-        };
-    }
-    let mut sum = vec![0.0_f32; photograph.width * photograph.height];
-    for (name, weight) in ["R", "G", "B"].iter().zip(XYZ_FROM_SRGB[1]) {
-        let part = channel(file, photograph, name)?;
-        sum.iter_mut().zip(part.samples()).for_each(|(s, v)| *s += weight as f32 * v);
-    }
-    Ok(image(photograph, sum))
 }
 
 /// The charts of several pictures of one size; a picture that is there twice is refused.
 pub(super) fn all(chart: &ChartArguments, files: &[PathBuf]) -> Result<Vec<Seen>, Failure> {
     let mut views: Vec<Seen> = Vec::new();
     let mut faults = Vec::new();
+    let bar = PictureBar::new("charts", files.len());
     for file in files {
-        match chart.seen(file) {
+        let seen = chart.seen(file);
+        bar.step();
+        match seen {
             Ok(view) => match views.iter().find_map(|other| contradiction(other, &view)) {
                 Some(fault) => faults.push(fault),
                 None => views.push(view),
@@ -130,6 +112,7 @@ pub(super) fn all(chart: &ChartArguments, files: &[PathBuf]) -> Result<Vec<Seen>
             Err(other) => return Err(other),
         }
     }
+    bar.finish();
     if faults.is_empty() { Ok(views) } else { Err(Failure::Input(faults)) }
 }
 

@@ -1,11 +1,12 @@
 //! `etendue measure chromatic`: lateral chromatic displacement.
 
-use super::chart_points::{ChartArguments, channel, read};
+use super::chart_points::ChartArguments;
 use super::report::{Cell, Report, Table, Telling};
 use crate::failure::Failure;
 use crate::machine;
 use crate::plot::{Axis, Mark, Plot, Series};
 use clap::Args;
+use etendue_io::photograph::read_photograph;
 use etendue_metrology::chromatic::{Displacement, displacements, rings, shift};
 use std::path::PathBuf;
 
@@ -26,15 +27,17 @@ pub(super) fn run(arguments: &ChromaticArguments) -> Result<(), Failure> {
     if arguments.chart.channel.is_some() {
         return Err(Failure::input("--channel: lateral colour is measured in red, green and blue; leave it out"));
     }
-    let photograph = read(file)?;
-    if let Some(missing) = ["R", "G", "B"].iter().find(|name| photograph.channel(name).is_none()) {
+    let photograph = read_photograph(file).map_err(Failure::input)?;
+    let selection = arguments.chart.selection(None);
+    if let Some(missing) = ["R", "G", "B"].iter().find(|name| !selection.has(&photograph, name)) {
         return Err(Failure::input(format!("{}: no channel {missing}; expected a picture in colour", file.display())));
     }
-    let grid = |name: &str| Ok::<_, Failure>(arguments.chart.seen_in(file, &channel(file, &photograph, name)?)?.grid);
+    let seen = |name: &str| arguments.chart.seen_in(file, &photograph, Some(name));
     let pool = machine::pool(None)?;
-    let [red, green, blue] = pool.install(|| Ok::<_, Failure>([grid("R")?, grid("G")?, grid("B")?]))?;
-    let size = [photograph.width, photograph.height];
-    let found = [("red", displacements(&green, &red, size)), ("blue", displacements(&green, &blue, size))];
+    let [red, green, blue] = pool.install(|| Ok::<_, Failure>([seen("R")?, seen("G")?, seen("B")?]))?;
+    let size = green.size_px;
+    let found =
+        [("red", displacements(&green.grid, &red.grid, size)), ("blue", displacements(&green.grid, &blue.grid, size))];
     if let Some((name, _)) = found.iter().find(|(_, list)| list.is_empty()) {
         let file = file.display();
         return Err(Failure::input(format!(

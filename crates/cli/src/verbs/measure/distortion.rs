@@ -1,13 +1,13 @@
 //! `etendue measure distortion`: from one picture of a plane chart.
 
 use super::chart_points::{ChartArguments, Seen};
-use super::report::{CameraOut, Cell, Report, Table, Telling};
+use super::report::{CameraOut, Cell, Covariance, Report, Table, Telling};
 use crate::failure::Failure;
 use crate::machine;
 use crate::plot::{Axis, Mark, Plot, Series};
 use clap::Args;
 use etendue_metrology::Estimate;
-use etendue_metrology::distortion::{Distortion, LineBow, RadialFit, distortion};
+use etendue_metrology::distortion::{Distortion, LineBow, LocalDistortion, RadialFit, distortion};
 use etendue_projection::Sense;
 use glam::DVec2;
 use std::path::PathBuf;
@@ -42,10 +42,10 @@ pub(super) fn run(arguments: &DistortionArguments) -> Result<(), Failure> {
     let centre = arguments.centre_px.map(DVec2::from);
     let told = |error| Failure::input(format!("{}: {error}", arguments.file.display()));
     let found = distortion(&seen.grid, seen.size_px, centre).map_err(told)?;
-    report(&seen, &found).tell_with_camera(&arguments.telling, &arguments.out)
+    report(&seen, &found, arguments.chart.points).tell_with_camera(&arguments.telling, &arguments.out)
 }
 
-fn report(seen: &Seen, found: &Distortion) -> Report {
+fn report(seen: &Seen, found: &Distortion, points: bool) -> Report {
     let method =
         "distortion without a model: ideal places by a polynomial and its homography at the centre (ISO 17850)";
     let mut report = Report::new("distortion", method);
@@ -61,13 +61,18 @@ fn report(seen: &Seen, found: &Distortion) -> Report {
         report.fact("field_reached_percent", "field reached", "% of the half diagonal", 100.0 * last.field);
         report.figure("distortion_there_percent", "distortion there", "%", percent);
     }
+    local(&mut report, found);
     lines(&mut report, &found.lines);
+    if let Some(height) = found.height {
+        report.figure("picture_height_percent", "picture height, sides over middle less 1", "%", percent(height));
+    }
     radial(&mut report, "forward", &found.forward);
     radial(&mut report, "backward", &found.backward);
     report.note(
         "k1 and k2 in half diagonals, r' = r (1 + k1 r² + k2 r⁴); centres in raster coordinates, pixel centres at +0.5",
     );
     report.table(curve(found));
+    report.table_if(points, every_point(found));
     report.plot(plot(found));
     report.camera(camera(&found.backward));
     report
@@ -100,7 +105,52 @@ fn radial(report: &mut Report, key: &str, fit: &RadialFit) {
     figure("k2", "", fit.k2);
     figure("centre_x_px", "px", fit.centre_px[0]);
     figure("centre_y_px", "px", fit.centre_px[1]);
+    let of = ["k1", "k2", "centre_x_px", "centre_y_px"].map(|name| format!("{key}_{name}")).to_vec();
+    report.covariance(Covariance { of, rows: fit.covariance.map(|row| row.to_vec()).to_vec() });
     report.fact(&format!("{key}_rms_px"), &format!("rms_px, {way}"), "px", fit.rms_px);
+}
+
+/// The largest local geometric distortion (ISO 17850), and where.
+fn local(report: &mut Report, found: &Distortion) {
+    let all = found.local.iter();
+    if let Some(largest) = all.max_by(|a, b| a.distortion.value.abs().total_cmp(&b.distortion.value.abs())) {
+        report.figure("local_largest_percent", "local geometric distortion, largest", "%", percent(largest.distortion));
+        let field = 100.0 * largest.field;
+        report.fact("local_largest_at_percent", "at", "% of the half diagonal", field);
+    }
+}
+
+fn percent(share: Estimate) -> Estimate {
+    Estimate::new(100.0 * share.value, 100.0 * share.standard_uncertainty)
+}
+
+/// Every point of the chart: where it is seen, where it would be seen without distortion, and the local geometric distortion.
+fn every_point(found: &Distortion) -> Table {
+    let row = |l: &LocalDistortion| {
+        let places = [l.at.x, l.at.y, l.ideal.x, l.ideal.y].map(|c| Cell::Number(c, 3));
+        let index = l.index.map(|i| Cell::Number(i as f64, 0));
+        let values = [
+            Cell::Number(l.uncertainty_px, 4),
+            Cell::Number(100.0 * l.field, 2),
+            Cell::Estimate(percent(l.distortion)),
+        ];
+        index.into_iter().chain(places).chain(values).collect()
+    };
+    Table {
+        key: "points",
+        columns: vec![
+            ("column", "column"),
+            ("row", "row"),
+            ("x_px", "x px"),
+            ("y_px", "y px"),
+            ("ideal_x_px", "ideal x px"),
+            ("ideal_y_px", "ideal y px"),
+            ("uncertainty_px", "± px"),
+            ("field_percent", "field %"),
+            ("distortion_percent", "distortion %"),
+        ],
+        rows: found.local.iter().map(row).collect(),
+    }
 }
 
 fn curve(found: &Distortion) -> Table {
@@ -130,7 +180,7 @@ fn curve(found: &Distortion) -> Table {
 
 fn plot(found: &Distortion) -> Plot {
     let curve = found.curve.iter().map(|p| (100.0 * p.field, p.ratio.value, 2.0 * p.ratio.standard_uncertainty));
-    let local = found.local.iter().map(|l| (100.0 * l.field, 1.0 + l.distortion));
+    let local = found.local.iter().map(|l| (100.0 * l.field, 1.0 + l.distortion.value));
     Plot {
         title: "Distortion".to_owned(),
         x: Axis::linear("radial field position, % of the half diagonal").showing(&[0.0, 100.0]),

@@ -6,7 +6,6 @@ use crate::failure::Failure;
 use clap::Args;
 use etendue_core::maths::f64::acos;
 use etendue_metrology::calibrate::Options;
-use glam::DVec2;
 
 /// `etendue measure focal`
 #[derive(Debug, Args)]
@@ -36,21 +35,16 @@ pub(super) fn run(arguments: &FocalArguments) -> Result<(), Failure> {
         return Err(Failure::input(told));
     }
     let found = match (views.files.len(), options.principal_px) {
-        (1, None) => views.found(Options { principal_px: Some(middle(arguments)?), square_pixels: true, ..options })?,
+        (1, None) => views.found_about_middle(Options { square_pixels: true, ..options })?,
         _ => views.found(options)?,
     };
     let mut report = Report::new("focal", "focal length by views of a plane chart");
-    found.tell(&mut report, views.pixel_pitch_um);
+    found.tell(&mut report, views);
     field_of_view(&mut report, &found);
     if let Some(pitch_um) = views.pixel_pitch_um {
         report.camera(found.camera_file(pitch_um, None));
     }
     report.tell_with_camera(&arguments.telling, &arguments.out)
-}
-
-fn middle(arguments: &FocalArguments) -> Result<DVec2, Failure> {
-    let photograph = super::chart_points::read(&arguments.views.files[0])?;
-    Ok(0.5 * DVec2::new(photograph.width as f64, photograph.height as f64))
 }
 
 /// Angles between the middles of opposite sides, and between opposite corners.

@@ -21,7 +21,7 @@ pub struct Selection {
     pub region: Option<[usize; 4]>,
 }
 
-fn tile(text: &str) -> Result<String, String> {
+pub(super) fn tile(text: &str) -> Result<String, String> {
     let whole = text.chars().count() == 4 && text.chars().all(|c| c.is_ascii_alphabetic());
     if whole { Ok(text.to_ascii_uppercase()) } else { Err(format!("expected four letters, e.g. RGGB, not '{text}'")) }
 }
@@ -60,6 +60,12 @@ impl Readings {
         [along(x, self.first.0, self.period.0), along(y, self.first.1, self.period.1)]
     }
 
+    /// Where a point among the readings lies in the picture: the inverse of [`place`](Self::place).
+    pub(super) fn in_picture(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let along = |at: f64, first: usize, period: usize| (at - 0.5) * period as f64 + first as f64 + 0.5;
+        [along(x, self.first.0, self.period.0), along(y, self.first.1, self.period.1)]
+    }
+
     /// The readings whose pixels lie wholly between two corners of the picture: left column, top row, width, height.
     pub(super) fn between(&self, low: [f64; 2], high: [f64; 2]) -> Option<[usize; 4]> {
         let along = |k: usize, first: usize, period: usize, count: usize| {
@@ -94,6 +100,24 @@ impl Selection {
         self.of(file, &photograph)
     }
 
+    /// The readings of a photograph's channel; of a mosaic those of every place that the colour has in the tile, one by one.
+    pub(super) fn planes(&self, file: &Path, photograph: &Photograph) -> Result<Vec<Readings>, Failure> {
+        let named = |tile: FilterTile| {
+            let name = self.channel.clone().unwrap_or_default();
+            tile.channels.iter().filter(|c| is_colour(c, &name)).count()
+        };
+        let count = self.mosaic(photograph).map_or(1, named).max(1);
+        (0..count).map(|nth| self.nth(file, photograph, nth)).collect()
+    }
+
+    /// Whether a photograph has a channel of this name, or a mosaic that colour.
+    pub(super) fn has(&self, photograph: &Photograph, name: &str) -> bool {
+        match self.mosaic(photograph) {
+            Some(tile) => tile.channels.iter().any(|c| is_colour(c, name)),
+            None => photograph.channel(name).is_some(),
+        }
+    }
+
     /// One channel's readings, decoded to linear where the file is encoded for display.
     pub(super) fn linear(&self, file: &Path) -> Result<Readings, Failure> {
         self.of(file, &read_photograph(file).map_err(Failure::input)?)
@@ -102,12 +126,7 @@ impl Selection {
     /// Red, green and blue of a picture in colour, decoded to linear; `None` where it is not in colour.
     pub(super) fn colours(&self, file: &Path) -> Result<Option<[Readings; 3]>, Failure> {
         let photograph = read_photograph(file).map_err(Failure::input)?;
-        let tile = self.mosaic(&photograph);
-        let has = |name: &str| match &tile {
-            Some(tile) => tile.channels.iter().any(|c| is_colour(c, name)),
-            None => photograph.channel(name).is_some(),
-        };
-        if self.channel.is_some() || !["R", "G", "B"].into_iter().all(has) {
+        if self.channel.is_some() || !["R", "G", "B"].into_iter().all(|name| self.has(&photograph, name)) {
             return Ok(None);
         }
         let one = |name: &str| {
@@ -118,6 +137,11 @@ impl Selection {
     }
 
     fn of(&self, file: &Path, photograph: &Photograph) -> Result<Readings, Failure> {
+        self.nth(file, photograph, 0)
+    }
+
+    /// Of a mosaic, those of the colour's nth place in the tile.
+    fn nth(&self, file: &Path, photograph: &Photograph, nth: usize) -> Result<Readings, Failure> {
         self.check_cfa(file, photograph)?;
         let linear = |name: &str| photograph.channel(name).map(|c| photograph.linear(c));
         let samples = match (&self.channel, self.mosaic(photograph)) {
@@ -127,7 +151,7 @@ impl Selection {
         };
         let decoded = photograph.encoding == Encoding::Srgb;
         let full_scale = if decoded { Some(1.0) } else { photograph.full_scale };
-        self.part(file, photograph, samples, full_scale)
+        self.part(file, photograph, samples, full_scale, nth)
     }
 
     /// One channel's readings as stored, of a raw picture.
@@ -151,7 +175,7 @@ impl Selection {
             return Err(Failure::input(error));
         }
         let samples = only.samples.clone();
-        self.part(file, &photograph, samples, photograph.full_scale)
+        self.part(file, &photograph, samples, photograph.full_scale, 0)
     }
 
     fn part(
@@ -160,6 +184,7 @@ impl Selection {
         photograph: &Photograph,
         samples: Vec<f32>,
         full_scale: Option<f64>,
+        nth: usize,
     ) -> Result<Readings, Failure> {
         let whole = Image::from_samples(photograph.width, photograph.height, samples);
         let area = self.area(photograph);
@@ -168,7 +193,7 @@ impl Selection {
         let (image, period, first) = match self.mosaic(photograph) {
             Some(tile) => {
                 let period = (tile.columns, tile.channels.len() / tile.columns);
-                let (sites, first) = self.sites(file, &image, &tile, area)?;
+                let (sites, first) = self.sites(file, &image, &tile, area, nth)?;
                 (sites, period, first)
             }
             None => (image, (1, 1), (0, 0)),
@@ -206,13 +231,14 @@ impl Selection {
         self.region.or_else(|| Some(photograph.raw.as_ref()?.frame.as_ref()?.picture_px))
     }
 
-    /// The pixels under one colour of a mosaic, the first of its name in the tile, and the column and row of the first of them.
+    /// The pixels under one colour of a mosaic, the nth of its name in the tile, and the column and row of the first of them.
     fn sites(
         &self,
         file: &Path,
         image: &Image,
         tile: &FilterTile,
         area: Option<[usize; 4]>,
+        nth: usize,
     ) -> Result<(Image, (usize, usize)), Failure> {
         let Some(name) = &self.channel else {
             let file = file.display();
@@ -221,7 +247,7 @@ impl Selection {
                 "{file}: a raw mosaic of the colours {names}: say which one to measure with --channel"
             )));
         };
-        let at = tile.channels.iter().position(|c| is_colour(c, name));
+        let at = (0..tile.channels.len()).filter(|i| is_colour(&tile.channels[*i], name)).nth(nth);
         let names: Vec<&str> = tile.channels.iter().map(String::as_str).collect();
         let at = at.ok_or_else(|| no_channel(file, name, &names))?;
         let (columns, rows) = (tile.columns, tile.channels.len() / tile.columns);

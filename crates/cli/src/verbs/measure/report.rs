@@ -74,6 +74,16 @@ pub(super) struct Report {
     notes: Vec<String>,
     plots: Vec<Plot>,
     camera: Option<String>,
+    /// Tables of JSON alone.
+    data: Vec<Table>,
+    covariances: Vec<Covariance>,
+}
+
+/// The covariance of figures: their keys, and the matrix row by row, in the product of their units.
+#[derive(Clone, Debug)]
+pub(super) struct Covariance {
+    pub of: Vec<String>,
+    pub rows: Vec<Vec<f64>>,
 }
 
 impl Report {
@@ -101,6 +111,15 @@ impl Report {
 
     pub(super) fn table(&mut self, table: Table) {
         self.tables.push(table);
+    }
+
+    /// A table of many rows: in JSON always, in the text where it is asked for.
+    pub(super) fn table_if(&mut self, shown: bool, table: Table) {
+        if shown { self.tables.push(table) } else { self.data.push(table) }
+    }
+
+    pub(super) fn covariance(&mut self, covariance: Covariance) {
+        self.covariances.push(covariance);
     }
 
     pub(super) fn note(&mut self, note: impl Into<String>) {
@@ -145,15 +164,20 @@ impl Report {
             }
             (f.key.clone(), Value::Object(map))
         };
-        let tables: Map<String, Value> = self.tables.iter().map(|t| (t.key.to_owned(), t.json())).collect();
-        json!({
+        let tables = self.tables.iter().chain(&self.data);
+        let tables: Map<String, Value> = tables.map(|t| (t.key.to_owned(), t.json())).collect();
+        let mut told = json!({
             "measurement": self.kind,
             "method": self.method,
             "settings": self.settings.iter().map(|(key, value)| ((*key).to_owned(), value.as_str().into())).collect::<Map<_, _>>(),
             "figures": self.figures.iter().map(figure).collect::<Map<_, _>>(),
             "tables": tables,
             "notes": self.notes,
-        })
+        });
+        if !self.covariances.is_empty() {
+            told["covariances"] = self.covariances.iter().map(Covariance::json).collect();
+        }
+        told
     }
 
     fn text(&self) -> String {
@@ -167,6 +191,13 @@ impl Report {
         self.tables.iter().for_each(|table| text += &format!("\n{}", table.text()));
         self.notes.iter().for_each(|note| text += &format!("note: {note}\n"));
         text
+    }
+}
+
+impl Covariance {
+    fn json(&self) -> Value {
+        let row = |row: &Vec<f64>| row.iter().copied().map(finite).collect::<Value>();
+        json!({ "of": self.of, "matrix": self.rows.iter().map(row).collect::<Value>() })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::chart_points::{ChartArguments, Seen, all};
 use super::distortion::place;
-use super::report::{Cell, Report, Table};
+use super::report::{Cell, Covariance, Report, Table};
 use crate::calibration;
 use crate::failure::Failure;
 use crate::machine;
@@ -11,6 +11,7 @@ use clap::{Args, ValueEnum};
 use etendue_core::maths::f64::{acos, atan};
 use etendue_metrology::Estimate;
 use etendue_metrology::calibrate::{Calibrated, Family, Options, Radial, Sightings, calibrate};
+use etendue_metrology::target::Node;
 use etendue_projection::Sense;
 use etendue_projection::model::Ideal;
 use glam::DVec2;
@@ -127,11 +128,22 @@ pub(super) struct Found {
 
 impl ViewsArguments {
     pub(super) fn found(&self, options: Options) -> Result<Found, Failure> {
+        self.found_by(|_| options)
+    }
+
+    /// The same with the principal point in the picture's middle.
+    pub(super) fn found_about_middle(&self, options: Options) -> Result<Found, Failure> {
+        let middle = |[width, height]: [usize; 2]| 0.5 * DVec2::new(width as f64, height as f64);
+        self.found_by(|size| Options { principal_px: Some(middle(size)), ..options })
+    }
+
+    /// By options that may follow from the picture's size.
+    fn found_by(&self, options: impl Fn([usize; 2]) -> Options + Sync) -> Result<Found, Failure> {
         machine::pool(None)?.install(|| {
             let views = all(&self.chart, &self.files)?;
             let sightings: Vec<Sightings> = views.iter().map(|v| Sightings::of_grid(&v.grid, self.pitch_mm)).collect();
             let size = views[0].size_px;
-            let camera = calibrate(&sightings, size, self.model.family(), options).map_err(Failure::input)?;
+            let camera = calibrate(&sightings, size, self.model.family(), options(size)).map_err(Failure::input)?;
             camera.calibration.check().map_err(Failure::input)?;
             let model = self.model.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned());
             Ok(Found { model, views, camera })
@@ -162,7 +174,8 @@ fn unit(name: &str) -> &'static str {
 
 impl Found {
     /// Parameters, how well the views fit, and the views.
-    pub(super) fn tell(&self, report: &mut Report, pixel_pitch_um: Option<f64>) {
+    pub(super) fn tell(&self, report: &mut Report, arguments: &ViewsArguments) {
+        let (pixel_pitch_um, points) = (arguments.pixel_pitch_um, arguments.chart.points);
         report.setting("model", self.model.clone());
         for p in &self.camera.parameters {
             report.figure(p.name, p.name.trim_end_matches("_px"), unit(p.name), p.estimate);
@@ -177,6 +190,11 @@ impl Found {
         report.fact("degrees_of_freedom", "degrees of freedom", "", freedom);
         report.note("raster coordinates, pixel centres at +0.5 (OpenCV's and ROS's cx and cy are less by 0.5); ± one standard uncertainty");
         report.table(self.table());
+        report.table_if(points, self.points());
+        report.covariance(Covariance {
+            of: self.camera.parameters.iter().map(|p| p.name.to_owned()).collect(),
+            rows: (0..self.camera.parameters.len()).map(|i| self.row(i)).collect(),
+        });
         report.plot(self.residuals());
         report.plot(self.projection());
     }
@@ -203,6 +221,45 @@ impl Found {
                 ("tilt_deg", "tilt °"),
             ],
             rows: self.views.iter().enumerate().map(row).collect(),
+        }
+    }
+
+    /// A row of the covariance.
+    fn row(&self, i: usize) -> Vec<f64> {
+        (0..self.camera.parameters.len()).map(|j| self.camera.covariance.at(i, j)).collect()
+    }
+
+    /// Every point of every view.
+    fn points(&self) -> Table {
+        let row = |v: usize, p: usize, node: &Node| {
+            let off = self.camera.residuals_px[v][p];
+            vec![
+                Cell::Number(v as f64 + 1.0, 0),
+                Cell::Number(node.index[0] as f64, 0),
+                Cell::Number(node.index[1] as f64, 0),
+                Cell::Number(node.at.x, 4),
+                Cell::Number(node.at.y, 4),
+                Cell::Number(node.uncertainty_px, 4),
+                Cell::Number(off.x, 4),
+                Cell::Number(off.y, 4),
+            ]
+        };
+        let of_view = |(v, seen): (usize, &Seen)| {
+            seen.grid.nodes.iter().enumerate().map(|(p, node)| row(v, p, node)).collect::<Vec<_>>()
+        };
+        Table {
+            key: "points",
+            columns: vec![
+                ("view", "view"),
+                ("column", "column"),
+                ("row", "row"),
+                ("x_px", "x px"),
+                ("y_px", "y px"),
+                ("uncertainty_px", "± px"),
+                ("fitted_less_seen_x_px", "fitted less seen x px"),
+                ("fitted_less_seen_y_px", "y px"),
+            ],
+            rows: self.views.iter().enumerate().flat_map(of_view).collect(),
         }
     }
 
