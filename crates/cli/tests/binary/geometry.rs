@@ -151,3 +151,115 @@ fn colours_that_are_displaced_are_told_and_grey_is_refused() {
     let plain = picture(folder.path(), "plain.png", [64, 48], |_, _| 0.5);
     etendue(["measure", "distortion", &plain]).refused(&["plain.png", "was found"]);
 }
+
+#[test]
+fn the_colours_of_a_mosaic_are_measured_where_their_pixels_are() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // Dots about 20.3 (k − ¼, l − ¼) as green shows them, in all places among the pixels; red, at even columns and rows, 0.4 px to the right; blue, at odd ones, 0.2
+    // px to the left.
+    let file = picture(folder.path(), "mosaic.png", SIZE, |x, y| {
+        let shift = match (x as usize % 2, y as usize % 2) {
+            (0, 0) => 0.4,
+            (1, 1) => -0.2,
+            _ => 0.0,
+        };
+        dot((x - shift) / 20.3 + 0.25, y / 20.3 + 0.25)
+    });
+    let found = json(&["measure", "chromatic", &file, "--cfa", "RGGB"]);
+    for (key, want) in
+        [("red_shift_x_px", 0.4), ("red_shift_y_px", 0.0), ("blue_shift_x_px", -0.2), ("blue_shift_y_px", 0.0)]
+    {
+        let [shift, uncertainty] = figure(&found, key);
+        assert!((shift - want).abs() < 3.0 * uncertainty && uncertainty < 0.02, "{key}: {shift} {uncertainty}");
+    }
+    for (channel, shift) in [("G", 0.0), ("red", 0.4), ("B", -0.2)] {
+        let found = json(&["measure", "distortion", &file, "--cfa", "RGGB", "--channel", channel]);
+        let points = found["tables"]["points"].as_array().expect("points");
+        assert!(points.len() > 250, "{}", points.len());
+        let off = |key: &str, shift: f64| {
+            let at = |p: &Value| (p[key].as_f64().expect("a number") - shift) / 20.3 + 0.25;
+            points.iter().map(|p| 20.3 * (at(p) - at(p).round())).sum::<f64>() / points.len() as f64
+        };
+        let (x, y) = (off("x_px", shift), off("y_px", 0.0));
+        assert!(x.abs() < 0.02 && y.abs() < 0.02, "{channel}: {x} {y}");
+    }
+    etendue(["measure", "distortion", &file, "--cfa", "RGGB"]).refused(&["mosaic of the colours", "--channel"]);
+    etendue(["measure", "distortion", &file, "--cfa", "RGGB", "--channel", "Y"]).refused(&["no channel 'Y'"]);
+}
+
+#[test]
+fn points_and_covariances_are_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = board(folder.path(), "board.png", [0.3, 0.2]);
+    let arguments = ["measure", "distortion", &file];
+    let found = json(&arguments);
+    let covariances = found["covariances"].as_array().expect("covariances");
+    for covariance in covariances {
+        let number = |i: usize, j: usize| covariance["matrix"][i][j].as_f64().unwrap_or(f64::INFINITY);
+        for (i, key) in covariance["of"].as_array().expect("names").iter().enumerate() {
+            let u = figure(&found, key.as_str().expect("a name"))[1];
+            assert!((number(i, i).sqrt() / u - 1.0).abs() < 1e-9 || u.is_infinite(), "{key}: {covariance}");
+            // Cauchy and Schwarz, and symmetry.
+            assert!((0..4).all(|j| number(i, j) == number(j, i) || (number(i, j) / number(j, i) - 1.0).abs() < 1e-9));
+            assert!((0..4).all(|j| number(i, j).powi(2) <= 1.0001 * number(i, i) * number(j, j)), "{covariance}");
+        }
+    }
+    let points = found["tables"]["points"].as_array().expect("points").len();
+    let text = |more: &[&str]| etendue(arguments.iter().chain(more).copied()).ok().out.lines().count();
+    assert!(points > 40 && text(&["--points"]) > text(&[]) + points, "{points}");
+    assert!(
+        found["figures"]["picture_height_percent"]["value"].as_f64().expect("two rows from side to side").abs() < 3.0
+    );
+}
+
+#[test]
+fn depths_of_stereo_are_read_from_float_maps() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let map = |name: &str, depth: &dyn Fn(usize) -> f32| {
+        let bytes: Vec<u8> = (0..32 * 32).flat_map(|i| depth(i).to_le_bytes()).collect();
+        let file = folder.path().join(name);
+        std::fs::write(&file, [b"Pf\n32 32\n-1\n".as_slice(), &bytes].concat()).expect("written");
+        text(&file)
+    };
+    let truth = map("truth.pfm", &|i| if i % 32 == 31 { f32::INFINITY } else { 8.0 });
+    let guess = map("guess.pfm", &|i| if i % 7 == 0 { f32::NAN } else { 10.0 });
+    let found = json(&["measure", "depth", &guess, &truth, "--focal-base-px-m", "400"]);
+    // 400 px m (1/8 − 1/10) = 10 px, a fifth of the disparity.
+    assert!((figure(&found, "disparity_px")[0] - 10.0).abs() < 1e-4 && figure(&found, "d1_percent")[0] == 100.0);
+    assert!((figure(&found, "scale")[0] - 1.0).abs() < 1e-9);
+    let scaled = json(&["measure", "depth", &guess, &truth, "--align", "median"]);
+    assert!(figure(&scaled, "rmse_m")[0] < 1e-5 && (figure(&scaled, "scale")[0] - 0.8).abs() < 1e-6);
+    let refused = |more: &[&str], told: &[&str]| {
+        etendue(["measure", "depth", &guess, &truth].iter().chain(more).copied()).refused(told);
+    };
+    refused(&["--outlier-share", "nan"], &["outlier share", "not NaN"]);
+    refused(&["--edge-share", "-1"], &["edge share", "not -1"]);
+    refused(&["--focal-base-px-m", "0"], &["focal length times base"]);
+    etendue(["measure", "depth", &truth, &truth]).refused(&["pixel by pixel"]);
+}
+
+#[test]
+fn nonsense_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // Another of OpenCV's pictures, without a chart but with rows and columns of dots; and everything white.
+    let print = text(&root().join("tests/oracles/figures/checkerboard/pic4.png"));
+    let white = picture(folder.path(), "white.png", SIZE, |_, _| 1.0);
+    for file in [&print, &white] {
+        for kind in ["distortion", "chromatic"] {
+            etendue(["measure", kind, file]).refused(&[]);
+        }
+        for target in ["dots", "checkerboard"] {
+            etendue(["measure", "distortion", file, "--target", target]).refused(&[]);
+            etendue(["calibrate", file, "--pitch-mm", "30", "--target", target]).refused(&[]);
+            let one = ["measure", "focal", file, "--pitch-mm", "30", "--distance-mm", "500", "--target", target];
+            etendue(one).refused(&[]);
+        }
+    }
+    // A pinhole of 320 px, 13 steps of 30 mm away: 390 mm, not 500.
+    let turns = [[0.0, 0.0], [0.5, 0.0], [-0.4, 0.3], [0.1, -0.5]];
+    let views: Vec<String> =
+        turns.iter().enumerate().map(|(i, t)| board(folder.path(), &format!("view{i}.png"), *t)).collect();
+    let all = ["measure", "focal", "--pitch-mm", "30", "--model", "pinhole", "--distance-mm", "500"];
+    let all: Vec<&str> = all.into_iter().chain(views.iter().map(String::as_str)).collect();
+    etendue(all).refused(&["stated distance, 500", "what the views show, 3"]);
+}

@@ -5,7 +5,7 @@
 //! | PNG, JPEG, TIFF of 8 bits | Y, or R, G, B; A | 0–255 | sRGB-encoded |
 //! | colour PNG, TIFF of 16 bits | R, G, B; A | 0–65 535 | sRGB-encoded |
 //! | grey PNG, TIFF, DNG of 16 bits; whole numbers of 32 bits | Y, or R, G, B; A | digital numbers | linear |
-//! | TIFF of floats, Radiance HDR | Y, or R, G, B; A | as stored | linear |
+//! | TIFF of floats, Radiance HDR, PFM | Y, or R, G, B; A | as stored | linear |
 //! | OpenEXR | all, by their full names | as stored | linear |
 //!
 //! A grey picture that a side-car `camera.json` beside it lists as digital numbers is raw: linear, with the levels and the
@@ -14,6 +14,7 @@
 //! files of cameras, TIFF of several pictures, of separate planes, or in CMYK, Lab or a palette (refused).
 
 mod grid;
+mod pfm;
 mod raw;
 mod tiff;
 
@@ -31,7 +32,7 @@ use crate::picture::EXR_MAGIC;
 use crate::source::read_bytes;
 
 /// All kinds of file that are read.
-pub(crate) const KINDS: &str = "PNG, JPEG, TIFF, uncompressed DNG, Radiance HDR or OpenEXR";
+pub(crate) const KINDS: &str = "PNG, JPEG, TIFF, uncompressed DNG, Radiance HDR, PFM or OpenEXR";
 
 /// How a photograph's numbers relate to light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -131,6 +132,8 @@ pub fn decode_photograph(file: &Path, bytes: &[u8]) -> Result<Photograph, Error>
         of_exr(file, bytes)?
     } else if tiff::is_tiff(bytes) {
         tiff::decode(file, bytes)?
+    } else if pfm::is_pfm(bytes) {
+        pfm::decode(file, bytes)?
     } else {
         grid::decode(file, bytes)?
     };

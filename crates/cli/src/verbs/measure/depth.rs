@@ -2,10 +2,10 @@
 
 use super::report::{Cell, Report, Table, Telling};
 use crate::failure::Failure;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use etendue_io::photograph::{Photograph, read_photograph};
-use etendue_metrology::Image;
-use etendue_metrology::depth::{DepthErrors, DepthSettings, measure_depth};
+use etendue_metrology::depth::{Alignment, DepthErrors, DepthSettings, measure_depth};
+use etendue_metrology::{Estimate, Image};
 use std::path::{Path, PathBuf};
 
 /// The depth channel of this program's ground truth.
@@ -14,7 +14,7 @@ const DEPTH: &str = "depth.Z";
 /// `etendue measure depth`
 #[derive(Debug, Args)]
 pub struct Depth {
-    /// The estimate: one channel of depth
+    /// The estimate: one channel of depth (EXR, PFM, TIFF of floats, PNG of 16 bits …; 0, NaN and infinity are missing)
     #[arg(value_name = "ESTIMATE")]
     pub estimate: PathBuf,
     /// The truth: a ground-truth EXR, or one channel of depth
@@ -41,6 +41,12 @@ pub struct Depth {
     /// … and by more than this, m
     #[arg(long, value_name = "M", default_value_t = 0.0, allow_negative_numbers = true)]
     pub outlier_least_m: f64,
+    /// A stereo rig's focal length in pixels times its base in metres: tells errors of disparity (D1, EPE) as well
+    #[arg(long, value_name = "PX·M", allow_negative_numbers = true)]
+    pub focal_base_px_m: Option<f64>,
+    /// What is done to the estimate first: networks may know depth but for a factor
+    #[arg(long, value_enum, default_value_t = AlignArgument::None)]
+    pub align: AlignArgument,
     /// A jump of the truth by more than this share of the depth is an edge
     #[arg(long, value_name = "SHARE", default_value_t = 0.1, allow_negative_numbers = true)]
     pub edge_share: f64,
@@ -49,6 +55,15 @@ pub struct Depth {
     pub edge_px: u32,
     #[command(flatten)]
     pub telling: Telling,
+}
+
+/// What is done to an estimate before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum AlignArgument {
+    /// Nothing
+    None,
+    /// Multiply by the median of truth over estimate
+    Median,
 }
 
 pub(super) fn run(arguments: &Depth) -> Result<(), Failure> {
@@ -66,12 +81,39 @@ pub(super) fn run(arguments: &Depth) -> Result<(), Failure> {
         outlier_least_m: arguments.outlier_least_m,
         edge_share: arguments.edge_share,
         edge_px: arguments.edge_px as usize,
+        focal_base_px_m: arguments.focal_base_px_m,
+        alignment: match arguments.align {
+            AlignArgument::None => Alignment::None,
+            AlignArgument::Median => Alignment::Median,
+        },
     };
-    let found = measure_depth(&estimate, &truth, &settings).map_err(Failure::input)?;
+    let told = |error| {
+        Failure::input(format!("{} against {}: {error}", arguments.estimate.display(), arguments.truth.display()))
+    };
+    let found = measure_depth(&estimate, &truth, &settings).map_err(told)?;
     let mut report =
         Report::new("depth", "depth against the truth, pixels at edges apart (± one standard uncertainty)");
     report.figure("bias_m", "bias", "m", found.all.bias_m);
+    report.figure("mean_m", "mean magnitude of the error", "m", found.all.mean_m);
     report.figure("rmse_m", "root mean square error", "m", found.all.rmse_m);
+    report.figure("relative_percent", "relative error, mean magnitude", "%", found.all.relative.scaled(100.0));
+    report.figure("squared_relative_m", "squared error over depth", "m", found.all.squared_relative_m);
+    report.figure("rmse_log", "root mean square of logarithms", "", found.all.rmse_log);
+    report.figure(
+        "silog_percent",
+        "their standard deviation, SILog × 100",
+        "%",
+        found.all.scale_invariant.scaled(100.0),
+    );
+    report.figure("inverse_rmse_per_km", "root mean square error of 1/depth", "1/km", found.all.inverse_rmse_per_km);
+    report.figure("outliers_percent", "outliers", "%", found.all.outliers.scaled(100.0));
+    if let Some([d1, disparity]) = found.all.disparity {
+        report.figure("d1_percent", "disparities off by more than 3 px and 5 %, D1", "%", d1.scaled(100.0));
+        report.figure("disparity_px", "mean error of disparity, EPE", "px", disparity);
+    }
+    let seen = (found.all.pixels + found.all.missing) as f64;
+    report.fact("density_percent", "estimated", "% of the pixels with truth", 100.0 * found.all.pixels as f64 / seen);
+    report.fact("scale", "the estimate was multiplied by", "", found.scale);
     let all = ("all".to_owned(), &found.all);
     let limits =
         |low: f64, high: f64| if high.is_finite() { format!("{low}–{high} m") } else { format!("{low} m on") };
@@ -102,7 +144,7 @@ fn row(name: String, e: &DepthErrors) -> Vec<Cell> {
     if e.pixels == 0 {
         return counts.into_iter().chain((0..7).map(|_| Cell::Nothing)).collect();
     }
-    let percent = |share: f64| Cell::Number(100.0 * share, 2);
+    let percent = |share: Estimate| Cell::Estimate(share.scaled(100.0));
     let errors = [Cell::Estimate(e.bias_m), Cell::Estimate(e.rmse_m), percent(e.relative), percent(e.outliers)];
     counts.into_iter().chain(errors).chain(e.within.map(percent)).collect()
 }
