@@ -201,7 +201,10 @@ fn points_and_covariances_are_told() {
             assert!((number(i, i).sqrt() / u - 1.0).abs() < 1e-9 || u.is_infinite(), "{key}: {covariance}");
             // Cauchy and Schwarz, and symmetry.
             assert!((0..4).all(|j| number(i, j) == number(j, i) || (number(i, j) / number(j, i) - 1.0).abs() < 1e-9));
-            assert!((0..4).all(|j| number(i, j).powi(2) <= 1.0001 * number(i, i) * number(j, j)), "{covariance}");
+            assert!(
+                (0..4).all(|j| number(i, j) * number(i, j) <= 1.0001 * number(i, i) * number(j, j)),
+                "{covariance}"
+            );
         }
     }
     let points = found["tables"]["points"].as_array().expect("points").len();
