@@ -11,12 +11,13 @@
 //! ```
 //!
 //! Means and variances of patches replace all pairs of pixels (an error below 0.04 where readings are near Gaussian and positive).
-//! Uncertainty: of means σ/√n and of variances σ² √(2/(n − 1)), propagated.
+//! Uncertainty: of means and of variances ([`even`](crate::even)), propagated.
 
+use crate::even::even;
 use crate::flat::saturated_percent;
 use crate::propagate::propagate;
 use crate::{Estimate, Image};
-use etendue_stats::{Moments, normal};
+use etendue_stats::normal;
 
 /// A pair of patches.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -119,12 +120,8 @@ pub fn detection_probability(darker: [f64; 2], brighter: [f64; 2], scene_contras
 
 /// Mean less black, and variance.
 fn moments(patch: &Image, black: f64) -> [Estimate; 2] {
-    let moments = Moments::of(patch.samples().iter().map(|s| f64::from(*s) - black));
-    let (count, variance) = (moments.count() as f64, moments.variance().unwrap_or(0.0));
-    [
-        Estimate::new(moments.mean(), (variance / count).sqrt()),
-        Estimate::new(variance, variance * (2.0 / (count - 1.0)).sqrt()),
-    ]
+    let even = even(patch);
+    [Estimate::new(even.mean.value - black, even.mean.standard_uncertainty), even.variance]
 }
 
 #[cfg(test)]

@@ -6,13 +6,13 @@
 //! F = (Y_black − b)/(Y_white − b) · 100 %        b: reading of no light
 //! ```
 //!
-//! at each trap against the white about it, the mean of one or more regions. Uncertainty: the scatter of the pixels within each region
-//! over √n; light that the traps themselves reflect is not in it. IEEE 2020 adds a source within or outside the field: measure its traps the same way with the
+//! at each trap against the white about it, the mean of one or more regions. Uncertainty: of the regions' means
+//! ([`even`](crate::even)); light that the traps themselves reflect is not in it. IEEE 2020 adds a source within or outside the field: measure its traps the same way with the
 //! source on.
 
+use crate::even::even;
 use crate::flat::saturated_percent;
 use crate::{Estimate, Image};
-use etendue_stats::Moments;
 
 /// Why flare cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -53,10 +53,10 @@ pub fn measure_flare(
         return Err(FlareError::Saturated { percent });
     }
     let count = whites.len() as f64;
-    let all = whites.iter().map(mean).fold([0.0; 2], |[value, squares], e| {
+    let all = whites.iter().map(|w| even(w).mean).fold([0.0; 2], |[value, squares], e| {
         [value + e.value, squares + e.standard_uncertainty * e.standard_uncertainty]
     });
-    flare(mean(trap), Estimate::new(all[0] / count, all[1].sqrt() / count), black)
+    flare(even(trap).mean, Estimate::new(all[0] / count, all[1].sqrt() / count), black)
 }
 
 fn flare(trap: Estimate, white: Estimate, black: f64) -> Result<Estimate, FlareError> {
@@ -67,12 +67,6 @@ fn flare(trap: Estimate, white: Estimate, black: f64) -> Result<Estimate, FlareE
     let share = dark / light;
     let (own, other) = (trap.standard_uncertainty / light, share * white.standard_uncertainty / light);
     Ok(Estimate::new(share, (own * own + other * other).sqrt()))
-}
-
-/// Mean of a region with the standard uncertainty from its scatter.
-pub(crate) fn mean(region: &Image) -> Estimate {
-    let moments = Moments::of(region.samples().iter().map(|s| f64::from(*s)));
-    Estimate::new(moments.mean(), moments.variance_of_mean().unwrap_or(0.0).sqrt())
 }
 
 #[cfg(test)]

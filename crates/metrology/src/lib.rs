@@ -14,6 +14,7 @@ pub mod depth;
 pub mod disc;
 pub mod distortion;
 pub mod estimate;
+pub mod even;
 pub mod fit;
 pub mod flare;
 mod flat;

@@ -135,7 +135,10 @@ fn a_dark_current_needs_three_temperatures() {
     let report = json(&["dark-current", &at(20), &at(30), &at(40)]);
     assert!((figure(&report, "doubling_reference_e_per_s") / 3052.0 - 1.0).abs() < 0.01, "{report}");
     assert!(figure(&report, "doubling_p_value") > 0.99 && figure(&report, "diffusion_p_value") < 1e-6, "{report}");
-    etendue(["measure", "dark-current", &at(20), &at(30)]).refused(&["at least three temperatures"]);
+    etendue(["measure", "dark-current", &at(20), &at(30)]).refused(&["at least three different temperatures"]);
+    etendue(["measure", "dark-current", &at(25), &at(25), &at(25)]).refused(&["three different temperatures, not 1"]);
+    let impossible = format!("nan:{descriptor}");
+    etendue(["measure", "dark-current", &impossible, &at(30), &at(40)]).refused(&["no temperature"]);
     etendue(["measure", "dark-current", &descriptor]).refused(&["CELSIUS"]);
 }
 

@@ -4,7 +4,7 @@
 //! picture; figure 13 of Gruyer, Grapinet & De Souza uses fifteen exposures of a back-lit panel. What is found:
 //!
 //! ```text
-//! points      mean reading against exposure, with its standard uncertainty σ/√n
+//! points      mean reading against exposure, with its standard uncertainty ([`even`](crate::even))
 //! curve       monotone cubic through the points (Fritsch & Carlson 1980), and its slope (incremental gain)
 //! linearity   straight line y = a + b H over 5…95 % of the range, weights 1/(y − black)² (EMVA 1288): largest relative deviation
 //! range       exposure at saturation over that of SNR 1, from the noise of the points (ISO 15739, 6.3: signal over temporal noise
@@ -20,10 +20,10 @@ pub mod response;
 #[cfg(test)]
 mod tests;
 
+use crate::even::even;
 use crate::flat::saturated_percent;
 use crate::{Estimate, Image};
 use etendue_core::maths::f64::{exp, ln};
-use etendue_stats::Moments;
 
 /// A surface at one exposure.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -42,12 +42,11 @@ impl ExposurePoint {
     /// Mean and scatter of an even surface; `full_scale` is the reading of a saturated pixel.
     #[must_use]
     pub fn of(exposure: f64, surface: &Image, full_scale: Option<f64>) -> Self {
-        let moments = Moments::of(surface.samples().iter().map(|s| f64::from(*s)));
-        let u = moments.variance_of_mean().unwrap_or(0.0).sqrt();
+        let even = even(surface);
         Self {
             exposure,
-            reading: Estimate::new(moments.mean(), u),
-            noise: Some(moments.variance().unwrap_or(0.0).sqrt()),
+            reading: even.mean,
+            noise: Some(even.variance.value.sqrt()),
             clipped: saturated_percent([surface], full_scale).is_some(),
         }
     }

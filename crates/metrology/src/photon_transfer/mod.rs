@@ -112,7 +112,16 @@ pub enum TransferError {
     /// Two stacks that must share their size and do not, or a bright one that is no brighter.
     #[error("the bright stack is no brighter than the dark one: PRNU needs one at about half of saturation")]
     NotBrighter,
-    /// Dark currents at too few temperatures, or none above zero.
-    #[error("the dark current's growth needs at least three temperatures with a dark current above zero, not {0}")]
+    /// Dark currents at too few temperatures.
+    #[error("the dark current's growth needs at least three different temperatures, not {0}")]
     TooFewTemperatures(usize),
+    /// A temperature that cannot be.
+    #[error("{0} °C is no temperature: expected numbers above -273.15")]
+    NoTemperature(f64),
+    /// A dark current without an uncertainty to weigh it by.
+    #[error("the dark current at {0} °C has no known uncertainty to weigh it by: give more pixels or exposure times")]
+    DarkCurrentUnknown(f64),
+    /// No dark current grows.
+    #[error("the dark currents are not above zero on the whole: give longer exposures or warmer sensors")]
+    NoDarkCurrent,
 }

@@ -6,8 +6,9 @@
 //! E_g = 1.1557 − 7.021·10⁻⁴ T²/(T + 1108) eV
 //! ```
 //!
-//! (T in kelvin in the laws of silicon; Varshni's form with the constants of Pyxel's dark-current model.) Each law is fitted to ln I by weighted least
-//! squares, weights from the currents' uncertainties; χ² over its degrees of freedom says which one fits. The doubling
+//! (T in kelvin in the laws of silicon; Varshni's form with the constants of Pyxel's dark-current model.) Each law is fitted to the currents themselves
+//! (not to their logarithms: currents that noise makes negative count as well) by least squares, weights from their uncertainties;
+//! χ² over its degrees of freedom says which one fits. The doubling
 //! temperature of the laws without one of their own is that at T_ref.
 
 use super::TransferError;
@@ -65,39 +66,111 @@ pub struct Growth {
 /// Fits a law to (temperature in °C, dark current in e⁻/s).
 ///
 /// # Errors
-/// Where fewer than three currents are above zero with a known uncertainty.
+/// Where there are fewer than three different temperatures, one is no temperature, a current has no uncertainty, or none is above zero.
 pub fn fit(law: Law, currents: &[(f64, Estimate)], reference_c: f64) -> Result<Growth, TransferError> {
-    let usable = |(_, e): &&(f64, Estimate)| e.value > 0.0 && e.standard_uncertainty > 0.0;
-    let points: Vec<[f64; 3]> = currents.iter().filter(usable).map(|(t, e)| point(law, *t, *e, reference_c)).collect();
-    if points.len() < 3 {
-        return Err(TransferError::TooFewTemperatures(points.len()));
-    }
-    let sum = |f: fn(&[f64; 3]) -> f64| points.iter().map(f).sum::<f64>();
-    let (w, x, y) = (sum(|p| p[2]), sum(|p| p[2] * p[0]), sum(|p| p[2] * p[1]));
-    let (xx, xy) = (sum(|p| p[2] * p[0] * p[0]), sum(|p| p[2] * p[0] * p[1]));
+    check(currents)?;
+    let points: Vec<Point> = currents.iter().map(|(t, e)| Point::new(law, *t, *e, reference_c)).collect();
+    let none = TransferError::NoDarkCurrent;
     let free = law == Law::Doubling;
-    let determinant = w * xx - x * x;
-    let (slope, u_slope) = if free { ((w * xy - x * y) / determinant, (w / determinant).sqrt()) } else { (0.0, 0.0) };
-    let offset = if free { (xx * y - x * xy) / determinant } else { y / w };
-    let u_offset = if free { (xx / determinant).sqrt() } else { 1.0 / w.sqrt() };
-    let chi_square =
-        points.iter().map(|p| p[2] * (p[1] - offset - slope * p[0]) * (p[1] - offset - slope * p[0])).sum();
-    let slope = if free { slope } else { law.ln_shape(reference_c + 0.5) - law.ln_shape(reference_c - 0.5) };
-    let reference = exp(offset);
+    let [ln_reference, slope] =
+        if free { growing(&points).ok_or(none)? } else { [ln(scale(&points, 0.0).ok_or(none)?), 0.0] };
+    let normal = normal(&points, ln_reference, slope);
+    let determinant = normal[0] * normal[2] - normal[1] * normal[1];
+    let [u_reference, u_slope] = match free {
+        true => [(normal[2] / determinant).sqrt(), (normal[0] / determinant).sqrt()],
+        false => [1.0 / normal[0].sqrt(), 0.0],
+    };
+    let doubling = if free { slope } else { law.ln_shape(reference_c + 0.5) - law.ln_shape(reference_c - 0.5) };
+    let reference = exp(ln_reference);
     Ok(Growth {
         law,
-        reference_e_per_s: Estimate::new(reference, reference * u_offset),
-        doubling_k: Estimate::new(LN_2 / slope, LN_2 / (slope * slope) * u_slope),
-        chi_square,
+        reference_e_per_s: Estimate::new(reference, reference * u_reference),
+        doubling_k: Estimate::new(LN_2 / doubling, LN_2 / (doubling * doubling) * u_slope),
+        chi_square: chi_square(&points, ln_reference, slope),
         degrees_of_freedom: points.len() - if free { 2 } else { 1 },
     })
 }
 
-/// (T − T_ref, ln I less the law's shape, weight).
-fn point(law: Law, temperature_c: f64, current: Estimate, reference_c: f64) -> [f64; 3] {
-    let relative = current.standard_uncertainty / current.value;
-    let shape = law.ln_shape(temperature_c) - law.ln_shape(reference_c);
-    [temperature_c - reference_c, ln(current.value) - shape, 1.0 / (relative * relative)]
+fn check(currents: &[(f64, Estimate)]) -> Result<(), TransferError> {
+    if let Some((celsius, _)) = currents.iter().find(|(t, _)| !(t.is_finite() && *t > -ZERO_CELSIUS_K)) {
+        return Err(TransferError::NoTemperature(*celsius));
+    }
+    let known =
+        |e: &Estimate| e.value.is_finite() && e.standard_uncertainty > 0.0 && e.standard_uncertainty.is_finite();
+    if let Some((celsius, _)) = currents.iter().find(|(_, e)| !known(e)) {
+        return Err(TransferError::DarkCurrentUnknown(*celsius));
+    }
+    let mut temperatures: Vec<f64> = currents.iter().map(|(t, _)| *t).collect();
+    temperatures.sort_unstable_by(f64::total_cmp);
+    temperatures.dedup();
+    if temperatures.len() < 3 { Err(TransferError::TooFewTemperatures(temperatures.len())) } else { Ok(()) }
+}
+
+/// A current, what the law makes of one at the reference temperature but for its own slope, and its weight.
+struct Point {
+    from_reference_k: f64,
+    current: f64,
+    shape: f64,
+    weight: f64,
+}
+
+impl Point {
+    fn new(law: Law, temperature_c: f64, current: Estimate, reference_c: f64) -> Self {
+        Self {
+            from_reference_k: temperature_c - reference_c,
+            current: current.value,
+            shape: exp(law.ln_shape(temperature_c) - law.ln_shape(reference_c)),
+            weight: 1.0 / (current.standard_uncertainty * current.standard_uncertainty),
+        }
+    }
+
+    fn model(&self, ln_reference: f64, slope: f64) -> f64 {
+        self.shape * exp(ln_reference + slope * self.from_reference_k)
+    }
+}
+
+/// The current at the reference temperature that fits best with a slope; `None` where it is not above zero.
+fn scale(points: &[Point], slope: f64) -> Option<f64> {
+    let sum = |f: &dyn Fn(&Point, f64) -> f64| points.iter().map(|p| f(p, p.model(0.0, slope))).sum::<f64>();
+    let best = sum(&|p, m| p.weight * m * p.current) / sum(&|p, m| p.weight * m * m);
+    (best > 0.0).then_some(best)
+}
+
+fn chi_square(points: &[Point], ln_reference: f64, slope: f64) -> f64 {
+    let off = |p: &Point| p.current - p.model(ln_reference, slope);
+    points.iter().map(|p| p.weight * off(p) * off(p)).sum()
+}
+
+/// JᵀJ for ln I_ref and the slope: its elements 00, 01, 11.
+fn normal(points: &[Point], ln_reference: f64, slope: f64) -> [f64; 3] {
+    points.iter().fold([0.0; 3], |sum, p| {
+        let (m, x) = (p.model(ln_reference, slope), p.from_reference_k);
+        let square = p.weight * m * m;
+        [sum[0] + square, sum[1] + square * x, sum[2] + square * x * x]
+    })
+}
+
+/// ln I_ref and ln 2 over the doubling temperature: the best of slopes from halving to doubling every kelvin, then by Gauss and Newton.
+fn growing(points: &[Point]) -> Option<[f64; 2]> {
+    let slopes = (-70..=70).map(|i| 0.01 * f64::from(i));
+    let tried = slopes.filter_map(|slope| Some([ln(scale(points, slope)?), slope]));
+    let mut best = tried.min_by(|a, b| chi_square(points, a[0], a[1]).total_cmp(&chi_square(points, b[0], b[1])))?;
+    for _ in 0..20 {
+        let [aa, ab, bb] = normal(points, best[0], best[1]);
+        let [ra, rb] = points.iter().fold([0.0; 2], |sum, p| {
+            let m = p.model(best[0], best[1]);
+            let pull = p.weight * m * (p.current - m);
+            [sum[0] + pull, sum[1] + pull * p.from_reference_k]
+        });
+        let determinant = aa * bb - ab * ab;
+        let next = [best[0] + (bb * ra - ab * rb) / determinant, best[1] + (aa * rb - ab * ra) / determinant];
+        let better = chi_square(points, next[0], next[1]) <= chi_square(points, best[0], best[1]);
+        if !better {
+            break;
+        }
+        best = next;
+    }
+    Some(best)
 }
 
 #[cfg(test)]
@@ -140,5 +213,26 @@ mod tests {
     #[test]
     fn two_temperatures_are_too_few() {
         assert_eq!(fit(Law::Doubling, &series(|t| t)[..2], 30.0), Err(TransferError::TooFewTemperatures(2)));
+        let at = |celsius: f64, e: Estimate| fit(Law::Doubling, &[&series(|t| t)[..], &[(celsius, e)]].concat(), 30.0);
+        let one = Estimate::new(1.0, 0.1);
+        assert!(matches!(at(f64::NAN, one), Err(TransferError::NoTemperature(_))));
+        assert_eq!(at(-300.0, one), Err(TransferError::NoTemperature(-300.0)));
+        assert_eq!(at(5.0, Estimate::new(1.0, 0.0)), Err(TransferError::DarkCurrentUnknown(5.0)));
+        let same = [(25.0, one); 3];
+        assert_eq!(fit(Law::Doubling, &same, 30.0), Err(TransferError::TooFewTemperatures(1)));
+        let none: Vec<(f64, Estimate)> =
+            series(|t| t).iter().map(|(t, e)| (*t, Estimate::new(-1.0, e.value))).collect();
+        assert_eq!(fit(Law::Diffusion, &none, 30.0), Err(TransferError::NoDarkCurrent));
+    }
+
+    /// A cold current that noise makes negative counts: left out, it would pull the doubling temperature up.
+    #[test]
+    fn negative_currents_count() {
+        let mut noisy = series(|t| exp((t - 30.0) / 8.0 * LN_2));
+        noisy[0] = (20.0, Estimate::new(-0.5, 0.5));
+        noisy[1] = (30.0, Estimate::new(1.8, 0.5));
+        let growth = |points: &[(f64, Estimate)]| fit(Law::Doubling, points, 30.0).expect("a fit");
+        assert!(growth(&noisy).chi_square > growth(&noisy[1..]).chi_square + 1.0);
+        assert!((growth(&noisy).doubling_k.value - 8.0).abs() < 3.0 * growth(&noisy).doubling_k.standard_uncertainty);
     }
 }

@@ -3,12 +3,13 @@
 use crate::coverage::covers;
 use crate::{normals, picture};
 use etendue_core::maths::f64::pow;
-use etendue_metrology::Estimate;
 use etendue_metrology::colour::{ColourError, ColourPatch, measure_colour};
 use etendue_metrology::contrast::{ContrastSettings, detection_probability, measure_contrast};
 use etendue_metrology::flare::measure_flare;
 use etendue_metrology::noise::measure_noise;
+use etendue_metrology::oecf::ExposurePoint;
 use etendue_metrology::photon_transfer::Stack;
+use etendue_metrology::{Estimate, Image};
 use etendue_spectra::{chart::colorchecker, colour::D65_WHITE, illuminant, observer};
 
 /// Temporal noise 4, fixed pattern 3 in readings of 200 over a black of 40.
@@ -46,6 +47,36 @@ fn flare() {
         let (white, trap) = (patch(900.0, 30.0), patch(25.0, 3.0));
         let found = measure_flare(&trap, &[white], 20.0, None).expect("regions");
         vec![("share of a trap", found, 5.0 / 880.0)]
+    });
+}
+
+/// A patch as bilinear demosaicking leaves a channel that every other pixel has: the others are means of their neighbours.
+fn developed(mean: f64, sigma: f64, mut normal: impl FnMut() -> f64) -> Image {
+    const SIDE: usize = 24;
+    let own: Vec<f64> = (0..(SIDE + 2) * (SIDE + 2)).map(|_| mean + sigma * normal()).collect();
+    let at = |x: usize, y: usize| own[y * (SIDE + 2) + x];
+    picture(SIDE, SIDE, |i| {
+        let (x, y) = (i % SIDE + 1, i / SIDE + 1);
+        let beside = 0.25 * (at(x - 1, y) + at(x + 1, y) + at(x, y - 1) + at(x, y + 1));
+        if (x + y) % 2 == 0 { at(x, y) } else { beside }
+    })
+}
+
+#[test]
+fn patches_of_developed_pictures() {
+    covers("developed pictures", |seed| {
+        let mut normal = normals(seed, 0);
+        let [white, trap] = [(900.0, 30.0), (25.0, 3.0)].map(|(m, s)| developed(m, s, &mut normal));
+        let flare = measure_flare(&trap, &[white], 20.0, None).expect("regions");
+        let [dark, bright] = [(1000.0, 100.0), (1500.0, 120.0)].map(|(m, s)| developed(m, s, &mut normal));
+        let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5 };
+        let contrast = measure_contrast(&dark, &bright, 0.5, &settings).expect("patches");
+        let point = ExposurePoint::of(1.0, &dark, None);
+        vec![
+            ("flare of a trap", flare, 5.0 / 880.0),
+            ("contrast", contrast.measured, 0.5),
+            ("reading of an exposure", point.reading, 1000.0),
+        ]
     });
 }
 
