@@ -25,7 +25,7 @@ oracles:
 
 # Recover the declared parameters of stand-in cameras from renders of charts: writes docs/validation.md
 validate *cameras:
-    charts/validate {{cameras}}
+    cargo run --release -q -p etendue-validation -- {{cameras}}
 
 # Cameras with a fault beside their files without it: every fault must be flagged; writes docs/faults.md
 faults:

@@ -21,6 +21,16 @@ impl Sensor {
         self.channel_weights().iter().map(mixed).collect()
     }
 
+    /// Electrons a photon on a pixel's whole square, as an even picture shows them, of all channels at a wavelength, nm: what photon
+    /// transfer measures.
+    #[must_use]
+    pub fn picture_quantum_efficiencies(&self, nm: f64) -> Vec<f64> {
+        let p = self.parameters();
+        let own: Vec<f64> = p.channels.iter().map(|c| f64::from(c.quantum_efficiency.at(nm as f32))).collect();
+        let mixed = |weights: &Vec<f64>| weights.iter().zip(&own).map(|(weight, own)| weight * own).sum::<f64>();
+        self.channel_weights().iter().map(|weights| mixed(weights) * p.pixel.fill_factor).collect()
+    }
+
     /// The weight of each channel's light (second index) in each channel's pixels (first).
     fn channel_weights(&self) -> Vec<Vec<f64>> {
         let p = self.parameters();
@@ -121,6 +131,10 @@ mod tests {
             let mean = of.iter().sum::<f64>() / of.len() as f64 - p.read_out.black_level_dn;
             // One digital number an electron: rounding.
             assert!((mean - level(mixed) * p.read_out.gain_dn_e).abs() < 0.6, "{channel}: {mean} {}", level(mixed));
+            // The same as an efficiency: electrons over those of a channel whose own is known.
+            let own = f64::from(p.channels[1].quantum_efficiency.at(500.0)) * p.pixel.fill_factor;
+            let efficiency = sensor.picture_quantum_efficiencies(500.0)[channel];
+            assert!((efficiency - own * level(mixed) / 1e5).abs() < 1e-6, "{channel}: {efficiency}");
         }
     }
 }

@@ -1,6 +1,7 @@
 //! `etendue measure compare`.
 
 use crate::support::{Ran, etendue, root, text};
+use etendue_core::maths::f64::pow;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -91,6 +92,66 @@ fn a_camera_file_declares_what_was_measured() {
     compare(&measured(k1 + 5e-6), &camera).ok();
     // One part in a hundred is seen.
     assert_eq!(compare(&measured(1.01 * k1), &camera).status, 1);
+}
+
+/// What the file of a camera in focus declares at half a cycle a pixel, for an edge at an angle: sinc(½ cos θ) sinc(½ sin θ), times the
+/// response of a circular pupil where diffraction is described.
+#[test]
+fn responses_are_declared_in_closed_form() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let camera = text(&root().join("scenes/cameras/ccd-mono.toml"));
+    let measured = |name: &str, angle_deg: f64, response: f64| {
+        let point = json!({ "at_px": "1,2", "direction": "horizontal", "cycles_per_px": 0.5,
+            "response": { "value": response, "standard_uncertainty": 1e-4 } });
+        let edge = json!({ "at_px": "1,2", "angle_deg": angle_deg });
+        let tables = json!({ "response": [point], "edges": [edge] });
+        let settings = json!({ "readings": "raw" });
+        let report = json!({ "measurement": "sfr", "settings": settings, "figures": {}, "tables": tables });
+        written(folder.path(), name, &report)
+    };
+    // sin(π/2)/(π/2), and at 43°: sinc(0.36568) sinc(0.34100) by hand.
+    compare(&measured("straight.json", 0.0, std::f64::consts::FRAC_2_PI), &camera).ok();
+    compare(&measured("slanted.json", 43.0, 0.650_69), &camera).ok();
+    assert_eq!(compare(&measured("wrong.json", 43.0, std::f64::consts::FRAC_2_PI), &camera).status, 1);
+    // s = λ N/(2 · 8.3 µm) of light from 380 to 780 nm at f/2: 0.046 to 0.094; 1 − 4 s/π + … = 0.941 to 0.880.
+    let diffracted = |response: f64| {
+        let file = measured("diffraction.json", 0.0, response);
+        etendue(["measure", "compare", &file, &camera, "--set", "effects.psf={}", "--json"]).out
+    };
+    let report: Value = serde_json::from_str(&diffracted(0.6)).expect("JSON");
+    let declared = row(&report, "curves", "curve", "response 1,2 horizontal")["largest_difference"].as_f64();
+    let share = (0.6 - declared.expect("a difference")) / std::f64::consts::FRAC_2_PI;
+    assert!((0.90..0.93).contains(&share), "{share}");
+}
+
+/// A straight line, its smear, and the picture's curve, the light's strength free.
+#[test]
+fn tone_curves_are_declared() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let camera = text(&root().join("scenes/cameras/ccd-mono.toml"));
+    let series = |name: &str, readings: &str, reading: &dyn Fn(f64) -> f64| {
+        let point = |i: i32| {
+            let exposure = 1e-4 * f64::from(i);
+            let reading = json!({ "value": reading(exposure), "standard_uncertainty": 0.1 });
+            json!({ "exposure": { "value": exposure, "standard_uncertainty": 0.0 }, "reading": reading })
+        };
+        let report = json!({
+            "measurement": "oecf",
+            "settings": { "readings": readings, "exposure_unit": "" },
+            "figures": { "full_scale": { "value": 255.0, "standard_uncertainty": null, "unit": "" } },
+            "tables": { "points": (1..=12).map(point).collect::<Vec<_>>() },
+        });
+        written(folder.path(), name, &report)
+    };
+    // Smear of −100 dB and 20 ms a frame adds 2 µs to every exposure; the well is full at 4060.
+    let share = |exposure: f64| ((exposure + 2e-6) / 1e-3).min(1.0);
+    compare(&series("line.json", "raw", &|t| 60.0 + 4000.0 * share(t)), &camera).ok();
+    let bent = series("bent.json", "raw", &|t| 60.0 + 4000.0 * pow(share(t), 0.98));
+    assert_eq!(compare(&bent, &camera).status, 1);
+    let srgb = |x: f64| if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * pow(x, 1.0 / 2.4) - 0.055 };
+    compare(&series("picture.json", "picture", &|t| 255.0 * srgb(share(t))), &camera).ok();
+    let gamma = series("gamma.json", "picture", &|t| 255.0 * pow(share(t), 1.0 / 2.2));
+    assert_eq!(compare(&gamma, &camera).status, 1);
 }
 
 #[test]

@@ -4,7 +4,8 @@
 //! picture; figure 13 of Gruyer, Grapinet & De Souza uses fifteen exposures of a back-lit panel. What is found:
 //!
 //! ```text
-//! points      mean reading against exposure, with its standard uncertainty ([`even`](crate::even))
+//! points      mean reading against exposure, with its standard uncertainty ([`even`](crate::even)) and what rounding leaves
+//!             ([`rounding_variance`])
 //! curve       monotone cubic through the points (Fritsch & Carlson 1980), and its slope (incremental gain)
 //! linearity   straight line y = a + b H over 5…95 % of the range, weights 1/(y − black)² (EMVA 1288): largest relative deviation
 //! range       exposure at saturation over that of SNR 1, from the noise of the points (ISO 15739, 6.3: signal over temporal noise
@@ -23,6 +24,7 @@ mod tests;
 use crate::even::even;
 use crate::flat::saturated_percent;
 use crate::{Estimate, Image};
+use core::f64::consts::PI;
 use etendue_core::maths::f64::{exp, ln};
 
 /// A surface at one exposure.
@@ -43,13 +45,27 @@ impl ExposurePoint {
     #[must_use]
     pub fn of(exposure: f64, surface: &Image, full_scale: Option<f64>) -> Self {
         let even = even(surface);
+        let whole = surface.samples().iter().all(|s| s.fract() == 0.0);
+        let rounding = if whole { rounding_variance(even.variance.value) } else { 0.0 };
+        let own = even.mean.standard_uncertainty;
         Self {
             exposure,
-            reading: even.mean,
+            reading: Estimate::new(even.mean.value, (own * own + rounding).sqrt()),
             noise: Some(even.variance.value.sqrt()),
             clipped: saturated_percent([surface], full_scale).is_some(),
         }
     }
+}
+
+/// The variance that rounding to whole numbers leaves in a mean of many readings, given the variance of a single one. Noise of about a step
+/// smooths rounding away; of none 1/12 is left. With σ the noise before rounding, the mean of y + rounding error over the phase of y varies
+/// by Σ_k exp(−4π² k² σ²)/(2π² k²) (Widrow & Kollár 2008).
+#[must_use]
+pub fn rounding_variance(variance: f64) -> f64 {
+    const TERMS: i32 = 200;
+    let before = (variance - 1.0 / 12.0).max(0.0);
+    let term = |k: f64| exp(-4.0 * PI * PI * k * k * before) / (2.0 * PI * PI * k * k);
+    (1..=TERMS).map(|k| term(f64::from(k))).sum()
 }
 
 /// A tone curve.

@@ -109,3 +109,26 @@ fn the_response_comes_back_from_relative_exposures() {
     assert!((response.light(0.5) - 0.5).abs() < 0.002, "{response:?}");
     assert_eq!(camera_response(&given[..1], &settings), Err(OecfError::TooFew(1)));
 }
+
+/// Means of rounded normal noise about all phases of a step, by the normal distribution: the variance of their errors.
+#[test]
+fn what_rounding_leaves_follows_from_the_noise() {
+    for sigma in [0.1, 0.3, 0.5] {
+        let of_phase = |i: usize| {
+            let y = i as f64 / 400.0;
+            let step = |n: i32| {
+                let above = |edge: f64| etendue_stats::normal::cdf((y - edge) / sigma);
+                f64::from(n) * (above(f64::from(n) - 0.5) - above(f64::from(n) + 0.5))
+            };
+            let squares = |n: i32| f64::from(n) * step(n);
+            let mean: f64 = (-6..=7).map(step).sum();
+            (mean - y, (-6..=7).map(squares).sum::<f64>() - mean * mean)
+        };
+        let phases: Vec<(f64, f64)> = (0..400).map(of_phase).collect();
+        let left = phases.iter().map(|(error, _)| error * error).sum::<f64>() / 400.0;
+        // Sheppard: the variance of a reading is σ² + 1/12, all phases together.
+        let found = super::rounding_variance(sigma * sigma + 1.0 / 12.0);
+        assert!((found - left).abs() < 1e-5, "{sigma}: {found} and {left}");
+    }
+    assert!((super::rounding_variance(0.0) - 1.0 / 12.0).abs() < 3e-4);
+}

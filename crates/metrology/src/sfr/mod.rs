@@ -25,17 +25,19 @@
 //! MTF10 by the law of propagation. The edge's own place is taken as known: its part is of second order.
 //!
 //! Refused: edges within 2° of rows, columns or diagonals, or that cross too few rows to sample the profile; clipped plateaus;
-//! anything that is not one straight edge. Left out: chromatic aberration between channels (measure each), the slanted star.
+//! anything that is not one straight edge. Shading of the sides is taken off on request. Left out: chromatic aberration between channels (measure each), the slanted star.
 
 mod edge;
 mod profile;
+mod shading;
 mod spline;
 #[cfg(test)]
 mod tests;
 
 use crate::{Estimate, Image};
 pub use edge::{Edge, Orientation};
-use profile::Profile;
+use profile::{Profile, USUAL_REACH_PX};
+use shading::levelled;
 
 /// How an edge is measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +46,8 @@ pub struct SfrSettings {
     pub edge_degree: usize,
     /// How far from the edge the profile has fine detail, pixels; `None`: 10, or as far as the picture reaches.
     pub reach_px: Option<f64>,
+    /// Degree of the surfaces, one on either side of the edge beyond the reach, by which shading is taken off: 0 for none, 1 or 2.
+    pub shading_degree: usize,
     /// The reading of a saturated pixel.
     pub full_scale: Option<f64>,
     /// The last frequency of the curve, cycles a pixel.
@@ -52,7 +56,7 @@ pub struct SfrSettings {
 
 impl Default for SfrSettings {
     fn default() -> Self {
-        Self { edge_degree: 1, reach_px: None, full_scale: None, last_frequency: 1.0 }
+        Self { edge_degree: 1, reach_px: None, shading_degree: 0, full_scale: None, last_frequency: 1.0 }
     }
 }
 
@@ -143,7 +147,11 @@ pub enum SfrError {
 pub fn measure_edge(image: &Image, settings: &SfrSettings) -> Result<Sfr, SfrError> {
     check(image, settings)?;
     let start = Edge::from_gradients(image)?;
-    let image = &start.upright(image);
+    let mut upright = start.upright(image);
+    if settings.shading_degree > 0 {
+        upright = levelled(&upright, &start, settings.reach_px.unwrap_or(USUAL_REACH_PX), settings.shading_degree)?;
+    }
+    let image = &upright;
     let (edge, profile) = Profile::fitted(image, start, settings)?;
     let count = 100;
     let frequency = |i: usize| settings.last_frequency * i as f64 / count as f64;
@@ -174,6 +182,9 @@ fn check(image: &Image, settings: &SfrSettings) -> Result<(), SfrError> {
     }
     if settings.reach_px.is_some_and(|reach| reach.is_nan() || reach < 2.0) {
         return Err(SfrError::Settings("the profile's reach must be 2 pixels or more"));
+    }
+    if settings.shading_degree > shading::LARGEST_DEGREE {
+        return Err(SfrError::Settings("the degree of the shading must be 0 to 2"));
     }
     if settings.last_frequency.is_nan() || settings.last_frequency <= 0.0 {
         return Err(SfrError::Settings("the last frequency must be above zero"));

@@ -15,7 +15,7 @@ const FINEST_STEP_PX: f64 = 0.25;
 const WIDEST_GAP_PX: f64 = 0.46;
 const STEP_OVER_GAP: f64 = 1.25;
 /// How far the fine splines reach unless told, px.
-const USUAL_REACH_PX: f64 = 10.0;
+pub(super) const USUAL_REACH_PX: f64 = 10.0;
 /// The step of the splines beyond, px, and how far they go.
 const COARSE_STEP_PX: f64 = 2.0;
 const FARTHEST_PX: f64 = 100.0;

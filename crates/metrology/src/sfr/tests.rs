@@ -130,6 +130,26 @@ fn edges_in_closed_form_give_their_response_from_2_to_43_degrees() {
     }
 }
 
+/// Light that falls by a tenth across the region, on top of a black level.
+#[test]
+fn shading_is_taken_off_on_request() {
+    let (lens, angle_deg, size) = (Lens::Gaussian(0.5), 8.0, 80);
+    let whole = picture(lens, angle_deg, size);
+    let shade = |i: usize| 1.0 - 0.1 * (i % size) as f64 / size as f64 - 0.05 * (i / size) as f64 / size as f64;
+    let readings = whole.samples().iter().enumerate().map(|(i, s)| (64.0 + f64::from(*s) * shade(i)) as f32);
+    let shaded = Image::from_samples(size, size, readings.collect()).expect("a square");
+    let worst = |shading_degree: usize| {
+        let settings = SfrSettings { shading_degree, ..SfrSettings::default() };
+        let sfr = measure_edge(&shaded, &settings).expect("an edge");
+        let truth = |f: f64| lens.response(f) * aperture(angle_deg, f);
+        let low = sfr.curve.iter().filter(|p| p.frequency <= 0.5);
+        low.map(|p| (p.response.value - truth(p.frequency)).abs()).fold(0.0, f64::max)
+    };
+    assert!(worst(1) < BOUND && worst(2) < BOUND, "{} {}", worst(1), worst(2));
+    // Without it this light's fall is a response that the lens does not have.
+    assert!(worst(0) > 2.0 * BOUND, "{}", worst(0));
+}
+
 #[test]
 fn rows_serve_as_columns_and_dark_may_lie_on_either_side() {
     let lens = Lens::Gaussian(0.5);

@@ -99,6 +99,14 @@ impl DarkCurrent {
         self.temperature.map_or(1.0, |t| t.factor())
     }
 
+    /// The mean over all pixels, hot ones among them, e⁻/s at the sensor's temperature; without what blinks, and but for the cut of a
+    /// wide normal spread at no current.
+    #[must_use]
+    pub fn mean_e_s(&self) -> f64 {
+        let hot = self.hot.map_or(0.0, |hot| hot.share * hot.mean_e_s);
+        (self.current_e_s + hot) * self.temperature_factor()
+    }
+
     fn is_even(&self) -> bool {
         let s = self.spread;
         s.white == 0.0 && s.row == 0.0 && s.column == 0.0 && self.hot.is_none() && self.blinking.is_none()

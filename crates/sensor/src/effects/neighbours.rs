@@ -31,7 +31,8 @@ impl Neighbours {
     }
 
     /// Everything that a pixel gives away.
-    pub(crate) fn given(&self) -> f64 {
+    #[must_use]
+    pub fn given(&self) -> f64 {
         2.0 * self.horizontal + 2.0 * self.vertical + 4.0 * self.corner
     }
 

@@ -55,6 +55,14 @@ impl Smear {
         });
     }
 
+    /// The time in which charge passes a row.
+    fn line_s(&self, p: &SensorParameters, rows: usize) -> f64 {
+        match *self {
+            Self::Interline { .. } => p.exposure.frame_period_s.expect("checked with the parameters") / rows as f64,
+            Self::FrameTransfer { line_shift_s } => line_shift_s,
+        }
+    }
+
     /// The share ε of the light that passing charge collects.
     #[must_use]
     pub fn leak(&self) -> f64 {
@@ -64,6 +72,14 @@ impl Smear {
             }
             Self::FrameTransfer { .. } => 1.0,
         }
+    }
+}
+
+impl SensorParameters {
+    /// The exposure that smear adds to every pixel of an evenly and steadily lit picture of so many rows, s.
+    #[must_use]
+    pub fn even_smear_s(&self, rows: usize) -> f64 {
+        self.charge.smear.map_or(0.0, |smear| smear.leak() * smear.line_s(self, rows) * rows as f64)
     }
 }
 
@@ -87,12 +103,7 @@ pub(crate) struct ColumnSmear {
 
 impl ColumnSmear {
     pub(crate) fn new(smear: &Smear, context: &Context<'_>) -> Self {
-        let line_s = match *smear {
-            Smear::Interline { .. } => {
-                context.p.exposure.frame_period_s.expect("checked with the parameters") / context.height as f64
-            }
-            Smear::FrameTransfer { line_shift_s } => line_shift_s,
-        };
+        let line_s = smear.line_s(context.p, context.height);
         Self { factor: smear.leak() * line_s / context.operation.exposure_s }
     }
 

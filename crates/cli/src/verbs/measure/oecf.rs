@@ -1,7 +1,7 @@
 //! `etendue measure oecf`: the tone curve from a series of exposures, or from steps in one picture.
 
 use super::common::{Common, refused};
-use super::readings::{Readings, part};
+use super::readings::{Levels, Readings, part};
 use super::report::{Cell, Report, Table};
 use super::truth::Truth;
 use crate::failure::Failure;
@@ -48,8 +48,8 @@ pub(super) fn run(arguments: &OecfArguments) -> Result<(), Failure> {
         (None, Some(truth)) => patches(arguments, truth)?,
         (None, None) => exposures(arguments)?,
     };
-    let oecf = Oecf::new(measured.points).map_err(|error| refused(&arguments.pictures[0], error))?;
-    let mut report = report(&oecf, measured.black, measured.unit);
+    let oecf = Oecf::new(measured.points.clone()).map_err(|error| refused(&arguments.pictures[0], error))?;
+    let mut report = report(&oecf, &measured);
     measured.left_out.iter().for_each(|name| report.note(format!("left out: {name} is not whole in the picture")));
     arguments.common.tell(&report)
 }
@@ -61,14 +61,18 @@ const CHARTS: [&str; 3] = ["oecf-steps", "flat-field", "backlit"];
 /// Points of the curve, the reading of no light, the unit of the exposures, and patches that are not seen.
 struct Measured {
     points: Vec<ExposurePoint>,
+    /// What the readings are, and those of no light and of saturation.
+    readings: &'static str,
     black: f64,
+    full_scale: Option<f64>,
     unit: &'static str,
     left_out: Vec<String>,
 }
 
 impl Measured {
-    fn new(points: Vec<ExposurePoint>, black: f64) -> Self {
-        Self { points, black, unit: "", left_out: Vec::new() }
+    fn new(points: Vec<ExposurePoint>, levels: &Levels, readings: &Readings) -> Self {
+        let (black, full_scale) = (levels.black(readings), levels.full_scale(readings));
+        Self { points, readings: readings.kind(), black, full_scale, unit: "", left_out: Vec::new() }
     }
 }
 
@@ -117,7 +121,7 @@ fn exposures(arguments: &OecfArguments) -> Result<Measured, Failure> {
     let series = series(arguments)?;
     let levels = &arguments.common.levels;
     let point = |(exposure, r): &(f64, Readings)| ExposurePoint::of(*exposure, &r.image, levels.full_scale(r));
-    Ok(Measured::new(series.iter().map(point).collect(), levels.black(&series[0].1)))
+    Ok(Measured::new(series.iter().map(point).collect(), levels, &series[0].1))
 }
 
 /// The middle of an even chart at its cameras' exposures; each picture lies in the folder of its camera.
@@ -145,7 +149,7 @@ fn shots(arguments: &OecfArguments, truth: &Truth) -> Result<Measured, Failure> 
         Ok(ExposurePoint::of(*exposure, &middle, levels.full_scale(r)))
     };
     let points = series.iter().map(point).collect::<Result<Vec<_>, Failure>>()?;
-    Ok(Measured { unit: "cd s/m²", ..Measured::new(points, levels.black(&series[0].1)) })
+    Ok(Measured { unit: "cd s/m²", ..Measured::new(points, levels, &series[0].1) })
 }
 
 fn only_picture<'a>(arguments: &'a OecfArguments, option: &str) -> Result<&'a Path, Failure> {
@@ -167,7 +171,7 @@ fn patches(arguments: &OecfArguments, truth: &Truth) -> Result<Measured, Failure
         Ok(ExposurePoint::of(patch.luminance_cd_m2, &surface, levels.full_scale(&readings)))
     };
     let points = patches.iter().map(point).collect::<Result<Vec<_>, Failure>>()?;
-    Ok(Measured { unit: "cd/m²", left_out, ..Measured::new(points, levels.black(&readings)) })
+    Ok(Measured { unit: "cd/m²", left_out, ..Measured::new(points, levels, &readings) })
 }
 
 fn steps(arguments: &OecfArguments, table: &Path) -> Result<Measured, Failure> {
@@ -190,13 +194,18 @@ fn steps(arguments: &OecfArguments, table: &Path) -> Result<Measured, Failure> {
         let surface = part(&readings.image, whole.map(|v| v as usize), &place)?;
         Ok(ExposurePoint::of(luminance, &surface, arguments.common.levels.full_scale(&readings)))
     };
-    Ok(Measured::new(lines.map(step).collect::<Result<_, _>>()?, arguments.common.levels.black(&readings)))
+    Ok(Measured::new(lines.map(step).collect::<Result<_, _>>()?, &arguments.common.levels, &readings))
 }
 
-fn report(oecf: &Oecf, black: f64, unit: &'static str) -> Report {
+fn report(oecf: &Oecf, measured: &Measured) -> Report {
     let mut report =
         Report::new("oecf", "opto-electronic conversion function after ISO 14524 (± one standard uncertainty)");
-    let line = oecf.linearity(black);
+    report.setting("readings", measured.readings.to_owned());
+    report.setting("exposure_unit", measured.unit.to_owned());
+    if let Some(full_scale) = measured.full_scale {
+        report.fact("full_scale", "largest reading", "", full_scale);
+    }
+    let line = oecf.linearity(measured.black);
     if let Some(line) = &line {
         report.fact("slope", "slope of the straight line", "", line.slope);
         report.fact("offset", "offset of the straight line", "", line.offset);
@@ -206,7 +215,7 @@ fn report(oecf: &Oecf, black: f64, unit: &'static str) -> Report {
         report.fact("dynamic_range", "dynamic range (SNR 1 to saturation)", "", range);
     }
     match oecf.points().get(oecf.saturation()) {
-        Some(point) => report.fact("saturation_exposure", "first saturated exposure", unit, point.exposure),
+        Some(point) => report.fact("saturation_exposure", "first saturated exposure", measured.unit, point.exposure),
         None => report.note("no exposure saturates: the dynamic range is a lower bound"),
     }
     let row = |(i, p): (usize, &ExposurePoint)| {
@@ -230,7 +239,7 @@ fn report(oecf: &Oecf, black: f64, unit: &'static str) -> Report {
         ],
         rows: oecf.points().iter().enumerate().map(row).collect(),
     });
-    report.plot(plot(oecf, line.map(|l| (l.offset, l.slope)), unit));
+    report.plot(plot(oecf, line.map(|l| (l.offset, l.slope)), measured.unit));
     report
 }
 

@@ -82,6 +82,13 @@ impl Readings {
     }
 }
 
+impl Readings {
+    /// Whether a side-car says that they are raw, in a word.
+    pub(super) fn kind(&self) -> &'static str {
+        if self.black.is_some() { "raw" } else { "picture" }
+    }
+}
+
 /// Weights of linear sRGB in the luminance (IEC 61966-2-1).
 const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
 

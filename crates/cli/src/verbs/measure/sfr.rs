@@ -25,6 +25,9 @@ pub struct SfrArguments {
     /// How far from the edge its profile has fine detail, pixels [default: 10]
     #[arg(long, value_name = "PX", allow_negative_numbers = true)]
     pub reach_px: Option<f64>,
+    /// Take off shading by surfaces of this degree, one on either side of the edge: 1 or 2 where the lens's fall-off makes the sides slope
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=2))]
+    pub shading_degree: u8,
     #[command(flatten)]
     pub common: Common,
 }
@@ -41,6 +44,7 @@ pub(super) fn run(arguments: &SfrArguments) -> Result<(), Failure> {
     let settings = SfrSettings {
         edge_degree: arguments.edge_degree.into(),
         reach_px: arguments.reach_px,
+        shading_degree: arguments.shading_degree.into(),
         full_scale: arguments.common.levels.full_scale(&readings),
         ..SfrSettings::default()
     };
@@ -59,6 +63,10 @@ pub(super) fn run(arguments: &SfrArguments) -> Result<(), Failure> {
     }
     let (regions, found): (Vec<[usize; 4]>, Vec<Sfr>) = found.into_iter().unzip();
     let mut report = report(&regions, &found, (width, height));
+    report.setting("readings", readings.kind().to_owned());
+    if let Some(channel) = &arguments.common.selection.channel {
+        report.setting("channel", channel.clone());
+    }
     if !refused.is_empty() {
         report.note(format!("{} of {} edges could not be measured", refused.len(), refused.len() + found.len()));
         report.table(refusals(&refused));
@@ -87,14 +95,10 @@ fn report(regions: &[[usize; 4]], found: &[Sfr], size: (usize, usize)) -> Report
     let row = |(at, sfr): (&[usize; 4], &Sfr)| {
         let estimate = |e: Option<Estimate>| e.map_or(Cell::Nothing, Cell::Estimate);
         let nyquist = sfr.curve.iter().find(|p| (p.frequency - 0.5).abs() < 1e-9).map(|p| p.response);
-        let towards = match sfr.orientation {
-            Orientation::Vertical => "horizontal",
-            Orientation::Horizontal => "vertical",
-        };
         vec![
             Cell::Text(format!("{},{}", at[0], at[1])),
             Cell::Number(100.0 * field_position(at, size), 1),
-            Cell::Text(towards.to_owned()),
+            Cell::Text(direction(sfr).to_owned()),
             Cell::Number(sfr.angle_deg, 3),
             estimate(sfr.mtf50),
             estimate(sfr.mtf10),
@@ -121,16 +125,30 @@ fn report(regions: &[[usize; 4]], found: &[Sfr], size: (usize, usize)) -> Report
     report
 }
 
+/// Of the response, across the edge.
+fn direction(sfr: &Sfr) -> &'static str {
+    match sfr.orientation {
+        Orientation::Vertical => "horizontal",
+        Orientation::Horizontal => "vertical",
+    }
+}
+
 /// Every twentieth of a cycle a pixel.
 fn curves(regions: &[[usize; 4]], found: &[Sfr]) -> Table {
-    let row = |at: &[usize; 4], point: &SfrPoint| {
-        let place = Cell::Text(format!("{},{}", at[0], at[1]));
-        vec![place, Cell::Number(point.frequency, 2), Cell::Estimate(point.response)]
+    let row = |at: &[usize; 4], sfr: &Sfr, point: &SfrPoint| {
+        let place = [format!("{},{}", at[0], at[1]), direction(sfr).to_owned()].map(Cell::Text);
+        [place.to_vec(), vec![Cell::Number(point.frequency, 2), Cell::Estimate(point.response)]].concat()
     };
-    let rows = |(at, sfr): (&[usize; 4], &Sfr)| sfr.curve.iter().step_by(5).map(|p| row(at, p)).collect::<Vec<_>>();
+    let rows =
+        |(at, sfr): (&[usize; 4], &Sfr)| sfr.curve.iter().step_by(5).map(|p| row(at, sfr, p)).collect::<Vec<_>>();
     Table {
         key: "response",
-        columns: vec![("at_px", "at px"), ("cycles_per_px", "c/px"), ("response", "response")],
+        columns: vec![
+            ("at_px", "at px"),
+            ("direction", "direction"),
+            ("cycles_per_px", "c/px"),
+            ("response", "response"),
+        ],
         rows: regions.iter().zip(found).flat_map(rows).collect(),
     }
 }

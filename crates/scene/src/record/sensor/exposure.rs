@@ -22,7 +22,7 @@ record! {
 record! {
     /// Response of the micro-lenses over the angle between the chief ray and the sensor's normal.
     pub struct AngleResponse {
-        /// Pairs of an angle, degrees, and the response there, 0 … 1; angles rise from 0, where it is 1.
+        /// Pairs of an angle, degrees, and the response there, 0 … 1; angles rise from 0, where it is 1; linear in the angle's square between them.
         required table: Vec<Placed<[f64; 2]>> = list(vector::<2>(number("").at_least(0.0)), 1);
         /// Distance of the exit pupil, from which chief rays come, from the sensor, mm, above 0. Default: the lens's own, on the
         /// axis; of a pinhole, a thin lens and a calibrated camera its focal length.

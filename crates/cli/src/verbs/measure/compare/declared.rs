@@ -5,33 +5,46 @@
 //! | distortion | k1, k2 in half diagonals in the direction that the file states, the curve r / (c tan θ) along the half diagonal (where it was measured about the principal point) |
 //! | focal, calibrate | principal distance in pixels and mm, principal point, k1 and k2 where the model measured means the same |
 //! | vignetting | étendue of a pixel relative to the centre, the mean of the four half diagonals, with the pixels' response over angle |
-//! | ptc | gain, dark noise, DSNU and PRNU of pixels, rows and columns, dark current, quantum efficiency at a wavelength |
+//! | ptc | gain, dark noise, DSNU and PRNU of pixels, rows and columns, dark current, quantum efficiency at a wavelength (of the channel measured, with what neighbours of other colours exchange) |
 //! | dark-current | the dark current at each temperature by the file's law, and its doubling temperature where the law is that |
 //! | chromatic | no displacement, of a lens that images all colours alike |
-//! | sfr | the pixel's aperture, sinc(a ν), with what neighbours exchange; of a lens in focus without diffraction |
+//! | oecf | the tone curve of raw readings or of the picture, the light's strength free |
+//! | sfr | [`response`]: pixel's aperture, what neighbours exchange, diffraction or a picture of a point |
 //!
 //! Left out: what the file does not state but causes (shifts by aberrations, charge that blooms).
 
 use super::super::distortion::centre_words;
 use super::curve::Curve;
 use super::side::{Quantity, Side};
-use etendue_core::maths::f64::{atan, cos, sin};
+use super::{response, tone};
+use etendue_core::maths::f64::atan;
 use etendue_metrology::Estimate;
 use etendue_metrology::photon_transfer::temperature::ZERO_CELSIUS_K;
 use etendue_pipeline::plan::CameraBody;
 use etendue_projection::Sense;
 use etendue_sensor::SensorParameters;
+use etendue_sensor::effects::dark_current::DarkCurrent;
 use etendue_sensor::effects::temperature::{Temperature, TemperatureLaw};
 use glam::DVec2;
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
+
+/// The light that was measured by, as told.
+pub(super) struct Light {
+    pub wavelength_nm: Option<f64>,
+    pub illuminant: Option<String>,
+}
 
 type Quantities = BTreeMap<String, Quantity>;
 
 /// The camera's own side of a measurement.
-pub(super) fn side(body: &CameraBody, measured: &Side, wavelength_nm: Option<f64>) -> Result<Side, String> {
+pub(super) fn side(body: &CameraBody, measured: &Side, light: &Light) -> Result<Side, String> {
+    let Light { wavelength_nm, illuminant } = light;
+    let (wavelength_nm, illuminant) = (*wavelength_nm, illuminant.as_deref());
     if wavelength_nm.is_some() && measured.kind != "ptc" {
         return Err("--wavelength-nm belongs to photon transfer (ptc)".to_owned());
+    }
+    if illuminant.is_some() && measured.kind != "sfr" {
+        return Err("--illuminant belongs to the response of edges (sfr)".to_owned());
     }
     let mut quantities = Quantities::new();
     let mut put = |key: &str, value: f64, unit: &str| {
@@ -54,7 +67,7 @@ pub(super) fn side(body: &CameraBody, measured: &Side, wavelength_nm: Option<f64
             along(measured, |field| Some(100.0 * illumination(body, field)))
         }
         "ptc" => {
-            electronics(body, wavelength_nm, &mut put)?;
+            electronics(body, measured, wavelength_nm, &mut put)?;
             Vec::new()
         }
         "dark-current" => growth(body, measured, &mut put)?,
@@ -62,13 +75,17 @@ pub(super) fn side(body: &CameraBody, measured: &Side, wavelength_nm: Option<f64
             achromatic(body, &mut put)?;
             along(measured, |_| Some(0.0))
         }
-        "sfr" => {
-            in_closed_form(body)?;
-            measured.curves.iter().map(|c| at_points(c, |nu| Some(aperture(body, nu)))).collect()
-        }
+        "oecf" => tone::declared(body, measured)?,
+        "sfr" => response::declared(body, measured, illuminant.unwrap_or("D65"))?,
         kind => return Err(format!("a camera file declares nothing that measure {kind} finds")),
     };
-    Ok(Side { kind: measured.kind.clone(), settings: measured.settings.clone(), quantities, curves })
+    Ok(Side {
+        kind: measured.kind.clone(),
+        settings: measured.settings.clone(),
+        quantities,
+        curves,
+        angles_deg: measured.angles_deg.clone(),
+    })
 }
 
 /// The declared curve at the places of the measured one.
@@ -145,6 +162,7 @@ fn illumination(body: &CameraBody, field: f64) -> f64 {
 
 fn electronics(
     body: &CameraBody,
+    measured: &Side,
     wavelength_nm: Option<f64>,
     put: &mut impl FnMut(&str, f64, &str),
 ) -> Result<(), String> {
@@ -153,7 +171,7 @@ fn electronics(
     let gain = p.read_out.gain_dn_e * p.read_out.analogue_gain * p.read_out.digital_gain;
     put("gain_dn_per_e", gain, "DN/e⁻");
     put("dark_noise_e", dark_noise_e(p), "e⁻");
-    put("dark_current_mean_e_per_s", p.charge.dark.current_e_s * p.charge.dark.temperature_factor(), "e⁻/s");
+    put("dark_current_mean_e_per_s", p.charge.dark.mean_e_s(), "e⁻/s");
     let (offset, response) = (p.pattern.offset, p.pattern.photo_response);
     for (part, e, share) in [
         ("pixel", offset.white_e, response.white),
@@ -164,11 +182,8 @@ fn electronics(
         put(&format!("prnu_percent_{part}"), 100.0 * share, "%");
     }
     if let Some(nm) = wavelength_nm {
-        let [channel] = p.channels.as_slice() else {
-            return Err("--wavelength-nm: the pixels have colours, each with its own quantum efficiency".to_owned());
-        };
-        let efficiency = f64::from(channel.quantum_efficiency.at(nm as f32)) * p.pixel.fill_factor;
-        put("quantum_efficiency", efficiency, "");
+        let channel = channel(p, measured.settings.get("channel").map(String::as_str))?;
+        put("quantum_efficiency", sensor.picture_quantum_efficiencies(nm)[channel], "");
     }
     Ok(())
 }
@@ -182,7 +197,8 @@ fn growth(body: &CameraBody, measured: &Side, put: &mut impl FnMut(&str, f64, &s
     if let TemperatureLaw::Doubling { step_k } = stated.law {
         put("doubling_doubling_k", step_k, "K");
     }
-    let at = |celsius: f64| dark.current_e_s * Temperature { sensor_k: celsius + ZERO_CELSIUS_K, ..stated }.factor();
+    let sensor = |celsius: f64| Temperature { sensor_k: celsius + ZERO_CELSIUS_K, ..stated };
+    let at = |celsius: f64| DarkCurrent { temperature: Some(sensor(celsius)), ..dark }.mean_e_s();
     Ok(measured.curves.iter().map(|c| at_points(c, |celsius| Some(at(celsius)))).collect())
 }
 
@@ -199,36 +215,26 @@ fn achromatic(body: &CameraBody, put: &mut impl FnMut(&str, f64, &str)) -> Resul
     Ok(())
 }
 
+/// The channel that was measured, by its name or its first letter.
+pub(super) fn channel(p: &SensorParameters, measured: Option<&str>) -> Result<usize, String> {
+    let names = || p.channels.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", ");
+    let Some(name) = measured else {
+        let several = || format!("the pixels have colours ({}): measure one with --channel", names());
+        return if p.channels.len() == 1 { Ok(0) } else { Err(several()) };
+    };
+    let alike = |own: &str| own.eq_ignore_ascii_case(name) || (name.len() == 1 && own[..1].eq_ignore_ascii_case(name));
+    let found = p.channels.iter().position(|c| alike(&c.name));
+    found.ok_or_else(|| format!("the channel '{name}' was measured; the file has {}", names()))
+}
+
+/// The first place of a channel in the tile, which is the one that measurements take.
+pub(super) fn place_of(p: &SensorParameters, channel: usize) -> [usize; 2] {
+    let at = p.cfa.channels().iter().position(|c| *c == channel).unwrap_or(0);
+    [at % p.cfa.width(), at / p.cfa.width()]
+}
+
 /// Noise of the chain in a pixel without light, at exposures too short for dark current.
 fn dark_noise_e(p: &SensorParameters) -> f64 {
     let noise = &p.read_out.noise;
     (noise.white_e * noise.white_e + noise.row_e * noise.row_e + noise.column_e * noise.column_e).sqrt()
-}
-
-/// Whether the response is that of the pixels alone.
-fn in_closed_form(body: &CameraBody) -> Result<(), String> {
-    let thin = ["thin lens", "pinhole"].contains(&body.lens.kind());
-    let exchanged = body.sensor.as_ref().and_then(|s| s.parameters().optics.cross_talk);
-    if exchanged.is_some_and(|c| c.0.horizontal != c.0.vertical) {
-        return Err(
-            "the response along rows and columns differs by cross-talk: no one curve says what is declared".to_owned()
-        );
-    }
-    if thin && body.effects.is_idle() && body.front.is_none() {
-        return Ok(());
-    }
-    Err("the response of this lens has no closed form here: expected a thin lens or pinhole without [effects] and [front]"
-        .to_owned())
-}
-
-/// Response of the pixel's aperture with what neighbours catch, along rows or columns.
-fn aperture(body: &CameraBody, cycles_per_px: f64) -> f64 {
-    let x = PI * cycles_per_px * body.aperture_px;
-    let sinc = if x == 0.0 { 1.0 } else { sin(x) / x };
-    let exchanged = body
-        .sensor
-        .as_ref()
-        .and_then(|s| s.parameters().optics.cross_talk)
-        .map_or(0.0, |c| 2.0 * c.0.horizontal + 4.0 * c.0.corner);
-    sinc * (1.0 - exchanged * (1.0 - cos(2.0 * PI * cycles_per_px)))
 }

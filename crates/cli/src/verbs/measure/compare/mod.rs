@@ -6,14 +6,19 @@
 
 mod curve;
 mod declared;
+mod mean;
+mod response;
 mod side;
+mod tone;
 
 use super::report::{Cell, Report, Table, Telling};
 use crate::failure::Failure;
 use crate::plot::{Axis, Mark, Plot, Series};
 use clap::Args;
 use curve::{Curve, Gap, gaps, limit};
+use declared::Light;
 use etendue_metrology::Estimate;
+use mean::{Compared, means};
 use side::{Quantity, Side, sides};
 use std::path::PathBuf;
 
@@ -29,6 +34,9 @@ pub struct CompareArguments {
     /// Where a camera file is compared with photon transfer: the light's wavelength, for the quantum efficiency
     #[arg(long, value_name = "NM", value_parser = super::views::positive)]
     pub wavelength_nm: Option<f64>,
+    /// Where a camera file is compared with the response of edges: the light's spectrum [default: D65]
+    #[arg(long, value_name = "NAME")]
+    pub illuminant: Option<String>,
     /// Change a key of the camera file, e.g. --set sensor.exposure_s=0.002
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
@@ -37,7 +45,8 @@ pub struct CompareArguments {
 }
 
 pub(super) fn run(arguments: &CompareArguments) -> Result<(), Failure> {
-    let [a, b] = sides(&arguments.a, &arguments.b, arguments.wavelength_nm, &arguments.set)?;
+    let light = Light { wavelength_nm: arguments.wavelength_nm, illuminant: arguments.illuminant.clone() };
+    let [a, b] = sides(&arguments.a, &arguments.b, &light, &arguments.set)?;
     let (names, told) = ([&arguments.a, &arguments.b].map(|f| f.display().to_string()), Failure::input);
     contradictions(&a, &b).map_err(told)?;
     let mut report =
@@ -141,6 +150,7 @@ fn normalised(a: &Quantity, b: &Quantity) -> Option<f64> {
 fn curves(report: &mut Report, a: &Side, b: &Side) -> Vec<String> {
     let mut differing = Vec::new();
     let mut rows = Vec::new();
+    let mut all: Vec<Compared> = Vec::new();
     for (of_a, of_b) in a.curves.iter().filter_map(|x| Some((x, b.curves.iter().find(|y| y.name == x.name)?))) {
         let gaps = gaps(of_a, of_b);
         let (row, differs) = curve_row(of_a, &gaps);
@@ -148,8 +158,7 @@ fn curves(report: &mut Report, a: &Side, b: &Side) -> Vec<String> {
         if differs == Some(true) {
             differing.push(of_a.name.clone());
         }
-        report.plot(both(of_a, of_b));
-        report.plot(error(of_a, &gaps));
+        all.push((of_a.clone(), gaps));
     }
     let columns = vec![
         ("curve", "curve"),
@@ -164,7 +173,32 @@ fn curves(report: &mut Report, a: &Side, b: &Side) -> Vec<String> {
     if !rows.is_empty() {
         report.table(Table { key: "curves", columns, rows });
     }
+    let means = means(&all);
+    means.iter().for_each(|(curve, gaps)| report.table(mean_table(curve, gaps)));
+    for (curve, gaps) in if means.is_empty() { &all } else { &means } {
+        report.plot(both(curve, gaps));
+        report.plot(error(curve, gaps));
+    }
     differing
+}
+
+/// The mean of many curves, point by point.
+fn mean_table(curve: &Curve, gaps: &[Gap]) -> Table {
+    let row = |gap: &Gap| {
+        let u = etendue_core::maths::f64::hypot(gap.a.standard_uncertainty, gap.b.standard_uncertainty);
+        vec![
+            Cell::Text(curve.name.clone()),
+            Cell::Number(gap.x, 2),
+            Cell::Estimate(gap.a),
+            Cell::Estimate(gap.b),
+            Cell::Estimate(Estimate::new(gap.difference(), u)),
+        ]
+    };
+    Table {
+        key: "means",
+        columns: vec![("curve", "curve"), ("at", "at"), ("a", "A"), ("b", "B"), ("difference", "difference")],
+        rows: gaps.iter().map(row).collect(),
+    }
 }
 
 fn largest(values: impl Iterator<Item = f64>) -> Option<f64> {
@@ -199,14 +233,18 @@ fn x_axis(curve: &Curve) -> Axis {
     })
 }
 
-fn both(a: &Curve, b: &Curve) -> Plot {
-    let bars =
-        |c: &Curve| c.points.iter().map(|(x, y)| (*x, y.value, 2.0 * y.standard_uncertainty)).collect::<Vec<_>>();
+fn both(curve: &Curve, gaps: &[Gap]) -> Plot {
+    let bars = |side: fn(&Gap) -> Estimate| {
+        gaps.iter().map(move |gap| (gap.x, side(gap).value, 2.0 * side(gap).standard_uncertainty))
+    };
     Plot {
-        title: format!("{} (bars: 95 %)", a.name),
-        x: x_axis(a),
-        y: Axis::linear(a.ordinate),
-        series: vec![Series::with_errors("A", Mark::Points, bars(a)), Series::with_errors("B", Mark::Line, bars(b))],
+        title: format!("{} (bars: 95 %)", curve.name),
+        x: x_axis(curve),
+        y: Axis::linear(curve.ordinate),
+        series: vec![
+            Series::with_errors("A", Mark::Points, bars(|gap| gap.a)),
+            Series::with_errors("B", Mark::Line, bars(|gap| gap.b)),
+        ],
     }
 }
 

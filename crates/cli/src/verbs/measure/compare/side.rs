@@ -1,7 +1,7 @@
 //! One side of a comparison: a measurement's JSON, or what a camera file declares of the same.
 
 use super::curve::{Curve, curves};
-use super::declared;
+use super::declared::{self, Light};
 use crate::camera_file;
 use crate::failure::Failure;
 use crate::job::read_text;
@@ -32,6 +32,8 @@ pub(super) struct Side {
     pub settings: BTreeMap<String, String>,
     pub quantities: BTreeMap<String, Quantity>,
     pub curves: Vec<Curve>,
+    /// Angles of slanted edges to rows or columns, degrees, by their place.
+    pub angles_deg: BTreeMap<String, f64>,
 }
 
 fn is_camera(file: &Path) -> bool {
@@ -39,11 +41,11 @@ fn is_camera(file: &Path) -> bool {
 }
 
 /// Both sides; a camera file declares what the other side measured.
-pub(super) fn sides(a: &Path, b: &Path, wavelength_nm: Option<f64>, set: &[String]) -> Result<[Side; 2], Failure> {
+pub(super) fn sides(a: &Path, b: &Path, light: &Light, set: &[String]) -> Result<[Side; 2], Failure> {
     let declaration = |file: &Path, measured: &Side| {
         let body = camera_file::load(file, set)?;
         let said = |reason: String| Failure::input(format!("{}: {reason}", file.display()));
-        declared::side(&body, measured, wavelength_nm).map_err(said)
+        declared::side(&body, measured, light).map_err(said)
     };
     match (is_camera(a), is_camera(b)) {
         (true, true) => Err(Failure::input(
@@ -52,8 +54,8 @@ pub(super) fn sides(a: &Path, b: &Path, wavelength_nm: Option<f64>, set: &[Strin
         (true, false) => measurement(b).and_then(|b| Ok([declaration(a, &b)?, b])),
         (false, true) => measurement(a).and_then(|a| Ok([a.clone(), declaration(b, &a)?])),
         (false, false) => {
-            if wavelength_nm.is_some() || !set.is_empty() {
-                let told = "--wavelength-nm and --set belong to a camera file, and neither side is one";
+            if light.wavelength_nm.is_some() || light.illuminant.is_some() || !set.is_empty() {
+                let told = "--wavelength-nm, --illuminant and --set belong to a camera file, and neither side is one";
                 return Err(Failure::input(told));
             }
             Ok([measurement(a)?, measurement(b)?])
@@ -71,7 +73,18 @@ fn measurement(file: &Path) -> Result<Side, Failure> {
     let quantities = figures.iter().filter_map(|(key, figure)| Some((key.clone(), quantity(figure)?))).collect();
     let settings = report["settings"].as_object().into_iter().flatten();
     let settings = settings.filter_map(|(key, value)| Some((key.clone(), value.as_str()?.to_owned()))).collect();
-    Ok(Side { kind, settings, quantities, curves: curves(&report["tables"]) })
+    Ok(Side {
+        kind,
+        settings,
+        quantities,
+        curves: curves(&report["tables"]),
+        angles_deg: angles(&report["tables"]["edges"]),
+    })
+}
+
+fn angles(edges: &Value) -> BTreeMap<String, f64> {
+    let one = |row: &Value| Some((row["at_px"].as_str()?.to_owned(), row["angle_deg"].as_f64()?));
+    edges.as_array().into_iter().flatten().filter_map(one).collect()
 }
 
 fn quantity(figure: &Value) -> Option<Quantity> {

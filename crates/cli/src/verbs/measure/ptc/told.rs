@@ -7,6 +7,9 @@ use etendue_metrology::photon_transfer::{Figures, Nonuniformity, Parts, Transfer
 
 pub(super) fn report(arguments: &Ptc, found: &Found) -> Report {
     let mut report = Report::new("ptc", "EMVA 1288 release 4.0 linear (± one standard uncertainty)");
+    if let Some(channel) = &arguments.selection.channel {
+        report.setting("channel", channel.clone());
+    }
     figures(&mut report, &found.figures, arguments.relative_light);
     if let Some(fixed) = &found.fixed {
         nonuniformities(&mut report, &fixed.patterns);

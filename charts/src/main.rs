@@ -1,0 +1,109 @@
+//! The validation bench: renders charts with the stand-in cameras, measures the pictures and lays what was found beside what the camera
+//! files declare. Writes docs/validation.md with its plots; exit status 1 where a bound is broken, 2 where something fails.
+//!
+//! `just validate` runs all; `just validate web ccd-mono` runs those that are named and leaves the page in the folder of renders.
+//! Everything is rendered again each time. Environment: ETENDUE names the program (default: a release build is made), BENCH the
+//! folder of renders (default: target/validation).
+
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that reports to its user")]
+
+mod bounds;
+mod cameras;
+mod comparison;
+mod electronics;
+mod geometry;
+mod light;
+mod page;
+mod program;
+mod response;
+
+use cameras::{Bench, CAMERAS, StandIn};
+use page::{Report, Section};
+use program::Program;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+/// A part of the bench, and what it finds.
+type Part = (&'static str, fn(&Bench<'_>) -> Result<Vec<Section>, String>);
+
+const PARTS: [Part; 4] = [
+    ("distortion and focal length", geometry::sections),
+    // Before the light: what dark current adds to a picture is taken off there.
+    ("photon transfer and dark current", electronics::sections),
+    ("vignetting and tone curve", light::sections),
+    ("response", response::sections),
+];
+
+fn main() -> ExitCode {
+    let names: Vec<String> = std::env::args().skip(1).collect();
+    match validated(&names) {
+        Ok(broken) if broken.is_empty() => ExitCode::SUCCESS,
+        Ok(broken) => {
+            broken.iter().for_each(|line| eprintln!("broken: {line}"));
+            ExitCode::FAILURE
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Runs the bench: the bounds that are broken.
+fn validated(names: &[String]) -> Result<Vec<String>, String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().ok_or("charts/ lies in the repository")?;
+    std::env::set_current_dir(root).map_err(|cause| cause.to_string())?;
+    let cameras = chosen(names)?;
+    let whole = cameras.len() == CAMERAS.len();
+    let folder = PathBuf::from(std::env::var_os("BENCH").unwrap_or_else(|| "target/validation".into()));
+    let pictures = if whole { PathBuf::from("docs/pictures") } else { folder.join("pictures") };
+    std::fs::create_dir_all(&pictures).map_err(|cause| format!("{}: {cause}", pictures.display()))?;
+    let program = Program::found()?;
+    let report = |camera: &StandIn| {
+        let folder = emptied(&folder.join(camera.name))?;
+        let bench = Bench { program: &program, camera: *camera, folder, pictures: pictures.clone() };
+        reported(&bench)
+    };
+    let reports = cameras.iter().map(report).collect::<Result<Vec<_>, String>>()?;
+    let page = if whole { PathBuf::from("docs/validation.md") } else { folder.join("validation.md") };
+    std::fs::write(&page, page::page(&reports)).map_err(|cause| format!("{}: {cause}", page.display()))?;
+    println!("{}", page.display());
+    Ok(reports.iter().flat_map(broken).collect())
+}
+
+fn chosen(names: &[String]) -> Result<Vec<StandIn>, String> {
+    let find = |name: &String| {
+        let known = || CAMERAS.map(|c| c.name).join(", ");
+        CAMERAS.into_iter().find(|c| c.name == name).ok_or_else(|| format!("no camera '{name}'; there are {}", known()))
+    };
+    if names.is_empty() { Ok(CAMERAS.to_vec()) } else { names.iter().map(find).collect() }
+}
+
+/// A folder with nothing of earlier runs in it.
+fn emptied(folder: &Path) -> Result<PathBuf, String> {
+    let told = |cause: std::io::Error| format!("{}: {cause}", folder.display());
+    if folder.exists() {
+        std::fs::remove_dir_all(folder).map_err(told)?;
+    }
+    std::fs::create_dir_all(folder).map_err(told)?;
+    Ok(folder.to_path_buf())
+}
+
+fn reported(bench: &Bench<'_>) -> Result<Report, String> {
+    let mut sections = Vec::new();
+    for (what, part) in PARTS {
+        let start = Instant::now();
+        eprint!("{}: {what} … ", bench.camera.name);
+        sections.extend(part(bench)?);
+        eprintln!("{:.0} s", start.elapsed().as_secs_f64());
+    }
+    Ok(Report { camera: bench.camera.name, sections })
+}
+
+fn broken(report: &Report) -> Vec<String> {
+    let told = |r: &comparison::Reached| {
+        format!("{}: {}: {:?}, E_n {:?}; expected {}", report.camera, r.quantity, r.error, r.e_n, r.bound.text())
+    };
+    report.reached().filter(|r| !r.holds()).map(told).collect()
+}

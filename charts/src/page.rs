@@ -1,0 +1,76 @@
+//! docs/validation.md.
+
+use crate::bounds::unit;
+use crate::comparison::{Reached, rounded};
+
+/// A part of a camera's report.
+pub(crate) struct Section {
+    pub(crate) title: &'static str,
+    pub(crate) body: String,
+    pub(crate) reached: Vec<Reached>,
+}
+
+/// What was found of a camera.
+pub(crate) struct Report {
+    pub(crate) camera: &'static str,
+    pub(crate) sections: Vec<Section>,
+}
+
+impl Report {
+    pub(crate) fn reached(&self) -> impl Iterator<Item = &Reached> {
+        self.sections.iter().flat_map(|section| &section.reached)
+    }
+}
+
+const INTRODUCTION: &str = "# Recovery of declared parameters
+
+Written by `just validate`: charts are rendered with stand-in cameras (`charts/*/camera.toml`), the pictures are measured, and what is found is
+laid beside what the camera file declares. Errors are measured less declared; E_n after ISO 13528, |E_n| > 1 is a difference. Of about
+twenty quantities that agree one is expected to differ by chance.
+
+The bounds are kept where the error is within them; where they say \"or 3 u\", within three standard uncertainties is enough (|E_n| ≤ 1.5).
+`just validate` fails where one is broken (**bold** here).
+";
+
+/// The whole page.
+pub(crate) fn page(reports: &[Report]) -> String {
+    let mut text = format!("{INTRODUCTION}\n{}", summary(reports));
+    for report in reports {
+        text += &format!("\n## {}\n", report.camera);
+        for section in &report.sections {
+            text += &format!("\n### {}\n{}", section.title, section.body);
+        }
+    }
+    text
+}
+
+/// A line a quantity, a column a camera.
+fn summary(reports: &[Report]) -> String {
+    let mut quantities: Vec<&Reached> = Vec::new();
+    for reached in reports.iter().flat_map(Report::reached) {
+        if !quantities.iter().any(|q| q.quantity == reached.quantity) {
+            quantities.push(reached);
+        }
+    }
+    let heads: String = reports.iter().map(|r| format!(" {} |", r.camera)).collect();
+    let mut text = format!("| quantity | bound |{heads}\n| --- | --- |{}\n", " --- |".repeat(reports.len()));
+    for quantity in quantities {
+        let of =
+            |report: &Report| report.reached().find(|r| r.quantity == quantity.quantity).map_or("–".to_owned(), cell);
+        let cells: String = reports.iter().map(|report| format!(" {} |", of(report))).collect();
+        text += &format!("| {} | {} |{cells}\n", quantity.quantity.replace('_', " "), quantity.bound.text());
+    }
+    text
+}
+
+fn cell(reached: &Reached) -> String {
+    let error = reached.error.map(|e| format!("{}{}", rounded(Some(e), 3), unit(short(reached.bound.unit))));
+    let e_n = reached.e_n.map(|e| format!("E_n {}", rounded(Some(e), 2)));
+    let text = [error, e_n].into_iter().flatten().collect::<Vec<_>>().join(", ");
+    if reached.holds() { text } else { format!("**{text}**") }
+}
+
+/// Of a unit, the sign.
+fn short(unit: &str) -> &str {
+    unit.split(' ').next().unwrap_or_default()
+}
