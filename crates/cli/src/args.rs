@@ -187,7 +187,7 @@ pub struct Inspect {
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// Write a picture of it here
-    #[arg(long, value_name = "OUT.png")]
+    #[arg(long, value_name = "OUT.png", value_parser = crate::named_file::png)]
     pub png: Option<PathBuf>,
 }
 

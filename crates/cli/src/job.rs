@@ -78,11 +78,16 @@ impl JobRequest {
     }
 }
 
+/// The text of a file that the command line names.
+pub fn text_of(path: &Path) -> Result<String, Failure> {
+    read_text(path).map_err(|why| Failure::input(format!("{}: {why}", path.display())))
+}
+
 /// Reads a text file; the error says in a few words why it cannot.
 pub fn read_text(path: &Path) -> Result<String, String> {
     std::fs::read_to_string(path).map_err(|error| match error.kind() {
         std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
-        std::io::ErrorKind::InvalidData => "it is no UTF-8 text, as TOML is".to_owned(),
+        std::io::ErrorKind::InvalidData => "it is no text (UTF-8)".to_owned(),
         std::io::ErrorKind::IsADirectory => "it is a folder; name a file in it".to_owned(),
         _ => error.to_string(),
     })

@@ -14,6 +14,7 @@ mod files;
 mod film_file;
 mod job;
 mod machine;
+mod named_file;
 mod photographs;
 mod plot;
 mod progress;
@@ -56,12 +57,17 @@ fn run(verb: &Verb) -> Result<(), Failure> {
     }
 }
 
-/// Results go to stdout. A reader that has gone away (a closed pipe) ends the program quietly.
+/// Results go to stdout. A reader that has gone away (a closed pipe) ends the program quietly; a full disk is told.
 fn say(text: &str) {
-    use std::io::Write as _;
+    use std::io::{ErrorKind, Write as _};
     let mut out = std::io::stdout().lock();
-    if out.write_all(text.as_bytes()).and_then(|()| out.flush()).is_err() {
-        std::process::exit(0);
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Ok(()) => {}
+        Err(cause) if cause.kind() == ErrorKind::BrokenPipe => std::process::exit(0),
+        Err(cause) => {
+            tell(&format!("error: the results cannot be written: {cause}\n"));
+            std::process::exit(1);
+        }
     }
 }
 

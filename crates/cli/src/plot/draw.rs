@@ -1,7 +1,7 @@
 //! The drawing itself.
 
 use super::axis::Fitted;
-use super::{Mark, Plot, Series};
+use super::{Colour, Mark, Plot, Series};
 use std::fmt::Write as _;
 
 const WIDTH: f64 = 760.0;
@@ -46,7 +46,7 @@ impl<'a> Drawing<'a> {
     fn draw(&self, out: &mut String) {
         self.frame(out);
         for (i, series) in self.plot.series.iter().enumerate() {
-            self.series(out, series, COLOURS[i % COLOURS.len()]);
+            self.series(out, series, colour(i, series));
         }
         self.legend(out);
     }
@@ -121,7 +121,7 @@ impl<'a> Drawing<'a> {
         let named = self.plot.series.iter().enumerate().filter(|(_, s)| !s.name.is_empty());
         for (row, (i, series)) in named.enumerate() {
             let (x, y) = (left.max(LEFT + 14.0), TOP + 20.0 + 18.0 * row as f64);
-            let colour = COLOURS[i % COLOURS.len()];
+            let colour = colour(i, series);
             match series.mark {
                 Mark::Points => {
                     let _ = writeln!(out, "<circle cx=\"{}\" cy=\"{}\" r=\"3\" fill=\"{colour}\"/>", x + 10.0, y - 4.5);
@@ -131,6 +131,16 @@ impl<'a> Drawing<'a> {
             label(out, (x + 28.0, y), "start", &series.name);
         }
     }
+}
+
+/// The colour of the ith series of a plot.
+fn colour(i: usize, series: &Series) -> &'static str {
+    let place = match series.colour {
+        Some(Colour::Blue) => 0,
+        Some(Colour::Red) => 1,
+        None => i % COLOURS.len(),
+    };
+    COLOURS[place]
 }
 
 fn line(out: &mut String, from: (f64, f64), to: (f64, f64), colour: &str) {

@@ -45,6 +45,13 @@ pub enum Mark {
     Points,
 }
 
+/// The palette's colours for series that are about that colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Colour {
+    Blue,
+    Red,
+}
+
 /// A series of points with the half heights of their error bars.
 #[derive(Clone, Debug)]
 pub struct Series {
@@ -52,6 +59,8 @@ pub struct Series {
     pub mark: Mark,
     /// (x, y, half an error bar).
     pub points: Vec<[f64; 3]>,
+    /// `None`: the next of the palette.
+    pub colour: Option<Colour>,
 }
 
 impl Series {
@@ -60,7 +69,12 @@ impl Series {
     }
 
     pub fn with_errors(name: &str, mark: Mark, points: impl IntoIterator<Item = (f64, f64, f64)>) -> Self {
-        Self { name: name.to_owned(), mark, points: points.into_iter().map(<[f64; 3]>::from).collect() }
+        Self { name: name.to_owned(), mark, points: points.into_iter().map(<[f64; 3]>::from).collect(), colour: None }
+    }
+
+    /// Drawn in this colour.
+    pub fn coloured(self, colour: Colour) -> Self {
+        Self { colour: Some(colour), ..self }
     }
 }
 

@@ -143,3 +143,24 @@ fn files_of_unknown_kinds_are_not_inspected() {
     etendue(["inspect", &text(&file)]).refused(&["notes.txt"]);
     etendue(["inspect", "no/such.exr"]).refused(&["no/such.exr"]);
 }
+
+#[test]
+fn pictures_are_not_lost_to_their_plots_nor_cameras_to_measurements() {
+    let place = place();
+    let at = |name: &str| text(&place.path().join(name));
+    etendue(["measure", "sfr", &at("edge.png"), "--plot", &at("edge.png")]).refused(&["--plot", "ends in .svg"]);
+    etendue(["calibrate", &at("a.png"), "--pitch-mm", "9", "--pixel-pitch-um", "3", "-o", &at("camera")])
+        .refused(&["--output", "ends in .toml"]);
+    etendue(["calibrate", &at("a.png"), "--pitch-mm", "-9"]).refused(&["--pitch-mm", "above 0"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_no_success() {
+    let full = std::fs::File::options().write(true).open("/dev/full").expect("Linux has it");
+    let mut program = std::process::Command::new(env!("CARGO_BIN_EXE_etendue"));
+    let ran = program.args(["schema", "job"]).stdout(full).output().expect("it runs");
+    assert_eq!(ran.status.code(), Some(1));
+    let said = String::from_utf8_lossy(&ran.stderr).into_owned();
+    assert!(said.contains("cannot be written"), "{said}");
+}

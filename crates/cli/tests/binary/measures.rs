@@ -119,7 +119,10 @@ fn what_was_found_is_written_as_keys_of_a_camera_file() {
     }
     let flat = raw(folder.path(), "flat.png", (64, 64), |x, y| 9000.0 + 50.0 * scatter(x, y, 0));
     etendue(["measure", "vignetting", &flat, "--camera-out", &text(&camera)]).refused(&["--pixel-pitch-um"]);
-    etendue(["measure", "vignetting", &flat, "--camera-out", &text(&camera), "--pixel-pitch-um", "5"]).ok();
+    let again = ["measure", "vignetting", &flat, "--camera-out", &text(&camera), "--pixel-pitch-um", "5"];
+    etendue(again).refused(&["sensor.toml", "already there", "--overwrite"]);
+    assert_eq!(std::fs::read_to_string(&camera).expect("a file"), written);
+    etendue(again.into_iter().chain(["--overwrite"])).ok();
     let written = std::fs::read_to_string(&camera).expect("a file");
     assert!(written.contains("[lens.relative_illumination]") && written.contains("ratio = [1.000000, "), "{written}");
     let covered = |x: usize, y: usize| (x as f64 - 29.0 - 0.1 * (y as f64 - 31.5)).clamp(0.0, 1.0);

@@ -29,7 +29,7 @@ pub(super) fn body(arguments: &args::MeasureLens) -> Result<CameraBody, Failure>
     }
     let made = |radius_mm: f64| {
         let text = made_camera(&arguments.lens, radius_mm);
-        compiled(arguments, &PathBuf::from("measure.toml"), Some(text))
+        compiled(arguments, &PathBuf::from(MADE), Some(text)).map_err(|failure| without_place(failure, &arguments.lens))
     };
     let first = made(arguments.picture_radius_mm.unwrap_or(FULL_FRAME_MM))?;
     let fields = match arguments.picture_radius_mm {
@@ -51,6 +51,21 @@ fn compiled(arguments: &args::MeasureLens, file: &Path, made: Option<String>) ->
     let camera = load_camera(file, &read, &overrides).map_err(|f| Failure::inputs(f.list()))?;
     let assets = load_assets(&asset::of_camera(&camera)).map_err(Failure::inputs)?;
     compile_camera(&camera, &assets).map_err(Failure::inputs)
+}
+
+/// The name under which a camera about a lens is read; no such file exists.
+const MADE: &str = "measure.toml";
+
+/// Faults of a camera that nobody wrote: told of the lens, not of a line of text.
+fn without_place(failure: Failure, lens: &str) -> Failure {
+    let told = |fault: String| match fault.strip_prefix(MADE).and_then(|rest| rest.splitn(4, ':').last()) {
+        Some(words) => format!("{lens}:{words}"),
+        None => fault,
+    };
+    match failure {
+        Failure::Input(faults) => Failure::Input(faults.into_iter().map(told).collect()),
+        run @ Failure::Run(_) => run,
+    }
 }
 
 fn is_lens_file(lens: &str) -> bool {

@@ -12,10 +12,13 @@ pub struct CalibrateArguments {
     #[command(flatten)]
     pub views: ViewsArguments,
     /// Write the camera file here; needs --pixel-pitch-um
-    #[arg(short, long, value_name = "CAMERA.toml", requires = "pixel_pitch_um")]
+    #[arg(short, long, value_name = "CAMERA.toml", requires = "pixel_pitch_um", value_parser = crate::named_file::toml)]
     pub output: Option<PathBuf>,
+    /// Replace a camera file that is already there
+    #[arg(long, requires = "output")]
+    pub overwrite: bool,
     /// The lens's f-number, for the camera file [default: 4, which is marked as a stand-in]
-    #[arg(long, value_name = "N", value_parser = positive, requires = "output")]
+    #[arg(long, value_name = "N", value_parser = positive, allow_negative_numbers = true, requires = "output")]
     pub f_number: Option<f64>,
     #[command(flatten)]
     pub telling: Telling,
@@ -29,5 +32,8 @@ pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
     if let Some(pitch_um) = views.pixel_pitch_um {
         report.camera(found.camera_file(pitch_um, arguments.f_number));
     }
-    report.tell_with_camera(&arguments.telling, &CameraOut { camera_out: arguments.output.clone() })
+    report.tell_with_camera(
+        &arguments.telling,
+        &CameraOut { camera_out: arguments.output.clone(), overwrite: arguments.overwrite },
+    )
 }

@@ -4,10 +4,11 @@ use super::chart_points::ChartArguments;
 use super::report::{Cell, Report, Table, Telling};
 use crate::failure::Failure;
 use crate::machine;
-use crate::plot::{Axis, Mark, Plot, Series};
+use crate::plot::{Axis, Colour, Mark, Plot, Series};
 use clap::Args;
 use etendue_io::photograph::read_photograph;
-use etendue_metrology::chromatic::{Displacement, displacements, rings, shift};
+use etendue_metrology::Estimate;
+use etendue_metrology::chromatic::{Displacement, Ring, displacements, rings, shift};
 use std::path::PathBuf;
 
 /// `etendue measure chromatic`
@@ -53,7 +54,6 @@ fn report(found: &[(&'static str, Vec<Displacement>)]) -> Report {
         "lateral chromatic displacement against green, about the picture's middle (ISO 19084)",
     );
     let mut rows = Vec::new();
-    let mut series = Vec::new();
     for (name, list) in found {
         let worst = list.iter().max_by(|a, b| a.by.length().total_cmp(&b.by.length()));
         if let Some(worst) = worst {
@@ -74,10 +74,6 @@ fn report(found: &[(&'static str, Vec<Displacement>)]) -> Report {
                 Cell::Number(ring.points as f64, 0),
             ]);
         }
-        series.push(Series::new(name, Mark::Points, list.iter().map(|d| (100.0 * d.field, d.radial))));
-        let mean =
-            rings(list).into_iter().map(|r| (100.0 * r.field, r.radial.value, 2.0 * r.radial.standard_uncertainty));
-        series.push(Series::with_errors(&format!("{name}, rings"), Mark::Line, mean));
     }
     report.table(Table {
         key: "rings",
@@ -90,11 +86,32 @@ fn report(found: &[(&'static str, Vec<Displacement>)]) -> Report {
         ],
         rows,
     });
-    report.plot(Plot {
-        title: "Lateral colour".to_owned(),
-        x: Axis::linear("radial field position, % of the half diagonal").showing(&[0.0, 100.0]),
-        y: Axis::linear("radial displacement against green, px").showing(&[0.0]),
-        series,
-    });
+    report.plot(plot("radial", found, |d| d.radial, |r| r.radial));
+    report.plot(plot("tangential", found, |d| d.tangential, |r| r.tangential));
     report
+}
+
+/// One component of all points, and its means over rings.
+fn plot(
+    component: &str,
+    found: &[(&'static str, Vec<Displacement>)],
+    of_point: fn(&Displacement) -> f64,
+    of_ring: fn(&Ring) -> Estimate,
+) -> Plot {
+    let series = found.iter().flat_map(|(name, list)| {
+        let colour = if *name == "red" { Colour::Red } else { Colour::Blue };
+        let points = list.iter().map(|d| (100.0 * d.field, of_point(d)));
+        let means = rings(list).into_iter().map(|r| (100.0 * r.field, of_ring(&r)));
+        let means = means.map(|(field, mean)| (field, mean.value, 2.0 * mean.standard_uncertainty));
+        [
+            Series::new(name, Mark::Points, points).coloured(colour),
+            Series::with_errors(&format!("{name}, rings"), Mark::Line, means).coloured(colour),
+        ]
+    });
+    Plot {
+        title: format!("Lateral colour, {component} (bars: 95 %)"),
+        x: Axis::linear("radial field position, % of the half diagonal").showing(&[0.0, 100.0]),
+        y: Axis::linear(&format!("{component} displacement against green, px")).showing(&[0.0]),
+        series: series.collect(),
+    }
 }

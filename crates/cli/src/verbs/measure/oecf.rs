@@ -177,7 +177,7 @@ fn patches(arguments: &OecfArguments, truth: &Truth) -> Result<Measured, Failure
 fn steps(arguments: &OecfArguments, table: &Path) -> Result<Measured, Failure> {
     let picture = only_picture(arguments, "--steps")?;
     let readings = arguments.common.selection.stored(picture)?;
-    let text = crate::job::read_text(table).map_err(Failure::input)?;
+    let text = crate::job::text_of(table)?;
     let lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.trim().starts_with('#'));
     let step = |(number, line): (u32, &str)| {
         let place = format!("{}: line {number}", table.display());

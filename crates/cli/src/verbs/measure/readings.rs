@@ -22,8 +22,11 @@ pub struct Selection {
 }
 
 pub(super) fn tile(text: &str) -> Result<String, String> {
-    let whole = text.chars().count() == 4 && text.chars().all(|c| c.is_ascii_alphabetic());
-    if whole { Ok(text.to_ascii_uppercase()) } else { Err(format!("expected four letters, e.g. RGGB, not '{text}'")) }
+    let tile = text.to_ascii_uppercase();
+    let known = tile.chars().count() == 4 && tile.chars().all(|c| "RGBCMYWE".contains(c));
+    known
+        .then_some(tile)
+        .ok_or_else(|| format!("expected four of the letters R, G, B, C, M, Y, W, E, e.g. RGGB, not '{text}'"))
 }
 
 pub(super) fn region(text: &str) -> Result<[usize; 4], String> {

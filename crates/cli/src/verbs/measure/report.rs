@@ -2,13 +2,15 @@
 
 use super::fixed;
 use crate::failure::Failure;
+use crate::named_file;
 use crate::plot::{Plot, svg};
 use crate::say;
 use clap::Args;
 use etendue_core::maths::f64::log10;
+use etendue_io::Existing;
 use etendue_metrology::Estimate;
 use serde_json::{Map, Value, json};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// How results are told.
 #[derive(Debug, Args)]
@@ -16,8 +18,8 @@ pub struct Telling {
     /// Print JSON
     #[arg(long)]
     pub json: bool,
-    /// Draw the curves here
-    #[arg(long, value_name = "FILE.svg")]
+    /// Draw the curves here; an earlier drawing is replaced
+    #[arg(long, value_name = "FILE.svg", value_parser = named_file::svg)]
     pub plot: Option<PathBuf>,
 }
 
@@ -25,8 +27,11 @@ pub struct Telling {
 #[derive(Debug, Default, Args)]
 pub struct CameraOut {
     /// Write what was found as keys of a camera file
-    #[arg(long, value_name = "CAMERA.toml")]
+    #[arg(long, value_name = "CAMERA.toml", value_parser = named_file::toml)]
     pub camera_out: Option<PathBuf>,
+    /// Replace a camera file that is already there
+    #[arg(long, requires = "camera_out")]
+    pub overwrite: bool,
 }
 
 /// One number of a report.
@@ -141,7 +146,7 @@ impl Report {
             if self.plots.is_empty() {
                 return Err(Failure::input("--plot: this measurement has no curve to draw"));
             }
-            written(file, &svg(&self.plots))?;
+            named_file::write(file, svg(&self.plots).as_bytes(), Existing::Replace)?;
         }
         say(&if telling.json { format!("{:#}\n", self.json()) } else { self.text() });
         Ok(())
@@ -150,7 +155,8 @@ impl Report {
     /// The same, and writes the keys of a camera file where it is asked for.
     pub(super) fn tell_with_camera(&self, telling: &Telling, out: &CameraOut) -> Result<(), Failure> {
         if let Some((file, text)) = out.camera_out.as_ref().zip(self.camera.as_ref()) {
-            written(file, text)?;
+            let existing = if out.overwrite { Existing::Replace } else { Existing::Refuse };
+            named_file::write(file, text.as_bytes(), existing)?;
         }
         self.tell(telling)
     }
@@ -251,10 +257,6 @@ impl Cell {
     }
 }
 
-fn written(file: &Path, text: &str) -> Result<(), Failure> {
-    std::fs::write(file, text).map_err(|cause| Failure::run(format!("{}: cannot be written: {cause}", file.display())))
-}
-
 /// JSON knows no infinity.
 fn finite(x: f64) -> Value {
     if x.is_finite() { (x + 0.0).into() } else { Value::Null }
@@ -274,7 +276,7 @@ pub(super) fn with_uncertainty(e: Estimate) -> String {
         return format!("{} ± unknown", digits(value, 4));
     }
     if u <= 0.0 {
-        return digits(value, 6);
+        return if value.fract() == 0.0 && value.abs() < 1e9 { fixed(value, 0) } else { digits(value, 6) };
     }
     let place = log10(u).floor();
     if place > 4.0 || value.abs() >= 1e9 || place < -7.0 {
@@ -306,7 +308,7 @@ mod tests {
         assert_eq!(told(0.196_482, 0.000_913), "0.19648 ± 0.00091");
         assert_eq!(told(12_903.2, 230.0), "12903 ± 230");
         assert_eq!(told(0.0, 0.0), "0");
-        assert_eq!(told(1288.0, 0.0), "1288.00");
+        assert_eq!(told(1288.0, 0.0), "1288");
         assert_eq!(told(1.0, f64::INFINITY), "1.000 ± unknown");
         assert_eq!(told(f64::NAN, 1.0), "unknown");
     }

@@ -27,7 +27,7 @@ pub struct ViewsArguments {
     #[command(flatten)]
     pub chart: ChartArguments,
     /// The distance of neighbouring points of the chart, mm
-    #[arg(long, value_name = "MM", value_parser = positive)]
+    #[arg(long, value_name = "MM", value_parser = positive, allow_negative_numbers = true)]
     pub pitch_mm: f64,
     /// The camera model
     #[arg(long, value_enum, default_value_t = ModelArgument::Opencv)]
@@ -39,13 +39,13 @@ pub struct ViewsArguments {
     #[arg(long, value_name = "X,Y", value_parser = place)]
     pub principal_px: Option<[f64; 2]>,
     /// The distance from the entrance pupil to the chart's plane, mm, the same in every picture
-    #[arg(long, value_name = "MM", value_parser = positive)]
+    #[arg(long, value_name = "MM", value_parser = positive, allow_negative_numbers = true)]
     pub distance_mm: Option<f64>,
     /// Its standard uncertainty, mm
-    #[arg(long, value_name = "MM", value_parser = positive, requires = "distance_mm")]
+    #[arg(long, value_name = "MM", value_parser = positive, allow_negative_numbers = true, requires = "distance_mm")]
     pub distance_uncertainty_mm: Option<f64>,
     /// The distance of neighbouring pixels of the sensor, µm: then focal lengths are told in mm as well
-    #[arg(long, value_name = "UM", value_parser = positive)]
+    #[arg(long, value_name = "UM", value_parser = positive, allow_negative_numbers = true)]
     pub pixel_pitch_um: Option<f64>,
     /// Points far from the fit count less (Huber)
     #[arg(long)]

@@ -4,7 +4,7 @@ use super::curve::{Curve, curves};
 use super::declared::{self, Light};
 use crate::camera_file;
 use crate::failure::Failure;
-use crate::job::read_text;
+use crate::job::text_of;
 use etendue_metrology::Estimate;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -64,7 +64,7 @@ pub(super) fn sides(a: &Path, b: &Path, light: &Light, set: &[String]) -> Result
 }
 
 fn measurement(file: &Path) -> Result<Side, Failure> {
-    let text = read_text(file).map_err(Failure::input)?;
+    let text = text_of(file)?;
     let what = "expected the JSON that etendue measure or calibrate prints with --json, or a camera file (.toml)";
     let no = |cause: &str| Failure::input(format!("{}: {what}: {cause}", file.display()));
     let report: Value = serde_json::from_str(&text).map_err(|cause| no(&cause.to_string()))?;

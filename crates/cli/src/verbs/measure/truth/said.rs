@@ -71,7 +71,7 @@ impl Said {
 }
 
 pub(super) fn read(file: &Path) -> Result<Said, Failure> {
-    let text = crate::job::read_text(file).map_err(Failure::input)?;
+    let text = crate::job::text_of(file)?;
     let refused = |cause: serde_json::Error| {
         Failure::input(format!("{}: no truth of a chart ({cause}): draw the chart with this program", file.display()))
     };
