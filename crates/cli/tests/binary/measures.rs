@@ -276,7 +276,7 @@ fn depth_is_judged_by_range() {
     let report = json(&[&["depth", estimate.as_str(), truth.as_str()], &units[..]].concat());
     let near = &report["tables"]["ranges"][1];
     assert!((near["bias_m"]["value"].as_f64().expect("a bias") - 0.1).abs() < 1e-6, "{report}");
-    assert_eq!(report["tables"]["ranges"][2]["outliers_percent"].as_f64(), Some(100.0));
+    assert_eq!(report["tables"]["ranges"][2]["outliers_percent"]["value"].as_f64(), Some(100.0));
     let small = raw(folder.path(), "small.png", (32, 48), |_, _| 4_000.0);
     etendue(["measure", "depth", &small, &truth]).refused(&["one size"]);
 }
