@@ -76,10 +76,12 @@ impl Smear {
 }
 
 impl SensorParameters {
-    /// The exposure that smear adds to every pixel of an evenly and steadily lit picture of so many rows, s.
+    /// The exposure that smear adds to every pixel of an evenly and steadily lit picture of so many rows, s. Shielded rows take their
+    /// time, too, and add nothing.
     #[must_use]
     pub fn even_smear_s(&self, rows: usize) -> f64 {
-        self.charge.smear.map_or(0.0, |smear| smear.leak() * smear.line_s(self, rows) * rows as f64)
+        let all = rows + self.read_out.layout.optical_black.rows;
+        self.charge.smear.map_or(0.0, |smear| smear.leak() * smear.line_s(self, all) * rows as f64)
     }
 }
 
@@ -166,6 +168,20 @@ mod tests {
         assert_eq!(raw.plane.at(1, 0), 5000);
         assert_eq!(raw.plane.at(1, 199), 5000);
         assert_eq!(raw.plane.at(0, 0), 0);
+    }
+
+    /// An even picture shows what is told of it, with shielded rows and without.
+    #[test]
+    fn an_even_picture_has_the_exposure_told() {
+        for dark in [0, 20] {
+            let mut p = smeared(false, 1e-3);
+            p.read_out.layout.optical_black.rows = dark;
+            let raw = run(&p, &Plane::filled(3, 80, 1000.0_f32), ADDRESS);
+            let raw = raw.linear();
+            let want = 1000.0 * (1.0 + p.even_smear_s(80) / 1e-3);
+            let pixel = f64::from(raw.plane.at(1, raw.plane.height() - 1));
+            assert!((pixel - want).abs() <= 0.5 && want > 1025.0, "{dark}: {pixel} {want}");
+        }
     }
 
     #[test]

@@ -1,7 +1,7 @@
-//! Faults of light: fall-off.
+//! Faults of light: fall-off, tone curve.
 
 use super::{Bench, CAMERA, Compared, flagged, sound};
-use crate::support::text;
+use crate::support::{etendue, text};
 use etendue_core::maths::f64::{atan, cos, pow};
 use std::path::Path;
 
@@ -35,4 +35,33 @@ fn a_fall_off_by_the_third_power_of_the_cosine_is_flagged() {
     let faulty = vignetting(&bench, &render("cubes", &["--set", &lens]));
     flagged("cos⁴ exponent 3", "`lens.relative_illumination` cos³ θ", "corner_percent", &faulty, &healthy);
     assert!(faulty["profile"].differs(), "{faulty:?}");
+}
+
+/// Even light on the bare sensor, developed, at exposures from a fiftieth of saturation up to nine tenths.
+#[test]
+fn a_power_for_the_tone_curve_of_srgb_is_flagged() {
+    let bench = Bench::new();
+    let exposures = [2e-5, 5e-5, 1e-4, 2e-4, 3e-4, 4e-4, 5e-4, 6e-4, 7e-4, 8e-4, 9e-4];
+    let told = exposures.map(|s| s.to_string()).join(",");
+    // As bright by smear as its rows are many.
+    let small = ["--set", "sensor.width_px=96", "--set", "sensor.height_px=64", "--set", "processing.picture_bits=16"];
+    let measured = |name: &str, fault: &[&str]| {
+        let picture = |exposure_s: f64| {
+            let (output, exposure) =
+                (text(&bench.path(&format!("{name}-{exposure_s}"))), format!("sensor.exposure_s={exposure_s}"));
+            let light = ["--wavelength-nm", "550", "--irradiance-w-m2", "0.23", "--seed", "1"];
+            let run = [&["flat", CAMERA, "-o", &output, "--set", &exposure][..], &light, &small, fault].concat();
+            etendue(run).ok();
+            format!("{output}/camera/picture.0000.png")
+        };
+        let pictures = exposures.map(picture);
+        let mut measure = vec!["oecf"];
+        measure.extend(pictures.iter().map(String::as_str));
+        measure.extend(["--exposures", &told, "--channel", "G"]);
+        bench.beside(&measure, CAMERA, &small)
+    };
+    let healthy = measured("healthy", &[]);
+    sound(&healthy);
+    let faulty = measured("gamma", &["--set", "processing.tone_curve={ gamma = 2.2 }"]);
+    flagged("gamma 2.2 for sRGB", "`processing.tone_curve` gamma 2.2 for srgb", "points", &faulty, &healthy);
 }

@@ -1,15 +1,15 @@
 //! Faults of the sensor: gain, noise, patterns, filters, dark current.
 
-use super::{Bench, CAMERA, flagged, sound};
+use super::{Bench, CAMERA, COLOUR, Compared, flagged, sound};
 use crate::support::{etendue, text};
 
 const SMALL: [&str; 4] = ["--set", "sensor.width_px=240", "--set", "sensor.height_px=180"];
 
-/// The series of photon transfer of a camera: its descriptor.
-fn series(bench: &Bench, camera: &str, name: &str, options: &[&str]) -> String {
+/// The series of photon transfer of a camera at a wavelength: its descriptor.
+fn series(bench: &Bench, camera: &str, name: &str, nm: &str, options: &[&str]) -> String {
     let folder = bench.path(name);
     let output = text(&folder);
-    etendue([&["flat", camera, "--wavelength-nm", "550", "-o", &output], options].concat()).ok();
+    etendue([&["flat", camera, "--wavelength-nm", nm, "-o", &output], options].concat()).ok();
     let stem = std::path::Path::new(camera).file_stem().expect("a file");
     text(&folder.join(stem).join("emva1288.txt"))
 }
@@ -19,7 +19,7 @@ fn faults_of_gain_noise_and_pattern_are_flagged() {
     let bench = Bench::new();
     let measured = |name: &str, fault: &[&str]| {
         let levels = ["--photon-transfer", "15", "--stack", "16", "--seed", "1"];
-        let descriptor = series(&bench, CAMERA, name, &[&SMALL[..], &levels, fault].concat());
+        let descriptor = series(&bench, CAMERA, name, "550", &[&SMALL[..], &levels, fault].concat());
         bench.beside(&["ptc", &descriptor], CAMERA, &["--wavelength-nm", "550"])
     };
     let healthy = measured("healthy", &[]);
@@ -31,6 +31,24 @@ fn faults_of_gain_noise_and_pattern_are_flagged() {
     flags("gain + 2 %", "sensor.gain_dn_per_e", "0.204", "0.2", "gain_dn_per_e");
     flags("read noise + 10 %", "sensor.read_noise_e", "11", "10", "dark_noise_e");
     flags("PRNU doubled", "sensor.non_uniformity.prnu", "0.016", "0.008", "prnu_percent_pixel");
+}
+
+/// Blue pixels are where red ones are declared: what is read there is another colour's quantum efficiency. By red light, of which
+/// green pixels smear little into the red ones of their columns.
+#[test]
+fn a_swapped_phase_of_the_filters_is_flagged() {
+    let bench = Bench::new();
+    let measured = |name: &str, fault: &[&str]| -> Compared {
+        let levels = ["--photon-transfer", "12", "--stack", "3", "--seed", "1"];
+        let descriptor = series(&bench, COLOUR, name, "600", &[&SMALL[..], &levels, fault].concat());
+        // The list of levels does not tell the filters: those declared are.
+        let declared = ["ptc", &descriptor, "--cfa", "RGGB", "--channel", "R"];
+        bench.beside(&declared, COLOUR, &["--wavelength-nm", "600"])
+    };
+    let healthy = measured("healthy", &[]);
+    sound(&healthy);
+    let faulty = measured("swapped", &["--set", "sensor.cfa=\"bggr\""]);
+    flagged("Bayer phase swapped", "`sensor.cfa` bggr for rggb", "quantum_efficiency", &faulty, &healthy);
 }
 
 /// Declared is a doubling every 8 K.
@@ -46,7 +64,7 @@ fn a_swapped_law_of_the_dark_current_is_flagged() {
             let levels = ["--photon-transfer", "8", "--stack", "3", "--set", &warm];
             let small = ["--set", "sensor.width_px=96", "--set", "sensor.height_px=64"];
             let folder = format!("{name}-{celsius}");
-            format!("{celsius}:{}", series(&bench, CAMERA, &folder, &[&small[..], &long, &levels, law].concat()))
+            format!("{celsius}:{}", series(&bench, CAMERA, &folder, "550", &[&small[..], &long, &levels, law].concat()))
         };
         let [a, b, c, d] = ["25", "35", "45", "55"].map(at);
         bench.beside(&["dark-current", &a, &b, &c, &d, "--reference-c", "25"], CAMERA, &declared)
