@@ -18,20 +18,18 @@ pub(crate) fn sections(bench: &Bench<'_>) -> Result<Vec<Section>, String> {
     let (plot, shown) = bench.plot("response");
     let found = bench.program.compared(&report, &bench.file("quiet"), &["--plot".to_owned(), text(&plot)])?;
     let found = Comparison(found);
-    let reached = mean_of_edges(bench, &found)?;
+    let reached = mean_of_edges(&found)?;
     Ok(vec![Section { title: "Response of slanted edges", body: shown, reached: vec![reached] }])
 }
 
 /// The largest error of the mean of all edges up to half a cycle a pixel.
-fn mean_of_edges(bench: &Bench<'_>, found: &Comparison) -> Result<Reached, String> {
-    // Readings of one colour are two pixels apart.
-    let last = if bench.camera.filters.is_some() { 1.0 } else { 0.5 };
+fn mean_of_edges(found: &Comparison) -> Result<Reached, String> {
     let points = found.0["tables"]["means"].as_array().into_iter().flatten();
     let pair = |row: &Value| {
         let difference = &row["difference"];
         Some((row["at"].as_f64()?, difference["value"].as_f64()?, difference["standard_uncertainty"].as_f64()?))
     };
-    let worst = points.filter_map(pair).filter(|(at, ..)| *at <= last).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    let worst = points.filter_map(pair).filter(|(at, ..)| *at <= 0.5).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     let (_, error, u) = worst.ok_or("no response was compared")?;
     Ok(Reached {
         quantity: "response up to 0.5 cycles a pixel".to_owned(),

@@ -33,11 +33,6 @@ impl Normal {
         }
     }
 
-    /// AᵀWA.
-    pub(crate) fn matrix(&self) -> &Matrix {
-        &self.matrix
-    }
-
     /// The solution; `None` where the equations do not determine it.
     pub(crate) fn solve(&self) -> Option<Vec<f64>> {
         Some(Cholesky::of(&self.matrix, LEAST_PIVOT)?.solve(&self.right))

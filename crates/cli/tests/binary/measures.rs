@@ -207,10 +207,23 @@ fn a_slanted_edge_gives_its_response() {
     let told = json(&["sfr", &file, "--truth", &text(&truth)]);
     // Once the edge that is seen: 0.5 of its length across it, 0.6 along it, about its middle.
     assert_eq!(told["tables"]["edges"].as_array().map(Vec::len), Some(1), "{told}");
-    assert_eq!(told["tables"]["edges"][0]["at_px"], "14,12", "{told}");
-    // Of a mosaic every other pixel is read: half the distances.
+    assert_eq!(told["tables"]["edges"][0]["at_px"], "14,13", "{told}");
+    // Of a mosaic every other pixel is read.
     let mosaic = json(&["sfr", &file, "--truth", &text(&truth), "--cfa", "RGGB", "--channel", "R"]);
-    assert_eq!(mosaic["tables"]["edges"][0]["at_px"], "7,6", "{mosaic}");
+    assert_eq!(mosaic["tables"]["edges"][0]["at_px"], "14,13", "{mosaic}");
+    // A second edge that the truth tells and the picture does not show is listed with its reason.
+    let told = std::fs::read_to_string(&truth).expect("a truth").replace("[null,null]", "[[50,2],[54,42]]");
+    let two = folder.path().join("two.json");
+    std::fs::write(&two, told).expect("a temporary file");
+    let partly = json(&["sfr", &file, "--truth", &text(&two)]);
+    assert_eq!(partly["tables"]["edges"].as_array().map(Vec::len), Some(1), "{partly}");
+    let refused = partly["tables"]["refused"].as_array().expect("a table of refusals");
+    assert_eq!((refused.len(), &refused[0]["at_px"]), (1, &Value::from("42,10")), "{partly}");
+    assert!(refused[0]["reason"].as_str().is_some_and(|reason| reason.contains("no slanted edge")), "{partly}");
+    assert!(
+        partly["notes"].as_array().expect("notes").contains(&"1 of 2 edges could not be measured".into()),
+        "{partly}"
+    );
     etendue(["measure", "sfr", &file, "--truth", &text(&truth), "--camera", "b"]).refused(&["no camera 'b'", "a"]);
     let upright = raw(folder.path(), "upright.png", (64, 64), |x, _| if x < 30 { 5_000.0 } else { 40_000.0 });
     etendue(["measure", "sfr", &upright]).refused(&["upright.png", "0.00°", "2° to 43°"]);

@@ -67,6 +67,21 @@ impl Edge {
         Ok(Self { orientation, middle, coefficients: vec![at, slope * middle] })
     }
 
+    /// Through two points of a picture.
+    pub(super) fn through([a, b]: [[f64; 2]; 2], image: &Image) -> Result<Self, SfrError> {
+        let run = [b[0] - a[0], b[1] - a[1]];
+        let vertical = run[1].abs() >= run[0].abs();
+        let (across, along, length) = if vertical { (0, 1, image.height()) } else { (1, 0, image.width()) };
+        if run[along] == 0.0 {
+            return Err(SfrError::NoEdge("its two ends are one"));
+        }
+        let (slope, middle) = (run[across] / run[along], 0.5 * length as f64);
+        let orientation = if vertical { Orientation::Vertical } else { Orientation::Horizontal };
+        let edge =
+            Self { orientation, middle, coefficients: vec![a[across] + slope * (middle - a[along]), slope * middle] };
+        edge.check().map(|()| edge)
+    }
+
     /// The picture as this edge's own frame sees it: a flat edge's with rows and columns exchanged.
     pub(super) fn upright(&self, image: &Image) -> Image {
         match self.orientation {

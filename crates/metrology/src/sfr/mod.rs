@@ -21,23 +21,32 @@
 //! nearer side the profile is constant; what a lens spreads farther is missing from the response at 0, as in the standard. What is measured includes the pixel's aperture, |sinc(f cos θ) sinc(f sin θ)|
 //! for a full square pixel.
 //!
-//! Uncertainty: the covariance of the s_j with each pixel's own squared residual for its variance (White 1980), carried to SFR(f), MTF50 and
-//! MTF10 by the law of propagation. The edge's own place is taken as known: its part is of second order.
+//! Uncertainty: the covariance of the s_j with each pixel's own squared residual for its variance, and with the noise that neighbours share
+//! (demosaiced pictures; file covariance), carried to SFR(f), MTF50 and MTF10 by the law of propagation. The edge's own place is taken as
+//! known: its part is of second order.
 //!
-//! Refused: edges within 2° of rows, columns or diagonals, or that cross too few rows to sample the profile; clipped plateaus;
-//! anything that is not one straight edge. Shading of the sides is taken off on request. Left out: chromatic aberration between channels (measure each), the slanted star.
+//! Refused: edges within 2° of rows, columns or diagonals, or that cross too few rows to sample the profile, or rise within a gap of its
+//! samples; clipped plateaus; anything that is not one straight edge. Of a star each edge is measured in a
+//! strip between its neighbours. Shading of the sides is taken off on request. Left out: chromatic aberration between channels (measure each).
 
+mod acutance;
+mod covariance;
 mod edge;
+mod fit;
+mod knots;
 mod profile;
 mod shading;
 mod spline;
+mod strip;
 #[cfg(test)]
 mod tests;
 
 use crate::{Estimate, Image};
+pub use acutance::acutance;
 pub use edge::{Edge, Orientation};
-use profile::{Profile, USUAL_REACH_PX};
+use profile::Profile;
 use shading::levelled;
+pub use strip::{Strip, measure_strip};
 
 /// How an edge is measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -129,6 +138,17 @@ pub enum SfrError {
         /// Angle to the nearest of rows and columns.
         angle_deg: f64,
     },
+    /// The edge rises within a gap of its samples.
+    #[error(
+        "the edge rises within the {gap_px:.2} pixels between the samples of its profile at {angle_deg:.2}°, so that finer structure is \
+         folded back: take another angle; is the picture sampled at points (nearest neighbour)?"
+    )]
+    Steep {
+        /// The widest gap.
+        gap_px: f64,
+        /// Angle to the nearest of rows and columns.
+        angle_deg: f64,
+    },
     /// A side is clipped.
     #[error("{percent:.1} % of the pixels are saturated: expose less, so that both sides of the edge keep their noise")]
     Saturated {
@@ -147,16 +167,18 @@ pub enum SfrError {
 pub fn measure_edge(image: &Image, settings: &SfrSettings) -> Result<Sfr, SfrError> {
     check(image, settings)?;
     let start = Edge::from_gradients(image)?;
-    let mut upright = start.upright(image);
-    if settings.shading_degree > 0 {
-        upright = levelled(&upright, &start, settings.reach_px.unwrap_or(USUAL_REACH_PX), settings.shading_degree)?;
-    }
-    let image = &upright;
-    let (edge, profile) = Profile::fitted(image, start, settings)?;
-    let count = 100;
-    let frequency = |i: usize| settings.last_frequency * i as f64 / count as f64;
-    let curve: Vec<SfrPoint> = (0..=count).map(frequency).map(|f| profile.response(f)).collect();
-    Ok(Sfr {
+    let image = &levelled(start.upright(image), &start, settings)?;
+    let (edge, profile) = fit::fitted(image, &vec![true; image.samples().len()], start, settings)?;
+    Ok(told(&edge, &profile, settings))
+}
+
+/// Points of a curve but the first.
+const POINTS: usize = 100;
+
+fn told(edge: &Edge, profile: &Profile, settings: &SfrSettings) -> Sfr {
+    let frequency = |i: usize| settings.last_frequency * i as f64 / POINTS as f64;
+    let curve: Vec<SfrPoint> = (0..=POINTS).map(frequency).map(|f| profile.response(f)).collect();
+    Sfr {
         angle_deg: edge.angle_deg(),
         orientation: edge.orientation(),
         levels: profile.levels(),
@@ -166,7 +188,38 @@ pub fn measure_edge(image: &Image, settings: &SfrSettings) -> Result<Sfr, SfrErr
         mtf10: crossing(&curve, 0.1),
         curve,
         profile: profile.samples(),
-    })
+    }
+}
+
+impl Sfr {
+    /// The same where the picture's readings lie `pitch_px` pixels apart: lengths in pixels, frequencies in cycles a pixel.
+    #[must_use]
+    pub fn sampled_every(self, pitch_px: f64) -> Self {
+        let slower = |e: Estimate| e.scaled(1.0 / pitch_px);
+        let point = |p: SfrPoint| SfrPoint { frequency: p.frequency / pitch_px, ..p };
+        Self {
+            step_px: self.step_px * pitch_px,
+            mtf50: self.mtf50.map(slower),
+            mtf10: self.mtf10.map(slower),
+            curve: self.curve.into_iter().map(point).collect(),
+            profile: self.profile.into_iter().map(|(d, reading)| (d * pitch_px, reading)).collect(),
+            ..self
+        }
+    }
+}
+
+/// The mean of responses at the same frequencies.
+#[must_use]
+pub fn mean_curve(curves: &[&[SfrPoint]]) -> Vec<SfrPoint> {
+    let count = curves.len() as f64;
+    let at = |i: usize| {
+        let points = || curves.iter().map(|curve| curve[i].response);
+        let squares: f64 = points().map(|e| e.standard_uncertainty * e.standard_uncertainty).sum();
+        let response = Estimate::new(points().map(|e| e.value).sum::<f64>() / count, squares.sqrt() / count);
+        SfrPoint { frequency: curves[0][i].frequency, response }
+    };
+    let least = curves.iter().map(|curve| curve.len()).min().unwrap_or(0);
+    (0..least).map(at).collect()
 }
 
 fn check(image: &Image, settings: &SfrSettings) -> Result<(), SfrError> {
@@ -197,7 +250,8 @@ fn check(image: &Image, settings: &SfrSettings) -> Result<(), SfrError> {
 
 /// Where the curve first falls to a level, by linear interpolation; its uncertainty is the response's over the slope, which
 /// is that of a line through the points about it (neighbours share their noise, a pair's slope would be mostly noise).
-fn crossing(curve: &[SfrPoint], level: f64) -> Option<Estimate> {
+#[must_use]
+pub fn crossing(curve: &[SfrPoint], level: f64) -> Option<Estimate> {
     const ABOUT: usize = 5;
     let falls = |pair: &[SfrPoint]| pair[0].response.value > level && pair[1].response.value <= level;
     let k = curve.windows(2).position(falls)?;

@@ -11,7 +11,8 @@
 //! Exact for y = b + S(x, y) E(d) where the surfaces can follow the shading S, whatever the black level b. Tails of the line spread beyond the
 //! reach are taken for shading: leave it out where glare or diffraction is to be measured. The surfaces' own uncertainty is left out.
 
-use super::{Edge, SfrError};
+use super::knots::USUAL_REACH_PX;
+use super::{Edge, SfrError, SfrSettings};
 use crate::Image;
 use crate::solve::Normal;
 
@@ -25,7 +26,13 @@ struct Surface {
 }
 
 /// The picture without shading.
-pub(super) fn levelled(image: &Image, edge: &Edge, reach_px: f64, degree: usize) -> Result<Image, SfrError> {
+pub(super) fn levelled(image: Image, edge: &Edge, settings: &SfrSettings) -> Result<Image, SfrError> {
+    let degree = settings.shading_degree;
+    if degree == 0 {
+        return Ok(image);
+    }
+    let image = &image;
+    let reach_px = settings.reach_px.unwrap_or(USUAL_REACH_PX);
     let (width, height) = (image.width(), image.height());
     let [left, right] =
         [-1.0, 1.0].map(|side| Surface::fitted(image, degree, |x, y| side * edge.distance(x, y) > reach_px));

@@ -1,7 +1,7 @@
 //! `etendue measure cdp`: contrast detection probability of pairs of patches.
 
-use super::common::{Common, refused};
-use super::readings::{Readings, part, region};
+use super::inquiry::{Inquiry, refused};
+use super::readings::{Readings, region};
 use super::report::{Cell, Report, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Mark, Plot, Series};
@@ -34,7 +34,7 @@ pub struct Cdp {
     #[arg(long, value_name = "SHARE", default_value_t = 0.5, allow_negative_numbers = true)]
     pub tolerance: f64,
     #[command(flatten)]
-    pub common: Common,
+    pub inquiry: Inquiry,
 }
 
 /// Charts of patches of one luminance each.
@@ -50,17 +50,16 @@ struct Pair {
 }
 
 pub(super) fn run(arguments: &Cdp) -> Result<(), Failure> {
-    let readings = arguments.common.linear(&arguments.picture)?;
+    let readings = arguments.inquiry.linear(&arguments.picture)?;
     let pairs = pairs(arguments, &readings)?;
     let settings = ContrastSettings {
-        black: arguments.common.levels.black(&readings),
-        full_scale: arguments.common.levels.full_scale(&readings),
+        black: arguments.inquiry.levels.black(&readings),
+        full_scale: arguments.inquiry.levels.full_scale(&readings),
         share: arguments.tolerance,
     };
     let (mut found, mut left_out) = (Vec::new(), Vec::new());
     for pair in pairs {
-        let (low, high) =
-            (part(&readings.image, pair.darker, "--darker")?, part(&readings.image, pair.brighter, "--brighter")?);
+        let (low, high) = (readings.part(pair.darker, "--darker")?, readings.part(pair.brighter, "--brighter")?);
         match measure_contrast(&low, &high, pair.contrast, &settings) {
             Ok(measured) => found.push((pair, measured)),
             Err(error) if pair.luminance_cd_m2.is_some() => left_out.push(format!("{}: {error}", places(&pair))),
@@ -72,7 +71,7 @@ pub(super) fn run(arguments: &Cdp) -> Result<(), Failure> {
     }
     let mut report = report(&found);
     left_out.into_iter().for_each(|reason| report.note(format!("left out: patches at {reason}")));
-    arguments.common.tell(&report)
+    arguments.inquiry.tell(&report)
 }
 
 fn places(pair: &Pair) -> String {
@@ -80,7 +79,7 @@ fn places(pair: &Pair) -> String {
 }
 
 fn pairs(arguments: &Cdp, readings: &Readings) -> Result<Vec<Pair>, Failure> {
-    if let Some(truth) = arguments.common.truth(&CHARTS, &arguments.picture, readings)? {
+    if let Some(truth) = arguments.inquiry.truth(&CHARTS, &arguments.picture, readings)? {
         let (mut patches, _) = truth.patches(readings)?;
         patches.sort_by(|a, b| a.luminance_cd_m2.total_cmp(&b.luminance_cd_m2));
         let pair = |two: &[super::truth::Patch]| Pair {

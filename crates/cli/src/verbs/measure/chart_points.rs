@@ -1,6 +1,6 @@
 //! The points of a chart in picture files.
 
-use super::common::refused;
+use super::inquiry::refused;
 use super::readings::{Readings, Selection, tile};
 use crate::failure::Failure;
 use crate::progress::PictureBar;

@@ -1,7 +1,7 @@
 //! `etendue measure colour`: the colours of a ColorChecker after a fitted matrix.
 
-use super::common::{Common, refused};
-use super::readings::{Readings, part};
+use super::inquiry::{Inquiry, refused};
+use super::readings::Readings;
 use super::report::{Cell, Report, Table};
 use super::truth::{Patch, Truth};
 use crate::failure::Failure;
@@ -27,7 +27,7 @@ pub struct Colour {
     #[arg(long, value_name = "SHARE", default_value_t = 0.5, conflicts_with = "truth", allow_negative_numbers = true)]
     pub patch: f64,
     #[command(flatten)]
-    pub common: Common,
+    pub inquiry: Inquiry,
 }
 
 fn corner(text: &str) -> Result<DVec2, String> {
@@ -38,19 +38,19 @@ fn corner(text: &str) -> Result<DVec2, String> {
 const CHART: (usize, usize) = (6, 4);
 
 pub(super) fn run(arguments: &Colour) -> Result<(), Failure> {
-    let Some(colours) = arguments.common.selection.colours(&arguments.picture)? else {
+    let Some(colours) = arguments.inquiry.selection.colours(&arguments.picture)? else {
         let expected = "expected a picture in colour: channels R, G and B, or a raw mosaic of them";
         return Err(refused(&arguments.picture, expected));
     };
-    let (patches, white) = match arguments.common.truth(&["colorchecker"], &arguments.picture, &colours[1])? {
+    let (patches, white) = match arguments.inquiry.truth(&["colorchecker"], &arguments.picture, &colours[1])? {
         Some(truth) => (told(&truth, &colours)?, truth.white_xyz()),
         None => (between_corners(arguments, &colours)?, colour::D65_WHITE),
     };
-    let levels = &arguments.common.levels;
+    let levels = &arguments.inquiry.levels;
     let (black, full_scale) = (levels.black(&colours[1]), levels.full_scale(&colours[1]));
     let found = measure_colour(&patches, black, full_scale, white);
     let found = found.map_err(|error| refused(&arguments.picture, error))?;
-    arguments.common.tell(&report(&patches, &found))
+    arguments.inquiry.tell(&report(&patches, &found))
 }
 
 /// The patches that a chart's truth places and describes, in its own light.
@@ -59,7 +59,7 @@ fn told(truth: &Truth, colours: &[Readings; 3]) -> Result<Vec<ColourPatch>, Fail
     let one = |patch: &Patch| {
         let pixels = |c: usize| {
             let place = lists[c].iter().find(|other| other.name == patch.name)?;
-            part(&colours[c].image, place.at, &patch.name).ok()
+            colours[c].part(place.at, &patch.name).ok()
         };
         let pixels = [pixels(0)?, pixels(1)?, pixels(2)?];
         Some(ColourPatch { name: patch.name.clone(), pixels, reference: patch.xyz })
@@ -81,13 +81,9 @@ fn between_corners(arguments: &Colour, colours: &[Readings; 3]) -> Result<Vec<Co
     let half = 0.5 * arguments.patch * ((b - a).length() / columns).min((d - a).length() / rows);
     let patch = |(i, patch): (usize, &etendue_spectra::chart::Patch)| {
         let (low, high) = (middle(i) - half, middle(i) + half);
-        let one = |c: usize| {
-            let [width, height] = [colours[c].picture_px.0, colours[c].picture_px.1].map(|n| n as f64);
-            let inside = low.min_element() >= 0.0 && high.x <= width && high.y <= height;
-            let at = colours[c].between(low.into(), high.into()).filter(|_| inside);
-            let beyond = || Failure::input("--corners: a patch lies beyond the picture, or is smaller than a pixel");
-            part(&colours[c].image, at.ok_or_else(beyond)?, "--corners: a patch")
-        };
+        let beyond = || Failure::input("--corners: a patch lies beyond the picture");
+        let at = super::readings::pixels(low.into(), high.into(), colours[1].picture_px).ok_or_else(beyond)?;
+        let one = |c: usize| colours[c].part(at, "--corners: a patch");
         let reference = observer::xyz_of_reflectance(&patch.reflectance, illuminant::d65());
         Ok(ColourPatch { name: patch.name.to_owned(), pixels: [one(0)?, one(1)?, one(2)?], reference })
     };

@@ -1,7 +1,7 @@
 //! `etendue measure flare`: light in traps that send none.
 
-use super::common::{Common, refused};
-use super::readings::{Readings, field_position, part, region};
+use super::inquiry::{Inquiry, refused};
+use super::readings::{Readings, field_position, region};
 use super::report::{Cell, Report, Table};
 use super::truth::TrapPlace;
 use crate::failure::Failure;
@@ -24,27 +24,27 @@ pub struct Flare {
     #[arg(long, value_name = "X,Y,W,H", value_parser = region, required_unless_present = "truth", conflicts_with = "truth")]
     pub white: Option<[usize; 4]>,
     #[command(flatten)]
-    pub common: Common,
+    pub inquiry: Inquiry,
 }
 
 pub(super) fn run(arguments: &Flare) -> Result<(), Failure> {
-    let readings = arguments.common.linear(&arguments.picture)?;
+    let readings = arguments.inquiry.linear(&arguments.picture)?;
     let traps = traps(arguments, &readings)?;
-    let levels = &arguments.common.levels;
+    let levels = &arguments.inquiry.levels;
     let (black, full_scale) = (levels.black(&readings), levels.full_scale(&readings));
     let measured = |place: &TrapPlace| {
-        let trap = part(&readings.image, place.trap, "--trap")?;
-        let whites = place.whites.iter().map(|at| part(&readings.image, *at, "--white"));
+        let trap = readings.part(place.trap, "--trap")?;
+        let whites = place.whites.iter().map(|at| readings.part(*at, "--white"));
         let whites = whites.collect::<Result<Vec<_>, _>>()?;
         measure_flare(&trap, &whites, black, full_scale).map_err(|error| refused(&arguments.picture, error))
     };
     let found = traps.iter().map(measured).collect::<Result<Vec<_>, Failure>>()?;
     let places: Vec<[usize; 4]> = traps.iter().map(|t| t.trap).collect();
-    arguments.common.tell(&report(&places, &found, readings.size()))
+    arguments.inquiry.tell(&report(&places, &found, readings.picture_px))
 }
 
 fn traps(arguments: &Flare, readings: &Readings) -> Result<Vec<TrapPlace>, Failure> {
-    match arguments.common.truth(&["flare"], &arguments.picture, readings)? {
+    match arguments.inquiry.truth(&["flare"], &arguments.picture, readings)? {
         Some(truth) => truth.traps(readings),
         None => {
             let whites: Vec<[usize; 4]> = arguments.white.into_iter().collect();

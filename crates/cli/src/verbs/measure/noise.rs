@@ -1,7 +1,7 @@
 //! `etendue measure noise`: temporal and fixed-pattern noise of an even surface, or of each patch of a chart.
 
-use super::common::{Common, refused};
-use super::readings::{Readings, part};
+use super::inquiry::{Inquiry, refused};
+use super::readings::Readings;
 use super::report::{Cell, Report, Table};
 use super::truth::{Patch, Truth};
 use crate::failure::Failure;
@@ -19,7 +19,7 @@ pub struct NoiseArguments {
     #[arg(value_name = "FRAME", required = true)]
     pub frames: Vec<PathBuf>,
     #[command(flatten)]
-    pub common: Common,
+    pub inquiry: Inquiry,
 }
 
 /// Charts of one even surface, and of many.
@@ -44,7 +44,7 @@ impl Surface {
 
     fn take(&mut self, file: &Path, readings: &Readings, full_scale: Option<f64>) -> Result<(), Failure> {
         let whole = || Ok(readings.image.clone());
-        let frame = self.at.map_or_else(whole, |at| part(&readings.image, at, &file.display().to_string()))?;
+        let frame = self.at.map_or_else(whole, |at| readings.part(at, &file.display().to_string()))?;
         match check_frame(&frame, full_scale) {
             Err(fault) if self.patch.is_some() => self.fault = Some(fault.to_string()),
             checked => checked.map_err(|error| refused(file, error))?,
@@ -55,23 +55,23 @@ impl Surface {
 }
 
 pub(super) fn run(arguments: &NoiseArguments) -> Result<(), Failure> {
-    let common = &arguments.common;
+    let inquiry = &arguments.inquiry;
     let (mut surfaces, mut black) = (Vec::new(), 0.0);
     for (i, file) in arguments.frames.iter().enumerate() {
-        let readings = common.linear(file)?;
-        let truth = common.truth(&CHARTS, file, &readings)?;
+        let readings = inquiry.linear(file)?;
+        let truth = inquiry.truth(&CHARTS, file, &readings)?;
         if i == 0 {
             surfaces = sought(truth.as_ref(), &readings)?;
         }
-        black = common.levels.black(&readings);
-        let full_scale = common.levels.full_scale(&readings);
+        black = inquiry.levels.black(&readings);
+        let full_scale = inquiry.levels.full_scale(&readings);
         surfaces.iter_mut().try_for_each(|surface| surface.take(file, &readings, full_scale))?;
     }
     let report = match &surfaces[..] {
         [Surface { patch: None, stack: Some(stack), .. }] => one(stack, black)?,
         many => patches(many, black).map_err(|reason| refused(&arguments.frames[0], reason))?,
     };
-    common.tell(&report)
+    inquiry.tell(&report)
 }
 
 fn sought(truth: Option<&Truth>, readings: &Readings) -> Result<Vec<Surface>, Failure> {

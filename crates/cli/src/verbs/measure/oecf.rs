@@ -1,7 +1,7 @@
 //! `etendue measure oecf`: the tone curve from a series of exposures, or from steps in one picture.
 
-use super::common::{Common, refused};
-use super::readings::{Levels, Readings, part};
+use super::inquiry::{Inquiry, refused};
+use super::readings::{Levels, Readings};
 use super::report::{Cell, Report, Table};
 use super::truth::Truth;
 use crate::failure::Failure;
@@ -31,7 +31,7 @@ pub struct OecfArguments {
     #[arg(long, requires = "response")]
     pub refine: bool,
     #[command(flatten)]
-    pub common: Common,
+    pub inquiry: Inquiry,
 }
 
 /// The largest degree of a response.
@@ -41,7 +41,7 @@ pub(super) fn run(arguments: &OecfArguments) -> Result<(), Failure> {
     if arguments.response {
         return response(arguments);
     }
-    let truth = arguments.common.truth.read(&CHARTS)?;
+    let truth = arguments.inquiry.truth.read(&CHARTS)?;
     let measured = match (&arguments.steps, &truth) {
         (Some(table), _) => steps(arguments, table)?,
         (None, Some(truth)) if EVEN.contains(&truth.chart()) => shots(arguments, truth)?,
@@ -51,7 +51,7 @@ pub(super) fn run(arguments: &OecfArguments) -> Result<(), Failure> {
     let oecf = Oecf::new(measured.points.clone()).map_err(|error| refused(&arguments.pictures[0], error))?;
     let mut report = report(&oecf, &measured);
     measured.left_out.iter().for_each(|name| report.note(format!("left out: {name} is not whole in the picture")));
-    arguments.common.tell(&report)
+    arguments.inquiry.tell(&report)
 }
 
 /// Charts of one even surface, and of steps.
@@ -87,7 +87,7 @@ fn series(arguments: &OecfArguments) -> Result<Vec<(f64, Readings)>, Failure> {
         Some(exposure) => Ok(*exposure),
         None => exposure_beside(file),
     };
-    let one = |(i, file): (usize, &PathBuf)| Ok((told(i, file)?, arguments.common.selection.stored(file)?));
+    let one = |(i, file): (usize, &PathBuf)| Ok((told(i, file)?, arguments.inquiry.selection.stored(file)?));
     let series = arguments.pictures.iter().enumerate().map(one).collect::<Result<Vec<_>, Failure>>()?;
     let size = |r: &Readings| (r.image.width(), r.image.height());
     if let Some(other) = series.iter().position(|(_, r)| size(r) != size(&series[0].1)) {
@@ -119,14 +119,14 @@ fn exposure_beside(file: &Path) -> Result<f64, Failure> {
 
 fn exposures(arguments: &OecfArguments) -> Result<Measured, Failure> {
     let series = series(arguments)?;
-    let levels = &arguments.common.levels;
+    let levels = &arguments.inquiry.levels;
     let point = |(exposure, r): &(f64, Readings)| ExposurePoint::of(*exposure, &r.image, levels.full_scale(r));
     Ok(Measured::new(series.iter().map(point).collect(), levels, &series[0].1))
 }
 
 /// The middle of an even chart at its cameras' exposures; each picture lies in the folder of its camera.
 fn shots(arguments: &OecfArguments, truth: &Truth) -> Result<Measured, Failure> {
-    if arguments.common.truth.camera.is_some() {
+    if arguments.inquiry.truth.camera.is_some() {
         return Err(Failure::input("--camera: has no effect on a series: each picture's folder names its camera"));
     }
     let exposures = truth.exposures()?;
@@ -138,14 +138,14 @@ fn shots(arguments: &OecfArguments, truth: &Truth) -> Result<Measured, Failure> 
         let lacks =
             || refused(file, format!("lies in the folder '{folder}', which is none of the cameras {}", names()));
         let exposure = known.ok_or_else(lacks)?;
-        let readings = arguments.common.selection.stored(file)?;
+        let readings = arguments.inquiry.selection.stored(file)?;
         truth.fits(file, &readings)?;
         series.push((exposure, readings));
     }
     copies(arguments, &series)?;
-    let levels = &arguments.common.levels;
+    let levels = &arguments.inquiry.levels;
     let point = |(exposure, r): &(f64, Readings)| {
-        let middle = part(&r.image, truth.middle(r)?, "--truth")?;
+        let middle = r.part(truth.middle(r)?, "--truth")?;
         Ok(ExposurePoint::of(*exposure, &middle, levels.full_scale(r)))
     };
     let points = series.iter().map(point).collect::<Result<Vec<_>, Failure>>()?;
@@ -162,12 +162,12 @@ fn only_picture<'a>(arguments: &'a OecfArguments, option: &str) -> Result<&'a Pa
 /// The steps of a chart.
 fn patches(arguments: &OecfArguments, truth: &Truth) -> Result<Measured, Failure> {
     let picture = only_picture(arguments, "--truth")?;
-    let readings = arguments.common.selection.stored(picture)?;
+    let readings = arguments.inquiry.selection.stored(picture)?;
     truth.fits(picture, &readings)?;
     let (patches, left_out) = truth.patches(&readings)?;
-    let levels = &arguments.common.levels;
+    let levels = &arguments.inquiry.levels;
     let point = |patch: &super::truth::Patch| {
-        let surface = part(&readings.image, patch.at, &patch.name)?;
+        let surface = readings.part(patch.at, &patch.name)?;
         Ok(ExposurePoint::of(patch.luminance_cd_m2, &surface, levels.full_scale(&readings)))
     };
     let points = patches.iter().map(point).collect::<Result<Vec<_>, Failure>>()?;
@@ -176,7 +176,7 @@ fn patches(arguments: &OecfArguments, truth: &Truth) -> Result<Measured, Failure
 
 fn steps(arguments: &OecfArguments, table: &Path) -> Result<Measured, Failure> {
     let picture = only_picture(arguments, "--steps")?;
-    let readings = arguments.common.selection.stored(picture)?;
+    let readings = arguments.inquiry.selection.stored(picture)?;
     let text = crate::job::text_of(table)?;
     let lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.trim().starts_with('#'));
     let step = |(number, line): (u32, &str)| {
@@ -191,10 +191,10 @@ fn steps(arguments: &OecfArguments, table: &Path) -> Result<Measured, Failure> {
                 "{place}: expected whole pixels, two or more wide and high, not '{line}'"
             )));
         }
-        let surface = part(&readings.image, whole.map(|v| v as usize), &place)?;
-        Ok(ExposurePoint::of(luminance, &surface, arguments.common.levels.full_scale(&readings)))
+        let surface = readings.part(whole.map(|v| v as usize), &place)?;
+        Ok(ExposurePoint::of(luminance, &surface, arguments.inquiry.levels.full_scale(&readings)))
     };
-    Ok(Measured::new(lines.map(step).collect::<Result<_, _>>()?, &arguments.common.levels, &readings))
+    Ok(Measured::new(lines.map(step).collect::<Result<_, _>>()?, &arguments.inquiry.levels, &readings))
 }
 
 fn report(oecf: &Oecf, measured: &Measured) -> Report {
@@ -268,18 +268,18 @@ fn plot(oecf: &Oecf, line: Option<(f64, f64)>, unit: &str) -> Plot {
 
 fn response(arguments: &OecfArguments) -> Result<(), Failure> {
     let series = series(arguments)?;
-    let full_scale = arguments.common.levels.full_scale(&series[0].1);
+    let full_scale = arguments.inquiry.levels.full_scale(&series[0].1);
     let full_scale =
         full_scale.ok_or_else(|| Failure::input("--full-scale: a response needs the reading of a saturated pixel"))?;
     let settings = ResponseSettings {
         full_scale,
-        black: arguments.common.levels.black(&series[0].1),
+        black: arguments.inquiry.levels.black(&series[0].1),
         degree: DEGREE,
         refine: arguments.refine,
     };
     let pictures: Vec<(f64, &Image)> = series.iter().map(|(exposure, r)| (*exposure, &r.image)).collect();
     let found = camera_response(&pictures, &settings).map_err(|error| refused(&arguments.pictures[0], error))?;
-    arguments.common.tell(&response_report(&found))
+    arguments.inquiry.tell(&response_report(&found))
 }
 
 fn response_report(found: &Response) -> Report {

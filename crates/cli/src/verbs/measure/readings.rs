@@ -69,6 +69,20 @@ impl Readings {
         [along(x, self.first.0, self.period.0), along(y, self.first.1, self.period.1)]
     }
 
+    /// The readings of a part of the picture, which must lie within it.
+    pub(super) fn part(&self, region: [usize; 4], name: &str) -> Result<Image, Failure> {
+        let [x, y, width, height] = region;
+        let (columns, rows) = self.picture_px;
+        if x.saturating_add(width) > columns || y.saturating_add(height) > rows {
+            let told = format!("{name}: lies beyond the {columns} × {rows} pixels that are measured");
+            return Err(Failure::input(told));
+        }
+        let low = [x, y].map(|v| v as f64);
+        let at = self.between(low, [low[0] + width as f64, low[1] + height as f64]);
+        let none = || Failure::input(format!("{name}: {width} × {height} pixels hold none of this colour"));
+        at.map(|[x, y, width, height]| self.image.part(x, y, width, height)).ok_or_else(none)
+    }
+
     /// The readings whose pixels lie wholly between two corners of the picture: left column, top row, width, height.
     pub(super) fn between(&self, low: [f64; 2], high: [f64; 2]) -> Option<[usize; 4]> {
         let along = |k: usize, first: usize, period: usize, count: usize| {
@@ -338,14 +352,13 @@ impl Levels {
     }
 }
 
-/// A part of readings; the region must lie within them.
-pub(super) fn part(image: &Image, region: [usize; 4], name: &str) -> Result<Image, Failure> {
-    let [x, y, width, height] = region;
-    if x.saturating_add(width) > image.width() || y.saturating_add(height) > image.height() {
-        let (columns, rows) = (image.width(), image.height());
-        return Err(Failure::input(format!("{name}: lies beyond the {columns} × {rows} pixels that are measured")));
-    }
-    Ok(image.part(x, y, width, height))
+/// The pixels of a picture that lie wholly between two corners: left column, top row, width, height; `None` where these are beyond it.
+pub(super) fn pixels(low: [f64; 2], high: [f64; 2], (columns, rows): (usize, usize)) -> Option<[usize; 4]> {
+    let start = low.map(f64::ceil);
+    let end = high.map(f64::floor);
+    let within = start[0] >= 0.0 && start[1] >= 0.0 && end[0] <= columns as f64 && end[1] <= rows as f64;
+    let some = end[0] > start[0] && end[1] > start[1];
+    (within && some).then(|| [start[0], start[1], end[0] - start[0], end[1] - start[1]].map(|v| v as usize))
 }
 
 /// Distance of a part's middle from the picture's, of the half diagonal.

@@ -1,6 +1,6 @@
 //! `etendue measure vignetting` and `etendue measure shading`: a flat field.
 
-use super::common::{Common, refused};
+use super::inquiry::{Inquiry, refused};
 use super::readings::Readings;
 use super::report::{CameraOut, Cell, Report, Table};
 use crate::failure::Failure;
@@ -25,7 +25,7 @@ pub struct FlatField {
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(4..=1000))]
     pub rings: u32,
     #[command(flatten)]
-    pub common: Common,
+    pub inquiry: Inquiry,
 }
 
 /// `etendue measure vignetting`
@@ -63,8 +63,8 @@ pub(super) fn point(text: &str) -> Result<(f64, f64), String> {
 impl FlatField {
     fn settings(&self, readings: &Readings, blocks: u32) -> ShadingSettings {
         ShadingSettings {
-            black: self.common.levels.black(readings),
-            full_scale: self.common.levels.full_scale(readings),
+            black: self.inquiry.levels.black(readings),
+            full_scale: self.inquiry.levels.full_scale(readings),
             centre_px: self.centre_px,
             rings: self.rings as usize,
             blocks: blocks as usize,
@@ -77,11 +77,11 @@ impl FlatField {
 
     /// Where a chart's truth is given: whether it is even and fills this picture.
     fn check(&self, readings: &Readings) -> Result<(), Failure> {
-        self.common.truth(&CHARTS, &self.picture, readings)?.map_or(Ok(()), |truth| truth.filled())
+        self.inquiry.truth(&CHARTS, &self.picture, readings)?.map_or(Ok(()), |truth| truth.filled())
     }
 
     fn measured(&self, blocks: u32) -> Result<(Shading, (f64, f64)), Failure> {
-        let readings = self.common.linear(&self.picture)?;
+        let readings = self.inquiry.linear(&self.picture)?;
         self.check(&readings)?;
         let shading =
             measure_shading(&readings.image, &self.settings(&readings, blocks)).map_err(|e| self.refused(&e))?;
@@ -145,14 +145,14 @@ pub(super) fn vignetting(arguments: &Vignetting) -> Result<(), Failure> {
     if let Some(pitch_um) = pitch_um {
         report.camera(arguments.camera(&shading, size, pitch_um));
     }
-    report.tell_with_camera(&arguments.flat.common.telling, &arguments.out)
+    report.tell_with_camera(&arguments.flat.inquiry.telling, &arguments.out)
 }
 
 pub(super) fn shading(arguments: &ShadingArguments) -> Result<(), Failure> {
     let method = "shading of a flat field after ISO 17957: blocks relative to the centre (± one standard uncertainty)";
     let mut report = Report::new("shading", method);
     let (flat, blocks) = (&arguments.flat, arguments.blocks);
-    match flat.common.selection.colours(&flat.picture)? {
+    match flat.inquiry.selection.colours(&flat.picture)? {
         Some(colours) => {
             flat.check(&colours[1])?;
             let settings = flat.settings(&colours[1], blocks);
@@ -167,7 +167,7 @@ pub(super) fn shading(arguments: &ShadingArguments) -> Result<(), Failure> {
             report.plot(profile_plot(&[("", &found)]));
         }
     }
-    flat.common.tell(&report)
+    flat.inquiry.tell(&report)
 }
 
 fn in_colour(report: &mut Report, found: &ColourShading) {

@@ -1,7 +1,7 @@
 //! `etendue measure star` and `etendue measure texture`: fine structure.
 
-use super::common::{Common, refused};
-use super::readings::{Readings, part};
+use super::inquiry::{Inquiry, refused};
+use super::readings::Readings;
 use super::report::{Cell, Report, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Mark, Plot, Series};
@@ -30,7 +30,7 @@ pub struct StarArguments {
     #[arg(long, value_name = "PX", required_unless_present = "truth", allow_negative_numbers = true)]
     pub outer_px: Option<f64>,
     #[command(flatten)]
-    pub common: Common,
+    pub inquiry: Inquiry,
 }
 
 /// `etendue measure texture`
@@ -46,7 +46,7 @@ pub struct Texture {
     #[arg(long, value_name = "PICTURE")]
     pub even: Option<PathBuf>,
     #[command(flatten)]
-    pub common: Common,
+    pub inquiry: Inquiry,
 }
 
 /// What is left out of a star at its rim, share of its radius and at least this many pixels of blur.
@@ -55,23 +55,23 @@ const RIM_PX: f64 = 2.0;
 
 /// The star as told by options or by the chart's truth, whose circles begin where half a cycle fills a pixel.
 fn star_told(arguments: &StarArguments, readings: &Readings) -> Result<Star, Failure> {
-    let levels = &arguments.common.levels;
+    let levels = &arguments.inquiry.levels;
     let (black, full_scale) = (levels.black(readings), levels.full_scale(readings));
     let needed = || Failure::input("expected --centre-px, --cycles, --inner-px and --outer-px, or --truth");
-    let star =
-        |centre_px, cycles, inner_px, outer_px| Star { centre_px, cycles, inner_px, outer_px, black, full_scale };
-    let Some(truth) = arguments.common.truth(&["siemens-star"], &arguments.picture, readings)? else {
+    // Among the readings, which lie some pixels apart.
+    let step = readings.period.0 as f64;
+    let star = |(x, y): (f64, f64), cycles, inner_px: f64, outer_px: f64| {
+        let centre_px = readings.place([x, y]).into();
+        Star { centre_px, cycles, inner_px: inner_px / step, outer_px: outer_px / step, black, full_scale }
+    };
+    let Some(truth) = arguments.inquiry.truth(&["siemens-star"], &arguments.picture, readings)? else {
         let circles = arguments.inner_px.zip(arguments.outer_px);
         let (inner_px, outer_px) = circles.ok_or_else(needed)?;
         let (centre_px, cycles) = arguments.centre_px.zip(arguments.cycles).ok_or_else(needed)?;
         return Ok(star(centre_px, cycles, inner_px, outer_px));
     };
-    if readings.period != (1, 1) {
-        let mosaic = "one colour of a mosaic sees a star too coarsely: measure the developed picture";
-        return Err(refused(&arguments.picture, mosaic));
-    }
-    let seen = truth.star(readings)?;
-    let nyquist_px = f64::from(seen.cycles) / core::f64::consts::PI;
+    let seen = truth.star()?;
+    let nyquist_px = step * f64::from(seen.cycles) / core::f64::consts::PI;
     let outer_px = arguments.outer_px.unwrap_or(seen.outer_px - RIM_PX.max(RIM_SHARE * seen.outer_px));
     let inner_px = arguments.inner_px.unwrap_or((seen.inner_px + RIM_PX).max(nyquist_px));
     if inner_px + 2.0 > outer_px {
@@ -79,7 +79,8 @@ fn star_told(arguments: &StarArguments, readings: &Readings) -> Result<Star, Fai
         return Err(refused(
             &arguments.picture,
             format!(
-                "the star is too small: its rim has {coarse:.2} cycles a pixel, and 0.5 is the most that pixels tell; take fewer cycles"
+                "the star is too small: its rim has {coarse:.2} cycles a pixel, and {:.2} is the most that its readings tell; take fewer cycles",
+                0.5 / step
             ),
         ));
     }
@@ -87,24 +88,28 @@ fn star_told(arguments: &StarArguments, readings: &Readings) -> Result<Star, Fai
 }
 
 pub(super) fn star(arguments: &StarArguments) -> Result<(), Failure> {
-    let readings = arguments.common.linear(&arguments.picture)?;
+    let readings = arguments.inquiry.linear(&arguments.picture)?;
     let star = star_told(arguments, &readings)?;
     let named = |error| refused(&arguments.picture, error);
     let (points, (x, y)) = measure_star(&readings.image, &star).map_err(named)?;
+    let step = readings.period.0 as f64;
+    let picture = |at: f64, first: usize| (at - 0.5) * step + first as f64 + 0.5;
+    let (x, y) = (picture(x, readings.first.0), picture(y, readings.first.1));
     let mut report =
         Report::new("star", "Siemens star after ISO 12233, over its outer circle (± one standard uncertainty)");
-    report.figure("centre_x_px", "centre, x", "px", Estimate::new(x, 0.01));
-    report.figure("centre_y_px", "centre, y", "px", Estimate::new(y, 0.01));
-    let row =
-        |p: &StarPoint| vec![Cell::Number(p.radius_px, 1), Cell::Number(p.frequency, 4), Cell::Estimate(p.response)];
+    report.figure("centre_x_px", "centre, x", "px", Estimate::new(x, 0.01 * step));
+    report.figure("centre_y_px", "centre, y", "px", Estimate::new(y, 0.01 * step));
+    let row = |p: &StarPoint| {
+        vec![Cell::Number(p.radius_px * step, 1), Cell::Number(p.frequency / step, 4), Cell::Estimate(p.response)]
+    };
     report.table(Table {
         key: "circles",
         columns: vec![("radius_px", "radius px"), ("cycles_per_px", "c/px"), ("response", "response")],
         rows: points.iter().map(row).collect(),
     });
-    let curve = points.iter().map(|p| (p.frequency, p.response.value, 2.0 * p.response.standard_uncertainty));
+    let curve = points.iter().map(|p| (p.frequency / step, p.response.value, 2.0 * p.response.standard_uncertainty));
     report.plot(response_plot("response of the star (bars: 95 %)", vec![Series::with_errors("", Mark::Line, curve)]));
-    arguments.common.tell(&report)
+    arguments.inquiry.tell(&report)
 }
 
 fn response_plot(title: &str, series: Vec<Series>) -> Plot {
@@ -118,11 +123,11 @@ fn response_plot(title: &str, series: Vec<Series>) -> Plot {
 
 /// A picture of the leaves, cut to them where the chart's truth says where they are, and its reading of saturation.
 fn leaves(arguments: &Texture, file: &Path) -> Result<(Image, Option<f64>), Failure> {
-    let common = &arguments.common;
-    let readings = common.linear(file)?;
-    let full_scale = common.levels.full_scale(&readings);
-    let image = match common.truth(&["dead-leaves"], file, &readings)? {
-        Some(truth) => part(&readings.image, truth.patches(&readings)?.0[0].at, "--truth: the leaves")?,
+    let inquiry = &arguments.inquiry;
+    let readings = inquiry.linear(file)?;
+    let full_scale = inquiry.levels.full_scale(&readings);
+    let image = match inquiry.truth(&["dead-leaves"], file, &readings)? {
+        Some(truth) => readings.part(truth.patches(&readings)?.0[0].at, "--truth: the leaves")?,
         None => readings.image,
     };
     Ok((image, full_scale))
@@ -164,5 +169,5 @@ pub(super) fn texture(arguments: &Texture) -> Result<(), Failure> {
             Series::new("structure of any kind", Mark::Broken, points.iter().map(|p| (p.frequency, p.direct))),
         ],
     ));
-    arguments.common.tell(&report)
+    arguments.inquiry.tell(&report)
 }

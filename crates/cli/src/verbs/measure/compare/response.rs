@@ -8,7 +8,7 @@
 //!       picture of a point: Σ L cos(2π ν x)/Σ L
 //! ```
 //!
-//! a is the side of the photosensitive area. Readings of one colour of a mosaic are a tile apart: their ν counts in tiles. The lens is in
+//! a is the side of the photosensitive area. Frequencies are those of the picture, of one colour of a mosaic, too. The lens is in
 //! focus; its picture of a point is taken along the row or column nearest to the normal.
 //!
 //! Refused, as nothing here says what they do: lenses other than a thin one or a pinhole, glare, ghosts, glass before the lens, blades,
@@ -30,8 +30,6 @@ const STEP_NM: usize = 5;
 /// What the curves of a camera are made of.
 struct Response<'a> {
     body: &'a CameraBody,
-    /// Pixels from one reading to the next.
-    period: f64,
     /// (weight, columns to the right, rows down) of the pixels whose light a reading holds; the weights sum to 1.
     neighbours: Vec<(f64, f64, f64)>,
     /// (weight, wavelength, nm); the weights sum to 1.
@@ -72,7 +70,7 @@ impl<'a> Response<'a> {
     fn of(body: &'a CameraBody, measured: &Side, light: &str) -> Result<Self, String> {
         let spectrum = illuminant::named(light)
             .ok_or_else(|| format!("--illuminant {light}: give one of {}", illuminant::names().join(", ")))?;
-        let alone = |light| Self { body, period: 1.0, neighbours: vec![(1.0, 0.0, 0.0)], light };
+        let alone = |light| Self { body, neighbours: vec![(1.0, 0.0, 0.0)], light };
         let Some(sensor) = &body.sensor else { return Ok(alone(weights(spectrum, &Spectrum::constant(1.0)))) };
         let p = sensor.parameters();
         let mosaic = p.cfa.width() * p.cfa.height() > 1;
@@ -84,9 +82,6 @@ impl<'a> Response<'a> {
         }
         let channel = channel(p, measured.settings.get("channel").map(String::as_str))?;
         let light = weights(spectrum, sensor.responsivity(channel));
-        if p.cfa.width() != p.cfa.height() {
-            return Err("the filters' tile is no square: rows and columns have frequencies of their own".to_owned());
-        }
         let seen = |c: usize| weighed(spectrum, sensor.responsivity(c)).map(|(weight, _)| weight).sum::<f64>();
         let at = place_of(p, channel);
         let mut neighbours = Vec::new();
@@ -102,7 +97,7 @@ impl<'a> Response<'a> {
         }
         let sum: f64 = neighbours.iter().map(|(weight, ..)| weight).sum();
         neighbours.iter_mut().for_each(|(weight, ..)| *weight /= sum);
-        Ok(Self { body, period: p.cfa.width() as f64, neighbours, light })
+        Ok(Self { body, neighbours, light })
     }
 
     fn at_points(&self, measured: &Curve, side: &Side) -> Curve {
@@ -110,8 +105,7 @@ impl<'a> Response<'a> {
         let down = words().any(|word| word == "vertical");
         let angle_deg = words().find_map(|word| side.angles_deg.get(word)).copied().unwrap_or(0.0);
         let (sine, cosine) = sin_cos(angle_deg.to_radians());
-        let at = |frequency: f64| {
-            let nu = frequency / self.period;
+        let at = |nu: f64| {
             let aperture = nu * self.body.aperture_px;
             let pixel = sinc(aperture * cosine) * sinc(aperture * sine);
             pixel * self.exchanged(nu * cosine, nu * sine, down) * self.lens(nu, down)

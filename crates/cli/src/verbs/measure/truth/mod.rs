@@ -3,11 +3,14 @@
 mod outline;
 mod said;
 
-use super::readings::Readings;
+use super::readings::{Readings, pixels};
+use super::sfr::{Sought, Spoke, Star};
 use crate::failure::Failure;
 use clap::Args;
+use etendue_core::maths::f64::sin;
+use etendue_metrology::sfr::Strip;
 use glam::DVec2;
-use said::{CameraSaid, Said};
+use said::{CameraSaid, FeatureSaid, Said};
 use std::path::{Path, PathBuf};
 
 /// Where the chart's truth lies.
@@ -24,6 +27,9 @@ pub struct TruthArguments {
 /// How much of an edge's length its region takes along it, and across it to both sides together.
 const ALONG: f64 = 0.6;
 const ACROSS: f64 = 0.5;
+/// The part of a star's edge that is measured, from its end to its beginning or the other way, and how much of the way to its neighbours.
+const SPOKE: [f64; 2] = [0.15, 0.95];
+const CLEAR: f64 = 0.8;
 /// What is left out at a patch's outline: this many pixels of the picture, which lenses blur and demosaicing mixes, and at least this
 /// share of half its side.
 const MARGIN_PX: f64 = 2.0;
@@ -38,11 +44,11 @@ pub(super) struct Truth {
     camera: usize,
 }
 
-/// A patch among the readings.
+/// A patch in the picture.
 #[derive(Clone, Debug)]
 pub(super) struct Patch {
     pub name: String,
-    /// Left column, top row, width, height.
+    /// Left column, top row, width, height, of the picture.
     pub at: [usize; 4],
     /// Its luminance, cd/m².
     pub luminance_cd_m2: f64,
@@ -50,12 +56,10 @@ pub(super) struct Patch {
     pub xyz: [f64; 3],
 }
 
-/// A star in the picture.
+/// A star in the picture: its centre, and the rims of its ground and its own.
 pub(super) struct StarPlace {
-    /// Among the readings.
     pub centre_px: [f64; 2],
     pub cycles: u32,
-    /// The rim of its ground and its own, in the picture.
     pub inner_px: f64,
     pub outer_px: f64,
 }
@@ -127,8 +131,7 @@ impl Truth {
         self.filled()?;
         let [w, h] = self.seen().picture_px.map(|n| n as f64);
         let side = |share: f64| [share * w, share * h];
-        readings
-            .between(side(0.5 - 0.5 * MIDDLE), side(0.5 + 0.5 * MIDDLE))
+        pixels(side(0.5 - 0.5 * MIDDLE), side(0.5 + 0.5 * MIDDLE), readings.picture_px)
             .ok_or_else(|| self.refused("the picture is too small"))
     }
 
@@ -180,7 +183,7 @@ impl Truth {
             let outline = whole(places)?;
             let trap = square(&outline, readings)?;
             let whites = outline::beside(&outline, opening, pitch).into_iter();
-            let whites: Vec<[usize; 4]> = whites.filter_map(|white| self.within(&white, readings)).collect();
+            let whites: Vec<[usize; 4]> = whites.filter_map(|(middle, half)| within(middle, half, readings)).collect();
             (!whites.is_empty()).then_some(TrapPlace { trap, whites })
         };
         let found: Vec<TrapPlace> = self.seen().patches_px.iter().filter_map(trap).collect();
@@ -190,37 +193,52 @@ impl Truth {
         Ok(found)
     }
 
-    /// A square of a middle and half a side, if it is in the picture.
-    fn within(&self, (middle, half): &(DVec2, f64), readings: &Readings) -> Option<[usize; 4]> {
-        let (low, high) = (*middle - *half, *middle + *half);
-        let size = self.seen().picture_px.map(|n| n as f64);
-        let inside = low.min_element() >= 0.0 && high.x <= size[0] && high.y <= size[1];
-        readings.between(low.into(), high.into()).filter(|at| inside && at[2] > 1 && at[3] > 1)
-    }
-
     /// The Siemens star.
-    pub(super) fn star(&self, readings: &Readings) -> Result<StarPlace, Failure> {
+    pub(super) fn star(&self) -> Result<StarPlace, Failure> {
         let lacks = || self.refused("the star is not wholly in the picture");
-        let feature = |kind: &str| {
-            let at = self.said.features.iter().position(|f| f.kind == kind)?;
-            whole(self.seen().features_px.get(at)?)
-        };
+        let feature = |kind: &str| self.seen_features().find(|(f, _)| f.kind == kind).map(|(_, points)| points);
         let (centre, rim) = (feature("centre").ok_or_else(lacks)?[0], feature("rim").ok_or_else(lacks)?);
         let ground = self.seen().patches_px.first().and_then(|places| whole(places)).ok_or_else(lacks)?;
         let radii = |outline: &[DVec2]| outline.iter().map(|p| (*p - centre).length()).collect::<Vec<f64>>();
         let cycles = self.said.size("cycles").ok_or_else(lacks)? as u32;
         Ok(StarPlace {
-            centre_px: readings.place(centre.into()),
+            centre_px: centre.into(),
             cycles,
             inner_px: radii(&ground).into_iter().fold(0.0, f64::max),
             outer_px: radii(&rim).into_iter().fold(f64::INFINITY, f64::min),
         })
     }
 
+    /// Strips about the edges of stars that are whole in the picture, clear of their neighbours.
+    pub(super) fn spokes(&self, readings: &Readings) -> Result<Vec<Sought>, Failure> {
+        let wedges = self.said.size("dark_wedges").ok_or_else(|| self.refused("lacks the number of wedges"))?;
+        let clear = CLEAR * sin(core::f64::consts::PI / wedges);
+        let seen: Vec<(&FeatureSaid, Vec<DVec2>)> = self.seen_features().collect();
+        let centres = seen.iter().filter(|(f, _)| f.kind == "centre");
+        let star = |(feature, points): &(&FeatureSaid, Vec<DVec2>)| Some((feature.index?, points[0]));
+        let stars: Vec<([usize; 2], DVec2)> = centres.filter_map(star).collect();
+        let spoke = |(feature, ends): &(&FeatureSaid, Vec<DVec2>)| {
+            let (index, centre) = *stars.iter().find(|(index, _)| Some(*index) == feature.index)?;
+            let part = |share: f64| ends[0].lerp(ends[1], share);
+            spoke(index, centre, [part(SPOKE[0]), part(SPOKE[1])], clear, readings)
+        };
+        let spokes: Vec<Sought> = seen.iter().filter(|(f, _)| f.kind == "edge").filter_map(spoke).collect();
+        if spokes.is_empty() {
+            return Err(self.refused("the camera sees no whole star of this chart"));
+        }
+        Ok(spokes)
+    }
+
+    /// Features that are whole in the picture.
+    fn seen_features(&self) -> impl Iterator<Item = (&FeatureSaid, Vec<DVec2>)> {
+        let pairs = self.said.features.iter().zip(&self.seen().features_px);
+        pairs.filter_map(|(feature, places)| Some((feature, whole(places)?)))
+    }
+
     /// Regions about the edges of squares that are whole in the picture.
     pub(super) fn edges(&self, readings: &Readings) -> Result<Vec<[usize; 4]>, Failure> {
-        let pairs = self.said.features.iter().zip(&self.seen().features_px).filter(|(f, _)| f.kind == "edge");
-        let regions: Vec<[usize; 4]> = pairs.filter_map(|(_, ends)| region(&whole(ends)?, readings)).collect();
+        let edges = self.seen_features().filter(|(f, _)| f.kind == "edge");
+        let regions: Vec<[usize; 4]> = edges.filter_map(|(_, ends)| region(&ends, readings)).collect();
         if regions.is_empty() {
             return Err(self.refused("the camera sees no whole edge of this chart"));
         }
@@ -234,25 +252,37 @@ fn whole(places: &[Option<[f64; 2]>]) -> Option<Vec<DVec2>> {
     points.filter(|points| !points.is_empty())
 }
 
-/// The readings of the largest square within an outline, less its margin.
+/// The pixels of the largest square within an outline, less its margin.
 fn square(outline: &[DVec2], readings: &Readings) -> Option<[usize; 4]> {
     let (middle, half) = outline::largest_square(outline);
-    let side = half - MARGIN_PX.max(MARGIN_SHARE * half);
-    let at = readings.between((middle - side).into(), (middle + side).into())?;
-    (side > 0.0 && at[2] > 1 && at[3] > 1).then_some(at)
+    within(middle, half - MARGIN_PX.max(MARGIN_SHARE * half), readings)
+}
+
+/// The pixels of a square by its middle and half its side, which must hold two readings each way.
+fn within(middle: DVec2, half: f64, readings: &Readings) -> Option<[usize; 4]> {
+    let (low, high) = ((middle - half).into(), (middle + half).into());
+    let held = readings.between(low, high).is_some_and(|at| at[2] > 1 && at[3] > 1);
+    pixels(low, high, readings.picture_px).filter(|_| held && half > 0.0)
+}
+
+/// A strip about a part of a star's edge, in the picture, which widens outwards.
+fn spoke(index: [usize; 2], centre: DVec2, ends: [DVec2; 2], clear: f64, readings: &Readings) -> Option<Sought> {
+    let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+    let at = pixels(low.into(), high.into(), readings.picture_px)?;
+    let step = readings.period.0 as f64;
+    let strip = Strip {
+        ends_px: ends.map(|end| readings.place(end.into())),
+        half_widths_px: ends.map(|end| clear * (end - centre).length() / step),
+    };
+    Some(Sought { at, spoke: Some(Spoke { strip, star: Star { index, centre_px: centre.into() } }) })
 }
 
 /// About an edge from one end to the other.
 fn region(ends: &[DVec2], readings: &Readings) -> Option<[usize; 4]> {
-    let [a, b] = [ends.first()?, ends.get(1)?].map(|p| readings.place((*p).into()));
-    let run = [(b[0] - a[0]).abs(), (b[1] - a[1]).abs()];
-    let length = run[0].max(run[1]);
-    let sides = if run[1] > run[0] { [ACROSS, ALONG] } else { [ALONG, ACROSS] }.map(|share| share * length);
-    let start = [0, 1].map(|i| 0.5 * (a[i] + b[i]) - 0.5 * sides[i]);
-    let (width, height) = readings.size();
-    let within = start[0] >= 0.0
-        && start[1] >= 0.0
-        && start[0] + sides[0] <= width as f64
-        && start[1] + sides[1] <= height as f64;
-    within.then(|| [start[0], start[1], sides[0], sides[1]].map(|v| v as usize))
+    let [a, b] = [*ends.first()?, *ends.get(1)?];
+    let run = (b - a).abs();
+    let length = run.max_element();
+    let half = 0.5 * length * if run.y > run.x { DVec2::new(ACROSS, ALONG) } else { DVec2::new(ALONG, ACROSS) };
+    let middle = 0.5 * (a + b);
+    pixels((middle - half).into(), (middle + half).into(), readings.picture_px)
 }

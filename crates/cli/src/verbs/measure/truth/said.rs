@@ -43,6 +43,7 @@ pub(super) struct InkSaid {
 #[derive(Debug, Deserialize)]
 pub(super) struct FeatureSaid {
     pub kind: String,
+    pub index: Option<[usize; 2]>,
 }
 
 #[derive(Debug, Deserialize)]

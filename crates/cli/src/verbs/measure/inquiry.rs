@@ -10,7 +10,7 @@ use std::path::Path;
 
 /// Which readings, what they mean, where the chart lies in them, and how results are told.
 #[derive(Debug, Args)]
-pub struct Common {
+pub struct Inquiry {
     #[command(flatten)]
     pub selection: Selection,
     #[command(flatten)]
@@ -21,7 +21,7 @@ pub struct Common {
     pub telling: Telling,
 }
 
-impl Common {
+impl Inquiry {
     /// The readings of a picture in proportion to light.
     pub(super) fn linear(&self, picture: &Path) -> Result<Readings, Failure> {
         self.selection.linear(picture)

@@ -1,0 +1,213 @@
+//! What `measure sfr` tells.
+
+use super::super::readings::Readings;
+use super::super::report::{Cell, Report, Table};
+use super::planes::{self, Plane};
+use super::{Found, SfrArguments, Sought};
+use crate::plot::{Axis, Mark, Plot, Series};
+use etendue_metrology::Estimate;
+use etendue_metrology::sfr::{Orientation, SfrError, SfrPoint, acutance, crossing};
+
+pub(super) fn report(
+    arguments: &SfrArguments,
+    found: &[Found<'_>],
+    left_out: &[(&Sought, SfrError)],
+    readings: &Readings,
+) -> Report {
+    let mut report = Report::new("sfr", "slanted edges after ISO 12233:2023 (± one standard uncertainty)");
+    report.setting("readings", readings.kind().to_owned());
+    if let Some(channel) = &arguments.inquiry.selection.channel {
+        report.setting("channel", channel.clone());
+    }
+    report.note(format!(
+        "frequencies in cycles a pixel of the picture; acutance seen at {} pixels a degree",
+        arguments.pixels_per_degree
+    ));
+    report.table(edges(arguments, found));
+    let planes = planes::of(found, readings.picture_px);
+    if planes.is_empty() {
+        report.table(curves(found));
+        report.plot(edge_plot(found));
+    } else {
+        report.table(plane_table(arguments, &planes));
+        report.table(plane_curves(&planes));
+        report.plot(plane_plot(&planes));
+    }
+    report.plot(profile_plot(found));
+    if !left_out.is_empty() {
+        report.note(format!("{} of {} edges could not be measured", left_out.len(), left_out.len() + found.len()));
+        report.table(refusals(left_out));
+    }
+    report
+}
+
+fn place(sought: &Sought) -> String {
+    format!("{},{}", sought.at[0], sought.at[1])
+}
+
+/// The edges of a chart that could not be measured, and why.
+fn refusals(left_out: &[(&Sought, SfrError)]) -> Table {
+    let row = |(sought, error): &(&Sought, SfrError)| vec![Cell::Text(place(sought)), Cell::Text(error.to_string())];
+    Table {
+        key: "refused",
+        columns: vec![("at_px", "at px"), ("reason", "not measured because")],
+        rows: left_out.iter().map(row).collect(),
+    }
+}
+
+/// Of the response, across the edge.
+fn direction(one: &Found<'_>) -> &'static str {
+    match one.sfr.orientation {
+        Orientation::Vertical => "horizontal",
+        Orientation::Horizontal => "vertical",
+    }
+}
+
+/// Columns of what follows from a response, and their cells.
+fn columns(arguments: &SfrArguments) -> Vec<(&'static str, &'static str)> {
+    let mut columns = vec![("mtf50_cycles_per_px", "MTF50 c/px"), ("mtf10_cycles_per_px", "MTF10 c/px")];
+    if arguments.pixel_pitch_um.is_some() {
+        columns.extend([("mtf50_lp_per_mm", "MTF50 lp/mm"), ("mtf10_lp_per_mm", "MTF10 lp/mm")]);
+    }
+    columns.extend([("response_at_half", "at 0.5 c/px"), ("acutance", "acutance")]);
+    columns
+}
+
+fn cells(arguments: &SfrArguments, curve: &[SfrPoint]) -> Vec<Cell> {
+    let estimate = |e: Option<Estimate>| e.map_or(Cell::Nothing, Cell::Estimate);
+    let mtf = [0.5, 0.1].map(|level| crossing(curve, level));
+    let mut cells: Vec<Cell> = mtf.map(estimate).to_vec();
+    if let Some(pitch_um) = arguments.pixel_pitch_um {
+        cells.extend(mtf.map(|e| estimate(e.map(|e| e.scaled(1000.0 / pitch_um)))));
+    }
+    let nyquist = curve.iter().find(|p| (p.frequency - 0.5).abs() < 1e-9).map(|p| p.response);
+    cells.extend([estimate(nyquist), estimate(acutance(curve, arguments.pixels_per_degree))]);
+    cells
+}
+
+fn edges(arguments: &SfrArguments, found: &[Found<'_>]) -> Table {
+    let row = |one: &Found<'_>| {
+        let [dark, bright] = one.sfr.levels;
+        let start = [
+            Cell::Text(place(one.sought)),
+            Cell::Number(100.0 * one.field, 1),
+            Cell::Text(direction(one).to_owned()),
+            Cell::Number(one.sfr.angle_deg, 3),
+        ];
+        let end = Cell::Number(one.sfr.noise / (bright - dark), 5);
+        start.into_iter().chain(cells(arguments, &one.sfr.curve)).chain([end]).collect()
+    };
+    let start =
+        [("at_px", "at px"), ("field_percent", "field %"), ("direction", "direction"), ("angle_deg", "angle °")];
+    let end = ("residual_share", "residual");
+    Table {
+        key: "edges",
+        columns: start.into_iter().chain(columns(arguments)).chain([end]).collect(),
+        rows: found.iter().map(row).collect(),
+    }
+}
+
+fn plane_table(arguments: &SfrArguments, planes: &[Plane]) -> Table {
+    let row = |plane: &Plane| {
+        let start = [
+            Cell::Text(plane.place.clone()),
+            Cell::Number(100.0 * plane.field, 1),
+            Cell::Text(plane.name.to_owned()),
+            Cell::Number(plane.edges as f64, 0),
+        ];
+        start.into_iter().chain(cells(arguments, &plane.curve)).collect()
+    };
+    let start = [("at_px", "star at px"), ("field_percent", "field %"), ("plane", "plane"), ("edges", "edges")];
+    Table {
+        key: "planes",
+        columns: start.into_iter().chain(columns(arguments)).collect(),
+        rows: planes.iter().map(row).collect(),
+    }
+}
+
+/// Every twentieth of a cycle a pixel.
+fn twentieths(curve: &[SfrPoint]) -> impl Iterator<Item = &SfrPoint> {
+    let off = |f: f64| (20.0 * f - (20.0 * f).round()).abs();
+    curve.iter().filter(move |p| off(p.frequency) < 1e-6)
+}
+
+fn curves(found: &[Found<'_>]) -> Table {
+    let row = |one: &Found<'_>, point: &SfrPoint| {
+        let names = [place(one.sought), direction(one).to_owned()].map(Cell::Text);
+        names.into_iter().chain([Cell::Number(point.frequency, 2), Cell::Estimate(point.response)]).collect()
+    };
+    let rows = |one: &Found<'_>| twentieths(&one.sfr.curve).map(|p| row(one, p)).collect::<Vec<_>>();
+    Table {
+        key: "response",
+        columns: vec![
+            ("at_px", "at px"),
+            ("direction", "direction"),
+            ("cycles_per_px", "c/px"),
+            ("response", "response"),
+        ],
+        rows: found.iter().flat_map(rows).collect(),
+    }
+}
+
+fn plane_curves(planes: &[Plane]) -> Table {
+    let row = |plane: &Plane, point: &SfrPoint| {
+        let names = [Cell::Text(plane.place.clone()), Cell::Text(plane.name.to_owned())];
+        names.into_iter().chain([Cell::Number(point.frequency, 2), Cell::Estimate(point.response)]).collect()
+    };
+    let rows = |plane: &Plane| twentieths(&plane.curve).map(|p| row(plane, p)).collect::<Vec<_>>();
+    Table {
+        key: "response",
+        columns: vec![("at_px", "star at px"), ("plane", "plane"), ("cycles_per_px", "c/px"), ("response", "response")],
+        rows: planes.iter().flat_map(rows).collect(),
+    }
+}
+
+fn points(curve: &[SfrPoint]) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
+    curve.iter().map(|p| (p.frequency, p.response.value, 2.0 * p.response.standard_uncertainty))
+}
+
+fn response_plot(series: Vec<Series>) -> Plot {
+    Plot {
+        title: "spatial frequency response (bars: 95 %)".to_owned(),
+        x: Axis::linear("cycles a pixel"),
+        y: Axis::linear("response").showing(&[0.0, 1.0]),
+        series,
+    }
+}
+
+/// The most curves that a legend names.
+const NAMED: usize = 8;
+
+/// An edge's name in a legend, where there is room.
+fn name(one: &Found<'_>, count: usize) -> String {
+    if count > NAMED { String::new() } else { format!("edge at {}", place(one.sought)) }
+}
+
+fn edge_plot(found: &[Found<'_>]) -> Plot {
+    let of = |one: &Found<'_>| Series::with_errors(&name(one, found.len()), Mark::Line, points(&one.sfr.curve));
+    response_plot(found.iter().map(of).collect())
+}
+
+/// Sagittal as lines, tangential broken.
+fn plane_plot(planes: &[Plane]) -> Plot {
+    let of = |plane: &Plane| {
+        let mark = if plane.name == planes::SAGITTAL { Mark::Line } else { Mark::Broken };
+        let named =
+            if planes.len() > NAMED { String::new() } else { format!("star at {}, {}", plane.place, plane.name) };
+        Series::with_errors(&named, mark, points(&plane.curve))
+    };
+    response_plot(planes.iter().map(of).collect())
+}
+
+fn profile_plot(found: &[Found<'_>]) -> Plot {
+    let of = |one: &Found<'_>| {
+        let profile = one.sfr.profile.iter().copied();
+        Series::new(&name(one, found.len()), Mark::Line, profile)
+    };
+    Plot {
+        title: "edge profile".to_owned(),
+        x: Axis::linear("distance from the edge, pixels"),
+        y: Axis::linear("reading"),
+        series: found.iter().map(of).collect(),
+    }
+}

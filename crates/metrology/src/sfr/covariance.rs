@@ -1,0 +1,115 @@
+//! How well the coefficients of a profile are known.
+//!
+//! With B the inverse of XᵀX, x_i the row of a pixel, e_i its residual and h_i = x_iᵀ B x_i its leverage (White 1980, MacKinnon & White
+//! 1985; Conley 1999 for noise that neighbours share):
+//!
+//! ```text
+//! C = B (Σ_i Σ_l ε_i ε_{i+l} x_i x_{i+l}ᵀ) B       ε_i = e_i/(1 − h_i)^κ; l: 0 and the shifts of up to one pixel more than those at which
+//!                                                 |ρ(l)| > 4/√n, ρ(l) = Σ e_i e_{i+l}/Σ e_i², four pixels at most
+//! κ                                               1/2 without such shifts, 1 with them (a fit follows shared noise more)
+//! ```
+//!
+//! Raw pictures have no such shifts; demosaicing, noise reduction and scaling spread noise over neighbours, and C knows at which frequencies
+//! they have raised it and at which lowered. Cut after some pixels C may lose its sign where residuals are no noise (steps that splines cannot
+//! follow): a variance below a tenth of that without shifts is taken to be the latter.
+
+use super::knots::{Row, Sample};
+use crate::Image;
+use crate::linear::Matrix;
+
+/// The farthest shift, px, and the least correlation that counts, of 1/√n.
+const FARTHEST: isize = 4;
+const SIGNIFICANT: f64 = 4.0;
+
+/// The covariance with shared noise, where there is any, and without.
+pub(super) struct Covariance {
+    shared: Option<Matrix>,
+    own: Matrix,
+}
+
+/// The least share of the variance without shared noise that is believed.
+const LEAST_SHARE: f64 = 0.1;
+
+impl Covariance {
+    /// Of coefficients that fit samples with these residuals; `inverse` is B.
+    pub(super) fn new(rows: &[Row], samples: &[Sample], residuals: &[f64], image: &Image, inverse: &Matrix) -> Self {
+        let neighbours = Neighbours::new(samples, image);
+        let shifts = neighbours.correlated(residuals);
+        let leverages: Vec<f64> = rows.iter().map(|row| leverage(row, inverse)).collect();
+        let free = |i: usize| 1.0 - leverages[i].min(0.9);
+        let scaled = |power: fn(f64) -> f64| residuals.iter().enumerate().map(|(i, e)| e / power(free(i))).collect();
+        let shared = (!shifts.is_empty()).then(|| {
+            let residuals: Vec<f64> = scaled(|f| f);
+            let near = |i: usize| shifts.iter().filter_map(|s| neighbours.of(samples[i].pixel, *s)).collect();
+            sandwich(rows, &residuals, near, inverse)
+        });
+        let residuals: Vec<f64> = scaled(f64::sqrt);
+        Self { shared, own: sandwich(rows, &residuals, |_| Vec::new(), inverse) }
+    }
+
+    /// The variance of a sum of the coefficients by weight.
+    pub(super) fn variance(&self, weights: &[f64]) -> f64 {
+        let own = self.own.form(weights).max(0.0);
+        let shared = self.shared.as_ref().map(|c| c.form(weights));
+        shared.filter(|v| *v > LEAST_SHARE * own).unwrap_or(own)
+    }
+}
+
+/// x B xᵀ.
+fn leverage(row: &Row, inverse: &Matrix) -> f64 {
+    row.0.iter().map(|(i, a)| a * row.0.iter().map(|(j, b)| b * inverse.at(*i, *j)).sum::<f64>()).sum()
+}
+
+/// B (Σ_i e_i x_i (e_i x_i + Σ_j e_j x_j)ᵀ) B over the neighbours j of each i.
+fn sandwich(rows: &[Row], residuals: &[f64], near: impl Fn(usize) -> Vec<usize>, inverse: &Matrix) -> Matrix {
+    let unknowns = inverse.rows();
+    let mut meat = Matrix::zeros(unknowns, unknowns);
+    let mut sum = vec![0.0; unknowns];
+    for (i, row) in rows.iter().enumerate() {
+        let others: Vec<usize> = near(i).into_iter().chain([i]).collect();
+        others.iter().for_each(|j| rows[*j].0.iter().for_each(|(k, value)| sum[*k] += residuals[*j] * value));
+        for (k, value) in &row.0 {
+            let own = residuals[i] * value;
+            sum.iter().enumerate().filter(|(_, s)| **s != 0.0).for_each(|(m, s)| *meat.at_mut(*k, m) += own * s);
+        }
+        others.iter().for_each(|j| rows[*j].0.iter().for_each(|(k, _)| sum[*k] = 0.0));
+    }
+    inverse.times_symmetric(&meat).times_symmetric(inverse)
+}
+
+/// Which sample each pixel is.
+struct Neighbours {
+    width: isize,
+    samples: Vec<Option<usize>>,
+}
+
+impl Neighbours {
+    fn new(samples: &[Sample], image: &Image) -> Self {
+        let mut places = vec![None; image.samples().len()];
+        samples.iter().enumerate().for_each(|(i, s)| places[s.pixel] = Some(i));
+        Self { width: image.width() as isize, samples: places }
+    }
+
+    fn of(&self, pixel: usize, (dx, dy): (isize, isize)) -> Option<usize> {
+        let at = pixel as isize;
+        let column = at % self.width + dx;
+        let place = usize::try_from(at + dy * self.width + dx).ok()?;
+        (0..self.width).contains(&column).then(|| self.samples.get(place).copied().flatten())?
+    }
+
+    /// Shifts within the reach of those at which noise is alike, or opposite.
+    fn correlated(&self, residuals: &[f64]) -> Vec<(isize, isize)> {
+        let pixels: Vec<usize> = (0..self.samples.len()).filter(|p| self.samples[*p].is_some()).collect();
+        let squares = residuals.iter().map(|r| r * r).sum::<f64>();
+        let least = SIGNIFICANT / (residuals.len() as f64).sqrt() * squares;
+        let range = || -FARTHEST..=FARTHEST;
+        let shifts = range().flat_map(|dy| range().map(move |dx| (dx, dy))).filter(|shift| *shift != (0, 0));
+        let product = |shift: (isize, isize)| {
+            let pair = |p: &usize| Some(residuals[self.samples[*p]?] * residuals[self.of(*p, shift)?]);
+            pixels.iter().filter_map(pair).sum::<f64>()
+        };
+        let significant = shifts.clone().filter(|shift| product(*shift).abs() > least);
+        let reach = significant.map(|(dx, dy)| dx.abs().max(dy.abs()) + 1).max();
+        shifts.filter(|(dx, dy)| reach.is_some_and(|reach| dx.abs().max(dy.abs()) <= reach)).collect()
+    }
+}

@@ -1,0 +1,262 @@
+//! The splines of an edge's profile, and least squares of edge and profile on the pixels.
+
+use super::spline::{SUPPORT, bell, step};
+use super::{Edge, SfrError, SfrSettings};
+use crate::Image;
+use crate::solve::Normal;
+
+/// The finest step of the splines, px.
+pub(super) const FINEST_STEP_PX: f64 = 0.25;
+/// The widest gap between distances. Steps are wider than gaps, as least squares on evenly clustered distances needs: 0.58 pixels then,
+/// where a fit of degree 5 at 0.5 cycles a pixel still keeps aliases below (0.29/0.71)⁶ = 0.5 % of the response.
+const WIDEST_GAP_PX: f64 = 0.46;
+pub(super) const STEP_OVER_GAP: f64 = 1.25;
+/// How far the fine splines reach unless told, px.
+pub(super) const USUAL_REACH_PX: f64 = 10.0;
+/// The step of the splines beyond, px, and how far they go.
+const COARSE_STEP_PX: f64 = 2.0;
+pub(super) const FARTHEST_PX: f64 = 100.0;
+/// How much of the picture's nearer side the profile may change in; the rest is plateau, whose mean the response at 0 rests on.
+const CHANGING: f64 = 0.65;
+/// The largest move of a round of the refinement, px.
+const LARGEST_MOVE_PX: f64 = 2.0;
+
+/// A pixel: its place in the picture, its distance from the edge, its row, and its reading.
+#[derive(Clone, Copy)]
+pub(super) struct Sample {
+    pub pixel: usize,
+    pub distance: f64,
+    pub row: f64,
+    pub reading: f64,
+}
+
+/// What a reading depends on: coefficients and how much of each.
+pub(super) struct Row(pub Vec<(usize, f64)>);
+
+impl Row {
+    pub(super) fn dot(&self, values: &[f64]) -> f64 {
+        self.0.iter().map(|(k, share)| values[*k] * share).sum()
+    }
+}
+
+/// A step of the profile: where, how wide, and the levels on its two sides.
+#[derive(Clone, Copy)]
+pub(super) struct Step {
+    pub at: f64,
+    pub width: f64,
+    pub left: usize,
+    pub right: usize,
+}
+
+/// Where the splines lie.
+pub(super) struct Knots {
+    pub step_px: f64,
+    pub reach_px: f64,
+    count: usize,
+    coarse: Vec<f64>,
+}
+
+impl Knots {
+    pub(super) fn new(
+        image: &Image,
+        edge: &Edge,
+        samples: &[Sample],
+        settings: &SfrSettings,
+    ) -> Result<Self, SfrError> {
+        // Both plateaus must be seen beyond the reach, from somewhere.
+        let widest = |sign: f64| samples.iter().map(|s| sign * s.distance).fold(0.0, f64::max) - 1.0;
+        let most = widest(1.0).min(widest(-1.0)).min(0.5 * image.width() as f64);
+        let reach_px = settings.reach_px.unwrap_or(USUAL_REACH_PX).min(most);
+        if reach_px < 2.0 {
+            return Err(SfrError::NoEdge("the edge lies too near to the picture's border"));
+        }
+        let gap_px = widest_gap(samples, reach_px);
+        if gap_px > WIDEST_GAP_PX {
+            return Err(SfrError::Gaps { gap_px, angle_deg: edge.angle_deg() });
+        }
+        let step_px = (STEP_OVER_GAP * gap_px).max(FINEST_STEP_PX);
+        let count = (2.0 * reach_px / step_px).floor() as usize + 1 - SUPPORT;
+        if count < 2 * SUPPORT {
+            return Err(SfrError::NoEdge("the edge lies too near to the picture's border"));
+        }
+        let reach_px = 0.5 * step_px * (count + SUPPORT - 1) as f64;
+        Ok(Self { step_px, reach_px, count, coarse: coarse(reach_px, (CHANGING * most).min(FARTHEST_PX)) })
+    }
+
+    /// The coefficients that a reading depends on, and how. The profile is a sum of levels, each of which holds from one step to the next:
+    /// those of the fine splines of degree 5, and on either side those of the coarse steps, outwards; the last holds from there on.
+    fn row(&self, distance: f64) -> Row {
+        let u = (distance + self.reach_px) / self.step_px;
+        let first = self.first(u);
+        let climbed = |k: usize| match k {
+            0 => 1.0,
+            k if k > self.count => 0.0,
+            k => step(u - (k - 1) as f64 - 0.5 * SUPPORT as f64),
+        };
+        let mut terms = Vec::with_capacity(4 * SUPPORT);
+        let mut above = climbed(first);
+        for k in first..=first + SUPPORT {
+            let next = climbed(k + 1);
+            terms.push((k, above - next));
+            above = next;
+        }
+        self.sides().into_iter().for_each(|side| self.coarse_terms(side, distance, &mut terms));
+        terms.retain(|(_, value)| *value != 0.0);
+        Row(terms)
+    }
+
+    /// The coarse levels of a side, and what the first step takes from the fine splines' end.
+    fn coarse_terms(&self, (sign, end, levels): (f64, usize, usize), distance: f64, terms: &mut Vec<(usize, f64)>) {
+        let Some(first) = self.coarse.first() else { return };
+        let u = (sign * distance - first) / COARSE_STEP_PX;
+        let half = 0.5 * SUPPORT as f64;
+        if u <= -half {
+            return;
+        }
+        let climbed = |k: usize| if k < self.coarse.len() { step(u - k as f64) } else { 0.0 };
+        let taken = climbed(0);
+        match terms.iter_mut().find(|(k, _)| *k == end) {
+            Some((_, value)) => *value -= taken,
+            None => terms.push((end, -taken)),
+        }
+        // Steps below this one are climbed wholly.
+        let from = ((u - half).floor().max(0.0) as usize).min(self.coarse.len() - 1);
+        let mut below = climbed(from);
+        for k in (from..self.coarse.len()).take(SUPPORT + 2) {
+            let next = climbed(k + 1);
+            terms.push((levels + k, below - next));
+            below = next;
+        }
+    }
+
+    /// What each sample's reading depends on.
+    pub(super) fn rows(&self, samples: &[Sample]) -> Vec<Row> {
+        samples.iter().map(|sample| self.row(sample.distance)).collect()
+    }
+
+    /// Left and right: the sign of distances, the fine splines' last level, and the first coarse one.
+    fn sides(&self) -> [(f64, usize, usize); 2] {
+        [(-1.0, 0, self.count + 1), (1.0, self.count, self.count + 1 + self.coarse.len())]
+    }
+
+    /// How many coefficients there are.
+    fn unknowns(&self) -> usize {
+        self.count + 1 + 2 * self.coarse.len()
+    }
+
+    /// The profile's steps, from one level to the next on the right of it.
+    pub(super) fn steps(&self) -> Vec<Step> {
+        let place = |j: usize| -self.reach_px + (j as f64 + 0.5 * SUPPORT as f64) * self.step_px;
+        let fine = (1..=self.count).map(|k| Step { at: place(k - 1), width: self.step_px, left: k - 1, right: k });
+        let coarse = self.sides().into_iter().flat_map(|(sign, end, levels)| {
+            self.coarse.iter().enumerate().map(move |(k, at)| {
+                let (inner, outer) = (if k == 0 { end } else { levels + k - 1 }, levels + k);
+                let (left, right) = if sign < 0.0 { (outer, inner) } else { (inner, outer) };
+                Step { at: sign * at, width: COARSE_STEP_PX, left, right }
+            })
+        });
+        fine.chain(coarse).collect()
+    }
+
+    /// The level that holds from the last step on the left outwards.
+    pub(super) fn leftmost(&self) -> usize {
+        self.coarse.len().checked_sub(1).map_or(0, |last| self.count + 1 + last)
+    }
+
+    fn first(&self, u: f64) -> usize {
+        ((u - SUPPORT as f64).ceil().max(0.0) as usize).min(self.count - SUPPORT)
+    }
+
+    /// The normal equations of the levels.
+    pub(super) fn normal(&self, samples: &[Sample], rows: &[Row]) -> Normal {
+        let mut normal = Normal::new(self.unknowns());
+        for (sample, row) in samples.iter().zip(rows) {
+            let (places, values): (Vec<usize>, Vec<f64>) = row.0.iter().copied().unzip();
+            normal.add_at(&places, &values, sample.reading, 1.0);
+        }
+        normal
+    }
+
+    /// The move of the edge's coefficients by one step of Gauss–Newton on edge and profile at once. The edge's place alone is the
+    /// profile's own (a moved profile is a profile): it follows from the middle of the profile's climb, which keeps it among the fine
+    /// splines; where it is far from them the edge is only moved there.
+    pub(super) fn correction(
+        &self,
+        samples: &[Sample],
+        edge: &Edge,
+        degree: usize,
+    ) -> Result<(f64, Vec<f64>), SfrError> {
+        let failed = || SfrError::NoEdge("the edge crosses too few rows");
+        let rows = self.rows(samples);
+        let levels = self.normal(samples, &rows).solve().ok_or_else(failed)?;
+        let mut by = vec![0.0; degree + 1];
+        by[0] = self.middle_px(&levels);
+        if by[0].abs() > LARGEST_MOVE_PX {
+            return Ok((f64::INFINITY, by));
+        }
+        let linear = levels.len();
+        let mut normal = Normal::new(linear + degree);
+        let mut squares = 0.0;
+        for (sample, row) in samples.iter().zip(&rows) {
+            let (mut places, mut values): (Vec<usize>, Vec<f64>) = row.0.iter().copied().unzip();
+            if sample.distance.abs() < self.reach_px {
+                let slope = self.slope(sample.distance, &levels);
+                places.extend(linear..linear + degree);
+                values.extend(edge.sensitivities(sample.row, degree)[1..].iter().map(|s| s * slope));
+            }
+            let residual = sample.reading - row.dot(&levels);
+            squares += residual * residual;
+            normal.add_at(&places, &values, residual, 1.0);
+        }
+        let moves = normal.solve().ok_or_else(failed)?;
+        let bounded = |v: &f64| v.clamp(-LARGEST_MOVE_PX, LARGEST_MOVE_PX);
+        by[1..].iter_mut().zip(moves[linear..].iter().map(bounded)).for_each(|(b, v)| *b = v);
+        Ok((squares, by))
+    }
+
+    /// How far the profile may change, px.
+    fn extent_px(&self) -> f64 {
+        self.coarse.last().map_or(self.reach_px, |at| at + COARSE_STEP_PX)
+    }
+
+    /// The profile's readings on both sides.
+    pub(super) fn plateaus(&self, levels: &[f64]) -> [f64; 2] {
+        [-self.extent_px(), self.extent_px()].map(|distance| self.value(distance, levels))
+    }
+
+    fn value(&self, distance: f64, levels: &[f64]) -> f64 {
+        self.row(distance).dot(levels)
+    }
+
+    /// Where the profile has climbed half-way, by the share of it that lies nearer to the left plateau; nothing below half a pixel.
+    fn middle_px(&self, levels: &[f64]) -> f64 {
+        let [left, right] = self.plateaus(levels);
+        let (extent, step) = (self.extent_px(), FINEST_STEP_PX);
+        let count = (2.0 * extent / step).floor() as usize;
+        let at = |i: usize| -extent + (i as f64 + 0.5) * step;
+        let nearer = |d: &f64| (self.value(*d, levels) - left) / (right - left) < 0.5;
+        let middle = (0..count).map(at).filter(nearer).count() as f64 * step - extent;
+        if middle.abs() < 0.5 { 0.0 } else { middle }
+    }
+
+    fn slope(&self, distance: f64, levels: &[f64]) -> f64 {
+        let u = (distance + self.reach_px) / self.step_px;
+        let first = self.first(u);
+        let term = |j: usize| (levels[j + 1] - levels[j]) * bell(u - j as f64 - 0.5 * SUPPORT as f64);
+        (first..first + SUPPORT).map(term).sum::<f64>() / self.step_px
+    }
+}
+
+/// Places of the coarse steps beyond the fine splines on either side: those whose support leaves the fine splines' range, so that no coarse
+/// step is a sum of fine ones (Kraft 1997), as far as there are pixels.
+fn coarse(reach_px: f64, most: f64) -> Vec<f64> {
+    let first = reach_px - 1.5 * COARSE_STEP_PX;
+    (0..).map(|i| first + f64::from(i) * COARSE_STEP_PX).take_while(|at| at + COARSE_STEP_PX <= most).collect()
+}
+
+/// The widest gap between neighbouring distances within the reach.
+fn widest_gap(samples: &[Sample], reach_px: f64) -> f64 {
+    let mut distances: Vec<f64> = samples.iter().map(|s| s.distance).filter(|d| d.abs() <= reach_px).collect();
+    distances.sort_unstable_by(f64::total_cmp);
+    distances.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
+}
