@@ -2,8 +2,8 @@
 
 Corners (cv2.findChessboardCorners, cv2.cornerSubPix) of OpenCV's own sample photographs left01.jpg ... left14.jpg, 9 x 6
 inner corners, and the camera that cv2.calibrateCameraExtended finds from them, with its standard deviations: k1 k2 p1 p2 k3.
-Pixel centres at whole numbers. Versions: requirements.txt. Only
-left01.jpg is stored here; the others are in OpenCV's samples/data, or in Debian's opencv-doc:
+Pixel centres at whole numbers. Versions: requirements.txt. They are
+stored here, as they are in OpenCV's samples/data and in Debian's opencv-doc:
     ETENDUE_OPENCV_SAMPLES=opencv/samples/data python tests/oracles/checkerboard.py
 """
 

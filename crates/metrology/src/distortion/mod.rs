@@ -91,7 +91,7 @@ pub struct Distortion {
     pub local: Vec<LocalDistortion>,
     /// Rows and columns.
     pub lines: Vec<LineBow>,
-    /// Picture-height distortion: the height at the sides over that in the middle, less 1 ([`picture_height`](lines)); `None`
+    /// Picture-height distortion: the height at the sides over that in the middle, less 1; `None`
     /// where no two rows reach from side to side.
     pub height: Option<Estimate>,
     /// k₁, k₂ from ideal to observed.

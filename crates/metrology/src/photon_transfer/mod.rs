@@ -12,6 +12,7 @@
 //! | [`nonuniformity()`] | DSNU and PRNU |
 //! | [`temperature`] | how the dark current grows with temperature |
 //! | [`spectrogram`] | power spectra of rows and columns |
+//! | [`Deviations`] | histograms of defect pixels |
 //!
 //! Units: readings DN, light photons a pixel and exposure, charge e⁻, time s. Where only relative light is known (an
 //! exposure series under a steady lamp of unknown strength), "photons" are any unit of light, and η and the thresholds in
@@ -21,6 +22,7 @@
 //! colour's pixels at a time), spectral sensitivity.
 
 mod data;
+mod defects;
 mod figures;
 mod nonuniformity;
 mod spatial;
@@ -31,6 +33,7 @@ pub mod temperature;
 mod tests;
 
 pub use data::{Level, TransferData};
+pub use defects::Deviations;
 pub use figures::{Figures, SnrPoint, model_snr};
 pub use nonuniformity::{Nonuniformity, nonuniformity};
 pub use spatial::{Parts, Pattern};

@@ -123,8 +123,8 @@ fn camera(figures: &Value) -> Vec<(String, Estimate)> {
 
 #[test]
 fn a_pattern_that_is_no_chart_is_refused() {
-    // Another of OpenCV's pictures: a print whose moiré lies in rows and columns, 8 px apart. Of the 152 pictures of
-    // Debian's opencv-doc it is the nearest to a chart of those that are none (tests/oracles/figures/checkerboard/no_chart.txt).
+    // Another of OpenCV's pictures: a print whose moiré lies in rows and columns, 8 px apart. Of the 125 pictures
+    // without a chart of Debian's opencv-doc it is the nearest to one (tests/oracles/figures/checkerboard/no_chart.json).
     for target in [Some(Target::Checkerboard), Some(Target::Dots), None] {
         let told = find(&file("pic4.png"), Sought { target, size: None });
         assert!(matches!(told, Err(TargetError::None { .. } | TargetError::Small { .. })), "{told:?}");

@@ -189,6 +189,10 @@ impl Found {
         let freedom = self.camera.degrees_of_freedom as f64;
         report.fact("degrees_of_freedom", "degrees of freedom", "", freedom);
         report.note("raster coordinates, pixel centres at +0.5 (OpenCV's and ROS's cx and cy are less by 0.5); ± one standard uncertainty");
+        if let Some(distance) = arguments.distance_mm.filter(|_| arguments.distance_uncertainty_mm.is_none()) {
+            report.note(format!("the distance of {distance} mm is taken as exact: state --distance-uncertainty-mm"));
+        }
+        report.note("the pitch is taken as exact: its relative error is that of distances");
         report.table(self.table());
         report.table_if(points, self.points());
         report.covariance(Covariance {

@@ -1,5 +1,6 @@
 //! `etendue measure ptc`: photon transfer after EMVA 1288.
 
+mod defects;
 mod plots;
 mod told;
 

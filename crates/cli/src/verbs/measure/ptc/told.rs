@@ -1,7 +1,7 @@
 //! What photon transfer found, in words and as keys of a camera file.
 
 use super::super::report::{Cell, Report, Table};
-use super::{Found, Ptc, plots};
+use super::{Found, Ptc, defects, plots};
 use etendue_metrology::Estimate;
 use etendue_metrology::photon_transfer::{Figures, Nonuniformity, Parts, TransferData};
 
@@ -26,6 +26,9 @@ pub(super) fn report(arguments: &Ptc, found: &Found) -> Report {
     report.table(curve(&found.data));
     report.camera(camera(found));
     plots::draw(&mut report, found);
+    if let Some(fixed) = &found.fixed {
+        defects::tell(&mut report, fixed);
+    }
     report
 }
 

@@ -1,0 +1,144 @@
+//! Defect pixels: how many pixels lie how far off.
+//!
+//! EMVA 1288 release 3.1 (section 4.4; 8.4 how to) and 4.0, defect pixel characterisation, which leaves it to the application where a pixel
+//! counts as defective and asks for two histograms of the average pictures instead:
+//!
+//! - the **logarithmic** one of deviations from the mean, in at most 256 bins of equal width, a whole
+//!   number of steps of the averages, beside the normal distribution:
+//!   what lies above it are pixels of another kind;
+//! - the **accumulated** one: the share of pixels that are farther off than x, to read from it how many defects a limit makes.
+//!
+//! Without light: ȳ_dark − μ_dark, DN. Of the response: (ȳ_50 − ȳ_dark)/(μ_50 − μ_dark) − 1, %. The normal distribution has the
+//! deviation 1.4826 times the median magnitude, which hot pixels do not widen (the standard: the part of the spectrogram that is white).
+//! Averages of L frames have temporal noise of variance σ²/L left in them. Left out: the standard's high-pass filter, which takes
+//! uneven light away; measure with even light.
+
+use super::Stack;
+use etendue_core::maths::f64::exp;
+
+/// Most bins.
+const BINS: usize = 256;
+/// The standard deviation of a normal distribution over its median magnitude: 1/Φ⁻¹(3/4).
+const NORMAL: f64 = 1.482_602_2;
+
+/// Histograms of deviations from their mean.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Deviations {
+    /// Middle of each bin, and its pixels.
+    pub bins: Vec<(f64, u64)>,
+    /// Width of a bin.
+    pub width: f64,
+    /// Standard deviation of the normal distribution through the middle.
+    pub sigma: f64,
+    /// Pixels in all.
+    pub pixels: usize,
+    /// x, and the share of pixels farther from the mean than x.
+    pub accumulated: Vec<(f64, f64)>,
+}
+
+impl Deviations {
+    /// What pixels deviate by from the mean without light, DN.
+    #[must_use]
+    pub fn of_dark(dark: &Stack) -> Self {
+        let average = dark.average();
+        let mean = average.iter().sum::<f64>() / average.len() as f64;
+        Self::of(average.iter().map(|y| y - mean).collect(), step_dn(&[dark]))
+    }
+
+    /// What their responses deviate by from the mean response, %.
+    #[must_use]
+    pub fn of_response(dark: &Stack, bright: &Stack) -> Self {
+        let signal: Vec<f64> = bright.average().iter().zip(&dark.average()).map(|(b, d)| b - d).collect();
+        let mean = signal.iter().sum::<f64>() / signal.len() as f64;
+        let step = 100.0 * step_dn(&[dark, bright]) / mean.abs();
+        Self::of(signal.iter().map(|s| 100.0 * (s / mean - 1.0)).collect(), step)
+    }
+
+    /// Bins are whole numbers of the step by which averages of whole numbers differ: others would hold now more, now fewer of them.
+    fn of(deviations: Vec<f64>, step: f64) -> Self {
+        let pixels = deviations.len();
+        let (low, high) = deviations.iter().fold((0.0_f64, 0.0_f64), |(l, h), d| (l.min(*d), h.max(*d)));
+        let width = step * ((high - low) / (step * (BINS - 1) as f64)).ceil().max(1.0);
+        let low = low - 0.5 * step;
+        let mut counts = vec![0; ((high - low) / width) as usize + 1];
+        for d in &deviations {
+            counts[((d - low) / width) as usize] += 1;
+        }
+        let mut sorted: Vec<f64> = deviations.iter().map(|d| d.abs()).collect();
+        sorted.sort_by(f64::total_cmp);
+        let middle = |i: usize| low + (i as f64 + 0.5) * width;
+        let largest = sorted[pixels - 1];
+        let beyond = |i: usize| {
+            let x = largest * i as f64 / BINS as f64;
+            (x, (pixels - sorted.partition_point(|d| *d <= x)) as f64 / pixels as f64)
+        };
+        Self {
+            bins: counts.into_iter().enumerate().map(|(i, n)| (middle(i), n)).collect(),
+            width,
+            sigma: NORMAL * median(&sorted, step),
+            pixels,
+            accumulated: (0..BINS).map(beyond).collect(),
+        }
+    }
+
+    /// Pixels that the normal distribution has in a bin about x.
+    #[must_use]
+    pub fn normal(&self, x: f64) -> f64 {
+        let z = x / self.sigma;
+        self.pixels as f64 * self.width * exp(-0.5 * z * z) / (self.sigma * core::f64::consts::TAU.sqrt())
+    }
+}
+
+/// The median of sorted magnitudes, spread evenly over the step that they are known to.
+fn median(sorted: &[f64], step: f64) -> f64 {
+    let from = sorted[sorted.len() / 2] - 0.5 * step;
+    let below = sorted.partition_point(|d| *d < from);
+    let within = sorted.partition_point(|d| *d <= from + step) - below;
+    from + step * (0.5 * sorted.len() as f64 - below as f64) / within as f64
+}
+
+/// The step of averages of whole numbers, and of their difference.
+fn step_dn(stacks: &[&Stack]) -> f64 {
+    let frames: Vec<usize> = stacks.iter().map(|s| s.frames()).collect();
+    let same = frames.windows(2).all(|pair| pair[0] == pair[1]);
+    let parts = if same { frames[0] } else { frames.iter().product() };
+    1.0 / parts.max(1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_stats::normal::quantile;
+
+    #[test]
+    fn hot_pixels_stand_above_the_normal_distribution() {
+        const COUNT: usize = 40_000;
+        // The quantiles of a normal distribution of deviation 2, and twenty pixels at 30.
+        let mut values: Vec<f64> = (0..COUNT).map(|i| 2.0 * quantile((i as f64 + 0.5) / COUNT as f64)).collect();
+        values[..20].fill(30.0);
+        let found = Deviations::of(values, 1e-6);
+        // The median of a fine grid of quantiles; twenty of forty thousand move it by 5·10⁻⁴.
+        assert!((found.sigma - 2.0).abs() < 3e-3, "{}", found.sigma);
+        assert_eq!(found.bins.iter().map(|b| b.1).sum::<u64>(), COUNT as u64);
+        let (x, counted) = *found.bins.last().expect("bins");
+        assert!(counted == 20 && found.normal(x) < 1e-30, "{counted}");
+        let (x, counted) = found.bins[found.bins.iter().position(|b| b.0 > 0.0).expect("a middle")];
+        // A bin holds hundreds of quantiles: to one on either side.
+        assert!((counted as f64 / found.normal(x) - 1.0).abs() < 0.02, "{counted} {}", found.normal(x));
+        let beyond = found.accumulated.iter().find(|(x, _)| *x > 10.0).expect("as far as 30");
+        assert!((beyond.1 - 20.0 / COUNT as f64).abs() < 1e-9, "{beyond:?}");
+        assert!(found.accumulated.windows(2).all(|pair| pair[1].1 <= pair[0].1) && found.accumulated[0].1 > 0.99);
+    }
+    #[test]
+    fn averages_of_whole_numbers_fill_the_bins_evenly() {
+        // Thirty frames: steps of 1/30 DN, 126 of them in a range of 4.2 DN.
+        const COUNT: usize = 200_000;
+        let value = |i: usize| (30.0 * 0.42 * quantile((i as f64 + 0.5) / COUNT as f64)).round() / 30.0;
+        let found = Deviations::of((0..COUNT).map(value).collect(), 1.0 / 30.0);
+        assert!((found.width - 1.0 / 30.0).abs() < 1e-12, "{}", found.width);
+        for (x, counted) in found.bins.iter().filter(|(x, _)| x.abs() < 0.8) {
+            // σ by the median to some hundredths; a distribution's value in the middle of a bin for its mean over it.
+            assert!((*counted as f64 / found.normal(*x) - 1.0).abs() < 0.05, "{x}: {counted}");
+        }
+    }
+}
