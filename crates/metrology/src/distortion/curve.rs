@@ -5,7 +5,7 @@ use crate::Estimate;
 use crate::target::Node;
 use etendue_core::maths::f64::sin_cos;
 use glam::DVec2;
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 /// A point of the curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,20 +24,27 @@ pub struct CurvePoint {
 const STEPS: i32 = 40;
 const DIRECTIONS: i32 = 72;
 
+/// How far the nearest point of the chart may be seen, in steps at the centre: half a diagonal, in tilt and distortion.
+const NEAR: f64 = 1.5;
+
 /// The curve at steps of 2.5 % of the half diagonal.
 pub(super) fn curve(ideal: &Ideal, nodes: &[Node], half_diagonal_px: f64) -> Vec<CurvePoint> {
-    let seen: BTreeSet<[i64; 2]> = nodes.iter().map(|n| n.index.map(|i| i as i64)).collect();
+    let seen: BTreeMap<[i64; 2], DVec2> = nodes.iter().map(|n| (n.index.map(|i| i as i64), n.at)).collect();
     (1..=STEPS).filter_map(|i| point(ideal, &seen, f64::from(i) / f64::from(STEPS), half_diagonal_px)).collect()
 }
 
-fn point(ideal: &Ideal, seen: &BTreeSet<[i64; 2]>, field: f64, half_diagonal_px: f64) -> Option<CurvePoint> {
+fn point(ideal: &Ideal, seen: &BTreeMap<[i64; 2], DVec2>, field: f64, half_diagonal_px: f64) -> Option<CurvePoint> {
     let radius = field * half_diagonal_px;
     let place = |i: i32| {
         let (sin, cos) = sin_cos(std::f64::consts::TAU * f64::from(i) / f64::from(DIRECTIONS));
         ideal.centre() + radius * DVec2::new(cos, sin)
     };
-    // Between points of the chart, or beyond them by half a step at most.
-    let within = |at: &DVec2| seen.contains(&ideal.chart(*at).to_array().map(|c| c.round() as i64));
+    // Between points of the chart, or beyond them by half a step at most. Far outside the polynomial may fold back onto the
+    // chart: the point must be seen there, too.
+    let within = |at: &DVec2| {
+        let point = seen.get(&ideal.chart(*at).to_array().map(|c| c.round() as i64));
+        point.is_some_and(|p| (*p - *at).length() < NEAR * ideal.step_px())
+    };
     let places: Vec<DVec2> = (0..DIRECTIONS).map(place).filter(within).collect();
     let ratios: Vec<f64> = places.iter().map(|at| radius / (ideal.place(*at) - ideal.centre()).length()).collect();
     let count = ratios.len() as f64;
