@@ -1,7 +1,7 @@
 //! The stand-in cameras, and where their files lie.
 
 use crate::program::{Program, text, words};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A stand-in and what its charts need.
 #[derive(Clone, Copy, Debug)]
@@ -55,19 +55,36 @@ impl Bench<'_> {
     /// A chart drawn for a camera file: its folder.
     pub(crate) fn chart(&self, chart: &str, file: &str, options: &str) -> Result<PathBuf, String> {
         let to = self.folder.join(chart);
-        let camera = [words("--camera"), vec![text(&self.file(file))]].concat();
-        let out = vec!["-o".to_owned(), text(&to)];
-        self.program.run(&[words("chart"), words(chart), camera, words(options), out].concat())?;
+        self.drawn(&to, chart, &self.file(file), options)?;
         Ok(to)
+    }
+
+    fn drawn(&self, to: &Path, chart: &str, camera: &Path, options: &str) -> Result<(), String> {
+        let camera = [words("--camera"), vec![text(camera)]].concat();
+        let out = vec!["-o".to_owned(), text(to)];
+        self.program.run(&[words("chart"), words(chart), camera, words(options), out].concat()).map(drop)
     }
 
     /// A chart drawn and photographed: its folder; pictures are in render/camera.
     pub(crate) fn photographed(&self, chart: &str, file: &str, options: &str, samples: u32) -> Result<PathBuf, String> {
-        let to = self.chart(chart, file, options)?;
+        let to = self.folder.join(chart);
+        self.photograph(&to, chart, &self.file(file), options, samples)?;
+        Ok(to)
+    }
+
+    /// The same into a folder, by any camera file.
+    pub(crate) fn photograph(
+        &self,
+        to: &Path,
+        chart: &str,
+        camera: &Path,
+        options: &str,
+        samples: u32,
+    ) -> Result<(), String> {
+        self.drawn(to, chart, camera, options)?;
         let job = vec!["render".to_owned(), text(&to.join("job.toml")), "-o".to_owned(), text(&to.join("render"))];
         let settings = words(&format!("--set render.spp={samples} --set output.ground_truth=false"));
-        self.program.run(&[job, settings].concat())?;
-        Ok(to)
+        self.program.run(&[job, settings].concat()).map(drop)
     }
 
     /// The plot of a section, as the page names it.

@@ -66,6 +66,19 @@ impl Comparison {
         text
     }
 
+    /// Where this is a simulated camera beside a measured one, and `measured` that beside what is declared: a table of all three.
+    pub(crate) fn three(&self, measured: &Self, wanted: impl Fn(&str) -> bool) -> String {
+        let mut text = "\n| quantity | declared | measured | simulated | simulated less measured, % | E_n |\n| --- | --- | --- | --- | --- | --- |\n".to_owned();
+        for row in self.rows(wanted) {
+            let key = row["quantity"].as_str().unwrap_or_default();
+            let declared = measured.rows(|k| k == key).next().map_or(Value::Null, |row| row["b"]["value"].clone());
+            let (declared, seen, again) = (number(declared.as_f64()), estimate(&row["b"]), estimate(&row["a"]));
+            let (error, e_n) = (rounded(row["relative_error_percent"].as_f64(), 3), rounded(row["e_n"].as_f64(), 2));
+            text += &format!("| `{key}` | {declared} | {seen} | {again} | {error} | {e_n} |\n");
+        }
+        text
+    }
+
     /// A sentence a curve.
     pub(crate) fn told(&self, words: &str) -> String {
         let line = |row: &Value| {

@@ -8,8 +8,8 @@ use crate::program::{json, text, words};
 use std::path::{Path, PathBuf};
 
 const EXPOSURES: usize = 15;
-/// The middle of the 320 × 240 pixels, where the light is even to 0.1 %.
-const MIDDLE: &str = "--region 144,104,32,32";
+/// Of the 96 × 72 pixels, where the light is even to 0.1 %.
+const MIDDLE: &str = "--region 32,20,32,32";
 
 pub(crate) fn sections(bench: &Bench<'_>) -> Result<Vec<Section>, String> {
     Ok(vec![vignetting(bench)?, tone(bench)?])
@@ -41,7 +41,7 @@ fn black_dn(bench: &Bench<'_>, field: &Path) -> Result<f64, String> {
 }
 
 fn tone(bench: &Bench<'_>) -> Result<Section, String> {
-    let panel = bench.chart("backlit", "middle", &format!("--exposures {EXPOSURES}"))?;
+    let panel = bench.chart("backlit", "tone", &format!("--exposures {EXPOSURES}"))?;
     let cameras: Vec<PathBuf> = (1..=EXPOSURES).map(|i| panel.join(format!("exposure-{i:02}.toml"))).collect();
     let shots = exposed(bench, &panel, &cameras)?;
     let exposures: Vec<String> =
@@ -89,7 +89,7 @@ fn curve(bench: &Bench<'_>, of: &str, pictures: &[String]) -> Result<(crate::com
     let report = bench.folder.join(format!("tone-{of}.json"));
     bench.program.measured(&report, &[words("oecf"), pictures.to_vec(), words(MIDDLE)].concat())?;
     let (plot, shown) = bench.plot(&format!("tone-{of}"));
-    let found = bench.program.compared(&report, &bench.file("middle"), &["--plot".to_owned(), text(&plot)])?;
+    let found = bench.program.compared(&report, &bench.file("tone"), &["--plot".to_owned(), text(&plot)])?;
     let full_scale = json(&report)?["figures"]["full_scale"]["value"].as_f64().ok_or("the full scale is not told")?;
     let found = Comparison(found);
     let of = format!("tone curve, {of}");

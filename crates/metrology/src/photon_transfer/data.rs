@@ -39,6 +39,7 @@ impl TransferData {
         }
         let (mut dark, mut bright): (Vec<Level>, Vec<Level>) = levels.iter().partition(|l| l.photons == 0.0);
         dark.sort_by(|a, b| a.exposure_s.total_cmp(&b.exposure_s));
+        let dark: Vec<Level> = dark.chunk_by(|a, b| a.exposure_s == b.exposure_s).map(pooled).collect();
         bright.sort_by(|a, b| a.photons.total_cmp(&b.photons).then(a.exposure_s.total_cmp(&b.exposure_s)));
         let find = |level: &Level| {
             let exposure_s = level.exposure_s;
@@ -69,7 +70,7 @@ impl TransferData {
         &self.bright
     }
 
-    /// Levels without light, shortest exposure first.
+    /// Levels without light, shortest exposure first; those of one exposure time are one.
     #[must_use]
     pub fn dark(&self) -> &[Level] {
         &self.dark
@@ -134,6 +135,18 @@ impl TransferData {
         let width = self.bright[above].photons - self.bright[above - 1].photons;
         Estimate::new(self.bright[self.saturation].photons, 0.42 * width)
     }
+}
+
+/// Levels without light at one exposure time as a single one: several of them tell nothing of how the dark grows with time.
+fn pooled(levels: &[Level]) -> Level {
+    let count = levels.len() as f64;
+    let mean = |of: fn(&LevelStatistics) -> Estimate| {
+        let all = || levels.iter().map(|level| of(&level.statistics));
+        let squares = all().map(|e| e.standard_uncertainty * e.standard_uncertainty).sum::<f64>();
+        Estimate::new(all().map(|e| e.value).sum::<f64>() / count, squares.sqrt() / count)
+    };
+    let statistics = LevelStatistics { mean_dn: mean(|s| s.mean_dn), variance_dn2: mean(|s| s.variance_dn2) };
+    Level { statistics, ..levels[0] }
 }
 
 fn saturation(bright: &[Level]) -> usize {

@@ -9,8 +9,14 @@
 //! ```
 //!
 //! The second term is the lamp's drift, common to all pixels. Uncertainties: that of σ² from the scatter of v over the pixels
-//! (no assumption on the noise's distribution), that of the mean from σ²/(n L). Noise that pixels share (rows, lamp) is
-//! not in them.
+//! (no assumption on the noise's distribution), that of the mean from σ²/(n L); noise that whole rows or columns share, which averages
+//! over their number only, is in both: with σ_r² the temporal variance of the averages of M rows, and what of it rows share, ς² = σ_r² − σ²/N,
+//!
+//! ```text
+//! u²(mean) = max(σ²/(M N), σ_r²/M, σ_c²/N)/L        u²(σ²) = Var(v)/(M N) + 2 ς⁴/(M (L − 1)), and so for columns
+//! ```
+//!
+//! The lamp's drift is not in them.
 
 use super::TransferError;
 use crate::{Estimate, Image};
@@ -159,8 +165,16 @@ impl Stack {
         let variance = (moments.mean() - self.drift_variance()).max(0.0);
         let u = moments.variance_of_mean().unwrap_or(f64::INFINITY).sqrt();
         let mean = self.frame_means.iter().sum::<f64>() / frames;
+        let [_, row, column] = self.temporal()?;
+        let (rows, columns) = (self.height as f64, self.width as f64);
+        let of_frame = (variance / pixels).max(row / rows).max(column / columns);
+        let shared = |average: f64, others: f64, count: f64| {
+            let shared = (average - variance / others).max(0.0);
+            2.0 * shared * shared / (count * (frames - 1.0))
+        };
+        let u = (u * u + shared(row, columns, rows) + shared(column, rows, columns)).sqrt();
         Ok(LevelStatistics {
-            mean_dn: Estimate::new(mean, (variance / (pixels * frames)).sqrt()),
+            mean_dn: Estimate::new(mean, (of_frame / frames).sqrt()),
             variance_dn2: Estimate::new(variance, u),
         })
     }
@@ -231,7 +245,23 @@ mod tests {
         // d²/2 = 0.5, 4.5, 0, 8: variance of their mean by hand.
         let deviations = [0.5 - 3.25, 4.5 - 3.25, 0.0 - 3.25, 8.0_f64 - 3.25];
         let want = deviations.iter().map(|d| d * d).sum::<f64>() / 12.0;
-        assert!((statistics.variance_dn2.standard_uncertainty - want.sqrt()).abs() < 1e-12);
+        // Columns share 1.125 − 1.25/2 of it: 2 · 0.5²/2.
+        assert!((statistics.variance_dn2.standard_uncertainty - (want + 0.25).sqrt()).abs() < 1e-12);
+    }
+
+    /// Rows that jump as wholes: 64 columns tell no more than one.
+    #[test]
+    fn noise_that_rows_share_averages_over_rows_only() {
+        let frame = |jumps: [f32; 4]| image(64, &jumps.map(|jump| [jump; 64]).concat());
+        let mut stack = Stack::new(64, 4);
+        stack.push(&frame([1.0, -1.0, 2.0, -2.0])).expect("a frame");
+        stack.push(&frame([-1.0, 1.0, -2.0, 2.0])).expect("a frame");
+        // Variances 2, 2, 8, 8 of the rows: 5 on average, of 4 rows in 2 frames.
+        let statistics = stack.statistics().expect("two frames");
+        assert!((statistics.mean_dn.standard_uncertainty - (5.0_f64 / 8.0).sqrt()).abs() < 1e-12);
+        // What rows share is nearly all of it: 2 · 5²/4, less 5/64 of their averages.
+        let shared = 5.0 * (1.0 - 1.0 / 64.0);
+        assert!(statistics.variance_dn2.standard_uncertainty > (2.0 * shared * shared / 4.0_f64).sqrt());
     }
 
     #[test]

@@ -188,3 +188,20 @@ fn nonsense_is_refused() {
     assert!(matches!(nonuniformity(&dark, &white, gain, &data), Err(TransferError::SaturatedStack { .. })));
     assert_eq!(nonuniformity(&dark, &dark, gain, &data), Err(TransferError::NotBrighter));
 }
+
+/// Light is changed, not time: four dark levels of one exposure are one, and tell no dark current.
+#[test]
+fn dark_levels_of_one_exposure_are_one() {
+    let sensor = Sensor::new(7);
+    let exposure_s = 6e-3;
+    let bright = (1..=STEPS).map(|i| sensor.level(exposure_s, f64::from(i) * 1.2e-3 * PHOTONS_PER_S, 2 * i));
+    let dark = (0..4).map(|i| sensor.level(exposure_s, 0.0, 500 + 2 * i));
+    let data = TransferData::new(&bright.chain(dark).collect::<Vec<_>>()).expect("levels");
+    assert_eq!(data.dark().len(), 1);
+    let figures = data.figures().expect("figures");
+    assert_eq!(figures.dark_current_mean_e_per_s, None);
+    // The dark current's own shot noise within the exposure is in it.
+    let expected = (DARK_NOISE_E * DARK_NOISE_E + DARK_CURRENT_E_PER_S * exposure_s).sqrt();
+    let e_n = figures.dark_noise_e.normalised_error(Estimate::new(expected, 0.0));
+    assert!(e_n.abs() < 1.5, "{:?}, expected {expected}", figures.dark_noise_e);
+}

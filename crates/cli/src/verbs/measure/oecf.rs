@@ -51,6 +51,9 @@ pub(super) fn run(arguments: &OecfArguments) -> Result<(), Failure> {
     let oecf = Oecf::new(measured.points.clone()).map_err(|error| refused(&arguments.pictures[0], error))?;
     let mut report = report(&oecf, &measured);
     measured.left_out.iter().for_each(|name| report.note(format!("left out: {name} is not whole in the picture")));
+    if let Some(channel) = &arguments.inquiry.selection.channel {
+        report.setting("channel", channel.clone());
+    }
     arguments.inquiry.tell(&report)
 }
 

@@ -43,8 +43,8 @@ pub(super) fn side(body: &CameraBody, measured: &Side, light: &Light) -> Result<
     if wavelength_nm.is_some() && measured.kind != "ptc" {
         return Err("--wavelength-nm belongs to photon transfer (ptc)".to_owned());
     }
-    if illuminant.is_some() && measured.kind != "sfr" {
-        return Err("--illuminant belongs to the response of edges (sfr)".to_owned());
+    if illuminant.is_some() && !["sfr", "oecf"].contains(&measured.kind.as_str()) {
+        return Err("--illuminant belongs to the response of edges (sfr) and to tone curves (oecf)".to_owned());
     }
     let mut quantities = Quantities::new();
     let mut put = |key: &str, value: f64, unit: &str| {
@@ -75,7 +75,7 @@ pub(super) fn side(body: &CameraBody, measured: &Side, light: &Light) -> Result<
             achromatic(body, &mut put)?;
             along(measured, |_| Some(0.0))
         }
-        "oecf" => tone::declared(body, measured)?,
+        "oecf" => tone::declared(body, measured, illuminant.unwrap_or("D65"))?,
         "sfr" => response::declared(body, measured, illuminant.unwrap_or("D65"))?,
         kind => return Err(format!("a camera file declares nothing that measure {kind} finds")),
     };

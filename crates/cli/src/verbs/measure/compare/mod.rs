@@ -34,7 +34,7 @@ pub struct CompareArguments {
     /// Where a camera file is compared with photon transfer: the light's wavelength, for the quantum efficiency
     #[arg(long, value_name = "NM", value_parser = super::views::positive)]
     pub wavelength_nm: Option<f64>,
-    /// Where a camera file is compared with the response of edges: the light's spectrum [default: D65]
+    /// Where a camera file is compared with the response of edges or a tone curve: the light's spectrum [default: D65]
     #[arg(long, value_name = "NAME")]
     pub illuminant: Option<String>,
     /// Change a key of the camera file, e.g. --set sensor.exposure_s=0.002

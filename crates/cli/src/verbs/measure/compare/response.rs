@@ -68,8 +68,7 @@ fn is_plain(psf: &PsfParameters) -> bool {
 
 impl<'a> Response<'a> {
     fn of(body: &'a CameraBody, measured: &Side, light: &str) -> Result<Self, String> {
-        let spectrum = illuminant::named(light)
-            .ok_or_else(|| format!("--illuminant {light}: give one of {}", illuminant::names().join(", ")))?;
+        let spectrum = spectrum(light)?;
         let alone = |light| Self { body, neighbours: vec![(1.0, 0.0, 0.0)], light };
         let Some(sensor) = &body.sensor else { return Ok(alone(weights(spectrum, &Spectrum::constant(1.0)))) };
         let p = sensor.parameters();
@@ -136,8 +135,14 @@ impl<'a> Response<'a> {
     }
 }
 
+/// The light's spectrum.
+pub(super) fn spectrum(light: &str) -> Result<&'static Spectrum, String> {
+    let unknown = || format!("--illuminant {light}: give one of {}", illuminant::names().join(", "));
+    illuminant::named(light).ok_or_else(unknown)
+}
+
 /// Light of a spectrum that a pixel sees, by wavelength, nm.
-fn weighed(light: &Spectrum, responsivity: &Spectrum) -> impl Iterator<Item = (f64, f64)> {
+pub(super) fn weighed(light: &Spectrum, responsivity: &Spectrum) -> impl Iterator<Item = (f64, f64)> {
     (300..=1100)
         .step_by(STEP_NM)
         .map(move |nm| (f64::from(light.at(nm as f32) * responsivity.at(nm as f32)), f64::from(nm)))

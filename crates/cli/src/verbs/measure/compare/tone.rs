@@ -6,14 +6,17 @@
 //! ```
 //!
 //! H₀ is the exposure that charge collects on its way under smear, of a picture as bright all over as the surface that was measured;
-//! exposures of such a camera are seconds.
+//! exposures of such a camera are seconds. Under filters it is that of the column's mean pixel, colours of the light and all.
 //! How bright the surface was is no fact of the camera: s is what brings the readings between 5 % and 95 % of the range nearest
 //! (least squares of s H on the light that the declared curve reads from them). So the form is compared, and its ends, not the sensitivity.
 
 use super::curve::Curve;
+use super::declared::{channel, place_of};
+use super::response::{spectrum, weighed};
 use super::side::Side;
 use etendue_metrology::Estimate;
 use etendue_pipeline::plan::{CameraBody, Development};
+use etendue_sensor::Sensor;
 use etendue_sensor::effects::response::Response;
 
 /// What turns a share of saturation into a reading.
@@ -27,15 +30,29 @@ struct Tone<'a> {
 }
 
 /// The curves of the measured exposures.
-pub(super) fn declared(body: &CameraBody, measured: &Side) -> Result<Vec<Curve>, String> {
-    let tone = Tone::of(body, measured)?;
+pub(super) fn declared(body: &CameraBody, measured: &Side, light: &str) -> Result<Vec<Curve>, String> {
+    let tone = Tone::of(body, measured, light)?;
     measured.curves.iter().map(|curve| tone.at_points(curve)).collect()
 }
 
+/// The light of the mean pixel of a column over that of the channel which was measured there.
+fn of_column(sensor: &Sensor, measured: &Side, light: &str) -> Result<f64, String> {
+    let p = sensor.parameters();
+    if p.channels.len() == 1 {
+        return Ok(1.0);
+    }
+    let spectrum = spectrum(light)?;
+    let seen = |c: usize| weighed(spectrum, sensor.responsivity(c)).map(|(weight, _)| weight).sum::<f64>();
+    let channel = channel(p, measured.settings.get("channel").map(String::as_str))?;
+    let [x, _] = place_of(p, channel);
+    let column = (0..p.cfa.height()).map(|y| seen(sensor.channel_at(x, y))).sum::<f64>();
+    Ok(column / p.cfa.height() as f64 / seen(channel))
+}
+
 impl<'a> Tone<'a> {
-    fn of(body: &'a CameraBody, measured: &Side) -> Result<Self, String> {
+    fn of(body: &'a CameraBody, measured: &Side, light: &str) -> Result<Self, String> {
         let sensor = body.sensor.as_ref().ok_or("the camera has no electronics, whose readings were measured")?;
-        let smear_s = sensor.parameters().even_smear_s(body.raster.height());
+        let smear_s = sensor.parameters().even_smear_s(body.raster.height()) * of_column(sensor, measured, light)?;
         if smear_s > 0.0 && measured.settings.get("exposure_unit").is_some_and(|unit| !unit.is_empty()) {
             return Err("of a camera with smear, whose light counts by time, give exposures in seconds (--exposures)"
                 .to_owned());
