@@ -65,7 +65,15 @@ pub enum ColourFault {
         "the patches look the same to two of the camera's channels, so no colour matrix can be fitted: is this a colour picture of the chart?"
     )]
     Ambiguous,
+    /// The patches are other colours.
+    #[error(
+        "the patches are not those of the chart (mean ΔE00 {0:.1} after the best matrix, where cameras leave a few): is it the chart, the right way up?"
+    )]
+    Unlike(f64),
 }
+
+/// The largest mean ΔE00 that a camera in colour leaves.
+const MOST_DELTA: f64 = 15.0;
 
 /// Fits the matrix and tells what colours it leaves wrong; `white` is the XYZ of the reference white.
 ///
@@ -97,6 +105,9 @@ pub fn measure_colour(
     });
     let mut differences: Vec<Estimate> = figures.into_iter().map(Curved::above_zero).collect();
     let mean = differences.pop().expect("the mean is last");
+    if mean.value > MOST_DELTA {
+        return Err(ColourFault::Unlike(mean.value));
+    }
     let triple = |c: &Lab| [c.l, c.a, c.b];
     Ok(ColourError {
         matrix,
@@ -166,6 +177,11 @@ mod tests {
     fn what_is_no_colour_chart_is_refused() {
         let grey = measure_colour(&patches(|[_, y, _]| [500.0 * y; 3]), 16.0, None, D65_WHITE);
         assert_eq!(grey, Err(ColourFault::Ambiguous));
+        let mut turned = patches(|xyz| xyz.map(|v| 500.0 * v));
+        let pixels: Vec<_> = turned.iter().rev().map(|p| p.pixels.clone()).collect();
+        turned.iter_mut().zip(pixels).for_each(|(patch, pixels)| patch.pixels = pixels);
+        let turned = measure_colour(&turned, 16.0, None, D65_WHITE);
+        assert!(matches!(turned, Err(ColourFault::Unlike(_))), "{turned:?}");
         let clipped = measure_colour(&patches(|xyz| xyz.map(|v| 1200.0 * v)), 16.0, Some(1000.0), D65_WHITE);
         assert!(matches!(clipped, Err(ColourFault::Saturated { .. })));
         assert_eq!(measure_colour(&[], 0.0, None, D65_WHITE), Err(ColourFault::TooFew(0)));

@@ -17,6 +17,7 @@ use crate::even::even;
 use crate::flat::saturated_percent;
 use crate::propagate::propagate;
 use crate::{Estimate, Image};
+use etendue_core::maths::f64::hypot;
 use etendue_stats::normal;
 
 /// A pair of patches.
@@ -63,6 +64,9 @@ pub enum ContrastError {
         /// Share of pixels.
         percent: f64,
     },
+    /// The patches are mixed up.
+    #[error("the brighter patch reads less than the darker one, or is the same: name the darker patch first")]
+    Order,
     /// The darker patch has no light.
     #[error("the darker patch reads no more than black: a Weber contrast needs light in it")]
     Dark,
@@ -95,6 +99,10 @@ pub fn measure_contrast(
     let [y, yy] = moments(brighter, black);
     if x.value <= 0.0 {
         return Err(ContrastError::Dark);
+    }
+    let least = x.value - 4.0 * hypot(x.standard_uncertainty, y.standard_uncertainty);
+    if y.value <= least || darker == brighter {
+        return Err(ContrastError::Order);
     }
     let figures = propagate(&[x, xx, y, yy], |v| {
         let measured = v[2] / v[0] - 1.0;
@@ -157,6 +165,8 @@ mod tests {
         // Some 400 independent pairs: 2 %.
         assert!((pair.detection.value - counted).abs() < 0.03, "{pair:?} {counted}");
         assert!((pair.transfer.value - 1.0).abs() < 3.0 * pair.transfer.standard_uncertainty);
+        assert_eq!(measure_contrast(&light, &dark, 0.5, &settings), Err(ContrastError::Order));
+        assert_eq!(measure_contrast(&dark, &dark, 0.5, &settings), Err(ContrastError::Order));
         let black = ContrastSettings { black: 2000.0, ..settings };
         assert!(matches!(measure_contrast(&dark, &light, 0.5, &black), Err(ContrastError::Dark)));
         assert!(matches!(measure_contrast(&dark, &light, -0.5, &settings), Err(ContrastError::Contrast(_))));

@@ -57,6 +57,16 @@ pub enum NoiseError {
     /// Fewer than eight frames.
     #[error("noise needs at least {LEAST_FRAMES} frames of the same patch (ISO 15739), not {0}")]
     TooFew(usize),
+    /// There is no light.
+    #[error(
+        "the mean reading {mean:.4} is no more than black, {black}: a signal over its noise needs light; is --black right?"
+    )]
+    Dark {
+        /// Mean reading.
+        mean: f64,
+        /// Reading of no light.
+        black: f64,
+    },
     /// A frame is clipped.
     #[error("{percent:.1} % of the pixels are saturated, which cuts their noise: expose less")]
     Saturated {
@@ -88,6 +98,9 @@ pub fn measure_noise(stack: &Stack, black: f64) -> Result<Noise, NoiseError> {
         + fixed.standard_uncertainty * fixed.standard_uncertainty)
         .sqrt();
     let mean = statistics.mean_dn;
+    if mean.value <= black {
+        return Err(NoiseError::Dark { mean: mean.value, black });
+    }
     Ok(Noise {
         signal: Estimate::new(mean.value - black, mean.standard_uncertainty),
         temporal: root(temporal),
@@ -129,6 +142,7 @@ mod tests {
         let [total, ..] = noise.snr();
         assert!((total.value - 32.0).abs() < 3.0 * total.standard_uncertainty);
         assert_eq!(measure_noise(&stack(7), 40.0), Err(NoiseError::TooFew(7)));
+        assert!(matches!(measure_noise(&stack(8), 5000.0), Err(NoiseError::Dark { .. })));
         let frame = Image::from_samples(4, 1, vec![10.0, 20.0, 30.0, 30.0]).expect("a row");
         assert_eq!(check_frame(&frame, Some(30.0)), Err(NoiseError::Saturated { percent: 50.0 }));
         assert_eq!(check_frame(&frame, Some(31.0)), Ok(()));

@@ -130,6 +130,19 @@ fn what_was_found_is_written_as_keys_of_a_camera_file() {
     etendue(["measure", "sfr", &edge, "--camera-out", &text(&camera)]).refused(&["--camera-out"]);
 }
 
+/// A flat field whose red is clipped, though its luminance is not.
+#[test]
+fn clipped_colours_do_not_hide_in_the_luminance() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut plane = Plane::<Display>::filled(64, 64, [1.0, 0.5, 0.5]);
+    let samples = plane.samples_mut();
+    (0..64 * 64).for_each(|i| samples[i][1] += 0.02 * scatter(i % 64, i / 64, 0) as f32);
+    let file = text(&folder.path().join("red.png"));
+    std::fs::write(&file, encode_display(&plane).expect("a picture")).expect("a temporary file");
+    etendue(["measure", "vignetting", &file]).refused(&["red.png", "saturated"]);
+    json(&["vignetting", &file, "--channel", "G"]);
+}
+
 /// The same stacks at three temperatures: no growth.
 #[test]
 fn a_dark_current_needs_three_temperatures() {
@@ -157,6 +170,10 @@ fn stars_and_textures_give_their_response() {
     assert!(circles.iter().all(|c| (c["response"]["value"].as_f64().expect("a value") - 1.0).abs() < 0.01), "{report}");
     let even = raw(folder.path(), "even.png", (128, 128), |_, _| 20_000.0);
     etendue([&["measure", "star", even.as_str()], &places[..]].concat()).refused(&["star"]);
+    let beside = ["--centre-px", "67,61", "--cycles", "24", "--inner-px", "15", "--outer-px", "55"];
+    etendue([&["measure", "star", star.as_str()], &beside[..]].concat()).refused(&["star.png", "within two pixels"]);
+    let clipped = [&["measure", "star", star.as_str()], &places[..], &["--full-scale", "28000"]].concat();
+    etendue(clipped).refused(&["saturated"]);
     let leaves = raw(folder.path(), "leaves.png", (128, 128), |x, y| 20_000.0 + 9_000.0 * scatter(x, y, 1));
     let report = json(&["texture", &leaves, &leaves]);
     assert_eq!(report["tables"]["bands"][20]["coherence"].as_f64().map(|c| c > 0.999_999), Some(true));
@@ -229,6 +246,14 @@ fn a_slanted_edge_gives_its_response() {
     etendue(["measure", "sfr", &upright]).refused(&["upright.png", "0.00°", "2° to 43°"]);
     let flat = raw(folder.path(), "flat.png", (64, 64), |x, y| 5_000.0 + 100.0 * scatter(x, y, 3));
     etendue(["measure", "sfr", &flat]).refused(&["no slanted edge"]);
+    let cut = raw(folder.path(), "cut.png", (64, 64), |x, y| 40_000.0 * edge(x, y) - 2_000.0);
+    etendue(["measure", "sfr", &cut]).refused(&["cut.png", "read 0, where darkness is cut"]);
+    etendue(["measure", "sfr", &file, "--full-scale", "44000"]).refused(&["edge.png", "saturated"]);
+    etendue(["measure", "sfr", &file, "--camera-out", "x.toml", "--edge", "0,0,9999,9"]).refused(&["--camera-out"]);
+    let mosaic = json(&["sfr", &file, "--cfa", "RGGB", "--channel", "R"]);
+    // In cycles a pixel, whatever the colour's own steps: sinc(0.5 cos θ).
+    let half = mosaic["tables"]["edges"][0]["response_at_half"]["value"].as_f64().expect("a response");
+    assert!((half - 0.639_78).abs() < 0.01, "{half}");
 }
 
 #[test]
@@ -253,6 +278,8 @@ fn exposures_give_a_tone_curve_and_copies_none() {
     let table = folder.path().join("steps.csv");
     std::fs::write(&table, "# x, y, width, height, luminance\n0,0,16,16,10\n").expect("a temporary file");
     etendue(["measure", "oecf", &files[0], "--steps", &text(&table)]).refused(&["at least three exposures"]);
+    std::fs::write(&table, "0,0,16,16,10,foo\n").expect("a temporary file");
+    etendue(["measure", "oecf", &files[0], "--steps", &text(&table)]).refused(&["line 1", "expected x, y, width"]);
 }
 
 #[test]
@@ -276,6 +303,14 @@ fn patches_give_noise_flare_and_contrast() {
     let cdp = json(&[&["cdp", files[0].as_str()], &pair[..]].concat());
     let found = cdp["tables"]["pairs"][0]["cdp"]["value"].as_f64().expect("a probability");
     assert!(found > 0.99, "{cdp}");
+    etendue([&["measure"], &names[..], &["--region", "20,0,20,20", "--black", "25000"]].concat())
+        .refused(&["no more than black"]);
+    etendue([&["measure"], &names[..], &["--region", "20,0,20,20", "--full-scale", "20000"]].concat())
+        .refused(&["0.png", "saturated"]);
+    let swapped = ["--darker", "40,0,20,20", "--brighter", "20,0,20,20", "--contrast", "0.5"];
+    let cdp = |options: &[&str]| etendue([&["measure", "cdp", files[0].as_str()], options].concat());
+    cdp(&swapped).refused(&["0.png", "the darker patch first"]);
+    cdp(&[&pair[..], &["--full-scale", "30000"]].concat()).refused(&["saturated"]);
     etendue(["measure", "cdp", &files[0], "--darker", "0,0,9,9", "--brighter", "0,0,9,9", "--contrast", "-1"])
         .refused(&["contrast must be a number above 0"]);
 }

@@ -155,6 +155,14 @@ pub enum SfrError {
         /// Share of pixels.
         percent: f64,
     },
+    /// The dark side is cut.
+    #[error(
+        "{percent:.1} % of the pixels read 0, where darkness is cut: expose more, or raise the black level, so that both sides keep their noise"
+    )]
+    Dark {
+        /// Share of pixels.
+        percent: f64,
+    },
     /// The edge's degree or reach makes no sense.
     #[error("{0}")]
     Settings(&'static str),
@@ -245,24 +253,35 @@ fn check(image: &Image, settings: &SfrSettings) -> Result<(), SfrError> {
     let Some(full) = settings.full_scale else { return Ok(()) };
     let clipped = image.samples().iter().filter(|s| f64::from(**s) >= full).count();
     let percent = 100.0 * clipped as f64 / image.samples().len() as f64;
-    if percent > 1.0 { Err(SfrError::Saturated { percent }) } else { Ok(()) }
+    if percent > 1.0 {
+        return Err(SfrError::Saturated { percent });
+    }
+    // Whole numbers and what is decoded from them end at 0, too.
+    let dark = image.samples().iter().filter(|s| **s <= 0.0).count();
+    let percent = 100.0 * dark as f64 / image.samples().len() as f64;
+    if percent > 1.0 { Err(SfrError::Dark { percent }) } else { Ok(()) }
 }
 
-/// Where the curve first falls to a level, by linear interpolation; its uncertainty is the response's over the slope, which
-/// is that of a line through the points about it (neighbours share their noise, a pair's slope would be mostly noise).
+/// Where the curve falls to a level: midway between where the curve less its standard uncertainty does and where the curve with it does, so
+/// that a noisy curve is not taken at its first dip. Half of what lies between is the uncertainty, or the uncertainty over the slope of a line
+/// through the points about the place, where that is more (neighbours share their noise, a pair's slope would be mostly noise).
 #[must_use]
 pub fn crossing(curve: &[SfrPoint], level: f64) -> Option<Estimate> {
-    const ABOUT: usize = 5;
-    let falls = |pair: &[SfrPoint]| pair[0].response.value > level && pair[1].response.value <= level;
-    let k = curve.windows(2).position(falls)?;
-    let [a, b] = [curve[k], curve[k + 1]];
-    let share = (a.response.value - level) / (a.response.value - b.response.value);
-    let at = a.frequency + share * (b.frequency - a.frequency);
-    let near = &curve[k.saturating_sub(ABOUT)..(k + 2 + ABOUT).min(curve.len())];
-    let mean = |f: fn(&SfrPoint) -> f64| near.iter().map(f).sum::<f64>() / near.len() as f64;
+    const ABOUT: f64 = 0.05;
+    let first = |sigmas: f64| {
+        let value = |p: &SfrPoint| p.response.value + sigmas * p.response.standard_uncertainty;
+        let pair = curve.windows(2).find(|pair| value(&pair[0]) > level && value(&pair[1]) <= level)?;
+        let share = (value(&pair[0]) - level) / (value(&pair[0]) - value(&pair[1]));
+        Some(pair[0].frequency + share * (pair[1].frequency - pair[0].frequency))
+    };
+    let plain = first(0.0)?;
+    let (low, high) = (first(-1.0).unwrap_or(plain), first(1.0).unwrap_or(plain));
+    let at = 0.5 * (low + high);
+    let near: Vec<&SfrPoint> = curve.iter().filter(|p| (p.frequency - at).abs() <= ABOUT).collect();
+    let mean = |f: fn(&SfrPoint) -> f64| near.iter().map(|p| f(p)).sum::<f64>() / near.len() as f64;
     let (x, y) = (mean(|p| p.frequency), mean(|p| p.response.value));
     let products = near.iter().map(|p| (p.frequency - x) * (p.response.value - y)).sum::<f64>();
     let slope = products / near.iter().map(|p| (p.frequency - x) * (p.frequency - x)).sum::<f64>();
-    let u = a.response.standard_uncertainty.max(b.response.standard_uncertainty);
-    Some(Estimate::new(at, u / slope.abs()))
+    let u = near.iter().map(|p| p.response.standard_uncertainty).fold(0.0, f64::max);
+    Some(Estimate::new(at, (u / slope.abs()).max(0.5 * (high - low))))
 }

@@ -11,16 +11,22 @@
 //! u(response) = response √((1 − γ²)/(2 n γ²))    n independent blocks and frequencies (Bendat & Piersol)
 //! ```
 //!
-//! Both are over their value at the lowest frequency band but zero, so that exposure does not count. The two part where noise reduction invents or
+//! A shift s between the two turns the phase of S_xy by −2π f·s, which would cost response: it is found by least squares on the phases
+//! (weights |S_xy|²) and taken off. Both are over their value at the lowest frequency band but zero, so that exposure does not count. The two part where noise reduction invents or
 //! smears texture.
 
 use super::TextureError;
 use crate::flat::saturated_percent;
 use crate::fourier::{Complex, transform};
+use crate::solve::Normal;
 use crate::{Estimate, Image};
 use core::f64::consts::TAU;
-use etendue_core::maths::f64::{cos, hypot};
+use etendue_core::maths::f64::{atan2, cos, hypot, sin_cos};
 
+/// The largest shift between picture and reference: beyond it blocks show too much of what their neighbours in the other do, px.
+const MOST_SHIFT_PX: f64 = 2.0;
+/// Bands by which the shift is found, first roughly, then finely.
+const SHIFT_BANDS: [usize; 2] = [6, 20];
 /// Side of a block, px.
 const BLOCK: usize = 64;
 /// Bands of frequency from 0 to 0.5 cycles a pixel.
@@ -41,6 +47,15 @@ pub struct TexturePoint {
     pub coherence: f64,
 }
 
+/// The response to a texture, and where the picture shows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextureResponse {
+    /// Lowest frequency first.
+    pub points: Vec<TexturePoint>,
+    /// How far right and down of the reference's the picture's texture lies, px.
+    pub shift_px: [f64; 2],
+}
+
 /// The response to a texture, lowest frequency first. `noise` is a picture of an even surface of the same brightness; without it
 /// noise counts as structure in `direct`.
 ///
@@ -51,7 +66,7 @@ pub fn measure_texture(
     reference: &Image,
     noise: Option<&Image>,
     full_scale: Option<f64>,
-) -> Result<Vec<TexturePoint>, TextureError> {
+) -> Result<TextureResponse, TextureError> {
     let size = |image: &Image| (image.width(), image.height());
     if size(picture) != size(reference) || picture.width().min(picture.height()) < BLOCK {
         return Err(TextureError::Size { least: BLOCK, picture: size(picture), reference: size(reference) });
@@ -62,19 +77,26 @@ pub fn measure_texture(
     if let Some(percent) = saturated_percent([picture], full_scale) {
         return Err(TextureError::Saturated { percent });
     }
+    if let Some(small) = noise.filter(|n| n.width().min(n.height()) < BLOCK) {
+        return Err(TextureError::Even { least: BLOCK, size: size(small) });
+    }
     let sums = Spectra::of(reference, picture);
-    let floor = noise.filter(|n| n.width().min(n.height()) >= BLOCK).map(|n| Spectra::of(n, n));
-    let points: Vec<TexturePoint> = (1..BANDS).map(|k| sums.point(k, floor.as_ref())).collect();
+    let floor = noise.map(|n| Spectra::of(n, n));
+    let shift_px = sums.shift_px();
+    let points: Vec<TexturePoint> = (1..BANDS).map(|k| sums.point(k, shift_px, floor.as_ref())).collect();
     let first = points[0];
     if first.coherence.is_nan() || first.coherence < 0.2 {
         return Err(TextureError::Unlike);
+    }
+    if hypot(shift_px[0], shift_px[1]) > MOST_SHIFT_PX {
+        return Err(TextureError::Shifted { shift_px });
     }
     let scaled = |p: TexturePoint| TexturePoint {
         response: over(p.response, first.response),
         direct: p.direct / first.direct,
         ..p
     };
-    Ok(points.into_iter().map(scaled).collect())
+    Ok(TextureResponse { points: points.into_iter().map(scaled).collect(), shift_px })
 }
 
 /// A response over that of the lowest band, which shares no frequency with it: relative variances add.
@@ -83,7 +105,18 @@ fn over(own: Estimate, first: Estimate) -> Estimate {
     Estimate::new(value, hypot(own.standard_uncertainty, value * first.standard_uncertainty) / first.value)
 }
 
-/// Sums over blocks and bins, by band.
+/// Frequencies of a bin, cycles a pixel along rows and columns.
+fn frequency(i: usize) -> [f64; 2] {
+    let signed = |k: usize| if k > BLOCK / 2 { k as f64 - BLOCK as f64 } else { k as f64 };
+    [i % BLOCK, i / BLOCK].map(|k| signed(k) / BLOCK as f64)
+}
+
+fn band(i: usize) -> usize {
+    let [u, v] = frequency(i);
+    (BLOCK as f64 * hypot(u, v) + 0.5) as usize
+}
+
+/// Sums over blocks and bins: of both pictures by band, of their product by bin.
 struct Spectra {
     xx: Vec<f64>,
     yy: Vec<f64>,
@@ -95,7 +128,8 @@ struct Spectra {
 impl Spectra {
     fn of(x: &Image, y: &Image) -> Self {
         let none = || vec![0.0; BANDS];
-        let mut sums = Self { xx: none(), yy: none(), xy: vec![[0.0; 2]; BANDS], bins: none(), blocks: 0.0 };
+        let xy = vec![[0.0; 2]; BLOCK * BLOCK];
+        let mut sums = Self { xx: none(), yy: none(), xy, bins: none(), blocks: 0.0 };
         let places = |length: usize| (0..=length - BLOCK).step_by(BLOCK / 2);
         for top in places(x.height()) {
             for left in places(x.width()) {
@@ -107,22 +141,46 @@ impl Spectra {
 
     fn add(&mut self, x: &[Complex], y: &[Complex]) {
         self.blocks += 1.0;
-        let signed = |k: usize| if k > BLOCK / 2 { k as f64 - BLOCK as f64 } else { k as f64 };
         for (i, (a, b)) in x.iter().zip(y).enumerate() {
-            let radius = hypot(signed(i % BLOCK), signed(i / BLOCK));
-            let band = (radius + 0.5) as usize;
+            let band = band(i);
             if band < BANDS {
                 self.bins[band] += 1.0;
                 self.xx[band] += a[0] * a[0] + a[1] * a[1];
                 self.yy[band] += b[0] * b[0] + b[1] * b[1];
-                self.xy[band][0] += a[0] * b[0] + a[1] * b[1];
-                self.xy[band][1] += a[0] * b[1] - a[1] * b[0];
+                self.xy[i][0] += a[0] * b[0] + a[1] * b[1];
+                self.xy[i][1] += a[0] * b[1] - a[1] * b[0];
             }
         }
     }
 
-    fn point(&self, k: usize, floor: Option<&Self>) -> TexturePoint {
-        let cross = hypot(self.xy[k][0], self.xy[k][1]);
+    /// The cross spectrum of a bin without the phase of a shift.
+    fn aligned(&self, i: usize, [x, y]: [f64; 2]) -> Complex {
+        let [u, v] = frequency(i);
+        let (sine, cosine) = sin_cos(TAU * (u * x + v * y));
+        let [re, im] = self.xy[i];
+        [re * cosine - im * sine, re * sine + im * cosine]
+    }
+
+    /// The shift by which the phases of the cross spectrum turn.
+    fn shift_px(&self) -> [f64; 2] {
+        let mut shift = [0.0; 2];
+        for last in SHIFT_BANDS {
+            let mut normal = Normal::new(2);
+            for i in (0..BLOCK * BLOCK).filter(|i| (1..=last).contains(&band(*i))) {
+                let [re, im] = self.aligned(i, shift);
+                let row = frequency(i).map(|f| -TAU * f);
+                normal.add(&row, atan2(im, re), re * re + im * im);
+            }
+            let by = normal.solve().unwrap_or_else(|| vec![0.0; 2]);
+            shift = [shift[0] + by[0], shift[1] + by[1]];
+        }
+        shift
+    }
+
+    fn point(&self, k: usize, shift_px: [f64; 2], floor: Option<&Self>) -> TexturePoint {
+        let bins = (0..BLOCK * BLOCK).filter(|i| band(*i) == k).map(|i| self.aligned(i, shift_px));
+        let [re, im] = bins.fold([0.0; 2], |a, b| [a[0] + b[0], a[1] + b[1]]);
+        let cross = hypot(re, im);
         let value = cross / self.xx[k];
         let coherence = cross * cross / (self.xx[k] * self.yy[k]);
         // Half of the bins repeat the others: pictures are real.
@@ -189,8 +247,8 @@ mod tests {
     #[test]
     fn a_blurred_texture_with_noise_gives_the_blur() {
         let (reference, noise, sigma) = (texture(1, 400.0), texture(2, 40.0), 0.8);
-        let points =
-            measure_texture(&blurred(&reference, sigma, &noise), &reference, Some(&noise), None).expect("a texture");
+        let points = measure_texture(&blurred(&reference, sigma, &noise), &reference, Some(&noise), None);
+        let points = points.expect("a texture").points;
         let truth = |f: f64| exp(-2.0 * PI * PI * sigma * sigma * f * f);
         for point in points.iter().filter(|p| p.frequency <= 0.45) {
             let want = truth(point.frequency) / truth(points[0].frequency);
@@ -201,6 +259,16 @@ mod tests {
         // Noise invents structure: coherence falls with the signal.
         assert!(points[0].coherence > 0.95 && points[28].coherence < 0.8, "{points:?}");
         assert_eq!(measure_texture(&texture(3, 400.0), &reference, None, None), Err(TextureError::Unlike));
+        // A pixel to the right and one up, on a torus: a whole shift, which costs nothing but the blocks' rims.
+        let moved = (0..192 * 192).map(|i| reference.at((i % 192 + 191) % 192, (i / 192 + 1) % 192)).collect();
+        let moved = Image::from_samples(192, 192, moved).expect("a square");
+        let found = measure_texture(&moved, &reference, None, None).expect("a texture");
+        assert!(hypot(found.shift_px[0] - 1.0, found.shift_px[1] + 1.0) < 0.05, "{:?}", found.shift_px);
+        for point in &found.points {
+            assert!((point.response.value - 1.0).abs() < 0.05 + 4.0 * point.response.standard_uncertainty, "{point:?}");
+        }
+        let small = measure_texture(&reference, &reference, Some(&noise.part(0, 0, 60, 100)), None);
+        assert!(matches!(small, Err(TextureError::Even { .. })), "{small:?}");
         let clipped = measure_texture(&reference, &reference, None, Some(600.0));
         assert!(matches!(clipped, Err(TextureError::Saturated { .. })), "{clipped:?}");
     }

@@ -39,7 +39,23 @@ pub enum TextureError {
         /// Width and height of the reference.
         reference: (usize, usize),
     },
+    /// The picture for the noise is too small.
+    #[error("the picture of an even surface must have at least {least} × {least} pixels, not {} × {}", size.0, size.1)]
+    Even {
+        /// The least side.
+        least: usize,
+        /// Its width and height.
+        size: (usize, usize),
+    },
+    /// Picture and reference are displaced.
+    #[error("the picture shows the texture {:.1} px right and {:.1} px down of where the reference does: give a reference of the same place, within 2 px", shift_px[0], shift_px[1])]
+    Shifted {
+        /// To the right and down, px.
+        shift_px: [f64; 2],
+    },
     /// The reference has no texture, or the picture another one.
-    #[error("picture and reference share no texture: are they of the same place, pixel by pixel?")]
+    #[error(
+        "picture and reference share no texture: are they of the same place, pixel by pixel? A reference is a sharp render without noise: --set output.radiance=true writes radiance.exr"
+    )]
     Unlike,
 }

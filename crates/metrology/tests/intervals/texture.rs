@@ -51,7 +51,7 @@ fn leaves() {
             (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy))).map(|(dx, dy)| at(dx, dy)).sum::<f64>()
         };
         let image = picture(SIDE, SIDE, |i| soft(i) + 20.0 * normal());
-        let points = measure_texture(&image, &reference, None, None).expect("a texture");
+        let points = measure_texture(&image, &reference, None, None).expect("a texture").points;
         // |S_xy|/S_xx of a band is the modulus of the mean transfer over its bins, all alike likely.
         let transfer = |k: usize| {
             let signed = |b: i64| b as f64;

@@ -31,7 +31,7 @@ pub struct Colour {
 }
 
 fn corner(text: &str) -> Result<DVec2, String> {
-    super::shading::point(text).map(|(x, y)| DVec2::new(x, y))
+    super::distortion::place(text).map(Into::into)
 }
 
 /// Columns and rows of the chart.

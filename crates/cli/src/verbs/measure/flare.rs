@@ -27,6 +27,8 @@ pub struct Flare {
     pub inquiry: Inquiry,
 }
 
+const CHARTS: [&str; 1] = ["flare"];
+
 pub(super) fn run(arguments: &Flare) -> Result<(), Failure> {
     let readings = arguments.inquiry.linear(&arguments.picture)?;
     let traps = traps(arguments, &readings)?;
@@ -40,11 +42,17 @@ pub(super) fn run(arguments: &Flare) -> Result<(), Failure> {
     };
     let found = traps.iter().map(measured).collect::<Result<Vec<_>, Failure>>()?;
     let places: Vec<[usize; 4]> = traps.iter().map(|t| t.trap).collect();
-    arguments.inquiry.tell(&report(&places, &found, readings.picture_px))
+    let mut report = report(&places, &found, readings.picture_px);
+    if let Some(truth) = arguments.inquiry.truth.read(&CHARTS)?
+        && let Some(own) = truth.light_of_traps()
+    {
+        report.fact("traps_own_percent", "of which the traps send themselves, about", "%", 100.0 * own);
+    }
+    arguments.inquiry.tell(&report)
 }
 
 fn traps(arguments: &Flare, readings: &Readings) -> Result<Vec<TrapPlace>, Failure> {
-    match arguments.inquiry.truth(&["flare"], &arguments.picture, readings)? {
+    match arguments.inquiry.truth(&CHARTS, &arguments.picture, readings)? {
         Some(truth) => truth.traps(readings),
         None => {
             let whites: Vec<[usize; 4]> = arguments.white.into_iter().collect();
@@ -56,6 +64,10 @@ fn traps(arguments: &Flare, readings: &Readings) -> Result<Vec<TrapPlace>, Failu
 fn report(traps: &[[usize; 4]], found: &[Estimate], size: (usize, usize)) -> Report {
     let mut report = Report::new("flare", "flare after ISO 18844: light in traps over the white field's");
     let largest = found.iter().copied().reduce(|a, b| if b.value > a.value { b } else { a });
+    let mean = found.iter().map(|f| f.value).sum::<f64>() / found.len() as f64;
+    let squares = found.iter().map(|f| f.standard_uncertainty * f.standard_uncertainty).sum::<f64>();
+    let mean = Estimate::new(mean, squares.sqrt() / found.len() as f64);
+    report.figure("mean_flare_percent", "mean flare", "%", mean.scaled(100.0));
     report.figure("flare_percent", "largest flare", "%", largest.unwrap_or(Estimate::new(0.0, 0.0)).scaled(100.0));
     let row = |(at, value): (&[usize; 4], &Estimate)| {
         vec![

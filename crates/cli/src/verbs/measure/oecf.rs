@@ -184,10 +184,9 @@ fn steps(arguments: &OecfArguments, table: &Path) -> Result<Measured, Failure> {
     let lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim().is_empty() && !line.trim().starts_with('#'));
     let step = |(number, line): (u32, &str)| {
         let place = format!("{}: line {number}", table.display());
-        let words: Vec<f64> = line.split(',').filter_map(|word| word.trim().parse().ok()).collect();
-        let [x, y, width, height, luminance] = words[..] else {
-            return Err(Failure::input(format!("{place}: expected x, y, width, height, luminance, not '{line}'")));
-        };
+        let expected = || Failure::input(format!("{place}: expected x, y, width, height, luminance, not '{line}'"));
+        let words: Option<Vec<f64>> = line.split(',').map(|word| word.trim().parse().ok()).collect();
+        let [x, y, width, height, luminance] = words.ok_or_else(expected)?[..] else { return Err(expected()) };
         let whole = [x, y, width, height];
         if whole.iter().any(|v| *v < 0.0 || v.fract() != 0.0) || width < 2.0 || height < 2.0 {
             return Err(Failure::input(format!(
@@ -234,7 +233,7 @@ fn report(oecf: &Oecf, measured: &Measured) -> Report {
     report.table(Table {
         key: "points",
         columns: vec![
-            ("exposure", "exposure"),
+            ("exposure", if measured.unit == "cd/m²" { "luminance cd/m²" } else { "exposure" }),
             ("reading", "reading"),
             ("noise", "noise"),
             ("gain", "slope"),

@@ -324,7 +324,16 @@ fn luminance(
         )));
     };
     let [red, green, blue] = LUMINANCE;
-    Ok(r.iter().zip(&g).zip(&b).map(|((r, g), b)| red * r + green * g + blue * b).collect())
+    // Where one of them is clipped, the luminance is too: it is told as full.
+    let full = match photograph.encoding {
+        Encoding::Srgb => Some(1.0),
+        Encoding::Linear => photograph.full_scale.map(|full| full as f32),
+    };
+    let mixed = |((r, g), b): ((&f32, &f32), &f32)| match full.filter(|full| r.max(*g).max(*b) >= *full) {
+        Some(full) => full,
+        None => red * r + green * g + blue * b,
+    };
+    Ok(r.iter().zip(&g).zip(&b).map(mixed).collect())
 }
 
 fn no_channel(file: &Path, name: &str, names: &[&str]) -> Failure {
@@ -334,10 +343,10 @@ fn no_channel(file: &Path, name: &str, names: &[&str]) -> Failure {
 /// What a picture's numbers mean, where the file does not say.
 #[derive(Debug, Args)]
 pub struct Levels {
-    /// The reading of no light [default: the side-car's, or 0]
+    /// The reading of no light, as stored; 0 to 1 of a picture that is decoded from sRGB [default: the side-car's, or 0]
     #[arg(long, value_name = "READING", allow_negative_numbers = true)]
     pub black: Option<f64>,
-    /// The reading of a saturated pixel [default: the side-car's, or the largest that the file can hold]
+    /// The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold]
     #[arg(long, value_name = "READING", allow_negative_numbers = true)]
     pub full_scale: Option<f64>,
 }

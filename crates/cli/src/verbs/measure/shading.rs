@@ -56,8 +56,7 @@ const BLOCKS: u32 = 11;
 const CHARTS: [&str; 2] = ["flat-field", "backlit"];
 
 pub(super) fn point(text: &str) -> Result<(f64, f64), String> {
-    let both = text.split_once(',').and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)));
-    both.ok_or_else(|| format!("expected X,Y, not '{text}'"))
+    super::distortion::place(text).map(Into::into)
 }
 
 impl FlatField {

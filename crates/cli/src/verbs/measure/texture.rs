@@ -39,7 +39,7 @@ pub struct Texture {
     /// A picture of a texture such as dead leaves
     #[arg(value_name = "PICTURE")]
     pub picture: PathBuf,
-    /// The texture itself at the same place, pixel by pixel: a sharp render without noise
+    /// The texture itself at the same place, pixel by pixel: a sharp render without noise (radiance.exr of --set output.radiance=true)
     #[arg(value_name = "REFERENCE")]
     pub reference: PathBuf,
     /// A picture of an even surface of the same brightness, for the noise
@@ -138,8 +138,11 @@ pub(super) fn texture(arguments: &Texture) -> Result<(), Failure> {
     let (reference, _) = leaves(arguments, &arguments.reference)?;
     let even = arguments.even.as_ref().map(|file| leaves(arguments, file)).transpose()?.map(|(image, _)| image);
     let points = measure_texture(&picture, &reference, even.as_ref(), full_scale);
-    let points = points.map_err(|error| refused(&arguments.picture, error))?;
+    let found = points.map_err(|error| refused(&arguments.picture, error))?;
+    let points = found.points;
     let mut report = Report::new("texture", "response to a texture against its reference (± one standard uncertainty)");
+    report.fact("shift_x_px", "picture right of the reference, taken off", "px", found.shift_px[0]);
+    report.fact("shift_y_px", "picture below the reference, taken off", "px", found.shift_px[1]);
     if even.is_none() {
         report.note("without --even noise counts as structure in 'direct'");
     }

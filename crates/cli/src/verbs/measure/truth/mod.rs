@@ -175,6 +175,11 @@ impl Truth {
         Ok((found, left_out))
     }
 
+    /// What the bottom of a light trap sends of the white's light.
+    pub(super) fn light_of_traps(&self) -> Option<f64> {
+        self.said.size("luminance_of_a_trap_s_bottom_over_white_about")
+    }
+
     /// Light traps that are whole in the picture with the white midway to their neighbours.
     pub(super) fn traps(&self, readings: &Readings) -> Result<Vec<TrapPlace>, Failure> {
         let opening = self.said.size("opening_mm").zip(self.said.size("pitch_mm"));
