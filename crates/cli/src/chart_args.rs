@@ -218,7 +218,7 @@ pub struct SlantedStar {
 /// How a slanted edge lies between light and dark.
 #[derive(Debug, Args)]
 pub struct Edge {
-    /// By how much it is turned clockwise, degrees, -45 … 45: a square, or the first edge of a star
+    /// By how much it is turned clockwise, degrees: a square by 2 … 43 either way, or the first edge of a star by up to 45
     #[arg(long, value_name = "DEG", default_value_t = 5.0, allow_negative_numbers = true)]
     pub angle_deg: f64,
     /// Luminance of light over dark

@@ -20,6 +20,8 @@ const REACH: f64 = 0.8;
 const TEXELS: f64 = 4.0;
 /// Largest side of a texture.
 const MOST_TEXELS: f64 = 6000.0;
+/// Radius of the smallest leaf that a texel's middle can be expected to see, texels.
+const LEAST_RADIUS: f64 = 0.5;
 /// Darkest and lightest leaf.
 const GREYS: (f64, f64) = (0.1, 0.7);
 
@@ -47,6 +49,11 @@ impl DeadLeaves {
                 largest,
                 "expected a share of the side, above 0 and at most 0.5",
             ));
+        }
+        if smallest * texels < LEAST_RADIUS {
+            let least_px = LEAST_RADIUS * side / (texels * seen.pixel_mm);
+            let told = format!("leaves smaller than half a texel are not drawn: expected {least_px:.4} px or more");
+            return Err(ChartError::option("smallest-px", self.smallest_px, told));
         }
         let half = DVec2::splat(side / 2.0);
         let (leaves, laid) = leaves(texels as usize, smallest * texels, largest * texels, seed);

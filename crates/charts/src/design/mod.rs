@@ -143,6 +143,13 @@ fn angle(degrees: f64) -> Result<f64, ChartError> {
     legal.then_some(degrees.to_radians()).ok_or_else(|| ChartError::option("angle-deg", degrees, "expected -45 … 45"))
 }
 
+/// Whether an edge at an angle to rows or columns can be measured: `measure sfr` expects 2° to 43° to the nearer of both.
+fn is_measurable(degrees: f64) -> bool {
+    let to_axis = (degrees - 90.0 * (degrees / 90.0).round()).abs();
+    // Angles of a star's edges are sums of rounded numbers.
+    (2.0 - 1e-9..=43.0 + 1e-9).contains(&to_axis)
+}
+
 /// A ratio of luminances.
 fn contrast(ratio: f64) -> Result<f64, ChartError> {
     let legal = ratio > 1.0 && ratio <= 1000.0;

@@ -1,7 +1,7 @@
 //! Slanted edges over the field: dark squares, turned by a small angle, each with two edges near the upright and two near the
 //! level (ISO 12233). Spatial frequency response by place and direction.
 
-use super::{BLEED, GridSize, angle, contrast};
+use super::{BLEED, GridSize, angle, contrast, is_measurable};
 use crate::drawing::{Drawing, Feature, Patch};
 use crate::error::ChartError;
 use crate::eye::Footprint;
@@ -29,6 +29,10 @@ pub struct SlantedEdges {
 impl SlantedEdges {
     pub(super) fn draw(&self, seen: &Footprint) -> Result<Drawing, ChartError> {
         let (turn, contrast) = (angle(self.angle_deg)?, contrast(self.contrast)?);
+        if !is_measurable(self.angle_deg) {
+            let told = "expected 2 … 43 or -43 … -2: only such edges are sampled between the pixels (measure sfr)";
+            return Err(ChartError::option("angle-deg", self.angle_deg, told));
+        }
         let grid = self.size.in_room(seen.inner_mm, 5, 1)?;
         let pitch = DVec2::splat(grid.pitch_mm);
         let lattice = Lattice::framed(grid.columns, grid.rows, pitch, seen.outer_mm * BLEED);

@@ -1,7 +1,7 @@
 //! Slanted stars: dark and light wedges about a centre, turned so that no edge is upright or level; after the star of ISO
 //! 12233:2023. Spatial frequency response in many directions, radial and tangential, at several places.
 
-use super::{BLEED, GridSize, angle, contrast};
+use super::{BLEED, GridSize, angle, contrast, is_measurable};
 use crate::drawing::{Drawing, Feature, Kind};
 use crate::error::ChartError;
 use crate::eye::Footprint;
@@ -37,6 +37,12 @@ impl SlantedStar {
         if !(2..=36).contains(&self.spokes) {
             return Err(ChartError::option("spokes", self.spokes, "expected 2 … 36 dark wedges"));
         }
+        let unmeasurable_deg = self.unmeasurable_deg();
+        if unmeasurable_deg.len() == 2 * self.spokes as usize {
+            let told =
+                "no edge of these stars lies 2° to 43° off rows and columns: expected another angle or more spokes";
+            return Err(ChartError::option("angle-deg", self.angle_deg, told));
+        }
         let grid = self.size.in_room(seen.inner_mm, 3, 1)?;
         let pitch = DVec2::splat(grid.pitch_mm);
         let lattice = Lattice::framed(grid.columns, grid.rows, pitch, seen.outer_mm * BLEED);
@@ -67,7 +73,33 @@ impl SlantedStar {
         drawing.note("radii_mm", json!([INNER * outer, outer]));
         drawing.note("angle_deg", self.angle_deg);
         drawing.note("contrast", contrast);
+        drawing.note("unmeasurable_edges_deg", unmeasurable_deg);
         drawing.spp = 256;
         Ok(drawing)
+    }
+
+    /// Directions of the edges that lie too near to rows, columns or diagonals, 0 … 360°.
+    fn unmeasurable_deg(&self) -> Vec<f64> {
+        let edges = 2 * self.spokes;
+        let direction = |i: u32| (self.angle_deg + 360.0 * f64::from(i) / f64::from(edges)).rem_euclid(360.0);
+        (0..edges).map(direction).filter(|deg| !is_measurable(*deg)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edges_along_rows_columns_and_diagonals_are_told() {
+        let star = |spokes: u32, angle_deg: f64| {
+            SlantedStar { size: GridSize::default(), spokes, angle_deg, contrast: 4.0 }.unmeasurable_deg()
+        };
+        assert!(star(8, 5.0).is_empty());
+        let eighths: Vec<f64> = (0..8).map(|i| 45.0 * f64::from(i)).collect();
+        assert_eq!(star(8, 0.0), eighths);
+        // Edges every 22.5° from -3.5°: 41.5°, 64°, 86.5°.
+        assert!(star(8, -3.5).is_empty());
+        assert_eq!(star(4, 1.0).len(), 8);
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::support::{etendue, root, text};
 use etendue_core::Plane;
-use etendue_core::maths::f64::sin_cos;
+use etendue_core::maths::f64::{atan, sin_cos};
 use etendue_core::quantity::{DigitalNumber, Display};
 use etendue_io::png::{encode_display, encode_raw16};
 use serde_json::Value;
@@ -121,11 +121,43 @@ fn a_pinhole_is_calibrated_from_its_views() {
     let one = ["measure", "focal", &views[0], "--pitch-mm", "30"];
     etendue(one).refused(&["one picture alone", "--distance-mm"]);
     let at = |more: &[&str]| etendue(one.iter().chain(more).copied());
-    at(&["--distance-mm", "390", "--model", "pinhole"]).ok();
-    etendue(["calibrate", &views[0], "--pitch-mm", "30"]).refused(&["do not determine", "fx_px"]);
+    let out = text(&folder.path().join("one.toml"));
+    at(&["--distance-mm", "390", "--model", "pinhole", "--pixel-pitch-um", "6", "--camera-out", &out]).ok();
+    assert!(
+        std::fs::read_to_string(&out).expect("a file").starts_with("# Found by etendue measure focal from 1 view;")
+    );
+    let one = json(&[&one[..], &["--distance-mm", "390", "--model", "pinhole"]].concat());
+    assert!(one["notes"].to_string().contains("principal point is taken for the picture's middle"), "{}", one["notes"]);
+    // 2 atan(w/2f) and its slope w/(f² + w²/4), of the focal length alone.
+    let [[f, u], [angle, of_angle]] = ["fx_px", "field_of_view_horizontal_deg"].map(|key| figure(&one, key));
+    let half = SIZE[0] as f64 / 2.0;
+    let want = (2.0 * half * u / (f * f + half * half)).to_degrees();
+    assert!((angle - 2.0 * atan(half / f).to_degrees()).abs() < 1e-9, "{angle}");
+    // Central differences of a tenth of u: 1e-4 at most.
+    assert!((of_angle / want - 1.0).abs() < 1e-4 && want > 0.0, "{of_angle} {want}");
+    etendue(["calibrate", &views[0], "--pitch-mm", "30"]).refused(&["do not determine", "fx_px", "fewer coefficients"]);
     etendue(["calibrate", &views[0], &views[1], &views[0], "--pitch-mm", "30"]).refused(&["exactly as", "view0.png"]);
     etendue(["calibrate", &views[0], &photograph(), "--pitch-mm", "30"]).refused(&["left01.jpg", "640 × 480"]);
     etendue(["measure", "distortion", &views[0], "--grid", "5x4"]).refused(&["9 × 6", "5 × 4"]);
+}
+
+/// Four coefficients of a fisheye beyond the points of OpenCV's board: the figures stand, a camera file of them does not.
+#[test]
+fn a_camera_that_folds_outside_its_points_is_told_and_no_file() {
+    let views: Vec<String> = [1, 2, 3, 4, 5, 6]
+        .map(|i| text(&root().join(format!("tests/oracles/figures/checkerboard/left{i:02}.jpg"))))
+        .to_vec();
+    let all = ["calibrate", "--pitch-mm", "30", "--model", "kannala-brandt"];
+    let all: Vec<&str> = all.into_iter().chain(views.iter().map(String::as_str)).collect();
+    let found = json(&all);
+    // OpenCV with its own model and all views: 532.8 px (opencv.json); six views and another model differ by some 3 px.
+    assert!((figure(&found, "fx_px")[0] - 533.0).abs() < 4.0, "{found}");
+    assert!(found["notes"].to_string().contains("folds the picture over"), "{}", found["notes"]);
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = text(&folder.path().join("camera.toml"));
+    let with: Vec<&str> = all.into_iter().chain(["--pixel-pitch-um", "6", "-o", &file]).collect();
+    etendue(with).refused(&["no camera file", "figures only", "folds"]);
+    assert!(!Path::new(&file).exists());
 }
 
 #[test]

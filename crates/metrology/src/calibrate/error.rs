@@ -48,8 +48,8 @@ pub enum CalibrateError {
     },
     /// Numbers that the views do not tell.
     #[error(
-        "the views do not determine {}: add views with the chart turned by 20° to 45° about different axes, state the distance of \
-         the chart or the focal length, or fit fewer coefficients", names.join(", ")
+        "the views do not determine {}: add views with the chart turned by 20° to 45° about different axes and out to the picture's \
+         corners, state the chart's distance, or fit a model of fewer coefficients (a narrow field does not tell those of wide ones)", names.join(", ")
     )]
     Undetermined {
         /// Their names.

@@ -1,11 +1,11 @@
 //! A camera as it was found.
 
 use super::problem::Bundle;
-use super::{CalibrateError, Pose};
+use super::{CalibrateError, Family, Pose};
 use crate::Estimate;
 use crate::fit::{Fit, Problem};
 use crate::linear::Matrix;
-use etendue_projection::Calibration;
+use etendue_projection::{Calibration, CameraMatrix};
 use glam::DVec2;
 
 /// A fitted number.
@@ -34,6 +34,8 @@ pub struct Calibrated {
     pub sigma_px: f64,
     /// ν.
     pub degrees_of_freedom: usize,
+    /// The model's family.
+    pub(super) family: Family,
 }
 
 impl Calibrated {
@@ -41,6 +43,35 @@ impl Calibrated {
     #[must_use]
     pub fn estimate(&self, name: &str) -> Option<Estimate> {
         self.parameters.iter().find(|p| p.name == name).map(|p| p.estimate)
+    }
+
+    /// A number that follows from the camera, with its uncertainty from the parameters' covariance, to first order; `None`
+    /// where the camera has none.
+    pub fn follows(&self, number: impl Fn(&Calibration) -> Option<f64>) -> Option<Estimate> {
+        /// Of a standard uncertainty.
+        const STEP: f64 = 0.1;
+        let value = number(&self.calibration)?;
+        let slope = |i: usize| {
+            let step = STEP * self.parameters[i].estimate.standard_uncertainty;
+            let moved = |by: f64| number(&self.moved(i, by)?);
+            Some(if step > 0.0 { (moved(step)? - moved(-step)?) / (2.0 * step) } else { 0.0 })
+        };
+        let slopes: Option<Vec<f64>> = (0..self.parameters.len()).map(slope).collect();
+        let variance = slopes.map_or(f64::INFINITY, |slopes| self.covariance.form(&slopes));
+        Some(Estimate::new(value, variance.sqrt()))
+    }
+
+    /// The camera with one parameter changed.
+    fn moved(&self, parameter: usize, by: f64) -> Option<Calibration> {
+        let value = |(i, p): (usize, &Parameter)| p.estimate.value + if i == parameter { by } else { 0.0 };
+        let values: Vec<f64> = self.parameters.iter().enumerate().map(value).collect();
+        let at = |name: &str| self.parameters.iter().position(|p| p.name == name).map(|i| values[i]);
+        let known = self.calibration.matrix();
+        let fx = at("fx_px").unwrap_or(known.fx);
+        let (cx, cy) = (at("cx_px").unwrap_or(known.cx), at("cy_px").unwrap_or(known.cy));
+        let matrix = CameraMatrix { fx, fy: at("fy_px").unwrap_or(fx), cx, cy, ..known };
+        let coefficients = &values[values.len() - self.family.names().len()..];
+        Calibration::new(self.family.model(coefficients).ok()?, matrix, self.calibration.size_px()).ok()
     }
 
     /// Root mean square distance of a view's points, px.
@@ -95,6 +126,7 @@ pub(super) fn result(bundle: &Bundle<'_>, fit: Fit) -> Result<Calibrated, Calibr
         residuals_px: residuals_px.ok_or(CalibrateError::Start)?,
         sigma_px: fit.sigma,
         degrees_of_freedom: fit.degrees_of_freedom,
+        family: bundle.family,
     })
 }
 

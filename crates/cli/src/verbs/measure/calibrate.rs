@@ -29,8 +29,8 @@ pub fn run(arguments: &CalibrateArguments) -> Result<(), Failure> {
     let found = views.found(views.options())?;
     let mut report = Report::new("calibrate", "camera from views of a plane chart, least squares of all points");
     found.tell(&mut report, views);
-    if let Some(pitch_um) = views.pixel_pitch_um {
-        report.camera(found.camera_file(pitch_um, arguments.f_number));
+    if let (Some(pitch_um), Some(_)) = (views.pixel_pitch_um, &arguments.output) {
+        report.camera(found.camera_file("calibrate", pitch_um, arguments.f_number)?);
     }
     report.tell_with_camera(
         &arguments.telling,

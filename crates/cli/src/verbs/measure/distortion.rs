@@ -103,8 +103,14 @@ fn radial(report: &mut Report, key: &str, fit: &RadialFit) {
         |name: &str, unit, value| report.figure(&format!("{key}_{name}"), &format!("{name}, {way}"), unit, value);
     figure("k1", "", fit.k1);
     figure("k2", "", fit.k2);
-    figure("centre_x_px", "px", fit.centre_px[0]);
-    figure("centre_y_px", "px", fit.centre_px[1]);
+    for (name, centre) in ["centre_x_px", "centre_y_px"].into_iter().zip(fit.centre_px) {
+        if centre.standard_uncertainty.is_finite() {
+            report.figure(&format!("{key}_{name}"), &format!("{name}, {way}"), "px", centre);
+        } else {
+            let label = format!("{name}, {way}, not determined: the curve's");
+            report.fact(&format!("{key}_{name}"), &label, "px", centre.value);
+        }
+    }
     let of = ["k1", "k2", "centre_x_px", "centre_y_px"].map(|name| format!("{key}_{name}")).to_vec();
     report.covariance(Covariance { of, rows: fit.covariance.map(|row| row.to_vec()).to_vec() });
     report.fact(&format!("{key}_rms_px"), &format!("rms_px, {way}"), "px", fit.rms_px);

@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use clap::Args;
 use etendue_core::maths::f64::acos;
 use etendue_metrology::calibrate::Options;
+use etendue_projection::Calibration;
 
 /// `etendue measure focal`
 #[derive(Debug, Args)]
@@ -34,27 +35,33 @@ pub(super) fn run(arguments: &FocalArguments) -> Result<(), Failure> {
                     chart turned";
         return Err(Failure::input(told));
     }
-    let found = match (views.files.len(), options.principal_px) {
-        (1, None) => views.found_about_middle(Options { square_pixels: true, ..options })?,
-        _ => views.found(options)?,
+    let about_middle = views.files.len() == 1 && options.principal_px.is_none();
+    let found = match about_middle {
+        true => views.found_about_middle(Options { square_pixels: true, ..options })?,
+        false => views.found(options)?,
     };
     let mut report = Report::new("focal", "focal length by views of a plane chart");
     found.tell(&mut report, views);
     field_of_view(&mut report, &found);
-    if let Some(pitch_um) = views.pixel_pitch_um {
-        report.camera(found.camera_file(pitch_um, None));
+    if about_middle {
+        report.note("one picture: the principal point is taken for the picture's middle and pixels for square; their errors are in no ±");
+    }
+    if let (Some(pitch_um), Some(_)) = (views.pixel_pitch_um, &arguments.out.camera_out) {
+        report.camera(found.camera_file("measure focal", pitch_um, None)?);
     }
     report.tell_with_camera(&arguments.telling, &arguments.out)
 }
 
 /// Angles between the middles of opposite sides, and between opposite corners.
 fn field_of_view(report: &mut Report, found: &Found) {
-    let camera = &found.camera.calibration;
-    let [w, h] = camera.size_px().map(|n| n as f64);
+    let [w, h] = found.camera.calibration.size_px().map(|n| n as f64);
     let mut line = |key: &str, label: &str, a: [f64; 2], b: [f64; 2]| {
-        if let (Some(a), Some(b)) = (camera.unproject(a.into()), camera.unproject(b.into())) {
-            let angle = acos(a.dot(b).clamp(-1.0, 1.0)).to_degrees();
-            report.fact(key, label, "°", angle);
+        let between = |camera: &Calibration| {
+            let (a, b) = (camera.unproject(a.into())?, camera.unproject(b.into())?);
+            Some(acos(a.dot(b).clamp(-1.0, 1.0)).to_degrees())
+        };
+        if let Some(angle) = found.camera.follows(between) {
+            report.figure(key, label, "°", angle);
         }
     };
     line("field_of_view_horizontal_deg", "field of view, horizontal", [0.0, 0.5 * h], [w, 0.5 * h]);

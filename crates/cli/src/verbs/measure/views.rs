@@ -12,8 +12,8 @@ use etendue_core::maths::f64::{acos, atan};
 use etendue_metrology::Estimate;
 use etendue_metrology::calibrate::{Calibrated, Family, Options, Radial, Sightings, calibrate};
 use etendue_metrology::target::Node;
-use etendue_projection::Sense;
 use etendue_projection::model::Ideal;
+use etendue_projection::{CalibrationError, Sense};
 use glam::DVec2;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -144,7 +144,6 @@ impl ViewsArguments {
             let sightings: Vec<Sightings> = views.iter().map(|v| Sightings::of_grid(&v.grid, self.pitch_mm)).collect();
             let size = views[0].size_px;
             let camera = calibrate(&sightings, size, self.model.family(), options(size)).map_err(Failure::input)?;
-            camera.calibration.check().map_err(Failure::input)?;
             let model = self.model.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned());
             Ok(Found { model, views, camera })
         })
@@ -193,6 +192,12 @@ impl Found {
             report.note(format!("the distance of {distance} mm is taken as exact: state --distance-uncertainty-mm"));
         }
         report.note("the pitch is taken as exact: its relative error is that of distances");
+        if let Err(CalibrationError::Fold { radius_px, .. }) = self.camera.calibration.check() {
+            report.note(format!(
+                "the fitted model folds the picture over {radius_px:.1} px from the principal point, farther out than the views \
+                 determine it: it is no camera file; add views that fill the picture, or fit a model of fewer coefficients"
+            ));
+        }
         report.table(self.table());
         report.table_if(points, self.points());
         report.covariance(Covariance {
@@ -301,20 +306,31 @@ impl Found {
         }
     }
 
-    /// A camera file; the f-number cannot be told from these pictures.
-    pub(super) fn camera_file(&self, pixel_pitch_um: f64, f_number: Option<f64>) -> String {
+    /// A camera file by a verb; the f-number cannot be told from these pictures.
+    ///
+    /// # Errors
+    /// Where the camera folds over inside its picture.
+    pub(super) fn camera_file(
+        &self,
+        verb: &str,
+        pixel_pitch_um: f64,
+        f_number: Option<f64>,
+    ) -> Result<String, Failure> {
+        let refused = |folds| Failure::input(format!("no camera file of this, figures only: {folds}"));
+        self.camera.calibration.check().map_err(refused)?;
         let facts = calibration::facts(&self.camera.calibration);
         let keys = facts["projection"].as_object().expect("a projection is an object").iter();
         let keys: Vec<String> = keys.map(|(key, value): (&String, &Value)| format!("{key} = {value}")).collect();
         let [width, height] = self.camera.calibration.size_px();
         let (f_number, told) = f_number.map_or((4.0, "  # a stand-in: not measured"), |n| (n, ""));
-        format!(
-            "# Found by etendue calibrate from {} views; points lie {:.4} px (rms) from the fit.\nformat = 1\n\n[lens]\nmodel = \
+        let count = self.views.len();
+        let views = if count == 1 { "view" } else { "views" };
+        Ok(format!(
+            "# Found by etendue {verb} from {count} {views}; points lie {:.4} px (rms) from the fit.\nformat = 1\n\n[lens]\nmodel = \
              \"calibrated\"\nf_number = {f_number}{told}\nprojection = {{ {} }}\n\n[sensor]\nwidth_px = {width}\nheight_px = \
              {height}\npixel_pitch_um = {pixel_pitch_um}\n",
-            self.views.len(),
             self.camera.rms_px(),
             keys.join(", ")
-        )
+        ))
     }
 }
