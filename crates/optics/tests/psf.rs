@@ -139,3 +139,28 @@ fn what_cannot_be_is_refused() {
     assert_eq!(new(defocus(vec![0.1, 0.2])).expect_err("two"), EffectsError::Table);
     assert!(new(defocus(vec![0.5])).is_ok());
 }
+
+#[test]
+fn diffraction_has_the_modulation_of_a_circle_along_rows_and_columns() {
+    use core::f64::consts::{PI, TAU};
+    use etendue_core::maths::f64::{acos, cos};
+    let band = (549.0, 551.0);
+    for (pitch_mm, f_number) in [(0.003, 2.0), (0.003, 2.8), (0.0083, 2.8), (0.0083, 8.0), (0.0014, 2.8)] {
+        let raster = Raster::centred(301, 301, pitch_mm).expect("legal");
+        let effects = effects(PsfParameters { patches: Some([1, 1]), ..round() }, &lens(50.0, f_number), &raster);
+        let picture = effects.prepared(&raster, band).apply(band, &point(&raster, 150, 150), None).0;
+        assert!(picture.samples().iter().all(|v| *v >= -1e-9), "no light is negative, to rounding");
+        for f in [0.05, 0.1, 0.2, 0.3, 0.4, 0.45, 0.5] {
+            let v = f * 550e-6 * f_number / pitch_mm;
+            let expected = 2.0 / PI * (acos(v) - v * (1.0 - v * v).sqrt());
+            let wave = |i: usize, of: fn(usize) -> usize| {
+                f64::from(picture.samples()[i]) * cos(TAU * f * (of(i) as f64 - 150.0))
+            };
+            let along = |of: fn(usize) -> usize| (0..301 * 301).map(|i| wave(i, of)).sum::<f64>();
+            for found in [along(|i| i % 301), along(|i| i / 301)] {
+                // The sinc's window mixes f and 1 − f near 0.5 (0.004), and a little light lies beyond the pattern's end.
+                assert!((found - expected).abs() < 0.005, "{pitch_mm} f/{f_number} at {f}: {found} for {expected}");
+            }
+        }
+    }
+}

@@ -1,5 +1,7 @@
 //! A convolution kernel on the lattice of pixels.
 //!
+//! Bilinear shares, for what is wide and smooth (glare, far parts of patterns); `band.rs` shares narrow spreads without widening them.
+//!
 //! The film holds means over pixels. With a spread function P of the plane, the mean over a pixel after the spread is
 //! ∫ P(t) Ē(x − t) dt, Ē the irradiance's running mean over a pixel; between pixel centres, where Ē is not known, it is
 //! taken as bilinear. The tap at n is then ∫ P(t) Λ(t/p − n) dt with the triangle Λ in both directions: mass of P is shared
@@ -60,6 +62,30 @@ impl Kernel {
         self.add(x + 1, y, mass * share.x * (1.0 - share.y));
         self.add(x, y + 1, mass * (1.0 - share.x) * share.y);
         self.add(x + 1, y + 1, mass * share.x * share.y);
+    }
+
+    /// Sums over columns and over rows: of each column, of each row.
+    pub(crate) fn sums(&self) -> [Vec<f64>; 2] {
+        let mut sums = [vec![0.0; self.width()], vec![0.0; 2 * self.reach[1] + 1]];
+        for (y, row) in self.taps.chunks_exact(self.width()).enumerate() {
+            sums[1][y] = row.iter().sum();
+            sums[0].iter_mut().zip(row).for_each(|(sum, tap)| *sum += tap);
+        }
+        sums
+    }
+
+    /// Scales every column, every row, by a number of its own.
+    pub(crate) fn scale_lines(&mut self, columns: Option<&[f64]>, rows: Option<&[f64]>) {
+        let width = self.width();
+        for (y, row) in self.taps.chunks_exact_mut(width).enumerate() {
+            let tall = rows.map_or(1.0, |r| r[y]);
+            row.iter_mut().enumerate().for_each(|(x, tap)| *tap *= tall * columns.map_or(1.0, |c| c[x]));
+        }
+    }
+
+    /// The kernel with 0 for negative taps.
+    pub(crate) fn positive(&self) -> Self {
+        Self { reach: self.reach, taps: self.taps.iter().map(|tap| tap.max(0.0)).collect() }
     }
 
     /// Sum of the taps.

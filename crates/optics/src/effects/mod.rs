@@ -19,6 +19,7 @@
 //! Ghosts are made of the film's own light, before the other effects, of all bands at once ([`crate::ghosts::layer`]), and are
 //! added behind them: they are out of focus, and what scatters of them is of second order.
 
+mod band;
 mod convolve;
 mod error;
 mod fourier;

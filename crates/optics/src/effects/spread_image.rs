@@ -3,14 +3,15 @@
 //! The picture is what becomes of a point's light, its first row above, its first column on the left; the numbers are linear
 //! and are divided by their sum. Each sample holds its light in its middle: sample (i, j) of w × h lies at
 //! (i + ½ − w/2, j + ½ − h/2) times the pitch from the point, so the point is in the middle of the picture, whether it has an
-//! even or an odd number of samples. Light is shared among the pixels as that of every kernel (`kernel.rs`): sum and centroid
-//! are kept, and one sample is the identity.
+//! even or an odd number of samples. Light is shared among the pixels so that the modulation is kept (`band.rs`); one sample
+//! is the identity.
 //!
 //! With a wavelength λ₀ the picture is as much larger as λ is longer, as diffraction is: the pitch is that times λ/λ₀, averaged
 //! over a band in steps of 10 nm at most. Without, it is the same at all wavelengths.
 //!
 //! Left out: a function that varies over the picture.
 
+use super::band::BandLimited;
 use super::convolve::Field;
 use super::error::{EffectsError, positive};
 use super::kernel::Kernel;
@@ -129,14 +130,13 @@ impl SpreadImage {
 
     /// The kernel of a band, its sum one.
     fn kernel(&self, band_nm: (f64, f64), pitch_mm: DVec2) -> Kernel {
-        let mut kernel = Kernel::zeros(self.reach_px_at(band_nm.1, pitch_mm));
+        let mut kernel = BandLimited::zeros(self.reach_px_at(band_nm.1, pitch_mm));
         for nm in mid_wavelengths(band_nm) {
             for (index, light) in self.parameters.light.iter().enumerate().filter(|(_, light)| **light > 0.0) {
                 kernel.deposit(self.offset_mm(index, nm) / pitch_mm, f64::from(*light));
             }
         }
-        let sum = kernel.sum();
-        kernel.scaled(1.0 / sum)
+        kernel.kernel()
     }
 
     /// The function made ready for a film.

@@ -1,7 +1,7 @@
 //! The point-spread function of a real aperture: diffraction, and the wavefront's error by Zernike terms.
 //!
 //! For each band the patterns (`pattern.rs`) of wavelengths at most 10 nm apart are averaged and shared among the pixels
-//! (`kernel.rs`), with all of the light in them. Away from the axis the pupil looks smaller from the sensor: by cos θ′ along
+//! (`band.rs`), with all of the light in them. Away from the axis the pupil looks smaller from the sensor: by cos θ′ along
 //! the rim and cos³ θ′ towards the axis, θ′ the chief ray's angle at the exit pupil, so that the pattern is wider by as much
 //! (Goodman, Introduction to Fourier Optics).
 //!
@@ -22,6 +22,7 @@ mod zernike;
 
 pub use zernike::Zernike;
 
+use super::band::BandLimited;
 use super::convolve::{Convolver, Field, Region};
 use super::error::EffectsError;
 use super::kernel::Kernel;
@@ -316,7 +317,7 @@ impl Ready {
     fn kernel(&self, band_nm: (f64, f64), patch: &Patch) -> Kernel {
         let pitch = self.canvas.pitch_mm();
         let reach = self.psf.reach_px_of(band_nm.1, self.fineness, pitch.min_element(), patch.widest);
-        let mut kernel = Kernel::zeros([reach, reach]);
+        let mut kernel = BandLimited::zeros([reach, reach]);
         for nm in mid_wavelengths(band_nm) {
             let own = patch.wavefront_um.as_ref().map(|wavefront| {
                 let waves: Vec<f64> = wavefront.iter().map(|um| um * NM_PER_UM / nm).collect();
@@ -332,8 +333,7 @@ impl Ready {
                 }
             }
         }
-        let sum = kernel.sum();
-        kernel.scaled(1.0 / sum)
+        kernel.kernel()
     }
 }
 
