@@ -37,8 +37,8 @@ transfer; its exposures are too short for dark current to add to the offsets' pa
 current leaves; edges are those of a mean of many frames over a flat field (no noise, no PRNU, no DSNU), and their sides' fall-off is taken off. Responses are means of all
 edges over the field; of mosaics those of the green raw readings.
 
-Known and not mended: with diffraction described, the camera's own response is up to 0.06 too low (`web`: 0.10) between 0.3 and 0.5 cycles a pixel. The point spread
-is shared among whole pixels of the film (crates/optics/src/effects/kernel.rs), which widens one that is narrower than a pixel by p²/6.
+Diffraction is described in `charts/*/`'s cameras for the second of the two responses; edges lie 5° from rows and columns, and along the diagonals the film of whole
+pixels loses up to 0.06 of a spread about as wide as a pixel (crates/optics/src/effects/band.rs).
 ";
 
 /// The whole page.
