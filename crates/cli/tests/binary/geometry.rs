@@ -264,6 +264,10 @@ fn depths_of_stereo_are_read_from_float_maps() {
     assert!((figure(&found, "scale")[0] - 1.0).abs() < 1e-9);
     let scaled = json(&["measure", "depth", &guess, &truth, "--align", "median"]);
     assert!(figure(&scaled, "rmse_m")[0] < 1e-5 && (figure(&scaled, "scale")[0] - 0.8).abs() < 1e-6);
+    let drawn = text(&folder.path().join("depth.svg"));
+    etendue(["measure", "depth", &guess, &truth, "--ranges-m", "0,5,9,20", "--plot", &drawn]).ok();
+    let drawn = std::fs::read_to_string(&drawn).expect("a plot");
+    assert!(["bias", "RMSE", "depth, m"].iter().all(|word| drawn.contains(word)), "{drawn}");
     let refused = |more: &[&str], told: &[&str]| {
         etendue(["measure", "depth", &guess, &truth].iter().chain(more).copied()).refused(told);
     };

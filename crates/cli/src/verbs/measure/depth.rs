@@ -2,6 +2,7 @@
 
 use super::report::{Cell, Report, Table, Telling};
 use crate::failure::Failure;
+use crate::plot::{Axis, Mark, Plot, Series};
 use clap::{Args, ValueEnum};
 use etendue_io::photograph::{Photograph, read_photograph};
 use etendue_metrology::depth::{Alignment, DepthErrors, DepthSettings, measure_depth};
@@ -136,7 +137,31 @@ pub(super) fn run(arguments: &Depth) -> Result<(), Failure> {
         ],
         rows: rows.map(|(name, errors)| row(name, errors)).collect(),
     });
+    if found.ranges.iter().any(|(_, _, errors)| errors.pixels > 0) {
+        report.plot(plot(&found.ranges));
+    }
     report.tell(&arguments.telling)
+}
+
+/// Errors over depth: each range at its middle, one without end at its beginning.
+fn plot(ranges: &[(f64, f64, DepthErrors)]) -> Plot {
+    let seen = ranges.iter().filter(|(_, _, errors)| errors.pixels > 0);
+    let at = |low: f64, high: f64| if high.is_finite() { 0.5 * (low + high) } else { low };
+    let curve = |of: fn(&DepthErrors) -> Estimate| {
+        seen.clone().map(move |(low, high, errors)| {
+            let error = of(errors);
+            (at(*low, *high), error.value, 2.0 * error.standard_uncertainty)
+        })
+    };
+    Plot {
+        title: "errors by range (bars: 95 %)".to_owned(),
+        x: Axis::linear("depth, m: the middle of a range, or where one without end begins").showing(&[0.0]),
+        y: Axis::linear("error, m").showing(&[0.0]),
+        series: vec![
+            Series::with_errors("bias", Mark::Line, curve(|e| e.bias_m)),
+            Series::with_errors("RMSE", Mark::Line, curve(|e| e.rmse_m)),
+        ],
+    }
 }
 
 fn row(name: String, e: &DepthErrors) -> Vec<Cell> {

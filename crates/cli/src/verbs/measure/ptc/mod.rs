@@ -43,7 +43,7 @@ impl Ptc {
     }
 }
 
-/// Pictures held in memory at a time: levels measured side by side, and frames read ahead.
+/// Levels measured side by side, and frames read ahead: twice as many pictures are in memory at a time.
 const AT_A_TIME: usize = 4;
 
 /// Reading of a descriptor's pictures.
@@ -92,6 +92,16 @@ fn refused(error: TransferError) -> Failure {
     Failure::input(error)
 }
 
+/// Adds pictures to a stack, which the first begins.
+fn add(stack: &mut Option<Stack>, images: &[(&Path, Image)]) -> Result<(), Failure> {
+    for (file, image) in images {
+        let named = |error: TransferError| Failure::input(format!("{}: {error}", file.display()));
+        let stack = stack.get_or_insert_with(|| Stack::new(image.width(), image.height()));
+        stack.push(image).map_err(named)?;
+    }
+    Ok(())
+}
+
 impl Reading<'_> {
     fn found(&self) -> Result<Found, Failure> {
         let (pairs, stacks): (Vec<_>, Vec<_>) = self.descriptor.levels.iter().partition(|level| level.files.len() == 2);
@@ -119,18 +129,21 @@ impl Reading<'_> {
         Ok((Level { exposure_s: level.exposure_s, photons: level.photons, statistics }, marks))
     }
 
-    /// A level's pictures, in their order.
+    /// A level's pictures, added up in their order while the next are read.
     fn stack(&self, level: &DescribedLevel) -> Result<Stack, Failure> {
         let mut stack: Option<Stack> = None;
+        let mut waiting = Vec::new();
         for files in level.files.chunks(AT_A_TIME) {
-            let images = files.par_iter().map(|file| self.image(file)).collect::<Result<Vec<_>, Failure>>()?;
-            for (file, image) in files.iter().zip(&images) {
-                let named = |error: TransferError| Failure::input(format!("{}: {error}", file.display()));
-                let stack = stack.get_or_insert_with(|| Stack::new(image.width(), image.height()));
-                stack.push(image).map_err(named)?;
-            }
+            let (added, read) = rayon::join(|| add(&mut stack, &waiting), || self.images(files));
+            added?;
+            waiting = read?;
         }
+        add(&mut stack, &waiting)?;
         Ok(stack.expect("a described level has pictures"))
+    }
+
+    fn images<'f>(&self, files: &'f [PathBuf]) -> Result<Vec<(&'f Path, Image)>, Failure> {
+        files.par_iter().map(|file| Ok((file.as_path(), self.image(file)?))).collect()
     }
 
     fn image(&self, file: &Path) -> Result<Image, Failure> {
