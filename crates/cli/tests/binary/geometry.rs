@@ -245,6 +245,9 @@ fn points_and_covariances_are_told() {
     assert!(
         found["figures"]["picture_height_percent"]["value"].as_f64().expect("two rows from side to side").abs() < 3.0
     );
+    // Tilted by 20°, its distortion centred elsewhere: what the curve's uncertainty, a few tenths of a percent, does not tell is said.
+    let found = json(&["measure", "distortion", &photograph()]);
+    assert!(found["notes"].to_string().contains("the curve is not what k1 and k2 say"), "{}", found["notes"]);
 }
 
 #[test]

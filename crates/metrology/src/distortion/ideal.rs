@@ -108,13 +108,32 @@ impl Ideal {
 
     /// How the ideal distance's logarithm at a place depends on the coefficients of the chart's x and y.
     pub(super) fn log_distance_rows(&self, at: DVec2) -> [Vec<f64>; 2] {
-        let ideal = self.place(at) - self.centre;
+        // ln |ideal| = ln |v| − ln(1 − tilt · v), and dv = inverse (d chart − d origin − d slope v).
+        let v = self.inverse * (self.map.image(at) - self.origin);
+        let stretch = 1.0 / (1.0 - self.tilt.dot(v));
         let (there, here) = (self.map.row(at), self.map.row(self.centre));
-        let slope = self.map.slope_row(self.centre, ideal);
-        let row = there.iter().zip(&here).zip(&slope).map(|((t, h), s)| t - h - s);
-        let lever = self.inverse.transpose() * ideal / ideal.length_squared();
-        let row: Vec<f64> = row.collect();
-        [lever.x, lever.y].map(|l| row.iter().map(|r| l * r).collect())
+        let slope = self.map.slope_row(self.centre, v);
+        let moved = there.iter().zip(&here).zip(&slope).map(|((t, h), s)| t - h - s).collect();
+        let mut terms = vec![(v / v.length_squared() + stretch * self.tilt, moved)];
+        // v · d tilt, the tilt being a third of the curvature's parts.
+        let levers = [DVec2::new(v.x, 0.0), DVec2::new(v.y, v.x), DVec2::new(0.0, v.y)];
+        terms.extend(levers.map(|lever| -stretch / 3.0 * lever).into_iter().zip(self.curvature_rows()));
+        let levers: Vec<DVec2> = terms.iter().map(|(lever, _)| self.inverse.transpose() * *lever).collect();
+        let sum =
+            |c: usize, k: usize| levers.iter().zip(&terms).map(|(lever, (_, row))| lever[c] * row[k]).sum::<f64>();
+        [0, 1].map(|c| (0..there.len()).map(|k| sum(c, k)).collect())
+    }
+
+    /// How slope · curvature in px at the centre (∂²/∂x², ∂²/∂x∂y, ∂²/∂y²) depends on the coefficients of a coordinate.
+    fn curvature_rows(&self) -> [Vec<f64>; 3] {
+        let px = self.map.jet(self.centre).curvature.map(|c| self.inverse * c);
+        let rows = self.map.curvature_rows(self.centre);
+        let less = |(row, px): (Vec<f64>, DVec2)| {
+            let slope = self.map.slope_row(self.centre, px);
+            row.iter().zip(&slope).map(|(r, s)| r - s).collect()
+        };
+        let mut rows = rows.into_iter().zip(px).map(less);
+        std::array::from_fn(|_| rows.next().expect("three"))
     }
 
     pub(super) fn variance(&self, row: &[f64]) -> f64 {

@@ -14,7 +14,8 @@
 //!    ([`RadialFit`]).
 //!
 //! Positions are raster coordinates, px; ratios are pure. Uncertainty: the polynomial's covariance, from its residuals, to
-//! first order in its coefficients. Left out: what a polynomial of this degree cannot follow (seen in its residuals), and the
+//! first order in its coefficients; the homography's slope and tilt are theirs too. What of a distortion centred elsewhere looks
+//! like a tilt at the centre is in it no more than in the curve: [`Distortion::largest_difference`] tells. Left out: what a polynomial of this degree cannot follow (seen in its residuals), and the
 //! chart's own errors.
 
 mod curve;
@@ -98,6 +99,19 @@ pub struct Distortion {
     pub forward: RadialFit,
     /// k₁, k₂ from observed to ideal.
     pub backward: RadialFit,
+}
+
+impl Distortion {
+    /// Where the curve and k₁, k₂ (observed to ideal) differ the most for their joint uncertainty: the curve's point, the ratio
+    /// by the coefficients, and the normalised error (k = 2).
+    #[must_use]
+    pub fn largest_difference(&self) -> Option<(CurvePoint, Estimate, f64)> {
+        let beside = |p: &CurvePoint| {
+            let by_fit = self.backward.ratio(p.field);
+            (*p, by_fit, p.ratio.normalised_error(by_fit).abs())
+        };
+        self.curve.iter().map(beside).max_by(|a, b| a.2.total_cmp(&b.2))
+    }
 }
 
 /// The distortion that a grid shows, about a centre (the picture's middle where none is stated).

@@ -60,6 +60,17 @@ impl RadialFit {
     }
 }
 
+impl RadialFit {
+    /// Observed over ideal radius at an observed one, in half diagonals about the fit's own centre, of a fit from observed to ideal.
+    pub(super) fn ratio(&self, field: f64) -> Estimate {
+        let (square, fourth) = (field * field, field * field * field * field);
+        let ratio = 1.0 / (1.0 + self.k1.value * square + self.k2.value * fourth);
+        let c = &self.covariance;
+        let variance = square * square * c[0][0] + 2.0 * square * fourth * c[0][1] + fourth * fourth * c[1][1];
+        Estimate::new(ratio, ratio * ratio * variance.max(0.0).sqrt())
+    }
+}
+
 fn middle(pairs: &[[DVec2; 2]]) -> (DVec2, f64) {
     let centre = pairs.iter().map(|p| p[0]).sum::<DVec2>() / pairs.len() as f64;
     (centre, pairs.iter().map(|p| (p[0] - centre).length()).fold(0.0, f64::max))

@@ -150,6 +150,15 @@ impl PolynomialMap {
         terms(self.degree).map(|(i, j)| along.x * u[i][1] * v[j][0] + along.y * u[i][0] * v[j][1]).collect()
     }
 
+    /// How a coordinate of the second derivatives ∂²/∂x², ∂²/∂x∂y, ∂²/∂y² depends on its coefficients.
+    #[must_use]
+    pub fn curvature_rows(&self, point: DVec2) -> [Vec<f64>; 3] {
+        let at = (point - self.centre) / self.scale;
+        let (u, v) = (chebyshev(at.x, self.degree), chebyshev(at.y, self.degree));
+        let square = self.scale * self.scale;
+        [(2, 0), (1, 1), (0, 2)].map(|(dx, dy)| terms(self.degree).map(|(i, j)| u[i][dx] * v[j][dy] / square).collect())
+    }
+
     /// The variance of what depends on a coordinate's coefficients by a row.
     #[must_use]
     pub fn variance(&self, row: &[f64]) -> f64 {

@@ -66,6 +66,25 @@ fn distortion_of_a_chart() {
     covers("distortion", distorted);
 }
 
+/// A chart over one side of the picture: the tilt at its edge does not average over directions.
+fn to_one_side(seed: u64) -> Run {
+    let camera = perspective(700.0, &[], SIZE);
+    let view = View::new(&camera, [0.02, -0.03, 0.01], DVec2::new(4.0, 6.0), DVec3::new(0.0, 0.0, 18.0));
+    let found = distortion(&seen(&view, [15, 13], normals(seed, 0)), SIZE, None).expect("enough points");
+    let at = |field: f64| {
+        let point = found.curve.iter().find(|p| (p.field - field).abs() < 1e-9).expect("the chart reaches there");
+        assert!(point.covered < 0.8, "{point:?}");
+        (point.ratio, 1.0)
+    };
+    let (a, b) = (at(0.5), at(0.65));
+    vec![("curve of one side at 50 % of the field", a.0, a.1), ("curve of one side at 65 %", b.0, b.1)]
+}
+
+#[test]
+fn distortion_of_a_chart_to_one_side() {
+    covers("distortion to one side", to_one_side);
+}
+
 /// Sightings of a 6 × 5 grid of steps of 50 mm.
 fn sighted(view: &View, mut normal: impl FnMut() -> f64) -> Sightings {
     let point = |i: usize| {

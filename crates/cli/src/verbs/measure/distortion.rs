@@ -1,7 +1,7 @@
 //! `etendue measure distortion`: from one picture of a plane chart.
 
 use super::chart_points::{ChartArguments, Seen};
-use super::report::{CameraOut, Cell, Covariance, Report, Table, Telling};
+use super::report::{CameraOut, Cell, Covariance, Report, Table, Telling, with_uncertainty};
 use crate::failure::Failure;
 use crate::machine;
 use crate::plot::{Axis, Mark, Plot, Series};
@@ -71,11 +71,27 @@ fn report(seen: &Seen, found: &Distortion, points: bool) -> Report {
     report.note(
         "k1 and k2 in half diagonals, r' = r (1 + k1 r² + k2 r⁴); centres in raster coordinates, pixel centres at +0.5",
     );
+    if let Some(note) = disagreement(found) {
+        report.note(note);
+    }
     report.table(curve(found));
     report.table_if(points, every_point(found));
     report.plot(plot(found));
     report.camera(camera(&found.backward));
     report
+}
+
+/// Where the curve is not what k₁ and k₂ say, by more than twice their joint standard uncertainty.
+fn disagreement(found: &Distortion) -> Option<String> {
+    let (point, by_fit, error) = found.largest_difference().filter(|(_, _, error)| *error > 1.0)?;
+    let less_one = |e: Estimate| with_uncertainty(percent(Estimate::new(e.value - 1.0, e.standard_uncertainty)));
+    Some(format!(
+        "the curve is not what k1 and k2 say, {error:.1} times their joint uncertainty (95 %) apart at {:.1} % of the field, {} % and {} %: \
+         the chart is tilted, the distortion is centred elsewhere (--centre-px), or k1 and k2 do not describe it",
+        100.0 * point.field,
+        less_one(point.ratio),
+        less_one(by_fit)
+    ))
 }
 
 /// The curve's centre, as comparisons tell it from another.
