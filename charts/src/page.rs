@@ -37,7 +37,7 @@ transfer; its exposures are too short for dark current to add to the offsets' pa
 current leaves; edges are those of a mean of many frames over a flat field (no noise, no PRNU, no DSNU), and their sides' fall-off is taken off. Responses are means of all
 edges over the field; of mosaics those of the green raw readings.
 
-Diffraction is described in `charts/*/`'s cameras for the second of the two responses; edges lie 5° from rows and columns, and along the diagonals the film of whole
+Diffraction is described in a file of its own beside each camera, for the second of the two responses; edges lie 5° from rows and columns, and along the diagonals the film of whole
 pixels loses up to 0.06 of a spread about as wide as a pixel (crates/optics/src/effects/band.rs).
 ";
 

@@ -186,8 +186,9 @@ impl Psf {
         ((reach / pitch_mm).ceil() as usize + 1).min(FARTHEST_PX)
     }
 
-    /// How much wider the pattern is along the radius and across it.
-    fn stretch(&self, radius_mm: f64) -> [f64; 2] {
+    /// How much wider the pattern is along the radius and across it, at a distance from the axis on the sensor.
+    #[must_use]
+    pub fn stretch(&self, radius_mm: f64) -> [f64; 2] {
         let tangent = radius_mm / self.exit_mm;
         let across = (1.0 + tangent * tangent).sqrt();
         [across * across * across, across]

@@ -22,6 +22,7 @@ use etendue_metrology::Estimate;
 use etendue_optics::effects::{PointSpread, PsfParameters, SpreadImage};
 use etendue_pipeline::plan::CameraBody;
 use etendue_spectra::{Spectrum, illuminant};
+use glam::DVec2;
 use std::f64::consts::{PI, TAU};
 
 /// Wavelengths of averages, nm apart.
@@ -104,10 +105,11 @@ impl<'a> Response<'a> {
         let down = words().any(|word| word == "vertical");
         let angle_deg = words().find_map(|word| side.angles_deg.get(word)).copied().unwrap_or(0.0);
         let (sine, cosine) = sin_cos(angle_deg.to_radians());
+        let place = words().find_map(place_px);
         let at = |nu: f64| {
             let aperture = nu * self.body.aperture_px;
             let pixel = sinc(aperture * cosine) * sinc(aperture * sine);
-            pixel * self.exchanged(nu * cosine, nu * sine, down) * self.lens(nu, down)
+            pixel * self.exchanged(nu * cosine, nu * sine, down) * self.lens(nu, down, place)
         };
         let points = measured.points.iter().map(|(x, _)| (*x, Estimate::new(at(*x).abs(), 0.0))).collect();
         Curve { points, ..measured.clone() }
@@ -123,16 +125,30 @@ impl<'a> Response<'a> {
         self.neighbours.iter().map(|(weight, x, y)| weight * wave(*x, *y)).sum()
     }
 
-    fn lens(&self, nu: f64, down: bool) -> f64 {
+    /// Diffraction is that of the place on the sensor: the pupil looks smaller from beside the axis.
+    fn lens(&self, nu: f64, down: bool, place_px: Option<DVec2>) -> f64 {
         let pitch = self.body.raster.pitch_mm();
         let per_mm = nu / if down { pitch.y } else { pitch.x };
+        let axis = if down { DVec2::Y } else { DVec2::X };
         let average = |of: &dyn Fn(f64) -> f64| self.light.iter().map(|(weight, nm)| weight * of(*nm)).sum();
         match self.body.effects.psf() {
             None => 1.0,
-            Some(PointSpread::Aperture(psf)) => average(&|nm| diffraction(nm * 1e-6 * psf.f_number() * per_mm)),
+            Some(PointSpread::Aperture(psf)) => {
+                let place = place_px.map_or(DVec2::ZERO, |at| (at - self.body.raster.principal_px()) * pitch);
+                let outwards = place.try_normalize().unwrap_or(DVec2::X);
+                let [along, across] = psf.stretch(place.length());
+                let wider = DVec2::new(along * axis.dot(outwards), across * axis.perp_dot(outwards)).length();
+                average(&|nm| diffraction(nm * 1e-6 * psf.f_number() * per_mm * wider))
+            }
             Some(PointSpread::Image(image)) => average(&|nm| of_picture(image, nm, per_mm, down)),
         }
     }
+}
+
+/// A place by its columns and rows, as edges are named.
+fn place_px(word: &str) -> Option<DVec2> {
+    let (x, y) = word.split_once(',')?;
+    Some(DVec2::new(x.parse().ok()?, y.parse().ok()?))
 }
 
 /// The light's spectrum.
