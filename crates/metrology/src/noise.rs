@@ -21,6 +21,8 @@ use crate::{Estimate, Image};
 
 /// The least number of frames that the standard lets.
 pub const LEAST_FRAMES: usize = 8;
+/// How far a frame's mean may lie from the others', of the signal: lamps flicker by a few percent.
+const UNSTEADY: f64 = 0.1;
 
 /// Noise of a patch, in readings.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,6 +69,20 @@ pub enum NoiseError {
         /// Reading of no light.
         black: f64,
     },
+    /// A frame shows something else.
+    #[error(
+        "frame {frame} of {frames} reads {mean:.4} on average where most read {usual:.4}: are they frames of one patch in one light?"
+    )]
+    Unlike {
+        /// Which, from 1.
+        frame: usize,
+        /// Of how many.
+        frames: usize,
+        /// Its mean.
+        mean: f64,
+        /// The median of all means.
+        usual: f64,
+    },
     /// A frame is clipped.
     #[error("{percent:.1} % of the pixels are saturated, which cuts their noise: expose less")]
     Saturated {
@@ -83,6 +99,15 @@ pub fn check_frame(frame: &Image, full_scale: Option<f64>) -> Result<(), NoiseEr
     saturated_percent([frame], full_scale).map_or(Ok(()), |percent| Err(NoiseError::Saturated { percent }))
 }
 
+/// Frames' means must lie within [`UNSTEADY`] of their median, less black.
+fn one_light(means: &[f64], black: f64) -> Result<(), NoiseError> {
+    let mut sorted = means.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let usual = sorted[sorted.len() / 2];
+    let off = means.iter().position(|mean| (mean - usual).abs() > UNSTEADY * (usual - black).abs());
+    off.map_or(Ok(()), |i| Err(NoiseError::Unlike { frame: i + 1, frames: means.len(), mean: means[i], usual }))
+}
+
 /// The noise of a stack of frames of a patch.
 ///
 /// # Errors
@@ -91,6 +116,7 @@ pub fn measure_noise(stack: &Stack, black: f64) -> Result<Noise, NoiseError> {
     if stack.frames() < LEAST_FRAMES {
         return Err(NoiseError::TooFew(stack.frames()));
     }
+    one_light(stack.frame_means(), black)?;
     let (statistics, pattern) = (stack.statistics()?, Pattern::of(stack)?);
     let (temporal, fixed) = (statistics.variance_dn2, pattern.variances_dn2().total);
     let variance = temporal.value + fixed.value.max(0.0);
@@ -130,6 +156,16 @@ mod tests {
             stack.push(&image).expect("a frame");
         }
         stack
+    }
+
+    #[test]
+    fn a_frame_of_another_light_is_refused() {
+        let mut frames = stack(9);
+        assert!(measure_noise(&frames, 0.0).is_ok());
+        let mean = frames.frame_means()[0];
+        let other: Vec<f32> = (0..64 * 64).map(|i| (0.8 * mean) as f32 + (i % 7) as f32).collect();
+        frames.push(&Image::from_samples(64, 64, other).expect("filled")).expect("a frame");
+        assert!(matches!(measure_noise(&frames, 0.0), Err(NoiseError::Unlike { frame: 10, frames: 10, .. })));
     }
 
     #[test]

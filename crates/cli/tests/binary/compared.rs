@@ -100,28 +100,34 @@ fn a_camera_file_declares_what_was_measured() {
 fn responses_are_declared_in_closed_form() {
     let folder = tempfile::tempdir().expect("a folder");
     let camera = text(&root().join("scenes/cameras/ccd-mono.toml"));
-    let measured = |name: &str, angle_deg: f64, response: f64| {
-        let point = json!({ "at_px": "1,2", "direction": "horizontal", "cycles_per_px": 0.5,
+    let measured_at = |at: &str, name: &str, angle_deg: f64, response: f64| {
+        let point = json!({ "at_px": at, "direction": "horizontal", "cycles_per_px": 0.5,
             "response": { "value": response, "standard_uncertainty": 1e-4 } });
-        let edge = json!({ "at_px": "1,2", "angle_deg": angle_deg });
+        let edge = json!({ "at_px": at, "angle_deg": angle_deg });
         let tables = json!({ "response": [point], "edges": [edge] });
         let settings = json!({ "readings": "raw" });
         let report = json!({ "measurement": "sfr", "settings": settings, "figures": {}, "tables": tables });
         written(folder.path(), name, &report)
     };
+    let measured = |name: &str, angle_deg: f64, response: f64| measured_at("388,291", name, angle_deg, response);
     // sin(π/2)/(π/2), and at 43°: sinc(0.36568) sinc(0.34100) by hand.
     compare(&measured("straight.json", 0.0, std::f64::consts::FRAC_2_PI), &camera).ok();
     compare(&measured("slanted.json", 43.0, 0.650_69), &camera).ok();
     assert_eq!(compare(&measured("wrong.json", 43.0, std::f64::consts::FRAC_2_PI), &camera).status, 1);
     // s = λ N/(2 · 8.3 µm) of light from 380 to 780 nm at f/2: 0.046 to 0.094; 1 − 4 s/π + … = 0.941 to 0.880.
-    let diffracted = |response: f64| {
-        let file = measured("diffraction.json", 0.0, response);
-        etendue(["measure", "compare", &file, &camera, "--set", "effects.psf={}", "--json"]).out
+    let lost = |at: &str| {
+        let file = measured_at(at, "diffraction.json", 0.0, 0.6);
+        let said = etendue(["measure", "compare", &file, &camera, "--set", "effects.psf={}", "--json"]).out;
+        let report: Value = serde_json::from_str(&said).expect("JSON");
+        let difference =
+            row(&report, "curves", "curve", &format!("response {at} horizontal"))["largest_difference"].as_f64();
+        1.0 - (0.6 - difference.expect("a difference")) / std::f64::consts::FRAC_2_PI
     };
-    let report: Value = serde_json::from_str(&diffracted(0.6)).expect("JSON");
-    let declared = row(&report, "curves", "curve", "response 1,2 horizontal")["largest_difference"].as_f64();
-    let share = (0.6 - declared.expect("a difference")) / std::f64::consts::FRAC_2_PI;
-    assert!((0.90..0.93).contains(&share), "{share}");
+    let middle = lost("388,291");
+    assert!((0.07..0.10).contains(&middle), "{middle}");
+    // 388 px of 8.3 µm to the side, 8 mm before the pupil: tan θ′ = 0.4026, cos⁻³ θ′ = 1.2526 of the frequency, as 4 s/π is lost.
+    let side = lost("776,291") / middle;
+    assert!((side - 1.2526).abs() < 0.01, "{side}");
 }
 
 /// A straight line, its smear, and the picture's curve, the light's strength free.

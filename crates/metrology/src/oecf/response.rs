@@ -75,6 +75,9 @@ pub fn camera_response(pictures: &[(f64, &Image)], settings: &ResponseSettings) 
     if let Some(pair) = sorted.windows(2).find(|pair| pair[0].0 == pair[1].0) {
         return Err(OecfError::Twice(pair[0].0));
     }
+    if sorted.windows(2).any(|pair| pair[0].1 == pair[1].1) {
+        return Err(OecfError::Flat);
+    }
     let mut exposures: Vec<f64> = sorted.iter().map(|(e, _)| e / sorted[0].0).collect();
     let pairs = pairs(&sorted, settings);
     if pairs.len() < 100 {

@@ -9,6 +9,7 @@ use clap::Args;
 use etendue_io::photograph::read_photograph;
 use etendue_metrology::Estimate;
 use etendue_metrology::chromatic::{Displacement, Ring, displacements, rings, shift};
+use glam::DVec2;
 use std::path::PathBuf;
 
 /// `etendue measure chromatic`
@@ -44,6 +45,10 @@ pub(super) fn run(arguments: &ChromaticArguments) -> Result<(), Failure> {
         return Err(Failure::input(format!(
             "{file}: the chart's points in {name} belong to none in green: are these colours of one picture?"
         )));
+    }
+    if found.iter().flat_map(|(_, list)| list).all(|point| point.by == DVec2::ZERO) {
+        let file = file.display();
+        return Err(Failure::input(format!("{file}: red, green and blue are the same: expected a picture in colour")));
     }
     report(&found).tell(&arguments.telling)
 }

@@ -52,7 +52,17 @@ pub(super) fn run(arguments: &DarkCurrent) -> Result<(), Failure> {
         .into_iter()
         .map(|law| fit(law, &currents, arguments.reference_c).map_err(Failure::input))
         .collect::<Result<Vec<_>, _>>()?;
+    if let Some(pair) = copies(&currents) {
+        let [a, b] = pair.map(|i| arguments.series[i].1.display());
+        return Err(Failure::input(format!("{a} and {b} hold one measurement: give each temperature its own")));
+    }
     report(&currents, &growths, arguments.reference_c).tell(&arguments.telling)
+}
+
+/// Two measurements that are the same to the last bit.
+fn copies(currents: &[(f64, Estimate)]) -> Option<[usize; 2]> {
+    let pairs = (0..currents.len()).flat_map(|i| (0..i).map(move |j| [j, i]));
+    pairs.into_iter().find(|[j, i]| currents[*j].1 == currents[*i].1)
 }
 
 fn report(currents: &[(f64, Estimate)], growths: &[Growth], reference_c: f64) -> Report {

@@ -4,7 +4,8 @@
 //! MTF(ν) = sinc(a ν cos θ) sinc(a ν sin θ) · neighbours(ν) · lens(ν)
 //!                                     ν in cycles a pixel along the edge's normal, θ from the normal to the nearest of rows and columns
 //! neighbours: Σ w_n r_n cos(2π ν n·d_n)/Σ w_n r_n       w_n what the pixel takes of neighbour n at d_n (n the normal), r_n its response to the light
-//! lens: circular pupil: 2/π (arccos s − s √(1 − s²)), s = λ N ν/pitch, averaged over the light that the pixel sees
+//! lens: circular pupil: 2/π (arccos s − s √(1 − s²)), s = λ N ν w/pitch, averaged over the light that the pixel sees; w how much wider
+//!       the pattern is at the edge's place: 1/cos³ θ′ along the radius, 1/cos θ′ across it
 //!       picture of a point: Σ L cos(2π ν x)/Σ L
 //! ```
 //!
