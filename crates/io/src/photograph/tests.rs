@@ -48,7 +48,7 @@ fn a_tiff_that_is_cut_or_strange_is_refused() {
     let told = read(&tiff::<colortype::CMYK8>(1, 1, &[1, 2, 3, 4])).expect_err("ink");
     assert_eq!(told, "t.tif: a TIFF of CMYK(8); expected grey or RGB: convert it");
     let told = read(b"{}").expect_err("no picture");
-    let kinds = "expected PNG, JPEG, TIFF, uncompressed DNG, Radiance HDR or OpenEXR";
+    let kinds = "expected PNG, JPEG, TIFF, uncompressed DNG, Radiance HDR, PFM or OpenEXR";
     assert_eq!(told, format!("t.tif: not a picture of a known kind; {kinds}"));
     let told = read(&tiff::<colortype::Gray32Float>(1, 1, &[f32::NAN])).expect_err("no number");
     assert_eq!(told, "t.tif: sample 0 is NaN; expected finite numbers");
