@@ -29,7 +29,7 @@ impl Beckmann {
     }
 
     /// cos θ · Λ, finite at grazing.
-    fn shadow(self, w: Vec3) -> f32 {
+    pub(super) fn shadow(self, w: Vec3) -> f32 {
         let slope = self.alpha * (w.x * w.x + w.y * w.y).sqrt();
         let a = w.z / slope.max(f32::MIN_POSITIVE);
         // Beyond, Λ is below 1e-12.

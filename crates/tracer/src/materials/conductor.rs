@@ -141,7 +141,7 @@ enum Fresnel<const N: usize> {
 /// Light scattered among facets more than once.
 #[derive(Clone, Copy, Debug)]
 struct More<const N: usize> {
-    loss: LossOfAlpha,
+    loss: LossOfAlpha<'static>,
     /// F_ms.
     tint: Spectral<N>,
 }

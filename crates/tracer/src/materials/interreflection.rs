@@ -5,9 +5,10 @@
 //! light that met two facets or more (Hill 2018). Reciprocal; with F = 1 the whole sends back all light, with less it
 //! sends back at most E + (1 − E) F_ms ≤ 1 at every wavelength.
 //!
-//! E is tabulated by a fixed quadrature over visible facets, on roughness α = t² and μ/(μ + α), the cosine measured
-//! against the roughness: for small α the loss depends on their ratio alone. Ē is the mean of the same table, so that the
-//! furnace's error is the table's own. Directions are drawn from the loss itself by the table's cells.
+//! 1 − E is tabulated by quadrature over slopes, on the root of the roughness and the slant μ/(μ + α), the cosine measured
+//! against the roughness: for small α the loss depends on their ratio alone. 1 − Ē is the integral of the interpolated table
+//! itself, tabulated finely over α, so that the furnace's error is the table's own: 3e-4 at most. Directions are drawn from
+//! the loss by the table's cells.
 //!
 //! Left out: the direction that light keeps after a few bounces; what leaves is taken independent of where it came from.
 
@@ -16,19 +17,23 @@ use etendue_core::maths::f32::{exp, ln, sin_cos};
 use glam::{Vec2, Vec3};
 use std::sync::LazyLock;
 
+use super::MIRROR_ALPHA;
 use super::facets::Distribution;
-use super::microfacet::mirrored;
+use super::gauss::GAUSS;
+use super::slopes::SeenFacets;
 
 /// Steps over the root of the roughness.
-const ROUGHNESSES: usize = 32;
-/// Steps over μ/(μ + α), from 0 to its value at μ = 1.
-const SLANTS: usize = 32;
+const ROUGHNESSES: usize = 64;
+/// Steps over the slant, from 0 to its value at μ = 1.
+const SLANTS: usize = 128;
+/// Steps of the mean over the logarithm of the roughness, from [`MIRROR_ALPHA`] to 1.
+const MEANS: usize = 256;
 
 /// Loss by single scattering for every roughness and incidence.
 pub(super) struct Loss {
-    /// (1 − E) (1 + μ²/α²), row by row of roughness.
+    /// 1 − E, row by row of roughness.
     loss: Vec<f32>,
-    /// (1 − Ē)/α², row by row.
+    /// (1 − Ē)/α².
     mean: Vec<f32>,
     /// For each row, how much of ∫ (1 − E) μ dμ lies below each step of the slant; the last is 1.
     cumulative: Vec<f32>,
@@ -51,110 +56,95 @@ fn row_alpha(row: usize) -> f32 {
     (t * t).max(2e-4)
 }
 
-/// The cosine at a slant of 0 to 1.
-fn cosine(slant: f32, alpha: f32) -> f32 {
-    let s = slant / (1.0 + alpha);
+/// How much closer together steps of the slant are at 0, where the loss falls like μ ln μ: the slant is (q² + c q)/(1 + c)
+/// at q = step/[`SLANTS`].
+const GRAZING: f32 = 0.25;
+
+/// The cosine at a step of the slant.
+fn cosine(step: f32, alpha: f32) -> f32 {
+    let q = step / SLANTS as f32;
+    let s = q * (q + GRAZING) / ((1.0 + GRAZING) * (1.0 + alpha));
     (alpha * s / (1.0 - s)).min(1.0)
 }
 
-fn slant(cos: f32, alpha: f32) -> f32 {
-    cos / (cos + alpha) * (1.0 + alpha)
+/// The step of the slant at a cosine, 0 to [`SLANTS`].
+fn step(cos: f32, alpha: f32) -> f32 {
+    let slant = cos / (cos + alpha) * (1.0 + alpha);
+    let root = (GRAZING * GRAZING + 4.0 * (1.0 + GRAZING) * slant).sqrt();
+    (0.5 * (root - GRAZING) * SLANTS as f32).min(SLANTS as f32)
+}
+
+/// Where a roughness lies among the rows.
+fn row_of(alpha: f32) -> (usize, f32) {
+    let x = alpha.clamp(0.0, 1.0).sqrt() * ROUGHNESSES as f32;
+    let row = (x as usize).min(ROUGHNESSES - 1);
+    (row, x - row as f32)
+}
+
+/// Where a roughness lies among the means.
+fn mean_of(alpha: f32) -> (usize, f32) {
+    let x = (1.0 - ln(alpha.max(MIRROR_ALPHA)) / ln(MIRROR_ALPHA)).clamp(0.0, 1.0) * MEANS as f32;
+    let node = (x as usize).min(MEANS - 1);
+    (node, x - node as f32)
 }
 
 impl Loss {
     fn new(distribution: Distribution) -> Self {
-        let (mut loss, mut mean, mut cumulative) = (vec![], vec![], vec![]);
+        let mut table = Self { loss: vec![], mean: vec![0.0; MEANS + 1], cumulative: vec![] };
         for row in 0..=ROUGHNESSES {
             let alpha = row_alpha(row);
-            let at = |k: usize| {
-                let cos = cell_edge(k, alpha);
-                loss_at(distribution, alpha, cos) * fall(cos, alpha)
-            };
-            let row: Vec<f32> = (0..=SLANTS).map(at).collect();
-            let cells: Vec<f64> = (0..SLANTS).map(|k| cell_flux(&row, k, alpha)).collect();
-            let total: f64 = cells.iter().sum();
-            mean.push((2.0 * total / (f64::from(alpha) * f64::from(alpha))) as f32);
-            cumulative.push(0.0);
-            let mut sum = 0.0;
-            cumulative.extend(cells.iter().map(|cell| {
-                sum += cell / total;
-                sum.min(1.0) as f32
+            table.loss.extend((0..=SLANTS).map(|k| {
+                let lost = SeenFacets::new(distribution, alpha, cell_edge(k, alpha)).lost();
+                lost.max(1e-12) as f32
             }));
-            loss.extend(row);
         }
-        Self { loss, mean, cumulative }
+        for row in 0..=ROUGHNESSES {
+            table.cumulative.extend(table.shares(row_alpha(row)));
+        }
+        table.mean = (0..=MEANS).map(|node| table.mean_at(node)).collect();
+        table
     }
 
     /// The loss at a roughness.
-    pub(super) fn of_alpha(&'static self, alpha: f32) -> LossOfAlpha {
-        let x = alpha.clamp(0.0, 1.0).sqrt() * ROUGHNESSES as f32;
-        let row = (x as usize).min(ROUGHNESSES - 1);
-        let share = x - row as f32;
-        let mean = self.mean[row] + (self.mean[row + 1] - self.mean[row]) * share;
+    pub(super) fn of_alpha(&self, alpha: f32) -> LossOfAlpha<'_> {
+        let ((row, share), (node, beyond)) = (row_of(alpha), mean_of(alpha));
+        let mean = self.mean[node] + (self.mean[node + 1] - self.mean[node]) * beyond;
         LossOfAlpha { table: self, alpha, row, share, mean: mean * alpha * alpha }
+    }
+
+    /// ∫ (1 − E) μ dμ over each cell of the slant.
+    fn cells(&self, alpha: f32) -> Vec<f64> {
+        let loss = self.of_alpha(alpha);
+        (0..SLANTS).map(|k| loss.cell_flux(k)).collect()
+    }
+
+    /// The sums of these up to each step, over all.
+    fn shares(&self, alpha: f32) -> Vec<f32> {
+        let cells = self.cells(alpha);
+        let total: f64 = cells.iter().sum();
+        let mut sum = 0.0;
+        let sums = cells.iter().map(|cell| {
+            sum += cell / total;
+            sum.min(1.0) as f32
+        });
+        core::iter::once(0.0).chain(sums).collect()
+    }
+
+    /// (1 − Ē)/α² of a node of the means.
+    fn mean_at(&self, node: usize) -> f32 {
+        let alpha = exp(ln(MIRROR_ALPHA) * (1.0 - node as f32 / MEANS as f32));
+        (2.0 * self.cells(alpha).iter().sum::<f64>() / (f64::from(alpha) * f64::from(alpha))) as f32
     }
 }
 
-/// 1 − E at a cosine, by the midpoint rule over the square that visible facets are drawn from (half of it in azimuth),
-/// denser at the ends of the steepness: there lie the few facets that lose most.
-fn loss_at(distribution: Distribution, alpha: f32, cos: f32) -> f32 {
-    const CELLS: usize = 24;
-    let facets = distribution.of_alpha(alpha);
-    let cos = cos.max(1e-7);
-    let wo = Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos);
-    let cell = |i: usize| {
-        let (a, b) = (((i % CELLS) as f32 + 0.5) / CELLS as f32, ((i / CELLS) as f32 + 0.5) / CELLS as f32);
-        let (b, mut density) = to_the_ends(b);
-        let u = match distribution {
-            Distribution::Ggx => Vec2::new(0.5 * a, b),
-            Distribution::Beckmann => {
-                let (a, more) = to_the_ends(a);
-                density *= more;
-                Vec2::new(b, 0.5 * a)
-            }
-        };
-        let wi = mirrored(wo, facets.sample(wo, u));
-        let loss = if wi.z > 0.0 { 1.0 - facets.weight(wo, wi) } else { 1.0 };
-        f64::from(loss * density)
-    };
-    (((0..CELLS * CELLS).map(cell).sum::<f64>() / (CELLS * CELLS) as f64) as f32).max(1e-12)
-}
-
-/// A map of [0, 1] to itself that is dense at both ends, and its derivative.
-fn to_the_ends(v: f32) -> (f32, f32) {
-    (v * v * (3.0 - 2.0 * v), 6.0 * v * (1.0 - v))
-}
-
-/// By how much the loss falls beyond a cosine of α, about: what is interpolated is the loss times this.
-fn fall(cos: f32, alpha: f32) -> f32 {
-    1.0 + cos * cos / (alpha * alpha)
-}
-
-/// ∫ (1 − E) μ dμ over a cell of a row, by the midpoint rule over equal steps, or equal ratios where the cell does not
-/// begin at zero.
-fn cell_flux(row: &[f32], k: usize, alpha: f32) -> f64 {
-    const STEPS: usize = 64;
-    let (low, high) = (cell_edge(k, alpha), cell_edge(k + 1, alpha));
-    let at = |x: f32| if k == 0 { high * x } else { low * exp(x * ln(high / low)) };
-    (0..STEPS)
-        .map(|i| {
-            let (a, b) = (at(i as f32 / STEPS as f32), at((i + 1) as f32 / STEPS as f32));
-            let mid = at((i as f32 + 0.5) / STEPS as f32);
-            let x = slant(mid, alpha) * SLANTS as f32 - k as f32;
-            let loss = (row[k] + (row[k + 1] - row[k]) * x) / fall(mid, alpha);
-            f64::from(loss) * 0.5 * f64::from(b - a) * f64::from(b + a)
-        })
-        .sum()
-}
-
 fn cell_edge(k: usize, alpha: f32) -> f32 {
-    if k == SLANTS { 1.0 } else { cosine(k as f32 / SLANTS as f32, alpha) }
+    if k == SLANTS { 1.0 } else { cosine(k as f32, alpha) }
 }
 
 /// What single scattering loses at one roughness.
 #[derive(Clone, Copy)]
-pub(super) struct LossOfAlpha {
-    table: &'static Loss,
+pub(super) struct LossOfAlpha<'a> {
+    table: &'a Loss,
     alpha: f32,
     row: usize,
     share: f32,
@@ -162,23 +152,36 @@ pub(super) struct LossOfAlpha {
     mean: f32,
 }
 
-impl core::fmt::Debug for LossOfAlpha {
+impl core::fmt::Debug for LossOfAlpha<'_> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.debug_struct("LossOfAlpha").field("alpha", &self.alpha).field("mean", &self.mean).finish_non_exhaustive()
     }
 }
 
-impl LossOfAlpha {
+impl LossOfAlpha<'_> {
     /// 1 − E at a cosine.
     pub(super) fn at(&self, cos: f32) -> f32 {
-        let x = (slant(cos, self.alpha) * SLANTS as f32).min(SLANTS as f32);
+        let x = step(cos, self.alpha);
         let k = (x as usize).min(SLANTS - 1);
         let along = |row: usize| {
             let nodes = &self.table.loss[row * (SLANTS + 1) + k..];
             nodes[0] + (nodes[1] - nodes[0]) * (x - k as f32)
         };
         let (low, high) = (along(self.row), along(self.row + 1));
-        (low + (high - low) * self.share) / fall(cos, self.alpha)
+        low + (high - low) * self.share
+    }
+
+    /// ∫ (1 − E) μ dμ over a cell of the slant: over the cosine in the first, over its logarithm in the others.
+    fn cell_flux(&self, k: usize) -> f64 {
+        let (low, high) = (cell_edge(k, self.alpha), cell_edge(k + 1, self.alpha));
+        let ratio = if k == 0 { 0.0 } else { ln(high / low) };
+        let at = |(x, weight): &(f64, f64)| {
+            let x = *x as f32;
+            let (cos, change) =
+                if k == 0 { (high * x, high) } else { (low * exp(x * ratio), low * exp(x * ratio) * ratio) };
+            weight * f64::from(self.at(cos) * cos * change)
+        };
+        GAUSS.iter().map(at).sum()
     }
 
     /// F_ms of a mean Fresnel reflectance F̄.
@@ -192,7 +195,7 @@ impl LossOfAlpha {
     }
 
     /// The nearer row of the table: directions are drawn by its cells.
-    fn cells(&self) -> &'static [f32] {
+    fn cells(&self) -> &[f32] {
         let row = self.row + usize::from(self.share >= 0.5);
         &self.table.cumulative[row * (SLANTS + 1)..(row + 1) * (SLANTS + 1)]
     }
@@ -216,7 +219,7 @@ impl LossOfAlpha {
 
     /// Density of [`Self::sample`] at a cosine, 1/sr.
     pub(super) fn pdf(&self, cos: f32) -> f32 {
-        let k = ((slant(cos, self.alpha) * SLANTS as f32) as usize).min(SLANTS - 1);
+        let k = (step(cos, self.alpha) as usize).min(SLANTS - 1);
         let cells = self.cells();
         let (low, high) = (cell_edge(k, self.alpha), cell_edge(k + 1, self.alpha));
         let density = if k == 0 { 2.0 * cos / (high * high) } else { 1.0 / (cos * ln(high / low)) };

@@ -32,6 +32,7 @@ mod error;
 mod facets;
 mod factor;
 pub mod fresnel;
+mod gauss;
 mod interreflection;
 mod lafortune;
 mod leaf;
@@ -43,6 +44,7 @@ mod palette;
 mod reflectance;
 mod retro;
 mod shading;
+mod slopes;
 #[cfg(test)]
 mod tests;
 mod thin_sheet;

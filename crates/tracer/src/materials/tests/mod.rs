@@ -1,6 +1,7 @@
 //! Every material against the contract: densities, values, reciprocity, energy.
 
 pub(in crate::materials) mod chi_square;
+mod furnace;
 mod maps;
 mod reflection;
 mod refusals;
@@ -167,8 +168,12 @@ fn albedo(bsdf: &Bsdf<'_, 4>, wo: Vec3) -> Spectral<4> {
 
 /// The same for each side: power, so without the thinning of radiance by refraction.
 fn albedos(bsdf: &Bsdf<'_, 4>, wo: Vec3) -> [Spectral<4>; 2] {
-    const N: u32 = 1 << 17;
-    // A lattice of three dimensions (powers of the plastic number's kin): error below 2e-3 for N points.
+    albedos_of::<{ 1 << 17 }>(bsdf, wo)
+}
+
+/// By `N` points of a lattice of three dimensions (powers of the plastic number's kin): error below 2e-3 for 2¹⁷ points,
+/// 3e-4 for 2²⁰.
+fn albedos_of<const N: u32>(bsdf: &Bsdf<'_, 4>, wo: Vec3) -> [Spectral<4>; 2] {
     let eta = if let Bsdf::Dielectric(dielectric) = bsdf { dielectric.eta() } else { 1.0 };
     let mut sums = [[0.0_f64; 4]; 2];
     for i in 0..N {
@@ -193,17 +198,6 @@ fn nothing_sends_on_more_than_arrives() {
                 let albedo = albedo(&bsdf, at_degrees(degrees));
                 assert!(albedo.is_finite() && albedo.max_value() <= 1.0 + 2e-3, "{k}/{side} at {degrees}: {albedo:?}");
             }
-        }
-    }
-}
-
-#[test]
-fn a_white_base_gives_back_what_the_coat_lets_in() {
-    for alpha in [0.0, 0.05, 0.3, 1.0] {
-        let palette = palette(paint(1.0, 1.5, alpha));
-        for degrees in [0.0, 30.0, 60.0, 80.0, 88.0] {
-            let albedo = albedo(&bsdf(&palette), at_degrees(degrees));
-            assert!((albedo.max_value() - 1.0).abs() < 3e-3, "α {alpha} at {degrees}: {albedo:?}");
         }
     }
 }

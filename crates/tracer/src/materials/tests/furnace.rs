@@ -1,0 +1,65 @@
+//! White surfaces in even light send back what arrives, within 1e-3 at every roughness and angle.
+
+use super::reflection::*;
+use super::*;
+
+/// Allowed difference from 1: 3e-4 of it are the sum's.
+const ALLOWED: f32 = 1e-3;
+
+fn sent_back(palette: &Palette, degrees: f32) -> f32 {
+    albedos_of::<{ 1 << 20 }>(&bsdf(palette), at_degrees(degrees))[0][0]
+}
+
+/// So good a conductor that it reflects all but 4e-12, by numbers as large as are legal.
+fn bright_metal() -> metal::ComplexIndex {
+    metal::ComplexIndex { n: Spectrum::constant(1e-4), k: Spectrum::constant(1e4) }
+}
+
+fn assert_white(name: &str, surface: Surface, angles: &[f32]) {
+    let palette = palette(surface);
+    for degrees in angles {
+        let sent = sent_back(&palette, *degrees);
+        assert!((sent - 1.0).abs() < ALLOWED, "{name} at {degrees}°: {sent}");
+    }
+}
+
+#[test]
+fn white_ggx_facets_send_back_all_light() {
+    for alpha in [3e-4, 0.01, 0.13, 0.25, 0.32, 0.7, 1.0] {
+        let surface = rough(&bright_metal(), alpha, Distribution::Ggx, true);
+        assert_white(&format!("α {alpha}"), surface, &[0.0, 40.0, 75.0, 89.0, 89.99]);
+    }
+}
+
+#[test]
+fn white_beckmann_facets_send_back_all_light() {
+    for alpha in [3e-4, 0.1, 0.32, 0.7, 1.0] {
+        let surface = rough(&bright_metal(), alpha, Distribution::Beckmann, true);
+        assert_white(&format!("α {alpha}"), surface, &[0.0, 72.0, 89.9]);
+    }
+}
+
+#[test]
+fn white_coated_bases_send_back_all_light() {
+    for (n, alpha) in [(1.1, 1e-4), (1.5, 1e-3), (1.1, 0.01), (4.0, 0.05), (4.0, 0.2), (1.5, 0.5), (4.0, 1.0)] {
+        assert_white(&format!("n {n} α {alpha}"), paint(1.0, n, alpha), &[0.0, 60.0, 89.0, 89.9, 89.99]);
+    }
+}
+
+#[test]
+fn white_cloth_sends_back_all_light() {
+    for alpha in [0.1, 0.3, 1.0] {
+        assert_white(&format!("α {alpha}"), cloth(1.0, 1.0, alpha), &[0.0, 60.0, 89.0, 89.9, 89.99]);
+    }
+}
+
+#[test]
+fn car_paint_never_sends_back_more_than_arrives() {
+    for (coverage, flake_alpha, coat_alpha) in [(0.0, 0.3, 0.0), (0.5, 0.1, 0.0), (1.0, 0.05, 0.0), (0.7, 0.3, 0.1)] {
+        let palette = palette(car_paint(1.0, 1.0, coverage, flake_alpha, coat_alpha));
+        for degrees in [0.0, 40.0, 75.0, 89.0, 89.99] {
+            let sent = sent_back(&palette, degrees);
+            assert!(sent < 1.0 + ALLOWED, "{coverage} {flake_alpha} {coat_alpha} at {degrees}°: {sent}");
+        }
+    }
+}
