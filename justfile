@@ -31,6 +31,10 @@ validate *cameras:
 faults:
     ETENDUE_BLESS=1 cargo test -p etendue-cli --test binary faults::
 
+# Render the pictures of docs/pictures.md anew (names: some of them)
+gallery *names:
+    docs/pictures/gallery {{names}}
+
 # Efficiency beside Mitsuba 3 and Cycles (needs Python 3.11, PyPI, libllvm19)
 peers *arguments:
     benches/peers/run {{arguments}}

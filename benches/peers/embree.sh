@@ -11,5 +11,5 @@ fi
 library=$(find "$venv" -name "libembree4*.so*" | head -n 1)
 tbb=$(dirname "$library")
 cd "$root/benches/peers/embree"
-cargo build --release --quiet --target-dir "$root/target/peers/embree"
+cargo build --release --locked --quiet --target-dir "$root/target/peers/embree"
 LD_LIBRARY_PATH=$tbb exec "$root/target/peers/embree/release/etendue-beside-embree" "$library" "$@"

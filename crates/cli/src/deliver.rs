@@ -161,6 +161,7 @@ fn planes(truth: &GroundTruth) -> exr::GroundTruth<'_> {
         distance: Some(&truth.distance),
         normal: Some(&truth.normal),
         position: Some(&truth.position),
+        camera_space_position: truth.camera_space_position.as_ref(),
         instance: Some(&truth.instance),
         semantic: Some(&truth.semantic),
         material: Some(&truth.material),

@@ -94,6 +94,12 @@ impl CameraPose {
     pub fn point_to_render(&self, point_m: DVec3) -> DVec3 {
         self.rotation * point_m
     }
+
+    /// A point of the world (m) in the camera frame, m.
+    #[must_use]
+    pub fn point_to_camera(&self, world_m: DVec3) -> DVec3 {
+        self.rotation.transpose() * (world_m - self.position_m)
+    }
 }
 
 #[cfg(test)]

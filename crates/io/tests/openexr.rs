@@ -50,6 +50,7 @@ fn ground_truth() -> Vec<u8> {
         distance: Some(&lengths),
         normal: Some(&vectors),
         position: Some(&vectors),
+        camera_space_position: None,
         instance: Some(&ids),
         semantic: Some(&ids),
         material: Some(&ids),

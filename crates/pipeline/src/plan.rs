@@ -250,6 +250,8 @@ pub struct Products {
     pub picture: bool,
     /// Depth, normals, positions, identities.
     pub ground_truth: bool,
+    /// Positions in the camera's frame with it.
+    pub camera_space_position: bool,
     /// Depth as 16-bit PNG, by its numbers a metre.
     pub depth_png_per_m: Option<f64>,
     /// Origin and direction of each pixel's ray.
@@ -258,7 +260,7 @@ pub struct Products {
     pub undistorted: Option<f64>,
 }
 
-/// As derived, but that a twin, causes and a raw format nobody asks for are not named: plans without keep their hash.
+/// As derived, but that what few ask for (a twin, causes, a raw format, positions in the camera's frame) is not named where it is not: plans without keep their hash.
 impl fmt::Debug for Products {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut all = f.debug_struct("Products");
@@ -274,6 +276,9 @@ impl fmt::Debug for Products {
         }
         if self.causes {
             all.field("causes", &self.causes);
+        }
+        if self.camera_space_position {
+            all.field("camera_space_position", &self.camera_space_position);
         }
         all.finish()
     }

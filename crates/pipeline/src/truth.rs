@@ -1,7 +1,7 @@
 //! Ground truth: what each pixel's principal ray meets. Point-sampled, never filtered: a surface that is cut out by its
 //! opacity is there where at least half of it is.
 
-use crate::plan::{CameraPlan, Plan};
+use crate::plan::{CameraBody, CameraPlan, Plan};
 use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Length, Quantity, Vector};
 use etendue_optics::front::{FrontRay, Optic};
@@ -27,6 +27,8 @@ pub struct GroundTruth {
     pub normal: Plane<Vector>,
     /// Position in the world, m; zero for the sky.
     pub position: Plane<Vector>,
+    /// Position in the camera's frame, m; z is negative behind the camera; zero for the sky. `None` where it is not asked for.
+    pub camera_space_position: Option<Plane<Vector>>,
     /// Instance ids; 0 is the background.
     pub instance: Plane<Identity>,
     /// Class ids; 0 is the background and what has no class.
@@ -78,6 +80,10 @@ pub fn ground_truth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> GroundTruth
         distance: plane(&looks, width, height, |l| l.seen.distance()),
         normal: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.normal)),
         position: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.position_m)),
+        camera_space_position: camera.products.camera_space_position.then(|| {
+            let in_camera = |truth: &Truth| camera.pose.point_to_camera(truth.position_m);
+            plane(&looks, width, height, |l| l.seen.vector(in_camera))
+        }),
         instance: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.instance_id)),
         semantic: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.semantic_id)),
         material: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.material + 1)),
@@ -88,6 +94,22 @@ pub fn ground_truth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> GroundTruth
 
 fn has_mirror(camera: &CameraPlan) -> bool {
     matches!(camera.body.front.as_ref().and_then(|front| front.optic()), Some(Optic::Mirror(_)))
+}
+
+/// Whether some pixels look sideways, back or at a mirror, where depth along the axis means nothing: of a grid over the picture, its
+/// edges included.
+pub(crate) fn depth_has_gaps(body: &CameraBody) -> bool {
+    const STEPS: usize = 16;
+    let at = |i: usize, size: usize| (i * (size - 1)) as f64 / STEPS as f64 + 0.5;
+    let pixels = (0..=STEPS).flat_map(|y| (0..=STEPS).map(move |x| (x, y)));
+    let mut rays = pixels.filter_map(|(x, y)| {
+        body.truth_ray(DVec2::new(at(x, body.raster.width()), at(y, body.raster.height()))).map(|(front, _)| front)
+    });
+    rays.any(|front| !has_planar_depth(&front))
+}
+
+fn has_planar_depth(front: &FrontRay) -> bool {
+    front.ray.direction.z > 0.0 && front.mirror_m.is_none()
 }
 
 fn look(view: &View<'_>, palette: &Palette, camera: &CameraPlan, raster_px: DVec2) -> Look {
@@ -103,7 +125,7 @@ fn look(view: &View<'_>, palette: &Palette, camera: &CameraPlan, raster_px: DVec
 pub(crate) fn seen(view: &View<'_>, palette: &Palette, camera: &CameraPlan, front: &FrontRay) -> Seen {
     let ray = &front.ray;
     let direction = camera.pose.direction_to_world(ray.direction);
-    let ahead = ray.direction.z > 0.0 && front.mirror_m.is_none();
+    let ahead = has_planar_depth(front);
     match view.truth(camera.pose.point_to_render(ray.origin_m), direction, |point| is_there(palette, point)) {
         None => Seen::Sky { ahead },
         Some(truth) => {

@@ -1,6 +1,7 @@
 //! Ground truth against geometry.
 
-use etendue_core::maths::f64::tan;
+use etendue_core::maths::f64::{sin_cos, tan};
+use etendue_pipeline::summary::Summary;
 use etendue_tests::{Job, Shot};
 use glam::{DVec2, DVec3};
 
@@ -204,4 +205,43 @@ fn a_mesh_far_from_the_origin_keeps_its_digits() {
         );
         assert!(relative(truth.distance.at(pixel % 16, pixel / 16), 3.0 / direction(&shot, pixel).x) < RELATIVE);
     }
+}
+
+#[test]
+fn a_panorama_tells_positions_behind_the_camera() {
+    // 64 × 32 px of the whole sphere: the longitude grows to the right from −180°, the latitude falls from 90° to −90°.
+    let ground = "[[scene.objects]]\nname = \"road\"\nclass = \"road\"\nmaterial = \"grey\"\nshape = { type = \"quad\", size_m = [4000, 4000] }";
+    let pinhole = "{ model = \"pinhole\", focal_length_mm = 10, f_number = 8 }";
+    let panorama = "{ model = \"calibrated\", f_number = 8, projection = { type = \"equirectangular\", field_of_view_deg = 360 } }";
+    let output = "\n[output]\nground_truth = true\ncamera_space_position = true\n";
+    let job = Job::new(camera(1.3, "", 64, 10.0) + output + &scene(ground));
+    let shot = job.replacing(pinhole, panorama).replacing("height_px = 64", "height_px = 32").shot();
+    let truth = shot.truth();
+    let position = truth.camera_space_position.as_ref().expect("asked for");
+    for (x, y) in (0..32).flat_map(|y| (0..64).map(move |x| (x, y))) {
+        let step = core::f64::consts::TAU / 64.0;
+        let ((sin_lon, cos_lon), (down, level)) =
+            (sin_cos((x as f64 - 31.5) * step), sin_cos((y as f64 - 15.5) * step));
+        let expected =
+            if down > 0.0 { DVec3::new(sin_lon * level, down, cos_lon * level) * (1.3 / down) } else { DVec3::ZERO };
+        assert_same_vector(position.at(x, y), expected, RELATIVE * expected.length(), "camera space");
+        assert_eq!(
+            truth.depth.at(x, y).is_nan(),
+            cos_lon < 0.0,
+            "depth along the axis means nothing behind the camera"
+        );
+    }
+    let plan = Summary(&shot.plan).to_string();
+    assert!(!plan.contains("NaN"), "the signed z is asked for: {plan}");
+}
+
+#[test]
+fn the_plan_says_where_depth_along_the_axis_means_nothing() {
+    let pinhole = "{ model = \"pinhole\", focal_length_mm = 10, f_number = 8 }";
+    let fisheye = "{ model = \"calibrated\", f_number = 8, greatest_angle_deg = 100, projection = { type = \"equidistant\", fx_px = 15 } }";
+    let ball = "[[scene.objects]]\nname = \"ball\"\nmaterial = \"grey\"\nshape = { type = \"sphere\", radius_m = 1 }\nposition_m = [5, 0, 0]";
+    let job = || Job::new(camera(0.0, "", 64, 10.0) + &scene(ball));
+    let said = |job: Job| Summary(&job.shot().plan).to_string().contains("depth along the axis is NaN");
+    assert!(!said(job()));
+    assert!(said(job().replacing(pinhole, fisheye)));
 }

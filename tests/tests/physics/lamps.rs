@@ -6,6 +6,7 @@
 
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{cos, sin_cos, tan};
+use etendue_io::inspect::passing_beam;
 use etendue_io::photometry::read_photometry;
 use etendue_scene::asset::PhotometryAsset;
 use etendue_tests::{FLAT, Job, ONE_BAND, eye, flat_per_lux};
@@ -281,31 +282,18 @@ fn a_measured_lamp_of_type_b_lights_the_wall_as_its_file_says() {
     assert_measured(&lamp, "wall_b.ies", h_v_candela, &H_V_ANGLES, direction);
 }
 
-/// Passing beam of class B, right-hand traffic (UN Regulation No. 112, taken over by No. 149): name, degrees up, degrees to the
-/// right, least and greatest candelas.
-const PASSING_BEAM: [(&str, f64, f64, f64, f64); 9] = [
-    ("B50L", 0.57, -3.43, 0.0, 350.0),
-    ("BR", 1.0, 2.5, 0.0, 1_750.0),
-    ("75R", -0.57, 1.15, 10_100.0, f64::INFINITY),
-    ("75L", -0.57, -3.43, 0.0, 10_600.0),
-    ("50L", -0.86, -3.43, 0.0, 13_200.0),
-    ("50R", -0.86, 1.72, 10_100.0, f64::INFINITY),
-    ("50V", -0.86, 0.0, 5_100.0, f64::INFINITY),
-    ("25L", -1.72, -9.0, 1_700.0, f64::INFINITY),
-    ("25R", -1.72, 9.0, 1_700.0, f64::INFINITY),
-];
-
 #[test]
 fn a_low_beam_on_the_wall_passes_the_regulation_s_points() {
     for (traffic, mirror) in [("right", 1.0), ("left", -1.0)] {
         let lamp =
             format!("type = \"head_lamp\"\nbeam = \"low_beam\"\ntraffic = \"{traffic}\"\nposition_m = [0, 0, 0]");
-        let directions = PASSING_BEAM.map(|(_, up, right, ..)| ahead(-mirror * right, up));
-        for (found, (name, _, _, least, most)) in
-            intensities(&wall(&lamp, &directions), &directions).iter().zip(PASSING_BEAM)
-        {
-            assert!((least..=most).contains(found), "{traffic}, {name}: {found} cd for {least} to {most} cd");
-        }
+        let met = |mirror: f64| {
+            let directions = passing_beam::POINTS.map(|point| ahead(-mirror * point.right_deg, point.up_deg));
+            let found = intensities(&wall(&lamp, &directions), &directions);
+            found.iter().zip(passing_beam::POINTS).filter(|(candela, point)| point.limit.is_met(**candela)).count()
+        };
+        assert_eq!(met(mirror), passing_beam::POINTS.len(), "traffic on the {traffic}");
+        assert!(met(-mirror) < passing_beam::POINTS.len(), "the cut-off is not symmetric");
     }
     // A high beam is none.
     let lamp = "type = \"head_lamp\"\nbeam = \"high_beam\"\nposition_m = [0, 0, 0]";

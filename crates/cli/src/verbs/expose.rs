@@ -65,6 +65,7 @@ fn products(body: &CameraBody) -> Products {
         causes: false,
         picture: body.development.is_some(),
         ground_truth: false,
+        camera_space_position: false,
         depth_png_per_m: None,
         rays: false,
         undistorted: None,

@@ -74,6 +74,7 @@ impl Task<'_> {
             causes: self.arguments.causes,
             picture: self.body.development.is_some(),
             ground_truth: false,
+            camera_space_position: false,
             depth_png_per_m: None,
             rays: false,
             undistorted: None,

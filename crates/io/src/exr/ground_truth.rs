@@ -19,6 +19,8 @@ pub struct GroundTruth<'a> {
     pub normal: Option<&'a Plane<Vector>>,
     /// Position in the world, m, rounded to 32-bit floats (at 100 km from the origin: 4 mm).
     pub position: Option<&'a Plane<Vector>>,
+    /// Position in the camera frame (x right, y down, z forward and negative behind), m.
+    pub camera_space_position: Option<&'a Plane<Vector>>,
     /// Identity of the instance.
     pub instance: Option<&'a Plane<Identity>>,
     /// Identity of the class.
@@ -40,7 +42,13 @@ pub fn encode_ground_truth(truth: &GroundTruth<'_>, provenance: &Provenance) -> 
             image.float(name, plane.samples().to_vec());
         }
     }
-    for (layer, plane) in [("N", truth.normal), ("P", truth.position), ("mirror", truth.mirror)] {
+    let vectors = [
+        ("N", truth.normal),
+        ("P", truth.position),
+        ("P_camera", truth.camera_space_position),
+        ("mirror", truth.mirror),
+    ];
+    for (layer, plane) in vectors {
         if let Some(plane) = plane {
             add_vector(&mut image, layer, plane);
         }
@@ -54,6 +62,12 @@ pub fn encode_ground_truth(truth: &GroundTruth<'_>, provenance: &Provenance) -> 
     }
     image.state("quantity", "ground truth");
     image.state("units", "depth, distance, P: m; N: 1; ID: identity, 0 is the background");
+    if truth.depth.is_some_and(|depth| depth.samples().iter().any(|z| z.is_nan())) {
+        image.state("depth", "NaN where a pixel has no ray, and where it looks sideways, back or at a mirror: distance.Z is defined there");
+    }
+    if truth.camera_space_position.is_some() {
+        image.state("P_camera", "camera frame (x right, y down, z forward, negative behind), m; 0 for the sky");
+    }
     if truth.mirror.is_some() {
         image.state("mirror", "point of the mirror, camera frame (x right, y down, z forward), m; NaN: beside it");
     }
@@ -64,7 +78,10 @@ pub fn encode_ground_truth(truth: &GroundTruth<'_>, provenance: &Provenance) -> 
 impl GroundTruth<'_> {
     fn size(&self) -> Option<(usize, usize)> {
         let lengths = [self.depth, self.distance].into_iter().flatten().map(|p| (p.width(), p.height()));
-        let vectors = [self.normal, self.position].into_iter().flatten().map(|p| (p.width(), p.height()));
+        let vectors = [self.normal, self.position, self.camera_space_position]
+            .into_iter()
+            .flatten()
+            .map(|p| (p.width(), p.height()));
         let ids = [self.instance, self.semantic, self.material, self.ray]
             .into_iter()
             .flatten()

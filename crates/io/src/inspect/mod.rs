@@ -16,6 +16,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+pub use lamp::passing_beam;
 pub use preview::Preview;
 pub use statistics::ChannelReport;
 

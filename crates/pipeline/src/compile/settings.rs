@@ -9,6 +9,7 @@ use crate::gather::Layout;
 use crate::photograph::front_on_picture;
 use crate::plan::{CameraBody, Products, RawFormat, Route, Settings};
 use crate::raw_colour::RawColour;
+use crate::truth::depth_has_gaps;
 use crate::twin::Twin;
 use etendue_core::Bands;
 use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
@@ -34,6 +35,15 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
     }
     let ghosts = body.effects.ghosts().is_some();
     need(&output.ghosts, ghosts, "ghosts", "the camera makes none", "add ghosts = true to its [effects]", context);
+    let truth = said(&output.ground_truth, true);
+    need(
+        &output.camera_space_position,
+        truth,
+        "camera_space_position",
+        "it is a layer of the ground truth",
+        "ask for it",
+        context,
+    );
     let development = body.development.is_some();
     need(&output.picture, development, "picture", "the camera has no [processing]", "add it", context);
     let depth_png = said(&output.depth_png, false);
@@ -59,15 +69,29 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
         causes: said(&output.causes, false),
         picture: said(&output.picture, development),
         ground_truth: said(&output.ground_truth, true),
+        camera_space_position: said(&output.camera_space_position, false),
         depth_png_per_m: depth_png.then(|| output.depth_png_scale.as_ref().map_or(256.0, |s| s.per_metre())),
         rays: said(&output.rays, false),
         undistorted: None,
     };
+    remark_depth(&products, body, context);
     let products = Products { undistorted: undistorted(output, &products, body, context), ..products };
     if products.is_empty() {
         context.fault(&output.place, "the camera delivers nothing", "ask for at least one product in [output]");
     }
     products
+}
+
+/// Where depth along the axis means nothing, and what to take there.
+fn remark_depth(products: &Products, body: &CameraBody, context: &mut Context<'_>) {
+    let asked = products.ground_truth && !products.camera_space_position || products.depth_png_per_m.is_some();
+    if asked && depth_has_gaps(body) {
+        context.remark(
+            "depth along the axis is NaN (0 in depth.png) where the camera looks sideways, back or at a mirror: take distance.Z along the \
+             directions of rays = true, or the signed z of camera_space_position = true"
+                .to_owned(),
+        );
+    }
 }
 
 /// The scale of the undistorted twin, where one is asked for and can be.

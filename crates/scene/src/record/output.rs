@@ -25,8 +25,12 @@ record! {
         optional causes: Placed<bool> = flag();
         /// The picture, 8-bit PNG. Default: true for a camera with `[processing]`.
         optional picture: Placed<bool> = flag();
-        /// Depth, distance, normals, positions and identities of the ground truth, EXR. Default: true.
+        /// Depth, distance, normals, positions and identities of the ground truth, EXR. The depth along the camera's axis is NaN where
+        /// a pixel looks sideways, back or at a mirror: "camera_space_position" has a signed z there. Default: true.
         optional ground_truth: Placed<bool> = flag();
+        /// With "ground_truth": the position in the camera's frame as well (m; x right, y down, z forward, negative behind the
+        /// camera; from the centre of the entrance pupil), layers "P_camera.X", ".Y" and ".Z". Default: false.
+        optional camera_space_position: Placed<bool> = flag();
         /// Depth as 16-bit PNG. Default: false.
         optional depth_png: Placed<bool> = flag();
         /// With "depth_png": numbers per metre, above 0, or a data set's convention: "kitti" (256 per m), "ros" (1 000 per
@@ -113,6 +117,7 @@ impl Output {
             causes: None,
             picture: None,
             ground_truth: None,
+            camera_space_position: None,
             depth_png: None,
             depth_png_scale: None,
             rays: None,
@@ -137,6 +142,7 @@ impl Output {
             causes: a.causes.or(b.causes),
             picture: a.picture.or(b.picture),
             ground_truth: a.ground_truth.or(b.ground_truth),
+            camera_space_position: a.camera_space_position.or(b.camera_space_position),
             depth_png: a.depth_png.or(b.depth_png),
             depth_png_scale: a.depth_png_scale.or(b.depth_png_scale),
             rays: a.rays.or(b.rays),

@@ -11,12 +11,12 @@
 //! for. Stray light s = 160 g(H, 15) g(V, 5) cd reaches signs above the road. For traffic on the left all is mirrored.
 //! The high beam is 52 000 g(H, 3.5) g(V, 1.5) + 6 000 g(H, 12) g(V + 0.5, 3.5) cd.
 //!
-//! [`check`] compares any grid with the points of the passing beam of UN R149, class B, given in PHYSICS.md section 15.
+//! The low beam meets the test points of the passing beam of UN Regulation No. 149, class B (a test on rendered walls, with the
+//! one table of these points, in `io::inspect::passing_beam`).
 
 use etendue_core::maths;
-use glam::{DVec3, Vec3};
 
-use super::profile::{Profile, Web, WebAxes};
+use super::profile::{Web, WebAxes};
 
 /// The side of the road that traffic keeps to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,61 +25,6 @@ pub enum Traffic {
     Right,
     /// As in the United Kingdom or Japan.
     Left,
-}
-
-/// A point at which a passing beam is judged, for traffic on the right.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TestPoint {
-    /// Its name in the regulation.
-    pub name: &'static str,
-    /// Upwards, degrees.
-    pub vertical_deg: f64,
-    /// To the right, degrees.
-    pub horizontal_deg: f64,
-    /// Least and greatest intensity, cd.
-    pub range_cd: (f64, f64),
-}
-
-/// What a lamp has at a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Checked {
-    /// The point.
-    pub point: TestPoint,
-    /// The lamp's intensity there, cd.
-    pub candela: f64,
-}
-
-impl Checked {
-    /// Whether the intensity is as it should be.
-    #[must_use]
-    pub fn passes(&self) -> bool {
-        (self.point.range_cd.0..=self.point.range_cd.1).contains(&self.candela)
-    }
-}
-
-const fn point(name: &'static str, vertical_deg: f64, horizontal_deg: f64, range_cd: (f64, f64)) -> TestPoint {
-    TestPoint { name, vertical_deg, horizontal_deg, range_cd }
-}
-
-/// Points of the passing beam, class B, for traffic on the right.
-pub const PASSING_BEAM: [TestPoint; 7] = [
-    point("B50L", 0.57, -3.43, (0.0, 350.0)),
-    point("BR", 1.0, 2.5, (0.0, 1750.0)),
-    point("75R", -0.57, 1.15, (10_100.0, f64::INFINITY)),
-    point("50V", -0.86, 0.0, (5_100.0, f64::INFINITY)),
-    point("50R", -0.86, 1.72, (10_100.0, f64::INFINITY)),
-    point("25L", -1.72, -9.0, (1_700.0, f64::INFINITY)),
-    point("25R", -1.72, 9.0, (1_700.0, f64::INFINITY)),
-];
-
-/// The intensities of a lamp in candela at the points of the passing beam. For traffic on the left the points are mirrored and
-/// keep their names.
-#[must_use]
-pub fn check(lamp: &Profile, traffic: Traffic) -> [Checked; 7] {
-    PASSING_BEAM.map(|point| {
-        let direction = direction(point.vertical_deg, mirrored(point.horizontal_deg, traffic));
-        Checked { point, candela: f64::from(lamp.value(direction)) }
-    })
 }
 
 /// A low beam, cd.
@@ -96,12 +41,6 @@ pub fn high_beam() -> Web {
 
 fn mirrored(horizontal_deg: f64, traffic: Traffic) -> f64 {
     if traffic == Traffic::Left { -horizontal_deg } else { horizontal_deg }
-}
-
-fn direction(vertical_deg: f64, horizontal_deg: f64) -> Vec3 {
-    let (sin_v, cos_v) = maths::f64::sin_cos(vertical_deg.to_radians());
-    let (sin_h, cos_h) = maths::f64::sin_cos(horizontal_deg.to_radians());
-    DVec3::new(cos_v * cos_h, -cos_v * sin_h, sin_v).as_vec3()
 }
 
 /// Width of the cut-off, degrees.
@@ -145,20 +84,7 @@ fn grid(candela: impl Fn(f64, f64) -> f64) -> Web {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn low_beams_pass_and_high_beams_dazzle() {
-        for traffic in [Traffic::Right, Traffic::Left] {
-            let lamp = Profile::Web(low_beam(traffic));
-            for checked in check(&lamp, traffic) {
-                assert!(checked.passes(), "{traffic:?}: {checked:?}");
-            }
-            let other = if traffic == Traffic::Right { Traffic::Left } else { Traffic::Right };
-            assert!(check(&lamp, other).iter().any(|c| !c.passes()), "the cut-off is not symmetric");
-        }
-        let high = check(&Profile::Web(high_beam()), Traffic::Right);
-        assert!(!high[0].passes() && !high[1].passes(), "{high:?}");
-    }
+    use crate::lights::profile::Profile;
 
     #[test]
     fn beams_are_as_strong_as_lamps_are() {

@@ -1,6 +1,6 @@
 //! Looking into measured lamps.
 
-mod passing_beam;
+pub mod passing_beam;
 mod plot;
 mod width;
 

@@ -6,33 +6,49 @@ use etendue_scene::asset::PhotometryAsset;
 
 use super::FileReport;
 
-/// What is required at a point.
+/// The intensity that is required at a point, cd.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Limit {
+pub enum Limit {
+    /// At least so much.
     AtLeast(f64),
+    /// At most so much.
     AtMost(f64),
 }
 
-/// Name, degrees to the right, degrees up, requirement (cd).
-const POINTS: [(&str, f64, f64, Limit); 9] = [
-    ("B50L", -3.43, 0.57, Limit::AtMost(350.0)),
-    ("BR", 2.5, 1.0, Limit::AtMost(1750.0)),
-    ("75R", 1.15, -0.57, Limit::AtLeast(10_100.0)),
-    ("75L", -3.43, -0.57, Limit::AtMost(10_600.0)),
-    ("50L", -3.43, -0.86, Limit::AtMost(13_200.0)),
-    ("50R", 1.72, -0.86, Limit::AtLeast(10_100.0)),
-    ("50V", 0.0, -0.86, Limit::AtLeast(5_100.0)),
-    ("25L", -9.0, -1.72, Limit::AtLeast(1_700.0)),
-    ("25R", 9.0, -1.72, Limit::AtLeast(1_700.0)),
-];
-
-/// The points of right-hand traffic: to the right and up, degrees.
-pub(super) fn places() -> impl Iterator<Item = (f64, f64)> {
-    POINTS.iter().map(|(_, right, up, _)| (*right, *up))
+/// A point at which a passing beam is judged, for traffic on the right.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TestPoint {
+    /// Its name in the regulation.
+    pub name: &'static str,
+    /// Degrees to the right of the lamp's axis.
+    pub right_deg: f64,
+    /// Degrees up.
+    pub up_deg: f64,
+    /// What is required there.
+    pub limit: Limit,
 }
 
+const fn point(name: &'static str, right_deg: f64, up_deg: f64, limit: Limit) -> TestPoint {
+    TestPoint { name, right_deg, up_deg, limit }
+}
+
+/// The points for traffic on the right.
+pub const POINTS: [TestPoint; 9] = [
+    point("B50L", -3.43, 0.57, Limit::AtMost(350.0)),
+    point("BR", 2.5, 1.0, Limit::AtMost(1750.0)),
+    point("75R", 1.15, -0.57, Limit::AtLeast(10_100.0)),
+    point("75L", -3.43, -0.57, Limit::AtMost(10_600.0)),
+    point("50L", -3.43, -0.86, Limit::AtMost(13_200.0)),
+    point("50R", 1.72, -0.86, Limit::AtLeast(10_100.0)),
+    point("50V", 0.0, -0.86, Limit::AtLeast(5_100.0)),
+    point("25L", -9.0, -1.72, Limit::AtLeast(1_700.0)),
+    point("25R", 9.0, -1.72, Limit::AtLeast(1_700.0)),
+];
+
 impl Limit {
-    fn is_met(self, candela: f64) -> bool {
+    /// Whether an intensity in cd is as required.
+    #[must_use]
+    pub fn is_met(self, candela: f64) -> bool {
         match self {
             Self::AtLeast(limit) => candela >= limit,
             Self::AtMost(limit) => candela <= limit,
@@ -50,7 +66,7 @@ impl Limit {
 /// Adds the table to the report of a lamp that has a direction ahead.
 pub(super) fn state(lamp: &PhotometryAsset, report: &mut FileReport) {
     let mut met = [0, 0];
-    for (name, right, up, limit) in POINTS {
+    for TestPoint { name, right_deg: right, up_deg: up, limit } in POINTS {
         let (Some(here), Some(mirrored)) = (lamp.candela_ahead(right, up), lamp.candela_ahead(-right, up)) else {
             return;
         };

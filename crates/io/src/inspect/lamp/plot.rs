@@ -74,7 +74,8 @@ fn ahead(lamp: &PhotometryAsset) -> Preview {
         let (h, v) = (left + step * x, up - down_step * y);
         let here = share(h, v);
         let next = [share(h + step, v), share(h, v - down_step)];
-        let is_point = passing_beam::places().any(|(right, up)| on(h, right, 3.0 * step) && on(v, up, 3.0 * down_step));
+        let is_point =
+            passing_beam::POINTS.iter().any(|p| on(h, p.right_deg, 3.0 * step) && on(v, p.up_deg, 3.0 * down_step));
         match () {
             () if is_point => RED,
             () if on(h, 0.0, step) || on(v, 0.0, down_step) => BLUE,
