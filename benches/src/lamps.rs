@@ -89,12 +89,12 @@ fn scene(lamps: u32) -> String {
     )
 }
 
-/// Electrons, and the processor time of the thread, s.
+/// Electrons a second, and the processor time of the thread, s.
 fn rendered(plan: &mut Plan, pool: &ThreadPool, seed: u64) -> (Vec<f32>, f64) {
     let settings = &mut plan.cameras[0].settings;
     (settings.spp, settings.seed) = (SPP, seed);
     let (film, seconds) = pool.install(|| timed(|| light(plan, camera(plan), Request::default(), &Unobserved)));
-    let electrons = film.expect("nobody cancels").electrons.expect("the street's camera folds electrons");
+    let electrons = film.expect("nobody cancels").electron_rate.expect("the street's camera folds electrons");
     (electrons.mean.samples().to_vec(), seconds)
 }
 

@@ -48,7 +48,9 @@ fn number<T: std::str::FromStr>(text: &str) -> Result<T, String> {
 impl Order<'_> {
     fn line(&mut self, spp: u32, seed: u64) -> Result<String, String> {
         let (film, seconds) = self.render(spp, seed);
-        let electrons = film.electrons.ok_or("the job folds no electrons; give its camera a sensor")?;
+        let sensor = camera(&self.plan).body.sensor.as_ref();
+        let exposed = film.electron_rate.zip(sensor).map(|(r, s)| r.exposed(s.parameters().exposure.exposure_s));
+        let electrons = exposed.ok_or("the job folds no electrons; give its camera a sensor")?;
         let bytes: Vec<u8> = electrons.mean.samples().iter().flat_map(|value| value.to_le_bytes()).collect();
         let path = self.out.replace('%', &seed.to_string());
         std::fs::write(&path, bytes).map_err(|error| format!("{path}: {error}"))?;

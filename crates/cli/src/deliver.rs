@@ -33,8 +33,22 @@ pub fn names(plan: &Plan, frames: &Range<u32>) -> Vec<String> {
     plan.cameras.iter().flat_map(of_camera).collect()
 }
 
-/// Writes everything that a camera delivers of its film. Runs on the caller's thread pool.
+/// Writes everything that cameras of equal light deliver of their film. Runs on the caller's thread pool.
 pub fn deliver(
+    plan: &Plan,
+    cameras: &[&CameraPlan],
+    film: Film,
+    frames: &Range<u32>,
+    simd: Simd,
+    folder: &mut OutputFolder,
+) -> Result<(), Failure> {
+    let Some((last, others)) = cameras.split_last() else { return Ok(()) };
+    others.iter().try_for_each(|camera| camera_files(plan, camera, film.clone(), frames, simd, folder))?;
+    camera_files(plan, last, film, frames, simd, folder)
+}
+
+/// Writes everything that one camera delivers.
+fn camera_files(
     plan: &Plan,
     camera: &CameraPlan,
     film: Film,

@@ -192,6 +192,7 @@ pub fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>
         "seed": settings.seed,
         "camera": camera.name,
         "camera_index": camera.index,
+        "light": { "camera": camera.light.camera, "camera_index": camera.light.index },
         "pose": {
             "camera_to_world": pose_rows(&camera.pose),
             "convention": "camera x right, y down, z forward (OpenCV), origin at the centre of the entrance pupil; \

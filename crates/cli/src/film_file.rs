@@ -76,9 +76,9 @@ pub fn encode(film: &Film, facts: &Provenance) -> Result<Vec<u8>, Failure> {
             layers.push((format!("band.{i:04}.variance"), Layer::Float(variance.samples())));
         }
     }
-    if let Some(electrons) = &film.electrons {
-        layers.push(("electrons.mean".to_owned(), Layer::Float(electrons.mean.samples())));
-        layers.push(("electrons.variance".to_owned(), Layer::Float(electrons.variance.samples())));
+    if let Some(rate) = &film.electron_rate {
+        layers.push(("electron_rate.mean".to_owned(), Layer::Float(rate.mean.samples())));
+        layers.push(("electron_rate.variance".to_owned(), Layer::Float(rate.variance.samples())));
     }
     encode_layers(film.weight.width(), film.weight.height(), &layers, facts)
         .map_err(|error| Failure::Run(format!("the film cannot be encoded: {error}")))
@@ -116,9 +116,9 @@ fn decode(file: &ExrFile, camera: &CameraPlan) -> Option<Film> {
             fill(plane, file, &format!("band.{i:04}.variance"))?;
         }
     }
-    if let Some(electrons) = &mut film.electrons {
-        fill(&mut electrons.mean, file, "electrons.mean")?;
-        fill(&mut electrons.variance, file, "electrons.variance")?;
+    if let Some(rate) = &mut film.electron_rate {
+        fill(&mut rate.mean, file, "electron_rate.mean")?;
+        fill(&mut rate.variance, file, "electron_rate.variance")?;
     }
     Some(film)
 }

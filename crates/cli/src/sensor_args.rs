@@ -16,7 +16,7 @@ pub struct Flat {
     #[command(flatten)]
     pub light: FlatLight,
     /// With --photon-transfer: frames of the stacks at half of saturation and in the dark
-    #[arg(long, value_name = "N", default_value_t = 100, conflicts_with = "irradiance_w_m2")]
+    #[arg(long, value_name = "N", default_value_t = 100, conflicts_with_all = ["irradiance_w_m2", "photons"])]
     #[arg(value_parser = whole(3, 10_000))]
     pub stack: u32,
     /// Frames to take, first to last (the last excluded); each has its own sensor noise
@@ -42,6 +42,9 @@ pub struct FlatLight {
     /// Irradiance of the sensor, W/m²; 0 is dark
     #[arg(long, value_name = "E", value_parser = irradiance_w_m2, allow_negative_numbers = true)]
     pub irradiance_w_m2: Option<f64>,
+    /// Photons of that wavelength on the whole square of a pixel over the exposure, in place of the irradiance; 0 is dark
+    #[arg(long, value_name = "N", value_parser = photons, allow_negative_numbers = true)]
+    pub photons: Option<f64>,
     /// The series of EMVA 1288 instead: so many exposures up to the camera's exposure_s, where the light just saturates, two
     /// bright and two dark frames each; then a stack at half of saturation and one in the dark
     #[arg(long, value_name = "LEVELS", value_parser = whole(3, 10_000), allow_negative_numbers = true)]
@@ -66,4 +69,9 @@ fn wavelength_nm(text: &str) -> Result<f64, String> {
 fn irradiance_w_m2(text: &str) -> Result<f64, String> {
     let e = text.parse().ok().filter(|e: &f64| e.is_finite() && *e >= 0.0);
     e.ok_or_else(|| format!("expected an irradiance of 0 W/m² or more, not '{text}'"))
+}
+
+fn photons(text: &str) -> Result<f64, String> {
+    let n = text.parse().ok().filter(|n: &f64| n.is_finite() && *n >= 0.0);
+    n.ok_or_else(|| format!("expected 0 photons a pixel or more, not '{text}'"))
 }

@@ -37,6 +37,8 @@ quantities! {
     Variance(f32) = "variance of the mean", "(unit of the mean)^2";
     /// Mean or collected electrons of a pixel.
     Electrons(f32) = "electrons", "e";
+    /// Mean electrons that a pixel makes of a second of light.
+    ElectronRate(f32) = "electron rate", "e.s^-1";
     /// Digital numbers out of the converter, of up to 24 bits.
     DigitalNumber(u32) = "digital number", "DN";
     /// Display-referred picture, sRGB-encoded, 0 to 1 a channel.

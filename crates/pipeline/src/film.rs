@@ -2,7 +2,7 @@
 
 use crate::gather::{Gather, Layout};
 use crate::tile::Tile;
-use etendue_core::quantity::{Electrons, Identity, Irradiance, Quantity, Radiance, SolidAngle, Variance};
+use etendue_core::quantity::{ElectronRate, Electrons, Identity, Irradiance, Quantity, Radiance, SolidAngle, Variance};
 use etendue_core::random::Pixel;
 use etendue_core::{Bands, Plane, SpectralCube};
 
@@ -18,6 +18,18 @@ pub struct Estimate<Q: Quantity> {
 impl<Q: Quantity> Estimate<Q> {
     fn new(width: usize, height: usize) -> Self {
         Self { mean: Plane::new(width, height), variance: Plane::new(width, height) }
+    }
+}
+
+impl Estimate<ElectronRate> {
+    /// Electrons of an exposure, s, and the variance of their mean.
+    #[must_use]
+    pub fn exposed(&self, exposure_s: f64) -> Estimate<Electrons> {
+        let scaled = |by: f64| move |value: f32| (f64::from(value) * by) as f32;
+        Estimate {
+            mean: self.mean.map(scaled(exposure_s)),
+            variance: self.variance.map(scaled(exposure_s * exposure_s)),
+        }
     }
 }
 
@@ -38,8 +50,8 @@ pub struct Film {
     pub cube: Option<CubeEstimate<Irradiance>>,
     /// Mean weight of the pupil.
     pub weight: Plane<SolidAngle>,
-    /// Folded electrons.
-    pub electrons: Option<Estimate<Electrons>>,
+    /// Folded electrons of a second of light.
+    pub electron_rate: Option<Estimate<ElectronRate>>,
     /// Samples that were not finite.
     pub not_finite: Plane<Identity>,
     /// Replicates behind each variance.
@@ -59,7 +71,7 @@ impl Film {
         Self {
             cube: layout.bands.map(cube),
             weight: Plane::new(width, height),
-            electrons: layout.folded.then(|| Estimate::new(width, height)),
+            electron_rate: layout.folded.then(|| Estimate::new(width, height)),
             not_finite: Plane::new(width, height),
             replicates,
             spp,
@@ -84,7 +96,7 @@ impl Film {
                 plane.set(x, y, variance as f32);
             }
         }
-        if let (Some(estimate), Some((mean, variance))) = (&mut self.electrons, gather.electrons()) {
+        if let (Some(estimate), Some((mean, variance))) = (&mut self.electron_rate, gather.electrons()) {
             estimate.mean.set(x, y, mean as f32);
             estimate.variance.set(x, y, variance as f32);
         }
@@ -98,7 +110,7 @@ impl Film {
             copy_planes(to.mean.planes_mut(), from.mean.planes(), tile);
             copy_planes(to.variance.planes_mut(), from.variance.planes(), tile);
         }
-        if let (Some(to), Some(from)) = (&mut self.electrons, &from.electrons) {
+        if let (Some(to), Some(from)) = (&mut self.electron_rate, &from.electron_rate) {
             copy_plane(&mut to.mean, &from.mean, tile);
             copy_plane(&mut to.variance, &from.variance, tile);
         }

@@ -49,6 +49,10 @@ impl Hasher {
         let CameraBody { place: _, raster, lens, front, effects, aperture_px, sensor, development } = &camera.body;
         self.add(&(&camera.name, camera.index, camera.pose, camera.products));
         self.add(&(raster, lens, aperture_px, sensor, development));
+        // Nothing is added where light is a camera's own.
+        if !camera.owns_light() {
+            self.add(&camera.light.index);
+        }
         // A camera without effects is what it was before there were any.
         if !effects.is_idle() {
             self.add(effects);

@@ -28,6 +28,22 @@ pub struct FlatLight {
     pub irradiance_w_m2: f64,
 }
 
+impl FlatLight {
+    /// Light of which `photons` fall on the whole square of a pixel in the described exposure.
+    ///
+    /// # Errors
+    /// [`FlatError::NoExposure`] where photons are wanted in no time.
+    pub fn of_photons(sensor: &Sensor, wavelength_nm: f64, photons: f64) -> Result<Self, FlatError> {
+        let exposure_s = sensor.parameters().exposure.exposure_s;
+        let one = Self { wavelength_nm, irradiance_w_m2: 1.0 };
+        match self::photons(sensor, one, exposure_s) {
+            _ if photons == 0.0 => Ok(Self { wavelength_nm, irradiance_w_m2: 0.0 }),
+            of_one if of_one > 0.0 => Ok(Self { wavelength_nm, irradiance_w_m2: photons / of_one }),
+            _ => Err(FlatError::NoExposure),
+        }
+    }
+}
+
 /// The camera without what only light through a lens meets (the angle response), and without exposure control; `None` where it
 /// has no electronics.
 #[must_use]
@@ -67,6 +83,9 @@ pub enum FlatError {
         "the sensor does not respond to light of that wavelength: give one at which its quantum efficiency is above 0"
     )]
     Blind,
+    /// Photons are wanted in no time.
+    #[error("no photons fall on a pixel in the camera's \"exposure_s\", which is 0: give a longer one, or 0 photons")]
+    NoExposure,
     /// The longest exposure of the series is none.
     #[error("photon transfer takes exposures up to the camera's \"exposure_s\", which is 0: give a longer one")]
     NoTime,

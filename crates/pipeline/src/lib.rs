@@ -22,11 +22,14 @@ pub mod plan;
 pub mod pupil_depth;
 pub mod raw_colour;
 pub mod rays;
+pub mod remark;
 pub mod render;
+mod shared_light;
 pub mod summary;
 pub mod tile;
 pub mod truth;
 pub mod twin;
+mod warnings;
 
 pub use compile::{Choices, Quality, compile, compile_camera};
 pub use observer::{Observer, Unobserved};

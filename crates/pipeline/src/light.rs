@@ -29,7 +29,7 @@ pub struct Sampling {
     pub replicates: u32,
     /// The job's seed.
     pub seed: u64,
-    /// The camera's place in the job.
+    /// The place in the job of the camera whose light it is.
     pub camera: u32,
     /// Shortest wavelength sampled, nm.
     pub low_nm: f32,

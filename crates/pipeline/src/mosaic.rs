@@ -1,5 +1,7 @@
 //! What the pixels of a colour filter's tile respond to, and which wavelengths are worth asking for them.
 //!
+//! Responsivities are those of a second of exposure, so that cameras that differ in exposure alone fold the same.
+//!
 //! A pixel that folds its responsivity R(λ) into electrons draws its wavelengths with a density that is a mixture of
 //! R(λ) and of the uniform density: electrons are then an estimate with little spectral noise, and where a spectral cube
 //! is kept beside them, every band still gets its share.
@@ -20,7 +22,7 @@ const UNIFORM_SHARE_WITH_BANDS: f64 = 0.5;
 /// One pixel of the tile.
 #[derive(Clone, Debug)]
 pub struct Site {
-    /// Responsivity, e⁻ per W·m⁻².
+    /// Responsivity, e⁻·s⁻¹ per W·m⁻².
     pub responsivity: Spectrum,
     /// Density of the wavelengths that are asked for.
     pub density: WavelengthDensity,
@@ -38,9 +40,10 @@ impl Mosaic {
     #[must_use]
     pub fn of(sensor: &Sensor, range_nm: (f64, f64), keeps_bands: bool) -> Self {
         let cfa = &sensor.parameters().cfa;
+        let rates = sensor.rate_responsivities();
         let uniform_share = if keeps_bands { UNIFORM_SHARE_WITH_BANDS } else { UNIFORM_SHARE };
         let site = |channel: &usize| {
-            let responsivity = sensor.responsivity(*channel).clone();
+            let responsivity = rates[*channel].clone();
             Site { density: density(&responsivity, range_nm, uniform_share), responsivity }
         };
         Self { columns: cfa.width(), sites: cfa.channels().iter().map(site).collect() }

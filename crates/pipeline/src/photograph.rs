@@ -97,7 +97,9 @@ impl Light {
             Some(Behind { irradiance, variance, ghosts }) => (Some(irradiance), variance, ghosts),
             None => (None, None, None),
         };
-        let (folded, electrons_variance) = film.electrons.map(|e| (e.mean, e.variance)).unzip();
+        let exposure_s = body.sensor.as_ref().map(|sensor| sensor.parameters().exposure.exposure_s);
+        let exposed = film.electron_rate.zip(exposure_s).map(|(rate, exposure_s)| rate.exposed(exposure_s));
+        let (folded, electrons_variance) = exposed.map(|e| (e.mean, e.variance)).unzip();
         let electrons = folded.or_else(|| electrons(body, irradiance.as_ref()?));
         Self { radiance, irradiance, irradiance_variance, ghosts, electrons, electrons_variance }
     }

@@ -1,6 +1,7 @@
 //! The plan: everything that a rendering needs, resolved and checked. Immutable.
 
 use crate::block::Blocks;
+use crate::remark::Remark;
 use etendue_core::{Bands, CameraPose};
 use etendue_isp::{Mosaic, Processing};
 use etendue_optics::{DepthOfField, Effects, Front, FrontRay, Lens, PupilProjection};
@@ -34,7 +35,7 @@ pub struct Plan {
     /// Semantic classes: name and id.
     pub classes: Vec<(String, u32)>,
     /// What was read and not used, what was dropped, where tables end.
-    pub remarks: Vec<String>,
+    pub remarks: Vec<Remark>,
     /// Hash of all that decides the result: description, assets by content, version.
     pub hash: [u8; 32],
 }
@@ -68,8 +69,10 @@ pub struct Identity {
 pub struct CameraPlan {
     /// Its name, part of file names.
     pub name: String,
-    /// Its place in the job, part of random addresses.
+    /// Its place in the job, part of the random addresses of its noise.
     pub index: u32,
+    /// Whose light it sees: its own, or that of the first camera of the job whose light is equal.
+    pub light: LightOwner,
     /// Where it stands.
     pub pose: CameraPose,
     /// Everything behind the scene.
@@ -80,6 +83,15 @@ pub struct CameraPlan {
     pub depth_of_field: DepthOfField,
     /// What it delivers.
     pub products: Products,
+}
+
+/// The camera that a film is rendered for; others of equal light use it too.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LightOwner {
+    /// Its name.
+    pub camera: String,
+    /// Its place in the job, part of the random addresses of the light.
+    pub index: u32,
 }
 
 /// A camera wherever it stands: lens, effects, sensor, processing.
@@ -334,6 +346,12 @@ impl CameraBody {
 }
 
 impl CameraPlan {
+    /// Whether no camera before it in the job has the same light.
+    #[must_use]
+    pub fn owns_light(&self) -> bool {
+        self.light.index == self.index
+    }
+
     /// Columns and rows of the film: of the picture with its margin, or of the stored radiance.
     #[must_use]
     pub fn film_size(&self) -> (u32, u32) {

@@ -104,7 +104,7 @@ fn exposure<'a, S>(
             spp: settings.spp,
             replicates: settings.replicates,
             seed: settings.seed,
-            camera: camera.index,
+            camera: camera.light.index,
             low_nm: settings.range_nm.0 as f32,
             high_nm: settings.range_nm.1 as f32,
         },

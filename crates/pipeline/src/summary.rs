@@ -2,11 +2,13 @@
 
 mod front;
 mod processing;
+mod shared_light;
 
 use crate::block::Blocks;
 use crate::defocus::margin_px;
 use crate::film::Film;
 use crate::plan::{CameraPlan, Plan, Products, RawFormat, Route, Settings, SkyFacts};
+use crate::remark::grouped;
 use crate::render::{census, layout};
 use etendue_core::{Bands, Verdict};
 use etendue_optics::effects::Effect;
@@ -37,7 +39,7 @@ impl Display for Summary<'_> {
         if !plan.remarks.is_empty() {
             writeln!(f, "\nremarks")?;
         }
-        plan.remarks.iter().try_for_each(|remark| writeln!(f, "  {remark}"))
+        grouped(&plan.remarks).iter().try_for_each(|remark| writeln!(f, "  {remark}"))
     }
 }
 
@@ -89,6 +91,9 @@ fn sky(sky: &SkyFacts) -> String {
 
 fn camera(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     writeln!(f, "camera {}", camera.name)?;
+    if let Some(text) = shared_light::light(plan, camera) {
+        line(f, "light", text)?;
+    }
     lights(plan, camera, f)?;
     light_paths(camera, f)?;
     lens(camera, f)?;
@@ -96,7 +101,7 @@ fn camera(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Resul
     sensor(camera, f)?;
     processing::processing(camera, f)?;
     line(f, "delivers", products(&camera.products))?;
-    cost(camera, f)
+    cost(plan, camera, f)
 }
 
 fn lights(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
@@ -402,14 +407,21 @@ fn products(p: &Products) -> String {
     if list.is_empty() { "nothing".to_owned() } else { list.join(", ") }
 }
 
-fn cost(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+fn cost(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    if let Some(server) = shared_light::server(plan, camera) {
+        return line(f, "cost", format!("no paths of its own: those of camera {}", server.name));
+    }
     let (width, height) = camera.film_size();
     let paths = f64::from(width) * f64::from(height) * f64::from(camera.settings.spp);
     let film = Film::bytes(width as usize, height as usize, &layout(camera)) / 1e6;
     let cpu = paths * PATH_CPU_S;
+    let served = shared_light::served(plan, camera);
     line(
         f,
         "cost",
-        format!("{:.1} million paths, about {cpu:.0} CPU seconds at the street's rate; film {film:.1} MB", paths / 1e6),
+        format!(
+            "{:.1} million paths, about {cpu:.0} CPU seconds at the street's rate{served}; film {film:.1} MB",
+            paths / 1e6
+        ),
     )
 }

@@ -51,6 +51,13 @@ impl Sensor {
         &self.responsivities
     }
 
+    /// Electrons a second: responsivities of all channels to one second of light, e⁻·s⁻¹ per W·m⁻². They do not depend on
+    /// the exposure.
+    #[must_use]
+    pub fn rate_responsivities(&self) -> Vec<Spectrum> {
+        responsivities(&self.parameters, 1.0)
+    }
+
     /// Responsivities of all channels for what needs them in any common scale, such as white balance: those of a second
     /// where the exposure is zero.
     #[must_use]
@@ -58,7 +65,7 @@ impl Sensor {
         if self.parameters.exposure.exposure_s > 0.0 {
             return Cow::Borrowed(&self.responsivities);
         }
-        Cow::Owned(responsivities(&self.parameters, 1.0))
+        Cow::Owned(self.rate_responsivities())
     }
 
     /// The channel of the pixel in column `x`, row `y`.

@@ -44,10 +44,11 @@ impl Spectrum {
     /// A spectrum through points (wavelength in nm, value), wavelengths rising; linear between points.
     ///
     /// # Errors
-    /// Where there are fewer than two points, a number is not finite, wavelengths do not rise, or the table does not
+    /// Where there are no points, or a single one of what is zero outside of it, a number is not finite, wavelengths do not rise, or the table does not
     /// reach into 300 to 1 100 nm.
     pub fn from_points(points: &[(f64, f64)], outside: Outside) -> Result<Self, SpectrumError> {
         table::check(points, Place::Point)?;
+        table::check_width(points, outside)?;
         Ok(Self::from_checked(points, outside))
     }
 
@@ -57,7 +58,9 @@ impl Spectrum {
     /// # Errors
     /// As [`Spectrum::from_points`], and where a line is not two numbers; the error names the line.
     pub fn from_csv(text: &str, outside: Outside) -> Result<Self, SpectrumError> {
-        Ok(Self::from_checked(&table::points(text)?, outside))
+        let points = table::points(text)?;
+        table::check_width(&points, outside)?;
+        Ok(Self::from_checked(&points, outside))
     }
 
     pub(crate) fn from_checked(points: &[(f64, f64)], outside: Outside) -> Self {

@@ -37,13 +37,17 @@ pub enum SpectrumError {
         /// How many numbers were expected.
         columns: usize,
     },
-    /// Too few points for a broken line.
+    /// No points.
+    #[error("the table has no points: give a value at the shortest and the longest wavelength")]
+    Empty,
+    /// A single point of what is zero outside of its table, and so has no width.
     #[error(
-        "the table has {found} points, expected at least 2: give a value at the shortest and the longest wavelength"
+        "the table has one point, {nm} nm, and light and sensitivities are zero outside of their tables: give a value at the shortest \
+         and the longest wavelength"
     )]
-    TooFew {
-        /// How many there are.
-        found: usize,
+    NoWidth {
+        /// The point's wavelength, nm.
+        nm: f64,
     },
     /// A number is infinite or not a number.
     #[error("{place}: a wavelength or value is not finite: give ordinary numbers")]
@@ -71,6 +75,14 @@ pub enum SpectrumError {
     },
 }
 
+/// Checks that points are enough for what is outside of them: a single one is a constant, or no spectrum at all.
+pub(crate) fn check_width(points: &[(f64, f64)], outside: Outside) -> Result<(), SpectrumError> {
+    match (points, outside) {
+        ([(nm, _)], Outside::Zero) => Err(SpectrumError::NoWidth { nm: *nm }),
+        _ => Ok(()),
+    }
+}
+
 /// Checks that points make a spectrum; `place` names a point by its index.
 pub(crate) fn check(points: &[(f64, f64)], place: impl Fn(usize) -> Place) -> Result<(), SpectrumError> {
     if let Some(i) = points.iter().position(|(nm, v)| !nm.is_finite() || !(*v as f32).is_finite()) {
@@ -79,8 +91,8 @@ pub(crate) fn check(points: &[(f64, f64)], place: impl Fn(usize) -> Place) -> Re
     if let Some(i) = points.windows(2).position(|w| w[1].0 <= w[0].0) {
         return Err(SpectrumError::NotRising { place: place(i + 1), nm: points[i + 1].0, before: points[i].0 });
     }
-    let [(low, _), .., (high, _)] = *points else {
-        return Err(SpectrumError::TooFew { found: points.len() });
+    let (Some((low, _)), Some((high, _))) = (points.first().copied(), points.last().copied()) else {
+        return Err(SpectrumError::Empty);
     };
     if low <= LONGEST_NM && high >= SHORTEST_NM { Ok(()) } else { Err(SpectrumError::OutOfRange { low, high }) }
 }

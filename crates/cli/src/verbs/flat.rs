@@ -93,14 +93,28 @@ impl Task<'_> {
         FrameAddress { seed: self.seed(), camera: 0, frame, capture: 0 }
     }
 
+    /// The light of single frames.
+    fn light(&self) -> Result<FlatLight, Failure> {
+        let (wavelength_nm, asked) = (self.arguments.wavelength_nm, &self.arguments.light);
+        match (asked.irradiance_w_m2, asked.photons) {
+            (None, Some(photons)) => FlatLight::of_photons(self.sensor, wavelength_nm, photons)
+                .map_err(|error| Failure::input(format!("--photons {photons}: {error}"))),
+            (irradiance_w_m2, _) => Ok(FlatLight { wavelength_nm, irradiance_w_m2: irradiance_w_m2.unwrap_or(0.0) }),
+        }
+    }
+
     /// Single frames of one light.
     fn frames(&self, files: &BTreeMap<String, Value>, results: &mut Results<'_>) -> Result<(), Failure> {
-        let irradiance_w_m2 = self.arguments.light.irradiance_w_m2.unwrap_or(0.0);
-        let light = FlatLight { wavelength_nm: self.arguments.wavelength_nm, irradiance_w_m2 };
+        let light = self.light()?;
         let electrons = flat::electrons(self.body, light).expect("it has electronics");
         if let Some(most) = electrons.samples().iter().find(|e| **e > MOST_E) {
             let why = format!("makes {most:.1e} electrons a pixel, and at most {MOST_E:.0e} can be counted: give less");
-            return Err(Failure::input(format!("--irradiance-w-m2 {irradiance_w_m2:e}: {why}")));
+            let asked = &self.arguments.light;
+            let given = match (asked.irradiance_w_m2, asked.photons) {
+                (Some(e), _) => format!("--irradiance-w-m2 {e:e}"),
+                (None, photons) => format!("--photons {:e}", photons.unwrap_or(0.0)),
+            };
+            return Err(Failure::input(format!("{given}: {why}")));
         }
         let (products, facts, camera) = (self.products(), self.provenance(results), results.prefix.clone());
         let wanted = Wanted { products: &products, camera: &camera, facts: &facts, undistorted: None };

@@ -25,9 +25,9 @@ pub fn run(arguments: &args::Merge) -> Result<(), Failure> {
     check_same_plan(&plan, &manifest)?;
     let mut folder = open(&arguments.output)?;
     claim(&folder, names(&plan, &manifest.frames))?;
-    for camera in &plan.cameras {
-        let film = joined(camera, &shards)?;
-        pool.install(|| deliver(&plan, camera, film, &manifest.frames, simd, &mut folder))?;
+    for group in plan.by_light() {
+        let film = joined(group[0], &shards)?;
+        pool.install(|| deliver(&plan, &group, film, &manifest.frames, simd, &mut folder))?;
     }
     commit(folder)
 }

@@ -8,7 +8,7 @@ use crate::film_file::{self, MANIFEST, Manifest};
 use crate::job::JobRequest;
 use crate::machine;
 use crate::progress::TileBar;
-use crate::say;
+use crate::{say, tell};
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
@@ -22,21 +22,23 @@ pub fn run(arguments: &args::Render) -> Result<(), Failure> {
     let pool = machine::pool(arguments.threads)?;
     let plan = request.plan(&pool)?;
     let mut folder = open(&arguments.output)?;
+    plan.warnings().iter().for_each(|warning| tell(&format!("warning: {warning}\n")));
     match arguments.shard {
         None => {
             claim(&folder, names(&plan, &arguments.frames))?;
-            for camera in &plan.cameras {
-                let film = pool.install(|| expose(&plan, camera, Request { simd, shard: Shard::WHOLE }))?;
-                pool.install(|| deliver(&plan, camera, film, &arguments.frames, simd, &mut folder))?;
+            for group in plan.by_light() {
+                let film = pool.install(|| expose(&plan, &group, Request { simd, shard: Shard::WHOLE }))?;
+                pool.install(|| deliver(&plan, &group, film, &arguments.frames, simd, &mut folder))?;
             }
         }
         Some((index, count)) => {
             let shard = Shard::new(index, count).expect("checked when the arguments were read");
-            claim(&folder, plan.cameras.iter().map(film_file::film_name).chain([MANIFEST.to_owned()]))?;
-            for camera in &plan.cameras {
-                let film = pool.install(|| expose(&plan, camera, Request { simd, shard }))?;
-                let bytes = film_file::encode(&film, &facts::provenance(&plan, camera))?;
-                folder.write(&film_file::film_name(camera), &bytes).map_err(Failure::run)?;
+            let groups = plan.by_light();
+            claim(&folder, groups.iter().map(|group| film_file::film_name(group[0])).chain([MANIFEST.to_owned()]))?;
+            for group in groups {
+                let film = pool.install(|| expose(&plan, &group, Request { simd, shard }))?;
+                let bytes = film_file::encode(&film, &facts::provenance(&plan, group[0]))?;
+                folder.write(&film_file::film_name(group[0]), &bytes).map_err(Failure::run)?;
             }
             let frames = arguments.frames.clone();
             let (plan_hash, tile_px) = (plan.hash_text(), film_file::tile_sides(&plan));
@@ -46,11 +48,19 @@ pub fn run(arguments: &args::Render) -> Result<(), Failure> {
     commit(folder)
 }
 
-fn expose(plan: &Plan, camera: &CameraPlan, request: Request) -> Result<Film, Failure> {
-    let bar = TileBar::new(&camera.name);
-    let film = light(plan, camera, request, &bar);
+/// The light of cameras that have the same.
+fn expose(plan: &Plan, group: &[&CameraPlan], request: Request) -> Result<Film, Failure> {
+    let bar = TileBar::new(&heading(group));
+    let film = light(plan, group[0], request, &bar);
     bar.finish();
     film.map_err(|cancelled| Failure::Run(cancelled.to_string()))
+}
+
+fn heading(group: &[&CameraPlan]) -> String {
+    match group.len() {
+        1 => group[0].name.clone(),
+        n => format!("{} and {} more", group[0].name, n - 1),
+    }
 }
 
 /// Opens the output folder.

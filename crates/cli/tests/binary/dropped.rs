@@ -1,4 +1,4 @@
-//! Triangles that cannot be lit are dropped and counted, and the plan says so.
+//! What makes a picture another than might be meant: the plan says it, and `render` repeats it.
 
 use crate::support::{etendue, text};
 use std::fs;
@@ -36,4 +36,64 @@ fn a_mesh_of_nothing_but_such_triangles_is_an_empty_one() {
     fs::write(place.path().join("m.obj"), "v 0 0 0\nv 0 1 0\nv 0 2 0\nf 1 2 3\n").expect("written");
     let plan = etendue(["plan", &text(&job)]).ok().out;
     assert!(plan.contains("0 triangles (0 stored)") && plan.contains("m.obj: 1 triangles of no area"), "{plan}");
+}
+
+/// Renders a job of a folder, whose files are given; what it said.
+fn rendered(files: &[(&str, &str)]) -> crate::support::Ran {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    files.iter().for_each(|(name, text)| fs::write(place.path().join(name), text).expect("written"));
+    let output = text(&place.path().join("out"));
+    etendue(["render", &text(&place.path().join("job.toml")), "-o", &output])
+}
+
+#[test]
+fn a_rendering_repeats_what_was_dropped() {
+    let ran = rendered(&[("job.toml", JOB), ("m.obj", OBJ)]).ok();
+    ran.says(&["warning: ", "m.obj: 2 triangles of no area and 2 duplicates dropped"]);
+}
+
+#[test]
+fn a_rendering_says_that_nothing_gives_light() {
+    let dark = JOB.replace("radiance_w_m2_sr_nm = 1", "radiance_w_m2_sr_nm = 0");
+    let ran = rendered(&[("job.toml", &dark), ("m.obj", OBJ)]).ok();
+    ran.says(&["warning: camera front: nothing gives light"]);
+}
+
+const QUAD: &str = "v 0 -1 -1\nv 0 1 -1\nv 0 1 1\nv 0 -1 1\n";
+
+#[test]
+fn a_missing_material_library_is_a_warning_and_grey_where_the_scene_says_nothing() {
+    let mesh = format!("mtllib lost.mtl\n{QUAD}usemtl red\nf 3 2 1\nusemtl blue\nf 4 3 1\n");
+    let named = rendered(&[("job.toml", JOB), ("m.obj", &mesh)]).ok();
+    assert_eq!(named.err, "", "an object that names its material needs no library");
+    let job = JOB.replace("mesh = \"m\", material = \"grey\"", "mesh = \"m\"");
+    let ran = rendered(&[("job.toml", &job), ("m.obj", &mesh)]).ok();
+    let warnings: Vec<&str> = ran.err.lines().collect();
+    assert_eq!(warnings.len(), 1, "{}", ran.err);
+    ran.says(&["warning: ", "\"red\"", "\"blue\"", "line 1: the material library", "lost.mtl` does not exist", "grey"]);
+    let no_library = mesh.replace("mtllib lost.mtl\n", "");
+    let refused = rendered(&[("job.toml", &job), ("m.obj", &no_library)]);
+    assert_eq!(refused.status, 2, "a file that names no library leaves the scene to say it: {}", refused.err);
+}
+
+#[test]
+fn a_remark_that_concerns_many_things_is_told_once() {
+    let material = |name: &str| {
+        format!("{{ name = \"{name}\", type = \"diffuse\", reflectance = {{ spectrum = \"{name}.csv\" }} }}")
+    };
+    let materials = format!(
+        "materials = [{{ name = \"grey\", type = \"diffuse\", reflectance = 0.5 }}, {}, {}]",
+        material("a"),
+        material("b")
+    );
+    let job = JOB.replace("materials = [{ name = \"grey\", type = \"diffuse\", reflectance = 0.5 }]", &materials);
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let table = "wavelength_nm,reflectance\n450,0.5\n600,0.6\n";
+    for (name, text) in [("job.toml", job.as_str()), ("m.obj", OBJ), ("a.csv", table), ("b.csv", table)] {
+        fs::write(place.path().join(name), text).expect("written");
+    }
+    let plan = etendue(["plan", &text(&place.path().join("job.toml"))]).ok().out;
+    let told: Vec<&str> = plan.lines().filter(|line| line.contains("450 to 600 nm")).collect();
+    assert_eq!(told.len(), 1, "{plan}");
+    assert!(told[0].contains("a.csv, ") && told[0].contains("b.csv: "), "{plan}");
 }

@@ -57,6 +57,23 @@ fn single_frames_have_raw_picture_and_side_car_and_a_seed() {
 }
 
 #[test]
+fn light_is_given_by_its_photons_too() {
+    let (ran, files) = flat(WEB, &[&SMALL[..], &["--photons", "1234.5"]].concat());
+    ran.ok();
+    let facts: serde_json::Value = serde_json::from_slice(&files["web/camera.json"]).expect("JSON");
+    let number = |key: &str| facts["light"][key].as_f64().expect("a number");
+    assert!((number("photons_per_pixel") / 1234.5 - 1.0).abs() < 1e-12);
+    // 3.6 µm, 10 ms, 525 nm: the standard's 50.34 photons for 2 mW/m² of a square micrometre and a millisecond … as above.
+    let expected = 0.002 * 1234.5 / (50.341_165_675_4 * 12.96 * 10.0 * 0.525 * 0.2);
+    assert!((number("irradiance_w_m2") / expected - 1.0).abs() < 1e-9, "{facts}");
+    let (_, same) = flat(WEB, &[&SMALL[..], &["--irradiance-w-m2", &number("irradiance_w_m2").to_string()]].concat());
+    assert_eq!(files["web/raw.0000.png"], same["web/raw.0000.png"]);
+    flat(WEB, &["--photons", "1", "--irradiance-w-m2", "1"]).0.refused(&["--photons", "--irradiance-w-m2"]);
+    flat(WEB, &["--photons", "-1"]).0.refused(&["expected 0 photons a pixel or more"]);
+    flat(WEB, &["--photons", "5", "--set", "sensor.exposure_s=0"]).0.refused(&["--photons 5", "exposure_s", "longer"]);
+}
+
+#[test]
 fn causes_make_up_the_numbers_and_do_not_change_them() {
     let options = [&SMALL[..], &["--irradiance-w-m2", "0.05"]].concat();
     for camera in [WEB, "scenes/cameras/ccd-mono.toml", "scenes/cameras/ccd-bayer.toml"] {

@@ -25,5 +25,6 @@ mod lenses;
 mod measures;
 mod plans;
 mod raw_files;
+mod shared_light;
 mod support;
 mod truths;

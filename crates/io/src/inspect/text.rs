@@ -26,7 +26,7 @@ pub(super) fn mesh(file: &Path) -> Result<FileReport, Error> {
         let values = mesh.positions.iter().map(|p| f64::from(p[axis]));
         report.channels.push(ChannelReport::of(&format!("{name} (file units)"), "float", values));
     }
-    report.notes.extend(mesh.report);
+    report.notes.extend(mesh.report.into_iter().chain(mesh.warnings).chain(mesh.missing_libraries));
     Ok(report)
 }
 

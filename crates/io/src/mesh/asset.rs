@@ -15,7 +15,7 @@ use crate::{Error, hash};
 pub fn read_mesh(file: &Path) -> Result<MeshAsset, Error> {
     let bytes = read_bytes(file, "mesh")?;
     let obj = scan(file, decode_text(file, &bytes)?)?;
-    let Slots { materials, layouts, report, library_bytes } = slots(file, &obj)?;
+    let Slots { materials, layouts, report, library_bytes, missing_libraries } = slots(file, &obj)?;
     let parts = obj.parts(file)?;
     let mut builder = Builder::new(&parts);
     for part in &parts {
@@ -29,10 +29,12 @@ pub fn read_mesh(file: &Path) -> Result<MeshAsset, Error> {
     if !bytes.ends_with(b"\n") {
         mesh.report.push("the last line has no end: the file may be truncated".to_owned());
     }
-    mesh.report.extend(notes(&obj, &parts));
+    mesh.report.extend(notes(&obj));
+    mesh.warnings.extend(far_from_origin(&parts));
     let name = file.file_name().unwrap_or_default().to_string_lossy();
-    mesh.report.iter_mut().for_each(|note| note.insert_str(0, &format!("{name}: ")));
+    mesh.report.iter_mut().chain(&mut mesh.warnings).for_each(|note| note.insert_str(0, &format!("{name}: ")));
     mesh.slot_materials = materials;
+    mesh.missing_libraries = missing_libraries;
     mesh.report.extend(report);
     Ok(mesh)
 }
@@ -124,7 +126,7 @@ fn unit(v: [f64; 3]) -> [f32; 3] {
     scaled.map(|c| (c / length) as f32)
 }
 
-fn notes(obj: &Obj, parts: &[tobj::Mesh]) -> Vec<String> {
+fn notes(obj: &Obj) -> Vec<String> {
     let mut notes: Vec<String> = obj
         .unread
         .iter()
@@ -133,7 +135,6 @@ fn notes(obj: &Obj, parts: &[tobj::Mesh]) -> Vec<String> {
     if let (Some(line), [_, _, 0]) = (obj.smoothing_line, obj.counts) {
         notes.push(format!("line {line}: smoothing groups are not used: export normals, or the mesh stays faceted"));
     }
-    notes.extend(far_from_origin(parts));
     notes
 }
 

@@ -18,13 +18,16 @@ pub(super) struct Slots {
     pub(super) layouts: Vec<UvLayout>,
     pub(super) report: Vec<String>,
     pub(super) library_bytes: Vec<Vec<u8>>,
+    pub(super) missing_libraries: Vec<String>,
 }
 
 /// Reads the libraries that `obj` (read from `file`) names and finds the materials that it uses.
 pub(super) fn slots(file: &Path, obj: &Obj) -> Result<Slots, Error> {
     let mut slots = Slots::default();
     let mut known = BTreeMap::new();
-    for path in library_paths(file, obj)? {
+    let (paths, missing) = library_paths(file, obj)?;
+    slots.missing_libraries = missing;
+    for path in paths {
         let bytes = read_bytes(&path, "material library")?;
         let library = parse(&path, decode_text(&path, &bytes)?)?;
         for (name, material) in library.materials {
@@ -48,25 +51,24 @@ pub(super) fn slots(file: &Path, obj: &Obj) -> Result<Slots, Error> {
     Ok(slots)
 }
 
-/// The library files, each once. A name may hold blanks, and one statement may name several files: the whole is tried
+/// The library files, each once, and a sentence for each that does not exist. A name may hold blanks, and one statement may name several files: the whole is tried
 /// as one name first.
-fn library_paths(file: &Path, obj: &Obj) -> Result<Vec<PathBuf>, Error> {
-    let mut paths: Vec<PathBuf> = Vec::new();
+fn library_paths(file: &Path, obj: &Obj) -> Result<(Vec<PathBuf>, Vec<String>), Error> {
+    let (mut paths, mut missing): (Vec<PathBuf>, Vec<String>) = (Vec::new(), Vec::new());
     for (rest, line) in &obj.libraries {
         let whole = beside(file, rest);
-        let named: Vec<PathBuf> =
-            if whole.exists() { vec![whole] } else { rest.split_whitespace().map(|name| beside(file, name)).collect() };
+        let several: Vec<PathBuf> = rest.split_whitespace().map(|name| beside(file, name)).collect();
+        let one = whole.exists() || !several.iter().any(|path| path.exists());
+        let named = if one && !several.is_empty() { vec![whole] } else { several };
         if named.is_empty() {
             return Err(Error::at(file, *line, "`mtllib` without a file name"));
         }
-        if let Some(missing) = named.iter().find(|path| !path.exists()) {
-            let told =
-                format!("the material library `{}` does not exist; put it there or remove the line", missing.display());
-            return Err(Error::at(file, *line, told));
-        }
-        paths.extend(named);
+        let (there, absent): (Vec<_>, Vec<_>) = named.into_iter().partition(|path| path.exists());
+        let told = |path: &PathBuf| format!("line {line}: the material library `{}` does not exist", path.display());
+        missing.extend(absent.iter().map(told));
+        paths.extend(there);
     }
     let mut seen = BTreeSet::new();
     paths.retain(|path| seen.insert(path.clone()));
-    Ok(paths)
+    Ok((paths, missing))
 }

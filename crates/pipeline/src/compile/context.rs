@@ -1,5 +1,6 @@
 //! What every step of compiling shares: the assets, the faults found so far, and remarks for the plan.
 
+use crate::remark::{Remark, Weight};
 use etendue_scene::asset::Assets;
 use etendue_scene::{Fault, Place};
 use std::fmt::Display;
@@ -9,7 +10,7 @@ use std::fmt::Display;
 pub(super) struct Context<'a> {
     pub(super) assets: &'a Assets,
     pub(super) faults: Vec<Fault>,
-    pub(super) remarks: Vec<String>,
+    pub(super) remarks: Vec<Remark>,
 }
 
 impl<'a> Context<'a> {
@@ -39,9 +40,29 @@ impl<'a> Context<'a> {
     }
 
     /// A remark that the plan prints, once.
-    pub(super) fn remark(&mut self, text: String) {
-        if !self.remarks.contains(&text) {
-            self.remarks.push(text);
+    pub(super) fn remark(&mut self, text: impl Into<String>) {
+        self.add(None, text.into(), Weight::Note);
+    }
+
+    /// A remark on a file, a place or a thing; the plan tells equal ones together.
+    pub(super) fn remark_on(&mut self, about: impl Display, text: impl Into<String>) {
+        self.add(Some(about.to_string()), text.into(), Weight::Note);
+    }
+
+    /// A remark that the picture may not be what was meant, which a rendering repeats.
+    pub(super) fn warn(&mut self, text: impl Into<String>) {
+        self.add(None, text.into(), Weight::Warning);
+    }
+
+    /// [`Context::warn`] on a file, a place or a thing.
+    pub(super) fn warn_on(&mut self, about: impl Display, text: impl Into<String>) {
+        self.add(Some(about.to_string()), text.into(), Weight::Warning);
+    }
+
+    fn add(&mut self, about: Option<String>, text: String, weight: Weight) {
+        let remark = Remark { about, text, weight };
+        if !self.remarks.contains(&remark) {
+            self.remarks.push(remark);
         }
     }
 }

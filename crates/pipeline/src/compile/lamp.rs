@@ -50,7 +50,7 @@ fn measured(lamp: &MeasuredLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>>
         context.fault(&lamp.file.place, "the photometric file was not loaded", "give a readable file");
         return None;
     };
-    asset.report.iter().for_each(|line| context.remark(line.clone()));
+    asset.report.iter().for_each(|line| context.remark(line));
     let (axes, main) = match asset.axes {
         PhotometryAxes::A => (WebAxes::A, MainAxis::Forward),
         PhotometryAxes::B => (WebAxes::B, MainAxis::Forward),

@@ -45,7 +45,7 @@ fn sun(record: &record::Sun, context: &mut Context<'_>) -> Option<Sun> {
         }
     };
     if record.elevation_deg.value < 0.0 {
-        context.remark(format!("the sun \"{}\" stands below the horizon", record.name.value));
+        context.warn(format!("the sun \"{}\" stands below the horizon", record.name.value));
     }
     let direction = sky::direction(elevation_rad, record.azimuth_deg.value.to_radians());
     let diameter_deg = record.angular_diameter_deg.as_ref().map_or(SUN_ANGULAR_DIAMETER_DEG, |d| d.value);
@@ -73,7 +73,9 @@ fn light_only(mut texels: Vec<[f32; 3]>, record: &EnvironmentImage, context: &mu
     let file = record.file.value.display();
     match (negative, &record.negative_texels) {
         (0, _) => return texels,
-        (_, Some(_)) => context.remark(format!("{file}: {negative} texels with a component below 0 made 0, as asked")),
+        (_, Some(_)) => {
+            context.remark_on(file, format!("{negative} texels with a component below 0 made 0, as asked"));
+        }
         (_, None) => {
             let problem = format!("{negative} texels of {file} have a component below 0, which no light has");
             context.fault(&record.file.place, problem, "correct the picture, or say negative_texels = \"zero\"");

@@ -23,7 +23,8 @@ mod tests;
 mod world;
 
 use crate::fingerprint::fingerprint;
-use crate::plan::{CameraBody, CameraPlan, Plan};
+use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan};
+use crate::shared_light;
 use context::Context;
 use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;
@@ -102,8 +103,9 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let mut builder = PaletteBuilder::of_scene(scene, context);
     let (sources, sky) = light::sources(scene, context);
     let setups = description.cameras.iter().enumerate();
-    let cameras: Vec<_> =
+    let mut cameras: Vec<_> =
         setups.filter_map(|(index, setup)| camera_plan(index as u32, setup, choices, context)).collect();
+    shared_light::share(&mut cameras);
     let (world, identities) = world::world(scene, &mut builder, context)?;
     for setup in &description.cameras {
         let position = &setup.pose.position_m;
@@ -125,5 +127,7 @@ fn camera_plan(index: u32, setup: &CameraSetup, choices: &Choices, context: &mut
     let settings = settings::settings(&setup.render, &body, &depth_of_field, &products, choices, context)?;
     // A pose that was read has been checked.
     let pose = setup.pose.to_camera_pose()?;
-    Some(CameraPlan { name: setup.name.value.clone(), index, pose, body, settings, depth_of_field, products })
+    let name = setup.name.value.clone();
+    let light = LightOwner { camera: name.clone(), index };
+    Some(CameraPlan { name, index, light, pose, body, settings, depth_of_field, products })
 }

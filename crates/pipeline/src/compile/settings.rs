@@ -298,7 +298,7 @@ fn remark_losses(products: &Products, route: &Route, folded: bool, body: &Camera
         context.remark(format!("electrons come from band means and bring no variance; {remedy} does"));
     }
     if matches!(route, Route::Pupil(_)) && !products.radiance {
-        context.remark("route = \"pupil\" without radiance = true: nothing is kept for expose".to_owned());
+        context.remark("route = \"pupil\" without radiance = true: nothing is kept for expose");
     }
     if products.variance && products.irradiance && *route != Route::Lens {
         context
@@ -309,7 +309,7 @@ fn remark_losses(products: &Products, route: &Route, folded: bool, body: &Camera
 /// Light from beyond the picture that the lens does not give.
 fn remark_margin(body: &CameraBody, context: &mut Context<'_>) {
     if let (Ok(()), Err(error)) = (body.lens.check(&body.raster), body.lens.check(&body.film())) {
-        context.remark(format!("beyond the picture, where the effects take light from, some is missing: {error}"));
+        context.warn(format!("beyond the picture, where the effects take light from, some is missing: {error}"));
     }
 }
 
@@ -317,7 +317,7 @@ fn remark_margin(body: &CameraBody, context: &mut Context<'_>) {
 /// change of the job.
 fn remark_bands(render: &Render, cube: bool, context: &mut Context<'_>) {
     if let (Some(width), false) = (&render.band_width_nm, cube) {
-        context.remark(format!("{}: no spectrum is kept, so the width of bands does not matter", width.place));
+        context.remark_on(&width.place, "no spectrum is kept, so the width of bands does not matter");
     }
 }
 
@@ -340,7 +340,7 @@ pub(super) fn depth_of_field(render: &Render, body: &CameraBody, context: &mut C
             DepthMethod::Physical if blurs => Some(DepthOfField::Physical),
             DepthMethod::Physical => {
                 let remark = "to this lens everything is sharp, so depth_of_field blurs nothing";
-                context.remark(format!("{}: {remark}", method.place));
+                context.remark_on(&method.place, remark);
                 Some(DepthOfField::None)
             }
             DepthMethod::None => Some(DepthOfField::None),

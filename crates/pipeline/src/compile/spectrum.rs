@@ -27,12 +27,8 @@ pub(super) fn from_file(file: &Placed<PathBuf>, outside: Outside, context: &mut 
             Outside::Zero => "zero",
             Outside::Hold => "its end value",
         };
-        context.remark(format!(
-            "{} covers {} to {} nm; beyond that it is {beyond}",
-            file.value.display(),
-            first.0,
-            last.0
-        ));
+        let told = format!("covers {} to {} nm; beyond that it is {beyond}", first.0, last.0);
+        context.remark_on(file.value.display(), told);
     }
     context.accept(&file.place, Spectrum::from_points(&asset.points, outside))
 }

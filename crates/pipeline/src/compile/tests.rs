@@ -195,7 +195,7 @@ fn effects_that_cannot_be_are_refused_where_they_stand() {
     assert!(fault("", "").contains("describes no effect"));
     // The distortion folds beyond the picture, within a margin of its own width.
     let plan = scattering(&format!("margin = 1, {GLARE}"), "").expect("it is dark there");
-    assert!(plan.remarks.iter().any(|r| r.contains("some is missing")), "{:?}", plan.remarks);
+    assert!(plan.remarks.iter().any(|r| r.text.contains("some is missing")), "{:?}", plan.remarks);
 }
 
 const PINHOLE: &str = "model = \"pinhole\", focal_length_mm = 6, f_number = 2";

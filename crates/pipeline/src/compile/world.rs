@@ -5,14 +5,18 @@ use super::material::PaletteBuilder;
 use super::shape;
 use crate::plan::Identity;
 use etendue_core::Track;
-use etendue_scene::asset::MeshAsset;
+use etendue_scene::asset::{MeshAsset, SlotMaterial, SlotReflectance, SlotSurface};
 use etendue_scene::record::shape::Shape as ShapeRecord;
 use etendue_scene::record::{self, Body, Object, Scene};
 use etendue_tracer::MaterialId;
 use etendue_tracer::accel::{World, WorldBuilder};
 use etendue_tracer::geometry::{Dropped, Instance, Mesh, MeshError, MeshId, Shape};
 use glam::{DAffine3, DMat3, Vec2, Vec3};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
+
+/// What a material reflects whose library does not exist: the grey of a surface that nobody described.
+const MISSING_GREY: f64 = 0.5;
 
 /// The world and the identities that its ground truth names, in the order of the instance ids from 1.
 pub(super) fn world(
@@ -55,15 +59,13 @@ impl Assembly {
             context.fault(&record.file.place, "the mesh was not loaded", "give a readable OBJ file");
             return;
         };
-        asset.report.iter().for_each(|line| context.remark(line.clone()));
+        asset.report.iter().for_each(|line| context.remark(line));
+        asset.warnings.iter().for_each(|line| context.warn(line));
         let Some((mesh, dropped)) = context.accept(&record.file.place, mesh_of(asset)) else { return };
         if dropped != Dropped::default() {
-            context.remark(format!(
-                "{}: {} triangles of no area and {} duplicates dropped",
-                record.file.value.display(),
-                dropped.zero_area,
-                dropped.duplicate
-            ));
+            let Dropped { zero_area, duplicate, .. } = dropped;
+            let told = format!("{zero_area} triangles of no area and {duplicate} duplicates dropped");
+            context.warn_on(record.file.value.display(), told);
         }
         let id = self.builder.add_mesh(mesh);
         self.meshes.insert(record.name.value.clone(), id);
@@ -192,9 +194,26 @@ fn slot_materials(
         .iter()
         .map(|slot| match named(&slot.name) {
             Some(material) => palette.named(&material.value),
-            None => palette.of_slot(&mesh.file.value, slot, &object.place, context),
+            None => palette.of_slot(&mesh.file.value, &known(slot, mesh, asset, context), &object.place, context),
         })
         .collect()
+}
+
+/// A slot, or grey in its place where the library that would say what it is does not exist.
+fn known<'a>(
+    slot: &'a SlotMaterial,
+    mesh: &record::Mesh,
+    asset: &MeshAsset,
+    context: &mut Context<'_>,
+) -> Cow<'a, SlotMaterial> {
+    if slot.surface.is_some() || slot.name.is_empty() || asset.missing_libraries.is_empty() {
+        return Cow::Borrowed(slot);
+    }
+    let about = format!("{}, material \"{}\"", mesh.file.value.display(), slot.name);
+    let missing = asset.missing_libraries.join("; ");
+    context.warn_on(about, format!("{missing}: grey of reflectance {MISSING_GREY} in its place"));
+    let reflectance = SlotReflectance::LinearSrgb([MISSING_GREY; 3]);
+    Cow::Owned(SlotMaterial { name: slot.name.clone(), surface: Some(SlotSurface::Diffuse { reflectance }) })
 }
 
 /// A texture on a mesh without texture coordinates would show one texel everywhere.

@@ -21,6 +21,10 @@ pub struct MeshAsset {
     pub slot_materials: Vec<SlotMaterial>,
     /// What was read and not used, in sentences for the user: fields of no meaning here, dropped triangles.
     pub report: Vec<String>,
+    /// What makes the picture another than the file might be taken to ask for, in sentences for the user.
+    pub warnings: Vec<String>,
+    /// The material libraries that the file names and that do not exist, each in a sentence with its line.
+    pub missing_libraries: Vec<String>,
     /// SHA-256 of the contents of the file and of the material files it names.
     pub hash: [u8; 32],
 }

@@ -94,12 +94,21 @@ pub struct LightCensus {
     pub lamps: usize,
     /// Suns.
     pub suns: usize,
-    /// Whether an environment of one radiance surrounds the scene.
+    /// Whether an environment of one radiance above 0 surrounds the scene.
     pub uniform_environment: bool,
     /// Whether a picture surrounds the scene.
     pub image_environment: bool,
     /// Whether a clear sky surrounds the scene.
     pub sky: bool,
+}
+
+impl LightCensus {
+    /// Whether nothing gives light.
+    #[must_use]
+    pub fn is_dark(&self) -> bool {
+        let environment = self.uniform_environment || self.image_environment || self.sky;
+        self.triangles + self.spheres + self.lamps + self.suns == 0 && !environment
+    }
 }
 
 /// Light drawn for a point.
@@ -197,7 +206,7 @@ impl Lights {
             spheres: count(|l| matches!(l, Light::Sphere(_))),
             lamps: count(|l| matches!(l, Light::Lamp(_))),
             suns: self.suns.len(),
-            uniform_environment: matches!(self.environment, Some(Environment::Uniform(_))),
+            uniform_environment: matches!(&self.environment, Some(Environment::Uniform(l)) if l.max_value() > 0.0),
             image_environment: matches!(self.environment, Some(Environment::Image(_))),
             sky: matches!(self.environment, Some(Environment::Sky(_))),
         }

@@ -18,7 +18,7 @@ pub enum MaterialError {
         n: f64,
     },
     /// A transparent substance's refractive index is outside its range.
-    #[error("glass of refractive index {n} was given, but it must lie between 1.1 and 4; correct it")]
+    #[error("glass of refractive index {n} was given, but it must lie between 1 and 4; correct it")]
     GlassIndex {
         /// What was given.
         n: f64,

@@ -4,7 +4,7 @@
 //! (index 1) but where stated. `cos_i` is the cosine of the angle of incidence, in [0, 1]. Polarisation is left out: the mean of both
 //! planes is taken at every interface.
 
-/// Reflectance of a dielectric of index `n` > 1 seen from outside.
+/// Reflectance of a dielectric of index `n` ≥ 1 seen from outside; 0 of an index of 1.
 #[must_use]
 pub fn dielectric(cos_i: f32, n: f32) -> f32 {
     let [s, p] = planes(cos_i, n);
@@ -14,18 +14,26 @@ pub fn dielectric(cos_i: f32, n: f32) -> f32 {
 /// The same for light polarised perpendicular to the plane of incidence, and in it.
 #[must_use]
 pub fn planes(cos_i: f32, n: f32) -> [f32; 2] {
+    if n == 1.0 {
+        return [0.0; 2];
+    }
     let c = cos_i.clamp(0.0, 1.0);
-    let n_cos_t = (n * n - (1.0 - c * c)).sqrt();
+    let n_cos_t = cos_square(c, n).sqrt();
     let s = (c - n_cos_t) / (c + n_cos_t);
     let p = (n * n * c - n_cos_t) / (n * n * c + n_cos_t);
     [s * s, p * p]
+}
+
+/// The square of n cos θₜ, n² − sin² θ, without loss of digits where n is close to 1; negative beyond the critical angle.
+pub(super) fn cos_square(cos_i: f32, n: f32) -> f32 {
+    (n - 1.0) * (n + 1.0) + cos_i * cos_i
 }
 
 /// Reflectance of an interface into a medium of `eta` times the index of the one light comes from; 1 beyond the critical
 /// angle.
 #[must_use]
 pub fn interface(cos_i: f32, eta: f32) -> f32 {
-    if eta * eta <= 1.0 - cos_i * cos_i { 1.0 } else { dielectric(cos_i, eta) }
+    if eta != 1.0 && cos_square(cos_i, eta) <= 0.0 { 1.0 } else { dielectric(cos_i, eta) }
 }
 
 /// Reflectance of a conductor of complex index n + i·k (n² + k² > 0) seen from outside.

@@ -67,7 +67,7 @@ impl<const N: usize> ThinSheetBsdf<N> {
     pub(super) fn shares(&self, cos: f32) -> (Spectral<N>, Spectral<N>) {
         let cos = cos.clamp(0.0, 1.0);
         let planes = fresnel::planes(cos, self.n);
-        let cos_inside = (1.0 - (1.0 - cos * cos) / (self.n * self.n)).sqrt();
+        let cos_inside = (fresnel::cos_square(cos, self.n) / (self.n * self.n)).sqrt();
         let (mut reflected, mut passed) = (Spectral::ZERO, Spectral::ZERO);
         for i in 0..N {
             let a = crossing(self.inner[i], cos_inside);
@@ -94,7 +94,10 @@ impl<const N: usize> ThinSheetBsdf<N> {
 
 /// Transmittance of one crossing at the cosine inside.
 fn crossing(inner: f32, cos_inside: f32) -> f32 {
-    if inner > 0.0 { maths::f32::exp(maths::f32::ln(inner.min(1.0)) / cos_inside) } else { 0.0 }
+    if inner >= 1.0 {
+        return 1.0;
+    }
+    if inner > 0.0 { maths::f32::exp(maths::f32::ln(inner) / cos_inside) } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -103,6 +106,19 @@ mod tests {
 
     fn pane(n: f32, inner: f32) -> ThinSheetBsdf<1> {
         ThinSheetBsdf { n, inner: Spectral::splat(inner) }
+    }
+
+    #[test]
+    fn a_pane_of_index_1_is_its_sheet_alone() {
+        for cos in [1.0_f32, 0.5, 1e-4] {
+            assert_eq!(pane(1.0, 1.0).shares(cos), (Spectral::ZERO, Spectral::ONE), "{cos}");
+            let (reflected, passed) = pane(1.0, 0.5).shares(cos);
+            let expected = maths::f64::exp(maths::f64::ln(0.5) / f64::from(cos)) as f32;
+            assert!(
+                reflected.is_zero() && (passed[0] - expected).abs() <= 1e-6 * expected.max(1e-30),
+                "{cos}: {passed:?}"
+            );
+        }
     }
 
     /// Rays followed order by order in f64, for one plane of polarisation.

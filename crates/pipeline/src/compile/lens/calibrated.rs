@@ -74,7 +74,7 @@ fn imported(file: &CalibrationFile, context: &mut Context<'_>) -> Option<Calibra
         return None;
     };
     for note in &asset.report {
-        context.remark(format!("{}: {note}", file.file.value.display()));
+        context.remark_on(file.file.value.display(), note);
     }
     Some(asset.calibration.clone())
 }

@@ -38,10 +38,8 @@ pub(super) fn lens(
     let lens = context.accept(&record.place, lens)?;
     if lens.lit_radius_mm() < raster.max_radius_mm() * (1.0 - 1e-9) {
         let (lit, needed) = (lens.lit_radius_mm(), raster.max_radius_mm());
-        context.remark(format!(
-            "{}: the lens lights {lit:.3} mm about the axis, the picture reaches {needed:.3} mm",
-            record.place
-        ));
+        let told = format!("the lens lights {lit:.3} mm about the axis, the picture reaches {needed:.3} mm");
+        context.warn_on(&record.place, told);
     }
     Some(Lens::prescription(lens))
 }

@@ -42,7 +42,7 @@ impl Workshop<'_, '_> {
             }
         };
         let sheeting = self.context.accept(&r.place, made)?;
-        self.context.remark(format!("{}: {}", r.place.key(), sheeting.limits()));
+        self.context.remark_on(r.place.key(), sheeting.limits().to_string());
         Some(Surface::Sheeting(Box::new(sheeting)))
     }
 

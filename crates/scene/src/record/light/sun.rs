@@ -18,7 +18,8 @@ record! {
         inside level: SunLevel;
         /// Of which colour; "turbidity" says it already.
         group colour: LightColour;
-        /// Diameter of the disc, degrees, above 0 and at most 20. Default: 0.5338.
+        /// Diameter of the disc, degrees, above 0 and at most 20. The light that arrives stays what is stated; the disc's radiance
+        /// follows. Default: 0.5338.
         optional angular_diameter_deg: Placed<f64> = number("°").above(0.0).at_most(20.0);
         /// Whether the disc is darker and redder towards its edge (Hosek and Wilkie 2013). The light that arrives stays what
         /// is stated. Default: true with "turbidity", else false.

@@ -1,7 +1,6 @@
 //! What lets light through: solids, panes, leaves.
 
 use super::factor::{Factor, any_factor};
-use crate::asset::COAT_INDICES;
 use crate::fault::Faults;
 use crate::place::Placed;
 use crate::reader::{Number, keyed, number, record};
@@ -11,7 +10,7 @@ use crate::record::reflectance::{Colour, Reflectance, any_colour, any_reflectanc
 record! {
     /// A solid of glass, water or plastic.
     pub struct Dielectric check(check_dielectric) {
-        /// Refractive index against air, 1.1 … 4; the same at all wavelengths.
+        /// Refractive index against air, 1 … 4; the same at all wavelengths.
         required index: Placed<f64> = any_index();
         /// Roughness α of the surface's GGX distribution (not its square root), 0 … 1; below 0.0001 it is clear. Default: 0.
         optional alpha: Factor = any_factor();
@@ -25,7 +24,7 @@ record! {
 record! {
     /// A pane.
     pub struct ThinSheet check(check_sheet) {
-        /// Refractive index against air, 1.1 … 4; the same at all wavelengths. Default: 1.5.
+        /// Refractive index against air, 1 … 4; the same at all wavelengths. Default: 1.5.
         optional index: Placed<f64> = any_index();
         /// What it absorbs inside. Default: nothing.
         group absorption: Absorption;
@@ -56,8 +55,9 @@ record! {
     }
 }
 
+/// From a substance that nobody sees to germanium; the tracer's `DIELECTRIC_INDICES`.
 fn any_index() -> Number {
-    number("").at_least(*COAT_INDICES.start()).at_most(*COAT_INDICES.end())
+    number("").at_least(1.0).at_most(4.0)
 }
 
 fn check_dielectric(glass: &Dielectric, faults: &mut Faults) {

@@ -1,0 +1,189 @@
+//! Cameras of a job that see the same light: rendered once, and each as it is alone.
+
+use crate::support::{assert_same, contents, etendue, rendered, text};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// A matt floor and a lamp before cameras that look at it from the same place.
+const SCENE: &str = r#"format = 1
+[scene]
+[scene.environment]
+type = "uniform"
+luminance_cd_m2 = 300
+illuminant = "D65"
+[[scene.materials]]
+name = "grey"
+type = "diffuse"
+reflectance = 0.5
+[[scene.objects]]
+name = "floor"
+shape = { type = "quad", size_m = [30, 30] }
+material = "grey"
+[render]
+spp = 8
+replicates = 2
+level = "direct"
+seed = 5
+band_width_nm = 50
+[output]
+electrons = true
+variance = true
+"#;
+
+/// A camera of the job: its name, what its tables say in place of `KEY = VALUE`, and what comes beside them.
+fn camera(name: &str, changes: &[(&str, &str)], further: &str) -> String {
+    let mut text = format!(
+        r#"
+[[cameras]]
+name = "{name}"
+position_m = [0, 0, 1.4]
+look_at_m = [6, 0, 0.9]
+[cameras.lens]
+model = "thin"
+focal_length_mm = 6
+f_number = 2
+focus_distance_m = 5
+[cameras.sensor]
+width_px = 24
+height_px = 16
+pixel_pitch_um = 100
+exposure_s = 1e-5
+cfa = "rggb"
+quantum_efficiency = {{ camera = "nikon-d5100", peak = 0.5 }}
+full_well_e = 50_000
+read_noise_e = 4
+dark_current_e_s = 5
+gain_dn_per_e = 0.05
+black_level_dn = 64
+bits = 12
+[cameras.processing]
+white_balance = "D65"
+{further}"#
+    );
+    for (old, new) in changes {
+        assert!(text.contains(old), "{old}");
+        text = text.replace(old, new);
+    }
+    text
+}
+
+/// The job of all cameras, in a folder.
+fn job(folder: &Path) -> String {
+    let cameras = [
+        camera("first", &[], ""),
+        camera("twin", &[], ""),
+        camera("long", &[("1e-5", "2e-5")], ""),
+        camera("other-look", &[("\"D65\"", "\"grey_world\"")], "tone_curve = \"linear\"\n"),
+        camera("half", &[("peak = 0.5", "peak = 0.25")], ""),
+        camera("spectral", &[], "[cameras.output]\nradiance = true\n"),
+        camera("wide", &[("focal_length_mm = 6", "focal_length_mm = 5")], ""),
+        camera("longer", &[("1e-5", "3e-5")], "[cameras.output]\nground_truth = false\n"),
+    ];
+    let path = folder.join("job.toml");
+    std::fs::write(&path, format!("{SCENE}{}", cameras.concat())).expect("written");
+    text(&path)
+}
+
+fn all() -> (tempfile::TempDir, String) {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let job = job(place.path());
+    (place, job)
+}
+
+/// What the plan says of a camera.
+fn block<'a>(plan: &'a str, name: &str) -> &'a str {
+    let start = plan.find(&format!("camera {name}\n")).expect("the camera");
+    let rest = &plan[start..];
+    &rest[..rest.find("\n\n").unwrap_or(rest.len())]
+}
+
+#[test]
+fn the_plan_says_whose_light_a_camera_sees_and_why_not() {
+    let (_place, job) = all();
+    let plan = etendue(["plan", &job]).ok().out;
+    assert!(block(&plan, "first").contains("for twin, long, other-look and longer too"), "{plan}");
+    for name in ["twin", "long", "other-look", "longer"] {
+        let told = block(&plan, name);
+        assert!(told.contains("light          that of camera first"), "{told}");
+        assert!(told.contains("cost           no paths of its own: those of camera first"), "{told}");
+    }
+    let apart = |name: &str, why: &str| {
+        let told = block(&plan, name);
+        assert!(told.contains("its own: camera") && told.contains(why) && told.contains("million paths"), "{told}");
+    };
+    apart("half", "differs in the response that pixels fold");
+    apart("spectral", "differs in what is kept of the spectrum");
+    assert!(!block(&plan, "wide").contains("light      "), "another lens is another light, which nobody wonders at");
+    let alone = etendue(["plan", &job, "--camera", "long"]).ok().out;
+    let told = block(&alone, "long");
+    assert!(told.contains("equal to that of camera first of the job") && told.contains("million paths"), "{told}");
+}
+
+#[test]
+fn a_camera_alone_is_the_camera_among_those_of_equal_light() {
+    let (_place, job) = all();
+    let together = rendered(&job, &[]);
+    for name in ["first", "twin", "long", "other-look", "half", "spectral", "longer"] {
+        let alone = rendered(&job, &["--camera", name]);
+        let same: BTreeMap<_, _> = together
+            .iter()
+            .filter(|(file, _)| file.starts_with(&format!("{name}/")))
+            .map(|(k, v)| (k.clone(), v.clone()))
+            .collect();
+        assert_same(&same, &alone, name);
+    }
+    assert_same(&together, &merged(&job, &[], 3), "three shards");
+    let pupil = ["--set", "render.route=pupil"];
+    assert_same(&rendered(&job, &pupil), &merged(&job, &pupil, 2), "two shards at the pupil");
+}
+
+/// Renders in shards and joins them; each film is stored once.
+fn merged(job: &str, options: &[&str], count: u32) -> BTreeMap<String, Vec<u8>> {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let folder = |name: &str| text(&place.path().join(name));
+    let mut arguments = vec!["merge".to_owned(), "-o".to_owned(), folder("whole")];
+    for index in 0..count {
+        let (shard, part) = (format!("{index}/{count}"), folder(&index.to_string()));
+        etendue(["render", job, "-o", &part, "--shard", &shard].iter().chain(options)).ok();
+        assert!(!Path::new(&part).join("twin.film.exr").exists() && Path::new(&part).join("first.film.exr").exists());
+        arguments.push(part);
+    }
+    etendue(arguments).ok();
+    contents(Path::new(&folder("whole")))
+}
+
+#[test]
+fn shared_light_has_one_error_and_each_sensor_its_own_noise() {
+    let (place, job) = all();
+    let output = text(&place.path().join("out"));
+    etendue(["render", &job, "-o", &output]).ok();
+    let files = contents(Path::new(&output));
+    let mean = |name: &str| {
+        let ran = etendue(["inspect", &format!("{output}/{name}/electrons.exr"), "--json"]).ok();
+        let told: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
+        let channels = told["channels"].as_array().expect("channels").clone();
+        let of = |wanted: &str| {
+            let channel = channels.iter().find(|c| c["name"] == wanted).expect("the channel");
+            channel["mean"].as_f64().expect("a mean")
+        };
+        [of("electrons"), of("variance.electrons")]
+    };
+    let ([e, v], [e2, v2]) = (mean("first"), mean("long"));
+    assert!(e > 100.0 && (e2 / e - 2.0).abs() < 1e-6 && (v2 / v - 4.0).abs() < 1e-6, "{e} {e2} {v} {v2}");
+    assert_eq!(mean("twin"), [e, v], "the same light, errors included");
+    assert_ne!(files["first/raw.0000.png"], files["twin/raw.0000.png"], "noise is each sensor's own");
+    let sidecar = |name: &str| -> serde_json::Value {
+        serde_json::from_slice(&files[&format!("{name}/camera.json")]).expect("JSON")
+    };
+    assert_eq!(sidecar("long")["light"]["camera"], "first");
+    assert_eq!(sidecar("half")["light"]["camera"], "half");
+}
+
+#[test]
+fn one_stored_radiance_serves_the_cameras_of_equal_views() {
+    let (_place, job) = all();
+    let plan = etendue(["plan", &job, "--set", "render.route=pupil"]).ok().out;
+    for name in ["twin", "long", "other-look", "half", "spectral", "longer"] {
+        assert!(block(&plan, name).contains("that of camera first"), "{}", block(&plan, name));
+    }
+}
