@@ -119,7 +119,7 @@ fn lines_that_tobj_would_misread_are_not_faces_and_do_not_part_the_data() {
 fn a_mesh_far_from_its_origin_is_told_what_it_loses() {
     let mesh = read("v 451000 5411000 0\nv 451001 5411000 0\nv 451000 5411001 0\nf 1 2 3\n", &[]).expect("whole");
     assert_eq!(
-        mesh.report,
+        mesh.warnings,
         [
             "a.obj: coordinates of up to 5411001 are rounded by up to 3.2e-1 units, the mesh measures 1: move it to its origin"
         ]
