@@ -25,6 +25,7 @@ pub mod rays;
 pub mod remark;
 pub mod render;
 mod shared_light;
+pub mod spectrum_spread;
 pub mod summary;
 pub mod tile;
 pub mod truth;

@@ -5,6 +5,7 @@ use crate::film::Film;
 use crate::gather::{Gather, Layout};
 use crate::mosaic::{Mosaic, Site};
 use crate::observer::Observer;
+use crate::spectrum_spread::{Heroes, SpectrumSpread};
 use crate::tile::{Shard, Tile, tiles};
 use etendue_core::random::{Draw, PathStream, Pixel, PixelAddress};
 use etendue_core::{CameraPose, FieldRay, PupilRay, RadianceField, Ray, Spectral, Wavelengths};
@@ -35,6 +36,8 @@ pub struct Sampling {
     pub low_nm: f32,
     /// Longest wavelength sampled, nm.
     pub high_nm: f32,
+    /// How wavelengths lie over the spectrum.
+    pub spread: SpectrumSpread,
 }
 
 /// What a frame's light is gathered from and into.
@@ -129,8 +132,9 @@ impl<S: RaySource> Exposure<'_, S> {
         let samples = self.sampling.spp / self.sampling.replicates;
         for replicate in 0..self.sampling.replicates {
             let streams: Vec<_> = block.iter().map(|p| PathStream::new(&self.address(*p, replicate), 0)).collect();
+            let heroes = self.heroes(block[0], replicate);
             for sample in 0..samples {
-                self.add_samples(field, &streams, sample, &mut asked, &mut gathers);
+                self.add_samples(field, (&streams, &heroes), sample, &mut asked, &mut gathers);
             }
             gathers.iter_mut().for_each(|(_, gather)| gather.end_replicate(samples));
         }
@@ -142,18 +146,24 @@ impl<S: RaySource> Exposure<'_, S> {
         PixelAddress { seed, camera, frame: 0, capture: 0, pixel, replicate }
     }
 
+    /// The wavelengths of a replicate of a block, which are those of its first pixel.
+    fn heroes(&self, pixel: Pixel, replicate: u32) -> Heroes {
+        let Sampling { spp, replicates, spread, .. } = self.sampling;
+        Heroes::new(spread, &self.address(pixel, replicate), spp / replicates, replicates)
+    }
+
     /// One sample of each pixel of a block.
     fn add_samples<const N: usize>(
         &self,
         field: &impl RadianceField<N>,
-        streams: &[PathStream],
+        (streams, heroes): (&[PathStream], &Heroes),
         sample: u32,
         asked: &mut Asked<N>,
         gathers: &mut [(Pixel, Gather)],
     ) {
         asked.clear();
         let site = self.mosaic.map(|mosaic| mosaic.at(gathers[0].0));
-        let wavelengths = self.wavelengths::<N>(site, streams[0].with_sample(sample).one(Draw::Wavelength, 0));
+        let wavelengths = self.wavelengths::<N>(site, heroes.number(&streams[0].with_sample(sample), N));
         for (index, (stream, (pixel, _))) in streams.iter().zip(gathers.iter()).enumerate() {
             let stream = stream.with_sample(sample);
             if let Some(pupil_ray) = self.pupil_ray(*pixel, &stream, wavelengths.nm[0]) {
@@ -216,7 +226,15 @@ mod tests {
             aperture_px: 1.0,
             layout: Layout { bands, folded: false },
             mosaic: None,
-            sampling: Sampling { spp: 64, replicates: 2, seed: 3, camera: 0, low_nm: 400.0, high_nm: 700.0 },
+            sampling: Sampling {
+                spp: 64,
+                replicates: 2,
+                seed: 3,
+                camera: 0,
+                low_nm: 400.0,
+                high_nm: 700.0,
+                spread: SpectrumSpread::EachReplicate,
+            },
             blocks: Blocks::SINGLE,
             tile_px,
             shard,
@@ -248,5 +266,53 @@ mod tests {
             tiles(9, 5, 2, shard).into_iter().for_each(|tile| joined.copy_tile(tile, &part));
         }
         assert_eq!(joined, whole);
+    }
+
+    /// All values of the lit pixels of an even field of radiance 1 over a weight of 0.25, in bands of 5 nm.
+    fn bands(spp: u32, replicates: u32, spread: SpectrumSpread) -> Vec<f64> {
+        let mut exposure = exposure(16, Shard::WHOLE);
+        exposure.width = 64;
+        exposure.height = 40;
+        exposure.layout.bands = Bands::covering(380.0, 780.0, 5.0);
+        let (low_nm, high_nm) = (380.0, 780.0);
+        exposure.sampling = Sampling { spp, replicates, low_nm, high_nm, spread, ..exposure.sampling };
+        let film = exposure.gather::<4>(&ConstantField { radiance: 4.0 }, &Unobserved).expect("not cancelled");
+        let cube = film.cube.expect("a cube");
+        let lit =
+            |y: usize, x: usize| cube.mean.planes().iter().map(move |p| f64::from(p.at(x, y))).collect::<Vec<_>>();
+        (0..40).flat_map(|y| (0..4).flat_map(move |x| lit(y, x)).collect::<Vec<_>>()).collect()
+    }
+
+    fn moments(values: &[f64]) -> (f64, f64) {
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let square = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>();
+        (mean, (square / values.len() as f64).sqrt())
+    }
+
+    /// 64 wavelengths of 80 bands: none or one in each, where drawn ones left 0 to 7.5.
+    #[test]
+    fn bands_of_even_light_are_met_as_evenly_as_wavelengths_allow() {
+        let even = bands(16, 4, SpectrumSpread::AllReplicates);
+        assert!(even.iter().all(|v| *v == 0.0 || (v - 1.25).abs() < 1e-5), "{:?}", moments(&even));
+        let drawn = bands(16, 4, SpectrumSpread::Drawn);
+        assert!(drawn.iter().any(|v| *v > 4.0), "{:?}", moments(&drawn));
+        // 320 wavelengths: four in every band.
+        assert!(bands(80, 4, SpectrumSpread::AllReplicates).iter().all(|v| (v - 1.0).abs() < 1e-5));
+    }
+
+    #[test]
+    fn the_noise_of_a_band_is_the_foretold_one_and_its_mean_the_light() {
+        for (spp, replicates, spread) in [
+            (16, 4, SpectrumSpread::AllReplicates),
+            (48, 2, SpectrumSpread::AllReplicates),
+            (16, 4, SpectrumSpread::EachReplicate),
+            (64, 4, SpectrumSpread::EachReplicate),
+        ] {
+            let values = bands(spp, replicates, spread);
+            let ((mean, noise), n) = (moments(&values), values.len() as f64);
+            let told = spread.band_noise(spp, replicates, 4, 5.0 / 400.0).expect("spread");
+            assert!((mean - 1.0).abs() < 5.0 * told / n.sqrt() + 1e-6, "{spread:?} {spp}: {mean}");
+            assert!((noise / told - 1.0).abs() < 0.05, "{spread:?} {spp}: {noise} for {told}");
+        }
     }
 }

@@ -17,7 +17,7 @@ const STEP_NM: f64 = 5.0;
 /// peak.
 const UNIFORM_SHARE: f64 = 0.05;
 /// The same where spectral bands are kept too.
-const UNIFORM_SHARE_WITH_BANDS: f64 = 0.5;
+pub(crate) const UNIFORM_SHARE_WITH_BANDS: f64 = 0.5;
 
 /// One pixel of the tile.
 #[derive(Clone, Debug)]

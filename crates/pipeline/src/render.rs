@@ -6,6 +6,7 @@ use crate::light::{Cancelled, Exposure, RaySource, Sampling};
 use crate::mosaic::Mosaic;
 use crate::observer::Observer;
 use crate::plan::{CameraBody, CameraPlan, Plan, Route};
+use crate::spectrum_spread::SpectrumSpread;
 use crate::tile::Shard;
 use etendue_core::PupilRay;
 use etendue_core::maths::f64::atan2;
@@ -107,6 +108,7 @@ fn exposure<'a, S>(
             camera: camera.light.index,
             low_nm: settings.range_nm.0 as f32,
             high_nm: settings.range_nm.1 as f32,
+            spread: SpectrumSpread::of(camera),
         },
         blocks: settings.blocks,
         tile_px: settings.tile_px,

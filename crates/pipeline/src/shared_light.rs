@@ -6,6 +6,7 @@
 //! light share one film: that of the first of them in the job, whose place is in the random addresses of all.
 
 use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan, Route, Settings};
+use crate::spectrum_spread::SpectrumSpread;
 use etendue_core::CameraPose;
 use etendue_optics::{Front, Lens, PupilProjection};
 use etendue_projection::Raster;
@@ -37,12 +38,13 @@ struct LensKey<'a> {
     aperture_px: f64,
 }
 
-/// How many samples, of which seed.
+/// How many samples, of which seed, and whether wavelengths are spread for replicates that tell a variance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct SamplingKey {
     spp: u32,
     replicates: u32,
     seed: u64,
+    spread: SpectrumSpread,
 }
 
 /// Electrons that pixels make of a second of light.
@@ -60,7 +62,12 @@ impl<'a> LightKey<'a> {
         Self {
             pose: camera.pose,
             optics: OpticsKey::of(camera),
-            sampling: SamplingKey { spp: s.spp, replicates: s.replicates, seed: s.seed },
+            sampling: SamplingKey {
+                spp: s.spp,
+                replicates: s.replicates,
+                seed: s.seed,
+                spread: SpectrumSpread::of(camera),
+            },
             // What has its own place in the key, and the size of a tile, which does not change the light.
             settings: Settings { tile_px: 0, spp: 0, replicates: 0, seed: 0, route: Route::Lens, ..*s },
             response: camera.body.sensor.as_ref().filter(|_| s.folded).map(ResponseKey::of),
@@ -72,12 +79,17 @@ impl<'a> LightKey<'a> {
         if (self.pose, &self.optics) != (other.pose, &other.optics) {
             return None;
         }
+        let samples = |key: &Self| (key.sampling.spp, key.sampling.replicates, key.sampling.seed);
         let kept = |s: &Settings| (s.bands, s.folded, s.range_nm);
         let (a, b) = (&self.settings, &other.settings);
         let same_kept = Settings { bands: b.bands, folded: b.folded, range_nm: b.range_nm, ..*a };
         let unlike = [
-            (self.sampling != other.sampling, "samples or seed"),
+            (samples(self) != samples(other), "samples or seed"),
             (kept(a) != kept(b), "what is kept of the spectrum"),
+            (
+                a.bands == b.bands && self.sampling.spread != other.sampling.spread,
+                "variance, for which replicates are independent",
+            ),
             (same_kept != *b, "how light is followed"),
             (self.response != other.response && a.folded && b.folded, "the response that pixels fold"),
         ];

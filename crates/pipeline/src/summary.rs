@@ -3,6 +3,7 @@
 mod front;
 mod processing;
 mod shared_light;
+mod spectrum;
 
 use crate::block::Blocks;
 use crate::defocus::margin_px;
@@ -134,7 +135,10 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     if !s.caustics {
         line(f, "left out", "caustics of suns and lamps (light thrown by smooth surfaces on matt ones), as asked")?;
     }
-    let cube = |bands: Bands| format!("{} band means of {} nm are kept", bands.count(), bands.width_nm());
+    let cube = |bands: Bands| {
+        let noise = spectrum::band_noise(camera, bands);
+        format!("{} band means of {} nm are kept{noise}", bands.count(), bands.width_nm())
+    };
     let kept = match (s.bands, s.folded) {
         (Some(bands), false) => cube(bands),
         (Some(bands), true) => format!("{}; electrons are summed beside them", cube(bands)),

@@ -4,15 +4,18 @@
 //! replicate, sample, draw, sub-counter), so frames, tiles and shards can be made anywhere in any order.
 //!
 //! - [`PathStream`] serves light transport: scrambled Sobol points, stratified over the samples of a replicate.
+//! - [`EvenNumbers`] spread the wavelengths of a pixel's samples evenly.
 //! - [`NoiseStream`] serves the sensor: independent words from a counter-based generator.
 
 mod address;
+mod even;
 mod noise;
 mod path;
 mod philox;
 mod sobol;
 
 pub use address::{Draw, Pixel, PixelAddress};
+pub use even::EvenNumbers;
 pub use noise::{NoiseDraw, NoiseKey, NoiseStream};
 pub use path::PathStream;
 pub use philox::philox4x32;

@@ -11,7 +11,7 @@ record! {
         optional spp: Placed<u64> = whole(1, 1 << 20);
         /// Independent replicates from which the variance is told, 1 … 1 024; one gives no variance. Samples
         /// are spread evenly within a replicate only: where light is even, one replicate of few samples is less noisy than
-        /// several. Default: 4, or 2 or 1 where "spp" is no multiple.
+        /// several. Wavelengths of bands are spread over all replicates, but where "variance" is asked for. Default: 4, or 2 or 1 where "spp" is no multiple.
         optional replicates: Placed<u64> = whole(1, 1024);
         /// How much of the light's ways is followed. Depth and identities are the same at every level. Default: "path".
         optional level: Placed<Level> = choice();
