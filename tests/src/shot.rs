@@ -34,12 +34,13 @@ impl Shot {
         Self::of_camera(plan, 0)
     }
 
-    /// Renders one of a plan's cameras, counted from 0.
+    /// Renders one of a plan's cameras, counted from 0. Replicates are independent, as for a camera that delivers variance.
     ///
     /// # Panics
     /// Where a sample is not finite, or there is no such camera.
     #[must_use]
-    pub fn of_camera(plan: Plan, index: usize) -> Self {
+    pub fn of_camera(mut plan: Plan, index: usize) -> Self {
+        plan.cameras.iter_mut().for_each(|camera| camera.products.variance |= camera.settings.replicates > 1);
         let film = light(&plan, &plan.cameras[index], Request::default(), &Unobserved).expect("nobody cancels");
         assert_eq!(film.not_finite_samples(), 0, "samples that are not finite");
         Self { plan, film, index }

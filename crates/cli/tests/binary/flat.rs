@@ -70,7 +70,7 @@ fn light_is_given_by_its_photons_too() {
     assert_eq!(files["web/raw.0000.png"], same["web/raw.0000.png"]);
     flat(WEB, &["--photons", "1", "--irradiance-w-m2", "1"]).0.refused(&["--photons", "--irradiance-w-m2"]);
     flat(WEB, &["--photons", "-1"]).0.refused(&["expected 0 photons a pixel or more"]);
-    flat("scenes/cameras/ccd-mono.toml", &["--photons", "5", "--set", "sensor.exposure_s=0"]).0.refused(&[
+    flat("scenes/cameras/automotive.toml", &["--photons", "5", "--set", "sensor.exposure_s=0"]).0.refused(&[
         "--photons 5",
         "exposure_s",
         "longer",

@@ -11,5 +11,5 @@ pub(super) fn band_noise(camera: &CameraPlan, bands: Bands) -> String {
     let noise = of(SpectrumSpread::of(camera), s.spp, s.replicates, s.wavelengths, band_share(s, bands));
     let Some(noise) = noise else { return String::new() };
     let most = if s.folded { "up to " } else { "" };
-    format!(", each with {most}{:.2} % of noise in even light by the choice of wavelengths", 100.0 * noise)
+    format!(", each with {most}{:.1} % of noise in even light by the choice of wavelengths", 100.0 * noise)
 }
