@@ -218,12 +218,20 @@ mod tests {
         assert!(error("400,1\n\n450,nan\n").starts_with("line 3: a wavelength or value is not finite"));
         assert!(error("400,1\n450,1e39\n").starts_with("line 2:"), "too large for storage");
         assert!(error("400,1\n400,2\n").starts_with("line 2: wavelength 400 nm follows 400 nm"));
-        assert!(error("400,1\n").starts_with("the table has 1 points"));
-        assert!(error("").starts_with("the table has 0 points"));
+        assert!(error("").starts_with("the table has no points"));
         assert!(error("0.4,1\n0.7,1\n").contains("are its wavelengths in nanometres?"));
         let points = [(400.0, 1.0), (300.0, 1.0)];
         let message = Spectrum::from_points(&points, Outside::Zero).expect_err("a fault").to_string();
         assert!(message.starts_with("point 1: wavelength 300 nm follows 400 nm"));
+    }
+
+    #[test]
+    fn one_point_is_a_constant_where_ends_are_held_and_has_no_width_where_they_are_zero() {
+        let held = Spectrum::from_csv("550.5,0.3\n", Outside::Hold).expect("a constant");
+        assert_eq!([300.0, 550.0, 1100.0].map(|nm| held.at(nm)), [0.3; 3]);
+        let fault = Spectrum::from_csv("550.5,0.3\n", Outside::Zero).expect_err("no width").to_string();
+        assert!(fault.starts_with("the table has one point, 550.5 nm, and light"), "{fault}");
+        assert_eq!(Spectrum::from_points(&[(550.5, 0.3)], Outside::Zero), Err(SpectrumError::NoWidth { nm: 550.5 }));
     }
 
     #[test]
