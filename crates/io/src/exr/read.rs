@@ -9,6 +9,7 @@ use ::exr::prelude::{AnyChannels, FlatSamples, Layer, ReadChannels, ReadLayers};
 
 use crate::Error;
 use crate::source::read_bytes;
+use crate::unpacked;
 
 /// Samples of a channel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +47,14 @@ pub struct ExrFile {
 }
 
 impl Samples {
+    /// The samples one by one, as [`Samples::to_floats`] has them.
+    pub(crate) fn floats(&self) -> Box<dyn Iterator<Item = f32> + '_> {
+        match self {
+            Self::Half(values) | Self::Float(values) => Box::new(values.iter().copied()),
+            Self::Uint(values) => Box::new(values.iter().map(|&v| v as f32)),
+        }
+    }
+
     /// The samples as floats; unsigned integers above 2²⁴ are rounded.
     #[must_use]
     pub fn to_floats(&self) -> Vec<f32> {
@@ -65,12 +74,40 @@ impl ExrFile {
 }
 
 /// Reads `file`.
+///
+/// # Errors
+/// Where it is missing, damaged or of a kind that is not read, or unpacks to more than 512 MiB and a hundred times its size.
 pub fn read_exr(file: &Path) -> Result<ExrFile, Error> {
     decode_exr(file, &read_bytes(file, "EXR")?)
 }
 
+/// Reads `file`, whose samples take at most `most_bytes` as 32-bit numbers.
+///
+/// # Errors
+/// Where it is missing, damaged or of a kind that is not read, or unpacks to more.
+pub fn read_exr_within(file: &Path, most_bytes: u64) -> Result<ExrFile, Error> {
+    let bytes = read_bytes(file, "EXR")?;
+    unpacked::check_within(file, samples(&bytes), most_bytes.into())?;
+    decode_all(file, &bytes)
+}
+
 /// Reads the bytes of `file`.
 pub(crate) fn decode_exr(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
+    unpacked::check(file, samples(bytes), bytes.len())?;
+    decode_all(file, bytes)
+}
+
+/// The samples that the headers state; none where they cannot be read, which reading the file tells.
+fn samples(bytes: &[u8]) -> u128 {
+    let meta = ::exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false);
+    let samples = |header: &::exr::meta::header::Header| {
+        let (width, height) = (header.layer_size.width() as u128, header.layer_size.height() as u128);
+        width.saturating_mul(height).saturating_mul(header.channels.list.len() as u128)
+    };
+    meta.map_or(0, |meta| meta.headers.iter().map(samples).fold(0, u128::saturating_add))
+}
+
+fn decode_all(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
     let image = ::exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
@@ -158,5 +195,39 @@ fn attribute_text(value: &AttributeValue) -> String {
         AttributeValue::F32(number) => number.to_string(),
         AttributeValue::I32(number) => number.to_string(),
         other => format!("{other:?}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exr::tests_support::picture;
+
+    /// A file of some hundred bytes that says it holds 20 000² pixels.
+    fn large() -> Vec<u8> {
+        let mut bytes = picture(1, 1, &["Y"], 0.0);
+        for window in [&b"dataWindow\0box2i\0"[..], b"displayWindow\0box2i\0"] {
+            let at = bytes.windows(window.len()).position(|w| w == window).expect("a window") + window.len() + 4;
+            bytes[at + 8..at + 16].copy_from_slice(&[19_999_u32.to_le_bytes(); 2].concat());
+        }
+        bytes
+    }
+
+    #[test]
+    fn a_small_file_of_many_pixels_is_refused_by_its_header() {
+        let told = decode_exr(Path::new("a.exr"), &large()).expect_err("too large").to_string();
+        let expected = "a.exr: unpacks to 1600 MB, where a file of its size may hold 537 MB; make the picture smaller";
+        assert!(told.starts_with(expected), "{told}");
+        assert_eq!(samples(&large()), 400_000_000);
+    }
+
+    #[test]
+    fn who_knows_the_size_says_the_bound() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let file = place.path().join("film.exr");
+        std::fs::write(&file, picture(20, 10, &["a", "b"], 1.0)).expect("write");
+        assert_eq!(read_exr_within(&file, 1600).expect("a film").channels.len(), 2);
+        let told = read_exr_within(&file, 1599).expect_err("more than known").to_string();
+        assert!(told.contains("unpacks to 1 MB"), "{told}");
     }
 }

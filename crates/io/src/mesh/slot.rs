@@ -55,7 +55,8 @@ pub(super) fn slots(file: &Path, obj: &Obj) -> Result<Slots, Error> {
 /// as one name first.
 fn library_paths(file: &Path, obj: &Obj) -> Result<(Vec<PathBuf>, Vec<String>), Error> {
     let (mut paths, mut missing): (Vec<PathBuf>, Vec<String>) = (Vec::new(), Vec::new());
-    for (rest, line) in &obj.libraries {
+    let (mut statements, mut known) = (BTreeSet::new(), BTreeSet::new());
+    for (rest, line) in obj.libraries.iter().filter(|(rest, _)| statements.insert(rest.clone())) {
         let whole = beside(file, rest);
         let several: Vec<PathBuf> = rest.split_whitespace().map(|name| beside(file, name)).collect();
         let one = whole.exists() || !several.iter().any(|path| path.exists());
@@ -63,12 +64,11 @@ fn library_paths(file: &Path, obj: &Obj) -> Result<(Vec<PathBuf>, Vec<String>), 
         if named.is_empty() {
             return Err(Error::at(file, *line, "`mtllib` without a file name"));
         }
-        let (there, absent): (Vec<_>, Vec<_>) = named.into_iter().partition(|path| path.exists());
+        let new: Vec<PathBuf> = named.into_iter().filter(|path| known.insert(path.clone())).collect();
+        let (there, absent): (Vec<_>, Vec<_>) = new.into_iter().partition(|path| path.exists());
         let told = |path: &PathBuf| format!("line {line}: the material library `{}` does not exist", path.display());
         missing.extend(absent.iter().map(told));
         paths.extend(there);
     }
-    let mut seen = BTreeSet::new();
-    paths.retain(|path| seen.insert(path.clone()));
     Ok((paths, missing))
 }

@@ -5,6 +5,8 @@ mod contradictions;
 mod example;
 mod faults;
 mod files;
+mod hostile;
 mod pages;
 mod reference;
 mod schema;
+mod unused;

@@ -1,0 +1,86 @@
+//! What of a scene is used: what objects show, and what that needs in turn.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::asset::names_files;
+use crate::fault::Named;
+use crate::place::{Place, Placed};
+use crate::record::{Material, Scene};
+
+/// Names of a scene that nothing shown leads to. Their files are not read and need not exist.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Unused {
+    /// Meshes that no object shows.
+    pub meshes: BTreeSet<String>,
+    /// Textures that nothing shown has.
+    pub textures: BTreeSet<String>,
+    /// Materials that no object has, itself or as a part of another.
+    pub materials: BTreeSet<String>,
+    /// Those of them that name files or textures, and so cannot be made.
+    pub unread: BTreeSet<String>,
+}
+
+/// A use of a name: what it is of, and where.
+pub(super) type Use = (Named, Placed<String>);
+
+impl Unused {
+    /// Follows the `uses` of names from everything that is no material.
+    pub(super) fn of(scene: &Scene, uses: &[Use]) -> Self {
+        let materials: BTreeMap<&str, &str> =
+            scene.materials.iter().map(|m| (m.place.key(), m.name.value.as_str())).collect();
+        let mut by_owner: BTreeMap<Option<&str>, Vec<&Use>> = BTreeMap::new();
+        for named in uses {
+            by_owner.entry(owner(&materials, &named.1.place)).or_default().push(named);
+        }
+        let mut used: BTreeSet<(Named, &str)> = BTreeSet::new();
+        let mut open = by_owner.get(&None).cloned().unwrap_or_default();
+        while let Some((named, name)) = open.pop() {
+            if used.insert((*named, name.as_str())) && *named == Named::Material {
+                open.extend(by_owner.get(&Some(name.as_str())).into_iter().flatten());
+            }
+        }
+        let rest = |named, names: &mut dyn Iterator<Item = &Placed<String>>| {
+            names.filter(|name| !used.contains(&(named, name.as_str()))).map(|name| name.value.clone()).collect()
+        };
+        let materials: BTreeSet<String> = rest(Named::Material, &mut scene.materials.iter().map(|m| &m.name));
+        let has_texture =
+            |name: &str| by_owner.get(&Some(name)).is_some_and(|uses| uses.iter().any(|u| u.0 == Named::Texture));
+        let is_unread = |m: &&Material| materials.contains(&m.name.value) && (has_texture(&m.name) || names_files(m));
+        Self {
+            unread: scene.materials.iter().filter(is_unread).map(|m| m.name.value.clone()).collect(),
+            meshes: rest(Named::Mesh, &mut scene.meshes.iter().map(|m| &m.name)),
+            textures: rest(Named::Texture, &mut scene.textures.iter().map(|t| &t.name)),
+            materials,
+        }
+    }
+
+    /// A sentence for each kind of which something is not used.
+    #[must_use]
+    pub fn remarks(&self) -> Vec<String> {
+        let told = |names: &BTreeSet<String>, one: &str, many: &str| match names.len() {
+            0 => None,
+            1 => Some(format!("not read: {one}: {}", listed(names))),
+            count => Some(format!("not read: {count} {many}: {}", listed(names))),
+        };
+        let kinds = [
+            told(&self.meshes, "the mesh that no object shows", "meshes that no object shows"),
+            told(&self.materials, "the material that no object has", "materials that no object has"),
+            told(&self.textures, "the texture that nothing shown has", "textures that nothing shown has"),
+        ];
+        kinds.into_iter().flatten().collect()
+    }
+}
+
+/// The first names.
+fn listed(names: &BTreeSet<String>) -> String {
+    const SHOWN: usize = 6;
+    let first: Vec<&str> = names.iter().take(SHOWN).map(String::as_str).collect();
+    let more = if names.len() > SHOWN { ", …" } else { "" };
+    format!("{}{more}", first.join(", "))
+}
+
+/// The name of the material that says what stands at `place`.
+fn owner<'m>(materials: &BTreeMap<&str, &'m str>, place: &Place) -> Option<&'m str> {
+    let key = place.key();
+    key.match_indices(['.', '[']).find_map(|(end, _)| materials.get(&key[..end]).copied())
+}
