@@ -58,9 +58,9 @@ fn all(camera: &Camera<'_>, arguments: &args::Develop, results: &mut Results<'_>
         claim(results.folder, [format!("{}/{name}", results.prefix)])?;
         let picture = developed(camera.development, &taken.raw, taken.address)
             .map_err(|error| Failure::input(format!("{}: {error}", file.display())))?;
-        results.write(&name, encoded(&picture.display, camera.development.format))?;
+        results.write(&name, encoded(&picture.display, camera.development))?;
         frames.push(frame(file, &taken, &picture));
-        files.insert(name, Files::picture_entry(camera.development.format));
+        files.insert(name, Files::picture_entry(camera.development));
     }
     let facts = json!({
         "program": "etendue",

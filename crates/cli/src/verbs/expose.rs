@@ -43,7 +43,7 @@ pub fn run(arguments: &args::Expose) -> Result<(), Failure> {
     let stored = stored(&arguments.radiance)?;
     let mut folder = open(&arguments.output)?;
     let name = camera_file::name(&arguments.camera);
-    let files = Files::of(&products(&body), body.picture_format(), &arguments.frames);
+    let files = Files::of(&products(&body), &body, &arguments.frames);
     let claimed = files.keys().map(String::as_str).chain([Files::SIDECAR]);
     claim(&folder, claimed.map(|file| format!("{name}/{file}")))?;
     let mut results = Results { prefix: name, folder: &mut folder };
@@ -189,7 +189,7 @@ fn sidecar(
         "sensor": facts::sensor(body),
         "route": "pupil",
         "depth_of_field": facts::depth_of_field(depth_of_field),
-        "files": Files::of(&products(body), body.picture_format(), &arguments.frames),
+        "files": Files::of(&products(body), body, &arguments.frames),
         "time_s": stored.provenance.time_s,
     })
 }

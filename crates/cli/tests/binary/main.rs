@@ -14,6 +14,7 @@ mod compared;
 mod datasheet;
 mod develop;
 mod dropped;
+mod encodings;
 mod faults;
 mod flat;
 mod geometry;

@@ -1,5 +1,6 @@
 //! What every step of compiling shares: the assets, the faults found so far, and remarks for the plan.
 
+use super::coverage::Coverage;
 use etendue_scene::asset::Assets;
 use etendue_scene::{Fault, Place};
 use std::fmt::Display;
@@ -10,11 +11,13 @@ pub(super) struct Context<'a> {
     pub(super) assets: &'a Assets,
     pub(super) faults: Vec<Fault>,
     pub(super) remarks: Vec<String>,
+    /// Wavelengths of the tables that are used.
+    pub(super) coverage: Coverage,
 }
 
 impl<'a> Context<'a> {
     pub(super) fn new(assets: &'a Assets) -> Self {
-        Self { assets, faults: Vec::new(), remarks: Vec::new() }
+        Self { assets, faults: Vec::new(), remarks: Vec::new(), coverage: Coverage::default() }
     }
 
     /// Notes a fault at `place`.

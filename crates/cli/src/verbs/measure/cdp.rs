@@ -70,6 +70,7 @@ pub(super) fn run(arguments: &Cdp) -> Result<(), Failure> {
         return Err(refused(&arguments.picture, &left_out[0]));
     }
     let mut report = report(&found);
+    report.encoding(&readings.stated);
     left_out.into_iter().for_each(|reason| report.note(format!("left out: patches at {reason}")));
     arguments.inquiry.tell(&report)
 }

@@ -43,6 +43,7 @@ pub(super) fn run(arguments: &Flare) -> Result<(), Failure> {
     let found = traps.iter().map(measured).collect::<Result<Vec<_>, Failure>>()?;
     let places: Vec<[usize; 4]> = traps.iter().map(|t| t.trap).collect();
     let mut report = report(&places, &found, readings.picture_px);
+    report.encoding(&readings.stated);
     if let Some(truth) = arguments.inquiry.truth.read(&CHARTS)?
         && let Some(own) = truth.light_of_traps()
     {

@@ -7,6 +7,7 @@ use super::truth::Truth;
 use crate::failure::Failure;
 use crate::plot::{Axis, Mark, Plot, Series};
 use clap::Args;
+use etendue_io::photograph::{Encoding, Stated};
 use etendue_metrology::oecf::response::{Response, ResponseSettings, camera_response};
 use etendue_metrology::oecf::{ExposurePoint, Oecf};
 use etendue_metrology::{Estimate, Image};
@@ -70,13 +71,20 @@ struct Measured {
     full_scale: Option<f64>,
     unit: &'static str,
     left_out: Vec<String>,
+    encoding: Stated,
 }
 
 impl Measured {
     fn new(points: Vec<ExposurePoint>, levels: &Levels, readings: &Readings) -> Self {
         let (black, full_scale) = (levels.black(readings), levels.full_scale(readings));
-        Self { points, readings: readings.kind(), black, full_scale, unit: "", left_out: Vec::new() }
+        let encoding = readings.stated.clone();
+        Self { points, readings: kind(readings), black, full_scale, unit: "", left_out: Vec::new(), encoding }
     }
+}
+
+/// What the readings are: decoded ones no longer tell of the tone curve of the file.
+fn kind(readings: &Readings) -> &'static str {
+    if readings.stated.encoding == Encoding::Linear { readings.kind() } else { "decoded" }
 }
 
 /// Pictures with their exposures.
@@ -202,6 +210,7 @@ fn steps(arguments: &OecfArguments, table: &Path) -> Result<Measured, Failure> {
 fn report(oecf: &Oecf, measured: &Measured) -> Report {
     let mut report =
         Report::new("oecf", "opto-electronic conversion function after ISO 14524 (± one standard uncertainty)");
+    report.encoding(&measured.encoding);
     report.setting("readings", measured.readings.to_owned());
     report.setting("exposure_unit", measured.unit.to_owned());
     if let Some(full_scale) = measured.full_scale {
@@ -281,7 +290,9 @@ fn response(arguments: &OecfArguments) -> Result<(), Failure> {
     };
     let pictures: Vec<(f64, &Image)> = series.iter().map(|(exposure, r)| (*exposure, &r.image)).collect();
     let found = camera_response(&pictures, &settings).map_err(|error| refused(&arguments.pictures[0], error))?;
-    arguments.inquiry.tell(&response_report(&found))
+    let mut report = response_report(&found);
+    report.encoding(&series[0].1.stated);
+    arguments.inquiry.tell(&report)
 }
 
 fn response_report(found: &Response) -> Report {

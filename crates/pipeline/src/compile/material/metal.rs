@@ -32,8 +32,7 @@ pub(super) fn from_table(file: &Placed<PathBuf>, context: &mut Context<'_>) -> O
         return None;
     };
     if let (Some(first), Some(last)) = (asset.points.first(), asset.points.last()) {
-        let file = file.value.display();
-        context.remark(format!("{file} covers {} to {} nm; beyond that it is its end value", first.0, last.0));
+        context.coverage.add(&file.value, (first.0, last.0), Outside::Hold);
     }
     let n: Vec<_> = asset.points.iter().map(|(nm, n, _)| (*nm, *n)).collect();
     let k: Vec<_> = asset.points.iter().map(|(nm, _, k)| (*nm, *k)).collect();

@@ -69,6 +69,10 @@ impl<'a> Tone<'a> {
                     measured.quantities.get("full_scale").ok_or("the measurement does not say its full scale")?;
                 Ok(Self { black: 0.0, white: largest.value, smear_s, development: Some(development) })
             }
+            "decoded" => {
+                Err("the measured readings were decoded before (--encoding): the camera's curve is no longer in them"
+                    .to_owned())
+            }
             _ => {
                 Err("the measurement does not say whether it is of raw readings or of a picture: measure again"
                     .to_owned())

@@ -15,6 +15,7 @@ pub(super) fn report(
     readings: &Readings,
 ) -> Report {
     let mut report = Report::new("sfr", "slanted edges after ISO 12233:2023 (± one standard uncertainty)");
+    report.encoding(&readings.stated);
     report.setting("readings", readings.kind().to_owned());
     if let Some(channel) = &arguments.inquiry.selection.channel {
         report.setting("channel", channel.clone());
