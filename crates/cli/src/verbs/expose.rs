@@ -38,6 +38,13 @@ impl Stored {
     }
 }
 
+impl Stored {
+    /// Pixels whose errors may be equal.
+    fn alike_px(&self) -> u32 {
+        self.provenance.further.get("alike_px").and_then(|n| n.parse().ok()).unwrap_or(1)
+    }
+}
+
 pub fn run(arguments: &args::Expose) -> Result<(), Failure> {
     let body = camera_file::load(&arguments.camera, &arguments.set)?;
     let stored = stored(&arguments.radiance)?;
@@ -188,6 +195,7 @@ fn sidecar(
         "effects": facts::effects(body),
         "sensor": facts::sensor(body),
         "route": "pupil",
+        "sampling": { "alike_px": stored.alike_px() },
         "depth_of_field": facts::depth_of_field(depth_of_field),
         "files": Files::of(&products(body), body, &arguments.frames),
         "time_s": stored.provenance.time_s,

@@ -26,5 +26,6 @@ mod lenses;
 mod measures;
 mod plans;
 mod raw_files;
+mod shared_paths;
 mod support;
 mod truths;

@@ -60,6 +60,8 @@ pub struct Photograph {
     pub stated: Stated,
     /// What a side-car states of a raw picture.
     pub raw: Option<RawFacts>,
+    /// Pixels of a rendered picture whose errors may be equal, because their paths shared what they found; 1: none are.
+    pub alike_px: u32,
 }
 
 impl Photograph {
@@ -83,6 +85,7 @@ impl Photograph {
 pub fn read_photograph(file: &Path) -> Result<Photograph, Error> {
     let mut photograph = decode_photograph(file, &read_bytes(file, "picture")?)?;
     let Some(beside) = side_car::beside(file)? else { return Ok(photograph) };
+    photograph.alike_px = beside.alike_px();
     let reason = format!("{} beside it", beside.name());
     if photograph.channels.len() == 1
         && let Some(facts) = raw::facts(&beside)?
@@ -115,11 +118,24 @@ pub fn decode_photograph(file: &Path, bytes: &[u8]) -> Result<Photograph, Error>
     Ok(photograph)
 }
 
+/// The attribute of an EXR that states [`Photograph::alike_px`].
+const ALIKE: &str = "etendue:alike_px";
+
 fn of_exr(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     let exr = decode_exr(file, bytes)?;
     let channel = |c: crate::exr::ExrChannel| Channel { name: c.name, samples: c.samples.to_floats() };
+    let stated = exr.attributes.get(ALIKE).and_then(|text| text.parse().ok());
+    let alike_px = stated.filter(|n| *n > 0).unwrap_or(1);
     let channels = exr.channels.into_iter().map(channel).collect();
-    Ok(Photograph { width: exr.width, height: exr.height, channels, full_scale: None, stated: of_floats(), raw: None })
+    Ok(Photograph {
+        width: exr.width,
+        height: exr.height,
+        channels,
+        full_scale: None,
+        stated: of_floats(),
+        raw: None,
+        alike_px,
+    })
 }
 
 /// Floats are in proportion to light.

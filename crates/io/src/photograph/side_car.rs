@@ -55,6 +55,12 @@ impl SideCar {
         &self.said["files"][&self.picture]
     }
 
+    /// Pixels whose errors may be equal, because their paths shared what they found.
+    pub(super) fn alike_px(&self) -> u32 {
+        let stated = self.said["sampling"]["alike_px"].as_u64();
+        stated.and_then(|n| u32::try_from(n).ok()).filter(|n| *n > 0).unwrap_or(1)
+    }
+
     /// How the picture's numbers are encoded, where it says so.
     pub(super) fn encoding(&self) -> Result<Option<Encoding>, Error> {
         let said = &self.entry()["encoding"];

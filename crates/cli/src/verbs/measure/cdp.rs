@@ -56,6 +56,7 @@ pub(super) fn run(arguments: &Cdp) -> Result<(), Failure> {
         black: arguments.inquiry.levels.black(&readings),
         full_scale: arguments.inquiry.levels.full_scale(&readings),
         share: arguments.tolerance,
+        shared_px: readings.shared_px,
     };
     let (mut found, mut left_out) = (Vec::new(), Vec::new());
     for pair in pairs {

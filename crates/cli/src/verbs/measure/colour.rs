@@ -48,7 +48,7 @@ pub(super) fn run(arguments: &Colour) -> Result<(), Failure> {
     };
     let levels = &arguments.inquiry.levels;
     let (black, full_scale) = (levels.black(&colours[1]), levels.full_scale(&colours[1]));
-    let found = measure_colour(&patches, black, full_scale, white);
+    let found = measure_colour(&patches, black, full_scale, white, colours[1].shared_px);
     let found = found.map_err(|error| refused(&arguments.picture, error))?;
     let mut report = report(&patches, &found);
     report.encoding(&colours[1].stated);

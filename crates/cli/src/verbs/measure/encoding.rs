@@ -185,8 +185,15 @@ mod tests {
     fn light(stated: Encoding, full_scale: Option<f64>, numbers: &[f32]) -> Vec<f32> {
         let channel = Channel { name: "Y".into(), samples: numbers.to_vec() };
         let stated = Stated::new(stated, "told");
-        let photograph =
-            Photograph { width: numbers.len(), height: 1, channels: vec![channel], full_scale, stated, raw: None };
+        let photograph = Photograph {
+            width: numbers.len(),
+            height: 1,
+            channels: vec![channel],
+            full_scale,
+            stated,
+            raw: None,
+            alike_px: 1,
+        };
         let to_light = ToLight::of(Path::new("a.png"), &photograph).expect("a curve");
         to_light.of_channel(&photograph.channels[0])
     }

@@ -63,6 +63,7 @@ pub(super) fn run(arguments: &NoiseArguments) -> Result<(), Failure> {
         if i == 0 {
             surfaces = sought(truth.as_ref(), &readings)?;
         }
+        readings.independent(file, 1)?;
         encodings.push(readings.stated.clone());
         black = inquiry.levels.black(&readings);
         let full_scale = inquiry.levels.full_scale(&readings);

@@ -131,7 +131,8 @@ fn exposure_beside(file: &Path) -> Result<f64, Failure> {
 fn exposures(arguments: &OecfArguments) -> Result<Measured, Failure> {
     let series = series(arguments)?;
     let levels = &arguments.inquiry.levels;
-    let point = |(exposure, r): &(f64, Readings)| ExposurePoint::of(*exposure, &r.image, levels.full_scale(r));
+    let point =
+        |(exposure, r): &(f64, Readings)| ExposurePoint::of(*exposure, &r.image, levels.full_scale(r), r.shared_px);
     Ok(Measured::new(series.iter().map(point).collect(), levels, &series[0].1))
 }
 
@@ -157,7 +158,7 @@ fn shots(arguments: &OecfArguments, truth: &Truth) -> Result<Measured, Failure> 
     let levels = &arguments.inquiry.levels;
     let point = |(exposure, r): &(f64, Readings)| {
         let middle = r.part(truth.middle(r)?, "--truth")?;
-        Ok(ExposurePoint::of(*exposure, &middle, levels.full_scale(r)))
+        Ok(ExposurePoint::of(*exposure, &middle, levels.full_scale(r), r.shared_px))
     };
     let points = series.iter().map(point).collect::<Result<Vec<_>, Failure>>()?;
     Ok(Measured { unit: "cd s/m²", ..Measured::new(points, levels, &series[0].1) })
@@ -179,7 +180,7 @@ fn patches(arguments: &OecfArguments, truth: &Truth) -> Result<Measured, Failure
     let levels = &arguments.inquiry.levels;
     let point = |patch: &super::truth::Patch| {
         let surface = readings.part(patch.at, &patch.name)?;
-        Ok(ExposurePoint::of(patch.luminance_cd_m2, &surface, levels.full_scale(&readings)))
+        Ok(ExposurePoint::of(patch.luminance_cd_m2, &surface, levels.full_scale(&readings), readings.shared_px))
     };
     let points = patches.iter().map(point).collect::<Result<Vec<_>, Failure>>()?;
     Ok(Measured { unit: "cd/m²", left_out, ..Measured::new(points, levels, &readings) })
@@ -202,7 +203,7 @@ fn steps(arguments: &OecfArguments, table: &Path) -> Result<Measured, Failure> {
             )));
         }
         let surface = readings.part(whole.map(|v| v as usize), &place)?;
-        Ok(ExposurePoint::of(luminance, &surface, arguments.inquiry.levels.full_scale(&readings)))
+        Ok(ExposurePoint::of(luminance, &surface, arguments.inquiry.levels.full_scale(&readings), readings.shared_px))
     };
     Ok(Measured::new(lines.map(step).collect::<Result<_, _>>()?, &arguments.inquiry.levels, &readings))
 }

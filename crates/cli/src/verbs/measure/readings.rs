@@ -55,6 +55,8 @@ pub(super) struct Readings {
     pub picture_px: (usize, usize),
     /// How light was found from the numbers of the file.
     pub stated: Stated,
+    /// Side of the blocks of readings whose errors may be equal, as their paths shared what they found; 1: none are.
+    pub shared_px: usize,
 }
 
 impl Readings {
@@ -104,7 +106,26 @@ impl Readings {
     }
 }
 
+/// Blocks are of pixels of one colour: of raw readings that many, of other pictures up to twice as wide.
+fn shared_px(photograph: &Photograph) -> usize {
+    let side = f64::from(photograph.alike_px).sqrt().ceil() as usize;
+    if side > 1 && photograph.raw.is_none() { 2 * side } else { side }
+}
+
 impl Readings {
+    /// Refuses readings with errors that more than `most` neighbours along a row share.
+    pub(super) fn independent(&self, file: &Path, most: usize) -> Result<(), Failure> {
+        if self.shared_px <= most {
+            return Ok(());
+        }
+        Err(Failure::input(format!(
+            "{}: its errors are alike in blocks of up to {1} × {1} readings, as paths were shared (tail_sharing_px), and this measurement takes \
+             them as independent: render without sharing",
+            file.display(),
+            self.shared_px
+        )))
+    }
+
     /// Whether a side-car says that they are raw, in a word.
     pub(super) fn kind(&self) -> &'static str {
         if self.black.is_some() { "raw" } else { "picture" }
@@ -228,7 +249,8 @@ impl Selection {
         let facts = photograph.raw.as_ref();
         let full_scale = facts.map_or(light.full_scale(photograph), |f| Some(light.number(f.white_level_dn)));
         let black = facts.map(|f| light.number(f.black_level_dn));
-        Ok(Readings { image, full_scale, black, period, first, picture_px, stated: photograph.stated.clone() })
+        let (stated, shared_px) = (photograph.stated.clone(), shared_px(photograph));
+        Ok(Readings { image, full_scale, black, period, first, picture_px, stated, shared_px })
     }
 
     /// Filters are told of pictures of one channel only.

@@ -81,6 +81,7 @@ impl FlatField {
 
     fn measured(&self, blocks: u32, report: &mut Report) -> Result<(Shading, (f64, f64)), Failure> {
         let readings = self.inquiry.linear(&self.picture)?;
+        readings.independent(&self.picture, 1)?;
         self.check(&readings)?;
         report.encoding(&readings.stated);
         let shading =
@@ -154,6 +155,7 @@ pub(super) fn shading(arguments: &ShadingArguments) -> Result<(), Failure> {
     let (flat, blocks) = (&arguments.flat, arguments.blocks);
     match flat.inquiry.selection.colours(&flat.picture)? {
         Some(colours) => {
+            colours[1].independent(&flat.picture, 1)?;
             flat.check(&colours[1])?;
             report.encoding(&colours[1].stated);
             let settings = flat.settings(&colours[1], blocks);

@@ -91,6 +91,7 @@ fn star_told(arguments: &StarArguments, readings: &Readings) -> Result<Star, Fai
 
 pub(super) fn star(arguments: &StarArguments) -> Result<(), Failure> {
     let readings = arguments.inquiry.linear(&arguments.picture)?;
+    readings.independent(&arguments.picture, 1)?;
     let star = star_told(arguments, &readings)?;
     let named = |error| refused(&arguments.picture, error);
     let (points, (x, y)) = measure_star(&readings.image, &star).map_err(named)?;
