@@ -87,10 +87,9 @@ impl Profile {
         self.values[self.leftmost] + self.steps.iter().map(climbed).sum::<f64>()
     }
 
-    /// |M(f)|/M(0) and its uncertainty: M(f) = Σ (height of a step) sinc(f h)⁵ exp(−2πi f t) is linear in the coefficients. Noise
-    /// adds to a magnitude whatever its sign: with the variances v along M's phase and w across it the square is too large by v + w on the
-    /// average, which is taken off, and the magnitude's variance is v + w²/2|M|² (second order of the law of propagation, GUM 5.1.2),
-    /// v + w at most.
+    /// |M(f)|/M(0) and its uncertainty: M(f) = Σ (height of a step) sinc(f h)⁵ exp(−2πi f t) is linear in the coefficients. Noise across
+    /// M's phase makes a magnitude longer, whatever its sign: with the variances v along the phase and w across it w is taken off the square,
+    /// and the magnitude's variance is v + w²/2|M|², v + w at most (second order of the law of propagation, GUM 5.1.2).
     pub(super) fn response(&self, frequency: f64) -> SfrPoint {
         let waves: Vec<(Step, [f64; 2])> = self.steps.iter().map(|s| (*s, wave(s, frequency))).collect();
         let total: f64 = waves.iter().map(|(s, _)| self.height(s)).sum();
@@ -120,7 +119,7 @@ impl Profile {
 fn magnitude_of(measured: f64, along: f64, across: f64) -> Estimate {
     let square = measured * measured;
     let second = if 2.0 * square > across { across * across / (2.0 * square) } else { across };
-    Estimate::new((square - along - across).max(0.0).sqrt(), (along + second).sqrt())
+    Estimate::new((square - across).max(0.0).sqrt(), (along + second).sqrt())
 }
 
 /// The Fourier transform of a step's slope.
@@ -167,10 +166,10 @@ mod tests {
                 let found: Vec<Estimate> = found.collect();
                 let inside = found.iter().filter(|e| (e.value - truth).abs() <= 2.0 * e.standard_uncertainty).count();
                 let covered = inside as f64 / SEEDS as f64;
-                assert!(covered > 0.93, "{sigmas:?} {truth}: {covered}");
+                assert!(covered > 0.92, "{sigmas:?} {truth}: {covered}");
                 if truth >= 3.0 {
                     let mean = found.iter().map(|e| e.value).sum::<f64>() / SEEDS as f64;
-                    assert!((mean - truth).abs() < 0.25, "{sigmas:?} {truth}: {mean}");
+                    assert!((mean - truth).abs() < 0.03, "{sigmas:?} {truth}: {mean}");
                 }
             }
         }

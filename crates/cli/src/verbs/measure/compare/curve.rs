@@ -2,7 +2,7 @@
 //!
 //! The second curve is read between its points by straight lines, at the places of the first that it reaches. Of n points the largest
 //! |E_n| of two equal curves passes 1 more often than a single one; the limit is the one that a family of n independent
-//! points passes as often as one point passes 1 (k = 2: 4.55 %), by Šidák's level. Points of fitted curves share errors: there it errs towards agreement.
+//! points passes as often as one point passes 1 (k = 2: 4.55 %), by Šidák's level; n counts the points of all curves of one kind, such as those of all edges. Points of fitted curves share errors: there it errs towards agreement.
 
 use super::side::estimate;
 use etendue_metrology::Estimate;
@@ -55,6 +55,11 @@ pub(super) fn curves(tables: &Value) -> Vec<Curve> {
 }
 
 impl Curve {
+    /// The table that it comes from.
+    pub(super) fn kind(&self) -> &str {
+        self.name.split(' ').next().unwrap_or_default()
+    }
+
     /// The estimate at x, between two points by a straight line; `None` beyond the ends.
     fn at(&self, x: f64) -> Option<Estimate> {
         let after = self.points.iter().position(|(there, _)| *there >= x)?;

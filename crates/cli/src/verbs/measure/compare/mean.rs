@@ -14,7 +14,7 @@ pub(super) const FEW: usize = 3;
 
 /// The mean of the curves of each table that has more than a few.
 pub(super) fn means(all: &[Compared]) -> Vec<Compared> {
-    let table = |c: &Compared| c.0.name.split(' ').next().unwrap_or_default().to_owned();
+    let table = |c: &Compared| c.0.kind().to_owned();
     let mut tables: Vec<String> = all.iter().map(table).collect();
     tables.dedup();
     let of = |name: &String| all.iter().filter(|c| table(c) == *name).collect::<Vec<_>>();
@@ -27,7 +27,7 @@ fn mean(some: &[&Compared]) -> Compared {
     let places = gaps.iter().map(|gap| at(gap.x)).filter(|there| there.len() == some.len());
     let gaps: Vec<Gap> = places.map(|there| together(&there)).collect();
     let points = gaps.iter().map(|gap| (gap.x, gap.a)).collect();
-    let word = first.name.split(' ').next().unwrap_or_default();
+    let word = first.kind();
     (Curve { name: format!("{word}, mean of {}", some.len()), points, ..first.clone() }, gaps)
 }
 
