@@ -66,7 +66,7 @@ impl Encoding {
         match self {
             Self::Linear => "linear".to_owned(),
             Self::Srgb => "sRGB".to_owned(),
-            Self::Gamma(gamma) => format!("gamma {gamma}"),
+            Self::Gamma(gamma) => format!("gamma {}", (gamma * 1e4).round() / 1e4),
             Self::Contrast { contrast, midpoint } => format!("S-curve of contrast {contrast} about {midpoint}"),
             Self::Table(points) => format!("tone curve of {} points", points.len()),
             Self::Oecf { points, .. } => format!("OECF of {} points", points.len()),

@@ -91,8 +91,7 @@ impl EncodingArguments {
     }
 
     /// A raw picture, whose numbers must be in proportion to charge: one that says otherwise is refused, a guess is not asked.
-    pub(super) fn raw(&self, file: &Path) -> Result<Photograph, Failure> {
-        let mut photograph = self.photograph(file)?;
+    pub(super) fn raw(&self, file: &Path, mut photograph: Photograph) -> Result<Photograph, Failure> {
         let file = file.display();
         if companding(&photograph).is_some() {
             return Err(Failure::input(format!(

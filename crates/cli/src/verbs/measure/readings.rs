@@ -204,7 +204,7 @@ impl Selection {
 
     /// One channel's readings as stored, of a raw picture.
     pub(super) fn raw(&self, file: &Path) -> Result<Readings, Failure> {
-        let photograph = self.encoding.raw(file)?;
+        let photograph = self.encoding.photograph(file)?;
         let colours: Vec<_> = photograph.channels.iter().filter(|c| c.name != "A").collect();
         let [only] = colours[..] else {
             let names = photograph.names().join(", ");
@@ -214,6 +214,8 @@ impl Selection {
             );
             return Err(Failure::input(error));
         };
+        let samples = only.samples.clone();
+        let photograph = self.encoding.raw(file, photograph)?;
         self.check_cfa(file, &photograph)?;
         if let (Some(name), None) = (&self.channel, self.mosaic(&photograph)) {
             let error = format!(
@@ -222,7 +224,6 @@ impl Selection {
             );
             return Err(Failure::input(error));
         }
-        let samples = only.samples.clone();
         self.part(file, &photograph, samples, &ToLight::Stored, 0)
     }
 

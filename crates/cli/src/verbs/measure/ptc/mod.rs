@@ -79,7 +79,8 @@ pub(super) fn run(arguments: &Ptc) -> Result<(), Failure> {
 /// What the numbers of a descriptor's pictures are taken for, by the first of them.
 fn stated(selection: &Selection, descriptor: &EmvaDescriptor) -> Result<Stated, Failure> {
     let first = descriptor.levels.iter().find_map(|level| level.files.first()).expect("a descriptor has pictures");
-    Ok(selection.encoding.raw(first)?.stated)
+    let photograph = selection.encoding.photograph(first)?;
+    Ok(selection.encoding.raw(first, photograph)?.stated)
 }
 
 /// The curve's figures, and what the pictures' numbers are taken for.
