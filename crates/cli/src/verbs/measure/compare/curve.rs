@@ -32,6 +32,8 @@ pub(super) struct Curve {
     pub ordinate: &'static str,
     /// By rising x.
     pub points: Vec<(f64, Estimate)>,
+    /// Standard deviation of single readings at each x, where it is stated.
+    pub noise: Vec<(f64, f64)>,
 }
 
 /// The curves of a report's tables.
@@ -44,10 +46,12 @@ pub(super) fn curves(tables: &Value) -> Vec<Curve> {
             let labels: Vec<&str> =
                 row.as_object().into_iter().flatten().filter_map(|(_, cell)| cell.as_str()).collect();
             let name = [&[table], labels.as_slice()].concat().join(" ");
-            match found.iter_mut().find(|c| c.name == name) {
-                Some(curve) => curve.points.push((x, y)),
-                None => found.push(Curve { name, abscissa, ordinate: words, points: vec![(x, y)] }),
-            }
+            let place = found.iter().position(|c| c.name == name).unwrap_or_else(|| {
+                found.push(Curve { name, abscissa, ordinate: words, points: Vec::new(), noise: Vec::new() });
+                found.len() - 1
+            });
+            found[place].points.push((x, y));
+            found[place].noise.extend(row["noise"].as_f64().map(|noise| (x, noise)));
         }
     }
     found.iter_mut().for_each(|c| c.points.sort_by(|a, b| a.0.total_cmp(&b.0)));
@@ -123,7 +127,7 @@ mod tests {
 
     fn line(points: &[(f64, f64)]) -> Curve {
         let points = points.iter().map(|(x, y)| (*x, Estimate::new(*y, 0.1))).collect();
-        Curve { name: "curve".to_owned(), abscissa: "field_percent", ordinate: "ratio", points }
+        Curve { name: "curve".to_owned(), abscissa: "field_percent", ordinate: "ratio", points, noise: Vec::new() }
     }
 
     #[test]

@@ -50,7 +50,13 @@ mod tests {
         let curve = |i: usize| {
             let (a, b) = (Estimate::new(1.0 + i as f64, 0.2), Estimate::new(1.5, 0.0));
             let name = format!("response {i}");
-            let curve = Curve { name, abscissa: "cycles_per_px", ordinate: "response", points: vec![(0.5, a)] };
+            let curve = Curve {
+                name,
+                abscissa: "cycles_per_px",
+                ordinate: "response",
+                points: vec![(0.5, a)],
+                noise: Vec::new(),
+            };
             (curve, vec![Gap { x: 0.5, a, b, significant: true }])
         };
         assert!(means(&[0, 1, 2].map(curve)).is_empty());

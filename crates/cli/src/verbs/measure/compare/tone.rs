@@ -9,6 +9,8 @@
 //! exposures of such a camera are seconds. Under filters it is that of the column's mean pixel, colours of the light and all: of raw readings of one colour
 //! s̄/L of that colour (L its response to the light, s̄ that of the mean pixel of its columns), of a developed picture what white balance w and colour matrix M
 //! make of all of them, Σ_c M_c w_c s̄_c/Σ_c M_c w_c L_c in the row of the channel that was measured.
+//! Readings of a picture are the curve of noisy light, and their mean is not the curve of its mean: with σ the noise of the measured readings (that of
+//! rounding taken off) the declared mean is y + y″ σ²/2y′² (second order), y′ and y″ the slopes of the picture's number over light. It matters in the dark.
 //! How bright the surface was is no fact of the camera: s is what brings the readings between 5 % and 95 % of the range nearest
 //! (least squares of s H on the light that the declared curve reads from them). So the form is compared, and its ends, not the sensitivity.
 
@@ -100,6 +102,9 @@ fn developed(
 /// Weights of linear sRGB in the luminance (IEC 61966-2-1).
 const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
+/// Of the light, for slopes of the tone curve.
+const STEP: f64 = 0.05;
+
 impl<'a> Tone<'a> {
     fn of(body: &'a CameraBody, measured: &Side, light: &str) -> Result<Self, String> {
         let sensor = body.sensor.as_ref().ok_or("the camera has no electronics, whose readings were measured")?;
@@ -140,6 +145,20 @@ impl<'a> Tone<'a> {
         self.black + (self.white - self.black) * encoded
     }
 
+    /// The mean of readings with this noise at a share of saturation.
+    fn mean_reading(&self, share: f64, noise: f64) -> f64 {
+        let reading = self.reading(share);
+        let step = STEP * share;
+        let near = share > 0.0 && share + step < 1.0;
+        let variance = noise * noise - 1.0 / 12.0;
+        if self.development.is_none() || !near || variance <= 0.0 {
+            return reading;
+        }
+        let (below, above) = (self.reading(share - step), self.reading(share + step));
+        let (slope, bend) = (0.5 * (above - below) / step, (above - 2.0 * reading + below) / (step * step));
+        if slope > 0.0 { reading + 0.5 * bend * variance / (slope * slope) } else { reading }
+    }
+
     /// Share of saturation of a reading.
     fn light(&self, reading: f64) -> f64 {
         let encoded = (reading - self.black) / (self.white - self.black);
@@ -154,8 +173,10 @@ impl<'a> Tone<'a> {
         if squares <= 0.0 {
             return Err("no exposure reads between 5 % and 95 % of the range: the curve's form is not seen".to_owned());
         }
-        let point =
-            |(x, _): &(f64, Estimate)| (*x, Estimate::new(self.reading(along / squares * (x + self.smear_s)), 0.0));
+        let point = |(x, _): &(f64, Estimate)| {
+            let noise = measured.noise.iter().find(|(there, _)| there == x).map_or(0.0, |(_, noise)| *noise);
+            (*x, Estimate::new(self.mean_reading(along / squares * (x + self.smear_s), noise), 0.0))
+        };
         Ok(Curve { points: measured.points.iter().map(point).collect(), ..measured.clone() })
     }
 }
