@@ -25,9 +25,7 @@ use std::ops::Range;
 /// The names, relative to the output folder, of all files of a plan.
 pub fn names(plan: &Plan, frames: &Range<u32>) -> Vec<String> {
     let of_camera = |camera: &CameraPlan| {
-        let names = Files::of(&camera.products, camera.body.picture_format(), frames)
-            .into_keys()
-            .chain([Files::SIDECAR.to_owned()]);
+        let names = Files::of(&camera.products, &camera.body, frames).into_keys().chain([Files::SIDECAR.to_owned()]);
         names.map(|name| format!("{}/{name}", camera.name)).collect::<Vec<_>>()
     };
     plan.cameras.iter().flat_map(of_camera).collect()
@@ -80,7 +78,7 @@ fn camera_files(
     if let Some(twin) = &twin {
         undistorted(plan, camera, twin, simd, &mut results)?;
     }
-    let files = Files::of(&camera.products, camera.body.picture_format(), frames);
+    let files = Files::of(&camera.products, &camera.body, frames);
     let mut facts = facts::sidecar(plan, camera, &files, not_finite);
     facts["undistorted"] = twin.as_ref().map_or(Value::Null, facts::undistorted);
     facts["frames"] = points.into();

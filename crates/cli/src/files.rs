@@ -1,7 +1,8 @@
 //! The files that a camera can deliver: their names, and what they hold.
 
+use crate::tone_curve::encoding;
 use etendue_core::quantity::{DigitalNumber, Electrons, Irradiance, Quantity, Radiance};
-use etendue_pipeline::plan::{PictureFormat, Products, RawFormat};
+use etendue_pipeline::plan::{CameraBody, Development, PictureFormat, Products, RawFormat};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -44,9 +45,12 @@ impl Files {
         format!("picture.{frame:04}.{}", format.extension())
     }
 
-    /// What the picture of a frame holds.
-    pub fn picture_entry(format: PictureFormat) -> Value {
-        entry("sRGB picture", &format!("{} bits", format.bits()))
+    /// What the picture of a frame holds, and how its numbers are encoded.
+    pub fn picture_entry(development: &Development) -> Value {
+        let encoding = encoding(&development.processing.tone);
+        let mut entry = entry(&format!("{} picture", encoding.name()), &format!("{} bits", development.format.bits()));
+        entry["encoding"] = encoding.to_json();
+        entry
     }
 
     /// A file of the undistorted twin.
@@ -55,7 +59,7 @@ impl Files {
     }
 
     /// All files of a camera over frames, with what they hold.
-    pub fn of(p: &Products, format: PictureFormat, frames: &std::ops::Range<u32>) -> BTreeMap<String, Value> {
+    pub fn of(p: &Products, body: &CameraBody, frames: &std::ops::Range<u32>) -> BTreeMap<String, Value> {
         let mut files = BTreeMap::new();
         let mut add = |wanted: bool, name: &str, entry: Value| {
             if wanted {
@@ -75,13 +79,15 @@ impl Files {
         add(twin && p.ground_truth, &Self::undistorted(Self::GROUND_TRUTH), planes);
         let rays = entry("origin and direction of each pixel's ray of the undistorted twin, camera frame", "m, 1");
         add(twin && p.rays, &Self::undistorted(Self::RAYS), rays);
-        let bits = format!("{} bits", format.bits());
+        let format = body.picture_format();
+        let picture = body.development.as_ref().map_or(Value::Null, Self::picture_entry);
+        let mut undistorted = picture.clone();
+        undistorted["quantity"] = format!("undistorted {}", picture["quantity"].as_str().unwrap_or_default()).into();
         for frame in frames.clone() {
-            let picture = entry("undistorted sRGB picture", &bits);
-            add(twin && p.picture, &Self::undistorted(&Self::picture(frame, format)), picture);
+            add(twin && p.picture, &Self::undistorted(&Self::picture(frame, format)), undistorted.clone());
             add(p.raw, &Self::raw(frame, p.raw_format), entry_of::<DigitalNumber>());
             add(p.causes, &Self::causes(frame), entry("causes of the digital number, one layer each", "e"));
-            add(p.picture, &Self::picture(frame, format), Self::picture_entry(format));
+            add(p.picture, &Self::picture(frame, format), picture.clone());
         }
         files
     }

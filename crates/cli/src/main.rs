@@ -21,6 +21,7 @@ mod progress;
 mod raw_file;
 mod results;
 mod sensor_args;
+mod tone_curve;
 mod trade;
 mod verbs;
 

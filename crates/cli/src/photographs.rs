@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::files::Files;
 use crate::results::Results;
 use crate::tell;
+use crate::tone_curve::encoding;
 use etendue_core::Plane;
 use etendue_core::quantity::{DigitalNumber, Display, Electrons};
 use etendue_io::exr::{self, EncodeError};
@@ -12,7 +13,7 @@ use etendue_io::jpeg::encode_jpeg;
 use etendue_io::tiff::{self, DngFacts};
 use etendue_io::{Provenance, png};
 use etendue_pipeline::photograph::{Frame, take, take_with_causes};
-use etendue_pipeline::plan::{CameraBody, PictureFormat, Products, RawFormat};
+use etendue_pipeline::plan::{CameraBody, Development, PictureFormat, Products, RawFormat};
 use etendue_pipeline::raw_colour::RawColour;
 use etendue_pipeline::twin::Twin;
 use etendue_sensor::{Cause, Causes, FrameAddress, Raw, SensorState};
@@ -32,12 +33,13 @@ pub struct Wanted<'a> {
     pub undistorted: Option<&'a Twin>,
 }
 
-/// The file of a picture.
-pub fn encoded(picture: &Plane<Display>, format: PictureFormat) -> Result<Vec<u8>, EncodeError> {
-    match format {
+/// The file of a picture that was developed so.
+pub fn encoded(picture: &Plane<Display>, development: &Development) -> Result<Vec<u8>, EncodeError> {
+    let tone = encoding(&development.processing.tone);
+    match development.format {
         PictureFormat::Jpeg { quality } => encode_jpeg(picture, quality),
-        PictureFormat::Png { bits: 8 } => png::encode_display(picture),
-        PictureFormat::Png { bits } => png::encode_display16(picture, bits),
+        PictureFormat::Png { bits: 8 } => png::encode_display(picture, &tone),
+        PictureFormat::Png { bits } => png::encode_display16(picture, bits, &tone),
     }
 }
 
@@ -83,7 +85,7 @@ fn frame(
     if products.raw {
         let bytes = match products.raw_format {
             RawFormat::Dng => dng(body, &frame.raw, wanted.camera),
-            format => encoded_raw(&frame.raw.plane, frame.raw.bits, format),
+            format => encoded_raw(&frame.raw, &frame.raw.plane, format),
         };
         results.write(&Files::raw(number, products.raw_format), bytes)?;
     }
@@ -91,22 +93,22 @@ fn frame(
         let facts = Provenance { frame: number.into(), ..wanted.facts.clone() };
         results.write(&Files::causes(number), encode_causes(causes, &facts))?;
     }
-    if let Some(picture) = frame.picture.filter(|_| products.picture) {
-        let format = body.picture_format();
-        let name = Files::picture(number, format);
-        results.write(&name, encoded(&picture.display, format))?;
+    if let Some((picture, development)) = frame.picture.filter(|_| products.picture).zip(body.development.as_ref()) {
+        let name = Files::picture(number, development.format);
+        results.write(&name, encoded(&picture.display, development))?;
         if let Some(twin) = wanted.undistorted {
             let display = twin.picture(body, &picture.linear, address).expect("a picture was developed");
-            results.write(&Files::undistorted(&name), encoded(&display, format))?;
+            results.write(&Files::undistorted(&name), encoded(&display, development))?;
         }
     }
     Ok(())
 }
 
-/// Digital numbers without facts: TIFF or PNG.
-pub fn encoded_raw(plane: &Plane<DigitalNumber>, bits: u32, format: RawFormat) -> Result<Vec<u8>, EncodeError> {
+/// Digital numbers of a raw without its facts: TIFF or PNG.
+pub fn encoded_raw(raw: &Raw, plane: &Plane<DigitalNumber>, format: RawFormat) -> Result<Vec<u8>, EncodeError> {
     match format {
-        RawFormat::Tiff => tiff::encode_raw_tiff(plane, bits),
+        RawFormat::Tiff => tiff::encode_raw_tiff(plane, raw.bits),
+        RawFormat::Png | RawFormat::Dng if raw.companding.is_some() => png::encode_companded16(plane),
         RawFormat::Png | RawFormat::Dng => png::encode_raw16(plane),
     }
 }

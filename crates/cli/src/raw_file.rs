@@ -24,6 +24,8 @@ pub struct Taken {
     pub raw: Raw,
     /// Where it stands.
     pub address: FrameAddress,
+    /// Pixels whose errors may be equal.
+    pub alike_px: u32,
 }
 
 /// Reads a raw of a camera. Without a side-car `levels` are needed, and the raw is frame `number`.
@@ -60,7 +62,11 @@ fn by_levels(photograph: &Photograph, levels: Levels, number: u32, sensor: &Sens
     let point = OperatingPoint { exposure_s: p.exposure.exposure_s, analogue_gain: p.read_out.analogue_gain };
     let whole = [0, 0, photograph.width, photograph.height];
     let raw = raw(numbers(photograph)?, [levels.black_dn, levels.white_dn], whole, point, sensor);
-    Ok(Taken { raw, address: FrameAddress { seed: 0, camera: 0, frame: number, capture: 0 } })
+    Ok(Taken {
+        raw,
+        address: FrameAddress { seed: 0, camera: 0, frame: number, capture: 0 },
+        alike_px: photograph.alike_px,
+    })
 }
 
 fn by_side_car(photograph: &Photograph, facts: &RawFacts, sensor: &Sensor) -> Result<Taken, String> {
@@ -75,7 +81,7 @@ fn by_side_car(photograph: &Photograph, facts: &RawFacts, sensor: &Sensor) -> Re
     let point = OperatingPoint { exposure_s: facts.exposure_s, analogue_gain: 1.0 };
     let raw = raw(plane, [facts.black_level_dn, facts.white_level_dn], frame.picture_px, point, sensor);
     let RawFrame { seed, camera_index: camera, number: frame, .. } = *frame;
-    Ok(Taken { raw, address: FrameAddress { seed, camera, frame, capture: 0 } })
+    Ok(Taken { raw, address: FrameAddress { seed, camera, frame, capture: 0 }, alike_px: photograph.alike_px })
 }
 
 fn raw(

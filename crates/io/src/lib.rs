@@ -36,6 +36,7 @@ pub mod photograph;
 pub mod photometry;
 pub mod picture;
 pub mod png;
+mod png_chunks;
 pub mod prescription;
 pub mod provenance;
 mod run_mark;

@@ -2,9 +2,10 @@
 //!
 //! | writer | depth | meaning of a value |
 //! | --- | --- | --- |
-//! | [`encode_raw16`] | 16 bit grey | digital number as it left the converter, not stretched; the side-car states its bits |
+//! | [`encode_raw16`] | 16 bit grey | digital number in proportion to light, not stretched, with the gAMA chunk of 1; the side-car states its bits |
+//! | [`encode_companded16`] | 16 bit grey | companded digital number; the side-car states its bits and lines |
 //! | [`encode_depth16`] | 16 bit grey | metres × the scale of the convention; 0 is invalid |
-//! | [`encode_display`] | 8 bit RGB | sRGB-encoded, with the sRGB chunk |
+//! | [`encode_display`] | 8 bit RGB | encoded for display, with the chunk that says how: sRGB, or gAMA and cHRM |
 //! | [`encode_display16`] | 16 bit RGB | the same of 10 to 16 bits, scaled to 16 by repeating the upper bits, with the sBIT chunk |
 
 use etendue_core::Plane;
@@ -13,6 +14,11 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 
 use crate::exr::EncodeError;
+use crate::photograph::Encoding;
+use crate::png_chunks;
+
+/// The gAMA chunk of numbers in proportion to light.
+const GAMMA_1: u32 = 100_000;
 
 /// The stored value of `depth_m` at `per_metre` units a metre (KITTI 256, ROS 1 000, TUM 5 000): rounded to nearest. 0,
 /// invalid, where it is not finite, not positive, or beyond the largest value: a wall too far away must not seem near.
@@ -22,8 +28,13 @@ pub fn stored_depth(depth_m: f32, per_metre: f64) -> u16 {
     if units >= 1.0 && units <= f64::from(u16::MAX) { units as u16 } else { 0 }
 }
 
-/// Raw digital numbers of at most 16 bits; larger ones are refused.
+/// Raw digital numbers of at most 16 bits, in proportion to light; larger ones are refused.
 pub fn encode_raw16(raw: &Plane<DigitalNumber>) -> Result<Vec<u8>, EncodeError> {
+    Ok(with_chunk(encode_companded16(raw)?, *b"gAMA", &GAMMA_1.to_be_bytes()))
+}
+
+/// Raw digital numbers of at most 16 bits that are not in proportion to light; larger ones are refused.
+pub fn encode_companded16(raw: &Plane<DigitalNumber>) -> Result<Vec<u8>, EncodeError> {
     let narrowed = |dn: &u32| u16::try_from(*dn).map_err(|_| EncodeError::Wide { value: *dn });
     let values = raw.samples().iter().map(narrowed).collect::<Result<Vec<u16>, _>>()?;
     encode_grey16(raw.width(), raw.height(), &values)
@@ -35,16 +46,18 @@ pub fn encode_depth16(depth: &Plane<Length>, per_metre: f64) -> Result<Vec<u8>, 
     encode_grey16(depth.width(), depth.height(), &stored)
 }
 
-/// A display picture, rounded to 8 bits. Values outside 0–1 are cut, as a display would; NaN is black.
-pub fn encode_display(picture: &Plane<Display>) -> Result<Vec<u8>, EncodeError> {
+/// A display picture, rounded to 8 bits. Values outside 0–1 are cut, as a display would; NaN is black. The file says how they are
+/// `encoded`, as far as a chunk can: of curves that none can state it says sRGB, for the display.
+pub fn encode_display(picture: &Plane<Display>, encoded: &Encoding) -> Result<Vec<u8>, EncodeError> {
     let bytes: Vec<u8> = picture.samples().iter().flatten().map(|&v| (v * 255.0).round() as u8).collect();
-    encode_rgb8(picture.width(), picture.height(), &bytes)
+    let file = encode(picture.width(), picture.height(), &bytes, ExtendedColorType::Rgb8)?;
+    Ok(with_statement(file, encoded))
 }
 
 /// A display picture of 10 to 16 bits in a file of 16. Values outside 0–1 are cut; NaN is black. The number q of b bits is
 /// stored as q 2^(16−b) + ⌊q/2^(2b−16)⌋, so that black is 0 and white 65 535, and a reader that keeps the upper b bits (the
-/// sBIT chunk says how many; PNG specification, 11.3.2.4) has q again.
-pub fn encode_display16(picture: &Plane<Display>, bits: u32) -> Result<Vec<u8>, EncodeError> {
+/// sBIT chunk says how many; PNG specification, 11.3.2.4) has q again. `encoded` as of [`encode_display`].
+pub fn encode_display16(picture: &Plane<Display>, bits: u32, encoded: &Encoding) -> Result<Vec<u8>, EncodeError> {
     if !(9..=16).contains(&bits) {
         return Err(EncodeError::Encoder(format!("a picture of {bits} bits does not belong in a PNG of 16")));
     }
@@ -56,12 +69,13 @@ pub fn encode_display16(picture: &Plane<Display>, bits: u32) -> Result<Vec<u8>, 
     };
     let bytes: Vec<u8> = picture.samples().iter().flatten().flat_map(|v| stored(v).to_ne_bytes()).collect();
     let file = encode(picture.width(), picture.height(), &bytes, ExtendedColorType::Rgb16)?;
-    Ok(with_chunk(with_srgb_chunk(file), *b"sBIT", &[bits as u8; 3]))
+    Ok(with_chunk(with_statement(file, encoded), *b"sBIT", &[bits as u8; 3]))
 }
 
 /// sRGB-encoded bytes, three a pixel.
 pub(crate) fn encode_rgb8(width: usize, height: usize, rgb: &[u8]) -> Result<Vec<u8>, EncodeError> {
-    encode(width, height, rgb, ExtendedColorType::Rgb8).map(with_srgb_chunk)
+    let file = encode(width, height, rgb, ExtendedColorType::Rgb8)?;
+    Ok(with_statement(file, &Encoding::Srgb))
 }
 
 fn encode_grey16(width: usize, height: usize, values: &[u16]) -> Result<Vec<u8>, EncodeError> {
@@ -84,9 +98,10 @@ fn encode(width: usize, height: usize, bytes: &[u8], kind: ExtendedColorType) ->
     Ok(file)
 }
 
-/// Puts the sRGB chunk (rendering intent: perceptual; PNG specification, 11.3.2.5) behind the header.
-fn with_srgb_chunk(file: Vec<u8>) -> Vec<u8> {
-    with_chunk(file, *b"sRGB", &[0])
+/// Puts the chunks that state an encoding behind the header.
+fn with_statement(file: Vec<u8>, encoded: &Encoding) -> Vec<u8> {
+    let chunks = png_chunks::stating(encoded);
+    chunks.into_iter().rev().fold(file, |file, (name, data)| with_chunk(file, name, &data))
 }
 
 /// Puts a chunk behind the header.
@@ -134,7 +149,7 @@ mod tests {
     #[test]
     fn a_display_picture_says_that_it_is_srgb() {
         let plane = Plane::from_samples(2, 1, vec![[0.0, 0.5, 1.0], [-1.0, 2.0, f32::NAN]]).expect("two pixels");
-        let file = encode_display(&plane).expect("a picture");
+        let file = encode_display(&plane, &Encoding::Srgb).expect("a picture");
         assert_eq!(&file[37..41], b"sRGB");
         let read = image::load_from_memory(&file).expect("PNG with correct checksums").into_rgb8();
         assert_eq!(read.into_raw(), [0, 128, 255, 0, 255, 0]);
@@ -151,7 +166,7 @@ mod tests {
         let rgb = values.chunks(3).map(|v| [v[0], v[1], v[2]]).collect();
         let plane = Plane::from_samples(3, 1, rgb).expect("three pixels");
         for bits in [10, 12, 16] {
-            let file = encode_display16(&plane, bits).expect("a picture");
+            let file = encode_display16(&plane, bits, &Encoding::Srgb).expect("a picture");
             assert_eq!((&file[37..41], &file[41..44]), (&b"sBIT"[..], &[bits as u8; 3][..]));
             let read = image::load_from_memory(&file).expect("PNG with correct checksums").into_rgb16();
             let white = ((1_u32 << bits) - 1) as f32;
@@ -159,7 +174,7 @@ mod tests {
             let want: Vec<u16> = values.iter().map(|v| (v.clamp(0.0, 1.0) * white).round() as u16).collect();
             assert_eq!(kept, want, "{bits}");
         }
-        assert!(encode_display16(&plane, 8).is_err() && encode_display16(&plane, 17).is_err());
+        assert!([8, 17].iter().all(|bits| encode_display16(&plane, *bits, &Encoding::Srgb).is_err()));
     }
 
     #[test]

@@ -75,7 +75,8 @@ pub enum ColourFault {
 /// The largest mean ΔE00 that a camera in colour leaves.
 const MOST_DELTA: f64 = 15.0;
 
-/// Fits the matrix and tells what colours it leaves wrong; `white` is the XYZ of the reference white.
+/// Fits the matrix and tells what colours it leaves wrong; `white` is the XYZ of the reference white, `shared_px` the side of the blocks of
+/// pixels in which errors are alike (1: in none).
 ///
 /// # Errors
 /// Where there are too few patches, or they are tiny, clipped or grey.
@@ -84,6 +85,7 @@ pub fn measure_colour(
     black: f64,
     full_scale: Option<f64>,
     white: [f64; 3],
+    shared_px: usize,
 ) -> Result<ColourError, ColourFault> {
     if patches.len() < 6 {
         return Err(ColourFault::TooFew(patches.len()));
@@ -91,7 +93,7 @@ pub fn measure_colour(
     patches.iter().try_for_each(|patch| check(patch, full_scale))?;
     let less_black = |e: Estimate| Estimate::new(e.value - black, e.standard_uncertainty);
     let means: Vec<Vec<Estimate>> =
-        patches.iter().map(|p| p.pixels.iter().map(|c| less_black(even(c).mean)).collect()).collect();
+        patches.iter().map(|p| p.pixels.iter().map(|c| less_black(even(c, shared_px).mean)).collect()).collect();
     let values: Vec<f64> = means.iter().flatten().map(|e| e.value).collect();
     let matrix = fitted(patches, &values).ok_or(ColourFault::Ambiguous)?;
     let colours = seen(&values, matrix, white);
@@ -165,7 +167,7 @@ mod tests {
     fn a_camera_that_is_a_matrix_of_xyz_has_no_error() {
         let camera =
             |[x, y, z]: [f64; 3]| [500.0 * x + 90.0 * y, 40.0 * x + 600.0 * y + 20.0 * z, 70.0 * y + 450.0 * z];
-        let found = measure_colour(&patches(camera), 16.0, Some(1023.0), D65_WHITE).expect("a chart");
+        let found = measure_colour(&patches(camera), 16.0, Some(1023.0), D65_WHITE, 1).expect("a chart");
         // Readings are kept in f32.
         assert!(found.largest < 1e-3, "{:?}", found.largest);
         let white = camera(D65_WHITE);
@@ -175,15 +177,15 @@ mod tests {
 
     #[test]
     fn what_is_no_colour_chart_is_refused() {
-        let grey = measure_colour(&patches(|[_, y, _]| [500.0 * y; 3]), 16.0, None, D65_WHITE);
+        let grey = measure_colour(&patches(|[_, y, _]| [500.0 * y; 3]), 16.0, None, D65_WHITE, 1);
         assert_eq!(grey, Err(ColourFault::Ambiguous));
         let mut turned = patches(|xyz| xyz.map(|v| 500.0 * v));
         let pixels: Vec<_> = turned.iter().rev().map(|p| p.pixels.clone()).collect();
         turned.iter_mut().zip(pixels).for_each(|(patch, pixels)| patch.pixels = pixels);
-        let turned = measure_colour(&turned, 16.0, None, D65_WHITE);
+        let turned = measure_colour(&turned, 16.0, None, D65_WHITE, 1);
         assert!(matches!(turned, Err(ColourFault::Unlike(_))), "{turned:?}");
-        let clipped = measure_colour(&patches(|xyz| xyz.map(|v| 1200.0 * v)), 16.0, Some(1000.0), D65_WHITE);
+        let clipped = measure_colour(&patches(|xyz| xyz.map(|v| 1200.0 * v)), 16.0, Some(1000.0), D65_WHITE, 1);
         assert!(matches!(clipped, Err(ColourFault::Saturated { .. })));
-        assert_eq!(measure_colour(&[], 0.0, None, D65_WHITE), Err(ColourFault::TooFew(0)));
+        assert_eq!(measure_colour(&[], 0.0, None, D65_WHITE, 1), Err(ColourFault::TooFew(0)));
     }
 }

@@ -42,6 +42,8 @@ pub struct ContrastSettings {
     pub full_scale: Option<f64>,
     /// How much a measured contrast may differ from the scene's, ε.
     pub share: f64,
+    /// Side of the blocks of pixels in which errors are alike, px; 1: in none.
+    pub shared_px: usize,
 }
 
 /// Why a contrast cannot be measured.
@@ -88,15 +90,15 @@ pub fn measure_contrast(
     if !(scene_contrast > 0.0 && scene_contrast.is_finite()) {
         return Err(ContrastError::Contrast(scene_contrast));
     }
-    let &ContrastSettings { black, full_scale, share } = settings;
+    let &ContrastSettings { black, full_scale, share, shared_px } = settings;
     if !(share > 0.0 && share <= 1.0) {
         return Err(ContrastError::Share(share));
     }
     if let Some(percent) = saturated_percent([darker, brighter], full_scale) {
         return Err(ContrastError::Saturated { percent });
     }
-    let [x, xx] = moments(darker, black);
-    let [y, yy] = moments(brighter, black);
+    let [x, xx] = moments(darker, black, shared_px);
+    let [y, yy] = moments(brighter, black, shared_px);
     if x.value <= 0.0 {
         return Err(ContrastError::Dark);
     }
@@ -127,8 +129,8 @@ pub fn detection_probability(darker: [f64; 2], brighter: [f64; 2], scene_contras
 }
 
 /// Mean less black, and variance.
-fn moments(patch: &Image, black: f64) -> [Estimate; 2] {
-    let even = even(patch);
+fn moments(patch: &Image, black: f64, shared_px: usize) -> [Estimate; 2] {
+    let even = even(patch, shared_px);
     [Estimate::new(even.mean.value - black, even.mean.standard_uncertainty), even.variance]
 }
 
@@ -158,7 +160,7 @@ mod tests {
             Image::from_samples(20, 20, (0..400).map(sample).collect()).expect("a square")
         };
         let (dark, light) = (patch(1000.0, 120.0, 0), patch(1500.0, 150.0, 1));
-        let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5 };
+        let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5, shared_px: 1 };
         let pair = measure_contrast(&dark, &light, 0.5, &settings).expect("patches");
         let contrasts = dark.samples().iter().flat_map(|x| light.samples().iter().map(move |y| f64::from(y / x) - 1.0));
         let counted = contrasts.filter(|k| (0.25..=0.75).contains(k)).count() as f64 / 160_000.0;

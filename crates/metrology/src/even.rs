@@ -7,8 +7,11 @@
 //! u²(mean) = σ²/n Σ ρ(d)      |d_x|, |d_y| ≤ 3, no less than 1      u²(σ²) = 2 σ⁴/(n − 1) Σ ρ(d)
 //! ```
 //!
-//! (the first exact where correlations reach no farther, Priestley 1981; the second an upper bound, for Σ ρ² is in its place). Premise: no
-//! correlations beyond three pixels. Noise that whole rows or columns share, and light or dirt that is uneven, are not in it; a slope within
+//! (the first exact where correlations reach no farther, Priestley 1981; the second an upper bound, for Σ ρ² is in its place). Rendered pictures
+//! whose paths are shared by blocks of b × b pixels have correlations of up to b − 1 pixels, and nearly equal errors within a block. There the
+//! sum reaches so far, and as the mean is that of the same pixels, it is divided by what it misses, 1 − m/n with m = (2 max(3, b − 1) + 1)²
+//! distances; patches of fewer than 2 m pixels get the bound, Σ ρ = b². Premise: no
+//! correlations beyond. Noise that whole rows or columns share, and light or dirt that is uneven, are not in it; a slope within
 //! the patch counts as noise.
 
 use crate::{Estimate, Image};
@@ -28,20 +31,31 @@ pub struct Even {
     pub variance: Estimate,
 }
 
-/// Mean and variance of a patch.
+/// Mean and variance of a patch, in which errors are alike in blocks of `shared_px` × `shared_px` pixels (1: in none).
 #[must_use]
-pub fn even(patch: &Image) -> Even {
+pub fn even(patch: &Image, shared_px: usize) -> Even {
     let moments = Moments::of(patch.samples().iter().map(|s| f64::from(*s)));
     let (count, variance) = (moments.count() as f64, moments.variance().unwrap_or(0.0));
-    let alike = alike(patch);
+    let alike = if shared_px > 1 { alike_in_blocks(patch, shared_px) } else { alike(patch, REACH) };
     Even {
         mean: Estimate::new(moments.mean(), (variance / count * alike).sqrt()),
         variance: Estimate::new(variance, variance * (2.0 / (count - 1.0) * alike).sqrt()),
     }
 }
 
-/// Σ ρ over neighbours, 1 or more: how many pixels say what one independent one would.
-fn alike(patch: &Image) -> f64 {
+/// Σ ρ where errors are alike in blocks.
+fn alike_in_blocks(patch: &Image, shared_px: usize) -> f64 {
+    let reach = REACH.max(shared_px - 1);
+    let distances = ((2 * reach + 1) * (2 * reach + 1)) as f64;
+    let count = (patch.width().min(ENOUGH) * patch.height().min(ENOUGH)) as f64;
+    if count < 2.0 * distances || patch.width().min(patch.height()) <= 2 * reach {
+        return (shared_px * shared_px) as f64;
+    }
+    alike(patch, reach) / (1.0 - distances / count)
+}
+
+/// Σ ρ over neighbours up to a reach, 1 or more: how many pixels say what one independent one would.
+fn alike(patch: &Image, reach: usize) -> f64 {
     let middle = |length: usize| (length.saturating_sub(ENOUGH) / 2, length.min(ENOUGH));
     let ((left, width), (top, height)) = (middle(patch.width()), middle(patch.height()));
     let part = patch.part(left, top, width, height);
@@ -58,13 +72,13 @@ fn alike(patch: &Image) -> f64 {
         (0..height.saturating_sub(dy)).map(row).sum()
     };
     let own = pairs(0, 0, false);
-    if own <= 0.0 || width <= 2 * REACH || height <= 2 * REACH {
+    if own <= 0.0 || width <= 2 * reach || height <= 2 * reach {
         return 1.0;
     }
     // Each distance and its opposite.
-    let along = (1..=REACH).map(|dx| pairs(dx, 0, false)).sum::<f64>();
-    let across = (1..=REACH)
-        .map(|dy| pairs(0, dy, false) + (1..=REACH).map(|dx| pairs(dx, dy, false) + pairs(dx, dy, true)).sum::<f64>());
+    let along = (1..=reach).map(|dx| pairs(dx, 0, false)).sum::<f64>();
+    let across = (1..=reach)
+        .map(|dy| pairs(0, dy, false) + (1..=reach).map(|dx| pairs(dx, dy, false) + pairs(dx, dy, true)).sum::<f64>());
     (1.0 + 2.0 * (along + across.sum::<f64>()) / own).max(1.0)
 }
 
@@ -79,14 +93,44 @@ mod tests {
         let of =
             |f: &dyn Fn(usize) -> f32| Image::from_samples(96, 96, (0..96 * 96).map(f).collect()).expect("a square");
         let (single, double) = (of(&|i| noise(i % 96, i / 96)), of(&|i| noise(i % 96 / 2, i / 96 / 2)));
-        assert!((alike(&double) / alike(&single) - 4.0).abs() < 1.0, "{} {}", alike(&double), alike(&single));
-        let [a, b] = [even(&single), even(&double)].map(|e| e.mean.standard_uncertainty);
+        let [one, four] = [alike(&single, REACH), alike(&double, REACH)];
+        assert!((four / one - 4.0).abs() < 1.0, "{four} {one}");
+        let [a, b] = [even(&single, 1), even(&double, 1)].map(|e| e.mean.standard_uncertainty);
         assert!((b / a - 2.0).abs() < 0.3, "{a} {b}");
     }
 
     #[test]
     fn a_patch_of_one_value_is_known() {
-        let even = even(&Image::filled(12, 12, 7.0));
+        let even = even(&Image::filled(12, 12, 7.0), 1);
         assert_eq!((even.mean, even.variance), (Estimate::new(7.0, 0.0), Estimate::new(0.0, 0.0)));
+    }
+
+    /// A number from −1/2 to 1/2 for a place and a picture.
+    fn scatter(x: usize, y: usize, picture: usize) -> f64 {
+        let mixed =
+            (x as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (y as u64 + 1).wrapping_mul(0xc2b2_ae3d_27d4_eb4f);
+        let mixed =
+            (mixed ^ (picture as u64 + 1).wrapping_mul(0x1656_67b1_9e37_79f9)).wrapping_mul(0xff51_afd7_ed55_8ccd);
+        let mixed = (mixed ^ (mixed >> 33)).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
+        ((mixed ^ (mixed >> 33)) >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    }
+
+    /// Means over patches of blocks that share nearly all of their error: 95 % intervals hold the truth as often as they should, whatever the size.
+    #[test]
+    fn means_over_shared_blocks_know_it() {
+        const PICTURES: usize = 400;
+        for (shared, side) in [(4, 10), (4, 16), (4, 24), (4, 64), (8, 24), (8, 40)] {
+            let reading = |i: usize, picture: usize| {
+                let (x, y) = (i % side + 3, i / side + 1);
+                100.0 + scatter(x / shared, y / shared, picture) + 0.3 * scatter(x, y, picture + PICTURES)
+            };
+            let means = (0..PICTURES).map(|picture| {
+                let samples = (0..side * side).map(|i| reading(i, picture) as f32).collect();
+                even(&Image::from_samples(side, side, samples).expect("a square"), shared).mean
+            });
+            let inside = means.filter(|m| (m.value - 100.0).abs() <= 2.0 * m.standard_uncertainty).count();
+            let covered = inside as f64 / PICTURES as f64;
+            assert!(covered >= 0.9, "blocks of {shared}, patch of {side}: {covered}");
+        }
     }
 }

@@ -36,7 +36,7 @@ pub enum FlareError {
     },
 }
 
-/// Flare of a trap, a share of the white about it.
+/// Flare of a trap, a share of the white about it; errors are alike in blocks of `shared_px` × `shared_px` pixels (1: in none).
 ///
 /// # Errors
 /// Where regions are too small, the white is saturated, or no brighter than the trap.
@@ -45,6 +45,7 @@ pub fn measure_flare(
     whites: &[Image],
     black: f64,
     full_scale: Option<f64>,
+    shared_px: usize,
 ) -> Result<Estimate, FlareError> {
     if whites.is_empty() || whites.iter().chain([trap]).any(|region| region.samples().len() < 4) {
         return Err(FlareError::TooSmall);
@@ -53,10 +54,10 @@ pub fn measure_flare(
         return Err(FlareError::Saturated { percent });
     }
     let count = whites.len() as f64;
-    let all = whites.iter().map(|w| even(w).mean).fold([0.0; 2], |[value, squares], e| {
+    let all = whites.iter().map(|w| even(w, shared_px).mean).fold([0.0; 2], |[value, squares], e| {
         [value + e.value, squares + e.standard_uncertainty * e.standard_uncertainty]
     });
-    flare(even(trap).mean, Estimate::new(all[0] / count, all[1].sqrt() / count), black)
+    flare(even(trap, shared_px).mean, Estimate::new(all[0] / count, all[1].sqrt() / count), black)
 }
 
 fn flare(trap: Estimate, white: Estimate, black: f64) -> Result<Estimate, FlareError> {
@@ -77,17 +78,17 @@ mod tests {
     fn flare_is_the_traps_light_over_the_white() {
         let region = |a: f32, b: f32| Image::from_samples(4, 2, vec![a, b, a, b, a, b, a, b]).expect("a rectangle");
         let (trap, white) = (region(29.0, 31.0), region(995.0, 1005.0));
-        let flare = measure_flare(&trap, core::slice::from_ref(&white), 20.0, None).expect("regions");
+        let flare = measure_flare(&trap, core::slice::from_ref(&white), 20.0, None, 1).expect("regions");
         assert!((flare.value - 10.0 / 980.0).abs() < 1e-12);
         // Scatter of ±1: variance 8/7, mean of eight.
         assert!((flare.standard_uncertainty - (8.0_f64 / 7.0 / 8.0).sqrt() / 980.0).abs() < 1e-6);
         // Two whites of 980 and 480 above black.
-        let two = measure_flare(&trap, &[white.clone(), region(495.0, 505.0)], 20.0, None).expect("regions");
+        let two = measure_flare(&trap, &[white.clone(), region(495.0, 505.0)], 20.0, None, 1).expect("regions");
         assert!((two.value - 10.0 / 730.0).abs() < 1e-12, "{two:?}");
-        let mixed = measure_flare(&white, core::slice::from_ref(&trap), 20.0, None);
+        let mixed = measure_flare(&white, core::slice::from_ref(&trap), 20.0, None, 1);
         assert!(matches!(mixed, Err(FlareError::NotWhite { .. })));
-        let clipped = measure_flare(&trap, core::slice::from_ref(&white), 20.0, Some(1000.0));
+        let clipped = measure_flare(&trap, core::slice::from_ref(&white), 20.0, Some(1000.0), 1);
         assert!(matches!(clipped, Err(FlareError::Saturated { .. })));
-        assert_eq!(measure_flare(&trap, &[], 0.0, None), Err(FlareError::TooSmall));
+        assert_eq!(measure_flare(&trap, &[], 0.0, None, 1), Err(FlareError::TooSmall));
     }
 }

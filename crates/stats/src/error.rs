@@ -17,8 +17,8 @@ pub struct ErrorSummary {
     pub trimmed_relative_mse: f64,
     /// Mean error, in the picture's unit.
     pub bias: f64,
-    /// Standard error of `bias` from the scatter of the errors, where errors of pixels are independent; 0 for fewer
-    /// than two samples.
+    /// Standard error of `bias` from the scatter of the errors, where errors of pixels are independent but for those that may be equal;
+    /// 0 for fewer than two samples.
     pub bias_standard_error: f64,
     /// Largest magnitude of an error.
     pub max_abs: f64,
@@ -30,6 +30,12 @@ const RELATIVE_FLOOR: f64 = 0.01;
 const TRIMMED_SHARE: f64 = 0.001;
 
 impl ErrorSummary {
+    /// The same where errors of `alike` pixels may be equal: the bound of as many times fewer independent ones, for the bias.
+    #[must_use]
+    pub fn shared_by(self, alike: u32) -> Self {
+        Self { bias_standard_error: self.bias_standard_error * f64::from(alike.max(1)).sqrt(), ..self }
+    }
+
     /// The errors of `picture` against `reference`. `None` where their lengths differ or no sample is finite in both.
     #[must_use]
     pub fn of(picture: &[f32], reference: &[f32]) -> Option<Self> {

@@ -71,7 +71,9 @@ fn finding(channel: &Channel, pair: &Pair, level: f64) -> Result<Finding, Failur
                     Some(test.map_err(|error| Failure::input(format!("channel {name}: {error}")))?)
                 }
             };
-            Ok(Finding { name, errors: ErrorSummary::of(a, b), unequal, test })
+            let alike = pair.origin.0.alike.max(pair.origin.1.alike);
+            let errors = ErrorSummary::of(a, b).map(|errors| errors.shared_by(alike));
+            Ok(Finding { name, errors, unequal, test })
         }
     }
 }

@@ -44,10 +44,11 @@ impl<'a> Camera<'a> {
 }
 
 fn all(camera: &Camera<'_>, arguments: &args::Develop, results: &mut Results<'_>) -> Result<(), Failure> {
-    let (mut frames, mut files) = (Vec::new(), Map::new());
+    let (mut frames, mut files, mut alike_px) = (Vec::new(), Map::new(), 1);
     for (number, file) in arguments.raws.iter().enumerate() {
         let mut taken =
             taken(file, arguments.levels, number as u32, camera.body, camera.sensor).map_err(Failure::input)?;
+        alike_px = alike_px.max(taken.alike_px);
         taken.address.seed = arguments.seed.unwrap_or(taken.address.seed);
         let name = Files::picture(taken.address.frame, camera.development.format);
         if files.contains_key(&name) {
@@ -58,9 +59,9 @@ fn all(camera: &Camera<'_>, arguments: &args::Develop, results: &mut Results<'_>
         claim(results.folder, [format!("{}/{name}", results.prefix)])?;
         let picture = developed(camera.development, &taken.raw, taken.address)
             .map_err(|error| Failure::input(format!("{}: {error}", file.display())))?;
-        results.write(&name, encoded(&picture.display, camera.development.format))?;
+        results.write(&name, encoded(&picture.display, camera.development))?;
         frames.push(frame(file, &taken, &picture));
-        files.insert(name, Files::picture_entry(camera.development.format));
+        files.insert(name, Files::picture_entry(camera.development));
     }
     let facts = json!({
         "program": "etendue",
@@ -68,6 +69,7 @@ fn all(camera: &Camera<'_>, arguments: &args::Develop, results: &mut Results<'_>
         "sensor": facts::sensor(camera.body),
         "processing": camera.development.to_string(),
         "frames": frames,
+        "sampling": { "alike_px": alike_px },
         "files": files,
     });
     results.json(Files::DEVELOPMENT, &facts)

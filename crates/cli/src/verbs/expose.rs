@@ -38,12 +38,19 @@ impl Stored {
     }
 }
 
+impl Stored {
+    /// Pixels whose errors may be equal.
+    fn alike_px(&self) -> u32 {
+        self.provenance.further.get("alike_px").and_then(|n| n.parse().ok()).unwrap_or(1)
+    }
+}
+
 pub fn run(arguments: &args::Expose) -> Result<(), Failure> {
     let body = camera_file::load(&arguments.camera, &arguments.set)?;
     let stored = stored(&arguments.radiance)?;
     let mut folder = open(&arguments.output)?;
     let name = camera_file::name(&arguments.camera);
-    let files = Files::of(&products(&body), body.picture_format(), &arguments.frames);
+    let files = Files::of(&products(&body), &body, &arguments.frames);
     let claimed = files.keys().map(String::as_str).chain([Files::SIDECAR]);
     claim(&folder, claimed.map(|file| format!("{name}/{file}")))?;
     let mut results = Results { prefix: name, folder: &mut folder };
@@ -189,8 +196,9 @@ fn sidecar(
         "effects": facts::effects(body),
         "sensor": facts::sensor(body),
         "route": "pupil",
+        "sampling": { "alike_px": stored.alike_px() },
         "depth_of_field": facts::depth_of_field(depth_of_field),
-        "files": Files::of(&products(body), body.picture_format(), &arguments.frames),
+        "files": Files::of(&products(body), body, &arguments.frames),
         "time_s": stored.provenance.time_s,
     })
 }

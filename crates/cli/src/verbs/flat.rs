@@ -32,7 +32,7 @@ pub fn run(arguments: &sensor_args::Flat) -> Result<(), Failure> {
     let pool = machine::pool(None)?;
     match &arguments.light.photon_transfer {
         None => {
-            let files = Files::of(&task.products(), body.picture_format(), &arguments.frames);
+            let files = Files::of(&task.products(), &body, &arguments.frames);
             claim(&folder, files.keys().map(String::as_str).chain([Files::SIDECAR]).map(|f| format!("{name}/{f}")))?;
             pool.install(|| task.frames(&files, &mut Results { prefix: name, folder: &mut folder }))?;
         }
@@ -157,7 +157,7 @@ impl Task<'_> {
             let plane = raw.linear().plane;
             size = (plane.width(), plane.height());
             let products = self.products();
-            results.write(&self.file(number), encoded_raw(&plane, raw.bits, products.raw_format))?;
+            results.write(&self.file(number), encoded_raw(&raw, &plane, products.raw_format))?;
         }
         Ok(size)
     }

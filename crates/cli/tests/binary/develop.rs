@@ -179,6 +179,23 @@ fn another_processing_gives_another_picture() {
     assert_ne!(developed(&["--seed", "8"]), plain, "the paper's noises have the seed");
 }
 
+/// What is developed without a curve and without a matrix says so: in the side-car, in its words, and in the file's own chunk.
+#[test]
+fn a_linear_picture_of_the_sensors_colours_is_called_that() {
+    let shots = Shots::taken();
+    let plain = CAMERA.replace("colour_matrix = { fit = \"D65\" }\n", "tone_curve = \"linear\"\n");
+    shots.write("bayer.toml", &plain);
+    shots.develop(&["out/bayer/raw.0000.dng"], "bayer.toml", &[]).ok();
+    let made = contents(Path::new(&shots.path("made/bayer")));
+    let facts: serde_json::Value = serde_json::from_slice(&made["develop.json"]).expect("JSON");
+    let entry = &facts["files"]["picture.0000.png"];
+    assert_eq!((&entry["encoding"], &entry["quantity"]), (&"linear".into(), &"linear picture".into()));
+    let words = facts["processing"].as_str().expect("words");
+    assert!(words.contains("linear tone") && !words.contains("matrix"), "{words}");
+    let has = |name: &[u8]| made["picture.0000.png"].windows(4).any(|four| four == name);
+    assert!(has(b"gAMA") && !has(b"sRGB"));
+}
+
 #[test]
 fn a_raw_without_a_side_car_needs_its_levels() {
     let shots = Shots::taken();

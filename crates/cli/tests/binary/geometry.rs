@@ -4,6 +4,7 @@ use crate::support::{etendue, root, text};
 use etendue_core::Plane;
 use etendue_core::maths::f64::{atan, sin_cos};
 use etendue_core::quantity::{DigitalNumber, Display};
+use etendue_io::photograph::Encoding;
 use etendue_io::png::{encode_display, encode_raw16};
 use serde_json::Value;
 use std::path::Path;
@@ -174,7 +175,7 @@ fn colours_that_are_displaced_are_told_and_grey_is_refused() {
     });
     let plane = Plane::<Display>::from_samples(400, 300, pixels.collect()).expect("a rectangle");
     let file = folder.path().join("colours.png");
-    std::fs::write(&file, encode_display(&plane).expect("a picture")).expect("written");
+    std::fs::write(&file, encode_display(&plane, &Encoding::Srgb).expect("a picture")).expect("written");
     let found = json(&["measure", "chromatic", &text(&file)]);
     // 16 samples and 8 bits: some hundredths of a pixel.
     assert!((figure(&found, "red_largest_px")[0] - 0.4).abs() < 0.06, "{found}");

@@ -4,6 +4,7 @@ use crate::support::{etendue, root, text};
 use etendue_core::Plane;
 use etendue_core::maths::f64::{atan2, cos};
 use etendue_core::quantity::{DigitalNumber, Display};
+use etendue_io::photograph::Encoding;
 use etendue_io::png::{encode_display, encode_raw16};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -93,7 +94,7 @@ fn photon_transfer_refuses_what_it_cannot_measure() {
     describe(stored.replace("n 12 48 40", "n 12 40 48")).refused(&["one size"]);
     let colour = Plane::<Display>::filled(48, 40, [0.9, 0.8, 0.7]);
     let file = folder.path().join("colour.png");
-    std::fs::write(&file, encode_display(&colour).expect("a picture")).expect("a temporary file");
+    std::fs::write(&file, encode_display(&colour, &Encoding::Srgb).expect("a picture")).expect("a temporary file");
     let coloured = stored.replacen(&(images + "image4.png"), &text(&file), 1);
     describe(coloured).refused(&["colour.png", "linear raw is needed"]);
     describe(stored.replace("i ", "j ")).refused(&["line 4", "v, n, b, d or i"]);
@@ -138,7 +139,7 @@ fn clipped_colours_do_not_hide_in_the_luminance() {
     let samples = plane.samples_mut();
     (0..64 * 64).for_each(|i| samples[i][1] += 0.02 * scatter(i % 64, i / 64, 0) as f32);
     let file = text(&folder.path().join("red.png"));
-    std::fs::write(&file, encode_display(&plane).expect("a picture")).expect("a temporary file");
+    std::fs::write(&file, encode_display(&plane, &Encoding::Srgb).expect("a picture")).expect("a temporary file");
     etendue(["measure", "vignetting", &file]).refused(&["red.png", "saturated"]);
     json(&["vignetting", &file, "--channel", "G"]);
 }

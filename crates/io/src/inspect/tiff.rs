@@ -37,8 +37,8 @@ fn preview(photograph: &Photograph) -> Preview {
         (Some(r), Some(g), Some(b)) => r.iter().zip(g).zip(b).map(|((r, g), b)| [*r, *g, *b]).collect(),
         _ => photograph.channels[0].samples.iter().map(|v| [*v; 3]).collect(),
     };
-    match (photograph.encoding, photograph.full_scale) {
-        (Encoding::Srgb, Some(full)) => {
+    match (&photograph.stated.encoding, photograph.full_scale) {
+        (encoding, Some(full)) if *encoding != Encoding::Linear => {
             let byte = |v: f32| (f64::from(v) * 255.0 / full).round() as u8;
             Preview { width, height, rgb: rgb.iter().map(|p| p.map(byte)).collect() }
         }

@@ -4,9 +4,10 @@ use std::path::Path;
 
 use image::DynamicImage;
 
-use super::{Encoding, Photograph, channel_names, separated};
+use super::{Photograph, Stated, channel_names, guess, separated};
 use crate::Error;
 use crate::picture::decode_raster;
+use crate::png_chunks;
 
 pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     let (_, picture) = decode_raster(file, bytes, super::KINDS)?;
@@ -15,10 +16,16 @@ pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     let channels = usize::from(colour.channel_count());
     let names =
         channel_names(channels).ok_or_else(|| Error::new(file, format!("{channels} channels; expected 1 to 4")))?;
-    let wide_grey = full_scale == Some(65_535.0) && !colour.has_color();
-    let linear = full_scale.is_none() || wide_grey;
-    let encoding = if linear { Encoding::Linear } else { Encoding::Srgb };
-    Ok(Photograph { width, height, channels: separated(names, &samples), full_scale, encoding, raw: None })
+    let stated = stated(bytes, guess(full_scale, colour.has_color()));
+    Ok(Photograph { width, height, channels: separated(names, &samples), full_scale, stated, raw: None, alike_px: 1 })
+}
+
+/// What a PNG says of itself, or else the guess, with the name of what it says and is not understood.
+fn stated(bytes: &[u8], guess: Stated) -> Stated {
+    let said = png_chunks::said(bytes);
+    let named = |name| format!("{name} is not understood: {}", guess.reason);
+    let reason = said.not_understood.map_or_else(|| guess.reason.clone(), named);
+    said.stated.unwrap_or(Stated { reason, ..guess })
 }
 
 /// All samples, channels side by side, and the largest number that fits.

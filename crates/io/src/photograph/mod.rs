@@ -1,6 +1,6 @@
 //! Photographs to be measured: channels as stored, and what is known of them.
 //!
-//! | file | channels | numbers | taken for |
+//! | file | channels | numbers | taken for, where nothing says otherwise |
 //! | --- | --- | --- | --- |
 //! | PNG, JPEG, TIFF of 8 bits | Y, or R, G, B; A | 0–255 | sRGB-encoded |
 //! | colour PNG, TIFF of 16 bits | R, G, B; A | 0–65 535 | sRGB-encoded |
@@ -8,22 +8,24 @@
 //! | TIFF of floats, Radiance HDR, PFM | Y, or R, G, B; A | as stored | linear |
 //! | OpenEXR | all, by their full names | as stored | linear |
 //!
+//! What a side-car of this program or a chunk of a PNG says goes before ([`Encoding`]).
 //! A grey picture that a side-car `camera.json` beside it lists as digital numbers is raw: linear, with the levels and the
 //! colour filters that the side-car states. Numbers are not scaled; whole numbers above 2²⁴ are rounded to the nearest float.
 //! The kind is told by the first bytes, not by the name. Left out: compressed DNG and other raw
 //! files of cameras, TIFF of several pictures, of separate planes, or in CMYK, Lab or a palette (refused).
 
+mod encoding;
 mod grid;
 mod pfm;
 mod raw;
+mod side_car;
 mod tiff;
 
 use std::path::Path;
 
-use etendue_spectra::colour;
-
 pub(crate) use tiff::is_tiff;
 
+pub use encoding::{Encoding, Stated};
 pub use raw::{FilterTile, RawFacts, RawFrame};
 
 use crate::Error;
@@ -33,15 +35,6 @@ use crate::source::read_bytes;
 
 /// All kinds of file that are read.
 pub(crate) const KINDS: &str = "PNG, JPEG, TIFF, uncompressed DNG, Radiance HDR, PFM or OpenEXR";
-
-/// How a photograph's numbers relate to light.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Encoding {
-    /// In proportion to light, but for a black level.
-    Linear,
-    /// Encoded for display after IEC 61966-2-1; white is the full scale.
-    Srgb,
-}
 
 /// One channel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,10 +56,12 @@ pub struct Photograph {
     pub channels: Vec<Channel>,
     /// The largest number that the file can hold; `None` for floats.
     pub full_scale: Option<f64>,
-    /// What the numbers are taken for; a caller who is told otherwise changes it.
-    pub encoding: Encoding,
+    /// What the numbers are taken for, and why; a caller who is told otherwise changes it.
+    pub stated: Stated,
     /// What a side-car states of a raw picture.
     pub raw: Option<RawFacts>,
+    /// Pixels of a rendered picture whose errors may be equal, because their paths shared what they found; 1: none are.
+    pub alike_px: u32,
 }
 
 impl Photograph {
@@ -81,44 +76,24 @@ impl Photograph {
     pub fn names(&self) -> Vec<&str> {
         self.channels.iter().map(|c| c.name.as_str()).collect()
     }
-
-    /// A channel's numbers in proportion to light: as stored where they are linear, decoded and in units of the full scale
-    /// where they are encoded for display.
-    #[must_use]
-    pub fn linear(&self, channel: &Channel) -> Vec<f32> {
-        match (self.encoding, self.full_scale) {
-            (Encoding::Linear, _) => channel.samples.clone(),
-            (Encoding::Srgb, full_scale) => decoded(&channel.samples, full_scale.unwrap_or(1.0) as f32),
-        }
-    }
 }
 
-/// Numbers of 8 and 16 bits repeat: each is decoded once.
-fn decoded(samples: &[f32], full_scale: f32) -> Vec<f32> {
-    let whole = full_scale > 1.0 && full_scale <= 65_535.0;
-    let table: Vec<f32> = if whole {
-        (0..=full_scale as u32).map(|v| colour::decode(v as f32 / full_scale)).collect()
-    } else {
-        Vec::new()
-    };
-    let decode = |v: &f32| match table.get(*v as usize) {
-        Some(light) if v.fract() == 0.0 && *v >= 0.0 => *light,
-        _ => colour::decode(v / full_scale),
-    };
-    samples.iter().map(decode).collect()
-}
-
-/// Reads a photograph and, of a raw one, the side-car beside it.
+/// Reads a photograph and what a side-car beside it says of it.
 ///
 /// # Errors
 /// Where the file is missing, of another kind, damaged or not finite, or the side-car beside it is unreadable.
 pub fn read_photograph(file: &Path) -> Result<Photograph, Error> {
     let mut photograph = decode_photograph(file, &read_bytes(file, "picture")?)?;
-    if let [_] = photograph.channels[..]
-        && let Some(facts) = raw::facts_beside(file)?
+    let Some(beside) = side_car::beside(file)? else { return Ok(photograph) };
+    photograph.alike_px = beside.alike_px();
+    let reason = format!("{} beside it", beside.name());
+    if photograph.channels.len() == 1
+        && let Some(facts) = raw::facts(&beside)?
     {
-        photograph.encoding = Encoding::Linear;
+        photograph.stated = Stated::new(Encoding::Linear, reason);
         photograph.raw = Some(facts);
+    } else if let Some(encoding) = beside.encoding()? {
+        photograph.stated = Stated::new(encoding, reason);
     }
     Ok(photograph)
 }
@@ -143,18 +118,42 @@ pub fn decode_photograph(file: &Path, bytes: &[u8]) -> Result<Photograph, Error>
     Ok(photograph)
 }
 
+/// The attribute of an EXR that states [`Photograph::alike_px`].
+const ALIKE: &str = "etendue:alike_px";
+
 fn of_exr(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     let exr = decode_exr(file, bytes)?;
     let channel = |c: crate::exr::ExrChannel| Channel { name: c.name, samples: c.samples.to_floats() };
+    let stated = exr.attributes.get(ALIKE).and_then(|text| text.parse().ok());
+    let alike_px = stated.filter(|n| *n > 0).unwrap_or(1);
     let channels = exr.channels.into_iter().map(channel).collect();
     Ok(Photograph {
         width: exr.width,
         height: exr.height,
         channels,
         full_scale: None,
-        encoding: Encoding::Linear,
+        stated: of_floats(),
         raw: None,
+        alike_px,
     })
+}
+
+/// Floats are in proportion to light.
+fn of_floats() -> Stated {
+    Stated::new(Encoding::Linear, "floats")
+}
+
+/// What numbers up to `full_scale` are taken for where nothing says it.
+fn guess(full_scale: Option<f64>, colour: bool) -> Stated {
+    match full_scale {
+        None => of_floats(),
+        Some(full) if full > 65_535.0 => Stated::guessed(Encoding::Linear, "whole numbers of 32 bits mostly are"),
+        Some(full) if full > 255.0 && !colour => {
+            Stated::guessed(Encoding::Linear, "grey numbers of 16 bits mostly are")
+        }
+        Some(full) if full > 255.0 => Stated::guessed(Encoding::Srgb, "colours of 16 bits mostly are"),
+        Some(_) => Stated::guessed(Encoding::Srgb, "numbers of 8 bits mostly are"),
+    }
 }
 
 /// Y, or R, G, B, each with A where there is one more.

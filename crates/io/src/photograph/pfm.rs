@@ -6,7 +6,7 @@
 
 use std::path::Path;
 
-use super::{Encoding, Photograph, channel_names, separated};
+use super::{Photograph, channel_names, of_floats, separated};
 use crate::Error;
 
 pub(super) fn is_pfm(bytes: &[u8]) -> bool {
@@ -42,7 +42,7 @@ pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     let samples: Vec<f32> = rows.flat_map(|row| row.chunks_exact(4).map(float)).collect();
     let names = channel_names(channels).expect("one or three");
     let channels = separated(names, &samples);
-    Ok(Photograph { width, height, channels, full_scale: None, encoding: Encoding::Linear, raw: None })
+    Ok(Photograph { width, height, channels, full_scale: None, stated: of_floats(), raw: None, alike_px: 1 })
 }
 
 #[cfg(test)]

@@ -1,15 +1,10 @@
 //! What a side-car states of a raw picture.
 
-use std::path::Path;
-
 use etendue_core::quantity::{DigitalNumber, Quantity};
 use serde_json::Value;
 
+use super::side_car::SideCar;
 use crate::Error;
-use crate::source::{decode_text, read_bytes};
-
-/// The side-car's name.
-const SIDECAR: &str = "camera.json";
 
 /// Colour filters: a tile of channels that repeats from the top left, row by row.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -52,23 +47,19 @@ pub struct RawFrame {
     pub companding_knees_dn: Option<Vec<[f64; 2]>>,
 }
 
-/// The facts of a side-car of this program beside `file` that lists it as digital numbers; `None` without one.
-pub(super) fn facts_beside(file: &Path) -> Result<Option<RawFacts>, Error> {
-    let sidecar = file.with_file_name(SIDECAR);
-    let Some(name) = file.file_name().and_then(|name| name.to_str()).filter(|_| sidecar.is_file()) else {
-        return Ok(None);
-    };
-    let bytes = read_bytes(&sidecar, "side-car")?;
-    let said: Value = serde_json::from_str(decode_text(&sidecar, &bytes)?)
-        .map_err(|cause| Error::new(&sidecar, format!("not JSON ({cause}); remove it, or render again")))?;
-    if said["program"] != "etendue" || said["files"][name]["quantity"] != DigitalNumber::NAME {
+/// The facts of a side-car that lists the picture as digital numbers; `None` where it lists it otherwise.
+pub(super) fn facts(beside: &SideCar) -> Result<Option<RawFacts>, Error> {
+    if beside.entry()["quantity"] != DigitalNumber::NAME {
         return Ok(None);
     }
-    let lacks = || Error::new(&sidecar, format!("it lists {name} as raw and lacks levels or filters; render again"));
-    facts(&said, name).map(Some).ok_or_else(lacks)
+    let lacks = || {
+        let problem = format!("it lists {} as raw and lacks levels or filters; render again", beside.picture);
+        Error::new(&beside.file, problem)
+    };
+    stated(&beside.said, &beside.picture).map(Some).ok_or_else(lacks)
 }
 
-fn facts(said: &Value, name: &str) -> Option<RawFacts> {
+fn stated(said: &Value, name: &str) -> Option<RawFacts> {
     let electronics = &said["sensor"]["electronics"];
     let frames = said["frames"].as_array().map_or(&[][..], Vec::as_slice);
     let entry = frames.iter().find(|frame| frame["raw"] == name);

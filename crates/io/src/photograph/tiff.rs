@@ -9,7 +9,7 @@ use ::tiff::ColorType;
 use ::tiff::decoder::{Decoder, DecodingResult, Limits};
 use ::tiff::tags::Tag;
 
-use super::{Encoding, Photograph, channel_names, separated};
+use super::{Photograph, channel_names, guess, separated};
 use crate::{Error, unpacked};
 
 /// Whether the bytes begin as a TIFF, of either byte order, plain or big.
@@ -48,14 +48,14 @@ pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     }
     let (samples, full_scale) = numbers(file, decoder.read_image().map_err(damaged)?)?;
     let names = channel_names(count).ok_or_else(|| Error::new(file, format!("{count} channels; expected 1 to 4")))?;
-    let linear = full_scale.is_none_or(|full| full > 65_535.0 || (full > 255.0 && grey));
     Ok(Photograph {
         width: width as usize,
         height: height as usize,
         channels: separated(names, &samples),
         full_scale,
-        encoding: if linear { Encoding::Linear } else { Encoding::Srgb },
+        stated: guess(full_scale, !grey),
         raw: None,
+        alike_px: 1,
     })
 }
 

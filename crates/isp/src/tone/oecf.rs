@@ -32,6 +32,12 @@ impl Oecf {
         Ok(Self { points: points.iter().map(|(h, y)| (ln(h / last.0), y / largest_output)).collect() })
     }
 
+    /// Exposures, of which the largest is 1, and outputs over the largest level.
+    #[must_use]
+    pub fn points(&self) -> Vec<(f64, f64)> {
+        self.points.iter().map(|(log, y)| (exp(*log), *y)).collect()
+    }
+
     /// The output of linear light 0 … 1; of a NaN a NaN.
     pub(super) fn output(&self, x: f32) -> f32 {
         let x = f64::from(x);

@@ -25,6 +25,12 @@ impl Table {
         Ok(Self { points })
     }
 
+    /// Inputs and outputs.
+    #[must_use]
+    pub fn points(&self) -> &[(f64, f64)] {
+        &self.points
+    }
+
     /// The output of an input 0 … 1; of a NaN a NaN.
     pub(super) fn at(&self, x: f32) -> f32 {
         along(&self.points, f64::from(x)) as f32

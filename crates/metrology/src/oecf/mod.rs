@@ -41,10 +41,11 @@ pub struct ExposurePoint {
 }
 
 impl ExposurePoint {
-    /// Mean and scatter of an even surface; `full_scale` is the reading of a saturated pixel.
+    /// Mean and scatter of an even surface, whose errors are alike in blocks of `shared_px` × `shared_px` pixels (1: in none); `full_scale` is
+    /// the reading of a saturated pixel.
     #[must_use]
-    pub fn of(exposure: f64, surface: &Image, full_scale: Option<f64>) -> Self {
-        let even = even(surface);
+    pub fn of(exposure: f64, surface: &Image, full_scale: Option<f64>, shared_px: usize) -> Self {
+        let even = even(surface, shared_px);
         let whole = surface.samples().iter().all(|s| s.fract() == 0.0);
         let rounding = if whole { rounding_variance(even.variance.value) } else { 0.0 };
         let own = even.mean.standard_uncertainty;

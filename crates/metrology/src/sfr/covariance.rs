@@ -5,10 +5,12 @@
 //!
 //! ```text
 //! C = B (Σ_i Σ_l ε_i ε_{i+l} x_i x_{i+l}ᵀ) B       ε_i = e_i/(1 − h_i)^κ; l: 0 and the shifts of up to one pixel more than those at which
-//!                                                 |ρ(l)| > 4/√n, ρ(l) = Σ e_i e_{i+l}/Σ e_i², four pixels at most
+//!                                                 |Σ e_i e_{i+l}| > 4 √(Σ e_i² e_{i+l}²), four pixels at most
 //! κ                                               1/2 without such shifts, 1 with them (a fit follows shared noise more)
 //! ```
 //!
+//! The limit is four standard deviations of independent noise whatever its strength from pixel to pixel: rendered pictures without sensor noise have
+//! nearly all of theirs in the few pixels that the edge crosses, and say far less of shifts than their number of pixels.
 //! Raw pictures have no such shifts; demosaicing, noise reduction and scaling spread noise over neighbours, and C knows at which frequencies
 //! they have raised it and at which lowered. Cut after some pixels C may lose its sign where residuals are no noise (steps that splines cannot
 //! follow): a variance below a tenth of that without shifts is taken to be the latter.
@@ -17,7 +19,7 @@ use super::knots::{Row, Sample};
 use crate::Image;
 use crate::linear::Matrix;
 
-/// The farthest shift, px, and the least correlation that counts, of 1/√n.
+/// The farthest shift, px, and the least correlation that counts, of its own standard deviation without any.
 const FARTHEST: isize = 4;
 const SIGNIFICANT: f64 = 4.0;
 
@@ -100,15 +102,18 @@ impl Neighbours {
     /// Shifts within the reach of those at which noise is alike, or opposite.
     fn correlated(&self, residuals: &[f64]) -> Vec<(isize, isize)> {
         let pixels: Vec<usize> = (0..self.samples.len()).filter(|p| self.samples[*p].is_some()).collect();
-        let squares = residuals.iter().map(|r| r * r).sum::<f64>();
-        let least = SIGNIFICANT / (residuals.len() as f64).sqrt() * squares;
         let range = || -FARTHEST..=FARTHEST;
         let shifts = range().flat_map(|dy| range().map(move |dx| (dx, dy))).filter(|shift| *shift != (0, 0));
-        let product = |shift: (isize, isize)| {
-            let pair = |p: &usize| Some(residuals[self.samples[*p]?] * residuals[self.of(*p, shift)?]);
-            pixels.iter().filter_map(pair).sum::<f64>()
+        let counts = |shift: &(isize, isize)| {
+            let pair = |p: &usize| Some(residuals[self.samples[*p]?] * residuals[self.of(*p, *shift)?]);
+            let (mut sum, mut squares) = (0.0, 0.0);
+            pixels.iter().filter_map(pair).for_each(|product| {
+                sum += product;
+                squares += product * product;
+            });
+            sum * sum > SIGNIFICANT * SIGNIFICANT * squares
         };
-        let significant = shifts.clone().filter(|shift| product(*shift).abs() > least);
+        let significant = shifts.clone().filter(counts);
         let reach = significant.map(|(dx, dy)| dx.abs().max(dy.abs()) + 1).max();
         shifts.filter(|(dx, dy)| reach.is_some_and(|reach| dx.abs().max(dy.abs()) <= reach)).collect()
     }

@@ -22,8 +22,9 @@
 //! for a full square pixel.
 //!
 //! Uncertainty: the covariance of the s_j with each pixel's own squared residual for its variance, and with the noise that neighbours share
-//! (demosaiced pictures; file covariance), carried to SFR(f), MTF50 and MTF10 by the law of propagation. The edge's own place is taken as
-//! known: its part is of second order.
+//! (demosaiced pictures; file covariance), carried to SFR(f), MTF50 and MTF10 by the law of propagation, to the second order where the
+//! response is as small as its noise. The edge's own place is taken as known: its part is of second order. Sides that are not even are in it:
+//! what surfaces of one degree more change beyond noise is half the width of a rectangular distribution.
 //!
 //! Refused: edges within 2° of rows, columns or diagonals, or that cross too few rows to sample the profile, or rise within a gap of its
 //! samples; clipped plateaus; anything that is not one straight edge. Of a star each edge is measured in a
@@ -97,6 +98,8 @@ pub struct Sfr {
     pub mtf50: Option<Estimate>,
     /// Where it first falls to a tenth.
     pub mtf10: Option<Estimate>,
+    /// How much the response changes at most, beyond its noise, where shading is taken off by surfaces of one degree more.
+    pub shading: f64,
     /// The edge profile: (distance, px; reading), at equal steps.
     pub profile: Vec<(f64, f64)>,
 }
@@ -175,9 +178,20 @@ pub enum SfrError {
 pub fn measure_edge(image: &Image, settings: &SfrSettings) -> Result<Sfr, SfrError> {
     check(image, settings)?;
     let start = Edge::from_gradients(image)?;
-    let image = &levelled(start.upright(image), &start, settings)?;
-    let (edge, profile) = fit::fitted(image, &vec![true; image.samples().len()], start, settings)?;
-    Ok(told(&edge, &profile, settings))
+    let upright = start.upright(image);
+    let by_degree = |shading_degree: usize| {
+        let settings = &SfrSettings { shading_degree, ..*settings };
+        let image = &levelled(&upright, &start, settings)?;
+        let (edge, profile) = fit::fitted(image, &vec![true; image.samples().len()], start.clone(), settings)?;
+        Ok::<_, SfrError>(told(&edge, &profile, settings))
+    };
+    let found = by_degree(settings.shading_degree)?;
+    let further = settings.shading_degree + 1;
+    let other = (further <= shading::LARGEST_DEGREE).then(|| by_degree(further)).and_then(Result::ok);
+    Ok(match other {
+        Some(other) => found.with_choice_of_shading(&other),
+        None => found,
+    })
 }
 
 /// Points of a curve but the first.
@@ -195,11 +209,31 @@ fn told(edge: &Edge, profile: &Profile, settings: &SfrSettings) -> Sfr {
         mtf50: crossing(&curve, 0.5),
         mtf10: crossing(&curve, 0.1),
         curve,
+        shading: 0.0,
         profile: profile.samples(),
     }
 }
 
 impl Sfr {
+    /// With what taking off shading by surfaces of one degree more changes: where that is more than noise explains, the sides are not as even as
+    /// was assumed, and the difference is half the width of a rectangular distribution (GUM 4.3.7).
+    fn with_choice_of_shading(self, other: &Self) -> Self {
+        let differ = |(a, b): (&SfrPoint, &SfrPoint)| {
+            let by = (a.response.value - b.response.value).abs();
+            if by > 2.0 * a.response.standard_uncertainty { by } else { 0.0 }
+        };
+        let shading = self.curve.iter().zip(&other.curve).map(differ).fold(0.0, f64::max);
+        let point = |(a, b): (&SfrPoint, &SfrPoint)| SfrPoint { response: widened(a.response, b.response), ..*a };
+        let crossed = |a: Option<Estimate>, b: Option<Estimate>| a.map(|a| b.map_or(a, |b| widened(a, b)));
+        Self {
+            curve: self.curve.iter().zip(&other.curve).map(point).collect(),
+            mtf50: crossed(self.mtf50, other.mtf50),
+            mtf10: crossed(self.mtf10, other.mtf10),
+            shading,
+            ..self
+        }
+    }
+
     /// The same where the picture's readings lie `pitch_px` pixels apart: lengths in pixels, frequencies in cycles a pixel.
     #[must_use]
     pub fn sampled_every(self, pitch_px: f64) -> Self {
@@ -214,6 +248,13 @@ impl Sfr {
             ..self
         }
     }
+}
+
+/// u² = u_a² + max((a − b)² − u_a², 0)/3: of what differs by no more than its own uncertainty nothing is added.
+fn widened(a: Estimate, b: Estimate) -> Estimate {
+    let own = a.standard_uncertainty * a.standard_uncertainty;
+    let beyond = ((a.value - b.value) * (a.value - b.value) - own).max(0.0);
+    Estimate::new(a.value, (own + beyond / 3.0).sqrt())
 }
 
 /// The mean of responses at the same frequencies.

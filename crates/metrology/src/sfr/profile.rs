@@ -87,7 +87,9 @@ impl Profile {
         self.values[self.leftmost] + self.steps.iter().map(climbed).sum::<f64>()
     }
 
-    /// |M(f)|/M(0) and its uncertainty: M(f) = Σ (height of a step) sinc(f h)⁵ exp(−2πi f t) is linear in the coefficients.
+    /// |M(f)|/M(0) and its uncertainty: M(f) = Σ (height of a step) sinc(f h)⁵ exp(−2πi f t) is linear in the coefficients. Noise across
+    /// M's phase makes a magnitude longer, whatever its sign: with the variances v along the phase and w across it w is taken off the square,
+    /// and the magnitude's variance is v + w²/2|M|², v + w at most (second order of the law of propagation, GUM 5.1.2).
     pub(super) fn response(&self, frequency: f64) -> SfrPoint {
         let waves: Vec<(Step, [f64; 2])> = self.steps.iter().map(|s| (*s, wave(s, frequency))).collect();
         let total: f64 = waves.iter().map(|(s, _)| self.height(s)).sum();
@@ -97,16 +99,27 @@ impl Profile {
         });
         let magnitude = (re * re + im * im).sqrt();
         let value = magnitude / total.abs();
-        let mut slopes = vec![0.0; self.values.len()];
-        for (s, wave) in &waves {
-            // Along its own phase the magnitude is linear in the heights.
-            let along = if magnitude > 0.0 { (re * wave[0] + im * wave[1]) / magnitude } else { 0.0 };
-            let slope = (along - total.signum() * value) / total.abs();
-            slopes[s.right] += slope;
-            slopes[s.left] -= slope;
-        }
-        SfrPoint { frequency, response: Estimate::new(value, self.covariance.variance(&slopes).sqrt()) }
+        let phase = if magnitude > 0.0 { [re / magnitude, im / magnitude] } else { [1.0, 0.0] };
+        // Along its own phase the magnitude is linear in the heights.
+        let along = |wave: &[f64; 2]| phase[0] * wave[0] + phase[1] * wave[1] - total.signum() * value;
+        let across = |wave: &[f64; 2]| phase[0] * wave[1] - phase[1] * wave[0];
+        let variance = |part: &dyn Fn(&[f64; 2]) -> f64| {
+            let mut slopes = vec![0.0; self.values.len()];
+            for (s, wave) in &waves {
+                slopes[s.right] += part(wave) / total.abs();
+                slopes[s.left] -= part(wave) / total.abs();
+            }
+            self.covariance.variance(&slopes)
+        };
+        SfrPoint { frequency, response: magnitude_of(value, variance(&along), variance(&across)) }
     }
+}
+
+/// The magnitude of a vector of length `measured`, whose components along and across itself have these variances.
+fn magnitude_of(measured: f64, along: f64, across: f64) -> Estimate {
+    let square = measured * measured;
+    let second = if 2.0 * square > across { across * across / (2.0 * square) } else { across };
+    Estimate::new((square - across).max(0.0).sqrt(), (along + second).sqrt())
 }
 
 /// The Fourier transform of a step's slope.
@@ -119,4 +132,46 @@ fn wave(step: &Step, frequency: f64) -> [f64; 2] {
 
 fn sinc(x: f64) -> f64 {
     if x == 0.0 { 1.0 } else { sin(PI * x) / (PI * x) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_core::maths::f64::{cos, ln};
+
+    /// Independent normal numbers (Box & Muller 1958) by a plain congruential generator (Knuth's constants).
+    fn normals(count: usize) -> Vec<f64> {
+        let mut state = 20_240_501_u64;
+        let mut uniform = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            ((state >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
+        };
+        (0..count).map(|_| (-2.0 * ln(uniform())).sqrt() * cos(TAU * uniform())).collect()
+    }
+
+    /// Where the response is as small as its noise, too, the interval holds the truth, and the square is right on the average.
+    #[test]
+    fn magnitudes_of_noisy_vectors_cover_the_truth() {
+        const SEEDS: usize = 20_000;
+        for sigmas in [[1.0, 1.0], [1.0, 0.3], [0.5, 1.0]] {
+            for truth in [0.0, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0] {
+                let noise = normals(2 * SEEDS);
+                let found = noise.chunks(2).map(|n| {
+                    let (re, im) = (truth + sigmas[0] * n[0], sigmas[1] * n[1]);
+                    let length = (re * re + im * im).sqrt();
+                    let (c, s) = (re / length, im / length);
+                    let (v, w) = (sigmas[0] * sigmas[0], sigmas[1] * sigmas[1]);
+                    magnitude_of(length, v * c * c + w * s * s, v * s * s + w * c * c)
+                });
+                let found: Vec<Estimate> = found.collect();
+                let inside = found.iter().filter(|e| (e.value - truth).abs() <= 2.0 * e.standard_uncertainty).count();
+                let covered = inside as f64 / SEEDS as f64;
+                assert!(covered > 0.92, "{sigmas:?} {truth}: {covered}");
+                if truth >= 3.0 {
+                    let mean = found.iter().map(|e| e.value).sum::<f64>() / SEEDS as f64;
+                    assert!((mean - truth).abs() < 0.03, "{sigmas:?} {truth}: {mean}");
+                }
+            }
+        }
+    }
 }

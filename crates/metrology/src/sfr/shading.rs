@@ -26,12 +26,11 @@ struct Surface {
 }
 
 /// The picture without shading.
-pub(super) fn levelled(image: Image, edge: &Edge, settings: &SfrSettings) -> Result<Image, SfrError> {
+pub(super) fn levelled(image: &Image, edge: &Edge, settings: &SfrSettings) -> Result<Image, SfrError> {
     let degree = settings.shading_degree;
     if degree == 0 {
-        return Ok(image);
+        return Ok(image.clone());
     }
-    let image = &image;
     let reach_px = settings.reach_px.unwrap_or(USUAL_REACH_PX);
     let (width, height) = (image.width(), image.height());
     let [left, right] =

@@ -4,7 +4,8 @@
 //! against the radial field position in % of the half diagonal). With readings y less the black level b:
 //!
 //! ```text
-//! profile: mean of y − b over rings of equal width, at √⟨r²⟩, over the centre's value
+//! profile: mean of y − b over rings of equal width, at √⟨r²⟩, less what the fitted fall-off's mean over the ring is more than its value there,
+//!          over the centre's value
 //! centre:  I₀ of I₀ (1 + a₂ r² + a₄ r⁴ + a₆ r⁶ + a₈ r⁸), fitted to the rings by weighted least squares; r = 1 in the corner
 //! map:     means of blocks over the mean of the block in the centre (odd numbers of blocks)
 //! ```
@@ -284,7 +285,9 @@ impl Falloff {
 
     /// A ring over the centre, which depends on the ring itself by its share in the fit.
     fn ring(&self, ring: &Sums) -> Ring {
-        let (value, u) = (ring.mean() / self.b[0], ring.standard_uncertainty());
+        let there = powers(ring.square_position()).iter().zip(&self.b).map(|(p, b)| p * b).sum::<f64>();
+        let curved = self.mean(ring) - there;
+        let (value, u) = ((ring.mean() - curved) / self.b[0], ring.standard_uncertainty());
         let along: f64 = self.covariance.row(0).iter().zip(ring.mean_powers()).map(|(c, p)| c * p).sum();
         let common = u * u * along * weight(ring);
         let variance = u * u + value * value * self.covariance.at(0, 0) - 2.0 * value * common;

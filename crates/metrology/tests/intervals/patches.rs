@@ -45,7 +45,7 @@ fn flare() {
         let mut normal = normals(seed, 0);
         let mut patch = |mean: f64, sigma: f64| picture(12, 12, |_| mean + sigma * normal());
         let (white, trap) = (patch(900.0, 30.0), patch(25.0, 3.0));
-        let found = measure_flare(&trap, &[white], 20.0, None).expect("regions");
+        let found = measure_flare(&trap, &[white], 20.0, None, 1).expect("regions");
         vec![("share of a trap", found, 5.0 / 880.0)]
     });
 }
@@ -67,11 +67,11 @@ fn patches_of_developed_pictures() {
     covers("developed pictures", |seed| {
         let mut normal = normals(seed, 0);
         let [white, trap] = [(900.0, 30.0), (25.0, 3.0)].map(|(m, s)| developed(m, s, &mut normal));
-        let flare = measure_flare(&trap, &[white], 20.0, None).expect("regions");
+        let flare = measure_flare(&trap, &[white], 20.0, None, 1).expect("regions");
         let [dark, bright] = [(1000.0, 100.0), (1500.0, 120.0)].map(|(m, s)| developed(m, s, &mut normal));
-        let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5 };
+        let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5, shared_px: 1 };
         let contrast = measure_contrast(&dark, &bright, 0.5, &settings).expect("patches");
-        let point = ExposurePoint::of(1.0, &dark, None);
+        let point = ExposurePoint::of(1.0, &dark, None, 1);
         vec![
             ("flare of a trap", flare, 5.0 / 880.0),
             ("contrast", contrast.measured, 0.5),
@@ -82,7 +82,7 @@ fn patches_of_developed_pictures() {
 
 #[test]
 fn contrast() {
-    let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5 };
+    let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5, shared_px: 1 };
     let (dark, bright) = ([1000.0, 300.0], [1500.0, 360.0]);
     covers("cdp", |seed| {
         let mut normal = normals(seed, 0);
@@ -116,7 +116,7 @@ fn patches(powers: [f64; 3], sigma: f64, side: usize, mut normal: impl FnMut() -
 
 /// A camera of errors of some ΔE, and one whose colours are right: there none may be told from 0.
 fn colours(powers: [f64; 3], side: usize, seed: u64) -> [ColourError; 2] {
-    let found = |sigma| measure_colour(&patches(powers, sigma, side, normals(seed, 0)), 16.0, None, D65_WHITE);
+    let found = |sigma| measure_colour(&patches(powers, sigma, side, normals(seed, 0)), 16.0, None, D65_WHITE, 1);
     [3.0, 0.0].map(|sigma| found(sigma).expect("a chart"))
 }
 

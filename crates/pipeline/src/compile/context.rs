@@ -1,5 +1,6 @@
 //! What every step of compiling shares: the assets, the faults found so far, and remarks for the plan.
 
+use super::coverage::Coverage;
 use crate::remark::{Remark, Weight};
 use etendue_scene::asset::Assets;
 use etendue_scene::{Fault, Place, stated};
@@ -13,11 +14,14 @@ pub(super) struct Context<'a> {
     pub(super) remarks: Vec<Remark>,
     /// What the command line supersedes.
     pub(super) notices: Vec<String>,
+    /// Wavelengths of the tables that are used.
+    pub(super) coverage: Coverage,
 }
 
 impl<'a> Context<'a> {
     pub(super) fn new(assets: &'a Assets) -> Self {
-        Self { assets, faults: Vec::new(), remarks: Vec::new(), notices: Vec::new() }
+        let (faults, remarks, notices) = (Vec::new(), Vec::new(), Vec::new());
+        Self { assets, faults, remarks, notices, coverage: Coverage::default() }
     }
 
     /// Notes a fault at `place`.

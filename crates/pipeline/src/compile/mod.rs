@@ -5,6 +5,7 @@
 
 mod camera;
 mod context;
+mod coverage;
 mod effects;
 mod front;
 mod lamp;
@@ -116,6 +117,10 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     }
     let (palette, materials) = builder.finish(context)?;
     let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();
+    let rendered = cameras.iter().map(|camera| camera.settings.range_nm);
+    if let Some(remark) = rendered.reduce(coverage::around).and_then(|range_nm| context.coverage.remark(range_nm)) {
+        context.remark(remark);
+    }
     let remarks = std::mem::take(&mut context.remarks);
     let notices = [&description.notices[..], &context.notices].concat();
     let hash = [0; 32];

@@ -23,12 +23,7 @@ pub(super) fn from_file(file: &Placed<PathBuf>, outside: Outside, context: &mut 
         return None;
     };
     if let (Some(first), Some(last)) = (asset.points.first(), asset.points.last()) {
-        let beyond = match outside {
-            Outside::Zero => "zero",
-            Outside::Hold => "its end value",
-        };
-        let told = format!("covers {} to {} nm; beyond that it is {beyond}", first.0, last.0);
-        context.remark_on(file.value.display(), told);
+        context.coverage.add(&file.value, (first.0, last.0), outside);
     }
     context.accept(&file.place, Spectrum::from_points(&asset.points, outside))
 }

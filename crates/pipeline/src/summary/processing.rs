@@ -3,7 +3,9 @@
 use super::line;
 use crate::plan::{CameraPlan, Development, PictureFormat};
 use etendue_isp::paper::{Filter, Stage};
-use etendue_isp::{BlackLevel, Demosaic, Mosaic, NoiseReduction, Processing, Shading, ToneCurve, WhiteBalance};
+use etendue_isp::{
+    BlackLevel, ColourMatrix, Demosaic, Mosaic, NoiseReduction, Processing, Shading, ToneCurve, WhiteBalance,
+};
 use std::fmt::{self, Formatter};
 
 /// Writes the lines of a camera's development.
@@ -63,11 +65,16 @@ fn colour(p: &Processing, mosaic: &Mosaic) -> Vec<String> {
         Demosaic::MalvarHeCutler => "demosaic of Malvar, He and Cutler",
         Demosaic::HamiltonAdams => "demosaic of Hamilton and Adams",
     };
-    let matrix = match mosaic.channels() {
+    let matrix = (!has_own_colours(p)).then(|| match mosaic.channels() {
         3 => "colour matrix".to_owned(),
         n => format!("colour matrix of {n} channels"),
-    };
-    [balance, demosaic.to_owned()].into_iter().chain(noise_reduction(p)).chain([matrix]).collect()
+    });
+    [balance, demosaic.to_owned()].into_iter().chain(noise_reduction(p)).chain(matrix).collect()
+}
+
+/// Whether red, green and blue are left as the sensor has them.
+fn has_own_colours(p: &Processing) -> bool {
+    p.colour.as_ref().is_some_and(|colour| colour.matrix == ColourMatrix::identity())
 }
 
 fn noise_reduction(p: &Processing) -> Option<String> {
@@ -80,6 +87,7 @@ fn noise_reduction(p: &Processing) -> Option<String> {
 fn tone(curve: &ToneCurve) -> String {
     match curve {
         ToneCurve::Srgb => "sRGB tone".to_owned(),
+        ToneCurve::Gamma(1.0) => "linear tone".to_owned(),
         ToneCurve::Gamma(gamma) => format!("tone of gamma {gamma}"),
         ToneCurve::SCurve(curve) => format!("S-curve of contrast {} about {}", curve.contrast(), curve.midpoint()),
         ToneCurve::Table(_) => "tone by table".to_owned(),
@@ -111,6 +119,7 @@ fn left_out(p: &Processing) -> String {
         (p.defects.is_off(), "defect correction"),
         (p.shading.is_none(), "shading correction"),
         (p.noise_reduction.is_none(), "noise reduction"),
+        (has_own_colours(p), "colour matrix"),
         (p.sharpening.is_none(), "sharpening"),
     ];
     let list: Vec<&str> = absent.iter().filter(|(is, _)| *is).map(|(_, name)| *name).collect();

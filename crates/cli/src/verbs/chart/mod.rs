@@ -12,6 +12,7 @@ use etendue_charts::{ChartError, Contents, Eye, Footprint, Meter, RasterRay, Req
 use etendue_core::Plane;
 use etendue_core::quantity::DigitalNumber;
 use etendue_io::OutputFolder;
+use etendue_io::photograph::Encoding;
 use etendue_io::png::{encode_display, encode_raw16};
 use etendue_pipeline::light_meter::LightMeter;
 use glam::DVec2;
@@ -97,7 +98,7 @@ fn write(
 ) -> Result<(), Failure> {
     let files = files(request);
     let print = choice.common.png.map(|dpi| picture(request.drawing, dpi)).transpose().map_err(refused)?;
-    let print = print.map(|plane| encode_display(&plane)).transpose().map_err(Failure::run)?;
+    let print = print.map(|plane| encode_display(&plane, &Encoding::Srgb)).transpose().map_err(Failure::run)?;
     let stand_in = camera.stand_in().map(|(name, text)| (name, text.as_bytes().to_vec()));
     let mut all: Vec<(String, Vec<u8>)> = stand_in.into_iter().collect();
     for file in files {

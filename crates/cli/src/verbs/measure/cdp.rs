@@ -56,6 +56,7 @@ pub(super) fn run(arguments: &Cdp) -> Result<(), Failure> {
         black: arguments.inquiry.levels.black(&readings),
         full_scale: arguments.inquiry.levels.full_scale(&readings),
         share: arguments.tolerance,
+        shared_px: readings.shared_px,
     };
     let (mut found, mut left_out) = (Vec::new(), Vec::new());
     for pair in pairs {
@@ -70,6 +71,7 @@ pub(super) fn run(arguments: &Cdp) -> Result<(), Failure> {
         return Err(refused(&arguments.picture, &left_out[0]));
     }
     let mut report = report(&found);
+    report.encoding(&readings.stated);
     left_out.into_iter().for_each(|reason| report.note(format!("left out: patches at {reason}")));
     arguments.inquiry.tell(&report)
 }

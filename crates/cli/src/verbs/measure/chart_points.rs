@@ -1,11 +1,12 @@
 //! The points of a chart in picture files.
 
+use super::encoding::EncodingArguments;
 use super::inquiry::refused;
 use super::readings::{Readings, Selection, tile};
 use crate::failure::Failure;
 use crate::progress::PictureBar;
 use clap::{Args, ValueEnum};
-use etendue_io::photograph::{Photograph, read_photograph};
+use etendue_io::photograph::{Photograph, Stated};
 use etendue_metrology::target::{Grid, Sought, Target, TargetError, find};
 use std::path::{Path, PathBuf};
 
@@ -25,6 +26,8 @@ pub struct ChartArguments {
     /// The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB
     #[arg(long, value_name = "TILE", value_parser = tile)]
     pub cfa: Option<String>,
+    #[command(flatten)]
+    pub encoding: EncodingArguments,
     /// List every point of the chart in the text, too; JSON has them anyway
     #[arg(long)]
     pub points: bool,
@@ -52,6 +55,8 @@ pub(super) struct Seen {
     pub file: PathBuf,
     pub size_px: [usize; 2],
     pub grid: Grid,
+    /// How light was found from the picture's numbers.
+    pub stated: Stated,
 }
 
 impl ChartArguments {
@@ -64,12 +69,13 @@ impl ChartArguments {
     }
 
     pub(super) fn selection(&self, channel: Option<&str>) -> Selection {
-        Selection { channel: channel.map(str::to_owned), cfa: self.cfa.clone(), region: None }
+        let (channel, cfa, encoding) = (channel.map(str::to_owned), self.cfa.clone(), self.encoding.clone());
+        Selection { channel, cfa, region: None, encoding }
     }
 
     /// The chart in a picture.
     pub(super) fn seen(&self, file: &Path) -> Result<Seen, Failure> {
-        let photograph = read_photograph(file).map_err(Failure::input)?;
+        let photograph = self.encoding.photograph(file)?;
         self.seen_in(file, &photograph, self.channel.as_deref())
     }
 
@@ -80,7 +86,7 @@ impl ChartArguments {
         let grids = planes.iter().map(|plane| self.grid(plane).map_err(|error| refused(file, error)));
         let grid = Grid::mean(&grids.collect::<Result<Vec<_>, _>>()?);
         let (width, height) = planes[0].picture_px;
-        Ok(Seen { file: file.to_owned(), size_px: [width, height], grid })
+        Ok(Seen { file: file.to_owned(), size_px: [width, height], grid, stated: photograph.stated.clone() })
     }
 
     /// The chart among readings, in the picture's raster coordinates.

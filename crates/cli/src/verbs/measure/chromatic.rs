@@ -6,7 +6,6 @@ use crate::failure::Failure;
 use crate::machine;
 use crate::plot::{Axis, Colour, Mark, Plot, Series};
 use clap::Args;
-use etendue_io::photograph::read_photograph;
 use etendue_metrology::Estimate;
 use etendue_metrology::chromatic::{Displacement, Ring, displacements, rings, shift};
 use glam::DVec2;
@@ -29,7 +28,7 @@ pub(super) fn run(arguments: &ChromaticArguments) -> Result<(), Failure> {
     if arguments.chart.channel.is_some() {
         return Err(Failure::input("--channel: lateral colour is measured in red, green and blue; leave it out"));
     }
-    let photograph = read_photograph(file).map_err(Failure::input)?;
+    let photograph = arguments.chart.encoding.photograph(file)?;
     let selection = arguments.chart.selection(None);
     if let Some(missing) = ["R", "G", "B"].iter().find(|name| !selection.has(&photograph, name)) {
         return Err(Failure::input(format!("{}: no channel {missing}; expected a picture in colour", file.display())));
@@ -50,7 +49,9 @@ pub(super) fn run(arguments: &ChromaticArguments) -> Result<(), Failure> {
         let file = file.display();
         return Err(Failure::input(format!("{file}: red, green and blue are the same: expected a picture in colour")));
     }
-    report(&found).tell(&arguments.telling)
+    let mut report = report(&found);
+    report.encoding(&photograph.stated);
+    report.tell(&arguments.telling)
 }
 
 fn report(found: &[(&'static str, Vec<Displacement>)]) -> Report {

@@ -48,9 +48,11 @@ pub(super) fn run(arguments: &Colour) -> Result<(), Failure> {
     };
     let levels = &arguments.inquiry.levels;
     let (black, full_scale) = (levels.black(&colours[1]), levels.full_scale(&colours[1]));
-    let found = measure_colour(&patches, black, full_scale, white);
+    let found = measure_colour(&patches, black, full_scale, white, colours[1].shared_px);
     let found = found.map_err(|error| refused(&arguments.picture, error))?;
-    arguments.inquiry.tell(&report(&patches, &found))
+    let mut report = report(&patches, &found);
+    report.encoding(&colours[1].stated);
+    arguments.inquiry.tell(&report)
 }
 
 /// The patches that a chart's truth places and describes, in its own light.

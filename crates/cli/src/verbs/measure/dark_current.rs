@@ -40,8 +40,10 @@ fn name(law: Law) -> (&'static str, &'static str) {
 }
 
 pub(super) fn run(arguments: &DarkCurrent) -> Result<(), Failure> {
+    let mut encodings = Vec::new();
     let current = |(celsius, descriptor): &(f64, PathBuf)| {
-        let figures = measured(&Ptc::of(descriptor.clone(), &arguments.selection))?;
+        let (figures, stated) = measured(&Ptc::of(descriptor.clone(), &arguments.selection))?;
+        encodings.push(stated);
         let current = figures.dark_current_mean_e_per_s.ok_or_else(|| {
             Failure::input(format!("{}: expected dark levels of at least three exposure times", descriptor.display()))
         })?;
@@ -56,7 +58,9 @@ pub(super) fn run(arguments: &DarkCurrent) -> Result<(), Failure> {
         let [a, b] = pair.map(|i| arguments.series[i].1.display());
         return Err(Failure::input(format!("{a} and {b} hold one measurement: give each temperature its own")));
     }
-    report(&currents, &growths, arguments.reference_c).tell(&arguments.telling)
+    let mut report = report(&currents, &growths, arguments.reference_c);
+    encodings.iter().for_each(|stated| report.encoding(stated));
+    report.tell(&arguments.telling)
 }
 
 /// Two measurements that are the same to the last bit.

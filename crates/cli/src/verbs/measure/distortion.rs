@@ -49,6 +49,7 @@ fn report(seen: &Seen, found: &Distortion, points: bool) -> Report {
     let method =
         "distortion without a model: ideal places by a polynomial and its homography at the centre (ISO 17850)";
     let mut report = Report::new("distortion", method);
+    report.encoding(&seen.stated);
     report.setting("centre_px", centre_words(found.centre_px));
     report.fact("points", "points of the chart", "", seen.grid.nodes.len() as f64);
     report.fact("columns", "columns", "", seen.grid.size[0] as f64);

@@ -38,11 +38,13 @@ pub(super) fn run(arguments: &Flare) -> Result<(), Failure> {
         let trap = readings.part(place.trap, "--trap")?;
         let whites = place.whites.iter().map(|at| readings.part(*at, "--white"));
         let whites = whites.collect::<Result<Vec<_>, _>>()?;
-        measure_flare(&trap, &whites, black, full_scale).map_err(|error| refused(&arguments.picture, error))
+        measure_flare(&trap, &whites, black, full_scale, readings.shared_px)
+            .map_err(|error| refused(&arguments.picture, error))
     };
     let found = traps.iter().map(measured).collect::<Result<Vec<_>, Failure>>()?;
     let places: Vec<[usize; 4]> = traps.iter().map(|t| t.trap).collect();
     let mut report = report(&places, &found, readings.picture_px);
+    report.encoding(&readings.stated);
     if let Some(truth) = arguments.inquiry.truth.read(&CHARTS)?
         && let Some(own) = truth.light_of_traps()
     {

@@ -10,6 +10,7 @@ pub mod compare;
 pub mod dark_current;
 pub mod depth;
 pub mod distortion;
+mod encoding;
 pub mod flare;
 pub mod focal;
 mod ghosts;

@@ -56,21 +56,24 @@ impl Surface {
 
 pub(super) fn run(arguments: &NoiseArguments) -> Result<(), Failure> {
     let inquiry = &arguments.inquiry;
-    let (mut surfaces, mut black) = (Vec::new(), 0.0);
+    let (mut surfaces, mut black, mut encodings) = (Vec::new(), 0.0, Vec::new());
     for (i, file) in arguments.frames.iter().enumerate() {
         let readings = inquiry.linear(file)?;
         let truth = inquiry.truth(&CHARTS, file, &readings)?;
         if i == 0 {
             surfaces = sought(truth.as_ref(), &readings)?;
         }
+        readings.independent(file, 1)?;
+        encodings.push(readings.stated.clone());
         black = inquiry.levels.black(&readings);
         let full_scale = inquiry.levels.full_scale(&readings);
         surfaces.iter_mut().try_for_each(|surface| surface.take(file, &readings, full_scale))?;
     }
-    let report = match &surfaces[..] {
+    let mut report = match &surfaces[..] {
         [Surface { patch: None, stack: Some(stack), .. }] => one(stack, black)?,
         many => patches(many, black).map_err(|reason| refused(&arguments.frames[0], reason))?,
     };
+    encodings.iter().for_each(|stated| report.encoding(stated));
     inquiry.tell(&report)
 }
 

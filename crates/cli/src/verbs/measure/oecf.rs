@@ -7,6 +7,7 @@ use super::truth::Truth;
 use crate::failure::Failure;
 use crate::plot::{Axis, Mark, Plot, Series};
 use clap::Args;
+use etendue_io::photograph::{Encoding, Stated};
 use etendue_metrology::oecf::response::{Response, ResponseSettings, camera_response};
 use etendue_metrology::oecf::{ExposurePoint, Oecf};
 use etendue_metrology::{Estimate, Image};
@@ -70,13 +71,20 @@ struct Measured {
     full_scale: Option<f64>,
     unit: &'static str,
     left_out: Vec<String>,
+    encoding: Stated,
 }
 
 impl Measured {
     fn new(points: Vec<ExposurePoint>, levels: &Levels, readings: &Readings) -> Self {
         let (black, full_scale) = (levels.black(readings), levels.full_scale(readings));
-        Self { points, readings: readings.kind(), black, full_scale, unit: "", left_out: Vec::new() }
+        let encoding = readings.stated.clone();
+        Self { points, readings: kind(readings), black, full_scale, unit: "", left_out: Vec::new(), encoding }
     }
+}
+
+/// What the readings are: decoded ones no longer tell of the tone curve of the file.
+fn kind(readings: &Readings) -> &'static str {
+    if readings.stated.encoding == Encoding::Linear { readings.kind() } else { "decoded" }
 }
 
 /// Pictures with their exposures.
@@ -123,7 +131,8 @@ fn exposure_beside(file: &Path) -> Result<f64, Failure> {
 fn exposures(arguments: &OecfArguments) -> Result<Measured, Failure> {
     let series = series(arguments)?;
     let levels = &arguments.inquiry.levels;
-    let point = |(exposure, r): &(f64, Readings)| ExposurePoint::of(*exposure, &r.image, levels.full_scale(r));
+    let point =
+        |(exposure, r): &(f64, Readings)| ExposurePoint::of(*exposure, &r.image, levels.full_scale(r), r.shared_px);
     Ok(Measured::new(series.iter().map(point).collect(), levels, &series[0].1))
 }
 
@@ -149,7 +158,7 @@ fn shots(arguments: &OecfArguments, truth: &Truth) -> Result<Measured, Failure> 
     let levels = &arguments.inquiry.levels;
     let point = |(exposure, r): &(f64, Readings)| {
         let middle = r.part(truth.middle(r)?, "--truth")?;
-        Ok(ExposurePoint::of(*exposure, &middle, levels.full_scale(r)))
+        Ok(ExposurePoint::of(*exposure, &middle, levels.full_scale(r), r.shared_px))
     };
     let points = series.iter().map(point).collect::<Result<Vec<_>, Failure>>()?;
     Ok(Measured { unit: "cd s/m²", ..Measured::new(points, levels, &series[0].1) })
@@ -171,7 +180,7 @@ fn patches(arguments: &OecfArguments, truth: &Truth) -> Result<Measured, Failure
     let levels = &arguments.inquiry.levels;
     let point = |patch: &super::truth::Patch| {
         let surface = readings.part(patch.at, &patch.name)?;
-        Ok(ExposurePoint::of(patch.luminance_cd_m2, &surface, levels.full_scale(&readings)))
+        Ok(ExposurePoint::of(patch.luminance_cd_m2, &surface, levels.full_scale(&readings), readings.shared_px))
     };
     let points = patches.iter().map(point).collect::<Result<Vec<_>, Failure>>()?;
     Ok(Measured { unit: "cd/m²", left_out, ..Measured::new(points, levels, &readings) })
@@ -194,7 +203,7 @@ fn steps(arguments: &OecfArguments, table: &Path) -> Result<Measured, Failure> {
             )));
         }
         let surface = readings.part(whole.map(|v| v as usize), &place)?;
-        Ok(ExposurePoint::of(luminance, &surface, arguments.inquiry.levels.full_scale(&readings)))
+        Ok(ExposurePoint::of(luminance, &surface, arguments.inquiry.levels.full_scale(&readings), readings.shared_px))
     };
     Ok(Measured::new(lines.map(step).collect::<Result<_, _>>()?, &arguments.inquiry.levels, &readings))
 }
@@ -202,6 +211,7 @@ fn steps(arguments: &OecfArguments, table: &Path) -> Result<Measured, Failure> {
 fn report(oecf: &Oecf, measured: &Measured) -> Report {
     let mut report =
         Report::new("oecf", "opto-electronic conversion function after ISO 14524 (± one standard uncertainty)");
+    report.encoding(&measured.encoding);
     report.setting("readings", measured.readings.to_owned());
     report.setting("exposure_unit", measured.unit.to_owned());
     if let Some(full_scale) = measured.full_scale {
@@ -281,7 +291,9 @@ fn response(arguments: &OecfArguments) -> Result<(), Failure> {
     };
     let pictures: Vec<(f64, &Image)> = series.iter().map(|(exposure, r)| (*exposure, &r.image)).collect();
     let found = camera_response(&pictures, &settings).map_err(|error| refused(&arguments.pictures[0], error))?;
-    arguments.inquiry.tell(&response_report(&found))
+    let mut report = response_report(&found);
+    report.encoding(&series[0].1.stated);
+    arguments.inquiry.tell(&report)
 }
 
 fn response_report(found: &Response) -> Report {

@@ -1,8 +1,9 @@
 //! Which readings of a picture file are measured.
 
+use super::encoding::{EncodingArguments, ToLight};
 use crate::failure::Failure;
 use clap::Args;
-use etendue_io::photograph::{Encoding, FilterTile, Photograph, read_photograph};
+use etendue_io::photograph::{FilterTile, Photograph, Stated};
 use etendue_metrology::Image;
 use std::path::Path;
 
@@ -19,6 +20,8 @@ pub struct Selection {
     /// Measure this part only: left column, top row, width and height, pixels of the file
     #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
     pub region: Option<[usize; 4]>,
+    #[command(flatten)]
+    pub encoding: EncodingArguments,
 }
 
 pub(super) fn tile(text: &str) -> Result<String, String> {
@@ -50,6 +53,10 @@ pub(super) struct Readings {
     pub first: (usize, usize),
     /// Columns and rows of the picture, of all colours.
     pub picture_px: (usize, usize),
+    /// How light was found from the numbers of the file.
+    pub stated: Stated,
+    /// Side of the blocks of readings whose errors may be equal, as their paths shared what they found; 1: none are.
+    pub shared_px: usize,
 }
 
 impl Readings {
@@ -99,7 +106,26 @@ impl Readings {
     }
 }
 
+/// Blocks are of pixels of one colour: of raw readings that many, of other pictures up to twice as wide.
+fn shared_px(photograph: &Photograph) -> usize {
+    let side = f64::from(photograph.alike_px).sqrt().ceil() as usize;
+    if side > 1 && photograph.raw.is_none() { 2 * side } else { side }
+}
+
 impl Readings {
+    /// Refuses readings with errors that more than `most` neighbours along a row share.
+    pub(super) fn independent(&self, file: &Path, most: usize) -> Result<(), Failure> {
+        if self.shared_px <= most {
+            return Ok(());
+        }
+        Err(Failure::input(format!(
+            "{}: its errors are alike in blocks of up to {1} × {1} readings, as paths were shared (tail_sharing_px), and this measurement takes \
+             them as independent: render without sharing",
+            file.display(),
+            self.shared_px
+        )))
+    }
+
     /// Whether a side-car says that they are raw, in a word.
     pub(super) fn kind(&self) -> &'static str {
         if self.black.is_some() { "raw" } else { "picture" }
@@ -112,8 +138,7 @@ const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
 impl Selection {
     /// One channel's readings as stored.
     pub(super) fn stored(&self, file: &Path) -> Result<Readings, Failure> {
-        let mut photograph = read_photograph(file).map_err(Failure::input)?;
-        photograph.encoding = Encoding::Linear;
+        let photograph = self.encoding.stored(file)?;
         if self.channel.is_none() && photograph.channel("R").is_some() {
             let names = photograph.names().join(", ");
             let file = file.display();
@@ -144,18 +169,18 @@ impl Selection {
 
     /// One channel's readings, decoded to linear where the file is encoded for display.
     pub(super) fn linear(&self, file: &Path) -> Result<Readings, Failure> {
-        self.of(file, &read_photograph(file).map_err(Failure::input)?)
+        self.of(file, &self.encoding.photograph(file)?)
     }
 
     /// Red, green and blue of a picture in colour, decoded to linear; `None` where it is not in colour.
     pub(super) fn colours(&self, file: &Path) -> Result<Option<[Readings; 3]>, Failure> {
-        let photograph = read_photograph(file).map_err(Failure::input)?;
+        let photograph = self.encoding.photograph(file)?;
         if self.channel.is_some() || !["R", "G", "B"].into_iter().all(|name| self.has(&photograph, name)) {
             return Ok(None);
         }
         let one = |name: &str| {
             let channel = Some(name.to_owned());
-            Self { channel, cfa: self.cfa.clone(), region: self.region }.of(file, &photograph)
+            Self { channel, ..self.clone() }.of(file, &photograph)
         };
         Ok(Some([one("R")?, one("G")?, one("B")?]))
     }
@@ -167,20 +192,19 @@ impl Selection {
     /// Of a mosaic, those of the colour's nth place in the tile.
     fn nth(&self, file: &Path, photograph: &Photograph, nth: usize) -> Result<Readings, Failure> {
         self.check_cfa(file, photograph)?;
-        let linear = |name: &str| photograph.channel(name).map(|c| photograph.linear(c));
+        let light = ToLight::of(file, photograph)?;
+        let linear = |name: &str| photograph.channel(name).map(|c| light.of_channel(c));
         let samples = match (&self.channel, self.mosaic(photograph)) {
-            (_, Some(_)) => photograph.linear(&photograph.channels[0]),
+            (_, Some(_)) => light.of_channel(&photograph.channels[0]),
             (Some(name), None) => linear(name).ok_or_else(|| no_channel(file, name, &photograph.names()))?,
-            (None, None) => luminance(file, photograph, linear)?,
+            (None, None) => luminance(file, photograph, &light)?,
         };
-        let decoded = photograph.encoding == Encoding::Srgb;
-        let full_scale = if decoded { Some(1.0) } else { photograph.full_scale };
-        self.part(file, photograph, samples, full_scale, nth)
+        self.part(file, photograph, samples, &light, nth)
     }
 
     /// One channel's readings as stored, of a raw picture.
     pub(super) fn raw(&self, file: &Path) -> Result<Readings, Failure> {
-        let photograph = read_photograph(file).map_err(Failure::input)?;
+        let photograph = self.encoding.photograph(file)?;
         let colours: Vec<_> = photograph.channels.iter().filter(|c| c.name != "A").collect();
         let [only] = colours[..] else {
             let names = photograph.names().join(", ");
@@ -190,6 +214,8 @@ impl Selection {
             );
             return Err(Failure::input(error));
         };
+        let samples = only.samples.clone();
+        let photograph = self.encoding.raw(file, photograph)?;
         self.check_cfa(file, &photograph)?;
         if let (Some(name), None) = (&self.channel, self.mosaic(&photograph)) {
             let error = format!(
@@ -198,8 +224,7 @@ impl Selection {
             );
             return Err(Failure::input(error));
         }
-        let samples = only.samples.clone();
-        self.part(file, &photograph, samples, photograph.full_scale, 0)
+        self.part(file, &photograph, samples, &ToLight::Stored, 0)
     }
 
     fn part(
@@ -207,7 +232,7 @@ impl Selection {
         file: &Path,
         photograph: &Photograph,
         samples: Vec<f32>,
-        full_scale: Option<f64>,
+        light: &ToLight,
         nth: usize,
     ) -> Result<Readings, Failure> {
         let whole = Image::from_samples(photograph.width, photograph.height, samples);
@@ -223,8 +248,10 @@ impl Selection {
             None => (image, (1, 1), (0, 0)),
         };
         let facts = photograph.raw.as_ref();
-        let full_scale = facts.map_or(full_scale, |f| Some(f.white_level_dn));
-        Ok(Readings { image, full_scale, black: facts.map(|f| f.black_level_dn), period, first, picture_px })
+        let full_scale = facts.map_or(light.full_scale(photograph), |f| Some(light.number(f.white_level_dn)));
+        let black = facts.map(|f| light.number(f.black_level_dn));
+        let (stated, shared_px) = (photograph.stated.clone(), shared_px(photograph));
+        Ok(Readings { image, full_scale, black, period, first, picture_px, stated, shared_px })
     }
 
     /// Filters are told of pictures of one channel only.
@@ -305,16 +332,13 @@ fn cropped(file: &Path, image: Image, area: Option<[usize; 4]>) -> Result<Image,
     Ok(image.part(x, y, width, height))
 }
 
-fn luminance(
-    file: &Path,
-    photograph: &Photograph,
-    linear: impl Fn(&str) -> Option<Vec<f32>>,
-) -> Result<Vec<f32>, Failure> {
+fn luminance(file: &Path, photograph: &Photograph, light: &ToLight) -> Result<Vec<f32>, Failure> {
+    let linear = |name: &str| photograph.channel(name).map(|c| light.of_channel(c));
     if let Some(grey) = linear("Y") {
         return Ok(grey);
     }
     if let [only] = &photograph.channels[..] {
-        return Ok(photograph.linear(only));
+        return Ok(light.of_channel(only));
     }
     let Some(((r, g), b)) = linear("R").zip(linear("G")).zip(linear("B")) else {
         return Err(Failure::input(format!(
@@ -325,10 +349,7 @@ fn luminance(
     };
     let [red, green, blue] = LUMINANCE;
     // Where one of them is clipped, the luminance is too: it is told as full.
-    let full = match photograph.encoding {
-        Encoding::Srgb => Some(1.0),
-        Encoding::Linear => photograph.full_scale.map(|full| full as f32),
-    };
+    let full = light.full_scale(photograph).map(|full| full as f32);
     let mixed = |((r, g), b): ((&f32, &f32), &f32)| match full.filter(|full| r.max(*g).max(*b) >= *full) {
         Some(full) => full,
         None => red * r + green * g + blue * b,
@@ -343,7 +364,7 @@ fn no_channel(file: &Path, name: &str, names: &[&str]) -> Failure {
 /// What a picture's numbers mean, where the file does not say.
 #[derive(Debug, Args)]
 pub struct Levels {
-    /// The reading of no light, as stored; 0 to 1 of a picture that is decoded from sRGB [default: the side-car's, or 0]
+    /// The reading of no light, as stored; 0 to 1 of a picture that is decoded from an encoding [default: the side-car's, or 0]
     #[arg(long, value_name = "READING", allow_negative_numbers = true)]
     pub black: Option<f64>,
     /// The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold]

@@ -8,6 +8,7 @@ use crate::say;
 use clap::Args;
 use etendue_core::maths::f64::log10;
 use etendue_io::Existing;
+use etendue_io::photograph::Stated;
 use etendue_metrology::Estimate;
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
@@ -82,6 +83,8 @@ pub(super) struct Report {
     /// Tables of JSON alone.
     data: Vec<Table>,
     covariances: Vec<Covariance>,
+    /// How light was found from the numbers of the pictures, each way once.
+    encodings: Vec<Stated>,
 }
 
 /// The covariance of figures: their keys, and the matrix row by row, in the product of their units.
@@ -112,6 +115,13 @@ impl Report {
     /// What was chosen and decides what figures mean, such as the camera model.
     pub(super) fn setting(&mut self, key: &'static str, value: String) {
         self.settings.push((key, value));
+    }
+
+    /// How light was found from a picture's numbers.
+    pub(super) fn encoding(&mut self, stated: &Stated) {
+        if !self.encodings.contains(stated) {
+            self.encodings.push(stated.clone());
+        }
     }
 
     pub(super) fn table(&mut self, table: Table) {
@@ -180,6 +190,10 @@ impl Report {
             "tables": tables,
             "notes": self.notes,
         });
+        if !self.encodings.is_empty() {
+            let one = |s: &Stated| json!({ "encoding": s.encoding.name(), "reason": s.reason, "guessed": s.guessed });
+            told["encodings"] = self.encodings.iter().map(one).collect();
+        }
         if !self.covariances.is_empty() {
             told["covariances"] = self.covariances.iter().map(Covariance::json).collect();
         }
@@ -190,6 +204,7 @@ impl Report {
         let width = |f: fn(&Figure) -> usize| self.figures.iter().map(f).max().unwrap_or(0);
         let label = width(|f| f.label.chars().count());
         let mut text = format!("{}\n", self.method);
+        self.encodings.iter().for_each(|s| text += &format!("encoding: {} ({})\n", s.encoding.name(), s.reason));
         for figure in &self.figures {
             text += &format!("{:<label$}  {} {}", figure.label, with_uncertainty(figure.value), figure.unit);
             text = text.trim_end().to_owned() + "\n";

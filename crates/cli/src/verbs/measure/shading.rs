@@ -79,9 +79,11 @@ impl FlatField {
         self.inquiry.truth(&CHARTS, &self.picture, readings)?.map_or(Ok(()), |truth| truth.filled())
     }
 
-    fn measured(&self, blocks: u32) -> Result<(Shading, (f64, f64)), Failure> {
+    fn measured(&self, blocks: u32, report: &mut Report) -> Result<(Shading, (f64, f64)), Failure> {
         let readings = self.inquiry.linear(&self.picture)?;
+        readings.independent(&self.picture, 1)?;
         self.check(&readings)?;
+        report.encoding(&readings.stated);
         let shading =
             measure_shading(&readings.image, &self.settings(&readings, blocks)).map_err(|e| self.refused(&e))?;
         Ok((shading, (readings.image.width() as f64, readings.image.height() as f64)))
@@ -119,11 +121,11 @@ impl Vignetting {
 
 pub(super) fn vignetting(arguments: &Vignetting) -> Result<(), Failure> {
     let pitch_um = arguments.pitch_um()?;
-    let (shading, size) = arguments.flat.measured(BLOCKS)?;
     let mut report = Report::new(
         "vignetting",
         "relative illumination of a flat field over the radial field position (± one standard uncertainty)",
     );
+    let (shading, size) = arguments.flat.measured(BLOCKS, &mut report)?;
     report.figure("centre", "reading of the centre, less black", "", shading.centre);
     report.figure("corner_percent", "illumination of the corner", "%", shading.corner.scaled(100.0));
     let labels = [("a2", "a₂ of 1 + a₂ r² + a₄ r⁴ + a₆ r⁶ + a₈ r⁸"), ("a4", "a₄"), ("a6", "a₆"), ("a8", "a₈")];
@@ -153,14 +155,16 @@ pub(super) fn shading(arguments: &ShadingArguments) -> Result<(), Failure> {
     let (flat, blocks) = (&arguments.flat, arguments.blocks);
     match flat.inquiry.selection.colours(&flat.picture)? {
         Some(colours) => {
+            colours[1].independent(&flat.picture, 1)?;
             flat.check(&colours[1])?;
+            report.encoding(&colours[1].stated);
             let settings = flat.settings(&colours[1], blocks);
             let [red, green, blue] = &colours;
             let found = colour_shading([&red.image, &green.image, &blue.image], &settings);
             in_colour(&mut report, &found.map_err(|e| flat.refused(&e))?);
         }
         None => {
-            let (found, _) = flat.measured(blocks)?;
+            let (found, _) = flat.measured(blocks, &mut report)?;
             extreme(&mut report, "illumination", "least illumination", &found.map);
             report.table(map("illumination_percent", &found.map));
             report.plot(profile_plot(&[("", &found)]));

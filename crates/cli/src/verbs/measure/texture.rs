@@ -1,11 +1,13 @@
 //! `etendue measure star` and `etendue measure texture`: fine structure.
 
+use super::encoding::EncodingArguments;
 use super::inquiry::{Inquiry, refused};
-use super::readings::Readings;
+use super::readings::{Readings, Selection};
 use super::report::{Cell, Report, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Mark, Plot, Series};
 use clap::Args;
+use etendue_io::photograph::Stated;
 use etendue_metrology::texture::leaves::{TexturePoint, measure_texture};
 use etendue_metrology::texture::star::{Star, StarPoint, measure_star};
 use etendue_metrology::{Estimate, Image};
@@ -89,6 +91,7 @@ fn star_told(arguments: &StarArguments, readings: &Readings) -> Result<Star, Fai
 
 pub(super) fn star(arguments: &StarArguments) -> Result<(), Failure> {
     let readings = arguments.inquiry.linear(&arguments.picture)?;
+    readings.independent(&arguments.picture, 1)?;
     let star = star_told(arguments, &readings)?;
     let named = |error| refused(&arguments.picture, error);
     let (points, (x, y)) = measure_star(&readings.image, &star).map_err(named)?;
@@ -97,6 +100,7 @@ pub(super) fn star(arguments: &StarArguments) -> Result<(), Failure> {
     let (x, y) = (picture(x, readings.first.0), picture(y, readings.first.1));
     let mut report =
         Report::new("star", "Siemens star after ISO 12233, over its outer circle (± one standard uncertainty)");
+    report.encoding(&readings.stated);
     report.figure("centre_x_px", "centre, x", "px", Estimate::new(x, 0.01 * step));
     report.figure("centre_y_px", "centre, y", "px", Estimate::new(y, 0.01 * step));
     let row = |p: &StarPoint| {
@@ -121,26 +125,36 @@ fn response_plot(title: &str, series: Vec<Series>) -> Plot {
     }
 }
 
-/// A picture of the leaves, cut to them where the chart's truth says where they are, and its reading of saturation.
-fn leaves(arguments: &Texture, file: &Path) -> Result<(Image, Option<f64>), Failure> {
-    let inquiry = &arguments.inquiry;
-    let readings = inquiry.linear(file)?;
-    let full_scale = inquiry.levels.full_scale(&readings);
+/// A picture of the leaves, its reading of saturation, and how light was found from its numbers.
+struct Leaves {
+    image: Image,
+    full_scale: Option<f64>,
+    stated: Stated,
+}
+
+/// A picture of the leaves, cut to them where the chart's truth says where they are.
+fn leaves(inquiry: &Inquiry, readings: Readings, file: &Path) -> Result<Leaves, Failure> {
+    let (full_scale, stated) = (inquiry.levels.full_scale(&readings), readings.stated.clone());
     let image = match inquiry.truth(&["dead-leaves"], file, &readings)? {
         Some(truth) => readings.part(truth.patches(&readings)?.0[0].at, "--truth: the leaves")?,
         None => readings.image,
     };
-    Ok((image, full_scale))
+    Ok(Leaves { image, full_scale, stated })
 }
 
 pub(super) fn texture(arguments: &Texture) -> Result<(), Failure> {
-    let (picture, full_scale) = leaves(arguments, &arguments.picture)?;
-    let (reference, _) = leaves(arguments, &arguments.reference)?;
-    let even = arguments.even.as_ref().map(|file| leaves(arguments, file)).transpose()?.map(|(image, _)| image);
-    let points = measure_texture(&picture, &reference, even.as_ref(), full_scale);
+    let inquiry = &arguments.inquiry;
+    let seen = |file: &Path| leaves(inquiry, inquiry.linear(file)?, file);
+    let picture = seen(&arguments.picture)?;
+    // The reference is another kind of picture: it says itself what its numbers are.
+    let own = Selection { encoding: EncodingArguments::default(), ..inquiry.selection.clone() };
+    let reference = leaves(inquiry, own.linear(&arguments.reference)?, &arguments.reference)?;
+    let even = arguments.even.as_ref().map(|file| seen(file)).transpose()?;
+    let points = measure_texture(&picture.image, &reference.image, even.as_ref().map(|e| &e.image), picture.full_scale);
     let found = points.map_err(|error| refused(&arguments.picture, error))?;
     let points = found.points;
     let mut report = Report::new("texture", "response to a texture against its reference (± one standard uncertainty)");
+    [&picture.stated, &reference.stated].into_iter().for_each(|stated| report.encoding(stated));
     report.fact("shift_x_px", "picture right of the reference, taken off", "px", found.shift_px[0]);
     report.fact("shift_y_px", "picture below the reference, taken off", "px", found.shift_px[1]);
     if even.is_none() {

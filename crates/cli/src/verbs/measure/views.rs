@@ -175,6 +175,7 @@ impl Found {
     /// Parameters, how well the views fit, and the views.
     pub(super) fn tell(&self, report: &mut Report, arguments: &ViewsArguments) {
         let (pixel_pitch_um, points) = (arguments.pixel_pitch_um, arguments.chart.points);
+        self.views.iter().for_each(|view| report.encoding(&view.stated));
         report.setting("model", self.model.clone());
         for p in &self.camera.parameters {
             report.figure(p.name, p.name.trim_end_matches("_px"), unit(p.name), p.estimate);

@@ -4,6 +4,7 @@ use super::{Bench, CAMERA, COLOUR, Compared, flagged, sound};
 use crate::support::text;
 use etendue_core::Plane;
 use etendue_core::quantity::Display;
+use etendue_io::photograph::Encoding;
 use etendue_io::picture::read_picture;
 use etendue_io::png::encode_display;
 use etendue_scene::asset::ImagePixels;
@@ -124,6 +125,6 @@ fn redrawn(
     let samples = (0..w * h).map(|i| of(&picture, i % w, i / w)).collect();
     let plane = Plane::<Display>::from_samples(w, h, samples).expect("a rectangle");
     let file = bench.path(name);
-    std::fs::write(&file, encode_display(&plane).expect("a picture")).expect("a temporary file");
+    std::fs::write(&file, encode_display(&plane, &Encoding::Srgb).expect("a picture")).expect("a temporary file");
     file
 }

@@ -32,8 +32,7 @@ pub(super) fn from_table(file: &Placed<PathBuf>, context: &mut Context<'_>) -> O
         return None;
     };
     if let (Some(first), Some(last)) = (asset.points.first(), asset.points.last()) {
-        let told = format!("covers {} to {} nm; beyond that it is its end value", first.0, last.0);
-        context.remark_on(file.value.display(), told);
+        context.coverage.add(&file.value, (first.0, last.0), Outside::Hold);
     }
     let n: Vec<_> = asset.points.iter().map(|(nm, n, _)| (*nm, *n)).collect();
     let k: Vec<_> = asset.points.iter().map(|(nm, _, k)| (*nm, *k)).collect();

@@ -2,7 +2,7 @@
 //!
 //! The second curve is read between its points by straight lines, at the places of the first that it reaches. Of n points the largest
 //! |E_n| of two equal curves passes 1 more often than a single one; the limit is the one that a family of n independent
-//! points passes as often as one point passes 1 (k = 2: 4.55 %), by Šidák's level. Points of fitted curves share errors: there it errs towards agreement.
+//! points passes as often as one point passes 1 (k = 2: 4.55 %), by Šidák's level; n counts the points of all curves of one kind, such as those of all edges. Points of fitted curves share errors: there it errs towards agreement.
 
 use super::side::estimate;
 use etendue_metrology::Estimate;
@@ -32,6 +32,8 @@ pub(super) struct Curve {
     pub ordinate: &'static str,
     /// By rising x.
     pub points: Vec<(f64, Estimate)>,
+    /// Standard deviation of single readings at each x, where it is stated.
+    pub noise: Vec<(f64, f64)>,
 }
 
 /// The curves of a report's tables.
@@ -44,10 +46,12 @@ pub(super) fn curves(tables: &Value) -> Vec<Curve> {
             let labels: Vec<&str> =
                 row.as_object().into_iter().flatten().filter_map(|(_, cell)| cell.as_str()).collect();
             let name = [&[table], labels.as_slice()].concat().join(" ");
-            match found.iter_mut().find(|c| c.name == name) {
-                Some(curve) => curve.points.push((x, y)),
-                None => found.push(Curve { name, abscissa, ordinate: words, points: vec![(x, y)] }),
-            }
+            let place = found.iter().position(|c| c.name == name).unwrap_or_else(|| {
+                found.push(Curve { name, abscissa, ordinate: words, points: Vec::new(), noise: Vec::new() });
+                found.len() - 1
+            });
+            found[place].points.push((x, y));
+            found[place].noise.extend(row["noise"].as_f64().map(|noise| (x, noise)));
         }
     }
     found.iter_mut().for_each(|c| c.points.sort_by(|a, b| a.0.total_cmp(&b.0)));
@@ -55,6 +59,11 @@ pub(super) fn curves(tables: &Value) -> Vec<Curve> {
 }
 
 impl Curve {
+    /// The table that it comes from.
+    pub(super) fn kind(&self) -> &str {
+        self.name.split(' ').next().unwrap_or_default()
+    }
+
     /// The estimate at x, between two points by a straight line; `None` beyond the ends.
     fn at(&self, x: f64) -> Option<Estimate> {
         let after = self.points.iter().position(|(there, _)| *there >= x)?;
@@ -118,7 +127,7 @@ mod tests {
 
     fn line(points: &[(f64, f64)]) -> Curve {
         let points = points.iter().map(|(x, y)| (*x, Estimate::new(*y, 0.1))).collect();
-        Curve { name: "curve".to_owned(), abscissa: "field_percent", ordinate: "ratio", points }
+        Curve { name: "curve".to_owned(), abscissa: "field_percent", ordinate: "ratio", points, noise: Vec::new() }
     }
 
     #[test]

@@ -14,7 +14,7 @@ pub(super) const FEW: usize = 3;
 
 /// The mean of the curves of each table that has more than a few.
 pub(super) fn means(all: &[Compared]) -> Vec<Compared> {
-    let table = |c: &Compared| c.0.name.split(' ').next().unwrap_or_default().to_owned();
+    let table = |c: &Compared| c.0.kind().to_owned();
     let mut tables: Vec<String> = all.iter().map(table).collect();
     tables.dedup();
     let of = |name: &String| all.iter().filter(|c| table(c) == *name).collect::<Vec<_>>();
@@ -27,7 +27,7 @@ fn mean(some: &[&Compared]) -> Compared {
     let places = gaps.iter().map(|gap| at(gap.x)).filter(|there| there.len() == some.len());
     let gaps: Vec<Gap> = places.map(|there| together(&there)).collect();
     let points = gaps.iter().map(|gap| (gap.x, gap.a)).collect();
-    let word = first.name.split(' ').next().unwrap_or_default();
+    let word = first.kind();
     (Curve { name: format!("{word}, mean of {}", some.len()), points, ..first.clone() }, gaps)
 }
 
@@ -50,7 +50,13 @@ mod tests {
         let curve = |i: usize| {
             let (a, b) = (Estimate::new(1.0 + i as f64, 0.2), Estimate::new(1.5, 0.0));
             let name = format!("response {i}");
-            let curve = Curve { name, abscissa: "cycles_per_px", ordinate: "response", points: vec![(0.5, a)] };
+            let curve = Curve {
+                name,
+                abscissa: "cycles_per_px",
+                ordinate: "response",
+                points: vec![(0.5, a)],
+                noise: Vec::new(),
+            };
             (curve, vec![Gap { x: 0.5, a, b, significant: true }])
         };
         assert!(means(&[0, 1, 2].map(curve)).is_empty());

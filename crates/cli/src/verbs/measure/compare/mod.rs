@@ -150,15 +150,17 @@ fn normalised(a: &Quantity, b: &Quantity) -> Option<f64> {
 fn curves(report: &mut Report, a: &Side, b: &Side) -> Vec<String> {
     let mut differing = Vec::new();
     let mut rows = Vec::new();
-    let mut all: Vec<Compared> = Vec::new();
-    for (of_a, of_b) in a.curves.iter().filter_map(|x| Some((x, b.curves.iter().find(|y| y.name == x.name)?))) {
-        let gaps = gaps(of_a, of_b);
-        let (row, differs) = curve_row(of_a, &gaps);
+    let pairs = a.curves.iter().filter_map(|x| Some((x, b.curves.iter().find(|y| y.name == x.name)?)));
+    let all: Vec<Compared> = pairs.map(|(of_a, of_b)| (of_a.clone(), gaps(of_a, of_b))).collect();
+    for (curve, gaps) in &all {
+        // Curves of one kind are one family, as their points are.
+        let family = all.iter().filter(|(other, _)| other.kind() == curve.kind());
+        let tested = family.flat_map(|(_, gaps)| gaps).filter_map(Gap::normalised).count();
+        let (row, differs) = curve_row(curve, gaps, limit(tested));
         rows.push(row);
         if differs == Some(true) {
-            differing.push(of_a.name.clone());
+            differing.push(curve.name.clone());
         }
-        all.push((of_a.clone(), gaps));
     }
     let columns = vec![
         ("curve", "curve"),
@@ -167,6 +169,7 @@ fn curves(report: &mut Report, a: &Side, b: &Side) -> Vec<String> {
         ("at", "at"),
         ("largest_relative_error_percent", "largest error %"),
         ("e_n", "E_n"),
+        ("e_n_at", "at"),
         ("limit", "limit"),
         ("verdict", "verdict"),
     ];
@@ -205,11 +208,12 @@ fn largest(values: impl Iterator<Item = f64>) -> Option<f64> {
     values.max_by(|a, b| a.abs().total_cmp(&b.abs()))
 }
 
-fn curve_row(curve: &Curve, gaps: &[Gap]) -> (Vec<Cell>, Option<bool>) {
+fn curve_row(curve: &Curve, gaps: &[Gap], limit: f64) -> (Vec<Cell>, Option<bool>) {
     let worst = gaps.iter().max_by(|a, b| a.difference().abs().total_cmp(&b.difference().abs()));
-    let tested = gaps.iter().filter_map(Gap::normalised).count();
-    let e_n = largest(gaps.iter().filter_map(Gap::normalised));
-    let differs = e_n.map(|e| e.abs() > limit(tested));
+    let of_size = |gap: &Gap| gap.normalised().map_or(f64::NEG_INFINITY, f64::abs);
+    let least_likely = gaps.iter().max_by(|a, b| of_size(a).total_cmp(&of_size(b)));
+    let e_n = least_likely.and_then(Gap::normalised);
+    let differs = e_n.map(|e| e.abs() > limit);
     let row = vec![
         Cell::Text(curve.name.clone()),
         Cell::Number(gaps.len() as f64, 0),
@@ -217,7 +221,8 @@ fn curve_row(curve: &Curve, gaps: &[Gap]) -> (Vec<Cell>, Option<bool>) {
         number(worst.map(|gap| gap.x), 2),
         number(largest(gaps.iter().filter_map(Gap::relative)).map(|r| 100.0 * r), 4),
         number(e_n, 2),
-        number(e_n.map(|_| limit(tested)), 2),
+        number(e_n.and(least_likely).map(|gap| gap.x), 2),
+        number(e_n.map(|_| limit), 2),
         verdict(differs),
     ];
     (row, differs)

@@ -10,6 +10,7 @@ use crate::failure::Failure;
 use crate::progress::PictureBar;
 use clap::Args;
 use etendue_io::emva_descriptor::{DescribedLevel, EmvaDescriptor, read_emva_descriptor};
+use etendue_io::photograph::Stated;
 use etendue_metrology::Image;
 use etendue_metrology::photon_transfer::{
     Figures, Level, Nonuniformity, Pattern, Stack, TransferData, TransferError, nonuniformity,
@@ -70,13 +71,22 @@ struct Fixed {
 pub(super) fn run(arguments: &Ptc) -> Result<(), Failure> {
     let descriptor = read_emva_descriptor(&arguments.descriptor).map_err(Failure::input)?;
     let found = measure(arguments, &descriptor)?;
-    told::report(arguments, &found).tell_with_camera(&arguments.telling, &arguments.out)
+    let mut report = told::report(arguments, &found);
+    report.encoding(&stated(&arguments.selection, &descriptor)?);
+    report.tell_with_camera(&arguments.telling, &arguments.out)
 }
 
-/// The curve's figures.
-pub(super) fn measured(arguments: &Ptc) -> Result<Figures, Failure> {
+/// What the numbers of a descriptor's pictures are taken for, by the first of them.
+fn stated(selection: &Selection, descriptor: &EmvaDescriptor) -> Result<Stated, Failure> {
+    let first = descriptor.levels.iter().find_map(|level| level.files.first()).expect("a descriptor has pictures");
+    let photograph = selection.encoding.photograph(first)?;
+    Ok(selection.encoding.raw(first, photograph)?.stated)
+}
+
+/// The curve's figures, and what the pictures' numbers are taken for.
+pub(super) fn measured(arguments: &Ptc) -> Result<(Figures, Stated), Failure> {
     let descriptor = read_emva_descriptor(&arguments.descriptor).map_err(Failure::input)?;
-    Ok(measure(arguments, &descriptor)?.figures)
+    Ok((measure(arguments, &descriptor)?.figures, stated(&arguments.selection, &descriptor)?))
 }
 
 fn measure(arguments: &Ptc, descriptor: &EmvaDescriptor) -> Result<Found, Failure> {

@@ -72,6 +72,8 @@ pub(super) fn run(arguments: &SfrArguments) -> Result<(), Failure> {
     positive("--pixel-pitch-um", arguments.pixel_pitch_um)?;
     positive("--pixels-per-degree", Some(arguments.pixels_per_degree))?;
     let readings = arguments.inquiry.linear(&arguments.picture)?;
+    // Covariances reach four pixels.
+    readings.independent(&arguments.picture, 4)?;
     if readings.period.0 != readings.period.1 {
         return Err(refused(
             &arguments.picture,

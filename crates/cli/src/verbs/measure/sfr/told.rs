@@ -15,6 +15,7 @@ pub(super) fn report(
     readings: &Readings,
 ) -> Report {
     let mut report = Report::new("sfr", "slanted edges after ISO 12233:2023 (± one standard uncertainty)");
+    report.encoding(&readings.stated);
     report.setting("readings", readings.kind().to_owned());
     if let Some(channel) = &arguments.inquiry.selection.channel {
         report.setting("channel", channel.clone());
@@ -23,6 +24,7 @@ pub(super) fn report(
         "frequencies in cycles a pixel of the picture; acutance seen at {} pixels a degree",
         arguments.pixels_per_degree
     ));
+    shading(&mut report, arguments, found);
     report.table(edges(arguments, found));
     let planes = planes::of(found, readings.picture_px);
     if planes.is_empty() {
@@ -39,6 +41,23 @@ pub(super) fn report(
         report.table(refusals(left_out));
     }
     report
+}
+
+/// Shares of the response that matter.
+const UNEVEN: f64 = 0.005;
+
+/// Of edges whose sides are not even.
+fn shading(report: &mut Report, arguments: &SfrArguments, found: &[Found<'_>]) {
+    let most = found.iter().map(|one| one.sfr.shading).fold(0.0, f64::max);
+    if most > UNEVEN {
+        let count = found.iter().filter(|one| one.sfr.shading > UNEVEN).count();
+        let next = arguments.shading_degree + 1;
+        report.note(format!(
+            "the sides of {count} of {} edges may slope: --shading-degree {next} changes the response by up to {most:.3}, and the \
+             uncertainty covers that",
+            found.len()
+        ));
+    }
 }
 
 fn place(sought: &Sought) -> String {

@@ -1,0 +1,129 @@
+//! How measurements learn what the numbers of a picture are: told, by side-car, by the file's chunks, guessed.
+
+use crate::support::{Ran, etendue, text};
+use etendue_core::Plane;
+use etendue_core::quantity::{DigitalNumber, Display};
+use etendue_io::photograph::Encoding;
+use etendue_io::png::{encode_companded16, encode_display};
+use etendue_spectra::colour::encode;
+use serde_json::Value;
+use std::path::Path;
+use tempfile::TempDir;
+
+/// Light of an edge over square pixels, turned by 5° or so: dark 0.1, bright 0.8.
+fn light(i: usize) -> f32 {
+    let (x, y) = ((i % 80) as f32, (i / 80) as f32);
+    0.1 + 0.7 * (x - 39.0 - 0.0875 * (y - 39.5)).clamp(0.0, 1.0)
+}
+
+struct Pictures {
+    place: TempDir,
+}
+
+impl Pictures {
+    fn new() -> Self {
+        Self { place: tempfile::tempdir().expect("a folder") }
+    }
+
+    fn write(&self, name: &str, bytes: &[u8]) -> String {
+        let file = self.place.path().join(name);
+        std::fs::write(&file, bytes).expect("written");
+        text(&file)
+    }
+
+    /// A grey picture of 16 bits whose file says nothing.
+    fn grey(&self, name: &str, number: impl Fn(f32) -> f32) -> String {
+        let samples = (0..80 * 80).map(|i| (65_535.0 * number(light(i))).round() as u32).collect();
+        let plane = Plane::<DigitalNumber>::from_samples(80, 80, samples).expect("a square");
+        self.write(name, &encode_companded16(&plane).expect("a picture"))
+    }
+
+    /// A picture of 8 bits whose file says so.
+    fn stated(&self, name: &str, encoding: &Encoding, number: impl Fn(f32) -> f32) -> String {
+        let plane = Plane::<Display>::from_samples(80, 80, (0..80 * 80).map(|i| [number(light(i)); 3]).collect());
+        self.write(name, &encode_display(&plane.expect("a square"), encoding).expect("a picture"))
+    }
+}
+
+fn sfr(picture: &str, options: &[&str]) -> Ran {
+    etendue(["measure", "sfr", picture].into_iter().chain(options.iter().copied()))
+}
+
+/// The frequency where the response is a half, and what was taken for the encoding and why.
+fn found(picture: &str, options: &[&str]) -> (f64, String, String) {
+    let report: Value = serde_json::from_str(&sfr(picture, &[options, &["--json"]].concat()).ok().out).expect("JSON");
+    let mtf50 = report["tables"]["edges"][0]["mtf50_cycles_per_px"]["value"].as_f64();
+    let words = |key: &str| report["encodings"][0][key].as_str().unwrap_or_default().to_owned();
+    (mtf50.unwrap_or_else(|| panic!("no MTF50 in {report}")), words("encoding"), words("reason"))
+}
+
+#[test]
+fn pictures_of_any_encoding_give_one_response() {
+    let pictures = Pictures::new();
+    let (linear, as_is) = (Encoding::Linear, |l: f32| l);
+    let (truth, encoding, reason) = found(&pictures.grey("linear.png", as_is), &[]);
+    assert!(encoding == "linear" && reason.starts_with("guessed") && reason.contains("--encoding"), "{reason}");
+    let same = |picture: &str, options: &[&str], encoding: &str, phrase: &str| {
+        let (mtf50, taken, reason) = found(picture, options);
+        assert!((mtf50 - truth).abs() < 0.003, "{picture} {options:?}: {mtf50} for {truth}");
+        assert!(taken == encoding && reason.contains(phrase), "{picture} {options:?}: {taken}, {reason}");
+    };
+    same(&pictures.grey("srgb.png", encode), &["--encoding", "srgb"], "sRGB", "--encoding");
+    same(&pictures.stated("linear8.png", &linear, as_is), &[], "linear", "gAMA chunk");
+    same(&pictures.stated("srgb8.png", &Encoding::Srgb, encode), &[], "sRGB", "sRGB chunk");
+    same(&pictures.stated("gamma8.png", &Encoding::Gamma(1.8), |l| l.powf(1.0 / 1.8)), &[], "gamma 1.8", "gAMA");
+    same(&pictures.stated("lying.png", &Encoding::Srgb, as_is), &["--encoding", "linear"], "linear", "--encoding");
+    let table = pictures.write("curve.csv", b"light, number\n0, 0\n0.2, 0.5\n1, 1\n");
+    let bent = |l: f32| if l < 0.2 { 2.5 * l } else { 0.5 + 0.625 * (l - 0.2) };
+    same(&pictures.grey("bent.png", bent), &["--encoding", &table], "tone curve of 3 points", "curve.csv");
+    // A measured function: a straight line over the logarithm of the exposure, in the picture's own numbers.
+    let oecf = pictures.write("oecf.csv", b"# cd/m2, DN\n1 6553.5\n100 58981.5\n");
+    let log = |l: f32| 0.1 + 0.4 * (100.0 * l).log10();
+    same(&pictures.grey("log.png", log), &["--encoding", &oecf], "OECF of 2 points", "oecf.csv");
+}
+
+#[test]
+fn a_side_car_goes_before_what_the_file_says_and_options_before_both() {
+    let pictures = Pictures::new();
+    let (truth, ..) = found(&pictures.grey("linear.png", |l| l), &[]);
+    let picture = pictures.stated("picture.0000.png", &Encoding::Srgb, |l| l);
+    let sidecar = |encoding: &str| {
+        let said = format!(r#"{{"program": "etendue", "files": {{"picture.0000.png": {{"encoding": {encoding}}}}}}}"#);
+        pictures.write("develop.json", said.as_bytes());
+    };
+    sidecar("\"linear\"");
+    let (mtf50, encoding, reason) = found(&picture, &[]);
+    assert!((mtf50 - truth).abs() < 0.003 && encoding == "linear" && reason == "develop.json beside it", "{reason}");
+    let (wrong, _, reason) = found(&picture, &["--encoding", "srgb"]);
+    assert!((wrong - truth).abs() > 0.02 && reason == "--encoding", "{wrong} {truth} {reason}");
+    sidecar("\"sepia\"");
+    sfr(&picture, &[]).refused(&["develop.json", "unknown encoding of picture.0000.png"]);
+}
+
+#[test]
+fn tables_and_words_that_are_no_encoding_are_refused() {
+    let pictures = Pictures::new();
+    let picture = pictures.grey("a.png", |l| l);
+    sfr(&picture, &["--encoding", "gamma"]).refused(&["--encoding", "linear, srgb or a table"]);
+    sfr(&picture, &["--encoding", "none.csv"]).refused(&["none.csv"]);
+    let falling = pictures.write("falling.csv", b"0, 0\n0.5, 0.9\n1, 0.8\n");
+    sfr(&picture, &["--encoding", &falling]).refused(&["a.png", "falling.csv", "outputs never fall"]);
+    let wide = pictures.write("wide.csv", b"0, 0, 1\n1, 1, 1\n");
+    sfr(&picture, &["--encoding", &wide]).refused(&["wide.csv", "3 columns", "expected two"]);
+}
+
+/// Photon transfer measures numbers as they are: a frame that says it is encoded is none of its kind.
+#[test]
+fn frames_that_say_they_are_encoded_are_no_raws() {
+    let stacks = crate::support::root().join("tests/oracles/figures/emva1288");
+    let stored = std::fs::read_to_string(stacks.join("EMVA1288descriptor.txt")).expect("a descriptor");
+    let stored = stored.replace("images\\", &(text(&stacks.join("images")) + "/"));
+    let pictures = Pictures::new();
+    let descriptor = pictures.write("descriptor.txt", stored.as_bytes());
+    let ptc = |options: &[&str]| etendue(["measure", "ptc", &descriptor].into_iter().chain(options.iter().copied()));
+    let told = ptc(&[]).ok().out;
+    assert!(told.contains("encoding: linear (raw numbers are measured as stored)"), "{told}");
+    ptc(&["--encoding", "linear"]).ok();
+    ptc(&["--encoding", "srgb"]).refused(&["sRGB numbers (--encoding)", "in proportion to charge", "leave it out"]);
+    assert!(Path::new(&descriptor).is_file());
+}
