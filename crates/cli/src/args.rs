@@ -4,6 +4,7 @@ use crate::raw_file::Levels;
 use crate::verbs::measure;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use etendue_optics::{DepthOfField, FastBlend, FastParameters};
+use etendue_scene::record::render::LARGEST_SEED;
 use std::path::PathBuf;
 
 /// Spectral path tracing joined to a physical camera: from a scene file to the picture that camera would have taken.
@@ -59,9 +60,12 @@ pub struct Job {
     /// Change a key of the job, its scene or a camera, e.g. --set render.spp=16 or --set cameras.front.lens.f_number=4
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
-    /// Samples a pixel, over all replicates [default: the job's, or the quality's]
-    #[arg(long, value_name = "N", value_parser = whole(1, u32::MAX))]
-    pub spp: Option<u32>,
+    /// Samples a pixel, over all replicates, of every camera [default: the job's, or the quality's]
+    #[arg(long, value_name = "N")]
+    pub spp: Option<u64>,
+    /// How much of the light's ways every camera follows, as render.level says it [default: the job's, or path]
+    #[arg(long, value_enum)]
+    pub integrator: Option<Integrator>,
     /// A preset of samples and bounces, for what the job file leaves open
     #[arg(long, value_enum)]
     pub quality: Option<Quality>,
@@ -71,6 +75,29 @@ pub struct Job {
     /// The seed of all random numbers [default: the job's, or 0]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
+}
+
+/// How much of the light's ways is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Integrator {
+    /// Local shading by lamps, suns and sky, without shadows
+    Flat,
+    /// The same with shadows
+    Direct,
+    /// Everything, by path tracing
+    Path,
+}
+
+impl Integrator {
+    /// Its word in the key `render.level`.
+    pub fn level(self) -> &'static str {
+        match self {
+            Self::Flat => "flat",
+            Self::Direct => "direct",
+            Self::Path => "path",
+        }
+    }
 }
 
 /// Presets of the trade of time for accuracy.
@@ -108,7 +135,7 @@ pub struct Render {
     #[arg(long, value_name = "A..B", value_parser = frames, default_value = "0..1")]
     pub frames: std::ops::Range<u32>,
     /// Worker threads [default: one a processor]. The result does not depend on it
-    #[arg(long, value_name = "N", value_parser = whole(1, u32::MAX))]
+    #[arg(long, value_name = "N", value_parser = whole(1, 1024))]
     pub threads: Option<u32>,
     /// Render only the tiles whose number is I modulo N; join the shards with `etendue merge`
     #[arg(long, value_name = "I/N", value_parser = shard)]
@@ -145,7 +172,7 @@ pub struct Expose {
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// The seed of the sensor's noise [default: that of the radiance image]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = seed)]
     pub seed: Option<u64>,
     /// Frames to take, first to last (the last excluded); each has its own sensor noise
     #[arg(long, value_name = "A..B", value_parser = frames, default_value = "0..1")]
@@ -174,7 +201,7 @@ pub struct Develop {
     #[arg(long, value_name = "BLACK..WHITE", value_parser = levels)]
     pub levels: Option<Levels>,
     /// The seed of the paper's noises [default: that of the side-car, or 0]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = seed)]
     pub seed: Option<u64>,
     #[command(flatten)]
     pub output: Output,
@@ -298,23 +325,32 @@ pub enum SchemaKind {
     Datasheet,
 }
 
+/// A seed, as the key `seed` admits it.
+pub fn seed(text: &str) -> Result<u64, String> {
+    let seed = text.parse().ok().filter(|seed| *seed <= LARGEST_SEED);
+    seed.ok_or_else(|| format!("expected a whole number from 0 to {LARGEST_SEED}, not '{text}'"))
+}
+
+/// Frames that one run takes at most.
+const MOST_FRAMES: usize = 100_000;
+
 pub fn frames(text: &str) -> Result<std::ops::Range<u32>, String> {
     let expected = || format!("expected FIRST..END with FIRST < END, e.g. 0..10, not '{text}'");
     let (first, end) = text.split_once("..").ok_or_else(expected)?;
     let number = |s: &str| s.trim().parse::<u32>().map_err(|_| expected());
     let range = number(first)?..number(end)?;
-    if range.is_empty() { Err(expected()) } else { Ok(range) }
+    match range.len() {
+        0 => Err(expected()),
+        count if count > MOST_FRAMES => Err(format!("{count} frames; one run takes at most {MOST_FRAMES}")),
+        _ => Ok(range),
+    }
 }
 
 /// A whole number from `least` to `most`.
 pub fn whole(least: u32, most: u32) -> impl Fn(&str) -> Result<u32, String> + Clone {
-    let range = match most {
-        u32::MAX => format!("of at least {least}"),
-        _ => format!("from {least} to {most}"),
-    };
     move |text| {
         let number = text.parse().ok().filter(|n| (least..=most).contains(n));
-        number.ok_or_else(|| format!("expected a whole number {range}, not '{text}'"))
+        number.ok_or_else(|| format!("expected a whole number from {least} to {most}, not '{text}'"))
     }
 }
 
@@ -385,7 +421,15 @@ mod tests {
     fn whole_numbers_have_ranges() {
         assert_eq!((whole(3, 10)("3"), whole(3, 10)("10")), (Ok(3), Ok(10)));
         assert_eq!(whole(3, 10)("2"), Err("expected a whole number from 3 to 10, not '2'".to_owned()));
-        assert_eq!(whole(1, u32::MAX)("1.5"), Err("expected a whole number of at least 1, not '1.5'".to_owned()));
+        assert_eq!(whole(1, 9)("1.5"), Err("expected a whole number from 1 to 9, not '1.5'".to_owned()));
+    }
+
+    #[test]
+    fn seeds_and_frames_are_as_many_as_keys_and_memory_hold() {
+        assert_eq!(seed("9223372036854775807"), Ok(LARGEST_SEED));
+        assert!(seed("9223372036854775808").is_err() && seed("-1").is_err());
+        assert_eq!(frames("0..100000"), Ok(0..100_000));
+        assert_eq!(frames("0..100001"), Err("100001 frames; one run takes at most 100000".to_owned()));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! The command line of `etendue chart`, as typed: a subcommand a chart, each with its own options.
 
-use crate::args::Output;
+use crate::args::{Output, seed};
 use clap::{Args, Subcommand, ValueEnum};
 
 /// `etendue chart`
@@ -60,7 +60,7 @@ pub struct Common {
     #[arg(long, value_name = "SHARE", default_value_t = 0.7, allow_negative_numbers = true)]
     pub white: f64,
     /// The seed of all random numbers
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = seed)]
     pub seed: u64,
     /// Write the print as chart.png too, at this many pixels an inch
     #[arg(long, value_name = "DPI", allow_negative_numbers = true)]

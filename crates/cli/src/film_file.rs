@@ -7,7 +7,7 @@ use crate::failure::Failure;
 use crate::job::JobRequest;
 use etendue_core::Plane;
 use etendue_core::quantity::Quantity;
-use etendue_io::exr::{ExrFile, Layer, Samples, encode_layers, read_exr};
+use etendue_io::exr::{ExrFile, Layer, Samples, encode_layers, read_exr_within};
 use etendue_io::{OutputFolder, Provenance, sidecar};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
@@ -87,7 +87,10 @@ pub fn encode(film: &Film, facts: &Provenance) -> Result<Vec<u8>, Failure> {
 /// The film of a camera of the plan, from a shard's folder.
 pub fn read(folder: &Path, camera: &CameraPlan) -> Result<Film, Failure> {
     let path = folder.join(film_name(camera));
-    let file = read_exr(&path).map_err(Failure::input)?;
+    let (width, height) = camera.film_size();
+    // Most of a shard's film is black, and packs well.
+    let most_bytes = Film::bytes(width as usize, height as usize, &layout(camera)) as u64;
+    let file = read_exr_within(&path, most_bytes).map_err(Failure::input)?;
     decode(&file, camera).ok_or_else(|| {
         Failure::input(format!(
             "{}: this is not the film of camera {}; render the shard again",

@@ -1,8 +1,8 @@
 //! From a job file and the command line to a plan.
 
-use crate::args::{self, Quality};
+use crate::args::{self, Integrator, Quality};
 use crate::failure::Failure;
-use etendue_io::load_assets;
+use etendue_io::{load_assets, read_regular};
 use etendue_pipeline::{Choices, Plan, compile};
 use etendue_scene::{Description, Overrides};
 use std::path::{Path, PathBuf};
@@ -16,7 +16,9 @@ pub struct JobRequest {
     /// Changes to it.
     pub set: Vec<String>,
     /// Samples a pixel.
-    pub spp: Option<u32>,
+    pub spp: Option<u64>,
+    /// How much of the light's ways is followed.
+    pub integrator: Option<Integrator>,
     /// The preset's name.
     pub quality: Option<Quality>,
     /// The only camera.
@@ -31,6 +33,7 @@ impl From<&args::Job> for JobRequest {
             job: a.job.clone(),
             set: a.set.clone(),
             spp: a.spp,
+            integrator: a.integrator,
             quality: a.quality,
             camera: a.camera.clone(),
             seed: a.seed,
@@ -45,12 +48,31 @@ impl JobRequest {
     }
 
     fn compiled(&self) -> Result<Plan, Failure> {
-        let overrides = Overrides::new(&self.set);
         let description =
-            Description::load(&self.job, &read_text, &overrides).map_err(|f| Failure::inputs(f.list()))?;
+            Description::load(&self.job, &read_text, &self.overrides()).map_err(|f| Failure::inputs(f.list()))?;
         let assets = load_assets(&description.assets()).map_err(Failure::inputs)?;
         let plan = compile(&description, &assets, &self.choices()).map_err(Failure::inputs)?;
+        plan.notices.iter().for_each(|notice| crate::tell(&format!("note: {notice}\n")));
         self.narrowed(plan)
+    }
+
+    /// The changes to the description: a flag goes through the same check as its key.
+    fn overrides(&self) -> Overrides {
+        let mut overrides = Overrides::new(&self.set);
+        let mut flag = |name: &str, key, value: String, shown: &str| {
+            overrides.push_render(&format!("--{name} {shown}"), key, &value);
+        };
+        if let Some(spp) = self.spp {
+            flag("spp", "spp", spp.to_string(), &spp.to_string());
+        }
+        if let Some(seed) = self.seed {
+            flag("seed", "seed", seed.to_string(), &seed.to_string());
+        }
+        if let Some(integrator) = self.integrator {
+            let level = integrator.level();
+            flag("integrator", "level", format!("\"{level}\""), level);
+        }
+        overrides
     }
 
     fn choices(&self) -> Choices {
@@ -59,7 +81,7 @@ impl JobRequest {
             Quality::Standard => etendue_pipeline::Quality::Standard,
             Quality::Reference => etendue_pipeline::Quality::Reference,
         });
-        Choices { spp: self.spp, quality, seed: self.seed }
+        Choices { quality, ..Choices::default() }
     }
 
     /// Only the camera that was asked for. Its random addresses are those it has among all.
@@ -85,10 +107,10 @@ pub fn text_of(path: &Path) -> Result<String, Failure> {
 
 /// Reads a text file; the error says in a few words why it cannot.
 pub fn read_text(path: &Path) -> Result<String, String> {
-    std::fs::read_to_string(path).map_err(|error| match error.kind() {
+    let bytes = read_regular(path).map_err(|error| match error.kind() {
         std::io::ErrorKind::NotFound => "there is no such file".to_owned(),
-        std::io::ErrorKind::InvalidData => "it is no text (UTF-8)".to_owned(),
         std::io::ErrorKind::IsADirectory => "it is a folder; name a file in it".to_owned(),
         _ => error.to_string(),
-    })
+    })?;
+    String::from_utf8(bytes).map_err(|_| "it is no text (UTF-8)".to_owned())
 }

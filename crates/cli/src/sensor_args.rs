@@ -1,6 +1,6 @@
 //! Arguments of the verbs about sensors by themselves.
 
-use crate::args::{Output, frames, whole};
+use crate::args::{Output, frames, seed, whole};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -29,7 +29,7 @@ pub struct Flat {
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// The seed of the sensor's noise [default: 0]
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = seed)]
     pub seed: Option<u64>,
     #[command(flatten)]
     pub output: Output,

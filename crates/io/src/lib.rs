@@ -38,13 +38,16 @@ pub mod picture;
 pub mod png;
 pub mod prescription;
 pub mod provenance;
+mod run_mark;
 pub mod sidecar;
 mod source;
 pub mod spectrum;
 pub mod table;
 pub mod tiff;
+mod unpacked;
 
 pub use assets::load_assets;
 pub use error::Error;
 pub use output::{Existing, OutputFolder};
 pub use provenance::Provenance;
+pub use source::read_regular;

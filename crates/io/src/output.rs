@@ -2,15 +2,15 @@
 //!
 //! Contract: a final name holds a whole file or none. Files are written beside their final name under a temporary one
 //! (`.NAME.PID-N.part`), flushed to the disk, and renamed by [`OutputFolder::commit`]. Dropped without commit, a folder
-//! removes its temporaries and the folders it made itself. A run that is killed outright may leave `.part` files; it
-//! leaves no half-written file under a final name.
+//! removes its temporaries and the folders it made itself. A run that is killed outright may leave `.part` files, which the
+//! next run in the folder removes; it leaves no half-written file under a final name.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Component, Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::Error;
+use crate::run_mark::RunMark;
 
 /// What to do with files that are already there under the names to be written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +28,8 @@ pub struct OutputFolder {
     existing: Existing,
     made: Vec<PathBuf>,
     pending: Vec<Pending>,
+    /// From opening to the end.
+    mark: Option<RunMark>,
 }
 
 #[derive(Debug)]
@@ -36,16 +38,14 @@ struct Pending {
     name: PathBuf,
 }
 
-/// Keeps temporaries of several folders of one process apart.
-static SERIAL: AtomicU64 = AtomicU64::new(0);
-
 impl OutputFolder {
     /// Opens `root`, making it where it is missing, and proves that it can be written to, so that a long run cannot
     /// fail at its end for want of permission.
     pub fn open(root: &Path, existing: Existing) -> Result<Self, Error> {
-        let mut folder = Self { root: root.to_path_buf(), existing, made: Vec::new(), pending: Vec::new() };
+        let mut folder = Self { root: root.to_path_buf(), existing, made: Vec::new(), pending: Vec::new(), mark: None };
         folder.make_folder(root)?;
-        folder.prove_writable()?;
+        let mark = RunMark::set(root).map_err(|cause| unwritable(root, &cause))?;
+        folder.mark = Some(mark);
         Ok(folder)
     }
 
@@ -70,9 +70,11 @@ impl OutputFolder {
         if let Some(parent) = target.parent() {
             self.make_folder(parent)?;
         }
-        let temporary = temporary_beside(&target);
+        let unwritten = |cause: io::Error| Error::new(&target, format!("cannot be written: {cause}"));
+        let mark = self.mark.as_mut().expect("a folder is marked until it is dropped");
+        let temporary = mark.temporary_of(&target).map_err(unwritten)?;
         self.pending.push(Pending { temporary: temporary.clone(), name: target.clone() });
-        write_flushed(&temporary, bytes).map_err(|cause| Error::new(&target, format!("cannot be written: {cause}")))
+        write_flushed(&temporary, bytes).map_err(unwritten)
     }
 
     /// Gives every file its final name and returns the names, in the order of writing.
@@ -128,13 +130,6 @@ impl OutputFolder {
         }
         Err(Error::new(folder, "expected a folder for the results, but this is a file; choose another name"))
     }
-
-    fn prove_writable(&self) -> Result<(), Error> {
-        let probe = temporary_beside(&self.root.join("probe"));
-        write_flushed(&probe, b"")
-            .and_then(|()| fs::remove_file(&probe))
-            .map_err(|cause| Error::new(&self.root, format!("this output folder cannot be written to: {cause}")))
-    }
 }
 
 impl Drop for OutputFolder {
@@ -143,16 +138,15 @@ impl Drop for OutputFolder {
         for file in &self.pending {
             let _ = fs::remove_file(&file.temporary);
         }
+        self.mark = None;
         for folder in self.made.iter().rev() {
             let _ = fs::remove_dir(folder);
         }
     }
 }
 
-fn temporary_beside(target: &Path) -> PathBuf {
-    let serial = SERIAL.fetch_add(1, Ordering::Relaxed);
-    let name = target.file_name().unwrap_or_default().to_string_lossy();
-    target.with_file_name(format!(".{name}.{}-{serial}.part", std::process::id()))
+fn unwritable(root: &Path, cause: &io::Error) -> Error {
+    Error::new(root, format!("this output folder cannot be written to: {cause}"))
 }
 
 fn write_flushed(path: &Path, bytes: &[u8]) -> io::Result<()> {

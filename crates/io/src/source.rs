@@ -7,9 +7,10 @@ use crate::Error;
 
 /// The bytes of `file`; `what` names in words what it should be ("mesh", "texture").
 pub(crate) fn read_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error> {
-    let bytes = std::fs::read(file).map_err(|cause| match cause.kind() {
+    let bytes = read_regular(file).map_err(|cause| match cause.kind() {
         ErrorKind::NotFound => Error::missing(file, format!("no such {what} file; check the path")),
         ErrorKind::IsADirectory => Error::missing(file, "this is a folder; name a file in it"),
+        ErrorKind::InvalidInput => Error::new(file, cause.to_string()),
         ErrorKind::PermissionDenied => Error::new(file, format!("this {what} file may not be read: permission denied")),
         _ => Error::new(file, format!("this {what} file cannot be read: {cause}")),
     })?;
@@ -19,6 +20,35 @@ pub(crate) fn read_bytes(file: &Path, what: &str) -> Result<Vec<u8>, Error> {
     Ok(bytes)
 }
 
+/// All bytes of a regular file. Pipes, devices and sockets may never end, or wait for ever, and cannot be read twice: they
+/// are refused before they are opened, `/dev/stdin` too unless a regular file is redirected to it.
+///
+/// # Errors
+/// As reading a file has them; of the kind [`ErrorKind::InvalidInput`], with words for the user, where it is no regular file.
+pub fn read_regular(file: &Path) -> std::io::Result<Vec<u8>> {
+    let kind = std::fs::metadata(file)?.file_type();
+    if !kind.is_file() && !kind.is_dir() {
+        let told = format!("this is {}, not a file on a disk; save what it gives as a file and name that", word(kind));
+        return Err(std::io::Error::new(ErrorKind::InvalidInput, told));
+    }
+    std::fs::read(file)
+}
+
+#[cfg(unix)]
+fn word(kind: std::fs::FileType) -> &'static str {
+    use std::os::unix::fs::FileTypeExt as _;
+    match kind {
+        k if k.is_fifo() => "a pipe",
+        k if k.is_socket() => "a socket",
+        _ => "a device",
+    }
+}
+
+#[cfg(not(unix))]
+fn word(_: std::fs::FileType) -> &'static str {
+    "a device"
+}
+
 /// The text of `file`, UTF-8 (a byte-order mark is passed over).
 pub(crate) fn decode_text<'a>(file: &Path, bytes: &'a [u8]) -> Result<&'a str, Error> {
     let text = std::str::from_utf8(bytes).map_err(|cause| {
@@ -26,4 +56,32 @@ pub(crate) fn decode_text<'a>(file: &Path, bytes: &'a [u8]) -> Result<&'a str, E
         Error::at(file, line, "not UTF-8 text; save the file as UTF-8")
     })?;
     Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    /// Reading either would never end.
+    #[test]
+    fn what_is_no_regular_file_is_refused_unopened() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let pipe = place.path().join("pipe.obj");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status().expect("mkfifo");
+        assert!(made.success());
+        let told = read_bytes(&pipe, "mesh").expect_err("a pipe").to_string();
+        assert!(
+            told.ends_with(
+                "pipe.obj: this is a pipe, not a file on a disk; save what it gives as a file and name that"
+            ),
+            "{told}"
+        );
+        let told = read_bytes(Path::new("/dev/zero"), "mesh").expect_err("a device").to_string();
+        assert!(told.starts_with("/dev/zero: this is a device, not a file on a disk"), "{told}");
+        let link = place.path().join("link.obj");
+        std::os::unix::fs::symlink(&pipe, &link).expect("link");
+        assert!(read_bytes(&link, "mesh").is_err(), "a link to one is one");
+        std::fs::write(place.path().join("a.obj"), b"x").expect("write");
+        assert_eq!(read_bytes(&place.path().join("a.obj"), "mesh").expect("a file"), b"x");
+    }
 }

@@ -35,6 +35,8 @@ pub struct Plan {
     pub classes: Vec<(String, u32)>,
     /// What was read and not used, what was dropped, where tables end.
     pub remarks: Vec<String>,
+    /// Which keys of the files the command line makes meaningless, in sentences.
+    pub notices: Vec<String>,
     /// Hash of all that decides the result: description, assets by content, version.
     pub hash: [u8; 32],
 }

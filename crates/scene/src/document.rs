@@ -8,6 +8,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::fault::Faults;
+use crate::line_index::LineIndex;
 use crate::place::Place;
 
 /// A value and its place.
@@ -122,7 +123,7 @@ const SYNTAX_FAULTS: usize = 3;
 pub(crate) fn parse(file: &Arc<Path>, text: &str, faults: &mut Faults) -> Node {
     let (table, mut errors) = DeTable::parse_recoverable(text);
     errors.sort_by_key(|error| error.span().map_or(0, |s| s.start));
-    let builder = Builder { spots: Spots::of_file(file, text) };
+    let builder = Builder { spots: Spots::File { file: file.clone(), lines: LineIndex::new(text) } };
     for error in errors.iter().take(SYNTAX_FAULTS) {
         let place = builder.spots.place(error.span().map_or(0, |s| s.start), "");
         faults.add(&place, format!("this is not TOML: {}", error.message()), "correct the syntax");
@@ -139,31 +140,20 @@ pub(crate) fn parse_override(file: &Arc<Path>, set: &Arc<str>, value: &str, key:
 
 /// Where byte offsets are.
 enum Spots<'a> {
-    File { file: Arc<Path>, text: &'a str, line_starts: Vec<usize> },
+    File { file: Arc<Path>, lines: LineIndex<'a> },
     Set { file: Arc<Path>, text: Arc<str> },
 }
 
-impl<'a> Spots<'a> {
-    fn of_file(file: &Arc<Path>, text: &'a str) -> Self {
-        let breaks = text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(i, _)| i + 1);
-        Self::File { file: file.clone(), text, line_starts: std::iter::once(0).chain(breaks).collect() }
-    }
-
+impl Spots<'_> {
     fn place(&self, offset: usize, key: &str) -> Place {
         match self {
             Self::Set { file, text } => Place::set(file.clone(), text.clone(), key.into()),
-            Self::File { file, text, line_starts } => {
-                let line = line_starts.partition_point(|start| *start <= offset);
-                let before = text.get(line_starts[line - 1]..offset).unwrap_or("");
-                let column = before.chars().count() + 1;
-                Place::at(file.clone(), saturating_u32(line), saturating_u32(column), key.into())
+            Self::File { file, lines } => {
+                let (line, column) = lines.line_column(offset);
+                Place::at(file.clone(), line, column, key.into())
             }
         }
     }
-}
-
-fn saturating_u32(n: usize) -> u32 {
-    u32::try_from(n).unwrap_or(u32::MAX)
 }
 
 struct Builder<'a> {

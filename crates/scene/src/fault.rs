@@ -48,6 +48,15 @@ pub struct Faults {
     list: Vec<Fault>,
     /// Names that were used while reading and must turn out to be defined.
     uses: Vec<(Named, Placed<String>)>,
+    superseded: Vec<Superseded>,
+}
+
+/// A key of a file that the command line makes meaningless.
+#[derive(Clone, Debug, PartialEq)]
+struct Superseded {
+    by: Place,
+    key: String,
+    place: Place,
 }
 
 /// What can be called by name from elsewhere in a scene.
@@ -63,7 +72,7 @@ impl Faults {
     /// No faults yet.
     #[must_use]
     pub fn none() -> Self {
-        Self { list: Vec::new(), uses: Vec::new() }
+        Self { list: Vec::new(), uses: Vec::new(), superseded: Vec::new() }
     }
 
     /// The faults, by file and line.
@@ -75,6 +84,42 @@ impl Faults {
     /// Notes a fault.
     pub fn add(&mut self, place: &Place, problem: impl Into<String>, remedy: impl Into<String>) {
         self.list.push(Fault::new(place, problem, remedy));
+    }
+
+    /// Notes that `key`, which stands at `place`, has no effect for what stands at `cause`: a fault, but not where the
+    /// command line says the cause and a file the key. What the command line says supersedes what it makes meaningless.
+    pub(crate) fn add_idle(
+        &mut self,
+        (key, place): (&str, &Place),
+        cause: Option<&Place>,
+        problem: String,
+        remedy: &str,
+    ) {
+        match cause {
+            Some(by) if by.is_command_line() && !place.is_command_line() => {
+                let superseded = Superseded { by: by.clone(), key: key.to_owned(), place: place.clone() };
+                if !self.superseded.contains(&superseded) {
+                    self.superseded.push(superseded);
+                }
+            }
+            _ => self.add(place, problem, remedy),
+        }
+    }
+
+    /// What the command line supersedes, a sentence for each of its words.
+    pub(crate) fn notices(&self) -> Vec<String> {
+        let mut causes: Vec<&Place> = Vec::new();
+        for Superseded { by, .. } in &self.superseded {
+            if !causes.contains(&by) {
+                causes.push(by);
+            }
+        }
+        causes.into_iter().map(|by| self.notice(by)).collect()
+    }
+
+    fn notice(&self, by: &Place) -> String {
+        let stated = self.superseded.iter().filter(|s| s.by == *by).map(|s| stated(&s.key, &s.place));
+        format!("{by} supersedes {}", stated.collect::<Vec<_>>().join(", "))
     }
 
     /// Remembers that a name is used.
@@ -106,6 +151,15 @@ impl Faults {
                 Err(self)
             }
         }
+    }
+}
+
+/// A key and where it is said, for a notice.
+#[must_use]
+pub fn stated(key: &str, place: &Place) -> String {
+    match place.line_column() {
+        Some((line, _)) => format!("\"{key}\" ({}:{line})", place.file().display()),
+        None => format!("\"{key}\" ({place})"),
     }
 }
 

@@ -16,6 +16,7 @@
 pub mod asset;
 mod document;
 mod fault;
+mod line_index;
 mod load;
 mod overrides;
 mod place;
@@ -25,7 +26,7 @@ pub mod record;
 mod schema;
 mod suggest;
 
-pub use fault::{Fault, Faults};
+pub use fault::{Fault, Faults, stated};
 pub use load::{CameraSetup, Description, ReadText, load_camera, load_datasheet};
 pub use overrides::Overrides;
 pub use place::{Place, Placed};

@@ -17,17 +17,32 @@ use crate::suggest::nearest;
 #[derive(Clone, Debug, Default)]
 pub struct Overrides {
     texts: Vec<Arc<str>>,
+    flags: Vec<Flag>,
+}
+
+/// A key of `[render]` that a flag of the command line sets for all cameras.
+#[derive(Clone, Debug)]
+struct Flag {
+    key: &'static str,
+    value: String,
+    text: Arc<str>,
 }
 
 impl Overrides {
     /// From `key=value` texts; they are looked at when the description is loaded.
     pub fn new<S: AsRef<str>>(texts: impl IntoIterator<Item = S>) -> Self {
-        Self { texts: texts.into_iter().map(|t| t.as_ref().into()).collect() }
+        Self { texts: texts.into_iter().map(|t| t.as_ref().into()).collect(), flags: Vec::new() }
     }
 
     /// Adds `text`, a `key=value`, after the others.
     pub fn push(&mut self, text: &str) {
         self.texts.push(text.into());
+    }
+
+    /// Sets `key` of `[render]` for all cameras, over what files and the other changes say; faults are told of the flag of
+    /// the command line `text`.
+    pub fn push_render(&mut self, text: &str, key: &'static str, value: &str) {
+        self.flags.push(Flag { key, value: value.to_owned(), text: text.into() });
     }
 
     /// Applies those that say which files are read (`early`), or the others.
@@ -36,17 +51,54 @@ impl Overrides {
             let change = Change::parse(text);
             let names_file = change.as_ref().is_some_and(Change::names_file);
             match change {
+                Some(change) if change.path.len() > DEEPEST && !early => {
+                    note_too_deep(document, text, change.path.len(), faults);
+                }
                 Some(change) if names_file == early => change.apply(document, faults),
                 None if !early => note_no_pair(document, text, faults),
                 _ => {}
             }
         }
+        if !early {
+            self.flags.iter().for_each(|flag| flag.apply(document));
+        }
+    }
+}
+
+impl Flag {
+    /// Sets the key in the job, and takes it out of its cameras.
+    fn apply(&self, document: &mut Node) {
+        let (file, key): (Arc<Path>, _) = (document.place.file().into(), join("render", self.key));
+        let place = |key: &str| Place::flag(file.clone(), self.text.clone(), key.into());
+        let Some(job) = document.as_table_mut() else { return };
+        if let Some(Node { value: Value::List(cameras), .. }) = job.get_mut("cameras") {
+            for camera in cameras {
+                if let Some(render) = camera.as_table_mut().and_then(|c| c.get_mut("render")?.as_table_mut()) {
+                    render.remove(self.key);
+                }
+            }
+        }
+        let Some(render) = entry_or_table(job, "render", &place("render")).as_table_mut() else { return };
+        render.remove(self.key);
+        let value = parse_override(&file, &self.text, &self.value, &key)
+            .map_or_else(|| Value::Text(self.value.clone()), |node| node.value);
+        let node = Node { place: place(&key), value };
+        render.entries.push(Entry { key: self.key.to_owned(), place: place(&key), node });
     }
 }
 
 fn note_no_pair(document: &Node, text: &Arc<str>, faults: &mut Faults) {
     let place = Place::set(document.place.file().into(), text.clone(), "".into());
     faults.add(&place, "this is no key=value", "give a dotted key, \"=\" and a value: render.spp=16");
+}
+
+/// Parts that a key may have: as deep as the TOML reader follows tables. No description comes near.
+const DEEPEST: usize = 80;
+
+fn note_too_deep(document: &Node, text: &Arc<str>, parts: usize, faults: &mut Faults) {
+    let place = Place::set(document.place.file().into(), text.clone(), "".into());
+    let problem = format!("this key has {parts} parts, and no description is deeper than {DEEPEST}");
+    faults.add(&place, problem, "correct the key: render.spp=16");
 }
 
 /// One `key=value`.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 /// Where a value or a fault stands.
 ///
-/// Displays as `file:line:column: key`, and as `--set key=value` for a value given on the command line.
+/// Displays as `file:line:column: key`, and as `--set key=value` or the flag as typed for a value given on the command line.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Place {
     file: Arc<Path>,
@@ -19,6 +19,7 @@ pub struct Place {
 enum Spot {
     At { line: u32, column: u32 },
     Set(Arc<str>),
+    Flag(Arc<str>),
 }
 
 impl Place {
@@ -38,6 +39,17 @@ impl Place {
         Self { file, spot: Spot::Set(text), key }
     }
 
+    /// The flag of the command line, as typed, that changes `key` of `file`.
+    pub(crate) fn flag(file: Arc<Path>, text: Arc<str>, key: Arc<str>) -> Self {
+        Self { file, spot: Spot::Flag(text), key }
+    }
+
+    /// Whether the command line says it, by an override or a flag.
+    #[must_use]
+    pub fn is_command_line(&self) -> bool {
+        matches!(self.spot, Spot::Set(_) | Spot::Flag(_))
+    }
+
     /// The file the value belongs to (for an override: the file it changes).
     #[must_use]
     pub fn file(&self) -> &Path {
@@ -55,7 +67,7 @@ impl Place {
     pub fn line_column(&self) -> Option<(u32, u32)> {
         match self.spot {
             Spot::At { line, column } => Some((line, column)),
-            Spot::Set(_) => None,
+            Spot::Set(_) | Spot::Flag(_) => None,
         }
     }
 
@@ -70,9 +82,19 @@ impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.spot {
             Spot::At { line, column } => write!(f, "{}:{line}:{column}", self.file.display())?,
-            Spot::Set(text) => return write!(f, "--set {text}"),
+            Spot::Set(text) => return write_set(f, text),
+            Spot::Flag(text) => return f.write_str(text),
         }
         if self.key.is_empty() { Ok(()) } else { write!(f, ": {}", self.key) }
+    }
+}
+
+/// The override as typed; of a long one the first 160 characters.
+fn write_set(f: &mut fmt::Formatter<'_>, text: &str) -> fmt::Result {
+    const SHOWN: usize = 160;
+    match text.char_indices().nth(SHOWN) {
+        None => write!(f, "--set {text}"),
+        Some((end, _)) => write!(f, "--set {}…", &text[..end]),
     }
 }
 

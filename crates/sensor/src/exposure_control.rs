@@ -16,7 +16,7 @@ use etendue_core::maths::f64::pow;
 /// How exposure is set from frame to frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExposureControl {
-    /// Share of pixels that shall lie below the target, (0, 1).
+    /// Percentile of the picture that shall reach the target, (0, 100).
     pub percentile: f64,
     /// Where that share shall end, as a share of the range from black to white, (0, 1).
     pub target: f64,
@@ -33,7 +33,8 @@ const LARGEST_STEP: f64 = 16.0;
 impl ExposureControl {
     pub(crate) fn check(&self, p: &SensorParameters, checks: &mut Checks) {
         let inside = |v: f64| v > 0.0 && v < 1.0;
-        checks.legal("auto_exposure.percentile", self.percentile, inside(self.percentile), "a share between 0 and 1");
+        let is_percentile = self.percentile > 0.0 && self.percentile < 100.0;
+        checks.legal("auto_exposure.percentile", self.percentile, is_percentile, "a percentile between 0 and 100");
         checks.legal("auto_exposure.target", self.target, inside(self.target), "a share between 0 and 1");
         checks.share_above_0("auto_exposure.damping", self.damping);
         let [low, high] = self.exposure_s;
@@ -67,7 +68,7 @@ impl ExposureControl {
     fn level(&self, raw: &Raw) -> Option<f64> {
         let linear = raw.linear();
         let mut dn = linear.plane.samples().to_vec();
-        let rank = (self.percentile * dn.len() as f64) as usize;
+        let rank = (self.percentile / 100.0 * dn.len() as f64) as usize;
         let rank = rank.min(dn.len().checked_sub(1)?);
         let dn = f64::from(*dn.select_nth_unstable(rank).1);
         Some(((dn - linear.black_level_dn) / (linear.white_level_dn - linear.black_level_dn)).clamp(0.0, 1.0))
@@ -80,7 +81,7 @@ pub(crate) fn need(p: &SensorParameters) -> (Verdict, String) {
         Some(c) => (
             Verdict::Required,
             format!(
-                "from frame to frame, {} of pixels below {} of the range; {} to {} s, gain {} to {}",
+                "from frame to frame, {} % of pixels below {} of the range; {} to {} s, gain {} to {}",
                 c.percentile, c.target, c.exposure_s[0], c.exposure_s[1], c.analogue_gain[0], c.analogue_gain[1]
             ),
         ),
@@ -99,7 +100,7 @@ mod tests {
         let mut p = quiet();
         (p.charge.full_well_e, p.exposure.exposure_s, p.read_out.bits) = (1e4, 0.01, 14);
         p.exposure.control = Some(ExposureControl {
-            percentile: 0.9,
+            percentile: 90.0,
             target: 0.5,
             damping,
             exposure_s: [1e-6, 0.04],

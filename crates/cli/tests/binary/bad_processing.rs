@@ -55,7 +55,7 @@ fn black_levels_that_cannot_be() {
 fn a_black_level_above_white_at_the_smallest_gain() {
     let (spoilt, _) = with("black_level = 3000");
     plan(&spoilt).ok();
-    let control = "exposure_s = 1e-6\nauto_exposure = { percentile = 0.5, target = 0.5, exposure_limits_s = [1e-7, 1e-3], gain_limits = [0.5, 2] }";
+    let control = "exposure_s = 1e-6\nauto_exposure = { percentile = 50, target = 0.5, exposure_limits_s = [1e-7, 1e-3], gain_limits = [0.5, 2] }";
     spoilt.spoil("small.toml", "exposure_s = 1e-6", control);
     plan(&spoilt).refused(&["cameras.front.processing.black_level", "3000", "saturated at"]);
 }
@@ -176,6 +176,10 @@ fn filters_of_the_paper_that_cannot_be() {
     filter("\"colour\", on = \"linear\", operations = [{ from = \"yuv\" }]", &["YUV", "encoded pictures"]);
     filter("\"colour\", operations = [{ to = \"cmyk\" }]", &["cmyk", "cmy"]);
     filter("\"colour\", operations = [{ saturation = -1 }]", &["saturation"]);
+    filter(
+        "\"glow\", percentile = 0.9, target = 1, threshold = 1, radius_px = 1, strength = 1",
+        &["percentile", "give 90"],
+    );
     filter("\"glow\", percentile = 0, target = 1, threshold = 1, radius_px = 1, strength = 1", &["percentile"]);
     filter("\"sepia\"", &["sepia", "glow"]);
     let late = "\"uniform_noise\", range = 1 }, { filter = \"tone_map\", original_factor = 0";

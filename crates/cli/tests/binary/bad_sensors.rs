@@ -91,8 +91,8 @@ fn tables_that_say_nothing() {
 
 #[test]
 fn a_fault_of_the_job_is_told_once_for_all_cameras() {
-    let ran = etendue(["plan", "scenes/sensors/sensors.toml", "--spp", "7"]);
-    let ran = ran.refused(&["--spp 7 cannot be shared evenly among 4 replicates"]);
+    let ran = etendue(["plan", "scenes/sensors/sensors.toml", "--spp", "7", "--set", "render.replicates=4"]);
+    let ran = ran.refused(&["7 samples cannot be shared evenly among 4 replicates"]);
     assert_eq!(ran.err.matches("cannot be shared evenly").count(), 1, "{ran:?}");
 }
 

@@ -28,7 +28,7 @@ const CAMERA: &str = "format = 1\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm =
                       = \"ideal_to_observed\"\nradius_unit = \"focal_lengths\"\n[sensor]\nwidth_px = 96\nheight_px = \
                       72\npixel_pitch_um = 8\nprincipal_point_px = [50, 34]\nexposure_s = 0.01\ncfa = \
                       \"mono\"\nquantum_efficiency = 0.5\nfull_well_e = 20000\nread_noise_e = 5\ndark_current_e_s = \
-                      0\ngain_dn_per_e = 0.2\nblack_level_dn = 50\nbits = 12\n[sensor.auto_exposure]\npercentile = 0.9\ntarget = \
+                      0\ngain_dn_per_e = 0.2\nblack_level_dn = 50\nbits = 12\n[sensor.auto_exposure]\npercentile = 90\ntarget = \
                       0.5\nexposure_limits_s = [1e-4, 0.1]\ngain_limits = [1, 2]\n";
 
 struct Place(tempfile::TempDir);

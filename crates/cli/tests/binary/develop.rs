@@ -41,7 +41,7 @@ const MONO: &str = r#"
 [sensor.optical_black]
 rows_px = 4
 [sensor.auto_exposure]
-percentile = 0.9
+percentile = 90
 target = 0.5
 damping = 0.7
 exposure_limits_s = [1e-8, 1e-4]

@@ -19,6 +19,7 @@ mod flat;
 mod geometry;
 mod goldens;
 mod help;
+mod hostile;
 mod identity;
 mod kenney;
 mod lenses;

@@ -46,6 +46,22 @@ fn the_plans_of_all_jobs_are_as_they_were() {
     assert!(changed.is_empty(), "{}\n(ETENDUE_BLESS=1 accepts)", changed.join("\n"));
 }
 
+/// What the command line says supersedes what it makes meaningless, a line for each of its words.
+#[test]
+fn every_job_takes_any_integrator_and_any_samples() {
+    for (job, _) in jobs() {
+        for (integrator, spp) in [("flat", "2"), ("direct", "3"), ("path", "1")] {
+            let ran = etendue(["plan", &job, "--integrator", integrator, "--spp", spp]).ok();
+            let notes = ran.err.lines().filter(|line| line.starts_with("note: ")).count();
+            let of_flags = ran.err.lines().filter(|line| line.starts_with("note: --")).count();
+            assert!(notes == of_flags && notes <= 3, "{job}: {}", ran.err);
+        }
+    }
+    let street = etendue(["plan", "scenes/street/street.toml", "--set", "render.level=direct", "--spp", "2"]).ok();
+    let street = street.says(&["note: --set render.level=direct supersedes", "\"max_bounces\"", "\"caustics\""]);
+    street.says(&["note: --spp 2 supersedes \"replicates\" (scenes/street/street.toml:"]);
+}
+
 #[test]
 fn a_plan_does_not_depend_on_where_it_is_made() {
     let job = "scenes/furnace/furnace.toml";

@@ -32,7 +32,7 @@ pub use layers::{Layer, encode_layers};
 pub use name::{SpectralChannel, Stokes, channel_name, parse_channel_name};
 pub use plane::encode_plane;
 pub use rays::encode_rays;
-pub use read::{ExrChannel, ExrFile, Samples, read_exr};
+pub use read::{ExrChannel, ExrFile, Samples, read_exr, read_exr_within};
 pub use spectral::{Lengths, encode_radiance, encode_spectral};
 pub use spectral_read::{SpectralFile, SpectralImage, WithVariance, read_spectral};
 

@@ -9,6 +9,7 @@ use ::exr::prelude::{AnyChannels, FlatSamples, Layer, ReadChannels, ReadLayers};
 
 use crate::Error;
 use crate::source::read_bytes;
+use crate::unpacked;
 
 /// Samples of a channel, row by row from the top left.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,6 +47,14 @@ pub struct ExrFile {
 }
 
 impl Samples {
+    /// The samples one by one, as [`Samples::to_floats`] has them.
+    pub(crate) fn floats(&self) -> Box<dyn Iterator<Item = f32> + '_> {
+        match self {
+            Self::Half(values) | Self::Float(values) => Box::new(values.iter().copied()),
+            Self::Uint(values) => Box::new(values.iter().map(|&v| v as f32)),
+        }
+    }
+
     /// The samples as floats; unsigned integers above 2²⁴ are rounded.
     #[must_use]
     pub fn to_floats(&self) -> Vec<f32> {
@@ -65,12 +74,40 @@ impl ExrFile {
 }
 
 /// Reads `file`.
+///
+/// # Errors
+/// Where it is missing, damaged or of a kind that is not read, or unpacks to more than 512 MiB and a hundred times its size.
 pub fn read_exr(file: &Path) -> Result<ExrFile, Error> {
     decode_exr(file, &read_bytes(file, "EXR")?)
 }
 
+/// Reads `file`, whose samples take at most `most_bytes` as 32-bit numbers.
+///
+/// # Errors
+/// Where it is missing, damaged or of a kind that is not read, or unpacks to more.
+pub fn read_exr_within(file: &Path, most_bytes: u64) -> Result<ExrFile, Error> {
+    let bytes = read_bytes(file, "EXR")?;
+    unpacked::check_within(file, samples(&bytes), most_bytes.into())?;
+    decode_all(file, &bytes)
+}
+
 /// Reads the bytes of `file`.
 pub(crate) fn decode_exr(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
+    unpacked::check(file, samples(bytes), bytes.len())?;
+    decode_all(file, bytes)
+}
+
+/// The samples that the headers state; none where they cannot be read, which reading the file tells.
+fn samples(bytes: &[u8]) -> u128 {
+    let meta = ::exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false);
+    let samples = |header: &::exr::meta::header::Header| {
+        let (width, height) = (header.layer_size.width() as u128, header.layer_size.height() as u128);
+        width.saturating_mul(height).saturating_mul(header.channels.list.len() as u128)
+    };
+    meta.map_or(0, |meta| meta.headers.iter().map(samples).fold(0, u128::saturating_add))
+}
+
+fn decode_all(file: &Path, bytes: &[u8]) -> Result<ExrFile, Error> {
     let image = ::exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()

@@ -44,12 +44,9 @@ fn channel(name: &str, samples: &Samples) -> ChannelReport {
 
 /// R, G, B where they are there, else the colour of the spectra, else depth or the first channel as grey.
 fn preview(file: &Path, exr: &ExrFile, report: &mut FileReport) -> Option<Preview> {
-    let planes = stored_colour(exr).or_else(|| spectral_colour(file, exr, report));
-    match planes {
-        Some([r, g, b]) => {
-            let pixels: Vec<[f32; 3]> = r.iter().zip(&g).zip(&b).map(|((r, g), b)| [*r, *g, *b]).collect();
-            Some(Preview::of_linear(exr.width, exr.height, &pixels))
-        }
+    let pixels = stored_colour(exr).or_else(|| spectral_colour(file, exr, report));
+    match pixels {
+        Some(pixels) => Some(Preview::of_linear(exr.width, exr.height, &pixels)),
         None => {
             let shown = exr.channels.iter().find(|c| c.name == "depth.Z").or(exr.channels.first())?;
             report.notes.push(format!("the picture shows channel {}", shown.name));
@@ -58,22 +55,27 @@ fn preview(file: &Path, exr: &ExrFile, report: &mut FileReport) -> Option<Previe
     }
 }
 
-fn stored_colour(exr: &ExrFile) -> Option<[Vec<f32>; 3]> {
-    let plane = |name: &str| exr.channel(name).map(Samples::to_floats);
-    Some([plane("R")?, plane("G")?, plane("B")?])
+fn stored_colour(exr: &ExrFile) -> Option<Vec<[f32; 3]>> {
+    let plane = |name: &str| exr.channel(name).map(Samples::floats);
+    Some(pixels(plane("R")?, plane("G")?, plane("B")?))
 }
 
-fn spectral_colour(file: &Path, exr: &ExrFile, report: &mut FileReport) -> Option<[Vec<f32>; 3]> {
+fn pixels(r: impl Iterator<Item = f32>, g: impl Iterator<Item = f32>, b: impl Iterator<Item = f32>) -> Vec<[f32; 3]> {
+    r.zip(g).zip(b).map(|((r, g), b)| [r, g, b]).collect()
+}
+
+fn spectral_colour(file: &Path, exr: &ExrFile, report: &mut FileReport) -> Option<Vec<[f32; 3]>> {
     if !is_spectral(exr) {
         return None;
     }
     match spectral_of(file, exr) {
         Ok(spectral) => {
             report.notes.extend(spectral.notes);
-            Some(match spectral.image {
+            let [r, g, b] = match spectral.image {
                 SpectralImage::Radiance(image) => linear_srgb(&image.cube),
                 SpectralImage::Irradiance(image) => linear_srgb(&image.cube),
-            })
+            };
+            Some(pixels(r.into_iter(), g.into_iter(), b.into_iter()))
         }
         Err(error) => {
             report.notes.push(format!("not readable as a spectral image: {}", error.what()));

@@ -1,5 +1,6 @@
 //! Polygons as tobj reads them to triangles.
 
+use std::cell::LazyCell;
 use std::path::Path;
 
 use etendue_scene::asset::MeshAsset;
@@ -72,7 +73,8 @@ impl Builder {
                 let count = corners.len();
                 format!("polygon of {count} corners crosses itself; triangulate the mesh where it was modelled")
             })?;
-            let vertices: Vec<u32> = corners.iter().map(|&i| self.vertex(part, layout, i as usize, &polygon)).collect();
+            let facing = LazyCell::new(|| newell(&polygon));
+            let vertices: Vec<u32> = corners.iter().map(|&i| self.vertex(part, layout, i as usize, &facing)).collect();
             self.mesh.triangles.extend(triangles.iter().map(|t| t.map(|i| vertices[i])));
             self.mesh.slots.resize(self.mesh.triangles.len(), slot);
             self.faces += 1;
@@ -80,8 +82,15 @@ impl Builder {
         Ok(())
     }
 
-    /// The vertex `index` of a part. Without a usable normal it belongs to this polygon alone, where others have one.
-    fn vertex(&mut self, part: &tobj::Mesh, layout: &UvLayout, index: usize, polygon: &[[f64; 3]]) -> u32 {
+    /// The vertex `index` of a part. Without a usable normal it belongs to this polygon alone, which faces `facing`, where
+    /// others have one.
+    fn vertex<F: FnOnce() -> [f64; 3]>(
+        &mut self,
+        part: &tobj::Mesh,
+        layout: &UvLayout,
+        index: usize,
+        facing: &LazyCell<[f64; 3], F>,
+    ) -> u32 {
         let normal = part.normals.as_chunks().0.get(index).filter(|n| **n != [0.0; 3]);
         let is_shared = normal.is_some() || !self.has_normals;
         if let (true, Some(known)) = (is_shared, self.placed[index]) {
@@ -92,7 +101,7 @@ impl Builder {
         self.mesh.positions.push(part.positions.as_chunks().0[index].map(|v: f64| v as f32));
         if self.has_normals {
             self.flat_corners += usize::from(normal.is_none());
-            self.mesh.normals.push(unit(normal.copied().unwrap_or_else(|| newell(polygon))));
+            self.mesh.normals.push(unit(normal.copied().unwrap_or_else(|| **facing)));
         }
         if self.has_uvs {
             let uv = part.texcoords.as_chunks().0.get(index);

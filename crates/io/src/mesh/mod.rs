@@ -14,9 +14,13 @@
 //! Coordinates are read in 64 bits and stored in 32; a mesh far from its origin is told what that costs.
 
 mod asset;
+mod corner_tree;
+mod crossing;
+mod ears;
 mod fed;
 mod mtl;
 mod obj;
+mod plane;
 mod polygon;
 mod slot;
 mod statement;

@@ -4,7 +4,7 @@
 //! vertex, and loses which corners have no normal where some have: its vertex data stay in step only where all faces of
 //! a model have the same form. So each line is checked here, and a group begins wherever the form changes.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use super::fed::Fed;
@@ -20,6 +20,7 @@ pub(super) struct Obj {
     pub(super) fed: Fed,
     /// Names of materials in order of first use; faces before any have the empty name.
     pub(super) materials: Vec<String>,
+    known: BTreeSet<String>,
     /// Material libraries with their lines, as written.
     pub(super) libraries: Vec<(String, usize)>,
     /// What is not read, by keyword: how often, and on which line first.
@@ -151,7 +152,7 @@ impl Obj {
     }
 
     fn use_material(&mut self, name: &str, line: Option<usize>) -> Result<(), String> {
-        if !self.materials.iter().any(|known| known == name) {
+        if self.known.insert(name.to_owned()) {
             self.materials.push(name.to_owned());
         }
         if self.materials.len() > 1 << 16 {

@@ -1,7 +1,11 @@
 //! Polygons to triangles.
 //!
-//! Convex polygons become a fan about their first corner. Concave ones are cut by ear clipping (Meisters 1975, "Polygons
-//! have ears") in the projection along their Newell normal, in 64 bits. A polygon that crosses itself has no answer and is refused.
+//! Convex polygons become a fan about their first corner. Concave ones are cut by ear clipping in the projection along
+//! their Newell normal, in 64 bits. A polygon that crosses itself has no answer and is refused.
+
+use super::crossing::edges_cross;
+use super::ears::clip_ears;
+use super::plane::{Point, turn};
 
 /// Why a polygon has no triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,7 +21,13 @@ pub(super) fn triangulate(corners: &[[f64; 3]]) -> Result<Vec<[usize; 3]>, Polyg
         return Ok(fan(corners.len()));
     }
     let flat = project(corners).ok_or(PolygonFault::CrossesItself)?;
-    if is_convex(&flat) { Ok(fan(corners.len())) } else { clip_ears(&flat) }
+    if is_convex(&flat) {
+        return Ok(fan(corners.len()));
+    }
+    if edges_cross(&flat) {
+        return Err(PolygonFault::CrossesItself);
+    }
+    clip_ears(&flat).ok_or(PolygonFault::CrossesItself)
 }
 
 fn fan(count: usize) -> Vec<[usize; 3]> {
@@ -61,7 +71,7 @@ fn on_one_line(corners: &[[f64; 3]]) -> bool {
 }
 
 /// The polygon in the coordinate plane that sees most of it, counter-clockwise. `None` where it encloses nothing.
-fn project(corners: &[[f64; 3]]) -> Option<Vec<[f64; 2]>> {
+fn project(corners: &[[f64; 3]]) -> Option<Vec<Point>> {
     let normal = newell(corners);
     let largest = (0..3).max_by(|&a, &b| normal[a].abs().total_cmp(&normal[b].abs()))?;
     if normal[largest].abs() <= negligible_area(corners) {
@@ -74,54 +84,12 @@ fn project(corners: &[[f64; 3]]) -> Option<Vec<[f64; 2]>> {
     Some(corners.iter().map(|&c| sub(c, corners[0])).map(|c| [c[u], c[v]]).collect())
 }
 
-/// Twice the signed area of a triangle, positive counter-clockwise.
-fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-}
-
 /// Whether a counter-clockwise polygon turns left everywhere, and once round in all: a pentagram turns left at each
 /// corner but twice round, which its fan's triangles show by turning right somewhere.
-fn is_convex(flat: &[[f64; 2]]) -> bool {
+fn is_convex(flat: &[Point]) -> bool {
     let n = flat.len();
     let left = |a: usize, b: usize, c: usize| turn(flat[a % n], flat[b % n], flat[c % n]) >= 0.0;
     (0..n).all(|i| left(i, i + 1, i + 2)) && (1..n - 1).all(|i| left(0, i, i + 1))
-}
-
-fn clip_ears(flat: &[[f64; 2]]) -> Result<Vec<[usize; 3]>, PolygonFault> {
-    if edges_cross(flat) {
-        return Err(PolygonFault::CrossesItself);
-    }
-    let mut left: Vec<usize> = (0..flat.len()).collect();
-    let mut triangles = Vec::with_capacity(flat.len() - 2);
-    while left.len() > 3 {
-        let n = left.len();
-        let corner = |i: usize| [left[(i + n - 1) % n], left[i], left[(i + 1) % n]];
-        let ear = (0..n).find(|&i| is_ear(flat, &left, corner(i))).ok_or(PolygonFault::CrossesItself)?;
-        triangles.push(corner(ear));
-        left.remove(ear);
-    }
-    triangles.push([left[0], left[1], left[2]]);
-    Ok(triangles)
-}
-
-/// Whether the corner `[before, tip, after]` can be cut off: it turns left or is straight, and none of the other
-/// corners lies in its triangle. A straight corner gives a triangle of no area and leaves the outline unchanged.
-fn is_ear(flat: &[[f64; 2]], left: &[usize], [before, tip, after]: [usize; 3]) -> bool {
-    let (a, b, c) = (flat[before], flat[tip], flat[after]);
-    let inside = |p: [f64; 2]| turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
-    let others = left.iter().filter(|i| ![before, tip, after].contains(i)).map(|&i| flat[i]);
-    turn(a, b, c) >= 0.0 && !others.filter(|&p| p != a && p != b && p != c).any(inside)
-}
-
-/// Whether two edges cross in a point inside both.
-fn edges_cross(flat: &[[f64; 2]]) -> bool {
-    let n = flat.len();
-    let edge = |i: usize| (flat[i], flat[(i + 1) % n]);
-    (0..n).any(|i| (i + 1..n).any(|j| properly_cross(edge(i), edge(j))))
-}
-
-fn properly_cross((a, b): ([f64; 2], [f64; 2]), (c, d): ([f64; 2], [f64; 2])) -> bool {
-    turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0
 }
 
 #[cfg(test)]
@@ -189,7 +157,112 @@ mod tests {
         assert_eq!(triangulate(&corners).map(|t| t.len()), Ok(2));
     }
 
+    /// How many triangles hold a point.
+    fn times_covered(flat: &[[f64; 2]], triangles: &[[usize; 3]], p: [f64; 2]) -> usize {
+        let holds = |t: &&[usize; 3]| (0..3).all(|i| turn(flat[t[i]], flat[t[(i + 1) % 3]], p) > 0.0);
+        triangles.iter().filter(holds).count()
+    }
+
+    #[test]
+    fn a_hole_is_reached_by_a_bridge_and_not_covered() {
+        let outer = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0], [0.0, 0.0]];
+        let hole = [[4.0, 4.0], [4.0, 6.0], [6.0, 6.0], [6.0, 4.0], [4.0, 4.0]];
+        for shift in 0..10 {
+            let mut flat = [outer, hole].concat();
+            flat.rotate_left(shift);
+            covers(&flat);
+            let triangles = triangulate(&lift(&flat)).expect("edges that coincide do not cross");
+            for (x, y) in (0..40).flat_map(|x| (0..40).map(move |y| (f64::from(x), f64::from(y)))) {
+                let p = [0.131 + x * 0.25, 0.117 + y * 0.25];
+                let in_hole = p.iter().all(|c| (4.0..6.0).contains(c));
+                assert_eq!(times_covered(&flat, &triangles, p), usize::from(!in_hole), "{p:?}, turned by {shift}");
+            }
+        }
+    }
+
+    #[test]
+    fn corners_that_coincide_and_corners_on_edges_are_covered() {
+        covers(&[[0.0, 0.0], [0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [1.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]]);
+        let mut touching = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.0, 0.0], [0.0, 2.0]];
+        for _ in 0..touching.len() {
+            touching.rotate_left(1);
+            covers(&touching);
+        }
+    }
+
+    /// The cut that takes the first ear by looking at all corners each time.
+    fn by_all_corners(flat: &[[f64; 2]]) -> Option<Vec<[usize; 3]>> {
+        let mut left: Vec<usize> = (0..flat.len()).collect();
+        let mut triangles = Vec::new();
+        while left.len() > 3 {
+            let n = left.len();
+            let corner = |i: usize| [left[(i + n - 1) % n], left[i], left[(i + 1) % n]];
+            let is_ear = |i: &usize| {
+                let [a, b, c] = corner(*i).map(|i| flat[i]);
+                let inside = |p: [f64; 2]| turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
+                let blocks = |p: [f64; 2]| p != a && p != b && p != c && inside(p);
+                let enters = |p: [f64; 2]| turn(a, b, p) > 0.0 && turn(b, c, p) > 0.0;
+                let leads_inside = |j: usize| {
+                    let [before, twin, after] = corner(j).map(|i| flat[i]);
+                    turn(a, b, c) > 0.0 && j != *i && twin == b && (enters(before) || enters(after))
+                };
+                turn(a, b, c) >= 0.0 && !left.iter().any(|&i| blocks(flat[i])) && !(0..n).any(leads_inside)
+            };
+            let ear = (0..n).find(is_ear)?;
+            triangles.push(corner(ear));
+            left.remove(ear);
+        }
+        triangles.push([left[0], left[1], left[2]]);
+        Some(triangles)
+    }
+
+    /// Radii of spikes about the origin, as a polygon that is simple.
+    fn spikes(radii: impl ExactSizeIterator<Item = f64>) -> Vec<[f64; 2]> {
+        let n = radii.len() as f64;
+        let corner = |(i, r): (usize, f64)| {
+            let angle = std::f64::consts::TAU * i as f64 / n;
+            [r * etendue_core::maths::f64::cos(angle), r * etendue_core::maths::f64::sin(angle)]
+        };
+        radii.enumerate().map(corner).collect()
+    }
+
+    /// All pairs of edges would be 10¹⁰ here, and so would all corners for each ear.
+    #[test]
+    fn polygons_of_many_corners_are_covered() {
+        const N: usize = 100_000;
+        let gear: Vec<[f64; 2]> = spikes((0..N).map(|i| if i % 2 == 0 { 1.0 } else { 0.7 }));
+        let ragged: Vec<[f64; 2]> = spikes((0..N).map(|i| 0.2 + (i * 7919 % 1009) as f64 / 500.0));
+        let tooth = |i: usize| [[i as f64, 1.0], [i as f64 + 0.5, 0.1 + (i % 97) as f64 * 1e-3]];
+        let mut comb: Vec<[f64; 2]> = (0..N / 2).rev().flat_map(tooth).collect();
+        comb.extend([[-1.0, 0.0], [(N / 2) as f64, 0.0]]);
+        for flat in [gear, ragged, comb] {
+            let corners: Vec<[f64; 3]> = flat.iter().map(|[x, y]| [*x, *y, 0.0]).collect();
+            let triangles = triangulate(&corners).expect("simple");
+            assert_eq!(triangles.len(), flat.len() - 2);
+            let doubled: f64 = triangles.iter().map(|t| turn(flat[t[0]], flat[t[1]], flat[t[2]])).sum();
+            let whole = newell(&corners)[2].abs();
+            assert!((doubled.abs() - whole).abs() < 1e-9 * whole, "{doubled} {whole}");
+        }
+    }
+
     proptest::proptest! {
+        /// Random outlines on a coarse grid: corners coincide, stand on edges, and lie on one line.
+        #[test]
+        fn the_first_ear_is_found_as_by_looking_at_all_corners(
+            corners in proptest::collection::vec((0_i32..9, 0_i32..9), 4..40)
+        ) {
+            let flat: Vec<[f64; 2]> = corners.iter().map(|(x, y)| [f64::from(*x), f64::from(*y)]).collect();
+            proptest::prop_assert_eq!(clip_ears(&flat), by_all_corners(&flat));
+        }
+
+        #[test]
+        fn ragged_outlines_are_cut_as_by_looking_at_all_corners(
+            radii in proptest::collection::vec(0.01_f64..3.0, 5..200)
+        ) {
+            let flat = spikes(radii.into_iter());
+            proptest::prop_assert_eq!(clip_ears(&flat), by_all_corners(&flat));
+        }
+
         /// A polygon that is star-shaped about the origin is simple, and rarely convex.
         #[test]
         fn star_shaped_polygons_are_covered_once(radii in proptest::collection::vec(0.2_f64..3.0, 5..24)) {

@@ -49,12 +49,15 @@ pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement> {
         loop {
             let (index, first) = lines.next()?;
             let mut whole = trimmed(first).to_owned();
-            while let Some(head) = whole.strip_suffix('\\') {
-                let next = lines.next().map_or("", |(_, line)| trimmed(line));
-                whole = format!("{head} {next}").trim().to_owned();
+            while whole.ends_with('\\') {
+                whole.pop();
+                whole.push(' ');
+                whole.push_str(lines.next().map_or("", |(_, line)| trimmed(line)));
+                whole.truncate(whole.trim_end().len());
             }
-            if !whole.is_empty() {
-                return Some(Statement { line: index + 1, text: whole });
+            let text = if whole.starts_with(' ') { whole.trim_start().to_owned() } else { whole };
+            if !text.is_empty() {
+                return Some(Statement { line: index + 1, text });
             }
         }
     })
@@ -88,6 +91,14 @@ mod tests {
         assert_eq!(found[0], (1, "f".to_owned(), "1 2  3 4 5".to_owned()));
         assert_eq!(found[1].0, 4);
         assert_eq!(read("v 1 \\"), [(1, "v".to_owned(), "1".to_owned())]);
+    }
+
+    /// Copying the whole for each line would move 10¹² bytes here.
+    #[test]
+    fn a_statement_goes_over_many_lines() {
+        let text = format!("f{}", " 1\\\n".repeat(1_000_000));
+        let found: Vec<Statement> = statements(&text).collect();
+        assert_eq!((found.len(), found[0].words().count()), (1, 1_000_000));
     }
 
     #[test]

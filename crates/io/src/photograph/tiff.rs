@@ -10,7 +10,7 @@ use ::tiff::decoder::{Decoder, DecodingResult, Limits};
 use ::tiff::tags::Tag;
 
 use super::{Encoding, Photograph, channel_names, separated};
-use crate::Error;
+use crate::{Error, unpacked};
 
 /// Whether the bytes begin as a TIFF, of either byte order, plain or big.
 pub(crate) fn is_tiff(bytes: &[u8]) -> bool {
@@ -28,7 +28,7 @@ pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
         )
     };
     let bytes = digital_negative_as_grey(bytes);
-    let mut decoder = Decoder::new(Cursor::new(&bytes[..])).map_err(damaged)?.with_limits(limits());
+    let mut decoder = Decoder::new(Cursor::new(&bytes[..])).map_err(damaged)?.with_limits(limits(bytes.len()));
     let (width, height) = decoder.dimensions().map_err(damaged)?;
     let colour = decoder.colortype().map_err(damaged)?;
     let grey = matches!(colour, ColorType::Gray(_) | ColorType::GrayA(_));
@@ -41,6 +41,8 @@ pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     if count > 1 && planes == Some(SEPARATE) {
         return Err(Error::new(file, "a TIFF of separate planes; store the samples of a pixel side by side"));
     }
+    let samples = u128::from(width) * u128::from(height) * count as u128;
+    unpacked::check(file, samples, bytes.len())?;
     if decoder.more_images() {
         return Err(Error::new(file, "a TIFF of several pictures; store each as a file of its own"));
     }
@@ -89,10 +91,10 @@ fn kind_of_picture(bytes: &[u8], big: bool) -> Option<(usize, u16)> {
     Some((entry + 8, short(entry + 8)?))
 }
 
-/// Room for 400 megapixels of RGB floats.
-fn limits() -> Limits {
+/// Room for what [`unpacked::check`] lets through, in numbers of up to 64 bits.
+fn limits(packed: usize) -> Limits {
     let mut limits = Limits::default();
-    limits.decoding_buffer_size = 5 << 30;
+    limits.decoding_buffer_size = packed.saturating_mul(200).max(1 << 30);
     limits
 }
 

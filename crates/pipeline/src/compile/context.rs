@@ -1,7 +1,7 @@
 //! What every step of compiling shares: the assets, the faults found so far, and remarks for the plan.
 
 use etendue_scene::asset::Assets;
-use etendue_scene::{Fault, Place};
+use etendue_scene::{Fault, Place, stated};
 use std::fmt::Display;
 
 /// Assets to resolve names in, faults and remarks collected on the way.
@@ -10,16 +10,42 @@ pub(super) struct Context<'a> {
     pub(super) assets: &'a Assets,
     pub(super) faults: Vec<Fault>,
     pub(super) remarks: Vec<String>,
+    /// What the command line supersedes.
+    pub(super) notices: Vec<String>,
 }
 
 impl<'a> Context<'a> {
     pub(super) fn new(assets: &'a Assets) -> Self {
-        Self { assets, faults: Vec::new(), remarks: Vec::new() }
+        Self { assets, faults: Vec::new(), remarks: Vec::new(), notices: Vec::new() }
     }
 
     /// Notes a fault at `place`.
     pub(super) fn fault(&mut self, place: &Place, problem: impl Into<String>, remedy: impl Into<String>) {
         self.faults.push(Fault::new(place, problem, remedy));
+    }
+
+    /// Notes that `key`, which stands at `place`, has no effect for what stands at `cause`: a fault, but not where the
+    /// command line says the cause and a file the key. What the command line says supersedes what it makes meaningless.
+    pub(super) fn idle(
+        &mut self,
+        (key, place): (&str, &Place),
+        cause: Option<&Place>,
+        problem: impl Into<String>,
+        remedy: &str,
+    ) {
+        match cause {
+            Some(by) if by.is_command_line() && !place.is_command_line() => {
+                self.notice(format!("{by} supersedes {}", stated(key, place)));
+            }
+            _ => self.fault(place, problem, remedy),
+        }
+    }
+
+    /// A notice, once.
+    pub(super) fn notice(&mut self, text: String) {
+        if !self.notices.contains(&text) {
+            self.notices.push(text);
+        }
     }
 
     /// The value, or `None` with its error noted as a fault at `place`; the errors of the models say what to do.

@@ -13,6 +13,7 @@ mod light;
 mod material;
 mod picture;
 mod processing;
+mod samples;
 mod sensor;
 mod settings;
 mod shape;
@@ -112,17 +113,20 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let (palette, materials) = builder.finish(context)?;
     let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();
     let remarks = std::mem::take(&mut context.remarks);
+    let notices = [&description.notices[..], &context.notices].concat();
+    let hash = [0; 32];
     let mut plan =
-        Plan { world, palette, sources, sky, cameras, identities, materials, classes, remarks, hash: [0; 32] };
+        Plan { world, palette, sources, sky, cameras, identities, materials, classes, remarks, notices, hash };
     plan.hash = fingerprint(&plan, context.assets);
     Some(plan)
 }
 
 fn camera_plan(index: u32, setup: &CameraSetup, choices: &Choices, context: &mut Context<'_>) -> Option<CameraPlan> {
     let body = camera::body(&setup.camera, context)?;
-    let products = settings::products(&setup.output, &body, context);
+    let mut products = settings::products(&setup.output, &body, context);
     let depth_of_field = settings::depth_of_field(&setup.render, &body, context)?;
-    let settings = settings::settings(&setup.render, &body, &depth_of_field, &products, choices, context)?;
+    let delivered = (&setup.output, &mut products);
+    let settings = settings::settings(&setup.render, &body, &depth_of_field, delivered, choices, context)?;
     // A pose that was read has been checked.
     let pose = setup.pose.to_camera_pose()?;
     Some(CameraPlan { name: setup.name.value.clone(), index, pose, body, settings, depth_of_field, products })

@@ -1,6 +1,7 @@
 //! `[render]` and `[output]`: what is delivered, and how the light is found.
 
 use super::context::Context;
+use super::samples::{has_variance, samples};
 use super::{Choices, Quality};
 use crate::block::Blocks;
 use crate::defocus::{margin_px, whole_margin_px};
@@ -24,7 +25,6 @@ use etendue_tracer::integrator::Level;
 const VISIBLE_NM: (f64, f64) = (380.0, 780.0);
 const BAND_WIDTH_NM: f64 = 5.0;
 const TILE_PX: u64 = 32;
-const REPLICATES: u64 = 4;
 
 /// What a camera delivers: what it asks for, and what its sensor makes possible where it is silent.
 pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> Products {
@@ -52,11 +52,9 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
             DepthScale::PerMetre(number) => &number.place,
             DepthScale::Named(name) => &name.place,
         };
-        context.fault(
-            place,
-            "\"depth_png_scale\" has no effect without depth_png = true",
-            "add it, or remove the scale",
-        );
+        let problem = "\"depth_png_scale\" has no effect without depth_png = true";
+        let cause = output.depth_png.as_ref().map(|key| &key.place);
+        context.idle(("depth_png_scale", place), cause, problem, "add it, or remove the scale");
     }
     let products = Products {
         radiance: said(&output.radiance, !electronics),
@@ -100,7 +98,8 @@ fn undistorted(output: &Output, products: &Products, body: &CameraBody, context:
     let Some(key) = output.undistorted.as_ref().filter(|key| key.value) else {
         if let Some(scale) = scale {
             let problem = "\"undistorted_scale\" has no effect without undistorted = true";
-            context.fault(&scale.place, problem, "add it, or remove the scale");
+            let cause = output.undistorted.as_ref().map(|key| &key.place);
+            context.idle(("undistorted_scale", &scale.place), cause, problem, "add it, or remove the scale");
         }
         return None;
     };
@@ -123,7 +122,9 @@ fn raw_format(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> 
     let usual = RawFormat::usual(body.sensor.as_ref());
     let Some(key) = &output.raw_format else { return usual };
     if body.sensor.is_none() || output.raw.as_ref().is_some_and(|raw| !raw.value) {
-        context.fault(&key.place, "\"raw_format\" has no effect without raw", "ask for \"raw\", or remove it");
+        let cause = output.raw.as_ref().map(|raw| &raw.place);
+        let problem = "\"raw_format\" has no effect without raw";
+        context.idle(("raw_format", &key.place), cause, problem, "ask for \"raw\", or remove it");
     }
     let format = match key.value {
         output::RawFormat::Png => RawFormat::Png,
@@ -169,12 +170,12 @@ pub(super) fn settings(
     render: &Render,
     body: &CameraBody,
     depth_of_field: &DepthOfField,
-    products: &Products,
+    (output, products): (&Output, &mut Products),
     choices: &Choices,
     context: &mut Context<'_>,
 ) -> Option<Settings> {
-    let (spp, replicates) = samples(render, choices, context)?;
-    check_variance(products, replicates, render, context);
+    let (spp, replicates) = samples(render, choices, context);
+    products.variance &= has_variance(output, replicates, render, context);
     let route = route(render, body, depth_of_field, context)?;
     let (cube, folded) = accumulation(render, body, products, &route, context);
     let range_nm = range(render, body, cube);
@@ -241,36 +242,6 @@ fn blocks(level: Level, render: &Render, body: &CameraBody, folded: bool) -> Blo
     let filter = body.sensor.as_ref().filter(|_| folded).map(|sensor| &sensor.parameters().cfa);
     let stride = filter.map_or((1, 1), |cfa| (cfa.width() as u32, (cfa.channels().len() / cfa.width()) as u32));
     Blocks::new(side.value as u32, stride)
-}
-
-/// Samples a pixel and replicates; the replicates divide the samples.
-fn samples(render: &Render, choices: &Choices, context: &mut Context<'_>) -> Option<(u32, u32)> {
-    let by_quality = || choices.quality.unwrap_or(Quality::Standard).spp();
-    let by_job = || render.spp.as_ref().map(|s| s.value as u32);
-    let spp = choices.spp.or_else(by_job).unwrap_or_else(by_quality);
-    let Some(replicates) = &render.replicates else {
-        let most = [REPLICATES, 2, 1].into_iter().find(|r| u64::from(spp) % r == 0).unwrap_or(1);
-        if most == 1 {
-            context
-                .remark(format!("{spp} samples are one replicate, which knows no variance: an even number gives two"));
-        }
-        return Some((spp, most as u32));
-    };
-    if spp == 0 || u64::from(spp) % replicates.value != 0 {
-        let said = if choices.spp.is_some() { format!("--spp {spp}") } else { format!("{spp} samples") };
-        let problem = format!("{said} cannot be shared evenly among {} replicates", replicates.value);
-        context.fault(&replicates.place, problem, "give samples that are a multiple of the replicates");
-        return None;
-    }
-    Some((spp, replicates.value as u32))
-}
-
-fn check_variance(products: &Products, replicates: u32, render: &Render, context: &mut Context<'_>) {
-    if products.variance && replicates < 2 {
-        let place = render.replicates.as_ref().map_or(&render.place, |r| &r.place);
-        let remedy = "give \"replicates\" = 2 or more (16 for a golden image) and samples that are a multiple";
-        context.fault(place, "one replicate knows no variance, and variance is asked for", remedy);
-    }
 }
 
 /// The most that a film may take, bytes.

@@ -9,6 +9,7 @@
 //!
 //! `without = ["lights.sun", "environment"]` first takes entries out of the base. A base may have a base.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::ReadText;
@@ -107,17 +108,28 @@ fn merge(under: &mut Node, over: Node) {
                 None => base.entries.push(entry),
             });
         }
-        (Value::List(base), Value::List(list)) if named(base) && named(&list) => {
-            for entry in list {
-                match base.iter_mut().find(|e| e.name() == entry.name()) {
-                    Some(node) => *node = entry,
-                    None => base.push(entry),
-                }
-            }
-        }
+        (Value::List(base), Value::List(list)) if named(base) && named(&list) => merge_lists(base, list),
         (value, other) => {
             *value = other;
             under.place = over.place;
+        }
+    }
+}
+
+/// Puts entries in the place of those of the same name, and the others at the end.
+fn merge_lists(base: &mut Vec<Node>, list: Vec<Node>) {
+    let name_of = |node: &Node| node.name().unwrap_or_default().to_owned();
+    let mut places: BTreeMap<String, usize> = BTreeMap::new();
+    for (i, entry) in base.iter().enumerate() {
+        places.entry(name_of(entry)).or_insert(i);
+    }
+    for entry in list {
+        match places.get(&name_of(&entry)) {
+            Some(&at) => base[at] = entry,
+            None => {
+                places.insert(name_of(&entry), base.len());
+                base.push(entry);
+            }
         }
     }
 }

@@ -29,6 +29,8 @@ pub struct Description {
     pub scene: Scene,
     /// The cameras, one or more, names unique.
     pub cameras: Vec<CameraSetup>,
+    /// Which keys the command line makes meaningless, in sentences.
+    pub notices: Vec<String>,
 }
 
 /// A camera of a job.
@@ -72,7 +74,7 @@ impl Description {
         if cameras.len() == stated {
             check_levels(cameras.iter().map(|c| &c.render), faults);
         }
-        Some(Self { file: file.to_owned(), scene, cameras })
+        Some(Self { file: file.to_owned(), scene, cameras, notices: faults.notices() })
     }
 
     /// Every file that the description names and that is not text of its own, each once.

@@ -32,10 +32,13 @@ fn unique(list: Option<&Node>, faults: &mut Faults) {
 
 fn unique_numbers(scene: &Table, faults: &mut Faults) {
     let Some(classes) = scene.get("classes").and_then(Node::as_table) else { return };
-    for (i, entry) in classes.entries.iter().enumerate() {
-        let number = entry.node.describe();
-        if let Some(first) = classes.entries[..i].iter().find(|e| e.node.describe() == number) {
-            note_twice(&format!("the class number {number}"), &entry.node, &first.place, faults);
+    let mut seen = std::collections::BTreeMap::new();
+    for entry in &classes.entries {
+        match seen.get(&entry.node.describe()) {
+            None => drop(seen.insert(entry.node.describe(), &entry.place)),
+            Some(first) => {
+                note_twice(&format!("the class number {}", entry.node.describe()), &entry.node, first, faults);
+            }
         }
     }
 }

@@ -11,7 +11,7 @@ mod table;
 mod word;
 
 pub(crate) use macros::{choice, keyed, record, variants};
-pub(crate) use number::{Number, among, number, vector, whole};
+pub(crate) use number::{Number, among, number, percentile, vector, whole};
 pub(crate) use rule::{Kind, Rule, RuleExt, either, exactly, keyed_by_name, list, record};
 pub(crate) use table::{Form, Key, Reader, Record};
 pub(crate) use word::{Choice, Known, choice, file_name, flag, known, name_of, path, text, word};

@@ -86,6 +86,40 @@ impl Rule for Number {
     }
 }
 
+/// A percentile, above 1 and at most 100: a number up to 1 is a share to whoever writes it, and would mean something else
+/// without a word.
+pub(crate) const fn percentile() -> Percentile {
+    Percentile(Number { unit: "", low: Some(Bound { value: 1.0, included: false }), high: None }.at_most(100.0))
+}
+
+/// See [`percentile`].
+#[derive(Clone, Copy)]
+pub(crate) struct Percentile(Number);
+
+impl Rule for Percentile {
+    type Out = Placed<f64>;
+    fn takes(&self, kind: Kind) -> bool {
+        self.0.takes(kind)
+    }
+    fn expected(&self) -> String {
+        "a percentile above 1 and at most 100".to_owned()
+    }
+    fn schema(&self) -> Json {
+        self.0.schema()
+    }
+    fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<f64>> {
+        match as_f64(node).filter(|v| *v > 0.0 && *v <= 1.0) {
+            Some(share) => {
+                let percent = (share * 1e8).round() / 1e6;
+                let problem = format!("found {share}, which reads as a share; percentiles go from 0 to 100");
+                faults.add(&node.place, problem, format!("for that share give {percent}, else a percentile above 1"));
+                None
+            }
+            None => self.0.read(node, faults),
+        }
+    }
+}
+
 /// The number, where it is one that a double holds exactly.
 fn as_f64(node: &Node) -> Option<f64> {
     match node.value {

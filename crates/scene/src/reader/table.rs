@@ -270,19 +270,21 @@ impl<'t> Reader<'t> {
         }
         let forms = T::forms();
         for (entry, _) in self.table.entries.iter().zip(&self.taken).filter(|(_, taken)| !**taken) {
-            let (problem, remedy) = stray(&entry.key, &forms, self.table);
-            faults.add(&entry.place, problem, remedy);
+            let owners: Vec<_> = forms.iter().filter(|f| f.has(&entry.key)).filter_map(Form::mark).collect();
+            if owners.is_empty() {
+                let (problem, remedy) = stray(&entry.key, &forms, self.table);
+                faults.add(&entry.place, problem, remedy);
+                continue;
+            }
+            let problem = format!("\"{}\" has no effect here, it belongs to {}", entry.key, owners.join(" or "));
+            let told = owners.iter().filter_map(|mark| mark.split_once(" = ")).find_map(|(tag, _)| self.table.get(tag));
+            faults.add_idle((&entry.key, &entry.place), told.map(|node| &node.place), problem, "remove it");
         }
     }
 }
 
-/// What is wrong with a key that was not read, and what to do.
+/// What is wrong with a key that belongs to no form, and what to do.
 fn stray(key: &str, forms: &[Form], table: &Table) -> (String, String) {
-    let owners: Vec<_> = forms.iter().filter(|f| f.has(key)).filter_map(Form::mark).collect();
-    if !owners.is_empty() {
-        let problem = format!("\"{key}\" has no effect here, it belongs to {}", owners.join(" or "));
-        return (problem, "remove it".to_owned());
-    }
     let keys = keys_of(forms.iter().filter(|f| f.fits(table)));
     let remedy = match nearest(key, &keys) {
         Some(word) => format!("did you mean \"{word}\"?"),

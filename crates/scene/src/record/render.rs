@@ -4,6 +4,9 @@ use crate::fault::Faults;
 use crate::place::{Place, Placed};
 use crate::reader::{Rule, RuleExt as _, among, choice, either, flag, keyed, number, record, vector, whole};
 
+/// The largest seed: TOML holds no larger whole number.
+pub const LARGEST_SEED: u64 = i64::MAX.cast_unsigned();
+
 record! {
     /// How the light is found.
     pub struct Render check(check) {
@@ -38,7 +41,7 @@ record! {
         /// Side of a tile, px, 4 … 1 024. Default: 32.
         optional tile_px: Placed<u64> = whole(4, 1024);
         /// Seed of every random number, 0 … 2⁶³ − 1. Default: 0.
-        optional seed: Placed<u64> = whole(0, i64::MAX.cast_unsigned());
+        optional seed: Placed<u64> = whole(0, LARGEST_SEED);
         /// With route "pupil": margin on every side, as a share of the picture's width and height, 0 … 1. Default: 0.
         optional overscan: Placed<f64> = number("").at_least(0.0).at_most(1.0);
         /// With route "pupil": how things out of focus are blurred in the picture. Default: "physical".
@@ -228,7 +231,8 @@ pub(crate) fn check_levels<'r>(cameras: impl Iterator<Item = &'r Render> + Clone
         for (key, place) in render.of_paths() {
             if !cameras.clone().any(|r| traces(r) && r.states(place)) {
                 let problem = format!("\"{key}\" has no effect here, it belongs to level = \"path\"");
-                faults.add(place, problem, "remove it, or change the level");
+                let cause = render.level.as_ref().map(|level| &level.place);
+                faults.add_idle((key, place), cause, problem, "remove it, or change the level");
             }
         }
     }
@@ -250,7 +254,7 @@ pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
     for (key, place, remedy) in keys {
         if let Some(place) = place {
             let problem = format!("\"{key}\" has no effect here, it belongs to route = \"pupil\"");
-            faults.add(place, problem, remedy);
+            faults.add_idle((key, place), render.route.as_ref().map(|route| &route.place), problem, remedy);
         }
     }
 }

@@ -271,6 +271,51 @@ fn a_margin_without_its_route() {
     assert_eq!(faults_of_sets(&["cameras.front.render={overscan=0.1}", "render.route=pupil"]), "");
 }
 
+/// The notices of the job with `render` added under overrides.
+fn notices(render: &str, change: impl Fn(&mut Overrides)) -> Result<Vec<String>, String> {
+    let files = Files::of_job(&format!("{JOB}\n[render]\n{render}\n"));
+    let mut overrides = Overrides::default();
+    change(&mut overrides);
+    let description = etendue_scene::Description::load(Path::new("job.toml"), &|p| files.read(p), &overrides);
+    description.map(|d| d.notices).map_err(|f| f.to_string())
+}
+
+#[test]
+fn the_command_line_supersedes_what_it_makes_meaningless() {
+    let told = notices("max_bounces = 8\ncaustics = false", |o| o.push("render.level=direct"));
+    let expected = "--set render.level=direct supersedes \"max_bounces\" (job.toml:33), \"caustics\" (job.toml:34)";
+    assert_eq!(told, Ok(vec![expected.to_owned()]));
+    let told = notices("max_bounces = 8", |o| o.push_render("--integrator flat", "level", "\"flat\""));
+    assert_eq!(told, Ok(vec!["--integrator flat supersedes \"max_bounces\" (job.toml:33)".to_owned()]));
+    let told = notices("route = \"pupil\"\noverscan = 0.1", |o| o.push("render.route=lens"));
+    assert_eq!(told, Ok(vec!["--set render.route=lens supersedes \"overscan\" (job.toml:34)".to_owned()]));
+    let told = notices("", |o| o.push("cameras.front.lens.model=pinhole"));
+    assert_eq!(
+        told,
+        Ok(vec![
+            "--set cameras.front.lens.model=pinhole supersedes \"f_number\" (job.toml:11), \"focus_distance_m\" (job.toml:12)"
+                .to_owned()
+        ])
+    );
+    let told = notices("level = \"direct\"\nmax_bounces = 8", |_| {}).expect_err("the file contradicts itself");
+    assert!(told.starts_with("job.toml:34:1: render.max_bounces: \"max_bounces\" has no effect here"), "{told}");
+    let both = |o: &mut Overrides| ["render.level=direct", "render.max_bounces=8"].iter().for_each(|set| o.push(set));
+    let told = notices("", both).expect_err("the command line contradicts itself");
+    assert!(told.starts_with("--set render.max_bounces=8: \"max_bounces\" has no effect here"), "{told}");
+}
+
+#[test]
+fn a_flag_goes_through_the_check_of_its_key() {
+    let spp = |n: &'static str| notices("spp = 8", move |o| o.push_render(&format!("--spp {n}"), "spp", n));
+    assert_eq!(spp("16"), Ok(Vec::new()));
+    for n in ["0", "1048577", "2147483648"] {
+        assert_eq!(spp(n), Err(format!("--spp {n}: found {n}; give a whole number from 1 to 1048576")));
+    }
+    let seed = notices("", |o| o.push_render("--seed 18446744073709551615", "seed", "18446744073709551615"));
+    let told = seed.expect_err("larger than a key can hold");
+    assert!(told.starts_with("--seed 18446744073709551615: found an integer too large for 64 bits"), "{told}");
+}
+
 #[test]
 fn files_that_cannot_be_read() {
     let mut files = Files::of_example(&doc());

@@ -5,6 +5,7 @@ mod contradictions;
 mod example;
 mod faults;
 mod files;
+mod hostile;
 mod pages;
 mod reference;
 mod schema;

@@ -2,7 +2,7 @@
 
 use super::tone::{ToneCurve, tone_curve};
 use crate::place::{Place, Placed};
-use crate::reader::{RuleExt as _, choice, exactly, keyed, list, number, record, variants, vector};
+use crate::reader::{RuleExt as _, choice, exactly, keyed, list, number, percentile, record, variants, vector};
 
 variants! {
     /// A filter of the paper.
@@ -25,8 +25,8 @@ variants! {
 record! {
     /// Gain control and blooming.
     pub struct Glow {
-        /// Percentile of the picture's luminances that the gain looks at, above 0 and at most 100.
-        required percentile: Placed<f64> = number("").above(0.0).at_most(100.0);
+        /// Percentile of the picture's luminances that the gain looks at, above 1 and at most 100: 50 is the median.
+        required percentile: Placed<f64> = percentile();
         /// The luminance that this percentile gets, share of white, above 0.
         required target: Placed<f64> = number("").above(0.0);
         /// What exceeds this after the gain glows, share of white, 0 or more.

@@ -1,13 +1,14 @@
 //! What light meets before it is counted, and what sets its time.
 
 use crate::place::Placed;
-use crate::reader::{list, number, record, vector};
+use crate::reader::{list, number, percentile, record, vector};
 
 record! {
     /// Exposure and gain that follow the picture. Time is used before gain.
     pub struct AutoExposure {
-        /// Share of pixels that shall lie below the target, between 0 and 1.
-        required percentile: Placed<f64> = number("").above(0.0).at_most(1.0);
+        /// Percentile of the picture that shall reach the target, above 1 and below 100: 95 lets a twentieth of the pixels
+        /// lie above it.
+        required percentile: Placed<f64> = percentile();
         /// Where that share shall end, as a share of the range from black to white, between 0 and 1.
         required target: Placed<f64> = number("").above(0.0).at_most(1.0);
         /// Exponent of the correction from frame to frame, above 0 and at most 1. Default: 1.

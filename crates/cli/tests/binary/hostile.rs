@@ -1,0 +1,56 @@
+//! Files and arguments that would hang the program or fill the memory.
+
+use crate::bad_input::Spoilt;
+use crate::support::{etendue, text};
+use std::path::Path;
+use std::process::Command;
+
+fn pipe(path: &Path) -> String {
+    let _ = std::fs::remove_file(path);
+    assert!(Command::new("mkfifo").arg(path).status().expect("mkfifo").success());
+    text(path)
+}
+
+/// Reading any of them would wait for ever.
+#[test]
+fn pipes_in_the_place_of_files_are_refused() {
+    const PIPE: &str = "this is a pipe, not a file on a disk; save what it gives as a file and name that";
+    for name in ["tower.obj", "tower.mtl", "checker.png", "sky.hdr"] {
+        let spoilt = Spoilt::new();
+        pipe(&spoilt.folder().join(name));
+        spoilt.render(&[]).refused(&[name, PIPE]);
+    }
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let pipe = |name: &str| pipe(&place.path().join(name));
+    let out = text(&place.path().join("out"));
+    etendue(["plan", &pipe("job.toml")]).refused(&["job.toml", PIPE]);
+    for name in ["a.exr", "a.png", "a.obj", "a.ies", "a.csv", "a.json"] {
+        etendue(["inspect", &pipe(name)]).refused(&[name, PIPE]);
+    }
+    let camera = pipe("camera.toml");
+    etendue(["flat", &camera, "--photons", "100", "-o", &out]).refused(&["camera.toml", PIPE]);
+    etendue(["measure", "lens", &camera]).refused(&["camera.toml", PIPE]);
+    etendue(["measure", "lens", &pipe("lens.zmx")]).refused(&["lens.zmx", PIPE]);
+    etendue(["measure", "sfr", &pipe("edge.png")]).refused(&["edge.png", PIPE]);
+    etendue(["compare", &pipe("b.exr"), &pipe("c.exr")]).refused(&["b.exr", PIPE]);
+    etendue(["datasheet", &pipe("sheet.toml"), "-o", &out]).refused(&["sheet.toml", PIPE]);
+    etendue(["inspect", "/dev/zero"]).refused(&["/dev/zero", "this is a device"]);
+}
+
+#[test]
+fn numbers_that_keys_refuse_are_refused_as_arguments() {
+    let spoilt = Spoilt::new();
+    let said = |options: &[&str], phrases: &[&str]| drop(spoilt.render(options).refused(phrases));
+    said(&["--spp", "2147483648"], &["--spp 2147483648: found 2147483648; give a whole number from 1 to 1048576"]);
+    said(&["--spp", "0"], &["--spp 0: found 0; give a whole number from 1 to 1048576"]);
+    said(&["--seed", "18446744073709551615"], &["--seed 18446744073709551615", "from 0 to 9223372036854775807"]);
+    said(&["--threads", "100000"], &["'100000'", "a whole number from 1 to 1024"]);
+    said(&["--frames", "0..4294967295"], &["4294967295 frames; one run takes at most 100000"]);
+}
+
+#[test]
+fn a_key_of_twenty_thousand_parts_is_refused_in_a_line() {
+    let set = format!("{}=1", vec!["a"; 20_000].join("."));
+    let ran = Spoilt::new().render(&["--set", &set]).refused(&["--set a.a.a", "20000 parts"]);
+    assert!(ran.err.len() < 500, "{}", ran.err.len());
+}

@@ -1,0 +1,152 @@
+//! The mark of a run in its folder for results, by which leftovers of a killed run are told from files of a running one.
+//!
+//! A mark is the hidden file `.etendue.PID-N.part`. It is locked as long as its run lasts, however that ends, and lists
+//! the run's temporary files. A mark that can be locked was left behind: the next run in that folder removes what it
+//! lists, and it. Where a file system knows no locks, nothing of another run is touched.
+
+use std::fs::{self, File, TryLockError};
+use std::io::{self, ErrorKind, Read as _, Write as _};
+use std::path::{Component, Path, PathBuf};
+
+const HEAD: &str = ".etendue.";
+const TAIL: &str = ".part";
+
+/// The mark of a run; it goes when it is dropped.
+#[derive(Debug)]
+pub(crate) struct RunMark {
+    root: PathBuf,
+    path: PathBuf,
+    /// What tells the run's temporary files from those of others: `PID-N`.
+    run: String,
+    list: File,
+}
+
+impl RunMark {
+    /// Removes what killed runs left in `root`, and marks it.
+    pub(crate) fn set(root: &Path) -> io::Result<Self> {
+        remove_leftovers(root);
+        let process = std::process::id();
+        for serial in 0_u64.. {
+            let run = format!("{process}-{serial}");
+            let path = root.join(format!("{HEAD}{run}{TAIL}"));
+            // Processes of several machines or containers may have one number.
+            match File::options().write(true).create_new(true).open(&path) {
+                Ok(list) => {
+                    // Without a lock the run works; only its leftovers would not be known for such.
+                    let _ = list.try_lock();
+                    return Ok(Self { root: root.to_path_buf(), path, run, list });
+                }
+                Err(cause) if cause.kind() == ErrorKind::AlreadyExists => {}
+                Err(cause) => return Err(cause),
+            }
+        }
+        Err(ErrorKind::AlreadyExists.into())
+    }
+
+    /// The temporary name of a file of the run, which is `target` (inside the folder) in the end; the list has it.
+    pub(crate) fn temporary_of(&mut self, target: &Path) -> io::Result<PathBuf> {
+        let name = target.file_name().unwrap_or_default().to_string_lossy();
+        let temporary = target.with_file_name(format!(".{name}.{}{TAIL}", self.run));
+        if let Some(inside) = temporary.strip_prefix(&self.root).ok().and_then(Path::to_str) {
+            self.list.write_all(format!("{inside}\n").as_bytes())?;
+        }
+        Ok(temporary)
+    }
+}
+
+impl Drop for RunMark {
+    /// Failures are passed over: the next run tries again.
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+/// Removes what the marks of killed runs list. Failures are passed over: leftovers are in nobody's way.
+fn remove_leftovers(root: &Path) {
+    let folder = if root.as_os_str().is_empty() { Path::new(".") } else { root };
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let run = name.to_str().and_then(|name| name.strip_prefix(HEAD)?.strip_suffix(TAIL));
+        if let Some(run) = run {
+            let _ = remove_run(root, &entry.path(), run);
+        }
+    }
+}
+
+fn remove_run(root: &Path, mark: &Path, run: &str) -> io::Result<()> {
+    let mut list = File::options().read(true).write(true).open(mark)?;
+    list.try_lock().map_err(|cause| match cause {
+        TryLockError::Error(cause) => cause,
+        TryLockError::WouldBlock => ErrorKind::WouldBlock.into(),
+    })?;
+    let mut names = String::new();
+    list.read_to_string(&mut names)?;
+    for name in names.lines().filter(|name| is_temporary(Path::new(name), run)) {
+        let _ = fs::remove_file(root.join(name));
+    }
+    drop(list);
+    fs::remove_file(mark)
+}
+
+/// Whether a name from a list is one that this program gives: whatever else it holds is left alone.
+fn is_temporary(name: &Path, run: &str) -> bool {
+    let inside = name.components().all(|part| matches!(part, Component::Normal(_)));
+    let file = name.file_name().and_then(|file| file.to_str()).unwrap_or_default();
+    inside && file.starts_with('.') && file.ends_with(&format!(".{run}{TAIL}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn listing(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).expect("folder").map(|e| e.expect("entry").file_name());
+        let mut names: Vec<String> = entries.map(|name| name.to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    /// What a run leaves that is killed: its lock is gone, its files are there.
+    fn killed(root: &Path, target: &Path) {
+        let mut mark = RunMark::set(root).expect("a mark");
+        fs::write(mark.temporary_of(target).expect("a name"), b"half").expect("write");
+        mark.list.unlock().expect("locks are known here");
+        std::mem::forget(mark);
+    }
+
+    #[test]
+    fn what_a_killed_run_left_goes_with_the_next() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        fs::create_dir(place.path().join("deep")).expect("folder");
+        killed(place.path(), &place.path().join("deep/x.exr"));
+        assert_eq!(listing(&place.path().join("deep")).len(), 1);
+        let mark = RunMark::set(place.path()).expect("a mark");
+        assert_eq!(listing(&place.path().join("deep")), Vec::<String>::new());
+        drop(mark);
+        assert_eq!(listing(place.path()), ["deep"]);
+    }
+
+    #[test]
+    fn files_of_a_running_process_are_left_alone() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let mut running = RunMark::set(place.path()).expect("a mark");
+        let temporary = running.temporary_of(&place.path().join("x.exr")).expect("a name");
+        fs::write(&temporary, b"half").expect("write");
+        drop(RunMark::set(place.path()).expect("another mark"));
+        assert!(temporary.exists() && running.path.exists());
+    }
+
+    #[test]
+    fn a_list_names_nothing_but_temporaries_of_its_run() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let root = place.path().join("out");
+        fs::create_dir(&root).expect("folder");
+        let strange = ["../kept.1-0.part", "kept", ".kept.2-0.part", "/etc/passwd"];
+        fs::write(place.path().join("kept.1-0.part"), b"").expect("write");
+        ["kept", ".kept.2-0.part"].iter().for_each(|name| fs::write(root.join(name), b"").expect("write"));
+        fs::write(root.join(".etendue.1-0.part"), strange.join("\n")).expect("write");
+        drop(RunMark::set(&root).expect("a mark"));
+        assert_eq!(listing(&root), [".kept.2-0.part", "kept"]);
+        assert!(place.path().join("kept.1-0.part").exists());
+    }
+}

@@ -1,0 +1,74 @@
+//! Descriptions that would take a program down: long lines, deep keys.
+
+use crate::files::{Files, load};
+
+const JOB: &str = r#"format = 1
+
+[[cameras]]
+name = "front"
+position_m = [0, 0, 1]
+look_at_m = [10, 0, 1]
+
+[cameras.lens]
+model = "thin"
+focal_length_mm = 6
+f_number = 2.0
+focus_distance_m = 5.0
+
+[cameras.sensor]
+width_px = 64
+height_px = 48
+pixel_pitch_um = 6.0
+
+[[scene.materials]]
+name = "grey"
+type = "diffuse"
+reflectance = 0.18
+
+[scene]
+"#;
+
+/// Objects of a list on one line.
+fn objects(count: usize) -> String {
+    let object = |i: usize| {
+        format!("{{name=\"o{i}\",shape={{type=\"quad\",size_m=[1,1]}},material=\"grey\",position_m=[5,0,{i}]}}")
+    };
+    (0..count).map(object).collect::<Vec<_>>().join(",")
+}
+
+/// With the columns counted from the head of the line, this many took minutes.
+#[test]
+fn a_hundred_thousand_objects_on_one_line() {
+    let files = Files::of_job(&format!("{JOB}objects=[{}]\n", objects(100_000)));
+    let description = load(&files, &[]).expect("a right job");
+    assert_eq!(description.scene.objects.len(), 100_000);
+    let mut files = files;
+    files.edit("job.toml", "[5,0,99999]", "[5,0,\"x\"]");
+    let column = files.text("job.toml").lines().last().expect("the list").find("\"x\"").expect("the fault") + 1;
+    let told = load(&files, &[]).expect_err("a text for a number").to_string();
+    assert!(told.starts_with(&format!("job.toml:25:{column}: scene.objects.o99999.position_m")), "{told}");
+}
+
+#[test]
+fn a_base_of_many_objects_under_as_many() {
+    let list = objects(30_000);
+    let mut files = Files::of_job(
+        &JOB.replace("[scene]\n", "")
+            .replace("[[scene.materials]]\nname = \"grey\"\ntype = \"diffuse\"\nreflectance = 0.18\n", "")
+            .replace("format = 1\n", "format = 1\nscene = \"over.toml\"\n"),
+    );
+    let materials = "materials=[{name=\"grey\",type=\"diffuse\",reflectance=0.18}]";
+    files.put("over.toml", &format!("format=1\nbase=\"under.toml\"\nobjects=[{list}]\n"));
+    files.put("under.toml", &format!("format=1\n{materials}\nobjects=[{list}]\n"));
+    assert_eq!(load(&files, &[]).expect("a right job").scene.objects.len(), 30_000);
+}
+
+/// A table within a table for each part overflowed the stack.
+#[test]
+fn a_key_of_twenty_thousand_parts() {
+    let set = format!("{}=1", vec!["a"; 20_000].join("."));
+    let told = load(&Files::of_job(&format!("{JOB}objects=[]\n")), &[&set]).expect_err("too deep").to_string();
+    assert!(told.starts_with("--set a.a.a.a."), "{told}");
+    let end = "…: this key has 20000 parts, and no description is deeper than 80; correct the key: render.spp=16";
+    assert!(told.ends_with(end) && told.len() < 400, "{told}");
+}
