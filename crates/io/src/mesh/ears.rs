@@ -42,8 +42,9 @@ struct Outline<'p> {
     after: Vec<usize>,
     tree: CornerTree<'p>,
     is_left: Vec<bool>,
-    /// Corners that can be cut off.
-    ears: BTreeSet<usize>,
+    /// Corners that can be cut off, before all others those between two that coincide: what is left of an outline that
+    /// touches itself has nothing inside there.
+    ears: BTreeSet<(bool, usize)>,
     /// For each corner, those that cannot be cut off for it.
     waiting: Vec<Waiting>,
     /// For each corner that coincides with others, those and it.
@@ -75,7 +76,7 @@ fn twins(flat: &[Point]) -> BTreeMap<usize, Rc<[usize]>> {
 impl Outline<'_> {
     /// Cuts the first ear off.
     fn clip(&mut self) -> Option<[usize; 3]> {
-        let tip = self.ears.pop_first()?;
+        let (_, tip) = self.ears.pop_first()?;
         let (before, after) = (self.before[tip], self.after[tip]);
         self.is_left[tip] = false;
         self.tree.remove(tip);
@@ -91,7 +92,8 @@ impl Outline<'_> {
     /// triangle. A straight corner gives a triangle of no area and leaves the outline unchanged.
     fn look_at(&mut self, tip: usize) {
         let corners @ [before, _, after] = [self.before[tip], tip, self.after[tip]];
-        self.ears.remove(&tip);
+        self.ears.remove(&(false, tip));
+        self.ears.remove(&(true, tip));
         if !self.is_left[tip] || turn(self.flat[before], self.flat[tip], self.flat[after]) < 0.0 {
             return;
         }
@@ -100,7 +102,7 @@ impl Outline<'_> {
         } else if let Some(twin) = self.leads_inside(corners) {
             self.waiting[twin].edges.push(tip);
         } else {
-            self.ears.insert(tip);
+            self.ears.insert((self.flat[before] != self.flat[after], tip));
         }
     }
 

@@ -208,7 +208,9 @@ mod tests {
                 };
                 turn(a, b, c) >= 0.0 && !left.iter().any(|&i| blocks(flat[i])) && !(0..n).any(leads_inside)
             };
-            let ear = (0..n).find(is_ear)?;
+            let is_between_equals = |i: &usize| flat[corner(*i)[0]] == flat[corner(*i)[2]];
+            let ears: Vec<usize> = (0..n).filter(is_ear).collect();
+            let ear = ears.iter().copied().find(is_between_equals).or(ears.first().copied())?;
             triangles.push(corner(ear));
             left.remove(ear);
         }

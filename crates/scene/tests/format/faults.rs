@@ -283,12 +283,12 @@ fn notices(render: &str, change: impl Fn(&mut Overrides)) -> Result<Vec<String>,
 #[test]
 fn the_command_line_supersedes_what_it_makes_meaningless() {
     let told = notices("max_bounces = 8\ncaustics = false", |o| o.push("render.level=direct"));
-    let expected = "--set render.level=direct supersedes \"max_bounces\" (job.toml:33), \"caustics\" (job.toml:34)";
+    let expected = "--set render.level=direct supersedes \"max_bounces\" (job.toml:31), \"caustics\" (job.toml:32)";
     assert_eq!(told, Ok(vec![expected.to_owned()]));
     let told = notices("max_bounces = 8", |o| o.push_render("--integrator flat", "level", "\"flat\""));
-    assert_eq!(told, Ok(vec!["--integrator flat supersedes \"max_bounces\" (job.toml:33)".to_owned()]));
+    assert_eq!(told, Ok(vec!["--integrator flat supersedes \"max_bounces\" (job.toml:31)".to_owned()]));
     let told = notices("route = \"pupil\"\noverscan = 0.1", |o| o.push("render.route=lens"));
-    assert_eq!(told, Ok(vec!["--set render.route=lens supersedes \"overscan\" (job.toml:34)".to_owned()]));
+    assert_eq!(told, Ok(vec!["--set render.route=lens supersedes \"overscan\" (job.toml:32)".to_owned()]));
     let told = notices("", |o| o.push("cameras.front.lens.model=pinhole"));
     assert_eq!(
         told,
@@ -298,7 +298,7 @@ fn the_command_line_supersedes_what_it_makes_meaningless() {
         ])
     );
     let told = notices("level = \"direct\"\nmax_bounces = 8", |_| {}).expect_err("the file contradicts itself");
-    assert!(told.starts_with("job.toml:34:1: render.max_bounces: \"max_bounces\" has no effect here"), "{told}");
+    assert!(told.starts_with("job.toml:32:1: render.max_bounces: \"max_bounces\" has no effect here"), "{told}");
     let both = |o: &mut Overrides| ["render.level=direct", "render.max_bounces=8"].iter().for_each(|set| o.push(set));
     let told = notices("", both).expect_err("the command line contradicts itself");
     assert!(told.starts_with("--set render.max_bounces=8: \"max_bounces\" has no effect here"), "{told}");

@@ -6,15 +6,20 @@
 //! functions are up to 32R², sum to twice the area seen, 16R² at most, and their sum with the depths is up to 32R³. At
 //! R = 1e12 that is 3.2e37, a tenth of the greatest f32. Meshes are held to the same R when they are made.
 //!
-//! Spheres are met in f64 and have no such bound.
+//! The start of a ray is rounded to f32 in the mesh's frame. Where that moves the camera by half its distance from the
+//! box that holds the mesh, rays start behind surfaces that stand before it: such a mesh is refused too. Seen from
+//! inside its box nothing can be told.
+//!
+//! Spheres are met in f64, and held to the same R in metres, where half a unit in the last place is 0.06 mm: beyond, the
+//! distance of a surface near the camera would be lost.
 
 use super::World;
 use super::world::WorldError;
-use crate::geometry::Shape;
+use crate::geometry::{Instance, Mesh, Shape};
 use crate::view::Placed;
 use glam::DVec3;
 
-/// R, in units of the mesh's frame.
+/// R, in units of the mesh's frame; m for spheres.
 const FARTHEST: f64 = 1e12;
 
 /// Whether every mesh can be met from the camera at `origin_m` and from every surface.
@@ -25,11 +30,34 @@ pub(super) fn check(world: &World, origin_m: DVec3) -> Result<(), WorldError> {
     // Rays start at the camera, which is the origin, or on a surface.
     let (low, high) = bounds.fold((DVec3::ZERO, DVec3::ZERO), |(low, high), b| (low.min(b.0), high.max(b.1)));
     for (instance, placed) in placed.iter().enumerate() {
-        let reach = placed.greatest_local(low, high);
-        let is_near = (0.0..=FARTHEST).contains(&reach);
-        if matches!(instances[instance].shape, Shape::Mesh(_)) && !is_near {
-            return Err(WorldError::Reach { instance, reach });
+        match instances[instance].shape {
+            Shape::Mesh(id) => {
+                let reach = placed.greatest_local(low, high);
+                if !(0.0..=FARTHEST).contains(&reach) {
+                    return Err(WorldError::Reach { instance, reach });
+                }
+                check_rounding(instance, placed, world.mesh(id))?;
+            }
+            Shape::Sphere { .. } => check_sphere(instance, placed, &instances[instance], world)?,
         }
     }
     Ok(())
+}
+
+/// Whether the camera's place in the frame of a mesh stays before the box that holds the mesh when it is rounded to f32.
+fn check_rounding(instance: usize, placed: &Placed, mesh: &Mesh) -> Result<(), WorldError> {
+    let Some((low, high)) = mesh.bounds() else { return Ok(()) };
+    let (camera, _) = placed.line_to_local(DVec3::ZERO, DVec3::X);
+    let away = (low.as_dvec3() - camera).max(camera - high.as_dvec3());
+    let moved = (camera.as_vec3().as_dvec3() - camera).abs();
+    let outside: Vec<usize> = (0..3).filter(|&axis| away[axis] > 0.0).collect();
+    if !outside.is_empty() && outside.iter().all(|&axis| moved[axis] > 0.5 * away[axis]) {
+        return Err(WorldError::Rounding { instance, away: away.max_element(), moved: moved.max_element() });
+    }
+    Ok(())
+}
+
+fn check_sphere(index: usize, placed: &Placed, instance: &Instance, world: &World) -> Result<(), WorldError> {
+    let reach = placed.bounds(instance, world).map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
+    if (0.0..=FARTHEST).contains(&reach) { Ok(()) } else { Err(WorldError::Sphere { instance: index, reach_m: reach }) }
 }

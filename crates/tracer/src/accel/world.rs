@@ -54,6 +54,30 @@ pub enum WorldError {
         /// Greatest coordinate of a ray's start in the mesh's frame, in its units.
         reach: f64,
     },
+    /// A mesh is so large that the camera before it is rounded into it.
+    #[error(
+        "the camera is {away:.3} units before the box of instance {instance} and moves by {moved:.3} units when it is rounded \
+         to the 32 bits of the mesh's frame; make the mesh smaller, cut it, or put its origin near the camera"
+    )]
+    Rounding {
+        /// The instance, counted from 0.
+        instance: usize,
+        /// Distance from the box that holds the mesh, along the axis where it is greatest, in units of the mesh's frame.
+        away: f64,
+        /// What rounding moves the camera by, likewise.
+        moved: f64,
+    },
+    /// A sphere reaches farther than distances can be told.
+    #[error(
+        "instance {instance} is a sphere that reaches {reach_m:e} m from the camera, but at most 1e12 m can be traced; bring \
+         it nearer or make it smaller"
+    )]
+    Sphere {
+        /// The instance, counted from 0.
+        instance: usize,
+        /// Greatest coordinate of the sphere relative to the camera, m.
+        reach_m: f64,
+    },
     /// A sphere's radius is not a positive number.
     #[error("instance {instance} is a sphere of radius {radius_m} m; a radius must be positive and finite")]
     Radius {

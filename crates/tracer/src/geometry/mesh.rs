@@ -23,6 +23,9 @@ pub struct Mesh {
     triangles: Vec<[u32; 3]>,
     slots: Vec<u16>,
     facets: Vec<Facet>,
+    /// Told for every instance, so found once.
+    bounds: Option<(Vec3, Vec3)>,
+    slot_count: usize,
 }
 
 /// How many triangles were left out of a mesh, and why.
@@ -48,9 +51,11 @@ impl Mesh {
         check_vertices(&positions, &uvs)?;
         check_indices(positions.len(), &triangles)?;
         let slots = if slots.is_empty() { vec![0; triangles.len()] } else { slots };
-        let mut mesh = Self { positions, normals, uvs, triangles, slots, facets: vec![] };
+        let mut mesh = Self { positions, normals, uvs, triangles, slots, facets: vec![], bounds: None, slot_count: 0 };
         let dropped = mesh.drop_unusable();
         mesh.facets = facets(&mesh);
+        mesh.bounds = mesh.find_bounds();
+        mesh.slot_count = mesh.slots.iter().max().map_or(0, |s| usize::from(*s) + 1);
         Ok((mesh, dropped))
     }
 
@@ -98,12 +103,16 @@ impl Mesh {
     /// Number of material slots in use: the highest one and those below it.
     #[must_use]
     pub fn slot_count(&self) -> usize {
-        self.slots.iter().max().map_or(0, |s| usize::from(*s) + 1)
+        self.slot_count
     }
 
     /// Least and greatest coordinates of the triangles; `None` without triangles.
     #[must_use]
     pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        self.bounds
+    }
+
+    fn find_bounds(&self) -> Option<(Vec3, Vec3)> {
         let corners = self.triangles.iter().flatten().map(|v| self.positions[*v as usize]);
         corners.map(|p| (p, p)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }

@@ -147,6 +147,62 @@ fn rays_that_would_overflow_are_refused_and_all_others_meet() {
     assert!(here.check_reach(DVec3::X * 20.0).is_err(), "the camera is too far away");
 }
 
+/// At a box of 2e8 m, the camera 1.7 m above it was taken to be in it, and saw its bottom.
+#[test]
+fn a_mesh_into_which_the_camera_would_be_rounded_is_refused() {
+    let down = Ray::new(Vec3::ZERO, Vec3::NEG_Z, 0.0);
+    let (camera, top) = (DVec3::Z * 1.7, DVec3::ZERO);
+    for half in [1e3_f32, 1e6, 1e7] {
+        // A corner below and a face above make the box.
+        let corners = vec![
+            Vec3::splat(-half),
+            Vec3::new(half, 0.0, half),
+            Vec3::new(-half, half, half),
+            Vec3::new(-half, -half, half),
+        ];
+        let triangles = vec![[1, 2, 3], [0, 1, 2]];
+        let world = world_of(mesh(corners, triangles), DAffine3::from_translation(top - DVec3::Z * f64::from(half)));
+        assert_eq!(world.check_reach(camera), Ok(()));
+        let t = world.view(camera).closest(&down).map(|hit| hit.t);
+        assert!(t.is_some_and(|t| (t - 1.7).abs() < 0.9), "{half}: {t:?}");
+    }
+    let corners =
+        vec![Vec3::splat(-1e8), Vec3::new(1e8, 0.0, 1e8), Vec3::new(-1e8, 1e8, 1e8), Vec3::new(-1e8, -1e8, 1e8)];
+    let world = world_of(mesh(corners, vec![[1, 2, 3], [0, 1, 2]]), DAffine3::from_translation(DVec3::NEG_Z * 1e8));
+    assert!(matches!(world.check_reach(camera), Err(WorldError::Rounding { instance: 0, .. })));
+    assert_eq!(world.check_reach(DVec3::Z * 100.0), Ok(()), "from farther away it is right");
+    let ground =
+        mesh(vec![Vec3::new(-1e9, -1e9, 0.0), Vec3::new(1e9, -1e9, 0.0), Vec3::new(0.0, 1e9, 0.0)], vec![[0, 1, 2]]);
+    assert_eq!(
+        world_of(ground, DAffine3::IDENTITY).check_reach(DVec3::new(5e8, 0.0, 1.7)),
+        Ok(()),
+        "level ground is met at its height"
+    );
+}
+
+#[test]
+fn spheres_are_held_to_where_distances_are_right() {
+    let planet = |radius_m: f64| {
+        let mut builder = WorldBuilder::new();
+        let placement = DAffine3::from_translation(DVec3::NEG_Z * radius_m);
+        builder.add_instance(instance(Shape::Sphere { radius_m }, placement));
+        builder.build().expect("legal")
+    };
+    let camera = DVec3::Z * 1.7;
+    for radius_m in [1.0, 6.4e6, 1e9, 4e11] {
+        let world = planet(radius_m);
+        assert_eq!(world.check_reach(camera), Ok(()));
+        let t = world.view(camera).closest(&Ray::new(Vec3::ZERO, Vec3::NEG_Z, 0.0)).map(|hit| hit.t);
+        assert!(t.is_some_and(|t| (t - 1.7).abs() < 2e-4), "{radius_m}: {t:?}");
+    }
+    for radius_m in [1e12, 1e18, 1e300] {
+        assert!(
+            matches!(planet(radius_m).check_reach(camera), Err(WorldError::Sphere { instance: 0, .. })),
+            "{radius_m}"
+        );
+    }
+}
+
 #[test]
 fn rays_that_start_on_another_surface_are_within_reach_too() {
     let mut builder = WorldBuilder::new();
