@@ -5,7 +5,7 @@ use std::path::Path;
 
 use etendue_io::picture::read_picture;
 use etendue_io::{load_assets, mesh};
-use etendue_scene::asset::{AssetKind, AssetRequest, ImagePixels};
+use etendue_scene::asset::{AssetKind, AssetRequest, Covered, ImagePixels};
 use etendue_scene::{Description, Overrides};
 
 const JOB: &str = r#"format = 1
@@ -91,6 +91,7 @@ fn lamps_and_tables_are_read_by_their_kind() {
         path: folder.join(name),
         kind,
         place: description(folder).assets()[0].place.clone(),
+        covered: Covered::All,
     });
     let assets = load_assets(&requests).unwrap_or_else(|e| panic!("{e:?}"));
     assert_eq!(assets.photometry[&folder.join("l.ies")].candela, [9.0, 8.0, 9.0, 8.0]);

@@ -60,7 +60,7 @@ struct Superseded {
 }
 
 /// What can be called by name from elsewhere in a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Named {
     Mesh,
     Texture,

@@ -27,7 +27,7 @@ mod schema;
 mod suggest;
 
 pub use fault::{Fault, Faults, stated};
-pub use load::{CameraSetup, Description, ReadText, load_camera, load_datasheet};
+pub use load::{CameraSetup, Description, ReadText, Unused, load_camera, load_datasheet};
 pub use overrides::Overrides;
 pub use place::{Place, Placed};
 pub use schema::{FileKind, schema};

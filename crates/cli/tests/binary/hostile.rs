@@ -37,6 +37,23 @@ fn pipes_in_the_place_of_files_are_refused() {
     etendue(["inspect", "/dev/zero"]).refused(&["/dev/zero", "this is a device"]);
 }
 
+/// What nothing uses is not read, and need not be there.
+#[test]
+fn unused_files_need_not_exist() {
+    let spoilt = Spoilt::new();
+    let mesh = "meshes = [{ name = \"spare\", file = \"no.obj\" }, ";
+    spoilt.spoil("small.toml", "meshes = [", mesh);
+    spoilt.spoil("small.toml", "textures = [", "textures = [{ name = \"big\", file = \"no.png\", encoding = \"srgb\" }, ");
+    let material = "[[scene.materials]]\nname = \"rest\"\ntype = \"diffuse\"\nreflectance = { spectrum = \"no.csv\" }\n\n";
+    spoilt.spoil("small.toml", "[[scene.materials]]\n", &format!("{material}[[scene.materials]]\n"));
+    let plan = etendue(["plan", &spoilt.job()]).ok().out;
+    for told in ["meshes that no object shows (spare)", "materials that no object has (rest)", "textures that nothing shown has (big)"] {
+        assert!(plan.contains(told), "{plan}");
+    }
+    spoilt.spoil("small.toml", "texture = \"checker\"", "texture = \"big\"");
+    etendue(["plan", &spoilt.job()]).refused(&["no.png", "no such picture file"]);
+}
+
 #[test]
 fn numbers_that_keys_refuse_are_refused_as_arguments() {
     let spoilt = Spoilt::new();

@@ -100,12 +100,14 @@ pub fn compile_camera(camera: &Camera, assets: &Assets) -> Result<CameraBody, Ve
 
 fn planned(description: &Description, choices: &Choices, context: &mut Context<'_>) -> Option<Plan> {
     let scene = &description.scene;
-    let mut builder = PaletteBuilder::of_scene(scene, context);
+    let unused = &description.unused;
+    unused.remarks().into_iter().for_each(|remark| context.remark(remark));
+    let mut builder = PaletteBuilder::of_scene(scene, unused, context);
     let (sources, sky) = light::sources(scene, context);
     let setups = description.cameras.iter().enumerate();
     let cameras: Vec<_> =
         setups.filter_map(|(index, setup)| camera_plan(index as u32, setup, choices, context)).collect();
-    let (world, identities) = world::world(scene, &mut builder, context)?;
+    let (world, identities) = world::world(scene, unused, &mut builder, context)?;
     for setup in &description.cameras {
         let position = &setup.pose.position_m;
         context.accept(&position.place, world.check_reach(DVec3::from_array(position.value)));

@@ -5,6 +5,7 @@ use super::material::PaletteBuilder;
 use super::shape;
 use crate::plan::Identity;
 use etendue_core::Track;
+use etendue_scene::Unused;
 use etendue_scene::asset::MeshAsset;
 use etendue_scene::record::shape::Shape as ShapeRecord;
 use etendue_scene::record::{self, Body, Object, Scene};
@@ -17,11 +18,12 @@ use std::collections::BTreeMap;
 /// The world and the identities that its ground truth names, in the order of the instance ids from 1.
 pub(super) fn world(
     scene: &Scene,
+    unused: &Unused,
     palette: &mut PaletteBuilder,
     context: &mut Context<'_>,
 ) -> Option<(World, Vec<Identity>)> {
     let mut assembly = Assembly { builder: WorldBuilder::new(), meshes: BTreeMap::new(), identities: Vec::new() };
-    for mesh in &scene.meshes {
+    for mesh in scene.meshes.iter().filter(|mesh| !unused.meshes.contains(&mesh.name.value)) {
         assembly.add_mesh(mesh, context);
     }
     for object in &scene.objects {

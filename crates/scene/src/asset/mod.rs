@@ -15,6 +15,6 @@ pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurfac
 pub use photometry::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
 pub use prescription::{GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 pub(crate) use request::requests;
-pub use request::{AssetKind, AssetRequest, Values, of_camera};
+pub use request::{AssetKind, AssetRequest, Covered, Values, of_camera};
 pub use store::Assets;
 pub use table::{ComplexIndexAsset, NumbersAsset, RetroTableAsset};

@@ -1,5 +1,6 @@
 //! Which files a description names.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use super::CalibrationChoice;
@@ -12,7 +13,7 @@ use crate::record::light::{Emission, Level, LightColour};
 use crate::record::material::{Absorption, Interface, LobeStrength, Metal, Sheeting, SheetingTable};
 use crate::record::reflectance::{Colour, Reflectance};
 use crate::record::sensor::QuantumEfficiency;
-use crate::record::{Camera, Curve, Environment, Front, Lens, Light, Material, Processing, Surface};
+use crate::record::{Body, Camera, Curve, Environment, Front, Lens, Light, Material, Object, Processing, Scene, Surface};
 
 /// A file to be read, and where it is named.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,6 +24,46 @@ pub struct AssetRequest {
     pub kind: AssetKind,
     /// Where it is named.
     pub place: Place,
+    /// Of a mesh: which of its own materials nobody sees.
+    pub covered: Covered,
+}
+
+/// Materials that a mesh's file gives its slots and that nobody sees, because the scene gives those slots others.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Covered {
+    /// All of them.
+    All,
+    /// Those of these names.
+    Slots(BTreeSet<String>),
+}
+
+impl Covered {
+    const NONE: Self = Self::Slots(BTreeSet::new());
+
+    /// Whether the material of a slot is covered.
+    #[must_use]
+    pub fn has(&self, slot: &str) -> bool {
+        match self {
+            Self::All => true,
+            Self::Slots(slots) => slots.contains(slot),
+        }
+    }
+
+    /// What one object covers.
+    fn by(object: &Object) -> Self {
+        match &object.material {
+            Some(_) => Self::All,
+            None => Self::Slots(object.materials.iter().map(|(slot, _)| slot.value.clone()).collect()),
+        }
+    }
+
+    /// What both cover.
+    fn and(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::All, covered) | (covered, Self::All) => covered,
+            (Self::Slots(a), Self::Slots(b)) => Self::Slots(a.intersection(&b).cloned().collect()),
+        }
+    }
 }
 
 /// What a file is read as.
@@ -85,13 +126,31 @@ impl Values {
 pub(crate) fn requests(description: &Description) -> Vec<AssetRequest> {
     let mut list = List::default();
     let scene = &description.scene;
-    scene.meshes.iter().for_each(|m| list.add(AssetKind::Mesh, &m.file));
-    scene.textures.iter().for_each(|t| list.add(AssetKind::Image, &t.file));
-    scene.materials.iter().for_each(|m| list.material(m));
+    let unused = &description.unused;
+    let covered = covered(scene);
+    for mesh in scene.meshes.iter().filter(|m| !unused.meshes.contains(&m.name.value)) {
+        let covered = covered.get(mesh.name.as_str()).cloned().unwrap_or(Covered::All);
+        list.mesh(&mesh.file, covered);
+    }
+    let textures = scene.textures.iter().filter(|t| !unused.textures.contains(&t.name.value));
+    textures.for_each(|t| list.add(AssetKind::Image, &t.file));
+    scene.materials.iter().filter(|m| !unused.materials.contains(&m.name.value)).for_each(|m| list.material(m));
     scene.lights.iter().for_each(|l| list.light(l));
     scene.environment.iter().for_each(|e| list.environment(e));
     description.cameras.iter().for_each(|c| list.camera(&c.camera));
     list.0
+}
+
+/// What all objects of a mesh cover of its own materials, by the mesh's name.
+fn covered(scene: &Scene) -> BTreeMap<&str, Covered> {
+    let mut covered: BTreeMap<&str, Covered> = BTreeMap::new();
+    for object in &scene.objects {
+        if let Body::Mesh(name) = &object.body {
+            let before = covered.remove(name.as_str()).unwrap_or(Covered::All);
+            covered.insert(name, before.and(Covered::by(object)));
+        }
+    }
+    covered
 }
 
 /// Every file that a camera names, each once.
@@ -108,8 +167,20 @@ struct List(Vec<AssetRequest>);
 impl List {
     fn add(&mut self, kind: AssetKind, path: &Placed<PathBuf>) {
         if !self.0.iter().any(|r| r.kind == kind && r.path == path.value) {
-            self.0.push(AssetRequest { path: path.value.clone(), kind, place: path.place.clone() });
+            let (path, place) = (path.value.clone(), path.place.clone());
+            self.0.push(AssetRequest { path, kind, place, covered: Covered::NONE });
         }
+    }
+
+    /// A mesh; of a file that several meshes name, what all cover.
+    fn mesh(&mut self, path: &Placed<PathBuf>, covered: Covered) {
+        let known = self.0.iter_mut().find(|r| r.kind == AssetKind::Mesh && r.path == path.value);
+        if let Some(known) = known {
+            known.covered = std::mem::replace(&mut known.covered, Covered::All).and(covered);
+            return;
+        }
+        let (path, place) = (path.value.clone(), path.place.clone());
+        self.0.push(AssetRequest { path, kind: AssetKind::Mesh, place, covered });
     }
 
     fn material(&mut self, material: &Material) {
@@ -263,7 +334,7 @@ impl List {
         front.dirt.iter().for_each(|dirt| self.add(AssetKind::Image, &dirt.mask));
         if let Some(mirror) = &front.mirror {
             if let MirrorShape::Mesh(mesh) = &mirror.shape {
-                self.add(AssetKind::Mesh, &mesh.file);
+                self.mesh(&mesh.file, Covered::All);
             }
             match &mirror.finish {
                 Finish::Share(colour) => self.share(colour),

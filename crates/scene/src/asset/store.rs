@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::mtl::SlotReflectance;
+use super::mtl::{SlotMaterial, SlotReflectance};
 use super::{
-    AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, ImageAsset, MeshAsset,
+    AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, Covered, ImageAsset, MeshAsset,
     NumbersAsset, PhotometryAsset, PrescriptionAsset, RetroTableAsset, SpectrumAsset,
 };
 use crate::place::Place;
@@ -40,7 +40,7 @@ impl Assets {
     #[must_use]
     pub fn missing(&self, named: &[AssetRequest]) -> Vec<AssetRequest> {
         let mut missing = named.to_vec();
-        missing.extend(self.meshes.iter().flat_map(|(path, mesh)| textures_of(path, mesh)));
+        missing.extend(self.meshes.iter().flat_map(|(path, mesh)| textures_of(path, mesh, named)));
         missing.retain(|request| !self.has(&request.kind, &request.path));
         missing.sort_by(|a, b| a.path.cmp(&b.path));
         missing.dedup_by(|a, b| a.kind == b.kind && a.path == b.path);
@@ -62,12 +62,19 @@ impl Assets {
     }
 }
 
-/// The pictures that a mesh's own materials name.
-fn textures_of<'a>(file: &'a Path, mesh: &'a MeshAsset) -> impl Iterator<Item = AssetRequest> + 'a {
-    let surfaces = mesh.slot_materials.iter().filter_map(|slot| slot.surface.as_ref());
+/// The pictures that those of a mesh's own materials name that somebody sees.
+fn textures_of<'a>(
+    file: &'a Path,
+    mesh: &'a MeshAsset,
+    named: &'a [AssetRequest],
+) -> impl Iterator<Item = AssetRequest> + 'a {
+    let requests = || named.iter().filter(move |request| request.kind == AssetKind::Mesh && request.path == file);
+    let is_seen = move |slot: &&SlotMaterial| requests().any(|request| !request.covered.has(&slot.name));
+    let surfaces = mesh.slot_materials.iter().filter(is_seen).filter_map(|slot| slot.surface.as_ref());
     surfaces.filter_map(move |surface| match surface.reflectance() {
         SlotReflectance::Image(path) => {
-            Some(AssetRequest { path: path.clone(), kind: AssetKind::Image, place: Place::file_head(file) })
+            let (path, place) = (path.clone(), Place::file_head(file));
+            Some(AssetRequest { path, kind: AssetKind::Image, place, covered: Covered::All })
         }
         SlotReflectance::LinearSrgb(_) => None,
     })

@@ -3,13 +3,14 @@
 use std::collections::BTreeSet;
 
 use super::names;
+use super::usage::Use;
 use crate::document::Node;
 use crate::fault::{Faults, Named};
 use crate::place::Placed;
 use crate::suggest::nearest;
 
-/// Every name that was used while reading is defined.
-pub(super) fn references(document: &Node, faults: &mut Faults) {
+/// Every name that was used while reading is defined. Gives the uses.
+pub(super) fn references(document: &Node, faults: &mut Faults) -> Vec<Use> {
     let uses = faults.take_uses();
     let known = |named| match named {
         Named::Mesh => names::of(document, "meshes"),
@@ -24,6 +25,7 @@ pub(super) fn references(document: &Node, faults: &mut Faults) {
             note_unknown(named.word(), name, &known, faults);
         }
     }
+    uses
 }
 
 fn note_unknown(what: &str, name: &Placed<String>, known: &[&str], faults: &mut Faults) {

@@ -4,11 +4,14 @@ mod base;
 mod check;
 mod files;
 mod names;
+mod usage;
 
 use std::path::{Path, PathBuf};
 
 use crate::asset::{AssetRequest, requests};
 use crate::document::Node;
+pub use usage::Unused;
+
 use crate::fault::Faults;
 use crate::overrides::Overrides;
 use crate::preset;
@@ -29,6 +32,8 @@ pub struct Description {
     pub scene: Scene,
     /// The cameras, one or more, names unique.
     pub cameras: Vec<CameraSetup>,
+    /// What of the scene nothing uses.
+    pub unused: Unused,
     /// Which keys the command line makes meaningless, in sentences.
     pub notices: Vec<String>,
 }
@@ -64,7 +69,7 @@ impl Description {
     fn read(file: &Path, document: &Node, faults: &mut Faults) -> Option<Self> {
         let job = record::<Job>().read(document, faults);
         names::check(document, faults);
-        check::references(document, faults);
+        let uses = check::references(document, faults);
         let Job { scene, cameras, render, output, .. } = job?;
         let setup = |entry| CameraSetup::new(entry, render.as_ref(), output.as_ref());
         let cameras: Vec<_> = cameras.into_iter().map(setup).collect();
@@ -74,10 +79,10 @@ impl Description {
         if cameras.len() == stated {
             check_levels(cameras.iter().map(|c| &c.render), faults);
         }
-        Some(Self { file: file.to_owned(), scene, cameras, notices: faults.notices() })
+        Some(Self { file: file.to_owned(), unused: Unused::of(&scene, &uses), scene, cameras, notices: faults.notices() })
     }
 
-    /// Every file that the description names and that is not text of its own, each once.
+    /// Every file that the description names, that is used, and that is not text of its own, each once.
     #[must_use]
     pub fn assets(&self) -> Vec<AssetRequest> {
         requests(self)

@@ -9,3 +9,4 @@ mod hostile;
 mod pages;
 mod reference;
 mod schema;
+mod unused;

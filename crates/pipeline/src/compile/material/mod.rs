@@ -11,9 +11,11 @@ mod surface;
 use super::context::Context;
 use etendue_scene::Place;
 use etendue_scene::asset::SlotMaterial;
+use etendue_scene::Unused;
 use etendue_scene::record::{self, Scene};
 use etendue_tracer::MaterialId;
-use etendue_tracer::materials::{Material, Palette, Surface};
+use etendue_spectra::upsample;
+use etendue_tracer::materials::{Material, Palette, Reflectance, Surface};
 pub(super) use metal::complex_index;
 use picture::Pictures;
 pub(super) use share::share;
@@ -44,6 +46,19 @@ struct Made {
     flux_sides: Option<f64>,
 }
 
+impl Made {
+    /// Black, in the place of a material that nothing uses: ids of materials do not depend on what is used.
+    fn unused(record: &record::Material) -> Self {
+        Self {
+            material: Material::new(Surface::Diffuse(Reflectance::Spectrum(upsample::reflectance_spectrum([0.0; 3])))),
+            place: record.place.clone(),
+            name: record.name.value.clone(),
+            needs_coordinates: false,
+            flux_sides: None,
+        }
+    }
+}
+
 /// What materials are made with.
 struct Workshop<'w, 'a> {
     scene: &'w Scene,
@@ -56,10 +71,14 @@ struct Workshop<'w, 'a> {
 }
 
 impl PaletteBuilder {
-    /// All materials of a scene.
-    pub(super) fn of_scene(scene: &Scene, context: &mut Context<'_>) -> Self {
+    /// All materials of a scene; of those that nothing uses, a place in the list.
+    pub(super) fn of_scene(scene: &Scene, unused: &Unused, context: &mut Context<'_>) -> Self {
         let mut builder = Self::default();
         for record in &scene.materials {
+            if unused.materials.contains(&record.name.value) {
+                builder.add(Made::unused(record));
+                continue;
+            }
             let pictures = &mut builder.pictures;
             let mut workshop = Workshop { scene, pictures, context, needs_coordinates: false, flux_sides: None };
             if let Some(material) = workshop.material(record) {

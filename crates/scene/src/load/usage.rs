@@ -1,0 +1,77 @@
+//! What of a scene is used: what objects show, and what that needs in turn.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::fault::Named;
+use crate::place::{Place, Placed};
+use crate::record::Scene;
+
+/// Names of a scene that nothing shown leads to. Their files are not read and need not exist.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Unused {
+    /// Meshes that no object shows.
+    pub meshes: BTreeSet<String>,
+    /// Textures that nothing shown has.
+    pub textures: BTreeSet<String>,
+    /// Materials that no object has, itself or as a part of another.
+    pub materials: BTreeSet<String>,
+}
+
+/// A use of a name: what it is of, and where.
+pub(super) type Use = (Named, Placed<String>);
+
+impl Unused {
+    /// Follows the `uses` of names from everything that is no material.
+    pub(super) fn of(scene: &Scene, uses: &[Use]) -> Self {
+        let materials: BTreeMap<&str, &str> =
+            scene.materials.iter().map(|m| (m.place.key(), m.name.value.as_str())).collect();
+        let mut by_owner: BTreeMap<Option<&str>, Vec<&Use>> = BTreeMap::new();
+        for named in uses {
+            by_owner.entry(owner(&materials, &named.1.place)).or_default().push(named);
+        }
+        let mut used: BTreeSet<(Named, &str)> = BTreeSet::new();
+        let mut open = by_owner.get(&None).cloned().unwrap_or_default();
+        while let Some((named, name)) = open.pop() {
+            if used.insert((*named, name.as_str())) && *named == Named::Material {
+                open.extend(by_owner.get(&Some(name.as_str())).into_iter().flatten());
+            }
+        }
+        let rest = |named, names: &mut dyn Iterator<Item = &Placed<String>>| {
+            names.filter(|name| !used.contains(&(named, name.as_str()))).map(|name| name.value.clone()).collect()
+        };
+        Self {
+            meshes: rest(Named::Mesh, &mut scene.meshes.iter().map(|m| &m.name)),
+            textures: rest(Named::Texture, &mut scene.textures.iter().map(|t| &t.name)),
+            materials: rest(Named::Material, &mut scene.materials.iter().map(|m| &m.name)),
+        }
+    }
+
+    /// A sentence for each kind of which something is not used.
+    #[must_use]
+    pub fn remarks(&self) -> Vec<String> {
+        let told = |names: &BTreeSet<String>, what: &str| match names.len() {
+            0 => None,
+            count => Some(format!("{count} {what} ({}): nothing of them is read", listed(names))),
+        };
+        let kinds = [
+            told(&self.meshes, "meshes that no object shows"),
+            told(&self.materials, "materials that no object has"),
+            told(&self.textures, "textures that nothing shown has"),
+        ];
+        kinds.into_iter().flatten().collect()
+    }
+}
+
+/// The first names.
+fn listed(names: &BTreeSet<String>) -> String {
+    const SHOWN: usize = 6;
+    let first: Vec<&str> = names.iter().take(SHOWN).map(String::as_str).collect();
+    let more = if names.len() > SHOWN { ", …" } else { "" };
+    format!("{}{more}", first.join(", "))
+}
+
+/// The name of the material that says what stands at `place`.
+fn owner<'m>(materials: &BTreeMap<&str, &'m str>, place: &Place) -> Option<&'m str> {
+    let key = place.key();
+    key.match_indices(['.', '[']).find_map(|(end, _)| materials.get(&key[..end]).copied())
+}

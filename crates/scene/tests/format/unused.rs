@@ -1,0 +1,83 @@
+//! What nothing uses is not asked for.
+
+use crate::files::{Files, load};
+use etendue_scene::Description;
+use std::path::Path;
+
+const JOB: &str = r#"format = 1
+
+[[cameras]]
+name = "front"
+position_m = [0, 0, 1]
+look_at_m = [10, 0, 1]
+
+[cameras.lens]
+model = "thin"
+focal_length_mm = 6
+f_number = 2.0
+focus_distance_m = 5.0
+
+[cameras.sensor]
+width_px = 64
+height_px = 48
+pixel_pitch_um = 6.0
+
+[scene]
+meshes = [{ name = "shown", file = "shown.obj" }, { name = "spare", file = "spare.obj" }]
+textures = [
+    { name = "a", file = "a.png", encoding = "srgb" },
+    { name = "b", file = "b.png", encoding = "srgb" },
+    { name = "c", file = "c.png", encoding = "srgb" },
+]
+materials = [
+    { name = "wall", type = "diffuse", reflectance = { texture = "a" } },
+    { name = "mixed", type = "mix", a = "wall", b = "tin", weight = 0.5 },
+    { name = "tin", type = "diffuse", reflectance = { spectrum = "tin.csv" } },
+    { name = "rest", type = "diffuse", reflectance = { texture = "b" } },
+    { name = "more", type = "diffuse", reflectance = { spectrum = "more.csv" } },
+]
+objects = [{ name = "o", mesh = "shown", material = "MATERIAL", position_m = [5, 0, 1] }]
+"#;
+
+fn described(material: &str) -> Description {
+    load(&Files::of_job(&JOB.replace("MATERIAL", material)), &[]).expect("a right job")
+}
+
+fn files(description: &Description) -> Vec<String> {
+    let mut names: Vec<_> = description.assets().iter().map(|a| a.path.display().to_string()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn files_of_what_is_shown_are_asked_for_and_no_others() {
+    assert_eq!(files(&described("wall")), ["a.png", "shown.obj"]);
+    assert_eq!(files(&described("mixed")), ["a.png", "shown.obj", "tin.csv"], "parts of a mix are used");
+    assert_eq!(files(&described("rest")), ["b.png", "shown.obj"]);
+}
+
+#[test]
+fn what_is_not_used_is_told() {
+    assert_eq!(
+        described("mixed").unused.remarks(),
+        [
+            "1 meshes that no object shows (spare): nothing of them is read",
+            "2 materials that no object has (more, rest): nothing of them is read",
+            "2 textures that nothing shown has (b, c): nothing of them is read"
+        ]
+    );
+}
+
+#[test]
+fn a_material_of_the_scene_covers_those_of_the_mesh() {
+    let covered = |job: &str| {
+        let description = load(&Files::of_job(job), &[]).expect("a right job");
+        let request = description.assets().into_iter().find(|a| a.path == Path::new("shown.obj")).expect("the mesh");
+        ["red", "blue"].map(|slot| request.covered.has(slot))
+    };
+    let own = JOB.replace("material = \"MATERIAL\"", "materials = { red = \"wall\" }");
+    assert_eq!(covered(&JOB.replace("MATERIAL", "wall")), [true, true]);
+    assert_eq!(covered(&own), [true, false]);
+    let second = ", { name = \"p\", mesh = \"shown\", position_m = [9, 0, 1] }]\n";
+    assert_eq!(covered(&format!("{}{second}", own.trim_end().trim_end_matches(']'))), [false, false], "another shows them");
+}
