@@ -43,11 +43,20 @@ fn unused_files_need_not_exist() {
     let spoilt = Spoilt::new();
     let mesh = "meshes = [{ name = \"spare\", file = \"no.obj\" }, ";
     spoilt.spoil("small.toml", "meshes = [", mesh);
-    spoilt.spoil("small.toml", "textures = [", "textures = [{ name = \"big\", file = \"no.png\", encoding = \"srgb\" }, ");
-    let material = "[[scene.materials]]\nname = \"rest\"\ntype = \"diffuse\"\nreflectance = { spectrum = \"no.csv\" }\n\n";
+    spoilt.spoil(
+        "small.toml",
+        "textures = [",
+        "textures = [{ name = \"big\", file = \"no.png\", encoding = \"srgb\" }, ",
+    );
+    let material =
+        "[[scene.materials]]\nname = \"rest\"\ntype = \"diffuse\"\nreflectance = { spectrum = \"no.csv\" }\n\n";
     spoilt.spoil("small.toml", "[[scene.materials]]\n", &format!("{material}[[scene.materials]]\n"));
     let plan = etendue(["plan", &spoilt.job()]).ok().out;
-    for told in ["meshes that no object shows (spare)", "materials that no object has (rest)", "textures that nothing shown has (big)"] {
+    for told in [
+        "meshes that no object shows (spare)",
+        "materials that no object has (rest)",
+        "textures that nothing shown has (big)",
+    ] {
         assert!(plan.contains(told), "{plan}");
     }
     spoilt.spoil("small.toml", "texture = \"checker\"", "texture = \"big\"");

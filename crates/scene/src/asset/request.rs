@@ -13,7 +13,9 @@ use crate::record::light::{Emission, Level, LightColour};
 use crate::record::material::{Absorption, Interface, LobeStrength, Metal, Sheeting, SheetingTable};
 use crate::record::reflectance::{Colour, Reflectance};
 use crate::record::sensor::QuantumEfficiency;
-use crate::record::{Body, Camera, Curve, Environment, Front, Lens, Light, Material, Object, Processing, Scene, Surface};
+use crate::record::{
+    Body, Camera, Curve, Environment, Front, Lens, Light, Material, Object, Processing, Scene, Surface,
+};
 
 /// A file to be read, and where it is named.
 #[derive(Clone, Debug, PartialEq)]

@@ -68,7 +68,7 @@ fn textures_of<'a>(
     mesh: &'a MeshAsset,
     named: &'a [AssetRequest],
 ) -> impl Iterator<Item = AssetRequest> + 'a {
-    let requests = || named.iter().filter(move |request| request.kind == AssetKind::Mesh && request.path == file);
+    let requests = move || named.iter().filter(move |request| request.kind == AssetKind::Mesh && request.path == file);
     let is_seen = move |slot: &&SlotMaterial| requests().any(|request| !request.covered.has(&slot.name));
     let surfaces = mesh.slot_materials.iter().filter(is_seen).filter_map(|slot| slot.surface.as_ref());
     surfaces.filter_map(move |surface| match surface.reflectance() {

@@ -79,7 +79,13 @@ impl Description {
         if cameras.len() == stated {
             check_levels(cameras.iter().map(|c| &c.render), faults);
         }
-        Some(Self { file: file.to_owned(), unused: Unused::of(&scene, &uses), scene, cameras, notices: faults.notices() })
+        Some(Self {
+            file: file.to_owned(),
+            unused: Unused::of(&scene, &uses),
+            scene,
+            cameras,
+            notices: faults.notices(),
+        })
     }
 
     /// Every file that the description names, that is used, and that is not text of its own, each once.

@@ -79,5 +79,9 @@ fn a_material_of_the_scene_covers_those_of_the_mesh() {
     assert_eq!(covered(&JOB.replace("MATERIAL", "wall")), [true, true]);
     assert_eq!(covered(&own), [true, false]);
     let second = ", { name = \"p\", mesh = \"shown\", position_m = [9, 0, 1] }]\n";
-    assert_eq!(covered(&format!("{}{second}", own.trim_end().trim_end_matches(']'))), [false, false], "another shows them");
+    assert_eq!(
+        covered(&format!("{}{second}", own.trim_end().trim_end_matches(']'))),
+        [false, false],
+        "another shows them"
+    );
 }

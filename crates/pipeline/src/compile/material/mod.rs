@@ -10,11 +10,11 @@ mod surface;
 
 use super::context::Context;
 use etendue_scene::Place;
-use etendue_scene::asset::SlotMaterial;
 use etendue_scene::Unused;
+use etendue_scene::asset::SlotMaterial;
 use etendue_scene::record::{self, Scene};
-use etendue_tracer::MaterialId;
 use etendue_spectra::upsample;
+use etendue_tracer::MaterialId;
 use etendue_tracer::materials::{Material, Palette, Reflectance, Surface};
 pub(super) use metal::complex_index;
 use picture::Pictures;
