@@ -3,6 +3,8 @@
 //! Without aliases, tags and several documents, which no calibration program writes but for OpenCV's `!!opencv-matrix`, and
 //! that one says nothing that its keys do not. OpenCV's own header `%YAML:1.0`, which is not YAML, is passed over.
 
+use std::collections::BTreeSet;
+
 use saphyr_parser::{Event, Parser, ScalarStyle, Span, StrInput};
 
 use super::{Fault, Read};
@@ -84,13 +86,14 @@ impl<'a> Events<'a> {
 
     fn map(&mut self, depth: usize) -> Read<Vec<(String, Node)>> {
         let mut entries: Vec<(String, Node)> = Vec::new();
+        let mut known = BTreeSet::new();
         loop {
             let (key, line) = match self.next()? {
                 (Event::MappingEnd, _) => return Ok(entries),
                 (Event::Scalar(key, ..), span) => (key.into_owned(), span.start.line()),
                 (_, span) => return Err(Fault::at(span.start.line(), "expected a key")),
             };
-            if entries.iter().any(|(known, _)| *known == key) {
+            if !known.insert(key.clone()) {
                 return Err(Fault::at(line, format!("the key {key} is there twice")));
             }
             let (event, span) = self.next()?;
@@ -184,7 +187,9 @@ impl Node {
 
 /// Names in a sentence.
 pub(super) fn list(names: &[&str]) -> String {
-    if names.is_empty() { "no keys".to_owned() } else { names.join(", ") }
+    const SHOWN: usize = 24;
+    let more = if names.len() > SHOWN { ", …" } else { "" };
+    if names.is_empty() { "no keys".to_owned() } else { names[..names.len().min(SHOWN)].join(", ") + more }
 }
 
 #[cfg(test)]

@@ -33,7 +33,7 @@ pub(super) struct LibraryMaterial {
 
 /// Reads the text of `file`.
 pub(super) fn parse(file: &Path, text: &str) -> Result<Library, Error> {
-    let mut scan = Scan { file, fed: Fed::default(), places: Vec::new(), report: Vec::new() };
+    let mut scan = Scan { file, fed: Fed::default(), places: Vec::new(), first: BTreeMap::new(), report: Vec::new() };
     for statement in statements(text) {
         scan.take(&statement).map_err(|told| Error::at(file, statement.line, told))?;
     }
@@ -49,6 +49,8 @@ struct Scan<'a> {
     fed: Fed,
     /// The materials in order, with `file:line` of their `newmtl`.
     places: Vec<(String, String)>,
+    /// Where each was begun, by name.
+    first: BTreeMap<String, String>,
     report: Vec<String>,
 }
 
@@ -71,7 +73,7 @@ impl Scan<'_> {
 
     fn begin(&mut self, statement: &Statement, place: String) -> Result<(), String> {
         let name = statement.rest().to_owned();
-        if let Some((_, first)) = self.places.iter().find(|(known, _)| *known == name) {
+        if let Some(first) = self.first.insert(name.clone(), place.clone()) {
             return Err(format!("material \"{name}\" is defined a second time, first at {first}; rename one of them"));
         }
         self.fed.push(statement.line, &format!("newmtl {name}"));

@@ -52,21 +52,24 @@ pub(super) fn slots(file: &Path, obj: &Obj) -> Result<Slots, Error> {
 /// as one name first.
 fn library_paths(file: &Path, obj: &Obj) -> Result<Vec<PathBuf>, Error> {
     let mut paths: Vec<PathBuf> = Vec::new();
-    for (rest, line) in &obj.libraries {
+    let (mut statements, mut known) = (BTreeSet::new(), BTreeSet::new());
+    for (rest, line) in obj.libraries.iter().filter(|(rest, _)| statements.insert(rest.clone())) {
         let whole = beside(file, rest);
         let named: Vec<PathBuf> =
             if whole.exists() { vec![whole] } else { rest.split_whitespace().map(|name| beside(file, name)).collect() };
         if named.is_empty() {
             return Err(Error::at(file, *line, "`mtllib` without a file name"));
         }
-        if let Some(missing) = named.iter().find(|path| !path.exists()) {
-            let told =
-                format!("the material library `{}` does not exist; put it there or remove the line", missing.display());
-            return Err(Error::at(file, *line, told));
+        for path in named.into_iter().filter(|path| known.insert(path.clone())) {
+            if !path.exists() {
+                let told = format!(
+                    "the material library `{}` does not exist; put it there or remove the line",
+                    path.display()
+                );
+                return Err(Error::at(file, *line, told));
+            }
+            paths.push(path);
         }
-        paths.extend(named);
     }
-    let mut seen = BTreeSet::new();
-    paths.retain(|path| seen.insert(path.clone()));
     Ok(paths)
 }
