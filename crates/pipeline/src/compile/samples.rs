@@ -13,15 +13,20 @@ pub(super) fn samples(render: &Render, choices: &Choices, context: &mut Context<
     let by_quality = || choices.quality.unwrap_or(Quality::Standard).spp();
     let by_job = || render.spp.as_ref().map(|s| s.value as u32);
     let spp = choices.spp.or_else(by_job).unwrap_or_else(by_quality);
-    let stated = render.replicates.as_ref();
-    if let Some(replicates) = stated.filter(|r| spp > 0 && u64::from(spp) % r.value == 0) {
+    let given = render.replicates.as_ref();
+    if let Some(replicates) = given.filter(|r| spp > 0 && u64::from(spp) % r.value == 0) {
         return (spp, replicates.value as u32);
     }
-    if let Some(replicates) = stated {
+    if let Some(replicates) = given {
         let problem = format!("{spp} samples cannot be shared evenly among {} replicates", replicates.value);
         let remedy = "give samples that are a multiple of the replicates";
-        let cause = render.spp.as_ref().map(|spp| &spp.place);
-        context.idle(("replicates", &replicates.place), cause, problem, remedy);
+        let by_quality = render.spp.is_none() && choices.quality.is_some();
+        if by_quality && !replicates.place.is_command_line() {
+            context.notice(format!("--quality supersedes {}", stated("replicates", &replicates.place)));
+        } else {
+            let cause = render.spp.as_ref().map(|spp| &spp.place);
+            context.idle(("replicates", &replicates.place), cause, problem, remedy);
+        }
     }
     let most = [REPLICATES, 2, 1].into_iter().find(|r| u64::from(spp) % r == 0).unwrap_or(1);
     if most == 1 {
