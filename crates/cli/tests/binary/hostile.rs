@@ -52,11 +52,9 @@ fn unused_files_need_not_exist() {
         "[[scene.materials]]\nname = \"rest\"\ntype = \"diffuse\"\nreflectance = { spectrum = \"no.csv\" }\n\n";
     spoilt.spoil("small.toml", "[[scene.materials]]\n", &format!("{material}[[scene.materials]]\n"));
     let plan = etendue(["plan", &spoilt.job()]).ok().out;
-    for told in [
-        "meshes that no object shows (spare)",
-        "materials that no object has (rest)",
-        "textures that nothing shown has (big)",
-    ] {
+    for told in
+        ["mesh that no object shows: spare", "material that no object has: rest", "texture that nothing shown has: big"]
+    {
         assert!(plan.contains(told), "{plan}");
     }
     spoilt.spoil("small.toml", "texture = \"checker\"", "texture = \"big\"");

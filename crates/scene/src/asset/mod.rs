@@ -14,7 +14,7 @@ pub use mesh::{ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
 pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurface};
 pub use photometry::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
 pub use prescription::{GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
-pub(crate) use request::requests;
 pub use request::{AssetKind, AssetRequest, Covered, Values, of_camera};
+pub(crate) use request::{names_files, requests};
 pub use store::Assets;
 pub use table::{ComplexIndexAsset, NumbersAsset, RetroTableAsset};

@@ -163,6 +163,13 @@ pub fn of_camera(camera: &Camera) -> Vec<AssetRequest> {
     list.0
 }
 
+/// Whether a material names files itself.
+pub(crate) fn names_files(material: &Material) -> bool {
+    let mut list = List::default();
+    list.material(material);
+    !list.0.is_empty()
+}
+
 #[derive(Default)]
 struct List(Vec<AssetRequest>);
 

@@ -2,9 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::asset::names_files;
 use crate::fault::Named;
 use crate::place::{Place, Placed};
-use crate::record::Scene;
+use crate::record::{Material, Scene};
 
 /// Names of a scene that nothing shown leads to. Their files are not read and need not exist.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -15,6 +16,8 @@ pub struct Unused {
     pub textures: BTreeSet<String>,
     /// Materials that no object has, itself or as a part of another.
     pub materials: BTreeSet<String>,
+    /// Those of them that name files or textures, and so cannot be made.
+    pub unread: BTreeSet<String>,
 }
 
 /// A use of a name: what it is of, and where.
@@ -39,24 +42,30 @@ impl Unused {
         let rest = |named, names: &mut dyn Iterator<Item = &Placed<String>>| {
             names.filter(|name| !used.contains(&(named, name.as_str()))).map(|name| name.value.clone()).collect()
         };
+        let materials: BTreeSet<String> = rest(Named::Material, &mut scene.materials.iter().map(|m| &m.name));
+        let has_texture =
+            |name: &str| by_owner.get(&Some(name)).is_some_and(|uses| uses.iter().any(|u| u.0 == Named::Texture));
+        let is_unread = |m: &&Material| materials.contains(&m.name.value) && (has_texture(&m.name) || names_files(m));
         Self {
+            unread: scene.materials.iter().filter(is_unread).map(|m| m.name.value.clone()).collect(),
             meshes: rest(Named::Mesh, &mut scene.meshes.iter().map(|m| &m.name)),
             textures: rest(Named::Texture, &mut scene.textures.iter().map(|t| &t.name)),
-            materials: rest(Named::Material, &mut scene.materials.iter().map(|m| &m.name)),
+            materials,
         }
     }
 
     /// A sentence for each kind of which something is not used.
     #[must_use]
     pub fn remarks(&self) -> Vec<String> {
-        let told = |names: &BTreeSet<String>, what: &str| match names.len() {
+        let told = |names: &BTreeSet<String>, one: &str, many: &str| match names.len() {
             0 => None,
-            count => Some(format!("{count} {what} ({}): nothing of them is read", listed(names))),
+            1 => Some(format!("not read: {one}: {}", listed(names))),
+            count => Some(format!("not read: {count} {many}: {}", listed(names))),
         };
         let kinds = [
-            told(&self.meshes, "meshes that no object shows"),
-            told(&self.materials, "materials that no object has"),
-            told(&self.textures, "textures that nothing shown has"),
+            told(&self.meshes, "the mesh that no object shows", "meshes that no object shows"),
+            told(&self.materials, "the material that no object has", "materials that no object has"),
+            told(&self.textures, "the texture that nothing shown has", "textures that nothing shown has"),
         ];
         kinds.into_iter().flatten().collect()
     }

@@ -61,9 +61,9 @@ fn what_is_not_used_is_told() {
     assert_eq!(
         described("mixed").unused.remarks(),
         [
-            "1 meshes that no object shows (spare): nothing of them is read",
-            "2 materials that no object has (more, rest): nothing of them is read",
-            "2 textures that nothing shown has (b, c): nothing of them is read"
+            "not read: the mesh that no object shows: spare",
+            "not read: 2 materials that no object has: more, rest",
+            "not read: 2 textures that nothing shown has: b, c"
         ]
     );
 }

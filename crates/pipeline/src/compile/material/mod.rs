@@ -47,7 +47,7 @@ struct Made {
 }
 
 impl Made {
-    /// Black, in the place of a material that nothing uses: ids of materials do not depend on what is used.
+    /// Black, in the place of a material that nothing uses and whose files are not read: ids of materials do not depend on what is used.
     fn unused(record: &record::Material) -> Self {
         Self {
             material: Material::new(Surface::Diffuse(Reflectance::Spectrum(upsample::reflectance_spectrum([0.0; 3])))),
@@ -71,11 +71,11 @@ struct Workshop<'w, 'a> {
 }
 
 impl PaletteBuilder {
-    /// All materials of a scene; of those that nothing uses, a place in the list.
+    /// All materials of a scene; of those that nothing uses and whose files are not read, a place in the list.
     pub(super) fn of_scene(scene: &Scene, unused: &Unused, context: &mut Context<'_>) -> Self {
         let mut builder = Self::default();
         for record in &scene.materials {
-            if unused.materials.contains(&record.name.value) {
+            if unused.unread.contains(&record.name.value) {
                 builder.add(Made::unused(record));
                 continue;
             }
