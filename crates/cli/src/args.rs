@@ -1,6 +1,7 @@
 //! The command line, as typed.
 
 use crate::raw_file::Levels;
+use crate::trade::{Integrator, Quality};
 use crate::verbs::measure;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use etendue_optics::{DepthOfField, FastBlend, FastParameters};
@@ -75,41 +76,6 @@ pub struct Job {
     /// The seed of all random numbers [default: the job's, or 0]
     #[arg(long, value_name = "N")]
     pub seed: Option<u64>,
-}
-
-/// How much of the light's ways is followed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Integrator {
-    /// Local shading by lamps, suns and sky, without shadows
-    Flat,
-    /// The same with shadows
-    Direct,
-    /// Everything, by path tracing
-    Path,
-}
-
-impl Integrator {
-    /// Its word in the key `render.level`.
-    pub fn level(self) -> &'static str {
-        match self {
-            Self::Flat => "flat",
-            Self::Direct => "direct",
-            Self::Path => "path",
-        }
-    }
-}
-
-/// Presets of the trade of time for accuracy.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Quality {
-    /// 16 samples a pixel, 4 bounces: to frame and expose
-    Draft,
-    /// 64 samples a pixel, 16 bounces
-    Standard,
-    /// 1024 samples a pixel, 64 bounces
-    Reference,
 }
 
 /// Where results go.

@@ -1,7 +1,8 @@
 //! From a job file and the command line to a plan.
 
-use crate::args::{self, Integrator, Quality};
+use crate::args;
 use crate::failure::Failure;
+use crate::trade::{Integrator, Quality};
 use etendue_io::{load_assets, read_regular};
 use etendue_pipeline::{Choices, Plan, compile};
 use etendue_scene::{Description, Overrides};

@@ -21,6 +21,7 @@ mod progress;
 mod raw_file;
 mod results;
 mod sensor_args;
+mod trade;
 mod verbs;
 
 use args::{Arguments, Verb};

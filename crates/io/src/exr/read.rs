@@ -197,3 +197,37 @@ fn attribute_text(value: &AttributeValue) -> String {
         other => format!("{other:?}"),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exr::tests_support::picture;
+
+    /// A file of some hundred bytes that says it holds 20 000² pixels.
+    fn large() -> Vec<u8> {
+        let mut bytes = picture(1, 1, &["Y"], 0.0);
+        for window in [&b"dataWindow\0box2i\0"[..], b"displayWindow\0box2i\0"] {
+            let at = bytes.windows(window.len()).position(|w| w == window).expect("a window") + window.len() + 4;
+            bytes[at + 8..at + 16].copy_from_slice(&[19_999_u32.to_le_bytes(); 2].concat());
+        }
+        bytes
+    }
+
+    #[test]
+    fn a_small_file_of_many_pixels_is_refused_by_its_header() {
+        let told = decode_exr(Path::new("a.exr"), &large()).expect_err("too large").to_string();
+        let expected = "a.exr: unpacks to 1600 MB, where a file of its size may hold 537 MB; make the picture smaller";
+        assert!(told.starts_with(expected), "{told}");
+        assert_eq!(samples(&large()), 400_000_000);
+    }
+
+    #[test]
+    fn who_knows_the_size_says_the_bound() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let file = place.path().join("film.exr");
+        std::fs::write(&file, picture(20, 10, &["a", "b"], 1.0)).expect("write");
+        assert_eq!(read_exr_within(&file, 1600).expect("a film").channels.len(), 2);
+        let told = read_exr_within(&file, 1599).expect_err("more than known").to_string();
+        assert!(told.contains("unpacks to 1 MB"), "{told}");
+    }
+}
