@@ -28,7 +28,8 @@ fn pipes_in_the_place_of_files_are_refused() {
         etendue(["inspect", &pipe(name)]).refused(&[name, PIPE]);
     }
     let camera = pipe("camera.toml");
-    etendue(["flat", &camera, "--photons", "100", "-o", &out]).refused(&["camera.toml", PIPE]);
+    let light = ["--wavelength-nm", "525", "--irradiance-w-m2", "0.002"];
+    etendue(["flat", &camera, "-o", &out].into_iter().chain(light)).refused(&["camera.toml", PIPE]);
     etendue(["measure", "lens", &camera]).refused(&["camera.toml", PIPE]);
     etendue(["measure", "lens", &pipe("lens.zmx")]).refused(&["lens.zmx", PIPE]);
     etendue(["measure", "sfr", &pipe("edge.png")]).refused(&["edge.png", PIPE]);
@@ -41,7 +42,7 @@ fn pipes_in_the_place_of_files_are_refused() {
 #[test]
 fn unused_files_need_not_exist() {
     let spoilt = Spoilt::new();
-    let mesh = "meshes = [{ name = \"spare\", file = \"no.obj\" }, ";
+    let mesh = "meshes = [{ name = \"spare\", file = \"no.obj\", up_axis = \"z\" }, ";
     spoilt.spoil("small.toml", "meshes = [", mesh);
     spoilt.spoil(
         "small.toml",
