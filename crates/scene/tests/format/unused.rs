@@ -23,7 +23,10 @@ height_px = 48
 pixel_pitch_um = 6.0
 
 [scene]
-meshes = [{ name = "shown", file = "shown.obj" }, { name = "spare", file = "spare.obj" }]
+meshes = [
+    { name = "shown", file = "shown.obj", up_axis = "z" },
+    { name = "spare", file = "spare.obj", up_axis = "z" },
+]
 textures = [
     { name = "a", file = "a.png", encoding = "srgb" },
     { name = "b", file = "b.png", encoding = "srgb" },
