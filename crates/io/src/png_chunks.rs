@@ -15,11 +15,14 @@ pub(crate) struct Said {
     pub not_understood: Option<String>,
 }
 
+/// What a chunk's data say; the name of what is not understood.
+type Reader = fn(&[u8]) -> Result<Stated, String>;
+
 /// The chunk of highest precedence that is understood; of files that are no PNG nothing.
 pub(crate) fn said(file: &[u8]) -> Said {
     let chunks = chunks(file);
     let data = |name: &[u8; 4]| chunks.iter().find(|(found, _)| found == name).map(|(_, data)| *data);
-    let readers: [(&[u8; 4], fn(&[u8]) -> Result<Stated, String>); 4] =
+    let readers: [(&[u8; 4], Reader); 4] =
         [(b"cICP", of_cicp), (b"iCCP", of_profile), (b"sRGB", |_| Ok(of_srgb())), (b"gAMA", of_gamma)];
     let mut said = Said::default();
     for (name, reader) in readers {
