@@ -15,7 +15,7 @@ pub(crate) struct Said {
     pub not_understood: Option<String>,
 }
 
-/// What a chunk's data state, or its name where they are not understood.
+/// What a chunk's data say; the name of what is not understood.
 type Reader = fn(&[u8]) -> Result<Stated, String>;
 
 /// The chunk of highest precedence that is understood; of files that are no PNG nothing.

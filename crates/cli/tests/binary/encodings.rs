@@ -2,7 +2,7 @@
 
 use crate::support::{Ran, etendue, text};
 use etendue_core::Plane;
-use etendue_core::maths::f32::{log10, pow};
+use etendue_core::maths::f64::{log10, pow};
 use etendue_core::quantity::{DigitalNumber, Display};
 use etendue_io::photograph::Encoding;
 use etendue_io::png::{encode_companded16, encode_display};
@@ -72,14 +72,19 @@ fn pictures_of_any_encoding_give_one_response() {
     same(&pictures.grey("srgb.png", encode), &["--encoding", "srgb"], "sRGB", "--encoding");
     same(&pictures.stated("linear8.png", &linear, as_is), &[], "linear", "gAMA chunk");
     same(&pictures.stated("srgb8.png", &Encoding::Srgb, encode), &[], "sRGB", "sRGB chunk");
-    same(&pictures.stated("gamma8.png", &Encoding::Gamma(1.8), |l| pow(l, 1.0 / 1.8)), &[], "gamma 1.8", "gAMA");
+    same(
+        &pictures.stated("gamma8.png", &Encoding::Gamma(1.8), |l| pow(f64::from(l), 1.0 / 1.8) as f32),
+        &[],
+        "gamma 1.8",
+        "gAMA",
+    );
     same(&pictures.stated("lying.png", &Encoding::Srgb, as_is), &["--encoding", "linear"], "linear", "--encoding");
     let table = pictures.write("curve.csv", b"light, number\n0, 0\n0.2, 0.5\n1, 1\n");
     let bent = |l: f32| if l < 0.2 { 2.5 * l } else { 0.5 + 0.625 * (l - 0.2) };
     same(&pictures.grey("bent.png", bent), &["--encoding", &table], "tone curve of 3 points", "curve.csv");
     // A measured function: a straight line over the logarithm of the exposure, in the picture's own numbers.
     let oecf = pictures.write("oecf.csv", b"# cd/m2, DN\n1 6553.5\n100 58981.5\n");
-    let log = |l: f32| 0.1 + 0.4 * log10(100.0 * l);
+    let log = |l: f32| 0.1 + 0.4 * log10(100.0 * f64::from(l)) as f32;
     same(&pictures.grey("log.png", log), &["--encoding", &oecf], "OECF of 2 points", "oecf.csv");
 }
 
