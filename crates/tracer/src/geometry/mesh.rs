@@ -23,6 +23,7 @@ pub struct Mesh {
     triangles: Vec<[u32; 3]>,
     slots: Vec<u16>,
     facets: Vec<Facet>,
+    origin: DVec3,
 }
 
 /// How many triangles were left out of a mesh, and why.
@@ -48,10 +49,23 @@ impl Mesh {
         check_vertices(&positions, &uvs)?;
         check_indices(positions.len(), &triangles)?;
         let slots = if slots.is_empty() { vec![0; triangles.len()] } else { slots };
-        let mut mesh = Self { positions, normals, uvs, triangles, slots, facets: vec![] };
+        let mut mesh = Self { positions, normals, uvs, triangles, slots, facets: vec![], origin: DVec3::ZERO };
         let dropped = mesh.drop_unusable();
         mesh.facets = facets(&mesh);
         Ok((mesh, dropped))
+    }
+
+    /// The same mesh, told that its file's own coordinates are those of this mesh plus `origin`: projected textures stay where
+    /// the file has them.
+    #[must_use]
+    pub fn with_origin(self, origin: DVec3) -> Self {
+        Self { origin, ..self }
+    }
+
+    /// What is to be added to this mesh's coordinates for those of its file.
+    #[must_use]
+    pub fn origin(&self) -> DVec3 {
+        self.origin
     }
 
     /// Vertex positions, m.
