@@ -94,7 +94,7 @@ impl<'a, const N: usize> Path<'a, N> {
             travelled_m: 0.0,
             scattered: None,
             receiver: None,
-            medium: Medium::default(),
+            medium: tracer.medium,
             history: History::default(),
             prior: 1.0,
             throughput: Spectral::ONE,
@@ -167,6 +167,7 @@ impl<'a, const N: usize> Path<'a, N> {
         if !self.tracer.palette.needs_footprint(point.material) {
             return at;
         }
+        let at = Lookup { origin: self.tracer.view.local_origin(point.instance), ..at };
         let footprint = self.tracer.view.footprint(point);
         let width_m = cone.width_m;
         let round = Lookup { width: width_m * footprint.uv_per_m, width_local: width_m * footprint.local_per_m, ..at };
