@@ -24,6 +24,7 @@ mod kenney;
 mod lenses;
 mod measures;
 mod plans;
+mod point_lists;
 mod raw_files;
 mod support;
 mod truths;

@@ -8,17 +8,34 @@ use glam::{DMat2, DMat3, DVec2};
 /// A radial polynomial about a place, r in half diagonals.
 #[derive(Clone, Copy, Debug)]
 struct Polynomial {
-    sense: Sense,
-    k: [f64; 2],
+    /// In px.
+    distortion: RadialDistortion,
     middle: DVec2,
-    half_diagonal_px: f64,
 }
 
 impl Polynomial {
+    fn new(sense: Sense, [k1, k2]: [f64; 2], middle: DVec2, half_diagonal_px: f64) -> Option<Self> {
+        let distortion = RadialDistortion::new(sense, k1, k2, half_diagonal_px).ok()?;
+        Some(Self { distortion, middle })
+    }
+
+    fn half_diagonal_px(&self) -> f64 {
+        self.distortion.unit_mm()
+    }
+
     /// Where what is seen at a place would be seen without it; `None` beyond its fold.
     fn ideal(&self, at: DVec2) -> Option<DVec2> {
-        let distortion = RadialDistortion::new(self.sense, self.k[0], self.k[1], self.half_diagonal_px).ok()?;
-        Some(self.middle + distortion.ideal(at - self.middle)?)
+        Some(self.middle + self.distortion.ideal(at - self.middle)?)
+    }
+
+    /// The same with a number changed: k₁, k₂, the place's x or y.
+    fn changed(&self, number: usize, by: f64) -> Option<Self> {
+        let (mut k, mut middle) = (self.distortion.coefficients(), self.middle);
+        match number {
+            0 | 1 => k[number] += by,
+            _ => middle[number - 2] += by * self.half_diagonal_px(),
+        }
+        Self::new(self.distortion.sense(), k, middle, self.half_diagonal_px())
     }
 }
 
@@ -38,7 +55,7 @@ impl Level {
     /// The homography after which the polynomial has value, slope and tilt of the identity at the centre: v = slope⁻¹ (x − value),
     /// then v/(1 − tilt · v). A homography's curvature is −2 tₓ eₓ, −(tₓ e_y + t_y eₓ), −2 t_y e_y; the nearest tilt is taken.
     fn of(polynomial: Polynomial, centre: DVec2) -> Option<Self> {
-        let step = STEP * polynomial.half_diagonal_px;
+        let step = STEP * polynomial.half_diagonal_px();
         let at = |x: f64, y: f64| polynomial.ideal(centre + step * DVec2::new(x, y));
         let value = at(0.0, 0.0)?;
         let slope = DMat2::from_cols(at(1.0, 0.0)? - at(-1.0, 0.0)?, at(0.0, 1.0)? - at(0.0, -1.0)?) * (0.5 / step);
@@ -74,13 +91,11 @@ impl Base {
     /// Of fits about a centre, the better first, with the homography from the chart to the ideal picture; `None` where one of them folds
     /// there.
     pub(super) fn of(fits: &[&RadialFit], centre: DVec2, half_diagonal_px: f64) -> Option<(Self, Homography)> {
-        let polynomial = |fit: &&RadialFit| Polynomial {
-            sense: fit.sense,
-            k: [fit.k1.value, fit.k2.value],
-            middle: fit.centre_px.map(|c| c.value).into(),
-            half_diagonal_px,
+        let map = |fit: &&RadialFit| {
+            let middle = fit.centre_px.map(|c| c.value).into();
+            Level::of(Polynomial::new(fit.sense, [fit.k1.value, fit.k2.value], middle, half_diagonal_px)?, centre)
         };
-        let maps: Option<Vec<Level>> = fits.iter().map(|fit| Level::of(polynomial(fit), centre)).collect();
+        let maps: Option<Vec<Level>> = fits.iter().map(map).collect();
         let (maps, first) = (maps?, fits.first()?);
         let chart = Homography { matrix: maps[0].level.matrix * first.plane.matrix };
         let moves = first.centre_px[0].standard_uncertainty.is_finite();
@@ -89,7 +104,7 @@ impl Base {
 
     /// Without distortion.
     pub(super) fn none(centre: DVec2, half_diagonal_px: f64) -> Option<Self> {
-        let none = Polynomial { sense: Sense::ObservedToIdeal, k: [0.0; 2], middle: centre, half_diagonal_px };
+        let none = Polynomial::new(Sense::ObservedToIdeal, [0.0; 2], centre, half_diagonal_px)?;
         Some(Self { maps: vec![Level::of(none, centre)?], changed: changed(&none, centre, false)? })
     }
 
@@ -120,7 +135,7 @@ impl Base {
 
     /// Its slope at a place.
     pub(super) fn slope(&self, at: DVec2) -> Option<DMat2> {
-        let step = STEP * self.maps[0].polynomial.half_diagonal_px;
+        let step = STEP * self.maps[0].polynomial.half_diagonal_px();
         let along = |d: DVec2| Some((self.place(at + step * d)? - self.place(at - step * d)?) * (0.5 / step));
         Some(DMat2::from_cols(along(DVec2::X)?, along(DVec2::Y)?))
     }
@@ -128,14 +143,7 @@ impl Base {
 
 /// Maps with a number changed up and down.
 fn changed(polynomial: &Polynomial, centre: DVec2, moves: bool) -> Option<Vec<[Level; 2]>> {
-    let changed = |k: usize, by: f64| {
-        let mut other = *polynomial;
-        match k {
-            0 | 1 => other.k[k] += by * STEP,
-            _ => other.middle[k - 2] += by * STEP * polynomial.half_diagonal_px,
-        }
-        Level::of(other, centre)
-    };
+    let changed = |number: usize, by: f64| Level::of(polynomial.changed(number, by * STEP)?, centre);
     let both = |k: usize| Some([changed(k, 1.0)?, changed(k, -1.0)?]);
     (0..if moves { 4 } else { 2 }).map(both).collect()
 }

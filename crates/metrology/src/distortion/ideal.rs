@@ -67,12 +67,23 @@ impl Ideal {
 
     fn unfitted(base: Base, centre: DVec2, reach: f64, plane: Homography) -> Self {
         let covariance = Matrix::zeros(0, 0);
-        Self { base, centre, reach, plane, chart: inverse(&plane, centre), sizes: Vec::new(), covariance, sigma: 0.0, tau: 0.0 }
+        Self {
+            base,
+            centre,
+            reach,
+            plane,
+            chart: inverse(&plane, centre),
+            sizes: Vec::new(),
+            covariance,
+            sigma: 0.0,
+            tau: 0.0,
+        }
     }
 
     /// The fields' sizes, and the homography better by what they leave.
     fn fitted(self, nodes: &[Node], rough: f64) -> Result<Self, DistortionError> {
-        let (design, values) = self.equations(nodes, rough).ok_or(DistortionError::Few { points: nodes.len(), least: LEAST })?;
+        let (design, values) =
+            self.equations(nodes, rough).ok_or(DistortionError::Few { points: nodes.len(), least: LEAST })?;
         let Shrunken { parameters, covariance, sigma, tau } = shrunken(&design, &values, PLANE + self.base.count().0)?;
         let plane = self.moved(&parameters[..PLANE]);
         let count = parameters.len() - PLANE;

@@ -75,6 +75,7 @@ fn independent(ideal: &Ideal, rows: &[Vec<f64>]) -> f64 {
     let covariance = |i: usize, j: usize| dot(&levers[i], &rows[j]);
     let variances: Vec<f64> = (0..rows.len()).map(|i| covariance(i, i)).collect();
     let square = |i: usize, j: usize| covariance(i, j) * covariance(i, j) / (variances[i] * variances[j]);
-    let squares: f64 = (0..rows.len()).flat_map(|i| (0..rows.len()).map(move |j| (i, j))).map(|(i, j)| square(i, j)).sum();
+    let squares: f64 =
+        (0..rows.len()).flat_map(|i| (0..rows.len()).map(move |j| (i, j))).map(|(i, j)| square(i, j)).sum();
     (rows.len() * rows.len()) as f64 / squares
 }

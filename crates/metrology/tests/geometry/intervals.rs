@@ -104,8 +104,6 @@ fn of_grid(camera: &Calibration, size: [usize; 2], tilt: f64, truth: impl Fn(f64
     let largest = all.fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
     let corner = found.local.iter().find(|l| l.index == [0, 0]).expect("seen");
     let last = found.curve.last().expect("a curve");
-    let e = (last.ratio.value - truth(last.field)) / last.ratio.standard_uncertainty;
-    let _ = e;
     vec![
         ("largest local distortion", found.largest.expect("points").distortion, largest),
         ("of a corner", corner.distortion, truth(corner.field) - 1.0),
@@ -113,26 +111,27 @@ fn of_grid(camera: &Calibration, size: [usize; 2], tilt: f64, truth: impl Fn(f64
     ]
 }
 
-const GRIDS: [(&str, [usize; 2]); 6] =
-    [("5 × 4", [5, 4]), ("10 × 7", [10, 7]), ("11 × 8", [11, 8]), ("13 × 10", [13, 10]), ("20 × 9", [20, 9]), ("40 × 30", [40, 30])];
-
-/// Charts of any number of points, through lenses without distortion, with some, and with much.
+/// Charts of few points and of many, of few rows, through lenses without distortion and with it.
 #[test]
 fn distortion_of_charts_of_few_points_and_many() {
-    let cameras = [("none", 0.0, 0.0), ("barrel", -0.1, 0.02), ("pincushion", 0.08, -0.01)];
-    for (chart, size) in GRIDS {
-        if std::env::var("GRID").is_ok_and(|g| !chart.starts_with(&g)) { continue; }
-        let t0 = std::time::Instant::now();
-        for (kind, k1, k2) in cameras {
-            let camera = barrel(k1, k2);
-            let Model::Radial(radial) = camera.model().clone() else { panic!("radial") };
-            let truth = |field: f64| {
-                let observed = field * radial.unit_mm();
-                observed / radial.ideal_radius_mm(observed).expect("no fold")
-            };
-            covers(&format!("distortion, {chart}, {kind}"), |seed| of_grid(&camera, size, 0.02, truth, seed));
-        eprintln!("{:?}", t0.elapsed());
-        }
+    let none = ("none", [0.0, 0.0]);
+    let barrel_of = ("barrel", [-0.1, 0.02]);
+    let cases = [
+        ("5 × 4", [5, 4], none),
+        ("5 × 4", [5, 4], barrel_of),
+        ("10 × 7", [10, 7], ("pincushion", [0.08, -0.01])),
+        ("11 × 8", [11, 8], none),
+        ("20 × 9", [20, 9], barrel_of),
+        ("40 × 30", [40, 30], barrel_of),
+    ];
+    for (chart, size, (kind, [k1, k2])) in cases {
+        let camera = barrel(k1, k2);
+        let Model::Radial(radial) = camera.model().clone() else { panic!("radial") };
+        let truth = |field: f64| {
+            let observed = field * radial.unit_mm();
+            observed / radial.ideal_radius_mm(observed).expect("no fold")
+        };
+        covers(&format!("distortion, {chart}, {kind}"), |seed| of_grid(&camera, size, 0.02, truth, seed));
     }
 }
 

@@ -15,7 +15,7 @@ use std::path::PathBuf;
 /// `etendue measure distortion`
 #[derive(Debug, Args)]
 pub struct DistortionArguments {
-    /// A picture of a plane chart that fills the field: many dots, or a checkerboard
+    /// A picture of a plane chart that fills the field: many dots, or a checkerboard; or a list of its points (CSV: column, row, x_px, y_px)
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     #[command(flatten)]
@@ -56,7 +56,12 @@ fn report(seen: &Seen, found: &Distortion, points: bool) -> Report {
     report.fact("step_px", "step of the chart at the centre", "px", found.ideal.step_px());
     report.fact("degree", "degree of the map", "", found.ideal.degree() as f64);
     report.fact("sigma_px", "standard deviation of points about it", "px", found.ideal.sigma_px());
-    report.fact("beyond_k1_k2_px", "size of its terms beyond k1 and k2, at the farthest point", "px", found.ideal.tau_px());
+    report.fact(
+        "beyond_k1_k2_px",
+        "size of its terms beyond k1 and k2, at the farthest point",
+        "px",
+        found.ideal.tau_px(),
+    );
     if let Some(last) = found.curve.last() {
         let percent = Estimate::new(100.0 * (last.ratio.value - 1.0), 100.0 * last.ratio.standard_uncertainty);
         report.fact("field_reached_percent", "field reached", "% of the half diagonal", 100.0 * last.field);
