@@ -26,6 +26,7 @@ mod kenney;
 mod lenses;
 mod measures;
 mod plans;
+mod point_lists;
 mod raw_files;
 mod shared_light;
 mod shared_paths;

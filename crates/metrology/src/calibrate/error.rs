@@ -20,6 +20,17 @@ pub enum CalibrateError {
         /// Points that would do.
         least: usize,
     },
+    /// One view is the reason.
+    #[error(
+        "view {}: without it the others give a camera, with it: {cause}. See how its points are numbered, leave it out, or give more views",
+        view + 1
+    )]
+    View {
+        /// The view, from 0.
+        view: usize,
+        /// What is wrong with all.
+        cause: Box<CalibrateError>,
+    },
     /// No first guess.
     #[error(
         "the points lie on no plane chart as this model would see it: check the order of the points and the model (a fisheye for \

@@ -27,6 +27,7 @@ mod family;
 mod pose;
 mod problem;
 mod result;
+mod spare;
 mod start;
 
 use crate::Estimate;
@@ -37,6 +38,7 @@ pub use error::CalibrateError;
 pub use family::{Family, Radial};
 pub use pose::Pose;
 pub use result::{Calibrated, Parameter};
+pub use spare::{Spared, calibrate_sparing};
 
 use problem::Bundle;
 

@@ -39,33 +39,32 @@ fn point(ideal: &Ideal, seen: &BTreeMap<[i64; 2], DVec2>, field: f64, half_diago
         let (sin, cos) = sin_cos(std::f64::consts::TAU * f64::from(i) / f64::from(DIRECTIONS));
         ideal.centre() + radius * DVec2::new(cos, sin)
     };
-    // Between points of the chart, or beyond them by half a step at most. Far outside the polynomial may fold back onto the
+    // Between points of the chart, or beyond them by half a step at most. Far outside the fields may fold back onto the
     // chart: the point must be seen there, too.
     let within = |at: &DVec2| {
-        let point = seen.get(&ideal.chart(*at).to_array().map(|c| c.round() as i64));
+        let chart = ideal.chart(*at).map(|c| c.to_array().map(|c| c.round() as i64));
+        let point = chart.and_then(|chart| seen.get(&chart));
         point.is_some_and(|p| (*p - *at).length() < NEAR * ideal.step_px())
     };
     let places: Vec<DVec2> = (0..DIRECTIONS).map(place).filter(within).collect();
-    let ratios: Vec<f64> = places.iter().map(|at| radius / (ideal.place(*at) - ideal.centre()).length()).collect();
-    let count = ratios.len() as f64;
     // A direction to each corner of the picture.
-    if ratios.len() < 4 {
+    if places.len() < 4 {
         return None;
     }
+    let ratio = |at: &DVec2| Some(radius / (ideal.place(*at)? - ideal.centre()).length());
+    let ratios: Vec<f64> = places.iter().map(ratio).collect::<Option<_>>()?;
+    let count = ratios.len() as f64;
     let mean = ratios.iter().sum::<f64>() / count;
     let spread = (ratios.iter().map(|r| (r - mean) * (r - mean)).sum::<f64>() / count).sqrt();
-    let mut rows: Option<[Vec<f64>; 2]> = None;
+    let mut sum: Vec<f64> = Vec::new();
     for (at, ratio) in places.iter().zip(&ratios) {
-        let more = ideal.log_distance_rows(*at).map(|row| row.iter().map(|r| -ratio * r / count).collect::<Vec<_>>());
-        rows = Some(match rows {
-            None => more,
-            Some(sum) => std::array::from_fn(|c| sum[c].iter().zip(&more[c]).map(|(a, b)| a + b).collect()),
-        });
+        let row = ideal.log_distance_row(*at)?;
+        sum.resize(row.len(), 0.0);
+        sum.iter_mut().zip(&row).for_each(|(s, r)| *s -= ratio * r / count);
     }
-    let variance: f64 = rows?.iter().map(|row| ideal.variance(row)).sum();
     Some(CurvePoint {
         field,
-        ratio: Estimate::new(mean, variance.sqrt()),
+        ratio: Estimate::new(mean, ideal.variance(&sum).sqrt()),
         covered: count / f64::from(DIRECTIONS),
         spread,
     })

@@ -1,72 +1,134 @@
 //! From the picture to where a camera without distortion would see the same.
+//!
+//! ideal(p) = base(p) + Σ βₖ Fₖ(p), the base a radial polynomial ([`base`](super::base)), F how it depends on its own numbers and
+//! the fields of [`fields`](super::fields), none of which has place, slope or tilt at the centre; and ideal(p) = H(chart), H a homography.
+//! β and what H lacks are found by least squares of the distances in the picture, in which all but the base's own fields
+//! are as small as the picture shows them to be ([`shrunken`]): large where many points tell them, and where few do, what
+//! they might be is in the uncertainty.
 
-use super::DistortionError;
+use super::base::Base;
+use super::fields::{self, PLANE};
+use super::{DistortionError, RadialFit};
 use crate::disc::centroid_shift;
-use crate::fit::PolynomialMap;
-use crate::target::{Grid, Node};
-use glam::{DMat2, DVec2};
+use crate::fit::{Homography, Shrunken, shrunken};
+use crate::linear::Matrix;
+use crate::target::Node;
+use glam::{DMat2, DMat3, DVec2};
 
-/// Highest degree of the polynomial, and points that each of its coefficients needs.
-const DEGREES: [usize; 4] = [9, 7, 5, 3];
-const POINTS_EACH: f64 = 1.6;
-/// Points of the least degree.
-const LEAST: usize = 16;
+/// Points that are needed.
+pub(super) const LEAST: usize = 16;
 
-/// The degree that so many points bear.
-fn degree(points: usize) -> Result<usize, DistortionError> {
-    let bears = |degree: &usize| POINTS_EACH * PolynomialMap::count(*degree) as f64 <= points as f64;
-    DEGREES.into_iter().find(bears).ok_or(DistortionError::Few { points, least: LEAST })
-}
-
-fn chart(node: &Node) -> DVec2 {
+pub(super) fn chart(node: &Node) -> DVec2 {
     DVec2::new(node.index[0] as f64, node.index[1] as f64)
 }
 
-/// The grid's points with each disc's centre where its centroid was.
-pub(super) fn without_shifts(grid: &Grid) -> Result<Vec<Node>, DistortionError> {
-    const ROUNDS: usize = 3;
-    let mut nodes = grid.nodes.clone();
-    let degree = degree(nodes.len())?;
-    let Some(radius) = grid.disc_radius_steps else { return Ok(nodes) };
-    for _ in 0..ROUNDS {
-        let pairs: Vec<_> = nodes.iter().map(|n| [chart(n), n.at]).collect();
-        let map = PolynomialMap::fitted(degree, &pairs)?;
-        for (node, seen) in nodes.iter_mut().zip(&grid.nodes) {
-            let shift = centroid_shift(|p| Some(map.image(p)), chart(node), radius);
-            node.at = seen.at - shift.unwrap_or(DVec2::ZERO);
-        }
-    }
-    Ok(nodes)
-}
-
-/// The polynomial from the picture to the chart (in steps of the grid), and the homography that meets it at the centre.
+/// The map from the picture to the ideal picture, and the homography between that and the chart.
 #[derive(Clone, Debug)]
 pub struct Ideal {
-    map: PolynomialMap,
+    base: Base,
     centre: DVec2,
-    /// The chart's point at the centre, steps.
-    origin: DVec2,
-    /// Its slope there, steps per px, and its inverse.
-    slope: DMat2,
-    inverse: DMat2,
-    /// The homography: chart = origin + slope d/(1 + tilt · d), d the ideal place less the centre.
-    tilt: DVec2,
+    /// The largest distance of a point of the chart from the centre, px: the fields' unit.
+    reach: f64,
+    /// From the chart (steps) to the ideal picture, and back.
+    plane: Homography,
+    chart: Homography,
+    sizes: Vec<f64>,
+    covariance: Matrix,
+    sigma: f64,
+    tau: f64,
 }
 
 impl Ideal {
-    pub(super) fn of(nodes: &[Node], centre: DVec2) -> Result<Self, DistortionError> {
-        let pairs: Vec<_> = nodes.iter().map(|n| [n.at, chart(n)]).collect();
-        let map = PolynomialMap::fitted(degree(nodes.len())?, &pairs)?;
-        let jet = map.jet(centre);
-        let inverse = jet.slope.inverse();
-        let covered = nodes.iter().any(|n| (chart(n) - jet.value).length() < 1.5);
-        if !(covered && inverse.is_finite()) {
-            return Err(DistortionError::Centre { centre_px: centre.to_array() });
+    /// Of points about a centre, beginning with two radial fits.
+    pub(super) fn of(nodes: &[Node], centre: DVec2, fits: [&RadialFit; 2], unit: f64) -> Result<Self, DistortionError> {
+        let reach = nodes.iter().map(|n| (n.at - centre).length()).fold(0.0, f64::max);
+        let whole = |base: &Base| nodes.iter().all(|n| base.slope(n.at).is_some());
+        let [a, b] = fits;
+        let ordered = if a.rms_px <= b.rms_px { [a, b] } else { [b, a] };
+        let choices = [&ordered[..], &ordered[..1], &ordered[1..]];
+        let mut tried = choices.into_iter().filter_map(|fits| Base::of(fits, centre, unit));
+        let start = tried.find(|(base, _)| whole(base)).or_else(|| {
+            let pairs: Vec<[DVec2; 2]> = nodes.iter().map(|n| [chart(n), n.at]).collect();
+            Some((Base::none(centre, unit)?, Homography::direct(&pairs)?))
+        });
+        // Of a coordinate, for what is known before.
+        let rough = ordered[0].rms_px * core::f64::consts::FRAC_1_SQRT_2;
+        let (base, plane) = start.ok_or(DistortionError::Few { points: nodes.len(), least: LEAST })?;
+        // The homography's own change moves it once more by less than its square.
+        const ROUNDS: usize = 2;
+        let mut ideal = Self::unfitted(base, centre, reach, plane);
+        for _ in 0..ROUNDS {
+            ideal = ideal.fitted(nodes, rough)?;
         }
-        // A homography's curvature, in px: −2 tₓ eₓ, −(tₓ e_y + t_y eₓ), −2 t_y e_y; the nearest to the polynomial's.
-        let [xx, xy, yy] = jet.curvature.map(|c| inverse * c);
-        let tilt = DVec2::new(-(xx.x + xy.y) / 3.0, -(yy.y + xy.x) / 3.0);
-        Ok(Self { map, centre, origin: jet.value, slope: jet.slope, inverse, tilt })
+        let origin = ideal.chart(centre);
+        let covered = origin.is_some_and(|origin| nodes.iter().any(|n| (chart(n) - origin).length() < 1.5));
+        if covered { Ok(ideal) } else { Err(DistortionError::Centre { centre_px: centre.to_array() }) }
+    }
+
+    fn unfitted(base: Base, centre: DVec2, reach: f64, plane: Homography) -> Self {
+        let covariance = Matrix::zeros(0, 0);
+        Self {
+            base,
+            centre,
+            reach,
+            plane,
+            chart: inverse(&plane, centre),
+            sizes: Vec::new(),
+            covariance,
+            sigma: 0.0,
+            tau: 0.0,
+        }
+    }
+
+    /// The fields' sizes, and the homography better by what they leave.
+    fn fitted(self, nodes: &[Node], rough: f64) -> Result<Self, DistortionError> {
+        let (design, values) =
+            self.equations(nodes, rough).ok_or(DistortionError::Few { points: nodes.len(), least: LEAST })?;
+        let Shrunken { parameters, covariance, sigma, tau } = shrunken(&design, &values, PLANE + self.base.count().0)?;
+        let plane = self.moved(&parameters[..PLANE]);
+        let count = parameters.len() - PLANE;
+        let part = |i: usize| (0..count).map(|j| covariance.at(PLANE + i, PLANE + j)).collect::<Vec<f64>>();
+        let covariance = Matrix::from_rows(count, (0..count).map(part));
+        let sizes = parameters[PLANE..].to_vec();
+        Ok(Self { plane, chart: inverse(&plane, self.centre), sizes, covariance, sigma, tau, ..self })
+    }
+
+    /// A row a coordinate: H(chart) − base(p) by fields, over the base's slope, so that errors are those of places in the picture.
+    /// One more says that a lens may be that of either direction or lie between or a little beyond: half the difference counts 0 ± 1 times.
+    fn equations(&self, nodes: &[Node], rough: f64) -> Option<(Matrix, Vec<f64>)> {
+        let (mut rows, mut values) = (Vec::with_capacity(2 * nodes.len()), Vec::with_capacity(2 * nodes.len()));
+        for node in nodes {
+            let ideal = self.plane.image(chart(node))?;
+            let back = self.base.slope(node.at)?.inverse();
+            let off = back * (ideal - self.base.place(node.at)?);
+            let fields = fields::plane((ideal - self.centre) / self.reach).into_iter().chain(self.fields(node.at)?);
+            let fields: Vec<DVec2> = fields.map(|f| back * f).collect();
+            rows.extend([0, 1].map(|c| fields.iter().map(|f| f[c]).collect::<Vec<f64>>()));
+            values.extend(off.to_array());
+        }
+        let columns = rows.first()?.len();
+        if let (count, true) = self.base.count() {
+            let mut row = vec![0.0; columns];
+            row[PLANE + count - 1] = rough;
+            rows.push(row);
+            values.push(0.0);
+        }
+        Some((Matrix::from_rows(columns, rows), values))
+    }
+
+    /// The homography less a part of its fields: x − a − A x over 1 + t · x, about the centre.
+    fn moved(&self, fields: &[f64]) -> Homography {
+        let f = fields.iter().map(|f| f / self.reach).collect::<Vec<f64>>();
+        let rows = [[1.0 - f[2], -f[3], -f[0]], [-f[4], 1.0 - f[5], -f[1]], [f[6], f[7], 1.0]];
+        let unit = DMat3::from_translation(self.centre) * DMat3::from_scale(DVec2::splat(self.reach));
+        let matrix = unit * DMat3::from_cols_array_2d(&rows).transpose() * unit.inverse() * self.plane.matrix;
+        Homography { matrix }
+    }
+
+    fn fields(&self, at: DVec2) -> Option<Vec<DVec2>> {
+        let mut fields = self.base.fields(at)?;
+        fields.extend(fields::distortion((at - self.centre) / self.reach));
+        Some(fields)
     }
 
     /// The centre, px.
@@ -75,74 +137,81 @@ impl Ideal {
         self.centre
     }
 
-    /// The polynomial's degree.
+    /// Degree of the highest field.
     #[must_use]
     pub fn degree(&self) -> usize {
-        self.map.degree()
+        fields::DEGREE
     }
 
-    /// Standard deviation of a point about the polynomial, px at the centre's scale.
+    /// Standard deviation of a coordinate of a point about the fit, px.
     #[must_use]
     pub fn sigma_px(&self) -> f64 {
-        self.map.sigma * self.step_px()
+        self.sigma
+    }
+
+    /// Standard deviation of each term that is not of k₁ and k₂ at the chart's farthest point, px.
+    #[must_use]
+    pub fn tau_px(&self) -> f64 {
+        self.tau
     }
 
     /// The length of a step of the chart at the centre, px: the root of its cell's area.
     #[must_use]
     pub fn step_px(&self) -> f64 {
-        self.inverse.determinant().abs().sqrt()
-    }
-
-    /// The chart's point that is seen at a place, steps.
-    #[must_use]
-    pub fn chart(&self, at: DVec2) -> DVec2 {
-        self.map.image(at)
-    }
-
-    /// Where what is seen at a place would be seen without distortion, px.
-    #[must_use]
-    pub fn place(&self, at: DVec2) -> DVec2 {
-        let v = self.inverse * (self.map.image(at) - self.origin);
-        self.centre + v / (1.0 - self.tilt.dot(v))
-    }
-
-    /// How the ideal distance's logarithm at a place depends on the coefficients of the chart's x and y.
-    pub(super) fn log_distance_rows(&self, at: DVec2) -> [Vec<f64>; 2] {
-        // ln |ideal| = ln |v| − ln(1 − tilt · v), and dv = inverse (d chart − d origin − d slope v).
-        let v = self.inverse * (self.map.image(at) - self.origin);
-        let stretch = 1.0 / (1.0 - self.tilt.dot(v));
-        let (there, here) = (self.map.row(at), self.map.row(self.centre));
-        let slope = self.map.slope_row(self.centre, v);
-        let moved = there.iter().zip(&here).zip(&slope).map(|((t, h), s)| t - h - s).collect();
-        let mut terms = vec![(v / v.length_squared() + stretch * self.tilt, moved)];
-        // v · d tilt, the tilt being a third of the curvature's parts.
-        let levers = [DVec2::new(v.x, 0.0), DVec2::new(v.y, v.x), DVec2::new(0.0, v.y)];
-        terms.extend(levers.map(|lever| -stretch / 3.0 * lever).into_iter().zip(self.curvature_rows()));
-        let levers: Vec<DVec2> = terms.iter().map(|(lever, _)| self.inverse.transpose() * *lever).collect();
-        let sum =
-            |c: usize, k: usize| levers.iter().zip(&terms).map(|(lever, (_, row))| lever[c] * row[k]).sum::<f64>();
-        [0, 1].map(|c| (0..there.len()).map(|k| sum(c, k)).collect())
-    }
-
-    /// How slope · curvature in px at the centre (∂²/∂x², ∂²/∂x∂y, ∂²/∂y²) depends on the coefficients of a coordinate.
-    fn curvature_rows(&self) -> [Vec<f64>; 3] {
-        let px = self.map.jet(self.centre).curvature.map(|c| self.inverse * c);
-        let rows = self.map.curvature_rows(self.centre);
-        let less = |(row, px): (Vec<f64>, DVec2)| {
-            let slope = self.map.slope_row(self.centre, px);
-            row.iter().zip(&slope).map(|(r, s)| r - s).collect()
+        let step = |d: DVec2| {
+            let origin = self.chart(self.centre)?;
+            Some(self.plane.image(origin + 1e-3 * d)? - self.plane.image(origin - 1e-3 * d)?)
         };
-        let mut rows = rows.into_iter().zip(px).map(less);
-        std::array::from_fn(|_| rows.next().expect("three"))
+        let cell = step(DVec2::X).zip(step(DVec2::Y));
+        cell.map_or(0.0, |(x, y)| DMat2::from_cols(x, y).determinant().abs().sqrt() / 2e-3)
+    }
+
+    /// The chart's point that is seen at a place, steps; `None` where the map has none.
+    #[must_use]
+    pub fn chart(&self, at: DVec2) -> Option<DVec2> {
+        self.chart.image(self.place(at)?)
+    }
+
+    /// Where what is seen at a place would be seen without distortion, px; `None` where the map has no such place.
+    #[must_use]
+    pub fn place(&self, at: DVec2) -> Option<DVec2> {
+        let base = self.base.place(at)?;
+        Some(base + self.fields(at)?.iter().zip(&self.sizes).map(|(f, size)| *size * *f).sum::<DVec2>())
+    }
+
+    /// How the ideal distance's logarithm at a place depends on the fields' sizes.
+    pub(super) fn log_distance_row(&self, at: DVec2) -> Option<Vec<f64>> {
+        let v = self.place(at)? - self.centre;
+        let lever = v / v.length_squared();
+        Some(self.fields(at)?.iter().map(|f| lever.dot(*f)).collect())
     }
 
     pub(super) fn variance(&self, row: &[f64]) -> f64 {
-        self.map.variance(row)
+        self.covariance.form(row)
     }
 
-    /// Steps per px along x and y at the centre.
-    #[must_use]
-    pub fn slope(&self) -> DMat2 {
-        self.slope
+    /// The covariance of the fields' sizes with what depends on them by a row.
+    pub(super) fn lever(&self, row: &[f64]) -> Vec<f64> {
+        self.covariance.times(row)
     }
+
+    /// By how much the centroid of a disc about a point of the chart lies off its centre's image, px. The image near a node is
+    /// found by steps along the slope there.
+    pub(super) fn disc_shift(&self, node: &Node, radius: f64) -> Option<DVec2> {
+        const STEPS: usize = 4;
+        let h = 1e-3 * self.reach;
+        let along = |d: DVec2| Some((self.place(node.at + h * d)? - self.place(node.at - h * d)?) * (0.5 / h));
+        let back = DMat2::from_cols(along(DVec2::X)?, along(DVec2::Y)?).inverse();
+        let image = |point: DVec2| {
+            let wanted = self.plane.image(point)?;
+            (0..STEPS).try_fold(node.at, |at, _| Some(at + back * (wanted - self.place(at)?)))
+        };
+        centroid_shift(image, chart(node), radius)
+    }
+}
+
+/// The way back, with the centre's image before the plane.
+fn inverse(plane: &Homography, centre: DVec2) -> Homography {
+    let matrix = plane.matrix.inverse();
+    Homography { matrix: matrix / (matrix * centre.extend(1.0)).z }
 }

@@ -1,31 +1,38 @@
 //! Distortion from one picture of a plane chart, without a model of the lens.
 //!
-//! 1. A polynomial of high degree takes places of the picture to the chart ([`ideal`](Ideal)). (Of discs, the shift of each
-//!    centroid by the inverse polynomial is taken off first; [`disc`](crate::disc).)
-//! 2. At the centre of the picture it is compared with a homography of the same value, slope and, as far as it can,
-//!    curvature: how a camera without distortion and with the scale of the picture's centre would see the chart, tilted as it is.
-//! 3. That homography says of every place where it would be seen ideally. The ratio of the two distances from the centre,
+//! 1. The radial polynomial of k₁ and k₂ nearest to the picture is found in either direction, with its centre ([`RadialFit`]).
+//! 2. Beginning with the better one, places of the picture are taken to where a camera without distortion and with the scale of the
+//!    picture's centre would see the same, the chart tilted as it is ([`ideal`](Ideal)): by a map of the ninth degree of which value,
+//!    slope and, as far as it can, curvature at the centre are a homography's. (Of discs, the shift of each centroid is
+//!    taken off and the map found again; [`disc`](crate::disc).)
+//! 3. The ratio of the two distances from the centre,
 //!    observed over ideal, against the observed one in half diagonals, is the distortion curve ([`curve`](CurvePoint)); less 1
-//!    it is the local geometric distortion of ISO 17850:2015, whose ideal scale is that of the dots about the centre as well.
+//!    it is the local geometric distortion of ISO 17850:2015, whose ideal scale is that of the dots about the centre as well
+//!    ([`LocalDistortion`]).
 //! 4. The bow of rows and columns in the picture's height is ISO 17850's line distortion ([`LineBow`]).
 //! 5. The height of the picture at its sides over that in the middle, from the outermost rows that reach from side to side, is
 //!    the picture-height (television) distortion.
-//! 6. k₁ and k₂ of the radial polynomial in either direction, in half diagonals, and its centre, are fitted beside
-//!    ([`RadialFit`]).
 //!
-//! Positions are raster coordinates, px; ratios are pure. Uncertainty: the polynomial's covariance, from its residuals, to
-//! first order in its coefficients; the homography's slope and tilt are theirs too. What of a distortion centred elsewhere looks
-//! like a tilt at the centre is in it no more than in the curve: [`Distortion::largest_difference`] tells. Left out: what a polynomial of this degree cannot follow (seen in its residuals), and the
+//! Positions are raster coordinates, px; ratios are pure. Ideal scale is a slope at one place, where a chart of few points says little
+//! of it: terms beyond k₁, k₂ and second degree count as far as the points show them, and what the points leave open of
+//! them is in the uncertainty with the points' own scatter ([`shrunken`](crate::fit::shrunken())). So charts of 16 points on are
+//! measured; the fewer, the less certain. Assumed: errors of points are independent and alike; what departs from k₁ and k₂ is a smooth field,
+//! about as large across the chart as along it. What of a distortion centred elsewhere looks
+//! like a tilt at the centre is in it no more than in the curve: [`Distortion::largest_difference`] tells. Left out: the
 //! chart's own errors.
 
+mod base;
 mod curve;
+mod fields;
 mod ideal;
 mod lines;
+mod local;
 mod radial;
 
 pub use curve::CurvePoint;
 pub use ideal::Ideal;
 pub use lines::LineBow;
+pub use local::LocalDistortion;
 pub use radial::RadialFit;
 
 use crate::Estimate;
@@ -34,6 +41,7 @@ use crate::fit::FitError;
 use crate::target::{Grid, Node};
 use etendue_projection::Sense;
 use glam::DVec2;
+use rayon::prelude::*;
 
 /// Why a picture has no distortion to tell.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -59,24 +67,6 @@ pub enum DistortionError {
     Fit(#[from] FitError),
 }
 
-/// Distortion at one point of the chart.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LocalDistortion {
-    /// Column and row of the point.
-    pub index: [usize; 2],
-    /// Where it is seen, px.
-    pub at: DVec2,
-    /// Where it would be seen ideally, px.
-    pub ideal: DVec2,
-    /// Its distance from the centre, in half diagonals.
-    pub field: f64,
-    /// (Observed − ideal)/ideal distance from the centre. Its uncertainty is that of the point alone: that of the ideal places,
-    /// which neighbours share, is the curve's.
-    pub distortion: Estimate,
-    /// Standard uncertainty of a coordinate of `at`, px.
-    pub uncertainty_px: f64,
-}
-
 /// The distortion of a picture.
 #[derive(Clone, Debug)]
 pub struct Distortion {
@@ -90,6 +80,8 @@ pub struct Distortion {
     pub curve: Vec<CurvePoint>,
     /// Every point of the chart but those at the centre itself.
     pub local: Vec<LocalDistortion>,
+    /// The one of them that is largest by magnitude, with the uncertainty of the largest.
+    pub largest: Option<LocalDistortion>,
     /// Rows and columns.
     pub lines: Vec<LineBow>,
     /// Picture-height distortion: the height at the sides over that in the middle, less 1; `None`
@@ -122,34 +114,54 @@ pub fn distortion(grid: &Grid, size_px: [usize; 2], centre_px: Option<DVec2>) ->
     let size = DVec2::new(size_px[0] as f64, size_px[1] as f64);
     let centre = centre_px.unwrap_or(0.5 * size);
     let half_diagonal_px = 0.5 * size.length();
-    let nodes = ideal::without_shifts(grid)?;
-    let ideal = Ideal::of(&nodes, centre)?;
-    let sightings = Sightings::of_grid(&Grid { nodes: nodes.clone(), disc_radius_steps: None, size: grid.size }, 1.0);
+    if grid.nodes.len() < ideal::LEAST {
+        return Err(DistortionError::Few { points: grid.nodes.len(), least: ideal::LEAST });
+    }
+    let found = without_shifts(grid, centre, half_diagonal_px)?;
+    let Found { nodes, ideal, forward, backward } = found;
+    let local = local::all(&ideal, &nodes, half_diagonal_px);
     Ok(Distortion {
         centre_px: centre,
         half_diagonal_px,
         curve: curve::curve(&ideal, &nodes, half_diagonal_px),
-        local: nodes.iter().filter_map(|n| local(&ideal, n, half_diagonal_px)).collect(),
+        largest: local::largest(&ideal, &local),
+        local,
         lines: lines::bows(&nodes, grid.size, centre, size.y),
         height: lines::picture_height(&nodes, grid.size),
-        forward: RadialFit::of(&sightings.points, Sense::IdealToObserved, centre, half_diagonal_px)?,
-        backward: RadialFit::of(&sightings.points, Sense::ObservedToIdeal, centre, half_diagonal_px)?,
+        forward,
+        backward,
         ideal,
     })
 }
 
-fn local(ideal: &Ideal, node: &Node, half_diagonal_px: f64) -> Option<LocalDistortion> {
-    let seen = node.at - ideal.centre();
-    let place = ideal.place(node.at);
-    // At the centre itself a ratio says nothing.
-    let far = seen.length() > 0.02 * half_diagonal_px;
-    let ratio = seen.length() / (place - ideal.centre()).length();
-    far.then(|| LocalDistortion {
-        index: node.index,
-        at: node.at,
-        ideal: place,
-        field: seen.length() / half_diagonal_px,
-        distortion: Estimate::new(ratio - 1.0, ratio * node.uncertainty_px / seen.length()),
-        uncertainty_px: node.uncertainty_px,
-    })
+/// The maps, and the points from which they were found.
+struct Found {
+    nodes: Vec<Node>,
+    ideal: Ideal,
+    forward: RadialFit,
+    backward: RadialFit,
+}
+
+/// The maps of a grid, of discs with each disc's centre where its centroid was.
+fn without_shifts(grid: &Grid, centre: DVec2, half_diagonal_px: f64) -> Result<Found, DistortionError> {
+    const ROUNDS: usize = 2;
+    let mut found = maps(grid.nodes.clone(), grid.size, centre, half_diagonal_px)?;
+    let Some(radius) = grid.disc_radius_steps else { return Ok(found) };
+    for _ in 0..ROUNDS {
+        let moved = grid.nodes.par_iter().map(|seen| {
+            let shift = found.ideal.disc_shift(seen, radius).unwrap_or(DVec2::ZERO);
+            Node { at: seen.at - shift, ..*seen }
+        });
+        found = maps(moved.collect(), grid.size, centre, half_diagonal_px)?;
+    }
+    Ok(found)
+}
+
+fn maps(nodes: Vec<Node>, size: [usize; 2], centre: DVec2, half_diagonal_px: f64) -> Result<Found, DistortionError> {
+    let grid = Grid { nodes, disc_radius_steps: None, size };
+    let points = Sightings::of_grid(&grid, 1.0).points;
+    let radial = |sense| RadialFit::of(&points, sense, centre, half_diagonal_px);
+    let (forward, backward) = (radial(Sense::IdealToObserved)?, radial(Sense::ObservedToIdeal)?);
+    let ideal = Ideal::of(&grid.nodes, centre, [&forward, &backward], half_diagonal_px)?;
+    Ok(Found { nodes: grid.nodes, ideal, forward, backward })
 }

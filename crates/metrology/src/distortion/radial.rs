@@ -23,6 +23,8 @@ pub struct RadialFit {
     pub covariance: [[f64; 4]; 4],
     /// Root mean square distance of the points from the fit, px.
     pub rms_px: f64,
+    /// From the chart to the picture without distortion, px.
+    pub(super) plane: Homography,
 }
 
 impl RadialFit {
@@ -42,7 +44,7 @@ impl RadialFit {
         // Without distortion every centre is as good: it is set free when k₁ and k₂ are known.
         let held = fit(&problem, &numbers)?;
         let numbers = [&held.parameters[..], &centre.to_array()].concat();
-        let free = fit(&Radial { free: true, ..problem }, &numbers).ok();
+        let free = fit(&Radial { free: true, ..problem.clone() }, &numbers).ok();
         // A centre known no better than a twentieth of the half diagonal is not known.
         let known = |f: &Fit| (10..12).all(|i| f.estimate(i).standard_uncertainty < 0.05 * half_diagonal_px);
         let (found, centre_px) = match free.filter(known) {
@@ -51,12 +53,13 @@ impl RadialFit {
         };
         let squares: f64 = found.residuals.iter().flatten().map(|r| r * r).sum();
         let rms_px = (squares / points.len() as f64).sqrt();
+        let plane = problem.plane(&found.parameters);
         let unknown = |i: usize, j: usize| if i == j { f64::INFINITY } else { 0.0 };
         let fitted = found.parameters.len() - 8;
         let covariance =
             |i: usize, j: usize| if i.max(j) < fitted { found.covariance.at(8 + i, 8 + j) } else { unknown(i, j) };
         let covariance = std::array::from_fn(|i| std::array::from_fn(|j| covariance(i, j)));
-        Ok(Self { sense, k1: found.estimate(8), k2: found.estimate(9), centre_px, covariance, rms_px })
+        Ok(Self { sense, k1: found.estimate(8), k2: found.estimate(9), centre_px, covariance, rms_px, plane })
     }
 }
 
@@ -78,6 +81,7 @@ fn middle(pairs: &[[DVec2; 2]]) -> (DVec2, f64) {
 
 /// Numbers: the homography from the chart (moved to its middle, of size 1) to half diagonals about `centre`, row by row but for
 /// the last; k₁, k₂; the centre where it is free.
+#[derive(Clone)]
 struct Radial<'a> {
     points: &'a [Sighting],
     sense: Sense,
@@ -89,6 +93,13 @@ struct Radial<'a> {
 }
 
 impl Radial<'_> {
+    /// From the chart to the picture without distortion, px.
+    fn plane(&self, numbers: &[f64]) -> Homography {
+        let unit = |centre: DVec2, size: f64| DMat3::from_translation(centre) * DMat3::from_scale(DVec2::splat(size));
+        let matrix = unit(self.centre, self.half_diagonal_px) * homography(numbers).matrix;
+        Homography { matrix: matrix * unit(self.chart, self.size).inverse() }
+    }
+
     fn first(&self, start: &Homography) -> Vec<f64> {
         let unit = |centre: DVec2, size: f64| DMat3::from_translation(centre) * DMat3::from_scale(DVec2::splat(size));
         let matrix = unit(self.centre, self.half_diagonal_px).inverse() * start.matrix * unit(self.chart, self.size);
@@ -97,12 +108,17 @@ impl Radial<'_> {
     }
 }
 
+/// Of its numbers, row by row.
+fn homography(p: &[f64]) -> Homography {
+    let rows = [p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], 1.0];
+    Homography { matrix: DMat3::from_cols_array(&rows).transpose() }
+}
+
 impl Problem for Radial<'_> {
     type State = (Homography, RadialDistortion, DVec2);
 
     fn state(&self, p: &[f64]) -> Option<Self::State> {
-        let rows = [p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], 1.0];
-        let homography = Homography { matrix: DMat3::from_cols_array(&rows).transpose() };
+        let homography = homography(p);
         let centre = if self.free { DVec2::new(p[10], p[11]) } else { self.centre };
         Some((homography, RadialDistortion::new(self.sense, p[8], p[9], 1.0).ok()?, centre))
     }

@@ -4,12 +4,12 @@
 //! | --- | --- | --- |
 //! | [`levenberg`] | any residuals, by Levenberg and Marquardt | `levenberg.rs` |
 //! | [`Homography`] | plane to plane in perspective | `homography.rs` |
-//! | [`PolynomialMap`] | plane to plane, by a polynomial | `polynomial.rs` |
+//! | [`shrunken()`] | lines in coefficients, some of which are small | `shrunken.rs` |
 
 mod homography;
 pub mod levenberg;
-mod polynomial;
+mod shrunken;
 
 pub use homography::{Homography, null_vector};
 pub use levenberg::{Fit, FitError, Problem, fit};
-pub use polynomial::{Jet, PolynomialMap};
+pub use shrunken::{Shrunken, shrunken};

@@ -1,6 +1,7 @@
 //! A = L Lᵀ of a symmetric positive definite matrix.
 
 use super::Matrix;
+use super::matrix::dot;
 
 /// The lower factor.
 #[derive(Clone, Debug)]
@@ -24,7 +25,7 @@ impl Cholesky {
             let root = pivot.sqrt();
             *lower.at_mut(j, j) = root;
             for i in j + 1..n {
-                let shared: f64 = (0..j).map(|k| lower.at(i, k) * lower.at(j, k)).sum();
+                let shared = dot(&lower.row(i)[..j], &lower.row(j)[..j]);
                 *lower.at_mut(i, j) = (a.at(i, j) - shared) / root;
             }
         }
@@ -47,17 +48,27 @@ impl Cholesky {
         x
     }
 
-    /// A⁻¹.
+    /// ln det A.
+    #[must_use]
+    pub fn ln_determinant(&self) -> f64 {
+        (0..self.lower.rows()).map(|i| 2.0 * etendue_core::maths::f64::ln(self.lower.at(i, i))).sum()
+    }
+
+    /// A⁻¹ = L⁻ᵀ L⁻¹.
     #[must_use]
     pub fn inverse(&self) -> Matrix {
         let n = self.lower.rows();
-        let column = |j: usize| {
-            let mut unit = vec![0.0; n];
-            unit[j] = 1.0;
-            self.solve(&unit)
-        };
-        // Symmetric: its columns are its rows.
-        Matrix::from_rows(n, (0..n).map(column))
+        // Row j holds column j of L⁻¹, from the diagonal on.
+        let mut columns = Matrix::zeros(n, n);
+        for j in 0..n {
+            for i in j..n {
+                let known = dot(&self.lower.row(i)[j..i], &columns.row(j)[j..i]);
+                let unit = f64::from(u8::from(i == j));
+                *columns.at_mut(j, i) = (unit - known) / self.lower.at(i, i);
+            }
+        }
+        let at = |i: usize, j: usize| dot(&columns.row(i)[i.max(j)..], &columns.row(j)[i.max(j)..]);
+        Matrix::from_rows(n, (0..n).map(|i| (0..n).map(|j| at(i.min(j), i.max(j))).collect::<Vec<_>>()))
     }
 }
 
@@ -76,6 +87,8 @@ mod tests {
                 assert!((inverse.at(i, j) - value).abs() < 1e-10, "{i} {j}");
             }
         }
+        let determinant = Cholesky::of(&hilbert, 1e-12).expect("positive definite").ln_determinant();
+        assert!((determinant + etendue_core::maths::f64::ln(2160.0)).abs() < 1e-10, "{determinant}");
         let singular = Matrix::from_rows(2, [[1.0, 2.0], [2.0, 4.0]]);
         assert!(Cholesky::of(&singular, 1e-12).is_none());
     }

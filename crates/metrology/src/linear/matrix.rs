@@ -69,10 +69,9 @@ impl Matrix {
         let mut gram = Self::zeros(n, n);
         for r in 0..self.rows {
             let row = self.row(r);
-            for i in 0..n {
-                for j in 0..=i {
-                    *gram.at_mut(i, j) += row[i] * row[j];
-                }
+            for (i, a) in row.iter().enumerate() {
+                let sums = &mut gram.values[i * n..][..=i];
+                sums.iter_mut().zip(row).for_each(|(sum, b)| *sum += a * b);
             }
         }
         for i in 0..n {

@@ -9,7 +9,7 @@
 use super::crossing::Corner;
 use super::lattice::{self, Places};
 use super::neighbours::Neighbours;
-use super::{Grid, chess, crossing, saddle};
+use super::{Grid, LEAST, chess, crossing, saddle};
 use crate::Image;
 use glam::DVec2;
 use rayon::prelude::*;
@@ -18,25 +18,25 @@ use rayon::prelude::*;
 const WINDOW: f64 = 0.4;
 const WINDOW_PX: [f64; 2] = [3.0, 12.0];
 
-/// The largest board of a picture, however small.
-pub(super) fn find(image: &Image) -> Grid {
+/// The largest board of a picture, however small, and the points of the largest beside it.
+pub(super) fn find(image: &Image) -> (Grid, usize) {
     const COPIES: usize = 4;
-    let mut best = (Places::new(), Vec::new());
+    let mut best = ((Places::new(), 0), Vec::new());
     let mut copy = image.clone();
     for level in 0..COPIES {
         let scale = f64::from(1_u32 << level);
         let (places, points) = board(&copy);
-        if places.len() > best.0.len() {
+        if places.0.len() > best.0.0.len() {
             best = (places, points.iter().map(|p| *p * scale).collect());
         }
         copy = halved(&copy);
     }
-    let (places, mut points) = best;
+    let ((places, beside), mut points) = best;
     let refined = refine(image, &places, &points);
     let kept = without_stragglers(places.into_iter().filter(|(_, i)| refined[*i].is_some()).collect());
     points.iter_mut().zip(&refined).for_each(|(p, r)| *p = r.map_or(*p, |r| r.at));
     let uncertainties: Vec<f64> = refined.iter().map(|r| r.map_or(f64::INFINITY, |r| r.uncertainty_px)).collect();
-    Grid::of(&kept, &points, &uncertainties)
+    (Grid::of(&kept, &points, &uncertainties), beside)
 }
 
 /// Without outer rows and columns that hold one point, or less than a fifth of the longest: what is taken for a corner beyond
@@ -59,7 +59,7 @@ fn without_stragglers(mut places: Places) -> Places {
     }
 }
 
-fn board(image: &Image) -> (Places, Vec<DVec2>) {
+fn board(image: &Image) -> ((Places, usize), Vec<DVec2>) {
     // Less contrast than a twentieth of the picture's is no square of a board.
     let least = 0.05 * contrast(image);
     let rough = chess::candidates(image, least);
@@ -70,7 +70,7 @@ fn board(image: &Image) -> (Places, Vec<DVec2>) {
         .collect();
     let points = single(points);
     let linked = |a: usize, b: usize| is_edge(image, points[a], points[b], least);
-    let places = lattice::largest(&points, &linked);
+    let places = lattice::largest(&points, LEAST, &linked);
     (places, points)
 }
 

@@ -9,29 +9,29 @@ use super::centroid::{Blob, Centroid, Moments};
 use super::components::{self, Run};
 use super::lattice::{self, Places};
 use super::threshold::Threshold;
-use super::{Grid, centroid};
+use super::{Grid, LEAST, centroid};
 use crate::Image;
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;
 
-/// The largest grid of dots of a picture, however small.
-pub(super) fn find(image: &Image) -> Grid {
+/// The largest grid of dots of a picture, however small, and the points of the largest beside it.
+pub(super) fn find(image: &Image) -> (Grid, usize) {
     // Shares of the picture's shorter side: from dots of some pixels to dots of a tenth of the picture.
     const BLOCKS: [usize; 3] = [48, 20, 8];
     let turned = image.map(|v| -v);
-    let mut best = (Places::new(), Vec::new(), false);
+    let mut best = ((Places::new(), 0), Vec::new(), false);
     for share in BLOCKS {
         let block = (image.width().min(image.height()) / share).max(8);
         for (image, bright) in [(image, false), (&turned, true)] {
             let blobs = blobs(image, block);
             let places = places(&blobs);
-            if places.len() > best.0.len() {
+            if places.0.len() > best.0.0.len() {
                 best = (places, blobs, bright);
             }
         }
     }
-    let (places, blobs, bright) = best;
-    measured(if bright { &turned } else { image }, &places, &blobs, bright)
+    let ((places, beside), blobs, bright) = best;
+    (measured(if bright { &turned } else { image }, &places, &blobs, bright), beside)
 }
 
 fn blobs(image: &Image, block: usize) -> Vec<Blob> {
@@ -62,10 +62,10 @@ fn blob(image: &Image, runs: &[Run]) -> Option<Blob> {
     ((blob.area / ellipse - 1.0).abs() < tolerance).then_some(blob)
 }
 
-fn places(blobs: &[Blob]) -> Places {
+fn places(blobs: &[Blob]) -> (Places, usize) {
     let points: Vec<DVec2> = blobs.iter().map(|b| b.at).collect();
     let alike = |a: usize, b: usize| (0.4..2.5).contains(&(blobs[a].area / blobs[b].area));
-    lattice::largest(&points, &alike)
+    lattice::largest(&points, LEAST, &alike)
 }
 
 /// The grid of the dots' centroids; those that cannot be measured are left out.

@@ -34,6 +34,15 @@ pub enum TargetError {
         /// What would do, px.
         least_px: f64,
     },
+    /// More than one chart.
+    #[error(
+        "{} and {} points were found in rows and columns that do not join: two charts, or one that something covers; \
+         choose a part of the picture that holds one whole chart (--region)", points[0], points[1]
+    )]
+    Several {
+        /// Points of the two largest.
+        points: [usize; 2],
+    },
     /// Another chart than stated.
     #[error("a grid of {} × {} points was found where {} × {} were stated; a checkerboard counts its inner corners", found[0], found[1], stated[0], stated[1])]
     Larger {

@@ -3,12 +3,13 @@
 //! From a point and two steps to neighbours, the lattice grows by one place at a time: the next point is looked for where
 //! the last steps in that direction lead, so that rows may bend and spacings shrink as far as they do so gradually (up to
 //! 30 % from one step to the next), in any perspective and distortion. Of all lattices that points can start the largest
-//! is taken. Steps are told from diagonals by `linked`; where it cannot tell (dots), by length: squares that are seen at
-//! more than 50° from the front along their diagonal may be taken for rhombi.
+//! is taken. Steps are told from diagonals by `linked`; where it cannot tell (dots), by length, which says most where a cell is nearest
+//! to a square: there the lattice begins. Where squares are seen as rhombi all over, one of their diagonals may be the shorter step, and
+//! rows run askew: a lattice that is a full rectangle (to a tenth) after its rows or columns are shifted by one or two places a line is taken so.
 
 use super::neighbours::Neighbours;
 use glam::DVec2;
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// Places of points: column and row to point.
 pub(super) type Places = BTreeMap<[i32; 2], usize>;
@@ -16,33 +17,69 @@ pub(super) type Places = BTreeMap<[i32; 2], usize>;
 /// How far a point may lie from where it is expected, in steps.
 const TOLERANCE: f64 = 0.3;
 
-/// The largest lattice that points form; `linked` says of two points whether one is the next of the other.
-pub(super) fn largest(points: &[DVec2], linked: &impl Fn(usize, usize) -> bool) -> Places {
+/// Lattices of fewer points are none.
+const LEAST: usize = 4;
+
+/// The largest lattice that points form, and the number of points of the largest beside it; `linked` says of two points whether one
+/// is the next of the other. Other lattices are sought among more points than `least`.
+pub(super) fn largest(points: &[DVec2], least: usize, linked: &impl Fn(usize, usize) -> bool) -> (Places, usize) {
     let search = Search { points, neighbours: Neighbours::of(points), linked };
-    let mut best = Places::new();
+    let mut found: Vec<Places> = Vec::new();
     let mut seen = vec![false; points.len()];
     let mut left = points.len();
     for seed in search.seeds() {
         if seen[seed] {
             continue;
         }
-        if left <= best.len() {
+        if left < least.max(LEAST) && !found.is_empty() {
             break;
         }
-        let found = search.around_seed(seed);
+        let lattice = search.around_seed(seed);
         seen[seed] = true;
         left -= 1;
-        if found.len() >= 4 {
-            for point in found.values().filter(|p| **p != seed) {
+        if lattice.len() >= LEAST {
+            for point in lattice.values().filter(|p| **p != seed) {
                 left -= usize::from(!seen[*point]);
                 seen[*point] = true;
             }
-        }
-        if found.len() > best.len() {
-            best = found;
+            found.push(lattice);
         }
     }
-    best
+    // Of equal ones the first.
+    found.sort_by_key(|lattice| std::cmp::Reverse(lattice.len()));
+    let mut found = found.into_iter();
+    let best = found.next().unwrap_or_default();
+    let own: BTreeSet<usize> = best.values().copied().collect();
+    let beside = found.map(|other| other.values().filter(|p| !own.contains(p)).count()).max().unwrap_or(0);
+    (straight(best), beside)
+}
+
+/// The lattice with its lines shifted so that it is a full rectangle, where it is one so and none as it is.
+fn straight(places: Places) -> Places {
+    const FULL: f64 = 0.9;
+    const ASKEW: f64 = 0.8;
+    if fullness(&places) > ASKEW {
+        return places;
+    }
+    let shifts = [1, -1, 2, -2].into_iter().flat_map(|by| [(0, by), (1, by)]);
+    let sheared = shifts.map(|(axis, by)| {
+        let shifted = |mut place: [i32; 2]| {
+            place[axis] += by * place[1 - axis];
+            place
+        };
+        places.iter().map(|(place, i)| (shifted(*place), *i)).collect::<Places>()
+    });
+    let best = sheared.max_by(|a, b| fullness(a).total_cmp(&fullness(b)));
+    best.filter(|best| fullness(best) > FULL).unwrap_or(places)
+}
+
+/// Points over the places of the rectangle around them.
+fn fullness(places: &Places) -> f64 {
+    let span = |axis: usize| {
+        let lines = || places.keys().map(|p| p[axis]);
+        lines().max().zip(lines().min()).map_or(1.0, |(high, low)| f64::from(high - low + 1))
+    };
+    places.len() as f64 / (span(0) * span(1))
 }
 
 struct Search<'a, L> {
@@ -55,15 +92,18 @@ struct Search<'a, L> {
 type Steps = [DVec2; 2];
 
 impl<L: Fn(usize, usize) -> bool> Search<'_, L> {
-    /// All points, those in the midst of the others first.
+    /// All points, those first whose two steps are nearest to a square's, of alike ones those in the midst of the others.
     fn seeds(&self) -> Vec<usize> {
+        /// What counts as alike.
+        const ALIKE: f64 = 0.1;
         let centre = self.points.iter().sum::<DVec2>() / self.points.len().max(1) as f64;
-        let mut order: Vec<usize> = (0..self.points.len()).collect();
-        order.sort_by(|a, b| {
-            let distance = |i: &usize| (self.points[*i] - centre).length_squared();
-            distance(a).total_cmp(&distance(b)).then(a.cmp(b))
-        });
-        order
+        let rank = |i: usize| {
+            let skew = self.first_steps(i).map_or(f64::INFINITY, skew);
+            ((skew / ALIKE).floor(), (self.points[i] - centre).length_squared())
+        };
+        let mut order: Vec<((f64, f64), usize)> = (0..self.points.len()).map(|i| (rank(i), i)).collect();
+        order.sort_by(|(a, i), (b, j)| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)).then(i.cmp(j)));
+        order.into_iter().map(|(_, i)| i).collect()
     }
 
     fn around_seed(&self, seed: usize) -> Places {
@@ -158,6 +198,12 @@ impl<L: Fn(usize, usize) -> bool> Search<'_, L> {
         });
         places
     }
+}
+
+/// How far two steps are from a square's: the cosine between them, and by how much one is longer.
+fn skew([a, b]: Steps) -> f64 {
+    let (p, q) = (a.length(), b.length());
+    (a.dot(b) / (p * q)).abs().max(1.0 - p.min(q) / p.max(q))
 }
 
 fn moved(mut place: [i32; 2], axis: usize, by: i32) -> [i32; 2] {

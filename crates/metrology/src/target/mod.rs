@@ -61,18 +61,34 @@ const LEAST_STEP_PX: f64 = 10.0;
 /// # Errors
 /// Where there is no such chart.
 pub fn find(image: &Image, sought: Sought) -> Result<Grid, TargetError> {
-    let (grid, name) = match sought.target {
+    let ((grid, beside), name) = match sought.target {
         Some(Target::Checkerboard) => (checkerboard::find(image), "checkerboard"),
         Some(Target::Dots) => (dots::find(image), "grid of dots"),
         None => (either(image), "checkerboard or grid of dots"),
     };
-    checked(grid, sought.size, name)
+    let grid = checked(grid, sought.size, name)?;
+    // A tenth of a chart that its rows do not reach is no chart of its own.
+    let several = beside >= LEAST && 10 * beside > grid.nodes.len();
+    if several { Err(TargetError::Several { points: [grid.nodes.len(), beside] }) } else { Ok(grid) }
 }
 
-fn either(image: &Image) -> Grid {
-    let board = checkerboard::find(image);
-    let dots = dots::find(image);
-    if board.nodes.len() >= dots.nodes.len() { board } else { dots }
+/// Whichever shows more points; the other is beside it where it is a chart by itself, elsewhere in the picture.
+fn either(image: &Image) -> (Grid, usize) {
+    let (board, dots) = (checkerboard::find(image), dots::find(image));
+    let board_first = board.0.nodes.len() >= dots.0.nodes.len();
+    let ((grid, beside), (other, _)) = if board_first { (board, dots) } else { (dots, board) };
+    let apart = !overlap(&grid, &other) && checked(other.clone(), None, "").is_ok();
+    (grid, beside.max(if apart { other.nodes.len() } else { 0 }))
+}
+
+/// Whether the upright rectangles around two grids share a place.
+fn overlap(a: &Grid, b: &Grid) -> bool {
+    let bounds = |grid: &Grid| {
+        let ends = (glam::DVec2::INFINITY, glam::DVec2::NEG_INFINITY);
+        grid.nodes.iter().fold(ends, |(low, high), n| (low.min(n.at), high.max(n.at)))
+    };
+    let ((low, high), (other_low, other_high)) = (bounds(a), bounds(b));
+    low.cmple(other_high).all() && other_low.cmple(high).all()
 }
 
 fn checked(grid: Grid, stated: Option<[usize; 2]>, sought: &'static str) -> Result<Grid, TargetError> {

@@ -164,3 +164,48 @@ fn a_picture_without_a_chart_is_refused() {
         }
     }
 }
+
+/// Seen askew at the edge of a fisheye, where one diagonal of every square is shorter than a side or nearly so: read as 18 × 8.
+#[test]
+fn dots_seen_askew_are_numbered_by_rows_and_columns() {
+    let camera = fisheye(150.0, [640, 480]);
+    for (turn, place) in [
+        ([0.0, 0.0, 0.0], DVec3::new(-7.0, -6.0, 5.0)),
+        ([0.8, 0.8, 0.4], DVec3::new(1.0, 1.0, 7.0)),
+        ([-0.7, 0.9, 0.2], DVec3::new(0.0, 1.0, 6.0)),
+    ] {
+        let view = View::new(&camera, turn, DVec2::new(5.0, 3.5), place);
+        let grid = find(&view.picture(6, &dots(11, 8, 0.3)), DOTS).expect("dots");
+        let mut size = grid.size;
+        size.sort_unstable();
+        assert!(size == [8, 11] && grid.nodes.len() >= 86, "{turn:?}: {:?}, {}", grid.size, grid.nodes.len());
+        let places = || (0..88).map(|i| DVec2::new(f64::from(i % 11), f64::from(i / 11)));
+        let from = |p: DVec2, at: DVec2| (view.image(p).expect("in the field") - at).length();
+        let chart = |at: DVec2| places().min_by(|a, b| from(*a, at).total_cmp(&from(*b, at))).expect("points");
+        for n in &grid.nodes {
+            let beside = [[n.index[0] + 1, n.index[1]], [n.index[0], n.index[1] + 1]];
+            for other in beside.into_iter().filter_map(|index| grid.node(index)) {
+                assert_eq!((chart(other.at) - chart(n.at)).length(), 1.0, "{turn:?}: {:?}", n.index);
+            }
+        }
+    }
+}
+
+#[test]
+fn two_charts_are_refused() {
+    let camera = perspective(500.0, &[], [640, 480]);
+    let view = View::new(&camera, [0.0; 3], DVec2::new(8.0, 3.5), DVec3::new(0.0, 0.0, 16.0));
+    let (left, right) = (checkerboard(7, 7), checkerboard(6, 5));
+    let boards = move |p: DVec2| if p.x < 7.5 { left(p) } else { right(p - DVec2::new(10.2, 1.1)) };
+    let told = |paint: &(dyn Fn(DVec2) -> f64 + Sync), sought| find(&view.picture(6, &|p| paint(p)), sought);
+    for sought in [BOARD, Sought::default(), Sought { size: Some([7, 7]), ..BOARD }] {
+        assert_eq!(told(&boards, sought), Err(TargetError::Several { points: [49, 30] }), "{sought:?}");
+    }
+    let (left, right) = (dots(7, 7, 0.3), dots(6, 5, 0.3));
+    let both = move |p: DVec2| if p.x < 7.5 { left(p) } else { right((p - DVec2::new(10.2, 1.1)) * 1.2) };
+    assert_eq!(told(&both, DOTS), Err(TargetError::Several { points: [49, 30] }));
+    let (left, right) = (checkerboard(7, 7), dots(6, 5, 0.3));
+    let mixed = move |p: DVec2| if p.x < 7.5 { left(p) } else { right(p - DVec2::new(10.2, 1.1)) };
+    assert_eq!(told(&mixed, Sought::default()), Err(TargetError::Several { points: [49, 30] }));
+    assert_eq!(told(&mixed, DOTS).map(|g| g.size), Ok([6, 5]));
+}

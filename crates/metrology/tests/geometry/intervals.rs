@@ -85,6 +85,56 @@ fn distortion_of_a_chart_to_one_side() {
     covers("distortion to one side", to_one_side);
 }
 
+/// A chart of so many points that fills the picture, all but its borders, through a camera, tilted a little.
+fn filling(camera: &Calibration, [columns, rows]: [usize; 2], tilt: f64) -> View {
+    let [x, y] = [columns as f64 - 1.0, rows as f64 - 1.0];
+    let distance = 700.0 / f64::min(720.0 / x, 540.0 / y);
+    View::new(camera, [tilt, -tilt, 0.01], DVec2::new(0.5 * x, 0.5 * y), DVec3::new(0.0, 0.0, distance))
+}
+
+/// The largest local distortion, that of a corner of the chart and the curve's last point, of a chart of so many points.
+fn of_grid(camera: &Calibration, size: [usize; 2], tilt: f64, truth: impl Fn(f64) -> f64, seed: u64) -> Run {
+    let view = filling(camera, size, tilt);
+    let grid = seen(&view, size, normals(seed, 0));
+    let found = distortion(&grid, SIZE, None).expect("enough points");
+    let all = (0..size[0] * size[1]).filter_map(|i| {
+        let at = view.image(DVec2::new((i % size[0]) as f64, (i / size[0]) as f64))? - DVec2::new(400.0, 300.0);
+        Some(truth(at.length() / HALF_DIAGONAL_PX) - 1.0)
+    });
+    let largest = all.fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+    let corner = found.local.iter().find(|l| l.index == [0, 0]).expect("seen");
+    let last = found.curve.last().expect("a curve");
+    vec![
+        ("largest local distortion", found.largest.expect("points").distortion, largest),
+        ("of a corner", corner.distortion, truth(corner.field) - 1.0),
+        ("curve's last point", last.ratio, truth(last.field)),
+    ]
+}
+
+/// Charts of few points and of many, of few rows, through lenses without distortion and with it.
+#[test]
+fn distortion_of_charts_of_few_points_and_many() {
+    let none = ("none", [0.0, 0.0]);
+    let barrel_of = ("barrel", [-0.1, 0.02]);
+    let cases = [
+        ("5 × 4", [5, 4], none),
+        ("5 × 4", [5, 4], barrel_of),
+        ("10 × 7", [10, 7], ("pincushion", [0.08, -0.01])),
+        ("11 × 8", [11, 8], none),
+        ("20 × 9", [20, 9], barrel_of),
+        ("40 × 30", [40, 30], barrel_of),
+    ];
+    for (chart, size, (kind, [k1, k2])) in cases {
+        let camera = barrel(k1, k2);
+        let Model::Radial(radial) = camera.model().clone() else { panic!("radial") };
+        let truth = |field: f64| {
+            let observed = field * radial.unit_mm();
+            observed / radial.ideal_radius_mm(observed).expect("no fold")
+        };
+        covers(&format!("distortion, {chart}, {kind}"), |seed| of_grid(&camera, size, 0.02, truth, seed));
+    }
+}
+
 /// Sightings of a 6 × 5 grid of steps of 50 mm.
 fn sighted(view: &View, mut normal: impl FnMut() -> f64) -> Sightings {
     let point = |i: usize| {

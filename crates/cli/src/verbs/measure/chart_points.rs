@@ -2,12 +2,15 @@
 
 use super::encoding::EncodingArguments;
 use super::inquiry::refused;
-use super::readings::{Readings, Selection, tile};
+use super::point_list;
+use super::readings::{Readings, Selection, region, tile};
+use super::truth::points::{CHARTS, PointsTold};
+use super::truth::{Truth, TruthArguments};
 use crate::failure::Failure;
 use crate::progress::PictureBar;
 use clap::{Args, ValueEnum};
 use etendue_io::photograph::{Photograph, Stated};
-use etendue_metrology::target::{Grid, Sought, Target, TargetError, find};
+use etendue_metrology::target::{Grid, Sought, Target, find};
 use std::path::{Path, PathBuf};
 
 /// The chart that is photographed.
@@ -28,6 +31,14 @@ pub struct ChartArguments {
     pub cfa: Option<String>,
     #[command(flatten)]
     pub encoding: EncodingArguments,
+    /// Look for the chart in this part of the picture only: left column, top row, width and height, pixels of the picture
+    #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
+    pub region: Option<[usize; 4]>,
+    /// Of lists of points (CSV) in place of pictures: columns and rows of the pictures in which they were seen
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size_px: Option<[usize; 2]>,
+    #[command(flatten)]
+    pub truth: TruthArguments,
     /// List every point of the chart in the text, too; JSON has them anyway
     #[arg(long)]
     pub points: bool,
@@ -49,6 +60,13 @@ pub(super) fn grid(text: &str) -> Result<[usize; 2], String> {
     Ok([number(columns)?, number(rows)?])
 }
 
+fn size(text: &str) -> Result<[usize; 2], String> {
+    let expected = || format!("expected WIDTHxHEIGHT in pixels, e.g. 640x480, not '{text}'");
+    let (width, height) = text.split_once(['x', '×']).ok_or_else(expected)?;
+    let number = |s: &str| s.trim().parse::<usize>().ok().filter(|n| (1..=1_000_000).contains(n)).ok_or_else(expected);
+    Ok([number(width)?, number(height)?])
+}
+
 /// A chart as a picture shows it.
 #[derive(Clone, Debug)]
 pub(super) struct Seen {
@@ -56,16 +74,23 @@ pub(super) struct Seen {
     pub size_px: [usize; 2],
     pub grid: Grid,
     /// How light was found from the picture's numbers.
-    pub stated: Stated,
+    pub stated: Option<Stated>,
 }
 
 impl ChartArguments {
-    pub(super) fn sought(&self) -> Sought {
+    /// What the truth says, where one is given.
+    pub(super) fn told(&self) -> Result<Option<(Truth, PointsTold)>, Failure> {
+        let Some(truth) = self.truth.read(&CHARTS)? else { return Ok(None) };
+        let told = truth.points()?;
+        Ok(Some((truth, told)))
+    }
+
+    fn sought(&self, told: Option<&PointsTold>) -> Sought {
         let target = self.target.map(|t| match t {
             TargetArgument::Checkerboard => Target::Checkerboard,
             TargetArgument::Dots => Target::Dots,
         });
-        Sought { target, size: self.grid }
+        Sought { target: target.or(told.map(|told| told.target)), size: self.grid }
     }
 
     pub(super) fn selection(&self, channel: Option<&str>) -> Selection {
@@ -75,26 +100,51 @@ impl ChartArguments {
 
     /// The chart in a picture.
     pub(super) fn seen(&self, file: &Path) -> Result<Seen, Failure> {
+        if point_list::is_list(file) {
+            return self.listed(file);
+        }
         let photograph = self.encoding.photograph(file)?;
         self.seen_in(file, &photograph, self.channel.as_deref())
+    }
+
+    /// The points of a list.
+    fn listed(&self, file: &Path) -> Result<Seen, Failure> {
+        let told = self.told()?;
+        let size_px = self.size_px.ok_or_else(|| {
+            refused(file, "a list of points does not say how large the picture is: add --size-px WxH")
+        })?;
+        told.iter().try_for_each(|(truth, _)| truth.fits_size(file, size_px))?;
+        if self.encoding.chosen.is_some() {
+            return Err(refused(file, "a list of points has no numbers of light: leave --encoding out"));
+        }
+        Ok(Seen { file: file.to_owned(), size_px, grid: point_list::read(file)?, stated: None })
     }
 
     /// The chart in one channel. In the mosaic of a colour that has several places in the tile, each point is the mean of where
     /// these show it: what each of them misses between its pixels the others see.
     pub(super) fn seen_in(&self, file: &Path, photograph: &Photograph, channel: Option<&str>) -> Result<Seen, Failure> {
         let planes = self.selection(channel).planes(file, photograph)?;
-        let grids = planes.iter().map(|plane| self.grid(plane).map_err(|error| refused(file, error)));
-        let grid = Grid::mean(&grids.collect::<Result<Vec<_>, _>>()?);
+        let told = self.told()?;
         let (width, height) = planes[0].picture_px;
-        Ok(Seen { file: file.to_owned(), size_px: [width, height], grid, stated: photograph.stated.clone() })
+        told.iter().try_for_each(|(truth, _)| truth.fits_size(file, [width, height]))?;
+        let sought = self.sought(told.as_ref().map(|(_, told)| told));
+        let grids = planes.iter().map(|plane| self.grid(file, plane, sought));
+        let grid = Grid::mean(&grids.collect::<Result<Vec<_>, _>>()?);
+        Ok(Seen { file: file.to_owned(), size_px: [width, height], grid, stated: Some(photograph.stated.clone()) })
     }
 
     /// The chart among readings, in the picture's raster coordinates.
-    fn grid(&self, plane: &Readings) -> Result<Grid, TargetError> {
-        let mut grid = find(&plane.image, self.sought())?;
+    fn grid(&self, file: &Path, plane: &Readings, sought: Sought) -> Result<Grid, Failure> {
+        let part = self.region.map(|region| plane.part(region, "--region").map(|image| (image, region))).transpose()?;
+        let (image, first) = match &part {
+            None => (&plane.image, [0, 0]),
+            Some((image, region)) => (image, plane.first_of(*region)),
+        };
+        let mut grid = find(image, sought).map_err(|error| refused(file, error))?;
         let scale = 0.5 * (plane.period.0 + plane.period.1) as f64;
         for node in &mut grid.nodes {
-            node.at = plane.in_picture(node.at.to_array()).into();
+            let at = [0, 1].map(|axis| node.at[axis] + first[axis] as f64);
+            node.at = plane.in_picture(at).into();
             node.uncertainty_px *= scale;
         }
         Ok(grid)

@@ -15,7 +15,7 @@ use std::path::PathBuf;
 /// `etendue measure distortion`
 #[derive(Debug, Args)]
 pub struct DistortionArguments {
-    /// A picture of a plane chart that fills the field: many dots, or a checkerboard
+    /// A picture of a plane chart that fills the field: many dots, or a checkerboard; or a list of its points (CSV: column, row, x_px, y_px)
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     #[command(flatten)]
@@ -47,16 +47,22 @@ pub(super) fn run(arguments: &DistortionArguments) -> Result<(), Failure> {
 
 fn report(seen: &Seen, found: &Distortion, points: bool) -> Report {
     let method =
-        "distortion without a model: ideal places by a polynomial and its homography at the centre (ISO 17850)";
+        "distortion without a model: ideal places by a map whose scale and tilt at the centre are none (ISO 17850)";
     let mut report = Report::new("distortion", method);
-    report.encoding(&seen.stated);
+    seen.stated.iter().for_each(|stated| report.encoding(stated));
     report.setting("centre_px", centre_words(found.centre_px));
     report.fact("points", "points of the chart", "", seen.grid.nodes.len() as f64);
     report.fact("columns", "columns", "", seen.grid.size[0] as f64);
     report.fact("rows", "rows", "", seen.grid.size[1] as f64);
     report.fact("step_px", "step of the chart at the centre", "px", found.ideal.step_px());
-    report.fact("degree", "degree of the polynomial", "", found.ideal.degree() as f64);
+    report.fact("degree", "degree of the map", "", found.ideal.degree() as f64);
     report.fact("sigma_px", "standard deviation of points about it", "px", found.ideal.sigma_px());
+    report.fact(
+        "beyond_k1_k2_px",
+        "size of its terms beyond k1 and k2, at the farthest point",
+        "px",
+        found.ideal.tau_px(),
+    );
     if let Some(last) = found.curve.last() {
         let percent = Estimate::new(100.0 * (last.ratio.value - 1.0), 100.0 * last.ratio.standard_uncertainty);
         report.fact("field_reached_percent", "field reached", "% of the half diagonal", 100.0 * last.field);
@@ -135,8 +141,7 @@ fn radial(report: &mut Report, key: &str, fit: &RadialFit) {
 
 /// The largest local geometric distortion (ISO 17850), and where.
 fn local(report: &mut Report, found: &Distortion) {
-    let all = found.local.iter();
-    if let Some(largest) = all.max_by(|a, b| a.distortion.value.abs().total_cmp(&b.distortion.value.abs())) {
+    if let Some(largest) = found.largest {
         report.figure("local_largest_percent", "local geometric distortion, largest", "%", percent(largest.distortion));
         let field = 100.0 * largest.field;
         report.fact("local_largest_at_percent", "at", "% of the half diagonal", field);

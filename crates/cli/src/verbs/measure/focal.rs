@@ -5,6 +5,7 @@ use super::views::{Found, ViewsArguments};
 use crate::failure::Failure;
 use clap::Args;
 use etendue_core::maths::f64::acos;
+use etendue_metrology::Estimate;
 use etendue_metrology::calibrate::Options;
 use etendue_projection::Calibration;
 
@@ -26,16 +27,20 @@ pub struct FocalArguments {
 
 pub(super) fn run(arguments: &FocalArguments) -> Result<(), Failure> {
     let views = &arguments.views;
-    let options = views.options();
+    let mut options = views.options();
+    let one = views.files.len() == 1;
+    if let (true, None, Some((_, told))) = (one, options.distance, views.chart.told()?) {
+        options.distance = told.distance_mm.map(|mm| Estimate::new(mm, 0.0));
+    }
     if arguments.out.camera_out.is_some() && views.pixel_pitch_um.is_none() {
         return Err(Failure::input("--camera-out: a camera file needs the pixels' size: add --pixel-pitch-um"));
     }
-    if views.files.len() == 1 && options.distance.is_none() {
+    if one && options.distance.is_none() {
         let told = "one picture alone does not tell the focal length from the distance: add --distance-mm, or more pictures with the \
                     chart turned";
         return Err(Failure::input(told));
     }
-    let about_middle = views.files.len() == 1 && options.principal_px.is_none();
+    let about_middle = one && options.principal_px.is_none();
     let found = match about_middle {
         true => views.found_about_middle(Options { square_pixels: true, ..options })?,
         false => views.found(options)?,
@@ -43,9 +48,6 @@ pub(super) fn run(arguments: &FocalArguments) -> Result<(), Failure> {
     let mut report = Report::new("focal", "focal length by views of a plane chart");
     found.tell(&mut report, views);
     field_of_view(&mut report, &found);
-    if about_middle {
-        report.note("one picture: the principal point is taken for the picture's middle and pixels for square; their errors are in no ±");
-    }
     if let (Some(pitch_um), Some(_)) = (views.pixel_pitch_um, &arguments.out.camera_out) {
         report.camera(found.camera_file("measure focal", pitch_um, None)?);
     }

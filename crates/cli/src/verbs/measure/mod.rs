@@ -18,6 +18,7 @@ mod inquiry;
 mod lens;
 pub mod noise;
 pub mod oecf;
+mod point_list;
 pub mod ptc;
 mod readings;
 mod report;

@@ -84,10 +84,19 @@ impl Readings {
             let told = format!("{name}: lies beyond the {columns} × {rows} pixels that are measured");
             return Err(Failure::input(told));
         }
-        let low = [x, y].map(|v| v as f64);
-        let at = self.between(low, [low[0] + width as f64, low[1] + height as f64]);
+        let at = self.of_region(region);
         let none = || Failure::input(format!("{name}: {width} × {height} pixels hold none of this colour"));
         at.map(|[x, y, width, height]| self.image.part(x, y, width, height)).ok_or_else(none)
+    }
+
+    fn of_region(&self, [x, y, width, height]: [usize; 4]) -> Option<[usize; 4]> {
+        let low = [x, y].map(|v| v as f64);
+        self.between(low, [low[0] + width as f64, low[1] + height as f64])
+    }
+
+    /// Column and row of a [`part`](Self::part)'s first reading.
+    pub(super) fn first_of(&self, region: [usize; 4]) -> [usize; 2] {
+        self.of_region(region).map_or([0, 0], |[x, y, ..]| [x, y])
     }
 
     /// The readings whose pixels lie wholly between two corners of the picture: left column, top row, width, height.

@@ -133,5 +133,16 @@ fn measured(arguments: &SfrArguments, sought: &Sought, readings: &Readings) -> R
 }
 
 fn failure(arguments: &SfrArguments, sought: &Sought, error: &SfrError) -> Failure {
-    refused(&arguments.picture, format!("edge at {},{}: {error}", sought.at[0], sought.at[1]))
+    let hint = shading_hint(arguments, error);
+    refused(&arguments.picture, format!("edge at {},{}: {error}{hint}", sought.at[0], sought.at[1]))
+}
+
+/// What else may be tried where sides that are not even are taken for no edge.
+fn shading_hint(arguments: &SfrArguments, error: &SfrError) -> &'static str {
+    match error {
+        SfrError::NoEdge(_) if arguments.shading_degree == 0 => {
+            "; where light falls off along the surfaces, --shading-degree 1 takes that off"
+        }
+        _ => "",
+    }
 }

@@ -3,7 +3,7 @@
 use super::super::readings::Readings;
 use super::super::report::{Cell, Report, Table};
 use super::planes::{self, Plane};
-use super::{Found, SfrArguments, Sought};
+use super::{Found, SfrArguments, Sought, shading_hint};
 use crate::plot::{Axis, Mark, Plot, Series};
 use etendue_metrology::Estimate;
 use etendue_metrology::sfr::{Orientation, SfrError, SfrPoint, acutance, crossing};
@@ -28,17 +28,19 @@ pub(super) fn report(
     report.table(edges(arguments, found));
     let planes = planes::of(found, readings.picture_px);
     if planes.is_empty() {
-        report.table(curves(found));
+        report.table(curves(found, "response", twentieths));
+        report.table_if(false, curves(found, "curve", every));
         report.plot(edge_plot(found));
     } else {
         report.table(plane_table(arguments, &planes));
-        report.table(plane_curves(&planes));
+        report.table(plane_curves(&planes, "response", twentieths));
+        report.table_if(false, plane_curves(&planes, "curve", every));
         report.plot(plane_plot(&planes));
     }
     report.plot(profile_plot(found));
     if !left_out.is_empty() {
         report.note(format!("{} of {} edges could not be measured", left_out.len(), left_out.len() + found.len()));
-        report.table(refusals(left_out));
+        report.table(refusals(arguments, left_out));
     }
     report
 }
@@ -65,8 +67,9 @@ fn place(sought: &Sought) -> String {
 }
 
 /// The edges of a chart that could not be measured, and why.
-fn refusals(left_out: &[(&Sought, SfrError)]) -> Table {
-    let row = |(sought, error): &(&Sought, SfrError)| vec![Cell::Text(place(sought)), Cell::Text(error.to_string())];
+fn refusals(arguments: &SfrArguments, left_out: &[(&Sought, SfrError)]) -> Table {
+    let words = |error: &SfrError| format!("{error}{}", shading_hint(arguments, error));
+    let row = |(sought, error): &(&Sought, SfrError)| vec![Cell::Text(place(sought)), Cell::Text(words(error))];
     Table {
         key: "refused",
         columns: vec![("at_px", "at px"), ("reason", "not measured because")],
@@ -145,19 +148,23 @@ fn plane_table(arguments: &SfrArguments, planes: &[Plane]) -> Table {
 }
 
 /// Every twentieth of a cycle a pixel.
-fn twentieths(curve: &[SfrPoint]) -> impl Iterator<Item = &SfrPoint> {
-    let off = |f: f64| (20.0 * f - (20.0 * f).round()).abs();
-    curve.iter().filter(move |p| off(p.frequency) < 1e-6)
+fn twentieths(point: &SfrPoint) -> bool {
+    (20.0 * point.frequency - (20.0 * point.frequency).round()).abs() < 1e-6
 }
 
-fn curves(found: &[Found<'_>]) -> Table {
+/// Every point: hundredths of a cycle a pixel, or less.
+fn every(_: &SfrPoint) -> bool {
+    true
+}
+
+fn curves(found: &[Found<'_>], key: &'static str, wanted: fn(&SfrPoint) -> bool) -> Table {
     let row = |one: &Found<'_>, point: &SfrPoint| {
         let names = [place(one.sought), direction(one).to_owned()].map(Cell::Text);
         names.into_iter().chain([Cell::Number(point.frequency, 2), Cell::Estimate(point.response)]).collect()
     };
-    let rows = |one: &Found<'_>| twentieths(&one.sfr.curve).map(|p| row(one, p)).collect::<Vec<_>>();
+    let rows = |one: &Found<'_>| one.sfr.curve.iter().filter(|p| wanted(p)).map(|p| row(one, p)).collect::<Vec<_>>();
     Table {
-        key: "response",
+        key,
         columns: vec![
             ("at_px", "at px"),
             ("direction", "direction"),
@@ -168,14 +175,14 @@ fn curves(found: &[Found<'_>]) -> Table {
     }
 }
 
-fn plane_curves(planes: &[Plane]) -> Table {
+fn plane_curves(planes: &[Plane], key: &'static str, wanted: fn(&SfrPoint) -> bool) -> Table {
     let row = |plane: &Plane, point: &SfrPoint| {
         let names = [Cell::Text(plane.place.clone()), Cell::Text(plane.name.to_owned())];
         names.into_iter().chain([Cell::Number(point.frequency, 2), Cell::Estimate(point.response)]).collect()
     };
-    let rows = |plane: &Plane| twentieths(&plane.curve).map(|p| row(plane, p)).collect::<Vec<_>>();
+    let rows = |plane: &Plane| plane.curve.iter().filter(|p| wanted(p)).map(|p| row(plane, p)).collect::<Vec<_>>();
     Table {
-        key: "response",
+        key,
         columns: vec![("at_px", "star at px"), ("plane", "plane"), ("cycles_per_px", "c/px"), ("response", "response")],
         rows: planes.iter().flat_map(rows).collect(),
     }

@@ -1,6 +1,7 @@
 //! What the truth.json of a chart says of a picture of it.
 
 mod outline;
+pub(super) mod points;
 mod said;
 
 use super::readings::{Readings, pixels};
@@ -107,7 +108,11 @@ impl Truth {
 
     /// Whether a picture has the size of the camera's.
     pub(super) fn fits(&self, picture: &Path, readings: &Readings) -> Result<(), Failure> {
-        let ((width, height), camera) = (readings.picture_px, self.seen());
+        self.sized(picture, readings.picture_px)
+    }
+
+    fn sized(&self, picture: &Path, (width, height): (usize, usize)) -> Result<(), Failure> {
+        let camera = self.seen();
         let [columns, rows] = camera.picture_px;
         if (width, height) == (columns, rows) {
             return Ok(());

@@ -20,6 +20,14 @@ pub(super) struct Said {
     #[serde(default)]
     pub patches: Vec<PatchSaid>,
     pub cameras: Vec<CameraSaid>,
+    #[serde(default)]
+    pub panels: Vec<PanelSaid>,
+}
+
+/// A sheet: from its millimetres to the world's metres.
+#[derive(Debug, Deserialize)]
+pub(super) struct PanelSaid {
+    pub sheet_mm_to_world_m: [[f64; 4]; 3],
 }
 
 #[derive(Debug, Deserialize)]
@@ -58,6 +66,7 @@ pub(super) struct CameraSaid {
     pub dark: bool,
     pub picture_px: [usize; 2],
     pub exposure_s: Option<f64>,
+    pub camera_to_world: Option<[[f64; 4]; 3]>,
     #[serde(default)]
     pub features_px: Vec<Places>,
     #[serde(default)]

@@ -1,34 +1,39 @@
 //! Cameras from views of a chart: what `measure focal` and `calibrate` share.
 
+mod advice;
+mod assumed;
+mod stated;
+
 use super::chart_points::{ChartArguments, Seen, all};
 use super::distortion::place;
-use super::report::{Cell, Covariance, Report, Table};
+use super::report::{Cell, Covariance, Report, Table, with_uncertainty};
 use crate::calibration;
 use crate::failure::Failure;
 use crate::machine;
 use crate::plot::{Axis, Mark, Plot, Series};
 use clap::{Args, ValueEnum};
-use etendue_core::maths::f64::{acos, atan};
+use etendue_core::maths::f64::{acos, atan, hypot};
 use etendue_metrology::Estimate;
-use etendue_metrology::calibrate::{Calibrated, Family, Options, Radial, Sightings, calibrate};
+use etendue_metrology::calibrate::{CalibrateError, Calibrated, Family, Options, Radial, Sightings, calibrate_sparing};
 use etendue_metrology::target::Node;
 use etendue_projection::model::Ideal;
 use etendue_projection::{CalibrationError, Sense};
 use glam::DVec2;
 use serde_json::Value;
+use stated::Stated;
 use std::path::PathBuf;
 
 /// The pictures, the chart and what is known of the camera.
 #[derive(Debug, Args)]
 pub struct ViewsArguments {
-    /// Pictures of the chart by one camera: turned by 20° to 45° about different axes, filling the field together
+    /// Pictures of the chart by one camera, or lists of its points (CSV: column, row, x_px, y_px): turned by 20° to 45° about different axes, filling the field together
     #[arg(value_name = "FILE", required = true)]
     pub files: Vec<PathBuf>,
     #[command(flatten)]
     pub chart: ChartArguments,
-    /// The distance of neighbouring points of the chart, mm
-    #[arg(long, value_name = "MM", value_parser = positive, allow_negative_numbers = true)]
-    pub pitch_mm: f64,
+    /// The distance of neighbouring points of the chart, mm [with --truth: as it says]
+    #[arg(long, value_name = "MM", value_parser = stated::length, allow_negative_numbers = true, required_unless_present = "truth")]
+    pub pitch_mm: Option<Stated>,
     /// The camera model
     #[arg(long, value_enum, default_value_t = ModelArgument::Opencv)]
     pub model: ModelArgument,
@@ -39,10 +44,10 @@ pub struct ViewsArguments {
     #[arg(long, value_name = "X,Y", value_parser = place)]
     pub principal_px: Option<[f64; 2]>,
     /// The distance from the entrance pupil to the chart's plane, mm, the same in every picture
-    #[arg(long, value_name = "MM", value_parser = positive, allow_negative_numbers = true)]
-    pub distance_mm: Option<f64>,
-    /// Its standard uncertainty, mm
-    #[arg(long, value_name = "MM", value_parser = positive, allow_negative_numbers = true, requires = "distance_mm")]
+    #[arg(long, value_name = "MM", value_parser = stated::length, allow_negative_numbers = true)]
+    pub distance_mm: Option<Stated>,
+    /// Its standard uncertainty, mm; 0 where it is exact [default: of rounding to its last digit, and the pitch's to its own]
+    #[arg(long, value_name = "MM", value_parser = not_negative, allow_negative_numbers = true, requires = "distance_mm")]
     pub distance_uncertainty_mm: Option<f64>,
     /// The distance of neighbouring pixels of the sensor, µm: then focal lengths are told in mm as well
     #[arg(long, value_name = "UM", value_parser = positive, allow_negative_numbers = true)]
@@ -50,6 +55,11 @@ pub struct ViewsArguments {
     /// Points far from the fit count less (Huber)
     #[arg(long)]
     pub robust: bool,
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse::<f64>().ok().filter(|v| v.is_finite() && *v >= 0.0);
+    number.ok_or_else(|| format!("expected a number from 0, not '{text}'"))
 }
 
 pub(super) fn positive(text: &str) -> Result<f64, String> {
@@ -95,6 +105,11 @@ pub enum ModelArgument {
 }
 
 impl ModelArgument {
+    /// As on the command line.
+    fn name(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned())
+    }
+
     fn family(self) -> Family {
         let perspective = |radial, tangential| Family::Perspective { radial, tangential };
         match self {
@@ -122,8 +137,21 @@ impl ModelArgument {
 pub(super) struct Found {
     /// The model's name.
     pub model: String,
+    /// Those that are in it.
     pub views: Vec<Seen>,
     pub camera: Calibrated,
+    /// What a user should know of the fit.
+    pub notes: Vec<String>,
+}
+
+/// An error by its picture.
+fn of_files(error: &CalibrateError, views: &[Seen]) -> String {
+    match error {
+        CalibrateError::View { view, .. } | CalibrateError::Sparse { view, .. } => {
+            format!("{}: {error}", views[*view].file.display())
+        }
+        _ => error.to_string(),
+    }
 }
 
 impl ViewsArguments {
@@ -131,32 +159,67 @@ impl ViewsArguments {
         self.found_by(|_| options)
     }
 
-    /// The same with the principal point in the picture's middle.
+    /// The same with the principal point in the picture's middle, which is uncertain.
     pub(super) fn found_about_middle(&self, options: Options) -> Result<Found, Failure> {
         let middle = |[width, height]: [usize; 2]| 0.5 * DVec2::new(width as f64, height as f64);
-        self.found_by(|size| Options { principal_px: Some(middle(size)), ..options })
+        let about = |size| Options { principal_px: Some(middle(size)), ..options };
+        let mut found = self.found_by(about)?;
+        let pitch_mm = self.pitch_mm()?;
+        let sightings: Vec<Sightings> = found.views.iter().map(|v| Sightings::of_grid(&v.grid, pitch_mm)).collect();
+        let size = found.camera.calibration.size_px();
+        assumed::widen(&mut found, &sightings, self.model.family(), about(size))?;
+        let px = assumed::MIDDLE * size[0].max(size[1]) as f64;
+        found.notes.push(format!(
+            "one picture: the principal point is taken for the picture's middle, ± {px:.1} px in each direction, and the lens for one of this \
+             model or nearly so, which is in the ±; pixels are taken for square, which is in no ±"
+        ));
+        Ok(found)
     }
 
     /// By options that may follow from the picture's size.
     fn found_by(&self, options: impl Fn([usize; 2]) -> Options + Sync) -> Result<Found, Failure> {
         machine::pool(None)?.install(|| {
             let views = all(&self.chart, &self.files)?;
-            let sightings: Vec<Sightings> = views.iter().map(|v| Sightings::of_grid(&v.grid, self.pitch_mm)).collect();
+            let pitch_mm = self.pitch_mm()?;
+            let sightings: Vec<Sightings> = views.iter().map(|v| Sightings::of_grid(&v.grid, pitch_mm)).collect();
             let size = views[0].size_px;
-            let camera = calibrate(&sightings, size, self.model.family(), options(size)).map_err(Failure::input)?;
-            let model = self.model.to_possible_value().map_or_else(String::new, |v| v.get_name().to_owned());
-            Ok(Found { model, views, camera })
+            let options = options(size);
+            let spared = calibrate_sparing(&sightings, size, self.model.family(), options);
+            let spared = spared.map_err(|error| Failure::input(of_files(&error, &views)))?;
+            let left_out =
+                spared.left_out.iter().map(|(v, why)| format!("{}: left out: {why}", views[*v].file.display()));
+            let mut notes: Vec<String> = left_out.collect();
+            let kept: Vec<&Sightings> = spared.kept.iter().map(|v| &sightings[*v]).collect();
+            let views: Vec<Seen> = spared.kept.iter().map(|v| views[*v].clone()).collect();
+            notes.extend(advice::unsuited(self.model, &spared.camera, &views, &kept, options));
+            Ok(Found { model: self.model.name(), views, camera: spared.camera, notes })
         })
+    }
+
+    /// As stated, or as the truth says.
+    fn pitch_mm(&self) -> Result<f64, Failure> {
+        let told = || Failure::input("--pitch-mm: state the distance of neighbouring points, or give --truth");
+        Ok(match self.pitch_mm {
+            Some(pitch) => pitch.value,
+            None => self.chart.told()?.ok_or_else(told)?.1.pitch_mm,
+        })
+    }
+
+    /// The distance: as well known as is stated, or as its digits and the pitch's tell, whose relative error does the same.
+    fn distance(&self) -> Option<Estimate> {
+        let relative = |stated: Stated| stated.rounded().standard_uncertainty / stated.value;
+        let distance = self.distance_mm?;
+        let rounded = || distance.value * hypot(relative(distance), self.pitch_mm.map_or(0.0, relative));
+        Some(Estimate::new(distance.value, self.distance_uncertainty_mm.unwrap_or_else(rounded)))
     }
 
     /// What is told of the camera.
     pub(super) fn options(&self) -> Options {
-        let uncertainty = self.distance_uncertainty_mm.unwrap_or(0.0);
         Options {
             square_pixels: self.square_pixels,
             principal_px: self.principal_px.map(DVec2::from),
             focal_px: None,
-            distance: self.distance_mm.map(|d| Estimate::new(d, uncertainty)),
+            distance: self.distance(),
             robust: self.robust,
         }
     }
@@ -189,10 +252,14 @@ impl Found {
         let freedom = self.camera.degrees_of_freedom as f64;
         report.fact("degrees_of_freedom", "degrees of freedom", "", freedom);
         report.note("raster coordinates, pixel centres at +0.5 (OpenCV's and ROS's cx and cy are less by 0.5); ± one standard uncertainty");
-        if let Some(distance) = arguments.distance_mm.filter(|_| arguments.distance_uncertainty_mm.is_none()) {
-            report.note(format!("the distance of {distance} mm is taken as exact: state --distance-uncertainty-mm"));
+        if let Some(distance) = arguments.distance().filter(|_| arguments.distance_uncertainty_mm.is_none()) {
+            report.note(format!(
+                "the distance is taken as known to the digits that are stated, {} mm: state --distance-uncertainty-mm",
+                with_uncertainty(distance)
+            ));
         }
         report.note("the pitch is taken as exact: its relative error is that of distances");
+        self.notes.iter().for_each(|note| report.note(note.clone()));
         if let Err(CalibrationError::Fold { radius_px, .. }) = self.camera.calibration.check() {
             report.note(format!(
                 "the fitted model folds the picture over {radius_px:.1} px from the principal point, farther out than the views \
