@@ -42,7 +42,7 @@ pub use lateral_colour::LateralColour;
 pub use parallel::{Parallel, ParallelParameters};
 pub use pinhole::{Pinhole, PinholeParameters};
 pub(crate) use prescribed::DIRECTIONS;
-pub use prescribed::{FieldReport, ImageReport, LensReport, Prescribed, Spot};
+pub use prescribed::{FieldReport, ImageReport, LateralShift, LensReport, OtherBundle, Prescribed, Spot};
 pub use statements::PupilStatements;
 pub use thick::{ConstantPupil, Rim, Thick, ThickParameters};
 pub use thin::{Thin, ThinParameters};
