@@ -13,16 +13,30 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 pub(super) fn run(arguments: &args::MeasureLens) -> Result<(), Failure> {
-    let body = body(arguments)?;
+    let (body, remarks) = body(arguments)?;
     let fields = arguments.fields as usize;
-    let text = match (&body.lens, arguments.json) {
-        (Lens::Prescription(lens), true) => json_text(&traced_json(lens, &lens.report(fields))),
-        (Lens::Prescription(lens), false) => traced_text(lens, &lens.report(fields)),
-        (_, true) => json_text(&simple_json(&body, fields)),
-        (_, false) => simple_text(&body, fields),
+    let text = if arguments.json {
+        let mut value = match &body.lens {
+            Lens::Prescription(lens) => traced_json(lens, &lens.report(fields)),
+            _ => simple_json(&body, fields),
+        };
+        value["remarks"] = json!(remarks);
+        json_text(&value)
+    } else {
+        let text = match &body.lens {
+            Lens::Prescription(lens) => traced_text(lens, &lens.report(fields)),
+            _ => simple_text(&body, fields),
+        };
+        text + &remarks_text(&remarks)
     };
     say(&text);
     Ok(())
+}
+
+/// What a plan would remark of the camera; nothing where it remarks nothing.
+fn remarks_text(remarks: &[String]) -> String {
+    let lines: String = remarks.iter().map(|remark| format!("  {remark}\n")).collect();
+    if lines.is_empty() { lines } else { format!("\nremarks\n{lines}") }
 }
 
 fn json_text(value: &Value) -> String {
