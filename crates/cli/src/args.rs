@@ -258,6 +258,9 @@ pub struct MeasureLens {
     /// Change a key of the camera, e.g. --set lens.f_number=4
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
+    /// The f-number at infinity focus, in place of the camera's or the lens file's
+    #[arg(long, value_name = "N")]
+    pub f_number: Option<f64>,
     /// How many field heights, from the axis to the picture's edge
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = whole(2, 1000))]
     pub fields: u32,

@@ -84,11 +84,89 @@ fn what_is_not_modelled_is_refused_with_its_line() {
     assert!(zmx("CURV 0.04", "CURV x").contains("CURV: found `x`, expected a number"));
     assert!(zmx("UNIT MM", "UNIT FURLONG").contains("UNIT is `FURLONG`"));
     let seq = |from: &str, to: &str| read("lens.seq", &SEQ.replacen(from, to, 1)).expect_err("refused");
-    assert!(seq("SO 0.0", "PRV\nSO 0.0").contains("private catalogue"));
-    assert!(seq("NBK7_SCHOTT", "'mine'").contains("a glass of a private catalogue"));
+    assert!(seq("NBK7_SCHOTT", "'mine'").contains("no glass is called `mine`"));
+    assert!(
+        seq("SO 0.0", "PRV\nPWL 600 500\n'mine' 1.5\nEND\nSO 0.0").contains("1 indices; expected one for each of 2")
+    );
+    assert!(zmx("ENPD 10.0", "FNUM 4 1").starts_with("5: a working f-number"));
+    assert!(zmx("ENPD 10.0", "ENPD 0").contains("ENPD is 0; expected a number above 0"));
+    assert!(zmx("CLAP 0 6.5 0", "CLAP 2 6.5 0").contains("an obscuration"));
     assert!(seq("  ASP", "  XDE 0.1").contains("XDE is not modelled"));
     assert!(seq("RDM;LEN", "LEN").contains("surfaces before RDM"));
     assert!(seq("3.5 NBK7_SCHOTT", "3.5 REFL").contains("a mirror"));
     assert!(read("lens.txt", SEQ).expect_err("what kind").contains(".zmx"));
     assert!(read_prescription(Path::new("nowhere.zmx")).is_err());
+}
+
+fn glass_of(zmx_line: &str) -> (GlassAsset, Vec<String>) {
+    let text = ZMX.replace("GLAS N-BK7 0 0 1.5 4.0E+1", zmx_line);
+    let lens = read("lens.zmx", &text).expect("a lens");
+    (lens.surfaces[0].glass.clone(), lens.notes)
+}
+
+#[test]
+fn a_glass_of_no_catalogue_here_is_taken_by_its_line_or_its_successor_and_noted() {
+    let (glass, notes) = glass_of("GLAS SK16 0 0 1.62041 60.32");
+    assert_eq!(glass, GlassAsset::Abbe { index: 1.62041, abbe: 60.32 });
+    assert!(notes[0].contains("line 26: no catalogue here has SK16: n_d 1.62041 and V_d 60.32"), "{notes:?}");
+    // 1.5 and 40 stand there for glasses of Zemax's own catalogues.
+    let (glass, notes) = glass_of("GLAS SK16 0 0 1.5 4.0E+1");
+    assert_eq!(glass, GlassAsset::Named("N-SK16".into()));
+    assert!(notes[0].contains("its successor N-SK16 is taken"), "{notes:?}");
+    assert_eq!(glass_of("GLAS N-BK7 0 0 1.5 4.0E+1").1, Vec::<String>::new());
+    let (glass, notes) = glass_of("GLAS 517642 0 0 1.5 4.0E+1");
+    assert!(
+        matches!(glass, GlassAsset::Abbe { index, abbe } if (index - 1.517).abs() < 1e-12 && (abbe - 64.2).abs() < 1e-9)
+    );
+    assert!(notes.is_empty());
+    let old = read("lens.seq", &SEQ.replace("NBK7_SCHOTT", "SK16_SCHOTT")).expect("a lens");
+    assert_eq!(old.surfaces[0].glass, GlassAsset::Named("N-SK16".into()));
+    assert!(old.notes[0].contains("line 11: no catalogue here has SK16_SCHOTT"), "{:?}", old.notes);
+}
+
+#[test]
+fn private_glasses_of_a_file_are_its_indices() {
+    // Cauchy's own curve: 1.5 + 0.004/λ² (µm).
+    let index = |nm: f64| 1.5 + 4e3 / (nm * nm);
+    let lines = [656.27, 587.56, 486.13].map(|nm| format!("{:.12}", index(nm))).join(" ");
+    let catalogue = format!("PRV\n PWL 656.27 587.56 486.13\n 'MINE' {lines}\nEND\nSO 0.0");
+    let text = SEQ.replace("SO 0.0", &catalogue).replace("NBK7_SCHOTT", "'mine'");
+    let lens = read("lens.seq", &text).expect("a lens");
+    let GlassAsset::Abbe { index: n, abbe } = lens.surfaces[0].glass else { panic!("{:?}", lens.surfaces[0].glass) };
+    let expected = (index(587.5618) - 1.0) / (index(486.1327) - index(656.2725));
+    assert!((n - index(587.5618)).abs() < 1e-9 && (abbe / expected - 1.0).abs() < 1e-6, "{n} {abbe} {expected}");
+    let one = SEQ.replace("SO 0.0", "PRV\nPWL 587.56\n'W' 1.7\nEND\nSO 0.0").replace("NBK7_SCHOTT", "'W'");
+    assert_eq!(read("lens.seq", &one).expect("a lens").surfaces[0].glass, GlassAsset::Index(1.7));
+}
+
+#[test]
+fn apertures_of_every_kind_and_what_has_none() {
+    let opening = |line: &str| read("lens.zmx", &ZMX.replace("ENPD 10.0", line)).expect("a lens").opening;
+    assert_eq!(opening("FLOA"), None);
+    assert_eq!(opening("FNUM 4.0 0"), Some(LensOpening::FNumber { f_number: 4.0 }));
+    assert_eq!(opening("OBNA 0.1 0"), Some(LensOpening::ObjectCone { sine: 0.1 }));
+    let Some(LensOpening::ObjectCone { sine }) = opening("OBNA 30 1") else { panic!("a cone") };
+    assert!((sine - 0.5).abs() < 1e-12);
+    let seq = |line: &str| read("lens.seq", &SEQ.replace("EPD 10.0", line)).expect("a lens").opening;
+    assert_eq!(seq("NAO 0.1"), Some(LensOpening::ObjectCone { sine: 0.1 }));
+    assert_eq!(seq("NA 0.1"), Some(LensOpening::FNumber { f_number: 5.0 }));
+}
+
+#[test]
+fn object_and_image_stand_where_the_file_has_them() {
+    // The dummy before the lens is 5 mm thick.
+    let near = read("lens.zmx", &ZMX.replacen("DISZ INFINITY", "DISZ 200", 1)).expect("a lens");
+    assert_eq!((near.object_distance_mm, near.back_focus_mm, near.defocus_mm), (205.0, 40.0, 0.0));
+    // CODE V: the image's thickness is a defocus; PIM leaves the image to be found.
+    let shifted = read("lens.seq", &SEQ.replace("SI 0.0 0.0", "SI 0.0 -0.25")).expect("a lens");
+    assert_eq!((shifted.back_focus_mm, shifted.defocus_mm), (39.75, 0.0));
+    let found = read("lens.seq", &SEQ.replace("SI 0.0 0.0", "  PIM\nSI 0.0 -0.25")).expect("a lens");
+    assert_eq!((found.back_focus_mm, found.defocus_mm), (0.0, -0.25));
+}
+
+#[test]
+fn parameters_of_a_standard_surface_are_no_coefficients() {
+    let text = ZMX.replace("TYPE EVENASPH", "TYPE STANDARD");
+    let lens = read("lens.zmx", &text).expect("a lens");
+    assert_eq!(lens.surfaces[1].asphere, [0.0; 8]);
 }

@@ -18,6 +18,39 @@ pub enum OpticsError {
         /// Its value.
         value: f64,
     },
+    /// Faster than any lens can be.
+    #[error(
+        "f_number is {value}; no lens in air is faster than f/0.5, where the light on the axis comes from the whole half space: \
+         give 0.5 or more"
+    )]
+    Faster {
+        /// Its value.
+        value: f64,
+    },
+    /// A picture nearly all of which looks along the edge of the field.
+    #[error(
+        "the picture reaches {radius_mm:.6} mm from the principal point, {:.3e} focal lengths of {focal_length_mm:e} mm: nearly all of \
+         it would look sideways and be black; give a longer focal length (a narrower field)",
+        radius_mm / focal_length_mm
+    )]
+    TooWide {
+        /// How far the picture reaches, mm.
+        radius_mm: f64,
+        /// Principal distance, mm.
+        focal_length_mm: f64,
+    },
+    /// A distortion that is no lens's.
+    #[error(
+        "the distortion moves a point at {radius_mm:.6} mm from the principal point to {:.3e} times that distance or nowhere; no lens \
+         does: check the coefficients and the unit of their radius",
+        ratio
+    )]
+    WildDistortion {
+        /// Distance on the sensor, mm.
+        radius_mm: f64,
+        /// Ideal over observed distance.
+        ratio: f64,
+    },
     /// A position that is not a number.
     #[error("{name} is {value}; it must be a finite number")]
     NotFinite {
@@ -194,8 +227,9 @@ pub enum OpticsError {
     Distortion(#[from] DistortionError),
     /// A stored radiance image does not hold all directions that a picture needs.
     #[error(
-        "the stored radiance image lacks directions that the picture needs: {missing_rad:.6} rad beyond its {edge} edge; \
-         render it with more overscan or use a narrower lens or a smaller sensor"
+        "the stored radiance image lacks directions that the picture needs: {:.4}° beyond its {edge} edge; \
+         render it with more overscan or use a narrower lens or a smaller sensor",
+        missing_rad.to_degrees()
     )]
     MissingDirections {
         /// The edge at which the most is missing.
@@ -259,6 +293,15 @@ pub enum OpticsError {
 pub(crate) fn positive(name: &'static str, value: f64) -> Result<f64, OpticsError> {
     if value.is_finite() && value > 0.0 { Ok(value) } else { Err(OpticsError::NotPositive { name, value }) }
 }
+
+/// `value` where a lens can have it as its f-number.
+pub(crate) fn f_number(value: f64) -> Result<f64, OpticsError> {
+    let value = positive("f_number", value)?;
+    if value >= FASTEST { Ok(value) } else { Err(OpticsError::Faster { value }) }
+}
+
+/// The f-number at which light on the axis comes from the whole half space: an aplanatic lens in air has 1/2N = sin θ′ ≤ 1 (Abbe).
+const FASTEST: f64 = 0.5;
 
 /// `value` where it is finite.
 pub(crate) fn finite(name: &'static str, value: f64) -> Result<f64, OpticsError> {

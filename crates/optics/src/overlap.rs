@@ -109,7 +109,7 @@ fn integrate(f: &impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
 }
 
 /// Positive abscissae and weights of the Gauss–Legendre rule of 16 points on [−1, 1].
-const GAUSS: [[f64; 2]; 8] = [
+pub(crate) const GAUSS: [[f64; 2]; 8] = [
     [0.09501250983763744, 0.18945061045506864],
     [0.2816035507792589, 0.18260341504492364],
     [0.45801677765722737, 0.16915651939500265],

@@ -129,6 +129,8 @@ fn what_cannot_be_is_refused() {
     assert!(matches!(refused(nan), OpticsError::FocusTooNear { .. }));
     let fast = ThinParameters { f_number: 0.0, ..base };
     assert!(matches!(refused(fast), OpticsError::NotPositive { name: "f_number", .. }));
+    let faster = ThinParameters { f_number: 0.499, ..base };
+    assert!(matches!(refused(faster), OpticsError::Faster { .. }));
     let bright = ThinParameters { transmittance: 1.1, ..base };
     assert!(matches!(refused(bright), OpticsError::Transmittance { .. }));
     let rim = Some(Rim { position_mm: -10.0, radius_mm: 3.0 });

@@ -197,7 +197,7 @@ fn the_report_obeys_third_order_theory() {
     let lens = stopped_singlet(FAR);
     let Lens::Prescription(prescribed) = &lens else { panic!("a prescription") };
     let report = prescribed.report(6);
-    let field = report.fields[1].image.expect("an image");
+    let field = report.fields[1].image.as_ref().expect("an image");
     let height_mm = report.fields[1].height_mm;
     // The Petzval surface lies from the sagittal focus half as far again as that from the tangential one.
     let petzval_mm = height_mm * height_mm / (2.0 * report.first_order.petzval_radius_mm);

@@ -32,6 +32,6 @@ pub mod truth;
 pub mod twin;
 mod warnings;
 
-pub use compile::{Choices, Quality, compile, compile_camera};
+pub use compile::{Choices, Quality, compile, compile_camera, compile_camera_with_remarks};
 pub use observer::{Observer, Unobserved};
 pub use plan::Plan;

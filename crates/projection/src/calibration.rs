@@ -38,7 +38,7 @@ pub enum CalibrationError {
         height: usize,
     },
     /// A greatest angle that is none.
-    #[error("the greatest field angle is {angle_rad} rad; expected more than 0 and no more than π")]
+    #[error("the greatest field angle is {}°; expected more than 0° and no more than 180°", angle_rad.to_degrees())]
     Angle {
         /// The angle, rad.
         angle_rad: f64,

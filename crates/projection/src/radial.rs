@@ -66,8 +66,8 @@ impl RadiusUnit {
 /// Why a distortion cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum DistortionError {
-    /// A coefficient that is not a number.
-    #[error("the distortion coefficients k1 = {k1}, k2 = {k2} are not finite")]
+    /// A coefficient that is not a number, or so large that its radii are none.
+    #[error("the distortion coefficients k1 = {k1}, k2 = {k2} must be finite and at most 1e30 in size")]
     Coefficient {
         /// First coefficient.
         k1: f64,
@@ -97,6 +97,9 @@ pub enum DistortionError {
     },
 }
 
+/// Largest size of a coefficient, in any unit of radius.
+const LARGEST: f64 = 1e30;
+
 /// Radial distortion about the principal point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RadialDistortion {
@@ -110,9 +113,9 @@ impl RadialDistortion {
     /// ([`RadiusUnit::length_mm`]).
     ///
     /// # Errors
-    /// Where a coefficient is not finite or the unit not a positive length.
+    /// Where a coefficient is not finite or beyond 1e30 (squares of it would overflow), or the unit not a positive length.
     pub fn new(sense: Sense, k1: f64, k2: f64, unit_mm: f64) -> Result<Self, DistortionError> {
-        if !(k1.is_finite() && k2.is_finite()) {
+        if ![k1, k2].iter().all(|k| k.abs() <= LARGEST) {
             return Err(DistortionError::Coefficient { k1, k2 });
         }
         if !(unit_mm.is_finite() && unit_mm > 0.0) {

@@ -52,7 +52,8 @@ fn a_prescription_in_a_file_is_the_lens_of_its_surfaces() {
     let in_place = lens_line(&with_lens(&prescription(SURFACES)));
     assert!(in_place.contains("prescription, 19."), "{in_place}");
     for (name, file) in [("lens.zmx", ZMX), ("lens.seq", SEQ)] {
-        let spoilt = with_lens(&prescription(&format!("file = \"{name}\"")));
+        // The file's own image distance would govern otherwise.
+        let spoilt = with_lens(&prescription(&format!("file = \"{name}\"\ndefocus_mm = 0")));
         spoilt.write(name, file);
         assert_eq!(lens_line(&spoilt), in_place, "{name}");
     }
@@ -207,4 +208,64 @@ fn an_undistorted_twin_that_cannot_be() {
     let wide = calibrated("projection = { type = \"equidistant\", fx_px = 12 }");
     with_output(&wide, "undistorted = true").refused(&["small.toml:", "output.undistorted", "85°"]);
     with_output(THIN, "undistorted_scale = 0.5").refused(&["output.undistorted_scale", "undistorted = true"]);
+}
+
+/// The report of `measure lens` on a lens file, as JSON.
+fn measured(name: &str, file: &str, arguments: &[&str]) -> Value {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join(name);
+    std::fs::write(&path, file).expect("written");
+    let path = text(&path);
+    let all: Vec<&str> =
+        ["measure", "lens", &path, "--fields", "2", "--json"].into_iter().chain(arguments.iter().copied()).collect();
+    serde_json::from_str(&etendue(all).ok().out).expect("JSON")
+}
+
+fn remarks(report: &Value) -> String {
+    report["remarks"].as_array().expect("remarks").iter().filter_map(Value::as_str).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn a_lens_file_s_image_aperture_and_glasses_govern_and_are_told() {
+    for (name, file) in [("lens.zmx", ZMX), ("lens.seq", SEQ)] {
+        let report = measured(name, file, &[]);
+        assert_eq!(report["sensor_from_last_vertex_mm"].as_f64(), Some(18.0), "{name}");
+        assert!(
+            remarks(&report).contains("18.0000 mm behind the last vertex, as the file says: -"),
+            "{}",
+            remarks(&report)
+        );
+        let focused = measured(name, file, &["--set", "lens.defocus_mm=0"]);
+        let paraxial_mm = focused["back_focus_from_last_vertex_mm"].as_f64().expect("a number");
+        let sensor_mm = focused["sensor_from_last_vertex_mm"].as_f64().expect("a number");
+        assert!(
+            (sensor_mm - paraxial_mm).abs() < 1e-9
+                && remarks(&focused).contains("the file's image stands at 18.0000 mm")
+        );
+    }
+    // The entrance pupil opens the stop beyond the radius that is kept for drawing, and closes it.
+    for (enpd, pupil_mm) in [("ENPD 2.4", 2.4), ("ENPD 1.0", 1.0), ("FLOA", 2.0)] {
+        let report = measured("lens.zmx", &ZMX.replace("ENPD 2.0", enpd), &[]);
+        let found = report["entrance_pupil_diameter_mm"].as_f64().expect("a number");
+        assert!((found - pupil_mm).abs() < 1e-9, "{enpd}: {found}");
+        assert_eq!(remarks(&report).contains("its aperture opens the stop"), enpd != "FLOA", "{}", remarks(&report));
+    }
+    let old = measured("lens.zmx", &ZMX.replace("N-BK7 0 0 1.5 4.0E+1", "SK16 0 0 1.62041 60.32"), &[]);
+    assert!(remarks(&old).contains("no catalogue here has SK16: n_d 1.62041 and V_d 60.32"), "{}", remarks(&old));
+    let closed = measured("lens.zmx", ZMX, &["--f-number", "16"]);
+    assert!((closed["f_number"].as_f64().expect("a number") - 16.0).abs() < 1e-9);
+    assert!(remarks(&closed).contains("f/16 of the description"), "{}", remarks(&closed));
+}
+
+#[test]
+fn only_a_file_says_what_is_in_focus() {
+    let spoilt = with_lens(&prescription("file = \"lens.zmx\"").replace("focus_distance_m = 2\n", ""));
+    spoilt.write("lens.zmx", ZMX);
+    let plan = etendue(["plan", &spoilt.job()]).ok().out;
+    assert!(plan.contains("lens.zmx: the sensor stands 18.0000 mm behind the last vertex, as the file says"), "{plan}");
+    refused(
+        &prescription(SURFACES).replace("focus_distance_m = 2\n", ""),
+        "[cameras.lens]",
+        &["focus_distance_m", "missing"],
+    );
 }

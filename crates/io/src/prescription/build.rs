@@ -17,6 +17,9 @@ pub(super) struct Raw {
     pub(super) opening: Option<LensOpening>,
     pub(super) fields: Option<LensFields>,
     pub(super) wavelengths_nm: Vec<f64>,
+    /// The image is where the program finds it: the last distance is no statement.
+    pub(super) image_is_found: bool,
+    pub(super) notes: Vec<String>,
 }
 
 #[derive(Clone)]
@@ -29,13 +32,25 @@ pub(super) struct RawSurface {
     pub(super) thickness: f64,
     pub(super) glass: GlassAsset,
     pub(super) stop: bool,
+    /// Zemax: whether parameters are coefficients.
+    pub(super) aspheric: bool,
 }
 
 impl RawSurface {
     pub(super) fn new(line: usize) -> Self {
         let (curvature, conic, asphere) = (0.0, 0.0, [0.0; 8]);
         let glass = GlassAsset::Air;
-        Self { line, curvature, conic, asphere, semi_aperture: None, thickness: 0.0, glass, stop: false }
+        Self {
+            line,
+            curvature,
+            conic,
+            asphere,
+            semi_aperture: None,
+            thickness: 0.0,
+            glass,
+            stop: false,
+            aspheric: false,
+        }
     }
 }
 
@@ -48,28 +63,47 @@ pub(super) fn named(name: &str) -> Option<GlassAsset> {
     Some(GlassAsset::Named(found.name.to_owned()))
 }
 
+/// The glass of today that took the place of a lead glass of Schott's by nearly the same numbers: N-SK16 for SK16.
+pub(super) fn successor(name: &str) -> Option<GlassAsset> {
+    let plain = name.split('_').next().unwrap_or(name);
+    named(&format!("N{plain}"))
+}
+
+/// A glass by its number: digits of n_d − 1, then those of V_d, as six digits or parted by a point.
+pub(super) fn by_number(text: &str) -> Option<GlassAsset> {
+    let (index, abbe) = text.split_once('.').or_else(|| (text.len() == 6).then(|| text.split_at_checked(3))?)?;
+    let digits = |part: &str| part.len() >= 3 && part.bytes().all(|b| b.is_ascii_digit());
+    let fraction = |part: &str| format!("0.{part}").parse::<f64>().ok();
+    let (index, abbe) = (digits(index) && digits(abbe)).then_some((fraction(index)?, fraction(abbe)?))?;
+    Some(GlassAsset::Abbe { index: 1.0 + index, abbe: 100.0 * abbe })
+}
+
 impl Raw {
     /// The prescription of at least object, one surface and image.
     pub(super) fn finish(self, file: &Path) -> Result<PrescriptionAsset, Error> {
         let unit = self.unit_mm.unwrap_or(1.0);
-        let [object, surfaces @ .., _image] = &self.surfaces[..] else {
+        let [object, surfaces @ .., image] = &self.surfaces[..] else {
             return Err(Error::new(
                 file,
                 "expected object, surfaces and image; the file has fewer than three surfaces",
             ));
         };
-        let surfaces = refracting(surfaces, unit);
-        let back_focus_mm = surfaces.last().map_or(0.0, |surface| surface.thickness_mm);
+        let (before_mm, surfaces) = refracting(surfaces, unit);
+        let shift_mm = image.thickness * unit;
+        let stated_mm = surfaces.last().map_or(0.0, |surface| surface.thickness_mm + shift_mm);
+        let found = self.image_is_found || !stated_mm.is_finite() || stated_mm == 0.0;
         match surfaces.iter().filter(|s| s.stop).count() {
             _ if surfaces.is_empty() => Err(Error::new(file, "no surface refracts; expected a lens")),
             1 => Ok(PrescriptionAsset {
                 title: self.title,
                 surfaces,
-                object_distance_mm: object.thickness * unit,
-                back_focus_mm,
+                object_distance_mm: object.thickness * unit + before_mm,
+                back_focus_mm: if found { 0.0 } else { stated_mm },
+                defocus_mm: if found && shift_mm.is_finite() { shift_mm } else { 0.0 },
                 opening: self.opening.map(|opening| scaled(opening, unit)),
                 fields: self.fields.map(|fields| scaled_fields(fields, unit)),
                 wavelengths_nm: self.wavelengths_nm,
+                notes: self.notes,
                 hash: [0; 32],
             }),
             found => Err(Error::new(file, format!("{found} surfaces are the stop; expected one (STOP or STO)"))),
@@ -77,20 +111,20 @@ impl Raw {
     }
 }
 
-/// Surfaces in mm without those that do nothing.
-fn refracting(surfaces: &[RawSurface], unit: f64) -> Vec<SurfaceAsset> {
-    let mut list: Vec<SurfaceAsset> = Vec::new();
+/// Surfaces in mm without those that do nothing, and the distance from the first of all to the first of them.
+fn refracting(surfaces: &[RawSurface], unit: f64) -> (f64, Vec<SurfaceAsset>) {
+    let (mut before_mm, mut list) = (0.0, Vec::<SurfaceAsset>::new());
     let mut before = GlassAsset::Air;
     for surface in surfaces {
         let idle = surface.glass == before && !surface.stop;
         before = surface.glass.clone();
         match list.last_mut() {
             Some(last) if idle => last.thickness_mm += surface.thickness * unit,
-            None if idle => {}
+            None if idle => before_mm += surface.thickness * unit,
             _ => list.push(in_mm(surface, unit)),
         }
     }
-    list
+    (before_mm, list)
 }
 
 fn in_mm(s: &RawSurface, unit: f64) -> SurfaceAsset {
@@ -115,7 +149,7 @@ fn in_mm(s: &RawSurface, unit: f64) -> SurfaceAsset {
 fn scaled(opening: LensOpening, unit: f64) -> LensOpening {
     match opening {
         LensOpening::EntrancePupil { diameter_mm } => LensOpening::EntrancePupil { diameter_mm: diameter_mm * unit },
-        same @ LensOpening::FNumber { .. } => same,
+        same @ (LensOpening::FNumber { .. } | LensOpening::ObjectCone { .. }) => same,
     }
 }
 

@@ -3,13 +3,15 @@
 //! Commands stand one a line or are parted by semicolons; `!` begins a comment, `&` at a line's end continues it. S gives
 //! radius (in radius mode), thickness and glass of the next surface, SO those of the object, SI of the image; what follows
 //! belongs to the last of them. A glass is a catalogue name, perhaps with its catalogue after an underscore, or a number:
-//! `517642` and `516800.641673` are n_d = 1.517 (1.5168) and V_d = 64.2 (64.1673). A … G are the coefficients of r⁴ … r¹⁶.
+//! `517642` and `516800.641673` are n_d = 1.517 (1.5168) and V_d = 64.2 (64.1673); or it is of the file's own private
+//! catalogue (PRV … END). A … G are the coefficients of r⁴ … r¹⁶. The thickness of SI is a defocus; PIM leaves the image to be found.
 
 use std::path::Path;
 
 use etendue_scene::asset::{GlassAsset, LensFields, LensOpening, PrescriptionAsset};
 
-use super::build::{Raw, RawSurface, named};
+use super::build::{Raw, RawSurface, by_number, named, successor};
+use super::private::PrivateGlasses;
 use super::text::Words;
 use crate::Error;
 
@@ -70,12 +72,16 @@ fn words(command: &str) -> Vec<&str> {
 #[derive(Default)]
 struct Reader {
     raw: Raw,
+    glasses: PrivateGlasses,
     /// Whether S lines give radii (RDM) or curvatures.
     radii: Option<bool>,
 }
 
 impl Reader {
     fn command(&mut self, w: &Words<'_>) -> Result<(), Error> {
+        if self.glasses.reads(w)? {
+            return Ok(());
+        }
         let name = w.word(0).to_ascii_uppercase();
         match name.as_str() {
             "RDM" => self.radii = Some(!w.word(1).to_ascii_uppercase().starts_with('N')),
@@ -87,11 +93,9 @@ impl Reader {
             "YAN" => self.raw.fields = Some(LensFields::AnglesDeg(w.numbers(1)?)),
             "YOB" => self.raw.fields = Some(LensFields::ObjectMm(w.numbers(1)?)),
             "YIM" | "YRI" => self.raw.fields = Some(LensFields::ImageMm(w.numbers(1)?)),
-            "PRV" => {
-                return Err(
-                    w.fault("a private catalogue of glasses is not read; name catalogue glasses or give n_d and V_d")
-                );
-            }
+            "NAO" => self.raw.opening = Some(LensOpening::ObjectCone { sine: w.number(1)? }),
+            "NA" => self.raw.opening = Some(LensOpening::FNumber { f_number: 0.5 / w.number(1)? }),
+            "PIM" => self.raw.image_is_found = true,
             "S" | "SO" | "SI" => self.surface(w)?,
             "STO" if w.words.len() > 1 => self.stop_at(w)?,
             _ if REFUSED.contains(&name.as_str()) => {
@@ -118,9 +122,31 @@ impl Reader {
         if surface.thickness.abs() >= 1e10 {
             surface.thickness = f64::INFINITY;
         }
-        surface.glass = glass(w, 3)?;
+        surface.glass = self.glass(w, 3)?;
         self.raw.surfaces.push(surface);
         Ok(())
+    }
+
+    fn glass(&mut self, w: &Words<'_>, place: usize) -> Result<GlassAsset, Error> {
+        let name = w.word(place);
+        let plain = name.trim_start_matches(['\'', '"']);
+        match name.to_ascii_uppercase().as_str() {
+            "" | "AIR" => return Ok(GlassAsset::Air),
+            "REFL" => return Err(w.fault("a mirror; only refracting lenses are modelled")),
+            _ => {}
+        }
+        if let Some(glass) = self.glasses.find(plain).or_else(|| named(plain)).or_else(|| by_number(plain)) {
+            return Ok(glass);
+        }
+        let Some(GlassAsset::Named(today)) = successor(plain) else {
+            return Err(w.fault(format!(
+                "no glass is called `{plain}`; give a name of the Schott or Ohara catalogue, a number as 517642, or its indices in a private \
+                 catalogue (PRV) before the surfaces"
+            )));
+        };
+        let note = format!("line {}: no catalogue here has {plain}: its successor {today} is taken", w.line);
+        self.raw.notes.push(note);
+        Ok(GlassAsset::Named(today))
     }
 
     /// `STO S5`.
@@ -157,30 +183,4 @@ fn property(surface: &mut RawSurface, name: &str, w: &Words<'_>) -> Result<(), E
         _ => {}
     }
     Ok(())
-}
-
-fn glass(w: &Words<'_>, place: usize) -> Result<GlassAsset, Error> {
-    let name = w.word(place);
-    let unknown = || {
-        w.fault(format!(
-            "no glass is called `{name}`; give a name of the Schott or Ohara catalogue, or a number as 517642"
-        ))
-    };
-    match name.to_ascii_uppercase().as_str() {
-        "" | "AIR" => Ok(GlassAsset::Air),
-        "REFL" => Err(w.fault("a mirror; only refracting lenses are modelled")),
-        _ if name.starts_with(['\'', '"']) => {
-            Err(w.fault(format!("{name}': a glass of a private catalogue; name a catalogue glass or give n_d and V_d")))
-        }
-        _ => named(name).or_else(|| fictitious(name)).ok_or_else(unknown),
-    }
-}
-
-/// A glass by its number: digits of n_d − 1, then those of V_d, as six digits or parted by a point.
-fn fictitious(text: &str) -> Option<GlassAsset> {
-    let (index, abbe) = text.split_once('.').or_else(|| (text.len() == 6).then(|| text.split_at(3)))?;
-    let digits = |part: &str| part.len() >= 3 && part.bytes().all(|b| b.is_ascii_digit());
-    let fraction = |part: &str| format!("0.{part}").parse::<f64>().ok();
-    let (index, abbe) = (digits(index) && digits(abbe)).then_some((fraction(index)?, fraction(abbe)?))?;
-    Some(GlassAsset::Abbe { index: 1.0 + index, abbe: 100.0 * abbe })
 }

@@ -3,12 +3,15 @@
 //! A line is a keyword and its values; those of a surface follow its SURF. GLAS names a catalogue glass, or (second value 1)
 //! gives index and Abbe number of a model glass. PARM i of an EVENASPH is the coefficient of r²ⁱ. FTYP holds the kind of
 //! field and the numbers of fields and wavelengths, for YFLN and WAVM are filled up.
+//!
+//! A glass that no catalogue here has is taken by the index and Abbe number of its line, unless those are the 1.5 and 40 that Zemax
+//! writes for glasses of its catalogues; then by Schott's successor of the same name, with N before it. Either is noted.
 
 use std::path::Path;
 
 use etendue_scene::asset::{GlassAsset, LensFields, LensOpening, PrescriptionAsset};
 
-use super::build::{Raw, RawSurface, named};
+use super::build::{Raw, RawSurface, by_number, named, successor};
 use super::text::Words;
 use crate::Error;
 
@@ -40,16 +43,20 @@ impl Reader {
                 Ok(())
             }
             "UNIT" => self.unit(w),
-            "ENPD" => {
-                self.raw.opening = Some(LensOpening::EntrancePupil { diameter_mm: w.number(1)? });
+            "ENPD" | "FNUM" | "OBNA" | "FLOA" => {
+                self.raw.opening = opening(w)?;
                 Ok(())
             }
-            "FNUM" => {
-                self.raw.opening = Some(LensOpening::FNumber { f_number: w.number(1)? });
+            "MNUM" if w.number(1)? > 1.0 => {
+                self.raw.notes.push(format!(
+                    "line {}: of {} configurations the one that the surfaces state is taken",
+                    w.line,
+                    w.word(1)
+                ));
                 Ok(())
             }
             "FTYP" => self.field_type(w),
-            "YFLN" => {
+            "YFLN" | "YFLD" => {
                 self.heights = w.numbers(1)?;
                 Ok(())
             }
@@ -61,6 +68,7 @@ impl Reader {
                 self.raw.surfaces.push(RawSurface::new(w.line));
                 Ok(())
             }
+            "GLAS" => self.glass(w),
             _ => match self.raw.surfaces.last_mut() {
                 Some(surface) => property(surface, w),
                 None => Ok(()),
@@ -87,6 +95,15 @@ impl Reader {
         Ok(())
     }
 
+    fn glass(&mut self, w: &Words<'_>) -> Result<(), Error> {
+        let (glass, note) = glass(w, &self.raw.surfaces)?;
+        self.raw.notes.extend(note.map(|note| format!("line {}: {note}", w.line)));
+        if let Some(surface) = self.raw.surfaces.last_mut() {
+            surface.glass = glass;
+        }
+        Ok(())
+    }
+
     fn finish(mut self, file: &Path) -> Result<PrescriptionAsset, Error> {
         if self.counts != [0, 0] {
             self.heights.truncate(self.counts[0]);
@@ -105,15 +122,18 @@ fn property(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
             let kind = w.word(1);
             return Err(w.fault(format!("a surface of type {kind}; only STANDARD and EVENASPH are modelled")));
         }
+        "TYPE" => surface.aspheric = w.word(1) == "EVENASPH",
         "CURV" => surface.curvature = w.number(1)?,
         "CONI" => surface.conic = w.number(1)?,
-        "PARM" => coefficient(surface, w)?,
+        // A STANDARD surface has no parameters.
+        "PARM" if surface.aspheric => coefficient(surface, w)?,
         "DISZ" => surface.thickness = if w.word(1) == "INFINITY" { f64::INFINITY } else { w.number(1)? },
-        "GLAS" => surface.glass = glass(w)?,
         // A clear aperture overrides the diameter that the program keeps for drawing.
+        "CLAP" if w.number(1)? != 0.0 => return Err(w.fault("an obscuration; only round, open apertures are modelled")),
         "CLAP" => surface.semi_aperture = Some(w.number(2)?),
         "DIAM" if surface.semi_aperture.is_none() => surface.semi_aperture = Some(w.number(1)?).filter(|d| *d > 0.0),
         "STOP" => surface.stop = true,
+        "OBDC" if w.numbers(1)?.iter().all(|shift| *shift == 0.0) => {}
         aperture @ ("SQAP" | "ELAP" | "OBSC" | "SQOB" | "ELOB" | "UDAD" | "OBDC") => {
             return Err(w.fault(format!("an aperture {aperture}; only round, centred apertures are modelled")));
         }
@@ -132,15 +152,61 @@ fn coefficient(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
     Ok(())
 }
 
-fn glass(w: &Words<'_>) -> Result<GlassAsset, Error> {
+/// How far the lens opens; `None` where the stop's own size says it (FLOA).
+fn opening(w: &Words<'_>) -> Result<Option<LensOpening>, Error> {
+    let positive = |value: f64| {
+        if value > 0.0 {
+            Ok(value)
+        } else {
+            Err(w.fault(format!("{} is {value}; expected a number above 0", w.word(0))))
+        }
+    };
+    Ok(match w.word(0) {
+        "ENPD" => Some(LensOpening::EntrancePupil { diameter_mm: positive(w.number(1)?)? }),
+        "FNUM" if w.word(2) == "1" => {
+            return Err(w.fault("a working f-number; give the image-space f-number (FNUM with 0), ENPD or FLOA"));
+        }
+        "FNUM" => Some(LensOpening::FNumber { f_number: positive(w.number(1)?)? }),
+        "OBNA" if w.word(2) == "1" => Some(LensOpening::ObjectCone {
+            sine: etendue_core::maths::f64::sin_cos(positive(w.number(1)?)?.to_radians()).0,
+        }),
+        "OBNA" => Some(LensOpening::ObjectCone { sine: positive(w.number(1)?)? }),
+        _ => None,
+    })
+}
+
+/// The glass of a GLAS line, and what is to be said of it.
+fn glass(w: &Words<'_>, surfaces: &[RawSurface]) -> Result<(GlassAsset, Option<String>), Error> {
     let name = w.word(1);
     if name == "MIRROR" {
         return Err(w.fault("a mirror; only refracting lenses are modelled"));
     }
-    if w.word(2) == "1" {
-        return Ok(GlassAsset::Abbe { index: w.number(4)?, abbe: w.number(5)? });
+    let numbers = || Some((w.number(4).ok()?, w.number(5).ok()?)).filter(|(index, abbe)| *index > 1.0 && *abbe > 0.0);
+    match w.word(2) {
+        "1" => return Ok((GlassAsset::Abbe { index: w.number(4)?, abbe: w.number(5)? }, None)),
+        "2" => {
+            let from = surfaces.get(w.number(3)? as usize);
+            let from = from.ok_or_else(|| w.fault("the glass is picked up from a surface that is not given before"))?;
+            return Ok((from.glass.clone(), None));
+        }
+        _ => {}
     }
-    named(name).ok_or_else(|| {
-        w.fault(format!("no glass is called `{name}`; give a name of the Schott or Ohara catalogue, or a model glass"))
-    })
+    if let Some(known) = named(name).or_else(|| by_number(name)) {
+        return Ok((known, None));
+    }
+    // Zemax writes these where the glass's own numbers stand in a catalogue.
+    let own = numbers().filter(|pair| *pair != (1.5, 40.0));
+    if let Some((index, abbe)) = own {
+        let note = format!("no catalogue here has {name}: n_d {index} and V_d {abbe} of its line are taken");
+        return Ok((GlassAsset::Abbe { index, abbe }, Some(note)));
+    }
+    match successor(name) {
+        Some(GlassAsset::Named(today)) => {
+            let note = format!("no catalogue here has {name}: its successor {today} is taken");
+            Ok((GlassAsset::Named(today), Some(note)))
+        }
+        _ => Err(w.fault(format!(
+            "no glass is called `{name}`; give a name of the Schott or Ohara catalogue, or n_d and V_d on its line (GLAS {name} 1 0 n_d V_d)"
+        ))),
+    }
 }

@@ -17,9 +17,10 @@
 //! one point), clipping.
 
 use super::body::Body;
+use super::course;
 use super::falloff::Falloff;
 use super::lateral_colour::LateralColour;
-use crate::error::{OpticsError, positive};
+use crate::error::{OpticsError, f_number, positive};
 use crate::pupil::{MM, concentric_disc};
 use core::f64::consts::PI;
 use core::fmt::{self, Debug, Formatter};
@@ -86,7 +87,7 @@ impl Calibrated {
     /// Where a number is outside its range, or the calibration sees nothing at its principal point.
     pub fn new(parameters: CalibratedParameters) -> Result<Self, OpticsError> {
         let pitch_mm = positive("pixel_pitch_mm", parameters.pixel_pitch_mm)?;
-        let n = positive("f_number", parameters.f_number)?;
+        let n = f_number(parameters.f_number)?;
         let transmittance = Body::new(parameters.transmittance)?.transmittance;
         if let Some(focus_m) = parameters.focus_distance_m
             && (focus_m.is_nan() || focus_m <= 0.0)
@@ -138,7 +139,19 @@ impl Calibrated {
             return Err(OpticsError::CalibratedSize { got_width, got_height, width, height });
         }
         self.parameters.calibration.check()?;
+        self.check_course(raster.max_radius_mm())?;
         self.parameters.relative_illumination.as_ref().map_or(Ok(()), |table| table.check(raster.max_radius_mm()))
+    }
+
+    /// Near the principal point a model looks at about r/f from it.
+    fn check_course(&self, radius_mm: f64) -> Result<(), OpticsError> {
+        let limited = self.parameters.calibration.greatest_angle_rad().is_some();
+        let ideal = |r_mm: f64| {
+            let direction = self.direction(DVec2::new(r_mm, 0.0));
+            let angle = direction.map(|d| etendue_core::maths::f64::atan2(d.truncate().length(), d.z));
+            angle.or(limited.then_some(r_mm / self.focal_length_mm)).map(|angle| angle * self.focal_length_mm)
+        };
+        course::check(radius_mm, self.focal_length_mm, &course::NEAR, ideal)
     }
 
     fn raster_px(&self, sensor_mm: DVec2) -> DVec2 {

@@ -18,6 +18,7 @@
 
 mod body;
 mod calibrated;
+mod course;
 mod falloff;
 mod focus;
 mod lateral_colour;
@@ -42,7 +43,7 @@ pub use lateral_colour::LateralColour;
 pub use parallel::{Parallel, ParallelParameters};
 pub use pinhole::{Pinhole, PinholeParameters};
 pub(crate) use prescribed::DIRECTIONS;
-pub use prescribed::{FieldReport, ImageReport, LensReport, Prescribed, Spot};
+pub use prescribed::{FieldReport, ImageReport, LateralShift, LensReport, OtherBundle, Prescribed, Spot};
 pub use statements::PupilStatements;
 pub use thick::{ConstantPupil, Rim, Thick, ThickParameters};
 pub use thin::{Thin, ThinParameters};
@@ -194,12 +195,21 @@ impl Lens {
     /// Refuses a picture that the lens cannot image.
     ///
     /// # Errors
-    /// Where the distortion folds inside the picture, or the picture is not that of the calibration.
+    /// Where the distortion folds inside the picture or is none of a lens, the picture reaches farther than a lens sees, or
+    /// is not that of the calibration.
     pub fn check(&self, raster: &Raster) -> Result<(), OpticsError> {
         if let Self::Calibrated(lens) = self {
             return lens.check(raster);
         }
-        self.distortion().map_or(Ok(()), |d| Ok(d.check(raster.max_radius_mm())?))
+        let (radius_mm, focal_mm) = (raster.max_radius_mm(), self.principal_distance_mm());
+        match (self, self.distortion()) {
+            (_, Some(distortion)) => {
+                distortion.check(radius_mm)?;
+                course::check(radius_mm, focal_mm, &course::ALL, |r| distortion.ideal_radius_mm(r))
+            }
+            (Self::Pinhole(_) | Self::Thin(_) | Self::Thick(_), None) => course::check(radius_mm, focal_mm, &[], Some),
+            _ => Ok(()),
+        }
     }
 
     /// The ray of a sensor point (mm) through a pupil sample in [0, 1)² at a wavelength; `None` where no light comes.

@@ -5,7 +5,7 @@
 //! depend on distance: a length in the picture is the width of the field over that of the picture times as long. The camera's
 //! position is the middle of a plane across the axis from which the rays begin; it sees nothing behind that plane.
 
-use crate::error::{OpticsError, positive};
+use crate::error::{OpticsError, f_number, positive};
 use core::f64::consts::PI;
 use etendue_core::ray::PupilRay;
 use glam::{DVec2, DVec3};
@@ -35,7 +35,7 @@ impl Parallel {
     /// Where a parameter is outside its range.
     pub fn new(parameters: ParallelParameters) -> Result<Self, OpticsError> {
         positive("field_width_m", parameters.metres_per_mm)?;
-        let n = positive("f_number", parameters.f_number)?;
+        let n = f_number(parameters.f_number)?;
         let transmittance = super::body::Body::new(parameters.transmittance)?.transmittance;
         Ok(Self { parameters, weight_sr: transmittance * PI / (4.0 * n * n) })
     }

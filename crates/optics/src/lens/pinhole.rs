@@ -6,7 +6,7 @@
 //! unsharp or a large one blurred, is left out.
 
 use super::body::Body;
-use crate::error::{OpticsError, PRINCIPAL_NM, positive};
+use crate::error::{OpticsError, PRINCIPAL_NM, f_number, positive};
 use crate::pupil::{Pencil, PupilView};
 use etendue_core::ray::PupilRay;
 use glam::DVec2;
@@ -38,7 +38,7 @@ impl Pinhole {
     /// Where a parameter is outside its range.
     pub fn new(parameters: PinholeParameters) -> Result<Self, OpticsError> {
         let distance_mm = positive("focal_length_mm", parameters.focal_length_mm)?;
-        let radius_mm = distance_mm / (2.0 * positive("f_number", parameters.f_number)?);
+        let radius_mm = distance_mm / (2.0 * f_number(parameters.f_number)?);
         let body = Body::new(parameters.transmittance)?;
         Ok(Self { body, parameters, pupil: PupilView { distance_mm, radius_mm } })
     }

@@ -26,7 +26,7 @@ use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
 use indices::{IndexTable, MOST_MEDIA, Media};
 use paraxial::Paraxial;
-use trace::{Element, LensRay, Lost, Rims, Through, Way, walk};
+use trace::{Element, Fullness, LensRay, Lost, Rims, Through, Way, walk};
 
 pub use error::PrescriptionError;
 pub use focus::Focus;
@@ -193,6 +193,14 @@ impl Prescription {
         walk(&self.elements, 0, Way::ToSensor, media, ray, &mut rims)
     }
 
+    /// How far a ray fills the clear apertures on its `way`: the greatest distance from the axis over the rim's, above 1
+    /// where it is clipped. `None` where it misses a surface or is totally reflected.
+    pub(crate) fn filling(&self, ray: LensRay, way: Way, media: &Media) -> Option<f64> {
+        let mut fullness = Fullness { most: 0.0 };
+        walk(&self.elements, 0, way, media, ray, &mut fullness).ok()?;
+        Some(fullness.most.sqrt())
+    }
+
     /// Where the paraxial image of the plane in focus lies at a wavelength, mm behind the last vertex.
     #[must_use]
     pub fn image_mm(&self, nm: f64) -> f64 {
@@ -227,9 +235,19 @@ impl Prescription {
     pub(crate) fn stop_point(&self, ray: LensRay, media: &Media) -> Result<DVec3, Lost> {
         let behind = &self.elements[self.stop + 1..];
         let ray = walk(behind, self.stop + 1, Way::ToScene, media, ray, &mut Rims::Ignore)?;
+        self.at_stop_surface(ray, -1.0)
+    }
+
+    /// The same for a ray from the scene.
+    pub(crate) fn stop_point_from_scene(&self, ray: LensRay, media: &Media) -> Result<DVec3, Lost> {
+        let ray = walk(&self.elements[..self.stop], 0, Way::ToSensor, media, ray, &mut Rims::Ignore)?;
+        self.at_stop_surface(ray, 1.0)
+    }
+
+    fn at_stop_surface(&self, ray: LensRay, sense: f64) -> Result<DVec3, Lost> {
         let element = &self.elements[self.stop];
         let vertex = DVec3::new(0.0, 0.0, element.z_mm);
-        let hit = element.shape.hit(ray.point - vertex, ray.direction, -1.0);
+        let hit = element.shape.hit(ray.point - vertex, ray.direction, sense);
         hit.map(|h| h.point).ok_or(Lost { surface: self.stop, loss: trace::Loss::Missed })
     }
 

@@ -51,14 +51,14 @@ impl Surface {
         Self { stop: true, ..Self::sphere(f64::INFINITY, thickness_mm, Dispersion::AIR, semi_aperture_mm) }
     }
 
-    pub(super) fn shape(&self) -> Shape {
+    pub(crate) fn shape(&self) -> Shape {
         Shape::new(1.0 / self.radius_mm, self.conic, self.asphere)
     }
 }
 
 /// The form of a surface, its vertex at the origin.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Shape {
+pub(crate) enum Shape {
     Plane,
     /// Curvature, 1/mm.
     Sphere(f64),
@@ -68,14 +68,14 @@ pub(super) enum Shape {
 
 /// Curvature and conic constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Conic {
+pub(crate) struct Conic {
     c: f64,
     k: f64,
 }
 
 /// A conic and terms of even powers.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Asphere {
+pub(crate) struct Asphere {
     conic: Conic,
     terms: [f64; ASPHERE_TERMS],
 }
@@ -116,7 +116,7 @@ impl Shape {
     }
 
     /// Sag at a distance from the axis, mm; `None` beyond the equator.
-    pub(super) fn sag(&self, r: f64) -> Option<f64> {
+    pub(crate) fn sag(&self, r: f64) -> Option<f64> {
         match self {
             Self::Plane => Some(0.0),
             Self::Sphere(c) => Conic { c: *c, k: 0.0 }.sag(r * r).map(|s| s[0]),

@@ -73,7 +73,7 @@ impl Element {
 
 /// Which way rays run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Way {
+pub(crate) enum Way {
     ToSensor,
     ToScene,
 }
@@ -118,6 +118,20 @@ impl Journey for Rims {
     #[inline]
     fn crosses(&mut self, _: usize, element: &Element, hit: &Hit, _: &Crossing) -> Result<(), Loss> {
         if *self == Self::Clip { inside(element, hit) } else { Ok(()) }
+    }
+}
+
+/// How far the ray fills the rims it passes; nothing is clipped.
+pub(super) struct Fullness {
+    /// Greatest square of a distance from the axis over that of the rim there: above 1 the ray is clipped.
+    pub(super) most: f64,
+}
+
+impl Journey for Fullness {
+    #[inline]
+    fn crosses(&mut self, _: usize, element: &Element, hit: &Hit, _: &Crossing) -> Result<(), Loss> {
+        self.most = self.most.max(element.filling(hit));
+        Ok(())
     }
 }
 

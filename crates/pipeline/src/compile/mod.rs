@@ -96,10 +96,19 @@ pub fn compile(description: &Description, assets: &Assets, choices: &Choices) ->
 /// # Errors
 /// All contradictions, with their places.
 pub fn compile_camera(camera: &Camera, assets: &Assets) -> Result<CameraBody, Vec<Fault>> {
+    compile_camera_with_remarks(camera, assets).map(|(body, _)| body)
+}
+
+/// The same, with what a plan would remark of the camera.
+///
+/// # Errors
+/// As [`compile_camera`].
+pub fn compile_camera_with_remarks(camera: &Camera, assets: &Assets) -> Result<(CameraBody, Vec<String>), Vec<Fault>> {
     let mut context = Context::new(assets);
     let body = camera::body(camera, &mut context);
+    let remarks = std::mem::take(&mut context.remarks);
     let faults = context.into_faults();
-    body.filter(|_| faults.is_empty()).ok_or(faults)
+    body.filter(|_| faults.is_empty()).map(|body| (body, remarks)).ok_or(faults)
 }
 
 fn planned(description: &Description, choices: &Choices, context: &mut Context<'_>) -> Option<Plan> {

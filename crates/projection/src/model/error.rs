@@ -18,9 +18,15 @@ impl ModelError {
     }
 }
 
-/// Refuses what is not finite.
+/// Largest size of a parameter: squares of more overflow, and no camera has it.
+const LARGEST: f64 = 1e30;
+
+/// Refuses what is not finite, or too large to be calculated with.
 pub(crate) fn finite<'a>(values: impl IntoIterator<Item = (&'a str, f64)>) -> Result<(), ModelError> {
-    match values.into_iter().find(|(_, value)| !value.is_finite()) {
+    match values.into_iter().find(|(_, value)| value.is_nan() || value.abs() > LARGEST) {
+        Some((name, value)) if value.is_finite() => {
+            Err(ModelError::value(name, value, "a number of at most 1e30 in size"))
+        }
         Some((name, value)) => Err(ModelError::value(name, value, "a finite number")),
         None => Ok(()),
     }

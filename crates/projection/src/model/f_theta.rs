@@ -43,7 +43,7 @@ impl FTheta {
         legal("c0", c(0), c(0) == 0.0, "0: the axis is seen at the principal point")?;
         legal("c1", c(1), c(1) > 0.0, "a positive number")?;
         let inside = greatest_angle_rad > 0.0 && greatest_angle_rad <= PI;
-        legal("the greatest angle", greatest_angle_rad, inside, "an angle above 0 and no more than 3.14159… rad")?;
+        legal("the greatest angle", greatest_angle_rad.to_degrees(), inside, "above 0° and no more than 180°")?;
         affine.check()?;
         Ok(Self(Stretched { profile: Polynomial::new(sense, coefficients, greatest_angle_rad), affine }))
     }

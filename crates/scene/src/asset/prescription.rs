@@ -9,14 +9,18 @@ pub struct PrescriptionAsset {
     pub surfaces: Vec<SurfaceAsset>,
     /// Distance of the object before the first surface, mm; infinite for a distant one.
     pub object_distance_mm: f64,
-    /// Distance of the image behind the last surface, mm.
+    /// Distance of the image behind the last surface, mm; 0 where the file leaves it to be found.
     pub back_focus_mm: f64,
+    /// Where the file leaves the image to be found: how far behind the paraxial image it is looked at, mm.
+    pub defocus_mm: f64,
     /// How far the lens opens; `None` where the stop's own aperture says it.
     pub opening: Option<LensOpening>,
     /// The field points of the file.
     pub fields: Option<LensFields>,
     /// The wavelengths of the file, nm.
     pub wavelengths_nm: Vec<f64>,
+    /// What was not taken as it stands in the file, and why: with the line.
+    pub notes: Vec<String>,
     /// SHA-256 of the file.
     pub hash: [u8; 32],
 }
@@ -49,6 +53,8 @@ pub enum GlassAsset {
     Air,
     /// A glass of a maker's catalogue, by the name that [`etendue_spectra::glass`] has for it.
     Named(String),
+    /// A medium of one index.
+    Index(f64),
     /// A glass known by n_d and V_d.
     Abbe {
         /// n_d.
@@ -70,6 +76,11 @@ pub enum LensOpening {
     FNumber {
         /// The number.
         f_number: f64,
+    },
+    /// The cone of light from the axial point of the object.
+    ObjectCone {
+        /// Sine of its half angle.
+        sine: f64,
     },
 }
 

@@ -58,7 +58,7 @@ fn the_job_itself_is_right() {
 fn a_misspelt_key() {
     assert_eq!(
         faults_of("f_number", "f_nmuber"),
-        "job.toml:8:1: cameras.front.lens: the key \"f_number\" is missing; add it: a number above 0\n\
+        "job.toml:8:1: cameras.front.lens: the key \"f_number\" is missing; add it: a number of at least 0.5\n\
          job.toml:11:1: cameras.front.lens.f_nmuber: \"f_nmuber\" is no key of this table; did you mean \"f_number\"?"
     );
 }
@@ -132,13 +132,13 @@ fn numbers_that_are_none() {
     let text = faults_of("f_number = 2.0\nfocus_distance_m = 5.0", "f_number = nan\nfocus_distance_m = inf");
     assert_eq!(
         text,
-        "job.toml:11:12: cameras.front.lens.f_number: found NaN; give a number above 0\n\
+        "job.toml:11:12: cameras.front.lens.f_number: found NaN; give a number of at least 0.5\n\
          job.toml:12:20: cameras.front.lens.focus_distance_m: found inf; give a number above 0 (m)"
     );
     assert!(
         faults_of("position_m = [5, 0, 1]", "position_m = [5, -inf, 1]").contains("found -inf; give a finite number")
     );
-    assert!(faults_of("f_number = 2.0", "f_number = 1e999").contains("number above 0"));
+    assert!(faults_of("f_number = 2.0", "f_number = 1e999").contains("number of at least 0.5"));
     assert!(faults_of("width_px = 64", "width_px = 99999999999999999999").contains("an integer too large for 64 bits"));
     for digitless in ["0x", "0xg1", "0b2"] {
         let told = faults_of_sets(&[&format!("render.spp={digitless}")]);
@@ -233,7 +233,10 @@ fn overrides_that_are_wrong() {
     let cases = [
         ("render.spp", "--set render.spp: this is no key=value; give a dotted key, \"=\" and a value: render.spp=16"),
         ("render.spp=0", "--set render.spp=0: found 0; give a whole number from 1 to 1048576"),
-        ("cameras.front.lens.f_number=-1", "--set cameras.front.lens.f_number=-1: found -1; give a number above 0"),
+        (
+            "cameras.front.lens.f_number=-1",
+            "--set cameras.front.lens.f_number=-1: found -1; give a number of at least 0.5",
+        ),
         (
             "cameras.frnt.lens.f_number=4",
             "--set cameras.frnt.lens.f_number=4: no entry is called \"frnt\"; did you mean \"front\"? give a number from 0 \

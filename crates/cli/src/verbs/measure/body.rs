@@ -7,7 +7,7 @@ use etendue_core::maths::f64::sin_cos;
 use etendue_io::load_assets;
 use etendue_io::prescription::read_prescription;
 use etendue_optics::Lens;
-use etendue_pipeline::compile_camera;
+use etendue_pipeline::compile_camera_with_remarks;
 use etendue_pipeline::plan::CameraBody;
 use etendue_scene::asset::{LensFields, PrescriptionAsset};
 use etendue_scene::{Overrides, asset, load_camera};
@@ -18,8 +18,11 @@ use std::path::{Path, PathBuf};
 /// Half of a full-frame diagonal, mm.
 const FULL_FRAME_MM: f64 = 21.64;
 
+/// A camera, and what is remarked of it.
+pub(super) type Told = (CameraBody, Vec<String>);
+
 /// The camera: of a camera file, or about a lens file or a published lens.
-pub(super) fn body(arguments: &args::MeasureLens) -> Result<CameraBody, Failure> {
+pub(super) fn body(arguments: &args::MeasureLens) -> Result<Told, Failure> {
     let given = Path::new(&arguments.lens);
     if given.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
         return match arguments.picture_radius_mm {
@@ -36,21 +39,23 @@ pub(super) fn body(arguments: &args::MeasureLens) -> Result<CameraBody, Failure>
         None if is_lens_file(&arguments.lens) => read_prescription(given).ok().and_then(Fields::of),
         _ => None,
     };
-    match fields.and_then(|fields| fields.radius_mm(&first.lens, made)) {
+    match fields.and_then(|fields| fields.radius_mm(&first.0.lens, |radius_mm| made(radius_mm).map(|told| told.0))) {
         Some(radius_mm) => made(radius_mm),
         None => Ok(first),
     }
 }
 
-fn compiled(arguments: &args::MeasureLens, file: &Path, made: Option<String>) -> Result<CameraBody, Failure> {
-    let overrides = Overrides::new(&arguments.set);
+fn compiled(arguments: &args::MeasureLens, file: &Path, made: Option<String>) -> Result<Told, Failure> {
+    let f_number = arguments.f_number.map(|n| format!("lens.f_number={n}"));
+    let changes: Vec<String> = arguments.set.iter().cloned().chain(f_number).collect();
+    let overrides = Overrides::new(&changes);
     let read = |path: &Path| match &made {
         Some(text) if path == file => Ok(text.clone()),
         _ => read_text(path),
     };
     let camera = load_camera(file, &read, &overrides).map_err(|f| Failure::inputs(f.list()))?;
     let assets = load_assets(&asset::of_camera(&camera)).map_err(Failure::inputs)?;
-    compile_camera(&camera, &assets).map_err(Failure::inputs)
+    compile_camera_with_remarks(&camera, &assets).map_err(Failure::inputs)
 }
 
 /// The name under which a camera about a lens is read; no such file exists.
@@ -72,15 +77,16 @@ fn is_lens_file(lens: &str) -> bool {
     [".zmx", ".seq"].iter().any(|extension| lens.to_ascii_lowercase().ends_with(extension))
 }
 
-/// A camera about a lens that brings no sensor: focused at infinity, a square picture of the radius asked for (a lens that
+/// A camera about a lens that brings no sensor: focused as a lens file says, a published lens at infinity; a square picture of the radius asked for (a lens that
 /// lights less is measured as far as it lights).
 fn made_camera(lens: &str, radius_mm: f64) -> String {
     const PIXELS: f64 = 1000.0;
     let pitch_um = 1000.0 * radius_mm * std::f64::consts::SQRT_2 / PIXELS;
-    let key = if is_lens_file(lens) { "file" } else { "published" };
+    let (key, focus) =
+        if is_lens_file(lens) { ("file", "") } else { ("published", "focus_distance_m = \"infinity\"\n") };
     let name = Value::from(lens);
     format!(
-        "format = 1\n[lens]\nmodel = \"prescription\"\n{key} = {name}\nfocus_distance_m = \"infinity\"\n[sensor]\n\
+        "format = 1\n[lens]\nmodel = \"prescription\"\n{key} = {name}\n{focus}[sensor]\n\
          width_px = {PIXELS}\nheight_px = {PIXELS}\npixel_pitch_um = {pitch_um}\n"
     )
 }

@@ -5,7 +5,7 @@ use super::{fixed, ghosts};
 use crate::args;
 use crate::failure::Failure;
 use crate::say;
-use etendue_optics::lens::{FieldReport, ImageReport, LensReport};
+use etendue_optics::lens::{FieldReport, ImageReport, LensReport, OtherBundle};
 use etendue_optics::{Lens, Prescribed};
 use etendue_pipeline::plan::CameraBody;
 use glam::DVec2;
@@ -13,16 +13,30 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 pub(super) fn run(arguments: &args::MeasureLens) -> Result<(), Failure> {
-    let body = body(arguments)?;
+    let (body, remarks) = body(arguments)?;
     let fields = arguments.fields as usize;
-    let text = match (&body.lens, arguments.json) {
-        (Lens::Prescription(lens), true) => json_text(&traced_json(lens, &lens.report(fields))),
-        (Lens::Prescription(lens), false) => traced_text(lens, &lens.report(fields)),
-        (_, true) => json_text(&simple_json(&body, fields)),
-        (_, false) => simple_text(&body, fields),
+    let text = if arguments.json {
+        let mut value = match &body.lens {
+            Lens::Prescription(lens) => traced_json(lens, &lens.report(fields)),
+            _ => simple_json(&body, fields),
+        };
+        value["remarks"] = json!(remarks);
+        json_text(&value)
+    } else {
+        let text = match &body.lens {
+            Lens::Prescription(lens) => traced_text(lens, &lens.report(fields)),
+            _ => simple_text(&body, fields),
+        };
+        text + &remarks_text(&remarks)
     };
     say(&text);
     Ok(())
+}
+
+/// What a plan would remark of the camera; nothing where it remarks nothing.
+fn remarks_text(remarks: &[String]) -> String {
+    let lines: String = remarks.iter().map(|remark| format!("  {remark}\n")).collect();
+    if lines.is_empty() { lines } else { format!("\nremarks\n{lines}") }
 }
 
 fn json_text(value: &Value) -> String {
@@ -62,6 +76,7 @@ fn finite(x: f64) -> Option<f64> {
 fn field_json(lens: &Prescribed, field: &FieldReport) -> Value {
     let image = field.image.as_ref();
     let spot = image.and_then(|i| i.spot);
+    let [lateral_f, lateral_c] = [image.and_then(|i| i.lateral_f), image.and_then(|i| i.lateral_c)];
     json!({
         "height_mm": field.height_mm,
         "relative_illumination": field.relative_illumination,
@@ -71,10 +86,30 @@ fn field_json(lens: &Prescribed, field: &FieldReport) -> Value {
         "tangential_focus_mm": image.map(|i| i.tangential_mm),
         "sagittal_focus_mm": image.map(|i| i.sagittal_mm),
         "spot_rms_mm": spot.map(|s| s.rms_mm),
+        "spot_rms_error_mm": spot.map(|s| s.rms_error_mm),
         "spot_radius_mm": spot.map(|s| s.radius_mm),
-        "lateral_colour_f_mm": image.and_then(|i| i.lateral_f_mm),
-        "lateral_colour_c_mm": image.and_then(|i| i.lateral_c_mm),
+        "spot_centroid_mm": spot.map(|s| s.centroid_mm),
+        "spot_centroid_error_mm": spot.map(|s| s.centroid_error_mm),
+        "lateral_colour_f_mm": lateral_f.map(|l| l.centroid_mm),
+        "lateral_colour_f_error_mm": lateral_f.map(|l| l.centroid_error_mm),
+        "lateral_colour_f_chief_mm": lateral_f.and_then(|l| l.chief_mm),
+        "lateral_colour_c_mm": lateral_c.map(|l| l.centroid_mm),
+        "lateral_colour_c_error_mm": lateral_c.map(|l| l.centroid_error_mm),
+        "lateral_colour_c_chief_mm": lateral_c.and_then(|l| l.chief_mm),
+        "other_bundles": image.map_or(&[][..], |i| &i.other_bundles).iter().map(bundle_json).collect::<Vec<_>>(),
         "ghosts": ghosts::json(lens, field.height_mm),
+    })
+}
+
+fn bundle_json(bundle: &OtherBundle) -> Value {
+    let spot = &bundle.spot;
+    json!({
+        "light": bundle.light,
+        "spot_rms_mm": spot.rms_mm,
+        "spot_rms_error_mm": spot.rms_error_mm,
+        "spot_radius_mm": spot.radius_mm,
+        "spot_centroid_mm": spot.centroid_mm,
+        "spot_centroid_error_mm": spot.centroid_error_mm,
     })
 }
 
@@ -104,26 +139,64 @@ fn traced_text(lens: &Prescribed, r: &LensReport) -> String {
     line("Petzval radius", format!("{:.3} mm", p.petzval_radius_mm));
     line("field of view", r.field_of_view_rad.map_or("unknown".to_owned(), |a| format!("{:.3}°", a.to_degrees())));
     line("axial colour", format!("F {} mm, C {} mm", mm(r.axial_colour_f_mm), mm(r.axial_colour_c_mm)));
-    text += "\nheight   angle    distortion  light    spot rms  spot max  tangential  sagittal  colour F  colour C\n\
-             mm       deg      %           of axis  µm        µm        mm          mm        µm        µm\n";
-    r.fields.iter().for_each(|field| text += &field_row(field));
+    text += &fields_text(&r.fields);
+    text += &bundles_text(&r.fields);
     text += &ghosts::text(lens, r.fields.iter().map(|field| field.height_mm));
     text
+}
+
+const FIELDS: &str = "\nheight   angle    distortion  light    spot rms         spot max  tangential  sagittal  colour of centroids  of chief rays\n\
+     mm       deg      %           of axis  µm               µm        mm          mm        F, C µm              F, C µm\n";
+
+fn fields_text(fields: &[FieldReport]) -> String {
+    let rows: String = fields.iter().map(field_row).collect();
+    let spots = fields.iter().filter_map(|field| field.image.as_ref()?.spot);
+    let error_mm = spots.map(|spot| spot.centroid_error_mm).fold(0.0, f64::max);
+    let centroids = format!("centroids and their colour to {} µm\n", error_um(2.0 * error_mm));
+    format!("{FIELDS}{rows}{centroids}")
+}
+
+/// An estimated error of a length in mm, in µm.
+fn error_um(mm: f64) -> String {
+    let um = 1000.0 * mm;
+    if um < 1e-4 { "0.0001".to_owned() } else { format!("{um:.4}") }
 }
 
 fn field_row(field: &FieldReport) -> String {
     let (height, light) = (field.height_mm, field.relative_illumination);
     let Some(image) = &field.image else { return format!("{height:<8.3} –        –           {light:<8.4}\n") };
-    let ImageReport { angle_rad, distortion, spot, lateral_f_mm, lateral_c_mm, .. } = image;
+    let ImageReport { angle_rad, distortion, spot, lateral_f, lateral_c, .. } = image;
     let micrometres = |mm: Option<f64>| mm.map_or("–".to_owned(), |mm| fixed(1000.0 * mm, 2));
     let distortion = distortion.map_or("–".to_owned(), |d| fixed(100.0 * d, 3));
-    let (rms, most) = (micrometres(spot.map(|s| s.rms_mm)), micrometres(spot.map(|s| s.radius_mm)));
-    let (f, c) = (micrometres(*lateral_f_mm), micrometres(*lateral_c_mm));
+    let rms =
+        spot.map_or("–".to_owned(), |s| format!("{} ± {}", fixed(1000.0 * s.rms_mm, 3), error_um(s.rms_error_mm)));
+    let most = micrometres(spot.map(|s| s.radius_mm));
+    let pair = |f: Option<f64>, c: Option<f64>| format!("{} {}", micrometres(f), micrometres(c));
+    let centroids = pair(lateral_f.map(|l| l.centroid_mm), lateral_c.map(|l| l.centroid_mm));
+    let chiefs = pair(lateral_f.and_then(|l| l.chief_mm), lateral_c.and_then(|l| l.chief_mm));
     format!(
-        "{height:<8.3} {:<8.3} {distortion:<11} {light:<8.4} {rms:<9} {most:<9} {:<11} {:<9} {f:<9} {c}\n",
+        "{height:<8.3} {:<8.3} {distortion:<11} {light:<8.4} {rms:<16} {most:<9} {:<11} {:<9} {centroids:<20} {chiefs}\n",
         angle_rad.to_degrees(),
         fixed(image.tangential_mm, 4),
         fixed(image.sagittal_mm, 4),
+    )
+}
+
+/// Fields whose light comes by several ways; nothing where none does.
+fn bundles_text(fields: &[FieldReport]) -> String {
+    let row = |field: &FieldReport, bundle: &OtherBundle| {
+        let OtherBundle { light, spot } = bundle;
+        let at = fixed(spot.centroid_mm, 4);
+        format!("{:<8.3} {light:<9.4} {at:<9} {}\n", field.height_mm, fixed(1000.0 * spot.rms_mm, 2))
+    };
+    let others = |field: &FieldReport| field.image.as_ref().map_or_else(Vec::new, |image| image.other_bundles.clone());
+    let rows: String = fields.iter().flat_map(|f| others(f).into_iter().map(move |bundle| row(f, &bundle))).collect();
+    if rows.is_empty() {
+        return rows;
+    }
+    format!(
+        "\nfurther bundles: light of a field point that passes the lens beside the spot's; it is in the picture, at another place\n\
+         height   light     at        spot rms\nmm       of spot   mm        µm\n{rows}"
     )
 }
 

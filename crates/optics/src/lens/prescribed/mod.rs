@@ -12,12 +12,16 @@
 //! - Neither pupil is constant: each field point has the pupil that its rays find.
 //! - [`Prescribed::etendue_sr`] is at 587.56 nm, a quadrature to some 1e-5.
 
+mod beam;
+mod bundles;
 mod chief;
 mod light;
 mod meridian;
 mod opening;
+mod quadrature;
 mod region;
 mod report;
+mod spot;
 
 use crate::error::{OpticsError, PRINCIPAL_NM, positive};
 use crate::lens::focus::Conjugates;
@@ -31,7 +35,8 @@ use glam::{DVec2, DVec3};
 use region::Regions;
 
 pub(crate) use light::DIRECTIONS;
-pub use report::{FieldReport, ImageReport, LensReport, Spot};
+pub use report::{FieldReport, ImageReport, LateralShift, LensReport};
+pub use spot::{OtherBundle, Spot};
 
 /// A prescription, focused, with its pupils found for a picture of a given size.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,28 +5,24 @@
 //! - **distortion**: height over that of a rectilinear lens, c tan θ, and of an equidistant one, c θ, less 1, with c the
 //!   principal distance and θ the principal ray's angle;
 //! - **relative illumination**: irradiance per radiance, over that of the axis;
-//! - **spot**: where rays that fill the open pupil evenly in irradiance land: root-mean-square and greatest distance from
-//!   their centroid;
+//! - **spot**: where rays that fill the open pupil evenly in light land: root-mean-square and greatest distance from
+//!   their centroid (see `spot.rs`; for the converged quadrature and its error too);
+//! - **other bundles**: light of the same point that passes the lens elsewhere, as by a rim beside the pupil;
 //! - **field curvature**: where narrow fans about the principal ray come to focus, behind the sensor positive: in the
 //!   meridional plane (tangential) and across it (sagittal);
-//! - **lateral colour**: the centroid of the spot at the F and C lines less that at d, outwards positive.
+//! - **lateral colour**: the centroid of the spot at the F and C lines less that at d, and the chief ray's place less that at d,
+//!   outwards positive. They differ where the bundle is vignetted or comatic.
 //!
 //! **Axial colour** is the paraxial image's place at F and C less that at d.
 
 use super::Prescribed;
-use super::meridian::Meridian;
+use super::beam::Beam;
+use super::spot::{OtherBundle, Pupil, Spot};
 use crate::error::PRINCIPAL_NM;
 use crate::prescription::paraxial::Paraxial;
-use crate::prescription::trace::{LensRay, Rims};
-use crate::pupil::concentric;
 use etendue_core::maths::f64::sin_cos;
 use etendue_spectra::glass::{LINE_C_NM, LINE_F_NM};
-use glam::{DVec2, DVec3};
-
-/// The rays of a spot are a square of this side over the pupil's samples.
-const SPOT_SIDE: usize = 24;
-/// Distance of a fan's rays from the principal ray, in radii of the entrance pupil.
-const FAN: f64 = 1e-3;
+use glam::DVec2;
 
 /// A lens, measured.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,7 +50,7 @@ pub struct LensReport {
 }
 
 /// A field point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct FieldReport {
     /// Distance from the axis on the sensor, mm.
     pub height_mm: f64,
@@ -65,7 +61,7 @@ pub struct FieldReport {
 }
 
 /// How a point is imaged.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct ImageReport {
     /// Angle of the principal ray from the axis, rad.
     pub angle_rad: f64,
@@ -79,41 +75,23 @@ pub struct ImageReport {
     pub sagittal_mm: f64,
     /// The spot at 587.56 nm; `None` where no ray arrives.
     pub spot: Option<Spot>,
-    /// Lateral colour of the F line, mm.
-    pub lateral_f_mm: Option<f64>,
-    /// Lateral colour of the C line, mm.
-    pub lateral_c_mm: Option<f64>,
+    /// Lateral colour of the F line; `None` where no light of it arrives.
+    pub lateral_f: Option<LateralShift>,
+    /// Lateral colour of the C line.
+    pub lateral_c: Option<LateralShift>,
+    /// Light of the same point that comes by other parts of the lens, the brightest first; none as a rule.
+    pub other_bundles: Vec<OtherBundle>,
 }
 
-/// Where the rays of a point land.
+/// How far outwards a wavelength's image lies from that at 587.56 nm.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spot {
-    /// Root-mean-square distance from the centroid, mm.
-    pub rms_mm: f64,
-    /// Greatest distance from the centroid, mm.
-    pub radius_mm: f64,
-    /// The centroid's distance from the axis, mm.
+pub struct LateralShift {
+    /// By the centroids of the spots, mm.
     pub centroid_mm: f64,
-}
-
-/// Where rays come from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Source {
-    /// A direction towards the sensor.
-    Direction(DVec3),
-    /// A point of the lens frame.
-    Point(DVec3),
-}
-
-impl Source {
-    /// Its ray through a point in front of the lens.
-    fn through(self, point: DVec3) -> LensRay {
-        let direction = match self {
-            Self::Direction(direction) => direction,
-            Self::Point(source) => (point - source).normalize(),
-        };
-        LensRay { point, direction }
-    }
+    /// Estimated error of [`Self::centroid_mm`], mm.
+    pub centroid_error_mm: f64,
+    /// By the chief rays, through the centre of the stop at either wavelength, mm; `None` where there is none.
+    pub chief_mm: Option<f64>,
 }
 
 impl Prescribed {
@@ -147,81 +125,38 @@ impl Prescribed {
 
     fn image(&self, height_mm: f64) -> Option<ImageReport> {
         let principal = self.chiefs.ray(&self.prescription, height_mm)?;
-        let source = self.source(principal);
+        let beam = |nm: f64| Beam::new(&self.prescription, principal, nm);
+        let at_d = beam(PRINCIPAL_NM);
         let angle_rad = super::chief::field_angle(principal.direction);
         let (sine, cosine) = sin_cos(angle_rad);
         let c = self.prescription.principal_distance_mm();
         let relative = |ideal: f64| if height_mm == 0.0 { 0.0 } else { height_mm / ideal - 1.0 };
-        let spot = |nm: f64| self.spot(height_mm, source, nm);
-        let lateral = |nm: f64| Some(spot(nm)?.centroid_mm - spot(PRINCIPAL_NM)?.centroid_mm);
+        let pupil = Pupil::new(&at_d);
+        let lit = pupil.as_ref().and_then(|pupil| pupil.lit(&at_d));
+        let spot = lit.map(|lit| lit.spot);
+        let chief_d_mm = chief_mm(&at_d);
+        let lateral = |nm: f64| {
+            let beam = beam(nm);
+            let (spot, at) = (spot?, pupil.as_ref()?.lit(&beam)?.spot);
+            let chief_mm = chief_mm(&beam).zip(chief_d_mm).map(|(at, d)| at - d);
+            let centroid_error_mm = at.centroid_error_mm + spot.centroid_error_mm;
+            Some(LateralShift { centroid_mm: at.centroid_mm - spot.centroid_mm, centroid_error_mm, chief_mm })
+        };
         Some(ImageReport {
             angle_rad,
             distortion: (cosine > 0.0).then(|| relative(c * sine / cosine)),
             equidistant_distortion: relative(c * angle_rad),
-            tangential_mm: self.fan_focus_mm(principal, source, false)?,
-            sagittal_mm: self.fan_focus_mm(principal, source, true)?,
-            spot: spot(PRINCIPAL_NM),
-            lateral_f_mm: lateral(LINE_F_NM),
-            lateral_c_mm: lateral(LINE_C_NM),
+            tangential_mm: at_d.fan_focus_mm(false)?,
+            sagittal_mm: at_d.fan_focus_mm(true)?,
+            spot,
+            lateral_f: lateral(LINE_F_NM),
+            lateral_c: lateral(LINE_C_NM),
+            other_bundles: pupil.zip(lit).map_or_else(Vec::new, |(pupil, lit)| pupil.others(&at_d, &lit)),
         })
     }
+}
 
-    /// The point of the plane in focus on a principal ray (which runs towards the scene), or its direction for infinity.
-    fn source(&self, principal: LensRay) -> Source {
-        let plane_mm = self.prescription.paraxial().entrance_pupil_mm - self.prescription.focus_distance_m() * 1e3;
-        let t = (plane_mm - principal.point.z) / principal.direction.z;
-        let ahead = t.is_finite() && t > 0.0;
-        if ahead {
-            Source::Point(principal.point + principal.direction * t)
-        } else {
-            Source::Direction(-principal.direction)
-        }
-    }
-
-    /// Rays of `source` that fill the pupil of a height: through the points at which samples leave the lens.
-    fn spot(&self, height_mm: f64, source: Source, nm: f64) -> Option<Spot> {
-        let landed: Vec<DVec2> = (0..SPOT_SIDE * SPOT_SIDE)
-            .filter_map(|i| {
-                let cell = DVec2::new((i % SPOT_SIDE) as f64, (i / SPOT_SIDE) as f64) + 0.5;
-                let (disc, turn) = concentric(cell / SPOT_SIDE as f64);
-                let slope = self.regions.propose(height_mm, disc, turn)?.slope;
-                let meridian = Meridian::at(height_mm, self.prescription.sensor_mm());
-                let front = self.prescription.to_scene(meridian.ray(slope), nm).ok()?.0;
-                self.lands(source.through(front.point), nm, Rims::Clip)
-            })
-            .collect();
-        let count = landed.len() as f64;
-        let centroid = landed.iter().sum::<DVec2>() / count;
-        let squares = landed.iter().map(|p| (*p - centroid).length_squared());
-        (count > 0.0).then(|| Spot {
-            rms_mm: (squares.clone().sum::<f64>() / count).sqrt(),
-            radius_mm: squares.fold(0.0, f64::max).sqrt(),
-            centroid_mm: centroid.x,
-        })
-    }
-
-    /// Where a ray from the scene meets the sensor's plane, mm.
-    fn lands(&self, ray: LensRay, nm: f64, rims: Rims) -> Option<DVec2> {
-        let out = self.prescription.arrives(ray, &self.prescription.media(nm), rims).ok()?;
-        let t = (self.prescription.sensor_mm() - out.point.z) / out.direction.z;
-        Some((out.point + out.direction * t).truncate())
-    }
-
-    /// Where two rays beside the principal ray, in its meridional plane or across it, meet: mm behind the sensor.
-    fn fan_focus_mm(&self, principal: LensRay, source: Source, across: bool) -> Option<f64> {
-        let lens = &self.prescription;
-        let media = lens.media(PRINCIPAL_NM);
-        let d = principal.direction;
-        // Beside the ray, square to it.
-        let beside = if across { DVec3::Y } else { DVec3::new(-d.z, 0.0, d.x) };
-        let step = FAN * lens.paraxial().entrance_radius_mm;
-        let out =
-            |sign: f64| lens.arrives(source.through(principal.point + beside * (sign * step)), &media, Rims::Ignore);
-        let (a, b) = (out(-1.0).ok()?, out(1.0).ok()?);
-        // Heights and slopes across the axis, at the sensor.
-        let axis = if across { DVec3::Y } else { DVec3::X };
-        let slope = |ray: &LensRay| ray.direction.dot(axis) / ray.direction.z;
-        let height = |ray: &LensRay| ray.point.dot(axis) + (lens.sensor_mm() - ray.point.z) * slope(ray);
-        Some(-(height(&b) - height(&a)) / (slope(&b) - slope(&a)))
-    }
+/// Where the chief ray of a wavelength lands, mm.
+fn chief_mm(beam: &Beam<'_>) -> Option<f64> {
+    Some(beam.lands(beam.chief()?)?.x)
 }

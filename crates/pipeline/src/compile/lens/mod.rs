@@ -1,6 +1,7 @@
 //! `[lens]` and the raster of `[sensor]`: from records to optics.
 
 mod calibrated;
+mod lens_file;
 mod prescription;
 mod projection;
 #[cfg(test)]
@@ -86,7 +87,10 @@ fn paraxial(record: &record::Lens, raster: &Raster, context: &mut Context<'_>) -
         _ => place,
     };
     let lens = context.accept(place, made)?;
-    let Some(distortion) = distortion else { return Some(lens) };
+    let Some(distortion) = distortion else {
+        context.accept(place, lens.check(raster))?;
+        return Some(lens);
+    };
     let radial = context.accept(&distortion.place, radial(distortion, &lens, raster))?;
     let lens = context.accept(&distortion.place, lens.with_distortion(radial))?;
     context.accept(&distortion.place, lens.check(raster))?;

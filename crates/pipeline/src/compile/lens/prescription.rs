@@ -3,6 +3,7 @@
 use super::super::context::Context;
 use super::super::spectrum::from_file;
 use super::focus_m;
+use super::lens_file::{self, Stated};
 use etendue_optics::prescription::coating::Coating;
 use etendue_optics::prescription::filter::InterferenceFilter;
 use etendue_optics::prescription::published::{LENSES, named};
@@ -10,16 +11,16 @@ use etendue_optics::prescription::surface::ASPHERE_TERMS;
 use etendue_optics::prescription::{Focus, Surface};
 use etendue_optics::{Lens, Prescribed, Prescription, PrescriptionError, PrescriptionParameters};
 use etendue_projection::Raster;
-use etendue_scene::asset::{GlassAsset, LensOpening, PrescriptionAsset, SurfaceAsset};
+use etendue_scene::asset::{GlassAsset, PrescriptionAsset, SurfaceAsset};
 use etendue_scene::record::lens::prescription::{self as record, Glass, GlassKnown, IrCutCurve, Source};
 use etendue_scene::{Place, Placed};
 use etendue_spectra::glass::{self, Dispersion, GlassError};
 use etendue_spectra::{Outside, Spectrum};
 
-/// Surfaces, and how far the lens opens where nothing else is said.
-struct Given {
+/// Surfaces, and the file that they come from.
+struct Given<'a> {
     surfaces: Vec<Surface>,
-    opening: Option<LensOpening>,
+    file: Option<&'a PrescriptionAsset>,
 }
 
 /// The lens for a picture, and for the film about it.
@@ -31,8 +32,8 @@ pub(super) fn lens(
 ) -> Option<Lens> {
     let given = given(record, context);
     let filter = record.ir_cut.as_ref().map(|filter| ir_cut(filter, context));
-    let given = given.map(|Given { surfaces, opening }| Given { surfaces: coated(surfaces, record), opening })?;
-    let prescription = focused(record, given).map_err(|error| refuse(record, &error, context)).ok()?;
+    let given = given.map(|Given { surfaces, file }| Given { surfaces: coated(surfaces, record), file })?;
+    let prescription = made(record, given, context).map_err(|error| refuse(record, &error, context)).ok()?;
     let filter = filter.map_or(Some(None), |filter| filter.map(Some))?;
     let lens = Prescribed::new(prescription, filter, film.max_radius_mm());
     let lens = context.accept(&record.place, lens)?;
@@ -44,7 +45,7 @@ pub(super) fn lens(
     Some(Lens::prescription(lens))
 }
 
-fn given(record: &record::Prescription, context: &mut Context<'_>) -> Option<Given> {
+fn given<'a>(record: &record::Prescription, context: &mut Context<'a>) -> Option<Given<'a>> {
     match &record.source {
         Source::Published(name) => published(name, context),
         Source::File(file) => {
@@ -53,32 +54,32 @@ fn given(record: &record::Prescription, context: &mut Context<'_>) -> Option<Giv
         }
         Source::Surfaces(surfaces) => {
             let made: Vec<_> = surfaces.iter().map(|s| surface(s, context)).collect();
-            Some(Given { surfaces: made.into_iter().collect::<Option<_>>()?, opening: None })
+            Some(Given { surfaces: made.into_iter().collect::<Option<_>>()?, file: None })
         }
     }
 }
 
-fn published(name: &Placed<String>, context: &mut Context<'_>) -> Option<Given> {
+fn published<'a>(name: &Placed<String>, context: &mut Context<'a>) -> Option<Given<'a>> {
     let Some(lens) = named(&name.value) else {
         let known: Vec<_> = LENSES.iter().map(|lens| lens.name).collect();
         let problem = format!("no published lens is called \"{}\"", name.value);
         context.fault(&name.place, problem, format!("give one of {}", known.join(", ")));
         return None;
     };
-    Some(Given { surfaces: lens.surfaces(), opening: None })
+    Some(Given { surfaces: lens.surfaces(), file: None })
 }
 
 /// The surfaces of a lens program's file.
-fn from_lens_file(
-    asset: &PrescriptionAsset,
+fn from_lens_file<'a>(
+    asset: &'a PrescriptionAsset,
     record: &record::Prescription,
     place: &Place,
     context: &mut Context<'_>,
-) -> Option<Given> {
+) -> Option<Given<'a>> {
     let apertures = apertures(asset, record, place, context)?;
     let surfaces = asset.surfaces.iter().zip(apertures).map(|(surface, semi_mm)| of_file(surface, semi_mm));
     let surfaces = context.accept(place, surfaces.collect::<Result<Vec<_>, _>>())?;
-    Some(Given { surfaces, opening: asset.opening })
+    Some(Given { surfaces, file: Some(asset) })
 }
 
 fn apertures(
@@ -115,6 +116,7 @@ fn of_file(surface: &SurfaceAsset, semi_aperture_mm: f64) -> Result<Surface, Gla
     let glass = match &surface.glass {
         GlassAsset::Air => Dispersion::AIR,
         GlassAsset::Named(name) => glass::named(name)?.dispersion,
+        GlassAsset::Index(n) => Dispersion::Constant { n: *n }.checked()?,
         GlassAsset::Abbe { index, abbe } => Dispersion::of_abbe(*index, *abbe)?,
     };
     Ok(Surface {
@@ -196,9 +198,35 @@ fn ir_cut(record: &record::IrCut, context: &mut Context<'_>) -> Option<Interfere
     context.accept(place, InterferenceFilter::new(normal, record.effective_index.value))
 }
 
-/// The lens, opened and focused.
-fn focused(record: &record::Prescription, given: Given) -> Result<Prescription, PrescriptionError> {
-    let distance_m = focus_m(&record.focus_distance_m);
+/// The lens, opened and focused, with remarks on what its file says.
+fn made(
+    record: &record::Prescription,
+    given: Given<'_>,
+    context: &mut Context<'_>,
+) -> Result<Prescription, PrescriptionError> {
+    let Given { mut surfaces, file } = given;
+    let Some(asset) = file else { return focused(record, surfaces, f64::INFINITY, 0.0) };
+    let stated = Stated::of(asset, &surfaces)?;
+    let stop = surfaces.iter().position(|surface| surface.stop);
+    let own_mm = stop.map_or(0.0, |i| surfaces[i].semi_aperture_mm);
+    if let (Some(i), Some(stop_mm)) = (stop, stated.stop_mm) {
+        // An f-number of the description may open the stop as far as either of the file's statements.
+        surfaces[i].semi_aperture_mm = if record.f_number.is_some() { stop_mm.max(own_mm) } else { stop_mm };
+    }
+    let defocus_mm = stated.defocus_mm.unwrap_or(asset.defocus_mm);
+    let lens = focused(record, surfaces, stated.distance_m, defocus_mm)?;
+    lens_file::remarks(record, asset, own_mm, &stated, &lens, context);
+    Ok(lens)
+}
+
+/// The lens, opened and focused: by what the description says, else as given.
+fn focused(
+    record: &record::Prescription,
+    surfaces: Vec<Surface>,
+    distance_m: f64,
+    defocus_mm: f64,
+) -> Result<Prescription, PrescriptionError> {
+    let distance_m = record.focus_distance_m.as_ref().map_or(distance_m, focus_m);
     let focus = match &record.focus_by {
         None | Some(record::FocusBy::Sensor) => Focus::Sensor { distance_m },
         Some(record::FocusBy::Group(group)) => {
@@ -206,17 +234,9 @@ fn focused(record: &record::Prescription, given: Given) -> Result<Prescription, 
             Focus::Group { distance_m, first, last }
         }
     };
-    let defocus_mm = record.defocus_mm.as_ref().map_or(0.0, |d| d.value);
-    let make = |f_number, surfaces| Prescription::new(PrescriptionParameters { surfaces, f_number, focus, defocus_mm });
-    match (&record.f_number, given.opening) {
-        (Some(n), _) => make(Some(n.value), given.surfaces),
-        (None, None) => make(None, given.surfaces),
-        (None, Some(LensOpening::FNumber { f_number })) => make(Some(f_number), given.surfaces),
-        (None, Some(LensOpening::EntrancePupil { diameter_mm })) => {
-            let open = make(None, given.surfaces.clone())?;
-            make(Some(open.paraxial().focal_length_mm / diameter_mm), given.surfaces)
-        }
-    }
+    let defocus_mm = record.defocus_mm.as_ref().map_or(defocus_mm, |d| d.value);
+    let f_number = record.f_number.as_ref().map(|n| n.value);
+    Prescription::new(PrescriptionParameters { surfaces, f_number, focus, defocus_mm })
 }
 
 /// Notes why the surfaces are no lens where the cause stands.

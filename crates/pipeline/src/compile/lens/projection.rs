@@ -168,16 +168,21 @@ fn camera_matrix(record: &Matrix, model: &Model, raster: &Raster, context: &mut 
     Some(CameraMatrix { fx, fy, skew, cx: at.x, cy: at.y })
 }
 
+/// The farthest image of the edge of the field, in units of the camera matrix: that of an angle at which the image lies at
+/// infinity is beyond.
+const FARTHEST: f64 = 1e4;
+
 /// fx of a picture that sees a horizontal angle.
 fn of_field(angle: &Placed<f64>, model: &Model, raster: &Raster, context: &mut Context<'_>) -> Option<f64> {
     // A whole turn ends behind the camera, where no direction has an image: 1e-12 of it is left out.
     let half = 0.5 * angle.value.to_radians() * (1.0 - 1e-12);
     let (sin, cos) = etendue_core::maths::f64::sin_cos(half);
-    let reach = model.project(DVec3::new(sin, 0.0, cos)).map(|point| point.x).filter(|x| x.is_finite() && *x > 0.0);
+    let reach = model.project(DVec3::new(sin, 0.0, cos)).map(|point| point.x);
+    let reach = reach.filter(|x| *x > 0.0 && *x < FARTHEST);
     if reach.is_none() {
         let edge = 2.0 * model.edge().angle_rad.to_degrees();
         let problem = format!("the projection does not reach {}°", angle.value);
-        context.fault(&angle.place, problem, format!("give less than {edge:.3}°"));
+        context.fault(&angle.place, problem, format!("give less than {edge:.3}°, near which its picture has no end"));
     }
     Some(0.5 * raster.width() as f64 / reach?)
 }

@@ -100,9 +100,11 @@ fn a_file_without_apertures_is_refused_by_line_and_served_by_a_list() {
         surfaces,
         object_distance_mm: f64::INFINITY,
         back_focus_mm: 28.0,
+        defocus_mm: 0.0,
         opening: None,
         fields: None,
         wavelengths_nm: Vec::new(),
+        notes: Vec::new(),
         hash: [0; 32],
     };
     assets.prescriptions.insert("lens.zmx".into(), asset);
@@ -170,4 +172,65 @@ fn the_ray_table_is_the_calibration() {
     // 60° is a circle of 25 π/3 = 26.2 px about the middle of 64 × 48: some of the corners.
     let seen = 64 * 48 - dark;
     assert!((1700..2154).contains(&seen), "{seen}");
+}
+
+#[test]
+fn no_lens_is_faster_than_half() {
+    let models = [
+        "model = \"pinhole\"\nfocal_length_mm = 6\n",
+        "model = \"thin\"\nfocal_length_mm = 6\nfocus_distance_m = 5\n",
+        "model = \"thick\"\nfocal_length_mm = 6\nfocus_distance_m = 5\nconstant_pupil = \"exit\"\n",
+        "model = \"calibrated\"\nprojection = { type = \"equidistant\", fx_px = 25 }\n",
+        "model = \"parallel\"\nfield_width_m = 1\n",
+    ];
+    for model in models {
+        refused(&format!("{model}f_number = 0.001\n"), "", &["f_number", "0.5"]);
+        // Light on the axis is at most all of the half space: E/L = π.
+        let light = camera(&format!("{model}f_number = 0.5\n")).body.lens.etendue_sr(glam::DVec2::ZERO);
+        assert!(light <= core::f64::consts::PI * (1.0 + 1e-12), "{model}: {light}");
+    }
+    refused("model = \"pinhole\"\nfocal_length_mm = 1e-9\nf_number = 2\n", "", &["focal lengths", "sideways"]);
+}
+
+#[test]
+fn fields_whose_edge_lies_at_infinity_are_refused() {
+    let view = |kind: &str, deg: f64| {
+        let projection = format!("projection = {{ type = \"{kind}\", field_of_view_deg = {deg} }}\n");
+        format!("model = \"calibrated\"\nf_number = 2\n{projection}")
+    };
+    refused(&view("rectilinear", 180.0), "", &["does not reach 180°", "less than 180"]);
+    refused(&view("rectilinear", 360.0), "", &["does not reach 360°", "less than 180"]);
+    refused(&view("stereographic", 360.0), "", &["does not reach 360°", "less than 360"]);
+    for (kind, deg) in [("rectilinear", 178.0), ("stereographic", 358.0), ("equidistant", 360.0), ("equisolid", 360.0)]
+    {
+        camera(&view(kind, deg));
+    }
+    let tiny = "model = \"calibrated\"\nf_number = 2\nprojection = { type = \"rectilinear\", fx_px = 1e-6 }\n";
+    refused(tiny, "", &["focal lengths", "sideways"]);
+}
+
+#[test]
+fn a_distortion_that_is_none_of_a_lens_is_refused() {
+    for k1 in ["1e308", "-1e308", "1e30", "-1e30"] {
+        for direction in ["ideal_to_observed", "observed_to_ideal"] {
+            let distortion = format!("k1 = {k1}, direction = \"{direction}\", radius_unit = \"focal_lengths\"");
+            let lens =
+                format!("model = \"pinhole\"\nfocal_length_mm = 6\nf_number = 2\ndistortion = {{ {distortion} }}\n");
+            refused(&lens, "", &["distortion"]);
+        }
+        let models = [
+            format!("type = \"opencv\", fx_px = 25, distortion = [{k1}, 0, 0, 0]"),
+            format!("type = \"kannala_brandt\", fx_px = 25, k = [{k1}, 0, 0, 0]"),
+            format!("type = \"radial\", fx_px = 25, k1 = {k1}, direction = \"ideal_to_observed\""),
+            format!("type = \"radial\", fx_px = 25, k1 = {k1}, direction = \"observed_to_ideal\""),
+            format!("type = \"division\", fx_px = 25, k = {k1}"),
+        ];
+        for model in models {
+            let lens = format!("model = \"calibrated\"\nf_number = 2\nprojection = {{ {model} }}\n");
+            refused(&lens, "", &["lens"]);
+        }
+    }
+    camera(
+        "model = \"pinhole\"\nfocal_length_mm = 6\nf_number = 2\ndistortion = { k1 = -0.2, k2 = 0.05, direction = \"ideal_to_observed\", radius_unit = \"focal_lengths\" }\n",
+    );
 }

@@ -209,8 +209,9 @@ fn focal_length() -> Number {
     number("mm").above(0.0)
 }
 
+/// No lens in air is faster than f/0.5: its cone fills the half space.
 fn f_number() -> Number {
-    number("").above(0.0)
+    number("").at_least(0.5)
 }
 
 fn share() -> Number {

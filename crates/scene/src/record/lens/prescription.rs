@@ -17,14 +17,17 @@ record! {
         /// file's. Default: the file's, which must then have one a surface.
         optional semi_apertures_mm: Vec<Placed<f64>> = list(number("mm").above(0.0), 1);
         /// Focal length divided by the entrance pupil's diameter, with the focus at infinity, above 0: how far the stop opens,
-        /// no further than its own semi-aperture. Default: what the file says, or the stop's own semi-aperture.
+        /// no further than its own semi-aperture. Default: what the file says (its entrance pupil, f-number or cone of light, for
+        /// which the stop opens or closes), or the stop's own semi-aperture.
         optional f_number: Placed<f64> = f_number();
-        /// Distance of the plane in focus from the entrance pupil, m, above 0, or "infinity".
-        required focus_distance_m: FocusDistance = focus_distance();
+        /// Distance of the plane in focus from the entrance pupil, m, above 0, or "infinity". Required, but with "file": there it is
+        /// the object of the file unless given.
+        optional focus_distance_m: FocusDistance = focus_distance();
         /// What moves to focus: "sensor" (or the lens as a whole), or the first and last surface of a group, counted from 1 at
         /// the scene; the sensor then stays where the lens images infinity. Default: "sensor".
         optional focus_by: FocusBy = focus_by();
-        /// How far behind the paraxial image (at 587.56 nm) the sensor stands, mm: best focus of an aberrated lens. Default: 0.
+        /// How far behind the paraxial image (at 587.56 nm) the sensor stands, mm: best focus of an aberrated lens. Default: as far
+        /// as the file's image stands behind its paraxial image, otherwise 0.
         optional defocus_mm: Placed<f64> = number("mm");
         /// What those surfaces let through that lie against air and say nothing of their own: as a surface's "coating".
         /// Default: "uncoated".
@@ -184,6 +187,10 @@ fn focus_by() -> impl Rule<Out = FocusBy> {
 }
 
 fn check(lens: &Prescription, faults: &mut Faults) {
+    if lens.focus_distance_m.is_none() && !matches!(lens.source, Source::File(_)) {
+        let problem = "the key \"focus_distance_m\" is missing";
+        faults.add(&lens.place, problem, "add \"focus_distance_m\", a distance in m or \"infinity\"");
+    }
     let given = lens.semi_apertures_mm.iter().flatten().next();
     if let (Some(given), false) = (given, matches!(lens.source, Source::File(_))) {
         let problem = "\"semi_apertures_mm\" has no effect here, it belongs to \"file\"";

@@ -34,7 +34,9 @@ pub enum SlideError {
     },
     /// The field is out of range.
     #[error(
-        "a field of {horizontal_rad} × {vertical_rad} rad was given, but both angles must lie between 0 and π; correct them"
+        "a field of {}° × {}° was given, but both angles must lie between 0° and 180°; correct them",
+        horizontal_rad.to_degrees(),
+        vertical_rad.to_degrees()
     )]
     Field {
         /// Full horizontal angle, rad.

@@ -1,0 +1,122 @@
+//! What a lens program's file says of its lens beside the surfaces: how far it opens, what is in focus, where the image stands.
+//!
+//! The file governs where the description says nothing. What the description changes, and what the file leaves open, is remarked.
+
+use super::super::context::Context;
+use super::focus_m;
+use etendue_optics::prescription::{Focus, Surface};
+use etendue_optics::{Prescription, PrescriptionError, PrescriptionParameters};
+use etendue_scene::asset::{LensOpening, PrescriptionAsset};
+use etendue_scene::record::lens::prescription as record;
+
+/// How much of its own opening the stop has while first-order quantities are found: nothing else clips then.
+const NARROW: f64 = 1e-4;
+const M: f64 = 1e3;
+
+/// The opening, the object and the image of a file, in terms of a [`PrescriptionParameters`].
+#[derive(Clone, Debug)]
+pub(super) struct Stated {
+    /// The stop for the file's own aperture, mm; `None` where that is the stop's size.
+    pub(super) stop_mm: Option<f64>,
+    /// Distance of the object from the entrance pupil, m.
+    pub(super) distance_m: f64,
+    /// How far behind its paraxial image the file's image stands, mm; `None` where the file leaves it to be found.
+    pub(super) defocus_mm: Option<f64>,
+}
+
+impl Stated {
+    /// From the file's numbers and first-order quantities of its surfaces.
+    ///
+    /// # Errors
+    /// Where the surfaces are no lens.
+    pub(super) fn of(asset: &PrescriptionAsset, surfaces: &[Surface]) -> Result<Self, PrescriptionError> {
+        let far = narrow(surfaces, Focus::Sensor { distance_m: f64::INFINITY })
+            .or_else(|_| narrow(surfaces, Focus::Fixed { back_focus_mm: asset.back_focus_mm }))?;
+        let p = far.paraxial();
+        let distance_m = (asset.object_distance_mm + p.entrance_pupil_mm) / M;
+        let distance_m = if distance_m > 0.0 { distance_m } else { f64::INFINITY };
+        let near = if distance_m.is_finite() { narrow(surfaces, Focus::Sensor { distance_m })? } else { far.clone() };
+        let image_mm = near.sensor_mm() - near.last_vertex_mm();
+        let stated = asset.back_focus_mm > 0.0;
+        // An opening at the pupil is an opening at the stop by the pupil's magnification.
+        let stop_per_pupil = far.stop_mm() / p.entrance_radius_mm;
+        let pupil_mm = asset.opening.map(|opening| match opening {
+            LensOpening::EntrancePupil { diameter_mm } => 0.5 * diameter_mm,
+            LensOpening::FNumber { f_number } => 0.5 * p.focal_length_mm / f_number,
+            LensOpening::ObjectCone { sine } => sine / (1.0 - sine * sine).sqrt() * distance_m * M,
+        });
+        Ok(Self {
+            stop_mm: pupil_mm.map(|radius_mm| radius_mm * stop_per_pupil),
+            distance_m,
+            defocus_mm: if stated { Some(asset.back_focus_mm - image_mm) } else { None },
+        })
+    }
+}
+
+/// The lens with its stop nearly closed.
+fn narrow(surfaces: &[Surface], focus: Focus) -> Result<Prescription, PrescriptionError> {
+    let close = |s: &Surface| {
+        let part = if s.stop { NARROW } else { 1.0 };
+        Surface { semi_aperture_mm: part * s.semi_aperture_mm, ..*s }
+    };
+    let surfaces = surfaces.iter().map(close).collect();
+    Prescription::new(PrescriptionParameters { surfaces, f_number: None, focus, defocus_mm: 0.0 })
+}
+
+/// Remarks what of a file is not as it stands there, and what it leaves open.
+pub(super) fn remarks(
+    record: &record::Prescription,
+    asset: &PrescriptionAsset,
+    own_stop_mm: f64,
+    stated: &Stated,
+    lens: &Prescription,
+    context: &mut Context<'_>,
+) {
+    let record::Source::File(file) = &record.source else { return };
+    let mut tell = |text: String| context.remark(format!("{}: {text}", file.value.display()));
+    asset.notes.iter().for_each(|note| tell(note.clone()));
+    if let Some(stop_mm) = stated.stop_mm.filter(|_| record.f_number.is_none())
+        && (stop_mm / own_stop_mm - 1.0).abs() > 1e-3
+    {
+        tell(format!(
+            "its aperture opens the stop to {stop_mm:.4} mm, not to the {own_stop_mm:.4} mm of the stop's surface"
+        ));
+    }
+    if let Some(n) = record.f_number.as_ref().filter(|_| asset.opening.is_some()) {
+        tell(format!("f/{} of the description takes the place of the file's aperture", n.value));
+    }
+    tell_image(record, asset, stated, lens, &mut tell);
+}
+
+/// Where the sensor stands, if it is not at the paraxial image or not where the file has it.
+fn tell_image(
+    record: &record::Prescription,
+    asset: &PrescriptionAsset,
+    stated: &Stated,
+    lens: &Prescription,
+    tell: &mut impl FnMut(String),
+) {
+    let at_mm = lens.sensor_mm() - lens.last_vertex_mm();
+    let file_mm = asset.back_focus_mm;
+    let other_focus = record.focus_distance_m.as_ref().is_some_and(|focus| {
+        let asked = 1.0 / focus_m(focus);
+        (asked - 1.0 / stated.distance_m).abs() > 1e-9
+    });
+    match (stated.defocus_mm, &record.defocus_mm) {
+        (None, None) => tell(format!(
+            "it states no image distance: the sensor stands {at_mm:.4} mm behind the last vertex, at the paraxial image"
+        )),
+        (None, Some(_)) => {}
+        (Some(_), Some(_)) => tell(format!(
+            "\"defocus_mm\" puts the sensor {at_mm:.4} mm behind the last vertex; the file's image stands at {file_mm:.4} mm"
+        )),
+        (Some(own), None) if other_focus => tell(format!(
+            "focused elsewhere than in the file: the sensor stands {at_mm:.4} mm behind the last vertex, {own:+.4} mm from the paraxial image as \
+             in the file; the file's image stands at {file_mm:.4} mm"
+        )),
+        (Some(own), None) if own.abs() > 1e-6 => tell(format!(
+            "the sensor stands {at_mm:.4} mm behind the last vertex, as the file says: {own:+.4} mm from the paraxial image"
+        )),
+        _ => {}
+    }
+}
