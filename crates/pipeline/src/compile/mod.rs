@@ -28,6 +28,7 @@ mod world;
 
 use crate::fingerprint::fingerprint;
 use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan};
+use crate::remark::grouped;
 use crate::shared_light;
 use context::Context;
 use etendue_scene::asset::Assets;
@@ -106,7 +107,7 @@ pub fn compile_camera(camera: &Camera, assets: &Assets) -> Result<CameraBody, Ve
 pub fn compile_camera_with_remarks(camera: &Camera, assets: &Assets) -> Result<(CameraBody, Vec<String>), Vec<Fault>> {
     let mut context = Context::new(assets);
     let body = camera::body(camera, &mut context);
-    let remarks = std::mem::take(&mut context.remarks);
+    let remarks = grouped(&context.remarks).iter().map(ToString::to_string).collect();
     let faults = context.into_faults();
     body.filter(|_| faults.is_empty()).map(|body| (body, remarks)).ok_or(faults)
 }

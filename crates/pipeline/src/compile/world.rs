@@ -12,7 +12,7 @@ use etendue_scene::record::{self, Body, Object, Scene};
 use etendue_tracer::MaterialId;
 use etendue_tracer::accel::{World, WorldBuilder};
 use etendue_tracer::geometry::{Dropped, Instance, Mesh, MeshError, MeshId, Shape};
-use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
+use glam::{DAffine3, DVec3, Vec2, Vec3};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 

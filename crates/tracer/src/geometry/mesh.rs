@@ -52,8 +52,8 @@ impl Mesh {
         check_vertices(&positions, &uvs)?;
         check_indices(positions.len(), &triangles)?;
         let slots = if slots.is_empty() { vec![0; triangles.len()] } else { slots };
-        let (facets, bounds, slot_count, origin) = (Vec::new(), None, 0, DVec3::ZERO);
-        let mut mesh = Self { positions, normals, uvs, triangles, slots, facets, bounds, slot_count, origin };
+        let (bounds, slot_count, origin) = (None, 0, DVec3::ZERO);
+        let mut mesh = Self { positions, normals, uvs, triangles, slots, facets: vec![], bounds, slot_count, origin };
         let dropped = mesh.drop_unusable();
         mesh.facets = facets(&mesh);
         mesh.bounds = mesh.find_bounds();

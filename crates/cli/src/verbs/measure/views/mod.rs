@@ -238,7 +238,7 @@ impl Found {
     /// Parameters, how well the views fit, and the views.
     pub(super) fn tell(&self, report: &mut Report, arguments: &ViewsArguments) {
         let (pixel_pitch_um, points) = (arguments.pixel_pitch_um, arguments.chart.points);
-        self.views.iter().for_each(|view| report.encoding(&view.stated));
+        self.views.iter().filter_map(|view| view.stated.as_ref()).for_each(|stated| report.encoding(stated));
         report.setting("model", self.model.clone());
         for p in &self.camera.parameters {
             report.figure(p.name, p.name.trim_end_matches("_px"), unit(p.name), p.estimate);
