@@ -155,41 +155,6 @@ fn shading_is_taken_off_on_request() {
     assert!(plain.shading > BOUND, "{}", plain.shading);
 }
 
-/// As a rendered picture without sensor noise has it: each pixel that the edge crosses by a few samples, nothing elsewhere.
-#[test]
-fn noise_of_the_edges_own_pixels_stays_within_the_stated_uncertainty() {
-    const SEEDS: u64 = 60;
-    let (lens, angle_deg) = (Lens::Gaussian(0.01), 5.0);
-    let clean = picture(lens, angle_deg, 64);
-    let [low, high] = [f32::INFINITY, f32::NEG_INFINITY];
-    let (low, high) = clean.samples().iter().fold((low, high), |(a, b), s| (a.min(*s), b.max(*s)));
-    let found: Vec<Sfr> = (0..SEEDS)
-        .into_par_iter()
-        .map(|seed| {
-            let normal = Normal::new(0.0, 1.0).expect("a width");
-            let sample = |i: usize| {
-                let pixel = Pixel { x: (i % 64) as u32, y: (i / 64) as u32 };
-                let share = f64::from((clean.samples()[i] - low) / (high - low));
-                let sigma = f64::from(high - low) * (share * (1.0 - share) / 32.0).max(0.0).sqrt();
-                let noise = normal.sample(&mut NoiseStream::new(seed, 0, 0, 0, pixel, NoiseDraw::Read));
-                (f64::from(clean.samples()[i]) + sigma * noise) as f32
-            };
-            let image = Image::from_samples(64, 64, (0..64 * 64).map(sample).collect()).expect("a square");
-            measure_edge(&image, &SfrSettings::default()).expect("an edge")
-        })
-        .collect();
-    for k in [25, 50, 75, 90, 100] {
-        let off = |sfr: &Sfr| {
-            let (p, f) = (sfr.curve[k].response, sfr.curve[k].frequency);
-            (p.value - lens.response(f) * aperture(angle_deg, f).abs()) / p.standard_uncertainty
-        };
-        let mean_square = found.iter().map(|sfr| off(sfr) * off(sfr)).sum::<f64>() / SEEDS as f64;
-        let worst = found.iter().map(|sfr| off(sfr).abs()).fold(0.0, f64::max);
-        // Of 60 squares: 1 ± 0.18.
-        assert!(mean_square < 1.6 && worst < 4.5, "at {k} %: {mean_square} {worst}");
-    }
-}
-
 #[test]
 fn rows_serve_as_columns_and_dark_may_lie_on_either_side() {
     let lens = Lens::Gaussian(0.5);
