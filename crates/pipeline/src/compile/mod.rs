@@ -20,6 +20,7 @@ mod settings;
 mod shape;
 mod sky;
 mod spectrum;
+mod surroundings;
 #[cfg(test)]
 mod tests;
 mod world;
@@ -116,6 +117,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
         context.accept(&position.place, world.check_reach(DVec3::from_array(position.value)));
     }
     let (palette, materials) = builder.finish(context)?;
+    surroundings::remark(&cameras, &world, &palette, &materials, context);
     let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();
     let rendered = cameras.iter().map(|camera| camera.settings.range_nm);
     if let Some(remark) = rendered.reduce(coverage::around).and_then(|range_nm| context.coverage.remark(range_nm)) {

@@ -1,7 +1,7 @@
 //! What a path travels in: air, or the inside of clear, absorbing matter.
 //!
 //! Beer–Lambert: over d metres of absorption coefficient a (1/m) the share exp(−a d) is left. A path is inside from where
-//! it was refracted in until it is refracted out. Left out: scattering inside, and solids within solids (coming out of the
+//! it was refracted in, or from a camera inside (`surroundings`), until it is refracted out. Left out: scattering inside, and solids within solids (coming out of the
 //! inner one leaves the path in air).
 
 use etendue_core::maths::f32::exp;
@@ -19,6 +19,11 @@ impl<'a> Medium<'a> {
     /// What is beyond a surface whose inside has this `absorption`, for a path that comes from its front or its back.
     pub(super) fn beyond(front: bool, absorption: Option<&'a Spectrum>) -> Self {
         Self { absorption: absorption.filter(|_| front) }
+    }
+
+    /// The inside of a solid of this `absorption`.
+    pub(super) fn inside(absorption: Option<&'a Spectrum>) -> Self {
+        Self { absorption }
     }
 
     /// Whether nothing absorbs.

@@ -19,12 +19,14 @@ mod mis;
 mod path;
 mod shadow;
 mod shared;
+mod surroundings;
 
 #[cfg(test)]
 mod tests;
 
 pub use level::Level;
 pub use mis::Strategies;
+pub use surroundings::Surroundings;
 
 use etendue_core::random::PathStream;
 use etendue_core::{FieldRay, RadianceField, Ray, Spectral, Wavelengths};
@@ -32,6 +34,7 @@ use etendue_core::{FieldRay, RadianceField, Ray, Spectral, Wavelengths};
 use crate::lights::Lights;
 use crate::materials::Palette;
 use crate::view::View;
+use medium::Medium;
 use path::Path;
 
 /// How paths are followed.
@@ -76,6 +79,8 @@ pub struct PathTracer<'a> {
     palette: &'a Palette,
     lights: &'a Lights,
     settings: PathSettings,
+    /// What the entrance pupil lies in: paths begin there.
+    medium: Medium<'a>,
 }
 
 impl<'a> PathTracer<'a> {
@@ -83,7 +88,9 @@ impl<'a> PathTracer<'a> {
     /// view and palette.
     #[must_use]
     pub fn new(view: &'a View<'a>, palette: &'a Palette, lights: &'a Lights, settings: PathSettings) -> Self {
-        Self { view, palette, lights, settings }
+        let solid = Surroundings::of(view, palette).solid;
+        let medium = Medium::inside(solid.and_then(|id| palette.absorption(id)));
+        Self { view, palette, lights, settings, medium }
     }
 
     /// How paths are followed.

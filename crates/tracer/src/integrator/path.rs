@@ -94,7 +94,7 @@ impl<'a, const N: usize> Path<'a, N> {
             travelled_m: 0.0,
             scattered: None,
             receiver: None,
-            medium: Medium::default(),
+            medium: tracer.medium,
             history: History::default(),
             prior: 1.0,
             throughput: Spectral::ONE,

@@ -144,6 +144,25 @@ impl Palette {
         }
     }
 
+    /// Whether any material bounds a transparent solid.
+    #[must_use]
+    pub fn has_solids(&self) -> bool {
+        self.traits.iter().any(|t| t.solid)
+    }
+
+    /// The material of the transparent solid that a material bounds: itself or, of a mix, its first part that is one; `None`
+    /// where it bounds none.
+    #[must_use]
+    pub fn solid(&self, id: MaterialId) -> Option<MaterialId> {
+        if !self.traits[id.0 as usize].solid {
+            return None;
+        }
+        match &self.materials[id.0 as usize].surface {
+            Surface::Mix(parts) => self.solid(parts.a).or_else(|| self.solid(parts.b)),
+            _ => Some(id),
+        }
+    }
+
     /// Whether a material is a mix, so that [`Palette::resolve`] needs a number.
     #[must_use]
     pub fn is_mix(&self, id: MaterialId) -> bool {

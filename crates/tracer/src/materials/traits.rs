@@ -12,6 +12,8 @@ pub(super) struct Traits {
     pub(super) tangents: bool,
     /// It has a texture.
     pub(super) footprint: bool,
+    /// It bounds a transparent solid.
+    pub(super) solid: bool,
 }
 
 impl Traits {
@@ -20,6 +22,7 @@ impl Traits {
             passage: self.passage | other.passage,
             tangents: self.tangents | other.tangents,
             footprint: self.footprint | other.footprint,
+            solid: self.solid | other.solid,
         }
     }
 }
@@ -46,7 +49,12 @@ fn of_parts(material: &Material, known: &[Traits]) -> Traits {
 
 fn own(material: &Material) -> Traits {
     let passage = material.opacity.is_some() || matches!(material.surface, Surface::ThinSheet(_));
-    Traits { passage, tangents: material.normal_map.is_some(), footprint: !material.textures().is_empty() }
+    Traits {
+        passage,
+        tangents: material.normal_map.is_some(),
+        footprint: !material.textures().is_empty(),
+        solid: matches!(material.surface, Surface::Dielectric(_)),
+    }
 }
 
 impl Material {

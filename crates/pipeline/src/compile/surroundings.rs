@@ -1,0 +1,42 @@
+//! Cameras that stand in glass or water: said in the plan, as their light is dimmed and n² times as bright.
+
+use super::context::Context;
+use crate::plan::CameraPlan;
+use etendue_tracer::MaterialId;
+use etendue_tracer::accel::World;
+use etendue_tracer::integrator::Surroundings;
+use etendue_tracer::materials::Palette;
+
+/// Says which cameras stand in a transparent solid, and where that cannot be told for sure.
+pub(super) fn remark(
+    cameras: &[CameraPlan],
+    world: &World,
+    palette: &Palette,
+    materials: &[String],
+    context: &mut Context<'_>,
+) {
+    if !palette.has_solids() {
+        return;
+    }
+    let name = |id: MaterialId| &materials[id.0 as usize];
+    for camera in cameras {
+        let around = Surroundings::of(&world.view(camera.pose.position_m), palette);
+        if let Some(solid) = around.solid {
+            context.remark(format!(
+                "camera \"{}\" stands inside \"{}\": its entrance pupil lies in that medium, which absorbs from there on, \
+                 and radiance is n² times that of the same light in air",
+                camera.name,
+                name(solid)
+            ));
+        }
+        if let Some(open) = around.open {
+            let taken = if around.solid == Some(open) { "inside" } else { "outside" };
+            context.remark(format!(
+                "camera \"{}\": whether it stands inside \"{}\" depends on the direction looked in, as its surface is not \
+                 closed; it is taken to be {taken}; close the mesh",
+                camera.name,
+                name(open)
+            ));
+        }
+    }
+}
