@@ -2,7 +2,9 @@
 
 use crate::Shot;
 use etendue_pipeline::{Choices, Plan, compile};
-use etendue_scene::asset::{Assets, ImageAsset, ImagePixels, PhotometryAsset, RetroTableAsset, SpectrumAsset};
+use etendue_scene::asset::{
+    Assets, ImageAsset, ImagePixels, MeshAsset, PhotometryAsset, RetroTableAsset, SpectrumAsset,
+};
 use etendue_scene::{Description, Overrides};
 use std::path::Path;
 
@@ -34,6 +36,13 @@ impl Job {
     pub fn with_image(mut self, path: &str, width: u32, height: u32, rgb: Vec<[f32; 3]>) -> Self {
         let asset = ImageAsset { width, height, pixels: ImagePixels::Rgb32F(rgb), hash: [0; 32] };
         self.assets.images.insert(path.into(), asset);
+        self
+    }
+
+    /// With a mesh file.
+    #[must_use]
+    pub fn with_mesh(mut self, path: &str, mesh: MeshAsset) -> Self {
+        self.assets.meshes.insert(path.into(), mesh);
         self
     }
 

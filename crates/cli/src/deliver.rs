@@ -5,7 +5,6 @@ use crate::failure::Failure;
 use crate::files::Files;
 use crate::photographs::{Wanted, photographs};
 use crate::results::Results;
-use crate::tell;
 use etendue_core::Plane;
 use etendue_core::quantity::Electrons;
 use etendue_io::exr::{self, Lengths, encode_ground_truth, encode_plane, encode_radiance, encode_rays};
@@ -56,7 +55,11 @@ fn camera_files(
 ) -> Result<(), Failure> {
     let not_finite = film.not_finite_samples();
     if not_finite > 0 {
-        tell(&format!("warning: camera {}: {not_finite} samples were not finite numbers\n", camera.name));
+        return Err(Failure::Run(format!(
+            "camera {}: {not_finite} samples of its light were not finite numbers, so nothing is delivered; a light is too bright \
+             or too near for 32-bit floats: lower it or move it",
+            camera.name
+        )));
     }
     let mut results = Results { prefix: camera.name.clone(), folder };
     let depth = pupil_depth(plan, camera, simd);

@@ -116,14 +116,20 @@ fn lines_that_tobj_would_misread_are_not_faces_and_do_not_part_the_data() {
 }
 
 #[test]
-fn a_mesh_far_from_its_origin_is_told_what_it_loses() {
-    let mesh = read("v 451000 5411000 0\nv 451001 5411000 0\nv 451000 5411001 0\nf 1 2 3\n", &[]).expect("whole");
-    assert_eq!(
-        mesh.warnings,
-        [
-            "a.obj: coordinates of up to 5411001 are rounded by up to 3.2e-1 units, the mesh measures 1: move it to its origin"
-        ]
-    );
+fn a_mesh_far_from_its_origin_keeps_its_coordinates() {
+    let text = "v 451000.1 5411000 0.05\nv 451001.2 5411000 0\nv 451000.1 5411001.3 0\nf 1 2 3\n";
+    let mesh = read(text, &[]).expect("whole");
+    assert!(mesh.report.is_empty(), "{:?}", mesh.report);
+    let place = |i: usize, axis: usize| mesh.origin[axis] + f64::from(mesh.positions[i][axis]);
+    for (i, expected) in [[451_000.1, 5_411_000.0, 0.05], [451_001.2, 5_411_000.0, 0.0], [451_000.1, 5_411_001.3, 0.0]]
+        .into_iter()
+        .enumerate()
+    {
+        // Half a unit in the last place of f32 at 0.65, and of f64 at 5.4e6.
+        (0..3).for_each(|axis| assert!((place(i, axis) - expected[axis]).abs() < 4e-8, "{i} {axis}"));
+    }
+    let near = read("v 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n", &[]).expect("whole");
+    assert_eq!((near.origin, near.positions[1]), ([0.0; 3], [2.0, 0.0, 0.0]), "others are as they stand in the file");
     assert_eq!(
         read("v 0 0 0\nv 1e39 0 0\n", &[]),
         Err("a.obj:2: coordinate 1e39 is beyond the range of 32-bit floats".to_owned())

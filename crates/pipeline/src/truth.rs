@@ -126,7 +126,7 @@ pub(crate) fn seen(view: &View<'_>, palette: &Palette, camera: &CameraPlan, fron
     let ray = &front.ray;
     let direction = camera.pose.direction_to_world(ray.direction);
     let ahead = has_planar_depth(front);
-    match view.truth(camera.pose.point_to_render(ray.origin_m), direction, |point| is_there(palette, point)) {
+    match view.truth(camera.pose.point_to_render(ray.origin_m), direction, |point| is_there(view, palette, point)) {
         None => Seen::Sky { ahead },
         Some(truth) => {
             let depth_m = if ahead { truth.distance_m * ray.direction.z + ray.origin_m.z } else { f64::NAN };
@@ -136,11 +136,12 @@ pub(crate) fn seen(view: &View<'_>, palette: &Palette, camera: &CameraPlan, fron
 }
 
 /// Whether a pixel sees a surface that may be cut out: where at least half of it is there. Panes of glass are seen.
-fn is_there(palette: &Palette, point: &SurfacePoint) -> bool {
+fn is_there(view: &View<'_>, palette: &Palette, point: &SurfacePoint) -> bool {
     if !palette.lets_pass(point.material) {
         return true;
     }
-    let at = Lookup { local: point.local, local_normal: point.local_normal, ..Lookup::point(point.uv) };
+    let origin = view.local_origin(point.instance);
+    let at = Lookup { local: point.local, origin, local_normal: point.local_normal, ..Lookup::point(point.uv) };
     palette.opacity(point.material, &at) >= 0.5
 }
 

@@ -96,6 +96,15 @@ impl<'w> View<'w> {
         }
     }
 
+    /// What is to be added to [`SurfacePoint::local`] of an instance's points for the coordinates of its shape's file.
+    #[must_use]
+    pub fn local_origin(&self, instance: u32) -> DVec3 {
+        match self.world.instances()[instance as usize].shape {
+            Shape::Mesh(id) => self.world.mesh(id).origin(),
+            Shape::Sphere { .. } => DVec3::ZERO,
+        }
+    }
+
     /// How texture coordinates and the place in the own frame of the shape change along a `vector` (render frame, m) in
     /// the surface at a point.
     #[must_use]

@@ -2,6 +2,7 @@
 
 use etendue_core::maths::f64::{sin_cos, tan};
 use etendue_pipeline::summary::Summary;
+use etendue_scene::asset::{MeshAsset, SlotMaterial};
 use etendue_tests::{Job, Shot};
 use glam::{DVec2, DVec3};
 
@@ -244,4 +245,33 @@ fn the_plan_says_where_depth_along_the_axis_means_nothing() {
     let said = |job: Job| Summary(&job.shot().plan).to_string().contains("depth along the axis is NaN");
     assert!(!said(job()));
     assert!(said(job().replacing(pinhole, fisheye)));
+}
+
+/// A square of 1.1 m that stands across the axis, as a survey's file has it, with its middle taken off.
+fn surveyed() -> MeshAsset {
+    let corners = [[-0.55, -0.55], [0.55, -0.55], [0.55, 0.55], [-0.55, 0.55]];
+    MeshAsset {
+        origin: [500_004.45, 5_400_000.3, 100.7],
+        positions: corners.iter().map(|[y, z]| [0.0, *y, *z]).collect(),
+        triangles: vec![[0, 2, 1], [0, 3, 2]],
+        slots: vec![0, 0],
+        slot_materials: vec![SlotMaterial { name: String::new(), surface: None }],
+        ..MeshAsset::default()
+    }
+}
+
+#[test]
+fn a_mesh_in_map_coordinates_is_where_its_file_says() {
+    let mesh = "[[scene.meshes]]\nname = \"m\"\nfile = \"m.obj\"\nup_axis = \"z\"\nforward_axis = \"x\"\n";
+    // As it stands in the world; and turned, enlarged and moved before a camera at the origin: 1 000 013.3 − 2 · 500 004.45.
+    let turned = "rotation_deg = [0, 0, 180]\nscale = 2\nposition_m = [1000013.3, 10800000.6, -201.4]\n";
+    let cases = [("", "[500000, 5400000.3, 100.7]", 4.45), (turned, "[0, 0, 0]", 4.4)];
+    for (place, eye, expected) in cases {
+        let object = format!("[[scene.objects]]\nname = \"o\"\nmaterial = \"grey\"\nmesh = \"m\"\n{place}");
+        let eye = camera(0.0, "", 8, 50.0).replace("position_m = [0, 0, 0]", &format!("position_m = {eye}"));
+        let shot = Job::new(eye + &scene(&(mesh.to_owned() + &object))).with_mesh("m.obj", surveyed()).shot();
+        let depth = f64::from(shot.truth().depth.at(4, 4));
+        // f32 at 4.45, f64 at 1e7.
+        assert!((depth - expected).abs() < 4e-7, "{depth}, {expected}");
+    }
 }

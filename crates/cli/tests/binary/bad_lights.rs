@@ -78,3 +78,55 @@ fn materials_that_gain_energy() {
         spoilt.render(&[]).refused(&["small.toml:", "scene.materials.paint", "more"]);
     }
 }
+
+#[test]
+fn light_that_no_number_holds() {
+    let uniform = |level: &str| {
+        let spoilt = Spoilt::new();
+        spoilt.spoil("small.toml", "type = \"image\"", &format!("type = \"uniform\"\n{level}"));
+        spoilt.spoil("small.toml", "file = \"sky.hdr\"\n", "");
+        spoilt.spoil("small.toml", "luminance_cd_m2_per_unit = 2000\n", "");
+        spoilt.render(&[]).refused(&["small.toml:", "radiance", "1e30"]);
+    };
+    uniform("radiance_w_m2_sr_nm = 1e300");
+    uniform("luminance_cd_m2 = 1e300\nilluminant = \"D65\"");
+    let spoilt = Spoilt::new();
+    spoilt.spoil("small.toml", "luminance_cd_m2_per_unit = 2000", "luminance_cd_m2_per_unit = 1e300");
+    spoilt.render(&[]).refused(&["small.toml:", "brighter than 1e30"]);
+}
+
+/// A lamp so near to a wall that 32 bits do not hold the irradiance under it: found only while it is rendered.
+const NEAR: &str = r#"format = 1
+[[cameras]]
+name = "eye"
+position_m = [-1e-4, 0, 0]
+look_at_m = [1, 0, 0]
+lens = { model = "pinhole", focal_length_mm = 6, f_number = 8 }
+sensor = { width_px = 8, height_px = 6, pixel_pitch_um = 6 }
+[render]
+spp = 4
+[[scene.materials]]
+name = "grey"
+type = "diffuse"
+reflectance = 0.5
+[[scene.objects]]
+name = "wall"
+material = "grey"
+rotation_deg = [0, -90, 0]
+shape = { type = "quad", size_m = [0.01, 0.01] }
+[[scene.lights]]
+type = "point"
+name = "near"
+position_m = [-1e-7, 0, 0]
+illuminant = "D65"
+radiant_flux_w = 1e30
+"#;
+
+#[test]
+fn light_that_turns_out_not_to_be_finite_is_not_delivered() {
+    let spoilt = Spoilt::new();
+    spoilt.write("small.toml", NEAR);
+    let ran = spoilt.render(&[]);
+    assert_eq!(ran.status, 1, "{ran:?}");
+    ran.says(&["camera eye", "not finite numbers", "nothing is delivered"]);
+}

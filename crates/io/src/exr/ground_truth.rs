@@ -17,7 +17,7 @@ pub struct GroundTruth<'a> {
     pub distance: Option<&'a Plane<Length>>,
     /// Unit shading normal in the world.
     pub normal: Option<&'a Plane<Vector>>,
-    /// Position in the world, m, rounded to 32-bit floats (at 100 km from the origin: 4 mm).
+    /// Position in the world, m, rounded to 32-bit floats (at 100 km from the origin by up to 4 mm, at 5 000 km by 0.25 m).
     pub position: Option<&'a Plane<Vector>>,
     /// Position in the camera frame (x right, y down, z forward and negative behind), m.
     pub camera_space_position: Option<&'a Plane<Vector>>,

@@ -23,7 +23,7 @@ pub(super) fn mesh(file: &Path) -> Result<FileReport, Error> {
         report.state(&format!("material slot {slot}"), slot_text(&mesh, slot, material));
     }
     for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-        let values = mesh.positions.iter().map(|p| f64::from(p[axis]));
+        let values = mesh.positions.iter().map(|p| f64::from(p[axis]) + mesh.origin[axis]);
         report.channels.push(ChannelReport::of(&format!("{name} (file units)"), "float", values));
     }
     report.notes.extend(mesh.report.into_iter().chain(mesh.warnings).chain(mesh.missing_libraries));

@@ -18,7 +18,7 @@ pub fn read_mesh(file: &Path) -> Result<MeshAsset, Error> {
     let obj = scan(file, decode_text(file, &bytes)?)?;
     let Slots { materials, layouts, report, library_bytes, missing_libraries } = slots(file, &obj)?;
     let parts = obj.parts(file)?;
-    let mut builder = Builder::new(&parts);
+    let mut builder = Builder::new(&parts, middle_of_far(&parts));
     for part in &parts {
         let slot = part.material_id.unwrap_or(0); // without a `usemtl`: the first slot, which has no name
         builder
@@ -31,7 +31,6 @@ pub fn read_mesh(file: &Path) -> Result<MeshAsset, Error> {
         mesh.report.push("the last line has no end: the file may be truncated".to_owned());
     }
     mesh.report.extend(notes(&obj));
-    mesh.warnings.extend(far_from_origin(&parts));
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     mesh.report.iter_mut().chain(&mut mesh.warnings).for_each(|note| note.insert_str(0, &format!("{name}: ")));
     mesh.slot_materials = materials;
@@ -54,8 +53,9 @@ struct Builder {
 }
 
 impl Builder {
-    fn new(parts: &[tobj::Mesh]) -> Self {
+    fn new(parts: &[tobj::Mesh], origin: [f64; 3]) -> Self {
         Self {
+            mesh: MeshAsset { origin, ..MeshAsset::default() },
             has_normals: parts.iter().any(|p| p.normals.iter().any(|v| *v != 0.0)),
             has_uvs: parts.iter().any(|p| !p.texcoords.is_empty()),
             ..Self::default()
@@ -100,7 +100,8 @@ impl Builder {
         }
         let place = self.mesh.positions.len() as u32; // no more than corners, which are counted
         self.placed[index] = Some(place);
-        self.mesh.positions.push(part.positions.as_chunks().0[index].map(|v: f64| v as f32));
+        let (place_in_file, origin): ([f64; 3], _) = (part.positions.as_chunks().0[index], self.mesh.origin);
+        self.mesh.positions.push(std::array::from_fn(|axis| (place_in_file[axis] - origin[axis]) as f32));
         if self.has_normals {
             self.flat_corners += usize::from(normal.is_none());
             self.mesh.normals.push(unit(normal.copied().unwrap_or_else(|| **facing)));
@@ -147,14 +148,13 @@ fn notes(obj: &Obj) -> Vec<String> {
     notes
 }
 
-/// Says what 32 bits cost where the rounding of a coordinate exceeds a millionth of the mesh's extent.
-fn far_from_origin(parts: &[tobj::Mesh]) -> Option<String> {
+/// The middle of a mesh that lies further from the file's origin than twice its extent, as maps and surveys have them; zero for
+/// others. About it 32 bits hold every vertex to 3e-8 of the extent.
+fn middle_of_far(parts: &[tobj::Mesh]) -> [f64; 3] {
     let coordinates = |axis: usize| parts.iter().flat_map(move |p| p.positions.iter().skip(axis).step_by(3).copied());
-    let bound = |axis: usize, pick: fn(f64, f64) -> f64| coordinates(axis).reduce(pick);
-    let extent = (0..3).filter_map(|a| Some(bound(a, f64::max)? - bound(a, f64::min)?)).fold(0.0, f64::max);
-    let largest = (0..3).flat_map(coordinates).fold(0.0_f64, |m, v| m.max(v.abs()));
-    let rounding = largest * f64::from(f32::EPSILON) * 0.5;
-    (rounding > 1e-6 * extent).then(|| {
-        format!("coordinates of up to {largest} are rounded by up to {rounding:.1e} units, the mesh measures {extent}: move it to its origin")
-    })
+    let bound = |axis: usize, pick: fn(f64, f64) -> f64| coordinates(axis).reduce(pick).unwrap_or(0.0);
+    let bounds = [0, 1, 2].map(|axis| [bound(axis, f64::min), bound(axis, f64::max)]);
+    let extent = bounds.iter().map(|[low, high]| high - low).fold(0.0, f64::max);
+    let farthest = bounds.iter().flatten().fold(0.0_f64, |most, v| most.max(v.abs()));
+    if farthest > 2.0 * extent { bounds.map(|[low, high]| 0.5 * low + 0.5 * high) } else { [0.0; 3] }
 }

@@ -7,8 +7,8 @@ use crate::plan::SkyFacts;
 use etendue_scene::asset::{ImageAsset, ImagePixels};
 use etendue_scene::record::environment::EnvironmentImage;
 use etendue_scene::record::{self, Light, Scene, SunLevel};
-use etendue_spectra::colour;
-use etendue_tracer::lights::{Environment, ImageEnvironment, SUN_ANGULAR_DIAMETER_DEG, Sources, Sun};
+use etendue_spectra::{Spectrum, colour};
+use etendue_tracer::lights::{BRIGHTEST, Environment, ImageEnvironment, SUN_ANGULAR_DIAMETER_DEG, Sources, Sun};
 
 /// What shines but is no surface, and what the plan says of a sky.
 pub(super) fn sources(scene: &Scene, context: &mut Context<'_>) -> (Sources, Option<SkyFacts>) {
@@ -21,7 +21,7 @@ pub(super) fn sources(scene: &Scene, context: &mut Context<'_>) -> (Sources, Opt
     }
     let mut facts = None;
     sources.environment = scene.environment.as_ref().and_then(|record| match record {
-        record::Environment::Uniform(emission) => emitted(emission, context).map(Environment::Uniform),
+        record::Environment::Uniform(emission) => uniform(emission, context).map(Environment::Uniform),
         record::Environment::Image(record) => image(record, context).map(Environment::Image),
         record::Environment::Sky(record) => {
             let made = sky::sky(record, context)?;
@@ -53,6 +53,19 @@ fn sun(record: &record::Sun, context: &mut Context<'_>) -> Option<Sun> {
     let by_model = matches!(record.level, SunLevel::Turbidity(_));
     let darkens = record.limb_darkening.as_ref().map_or(by_model, |l| l.value);
     Some(if darkens { sun.with_limb() } else { sun })
+}
+
+/// Surroundings of one radiance, as bright as can be traced at most.
+fn uniform(emission: &record::Emission, context: &mut Context<'_>) -> Option<Spectrum> {
+    let radiance = emitted(emission, context)?;
+    let brightest = radiance.max_value();
+    if !(brightest <= BRIGHTEST) {
+        let problem = format!(
+            "the surroundings would have a radiance of {brightest:e} W·m⁻²·sr⁻¹·nm⁻¹, at most 1e30 can be traced"
+        );
+        context.fault(emission.level.place(), problem, "give less light");
+    }
+    Some(radiance)
 }
 
 fn image(record: &EnvironmentImage, context: &mut Context<'_>) -> Option<ImageEnvironment> {

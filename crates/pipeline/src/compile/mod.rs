@@ -13,6 +13,7 @@ mod lens;
 mod light;
 mod material;
 mod picture;
+mod positions;
 mod processing;
 mod samples;
 mod sensor;
@@ -117,6 +118,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
         context.accept(&position.place, world.check_reach(DVec3::from_array(position.value)));
     }
     let (palette, materials) = builder.finish(context)?;
+    positions::remark(&cameras, context);
     surroundings::remark(&cameras, &world, &palette, &materials, context);
     let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();
     let rendered = cameras.iter().map(|camera| camera.settings.range_nm);

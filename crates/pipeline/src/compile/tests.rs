@@ -37,8 +37,8 @@ fn every_preset_becomes_a_material() {
 fn a_camera_in_water_is_told() {
     let water = "[[scene.materials]]\nname = \"water\"\ntype = \"dielectric\"\nindex = 1.33\nabsorption_per_m = 0.2\n";
     let ball = |x: f64| {
-        let body = "name = \"ball\"\nmaterial = \"water\"\nsphere = { radius_m = 2 }\n";
-        let scene = format!("{water}[[scene.objects]]\n{body}translation_m = [{x}, 0, 1]\n");
+        let body = "name = \"ball\"\nmaterial = \"water\"\nshape = { type = \"sphere\", radius_m = 2 }\n";
+        let scene = format!("{water}[[scene.objects]]\n{body}position_m = [{x}, 0, 1]\n");
         plan(&scene).expect("no fault").remarks
     };
     assert!(ball(0.0).iter().any(|r| r.starts_with("camera \"front\" stands inside \"water\"")), "{:?}", ball(0.0));

@@ -12,7 +12,7 @@ use etendue_scene::record::{self, Body, Object, Scene};
 use etendue_tracer::MaterialId;
 use etendue_tracer::accel::{World, WorldBuilder};
 use etendue_tracer::geometry::{Dropped, Instance, Mesh, MeshError, MeshId, Shape};
-use glam::{DAffine3, DMat3, Vec2, Vec3};
+use glam::{DAffine3, DVec3, Vec2, Vec3};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
@@ -52,7 +52,7 @@ struct Prototype {
     shape: Shape,
     materials: Vec<MaterialId>,
     /// From the shape's own frame to the object's.
-    to_object: DMat3,
+    to_object: DAffine3,
 }
 
 impl Assembly {
@@ -88,7 +88,7 @@ impl Assembly {
             self.identities.push(Identity { name, class: object.class.as_ref().map(|c| c.value.clone()) });
             let mut instance = Instance {
                 shape: prototype.shape,
-                to_world: Track::still(transform.to_world() * DAffine3::from_mat3(prototype.to_object)),
+                to_world: Track::still(transform.to_world() * prototype.to_object),
                 materials: prototype.materials.clone(),
                 instance_id: self.identities.len() as u32,
                 semantic_id: class,
@@ -137,7 +137,8 @@ impl Assembly {
         let shape = Shape::Mesh(*self.meshes.get(name)?);
         let materials = slot_materials(object, record, asset, palette, context)?;
         check_coordinates(record, asset, &materials, palette, object, context);
-        Some(Prototype { shape, materials, to_object: record.to_object() })
+        let to_object = DAffine3::from_mat3(record.to_object()) * DAffine3::from_translation(asset.origin.into());
+        Some(Prototype { shape, materials, to_object })
     }
 
     fn of_shape(
@@ -156,7 +157,7 @@ impl Assembly {
             }
             ShapeRecord::Disc(disc) => self.own_mesh(shape::disc(disc.radius_m.value), object, context)?,
         };
-        Some(Prototype { shape, materials: vec![material], to_object: DMat3::IDENTITY })
+        Some(Prototype { shape, materials: vec![material], to_object: DAffine3::IDENTITY })
     }
 
     fn own_mesh(
@@ -249,5 +250,12 @@ fn check_slot(slot: &etendue_scene::Placed<String>, mesh: &record::Mesh, asset: 
 fn mesh_of(asset: &MeshAsset) -> Result<(Mesh, Dropped), etendue_tracer::geometry::MeshError> {
     let vectors = |list: &[[f32; 3]]| list.iter().copied().map(Vec3::from).collect();
     let uvs = asset.uvs.iter().copied().map(Vec2::from).collect();
-    Mesh::new(vectors(&asset.positions), vectors(&asset.normals), uvs, asset.triangles.clone(), asset.slots.clone())
+    let mesh = Mesh::new(
+        vectors(&asset.positions),
+        vectors(&asset.normals),
+        uvs,
+        asset.triangles.clone(),
+        asset.slots.clone(),
+    );
+    mesh.map(|(mesh, dropped)| (mesh.with_origin(DVec3::from_array(asset.origin)), dropped))
 }

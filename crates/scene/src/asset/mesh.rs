@@ -7,7 +7,10 @@ use super::mtl::SlotMaterial;
 /// A triangle mesh in the axes and units of its file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeshAsset {
-    /// Vertices, in units of the file.
+    /// What the vertices are relative to, in units of the file: zero, or the middle of a mesh that lies so far from the file's
+    /// origin that 32 bits would round its vertices noticeably.
+    pub origin: [f64; 3],
+    /// Vertices less `origin`, in units of the file.
     pub positions: Vec<[f32; 3]>,
     /// Normals of the vertices, of any length above 0; none, or one a vertex.
     pub normals: Vec<[f32; 3]>,

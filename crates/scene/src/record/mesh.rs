@@ -13,7 +13,8 @@ record! {
     pub struct Mesh check(check) {
         /// The name by which objects call it.
         required name: Placed<String> = text("the name of the mesh");
-        /// The file (Wavefront OBJ).
+        /// The file (Wavefront OBJ). Its coordinates may be a survey's or a map's: they are kept to 3e-8 of the mesh's own
+        /// extent however far from the file's origin it lies.
         required file: Placed<PathBuf> = path(&["obj"]);
         /// Which axis of the file points upwards.
         required up_axis: Placed<Axis> = choice();

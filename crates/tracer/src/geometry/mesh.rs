@@ -26,6 +26,7 @@ pub struct Mesh {
     /// Told for every instance, so found once.
     bounds: Option<(Vec3, Vec3)>,
     slot_count: usize,
+    origin: DVec3,
 }
 
 /// How many triangles were left out of a mesh, and why.
@@ -51,12 +52,35 @@ impl Mesh {
         check_vertices(&positions, &uvs)?;
         check_indices(positions.len(), &triangles)?;
         let slots = if slots.is_empty() { vec![0; triangles.len()] } else { slots };
-        let mut mesh = Self { positions, normals, uvs, triangles, slots, facets: vec![], bounds: None, slot_count: 0 };
+        let mut mesh = Self {
+            positions,
+            normals,
+            uvs,
+            triangles,
+            slots,
+            facets: vec![],
+            bounds: None,
+            slot_count: 0,
+            origin: DVec3::ZERO,
+        };
         let dropped = mesh.drop_unusable();
         mesh.facets = facets(&mesh);
         mesh.bounds = mesh.find_bounds();
         mesh.slot_count = mesh.slots.iter().max().map_or(0, |s| usize::from(*s) + 1);
         Ok((mesh, dropped))
+    }
+
+    /// The same mesh, told that its file's own coordinates are those of this mesh plus `origin`: projected textures stay where
+    /// the file has them.
+    #[must_use]
+    pub fn with_origin(self, origin: DVec3) -> Self {
+        Self { origin, ..self }
+    }
+
+    /// What is to be added to this mesh's coordinates for those of its file.
+    #[must_use]
+    pub fn origin(&self) -> DVec3 {
+        self.origin
     }
 
     /// Vertex positions, m.

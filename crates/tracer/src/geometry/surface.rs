@@ -17,7 +17,7 @@ pub struct SurfacePoint {
     pub shading_normal: Vec3,
     /// Texture coordinates; zero where the mesh has none.
     pub uv: Vec2,
-    /// The point in the own frame of the shape, in its units.
+    /// The point in the own frame of the shape, in its units, less the mesh's [`super::Mesh::origin`].
     pub local: Vec3,
     /// The normal for shading in the own frame of the shape; unit, on either side.
     pub local_normal: Vec3,

@@ -167,6 +167,7 @@ impl<'a, const N: usize> Path<'a, N> {
         if !self.tracer.palette.needs_footprint(point.material) {
             return at;
         }
+        let at = Lookup { origin: self.tracer.view.local_origin(point.instance), ..at };
         let footprint = self.tracer.view.footprint(point);
         let width_m = cone.width_m;
         let round = Lookup { width: width_m * footprint.uv_per_m, width_local: width_m * footprint.local_per_m, ..at };

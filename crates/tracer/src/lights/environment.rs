@@ -13,8 +13,8 @@ use etendue_core::{Spectral, Wavelengths, maths};
 use etendue_spectra::{Spectrum, upsample};
 use glam::{Vec2, Vec3};
 
-use super::LightSample;
 use super::sky::SkyEnvironment;
+use super::{BRIGHTEST, LightSample};
 
 /// What surrounds the scene.
 #[derive(Clone, Debug)]
@@ -87,6 +87,16 @@ pub enum EnvironmentError {
     /// Nothing shines.
     #[error("the picture of the surroundings is black everywhere; leave it out")]
     Black,
+    /// Light beyond [`BRIGHTEST`].
+    #[error(
+        "texels up to {texel:e} times {scale:e} cd/m² are brighter than 1e30, the most that can be traced; lower the scale"
+    )]
+    Bright {
+        /// The greatest component of a texel.
+        texel: f32,
+        /// The scale.
+        scale: f64,
+    },
     /// The scale or the rotation is not a number that can be used.
     #[error("the scale of the surroundings must be positive and finite and their rotation finite; correct them")]
     Placement,
@@ -137,6 +147,10 @@ impl ImageEnvironment {
         }
         if !(luminance_scale > 0.0 && luminance_scale.is_finite() && rotation_rad.is_finite()) {
             return Err(EnvironmentError::Placement);
+        }
+        let brightest = texels.iter().flatten().fold(0.0_f32, |most, v| most.max(*v));
+        if f64::from(brightest) * luminance_scale > f64::from(BRIGHTEST) {
+            return Err(EnvironmentError::Bright { texel: brightest, scale: luminance_scale });
         }
         let weights = weights(width, height, &texels);
         let distribution = Distribution2::new(width, &weights).ok_or(EnvironmentError::Black)?;

@@ -15,7 +15,7 @@ use glam::{DMat3, DVec3, Mat3, Vec3};
 
 use super::profile::Profile;
 use super::tree::LightBounds;
-use super::{LightSample, Receiver};
+use super::{BRIGHTEST, LightSample, Receiver};
 
 /// Why a lamp is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -29,7 +29,7 @@ pub enum LampError {
     )]
     Axes,
     /// The intensity is negative or not finite.
-    #[error("a lamp's intensity must be 0 or more and finite at every wavelength; correct it")]
+    #[error("a lamp's intensity must be 0 to 1e30 at every wavelength; correct it")]
     Intensity,
     /// The attenuation coefficient is negative or not finite.
     #[error("an attenuation of {per_m} 1/m was given, but it must be 0 or more and finite; correct it")]
@@ -70,7 +70,7 @@ impl Lamp {
         if !deviation.iter().all(|x| x.abs() <= 1e-6) || axes.determinant() < 0.0 {
             return Err(LampError::Axes);
         }
-        if !(intensity.min_value() >= 0.0 && intensity.max_value().is_finite()) {
+        if !(intensity.min_value() >= 0.0 && intensity.max_value() <= BRIGHTEST) {
             return Err(LampError::Intensity);
         }
         Ok(Self { position_m, axes, intensity, profile, attenuation_per_m: 0.0 })

@@ -48,6 +48,10 @@ use sphere::SphereLight;
 use tree::Question;
 use triangle::TriangleLight;
 
+/// The greatest radiance, irradiance or intensity of a light at any wavelength, in its unit: products of it with weights and
+/// sums over many lights stay finite in f32.
+pub const BRIGHTEST: f32 = 1e30;
+
 /// A light in the scene.
 #[derive(Clone, Debug)]
 enum Light {

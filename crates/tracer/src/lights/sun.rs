@@ -13,7 +13,7 @@ use etendue_spectra::Spectrum;
 use etendue_spectra::sky::{BANDS, FIRST_NM, STEP_NM, sun as model};
 use glam::{DVec3, Vec2, Vec3};
 
-use super::LightSample;
+use super::{BRIGHTEST, LightSample};
 
 /// Mean angular diameter of the sun, degrees.
 pub const SUN_ANGULAR_DIAMETER_DEG: f64 = 0.5338;
@@ -34,7 +34,7 @@ pub enum SunError {
         degrees: f64,
     },
     /// The radiance is negative or not finite.
-    #[error("the sun's radiance or irradiance must be 0 or more and finite at every wavelength; correct it")]
+    #[error("the sun's radiance or irradiance must be 0 to 1e30 at every wavelength; correct it")]
     Radiance,
 }
 
@@ -61,7 +61,7 @@ impl Sun {
         if !(1e-3..=90.0).contains(&angular_diameter_deg) {
             return Err(SunError::Diameter { degrees: angular_diameter_deg });
         }
-        if !(radiance.min_value() >= 0.0 && radiance.max_value().is_finite()) {
+        if !(radiance.min_value() >= 0.0 && radiance.max_value() <= BRIGHTEST) {
             return Err(SunError::Radiance);
         }
         let sin = maths::f64::sin(0.5 * angular_diameter_deg.to_radians());

@@ -2,6 +2,7 @@
 
 use super::mix;
 use super::{Emission, EnergyGain, Factor, Leaf, Material, MaterialError, Reflectance, Surface};
+use crate::lights::BRIGHTEST;
 use crate::textures::{Channel, ImageTexture, TextureId};
 use etendue_spectra::Spectrum;
 
@@ -113,7 +114,7 @@ fn emission(material: usize, glow: &Emission, textures: &[ImageTexture]) -> Resu
         let range = laid_by_uv(material, "an emission", id, textures)?.range();
         (low, high) = (low.min(range.0), high * range.1);
     }
-    match [low, high].into_iter().find(|v| !(v.is_finite() && *v >= 0.0)) {
+    match [low, high].into_iter().find(|v| !(0.0..=BRIGHTEST).contains(v)) {
         Some(value) => Err(MaterialError::Radiance { material, value }),
         None => Ok(()),
     }

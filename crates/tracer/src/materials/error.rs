@@ -98,7 +98,7 @@ pub enum MaterialError {
         gain: EnergyGain,
     },
     /// An emission is negative or not finite.
-    #[error("material {material} emits {value} W.m^-2.sr^-1.nm^-1, but radiance must be 0 or more and finite")]
+    #[error("material {material} emits {value} W.m^-2.sr^-1.nm^-1, but radiance must be 0 to 1e30")]
     Radiance {
         /// The material's place.
         material: usize,

@@ -163,14 +163,17 @@ impl ImageTexture {
     /// The filtered value, linear sRGB.
     #[must_use]
     pub fn sample(&self, lookup: &Lookup) -> [f32; 3] {
-        self.sampling.projection.read(lookup, |place| self.filtered(&self.levels, place)).to_array()
+        self.sampling.projection.read(lookup, self.sampling.wrap, |place| self.filtered(&self.levels, place)).to_array()
     }
 
     /// The filtered value of one channel, linear.
     #[must_use]
     pub fn channel(&self, lookup: &Lookup, channel: Channel) -> f32 {
         if channel == Channel::Alpha && self.has_alpha() {
-            return self.sampling.projection.read(lookup, |place| self.filtered(&self.alpha, place));
+            return self
+                .sampling
+                .projection
+                .read(lookup, self.sampling.wrap, |place| self.filtered(&self.alpha, place));
         }
         channel.of(self.sample(lookup))
     }

@@ -22,7 +22,7 @@ pub use projection::Projection;
 pub use texels::Texels;
 pub use wrap::Wrap;
 
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 /// A texture's place in the tracer's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -37,8 +37,10 @@ pub struct Lookup {
     pub width: f32,
     /// The footprint's long side in texture coordinates, from end to end; zero where it is round.
     pub long: Vec2,
-    /// The point in the shape's own frame, m.
+    /// The point in the shape's own frame less `origin`, m.
     pub local: Vec3,
+    /// What `local` is relative to, m: zero but for meshes far from their file's origin.
+    pub origin: DVec3,
     /// The surface's unit normal there in the shape's own frame.
     pub local_normal: Vec3,
     /// Width of the footprint's short side in the shape's own frame, m; 0 for a point.
@@ -52,6 +54,15 @@ impl Lookup {
     #[must_use]
     pub const fn point(uv: Vec2) -> Self {
         let (local, local_normal) = (Vec3::ZERO, Vec3::Z);
-        Self { uv, width: 0.0, long: Vec2::ZERO, local, local_normal, width_local: 0.0, long_local: Vec3::ZERO }
+        Self {
+            uv,
+            width: 0.0,
+            long: Vec2::ZERO,
+            local,
+            origin: DVec3::ZERO,
+            local_normal,
+            width_local: 0.0,
+            long_local: Vec3::ZERO,
+        }
     }
 }

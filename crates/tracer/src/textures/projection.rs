@@ -8,9 +8,9 @@
 //!   Where projections blend, contrast is lost; at a slant the picture is stretched by up to √3.
 
 use etendue_core::maths::f32::pow;
-use glam::{Vec2, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 
-use super::Lookup;
+use super::{Lookup, Wrap};
 
 /// How a picture is laid over a surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -47,7 +47,7 @@ impl Projection {
 
     /// Reads `value` where the projection leads to, blended.
     #[inline]
-    pub(super) fn read<T>(self, lookup: &Lookup, value: impl Fn(&Place) -> T) -> T
+    pub(super) fn read<T>(self, lookup: &Lookup, wrap: [Wrap; 2], value: impl Fn(&Place) -> T) -> T
     where
         T: Default + core::ops::Add<Output = T> + core::ops::Mul<f32, Output = T>,
     {
@@ -55,7 +55,7 @@ impl Projection {
             Self::Uv => value(&Place { uv: lookup.uv, width: lookup.width, long: lookup.long }),
             Self::Triplanar { size_m, sharpness } => {
                 let weights = weights(lookup.local_normal, sharpness);
-                let sides = sides(lookup, 1.0 / size_m);
+                let sides = sides(lookup, 1.0 / size_m, wrap);
                 (0..3).filter(|i| weights[*i] > 0.0).fold(T::default(), |sum, i| sum + value(&sides[i]) * weights[i])
             }
         }
@@ -75,12 +75,17 @@ fn weights(normal: Vec3, sharpness: f32) -> [f32; 3] {
     powers.map(|p| p / sum)
 }
 
-fn sides(lookup: &Lookup, per_m: f32) -> [Place; 3] {
+fn sides(lookup: &Lookup, per_m: f32, wrap: [Wrap; 2]) -> [Place; 3] {
     let side = lookup.local_normal.map(|n| 1.0_f32.copysign(n));
     let onto = |v: Vec3| {
         [Vec2::new(side.x * v.y, v.z), Vec2::new(-side.y * v.x, v.z), Vec2::new(side.z * v.x, v.y)].map(|p| p * per_m)
     };
-    let (places, longs) = (onto(lookup.local), onto(lookup.long_local));
+    let (mut places, longs) = (onto(lookup.local), onto(lookup.long_local));
+    if lookup.origin != DVec3::ZERO {
+        let (v, side, per_m) = (lookup.origin + lookup.local.as_dvec3(), side.as_dvec3(), f64::from(per_m));
+        let far = [DVec2::new(side.x * v.y, v.z), DVec2::new(-side.y * v.x, v.z), DVec2::new(side.z * v.x, v.y)];
+        places = far.map(|p| Vec2::new(wrap[0].near(p.x * per_m), wrap[1].near(p.y * per_m)));
+    }
     let width = lookup.width_local * per_m;
     core::array::from_fn(|i| Place { uv: places[i], width, long: longs[i] })
 }
@@ -92,7 +97,7 @@ mod tests {
     fn read(local: Vec3, local_normal: Vec3) -> Vec2 {
         let lookup = Lookup { local, local_normal, ..Lookup::point(Vec2::ZERO) };
         let triplanar = Projection::Triplanar { size_m: 2.0, sharpness: 4.0 };
-        triplanar.read(&lookup, |place| Vec2::new(place.uv.x, place.uv.y))
+        triplanar.read(&lookup, [Wrap::Repeat; 2], |place| Vec2::new(place.uv.x, place.uv.y))
     }
 
     #[test]
@@ -103,6 +108,18 @@ mod tests {
         assert_eq!(read(p, Vec3::Y), Vec2::new(-0.1, 0.5));
         assert_eq!(read(p, Vec3::NEG_Y), Vec2::new(0.1, 0.5));
         assert_eq!(read(p, Vec3::Z), Vec2::new(0.1, 0.3));
+    }
+
+    #[test]
+    fn a_shape_far_from_its_files_origin_reads_what_the_file_says() {
+        let triplanar = Projection::Triplanar { size_m: 2.0, sharpness: 4.0 };
+        let origin = DVec3::new(500_000.25, 5_400_001.5, 100.0);
+        let lookup =
+            Lookup { local: Vec3::new(0.2, 0.6, 1.0), origin, local_normal: Vec3::Z, ..Lookup::point(Vec2::ZERO) };
+        let read = |wrap| triplanar.read(&lookup, [wrap; 2], |place| place.uv);
+        // x = 500 000.45, y = 5 400 002.1: 250 000.225 and 2 700 001.05 pictures.
+        assert!((read(Wrap::Mirror) - Vec2::new(0.225, 1.05)).length() < 1e-6, "{}", read(Wrap::Mirror));
+        assert_eq!(read(Wrap::Clamp), Vec2::new(250_000.22, 2_700_001.0));
     }
 
     #[test]

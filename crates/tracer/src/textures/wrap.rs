@@ -25,6 +25,14 @@ impl Wrap {
         }
     }
 
+    /// A coordinate, however large, as one near 0 that shows the same.
+    pub(super) fn near(self, x: f64) -> f32 {
+        match self {
+            Self::Repeat | Self::Mirror => (x - 2.0 * (0.5 * x).floor()) as f32,
+            Self::Clamp => x as f32,
+        }
+    }
+
     /// A texel index of −1 to `count`, brought into 0 to `count` − 1. A mirrored picture's neighbour at the edge is the
     /// edge itself.
     pub(super) fn neighbour(self, i: i32, count: u32) -> usize {

@@ -40,7 +40,8 @@ fn mesh(r: &record::MeshFile, context: &mut Context<'_>) -> Option<MeshMirror> {
     };
     let scale = r.scale_mm.as_ref().map_or(1.0, |s| s.value);
     let vector = |v: &[f32; 3]| DVec3::from_array(v.map(f64::from));
-    let positions = asset.positions.iter().map(|p| vector(p) * scale).collect();
+    let origin = DVec3::from_array(asset.origin);
+    let positions = asset.positions.iter().map(|p| (vector(p) + origin) * scale).collect();
     let normals = asset.normals.iter().map(vector).collect();
     context.accept(&r.file.place, MeshMirror::new(positions, normals, asset.triangles.clone()))
 }

@@ -23,6 +23,18 @@ keyed! {
     }
 }
 
+impl Level {
+    /// Where it is stated.
+    #[must_use]
+    pub fn place(&self) -> &Place {
+        match self {
+            Self::Luminance(level) | Self::LuminousFlux(level) | Self::RadiantFlux(level) => &level.place,
+            Self::Radiance(Curve::Constant(level)) => &level.place,
+            Self::Radiance(Curve::File(file)) => &file.place,
+        }
+    }
+}
+
 keyed! {
     /// The relative spectrum of a light.
     pub enum LightColour {

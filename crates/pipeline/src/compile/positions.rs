@@ -1,0 +1,23 @@
+//! World coordinates of the ground truth, which are 32-bit floats: said where they lose more than a millimetre.
+
+use super::context::Context;
+use crate::plan::CameraPlan;
+
+/// Rounding from which on it is said, m.
+const NOTICED_M: f64 = 1e-3;
+
+/// Says what the positions of cameras far from the world's origin lose.
+pub(super) fn remark(cameras: &[CameraPlan], context: &mut Context<'_>) {
+    for camera in cameras.iter().filter(|camera| camera.products.ground_truth) {
+        let farthest = camera.pose.position_m.abs().max_element();
+        let rounding = f64::from(f32::EPSILON) * 0.5 * farthest;
+        if rounding > NOTICED_M {
+            context.remark(format!(
+                "camera \"{}\": positions of the ground truth are 32-bit floats, {farthest:.0} m from the world's origin \
+                 rounded by up to {rounding:.1e} m; depth, distance and normals are not: ask for \"camera_space_position\" and add the \
+                 side-car's pose",
+                camera.name
+            ));
+        }
+    }
+}
