@@ -59,7 +59,7 @@ fn sun(record: &record::Sun, context: &mut Context<'_>) -> Option<Sun> {
 fn uniform(emission: &record::Emission, context: &mut Context<'_>) -> Option<Spectrum> {
     let radiance = emitted(emission, context)?;
     let brightest = radiance.max_value();
-    if !(brightest <= BRIGHTEST) {
+    if !(0.0..=BRIGHTEST).contains(&brightest) {
         let problem = format!(
             "the surroundings would have a radiance of {brightest:e} W·m⁻²·sr⁻¹·nm⁻¹, at most 1e30 can be traced"
         );
