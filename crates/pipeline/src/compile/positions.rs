@@ -14,8 +14,8 @@ pub(super) fn remark(cameras: &[CameraPlan], context: &mut Context<'_>) {
         if rounding > NOTICED_M {
             context.remark(format!(
                 "camera \"{}\": positions of the ground truth are 32-bit floats, {farthest:.0} m from the world's origin \
-                 rounded by up to {rounding:.1e} m; depth, distance and normals are not: give \"rays\" and take the pose \
-                 plus distance times direction",
+                 rounded by up to {rounding:.1e} m; depth, distance and normals are not: ask for \"camera_space_position\" and add the \
+                 side-car's pose",
                 camera.name
             ));
         }
