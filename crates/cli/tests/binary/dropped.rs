@@ -78,22 +78,16 @@ fn a_missing_material_library_is_a_warning_and_grey_where_the_scene_says_nothing
 
 #[test]
 fn a_remark_that_concerns_many_things_is_told_once() {
-    let material = |name: &str| {
-        format!("{{ name = \"{name}\", type = \"diffuse\", reflectance = {{ spectrum = \"{name}.csv\" }} }}")
-    };
-    let materials = format!(
-        "materials = [{{ name = \"grey\", type = \"diffuse\", reflectance = 0.5 }}, {}, {}]",
-        material("a"),
-        material("b")
-    );
-    let job = JOB.replace("materials = [{ name = \"grey\", type = \"diffuse\", reflectance = 0.5 }]", &materials);
+    let materials =
+        "materials = [{ name = \"a\", preset = \"sign_ra1_white\" }, { name = \"b\", preset = \"sign_ra2_white\" }]";
+    let job = JOB
+        .replace("materials = [{ name = \"grey\", type = \"diffuse\", reflectance = 0.5 }]", materials)
+        .replace("material = \"grey\" }", "material = \"a\" }, { name = \"p\", mesh = \"m\", material = \"b\" }");
     let place = tempfile::tempdir().expect("a temporary folder");
-    let table = "wavelength_nm,reflectance\n450,0.5\n600,0.6\n";
-    for (name, text) in [("job.toml", job.as_str()), ("m.obj", OBJ), ("a.csv", table), ("b.csv", table)] {
-        fs::write(place.path().join(name), text).expect("written");
-    }
+    fs::write(place.path().join("job.toml"), job).expect("written");
+    fs::write(place.path().join("m.obj"), OBJ).expect("written");
     let plan = etendue(["plan", &text(&place.path().join("job.toml"))]).ok().out;
-    let told: Vec<&str> = plan.lines().filter(|line| line.contains("450 to 600 nm")).collect();
+    let told: Vec<&str> = plan.lines().filter(|line| line.contains("R_A is held")).collect();
     assert_eq!(told.len(), 1, "{plan}");
-    assert!(told[0].contains("a.csv, ") && told[0].contains("b.csv: "), "{plan}");
+    assert!(told[0].contains("materials.a, ") && told[0].contains("materials.b: "), "{plan}");
 }
