@@ -39,6 +39,13 @@ position_m = [0, 0, 1]
 look_at_m = [1, 0, 1]
 lens = { model = "pinhole", focal_length_mm = 4, f_number = 8 }
 sensor = { width_px = 8, height_px = 8, pixel_pitch_um = 5 }
+[[scene.objects]]
+name = "painted"
+shape = { type = "sphere", radius_m = 1 }
+material = "b"
+[[scene.objects]]
+name = "as its file says"
+mesh = "m"
 "#;
 
 const PLAIN_OBJ: &str = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl x\nf 1 2 3\n";

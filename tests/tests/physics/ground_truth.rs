@@ -264,7 +264,7 @@ fn surveyed() -> MeshAsset {
 fn a_mesh_in_map_coordinates_is_where_its_file_says() {
     let mesh = "[[scene.meshes]]\nname = \"m\"\nfile = \"m.obj\"\nup_axis = \"z\"\nforward_axis = \"x\"\n";
     // As it stands in the world; and turned, enlarged and moved before a camera at the origin: 1 000 013.3 − 2 · 500 004.45.
-    let turned = "rotation_deg = [0, 0, 180]\nscale = 2\nposition_m = [1000013.3, 10800000.6, -201.4]\n";
+    let turned = "rotation_deg = [180, 0, 0]\nscale = 2\nposition_m = [1000013.3, 10800000.6, -201.4]\n";
     let cases = [("", "[500000, 5400000.3, 100.7]", 4.45), (turned, "[0, 0, 0]", 4.4)];
     for (place, eye, expected) in cases {
         let object = format!("[[scene.objects]]\nname = \"o\"\nmaterial = \"grey\"\nmesh = \"m\"\n{place}");

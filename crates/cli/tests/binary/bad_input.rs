@@ -294,13 +294,6 @@ fn a_vertex_that_is_no_number() {
 }
 
 #[test]
-fn a_missing_material_library() {
-    let spoilt = Spoilt::new();
-    fs::remove_file(spoilt.path("tower.mtl")).expect("removed");
-    spoilt.render(&[]).refused(&["tower.mtl", "tower.obj:2"]);
-}
-
-#[test]
 fn a_broken_value_in_a_material_library() {
     let spoilt = Spoilt::new();
     let place = spoilt.spoil("tower.mtl", "Kd 0.5 0.08 0.04", "Kd 0.5 red 0.04");

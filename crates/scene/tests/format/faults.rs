@@ -296,7 +296,7 @@ fn the_command_line_supersedes_what_it_makes_meaningless() {
     let expected = "--set cameras.front.lens.model=pinhole supersedes \"focus_distance_m\" (job.toml:12)";
     assert_eq!(told, Ok(vec![expected.to_owned()]));
     let told = notices("level = \"direct\"\nmax_bounces = 8", |_| {}).expect_err("the file contradicts itself");
-    assert!(told.starts_with("job.toml:32:1: render.max_bounces: \"max_bounces\" has no effect here"), "{told}");
+    assert!(told.starts_with("job.toml:32:15: render.max_bounces: \"max_bounces\" has no effect here"), "{told}");
     let both = |o: &mut Overrides| ["render.level=direct", "render.max_bounces=8"].iter().for_each(|set| o.push(set));
     let told = notices("", both).expect_err("the command line contradicts itself");
     assert!(told.starts_with("--set render.max_bounces=8: \"max_bounces\" has no effect here"), "{told}");
