@@ -40,8 +40,21 @@ pub fn deliver(
     folder: &mut OutputFolder,
 ) -> Result<(), Failure> {
     let Some((last, others)) = cameras.split_last() else { return Ok(()) };
+    check_finite(last, &film)?;
     others.iter().try_for_each(|camera| camera_files(plan, camera, film.clone(), frames, simd, folder))?;
     camera_files(plan, last, film, frames, simd, folder)
+}
+
+/// Refuses a film that holds what is no finite number.
+pub fn check_finite(camera: &CameraPlan, film: &Film) -> Result<(), Failure> {
+    match film.not_finite_samples() {
+        0 => Ok(()),
+        count => Err(Failure::Run(format!(
+            "camera {}: {count} samples of its light were not finite numbers, so nothing is delivered; a light is too bright \
+             or too near for 32-bit floats: lower it or move it",
+            camera.name
+        ))),
+    }
 }
 
 /// Writes everything that one camera delivers.
@@ -53,14 +66,6 @@ fn camera_files(
     simd: Simd,
     folder: &mut OutputFolder,
 ) -> Result<(), Failure> {
-    let not_finite = film.not_finite_samples();
-    if not_finite > 0 {
-        return Err(Failure::Run(format!(
-            "camera {}: {not_finite} samples of its light were not finite numbers, so nothing is delivered; a light is too bright \
-             or too near for 32-bit floats: lower it or move it",
-            camera.name
-        )));
-    }
     let mut results = Results { prefix: camera.name.clone(), folder };
     let depth = pupil_depth(plan, camera, simd);
     let light = Light::of_film(camera, film, depth.as_ref())
@@ -82,7 +87,7 @@ fn camera_files(
         undistorted(plan, camera, twin, simd, &mut results)?;
     }
     let files = Files::of(&camera.products, &camera.body, frames);
-    let mut facts = facts::sidecar(plan, camera, &files, not_finite);
+    let mut facts = facts::sidecar(plan, camera, &files, 0);
     facts["undistorted"] = twin.as_ref().map_or(Value::Null, facts::undistorted);
     facts["frames"] = points.into();
     results.json(Files::SIDECAR, &facts)

@@ -51,6 +51,9 @@ fn chunks(file: &[u8]) -> Vec<([u8; 4], &[u8])> {
 
 /// Coding-independent code points (ITU-T H.273, table 3): transfer characteristics that are written for pictures.
 fn of_cicp(data: &[u8]) -> Result<Stated, String> {
+    if data.get(3) == Some(&0) {
+        return Err("its cICP chunk of narrow range".to_owned());
+    }
     let (encoding, name) = match data.get(1) {
         Some(1 | 6 | 14 | 15) => (Encoding::bt709(), "BT.709"),
         Some(4) => (Encoding::Gamma(2.2), "gamma 2.2"),
@@ -66,7 +69,9 @@ fn of_cicp(data: &[u8]) -> Result<Stated, String> {
 fn of_profile(data: &[u8]) -> Result<Stated, String> {
     let name: String = data.iter().take_while(|b| **b != 0).map(|b| char::from(*b)).collect();
     let told = format!("its colour profile \"{name}\"");
-    if name.to_ascii_lowercase().contains("srgb") { Ok(Stated::new(Encoding::Srgb, told)) } else { Err(told) }
+    let plain = name.to_ascii_lowercase();
+    let other = ["lin", "g10", "g18", "g22"].iter().any(|word| plain.contains(word));
+    if plain.contains("srgb") && !other { Ok(Stated::new(Encoding::Srgb, told)) } else { Err(told) }
 }
 
 fn of_srgb() -> Stated {

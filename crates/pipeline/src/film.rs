@@ -101,7 +101,9 @@ impl Film {
             estimate.variance.set(x, y, variance as f32);
         }
         self.weight.set(x, y, gather.weight_sr() as f32);
-        self.not_finite.set(x, y, gather.not_finite());
+        let means = gather.bands().iter().copied().chain(gather.electrons().map(|(mean, _)| mean));
+        let is_lost = means.into_iter().any(|mean| !(mean as f32).is_finite());
+        self.not_finite.set(x, y, gather.not_finite().max(u32::from(is_lost)));
     }
 
     /// Copies `tile` from a film of the same size and layout.

@@ -43,6 +43,10 @@ impl Hasher {
         self.0.update(bytemuck::cast_slice(mesh.uvs()));
         self.0.update(bytemuck::cast_slice(mesh.triangles()));
         self.0.update(bytemuck::cast_slice(mesh.slots()));
+        // Nothing is added for meshes near their file's origin.
+        if mesh.origin() != glam::DVec3::ZERO {
+            self.add(&mesh.origin());
+        }
     }
 
     fn add_camera(&mut self, camera: &CameraPlan) {

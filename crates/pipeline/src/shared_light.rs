@@ -36,6 +36,8 @@ struct LensKey<'a> {
     front: Option<&'a Front>,
     film: Raster,
     aperture_px: f64,
+    /// The picture itself, over which the pitch of what a mirror shows is taken.
+    mirrored: Option<&'a Raster>,
 }
 
 /// How many samples, of which seed, and whether wavelengths are spread for replicates that tell a variance.
@@ -107,6 +109,7 @@ impl<'a> OpticsKey<'a> {
                 front: front.as_ref(),
                 film: camera.body.film(),
                 aperture_px: *aperture_px,
+                mirrored: front.as_ref().map(|_| &camera.body.raster),
             })),
         }
     }

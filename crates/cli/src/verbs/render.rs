@@ -1,7 +1,7 @@
 //! `etendue render`: radiance, image, raw and ground truth of a job's cameras.
 
 use crate::args;
-use crate::deliver::{deliver, names};
+use crate::deliver::{check_finite, deliver, names};
 use crate::facts;
 use crate::failure::Failure;
 use crate::film_file::{self, MANIFEST, Manifest};
@@ -37,6 +37,7 @@ pub fn run(arguments: &args::Render) -> Result<(), Failure> {
             claim(&folder, groups.iter().map(|group| film_file::film_name(group[0])).chain([MANIFEST.to_owned()]))?;
             for group in groups {
                 let film = pool.install(|| expose(&plan, &group, Request { simd, shard }))?;
+                check_finite(group[0], &film)?;
                 let bytes = film_file::encode(&film, &facts::provenance(&plan, group[0]))?;
                 folder.write(&film_file::film_name(group[0]), &bytes).map_err(Failure::run)?;
             }

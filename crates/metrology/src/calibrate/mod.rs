@@ -98,13 +98,7 @@ pub fn calibrate(
     family: Family,
     options: Options,
 ) -> Result<Calibrated, CalibrateError> {
-    if let Some(view) = views.iter().position(|v| v.points.len() < LEAST_POINTS) {
-        return Err(CalibrateError::Sparse { view, points: views[view].points.len(), least: LEAST_POINTS });
-    }
-    if views.is_empty() {
-        return Err(CalibrateError::NoViews);
-    }
-    let found = solved(views, size_px, family, options)?;
+    let found = calibrate_as_stated(views, size_px, family, options)?;
     if let Some(stated) = options.distance {
         // What cannot be told without the distance does not speak against it.
         if let Ok(free) = solved(views, size_px, family, Options { distance: None, ..options }) {
@@ -112,6 +106,25 @@ pub fn calibrate(
         }
     }
     Ok(found)
+}
+
+/// The same, believing a stated distance whatever the views show by themselves.
+///
+/// # Errors
+/// [`CalibrateError`], but for a distance that the views contradict.
+pub fn calibrate_as_stated(
+    views: &[Sightings],
+    size_px: [usize; 2],
+    family: Family,
+    options: Options,
+) -> Result<Calibrated, CalibrateError> {
+    if let Some(view) = views.iter().position(|v| v.points.len() < LEAST_POINTS) {
+        return Err(CalibrateError::Sparse { view, points: views[view].points.len(), least: LEAST_POINTS });
+    }
+    if views.is_empty() {
+        return Err(CalibrateError::NoViews);
+    }
+    solved(views, size_px, family, options)
 }
 
 fn solved(

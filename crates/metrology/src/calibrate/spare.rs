@@ -53,7 +53,14 @@ pub fn calibrate_sparing(
             },
             Err(error) => match culprit(&kept, &error, &of) {
                 Some(v) if may => (v, error.to_string()),
-                Some(v) => return Err(CalibrateError::View { view: kept[v], cause: Box::new(error) }),
+                Some(v) => {
+                    return Err(match error {
+                        CalibrateError::Sparse { points, least, .. } => {
+                            CalibrateError::Sparse { view: kept[v], points, least }
+                        }
+                        cause => CalibrateError::View { view: kept[v], cause: Box::new(cause) },
+                    });
+                }
                 None => return Err(error),
             },
         };
@@ -82,7 +89,10 @@ fn culprit(
     error: &CalibrateError,
     of: &impl Fn(&[usize]) -> Result<Calibrated, CalibrateError>,
 ) -> Option<usize> {
-    let of_a_view = matches!(error, CalibrateError::Fit(_) | CalibrateError::Start | CalibrateError::Model(_));
+    let of_a_view = matches!(
+        error,
+        CalibrateError::Fit(_) | CalibrateError::Start | CalibrateError::Model(_) | CalibrateError::Undetermined { .. }
+    );
     if let CalibrateError::Sparse { view, .. } = error {
         return Some(*view);
     }

@@ -12,11 +12,10 @@ pub(super) fn remark(cameras: &[CameraPlan], context: &mut Context<'_>) {
         let farthest = camera.pose.position_m.abs().max_element();
         let rounding = f64::from(f32::EPSILON) * 0.5 * farthest;
         if rounding > NOTICED_M {
-            context.remark(format!(
-                "camera \"{}\": positions of the ground truth are 32-bit floats, {farthest:.0} m from the world's origin \
+            context.remark_on(format!("camera \"{}\"", camera.name), format!(
+                "positions of the ground truth are 32-bit floats, {farthest:.0} m from the world's origin \
                  rounded by up to {rounding:.1e} m; depth, distance and normals are not: ask for \"camera_space_position\" and add the \
-                 side-car's pose",
-                camera.name
+                 side-car's pose"
             ));
         }
     }

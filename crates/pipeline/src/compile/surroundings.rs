@@ -22,21 +22,22 @@ pub(super) fn remark(
     for camera in cameras {
         let around = Surroundings::of(&world.view(camera.pose.position_m), palette);
         if let Some(solid) = around.solid {
-            context.remark(format!(
-                "camera \"{}\" stands inside \"{}\": its entrance pupil lies in that medium, which absorbs from there on, \
-                 and radiance is n² times that of the same light in air",
-                camera.name,
+            context.remark_on(format!("camera \"{}\"", camera.name), format!(
+                "stands inside \"{}\": its entrance pupil lies in that medium, which absorbs from there on, and radiance is n² times \
+                 that of the same light in air, and so are irradiance and electrons; a hollow about the camera is a port",
                 name(solid)
             ));
         }
         if let Some(open) = around.open {
             let taken = if around.solid == Some(open) { "inside" } else { "outside" };
-            context.remark(format!(
-                "camera \"{}\": whether it stands inside \"{}\" depends on the direction looked in, as its surface is not \
+            context.remark_on(
+                format!("camera \"{}\"", camera.name),
+                format!(
+                    "whether it stands inside \"{}\" depends on the direction looked in, as its surface is not \
                  closed; it is taken to be {taken}; close the mesh",
-                camera.name,
-                name(open)
-            ));
+                    name(open)
+                ),
+            );
         }
     }
 }

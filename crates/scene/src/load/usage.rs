@@ -82,5 +82,6 @@ fn listed(names: &BTreeSet<String>) -> String {
 /// The name of the material that says what stands at `place`.
 fn owner<'m>(materials: &BTreeMap<&str, &'m str>, place: &Place) -> Option<&'m str> {
     let key = place.key();
-    key.match_indices(['.', '[']).find_map(|(end, _)| materials.get(&key[..end]).copied())
+    // Names may hold dots ("wood", "wood.001"): the longest that fits.
+    key.rmatch_indices(['.', '[']).find_map(|(end, _)| materials.get(&key[..end]).copied())
 }

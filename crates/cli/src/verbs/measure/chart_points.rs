@@ -117,6 +117,16 @@ impl ChartArguments {
         if self.encoding.chosen.is_some() {
             return Err(refused(file, "a list of points has no numbers of light: leave --encoding out"));
         }
+        let useless = [
+            ("--region", self.region.is_some()),
+            ("--channel", self.channel.is_some()),
+            ("--cfa", self.cfa.is_some()),
+            ("--target", self.target.is_some()),
+            ("--grid", self.grid.is_some()),
+        ];
+        if let Some((name, _)) = useless.iter().find(|(_, given)| *given) {
+            return Err(refused(file, format!("a list of points: {name} has no effect, leave it out")));
+        }
         Ok(Seen { file: file.to_owned(), size_px, grid: point_list::read(file)?, stated: None })
     }
 
@@ -126,6 +136,9 @@ impl ChartArguments {
         let planes = self.selection(channel).planes(file, photograph)?;
         let told = self.told()?;
         let (width, height) = planes[0].picture_px;
+        if self.size_px.is_some_and(|stated| stated != [width, height]) {
+            return Err(refused(file, format!("{width} × {height} pixels, not as --size-px says: leave that out")));
+        }
         told.iter().try_for_each(|(truth, _)| truth.fits_size(file, [width, height]))?;
         let sought = self.sought(told.as_ref().map(|(_, told)| told));
         let grids = planes.iter().map(|plane| self.grid(file, plane, sought));

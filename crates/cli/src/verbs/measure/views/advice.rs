@@ -50,7 +50,7 @@ pub(super) fn unsuited(
                 "warning: {than}: the model {named} does not describe this camera; {other} leaves {sigma:.3} px"
             ))
         }
-        None if left > SURELY * LEAST_PX.max(TIMES * own) => Some(format!(
+        None if own > 0.0 && left > SURELY * LEAST_PX.max(TIMES * own) => Some(format!(
             "warning: {than}: the model {named} does not describe this camera, or the chart is not flat; uncertainties are too small"
         )),
         None => None,

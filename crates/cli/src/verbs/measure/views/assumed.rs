@@ -2,7 +2,7 @@
 
 use super::Found;
 use crate::failure::Failure;
-use etendue_metrology::calibrate::{Calibrated, Family, Options, Radial, Sightings, calibrate};
+use etendue_metrology::calibrate::{Calibrated, Family, Options, Radial, Sightings, calibrate_as_stated};
 use glam::DVec2;
 
 /// Standard uncertainty of a principal point that is taken for the picture's middle, of its wider side.
@@ -21,8 +21,10 @@ pub(super) fn widen(
     let size = found.camera.calibration.size_px();
     let values = |camera: &Calibrated| camera.parameters.iter().map(|p| p.estimate.value).collect::<Vec<f64>>();
     let here = values(&found.camera);
-    let fitted = |family, options| calibrate(sightings, size, family, options).map_err(Failure::input);
+    let fitted = |family, options| calibrate_as_stated(sightings, size, family, options).map_err(Failure::input);
     let Some(principal) = options.principal_px else { return Ok(()) };
+    let focal = |camera: &Calibrated| camera.estimate("fx_px");
+    let now = focal(&found.camera);
     let wider = size[0].max(size[1]) as f64;
     for step in [DVec2::X, DVec2::Y].map(|axis| MIDDLE * wider * axis) {
         let moved = |by: DVec2| Ok(values(&fitted(family, Options { principal_px: Some(principal + by), ..options })?));
@@ -30,9 +32,8 @@ pub(super) fn widen(
         add(found, 1.0, |i| 0.5 * (more[i] - less[i]));
         add(found, 3.0, |i| 0.5 * (more[i] + less[i]) - here[i]);
     }
-    let focal = |camera: &Calibrated| camera.estimate("fx_px");
     let Some(family) = richer(family) else { return Ok(()) };
-    if let (Some(now), Ok(other)) = (focal(&found.camera), fitted(family, options))
+    if let (Some(now), Ok(other)) = (now, fitted(family, options))
         && let Some(then) = focal(&other)
     {
         let (u, v) = (now.standard_uncertainty, then.standard_uncertainty);
@@ -49,7 +50,6 @@ fn richer(family: Family) -> Option<Family> {
         Family::Perspective { radial: Radial::Polynomial(n), tangential } if n < 3 => {
             Some(Family::Perspective { radial: Radial::Polynomial(n + 1), tangential })
         }
-        Family::KannalaBrandt(n) if n < 4 => Some(Family::KannalaBrandt(n + 1)),
         Family::Polynomial(_) => Some(Family::Perspective { radial: Radial::Polynomial(3), tangential: false }),
         _ => None,
     }

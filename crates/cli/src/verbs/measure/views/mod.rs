@@ -12,7 +12,7 @@ use crate::failure::Failure;
 use crate::machine;
 use crate::plot::{Axis, Mark, Plot, Series};
 use clap::{Args, ValueEnum};
-use etendue_core::maths::f64::{acos, atan, hypot};
+use etendue_core::maths::f64::{acos, atan};
 use etendue_metrology::Estimate;
 use etendue_metrology::calibrate::{CalibrateError, Calibrated, Family, Options, Radial, Sightings, calibrate_sparing};
 use etendue_metrology::target::Node;
@@ -32,8 +32,8 @@ pub struct ViewsArguments {
     #[command(flatten)]
     pub chart: ChartArguments,
     /// The distance of neighbouring points of the chart, mm [with --truth: as it says]
-    #[arg(long, value_name = "MM", value_parser = stated::length, allow_negative_numbers = true, required_unless_present = "truth")]
-    pub pitch_mm: Option<Stated>,
+    #[arg(long, value_name = "MM", value_parser = positive, allow_negative_numbers = true, required_unless_present = "truth")]
+    pub pitch_mm: Option<f64>,
     /// The camera model
     #[arg(long, value_enum, default_value_t = ModelArgument::Opencv)]
     pub model: ModelArgument,
@@ -46,7 +46,7 @@ pub struct ViewsArguments {
     /// The distance from the entrance pupil to the chart's plane, mm, the same in every picture
     #[arg(long, value_name = "MM", value_parser = stated::length, allow_negative_numbers = true)]
     pub distance_mm: Option<Stated>,
-    /// Its standard uncertainty, mm; 0 where it is exact [default: of rounding to its last digit, and the pitch's to its own]
+    /// Its standard uncertainty, mm; 0 where it is exact [default: of rounding to its last digit]
     #[arg(long, value_name = "MM", value_parser = not_negative, allow_negative_numbers = true, requires = "distance_mm")]
     pub distance_uncertainty_mm: Option<f64>,
     /// The distance of neighbouring pixels of the sensor, µm: then focal lengths are told in mm as well
@@ -200,17 +200,15 @@ impl ViewsArguments {
     fn pitch_mm(&self) -> Result<f64, Failure> {
         let told = || Failure::input("--pitch-mm: state the distance of neighbouring points, or give --truth");
         Ok(match self.pitch_mm {
-            Some(pitch) => pitch.value,
+            Some(pitch) => pitch,
             None => self.chart.told()?.ok_or_else(told)?.1.pitch_mm,
         })
     }
 
-    /// The distance: as well known as is stated, or as its digits and the pitch's tell, whose relative error does the same.
+    /// The distance: as well known as is stated, or as its last digit tells.
     fn distance(&self) -> Option<Estimate> {
-        let relative = |stated: Stated| stated.rounded().standard_uncertainty / stated.value;
-        let distance = self.distance_mm?;
-        let rounded = || distance.value * hypot(relative(distance), self.pitch_mm.map_or(0.0, relative));
-        Some(Estimate::new(distance.value, self.distance_uncertainty_mm.unwrap_or_else(rounded)))
+        let rounded = self.distance_mm?.rounded();
+        Some(Estimate::new(rounded.value, self.distance_uncertainty_mm.unwrap_or(rounded.standard_uncertainty)))
     }
 
     /// What is told of the camera.

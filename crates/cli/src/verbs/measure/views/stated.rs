@@ -23,7 +23,8 @@ pub(super) fn length(text: &str) -> Result<Stated, String> {
     let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
     let decimals = mantissa.split_once('.').map_or(0, |(_, decimals)| decimals.len());
     let digit = format!("1e{}", exponent.parse::<i64>().unwrap_or(0) - decimals as i64);
-    Ok(Stated { value, digit: digit.parse().unwrap_or(0.0) })
+    // 1e3 is 1000 written shortly.
+    Ok(Stated { value, digit: digit.parse::<f64>().unwrap_or(0.0).min(1.0) })
 }
 
 #[cfg(test)]
@@ -35,7 +36,7 @@ mod tests {
         let digit = |text: &str| length(text).map(|stated| (stated.value, stated.digit));
         assert_eq!(digit("1000"), Ok((1000.0, 1.0)));
         assert_eq!(digit(" 30.67"), Ok((30.67, 0.01)));
-        assert_eq!(digit("1.50e3"), Ok((1500.0, 10.0)));
+        assert_eq!((digit("1.50e3"), digit("1e3")), (Ok((1500.0, 1.0)), Ok((1000.0, 1.0))));
         assert!(digit("-1").is_err() && digit("one").is_err());
         assert!((length("1000").map(|s| s.rounded().standard_uncertainty).unwrap_or(0.0) - 0.288_675).abs() < 1e-6);
     }
