@@ -87,7 +87,7 @@ fn camera_files(
         undistorted(plan, camera, twin, simd, &mut results)?;
     }
     let files = Files::of(&camera.products, &camera.body, frames);
-    let mut facts = facts::sidecar(plan, camera, &files, 0);
+    let mut facts = facts::sidecar(plan, camera, &files);
     facts["undistorted"] = twin.as_ref().map_or(Value::Null, facts::undistorted);
     facts["frames"] = points.into();
     results.json(Files::SIDECAR, &facts)

@@ -183,7 +183,7 @@ fn pose_rows(pose: &CameraPose) -> [[f64; 4]; 3] {
 }
 
 /// The side-car of a rendered camera.
-pub fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>, not_finite: u64) -> Value {
+pub fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>) -> Value {
     let settings = &camera.settings;
     json!({
         "program": "etendue",
@@ -211,7 +211,6 @@ pub fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>
             "band_width_nm": settings.bands.map(etendue_core::Bands::width_nm),
             "route": if settings.route == Route::Lens { "lens" } else { "pupil" },
             "depth_of_field": (settings.route != Route::Lens).then(|| depth_of_field(&camera.depth_of_field)),
-            "samples_not_finite": not_finite,
         },
         "time_s": 0.0,
         "files": files,

@@ -11,7 +11,7 @@ record! {
     pub struct Calibrated check(check) {
         /// Where its pixels look.
         inside view: View;
-        /// How much light comes through, above 0: on the axis E = π τ L/(4 N²). With "focus_distance_m" also the pupil's size.
+        /// How much light comes through, 0.5 or more: on the axis E = π τ L/(4 N²). With "focus_distance_m" also the pupil's size.
         required f_number: Placed<f64> = f_number();
         /// Distance of what is sharp from the entrance pupil, m, above 0, or "infinity": along the axis for a flat pupil, along
         /// the ray for a turning one. Default: everything is sharp.

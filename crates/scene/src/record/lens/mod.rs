@@ -33,7 +33,7 @@ record! {
     pub struct Pinhole {
         /// Distance of the pinhole from the sensor, mm, above 0.
         required focal_length_mm: Placed<f64> = focal_length();
-        /// Focal length divided by the pinhole's diameter, above 0: how much light comes through.
+        /// Focal length divided by the pinhole's diameter, 0.5 or more: how much light comes through.
         required f_number: Placed<f64> = f_number();
         /// Share of light that the lens lets through, above 0 and at most 1. Default: 1.
         optional transmittance: Placed<f64> = share();
@@ -49,7 +49,7 @@ record! {
     pub struct Thin {
         /// Focal length, mm, above 0.
         required focal_length_mm: Placed<f64> = focal_length();
-        /// Focal length divided by the pupil's diameter, above 0.
+        /// Focal length divided by the pupil's diameter, 0.5 or more.
         required f_number: Placed<f64> = f_number();
         /// Distance of the plane in focus from the entrance pupil, m, beyond the focal length, or "infinity".
         required focus_distance_m: FocusDistance = focus_distance();
@@ -67,7 +67,7 @@ record! {
     pub struct Thick {
         /// Focal length, mm, above 0.
         required focal_length_mm: Placed<f64> = focal_length();
-        /// Focal length divided by the entrance pupil's diameter, above 0.
+        /// Focal length divided by the entrance pupil's diameter, 0.5 or more.
         required f_number: Placed<f64> = f_number();
         /// Distance of the plane in focus from the entrance pupil, m, beyond the focal length, or "infinity".
         required focus_distance_m: FocusDistance = focus_distance();

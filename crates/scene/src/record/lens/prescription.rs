@@ -16,7 +16,7 @@ record! {
         /// With "file": clear semi-apertures, mm, one a surface of the file that refracts or is the stop, in place of the
         /// file's. Default: the file's, which must then have one a surface.
         optional semi_apertures_mm: Vec<Placed<f64>> = list(number("mm").above(0.0), 1);
-        /// Focal length divided by the entrance pupil's diameter, with the focus at infinity, above 0: how far the stop opens,
+        /// Focal length divided by the entrance pupil's diameter, with the focus at infinity, 0.5 or more: how far the stop opens,
         /// no further than its own semi-aperture. Default: what the file says (its entrance pupil, f-number or cone of light, for
         /// which the stop opens or closes), or the stop's own semi-aperture.
         optional f_number: Placed<f64> = f_number();
