@@ -67,8 +67,9 @@ pub fn find(image: &Image, sought: Sought) -> Result<Grid, TargetError> {
         None => (either(image), "checkerboard or grid of dots"),
     };
     let grid = checked(grid, sought.size, name)?;
-    // A third of a chart that its rows do not reach is no chart of its own; nor is anything beside a chart that is there whole.
-    let whole = sought.size.is_some_and(|[columns, rows]| grid.nodes.len() == columns * rows);
+    // A third of a chart that its rows do not reach is no chart of its own; nor is what is smaller beside a chart of the stated size that is there whole.
+    let whole =
+        sought.size.is_some_and(|[columns, rows]| grid.nodes.len() == columns * rows && beside < grid.nodes.len());
     let several = beside >= LEAST && 3 * beside > grid.nodes.len() && !whole;
     if several { Err(TargetError::Several { points: [grid.nodes.len(), beside] }) } else { Ok(grid) }
 }

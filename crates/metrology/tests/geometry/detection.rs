@@ -198,7 +198,9 @@ fn two_charts_are_refused() {
     let (left, right) = (checkerboard(7, 7), checkerboard(6, 5));
     let boards = move |p: DVec2| if p.x < 7.5 { left(p) } else { right(p - DVec2::new(10.2, 1.1)) };
     let told = |paint: &(dyn Fn(DVec2) -> f64 + Sync), sought| find(&view.picture(6, &|p| paint(p)), sought);
-    for sought in [BOARD, Sought::default(), Sought { size: Some([7, 7]), ..BOARD }] {
+    // The chart whose size is stated is there whole.
+    assert_eq!(told(&boards, Sought { size: Some([7, 7]), ..BOARD }).map(|g| g.size), Ok([7, 7]));
+    for sought in [BOARD, Sought::default(), Sought { size: Some([8, 7]), ..BOARD }] {
         assert_eq!(told(&boards, sought), Err(TargetError::Several { points: [49, 30] }), "{sought:?}");
     }
     let (left, right) = (dots(7, 7, 0.3), dots(6, 5, 0.3));
