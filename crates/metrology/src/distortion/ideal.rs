@@ -1,7 +1,7 @@
 //! From the picture to where a camera without distortion would see the same.
 //!
 //! ideal(p) = base(p) + Σ βₖ Fₖ(p), the base a radial polynomial ([`base`](super::base)), F how it depends on its own numbers and
-//! the fields of [`fields`](super::fields), none of which has place, slope or tilt at the centre; and ideal(p) = H(chart), H a homography.
+//! the fields of [`fields`], none of which has place, slope or tilt at the centre; and ideal(p) = H(chart), H a homography.
 //! β and what H lacks are found by least squares of the distances in the picture, in which all but the base's own fields
 //! are as small as the picture shows them to be ([`shrunken`]): large where many points tell them, and where few do, what
 //! they might be is in the uncertainty.
