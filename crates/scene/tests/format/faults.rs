@@ -6,25 +6,8 @@ use etendue_scene::{Overrides, load_camera};
 
 use crate::files::{Files, doc, load};
 
-/// A small job that is right.
-const JOB: &str = r#"format = 1
-
-[[cameras]]
-name = "front"
-position_m = [0, 0, 1]
-look_at_m = [10, 0, 1]
-
-[cameras.lens]
-model = "thin"
-focal_length_mm = 6
-f_number = 2.0
-focus_distance_m = 5.0
-
-[cameras.sensor]
-width_px = 64
-height_px = 48
-pixel_pitch_um = 6.0
-
+/// What makes a small job that is right.
+const JOB: &str = r#"
 [[scene.materials]]
 name = "grey"
 type = "diffuse"
@@ -39,14 +22,14 @@ position_m = [5, 0, 1]
 
 /// The faults of the job with `old` replaced by `new`, one a line.
 fn faults_of(old: &str, new: &str) -> String {
-    let mut files = Files::of_job(JOB);
+    let mut files = Files::with_camera(JOB);
     files.edit("job.toml", old, new);
     load(&files, &[]).err().map_or(String::new(), |f| f.to_string())
 }
 
 /// The faults of the job under overrides.
 fn faults_of_sets(sets: &[&str]) -> String {
-    load(&Files::of_job(JOB), sets).err().map_or(String::new(), |f| f.to_string())
+    load(&Files::with_camera(JOB), sets).err().map_or(String::new(), |f| f.to_string())
 }
 
 #[test]
@@ -276,7 +259,7 @@ fn a_margin_without_its_route() {
 
 /// The notices of the job with `render` added under overrides.
 fn notices(render: &str, change: impl Fn(&mut Overrides)) -> Result<Vec<String>, String> {
-    let files = Files::of_job(&format!("{JOB}\n[render]\n{render}\n"));
+    let files = Files::with_camera(&format!("{JOB}\n[render]\n{render}\n"));
     let mut overrides = Overrides::default();
     change(&mut overrides);
     let description = etendue_scene::Description::load(Path::new("job.toml"), &|p| files.read(p), &overrides);

@@ -18,6 +18,26 @@ pub(crate) fn page(name: &str) -> String {
     std::fs::read_to_string(path).expect("the page is in the repository")
 }
 
+/// A job's head: its format and a camera that is right.
+const CAMERA: &str = r#"format = 1
+
+[[cameras]]
+name = "front"
+position_m = [0, 0, 1]
+look_at_m = [10, 0, 1]
+
+[cameras.lens]
+model = "thin"
+focal_length_mm = 6
+f_number = 2.0
+focus_distance_m = 5.0
+
+[cameras.sensor]
+width_px = 64
+height_px = 48
+pixel_pitch_um = 6.0
+"#;
+
 /// Files by name.
 pub(crate) struct Files(BTreeMap<String, String>);
 
@@ -36,6 +56,11 @@ impl Files {
     /// One job.
     pub(crate) fn of_job(text: &str) -> Self {
         Self([("job.toml".to_owned(), text.to_owned())].into())
+    }
+
+    /// A job of one camera that is right, and `text`.
+    pub(crate) fn with_camera(text: &str) -> Self {
+        Self::of_job(&format!("{CAMERA}{text}"))
     }
 
     pub(crate) fn put(&mut self, name: &str, text: &str) {

@@ -2,24 +2,7 @@
 
 use crate::files::{Files, load};
 
-const JOB: &str = r#"format = 1
-
-[[cameras]]
-name = "front"
-position_m = [0, 0, 1]
-look_at_m = [10, 0, 1]
-
-[cameras.lens]
-model = "thin"
-focal_length_mm = 6
-f_number = 2.0
-focus_distance_m = 5.0
-
-[cameras.sensor]
-width_px = 64
-height_px = 48
-pixel_pitch_um = 6.0
-
+const JOB: &str = r#"
 [[scene.materials]]
 name = "grey"
 type = "diffuse"
@@ -39,7 +22,7 @@ fn objects(count: usize) -> String {
 /// With the columns counted from the head of the line, this many took minutes.
 #[test]
 fn a_hundred_thousand_objects_on_one_line() {
-    let files = Files::of_job(&format!("{JOB}objects=[{}]\n", objects(100_000)));
+    let files = Files::with_camera(&format!("{JOB}objects=[{}]\n", objects(100_000)));
     let description = load(&files, &[]).expect("a right job");
     assert_eq!(description.scene.objects.len(), 100_000);
     let mut files = files;
@@ -52,11 +35,8 @@ fn a_hundred_thousand_objects_on_one_line() {
 #[test]
 fn a_base_of_many_objects_under_as_many() {
     let list = objects(30_000);
-    let mut files = Files::of_job(
-        &JOB.replace("[scene]\n", "")
-            .replace("[[scene.materials]]\nname = \"grey\"\ntype = \"diffuse\"\nreflectance = 0.18\n", "")
-            .replace("format = 1\n", "format = 1\nscene = \"over.toml\"\n"),
-    );
+    let mut files = Files::with_camera("");
+    files.edit("job.toml", "format = 1\n", "format = 1\nscene = \"over.toml\"\n");
     let materials = "materials=[{name=\"grey\",type=\"diffuse\",reflectance=0.18}]";
     files.put("over.toml", &format!("format=1\nbase=\"under.toml\"\nobjects=[{list}]\n"));
     files.put("under.toml", &format!("format=1\n{materials}\nobjects=[{list}]\n"));
@@ -67,7 +47,7 @@ fn a_base_of_many_objects_under_as_many() {
 #[test]
 fn a_key_of_twenty_thousand_parts() {
     let set = format!("{}=1", vec!["a"; 20_000].join("."));
-    let told = load(&Files::of_job(&format!("{JOB}objects=[]\n")), &[&set]).expect_err("too deep").to_string();
+    let told = load(&Files::with_camera(&format!("{JOB}objects=[]\n")), &[&set]).expect_err("too deep").to_string();
     assert!(told.starts_with("--set a.a.a.a."), "{told}");
     let end = "…: this key has 20000 parts, and no description is deeper than 80; correct the key: render.spp=16";
     assert!(told.ends_with(end) && told.len() < 400, "{told}");

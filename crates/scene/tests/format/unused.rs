@@ -4,24 +4,7 @@ use crate::files::{Files, load};
 use etendue_scene::Description;
 use std::path::Path;
 
-const JOB: &str = r#"format = 1
-
-[[cameras]]
-name = "front"
-position_m = [0, 0, 1]
-look_at_m = [10, 0, 1]
-
-[cameras.lens]
-model = "thin"
-focal_length_mm = 6
-f_number = 2.0
-focus_distance_m = 5.0
-
-[cameras.sensor]
-width_px = 64
-height_px = 48
-pixel_pitch_um = 6.0
-
+const JOB: &str = r#"
 [scene]
 meshes = [
     { name = "shown", file = "shown.obj", up_axis = "z" },
@@ -43,7 +26,7 @@ objects = [{ name = "o", mesh = "shown", material = "MATERIAL", position_m = [5,
 "#;
 
 fn described(material: &str) -> Description {
-    load(&Files::of_job(&JOB.replace("MATERIAL", material)), &[]).expect("a right job")
+    load(&Files::with_camera(&JOB.replace("MATERIAL", material)), &[]).expect("a right job")
 }
 
 fn files(description: &Description) -> Vec<String> {
@@ -74,7 +57,7 @@ fn what_is_not_used_is_told() {
 #[test]
 fn a_material_of_the_scene_covers_those_of_the_mesh() {
     let covered = |job: &str| {
-        let description = load(&Files::of_job(job), &[]).expect("a right job");
+        let description = load(&Files::with_camera(job), &[]).expect("a right job");
         let request = description.assets().into_iter().find(|a| a.path == Path::new("shown.obj")).expect("the mesh");
         ["red", "blue"].map(|slot| request.covered.has(slot))
     };
