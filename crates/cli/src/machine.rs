@@ -1,22 +1,21 @@
 //! The machine's threads and instruction sets. They change how long a result takes, not the result.
 
-use crate::failure::Failure;
-use etendue_tracer::accel::Simd;
+use etendue::{Error, Simd};
 
 /// The variable that chooses the accelerator's instruction set: `auto` (default) or `scalar`.
 const SIMD_VARIABLE: &str = "ETENDUE_SIMD";
 
 /// A pool of worker threads; `None` for one a processor.
-pub fn pool(threads: Option<u32>) -> Result<rayon::ThreadPool, Failure> {
+pub fn pool(threads: Option<u32>) -> Result<rayon::ThreadPool, Error> {
     let builder = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0) as usize);
-    builder.build().map_err(|error| Failure::Run(format!("the worker threads cannot be started: {error}")))
+    builder.build().map_err(|error| Error::Run(format!("the worker threads cannot be started: {error}")))
 }
 
 /// The instruction set that the environment asks for.
-pub fn simd() -> Result<Simd, Failure> {
+pub fn simd() -> Result<Simd, Error> {
     match std::env::var(SIMD_VARIABLE).as_deref() {
         Err(_) | Ok("" | "auto") => Ok(Simd::Auto),
         Ok("scalar") => Ok(Simd::Scalar),
-        Ok(other) => Err(Failure::input(format!("{SIMD_VARIABLE}={other}: expected auto or scalar"))),
+        Ok(other) => Err(Error::input(format!("{SIMD_VARIABLE}={other}: expected auto or scalar"))),
     }
 }

@@ -1,81 +1,52 @@
-//! The command line of Étendue: arguments, files, progress and exit codes. Physics lives in the libraries.
+//! The command line of Étendue: arguments, progress, tables and exit codes. What it does is the library `etendue`.
 
 // A binary exports nothing: `pub` here means `for the other modules`.
 #![allow(unreachable_pub)]
 
 mod args;
-mod calibration;
-mod camera_file;
-mod chart_args;
-mod deliver;
-mod facts;
-mod failure;
-mod files;
-mod film_file;
-mod job;
+mod commands;
 mod machine;
-mod named_file;
-mod photographs;
-mod plot;
+mod output;
 mod progress;
-mod raw_file;
-mod results;
-mod sensor_args;
-mod tone_curve;
-mod trade;
-mod verbs;
 
 use args::{Arguments, Verb};
 use clap::Parser;
-use failure::Failure;
+use etendue::Error;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     match run(&arguments.verb) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            tell(&failure.to_string());
-            ExitCode::from(failure.status())
+        Err(error) => {
+            output::print_message(&error.to_string());
+            ExitCode::from(status(&error))
         }
     }
 }
 
-fn run(verb: &Verb) -> Result<(), Failure> {
+/// 2 for unusable input or arguments, 1 where a comparison or run failed.
+fn status(error: &Error) -> u8 {
+    match error {
+        Error::Input(_) => 2,
+        Error::Run(_) => 1,
+    }
+}
+
+fn run(verb: &Verb) -> Result<(), Error> {
     match verb {
-        Verb::Render(arguments) => verbs::render::run(arguments),
-        Verb::Merge(arguments) => verbs::merge::run(arguments),
-        Verb::Plan(arguments) => verbs::plan::run(arguments),
-        Verb::Expose(arguments) => verbs::expose::run(arguments),
-        Verb::Develop(arguments) => verbs::develop::run(arguments),
-        Verb::Flat(arguments) => verbs::flat::run(arguments),
-        Verb::Datasheet(arguments) => verbs::datasheet::run(arguments),
-        Verb::Inspect(arguments) => verbs::inspect::run(arguments),
-        Verb::Compare(arguments) => verbs::compare::run(arguments),
-        Verb::Chart(arguments) => verbs::chart::run(arguments),
-        Verb::Measure(arguments) => verbs::measure::run(arguments),
-        Verb::Calibrate(arguments) => verbs::measure::calibrate::run(arguments),
-        Verb::Schema(arguments) => verbs::schema::run(arguments),
+        Verb::Render(arguments) => commands::render::run(arguments),
+        Verb::Merge(arguments) => commands::render::merge(arguments),
+        Verb::Plan(arguments) => commands::plan::run(arguments),
+        Verb::Expose(arguments) => commands::render::expose(arguments),
+        Verb::Develop(arguments) => commands::render::develop(arguments),
+        Verb::Flat(arguments) => commands::sensor::flat(arguments),
+        Verb::Datasheet(arguments) => commands::sensor::datasheet(arguments),
+        Verb::Inspect(arguments) => commands::inspect::run(arguments),
+        Verb::Compare(arguments) => commands::compare::run(arguments),
+        Verb::Chart(arguments) => commands::chart::run(arguments),
+        Verb::Measure(arguments) => commands::measure::run(arguments),
+        Verb::Calibrate(arguments) => commands::measure::calibrate(arguments),
+        Verb::Schema(arguments) => commands::schema::run(arguments),
     }
-}
-
-/// Results go to stdout. A reader that has gone away (a closed pipe) ends the program quietly; a full disk is told.
-fn say(text: &str) {
-    use std::io::{ErrorKind, Write as _};
-    let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Ok(()) => {}
-        Err(cause) if cause.kind() == ErrorKind::BrokenPipe => std::process::exit(0),
-        Err(cause) => {
-            tell(&format!("error: the results cannot be written: {cause}\n"));
-            std::process::exit(1);
-        }
-    }
-}
-
-/// Everything that is no result goes to stderr.
-fn tell(text: &str) {
-    use std::io::Write as _;
-    // There is nowhere left to report a failing stderr to.
-    let _ = std::io::stderr().lock().write_all(text.as_bytes());
 }

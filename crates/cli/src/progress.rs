@@ -1,58 +1,53 @@
-//! Progress on a terminal, and stopping at Ctrl-C by the operating system's own way.
+//! Progress on a terminal, and messages while a task runs. Ctrl-C stops by the operating system's own way.
 
-use etendue_pipeline::Observer;
+use crate::output::print_message;
+use etendue::{Message, Observer, Progress, Unit};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::sync::Mutex;
 
-/// A bar of tiles on stderr; drawn only where stderr is a terminal.
-pub struct TileBar(ProgressBar);
+/// Draws a bar of each task on stderr where that is a terminal, and prints messages there.
+#[derive(Default)]
+pub struct Terminal(Mutex<Option<Bar>>);
 
-impl TileBar {
-    /// A bar with a heading, not yet drawn.
-    pub fn new(heading: &str) -> Self {
+struct Bar {
+    heading: String,
+    bar: ProgressBar,
+}
+
+impl Bar {
+    fn new(progress: Progress<'_>) -> Self {
         let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::stderr());
-        let style = ProgressStyle::with_template("{prefix} {wide_bar} {pos}/{len} tiles, {eta} left");
+        let unit = match progress.unit {
+            Unit::Tiles => "tiles",
+            Unit::Pictures => "pictures",
+        };
+        let style =
+            ProgressStyle::with_template(&format!("{{prefix}} {{wide_bar}} {{pos}}/{{len}} {unit}, {{eta}} left"));
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        bar.set_prefix(heading.to_owned());
-        Self(bar)
-    }
-
-    /// Takes the bar off the terminal.
-    pub fn finish(&self) {
-        self.0.finish_and_clear();
+        bar.set_prefix(progress.heading.to_owned());
+        Self { heading: progress.heading.to_owned(), bar }
     }
 }
 
-/// A bar of pictures read, on stderr; drawn only where stderr is a terminal.
-pub struct PictureBar(ProgressBar);
-
-impl PictureBar {
-    /// A bar of so many pictures.
-    pub fn new(heading: &str, count: usize) -> Self {
-        let bar = ProgressBar::with_draw_target(Some(count as u64), ProgressDrawTarget::stderr());
-        let style = ProgressStyle::with_template("{prefix} {wide_bar} {pos}/{len} pictures, {eta} left");
-        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        bar.set_prefix(heading.to_owned());
-        Self(bar)
+impl Observer for Terminal {
+    fn message(&self, message: Message<'_>) {
+        match message {
+            Message::Note(text) => print_message(&format!("note: {text}\n")),
+            Message::Warning(text) => print_message(&format!("warning: {text}\n")),
+        }
     }
 
-    /// One more picture is read.
-    pub fn step(&self) {
-        self.0.inc(1);
-    }
-
-    /// Takes the bar off the terminal.
-    pub fn finish(&self) {
-        self.0.finish_and_clear();
-    }
-}
-
-impl Observer for TileBar {
-    fn tiles(&self, done: usize, total: usize) {
-        self.0.set_length(total as u64);
-        self.0.set_position(done as u64);
-    }
-
-    fn cancelled(&self) -> bool {
-        false
+    fn progress(&self, progress: Progress<'_>) {
+        // A thread that panicked while it drew leaves nothing half-done here.
+        let mut task = self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        if task.as_ref().is_some_and(|task| task.heading != progress.heading) {
+            task.take().iter().for_each(|task| task.bar.finish_and_clear());
+        }
+        let drawn = task.get_or_insert_with(|| Bar::new(progress));
+        drawn.bar.set_length(progress.total as u64);
+        drawn.bar.set_position(progress.done as u64);
+        if progress.done == progress.total {
+            task.take().iter().for_each(|task| task.bar.finish_and_clear());
+        }
     }
 }

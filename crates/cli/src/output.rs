@@ -1,0 +1,29 @@
+//! What the program prints: results to stdout, everything else to stderr.
+
+use std::path::PathBuf;
+
+/// Results go to stdout. A reader that has gone away (a closed pipe) ends the program quietly; a full disk is an error.
+pub fn print(text: &str) {
+    use std::io::{ErrorKind, Write as _};
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Ok(()) => {}
+        Err(cause) if cause.kind() == ErrorKind::BrokenPipe => std::process::exit(0),
+        Err(cause) => {
+            print_message(&format!("error: the results cannot be written: {cause}\n"));
+            std::process::exit(1);
+        }
+    }
+}
+
+/// The files that were written, one a line.
+pub fn print_paths(paths: &[PathBuf]) {
+    print(&paths.iter().map(|path| format!("{}\n", path.display())).collect::<String>());
+}
+
+/// Everything that is no result goes to stderr.
+pub fn print_message(text: &str) {
+    use std::io::Write as _;
+    // There is nowhere left to report a failing stderr to.
+    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+}

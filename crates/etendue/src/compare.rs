@@ -1,0 +1,105 @@
+//! Two results side by side: errors with their uncertainty.
+//!
+//! Channels that carry a variance (`variance.NAME` beside `NAME`) are compared by a Z test with a family-wise
+//! significance over all channels; identities and everything without variance must be equal.
+
+use crate::compare_pictures;
+use crate::error::Error;
+use etendue_io::compare::{Channel, Content, Origin, Pair, read_pair};
+use etendue_stats::ErrorSummary;
+use etendue_stats::family::sidak_level;
+use etendue_stats::planes::{EstimatedPlane, PlaneTest, Verdict, compare as compare_planes};
+use std::path::Path;
+
+/// What is found of one channel.
+#[derive(Clone, Debug)]
+pub struct ChannelComparison {
+    /// The channel's name.
+    pub name: String,
+    /// Errors of B against A; `None` for identities.
+    pub errors: Option<ErrorSummary>,
+    /// Samples that are not equal bit for bit.
+    pub unequal: usize,
+    /// The Z test, for channels with variance.
+    pub test: Option<PlaneTest>,
+}
+
+impl ChannelComparison {
+    /// Whether the channels differ: by the test where there is one, otherwise where a sample is not equal.
+    #[must_use]
+    pub fn differs(&self) -> bool {
+        self.test.map_or(self.unequal > 0, |test| test.verdict == Verdict::Differ)
+    }
+}
+
+/// Two results of the same size and channels.
+pub struct Comparison {
+    /// Channel by channel.
+    pub channels: Vec<ChannelComparison>,
+    pair: Pair,
+}
+
+impl Comparison {
+    /// Whether any channel differs.
+    #[must_use]
+    pub fn differs(&self) -> bool {
+        self.channels.iter().any(ChannelComparison::differs)
+    }
+
+    /// Writes `a.png`, `b.png` and `difference.png` (|a − b|) of the channel that differs most into a folder.
+    ///
+    /// # Errors
+    /// Where the folder cannot be written.
+    pub fn save_pictures(&self, folder: &Path) -> Result<(), Error> {
+        compare_pictures::write(&self.pair, folder)
+    }
+}
+
+/// Compares two EXR or PNG files. `significance` is the family-wise probability of calling equal images different, above 0 and
+/// below 1.
+///
+/// # Errors
+/// Where a file cannot be read, or they differ in size or channels.
+pub fn compare(a: &Path, b: &Path, significance: f64) -> Result<Comparison, Error> {
+    if !(significance > 0.0 && significance < 1.0) {
+        let message = format!("--significance {significance}: expected a probability between 0 and 1");
+        return Err(Error::input(message));
+    }
+    let pair = read_pair(a, b).map_err(Error::input)?;
+    Ok(Comparison { channels: findings(&pair, significance)?, pair })
+}
+
+fn findings(pair: &Pair, significance: f64) -> Result<Vec<ChannelComparison>, Error> {
+    let tested = pair.channels.iter().filter(|c| c.has_variance()).count().max(1);
+    let level = sidak_level(significance, tested);
+    pair.channels.iter().map(|channel| finding(channel, pair, level)).collect()
+}
+
+fn finding(channel: &Channel, pair: &Pair, level: f64) -> Result<ChannelComparison, Error> {
+    let name = channel.name.clone();
+    match &channel.content {
+        Content::Identity { a, b } => {
+            let unequal = a.iter().zip(b).filter(|(a, b)| a != b).count();
+            Ok(ChannelComparison { name, errors: None, unequal, test: None })
+        }
+        Content::Number { a, b, variance } => {
+            let unequal = a.iter().zip(b).filter(|(a, b)| a.to_bits() != b.to_bits()).count();
+            let test = match variance {
+                None => None,
+                Some((of_a, of_b)) => {
+                    let a = estimated(a, of_a, pair.origin.0);
+                    let b = estimated(b, of_b, pair.origin.1);
+                    let test = compare_planes(&a, &b, level);
+                    Some(test.map_err(|error| Error::input(format!("channel {name}: {error}")))?)
+                }
+            };
+            let alike = pair.origin.0.alike.max(pair.origin.1.alike);
+            let errors = ErrorSummary::of(a, b).map(|errors| errors.shared_by(alike));
+            Ok(ChannelComparison { name, errors, unequal, test })
+        }
+    }
+}
+
+fn estimated<'a>(mean: &'a [f32], variance_of_mean: &'a [f32], origin: Origin) -> EstimatedPlane<'a> {
+    EstimatedPlane { mean, variance_of_mean, replicates: origin.replicates, alike: origin.alike }
+}

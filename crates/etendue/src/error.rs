@@ -1,0 +1,47 @@
+//! What can go wrong between a file and its results.
+
+use std::fmt::{self, Display};
+
+/// Why a call of this library did not succeed. Nothing that was written under a final name is half-written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Error {
+    /// The input or the arguments cannot be used: one message for each fault, with file, line and key where it has them. Arguments are
+    /// named as the command line spells them. (Exit status 2 of the program.)
+    Input(Vec<String>),
+    /// The input is good and the run did not succeed: it was cancelled, the disk is full, light is not finite. (Exit status 1.)
+    Run(String),
+}
+
+impl Error {
+    /// One unusable input.
+    pub fn input(error: impl Display) -> Self {
+        Self::Input(vec![error.to_string()])
+    }
+
+    /// Several unusable inputs.
+    pub fn inputs<E: Display>(errors: impl IntoIterator<Item = E>) -> Self {
+        Self::Input(errors.into_iter().map(|e| e.to_string()).collect())
+    }
+
+    /// A run that did not succeed although its input is good.
+    pub fn run(error: impl Display) -> Self {
+        Self::Run(format!("error: {error}"))
+    }
+}
+
+impl std::error::Error for Error {}
+
+impl Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Input(errors) => {
+                errors.iter().try_for_each(|error| writeln!(f, "error: {error}"))?;
+                match errors.len() {
+                    0 | 1 => Ok(()),
+                    n => writeln!(f, "{n} errors; nothing was written"),
+                }
+            }
+            Self::Run(reason) => writeln!(f, "{reason}"),
+        }
+    }
+}

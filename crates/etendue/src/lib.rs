@@ -1,0 +1,71 @@
+//! Étendue as a library: from a job file to results, and every verb of the program as a function with typed arguments and reports.
+//!
+//! ```no_run
+//! use etendue::{Existing, Job, RenderOptions, Unobserved};
+//!
+//! # fn main() -> Result<(), etendue::Error> {
+//! let job = Job::open("scenes/street/street.toml")?;
+//! let results = job.render(&RenderOptions::default(), &Unobserved)?;
+//! let camera = &results.cameras()[0];
+//! let depth = camera.ground_truth().depth;
+//! println!("{}: {} × {} px", camera.name(), depth.width(), depth.height());
+//! results.save("out/street".as_ref(), Existing::Refuse, &Unobserved)?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! | from | to | by |
+//! | --- | --- | --- |
+//! | a job file | its plan, radiance, electrons, raw, picture, ground truth | [`Job`] |
+//! | shards of a job | the files of the whole | [`merge()`] |
+//! | stored radiance and a camera file | what that camera would have taken | [`expose()`] |
+//! | stored raws and a camera file | pictures by its processing | [`develop()`] |
+//! | even light and a camera file | raws of the bare sensor | [`flat()`] |
+//! | an EMVA 1288 data sheet | a camera file | [`datasheet()`] |
+//! | a camera file | a chart as a scene, with its truth | [`chart`] |
+//! | pictures | parameters of the camera with their uncertainty | [`measure`] |
+//! | two results | whether they differ, and by how much | [`compare()`] |
+//! | any file that Étendue knows | what is in it | [`inspect()`] |
+//!
+//! Nothing here prints, reads a clock, starts threads (work runs on the caller's rayon pool) or ends the process. What the caller should
+//! know and is no error goes to its [`Observer`].
+
+mod calibration;
+mod camera_file;
+pub mod chart;
+mod compare;
+mod compare_pictures;
+mod datasheet;
+mod develop;
+mod error;
+mod expose;
+mod flat;
+mod job;
+pub mod measure;
+mod merge;
+mod named_file;
+mod observer;
+pub mod plot;
+mod raw_file;
+pub mod report;
+mod results;
+mod shard;
+mod tone_curve;
+
+pub use camera_file::open_camera;
+pub use compare::{ChannelComparison, Comparison, compare};
+pub use datasheet::datasheet;
+pub use develop::{DevelopRequest, develop};
+pub use error::Error;
+pub use etendue_io::Existing;
+pub use etendue_io::inspect::inspect;
+pub use etendue_tracer::accel::Simd;
+pub use expose::{ExposeRequest, expose};
+pub use flat::{FlatRequest, FlatSource, flat};
+pub use job::{Integrator, Job, JobRequest, Quality, RenderOptions};
+pub use merge::merge;
+pub use named_file::write_file;
+pub use observer::{Message, Observer, Progress, Unit, Unobserved};
+pub use raw_file::Levels;
+pub use results::{CameraResults, Files, Results};
+pub use shard::ShardSpec;

@@ -1,0 +1,28 @@
+//! `etendue calibrate`: a camera file from several views of a chart.
+
+use super::views::ViewsRequest;
+use crate::error::Error;
+use crate::observer::Observer;
+use crate::report::Report;
+
+/// `etendue calibrate`
+#[derive(Clone, Debug)]
+pub struct CalibrateRequest {
+    /// The pictures, the chart and what is known of the camera.
+    pub views: ViewsRequest,
+    /// Whether the report holds a camera file; needs the pixels' pitch.
+    pub camera_keys: bool,
+    /// The lens's f-number, for the camera file [default: 4, which is marked as a stand-in]
+    pub f_number: Option<f64>,
+}
+
+pub fn calibrate(request: &CalibrateRequest, observer: &dyn Observer) -> Result<Report, Error> {
+    let views = &request.views;
+    let found = views.found(views.options(), observer)?;
+    let mut report = Report::new("calibrate", "camera from views of a plane chart, least squares of all points");
+    found.add_to(&mut report, views);
+    if let Some(pitch_um) = views.pixel_pitch_um.filter(|_| request.camera_keys) {
+        report.camera(found.camera_file("calibrate", pitch_um, request.f_number)?);
+    }
+    Ok(report)
+}

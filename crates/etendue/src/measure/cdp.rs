@@ -1,0 +1,143 @@
+//! `measure cdp`: contrast detection probability of pairs of patches.
+
+use super::picture_input::{PictureInput, refused};
+use super::readings::Readings;
+use crate::error::Error;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
+use etendue_metrology::contrast::{ContrastPair, ContrastSettings, measure_contrast};
+use std::path::PathBuf;
+
+/// `etendue measure cdp`
+#[derive(Clone, Debug)]
+pub struct CdpRequest {
+    /// A picture of grey patches
+    pub picture: PathBuf,
+    /// The darker patch of a pair: left column, top row, width, height; once a pair
+    pub darker: Vec<[usize; 4]>,
+    /// The brighter patch of a pair, in the same order
+    pub brighter: Vec<[usize; 4]>,
+    /// The scene's Weber contrast of a pair: brighter over darker luminance, less 1; in the same order
+    pub contrast: Vec<f64>,
+    /// How much a measured contrast may differ from the scene's, share
+    pub tolerance: f64,
+    /// Which readings of the picture, what they mean, and the chart's truth.
+    pub input: PictureInput,
+}
+
+/// Charts of patches of one luminance each.
+const CHARTS: [&str; 2] = ["contrast-patches", "oecf-steps"];
+
+/// Two patches of the scene.
+struct Pair {
+    darker: [usize; 4],
+    brighter: [usize; 4],
+    contrast: f64,
+    /// Of the darker one, where it is known.
+    luminance_cd_m2: Option<f64>,
+}
+
+pub fn cdp(request: &CdpRequest) -> Result<Report, Error> {
+    let readings = request.input.linear(&request.picture)?;
+    let pairs = pairs(request, &readings)?;
+    let settings = ContrastSettings {
+        black: request.input.levels.black(&readings),
+        full_scale: request.input.levels.full_scale(&readings),
+        share: request.tolerance,
+        shared_px: readings.shared_px,
+    };
+    let (mut found, mut left_out) = (Vec::new(), Vec::new());
+    for pair in pairs {
+        let (low, high) = (readings.part(pair.darker, "--darker")?, readings.part(pair.brighter, "--brighter")?);
+        match measure_contrast(&low, &high, pair.contrast, &settings) {
+            Ok(measured) => found.push((pair, measured)),
+            Err(error) if pair.luminance_cd_m2.is_some() => left_out.push(format!("{}: {error}", places(&pair))),
+            Err(error) => return Err(refused(&request.picture, error)),
+        }
+    }
+    if found.is_empty() {
+        return Err(refused(&request.picture, &left_out[0]));
+    }
+    let mut report = report(&found);
+    report.encoding(&readings.stated);
+    left_out.into_iter().for_each(|reason| report.note(format!("left out: patches at {reason}")));
+    Ok(report)
+}
+
+fn places(pair: &Pair) -> String {
+    format!("{},{} {},{}", pair.darker[0], pair.darker[1], pair.brighter[0], pair.brighter[1])
+}
+
+fn pairs(request: &CdpRequest, readings: &Readings) -> Result<Vec<Pair>, Error> {
+    if let Some(truth) = request.input.truth(&CHARTS, &request.picture, readings)? {
+        let (mut patches, _) = truth.patches(readings)?;
+        patches.sort_by(|a, b| a.luminance_cd_m2.total_cmp(&b.luminance_cd_m2));
+        let pair = |two: &[super::truth::Patch]| Pair {
+            darker: two[0].at,
+            brighter: two[1].at,
+            contrast: two[1].luminance_cd_m2 / two[0].luminance_cd_m2 - 1.0,
+            luminance_cd_m2: Some(two[0].luminance_cd_m2),
+        };
+        let found: Vec<Pair> = patches.windows(2).map(pair).filter(|pair| pair.contrast > 0.0).collect();
+        let none = || refused(&request.picture, "shows fewer than two patches of different luminance");
+        return if found.is_empty() { Err(none()) } else { Ok(found) };
+    }
+    let (darker, brighter, contrasts) = (&request.darker, &request.brighter, &request.contrast);
+    if darker.len() != brighter.len() || darker.len() != contrasts.len() {
+        return Err(Error::input("--darker, --brighter and --contrast: expected each of them once a pair"));
+    }
+    let pair = |((darker, brighter), contrast): ((&[usize; 4], &[usize; 4]), &f64)| Pair {
+        darker: *darker,
+        brighter: *brighter,
+        contrast: *contrast,
+        luminance_cd_m2: None,
+    };
+    Ok(darker.iter().zip(brighter).zip(contrasts).map(pair).collect())
+}
+
+fn report(found: &[(Pair, ContrastPair)]) -> Report {
+    let method = "contrast detection probability after IEEE P2020 (Weber contrast; ± one standard uncertainty)";
+    let mut report = Report::new("cdp", method);
+    let row = |(pair, measured): &(Pair, ContrastPair)| {
+        vec![
+            Cell::Text(places(pair)),
+            pair.luminance_cd_m2.map_or(Cell::Nothing, |l| Cell::Number(l, 3)),
+            Cell::Number(pair.contrast, 4),
+            Cell::Estimate(measured.measured),
+            Cell::Estimate(measured.detection),
+            Cell::Estimate(measured.transfer),
+            Cell::Estimate(measured.contrast_snr),
+        ]
+    };
+    report.table(Table {
+        key: "pairs",
+        columns: vec![
+            ("at_px", "patches at px"),
+            ("darker_cd_m2", "darker cd/m²"),
+            ("scene_contrast", "scene"),
+            ("measured_contrast", "measured"),
+            ("cdp", "CDP"),
+            ("cta", "CTA"),
+            ("csnr", "CSNR"),
+        ],
+        rows: found.iter().map(row).collect(),
+    });
+    report.plot(plot(found));
+    report
+}
+
+/// Over the luminance where it is known, else over the scene's contrast.
+fn plot(found: &[(Pair, ContrastPair)]) -> Plot {
+    let known = found.iter().all(|(pair, _)| pair.luminance_cd_m2.is_some());
+    let x = |pair: &Pair| pair.luminance_cd_m2.filter(|_| known).unwrap_or(pair.contrast);
+    let series = |name: &str, of: fn(&ContrastPair) -> etendue_metrology::Estimate| {
+        let points = found.iter().map(|(pair, m)| (x(pair), of(m).value, 2.0 * of(m).standard_uncertainty));
+        Series::with_errors(name, Mark::Points, points)
+    };
+    Plot {
+        title: "contrast detection probability and contrast transfer (bars: 95 %)".to_owned(),
+        x: Axis::log(if known { "luminance of the darker patch, cd/m²" } else { "contrast of the scene" }),
+        y: Axis::linear("CDP, CTA").showing(&[0.0, 1.0]),
+        series: vec![series("CDP", |m| m.detection), series("CTA", |m| m.transfer)],
+    }
+}

@@ -1,0 +1,163 @@
+//! The points of a chart in picture files.
+
+use super::encoding::EncodingChoice;
+use super::picture_input::refused;
+use super::pictures::Pictures;
+use super::point_list;
+use super::readings::{Readings, Selection};
+use super::truth::points::{CHARTS, PointsTold};
+use super::truth::{Truth, TruthInput};
+use crate::error::Error;
+use crate::observer::Observer;
+use etendue_io::photograph::{Photograph, Stated};
+use etendue_metrology::target::{Grid, Sought, Target, find};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicUsize;
+
+/// The chart that is photographed.
+#[derive(Clone, Debug)]
+pub struct ChartInput {
+    /// The chart [default: whichever shows more points]
+    pub target: Option<Target>,
+    /// Columns and rows of its points, e.g. 11x8: inner corners of a checkerboard, dots [default: as found]
+    pub grid: Option<[usize; 2]>,
+    /// The channel to look at: R, G, B or Y of a picture, an EXR channel by its full name, a colour of a raw mosaic [default:
+    /// the luminance]
+    pub channel: Option<String>,
+    /// The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB
+    pub cfa: Option<String>,
+    /// How light follows from the numbers.
+    pub encoding: EncodingChoice,
+    /// Look for the chart in this part of the picture only: left column, top row, width and height, pixels of the picture
+    pub region: Option<[usize; 4]>,
+    /// Of lists of points (CSV) in place of pictures: columns and rows of the pictures in which they were seen
+    pub size_px: Option<[usize; 2]>,
+    /// What the chart is and where.
+    pub truth: TruthInput,
+    /// List every point of the chart in the text, too; JSON has them anyway
+    pub points: bool,
+}
+
+/// A chart as a picture shows it.
+#[derive(Clone, Debug)]
+pub(crate) struct Seen {
+    pub file: PathBuf,
+    pub size_px: [usize; 2],
+    pub grid: Grid,
+    /// How light was found from the picture's numbers.
+    pub stated: Option<Stated>,
+}
+
+impl ChartInput {
+    /// What the truth says, where one is given.
+    pub(crate) fn told(&self) -> Result<Option<(Truth, PointsTold)>, Error> {
+        let Some(truth) = self.truth.read(&CHARTS)? else { return Ok(None) };
+        let told = truth.points()?;
+        Ok(Some((truth, told)))
+    }
+
+    fn sought(&self, told: Option<&PointsTold>) -> Sought {
+        Sought { target: self.target.or(told.map(|told| told.target)), size: self.grid }
+    }
+
+    pub(crate) fn selection(&self, channel: Option<&str>) -> Selection {
+        let (channel, cfa, encoding) = (channel.map(str::to_owned), self.cfa.clone(), self.encoding.clone());
+        Selection { channel, cfa, region: None, encoding }
+    }
+
+    /// The chart in a picture.
+    pub(crate) fn seen(&self, file: &Path) -> Result<Seen, Error> {
+        if point_list::is_list(file) {
+            return self.listed(file);
+        }
+        let photograph = self.encoding.photograph(file)?;
+        self.seen_in(file, &photograph, self.channel.as_deref())
+    }
+
+    /// The points of a list.
+    fn listed(&self, file: &Path) -> Result<Seen, Error> {
+        let told = self.told()?;
+        let size_px = self.size_px.ok_or_else(|| {
+            refused(file, "a list of points does not say how large the picture is: add --size-px WxH")
+        })?;
+        told.iter().try_for_each(|(truth, _)| truth.fits_size(file, size_px))?;
+        if self.encoding.chosen.is_some() {
+            return Err(refused(file, "a list of points has no numbers of light: leave --encoding out"));
+        }
+        let useless = [
+            ("--region", self.region.is_some()),
+            ("--channel", self.channel.is_some()),
+            ("--cfa", self.cfa.is_some()),
+            ("--target", self.target.is_some()),
+            ("--grid", self.grid.is_some()),
+        ];
+        if let Some((name, _)) = useless.iter().find(|(_, given)| *given) {
+            return Err(refused(file, format!("a list of points: {name} has no effect, leave it out")));
+        }
+        Ok(Seen { file: file.to_owned(), size_px, grid: point_list::read(file)?, stated: None })
+    }
+
+    /// The chart in one channel. In the mosaic of a colour that has several places in the tile, each point is the mean of where
+    /// these show it: what each of them misses between its pixels the others see.
+    pub(crate) fn seen_in(&self, file: &Path, photograph: &Photograph, channel: Option<&str>) -> Result<Seen, Error> {
+        let planes = self.selection(channel).planes(file, photograph)?;
+        let told = self.told()?;
+        let (width, height) = planes[0].picture_px;
+        if self.size_px.is_some_and(|stated| stated != [width, height]) {
+            return Err(refused(file, format!("{width} × {height} pixels, not as --size-px says: leave that out")));
+        }
+        told.iter().try_for_each(|(truth, _)| truth.fits_size(file, [width, height]))?;
+        let sought = self.sought(told.as_ref().map(|(_, told)| told));
+        let grids = planes.iter().map(|plane| self.grid(file, plane, sought));
+        let grid = Grid::mean(&grids.collect::<Result<Vec<_>, _>>()?);
+        Ok(Seen { file: file.to_owned(), size_px: [width, height], grid, stated: Some(photograph.stated.clone()) })
+    }
+
+    /// The chart among readings, in the picture's raster coordinates.
+    fn grid(&self, file: &Path, plane: &Readings, sought: Sought) -> Result<Grid, Error> {
+        let part = self.region.map(|region| plane.part(region, "--region").map(|image| (image, region))).transpose()?;
+        let (image, first) = match &part {
+            None => (&plane.image, [0, 0]),
+            Some((image, region)) => (image, plane.first_of(*region)),
+        };
+        let mut grid = find(image, sought).map_err(|error| refused(file, error))?;
+        let scale = 0.5 * (plane.period.0 + plane.period.1) as f64;
+        for node in &mut grid.nodes {
+            let at = [0, 1].map(|axis| node.at[axis] + first[axis] as f64);
+            node.at = plane.in_picture(at).into();
+            node.uncertainty_px *= scale;
+        }
+        Ok(grid)
+    }
+}
+
+/// The charts of several pictures of one size; a picture that is there twice is refused.
+pub(crate) fn all(chart: &ChartInput, files: &[PathBuf], observer: &dyn Observer) -> Result<Vec<Seen>, Error> {
+    let mut views: Vec<Seen> = Vec::new();
+    let mut faults = Vec::new();
+    let pictures = Pictures { heading: "charts", done: AtomicUsize::new(0), total: files.len(), observer };
+    for file in files {
+        let seen = chart.seen(file);
+        pictures.step();
+        match seen {
+            Ok(view) => match views.iter().find_map(|other| contradiction(other, &view)) {
+                Some(fault) => faults.push(fault),
+                None => views.push(view),
+            },
+            Err(Error::Input(more)) => faults.extend(more),
+            Err(other) => return Err(other),
+        }
+    }
+    if faults.is_empty() { Ok(views) } else { Err(Error::Input(faults)) }
+}
+
+fn contradiction(a: &Seen, b: &Seen) -> Option<String> {
+    let (first, second) = (a.file.display(), b.file.display());
+    if a.size_px != b.size_px {
+        let [[w, h], [v, g]] = [a.size_px, b.size_px];
+        return Some(format!(
+            "{second}: {v} × {g} pixels, where {first} has {w} × {h}; give pictures of one camera and size"
+        ));
+    }
+    (a.grid == b.grid).then(|| format!("{second}: shows the chart exactly as {first}; give each view once"))
+}

@@ -1,0 +1,117 @@
+//! `measure chromatic`: lateral chromatic displacement.
+
+use super::chart_points::ChartInput;
+use crate::error::Error;
+use crate::plot::{Axis, Colour, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
+use etendue_metrology::Estimate;
+use etendue_metrology::chromatic::{Displacement, Ring, displacements, rings, shift};
+use glam::DVec2;
+use std::path::PathBuf;
+
+/// `etendue measure chromatic`
+#[derive(Clone, Debug)]
+pub struct ChromaticRequest {
+    /// A picture in colour of a plane chart that fills the field
+    pub file: PathBuf,
+    /// The chart, and which readings show it.
+    pub chart: ChartInput,
+}
+
+pub fn chromatic(request: &ChromaticRequest) -> Result<Report, Error> {
+    let file = &request.file;
+    if request.chart.channel.is_some() {
+        return Err(Error::input("--channel: lateral colour is measured in red, green and blue; leave it out"));
+    }
+    let photograph = request.chart.encoding.photograph(file)?;
+    let selection = request.chart.selection(None);
+    if let Some(missing) = ["R", "G", "B"].iter().find(|name| !selection.has(&photograph, name)) {
+        return Err(Error::input(format!("{}: no channel {missing}; expected a picture in colour", file.display())));
+    }
+    let seen = |name: &str| request.chart.seen_in(file, &photograph, Some(name));
+    let [red, green, blue] = [seen("R")?, seen("G")?, seen("B")?];
+    let size = green.size_px;
+    let found =
+        [("red", displacements(&green.grid, &red.grid, size)), ("blue", displacements(&green.grid, &blue.grid, size))];
+    if let Some((name, _)) = found.iter().find(|(_, list)| list.is_empty()) {
+        let file = file.display();
+        return Err(Error::input(format!(
+            "{file}: the chart's points in {name} belong to none in green: are these colours of one picture?"
+        )));
+    }
+    if found.iter().flat_map(|(_, list)| list).all(|point| point.by == DVec2::ZERO) {
+        let file = file.display();
+        return Err(Error::input(format!("{file}: red, green and blue are the same: expected a picture in colour")));
+    }
+    let mut report = report(&found);
+    report.encoding(&photograph.stated);
+    Ok(report)
+}
+
+fn report(found: &[(&'static str, Vec<Displacement>)]) -> Report {
+    let mut report = Report::new(
+        "chromatic",
+        "lateral chromatic displacement against green, about the picture's middle (ISO 19084)",
+    );
+    let mut rows = Vec::new();
+    for (name, list) in found {
+        let worst = list.iter().max_by(|a, b| a.by.length().total_cmp(&b.by.length()));
+        if let Some(worst) = worst {
+            let label = format!("{name}, largest displacement");
+            report.fact(&format!("{name}_largest_px"), &label, "px", worst.by.length());
+            let (key, label) = (format!("{name}_largest_at_percent"), format!("{name}, at"));
+            report.fact(&key, &label, "% of the half diagonal", 100.0 * worst.field);
+        }
+        for (axis, mean) in ["x", "y"].iter().zip(shift(list).into_iter().flatten()) {
+            report.figure(&format!("{name}_shift_{axis}_px"), &format!("{name}, mean along {axis}"), "px", mean);
+        }
+        for ring in rings(list) {
+            rows.push(vec![
+                Cell::Text((*name).to_owned()),
+                Cell::Number(100.0 * ring.field, 1),
+                Cell::Estimate(ring.radial),
+                Cell::Estimate(ring.tangential),
+                Cell::Number(ring.points as f64, 0),
+            ]);
+        }
+    }
+    report.table(Table {
+        key: "rings",
+        columns: vec![
+            ("channel", "channel"),
+            ("field_percent", "field %"),
+            ("radial_px", "radial px"),
+            ("tangential_px", "tangential px"),
+            ("points", "points"),
+        ],
+        rows,
+    });
+    report.plot(plot("radial", found, |d| d.radial, |r| r.radial));
+    report.plot(plot("tangential", found, |d| d.tangential, |r| r.tangential));
+    report
+}
+
+/// One component of all points, and its means over rings.
+fn plot(
+    component: &str,
+    found: &[(&'static str, Vec<Displacement>)],
+    of_point: fn(&Displacement) -> f64,
+    of_ring: fn(&Ring) -> Estimate,
+) -> Plot {
+    let series = found.iter().flat_map(|(name, list)| {
+        let colour = if *name == "red" { Colour::Red } else { Colour::Blue };
+        let points = list.iter().map(|d| (100.0 * d.field, of_point(d)));
+        let means = rings(list).into_iter().map(|r| (100.0 * r.field, of_ring(&r)));
+        let means = means.map(|(field, mean)| (field, mean.value, 2.0 * mean.standard_uncertainty));
+        [
+            Series::new(name, Mark::Points, points).coloured(colour),
+            Series::with_errors(&format!("{name}, rings"), Mark::Line, means).coloured(colour),
+        ]
+    });
+    Plot {
+        title: format!("Lateral colour, {component} (bars: 95 %)"),
+        x: Axis::linear("radial field position, % of the half diagonal").showing(&[0.0, 100.0]),
+        y: Axis::linear(&format!("{component} displacement against green, px")).showing(&[0.0]),
+        series: series.collect(),
+    }
+}

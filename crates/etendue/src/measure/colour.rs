@@ -1,0 +1,139 @@
+//! `measure colour`: the colours of a ColorChecker after a fitted matrix.
+
+use super::picture_input::{PictureInput, refused};
+use super::readings::Readings;
+use super::truth::{Patch, Truth};
+use crate::error::Error;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
+use etendue_metrology::Estimate;
+use etendue_metrology::colour::{ColourError, ColourPatch, measure_colour};
+use etendue_spectra::chart::colorchecker;
+use etendue_spectra::{colour, illuminant, observer};
+use glam::DVec2;
+use std::path::PathBuf;
+
+/// `etendue measure colour`
+#[derive(Clone, Debug)]
+pub struct ColourRequest {
+    /// A picture of a ColorChecker of 24 patches, in colour
+    pub picture: PathBuf,
+    /// Middles of the four corner patches, raster coordinates, in the chart's order: dark skin, bluish green, black, white
+    pub corners: Vec<DVec2>,
+    /// Side of the squares that are read, of the distance of patches
+    pub patch: f64,
+    /// Which readings of the picture, what they mean, and the chart's truth.
+    pub input: PictureInput,
+}
+
+/// Columns and rows of the chart.
+const CHART: (usize, usize) = (6, 4);
+
+pub fn colour(request: &ColourRequest) -> Result<Report, Error> {
+    let Some(colours) = request.input.selection.colours(&request.picture)? else {
+        let expected = "expected a picture in colour: channels R, G and B, or a raw mosaic of them";
+        return Err(refused(&request.picture, expected));
+    };
+    let (patches, white) = match request.input.truth(&["colorchecker"], &request.picture, &colours[1])? {
+        Some(truth) => (told(&truth, &colours)?, truth.white_xyz()),
+        None => (between_corners(request, &colours)?, colour::D65_WHITE),
+    };
+    let levels = &request.input.levels;
+    let (black, full_scale) = (levels.black(&colours[1]), levels.full_scale(&colours[1]));
+    let found = measure_colour(&patches, black, full_scale, white, colours[1].shared_px);
+    let found = found.map_err(|error| refused(&request.picture, error))?;
+    let mut report = report(&patches, &found);
+    report.encoding(&colours[1].stated);
+    Ok(report)
+}
+
+/// The patches that a chart's truth places and describes, in its own light.
+fn told(truth: &Truth, colours: &[Readings; 3]) -> Result<Vec<ColourPatch>, Error> {
+    let lists: Vec<Vec<Patch>> = colours.iter().map(|one| Ok(truth.patches(one)?.0)).collect::<Result<_, Error>>()?;
+    let one = |patch: &Patch| {
+        let pixels = |c: usize| {
+            let place = lists[c].iter().find(|other| other.name == patch.name)?;
+            colours[c].part(place.at, &patch.name).ok()
+        };
+        let pixels = [pixels(0)?, pixels(1)?, pixels(2)?];
+        Some(ColourPatch { name: patch.name.clone(), pixels, reference: patch.xyz })
+    };
+    Ok(lists[1].iter().filter_map(one).collect())
+}
+
+fn between_corners(request: &ColourRequest, colours: &[Readings; 3]) -> Result<Vec<ColourPatch>, Error> {
+    if !(request.patch > 0.0 && request.patch <= 1.0) {
+        return Err(Error::input("--patch: expected a share above 0 and at most 1"));
+    }
+    let [a, b, c, d] = request.corners[..] else { return Err(Error::input("--corners: expected four of them")) };
+    let (columns, rows) = ((CHART.0 - 1) as f64, (CHART.1 - 1) as f64);
+    // Bilinear between the corners: exact where the chart is parallel to the sensor, near it otherwise.
+    let middle = |i: usize| {
+        let (u, v) = ((i % CHART.0) as f64 / columns, (i / CHART.0) as f64 / rows);
+        (a * (1.0 - u) + b * u) * (1.0 - v) + (d * (1.0 - u) + c * u) * v
+    };
+    let half = 0.5 * request.patch * ((b - a).length() / columns).min((d - a).length() / rows);
+    let patch = |(i, patch): (usize, &etendue_spectra::chart::Patch)| {
+        let (low, high) = (middle(i) - half, middle(i) + half);
+        let beyond = || Error::input("--corners: a patch lies beyond the picture");
+        let at = super::readings::pixels(low.into(), high.into(), colours[1].picture_px).ok_or_else(beyond)?;
+        let one = |c: usize| colours[c].part(at, "--corners: a patch");
+        let reference = observer::xyz_of_reflectance(&patch.reflectance, illuminant::d65());
+        Ok(ColourPatch { name: patch.name.to_owned(), pixels: [one(0)?, one(1)?, one(2)?], reference })
+    };
+    colorchecker().iter().enumerate().map(patch).collect()
+}
+
+fn report(patches: &[ColourPatch], found: &ColourError) -> Report {
+    let method = "ColorChecker after a fitted 3 × 3 matrix, CIEDE2000 (± one standard uncertainty)";
+    let mut report = Report::new("colour", method);
+    report.figure("mean_delta_e00", "mean ΔE00", "", found.mean);
+    report.fact("largest_delta_e00", "largest ΔE00", "", found.largest);
+    let number = |x: f64| Cell::Number(x, 2);
+    let row = |((patch, difference), [seen, reference]): ((&ColourPatch, &Estimate), &[[f64; 3]; 2])| {
+        let lab = seen.iter().chain(reference).map(|x| number(*x));
+        [Cell::Text(patch.name.replace('_', " ")), Cell::Estimate(*difference)].into_iter().chain(lab).collect()
+    };
+    report.table(Table {
+        key: "patches",
+        columns: vec![
+            ("patch", "patch"),
+            ("delta_e00", "ΔE00"),
+            ("l", "L*"),
+            ("a", "a*"),
+            ("b", "b*"),
+            ("reference_l", "true L*"),
+            ("reference_a", "true a*"),
+            ("reference_b", "true b*"),
+        ],
+        rows: patches.iter().zip(&found.differences).zip(&found.colours).map(row).collect(),
+    });
+    let to = ["X", "Y", "Z"];
+    report.table(Table {
+        key: "matrix",
+        columns: vec![("to", "XYZ ="), ("red", "red"), ("green", "green"), ("blue", "blue")],
+        rows: to
+            .iter()
+            .zip(found.matrix)
+            .map(|(name, row)| {
+                let cells = row.map(|m| Cell::Estimate(Estimate::new(m, 0.0)));
+                std::iter::once(Cell::Text((*name).to_owned())).chain(cells).collect()
+            })
+            .collect(),
+    });
+    report.plot(plot(found));
+    report
+}
+
+/// Redness and yellowness of the patches, as they are and as the matrix gives them.
+fn plot(found: &ColourError) -> Plot {
+    let places = |name: &str, which: usize| {
+        Series::new(name, Mark::Points, found.colours.iter().map(move |pair| (pair[which][1], pair[which][2])))
+    };
+    Plot {
+        title: "colours of the patches".to_owned(),
+        x: Axis::linear("a*"),
+        y: Axis::linear("b*"),
+        series: vec![places("true", 1), places("measured", 0)],
+    }
+}

@@ -1,0 +1,240 @@
+//! What a camera file declares of what a measurement found: the same keys and units, exact.
+//!
+//! | measurement | declared |
+//! | --- | --- |
+//! | distortion | k1, k2 in half diagonals in the direction that the file states, the curve r / (c tan θ) along the half diagonal (where it was measured about the principal point) |
+//! | focal, calibrate | principal distance in pixels and mm, principal point, k1 and k2 where the model measured means the same |
+//! | vignetting | étendue of a pixel relative to the centre, the mean of the four half diagonals, with the pixels' response over angle |
+//! | ptc | gain, dark noise, DSNU and PRNU of pixels, rows and columns, dark current, quantum efficiency at a wavelength (of the channel measured, with what neighbours of other colours exchange) |
+//! | dark-current | the dark current at each temperature by the file's law, and its doubling temperature where the law is that |
+//! | chromatic | no displacement, of a lens that images all colours alike |
+//! | oecf | the tone curve of raw readings or of the picture, the light's strength free |
+//! | sfr | [`response`]: pixel's aperture, what neighbours exchange, diffraction or a picture of a point |
+//!
+//! Left out: what the file does not state but causes (shifts by aberrations, charge that blooms).
+
+use super::super::distortion::centre_words;
+use super::curve::Curve;
+use super::side::{Quantity, Side};
+use super::{response, tone};
+use etendue_core::maths::f64::atan;
+use etendue_metrology::Estimate;
+use etendue_metrology::photon_transfer::temperature::ZERO_CELSIUS_K;
+use etendue_pipeline::plan::CameraBody;
+use etendue_projection::Sense;
+use etendue_sensor::SensorParameters;
+use etendue_sensor::effects::dark_current::DarkCurrent;
+use etendue_sensor::effects::temperature::{Temperature, TemperatureLaw};
+use glam::DVec2;
+use std::collections::BTreeMap;
+
+/// The light that was measured by, as told.
+pub(crate) struct Light {
+    pub wavelength_nm: Option<f64>,
+    pub illuminant: Option<String>,
+}
+
+type Quantities = BTreeMap<String, Quantity>;
+
+/// The camera's own side of a measurement.
+pub(crate) fn side(body: &CameraBody, measured: &Side, light: &Light) -> Result<Side, String> {
+    let Light { wavelength_nm, illuminant } = light;
+    let (wavelength_nm, illuminant) = (*wavelength_nm, illuminant.as_deref());
+    if wavelength_nm.is_some() && measured.kind != "ptc" {
+        return Err("--wavelength-nm belongs to photon transfer (ptc)".to_owned());
+    }
+    if illuminant.is_some() && !["sfr", "oecf"].contains(&measured.kind.as_str()) {
+        return Err("--illuminant belongs to the response of edges (sfr) and to tone curves (oecf)".to_owned());
+    }
+    let mut quantities = Quantities::new();
+    let mut put = |key: &str, value: f64, unit: &str| {
+        quantities.insert(key.to_owned(), Quantity::declared(value, unit));
+    };
+    let curves = match measured.kind.as_str() {
+        "distortion" => {
+            distortion(body, &mut put);
+            // The declared curve is that about the principal point.
+            let own = centre_words(body.raster.principal_px());
+            let same = measured.settings.get("centre_px").is_none_or(|centre| *centre == own);
+            if same { along(measured, |field| ratio(body, field)) } else { Vec::new() }
+        }
+        "focal" | "calibrate" => {
+            intrinsics(body, measured, &mut put);
+            Vec::new()
+        }
+        "vignetting" => {
+            put("corner_percent", 100.0 * illumination(body, 1.0), "%");
+            along(measured, |field| Some(100.0 * illumination(body, field)))
+        }
+        "ptc" => {
+            electronics(body, measured, wavelength_nm, &mut put)?;
+            Vec::new()
+        }
+        "dark-current" => growth(body, measured, &mut put)?,
+        "chromatic" => {
+            achromatic(body, &mut put)?;
+            along(measured, |_| Some(0.0))
+        }
+        "oecf" => tone::declared(body, measured, illuminant.unwrap_or("D65"))?,
+        "sfr" => response::declared(body, measured, illuminant.unwrap_or("D65"))?,
+        kind => return Err(format!("a camera file declares nothing that measure {kind} finds")),
+    };
+    Ok(Side {
+        kind: measured.kind.clone(),
+        settings: measured.settings.clone(),
+        quantities,
+        curves,
+        angles_deg: measured.angles_deg.clone(),
+    })
+}
+
+/// The declared curve at the places of the measured one.
+fn along(measured: &Side, at: impl Fn(f64) -> Option<f64>) -> Vec<Curve> {
+    measured.curves.iter().map(|c| at_points(c, |percent| at(percent / 100.0))).collect()
+}
+
+fn at_points(measured: &Curve, at: impl Fn(f64) -> Option<f64>) -> Curve {
+    let point = |(x, _): &(f64, Estimate)| Some((*x, Estimate::new(at(*x)?, 0.0)));
+    Curve { points: measured.points.iter().filter_map(point).collect(), ..measured.clone() }
+}
+
+/// Half the picture's diagonal, px.
+fn half_px(body: &CameraBody) -> DVec2 {
+    0.5 * DVec2::new(body.raster.width() as f64, body.raster.height() as f64)
+}
+
+/// The four places of a radial field position about a point of the picture, mm from the principal point.
+fn places(body: &CameraBody, field: f64, about_px: DVec2) -> [DVec2; 4] {
+    [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]]
+        .map(|sign| body.raster.sensor_mm(about_px + field * half_px(body) * DVec2::from(sign)))
+}
+
+fn distortion(body: &CameraBody, put: &mut impl FnMut(&str, f64, &str)) {
+    let Some(d) = body.lens.distortion() else { return };
+    let way = match d.sense() {
+        Sense::IdealToObserved => "forward",
+        Sense::ObservedToIdeal => "backward",
+    };
+    let unit = body.raster.half_diagonal_mm() / d.unit_mm();
+    let [k1, k2] = d.coefficients();
+    put(&format!("{way}_k1"), k1 * unit * unit, "");
+    put(&format!("{way}_k2"), k2 * unit * unit * unit * unit, "");
+    put(&format!("{way}_centre_x_px"), body.raster.principal_px().x, "px");
+    put(&format!("{way}_centre_y_px"), body.raster.principal_px().y, "px");
+}
+
+/// Observed over ideal distance from the principal point.
+fn ratio(body: &CameraBody, field: f64) -> Option<f64> {
+    let of = |at: DVec2| Some(at.length() / (body.lens.principal_distance_mm() * body.lens.tangent(at)?.length()));
+    places(body, field, body.raster.principal_px()).into_iter().try_fold(0.0, |sum, at| Some(sum + 0.25 * of(at)?))
+}
+
+fn intrinsics(body: &CameraBody, measured: &Side, put: &mut impl FnMut(&str, f64, &str)) {
+    let matrix = body.raster.camera_matrix(body.lens.principal_distance_mm());
+    let pitch = body.raster.pitch_mm();
+    for (key, px, pitch) in [("fx", matrix.fx, pitch.x), ("fy", matrix.fy, pitch.y)] {
+        put(&format!("{key}_px"), px, "px");
+        put(&format!("{key}_mm"), px * pitch, "mm");
+    }
+    put("cx_px", matrix.cx, "px");
+    put("cy_px", matrix.cy, "px");
+    let sense = match measured.settings.get("model").map_or("", String::as_str) {
+        "opencv" | "opencv5" | "radial" => Sense::IdealToObserved,
+        "radial-inverse" => Sense::ObservedToIdeal,
+        _ => return,
+    };
+    let Some(d) = body.lens.distortion().filter(|d| d.sense() == sense) else { return };
+    let unit = body.lens.principal_distance_mm() / d.unit_mm();
+    let [k1, k2] = d.coefficients();
+    put("k1", k1 * unit * unit, "");
+    put("k2", k2 * unit * unit * unit * unit, "");
+}
+
+/// Light on a pixel over that in the picture's middle.
+fn illumination(body: &CameraBody, field: f64) -> f64 {
+    let angles = body.sensor.as_ref().and_then(|s| s.parameters().optics.angle_response.as_ref());
+    let response = |at: DVec2| angles.map_or(1.0, |a| a.at(atan(at.length() / a.exit_pupil_mm).to_degrees()));
+    let light = |field: f64| {
+        places(body, field, half_px(body)).iter().map(|at| body.lens.etendue_sr(*at) * response(*at)).sum::<f64>()
+    };
+    light(field) / light(0.0)
+}
+
+fn electronics(
+    body: &CameraBody,
+    measured: &Side,
+    wavelength_nm: Option<f64>,
+    put: &mut impl FnMut(&str, f64, &str),
+) -> Result<(), String> {
+    let sensor = body.sensor.as_ref().ok_or("the camera has no electronics, of which photon transfer tells")?;
+    let p = sensor.parameters();
+    let gain = p.read_out.gain_dn_e * p.read_out.analogue_gain * p.read_out.digital_gain;
+    put("gain_dn_per_e", gain, "DN/e⁻");
+    put("dark_noise_e", dark_noise_e(p), "e⁻");
+    put("dark_current_mean_e_per_s", p.charge.dark.mean_e_s(), "e⁻/s");
+    let (offset, response) = (p.pattern.offset, p.pattern.photo_response);
+    for (part, e, share) in [
+        ("pixel", offset.white_e, response.white),
+        ("row", offset.row_e, response.row),
+        ("column", offset.column_e, response.column),
+    ] {
+        put(&format!("dsnu_e_{part}"), e, "e⁻");
+        put(&format!("prnu_percent_{part}"), 100.0 * share, "%");
+    }
+    if let Some(nm) = wavelength_nm {
+        let channel = channel(p, measured.settings.get("channel").map(String::as_str))?;
+        put("quantum_efficiency", sensor.picture_quantum_efficiencies(nm)[channel], "");
+    }
+    Ok(())
+}
+
+/// The dark current at the temperatures that were measured.
+fn growth(body: &CameraBody, measured: &Side, put: &mut impl FnMut(&str, f64, &str)) -> Result<Vec<Curve>, String> {
+    let dark = body.sensor.as_ref().map(|s| s.parameters().charge.dark);
+    let (dark, stated) = dark.and_then(|dark| Some((dark, dark.temperature?))).ok_or(
+        "the camera states no temperature of its dark current: give [sensor.dark] temperature_c and reference_c",
+    )?;
+    if let TemperatureLaw::Doubling { step_k } = stated.law {
+        put("doubling_doubling_k", step_k, "K");
+    }
+    let sensor = |celsius: f64| Temperature { sensor_k: celsius + ZERO_CELSIUS_K, ..stated };
+    let at = |celsius: f64| DarkCurrent { temperature: Some(sensor(celsius)), ..dark }.mean_e_s();
+    Ok(measured.curves.iter().map(|c| at_points(c, |celsius| Some(at(celsius)))).collect())
+}
+
+/// Red and blue stand where green does.
+fn achromatic(body: &CameraBody, put: &mut impl FnMut(&str, f64, &str)) -> Result<(), String> {
+    if body.lens.spreads_colours() || body.front.is_some() {
+        let why =
+            "what this lens does to colours has no closed form here: expected one without lateral_colour and [front]";
+        return Err(why.to_owned());
+    }
+    for channel in ["red", "blue"] {
+        ["x", "y"].iter().for_each(|axis| put(&format!("{channel}_shift_{axis}_px"), 0.0, "px"));
+    }
+    Ok(())
+}
+
+/// The channel that was measured, by its name or its first letter.
+pub(crate) fn channel(p: &SensorParameters, measured: Option<&str>) -> Result<usize, String> {
+    let names = || p.channels.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", ");
+    let Some(name) = measured else {
+        let several = || format!("the pixels have colours ({}): measure one with --channel", names());
+        return if p.channels.len() == 1 { Ok(0) } else { Err(several()) };
+    };
+    let alike = |own: &str| own.eq_ignore_ascii_case(name) || (name.len() == 1 && own[..1].eq_ignore_ascii_case(name));
+    let found = p.channels.iter().position(|c| alike(&c.name));
+    found.ok_or_else(|| format!("the channel '{name}' was measured; the file has {}", names()))
+}
+
+/// The first place of a channel in the tile, which is the one that measurements take.
+pub(crate) fn place_of(p: &SensorParameters, channel: usize) -> [usize; 2] {
+    let at = p.cfa.channels().iter().position(|c| *c == channel).unwrap_or(0);
+    [at % p.cfa.width(), at / p.cfa.width()]
+}
+
+/// Noise of the chain in a pixel without light, at exposures too short for dark current.
+fn dark_noise_e(p: &SensorParameters) -> f64 {
+    let noise = &p.read_out.noise;
+    (noise.white_e * noise.white_e + noise.row_e * noise.row_e + noise.column_e * noise.column_e).sqrt()
+}

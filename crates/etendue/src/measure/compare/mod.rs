@@ -1,0 +1,282 @@
+//! `measure compare`: two cameras' measurements side by side.
+//!
+//! Every quantity that both sides know, and every curve: difference, relative error against the second side and the normalised error
+//! E_n (ISO 13528) by both standard uncertainties. |E_n| > 1 is a difference; of curves the largest |E_n| with a limit
+//! that allows for their number of points.
+
+mod curve;
+mod declared;
+mod mean;
+mod response;
+mod side;
+mod tone;
+
+use crate::error::Error;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
+use curve::{Curve, Gap, gaps, limit};
+use declared::Light;
+use etendue_metrology::Estimate;
+use mean::{Compared, means};
+use side::{Quantity, Side, sides};
+use std::path::PathBuf;
+
+/// `etendue measure compare`
+#[derive(Clone, Debug)]
+pub struct CompareRequest {
+    /// A measurement (what --json printed), or the camera file (TOML) that was measured
+    pub a: PathBuf,
+    /// The same of the other; relative errors are against this one
+    pub b: PathBuf,
+    /// Where a camera file is compared with photon transfer: the light's wavelength, for the quantum efficiency
+    pub wavelength_nm: Option<f64>,
+    /// Where a camera file is compared with the response of edges or a tone curve: the light's spectrum [default: D65]
+    pub illuminant: Option<String>,
+    /// Change a key of the camera file, e.g. --set sensor.exposure_s=0.002
+    pub set: Vec<String>,
+}
+
+/// Two measurements side by side.
+#[derive(Clone, Debug)]
+pub struct MeasurementComparison {
+    /// Every quantity and curve that both know.
+    pub report: Report,
+    /// The two files.
+    pub names: [String; 2],
+    /// The quantities and curves that differ; empty where none does.
+    pub differing: Vec<String>,
+}
+
+/// Compares two measurements, or a measurement with the camera file that was measured.
+///
+/// # Errors
+/// Where a file cannot be used, or the two have nothing in common.
+pub fn compare(request: &CompareRequest) -> Result<MeasurementComparison, Error> {
+    let light = Light { wavelength_nm: request.wavelength_nm, illuminant: request.illuminant.clone() };
+    let [a, b] = sides(&request.a, &request.b, &light, &request.set)?;
+    let (names, told) = ([&request.a, &request.b].map(|f| f.display().to_string()), Error::input);
+    contradictions(&a, &b).map_err(told)?;
+    let mut report =
+        Report::new("compare", "two measurements side by side, E_n after ISO 13528 (± one standard uncertainty)");
+    report.setting("a", names[0].clone());
+    report.setting("b", names[1].clone());
+    report.setting("kind", a.kind.clone());
+    let differing = [quantities(&mut report, &a, &b), curves(&mut report, &a, &b)].concat();
+    unmatched(&mut report, &a, &b);
+    report.fact("differing", "quantities and curves that differ", "", differing.len() as f64);
+    Ok(MeasurementComparison { report, names, differing })
+}
+
+/// Intrinsics by `focal` and by `calibrate` are the same quantities.
+fn family(kind: &str) -> &str {
+    if kind == "focal" { "calibrate" } else { kind }
+}
+
+fn contradictions(a: &Side, b: &Side) -> Result<(), String> {
+    if family(&a.kind) != family(&b.kind) {
+        return Err(format!("measurements of different kinds, {} and {}: expected two of one kind", a.kind, b.kind));
+    }
+    for (key, of_a) in &a.settings {
+        if let Some(of_b) = b.settings.get(key).filter(|of_b| *of_b != of_a) {
+            return Err(format!(
+                "{key}: {of_a} and {of_b}: what they measured does not mean the same; measure both with one"
+            ));
+        }
+    }
+    for (key, of_a) in &a.quantities {
+        if let Some(of_b) = b.quantities.get(key).filter(|of_b| of_b.unit != of_a.unit) {
+            return Err(format!("{key}: in '{}' and in '{}': expected one unit", of_a.unit, of_b.unit));
+        }
+    }
+    let common = a.quantities.keys().any(|key| b.quantities.contains_key(key));
+    let curves = a.curves.iter().any(|x| b.curves.iter().any(|y| x.name == y.name));
+    if common || curves { Ok(()) } else { Err("the two have no quantity in common: nothing to compare".to_owned()) }
+}
+
+fn verdict(differs: Option<bool>) -> Cell {
+    differs.map_or(Cell::Nothing, |differs| Cell::Text(if differs { "differs" } else { "agrees" }.to_owned()))
+}
+
+fn number(value: Option<f64>, decimals: usize) -> Cell {
+    value.map_or(Cell::Nothing, |v| Cell::Number(v, decimals))
+}
+
+/// The table of quantities, and which of them differ.
+fn quantities(report: &mut Report, a: &Side, b: &Side) -> Vec<String> {
+    let common = a.quantities.iter().filter_map(|(key, of_a)| Some((key, of_a, b.quantities.get(key)?)));
+    let mut differing = Vec::new();
+    let mut rows = Vec::new();
+    for (key, of_a, of_b) in common {
+        let e_n = normalised(of_a, of_b);
+        let differs = e_n.map(|e| e.abs() > 1.0);
+        if differs == Some(true) {
+            differing.push(key.clone());
+        }
+        let difference = of_a.value - of_b.value;
+        let relative = (of_b.value != 0.0).then(|| 100.0 * difference / of_b.value.abs());
+        rows.push(vec![
+            Cell::Text(key.clone()),
+            Cell::Text(of_a.unit.clone()),
+            cell(of_a),
+            cell(of_b),
+            number(relative, 4),
+            number(e_n, 2),
+            verdict(differs),
+        ]);
+    }
+    let columns = vec![
+        ("quantity", "quantity"),
+        ("unit", "unit"),
+        ("a", "A"),
+        ("b", "B"),
+        ("relative_error_percent", "error %"),
+        ("e_n", "E_n"),
+        ("verdict", "verdict"),
+    ];
+    if !rows.is_empty() {
+        report.table(Table { key: "quantities", columns, rows });
+    }
+    differing
+}
+
+fn cell(q: &Quantity) -> Cell {
+    Cell::Estimate(Estimate::new(q.value, q.standard_uncertainty.unwrap_or(f64::INFINITY)))
+}
+
+/// E_n, where both state an uncertainty and one of them is more than nothing.
+fn normalised(a: &Quantity, b: &Quantity) -> Option<f64> {
+    let (u, v) = (a.standard_uncertainty?, b.standard_uncertainty?);
+    (u + v > 0.0).then(|| Estimate::new(a.value, u).normalised_error(Estimate::new(b.value, v)))
+}
+
+/// The table of curves with their plots, and which of them differ.
+fn curves(report: &mut Report, a: &Side, b: &Side) -> Vec<String> {
+    let mut differing = Vec::new();
+    let mut rows = Vec::new();
+    let pairs = a.curves.iter().filter_map(|x| Some((x, b.curves.iter().find(|y| y.name == x.name)?)));
+    let all: Vec<Compared> = pairs.map(|(of_a, of_b)| (of_a.clone(), gaps(of_a, of_b))).collect();
+    for (curve, gaps) in &all {
+        // Curves of one kind are one family, as their points are.
+        let family = all.iter().filter(|(other, _)| other.kind() == curve.kind());
+        let tested = family.flat_map(|(_, gaps)| gaps).filter_map(Gap::normalised).count();
+        let (row, differs) = curve_row(curve, gaps, limit(tested));
+        rows.push(row);
+        if differs == Some(true) {
+            differing.push(curve.name.clone());
+        }
+    }
+    let columns = vec![
+        ("curve", "curve"),
+        ("points", "points"),
+        ("largest_difference", "largest difference"),
+        ("at", "at"),
+        ("largest_relative_error_percent", "largest error %"),
+        ("e_n", "E_n"),
+        ("e_n_at", "at"),
+        ("limit", "limit"),
+        ("verdict", "verdict"),
+    ];
+    if !rows.is_empty() {
+        report.table(Table { key: "curves", columns, rows });
+    }
+    let means = means(&all);
+    means.iter().for_each(|(curve, gaps)| report.table(mean_table(curve, gaps)));
+    for (curve, gaps) in if means.is_empty() { &all } else { &means } {
+        report.plot(both(curve, gaps));
+        report.plot(error(curve, gaps));
+    }
+    differing
+}
+
+/// The mean of many curves, point by point.
+fn mean_table(curve: &Curve, gaps: &[Gap]) -> Table {
+    let row = |gap: &Gap| {
+        let u = etendue_core::maths::f64::hypot(gap.a.standard_uncertainty, gap.b.standard_uncertainty);
+        vec![
+            Cell::Text(curve.name.clone()),
+            Cell::Number(gap.x, 2),
+            Cell::Estimate(gap.a),
+            Cell::Estimate(gap.b),
+            Cell::Estimate(Estimate::new(gap.difference(), u)),
+        ]
+    };
+    Table {
+        key: "means",
+        columns: vec![("curve", "curve"), ("at", "at"), ("a", "A"), ("b", "B"), ("difference", "difference")],
+        rows: gaps.iter().map(row).collect(),
+    }
+}
+
+fn largest(values: impl Iterator<Item = f64>) -> Option<f64> {
+    values.max_by(|a, b| a.abs().total_cmp(&b.abs()))
+}
+
+fn curve_row(curve: &Curve, gaps: &[Gap], limit: f64) -> (Vec<Cell>, Option<bool>) {
+    let worst = gaps.iter().max_by(|a, b| a.difference().abs().total_cmp(&b.difference().abs()));
+    let of_size = |gap: &Gap| gap.normalised().map_or(f64::NEG_INFINITY, f64::abs);
+    let least_likely = gaps.iter().max_by(|a, b| of_size(a).total_cmp(&of_size(b)));
+    let e_n = least_likely.and_then(Gap::normalised);
+    let differs = e_n.map(|e| e.abs() > limit);
+    let row = vec![
+        Cell::Text(curve.name.clone()),
+        Cell::Number(gaps.len() as f64, 0),
+        number(worst.map(Gap::difference), 6),
+        number(worst.map(|gap| gap.x), 2),
+        number(largest(gaps.iter().filter_map(Gap::relative)).map(|r| 100.0 * r), 4),
+        number(e_n, 2),
+        number(e_n.and(least_likely).map(|gap| gap.x), 2),
+        number(e_n.map(|_| limit), 2),
+        verdict(differs),
+    ];
+    (row, differs)
+}
+
+fn x_axis(curve: &Curve) -> Axis {
+    Axis::linear(match curve.abscissa {
+        "field_percent" => "radial field position, % of the half diagonal",
+        "cycles_per_px" => "cycles a pixel",
+        "reading_percent" => "reading, %",
+        "celsius" => "temperature of the sensor, °C",
+        _ => "exposure",
+    })
+}
+
+fn both(curve: &Curve, gaps: &[Gap]) -> Plot {
+    let bars = |side: fn(&Gap) -> Estimate| {
+        gaps.iter().map(move |gap| (gap.x, side(gap).value, 2.0 * side(gap).standard_uncertainty))
+    };
+    Plot {
+        title: format!("{} (bars: 95 %)", curve.name),
+        x: x_axis(curve),
+        y: Axis::linear(curve.ordinate),
+        series: vec![
+            Series::with_errors("A", Mark::Points, bars(|gap| gap.a)),
+            Series::with_errors("B", Mark::Line, bars(|gap| gap.b)),
+        ],
+    }
+}
+
+fn error(a: &Curve, gaps: &[Gap]) -> Plot {
+    let points = gaps.iter().filter_map(|gap| {
+        let u = etendue_core::maths::f64::hypot(gap.a.standard_uncertainty, gap.b.standard_uncertainty);
+        Some((gap.x, 100.0 * gap.relative()?, 200.0 * u / gap.b.value.abs()))
+    });
+    Plot {
+        title: format!("{}: relative error (bars: 95 %)", a.name),
+        x: x_axis(a),
+        y: Axis::linear("A less B over B, %").showing(&[0.0]),
+        series: vec![Series::with_errors("", Mark::Points, points)],
+    }
+}
+
+/// What only one side knows.
+fn unmatched(report: &mut Report, a: &Side, b: &Side) {
+    for (name, this, other) in [("A", a, b), ("B", b, a)] {
+        let quantities = this.quantities.keys().filter(|key| !other.quantities.contains_key(*key));
+        let curves = this.curves.iter().map(|c| &c.name).filter(|name| other.curves.iter().all(|c| c.name != **name));
+        let alone: Vec<&str> = quantities.chain(curves).map(String::as_str).collect();
+        if !alone.is_empty() {
+            report.note(format!("only {name} has {}", alone.join(", ")));
+        }
+    }
+}

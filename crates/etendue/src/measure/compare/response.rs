@@ -1,0 +1,194 @@
+//! The response of edges that a camera file declares in closed form.
+//!
+//! ```text
+//! MTF(ν) = sinc(a ν cos θ) sinc(a ν sin θ) · neighbours(ν) · lens(ν)
+//!                                     ν in cycles a pixel along the edge's normal, θ from the normal to the nearest of rows and columns
+//! neighbours: Σ w_n r_n cos(2π ν n·d_n)/Σ w_n r_n       w_n what the pixel takes of neighbour n at d_n (n the normal), r_n its response to the light
+//! lens: circular pupil: 2/π (arccos s − s √(1 − s²)), s = λ N ν w/pitch, averaged over the light that the pixel sees; w how much wider
+//!       the pattern is at the edge's place: 1/cos³ θ′ along the radius, 1/cos θ′ across it
+//!       picture of a point: Σ L cos(2π ν x)/Σ L
+//! ```
+//!
+//! a is the side of the photosensitive area. Frequencies are those of the picture, of one colour of a mosaic, too. The lens is in
+//! focus; its picture of a point is taken along the row or column nearest to the normal.
+//!
+//! Refused, as nothing here says what they do: lenses other than a thin one or a pinhole, glare, ghosts, glass before the lens, blades,
+//! obstructions and wavefront errors, capacitance between pixels, developed pictures of mosaics.
+
+use super::curve::Curve;
+use super::declared::{channel, place_of};
+use super::side::Side;
+use etendue_core::maths::f64::{acos, cos, sin, sin_cos};
+use etendue_metrology::Estimate;
+use etendue_optics::effects::{PointSpread, PsfParameters, SpreadImage};
+use etendue_pipeline::plan::CameraBody;
+use etendue_spectra::{Spectrum, illuminant};
+use glam::DVec2;
+use std::f64::consts::{PI, TAU};
+
+/// Wavelengths of averages, nm apart.
+const STEP_NM: usize = 5;
+
+/// What the curves of a camera are made of.
+struct Response<'a> {
+    body: &'a CameraBody,
+    /// (weight, columns to the right, rows down) of the pixels whose light a reading holds; the weights sum to 1.
+    neighbours: Vec<(f64, f64, f64)>,
+    /// (weight, wavelength, nm); the weights sum to 1.
+    light: Vec<(f64, f64)>,
+}
+
+/// The declared curves at the frequencies that were measured.
+pub(crate) fn declared(body: &CameraBody, measured: &Side, light: &str) -> Result<Vec<Curve>, String> {
+    in_closed_form(body)?;
+    let response = Response::of(body, measured, light)?;
+    Ok(measured.curves.iter().map(|curve| response.at_points(curve, measured)).collect())
+}
+
+fn in_closed_form(body: &CameraBody) -> Result<(), String> {
+    let thin = ["thin lens", "pinhole"].contains(&body.lens.kind());
+    if !thin || body.effects.glare().is_some() || body.effects.ghosts().is_some() || body.front.is_some() {
+        return Err("the response of this lens has no closed form here: expected a thin lens or pinhole without glare, ghosts and [front]"
+            .to_owned());
+    }
+    if body.sensor.as_ref().is_some_and(|s| s.parameters().read_out.capacitance.is_some()) {
+        return Err("the response has no closed form here where pixels have a capacitance between them".to_owned());
+    }
+    match body.effects.psf() {
+        Some(PointSpread::Aperture(psf)) if !is_plain(psf.parameters()) => {
+            Err("the response of this pupil has no closed form here: expected a circle without wavefront errors"
+                .to_owned())
+        }
+        _ => Ok(()),
+    }
+}
+
+/// A circular pupil without errors.
+fn is_plain(psf: &PsfParameters) -> bool {
+    psf.blades == 0 && psf.obstruction == 0.0 && psf.wavefront.is_empty()
+}
+
+impl<'a> Response<'a> {
+    fn of(body: &'a CameraBody, measured: &Side, light: &str) -> Result<Self, String> {
+        let spectrum = spectrum(light)?;
+        let alone = |light| Self { body, neighbours: vec![(1.0, 0.0, 0.0)], light };
+        let Some(sensor) = &body.sensor else { return Ok(alone(weights(spectrum, &Spectrum::constant(1.0)))) };
+        let p = sensor.parameters();
+        let mosaic = p.cfa.width() * p.cfa.height() > 1;
+        if mosaic && measured.settings.get("readings").is_some_and(|readings| readings != "raw") {
+            return Err(
+                "a developed picture of a mosaic has no closed form: measure a colour of the raw one (--channel)"
+                    .to_owned(),
+            );
+        }
+        let channel = channel(p, measured.settings.get("channel").map(String::as_str))?;
+        let light = weights(spectrum, sensor.responsivity(channel));
+        let seen = |c: usize| weighed(spectrum, sensor.responsivity(c)).map(|(weight, _)| weight).sum::<f64>();
+        let at = place_of(p, channel);
+        let mut neighbours = Vec::new();
+        for (dx, dy) in (0..9).map(|n| (n % 3, n / 3)) {
+            let share = p.optics.cross_talk.map_or(f64::from(u8::from((dx, dy) == (1, 1))), |c| match (dx, dy) {
+                (1, 1) => 1.0 - c.0.given(),
+                (_, 1) => c.0.horizontal,
+                (1, _) => c.0.vertical,
+                _ => c.0.corner,
+            });
+            let there = sensor.channel_at(at[0] + p.cfa.width() + dx - 1, at[1] + p.cfa.height() + dy - 1);
+            neighbours.push((share * seen(there), dx as f64 - 1.0, dy as f64 - 1.0));
+        }
+        let sum: f64 = neighbours.iter().map(|(weight, ..)| weight).sum();
+        neighbours.iter_mut().for_each(|(weight, ..)| *weight /= sum);
+        Ok(Self { body, neighbours, light })
+    }
+
+    fn at_points(&self, measured: &Curve, side: &Side) -> Curve {
+        let words = || measured.name.split(' ');
+        let down = words().any(|word| word == "vertical");
+        let angle_deg = words().find_map(|word| side.angles_deg.get(word)).copied().unwrap_or(0.0);
+        let (sine, cosine) = sin_cos(angle_deg.to_radians());
+        let place = words().find_map(place_px);
+        let at = |nu: f64| {
+            let aperture = nu * self.body.aperture_px;
+            let pixel = sinc(aperture * cosine) * sinc(aperture * sine);
+            pixel * self.exchanged(nu * cosine, nu * sine, down) * self.lens(nu, down, place)
+        };
+        let points = measured.points.iter().map(|(x, _)| (*x, Estimate::new(at(*x).abs(), 0.0))).collect();
+        Curve { points, ..measured.clone() }
+    }
+
+    /// `across` is the frequency along the nearest of rows and columns, `along` the other: which way the edge leans makes no difference,
+    /// as neighbours on both sides are under the same filters.
+    fn exchanged(&self, across: f64, along: f64, down: bool) -> f64 {
+        let wave = |x: f64, y: f64| {
+            let (near, far) = if down { (y, x) } else { (x, y) };
+            cos(TAU * across * near) * cos(TAU * along * far)
+        };
+        self.neighbours.iter().map(|(weight, x, y)| weight * wave(*x, *y)).sum()
+    }
+
+    /// Diffraction is that of the place on the sensor: the pupil looks smaller from beside the axis.
+    fn lens(&self, nu: f64, down: bool, place_px: Option<DVec2>) -> f64 {
+        let pitch = self.body.raster.pitch_mm();
+        let per_mm = nu / if down { pitch.y } else { pitch.x };
+        let axis = if down { DVec2::Y } else { DVec2::X };
+        let average = |of: &dyn Fn(f64) -> f64| self.light.iter().map(|(weight, nm)| weight * of(*nm)).sum();
+        match self.body.effects.psf() {
+            None => 1.0,
+            Some(PointSpread::Aperture(psf)) => {
+                let place = place_px.map_or(DVec2::ZERO, |at| (at - self.body.raster.principal_px()) * pitch);
+                let outwards = place.try_normalize().unwrap_or(DVec2::X);
+                let [along, across] = psf.stretch(place.length());
+                let wider = DVec2::new(along * axis.dot(outwards), across * axis.perp_dot(outwards)).length();
+                average(&|nm| diffraction(nm * 1e-6 * psf.f_number() * per_mm * wider))
+            }
+            Some(PointSpread::Image(image)) => average(&|nm| of_picture(image, nm, per_mm, down)),
+        }
+    }
+}
+
+/// A place by its columns and rows, as edges are named.
+fn place_px(word: &str) -> Option<DVec2> {
+    let (x, y) = word.split_once(',')?;
+    Some(DVec2::new(x.parse().ok()?, y.parse().ok()?))
+}
+
+/// The light's spectrum.
+pub(crate) fn spectrum(light: &str) -> Result<&'static Spectrum, String> {
+    let unknown = || format!("--illuminant {light}: give one of {}", illuminant::names().join(", "));
+    illuminant::named(light).ok_or_else(unknown)
+}
+
+/// Light of a spectrum that a pixel sees, by wavelength, nm.
+pub(crate) fn weighed(light: &Spectrum, responsivity: &Spectrum) -> impl Iterator<Item = (f64, f64)> {
+    (300..=1100)
+        .step_by(STEP_NM)
+        .map(move |nm| (f64::from(light.at(nm as f32) * responsivity.at(nm as f32)), f64::from(nm)))
+}
+
+fn weights(light: &Spectrum, responsivity: &Spectrum) -> Vec<(f64, f64)> {
+    let sum: f64 = weighed(light, responsivity).map(|(weight, _)| weight).sum();
+    weighed(light, responsivity).filter(|(weight, _)| *weight > 0.0).map(|(weight, nm)| (weight / sum, nm)).collect()
+}
+
+fn sinc(x: f64) -> f64 {
+    if x == 0.0 { 1.0 } else { sin(PI * x) / (PI * x) }
+}
+
+/// Of a circular pupil; s the frequency over the cut-off.
+fn diffraction(s: f64) -> f64 {
+    if s >= 1.0 { 0.0 } else { 2.0 / PI * (acos(s) - s * (1.0 - s * s).sqrt()) }
+}
+
+/// Of a picture of a point's light, cycles a mm on the sensor.
+fn of_picture(image: &SpreadImage, nm: f64, per_mm: f64, down: bool) -> f64 {
+    let p = image.parameters();
+    let step_mm = 1e-3 * p.pitch_um * p.wavelength_nm.map_or(1.0, |at| nm / at);
+    let middle = 0.5 * if down { p.height() as f64 } else { p.width as f64 };
+    let (mut along, mut sum) = (0.0, 0.0);
+    for (i, light) in p.light.iter().enumerate() {
+        let index = if down { i / p.width } else { i % p.width };
+        along += f64::from(*light) * cos(TAU * per_mm * step_mm * (index as f64 + 0.5 - middle));
+        sum += f64::from(*light);
+    }
+    along / sum
+}

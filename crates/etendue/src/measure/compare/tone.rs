@@ -1,0 +1,182 @@
+//! The tone curve that a camera file declares, at the exposures that were measured.
+//!
+//! ```text
+//! raw:      y = b + (w − b) min(s (H + H₀), 1)        b black, w white level
+//! picture:  y = y_max tone(min(s (H + H₀), 1))        the file's tone curve; y_max the largest number of the picture
+//! ```
+//!
+//! H₀ is the exposure that charge collects on its way under smear, of a picture as bright all over as the surface that was measured;
+//! exposures of such a camera are seconds. Under filters it is that of the column's mean pixel, colours of the light and all: of raw readings of one colour
+//! s̄/L of that colour (L its response to the light, s̄ that of the mean pixel of its columns), of a developed picture what white balance w and colour matrix M
+//! make of all of them, Σ_c M_c w_c s̄_c/Σ_c M_c w_c L_c in the row of the channel that was measured.
+//! Readings of a picture are the curve of noisy light, and their mean is not the curve of its mean: with σ the noise of the measured readings (that of
+//! rounding taken off) the declared mean is y + y″ σ²/2y′² (second order), y′ and y″ the slopes of the picture's number over light. It matters in the dark.
+//! How bright the surface was is no fact of the camera: s is what brings the readings between 5 % and 95 % of the range nearest
+//! (least squares of s H on the light that the declared curve reads from them). So the form is compared, and its ends, not the sensitivity.
+
+use super::curve::Curve;
+use super::declared::{channel, place_of};
+use super::response::{spectrum, weighed};
+use super::side::Side;
+use etendue_isp::WhiteBalance;
+use etendue_metrology::Estimate;
+use etendue_pipeline::plan::{CameraBody, Development};
+use etendue_sensor::Sensor;
+use etendue_sensor::effects::response::Response;
+
+/// What turns a share of saturation into a reading.
+struct Tone<'a> {
+    black: f64,
+    white: f64,
+    /// H₀, s.
+    smear_s: f64,
+    /// `None`: a straight line.
+    development: Option<&'a Development>,
+}
+
+/// The curves of the measured exposures.
+pub(crate) fn declared(body: &CameraBody, measured: &Side, light: &str) -> Result<Vec<Curve>, String> {
+    let tone = Tone::of(body, measured, light)?;
+    measured.curves.iter().map(|curve| tone.at_points(curve)).collect()
+}
+
+/// The light of the mean pixel of a column over that of the channel which was measured there, after development where it was a picture.
+fn of_column(sensor: &Sensor, development: Option<&Development>, measured: &Side, light: &str) -> Result<f64, String> {
+    let p = sensor.parameters();
+    if p.channels.len() == 1 {
+        return Ok(1.0);
+    }
+    let spectrum = spectrum(light)?;
+    let seen = |c: usize| weighed(spectrum, sensor.responsivity(c)).map(|(weight, _)| weight).sum::<f64>();
+    let column = |x: usize| {
+        let all = (0..p.cfa.height()).map(|y| seen(sensor.channel_at(x, y)));
+        all.sum::<f64>() / p.cfa.height() as f64
+    };
+    let name = measured.settings.get("channel").map(String::as_str);
+    if let Some(development) = development {
+        return developed(sensor, development, name, seen, column);
+    }
+    let channel = channel(p, name)?;
+    let [x, _] = place_of(p, channel);
+    Ok(column(x) / seen(channel))
+}
+
+/// The same in a channel of the developed picture; without a name in its luminance.
+fn developed(
+    sensor: &Sensor,
+    development: &Development,
+    channel: Option<&str>,
+    seen: impl Fn(usize) -> f64,
+    column: impl Fn(usize) -> f64,
+) -> Result<f64, String> {
+    let Some(colour) = &development.processing.colour else { return Ok(1.0) };
+    let mosaic = &development.mosaic;
+    let (mut own, mut smeared) = (vec![0.0; mosaic.channels()], vec![0.0; mosaic.channels()]);
+    let (columns, rows) = mosaic.period();
+    let mut places = vec![0.0; mosaic.channels()];
+    for (x, y) in (0..rows).flat_map(|y| (0..columns).map(move |x| (x, y))) {
+        let c = mosaic.channel_at(x, y);
+        own[c] += seen(sensor.channel_at(x, y));
+        smeared[c] += column(x);
+        places[c] += 1.0;
+    }
+    let gain = |c: usize| match &colour.white_balance {
+        WhiteBalance::Gains(gains) => gains[c] / places[c],
+        WhiteBalance::GreyWorld => 1.0 / own[c],
+    };
+    let balanced = |light: &[f64]| (0..places.len()).map(|c| gain(c) * light[c]).collect::<Vec<f64>>();
+    let [own, smeared] = [&own, &smeared].map(|light| colour.matrix.apply(&balanced(light)));
+    let of = |weights: [f64; 3]| {
+        let sum = |rgb: [f64; 3]| weights.iter().zip(rgb).map(|(w, v)| w * v).sum::<f64>();
+        sum(smeared) / sum(own)
+    };
+    match channel {
+        Some("R") => Ok(of([1.0, 0.0, 0.0])),
+        Some("G") => Ok(of([0.0, 1.0, 0.0])),
+        Some("B") => Ok(of([0.0, 0.0, 1.0])),
+        Some(other) => Err(format!("the picture has no channel '{other}' of which the camera file declares a curve")),
+        None => Ok(of(LUMINANCE)),
+    }
+}
+
+/// Weights of linear sRGB in the luminance (IEC 61966-2-1).
+const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
+
+/// Of the light, for slopes of the tone curve.
+const STEP: f64 = 0.05;
+
+impl<'a> Tone<'a> {
+    fn of(body: &'a CameraBody, measured: &Side, light: &str) -> Result<Self, String> {
+        let sensor = body.sensor.as_ref().ok_or("the camera has no electronics, whose readings were measured")?;
+        let picture = measured.settings.get("readings").is_some_and(|readings| readings == "picture");
+        let development = body.development.as_ref().filter(|_| picture);
+        let even_s = sensor.parameters().even_smear_s(body.raster.height());
+        let smear_s = even_s * of_column(sensor, development, measured, light)?;
+        if smear_s > 0.0 && measured.settings.get("exposure_unit").is_some_and(|unit| !unit.is_empty()) {
+            return Err("of a camera with smear, whose light counts by time, give exposures in seconds (--exposures)"
+                .to_owned());
+        }
+        match measured.settings.get("readings").map_or("", String::as_str) {
+            "raw" if sensor.parameters().read_out.response == Response::Linear => {
+                Ok(Self { black: sensor.black_level_dn(), white: sensor.white_level_dn(), smear_s, development: None })
+            }
+            "raw" => Err("the sensor's response is no straight line: of raw readings only that is declared".to_owned()),
+            "picture" => {
+                let development =
+                    body.development.as_ref().ok_or("the camera has no [processing], of which a picture tells")?;
+                let largest =
+                    measured.quantities.get("full_scale").ok_or("the measurement does not say its full scale")?;
+                Ok(Self { black: 0.0, white: largest.value, smear_s, development: Some(development) })
+            }
+            "decoded" => {
+                Err("the measured readings were decoded before (--encoding): the camera's curve is no longer in them"
+                    .to_owned())
+            }
+            _ => {
+                Err("the measurement does not say whether it is of raw readings or of a picture: measure again"
+                    .to_owned())
+            }
+        }
+    }
+
+    fn reading(&self, share: f64) -> f64 {
+        let share = share.clamp(0.0, 1.0);
+        let encoded = self.development.map_or(share, |d| f64::from(d.processing.tone.encode(share as f32)));
+        self.black + (self.white - self.black) * encoded
+    }
+
+    /// The mean of readings with this noise at a share of saturation.
+    fn mean_reading(&self, share: f64, noise: f64) -> f64 {
+        let reading = self.reading(share);
+        let step = STEP * share;
+        let near = share > 0.0 && share + step < 1.0;
+        let variance = noise * noise - 1.0 / 12.0;
+        if self.development.is_none() || !near || variance <= 0.0 {
+            return reading;
+        }
+        let (below, above) = (self.reading(share - step), self.reading(share + step));
+        let (slope, bend) = (0.5 * (above - below) / step, (above - 2.0 * reading + below) / (step * step));
+        if slope > 0.0 { reading + 0.5 * bend * variance / (slope * slope) } else { reading }
+    }
+
+    /// Share of saturation of a reading.
+    fn light(&self, reading: f64) -> f64 {
+        let encoded = (reading - self.black) / (self.white - self.black);
+        self.development.map_or(encoded, |d| f64::from(d.processing.tone.decode(encoded as f32)))
+    }
+
+    fn at_points(&self, measured: &Curve) -> Result<Curve, String> {
+        let inside = |reading: f64| (0.05..=0.95).contains(&((reading - self.black) / (self.white - self.black)));
+        let used = || measured.points.iter().filter(|(_, y)| inside(y.value));
+        let along: f64 = used().map(|(x, y)| (x + self.smear_s) * self.light(y.value)).sum();
+        let squares: f64 = used().map(|(x, _)| (x + self.smear_s) * (x + self.smear_s)).sum();
+        if squares <= 0.0 {
+            return Err("no exposure reads between 5 % and 95 % of the range: the curve's form is not seen".to_owned());
+        }
+        let point = |(x, _): &(f64, Estimate)| {
+            let noise = measured.noise.iter().find(|(there, _)| there == x).map_or(0.0, |(_, noise)| *noise);
+            (*x, Estimate::new(self.mean_reading(along / squares * (x + self.smear_s), noise), 0.0))
+        };
+        Ok(Curve { points: measured.points.iter().map(point).collect(), ..measured.clone() })
+    }
+}

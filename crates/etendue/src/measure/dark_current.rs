@@ -1,0 +1,88 @@
+//! `measure dark-current`: its growth with temperature.
+
+use super::ptc::{PtcRequest, measured};
+use super::readings::Selection;
+use crate::error::Error;
+use crate::observer::Observer;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
+use etendue_metrology::Estimate;
+use etendue_metrology::photon_transfer::temperature::{Growth, Law, fit};
+use etendue_stats::chi_square;
+use std::path::PathBuf;
+
+/// `etendue measure dark-current`
+#[derive(Clone, Debug)]
+pub struct DarkCurrentRequest {
+    /// Descriptors of photon transfer at several temperatures of the sensor in °C, three or more
+    pub series: Vec<(f64, PathBuf)>,
+    /// The temperature that the dark current is told at, °C
+    pub reference_c: f64,
+    /// Which part and channel of the pictures.
+    pub selection: Selection,
+}
+
+fn name(law: Law) -> (&'static str, &'static str) {
+    match law {
+        Law::Doubling => ("doubling", "doubles every so many kelvin"),
+        Law::Generation => ("generation", "generation in depleted silicon"),
+        Law::Diffusion => ("diffusion", "diffusion in silicon"),
+    }
+}
+
+pub fn dark_current(request: &DarkCurrentRequest, observer: &dyn Observer) -> Result<Report, Error> {
+    let mut encodings = Vec::new();
+    let current = |(celsius, descriptor): &(f64, PathBuf)| {
+        let (figures, stated) = measured(&PtcRequest::of(descriptor.clone(), &request.selection), observer)?;
+        encodings.push(stated);
+        let current = figures.dark_current_mean_e_per_s.ok_or_else(|| {
+            Error::input(format!("{}: expected dark levels of at least three exposure times", descriptor.display()))
+        })?;
+        Ok((*celsius, current))
+    };
+    let currents = request.series.iter().map(current).collect::<Result<Vec<_>, Error>>()?;
+    let growths = Law::ALL
+        .into_iter()
+        .map(|law| fit(law, &currents, request.reference_c).map_err(Error::input))
+        .collect::<Result<Vec<_>, _>>()?;
+    if let Some(pair) = copies(&currents) {
+        let [a, b] = pair.map(|i| request.series[i].1.display());
+        return Err(Error::input(format!("{a} and {b} hold one measurement: give each temperature its own")));
+    }
+    let mut report = report(&currents, &growths, request.reference_c);
+    encodings.iter().for_each(|stated| report.encoding(stated));
+    Ok(report)
+}
+
+/// Two measurements that are the same to the last bit.
+fn copies(currents: &[(f64, Estimate)]) -> Option<[usize; 2]> {
+    let pairs = (0..currents.len()).flat_map(|i| (0..i).map(move |j| [j, i]));
+    pairs.into_iter().find(|[j, i]| currents[*j].1 == currents[*i].1)
+}
+
+fn report(currents: &[(f64, Estimate)], growths: &[Growth], reference_c: f64) -> Report {
+    let method =
+        "dark current over temperature, EMVA 1288 section 7 and the laws of silicon (± one standard uncertainty)";
+    let mut report = Report::new("dark-current", method);
+    for growth in growths {
+        let (key, label) = name(growth.law);
+        let at = format!("at {reference_c} °C: {label}");
+        report.figure(&format!("{key}_reference_e_per_s"), &at, "e⁻/s", growth.reference_e_per_s);
+        report.figure(&format!("{key}_doubling_k"), "  doubles within", "K", growth.doubling_k);
+        let p = chi_square::p_value(growth.chi_square, growth.degrees_of_freedom as f64);
+        report.fact(&format!("{key}_p_value"), "  probability of a fit no better", "", p);
+    }
+    report.table(Table {
+        key: "temperatures",
+        columns: vec![("celsius", "°C"), ("dark_current_e_per_s", "dark current e⁻/s")],
+        rows: currents.iter().map(|(t, e)| vec![Cell::Number(*t, 2), Cell::Estimate(*e)]).collect(),
+    });
+    let points = currents.iter().map(|(t, e)| (*t, e.value, 2.0 * e.standard_uncertainty));
+    report.plot(Plot {
+        title: "dark current (bars: 95 %)".to_owned(),
+        x: Axis::linear("temperature, °C"),
+        y: Axis::log("dark current, e⁻/s"),
+        series: vec![Series::with_errors("measured", Mark::Points, points)],
+    });
+    report
+}

@@ -1,0 +1,179 @@
+//! `measure depth`: how good an estimated depth picture is against the truth.
+
+use crate::error::Error;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
+use etendue_io::photograph::{Photograph, read_photograph};
+use etendue_metrology::depth::{Alignment, DepthErrors, DepthSettings, measure_depth};
+use etendue_metrology::{Estimate, Image};
+use std::path::{Path, PathBuf};
+
+/// The depth channel of this program's ground truth.
+const DEPTH: &str = "depth.Z";
+
+/// `etendue measure depth`
+#[derive(Clone, Debug)]
+pub struct DepthRequest {
+    /// The estimate: one channel of depth (EXR, PFM, TIFF of floats, PNG of 16 bits …; 0, NaN and infinity are missing)
+    pub estimate: PathBuf,
+    /// The truth: a ground-truth EXR, or one channel of depth
+    pub truth: PathBuf,
+    /// The estimate's channel [default: depth.Z, or the only one]
+    pub estimate_channel: Option<String>,
+    /// The truth's channel [default: depth.Z, or the only one]
+    pub truth_channel: Option<String>,
+    /// Metres a number of the estimate, e.g. 0.001 for millimetres
+    pub estimate_unit_m: f64,
+    /// Metres a number of the truth
+    pub truth_unit_m: f64,
+    /// Limits of the ranges, m, e.g. 0,10,30,100
+    pub ranges_m: Vec<f64>,
+    /// An outlier is off by more than this share of the depth
+    pub outlier_share: f64,
+    /// … and by more than this, m
+    pub outlier_least_m: f64,
+    /// A stereo rig's focal length in pixels times its base in metres: tells errors of disparity (D1, EPE) as well
+    pub focal_base_px_m: Option<f64>,
+    /// What is done to the estimate first: networks may know depth but for a factor
+    pub align: DepthAlignment,
+    /// A jump of the truth by more than this share of the depth is an edge
+    pub edge_share: f64,
+    /// Pixels this near to an edge are told apart
+    pub edge_px: u32,
+}
+
+/// What is done to an estimate before.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DepthAlignment {
+    /// Nothing
+    None,
+    /// Multiply by the median of truth over estimate
+    Median,
+}
+
+pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
+    for (name, unit) in [("estimate", request.estimate_unit_m), ("truth", request.truth_unit_m)] {
+        if !(unit > 0.0 && unit.is_finite()) {
+            return Err(Error::input(format!("--{name}-unit-m: expected a number above 0, not {unit}")));
+        }
+    }
+    let estimate = depth(&request.estimate, request.estimate_channel.as_deref(), request.estimate_unit_m)?;
+    let truth = depth(&request.truth, request.truth_channel.as_deref(), request.truth_unit_m)?;
+    let usual = DepthSettings::default();
+    let settings = DepthSettings {
+        ranges_m: if request.ranges_m.is_empty() { usual.ranges_m } else { request.ranges_m.clone() },
+        outlier_share: request.outlier_share,
+        outlier_least_m: request.outlier_least_m,
+        edge_share: request.edge_share,
+        edge_px: request.edge_px as usize,
+        focal_base_px_m: request.focal_base_px_m,
+        alignment: match request.align {
+            DepthAlignment::None => Alignment::None,
+            DepthAlignment::Median => Alignment::Median,
+        },
+    };
+    let told =
+        |error| Error::input(format!("{} against {}: {error}", request.estimate.display(), request.truth.display()));
+    let found = measure_depth(&estimate, &truth, &settings).map_err(told)?;
+    let mut report =
+        Report::new("depth", "depth against the truth, pixels at edges apart (± one standard uncertainty)");
+    report.figure("bias_m", "bias", "m", found.all.bias_m);
+    report.figure("mean_m", "mean magnitude of the error", "m", found.all.mean_m);
+    report.figure("rmse_m", "root mean square error", "m", found.all.rmse_m);
+    report.figure("relative_percent", "relative error, mean magnitude", "%", found.all.relative.scaled(100.0));
+    report.figure("squared_relative_m", "squared error over depth", "m", found.all.squared_relative_m);
+    report.figure("rmse_log", "root mean square of logarithms", "", found.all.rmse_log);
+    report.figure(
+        "silog_percent",
+        "their standard deviation, SILog × 100",
+        "%",
+        found.all.scale_invariant.scaled(100.0),
+    );
+    report.figure("inverse_rmse_per_km", "root mean square error of 1/depth", "1/km", found.all.inverse_rmse_per_km);
+    report.figure("outliers_percent", "outliers", "%", found.all.outliers.scaled(100.0));
+    if let Some([d1, disparity]) = found.all.disparity {
+        report.figure("d1_percent", "disparities off by more than 3 px and 5 %, D1", "%", d1.scaled(100.0));
+        report.figure("disparity_px", "mean error of disparity, EPE", "px", disparity);
+    }
+    let seen = (found.all.pixels + found.all.missing) as f64;
+    report.fact("density_percent", "estimated", "% of the pixels with truth", 100.0 * found.all.pixels as f64 / seen);
+    report.fact("scale", "the estimate was multiplied by", "", found.scale);
+    let all = ("all".to_owned(), &found.all);
+    let limits =
+        |low: f64, high: f64| if high.is_finite() { format!("{low}–{high} m") } else { format!("{low} m on") };
+    let ranges = found.ranges.iter().map(|(low, high, errors)| (limits(*low, *high), errors));
+    let edges = ("edges".to_owned(), &found.edges);
+    let rows = std::iter::once(all).chain(ranges).chain([edges]);
+    report.table(Table {
+        key: "ranges",
+        columns: vec![
+            ("range", "range"),
+            ("pixels", "pixels"),
+            ("missing", "missing"),
+            ("bias_m", "bias m"),
+            ("rmse_m", "RMSE m"),
+            ("relative_percent", "relative %"),
+            ("outliers_percent", "outliers %"),
+            ("within_1_25_percent", "δ1 %"),
+            ("within_1_5625_percent", "δ2 %"),
+            ("within_1_953_percent", "δ3 %"),
+        ],
+        rows: rows.map(|(name, errors)| row(name, errors)).collect(),
+    });
+    if found.ranges.iter().any(|(_, _, errors)| errors.pixels > 0) {
+        report.plot(plot(&found.ranges));
+    }
+    Ok(report)
+}
+
+/// Errors over depth: each range at its middle, one without end at its beginning.
+fn plot(ranges: &[(f64, f64, DepthErrors)]) -> Plot {
+    let seen = ranges.iter().filter(|(_, _, errors)| errors.pixels > 0);
+    let at = |low: f64, high: f64| if high.is_finite() { 0.5 * (low + high) } else { low };
+    let curve = |of: fn(&DepthErrors) -> Estimate| {
+        seen.clone().map(move |(low, high, errors)| {
+            let error = of(errors);
+            (at(*low, *high), error.value, 2.0 * error.standard_uncertainty)
+        })
+    };
+    Plot {
+        title: "errors by range (bars: 95 %)".to_owned(),
+        x: Axis::linear("depth, m: the middle of a range, or where one without end begins").showing(&[0.0]),
+        y: Axis::linear("error, m").showing(&[0.0]),
+        series: vec![
+            Series::with_errors("bias", Mark::Line, curve(|e| e.bias_m)),
+            Series::with_errors("RMSE", Mark::Line, curve(|e| e.rmse_m)),
+        ],
+    }
+}
+
+fn row(name: String, e: &DepthErrors) -> Vec<Cell> {
+    let counts = [Cell::Text(name), Cell::Number(e.pixels as f64, 0), Cell::Number(e.missing as f64, 0)];
+    if e.pixels == 0 {
+        return counts.into_iter().chain((0..7).map(|_| Cell::Nothing)).collect();
+    }
+    let percent = |share: Estimate| Cell::Estimate(share.scaled(100.0));
+    let errors = [Cell::Estimate(e.bias_m), Cell::Estimate(e.rmse_m), percent(e.relative), percent(e.outliers)];
+    counts.into_iter().chain(errors).chain(e.within.map(percent)).collect()
+}
+
+fn depth(file: &Path, channel: Option<&str>, unit_m: f64) -> Result<Image, Error> {
+    let photograph = read_photograph(file).map_err(Error::input)?;
+    let samples = chosen(file, &photograph, channel)?;
+    let metres = samples.iter().map(|s| (f64::from(*s) * unit_m) as f32).collect();
+    Ok(Image::from_samples(photograph.width, photograph.height, metres).expect("a photograph's channels fill it"))
+}
+
+/// The named channel's numbers, or depth.Z, or the only one.
+fn chosen<'a>(file: &Path, photograph: &'a Photograph, channel: Option<&str>) -> Result<&'a [f32], Error> {
+    let named = |name: &str| photograph.channel(name).map(|c| c.samples.as_slice());
+    let found = match (channel, &photograph.channels[..]) {
+        (Some(name), _) => named(name),
+        (None, [only]) => Some(only.samples.as_slice()),
+        (None, _) => named(DEPTH),
+    };
+    found.ok_or_else(|| {
+        let names = photograph.names().join(", ");
+        Error::input(format!("{}: name the channel of the depth; it has {names}", file.display()))
+    })
+}

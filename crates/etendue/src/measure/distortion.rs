@@ -1,0 +1,213 @@
+//! `measure distortion`: from one picture of a plane chart.
+
+use super::chart_points::{ChartInput, Seen};
+use crate::error::Error;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Covariance, Report, Table, with_uncertainty};
+use etendue_metrology::Estimate;
+use etendue_metrology::distortion::{Distortion, LineBow, LocalDistortion, RadialFit, distortion as fitted};
+use etendue_projection::Sense;
+use glam::DVec2;
+use std::path::PathBuf;
+
+/// `etendue measure distortion`
+#[derive(Clone, Debug)]
+pub struct DistortionRequest {
+    /// A picture of a plane chart that fills the field: many dots, or a checkerboard; or a list of its points (CSV: column, row, x_px, y_px)
+    pub file: PathBuf,
+    /// The chart, and which readings show it.
+    pub chart: ChartInput,
+    /// The point to which distances are taken, raster coordinates, px [default: the picture's middle]
+    pub centre_px: Option<[f64; 2]>,
+}
+
+pub fn distortion(request: &DistortionRequest) -> Result<Report, Error> {
+    let seen = request.chart.seen(&request.file)?;
+    let centre = request.centre_px.map(DVec2::from);
+    let told = |error| Error::input(format!("{}: {error}", request.file.display()));
+    let found = fitted(&seen.grid, seen.size_px, centre).map_err(told)?;
+    Ok(report(&seen, &found, request.chart.points))
+}
+
+fn report(seen: &Seen, found: &Distortion, points: bool) -> Report {
+    let method =
+        "distortion without a model: ideal places by a map whose scale and tilt at the centre are none (ISO 17850)";
+    let mut report = Report::new("distortion", method);
+    seen.stated.iter().for_each(|stated| report.encoding(stated));
+    report.setting("centre_px", centre_words(found.centre_px));
+    report.fact("points", "points of the chart", "", seen.grid.nodes.len() as f64);
+    report.fact("columns", "columns", "", seen.grid.size[0] as f64);
+    report.fact("rows", "rows", "", seen.grid.size[1] as f64);
+    report.fact("step_px", "step of the chart at the centre", "px", found.ideal.step_px());
+    report.fact("degree", "degree of the map", "", found.ideal.degree() as f64);
+    report.fact("sigma_px", "standard deviation of points about it", "px", found.ideal.sigma_px());
+    report.fact(
+        "beyond_k1_k2_px",
+        "size of its terms beyond k1 and k2, at the farthest point",
+        "px",
+        found.ideal.tau_px(),
+    );
+    if let Some(last) = found.curve.last() {
+        let percent = Estimate::new(100.0 * (last.ratio.value - 1.0), 100.0 * last.ratio.standard_uncertainty);
+        report.fact("field_reached_percent", "field reached", "% of the half diagonal", 100.0 * last.field);
+        report.figure("distortion_there_percent", "distortion there", "%", percent);
+    }
+    local(&mut report, found);
+    lines(&mut report, &found.lines);
+    if let Some(height) = found.height {
+        report.figure("picture_height_percent", "picture height, sides over middle less 1", "%", percent(height));
+    }
+    radial(&mut report, "forward", &found.forward);
+    radial(&mut report, "backward", &found.backward);
+    report.note(
+        "k1 and k2 in half diagonals, r' = r (1 + k1 r² + k2 r⁴); centres in raster coordinates, pixel centres at +0.5",
+    );
+    if let Some(note) = disagreement(found) {
+        report.note(note);
+    }
+    report.table(curve(found));
+    report.table_if(points, every_point(found));
+    report.plot(plot(found));
+    report.camera(camera(&found.backward));
+    report
+}
+
+/// Where the curve is not what k₁ and k₂ say, by more than twice their joint standard uncertainty.
+fn disagreement(found: &Distortion) -> Option<String> {
+    let (point, by_fit, error) = found.largest_difference().filter(|(_, _, error)| *error > 1.0)?;
+    let less_one = |e: Estimate| with_uncertainty(percent(Estimate::new(e.value - 1.0, e.standard_uncertainty)));
+    Some(format!(
+        "the curve is not what k1 and k2 say, {error:.1} times their joint uncertainty (95 %) apart at {:.1} % of the field, {} % and {} %: \
+         the chart is tilted, the distortion is centred elsewhere (--centre-px), or k1 and k2 do not describe it",
+        100.0 * point.field,
+        less_one(point.ratio),
+        less_one(by_fit)
+    ))
+}
+
+/// The curve's centre, as comparisons tell it from another.
+pub(crate) fn centre_words(centre_px: DVec2) -> String {
+    format!("{:.2}, {:.2}", centre_px.x, centre_px.y)
+}
+
+fn lines(report: &mut Report, lines: &[LineBow]) {
+    for (is_row, key, label) in
+        [(true, "row_bow_percent", "bow of rows, largest"), (false, "column_bow_percent", "bow of columns, largest")]
+    {
+        let all = lines.iter().filter(|l| l.is_row == is_row).map(|l| l.bow);
+        if let Some(bow) = all.reduce(|a, b| if b.abs() > a.abs() { b } else { a }) {
+            report.fact(key, label, "% of the picture's height", 100.0 * bow);
+        }
+    }
+}
+
+fn radial(report: &mut Report, key: &str, fit: &RadialFit) {
+    let way = match fit.sense {
+        Sense::IdealToObserved => "ideal to observed",
+        Sense::ObservedToIdeal => "observed to ideal",
+    };
+    let mut figure =
+        |name: &str, unit, value| report.figure(&format!("{key}_{name}"), &format!("{name}, {way}"), unit, value);
+    figure("k1", "", fit.k1);
+    figure("k2", "", fit.k2);
+    for (name, centre) in ["centre_x_px", "centre_y_px"].into_iter().zip(fit.centre_px) {
+        if centre.standard_uncertainty.is_finite() {
+            report.figure(&format!("{key}_{name}"), &format!("{name}, {way}"), "px", centre);
+        } else {
+            let label = format!("{name}, {way}, not determined: the curve's");
+            report.fact(&format!("{key}_{name}"), &label, "px", centre.value);
+        }
+    }
+    let of = ["k1", "k2", "centre_x_px", "centre_y_px"].map(|name| format!("{key}_{name}")).to_vec();
+    report.covariance(Covariance { of, rows: fit.covariance.map(|row| row.to_vec()).to_vec() });
+    report.fact(&format!("{key}_rms_px"), &format!("rms_px, {way}"), "px", fit.rms_px);
+}
+
+/// The largest local geometric distortion (ISO 17850), and where.
+fn local(report: &mut Report, found: &Distortion) {
+    if let Some(largest) = found.largest {
+        report.figure("local_largest_percent", "local geometric distortion, largest", "%", percent(largest.distortion));
+        let field = 100.0 * largest.field;
+        report.fact("local_largest_at_percent", "at", "% of the half diagonal", field);
+    }
+}
+
+fn percent(share: Estimate) -> Estimate {
+    Estimate::new(100.0 * share.value, 100.0 * share.standard_uncertainty)
+}
+
+/// Every point of the chart: where it is seen, where it would be seen without distortion, and the local geometric distortion.
+fn every_point(found: &Distortion) -> Table {
+    let row = |l: &LocalDistortion| {
+        let places = [l.at.x, l.at.y, l.ideal.x, l.ideal.y].map(|c| Cell::Number(c, 3));
+        let index = l.index.map(|i| Cell::Number(i as f64, 0));
+        let values = [
+            Cell::Number(l.uncertainty_px, 4),
+            Cell::Number(100.0 * l.field, 2),
+            Cell::Estimate(percent(l.distortion)),
+        ];
+        index.into_iter().chain(places).chain(values).collect()
+    };
+    Table {
+        key: "points",
+        columns: vec![
+            ("column", "column"),
+            ("row", "row"),
+            ("x_px", "x px"),
+            ("y_px", "y px"),
+            ("ideal_x_px", "ideal x px"),
+            ("ideal_y_px", "ideal y px"),
+            ("uncertainty_px", "± px"),
+            ("field_percent", "field %"),
+            ("distortion_percent", "distortion %"),
+        ],
+        rows: found.local.iter().map(row).collect(),
+    }
+}
+
+fn curve(found: &Distortion) -> Table {
+    let row = |p: &etendue_metrology::distortion::CurvePoint| {
+        let percent = Estimate::new(100.0 * (p.ratio.value - 1.0), 100.0 * p.ratio.standard_uncertainty);
+        let share = |x: f64| Cell::Number(100.0 * x, 1);
+        vec![
+            share(p.field),
+            Cell::Estimate(p.ratio),
+            Cell::Estimate(percent),
+            Cell::Number(p.spread, 6),
+            share(p.covered),
+        ]
+    };
+    Table {
+        key: "curve",
+        columns: vec![
+            ("field_percent", "field %"),
+            ("ratio", "observed/ideal"),
+            ("distortion_percent", "distortion %"),
+            ("spread", "spread"),
+            ("covered_percent", "covered %"),
+        ],
+        rows: found.curve.iter().map(row).collect(),
+    }
+}
+
+fn plot(found: &Distortion) -> Plot {
+    let curve = found.curve.iter().map(|p| (100.0 * p.field, p.ratio.value, 2.0 * p.ratio.standard_uncertainty));
+    let local = found.local.iter().map(|l| (100.0 * l.field, 1.0 + l.distortion.value));
+    Plot {
+        title: "Distortion".to_owned(),
+        x: Axis::linear("radial field position, % of the half diagonal").showing(&[0.0, 100.0]),
+        y: Axis::linear("observed over ideal distance from the centre").showing(&[1.0]),
+        series: vec![
+            Series::new("points of the chart", Mark::Points, local),
+            Series::with_errors("mean over directions", Mark::Line, curve),
+        ],
+    }
+}
+
+fn camera(fit: &RadialFit) -> String {
+    format!(
+        "# Measured by etendue measure distortion. Further keys of [lens] go above.\n[lens.distortion]\nk1 = {}\nk2 = {}\n\
+         direction = \"observed_to_ideal\"\nradius_unit = \"half_diagonals\"\n",
+        fit.k1.value, fit.k2.value
+    )
+}

@@ -1,0 +1,93 @@
+//! `measure flare`: light in traps that send none.
+
+use super::picture_input::{PictureInput, refused};
+use super::readings::{Readings, field_position};
+use super::truth::TrapPlace;
+use crate::error::Error;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
+use etendue_metrology::Estimate;
+use etendue_metrology::flare::measure_flare;
+use std::path::PathBuf;
+
+/// `etendue measure flare`
+#[derive(Clone, Debug)]
+pub struct FlareRequest {
+    /// A picture of light traps in a white field
+    pub picture: PathBuf,
+    /// A part of a light trap: left column, top row, width, height; once a trap
+    pub traps: Vec<[usize; 4]>,
+    /// A part of the white field
+    pub white: Option<[usize; 4]>,
+    /// Which readings of the picture, what they mean, and the chart's truth.
+    pub input: PictureInput,
+}
+
+const CHARTS: [&str; 1] = ["flare"];
+
+pub fn flare(request: &FlareRequest) -> Result<Report, Error> {
+    let readings = request.input.linear(&request.picture)?;
+    let traps = traps(request, &readings)?;
+    let levels = &request.input.levels;
+    let (black, full_scale) = (levels.black(&readings), levels.full_scale(&readings));
+    let measured = |place: &TrapPlace| {
+        let trap = readings.part(place.trap, "--trap")?;
+        let whites = place.whites.iter().map(|at| readings.part(*at, "--white"));
+        let whites = whites.collect::<Result<Vec<_>, _>>()?;
+        measure_flare(&trap, &whites, black, full_scale, readings.shared_px)
+            .map_err(|error| refused(&request.picture, error))
+    };
+    let found = traps.iter().map(measured).collect::<Result<Vec<_>, Error>>()?;
+    let places: Vec<[usize; 4]> = traps.iter().map(|t| t.trap).collect();
+    let mut report = report(&places, &found, readings.picture_px);
+    report.encoding(&readings.stated);
+    if let Some(truth) = request.input.truth.read(&CHARTS)?
+        && let Some(own) = truth.light_of_traps()
+    {
+        report.fact("traps_own_percent", "of which the traps send themselves, about", "%", 100.0 * own);
+    }
+    Ok(report)
+}
+
+fn traps(request: &FlareRequest, readings: &Readings) -> Result<Vec<TrapPlace>, Error> {
+    match request.input.truth(&CHARTS, &request.picture, readings)? {
+        Some(truth) => truth.traps(readings),
+        None => {
+            let whites: Vec<[usize; 4]> = request.white.into_iter().collect();
+            Ok(request.traps.iter().map(|trap| TrapPlace { trap: *trap, whites: whites.clone() }).collect())
+        }
+    }
+}
+
+fn report(traps: &[[usize; 4]], found: &[Estimate], size: (usize, usize)) -> Report {
+    let mut report = Report::new("flare", "flare after ISO 18844: light in traps over the white field's");
+    let largest = found.iter().copied().reduce(|a, b| if b.value > a.value { b } else { a });
+    let mean = found.iter().map(|f| f.value).sum::<f64>() / found.len() as f64;
+    let squares = found.iter().map(|f| f.standard_uncertainty * f.standard_uncertainty).sum::<f64>();
+    let mean = Estimate::new(mean, squares.sqrt() / found.len() as f64);
+    report.figure("mean_flare_percent", "mean flare", "%", mean.scaled(100.0));
+    report.figure("flare_percent", "largest flare", "%", largest.unwrap_or(Estimate::new(0.0, 0.0)).scaled(100.0));
+    let row = |(at, value): (&[usize; 4], &Estimate)| {
+        vec![
+            Cell::Text(format!("{},{}", at[0], at[1])),
+            Cell::Number(100.0 * field_position(at, size), 1),
+            Cell::Estimate(value.scaled(100.0)),
+        ]
+    };
+    report.table(Table {
+        key: "traps",
+        columns: vec![("at_px", "at px"), ("field_percent", "field %"), ("flare_percent", "flare %")],
+        rows: traps.iter().zip(found).map(row).collect(),
+    });
+    let points = traps
+        .iter()
+        .zip(found)
+        .map(|(at, flare)| (100.0 * field_position(at, size), 100.0 * flare.value, 200.0 * flare.standard_uncertainty));
+    report.plot(Plot {
+        title: "flare (bars: 95 %)".to_owned(),
+        x: Axis::linear("radial field position, % of the half diagonal").showing(&[0.0, 100.0]),
+        y: Axis::linear("flare, %").showing(&[0.0]),
+        series: vec![Series::with_errors("", Mark::Points, points)],
+    });
+    report
+}

@@ -1,0 +1,65 @@
+//! `measure focal`: focal length and principal point.
+
+use super::views::{Found, ViewsRequest};
+use crate::error::Error;
+use crate::observer::Observer;
+use crate::report::Report;
+use etendue_core::maths::f64::acos;
+use etendue_metrology::Estimate;
+use etendue_metrology::calibrate::Options;
+use etendue_projection::Calibration;
+
+/// `etendue measure focal`
+#[derive(Clone, Debug)]
+pub struct FocalRequest {
+    /// The pictures, the chart and what is known of the camera.
+    pub views: ViewsRequest,
+    /// Whether the report holds what was found as keys of a camera file.
+    pub camera_keys: bool,
+}
+
+pub fn focal(request: &FocalRequest, observer: &dyn Observer) -> Result<Report, Error> {
+    let views = &request.views;
+    let mut options = views.options();
+    let one = views.files.len() == 1;
+    if let (true, None, Some((_, told))) = (one, options.distance, views.chart.told()?) {
+        options.distance = told.distance_mm.map(|mm| Estimate::new(mm, 0.0));
+    }
+    if request.camera_keys && views.pixel_pitch_um.is_none() {
+        return Err(Error::input("--camera-out: a camera file needs the pixels' size: add --pixel-pitch-um"));
+    }
+    if one && options.distance.is_none() {
+        let told = "one picture alone does not tell the focal length from the distance: add --distance-mm, or more pictures with the \
+                    chart turned";
+        return Err(Error::input(told));
+    }
+    let about_middle = one && options.principal_px.is_none();
+    let found = match about_middle {
+        true => views.found_about_middle(Options { square_pixels: true, ..options }, observer)?,
+        false => views.found(options, observer)?,
+    };
+    let mut report = Report::new("focal", "focal length by views of a plane chart");
+    found.add_to(&mut report, views);
+    field_of_view(&mut report, &found);
+    if let Some(pitch_um) = views.pixel_pitch_um.filter(|_| request.camera_keys) {
+        report.camera(found.camera_file("measure focal", pitch_um, None)?);
+    }
+    Ok(report)
+}
+
+/// Angles between the middles of opposite sides, and between opposite corners.
+fn field_of_view(report: &mut Report, found: &Found) {
+    let [w, h] = found.camera.calibration.size_px().map(|n| n as f64);
+    let mut line = |key: &str, label: &str, a: [f64; 2], b: [f64; 2]| {
+        let between = |camera: &Calibration| {
+            let (a, b) = (camera.unproject(a.into())?, camera.unproject(b.into())?);
+            Some(acos(a.dot(b).clamp(-1.0, 1.0)).to_degrees())
+        };
+        if let Some(angle) = found.camera.follows(between) {
+            report.figure(key, label, "°", angle);
+        }
+    };
+    line("field_of_view_horizontal_deg", "field of view, horizontal", [0.0, 0.5 * h], [w, 0.5 * h]);
+    line("field_of_view_vertical_deg", "field of view, vertical", [0.5 * w, 0.0], [0.5 * w, h]);
+    line("field_of_view_diagonal_deg", "field of view, diagonal", [0.0, 0.0], [w, h]);
+}

@@ -1,0 +1,57 @@
+//! Cameras measured from pictures, and lenses without rendering: one kind of measurement a file.
+//!
+//! Each takes a request with typed arguments and answers with a [`Report`](crate::report::Report): numbers with unit and standard
+//! uncertainty, tables, plots and notes. Pictures are read from files.
+
+mod body;
+mod calibrate;
+mod cdp;
+mod chart_points;
+mod chromatic;
+mod colour;
+mod compare;
+mod dark_current;
+mod depth;
+mod distortion;
+mod encoding;
+mod flare;
+mod focal;
+mod ghosts;
+mod lens;
+mod noise;
+mod oecf;
+mod picture_input;
+mod pictures;
+mod point_list;
+mod ptc;
+mod readings;
+mod sfr;
+mod shading;
+mod texture;
+mod truth;
+mod views;
+
+pub use calibrate::{CalibrateRequest, calibrate};
+pub use cdp::{CdpRequest, cdp};
+pub use chart_points::ChartInput;
+pub use chromatic::{ChromaticRequest, chromatic};
+pub use colour::{ColourRequest, colour};
+pub use compare::{CompareRequest, MeasurementComparison, compare};
+pub use dark_current::{DarkCurrentRequest, dark_current};
+pub use depth::{DepthAlignment, DepthRequest, depth_errors};
+pub use distortion::{DistortionRequest, distortion};
+pub use encoding::{ChosenEncoding, EncodingChoice};
+pub use etendue_metrology::target::Target;
+pub use flare::{FlareRequest, flare};
+pub use focal::{FocalRequest, focal};
+pub use lens::{LensMeasurement, LensRequest, lens};
+pub use noise::{NoiseRequest, noise};
+pub use oecf::{OecfRequest, oecf};
+pub use picture_input::PictureInput;
+pub use ptc::{PtcRequest, ptc};
+pub use readings::{Selection, SignalLevels};
+pub use sfr::{SfrRequest, sfr};
+pub use shading::{FlatFieldRequest, ShadingRequest, VignettingRequest, shading, vignetting};
+pub use texture::{StarRequest, TextureRequest, star, texture};
+pub use truth::TruthInput;
+pub use views::{CameraModel, StatedLength, ViewsRequest};

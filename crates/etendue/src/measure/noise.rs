@@ -1,0 +1,164 @@
+//! `measure noise`: temporal and fixed-pattern noise of an even surface, or of each patch of a chart.
+
+use super::picture_input::{PictureInput, refused};
+use super::readings::Readings;
+use super::truth::{Patch, Truth};
+use crate::error::Error;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
+use etendue_metrology::Estimate;
+use etendue_metrology::noise::{Noise, check_frame, measure_noise};
+use etendue_metrology::photon_transfer::Stack;
+use std::path::{Path, PathBuf};
+
+/// `etendue measure noise`
+#[derive(Clone, Debug)]
+pub struct NoiseRequest {
+    /// Eight or more frames of one even surface, or of a chart with --truth
+    pub frames: Vec<PathBuf>,
+    /// Which readings of the picture, what they mean, and the chart's truth.
+    pub input: PictureInput,
+}
+
+/// Charts of one even surface, and of many.
+const EVEN: [&str; 2] = ["flat-field", "backlit"];
+const CHARTS: [&str; 4] = ["flat-field", "backlit", "oecf-steps", "contrast-patches"];
+
+/// An even surface over the frames.
+struct Surface {
+    /// Which patch of a chart it is.
+    patch: Option<Patch>,
+    /// Where it lies; all of the frame where that is not said.
+    at: Option<[usize; 4]>,
+    stack: Option<Stack>,
+    /// Why it is left out.
+    fault: Option<String>,
+}
+
+impl Surface {
+    fn new(patch: Option<Patch>, at: Option<[usize; 4]>) -> Self {
+        Self { patch, at, stack: None, fault: None }
+    }
+
+    fn take(&mut self, file: &Path, readings: &Readings, full_scale: Option<f64>) -> Result<(), Error> {
+        let whole = || Ok(readings.image.clone());
+        let frame = self.at.map_or_else(whole, |at| readings.part(at, &file.display().to_string()))?;
+        match check_frame(&frame, full_scale) {
+            Err(fault) if self.patch.is_some() => self.fault = Some(fault.to_string()),
+            checked => checked.map_err(|error| refused(file, error))?,
+        }
+        let stack = self.stack.get_or_insert_with(|| Stack::new(frame.width(), frame.height()));
+        stack.push(&frame).map_err(|error| refused(file, error))
+    }
+}
+
+pub fn noise(request: &NoiseRequest) -> Result<Report, Error> {
+    let input = &request.input;
+    let (mut surfaces, mut black, mut encodings) = (Vec::new(), 0.0, Vec::new());
+    for (i, file) in request.frames.iter().enumerate() {
+        let readings = input.linear(file)?;
+        let truth = input.truth(&CHARTS, file, &readings)?;
+        if i == 0 {
+            surfaces = sought(truth.as_ref(), &readings)?;
+        }
+        readings.independent(file, 1)?;
+        encodings.push(readings.stated.clone());
+        black = input.levels.black(&readings);
+        let full_scale = input.levels.full_scale(&readings);
+        surfaces.iter_mut().try_for_each(|surface| surface.take(file, &readings, full_scale))?;
+    }
+    let mut report = match &surfaces[..] {
+        [Surface { patch: None, stack: Some(stack), .. }] => one(stack, black)?,
+        many => patches(many, black).map_err(|reason| refused(&request.frames[0], reason))?,
+    };
+    encodings.iter().for_each(|stated| report.encoding(stated));
+    Ok(report)
+}
+
+fn sought(truth: Option<&Truth>, readings: &Readings) -> Result<Vec<Surface>, Error> {
+    match truth {
+        None => Ok(vec![Surface::new(None, None)]),
+        Some(truth) if EVEN.contains(&truth.chart()) => Ok(vec![Surface::new(None, Some(truth.middle(readings)?))]),
+        Some(truth) => {
+            let place = |patch: Patch| Surface::new(Some(patch.clone()), Some(patch.at));
+            Ok(truth.patches(readings)?.0.into_iter().map(place).collect())
+        }
+    }
+}
+
+const METHOD: &str = "noise of an even surface after ISO 15739 (± one standard uncertainty)";
+
+fn one(stack: &Stack, black: f64) -> Result<Report, Error> {
+    let noise = measure_noise(stack, black).map_err(Error::input)?;
+    let mut report = Report::new("noise", METHOD);
+    report.figure("signal", "signal less black", "", noise.signal);
+    report.figure("total_noise", "total noise", "", noise.total);
+    report.figure("temporal_noise", "temporal noise", "", noise.temporal);
+    report.figure("fixed_pattern_noise", "fixed-pattern noise", "", noise.fixed);
+    let [total, temporal, fixed] = noise.snr();
+    report.figure("snr", "signal over total noise", "", total);
+    report.figure("snr_temporal", "signal over temporal noise", "", temporal);
+    report.figure("snr_fixed_pattern", "signal over fixed-pattern noise", "", fixed);
+    let means = stack.frame_means().iter().enumerate().map(|(i, mean)| (i as f64 + 1.0, mean - black));
+    report.plot(Plot {
+        title: "mean of each frame".to_owned(),
+        x: Axis::linear("frame"),
+        y: Axis::linear("signal less black"),
+        series: vec![Series::new("", Mark::Points, means)],
+    });
+    Ok(report)
+}
+
+/// Noise over the luminance of a chart's patches; those that are saturated are named.
+fn patches(surfaces: &[Surface], black: f64) -> Result<Report, String> {
+    let mut report = Report::new("noise", METHOD);
+    let mut found: Vec<(&Patch, Noise)> = Vec::new();
+    for surface in surfaces {
+        let (Some(patch), Some(stack)) = (&surface.patch, &surface.stack) else { continue };
+        match &surface.fault {
+            Some(fault) => report.note(format!("left out: {}: {fault}", patch.name)),
+            None => found.push((patch, measure_noise(stack, black).map_err(|error| error.to_string())?)),
+        }
+    }
+    if found.is_empty() {
+        return Err("every patch is saturated: expose less".to_owned());
+    }
+    found.sort_by(|a, b| a.0.luminance_cd_m2.total_cmp(&b.0.luminance_cd_m2));
+    let row = |(patch, noise): &(&Patch, Noise)| {
+        let estimates = [noise.signal, noise.total, noise.temporal, noise.fixed, noise.snr()[0]];
+        let names = [Cell::Text(patch.name.clone()), Cell::Number(patch.luminance_cd_m2, 3)];
+        names.into_iter().chain(estimates.map(Cell::Estimate)).collect()
+    };
+    report.table(Table {
+        key: "patches",
+        columns: vec![
+            ("patch", "patch"),
+            ("luminance_cd_m2", "cd/m²"),
+            ("signal", "signal"),
+            ("total_noise", "total"),
+            ("temporal_noise", "temporal"),
+            ("fixed_pattern_noise", "fixed"),
+            ("snr", "SNR"),
+        ],
+        rows: found.iter().map(row).collect(),
+    });
+    report.plot(plot(&found));
+    Ok(report)
+}
+
+fn plot(found: &[(&Patch, Noise)]) -> Plot {
+    let series = |name: &str, of: fn(&Noise) -> Estimate| {
+        let points = found.iter().map(|(p, n)| (p.luminance_cd_m2, of(n).value, 2.0 * of(n).standard_uncertainty));
+        Series::with_errors(name, Mark::Points, points)
+    };
+    Plot {
+        title: "noise over luminance (bars: 95 %)".to_owned(),
+        x: Axis::log("luminance, cd/m²"),
+        y: Axis::log("noise, reading"),
+        series: vec![
+            series("total", |n| n.total),
+            series("temporal", |n| n.temporal),
+            series("fixed pattern", |n| n.fixed),
+        ],
+    }
+}

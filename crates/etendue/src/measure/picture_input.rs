@@ -1,0 +1,37 @@
+//! What all measurements of pictures ask for.
+
+use super::readings::{Readings, Selection, SignalLevels};
+use super::truth::{Truth, TruthInput};
+use crate::error::Error;
+use std::fmt::Display;
+use std::path::Path;
+
+/// Which readings of a picture are measured, what they mean, and where the chart lies in them.
+#[derive(Clone, Debug)]
+pub struct PictureInput {
+    /// Which part and channel.
+    pub selection: Selection,
+    /// What the numbers mean, where the file does not say.
+    pub levels: SignalLevels,
+    /// What the chart is and where.
+    pub truth: TruthInput,
+}
+
+impl PictureInput {
+    /// The readings of a picture in proportion to light.
+    pub(crate) fn linear(&self, picture: &Path) -> Result<Readings, Error> {
+        self.selection.linear(picture)
+    }
+
+    /// What the truth says of a picture, where one is given: of one of these charts, and of the picture's size.
+    pub(crate) fn truth(&self, charts: &[&str], picture: &Path, readings: &Readings) -> Result<Option<Truth>, Error> {
+        let truth = self.truth.read(charts)?;
+        truth.iter().try_for_each(|truth| truth.fits(picture, readings))?;
+        Ok(truth)
+    }
+}
+
+/// What is wrong with a picture.
+pub(crate) fn refused(picture: &Path, error: impl Display) -> Error {
+    Error::input(format!("{}: {error}", picture.display()))
+}

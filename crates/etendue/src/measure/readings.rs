@@ -1,0 +1,386 @@
+//! Which readings of a picture file are measured.
+
+use super::encoding::{EncodingChoice, ToLight};
+use crate::error::Error;
+use etendue_io::photograph::{FilterTile, Photograph, Stated};
+use etendue_metrology::Image;
+use std::path::Path;
+
+/// Choice of a part of a picture.
+#[derive(Clone, Debug)]
+pub struct Selection {
+    /// The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only
+    /// one, or the luminance]
+    pub channel: Option<String>,
+    /// The colour filters of a raw picture without a side-car: a tile of two by two from the top left, row by row, e.g. RGGB
+    pub cfa: Option<String>,
+    /// Measure this part only: left column, top row, width and height, pixels of the file
+    pub region: Option<[usize; 4]>,
+    /// How light follows from the numbers.
+    pub encoding: EncodingChoice,
+}
+
+/// The readings of a picture in proportion to light, as far as the file says: luminance where it is in colour and no channel
+/// is named.
+pub(crate) struct Readings {
+    pub image: Image,
+    /// The largest reading that the file can hold, in the readings' own unit.
+    pub full_scale: Option<f64>,
+    /// The reading of no light, where a side-car states it.
+    pub black: Option<f64>,
+    /// Columns and rows of the file from one reading to the next: those of a mosaic's tile, else 1.
+    pub period: (usize, usize),
+    /// Column and row of the first reading within the picture.
+    pub first: (usize, usize),
+    /// Columns and rows of the picture, of all colours.
+    pub picture_px: (usize, usize),
+    /// How light was found from the numbers of the file.
+    pub stated: Stated,
+    /// Side of the blocks of readings whose errors may be equal, as their paths shared what they found; 1: none are.
+    pub shared_px: usize,
+}
+
+impl Readings {
+    pub(crate) fn size(&self) -> (usize, usize) {
+        (self.image.width(), self.image.height())
+    }
+
+    /// Where a point of the picture lies among the readings, raster coordinates both.
+    pub(crate) fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let along = |at: f64, first: usize, period: usize| (at - first as f64 - 0.5) / period as f64 + 0.5;
+        [along(x, self.first.0, self.period.0), along(y, self.first.1, self.period.1)]
+    }
+
+    /// Where a point among the readings lies in the picture: the inverse of [`place`](Self::place).
+    pub(crate) fn in_picture(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let along = |at: f64, first: usize, period: usize| (at - 0.5) * period as f64 + first as f64 + 0.5;
+        [along(x, self.first.0, self.period.0), along(y, self.first.1, self.period.1)]
+    }
+
+    /// The readings of a part of the picture, which must lie within it.
+    pub(crate) fn part(&self, region: [usize; 4], name: &str) -> Result<Image, Error> {
+        let [x, y, width, height] = region;
+        let (columns, rows) = self.picture_px;
+        if x.saturating_add(width) > columns || y.saturating_add(height) > rows {
+            let told = format!("{name}: lies beyond the {columns} × {rows} pixels that are measured");
+            return Err(Error::input(told));
+        }
+        let at = self.of_region(region);
+        let none = || Error::input(format!("{name}: {width} × {height} pixels hold none of this colour"));
+        at.map(|[x, y, width, height]| self.image.part(x, y, width, height)).ok_or_else(none)
+    }
+
+    fn of_region(&self, [x, y, width, height]: [usize; 4]) -> Option<[usize; 4]> {
+        let low = [x, y].map(|v| v as f64);
+        self.between(low, [low[0] + width as f64, low[1] + height as f64])
+    }
+
+    /// Column and row of a [`part`](Self::part)'s first reading.
+    pub(crate) fn first_of(&self, region: [usize; 4]) -> [usize; 2] {
+        self.of_region(region).map_or([0, 0], |[x, y, ..]| [x, y])
+    }
+
+    /// The readings whose pixels lie wholly between two corners of the picture: left column, top row, width, height.
+    pub(crate) fn between(&self, low: [f64; 2], high: [f64; 2]) -> Option<[usize; 4]> {
+        let along = |k: usize, first: usize, period: usize, count: usize| {
+            let (first, period) = (first as f64, period as f64);
+            let from = ((low[k] - first) / period).ceil().max(0.0) as usize;
+            let end = ((high[k] - 1.0 - first) / period).floor() + 1.0;
+            let end = (end.max(0.0) as usize).min(count);
+            (end > from).then(|| (from, end - from))
+        };
+        let (width, height) = self.size();
+        let (left, columns) = along(0, self.first.0, self.period.0, width)?;
+        let (top, rows) = along(1, self.first.1, self.period.1, height)?;
+        Some([left, top, columns, rows])
+    }
+}
+
+/// Blocks are of pixels of one colour: of raw readings that many, of other pictures up to twice as wide.
+fn shared_px(photograph: &Photograph) -> usize {
+    let side = f64::from(photograph.alike_px).sqrt().ceil() as usize;
+    if side > 1 && photograph.raw.is_none() { 2 * side } else { side }
+}
+
+impl Readings {
+    /// Refuses readings with errors that more than `most` neighbours along a row share.
+    pub(crate) fn independent(&self, file: &Path, most: usize) -> Result<(), Error> {
+        if self.shared_px <= most {
+            return Ok(());
+        }
+        Err(Error::input(format!(
+            "{}: its errors are alike in blocks of up to {1} × {1} readings, as paths were shared (tail_sharing_px), and this measurement takes \
+             them as independent: render without sharing",
+            file.display(),
+            self.shared_px
+        )))
+    }
+
+    /// Whether a side-car says that they are raw, in a word.
+    pub(crate) fn kind(&self) -> &'static str {
+        if self.black.is_some() { "raw" } else { "picture" }
+    }
+}
+
+/// Weights of linear sRGB in the luminance (IEC 61966-2-1).
+const LUMINANCE: [f32; 3] = [0.2126, 0.7152, 0.0722];
+
+impl Selection {
+    /// One channel's readings as stored.
+    pub(crate) fn stored(&self, file: &Path) -> Result<Readings, Error> {
+        let photograph = self.encoding.stored(file)?;
+        if self.channel.is_none() && photograph.channel("R").is_some() {
+            let names = photograph.names().join(", ");
+            let file = file.display();
+            return Err(Error::input(format!("{file}: say which of its channels to measure with --channel: {names}")));
+        }
+        self.of(file, &photograph)
+    }
+
+    /// The readings of a photograph's channel; of a mosaic those of every place that the colour has in the tile, one by one.
+    pub(crate) fn planes(&self, file: &Path, photograph: &Photograph) -> Result<Vec<Readings>, Error> {
+        let named = |tile: FilterTile| {
+            let name = self.channel.clone().unwrap_or_default();
+            tile.channels.iter().filter(|c| is_colour(c, &name)).count()
+        };
+        let count = self.mosaic(photograph).map_or(1, named).max(1);
+        (0..count).map(|nth| self.nth(file, photograph, nth)).collect()
+    }
+
+    /// Whether a photograph has a channel of this name, or a mosaic that colour.
+    pub(crate) fn has(&self, photograph: &Photograph, name: &str) -> bool {
+        match self.mosaic(photograph) {
+            Some(tile) => tile.channels.iter().any(|c| is_colour(c, name)),
+            None => photograph.channel(name).is_some(),
+        }
+    }
+
+    /// One channel's readings, decoded to linear where the file is encoded for display.
+    pub(crate) fn linear(&self, file: &Path) -> Result<Readings, Error> {
+        self.of(file, &self.encoding.photograph(file)?)
+    }
+
+    /// Red, green and blue of a picture in colour, decoded to linear; `None` where it is not in colour.
+    pub(crate) fn colours(&self, file: &Path) -> Result<Option<[Readings; 3]>, Error> {
+        let photograph = self.encoding.photograph(file)?;
+        if self.channel.is_some() || !["R", "G", "B"].into_iter().all(|name| self.has(&photograph, name)) {
+            return Ok(None);
+        }
+        let one = |name: &str| {
+            let channel = Some(name.to_owned());
+            Self { channel, ..self.clone() }.of(file, &photograph)
+        };
+        Ok(Some([one("R")?, one("G")?, one("B")?]))
+    }
+
+    fn of(&self, file: &Path, photograph: &Photograph) -> Result<Readings, Error> {
+        self.nth(file, photograph, 0)
+    }
+
+    /// Of a mosaic, those of the colour's nth place in the tile.
+    fn nth(&self, file: &Path, photograph: &Photograph, nth: usize) -> Result<Readings, Error> {
+        self.check_cfa(file, photograph)?;
+        let light = ToLight::of(file, photograph)?;
+        let linear = |name: &str| photograph.channel(name).map(|c| light.of_channel(c));
+        let samples = match (&self.channel, self.mosaic(photograph)) {
+            (_, Some(_)) => light.of_channel(&photograph.channels[0]),
+            (Some(name), None) => linear(name).ok_or_else(|| no_channel(file, name, &photograph.names()))?,
+            (None, None) => luminance(file, photograph, &light)?,
+        };
+        self.part(file, photograph, samples, &light, nth)
+    }
+
+    /// One channel's readings as stored, of a raw picture.
+    pub(crate) fn raw(&self, file: &Path) -> Result<Readings, Error> {
+        let photograph = self.encoding.photograph(file)?;
+        let colours: Vec<_> = photograph.channels.iter().filter(|c| c.name != "A").collect();
+        let [only] = colours[..] else {
+            let names = photograph.names().join(", ");
+            let error = format!(
+                "{}: a colour picture ({names}) where linear raw is needed: its channels are processed; give raw frames of one channel",
+                file.display()
+            );
+            return Err(Error::input(error));
+        };
+        let samples = only.samples.clone();
+        let photograph = self.encoding.raw(file, photograph)?;
+        self.check_cfa(file, &photograph)?;
+        if let (Some(name), None) = (&self.channel, self.mosaic(&photograph)) {
+            let error = format!(
+                "{}: --channel {name}: nothing says which pixels are under which filter: give --cfa, or leave it out",
+                file.display()
+            );
+            return Err(Error::input(error));
+        }
+        self.part(file, &photograph, samples, &ToLight::Stored, 0)
+    }
+
+    fn part(
+        &self,
+        file: &Path,
+        photograph: &Photograph,
+        samples: Vec<f32>,
+        light: &ToLight,
+        nth: usize,
+    ) -> Result<Readings, Error> {
+        let whole = Image::from_samples(photograph.width, photograph.height, samples);
+        let area = self.area(photograph);
+        let image = cropped(file, whole.expect("a photograph's channels fill it"), area)?;
+        let picture_px = (image.width(), image.height());
+        let (image, period, first) = match self.mosaic(photograph) {
+            Some(tile) => {
+                let period = (tile.columns, tile.channels.len() / tile.columns);
+                let (sites, first) = self.sites(file, &image, &tile, area, nth)?;
+                (sites, period, first)
+            }
+            None => (image, (1, 1), (0, 0)),
+        };
+        let facts = photograph.raw.as_ref();
+        let full_scale = facts.map_or(light.full_scale(photograph), |f| Some(light.number(f.white_level_dn)));
+        let black = facts.map(|f| light.number(f.black_level_dn));
+        let (stated, shared_px) = (photograph.stated.clone(), shared_px(photograph));
+        Ok(Readings { image, full_scale, black, period, first, picture_px, stated, shared_px })
+    }
+
+    /// Filters are told of pictures of one channel only.
+    fn check_cfa(&self, file: &Path, photograph: &Photograph) -> Result<(), Error> {
+        match &self.cfa {
+            Some(cfa) if photograph.channels.len() != 1 => {
+                let names = photograph.names().join(", ");
+                let error = format!(
+                    "{}: --cfa {cfa} has no effect on a picture of the channels {names}: it is for raw mosaics; leave it out",
+                    file.display()
+                );
+                Err(Error::input(error))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The colour filters: as told, or of the side-car; `None` where there is one colour only.
+    fn mosaic(&self, photograph: &Photograph) -> Option<FilterTile> {
+        let told =
+            self.cfa.as_ref().map(|text| FilterTile { columns: 2, channels: text.chars().map(String::from).collect() });
+        let tile = told.or_else(|| photograph.raw.as_ref().map(|facts| facts.filters.clone()))?;
+        (photograph.channels.len() == 1 && tile.channels.len() > 1).then_some(tile)
+    }
+
+    /// The part that is measured: as told, or what the side-car says is picture; dark rows and columns are not.
+    fn area(&self, photograph: &Photograph) -> Option<[usize; 4]> {
+        self.region.or_else(|| Some(photograph.raw.as_ref()?.frame.as_ref()?.picture_px))
+    }
+
+    /// The pixels under one colour of a mosaic, the nth of its name in the tile, and the column and row of the first of them.
+    fn sites(
+        &self,
+        file: &Path,
+        image: &Image,
+        tile: &FilterTile,
+        area: Option<[usize; 4]>,
+        nth: usize,
+    ) -> Result<(Image, (usize, usize)), Error> {
+        let Some(name) = &self.channel else {
+            let file = file.display();
+            let names = tile.channels.join(", ");
+            return Err(Error::input(format!(
+                "{file}: a raw mosaic of the colours {names}: say which one to measure with --channel"
+            )));
+        };
+        let at = (0..tile.channels.len()).filter(|i| is_colour(&tile.channels[*i], name)).nth(nth);
+        let names: Vec<&str> = tile.channels.iter().map(String::as_str).collect();
+        let at = at.ok_or_else(|| no_channel(file, name, &names))?;
+        let (columns, rows) = (tile.columns, tile.channels.len() / tile.columns);
+        // A region that starts within a tile starts at another colour.
+        let [left, top, ..] = area.unwrap_or_default();
+        let first = |at: usize, start: usize, period: usize| (at + period - start % period) % period;
+        let (x, y) = (first(at % columns, left, columns), first(at / columns, top, rows));
+        let every = |first: usize, step: usize, end: usize| (first..end).step_by(step);
+        let (width, height) = (every(x, columns, image.width()).count(), every(y, rows, image.height()).count());
+        let rows = every(y, rows, image.height());
+        let samples = rows.flat_map(|row| every(x, columns, image.width()).map(move |column| image.at(column, row)));
+        Ok((Image::from_samples(width, height, samples.collect()).expect("counted"), (x, y)))
+    }
+}
+
+/// Whether a filter has this name, or the other usual one of its colour.
+fn is_colour(filter: &str, name: &str) -> bool {
+    let usual = [("R", "red"), ("G", "green"), ("B", "blue")];
+    filter == name || usual.iter().any(|(a, b)| (filter, name) == (a, b) || (filter, name) == (b, a))
+}
+
+fn cropped(file: &Path, image: Image, area: Option<[usize; 4]>) -> Result<Image, Error> {
+    let Some([x, y, width, height]) = area else { return Ok(image) };
+    let (columns, rows) = (image.width(), image.height());
+    if x.saturating_add(width) > columns || y.saturating_add(height) > rows {
+        let (file, told) = (file.display(), format!("{x},{y},{width},{height}"));
+        return Err(Error::input(format!(
+            "{file}: the region {told} lies beyond the picture's {columns} × {rows} pixels"
+        )));
+    }
+    Ok(image.part(x, y, width, height))
+}
+
+fn luminance(file: &Path, photograph: &Photograph, light: &ToLight) -> Result<Vec<f32>, Error> {
+    let linear = |name: &str| photograph.channel(name).map(|c| light.of_channel(c));
+    if let Some(grey) = linear("Y") {
+        return Ok(grey);
+    }
+    if let [only] = &photograph.channels[..] {
+        return Ok(light.of_channel(only));
+    }
+    let Some(((r, g), b)) = linear("R").zip(linear("G")).zip(linear("B")) else {
+        return Err(Error::input(format!(
+            "{}: say which of its channels to measure with --channel: {}",
+            file.display(),
+            photograph.names().join(", ")
+        )));
+    };
+    let [red, green, blue] = LUMINANCE;
+    // Where one of them is clipped, the luminance is too: it is told as full.
+    let full = light.full_scale(photograph).map(|full| full as f32);
+    let mixed = |((r, g), b): ((&f32, &f32), &f32)| match full.filter(|full| r.max(*g).max(*b) >= *full) {
+        Some(full) => full,
+        None => red * r + green * g + blue * b,
+    };
+    Ok(r.iter().zip(&g).zip(&b).map(mixed).collect())
+}
+
+fn no_channel(file: &Path, name: &str, names: &[&str]) -> Error {
+    Error::input(format!("{}: no channel '{name}'; it has {}", file.display(), names.join(", ")))
+}
+
+/// What a picture's numbers mean, where the file does not say.
+#[derive(Clone, Debug)]
+pub struct SignalLevels {
+    /// The reading of no light, as stored; 0 to 1 of a picture that is decoded from an encoding [default: the side-car's, or 0]
+    pub black: Option<f64>,
+    /// The reading of a saturated pixel, in the same unit [default: the side-car's, or the largest that the file can hold]
+    pub full_scale: Option<f64>,
+}
+
+impl SignalLevels {
+    pub(crate) fn black(&self, readings: &Readings) -> f64 {
+        self.black.or(readings.black).unwrap_or(0.0)
+    }
+
+    pub(crate) fn full_scale(&self, readings: &Readings) -> Option<f64> {
+        self.full_scale.or(readings.full_scale)
+    }
+}
+
+/// The pixels of a picture that lie wholly between two corners: left column, top row, width, height; `None` where these are beyond it.
+pub(crate) fn pixels(low: [f64; 2], high: [f64; 2], (columns, rows): (usize, usize)) -> Option<[usize; 4]> {
+    let start = low.map(f64::ceil);
+    let end = high.map(f64::floor);
+    let within = start[0] >= 0.0 && start[1] >= 0.0 && end[0] <= columns as f64 && end[1] <= rows as f64;
+    let some = end[0] > start[0] && end[1] > start[1];
+    (within && some).then(|| [start[0], start[1], end[0] - start[0], end[1] - start[1]].map(|v| v as usize))
+}
+
+/// Distance of a part's middle from the picture's, of the half diagonal.
+pub(crate) fn field_position(at: &[usize; 4], (width, height): (usize, usize)) -> f64 {
+    let from = |start: usize, length: usize, whole: usize| start as f64 + 0.5 * length as f64 - 0.5 * whole as f64;
+    let (x, y) = (from(at[0], at[2], width), from(at[1], at[3], height));
+    let (w, h) = (0.5 * width as f64, 0.5 * height as f64);
+    ((x * x + y * y) / (w * w + h * h)).sqrt()
+}

@@ -1,0 +1,239 @@
+//! What `measure sfr` tells.
+
+use super::planes::{self, Plane};
+use super::{Found, SfrRequest, Sought, shading_hint};
+use crate::measure::readings::Readings;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
+use etendue_metrology::Estimate;
+use etendue_metrology::sfr::{Orientation, SfrError, SfrPoint, acutance, crossing};
+
+pub(crate) fn report(
+    request: &SfrRequest,
+    found: &[Found<'_>],
+    left_out: &[(&Sought, SfrError)],
+    readings: &Readings,
+) -> Report {
+    let mut report = Report::new("sfr", "slanted edges after ISO 12233:2023 (± one standard uncertainty)");
+    report.encoding(&readings.stated);
+    report.setting("readings", readings.kind().to_owned());
+    if let Some(channel) = &request.input.selection.channel {
+        report.setting("channel", channel.clone());
+    }
+    report.note(format!(
+        "frequencies in cycles a pixel of the picture; acutance seen at {} pixels a degree",
+        request.pixels_per_degree
+    ));
+    shading(&mut report, request, found);
+    report.table(edges(request, found));
+    let planes = planes::of(found, readings.picture_px);
+    if planes.is_empty() {
+        report.table(curves(found, "response", twentieths));
+        report.table_if(false, curves(found, "curve", every));
+        report.plot(edge_plot(found));
+    } else {
+        report.table(plane_table(request, &planes));
+        report.table(plane_curves(&planes, "response", twentieths));
+        report.table_if(false, plane_curves(&planes, "curve", every));
+        report.plot(plane_plot(&planes));
+    }
+    report.plot(profile_plot(found));
+    if !left_out.is_empty() {
+        report.note(format!("{} of {} edges could not be measured", left_out.len(), left_out.len() + found.len()));
+        report.table(refusals(request, left_out));
+    }
+    report
+}
+
+/// Shares of the response that matter.
+const UNEVEN: f64 = 0.005;
+
+/// Of edges whose sides are not even.
+fn shading(report: &mut Report, request: &SfrRequest, found: &[Found<'_>]) {
+    let most = found.iter().map(|one| one.sfr.shading).fold(0.0, f64::max);
+    if most > UNEVEN {
+        let count = found.iter().filter(|one| one.sfr.shading > UNEVEN).count();
+        let next = request.shading_degree + 1;
+        report.note(format!(
+            "the sides of {count} of {} edges may slope: --shading-degree {next} changes the response by up to {most:.3}, and the \
+             uncertainty covers that",
+            found.len()
+        ));
+    }
+}
+
+fn place(sought: &Sought) -> String {
+    format!("{},{}", sought.at[0], sought.at[1])
+}
+
+/// The edges of a chart that could not be measured, and why.
+fn refusals(request: &SfrRequest, left_out: &[(&Sought, SfrError)]) -> Table {
+    let words = |error: &SfrError| format!("{error}{}", shading_hint(request, error));
+    let row = |(sought, error): &(&Sought, SfrError)| vec![Cell::Text(place(sought)), Cell::Text(words(error))];
+    Table {
+        key: "refused",
+        columns: vec![("at_px", "at px"), ("reason", "not measured because")],
+        rows: left_out.iter().map(row).collect(),
+    }
+}
+
+/// Of the response, across the edge.
+fn direction(one: &Found<'_>) -> &'static str {
+    match one.sfr.orientation {
+        Orientation::Vertical => "horizontal",
+        Orientation::Horizontal => "vertical",
+    }
+}
+
+/// Columns of what follows from a response, and their cells.
+fn columns(request: &SfrRequest) -> Vec<(&'static str, &'static str)> {
+    let mut columns = vec![("mtf50_cycles_per_px", "MTF50 c/px"), ("mtf10_cycles_per_px", "MTF10 c/px")];
+    if request.pixel_pitch_um.is_some() {
+        columns.extend([("mtf50_lp_per_mm", "MTF50 lp/mm"), ("mtf10_lp_per_mm", "MTF10 lp/mm")]);
+    }
+    columns.extend([("response_at_half", "at 0.5 c/px"), ("acutance", "acutance")]);
+    columns
+}
+
+fn cells(request: &SfrRequest, curve: &[SfrPoint]) -> Vec<Cell> {
+    let estimate = |e: Option<Estimate>| e.map_or(Cell::Nothing, Cell::Estimate);
+    let mtf = [0.5, 0.1].map(|level| crossing(curve, level));
+    let mut cells: Vec<Cell> = mtf.map(estimate).to_vec();
+    if let Some(pitch_um) = request.pixel_pitch_um {
+        cells.extend(mtf.map(|e| estimate(e.map(|e| e.scaled(1000.0 / pitch_um)))));
+    }
+    let nyquist = curve.iter().find(|p| (p.frequency - 0.5).abs() < 1e-9).map(|p| p.response);
+    cells.extend([estimate(nyquist), estimate(acutance(curve, request.pixels_per_degree))]);
+    cells
+}
+
+fn edges(request: &SfrRequest, found: &[Found<'_>]) -> Table {
+    let row = |one: &Found<'_>| {
+        let [dark, bright] = one.sfr.levels;
+        let start = [
+            Cell::Text(place(one.sought)),
+            Cell::Number(100.0 * one.field, 1),
+            Cell::Text(direction(one).to_owned()),
+            Cell::Number(one.sfr.angle_deg, 3),
+        ];
+        let end = Cell::Number(one.sfr.noise / (bright - dark), 5);
+        start.into_iter().chain(cells(request, &one.sfr.curve)).chain([end]).collect()
+    };
+    let start =
+        [("at_px", "at px"), ("field_percent", "field %"), ("direction", "direction"), ("angle_deg", "angle °")];
+    let end = ("residual_share", "residual");
+    Table {
+        key: "edges",
+        columns: start.into_iter().chain(columns(request)).chain([end]).collect(),
+        rows: found.iter().map(row).collect(),
+    }
+}
+
+fn plane_table(request: &SfrRequest, planes: &[Plane]) -> Table {
+    let row = |plane: &Plane| {
+        let start = [
+            Cell::Text(plane.place.clone()),
+            Cell::Number(100.0 * plane.field, 1),
+            Cell::Text(plane.name.to_owned()),
+            Cell::Number(plane.edges as f64, 0),
+        ];
+        start.into_iter().chain(cells(request, &plane.curve)).collect()
+    };
+    let start = [("at_px", "star at px"), ("field_percent", "field %"), ("plane", "plane"), ("edges", "edges")];
+    Table {
+        key: "planes",
+        columns: start.into_iter().chain(columns(request)).collect(),
+        rows: planes.iter().map(row).collect(),
+    }
+}
+
+/// Every twentieth of a cycle a pixel.
+fn twentieths(point: &SfrPoint) -> bool {
+    (20.0 * point.frequency - (20.0 * point.frequency).round()).abs() < 1e-6
+}
+
+/// Every point: hundredths of a cycle a pixel, or less.
+fn every(_: &SfrPoint) -> bool {
+    true
+}
+
+fn curves(found: &[Found<'_>], key: &'static str, wanted: fn(&SfrPoint) -> bool) -> Table {
+    let row = |one: &Found<'_>, point: &SfrPoint| {
+        let names = [place(one.sought), direction(one).to_owned()].map(Cell::Text);
+        names.into_iter().chain([Cell::Number(point.frequency, 2), Cell::Estimate(point.response)]).collect()
+    };
+    let rows = |one: &Found<'_>| one.sfr.curve.iter().filter(|p| wanted(p)).map(|p| row(one, p)).collect::<Vec<_>>();
+    Table {
+        key,
+        columns: vec![
+            ("at_px", "at px"),
+            ("direction", "direction"),
+            ("cycles_per_px", "c/px"),
+            ("response", "response"),
+        ],
+        rows: found.iter().flat_map(rows).collect(),
+    }
+}
+
+fn plane_curves(planes: &[Plane], key: &'static str, wanted: fn(&SfrPoint) -> bool) -> Table {
+    let row = |plane: &Plane, point: &SfrPoint| {
+        let names = [Cell::Text(plane.place.clone()), Cell::Text(plane.name.to_owned())];
+        names.into_iter().chain([Cell::Number(point.frequency, 2), Cell::Estimate(point.response)]).collect()
+    };
+    let rows = |plane: &Plane| plane.curve.iter().filter(|p| wanted(p)).map(|p| row(plane, p)).collect::<Vec<_>>();
+    Table {
+        key,
+        columns: vec![("at_px", "star at px"), ("plane", "plane"), ("cycles_per_px", "c/px"), ("response", "response")],
+        rows: planes.iter().flat_map(rows).collect(),
+    }
+}
+
+fn points(curve: &[SfrPoint]) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
+    curve.iter().map(|p| (p.frequency, p.response.value, 2.0 * p.response.standard_uncertainty))
+}
+
+fn response_plot(series: Vec<Series>) -> Plot {
+    Plot {
+        title: "spatial frequency response (bars: 95 %)".to_owned(),
+        x: Axis::linear("cycles a pixel"),
+        y: Axis::linear("response").showing(&[0.0, 1.0]),
+        series,
+    }
+}
+
+/// The most curves that a legend names.
+const NAMED: usize = 8;
+
+/// An edge's name in a legend, where there is room.
+fn name(one: &Found<'_>, count: usize) -> String {
+    if count > NAMED { String::new() } else { format!("edge at {}", place(one.sought)) }
+}
+
+fn edge_plot(found: &[Found<'_>]) -> Plot {
+    let of = |one: &Found<'_>| Series::with_errors(&name(one, found.len()), Mark::Line, points(&one.sfr.curve));
+    response_plot(found.iter().map(of).collect())
+}
+
+/// Sagittal as lines, tangential broken.
+fn plane_plot(planes: &[Plane]) -> Plot {
+    let of = |plane: &Plane| {
+        let mark = if plane.name == planes::SAGITTAL { Mark::Line } else { Mark::Broken };
+        let named =
+            if planes.len() > NAMED { String::new() } else { format!("star at {}, {}", plane.place, plane.name) };
+        Series::with_errors(&named, mark, points(&plane.curve))
+    };
+    response_plot(planes.iter().map(of).collect())
+}
+
+fn profile_plot(found: &[Found<'_>]) -> Plot {
+    let of = |one: &Found<'_>| {
+        let profile = one.sfr.profile.iter().copied();
+        Series::new(&name(one, found.len()), Mark::Line, profile)
+    };
+    Plot {
+        title: "edge profile".to_owned(),
+        x: Axis::linear("distance from the edge, pixels"),
+        y: Axis::linear("reading"),
+        series: found.iter().map(of).collect(),
+    }
+}

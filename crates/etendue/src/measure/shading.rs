@@ -1,0 +1,220 @@
+//! `measure vignetting` and `etendue measure shading`: a flat field.
+
+use super::picture_input::{PictureInput, refused};
+use super::readings::Readings;
+use crate::error::Error;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
+use etendue_metrology::Estimate;
+use etendue_metrology::shading::{
+    ColourShading, Shading, ShadingError, ShadingSettings, colour_shading, measure_shading,
+};
+use std::path::PathBuf;
+
+/// A picture of an evenly lit surface, and about which centre.
+#[derive(Clone, Debug)]
+pub struct FlatFieldRequest {
+    /// A picture of an evenly lit surface
+    pub picture: PathBuf,
+    /// Centre of the fall-off, raster coordinates [default: the picture's]
+    pub centre_px: Option<(f64, f64)>,
+    /// Rings of the profile over the radial field position
+    pub rings: u32,
+    /// Which readings of the picture, what they mean, and the chart's truth.
+    pub input: PictureInput,
+}
+
+/// `etendue measure vignetting`
+#[derive(Clone, Debug)]
+pub struct VignettingRequest {
+    /// The picture and its rings.
+    pub flat: FlatFieldRequest,
+    /// Whether the report holds what was found as keys of a camera file.
+    pub camera_keys: bool,
+    /// The pixels' pitch, µm, for --camera-out
+    pub pixel_pitch_um: Option<f64>,
+}
+
+/// `etendue measure shading`
+#[derive(Clone, Debug)]
+pub struct ShadingRequest {
+    /// The picture and its rings.
+    pub flat: FlatFieldRequest,
+    /// Blocks of the map along each side, an odd number
+    pub blocks: u32,
+}
+
+/// Blocks of the map along each side (ISO 17957).
+const BLOCKS: u32 = 11;
+/// Charts of one even surface.
+const CHARTS: [&str; 2] = ["flat-field", "backlit"];
+
+impl FlatFieldRequest {
+    fn settings(&self, readings: &Readings, blocks: u32) -> ShadingSettings {
+        ShadingSettings {
+            black: self.input.levels.black(readings),
+            full_scale: self.input.levels.full_scale(readings),
+            centre_px: self.centre_px,
+            rings: self.rings as usize,
+            blocks: blocks as usize,
+        }
+    }
+
+    fn refused(&self, error: &ShadingError) -> Error {
+        refused(&self.picture, error)
+    }
+
+    /// Where a chart's truth is given: whether it is even and fills this picture.
+    fn check(&self, readings: &Readings) -> Result<(), Error> {
+        self.input.truth(&CHARTS, &self.picture, readings)?.map_or(Ok(()), |truth| truth.filled())
+    }
+
+    fn measured(&self, blocks: u32, report: &mut Report) -> Result<(Shading, (f64, f64)), Error> {
+        let readings = self.input.linear(&self.picture)?;
+        readings.independent(&self.picture, 1)?;
+        self.check(&readings)?;
+        report.encoding(&readings.stated);
+        let shading =
+            measure_shading(&readings.image, &self.settings(&readings, blocks)).map_err(|e| self.refused(&e))?;
+        Ok((shading, (readings.image.width() as f64, readings.image.height() as f64)))
+    }
+}
+
+impl VignettingRequest {
+    fn pitch_um(&self) -> Result<Option<f64>, Error> {
+        let needed = || {
+            Error::input(
+                "--camera-out: expected --pixel-pitch-um above 0, as a lens states its fall-off over millimetres",
+            )
+        };
+        let pitch_um = self.pixel_pitch_um.filter(|p| *p > 0.0 && p.is_finite());
+        if self.camera_keys { pitch_um.ok_or_else(needed).map(Some) } else { Ok(None) }
+    }
+
+    /// Relative illumination as a lens states it, over millimetres.
+    fn camera(&self, shading: &Shading, (width, height): (f64, f64), pitch_um: f64) -> String {
+        let (x, y) = self.flat.centre_px.unwrap_or((0.5 * width, 0.5 * height));
+        let (x, y) = (x.max(width - x), y.max(height - y));
+        let corner_mm = (x * x + y * y).sqrt() * pitch_um / 1000.0;
+        let steps = || (0..=20).map(|i| f64::from(i) / 20.0);
+        let list = |values: Vec<f64>| values.iter().map(|v| format!("{v:.6}")).collect::<Vec<_>>().join(", ");
+        // The last step lies a little beyond the corner, as the lens's table must reach it.
+        let radii = list(steps().map(|p| p * corner_mm * (1.0 + 1e-6)).collect());
+        let ratios = list(steps().map(|p| shading.falloff(p).max(0.0)).collect());
+        format!(
+            "# Measured relative illumination, corner ± {:.1e}: for [lens] of a camera file.\nformat = 1\n\n\
+             [lens.relative_illumination]\nradius_mm = [{radii}]\nratio = [{ratios}]\n",
+            shading.corner.standard_uncertainty
+        )
+    }
+}
+
+pub fn vignetting(request: &VignettingRequest) -> Result<Report, Error> {
+    let pitch_um = request.pitch_um()?;
+    let mut report = Report::new(
+        "vignetting",
+        "relative illumination of a flat field over the radial field position (± one standard uncertainty)",
+    );
+    let (shading, size) = request.flat.measured(BLOCKS, &mut report)?;
+    report.figure("centre", "reading of the centre, less black", "", shading.centre);
+    report.figure("corner_percent", "illumination of the corner", "%", shading.corner.scaled(100.0));
+    let labels = [("a2", "a₂ of 1 + a₂ r² + a₄ r⁴ + a₆ r⁶ + a₈ r⁸"), ("a4", "a₄"), ("a6", "a₆"), ("a8", "a₈")];
+    for ((key, label), value) in labels.into_iter().zip(shading.coefficients) {
+        report.figure(key, label, "", value);
+    }
+    let percent = |e: Estimate| e.scaled(100.0);
+    report.table(Table {
+        key: "profile",
+        columns: vec![("field_percent", "field %"), ("illumination_percent", "illumination %")],
+        rows: shading
+            .profile
+            .iter()
+            .map(|ring| vec![Cell::Number(100.0 * ring.position, 2), Cell::Estimate(percent(ring.relative))])
+            .collect(),
+    });
+    report.plot(profile_plot(&[("", &shading)]));
+    if let Some(pitch_um) = pitch_um {
+        report.camera(request.camera(&shading, size, pitch_um));
+    }
+    Ok(report)
+}
+
+pub fn shading(request: &ShadingRequest) -> Result<Report, Error> {
+    let method = "shading of a flat field after ISO 17957: blocks relative to the centre (± one standard uncertainty)";
+    let mut report = Report::new("shading", method);
+    let (flat, blocks) = (&request.flat, request.blocks);
+    match flat.input.selection.colours(&flat.picture)? {
+        Some(colours) => {
+            colours[1].independent(&flat.picture, 1)?;
+            flat.check(&colours[1])?;
+            report.encoding(&colours[1].stated);
+            let settings = flat.settings(&colours[1], blocks);
+            let [red, green, blue] = &colours;
+            let found = colour_shading([&red.image, &green.image, &blue.image], &settings);
+            in_colour(&mut report, &found.map_err(|e| flat.refused(&e))?);
+        }
+        None => {
+            let (found, _) = flat.measured(blocks, &mut report)?;
+            extreme(&mut report, "illumination", "least illumination", &found.map);
+            report.table(map("illumination_percent", &found.map));
+            report.plot(profile_plot(&[("", &found)]));
+        }
+    }
+    Ok(report)
+}
+
+fn in_colour(report: &mut Report, found: &ColourShading) {
+    let [red, blue] = found.extremes();
+    report.figure("red_percent", "red over green, farthest from the centre's", "%", red.scaled(100.0));
+    report.figure("blue_percent", "blue over green, farthest from the centre's", "%", blue.scaled(100.0));
+    for (key, label, channel) in [("red", "least red", 0), ("green", "least green", 1), ("blue", "least blue", 2)] {
+        extreme(report, key, label, &found.channels[channel].map);
+    }
+    report.table(map("green_percent", &found.channels[1].map));
+    report.table(map("red_over_green_percent", &found.red));
+    report.table(map("blue_over_green_percent", &found.blue));
+    let [red, green, blue] = &found.channels;
+    report.plot(profile_plot(&[("blue", blue), ("red", red), ("green", green)]));
+}
+
+fn extreme(report: &mut Report, key: &str, label: &str, map: &[Vec<Estimate>]) {
+    let lower = |a: Estimate, b: Estimate| if b.value < a.value { b } else { a };
+    let least = map.iter().flatten().copied().reduce(lower).unwrap_or(Estimate::new(1.0, 0.0));
+    report.figure(&format!("{key}_least_percent"), label, "%", least.scaled(100.0));
+}
+
+/// A map as a table: one row of blocks a row.
+fn map(key: &'static str, map: &[Vec<Estimate>]) -> Table {
+    let row = |(i, blocks): (usize, &Vec<Estimate>)| {
+        vec![Cell::Number(i as f64 + 1.0, 0), Cell::List(blocks.iter().map(|e| 100.0 * e.value).collect(), 2)]
+    };
+    Table {
+        key,
+        columns: vec![("row", "row"), ("blocks", heading(key))],
+        rows: map.iter().enumerate().map(row).collect(),
+    }
+}
+
+fn heading(key: &str) -> &'static str {
+    match key {
+        "green_percent" => "green %",
+        "red_over_green_percent" => "red over green %",
+        "blue_over_green_percent" => "blue over green %",
+        _ => "illumination %",
+    }
+}
+
+fn profile_plot(channels: &[(&str, &Shading)]) -> Plot {
+    let series = channels.iter().map(|(name, shading)| {
+        let ring = |r: &etendue_metrology::shading::Ring| {
+            (100.0 * r.position, 100.0 * r.relative.value, 200.0 * r.relative.standard_uncertainty)
+        };
+        Series::with_errors(name, Mark::Points, shading.profile.iter().map(ring))
+    });
+    Plot {
+        title: "relative illumination (bars: 95 %)".to_owned(),
+        x: Axis::linear("radial field position, % of the half diagonal").showing(&[0.0, 100.0]),
+        y: Axis::linear("illumination, % of the centre").showing(&[100.0]),
+        series: series.collect(),
+    }
+}

@@ -1,0 +1,181 @@
+//! `measure star` and `etendue measure texture`: fine structure.
+
+use super::encoding::EncodingChoice;
+use super::picture_input::{PictureInput, refused};
+use super::readings::{Readings, Selection};
+use crate::error::Error;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
+use etendue_io::photograph::Stated;
+use etendue_metrology::texture::leaves::{TexturePoint, measure_texture};
+use etendue_metrology::texture::star::{Star, StarPoint, measure_star};
+use etendue_metrology::{Estimate, Image};
+use std::path::{Path, PathBuf};
+
+/// `etendue measure star`
+#[derive(Clone, Debug)]
+pub struct StarRequest {
+    /// A picture of a Siemens star
+    pub picture: PathBuf,
+    /// The star's centre, raster coordinates, within two pixels
+    pub centre_px: Option<(f64, f64)>,
+    /// Cycles of dark and bright all round
+    pub cycles: Option<u32>,
+    /// The smallest circle, px [with --truth: where the star has half a cycle a pixel, or begins]
+    pub inner_px: Option<f64>,
+    /// The largest circle, px: the response is 1 there [with --truth: a little within the star's rim]
+    pub outer_px: Option<f64>,
+    /// Which readings of the picture, what they mean, and the chart's truth.
+    pub input: PictureInput,
+}
+
+/// `etendue measure texture`
+#[derive(Clone, Debug)]
+pub struct TextureRequest {
+    /// A picture of a texture such as dead leaves
+    pub picture: PathBuf,
+    /// The texture itself at the same place, pixel by pixel: a sharp render without noise (radiance.exr of --set output.radiance=true)
+    pub reference: PathBuf,
+    /// A picture of an even surface of the same brightness, for the noise
+    pub even: Option<PathBuf>,
+    /// Which readings of the picture, what they mean, and the chart's truth.
+    pub input: PictureInput,
+}
+
+/// What is left out of a star at its rim, share of its radius and at least this many pixels of blur.
+const RIM_SHARE: f64 = 0.03;
+const RIM_PX: f64 = 2.0;
+
+/// The star as told by options or by the chart's truth, whose circles begin where half a cycle fills a pixel.
+fn star_told(request: &StarRequest, readings: &Readings) -> Result<Star, Error> {
+    let levels = &request.input.levels;
+    let (black, full_scale) = (levels.black(readings), levels.full_scale(readings));
+    let needed = || Error::input("expected --centre-px, --cycles, --inner-px and --outer-px, or --truth");
+    // Among the readings, which lie some pixels apart.
+    let step = readings.period.0 as f64;
+    let star = |(x, y): (f64, f64), cycles, inner_px: f64, outer_px: f64| {
+        let centre_px = readings.place([x, y]).into();
+        Star { centre_px, cycles, inner_px: inner_px / step, outer_px: outer_px / step, black, full_scale }
+    };
+    let Some(truth) = request.input.truth(&["siemens-star"], &request.picture, readings)? else {
+        let circles = request.inner_px.zip(request.outer_px);
+        let (inner_px, outer_px) = circles.ok_or_else(needed)?;
+        let (centre_px, cycles) = request.centre_px.zip(request.cycles).ok_or_else(needed)?;
+        return Ok(star(centre_px, cycles, inner_px, outer_px));
+    };
+    let seen = truth.star()?;
+    let nyquist_px = step * f64::from(seen.cycles) / core::f64::consts::PI;
+    let outer_px = request.outer_px.unwrap_or(seen.outer_px - RIM_PX.max(RIM_SHARE * seen.outer_px));
+    let inner_px = request.inner_px.unwrap_or((seen.inner_px + RIM_PX).max(nyquist_px));
+    if inner_px + 2.0 > outer_px {
+        let coarse = f64::from(seen.cycles) / (core::f64::consts::TAU * outer_px);
+        return Err(refused(
+            &request.picture,
+            format!(
+                "the star is too small: its rim has {coarse:.2} cycles a pixel, and {:.2} is the most that its readings tell; take fewer cycles",
+                0.5 / step
+            ),
+        ));
+    }
+    Ok(star(seen.centre_px.into(), seen.cycles, inner_px, outer_px))
+}
+
+pub fn star(request: &StarRequest) -> Result<Report, Error> {
+    let readings = request.input.linear(&request.picture)?;
+    readings.independent(&request.picture, 1)?;
+    let star = star_told(request, &readings)?;
+    let named = |error| refused(&request.picture, error);
+    let (points, (x, y)) = measure_star(&readings.image, &star).map_err(named)?;
+    let step = readings.period.0 as f64;
+    let picture = |at: f64, first: usize| (at - 0.5) * step + first as f64 + 0.5;
+    let (x, y) = (picture(x, readings.first.0), picture(y, readings.first.1));
+    let mut report =
+        Report::new("star", "Siemens star after ISO 12233, over its outer circle (± one standard uncertainty)");
+    report.encoding(&readings.stated);
+    report.figure("centre_x_px", "centre, x", "px", Estimate::new(x, 0.01 * step));
+    report.figure("centre_y_px", "centre, y", "px", Estimate::new(y, 0.01 * step));
+    let row = |p: &StarPoint| {
+        vec![Cell::Number(p.radius_px * step, 1), Cell::Number(p.frequency / step, 4), Cell::Estimate(p.response)]
+    };
+    report.table(Table {
+        key: "circles",
+        columns: vec![("radius_px", "radius px"), ("cycles_per_px", "c/px"), ("response", "response")],
+        rows: points.iter().map(row).collect(),
+    });
+    let curve = points.iter().map(|p| (p.frequency / step, p.response.value, 2.0 * p.response.standard_uncertainty));
+    report.plot(response_plot("response of the star (bars: 95 %)", vec![Series::with_errors("", Mark::Line, curve)]));
+    Ok(report)
+}
+
+fn response_plot(title: &str, series: Vec<Series>) -> Plot {
+    Plot {
+        title: title.to_owned(),
+        x: Axis::linear("cycles a pixel").showing(&[0.0]),
+        y: Axis::linear("response").showing(&[0.0, 1.0]),
+        series,
+    }
+}
+
+/// A picture of the leaves, its reading of saturation, and how light was found from its numbers.
+struct Leaves {
+    image: Image,
+    full_scale: Option<f64>,
+    stated: Stated,
+}
+
+/// A picture of the leaves, cut to them where the chart's truth says where they are.
+fn leaves(input: &PictureInput, readings: Readings, file: &Path) -> Result<Leaves, Error> {
+    let (full_scale, stated) = (input.levels.full_scale(&readings), readings.stated.clone());
+    let image = match input.truth(&["dead-leaves"], file, &readings)? {
+        Some(truth) => readings.part(truth.patches(&readings)?.0[0].at, "--truth: the leaves")?,
+        None => readings.image,
+    };
+    Ok(Leaves { image, full_scale, stated })
+}
+
+pub fn texture(request: &TextureRequest) -> Result<Report, Error> {
+    let input = &request.input;
+    let seen = |file: &Path| leaves(input, input.linear(file)?, file);
+    let picture = seen(&request.picture)?;
+    // The reference is another kind of picture: it says itself what its numbers are.
+    let own = Selection { encoding: EncodingChoice::default(), ..input.selection.clone() };
+    let reference = leaves(input, own.linear(&request.reference)?, &request.reference)?;
+    let even = request.even.as_ref().map(|file| seen(file)).transpose()?;
+    let points = measure_texture(&picture.image, &reference.image, even.as_ref().map(|e| &e.image), picture.full_scale);
+    let found = points.map_err(|error| refused(&request.picture, error))?;
+    let points = found.points;
+    let mut report = Report::new("texture", "response to a texture against its reference (± one standard uncertainty)");
+    [&picture.stated, &reference.stated].into_iter().for_each(|stated| report.encoding(stated));
+    report.fact("shift_x_px", "picture right of the reference, taken off", "px", found.shift_px[0]);
+    report.fact("shift_y_px", "picture below the reference, taken off", "px", found.shift_px[1]);
+    if even.is_none() {
+        report.note("without --even noise counts as structure in 'direct'");
+    }
+    let row = |p: &TexturePoint| {
+        vec![
+            Cell::Number(p.frequency, 4),
+            Cell::Estimate(p.response),
+            Cell::Number(p.direct, 4),
+            Cell::Number(p.coherence, 4),
+        ]
+    };
+    report.table(Table {
+        key: "bands",
+        columns: vec![
+            ("cycles_per_px", "c/px"),
+            ("response", "response"),
+            ("direct", "direct"),
+            ("coherence", "coherence"),
+        ],
+        rows: points.iter().map(row).collect(),
+    });
+    let kept = points.iter().map(|p| (p.frequency, p.response.value, 2.0 * p.response.standard_uncertainty));
+    report.plot(response_plot(
+        "response to texture (bars: 95 %)",
+        vec![
+            Series::with_errors("kept", Mark::Line, kept),
+            Series::new("structure of any kind", Mark::Broken, points.iter().map(|p| (p.frequency, p.direct))),
+        ],
+    ));
+    Ok(report)
+}

@@ -1,0 +1,295 @@
+//! What the truth.json of a chart says of a picture of it.
+
+mod outline;
+pub(crate) mod points;
+mod said;
+
+use super::readings::{Readings, pixels};
+use super::sfr::{Sought, Spoke, Star};
+use crate::error::Error;
+use etendue_core::maths::f64::sin;
+use etendue_metrology::sfr::Strip;
+use glam::DVec2;
+use said::{CameraSaid, FeatureSaid, Said};
+use std::path::{Path, PathBuf};
+
+/// Where the chart's truth lies.
+#[derive(Clone, Debug)]
+pub struct TruthInput {
+    /// The truth.json of `etendue chart`, which says what is in the picture and where
+    pub truth: Option<PathBuf>,
+    /// With --truth: the camera that took the picture [default: the first]
+    pub camera: Option<String>,
+}
+
+/// How much of an edge's length its region takes along it, and across it to both sides together.
+const ALONG: f64 = 0.6;
+const ACROSS: f64 = 0.5;
+/// The part of a star's edge that is measured, from its end to its beginning or the other way, and how much of the way to its neighbours.
+const SPOKE: [f64; 2] = [0.15, 0.95];
+const CLEAR: f64 = 0.8;
+/// What is left out at a patch's outline: this many pixels of the picture, which lenses blur and demosaicing mixes, and at least this
+/// share of half its side.
+const MARGIN_PX: f64 = 2.0;
+const MARGIN_SHARE: f64 = 0.2;
+/// Part of an even surface that is measured, along each side, where a fall-off must not count.
+const MIDDLE: f64 = 0.25;
+
+/// A chart's truth as one of its cameras sees it.
+pub(crate) struct Truth {
+    file: PathBuf,
+    said: Said,
+    camera: usize,
+}
+
+/// A patch in the picture.
+#[derive(Clone, Debug)]
+pub(crate) struct Patch {
+    pub name: String,
+    /// Left column, top row, width, height, of the picture.
+    pub at: [usize; 4],
+    /// Its luminance, cd/m².
+    pub luminance_cd_m2: f64,
+    /// CIE XYZ, Y of the perfect diffuser 1.
+    pub xyz: [f64; 3],
+}
+
+/// A star in the picture: its centre, and the rims of its ground and its own.
+pub(crate) struct StarPlace {
+    pub centre_px: [f64; 2],
+    pub cycles: u32,
+    pub inner_px: f64,
+    pub outer_px: f64,
+}
+
+/// A light trap and the white about it.
+pub(crate) struct TrapPlace {
+    pub trap: [usize; 4],
+    pub whites: Vec<[usize; 4]>,
+}
+
+impl TruthInput {
+    /// The truth of one of these charts; `None` where none is given.
+    pub(crate) fn read(&self, charts: &[&str]) -> Result<Option<Truth>, Error> {
+        self.truth.as_deref().map(|file| Truth::read(file, self.camera.as_deref(), charts)).transpose()
+    }
+}
+
+impl Truth {
+    fn read(file: &Path, camera: Option<&str>, charts: &[&str]) -> Result<Self, Error> {
+        let said = said::read(file)?;
+        let refused = |what: String| Error::input(format!("{}: {what}", file.display()));
+        if !charts.contains(&said.chart.as_str()) {
+            let wanted = charts.join(", ");
+            return Err(refused(format!("the truth of the chart {}; this measurement takes {wanted}", said.chart)));
+        }
+        let named = |c: &CameraSaid| camera.is_none_or(|name| c.name == name) && (camera.is_some() || !c.dark);
+        let camera = said.cameras.iter().position(named).ok_or_else(|| {
+            let names: Vec<&str> = said.cameras.iter().map(|c| c.name.as_str()).collect();
+            refused(format!("no camera '{}'; it has {}", camera.unwrap_or_default(), names.join(", ")))
+        })?;
+        Ok(Self { file: file.to_owned(), said, camera })
+    }
+
+    pub(crate) fn chart(&self) -> &str {
+        &self.said.chart
+    }
+
+    fn refused(&self, what: impl std::fmt::Display) -> Error {
+        Error::input(format!("{}: {what}", self.file.display()))
+    }
+
+    fn seen(&self) -> &CameraSaid {
+        &self.said.cameras[self.camera]
+    }
+
+    /// Whether a picture has the size of the camera's.
+    pub(crate) fn fits(&self, picture: &Path, readings: &Readings) -> Result<(), Error> {
+        self.sized(picture, readings.picture_px)
+    }
+
+    fn sized(&self, picture: &Path, (width, height): (usize, usize)) -> Result<(), Error> {
+        let camera = self.seen();
+        let [columns, rows] = camera.picture_px;
+        if (width, height) == (columns, rows) {
+            return Ok(());
+        }
+        Err(Error::input(format!(
+            "{}: {width} × {height} pixels, where the camera '{}' of {} takes {columns} × {rows}: give its whole picture, neither \
+             cut nor scaled",
+            picture.display(),
+            camera.name,
+            self.file.display()
+        )))
+    }
+
+    /// XYZ of the light.
+    pub(crate) fn white_xyz(&self) -> [f64; 3] {
+        self.said.light.xyz
+    }
+
+    /// The middle of an even surface that fills the picture.
+    pub(crate) fn middle(&self, readings: &Readings) -> Result<[usize; 4], Error> {
+        self.filled()?;
+        let [w, h] = self.seen().picture_px.map(|n| n as f64);
+        let side = |share: f64| [share * w, share * h];
+        pixels(side(0.5 - 0.5 * MIDDLE), side(0.5 + 0.5 * MIDDLE), readings.picture_px)
+            .ok_or_else(|| self.refused("the picture is too small"))
+    }
+
+    /// Refuses a sheet that the camera sees past.
+    pub(crate) fn filled(&self) -> Result<(), Error> {
+        match self.said.seen.fills_the_field {
+            true => Ok(()),
+            false => {
+                Err(self.refused("the camera sees past the sheet's edge: measure a --region of it, without --truth"))
+            }
+        }
+    }
+
+    /// Luminance and exposure time of each camera that sees the light, in their order: cd s/m².
+    pub(crate) fn exposures(&self) -> Result<Vec<(&str, f64)>, Error> {
+        let lit = self.said.cameras.iter().filter(|c| !c.dark);
+        let exposure = |c: &'_ CameraSaid| c.exposure_s.map(|s| s * self.said.light.luminance_cd_m2);
+        lit.map(|c| exposure(c).map(|h| (c.name.as_str(), h)).ok_or_else(|| self.refused("a camera has no exposure")))
+            .collect()
+    }
+
+    /// The patches that are whole in the picture and large enough, and the names of the others.
+    pub(crate) fn patches(&self, readings: &Readings) -> Result<(Vec<Patch>, Vec<String>), Error> {
+        let (mut found, mut left_out) = (Vec::new(), Vec::new());
+        for (patch, places) in self.said.patches.iter().zip(&self.seen().patches_px) {
+            let ink = self.said.inks.iter().find(|ink| ink.name == patch.ink);
+            let ink = ink.ok_or_else(|| self.refused(format!("the patch {} has no ink", patch.name)))?;
+            match whole(places).and_then(|outline| square(&outline, readings)) {
+                Some(at) => found.push(Patch {
+                    name: patch.name.clone(),
+                    at,
+                    luminance_cd_m2: ink.luminance_cd_m2,
+                    xyz: ink.xyz,
+                }),
+                None => left_out.push(patch.name.clone()),
+            }
+        }
+        if found.is_empty() {
+            return Err(self.refused("no patch is whole in the picture and large enough to be measured"));
+        }
+        Ok((found, left_out))
+    }
+
+    /// What the bottom of a light trap sends of the white's light.
+    pub(crate) fn light_of_traps(&self) -> Option<f64> {
+        self.said.size("luminance_of_a_trap_s_bottom_over_white_about")
+    }
+
+    /// Light traps that are whole in the picture with the white midway to their neighbours.
+    pub(crate) fn traps(&self, readings: &Readings) -> Result<Vec<TrapPlace>, Error> {
+        let opening = self.said.size("opening_mm").zip(self.said.size("pitch_mm"));
+        let (opening, pitch) = opening.ok_or_else(|| self.refused("lacks the sizes of the traps"))?;
+        let trap = |places: &Vec<Option<[f64; 2]>>| {
+            let outline = whole(places)?;
+            let trap = square(&outline, readings)?;
+            let whites = outline::beside(&outline, opening, pitch).into_iter();
+            let whites: Vec<[usize; 4]> = whites.filter_map(|(middle, half)| within(middle, half, readings)).collect();
+            (!whites.is_empty()).then_some(TrapPlace { trap, whites })
+        };
+        let found: Vec<TrapPlace> = self.seen().patches_px.iter().filter_map(trap).collect();
+        if found.is_empty() {
+            return Err(self.refused("no trap is whole in the picture and large enough, with white beside it"));
+        }
+        Ok(found)
+    }
+
+    /// The Siemens star.
+    pub(crate) fn star(&self) -> Result<StarPlace, Error> {
+        let lacks = || self.refused("the star is not wholly in the picture");
+        let feature = |kind: &str| self.seen_features().find(|(f, _)| f.kind == kind).map(|(_, points)| points);
+        let (centre, rim) = (feature("centre").ok_or_else(lacks)?[0], feature("rim").ok_or_else(lacks)?);
+        let ground = self.seen().patches_px.first().and_then(|places| whole(places)).ok_or_else(lacks)?;
+        let radii = |outline: &[DVec2]| outline.iter().map(|p| (*p - centre).length()).collect::<Vec<f64>>();
+        let cycles = self.said.size("cycles").ok_or_else(lacks)? as u32;
+        Ok(StarPlace {
+            centre_px: centre.into(),
+            cycles,
+            inner_px: radii(&ground).into_iter().fold(0.0, f64::max),
+            outer_px: radii(&rim).into_iter().fold(f64::INFINITY, f64::min),
+        })
+    }
+
+    /// Strips about the edges of stars that are whole in the picture, clear of their neighbours.
+    pub(crate) fn spokes(&self, readings: &Readings) -> Result<Vec<Sought>, Error> {
+        let wedges = self.said.size("dark_wedges").ok_or_else(|| self.refused("lacks the number of wedges"))?;
+        let clear = CLEAR * sin(core::f64::consts::PI / wedges);
+        let seen: Vec<(&FeatureSaid, Vec<DVec2>)> = self.seen_features().collect();
+        let centres = seen.iter().filter(|(f, _)| f.kind == "centre");
+        let star = |(feature, points): &(&FeatureSaid, Vec<DVec2>)| Some((feature.index?, points[0]));
+        let stars: Vec<([usize; 2], DVec2)> = centres.filter_map(star).collect();
+        let spoke = |(feature, ends): &(&FeatureSaid, Vec<DVec2>)| {
+            let (index, centre) = *stars.iter().find(|(index, _)| Some(*index) == feature.index)?;
+            let part = |share: f64| ends[0].lerp(ends[1], share);
+            spoke(index, centre, [part(SPOKE[0]), part(SPOKE[1])], clear, readings)
+        };
+        let spokes: Vec<Sought> = seen.iter().filter(|(f, _)| f.kind == "edge").filter_map(spoke).collect();
+        if spokes.is_empty() {
+            return Err(self.refused("the camera sees no whole star of this chart"));
+        }
+        Ok(spokes)
+    }
+
+    /// Features that are whole in the picture.
+    fn seen_features(&self) -> impl Iterator<Item = (&FeatureSaid, Vec<DVec2>)> {
+        let pairs = self.said.features.iter().zip(&self.seen().features_px);
+        pairs.filter_map(|(feature, places)| Some((feature, whole(places)?)))
+    }
+
+    /// Regions about the edges of squares that are whole in the picture.
+    pub(crate) fn edges(&self, readings: &Readings) -> Result<Vec<[usize; 4]>, Error> {
+        let edges = self.seen_features().filter(|(f, _)| f.kind == "edge");
+        let regions: Vec<[usize; 4]> = edges.filter_map(|(_, ends)| region(&ends, readings)).collect();
+        if regions.is_empty() {
+            return Err(self.refused("the camera sees no whole edge of this chart"));
+        }
+        Ok(regions)
+    }
+}
+
+/// The points of an outline or edge that are all in the picture.
+fn whole(places: &[Option<[f64; 2]>]) -> Option<Vec<DVec2>> {
+    let points: Option<Vec<DVec2>> = places.iter().map(|p| p.map(DVec2::from)).collect();
+    points.filter(|points| !points.is_empty())
+}
+
+/// The pixels of the largest square within an outline, less its margin.
+fn square(outline: &[DVec2], readings: &Readings) -> Option<[usize; 4]> {
+    let (middle, half) = outline::largest_square(outline);
+    within(middle, half - MARGIN_PX.max(MARGIN_SHARE * half), readings)
+}
+
+/// The pixels of a square by its middle and half its side, which must hold two readings each way.
+fn within(middle: DVec2, half: f64, readings: &Readings) -> Option<[usize; 4]> {
+    let (low, high) = ((middle - half).into(), (middle + half).into());
+    let held = readings.between(low, high).is_some_and(|at| at[2] > 1 && at[3] > 1);
+    pixels(low, high, readings.picture_px).filter(|_| held && half > 0.0)
+}
+
+/// A strip about a part of a star's edge, in the picture, which widens outwards.
+fn spoke(index: [usize; 2], centre: DVec2, ends: [DVec2; 2], clear: f64, readings: &Readings) -> Option<Sought> {
+    let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+    let at = pixels(low.into(), high.into(), readings.picture_px)?;
+    let step = readings.period.0 as f64;
+    let strip = Strip {
+        ends_px: ends.map(|end| readings.place(end.into())),
+        half_widths_px: ends.map(|end| clear * (end - centre).length() / step),
+    };
+    Some(Sought { at, spoke: Some(Spoke { strip, star: Star { index, centre_px: centre.into() } }) })
+}
+
+/// About an edge from one end to the other.
+fn region(ends: &[DVec2], readings: &Readings) -> Option<[usize; 4]> {
+    let [a, b] = [*ends.first()?, *ends.get(1)?];
+    let run = (b - a).abs();
+    let length = run.max_element();
+    let half = 0.5 * length * if run.y > run.x { DVec2::new(ACROSS, ALONG) } else { DVec2::new(ALONG, ACROSS) };
+    let middle = 0.5 * (a + b);
+    pixels((middle - half).into(), (middle + half).into(), readings.picture_px)
+}

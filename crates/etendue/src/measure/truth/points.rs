@@ -1,0 +1,45 @@
+//! What the truth of a chart of points says: its kind and pitch, and how far the camera stands from it.
+
+use super::Truth;
+use crate::error::Error;
+use etendue_metrology::target::Target;
+use glam::DVec3;
+use std::path::Path;
+
+/// Charts of points.
+pub(crate) const CHARTS: [&str; 3] = ["dots", "checkerboard", "circles"];
+
+/// A chart of points.
+pub(crate) struct PointsTold {
+    pub target: Target,
+    /// The distance of neighbouring points, mm.
+    pub pitch_mm: f64,
+    /// From the entrance pupil to the chart's plane, mm; `None` where the truth does not say where both stand.
+    pub distance_mm: Option<f64>,
+}
+
+impl Truth {
+    pub(crate) fn points(&self) -> Result<PointsTold, Error> {
+        let pitch_mm = self.said.size("pitch_mm").ok_or_else(|| self.refused("lacks the pitch of the points"))?;
+        let staggered = self.said.sizes.get("asymmetric").and_then(serde_json::Value::as_bool) == Some(true);
+        let checkerboard = self.said.chart == "checkerboard";
+        Ok(PointsTold {
+            target: if checkerboard { Target::Checkerboard } else { Target::Dots },
+            // Of cells in which every other one holds a circle.
+            pitch_mm: if staggered { core::f64::consts::SQRT_2 * pitch_mm } else { pitch_mm },
+            distance_mm: self.distance_mm(),
+        })
+    }
+
+    fn distance_mm(&self) -> Option<f64> {
+        let (sheet, camera) = (&self.said.panels.first()?.sheet_mm_to_world_m, self.seen().camera_to_world?);
+        let column = |m: &[[f64; 4]; 3], k: usize| DVec3::new(m[0][k], m[1][k], m[2][k]);
+        let normal = column(sheet, 0).cross(column(sheet, 1)).try_normalize()?;
+        Some(1000.0 * normal.dot(column(sheet, 3) - column(&camera, 3)).abs())
+    }
+
+    /// Whether a picture, or a list of points, has the size of the camera's.
+    pub(crate) fn fits_size(&self, file: &Path, [width, height]: [usize; 2]) -> Result<(), Error> {
+        self.sized(file, (width, height))
+    }
+}

@@ -1,0 +1,391 @@
+//! Cameras from views of a chart: what `measure focal` and `calibrate` share.
+
+mod advice;
+mod assumed;
+mod stated;
+
+use super::chart_points::{ChartInput, Seen, all};
+use crate::calibration;
+use crate::error::Error;
+use crate::observer::Observer;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Covariance, Report, Table, with_uncertainty};
+use etendue_core::maths::f64::{acos, atan};
+use etendue_metrology::Estimate;
+use etendue_metrology::calibrate::{CalibrateError, Calibrated, Family, Options, Radial, Sightings, calibrate_sparing};
+use etendue_metrology::target::Node;
+use etendue_projection::model::Ideal;
+use etendue_projection::{CalibrationError, Sense};
+use glam::DVec2;
+use serde_json::Value;
+pub use stated::StatedLength;
+use std::path::PathBuf;
+
+/// The pictures, the chart and what is known of the camera.
+#[derive(Clone, Debug)]
+pub struct ViewsRequest {
+    /// Pictures of the chart by one camera, or lists of its points (CSV: column, row, x_px, y_px): turned by 20° to 45° about different axes, filling the field together
+    pub files: Vec<PathBuf>,
+    /// The chart, and which readings show it.
+    pub chart: ChartInput,
+    /// The distance of neighbouring points of the chart, mm [with --truth: as it says]
+    pub pitch_mm: Option<f64>,
+    /// The camera model
+    pub model: CameraModel,
+    /// Pixels are square: one focal length for columns and rows
+    pub square_pixels: bool,
+    /// The principal point is known, raster coordinates, px
+    pub principal_px: Option<[f64; 2]>,
+    /// The distance from the entrance pupil to the chart's plane, mm, the same in every picture
+    pub distance_mm: Option<StatedLength>,
+    /// Its standard uncertainty, mm; 0 where it is exact [default: of rounding to its last digit]
+    pub distance_uncertainty_mm: Option<f64>,
+    /// The distance of neighbouring pixels of the sensor, µm: then focal lengths are told in mm as well
+    pub pixel_pitch_um: Option<f64>,
+    /// Points far from the fit count less (Huber)
+    pub robust: bool,
+}
+
+/// Models that can be fitted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CameraModel {
+    /// No distortion
+    Pinhole,
+    /// k1 k2 p1 p2
+    Opencv,
+    /// k1 k2 p1 p2 k3
+    Opencv5,
+    /// k1 … k6 p1 p2
+    Opencv8,
+    /// k1 k2, from ideal to observed
+    Radial,
+    /// k1 k2, from observed to ideal
+    RadialInverse,
+    /// Polynomial fisheye, k1 … k4
+    KannalaBrandt,
+    /// Division model
+    Division,
+    /// FOV model
+    FieldOfView,
+    /// Unified omnidirectional, with k1 k2
+    Unified,
+    /// Extended unified
+    ExtendedUnified,
+    /// Double sphere
+    DoubleSphere,
+    /// Ideal fisheye, r = f θ
+    Equidistant,
+    /// Ideal fisheye of equal areas
+    Equisolid,
+    /// Ideal fisheye that keeps angles
+    Stereographic,
+    /// r = f sin θ
+    Orthographic,
+}
+
+impl CameraModel {
+    /// As on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Pinhole => "pinhole",
+            Self::Opencv => "opencv",
+            Self::Opencv5 => "opencv5",
+            Self::Opencv8 => "opencv8",
+            Self::Radial => "radial",
+            Self::RadialInverse => "radial-inverse",
+            Self::KannalaBrandt => "kannala-brandt",
+            Self::Division => "division",
+            Self::FieldOfView => "field-of-view",
+            Self::Unified => "unified",
+            Self::ExtendedUnified => "extended-unified",
+            Self::DoubleSphere => "double-sphere",
+            Self::Equidistant => "equidistant",
+            Self::Equisolid => "equisolid",
+            Self::Stereographic => "stereographic",
+            Self::Orthographic => "orthographic",
+        }
+    }
+
+    fn family(self) -> Family {
+        let perspective = |radial, tangential| Family::Perspective { radial, tangential };
+        match self {
+            Self::Pinhole => perspective(Radial::Polynomial(0), false),
+            Self::Opencv => perspective(Radial::Polynomial(2), true),
+            Self::Opencv5 => perspective(Radial::Polynomial(3), true),
+            Self::Opencv8 => perspective(Radial::Rational, true),
+            Self::Radial => Family::Polynomial(Sense::IdealToObserved),
+            Self::RadialInverse => Family::Polynomial(Sense::ObservedToIdeal),
+            Self::KannalaBrandt => Family::KannalaBrandt(4),
+            Self::Division => Family::Division,
+            Self::FieldOfView => Family::FieldOfView,
+            Self::Unified => Family::Unified,
+            Self::ExtendedUnified => Family::ExtendedUnified,
+            Self::DoubleSphere => Family::DoubleSphere,
+            Self::Equidistant => Family::Ideal(Ideal::Equidistant),
+            Self::Equisolid => Family::Ideal(Ideal::Equisolid),
+            Self::Stereographic => Family::Ideal(Ideal::Stereographic),
+            Self::Orthographic => Family::Ideal(Ideal::Orthographic),
+        }
+    }
+}
+
+/// The views and the camera that saw them.
+pub(crate) struct Found {
+    /// The model's name.
+    pub model: String,
+    /// Those that are in it.
+    pub views: Vec<Seen>,
+    pub camera: Calibrated,
+    /// What a user should know of the fit.
+    pub notes: Vec<String>,
+}
+
+/// An error by its picture.
+fn of_files(error: &CalibrateError, views: &[Seen]) -> String {
+    match error {
+        CalibrateError::View { view, .. } | CalibrateError::Sparse { view, .. } => {
+            format!("{}: {error}", views[*view].file.display())
+        }
+        _ => error.to_string(),
+    }
+}
+
+impl ViewsRequest {
+    pub(crate) fn found(&self, options: Options, observer: &dyn Observer) -> Result<Found, Error> {
+        self.found_by(|_| options, observer)
+    }
+
+    /// The same with the principal point in the picture's middle, which is uncertain.
+    pub(crate) fn found_about_middle(&self, options: Options, observer: &dyn Observer) -> Result<Found, Error> {
+        let middle = |[width, height]: [usize; 2]| 0.5 * DVec2::new(width as f64, height as f64);
+        let about = |size| Options { principal_px: Some(middle(size)), ..options };
+        let mut found = self.found_by(about, observer)?;
+        let pitch_mm = self.pitch_mm()?;
+        let sightings: Vec<Sightings> = found.views.iter().map(|v| Sightings::of_grid(&v.grid, pitch_mm)).collect();
+        let size = found.camera.calibration.size_px();
+        assumed::widen(&mut found, &sightings, self.model.family(), about(size))?;
+        let px = assumed::MIDDLE * size[0].max(size[1]) as f64;
+        found.notes.push(format!(
+            "one picture: the principal point is taken for the picture's middle, ± {px:.1} px in each direction, and the lens for one of this \
+             model or nearly so, which is in the ±; pixels are taken for square, which is in no ±"
+        ));
+        Ok(found)
+    }
+
+    /// By options that may follow from the picture's size.
+    fn found_by(&self, options: impl Fn([usize; 2]) -> Options, observer: &dyn Observer) -> Result<Found, Error> {
+        let views = all(&self.chart, &self.files, observer)?;
+        let pitch_mm = self.pitch_mm()?;
+        let sightings: Vec<Sightings> = views.iter().map(|v| Sightings::of_grid(&v.grid, pitch_mm)).collect();
+        let size = views[0].size_px;
+        let options = options(size);
+        let spared = calibrate_sparing(&sightings, size, self.model.family(), options);
+        let spared = spared.map_err(|error| Error::input(of_files(&error, &views)))?;
+        let left_out = spared.left_out.iter().map(|(v, why)| format!("{}: left out: {why}", views[*v].file.display()));
+        let mut notes: Vec<String> = left_out.collect();
+        let kept: Vec<&Sightings> = spared.kept.iter().map(|v| &sightings[*v]).collect();
+        let views: Vec<Seen> = spared.kept.iter().map(|v| views[*v].clone()).collect();
+        notes.extend(advice::unsuited(self.model, &spared.camera, &views, &kept, options));
+        Ok(Found { model: self.model.name().to_owned(), views, camera: spared.camera, notes })
+    }
+
+    /// As stated, or as the truth says.
+    fn pitch_mm(&self) -> Result<f64, Error> {
+        let told = || Error::input("--pitch-mm: state the distance of neighbouring points, or give --truth");
+        Ok(match self.pitch_mm {
+            Some(pitch) => pitch,
+            None => self.chart.told()?.ok_or_else(told)?.1.pitch_mm,
+        })
+    }
+
+    /// The distance: as well known as is stated, or as its last digit tells.
+    fn distance(&self) -> Option<Estimate> {
+        let rounded = self.distance_mm?.rounded();
+        Some(Estimate::new(rounded.value, self.distance_uncertainty_mm.unwrap_or(rounded.standard_uncertainty)))
+    }
+
+    /// What is told of the camera.
+    pub(crate) fn options(&self) -> Options {
+        Options {
+            square_pixels: self.square_pixels,
+            principal_px: self.principal_px.map(DVec2::from),
+            focal_px: None,
+            distance: self.distance(),
+            robust: self.robust,
+        }
+    }
+}
+
+/// Unit of a parameter, by its name.
+fn unit(name: &str) -> &'static str {
+    match name {
+        _ if name.ends_with("_px") => "px",
+        _ if name.ends_with("_rad") => "rad",
+        _ => "",
+    }
+}
+
+impl Found {
+    /// Parameters, how well the views fit, and the views.
+    pub(crate) fn add_to(&self, report: &mut Report, request: &ViewsRequest) {
+        let (pixel_pitch_um, points) = (request.pixel_pitch_um, request.chart.points);
+        self.views.iter().filter_map(|view| view.stated.as_ref()).for_each(|stated| report.encoding(stated));
+        report.setting("model", self.model.clone());
+        for p in &self.camera.parameters {
+            report.figure(p.name, p.name.trim_end_matches("_px"), unit(p.name), p.estimate);
+            if let Some(pitch_um) = pixel_pitch_um.filter(|_| p.name.starts_with('f')) {
+                let mm = p.estimate.scaled(0.001 * pitch_um);
+                report.figure(&p.name.replace("_px", "_mm"), p.name.trim_end_matches("_px"), "mm", mm);
+            }
+        }
+        report.fact("rms_px", "distance of points from the fit, rms", "px", self.camera.rms_px());
+        report.fact("sigma_px", "standard deviation of a coordinate", "px", self.camera.sigma_px);
+        let freedom = self.camera.degrees_of_freedom as f64;
+        report.fact("degrees_of_freedom", "degrees of freedom", "", freedom);
+        report.note("raster coordinates, pixel centres at +0.5 (OpenCV's and ROS's cx and cy are less by 0.5); ± one standard uncertainty");
+        if let Some(distance) = request.distance().filter(|_| request.distance_uncertainty_mm.is_none()) {
+            report.note(format!(
+                "the distance is taken as known to the digits that are stated, {} mm: state --distance-uncertainty-mm",
+                with_uncertainty(distance)
+            ));
+        }
+        report.note("the pitch is taken as exact: its relative error is that of distances");
+        self.notes.iter().for_each(|note| report.note(note.clone()));
+        if let Err(CalibrationError::Fold { radius_px, .. }) = self.camera.calibration.check() {
+            report.note(format!(
+                "the fitted model folds the picture over {radius_px:.1} px from the principal point, farther out than the views \
+                 determine it: it is no camera file; add views that fill the picture, or fit a model of fewer coefficients"
+            ));
+        }
+        report.table(self.table());
+        report.table_if(points, self.points());
+        report.covariance(Covariance {
+            of: self.camera.parameters.iter().map(|p| p.name.to_owned()).collect(),
+            rows: (0..self.camera.parameters.len()).map(|i| self.row(i)).collect(),
+        });
+        report.plot(self.residuals());
+        report.plot(self.projection());
+    }
+
+    fn table(&self) -> Table {
+        let row = |(v, seen): (usize, &Seen)| {
+            let pose = &self.camera.poses[v];
+            let tilt = acos(pose.turn.z_axis.z.clamp(-1.0, 1.0)).to_degrees();
+            vec![
+                Cell::Text(seen.file.display().to_string()),
+                Cell::Number(seen.grid.nodes.len() as f64, 0),
+                Cell::Number(self.camera.view_rms_px(v), 4),
+                Cell::Number(pose.distance(), 2),
+                Cell::Number(tilt, 2),
+            ]
+        };
+        Table {
+            key: "views",
+            columns: vec![
+                ("file", "file"),
+                ("points", "points"),
+                ("rms_px", "rms px"),
+                ("distance_mm", "distance mm"),
+                ("tilt_deg", "tilt °"),
+            ],
+            rows: self.views.iter().enumerate().map(row).collect(),
+        }
+    }
+
+    /// A row of the covariance.
+    fn row(&self, i: usize) -> Vec<f64> {
+        (0..self.camera.parameters.len()).map(|j| self.camera.covariance.at(i, j)).collect()
+    }
+
+    /// Every point of every view.
+    fn points(&self) -> Table {
+        let row = |v: usize, p: usize, node: &Node| {
+            let off = self.camera.residuals_px[v][p];
+            vec![
+                Cell::Number(v as f64 + 1.0, 0),
+                Cell::Number(node.index[0] as f64, 0),
+                Cell::Number(node.index[1] as f64, 0),
+                Cell::Number(node.at.x, 4),
+                Cell::Number(node.at.y, 4),
+                Cell::Number(node.uncertainty_px, 4),
+                Cell::Number(off.x, 4),
+                Cell::Number(off.y, 4),
+            ]
+        };
+        let of_view = |(v, seen): (usize, &Seen)| {
+            seen.grid.nodes.iter().enumerate().map(|(p, node)| row(v, p, node)).collect::<Vec<_>>()
+        };
+        Table {
+            key: "points",
+            columns: vec![
+                ("view", "view"),
+                ("column", "column"),
+                ("row", "row"),
+                ("x_px", "x px"),
+                ("y_px", "y px"),
+                ("uncertainty_px", "± px"),
+                ("fitted_less_seen_x_px", "fitted less seen x px"),
+                ("fitted_less_seen_y_px", "y px"),
+            ],
+            rows: self.views.iter().enumerate().flat_map(of_view).collect(),
+        }
+    }
+
+    fn residuals(&self) -> Plot {
+        let points = self.camera.residuals_px.iter().flatten().map(|r| (r.x, r.y));
+        Plot {
+            title: "Fitted less seen".to_owned(),
+            x: Axis::linear("columns, px").showing(&[0.0]),
+            y: Axis::linear("rows, px").showing(&[0.0]),
+            series: vec![Series::new("points", Mark::Points, points)],
+        }
+    }
+
+    /// Field angle against distance from the principal point, towards the picture's farthest corner.
+    fn projection(&self) -> Plot {
+        const STEPS: i32 = 60;
+        let camera = &self.camera.calibration;
+        let (matrix, [width, height]) = (camera.matrix(), camera.size_px().map(|n| n as f64));
+        let principal = DVec2::new(matrix.cx, matrix.cy);
+        let corner = |x: f64, y: f64| DVec2::new(x, y) - principal;
+        let corners = [corner(0.0, 0.0), corner(width, 0.0), corner(0.0, height), corner(width, height)];
+        let farthest = corners.into_iter().fold(DVec2::ZERO, |a, b| if b.length() > a.length() { b } else { a });
+        let at = |i: i32| farthest * (f64::from(i) / f64::from(STEPS));
+        let angle =
+            |v: DVec2| Some((v.length(), acos(camera.unproject(principal + v)?.z.clamp(-1.0, 1.0)).to_degrees()));
+        let pinhole = |v: DVec2| (v.length(), atan(DVec2::new(v.x / matrix.fx, v.y / matrix.fy).length()).to_degrees());
+        Plot {
+            title: "Projection".to_owned(),
+            x: Axis::linear("distance from the principal point, px").showing(&[0.0]),
+            y: Axis::linear("field angle, °").showing(&[0.0]),
+            series: vec![
+                Series::new("camera", Mark::Line, (0..=STEPS).filter_map(|i| angle(at(i)))),
+                Series::new("without distortion, same focal length", Mark::Broken, (0..=STEPS).map(|i| pinhole(at(i)))),
+            ],
+        }
+    }
+
+    /// A camera file by a verb; the f-number cannot be told from these pictures.
+    ///
+    /// # Errors
+    /// Where the camera folds over inside its picture.
+    pub(crate) fn camera_file(&self, verb: &str, pixel_pitch_um: f64, f_number: Option<f64>) -> Result<String, Error> {
+        let refused = |folds| Error::input(format!("no camera file of this, figures only: {folds}"));
+        self.camera.calibration.check().map_err(refused)?;
+        let facts = calibration::keys(&self.camera.calibration);
+        let keys = facts["projection"].as_object().expect("a projection is an object").iter();
+        let keys: Vec<String> = keys.map(|(key, value): (&String, &Value)| format!("{key} = {value}")).collect();
+        let [width, height] = self.camera.calibration.size_px();
+        let (f_number, told) = f_number.map_or((4.0, "  # a stand-in: not measured"), |n| (n, ""));
+        let count = self.views.len();
+        let views = if count == 1 { "view" } else { "views" };
+        Ok(format!(
+            "# Found by etendue {verb} from {count} {views}; points lie {:.4} px (rms) from the fit.\nformat = 1\n\n[lens]\nmodel = \
+             \"calibrated\"\nf_number = {f_number}{told}\nprojection = {{ {} }}\n\n[sensor]\nwidth_px = {width}\nheight_px = \
+             {height}\npixel_pitch_um = {pixel_pitch_um}\n",
+            self.camera.rms_px(),
+            keys.join(", ")
+        ))
+    }
+}

@@ -1,0 +1,99 @@
+//! The shards of one job to the result of an unsharded run.
+
+use crate::error::Error;
+use crate::job::{RenderOptions, deliver};
+use crate::observer::Observer;
+use crate::shard::{self, Manifest};
+use etendue_io::{Existing, OutputFolder};
+use etendue_pipeline::Plan;
+use etendue_pipeline::film::Film;
+use etendue_pipeline::plan::CameraPlan;
+use etendue_pipeline::render::layout;
+use etendue_pipeline::tile::{Shard, tiles};
+use etendue_tracer::accel::Simd;
+use std::path::{Path, PathBuf};
+
+/// Joins the folders of all shards of one run to the files of an unsharded one, byte for byte, and answers with their paths. Runs on
+/// the caller's thread pool.
+///
+/// # Errors
+/// Where shards are missing, given twice or of different runs, the job has changed since, or the folder cannot be written.
+pub fn merge(
+    shards: &[PathBuf],
+    simd: Simd,
+    (folder, existing): (&Path, Existing),
+    observer: &dyn Observer,
+) -> Result<Vec<PathBuf>, Error> {
+    let mut shards: Vec<(Manifest, &PathBuf)> =
+        shards.iter().map(|folder| Ok((Manifest::read(folder)?, folder))).collect::<Result<_, Error>>()?;
+    shards.sort_by_key(|(manifest, _)| manifest.index);
+    check_complete(&shards)?;
+    let manifest = shards[0].0.clone();
+    let job = manifest.request.clone().open()?;
+    check_same_plan(job.plan(), &manifest)?;
+    let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
+    folder.claim(job.file_names(&manifest.frames).iter().map(String::as_str)).map_err(Error::input)?;
+    let options = RenderOptions { frames: manifest.frames.clone(), simd };
+    for group in job.plan().by_light() {
+        let film = joined(group[0], &shards)?;
+        deliver(job.shared_plan(), &group, film, &options, &mut |camera| camera.write(&mut folder, observer))?;
+    }
+    folder.commit().map_err(Error::run)
+}
+
+/// Every shard of one run, each once.
+fn check_complete(shards: &[(Manifest, &PathBuf)]) -> Result<(), Error> {
+    let Some((first, _)) = shards.first() else { return Err(Error::input("no shards: give the folders of all")) };
+    for (manifest, folder) in shards {
+        if !of_one_run(manifest, first) {
+            return Err(refuse(folder, "it is a shard of another run; give the shards of one run"));
+        }
+    }
+    for (expected, (manifest, folder)) in shards.iter().enumerate() {
+        if manifest.index as usize != expected {
+            let found = format!("shard {expected} of {} is missing or given twice; give each once", manifest.count);
+            return Err(refuse(folder, &found));
+        }
+    }
+    match shards.len() == first.count as usize {
+        true => Ok(()),
+        false => Err(refuse(
+            shards[shards.len() - 1].1,
+            &format!("{} of {} shards are given; give the folders of all", shards.len(), first.count),
+        )),
+    }
+}
+
+/// Whether two shards were cut from one run: the same plan, cameras, frames and tiles.
+fn of_one_run(a: &Manifest, b: &Manifest) -> bool {
+    let cut = |m: &Manifest| (m.plan_hash.clone(), m.count, m.frames.clone(), m.tile_px.clone());
+    cut(a) == cut(b) && a.request.camera == b.request.camera
+}
+
+fn refuse(folder: &Path, why: &str) -> Error {
+    Error::input(format!("{}: {why}", folder.display()))
+}
+
+fn check_same_plan(plan: &Plan, manifest: &Manifest) -> Result<(), Error> {
+    if plan.hash_text() == manifest.plan_hash && shard::tile_sides(plan) == manifest.tile_px {
+        return Ok(());
+    }
+    let job = manifest.request.job.display();
+    Err(Error::input(format!(
+        "{job} or a file that it names has changed since the shards were rendered; render them again"
+    )))
+}
+
+/// The film of all shards' tiles.
+fn joined(camera: &CameraPlan, shards: &[(Manifest, &PathBuf)]) -> Result<Film, Error> {
+    let (width, height) = camera.film_size();
+    let settings = &camera.settings;
+    let mut film = Film::new(width as usize, height as usize, &layout(camera), settings.spp, settings.replicates);
+    for (manifest, folder) in shards {
+        let part = shard::read(folder, camera)?;
+        let shard = Shard::new(manifest.index, manifest.count)
+            .ok_or_else(|| refuse(folder, "its manifest is damaged; render the shard again"))?;
+        tiles(width, height, settings.tile_px, shard).into_iter().for_each(|tile| film.copy_tile(tile, &part));
+    }
+    Ok(film)
+}

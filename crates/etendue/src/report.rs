@@ -1,0 +1,319 @@
+//! What a measurement found: numbers with unit and standard uncertainty, tables, curves and notes; as text, JSON and plots.
+
+use crate::error::Error;
+use crate::plot::{Plot, svg};
+use etendue_core::maths::f64::log10;
+use etendue_io::photograph::Stated;
+pub use etendue_metrology::Estimate;
+use serde_json::{Map, Value, json};
+use std::fmt;
+
+/// One number of a report.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    key: String,
+    label: String,
+    unit: &'static str,
+    value: Estimate,
+    /// Whether the value's uncertainty is known: not of counts and of what describes the measurement itself.
+    stated: bool,
+}
+
+/// A cell of a table.
+#[derive(Clone, Debug)]
+pub enum Cell {
+    /// A number to some decimals.
+    Number(f64, usize),
+    /// A number with its standard uncertainty.
+    Estimate(Estimate),
+    /// Numbers in a row, to some decimals.
+    List(Vec<f64>, usize),
+    /// A word.
+    Text(String),
+    /// Nothing known.
+    Nothing,
+}
+
+/// A table: column keys with headings, and rows of cells.
+#[derive(Clone, Debug)]
+pub struct Table {
+    pub key: &'static str,
+    pub columns: Vec<(&'static str, &'static str)>,
+    pub rows: Vec<Vec<Cell>>,
+}
+
+/// A measurement's results.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    kind: &'static str,
+    method: &'static str,
+    settings: Vec<(&'static str, String)>,
+    figures: Vec<Figure>,
+    tables: Vec<Table>,
+    notes: Vec<String>,
+    plots: Vec<Plot>,
+    camera: Option<String>,
+    /// Tables of JSON alone.
+    data: Vec<Table>,
+    covariances: Vec<Covariance>,
+    /// How light was found from the numbers of the pictures, each way once.
+    encodings: Vec<Stated>,
+}
+
+/// The covariance of figures: their keys, and the matrix row by row, in the product of their units.
+#[derive(Clone, Debug)]
+pub struct Covariance {
+    pub of: Vec<String>,
+    pub rows: Vec<Vec<f64>>,
+}
+
+impl Report {
+    pub(crate) fn new(kind: &'static str, method: &'static str) -> Self {
+        Self { kind, method, ..Self::default() }
+    }
+
+    pub(crate) fn figure(&mut self, key: &str, label: &str, unit: &'static str, value: Estimate) {
+        self.push(key, label, unit, value, true);
+    }
+
+    /// A number whose uncertainty is not stated: a count, or what describes the measurement itself.
+    pub(crate) fn fact(&mut self, key: &str, label: &str, unit: &'static str, value: f64) {
+        self.push(key, label, unit, Estimate::new(value, 0.0), false);
+    }
+
+    fn push(&mut self, key: &str, label: &str, unit: &'static str, value: Estimate, stated: bool) {
+        self.figures.push(Figure { key: key.to_owned(), label: label.to_owned(), unit, value, stated });
+    }
+
+    /// What was chosen and decides what figures mean, such as the camera model.
+    pub(crate) fn setting(&mut self, key: &'static str, value: String) {
+        self.settings.push((key, value));
+    }
+
+    /// How light was found from a picture's numbers.
+    pub(crate) fn encoding(&mut self, stated: &Stated) {
+        if !self.encodings.contains(stated) {
+            self.encodings.push(stated.clone());
+        }
+    }
+
+    pub(crate) fn table(&mut self, table: Table) {
+        self.tables.push(table);
+    }
+
+    /// A table of many rows: in JSON always, in the text where it is asked for.
+    pub(crate) fn table_if(&mut self, shown: bool, table: Table) {
+        if shown { self.tables.push(table) } else { self.data.push(table) }
+    }
+
+    pub(crate) fn covariance(&mut self, covariance: Covariance) {
+        self.covariances.push(covariance);
+    }
+
+    pub(crate) fn note(&mut self, note: impl Into<String>) {
+        self.notes.push(note.into());
+    }
+
+    /// What was found as keys of a camera file; `None` where it was not asked for, or the measurement has none.
+    #[must_use]
+    pub fn camera_keys(&self) -> Option<&str> {
+        self.camera.as_deref()
+    }
+
+    /// What a camera file says of what was found.
+    pub(crate) fn camera(&mut self, text: String) {
+        self.camera = Some(text);
+    }
+
+    pub(crate) fn plot(&mut self, plot: Plot) {
+        self.plots.push(plot);
+    }
+
+    /// Its plots as one SVG.
+    ///
+    /// # Errors
+    /// Where the measurement has no curve to draw.
+    pub fn svg(&self) -> Result<String, Error> {
+        if self.plots.is_empty() {
+            return Err(Error::input("--plot: this measurement has no curve to draw"));
+        }
+        Ok(svg(&self.plots))
+    }
+
+    /// The report as JSON; what is unknown or not finite is null.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let figure = |f: &Figure| {
+            let Value::Object(mut map) = json_estimate(f.value) else { return (f.key.clone(), Value::Null) };
+            map.insert("unit".to_owned(), f.unit.into());
+            if !f.stated {
+                map.insert("standard_uncertainty".to_owned(), Value::Null);
+            }
+            (f.key.clone(), Value::Object(map))
+        };
+        let tables = self.tables.iter().chain(&self.data);
+        let tables: Map<String, Value> = tables.map(|t| (t.key.to_owned(), t.json())).collect();
+        let mut told = json!({
+            "measurement": self.kind,
+            "method": self.method,
+            "settings": self.settings.iter().map(|(key, value)| ((*key).to_owned(), value.as_str().into())).collect::<Map<_, _>>(),
+            "figures": self.figures.iter().map(figure).collect::<Map<_, _>>(),
+            "tables": tables,
+            "notes": self.notes,
+        });
+        if !self.encodings.is_empty() {
+            let one = |s: &Stated| json!({ "encoding": s.encoding.name(), "reason": s.reason, "guessed": s.guessed });
+            told["encodings"] = self.encodings.iter().map(one).collect();
+        }
+        if !self.covariances.is_empty() {
+            told["covariances"] = self.covariances.iter().map(Covariance::json).collect();
+        }
+        told
+    }
+}
+
+impl fmt::Display for Report {
+    /// A table for people.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text())
+    }
+}
+
+impl Report {
+    fn text(&self) -> String {
+        let width = |f: fn(&Figure) -> usize| self.figures.iter().map(f).max().unwrap_or(0);
+        let label = width(|f| f.label.chars().count());
+        let mut text = format!("{}\n", self.method);
+        self.encodings.iter().for_each(|s| text += &format!("encoding: {} ({})\n", s.encoding.name(), s.reason));
+        for figure in &self.figures {
+            text += &format!("{:<label$}  {} {}", figure.label, with_uncertainty(figure.value), figure.unit);
+            text = text.trim_end().to_owned() + "\n";
+        }
+        self.tables.iter().for_each(|table| text += &format!("\n{}", table.text()));
+        self.notes.iter().for_each(|note| text += &format!("note: {note}\n"));
+        text
+    }
+}
+
+impl Covariance {
+    fn json(&self) -> Value {
+        let row = |row: &Vec<f64>| row.iter().copied().map(finite).collect::<Value>();
+        json!({ "of": self.of, "matrix": self.rows.iter().map(row).collect::<Value>() })
+    }
+}
+
+impl Table {
+    fn json(&self) -> Value {
+        let row = |cells: &Vec<Cell>| {
+            let pairs = self.columns.iter().zip(cells).map(|((key, _), cell)| ((*key).to_owned(), cell.json()));
+            Value::Object(pairs.collect())
+        };
+        self.rows.iter().map(row).collect()
+    }
+
+    fn text(&self) -> String {
+        let headings = self.columns.iter().map(|(_, heading)| (*heading).to_owned()).collect::<Vec<_>>();
+        let rows = self.rows.iter().map(|row| row.iter().map(Cell::text).collect::<Vec<_>>());
+        let lines: Vec<Vec<String>> = std::iter::once(headings).chain(rows).collect();
+        let width = |i: usize| lines.iter().map(|line| line[i].chars().count()).max().unwrap_or(0);
+        let widths: Vec<usize> = (0..self.columns.len()).map(width).collect();
+        let line = |cells: &Vec<String>| {
+            let padded: Vec<String> = cells.iter().zip(&widths).map(|(cell, w)| format!("{cell:<w$}")).collect();
+            padded.join("  ").trim_end().to_owned() + "\n"
+        };
+        lines.iter().map(line).collect()
+    }
+}
+
+impl Cell {
+    fn json(&self) -> Value {
+        match self {
+            Self::Number(x, _) => finite(*x),
+            Self::Estimate(e) => json_estimate(*e),
+            Self::List(list, _) => list.iter().copied().map(finite).collect(),
+            Self::Text(text) => text.as_str().into(),
+            Self::Nothing => Value::Null,
+        }
+    }
+
+    fn text(&self) -> String {
+        match self {
+            Self::Number(x, _) if !x.is_finite() => "–".to_owned(),
+            Self::Number(x, decimals) => fixed(*x, *decimals),
+            Self::Estimate(e) => with_uncertainty(*e),
+            Self::List(list, decimals) => {
+                let texts: Vec<String> =
+                    list.iter().map(|x| format!("{:>1$}", fixed(*x, *decimals), 4 + decimals)).collect();
+                texts.join(" ")
+            }
+            Self::Text(text) => text.clone(),
+            Self::Nothing => "–".to_owned(),
+        }
+    }
+}
+
+/// JSON knows no infinity.
+fn finite(x: f64) -> Value {
+    if x.is_finite() { (x + 0.0).into() } else { Value::Null }
+}
+
+pub(crate) fn json_estimate(e: Estimate) -> Value {
+    json!({ "value": finite(e.value), "standard_uncertainty": finite(e.standard_uncertainty) })
+}
+
+/// Value ± standard uncertainty, to two digits of the uncertainty (GUM 7.2.6).
+pub(crate) fn with_uncertainty(e: Estimate) -> String {
+    let (value, u) = (e.value, e.standard_uncertainty);
+    if !value.is_finite() {
+        return "unknown".to_owned();
+    }
+    if !u.is_finite() {
+        return format!("{} ± unknown", digits(value, 4));
+    }
+    if u <= 0.0 {
+        return if value.fract() == 0.0 && value.abs() < 1e9 { fixed(value, 0) } else { digits(value, 6) };
+    }
+    let place = log10(u).floor();
+    if place > 4.0 || value.abs() >= 1e9 || place < -7.0 {
+        return format!("{value:.4e} ± {u:.1e}");
+    }
+    let decimals = (1.0 - place).max(0.0) as usize;
+    format!("{} ± {}", fixed(value, decimals), fixed(u, decimals))
+}
+
+/// A number to some decimals; what rounds to nothing has no sign.
+pub(crate) fn fixed(x: f64, decimals: usize) -> String {
+    let text = format!("{x:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(digits) if digits.chars().all(|c| c == '0' || c == '.') => digits.to_owned(),
+        _ => text,
+    }
+}
+
+/// A number to so many digits.
+fn digits(value: f64, digits: usize) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let place = log10(value.abs()).floor();
+    if !(-5.0..9.0).contains(&place) {
+        return format!("{value:.0$e}", digits - 1);
+    }
+    fixed(value, (digits as f64 - 1.0 - place).max(0.0) as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_told_to_two_digits_of_their_uncertainty() {
+        let told = |value, u| with_uncertainty(Estimate::new(value, u));
+        assert_eq!(told(0.196_482, 0.000_913), "0.19648 ± 0.00091");
+        assert_eq!(told(12_903.2, 230.0), "12903 ± 230");
+        assert_eq!(told(0.0, 0.0), "0");
+        assert_eq!(told(1288.0, 0.0), "1288");
+        assert_eq!(told(1.0, f64::INFINITY), "1.000 ± unknown");
+        assert_eq!(told(f64::NAN, 1.0), "unknown");
+    }
+}

@@ -1,0 +1,110 @@
+//! The files that a camera can deliver: their names, and what they hold.
+
+use crate::tone_curve::encoding;
+use etendue_core::quantity::{DigitalNumber, Electrons, Irradiance, Quantity, Radiance};
+use etendue_pipeline::plan::{CameraBody, Development, PictureFormat, Products, RawFormat};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// What a file holds: its quantity and unit.
+fn entry(quantity: &str, unit: &str) -> Value {
+    json!({ "quantity": quantity, "unit": unit })
+}
+
+/// [`entry`] of a quantity of the core.
+fn entry_of<Q: Quantity>() -> Value {
+    entry(Q::NAME, Q::UNIT)
+}
+
+/// Names and entries of the files that a camera can deliver.
+#[derive(Clone, Copy, Debug)]
+pub struct Files;
+
+impl Files {
+    /// Spectral radiance.
+    pub const RADIANCE: &str = "radiance.exr";
+    /// Spectral irradiance on the sensor plane.
+    pub const IRRADIANCE: &str = "irradiance.exr";
+    /// The part of the irradiance that is ghosts.
+    pub const GHOSTS: &str = "ghosts.exr";
+    /// Mean electrons of each pixel.
+    pub const ELECTRONS: &str = "electrons.exr";
+    /// Depth, normals, positions and identities.
+    pub const GROUND_TRUTH: &str = "ground_truth.exr";
+    /// Planar depth as a picture.
+    pub const DEPTH: &str = "depth.png";
+    /// The ray of each pixel.
+    pub const RAYS: &str = "rays.exr";
+    /// The side-car.
+    pub const SIDECAR: &str = "camera.json";
+    /// What `develop` made of which raw.
+    pub const DEVELOPMENT: &str = "develop.json";
+
+    /// The raw picture of a frame.
+    #[must_use]
+    pub fn raw(frame: u32, format: RawFormat) -> String {
+        format!("raw.{frame:04}.{}", format.extension())
+    }
+
+    /// What the raw picture of a frame is made of.
+    #[must_use]
+    pub fn causes(frame: u32) -> String {
+        format!("causes.{frame:04}.exr")
+    }
+
+    /// The picture of a frame.
+    #[must_use]
+    pub fn picture(frame: u32, format: PictureFormat) -> String {
+        format!("picture.{frame:04}.{}", format.extension())
+    }
+
+    /// What the picture of a frame holds, and how its numbers are encoded.
+    #[must_use]
+    pub fn picture_entry(development: &Development) -> Value {
+        let encoding = encoding(&development.processing.tone);
+        let mut entry = entry(&format!("{} picture", encoding.name()), &format!("{} bits", development.format.bits()));
+        entry["encoding"] = encoding.to_json();
+        entry
+    }
+
+    /// A file of the undistorted twin.
+    #[must_use]
+    pub fn undistorted(name: &str) -> String {
+        format!("undistorted/{name}")
+    }
+
+    /// All files of a camera over frames, with what they hold.
+    #[must_use]
+    pub fn of(p: &Products, body: &CameraBody, frames: &std::ops::Range<u32>) -> BTreeMap<String, Value> {
+        let mut files = BTreeMap::new();
+        let mut add = |wanted: bool, name: &str, entry: Value| {
+            if wanted {
+                files.insert(name.to_owned(), entry);
+            }
+        };
+        add(p.radiance, Self::RADIANCE, entry_of::<Radiance>());
+        add(p.irradiance, Self::IRRADIANCE, entry_of::<Irradiance>());
+        add(p.ghosts, Self::GHOSTS, entry_of::<Irradiance>());
+        add(p.electrons, Self::ELECTRONS, entry_of::<Electrons>());
+        add(p.ground_truth, Self::GROUND_TRUTH, entry("depth, distance, normal, position, ids", "m, m, 1, m, 1"));
+        let depth_unit = format!("1/{} m", p.depth_png_per_m.unwrap_or(0.0));
+        add(p.depth_png_per_m.is_some(), Self::DEPTH, entry("planar depth, 0 is invalid", &depth_unit));
+        add(p.rays, Self::RAYS, entry("origin and direction of each pixel's ray, camera frame", "m, 1"));
+        let twin = p.undistorted.is_some();
+        let planes = entry("depth, distance, normal, position, ids of the undistorted twin", "m, m, 1, m, 1");
+        add(twin && p.ground_truth, &Self::undistorted(Self::GROUND_TRUTH), planes);
+        let rays = entry("origin and direction of each pixel's ray of the undistorted twin, camera frame", "m, 1");
+        add(twin && p.rays, &Self::undistorted(Self::RAYS), rays);
+        let format = body.picture_format();
+        let picture = body.development.as_ref().map_or(Value::Null, Self::picture_entry);
+        let mut undistorted = picture.clone();
+        undistorted["quantity"] = format!("undistorted {}", picture["quantity"].as_str().unwrap_or_default()).into();
+        for frame in frames.clone() {
+            add(twin && p.picture, &Self::undistorted(&Self::picture(frame, format)), undistorted.clone());
+            add(p.raw, &Self::raw(frame, p.raw_format), entry_of::<DigitalNumber>());
+            add(p.causes, &Self::causes(frame), entry("causes of the digital number, one layer each", "e"));
+            add(p.picture, &Self::picture(frame, format), picture.clone());
+        }
+        files
+    }
+}

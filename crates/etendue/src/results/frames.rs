@@ -1,0 +1,156 @@
+//! Photographs of a camera, frame after frame, as files.
+
+use super::files::Files;
+use super::metadata;
+use super::writer::ResultWriter;
+use crate::error::Error;
+use crate::observer::{Message, Observer};
+use crate::tone_curve::encoding;
+use etendue_core::Plane;
+use etendue_core::quantity::{DigitalNumber, Display, Electrons};
+use etendue_io::exr::{self, EncodeError};
+use etendue_io::jpeg::encode_jpeg;
+use etendue_io::tiff::{self, DngFacts};
+use etendue_io::{Provenance, png};
+use etendue_pipeline::photograph::{Frame, take, take_with_causes};
+use etendue_pipeline::plan::{CameraBody, Development, PictureFormat, Products, RawFormat};
+use etendue_pipeline::raw_colour::RawColour;
+use etendue_pipeline::twin::Twin;
+use etendue_sensor::{Cause, Causes, FrameAddress, Raw, SensorState};
+use serde_json::Value;
+use std::ops::Range;
+
+/// Which photographs are wanted.
+#[derive(Clone, Copy)]
+pub(crate) struct Wanted<'a> {
+    /// What of each frame.
+    pub(crate) products: &'a Products,
+    /// The camera's name, for files that tell it.
+    pub(crate) camera: &'a str,
+    /// The facts of files that tell them.
+    pub(crate) facts: &'a Provenance,
+    /// The twin whose pictures are wanted as well.
+    pub(crate) undistorted: Option<&'a Twin>,
+    /// Who is told of pixels without valid light.
+    pub(crate) observer: &'a dyn Observer,
+}
+
+/// The file of a picture that was developed so.
+pub(crate) fn encoded(picture: &Plane<Display>, development: &Development) -> Result<Vec<u8>, EncodeError> {
+    let tone = encoding(&development.processing.tone);
+    match development.format {
+        PictureFormat::Jpeg { quality } => encode_jpeg(picture, quality),
+        PictureFormat::Png { bits: 8 } => png::encode_display(picture, &tone),
+        PictureFormat::Png { bits } => png::encode_display16(picture, bits, &tone),
+    }
+}
+
+/// Frame after frame with its number, as the sensor's state runs through them; with what each digital number is made of where `causes` are
+/// wanted. Ends where the camera has no electronics.
+pub(crate) fn frames<'a>(
+    body: &'a CameraBody,
+    electrons: &'a Plane<Electrons>,
+    frames: Range<u32>,
+    address: impl Fn(u32) -> FrameAddress + 'a,
+    causes: bool,
+) -> impl Iterator<Item = (u32, Frame)> + 'a {
+    let step = if causes { take_with_causes } else { take };
+    frames.scan(SensorState::default(), move |state, number| {
+        let (next, frame) = step(body, std::mem::take(state), electrons, address(number))?;
+        *state = next;
+        Some((number, frame))
+    })
+}
+
+/// Takes frame after frame and writes what is wanted of each. Answers with exposure and gain of each frame.
+pub(crate) fn write_frames(
+    body: &CameraBody,
+    electrons: &Plane<Electrons>,
+    numbers: &Range<u32>,
+    address: impl Fn(u32) -> FrameAddress,
+    wanted: Wanted<'_>,
+    writer: &mut ResultWriter<'_>,
+) -> Result<Vec<Value>, Error> {
+    let products = wanted.products;
+    let mut points = Vec::new();
+    if !(products.raw || products.picture || products.causes) {
+        return Ok(points);
+    }
+    for (number, frame) in frames(body, electrons, numbers.clone(), &address, products.causes) {
+        if !frame.raw.invalid.is_empty() {
+            let count = frame.raw.invalid.len();
+            let told = format!("frame {number}: {count} pixels have no valid light; their digital number is 0");
+            wanted.observer.message(Message::Warning(&told));
+        }
+        let file = products.raw.then(|| Files::raw(number, products.raw_format));
+        points.push(metadata::frame(number, file, &frame.raw));
+        write_frame(body, frame, address(number), wanted, writer)?;
+    }
+    Ok(points)
+}
+
+/// Writes what is wanted of a frame.
+fn write_frame(
+    body: &CameraBody,
+    frame: Frame,
+    address: FrameAddress,
+    wanted: Wanted<'_>,
+    writer: &mut ResultWriter<'_>,
+) -> Result<(), Error> {
+    let (products, number) = (wanted.products, address.frame);
+    if products.raw {
+        let bytes = match products.raw_format {
+            RawFormat::Dng => dng(body, &frame.raw, wanted.camera),
+            format => encoded_raw(&frame.raw, &frame.raw.plane, format),
+        };
+        writer.write(&Files::raw(number, products.raw_format), bytes)?;
+    }
+    if let Some(causes) = &frame.causes {
+        let facts = Provenance { frame: number.into(), ..wanted.facts.clone() };
+        writer.write(&Files::causes(number), encode_causes(causes, &facts))?;
+    }
+    if let Some((picture, development)) = frame.picture.filter(|_| products.picture).zip(body.development.as_ref()) {
+        let name = Files::picture(number, development.format);
+        writer.write(&name, encoded(&picture.display, development))?;
+        if let Some(twin) = wanted.undistorted {
+            let display = twin.picture(body, &picture.linear, address).expect("a picture was developed");
+            writer.write(&Files::undistorted(&name), encoded(&display, development))?;
+        }
+    }
+    Ok(())
+}
+
+/// Digital numbers of a raw without its facts: TIFF or PNG.
+pub(crate) fn encoded_raw(raw: &Raw, plane: &Plane<DigitalNumber>, format: RawFormat) -> Result<Vec<u8>, EncodeError> {
+    match format {
+        RawFormat::Tiff => tiff::encode_raw_tiff(plane, raw.bits),
+        RawFormat::Png | RawFormat::Dng if raw.companding.is_some() => png::encode_companded16(plane),
+        RawFormat::Png | RawFormat::Dng => png::encode_raw16(plane),
+    }
+}
+
+fn encode_causes(causes: &Causes, facts: &Provenance) -> Result<Vec<u8>, EncodeError> {
+    let layers: Vec<_> = Cause::ALL
+        .iter()
+        .map(|cause| (cause.name().to_owned(), exr::Layer::Float(causes.layer(*cause).samples())))
+        .collect();
+    let signal = causes.layer(Cause::Signal);
+    exr::encode_layers(signal.width(), signal.height(), &layers, facts)
+}
+
+fn dng(body: &CameraBody, raw: &Raw, camera: &str) -> Result<Vec<u8>, EncodeError> {
+    let colour = body.sensor.as_ref().and_then(RawColour::of).expect("a compiled plan asks for DNG where it can be");
+    let area = raw.picture;
+    let facts = DngFacts {
+        camera: camera.to_owned(),
+        software: format!("etendue {}", metadata::VERSION),
+        bits: raw.bits,
+        black_level_dn: raw.black_level_dn,
+        white_level_dn: raw.white_level_dn,
+        tile: colour.tile.map(|(columns, tile)| (columns as u16, tile.into_iter().map(|c| c as u8).collect())),
+        xyz_to_camera: colour.xyz_to_camera,
+        neutral: colour.neutral,
+        active: [area.x, area.y, area.width, area.height].map(|v| v as u32),
+    };
+    tiff::encode_dng(&raw.plane, &facts)
+}

@@ -1,0 +1,365 @@
+//! What every result says of itself: the side-car and the facts in EXR headers.
+
+mod sensor;
+
+pub(crate) use sensor::{frame, sensor};
+
+use crate::calibration;
+use etendue_core::CameraPose;
+use etendue_io::Provenance;
+use etendue_optics::front::Optic;
+use etendue_optics::{Cube, DepthOfField, Face, Front, Lens, PointSpread, PupilProjection, View, Window};
+use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, Route};
+use etendue_pipeline::twin::Twin;
+use etendue_projection::Sense;
+use glam::DVec2;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// Facts under which a radiance image states its geometry, so that `expose` can use it: the pitch and the axis of one
+/// rectilinear view, or the faces of a cube and what is stored of each.
+const PITCH_TAN: &str = "pupil_pitch_tan";
+const PRINCIPAL_X_PX: &str = "pupil_principal_x_px";
+const PRINCIPAL_Y_PX: &str = "pupil_principal_y_px";
+const FACE_PX: &str = "pupil_face_px";
+const VIEWS: &str = "pupil_views";
+
+const THROUGH_LENS: &str = "through the lens, pixel centres at +0.5, x right, y down; pose: camera x right, y down, \
+                            z forward, origin at the centre of the entrance pupil, to world x forward, y left, z up, m";
+const AT_PUPIL: &str = "rectilinear from the centre of the entrance pupil: direction = ((x - principal_x) * pitch_tan, \
+                        (y - principal_y) * pitch_tan, 1), pixel centres at +0.5, x right, y down";
+
+const AT_PUPIL_CUBE: &str = "up to six perspective views from the centre of the entrance pupil; pupil_views: of each \
+                             face: its first column and row in this image, its columns and rows, the column and row of \
+                             the face's own grid of pupil_face_px x pupil_face_px that come first; tangent = (index + \
+                             0.5) * 2 / pupil_face_px - 1; right, down, ahead: front x y z, right -z y x, left z y -x, \
+                             top x z -y, bottom x -z y, back -x y -z";
+
+const UNDISTORTED: &str = "rectilinear from the centre of the entrance pupil: direction = ((x - cx) / fx, (y - cy) / fy, 1), pixel \
+                           centres at +0.5, x right, y down";
+const RASTER: &str = "raster: the top-left corner of the image is (0, 0), pixel centres at +0.5";
+
+/// The program's version.
+pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// The facts of a camera's results.
+pub(crate) fn provenance(plan: &Plan, camera: &CameraPlan) -> Provenance {
+    let settings = &camera.settings;
+    Provenance {
+        plan_hash: plan.hash_text(),
+        seed: settings.seed,
+        version: VERSION.to_owned(),
+        camera: camera.name.clone(),
+        frame: 0,
+        time_s: 0.0,
+        geometry: THROUGH_LENS.to_owned(),
+        camera_to_world: Some(pose_rows(&camera.pose)),
+        further: BTreeMap::from([
+            ("spp".to_owned(), settings.spp.to_string()),
+            ("replicates".to_owned(), settings.replicates.to_string()),
+            ("alike_px".to_owned(), settings.blocks.len_px().to_string()),
+        ]),
+    }
+}
+
+/// The facts of a radiance image; at the pupil its own geometry.
+pub(crate) fn radiance_provenance(plan: &Plan, camera: &CameraPlan) -> Provenance {
+    let facts = provenance(plan, camera);
+    match &camera.settings.route {
+        Route::Lens => facts,
+        Route::Pupil(projection) => at_pupil(facts, projection, camera.index),
+    }
+}
+
+/// The facts of an undistorted twin's results.
+pub(crate) fn undistorted_provenance(plan: &Plan, camera: &CameraPlan, twin: &Twin) -> Provenance {
+    let mut facts = provenance(plan, camera);
+    UNDISTORTED.clone_into(&mut facts.geometry);
+    let matrix = twin.matrix;
+    let numbers = [("fx_px", matrix.fx), ("fy_px", matrix.fy), ("cx_px", matrix.cx), ("cy_px", matrix.cy)];
+    facts.further.extend(numbers.map(|(name, number)| (name.to_owned(), number.to_string())));
+    facts
+}
+
+/// What the side-car says of an undistorted twin.
+pub(crate) fn undistorted(twin: &Twin) -> Value {
+    json!({
+        "camera_matrix": twin.matrix.rows(),
+        "camera_matrix_convention": RASTER,
+        "camera_matrix_opencv": twin.matrix.to_opencv().rows(),
+        "width_px": twin.body().raster.width(),
+        "height_px": twin.body().raster.height(),
+        "ground_truth": "traced along the twin's own rays from the centre of the entrance pupil",
+        "picture": "the camera's, resampled linearly in linear light; black where the camera does not look",
+    })
+}
+
+/// The facts of what another camera made of a stored radiance image.
+pub(crate) fn exposed_provenance(source: &Provenance, camera: &str, seed: u64) -> Provenance {
+    let pupil = [PITCH_TAN, PRINCIPAL_X_PX, PRINCIPAL_Y_PX, FACE_PX, VIEWS];
+    let further = source.further.iter().filter(|(name, _)| !pupil.contains(&name.as_str()));
+    let mut further: BTreeMap<String, String> = further.map(|(name, text)| (name.clone(), text.clone())).collect();
+    further.insert("radiance_camera".to_owned(), source.camera.clone());
+    further.insert("radiance_seed".to_owned(), source.seed.to_string());
+    Provenance {
+        seed,
+        version: VERSION.to_owned(),
+        camera: camera.to_owned(),
+        geometry: THROUGH_LENS.to_owned(),
+        further,
+        ..source.clone()
+    }
+}
+
+fn at_pupil(mut facts: Provenance, projection: &PupilProjection, camera: u32) -> Provenance {
+    let geometry = match projection {
+        PupilProjection::Rectilinear(view) => {
+            AT_PUPIL.clone_into(&mut facts.geometry);
+            let principal = view.principal_px();
+            let numbers =
+                [(PITCH_TAN, projection.pitch_tan()), (PRINCIPAL_X_PX, principal.x), (PRINCIPAL_Y_PX, principal.y)];
+            numbers.map(|(name, number)| (name, number.to_string())).to_vec()
+        }
+        PupilProjection::Cube(cube) => {
+            AT_PUPIL_CUBE.clone_into(&mut facts.geometry);
+            vec![(FACE_PX, cube.face_px().to_string()), (VIEWS, views_text(cube))]
+        }
+    };
+    facts.further.extend(geometry.into_iter().map(|(name, text)| (name.to_owned(), text)));
+    facts.further.insert("camera_index".to_owned(), camera.to_string());
+    facts
+}
+
+/// What is stored of a cube's faces: "front 0 0 808 808 -4 -4; …".
+fn views_text(cube: &Cube) -> String {
+    let view = |(view, window): (&Option<View>, Option<Window>)| {
+        let (view, Window { left, top, width, height }) = (view.as_ref()?, window?);
+        let [x, y] = view.first();
+        Some(format!("{} {x} {y} {width} {height} {left} {top}", view.face().name()))
+    };
+    let texts: Vec<String> = cube.views().iter().zip(cube.windows()).filter_map(view).collect();
+    texts.join("; ")
+}
+
+/// The geometry that a radiance image of `width` × `height` pixels states; `None` where it states none.
+pub(crate) fn pupil_geometry(
+    facts: &Provenance,
+    width: usize,
+    height: usize,
+) -> Option<Result<PupilProjection, String>> {
+    let number = |name: &str| facts.further.get(name)?.parse::<f64>().ok();
+    if let Some(views) = facts.further.get(VIEWS) {
+        let face_px = facts.further.get(FACE_PX).and_then(|text| text.parse().ok());
+        let cube = face_px
+            .and_then(|face_px| stated_cube(face_px, views))
+            .filter(|c| (c.width(), c.height()) == (width, height));
+        let told = || format!("its geometry, {VIEWS} = \"{views}\", is not one that etendue writes");
+        return Some(cube.map(PupilProjection::Cube).ok_or_else(told));
+    }
+    let principal = DVec2::new(number(PRINCIPAL_X_PX)?, number(PRINCIPAL_Y_PX)?);
+    let view = PupilProjection::rectilinear(width, height, number(PITCH_TAN)?, principal);
+    Some(view.map_err(|error| error.to_string()))
+}
+
+/// The cube of [`views_text`]; `None` where the text is not that of a cube.
+fn stated_cube(face_px: usize, text: &str) -> Option<Cube> {
+    let mut windows = [None; 6];
+    for view in text.split("; ") {
+        let words: Vec<&str> = view.split(' ').collect();
+        let [name, _, _, width, height, left, top] = words.as_slice() else { return None };
+        let face = Face::ALL.iter().position(|face| face.name() == *name)?;
+        let window = Window {
+            left: left.parse().ok()?,
+            top: top.parse().ok()?,
+            width: width.parse().ok()?,
+            height: height.parse().ok()?,
+        };
+        windows[face] = Some(window);
+    }
+    Cube::new(face_px, windows).ok().filter(|cube| views_text(cube) == text)
+}
+
+fn pose_rows(pose: &CameraPose) -> [[f64; 4]; 3] {
+    std::array::from_fn(|i| {
+        let row = pose.rotation.row(i);
+        [row.x, row.y, row.z, pose.position_m[i]]
+    })
+}
+
+/// The side-car of a rendered camera.
+pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>) -> Value {
+    let settings = &camera.settings;
+    json!({
+        "program": "etendue",
+        "version": VERSION,
+        "plan_hash": plan.hash_text(),
+        "seed": settings.seed,
+        "camera": camera.name,
+        "camera_index": camera.index,
+        "light": { "camera": camera.light.camera, "camera_index": camera.light.index },
+        "pose": {
+            "camera_to_world": pose_rows(&camera.pose),
+            "convention": "camera x right, y down, z forward (OpenCV), origin at the centre of the entrance pupil; \
+                           world x forward, y left, z up; m",
+        },
+        "optics": optics(&camera.body),
+        "effects": effects(&camera.body),
+        "sensor": sensor(&camera.body),
+        "sampling": {
+            "spp": settings.spp,
+            "replicates": settings.replicates,
+            "alike_px": settings.blocks.len_px(),
+            "max_bounces": settings.max_bounces,
+            "wavelengths_per_path": settings.wavelengths,
+            "range_nm": [settings.range_nm.0, settings.range_nm.1],
+            "band_width_nm": settings.bands.map(etendue_core::Bands::width_nm),
+            "route": if settings.route == Route::Lens { "lens" } else { "pupil" },
+            "depth_of_field": (settings.route != Route::Lens).then(|| depth_of_field(&camera.depth_of_field)),
+        },
+        "time_s": 0.0,
+        "files": files,
+        "ground_truth": {
+            "ray.ID": "0: no ray passes the lens; 1: the principal ray; 2: that ray is clipped, the ray through the \
+                       centroid of the open pupil is taken",
+            "depth.Z": "m along the optical axis from the entrance pupil; +inf: sky; NaN: no ray, or one that does not look ahead",
+            "distance.Z": "m along the pixel's principal ray (587.56 nm) from its origin; +inf: sky; NaN: no ray",
+            "mirror": mirror(&camera.body),
+            "N": "unit shading normal, world",
+            "P": "position, world, m",
+            "instances": plan.identities,
+            "classes": plan.classes.iter().cloned().collect::<BTreeMap<String, u32>>(),
+            "materials": plan.materials,
+            "ids": "instances and materials: place in the list, from 1; 0 is the background",
+        },
+    })
+}
+
+/// How things out of focus were blurred in the picture.
+pub(crate) fn depth_of_field(method: &DepthOfField) -> Value {
+    match method {
+        DepthOfField::None => json!("none"),
+        DepthOfField::Physical => json!("physical"),
+        DepthOfField::Fast(blend) => {
+            let p = blend.parameters();
+            let finite = |m: f64| m.is_finite().then_some(m);
+            json!({ "fast": {
+                "near_m": [p.blurred_near_m, p.sharp_near_m],
+                "far_m": [finite(p.sharp_far_m), finite(p.blurred_far_m)],
+                "blur_px": p.blur_px,
+            } })
+        }
+    }
+}
+
+/// Lens and camera matrix.
+pub(crate) fn optics(body: &CameraBody) -> Value {
+    let lens = &body.lens;
+    let calibration = match lens {
+        Lens::Calibrated(lens) => Some(&lens.parameters().calibration),
+        _ => None,
+    };
+    let by_lens = || body.raster.camera_matrix(lens.principal_distance_mm());
+    let matrix = calibration.map_or_else(by_lens, etendue_projection::Calibration::matrix);
+    let mut facts = json!({
+        "model": lens.kind(),
+        "focal_length_mm": lens.focal_length_mm(),
+        "f_number": lens.f_number(),
+        "t_number": lens.t_number(),
+        "working_f_number": lens.working_f_number(),
+        "focus_distance_m": lens.focus_distance_m().filter(|m| m.is_finite()),
+        "magnification": lens.magnification(),
+        "hyperfocal_m_for_1_px": lens.hyperfocal_m(body.raster.pitch_mm().x),
+        "entrance_pupil_diameter_mm": 2e3 * lens.entrance_pupil_radius_m(),
+        "sensor_plane_from_entrance_pupil_mm": 1e3 * lens.sensor_plane_m(),
+        "principal_distance_mm": lens.principal_distance_mm(),
+        "transmittance": lens.transmittance(),
+        "distortion": distortion(body),
+        "calibration": calibration.map(calibration::keys),
+        "camera_matrix": matrix.rows(),
+        "camera_matrix_convention": RASTER,
+        "camera_matrix_opencv": matrix.to_opencv().rows(),
+    });
+    if let Some(optic) = body.front.as_ref().and_then(Front::optic) {
+        facts["in_front"] = json!(format!("{}: the camera matrix is that of the lens without it", optic.name()));
+    }
+    facts
+}
+
+/// The irradiance effects and their margin; null where there are none.
+pub(crate) fn effects(body: &CameraBody) -> Option<Value> {
+    let effects = Some(&body.effects).filter(|effects| !effects.is_idle())?;
+    let glare = effects.glare().map(|glare| {
+        let p = glare.parameters();
+        json!({ "scatter": p.scatter, "core_um": p.core_um, "exponent": p.exponent, "reach_mm": p.reach_mm })
+    });
+    let psf = effects.psf().map(point_spread);
+    let ghosts = effects.ghosts().map(|ghosts| json!({ "sensor_reflectance": ghosts.sensor_reflectance() }));
+    Some(json!({ "margin_px": effects.margin_px(), "psf": psf, "glare": glare, "ghosts": ghosts }))
+}
+
+fn point_spread(spread: &PointSpread) -> Value {
+    match spread {
+        PointSpread::Aperture(psf) => {
+            let p = psf.parameters();
+            json!({
+                "f_number": psf.f_number(),
+                "blades": p.blades,
+                "blade_curvature": p.curvature,
+                "rotation_deg": p.rotation_rad.to_degrees(),
+                "obstruction": p.obstruction,
+                "wavefront_terms": p.wavefront.len(),
+                "reach_mm": p.reach_mm,
+                "patches": psf.patches(),
+            })
+        }
+        PointSpread::Image(image) => {
+            let p = image.parameters();
+            json!({
+                "image_px": [p.width, p.height()],
+                "image_pitch_um": p.pitch_um,
+                "image_wavelength_nm": p.wavelength_nm,
+            })
+        }
+    }
+}
+
+/// A lens's distortion, and the one of the other direction that comes nearest over the picture.
+fn distortion(body: &CameraBody) -> Option<Value> {
+    let d = body.lens.distortion()?;
+    let [k1, k2] = d.coefficients();
+    let other = match d.sense() {
+        Sense::IdealToObserved => Sense::ObservedToIdeal,
+        Sense::ObservedToIdeal => Sense::IdealToObserved,
+    };
+    let fitted = d.fitted(other, body.raster.max_radius_mm()).ok().map(|fit| {
+        let [k1, k2] = fit.distortion.coefficients();
+        let worst_px = fit.worst_mm / body.raster.pitch_mm().x;
+        json!({ "k1": k1, "k2": k2, "direction": direction(other), "largest_difference_px": worst_px })
+    });
+    Some(json!({
+        "k1": k1,
+        "k2": k2,
+        "radius_unit_mm": d.unit_mm(),
+        "direction": direction(d.sense()),
+        "fitted_in_the_other_direction": fitted,
+    }))
+}
+
+/// The direction of a distortion, in the words of camera files.
+fn direction(sense: Sense) -> &'static str {
+    match sense {
+        Sense::IdealToObserved => "ideal_to_observed",
+        Sense::ObservedToIdeal => "observed_to_ideal",
+    }
+}
+
+/// What the layer of a camera's mirror holds; nothing without one.
+fn mirror(body: &CameraBody) -> Option<&'static str> {
+    match body.front.as_ref().and_then(Front::optic)? {
+        Optic::Windscreen(_) => None,
+        Optic::Mirror(_) => Some(
+            "where the ray meets the mirror, m, camera frame; NaN: beside it. distance.Z counts from the \
+                                  pupil by way of the mirror, and depth.Z is NaN in it",
+        ),
+    }
+}

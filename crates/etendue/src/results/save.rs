@@ -1,0 +1,181 @@
+//! A camera's results as files.
+
+use super::files::Files;
+use super::frames::{Wanted, write_frames};
+use super::metadata;
+use super::writer::ResultWriter;
+use super::{CameraResults, file_names};
+use crate::error::Error;
+use crate::job::{Job, RenderOptions};
+use crate::observer::Observer;
+use etendue_io::exr::{self, Lengths, encode_ground_truth, encode_plane, encode_radiance, encode_rays};
+use etendue_io::{Existing, OutputFolder, png};
+use etendue_pipeline::rays::{RayTable, ray_table};
+use etendue_pipeline::truth::{GroundTruth, ground_truth};
+use etendue_pipeline::twin::Twin;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+
+/// The results of a job's cameras.
+#[derive(Clone, Debug)]
+pub struct Results {
+    cameras: Vec<CameraResults>,
+}
+
+impl Results {
+    pub(crate) fn new(cameras: Vec<CameraResults>) -> Self {
+        Self { cameras }
+    }
+
+    /// The cameras, those of equal light one after the other.
+    #[must_use]
+    pub fn cameras(&self) -> &[CameraResults] {
+        &self.cameras
+    }
+
+    /// A camera by its name.
+    #[must_use]
+    pub fn camera(&self, name: &str) -> Option<&CameraResults> {
+        self.cameras.iter().find(|camera| camera.name() == name)
+    }
+
+    /// Writes all files that the job asks for into a folder, one folder a camera, and answers with their paths. They get
+    /// their names when all are complete. Runs on the caller's thread pool.
+    ///
+    /// # Errors
+    /// Where the folder cannot be written, or files are there that must not be replaced.
+    pub fn save(&self, folder: &Path, existing: Existing, observer: &dyn Observer) -> Result<Vec<PathBuf>, Error> {
+        let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
+        for camera in &self.cameras {
+            let names = file_names(&camera.plan, &camera.frames);
+            let own = names.iter().filter(|name| name.starts_with(&format!("{}/", camera.name())));
+            folder.claim(own.map(String::as_str)).map_err(Error::input)?;
+        }
+        self.cameras.iter().try_for_each(|camera| camera.write(&mut folder, observer))?;
+        folder.commit().map_err(Error::run)
+    }
+}
+
+impl Job {
+    /// Renders camera after camera and writes each one's files before the next is rendered; answers with their paths. Runs on the caller's
+    /// thread pool.
+    ///
+    /// # Errors
+    /// Where the observer cancels, light is not finite, or the folder cannot be written.
+    pub fn save(
+        &self,
+        options: &RenderOptions,
+        (folder, existing): (&Path, Existing),
+        observer: &dyn Observer,
+    ) -> Result<Vec<PathBuf>, Error> {
+        let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
+        folder.claim(self.file_names(&options.frames).iter().map(String::as_str)).map_err(Error::input)?;
+        self.render_each(options, observer, |camera| camera.write(&mut folder, observer))?;
+        folder.commit().map_err(Error::run)
+    }
+}
+
+impl CameraResults {
+    /// Writes everything that the camera delivers into its folder within an output folder.
+    ///
+    /// # Errors
+    /// Where a file cannot be written.
+    pub fn write(&self, folder: &mut OutputFolder, observer: &dyn Observer) -> Result<(), Error> {
+        let camera = self.camera();
+        let mut writer = ResultWriter { prefix: camera.name.clone(), folder };
+        self.write_spectra(&mut writer)?;
+        let points = self.write_photographs(&mut writer, observer)?;
+        self.write_truth(&mut writer)?;
+        if let Some(twin) = &self.undistorted {
+            self.write_undistorted(twin, &mut writer)?;
+        }
+        let files = Files::of(&camera.products, &camera.body, &self.frames);
+        let mut facts = metadata::sidecar(&self.plan, camera, &files);
+        facts["undistorted"] = self.undistorted.as_ref().map_or(Value::Null, metadata::undistorted);
+        facts["frames"] = points.into();
+        writer.json(Files::SIDECAR, &facts)
+    }
+
+    fn write_spectra(&self, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+        let (plan, camera, light) = (&self.plan, self.camera(), &self.light);
+        let products = &camera.products;
+        if let Some(radiance) = light.radiance.as_ref().filter(|_| products.radiance) {
+            let variance = products.variance.then_some(&radiance.variance);
+            let facts = metadata::radiance_provenance(plan, camera);
+            let lengths = self.depth.as_ref().map(|d| Lengths { distance: &d.distance, depth: &d.depth });
+            writer.write(Files::RADIANCE, encode_radiance(&radiance.mean, variance, lengths, &facts))?;
+        }
+        if products.irradiance {
+            writer.irradiance(light, products.variance, &metadata::provenance(plan, camera))?;
+        }
+        if products.ghosts {
+            writer.ghosts(light, &metadata::provenance(plan, camera))?;
+        }
+        if let Some(mean) = light.electrons.as_ref().filter(|_| products.electrons) {
+            let variance = light.electrons_variance.as_ref().filter(|_| products.variance);
+            writer.write(Files::ELECTRONS, encode_plane(mean, variance, &metadata::provenance(plan, camera)))?;
+        }
+        Ok(())
+    }
+
+    /// The frames; answers with what the side-car says of each.
+    fn write_photographs(&self, writer: &mut ResultWriter<'_>, observer: &dyn Observer) -> Result<Vec<Value>, Error> {
+        let (camera, Some(electrons)) = (self.camera(), self.electrons()) else { return Ok(Vec::new()) };
+        let facts = metadata::provenance(&self.plan, camera);
+        let (products, undistorted) = (&camera.products, self.undistorted.as_ref());
+        let wanted = Wanted { products, camera: &camera.name, facts: &facts, undistorted, observer };
+        write_frames(&camera.body, electrons, &self.frames, |frame| self.address(frame), wanted, writer)
+    }
+
+    fn write_truth(&self, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+        let (camera, facts) = (self.camera(), || metadata::provenance(&self.plan, self.camera()));
+        let products = &camera.products;
+        if products.rays {
+            writer.write(Files::RAYS, encoded_rays(&self.rays(), &facts()))?;
+        }
+        if !products.ground_truth && products.depth_png_per_m.is_none() {
+            return Ok(());
+        }
+        let truth = self.ground_truth();
+        if products.ground_truth {
+            writer.write(Files::GROUND_TRUTH, encode_ground_truth(&planes(&truth), &facts()))?;
+        }
+        if let Some(per_metre) = products.depth_png_per_m {
+            writer.write(Files::DEPTH, png::encode_depth16(&truth.depth, per_metre))?;
+        }
+        Ok(())
+    }
+
+    /// Ground truth and rays of the undistorted twin.
+    fn write_undistorted(&self, twin: &Twin, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+        let camera = self.camera();
+        let facts = metadata::undistorted_provenance(&self.plan, camera, twin);
+        if camera.products.rays {
+            writer.write(&Files::undistorted(Files::RAYS), encoded_rays(&ray_table(twin.body()), &facts))?;
+        }
+        if camera.products.ground_truth {
+            let truth = ground_truth(&self.plan, &twin.plan(camera), self.simd);
+            writer.write(&Files::undistorted(Files::GROUND_TRUTH), encode_ground_truth(&planes(&truth), &facts))?;
+        }
+        Ok(())
+    }
+}
+
+fn encoded_rays(table: &RayTable, facts: &etendue_io::Provenance) -> Result<Vec<u8>, exr::EncodeError> {
+    encode_rays(&table.origin, &table.direction, &table.ray, table.path.as_ref(), facts)
+}
+
+fn planes(truth: &GroundTruth) -> exr::GroundTruth<'_> {
+    exr::GroundTruth {
+        depth: Some(&truth.depth),
+        distance: Some(&truth.distance),
+        normal: Some(&truth.normal),
+        position: Some(&truth.position),
+        camera_space_position: truth.camera_space_position.as_ref(),
+        instance: Some(&truth.instance),
+        semantic: Some(&truth.semantic),
+        material: Some(&truth.material),
+        ray: Some(&truth.ray),
+        mirror: truth.mirror.as_ref(),
+    }
+}

@@ -1,0 +1,48 @@
+//! Where the files of one camera go.
+
+use super::files::Files;
+use crate::error::Error;
+use etendue_io::exr::{EncodeError, encode_spectral};
+use etendue_io::{OutputFolder, Provenance, sidecar};
+use etendue_pipeline::photograph::Light;
+
+/// Where the results of one camera go.
+pub(crate) struct ResultWriter<'a> {
+    /// Folder of the camera within the output folder.
+    pub(crate) prefix: String,
+    /// The output folder.
+    pub(crate) folder: &'a mut OutputFolder,
+}
+
+impl ResultWriter<'_> {
+    /// Refuses early where a result is already there.
+    pub(crate) fn claim(&self, name: &str) -> Result<(), Error> {
+        self.folder.claim([format!("{}/{name}", self.prefix).as_str()]).map_err(Error::input)
+    }
+
+    /// Writes a file.
+    pub(crate) fn write(&mut self, name: &str, bytes: Result<Vec<u8>, EncodeError>) -> Result<(), Error> {
+        let name = format!("{}/{name}", self.prefix);
+        let bytes = bytes.map_err(|error| Error::Run(format!("{name}: {error}")))?;
+        self.folder.write(&name, &bytes).map_err(Error::run)
+    }
+
+    /// Writes a side-car.
+    pub(crate) fn json(&mut self, name: &str, facts: &serde_json::Value) -> Result<(), Error> {
+        let bytes = sidecar::encode(facts).map_err(|error| Error::Run(format!("{name}: {error}")))?;
+        self.write(name, Ok(bytes))
+    }
+
+    /// Writes an irradiance image.
+    pub(crate) fn irradiance(&mut self, light: &Light, variance: bool, facts: &Provenance) -> Result<(), Error> {
+        let Some(cube) = &light.irradiance else { return Ok(()) };
+        let variance = light.irradiance_variance.as_ref().filter(|_| variance);
+        self.write(Files::IRRADIANCE, encode_spectral(cube, variance, facts))
+    }
+
+    /// Writes the part of the irradiance that is ghosts.
+    pub(crate) fn ghosts(&mut self, light: &Light, facts: &Provenance) -> Result<(), Error> {
+        let Some(cube) = &light.ghosts else { return Ok(()) };
+        self.write(Files::GHOSTS, encode_spectral(cube, None, facts))
+    }
+}

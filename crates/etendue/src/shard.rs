@@ -1,0 +1,192 @@
+//! Shards on disk: a manifest beside one film a camera.
+//!
+//! A film's planes hold the shard's tiles; the other pixels are zero. `merge` makes the plan again from the manifest
+//! and refuses shards of another plan.
+
+use crate::camera_file::read_text;
+use crate::error::Error;
+use crate::job::{Job, JobRequest};
+use crate::observer::Observer;
+use crate::results::metadata;
+use etendue_core::Plane;
+use etendue_core::quantity::Quantity;
+use etendue_io::exr::{ExrFile, Layer, Samples, encode_layers, read_exr_within};
+use etendue_io::{Existing, OutputFolder, Provenance, sidecar};
+use etendue_pipeline::Plan;
+use etendue_pipeline::film::Film;
+use etendue_pipeline::plan::CameraPlan;
+use etendue_pipeline::render::layout;
+use etendue_pipeline::tile::Shard;
+use etendue_tracer::accel::Simd;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+/// A shard of a run: every tile whose number is `index` modulo `count`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ShardSpec {
+    /// Which shard, from 0.
+    pub index: u32,
+    /// Of how many.
+    pub count: u32,
+}
+
+impl ShardSpec {
+    pub(crate) fn shard(self) -> Result<Shard, Error> {
+        let told = || Error::input(format!("shard {}/{}: expected an index below the count", self.index, self.count));
+        Shard::new(self.index, self.count).ok_or_else(told)
+    }
+}
+
+impl Job {
+    /// The names of the files of a shard, relative to its folder.
+    fn shard_names(&self) -> Vec<String> {
+        let films = self.plan().by_light().into_iter().map(|group| film_name(group[0]));
+        films.chain([MANIFEST.to_owned()]).collect()
+    }
+
+    /// Renders one shard of a run over `frames` into a folder, for [`merge`](crate::merge::merge), and answers with the paths of
+    /// its files. Runs on the caller's thread pool.
+    ///
+    /// # Errors
+    /// Where the observer cancels, light is not finite, or the folder cannot be written.
+    pub fn save_shard(
+        &self,
+        spec: ShardSpec,
+        frames: Range<u32>,
+        simd: Simd,
+        (folder, existing): (&Path, Existing),
+        observer: &dyn Observer,
+    ) -> Result<Vec<PathBuf>, Error> {
+        let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
+        folder.claim(self.shard_names().iter().map(String::as_str)).map_err(Error::input)?;
+        self.render_shard(spec, simd, observer, |camera, film| {
+            let bytes = encode(&film, &metadata::provenance(self.plan(), camera))?;
+            folder.write(&film_name(camera), &bytes).map_err(Error::run)
+        })?;
+        let (request, plan_hash, tile_px) = (self.request().clone(), self.plan().hash_text(), tile_sides(self.plan()));
+        let ShardSpec { index, count } = spec;
+        Manifest { request, frames, index, count, plan_hash, tile_px }.write(&mut folder)?;
+        folder.commit().map_err(Error::run)
+    }
+}
+
+/// The name of a shard's manifest in its folder.
+const MANIFEST: &str = "shard.json";
+
+/// What a shard is part of.
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Manifest {
+    /// The job, so that the plan can be made again.
+    pub(crate) request: JobRequest,
+    /// Frames to take of the whole.
+    pub(crate) frames: std::ops::Range<u32>,
+    /// Which shard.
+    pub(crate) index: u32,
+    /// Of how many.
+    pub(crate) count: u32,
+    /// The plan's hash.
+    pub(crate) plan_hash: String,
+    /// Side of each camera's tiles, px: the plan's hash leaves it out, but it says which pixels are whose.
+    pub(crate) tile_px: Vec<u32>,
+}
+
+/// The sides of the tiles of a plan's cameras.
+pub(crate) fn tile_sides(plan: &Plan) -> Vec<u32> {
+    plan.cameras.iter().map(|camera| camera.settings.tile_px).collect()
+}
+
+impl Manifest {
+    /// Reads the manifest of a shard's folder.
+    pub(crate) fn read(folder: &Path) -> Result<Self, Error> {
+        let path = folder.join(MANIFEST);
+        let explain =
+            |why: String| Error::input(format!("{}: {why}; give folders made by render --shard", path.display()));
+        let text = read_text(&path).map_err(explain)?;
+        serde_json::from_str(&text)
+            .map_err(|error| explain(format!("this is no shard manifest of this version ({error})")))
+    }
+
+    /// Writes the manifest.
+    fn write(&self, folder: &mut OutputFolder) -> Result<(), Error> {
+        let bytes = sidecar::encode(self).map_err(|error| Error::Run(error.to_string()))?;
+        folder.write(MANIFEST, &bytes).map_err(Error::run)
+    }
+}
+
+/// The name of a camera's film in a shard's folder.
+fn film_name(camera: &CameraPlan) -> String {
+    format!("{}.film.exr", camera.name)
+}
+
+/// The bytes of a film.
+fn encode(film: &Film, facts: &Provenance) -> Result<Vec<u8>, Error> {
+    let mut layers = vec![
+        ("weight".to_owned(), Layer::Float(film.weight.samples())),
+        ("not_finite".to_owned(), Layer::Uint(film.not_finite.samples())),
+    ];
+    if let Some(cube) = &film.cube {
+        for (i, (mean, variance)) in cube.mean.planes().iter().zip(cube.variance.planes()).enumerate() {
+            layers.push((format!("band.{i:04}.mean"), Layer::Float(mean.samples())));
+            layers.push((format!("band.{i:04}.variance"), Layer::Float(variance.samples())));
+        }
+    }
+    if let Some(rate) = &film.electron_rate {
+        layers.push(("electron_rate.mean".to_owned(), Layer::Float(rate.mean.samples())));
+        layers.push(("electron_rate.variance".to_owned(), Layer::Float(rate.variance.samples())));
+    }
+    encode_layers(film.weight.width(), film.weight.height(), &layers, facts)
+        .map_err(|error| Error::Run(format!("the film cannot be encoded: {error}")))
+}
+
+/// The film of a camera of the plan, from a shard's folder.
+pub(crate) fn read(folder: &Path, camera: &CameraPlan) -> Result<Film, Error> {
+    let path = folder.join(film_name(camera));
+    let (width, height) = camera.film_size();
+    // Most of a shard's film is black, and packs well.
+    let most_bytes = Film::bytes(width as usize, height as usize, &layout(camera)) as u64;
+    let file = read_exr_within(&path, most_bytes).map_err(Error::input)?;
+    decode(&file, camera).ok_or_else(|| {
+        Error::input(format!(
+            "{}: this is not the film of camera {}; render the shard again",
+            path.display(),
+            camera.name
+        ))
+    })
+}
+
+fn decode(file: &ExrFile, camera: &CameraPlan) -> Option<Film> {
+    let (width, height) = camera.film_size();
+    let (settings, (width, height)) = (&camera.settings, (width as usize, height as usize));
+    let mut film = Film::new(width, height, &layout(camera), settings.spp, settings.replicates);
+    fill(&mut film.weight, file, "weight")?;
+    match file.channel("not_finite")? {
+        Samples::Uint(values) if values.len() == width * height => {
+            film.not_finite.samples_mut().copy_from_slice(values);
+        }
+        _ => return None,
+    }
+    if let Some(cube) = &mut film.cube {
+        for (i, plane) in cube.mean.planes_mut().iter_mut().enumerate() {
+            fill(plane, file, &format!("band.{i:04}.mean"))?;
+        }
+        for (i, plane) in cube.variance.planes_mut().iter_mut().enumerate() {
+            fill(plane, file, &format!("band.{i:04}.variance"))?;
+        }
+    }
+    if let Some(rate) = &mut film.electron_rate {
+        fill(&mut rate.mean, file, "electron_rate.mean")?;
+        fill(&mut rate.variance, file, "electron_rate.variance")?;
+    }
+    Some(film)
+}
+
+fn fill<Q: Quantity<Sample = f32>>(plane: &mut Plane<Q>, file: &ExrFile, name: &str) -> Option<()> {
+    match file.channel(name)? {
+        Samples::Float(values) if values.len() == plane.samples().len() => {
+            plane.samples_mut().copy_from_slice(values);
+            Some(())
+        }
+        _ => None,
+    }
+}
