@@ -20,7 +20,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("charts", &["core", "spectra", "scene"]),
     ("metrology", &["core", "stats", "spectra", "projection"]),
     (
-        "cli",
+        "etendue",
         &[
             "core",
             "stats",
@@ -37,6 +37,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "metrology",
         ],
     ),
+    ("cli", &["etendue", "optics", "scene"]),
     ("testkit", &["core", "stats"]),
     ("scenes", &["core"]),
 ];

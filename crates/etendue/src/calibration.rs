@@ -176,7 +176,7 @@ mod tests {
         let cases = of_matrix.map(|keys| (keys, matrix)).into_iter().chain(of_pixels.map(|keys| (keys, stretch)));
         for (keys, rest) in cases {
             let camera = calibration(&format!("{{ type = {keys}, {rest} }}"));
-            let said = keys(&camera);
+            let said = super::keys(&camera);
             assert_eq!(calibration(&toml(&said["projection"])), camera, "{said}");
         }
     }

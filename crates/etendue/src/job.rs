@@ -1,11 +1,11 @@
 //! From a job file and what changes it to a plan, and from a plan to results.
 
-use crate::camera_file::read_text;
 use crate::error::Error;
+use crate::memory::MemoryFiles;
 use crate::observer::{Message, Observer, Tiles};
 use crate::results::{CameraResults, Results};
 use crate::shard::ShardSpec;
-use etendue_io::load_assets;
+use etendue_io::complete_assets;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::render::{Request, light};
@@ -85,9 +85,17 @@ impl JobRequest {
     /// # Errors
     /// All faults of the job and of the files that it names.
     pub fn open(self) -> Result<Job, Error> {
-        let description = Description::load(&self.job, &read_text, &self.overrides());
+        self.open_in(&MemoryFiles::new())
+    }
+
+    /// The same with files that a program made in memory. Runs on the caller's thread pool.
+    ///
+    /// # Errors
+    /// All faults of the job and of the files that it names.
+    pub fn open_in(self, files: &MemoryFiles) -> Result<Job, Error> {
+        let description = Description::load(&self.job, &|path| files.read(path), &self.overrides());
         let description = description.map_err(|faults| Error::inputs(faults.list()))?;
-        let assets = load_assets(&description.assets()).map_err(Error::inputs)?;
+        let assets = complete_assets(files.assets().clone(), &description.assets()).map_err(Error::inputs)?;
         let plan = compile(&description, &assets, &self.choices()).map_err(Error::inputs)?;
         let plan = Arc::new(self.narrowed(plan)?);
         Ok(Job { request: self, plan })

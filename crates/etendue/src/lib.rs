@@ -17,6 +17,7 @@
 //! | from | to | by |
 //! | --- | --- | --- |
 //! | a job file | its plan, radiance, electrons, raw, picture, ground truth | [`Job`] |
+//! | a scene from arrays, a camera in code | the same | [`MemoryFiles`] |
 //! | shards of a job | the files of the whole | [`merge()`] |
 //! | stored radiance and a camera file | what that camera would have taken | [`expose()`] |
 //! | stored raws and a camera file | pictures by its processing | [`develop()`] |
@@ -42,10 +43,11 @@ mod expose;
 mod flat;
 mod job;
 pub mod measure;
+mod memory;
 mod merge;
 mod named_file;
 mod observer;
-pub mod plot;
+mod plot;
 mod raw_file;
 pub mod report;
 mod results;
@@ -63,6 +65,7 @@ pub use etendue_tracer::accel::Simd;
 pub use expose::{ExposeRequest, expose};
 pub use flat::{FlatRequest, FlatSource, flat};
 pub use job::{Integrator, Job, JobRequest, Quality, RenderOptions};
+pub use memory::{MemoryFiles, Triangles};
 pub use merge::merge;
 pub use named_file::write_file;
 pub use observer::{Message, Observer, Progress, Unit, Unobserved};

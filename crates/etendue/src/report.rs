@@ -11,12 +11,16 @@ use std::fmt;
 /// One number of a report.
 #[derive(Clone, Debug)]
 pub struct Figure {
-    key: String,
-    label: String,
-    unit: &'static str,
-    value: Estimate,
+    /// Its name in JSON, with its unit.
+    pub key: String,
+    /// Its name for people.
+    pub label: String,
+    /// Its unit; empty where it has none.
+    pub unit: &'static str,
+    /// The value with its standard uncertainty.
+    pub value: Estimate,
     /// Whether the value's uncertainty is known: not of counts and of what describes the measurement itself.
-    stated: bool,
+    pub stated: bool,
 }
 
 /// A cell of a table.
@@ -37,8 +41,11 @@ pub enum Cell {
 /// A table: column keys with headings, and rows of cells.
 #[derive(Clone, Debug)]
 pub struct Table {
+    /// Its name in JSON.
     pub key: &'static str,
+    /// Of each column its name in JSON and its heading.
     pub columns: Vec<(&'static str, &'static str)>,
+    /// Rows of as many cells as there are columns.
     pub rows: Vec<Vec<Cell>>,
 }
 
@@ -63,11 +70,48 @@ pub struct Report {
 /// The covariance of figures: their keys, and the matrix row by row, in the product of their units.
 #[derive(Clone, Debug)]
 pub struct Covariance {
+    /// The keys of the figures.
     pub of: Vec<String>,
+    /// Row by row.
     pub rows: Vec<Vec<f64>>,
 }
 
 impl Report {
+    /// What was measured, as the command line names it.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        self.kind
+    }
+
+    /// By which method or standard.
+    #[must_use]
+    pub fn method(&self) -> &'static str {
+        self.method
+    }
+
+    /// The numbers that were found.
+    #[must_use]
+    pub fn figures(&self) -> &[Figure] {
+        &self.figures
+    }
+
+    /// The number of a key; `None` where the measurement does not know it.
+    #[must_use]
+    pub fn value(&self, key: &str) -> Option<Estimate> {
+        self.figures.iter().find(|figure| figure.key == key).map(|figure| figure.value)
+    }
+
+    /// The tables, those of many rows included.
+    pub fn tables(&self) -> impl Iterator<Item = &Table> {
+        self.tables.iter().chain(&self.data)
+    }
+
+    /// What a user should know of the result.
+    #[must_use]
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
     pub(crate) fn new(kind: &'static str, method: &'static str) -> Self {
         Self { kind, method, ..Self::default() }
     }
@@ -169,6 +213,13 @@ impl Report {
             told["covariances"] = self.covariances.iter().map(Covariance::json).collect();
         }
         told
+    }
+}
+
+impl serde::Serialize for Report {
+    /// As [`Report::json`].
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.json().serialize(serializer)
     }
 }
 

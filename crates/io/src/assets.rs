@@ -16,7 +16,14 @@ use crate::table::{read_complex_index, read_numbers, read_retro_table};
 /// # Errors
 /// All faults of all files, each with the place that names the file.
 pub fn load_assets(named: &[AssetRequest]) -> Result<Assets, Vec<Error>> {
-    let mut assets = Assets::default();
+    complete_assets(Assets::default(), named)
+}
+
+/// The same where some assets are there already, such as those a program made.
+///
+/// # Errors
+/// All faults of all files, each with the place that names the file.
+pub fn complete_assets(mut assets: Assets, named: &[AssetRequest]) -> Result<Assets, Vec<Error>> {
     let mut errors = Vec::new();
     let mut tried: Vec<AssetRequest> = Vec::new();
     loop {

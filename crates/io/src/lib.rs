@@ -47,7 +47,7 @@ pub mod table;
 pub mod tiff;
 mod unpacked;
 
-pub use assets::load_assets;
+pub use assets::{complete_assets, load_assets};
 pub use error::Error;
 pub use output::{Existing, OutputFolder};
 pub use provenance::Provenance;

@@ -16,6 +16,17 @@ pub struct CalibrateRequest {
     pub f_number: Option<f64>,
 }
 
+impl CalibrateRequest {
+    /// The same as the program without options.
+    pub fn new(views: ViewsRequest) -> Self {
+        Self { views, camera_keys: false, f_number: None }
+    }
+}
+
+/// A camera from several views of a plane chart: projection, distortion and, where the pixels' pitch is given, a camera file. Runs on the caller's thread pool.
+///
+/// # Errors
+/// Where views are too few, show no chart or do not determine the model.
 pub fn calibrate(request: &CalibrateRequest, observer: &dyn Observer) -> Result<Report, Error> {
     let views = &request.views;
     let found = views.found(views.options(), observer)?;

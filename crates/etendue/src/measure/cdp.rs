@@ -25,6 +25,20 @@ pub struct CdpRequest {
     pub input: PictureInput,
 }
 
+impl CdpRequest {
+    /// The same as the program without options.
+    pub fn new(picture: impl Into<PathBuf>) -> Self {
+        Self {
+            picture: picture.into(),
+            darker: Vec::new(),
+            brighter: Vec::new(),
+            contrast: Vec::new(),
+            tolerance: 0.5,
+            input: PictureInput::default(),
+        }
+    }
+}
+
 /// Charts of patches of one luminance each.
 const CHARTS: [&str; 2] = ["contrast-patches", "oecf-steps"];
 
@@ -37,6 +51,10 @@ struct Pair {
     luminance_cd_m2: Option<f64>,
 }
 
+/// Contrast detection probability of pairs of patches (IEEE P2020).
+///
+/// # Errors
+/// Where the picture or its patches cannot be used.
 pub fn cdp(request: &CdpRequest) -> Result<Report, Error> {
     let readings = request.input.linear(&request.picture)?;
     let pairs = pairs(request, &readings)?;

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicUsize;
 
 /// The chart that is photographed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct ChartInput {
     /// The chart [default: whichever shows more points]
     pub target: Option<Target>,

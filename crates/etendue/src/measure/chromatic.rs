@@ -18,6 +18,17 @@ pub struct ChromaticRequest {
     pub chart: ChartInput,
 }
 
+impl ChromaticRequest {
+    /// The same as the program without options.
+    pub fn new(file: impl Into<PathBuf>) -> Self {
+        Self { file: file.into(), chart: ChartInput::default() }
+    }
+}
+
+/// Lateral chromatic displacement of red and blue against green (ISO 19084).
+///
+/// # Errors
+/// Where the picture is not in colour or shows no chart.
 pub fn chromatic(request: &ChromaticRequest) -> Result<Report, Error> {
     let file = &request.file;
     if request.chart.channel.is_some() {

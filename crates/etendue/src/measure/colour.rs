@@ -26,9 +26,20 @@ pub struct ColourRequest {
     pub input: PictureInput,
 }
 
+impl ColourRequest {
+    /// The same as the program without options.
+    pub fn new(picture: impl Into<PathBuf>) -> Self {
+        Self { picture: picture.into(), corners: Vec::new(), patch: 0.5, input: PictureInput::default() }
+    }
+}
+
 /// Columns and rows of the chart.
 const CHART: (usize, usize) = (6, 4);
 
+/// Colours of a ColorChecker after a fitted matrix, CIEDE2000.
+///
+/// # Errors
+/// Where the picture is not in colour or its patches cannot be used.
 pub fn colour(request: &ColourRequest) -> Result<Report, Error> {
     let Some(colours) = request.input.selection.colours(&request.picture)? else {
         let expected = "expected a picture in colour: channels R, G and B, or a raw mosaic of them";

@@ -22,6 +22,13 @@ pub struct DarkCurrentRequest {
     pub selection: Selection,
 }
 
+impl DarkCurrentRequest {
+    /// The same as the program without options.
+    pub fn new(series: Vec<(f64, PathBuf)>) -> Self {
+        Self { series, reference_c: 25.0, selection: Selection::default() }
+    }
+}
+
 fn name(law: Law) -> (&'static str, &'static str) {
     match law {
         Law::Doubling => ("doubling", "doubles every so many kelvin"),
@@ -30,6 +37,10 @@ fn name(law: Law) -> (&'static str, &'static str) {
     }
 }
 
+/// The dark current's growth with temperature, by three laws.
+///
+/// # Errors
+/// Where a descriptor cannot be used or there are too few temperatures.
 pub fn dark_current(request: &DarkCurrentRequest, observer: &dyn Observer) -> Result<Report, Error> {
     let mut encodings = Vec::new();
     let current = |(celsius, descriptor): &(f64, PathBuf)| {

@@ -42,6 +42,27 @@ pub struct DepthRequest {
     pub edge_px: u32,
 }
 
+impl DepthRequest {
+    /// The same as the program without options.
+    pub fn new(estimate: impl Into<PathBuf>, truth: impl Into<PathBuf>) -> Self {
+        Self {
+            estimate: estimate.into(),
+            truth: truth.into(),
+            estimate_channel: None,
+            truth_channel: None,
+            estimate_unit_m: 1.0,
+            truth_unit_m: 1.0,
+            ranges_m: Vec::new(),
+            outlier_share: 0.05,
+            outlier_least_m: 0.0,
+            focal_base_px_m: None,
+            align: DepthAlignment::None,
+            edge_share: 0.1,
+            edge_px: 2,
+        }
+    }
+}
+
 /// What is done to an estimate before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DepthAlignment {
@@ -51,6 +72,10 @@ pub enum DepthAlignment {
     Median,
 }
 
+/// An estimated depth picture against the truth: bias, error and outliers by range, edges apart.
+///
+/// # Errors
+/// Where the pictures cannot be used or differ in size.
 pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
     for (name, unit) in [("estimate", request.estimate_unit_m), ("truth", request.truth_unit_m)] {
         if !(unit > 0.0 && unit.is_finite()) {

@@ -21,6 +21,17 @@ pub struct DistortionRequest {
     pub centre_px: Option<[f64; 2]>,
 }
 
+impl DistortionRequest {
+    /// The same as the program without options.
+    pub fn new(file: impl Into<PathBuf>) -> Self {
+        Self { file: file.into(), chart: ChartInput::default(), centre_px: None }
+    }
+}
+
+/// Distortion from one picture of a plane chart, without a model (ISO 17850).
+///
+/// # Errors
+/// Where the picture shows no chart, or too little of one.
 pub fn distortion(request: &DistortionRequest) -> Result<Report, Error> {
     let seen = request.chart.seen(&request.file)?;
     let centre = request.centre_px.map(DVec2::from);

@@ -23,8 +23,19 @@ pub struct FlareRequest {
     pub input: PictureInput,
 }
 
+impl FlareRequest {
+    /// The same as the program without options.
+    pub fn new(picture: impl Into<PathBuf>) -> Self {
+        Self { picture: picture.into(), traps: Vec::new(), white: None, input: PictureInput::default() }
+    }
+}
+
 const CHARTS: [&str; 1] = ["flare"];
 
+/// Light in traps that send none (ISO 18844).
+///
+/// # Errors
+/// Where the picture or its traps cannot be used.
 pub fn flare(request: &FlareRequest) -> Result<Report, Error> {
     let readings = request.input.linear(&request.picture)?;
     let traps = traps(request, &readings)?;

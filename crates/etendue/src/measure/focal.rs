@@ -18,6 +18,17 @@ pub struct FocalRequest {
     pub camera_keys: bool,
 }
 
+impl FocalRequest {
+    /// The same as the program without options.
+    pub fn new(views: ViewsRequest) -> Self {
+        Self { views, camera_keys: false }
+    }
+}
+
+/// Focal length and principal point, from one picture of a chart at a known distance or from several. Runs on the caller's thread pool.
+///
+/// # Errors
+/// Where the views do not determine them.
 pub fn focal(request: &FocalRequest, observer: &dyn Observer) -> Result<Report, Error> {
     let views = &request.views;
     let mut options = views.options();

@@ -28,6 +28,13 @@ pub struct LensRequest {
     pub picture_radius_mm: Option<f64>,
 }
 
+impl LensRequest {
+    /// The same as the program without options.
+    pub fn new(lens: impl Into<String>) -> Self {
+        Self { lens: lens.into(), set: Vec::new(), f_number: None, fields: 6, picture_radius_mm: None }
+    }
+}
+
 /// What a lens does by first order and by field heights.
 #[derive(Clone, Debug)]
 pub struct LensMeasurement {

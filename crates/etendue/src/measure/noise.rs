@@ -20,6 +20,13 @@ pub struct NoiseRequest {
     pub input: PictureInput,
 }
 
+impl NoiseRequest {
+    /// The same as the program without options.
+    pub fn new(frames: Vec<PathBuf>) -> Self {
+        Self { frames, input: PictureInput::default() }
+    }
+}
+
 /// Charts of one even surface, and of many.
 const EVEN: [&str; 2] = ["flat-field", "backlit"];
 const CHARTS: [&str; 4] = ["flat-field", "backlit", "oecf-steps", "contrast-patches"];
@@ -52,6 +59,10 @@ impl Surface {
     }
 }
 
+/// Temporal and fixed-pattern noise of an even surface, or of each patch of a chart (ISO 15739).
+///
+/// # Errors
+/// Where the frames are too few, saturated or no frames of one surface.
 pub fn noise(request: &NoiseRequest) -> Result<Report, Error> {
     let input = &request.input;
     let (mut surfaces, mut black, mut encodings) = (Vec::new(), 0.0, Vec::new());

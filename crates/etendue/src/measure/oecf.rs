@@ -29,9 +29,27 @@ pub struct OecfRequest {
     pub input: PictureInput,
 }
 
+impl OecfRequest {
+    /// The same as the program without options.
+    pub fn new(pictures: Vec<PathBuf>) -> Self {
+        Self {
+            pictures,
+            exposures: Vec::new(),
+            steps: None,
+            response: false,
+            refine: false,
+            input: PictureInput::default(),
+        }
+    }
+}
+
 /// The largest degree of a response.
 const DEGREE: usize = 8;
 
+/// The tone curve from a series of exposures or from steps (ISO 14524); the camera's response from a scene at exposures known relatively.
+///
+/// # Errors
+/// Where the pictures or their exposures cannot be used.
 pub fn oecf(request: &OecfRequest) -> Result<Report, Error> {
     if request.response {
         return response(request);

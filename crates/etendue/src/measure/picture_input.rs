@@ -7,7 +7,7 @@ use std::fmt::Display;
 use std::path::Path;
 
 /// Which readings of a picture are measured, what they mean, and where the chart lies in them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct PictureInput {
     /// Which part and channel.
     pub selection: Selection,

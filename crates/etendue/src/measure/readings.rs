@@ -7,7 +7,7 @@ use etendue_metrology::Image;
 use std::path::Path;
 
 /// Choice of a part of a picture.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Selection {
     /// The channel to measure: R, G, B or Y of a picture (an EXR channel by its full name), a colour of a raw mosaic [default: the only
     /// one, or the luminance]
@@ -350,7 +350,7 @@ fn no_channel(file: &Path, name: &str, names: &[&str]) -> Error {
 }
 
 /// What a picture's numbers mean, where the file does not say.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct SignalLevels {
     /// The reading of no light, as stored; 0 to 1 of a picture that is decoded from an encoding [default: the side-car's, or 0]
     pub black: Option<f64>,

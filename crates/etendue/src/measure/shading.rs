@@ -24,6 +24,13 @@ pub struct FlatFieldRequest {
     pub input: PictureInput,
 }
 
+impl FlatFieldRequest {
+    /// The same as the program without options.
+    pub fn new(picture: impl Into<PathBuf>) -> Self {
+        Self { picture: picture.into(), centre_px: None, rings: 20, input: PictureInput::default() }
+    }
+}
+
 /// `etendue measure vignetting`
 #[derive(Clone, Debug)]
 pub struct VignettingRequest {
@@ -35,6 +42,13 @@ pub struct VignettingRequest {
     pub pixel_pitch_um: Option<f64>,
 }
 
+impl VignettingRequest {
+    /// The same as the program without options.
+    pub fn new(flat: FlatFieldRequest) -> Self {
+        Self { flat, camera_keys: false, pixel_pitch_um: None }
+    }
+}
+
 /// `etendue measure shading`
 #[derive(Clone, Debug)]
 pub struct ShadingRequest {
@@ -42,6 +56,13 @@ pub struct ShadingRequest {
     pub flat: FlatFieldRequest,
     /// Blocks of the map along each side, an odd number
     pub blocks: u32,
+}
+
+impl ShadingRequest {
+    /// The same as the program without options.
+    pub fn new(flat: FlatFieldRequest) -> Self {
+        Self { flat, blocks: 11 }
+    }
 }
 
 /// Blocks of the map along each side (ISO 17957).
@@ -109,6 +130,10 @@ impl VignettingRequest {
     }
 }
 
+/// A flat field's fall-off over the radial field position.
+///
+/// # Errors
+/// Where the picture is not of an even surface that fills it.
 pub fn vignetting(request: &VignettingRequest) -> Result<Report, Error> {
     let pitch_um = request.pitch_um()?;
     let mut report = Report::new(
@@ -139,6 +164,10 @@ pub fn vignetting(request: &VignettingRequest) -> Result<Report, Error> {
     Ok(report)
 }
 
+/// A flat field's fall-off as a map, and its colour shading (ISO 17957).
+///
+/// # Errors
+/// Where the picture is not of an even surface that fills it.
 pub fn shading(request: &ShadingRequest) -> Result<Report, Error> {
     let method = "shading of a flat field after ISO 17957: blocks relative to the centre (± one standard uncertainty)";
     let mut report = Report::new("shading", method);

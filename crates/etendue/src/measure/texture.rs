@@ -29,6 +29,20 @@ pub struct StarRequest {
     pub input: PictureInput,
 }
 
+impl StarRequest {
+    /// The same as the program without options.
+    pub fn new(picture: impl Into<PathBuf>) -> Self {
+        Self {
+            picture: picture.into(),
+            centre_px: None,
+            cycles: None,
+            inner_px: None,
+            outer_px: None,
+            input: PictureInput::default(),
+        }
+    }
+}
+
 /// `etendue measure texture`
 #[derive(Clone, Debug)]
 pub struct TextureRequest {
@@ -40,6 +54,13 @@ pub struct TextureRequest {
     pub even: Option<PathBuf>,
     /// Which readings of the picture, what they mean, and the chart's truth.
     pub input: PictureInput,
+}
+
+impl TextureRequest {
+    /// The same as the program without options.
+    pub fn new(picture: impl Into<PathBuf>, reference: impl Into<PathBuf>) -> Self {
+        Self { picture: picture.into(), reference: reference.into(), even: None, input: PictureInput::default() }
+    }
 }
 
 /// What is left out of a star at its rim, share of its radius and at least this many pixels of blur.
@@ -80,6 +101,10 @@ fn star_told(request: &StarRequest, readings: &Readings) -> Result<Star, Error> 
     Ok(star(seen.centre_px.into(), seen.cycles, inner_px, outer_px))
 }
 
+/// A Siemens star: response over frequency (ISO 12233).
+///
+/// # Errors
+/// Where the picture holds no such star.
 pub fn star(request: &StarRequest) -> Result<Report, Error> {
     let readings = request.input.linear(&request.picture)?;
     readings.independent(&request.picture, 1)?;
@@ -133,6 +158,10 @@ fn leaves(input: &PictureInput, readings: Readings, file: &Path) -> Result<Leave
     Ok(Leaves { image, full_scale, stated })
 }
 
+/// Texture such as dead leaves against its reference: response, invented structure, coherence.
+///
+/// # Errors
+/// Where the pictures differ in size or cannot be used.
 pub fn texture(request: &TextureRequest) -> Result<Report, Error> {
     let input = &request.input;
     let seen = |file: &Path| leaves(input, input.linear(file)?, file);

@@ -7,7 +7,7 @@ mod draw;
 
 /// How an axis maps its numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Scale {
+pub(crate) enum Scale {
     Linear,
     /// By powers of ten; numbers that are not positive are left out.
     Log,
@@ -15,7 +15,7 @@ pub enum Scale {
 
 /// An axis.
 #[derive(Clone, Debug)]
-pub struct Axis {
+pub(crate) struct Axis {
     pub label: String,
     pub scale: Scale,
     /// The least range that it must show.
@@ -23,22 +23,22 @@ pub struct Axis {
 }
 
 impl Axis {
-    pub fn linear(label: &str) -> Self {
+    pub(crate) fn linear(label: &str) -> Self {
         Self { label: label.to_owned(), scale: Scale::Linear, shows: Vec::new() }
     }
 
-    pub fn log(label: &str) -> Self {
+    pub(crate) fn log(label: &str) -> Self {
         Self { scale: Scale::Log, ..Self::linear(label) }
     }
 
-    pub fn showing(self, values: &[f64]) -> Self {
+    pub(crate) fn showing(self, values: &[f64]) -> Self {
         Self { shows: values.to_vec(), ..self }
     }
 }
 
 /// How a series is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
+pub(crate) enum Mark {
     Line,
     /// A thin broken line: limits and models.
     Broken,
@@ -47,14 +47,14 @@ pub enum Mark {
 
 /// The palette's colours for series that are about that colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Colour {
+pub(crate) enum Colour {
     Blue,
     Red,
 }
 
 /// A series of points with the half heights of their error bars.
 #[derive(Clone, Debug)]
-pub struct Series {
+pub(crate) struct Series {
     pub name: String,
     pub mark: Mark,
     /// (x, y, half an error bar).
@@ -64,23 +64,23 @@ pub struct Series {
 }
 
 impl Series {
-    pub fn new(name: &str, mark: Mark, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+    pub(crate) fn new(name: &str, mark: Mark, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         Self::with_errors(name, mark, points.into_iter().map(|(x, y)| (x, y, 0.0)))
     }
 
-    pub fn with_errors(name: &str, mark: Mark, points: impl IntoIterator<Item = (f64, f64, f64)>) -> Self {
+    pub(crate) fn with_errors(name: &str, mark: Mark, points: impl IntoIterator<Item = (f64, f64, f64)>) -> Self {
         Self { name: name.to_owned(), mark, points: points.into_iter().map(<[f64; 3]>::from).collect(), colour: None }
     }
 
     /// Drawn in this colour.
-    pub fn coloured(self, colour: Colour) -> Self {
+    pub(crate) fn coloured(self, colour: Colour) -> Self {
         Self { colour: Some(colour), ..self }
     }
 }
 
 /// A pair of axes with series.
 #[derive(Clone, Debug)]
-pub struct Plot {
+pub(crate) struct Plot {
     pub title: String,
     pub x: Axis,
     pub y: Axis,
@@ -88,6 +88,6 @@ pub struct Plot {
 }
 
 /// Plots one below the other as one SVG file.
-pub fn svg(plots: &[Plot]) -> String {
+pub(crate) fn svg(plots: &[Plot]) -> String {
     draw::document(plots)
 }

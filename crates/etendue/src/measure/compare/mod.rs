@@ -36,6 +36,13 @@ pub struct CompareRequest {
     pub set: Vec<String>,
 }
 
+impl CompareRequest {
+    /// The same as the program without options.
+    pub fn new(a: impl Into<PathBuf>, b: impl Into<PathBuf>) -> Self {
+        Self { a: a.into(), b: b.into(), wavelength_nm: None, illuminant: None, set: Vec::new() }
+    }
+}
+
 /// Two measurements side by side.
 #[derive(Clone, Debug)]
 pub struct MeasurementComparison {

@@ -32,6 +32,13 @@ pub struct PtcRequest {
 }
 
 impl PtcRequest {
+    /// The same as the program without options.
+    pub fn new(descriptor: impl Into<PathBuf>) -> Self {
+        Self { descriptor: descriptor.into(), relative_light: false, selection: Selection::default() }
+    }
+}
+
+impl PtcRequest {
     /// A measurement for its figures alone.
     pub(crate) fn of(descriptor: PathBuf, selection: &Selection) -> Self {
         Self { descriptor, relative_light: true, selection: selection.clone() }

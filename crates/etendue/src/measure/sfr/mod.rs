@@ -33,6 +33,22 @@ pub struct SfrRequest {
     pub input: PictureInput,
 }
 
+impl SfrRequest {
+    /// The same as the program without options.
+    pub fn new(picture: impl Into<PathBuf>) -> Self {
+        Self {
+            picture: picture.into(),
+            edges: Vec::new(),
+            edge_degree: 1,
+            reach_px: None,
+            shading_degree: 0,
+            pixel_pitch_um: None,
+            pixels_per_degree: 60.0,
+            input: PictureInput::default(),
+        }
+    }
+}
+
 /// An edge of a star among its others.
 pub(crate) struct Spoke {
     pub strip: Strip,
@@ -60,6 +76,10 @@ struct Found<'a> {
     sfr: Sfr,
 }
 
+/// The spatial frequency response of slanted edges (ISO 12233:2023). Runs on the caller's thread pool.
+///
+/// # Errors
+/// Where the picture holds no edge that can be measured.
 pub fn sfr(request: &SfrRequest) -> Result<Report, Error> {
     positive("--pixel-pitch-um", request.pixel_pitch_um)?;
     positive("--pixels-per-degree", Some(request.pixels_per_degree))?;

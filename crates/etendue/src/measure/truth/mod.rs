@@ -14,7 +14,7 @@ use said::{CameraSaid, FeatureSaid, Said};
 use std::path::{Path, PathBuf};
 
 /// Where the chart's truth lies.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct TruthInput {
     /// The truth.json of `etendue chart`, which says what is in the picture and where
     pub truth: Option<PathBuf>,

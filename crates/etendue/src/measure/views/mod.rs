@@ -46,6 +46,24 @@ pub struct ViewsRequest {
     pub robust: bool,
 }
 
+impl ViewsRequest {
+    /// The same as the program without options.
+    pub fn new(files: Vec<PathBuf>) -> Self {
+        Self {
+            files,
+            chart: ChartInput::default(),
+            pitch_mm: None,
+            model: CameraModel::Opencv,
+            square_pixels: false,
+            principal_px: None,
+            distance_mm: None,
+            distance_uncertainty_mm: None,
+            pixel_pitch_um: None,
+            robust: false,
+        }
+    }
+}
+
 /// Models that can be fitted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CameraModel {

@@ -13,7 +13,8 @@ pub struct StatedLength {
 
 impl StatedLength {
     /// Rounded to its last digit: anywhere within half of it either way (GUM, JCGM 100:2008, F.2.2.1).
-    pub(crate) fn rounded(self) -> Estimate {
+    #[must_use]
+    pub fn rounded(self) -> Estimate {
         Estimate::new(self.value, self.digit / 12_f64.sqrt())
     }
 }
