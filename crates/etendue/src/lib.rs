@@ -8,7 +8,7 @@
 //! let results = job.render(&RenderOptions::default(), &Unobserved)?;
 //! let camera = &results.cameras()[0];
 //! let depth = camera.ground_truth().depth;
-//! println!("{}: {} × {} px", camera.name(), depth.width(), depth.height());
+//! assert_eq!(depth.width(), camera.camera().body.raster.width());
 //! results.save("out/street".as_ref(), Existing::Refuse, &Unobserved)?;
 //! # Ok(())
 //! # }

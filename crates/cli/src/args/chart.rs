@@ -1,6 +1,7 @@
 //! The command line of `etendue chart`, as typed: a subcommand a chart, each with its own options.
 
-use super::{Output, seed};
+use super::Output;
+use super::run::seed;
 use clap::{Args, Subcommand, ValueEnum};
 
 /// `etendue chart`

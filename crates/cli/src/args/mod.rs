@@ -1,17 +1,19 @@
 //! The command line, as typed.
 
 pub mod chart;
+mod depth_of_field;
 pub mod file_name;
 pub mod measure;
+mod run;
 pub mod sensor;
 pub mod trade;
 pub mod words;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use etendue::measure::LensRequest;
+use depth_of_field::depth_of_field;
 use etendue::{DevelopRequest, Existing, ExposeRequest, JobRequest, Levels, ShardSpec};
-use etendue_optics::{DepthOfField, FastBlend, FastParameters};
-use etendue_scene::record::render::LARGEST_SEED;
+use etendue_optics::DepthOfField;
+use run::{frames, levels, seed, shard, whole};
 use std::path::{Path, PathBuf};
 use trade::{Integrator, Quality};
 
@@ -256,7 +258,7 @@ pub struct Compare {
 pub enum Measure {
     /// Focal lengths, principal planes, pupils and field of view; by field: distortion, illumination, spots, field
     /// curvature, colour
-    Lens(MeasureLens),
+    Lens(measure::lens::LensArgs),
     /// Distortion from one picture of a plane chart, without a model: the curve over the field, line distortion, k1 and k2 (ISO
     /// 17850)
     Distortion(measure::distortion::DistortionArgs),
@@ -295,43 +297,6 @@ pub enum Measure {
     Compare(measure::compare::CompareArgs),
 }
 
-/// `etendue measure lens`
-#[derive(Debug, Args)]
-pub struct MeasureLens {
-    /// A camera file (TOML), a lens of Zemax (.zmx) or CODE V (.seq), or the name of a published lens (double-gauss,
-    /// wide-angle, fisheye, telephoto)
-    #[arg(value_name = "FILE")]
-    pub lens: String,
-    /// Change a key of the camera, e.g. --set lens.f_number=4
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub set: Vec<String>,
-    /// The f-number at infinity focus, in place of the camera's or the lens file's
-    #[arg(long, value_name = "N")]
-    pub f_number: Option<f64>,
-    /// How many field heights, from the axis to the picture's edge
-    #[arg(long, value_name = "N", default_value_t = 6, value_parser = whole(2, 1000))]
-    pub fields: u32,
-    /// For a lens without a sensor: how far the picture reaches from the axis, mm [default: the largest field that a lens
-    /// file states, otherwise 21.64; or as far as there is light]
-    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
-    pub picture_radius_mm: Option<f64>,
-    /// Print JSON
-    #[arg(long)]
-    pub json: bool,
-}
-
-impl From<&MeasureLens> for LensRequest {
-    fn from(a: &MeasureLens) -> Self {
-        Self {
-            lens: a.lens.clone(),
-            set: a.set.clone(),
-            f_number: a.f_number,
-            fields: a.fields,
-            picture_radius_mm: a.picture_radius_mm,
-        }
-    }
-}
-
 /// `etendue schema`
 #[derive(Debug, Args)]
 pub struct Schema {
@@ -353,88 +318,6 @@ pub enum SchemaKind {
     Datasheet,
 }
 
-/// A seed, as the key `seed` admits it.
-pub fn seed(text: &str) -> Result<u64, String> {
-    let seed = text.parse().ok().filter(|seed| *seed <= LARGEST_SEED);
-    seed.ok_or_else(|| format!("expected a whole number from 0 to {LARGEST_SEED}, not '{text}'"))
-}
-
-/// Frames that one run takes at most.
-const MOST_FRAMES: usize = 100_000;
-
-pub fn frames(text: &str) -> Result<std::ops::Range<u32>, String> {
-    let expected = || format!("expected FIRST..END with FIRST < END, e.g. 0..10, not '{text}'");
-    let (first, end) = text.split_once("..").ok_or_else(expected)?;
-    let number = |s: &str| s.trim().parse::<u32>().map_err(|_| expected());
-    let range = number(first)?..number(end)?;
-    match range.len() {
-        0 => Err(expected()),
-        count if count > MOST_FRAMES => Err(format!("{count} frames; one run takes at most {MOST_FRAMES}")),
-        _ => Ok(range),
-    }
-}
-
-/// A whole number from `least` to `most`.
-pub fn whole(least: u32, most: u32) -> impl Fn(&str) -> Result<u32, String> + Clone {
-    move |text| {
-        let number = text.parse().ok().filter(|n| (least..=most).contains(n));
-        number.ok_or_else(|| format!("expected a whole number from {least} to {most}, not '{text}'"))
-    }
-}
-
-fn levels(text: &str) -> Result<Levels, String> {
-    let expected = || format!("expected BLACK..WHITE with BLACK < WHITE, e.g. 64..4095, not '{text}'");
-    let (black, white) = text.split_once("..").ok_or_else(expected)?;
-    let number = |s: &str| s.trim().parse::<f64>().map_err(|_| expected());
-    let (black_dn, white_dn) = (number(black)?, number(white)?);
-    let legal = black_dn >= 0.0 && black_dn < white_dn && white_dn.is_finite();
-    legal.then_some(Levels { black_dn, white_dn }).ok_or_else(expected)
-}
-
-fn depth_of_field(text: &str) -> Result<DepthOfField, String> {
-    match text.split_once(':') {
-        None if text == "physical" => Ok(DepthOfField::Physical),
-        None if text == "none" => Ok(DepthOfField::None),
-        Some(("fast", keys)) => blend(keys).map(DepthOfField::Fast),
-        _ => Err(format!("expected physical, none or fast:blur_px=…, not '{text}'")),
-    }
-}
-
-fn blend(keys: &str) -> Result<FastBlend, String> {
-    let (mut near, mut far, mut blur_px) = (None, None, None);
-    for pair in keys.split(',') {
-        let expected = || format!("expected blur_px=NUMBER, near_m=FROM..TO or far_m=FROM..TO, not '{pair}'");
-        let number = |text: &str| text.trim().parse::<f64>().map_err(|_| expected());
-        let (key, value) = pair.split_once('=').ok_or_else(expected)?;
-        let range = || {
-            let (from, to) = value.split_once("..").ok_or_else(expected)?;
-            Ok::<_, String>((number(from)?, number(to)?))
-        };
-        match key.trim() {
-            "blur_px" => blur_px = Some(number(value)?),
-            "near_m" => near = Some(range()?),
-            "far_m" => far = Some(range()?),
-            _ => return Err(expected()),
-        }
-    }
-    let blur_px = blur_px.ok_or("the diameter of the blur is missing: add blur_px=NUMBER")?;
-    if near.is_none() && far.is_none() {
-        return Err("nothing is blurred by this: add near_m=FROM..TO or far_m=FROM..TO".to_owned());
-    }
-    let (blurred_near_m, sharp_near_m) = near.unwrap_or((0.0, 0.0));
-    let (sharp_far_m, blurred_far_m) = far.unwrap_or((f64::INFINITY, f64::INFINITY));
-    let parameters = FastParameters { sharp_near_m, sharp_far_m, blurred_near_m, blurred_far_m, blur_px };
-    FastBlend::new(parameters).map_err(|error| error.to_string())
-}
-
-fn shard(text: &str) -> Result<ShardSpec, String> {
-    let expected = || format!("expected I/N with I < N, e.g. 0/3, not '{text}'");
-    let (index, count) = text.split_once('/').ok_or_else(expected)?;
-    let number = |s: &str| s.trim().parse::<u32>().map_err(|_| expected());
-    let (index, count) = (number(index)?, number(count)?);
-    if index < count { Ok(ShardSpec { index, count }) } else { Err(expected()) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -443,51 +326,5 @@ mod tests {
     #[test]
     fn the_command_line_is_well_formed() {
         Arguments::command().debug_assert();
-    }
-
-    #[test]
-    fn whole_numbers_have_ranges() {
-        assert_eq!((whole(3, 10)("3"), whole(3, 10)("10")), (Ok(3), Ok(10)));
-        assert_eq!(whole(3, 10)("2"), Err("expected a whole number from 3 to 10, not '2'".to_owned()));
-        assert_eq!(whole(1, 9)("1.5"), Err("expected a whole number from 1 to 9, not '1.5'".to_owned()));
-    }
-
-    #[test]
-    fn seeds_and_frames_are_as_many_as_keys_and_memory_hold() {
-        assert_eq!(seed("9223372036854775807"), Ok(LARGEST_SEED));
-        assert!(seed("9223372036854775808").is_err() && seed("-1").is_err());
-        assert_eq!(frames("0..100000"), Ok(0..100_000));
-        assert_eq!(frames("0..100001"), Err("100001 frames; one run takes at most 100000".to_owned()));
-    }
-
-    #[test]
-    fn frames_and_shards_are_ranges() {
-        assert_eq!(frames("2..5"), Ok(2..5));
-        assert!(frames("5..5").is_err() && frames("5").is_err() && frames("a..b").is_err());
-        assert_eq!(shard("1/3"), Ok(ShardSpec { index: 1, count: 3 }));
-        assert!(shard("3/3").is_err() && shard("1").is_err());
-        assert_eq!(levels("63.5..4095"), Ok(Levels { black_dn: 63.5, white_dn: 4095.0 }));
-        assert!(["64", "5..5", "-1..5", "0..inf", "a..b"].iter().all(|text| levels(text).is_err()));
-    }
-
-    #[test]
-    fn depth_of_field_is_a_word_or_a_look_with_numbers() {
-        assert_eq!(depth_of_field("physical"), Ok(DepthOfField::Physical));
-        assert_eq!(depth_of_field("none"), Ok(DepthOfField::None));
-        let look = depth_of_field("fast:blur_px=8,far_m=10..40");
-        let Ok(DepthOfField::Fast(blend)) = look else { panic!("{look:?}") };
-        let p = blend.parameters();
-        assert_eq!((p.blur_px, p.sharp_near_m, p.sharp_far_m, p.blurred_far_m), (8.0, 0.0, 10.0, 40.0));
-        let wrong = [
-            "fast",
-            "fast:",
-            "fast:blur_px=8",
-            "fast:far_m=10..40",
-            "fast:blur=8",
-            "sharp",
-            "fast:blur_px=8,far_m=10",
-            "fast:blur_px=8,far_m=40..10",
-        ];
-        assert!(wrong.iter().all(|text| depth_of_field(text).is_err()));
     }
 }

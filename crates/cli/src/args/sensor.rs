@@ -1,6 +1,7 @@
 //! Arguments of the verbs about sensors by themselves.
 
-use super::{Output, frames, seed, whole};
+use super::Output;
+use super::run::{frames, seed, whole};
 use clap::Args;
 use etendue::{FlatRequest, FlatSource};
 use std::path::PathBuf;

@@ -12,6 +12,7 @@ pub mod distortion;
 pub mod encoding;
 pub mod flare;
 pub mod focal;
+pub mod lens;
 pub mod noise;
 pub mod oecf;
 pub mod picture;
