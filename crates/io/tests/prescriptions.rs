@@ -139,17 +139,50 @@ fn private_glasses_of_a_file_are_its_indices() {
     assert_eq!(read("lens.seq", &one).expect("a lens").surfaces[0].glass, GlassAsset::Index(1.7));
 }
 
+/// The files with their object near by: 205 mm before the lens.
+fn near_zmx() -> String {
+    ZMX.replacen("DISZ INFINITY", "DISZ 200", 1)
+}
+
+fn near_seq() -> String {
+    SEQ.replace("0.1e14", "200.0")
+}
+
 #[test]
 fn apertures_of_every_kind_and_what_has_none() {
-    let opening = |line: &str| read("lens.zmx", &ZMX.replace("ENPD 10.0", line)).expect("a lens").opening;
+    let opening = |line: &str| read("lens.zmx", &near_zmx().replace("ENPD 10.0", line)).expect("a lens").opening;
     assert_eq!(opening("FLOA"), None);
     assert_eq!(opening("FNUM 4.0 0"), Some(LensOpening::FNumber { f_number: 4.0 }));
     assert_eq!(opening("OBNA 0.1 0"), Some(LensOpening::ObjectCone { sine: 0.1 }));
     let Some(LensOpening::ObjectCone { sine }) = opening("OBNA 30 1") else { panic!("a cone") };
     assert!((sine - 0.5).abs() < 1e-12);
-    let seq = |line: &str| read("lens.seq", &SEQ.replace("EPD 10.0", line)).expect("a lens").opening;
-    assert_eq!(seq("NAO 0.1"), Some(LensOpening::ObjectCone { sine: 0.1 }));
-    assert_eq!(seq("NA 0.1"), Some(LensOpening::FNumber { f_number: 5.0 }));
+    let seq = |line: &str| read("lens.seq", &near_seq().replace("EPD 10.0", line)).expect("a lens");
+    assert_eq!(seq("NAO 0.1").opening, Some(LensOpening::ObjectCone { sine: 0.1 }));
+    assert_eq!(seq("NA 0.1").opening, Some(LensOpening::ImageCone { sine: 0.1 }));
+    assert_eq!(seq("FNO 5").opening, Some(LensOpening::ImageCone { sine: 0.1 }));
+    assert_eq!(seq("NA 0.1").opening_line, 3);
+    assert_eq!(seq("EPD 10\nVUY 0 0.2 0.4\nVLY 0 0.1 0.3").vignetting, [vec![0.0, 0.2, 0.4], vec![0.0, 0.1, 0.3]]);
+}
+
+#[test]
+fn an_aperture_that_is_none_is_refused_at_its_line() {
+    let zmx = |line: &str| read("lens.zmx", &near_zmx().replace("ENPD 10.0", line)).expect_err(line);
+    for (line, told) in [
+        ("OBNA 1.0 0", "5: OBNA is 1.0; expected a number above 0 and below 1"),
+        ("OBNA 0 0", "5: OBNA is 0; expected"),
+        ("OBNA 90 1", "5: OBNA is 90; expected a number of degrees above 0 and below 90"),
+        ("FNUM 0.5 0", "5: FNUM is 0.5; expected a number above 0.5"),
+    ] {
+        assert!(zmx(line).starts_with(told), "{}", zmx(line));
+    }
+    let seq = |line: &str| read("lens.seq", &near_seq().replace("EPD 10.0", line)).expect_err(line);
+    for line in ["NA 0", "NA 1", "NA -0.2", "NAO 0", "NAO 1.2", "FNO 0", "EPD 0", "EPD -1"] {
+        let name = line.split(' ').next().expect("a name");
+        assert!(seq(line).starts_with(&format!("3: {name} is ")), "{}", seq(line));
+    }
+    // A cone from an object at infinity.
+    let far = read("lens.seq", &SEQ.replace("EPD 10.0", "NAO 0.1")).expect_err("no object");
+    assert!(far.starts_with("3: the aperture is a cone of light from the object"), "{far}");
 }
 
 #[test]

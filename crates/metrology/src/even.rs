@@ -124,13 +124,23 @@ mod tests {
                 let (x, y) = (i % side + 3, i / side + 1);
                 100.0 + scatter(x / shared, y / shared, picture) + 0.3 * scatter(x, y, picture + PICTURES)
             };
-            let means = (0..PICTURES).map(|picture| {
-                let samples = (0..side * side).map(|i| reading(i, picture) as f32).collect();
-                even(&Image::from_samples(side, side, samples).expect("a square"), shared).mean
-            });
-            let inside = means.filter(|m| (m.value - 100.0).abs() <= 2.0 * m.standard_uncertainty).count();
+            let means: Vec<Estimate> = (0..PICTURES)
+                .map(|picture| {
+                    let samples = (0..side * side).map(|i| reading(i, picture) as f32).collect();
+                    even(&Image::from_samples(side, side, samples).expect("a square"), shared).mean
+                })
+                .collect();
+            let inside = means.iter().filter(|m| (m.value - 100.0).abs() <= 2.0 * m.standard_uncertainty).count();
             let covered = inside as f64 / PICTURES as f64;
             assert!(covered >= 0.9, "blocks of {shared}, patch of {side}: {covered}");
+            // Stated variances beside that of the means: not much wider either. Patches of few blocks have a bound.
+            let stated =
+                means.iter().map(|m| m.standard_uncertainty * m.standard_uncertainty).sum::<f64>() / PICTURES as f64;
+            let scattered = means.iter().map(|m| (m.value - 100.0) * (m.value - 100.0)).sum::<f64>() / PICTURES as f64;
+            assert!(
+                (0.8..1.6).contains(&(stated / scattered)),
+                "blocks of {shared}, patch of {side}: {stated} {scattered}"
+            );
         }
     }
 }

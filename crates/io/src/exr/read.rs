@@ -76,7 +76,7 @@ impl ExrFile {
 /// Reads `file`.
 ///
 /// # Errors
-/// Where it is missing, damaged or of a kind that is not read, or unpacks to more than 512 MiB and a hundred times its size.
+/// Where it is missing, damaged or of a kind that is not read, or unpacks to more than its bytes can hold (`unpacked.rs`).
 pub fn read_exr(file: &Path) -> Result<ExrFile, Error> {
     decode_exr(file, &read_bytes(file, "EXR")?)
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use image::{ColorType, DynamicImage};
+use image::{ColorType, DynamicImage, GenericImageView as _};
 
 use super::statistics::ChannelReport;
 use super::{FileReport, Preview};
@@ -16,13 +16,26 @@ pub(super) fn report(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
     let (width, height) = (picture.width() as usize, picture.height() as usize);
     report.state("size", format!("{width} x {height} pixels"));
     let names = channel_names(picture.color());
-    let (stored_as, samples) = samples(&picture);
+    let stored = Stored::of(picture.color());
     for (i, name) in names.iter().enumerate() {
-        let values = samples.iter().skip(i).step_by(names.len()).map(|v| f64::from(*v));
-        report.channels.push(ChannelReport::of(name, stored_as, values));
+        let all = picture.as_bytes().chunks_exact(stored.bytes);
+        let values = all.skip(i).step_by(names.len()).map(|b| f64::from((stored.read)(b)));
+        report.channels.push(ChannelReport::of(name, stored.name, values));
     }
-    report.preview = Some(preview(&picture, width, height, &samples));
+    let step = thinning(width, height);
+    if step > 1 {
+        report.notes.push(format!("the picture shows one of {step} pixels of one of {step} rows"));
+    }
+    report.preview = Some(preview(&picture, &stored, step));
     Ok(report)
+}
+
+/// Pixels that a picture for looking at has at most: larger ones are thinned, so that memory is bounded by the file's own pixels.
+const SHOWN: usize = 32 << 20;
+
+/// Which pixels of which rows are shown: each, or one of so many.
+fn thinning(width: usize, height: usize) -> usize {
+    (1..).find(|step| width.div_ceil(*step) * height.div_ceil(*step) <= SHOWN).unwrap_or(1)
 }
 
 fn channel_names(colour: ColorType) -> &'static [&'static str] {
@@ -34,25 +47,66 @@ fn channel_names(colour: ColorType) -> &'static [&'static str] {
     }
 }
 
-/// How samples are stored, and all of them as floats, channels interleaved.
-fn samples(picture: &DynamicImage) -> (&'static str, Vec<f32>) {
-    let bytes = picture.as_bytes();
-    let colour = picture.color();
-    match colour.bytes_per_pixel() / colour.channel_count() {
-        1 => ("8 bit", bytes.iter().map(|b| f32::from(*b)).collect()),
-        2 => ("16 bit", bytes.chunks_exact(2).map(|b| f32::from(u16::from_ne_bytes([b[0], b[1]]))).collect()),
-        _ => ("float", bytes.chunks_exact(4).map(|b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]])).collect()),
+/// How samples are stored.
+struct Stored {
+    name: &'static str,
+    bytes: usize,
+    read: fn(&[u8]) -> f32,
+}
+
+impl Stored {
+    fn of(colour: ColorType) -> Self {
+        match colour.bytes_per_pixel() / colour.channel_count() {
+            1 => Self { name: "8 bit", bytes: 1, read: |b| f32::from(b[0]) },
+            2 => Self { name: "16 bit", bytes: 2, read: |b| f32::from(u16::from_ne_bytes([b[0], b[1]])) },
+            _ => Self { name: "float", bytes: 4, read: |b| f32::from_ne_bytes([b[0], b[1], b[2], b[3]]) },
+        }
     }
 }
 
 /// Bytes as they are; 16-bit grey (raw numbers, depth) and floats are linear and are exposed.
-fn preview(picture: &DynamicImage, width: usize, height: usize, samples: &[f32]) -> Preview {
+fn preview(picture: &DynamicImage, stored: &Stored, step: usize) -> Preview {
+    let (columns, rows) = (picture.width() as usize, picture.height() as usize);
+    let (width, height) = (columns.div_ceil(step), rows.div_ceil(step));
+    let places = || (0..rows).step_by(step).flat_map(move |y| (0..columns).step_by(step).map(move |x| (x, y)));
+    let channels = usize::from(picture.color().channel_count());
+    let sample = |(x, y): (usize, usize), channel: usize| {
+        let at = ((y * columns + x) * channels + channel) * stored.bytes;
+        (stored.read)(&picture.as_bytes()[at..at + stored.bytes])
+    };
     match picture {
-        DynamicImage::ImageLuma16(_) => Preview::of_grey(width, height, samples),
+        DynamicImage::ImageLuma16(_) => {
+            let values: Vec<f32> = places().map(|at| sample(at, 0)).collect();
+            Preview::of_grey(width, height, &values)
+        }
         DynamicImage::ImageRgb32F(_) => {
-            let pixels: Vec<[f32; 3]> = samples.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect();
+            let pixels: Vec<[f32; 3]> = places().map(|at| [0, 1, 2].map(|channel| sample(at, channel))).collect();
             Preview::of_linear(width, height, &pixels)
         }
-        encoded => Preview { width, height, rgb: encoded.to_rgb8().pixels().map(|p| p.0).collect() },
+        encoded => {
+            let shown = |(x, y): (usize, usize)| {
+                let [r, g, b, _] = encoded.get_pixel(x as u32, y as u32).0;
+                [r, g, b]
+            };
+            Preview { width, height, rgb: places().map(shown).collect() }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_large_picture_is_shown_thinned_and_a_usual_one_whole() {
+        assert_eq!([thinning(4000, 3000), thinning(8192, 4096), thinning(20_000, 20_000)], [1, 1, 4]);
+        let picture =
+            DynamicImage::ImageRgb8(image::ImageBuffer::from_fn(5, 3, |x, y| image::Rgb([x as u8, y as u8, 7])));
+        let stored = Stored::of(picture.color());
+        let whole = preview(&picture, &stored, 1);
+        assert_eq!((whole.width, whole.height, whole.rgb[8]), (5, 3, [3, 1, 7]));
+        let thin = preview(&picture, &stored, 2);
+        assert_eq!((thin.width, thin.height), (3, 2));
+        assert_eq!(thin.rgb, [[0, 0, 7], [2, 0, 7], [4, 0, 7], [0, 2, 7], [2, 2, 7], [4, 2, 7]]);
     }
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 use etendue_scene::asset::{GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 use etendue_spectra::glass;
 
+use super::opening::Opening;
 use crate::Error;
 
 /// A lens as it is read: object and image are surfaces too, lengths in the file's unit.
@@ -14,8 +15,10 @@ pub(super) struct Raw {
     /// The file's unit, mm.
     pub(super) unit_mm: Option<f64>,
     pub(super) surfaces: Vec<RawSurface>,
-    pub(super) opening: Option<LensOpening>,
+    pub(super) opening: Option<Opening>,
     pub(super) fields: Option<LensFields>,
+    /// By field: how much of the pupil is taken off at its upper and its lower end.
+    pub(super) vignetting: [Vec<f64>; 2],
     pub(super) wavelengths_nm: Vec<f64>,
     /// The image is where the program finds it: the last distance is no statement.
     pub(super) image_is_found: bool,
@@ -89,6 +92,8 @@ impl Raw {
             ));
         };
         let (before_mm, surfaces) = refracting(surfaces, unit);
+        let object_distance_mm = object.thickness * unit + before_mm;
+        self.opening.map_or(Ok(()), |opening| near_enough(file, opening, object_distance_mm))?;
         let shift_mm = image.thickness * unit;
         let stated_mm = surfaces.last().map_or(0.0, |surface| surface.thickness_mm + shift_mm);
         let found = self.image_is_found || !stated_mm.is_finite() || stated_mm == 0.0;
@@ -97,17 +102,33 @@ impl Raw {
             1 => Ok(PrescriptionAsset {
                 title: self.title,
                 surfaces,
-                object_distance_mm: object.thickness * unit + before_mm,
+                object_distance_mm,
                 back_focus_mm: if found { 0.0 } else { stated_mm },
                 defocus_mm: if found && shift_mm.is_finite() { shift_mm } else { 0.0 },
-                opening: self.opening.map(|opening| scaled(opening, unit)),
+                opening: self.opening.map(|opening| scaled(opening.stated, unit)),
+                opening_line: self.opening.map_or(0, |opening| opening.line),
                 fields: self.fields.map(|fields| scaled_fields(fields, unit)),
+                vignetting: self.vignetting,
                 wavelengths_nm: self.wavelengths_nm,
                 notes: self.notes,
                 hash: [0; 32],
             }),
             found => Err(Error::new(file, format!("{found} surfaces are the stop; expected one (STOP or STO)"))),
         }
+    }
+}
+
+/// Refuses a cone of light from an object that has none.
+fn near_enough(file: &Path, opening: Opening, object_distance_mm: f64) -> Result<(), Error> {
+    let near = object_distance_mm.is_finite() && object_distance_mm > 0.0;
+    match opening.stated {
+        LensOpening::ObjectCone { .. } if !near => Err(Error::at(
+            file,
+            opening.line,
+            "the aperture is a cone of light from the object (NAO, OBNA), and no object stands at a distance in front of the lens; give the \
+             diameter of the entrance pupil (EPD, ENPD)",
+        )),
+        _ => Ok(()),
     }
 }
 
@@ -149,7 +170,7 @@ fn in_mm(s: &RawSurface, unit: f64) -> SurfaceAsset {
 fn scaled(opening: LensOpening, unit: f64) -> LensOpening {
     match opening {
         LensOpening::EntrancePupil { diameter_mm } => LensOpening::EntrancePupil { diameter_mm: diameter_mm * unit },
-        same @ (LensOpening::FNumber { .. } | LensOpening::ObjectCone { .. }) => same,
+        same @ (LensOpening::FNumber { .. } | LensOpening::ObjectCone { .. } | LensOpening::ImageCone { .. }) => same,
     }
 }
 

@@ -4,13 +4,14 @@
 //! radius (in radius mode), thickness and glass of the next surface, SO those of the object, SI of the image; what follows
 //! belongs to the last of them. A glass is a catalogue name, perhaps with its catalogue after an underscore, or a number:
 //! `517642` and `516800.641673` are n_d = 1.517 (1.5168) and V_d = 64.2 (64.1673); or it is of the file's own private
-//! catalogue (PRV … END). A … G are the coefficients of r⁴ … r¹⁶. The thickness of SI is a defocus; PIM leaves the image to be found.
+//! catalogue (PRV … END). FNO and NA are those of the image, wherever the object stands (as rayoptics reads them). A … G are the coefficients of r⁴ … r¹⁶. The thickness of SI is a defocus; PIM leaves the image to be found.
 
 use std::path::Path;
 
-use etendue_scene::asset::{GlassAsset, LensFields, LensOpening, PrescriptionAsset};
+use etendue_scene::asset::{GlassAsset, LensFields, PrescriptionAsset};
 
 use super::build::{Raw, RawSurface, by_number, named, successor};
+use super::opening::Opening;
 use super::private::PrivateGlasses;
 use super::text::Words;
 use crate::Error;
@@ -87,14 +88,21 @@ impl Reader {
             "RDM" => self.radii = Some(!w.word(1).to_ascii_uppercase().starts_with('N')),
             "TITLE" | "TIT" => self.raw.title = w.word(1).trim_start_matches(['\'', '"']).to_owned(),
             "DIM" => self.raw.unit_mm = Some(unit(w)?),
-            "EPD" => self.raw.opening = Some(LensOpening::EntrancePupil { diameter_mm: w.number(1)? }),
-            "FNO" => self.raw.opening = Some(LensOpening::FNumber { f_number: w.number(1)? }),
+            "EPD" => self.raw.opening = Some(Opening::pupil(w)?),
+            "FNO" => self.raw.opening = Some(Opening::f_number(w)?.of_image()),
+            "NA" => self.raw.opening = Some(Opening::image_cone(w)?),
+            "NAO" => self.raw.opening = Some(Opening::object_cone(w)?),
             "WL" => self.raw.wavelengths_nm = w.numbers(1)?,
             "YAN" => self.raw.fields = Some(LensFields::AnglesDeg(w.numbers(1)?)),
             "YOB" => self.raw.fields = Some(LensFields::ObjectMm(w.numbers(1)?)),
             "YIM" | "YRI" => self.raw.fields = Some(LensFields::ImageMm(w.numbers(1)?)),
-            "NAO" => self.raw.opening = Some(LensOpening::ObjectCone { sine: w.number(1)? }),
-            "NA" => self.raw.opening = Some(LensOpening::FNumber { f_number: 0.5 / w.number(1)? }),
+            "VUY" => self.raw.vignetting[0] = w.numbers(1)?,
+            "VLY" => self.raw.vignetting[1] = w.numbers(1)?,
+            "XAN" | "XOB" | "XIM" | "XRI" if w.numbers(1)?.iter().any(|x| *x != 0.0) => {
+                self.raw
+                    .notes
+                    .push(format!("line {}: {name}: fields beside the meridional plane are not read", w.line));
+            }
             "PIM" => self.raw.image_is_found = true,
             "S" | "SO" | "SI" => self.surface(w)?,
             "STO" if w.words.len() > 1 => self.stop_at(w)?,

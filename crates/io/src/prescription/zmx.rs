@@ -9,9 +9,10 @@
 
 use std::path::Path;
 
-use etendue_scene::asset::{GlassAsset, LensFields, LensOpening, PrescriptionAsset};
+use etendue_scene::asset::{GlassAsset, LensFields, PrescriptionAsset};
 
 use super::build::{Raw, RawSurface, by_number, named, successor};
+use super::opening::Opening;
 use super::text::Words;
 use crate::Error;
 
@@ -153,26 +154,15 @@ fn coefficient(surface: &mut RawSurface, w: &Words<'_>) -> Result<(), Error> {
 }
 
 /// How far the lens opens; `None` where the stop's own size says it (FLOA).
-fn opening(w: &Words<'_>) -> Result<Option<LensOpening>, Error> {
-    let positive = |value: f64| {
-        if value > 0.0 {
-            Ok(value)
-        } else {
-            Err(w.fault(format!("{} is {value}; expected a number above 0", w.word(0))))
-        }
-    };
-    Ok(match w.word(0) {
-        "ENPD" => Some(LensOpening::EntrancePupil { diameter_mm: positive(w.number(1)?)? }),
-        "FNUM" if w.word(2) == "1" => {
-            return Err(w.fault("a working f-number; give the image-space f-number (FNUM with 0), ENPD or FLOA"));
-        }
-        "FNUM" => Some(LensOpening::FNumber { f_number: positive(w.number(1)?)? }),
-        "OBNA" if w.word(2) == "1" => Some(LensOpening::ObjectCone {
-            sine: etendue_core::maths::f64::sin_cos(positive(w.number(1)?)?.to_radians()).0,
-        }),
-        "OBNA" => Some(LensOpening::ObjectCone { sine: positive(w.number(1)?)? }),
-        _ => None,
-    })
+fn opening(w: &Words<'_>) -> Result<Option<Opening>, Error> {
+    match (w.word(0), w.word(2)) {
+        ("ENPD", _) => Opening::pupil(w).map(Some),
+        ("FNUM", "1") => Err(w.fault("a working f-number; give the image-space f-number (FNUM with 0), ENPD or FLOA")),
+        ("FNUM", _) => Opening::f_number(w).map(Some),
+        ("OBNA", "1") => Opening::object_angle(w).map(Some),
+        ("OBNA", _) => Opening::object_cone(w).map(Some),
+        _ => Ok(None),
+    }
 }
 
 /// The glass of a GLAS line, and what is to be said of it.

@@ -65,7 +65,8 @@ fn blob(image: &Image, runs: &[Run]) -> Option<Blob> {
 fn places(blobs: &[Blob]) -> (Places, usize) {
     let points: Vec<DVec2> = blobs.iter().map(|b| b.at).collect();
     let alike = |a: usize, b: usize| (0.4..2.5).contains(&(blobs[a].area / blobs[b].area));
-    lattice::largest(&points, LEAST, &alike)
+    let (places, beside) = lattice::largest(&points, LEAST, &alike);
+    (lattice::straight(places), beside)
 }
 
 /// The grid of the dots' centroids; those that cannot be measured are left out.

@@ -51,11 +51,11 @@ pub(super) fn largest(points: &[DVec2], least: usize, linked: &impl Fn(usize, us
     let best = found.next().unwrap_or_default();
     let own: BTreeSet<usize> = best.values().copied().collect();
     let beside = found.map(|other| other.values().filter(|p| !own.contains(p)).count()).max().unwrap_or(0);
-    (straight(best), beside)
+    (best, beside)
 }
 
-/// The lattice with its lines shifted so that it is a full rectangle, where it is one so and none as it is.
-fn straight(places: Places) -> Places {
+/// Of points whose links do not tell steps from diagonals (dots): the lattice with its lines shifted so that it is a full rectangle, where it is one so and none as it is.
+pub(super) fn straight(places: Places) -> Places {
     const FULL: f64 = 0.9;
     const ASKEW: f64 = 0.8;
     if fullness(&places) > ASKEW {
@@ -209,4 +209,26 @@ fn skew([a, b]: Steps) -> f64 {
 fn moved(mut place: [i32; 2], axis: usize, by: i32) -> [i32; 2] {
     place[axis] += by;
     place
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A long board that the picture's edges cut slantwise: each row begins one place after the row before it.
+    #[test]
+    fn links_that_tell_steps_from_diagonals_are_kept() {
+        let points: Vec<DVec2> = (0..10)
+            .flat_map(|row| (0..12).map(move |column| DVec2::new(f64::from(column + row), f64::from(row))))
+            .collect();
+        let linked = |a: usize, b: usize| (points[a] - points[b]).length() < 1.2;
+        let (places, _) = largest(&points, LEAST, &linked);
+        assert_eq!(places.len(), 120);
+        for (place, point) in &places {
+            let right = places.get(&moved(*place, 0, 1)).map(|next| (points[*next] - points[*point]).length());
+            let down = places.get(&moved(*place, 1, 1)).map(|next| (points[*next] - points[*point]).length());
+            assert!([right, down].into_iter().flatten().all(|step| (step - 1.0).abs() < 1e-9), "{right:?} {down:?}");
+        }
+        assert!(fullness(&straight(places)) > 0.99, "as dots they would be a rectangle");
+    }
 }

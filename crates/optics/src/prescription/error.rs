@@ -119,6 +119,16 @@ pub enum PrescriptionError {
         /// The f-number fully open.
         least: f64,
     },
+    /// A cone of light that no point of the object sends.
+    #[error(
+        "the aperture asks for a cone of sine {sine:.4} from an object {distance_m} m in front of the entrance pupil; it must be below 1, and the object in front of the pupil"
+    )]
+    Cone {
+        /// Sine of its half angle at the object.
+        sine: f64,
+        /// Distance of the object from the entrance pupil, m.
+        distance_m: f64,
+    },
     /// A focus distance that is none.
     #[error("a focus distance of {focus_m} m: it must be positive; infinity is legal")]
     FocusDistance {

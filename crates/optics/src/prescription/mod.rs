@@ -10,6 +10,7 @@
 //! A [`Prescription`] is checked when it is made: afterwards nothing in it can fail but a ray.
 
 mod check;
+pub mod clear_apertures;
 pub mod coating;
 mod error;
 pub mod filter;

@@ -15,8 +15,12 @@ pub struct PrescriptionAsset {
     pub defocus_mm: f64,
     /// How far the lens opens; `None` where the stop's own aperture says it.
     pub opening: Option<LensOpening>,
+    /// The file's line that says so, from 1; 0 where none does.
+    pub opening_line: usize,
     /// The field points of the file.
     pub fields: Option<LensFields>,
+    /// Vignetting factors by field: the share of the pupil's radius taken off at its upper and its lower end; 0 where none is stated.
+    pub vignetting: [Vec<f64>; 2],
     /// The wavelengths of the file, nm.
     pub wavelengths_nm: Vec<f64>,
     /// What was not taken as it stands in the file, and why: with the line.
@@ -72,13 +76,18 @@ pub enum LensOpening {
         /// The diameter, mm.
         diameter_mm: f64,
     },
-    /// f-number.
+    /// f-number for an object at infinity.
     FNumber {
         /// The number.
         f_number: f64,
     },
     /// The cone of light from the axial point of the object.
     ObjectCone {
+        /// Sine of its half angle.
+        sine: f64,
+    },
+    /// The cone of light to the axial point of the image, wherever the object stands.
+    ImageCone {
         /// Sine of its half angle.
         sine: f64,
     },

@@ -3,6 +3,7 @@
 use super::Prescribed;
 use super::meridian::Meridian;
 use super::opening::{Opening, unit};
+use super::region::Ellipse;
 use crate::error::PRINCIPAL_NM;
 use crate::prescription::trace::LensRay;
 use crate::pupil::{MM, concentric};
@@ -69,27 +70,42 @@ impl Prescribed {
         self.etendue_at_sr(sensor_mm.length(), PRINCIPAL_NM, DIRECTIONS)
     }
 
-    /// ∫ τ cos⁴ θ dt over what passes at a wavelength and a distance from the axis: for each of some directions from the
-    /// region's centre the edge is found by bisection, then Gauss's rule along the radius and equal steps around.
+    /// ∫ τ cos⁴ θ dt over what passes at a wavelength and a distance from the axis: over the one opening that most lenses show a sensor point, or
+    /// over all of several.
     pub(crate) fn etendue_at_sr(&self, s_mm: f64, nm: f64, directions: usize) -> f64 {
         let Some(ellipse) = self.regions.ellipse(s_mm) else { return 0.0 };
         let media = self.prescription.media(nm);
         let meridian = Meridian::at(s_mm, self.prescription.sensor_mm());
         let opening = Opening { lens: &self.prescription, media: &media, meridian };
-        let centre = DVec2::new(ellipse.centre, 0.0);
-        let sector = |i: usize| {
-            let direction = unit(PI * (i as f64 + 0.5) / directions as f64) * ellipse.axes;
-            let edge = opening.reach(centre, direction, 3.0, 48, 40);
-            let along = |[x, w]: [f64; 2]| w * x * self.passing(&meridian, centre + direction * (edge * x), nm);
-            edge * edge * GAUSS.into_iter().map(along).sum::<f64>()
-        };
-        let turn = 2.0 * PI / directions as f64;
-        ellipse.axes.x * ellipse.axes.y * turn * (0..directions).map(sector).sum::<f64>()
+        let passing = |t: DVec2| self.passing(&meridian, t, nm);
+        over_a_star(&opening, &ellipse, directions, &passing).unwrap_or_else(|| opening.integral(&passing))
     }
 
     fn passing(&self, meridian: &Meridian, t: DVec2, nm: f64) -> f64 {
         self.out(meridian, t, nm).map_or(0.0, |(_, transmittance)| transmittance * Meridian::cos4(t))
     }
+}
+
+/// An integral over an opening that is one piece as seen from its region's centre: for each of some directions the edge is found by bisection, then
+/// Gauss's rule along the radius and equal steps around. `None` where the opening has a gap along a direction.
+fn over_a_star(opening: &Opening<'_>, ellipse: &Ellipse, directions: usize, f: &impl Fn(DVec2) -> f64) -> Option<f64> {
+    let centre = DVec2::new(ellipse.centre, 0.0);
+    let edge = |direction: DVec2| {
+        let edge = opening.reach(centre, direction, 3.0, 48, 40);
+        opening.is_open_to(centre, direction * edge).then_some(edge)
+    };
+    for sense in [-1.0, 1.0] {
+        edge(DVec2::new(sense * ellipse.axes.x, 0.0))?;
+    }
+    let sector = |i: usize| {
+        let direction = unit(PI * (i as f64 + 0.5) / directions as f64) * ellipse.axes;
+        let edge = edge(direction)?;
+        let along = |[x, w]: [f64; 2]| w * x * f(centre + direction * (edge * x));
+        Some(edge * edge * GAUSS.into_iter().map(along).sum::<f64>())
+    };
+    let turn = 2.0 * PI / directions as f64;
+    let sum = (0..directions).map(sector).sum::<Option<f64>>()?;
+    Some(ellipse.axes.x * ellipse.axes.y * turn * sum)
 }
 
 /// A direction of the lens frame in the camera frame.

@@ -2,12 +2,15 @@
 //!
 //! In slopes (see `meridian.rs`) the open part at one wavelength is nearly an intersection of discs: one for each rim that
 //! clips. It is symmetric about the meridional plane and, being nearly convex, star-shaped about the middle of the interval
-//! in which it meets that plane.
+//! in which it meets that plane. Strong aberrations fold it: a sensor point then sees the scene through several openings, such as a
+//! ring about the pupil.
 
+use super::bundles::{Cell, bundles};
 use super::meridian::Meridian;
+use super::quadrature::Area;
 use crate::prescription::Prescription;
 use crate::prescription::indices::Media;
-use crate::prescription::trace::Rims;
+use crate::prescription::trace::{Rims, Way};
 use etendue_core::maths::f64::sin_cos;
 use glam::DVec2;
 
@@ -22,6 +25,17 @@ pub(super) struct Opening<'a> {
 const SCAN: usize = 1024;
 /// Bisections of the scan's step.
 const HALVINGS: usize = 24;
+/// Places along a radius at which an opening is looked at for gaps.
+const LOOKS: usize = 20;
+/// Places of the meridional plane at which pieces are told apart, and of a grid across all slopes.
+const PIECES: usize = 256;
+const GRID: usize = 96;
+/// What is added to the box of all slopes, of its width.
+const BEYOND: f64 = 0.01;
+/// Rows of a part's first quadrature and of its last, and the relative change at which it stands still.
+const ROWS: usize = 24;
+const MOST_ROWS: usize = 192;
+const SETTLED: f64 = 1e-6;
 
 impl Opening<'_> {
     pub(super) fn passes(&self, t: DVec2) -> bool {
@@ -61,6 +75,73 @@ impl Opening<'_> {
             bracket[usize::from(!along(middle))] = middle;
         }
         bracket[0]
+    }
+
+    /// Whether what passes in the meridional plane is one piece.
+    pub(super) fn is_one_piece(&self) -> bool {
+        let [low, high] = rear_slopes(self.lens, self.meridian.s_mm);
+        let at = |i: usize| self.passes(DVec2::new(low + (high - low) * i as f64 / PIECES as f64, 0.0));
+        let mut begun = [false; 2];
+        (0..=PIECES).all(|i| match (at(i), begun) {
+            (true, [_, ended]) => {
+                begun[0] = true;
+                !ended
+            }
+            (false, [one, _]) => {
+                begun[1] = one;
+                true
+            }
+        })
+    }
+
+    /// A box of slopes about all pieces, from the meridional plane on, by a grid: larger by its steps. `None` where nothing passes.
+    pub(super) fn extent(&self) -> Option<Cell> {
+        let Cell { low, high } = self.bounds();
+        let step = (high - low) / GRID as f64;
+        let column = |i: usize| {
+            let x = low.x + step.x * i as f64;
+            let y = (0..=GRID).rev().map(|j| step.y * j as f64).find(|y| self.passes(DVec2::new(x, *y)))?;
+            Some(DVec2::new(x, y))
+        };
+        let start = Cell { low: DVec2::INFINITY, high: DVec2::NEG_INFINITY };
+        let held = (0..=GRID).filter_map(column);
+        let held = held.fold(start, |b, q| Cell { low: b.low.min(q), high: b.high.max(q) });
+        held.high.is_finite().then(|| Cell { low: DVec2::new(held.low.x - step.x, 0.0), high: held.high + step })
+    }
+
+    /// Whether all passes from `centre` to an edge.
+    pub(super) fn is_open_to(&self, centre: DVec2, edge: DVec2) -> bool {
+        (0..LOOKS).all(|i| self.passes(centre + edge * (i as f64 / LOOKS as f64)))
+    }
+
+    /// The integral of a function over all that passes, in as many parts as there are.
+    pub(super) fn integral(&self, f: &impl Fn(DVec2) -> f64) -> f64 {
+        let filling = |t: DVec2| self.lens.filling(self.meridian.ray(t), Way::ToScene, self.media);
+        let parts = bundles(self.bounds(), &filling);
+        (0..parts.len()).map(|own| converged(&mut Area::new(&parts, own, filling), f)).sum()
+    }
+
+    /// A box that holds all slopes at which the rear opening can be reached, from the meridional plane on.
+    fn bounds(&self) -> Cell {
+        let [low, high] = rear_slopes(self.lens, self.meridian.s_mm);
+        let [near, _] = self.lens.rear_distances_mm();
+        let across = self.lens.surfaces().last().map_or(0.0, |surface| surface.semi_aperture_mm) / near;
+        let margin = BEYOND * (high - low);
+        Cell { low: DVec2::new(low - margin, 0.0), high: DVec2::new(high + margin, across + margin) }
+    }
+}
+
+/// An integral over a part, its rows doubled until it stands still.
+fn converged<F: Fn(DVec2) -> Option<f64>>(area: &mut Area<'_, F>, f: &impl Fn(DVec2) -> f64) -> f64 {
+    let mut sum = |rows: usize| area.nodes(rows).iter().map(|node| node.area * f(node.q)).sum::<f64>();
+    let (mut rows, mut last) = (ROWS, sum(ROWS));
+    loop {
+        rows *= 2;
+        let next = sum(rows);
+        if (next - last).abs() <= SETTLED * next || rows >= MOST_ROWS {
+            return next;
+        }
+        last = next;
     }
 }
 

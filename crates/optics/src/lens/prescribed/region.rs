@@ -5,9 +5,12 @@
 //! until it holds what passes at the interval's ends and between them at all of [`WAVELENGTHS_NM`], so that no light is
 //! lost, plus a margin for what lies between the tabulated points.
 //!
+//! Where a sensor point sees several openings, the region is the ellipse about a box that holds them all.
+//!
 //! A point (ρ, φ) of the unit disc becomes centre + ρ R(φ) (a cos φ, b sin φ): with samples uniform in the disc, slope area
 //! per sample is π a b R², the inverse of the sampling density, which the weight keeps.
 
+use super::bundles::Cell;
 use super::meridian::Meridian;
 use super::opening::{Opening, unit};
 use crate::error::PRINCIPAL_NM;
@@ -77,7 +80,12 @@ impl Regions {
         let look = |s_mm: f64| ellipse(lens, s_mm, chief(s_mm));
         let limit_mm = lit_as_far_as(picture_mm, |s_mm| look(s_mm).is_some())?;
         let width = limit_mm / INTERVALS as f64;
-        let ellipses: Vec<Ellipse> = (0..=INTERVALS).map_while(|i| look(width * i as f64)).collect();
+        // A height that is dark between lit ones has any ellipse: nothing passes there.
+        let next = |last: &mut Option<Ellipse>, i: usize| {
+            *last = look(width * i as f64).or(*last);
+            *last
+        };
+        let ellipses: Vec<Ellipse> = (0..=INTERVALS).scan(None, next).collect();
         let interval =
             |(i, ends): (usize, &[Ellipse])| Interval::new(lens, [ends[0], ends[1]], width * i as f64, width);
         let intervals: Vec<Interval> = ellipses.windows(2).enumerate().map(interval).collect();
@@ -137,7 +145,10 @@ pub(super) fn ellipse(lens: &Prescription, s_mm: f64, chief: Option<f64>) -> Opt
         let opening = Opening { lens, media: &media, meridian: Meridian::at(s_mm, lens.sensor_mm()) };
         let [low, high] = opening.meridional(chief)?;
         let (centre, half) = (0.5 * (low + high), 0.5 * (high - low));
-        let across = opening.reach(DVec2::new(centre, 0.0), DVec2::new(0.0, half), 8.0, 64, 12) * half;
+        let across = match opening.extent().filter(|_| !opening.is_one_piece()) {
+            Some(extent) => extent.high.y,
+            None => opening.reach(DVec2::new(centre, 0.0), DVec2::new(0.0, half), 8.0, 64, 12) * half,
+        };
         Some(Ellipse { centre, axes: DVec2::new(half, across).max(DVec2::splat(1e-9)) })
     })
 }
@@ -171,6 +182,12 @@ impl Interval {
         let media = lens.media(nm);
         let opening = Opening { lens, media: &media, meridian: Meridian::at(s_mm, lens.sensor_mm()) };
         let ellipse = self.ends[0].mix(&self.ends[1], share);
+        if !opening.is_one_piece() {
+            if let Some(Cell { low, high }) = opening.extent() {
+                self.hold_box(&ellipse, low, high);
+            }
+            return;
+        }
         let reach = |place: f64| {
             let direction = unit(PI * place / DIRECTIONS as f64) * ellipse.axes;
             opening.reach(DVec2::new(ellipse.centre, 0.0), direction, 2.0, 10, 11)
@@ -185,6 +202,15 @@ impl Interval {
                 self.raise(place, missing);
             }
         }
+    }
+
+    /// Raises R until the region holds a box.
+    fn hold_box(&mut self, ellipse: &Ellipse, low: DVec2, high: DVec2) {
+        let beside = (high.x - ellipse.centre).max(ellipse.centre - low.x);
+        let corner = (DVec2::new(beside, high.y) / ellipse.axes).length();
+        // Straight lines between the tabulated points lie within the circle by this much.
+        let [chord, _] = unit(0.5 * PI / DIRECTIONS as f64).to_array();
+        self.radius.iter_mut().for_each(|r| *r = r.max(corner / chord));
     }
 
     #[inline]

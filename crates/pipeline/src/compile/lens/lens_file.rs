@@ -40,11 +40,15 @@ impl Stated {
         let stated = asset.back_focus_mm > 0.0;
         // An opening at the pupil is an opening at the stop by the pupil's magnification.
         let stop_per_pupil = far.stop_mm() / p.entrance_radius_mm;
-        let pupil_mm = asset.opening.map(|opening| match opening {
-            LensOpening::EntrancePupil { diameter_mm } => 0.5 * diameter_mm,
-            LensOpening::FNumber { f_number } => 0.5 * p.focal_length_mm / f_number,
-            LensOpening::ObjectCone { sine } => sine / (1.0 - sine * sine).sqrt() * distance_m * M,
-        });
+        let pupil_mm = match asset.opening {
+            None => None,
+            Some(LensOpening::EntrancePupil { diameter_mm }) => Some(0.5 * diameter_mm),
+            Some(LensOpening::FNumber { f_number }) => Some(0.5 * p.focal_length_mm / f_number),
+            Some(LensOpening::ObjectCone { sine }) => Some(of_cone(sine, distance_m)?),
+            Some(LensOpening::ImageCone { sine }) if distance_m.is_infinite() => Some(p.focal_length_mm * sine),
+            // By the sine condition, which lenses for wide cones are made to fulfil.
+            Some(LensOpening::ImageCone { sine }) => Some(of_cone(near.magnification() * sine, distance_m)?),
+        };
         Ok(Self {
             stop_mm: pupil_mm.map(|radius_mm| radius_mm * stop_per_pupil),
             distance_m,
@@ -53,14 +57,32 @@ impl Stated {
     }
 }
 
+/// Radius of the entrance pupil that a cone of light from a distance fills, mm.
+fn of_cone(sine: f64, distance_m: f64) -> Result<f64, PrescriptionError> {
+    if sine < 1.0 && distance_m.is_finite() {
+        Ok(sine / (1.0 - sine * sine).sqrt() * distance_m * M)
+    } else {
+        Err(PrescriptionError::Cone { sine, distance_m })
+    }
+}
+
 /// The lens with its stop nearly closed.
 fn narrow(surfaces: &[Surface], focus: Focus) -> Result<Prescription, PrescriptionError> {
+    narrow_beside(surfaces, focus, 0.0)
+}
+
+/// The same, with its sensor beside the paraxial image.
+pub(super) fn narrow_beside(
+    surfaces: &[Surface],
+    focus: Focus,
+    defocus_mm: f64,
+) -> Result<Prescription, PrescriptionError> {
     let close = |s: &Surface| {
         let part = if s.stop { NARROW } else { 1.0 };
         Surface { semi_aperture_mm: part * s.semi_aperture_mm, ..*s }
     };
     let surfaces = surfaces.iter().map(close).collect();
-    Prescription::new(PrescriptionParameters { surfaces, f_number: None, focus, defocus_mm: 0.0 })
+    Prescription::new(PrescriptionParameters { surfaces, f_number: None, focus, defocus_mm })
 }
 
 /// Remarks what of a file is not as it stands there, and what it leaves open.

@@ -1,6 +1,7 @@
 //! `[lens]` and the raster of `[sensor]`: from records to optics.
 
 mod calibrated;
+mod clear_apertures;
 mod lens_file;
 mod prescription;
 mod projection;

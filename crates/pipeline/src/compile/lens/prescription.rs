@@ -2,6 +2,7 @@
 
 use super::super::context::Context;
 use super::super::spectrum::from_file;
+use super::clear_apertures;
 use super::focus_m;
 use super::lens_file::{self, Stated};
 use etendue_optics::prescription::coating::Coating;
@@ -16,6 +17,7 @@ use etendue_scene::record::lens::prescription::{self as record, Glass, GlassKnow
 use etendue_scene::{Place, Placed};
 use etendue_spectra::glass::{self, Dispersion, GlassError};
 use etendue_spectra::{Outside, Spectrum};
+use std::path::PathBuf;
 
 /// Surfaces, and the file that they come from.
 struct Given<'a> {
@@ -50,7 +52,7 @@ fn given<'a>(record: &record::Prescription, context: &mut Context<'a>) -> Option
         Source::Published(name) => published(name, context),
         Source::File(file) => {
             let asset = context.assets.prescriptions.get(&file.value)?;
-            from_lens_file(asset, record, &file.place, context)
+            from_lens_file(asset, record, file, context)
         }
         Source::Surfaces(surfaces) => {
             let made: Vec<_> = surfaces.iter().map(|s| surface(s, context)).collect();
@@ -73,10 +75,11 @@ fn published<'a>(name: &Placed<String>, context: &mut Context<'a>) -> Option<Giv
 fn from_lens_file<'a>(
     asset: &'a PrescriptionAsset,
     record: &record::Prescription,
-    place: &Place,
+    file: &Placed<PathBuf>,
     context: &mut Context<'_>,
 ) -> Option<Given<'a>> {
-    let apertures = apertures(asset, record, place, context)?;
+    let place = &file.place;
+    let apertures = apertures(asset, record, file, context)?;
     let surfaces = asset.surfaces.iter().zip(apertures).map(|(surface, semi_mm)| of_file(surface, semi_mm));
     let surfaces = context.accept(place, surfaces.collect::<Result<Vec<_>, _>>())?;
     Some(Given { surfaces, file: Some(asset) })
@@ -85,7 +88,7 @@ fn from_lens_file<'a>(
 fn apertures(
     asset: &PrescriptionAsset,
     record: &record::Prescription,
-    place: &Place,
+    Placed { value: file, place }: &Placed<PathBuf>,
     context: &mut Context<'_>,
 ) -> Option<Vec<f64>> {
     let count = asset.surfaces.len();
@@ -98,21 +101,31 @@ fn apertures(
         context.fault(place, problem, format!("give {count}"));
         return None;
     }
-    let without = asset.surfaces.iter().enumerate().filter(|(_, s)| s.semi_aperture_mm.is_none());
-    let names: Vec<String> = without.map(|(i, s)| format!("{} (line {})", i + 1, s.line)).collect();
-    if !names.is_empty() {
-        let problem = format!("the file gives no semi-aperture of its surfaces {}", names.join(", "));
-        let remedy = format!("add them to the file (DIAM, CIR), or give \"semi_apertures_mm\", {count} numbers");
-        context.fault(place, problem, remedy);
+    if asset.surfaces.iter().all(|s| s.semi_aperture_mm.is_some()) {
+        return asset.surfaces.iter().map(|s| s.semi_aperture_mm).collect();
     }
-    asset.surfaces.iter().map(|s| s.semi_aperture_mm).collect()
+    match clear_apertures::found(asset) {
+        Ok(found) => {
+            context.remark(format!("{}: {}", file.display(), found.told));
+            Some(found.semi_apertures_mm)
+        }
+        Err(reason) => {
+            let without = asset.surfaces.iter().enumerate().filter(|(_, s)| s.semi_aperture_mm.is_none());
+            let names: Vec<String> = without.map(|(i, s)| format!("{} (line {})", i + 1, s.line)).collect();
+            let names = names.join(", ");
+            let problem = format!("the file gives no semi-aperture of its surfaces {names}, and {reason}");
+            let remedy = format!("add them to the file (DIAM, CIR), or give \"semi_apertures_mm\", {count} numbers");
+            context.fault(place, problem, remedy);
+            None
+        }
+    }
 }
 
 /// A surface of a file.
 ///
 /// # Errors
 /// Where its glass is none.
-fn of_file(surface: &SurfaceAsset, semi_aperture_mm: f64) -> Result<Surface, GlassError> {
+pub(super) fn of_file(surface: &SurfaceAsset, semi_aperture_mm: f64) -> Result<Surface, GlassError> {
     let glass = match &surface.glass {
         GlassAsset::Air => Dispersion::AIR,
         GlassAsset::Named(name) => glass::named(name)?.dispersion,
@@ -257,8 +270,10 @@ fn refuse(record: &record::Prescription, error: &PrescriptionError, context: &mu
         (_, Source::File(file)) => {
             let assets = context.assets;
             let asset = assets.prescriptions.get(&file.value);
-            let at = error.surface().and_then(|number| asset?.surfaces.get(number - 1));
-            let line = at.map_or(String::new(), |s| format!(" (line {} of {})", s.line, file.value.display()));
+            let at = error.surface().and_then(|number| asset?.surfaces.get(number - 1)).map(|surface| surface.line);
+            let opening = asset.filter(|_| matches!(error, PrescriptionError::Cone { .. })).map(|a| a.opening_line);
+            let at = at.or(opening);
+            let line = at.map_or(String::new(), |line| format!(" (line {line} of {})", file.value.display()));
             context.fault(&file.place, format!("{error}{line}"), "");
         }
         (_, Source::Published(name)) => whole(&name.place, context),

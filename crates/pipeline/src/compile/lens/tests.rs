@@ -4,7 +4,7 @@ use crate::compile::{Choices, compile};
 use crate::plan::{CameraPlan, Plan};
 use crate::rays::ray_table;
 use etendue_optics::Lens;
-use etendue_scene::asset::{Assets, GlassAsset, PrescriptionAsset, SurfaceAsset};
+use etendue_scene::asset::{Assets, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 use etendue_scene::{Description, Overrides};
 use std::path::Path;
 
@@ -102,7 +102,9 @@ fn a_file_without_apertures_is_refused_by_line_and_served_by_a_list() {
         back_focus_mm: 28.0,
         defocus_mm: 0.0,
         opening: None,
+        opening_line: 0,
         fields: None,
+        vignetting: [Vec::new(), Vec::new()],
         wavelengths_nm: Vec::new(),
         notes: Vec::new(),
         hash: [0; 32],
@@ -113,6 +115,93 @@ fn a_file_without_apertures_is_refused_by_line_and_served_by_a_list() {
     assert!(text.contains("1 (line 12)") && text.contains("semi_apertures_mm"), "{text}");
     let served = plan_with(&format!("{lens}semi_apertures_mm = [2, 5]\n"), "", &assets);
     assert!(served.is_ok(), "{:?}", served.map(|_| ()));
+}
+
+/// A singlet before its stop, its apertures to be found.
+fn open_asset(opening: Option<LensOpening>, fields: Option<LensFields>) -> PrescriptionAsset {
+    let glass = GlassAsset::Abbe { index: 1.5168, abbe: 64.17 };
+    let surfaces = vec![
+        file_surface(12.0, None, glass, false),
+        file_surface(-9.5, None, GlassAsset::Air, false),
+        file_surface(f64::INFINITY, None, GlassAsset::Air, true),
+    ];
+    PrescriptionAsset {
+        title: String::new(),
+        surfaces,
+        object_distance_mm: f64::INFINITY,
+        back_focus_mm: 0.0,
+        defocus_mm: 0.0,
+        opening,
+        opening_line: 3,
+        fields,
+        vignetting: [Vec::new(), Vec::new()],
+        wavelengths_nm: Vec::new(),
+        notes: Vec::new(),
+        hash: [0; 32],
+    }
+}
+
+fn plan_of_file(asset: PrescriptionAsset) -> Result<Plan, String> {
+    let mut assets = Assets::default();
+    assets.prescriptions.insert("lens.seq".into(), asset);
+    plan_with("model = \"prescription\"\nfile = \"lens.seq\"\n", "", &assets)
+}
+
+fn opened(asset: PrescriptionAsset) -> (Vec<f64>, f64) {
+    let plan = plan_of_file(asset).unwrap_or_else(|faults| panic!("{faults}"));
+    let Lens::Prescription(lens) = &plan.cameras[0].body.lens else { panic!("a prescription") };
+    let lens = lens.prescription();
+    (lens.surfaces().iter().map(|s| s.semi_aperture_mm).collect(), lens.paraxial().entrance_radius_mm)
+}
+
+#[test]
+fn clear_apertures_that_a_file_leaves_open_are_those_of_its_fields() {
+    let pupil = Some(LensOpening::EntrancePupil { diameter_mm: 0.02 });
+    let fields = |list: &[f64]| Some(LensFields::AnglesDeg(list.to_vec()));
+    // So narrow that the heights are those of the chief rays, and those so small that first order is all.
+    let [[near, _, _], [far, _, _]] =
+        [1.0, 2.0].map(|deg| <[f64; 3]>::try_from(opened(open_asset(pupil, fields(&[0.0, deg]))).0).expect("three"));
+    assert!(near > 0.05 && (far / near - 2.0).abs() < 0.1, "{near} {far}");
+    let (axis, entrance_mm) = opened(open_asset(pupil, fields(&[0.0])));
+    assert!((entrance_mm - 0.01).abs() < 1e-9 && (axis[0] - 0.01).abs() < 1e-6, "{axis:?}");
+    // Vignetting factors take the outer rays off.
+    let wide = Some(LensOpening::EntrancePupil { diameter_mm: 2.0 });
+    let mut vignetted = open_asset(wide, fields(&[0.0, 8.0]));
+    let whole = opened(vignetted.clone()).0;
+    vignetted.vignetting = [vec![0.0, 0.5], vec![0.0, 0.5]];
+    let cut = opened(vignetted).0;
+    assert!(whole[0] - cut[0] > 0.3 && whole[2] == cut[2], "{whole:?} {cut:?}");
+}
+
+#[test]
+fn a_file_that_says_too_little_of_its_light_is_refused() {
+    let pupil = Some(LensOpening::EntrancePupil { diameter_mm: 2.0 });
+    let told = |opening, fields| plan_of_file(open_asset(opening, fields)).map(|_| ()).expect_err("refused");
+    let angles = |deg: f64| Some(LensFields::AnglesDeg(vec![deg]));
+    assert!(told(pupil, None).contains("1 (line 12)") && told(pupil, None).contains("no fields"));
+    assert!(told(None, angles(5.0)).contains("no aperture (EPD, FNO, NA)"));
+    assert!(told(pupil, angles(85.0)).contains("field 1 does not come through"));
+    assert!(told(pupil, Some(LensFields::ObjectMm(vec![5.0]))).contains("an object at infinity"));
+}
+
+#[test]
+fn the_cone_to_the_image_opens_the_lens_for_its_object() {
+    let cone = |sine: f64, object_distance_mm: f64| {
+        let fields = Some(LensFields::AnglesDeg(vec![0.0]));
+        PrescriptionAsset { object_distance_mm, ..open_asset(Some(LensOpening::ImageCone { sine }), fields) }
+    };
+    let far = plan_of_file(cone(0.05, f64::INFINITY)).expect("a lens");
+    let Lens::Prescription(lens) = &far.cameras[0].body.lens else { panic!("a prescription") };
+    let [f_mm, n] = [lens.prescription().paraxial().focal_length_mm, lens.prescription().paraxial().f_number()];
+    assert!((n - 10.0).abs() < 1e-9, "{n}");
+    // At unit magnification the object's cone is the image's.
+    let near = opened(cone(0.05, 2.0 * f_mm - lens.prescription().paraxial().front_principal_mm));
+    let distance_mm = 2.0 * f_mm - lens.prescription().paraxial().front_principal_mm
+        + lens.prescription().paraxial().entrance_pupil_mm;
+    let wanted_mm = 0.05 / (1.0_f64 - 0.05 * 0.05).sqrt() * distance_mm;
+    assert!((near.1 / wanted_mm - 1.0).abs() < 1e-6, "{near:?} {wanted_mm}");
+    let told = plan_of_file(cone(0.9, 11.0)).map(|_| ()).expect_err("too large a cone");
+    assert!(told.contains("(line 3)") && told.contains("cone of sine"), "{told}");
 }
 
 #[test]

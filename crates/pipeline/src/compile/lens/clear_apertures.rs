@@ -1,0 +1,119 @@
+//! Clear semi-apertures that a lens program's file leaves to be found: as large as the light of its field points needs.
+
+use super::lens_file::{Stated, narrow_beside};
+use super::prescription::of_file;
+use etendue_optics::prescription::clear_apertures::{FieldBundle, FieldPoint, clear_apertures_mm, provisional_mm};
+use etendue_optics::prescription::{Focus, Surface};
+use etendue_optics::{Prescription, PrescriptionError};
+use etendue_scene::asset::{LensFields, PrescriptionAsset};
+use etendue_spectra::glass::{GlassError, LINE_D_NM};
+
+const M: f64 = 1e3;
+
+/// The semi-apertures of all surfaces, and what is to be said of them.
+pub(super) struct Found {
+    pub(super) semi_apertures_mm: Vec<f64>,
+    pub(super) told: String,
+}
+
+/// Semi-apertures by chief and marginal rays, in place of those that the file does not state.
+///
+/// # Errors
+/// Why they cannot be found, to follow "the file gives none, and".
+pub(super) fn found(asset: &PrescriptionAsset) -> Result<Found, String> {
+    let fields = asset.fields.as_ref().ok_or("no fields (YAN, YOB, YIM) from which they could be found")?;
+    let own_mm = asset.surfaces.iter().find(|s| s.stop).and_then(|s| s.semi_aperture_mm);
+    let lens = provisional(asset).map_err(|error| of_line(asset, &error))?;
+    let stop_mm = lens.stated.stop_mm.or(own_mm).ok_or("no aperture (EPD, FNO, NA) from which they could be found")?;
+    let bundles = bundles(asset, fields, lens.stated.distance_m)?;
+    let wavelengths_nm = if asset.wavelengths_nm.is_empty() { vec![LINE_D_NM] } else { asset.wavelengths_nm.clone() };
+    let needed = clear_apertures_mm(&lens.prescription, stop_mm, &bundles, &wavelengths_nm).map_err(lost)?;
+    let semi_apertures_mm: Vec<f64> =
+        asset.surfaces.iter().zip(needed).map(|(s, needed_mm)| s.semi_aperture_mm.unwrap_or(needed_mm)).collect();
+    let told = told(asset, &semi_apertures_mm);
+    Ok(Found { semi_apertures_mm, told })
+}
+
+fn told(asset: &PrescriptionAsset, semi_apertures_mm: &[f64]) -> String {
+    let without =
+        asset.surfaces.iter().zip(semi_apertures_mm).enumerate().filter(|(_, (s, _))| s.semi_aperture_mm.is_none());
+    let list: Vec<String> = without.map(|(i, (_, semi_mm))| format!("{}: {semi_mm:.3} mm", i + 1)).collect();
+    let vignetted =
+        if asset.vignetting.iter().flatten().any(|v| *v != 0.0) { " and its vignetting factors" } else { "" };
+    format!(
+        "it states no semi-aperture of some surfaces; as far open as the chief and marginal rays of its fields{vignetted} need: {}",
+        list.join(", ")
+    )
+}
+
+/// A fault of the surfaces, or of the aperture with the file's line that states it.
+fn of_line(asset: &PrescriptionAsset, error: &Fault) -> String {
+    match error {
+        Fault::Lens(cone @ PrescriptionError::Cone { .. }) => format!("{cone} (line {})", asset.opening_line),
+        Fault::Lens(other) => other.to_string(),
+        Fault::Glass(other) => other.to_string(),
+    }
+}
+
+fn lost(bundle: usize) -> String {
+    match bundle {
+        0 => "its marginal ray on the axis does not come through, from which they could be found".to_owned(),
+        i => format!(
+            "the chief or a marginal ray of its field {i} does not come through, from which they could be found"
+        ),
+    }
+}
+
+/// The lens while its clear apertures are not known.
+struct Provisional {
+    stated: Stated,
+    prescription: Prescription,
+}
+
+/// Why there is none.
+enum Fault {
+    Lens(PrescriptionError),
+    Glass(GlassError),
+}
+
+impl From<PrescriptionError> for Fault {
+    fn from(error: PrescriptionError) -> Self {
+        Self::Lens(error)
+    }
+}
+
+fn provisional(asset: &PrescriptionAsset) -> Result<Provisional, Fault> {
+    let surfaces = asset.surfaces.iter().map(|s| of_file(s, 1.0)).collect::<Result<Vec<_>, _>>();
+    let surfaces = surfaces.map_err(Fault::Glass)?;
+    let semi_aperture_mm = provisional_mm(&surfaces);
+    let surfaces: Vec<Surface> = surfaces.into_iter().map(|s| Surface { semi_aperture_mm, ..s }).collect();
+    let stated = Stated::of(asset, &surfaces)?;
+    let focus = Focus::Sensor { distance_m: stated.distance_m };
+    let prescription = narrow_beside(&surfaces, focus, stated.defocus_mm.unwrap_or(asset.defocus_mm))?;
+    Ok(Provisional { stated, prescription })
+}
+
+/// The bundle of the axis and those of the file's fields.
+fn bundles(asset: &PrescriptionAsset, fields: &LensFields, distance_m: f64) -> Result<Vec<FieldBundle>, String> {
+    let near = distance_m.is_finite();
+    let distance_mm = asset.object_distance_mm;
+    let object = |height_mm: f64| FieldPoint::Object { height_mm, distance_mm };
+    let points: Vec<FieldPoint> = match fields {
+        // The point of the near object in that direction from the entrance pupil: light that rises comes from below.
+        LensFields::AnglesDeg(list) if near => list.iter().map(|deg| object(-tangent(*deg) * distance_m * M)).collect(),
+        LensFields::AnglesDeg(list) => list.iter().map(|deg| FieldPoint::Angle(deg.to_radians())).collect(),
+        LensFields::ObjectMm(list) if near => list.iter().map(|height_mm| object(*height_mm)).collect(),
+        LensFields::ObjectMm(_) => return Err("its fields are heights of an object at infinity".to_owned()),
+        LensFields::ImageMm(list) => list.iter().map(|height_mm| FieldPoint::Image(*height_mm)).collect(),
+    };
+    let open = |end: usize, i: usize| 1.0 - asset.vignetting[end].get(i).copied().unwrap_or(0.0);
+    let axis = FieldBundle { point: if near { object(0.0) } else { FieldPoint::Angle(0.0) }, reach: [1.0; 2] };
+    let fields =
+        points.into_iter().enumerate().map(|(i, point)| FieldBundle { point, reach: [open(0, i), open(1, i)] });
+    Ok(core::iter::once(axis).chain(fields).collect())
+}
+
+fn tangent(deg: f64) -> f64 {
+    let (sine, cosine) = etendue_core::maths::f64::sin_cos(deg.to_radians());
+    sine / cosine
+}
