@@ -1,0 +1,31 @@
+//! Another lens on a stored radiance: the light at the entrance pupil is rendered once, then photographed by two apertures.
+//!
+//! `cargo run --release -p etendue --example another_lens -- out/lenses`
+
+use etendue::{Error, Existing, ExposeRequest, JobRequest, RenderOptions, Unobserved, expose};
+use std::path::{Path, PathBuf};
+
+/// Writes the radiance and two photographs of it into `out` and answers with the photographs' files.
+pub(crate) fn run(out: &Path) -> Result<Vec<PathBuf>, Error> {
+    let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
+    let mut request = JobRequest { spp: Some(16), ..JobRequest::new(format!("{scenes}/cornell/cornell.toml")) };
+    let changes = ["render.route=\"pupil\"", "render.overscan=1.2", "output.radiance=true", "render.band_width_nm=20"];
+    request.set = changes.map(str::to_owned).to_vec();
+    request.open()?.save(&RenderOptions::default(), (&out.join("pupil"), Existing::Replace), &Unobserved)?;
+
+    let mut photographs = Vec::new();
+    for f_number in ["2.8", "11"] {
+        let radiance = out.join("pupil/front/radiance.exr");
+        let mut request = ExposeRequest::new(radiance, format!("{scenes}/cameras/web.toml"));
+        request.set = vec![format!("lens.f_number={f_number}"), "sensor.exposure_s=0.02".to_owned()];
+        let folder = out.join(format!("f{f_number}"));
+        photographs.extend(expose(&request, (&folder, Existing::Replace), &Unobserved)?);
+    }
+    Ok(photographs)
+}
+
+fn main() -> Result<(), Error> {
+    let out = std::env::args().nth(1).unwrap_or_else(|| "out/lenses".to_owned());
+    run(Path::new(&out))?.iter().for_each(|file| println!("{}", file.display()));
+    Ok(())
+}

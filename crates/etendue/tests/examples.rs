@@ -1,0 +1,61 @@
+//! The examples run, and give what their heads promise.
+
+#[path = "../examples/another_lens.rs"]
+#[allow(dead_code)]
+mod another_lens;
+#[path = "../examples/first_picture.rs"]
+#[allow(dead_code)]
+mod first_picture;
+#[path = "../examples/measure_chart.rs"]
+#[allow(dead_code)]
+mod measure_chart;
+#[path = "../examples/own_camera.rs"]
+#[allow(dead_code)]
+mod own_camera;
+#[path = "../examples/scene_from_arrays.rs"]
+#[allow(dead_code)]
+mod scene_from_arrays;
+
+#[test]
+fn a_first_picture_is_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = first_picture::run(folder.path()).unwrap_or_else(|error| panic!("{error}"));
+    assert!(files.iter().any(|file| file.ends_with("front/picture.0000.png")), "{files:?}");
+    assert!(files.iter().all(|file| file.is_file()));
+}
+
+#[test]
+fn another_lens_photographs_stored_radiance() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = another_lens::run(folder.path()).unwrap_or_else(|error| panic!("{error}"));
+    let pictures: Vec<Vec<u8>> = ["f2.8", "f11"]
+        .map(|f| std::fs::read(folder.path().join(f).join("web/picture.0000.png")).expect("a picture"))
+        .to_vec();
+    assert_ne!(pictures[0], pictures[1]);
+    assert!(files.iter().all(|file| file.is_file()));
+}
+
+#[test]
+fn electrons_grow_with_the_area_of_pixels() {
+    let electrons = own_camera::run(&[4.0, 8.0]).unwrap_or_else(|error| panic!("{error}"));
+    // Even light: four times the area; 64 samples of a furnace leave well under a percent.
+    let ratio = electrons[1] / electrons[0];
+    assert!((ratio / 4.0 - 1.0).abs() < 0.01, "{electrons:?}");
+}
+
+#[test]
+fn a_chart_gives_the_distortion_that_the_camera_declares() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let report = measure_chart::run(folder.path()).unwrap_or_else(|error| panic!("{error}"));
+    let k1 = report.value("k1").expect("a fit of k1");
+    assert!(k1.value != 0.0 && k1.standard_uncertainty > 0.0, "{report}");
+}
+
+#[test]
+fn a_sheet_from_arrays_has_the_depth_of_its_waves() {
+    let depth = scene_from_arrays::run().unwrap_or_else(|error| panic!("{error}"));
+    let seen: Vec<f32> = depth.into_iter().filter(|d| d.is_finite()).collect();
+    // 5 m less 0.2 sin 3x, by facets of 4/64 m: chords lie within 0.2 (3·4/64)²/8 = 0.9 mm of it.
+    assert!(seen.iter().all(|d| (4.799..=5.201).contains(d)), "{seen:?}");
+    assert!(seen.iter().any(|d| *d < 4.81) && seen.iter().any(|d| *d > 5.19), "{seen:?}");
+}
