@@ -38,7 +38,7 @@ pub use error::CalibrateError;
 pub use family::{Family, Radial};
 pub use pose::Pose;
 pub use result::{Calibrated, Parameter};
-pub use spare::{Spared, calibrate_sparing};
+pub use spare::{LEAST_VIEWS, Spared, calibrate_sparing};
 
 use problem::Bundle;
 

@@ -27,7 +27,9 @@ pub(super) fn widen(
     let now = focal(&found.camera);
     let wider = size[0].max(size[1]) as f64;
     for step in [DVec2::X, DVec2::Y].map(|axis| MIDDLE * wider * axis) {
-        let moved = |by: DVec2| Ok(values(&fitted(family, Options { principal_px: Some(principal + by), ..options })?));
+        let moved = |by: DVec2| -> Result<Vec<f64>, Failure> {
+            Ok(values(&fitted(family, Options { principal_px: Some(principal + by), ..options })?))
+        };
         let (more, less) = (moved(step)?, moved(-step)?);
         add(found, 1.0, |i| 0.5 * (more[i] - less[i]));
         add(found, 3.0, |i| 0.5 * (more[i] + less[i]) - here[i]);
