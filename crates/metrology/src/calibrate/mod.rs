@@ -27,6 +27,7 @@ mod family;
 mod pose;
 mod problem;
 mod result;
+mod shared;
 mod spare;
 mod start;
 
