@@ -2,6 +2,9 @@
 //!
 //! `cargo run --release -p etendue --example another_lens -- out/lenses`
 
+// A program prints; the library does not.
+#![allow(clippy::print_stdout)]
+
 use etendue::{Error, Existing, ExposeRequest, JobRequest, RenderOptions, Unobserved, expose};
 use std::path::{Path, PathBuf};
 

@@ -2,6 +2,9 @@
 //!
 //! `cargo run --release -p etendue --example first_picture -- out/first`
 
+// A program prints; the library does not.
+#![allow(clippy::print_stdout)]
+
 use etendue::{Error, Existing, JobRequest, RenderOptions, Unobserved};
 use std::path::{Path, PathBuf};
 

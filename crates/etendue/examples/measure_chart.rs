@@ -2,6 +2,9 @@
 //!
 //! `cargo run --release -p etendue --example measure_chart -- out/chart`
 
+// A program prints; the library does not.
+#![allow(clippy::print_stdout)]
+
 use etendue::chart::design::{Dots, GridSize};
 use etendue::chart::{Chart, ChartRequest, make};
 use etendue::measure::{DistortionRequest, distortion};

@@ -2,6 +2,9 @@
 //!
 //! `cargo run --release -p etendue --example scene_from_arrays`
 
+// A program prints; the library does not.
+#![allow(clippy::print_stdout)]
+
 use etendue::{Error, JobRequest, MemoryFiles, RenderOptions, Triangles, Unobserved};
 
 /// Vertices along each side of the sheet.
@@ -26,8 +29,9 @@ mesh = "sheet"
 material = "clay"
 
 [scene.environment]
-type = "constant"
-radiance = 1
+type = "uniform"
+luminance_cd_m2 = 1000
+illuminant = "D65"
 
 [[cameras]]
 name = "above"

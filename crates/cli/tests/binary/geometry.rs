@@ -142,6 +142,26 @@ fn a_pinhole_is_calibrated_from_its_views() {
     etendue(["measure", "distortion", &views[0], "--grid", "5x4"]).refused(&["9 × 6", "5 × 4"]);
 }
 
+/// A view in which there is no chart says nothing of the camera.
+#[test]
+fn a_view_without_a_chart_is_left_out_and_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let turns = [[0.5, 0.0], [-0.4, 0.3], [0.1, -0.5]];
+    let good = turns.iter().enumerate().map(|(i, t)| board(folder.path(), &format!("view{i}.png"), *t));
+    let empty = ["wall0.png", "wall1.png"].map(|name| picture(folder.path(), name, SIZE, |x, _| 0.4 + 1e-4 * x));
+    let views: Vec<String> = good.chain(empty).collect();
+    let told = |which: &[usize]| -> Vec<&str> {
+        let files = which.iter().map(|i| views[*i].as_str());
+        ["calibrate"].into_iter().chain(files).chain(["--pitch-mm", "30"]).collect()
+    };
+    let found = json(&told(&[0, 3, 1, 2]));
+    assert!(found["notes"].to_string().contains("wall0.png: left out"), "{}", found["notes"]);
+    assert_eq!(found["tables"]["views"].as_array().expect("views").len(), 3);
+    // Two are too few to leave others out, and of none the first says why.
+    etendue(told(&[0, 1, 3])).refused(&["wall0.png: ", "no checkerboard or grid of dots"]);
+    etendue(told(&[4, 3])).refused(&["wall1.png: ", "none of the 2 pictures shows the chart"]);
+}
+
 /// Four coefficients of a fisheye beyond the points of OpenCV's board: the figures stand, a camera file of them does not.
 #[test]
 fn a_camera_that_folds_outside_its_points_is_told_and_no_file() {

@@ -10,7 +10,8 @@ use super::truth::{Truth, TruthInput};
 use crate::error::Error;
 use crate::observer::Observer;
 use etendue_io::photograph::{Photograph, Stated};
-use etendue_metrology::target::{Grid, Sought, Target, find};
+use etendue_metrology::calibrate::LEAST_VIEWS;
+use etendue_metrology::target::{Grid, Sought, Target, TargetError, find};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicUsize;
 
@@ -67,11 +68,15 @@ impl ChartInput {
 
     /// The chart in a picture.
     pub(crate) fn seen(&self, file: &Path) -> Result<Seen, Error> {
+        Ok(self.look(file)?)
+    }
+
+    fn look(&self, file: &Path) -> Result<Seen, Unseen> {
         if point_list::is_list(file) {
-            return self.listed(file);
+            return Ok(self.listed(file)?);
         }
         let photograph = self.encoding.photograph(file)?;
-        self.seen_in(file, &photograph, self.channel.as_deref())
+        self.look_in(file, &photograph, self.channel.as_deref())
     }
 
     /// The points of a list.
@@ -100,11 +105,16 @@ impl ChartInput {
     /// The chart in one channel. In the mosaic of a colour that has several places in the tile, each point is the mean of where
     /// these show it: what each of them misses between its pixels the others see.
     pub(crate) fn seen_in(&self, file: &Path, photograph: &Photograph, channel: Option<&str>) -> Result<Seen, Error> {
+        Ok(self.look_in(file, photograph, channel)?)
+    }
+
+    fn look_in(&self, file: &Path, photograph: &Photograph, channel: Option<&str>) -> Result<Seen, Unseen> {
         let planes = self.selection(channel).planes(file, photograph)?;
         let told = self.told()?;
         let (width, height) = planes[0].picture_px;
         if self.size_px.is_some_and(|stated| stated != [width, height]) {
-            return Err(refused(file, format!("{width} × {height} pixels, not as --size-px says: leave that out")));
+            let told = format!("{width} × {height} pixels, not as --size-px says: leave that out");
+            return Err(refused(file, told).into());
         }
         told.iter().try_for_each(|(truth, _)| truth.fits_size(file, [width, height]))?;
         let sought = self.sought(told.as_ref().map(|(_, told)| told));
@@ -114,13 +124,13 @@ impl ChartInput {
     }
 
     /// The chart among readings, in the picture's raster coordinates.
-    fn grid(&self, file: &Path, plane: &Readings, sought: Sought) -> Result<Grid, Error> {
+    fn grid(&self, file: &Path, plane: &Readings, sought: Sought) -> Result<Grid, Unseen> {
         let part = self.region.map(|region| plane.part(region, "--region").map(|image| (image, region))).transpose()?;
         let (image, first) = match &part {
             None => (&plane.image, [0, 0]),
             Some((image, region)) => (image, plane.first_of(*region)),
         };
-        let mut grid = find(image, sought).map_err(|error| refused(file, error))?;
+        let mut grid = find(image, sought).map_err(|error| Unseen::Chart(file.to_owned(), error))?;
         let scale = 0.5 * (plane.period.0 + plane.period.1) as f64;
         for node in &mut grid.nodes {
             let at = [0, 1].map(|axis| node.at[axis] + first[axis] as f64);
@@ -131,24 +141,69 @@ impl ChartInput {
     }
 }
 
-/// The charts of several pictures of one size; a picture that is there twice is refused.
-pub(crate) fn all(chart: &ChartInput, files: &[PathBuf], observer: &dyn Observer) -> Result<Vec<Seen>, Error> {
-    let mut views: Vec<Seen> = Vec::new();
-    let mut faults = Vec::new();
+/// Why a picture gives no points.
+enum Unseen {
+    /// It is a good picture in which there is no such chart.
+    Chart(PathBuf, TargetError),
+    /// It, or what is told of it, cannot be used.
+    Failed(Error),
+}
+
+impl From<Error> for Unseen {
+    fn from(failure: Error) -> Self {
+        Self::Failed(failure)
+    }
+}
+
+impl From<Unseen> for Error {
+    fn from(unseen: Unseen) -> Self {
+        match unseen {
+            Unseen::Chart(file, error) => refused(&file, error),
+            Unseen::Failed(failure) => failure,
+        }
+    }
+}
+
+/// A picture in which there is no chart, and why none is seen.
+pub(crate) type WithoutChart = (PathBuf, TargetError);
+
+/// The charts of several pictures of one size, and the pictures in which there is none, with the reason. A picture that is there twice is
+/// refused, and so are all where fewer than [`LEAST_VIEWS`] of several show the chart.
+pub(crate) fn all(
+    chart: &ChartInput,
+    files: &[PathBuf],
+    observer: &dyn Observer,
+) -> Result<(Vec<Seen>, Vec<WithoutChart>), Error> {
+    let (mut views, mut without, mut faults) = (Vec::<Seen>::new(), Vec::new(), Vec::new());
     let pictures = Pictures { heading: "charts", done: AtomicUsize::new(0), total: files.len(), observer };
     for file in files {
-        let seen = chart.seen(file);
+        let seen = chart.look(file);
         pictures.step();
         match seen {
             Ok(view) => match views.iter().find_map(|other| contradiction(other, &view)) {
                 Some(fault) => faults.push(fault),
                 None => views.push(view),
             },
-            Err(Error::Input(more)) => faults.extend(more),
-            Err(other) => return Err(other),
+            Err(Unseen::Chart(file, error)) => without.push((file, error)),
+            Err(Unseen::Failed(Error::Input(more))) => faults.extend(more),
+            Err(Unseen::Failed(other)) => return Err(other),
         }
     }
-    if faults.is_empty() { Ok(views) } else { Err(Error::Input(faults)) }
+    if views.len() < LEAST_VIEWS {
+        faults.extend(too_few(&without, views.len()));
+    }
+    if faults.is_empty() { Ok((views, without)) } else { Err(Error::Input(faults)) }
+}
+
+/// What is told where views without a chart cannot be left out: of all the first reason, of some every one.
+fn too_few(without: &[WithoutChart], left: usize) -> Vec<String> {
+    let told = |(file, error): &WithoutChart| format!("{}: {error}", file.display());
+    match without {
+        [first, _, ..] if left == 0 => {
+            vec![format!("{}; none of the {} pictures shows the chart", told(first), without.len())]
+        }
+        some => some.iter().map(told).collect(),
+    }
 }
 
 fn contradiction(a: &Seen, b: &Seen) -> Option<String> {

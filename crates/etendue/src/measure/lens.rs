@@ -188,10 +188,15 @@ const FIELDS: &str = "\nheight   angle    distortion  light    spot rms         
 
 fn fields_text(fields: &[FieldReport]) -> String {
     let rows: String = fields.iter().map(field_row).collect();
-    let spots = fields.iter().filter_map(|field| field.image.as_ref()?.spot);
-    let error_mm = spots.map(|spot| spot.centroid_error_mm).fold(0.0, f64::max);
-    let centroids = format!("centroids and their colour to {} µm\n", error_um(2.0 * error_mm));
-    format!("{FIELDS}{rows}{centroids}")
+    let images = || fields.iter().filter_map(|field| field.image.as_ref());
+    let spots = images().filter_map(|image| image.spot).map(|spot| spot.centroid_error_mm);
+    let colours = images().flat_map(|image| [image.lateral_f, image.lateral_c]).flatten();
+    let largest = |errors: &mut dyn Iterator<Item = f64>| errors.reduce(f64::max);
+    let line = |name: &str, error: Option<f64>| error.map(|mm| format!("{name} to {} µm", error_um(mm)));
+    let centroids = line("centroids of the d line", largest(&mut spots.into_iter()));
+    let colours = line("colour of centroids", largest(&mut colours.map(|colour| colour.centroid_error_mm)));
+    let told: Vec<String> = centroids.into_iter().chain(colours).collect();
+    if told.is_empty() { format!("{FIELDS}{rows}") } else { format!("{FIELDS}{rows}{}\n", told.join(", ")) }
 }
 
 /// An estimated error of a length in mm, in µm.

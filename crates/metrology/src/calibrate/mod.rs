@@ -27,6 +27,7 @@ mod family;
 mod pose;
 mod problem;
 mod result;
+mod shared;
 mod spare;
 mod start;
 
@@ -38,7 +39,7 @@ pub use error::CalibrateError;
 pub use family::{Family, Radial};
 pub use pose::Pose;
 pub use result::{Calibrated, Parameter};
-pub use spare::{Spared, calibrate_sparing};
+pub use spare::{LEAST_VIEWS, Spared, calibrate_sparing};
 
 use problem::Bundle;
 

@@ -1,7 +1,7 @@
 //! A camera as it was found.
 
 use super::problem::Bundle;
-use super::{CalibrateError, Family, Pose};
+use super::{CalibrateError, Family, Pose, shared};
 use crate::Estimate;
 use crate::fit::{Fit, Problem};
 use crate::linear::Matrix;
@@ -96,10 +96,11 @@ const FOCAL_LIMIT: f64 = 0.05;
 pub(super) fn result(bundle: &Bundle<'_>, fit: Fit) -> Result<Calibrated, CalibrateError> {
     let names = bundle.names();
     let widening = if bundle.options.robust { bundle.widening(&fit) } else { 1.0 };
+    let all = shared::covariance(bundle, &fit);
     let mut covariance = Matrix::zeros(names.len(), names.len());
     for i in 0..names.len() {
         for j in 0..names.len() {
-            *covariance.at_mut(i, j) = widening * fit.covariance.at(i, j);
+            *covariance.at_mut(i, j) = widening * all.at(i, j);
         }
     }
     let parameter = |(i, name): (usize, &&'static str)| Parameter {

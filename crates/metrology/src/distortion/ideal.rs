@@ -18,6 +18,9 @@ use glam::{DMat2, DMat3, DVec2};
 /// Points that are needed.
 pub(super) const LEAST: usize = 16;
 
+/// Least error of a coordinate, px: 1 000 px have 1e-13 px of rounding, thousands of operations.
+const ROUNDING_PX: f64 = 1e-9;
+
 pub(super) fn chart(node: &Node) -> DVec2 {
     DVec2::new(node.index[0] as f64, node.index[1] as f64)
 }
@@ -51,8 +54,8 @@ impl Ideal {
             let pairs: Vec<[DVec2; 2]> = nodes.iter().map(|n| [chart(n), n.at]).collect();
             Some((Base::none(centre, unit)?, Homography::direct(&pairs)?))
         });
-        // Of a coordinate, for what is known before.
-        let rough = ordered[0].rms_px * core::f64::consts::FRAC_1_SQRT_2;
+        // Of a coordinate, for what is known before; lists of exact points leave nothing, and their rounding counts.
+        let rough = (ordered[0].rms_px * core::f64::consts::FRAC_1_SQRT_2).max(ROUNDING_PX);
         let (base, plane) = start.ok_or(DistortionError::Few { points: nodes.len(), least: LEAST })?;
         // The homography's own change moves it once more by less than its square.
         const ROUNDS: usize = 2;

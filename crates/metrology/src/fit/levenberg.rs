@@ -184,12 +184,15 @@ fn scaled(normal: &Matrix, scale: &[f64]) -> Matrix {
     Matrix::from_rows(n, (0..n).map(|i| (0..n).map(|j| normal.at(i, j) * scale[i] * scale[j]).collect::<Vec<_>>()))
 }
 
-/// JᵀJ and Jᵀr.
-fn normal_equations<P: Problem>(problem: &P, at: &[f64], residuals: &[Vec<f64>]) -> Option<(Matrix, Vec<f64>)> {
-    let (n, blocks) = (at.len(), problem.blocks());
+/// Columns of J of one block, by the number of their parameter.
+pub type Columns = Vec<(usize, Vec<f64>)>;
+
+/// Columns of J, block by block, of those on which a block depends; `None` where they cannot be evaluated.
+pub fn slopes<P: Problem>(problem: &P, at: &[f64]) -> Option<Vec<Columns>> {
+    let blocks = problem.blocks();
     let here = problem.state(at)?;
-    let mut columns: Vec<Vec<(usize, Vec<f64>)>> = vec![Vec::new(); blocks];
-    for parameter in 0..n {
+    let mut columns: Vec<Columns> = vec![Vec::new(); blocks];
+    for parameter in 0..at.len() {
         let step = 1e-3 * problem.reach(parameter);
         let moved = |sign: f64| {
             let mut moved = at.to_vec();
@@ -203,6 +206,13 @@ fn normal_equations<P: Problem>(problem: &P, at: &[f64], residuals: &[Vec<f64>])
             columns[block].push((parameter, slope));
         }
     }
+    Some(columns)
+}
+
+/// JᵀJ and Jᵀr.
+fn normal_equations<P: Problem>(problem: &P, at: &[f64], residuals: &[Vec<f64>]) -> Option<(Matrix, Vec<f64>)> {
+    let n = at.len();
+    let columns = slopes(problem, at)?;
     let (mut normal, mut gradient) = (Matrix::zeros(n, n), vec![0.0; n]);
     for (columns, residuals) in columns.iter().zip(residuals) {
         for (k, (i, a)) in columns.iter().enumerate() {

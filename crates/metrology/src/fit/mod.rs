@@ -11,5 +11,5 @@ pub mod levenberg;
 mod shrunken;
 
 pub use homography::{Homography, null_vector};
-pub use levenberg::{Fit, FitError, Problem, fit};
+pub use levenberg::{Fit, FitError, Problem, fit, slopes};
 pub use shrunken::{Shrunken, shrunken};

@@ -11,16 +11,19 @@
 //! ```
 //!
 //! Uncertainty: from each ring's and block's own noise (from the second differences of neighbours, PRNU among it, over the number of
-//! pixels), and for the profile that of I₀. The unevenness of the light itself is not in it.
+//! pixels), and for the profile that of I₀, which all rings share, and of what whole rows and columns of the sensor have in common
+//! (`lines.rs`). The unevenness of the light itself is not in it, nor is that of rows and columns in the map's.
 //!
 //! Refused: saturated fields, fields no brighter than black, pictures that no smooth fall-off describes.
 
 mod colour;
+mod lines;
 #[cfg(test)]
 mod tests;
 
 use crate::flat::{SATURATED_SHARE, neighbour_variances, saturated_share};
 use crate::linear::Matrix;
+use crate::linear::matrix::dot;
 use crate::solve::Normal;
 use crate::{Estimate, Image};
 
@@ -138,7 +141,9 @@ pub enum ShadingError {
 pub fn measure_shading(image: &Image, settings: &ShadingSettings) -> Result<Shading, ShadingError> {
     check(image, settings)?;
     let rings = Sums::rings(image, settings);
-    let fit = Falloff::fitted(&rings)?;
+    let first = Falloff::fitted(&rings, &Matrix::zeros(rings.len(), rings.len()))?;
+    let shared = lines::shared(image, settings, &rings, |square| first.at(square));
+    let fit = Falloff::fitted(&rings, &shared)?;
     let centre = fit.centre(settings)?;
     let blocks = block_sums(image, settings);
     let map = relative_map(&blocks, settings)?;
@@ -174,6 +179,8 @@ struct Sums {
     powers: [f64; TERMS],
     variance: f64,
     pairs: f64,
+    /// Which ring it is of those asked for.
+    number: usize,
 }
 
 impl Sums {
@@ -203,9 +210,9 @@ impl Sums {
 
     /// Rings that hold pixels.
     fn rings(image: &Image, settings: &ShadingSettings) -> Vec<Self> {
-        let mut rings = vec![Self::default(); settings.rings];
+        let mut rings: Vec<Self> = (0..settings.rings).map(|number| Self { number, ..Self::default() }).collect();
         let square = square_position(image, settings);
-        let ring = |square: f64| ((square.sqrt() * settings.rings as f64) as usize).min(settings.rings - 1);
+        let ring = |square: f64| ring_at(square, settings);
         for (x, y, reading) in readings(image, settings) {
             let square = square(x, y);
             rings[ring(square)].add(reading, square);
@@ -218,6 +225,11 @@ impl Sums {
         rings.retain(|ring| ring.count >= 4.0 && ring.pairs >= 2.0);
         rings
     }
+}
+
+/// The ring of a squared position.
+fn ring_at(square: f64, settings: &ShadingSettings) -> usize {
+    ((square.sqrt() * settings.rings as f64) as usize).min(settings.rings - 1)
 }
 
 fn readings(image: &Image, settings: &ShadingSettings) -> impl Iterator<Item = (usize, usize, f64)> {
@@ -244,6 +256,10 @@ const TERMS: usize = 5;
 struct Falloff {
     b: Vec<f64>,
     covariance: Matrix,
+    /// The covariance of b₀ with each coefficient by the rings' own noise.
+    own_of_centre: Vec<f64>,
+    /// Of each ring, by its number: the covariance of b₀ with what lines share in its mean, and the variance of that.
+    with_lines: Vec<[f64; 2]>,
 }
 
 fn powers(square: f64) -> [f64; TERMS] {
@@ -262,20 +278,38 @@ fn weight(ring: &Sums) -> f64 {
 }
 
 impl Falloff {
-    fn fitted(rings: &[Sums]) -> Result<Self, ShadingError> {
+    /// By the rings, whose means have a covariance by lines beside their own noise.
+    fn fitted(rings: &[Sums], shared: &Matrix) -> Result<Self, ShadingError> {
         let mut normal = Normal::new(TERMS);
         for ring in rings {
             normal.add(&ring.mean_powers(), ring.mean(), weight(ring));
         }
         let none = ShadingError::NotFlat { percent: f64::NAN, blocks: 0 };
-        let (b, covariance) = normal.solve().zip(normal.inverse()).ok_or(none)?;
-        Ok(Self { b, covariance })
+        let (b, own) = normal.solve().zip(normal.inverse()).ok_or(none)?;
+        // How each coefficient depends on the means of the rings.
+        let lever = |ring: &Sums| own.times(&ring.mean_powers().map(|p| p * weight(ring)));
+        let levers = Matrix::from_rows(TERMS, rings.iter().map(lever));
+        let column = |k: usize| (0..rings.len()).map(|i| levers.at(i, k)).collect::<Vec<f64>>();
+        let pulled: Vec<Vec<f64>> = (0..TERMS).map(|k| shared.times(&column(k))).collect();
+        let own_of_centre = own.row(0).to_vec();
+        let mut covariance = own;
+        for (i, pulled) in pulled.iter().enumerate() {
+            (0..TERMS).for_each(|j| *covariance.at_mut(i, j) += dot(pulled, &column(j)));
+        }
+        let mut with_lines = vec![[0.0; 2]; rings.iter().map(|ring| ring.number + 1).max().unwrap_or(0)];
+        rings.iter().enumerate().for_each(|(i, ring)| with_lines[ring.number] = [pulled[0][i], shared.at(i, i)]);
+        Ok(Self { b, covariance, own_of_centre, with_lines })
     }
 
     fn centre(&self, settings: &ShadingSettings) -> Result<Estimate, ShadingError> {
         let centre = Estimate::new(self.b[0], self.covariance.at(0, 0).sqrt());
         let dark = ShadingError::Dark { reading: centre.value + settings.black, black: settings.black };
         if centre.value > 3.0 * centre.standard_uncertainty && centre.value > 0.0 { Ok(centre) } else { Err(dark) }
+    }
+
+    /// The reading at a squared position.
+    fn at(&self, square: f64) -> f64 {
+        powers(square).iter().zip(&self.b).map(|(p, b)| p * b).sum()
     }
 
     /// The fall-off's mean over a ring or block.
@@ -285,12 +319,13 @@ impl Falloff {
 
     /// A ring over the centre, which depends on the ring itself by its share in the fit.
     fn ring(&self, ring: &Sums) -> Ring {
-        let there = powers(ring.square_position()).iter().zip(&self.b).map(|(p, b)| p * b).sum::<f64>();
+        let there = self.at(ring.square_position());
         let curved = self.mean(ring) - there;
         let (value, u) = ((ring.mean() - curved) / self.b[0], ring.standard_uncertainty());
-        let along: f64 = self.covariance.row(0).iter().zip(ring.mean_powers()).map(|(c, p)| c * p).sum();
-        let common = u * u * along * weight(ring);
-        let variance = u * u + value * value * self.covariance.at(0, 0) - 2.0 * value * common;
+        let along: f64 = self.own_of_centre.iter().zip(ring.mean_powers()).map(|(c, p)| c * p).sum();
+        let [with_centre, of_lines] = self.with_lines[ring.number];
+        let common = u * u * along * weight(ring) + with_centre;
+        let variance = u * u + of_lines + value * value * self.covariance.at(0, 0) - 2.0 * value * common;
         let u = variance.max(0.0).sqrt() / self.b[0];
         Ring { position: ring.square_position().sqrt(), relative: Estimate::new(value, u) }
     }

@@ -6,11 +6,13 @@
 //! pixels' own scatter does to the centroid: a variance that goes from that of the background to that of the dot's middle as w
 //! does (bright dots have more of it, from their own photons, dark dots less).
 //!
-//! That is where the disc's centre of area is seen. Perspective and distortion shift it from where the disc's centre is
+//! That, less what the pixels' raster shifts it by ([`sampling`]), is where the disc's centre of area is seen. Perspective and distortion shift it from where the disc's centre is
 //! seen; [`disc`](crate::disc) says by how much, once the map from the chart to the picture is known.
 
+use super::sampling::{self, Rim};
 use crate::Image;
 use crate::linear::{Matrix, Orthogonal};
+use core::f64::consts::TAU;
 use glam::{DMat2, DVec2};
 
 /// A dark region, roughly.
@@ -31,6 +33,7 @@ pub(super) struct Centroid {
     /// Area that takes away as much light as the dot's middle, px².
     pub(super) area: f64,
     pub(super) uncertainty_px: f64,
+    pub(super) rim: Rim,
 }
 
 /// Weighted sums over pixels.
@@ -102,7 +105,21 @@ pub(super) fn measured(image: &Image, blob: &Blob, room: f64, bright: bool) -> O
     let levers: f64 = pixels.iter().map(|p| (p.0 - at).length_squared() * variance(p)).sum();
     let area = moments.sum / core;
     let uncertainty_px = (0.5 * levers).sqrt() / moments.sum;
-    (area > 0.0 && core > 0.0 && uncertainty_px.is_finite()).then_some(Centroid { at, area, uncertainty_px })
+    let noise: f64 = pixels.iter().map(variance).sum();
+    // Noise adds its variance to w².
+    let partial = pixels.iter().map(|p| taken(p) / core).map(|w| w * (1.0 - w)).sum::<f64>() + noise / (core * core);
+    // The shape by what every pixel takes away, less the pixel's own variance; a threshold's moments are off by a tenth of a pixel.
+    let moved = moments.blob()?.covariance - DMat2::from_diagonal(DVec2::splat(2.0 / 12.0));
+    let shape = if moved.determinant() > 0.0 { moved } else { blob.covariance };
+    let scale = area / (TAU * 2.0 * shape.determinant().sqrt());
+    let half = 2.0 * (scale * DVec2::new(shape.x_axis.x, shape.y_axis.y)).map(|v| v.max(0.0).sqrt());
+    let softness_px = partial / sampling::length(half.x, half.y);
+    (area > 0.0 && core > 0.0 && uncertainty_px.is_finite()).then_some(Centroid {
+        at,
+        area,
+        uncertainty_px,
+        rim: Rim { half, softness_px },
+    })
 }
 
 /// Centres and values of the pixels that are wanted; `None` where the picture does not hold them all.

@@ -3,13 +3,13 @@
 //! Dark regions ([`components`]) under a threshold that follows the light ([`threshold`](super::threshold)), at least four
 //! pixels across, not cut by the border, and as large as the ellipse of their own second moments (to 4 %, small ones to 12 %; a
 //! rectangle has 4.5 % less), are dots, put
-//! in rows and columns by where they are ([`lattice`]). Then each is measured ([`centroid`]).
+//! in rows and columns by where they are ([`lattice`]). Then each is measured ([`centroid`]), and what the pixels' raster does to all is taken off ([`sampling`]).
 
 use super::centroid::{Blob, Centroid, Moments};
 use super::components::{self, Run};
 use super::lattice::{self, Places};
 use super::threshold::Threshold;
-use super::{Grid, LEAST, centroid};
+use super::{Grid, LEAST, centroid, sampling};
 use crate::Image;
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;
@@ -77,8 +77,10 @@ fn measured(image: &Image, places: &Places, blobs: &[Blob], bright: bool) -> Gri
     let placed: Vec<usize> = places.values().copied().collect();
     let found: Vec<Option<Centroid>> =
         placed.par_iter().map(|i| centroid::measured(image, &blobs[*i], room, bright)).collect();
+    let blur_px2 = sampling::blur_px2(found.iter().flatten().map(|c| c.rim));
+    let centre = |c: Centroid| Centroid { at: sampling::centre(c.at, &c.rim, blur_px2), ..c };
     let mut centroids = vec![None; blobs.len()];
-    placed.iter().zip(found).for_each(|(i, c)| centroids[*i] = c);
+    placed.iter().zip(found).for_each(|(i, c)| centroids[*i] = c.map(centre));
     let places: Places = places.iter().filter(|(_, i)| centroids[**i].is_some()).map(|(p, i)| (*p, *i)).collect();
     let points: Vec<DVec2> = (0..blobs.len()).map(|i| centroids[i].map_or(blobs[i].at, |c| c.at)).collect();
     let uncertainties: Vec<f64> = centroids.iter().map(|c| c.map_or(f64::INFINITY, |c| c.uncertainty_px)).collect();

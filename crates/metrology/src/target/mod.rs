@@ -3,7 +3,7 @@
 //! | chart | points | accuracy of a sharp picture | file |
 //! | --- | --- | --- | --- |
 //! | checkerboard | inner corners | 0.02 px | `checkerboard.rs`, on `chess.rs`, `saddle.rs`, `crossing.rs` |
-//! | dots: discs, dark or bright | centroids | 0.01 px | `dots.rs`, on `threshold.rs`, `components.rs`, `centroid.rs` |
+//! | dots: discs, dark or bright | centroids | 0.01 px | `dots.rs`, on `threshold.rs`, `components.rs`, `centroid.rs`, `sampling.rs` |
 //!
 //! Both are put in rows and columns (`lattice.rs`), robust to perspective and strong distortion. Points and numbers only
 //! come from the picture: neither the chart's size nor the lens is needed. The picture should be linear in light (a
@@ -24,6 +24,7 @@ mod grid;
 mod lattice;
 mod neighbours;
 mod saddle;
+mod sampling;
 mod threshold;
 
 pub use error::TargetError;

@@ -4,7 +4,7 @@ use crate::cameras::perspective;
 use crate::paint::{View, checkerboard, dots, noisy};
 use etendue_metrology::chromatic::{displacements, rings};
 use etendue_metrology::distortion::{Distortion, DistortionError, distortion};
-use etendue_metrology::target::{Sought, Target, find};
+use etendue_metrology::target::{Grid, Node, Sought, Target, find};
 use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, Sense};
 use glam::{DVec2, DVec3};
 
@@ -58,6 +58,22 @@ fn the_curve_is_the_camera_s() {
         assert!(off < 5e-4, "{off}");
         let bow = found.lines.iter().find(|l| l.is_row).expect("rows").bow;
         assert!(if sense == Sense::ObservedToIdeal { bow < -0.005 } else { bow > 0.002 }, "{bow}");
+    }
+}
+
+/// A list of exact points without distortion leaves residuals of rounding or none.
+#[test]
+fn exact_points_without_distortion_have_none() {
+    let node = |i: usize| {
+        let index = [i % 9, i / 9];
+        let at = DVec2::new(80.0 + 80.0 * index[0] as f64, 60.0 + 80.0 * index[1] as f64);
+        Node { index, at, uncertainty_px: 0.0 }
+    };
+    let grid = Grid { nodes: (0..63).map(node).collect(), size: [9, 7], disc_radius_steps: None };
+    let found = distortion(&grid, SIZE, None).expect("enough points");
+    for point in &found.curve {
+        let u = point.ratio.standard_uncertainty;
+        assert!((point.ratio.value - 1.0).abs() < 1e-9 && u.is_finite() && u < 1e-9, "{point:?}");
     }
 }
 

@@ -193,6 +193,59 @@ fn focal_length_from_a_distance() {
     });
 }
 
+/// One view from the front by a distance typed to half a millimetre: what was rounded is no normal error, and as large as that of the points.
+#[test]
+fn focal_length_from_a_typed_distance() {
+    const DIGIT: f64 = 5e-4;
+    let family = Family::Perspective { radial: Radial::Polynomial(0), tangential: false };
+    covers("focal, distance typed", |seed| {
+        let mut normal = normals(seed, 0);
+        let matrix = CameraMatrix { fx: 500.0, fy: 500.0, skew: 0.0, cx: 320.0, cy: 240.0 };
+        let model = perspective(500.0, &[], [640, 480]).model().clone();
+        let camera = Calibration::new(model, matrix, [640, 480]).expect("a camera");
+        let distance = 0.5 + 0.01 * normal();
+        let view = View::new(&camera, [0.0; 3], DVec2::new(0.125, 0.1), DVec3::new(0.0, 0.01, distance));
+        let typed = (distance / DIGIT).round() * DIGIT;
+        let told = Options {
+            square_pixels: true,
+            principal_px: Some(DVec2::new(320.0, 240.0)),
+            distance: Some(Estimate::new(typed, DIGIT / 12_f64.sqrt())),
+            ..Options::default()
+        };
+        let found = calibrate(&[sighted(&view, normal)], [640, 480], family, told).expect("settles");
+        named(&found, &[("fx_px", 500.0)])
+    });
+}
+
+/// Errors of 0.05 px that all points of a column or a row share, beside 0.02 px of each point's own.
+#[test]
+fn focal_length_by_points_that_share_errors() {
+    let family = Family::Perspective { radial: Radial::Polynomial(0), tangential: false };
+    covers("focal, errors shared by rows and columns", |seed| {
+        let mut normal = normals(seed, 0);
+        let matrix = CameraMatrix { fx: 500.0, fy: 500.0, skew: 0.0, cx: 320.0, cy: 240.0 };
+        let model = perspective(500.0, &[], [640, 480]).model().clone();
+        let camera = Calibration::new(model, matrix, [640, 480]).expect("a camera");
+        let view = View::new(&camera, [0.0; 3], DVec2::new(0.22, 0.16), DVec3::new(0.0, 0.0, 0.5));
+        let columns: Vec<f64> = (0..12).map(|_| 0.05 * normal()).collect();
+        let rows: Vec<f64> = (0..9).map(|_| 0.05 * normal()).collect();
+        let point = |i: usize| {
+            let chart = DVec2::new((i % 12) as f64, (i / 12) as f64) * 0.04;
+            let shared = DVec2::new(columns[i % 12], rows[i / 12]);
+            Some(Sighting { chart, at: view.image(chart)? + shared + 0.02 * DVec2::new(normal(), normal()) })
+        };
+        let view = Sightings { points: (0..108).filter_map(point).collect(), disc_radius: None };
+        let told = Options {
+            square_pixels: true,
+            principal_px: Some(DVec2::new(320.0, 240.0)),
+            distance: Some(Estimate::new(0.5, 0.0)),
+            ..Options::default()
+        };
+        let found = calibrate(&[view], [640, 480], family, told).expect("settles");
+        named(&found, &[("fx_px", 500.0)])
+    });
+}
+
 /// Red is 0.1 % larger than green, and all of it 0.05 px aside.
 #[test]
 fn lateral_colour() {

@@ -8,6 +8,7 @@ mod detection;
 mod distortion;
 #[path = "../intervals/draws.rs"]
 mod draws;
+mod frontal;
 mod intervals;
 mod opencv;
 mod paint;

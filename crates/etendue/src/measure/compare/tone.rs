@@ -18,6 +18,7 @@ use super::curve::Curve;
 use super::declared::{channel, place_of};
 use super::response::{spectrum, weighed};
 use super::side::Side;
+use crate::measure::readings::LUMINANCE;
 use etendue_isp::WhiteBalance;
 use etendue_metrology::Estimate;
 use etendue_pipeline::plan::{CameraBody, Development};
@@ -98,9 +99,6 @@ fn developed(
         None => Ok(of(LUMINANCE)),
     }
 }
-
-/// Weights of linear sRGB in the luminance (IEC 61966-2-1).
-const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
 /// Of the light, for slopes of the tone curve.
 const STEP: f64 = 0.05;

@@ -22,7 +22,9 @@ pub(crate) fn widen(found: &mut Found, sightings: &[Sightings], family: Family, 
     let now = focal(&found.camera);
     let wider = size[0].max(size[1]) as f64;
     for step in [DVec2::X, DVec2::Y].map(|axis| MIDDLE * wider * axis) {
-        let moved = |by: DVec2| Ok(values(&fitted(family, Options { principal_px: Some(principal + by), ..options })?));
+        let moved = |by: DVec2| -> Result<Vec<f64>, Error> {
+            Ok(values(&fitted(family, Options { principal_px: Some(principal + by), ..options })?))
+        };
         let (more, less) = (moved(step)?, moved(-step)?);
         add(found, 1.0, |i| 0.5 * (more[i] - less[i]));
         add(found, 3.0, |i| 0.5 * (more[i] + less[i]) - here[i]);

@@ -19,7 +19,8 @@ use etendue_projection::{CalibrationError, Sense};
 use glam::DVec2;
 use serde_json::Value;
 pub use stated::StatedLength;
-use std::path::PathBuf;
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
 
 /// The pictures, the chart and what is known of the camera.
 #[derive(Clone, Debug)]
@@ -193,15 +194,16 @@ impl ViewsRequest {
 
     /// By options that may follow from the picture's size.
     fn found_by(&self, options: impl Fn([usize; 2]) -> Options, observer: &dyn Observer) -> Result<Found, Error> {
-        let views = all(&self.chart, &self.files, observer)?;
+        let (views, without) = all(&self.chart, &self.files, observer)?;
         let pitch_mm = self.pitch_mm()?;
         let sightings: Vec<Sightings> = views.iter().map(|v| Sightings::of_grid(&v.grid, pitch_mm)).collect();
         let size = views[0].size_px;
         let options = options(size);
         let spared = calibrate_sparing(&sightings, size, self.model.family(), options);
         let spared = spared.map_err(|error| Error::input(of_files(&error, &views)))?;
-        let left_out = spared.left_out.iter().map(|(v, why)| format!("{}: left out: {why}", views[*v].file.display()));
-        let mut notes: Vec<String> = left_out.collect();
+        let left_out = |file: &Path, why: &dyn Display| format!("warning: {}: left out: {why}", file.display());
+        let mut notes: Vec<String> = without.iter().map(|(file, why)| left_out(file, why)).collect();
+        notes.extend(spared.left_out.iter().map(|(v, why)| left_out(&views[*v].file, why)));
         let kept: Vec<&Sightings> = spared.kept.iter().map(|v| &sightings[*v]).collect();
         let views: Vec<Seen> = spared.kept.iter().map(|v| views[*v].clone()).collect();
         notes.extend(advice::unsuited(self.model, &spared.camera, &views, &kept, options));

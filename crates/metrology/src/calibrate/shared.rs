@@ -1,0 +1,165 @@
+//! What errors of points of one line of the chart have in common, and what it does to the camera.
+//!
+//! In a view from the front all points of a column lie alike between the pixels' columns, and what the pixels' raster does to one
+//! of them it does to all; noise of whole rows or columns of the sensor, and a line of the chart that is printed a little aside,
+//! are shared as well. So an error is e = ε + a column's + a row's, for x and for y each, independent with variances σ² and
+//! τₖ² of four kinds k. They are found by moments: with residuals r = M e, M = 1 − J (JᵀJ)⁻¹Jᵀ, and z_g the 0 and 1 of line g of n_g points,
+//!
+//! ```text
+//! Σ r²                     = σ² tr M             + Σₖ τₖ² Σ_{h ∈ k} z_hᵀ M z_h                  (on average)
+//! Σ_{g ∈ l} (z_g · r)²/n_g = σ² Σ z_gᵀ M z_g/n_g + Σₖ τₖ² Σ_{g ∈ l} Σ_{h ∈ k} (z_gᵀ M z_h)²/n_g
+//! ```
+//!
+//! (Searle, Casella & McCulloch 1992), those that come out negative being 0; and the covariance is that of least squares under such errors,
+//! s² (JᵀJ)⁻¹ + Σₖ τₖ² Σ_g v_g v_gᵀ with v_g = (JᵀJ)⁻¹Jᵀz_g, s² all of the scatter, Σ r²/ν: never less than of independent errors. τₖ² is as uncertain as the few lines make it: it counts with Student's
+//! variance, ν/(ν − 2), ν = Σ z_gᵀ M z_g/n_g lines that are free.
+//!
+//! Left out: errors that drift slowly from line to line (steps of nearly whole pixels), which look like a camera.
+
+use super::problem::Bundle;
+use crate::fit::{Fit, slopes};
+use crate::linear::matrix::dot;
+use crate::linear::{Matrix, Orthogonal};
+use std::collections::BTreeMap;
+
+/// Coordinates of a point, and directions of lines.
+const AXES: [usize; 2] = [0, 1];
+const KINDS: usize = 4;
+/// Student's variance of fewer free lines than three would be without limit.
+const LARGEST_STUDENT: f64 = 3.0;
+
+/// A coordinate of the points of a row or column of one view.
+struct Line {
+    kind: usize,
+    view: usize,
+    points: Vec<usize>,
+    /// z · r.
+    sum: f64,
+    /// Jᵀz, and (JᵀJ)⁻¹ of it.
+    pull: Vec<f64>,
+    moved: Vec<f64>,
+}
+
+impl Line {
+    fn count(&self) -> f64 {
+        self.points.len() as f64
+    }
+
+    /// z_gᵀ M z_h, of lines of one view.
+    fn product(&self, other: &Self) -> f64 {
+        let same_axis = self.kind / 2 == other.kind / 2;
+        let common = || self.points.iter().filter(|p| other.points.binary_search(p).is_ok()).count() as f64;
+        let common = if same_axis { common() } else { 0.0 };
+        common - dot(&self.pull, &other.moved)
+    }
+}
+
+/// The covariance of a fit's numbers under errors that lines share.
+pub(super) fn covariance(bundle: &Bundle<'_>, fit: &Fit) -> Matrix {
+    let unit = unit_covariance(fit);
+    let widened = unit.as_ref().and_then(|unit| {
+        let lines = lines(bundle, fit, unit)?;
+        Some(of(unit, &lines, fit))
+    });
+    let mut covariance = widened.unwrap_or_else(|| fit.covariance.clone());
+    let open = (0..fit.parameters.len()).filter(|i| fit.covariance.at(*i, *i).is_infinite());
+    open.for_each(|i| *covariance.at_mut(i, i) = f64::INFINITY);
+    covariance
+}
+
+/// (JᵀJ)⁻¹, with nothing of what is not determined; `None` of exact points.
+fn unit_covariance(fit: &Fit) -> Option<Matrix> {
+    let variance = fit.sigma * fit.sigma;
+    let n = fit.parameters.len();
+    let finite = |value: f64| if value.is_finite() { value / variance } else { 0.0 };
+    let row = |i: usize| (0..n).map(|j| finite(fit.covariance.at(i, j))).collect::<Vec<f64>>();
+    (variance > 0.0).then(|| Matrix::from_rows(n, (0..n).map(row)))
+}
+
+/// Lines of two points or more.
+fn lines(bundle: &Bundle<'_>, fit: &Fit, unit: &Matrix) -> Option<Vec<Line>> {
+    let slopes = slopes(bundle, &fit.parameters)?;
+    let mut lines = Vec::new();
+    for (view, columns) in slopes.iter().enumerate() {
+        for direction in AXES {
+            for points in alike(bundle, view, direction) {
+                lines.extend(AXES.map(|axis| {
+                    let at = |list: &[f64]| points.iter().map(|p| list[2 * p + axis]).sum::<f64>();
+                    let mut pull = vec![0.0; fit.parameters.len()];
+                    columns.iter().for_each(|(i, slope)| pull[*i] = at(slope));
+                    let (sum, moved) = (at(&fit.residuals[view]), unit.times(&pull));
+                    Line { kind: 2 * axis + direction, view, points: points.clone(), sum, pull, moved }
+                }));
+            }
+        }
+    }
+    Some(lines)
+}
+
+/// Points of a view that have one of their chart's coordinates in common.
+fn alike(bundle: &Bundle<'_>, view: usize, direction: usize) -> impl Iterator<Item = Vec<usize>> {
+    let mut lines: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
+    for (p, point) in bundle.views[view].points.iter().enumerate() {
+        lines.entry(point.chart[direction].to_bits()).or_default().push(p);
+    }
+    lines.into_values().filter(|points| points.len() > 1)
+}
+
+fn of(unit: &Matrix, lines: &[Line], fit: &Fit) -> Matrix {
+    let free: [f64; KINDS] = std::array::from_fn(|k| {
+        lines.iter().filter(|line| line.kind == k).map(|line| line.product(line) / line.count()).sum()
+    });
+    let [_, shared @ ..] = components(lines, fit);
+    // All of the scatter, so that what few lines tell badly makes nothing less uncertain.
+    let variance = fit.sigma * fit.sigma;
+    let n = fit.parameters.len();
+    let mut covariance = Matrix::zeros(n, n);
+    for i in 0..n {
+        for j in 0..n {
+            let of_lines = |l: &Line| shared[l.kind] * student(free[l.kind]) * l.moved[i] * l.moved[j];
+            *covariance.at_mut(i, j) = variance * unit.at(i, j) + lines.iter().map(of_lines).sum::<f64>();
+        }
+    }
+    covariance
+}
+
+fn student(freedom: f64) -> f64 {
+    if freedom > 3.0 { (freedom / (freedom - 2.0)).min(LARGEST_STUDENT) } else { LARGEST_STUDENT }
+}
+
+/// σ² and the four τ².
+fn components(lines: &[Line], fit: &Fit) -> [f64; 1 + KINDS] {
+    let mut moments = Matrix::zeros(1 + KINDS, 1 + KINDS);
+    let mut seen = [0.0; 1 + KINDS];
+    seen[0] = fit.sigma * fit.sigma * fit.degrees_of_freedom as f64;
+    *moments.at_mut(0, 0) = fit.degrees_of_freedom as f64;
+    for line in lines {
+        let (row, own) = (1 + line.kind, line.product(line));
+        seen[row] += line.sum * line.sum / line.count();
+        *moments.at_mut(0, row) += own;
+        *moments.at_mut(row, 0) += own / line.count();
+        for other in lines.iter().filter(|other| other.view == line.view) {
+            let product = line.product(other);
+            *moments.at_mut(row, 1 + other.kind) += product * product / line.count();
+        }
+    }
+    not_negative(&moments, seen)
+        .unwrap_or_else(|| std::array::from_fn(|k| if k == 0 { fit.sigma * fit.sigma } else { 0.0 }))
+}
+
+/// The solution in which what would be negative is 0.
+fn not_negative(moments: &Matrix, seen: [f64; 1 + KINDS]) -> Option<[f64; 1 + KINDS]> {
+    let mut kept: Vec<usize> = (0..=KINDS).filter(|k| moments.at(*k, *k) > 0.0).collect();
+    loop {
+        let rows = kept.iter().map(|i| kept.iter().map(|j| moments.at(*i, *j)).collect::<Vec<f64>>());
+        let values: Vec<f64> = kept.iter().map(|k| seen[*k]).collect();
+        let solved = Orthogonal::of(&Matrix::from_rows(kept.len(), rows), 1e-12)?.solve(&values).parameters;
+        let least = (1..kept.len()).min_by(|a, b| solved[*a].total_cmp(&solved[*b])).filter(|i| solved[*i] < 0.0);
+        let Some(least) = least else {
+            let mut all = [0.0; 1 + KINDS];
+            kept.iter().zip(&solved).for_each(|(k, value)| all[*k] = *value);
+            return (all[0] > 0.0).then_some(all);
+        };
+        kept.remove(least);
+    }
+}
