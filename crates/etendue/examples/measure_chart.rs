@@ -14,9 +14,9 @@ use std::path::Path;
 
 /// Makes the chart, photographs and measures it in `out`.
 pub(crate) fn run(out: &Path) -> Result<Report, Error> {
-    let size = GridSize { columns: Some(17), rows: None, pitch_mm: None };
+    let size = GridSize { columns: Some(33), rows: None, pitch_mm: None };
     let chart = Chart::Dots(Dots { size, dot_share: 0.5 });
-    make(&ChartRequest::new(chart, "ccd-mono"), (&out.join("chart"), Existing::Replace))?;
+    make(&ChartRequest::new(chart, "automotive"), (&out.join("chart"), Existing::Replace))?;
 
     let job = JobRequest { spp: Some(4), ..JobRequest::new(out.join("chart/job.toml")) }.open()?;
     job.save(&RenderOptions::default(), (&out.join("photo"), Existing::Replace), &Unobserved)?;

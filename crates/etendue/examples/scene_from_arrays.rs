@@ -22,6 +22,7 @@ reflectance = 0.4
 [[scene.meshes]]
 name = "sheet"
 file = "sheet.obj"
+up_axis = "z"
 
 [[scene.objects]]
 name = "sheet"
