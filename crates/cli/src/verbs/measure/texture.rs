@@ -134,6 +134,7 @@ struct Leaves {
 
 /// A picture of the leaves, cut to them where the chart's truth says where they are.
 fn leaves(inquiry: &Inquiry, readings: Readings, file: &Path) -> Result<Leaves, Failure> {
+    readings.independent(file, 1)?;
     let (full_scale, stated) = (inquiry.levels.full_scale(&readings), readings.stated.clone());
     let image = match inquiry.truth(&["dead-leaves"], file, &readings)? {
         Some(truth) => readings.part(truth.patches(&readings)?.0[0].at, "--truth: the leaves")?,
