@@ -12,7 +12,7 @@ use crate::scenes::{camera, plan_of};
 use crate::threads::pool;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::render::{Request, light};
-use etendue_pipeline::{Choices, Plan, Unobserved};
+use etendue_pipeline::{Plan, Unobserved};
 use rayon::ThreadPool;
 use std::path::Path;
 
@@ -34,8 +34,7 @@ struct Order<'a> {
 /// A sentence where the arguments are no such order, the job folds no electrons or a file cannot be written.
 pub fn rendered(arguments: &[String]) -> Result<Vec<String>, String> {
     let [job, out, spp, threads, seeds @ ..] = arguments else { return Err(USAGE.to_owned()) };
-    let mut order =
-        Order { plan: plan_of(Path::new(job), &[], &Choices::default()), pool: pool(number(threads)?), out };
+    let mut order = Order { plan: plan_of(Path::new(job)), pool: pool(number(threads)?), out };
     order.render(1, 0);
     let spp = number(spp)?;
     seeds.iter().map(|seed| order.line(spp, number(seed)?)).collect()

@@ -59,11 +59,13 @@ impl Scene {
         let named = format!("scene={OTHER}");
         let changes: Vec<&str> = changes.iter().copied().chain([named.as_str()]).collect();
         let read = |path: &Path| if path.ends_with(OTHER) { Ok(scene.to_owned()) } else { read(path) };
-        compiled(&self.job(), &read, &changes, &Choices::default())
+        compiled(&self.job(), &read, &Overrides::new(changes))
     }
 
     fn planned(&self, changes: &[&str], spp: u32) -> Plan {
-        plan_of(&self.job(), changes, &Choices { spp: Some(spp), ..Choices::default() })
+        let mut overrides = Overrides::new(changes);
+        overrides.push_render(&format!("--spp {spp}"), "spp", &spp.to_string());
+        compiled(&self.job(), &read, &overrides)
     }
 
     fn job(&self) -> PathBuf {
@@ -73,24 +75,23 @@ impl Scene {
 }
 
 /// The plan of a job file. Panics where the file or what it names cannot be used.
-pub fn plan_of(job: &Path, changes: &[&str], choices: &Choices) -> Plan {
-    compiled(job, &read, changes, choices)
+pub fn plan_of(job: &Path) -> Plan {
+    compiled(job, &read, &Overrides::default())
 }
 
 /// The plan of a job given as text, which names no files. Panics where it cannot be used.
 pub fn plan_of_text(job: &str) -> Plan {
-    compiled(Path::new("job.toml"), &|_| Ok(job.to_owned()), &[], &Choices::default())
+    compiled(Path::new("job.toml"), &|_| Ok(job.to_owned()), &Overrides::default())
 }
 
 fn read(path: &Path) -> Result<String, String> {
     std::fs::read_to_string(path).map_err(|error| error.to_string())
 }
 
-fn compiled(job: &Path, read: &dyn Fn(&Path) -> Result<String, String>, changes: &[&str], choices: &Choices) -> Plan {
-    let overrides = Overrides::new(changes);
-    let description = Description::load(job, read, &overrides).unwrap_or_else(|faults| panic!("{faults}"));
+fn compiled(job: &Path, read: &dyn Fn(&Path) -> Result<String, String>, overrides: &Overrides) -> Plan {
+    let description = Description::load(job, read, overrides).unwrap_or_else(|faults| panic!("{faults}"));
     let assets = load_assets(&description.assets()).unwrap_or_else(|faults| panic!("{faults:?}"));
-    compile(&description, &assets, choices).unwrap_or_else(|faults| panic!("{faults:?}"))
+    compile(&description, &assets, &Choices::default()).unwrap_or_else(|faults| panic!("{faults:?}"))
 }
 
 /// The first camera of a plan.

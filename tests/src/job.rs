@@ -85,10 +85,11 @@ impl Job {
     #[must_use]
     pub fn plan(&self) -> Plan {
         let read = |_: &Path| Ok(self.text.clone());
-        let description = Description::load(Path::new("job.toml"), &read, &Overrides::default())
+        let mut overrides = Overrides::default();
+        overrides.push_render(&format!("--seed {}", self.seed), "seed", &self.seed.to_string());
+        let description = Description::load(Path::new("job.toml"), &read, &overrides)
             .unwrap_or_else(|faults| panic!("{faults}\n{}", self.text));
-        let choices = Choices { seed: Some(self.seed), ..Choices::default() };
-        compile(&description, &self.assets, &choices).unwrap_or_else(|faults| {
+        compile(&description, &self.assets, &Choices::default()).unwrap_or_else(|faults| {
             let lines: Vec<String> = faults.iter().map(ToString::to_string).collect();
             panic!("{}\n{}", lines.join("\n"), self.text)
         })

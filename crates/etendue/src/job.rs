@@ -126,7 +126,7 @@ impl JobRequest {
             Quality::Standard => etendue_pipeline::Quality::Standard,
             Quality::Reference => etendue_pipeline::Quality::Reference,
         });
-        Choices { quality, ..Choices::default() }
+        Choices { quality }
     }
 
     /// Only the camera that was asked for. Its random addresses are those it has among all.

@@ -58,10 +58,11 @@ struct View {
 fn view(name: &str, index: usize) -> View {
     let job: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("oracles/figures/charts/{name}.toml"));
     let read = |path: &Path| std::fs::read_to_string(path).map_err(|error| error.to_string());
-    let job = Description::load(&job, &read, &Overrides::default()).unwrap_or_else(|faults| panic!("{faults}"));
+    let mut overrides = Overrides::default();
+    overrides.push_render("--spp 16", "spp", "16");
+    let job = Description::load(&job, &read, &overrides).unwrap_or_else(|faults| panic!("{faults}"));
     let assets = load_assets(&job.assets()).unwrap_or_else(|faults| panic!("{faults:?}"));
-    let choices = Choices { spp: Some(16), ..Choices::default() };
-    let plan = compile(&job, &assets, &choices).unwrap_or_else(|faults| panic!("{faults:?}"));
+    let plan = compile(&job, &assets, &Choices::default()).unwrap_or_else(|faults| panic!("{faults:?}"));
     let shot = Shot::of_camera(plan, index);
     let electrons = shot.electrons();
     let most = electrons.iter().copied().fold(0.0, f32::max);

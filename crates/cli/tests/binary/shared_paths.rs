@@ -50,3 +50,23 @@ fn means_over_patches_know_the_blocks_and_what_does_not_refuses() {
         ran.refused(&["picture.0000.png", "alike in blocks", "tail_sharing_px", "render without sharing"]);
     }
 }
+
+#[test]
+fn textures_and_photon_transfer_refuse_shared_paths() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let picture = picture(folder.path(), 16);
+    let told = ["picture.0000.png", "alike in blocks", "tail_sharing_px", "render without sharing"];
+    let alone = tempfile::tempdir().expect("a folder");
+    let independent = self::picture(alone.path(), 1);
+    etendue(["measure", "texture", &picture, &independent]).refused(&told);
+    etendue(["measure", "texture", &independent, &picture]).refused(&told);
+    etendue(["measure", "texture", &independent, &independent, "--even", &picture]).refused(&told);
+    let level = |head: &str| format!("{head}\ni picture.0000.png\ni picture.0000.png\n");
+    let descriptor = format!("v 4.0\nn 16 96 48\n{}{}", level("b 1000 10"), level("d 1000"));
+    let file = folder.path().join("emva1288.txt");
+    std::fs::write(&file, descriptor).expect("written");
+    let file = text(&file);
+    etendue(["measure", "ptc", &file]).refused(&told);
+    let at = |celsius: u32| format!("{celsius}:{file}");
+    etendue(["measure", "dark-current", &at(20), &at(30), &at(40)]).refused(&told);
+}

@@ -150,6 +150,7 @@ struct Leaves {
 
 /// A picture of the leaves, cut to them where the chart's truth says where they are.
 fn leaves(input: &PictureInput, readings: Readings, file: &Path) -> Result<Leaves, Error> {
+    readings.independent(file, 1)?;
     let (full_scale, stated) = (input.levels.full_scale(&readings), readings.stated.clone());
     let image = match input.truth(&["dead-leaves"], file, &readings)? {
         Some(truth) => readings.part(truth.patches(&readings)?.0[0].at, "--truth: the leaves")?,

@@ -37,15 +37,14 @@ use etendue_scene::{CameraSetup, Description, Fault};
 use glam::DVec3;
 use material::PaletteBuilder;
 
-/// What the caller chooses over the description.
+/// What the caller chooses beside the description. Samples and seed are no choices but keys: [`Overrides`] set them, and the
+/// description's own checks see them.
+///
+/// [`Overrides`]: etendue_scene::Overrides
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Choices {
-    /// Samples a pixel; `None` for what the description or the quality says.
-    pub spp: Option<u32>,
     /// A preset for what the description leaves open; `None` is standard.
     pub quality: Option<Quality>,
-    /// The seed; `None` for what the description says, or 0.
-    pub seed: Option<u64>,
 }
 
 /// Presets of the trade of time for accuracy.

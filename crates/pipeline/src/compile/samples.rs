@@ -11,10 +11,9 @@ const REPLICATES: u64 = 4;
 /// Samples a pixel and replicates; the replicates divide the samples.
 pub(super) fn samples(render: &Render, choices: &Choices, context: &mut Context<'_>) -> (u32, u32) {
     let by_quality = || choices.quality.unwrap_or(Quality::Standard).spp();
-    let by_job = || render.spp.as_ref().map(|s| s.value as u32);
-    let spp = choices.spp.or_else(by_job).unwrap_or_else(by_quality);
+    let spp = render.spp.as_ref().map_or_else(by_quality, |s| s.value as u32);
     let given = render.replicates.as_ref();
-    if let Some(replicates) = given.filter(|r| spp > 0 && u64::from(spp) % r.value == 0) {
+    if let Some(replicates) = given.filter(|r| u64::from(spp) % r.value == 0) {
         return (spp, replicates.value as u32);
     }
     if let Some(replicates) = given {

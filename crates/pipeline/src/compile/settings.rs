@@ -200,7 +200,7 @@ pub(super) fn settings(
         folded,
         tile_px: blocks.tile_px(render.tile_px.as_ref().map_or(TILE_PX, |t| t.value) as u32),
         blocks,
-        seed: choices.seed.or(render.seed.as_ref().map(|s| s.value)).unwrap_or(0),
+        seed: render.seed.as_ref().map_or(0, |s| s.value),
     })
 }
 

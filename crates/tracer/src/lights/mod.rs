@@ -17,11 +17,13 @@ mod collect;
 mod environment;
 pub mod head_lamp;
 mod lamp;
+mod near;
 mod primitives;
 mod profile;
 mod receiver;
 mod sky;
 mod sphere;
+mod spherical;
 mod sun;
 mod tree;
 mod triangle;
@@ -309,6 +311,8 @@ const DIGIT: f64 = 0.5 * 1.192_092_895_507_812_5e-7;
 struct Glowing<'a> {
     material: crate::MaterialId,
     error_m: f32,
+    /// How far before the point, along the ray to it, the accelerator may already meet the surface.
+    early_m: f32,
     palette: &'a Palette,
 }
 
@@ -329,7 +333,10 @@ impl Glowing<'_> {
         let side = -1.0_f32.copysign(surface.normal.dot(direction));
         Some(LightSample {
             direction,
-            target: Some(from + surface.way + surface.normal * (side * (self.error_m + ROUNDING * distance))),
+            target: Some(
+                from + (surface.way - direction * self.early_m.min(0.5 * distance))
+                    + surface.normal * (side * (self.error_m + ROUNDING * distance)),
+            ),
             radiance: self.palette.radiance(self.material, emission, &lookup, wavelengths),
             pdf: surface.pdf,
             delta: false,

@@ -136,7 +136,7 @@ impl SphereLight {
     }
 
     pub(super) fn glowing<'a>(&self, palette: &'a Palette) -> Glowing<'a> {
-        Glowing { material: self.material, error_m: self.error_m, palette }
+        Glowing { material: self.material, error_m: self.error_m, early_m: 0.0, palette }
     }
 }
 

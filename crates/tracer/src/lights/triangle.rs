@@ -1,4 +1,4 @@
-//! Glowing triangles and parallelograms, drawn uniformly by area.
+//! Glowing triangles and parallelograms, drawn uniformly by solid angle from near by, and by area from afar.
 //!
 //! Two triangles that make up a parallelogram are one light: points then lie as well on it as the numbers do in their
 //! square, and there are half as many lights to choose from.
@@ -6,6 +6,7 @@
 use etendue_core::warp::uniform_triangle;
 use glam::{DAffine3, Mat3, Vec2, Vec3};
 
+use super::near::{Flat, Near, Nearness};
 use super::tree::LightBounds;
 use super::{Glowing, Met, ROUNDING, SurfaceSample, solid_angle_pdf};
 use crate::MaterialId;
@@ -15,13 +16,12 @@ use crate::materials::Palette;
 /// A glowing triangle in the render frame, or a parallelogram.
 #[derive(Clone, Debug)]
 pub(super) struct TriangleLight {
-    /// Whether it is a parallelogram, with as much again beyond the side that its edges leave open.
-    doubled: bool,
-    corner: Vec3,
-    edges: [Vec3; 2],
+    flat: Flat,
     /// On the same side as the surface's geometric normal: that of the winding in the mesh's own frame.
     normal: Vec3,
     per_area: f32,
+    /// Where it is drawn by solid angle.
+    nearness: Nearness,
     uvs: [Vec2; 3],
     uv_per_m: f32,
     error_m: f32,
@@ -41,12 +41,12 @@ impl TriangleLight {
         let per_area = (2.0 / doubled.length()) as f32;
         let uv_area = (uvs[1] - uvs[0]).perp_dot(uvs[2] - uvs[0]).abs();
         let linear = to_render.matrix3.as_mat3();
+        let flat = Flat { corner: a.as_vec3(), edges: [(b - a).as_vec3(), (c - a).as_vec3()], doubled: false };
         let light = Self {
-            doubled: false,
-            corner: a.as_vec3(),
-            edges: [(b - a).as_vec3(), (c - a).as_vec3()],
+            flat,
             normal: doubled.normalize_or_zero().as_vec3(),
             per_area,
+            nearness: Nearness::of(&flat),
             uvs,
             uv_per_m: (0.5 * uv_area * per_area).sqrt(),
             error_m: error_bound(own, linear, to_render.translation.as_vec3()),
@@ -67,12 +67,13 @@ impl TriangleLight {
         let (near, far) = (whole[0].turned(turn % 3), whole[1].turned(turn / 3));
         let single = Self::of_corners(&near, to_render, material)?;
         let error_m = single.error_m.max(Self::of_corners(&far, to_render, material)?.error_m);
-        Some(Self { doubled: true, per_area: 0.5 * single.per_area, error_m, ..single })
+        let flat = Flat { doubled: true, ..single.flat };
+        Some(Self { flat, nearness: Nearness::of(&flat), per_area: 0.5 * single.per_area, error_m, ..single })
     }
 
     /// How many triangles it is.
     pub(super) fn triangles(&self) -> usize {
-        1 + usize::from(self.doubled)
+        1 + usize::from(self.flat.doubled)
     }
 
     pub(super) fn area_m2(&self) -> f64 {
@@ -81,9 +82,7 @@ impl TriangleLight {
 
     /// For the choice among lights, at a mean radiance; `both` sides glow or only the front.
     pub(super) fn bounds(&self, radiance: f64, both: bool) -> LightBounds {
-        let [along, across] = self.edges;
-        let far = if self.doubled { along + across } else { across };
-        let corners = [self.corner, self.corner + along, self.corner + across, self.corner + far];
+        let corners = self.flat.corners();
         // A side's intensity falls by the cosine, whose mean over all directions is one half.
         let share = if both { 0.5 } else { 1.0 };
         LightBounds::of_surface(&corners, share * radiance * self.area_m2(), (!both).then_some(self.normal))
@@ -91,20 +90,41 @@ impl TriangleLight {
 
     #[inline(always)]
     pub(super) fn sample(&self, from: Vec3, u: Vec2) -> Option<SurfaceSample> {
-        let b = if self.doubled { u } else { uniform_triangle(u) };
-        let way = self.corner + self.edges[0] * b.x + self.edges[1] * b.y - from;
+        let near = self.near(from);
+        let b = match &near {
+            Some(near) => near.place(u)?,
+            None if self.flat.doubled => u,
+            None => uniform_triangle(u),
+        };
+        let way = self.flat.at(b) - from;
         let distance = way.length();
-        let pdf = solid_angle_pdf(self.per_area, way, distance, self.normal);
+        let pdf = self.density(near.as_ref(), way, distance);
         let uv = self.uvs[0] * (1.0 - b.x - b.y) + self.uvs[1] * b.x + self.uvs[2] * b.y;
         (pdf > 0.0).then_some(SurfaceSample { way, distance, normal: self.normal, pdf, uv, uv_per_m: self.uv_per_m })
     }
 
     pub(super) fn pdf(&self, met: &Met<'_>) -> f32 {
-        solid_angle_pdf(self.per_area, met.direction * met.distance_m, met.distance_m, self.normal)
+        let near = self.near(met.receiver.position);
+        self.density(near.as_ref(), met.direction * met.distance_m, met.distance_m)
+    }
+
+    /// Density by solid angle of the point at the end of `way`.
+    #[inline(always)]
+    fn density(&self, near: Option<&Near>, way: Vec3, distance: f32) -> f32 {
+        match near {
+            Some(near) => near.per_sr,
+            None => solid_angle_pdf(self.per_area, way, distance, self.normal),
+        }
+    }
+
+    /// The light as seen from near by; `None` from afar, or where it fills too little.
+    #[inline(always)]
+    fn near(&self, from: Vec3) -> Option<Near> {
+        if self.nearness.holds(from) { Near::new(&self.flat, from) } else { None }
     }
 
     pub(super) fn glowing<'a>(&self, palette: &'a Palette) -> Glowing<'a> {
-        Glowing { material: self.material, error_m: self.error_m, palette }
+        Glowing { material: self.material, error_m: self.error_m, early_m: self.flat.early_m(), palette }
     }
 }
 

@@ -159,7 +159,9 @@ impl Reading<'_> {
     }
 
     fn image(&self, file: &Path) -> Result<Image, Error> {
-        let image = self.selection.raw(file)?.image;
+        let readings = self.selection.raw(file)?;
+        readings.independent(file, 1)?;
+        let image = readings.image;
         let whole = self.selection.region.is_none() && self.selection.channel.is_none();
         let (size, expected) = ((image.width(), image.height()), (self.descriptor.width, self.descriptor.height));
         if whole && size != expected {

@@ -8,6 +8,7 @@ mod closed_forms;
 mod inside;
 mod lamps;
 mod levels;
+mod near_lights;
 mod passages;
 mod sharing;
 mod sides;

@@ -1,0 +1,192 @@
+//! A triangle or a parallelogram close to the point that asks for its light.
+//!
+//! Drawn by area, a point of a light has the density r²/(A cos θ), which from near by grows from the closest part to the farthest by orders
+//! of magnitude: almost all draws go to parts that give almost nothing, and the part that gives the light is left to chance. Drawn by
+//! solid angle the density is 1/Ω everywhere.
+
+use glam::{DVec2, DVec3, Vec2, Vec3};
+
+use super::spherical::SphericalTriangle;
+
+/// Least solid angle that is drawn by, sr: below, by area (as pbrt-v4 does from 3e-4 on, in f32).
+const LEAST_SR: f64 = 1e-5;
+
+/// Within how many times its own radius, from the middle to the farthest corner, a point is near.
+const NEAR: f32 = 2.0;
+
+/// Four roundings of f32.
+const EARLY: f32 = 4.0 * 0.5 * f32::EPSILON;
+
+/// A flat light: a corner and the two edges from it; with as much again beyond the side that they leave open where it is `doubled`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Flat {
+    pub(super) corner: Vec3,
+    pub(super) edges: [Vec3; 2],
+    pub(super) doubled: bool,
+}
+
+impl Flat {
+    /// A point, in shares of the edges.
+    pub(super) fn at(&self, shares: Vec2) -> Vec3 {
+        self.corner + self.edges[0] * shares.x + self.edges[1] * shares.y
+    }
+
+    /// How far before a point of it, along the ray to it, the accelerator may meet it: some roundings of f32 of its length, and of a
+    /// needle as many times more as it is longer than wide, as its barycentric coordinates are uncertain by so much.
+    pub(super) fn early_m(&self) -> f32 {
+        let [along, across] = self.edges;
+        let length2 = along.length_squared().max(across.length_squared());
+        EARLY * length2 * length2.sqrt() / along.cross(across).length()
+    }
+
+    /// The corners; of a triangle the last one twice.
+    pub(super) fn corners(&self) -> [Vec3; 4] {
+        let far = if self.doubled { Vec2::ONE } else { Vec2::Y };
+        [Vec2::ZERO, Vec2::X, Vec2::Y, far].map(|shares| self.at(shares))
+    }
+}
+
+/// Up to where a point is near to a flat light.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Nearness {
+    centre: Vec3,
+    radius2: f32,
+}
+
+impl Nearness {
+    pub(super) fn of(flat: &Flat) -> Self {
+        let centre = flat.at(Vec2::splat(if flat.doubled { 0.5 } else { 1.0 / 3.0 }));
+        let extent2 = flat.corners().map(|corner| corner.distance_squared(centre)).into_iter().fold(0.0, f32::max);
+        Self { centre, radius2: NEAR * NEAR * extent2 }
+    }
+
+    pub(super) fn holds(&self, from: Vec3) -> bool {
+        from.distance_squared(self.centre) < self.radius2
+    }
+}
+
+/// A flat light as seen from a point near by.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Near {
+    /// From the point to the corner, and the edges.
+    corner: DVec3,
+    edges: [DVec3; 2],
+    triangle: SphericalTriangle,
+    far: Option<SphericalTriangle>,
+    solid_angle_sr: f64,
+    /// 1/Ω.
+    pub(super) per_sr: f32,
+}
+
+impl Near {
+    /// `None` where it fills too little of the directions, as edge-on.
+    pub(super) fn new(flat: &Flat, from: Vec3) -> Option<Self> {
+        let corner = flat.corner.as_dvec3() - from.as_dvec3();
+        let edges = flat.edges.map(|edge| edge.as_dvec3());
+        let [along, across] = edges.map(|edge| corner + edge);
+        let triangle = SphericalTriangle::new([corner, along, across]);
+        let far = flat.doubled.then(|| SphericalTriangle::new([along + edges[1], across, along]));
+        let solid_angle_sr = triangle.solid_angle_sr() + far.map_or(0.0, |far| far.solid_angle_sr());
+        let per_sr = (1.0 / solid_angle_sr) as f32;
+        (solid_angle_sr > LEAST_SR).then_some(Self { corner, edges, triangle, far, solid_angle_sr, per_sr })
+    }
+
+    /// A point of the light, in shares of its edges; `None` where rounding leaves no number.
+    pub(super) fn place(&self, u: Vec2) -> Option<Vec2> {
+        let u = u.as_dvec2();
+        let share = self.triangle.solid_angle_sr() / self.solid_angle_sr;
+        let direction = match &self.far {
+            Some(far) if u.x >= share => far.sample(DVec2::new((u.x - share) / (1.0 - share), u.y)),
+            _ => self.triangle.sample(DVec2::new((u.x / share).min(1.0), u.y)),
+        };
+        let place = self.met(direction);
+        let place = if self.far.is_some() { place } else { place / place.element_sum().max(1.0) };
+        place.is_finite().then(|| place.as_vec2())
+    }
+
+    /// Where a direction meets the light's plane, in shares of the edges, held within the light.
+    fn met(&self, direction: DVec3) -> DVec2 {
+        let [along, across] = self.edges;
+        let normal = along.cross(across);
+        let aside = direction * (normal.dot(self.corner) / normal.dot(direction)) - self.corner;
+        let place = DVec2::new(aside.cross(across).dot(normal), along.cross(aside).dot(normal));
+        (place / normal.length_squared()).clamp(DVec2::ZERO, DVec2::ONE)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_stats::chi_square;
+
+    /// Cells along each edge.
+    const CELLS: usize = 6;
+    /// Draws along each number.
+    const DRAWS: usize = 300;
+
+    fn flat(corner: Vec3, along: Vec3, across: Vec3, doubled: bool) -> Flat {
+        Flat { corner, edges: [along, across], doubled }
+    }
+
+    /// Squares, needles and slanted ones, close by, grazing and far.
+    fn flats() -> Vec<Flat> {
+        let strip = Vec3::new(0.0, 2.4, 0.0);
+        let mut all = Vec::new();
+        for doubled in [true, false] {
+            all.push(flat(Vec3::new(-0.5, -0.5, 1.0), Vec3::X, Vec3::Y, doubled));
+            all.push(flat(Vec3::new(-0.5, -0.7, 1e-3), Vec3::X, Vec3::Y, doubled));
+            all.push(flat(Vec3::new(0.03, -1.1, 0.02), Vec3::new(0.01, 0.0, 0.0), strip, doubled));
+            all.push(flat(Vec3::new(2.0, 0.3, 0.05), Vec3::new(1.0, 0.2, 0.02), Vec3::new(0.4, 1.0, -0.01), doubled));
+            all.push(flat(Vec3::new(0.1, 0.2, 9.0), Vec3::new(0.1, 0.0, 0.03), Vec3::new(0.02, 0.1, 0.0), doubled));
+        }
+        all
+    }
+
+    /// Solid angle of the part between shares of the edges, cut along the light's own diagonal.
+    fn of_part(flat: &Flat, [i, j]: [usize; 2]) -> f64 {
+        let at = |i: usize, j: usize| flat.at(Vec2::new(i as f32, j as f32) / CELLS as f32).as_dvec3();
+        let solid_angle_sr = |corners: [DVec3; 3]| SphericalTriangle::new(corners).solid_angle_sr();
+        let within = flat.doubled || i + j + 1 < CELLS;
+        let near =
+            if flat.doubled || i + j < CELLS { solid_angle_sr([at(i, j), at(i + 1, j), at(i, j + 1)]) } else { 0.0 };
+        near + if within { solid_angle_sr([at(i + 1, j + 1), at(i, j + 1), at(i + 1, j)]) } else { 0.0 }
+    }
+
+    #[test]
+    fn points_are_drawn_by_solid_angle() {
+        for flat in flats() {
+            let near = Near::new(&flat, Vec3::ZERO).expect("it fills some of the directions");
+            let mut counts = vec![0; CELLS * CELLS];
+            for k in 0..DRAWS * DRAWS {
+                // A lattice of rank one: even, but in step with no cell.
+                let u = Vec2::new(
+                    ((k as f64 * 0.754_877_666_246_69) % 1.0) as f32,
+                    ((k as f64 * 0.569_840_290_998_05) % 1.0) as f32,
+                );
+                let place = near.place(u).expect("a point") * CELLS as f32;
+                counts[(place.x as usize).min(CELLS - 1) * CELLS + (place.y as usize).min(CELLS - 1)] += 1;
+            }
+            let parts: Vec<f64> = (0..CELLS * CELLS).map(|k| of_part(&flat, [k / CELLS, k % CELLS])).collect();
+            let whole: f64 = parts.iter().sum();
+            assert!((whole / near.solid_angle_sr - 1.0).abs() < 1e-5, "{flat:?}: {whole} {}", near.solid_angle_sr);
+            assert!((f64::from(near.per_sr) * whole - 1.0).abs() < 1e-5);
+            let expected: Vec<f64> = parts.iter().map(|part| part / whole * (DRAWS * DRAWS) as f64).collect();
+            let test = chi_square::goodness_of_fit(&counts, &expected).expect("cells");
+            assert!(test.p > 1e-3, "{flat:?}: {test:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_seen_edge_on_or_from_its_corner_is_not_drawn_by_solid_angle() {
+        let square = flat(Vec3::new(1.0, 0.0, 0.0), Vec3::X, Vec3::Y, true);
+        assert!(Near::new(&square, Vec3::ZERO).is_none());
+        assert!(Near::new(&square, Vec3::X).is_none());
+    }
+
+    #[test]
+    fn the_solid_angle_of_a_cubes_side_is_a_sixth_of_all() {
+        let side = flat(Vec3::new(-1.0, -1.0, 1.0), Vec3::X * 2.0, Vec3::Y * 2.0, true);
+        let near = Near::new(&side, Vec3::ZERO).expect("a side");
+        assert!((near.solid_angle_sr - 4.0 * core::f64::consts::PI / 6.0).abs() < 1e-12);
+    }
+}
