@@ -131,5 +131,5 @@ fn one_pixel_of_one_sample_is_a_picture() {
 fn a_seed_that_no_description_may_have_is_refused_to_tests_too() {
     let text = "[scene]\n[[cameras]]\nlens = { model = \"pinhole\", focal_length_mm = 2, f_number = 8 }\n\
                 sensor = { width_px = 2, height_px = 2, pixel_pitch_um = 6 }\n";
-    Job::new(text).with_seed(u64::MAX).plan();
+    let _ = Job::new(text).with_seed(u64::MAX).plan();
 }
