@@ -23,7 +23,7 @@ scenes:
 oracles:
     tests/oracles/run
 
-# Recover the declared parameters of stand-in cameras from renders of charts: writes docs/validation.md
+# Recover the declared parameters of reference cameras from renders of charts: writes docs/validation.md
 validate *cameras:
     cargo run --release -q -p etendue-validation -- {{cameras}}
 

@@ -287,12 +287,12 @@ def job(folder, scene):
               "materials = { " + ", ".join(f'{m["name"]} = "{m["name"]}"' for m in scene["materials"]) + " }"]
     lines += toml_lights(folder, scene)
     lines += ["", "[[cameras]]", 'name = "eye"', f"position_m = {c['position_m']}", f"rotation_deg = {c['rotation_deg']}",
-              "", "[cameras.lens]", 'model = "pinhole"', f"focal_length_mm = {c['focal_length_mm']}", "f_number = 8",
+              "", "[cameras.lens]", 'type = "pinhole"', f"focal_length_mm = {c['focal_length_mm']}", "f_number = 8",
               "", "[cameras.sensor]", f"width_px = {c['width_px']}", f"height_px = {c['height_px']}",
               f"pixel_pitch_um = {c['pixel_pitch_um']}", "exposure_s = 1.0", 'cfa = "mono"',
               'quantum_efficiency = { spectrum = "eye.csv" }', "full_well_e = 1e12", "read_noise_e = 0",
               "dark_current_e_s = 0", "gain_dn_per_e = 1", "black_level_dn = 0", "bits = 16",
-              "", "[render]", "spp = 64", "replicates = 1", f"tail_sharing_px = {SHARING}", f"max_bounces = {BOUNCES}", "wavelength_range_nm = [360, 830]",
+              "", "[render]", "spp = 64", "replicates = 1", f"path_reuse_px = {SHARING}", f"max_bounces = {BOUNCES}", "wavelength_range_nm = [360, 830]",
               "", "[output]", "electrons = true", "raw = false", "ground_truth = false", ""]
     (folder / "job.toml").write_text("\n".join(lines))
 

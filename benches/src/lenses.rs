@@ -21,41 +21,41 @@ const NOTE: &str = "One thread. Rays of pixels all over the picture, through poi
 const RAYS: u32 = 200_000;
 
 const LENSES: [(&str, &str); 12] = [
-    ("pinhole", "model = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4"),
-    ("thin", "model = \"thin\"\nfocal_length_mm = 50\nf_number = 2\nfocus_distance_m = 5"),
-    ("thick", "model = \"thick\"\nfocal_length_mm = 50\nf_number = 2\nfocus_distance_m = 5\nconstant_pupil = \"exit\""),
-    ("parallel", "model = \"parallel\"\nf_number = 4\nfield_width_m = 2"),
+    ("pinhole", "type = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4"),
+    ("thin", "type = \"thin\"\nfocal_length_mm = 50\nf_number = 2\nfocus_distance_m = 5"),
+    ("thick", "type = \"thick\"\nfocal_length_mm = 50\nf_number = 2\nfocus_distance_m = 5\nconstant_pupil = \"exit\""),
+    ("parallel", "type = \"telecentric\"\nf_number = 4\nfield_width_m = 2"),
     (
         "equidistant",
-        "model = \"calibrated\"\nf_number = 4\nprojection = { type = \"equidistant\", focal_length_mm = 20 }",
+        "type = \"calibrated\"\nf_number = 4\nprojection = { type = \"equidistant\", focal_length_mm = 20 }",
     ),
     (
         "OpenCV, five coefficients",
-        "model = \"calibrated\"\nf_number = 4\nprojection = { type = \"opencv\", focal_length_mm = 50, \
+        "type = \"calibrated\"\nf_number = 4\nprojection = { type = \"opencv\", focal_length_mm = 50, \
          distortion = [-0.2, 0.05, 0.0005, -0.0005, 0] }",
     ),
     (
         "Kannala-Brandt",
-        "model = \"calibrated\"\nf_number = 4\nprojection = { type = \"kannala_brandt\", focal_length_mm = 20, \
+        "type = \"calibrated\"\nf_number = 4\nprojection = { type = \"kannala_brandt\", focal_length_mm = 20, \
          k = [0.01, -0.002, 0.0003, 0] }",
     ),
-    ("double Gauss, f/2.03", "model = \"prescription\"\npublished = \"double-gauss\"\nfocus_distance_m = 5"),
+    ("double Gauss, f/2.03", "type = \"prescription\"\npublished = \"double-gauss\"\nfocus_distance_m = 5"),
     (
         "pinhole behind a wind-screen",
-        "model = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4\n[front.windscreen]\ndistance_mm = 100\ntilt_deg = 60\n\
+        "type = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4\n[front.windscreen]\ndistance_mm = 100\ntilt_deg = 60\n\
          radius_across_mm = 3000\nradius_upright_mm = 8000",
     ),
     (
         "pinhole behind a flat pane",
-        "model = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4\n[front.windscreen]\ndistance_mm = 100\n\
+        "type = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4\n[front.windscreen]\ndistance_mm = 100\n\
          layers = [{ thickness_mm = 5, index = 1.52 }]\ndouble_image = false",
     ),
     (
         "pinhole at a hyperbolic mirror",
-        "model = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4\n[front.mirror]\nshape = \"hyperboloid\"\nradius_mm = 30\n\
+        "type = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4\n[front.mirror]\nshape = \"hyperboloid\"\nradius_mm = 30\n\
          conic = -1.69\nrim_radius_mm = 40\nreflectance = 0.9",
     ),
-    ("telephoto, f/5.6", "model = \"prescription\"\npublished = \"telephoto\"\nfocus_distance_m = 5"),
+    ("telephoto, f/5.6", "type = \"prescription\"\npublished = \"telephoto\"\nfocus_distance_m = 5"),
 ];
 
 /// Nanoseconds of a ray, for every kind of lens.
@@ -87,7 +87,7 @@ const GHOSTS_NOTE: &str = "A picture of 450 × 300 px in 8 bands with a lamp of 
 pub fn ghosts() -> Table {
     let mut table = Table::new("Ghosts", GHOSTS_NOTE, &["surfaces", "ms a picture", "light of the picture", "spread"]);
     for (name, coating) in [("bare", "\"uncoated\""), ("a quarter wave", "{ quarter_wave_nm = 550 }")] {
-        let lens = "model = \"prescription\"\npublished = \"double-gauss\"\nfocus_distance_m = \"infinity\"";
+        let lens = "type = \"prescription\"\npublished = \"double-gauss\"\nfocus_distance_m = \"infinity\"";
         let body = body(&format!("{lens}\ncoating = {coating}"));
         let (mut times, mut share) = (Runs::default(), 0.0);
         for _ in 0..COUNT {

@@ -1,4 +1,4 @@
-//! The stand-in cameras, and where their files lie.
+//! The reference cameras, and where their files lie.
 
 use crate::program::{Program, text, words};
 use std::path::{Path, PathBuf};

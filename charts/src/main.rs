@@ -1,4 +1,4 @@
-//! The validation bench: renders charts with the stand-in cameras, measures the pictures and lays what was found beside what the camera
+//! The validation bench: renders charts with the reference cameras, measures the pictures and lays what was found beside what the camera
 //! files declare. Writes docs/validation.md with its plots; exit status 1 where a bound is broken, 2 where something fails.
 //!
 //! `just validate` runs all; `just validate web ccd-mono` runs those that are named and leaves the page in the folder of renders.

@@ -24,7 +24,7 @@ impl Report {
 
 const INTRODUCTION: &str = "# Recovery of declared parameters
 
-Written by `just validate`: charts are rendered with stand-in cameras (`charts/*/camera.toml`), the pictures are measured, and what is found is
+Written by `just validate`: charts are rendered with reference cameras (`charts/*/camera.toml`), the pictures are measured, and what is found is
 laid beside what the camera file declares. Errors are measured less declared; E_n after ISO 13528, |E_n| > 1 is a difference. Of about
 twenty quantities that agree one is expected to differ by chance.
 

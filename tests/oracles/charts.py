@@ -111,7 +111,7 @@ environment = { type = "uniform", radiance_w_m2_sr_nm = 1 }
 [render]
 spp = 64
 replicates = 1
-level = "flat"
+integrator = "flat"
 wavelengths_per_path = 1
 wavelength_range_nm = [540, 560]
 
@@ -124,7 +124,7 @@ CAMERA = """# Written by tests/oracles/charts.py: a calibration file, even illum
 format = 1
 
 [lens]
-model = "calibrated"
+type = "calibrated"
 f_number = 4
 calibration = { file = "NAME.yml", format = "FORMAT" }
 relative_illumination = { radius_mm = [0, 4], ratio = [1, 1] }

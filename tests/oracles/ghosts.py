@@ -26,7 +26,7 @@ def written_out(surfaces, back, front, rear):
     rows = [(surfaces[i]["radius"], thickness[i], behind[i]) for i in range(rear)]
     rows.append((surfaces[rear]["radius"], -thickness[rear - 1], None))
     rows += [(surfaces[i]["radius"], -thickness[i - 1], before[i]) for i in range(rear - 1, front, -1)]
-    rows.append((surfaces[front]["radius"], thickness[front], None))
+    rows.append((surfaces[external_optics]["radius"], thickness[external_optics], None))
     return rows + [(surfaces[i]["radius"], thickness[i], behind[i]) for i in range(front + 1, len(surfaces))]
 
 

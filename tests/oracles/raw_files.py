@@ -136,11 +136,11 @@ def deep(program, folder):
 
 
 def layers(program, folder):
-    at = render(program, folder / "exr", 'output.raw_format="tiff"', "output.electrons=true", "output.causes=true")
+    at = render(program, folder / "exr", 'output.raw_format="tiff"', "output.electrons=true", "output.signal_breakdown=true")
     plain = render(program, folder / "plain", 'output.raw_format="tiff"')
     facts = json.loads((at / "camera.json").read_text())["sensor"]["electronics"]
     numbers = tifffile.imread(at / "raw.0000.tif").astype(float)
-    causes = OpenEXR.File(str(at / "causes.0000.exr"), separate_channels=True).channels()
+    causes = OpenEXR.File(str(at / "signal_breakdown.0000.exr"), separate_channels=True).channels()
     planes = {name: channel.pixels.astype(float) for name, channel in causes.items()}
     total = sum(plane for name, plane in planes.items() if name != "saturated")
     off = total - (numbers - facts["black_level_dn"]) / facts["gain_dn_per_e"]
@@ -148,7 +148,7 @@ def layers(program, folder):
     [(name, mean)] = electrons.items()
     signal = planes["signal"][6:, 4:]
     return {
-        "causes": sorted(planes),
+        "signal_breakdown": sorted(planes),
         "largest_difference_of_the_sum_e": float(np.abs(off).max()),
         "electrons_channel": name,
         "signal_is_electrons": bool((mean.pixels == signal.astype(np.float32)).all()),

@@ -28,7 +28,7 @@ pub fn eye(name: &str, from: DVec3, at: DVec3) -> String {
     let up = if acos(way.z.abs()) < 0.01 { DVec3::X } else { DVec3::Z };
     format!(
         "[[cameras]]\nname = \"{name}\"\nposition_m = {:?}\nlook_at_m = {:?}\nup = {:?}\n\
-         lens = {{ model = \"pinhole\", focal_length_mm = 10, f_number = 8 }}\n\
+         lens = {{ type = \"pinhole\", focal_length_mm = 10, f_number = 8 }}\n\
          sensor = {{ width_px = 1, height_px = 1, pixel_pitch_um = 1000, fill_factor = 1e-6 }}\n",
         from.to_array(),
         at.to_array(),

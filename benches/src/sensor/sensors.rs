@@ -3,8 +3,8 @@
 use etendue_sensor::cfa::Cfa;
 use etendue_sensor::effects::angle_response::AngleResponse;
 use etendue_sensor::effects::capacitance::Capacitance;
-use etendue_sensor::effects::cross_talk::CrossTalk;
-use etendue_sensor::effects::dark_current::{DarkCurrent, DarkSpread, Hot, Tail};
+use etendue_sensor::effects::crosstalk::Crosstalk;
+use etendue_sensor::effects::dark_current::{DarkCurrent, DarkSpread, Hot, SpreadDistribution};
 use etendue_sensor::effects::full_well::Blooming;
 use etendue_sensor::effects::lag::Trap;
 use etendue_sensor::effects::neighbours::Neighbours;
@@ -13,7 +13,7 @@ use etendue_sensor::effects::photo_response::PhotoResponse;
 use etendue_sensor::effects::read_noise::ReadNoise;
 use etendue_sensor::effects::response::{Knee, Response};
 use etendue_sensor::effects::smear::Smear;
-use etendue_sensor::effects::telegraph_noise::TelegraphNoise;
+use etendue_sensor::effects::rts_noise::RtsNoise;
 use etendue_sensor::effects::two_level::TwoLevel;
 use etendue_sensor::hdr::{Capture, HighDynamicRange};
 use etendue_sensor::{Channel, Charge, Exposure, FixedPattern, Optics, Pixel, ReadOut, SensorParameters};
@@ -81,21 +81,21 @@ type Addition = (&'static str, fn(&mut SensorParameters));
 const EACH: [Addition; 18] = [
     ("shot noise", |p| p.noise = true),
     ("angle response", angle),
-    ("cross-talk", |p| p.optics.cross_talk = Some(CrossTalk(SHARES))),
+    ("crosstalk", |p| p.optics.crosstalk = Some(Crosstalk(SHARES))),
     ("photo-response pattern", |p| p.pattern.photo_response = PhotoResponse { white: 0.01, row: 0.002, column: 0.002 }),
-    ("smear", |p| p.charge.smear = Some(Smear::Interline { smear_db: -100.0, measured_exposure_share: 1.0 })),
+    ("smear", |p| p.charge.smear = Some(Smear::Interline { smear_db: -100.0, measured_exposure_ratio: 1.0 })),
     ("dark current, even", |p| p.charge.dark = DarkCurrent::even(500.0)),
     ("dark current with pattern", |p| p.charge.dark = patterned_dark()),
     ("lag", |p| p.charge.traps = vec![Trap { share: 0.02, time_constant_s: 0.1 }]),
     ("brighter-fatter", |p| p.charge.brighter_fatter_per_e = 1e-6),
-    ("blooming along the column", |p| p.charge.blooming = Some(Blooming::Column { spill: 0.9 })),
-    ("blooming around", |p| p.charge.blooming = Some(Blooming::Around { spill: 0.6 })),
-    ("dead pixels", |p| p.pattern.dead_share = 1e-4),
+    ("blooming along the column", |p| p.charge.blooming = Some(Blooming::Column { overflow_fraction: 0.9 })),
+    ("blooming around", |p| p.charge.blooming = Some(Blooming::Around { overflow_fraction: 0.6 })),
+    ("dead pixels", |p| p.pattern.dead_fraction = 1e-4),
     ("response, two knees", |p| p.read_out.response = knees()),
     ("capacitance", |p| p.read_out.capacitance = Some(Capacitance(SHARES))),
     ("offset pattern", |p| p.pattern.offset = OffsetPattern { white_e: 2.0, row_e: 1.0, column_e: 1.0 }),
     ("shot and read noise", |p| (p.noise, p.read_out.noise) = (true, READ)),
-    ("shot and telegraph noise", |p| (p.noise, p.read_out.telegraph) = (true, Some(TelegraphNoise(TWO)))),
+    ("shot and RTS noise", |p| (p.noise, p.read_out.rts_noise) = (true, Some(RtsNoise(TWO)))),
     ("digital gain", |p| p.read_out.digital_gain = 1.5),
 ];
 
@@ -105,20 +105,20 @@ const TWO: TwoLevel = TwoLevel { share: 0.001, mean: 20.0, dwell_frames: 5.0 };
 
 fn noises(p: &mut SensorParameters) {
     (p.noise, p.read_out.noise) = (true, READ);
-    p.read_out.telegraph = Some(TelegraphNoise(TWO));
+    p.read_out.rts_noise = Some(RtsNoise(TWO));
     p.charge.dark = patterned_dark();
     p.pattern.photo_response = PhotoResponse { white: 0.01, row: 0.002, column: 0.002 };
     p.pattern.offset = OffsetPattern { white_e: 2.0, row_e: 1.0, column_e: 1.0 };
-    p.pattern.dead_share = 1e-4;
+    p.pattern.dead_fraction = 1e-4;
 }
 
 fn the_rest(p: &mut SensorParameters) {
     angle(p);
-    p.optics.cross_talk = Some(CrossTalk(SHARES));
-    p.charge.smear = Some(Smear::Interline { smear_db: -100.0, measured_exposure_share: 1.0 });
+    p.optics.crosstalk = Some(Crosstalk(SHARES));
+    p.charge.smear = Some(Smear::Interline { smear_db: -100.0, measured_exposure_ratio: 1.0 });
     p.charge.traps = vec![Trap { share: 0.02, time_constant_s: 0.1 }];
     p.charge.brighter_fatter_per_e = 1e-6;
-    p.charge.blooming = Some(Blooming::Around { spill: 0.6 });
+    p.charge.blooming = Some(Blooming::Around { overflow_fraction: 0.6 });
     p.read_out.response = knees();
     p.read_out.capacitance = Some(Capacitance(SHARES));
     p.read_out.digital_gain = 1.5;
@@ -128,7 +128,7 @@ fn the_rest(p: &mut SensorParameters) {
 fn silent(p: &mut SensorParameters) {
     p.charge.dark = DarkCurrent { spread: spread(), ..DarkCurrent::even(0.0) };
     p.read_out.noise = READ;
-    p.read_out.telegraph = Some(TelegraphNoise(TWO));
+    p.read_out.rts_noise = Some(RtsNoise(TWO));
     p.pattern.photo_response = PhotoResponse::default();
     p.pattern.offset = OffsetPattern::default();
 }
@@ -136,9 +136,9 @@ fn silent(p: &mut SensorParameters) {
 fn captures(p: &mut SensorParameters) {
     noises(p);
     let like = Capture::default();
-    let again = Capture { gain_share: 1.0 / 16.0, same_charge: true, ..like };
-    let small = Capture { sensitivity_share: 0.01, gain_share: 0.5, ..like };
-    p.hdr.captures = vec![again, small, Capture { gain_share: 1.0 / 8.0, ..again }];
+    let again = Capture { gain_ratio: 1.0 / 16.0, dual_conversion_gain: true, ..like };
+    let small = Capture { sensitivity_ratio: 0.01, gain_ratio: 0.5, ..like };
+    p.hdr.captures = vec![again, small, Capture { gain_ratio: 1.0 / 8.0, ..again }];
     p.hdr.bits = Some(24);
 }
 
@@ -148,14 +148,14 @@ fn angle(p: &mut SensorParameters) {
 }
 
 fn spread() -> DarkSpread {
-    DarkSpread { white: 0.4, row: 0.02, column: 0.02, tail: Tail::LogNormal }
+    DarkSpread { white: 0.4, row: 0.02, column: 0.02, distribution: SpreadDistribution::LogNormal }
 }
 
 fn patterned_dark() -> DarkCurrent {
     DarkCurrent {
         spread: spread(),
         hot: Some(Hot { share: 1e-4, mean_e_s: 1e5 }),
-        blinking: Some(TwoLevel { mean: 1e4, ..TWO }),
+        dark_current_rts: Some(TwoLevel { mean: 1e4, ..TWO }),
         ..DarkCurrent::even(500.0)
     }
 }

@@ -65,7 +65,7 @@ impl Ink {
 
     /// Luminance over the perfect diffuser's: the luminous reflectance.
     #[must_use]
-    pub fn luminous_share(&self, light: &Light) -> f64 {
+    pub fn luminous_fraction(&self, light: &Light) -> f64 {
         match &self.paint {
             Paint::Grey(share) | Paint::Glow(share) | Paint::Texture { mean: share, .. } => *share,
             Paint::Spectral(reflectance) => xyz_of_reflectance(reflectance, light.spectrum())[1],
@@ -87,7 +87,7 @@ impl Ink {
     pub fn xyz(&self, light: &Light) -> [f64; 3] {
         match &self.paint {
             Paint::Spectral(reflectance) => xyz_of_reflectance(reflectance, light.spectrum()),
-            _ => light.white_xyz().map(|v| v * self.luminous_share(light)),
+            _ => light.white_xyz().map(|v| v * self.luminous_fraction(light)),
         }
     }
 
@@ -112,7 +112,7 @@ mod tests {
         let lab = grey.lab(&light);
         assert!((lab.l - 49.496).abs() < 1e-3 && lab.a.abs() < 1e-6 && lab.b.abs() < 1e-6, "{lab:?}");
         let red = Ink::new("red", Paint::Spectral(colorchecker()[14].reflectance.clone()));
-        let share = red.luminous_share(&light);
+        let share = red.luminous_fraction(&light);
         assert!((red.luminance_cd_m2(&light) / 1000.0 / share - 1.0).abs() < 1e-5);
         // BabelColor's averages: the red patch is near L* 42, a* 54, b* 28.
         let lab = red.lab(&light);

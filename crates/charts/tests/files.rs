@@ -39,7 +39,7 @@ fn made(chart: &Chart, stations: &[Station]) -> Vec<ChartFile> {
         light: &light,
         stations,
         camera: "base.toml",
-        without: &[],
+        remove: &[],
         specimen: Some(1),
         seed: 3,
     })
@@ -55,11 +55,11 @@ fn text<'a>(files: &'a [ChartFile], name: &str) -> Option<&'a str> {
 fn charts() -> Vec<Chart> {
     let size = GridSize { columns: Some(6), ..GridSize::default() };
     vec![
-        Chart::Dots(Dots { size, dot_share: 0.5 }),
+        Chart::Dots(Dots { size, dot_ratio: 0.5 }),
         Chart::Backlit(Backlit),
         Chart::ColorChecker(ColorChecker),
-        Chart::DeadLeaves(DeadLeaves { smallest_px: 8.0, largest_share: 0.2 }),
-        Chart::Flare(Flare { size, trap_share: 0.2 }),
+        Chart::DeadLeaves(DeadLeaves { smallest_px: 8.0, largest_ratio: 0.2 }),
+        Chart::Flare(Flare { size, trap_ratio: 0.2 }),
         Chart::SlantedEdges(SlantedEdges { size, angle_deg: 5.0, contrast: 4.0 }),
         Chart::DepthWedge(DepthWedge { steps: 4, far_ratio: 2.0 }),
     ]

@@ -24,7 +24,7 @@ fn charts() -> Vec<Chart> {
     let size = GridSize::default();
     let few = GridSize { columns: Some(5), rows: Some(4), pitch_mm: None };
     vec![
-        Chart::Dots(Dots { size: few, dot_share: 0.5 }),
+        Chart::Dots(Dots { size: few, dot_ratio: 0.5 }),
         Chart::Checkerboard(Checkerboard { size }),
         Chart::Circles(Circles { size: few, asymmetric: false }),
         Chart::Circles(Circles { size, asymmetric: true }),
@@ -35,12 +35,12 @@ fn charts() -> Vec<Chart> {
         Chart::SlantedStar(SlantedStar { size, spokes: 8, angle_deg: 5.0, contrast: 4.0 }),
         Chart::SiemensStar(SiemensStar { cycles: 36, binary: false }),
         Chart::SiemensStar(SiemensStar { cycles: 12, binary: true }),
-        Chart::DeadLeaves(DeadLeaves { smallest_px: 20.0, largest_share: 0.2 }),
+        Chart::DeadLeaves(DeadLeaves { smallest_px: 20.0, largest_ratio: 0.2 }),
         Chart::OecfSteps(OecfSteps { steps: 12, density: 2.0, backlit: false }),
         Chart::OecfSteps(OecfSteps { steps: 20, density: 3.0, backlit: true }),
         Chart::ColorChecker(ColorChecker),
         Chart::ContrastPatches(ContrastPatches { size, decades: 3.0 }),
-        Chart::Flare(Flare { size, trap_share: 0.25 }),
+        Chart::Flare(Flare { size, trap_ratio: 0.25 }),
         Chart::Points(Points { size: few, diameter_px: 0.5 }),
         Chart::DepthWedge(DepthWedge { steps: 5, far_ratio: 3.0 }),
     ]

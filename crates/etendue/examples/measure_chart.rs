@@ -15,7 +15,7 @@ use std::path::Path;
 /// Makes the chart, photographs and measures it in `out`.
 pub(crate) fn run(out: &Path) -> Result<Report, Error> {
     let size = GridSize { columns: Some(33), rows: None, pitch_mm: None };
-    let chart = Chart::Dots(Dots { size, dot_share: 0.5 });
+    let chart = Chart::Dots(Dots { size, dot_ratio: 0.5 });
     make(&ChartRequest::new(chart, "automotive"), (&out.join("chart"), Existing::Replace))?;
 
     let job = JobRequest { spp: Some(4), ..JobRequest::new(out.join("chart/job.toml")) }.open()?;

@@ -41,7 +41,7 @@ look_at_m = [0, 0, 0]
 up = [0, 1, 0]
 
 [cameras.lens]
-model = "pinhole"
+type = "pinhole"
 focal_length_mm = 4
 f_number = 8
 

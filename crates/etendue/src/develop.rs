@@ -44,7 +44,7 @@ pub fn develop(request: &DevelopRequest, (folder, existing): (&Path, Existing)) 
     let body = open_camera(&request.camera, &request.set)?;
     let camera = Camera::of(&body).ok_or_else(|| {
         let file = request.camera.display();
-        Error::input(format!("{file}: the camera has no [processing], so nothing says how a picture is made: add it"))
+        Error::input(format!("{file}: the camera has no [isp], so nothing says how a picture is made: add it"))
     })?;
     let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
     let mut writer = ResultWriter { prefix: stem(&request.camera), folder: &mut folder };
@@ -67,10 +67,10 @@ impl<'a> Camera<'a> {
 }
 
 fn all(camera: &Camera<'_>, request: &DevelopRequest, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
-    let (mut frames, mut files, mut alike_px) = (Vec::new(), Map::new(), 1);
+    let (mut frames, mut files, mut correlated_block_px) = (Vec::new(), Map::new(), 1);
     for (number, file) in request.raws.iter().enumerate() {
         let mut taken = taken(file, request.levels, number as u32, camera.body, camera.sensor).map_err(Error::input)?;
-        alike_px = alike_px.max(taken.alike_px);
+        correlated_block_px = correlated_block_px.max(taken.correlated_block_px);
         taken.address.seed = request.seed.unwrap_or(taken.address.seed);
         let name = Files::picture(taken.address.frame, camera.development.format);
         if files.contains_key(&name) {
@@ -91,7 +91,7 @@ fn all(camera: &Camera<'_>, request: &DevelopRequest, writer: &mut ResultWriter<
         "sensor": metadata::sensor(camera.body),
         "processing": camera.development.to_string(),
         "frames": frames,
-        "sampling": { "alike_px": alike_px },
+        "sampling": { "correlated_block_px": correlated_block_px },
         "files": files,
     });
     writer.json(Files::DEVELOPMENT, &facts)

@@ -36,8 +36,8 @@ impl Stored {
     }
 
     /// Pixels whose errors may be equal.
-    fn alike_px(&self) -> u32 {
-        self.provenance.further.get("alike_px").and_then(|n| n.parse().ok()).unwrap_or(1)
+    fn correlated_block_px(&self) -> u32 {
+        self.provenance.further.get("correlated_block_px").and_then(|n| n.parse().ok()).unwrap_or(1)
     }
 }
 
@@ -98,7 +98,7 @@ fn products(body: &CameraBody) -> Products {
         electrons: false,
         raw: body.sensor.is_some(),
         raw_format: RawFormat::usual(body.sensor.as_ref()),
-        causes: false,
+        signal_breakdown: false,
         picture: body.development.is_some(),
         ground_truth: false,
         camera_space_position: false,
@@ -238,7 +238,7 @@ fn sidecar(
         "effects": metadata::effects(body),
         "sensor": metadata::sensor(body),
         "route": "pupil",
-        "sampling": { "alike_px": stored.alike_px() },
+        "sampling": { "correlated_block_px": stored.correlated_block_px() },
         "depth_of_field": metadata::depth_of_field(depth_of_field),
         "files": Files::of(&products(body), body, &request.frames),
         "time_s": stored.provenance.time_s,

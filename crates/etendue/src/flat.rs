@@ -60,7 +60,7 @@ pub struct FlatRequest {
     /// Frames to take, the last excluded; a series has its own.
     pub frames: Range<u32>,
     /// Whether to write what each pixel's digital number is made of; not of a series.
-    pub causes: bool,
+    pub signal_breakdown: bool,
     /// The seed of the sensor's noise.
     pub seed: u64,
 }
@@ -69,7 +69,7 @@ impl FlatRequest {
     /// One frame with the seed 0.
     pub fn new(camera: impl Into<PathBuf>, wavelength_nm: f64, source: FlatSource) -> Self {
         let camera = camera.into();
-        Self { camera, set: Vec::new(), wavelength_nm, source, frames: 0..1, causes: false, seed: 0 }
+        Self { camera, set: Vec::new(), wavelength_nm, source, frames: 0..1, signal_breakdown: false, seed: 0 }
     }
 }
 
@@ -130,7 +130,7 @@ impl Task<'_> {
             electrons: false,
             raw: true,
             raw_format: RawFormat::usual(Some(self.sensor)),
-            causes: self.request.causes,
+            signal_breakdown: self.request.signal_breakdown,
             picture: self.body.development.is_some(),
             ground_truth: false,
             camera_space_position: false,

@@ -18,7 +18,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// How much of the light transport is followed: the key `render.level`.
+/// How much of the light transport is followed: the key `render.integrator`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Integrator {
@@ -31,7 +31,7 @@ pub enum Integrator {
 }
 
 impl Integrator {
-    /// Its word in the key `render.level`.
+    /// Its word in the key `render.integrator`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -115,7 +115,7 @@ impl JobRequest {
         }
         if let Some(integrator) = self.integrator {
             let level = integrator.name();
-            flag("integrator", "level", format!("\"{level}\""), level);
+            flag("integrator", "integrator", format!("\"{level}\""), level);
         }
         overrides
     }

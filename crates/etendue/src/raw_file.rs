@@ -25,7 +25,7 @@ pub(crate) struct Taken {
     /// Where it stands.
     pub(crate) address: FrameAddress,
     /// Pixels whose errors may be equal.
-    pub(crate) alike_px: u32,
+    pub(crate) correlated_block_px: u32,
 }
 
 /// Reads a raw of a camera. Without a side-car `levels` are needed, and the raw is frame `number`.
@@ -65,7 +65,7 @@ fn by_levels(photograph: &Photograph, levels: Levels, number: u32, sensor: &Sens
     Ok(Taken {
         raw,
         address: FrameAddress { seed: 0, camera: 0, frame: number, capture: 0 },
-        alike_px: photograph.alike_px,
+        correlated_block_px: photograph.correlated_block_px,
     })
 }
 
@@ -81,7 +81,7 @@ fn by_side_car(photograph: &Photograph, facts: &RawFacts, sensor: &Sensor) -> Re
     let point = OperatingPoint { exposure_s: facts.exposure_s, analogue_gain: 1.0 };
     let raw = raw(plane, [facts.black_level_dn, facts.white_level_dn], frame.picture_px, point, sensor);
     let RawFrame { seed, camera_index: camera, number: frame, .. } = *frame;
-    Ok(Taken { raw, address: FrameAddress { seed, camera, frame, capture: 0 }, alike_px: photograph.alike_px })
+    Ok(Taken { raw, address: FrameAddress { seed, camera, frame, capture: 0 }, correlated_block_px: photograph.correlated_block_px })
 }
 
 fn raw(

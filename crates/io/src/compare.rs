@@ -159,7 +159,7 @@ fn is_preview(file: &ExrFile, name: &str) -> bool {
 
 fn origin(file: &ExrFile) -> Origin {
     let stated = |key| file.attributes.get(key).and_then(|text| text.parse().ok()).unwrap_or(1);
-    Origin { replicates: stated("etendue:replicates"), alike: stated("etendue:alike_px") }
+    Origin { replicates: stated("etendue:replicates"), alike: stated("etendue:correlated_block_px") }
 }
 
 fn channel(path: &Path, a: &ExrFile, b: &ExrFile, name: &str) -> Result<Channel, Error> {

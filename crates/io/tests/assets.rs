@@ -37,7 +37,7 @@ thing = 1
 name = "c"
 position_m = [0, 0, 1]
 look_at_m = [1, 0, 1]
-lens = { model = "pinhole", focal_length_mm = 4, f_number = 8 }
+lens = { type = "pinhole", focal_length_mm = 4, f_number = 8 }
 sensor = { width_px = 8, height_px = 8, pixel_pitch_um = 5 }
 [[scene.objects]]
 name = "painted"

@@ -7,7 +7,7 @@ pub(crate) const SATURATED_SHARE: f64 = 1e-3;
 
 /// Share of pixels at or above full scale. Where full scale is unknown, share of pixels at the largest reading: a plateau tells of
 /// clipping, unless the picture is all one value.
-pub(crate) fn saturated_share(samples: &[f32], full_scale: Option<f64>) -> f64 {
+pub(crate) fn saturated_fraction(samples: &[f32], full_scale: Option<f64>) -> f64 {
     let count = |level: f64| samples.iter().filter(|s| f64::from(**s) >= level).count() as f64 / samples.len() as f64;
     if let Some(full) = full_scale {
         return count(full);
@@ -25,7 +25,7 @@ pub(crate) fn saturated_percent<'a>(
     full_scale: Option<f64>,
 ) -> Option<f64> {
     let full = full_scale?;
-    let share = parts.into_iter().map(|part| saturated_share(part.samples(), Some(full))).fold(0.0, f64::max);
+    let share = parts.into_iter().map(|part| saturated_fraction(part.samples(), Some(full))).fold(0.0, f64::max);
     (share > SATURATED_SHARE).then_some(100.0 * share)
 }
 

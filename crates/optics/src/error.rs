@@ -146,11 +146,11 @@ pub enum OpticsError {
         value: f64,
     },
     /// A distortion of a lens that has its own.
-    #[error("prescriptions, calibrated and parallel cameras have their own distortion: leave out the lens's")]
+    #[error("prescriptions, calibrated and telecentric cameras have their own distortion: leave out the lens's")]
     OwnDistortion,
     /// A lateral colour of a lens that cannot have it.
     #[error(
-        "a {kind} takes no \"lateral_colour\": a prescription's glasses make their own, a parallel camera has none; remove it"
+        "a {kind} takes no \"lateral_colour\": a prescription's glasses make their own, a telecentric camera has none; remove it"
     )]
     OwnColour {
         /// What the lens is.

@@ -19,7 +19,7 @@ pub use effects::{
 pub use error::{OpticsError, PRINCIPAL_NM};
 pub use front::{Front, FrontError, FrontRay};
 pub use lens::{
-    Calibrated, CalibratedParameters, ConstantPupil, Falloff, LateralColour, Lens, Parallel, ParallelParameters,
+    Calibrated, CalibratedParameters, ConstantPupil, Falloff, LateralColour, Lens, Telecentric, TelecentricParameters,
     Pinhole, PinholeParameters, Prescribed, PupilStance, PupilStatements, Rim, Thick, ThickParameters, Thin,
     ThinParameters, TruthRay,
 };

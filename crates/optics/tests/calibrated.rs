@@ -1,9 +1,9 @@
-//! Calibrated and parallel cameras: what the contract of all lenses promises.
+//! Calibrated and telecentric cameras: what the contract of all lenses promises.
 
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{atan2, cos, sin};
 use etendue_optics::{
-    CalibratedParameters, Falloff, Lens, OpticsError, ParallelParameters, PinholeParameters, PupilProjection,
+    CalibratedParameters, Falloff, Lens, OpticsError, TelecentricParameters, PinholeParameters, PupilProjection,
     PupilStance,
 };
 use etendue_projection::model::{Ideal, KannalaBrandt, Panorama, Perspective};
@@ -166,7 +166,7 @@ fn what_cannot_be_is_refused() {
     let raster = Raster::centred(320, 240, PITCH_MM).expect("a raster");
     let lens = ideal(Ideal::Equidistant, 400.0);
     assert!(matches!(lens.check(&raster), Err(OpticsError::CalibratedSize { width: 640, .. })));
-    let parallel = Lens::parallel(ParallelParameters { metres_per_mm: 1.0, f_number: 4.0, transmittance: 1.0 });
+    let parallel = Lens::telecentric(TelecentricParameters { metres_per_mm: 1.0, f_number: 4.0, transmittance: 1.0 });
     assert!(matches!(
         PupilProjection::covering(&parallel.expect("legal"), &raster, [0, 0], (400.0, 700.0)),
         Err(OpticsError::NoPupilRoute { .. })
@@ -188,7 +188,7 @@ fn what_cannot_be_is_refused() {
 
 #[test]
 fn parallel_rays_are_as_far_apart_as_the_field_is_wide() {
-    let lens = Lens::parallel(ParallelParameters { metres_per_mm: 0.5, f_number: 2.0, transmittance: 0.9 });
+    let lens = Lens::telecentric(TelecentricParameters { metres_per_mm: 0.5, f_number: 2.0, transmittance: 0.9 });
     let lens = lens.expect("a camera");
     for s in points() {
         let ray = lens.ray(s, DVec2::splat(0.3), 550.0).expect("everywhere");

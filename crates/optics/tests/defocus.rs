@@ -30,7 +30,7 @@ fn clipped() -> Lens {
         principal_separation_mm: 0.0,
         pupils: PupilStatements::default(),
         constant_pupil: ConstantPupil::Exit,
-        front_rim: Some(Rim { position_mm: -30.0, radius_mm: 14.0 }),
+        front_aperture: Some(Rim { position_mm: -30.0, radius_mm: 14.0 }),
         rear_rim: None,
     })
     .expect("legal")

@@ -6,7 +6,7 @@ use etendue_optics::front::{
     Curve, Front, FrontError, FrontRay, Mirror, MirrorParameters, MirrorShape, Optic, Quadric, QuadricKind,
     Reflectance, Stand,
 };
-use etendue_optics::{Lens, ParallelParameters, PinholeParameters};
+use etendue_optics::{Lens, TelecentricParameters, PinholeParameters};
 use etendue_projection::Raster;
 use glam::{DVec2, DVec3};
 
@@ -31,9 +31,9 @@ fn pinhole() -> Lens {
     Lens::pinhole(parameters).expect("a lens")
 }
 
-fn parallel() -> Lens {
-    let parameters = ParallelParameters { metres_per_mm: 0.01, f_number: 4.0, transmittance: 1.0 };
-    Lens::parallel(parameters).expect("a lens")
+fn telecentric() -> Lens {
+    let parameters = TelecentricParameters { metres_per_mm: 0.01, f_number: 4.0, transmittance: 1.0 };
+    Lens::telecentric(parameters).expect("a lens")
 }
 
 fn raster() -> Raster {

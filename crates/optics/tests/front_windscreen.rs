@@ -22,7 +22,7 @@ fn plate(tilt_deg: f64) -> WindscreenParameters {
         wedge_rad: 0.0,
         tint: None,
         coating: Coating::Uncoated,
-        double_share: Some(0.0),
+        double_image_fraction: Some(0.0),
     }
 }
 
@@ -41,7 +41,7 @@ fn axis(parameters: WindscreenParameters) -> FrontRay {
 
 /// The axis seen in the double image alone.
 fn doubled_axis(parameters: WindscreenParameters) -> FrontRay {
-    let front = front(WindscreenParameters { double_share: Some(0.5), ..parameters });
+    let front = front(WindscreenParameters { double_image_fraction: Some(0.5), ..parameters });
     front.ray(&pinhole(), DVec2::ZERO, DVec2::new(0.25, 0.5), 550.0).expect("a ray")
 }
 
@@ -161,7 +161,7 @@ fn under_uniform_light_a_pixel_gets_both_ways_whatever_their_shares() {
     // A constant coating of transmittance T: T² (1 + (1 − T)²).
     let t: f64 = 0.7;
     for share in [None, Some(0.125), Some(0.5)] {
-        let coated = WindscreenParameters { coating: Coating::Constant(t), double_share: share, ..open.clone() };
+        let coated = WindscreenParameters { coating: Coating::Constant(t), double_image_fraction: share, ..open.clone() };
         let mean = mean_sr(&front(coated), &lens, s_mm, 64) / clear(64);
         let expected = t * t * (1.0 + (1.0 - t) * (1.0 - t));
         // The strata of the stretched sample are not quite even where the share is none of them: 1/64 of the split.
@@ -189,7 +189,7 @@ fn curved_glass_of_constant_thickness_is_a_weak_negative_lens() {
 fn rays_that_do_not_meet_the_glass_pass_it() {
     let sideways = WindscreenParameters {
         stand: Stand::turned(DVec3::new(0.0, 0.0, 300.0), [80.0, 0.0, 0.0]),
-        double_share: Some(0.25),
+        double_image_fraction: Some(0.25),
         ..plate(0.0)
     };
     let (front, lens) = (front(sideways), pinhole());
@@ -217,6 +217,6 @@ fn glass_that_cannot_be_is_refused() {
     assert!(refused(WindscreenParameters { layers: vec![], ..plate(0.0) }).contains("no layers"));
     let dark = Some(Tint { transmittance: Curve::Constant(0.0), thickness_mm: None });
     assert!(refused(WindscreenParameters { tint: dark, ..plate(0.0) }).contains("internal_transmittance"));
-    assert!(refused(WindscreenParameters { double_share: Some(1.0), ..plate(0.0) }).contains("double_image_share"));
+    assert!(refused(WindscreenParameters { double_image_fraction: Some(1.0), ..plate(0.0) }).contains("double_image_sample_fraction"));
     assert!(refused(WindscreenParameters { wedge_rad: 1.0, ..plate(0.0) }).contains("wedge_mrad is 1000"));
 }

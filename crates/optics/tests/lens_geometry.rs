@@ -22,7 +22,7 @@ fn thick_parameters() -> ThickParameters {
         principal_separation_mm: 5.0,
         pupils: PupilStatements { entrance_pupil_mm: Some(-3.2), ..PupilStatements::default() },
         constant_pupil: ConstantPupil::Exit,
-        front_rim: None,
+        front_aperture: None,
         rear_rim: None,
     }
 }
@@ -134,8 +134,8 @@ fn what_cannot_be_is_refused() {
     let bright = ThinParameters { transmittance: 1.1, ..base };
     assert!(matches!(refused(bright), OpticsError::Transmittance { .. }));
     let rim = Some(Rim { position_mm: -10.0, radius_mm: 3.0 });
-    let narrow = Thick::new(ThickParameters { front_rim: rim, ..thick_parameters() }).expect_err("the rim is the stop");
-    assert!(matches!(narrow, OpticsError::RimIsStop { rim: "front_rim", .. }), "{narrow}");
+    let narrow = Thick::new(ThickParameters { front_aperture: rim, ..thick_parameters() }).expect_err("the rim is the stop");
+    assert!(matches!(narrow, OpticsError::RimIsStop { rim: "front_aperture", .. }), "{narrow}");
     let rim = Some(Rim { position_mm: 25.0, radius_mm: 30.0 });
     let behind = Thick::new(ThickParameters { rear_rim: rim, ..thick_parameters() }).expect_err("behind the sensor");
     assert!(matches!(behind, OpticsError::RimMisplaced { plane: "sensor", .. }), "{behind}");
@@ -192,8 +192,8 @@ fn the_field_of_view_is_the_textbook_s() {
 
 #[test]
 fn a_clipped_chief_ray_is_none_where_light_may_still_come() {
-    let front_rim = Some(Rim { position_mm: -40.0, radius_mm: 4.5 });
-    let lens = Lens::thick(ThickParameters { front_rim, ..thick_parameters() }).expect("legal");
+    let front_aperture = Some(Rim { position_mm: -40.0, radius_mm: 4.5 });
+    let lens = Lens::thick(ThickParameters { front_aperture, ..thick_parameters() }).expect("legal");
     let at = DVec2::new(2.1, 0.0);
     assert!(lens.principal_ray(at).is_none());
     assert!(lens.etendue_sr(at) > 0.0);

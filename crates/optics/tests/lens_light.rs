@@ -26,7 +26,7 @@ fn thick_parameters(f_number: f64) -> ThickParameters {
         principal_separation_mm: 0.0,
         pupils: PupilStatements::default(),
         constant_pupil: ConstantPupil::Exit,
-        front_rim: None,
+        front_aperture: None,
         rear_rim: None,
     }
 }
@@ -204,7 +204,7 @@ fn a_rim_cuts_the_area_of_two_circles() {
     let pupil_mm = FOCAL_MM / 128.0;
     let rim = Rim { position_mm: -10.0, radius_mm: 0.15 };
     let open = thick(thick_parameters(64.0));
-    let lens = thick(ThickParameters { front_rim: Some(Rim { radius_mm: 0.3, ..rim }), ..thick_parameters(64.0) });
+    let lens = thick(ThickParameters { front_aperture: Some(Rim { radius_mm: 0.3, ..rim }), ..thick_parameters(64.0) });
     for tangent in [0.012, 0.02, 0.03, 0.045] {
         let at = DVec2::new(-0.6, 0.8) * FOCAL_MM * tangent;
         let share = lens.etendue_sr(at) / open.etendue_sr(at);
@@ -235,7 +235,7 @@ fn samples_of_a_clipped_pupil_have_the_quadrature_s_mean() {
     let parameters = ThickParameters {
         focus_distance_m: 0.8,
         principal_separation_mm: 4.0,
-        front_rim: Some(Rim { position_mm: -18.0, radius_mm: 9.5 }),
+        front_aperture: Some(Rim { position_mm: -18.0, radius_mm: 9.5 }),
         rear_rim: Some(Rim { position_mm: 19.0, radius_mm: 5.0 }),
         ..magnified(2.0, 0.8)
     };
@@ -245,7 +245,7 @@ fn samples_of_a_clipped_pupil_have_the_quadrature_s_mean() {
         let at = DVec2::new(0.28, 0.96) * field_mm;
         let exact = lens.etendue_sr(at);
         // 512² cells, of which some 4 · 512 lie on an edge, half in: √2048/512² · ½ of the disc, times ten for patterns.
-        let scale = thick(ThickParameters { front_rim: None, rear_rim: None, ..parameters }).etendue_sr(at);
+        let scale = thick(ThickParameters { front_aperture: None, rear_rim: None, ..parameters }).etendue_sr(at);
         assert!((sampled_sr(&lens, at, 512) - exact).abs() < 1e-3 * scale, "{field_mm} mm");
         shares.push(exact / scale);
     }

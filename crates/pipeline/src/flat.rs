@@ -232,7 +232,7 @@ mod tests {
 
     #[test]
     fn what_has_no_photon_transfer_is_refused() {
-        let curved = body("response = { kind = \"logarithmic\", from_e = 1000 }\n");
+        let curved = body("response = { type = \"logarithmic\", from_e = 1000 }\n");
         let sensor = curved.sensor.as_ref().expect("electronics");
         assert_eq!(photon_transfer(sensor, 550.0, 50, 100), Err(FlatError::NotLinear));
         let timeless = body_of(&CAMERA.replace("exposure_s = 0.01", "exposure_s = 0").replace("auto_exposure", "#"));

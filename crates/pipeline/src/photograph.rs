@@ -12,7 +12,7 @@ pub use etendue_isp::{DevelopError, Developed};
 use etendue_isp::{RawPicture, develop};
 use etendue_optics::front::{Dirt, Front};
 use etendue_optics::{DepthOfField, OpticsError, PupilProjection, Resampling, irradiance};
-use etendue_sensor::{Causes, FrameAddress, Raw, SensorState};
+use etendue_sensor::{SignalBreakdown, FrameAddress, Raw, SensorState};
 use glam::DVec2;
 use rayon::prelude::*;
 
@@ -160,7 +160,7 @@ pub struct Frame {
     /// Digital numbers.
     pub raw: Raw,
     /// What they are made of, where that was asked for.
-    pub causes: Option<Causes>,
+    pub signal_breakdown: Option<SignalBreakdown>,
     /// The picture, where the camera makes one.
     pub picture: Option<Developed>,
 }
@@ -200,18 +200,18 @@ pub fn take(
 ) -> Option<(SensorState, Frame)> {
     let (state, raw) = body.sensor.as_ref()?.step(state, electrons, address);
     let picture = own_picture(body, &raw, address);
-    Some((state, Frame { raw, causes: None, picture }))
+    Some((state, Frame { raw, signal_breakdown: None, picture }))
 }
 
 /// The same frame, with what each pixel's digital number is made of.
 #[must_use]
-pub fn take_with_causes(
+pub fn take_with_breakdown(
     body: &CameraBody,
     state: SensorState,
     electrons: &Plane<Electrons>,
     address: FrameAddress,
 ) -> Option<(SensorState, Frame)> {
-    let (state, raw, causes) = body.sensor.as_ref()?.step_with_causes(state, electrons, address);
+    let (state, raw, signal_breakdown) = body.sensor.as_ref()?.step_with_breakdown(state, electrons, address);
     let picture = own_picture(body, &raw, address);
-    Some((state, Frame { raw, causes: Some(causes), picture }))
+    Some((state, Frame { raw, signal_breakdown: Some(signal_breakdown), picture }))
 }

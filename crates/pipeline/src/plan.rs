@@ -259,7 +259,7 @@ pub struct Products {
     /// Their file format.
     pub raw_format: RawFormat,
     /// What each pixel's digital number is made of.
-    pub causes: bool,
+    pub signal_breakdown: bool,
     /// The picture.
     pub picture: bool,
     /// Depth, normals, positions, identities.
@@ -274,7 +274,7 @@ pub struct Products {
     pub undistorted: Option<f64>,
 }
 
-/// As derived, but that what few ask for (a twin, causes, a raw format, positions in the camera's frame) is not named where it is not: plans without keep their hash.
+/// As derived, but that what few ask for (a twin, the breakdown of the signal, a raw format, positions in the camera's frame) is not named where it is not: plans without keep their hash.
 impl fmt::Debug for Products {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut all = f.debug_struct("Products");
@@ -288,8 +288,8 @@ impl fmt::Debug for Products {
         if self.raw_format != RawFormat::Png {
             all.field("raw_format", &self.raw_format);
         }
-        if self.causes {
-            all.field("causes", &self.causes);
+        if self.signal_breakdown {
+            all.field("signal_breakdown", &self.signal_breakdown);
         }
         if self.camera_space_position {
             all.field("camera_space_position", &self.camera_space_position);
@@ -303,7 +303,7 @@ impl Products {
     #[must_use]
     pub fn is_empty(&self) -> bool {
         let light = self.radiance || self.irradiance || self.ghosts || self.electrons;
-        let images = light || self.raw || self.picture || self.causes;
+        let images = light || self.raw || self.picture || self.signal_breakdown;
         !(images || self.ground_truth || self.depth_png_per_m.is_some() || self.rays)
     }
 }

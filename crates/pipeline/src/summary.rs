@@ -169,7 +169,7 @@ fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     };
     let (kind, n, t) = (lens.kind(), figure(lens.f_number()), lens.t_number());
     let length = match lens {
-        Lens::Parallel(_) => String::new(),
+        Lens::Telecentric(_) => String::new(),
         _ => format!(" {} mm", figure(lens.focal_length_mm())),
     };
     line(f, "lens", format!("{kind},{length} f/{n} (T {t:.3}), {focus}, {}", field_of_view(camera)))?;
@@ -257,7 +257,7 @@ fn left_out(lens: &Lens, effects: &Effects) -> String {
         Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Calibrated(_) if lens.lateral_colour().is_some() => {
             "aberrations but lateral colour, diffraction, glare and ghosts: not modelled".to_owned()
         }
-        Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Parallel(_) => {
+        Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Telecentric(_) => {
             let missing = missing(&["aberrations", "diffraction", "glare", "ghosts"]);
             format!("{missing}: not modelled; dispersion: the lens has none")
         }
@@ -277,7 +277,7 @@ fn left_out(lens: &Lens, effects: &Effects) -> String {
 }
 
 fn field_of_view(camera: &CameraPlan) -> String {
-    if let Lens::Parallel(lens) = &camera.body.lens {
+    if let Lens::Telecentric(lens) = &camera.body.lens {
         return format!("{} m wide", figure(lens.parameters().metres_per_mm * camera.body.raster.size_mm().x));
     }
     let size = camera.body.raster.size_mm();
@@ -399,7 +399,7 @@ fn products(p: &Products) -> String {
         (p.variance, "variance"),
         (p.electrons, "electrons"),
         (p.raw, raw_name(p.raw_format)),
-        (p.causes, "causes"),
+        (p.signal_breakdown, "signal_breakdown"),
         (p.picture, "picture"),
         (p.ground_truth && !p.camera_space_position, "ground truth"),
         (p.ground_truth && p.camera_space_position, "ground truth with positions in the camera's frame"),

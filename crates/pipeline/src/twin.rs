@@ -10,7 +10,7 @@
 //! Values are those of the place they come from, unscaled: an even picture stays even. Where the camera sees nothing, or the
 //! place lies outside its picture, the twin is black.
 //!
-//! Left out: a twin of a parallel camera, whose rays do not meet, and of fields beyond 85° from the axis, where tangents grow
+//! Left out: a twin of a telecentric camera, whose rays do not meet, and of fields beyond 85° from the axis, where tangents grow
 //! without end. A prescription's twin looks from the centre of the paraxial entrance pupil, which real pupils leave with the
 //! field.
 
@@ -34,9 +34,9 @@ const WIDEST_DEG: f64 = 85.0;
 pub enum TwinError {
     /// Rays that do not meet.
     #[error(
-        "a parallel camera has no undistorted twin: its rays do not meet, and are straight as they are; remove the key"
+        "a telecentric camera has no undistorted twin: its rays do not meet, and are straight as they are; remove the key"
     )]
-    Parallel,
+    Telecentric,
     /// A field that no plane holds.
     #[error(
         "the camera sees as far as {angle_deg:.1}° from its axis, and a rectilinear picture ends before 90°: an undistorted twin is \
@@ -150,7 +150,7 @@ impl Twin {
 /// The camera's own matrix, as one of tangents.
 fn own_matrix(camera: &CameraBody) -> Result<CameraMatrix, TwinError> {
     match &camera.lens {
-        Lens::Parallel(_) => Err(TwinError::Parallel),
+        Lens::Telecentric(_) => Err(TwinError::Telecentric),
         Lens::Calibrated(lens) => of_tangents(&lens.parameters().calibration),
         lens => Ok(camera.raster.camera_matrix(lens.principal_distance_mm())),
     }
@@ -241,14 +241,14 @@ mod tests {
     }
 
     fn calibrated(projection: &str) -> CameraBody {
-        body(&format!("model = \"calibrated\"\nprojection = {{ {projection} }}\n"))
+        body(&format!("type = \"calibrated\"\nprojection = {{ {projection} }}\n"))
     }
 
     #[test]
     fn the_twin_of_a_camera_without_distortion_is_itself() {
         for camera in [
-            body("model = \"pinhole\"\nfocal_length_mm = 7\n"),
-            body("model = \"thin\"\nfocal_length_mm = 7\nfocus_distance_m = 2\n"),
+            body("type = \"pinhole\"\nfocal_length_mm = 7\n"),
+            body("type = \"thin\"\nfocal_length_mm = 7\nfocus_distance_m = 2\n"),
             calibrated("type = \"opencv\", fx_px = 70, fy_px = 71, cx_px = 30, cy_px = 25"),
         ] {
             let twin = Twin::of(&camera, 1.0).expect("a twin");
@@ -310,6 +310,6 @@ mod tests {
         let refused = |camera: &CameraBody| Twin::of(camera, 1.0).map(|_| ()).expect_err("no twin").to_string();
         let wide = refused(&calibrated("type = \"equidistant\", fx_px = 20"));
         assert!(wide.contains("114.6°") && wide.contains("85°"), "{wide}");
-        assert!(refused(&body("model = \"parallel\"\nfield_width_m = 1\n")).contains("parallel"));
+        assert!(refused(&body("type = \"telecentric\"\nfield_width_m = 1\n")).contains("telecentric"));
     }
 }

@@ -124,7 +124,7 @@ impl<'t> Change<'t> {
     /// The path in the document, where the tree of a camera's file stands under "file".
     fn path_through_files(&self, document: &Node) -> Vec<&'t str> {
         let mut path = self.path.clone();
-        if let ["cameras", camera, "lens" | "sensor" | "processing" | "front" | "effects", ..] = self.path.as_slice()
+        if let ["cameras", camera, "lens" | "sensor" | "isp" | "external_optics" | "effects", ..] = self.path.as_slice()
             && is_in_file(document, camera)
         {
             path.insert(2, "file");

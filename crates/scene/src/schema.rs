@@ -66,7 +66,7 @@ fn derived<T: Record>() -> Json {
     let mut properties = json!({
         "format": format(),
         "base": { "type": "string", "description": base },
-        "without": { "type": "array", "items": { "type": "string" }, "description": without },
+        "remove": { "type": "array", "items": { "type": "string" }, "description": without },
     });
     T::keys().into_iter().for_each(|key| properties[key] = json!({}));
     json!({ "type": "object", "properties": properties, "required": ["format", "base"], "additionalProperties": false })

@@ -138,7 +138,7 @@ mod tests {
     fn ratios_fall_at_a_switch_by_the_root_of_what_is_lost() {
         let mut p = ideal();
         (p.read_out.noise.white_e, p.read_out.gain_dn_e) = (1e-3, 1.0);
-        p.hdr.captures = vec![Capture { exposure_share: 1.0 / 16.0, ..Capture::default() }];
+        p.hdr.captures = vec![Capture { exposure_ratio: 1.0 / 16.0, ..Capture::default() }];
         p.hdr.bits = Some(24);
         let range = Sensor::new(p).expect("legal").dynamic_range();
         let switch = range.switches[0];

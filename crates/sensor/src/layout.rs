@@ -112,16 +112,16 @@ impl Layout {
         checks.agree("optical_black", whole(dark.columns, dark.rows), multiples);
         if let Some(r) = self.region {
             checks.agree(
-                "region_px",
+                "roi_px",
                 whole(r.x, r.y) && whole(r.width, r.height) && r.width > 0 && r.height > 0,
                 multiples,
             );
             let ends_inside =
                 |from: usize, length: usize, all: usize| from.checked_add(length).is_some_and(|end| end <= all);
-            checks.agree("region_px", ends_inside(r.x, r.width, width) && ends_inside(r.y, r.height, height), || {
+            checks.agree("roi_px", ends_inside(r.x, r.width, width) && ends_inside(r.y, r.height, height), || {
                 format!("it ends beyond the picture of {width} × {height} pixels")
             });
-            checks.agree("region_px", dark == OpticalBlack::default(), || {
+            checks.agree("roi_px", dark == OpticalBlack::default(), || {
                 "a region leaves the optical black out: remove one of both".to_owned()
             });
         }

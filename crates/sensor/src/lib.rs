@@ -7,7 +7,7 @@
 //! - [`Sensor::responsivity`] says how many electrons a channel makes of an irradiance during the exposure; an irradiance
 //!   cube ([`Sensor::electrons`]) or the caller's own accumulation makes mean electrons of it.
 //! - [`Sensor::step`] makes a raw picture of mean electrons by the effects a sensor has, in their physical order
-//!   ([`effects`]). It is an ordered fold over frames; its state is [`SensorState`]. [`Sensor::step_with_causes`] says
+//!   ([`effects`]). It is an ordered fold over frames; its state is [`SensorState`]. [`Sensor::step_with_breakdown`] says
 //!   beside it what each pixel's value is made of.
 //! - [`Sensor::needs`] says which effects a sensor has, and why others are absent.
 //!
@@ -16,7 +16,7 @@
 //! fixed patterns from the specimen's.
 
 mod account;
-mod causes;
+mod signal_breakdown;
 pub mod cfa;
 mod check;
 pub mod dynamic_range;
@@ -37,7 +37,7 @@ mod sensor;
 mod state;
 
 pub use account::ChargeAccount;
-pub use causes::{Cause, Causes};
+pub use signal_breakdown::{SignalComponent, SignalBreakdown};
 pub use cfa::{BayerPhase, Cfa, CfaError};
 pub use check::SensorError;
 pub use dynamic_range::DynamicRange;

@@ -1,6 +1,6 @@
 //! What the channels of an even picture measure: neighbours of other colours mix in.
 //!
-//! Optical cross-talk and inter-pixel capacitance bring part of each pixel's signal from its neighbours, which sit under other filters:
+//! Optical crosstalk and inter-pixel capacitance bring part of each pixel's signal from its neighbours, which sit under other filters:
 //! a picture's red is R' = Σ w_c R_c over the channels c. White balance and colour matrices belong to these responsivities, as they
 //! would if they were measured on the camera. The weights of a channel are the mean over its pixels in the tile.
 
@@ -34,7 +34,7 @@ impl Sensor {
     /// The weight of each channel's light (second index) in each channel's pixels (first).
     fn channel_weights(&self) -> Vec<Vec<f64>> {
         let p = self.parameters();
-        let exchanges = [p.optics.cross_talk.map(|c| c.0), p.read_out.capacitance.map(|c| c.0)];
+        let exchanges = [p.optics.crosstalk.map(|c| c.0), p.read_out.capacitance.map(|c| c.0)];
         let one_hot = |channel: &usize| (0..p.channels.len()).map(|c| f64::from(u8::from(c == *channel))).collect();
         let tile: Vec<Vec<f64>> = p.cfa.channels().iter().map(one_hot).collect();
         let tile = exchanges.iter().flatten().fold(tile, |tile, shares| exchanged(&p.cfa, &tile, shares));
@@ -75,7 +75,7 @@ mod tests {
     use crate::Channel;
     use crate::cfa::{BayerPhase, Cfa};
     use crate::effects::capacitance::Capacitance;
-    use crate::effects::cross_talk::CrossTalk;
+    use crate::effects::crosstalk::Crosstalk;
     use crate::effects::neighbours::Neighbours;
     use crate::frame::tests::{ADDRESS, quiet, run};
     use crate::sensor::Sensor;
@@ -100,7 +100,7 @@ mod tests {
     #[test]
     fn red_takes_from_green_and_blue() {
         let mut p = bayer(BayerPhase::Gbrg);
-        p.optics.cross_talk = Some(CrossTalk(Neighbours { horizontal: 0.02, vertical: 0.03, corner: 0.01 }));
+        p.optics.crosstalk = Some(Crosstalk(Neighbours { horizontal: 0.02, vertical: 0.03, corner: 0.01 }));
         let sensor = Sensor::new(p).expect("legal");
         let of = |c: usize| f64::from(sensor.responsivity(c).at(500.0));
         let red = f64::from(sensor.picture_responsivities()[0].at(500.0));
@@ -112,7 +112,7 @@ mod tests {
     #[test]
     fn an_even_picture_has_them() {
         let mut p = bayer(BayerPhase::Grbg);
-        p.optics.cross_talk = Some(CrossTalk(Neighbours { horizontal: 0.05, vertical: 0.02, corner: 0.004 }));
+        p.optics.crosstalk = Some(Crosstalk(Neighbours { horizontal: 0.05, vertical: 0.02, corner: 0.004 }));
         p.read_out.capacitance = Some(Capacitance(Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.0 }));
         (p.charge.full_well_e, p.read_out.bits) = (1e6, 20);
         let sensor = Sensor::new(p.clone()).expect("legal");

@@ -5,7 +5,7 @@ use crate::check::{Checks, SensorError};
 use crate::effects::angle_response::AngleResponse;
 use crate::effects::capacitance::Capacitance;
 use crate::effects::converter::Converter;
-use crate::effects::cross_talk::CrossTalk;
+use crate::effects::crosstalk::Crosstalk;
 use crate::effects::dark_current::DarkCurrent;
 use crate::effects::full_well::Blooming;
 use crate::effects::lag::Trap;
@@ -14,7 +14,7 @@ use crate::effects::photo_response::PhotoResponse;
 use crate::effects::read_noise::ReadNoise;
 use crate::effects::response::Response;
 use crate::effects::smear::Smear;
-use crate::effects::telegraph_noise::TelegraphNoise;
+use crate::effects::rts_noise::RtsNoise;
 use crate::exposure_control::ExposureControl;
 use crate::hdr::HighDynamicRange;
 use crate::layout::Layout;
@@ -57,7 +57,7 @@ pub struct Optics {
     /// Response of the micro-lenses over the angle of the light.
     pub angle_response: Option<AngleResponse>,
     /// Light that neighbours exchange.
-    pub cross_talk: Option<CrossTalk>,
+    pub crosstalk: Option<Crosstalk>,
 }
 
 /// How pixels differ, frame after frame the same.
@@ -70,7 +70,7 @@ pub struct FixedPattern {
     /// Differences without light that do not grow with time (DSNU).
     pub offset: OffsetPattern,
     /// Share of pixels that hold no charge.
-    pub dead_share: f64,
+    pub dead_fraction: f64,
 }
 
 /// What happens to charge in its pixel.
@@ -100,7 +100,7 @@ pub struct ReadOut {
     /// Noise of the chain.
     pub noise: ReadNoise,
     /// Pixels whose noise has two levels.
-    pub telegraph: Option<TelegraphNoise>,
+    pub rts_noise: Option<RtsNoise>,
     /// Digital numbers an electron (EMVA's K) at an analogue gain of 1.
     pub gain_dn_e: f64,
     /// Factor on the voltage before the converter.
@@ -207,12 +207,12 @@ impl SensorParameters {
         if let Some(response) = &self.optics.angle_response {
             response.check(checks);
         }
-        if let Some(cross_talk) = &self.optics.cross_talk {
-            cross_talk.check(checks);
+        if let Some(crosstalk) = &self.optics.crosstalk {
+            crosstalk.check(checks);
         }
         self.pattern.photo_response.check(checks);
         self.pattern.offset.check(checks);
-        checks.share("non_uniformity.dead_share", self.pattern.dead_share);
+        checks.share("non_uniformity.dead_fraction", self.pattern.dead_fraction);
     }
 
     fn check_charge(&self, checks: &mut Checks) {
@@ -237,8 +237,8 @@ impl SensorParameters {
             capacitance.check(checks);
         }
         read_out.noise.check(checks);
-        if let Some(telegraph) = &read_out.telegraph {
-            telegraph.check(checks);
+        if let Some(telegraph) = &read_out.rts_noise {
+            rts_noise.check(checks);
         }
         checks.positive("gain_dn_per_e", read_out.gain_dn_e);
         checks.positive("analogue_gain", read_out.analogue_gain);
@@ -291,7 +291,7 @@ impl ReadOut {
             response: Response::Linear,
             capacitance: None,
             noise: ReadNoise { white_e: noise_e, row_e: 0.0, column_e: 0.0 },
-            telegraph: None,
+            rts_noise: None,
             gain_dn_e,
             analogue_gain: 1.0,
             black_level_dn,

@@ -44,6 +44,6 @@ pub struct SensorState {
     pub trapped_e: Vec<Vec<f32>>,
     /// Which blinking pixels are at their upper level, in raster order.
     pub blinking_high: Vec<bool>,
-    /// Which pixels of telegraph noise are at their upper level, in raster order.
+    /// Which pixels of RTS noise are at their upper level, in raster order.
     pub telegraph_high: Vec<bool>,
 }

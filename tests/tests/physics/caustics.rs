@@ -20,7 +20,7 @@ fn shot(light: &str, caustics: bool) -> Shot {
         position_m = [0, 0, 10]
         look_at_m = [0, 0, 0]
         up = [1, 0, 0]
-        lens = {{ model = "pinhole", focal_length_mm = 10, f_number = 8 }}
+        lens = {{ type = "pinhole", focal_length_mm = 10, f_number = 8 }}
         sensor = {{ width_px = 8, height_px = 8, pixel_pitch_um = 1000 }}
         [render]
         spp = 2048

@@ -23,7 +23,7 @@ fn card(reflectance: &str, spp: u32) -> Job {
         position_m = [0, 0, 3]
         look_at_m = [0, 0, 0]
         up = [1, 0, 0]
-        lens = {{ model = "pinhole", focal_length_mm = 6, f_number = 4 }}
+        lens = {{ type = "pinhole", focal_length_mm = 6, f_number = 4 }}
         [cameras.sensor]
         width_px = 8
         height_px = 8
@@ -38,7 +38,7 @@ fn card(reflectance: &str, spp: u32) -> Job {
         black_level_dn = 100
         bits = 16
         noise = false
-        [cameras.processing]
+        [cameras.isp]
         white_balance = "D65"
         colour_matrix = {{ fit = "D65" }}
         [render]
@@ -136,7 +136,7 @@ fn a_metal_sphere_in_uniform_light_shows_its_fresnel_reflectance() {
             name = "eye"
             position_m = [-100, 0, 0]
             look_at_m = [0, 0, 0]
-            lens = {{ model = "pinhole", focal_length_mm = 1000, f_number = 8 }}
+            lens = {{ type = "pinhole", focal_length_mm = 1000, f_number = 8 }}
             sensor = {{ width_px = {SIDE}, height_px = 1, pixel_pitch_um = 2400, fill_factor = 1e-6, principal_point_px = [4.5, 0.5] }}
             [render]
             spp = 256

@@ -34,7 +34,7 @@ fn body(camera: &str, light: &str, demosaic: &str) -> CameraBody {
         name = "eye"
         position_m = [0, 0, 1]
         look_at_m = [1, 0, 1]
-        lens = {{ model = "pinhole", focal_length_mm = 6, f_number = 4 }}
+        lens = {{ type = "pinhole", focal_length_mm = 6, f_number = 4 }}
         [cameras.sensor]
         width_px = {width}
         height_px = {height}
@@ -48,7 +48,7 @@ fn body(camera: &str, light: &str, demosaic: &str) -> CameraBody {
         gain_dn_per_e = 0.5
         black_level_dn = 256
         bits = 14
-        [cameras.processing]
+        [cameras.isp]
         white_balance = "{light}"
         colour_matrix = {{ fit = "{light}" }}
         demosaic = "{demosaic}"
@@ -130,7 +130,7 @@ fn errors(name: &str, light: &str, demosaic: &str) -> Errors {
 
 #[test]
 fn the_table_of_the_documentation_is_what_the_chain_makes() {
-    let page = include_str!("../../../docs/processing.md");
+    let page = include_str!("../../../docs/isp.md");
     let row = |name: &&str| {
         let (d65, a) = (errors(name, "D65", "bilinear"), errors(name, "A", "bilinear"));
         assert!(d65.mean < 3.0, "{name}: mean ΔE₀₀ {}", d65.mean);
@@ -140,7 +140,7 @@ fn the_table_of_the_documentation_is_what_the_chain_makes() {
         format!("| `{name}` | {} |", cells.join(" | "))
     };
     let missing: Vec<String> = camera::names().iter().map(row).filter(|row| !page.contains(row)).collect();
-    assert!(missing.is_empty(), "docs/processing.md lacks\n{}", missing.join("\n"));
+    assert!(missing.is_empty(), "docs/isp.md lacks\n{}", missing.join("\n"));
 }
 
 #[test]

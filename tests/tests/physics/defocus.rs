@@ -33,12 +33,12 @@ fn job(render: &str) -> Job {
         position_m = [0, 0, 0]
         look_at_m = [1, 0, 0]
         [cameras.lens]
-        model = "thick"
+        type = "thick"
         focal_length_mm = 35
         f_number = 1.4
         focus_distance_m = 1.5
         constant_pupil = "exit"
-        front_rim = {{ position_mm = -30, radius_mm = 12.6 }}
+        front_aperture = {{ position_mm = -30, radius_mm = 12.6 }}
         [cameras.sensor]
         width_px = {WIDTH}
         height_px = {HEIGHT}

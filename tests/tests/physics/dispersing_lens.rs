@@ -17,7 +17,7 @@ fn a_uniform_surround_keeps_its_spectrum_through_a_filter_and_glasses() {
         look_at_m = [1, 0, 0]
         sensor = { width_px = 4, height_px = 4, pixel_pitch_um = 3000 }
         [cameras.lens]
-        model = "prescription"
+        type = "prescription"
         published = "double-gauss"
         focus_distance_m = "infinity"
         ir_cut = { edge_nm = 550, edge_width_nm = 2, effective_index = 1.8 }

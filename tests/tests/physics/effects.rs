@@ -16,7 +16,7 @@ fn job(width: usize, height: usize, route: &str, effects: &str) -> Job {
         name = "eye"
         position_m = [0, 0, 0]
         look_at_m = [1, 0, 0]
-        lens = {{ focal_length_mm = 6, model = "pinhole", f_number = 4 }}
+        lens = {{ focal_length_mm = 6, type = "pinhole", f_number = 4 }}
         sensor = {{ width_px = {width}, height_px = {height}, pixel_pitch_um = 250 }}
         {effects}
         [render]

@@ -18,7 +18,7 @@ fn still_life(scale: f64, at_m: [f64; 3], level: f64) -> Job {
         name = "eye"
         position_m = {eye}
         look_at_m = {target}
-        lens = {{ model = "thin", focal_length_mm = {focal}, f_number = 2, focus_distance_m = {focus} }}
+        lens = {{ type = "thin", focal_length_mm = {focal}, f_number = 2, focus_distance_m = {focus} }}
         sensor = {{ width_px = 16, height_px = 12, pixel_pitch_um = {pitch} }}
         [render]
         spp = 256
@@ -129,7 +129,7 @@ fn one_pixel_of_one_sample_is_a_picture() {
 #[test]
 #[should_panic(expected = "seed")]
 fn a_seed_that_no_description_may_have_is_refused_to_tests_too() {
-    let text = "[scene]\n[[cameras]]\nlens = { model = \"pinhole\", focal_length_mm = 2, f_number = 8 }\n\
+    let text = "[scene]\n[[cameras]]\nlens = { type = \"pinhole\", focal_length_mm = 2, f_number = 8 }\n\
                 sensor = { width_px = 2, height_px = 2, pixel_pitch_um = 6 }\n";
     let _ = Job::new(text).with_seed(u64::MAX).plan();
 }

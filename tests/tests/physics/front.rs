@@ -14,7 +14,7 @@ fn job(scene: &str, front: &str, render: &str) -> Job {
         position_m = [0.3, -0.2, 1.9]
         look_at_m = [0.3, -0.2, 2.9]
         up = [1, 0, 0]
-        lens = {{ model = "thin", focal_length_mm = 5.3, f_number = 4, focus_distance_m = 0.115 }}
+        lens = {{ type = "thin", focal_length_mm = 5.3, f_number = 4, focus_distance_m = 0.115 }}
         sensor = {{ width_px = 16, height_px = 16, pixel_pitch_um = 220 }}
         {front}
         [render]

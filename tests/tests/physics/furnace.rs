@@ -18,7 +18,7 @@ fn furnace(material: &str, shape: &str, band_width_nm: u32) -> Samples {
         name = "eye"
         position_m = [-4, 0, 0]
         look_at_m = [0, 0, 0]
-        lens = {{ model = "thin", focal_length_mm = 8, f_number = 2, focus_distance_m = 4 }}
+        lens = {{ type = "thin", focal_length_mm = 8, f_number = 2, focus_distance_m = 4 }}
         sensor = {{ width_px = 12, height_px = 12, pixel_pitch_um = 500 }}
         [render]
         spp = 256
@@ -102,7 +102,7 @@ fn closed_box(albedo: f64, max_bounces: u32) -> Samples {
         name = "eye"
         position_m = [-0.3, 0.2, 0.1]
         rotation_deg = [25, 15, 5]
-        lens = {{ model = "pinhole", focal_length_mm = 5, f_number = 8 }}
+        lens = {{ type = "pinhole", focal_length_mm = 5, f_number = 8 }}
         sensor = {{ width_px = 10, height_px = 10, pixel_pitch_um = 1000 }}
         [render]
         spp = 256

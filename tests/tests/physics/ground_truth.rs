@@ -16,7 +16,7 @@ fn camera(height_m: f64, lens: &str, side_px: usize, pitch_um: f64) -> String {
         name = "eye"
         position_m = [0, 0, {height_m}]
         rotation_deg = [0, 0, 0]
-        lens = {{ model = "pinhole", focal_length_mm = 10, f_number = 8{lens} }}
+        lens = {{ type = "pinhole", focal_length_mm = 10, f_number = 8{lens} }}
         sensor = {{ width_px = {side_px}, height_px = {side_px}, pixel_pitch_um = {pitch_um} }}
         [render]
         spp = 1
@@ -212,8 +212,8 @@ fn a_mesh_far_from_the_origin_keeps_its_digits() {
 fn a_panorama_tells_positions_behind_the_camera() {
     // 64 × 32 px of the whole sphere: the longitude grows to the right from −180°, the latitude falls from 90° to −90°.
     let ground = "[[scene.objects]]\nname = \"road\"\nclass = \"road\"\nmaterial = \"grey\"\nshape = { type = \"quad\", size_m = [4000, 4000] }";
-    let pinhole = "{ model = \"pinhole\", focal_length_mm = 10, f_number = 8 }";
-    let panorama = "{ model = \"calibrated\", f_number = 8, projection = { type = \"equirectangular\", field_of_view_deg = 360 } }";
+    let pinhole = "{ type = \"pinhole\", focal_length_mm = 10, f_number = 8 }";
+    let panorama = "{ type = \"calibrated\", f_number = 8, projection = { type = \"equirectangular\", field_of_view_deg = 360 } }";
     let output = "\n[output]\nground_truth = true\ncamera_space_position = true\n";
     let job = Job::new(camera(1.3, "", 64, 10.0) + output + &scene(ground));
     let shot = job.replacing(pinhole, panorama).replacing("height_px = 64", "height_px = 32").shot();
@@ -238,8 +238,8 @@ fn a_panorama_tells_positions_behind_the_camera() {
 
 #[test]
 fn the_plan_says_where_depth_along_the_axis_means_nothing() {
-    let pinhole = "{ model = \"pinhole\", focal_length_mm = 10, f_number = 8 }";
-    let fisheye = "{ model = \"calibrated\", f_number = 8, greatest_angle_deg = 100, projection = { type = \"equidistant\", fx_px = 15 } }";
+    let pinhole = "{ type = \"pinhole\", focal_length_mm = 10, f_number = 8 }";
+    let fisheye = "{ type = \"calibrated\", f_number = 8, greatest_angle_deg = 100, projection = { type = \"equidistant\", fx_px = 15 } }";
     let ball = "[[scene.objects]]\nname = \"ball\"\nmaterial = \"grey\"\nshape = { type = \"sphere\", radius_m = 1 }\nposition_m = [5, 0, 0]";
     let job = || Job::new(camera(0.0, "", 64, 10.0) + &scene(ball));
     let said = |job: Job| Summary(&job.shot().plan).to_string().contains("depth along the axis is NaN");

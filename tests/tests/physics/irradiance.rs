@@ -28,7 +28,7 @@ fn plane(light: &str) -> Job {
         position_m = [0, -4, {HEIGHT_M}]
         look_at_m = [0, -4, 0]
         up = [1, 0, 0]
-        lens = {{ model = "pinhole", focal_length_mm = 10, f_number = 8 }}
+        lens = {{ type = "pinhole", focal_length_mm = 10, f_number = 8 }}
         sensor = {{ width_px = {SIDE_PX}, height_px = {SIDE_PX}, pixel_pitch_um = 1000, fill_factor = 1e-6 }}
         [render]
         spp = 256

@@ -31,7 +31,7 @@ fn wall(lamp: &str, directions: &[DVec3]) -> Job {
         [render]
         spp = 16
         replicates = 1
-        level = "direct"
+        integrator = "direct"
         {ONE_BAND}
         [[scene.materials]]
         name = "matt"

@@ -48,7 +48,7 @@ fn tangent(column: usize) -> f64 {
 #[test]
 fn a_wall_through_a_thin_lens_follows_the_finite_aperture() {
     for n in [1.4, 2.0, 2.8, 4.0, 8.0, 16.0] {
-        let row = wall(&format!("model = \"thin\", f_number = {n}, focus_distance_m = \"infinity\"")).irradiance();
+        let row = wall(&format!("type = \"thin\", f_number = {n}, focus_distance_m = \"infinity\"")).irradiance();
         for (column, mean) in row.mean.iter().enumerate() {
             let truth = PI * foote(tangent(column), 0.5 / n);
             let error = f64::from(*mean) / truth - 1.0;
@@ -69,7 +69,7 @@ fn a_wall_through_a_thin_lens_follows_the_finite_aperture() {
 
 #[test]
 fn a_slow_lens_follows_the_fourth_power_of_the_cosine() {
-    let row = wall("model = \"thin\", f_number = 100, focus_distance_m = \"infinity\"").irradiance();
+    let row = wall("type = \"thin\", f_number = 100, focus_distance_m = \"infinity\"").irradiance();
     for (column, mean) in row.mean.iter().enumerate() {
         // A pupil of radius 1/200 departs from cos⁴ by the order of its square, 2.5e-5 times a number below 6.
         let relative = f64::from(mean / row.mean[0]);
@@ -80,7 +80,7 @@ fn a_slow_lens_follows_the_fourth_power_of_the_cosine() {
 #[test]
 fn close_focus_costs_light_by_the_bellows() {
     // f = 10 mm focused at 110 mm: the sensor stands at 11 mm, m = −0.1, and E = π/(1 + 4 N² 1.1²) on the axis.
-    let row = wall("model = \"thin\", f_number = 4, focus_distance_m = 0.11").irradiance();
+    let row = wall("type = \"thin\", f_number = 4, focus_distance_m = 0.11").irradiance();
     let truth = PI / (1.0 + 4.0 * 16.0 * 1.21);
     // f32 storage, and scatter over the pupil (the weight varies by 1 %, drawn 4096 times).
     assert!((f64::from(row.mean[0]) / truth - 1.0).abs() < 1e-4, "{} {truth}", row.mean[0]);
@@ -121,9 +121,9 @@ fn still_life(lens: &str) -> Samples {
 
 #[test]
 fn a_thick_lens_with_coincident_principal_planes_is_a_thin_lens() {
-    let thin = still_life("model = \"thin\"");
+    let thin = still_life("type = \"thin\"");
     for pupil in ["entrance", "exit"] {
-        let thick = still_life(&format!("model = \"thick\", constant_pupil = \"{pupil}\""));
+        let thick = still_life(&format!("type = \"thick\", constant_pupil = \"{pupil}\""));
         let largest = thin.mean.iter().copied().fold(0.0, f32::max);
         for (i, (a, b)) in thin.mean.iter().zip(&thick.mean).enumerate() {
             // The lenses do the same in another order of f64 operations; a ray's f32 direction can then differ by one
@@ -138,9 +138,9 @@ fn vignetting_is_the_common_area_of_two_discs() {
     // A slow lens, so that every point of the pupil counts nearly the same; a front rim as wide as the pupil, 20 pupil
     // radii ahead of it, leaves the common area of two equal discs at a distance of 20 tan θ radii. (Infinity focus.)
     let (n, pupil_mm) = (100.0, FOCAL_MM / 200.0);
-    let rim = format!("front_rim = {{ position_mm = {}, radius_mm = {pupil_mm} }}", -5.0 * pupil_mm);
+    let rim = format!("front_aperture = {{ position_mm = {}, radius_mm = {pupil_mm} }}", -5.0 * pupil_mm);
     let lens =
-        format!("model = \"thick\", constant_pupil = \"entrance\", f_number = {n}, focus_distance_m = \"infinity\"");
+        format!("type = \"thick\", constant_pupil = \"entrance\", f_number = {n}, focus_distance_m = \"infinity\"");
     let row = wall(&format!("{lens}, {rim}")).irradiance();
     let open = |t: f64| lens_area(1.0, 1.0, 5.0 * t) / PI;
     let whole = |t: f64| PI * foote(t, 0.5 / n);
@@ -164,11 +164,11 @@ fn vignetting_of_a_fast_lens_is_the_sum_over_what_is_open() {
     // At f/2 the weight varies over the pupil: each point counts by cos⁴. A rear rim clips on the side of the sensor.
     let pupil_mm = FOCAL_MM / 4.0;
     let rims = [
-        (format!("front_rim = {{ position_mm = -6, radius_mm = {} }}", 1.2 * pupil_mm), 6.0, 1.2, 1.0, 1.0),
+        (format!("front_aperture = {{ position_mm = -6, radius_mm = {} }}", 1.2 * pupil_mm), 6.0, 1.2, 1.0, 1.0),
         (format!("rear_rim = {{ position_mm = 5, radius_mm = {} }}", 0.75 * pupil_mm), 5.0, 0.75, -1.0, 0.5),
     ];
     for (rim, distance_mm, radius, side, scale) in rims {
-        let lens = "model = \"thick\", constant_pupil = \"exit\", f_number = 2, focus_distance_m = \"infinity\"";
+        let lens = "type = \"thick\", constant_pupil = \"exit\", f_number = 2, focus_distance_m = \"infinity\"";
         let row = wall(&format!("{lens}, {rim}")).irradiance();
         // A ray from the pupil's point q (in units of its radius, x along the sensor point) meets the front rim at
         // q − t d/a, and the rear rim, half way to the sensor, at q/2 + t d/a (t d is half the sensor point's distance).

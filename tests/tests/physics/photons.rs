@@ -21,7 +21,7 @@ fn job(emission: &str, range_nm: [f64; 2], render: &str) -> Job {
         name = "eye"
         position_m = [0, 0, 0]
         look_at_m = [1, 0, 0]
-        lens = {{ model = "thin", focal_length_mm = 6, f_number = 2, focus_distance_m = "infinity" }}
+        lens = {{ type = "thin", focal_length_mm = 6, f_number = 2, focus_distance_m = "infinity" }}
         [cameras.sensor]
         width_px = 4
         height_px = 4
@@ -65,7 +65,7 @@ fn a_known_radiance_gives_its_photons_by_both_routes_to_electrons() {
     let radiance = "radiance_w_m2_sr_nm = { spectrum = \"line.csv\" }";
     let line = LINE.map(|(nm, v)| (nm, v * 100.0 / 683.0));
     for (render, range_nm, bias) in [
-        ("accumulate = \"folded\"", [554.0, 556.0], 0.0),
+        ("accumulate = \"electrons\"", [554.0, 556.0], 0.0),
         ("accumulate = \"cube\"\nband_width_nm = 1", [554.0, 556.0], 0.0),
         ("accumulate = \"cube\"\nband_width_nm = 2", [554.0, 556.0], 0.0),
         ("accumulate = \"cube\"\nband_width_nm = 5", [552.5, 557.5], 0.0),
@@ -88,7 +88,7 @@ fn a_known_radiance_gives_its_photons_by_both_routes_to_electrons() {
 #[test]
 fn a_declared_luminance_gives_its_photons() {
     let luminance = "luminance_cd_m2 = 100, spectrum = \"line.csv\"";
-    let seen = electrons(&job(luminance, [554.0, 556.0], "accumulate = \"folded\"").with_spectrum("line.csv", &LINE));
+    let seen = electrons(&job(luminance, [554.0, 556.0], "accumulate = \"electrons\"").with_spectrum("line.csv", &LINE));
     let error = seen.variance_of_mean().expect("16 pixels").sqrt();
     // V(555 nm) = 1.0000 in the table of the observer and K = 683.002 lm/W for 683: 1e-5.
     assert!((seen.mean() / photons() - 1.0).abs() < 4.0 * error / photons() + 1e-5, "{} ± {error}", seen.mean());

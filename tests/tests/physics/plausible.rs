@@ -29,7 +29,7 @@ fn on_the_ground(sun: bool) -> f64 {
         position_m = [0, 0, 5]
         look_at_m = [0, 0, 0]
         up = [1, 0, 0]
-        lens = {{ model = "pinhole", focal_length_mm = 10, f_number = 8 }}
+        lens = {{ type = "pinhole", focal_length_mm = 10, f_number = 8 }}
         sensor = {{ width_px = 8, height_px = 8, pixel_pitch_um = 100 }}
         [render]
         spp = 512
@@ -78,7 +78,7 @@ fn the_sun_s_disc_is_as_bright_as_the_sun() {
         name = "tele"
         position_m = [0, 0, 0]
         look_at_m = {:?}
-        lens = {{ model = "pinhole", focal_length_mm = 1000, f_number = 8 }}
+        lens = {{ type = "pinhole", focal_length_mm = 1000, f_number = 8 }}
         sensor = {{ width_px = {SIDE}, height_px = {SIDE}, pixel_pitch_um = 400 }}
         [render]
         spp = 256
@@ -122,7 +122,7 @@ fn road_at_night() -> f64 {
         position_m = [0, 0, 50]
         look_at_m = [0, 0, 0]
         up = [0, 1, 0]
-        lens = {{ model = "pinhole", focal_length_mm = 10, f_number = 8 }}
+        lens = {{ type = "pinhole", focal_length_mm = 10, f_number = 8 }}
         sensor = {{ width_px = 25, height_px = 7, pixel_pitch_um = 200 }}
         [render]
         spp = 64

@@ -48,9 +48,9 @@ fn job(scene: &str, lens: &str, route: &str) -> Job {
 }
 
 const LENSES: [&str; 3] = [
-    "model = \"pinhole\", f_number = 4",
-    "model = \"thin\", f_number = 1.4, focus_distance_m = 2",
-    "model = \"thick\", f_number = 2, focus_distance_m = \"infinity\", constant_pupil = \"exit\", pupil_magnification = 1.3",
+    "type = \"pinhole\", f_number = 4",
+    "type = \"thin\", f_number = 1.4, focus_distance_m = 2",
+    "type = \"thick\", f_number = 2, focus_distance_m = \"infinity\", constant_pupil = \"exit\", pupil_magnification = 1.3",
 ];
 
 #[test]

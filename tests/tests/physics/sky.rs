@@ -53,7 +53,7 @@ fn the_sun_s_radiance_is_the_model_s_at_its_centre_and_towards_its_limb() {
     const PITCH_MM: f64 = 1.1;
     let camera = format!(
         "[[cameras]]\nname = \"tele\"\nposition_m = [0, 0, 0]\nlook_at_m = {:?}\n\
-         lens = {{ model = \"pinhole\", focal_length_mm = 1000, f_number = 8 }}\n\
+         lens = {{ type = \"pinhole\", focal_length_mm = 1000, f_number = 8 }}\n\
          sensor = {{ width_px = 9, height_px = 1, pixel_pitch_um = 1100, fill_factor = 1e-6, principal_point_px = [4.5, 0.5] }}\n",
         (towards(AZIMUTH_DEG, ELEVATION_DEG) * 1000.0).to_array()
     );

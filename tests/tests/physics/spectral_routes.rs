@@ -28,7 +28,7 @@ fn job(accumulate: &str, band_width_nm: u32, wavelengths: u32, seed: u64) -> Job
         position_m = [0, 0, 3]
         look_at_m = [0, 0, 0]
         up = [1, 0, 0]
-        lens = {{ model = "pinhole", focal_length_mm = 6, f_number = 4 }}
+        lens = {{ type = "pinhole", focal_length_mm = 6, f_number = 4 }}
         [cameras.sensor]
         width_px = {SIDE_PX}
         height_px = {SIDE_PX}

@@ -48,12 +48,12 @@ fn job(lens: &str, route: &str) -> Job {
         name = "eye"
         position_m = [0.3, -0.2, 0.1]
         rotation_deg = [25, 10, 5]
-        lens = {{ model = "calibrated", f_number = 4, {lens} }}
+        lens = {{ type = "calibrated", f_number = 4, {lens} }}
         sensor = {{ width_px = {WIDTH}, height_px = {HEIGHT}, pixel_pitch_um = 100 }}
         [render]
         spp = 64
         replicates = 16
-        level = "direct"
+        integrator = "direct"
         wavelength_range_nm = [500, 600]
         band_width_nm = 100
         route = "{route}"

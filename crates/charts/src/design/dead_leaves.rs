@@ -31,21 +31,21 @@ pub struct DeadLeaves {
     /// Radius of the smallest leaves, pixels of the picture's middle.
     pub smallest_px: f64,
     /// Radius of the largest leaves over the chart's side.
-    pub largest_share: f64,
+    pub largest_ratio: f64,
 }
 
 impl DeadLeaves {
     pub(super) fn draw(&self, seen: &Footprint, seed: u64) -> Result<Drawing, ChartError> {
         let side = REACH * seen.inner_mm.min_element();
         let texels = (TEXELS * side / seen.pixel_mm).min(MOST_TEXELS).round().max(16.0);
-        let (smallest, largest) = (self.smallest_px * seen.pixel_mm / side, self.largest_share);
+        let (smallest, largest) = (self.smallest_px * seen.pixel_mm / side, self.largest_ratio);
         if !(self.smallest_px > 0.0 && smallest < largest) {
             let told = "expected a radius above 0 px and below that of the largest leaves";
             return Err(ChartError::option("smallest-px", self.smallest_px, told));
         }
         if !(largest > 0.0 && largest <= 0.5) {
             return Err(ChartError::option(
-                "largest-share",
+                "largest-ratio",
                 largest,
                 "expected a share of the side, above 0 and at most 0.5",
             ));

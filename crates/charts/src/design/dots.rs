@@ -13,16 +13,16 @@ pub struct Dots {
     /// 24 px of the picture's middle: a mosaic's colours see every other pixel.
     pub size: GridSize,
     /// Diameter over the distance between centres, 0.05 … 0.9.
-    pub dot_share: f64,
+    pub dot_ratio: f64,
 }
 
 impl Dots {
     pub(super) fn draw(&self, seen: &Footprint) -> Result<Drawing, ChartError> {
-        if !(0.05..=0.9).contains(&self.dot_share) {
-            return Err(ChartError::option("dot-share", self.dot_share, "expected 0.05 … 0.9"));
+        if !(0.05..=0.9).contains(&self.dot_ratio) {
+            return Err(ChartError::option("dot-ratio", self.dot_ratio, "expected 0.05 … 0.9"));
         }
         let grid = self.size.in_room(seen.outer_mm, usual_columns(seen.outer_mm.x / seen.pixel_mm), 3)?;
-        let mut drawing = discs::draw(seen, &grid, self.dot_share, |_, _| true);
+        let mut drawing = discs::draw(seen, &grid, self.dot_ratio, |_, _| true);
         drawing.note("columns", grid.columns);
         drawing.note("rows", grid.rows);
         Ok(drawing)

@@ -25,16 +25,16 @@ pub struct Flare {
     /// How many traps and how far apart. Default: 5 columns over what is wholly seen.
     pub size: GridSize,
     /// Diameter of an opening over the distance between middles.
-    pub trap_share: f64,
+    pub trap_ratio: f64,
 }
 
 impl Flare {
     pub(super) fn draw(&self, seen: &Footprint) -> Result<Drawing, ChartError> {
-        if !(0.02..=0.8).contains(&self.trap_share) {
-            return Err(ChartError::option("trap-share", self.trap_share, "expected 0.02 … 0.8"));
+        if !(0.02..=0.8).contains(&self.trap_ratio) {
+            return Err(ChartError::option("trap-ratio", self.trap_ratio, "expected 0.02 … 0.8"));
         }
         let grid = self.size.in_room(seen.inner_mm, 5, 1)?;
-        let radius = self.trap_share * grid.pitch_mm / 2.0;
+        let radius = self.trap_ratio * grid.pitch_mm / 2.0;
         let depth_mm = 2.0 * DEPTH * radius;
         let pitch = DVec2::splat(grid.pitch_mm);
         let lattice = Lattice::framed(grid.columns, grid.rows, pitch, seen.outer_mm * BLEED);

@@ -41,8 +41,8 @@ pub(super) fn camera_file(station: &Station) -> String {
 /// The camera of a station: the caller's, and what differs.
 pub(super) fn camera(request: &Request<'_>, station: &Station) -> String {
     let mut text = format!("format = 1\nbase = \"{}\"\n", request.camera);
-    if !request.without.is_empty() {
-        let _ = writeln!(text, "without = {:?}", request.without);
+    if !request.remove.is_empty() {
+        let _ = writeln!(text, "remove = {:?}", request.remove);
     }
     if let Some(exposure_s) = station.exposure_s {
         let _ = write!(text, "\n[sensor]\nexposure_s = {exposure_s:e}\n");

@@ -53,7 +53,7 @@ pub struct Request<'a> {
     /// The camera file that the job's cameras build on, as a path from the chart's folder.
     pub camera: &'a str,
     /// Keys that are taken out of it.
-    pub without: &'a [&'a str],
+    pub remove: &'a [&'a str],
     /// The specimen that all cameras of a series share, where the camera file does not say one.
     pub specimen: Option<u64>,
     /// The seed.

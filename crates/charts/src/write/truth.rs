@@ -103,7 +103,7 @@ fn ink(ink: &Ink, request: &Request<'_>) -> Value {
     let mut facts = json!({
         "name": ink.name,
         "kind": kind,
-        "luminous_share": ink.luminous_share(light),
+        "luminous_fraction": ink.luminous_fraction(light),
         "luminance_cd_m2": ink.luminance_cd_m2(light),
         "lab": [lab.l, lab.a, lab.b],
         "xyz": ink.xyz(light),

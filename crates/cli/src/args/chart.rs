@@ -99,7 +99,7 @@ pub struct Dots {
     pub size: Size,
     /// Diameter of a dot over the distance between centres
     #[arg(long, value_name = "SHARE", default_value_t = 0.5, allow_negative_numbers = true)]
-    pub dot_share: f64,
+    pub dot_ratio: f64,
     #[command(flatten)]
     pub views: Views,
     #[command(flatten)]
@@ -248,7 +248,7 @@ pub struct DeadLeaves {
     pub smallest_px: f64,
     /// Radius of the largest leaves over the side of the chart
     #[arg(long, value_name = "SHARE", default_value_t = 0.2, allow_negative_numbers = true)]
-    pub largest_share: f64,
+    pub largest_ratio: f64,
     #[command(flatten)]
     pub common: Common,
 }
@@ -288,7 +288,7 @@ pub struct Flare {
     pub size: Size,
     /// Diameter of a trap's opening over the distance between traps
     #[arg(long, value_name = "SHARE", default_value_t = 0.25, allow_negative_numbers = true)]
-    pub trap_share: f64,
+    pub trap_ratio: f64,
     #[command(flatten)]
     pub common: Common,
 }

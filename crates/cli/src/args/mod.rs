@@ -73,7 +73,7 @@ pub struct Job {
     /// Samples a pixel, over all replicates, of every camera [default: the job's, or the quality's]
     #[arg(long, value_name = "N")]
     pub spp: Option<u64>,
-    /// How much of the light's ways every camera follows, as render.level says it [default: the job's, or path]
+    /// How much of the light's ways every camera follows, as render.integrator says it [default: the job's, or path]
     #[arg(long, value_enum)]
     pub integrator: Option<Integrator>,
     /// A preset of samples and bounces, for what the job file leaves open
@@ -203,7 +203,7 @@ pub struct Develop {
     /// The camera file (TOML) whose sensor took them and whose processing makes the pictures
     #[arg(long, value_name = "CAMERA.toml")]
     pub camera: PathBuf,
-    /// Change a key of the camera file, e.g. --set processing.demosaic=malvar
+    /// Change a key of the camera file, e.g. --set isp.demosaic=malvar
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
     /// For raws without a side-car: digital numbers of no light and of a saturated pixel, e.g. 64..4095

@@ -26,7 +26,7 @@ pub struct Flat {
     pub frames: std::ops::Range<u32>,
     /// Write what each pixel's digital number is made of
     #[arg(long, conflicts_with = "photon_transfer")]
-    pub causes: bool,
+    pub signal_breakdown: bool,
     /// Change a key of the camera file, e.g. --set sensor.exposure_s=0.002
     #[arg(long, value_name = "KEY=VALUE")]
     pub set: Vec<String>,
@@ -66,7 +66,7 @@ impl From<&Flat> for FlatRequest {
             wavelength_nm: a.wavelength_nm,
             source,
             frames: a.frames.clone(),
-            causes: a.causes,
+            signal_breakdown: a.signal_breakdown,
             seed: a.seed.unwrap_or(0),
         }
     }

@@ -49,7 +49,7 @@ fn common(arguments: &Asked) -> &Common {
 /// The chart and what it has in common with all.
 fn chart(arguments: &Asked) -> (Chart, &Common) {
     match arguments {
-        Asked::Dots(a) => (Chart::Dots(Dots { size: size(&a.size), dot_share: a.dot_share }), &a.common),
+        Asked::Dots(a) => (Chart::Dots(Dots { size: size(&a.size), dot_ratio: a.dot_ratio }), &a.common),
         Asked::Checkerboard(a) => (Chart::Checkerboard(Checkerboard { size: size(&a.size) }), &a.common),
         Asked::Circles(a) => (Chart::Circles(Circles { size: size(&a.size), asymmetric: a.asymmetric }), &a.common),
         Asked::FlatField(a) => (Chart::FlatField(FlatField { reflectance: a.reflectance }), &a.common),
@@ -64,7 +64,7 @@ fn chart(arguments: &Asked) -> (Chart, &Common) {
         }
         Asked::SiemensStar(a) => (Chart::SiemensStar(SiemensStar { cycles: a.cycles, binary: a.binary }), &a.common),
         Asked::DeadLeaves(a) => {
-            let chart = DeadLeaves { smallest_px: a.smallest_px, largest_share: a.largest_share };
+            let chart = DeadLeaves { smallest_px: a.smallest_px, largest_ratio: a.largest_ratio };
             (Chart::DeadLeaves(chart), &a.common)
         }
         Asked::OecfSteps(a) => {
@@ -75,7 +75,7 @@ fn chart(arguments: &Asked) -> (Chart, &Common) {
         Asked::ContrastPatches(a) => {
             (Chart::ContrastPatches(ContrastPatches { size: size(&a.size), decades: a.decades }), &a.common)
         }
-        Asked::Flare(a) => (Chart::Flare(Flare { size: size(&a.size), trap_share: a.trap_share }), &a.common),
+        Asked::Flare(a) => (Chart::Flare(Flare { size: size(&a.size), trap_ratio: a.trap_ratio }), &a.common),
         Asked::Points(a) => (Chart::Points(Points { size: size(&a.size), diameter_px: a.diameter_px }), &a.common),
         Asked::DepthWedge(a) => (Chart::DepthWedge(DepthWedge { steps: a.steps, far_ratio: a.far_ratio }), &a.common),
     }

@@ -17,16 +17,16 @@ fn plan(front: &str, job: &str) -> Ran {
 }
 
 const SPHERE: &str = "[front.mirror]\nshape = \"sphere\"\nradius_mm = 30\nrim_radius_mm = 25\nreflectance = 0.9\n";
-const GLASS: &str = "[front.windscreen]\ndistance_mm = 100\n";
+const GLASS: &str = "[external_optics.windscreen]\ndistance_mm = 100\n";
 
 #[test]
 fn mirrors_that_the_camera_cannot_look_at() {
     plan(&format!("{SPHERE}distance_mm = 50"), "").ok();
-    plan(SPHERE, "").refused(&["camera.toml:10", "front.mirror", "distance_mm"]);
+    plan(SPHERE, "").refused(&["camera.toml:10", "external_optics.mirror", "distance_mm"]);
     let turned = format!("{SPHERE}distance_mm = 50\nrotation_deg = [180, 0, 0]");
-    plan(&turned, "").refused(&["camera.toml:10", "front.mirror", "seen from inside"]);
+    plan(&turned, "").refused(&["camera.toml:10", "external_optics.mirror", "seen from inside"]);
     let aside = format!("{SPHERE}distance_mm = 50\noffset_mm = [900, 0]");
-    plan(&aside, "").refused(&["camera.toml:10", "front.mirror", "no pixel"]);
+    plan(&aside, "").refused(&["camera.toml:10", "external_optics.mirror", "no pixel"]);
     let wide = SPHERE.replace("rim_radius_mm = 25", "rim_radius_mm = 31\ndistance_mm = 50");
     plan(&wide, "").refused(&["camera.toml:10", "reaches only 30"]);
     let hole = format!("{SPHERE}distance_mm = 50\nhole_radius_mm = 25");
@@ -36,19 +36,19 @@ fn mirrors_that_the_camera_cannot_look_at() {
 #[test]
 fn glass_that_the_camera_cannot_look_through() {
     plan(GLASS, "").ok();
-    plan(&GLASS.replace("100", "0"), "").refused(&["camera.toml:11", "front.windscreen.distance_mm"]);
-    plan(&format!("{GLASS}tilt_deg = 90"), "").refused(&["camera.toml:12", "front.windscreen.tilt_deg"]);
+    plan(&GLASS.replace("100", "0"), "").refused(&["camera.toml:11", "external_optics.windscreen.distance_mm"]);
+    plan(&format!("{GLASS}tilt_deg = 90"), "").refused(&["camera.toml:12", "external_optics.windscreen.tilt_deg"]);
     let wedge = format!("{GLASS}tilt_deg = 60\nwedge_mrad = 100");
-    plan(&wedge, "").refused(&["camera.toml:10", "front.windscreen", "faces cross", "wedge_mrad"]);
+    plan(&wedge, "").refused(&["camera.toml:10", "external_optics.windscreen", "faces cross", "wedge_mrad"]);
     plan(&format!("{GLASS}reference_thickness_mm = 4"), "").refused(&["camera.toml:12", "no effect"]);
     plan(&format!("{GLASS}double_image = false\ndouble_image_share = 0.5"), "").refused(&["no effect"]);
     plan(&format!("{GLASS}internal_transmittance = 0"), "").refused(&["camera.toml:10", "internal_transmittance"]);
-    plan("[front]", "").refused(&["camera.toml:10", "nothing stands in front"]);
+    plan("[external_optics]", "").refused(&["camera.toml:10", "nothing stands in front"]);
     let both = format!("{GLASS}{SPHERE}distance_mm = 50");
-    let dirt = "[front.dirt]\nmask = \"m.png\"\nsize_mm = [90, 90]\ndistance_mm = 101\n";
+    let dirt = "[external_optics.dirt]\nmask = \"m.png\"\nsize_mm = [90, 90]\ndistance_mm = 101\n";
     plan(&format!("{GLASS}{dirt}"), "").refused(&[
         "camera.toml:15",
-        "front.dirt.distance_mm",
+        "external_optics.dirt.distance_mm",
         "beyond the wind-screen",
     ]);
     plan(dirt, "").refused(&["camera.toml:11", "m.png"]);
@@ -76,7 +76,7 @@ fn what_stands_in_front_and_the_effects_can_be_set() {
     .expect("written");
     fs::write(place.path().join("job.toml"), JOB).expect("written");
     let job = text(&place.path().join("job.toml"));
-    let set = ["--set", "cameras.c.front.windscreen.tilt_deg=30", "--set", "cameras.c.effects.glare.scatter=0.02"];
+    let set = ["--set", "cameras.c.external_optics.windscreen.tilt_deg=30", "--set", "cameras.c.effects.glare.scatter=0.02"];
     let said = etendue(["plan", job.as_str()].into_iter().chain(set)).ok().out;
     assert!(said.contains("30.0° from the axis") && said.contains("0.02 of the light"), "{said}");
 }

@@ -178,10 +178,10 @@ fn a_focus_nearer_than_the_focal_length() {
 
 #[test]
 fn pupils_that_contradict_each_other() {
-    let thick = "model = \"thick\"\nconstant_pupil = \"exit\"\nentrance_pupil_mm = 2\nexit_pupil_mm = 5\n\
+    let thick = "type = \"thick\"\nconstant_pupil = \"exit\"\nentrance_pupil_mm = 2\nexit_pupil_mm = 5\n\
                  pupil_magnification = 1.5";
     let spoilt = Spoilt::new();
-    spoilt.spoil("small.toml", "model = \"thin\"", thick);
+    spoilt.spoil("small.toml", "type = \"thin\"", thick);
     spoilt.render(&[]).refused(&[
         "small.toml:",
         "cameras.front.lens",
@@ -196,10 +196,10 @@ fn a_seed_below_zero_and_a_picture_without_processing() {
     let spoilt = Spoilt::new();
     spoilt.spoil(
         "small.toml",
-        "[cameras.processing]\nwhite_balance = \"D65\"\ncolour_matrix = { fit = \"D65\" }\n",
+        "[cameras.isp]\nwhite_balance = \"D65\"\ncolour_matrix = { fit = \"D65\" }\n",
         "",
     );
-    spoilt.render(&[]).refused(&["small.toml:126", "output.picture", "[processing]"]);
+    spoilt.render(&[]).refused(&["small.toml:126", "output.picture", "[isp]"]);
 }
 
 #[test]

@@ -101,7 +101,7 @@ const NEAR: &str = r#"format = 1
 name = "eye"
 position_m = [-1e-4, 0, 0]
 look_at_m = [1, 0, 0]
-lens = { model = "pinhole", focal_length_mm = 6, f_number = 8 }
+lens = { type = "pinhole", focal_length_mm = 6, f_number = 8 }
 sensor = { width_px = 8, height_px = 6, pixel_pitch_um = 6 }
 [render]
 spp = 4

@@ -57,7 +57,7 @@ fn a_black_level_above_white_at_the_smallest_gain() {
     plan(&spoilt).ok();
     let control = "exposure_s = 1e-6\nauto_exposure = { percentile = 50, target = 0.5, exposure_limits_s = [1e-7, 1e-3], gain_limits = [0.5, 2] }";
     spoilt.spoil("small.toml", "exposure_s = 1e-6", control);
-    plan(&spoilt).refused(&["cameras.front.processing.black_level", "3000", "saturated at"]);
+    plan(&spoilt).refused(&["cameras.front.isp.black_level", "3000", "saturated at"]);
 }
 
 #[test]
@@ -164,7 +164,7 @@ fn pictures_that_cannot_be_written() {
 
 #[test]
 fn filters_of_the_paper_that_cannot_be() {
-    let filter = |keys: &str, phrases: &[&str]| refused(&format!("paper_filters = [{{ filter = {keys} }}]"), phrases);
+    let filter = |keys: &str, phrases: &[&str]| refused(&format!("image_filters = [{{ filter = {keys} }}]"), phrases);
     filter("\"pulse_noise\", amplitude_dn = 10, probability = 0.51", &["probability", "0.5"]);
     filter("\"pulse_noise\", amplitude_dn = 256, probability = 0.1", &["amplitude_dn", "255"]);
     filter("\"gaussian_noise\", sigma_dn = -1", &["sigma_dn"]);
@@ -182,7 +182,7 @@ fn filters_of_the_paper_that_cannot_be() {
     );
     filter("\"glow\", percentile = 0, target = 1, threshold = 1, radius_px = 1, strength = 1", &["percentile"]);
     filter("\"sepia\"", &["sepia", "glow"]);
-    let late = "\"uniform_noise\", range = 1 }, { filter = \"tone_map\", original_factor = 0";
+    let late = "\"uniform_noise\", range = 1 }, { type = \"tone_map\", original_factor = 0";
     filter(late, &["filter 2", "linear light", "first"]);
 }
 
@@ -190,6 +190,6 @@ fn filters_of_the_paper_that_cannot_be() {
 fn a_picture_wider_than_a_jpeg() {
     let wide = "--set=cameras.front.sensor.width_px=65536";
     let small = Spoilt::new();
-    let plan = etendue(["plan", &small.job(), wide, "--set=cameras.front.processing.picture_format=jpeg"]);
-    plan.refused(&["cameras.front.processing.picture_format", "65535", "png"]);
+    let plan = etendue(["plan", &small.job(), wide, "--set=cameras.front.isp.picture_format=jpeg"]);
+    plan.refused(&["cameras.front.isp.picture_format", "65535", "png"]);
 }

@@ -63,16 +63,16 @@ fn a_tile_that_does_not_tile_the_sensor() {
 fn captures_that_do_not_go_together() {
     let hdr = |bits: u32, more: &str| {
         format!(
-            "{BITS}\n[cameras.sensor.hdr]\nmerged_bits = {bits}\ncaptures = [{{ exposure_share = 0.1 }}, {more}]\n#"
+            "{BITS}\n[cameras.sensor.hdr]\nmerged_bits = {bits}\ncaptures = [{{ exposure_ratio = 0.1 }}, {more}]\n#"
         )
     };
-    let more = "{ exposure_share = 0.5 }";
+    let more = "{ exposure_ratio = 0.5 }";
     refused_below(3, BITS, &hdr(20, more), &["cameras.front.sensor.hdr", "entry 1 (from 0) is more sensitive"]);
-    let more = "{ exposure_share = 0.1, same_charge = true }";
+    let more = "{ exposure_ratio = 0.1, dual_conversion_gain = true }";
     refused_below(3, BITS, &hdr(20, more), &["cameras.front.sensor.hdr", "entry 1 (from 0): charge that is read"]);
-    let more = "{ exposure_share = 0.1, read_noise_e = 1 }";
+    let more = "{ exposure_ratio = 0.1, read_noise_e = 1 }";
     refused_below(3, BITS, &hdr(20, more), &["cameras.front.sensor.hdr", "entry 1 (from 0) reaches no further"]);
-    let more = "{ exposure_share = 0.01 }";
+    let more = "{ exposure_ratio = 0.01 }";
     refused_below(2, BITS, &hdr(13, more), &["cameras.front.sensor.hdr.merged_bits", "13 bits end at 8191"]);
 }
 

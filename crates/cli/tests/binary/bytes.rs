@@ -67,7 +67,7 @@ fn nor_by_the_route_over_the_pupil() {
 
 #[test]
 fn nor_where_paths_share_their_tails() {
-    same_however_it_is_cut(&["--set", "render.tail_sharing_px=4"]);
+    same_however_it_is_cut(&["--set", "render.path_reuse_px=4"]);
 }
 
 #[test]
@@ -110,7 +110,7 @@ fn another_camera_of_the_job_changes_nothing_of_the_first() {
         .expect("the job")
         .replace("file = \"", &format!("file = \"{}/", text(&folder)));
     let second = "\n[[cameras]]\nname = \"second\"\nposition_m = [0, 1, 2]\nlook_at_m = [6, 0, 0]\n\
-                  lens = { model = \"pinhole\", focal_length_mm = 6, f_number = 8 }\n\
+                  lens = { type = \"pinhole\", focal_length_mm = 6, f_number = 8 }\n\
                   sensor = { width_px = 20, height_px = 12, pixel_pitch_um = 200 }\n\
                   output = { electrons = false, raw = false, picture = false }\n";
     std::fs::write(&job, format!("{one}{second}")).expect("written");

@@ -190,7 +190,7 @@ fn smear_in_a_developed_picture_is_declared_by_what_development_makes_of_it() {
     const CAMERA: &str = r#"
 format = 1
 [lens]
-model = "thin"
+type = "thin"
 focal_length_mm = 6
 f_number = 2
 focus_distance_m = 5
@@ -208,9 +208,9 @@ dark_current_e_s = 0
 gain_dn_per_e = 0.33
 black_level_dn = 64
 bits = 12
-smear = { kind = "interline", smear_db = -70 }
+smear = { type = "interline", smear_db = -70 }
 "#;
-    let processing = "[processing]\nwhite_balance = \"D65\"\ncolour_matrix = { fit = \"D65\" }\n";
+    let processing = "[isp]\nwhite_balance = \"D65\"\ncolour_matrix = { fit = \"D65\" }\n";
     let folder = tempfile::tempdir().expect("a folder");
     let write = |name: &str, content: &str| std::fs::write(folder.path().join(name), content).expect("written");
     let exposures = ["2e-6", "4e-6", "1e-5", "2e-5", "4e-5", "8e-5"];

@@ -8,7 +8,7 @@ use tempfile::TempDir;
 const CAMERA: &str = r#"
 format = 1
 [lens]
-model = "thin"
+type = "thin"
 focal_length_mm = 6
 f_number = 2
 focus_distance_m = 5
@@ -26,12 +26,12 @@ dark_current_e_s = 10
 gain_dn_per_e = 0.33
 black_level_dn = 64
 bits = 12
-[processing]
+[isp]
 white_balance = "D65"
 colour_matrix = { fit = "D65" }
 exposure_gain = 1.5
-[[processing.paper_filters]]
-filter = "pulse_noise"
+[[isp.image_filters]]
+type = "pulse_noise"
 amplitude_dn = 40
 probability = 0.1
 "#;
@@ -52,7 +52,7 @@ gain_limits = [1, 8]
 const HDR: &str = r#"
 [sensor.hdr]
 merged_bits = 20
-captures = [{ exposure_share = 0.01 }]
+captures = [{ exposure_ratio = 0.01 }]
 [sensor.companding]
 bits = 12
 knees = [[512, 512], [4096, 1408], [65536, 2368], [1048575, 4095]]
@@ -76,7 +76,7 @@ shape = { type = "quad", size_m = [30, 30] }
 material = "ground"
 [render]
 spp = 4
-level = "direct"
+integrator = "direct"
 [output]
 raw = true
 picture = true
@@ -163,16 +163,16 @@ fn another_processing_gives_another_picture() {
     };
     let plain = developed(&[]);
     for option in [
-        "processing.demosaic=malvar",
-        "processing.white_balance=grey_world",
-        "processing.tone_curve=linear",
-        "processing.sharpening={ amount = 1, radius_px = 1 }",
-        "processing.noise_reduction={ median_px = 1 }",
-        "processing.black_level=20",
-        "processing.shading={ radial_gains = [1, 2] }",
-        "processing.defect_outlier_threshold=0.02",
-        "processing.picture_bits=16",
-        "processing.picture_format=jpeg",
+        "isp.demosaic=malvar",
+        "isp.white_balance=grey_world",
+        "isp.tone_curve=linear",
+        "isp.sharpening={ amount = 1, radius_px = 1 }",
+        "isp.noise_reduction={ median_px = 1 }",
+        "isp.black_level=20",
+        "isp.shading={ radial_gains = [1, 2] }",
+        "isp.defect_outlier_threshold=0.02",
+        "isp.picture_bits=16",
+        "isp.picture_format=jpeg",
     ] {
         assert_ne!(developed(&["--set", option]), plain, "{option}");
     }
@@ -223,8 +223,8 @@ fn raws_that_contradict_their_camera_are_refused() {
     shots.refused(&["out/bayer/none.png"], "bayer.toml", &[], &["none.png"]);
     let colour = ["--levels", "0..255"];
     shots.refused(&["out/bayer/picture.0000.png"], "bayer.toml", &colour, &["picture.0000.png", "grey", "R, G, B"]);
-    let optical = ["--set", "processing.black_level=optical_black"];
-    shots.refused(&[bayer], "bayer.toml", &optical, &["processing.black_level", "optical-black"]);
+    let optical = ["--set", "isp.black_level=optical_black"];
+    shots.refused(&[bayer], "bayer.toml", &optical, &["isp.black_level", "optical-black"]);
 
     let said = fs::read_to_string(&sidecar).expect("a side-car");
     let spoilt = |from: &str, to: &str, phrases: &[&str]| {
@@ -243,7 +243,7 @@ fn raws_that_contradict_their_camera_are_refused() {
 #[test]
 fn a_camera_without_processing_makes_no_pictures() {
     let shots = Shots::taken();
-    let at = CAMERA.find("[processing]").expect("a processing");
+    let at = CAMERA.find("[isp]").expect("a processing");
     shots.write("plain.toml", &CAMERA[..at]);
-    shots.refused(&["out/bayer/raw.0000.dng"], "plain.toml", &[], &["plain.toml", "[processing]", "add it"]);
+    shots.refused(&["out/bayer/raw.0000.dng"], "plain.toml", &[], &["plain.toml", "[isp]", "add it"]);
 }

@@ -8,7 +8,7 @@ const JOB: &str = "format = 1\n[scene]\nmeshes = [{ name = \"m\", file = \"m.obj
     objects = [{ name = \"o\", mesh = \"m\", material = \"grey\" }]\n\
     environment = { type = \"uniform\", radiance_w_m2_sr_nm = 1 }\n\
     [[cameras]]\nname = \"front\"\nposition_m = [-3, 0, 0]\nlook_at_m = [0, 0, 0]\n\
-    lens = { model = \"pinhole\", focal_length_mm = 6, f_number = 8 }\n\
+    lens = { type = \"pinhole\", focal_length_mm = 6, f_number = 8 }\n\
     sensor = { width_px = 8, height_px = 8, pixel_pitch_um = 100 }\n[render]\nspp = 1\nreplicates = 1\n";
 
 /// Two good triangles, two without area (a repeated corner, three corners on a line), one given three times.

@@ -83,19 +83,19 @@ fn causes_make_up_the_numbers_and_do_not_change_them() {
     for camera in [WEB, "scenes/cameras/ccd-mono.toml", "scenes/cameras/ccd-bayer.toml"] {
         let (ran, plain) = flat(camera, &options);
         ran.ok();
-        let (ran, files) = flat(camera, &[&options[..], &["--causes"]].concat());
+        let (ran, files) = flat(camera, &[&options[..], &["--signal-breakdown"]].concat());
         ran.ok();
-        let name = files.keys().find(|n| n.ends_with("causes.0000.exr")).expect("causes").clone();
-        let raw = name.replace("causes.0000.exr", "raw.0000.png");
+        let name = files.keys().find(|n| n.ends_with("signal_breakdown.0000.exr")).expect("signal_breakdown").clone();
+        let raw = name.replace("signal_breakdown.0000.exr", "raw.0000.png");
         assert_eq!(files[&raw], plain[&raw], "{camera}");
-        let (_place, path) = stored(&files[&name], "causes.exr");
-        let causes = read_exr(&path).expect("an EXR");
+        let (_place, path) = stored(&files[&name], "signal_breakdown.exr");
+        let signal_breakdown = read_exr(&path).expect("an EXR");
         let (raw, _) = numbers(&files[&raw]);
         let electronics: serde_json::Value =
-            serde_json::from_slice(&files[&name.replace("causes.0000.exr", "camera.json")]).expect("JSON");
+            serde_json::from_slice(&files[&name.replace("signal_breakdown.0000.exr", "camera.json")]).expect("JSON");
         let electronics = &electronics["sensor"]["electronics"];
         let [gain, black] = ["gain_dn_per_e", "black_level_dn"].map(|k| electronics[k].as_f64().expect("a number"));
-        let layers: Vec<&Vec<f32>> = causes
+        let layers: Vec<&Vec<f32>> = signal_breakdown
             .channels
             .iter()
             .filter(|channel| channel.name != "saturated")
@@ -135,7 +135,7 @@ fn sensors_that_cannot_be_are_refused() {
         flat(WEB, &[&SMALL[..], &["--set", set, "--irradiance-w-m2", "1"]].concat()).0.refused(phrases)
     };
     refused("sensor.gain_dn_per_e=1e-30", &["gain_dn_per_e", "so small"]);
-    refused("sensor.region_px=[1e300,0,4,4]", &["region_px", "beyond the picture"]);
+    refused("sensor.roi_px=[1e300,0,4,4]", &["roi_px", "beyond the picture"]);
 }
 
 #[test]
@@ -168,7 +168,7 @@ fn what_cannot_be_measured_is_refused() {
         &["--photon-transfer", "2"],
         &["--irradiance-w-m2", "1", "--photon-transfer", "9"],
         &["--irradiance-w-m2", "1", "--stack", "9"],
-        &["--photon-transfer", "9", "--causes"],
+        &["--photon-transfer", "9", "--signal-breakdown"],
         &[],
     ] {
         assert_eq!(flat(WEB, wrong).0.status, 2, "{wrong:?}");

@@ -295,8 +295,8 @@ fn depths_of_stereo_are_read_from_float_maps() {
     let refused = |more: &[&str], told: &[&str]| {
         etendue(["measure", "depth", &guess, &truth].iter().chain(more).copied()).refused(told);
     };
-    refused(&["--outlier-share", "nan"], &["outlier share", "not NaN"]);
-    refused(&["--edge-share", "-1"], &["edge share", "not -1"]);
+    refused(&["--outlier-ratio", "nan"], &["outlier share", "not NaN"]);
+    refused(&["--edge-ratio", "-1"], &["edge ratio", "not -1"]);
     refused(&["--focal-base-px-m", "0"], &["focal length times base"]);
     etendue(["measure", "depth", &truth, &truth]).refused(&["pixel by pixel"]);
 }

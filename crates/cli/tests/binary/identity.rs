@@ -13,7 +13,7 @@ fn hash(job: &str, options: &[&str]) -> String {
 const TABLED: &str = "format = 1\n[scene]\nmaterials = [{ name = \"m\", type = \"diffuse\", reflectance = { spectrum = \
                       \"paint.csv\" } }]\n[[scene.objects]]\nname = \"o\"\nshape = { type = \"sphere\", radius_m = 1 }\n\
                       material = \"m\"\n[[cameras]]\nname = \"c\"\nposition_m = [-4, 0, 0]\nlook_at_m = [0, 0, 0]\n\
-                      lens = { model = \"pinhole\", focal_length_mm = 2, f_number = 8 }\n\
+                      lens = { type = \"pinhole\", focal_length_mm = 2, f_number = 8 }\n\
                       sensor = { width_px = 4, height_px = 4, pixel_pitch_um = 100 }\n";
 
 #[test]

@@ -7,7 +7,7 @@ use serde_json::Value;
 use std::path::Path;
 
 /// The lens of the small job, which tests replace.
-const THIN: &str = "model = \"thin\"\nfocal_length_mm = 6\nf_number = 2\nfocus_distance_m = 5\ntransmittance = 0.9\n\
+const THIN: &str = "type = \"thin\"\nfocal_length_mm = 6\nf_number = 2\nfocus_distance_m = 5\ntransmittance = 0.9\n\
                     distortion = { k1 = -0.1, k2 = 0.01, direction = \"ideal_to_observed\", radius_unit = \"focal_lengths\" }\n";
 
 /// A biconvex singlet behind its stop, as Zemax, CODE V and this project write it.
@@ -23,11 +23,11 @@ const SURFACES: &str = "surfaces = [\n{ thickness_mm = 1, semi_aperture_mm = 1, 
 { radius_mm = 20, thickness_mm = 2, semi_aperture_mm = 5, glass = \"N-BK7\" },\n{ radius_mm = -20, semi_aperture_mm = 5 },\n]";
 
 fn prescription(source: &str) -> String {
-    format!("model = \"prescription\"\nfocus_distance_m = 2\n{source}\n")
+    format!("type = \"prescription\"\nfocus_distance_m = 2\n{source}\n")
 }
 
 fn calibrated(source: &str) -> String {
-    format!("model = \"calibrated\"\nf_number = 2\n{source}\n")
+    format!("type = \"calibrated\"\nf_number = 2\n{source}\n")
 }
 
 /// The small job before another lens, without a spectrum, which files of tests do not need.

@@ -57,8 +57,8 @@ fn every_job_takes_any_integrator_and_any_samples() {
             assert!(notes == of_flags && notes <= 3, "{job}: {}", ran.err);
         }
     }
-    let street = etendue(["plan", "scenes/street/street.toml", "--set", "render.level=direct", "--spp", "2"]).ok();
-    let street = street.says(&["note: --set render.level=direct supersedes", "\"max_bounces\"", "\"caustics\""]);
+    let street = etendue(["plan", "scenes/street/street.toml", "--set", "render.integrator=direct", "--spp", "2"]).ok();
+    let street = street.says(&["note: --set render.integrator=direct supersedes", "\"max_bounces\"", "\"caustics\""]);
     street.says(&["note: --spp 2 supersedes \"replicates\" (scenes/street/street.toml:"]);
 }
 

@@ -73,8 +73,8 @@ fn a_raw_reader_shows_the_right_picture() {
     assert_eq!((&deep["bits"], &deep["pillow"], &deep["opencv"]), (&json!(32), &json!(true), &json!(true)));
     assert!(deep["largest"].as_u64() > Some(65_535), "{deep}");
     let exr = &figures["exr"];
-    assert_eq!(exr["causes"].as_array().map(Vec::len), Some(10));
-    assert_eq!((&exr["signal_is_electrons"], &exr["raw_without_causes_is_the_same"]), (&json!(true), &json!(true)));
+    assert_eq!(exr["signal_breakdown"].as_array().map(Vec::len), Some(10));
+    assert_eq!((&exr["signal_is_electrons"], &exr["raw_without_breakdown_is_the_same"]), (&json!(true), &json!(true)));
     // Layers are f32, of up to 30 000 electrons.
     assert!(exr["largest_difference_of_the_sum_e"].as_f64() < Some(0.01), "{exr}");
 }

@@ -23,7 +23,7 @@ material = "grey"
 [render]
 spp = 8
 replicates = 2
-level = "direct"
+integrator = "direct"
 seed = 5
 band_width_nm = 50
 [output]
@@ -40,7 +40,7 @@ name = "{name}"
 position_m = [0, 0, 1.4]
 look_at_m = [6, 0, 0.9]
 [cameras.lens]
-model = "thin"
+type = "thin"
 focal_length_mm = 6
 f_number = 2
 focus_distance_m = 5
@@ -57,7 +57,7 @@ dark_current_e_s = 5
 gain_dn_per_e = 0.05
 black_level_dn = 64
 bits = 12
-[cameras.processing]
+[cameras.isp]
 white_balance = "D65"
 {further}"#
     );

@@ -15,14 +15,14 @@ fn scatter(x: usize, y: usize) -> f64 {
 }
 
 /// A dark left half and a bright right one, each with errors that blocks of 4 × 4 pixels share.
-fn picture(folder: &Path, alike_px: u32) -> String {
+fn picture(folder: &Path, correlated_block_px: u32) -> String {
     let number = |x: usize, y: usize| (if x < 48 { 2_000.0 } else { 20_000.0 }) + 400.0 * scatter(x / 4, y / 4);
     let samples = (0..96 * 48).map(|i| number(i % 96, i / 96) as u32).collect();
     let plane = Plane::<DigitalNumber>::from_samples(96, 48, samples).expect("a rectangle");
     let file = folder.join("picture.0000.png");
     std::fs::write(&file, encode_companded16(&plane).expect("a picture")).expect("written");
     let said = format!(
-        r#"{{"program": "etendue", "sampling": {{"alike_px": {alike_px}}}, "files": {{"picture.0000.png": {{"encoding": "linear"}}}}}}"#
+        r#"{{"program": "etendue", "sampling": {{"correlated_block_px": {correlated_block_px}}}, "files": {{"picture.0000.png": {{"encoding": "linear"}}}}}}"#
     );
     std::fs::write(folder.join("camera.json"), said).expect("written");
     text(&file)
@@ -33,8 +33,8 @@ const TRAP: [&str; 4] = ["--trap", "2,2,12,12", "--white", "50,2,12,12"];
 #[test]
 fn means_over_patches_know_the_blocks_and_what_does_not_refuses() {
     let folder = tempfile::tempdir().expect("a folder");
-    let flare = |alike_px: u32| {
-        let picture = picture(folder.path(), alike_px);
+    let flare = |correlated_block_px: u32| {
+        let picture = picture(folder.path(), correlated_block_px);
         let ran = etendue(["measure", "flare", &picture, "--json"].into_iter().chain(TRAP)).ok();
         let report: Value = serde_json::from_str(&ran.out).expect("JSON");
         let figure = &report["figures"]["mean_flare_percent"];
@@ -47,7 +47,7 @@ fn means_over_patches_know_the_blocks_and_what_does_not_refuses() {
     let picture = picture(folder.path(), 16);
     for verb in ["vignetting", "shading", "noise", "sfr"] {
         let ran = etendue(["measure", verb, &picture]);
-        ran.refused(&["picture.0000.png", "alike in blocks", "tail_sharing_px", "render without sharing"]);
+        ran.refused(&["picture.0000.png", "alike in blocks", "path_reuse_px", "render without sharing"]);
     }
 }
 
@@ -55,7 +55,7 @@ fn means_over_patches_know_the_blocks_and_what_does_not_refuses() {
 fn textures_and_photon_transfer_refuse_shared_paths() {
     let folder = tempfile::tempdir().expect("a folder");
     let picture = picture(folder.path(), 16);
-    let told = ["picture.0000.png", "alike in blocks", "tail_sharing_px", "render without sharing"];
+    let told = ["picture.0000.png", "alike in blocks", "path_reuse_px", "render without sharing"];
     let alone = tempfile::tempdir().expect("a folder");
     let independent = self::picture(alone.path(), 1);
     etendue(["measure", "texture", &picture, &independent]).refused(&told);

@@ -48,7 +48,7 @@ pub enum NoiseDraw {
     Dead = 17,
     /// Fixed pattern: which pixels of a row blink, and how much; at column 0.
     Blinking = 18,
-    /// Fixed pattern: which pixels of a row have telegraph noise, and how much; at column 0.
+    /// Fixed pattern: which pixels of a row have RTS noise, and how much; at column 0.
     Telegraph = 19,
     /// The paper's pulse noise on a finished picture.
     PaperPulse = 64,

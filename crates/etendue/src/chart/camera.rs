@@ -84,7 +84,7 @@ impl ChartCamera {
     }
 
     /// Keys that a chart's cameras do without: what changes the exposure from frame to frame.
-    pub(super) fn without(&self) -> &'static [&'static str] {
+    pub(super) fn removed_keys(&self) -> &'static [&'static str] {
         let sensor = self.body.sensor.as_ref();
         let controlled = sensor.is_some_and(|sensor| sensor.parameters().exposure.control.is_some());
         if controlled { &["sensor.auto_exposure"] } else { &[] }

@@ -118,7 +118,7 @@ pub fn make(request: &ChartRequest, (folder, existing): (&Path, Existing)) -> Re
         light: &light,
         stations: &stations,
         camera: &camera.base(folder.path())?,
-        without: camera.without(),
+        remove: camera.removed_keys(),
         specimen: camera.specimen(&stations),
         seed: request.seed,
     };

@@ -29,7 +29,7 @@ pub struct DepthRequest {
     /// Limits of the ranges, m, e.g. 0,10,30,100
     pub ranges_m: Vec<f64>,
     /// An outlier is off by more than this share of the depth
-    pub outlier_share: f64,
+    pub outlier_ratio: f64,
     /// … and by more than this, m
     pub outlier_least_m: f64,
     /// A stereo rig's focal length in pixels times its base in metres: tells errors of disparity (D1, EPE) as well
@@ -37,7 +37,7 @@ pub struct DepthRequest {
     /// What is done to the estimate first: networks may know depth but for a factor
     pub align: DepthAlignment,
     /// A jump of the truth by more than this share of the depth is an edge
-    pub edge_share: f64,
+    pub edge_ratio: f64,
     /// Pixels this near to an edge are told apart
     pub edge_px: u32,
 }
@@ -53,11 +53,11 @@ impl DepthRequest {
             estimate_unit_m: 1.0,
             truth_unit_m: 1.0,
             ranges_m: Vec::new(),
-            outlier_share: 0.05,
+            outlier_ratio: 0.05,
             outlier_least_m: 0.0,
             focal_base_px_m: None,
             align: DepthAlignment::None,
-            edge_share: 0.1,
+            edge_ratio: 0.1,
             edge_px: 2,
         }
     }
@@ -87,9 +87,9 @@ pub fn depth_errors(request: &DepthRequest) -> Result<Report, Error> {
     let usual = DepthSettings::default();
     let settings = DepthSettings {
         ranges_m: if request.ranges_m.is_empty() { usual.ranges_m } else { request.ranges_m.clone() },
-        outlier_share: request.outlier_share,
+        outlier_ratio: request.outlier_ratio,
         outlier_least_m: request.outlier_least_m,
-        edge_share: request.edge_share,
+        edge_ratio: request.edge_ratio,
         edge_px: request.edge_px as usize,
         focal_base_px_m: request.focal_base_px_m,
         alignment: match request.align {

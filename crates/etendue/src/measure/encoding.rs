@@ -180,7 +180,7 @@ mod tests {
             full_scale,
             stated,
             raw: None,
-            alike_px: 1,
+            correlated_block_px: 1,
         };
         let to_light = ToLight::of(Path::new("a.png"), &photograph).expect("a curve");
         to_light.of_channel(&photograph.channels[0])

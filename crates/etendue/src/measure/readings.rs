@@ -98,7 +98,7 @@ impl Readings {
 
 /// Blocks are of pixels of one colour: of raw readings that many, of other pictures up to twice as wide.
 fn shared_px(photograph: &Photograph) -> usize {
-    let side = f64::from(photograph.alike_px).sqrt().ceil() as usize;
+    let side = f64::from(photograph.correlated_block_px).sqrt().ceil() as usize;
     if side > 1 && photograph.raw.is_none() { 2 * side } else { side }
 }
 
@@ -109,7 +109,7 @@ impl Readings {
             return Ok(());
         }
         Err(Error::input(format!(
-            "{}: its errors are alike in blocks of up to {1} × {1} readings, as paths were shared (tail_sharing_px), and this measurement takes \
+            "{}: its errors are alike in blocks of up to {1} × {1} readings, as paths were shared (path_reuse_px), and this measurement takes \
              them as independent: render without sharing",
             file.display(),
             self.shared_px

@@ -48,8 +48,8 @@ impl Files {
 
     /// What the raw picture of a frame is made of.
     #[must_use]
-    pub fn causes(frame: u32) -> String {
-        format!("causes.{frame:04}.exr")
+    pub fn signal_breakdown(frame: u32) -> String {
+        format!("signal_breakdown.{frame:04}.exr")
     }
 
     /// The picture of a frame.
@@ -102,7 +102,7 @@ impl Files {
         for frame in frames.clone() {
             add(twin && p.picture, &Self::undistorted(&Self::picture(frame, format)), undistorted.clone());
             add(p.raw, &Self::raw(frame, p.raw_format), entry_of::<DigitalNumber>());
-            add(p.causes, &Self::causes(frame), entry("causes of the digital number, one layer each", "e"));
+            add(p.signal_breakdown, &Self::signal_breakdown(frame), entry("causes of the digital number, one layer each", "e"));
             add(p.picture, &Self::picture(frame, format), picture.clone());
         }
         files

@@ -12,11 +12,11 @@ use etendue_io::exr::{self, EncodeError};
 use etendue_io::jpeg::encode_jpeg;
 use etendue_io::tiff::{self, DngFacts};
 use etendue_io::{Provenance, png};
-use etendue_pipeline::photograph::{Frame, take, take_with_causes};
+use etendue_pipeline::photograph::{Frame, take, take_with_breakdown};
 use etendue_pipeline::plan::{CameraBody, Development, PictureFormat, Products, RawFormat};
 use etendue_pipeline::raw_colour::RawColour;
 use etendue_pipeline::twin::Twin;
-use etendue_sensor::{Cause, Causes, FrameAddress, Raw, SensorState};
+use etendue_sensor::{SignalComponent, SignalBreakdown, FrameAddress, Raw, SensorState};
 use serde_json::Value;
 use std::ops::Range;
 
@@ -45,16 +45,16 @@ pub(crate) fn encoded(picture: &Plane<Display>, development: &Development) -> Re
     }
 }
 
-/// Frame after frame with its number, as the sensor's state runs through them; with what each digital number is made of where `causes` are
+/// Frame after frame with its number, as the sensor's state runs through them; with what each digital number is made of where `signal_breakdown` are
 /// wanted. Ends where the camera has no electronics.
 pub(crate) fn frames<'a>(
     body: &'a CameraBody,
     electrons: &'a Plane<Electrons>,
     frames: Range<u32>,
     address: impl Fn(u32) -> FrameAddress + 'a,
-    causes: bool,
+    signal_breakdown: bool,
 ) -> impl Iterator<Item = (u32, Frame)> + 'a {
-    let step = if causes { take_with_causes } else { take };
+    let step = if signal_breakdown { take_with_breakdown } else { take };
     frames.scan(SensorState::default(), move |state, number| {
         let (next, frame) = step(body, std::mem::take(state), electrons, address(number))?;
         *state = next;
@@ -73,10 +73,10 @@ pub(crate) fn write_frames(
 ) -> Result<Vec<Value>, Error> {
     let products = wanted.products;
     let mut points = Vec::new();
-    if !(products.raw || products.picture || products.causes) {
+    if !(products.raw || products.picture || products.signal_breakdown) {
         return Ok(points);
     }
-    for (number, frame) in frames(body, electrons, numbers.clone(), &address, products.causes) {
+    for (number, frame) in frames(body, electrons, numbers.clone(), &address, products.signal_breakdown) {
         if !frame.raw.invalid.is_empty() {
             let count = frame.raw.invalid.len();
             let told = format!("frame {number}: {count} pixels have no valid light; their digital number is 0");
@@ -105,9 +105,9 @@ fn write_frame(
         };
         writer.write(&Files::raw(number, products.raw_format), bytes)?;
     }
-    if let Some(causes) = &frame.causes {
+    if let Some(signal_breakdown) = &frame.signal_breakdown {
         let facts = Provenance { frame: number.into(), ..wanted.facts.clone() };
-        writer.write(&Files::causes(number), encode_causes(causes, &facts))?;
+        writer.write(&Files::signal_breakdown(number), encode_breakdown(signal_breakdown, &facts))?;
     }
     if let Some((picture, development)) = frame.picture.filter(|_| products.picture).zip(body.development.as_ref()) {
         let name = Files::picture(number, development.format);
@@ -129,12 +129,12 @@ pub(crate) fn encoded_raw(raw: &Raw, plane: &Plane<DigitalNumber>, format: RawFo
     }
 }
 
-fn encode_causes(causes: &Causes, facts: &Provenance) -> Result<Vec<u8>, EncodeError> {
-    let layers: Vec<_> = Cause::ALL
+fn encode_breakdown(signal_breakdown: &SignalBreakdown, facts: &Provenance) -> Result<Vec<u8>, EncodeError> {
+    let layers: Vec<_> = SignalComponent::ALL
         .iter()
-        .map(|cause| (cause.name().to_owned(), exr::Layer::Float(causes.layer(*cause).samples())))
+        .map(|cause| (cause.name().to_owned(), exr::Layer::Float(signal_breakdown.layer(*cause).samples())))
         .collect();
-    let signal = causes.layer(Cause::Signal);
+    let signal = signal_breakdown.layer(SignalComponent::Signal);
     exr::encode_layers(signal.width(), signal.height(), &layers, facts)
 }
 

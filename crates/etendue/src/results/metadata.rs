@@ -57,7 +57,7 @@ pub(crate) fn provenance(plan: &Plan, camera: &CameraPlan) -> Provenance {
         further: BTreeMap::from([
             ("spp".to_owned(), settings.spp.to_string()),
             ("replicates".to_owned(), settings.replicates.to_string()),
-            ("alike_px".to_owned(), settings.blocks.len_px().to_string()),
+            ("correlated_block_px".to_owned(), settings.blocks.len_px().to_string()),
         ]),
     }
 }
@@ -208,7 +208,7 @@ pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String,
         "sampling": {
             "spp": settings.spp,
             "replicates": settings.replicates,
-            "alike_px": settings.blocks.len_px(),
+            "correlated_block_px": settings.blocks.len_px(),
             "max_bounces": settings.max_bounces,
             "wavelengths_per_path": settings.wavelengths,
             "range_nm": [settings.range_nm.0, settings.range_nm.1],

@@ -94,10 +94,10 @@ impl CameraResults {
     /// the camera processes it; nothing where the camera has no electronics.
     pub fn frames(&self) -> impl Iterator<Item = Frame> + '_ {
         let electrons = self.electrons();
-        let causes = self.camera().products.causes;
+        let signal_breakdown = self.camera().products.signal_breakdown;
         let frames = electrons.map(|electrons| {
             let address = |frame| self.address(frame);
-            frames::frames(&self.camera().body, electrons, self.frames.clone(), address, causes)
+            frames::frames(&self.camera().body, electrons, self.frames.clone(), address, signal_breakdown)
         });
         frames.into_iter().flatten().map(|(_, frame)| frame)
     }

@@ -61,7 +61,7 @@ pub struct Photograph {
     /// What a side-car states of a raw picture.
     pub raw: Option<RawFacts>,
     /// Pixels of a rendered picture whose errors may be equal, because their paths shared what they found; 1: none are.
-    pub alike_px: u32,
+    pub correlated_block_px: u32,
 }
 
 impl Photograph {
@@ -85,7 +85,7 @@ impl Photograph {
 pub fn read_photograph(file: &Path) -> Result<Photograph, Error> {
     let mut photograph = decode_photograph(file, &read_bytes(file, "picture")?)?;
     let Some(beside) = side_car::beside(file)? else { return Ok(photograph) };
-    photograph.alike_px = beside.alike_px();
+    photograph.correlated_block_px = beside.correlated_block_px();
     let reason = format!("{} beside it", beside.name());
     if photograph.channels.len() == 1
         && let Some(facts) = raw::facts(&beside)?
@@ -118,14 +118,14 @@ pub fn decode_photograph(file: &Path, bytes: &[u8]) -> Result<Photograph, Error>
     Ok(photograph)
 }
 
-/// The attribute of an EXR that states [`Photograph::alike_px`].
-const ALIKE: &str = "etendue:alike_px";
+/// The attribute of an EXR that states [`Photograph::correlated_block_px`].
+const ALIKE: &str = "etendue:correlated_block_px";
 
 fn of_exr(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     let exr = decode_exr(file, bytes)?;
     let channel = |c: crate::exr::ExrChannel| Channel { name: c.name, samples: c.samples.to_floats() };
     let stated = exr.attributes.get(ALIKE).and_then(|text| text.parse().ok());
-    let alike_px = stated.filter(|n| *n > 0).unwrap_or(1);
+    let correlated_block_px = stated.filter(|n| *n > 0).unwrap_or(1);
     let channels = exr.channels.into_iter().map(channel).collect();
     Ok(Photograph {
         width: exr.width,
@@ -134,7 +134,7 @@ fn of_exr(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
         full_scale: None,
         stated: of_floats(),
         raw: None,
-        alike_px,
+        correlated_block_px,
     })
 }
 

@@ -42,7 +42,7 @@ pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     let samples: Vec<f32> = rows.flat_map(|row| row.chunks_exact(4).map(float)).collect();
     let names = channel_names(channels).expect("one or three");
     let channels = separated(names, &samples);
-    Ok(Photograph { width, height, channels, full_scale: None, stated: of_floats(), raw: None, alike_px: 1 })
+    Ok(Photograph { width, height, channels, full_scale: None, stated: of_floats(), raw: None, correlated_block_px: 1 })
 }
 
 #[cfg(test)]

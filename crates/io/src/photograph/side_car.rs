@@ -56,8 +56,8 @@ impl SideCar {
     }
 
     /// Pixels whose errors may be equal, because their paths shared what they found.
-    pub(super) fn alike_px(&self) -> u32 {
-        let stated = self.said["sampling"]["alike_px"].as_u64();
+    pub(super) fn correlated_block_px(&self) -> u32 {
+        let stated = self.said["sampling"]["correlated_block_px"].as_u64();
         stated.and_then(|n| u32::try_from(n).ok()).filter(|n| *n > 0).unwrap_or(1)
     }
 

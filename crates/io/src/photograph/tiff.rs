@@ -55,7 +55,7 @@ pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
         full_scale,
         stated: guess(full_scale, !grey),
         raw: None,
-        alike_px: 1,
+        correlated_block_px: 1,
     })
 }
 

@@ -40,7 +40,7 @@ pub enum FitError {
 }
 
 /// The matrix for a camera (responsivities of its channels, any common scale) under an illuminant (any scale), fitted to
-/// the reflectances of a chart, for noise of `noise_share` of white in each channel (0: none).
+/// the reflectances of a chart, for noise of `noise_fraction` of white in each channel (0: none).
 ///
 /// # Errors
 /// Where a channel does not respond to the illuminant or the reflectances do not tell the channels apart.
@@ -48,7 +48,7 @@ pub fn fit_colour_matrix<'a>(
     responsivities: &[&Spectrum],
     light: &Spectrum,
     chart: impl IntoIterator<Item = &'a Spectrum>,
-    noise_share: f64,
+    noise_fraction: f64,
 ) -> Result<ColourMatrix, FitError> {
     if !(1..=MAX_CHANNELS).contains(&responsivities.len()) {
         return Err(FitError::Channels(responsivities.len()));
@@ -62,7 +62,7 @@ pub fn fit_colour_matrix<'a>(
     if channels < MAX_CHANNELS && Normal::new(&pairs, channels, 0.0).cholesky().is_none() {
         return Err(FitError::Ambiguous);
     }
-    let normal = Normal::new(&pairs, channels, noise_share);
+    let normal = Normal::new(&pairs, channels, noise_fraction);
     let lower = normal.cholesky().ok_or(FitError::Ambiguous)?;
     Ok(ColourMatrix { rows: [0, 1, 2].map(|row| normal.solve(&lower, row)) })
 }
@@ -99,7 +99,7 @@ struct Normal {
 }
 
 impl Normal {
-    fn new(pairs: &[(Vec<f64>, [f64; 3])], channels: usize, noise_share: f64) -> Self {
+    fn new(pairs: &[(Vec<f64>, [f64; 3])], channels: usize, noise_fraction: f64) -> Self {
         let mut normal = Self { channels, products: Square::default(), targets: Default::default() };
         for (c, t) in pairs {
             for i in 0..channels {
@@ -107,7 +107,7 @@ impl Normal {
                 (0..3).for_each(|row| normal.targets[row][i] += c[i] * t[row]);
             }
         }
-        let noise = pairs.len() as f64 * noise_share * noise_share;
+        let noise = pairs.len() as f64 * noise_fraction * noise_fraction;
         (0..channels).for_each(|i| normal.products[i][i] += noise);
         normal
     }

@@ -45,7 +45,7 @@ impl Processing {
     /// have a use for it. Interpolated next to a lamp a hundred times white, a wall ten times white would get the lamp's light
     /// in some channels and not in others, and a rim of pure colours where all is white.
     fn ceiling(&self) -> f32 {
-        let headroom = self.paper_filters.iter().any(|filter| filter.stage() == Stage::Linear);
+        let headroom = self.image_filters.iter().any(|filter| filter.stage() == Stage::Linear);
         if headroom { 1.0 } else { (1.0 / self.exposure_gain).min(1.0) as f32 }
     }
 
@@ -57,7 +57,7 @@ impl Processing {
         if let Some(sharpening) = &self.sharpening {
             sharpening.apply(&mut display);
         }
-        paper::apply_display(&self.paper_filters, &mut display, address);
+        paper::apply_display(&self.image_filters, &mut display, address);
         display
     }
 }
@@ -83,7 +83,7 @@ pub fn develop(
     balance(&mut samples, width, raw.mosaic, &gains, processing.ceiling());
     let linear = Plane::from_samples(width, raw.plane.height(), colours(&samples, width, raw.mosaic, processing));
     let mut linear = linear.expect("as many colours as samples");
-    paper::apply_linear(&processing.paper_filters, &mut linear);
+    paper::apply_linear(&processing.image_filters, &mut linear);
     let display = processing.displayed(&linear, address);
     let facts = Facts { black_level_dn: black, white_balance: gains, corrected_pixels };
     Ok(Developed { linear, display, facts })
@@ -227,7 +227,7 @@ mod tests {
         let lamp = |x: usize, y: usize| if (x / 3 + y / 3).is_multiple_of(2) { 1100 } else { 225 };
         let plane = plane(18, 18, lamp);
         let bright = |filters| {
-            let settings = Processing { exposure_gain: 64.0, paper_filters: filters, ..processing() };
+            let settings = Processing { exposure_gain: 64.0, image_filters: filters, ..processing() };
             develop(&raw(&plane, &bayer()), &settings, PictureAddress::default()).expect("legal")
         };
         let whole = bright(Vec::new());
@@ -372,7 +372,7 @@ mod tests {
             demosaic: Demosaic::HamiltonAdams,
             noise_reduction: Some(crate::NoiseReduction::Bilateral(bilateral)),
             sharpening: Some(crate::Unsharp { amount: 1.0, radius_px: 1.0, threshold: 0.0 }),
-            paper_filters: vec![
+            image_filters: vec![
                 paper::Filter::Glow(paper::Glow {
                     percentile: 50.0,
                     target: 0.2,

@@ -43,7 +43,7 @@ pub struct Processing {
     /// How the encoded picture is sharpened.
     pub sharpening: Option<Unsharp>,
     /// The paper's filters, those of linear light first.
-    pub paper_filters: Vec<paper::Filter>,
+    pub image_filters: Vec<paper::Filter>,
 }
 
 impl Processing {
@@ -60,7 +60,7 @@ impl Processing {
             exposure_gain: 1.0,
             tone: ToneCurve::Srgb,
             sharpening: None,
-            paper_filters: Vec::new(),
+            image_filters: Vec::new(),
         }
     }
 
@@ -76,7 +76,7 @@ impl Processing {
         self.shading.as_ref().map_or(Ok(()), Shading::check)?;
         self.noise_reduction.as_ref().map_or(Ok(()), NoiseReduction::check)?;
         self.sharpening.as_ref().map_or(Ok(()), Unsharp::check)?;
-        paper::check(&self.paper_filters)?;
+        paper::check(&self.image_filters)?;
         match (mosaic, &self.colour) {
             (Mosaic::Mono, None) => Ok(()),
             (Mosaic::Mono, Some(_)) => Err(DevelopError::ColourOfMono),

@@ -11,7 +11,7 @@
 //! D1: |D̂ − D| > 3 px and > 5 %; EPE ⟨|D̂ − D|⟩, D = B f/d          (KITTI 2015: Menze & Geiger; with a stereo rig's B f)
 //! ```
 //!
-//! Pixels at edges of the truth (where a neighbour within `edge_px` differs by more than `edge_share` of the depth, or is infinitely far)
+//! Pixels at edges of the truth (where a neighbour within `edge_px` differs by more than `edge_ratio` of the depth, or is infinitely far)
 //! are told apart: a pixel sees two depths there, and neither estimate nor truth has one. Truth that is NaN or not above 0 is
 //! not known, and makes no edge (sparse truth); infinite truth is sky. Estimates that are NaN, infinite or not above 0 are
 //! missing: counted, and in no error. Networks that know depth but for a factor are scaled first, by the median of d/d̂ over the pixels
@@ -31,11 +31,11 @@ pub struct DepthSettings {
     /// Limits of the ranges, m, rising.
     pub ranges_m: Vec<f64>,
     /// An outlier is off by more than this share of the depth …
-    pub outlier_share: f64,
+    pub outlier_ratio: f64,
     /// … and by more than this, m.
     pub outlier_least_m: f64,
     /// A jump of more than this share of the depth is an edge.
-    pub edge_share: f64,
+    pub edge_ratio: f64,
     /// Pixels this near to a jump are edge pixels.
     pub edge_px: usize,
     /// A stereo rig's focal length times its base, px m, for errors of disparity.
@@ -58,9 +58,9 @@ impl Default for DepthSettings {
     fn default() -> Self {
         Self {
             ranges_m: vec![0.0, 5.0, 10.0, 20.0, 40.0, 80.0, f64::INFINITY],
-            outlier_share: 0.05,
+            outlier_ratio: 0.05,
             outlier_least_m: 0.0,
-            edge_share: 0.1,
+            edge_ratio: 0.1,
             edge_px: 2,
             focal_base_px_m: None,
             alignment: Alignment::None,
@@ -184,9 +184,9 @@ impl DepthSettings {
             return Err(DepthError::Ranges);
         }
         let shares = [
-            ("outlier share", self.outlier_share),
+            ("outlier share", self.outlier_ratio),
             ("least error of an outlier", self.outlier_least_m),
-            ("edge share", self.edge_share),
+            ("edge ratio", self.edge_ratio),
         ];
         let wrong = shares.into_iter().find(|(_, value)| !(value.is_finite() && *value >= 0.0));
         let wrong = wrong.map(|(name, value)| DepthError::Setting { name, value, least: "0" });
@@ -215,7 +215,7 @@ fn edges(truth: &Image, settings: &DepthSettings) -> Vec<bool> {
     let at = |x: usize, y: usize| f64::from(truth.at(x, y));
     let sky = |depth: f64| depth == f64::INFINITY;
     let jump = |a: f64, b: f64| match (known(a), known(b)) {
-        (true, true) => (a - b).abs() > settings.edge_share * a.min(b),
+        (true, true) => (a - b).abs() > settings.edge_ratio * a.min(b),
         (true, false) => sky(b),
         (false, true) => sky(a),
         _ => false,

@@ -27,7 +27,7 @@ fn values(guess: f64, depth: f64, settings: &DepthSettings) -> [f64; COUNT] {
     let error = guess - depth;
     let log = ln(guess) - ln(depth);
     let inverse = 1.0 / guess - 1.0 / depth;
-    let outlier = error.abs() > settings.outlier_share * depth && error.abs() > settings.outlier_least_m;
+    let outlier = error.abs() > settings.outlier_ratio * depth && error.abs() > settings.outlier_least_m;
     let ratio = (guess / depth).max(depth / guess);
     let within = |limit: f64| f64::from(u8::from(ratio < limit));
     let rig = settings.focal_base_px_m.unwrap_or(0.0);

@@ -85,9 +85,9 @@ fn what_cannot_be_compared_is_refused() {
     for bad in [f64::NAN, -0.1, f64::INFINITY] {
         let usual = DepthSettings::default;
         let all = [
-            DepthSettings { outlier_share: bad, ..usual() },
+            DepthSettings { outlier_ratio: bad, ..usual() },
             DepthSettings { outlier_least_m: bad, ..usual() },
-            DepthSettings { edge_share: bad, ..usual() },
+            DepthSettings { edge_ratio: bad, ..usual() },
             DepthSettings { focal_base_px_m: Some(bad), ..usual() },
         ];
         for settings in all {

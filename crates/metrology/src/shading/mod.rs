@@ -21,7 +21,7 @@ mod lines;
 #[cfg(test)]
 mod tests;
 
-use crate::flat::{SATURATED_SHARE, neighbour_variances, saturated_share};
+use crate::flat::{SATURATED_SHARE, neighbour_variances, saturated_fraction};
 use crate::linear::Matrix;
 use crate::linear::matrix::dot;
 use crate::solve::Normal;
@@ -166,7 +166,7 @@ fn check(image: &Image, settings: &ShadingSettings) -> Result<(), ShadingError> 
     if image.samples().iter().any(|s| !s.is_finite()) {
         return Err(ShadingError::NotFinite);
     }
-    let share = saturated_share(image.samples(), settings.full_scale);
+    let share = saturated_fraction(image.samples(), settings.full_scale);
     if share > SATURATED_SHARE { Err(ShadingError::Saturated { percent: 100.0 * share }) } else { Ok(()) }
 }
 

@@ -220,7 +220,7 @@ impl Tracer<'_> {
                 let outward = (-sensor_mm).normalize_or(DVec2::X);
                 atan2(outward.y, outward.x) / (2.0 * PI)
             }
-            Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Calibrated(_) | Lens::Parallel(_) => 0.0,
+            Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Calibrated(_) | Lens::Telecentric(_) => 0.0,
         }
     }
 

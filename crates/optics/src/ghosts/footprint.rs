@@ -62,7 +62,7 @@ impl Node {
     }
 }
 
-/// Parallel light at an angle to the axis.
+/// Telecentric light at an angle to the axis.
 pub(super) struct Beam<'a> {
     lens: &'a Prescription,
     direction: DVec3,

@@ -6,7 +6,7 @@ use crate::pupil::MM;
 
 impl Lens {
     /// Image size over object size in the plane in focus; 0 at infinity focus and where everything is sharp, but for a
-    /// parallel camera, which has one everywhere.
+    /// telecentric camera, which has one everywhere.
     #[must_use]
     pub fn magnification(&self) -> f64 {
         match self {
@@ -14,7 +14,7 @@ impl Lens {
             Self::Calibrated(lens) => {
                 lens.parameters().focus_distance_m.map_or(0.0, |focus_m| lens.focal_length_mm() * MM / focus_m)
             }
-            Self::Parallel(lens) => MM / lens.parameters().metres_per_mm,
+            Self::Telecentric(lens) => MM / lens.parameters().metres_per_mm,
             Self::Thin(lens) => lens.conjugates.magnification,
             Self::Thick(lens) => lens.conjugates.magnification,
             Self::Prescription(lens) => lens.prescription().magnification(),
@@ -25,17 +25,17 @@ impl Lens {
     #[must_use]
     pub fn working_f_number(&self) -> f64 {
         match self {
-            Self::Parallel(_) => self.f_number(),
+            Self::Telecentric(_) => self.f_number(),
             _ => self.f_number() * self.principal_distance_mm() / self.focal_length_mm(),
         }
     }
 
     /// Distance from the exit pupil to the sensor, mm: of a pinhole, a thin lens and a calibrated camera the principal distance,
-    /// infinite for a parallel camera.
+    /// infinite for a telecentric camera.
     #[must_use]
     pub fn exit_pupil_distance_mm(&self) -> f64 {
         match self {
-            Self::Pinhole(_) | Self::Thin(_) | Self::Calibrated(_) | Self::Parallel(_) => self.principal_distance_mm(),
+            Self::Pinhole(_) | Self::Thin(_) | Self::Calibrated(_) | Self::Telecentric(_) => self.principal_distance_mm(),
             Self::Thick(lens) => lens.sensor_mm() - lens.exit_pupil_mm(),
             Self::Prescription(lens) => lens.prescription().exit_distance_mm().abs(),
         }
@@ -45,7 +45,7 @@ impl Lens {
     #[must_use]
     pub fn entrance_pupil_radius_m(&self) -> f64 {
         match self {
-            Self::Pinhole(_) | Self::Parallel(_) => 0.0,
+            Self::Pinhole(_) | Self::Telecentric(_) => 0.0,
             Self::Calibrated(lens) => lens.pupil_radius_mm() * MM,
             Self::Thin(lens) => lens.size.entrance_radius_mm * MM,
             Self::Thick(lens) => lens.size.entrance_radius_mm * MM,
@@ -54,11 +54,11 @@ impl Lens {
     }
 
     /// The sensor's z coordinate in the camera frame, m: negative where it lies behind the entrance pupil. Of a calibrated
-    /// camera it is taken to be a focal length behind; a parallel camera's is not known.
+    /// camera it is taken to be a focal length behind; a telecentric camera's is not known.
     #[must_use]
     pub fn sensor_plane_m(&self) -> f64 {
         match self {
-            Self::Pinhole(_) | Self::Thin(_) | Self::Calibrated(_) | Self::Parallel(_) => {
+            Self::Pinhole(_) | Self::Thin(_) | Self::Calibrated(_) | Self::Telecentric(_) => {
                 -self.principal_distance_mm() * MM
             }
             Self::Thick(lens) => (lens.entrance_pupil_mm() - lens.sensor_mm()) * MM,
@@ -73,7 +73,7 @@ impl Lens {
     #[must_use]
     pub fn circle_of_confusion_mm(&self, depth_m: f64) -> f64 {
         match self {
-            Self::Pinhole(_) | Self::Parallel(_) => 0.0,
+            Self::Pinhole(_) | Self::Telecentric(_) => 0.0,
             Self::Calibrated(lens) => {
                 let focus_m = lens.parameters().focus_distance_m.unwrap_or(f64::INFINITY);
                 2.0 * lens.pupil_radius_mm() * lens.focal_length_mm() * MM * (1.0 / depth_m - 1.0 / focus_m).abs()
@@ -90,7 +90,7 @@ impl Lens {
     #[must_use]
     pub fn hyperfocal_m(&self, circle_mm: f64) -> f64 {
         match self {
-            Self::Pinhole(_) | Self::Parallel(_) => 0.0,
+            Self::Pinhole(_) | Self::Telecentric(_) => 0.0,
             Self::Calibrated(lens) => 2.0 * lens.pupil_radius_mm() * lens.focal_length_mm() * MM / circle_mm,
             Self::Thin(lens) => lens.size.hyperfocal_m(self.focal_length_mm(), 1.0, circle_mm),
             Self::Thick(lens) => lens.size.hyperfocal_m(self.focal_length_mm(), lens.pupil_magnification, circle_mm),

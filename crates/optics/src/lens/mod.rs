@@ -23,7 +23,7 @@ mod falloff;
 mod focus;
 mod lateral_colour;
 mod measures;
-mod parallel;
+mod telecentric;
 mod pinhole;
 mod prescribed;
 mod statements;
@@ -40,7 +40,7 @@ use std::sync::Arc;
 pub use calibrated::{Calibrated, CalibratedParameters, PupilStance};
 pub use falloff::Falloff;
 pub use lateral_colour::LateralColour;
-pub use parallel::{Parallel, ParallelParameters};
+pub use telecentric::{Telecentric, TelecentricParameters};
 pub use pinhole::{Pinhole, PinholeParameters};
 pub(crate) use prescribed::DIRECTIONS;
 pub use prescribed::{FieldReport, ImageReport, LateralShift, LensReport, OtherBundle, Prescribed, Spot};
@@ -62,7 +62,7 @@ pub enum Lens {
     /// Each pixel looks where a projection says.
     Calibrated(Arc<Calibrated>),
     /// Every pixel looks along the axis.
-    Parallel(Parallel),
+    Telecentric(Telecentric),
 }
 
 /// The ray by which ground truth looks.
@@ -125,25 +125,25 @@ impl Lens {
         Calibrated::new(parameters).map(|lens| Self::Calibrated(Arc::new(lens)))
     }
 
-    /// A parallel camera.
+    /// A telecentric camera.
     ///
     /// # Errors
-    /// As [`Parallel::new`].
-    pub fn parallel(parameters: ParallelParameters) -> Result<Self, OpticsError> {
-        Parallel::new(parameters).map(Self::Parallel)
+    /// As [`Telecentric::new`].
+    pub fn telecentric(parameters: TelecentricParameters) -> Result<Self, OpticsError> {
+        Telecentric::new(parameters).map(Self::Telecentric)
     }
 
     /// The same lens with a radial distortion. A distortion whose radius unit is the focal length is made with
     /// [`Lens::principal_distance_mm`] of the lens without it.
     ///
     /// # Errors
-    /// For a prescription, a calibrated and a parallel camera, which have their own.
+    /// For a prescription, a calibrated and a telecentric camera, which have their own.
     pub fn with_distortion(mut self, distortion: RadialDistortion) -> Result<Self, OpticsError> {
         each!(&mut self,
             lens => lens.body.distortion = Some(distortion),
             Prescription(_) => return Err(OpticsError::OwnDistortion),
             Calibrated(_) => return Err(OpticsError::OwnDistortion),
-            Parallel(_) => return Err(OpticsError::OwnDistortion),
+            Telecentric(_) => return Err(OpticsError::OwnDistortion),
         );
         Ok(self)
     }
@@ -151,19 +151,19 @@ impl Lens {
     /// The radial distortion that was laid over the lens, where there is one.
     #[must_use]
     pub fn distortion(&self) -> Option<&RadialDistortion> {
-        each!(self, lens => lens.body.distortion.as_ref(), Prescription(_) => None, Calibrated(_) => None, Parallel(_) => None)
+        each!(self, lens => lens.body.distortion.as_ref(), Prescription(_) => None, Calibrated(_) => None, Telecentric(_) => None)
     }
 
     /// The same lens with lateral colour.
     ///
     /// # Errors
-    /// For a prescription, which has its own, and a parallel camera, which has no principal point to be large about.
+    /// For a prescription, which has its own, and a telecentric camera, which has no principal point to be large about.
     pub fn with_lateral_colour(mut self, colour: LateralColour) -> Result<Self, OpticsError> {
         each!(&mut self,
             lens => lens.body.lateral_colour = Some(Arc::new(colour)),
             Prescription(_) => return Err(OpticsError::OwnColour { kind: "prescription" }),
             Calibrated(lens) => Arc::make_mut(lens).lateral_colour = Some(colour),
-            Parallel(_) => return Err(OpticsError::OwnColour { kind: "parallel camera" }),
+            Telecentric(_) => return Err(OpticsError::OwnColour { kind: "telecentric camera" }),
         );
         Ok(self)
     }
@@ -175,7 +175,7 @@ impl Lens {
             lens => lens.body.lateral_colour.as_deref(),
             Prescription(_) => None,
             Calibrated(lens) => lens.lateral_colour.as_ref(),
-            Parallel(_) => None,
+            Telecentric(_) => None,
         )
     }
 
@@ -188,7 +188,7 @@ impl Lens {
             Self::Thick(_) => "thick lens",
             Self::Prescription(_) => "prescription",
             Self::Calibrated(_) => "calibrated camera",
-            Self::Parallel(_) => "parallel camera",
+            Self::Telecentric(_) => "telecentric camera",
         }
     }
 
@@ -219,7 +219,7 @@ impl Lens {
             lens => lens.ray(sensor_mm, pupil, wavelength_nm),
             Prescription(lens) => lens.ray(sensor_mm, pupil, wavelength_nm),
             Calibrated(lens) => lens.ray(sensor_mm, pupil, wavelength_nm),
-            Parallel(lens) => Some(lens.principal_ray(sensor_mm)),
+            Telecentric(lens) => Some(lens.principal_ray(sensor_mm)),
         )
     }
 
@@ -231,7 +231,7 @@ impl Lens {
             lens => lens.principal_ray(sensor_mm),
             Prescription(lens) => lens.principal_ray(sensor_mm),
             Calibrated(lens) => lens.principal_ray(sensor_mm),
-            Parallel(lens) => Some(lens.principal_ray(sensor_mm)),
+            Telecentric(lens) => Some(lens.principal_ray(sensor_mm)),
         )
     }
 
@@ -243,14 +243,14 @@ impl Lens {
             return Some(TruthRay { ray, off_centre: false });
         }
         match self {
-            Self::Pinhole(_) | Self::Thin(_) | Self::Calibrated(_) | Self::Parallel(_) => None,
+            Self::Pinhole(_) | Self::Thin(_) | Self::Calibrated(_) | Self::Telecentric(_) => None,
             Self::Thick(lens) => lens.centroid_ray(sensor_mm).map(|ray| TruthRay { ray, off_centre: true }),
             Self::Prescription(lens) => lens.centroid_ray(sensor_mm).map(|ray| TruthRay { ray, off_centre: true }),
         }
     }
 
     /// Where a direction of the camera frame (any length) is seen, mm; `None` outside the field, beyond a fold, and for a
-    /// parallel camera, which sees a single direction. Clipping is not looked at.
+    /// telecentric camera, which sees a single direction. Clipping is not looked at.
     #[must_use]
     pub fn project(&self, direction: DVec3) -> Option<DVec2> {
         let ideal_mm = || self.rectilinear().project(direction);
@@ -258,7 +258,7 @@ impl Lens {
             lens => lens.body.observed(ideal_mm()?),
             Prescription(lens) => lens.project(direction),
             Calibrated(lens) => lens.project(direction),
-            Parallel(_) => None,
+            Telecentric(_) => None,
         )
     }
 
@@ -269,7 +269,7 @@ impl Lens {
             lens => lens.etendue_sr(sensor_mm),
             Prescription(lens) => lens.etendue_sr(sensor_mm),
             Calibrated(lens) => lens.etendue_sr(sensor_mm),
-            Parallel(lens) => lens.principal_ray(sensor_mm).weight_sr,
+            Telecentric(lens) => lens.principal_ray(sensor_mm).weight_sr,
         )
     }
 
@@ -287,25 +287,25 @@ impl Lens {
         traced || self.lateral_colour().is_some()
     }
 
-    /// Focal length, mm; infinite for a parallel camera.
+    /// Focal length, mm; infinite for a telecentric camera.
     #[must_use]
     pub fn focal_length_mm(&self) -> f64 {
         each!(self,
             lens => lens.parameters().focal_length_mm,
             Prescription(lens) => lens.prescription().paraxial().focal_length_mm,
             Calibrated(lens) => lens.focal_length_mm(),
-            Parallel(_) => f64::INFINITY,
+            Telecentric(_) => f64::INFINITY,
         )
     }
 
-    /// f-number at infinity focus (of a parallel camera: on the sensor's side).
+    /// f-number at infinity focus (of a telecentric camera: on the sensor's side).
     #[must_use]
     pub fn f_number(&self) -> f64 {
         each!(self,
             lens => lens.parameters().f_number,
             Prescription(lens) => lens.prescription().paraxial().f_number(),
             Calibrated(lens) => lens.parameters().f_number,
-            Parallel(lens) => lens.parameters().f_number,
+            Telecentric(lens) => lens.parameters().f_number,
         )
     }
 
@@ -316,7 +316,7 @@ impl Lens {
             lens => lens.parameters().transmittance,
             Prescription(lens) => lens.transmittance(),
             Calibrated(lens) => lens.parameters().transmittance,
-            Parallel(lens) => lens.parameters().transmittance,
+            Telecentric(lens) => lens.parameters().transmittance,
         )
     }
 
@@ -330,7 +330,7 @@ impl Lens {
     #[must_use]
     pub fn focus_distance_m(&self) -> Option<f64> {
         match self {
-            Self::Pinhole(_) | Self::Parallel(_) => None,
+            Self::Pinhole(_) | Self::Telecentric(_) => None,
             Self::Calibrated(lens) => lens.parameters().focus_distance_m,
             Self::Thin(lens) => Some(lens.parameters().focus_distance_m),
             Self::Thick(lens) => Some(lens.parameters().focus_distance_m),
@@ -339,7 +339,7 @@ impl Lens {
     }
 
     /// The principal distance c, mm: near the axis a tangent t of object space is seen at c·t on the sensor. Infinite for a
-    /// parallel camera.
+    /// telecentric camera.
     #[must_use]
     pub fn principal_distance_mm(&self) -> f64 {
         match self {
@@ -348,7 +348,7 @@ impl Lens {
             Self::Thick(lens) => lens.conjugates.principal_distance_mm,
             Self::Prescription(lens) => lens.prescription().principal_distance_mm(),
             Self::Calibrated(lens) => lens.focal_length_mm(),
-            Self::Parallel(_) => f64::INFINITY,
+            Self::Telecentric(_) => f64::INFINITY,
         }
     }
 
@@ -382,7 +382,7 @@ impl Lens {
             lens => Some((lens.body.ideal_at(sensor_mm, nm)? / self.principal_distance_mm()).extend(1.0)),
             Prescription(lens) => lens.direction(sensor_mm),
             Calibrated(lens) => lens.direction_at(sensor_mm, nm),
-            Parallel(_) => Some(DVec3::Z),
+            Telecentric(_) => Some(DVec3::Z),
         )
     }
 

@@ -15,7 +15,7 @@
 //! | `exit_pupil_mm` | position of the exit pupil, p′ behind H′: separation + p′ | at most; without |
 //! | `pupil_magnification` | m_p = exit / entrance diameter, > 0 | any, m_p = 1 |
 //! | `constant_pupil` | `"entrance"` or `"exit"`: which pupil keeps its area over the field | required |
-//! | `front_rim`, `rear_rim` | `{ position_mm, radius_mm }`: round openings before and behind the lens that clip | none |
+//! | `front_aperture`, `rear_rim` | `{ position_mm, radius_mm }`: round openings before and behind the lens that clip | none |
 //!
 //! # Consistency
 //!
@@ -73,7 +73,7 @@ pub struct ThickParameters {
     /// Which pupil keeps its area over the field.
     pub constant_pupil: ConstantPupil,
     /// An opening before the lens.
-    pub front_rim: Option<Rim>,
+    pub front_aperture: Option<Rim>,
     /// An opening behind the lens.
     pub rear_rim: Option<Rim>,
 }
@@ -138,7 +138,7 @@ impl Thick {
         let body = Body::new(p.transmittance)?;
         let mut lens =
             Self { body, parameters, conjugates, size, pupil_magnification, rims: Rims { front: None, rear: None } };
-        lens.rims.front = p.front_rim.map(|rim| lens.front_rim(rim)).transpose()?;
+        lens.rims.front = p.front_aperture.map(|rim| lens.front_aperture(rim)).transpose()?;
         lens.rims.rear = p.rear_rim.map(|rim| lens.rear_rim(rim)).transpose()?;
         Ok(lens)
     }
@@ -264,16 +264,16 @@ impl Thick {
         [front, rear]
     }
 
-    fn front_rim(&self, rim: Rim) -> Result<[f64; 2], OpticsError> {
-        let position_mm = finite("front_rim.position_mm", rim.position_mm)?;
-        let radius_mm = positive("front_rim.radius_mm", rim.radius_mm)?;
+    fn front_aperture(&self, rim: Rim) -> Result<[f64; 2], OpticsError> {
+        let position_mm = finite("front_aperture.position_mm", rim.position_mm)?;
+        let radius_mm = positive("front_aperture.radius_mm", rim.radius_mm)?;
         let ahead_mm = self.entrance_pupil_mm() - position_mm;
         let left = 1.0 - ahead_mm * self.conjugates.inverse_focus_per_mm;
         if left <= 0.0 {
             let plane_mm = self.entrance_pupil_mm() - self.parameters.focus_distance_m / MM;
-            return Err(OpticsError::RimMisplaced { rim: "front_rim", position_mm, plane: "plane in focus", plane_mm });
+            return Err(OpticsError::RimMisplaced { rim: "front_aperture", position_mm, plane: "plane in focus", plane_mm });
         }
-        rim_is_wide_enough("front_rim", radius_mm, self.size.entrance_radius_mm * left)?;
+        rim_is_wide_enough("front_aperture", radius_mm, self.size.entrance_radius_mm * left)?;
         Ok([ahead_mm, radius_mm])
     }
 

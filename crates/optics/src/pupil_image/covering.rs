@@ -50,7 +50,7 @@ impl PupilProjection {
 /// Refuses lenses without a single viewpoint.
 pub(super) fn serves(lens: &Lens) -> Result<(), OpticsError> {
     match lens {
-        Lens::Parallel(_) => Err(OpticsError::NoPupilRoute { kind: lens.kind() }),
+        Lens::Telecentric(_) => Err(OpticsError::NoPupilRoute { kind: lens.kind() }),
         _ => Ok(()),
     }
 }

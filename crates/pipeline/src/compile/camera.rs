@@ -16,7 +16,7 @@ pub(super) fn body(camera: &Camera, context: &mut Context<'_>) -> Option<CameraB
     // A lens with faults makes no camera: the sensor is looked at for its own faults.
     let exit_pupil_mm = lens.as_ref().map_or(f64::INFINITY, |(lens, _)| lens.exit_pupil_distance_mm());
     let sensor = sensor(&camera.sensor, exit_pupil_mm, context);
-    let development = match (&camera.processing, &sensor, &lens) {
+    let development = match (&camera.isp, &sensor, &lens) {
         (Some(processing), Some(sensor), Some((_, raster))) => development(processing, sensor, raster, context),
         _ => None,
     };

@@ -49,7 +49,7 @@ fn ghosts(
 ) -> Option<GhostSettings> {
     if !matches!(lens, Lens::Prescription(_)) {
         let problem = format!("ghosts are light between the surfaces of a prescription; the lens is a {}", lens.kind());
-        context.fault(&asked.place, problem, "give a lens with model = \"prescription\", or remove the key");
+        context.fault(&asked.place, problem, "give a lens with type = \"prescription\", or remove the key");
         return None;
     }
     let reflectance = record.sensor_reflectance.as_ref();

@@ -30,7 +30,7 @@ const TILE_PX: u64 = 32;
 pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> Products {
     let electronics = body.sensor.is_some();
     let said = |key: &Option<Placed<bool>>, default: bool| key.as_ref().map_or(default, |v| v.value);
-    for (key, name) in [(&output.electrons, "electrons"), (&output.raw, "raw"), (&output.causes, "causes")] {
+    for (key, name) in [(&output.electrons, "electrons"), (&output.raw, "raw"), (&output.signal_breakdown, "signal_breakdown")] {
         need(key, electronics, name, "the sensor has no electronics", "add them to [sensor]", context);
     }
     let ghosts = body.effects.ghosts().is_some();
@@ -45,7 +45,7 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
         context,
     );
     let development = body.development.is_some();
-    need(&output.picture, development, "picture", "the camera has no [processing]", "add it", context);
+    need(&output.picture, development, "picture", "the camera has no [isp]", "add it", context);
     let depth_png = said(&output.depth_png, false);
     if let (Some(scale), false) = (&output.depth_png_scale, depth_png) {
         let place = match scale {
@@ -64,7 +64,7 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
         electrons: said(&output.electrons, false),
         raw: said(&output.raw, electronics),
         raw_format: raw_format(output, body, context),
-        causes: said(&output.causes, false),
+        signal_breakdown: said(&output.signal_breakdown, false),
         picture: said(&output.picture, development),
         ground_truth: said(&output.ground_truth, true),
         camera_space_position: said(&output.camera_space_position, false),
@@ -111,7 +111,7 @@ fn undistorted(output: &Output, products: &Products, body: &CameraBody, context:
     let layout = body.sensor.as_ref().map(|sensor| sensor.parameters().read_out.layout);
     if products.picture && layout.is_some_and(|l| l.region.is_some() || l.binning.is_some()) {
         let problem = "pictures of a region or of binned pixels have no undistorted twins";
-        context.fault(&key.place, problem, "remove the key, or \"region_px\" and \"binning\" of the sensor");
+        context.fault(&key.place, problem, "remove the key, or \"roi_px\" and \"binning\" of the sensor");
     }
     let scale = scale.as_ref().map_or(1.0, |scale| scale.value);
     context.accept(&key.place, Twin::of(body, scale)).map(|_| scale)
@@ -221,10 +221,10 @@ fn wavelengths(render: &Render, body: &CameraBody, route: &Route, context: &mut 
 }
 
 fn level(render: &Render) -> Level {
-    match render.level.as_ref().map(|l| l.value) {
-        Some(render::Level::Flat) => Level::Flat,
-        Some(render::Level::Direct) => Level::Direct,
-        Some(render::Level::Path) | None => Level::Path,
+    match render.integrator.as_ref().map(|l| l.value) {
+        Some(render::Integrator::Flat) => Level::Flat,
+        Some(render::Integrator::Direct) => Level::Direct,
+        Some(render::Integrator::Path) | None => Level::Path,
     }
 }
 
@@ -238,7 +238,7 @@ fn max_bounces(level: Level, render: &Render, choices: &Choices) -> u32 {
 
 /// Pixels that share tails. They carry the same wavelengths: where electrons are folded, they have one colour.
 fn blocks(level: Level, render: &Render, body: &CameraBody, folded: bool) -> Blocks {
-    let Some(side) = render.tail_sharing_px.as_ref().filter(|_| level == Level::Path) else { return Blocks::SINGLE };
+    let Some(side) = render.path_reuse_px.as_ref().filter(|_| level == Level::Path) else { return Blocks::SINGLE };
     let filter = body.sensor.as_ref().filter(|_| folded).map(|sensor| &sensor.parameters().cfa);
     let stride = filter.map_or((1, 1), |cfa| (cfa.width() as u32, (cfa.channels().len() / cfa.width()) as u32));
     Blocks::new(side.value as u32, stride)
@@ -359,7 +359,7 @@ fn accumulation(
     let asked = render.accumulate.as_ref().map(|a| (a.value, &a.place));
     match asked {
         Some((Accumulate::Cube, _)) => (true, false),
-        Some((Accumulate::Folded, place)) => {
+        Some((Accumulate::Electrons, place)) => {
             if pupil || body.sensor.is_none() {
                 let problem = "\"folded\" needs a sensor with electronics and route = \"lens\"";
                 context.fault(place, problem, "use \"auto\" or \"cube\"");

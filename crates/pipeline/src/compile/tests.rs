@@ -13,7 +13,7 @@ const CAMERA: &str = r#"format = 1
 name = "front"
 position_m = [0, 0, 1]
 look_at_m = [10, 0, 1]
-lens = { model = "pinhole", focal_length_mm = 6, f_number = 2.0 }
+lens = { type = "pinhole", focal_length_mm = 6, f_number = 2.0 }
 sensor = { width_px = 8, height_px = 6, pixel_pitch_um = 6.0 }
 "#;
 
@@ -138,7 +138,7 @@ fn mixes_name_materials_in_any_order_and_not_themselves() {
 
 /// A camera that scatters light, with further keys of the effects and a section of rendering.
 fn scattering(effects: &str, render: &str) -> Result<Plan, String> {
-    const THIN: &str = "model = \"thin\", focal_length_mm = 6, f_number = 2.0, focus_distance_m = \"infinity\", distortion = \
+    const THIN: &str = "type = \"thin\", focal_length_mm = 6, f_number = 2.0, focus_distance_m = \"infinity\", distortion = \
                         { k1 = -0.5, direction = \"ideal_to_observed\", radius_unit = \"focal_lengths\" }";
     behind(THIN, effects, render)
 }
@@ -196,7 +196,7 @@ fn effects_keep_a_spectrum_and_a_margin() {
 #[test]
 fn effects_that_cannot_be_are_refused_where_they_stand() {
     let fault = |effects: &str, render: &str| scattering(effects, render).expect_err("a fault");
-    let said = fault(GLARE, "accumulate = \"folded\"");
+    let said = fault(GLARE, "accumulate = \"electrons\"");
     assert!(said.starts_with("job.toml:22:14: render.accumulate") && said.contains("[effects] act on one"), "{said}");
     let said = fault("glare = { scatter = 0.02, core_um = 10, exponent = 2 }", "");
     assert!(said.contains("effects.glare") && said.contains("no finite sum"), "{said}");
@@ -210,7 +210,7 @@ fn effects_that_cannot_be_are_refused_where_they_stand() {
     assert!(plan.remarks.iter().any(|r| r.text.contains("some is missing")), "{:?}", plan.remarks);
 }
 
-const PINHOLE: &str = "model = \"pinhole\", focal_length_mm = 6, f_number = 2";
+const PINHOLE: &str = "type = \"pinhole\", focal_length_mm = 6, f_number = 2";
 
 #[test]
 fn a_point_spread_function_from_a_picture() {
@@ -243,7 +243,7 @@ fn a_point_spread_function_from_a_picture() {
     assert!(said.starts_with("job.toml:7:") && said.contains("effects.psf: the wavefront's slope"), "{said}");
 }
 
-const DOUBLE_GAUSS: &str = "model = \"prescription\", published = \"double-gauss\", focus_distance_m = \"infinity\"";
+const DOUBLE_GAUSS: &str = "type = \"prescription\", published = \"double-gauss\", focus_distance_m = \"infinity\"";
 
 #[test]
 fn ghosts_are_of_a_lens_of_surfaces() {
@@ -255,7 +255,7 @@ fn ghosts_are_of_a_lens_of_surfaces() {
     let lit_sr = camera.body.lens.etendue_sr(glam::DVec2::new(2.9, 2.2));
     assert!(lit_sr > 0.0, "lit beyond the picture's corner");
     let fault = |lens: &str, effects: &str, output: &str| behind(lens, effects, output).expect_err("a fault");
-    let said = fault("model = \"pinhole\", focal_length_mm = 6, f_number = 2", "ghosts = true", "");
+    let said = fault("type = \"pinhole\", focal_length_mm = 6, f_number = 2", "ghosts = true", "");
     assert!(said.contains("effects.ghosts") && said.contains("the lens is a pinhole"), "{said}");
     let said = fault(DOUBLE_GAUSS, GLARE, "[output]\nghosts = true");
     assert!(said.contains("output.ghosts") && said.contains("makes none"), "{said}");
@@ -284,7 +284,7 @@ fn chief_rays_come_from_the_lens() {
              full_well_e = 1e4, read_noise_e = 1, dark_current_e_s = 0, gain_dn_per_e = 0.1, black_level_dn = 0, bits = 12, \
              angle_response = {{ table = [[0, 1], [30, 0.5]]{more} }}"
         );
-        let camera = CAMERA.replace("model = \"pinhole\", focal_length_mm = 6, f_number = 2.0", lens);
+        let camera = CAMERA.replace("type = \"pinhole\", focal_length_mm = 6, f_number = 2.0", lens);
         let text = camera.replace("width_px = 8, height_px = 6, pixel_pitch_um = 6.0", &sensor) + "[scene]\n";
         let read = |_: &Path| Ok(text.clone());
         let job = Description::load(Path::new("job.toml"), &read, &Overrides::default()).expect("a job");
@@ -293,10 +293,10 @@ fn chief_rays_come_from_the_lens() {
         let response = body.sensor.as_ref().expect("a sensor").parameters().optics.angle_response.as_ref();
         (response.map(|r| r.exit_pupil_mm), body.lens.exit_pupil_distance_mm())
     };
-    let gauss = "model = \"prescription\", published = \"double-gauss\", focus_distance_m = 2";
+    let gauss = "type = \"prescription\", published = \"double-gauss\", focus_distance_m = 2";
     let (used, of_lens) = exit_mm(gauss, "");
     assert_eq!(used, Some(of_lens));
     assert_eq!(exit_mm(gauss, ", exit_pupil_mm = 40").0, Some(40.0));
-    assert_eq!(exit_mm("model = \"pinhole\", focal_length_mm = 6, f_number = 2.0", "").0, Some(6.0));
-    assert_eq!(exit_mm("model = \"parallel\", field_width_m = 1, f_number = 4.0", "").0, None, "all light at 0°");
+    assert_eq!(exit_mm("type = \"pinhole\", focal_length_mm = 6, f_number = 2.0", "").0, Some(6.0));
+    assert_eq!(exit_mm("type = \"telecentric\", field_width_m = 1, f_number = 4.0", "").0, None, "all light at 0°");
 }

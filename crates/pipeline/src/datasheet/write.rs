@@ -30,7 +30,7 @@ pub(super) fn camera(sheet: &DataSheet, figures: Figures, stem: &str) -> String 
     ));
     lines.line("format = 1\n\n[lens]");
     lines.line("# Not on the sheet: put the lens here. This one sees 53° across and gives light of f/8, as the standard measures.");
-    lines.line("model = \"pinhole\"");
+    lines.line("type = \"pinhole\"");
     let width_um = sheet.pixel_pitch_um.value * sheet.width_px.value as f64;
     lines.line(&format!("focal_length_mm = {}", width_um.round().max(1.0) / 1e3));
     lines.line("f_number = 8\n\n[sensor]");

@@ -37,7 +37,7 @@ fn glass(glass: &Windscreen) -> String {
         Some([straight, 0.0]) => format!("lets through {straight:.3} on the axis, no double image"),
         Some([straight, doubled]) => format!(
             "lets through {straight:.3} on the axis, and {doubled:.5} as a double image ({:.2} % of samples)",
-            100.0 * glass.double_share()
+            100.0 * glass.double_image_fraction()
         ),
     };
     let distance = super::figure(p.stand.origin_mm.z);

@@ -104,7 +104,7 @@ fn paper(p: &Processing, stage: Stage) -> Vec<String> {
         Filter::GaussianNoise(_) => "the paper's Gaussian noise",
         Filter::UniformNoise(_) => "the paper's uniform noise",
     };
-    p.paper_filters.iter().filter(|filter| filter.stage() == stage).map(|filter| name(filter).to_owned()).collect()
+    p.image_filters.iter().filter(|filter| filter.stage() == stage).map(|filter| name(filter).to_owned()).collect()
 }
 
 fn written(format: PictureFormat) -> String {

@@ -22,7 +22,7 @@
 //! Every model is exact in both directions: inverses are in closed form or solved to the last few units in the last
 //! place. Outside its field, at a fold and beyond, a model answers `None`.
 //!
-//! Left out: models whose rays do not share a centre. An orthographic parallel camera maps every point to the same
+//! Left out: models whose rays do not share a centre. An orthographic telecentric camera maps every point to the same
 //! direction and differs by the ray's origin alone; together with pushbroom and non-central catadioptric cameras it
 //! belongs to optics, where a ray has an origin.
 

@@ -318,7 +318,7 @@ impl List {
 
     fn lens(&mut self, lens: &Lens) {
         match lens {
-            Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Parallel(_) => {}
+            Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Telecentric(_) => {}
             Lens::Prescription(lens) => {
                 if let Source::File(file) = &lens.source {
                     self.add(AssetKind::Prescription, file);
@@ -355,10 +355,10 @@ impl List {
 
     fn camera(&mut self, camera: &Camera) {
         self.lens(&camera.lens);
-        camera.front.iter().for_each(|front| self.front(front));
+        camera.external_optics.iter().for_each(|front| self.front(front));
         let psf = camera.effects.as_ref().and_then(|effects| effects.psf.as_ref());
         psf.and_then(|psf| psf.image.as_ref()).into_iter().for_each(|image| self.add(AssetKind::Image, image));
-        camera.processing.iter().flat_map(Processing::files).for_each(|file| self.add(AssetKind::Numbers, file));
+        camera.isp.iter().flat_map(Processing::files).for_each(|file| self.add(AssetKind::Numbers, file));
         match camera.sensor.electronics.as_ref().map(|e| &e.quantum_efficiency) {
             Some(QuantumEfficiency::Same(curve)) => self.curve(curve, Values::Share),
             Some(QuantumEfficiency::PerChannel(curves)) => curves.iter().for_each(|c| self.curve(c, Values::Share)),

@@ -7,7 +7,7 @@
 //!   end;
 //! - any other value replaces the base's.
 //!
-//! `without = ["lights.sun", "environment"]` first takes entries out of the base. A base may have a base.
+//! `remove = ["lights.sun", "environment"]` first takes entries out of the base. A base may have a base.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -31,7 +31,7 @@ pub(super) fn lay_over(
     faults: &mut Faults,
 ) -> Option<Node> {
     let table = tree.as_table_mut()?;
-    let (base, without) = (table.remove("base"), table.remove("without"));
+    let (base, without) = (table.remove("base"), table.remove("remove"));
     let Some(base) = base else {
         if let Some(without) = without {
             faults.add(&without.place, "\"without\" has no effect without \"base\"", "name the base, or remove it");

@@ -14,22 +14,22 @@ record! {
         /// The lens.
         required lens: Lens = record();
         /// What stands in front of the lens, attached to the camera. Default: nothing.
-        optional front: Front = record();
+        optional external_optics: Front = record();
         /// What becomes of the irradiance behind the lens. Default: nothing.
         optional effects: Effects = record();
         /// The sensor.
         required sensor: Sensor = record();
         /// From raw to picture. Default: none, no picture is made.
-        optional processing: Processing = record();
+        optional isp: Processing = record();
     }
 }
 
 fn check(camera: &Camera, faults: &mut Faults) {
-    if let (Some(processing), None) = (&camera.processing, &camera.sensor.electronics) {
+    if let (Some(processing), None) = (&camera.isp, &camera.sensor.electronics) {
         faults.add(
             &processing.place,
             "a sensor without electronics makes no raw to process",
-            "add \"exposure_s\", \"cfa\", … to the sensor, or remove \"processing\"",
+            "add \"exposure_s\", \"cfa\", … to the sensor, or remove \"isp\"",
         );
     }
 }

@@ -22,7 +22,7 @@ record! {
         /// File format of the digital numbers. Default: "png", or "tiff" where they have more than 16 bits.
         optional raw_format: Placed<RawFormat> = choice();
         /// What each pixel's digital number is made of, one layer a cause, in electrons, EXR. Default: false.
-        optional causes: Placed<bool> = flag();
+        optional signal_breakdown: Placed<bool> = flag();
         /// The picture, 8-bit PNG. Default: true for a camera with `[processing]`.
         optional picture: Placed<bool> = flag();
         /// Depth, distance, normals, positions and identities of the ground truth, EXR. The depth along the camera's axis is NaN where
@@ -114,7 +114,7 @@ impl Output {
             electrons: None,
             raw: None,
             raw_format: None,
-            causes: None,
+            signal_breakdown: None,
             picture: None,
             ground_truth: None,
             camera_space_position: None,
@@ -139,7 +139,7 @@ impl Output {
             electrons: a.electrons.or(b.electrons),
             raw: a.raw.or(b.raw),
             raw_format: a.raw_format.or(b.raw_format),
-            causes: a.causes.or(b.causes),
+            signal_breakdown: a.signal_breakdown.or(b.signal_breakdown),
             picture: a.picture.or(b.picture),
             ground_truth: a.ground_truth.or(b.ground_truth),
             camera_space_position: a.camera_space_position.or(b.camera_space_position),

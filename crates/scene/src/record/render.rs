@@ -16,18 +16,18 @@ record! {
         /// are spread evenly within a replicate only: where light is even, one replicate of few samples is less noisy than
         /// several. Wavelengths of bands are spread over all replicates, but where "variance" is asked for. Default: 4, or 2 or 1 where "spp" is no multiple.
         optional replicates: Placed<u64> = whole(1, 1024);
-        /// How much of the light's ways is followed. Depth and identities are the same at every level. Default: "path".
-        optional level: Placed<Level> = choice();
-        /// Surfaces that a path meets at most, 1 … 1 024; belongs to level = "path". Default: 16, or as `--quality` says.
+        /// How much of the light's ways is followed. Depth and identities are the same by every integrator. Default: "path".
+        optional integrator: Placed<Integrator> = choice();
+        /// Surfaces that a path meets at most, 1 … 1 024; belongs to integrator = "path". Default: 16, or as `--quality` says.
         optional max_bounces: Placed<u64> = whole(1, 1024);
         /// Whether light of suns and glowing surfaces that smooth surfaces throw on matt ones is followed. Without it the
-        /// picture is darker by that light, and free of the rare bright samples that find it. Belongs to level = "path".
+        /// picture is darker by that light, and free of the rare bright samples that find it. Belongs to integrator = "path".
         /// Default: true.
         optional caustics: Placed<bool> = flag();
         /// Paths of blocks of this many by this many pixels of one colour share their tails: 1 (none do), 2, 4 or 8. It takes
         /// much less time for the same error where light is scattered from surface to surface, but errors of the pixels of
-        /// a block are then alike. Belongs to level = "path". Default: 1.
-        optional tail_sharing_px: Placed<u64> = among(&[1, 2, 4, 8]);
+        /// a block are then alike. Belongs to integrator = "path". Default: 1.
+        optional path_reuse_px: Placed<u64> = among(&[1, 2, 4, 8]);
         /// Wavelengths that a path carries. Default: 4.
         optional wavelengths_per_path: Placed<u64> = among(&[1, 4, 8]);
         /// Through the lens (exact), or as seen from the centre of the entrance pupil (fast, reusable). Default: "lens".
@@ -118,7 +118,7 @@ impl DepthOfField {
 
 choice! {
     /// How much of the light's ways is followed.
-    pub enum Level {
+    pub enum Integrator {
         /// Local shading: light of lamps, suns and sky on every surface as if nothing stood in its way, nothing else.
         "flat" => Flat,
         /// The same with shadows: light that reaches a surface directly.
@@ -146,7 +146,7 @@ choice! {
         /// Spectral bands.
         "cube" => Cube,
         /// Electrons.
-        "folded" => Folded,
+        "electrons" => Electrons,
     }
 }
 
@@ -158,10 +158,10 @@ impl Render {
             place,
             spp: None,
             replicates: None,
-            level: None,
+            integrator: None,
             max_bounces: None,
             caustics: None,
-            tail_sharing_px: None,
+            path_reuse_px: None,
             wavelengths_per_path: None,
             route: None,
             band_width_nm: None,
@@ -179,7 +179,7 @@ impl Render {
         let keys = [
             ("max_bounces", self.max_bounces.as_ref().map(|b| &b.place)),
             ("caustics", self.caustics.as_ref().map(|c| &c.place)),
-            ("tail_sharing_px", self.tail_sharing_px.as_ref().map(|t| &t.place)),
+            ("path_reuse_px", self.path_reuse_px.as_ref().map(|t| &t.place)),
         ];
         keys.into_iter().filter_map(|(key, place)| Some((key, place?)))
     }
@@ -197,10 +197,10 @@ impl Render {
             place: a.place,
             spp: a.spp.or(b.spp),
             replicates: a.replicates.or(b.replicates),
-            level: a.level.or(b.level),
+            integrator: a.integrator.or(b.integrator),
             max_bounces: a.max_bounces.or(b.max_bounces),
             caustics: a.caustics.or(b.caustics),
-            tail_sharing_px: a.tail_sharing_px.or(b.tail_sharing_px),
+            path_reuse_px: a.path_reuse_px.or(b.path_reuse_px),
             wavelengths_per_path: a.wavelengths_per_path.or(b.wavelengths_per_path),
             route: a.route.or(b.route),
             band_width_nm: a.band_width_nm.or(b.band_width_nm),
@@ -226,13 +226,13 @@ fn check(render: &Render, faults: &mut Faults) {
 /// Checks the records of all cameras, into which the job's has been merged: what only paths need must serve a camera that
 /// traces them.
 pub(crate) fn check_levels<'r>(cameras: impl Iterator<Item = &'r Render> + Clone, faults: &mut Faults) {
-    let traces = |render: &Render| render.level.as_ref().is_none_or(|l| l.value == Level::Path);
+    let traces = |render: &Render| render.integrator.as_ref().is_none_or(|l| l.value == Integrator::Path);
     for render in cameras.clone().filter(|r| !traces(r)) {
         for (key, place) in render.of_paths() {
             if !cameras.clone().any(|r| traces(r) && r.states(place)) {
-                let problem = format!("\"{key}\" has no effect here, it belongs to level = \"path\"");
-                let cause = render.level.as_ref().map(|level| &level.place);
-                faults.add_idle((key, place), cause, problem, "remove it, or change the level");
+                let problem = format!("\"{key}\" has no effect here, it belongs to integrator = \"path\"");
+                let cause = render.integrator.as_ref().map(|i| &i.place);
+                faults.add_idle((key, place), cause, problem, "remove it, or change the integrator");
             }
         }
     }

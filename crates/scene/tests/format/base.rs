@@ -66,11 +66,11 @@ fn faults_name_the_file_that_says_it() {
         "camera.toml:4:14: sensor.exposure_s: found -1; give a number of at least 0 (s)"
     );
     assert_eq!(
-        faults("without = [\"lights.son\"]\n", ""),
+        faults("remove = [\"lights.son\"]\n", ""),
         "scene.toml:3:12: without[0]: the base has nothing called the text \"lights.son\"; give dotted keys of the base: \
          \"environment\", \"lights.sun\""
     );
-    assert!(faults("without = 3\n", "").contains("without: found 3; give a list of dotted keys"));
+    assert!(faults("remove = 3\n", "").contains("remove: found 3; give a list of dotted keys"));
     let mut files = derived("", "");
     files.edit("base/scene.toml", "format = 1", "format = 1\nbase = \"../scene.toml\"");
     // In memory, paths are not made shorter: "base/../scene.toml" is no file here, as a missing base.

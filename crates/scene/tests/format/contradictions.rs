@@ -8,7 +8,7 @@ const JOB: &str = r#"format = 1
 name = "front"
 position_m = [0, 0, 1]
 look_at_m = [10, 0, 1]
-lens = { model = "pinhole", focal_length_mm = 6, f_number = 2.0 }
+lens = { type = "pinhole", focal_length_mm = 6, f_number = 2.0 }
 sensor = { width_px = 64, height_px = 48, pixel_pitch_um = 6.0 }
 
 [[scene.textures]]
@@ -166,18 +166,18 @@ fn levels_that_trace_no_paths() {
         let text = format!("{text}\n[render]\n{job}\n");
         load(&Files::of_job(&text), &[]).err().map_or(String::new(), |f| f.to_string())
     };
-    assert_eq!(level("level = \"direct\"", ""), "");
-    let told = level("level = \"direct\"\nmax_bounces = 8", "");
+    assert_eq!(level("integrator = \"direct\"", ""), "");
+    let told = level("integrator = \"direct\"\nmax_bounces = 8", "");
     assert!(
-        told.contains("render.max_bounces: \"max_bounces\" has no effect here, it belongs to level = \"path\""),
+        told.contains("render.max_bounces: \"max_bounces\" has no effect here, it belongs to integrator = \"path\""),
         "{told}"
     );
-    assert!(level("caustics = false", "level = \"flat\"").contains("\"caustics\" has no effect here"));
+    assert!(level("caustics = false", "integrator = \"flat\"").contains("\"caustics\" has no effect here"));
     let second = "\n[[cameras]]\nname = \"second\"\nposition_m = [0, 0, 1]\nlook_at_m = [9, 0, 1]\n\
-                  lens = { model = \"pinhole\", focal_length_mm = 6, f_number = 2.0 }\n\
+                  lens = { type = \"pinhole\", focal_length_mm = 6, f_number = 2.0 }\n\
                   sensor = { width_px = 64, height_px = 48, pixel_pitch_um = 6.0 }\n";
     let shared = format!("max_bounces = 8\n{second}");
-    assert_eq!(level(&shared, "level = \"flat\""), "", "the other camera traces paths of eight bounces");
+    assert_eq!(level(&shared, "integrator = \"flat\""), "", "the other camera traces paths of eight bounces");
 }
 
 /// The faults of a camera with these keys in its [effects.psf], line 2 of the file `camera.toml`.

@@ -27,7 +27,7 @@ position_m = [0, 0, 1]
 look_at_m = [10, 0, 1]
 
 [cameras.lens]
-model = "thin"
+type = "thin"
 focal_length_mm = 6
 f_number = 2.0
 focus_distance_m = 5.0

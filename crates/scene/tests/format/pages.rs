@@ -6,7 +6,7 @@ use etendue_scene::{Description, Faults};
 
 use crate::files::{Files, load, page};
 
-const CAMERA: &str = "format = 1\nlens = { model = \"pinhole\", focal_length_mm = 6, f_number = 4 }\n\
+const CAMERA: &str = "format = 1\nlens = { type = \"pinhole\", focal_length_mm = 6, f_number = 4 }\n\
                       sensor = { width_px = 8, height_px = 6, pixel_pitch_um = 6 }\n";
 const VIEW: &str = "[[cameras]]\nname = \"c\"\nfile = \"camera.toml\"\nposition_m = [0, 0, 1]\nlook_at_m = [9, 0, 1]\n";
 

@@ -117,7 +117,7 @@ fn what_the_parser_refuses_does_not_fit_the_schema() {
         ("cfa = \"rggb\"", "cfa = \"rgbg\""),
         ("format = 1", "format = 2"),
         ("exposure_s = 0.002", ""),
-        ("model = \"thin\"", "model = \"pinhole\""),
+        ("type = \"thin\"", "type = \"pinhole\""),
     ] {
         let value: Json = toml::from_str(&camera.replacen(old, new, 1)).expect("TOML");
         assert!(misfit(&value, &schema(FileKind::Camera), "").is_some(), "{new}");

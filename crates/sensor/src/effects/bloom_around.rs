@@ -18,7 +18,7 @@ const NEGLIGIBLE_E: f32 = 1e-3;
 /// A pixel with more counts as one with this: what neighbours add up stays finite.
 const MOST_E: f32 = 1e38;
 
-pub(super) fn apply(plane: &mut Plane<Electrons>, well: f32, spill: f64, account: &mut ChargeAccount) {
+pub(super) fn apply(plane: &mut Plane<Electrons>, well: f32, overflow_fraction: f64, account: &mut ChargeAccount) {
     let (width, height) = (plane.width(), plane.height());
     let mut excess = vec![0.0_f32; plane.samples().len()];
     let mut next = excess.clone();
@@ -31,8 +31,8 @@ pub(super) fn apply(plane: &mut Plane<Electrons>, well: f32, spill: f64, account
     };
     let mut tally = given(plane.samples_mut(), &mut excess, width, &rows, own);
     while tally.largest > NEGLIGIBLE_E {
-        account.drained_e += (1.0 - spill) * tally.sum;
-        account.spilt_e += spill * lost_at_edges(&excess, width, height);
+        account.drained_e += (1.0 - overflow_fraction) * tally.sum;
+        account.spilt_e += overflow_fraction * lost_at_edges(&excess, width, height);
         let before = std::mem::replace(&mut rows, widened(&tally.rows, height));
         // What is left of earlier rounds lies in rows that the round before went through.
         next[width * before.start..width * before.end].fill(0.0);
@@ -41,7 +41,7 @@ pub(super) fn apply(plane: &mut Plane<Electrons>, well: f32, spill: f64, account
             let row = row_of(y).unwrap_or_default();
             let gained = gained(y.checked_sub(1).and_then(row_of), row, row_of(y + 1));
             let pixels = charge.iter_mut().zip(rest).zip(gained);
-            pixels.for_each(|((q, e), gained)| *e = hold(q, spill as f32 * gained, well));
+            pixels.for_each(|((q, e), gained)| *e = hold(q, overflow_fraction as f32 * gained, well));
         };
         tally = given(plane.samples_mut(), &mut next, width, &rows, of_neighbours);
         std::mem::swap(&mut excess, &mut next);
@@ -139,8 +139,8 @@ mod tests {
     use super::*;
     use crate::account::tests::accounted;
 
-    fn bloomed(plane: &Plane<Electrons>, well: f32, spill: f64) -> (Plane<Electrons>, ChargeAccount) {
-        accounted(plane, |out, account| apply(out, well, spill, account))
+    fn bloomed(plane: &Plane<Electrons>, well: f32, overflow_fraction: f64) -> (Plane<Electrons>, ChargeAccount) {
+        accounted(plane, |out, account| apply(out, well, overflow_fraction, account))
     }
 
     #[test]
@@ -161,8 +161,8 @@ mod tests {
                 if r.is_multiple_of(13) { 1e4 * (r % 97) as f32 } else { (r % 1000) as f32 }
             };
             let plane = Plane::from_samples(width, height, (0..width * height).map(value).collect()).expect("filled");
-            let spill = [0.2, 0.6, 0.95][seed as usize % 3];
-            let (out, account) = bloomed(&plane, 1000.0, spill);
+            let overflow_fraction = [0.2, 0.6, 0.95][seed as usize % 3];
+            let (out, account) = bloomed(&plane, 1000.0, overflow_fraction);
             assert!(out.samples().iter().all(|q| (0.0..=1000.0).contains(q)), "the well is never exceeded");
             // Each round rounds sums of up to 1e6 e⁻ a pixel to 24 bits.
             assert!(account.imbalance_e().abs() <= 1e-5 * account.generated_e + 1e-2, "{seed}: {account:?}");

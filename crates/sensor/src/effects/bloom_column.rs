@@ -13,13 +13,13 @@ use etendue_core::Plane;
 use etendue_core::quantity::Electrons;
 use rayon::prelude::*;
 
-pub(super) fn apply(plane: &mut Plane<Electrons>, well: f32, spill: f64, account: &mut ChargeAccount) {
+pub(super) fn apply(plane: &mut Plane<Electrons>, well: f32, overflow_fraction: f64, account: &mut ChargeAccount) {
     let (width, height) = (plane.width(), plane.height());
     let samples = plane.samples();
     let column = |x: usize| (0..height).map(move |y| samples[y * width + x]);
     let full: Vec<usize> = (0..width).into_par_iter().filter(|x| column(*x).any(|q| q > well)).collect();
     let solved: Vec<Column> =
-        full.par_iter().map(|x| solve(column(*x).map(f64::from).collect(), f64::from(well), spill)).collect();
+        full.par_iter().map(|x| solve(column(*x).map(f64::from).collect(), f64::from(well), overflow_fraction)).collect();
     for (x, column) in full.into_iter().zip(solved) {
         for (y, q) in column.charge.into_iter().enumerate() {
             plane.samples_mut()[y * width + x] = (q as f32).min(well);
@@ -38,19 +38,19 @@ struct Column {
 }
 
 /// Both directions alike.
-fn solve(charge: Vec<f64>, well: f64, spill: f64) -> Column {
+fn solve(charge: Vec<f64>, well: f64, overflow_fraction: f64) -> Column {
     let excess: Vec<f64> = charge.iter().map(|q| (q - well).max(0.0)).collect();
     let start = || {
-        let drained = excess.iter().sum::<f64>() * (1.0 - spill);
+        let drained = excess.iter().sum::<f64>() * (1.0 - overflow_fraction);
         Column { charge: charge.iter().map(|q| q.min(well)).collect(), drained, spilt: 0.0 }
     };
-    let halves: Vec<f64> = excess.iter().map(|e| 0.5 * spill * e).collect();
+    let halves: Vec<f64> = excess.iter().map(|e| 0.5 * overflow_fraction * e).collect();
     let height = charge.len();
     let (mut a, mut b) = (start(), start());
-    a.stream((0..height).rev(), &halves, well, spill);
-    a.stream(0..height, &halves, well, spill);
-    b.stream(0..height, &halves, well, spill);
-    b.stream((0..height).rev(), &halves, well, spill);
+    a.stream((0..height).rev(), &halves, well, overflow_fraction);
+    a.stream(0..height, &halves, well, overflow_fraction);
+    b.stream(0..height, &halves, well, overflow_fraction);
+    b.stream((0..height).rev(), &halves, well, overflow_fraction);
     let mean = |p: f64, q: f64| 0.5 * (p + q);
     Column {
         charge: a.charge.iter().zip(&b.charge).map(|(p, q)| mean(*p, *q)).collect(),
@@ -61,14 +61,14 @@ fn solve(charge: Vec<f64>, well: f64, spill: f64) -> Column {
 
 impl Column {
     /// Carries the halves of all pixels in one direction, in the order of `rows`.
-    fn stream(&mut self, rows: impl Iterator<Item = usize>, halves: &[f64], well: f64, spill: f64) {
+    fn stream(&mut self, rows: impl Iterator<Item = usize>, halves: &[f64], well: f64, overflow_fraction: f64) {
         let mut carried = 0.0;
         for y in rows {
             let held = (well - self.charge[y]).clamp(0.0, carried);
             self.charge[y] += held;
             let excess = carried - held;
-            self.drained += (1.0 - spill) * excess;
-            carried = spill * excess + halves[y];
+            self.drained += (1.0 - overflow_fraction) * excess;
+            carried = overflow_fraction * excess + halves[y];
         }
         self.spilt += carried;
     }
@@ -79,8 +79,8 @@ mod tests {
     use super::*;
     use crate::account::tests::accounted;
 
-    fn bloomed(plane: &Plane<Electrons>, well: f32, spill: f64) -> (Plane<Electrons>, ChargeAccount) {
-        accounted(plane, |out, account| apply(out, well, spill, account))
+    fn bloomed(plane: &Plane<Electrons>, well: f32, overflow_fraction: f64) -> (Plane<Electrons>, ChargeAccount) {
+        accounted(plane, |out, account| apply(out, well, overflow_fraction, account))
     }
 
     #[test]
@@ -114,8 +114,8 @@ mod tests {
                 if r.is_multiple_of(11) { 1e4 * (r % 97) as f32 } else { (r % 1000) as f32 }
             };
             let plane = Plane::from_samples(5, 33, (0..165).map(value).collect()).expect("filled");
-            let spill = [1.0, 0.9, 0.3][seed as usize % 3];
-            let (out, account) = bloomed(&plane, 1000.0, spill);
+            let overflow_fraction = [1.0, 0.9, 0.3][seed as usize % 3];
+            let (out, account) = bloomed(&plane, 1000.0, overflow_fraction);
             assert!(out.samples().iter().all(|q| (0.0..=1000.0).contains(q)), "the well is never exceeded");
             // f32 samples of at most 1000 e⁻, 165 of them.
             assert!(account.imbalance_e().abs() < 165.0 * 3.1e-5, "{seed}: {account:?}");
@@ -129,7 +129,7 @@ mod tests {
                 let samples = (0..165).map(|i| p.at(i % 5, 32 - i / 5)).collect();
                 Plane::from_samples(5, 33, samples).expect("filled")
             };
-            assert_eq!(flip(&bloomed(&flip(&plane), 1000.0, spill).0), out);
+            assert_eq!(flip(&bloomed(&flip(&plane), 1000.0, overflow_fraction).0), out);
         }
     }
 

@@ -24,7 +24,7 @@ use etendue_core::random::{NoiseDraw, NoiseKey, Pixel};
 
 /// Shape of the distribution of dark currents over pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Tail {
+pub enum SpreadDistribution {
     /// Normal, cut at 0.
     #[default]
     Normal,
@@ -42,7 +42,7 @@ pub struct DarkSpread {
     /// From column to column.
     pub column: f64,
     /// Shape of the white part.
-    pub tail: Tail,
+    pub distribution: SpreadDistribution,
 }
 
 /// Pixels with far more dark current.
@@ -66,14 +66,14 @@ pub struct DarkCurrent {
     /// Hot pixels.
     pub hot: Option<Hot>,
     /// Blinking pixels; the amplitude is a current, e⁻/s.
-    pub blinking: Option<TwoLevel>,
+    pub dark_current_rts: Option<TwoLevel>,
 }
 
 impl DarkCurrent {
     /// The same for all pixels, at the sensor's own temperature.
     #[must_use]
     pub fn even(current_e_s: f64) -> Self {
-        Self { current_e_s, temperature: None, spread: DarkSpread::default(), hot: None, blinking: None }
+        Self { current_e_s, temperature: None, spread: DarkSpread::default(), hot: None, dark_current_rts: None }
     }
 
     pub(crate) fn check(&self, checks: &mut Checks) {
@@ -88,8 +88,8 @@ impl DarkCurrent {
             checks.share_above_0("dark.hot.share", hot.share);
             checks.positive("dark.hot.mean_e_s", hot.mean_e_s);
         }
-        if let Some(blinking) = &self.blinking {
-            blinking.check(["dark.blinking.share", "dark.blinking.mean_e_s", "dark.blinking.dwell_frames"], checks);
+        if let Some(blinking) = &self.dark_current_rts {
+            dark_current_rts.check(["dark.dark_current_rts.share", "dark.dark_current_rts.mean_e_s", "dark.dark_current_rts.dwell_frames"], checks);
         }
     }
 
@@ -109,14 +109,14 @@ impl DarkCurrent {
 
     fn is_even(&self) -> bool {
         let s = self.spread;
-        s.white == 0.0 && s.row == 0.0 && s.column == 0.0 && self.hot.is_none() && self.blinking.is_none()
+        s.white == 0.0 && s.row == 0.0 && s.column == 0.0 && self.hot.is_none() && self.dark_current_rts.is_none()
     }
 }
 
 pub(super) fn need(p: &SensorParameters, operation: &Operation) -> (Verdict, String) {
     let dark = &p.charge.dark;
     let mean_e = dark.current_e_s * dark.temperature_factor() * operation.exposure_s;
-    let none = mean_e == 0.0 && dark.hot.is_none() && dark.blinking.is_none();
+    let none = mean_e == 0.0 && dark.hot.is_none() && dark.dark_current_rts.is_none();
     if none || operation.exposure_s == 0.0 {
         return (
             Verdict::Skipped,
@@ -148,8 +148,8 @@ fn differences(dark: &DarkCurrent) -> String {
     if let Some(hot) = dark.hot {
         text += &format!("; {} of pixels are hot", hot.share);
     }
-    if let Some(blinking) = dark.blinking {
-        text += &format!("; {} of pixels blink", blinking.share);
+    if let Some(blinking) = dark.dark_current_rts {
+        text += &format!("; {} of pixels blink", dark_current_rts.share);
     }
     text
 }
@@ -175,7 +175,7 @@ struct DarkPattern {
     /// Share, and mean in electrons.
     hot: Option<(f64, f64, NoiseKey)>,
     /// Pixels that are at their upper level, amplitudes in electrons.
-    blinking: Vec<Site>,
+    dark_current_rts: Vec<Site>,
 }
 
 impl DarkElectrons {
@@ -216,8 +216,8 @@ impl DarkElectrons {
 
 impl DarkPattern {
     fn new(context: &Context<'_>, high: &[Site], electrons_per_current: f64) -> Self {
-        let DarkSpread { white, row, column, tail } = context.p.charge.dark.spread;
-        let log_normal = (tail == Tail::LogNormal && white > 0.0)
+        let DarkSpread { white, row, column, distribution } = context.p.charge.dark.spread;
+        let log_normal = (distribution == SpreadDistribution::LogNormal && white > 0.0)
             .then(|| (ln_1p(white * white).sqrt(), context.pattern(NoiseDraw::PixelDark)));
         let sigmas = Sigmas { white: if log_normal.is_some() { 0.0 } else { white }, row, column };
         let draws = [NoiseDraw::PixelDark, NoiseDraw::RowDark, NoiseDraw::ColumnDark];
@@ -227,7 +227,7 @@ impl DarkPattern {
             deviations: Deviations::new(sigmas, draws, |draw| context.pattern(draw), context.width),
             log_normal,
             hot: hot.map(|h| (h.share, h.mean_e_s * electrons_per_current, context.pattern(NoiseDraw::Hot))),
-            blinking: high.iter().map(in_electrons).collect(),
+            dark_current_rts: high.iter().map(in_electrons).collect(),
         }
     }
 
@@ -244,7 +244,7 @@ impl DarkPattern {
         if let Some((share, hot_e, key)) = self.hot {
             sparse::each(key, y, share, width, |x, stream| means[x] += sparse::exponential(hot_e, stream));
         }
-        for site in high_in_row(&self.blinking, y) {
+        for site in high_in_row(&self.dark_current_rts, y) {
             means[site.x as usize] += site.amplitude;
         }
         means
@@ -281,14 +281,14 @@ mod tests {
 
     #[test]
     fn both_tails_have_the_stated_mean_and_spread() {
-        for tail in [Tail::Normal, Tail::LogNormal] {
+        for distribution in [SpreadDistribution::Normal, SpreadDistribution::LogNormal] {
             let mut p = quiet();
             p.charge.dark.current_e_s = 1e4 / p.exposure.exposure_s;
-            p.charge.dark.spread = DarkSpread { white: 0.1, row: 0.0, column: 0.0, tail };
+            p.charge.dark.spread = DarkSpread { white: 0.1, row: 0.0, column: 0.0, distribution };
             let m = moments(&p, 512);
             // The variance of a log-normal number of 10 % is known a little worse than that of a normal one: √(2.6/n) = 0.31 %.
-            assert!((m.mean() / 1e4 - 1.0).abs() < 4.0 * 0.1 / 512.0, "{tail:?}");
-            assert!((m.variance().expect("many") / 1e6 - 1.0).abs() < 0.0125, "{tail:?}");
+            assert!((m.mean() / 1e4 - 1.0).abs() < 4.0 * 0.1 / 512.0, "{distribution:?}");
+            assert!((m.variance().expect("many") / 1e6 - 1.0).abs() < 0.0125, "{distribution:?}");
         }
     }
 
@@ -319,7 +319,7 @@ mod tests {
     #[test]
     fn blinking_pixels_blink_over_frames() {
         let mut p = one_dn_an_electron();
-        p.charge.dark.blinking = Some(TwoLevel { share: 0.02, mean: 1e6 / p.exposure.exposure_s, dwell_frames: 2.0 });
+        p.charge.dark.dark_current_rts = Some(TwoLevel { share: 0.02, mean: 1e6 / p.exposure.exposure_s, dwell_frames: 2.0 });
         let sensor = Sensor::new(p).expect("legal");
         let dark = Plane::filled(64, 64, 0.0);
         let (state, first) = sensor.step(SensorState::default(), &dark, ADDRESS);

@@ -10,7 +10,7 @@ use crate::random::sparse;
 use etendue_core::random::{NoiseDraw, NoiseKey};
 
 pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
-    match p.pattern.dead_share {
+    match p.pattern.dead_fraction {
         0.0 => (Verdict::Skipped, super::NOT_DESCRIBED.into()),
         share => (Verdict::Required, format!("{share} of pixels hold no charge")),
     }
@@ -25,7 +25,7 @@ pub(crate) struct DeadPixels {
 
 impl DeadPixels {
     pub(crate) fn new(context: &Context<'_>) -> Self {
-        Self { share: context.p.pattern.dead_share, key: context.pattern(NoiseDraw::Dead) }
+        Self { share: context.p.pattern.dead_fraction, key: context.pattern(NoiseDraw::Dead) }
     }
 
     pub(crate) fn apply(&self, electrons: &mut [f64], y: u32) {
@@ -42,7 +42,7 @@ mod tests {
     #[test]
     fn a_share_of_pixels_is_dark_in_every_frame() {
         let mut p = quiet();
-        p.pattern.dead_share = 0.02;
+        p.pattern.dead_fraction = 0.02;
         let means = Plane::filled(200, 200, 100.0);
         let raw = run(&p, &means, ADDRESS);
         let dead = raw.plane.samples().iter().filter(|dn| **dn == 0).count() as f64;

@@ -25,22 +25,22 @@ pub enum Blooming {
     /// Along the column (CCD).
     Column {
         /// Share that goes on; the rest is drained.
-        spill: f64,
+        overflow_fraction: f64,
     },
     /// To all sides (CMOS).
     Around {
         /// Share that goes on; the rest is drained.
-        spill: f64,
+        overflow_fraction: f64,
     },
 }
 
 impl Blooming {
     pub(crate) fn check(&self, checks: &mut Checks) {
         match *self {
-            Self::Column { spill } => checks.share_above_0("blooming.spill", spill),
+            Self::Column { overflow_fraction } => checks.share_above_0("blooming.overflow_fraction", overflow_fraction),
             // Without any drain, charge of a wide light would spread without end.
-            Self::Around { spill } => {
-                checks.legal("blooming.spill", spill, spill > 0.0 && spill <= 0.95, "a share above 0 and up to 0.95");
+            Self::Around { overflow_fraction } => {
+                checks.legal("blooming.overflow_fraction", overflow_fraction, overflow_fraction > 0.0 && overflow_fraction <= 0.95, "a share above 0 and up to 0.95");
             }
         }
     }
@@ -50,11 +50,11 @@ pub(super) fn need(p: &SensorParameters, operation: &Operation) -> (Verdict, Str
     let capacity = operation.full_well_e;
     let clips = match p.charge.blooming {
         None => format!("a pixel's charge above {capacity} e⁻ is lost"),
-        Some(Blooming::Column { spill }) => {
-            format!("of what exceeds {capacity} e⁻, {spill} goes on along the column, the rest is drained")
+        Some(Blooming::Column { overflow_fraction }) => {
+            format!("of what exceeds {capacity} e⁻, {overflow_fraction} goes on along the column, the rest is drained")
         }
-        Some(Blooming::Around { spill }) => {
-            format!("of what exceeds {capacity} e⁻, {spill} goes on to all sides, the rest is drained")
+        Some(Blooming::Around { overflow_fraction }) => {
+            format!("of what exceeds {capacity} e⁻, {overflow_fraction} goes on to all sides, the rest is drained")
         }
     };
     let range_e = (p.largest_dn() - p.read_out.black_level_dn) / operation.gain_dn_e;
@@ -118,8 +118,8 @@ impl Overflow {
         let mut account = ChargeAccount { generated_e, ..ChargeAccount::default() };
         if plane.samples().par_iter().any(|q| *q > well) {
             match self.blooming {
-                Blooming::Column { spill } => bloom_column::apply(plane, well, spill, &mut account),
-                Blooming::Around { spill } => bloom_around::apply(plane, well, spill, &mut account),
+                Blooming::Column { overflow_fraction } => bloom_column::apply(plane, well, overflow_fraction, &mut account),
+                Blooming::Around { overflow_fraction } => bloom_around::apply(plane, well, overflow_fraction, &mut account),
             }
         }
         account.collected_e = sum(plane);

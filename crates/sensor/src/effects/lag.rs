@@ -35,7 +35,7 @@ impl Trap {
         checks.agree("lag", p.exposure.frame_period_s.is_some(), || {
             "what is given back depends on the time between frames: give \"frame_period_s\"".to_owned()
         });
-        checks.agree("lag", p.hdr.captures.iter().all(|capture| capture.sensitivity_share == 1.0), || {
+        checks.agree("lag", p.hdr.captures.iter().all(|capture| capture.sensitivity_ratio == 1.0), || {
             "traps are those of one photodiode, and a capture of another sensitivity has its own: remove one of both".to_owned()
         });
     }
@@ -67,7 +67,7 @@ pub(crate) struct Traps {
 impl Traps {
     pub(crate) fn new(context: &Context<'_>) -> Self {
         let frame_s = context.p.exposure.frame_period_s.expect("checked with the parameters");
-        let exposures = 1 + context.p.hdr.captures.iter().filter(|capture| !capture.same_charge).count();
+        let exposures = 1 + context.p.hdr.captures.iter().filter(|capture| !capture.dual_conversion_gain).count();
         let period_s = frame_s / exposures as f64;
         let kinds = context.p.charge.traps.iter().map(|t| (t.share, 1.0 - exp(-period_s / t.time_constant_s)));
         Self { kinds: kinds.collect(), full_well_e: context.operation.full_well_e }
@@ -118,8 +118,8 @@ mod tests {
         let mut p = lagging().parameters().clone();
         p.read_out.bits = 20;
         p.charge.traps.remove(0);
-        let second = Capture { exposure_share: 0.5, ..Capture::default() };
-        let again = Capture { gain_share: 0.5, same_charge: true, ..Capture::default() };
+        let second = Capture { exposure_ratio: 0.5, ..Capture::default() };
+        let again = Capture { gain_ratio: 0.5, dual_conversion_gain: true, ..Capture::default() };
         p.hdr = HighDynamicRange { captures: vec![second, again], bits: Some(24), ..HighDynamicRange::default() };
         let sensor = Sensor::new(p.clone()).expect("legal");
         let kept = SensorState { trapped_e: vec![vec![1000.0; 4]], ..SensorState::default() };
@@ -128,7 +128,7 @@ mod tests {
         let half = exp(-0.02);
         let want = 1000.0 * (half + 0.01 * (1.0 - half)) * (half + 0.01 * (1.0 - half));
         assert!((f64::from(after.trapped_e[0][0]) - want).abs() < 1e-3, "{} {want}", after.trapped_e[0][0]);
-        p.hdr.captures[0].sensitivity_share = 0.5;
+        p.hdr.captures[0].sensitivity_ratio = 0.5;
         assert!(Sensor::new(p).is_err());
     }
 

@@ -7,7 +7,7 @@
 //! | order | effect | on | acts on |
 //! | --- | --- | --- | --- |
 //! | 1 | [angle response](angle_response) | mean electrons | rows |
-//! | 2 | [optical cross-talk](cross_talk) | mean electrons | plane |
+//! | 2 | [optical crosstalk](crosstalk) | mean electrons | plane |
 //! | 3 | [photo-response non-uniformity](photo_response) | mean electrons | rows |
 //! | 4 | [smear] | adds to mean electrons | plane |
 //! | 5 | [shot noise](shot_noise) | mean electrons → collected electrons | rows |
@@ -21,7 +21,7 @@
 //! | 13 | [inter-pixel capacitance](capacitance) | moves voltage | plane |
 //! | 14 | [offset non-uniformity](offset_pattern) | adds voltage | rows |
 //! | 15 | [read noise](read_noise) | adds voltage | rows |
-//! | 16 | [telegraph noise](telegraph_noise) | adds voltage | rows |
+//! | 16 | [RTS noise](rts_noise) | adds voltage | rows |
 //! | 17 | [converter] | gain, black level, rounding, range → DN | rows |
 //! | 18 | merging and companding ([`hdr`](crate::hdr)) | DN | plane |
 //!
@@ -31,9 +31,9 @@ pub mod angle_response;
 pub mod bloom_around;
 pub mod bloom_column;
 pub mod brighter_fatter;
-pub mod capacitance;
+pub mod inter_pixel_capacitance;
 pub mod converter;
-pub mod cross_talk;
+pub mod crosstalk;
 pub mod dark_current;
 pub mod dead_pixels;
 pub mod full_well;
@@ -45,13 +45,13 @@ pub mod read_noise;
 pub mod response;
 pub mod shot_noise;
 pub mod smear;
-pub mod telegraph_noise;
+pub mod rts_noise;
 pub mod temperature;
 pub mod two_level;
 
 pub use etendue_core::Verdict;
 
-use crate::causes::Cause;
+use crate::signal_breakdown::SignalComponent;
 use crate::operation::Operation;
 use crate::parameters::SensorParameters;
 
@@ -63,7 +63,7 @@ pub enum Effect {
     /// Response of the micro-lenses over the angle.
     AngleResponse,
     /// Light that neighbours exchange.
-    CrossTalk,
+    Crosstalk,
     /// Differences in response to light.
     PhotoResponse,
     /// Light that charge meets on its way down the column.
@@ -91,7 +91,7 @@ pub enum Effect {
     /// Noise of the read-out chain.
     ReadNoise,
     /// Pixels whose voltage jumps.
-    TelegraphNoise,
+    RtsNoise,
     /// Gain, black level, rounding and range.
     Converter,
     /// Several captures become one.
@@ -105,7 +105,7 @@ impl Effect {
     pub const ALL: [Self; 20] = [
         Self::ExposureControl,
         Self::AngleResponse,
-        Self::CrossTalk,
+        Self::Crosstalk,
         Self::PhotoResponse,
         Self::Smear,
         Self::ShotNoise,
@@ -119,7 +119,7 @@ impl Effect {
         Self::Capacitance,
         Self::OffsetPattern,
         Self::ReadNoise,
-        Self::TelegraphNoise,
+        Self::RtsNoise,
         Self::Converter,
         Self::Merge,
         Self::Companding,
@@ -131,7 +131,7 @@ impl Effect {
         match self {
             Self::ExposureControl => "exposure control",
             Self::AngleResponse => "angle response",
-            Self::CrossTalk => "optical cross-talk",
+            Self::Crosstalk => "optical crosstalk",
             Self::PhotoResponse => "photo-response non-uniformity",
             Self::Smear => "smear",
             Self::ShotNoise => "shot noise",
@@ -145,7 +145,7 @@ impl Effect {
             Self::Capacitance => "inter-pixel capacitance",
             Self::OffsetPattern => "offset non-uniformity",
             Self::ReadNoise => "read noise",
-            Self::TelegraphNoise => "telegraph noise",
+            Self::RtsNoise => "RTS noise",
             Self::Converter => "converter",
             Self::Merge => "merging of captures",
             Self::Companding => "companding",
@@ -157,7 +157,7 @@ impl Effect {
         match self {
             Self::ExposureControl => crate::exposure_control::need(p),
             Self::AngleResponse => angle_response::need(p),
-            Self::CrossTalk => cross_talk::need(p),
+            Self::Crosstalk => crosstalk::need(p),
             Self::PhotoResponse => photo_response::need(p),
             Self::Smear => smear::need(p),
             Self::ShotNoise => shot_noise::need(p, operation),
@@ -171,7 +171,7 @@ impl Effect {
             Self::Capacitance => capacitance::need(p),
             Self::OffsetPattern => offset_pattern::need(p),
             Self::ReadNoise => read_noise::need(p, operation),
-            Self::TelegraphNoise => telegraph_noise::need(p),
+            Self::RtsNoise => rts_noise::need(p),
             Self::Converter => converter::need(p, operation),
             Self::Merge => crate::hdr::need_merge(p),
             Self::Companding => crate::hdr::need_companding(p),
@@ -179,15 +179,15 @@ impl Effect {
     }
 
     /// Under which cause what the effect adds is noted.
-    pub(crate) fn cause(self) -> Cause {
+    pub(crate) fn cause(self) -> SignalComponent {
         match self {
-            Self::PhotoResponse | Self::DeadPixels | Self::OffsetPattern => Cause::FixedPattern,
-            Self::Smear => Cause::Smear,
-            Self::ShotNoise => Cause::Shot,
-            Self::DarkCurrent => Cause::Dark,
-            Self::FullWell => Cause::Blooming,
-            Self::ReadNoise | Self::TelegraphNoise => Cause::Read,
-            _ => Cause::Transfer,
+            Self::PhotoResponse | Self::DeadPixels | Self::OffsetPattern => SignalComponent::FixedPattern,
+            Self::Smear => SignalComponent::Smear,
+            Self::ShotNoise => SignalComponent::Shot,
+            Self::DarkCurrent => SignalComponent::Dark,
+            Self::FullWell => SignalComponent::Blooming,
+            Self::ReadNoise | Self::RtsNoise => SignalComponent::Read,
+            _ => SignalComponent::Transfer,
         }
     }
 }

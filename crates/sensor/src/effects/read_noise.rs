@@ -2,7 +2,7 @@
 //!
 //! e ← e + d, d normal with a white, a row and a column part, new in every capture; the result may be negative, which the black
 //! level takes up. Draws: `Read` of the pixel, `RowRead`, `ColumnRead`.
-//! Left out: spread of σ over pixels (see [`telegraph_noise`](super::telegraph_noise) for its tail), correlation along a row (1/f).
+//! Left out: spread of σ over pixels (see [`rts_noise`](super::rts_noise) for its tail), correlation along a row (1/f).
 
 use super::{NOISE_OFF, Verdict};
 use crate::check::Checks;

@@ -28,7 +28,7 @@ pub enum Smear {
         /// The data sheet's figure, dB: below 0.
         smear_db: f64,
         /// Accumulation time over frame time of the data sheet's measurement, (0, 1].
-        measured_exposure_share: f64,
+        measured_exposure_ratio: f64,
     },
     /// Through the pixels themselves, fast.
     FrameTransfer {
@@ -40,10 +40,10 @@ pub enum Smear {
 impl Smear {
     pub(crate) fn check(&self, p: &SensorParameters, checks: &mut Checks) {
         match *self {
-            Self::Interline { smear_db, measured_exposure_share } => {
+            Self::Interline { smear_db, measured_exposure_ratio } => {
                 let legal = smear_db.is_finite() && smear_db <= -20.0;
                 checks.legal("smear.smear_db", smear_db, legal, "a data sheet's figure of at most -20 dB");
-                checks.share_above_0("smear.measured_exposure_share", measured_exposure_share);
+                checks.share_above_0("smear.measured_exposure_ratio", measured_exposure_ratio);
                 checks.agree("smear.smear_db", p.exposure.frame_period_s.is_some(), || {
                     "smear grows with the time of a whole frame: give \"frame_period_s\"".to_owned()
                 });
@@ -67,8 +67,8 @@ impl Smear {
     #[must_use]
     pub fn leak(&self) -> f64 {
         match *self {
-            Self::Interline { smear_db, measured_exposure_share } => {
-                10.0 * pow(10.0, smear_db / 20.0) * measured_exposure_share
+            Self::Interline { smear_db, measured_exposure_ratio } => {
+                10.0 * pow(10.0, smear_db / 20.0) * measured_exposure_ratio
             }
             Self::FrameTransfer { .. } => 1.0,
         }
@@ -140,7 +140,7 @@ mod tests {
     use crate::frame::tests::{ADDRESS, one_dn_an_electron, quiet, run};
     use etendue_stats::Moments;
 
-    const INTERLINE: Smear = Smear::Interline { smear_db: -80.0, measured_exposure_share: 1.0 };
+    const INTERLINE: Smear = Smear::Interline { smear_db: -80.0, measured_exposure_ratio: 1.0 };
 
     fn smeared(noise: bool, exposure_s: f64) -> SensorParameters {
         let mut p = if noise { one_dn_an_electron() } else { quiet() };
@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn leaks_of_data_sheets() {
         for (smear_db, want) in [(-80.0, 1e-3), (-100.0, 1e-4), (-120.0, 1e-5)] {
-            let smear = Smear::Interline { smear_db, measured_exposure_share: 1.0 };
+            let smear = Smear::Interline { smear_db, measured_exposure_ratio: 1.0 };
             assert!((smear.leak() / want - 1.0).abs() < 1e-12);
         }
     }

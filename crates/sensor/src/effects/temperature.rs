@@ -19,7 +19,7 @@ pub enum TemperatureLaw {
     /// Silicon's band gap.
     BandGap {
         /// Share of diffusion in the current at the reference temperature; the rest is generation.
-        diffusion_share: f64,
+        diffusion_fraction: f64,
     },
 }
 
@@ -43,7 +43,7 @@ impl Temperature {
         checks.positive("dark.reference_c", self.reference_k);
         match self.law {
             TemperatureLaw::Doubling { step_k } => checks.positive("dark.doubling_k", step_k),
-            TemperatureLaw::BandGap { diffusion_share } => checks.share("dark.diffusion_share", diffusion_share),
+            TemperatureLaw::BandGap { diffusion_fraction } => checks.share("dark.diffusion_fraction", diffusion_fraction),
         }
         checks.agree("dark.temperature_c", !checks.errors.is_empty() || self.factor().is_finite(), || {
             "the dark current would be larger than any number: give temperatures nearer to each other".to_owned()
@@ -56,10 +56,10 @@ impl Temperature {
         let (t, t0) = (self.sensor_k, self.reference_k);
         match self.law {
             TemperatureLaw::Doubling { step_k } => exp2((t - t0) / step_k),
-            TemperatureLaw::BandGap { diffusion_share } => {
+            TemperatureLaw::BandGap { diffusion_fraction } => {
                 let generation = pow(t / t0, 1.5) * exp(0.5 * (barrier(t0) - barrier(t)));
                 let diffusion = pow(t / t0, 3.0) * exp(barrier(t0) - barrier(t));
-                generation + diffusion_share * (diffusion - generation)
+                generation + diffusion_fraction * (diffusion - generation)
             }
         }
     }
@@ -88,8 +88,8 @@ mod tests {
     #[test]
     fn local_doubling_steps_of_silicon() {
         // ΔT for a factor of two, from the slope of ln I over a kelvin; the figures are stated to a tenth of a kelvin.
-        let step = |diffusion_share, t: f64| {
-            let law = TemperatureLaw::BandGap { diffusion_share };
+        let step = |diffusion_fraction, t: f64| {
+            let law = TemperatureLaw::BandGap { diffusion_fraction };
             core::f64::consts::LN_2 / etendue_core::maths::f64::ln(factor(law, t - 0.5, t + 0.5))
         };
         for (t, generation, diffusion) in [(300.0, 8.5, 4.2), (333.0, 10.3, 5.2), (358.0, 11.8, 5.9)] {
@@ -111,7 +111,7 @@ mod tests {
 
     #[test]
     fn the_reference_is_the_reference() {
-        for law in [TemperatureLaw::Doubling { step_k: 7.0 }, TemperatureLaw::BandGap { diffusion_share: 0.3 }] {
+        for law in [TemperatureLaw::Doubling { step_k: 7.0 }, TemperatureLaw::BandGap { diffusion_fraction: 0.3 }] {
             assert!((factor(law, 320.0, 320.0) - 1.0).abs() < 1e-12);
         }
     }

@@ -15,7 +15,7 @@ use crate::effects::read_noise::NoisyRead;
 use crate::effects::response::Response;
 use crate::effects::shot_noise::ShotNoise;
 use crate::effects::smear::ColumnSmear;
-use crate::effects::telegraph_noise::Jumps;
+use crate::effects::rts_noise::Jumps;
 use crate::effects::two_level::{self, Draws, Site};
 use crate::effects::{Effect, Verdict};
 use crate::layout::Binning;
@@ -99,7 +99,7 @@ pub(super) enum Stage {
 /// The effects until charge lies in its pixels, at rest.
 const ON_CHARGE: [Effect; 10] = [
     Effect::AngleResponse,
-    Effect::CrossTalk,
+    Effect::Crosstalk,
     Effect::PhotoResponse,
     Effect::Smear,
     Effect::ShotNoise,
@@ -117,7 +117,7 @@ const ON_READING: [Effect; 6] = [
     Effect::Capacitance,
     Effect::OffsetPattern,
     Effect::ReadNoise,
-    Effect::TelegraphNoise,
+    Effect::RtsNoise,
 ];
 
 /// The stages that make charge of means.
@@ -144,7 +144,7 @@ fn stage(effect: Effect, context: &Context<'_>, memory: &mut Memory) -> Option<S
     let plane = |effect: PlaneEffect| Some(Stage::Plane(effect));
     match effect {
         Effect::AngleResponse => row(RowEffect::Angle(AngleFactors::new(p.optics.angle_response.as_ref()?, context))),
-        Effect::CrossTalk => plane(PlaneEffect::Neighbours(p.optics.cross_talk?.0)),
+        Effect::Crosstalk => plane(PlaneEffect::Neighbours(p.optics.crosstalk?.0)),
         Effect::PhotoResponse => row(RowEffect::PhotoResponse(ResponsePattern::new(context))),
         Effect::Smear => plane(PlaneEffect::Smear(ColumnSmear::new(p.charge.smear.as_ref()?, context))),
         Effect::ShotNoise => row(RowEffect::Shot(ShotNoise::new(context))),
@@ -161,14 +161,14 @@ fn stage(effect: Effect, context: &Context<'_>, memory: &mut Memory) -> Option<S
         Effect::Capacitance => plane(PlaneEffect::Neighbours(p.read_out.capacitance?.0)),
         Effect::OffsetPattern => row(RowEffect::Offsets(Offsets::new(context))),
         Effect::ReadNoise => row(RowEffect::Read(NoisyRead::new(context))),
-        Effect::TelegraphNoise => row(RowEffect::Telegraph(telegraph(context, memory)?)),
+        Effect::RtsNoise => row(RowEffect::RtsNoise(telegraph(context, memory)?)),
         Effect::ExposureControl | Effect::Converter | Effect::Merge | Effect::Companding => None,
     }
 }
 
 /// The blinking pixels at their upper level. Without noise from frame to frame none is.
 fn blinking(context: &Context<'_>, memory: &mut Memory) -> Vec<Site> {
-    let Some(two) = context.p.charge.dark.blinking.filter(|_| context.p.noise) else { return Vec::new() };
+    let Some(two) = context.p.charge.dark.dark_current_rts.filter(|_| context.p.noise) else { return Vec::new() };
     let draws = Draws { which: NoiseDraw::Blinking, flip: NoiseDraw::BlinkingFlip };
     let size = (context.width, context.height);
     let (sites, high) = two_level::next(&two, (context.p, draws), context.address, size, &memory.before.blinking_high);
@@ -178,7 +178,7 @@ fn blinking(context: &Context<'_>, memory: &mut Memory) -> Vec<Site> {
 }
 
 fn telegraph(context: &Context<'_>, memory: &mut Memory) -> Option<Jumps> {
-    let two = context.p.read_out.telegraph?.0;
+    let two = context.p.read_out.rts_noise?.0;
     let draws = Draws { which: NoiseDraw::Telegraph, flip: NoiseDraw::TelegraphFlip };
     let size = (context.width, context.height);
     let (sites, high) = two_level::next(&two, (context.p, draws), context.address, size, &memory.before.telegraph_high);

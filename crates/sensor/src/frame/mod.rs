@@ -4,7 +4,7 @@ mod chain;
 mod pass;
 
 use crate::account::ChargeAccount;
-use crate::causes::Causes;
+use crate::signal_breakdown::SignalBreakdown;
 use crate::effects::converter::Converter;
 use crate::hdr::merge::Merged;
 use crate::operation::{Context, Operation};
@@ -26,7 +26,7 @@ pub(crate) struct Memory {
 /// What all captures of a frame have become.
 struct Taken {
     numbers: Plane<DigitalNumber>,
-    causes: Option<Causes>,
+    signal_breakdown: Option<SignalBreakdown>,
     /// Of each capture that has charge of its own: its place, and where its charge went where it overflows.
     accounts: Vec<(usize, ChargeAccount)>,
 }
@@ -49,14 +49,14 @@ impl Sensor {
 
     /// The same, with what each pixel's value is made of.
     #[must_use]
-    pub fn step_with_causes(
+    pub fn step_with_breakdown(
         &self,
         state: SensorState,
         mean_electrons: &Plane<Electrons>,
         address: FrameAddress,
-    ) -> (SensorState, Raw, Causes) {
-        let (state, raw, causes) = self.frame(state, mean_electrons, address, true);
-        (state, raw, causes.expect("they were asked for"))
+    ) -> (SensorState, Raw, SignalBreakdown) {
+        let (state, raw, signal_breakdown) = self.frame(state, mean_electrons, address, true);
+        (state, raw, signal_breakdown.expect("they were asked for"))
     }
 
     fn frame(
@@ -64,8 +64,8 @@ impl Sensor {
         state: SensorState,
         means: &Plane<Electrons>,
         address: FrameAddress,
-        with_causes: bool,
-    ) -> (SensorState, Raw, Option<Causes>) {
+        with_breakdown: bool,
+    ) -> (SensorState, Raw, Option<SignalBreakdown>) {
         let p = self.parameters();
         let point = state.operating_point.unwrap_or_else(|| OperatingPoint::described(p));
         let after = SensorState { trapped_e: state.trapped_e.clone(), ..SensorState::default() };
@@ -74,14 +74,14 @@ impl Sensor {
         let array = extended.as_ref().unwrap_or(means);
         let first = Operation::base(p, point);
         let taken = if p.hdr.captures.is_empty() {
-            self.single(array, first, address, &mut memory, with_causes)
+            self.single(array, first, address, &mut memory, with_breakdown)
         } else {
-            self.merged(array, first, address, &mut memory, with_causes)
+            self.merged(array, first, address, &mut memory, with_breakdown)
         };
-        let (raw, causes) = self.raw(taken, array, point);
+        let (raw, signal_breakdown) = self.raw(taken, array, point);
         let mut state = memory.after;
         state.operating_point = p.exposure.control.map(|control| control.next(&raw, point));
-        (state, raw, causes)
+        (state, raw, signal_breakdown)
     }
 
     fn context(&self, array: &Plane<Electrons>, operation: Operation, address: FrameAddress) -> Context<'_> {
@@ -95,15 +95,15 @@ impl Sensor {
         operation: Operation,
         address: FrameAddress,
         memory: &mut Memory,
-        with_causes: bool,
+        with_breakdown: bool,
     ) -> Taken {
         let context = self.context(array, operation, address);
-        let mut pass = Pass::new(array, operation.light, with_causes);
+        let mut pass = Pass::new(array, operation.light, with_breakdown);
         let stages = [chain::charge(&context, memory), chain::reading(&context, memory)].concat();
         pass.run(stages, &context, &mut memory.after.trapped_e);
         let linear = self.merged_of(pass.convert(&Converter::new(&context), context.p.capture_white_dn(&operation)));
         let accounts = pass.account.map(|account| (0, account)).into_iter().collect();
-        Taken { numbers: linear, causes: pass.causes, accounts }
+        Taken { numbers: linear, signal_breakdown: pass.signal_breakdown, accounts }
     }
 
     /// Companding of a single capture.
@@ -121,7 +121,7 @@ impl Sensor {
         first: Operation,
         address: FrameAddress,
         memory: &mut Memory,
-        with_causes: bool,
+        with_breakdown: bool,
     ) -> Taken {
         let p = self.parameters();
         let mut merged = Merged::new(p.read_out.black_level_dn);
@@ -129,8 +129,8 @@ impl Sensor {
         for (k, operation) in p.hdr.operations(first).into_iter().enumerate() {
             let address = FrameAddress { capture: address.capture + k as u32, ..address };
             let context = self.context(array, operation, address);
-            if k == 0 || !p.hdr.captures[k - 1].same_charge {
-                let mut pass = Pass::new(array, operation.light, with_causes);
+            if k == 0 || !p.hdr.captures[k - 1].dual_conversion_gain {
+                let mut pass = Pass::new(array, operation.light, with_breakdown);
                 pass.run(chain::charge(&context, memory), &context, &mut memory.after.trapped_e);
                 pass.settle();
                 accounts.extend(pass.account.map(|account| (k, account)));
@@ -144,9 +144,9 @@ impl Sensor {
             let black_dn = p.read_out.black_level_dn;
             let switch_dn = black_dn + p.hdr.switch() * (white_dn - black_dn);
             let factor = p.hdr.scale(k) * operation.gain_dn_e / first.gain_dn_e;
-            merged.take(&numbers, p.hdr.scale(k), switch_dn, pass.causes.as_ref().map(|causes| (causes, factor)));
+            merged.take(&numbers, p.hdr.scale(k), switch_dn, pass.signal_breakdown.as_ref().map(|signal_breakdown| (signal_breakdown, factor)));
         }
-        Taken { numbers: self.rounded(&merged), causes: merged.into_causes(), accounts }
+        Taken { numbers: self.rounded(&merged), signal_breakdown: merged.into_breakdown(), accounts }
     }
 
     /// Merged numbers, companded where there is a curve, rounded once.
@@ -161,17 +161,17 @@ impl Sensor {
     }
 
     /// The raw of what was taken: numbers put together, the part that is read, what was no light.
-    fn raw(&self, taken: Taken, array: &Plane<Electrons>, point: OperatingPoint) -> (Raw, Option<Causes>) {
+    fn raw(&self, taken: Taken, array: &Plane<Electrons>, point: OperatingPoint) -> (Raw, Option<SignalBreakdown>) {
         let p = self.parameters();
         let layout = &p.read_out.layout;
-        let Taken { mut numbers, mut causes, accounts } = taken;
+        let Taken { mut numbers, mut signal_breakdown, accounts } = taken;
         if let Some(binning) = layout.number_binning() {
             numbers = binning.averaged(&p.cfa, &numbers);
-            causes = causes.map(|c| c.mapped(|layer| binning.mean(&p.cfa, layer)));
+            signal_breakdown = signal_breakdown.map(|c| c.mapped(|layer| binning.mean(&p.cfa, layer)));
         }
         if let Some(part) = layout.read_part() {
             numbers = part.of(&numbers);
-            causes = causes.map(|c| c.mapped(|layer| part.of(layer)));
+            signal_breakdown = signal_breakdown.map(|c| c.mapped(|layer| part.of(layer)));
         }
         let invalid = invalid_pixels(array);
         let places = invalid.iter().filter_map(|i| layout.raw_of_array(&p.cfa, (i.x as usize, i.y as usize)));
@@ -189,7 +189,7 @@ impl Sensor {
             accounts,
             invalid,
         };
-        (raw, causes)
+        (raw, signal_breakdown)
     }
 }
 

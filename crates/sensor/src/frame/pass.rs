@@ -5,7 +5,7 @@
 
 use super::chain::{RowEffect, Stage};
 use crate::account::{ChargeAccount, RowTally};
-use crate::causes::{Cause, CauseRow, Causes};
+use crate::signal_breakdown::{SignalComponent, SignalComponentRow, SignalBreakdown};
 use crate::effects::Effect;
 use crate::effects::converter::Converter;
 use crate::operation::Context;
@@ -24,15 +24,15 @@ pub(super) struct Pass<'a> {
     /// Effects on rows that wait for a pass.
     waiting: Vec<(Effect, RowEffect)>,
     /// What is noted, where it is asked for.
-    pub(super) causes: Option<Causes>,
+    pub(super) signal_breakdown: Option<SignalBreakdown>,
     /// Where charge went at the full well.
     pub(super) account: Option<ChargeAccount>,
 }
 
 impl<'a> Pass<'a> {
-    pub(super) fn new(means: &'a Plane<Electrons>, light: f64, with_causes: bool) -> Self {
-        let causes = with_causes.then(|| Causes::new(means.width(), means.height()));
-        Self { plane: Cow::Borrowed(means), light: Some(light), waiting: Vec::new(), causes, account: None }
+    pub(super) fn new(means: &'a Plane<Electrons>, light: f64, with_breakdown: bool) -> Self {
+        let signal_breakdown = with_breakdown.then(|| SignalBreakdown::new(means.width(), means.height()));
+        Self { plane: Cow::Borrowed(means), light: Some(light), waiting: Vec::new(), signal_breakdown, account: None }
     }
 
     /// A reading of this charge.
@@ -41,7 +41,7 @@ impl<'a> Pass<'a> {
             plane: Cow::Borrowed(&self.plane),
             light: self.light,
             waiting: self.waiting.clone(),
-            causes: self.causes.clone(),
+            signal_breakdown: self.signal_breakdown.clone(),
             account: None,
         }
     }
@@ -53,10 +53,10 @@ impl<'a> Pass<'a> {
                 Stage::Row(row) => self.waiting.push((effect, row)),
                 Stage::Plane(apply) => {
                     let before = self.store();
-                    let kept = self.causes.is_some().then(|| before.clone());
+                    let kept = self.signal_breakdown.is_some().then(|| before.clone());
                     let after = apply.apply(context, before, trapped_e, &mut self.account);
-                    if let (Some(causes), Some(before)) = (self.causes.take(), kept) {
-                        self.causes = Some(noted(causes, effect, context, &before, &after));
+                    if let (Some(signal_breakdown), Some(before)) = (self.signal_breakdown.take(), kept) {
+                        self.signal_breakdown = Some(noted(signal_breakdown, effect, context, &before, &after));
                     }
                     self.plane = Cow::Owned(after);
                 }
@@ -78,7 +78,7 @@ impl<'a> Pass<'a> {
         let (width, height) = (self.plane.width(), self.plane.height());
         let mut out = Plane::new(width, height);
         let source = Source { plane: &self.plane, light: self.light, effects: &self.waiting };
-        let account = source.rows(out.samples_mut(), self.causes.as_mut(), |out, electrons, _| {
+        let account = source.rows(out.samples_mut(), self.signal_breakdown.as_mut(), |out, electrons, _| {
             out.iter_mut().zip(electrons).for_each(|(out, e)| *out = *e as f32);
         });
         self.account = self.account.or(account);
@@ -90,13 +90,13 @@ impl<'a> Pass<'a> {
     pub(super) fn convert(&mut self, converter: &Converter, white_dn: f64) -> Plane<DigitalNumber> {
         let mut numbers = Plane::new(self.plane.width(), self.plane.height());
         let source = Source { plane: &self.plane, light: self.light, effects: &self.waiting };
-        let account = source.rows(numbers.samples_mut(), self.causes.as_mut(), |out, electrons, notes| {
+        let account = source.rows(numbers.samples_mut(), self.signal_breakdown.as_mut(), |out, electrons, notes| {
             out.iter_mut().zip(electrons).for_each(|(dn, e)| *dn = converter.digital_number(*e));
             let Some(notes) = notes else { return };
             for (x, (dn, e)) in out.iter().zip(electrons).enumerate() {
                 let dn = f64::from(*dn);
-                notes.add(Cause::Quantisation, x, converter.electrons(dn) - e);
-                notes.add(Cause::Saturated, x, f64::from(u8::from(dn >= white_dn.floor())));
+                notes.add(SignalComponent::Quantisation, x, converter.electrons(dn) - e);
+                notes.add(SignalComponent::Saturated, x, f64::from(u8::from(dn >= white_dn.floor())));
             }
         });
         self.account = self.account.or(account);
@@ -111,17 +111,17 @@ pub(super) fn is_valid(mean: f32) -> bool {
 
 /// Notes what an effect on planes did.
 fn noted(
-    mut causes: Causes,
+    mut signal_breakdown: SignalBreakdown,
     effect: Effect,
     context: &Context<'_>,
     before: &Plane<Electrons>,
     after: &Plane<Electrons>,
-) -> Causes {
+) -> SignalBreakdown {
     match context.p.read_out.layout.charge_binning() {
-        Some(binning) if effect == Effect::Layout => causes.mapped(|layer| binning.added(&context.p.cfa, layer)),
+        Some(binning) if effect == Effect::Layout => signal_breakdown.mapped(|layer| binning.added(&context.p.cfa, layer)),
         _ => {
-            causes.note(effect.cause(), before, after);
-            causes
+            signal_breakdown.note(effect.cause(), before, after);
+            signal_breakdown
         }
     }
 }
@@ -140,8 +140,8 @@ impl Source<'_> {
     fn rows<T: Send>(
         &self,
         out: &mut [T],
-        causes: Option<&mut Causes>,
-        finish: impl Fn(&mut [T], &[f64], Option<&mut CauseRow<'_>>) + Sync,
+        signal_breakdown: Option<&mut SignalBreakdown>,
+        finish: impl Fn(&mut [T], &[f64], Option<&mut SignalComponentRow<'_>>) + Sync,
     ) -> Option<ChargeAccount> {
         let width = self.plane.width();
         if width == 0 {
@@ -150,7 +150,7 @@ impl Source<'_> {
         let mut tallies = vec![RowTally::default(); self.plane.height()];
         let rows = out.par_chunks_mut(width).zip(self.plane.samples().par_chunks(width));
         let whole = rows.zip(&mut tallies).enumerate();
-        match causes {
+        match signal_breakdown {
             None => whole.for_each_init(
                 || vec![0.0; width],
                 |electrons, (y, ((out, source), tally))| {
@@ -159,8 +159,8 @@ impl Source<'_> {
                     finish(out, electrons, None);
                 },
             ),
-            Some(causes) => {
-                whole.zip(causes.rows().into_par_iter()).for_each(|((y, ((out, source), tally)), mut notes)| {
+            Some(signal_breakdown) => {
+                whole.zip(signal_breakdown.rows().into_par_iter()).for_each(|((y, ((out, source), tally)), mut notes)| {
                     let electrons = self.noted_row(source, y as u32, &mut notes, tally);
                     finish(out, &electrons, Some(&mut notes));
                 });
@@ -182,11 +182,11 @@ impl Source<'_> {
         }
     }
 
-    fn noted_row(&self, source: &[f32], y: u32, notes: &mut CauseRow<'_>, tally: &mut RowTally) -> Vec<f64> {
+    fn noted_row(&self, source: &[f32], y: u32, notes: &mut SignalComponentRow<'_>, tally: &mut RowTally) -> Vec<f64> {
         let mut electrons = vec![0.0; source.len()];
         self.load(&mut electrons, source);
         if self.light.is_some() {
-            notes.note(Cause::Signal, &vec![0.0; source.len()], &electrons);
+            notes.note(SignalComponent::Signal, &vec![0.0; source.len()], &electrons);
         }
         for (effect, apply) in self.effects {
             let before = electrons.clone();

@@ -1,7 +1,7 @@
 //! Frames as a whole: the photon-transfer method, extremes, the order of work.
 
 use super::*;
-use crate::Cause;
+use crate::SignalComponent;
 use crate::parameters::SensorParameters;
 use crate::parameters::tests::ideal;
 use etendue_stats::Moments;
@@ -154,7 +154,7 @@ const PINNED: [u32; 9] = [404, 399, 400, 400, 408, 417, 416, 418, 421];
 /// A camera that has everything.
 pub(crate) fn everything() -> SensorParameters {
     use crate::effects::{
-        angle_response, capacitance, cross_talk, dark_current, full_well, lag, smear, telegraph_noise,
+        angle_response, capacitance, crosstalk, dark_current, full_well, lag, smear, rts_noise,
     };
     use crate::effects::{neighbours::Neighbours, two_level::TwoLevel};
     let mut p = ideal();
@@ -164,26 +164,26 @@ pub(crate) fn everything() -> SensorParameters {
     p.optics.angle_response =
         Some(angle_response::AngleResponse { table, exit_pupil_mm: 2.0, principal_px: [30.0, 20.0] });
     let shares = Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.002 };
-    p.optics.cross_talk = Some(cross_talk::CrossTalk(shares));
+    p.optics.crosstalk = Some(crosstalk::Crosstalk(shares));
     p.pattern.photo_response = crate::effects::photo_response::PhotoResponse { white: 0.01, row: 0.002, column: 0.003 };
     p.pattern.offset = crate::effects::offset_pattern::OffsetPattern { white_e: 2.0, row_e: 1.0, column_e: 1.0 };
-    p.pattern.dead_share = 1e-3;
+    p.pattern.dead_fraction = 1e-3;
     let two = |mean| TwoLevel { share: 0.01, mean, dwell_frames: 3.0 };
     p.charge.dark = dark_current::DarkCurrent {
-        spread: dark_current::DarkSpread { white: 0.3, row: 0.05, column: 0.05, tail: dark_current::Tail::LogNormal },
+        spread: dark_current::DarkSpread { white: 0.3, row: 0.05, column: 0.05, distribution: dark_current::SpreadDistribution::LogNormal },
         hot: Some(dark_current::Hot { share: 0.01, mean_e_s: 1e5 }),
-        blinking: Some(two(1e5)),
+        dark_current_rts: Some(two(1e5)),
         ..dark_current::DarkCurrent::even(2000.0)
     };
-    p.charge.smear = Some(smear::Smear::Interline { smear_db: -70.0, measured_exposure_share: 1.0 });
+    p.charge.smear = Some(smear::Smear::Interline { smear_db: -70.0, measured_exposure_ratio: 1.0 });
     p.charge.traps = vec![lag::Trap { share: 0.02, time_constant_s: 0.1 }];
     p.charge.brighter_fatter_per_e = 2e-6;
-    p.charge.blooming = Some(full_well::Blooming::Around { spill: 0.6 });
+    p.charge.blooming = Some(full_well::Blooming::Around { overflow_fraction: 0.6 });
     let knee = crate::effects::response::Knee { at_e: 10_000.0, slope: 0.5 };
     p.read_out.response = crate::effects::response::Response::Knees(vec![knee]);
     p.read_out.capacitance = Some(capacitance::Capacitance(shares));
     (p.read_out.noise.row_e, p.read_out.noise.column_e) = (1.0, 1.0);
-    p.read_out.telegraph = Some(telegraph_noise::TelegraphNoise(two(20.0)));
+    p.read_out.rts_noise = Some(rts_noise::RtsNoise(two(20.0)));
     p
 }
 
@@ -199,19 +199,19 @@ fn causes_add_up_to_the_digital_number_and_do_not_change_it() {
     for p in [one_dn_an_electron(), everything()] {
         let sensor = Sensor::new(p).expect("legal");
         let (after, raw) = sensor.step(SensorState::default(), &scene(), ADDRESS);
-        let (state, noted, causes) = sensor.step_with_causes(SensorState::default(), &scene(), ADDRESS);
+        let (state, noted, signal_breakdown) = sensor.step_with_breakdown(SensorState::default(), &scene(), ADDRESS);
         assert_eq!((&after, &raw), (&state, &noted));
         let read_out = &sensor.parameters().read_out;
         let gain = read_out.gain_dn_e * read_out.digital_gain;
         for (i, dn) in raw.plane.samples().iter().enumerate() {
-            let parts = Cause::ALL.into_iter().filter(|c| *c != Cause::Saturated);
-            let sum: f64 = parts.clone().map(|c| f64::from(causes.layer(c).samples()[i])).sum();
-            let largest = parts.map(|c| f64::from(causes.layer(c).samples()[i]).abs()).fold(1.0, f64::max);
+            let parts = SignalComponent::ALL.into_iter().filter(|c| *c != SignalComponent::Saturated);
+            let sum: f64 = parts.clone().map(|c| f64::from(signal_breakdown.layer(c).samples()[i])).sum();
+            let largest = parts.map(|c| f64::from(signal_breakdown.layer(c).samples()[i]).abs()).fold(1.0, f64::max);
             // Layers and planes are f32: a few roundings of the largest of them.
             let want = (f64::from(*dn) - raw.black_level_dn) / gain;
             assert!((sum - want).abs() < 1e-6 * largest + 1e-3, "{i}: {sum} {want}");
         }
-        let saturated = causes.layer(Cause::Saturated).samples();
+        let saturated = signal_breakdown.layer(SignalComponent::Saturated).samples();
         let at_white = |dn: &u32| f64::from(*dn) >= raw.white_level_dn.floor();
         assert!(raw.plane.samples().iter().zip(saturated).all(|(dn, s)| at_white(dn) == (*s == 1.0)));
     }
@@ -224,7 +224,7 @@ fn threads_change_no_bit_of_any_effect() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
             let (state, _) = sensor.step(SensorState::default(), &scene(), ADDRESS);
-            sensor.step_with_causes(state, &scene(), FrameAddress { frame: 3, ..ADDRESS })
+            sensor.step_with_breakdown(state, &scene(), FrameAddress { frame: 3, ..ADDRESS })
         })
     };
     assert_eq!(with(1), with(3));

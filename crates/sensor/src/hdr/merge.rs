@@ -4,7 +4,7 @@
 //! s_k the product of what the capture lost in time, sensitivity and gain. The value is in numbers of the first capture.
 //! Left out: blending around the switch, weights by noise.
 
-use crate::causes::Causes;
+use crate::signal_breakdown::SignalBreakdown;
 use etendue_core::Plane;
 use etendue_core::quantity::DigitalNumber;
 
@@ -16,31 +16,31 @@ pub(crate) struct Merged {
     values: Vec<f32>,
     /// Whether no capture so far was below its switch.
     pending: Vec<bool>,
-    /// Causes of the captures that were taken, where they are noted.
-    causes: Option<Causes>,
+    /// SignalBreakdown of the captures that were taken, where they are noted.
+    signal_breakdown: Option<SignalBreakdown>,
 }
 
 impl Merged {
     /// None yet.
     pub(crate) fn new(black_level_dn: f64) -> Self {
-        Self { black_level_dn, width: 0, values: Vec::new(), pending: Vec::new(), causes: None }
+        Self { black_level_dn, width: 0, values: Vec::new(), pending: Vec::new(), signal_breakdown: None }
     }
 
-    /// Takes the next capture; numbers up to `switch_dn` are good. Values have 24 bits, which f32 holds. `causes`: those of the
+    /// Takes the next capture; numbers up to `switch_dn` are good. Values have 24 bits, which f32 holds. `signal_breakdown`: those of the
     /// capture, and what an electron of it is in electrons of the first.
     pub(crate) fn take(
         &mut self,
         numbers: &Plane<DigitalNumber>,
         scale: f64,
         switch_dn: f64,
-        causes: Option<(&Causes, f64)>,
+        signal_breakdown: Option<(&SignalBreakdown, f64)>,
     ) {
         let pixels = numbers.samples().len();
         self.width = numbers.width();
         self.values.resize(pixels, 0.0);
         self.pending.resize(pixels, true);
-        if let Some((causes, factor)) = causes {
-            self.causes.get_or_insert_with(|| causes.clone()).replace(&self.pending, causes, factor);
+        if let Some((signal_breakdown, factor)) = signal_breakdown {
+            self.signal_breakdown.get_or_insert_with(|| signal_breakdown.clone()).replace(&self.pending, signal_breakdown, factor);
         }
         for ((value, pending), dn) in self.values.iter_mut().zip(&mut self.pending).zip(numbers.samples()) {
             if *pending {
@@ -61,9 +61,9 @@ impl Merged {
         &self.values
     }
 
-    /// Causes of the merged numbers, where they are noted.
-    pub(crate) fn into_causes(self) -> Option<Causes> {
-        self.causes
+    /// SignalBreakdown of the merged numbers, where they are noted.
+    pub(crate) fn into_breakdown(self) -> Option<SignalBreakdown> {
+        self.signal_breakdown
     }
 }
 
@@ -81,8 +81,8 @@ pub(crate) mod tests {
         let mut p = quiet();
         (p.charge.full_well_e, p.read_out.bits, p.read_out.black_level_dn) = (3900.0, 12, 100.0);
         p.hdr.captures = vec![
-            Capture { exposure_share: 1.0 / 16.0, ..Capture::default() },
-            Capture { exposure_share: 1.0 / 256.0, ..Capture::default() },
+            Capture { exposure_ratio: 1.0 / 16.0, ..Capture::default() },
+            Capture { exposure_ratio: 1.0 / 256.0, ..Capture::default() },
         ];
         p.hdr.bits = Some(20);
         p
@@ -125,33 +125,33 @@ pub(crate) mod tests {
 
     #[test]
     fn causes_are_those_of_the_capture_that_is_used() {
-        use crate::{Cause, Sensor, SensorState};
+        use crate::{SignalComponent, Sensor, SensorState};
         let mut p = three_exposures();
         (p.noise, p.read_out.noise.white_e, p.charge.dark.current_e_s) = (true, 2.0, 1000.0);
-        let again = Capture { gain_share: 1.0 / 4.0, same_charge: true, ..Capture::default() };
+        let again = Capture { gain_ratio: 1.0 / 4.0, dual_conversion_gain: true, ..Capture::default() };
         p.hdr.captures.insert(0, again);
         let sensor = Sensor::new(p).expect("legal");
         let means = Plane::from_samples(5, 1, vec![0.0, 3000.0, 3800.0, 40_000.0, 700_000.0]).expect("filled");
         let raw = sensor.step(SensorState::default(), &means, ADDRESS).1;
-        let (_, same, causes) = sensor.step_with_causes(SensorState::default(), &means, ADDRESS);
+        let (_, same, signal_breakdown) = sensor.step_with_breakdown(SensorState::default(), &means, ADDRESS);
         assert_eq!(raw, same);
         for x in 0..5 {
-            let of = |cause: Cause| f64::from(causes.layer(cause).at(x, 0));
-            let sum: f64 = Cause::ALL.into_iter().filter(|c| *c != Cause::Saturated).map(of).sum();
+            let of = |cause: Cause| f64::from(signal_breakdown.layer(cause).at(x, 0));
+            let sum: f64 = SignalComponent::ALL.into_iter().filter(|c| *c != SignalComponent::Saturated).map(of).sum();
             // Ten layers of f32, each up to the signal.
             assert!((sum - (f64::from(raw.plane.at(x, 0)) - 100.0)).abs() < 0.05 + 1e-6 * sum.abs(), "{x}: {sum}");
-            assert!((of(Cause::Signal) / f64::from(means.at(x, 0)).max(1e-9) - 1.0).abs() < 1e-6 || x == 0);
+            assert!((of(SignalComponent::Signal) / f64::from(means.at(x, 0)).max(1e-9) - 1.0).abs() < 1e-6 || x == 0);
         }
         // Counts of a capture of 1/256 of the time are counts of 256.
-        let counted = (causes.layer(Cause::Signal).at(4, 0) + causes.layer(Cause::Shot).at(4, 0)) / 256.0;
+        let counted = (signal_breakdown.layer(SignalComponent::Signal).at(4, 0) + signal_breakdown.layer(SignalComponent::Shot).at(4, 0)) / 256.0;
         assert!((counted - counted.round()).abs() < 1e-3 && counted > 2000.0, "{counted}");
     }
 
     #[test]
     fn every_capture_has_its_account_of_charge() {
         let mut p = three_exposures();
-        p.charge.blooming = Some(crate::effects::full_well::Blooming::Around { spill: 0.5 });
-        p.hdr.captures.insert(0, Capture { gain_share: 0.5, same_charge: true, ..Capture::default() });
+        p.charge.blooming = Some(crate::effects::full_well::Blooming::Around { overflow_fraction: 0.5 });
+        p.hdr.captures.insert(0, Capture { gain_ratio: 0.5, dual_conversion_gain: true, ..Capture::default() });
         let raw = run(&p, &Plane::filled(9, 9, 100_000.0), ADDRESS);
         let places: Vec<usize> = raw.accounts.iter().map(|(k, _)| *k).collect();
         assert_eq!(places, [0, 2, 3]);
@@ -163,7 +163,7 @@ pub(crate) mod tests {
     fn dual_gain_reads_the_same_charge_twice() {
         let mut p = quiet();
         (p.noise, p.charge.full_well_e, p.read_out.bits) = (true, 60_000.0, 12);
-        p.hdr.captures = vec![Capture { gain_share: 1.0 / 16.0, same_charge: true, ..Capture::default() }];
+        p.hdr.captures = vec![Capture { gain_ratio: 1.0 / 16.0, dual_conversion_gain: true, ..Capture::default() }];
         p.hdr.bits = Some(16);
         let means = Plane::filled(64, 64, 20_000.0);
         let merged = run(&p, &means, ADDRESS);
@@ -186,7 +186,7 @@ pub(crate) mod tests {
         assert!(refused(&|p| p.hdr.bits = Some(16)));
         assert!(refused(&|p| p.hdr.bits = None));
         assert!(refused(&|p| p.hdr.captures.reverse()));
-        assert!(refused(&|p| p.hdr.captures[0].same_charge = true));
+        assert!(refused(&|p| p.hdr.captures[0].dual_conversion_gain = true));
         assert!(refused(&|p| p.hdr.captures.insert(0, Capture::default())), "a capture that is never used");
         assert!(refused(&|p| p.read_out.response = Response::Logarithmic { from_e: 1000.0 }), "merging is linear");
         // Exposures of 1, 1/16 and 1/256 of a second follow each other on the one photodiode.

@@ -30,29 +30,29 @@ use companding::Companding;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Capture {
     /// Its exposure time over the first's, (0, 1].
-    pub exposure_share: f64,
+    pub exposure_ratio: f64,
     /// Its photodiode's sensitivity over the first's, (0, 1].
-    pub sensitivity_share: f64,
+    pub sensitivity_ratio: f64,
     /// Its conversion gain over the first's, (0, 1].
-    pub gain_share: f64,
+    pub gain_ratio: f64,
     /// Its full well, e⁻; `None`: the first's.
     pub full_well_e: Option<f64>,
     /// Its read noise, e⁻; `None`: the first's.
     pub read_noise_e: Option<f64>,
     /// Whether it reads the charge of the capture before it once more.
-    pub same_charge: bool,
+    pub dual_conversion_gain: bool,
 }
 
 /// The first capture once more.
 impl Default for Capture {
     fn default() -> Self {
         Self {
-            exposure_share: 1.0,
-            sensitivity_share: 1.0,
-            gain_share: 1.0,
+            exposure_ratio: 1.0,
+            sensitivity_ratio: 1.0,
+            gain_ratio: 1.0,
             full_well_e: None,
             read_noise_e: None,
-            same_charge: false,
+            dual_conversion_gain: false,
         }
     }
 }
@@ -63,7 +63,7 @@ pub struct HighDynamicRange {
     /// Captures after the first.
     pub captures: Vec<Capture>,
     /// Share of a capture's range above which the next one is taken, (0, 1); `None`: 0.9.
-    pub switch_at: Option<f64>,
+    pub transition_level: Option<f64>,
     /// Bits of the merged number, the converter's to 24; `None` without captures.
     pub bits: Option<u32>,
     /// Fewer bits by a curve.
@@ -74,33 +74,33 @@ impl Capture {
     /// Numbers of the first capture a number of this one.
     #[must_use]
     pub fn scale(&self) -> f64 {
-        1.0 / (self.exposure_share * self.sensitivity_share * self.gain_share)
+        1.0 / (self.exposure_ratio * self.sensitivity_ratio * self.gain_ratio)
     }
 
     /// How this capture is taken, where `first` is how the first one is.
     pub(crate) fn operation(&self, first: &Operation) -> Operation {
         Operation {
-            exposure_s: first.exposure_s * self.exposure_share,
-            light: first.light * self.exposure_share * self.sensitivity_share,
+            exposure_s: first.exposure_s * self.exposure_ratio,
+            light: first.light * self.exposure_ratio * self.sensitivity_ratio,
             full_well_e: self.full_well_e.unwrap_or(first.full_well_e),
-            gain_dn_e: first.gain_dn_e * self.gain_share,
+            gain_dn_e: first.gain_dn_e * self.gain_ratio,
             read_noise_e: self.read_noise_e.unwrap_or(first.read_noise_e),
         }
     }
 
     fn check(&self, number: usize, checks: &mut Checks) {
-        checks.share_above_0("hdr.captures.exposure_share", self.exposure_share);
-        checks.share_above_0("hdr.captures.sensitivity_share", self.sensitivity_share);
-        checks.share_above_0("hdr.captures.gain_share", self.gain_share);
+        checks.share_above_0("hdr.captures.exposure_ratio", self.exposure_ratio);
+        checks.share_above_0("hdr.captures.sensitivity_ratio", self.sensitivity_ratio);
+        checks.share_above_0("hdr.captures.gain_ratio", self.gain_ratio);
         if let Some(e) = self.full_well_e {
             checks.positive("hdr.captures.full_well_e", e);
         }
         if let Some(e) = self.read_noise_e {
             checks.not_negative("hdr.captures.read_noise_e", e);
         }
-        let read_only = self.exposure_share == 1.0 && self.sensitivity_share == 1.0 && self.full_well_e.is_none();
-        checks.agree("hdr.captures.same_charge", !self.same_charge || read_only, || {
-            format!("entry {number} (from 0): charge that is read again has the exposure, photodiode and full well it had: remove those, or \"same_charge\"")
+        let read_only = self.exposure_ratio == 1.0 && self.sensitivity_ratio == 1.0 && self.full_well_e.is_none();
+        checks.agree("hdr.captures.dual_conversion_gain", !self.dual_conversion_gain || read_only, || {
+            format!("entry {number} (from 0): charge that is read again has the exposure, photodiode and full well it had: remove those, or \"dual_conversion_gain\"")
         });
     }
 }
@@ -108,14 +108,14 @@ impl Capture {
 impl HighDynamicRange {
     /// The share of a capture's range above which the next one is taken.
     pub(crate) fn switch(&self) -> f64 {
-        self.switch_at.unwrap_or(0.9)
+        self.transition_level.unwrap_or(0.9)
     }
 
     /// Numbers of the first capture a number of capture `k`; a second reading is relative to the charge it reads.
     pub(crate) fn scale(&self, k: usize) -> f64 {
         match k.checked_sub(1) {
             None => 1.0,
-            Some(i) if self.captures[i].same_charge => self.charge_scale(i) / self.captures[i].gain_share,
+            Some(i) if self.captures[i].dual_conversion_gain => self.charge_scale(i) / self.captures[i].gain_ratio,
             Some(i) => self.captures[i].scale(),
         }
     }
@@ -124,8 +124,8 @@ impl HighDynamicRange {
     fn charge_scale(&self, k: usize) -> f64 {
         match k.checked_sub(1).map(|i| &self.captures[i]) {
             None => 1.0,
-            Some(c) if c.same_charge => self.charge_scale(k - 1),
-            Some(c) => 1.0 / (c.exposure_share * c.sensitivity_share),
+            Some(c) if c.dual_conversion_gain => self.charge_scale(k - 1),
+            Some(c) => 1.0 / (c.exposure_ratio * c.sensitivity_ratio),
         }
     }
 
@@ -135,7 +135,7 @@ impl HighDynamicRange {
         for capture in &self.captures {
             let own = capture.operation(&first);
             let before = all[all.len() - 1];
-            all.push(match capture.same_charge {
+            all.push(match capture.dual_conversion_gain {
                 false => own,
                 true => Operation { gain_dn_e: own.gain_dn_e, read_noise_e: own.read_noise_e, ..before },
             });
@@ -156,9 +156,9 @@ impl HighDynamicRange {
 
     pub(crate) fn check(&self, p: &SensorParameters, checks: &mut Checks) {
         self.captures.iter().enumerate().for_each(|(i, capture)| capture.check(i, checks));
-        if let Some(share) = self.switch_at {
-            checks.legal("hdr.switch_at", share, share > 0.0 && share < 1.0, "a share between 0 and 1");
-            checks.agree("hdr.switch_at", !self.captures.is_empty(), || {
+        if let Some(share) = self.transition_level {
+            checks.legal("hdr.transition_level", share, share > 0.0 && share < 1.0, "a share between 0 and 1");
+            checks.agree("hdr.transition_level", !self.captures.is_empty(), || {
                 "there are no captures to switch between".to_owned()
             });
         }
@@ -195,7 +195,7 @@ impl HighDynamicRange {
     /// The time that the exposures of one photodiode take one after the other, s, the greatest of all photodiodes; those of one
     /// sensitivity are of one photodiode.
     fn longest_s(&self, exposure_s: f64) -> f64 {
-        let exposed = self.captures.iter().filter(|c| !c.same_charge).map(|c| (c.sensitivity_share, c.exposure_share));
+        let exposed = self.captures.iter().filter(|c| !c.dual_conversion_gain).map(|c| (c.sensitivity_ratio, c.exposure_ratio));
         let all: Vec<(f64, f64)> = core::iter::once((1.0, 1.0)).chain(exposed).collect();
         let sum = |sensitivity: f64| all.iter().filter(|(s, _)| *s == sensitivity).map(|(_, share)| share).sum::<f64>();
         exposure_s * all.iter().map(|(sensitivity, _)| sum(*sensitivity)).fold(0.0, f64::max)

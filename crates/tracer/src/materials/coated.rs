@@ -177,7 +177,7 @@ pub struct CoatedBsdf<'a, const N: usize> {
 
 impl<const N: usize> CoatedBsdf<'_, N> {
     /// Probability of drawing from the coat: its share of the energy sent back towards `wo`.
-    fn coat_share(&self, through: f32) -> f32 {
+    fn coat_fraction(&self, through: f32) -> f32 {
         let coat = 1.0 - through;
         let base = self.seen_mean * through * self.mean_transmittance;
         if coat + base > 0.0 { coat / (coat + base) } else { 1.0 }
@@ -189,7 +189,7 @@ impl<const N: usize> CoatedBsdf<'_, N> {
 
     pub(super) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let through = self.coat.transmittance(self.place, wo.z);
-        let share = self.coat_share(through);
+        let share = self.coat_fraction(through);
         let base = self.base_value_cos(through, wi);
         let base_pdf = (1.0 - share) * cosine_hemisphere_pdf(wi.z);
         let Some(facets) = self.facets else { return BsdfValue { value_cos: base, pdf: base_pdf } };
@@ -199,7 +199,7 @@ impl<const N: usize> CoatedBsdf<'_, N> {
     }
 
     pub(super) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
-        let share = self.coat_share(self.coat.transmittance(self.place, wo.z));
+        let share = self.coat_fraction(self.coat.transmittance(self.place, wo.z));
         let wi = match self.facets {
             _ if choice >= share => cosine_hemisphere(u),
             Some(facets) => mirrored(wo, facets.sample(wo, u)),

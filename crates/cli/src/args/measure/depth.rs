@@ -31,7 +31,7 @@ pub struct DepthArgs {
     pub ranges_m: Vec<f64>,
     /// An outlier is off by more than this share of the depth
     #[arg(long, value_name = "SHARE", default_value_t = 0.05, allow_negative_numbers = true)]
-    pub outlier_share: f64,
+    pub outlier_ratio: f64,
     /// … and by more than this, m
     #[arg(long, value_name = "M", default_value_t = 0.0, allow_negative_numbers = true)]
     pub outlier_least_m: f64,
@@ -43,7 +43,7 @@ pub struct DepthArgs {
     pub align: AlignArg,
     /// A jump of the truth by more than this share of the depth is an edge
     #[arg(long, value_name = "SHARE", default_value_t = 0.1, allow_negative_numbers = true)]
-    pub edge_share: f64,
+    pub edge_ratio: f64,
     /// Pixels this near to an edge are told apart
     #[arg(long, value_name = "PX", default_value_t = 2, value_parser = clap::value_parser!(u32).range(0..=100))]
     pub edge_px: u32,
@@ -61,11 +61,11 @@ impl From<&DepthArgs> for DepthRequest {
             estimate_unit_m: a.estimate_unit_m,
             truth_unit_m: a.truth_unit_m,
             ranges_m: a.ranges_m.clone(),
-            outlier_share: a.outlier_share,
+            outlier_ratio: a.outlier_ratio,
             outlier_least_m: a.outlier_least_m,
             focal_base_px_m: a.focal_base_px_m,
             align: a.align.into(),
-            edge_share: a.edge_share,
+            edge_ratio: a.edge_ratio,
             edge_px: a.edge_px,
         }
     }

@@ -24,7 +24,7 @@ fn fall_off(bench: &Bench, chart: &Path, over: f64) -> Compared {
     let ratios: Vec<f64> =
         radii.iter().map(|r| behind_a_disc(*r) / behind_a_disc(0.0) / pow(cos(atan(r / PRINCIPAL_MM)), over)).collect();
     let lens = format!(
-        "cameras.camera.lens={{ model = \"calibrated\", f_number = 2, focus_distance_m = 10, projection = {{ type = \"opencv\", \
+        "cameras.camera.lens={{ type = \"calibrated\", f_number = 2, focus_distance_m = 10, projection = {{ type = \"opencv\", \
          focal_length_mm = {PRINCIPAL_MM} }}, relative_illumination = {{ radius_mm = {radii:?}, ratio = {ratios:?} }} }}"
     );
     let options = ["--set", "render.spp=16", "--seed", "2", "--set", &lens];

@@ -121,7 +121,7 @@ impl<'a> Tone<'a> {
             "raw" => Err("the sensor's response is no straight line: of raw readings only that is declared".to_owned()),
             "picture" => {
                 let development =
-                    body.development.as_ref().ok_or("the camera has no [processing], of which a picture tells")?;
+                    body.development.as_ref().ok_or("the camera has no [isp], of which a picture tells")?;
                 let largest =
                     measured.quantities.get("full_scale").ok_or("the measurement does not say its full scale")?;
                 Ok(Self { black: 0.0, white: largest.value, smear_s, development: Some(development) })

@@ -121,7 +121,7 @@ fn edges(request: &SfrRequest, found: &[Found<'_>]) -> Table {
     };
     let start =
         [("at_px", "at px"), ("field_percent", "field %"), ("direction", "direction"), ("angle_deg", "angle °")];
-    let end = ("residual_share", "residual");
+    let end = ("residual_fraction", "residual");
     Table {
         key: "edges",
         columns: start.into_iter().chain(columns(request)).chain([end]).collect(),

@@ -107,7 +107,7 @@ mod tests {
             wedge_rad,
             tint: None,
             coating: Coating::Uncoated,
-            double_share: None,
+            double_image_fraction: None,
         })
     }
 

@@ -58,7 +58,7 @@ pub struct WindscreenParameters {
     /// What the outer faces let through.
     pub coating: Coating,
     /// Share of samples that look for the double image; 0 for no double image, `None` for as much as it has light.
-    pub double_share: Option<f64>,
+    pub double_image_fraction: Option<f64>,
 }
 
 /// About R² of glass in air, twice 4 %.
@@ -79,7 +79,7 @@ pub struct Windscreen {
     parameters: WindscreenParameters,
     faces: Vec<Face>,
     thickness_mm: f64,
-    double_share: f64,
+    double_image_fraction: f64,
 }
 
 impl Windscreen {
@@ -91,8 +91,8 @@ impl Windscreen {
         check(&parameters)?;
         let faces = face::faces(&parameters);
         let thickness_mm = parameters.layers.iter().map(|layer| layer.thickness_mm).sum();
-        let mut glass = Self { parameters, faces, thickness_mm, double_share: 0.0 };
-        glass.double_share = match glass.parameters.double_share {
+        let mut glass = Self { parameters, faces, thickness_mm, double_image_fraction: 0.0 };
+        glass.double_image_fraction = match glass.parameters.double_image_fraction {
             Some(share) => share,
             None => glass.untinted().share_of_double(),
         };
@@ -113,8 +113,8 @@ impl Windscreen {
 
     /// Share of samples that look for the double image.
     #[must_use]
-    pub fn double_share(&self) -> f64 {
-        self.double_share
+    pub fn double_image_fraction(&self) -> f64 {
+        self.double_image_fraction
     }
 
     /// Transmittances on the camera's axis at 587.56 nm: straight, and of the double image; `None` where it is not met.
@@ -151,7 +151,7 @@ impl Windscreen {
 
     /// Which way a sample looks, by its first number; what is left of that number, and the inverse of the probability.
     pub(super) fn choose(&self, u: f64) -> (Way, f64, f64) {
-        let q = self.double_share;
+        let q = self.double_image_fraction;
         if u < q { (Way::Doubled, u / q, 1.0 / q) } else { (Way::Straight, (u - q) / (1.0 - q), 1.0 / (1.0 - q)) }
     }
 
@@ -220,8 +220,8 @@ fn check(p: &WindscreenParameters) -> Result<(), FrontError> {
             name: "wedge_mrad", value: 1e3 * p.wedge_rad, range: "within −100 and 100"
         });
     }
-    if let Some(share) = p.double_share.filter(|share| !(0.0..1.0).contains(share)) {
-        return Err(FrontError::Number { name: "double_image_share", value: share, range: "at least 0 and below 1" });
+    if let Some(share) = p.double_image_fraction.filter(|share| !(0.0..1.0).contains(share)) {
+        return Err(FrontError::Number { name: "double_image_sample_fraction", value: share, range: "at least 0 and below 1" });
     }
     let Some(tint) = &p.tint else { return Ok(()) };
     tint.thickness_mm.map_or(Ok(1.0), |mm| positive("reference_thickness_mm", mm))?;

@@ -11,7 +11,7 @@ mod tests;
 use super::context::Context;
 use super::effects::widest_film;
 use etendue_optics::lens::{self, ConstantPupil, PinholeParameters, PupilStatements, ThickParameters, ThinParameters};
-use etendue_optics::{LateralColour, Lens, OpticsError, ParallelParameters};
+use etendue_optics::{LateralColour, Lens, OpticsError, TelecentricParameters};
 use etendue_projection::{RadialDistortion, RadiusScales, RadiusUnit, Raster, Sense};
 use etendue_scene::Placed;
 use etendue_scene::record::{self, lens as description};
@@ -32,7 +32,7 @@ pub(super) fn lens(camera: &record::Camera, context: &mut Context<'_>) -> Option
             let film = widest_film(camera.effects.as_ref(), &raster);
             prescription::lens(record, &raster, &film, context)
         }
-        record::Lens::Parallel(record) => context.accept(&record.place, parallel(record, &raster)),
+        record::Lens::Telecentric(record) => context.accept(&record.place, parallel(record, &raster)),
         record::Lens::Pinhole(_) | record::Lens::Thin(_) | record::Lens::Thick(_) => {
             paraxial(&camera.lens, &raster, context)
         }
@@ -47,7 +47,7 @@ fn lateral_colour(record: &record::Lens) -> Option<&description::LateralColour> 
         record::Lens::Thin(r) => r.lateral_colour.as_ref(),
         record::Lens::Thick(r) => r.lateral_colour.as_ref(),
         record::Lens::Calibrated(r) => r.lateral_colour.as_ref(),
-        record::Lens::Prescription(_) | record::Lens::Parallel(_) => None,
+        record::Lens::Prescription(_) | record::Lens::Telecentric(_) => None,
     }
 }
 
@@ -58,8 +58,8 @@ fn coloured(lens: Lens, record: Option<&description::LateralColour>, context: &m
     context.accept(&record.place, colour.and_then(|colour| lens.with_lateral_colour(colour)))
 }
 
-fn parallel(r: &description::Parallel, raster: &Raster) -> Result<Lens, OpticsError> {
-    Lens::parallel(ParallelParameters {
+fn telecentric(r: &description::Telecentric, raster: &Raster) -> Result<Lens, OpticsError> {
+    Lens::telecentric(TelecentricParameters {
         metres_per_mm: r.field_width_m.value / raster.size_mm().x,
         f_number: r.f_number.value,
         transmittance: transmittance(r.transmittance.as_ref()),
@@ -81,7 +81,7 @@ fn paraxial(record: &record::Lens, raster: &Raster, context: &mut Context<'_>) -
         record::Lens::Pinhole(r) => (&r.place, None, pinhole(r), &r.distortion),
         record::Lens::Thin(r) => (&r.place, Some(&r.focus_distance_m), thin(r), &r.distortion),
         record::Lens::Thick(r) => (&r.place, Some(&r.focus_distance_m), thick(r), &r.distortion),
-        record::Lens::Prescription(_) | record::Lens::Calibrated(_) | record::Lens::Parallel(_) => return None,
+        record::Lens::Prescription(_) | record::Lens::Calibrated(_) | record::Lens::Telecentric(_) => return None,
     };
     let place = match (&made, focus) {
         (Err(OpticsError::FocusTooNear { .. }), Some(description::FocusDistance::Metres(metres))) => &metres.place,
@@ -135,7 +135,7 @@ fn thick(r: &description::Thick) -> Result<Lens, OpticsError> {
             description::Pupil::Entrance => ConstantPupil::Entrance,
             description::Pupil::Exit => ConstantPupil::Exit,
         },
-        front_rim: rim(&r.front_rim),
+        front_aperture: rim(&r.front_aperture),
         rear_rim: rim(&r.rear_rim),
     })
 }

@@ -28,12 +28,12 @@ fn refused(lens: &str, further: &str, words: &[&str]) {
     assert!(words.iter().all(|word| text.contains(word)), "{words:?} in {text}");
 }
 
-const GAUSS: &str = "model = \"prescription\"\npublished = \"double-gauss\"\nfocus_distance_m = \"infinity\"\n";
+const GAUSS: &str = "type = \"prescription\"\npublished = \"double-gauss\"\nfocus_distance_m = \"infinity\"\n";
 
 /// A biconvex singlet with its stop in front.
 fn singlet(front: &str) -> String {
     format!(
-        "model = \"prescription\"\nfocus_distance_m = \"infinity\"\nsurfaces = [\n\
+        "type = \"prescription\"\nfocus_distance_m = \"infinity\"\nsurfaces = [\n\
          {{ thickness_mm = 1, semi_aperture_mm = 2, stop = true }},\n{{ radius_mm = 30, {front} }},\n\
          {{ radius_mm = -30, semi_aperture_mm = 5 }},\n]\n"
     )
@@ -70,7 +70,7 @@ fn glasses_are_named_or_told_by_numbers() {
 #[test]
 fn faults_of_prescriptions_name_their_place() {
     refused(
-        "model = \"prescription\"\npublished = \"biotar\"\nfocus_distance_m = 1\n",
+        "type = \"prescription\"\npublished = \"biotar\"\nfocus_distance_m = 1\n",
         "",
         &["published", "double-gauss"],
     );
@@ -110,7 +110,7 @@ fn a_file_without_apertures_is_refused_by_line_and_served_by_a_list() {
         hash: [0; 32],
     };
     assets.prescriptions.insert("lens.zmx".into(), asset);
-    let lens = "model = \"prescription\"\nfile = \"lens.zmx\"\nfocus_distance_m = \"infinity\"\n";
+    let lens = "type = \"prescription\"\nfile = \"lens.zmx\"\nfocus_distance_m = \"infinity\"\n";
     let text = plan_with(lens, "", &assets).map(|_| ()).expect_err("no aperture");
     assert!(text.contains("1 (line 12)") && text.contains("semi_apertures_mm"), "{text}");
     let served = plan_with(&format!("{lens}semi_apertures_mm = [2, 5]\n"), "", &assets);
@@ -144,7 +144,7 @@ fn open_asset(opening: Option<LensOpening>, fields: Option<LensFields>) -> Presc
 fn plan_of_file(asset: PrescriptionAsset) -> Result<Plan, String> {
     let mut assets = Assets::default();
     assets.prescriptions.insert("lens.seq".into(), asset);
-    plan_with("model = \"prescription\"\nfile = \"lens.seq\"\n", "", &assets)
+    plan_with("type = \"prescription\"\nfile = \"lens.seq\"\n", "", &assets)
 }
 
 fn opened(asset: PrescriptionAsset) -> (Vec<f64>, f64) {
@@ -206,14 +206,14 @@ fn the_cone_to_the_image_opens_the_lens_for_its_object() {
 
 #[test]
 fn calibrated_cameras_take_their_numbers_as_they_are_written() {
-    let lens = "model = \"calibrated\"\nf_number = 2\n\
+    let lens = "type = \"calibrated\"\nf_number = 2\n\
                 projection = { type = \"kannala_brandt\", fx_px = 20, fy_px = 21, cx_px = 30, cy_px = 25, k = [0.01, 0, 0, 0] }\n";
     let plan = camera(lens);
     assert_eq!(plan.body.raster.principal_px().to_array(), [30.0, 25.0]);
     let Lens::Calibrated(made) = &plan.body.lens else { panic!("calibrated") };
     assert_eq!(made.parameters().calibration.matrix().fy, 21.0);
     let prism = camera(
-        "model = \"calibrated\"\nf_number = 2\nprojection = { type = \"thin_prism_fisheye\", fx_px = 20, k = [0.01, 0, 0, 0, 0, 0], \
+        "type = \"calibrated\"\nf_number = 2\nprojection = { type = \"thin_prism_fisheye\", fx_px = 20, k = [0.01, 0, 0, 0, 0, 0], \
          p = [0.001, 0.002], s = [0.003, 0, 0.004, 0] }\n",
     );
     let Lens::Calibrated(made) = &prism.body.lens else { panic!("calibrated") };
@@ -224,7 +224,7 @@ fn calibrated_cameras_take_their_numbers_as_they_are_written() {
     let expected = glam::DVec2::new(1.01 + 0.009 * square, 0.005 * square) * 20.0 + glam::DVec2::new(32.0, 24.0);
     assert!((seen - expected).length() < 1e-12, "{seen} for {expected}");
     let full = camera(
-        "model = \"calibrated\"\nf_number = 2\nprojection = { type = \"equirectangular\", field_of_view_deg = 360 }\n",
+        "type = \"calibrated\"\nf_number = 2\nprojection = { type = \"equirectangular\", field_of_view_deg = 360 }\n",
     );
     let Lens::Calibrated(made) = &full.body.lens else { panic!("calibrated") };
     assert!((made.parameters().calibration.matrix().fx * 2.0 * core::f64::consts::PI / 64.0 - 1.0).abs() < 1e-11);
@@ -232,20 +232,20 @@ fn calibrated_cameras_take_their_numbers_as_they_are_written() {
 
 #[test]
 fn faults_of_calibrations_name_their_place() {
-    let camera = |projection: &str| format!("model = \"calibrated\"\nf_number = 2\nprojection = {{ {projection} }}\n");
+    let camera = |projection: &str| format!("type = \"calibrated\"\nf_number = 2\nprojection = {{ {projection} }}\n");
     refused(&camera("type = \"rectilinear\", field_of_view_deg = 200"), "", &["field_of_view_deg", "180"]);
     refused(&camera("type = \"kannala_brandt\", fx_px = 20, k = [-0.5, 0, 0, 0]"), "", &["folds", "radius"]);
     refused(&camera("type = \"equidistant\", focal_length_mm = 2, fy_px = 20"), "", &["fy_px", "no effect"]);
     refused(&camera("type = \"opencv\", fx_px = 60, distortion = [0.1, 0.2]"), "", &["lens"]);
-    let parallel = "model = \"parallel\"\nfield_width_m = 3\nf_number = 2\n";
-    refused(parallel, "[render]\nroute = \"pupil\"", &["render.route", "parallel camera"]);
+    let parallel = "type = \"telecentric\"\nfield_width_m = 3\nf_number = 2\n";
+    refused(parallel, "[render]\nroute = \"pupil\"", &["render.route", "telecentric camera"]);
 }
 
 /// The ray table puts any pixel back: it is the calibration's own direction, and NaN where nothing is seen.
 #[test]
 fn the_ray_table_is_the_calibration() {
     let plan = camera(
-        "model = \"calibrated\"\nf_number = 2\ngreatest_angle_deg = 60\nprojection = { type = \"equidistant\", fx_px = 25 }\n",
+        "type = \"calibrated\"\nf_number = 2\ngreatest_angle_deg = 60\nprojection = { type = \"equidistant\", fx_px = 25 }\n",
     );
     let table = ray_table(&plan.body);
     let Lens::Calibrated(lens) = &plan.body.lens else { panic!("calibrated") };
@@ -266,11 +266,11 @@ fn the_ray_table_is_the_calibration() {
 #[test]
 fn no_lens_is_faster_than_half() {
     let models = [
-        "model = \"pinhole\"\nfocal_length_mm = 6\n",
-        "model = \"thin\"\nfocal_length_mm = 6\nfocus_distance_m = 5\n",
-        "model = \"thick\"\nfocal_length_mm = 6\nfocus_distance_m = 5\nconstant_pupil = \"exit\"\n",
-        "model = \"calibrated\"\nprojection = { type = \"equidistant\", fx_px = 25 }\n",
-        "model = \"parallel\"\nfield_width_m = 1\n",
+        "type = \"pinhole\"\nfocal_length_mm = 6\n",
+        "type = \"thin\"\nfocal_length_mm = 6\nfocus_distance_m = 5\n",
+        "type = \"thick\"\nfocal_length_mm = 6\nfocus_distance_m = 5\nconstant_pupil = \"exit\"\n",
+        "type = \"calibrated\"\nprojection = { type = \"equidistant\", fx_px = 25 }\n",
+        "type = \"telecentric\"\nfield_width_m = 1\n",
     ];
     for model in models {
         refused(&format!("{model}f_number = 0.001\n"), "", &["f_number", "0.5"]);
@@ -278,14 +278,14 @@ fn no_lens_is_faster_than_half() {
         let light = camera(&format!("{model}f_number = 0.5\n")).body.lens.etendue_sr(glam::DVec2::ZERO);
         assert!(light <= core::f64::consts::PI * (1.0 + 1e-12), "{model}: {light}");
     }
-    refused("model = \"pinhole\"\nfocal_length_mm = 1e-9\nf_number = 2\n", "", &["focal lengths", "sideways"]);
+    refused("type = \"pinhole\"\nfocal_length_mm = 1e-9\nf_number = 2\n", "", &["focal lengths", "sideways"]);
 }
 
 #[test]
 fn fields_whose_edge_lies_at_infinity_are_refused() {
     let view = |kind: &str, deg: f64| {
         let projection = format!("projection = {{ type = \"{kind}\", field_of_view_deg = {deg} }}\n");
-        format!("model = \"calibrated\"\nf_number = 2\n{projection}")
+        format!("type = \"calibrated\"\nf_number = 2\n{projection}")
     };
     refused(&view("rectilinear", 180.0), "", &["does not reach 180°", "less than 180"]);
     refused(&view("rectilinear", 360.0), "", &["does not reach 360°", "less than 180"]);
@@ -294,7 +294,7 @@ fn fields_whose_edge_lies_at_infinity_are_refused() {
     {
         camera(&view(kind, deg));
     }
-    let tiny = "model = \"calibrated\"\nf_number = 2\nprojection = { type = \"rectilinear\", fx_px = 1e-6 }\n";
+    let tiny = "type = \"calibrated\"\nf_number = 2\nprojection = { type = \"rectilinear\", fx_px = 1e-6 }\n";
     refused(tiny, "", &["focal lengths", "sideways"]);
 }
 
@@ -304,7 +304,7 @@ fn a_distortion_that_is_none_of_a_lens_is_refused() {
         for direction in ["ideal_to_observed", "observed_to_ideal"] {
             let distortion = format!("k1 = {k1}, direction = \"{direction}\", radius_unit = \"focal_lengths\"");
             let lens =
-                format!("model = \"pinhole\"\nfocal_length_mm = 6\nf_number = 2\ndistortion = {{ {distortion} }}\n");
+                format!("type = \"pinhole\"\nfocal_length_mm = 6\nf_number = 2\ndistortion = {{ {distortion} }}\n");
             refused(&lens, "", &["distortion"]);
         }
         let models = [
@@ -315,11 +315,11 @@ fn a_distortion_that_is_none_of_a_lens_is_refused() {
             format!("type = \"division\", fx_px = 25, k = {k1}"),
         ];
         for model in models {
-            let lens = format!("model = \"calibrated\"\nf_number = 2\nprojection = {{ {model} }}\n");
+            let lens = format!("type = \"calibrated\"\nf_number = 2\nprojection = {{ {model} }}\n");
             refused(&lens, "", &["lens"]);
         }
     }
     camera(
-        "model = \"pinhole\"\nfocal_length_mm = 6\nf_number = 2\ndistortion = { k1 = -0.2, k2 = 0.05, direction = \"ideal_to_observed\", radius_unit = \"focal_lengths\" }\n",
+        "type = \"pinhole\"\nfocal_length_mm = 6\nf_number = 2\ndistortion = { k1 = -0.2, k2 = 0.05, direction = \"ideal_to_observed\", radius_unit = \"focal_lengths\" }\n",
     );
 }

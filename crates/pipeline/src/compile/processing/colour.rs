@@ -39,7 +39,7 @@ fn filters(record: &record::Processing, sensor: &Sensor, context: &mut Context<'
     let channels = &sensor.parameters().channels;
     if let Some(strange) = channels.iter().find(|channel| filter(&channel.name).is_none()) {
         let problem = format!("the sensor's channel \"{}\" has no place in a picture", strange.name);
-        context.fault(&record.place, problem, "remove \"processing\", or name a filter array of known colours");
+        context.fault(&record.place, problem, "remove \"isp\", or name a filter array of known colours");
         return None;
     }
     Some(channels.iter().filter_map(|channel| filter(&channel.name)).collect())

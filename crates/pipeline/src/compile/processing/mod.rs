@@ -29,7 +29,7 @@ pub(super) fn development(
     let mosaic = colour::mosaic(record, sensor, context);
     let colour = mosaic.as_ref().and_then(|mosaic| colour::colour(record, sensor, mosaic, context));
     let tone = record.tone_curve.as_ref().map_or(Some(ToneCurve::Srgb), |curve| tone::tone_curve(curve, context));
-    let paper_filters = filter::filters(&record.paper_filters, context);
+    let image_filters = filter::filters(&record.image_filters, context);
     let mosaic = mosaic?;
     let demosaic = colour::demosaic(record.demosaic.as_ref(), &mosaic, context);
     if context.faults.len() > before {
@@ -45,7 +45,7 @@ pub(super) fn development(
         exposure_gain: record.exposure_gain.as_ref().map_or(1.0, |g| g.value),
         tone: tone?,
         sharpening: record.sharpening.as_ref().map(sharpening),
-        paper_filters: paper_filters?,
+        image_filters: image_filters?,
     };
     // What is accepted here fails in no frame.
     context.accept(&record.place, processing.check(&mosaic, picture.width, picture.height))?;

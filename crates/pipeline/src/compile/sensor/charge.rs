@@ -4,7 +4,7 @@ use super::or;
 use etendue_scene::Place;
 use etendue_scene::record;
 use etendue_scene::record::sensor::charge as description;
-use etendue_sensor::effects::dark_current::{DarkCurrent, DarkSpread, Hot, Tail};
+use etendue_sensor::effects::dark_current::{DarkCurrent, DarkSpread, Hot, SpreadDistribution};
 use etendue_sensor::effects::full_well::Blooming;
 use etendue_sensor::effects::lag::Trap;
 use etendue_sensor::effects::offset_pattern::OffsetPattern;
@@ -31,7 +31,7 @@ pub(super) fn pattern(e: &record::Electronics) -> FixedPattern {
             row_e: or(n.dsnu_row_e.as_ref(), 0.0),
             column_e: or(n.dsnu_column_e.as_ref(), 0.0),
         },
-        dead_share: or(n.dead_share.as_ref(), 0.0),
+        dead_fraction: or(n.dead_fraction.as_ref(), 0.0),
     }
 }
 
@@ -50,9 +50,9 @@ pub(super) fn charge(e: &record::Electronics) -> Charge {
 fn dark(e: &record::Electronics) -> DarkCurrent {
     let even = DarkCurrent::even(e.dark_current_e_s.value);
     let Some(d) = &e.dark else { return even };
-    let tail = match d.tail.as_ref().map(|t| t.value) {
-        Some(description::Tail::LogNormal) => Tail::LogNormal,
-        Some(description::Tail::Normal) | None => Tail::Normal,
+    let distribution = match d.distribution.as_ref().map(|t| t.value) {
+        Some(description::SpreadDistribution::LogNormal) => SpreadDistribution::LogNormal,
+        Some(description::SpreadDistribution::Normal) | None => SpreadDistribution::Normal,
     };
     DarkCurrent {
         temperature: temperature(d),
@@ -60,10 +60,10 @@ fn dark(e: &record::Electronics) -> DarkCurrent {
             white: or(d.spread.as_ref(), 0.0),
             row: or(d.spread_row.as_ref(), 0.0),
             column: or(d.spread_column.as_ref(), 0.0),
-            tail,
+            distribution,
         },
         hot: d.hot.as_ref().map(|hot| Hot { share: hot.share.value, mean_e_s: hot.mean_e_s.value }),
-        blinking: d.blinking.as_ref().map(|b| TwoLevel {
+        dark_current_rts: d.dark_current_rts.as_ref().map(|b| TwoLevel {
             share: b.share.value,
             mean: b.mean_e_s.value,
             dwell_frames: b.dwell_frames.value,
@@ -75,17 +75,17 @@ fn dark(e: &record::Electronics) -> DarkCurrent {
 fn temperature(d: &description::Dark) -> Option<Temperature> {
     let law = match &d.doubling_k {
         Some(step) => TemperatureLaw::Doubling { step_k: step.value },
-        None => TemperatureLaw::BandGap { diffusion_share: or(d.diffusion_share.as_ref(), 0.0) },
+        None => TemperatureLaw::BandGap { diffusion_fraction: or(d.diffusion_fraction.as_ref(), 0.0) },
     };
     let (sensor, reference) = (d.temperature_c.as_ref()?, d.reference_c.as_ref()?);
     Some(Temperature { sensor_k: sensor.value + FREEZING_K, reference_k: reference.value + FREEZING_K, law })
 }
 
 fn blooming(record: &description::Blooming) -> Blooming {
-    let spill = record.spill.value;
+    let overflow_fraction = record.overflow_fraction.value;
     match record.direction.value {
-        description::Direction::Column => Blooming::Column { spill },
-        description::Direction::Around => Blooming::Around { spill },
+        description::Direction::Column => Blooming::Column { overflow_fraction },
+        description::Direction::Around => Blooming::Around { overflow_fraction },
     }
 }
 
@@ -93,7 +93,7 @@ fn smear(record: &description::Smear) -> Smear {
     match record {
         description::Smear::Interline(smear) => Smear::Interline {
             smear_db: smear.smear_db.value,
-            measured_exposure_share: or(smear.measured_exposure_share.as_ref(), 1.0),
+            measured_exposure_ratio: or(smear.measured_exposure_ratio.as_ref(), 1.0),
         },
         description::Smear::FrameTransfer(smear) => Smear::FrameTransfer { line_shift_s: smear.line_shift_s.value },
     }

@@ -4,7 +4,7 @@ use super::or;
 use etendue_scene::record;
 use etendue_scene::record::sensor::exposure::{self, AutoExposure, Exchange};
 use etendue_sensor::effects::angle_response::AngleResponse;
-use etendue_sensor::effects::cross_talk::CrossTalk;
+use etendue_sensor::effects::crosstalk::Crosstalk;
 use etendue_sensor::effects::neighbours::Neighbours;
 use etendue_sensor::exposure_control::ExposureControl;
 use etendue_sensor::{Exposure, Optics};
@@ -38,7 +38,7 @@ pub(super) fn optics(sensor: &record::Sensor, e: &record::Electronics, exit_pupi
     };
     // From infinitely far all light comes at 0°, where the response is 1.
     let angle_response = e.angle_response.as_ref().map(response).filter(|r| r.exit_pupil_mm.is_finite());
-    Optics { angle_response, cross_talk: e.cross_talk.as_ref().map(|shares| CrossTalk(neighbours(shares))) }
+    Optics { angle_response, crosstalk: e.crosstalk.as_ref().map(|shares| Crosstalk(neighbours(shares))) }
 }
 
 pub(super) fn neighbours(record: &Exchange) -> Neighbours {

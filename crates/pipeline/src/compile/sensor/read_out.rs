@@ -9,7 +9,7 @@ use etendue_sensor::ReadOut;
 use etendue_sensor::effects::capacitance::Capacitance;
 use etendue_sensor::effects::read_noise::ReadNoise;
 use etendue_sensor::effects::response::{Knee, Response};
-use etendue_sensor::effects::telegraph_noise::TelegraphNoise;
+use etendue_sensor::effects::rts_noise::RtsNoise;
 use etendue_sensor::effects::two_level::TwoLevel;
 use etendue_sensor::hdr::companding::Companding;
 use etendue_sensor::hdr::{Capture, HighDynamicRange};
@@ -18,14 +18,14 @@ use etendue_sensor::layout::{Binning, BinningOf, Layout, OpticalBlack, Region};
 pub(super) fn read_out(e: &record::Electronics) -> ReadOut {
     ReadOut {
         response: e.response.as_ref().map_or(Response::Linear, response),
-        capacitance: e.pixel_capacitance.as_ref().map(|shares| Capacitance(neighbours(shares))),
+        capacitance: e.inter_pixel_capacitance.as_ref().map(|shares| Capacitance(neighbours(shares))),
         noise: ReadNoise {
             white_e: e.read_noise_e.value,
             row_e: or(e.row_noise_e.as_ref(), 0.0),
             column_e: or(e.column_noise_e.as_ref(), 0.0),
         },
-        telegraph: e.telegraph.as_ref().map(|t| {
-            TelegraphNoise(TwoLevel { share: t.share.value, mean: t.mean_e.value, dwell_frames: t.dwell_frames.value })
+        rts_noise: e.rts_noise.as_ref().map(|t| {
+            RtsNoise(TwoLevel { share: t.share.value, mean: t.mean_e.value, dwell_frames: t.dwell_frames.value })
         }),
         gain_dn_e: e.gain_dn_per_e.value,
         analogue_gain: or(e.analogue_gain.as_ref(), 1.0),
@@ -40,7 +40,7 @@ pub(super) fn read_out(e: &record::Electronics) -> ReadOut {
 pub(super) fn hdr_place<'a>(record: &'a of_hdr::Hdr, key: &str) -> &'a Place {
     match key {
         "hdr.merged_bits" => &record.merged_bits.place,
-        "hdr.switch_at" => record.switch_at.as_ref().map_or(&record.place, |s| &s.place),
+        "hdr.transition_level" => record.transition_level.as_ref().map_or(&record.place, |s| &s.place),
         key if key.starts_with("hdr.captures") => record.captures.first().map_or(&record.place, |c| &c.place),
         _ => &record.place,
     }
@@ -70,7 +70,7 @@ fn layout(e: &record::Electronics) -> Layout {
             rows: pixels(dark.and_then(|d| d.rows_px.as_ref())),
             columns: pixels(dark.and_then(|d| d.columns_px.as_ref())),
         },
-        region: e.region_px.as_ref().map(|region| {
+        region: e.roi_px.as_ref().map(|region| {
             let [x, y, width, height] = region.value.map(|v| v as usize);
             Region { x, y, width, height }
         }),
@@ -93,7 +93,7 @@ pub(super) fn hdr(e: &record::Electronics) -> HighDynamicRange {
         .map(|c| Companding { knees: c.knees.iter().map(|knee| knee.value).collect(), bits: c.bits.value as u32 });
     HighDynamicRange {
         captures,
-        switch_at: e.hdr.as_ref().and_then(|hdr| hdr.switch_at.as_ref()).map(|k| k.value),
+        transition_level: e.hdr.as_ref().and_then(|hdr| hdr.transition_level.as_ref()).map(|k| k.value),
         bits: e.hdr.as_ref().map(|hdr| hdr.merged_bits.value as u32),
         companding,
     }
@@ -101,11 +101,11 @@ pub(super) fn hdr(e: &record::Electronics) -> HighDynamicRange {
 
 fn capture(record: &of_hdr::Capture) -> Capture {
     Capture {
-        exposure_share: or(record.exposure_share.as_ref(), 1.0),
-        sensitivity_share: or(record.sensitivity_share.as_ref(), 1.0),
-        gain_share: or(record.gain_share.as_ref(), 1.0),
+        exposure_ratio: or(record.exposure_ratio.as_ref(), 1.0),
+        sensitivity_ratio: or(record.sensitivity_ratio.as_ref(), 1.0),
+        gain_ratio: or(record.gain_ratio.as_ref(), 1.0),
         full_well_e: record.full_well_e.as_ref().map(|k| k.value),
         read_noise_e: record.read_noise_e.as_ref().map(|k| k.value),
-        same_charge: record.same_charge.as_ref().is_some_and(|k| k.value),
+        dual_conversion_gain: record.dual_conversion_gain.as_ref().is_some_and(|k| k.value),
     }
 }

@@ -29,10 +29,10 @@ record! {
 
 variants! {
     /// The surface of a mirror. Quadrics are convex towards the camera.
-    pub enum MirrorShape by "shape" {
+    pub enum MirrorShape by "type" {
         /// A sphere.
         "sphere" => Sphere(Sphere),
-        /// A paraboloid; with a parallel camera it has a single viewpoint.
+        /// A paraboloid; with a telecentric camera it has a single viewpoint.
         "paraboloid" => Paraboloid(Sphere),
         /// A hyperboloid; with the pupil in its outer focus it has a single viewpoint.
         "hyperboloid" => Hyperboloid(Hyperboloid),

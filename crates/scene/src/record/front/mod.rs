@@ -24,7 +24,7 @@ record! {
 
 fn check(front: &Front, faults: &mut Faults) {
     if front.dirt.is_none() && front.windscreen.is_none() && front.mirror.is_none() {
-        let remedy = "add \"dirt\", \"windscreen\" or \"mirror\", or remove \"front\"";
+        let remedy = "add \"dirt\", \"windscreen\" or \"mirror\", or remove \"external_optics\"";
         faults.add(&front.place, "nothing stands in front of the lens", remedy);
     }
     if let (Some(_), Some(mirror)) = (&front.windscreen, &front.mirror) {

@@ -40,7 +40,7 @@ record! {
         optional double_image: Placed<bool> = flag();
         /// Share of samples that look for the double image, above 0 and at most 0.9: more make it less noisy and the rest
         /// more. It does not change the mean. Default: the share of light in it.
-        optional double_image_share: Placed<f64> = number("").above(0.0).at_most(0.9);
+        optional double_image_sample_fraction: Placed<f64> = number("").above(0.0).at_most(0.9);
     }
 }
 
@@ -60,8 +60,8 @@ fn check(glass: &Windscreen, faults: &mut Faults) {
         faults.add(&thickness.place, problem, "remove it, or add the transmittance");
     }
     let doubles = glass.double_image.as_ref().is_none_or(|d| d.value);
-    if let (Some(share), false) = (&glass.double_image_share, doubles) {
-        let problem = "\"double_image_share\" has no effect with double_image = false";
+    if let (Some(share), false) = (&glass.double_image_sample_fraction, doubles) {
+        let problem = "\"double_image_sample_fraction\" has no effect with double_image = false";
         faults.add(&share.place, problem, "remove one of them");
     }
 }

@@ -12,7 +12,7 @@ pub use prescription::Prescription;
 
 variants! {
     /// A lens.
-    pub enum Lens by "model" {
+    pub enum Lens by "type" {
         /// A pupil so small that everything is sharp; "f_number" sets how much light comes through.
         "pinhole" => Pinhole(Pinhole),
         /// An ideal lens of no thickness.
@@ -23,8 +23,8 @@ variants! {
         "prescription" => Prescription(Box<Prescription>),
         /// A calibrated or ideal projection: each pixel looks where the calibration says.
         "calibrated" => Calibrated(Box<Calibrated>),
-        /// Parallel rays along the axis, as from an object-side telecentric lens; everything is sharp.
-        "parallel" => Parallel(Parallel),
+        /// Telecentric rays along the axis, as from an object-side telecentric lens; everything is sharp.
+        "telecentric" => Telecentric(Telecentric),
     }
 }
 
@@ -89,7 +89,7 @@ record! {
         /// Which pupil keeps its area over the field.
         required constant_pupil: Placed<Pupil> = choice();
         /// The rim in front of the pupil. Default: none.
-        optional front_rim: Rim = record();
+        optional front_aperture: Rim = record();
         /// The rim behind the pupil. Default: none.
         optional rear_rim: Rim = record();
     }
@@ -97,7 +97,7 @@ record! {
 
 record! {
     /// A parallel (orthographic) camera.
-    pub struct Parallel {
+    pub struct Telecentric {
         /// Width of what is seen, m, above 0: the picture's width in the scene.
         required field_width_m: Placed<f64> = number("m").above(0.0);
         /// f-number on the sensor's side, 0.5 or more: how much light comes through.

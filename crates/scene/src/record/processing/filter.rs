@@ -1,4 +1,4 @@
-//! `[[processing.paper_filters]]`: the filters of the paper.
+//! `[[processing.image_filters]]`: the filters of the paper.
 
 use super::tone::{ToneCurve, tone_curve};
 use crate::place::{Place, Placed};
@@ -6,7 +6,7 @@ use crate::reader::{RuleExt as _, choice, exactly, keyed, list, number, percenti
 
 variants! {
     /// A filter of the paper.
-    pub enum PaperFilter by "filter" {
+    pub enum PaperFilter by "type" {
         /// Gain control by the histogram, and blooming, on linear light (our reading).
         "glow" => Glow(Glow),
         /// From the scene's range to the sensor's, on linear light (our reading).

@@ -50,7 +50,7 @@ record! {
         /// Unsharp mask on the encoded picture. Default: none.
         optional sharpening: Sharpening = record();
         /// Filters of the paper, one after the other; those of linear light (glow, tone map, linear colour) come first.
-        many paper_filters: PaperFilter = list(record(), 1);
+        many image_filters: PaperFilter = list(record(), 1);
         /// Bits of each of the picture's channels, 8, 10, 12 or 16; more than 8 are kept in a 16-bit PNG, scaled to its range.
         /// Default: 8.
         optional picture_bits: Placed<u64> = among(&[8, 10, 12, 16]);
@@ -65,7 +65,7 @@ impl Processing {
     /// The tables that it names.
     pub(crate) fn files(&self) -> impl Iterator<Item = &Placed<PathBuf>> {
         let grid = self.shading.as_ref().and_then(Shading::file);
-        let mapped = self.paper_filters.iter().filter_map(PaperFilter::curve);
+        let mapped = self.image_filters.iter().filter_map(PaperFilter::curve);
         let curves = self.tone_curve.iter().chain(mapped).filter_map(ToneCurve::file);
         self.defect_map.iter().chain(grid).chain(curves)
     }

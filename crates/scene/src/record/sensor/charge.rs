@@ -22,7 +22,7 @@ record! {
         /// The same from column to column. Default: 0.
         optional dsnu_column_e: Placed<f64> = number("e⁻").at_least(0.0);
         /// Share of pixels that hold no charge. Default: 0.
-        optional dead_share: Placed<f64> = spread();
+        optional dead_fraction: Placed<f64> = spread();
     }
 }
 
@@ -41,7 +41,7 @@ record! {
         optional doubling_k: Placed<f64> = number("K").above(0.0);
         /// With "temperature_c" and without "doubling_k": share of diffusion in the stated current, 0 … 1; the rest is
         /// generated. Default: 0.
-        optional diffusion_share: Placed<f64> = spread();
+        optional diffusion_fraction: Placed<f64> = spread();
         /// Spread of the current from pixel to pixel, as a share of its mean, 0 … 10. Default: 0.
         optional spread: Placed<f64> = number("").at_least(0.0).at_most(10.0);
         /// The same from row to row. Default: 0.
@@ -49,17 +49,17 @@ record! {
         /// The same from column to column. Default: 0.
         optional spread_column: Placed<f64> = number("").at_least(0.0).at_most(10.0);
         /// Shape of the spread from pixel to pixel. Default: "normal".
-        optional tail: Placed<Tail> = choice();
+        optional distribution: Placed<SpreadDistribution> = choice();
         /// Pixels with far more current. Default: none.
         optional hot: Hot = record();
         /// Pixels that have more current at one of two levels. Default: none.
-        optional blinking: Blinking = record();
+        optional dark_current_rts: Blinking = record();
     }
 }
 
 choice! {
     /// Shape of a distribution.
-    pub enum Tail {
+    pub enum SpreadDistribution {
         /// Normal, cut at 0.
         "normal" => Normal,
         /// Log-normal, of the same mean and spread.
@@ -90,7 +90,7 @@ record! {
 }
 
 fn check_dark(dark: &Dark, faults: &mut Faults) {
-    let law = [&dark.reference_c, &dark.doubling_k, &dark.diffusion_share];
+    let law = [&dark.reference_c, &dark.doubling_k, &dark.diffusion_fraction];
     match (&dark.temperature_c, &dark.reference_c) {
         (None, _) => {
             for key in law.into_iter().flatten() {
@@ -102,17 +102,17 @@ fn check_dark(dark: &Dark, faults: &mut Faults) {
         }
         (Some(_), Some(_)) => {}
     }
-    if let (Some(_), Some(share)) = (&dark.doubling_k, &dark.diffusion_share) {
-        faults.add(&share.place, "\"diffusion_share\" has no effect beside \"doubling_k\"", "remove one of both");
+    if let (Some(_), Some(share)) = (&dark.doubling_k, &dark.diffusion_fraction) {
+        faults.add(&share.place, "\"diffusion_fraction\" has no effect beside \"doubling_k\"", "remove one of both");
     }
-    if let (Some(tail), None) = (&dark.tail, &dark.spread) {
-        faults.add(&tail.place, "\"tail\" has no effect without \"spread\"", "add it, or remove this");
+    if let (Some(distribution), None) = (&dark.distribution, &dark.spread) {
+        faults.add(&distribution.place, "\"distribution\" has no effect without \"spread\"", "add it, or remove this");
     }
 }
 
 variants! {
     /// Smear of a CCD.
-    pub enum Smear by "kind" {
+    pub enum Smear by "type" {
         /// Charge is moved down a covered register beside the pixels.
         "interline" => Interline(Interline),
         /// Charge is moved through the pixels themselves, fast.
@@ -126,7 +126,7 @@ record! {
         /// The data sheet's figure for a spot of a tenth of the picture's height, dB, −200 … −20.
         required smear_db: Placed<f64> = number("dB").at_least(-200.0).at_most(-20.0);
         /// Accumulation time over frame time of the data sheet's measurement, above 0 and at most 1. Default: 1.
-        optional measured_exposure_share: Placed<f64> = number("").above(0.0).at_most(1.0);
+        optional measured_exposure_ratio: Placed<f64> = number("").above(0.0).at_most(1.0);
     }
 }
 
@@ -154,7 +154,7 @@ record! {
         /// Which way it goes.
         required direction: Placed<Direction> = choice();
         /// Share of what a pixel cannot hold that goes on, above 0; the rest is drained.
-        required spill: Placed<f64> = number("").above(0.0).at_most(1.0);
+        required overflow_fraction: Placed<f64> = number("").above(0.0).at_most(1.0);
     }
 }
 
@@ -163,7 +163,7 @@ choice! {
     pub enum Direction {
         /// Half up and half down the column: a CCD.
         "column" => Column,
-        /// To all sides: a CMOS sensor; "spill" is at most 0.95.
+        /// To all sides: a CMOS sensor; "overflow_fraction" is at most 0.95.
         "around" => Around,
     }
 }

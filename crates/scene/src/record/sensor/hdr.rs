@@ -11,7 +11,7 @@ record! {
         /// Bits of the merged number, those of the converter … 24.
         required merged_bits: Placed<u64> = whole(1, 24);
         /// Share of a capture's range above which the next is taken, between 0 and 1. Default: 0.9.
-        optional switch_at: Placed<f64> = number("").above(0.0).at_most(1.0);
+        optional transition_level: Placed<f64> = number("").above(0.0).at_most(1.0);
     }
 }
 
@@ -19,17 +19,17 @@ record! {
     /// A capture, relative to the first.
     pub struct Capture {
         /// Its exposure over the first's, above 0 and at most 1. Default: 1.
-        optional exposure_share: Placed<f64> = share();
+        optional exposure_ratio: Placed<f64> = share();
         /// Its photodiode's sensitivity over the first's (split pixel), above 0 and at most 1. Default: 1.
-        optional sensitivity_share: Placed<f64> = share();
+        optional sensitivity_ratio: Placed<f64> = share();
         /// Its conversion gain over the first's, above 0 and at most 1. Default: 1.
-        optional gain_share: Placed<f64> = share();
+        optional gain_ratio: Placed<f64> = share();
         /// Its full well, e⁻, above 0. Default: the first's.
         optional full_well_e: Placed<f64> = number("e⁻").above(0.0);
         /// Its read noise, e⁻, 0 or more. Default: the first's.
         optional read_noise_e: Placed<f64> = number("e⁻").at_least(0.0);
         /// Whether it reads the charge of the capture before it once more (dual conversion gain). Default: false.
-        optional same_charge: Placed<bool> = flag();
+        optional dual_conversion_gain: Placed<bool> = flag();
     }
 }
 

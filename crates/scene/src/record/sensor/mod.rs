@@ -73,7 +73,7 @@ record! {
         /// Response of the micro-lenses over the angle. Default: 1.
         optional angle_response: AngleResponse = record();
         /// Shares of a pixel's light that its neighbours catch. Default: none.
-        optional cross_talk: Exchange = record();
+        optional crosstalk: Exchange = record();
         /// How pixels differ. Default: not at all.
         optional non_uniformity: NonUniformity = record();
         /// Temperature of the dark current, and how pixels differ in it. Default: all alike, at the stated current.
@@ -90,17 +90,17 @@ record! {
         /// Voltage over charge. Default: proportional.
         optional response: Response = record();
         /// Shares of a pixel's voltage that couple to its neighbours. Default: none.
-        optional pixel_capacitance: Exchange = record();
+        optional inter_pixel_capacitance: Exchange = record();
         /// Noise common to all pixels of a row, e⁻, above 0. Default: none.
         optional row_noise_e: Placed<f64> = number("e⁻").above(0.0);
         /// Noise common to all pixels of a column, e⁻, above 0. Default: none.
         optional column_noise_e: Placed<f64> = number("e⁻").above(0.0);
         /// Pixels whose voltage jumps between two levels. Default: none.
-        optional telegraph: Telegraph = record();
+        optional rts_noise: Telegraph = record();
         /// Pixels beside the picture that no light reaches; they are in the raw. Default: none.
         optional optical_black: OpticalBlack = record();
         /// The part of the picture that is read: first column, first row, columns, rows. Default: all of it.
-        optional region_px: Placed<[f64; 4]> = vector::<4>(number("px").at_least(0.0));
+        optional roi_px: Placed<[f64; 4]> = vector::<4>(number("px").at_least(0.0));
         /// Pixels that are read together. Default: each on its own.
         optional binning: Binning = record();
         /// Several captures of a frame. Default: one.
@@ -127,7 +127,7 @@ fn check_black_level(electronics: &Electronics, faults: &mut Faults) {
 }
 
 fn check_region(electronics: &Electronics, faults: &mut Faults) {
-    let Some(region) = &electronics.region_px else { return };
+    let Some(region) = &electronics.roi_px else { return };
     if region.value.iter().any(|v| v.fract() != 0.0) {
         faults.add(&region.place, format!("{:?} has a part of a pixel", region.value), "give whole numbers");
     }

@@ -5,7 +5,7 @@ use crate::reader::{choice, list, number, record, variants, vector, whole};
 
 variants! {
     /// Voltage over charge.
-    pub enum Response by "kind" {
+    pub enum Response by "type" {
         /// Straight lines of falling slopes.
         "knees" => Knees(Knees),
         /// Logarithmic above a charge.
@@ -30,7 +30,7 @@ record! {
 }
 
 record! {
-    /// Random telegraph noise.
+    /// Random RTS noise.
     pub struct Telegraph {
         /// Share of pixels, above 0.
         required share: Placed<f64> = number("").above(0.0).at_most(1.0);

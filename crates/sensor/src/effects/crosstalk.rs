@@ -1,4 +1,4 @@
-//! Optical cross-talk: light that enters one pixel and is caught in its neighbour.
+//! Optical crosstalk: light that enters one pixel and is caught in its neighbour.
 //!
 //! Shares of the mean photo-electrons go to the eight neighbours ([`Neighbours`]); energy is kept. At the array's edge
 //! a pixel keeps what it has no neighbour for, as if the light beyond were the same.
@@ -11,16 +11,16 @@ use crate::parameters::SensorParameters;
 
 /// Shares of a pixel's light that its neighbours catch.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CrossTalk(pub Neighbours);
+pub struct Crosstalk(pub Neighbours);
 
-impl CrossTalk {
+impl Crosstalk {
     pub(crate) fn check(&self, checks: &mut Checks) {
-        self.0.check("cross_talk", checks);
+        self.0.check("crosstalk", checks);
     }
 }
 
 pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
-    match p.optics.cross_talk {
+    match p.optics.crosstalk {
         None => (Verdict::Skipped, super::NOT_DESCRIBED.into()),
         Some(c) => (Verdict::Required, format!("{} of a pixel's light is caught in its neighbours", c.0.given())),
     }

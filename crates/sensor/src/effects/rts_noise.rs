@@ -1,4 +1,4 @@
-//! Random telegraph noise: a trap at a pixel's transistor makes its voltage jump between two levels.
+//! Random RTS noise: a trap at a pixel's transistor makes its voltage jump between two levels.
 //!
 //! e ← e ± a/2 for a share of pixels, a exponential of a stated mean, the level from a two-level state over frames
 //! ([`two_level`](super::two_level)). The mean of both levels is the pixel's own. Draws: `Telegraph` (specimen), `TelegraphFlip`.
@@ -8,21 +8,21 @@ use super::{NOISE_OFF, Verdict};
 use crate::check::Checks;
 use crate::parameters::SensorParameters;
 
-/// Pixels with telegraph noise; the amplitude is in e⁻.
+/// Pixels with RTS noise; the amplitude is in e⁻.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TelegraphNoise(pub TwoLevel);
+pub struct RtsNoise(pub TwoLevel);
 
-impl TelegraphNoise {
+impl RtsNoise {
     pub(crate) fn check(&self, checks: &mut Checks) {
-        self.0.check(["telegraph.share", "telegraph.mean_e", "telegraph.dwell_frames"], checks);
+        self.0.check(["rts_noise.share", "rts_noise.mean_e", "rts_noise.dwell_frames"], checks);
     }
 }
 
 pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
-    match p.read_out.telegraph {
+    match p.read_out.rts_noise {
         None => (Verdict::Skipped, super::NOT_DESCRIBED.into()),
         Some(_) if !p.noise => (Verdict::Skipped, NOISE_OFF.into()),
-        Some(TelegraphNoise(t)) => (
+        Some(RtsNoise(t)) => (
             Verdict::Required,
             format!("{} of pixels jump by {} e⁻ on average, every {} frames", t.share, t.mean, t.dwell_frames),
         ),
@@ -62,7 +62,7 @@ mod tests {
         let mut p = quiet();
         (p.noise, p.read_out.black_level_dn) = (true, 1000.0);
         let two = TwoLevel { share: 0.1, mean: 200.0, dwell_frames: 3.0 };
-        p.read_out.telegraph = Some(TelegraphNoise(two));
+        p.read_out.rts_noise = Some(RtsNoise(two));
         let sensor = Sensor::new(p).expect("legal");
         let mut state = SensorState::default();
         let mut seen = vec![std::collections::BTreeSet::new(); 32 * 32];

@@ -10,9 +10,9 @@ use core::f64::consts::PI;
 use etendue_core::ray::PupilRay;
 use glam::{DVec2, DVec3};
 
-/// What a parallel camera is made of.
+/// What a telecentric camera is made of.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ParallelParameters {
+pub struct TelecentricParameters {
     /// Length in the scene that one millimetre of the sensor sees, m.
     pub metres_per_mm: f64,
     /// f-number N on the sensor's side.
@@ -21,19 +21,19 @@ pub struct ParallelParameters {
     pub transmittance: f64,
 }
 
-/// A parallel camera.
+/// A telecentric camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Parallel {
-    parameters: ParallelParameters,
+pub struct Telecentric {
+    parameters: TelecentricParameters,
     weight_sr: f64,
 }
 
-impl Parallel {
-    /// A parallel camera.
+impl Telecentric {
+    /// A telecentric camera.
     ///
     /// # Errors
     /// Where a parameter is outside its range.
-    pub fn new(parameters: ParallelParameters) -> Result<Self, OpticsError> {
+    pub fn new(parameters: TelecentricParameters) -> Result<Self, OpticsError> {
         positive("field_width_m", parameters.metres_per_mm)?;
         let n = f_number(parameters.f_number)?;
         let transmittance = super::body::Body::new(parameters.transmittance)?.transmittance;
@@ -42,7 +42,7 @@ impl Parallel {
 
     /// What it was made of.
     #[must_use]
-    pub fn parameters(&self) -> &ParallelParameters {
+    pub fn parameters(&self) -> &TelecentricParameters {
         &self.parameters
     }
 

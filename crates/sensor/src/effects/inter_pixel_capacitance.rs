@@ -15,7 +15,7 @@ pub struct Capacitance(pub Neighbours);
 
 impl Capacitance {
     pub(crate) fn check(&self, checks: &mut Checks) {
-        self.0.check("pixel_capacitance", checks);
+        self.0.check("inter_pixel_capacitance", checks);
     }
 }
 

@@ -9,7 +9,7 @@ use etendue_core::quantity::Electrons;
 
 /// A cause of a pixel's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cause {
+pub enum SignalComponent {
     /// The mean electrons of the light.
     Signal,
     /// Photon shot noise (smear's included).
@@ -26,14 +26,14 @@ pub enum Cause {
     Blooming,
     /// Mean electrons that moving charge collected.
     Smear,
-    /// Cross-talk, angle response, lag, brighter-fatter, response, capacitance.
+    /// Crosstalk, angle response, lag, brighter-fatter, response, capacitance.
     Transfer,
     /// 1 where the digital number is at the white level, else 0. It is no part of the sum.
     Saturated,
 }
 
-impl Cause {
-    /// All causes.
+impl SignalComponent {
+    /// All signal_breakdown.
     pub const ALL: [Self; 10] = [
         Self::Signal,
         Self::Shot,
@@ -67,23 +67,23 @@ impl Cause {
 
 /// The layers of a raw picture.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Causes {
+pub struct SignalBreakdown {
     layers: Vec<Plane<Electrons>>,
 }
 
-impl Causes {
+impl SignalBreakdown {
     pub(crate) fn new(width: usize, height: usize) -> Self {
-        Self { layers: Cause::ALL.iter().map(|_| Plane::new(width, height)).collect() }
+        Self { layers: SignalComponent::ALL.iter().map(|_| Plane::new(width, height)).collect() }
     }
 
     /// The layer of a cause.
     #[must_use]
-    pub fn layer(&self, cause: Cause) -> &Plane<Electrons> {
+    pub fn layer(&self, cause: SignalComponent) -> &Plane<Electrons> {
         &self.layers[cause as usize]
     }
 
     /// Adds what a plane became from what it was.
-    pub(crate) fn note(&mut self, cause: Cause, before: &Plane<Electrons>, after: &Plane<Electrons>) {
+    pub(crate) fn note(&mut self, cause: SignalComponent, before: &Plane<Electrons>, after: &Plane<Electrons>) {
         let pairs = before.samples().iter().zip(after.samples());
         for (layer, (before, after)) in self.layers[cause as usize].samples_mut().iter_mut().zip(pairs) {
             *layer += after - before;
@@ -92,8 +92,8 @@ impl Causes {
 
     /// Puts the layers of another capture, times a factor, in the place of those of some pixels.
     pub(crate) fn replace(&mut self, pixels: &[bool], by: &Self, factor: f64) {
-        for (cause, (own, by)) in Cause::ALL.into_iter().zip(self.layers.iter_mut().zip(&by.layers)) {
-            let factor = if cause == Cause::Saturated { 1.0 } else { factor };
+        for (cause, (own, by)) in SignalComponent::ALL.into_iter().zip(self.layers.iter_mut().zip(&by.layers)) {
+            let factor = if cause == SignalComponent::Saturated { 1.0 } else { factor };
             for ((own, by), _) in own.samples_mut().iter_mut().zip(by.samples()).zip(pixels).filter(|(_, here)| **here)
             {
                 *own = (factor * f64::from(*by)) as f32;
@@ -107,9 +107,9 @@ impl Causes {
     }
 
     /// The rows of all layers.
-    pub(crate) fn rows(&mut self) -> Vec<CauseRow<'_>> {
+    pub(crate) fn rows(&mut self) -> Vec<SignalComponentRow<'_>> {
         let (width, height) = (self.layers[0].width(), self.layers[0].height());
-        let mut rows: Vec<CauseRow<'_>> = (0..height).map(|_| CauseRow { layers: Vec::new() }).collect();
+        let mut rows: Vec<SignalComponentRow<'_>> = (0..height).map(|_| SignalComponentRow { layers: Vec::new() }).collect();
         for layer in &mut self.layers {
             let chunks = layer.samples_mut().chunks_mut(width.max(1));
             rows.iter_mut().zip(chunks).for_each(|(row, chunk)| row.layers.push(chunk));
@@ -119,20 +119,20 @@ impl Causes {
 }
 
 /// One row of all layers.
-pub(crate) struct CauseRow<'a> {
+pub(crate) struct SignalComponentRow<'a> {
     layers: Vec<&'a mut [f32]>,
 }
 
-impl CauseRow<'_> {
+impl SignalComponentRow<'_> {
     /// Adds what a row became from what it was.
-    pub(crate) fn note(&mut self, cause: Cause, before: &[f64], after: &[f64]) {
+    pub(crate) fn note(&mut self, cause: SignalComponent, before: &[f64], after: &[f64]) {
         for (layer, (before, after)) in self.layers[cause as usize].iter_mut().zip(before.iter().zip(after)) {
             *layer += (after - before) as f32;
         }
     }
 
     /// Adds to one pixel.
-    pub(crate) fn add(&mut self, cause: Cause, x: usize, value: f64) {
+    pub(crate) fn add(&mut self, cause: SignalComponent, x: usize, value: f64) {
         self.layers[cause as usize][x] += value as f32;
     }
 }
