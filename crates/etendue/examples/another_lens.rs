@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 pub(crate) fn run(out: &Path) -> Result<Vec<PathBuf>, Error> {
     let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
     let mut request = JobRequest { spp: Some(16), ..JobRequest::new(format!("{scenes}/cornell/cornell.toml")) };
-    let changes = ["render.route=\"pupil\"", "render.overscan=0.2", "output.radiance=true", "render.band_width_nm=20"];
+    let changes = ["render.route=\"pupil\"", "render.overscan=0.5", "output.radiance=true", "render.band_width_nm=20"];
     request.set = changes.map(str::to_owned).to_vec();
     request.open()?.save(&RenderOptions::default(), (&out.join("pupil"), Existing::Replace), &Unobserved)?;
 
