@@ -2,18 +2,18 @@
 
 use etendue_sensor::cfa::Cfa;
 use etendue_sensor::effects::angle_response::AngleResponse;
-use etendue_sensor::effects::capacitance::Capacitance;
 use etendue_sensor::effects::crosstalk::Crosstalk;
 use etendue_sensor::effects::dark_current::{DarkCurrent, DarkSpread, Hot, SpreadDistribution};
 use etendue_sensor::effects::full_well::Blooming;
+use etendue_sensor::effects::inter_pixel_capacitance::InterPixelCapacitance;
 use etendue_sensor::effects::lag::Trap;
 use etendue_sensor::effects::neighbours::Neighbours;
 use etendue_sensor::effects::offset_pattern::OffsetPattern;
 use etendue_sensor::effects::photo_response::PhotoResponse;
 use etendue_sensor::effects::read_noise::ReadNoise;
 use etendue_sensor::effects::response::{Knee, Response};
-use etendue_sensor::effects::smear::Smear;
 use etendue_sensor::effects::rts_noise::RtsNoise;
+use etendue_sensor::effects::smear::Smear;
 use etendue_sensor::effects::two_level::TwoLevel;
 use etendue_sensor::hdr::{Capture, HighDynamicRange};
 use etendue_sensor::{Channel, Charge, Exposure, FixedPattern, Optics, Pixel, ReadOut, SensorParameters};
@@ -92,7 +92,7 @@ const EACH: [Addition; 18] = [
     ("blooming around", |p| p.charge.blooming = Some(Blooming::Around { overflow_fraction: 0.6 })),
     ("dead pixels", |p| p.pattern.dead_fraction = 1e-4),
     ("response, two knees", |p| p.read_out.response = knees()),
-    ("capacitance", |p| p.read_out.capacitance = Some(Capacitance(SHARES))),
+    ("capacitance", |p| p.read_out.capacitance = Some(InterPixelCapacitance(SHARES))),
     ("offset pattern", |p| p.pattern.offset = OffsetPattern { white_e: 2.0, row_e: 1.0, column_e: 1.0 }),
     ("shot and read noise", |p| (p.noise, p.read_out.noise) = (true, READ)),
     ("shot and RTS noise", |p| (p.noise, p.read_out.rts_noise) = (true, Some(RtsNoise(TWO)))),
@@ -120,7 +120,7 @@ fn the_rest(p: &mut SensorParameters) {
     p.charge.brighter_fatter_per_e = 1e-6;
     p.charge.blooming = Some(Blooming::Around { overflow_fraction: 0.6 });
     p.read_out.response = knees();
-    p.read_out.capacitance = Some(Capacitance(SHARES));
+    p.read_out.capacitance = Some(InterPixelCapacitance(SHARES));
     p.read_out.digital_gain = 1.5;
 }
 

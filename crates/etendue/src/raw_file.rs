@@ -81,7 +81,11 @@ fn by_side_car(photograph: &Photograph, facts: &RawFacts, sensor: &Sensor) -> Re
     let point = OperatingPoint { exposure_s: facts.exposure_s, analogue_gain: 1.0 };
     let raw = raw(plane, [facts.black_level_dn, facts.white_level_dn], frame.picture_px, point, sensor);
     let RawFrame { seed, camera_index: camera, number: frame, .. } = *frame;
-    Ok(Taken { raw, address: FrameAddress { seed, camera, frame, capture: 0 }, correlated_block_px: photograph.correlated_block_px })
+    Ok(Taken {
+        raw,
+        address: FrameAddress { seed, camera, frame, capture: 0 },
+        correlated_block_px: photograph.correlated_block_px,
+    })
 }
 
 fn raw(

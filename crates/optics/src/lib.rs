@@ -19,8 +19,8 @@ pub use effects::{
 pub use error::{OpticsError, PRINCIPAL_NM};
 pub use front::{Front, FrontError, FrontRay};
 pub use lens::{
-    Calibrated, CalibratedParameters, ConstantPupil, Falloff, LateralColour, Lens, Telecentric, TelecentricParameters,
-    Pinhole, PinholeParameters, Prescribed, PupilStance, PupilStatements, Rim, Thick, ThickParameters, Thin,
+    Calibrated, CalibratedParameters, ConstantPupil, Falloff, LateralColour, Lens, Pinhole, PinholeParameters,
+    Prescribed, PupilStance, PupilStatements, Rim, Telecentric, TelecentricParameters, Thick, ThickParameters, Thin,
     ThinParameters, TruthRay,
 };
 pub use prescription::{Prescription, PrescriptionError, PrescriptionParameters};

@@ -3,8 +3,8 @@
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{atan2, cos, sin};
 use etendue_optics::{
-    CalibratedParameters, Falloff, Lens, OpticsError, TelecentricParameters, PinholeParameters, PupilProjection,
-    PupilStance,
+    CalibratedParameters, Falloff, Lens, OpticsError, PinholeParameters, PupilProjection, PupilStance,
+    TelecentricParameters,
 };
 use etendue_projection::model::{Ideal, KannalaBrandt, Panorama, Perspective};
 use etendue_projection::{Calibration, CameraMatrix, Model, Raster};

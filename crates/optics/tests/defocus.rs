@@ -31,7 +31,7 @@ fn clipped() -> Lens {
         pupils: PupilStatements::default(),
         constant_pupil: ConstantPupil::Exit,
         front_aperture: Some(Rim { position_mm: -30.0, radius_mm: 14.0 }),
-        rear_rim: None,
+        rear_aperture: None,
     })
     .expect("legal")
 }

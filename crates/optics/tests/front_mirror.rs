@@ -6,7 +6,7 @@ use etendue_optics::front::{
     Curve, Front, FrontError, FrontRay, Mirror, MirrorParameters, MirrorShape, Optic, Quadric, QuadricKind,
     Reflectance, Stand,
 };
-use etendue_optics::{Lens, TelecentricParameters, PinholeParameters};
+use etendue_optics::{Lens, PinholeParameters, TelecentricParameters};
 use etendue_projection::Raster;
 use glam::{DVec2, DVec3};
 
@@ -78,7 +78,7 @@ fn a_hyperboloid_whose_outer_focus_is_the_pupil_has_one_viewpoint() {
 
 #[test]
 fn a_paraboloid_under_parallel_rays_has_one_viewpoint() {
-    let (front, lens) = (front(PARABOLOID, on_axis(100.0), 60.0, 0.0), parallel());
+    let (front, lens) = (front(PARABOLOID, on_axis(100.0), 60.0, 0.0), telecentric());
     // The focus lies half the vertex's radius behind the vertex.
     let focus_m = DVec3::new(0.0, 0.0, 0.120);
     for s_mm in points(5.0) {
@@ -108,7 +108,7 @@ fn a_sphere_reflects_where_alhazen_says() {
 #[test]
 fn a_cone_reflects_as_the_plane_that_touches_it() {
     // At 45° a ray along the axis leaves across it.
-    let (front, lens) = (front(QuadricKind::Cone { half_angle_deg: 45.0 }, on_axis(50.0), 30.0, 0.0), parallel());
+    let (front, lens) = (front(QuadricKind::Cone { half_angle_deg: 45.0 }, on_axis(50.0), 30.0, 0.0), telecentric());
     for s_mm in points(2.9) {
         let ray = seen(&front, &lens, s_mm);
         let outward = s_mm.normalize().extend(0.0);
@@ -118,7 +118,7 @@ fn a_cone_reflects_as_the_plane_that_touches_it() {
 
 #[test]
 fn rays_beside_the_mirror_and_through_its_hole_look_past() {
-    let (front, lens) = (front(PARABOLOID, on_axis(100.0), 20.0, 5.0), parallel());
+    let (front, lens) = (front(PARABOLOID, on_axis(100.0), 20.0, 5.0), telecentric());
     let met = |x_mm: f64| seen(&front, &lens, DVec2::new(x_mm, 0.0)).mirror_m.is_some();
     assert!(!met(0.0) && !met(0.49) && met(0.51) && met(1.99) && !met(2.01));
     let past = seen(&front, &lens, DVec2::new(2.5, 0.0));

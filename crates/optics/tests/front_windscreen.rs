@@ -161,7 +161,8 @@ fn under_uniform_light_a_pixel_gets_both_ways_whatever_their_shares() {
     // A constant coating of transmittance T: T² (1 + (1 − T)²).
     let t: f64 = 0.7;
     for share in [None, Some(0.125), Some(0.5)] {
-        let coated = WindscreenParameters { coating: Coating::Constant(t), double_image_fraction: share, ..open.clone() };
+        let coated =
+            WindscreenParameters { coating: Coating::Constant(t), double_image_fraction: share, ..open.clone() };
         let mean = mean_sr(&front(coated), &lens, s_mm, 64) / clear(64);
         let expected = t * t * (1.0 + (1.0 - t) * (1.0 - t));
         // The strata of the stretched sample are not quite even where the share is none of them: 1/64 of the split.
@@ -217,6 +218,9 @@ fn glass_that_cannot_be_is_refused() {
     assert!(refused(WindscreenParameters { layers: vec![], ..plate(0.0) }).contains("no layers"));
     let dark = Some(Tint { transmittance: Curve::Constant(0.0), thickness_mm: None });
     assert!(refused(WindscreenParameters { tint: dark, ..plate(0.0) }).contains("internal_transmittance"));
-    assert!(refused(WindscreenParameters { double_image_fraction: Some(1.0), ..plate(0.0) }).contains("double_image_sample_fraction"));
+    assert!(
+        refused(WindscreenParameters { double_image_fraction: Some(1.0), ..plate(0.0) })
+            .contains("double_image_sample_fraction")
+    );
     assert!(refused(WindscreenParameters { wedge_rad: 1.0, ..plate(0.0) }).contains("wedge_mrad is 1000"));
 }

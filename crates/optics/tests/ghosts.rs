@@ -26,7 +26,7 @@ fn double_gauss(coating: Coating) -> Prescription {
     focused(surfaces.into_iter().map(|s| Surface { coating, ..s }).collect())
 }
 
-fn telecentric(height_mm: f64, slope: f64) -> LensRay {
+fn parallel(height_mm: f64, slope: f64) -> LensRay {
     LensRay { point: DVec3::new(height_mm, 0.0, 0.0), direction: DVec3::new(slope, 0.0, 1.0).normalize() }
 }
 

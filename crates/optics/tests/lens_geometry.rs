@@ -23,7 +23,7 @@ fn thick_parameters() -> ThickParameters {
         pupils: PupilStatements { entrance_pupil_mm: Some(-3.2), ..PupilStatements::default() },
         constant_pupil: ConstantPupil::Exit,
         front_aperture: None,
-        rear_rim: None,
+        rear_aperture: None,
     }
 }
 
@@ -134,10 +134,12 @@ fn what_cannot_be_is_refused() {
     let bright = ThinParameters { transmittance: 1.1, ..base };
     assert!(matches!(refused(bright), OpticsError::Transmittance { .. }));
     let rim = Some(Rim { position_mm: -10.0, radius_mm: 3.0 });
-    let narrow = Thick::new(ThickParameters { front_aperture: rim, ..thick_parameters() }).expect_err("the rim is the stop");
+    let narrow =
+        Thick::new(ThickParameters { front_aperture: rim, ..thick_parameters() }).expect_err("the rim is the stop");
     assert!(matches!(narrow, OpticsError::RimIsStop { rim: "front_aperture", .. }), "{narrow}");
     let rim = Some(Rim { position_mm: 25.0, radius_mm: 30.0 });
-    let behind = Thick::new(ThickParameters { rear_rim: rim, ..thick_parameters() }).expect_err("behind the sensor");
+    let behind =
+        Thick::new(ThickParameters { rear_aperture: rim, ..thick_parameters() }).expect_err("behind the sensor");
     assert!(matches!(behind, OpticsError::RimMisplaced { plane: "sensor", .. }), "{behind}");
 }
 

@@ -27,7 +27,7 @@ fn thick_parameters(f_number: f64) -> ThickParameters {
         pupils: PupilStatements::default(),
         constant_pupil: ConstantPupil::Exit,
         front_aperture: None,
-        rear_rim: None,
+        rear_aperture: None,
     }
 }
 
@@ -219,7 +219,7 @@ fn a_rim_cuts_the_area_of_two_circles() {
 fn a_rear_rim_cuts_from_the_other_side() {
     // Small pupil, telescope-like: the rear rim's projection from the sensor point, by similar triangles.
     let rim = Rim { position_mm: 10.0, radius_mm: 0.2 };
-    let lens = thick(ThickParameters { rear_rim: Some(rim), ..thick_parameters(64.0) });
+    let lens = thick(ThickParameters { rear_aperture: Some(rim), ..thick_parameters(64.0) });
     let open = thick(thick_parameters(64.0));
     let (pupil_mm, at) = (FOCAL_MM / 128.0, DVec2::new(0.5, 0.0));
     let left = 1.0 - 10.0 / FOCAL_MM;
@@ -236,7 +236,7 @@ fn samples_of_a_clipped_pupil_have_the_quadrature_s_mean() {
         focus_distance_m: 0.8,
         principal_separation_mm: 4.0,
         front_aperture: Some(Rim { position_mm: -18.0, radius_mm: 9.5 }),
-        rear_rim: Some(Rim { position_mm: 19.0, radius_mm: 5.0 }),
+        rear_aperture: Some(Rim { position_mm: 19.0, radius_mm: 5.0 }),
         ..magnified(2.0, 0.8)
     };
     let lens = thick(parameters);
@@ -245,7 +245,7 @@ fn samples_of_a_clipped_pupil_have_the_quadrature_s_mean() {
         let at = DVec2::new(0.28, 0.96) * field_mm;
         let exact = lens.etendue_sr(at);
         // 512² cells, of which some 4 · 512 lie on an edge, half in: √2048/512² · ½ of the disc, times ten for patterns.
-        let scale = thick(ThickParameters { front_aperture: None, rear_rim: None, ..parameters }).etendue_sr(at);
+        let scale = thick(ThickParameters { front_aperture: None, rear_aperture: None, ..parameters }).etendue_sr(at);
         assert!((sampled_sr(&lens, at, 512) - exact).abs() < 1e-3 * scale, "{field_mm} mm");
         shares.push(exact / scale);
     }

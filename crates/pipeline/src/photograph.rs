@@ -12,7 +12,7 @@ pub use etendue_isp::{DevelopError, Developed};
 use etendue_isp::{RawPicture, develop};
 use etendue_optics::front::{Dirt, Front};
 use etendue_optics::{DepthOfField, OpticsError, PupilProjection, Resampling, irradiance};
-use etendue_sensor::{SignalBreakdown, FrameAddress, Raw, SensorState};
+use etendue_sensor::{FrameAddress, Raw, SensorState, SignalBreakdown};
 use glam::DVec2;
 use rayon::prelude::*;
 

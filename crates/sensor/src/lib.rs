@@ -16,7 +16,6 @@
 //! fixed patterns from the specimen's.
 
 mod account;
-mod signal_breakdown;
 pub mod cfa;
 mod check;
 pub mod dynamic_range;
@@ -34,10 +33,10 @@ pub mod photon;
 pub mod random;
 mod raw;
 mod sensor;
+mod signal_breakdown;
 mod state;
 
 pub use account::ChargeAccount;
-pub use signal_breakdown::{SignalComponent, SignalBreakdown};
 pub use cfa::{BayerPhase, Cfa, CfaError};
 pub use check::SensorError;
 pub use dynamic_range::DynamicRange;
@@ -45,4 +44,5 @@ pub use effects::{Effect, Need, Verdict};
 pub use parameters::{Channel, Charge, Exposure, FixedPattern, Optics, Pixel, ReadOut, SensorParameters};
 pub use raw::{LinearRaw, Raw};
 pub use sensor::Sensor;
+pub use signal_breakdown::{SignalBreakdown, SignalComponent};
 pub use state::{FrameAddress, OperatingPoint, SensorState};

@@ -74,8 +74,8 @@ fn mean_of(channel: usize, cfa: &Cfa, tile: &[Vec<f64>]) -> Vec<f64> {
 mod tests {
     use crate::Channel;
     use crate::cfa::{BayerPhase, Cfa};
-    use crate::effects::capacitance::Capacitance;
     use crate::effects::crosstalk::Crosstalk;
+    use crate::effects::inter_pixel_capacitance::InterPixelCapacitance;
     use crate::effects::neighbours::Neighbours;
     use crate::frame::tests::{ADDRESS, quiet, run};
     use crate::sensor::Sensor;
@@ -113,7 +113,8 @@ mod tests {
     fn an_even_picture_has_them() {
         let mut p = bayer(BayerPhase::Grbg);
         p.optics.crosstalk = Some(Crosstalk(Neighbours { horizontal: 0.05, vertical: 0.02, corner: 0.004 }));
-        p.read_out.capacitance = Some(Capacitance(Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.0 }));
+        p.read_out.capacitance =
+            Some(InterPixelCapacitance(Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.0 }));
         (p.charge.full_well_e, p.read_out.bits) = (1e6, 20);
         let sensor = Sensor::new(p.clone()).expect("legal");
         let level = |r: &Spectrum| f64::from(r.at(500.0)) / f64::from(sensor.responsivity(1).at(500.0)) * 1e5;

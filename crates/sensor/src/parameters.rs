@@ -3,18 +3,18 @@
 use crate::cfa::Cfa;
 use crate::check::{Checks, SensorError};
 use crate::effects::angle_response::AngleResponse;
-use crate::effects::capacitance::Capacitance;
 use crate::effects::converter::Converter;
 use crate::effects::crosstalk::Crosstalk;
 use crate::effects::dark_current::DarkCurrent;
 use crate::effects::full_well::Blooming;
+use crate::effects::inter_pixel_capacitance::InterPixelCapacitance;
 use crate::effects::lag::Trap;
 use crate::effects::offset_pattern::OffsetPattern;
 use crate::effects::photo_response::PhotoResponse;
 use crate::effects::read_noise::ReadNoise;
 use crate::effects::response::Response;
-use crate::effects::smear::Smear;
 use crate::effects::rts_noise::RtsNoise;
+use crate::effects::smear::Smear;
 use crate::exposure_control::ExposureControl;
 use crate::hdr::HighDynamicRange;
 use crate::layout::Layout;
@@ -96,7 +96,7 @@ pub struct ReadOut {
     /// Voltage over charge.
     pub response: Response,
     /// Voltage that neighbours exchange.
-    pub capacitance: Option<Capacitance>,
+    pub capacitance: Option<InterPixelCapacitance>,
     /// Noise of the chain.
     pub noise: ReadNoise,
     /// Pixels whose noise has two levels.
@@ -237,7 +237,7 @@ impl SensorParameters {
             capacitance.check(checks);
         }
         read_out.noise.check(checks);
-        if let Some(telegraph) = &read_out.rts_noise {
+        if let Some(rts_noise) = &read_out.rts_noise {
             rts_noise.check(checks);
         }
         checks.positive("gain_dn_per_e", read_out.gain_dn_e);

@@ -1,4 +1,4 @@
-//! What each pixel's digital number is made of: one layer a cause, in electrons at the converter's input.
+//! What each pixel's digital number is made of: one layer a component, in electrons at the converter's input.
 //!
 //! Every effect's layer is what it added to the pixel (negative where it took). Their sum is the digital number less the black
 //! level, over the gain. The layers are noted beside the raw and never change it. Of several captures they are
@@ -7,14 +7,14 @@
 use etendue_core::Plane;
 use etendue_core::quantity::Electrons;
 
-/// A cause of a pixel's value.
+/// A component of a pixel's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SignalComponent {
     /// The mean electrons of the light.
     Signal,
     /// Photon shot noise (smear's included).
     Shot,
-    /// Dark electrons: their mean, their shot noise, hot and blinking pixels.
+    /// Dark electrons: their mean, their shot noise, hot pixels and random telegraph signals.
     Dark,
     /// Read noise of all kinds.
     Read,
@@ -33,7 +33,7 @@ pub enum SignalComponent {
 }
 
 impl SignalComponent {
-    /// All signal_breakdown.
+    /// All components.
     pub const ALL: [Self; 10] = [
         Self::Signal,
         Self::Shot,
@@ -76,7 +76,7 @@ impl SignalBreakdown {
         Self { layers: SignalComponent::ALL.iter().map(|_| Plane::new(width, height)).collect() }
     }
 
-    /// The layer of a cause.
+    /// The layer of a component.
     #[must_use]
     pub fn layer(&self, cause: SignalComponent) -> &Plane<Electrons> {
         &self.layers[cause as usize]
@@ -109,7 +109,8 @@ impl SignalBreakdown {
     /// The rows of all layers.
     pub(crate) fn rows(&mut self) -> Vec<SignalComponentRow<'_>> {
         let (width, height) = (self.layers[0].width(), self.layers[0].height());
-        let mut rows: Vec<SignalComponentRow<'_>> = (0..height).map(|_| SignalComponentRow { layers: Vec::new() }).collect();
+        let mut rows: Vec<SignalComponentRow<'_>> =
+            (0..height).map(|_| SignalComponentRow { layers: Vec::new() }).collect();
         for layer in &mut self.layers {
             let chunks = layer.samples_mut().chunks_mut(width.max(1));
             rows.iter_mut().zip(chunks).for_each(|(row, chunk)| row.layers.push(chunk));

@@ -130,7 +130,7 @@ fn errors(name: &str, light: &str, demosaic: &str) -> Errors {
 
 #[test]
 fn the_table_of_the_documentation_is_what_the_chain_makes() {
-    let page = include_str!("../../../docs/isp.md");
+    let page = include_str!("../../../docs/processing.md");
     let row = |name: &&str| {
         let (d65, a) = (errors(name, "D65", "bilinear"), errors(name, "A", "bilinear"));
         assert!(d65.mean < 3.0, "{name}: mean ΔE₀₀ {}", d65.mean);
@@ -140,7 +140,7 @@ fn the_table_of_the_documentation_is_what_the_chain_makes() {
         format!("| `{name}` | {} |", cells.join(" | "))
     };
     let missing: Vec<String> = camera::names().iter().map(row).filter(|row| !page.contains(row)).collect();
-    assert!(missing.is_empty(), "docs/isp.md lacks\n{}", missing.join("\n"));
+    assert!(missing.is_empty(), "docs/processing.md lacks\n{}", missing.join("\n"));
 }
 
 #[test]

@@ -213,7 +213,8 @@ fn a_panorama_tells_positions_behind_the_camera() {
     // 64 × 32 px of the whole sphere: the longitude grows to the right from −180°, the latitude falls from 90° to −90°.
     let ground = "[[scene.objects]]\nname = \"road\"\nclass = \"road\"\nmaterial = \"grey\"\nshape = { type = \"quad\", size_m = [4000, 4000] }";
     let pinhole = "{ type = \"pinhole\", focal_length_mm = 10, f_number = 8 }";
-    let panorama = "{ type = \"calibrated\", f_number = 8, projection = { type = \"equirectangular\", field_of_view_deg = 360 } }";
+    let panorama =
+        "{ type = \"calibrated\", f_number = 8, projection = { type = \"equirectangular\", field_of_view_deg = 360 } }";
     let output = "\n[output]\nground_truth = true\ncamera_space_position = true\n";
     let job = Job::new(camera(1.3, "", 64, 10.0) + output + &scene(ground));
     let shot = job.replacing(pinhole, panorama).replacing("height_px = 64", "height_px = 32").shot();

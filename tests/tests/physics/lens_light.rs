@@ -165,7 +165,7 @@ fn vignetting_of_a_fast_lens_is_the_sum_over_what_is_open() {
     let pupil_mm = FOCAL_MM / 4.0;
     let rims = [
         (format!("front_aperture = {{ position_mm = -6, radius_mm = {} }}", 1.2 * pupil_mm), 6.0, 1.2, 1.0, 1.0),
-        (format!("rear_rim = {{ position_mm = 5, radius_mm = {} }}", 0.75 * pupil_mm), 5.0, 0.75, -1.0, 0.5),
+        (format!("rear_aperture = {{ position_mm = 5, radius_mm = {} }}", 0.75 * pupil_mm), 5.0, 0.75, -1.0, 0.5),
     ];
     for (rim, distance_mm, radius, side, scale) in rims {
         let lens = "type = \"thick\", constant_pupil = \"exit\", f_number = 2, focus_distance_m = \"infinity\"";

@@ -88,7 +88,8 @@ fn a_known_radiance_gives_its_photons_by_both_routes_to_electrons() {
 #[test]
 fn a_declared_luminance_gives_its_photons() {
     let luminance = "luminance_cd_m2 = 100, spectrum = \"line.csv\"";
-    let seen = electrons(&job(luminance, [554.0, 556.0], "accumulate = \"electrons\"").with_spectrum("line.csv", &LINE));
+    let seen =
+        electrons(&job(luminance, [554.0, 556.0], "accumulate = \"electrons\"").with_spectrum("line.csv", &LINE));
     let error = seen.variance_of_mean().expect("16 pixels").sqrt();
     // V(555 nm) = 1.0000 in the table of the observer and K = 683.002 lm/W for 683: 1e-5.
     assert!((seen.mean() / photons() - 1.0).abs() < 4.0 * error / photons() + 1e-5, "{} ± {error}", seen.mean());

@@ -76,7 +76,8 @@ fn what_stands_in_front_and_the_effects_can_be_set() {
     .expect("written");
     fs::write(place.path().join("job.toml"), JOB).expect("written");
     let job = text(&place.path().join("job.toml"));
-    let set = ["--set", "cameras.c.external_optics.windscreen.tilt_deg=30", "--set", "cameras.c.effects.glare.scatter=0.02"];
+    let set =
+        ["--set", "cameras.c.external_optics.windscreen.tilt_deg=30", "--set", "cameras.c.effects.glare.scatter=0.02"];
     let said = etendue(["plan", job.as_str()].into_iter().chain(set)).ok().out;
     assert!(said.contains("30.0° from the axis") && said.contains("0.02 of the light"), "{said}");
 }

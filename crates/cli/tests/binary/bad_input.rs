@@ -194,11 +194,7 @@ fn pupils_that_contradict_each_other() {
 fn a_seed_below_zero_and_a_picture_without_processing() {
     job_refused("seed = 11", "seed = -11", &["render.seed", "-11"]);
     let spoilt = Spoilt::new();
-    spoilt.spoil(
-        "small.toml",
-        "[cameras.isp]\nwhite_balance = \"D65\"\ncolour_matrix = { fit = \"D65\" }\n",
-        "",
-    );
+    spoilt.spoil("small.toml", "[cameras.isp]\nwhite_balance = \"D65\"\ncolour_matrix = { fit = \"D65\" }\n", "");
     spoilt.render(&[]).refused(&["small.toml:126", "output.picture", "[isp]"]);
 }
 

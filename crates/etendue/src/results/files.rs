@@ -102,7 +102,11 @@ impl Files {
         for frame in frames.clone() {
             add(twin && p.picture, &Self::undistorted(&Self::picture(frame, format)), undistorted.clone());
             add(p.raw, &Self::raw(frame, p.raw_format), entry_of::<DigitalNumber>());
-            add(p.signal_breakdown, &Self::signal_breakdown(frame), entry("causes of the digital number, one layer each", "e"));
+            add(
+                p.signal_breakdown,
+                &Self::signal_breakdown(frame),
+                entry("causes of the digital number, one layer each", "e"),
+            );
             add(p.picture, &Self::picture(frame, format), picture.clone());
         }
         files

@@ -16,7 +16,7 @@ use etendue_pipeline::photograph::{Frame, take, take_with_breakdown};
 use etendue_pipeline::plan::{CameraBody, Development, PictureFormat, Products, RawFormat};
 use etendue_pipeline::raw_colour::RawColour;
 use etendue_pipeline::twin::Twin;
-use etendue_sensor::{SignalComponent, SignalBreakdown, FrameAddress, Raw, SensorState};
+use etendue_sensor::{FrameAddress, Raw, SensorState, SignalBreakdown, SignalComponent};
 use serde_json::Value;
 use std::ops::Range;
 
@@ -45,7 +45,7 @@ pub(crate) fn encoded(picture: &Plane<Display>, development: &Development) -> Re
     }
 }
 
-/// Frame after frame with its number, as the sensor's state runs through them; with what each digital number is made of where `signal_breakdown` are
+/// Frame after frame with its number, as the sensor's state runs through them; with what each digital number is made of where `signal_breakdown` is
 /// wanted. Ends where the camera has no electronics.
 pub(crate) fn frames<'a>(
     body: &'a CameraBody,

@@ -17,7 +17,15 @@ pub(super) fn decode(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
     let names =
         channel_names(channels).ok_or_else(|| Error::new(file, format!("{channels} channels; expected 1 to 4")))?;
     let stated = stated(bytes, guess(full_scale, colour.has_color()));
-    Ok(Photograph { width, height, channels: separated(names, &samples), full_scale, stated, raw: None, correlated_block_px: 1 })
+    Ok(Photograph {
+        width,
+        height,
+        channels: separated(names, &samples),
+        full_scale,
+        stated,
+        raw: None,
+        correlated_block_px: 1,
+    })
 }
 
 /// What a PNG says of itself, or else the guess, with the name of what it says and is not understood.

@@ -35,7 +35,9 @@ impl Lens {
     #[must_use]
     pub fn exit_pupil_distance_mm(&self) -> f64 {
         match self {
-            Self::Pinhole(_) | Self::Thin(_) | Self::Calibrated(_) | Self::Telecentric(_) => self.principal_distance_mm(),
+            Self::Pinhole(_) | Self::Thin(_) | Self::Calibrated(_) | Self::Telecentric(_) => {
+                self.principal_distance_mm()
+            }
             Self::Thick(lens) => lens.sensor_mm() - lens.exit_pupil_mm(),
             Self::Prescription(lens) => lens.prescription().exit_distance_mm().abs(),
         }

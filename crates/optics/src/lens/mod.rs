@@ -23,10 +23,10 @@ mod falloff;
 mod focus;
 mod lateral_colour;
 mod measures;
-mod telecentric;
 mod pinhole;
 mod prescribed;
 mod statements;
+mod telecentric;
 mod thick;
 mod thin;
 
@@ -40,11 +40,11 @@ use std::sync::Arc;
 pub use calibrated::{Calibrated, CalibratedParameters, PupilStance};
 pub use falloff::Falloff;
 pub use lateral_colour::LateralColour;
-pub use telecentric::{Telecentric, TelecentricParameters};
 pub use pinhole::{Pinhole, PinholeParameters};
 pub(crate) use prescribed::DIRECTIONS;
 pub use prescribed::{FieldReport, ImageReport, LateralShift, LensReport, OtherBundle, Prescribed, Spot};
 pub use statements::PupilStatements;
+pub use telecentric::{Telecentric, TelecentricParameters};
 pub use thick::{ConstantPupil, Rim, Thick, ThickParameters};
 pub use thin::{Thin, ThinParameters};
 

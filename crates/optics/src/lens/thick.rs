@@ -15,7 +15,7 @@
 //! | `exit_pupil_mm` | position of the exit pupil, p′ behind H′: separation + p′ | at most; without |
 //! | `pupil_magnification` | m_p = exit / entrance diameter, > 0 | any, m_p = 1 |
 //! | `constant_pupil` | `"entrance"` or `"exit"`: which pupil keeps its area over the field | required |
-//! | `front_aperture`, `rear_rim` | `{ position_mm, radius_mm }`: round openings before and behind the lens that clip | none |
+//! | `front_aperture`, `rear_aperture` | `{ position_mm, radius_mm }`: round openings before and behind the lens that clip | none |
 //!
 //! # Consistency
 //!
@@ -75,7 +75,7 @@ pub struct ThickParameters {
     /// An opening before the lens.
     pub front_aperture: Option<Rim>,
     /// An opening behind the lens.
-    pub rear_rim: Option<Rim>,
+    pub rear_aperture: Option<Rim>,
 }
 
 /// The pupil whose area does not change over the field.
@@ -139,7 +139,7 @@ impl Thick {
         let mut lens =
             Self { body, parameters, conjugates, size, pupil_magnification, rims: Rims { front: None, rear: None } };
         lens.rims.front = p.front_aperture.map(|rim| lens.front_aperture(rim)).transpose()?;
-        lens.rims.rear = p.rear_rim.map(|rim| lens.rear_rim(rim)).transpose()?;
+        lens.rims.rear = p.rear_aperture.map(|rim| lens.rear_aperture(rim)).transpose()?;
         Ok(lens)
     }
 
@@ -271,23 +271,28 @@ impl Thick {
         let left = 1.0 - ahead_mm * self.conjugates.inverse_focus_per_mm;
         if left <= 0.0 {
             let plane_mm = self.entrance_pupil_mm() - self.parameters.focus_distance_m / MM;
-            return Err(OpticsError::RimMisplaced { rim: "front_aperture", position_mm, plane: "plane in focus", plane_mm });
+            return Err(OpticsError::RimMisplaced {
+                rim: "front_aperture",
+                position_mm,
+                plane: "plane in focus",
+                plane_mm,
+            });
         }
         rim_is_wide_enough("front_aperture", radius_mm, self.size.entrance_radius_mm * left)?;
         Ok([ahead_mm, radius_mm])
     }
 
-    fn rear_rim(&self, rim: Rim) -> Result<[f64; 2], OpticsError> {
-        let position_mm = finite("rear_rim.position_mm", rim.position_mm)?;
-        let radius_mm = positive("rear_rim.radius_mm", rim.radius_mm)?;
+    fn rear_aperture(&self, rim: Rim) -> Result<[f64; 2], OpticsError> {
+        let position_mm = finite("rear_aperture.position_mm", rim.position_mm)?;
+        let radius_mm = positive("rear_aperture.radius_mm", rim.radius_mm)?;
         let behind_mm = position_mm - self.exit_pupil_mm();
         let left = 1.0 - behind_mm / self.exit_distance_mm();
         if left <= 0.0 {
             let plane_mm = self.sensor_mm();
-            return Err(OpticsError::RimMisplaced { rim: "rear_rim", position_mm, plane: "sensor", plane_mm });
+            return Err(OpticsError::RimMisplaced { rim: "rear_aperture", position_mm, plane: "sensor", plane_mm });
         }
         let exit_radius_mm = self.size.entrance_radius_mm * self.pupil_magnification;
-        rim_is_wide_enough("rear_rim", radius_mm, exit_radius_mm * left)?;
+        rim_is_wide_enough("rear_aperture", radius_mm, exit_radius_mm * left)?;
         Ok([behind_mm, radius_mm])
     }
 }

@@ -24,7 +24,7 @@ pub(super) fn body(camera: &Camera, context: &mut Context<'_>) -> Option<CameraB
     let place = camera.sensor.place.clone();
     let (lens, raster) = lens?;
     let effects = effects(camera.effects.as_ref(), &lens, &raster, context)?;
-    let front = camera.front.as_ref().and_then(|record| front(record, &lens, &raster, context));
+    let front = camera.external_optics.as_ref().and_then(|record| front(record, &lens, &raster, context));
     let body = CameraBody { place, raster, lens, front, effects, aperture_px, sensor, development };
     (context.faults.len() == before).then_some(body)
 }

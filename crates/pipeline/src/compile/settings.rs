@@ -30,7 +30,9 @@ const TILE_PX: u64 = 32;
 pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context<'_>) -> Products {
     let electronics = body.sensor.is_some();
     let said = |key: &Option<Placed<bool>>, default: bool| key.as_ref().map_or(default, |v| v.value);
-    for (key, name) in [(&output.electrons, "electrons"), (&output.raw, "raw"), (&output.signal_breakdown, "signal_breakdown")] {
+    for (key, name) in
+        [(&output.electrons, "electrons"), (&output.raw, "raw"), (&output.signal_breakdown, "signal_breakdown")]
+    {
         need(key, electronics, name, "the sensor has no electronics", "add them to [sensor]", context);
     }
     let ghosts = body.effects.ghosts().is_some();

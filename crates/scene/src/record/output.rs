@@ -21,7 +21,7 @@ record! {
         optional raw: Placed<bool> = flag();
         /// File format of the digital numbers. Default: "png", or "tiff" where they have more than 16 bits.
         optional raw_format: Placed<RawFormat> = choice();
-        /// What each pixel's digital number is made of, one layer a cause, in electrons, EXR. Default: false.
+        /// What each pixel's digital number is made of, one layer a component, in electrons, EXR. Default: false.
         optional signal_breakdown: Placed<bool> = flag();
         /// The picture, 8-bit PNG. Default: true for a camera with `[processing]`.
         optional picture: Placed<bool> = flag();

@@ -269,7 +269,8 @@ fn notices(render: &str, change: impl Fn(&mut Overrides)) -> Result<Vec<String>,
 #[test]
 fn the_command_line_supersedes_what_it_makes_meaningless() {
     let told = notices("max_bounces = 8\ncaustics = false", |o| o.push("render.integrator=direct"));
-    let expected = "--set render.integrator=direct supersedes \"max_bounces\" (job.toml:31), \"caustics\" (job.toml:32)";
+    let expected =
+        "--set render.integrator=direct supersedes \"max_bounces\" (job.toml:31), \"caustics\" (job.toml:32)";
     assert_eq!(told, Ok(vec![expected.to_owned()]));
     let told = notices("max_bounces = 8", |o| o.push_render("--integrator flat", "level", "\"flat\""));
     assert_eq!(told, Ok(vec!["--integrator flat supersedes \"max_bounces\" (job.toml:31)".to_owned()]));
@@ -280,7 +281,8 @@ fn the_command_line_supersedes_what_it_makes_meaningless() {
     assert_eq!(told, Ok(vec![expected.to_owned()]));
     let told = notices("integrator = \"direct\"\nmax_bounces = 8", |_| {}).expect_err("the file contradicts itself");
     assert!(told.starts_with("job.toml:32:15: render.max_bounces: \"max_bounces\" has no effect here"), "{told}");
-    let both = |o: &mut Overrides| ["render.integrator=direct", "render.max_bounces=8"].iter().for_each(|set| o.push(set));
+    let both =
+        |o: &mut Overrides| ["render.integrator=direct", "render.max_bounces=8"].iter().for_each(|set| o.push(set));
     let told = notices("", both).expect_err("the command line contradicts itself");
     assert!(told.starts_with("--set render.max_bounces=8: \"max_bounces\" has no effect here"), "{told}");
 }

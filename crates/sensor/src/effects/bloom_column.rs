@@ -18,8 +18,10 @@ pub(super) fn apply(plane: &mut Plane<Electrons>, well: f32, overflow_fraction: 
     let samples = plane.samples();
     let column = |x: usize| (0..height).map(move |y| samples[y * width + x]);
     let full: Vec<usize> = (0..width).into_par_iter().filter(|x| column(*x).any(|q| q > well)).collect();
-    let solved: Vec<Column> =
-        full.par_iter().map(|x| solve(column(*x).map(f64::from).collect(), f64::from(well), overflow_fraction)).collect();
+    let solved: Vec<Column> = full
+        .par_iter()
+        .map(|x| solve(column(*x).map(f64::from).collect(), f64::from(well), overflow_fraction))
+        .collect();
     for (x, column) in full.into_iter().zip(solved) {
         for (y, q) in column.charge.into_iter().enumerate() {
             plane.samples_mut()[y * width + x] = (q as f32).min(well);

@@ -88,8 +88,11 @@ impl DarkCurrent {
             checks.share_above_0("dark.hot.share", hot.share);
             checks.positive("dark.hot.mean_e_s", hot.mean_e_s);
         }
-        if let Some(blinking) = &self.dark_current_rts {
-            dark_current_rts.check(["dark.dark_current_rts.share", "dark.dark_current_rts.mean_e_s", "dark.dark_current_rts.dwell_frames"], checks);
+        if let Some(rts) = &self.dark_current_rts {
+            rts.check(
+                ["dark.dark_current_rts.share", "dark.dark_current_rts.mean_e_s", "dark.dark_current_rts.dwell_frames"],
+                checks,
+            );
         }
     }
 
@@ -148,8 +151,8 @@ fn differences(dark: &DarkCurrent) -> String {
     if let Some(hot) = dark.hot {
         text += &format!("; {} of pixels are hot", hot.share);
     }
-    if let Some(blinking) = dark.dark_current_rts {
-        text += &format!("; {} of pixels blink", dark_current_rts.share);
+    if let Some(rts) = dark.dark_current_rts {
+        text += &format!("; {} of pixels blink", rts.share);
     }
     text
 }
@@ -319,7 +322,8 @@ mod tests {
     #[test]
     fn blinking_pixels_blink_over_frames() {
         let mut p = one_dn_an_electron();
-        p.charge.dark.dark_current_rts = Some(TwoLevel { share: 0.02, mean: 1e6 / p.exposure.exposure_s, dwell_frames: 2.0 });
+        p.charge.dark.dark_current_rts =
+            Some(TwoLevel { share: 0.02, mean: 1e6 / p.exposure.exposure_s, dwell_frames: 2.0 });
         let sensor = Sensor::new(p).expect("legal");
         let dark = Plane::filled(64, 64, 0.0);
         let (state, first) = sensor.step(SensorState::default(), &dark, ADDRESS);

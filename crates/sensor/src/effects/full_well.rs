@@ -40,7 +40,12 @@ impl Blooming {
             Self::Column { overflow_fraction } => checks.share_above_0("blooming.overflow_fraction", overflow_fraction),
             // Without any drain, charge of a wide light would spread without end.
             Self::Around { overflow_fraction } => {
-                checks.legal("blooming.overflow_fraction", overflow_fraction, overflow_fraction > 0.0 && overflow_fraction <= 0.95, "a share above 0 and up to 0.95");
+                checks.legal(
+                    "blooming.overflow_fraction",
+                    overflow_fraction,
+                    overflow_fraction > 0.0 && overflow_fraction <= 0.95,
+                    "a share above 0 and up to 0.95",
+                );
             }
         }
     }
@@ -118,8 +123,12 @@ impl Overflow {
         let mut account = ChargeAccount { generated_e, ..ChargeAccount::default() };
         if plane.samples().par_iter().any(|q| *q > well) {
             match self.blooming {
-                Blooming::Column { overflow_fraction } => bloom_column::apply(plane, well, overflow_fraction, &mut account),
-                Blooming::Around { overflow_fraction } => bloom_around::apply(plane, well, overflow_fraction, &mut account),
+                Blooming::Column { overflow_fraction } => {
+                    bloom_column::apply(plane, well, overflow_fraction, &mut account)
+                }
+                Blooming::Around { overflow_fraction } => {
+                    bloom_around::apply(plane, well, overflow_fraction, &mut account)
+                }
             }
         }
         account.collected_e = sum(plane);

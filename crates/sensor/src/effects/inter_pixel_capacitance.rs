@@ -11,9 +11,9 @@ use crate::parameters::SensorParameters;
 
 /// Shares of a pixel's voltage that couple to its neighbours.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Capacitance(pub Neighbours);
+pub struct InterPixelCapacitance(pub Neighbours);
 
-impl Capacitance {
+impl InterPixelCapacitance {
     pub(crate) fn check(&self, checks: &mut Checks) {
         self.0.check("inter_pixel_capacitance", checks);
     }
@@ -36,7 +36,7 @@ mod tests {
     fn noise_is_correlated_and_the_variance_falls() {
         let mut p = one_dn_an_electron();
         let shares = Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.0 };
-        p.read_out.capacitance = Some(Capacitance(shares));
+        p.read_out.capacitance = Some(InterPixelCapacitance(shares));
         let raw = run(&p, &Plane::filled(512, 512, 10_000.0), ADDRESS);
         // White noise of variance μ through the kernel: Σ k² at no shift, 2 k₀ k₁ at a shift of one (and 1/12 of rounding).
         let (own, one) = (0.96, 0.01);

@@ -18,7 +18,7 @@
 //! | 10 | [dead pixels](dead_pixels) | empties | rows |
 //! | 11 | binning of charge ([`layout`](crate::layout)) | adds charge of pixels | plane |
 //! | 12 | [response] | charge → voltage | rows |
-//! | 13 | [inter-pixel capacitance](capacitance) | moves voltage | plane |
+//! | 13 | [inter-pixel capacitance](inter_pixel_capacitance) | moves voltage | plane |
 //! | 14 | [offset non-uniformity](offset_pattern) | adds voltage | rows |
 //! | 15 | [read noise](read_noise) | adds voltage | rows |
 //! | 16 | [RTS noise](rts_noise) | adds voltage | rows |
@@ -31,29 +31,29 @@ pub mod angle_response;
 pub mod bloom_around;
 pub mod bloom_column;
 pub mod brighter_fatter;
-pub mod inter_pixel_capacitance;
 pub mod converter;
 pub mod crosstalk;
 pub mod dark_current;
 pub mod dead_pixels;
 pub mod full_well;
+pub mod inter_pixel_capacitance;
 pub mod lag;
 pub mod neighbours;
 pub mod offset_pattern;
 pub mod photo_response;
 pub mod read_noise;
 pub mod response;
+pub mod rts_noise;
 pub mod shot_noise;
 pub mod smear;
-pub mod rts_noise;
 pub mod temperature;
 pub mod two_level;
 
 pub use etendue_core::Verdict;
 
-use crate::signal_breakdown::SignalComponent;
 use crate::operation::Operation;
 use crate::parameters::SensorParameters;
+use crate::signal_breakdown::SignalComponent;
 
 /// The effects a sensor can have, in physical order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,7 +85,7 @@ pub enum Effect {
     /// Voltage over charge.
     Response,
     /// Voltage that neighbours exchange.
-    Capacitance,
+    InterPixelCapacitance,
     /// Offsets that differ.
     OffsetPattern,
     /// Noise of the read-out chain.
@@ -116,7 +116,7 @@ impl Effect {
         Self::DeadPixels,
         Self::Layout,
         Self::Response,
-        Self::Capacitance,
+        Self::InterPixelCapacitance,
         Self::OffsetPattern,
         Self::ReadNoise,
         Self::RtsNoise,
@@ -142,7 +142,7 @@ impl Effect {
             Self::DeadPixels => "dead pixels",
             Self::Layout => "region and binning",
             Self::Response => "response",
-            Self::Capacitance => "inter-pixel capacitance",
+            Self::InterPixelCapacitance => "inter-pixel capacitance",
             Self::OffsetPattern => "offset non-uniformity",
             Self::ReadNoise => "read noise",
             Self::RtsNoise => "RTS noise",
@@ -168,7 +168,7 @@ impl Effect {
             Self::DeadPixels => dead_pixels::need(p),
             Self::Layout => crate::layout::need(p),
             Self::Response => response::need(p),
-            Self::Capacitance => capacitance::need(p),
+            Self::InterPixelCapacitance => inter_pixel_capacitance::need(p),
             Self::OffsetPattern => offset_pattern::need(p),
             Self::ReadNoise => read_noise::need(p, operation),
             Self::RtsNoise => rts_noise::need(p),

@@ -43,7 +43,9 @@ impl Temperature {
         checks.positive("dark.reference_c", self.reference_k);
         match self.law {
             TemperatureLaw::Doubling { step_k } => checks.positive("dark.doubling_k", step_k),
-            TemperatureLaw::BandGap { diffusion_fraction } => checks.share("dark.diffusion_fraction", diffusion_fraction),
+            TemperatureLaw::BandGap { diffusion_fraction } => {
+                checks.share("dark.diffusion_fraction", diffusion_fraction)
+            }
         }
         checks.agree("dark.temperature_c", !checks.errors.is_empty() || self.factor().is_finite(), || {
             "the dark current would be larger than any number: give temperatures nearer to each other".to_owned()

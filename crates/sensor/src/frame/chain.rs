@@ -13,9 +13,9 @@ use crate::effects::offset_pattern::Offsets;
 use crate::effects::photo_response::ResponsePattern;
 use crate::effects::read_noise::NoisyRead;
 use crate::effects::response::Response;
+use crate::effects::rts_noise::Jumps;
 use crate::effects::shot_noise::ShotNoise;
 use crate::effects::smear::ColumnSmear;
-use crate::effects::rts_noise::Jumps;
 use crate::effects::two_level::{self, Draws, Site};
 use crate::effects::{Effect, Verdict};
 use crate::layout::Binning;
@@ -36,7 +36,7 @@ pub(super) enum RowEffect {
     Response(Response),
     Offsets(Offsets),
     Read(NoisyRead),
-    Telegraph(Jumps),
+    RtsNoise(Jumps),
 }
 
 impl RowEffect {
@@ -52,7 +52,7 @@ impl RowEffect {
             Self::Response(effect) => effect.apply(electrons),
             Self::Offsets(effect) => effect.apply(electrons, y),
             Self::Read(effect) => effect.apply(electrons, y),
-            Self::Telegraph(effect) => effect.apply(electrons, y),
+            Self::RtsNoise(effect) => effect.apply(electrons, y),
         }
     }
 }
@@ -114,7 +114,7 @@ const ON_CHARGE: [Effect; 10] = [
 const ON_READING: [Effect; 6] = [
     Effect::Layout,
     Effect::Response,
-    Effect::Capacitance,
+    Effect::InterPixelCapacitance,
     Effect::OffsetPattern,
     Effect::ReadNoise,
     Effect::RtsNoise,
@@ -158,10 +158,10 @@ fn stage(effect: Effect, context: &Context<'_>, memory: &mut Memory) -> Option<S
         Effect::DeadPixels => row(RowEffect::Dead(DeadPixels::new(context))),
         Effect::Layout => plane(PlaneEffect::Binning(p.read_out.layout.charge_binning()?)),
         Effect::Response => row(RowEffect::Response(p.read_out.response.clone())),
-        Effect::Capacitance => plane(PlaneEffect::Neighbours(p.read_out.capacitance?.0)),
+        Effect::InterPixelCapacitance => plane(PlaneEffect::Neighbours(p.read_out.capacitance?.0)),
         Effect::OffsetPattern => row(RowEffect::Offsets(Offsets::new(context))),
         Effect::ReadNoise => row(RowEffect::Read(NoisyRead::new(context))),
-        Effect::RtsNoise => row(RowEffect::RtsNoise(telegraph(context, memory)?)),
+        Effect::RtsNoise => row(RowEffect::RtsNoise(rts_noise(context, memory)?)),
         Effect::ExposureControl | Effect::Converter | Effect::Merge | Effect::Companding => None,
     }
 }
@@ -177,7 +177,7 @@ fn blinking(context: &Context<'_>, memory: &mut Memory) -> Vec<Site> {
     up
 }
 
-fn telegraph(context: &Context<'_>, memory: &mut Memory) -> Option<Jumps> {
+fn rts_noise(context: &Context<'_>, memory: &mut Memory) -> Option<Jumps> {
     let two = context.p.read_out.rts_noise?.0;
     let draws = Draws { which: NoiseDraw::Telegraph, flip: NoiseDraw::TelegraphFlip };
     let size = (context.width, context.height);

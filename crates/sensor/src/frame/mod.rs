@@ -4,12 +4,12 @@ mod chain;
 mod pass;
 
 use crate::account::ChargeAccount;
-use crate::signal_breakdown::SignalBreakdown;
 use crate::effects::converter::Converter;
 use crate::hdr::merge::Merged;
 use crate::operation::{Context, Operation};
 use crate::raw::Raw;
 use crate::sensor::Sensor;
+use crate::signal_breakdown::SignalBreakdown;
 use crate::state::{FrameAddress, OperatingPoint, SensorState};
 use etendue_core::Plane;
 use etendue_core::quantity::{DigitalNumber, Electrons};
@@ -144,7 +144,12 @@ impl Sensor {
             let black_dn = p.read_out.black_level_dn;
             let switch_dn = black_dn + p.hdr.switch() * (white_dn - black_dn);
             let factor = p.hdr.scale(k) * operation.gain_dn_e / first.gain_dn_e;
-            merged.take(&numbers, p.hdr.scale(k), switch_dn, pass.signal_breakdown.as_ref().map(|signal_breakdown| (signal_breakdown, factor)));
+            merged.take(
+                &numbers,
+                p.hdr.scale(k),
+                switch_dn,
+                pass.signal_breakdown.as_ref().map(|signal_breakdown| (signal_breakdown, factor)),
+            );
         }
         Taken { numbers: self.rounded(&merged), signal_breakdown: merged.into_breakdown(), accounts }
     }

@@ -5,10 +5,10 @@
 
 use super::chain::{RowEffect, Stage};
 use crate::account::{ChargeAccount, RowTally};
-use crate::signal_breakdown::{SignalComponent, SignalComponentRow, SignalBreakdown};
 use crate::effects::Effect;
 use crate::effects::converter::Converter;
 use crate::operation::Context;
+use crate::signal_breakdown::{SignalBreakdown, SignalComponent, SignalComponentRow};
 use etendue_core::Plane;
 use etendue_core::quantity::{DigitalNumber, Electrons};
 use rayon::prelude::*;
@@ -118,7 +118,9 @@ fn noted(
     after: &Plane<Electrons>,
 ) -> SignalBreakdown {
     match context.p.read_out.layout.charge_binning() {
-        Some(binning) if effect == Effect::Layout => signal_breakdown.mapped(|layer| binning.added(&context.p.cfa, layer)),
+        Some(binning) if effect == Effect::Layout => {
+            signal_breakdown.mapped(|layer| binning.added(&context.p.cfa, layer))
+        }
         _ => {
             signal_breakdown.note(effect.cause(), before, after);
             signal_breakdown
@@ -160,10 +162,12 @@ impl Source<'_> {
                 },
             ),
             Some(signal_breakdown) => {
-                whole.zip(signal_breakdown.rows().into_par_iter()).for_each(|((y, ((out, source), tally)), mut notes)| {
-                    let electrons = self.noted_row(source, y as u32, &mut notes, tally);
-                    finish(out, &electrons, Some(&mut notes));
-                });
+                whole.zip(signal_breakdown.rows().into_par_iter()).for_each(
+                    |((y, ((out, source), tally)), mut notes)| {
+                        let electrons = self.noted_row(source, y as u32, &mut notes, tally);
+                        finish(out, &electrons, Some(&mut notes));
+                    },
+                );
             }
         }
         let has_well = self.effects.iter().any(|(effect, _)| *effect == Effect::FullWell);

@@ -154,7 +154,7 @@ const PINNED: [u32; 9] = [404, 399, 400, 400, 408, 417, 416, 418, 421];
 /// A camera that has everything.
 pub(crate) fn everything() -> SensorParameters {
     use crate::effects::{
-        angle_response, capacitance, crosstalk, dark_current, full_well, lag, smear, rts_noise,
+        angle_response, crosstalk, dark_current, full_well, inter_pixel_capacitance, lag, rts_noise, smear,
     };
     use crate::effects::{neighbours::Neighbours, two_level::TwoLevel};
     let mut p = ideal();
@@ -170,7 +170,12 @@ pub(crate) fn everything() -> SensorParameters {
     p.pattern.dead_fraction = 1e-3;
     let two = |mean| TwoLevel { share: 0.01, mean, dwell_frames: 3.0 };
     p.charge.dark = dark_current::DarkCurrent {
-        spread: dark_current::DarkSpread { white: 0.3, row: 0.05, column: 0.05, distribution: dark_current::SpreadDistribution::LogNormal },
+        spread: dark_current::DarkSpread {
+            white: 0.3,
+            row: 0.05,
+            column: 0.05,
+            distribution: dark_current::SpreadDistribution::LogNormal,
+        },
         hot: Some(dark_current::Hot { share: 0.01, mean_e_s: 1e5 }),
         dark_current_rts: Some(two(1e5)),
         ..dark_current::DarkCurrent::even(2000.0)
@@ -181,7 +186,7 @@ pub(crate) fn everything() -> SensorParameters {
     p.charge.blooming = Some(full_well::Blooming::Around { overflow_fraction: 0.6 });
     let knee = crate::effects::response::Knee { at_e: 10_000.0, slope: 0.5 };
     p.read_out.response = crate::effects::response::Response::Knees(vec![knee]);
-    p.read_out.capacitance = Some(capacitance::Capacitance(shares));
+    p.read_out.capacitance = Some(inter_pixel_capacitance::InterPixelCapacitance(shares));
     (p.read_out.noise.row_e, p.read_out.noise.column_e) = (1.0, 1.0);
     p.read_out.rts_noise = Some(rts_noise::RtsNoise(two(20.0)));
     p

@@ -40,7 +40,11 @@ impl Merged {
         self.values.resize(pixels, 0.0);
         self.pending.resize(pixels, true);
         if let Some((signal_breakdown, factor)) = signal_breakdown {
-            self.signal_breakdown.get_or_insert_with(|| signal_breakdown.clone()).replace(&self.pending, signal_breakdown, factor);
+            self.signal_breakdown.get_or_insert_with(|| signal_breakdown.clone()).replace(
+                &self.pending,
+                signal_breakdown,
+                factor,
+            );
         }
         for ((value, pending), dn) in self.values.iter_mut().zip(&mut self.pending).zip(numbers.samples()) {
             if *pending {
@@ -125,7 +129,7 @@ pub(crate) mod tests {
 
     #[test]
     fn causes_are_those_of_the_capture_that_is_used() {
-        use crate::{SignalComponent, Sensor, SensorState};
+        use crate::{Sensor, SensorState, SignalComponent};
         let mut p = three_exposures();
         (p.noise, p.read_out.noise.white_e, p.charge.dark.current_e_s) = (true, 2.0, 1000.0);
         let again = Capture { gain_ratio: 1.0 / 4.0, dual_conversion_gain: true, ..Capture::default() };
@@ -136,14 +140,16 @@ pub(crate) mod tests {
         let (_, same, signal_breakdown) = sensor.step_with_breakdown(SensorState::default(), &means, ADDRESS);
         assert_eq!(raw, same);
         for x in 0..5 {
-            let of = |cause: Cause| f64::from(signal_breakdown.layer(cause).at(x, 0));
+            let of = |cause: SignalComponent| f64::from(signal_breakdown.layer(cause).at(x, 0));
             let sum: f64 = SignalComponent::ALL.into_iter().filter(|c| *c != SignalComponent::Saturated).map(of).sum();
             // Ten layers of f32, each up to the signal.
             assert!((sum - (f64::from(raw.plane.at(x, 0)) - 100.0)).abs() < 0.05 + 1e-6 * sum.abs(), "{x}: {sum}");
             assert!((of(SignalComponent::Signal) / f64::from(means.at(x, 0)).max(1e-9) - 1.0).abs() < 1e-6 || x == 0);
         }
         // Counts of a capture of 1/256 of the time are counts of 256.
-        let counted = (signal_breakdown.layer(SignalComponent::Signal).at(4, 0) + signal_breakdown.layer(SignalComponent::Shot).at(4, 0)) / 256.0;
+        let counted = (signal_breakdown.layer(SignalComponent::Signal).at(4, 0)
+            + signal_breakdown.layer(SignalComponent::Shot).at(4, 0))
+            / 256.0;
         assert!((counted - counted.round()).abs() < 1e-3 && counted > 2000.0, "{counted}");
     }
 

@@ -195,7 +195,8 @@ impl HighDynamicRange {
     /// The time that the exposures of one photodiode take one after the other, s, the greatest of all photodiodes; those of one
     /// sensitivity are of one photodiode.
     fn longest_s(&self, exposure_s: f64) -> f64 {
-        let exposed = self.captures.iter().filter(|c| !c.dual_conversion_gain).map(|c| (c.sensitivity_ratio, c.exposure_ratio));
+        let exposed =
+            self.captures.iter().filter(|c| !c.dual_conversion_gain).map(|c| (c.sensitivity_ratio, c.exposure_ratio));
         let all: Vec<(f64, f64)> = core::iter::once((1.0, 1.0)).chain(exposed).collect();
         let sum = |sensitivity: f64| all.iter().filter(|(s, _)| *s == sensitivity).map(|(_, share)| share).sum::<f64>();
         exposure_s * all.iter().map(|(sensitivity, _)| sum(*sensitivity)).fold(0.0, f64::max)

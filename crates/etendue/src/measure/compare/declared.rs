@@ -205,8 +205,7 @@ fn growth(body: &CameraBody, measured: &Side, put: &mut impl FnMut(&str, f64, &s
 /// Red and blue stand where green does.
 fn achromatic(body: &CameraBody, put: &mut impl FnMut(&str, f64, &str)) -> Result<(), String> {
     if body.lens.spreads_colours() || body.front.is_some() {
-        let why =
-            "what this lens does to colours has no closed form here: expected one without lateral_colour and [external_optics]";
+        let why = "what this lens does to colours has no closed form here: expected one without lateral_colour and [external_optics]";
         return Err(why.to_owned());
     }
     for channel in ["red", "blue"] {

@@ -221,7 +221,11 @@ fn check(p: &WindscreenParameters) -> Result<(), FrontError> {
         });
     }
     if let Some(share) = p.double_image_fraction.filter(|share| !(0.0..1.0).contains(share)) {
-        return Err(FrontError::Number { name: "double_image_sample_fraction", value: share, range: "at least 0 and below 1" });
+        return Err(FrontError::Number {
+            name: "double_image_sample_fraction",
+            value: share,
+            range: "at least 0 and below 1",
+        });
     }
     let Some(tint) = &p.tint else { return Ok(()) };
     tint.thickness_mm.map_or(Ok(1.0), |mm| positive("reference_thickness_mm", mm))?;

@@ -29,7 +29,11 @@ pub(super) fn windscreen(r: &record::Windscreen, context: &mut Context<'_>) -> O
         wedge_rad: 1e-3 * number(&r.wedge_mrad, 0.0),
         tint: tint(r, context)?,
         coating: r.coating.as_ref().map_or(Coating::Uncoated, coating),
-        double_image_fraction: if doubles { r.double_image_sample_fraction.as_ref().map(|s| s.value) } else { Some(0.0) },
+        double_image_fraction: if doubles {
+            r.double_image_sample_fraction.as_ref().map(|s| s.value)
+        } else {
+            Some(0.0)
+        },
     };
     context.accept(&r.place, Windscreen::new(parameters))
 }

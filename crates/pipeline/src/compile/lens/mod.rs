@@ -32,7 +32,7 @@ pub(super) fn lens(camera: &record::Camera, context: &mut Context<'_>) -> Option
             let film = widest_film(camera.effects.as_ref(), &raster);
             prescription::lens(record, &raster, &film, context)
         }
-        record::Lens::Telecentric(record) => context.accept(&record.place, parallel(record, &raster)),
+        record::Lens::Telecentric(record) => context.accept(&record.place, telecentric(record, &raster)),
         record::Lens::Pinhole(_) | record::Lens::Thin(_) | record::Lens::Thick(_) => {
             paraxial(&camera.lens, &raster, context)
         }
@@ -136,7 +136,7 @@ fn thick(r: &description::Thick) -> Result<Lens, OpticsError> {
             description::Pupil::Exit => ConstantPupil::Exit,
         },
         front_aperture: rim(&r.front_aperture),
-        rear_rim: rim(&r.rear_rim),
+        rear_aperture: rim(&r.rear_aperture),
     })
 }
 

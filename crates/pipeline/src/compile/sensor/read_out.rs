@@ -6,7 +6,7 @@ use etendue_scene::Place;
 use etendue_scene::record;
 use etendue_scene::record::sensor::{hdr as of_hdr, read_out as description};
 use etendue_sensor::ReadOut;
-use etendue_sensor::effects::capacitance::Capacitance;
+use etendue_sensor::effects::inter_pixel_capacitance::InterPixelCapacitance;
 use etendue_sensor::effects::read_noise::ReadNoise;
 use etendue_sensor::effects::response::{Knee, Response};
 use etendue_sensor::effects::rts_noise::RtsNoise;
@@ -18,7 +18,7 @@ use etendue_sensor::layout::{Binning, BinningOf, Layout, OpticalBlack, Region};
 pub(super) fn read_out(e: &record::Electronics) -> ReadOut {
     ReadOut {
         response: e.response.as_ref().map_or(Response::Linear, response),
-        capacitance: e.inter_pixel_capacitance.as_ref().map(|shares| Capacitance(neighbours(shares))),
+        capacitance: e.inter_pixel_capacitance.as_ref().map(|shares| InterPixelCapacitance(neighbours(shares))),
         noise: ReadNoise {
             white_e: e.read_noise_e.value,
             row_e: or(e.row_noise_e.as_ref(), 0.0),

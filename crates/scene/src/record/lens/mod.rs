@@ -91,7 +91,7 @@ record! {
         /// The rim in front of the pupil. Default: none.
         optional front_aperture: Rim = record();
         /// The rim behind the pupil. Default: none.
-        optional rear_rim: Rim = record();
+        optional rear_aperture: Rim = record();
     }
 }
 
