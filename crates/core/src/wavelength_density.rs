@@ -5,7 +5,7 @@ use crate::Wavelengths;
 /// Steps of the guide for each piece, at least: most begin and end in one piece.
 const STEPS_PER_PIECE: usize = 16;
 /// Pieces that the guide can tell apart.
-const MOST_PIECES: usize = 1 << 16;
+const MAX_PIECES: usize = 1 << 16;
 /// Numbers in [0, 1) are multiples of its inverse.
 const GRID: f64 = 16_777_216.0;
 
@@ -42,7 +42,7 @@ impl WavelengthDensity {
     pub fn new(weights: &[f32], low_nm: f32, high_nm: f32) -> Option<Self> {
         let total: f64 = weights.iter().map(|w| f64::from(*w)).sum();
         let legal = weights.iter().all(|w| *w >= 0.0) && total > 0.0 && total.is_finite();
-        if !legal || weights.len() > MOST_PIECES {
+        if !legal || weights.len() > MAX_PIECES {
             return None;
         }
         let step_nm = (f64::from(high_nm) - f64::from(low_nm)) / weights.len() as f64;

@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 const DESCRIPTOR: &str = "emva1288.txt";
 
 /// Electrons are whole numbers up to here, 2⁵³.
-const MOST_E: f32 = 9_007_199_254_740_992.0;
+const MAX_E: f32 = 9_007_199_254_740_992.0;
 
 /// The even light, or the series of lights.
 #[derive(Clone, Debug, PartialEq)]
@@ -167,8 +167,8 @@ impl Task<'_> {
     fn frames(&self, files: &BTreeMap<String, Value>, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
         let light = self.light()?;
         let electrons = flat::electrons(self.body, light).expect("it has electronics");
-        if let Some(most) = electrons.samples().iter().find(|e| **e > MOST_E) {
-            let why = format!("makes {most:.1e} electrons a pixel, and at most {MOST_E:.0e} can be counted: give less");
+        if let Some(most) = electrons.samples().iter().find(|e| **e > MAX_E) {
+            let why = format!("makes {most:.1e} electrons a pixel, and at most {MAX_E:.0e} can be counted: give less");
             let given = match self.request.source {
                 FlatSource::Photons { per_pixel } => format!("--photons {per_pixel:e}"),
                 _ => format!("--irradiance-w-m2 {:e}", light.irradiance_w_m2),

@@ -73,7 +73,7 @@ pub enum ColourFault {
 }
 
 /// The largest mean ΔE00 that a camera in colour leaves.
-const MOST_DELTA: f64 = 15.0;
+const MAX_DELTA: f64 = 15.0;
 
 /// Fits the matrix and tells what colours it leaves wrong; `white` is the XYZ of the reference white, `shared_px` the side of the blocks of
 /// pixels in which errors are alike (1: in none).
@@ -107,7 +107,7 @@ pub fn measure_colour(
     });
     let mut differences: Vec<Estimate> = figures.into_iter().map(Curved::above_zero).collect();
     let mean = differences.pop().expect("the mean is last");
-    if mean.value > MOST_DELTA {
+    if mean.value > MAX_DELTA {
         return Err(ColourFault::Unlike(mean.value));
     }
     let triple = |c: &Lab| [c.l, c.a, c.b];

@@ -20,7 +20,7 @@ use crate::propagate::root;
 use crate::{Estimate, Image};
 
 /// The least number of frames that the standard lets.
-pub const LEAST_FRAMES: usize = 8;
+pub const MIN_FRAMES: usize = 8;
 /// How far a frame's mean may lie from the others', of the signal: lamps flicker by a few percent.
 const UNSTEADY: f64 = 0.1;
 
@@ -57,7 +57,7 @@ pub enum NoiseError {
     #[error(transparent)]
     Frames(#[from] TransferError),
     /// Fewer than eight frames.
-    #[error("noise needs at least {LEAST_FRAMES} frames of the same patch (ISO 15739), not {0}")]
+    #[error("noise needs at least {MIN_FRAMES} frames of the same patch (ISO 15739), not {0}")]
     TooFew(usize),
     /// There is no light.
     #[error(
@@ -113,7 +113,7 @@ fn one_light(means: &[f64], black: f64) -> Result<(), NoiseError> {
 /// # Errors
 /// Where there are too few frames or pixels.
 pub fn measure_noise(stack: &Stack, black: f64) -> Result<Noise, NoiseError> {
-    if stack.frames() < LEAST_FRAMES {
+    if stack.frames() < MIN_FRAMES {
         return Err(NoiseError::TooFew(stack.frames()));
     }
     one_light(stack.frame_means(), black)?;

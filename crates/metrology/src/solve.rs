@@ -3,7 +3,7 @@
 use crate::linear::{Cholesky, Matrix};
 
 /// A pivot below this share of its diagonal element is rounding: the equations do not determine their unknowns.
-const LEAST_PIVOT: f64 = 1e-12;
+const MIN_PIVOT: f64 = 1e-12;
 
 /// AᵀWA and AᵀWb, gathered row by row.
 #[derive(Clone, Debug)]
@@ -35,12 +35,12 @@ impl Normal {
 
     /// The solution; `None` where the equations do not determine it.
     pub(crate) fn solve(&self) -> Option<Vec<f64>> {
-        Some(Cholesky::of(&self.matrix, LEAST_PIVOT)?.solve(&self.right))
+        Some(Cholesky::of(&self.matrix, MIN_PIVOT)?.solve(&self.right))
     }
 
     /// The inverse of AᵀWA: the covariance of the solution for weights that are inverse variances.
     pub(crate) fn inverse(&self) -> Option<Matrix> {
-        Some(Cholesky::of(&self.matrix, LEAST_PIVOT)?.inverse())
+        Some(Cholesky::of(&self.matrix, MIN_PIVOT)?.inverse())
     }
 }
 

@@ -146,7 +146,7 @@ mod tests {
     #[test]
     fn a_rim_around_the_pupil_leaves_the_closed_form() {
         for x in [0.0, 0.7, 2.5] {
-            let exact = VIEW.etendue_sr(DVec2::new(x, 0.0));
+            let exact = VIEW.projected_solid_angle_sr(DVec2::new(x, 0.0));
             for rim in [
                 Disc { centre: 0.0, radius: 1.0 },
                 Disc { centre: 0.3, radius: 1.3 },

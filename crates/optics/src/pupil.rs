@@ -51,7 +51,7 @@ impl PupilView {
     /// with T the tangent of the field angle and a the pupil's radius, both in units of the distance:
     /// ½ (1 − B/S), B = 1 + T² − a², S² = B² + 4a², written as 2a²/(S (S + B)) where B > 0, which keeps all digits for
     /// small pupils.
-    pub(crate) fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
+    pub(crate) fn projected_solid_angle_sr(&self, sensor_mm: DVec2) -> f64 {
         let a = self.radius_mm / self.distance_mm;
         let t2 = sensor_mm.length_squared() / (self.distance_mm * self.distance_mm);
         let b = 1.0 + t2 - a * a;

@@ -70,12 +70,18 @@ fn ideal_projections_fall_off_by_their_closed_forms() {
     for (projection, law) in laws {
         let lens = ideal(projection, 500.0);
         let axis = 0.9 * PI / 16.0;
-        assert!((lens.etendue_sr(DVec2::ZERO) / axis - 1.0).abs() < 1e-12, "{projection:?}: E = π τ L/(4 N²)");
+        assert!(
+            (lens.projected_solid_angle_sr(DVec2::ZERO) / axis - 1.0).abs() < 1e-12,
+            "{projection:?}: E = π τ L/(4 N²)"
+        );
         // The first point is the axis, where the laws are 0/0.
         for s in points().skip(1) {
             let direction = lens.direction(s).expect("seen");
             let angle = atan2(direction.truncate().length(), direction.z);
-            assert!((lens.etendue_sr(s) / (axis * law(angle)) - 1.0).abs() < 1e-9, "{projection:?} at {angle}");
+            assert!(
+                (lens.projected_solid_angle_sr(s) / (axis * law(angle)) - 1.0).abs() < 1e-9,
+                "{projection:?} at {angle}"
+            );
         }
     }
 }
@@ -89,7 +95,7 @@ fn a_sphere_s_worth_of_solid_angle_lands_on_a_panorama() {
     let mut flux = 0.0;
     for i in 0..640_u32 * 320 {
         let px = DVec2::new(f64::from(i % 640) + 0.5, f64::from(i / 640) + 0.5 + 80.0);
-        flux += lens.etendue_sr((px - DVec2::new(320.0, 240.0)) * PITCH_MM) * PITCH_MM * PITCH_MM;
+        flux += lens.projected_solid_angle_sr((px - DVec2::new(320.0, 240.0)) * PITCH_MM) * PITCH_MM * PITCH_MM;
     }
     let exact = 0.9 * PI * (focal_mm / 4.0) * (focal_mm / 4.0) * 4.0 * PI;
     // The midpoint rule over 320 rows: (π/320)²/24 = 4e-6.
@@ -105,10 +111,12 @@ fn fisheyes_see_behind_themselves_and_a_flat_pupil_does_not() {
     let flat =
         CalibratedParameters { pupil: Some(PupilStance::Flat), ..parameters(Model::Ideal(Ideal::Equidistant), 150.0) };
     let flat = Lens::calibrated(flat).expect("a camera");
-    assert!(flat.principal_ray(at).is_none() && flat.truth_ray(at).is_none() && flat.etendue_sr(at) == 0.0);
+    assert!(
+        flat.principal_ray(at).is_none() && flat.truth_ray(at).is_none() && flat.projected_solid_angle_sr(at) == 0.0
+    );
     let angle = 1.0;
     let s = DVec2::new(1.5 * angle, 0.0);
-    let ratio = flat.etendue_sr(s) / wide.etendue_sr(s);
+    let ratio = flat.projected_solid_angle_sr(s) / wide.projected_solid_angle_sr(s);
     assert!((ratio - cos(angle)).abs() < 1e-12, "foreshortened");
 }
 
@@ -147,7 +155,7 @@ fn a_measured_illumination_takes_the_place_of_the_projection_s() {
         ..parameters(Model::Ideal(Ideal::Rectilinear), 400.0)
     };
     let lens = Lens::calibrated(measured).expect("a camera");
-    let ratio = lens.etendue_sr(DVec2::new(1.0, 0.0)) / lens.etendue_sr(DVec2::ZERO);
+    let ratio = lens.projected_solid_angle_sr(DVec2::new(1.0, 0.0)) / lens.projected_solid_angle_sr(DVec2::ZERO);
     assert!((ratio - 0.75).abs() < 1e-14);
     let raster = |width, height| Raster::centred(width, height, PITCH_MM).expect("a raster");
     // The corner lies at exactly 4 mm.

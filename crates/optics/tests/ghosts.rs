@@ -186,7 +186,7 @@ fn plain_sum(lens: &Prescribed, at_mm: DVec2, nm: f64, sensor: f64) -> (f64, DVe
             }
         }
     }
-    let etendue = through.etendue_sr(at_mm);
+    let etendue = through.projected_solid_angle_sr(at_mm);
     (sum * solid / etendue / (PITCH_MM * PITCH_MM), moment / sum)
 }
 

@@ -154,7 +154,7 @@ fn a_fold_inside_the_picture_is_refused() {
     assert!(thin(1.0).check(&raster).is_ok());
     let beyond = DVec2::new(6.0, 0.0);
     let lens = thin(1.0).with_distortion(fold).expect("a paraxial lens");
-    assert!(lens.ray(beyond, DVec2::splat(0.5), 550.0).is_none() && lens.etendue_sr(beyond) == 0.0);
+    assert!(lens.ray(beyond, DVec2::splat(0.5), 550.0).is_none() && lens.projected_solid_angle_sr(beyond) == 0.0);
 }
 
 #[test]
@@ -198,7 +198,7 @@ fn a_clipped_chief_ray_is_none_where_light_may_still_come() {
     let lens = Lens::thick(ThickParameters { front_aperture, ..thick_parameters() }).expect("legal");
     let at = DVec2::new(2.1, 0.0);
     assert!(lens.principal_ray(at).is_none());
-    assert!(lens.etendue_sr(at) > 0.0);
+    assert!(lens.projected_solid_angle_sr(at) > 0.0);
     // To look right through a rim in front, a ray must start on the left.
     let truth = lens.truth_ray(at).expect("light comes");
     assert!(truth.off_centre && truth.ray.origin_m.x < 0.0 && truth.ray.weight_sr > 0.0, "{truth:?}");

@@ -69,7 +69,7 @@ fn a_thin_lens_s_samples_have_foote_s_mean() {
             // Midpoint rule on 64 × 64 strata: its error falls as 1/64², times the integrand's relative curvature (< 0.5).
             assert!((sampled_sr(&lens, sensor_mm, 64) / exact - 1.0).abs() < 1e-4, "f/{f_number} at {field}°");
             // The formula as printed loses ε/a² by cancellation: 2e-13 at f/16.
-            assert!((lens.etendue_sr(sensor_mm) / exact - 1.0).abs() < 1e-12, "f/{f_number} at {field}°");
+            assert!((lens.projected_solid_angle_sr(sensor_mm) / exact - 1.0).abs() < 1e-12, "f/{f_number} at {field}°");
         }
     }
 }
@@ -79,8 +79,8 @@ fn a_wide_pupil_exceeds_cos4_by_the_known_share() {
     // PHYSICS.md §17: + 2.5 % at f/2 and 20°, + 1.3 % at f/4 and 30°; the last digit given is 0.1 %.
     for (f_number, field, excess) in [(2.0, 20.0, 0.025), (4.0, 30.0, 0.013)] {
         let lens = thin(f_number, f64::INFINITY);
-        let off = lens.etendue_sr(DVec2::new(FOCAL_MM * tan(degrees(field)), 0.0));
-        let ratio = off / (lens.etendue_sr(DVec2::ZERO) * cos4(degrees(field)));
+        let off = lens.projected_solid_angle_sr(DVec2::new(FOCAL_MM * tan(degrees(field)), 0.0));
+        let ratio = off / (lens.projected_solid_angle_sr(DVec2::ZERO) * cos4(degrees(field)));
         assert!((ratio - 1.0 - excess).abs() < 5e-4, "f/{f_number} at {field}°: {ratio}");
     }
 }
@@ -93,12 +93,12 @@ fn a_slow_lens_and_a_pinhole_fall_by_cos4() {
     for (field, expected) in [(10.0, 0.94060), (20.0, 0.77973), (30.0, 0.56250), (40.0, 0.34436), (60.0, 0.06250)] {
         let at = DVec2::new(0.0, FOCAL_MM * tan(degrees(field)));
         // Five digits are given.
-        let falls = pinhole.etendue_sr(at) / (0.8 * PI / (4.0 * 256.0));
+        let falls = pinhole.projected_solid_angle_sr(at) / (0.8 * PI / (4.0 * 256.0));
         assert!((falls - expected).abs() < 6e-6, "{field}°: {falls}");
         // The disc's excess is of the order of a² = 1/1024.
-        let ratio = slow.etendue_sr(at) / slow.etendue_sr(DVec2::ZERO);
+        let ratio = slow.projected_solid_angle_sr(at) / slow.projected_solid_angle_sr(DVec2::ZERO);
         assert!((ratio / expected - 1.0).abs() < 2e-3, "{field}°: {ratio}");
-        assert_eq!(sampled_sr(&pinhole, at, 2), pinhole.etendue_sr(at));
+        assert_eq!(sampled_sr(&pinhole, at, 2), pinhole.projected_solid_angle_sr(at));
     }
 }
 
@@ -108,7 +108,10 @@ fn the_pinhole_is_the_limit_of_small_pupils() {
     let parameters = PinholeParameters { focal_length_mm: FOCAL_MM, f_number: 1e4, transmittance: 1.0 };
     let pinhole = Lens::pinhole(parameters).expect("legal");
     // Next term: a² = 1/(4·1e8).
-    assert!((thin(1e4, f64::INFINITY).etendue_sr(at) / pinhole.etendue_sr(at) - 1.0).abs() < 1e-8);
+    assert!(
+        (thin(1e4, f64::INFINITY).projected_solid_angle_sr(at) / pinhole.projected_solid_angle_sr(at) - 1.0).abs()
+            < 1e-8
+    );
 }
 
 #[test]
@@ -121,12 +124,12 @@ fn close_focus_costs_light() {
         // E/L = π / (1 + 4N² (1 − m/m_p)²), m < 0: the flat disc.
         let bellows = 1.0 + magnification / pupil_magnification;
         let expected = PI / (1.0 + 16.0 * bellows * bellows);
-        assert!((lens.etendue_sr(DVec2::ZERO) / expected - 1.0).abs() < 1e-12);
+        assert!((lens.projected_solid_angle_sr(DVec2::ZERO) / expected - 1.0).abs() < 1e-12);
         assert!((lens.working_f_number() / (2.0 * bellows) - 1.0).abs() < 1e-12);
     }
     // PHYSICS.md §3: m = −0.02 costs 3.9 %, m = −0.1 costs 17 % (small pupils).
-    let slow = |m: f64| thin(100.0, FOCAL_MM * (1.0 + 1.0 / m) / 1000.0).etendue_sr(DVec2::ZERO);
-    let far = thin(100.0, f64::INFINITY).etendue_sr(DVec2::ZERO);
+    let slow = |m: f64| thin(100.0, FOCAL_MM * (1.0 + 1.0 / m) / 1000.0).projected_solid_angle_sr(DVec2::ZERO);
+    let far = thin(100.0, f64::INFINITY).projected_solid_angle_sr(DVec2::ZERO);
     assert!((1.0 - slow(0.02) / far - 0.039).abs() < 5e-4);
     assert!((1.0 - slow(0.1) / far - 0.17).abs() < 5e-3);
 }
@@ -137,7 +140,7 @@ fn transmittance_scales_all() {
         ThinParameters { focal_length_mm: FOCAL_MM, f_number: 2.0, focus_distance_m: 3.0, transmittance: 0.25 };
     let lens = Lens::thin(parameters).expect("legal");
     let at = DVec2::new(3.0, 1.0);
-    assert!((lens.etendue_sr(at) / thin(2.0, 3.0).etendue_sr(at) - 0.25).abs() < 1e-15);
+    assert!((lens.projected_solid_angle_sr(at) / thin(2.0, 3.0).projected_solid_angle_sr(at) - 0.25).abs() < 1e-15);
     assert!((sampled_sr(&lens, at, 8) / sampled_sr(&thin(2.0, 3.0), at, 8) - 0.25).abs() < 1e-15);
     assert!((lens.t_number() - 4.0).abs() < 1e-15);
 }
@@ -152,7 +155,9 @@ fn a_thick_lens_with_all_planes_together_is_a_thin_one() {
             let (a, b) = (lens.ray(sensor, pupil, 550.0).expect("open"), thin.ray(sensor, pupil, 550.0).expect("open"));
             assert!((a.origin_m - b.origin_m).length() < 1e-17 && (a.direction - b.direction).length() < 1e-15);
             assert!((a.weight_sr / b.weight_sr - 1.0).abs() < 1e-14);
-            assert!((lens.etendue_sr(sensor) / thin.etendue_sr(sensor) - 1.0).abs() < 1e-14);
+            assert!(
+                (lens.projected_solid_angle_sr(sensor) / thin.projected_solid_angle_sr(sensor) - 1.0).abs() < 1e-14
+            );
         }
         assert!((lens.sensor_plane_m() - thin.sensor_plane_m()).abs() < 1e-17);
         assert_eq!(lens.circle_of_confusion_mm(2.0), thin.circle_of_confusion_mm(2.0));
@@ -164,7 +169,7 @@ fn the_constant_pupil_rules_the_fall_off() {
     let at = DVec2::new(FOCAL_MM * tan(degrees(30.0)), 0.0);
     let ratio = |constant_pupil| {
         let lens = thick(ThickParameters { constant_pupil, ..magnified(16.0, 2.0) });
-        lens.etendue_sr(at) / lens.etendue_sr(DVec2::ZERO)
+        lens.projected_solid_angle_sr(at) / lens.projected_solid_angle_sr(DVec2::ZERO)
     };
     let (entrance, exit) = (ratio(ConstantPupil::Entrance), ratio(ConstantPupil::Exit));
     // Small-pupil laws; the disc's excess is of the order of a² = 1/1024.
@@ -188,7 +193,7 @@ fn a_constant_entrance_pupil_conserves_etendue_through_distortion() {
     let area_mm2 = PI * (FOCAL_MM / 400.0) * (FOCAL_MM / 400.0);
     let expected = area_mm2 * direction(at).z * solid_angle_per_mm2;
     // The finite pupil: a² = 6e-6; the differences: h² and ε/h.
-    assert!((lens.etendue_sr(at) / expected - 1.0).abs() < 2e-5);
+    assert!((lens.projected_solid_angle_sr(at) / expected - 1.0).abs() < 2e-5);
 }
 
 /// PHYSICS.md §3: common area of two circles.
@@ -207,12 +212,12 @@ fn a_rim_cuts_the_area_of_two_circles() {
     let lens = thick(ThickParameters { front_aperture: Some(Rim { radius_mm: 0.3, ..rim }), ..thick_parameters(64.0) });
     for tangent in [0.012, 0.02, 0.03, 0.045] {
         let at = DVec2::new(-0.6, 0.8) * FOCAL_MM * tangent;
-        let share = lens.etendue_sr(at) / open.etendue_sr(at);
+        let share = lens.projected_solid_angle_sr(at) / open.projected_solid_angle_sr(at);
         let expected = two_circles(pupil_mm, 0.3, 10.0 * tangent) / (PI * pupil_mm * pupil_mm);
         // The integrand varies over the pupil by 4 T a = 4 · 0.045/128.
         assert!((share - expected).abs() < 1.5e-3, "{tangent}: {share} against {expected}");
     }
-    assert_eq!(lens.etendue_sr(DVec2::new(FOCAL_MM * 0.05, 0.0)), 0.0, "the circles no longer meet");
+    assert_eq!(lens.projected_solid_angle_sr(DVec2::new(FOCAL_MM * 0.05, 0.0)), 0.0, "the circles no longer meet");
 }
 
 #[test]
@@ -225,7 +230,7 @@ fn a_rear_rim_cuts_from_the_other_side() {
     let left = 1.0 - 10.0 / FOCAL_MM;
     let (radius, centre) = (0.2 / left, 0.5 * (10.0 / FOCAL_MM) / left);
     let expected = two_circles(pupil_mm, radius, centre) / (PI * pupil_mm * pupil_mm);
-    let share = lens.etendue_sr(at) / open.etendue_sr(at);
+    let share = lens.projected_solid_angle_sr(at) / open.projected_solid_angle_sr(at);
     // The integrand varies over the pupil by 4 T a = 4 · 0.02/128.
     assert!((share - expected).abs() < 7e-4, "{share} against {expected}");
 }
@@ -243,9 +248,10 @@ fn samples_of_a_clipped_pupil_have_the_quadrature_s_mean() {
     let mut shares = Vec::new();
     for field_mm in [0.5, 2.0, 4.0, 6.0, 8.0, 10.0] {
         let at = DVec2::new(0.28, 0.96) * field_mm;
-        let exact = lens.etendue_sr(at);
+        let exact = lens.projected_solid_angle_sr(at);
         // 512² cells, of which some 4 · 512 lie on an edge, half in: √2048/512² · ½ of the disc, times ten for patterns.
-        let scale = thick(ThickParameters { front_aperture: None, rear_aperture: None, ..parameters }).etendue_sr(at);
+        let scale = thick(ThickParameters { front_aperture: None, rear_aperture: None, ..parameters })
+            .projected_solid_angle_sr(at);
         assert!((sampled_sr(&lens, at, 512) - exact).abs() < 1e-3 * scale, "{field_mm} mm");
         shares.push(exact / scale);
     }

@@ -156,10 +156,10 @@ fn relative_illumination_agrees() {
         let illumination = &figures["illumination"];
         let heights = list(&illumination["heights_mm"]);
         let lens = Lens::prescription(Prescribed::new(lens, None, heights[heights.len() - 1] * 1.05).expect("lit"));
-        let axis = lens.etendue_sr(DVec2::ZERO);
+        let axis = lens.projected_solid_angle_sr(DVec2::ZERO);
         let (relative, absolute) = (list(&illumination["relative"]), list(&illumination["projected_sr"]));
         for ((height, relative), absolute) in heights.iter().zip(relative).zip(absolute) {
-            let own = lens.etendue_sr(DVec2::new(0.0, -height));
+            let own = lens.projected_solid_angle_sr(DVec2::new(0.0, -height));
             assert!(
                 (own / axis / relative - 1.0).abs() < 5e-3,
                 "{} {height}: {} {relative}",

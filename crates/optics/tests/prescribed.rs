@@ -61,8 +61,11 @@ fn few_proposals_fail_and_the_mean_weight_is_the_etendue() {
                 mean_sr += lens.ray(sensor_mm, pupil, 587.56).map_or(0.0, |ray| ray.weight_sr) / 4000.0;
             }
             // Quasi-random points: the share of the region's edge that they miscount, some 1/√4000^(3/2) of a few.
-            let etendue_sr = lens.etendue_sr(sensor_mm);
-            assert!((mean_sr / etendue_sr - 1.0).abs() < 6e-3, "{name} {s_mm}: {mean_sr} {etendue_sr}");
+            let projected_solid_angle_sr = lens.projected_solid_angle_sr(sensor_mm);
+            assert!(
+                (mean_sr / projected_solid_angle_sr - 1.0).abs() < 6e-3,
+                "{name} {s_mm}: {mean_sr} {projected_solid_angle_sr}"
+            );
         }
         let share = failed / all;
         assert!(share < 0.05, "{name}: {share} of the proposals fail");
@@ -142,7 +145,11 @@ fn stopped_down_it_is_the_lens_of_first_order() {
         // E = π τ/4N²(1 − m/m_p)², as the working f-number says; 0.2 mm of 49 mm is f/123, so the disc's own
         // (1 + 1/4N²) is 2e-5.
         let exact = PI / (4.0 * lens.working_f_number() * lens.working_f_number());
-        assert!((lens.etendue_sr(DVec2::ZERO) / exact - 1.0).abs() < 5e-5, "{} {exact}", lens.etendue_sr(DVec2::ZERO));
+        assert!(
+            (lens.projected_solid_angle_sr(DVec2::ZERO) / exact - 1.0).abs() < 5e-5,
+            "{} {exact}",
+            lens.projected_solid_angle_sr(DVec2::ZERO)
+        );
         // Near the axis a tangent t is seen at c t.
         let tangent = lens.tangent(DVec2::new(0.01, -0.02)).expect("inside") * lens.principal_distance_mm();
         assert!((tangent - DVec2::new(0.01, -0.02)).length() < 1e-7, "{tangent}");
@@ -168,7 +175,7 @@ fn light_obeys_the_sine_condition_that_the_double_gauss_is_corrected_for() {
     let lens = Lens::prescription(Prescribed::new(focused(clear, FAR), None, 21.6).expect("lit"));
     let n = lens.f_number();
     let (sine, disc) = (PI / (4.0 * n * n), PI / (1.0 + 4.0 * n * n));
-    let e = lens.etendue_sr(DVec2::ZERO);
+    let e = lens.projected_solid_angle_sr(DVec2::ZERO);
     // Its remaining coma and spherical aberration move the marginal ray by 1 %; the two conventions part by 6 %.
     assert!((e / sine - 1.0).abs() < 0.015 && (e / disc - 1.0).abs() > 0.04, "{e} {sine} {disc}");
     assert!(lens.disperses() && lens.transmittance() == 1.0);
@@ -178,10 +185,12 @@ fn light_obeys_the_sine_condition_that_the_double_gauss_is_corrected_for() {
 fn clipped_principal_rays_give_way_to_the_middle_of_what_is_open() {
     let lens = published("telephoto", 11.0);
     let clipped = DVec2::new(0.0, 8.0);
-    assert!(lens.principal_ray(clipped).is_none() && lens.etendue_sr(clipped) > 0.0);
+    assert!(lens.principal_ray(clipped).is_none() && lens.projected_solid_angle_sr(clipped) > 0.0);
     let truth = lens.truth_ray(clipped).expect("light arrives");
     assert!(truth.off_centre && truth.ray.direction.y > 0.0);
-    assert!(lens.truth_ray(DVec2::new(0.0, 11.5)).is_none() && lens.etendue_sr(DVec2::new(11.5, 0.0)) == 0.0);
+    assert!(
+        lens.truth_ray(DVec2::new(0.0, 11.5)).is_none() && lens.projected_solid_angle_sr(DVec2::new(11.5, 0.0)) == 0.0
+    );
 }
 
 #[test]

@@ -73,7 +73,7 @@ fn uniform_radiance_stays_uniform_and_becomes_the_etendue() {
         let light = irradiance(&picture, &lens, &raster).expect("size");
         for (x, y) in [(0, 0), (31, 25), (63, 47)] {
             let at = raster.sensor_mm(DVec2::new(x as f64 + 0.5, y as f64 + 0.5));
-            let expected = 14.0 * lens.etendue_sr(at);
+            let expected = 14.0 * lens.projected_solid_angle_sr(at);
             assert!((f64::from(light.planes()[1].at(x, y)) / expected - 1.0).abs() < 1e-6);
         }
     }

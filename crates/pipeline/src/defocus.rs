@@ -11,13 +11,13 @@ use rayon::prelude::*;
 /// The nearest thing whose blur is followed from wholly outside of the picture, m.
 const NEAREST_M: f64 = 1.0;
 /// The margin at most, as a share of the picture's longer side.
-const LARGEST_MARGIN: f64 = 0.25;
+const MAX_MARGIN: f64 = 0.25;
 
 /// Pixels around the picture that its depth of field needs: as far as things at 1 m and farther blur, and a quarter of the
 /// picture's longer side at most.
 #[must_use]
 pub fn margin_px(depth_of_field: &DepthOfField, body: &CameraBody) -> usize {
-    let most = LARGEST_MARGIN * body.raster.width().max(body.raster.height()) as f64;
+    let most = MAX_MARGIN * body.raster.width().max(body.raster.height()) as f64;
     depth_of_field.reach_px(&body.lens, &body.raster, NEAREST_M).min(most as usize)
 }
 

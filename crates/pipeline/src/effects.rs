@@ -8,7 +8,7 @@ use etendue_optics::{Lens, ghosts};
 use rayon::prelude::*;
 
 /// What effects leave of a film: a picture.
-pub(crate) struct Behind {
+pub(crate) struct EffectsOutput {
     pub(crate) irradiance: SpectralCube<Irradiance>,
     /// Without that of ghosts, which is far below the picture's own.
     pub(crate) variance: Option<SpectralCube<Variance>>,
@@ -21,9 +21,9 @@ pub(crate) fn behind(
     body: &CameraBody,
     film: SpectralCube<Irradiance>,
     variance: Option<SpectralCube<Variance>>,
-) -> Behind {
+) -> EffectsOutput {
     if body.effects.is_idle() {
-        return Behind { irradiance: film, variance, ghosts: None };
+        return EffectsOutput { irradiance: film, variance, ghosts: None };
     }
     let ghosts = ghosts(body, &film);
     let bands = film.bands();
@@ -35,7 +35,11 @@ pub(crate) fn behind(
         irradiance.planes_mut().iter_mut().zip(ghosts.planes()).for_each(|(sum, plane)| add(sum, plane));
     }
     let variances: Option<Vec<_>> = variances.into_iter().collect();
-    Behind { irradiance, variance: variances.and_then(|planes| SpectralCube::from_planes(bands, planes)), ghosts }
+    EffectsOutput {
+        irradiance,
+        variance: variances.and_then(|planes| SpectralCube::from_planes(bands, planes)),
+        ghosts,
+    }
 }
 
 /// The picture's ghosts, of the film's light.

@@ -78,7 +78,7 @@ pub(crate) fn fingerprint(plan: &Plan, assets: &Assets) -> [u8; 32] {
     hasher.add_assets(assets);
     plan.world.meshes().iter().for_each(|mesh| hasher.add_mesh(mesh));
     hasher.add(&plan.world.instances());
-    hasher.add(&plan.palette);
+    hasher.add(&plan.material_table);
     hasher.add(&plan.sources);
     plan.cameras.iter().for_each(|camera| hasher.add_camera(camera));
     hasher.0.finalize().into()

@@ -22,6 +22,7 @@ pub mod plan;
 pub mod pupil_depth;
 pub mod raw_colour;
 pub mod rays;
+pub mod rectified;
 pub mod remark;
 pub mod render;
 mod shared_light;
@@ -29,7 +30,6 @@ pub mod spectrum_spread;
 pub mod summary;
 pub mod tile;
 pub mod truth;
-pub mod twin;
 mod warnings;
 
 pub use compile::{Choices, Quality, compile, compile_camera, compile_camera_with_remarks};

@@ -42,7 +42,7 @@ pub struct Sampling {
 
 /// What a frame's light is gathered from and into.
 #[derive(Debug)]
-pub struct Exposure<'a, S> {
+pub struct RenderJob<'a, S> {
     /// Makes the rays.
     pub source: &'a S,
     /// Where the camera stands.
@@ -89,7 +89,7 @@ impl<const N: usize> Asked<N> {
 #[error("the rendering was cancelled")]
 pub struct Cancelled;
 
-impl<S: RaySource> Exposure<'_, S> {
+impl<S: RaySource> RenderJob<'_, S> {
     /// Renders the shard's tiles in parallel on the caller's thread pool.
     ///
     /// # Errors
@@ -216,9 +216,9 @@ mod tests {
         }
     }
 
-    fn exposure(tile_px: u32, shard: Shard) -> Exposure<'static, Half> {
+    fn exposure(tile_px: u32, shard: Shard) -> RenderJob<'static, Half> {
         let bands = Bands::covering(400.0, 700.0, 50.0);
-        Exposure {
+        RenderJob {
             source: &Half,
             pose: CameraPose { position_m: DVec3::ZERO, rotation: DMat3::IDENTITY },
             width: 9,

@@ -14,7 +14,7 @@ use glam::DVec2;
 #[derive(Clone, Debug)]
 pub struct LightMeter<'a> {
     sensor: &'a Sensor,
-    etendue_sr: f64,
+    projected_solid_angle_sr: f64,
 }
 
 impl<'a> LightMeter<'a> {
@@ -22,15 +22,17 @@ impl<'a> LightMeter<'a> {
     #[must_use]
     pub fn of(body: &'a CameraBody) -> Option<Self> {
         let size = DVec2::new(body.raster.width() as f64, body.raster.height() as f64);
-        let etendue_sr = body.lens.etendue_sr(body.raster.sensor_mm(size / 2.0));
-        body.sensor.as_ref().map(|sensor| Self { sensor, etendue_sr })
+        let projected_solid_angle_sr = body.lens.projected_solid_angle_sr(body.raster.sensor_mm(size / 2.0));
+        body.sensor.as_ref().map(|sensor| Self { sensor, projected_solid_angle_sr })
     }
 
     /// Mean electrons of each channel for an even radiance, W·m⁻²·sr⁻¹·nm⁻¹, in the described exposure.
     #[must_use]
     pub fn electrons(&self, radiance: &Spectrum) -> Vec<(String, f64)> {
         let channels = self.sensor.parameters().channels.iter().zip(self.sensor.responsivities());
-        let of = |responsivity: &Spectrum| self.etendue_sr * radiance.product(responsivity).integral(300.0, 1100.0);
+        let of = |responsivity: &Spectrum| {
+            self.projected_solid_angle_sr * radiance.product(responsivity).integral(300.0, 1100.0)
+        };
         channels.map(|(channel, responsivity)| (channel.name.clone(), of(responsivity))).collect()
     }
 

@@ -1,7 +1,7 @@
 //! From light to photographs: irradiance, electrons, raw, picture.
 
 use crate::defocus;
-use crate::effects::{Behind, behind, picture};
+use crate::effects::{EffectsOutput, behind, picture};
 use crate::film::{CubeEstimate, Film};
 use crate::plan::{CameraBody, CameraPlan, Development, Route};
 use crate::pupil_depth::PupilDepth;
@@ -94,7 +94,7 @@ impl Light {
         });
         let behind = film.cube.map(|c| behind(body, c.mean, Some(c.variance)));
         let (irradiance, irradiance_variance, ghosts) = match behind {
-            Some(Behind { irradiance, variance, ghosts }) => (Some(irradiance), variance, ghosts),
+            Some(EffectsOutput { irradiance, variance, ghosts }) => (Some(irradiance), variance, ghosts),
             None => (None, None, None),
         };
         let exposure_s = body.sensor.as_ref().map(|sensor| sensor.parameters().exposure.exposure_s);
@@ -117,9 +117,9 @@ impl Light {
         let seen = defocus::seen(stored, body, depth_of_field)?;
         let mut irradiance = irradiance(&seen, &body.lens, &body.film())?;
         if let Some(dirt) = body.front.as_ref().and_then(Front::dirt) {
-            soil(&mut irradiance, dirt, body);
+            apply_dirt(&mut irradiance, dirt, body);
         }
-        let Behind { irradiance, ghosts, .. } = behind(body, irradiance, None);
+        let EffectsOutput { irradiance, ghosts, .. } = behind(body, irradiance, None);
         Ok(Self {
             radiance: None,
             electrons: electrons(body, &irradiance),
@@ -132,7 +132,7 @@ impl Light {
 }
 
 /// Each pixel by the mean of the dirt over its footprint.
-fn soil(irradiance: &mut SpectralCube<Irradiance>, dirt: &Dirt, body: &CameraBody) {
+fn apply_dirt(irradiance: &mut SpectralCube<Irradiance>, dirt: &Dirt, body: &CameraBody) {
     let (width, raster) = (irradiance.width(), body.film());
     let centre = |i: usize| raster.sensor_mm(DVec2::new((i % width) as f64, (i / width) as f64) + 0.5);
     let pixels = (0..width * irradiance.height()).into_par_iter();

@@ -11,7 +11,7 @@ use etendue_sensor::Sensor;
 use etendue_tracer::accel::World;
 use etendue_tracer::integrator::Level;
 use etendue_tracer::lights::Sources;
-use etendue_tracer::materials::Palette;
+use etendue_tracer::materials::MaterialTable;
 use glam::DVec2;
 use std::fmt;
 
@@ -21,7 +21,7 @@ pub struct Plan {
     /// Meshes and instances.
     pub world: World,
     /// Materials and textures.
-    pub palette: Palette,
+    pub material_table: MaterialTable,
     /// What shines but is no surface.
     pub sources: Sources,
     /// What is said of the sky, where the surroundings are one.

@@ -32,7 +32,7 @@ pub fn pupil_depth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> Option<Pupil
         let direction = projection.direction(DVec2::new((i % width) as f64, (i / width) as f64) + 0.5);
         direction.map_or(Seen::Nothing, |direction| {
             let ray = PupilRay { origin_m: DVec3::ZERO, direction, weight_sr: 1.0 };
-            seen(&view, &plan.palette, camera, &FrontRay::bare(ray))
+            seen(&view, &plan.material_table, camera, &FrontRay::bare(ray))
         })
     };
     let pairs = (0..width * height).into_par_iter().map(look).map(|seen| (seen.distance(), seen.depth()));

@@ -2,7 +2,7 @@
 
 use crate::film::Film;
 use crate::gather::Layout;
-use crate::light::{Cancelled, Exposure, RaySource, Sampling};
+use crate::light::{Cancelled, RaySource, RenderJob, Sampling};
 use crate::mosaic::Mosaic;
 use crate::observer::Observer;
 use crate::plan::{CameraBody, CameraPlan, Plan, Route};
@@ -60,7 +60,7 @@ pub fn census(plan: &Plan, camera: &CameraPlan) -> LightCensus {
 }
 
 fn lights(plan: &Plan, camera: &CameraPlan, view: &View<'_>) -> Lights {
-    Lights::new(view, &plan.palette, plan.sources.clone(), camera.settings.range_nm)
+    Lights::new(view, &plan.material_table, plan.sources.clone(), camera.settings.range_nm)
         .expect("a compiled plan names only materials that it has, and nothing moves")
 }
 
@@ -73,7 +73,7 @@ fn through<S: RaySource>(
 ) -> Result<Film, Cancelled> {
     let view = plan.world.view_with(camera.pose.position_m, request.simd);
     let lights = lights(plan, camera, &view);
-    let tracer = PathTracer::new(&view, &plan.palette, &lights, path_settings(camera));
+    let tracer = PathTracer::new(&view, &plan.material_table, &lights, path_settings(camera));
     let settings = &camera.settings;
     let sensor = camera.body.sensor.as_ref().filter(|_| settings.folded);
     let mosaic = sensor.map(|sensor| Mosaic::of(sensor, settings.range_nm, settings.bands.is_some()));
@@ -90,10 +90,10 @@ fn exposure<'a, S>(
     request: Request,
     source: &'a S,
     mosaic: Option<&'a Mosaic>,
-) -> Exposure<'a, S> {
+) -> RenderJob<'a, S> {
     let settings = &camera.settings;
     let (width, height) = camera.film_size();
-    Exposure {
+    RenderJob {
         source,
         pose: camera.pose,
         width,

@@ -67,7 +67,7 @@ fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     let instances = plan.world.instances().len();
     let triangles = format!("{} ({stored} stored)", count(seen, "triangle"));
     line(f, "geometry", format!("{}, {triangles}, {}", count(instances, "instance"), count(spheres, "sphere")))?;
-    let textures = count(plan.palette.textures().len(), "texture");
+    let textures = count(plan.material_table.textures().len(), "texture");
     line(f, "materials", format!("{}, {textures}", plan.materials.len()))?;
     if let Some(sky) = &plan.sky {
         line(f, "sky", self::sky(sky))?;

@@ -7,7 +7,7 @@ use etendue_core::quantity::{Identity, Length, Quantity, Vector};
 use etendue_optics::front::{FrontRay, Optic};
 use etendue_tracer::accel::Simd;
 use etendue_tracer::geometry::SurfacePoint;
-use etendue_tracer::materials::Palette;
+use etendue_tracer::materials::MaterialTable;
 use etendue_tracer::textures::Lookup;
 use etendue_tracer::view::{Truth, View};
 use glam::{DVec2, DVec3};
@@ -73,7 +73,7 @@ pub fn ground_truth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> GroundTruth
     let view = plan.world.view_with(camera.pose.position_m, simd);
     let looks: Vec<Look> = (0..width * height)
         .into_par_iter()
-        .map(|i| look(&view, &plan.palette, camera, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
+        .map(|i| look(&view, &plan.material_table, camera, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
         .collect();
     GroundTruth {
         depth: plane(&looks, width, height, |l| l.seen.depth()),
@@ -112,21 +112,25 @@ fn has_planar_depth(front: &FrontRay) -> bool {
     front.ray.direction.z > 0.0 && front.mirror_m.is_none()
 }
 
-fn look(view: &View<'_>, palette: &Palette, camera: &CameraPlan, raster_px: DVec2) -> Look {
+fn look(view: &View<'_>, material_table: &MaterialTable, camera: &CameraPlan, raster_px: DVec2) -> Look {
     match camera.body.truth_ray(raster_px) {
         None => Look { ray: 0, seen: Seen::Nothing, mirror_m: None },
-        Some((front, off_centre)) => {
-            Look { ray: 1 + u32::from(off_centre), seen: seen(view, palette, camera, &front), mirror_m: front.mirror_m }
-        }
+        Some((front, off_centre)) => Look {
+            ray: 1 + u32::from(off_centre),
+            seen: seen(view, material_table, camera, &front),
+            mirror_m: front.mirror_m,
+        },
     }
 }
 
 /// What a ray that left a camera meets.
-pub(crate) fn seen(view: &View<'_>, palette: &Palette, camera: &CameraPlan, front: &FrontRay) -> Seen {
+pub(crate) fn seen(view: &View<'_>, material_table: &MaterialTable, camera: &CameraPlan, front: &FrontRay) -> Seen {
     let ray = &front.ray;
     let direction = camera.pose.direction_to_world(ray.direction);
     let ahead = has_planar_depth(front);
-    match view.truth(camera.pose.point_to_render(ray.origin_m), direction, |point| is_there(view, palette, point)) {
+    match view
+        .truth(camera.pose.point_to_render(ray.origin_m), direction, |point| is_there(view, material_table, point))
+    {
         None => Seen::Sky { ahead },
         Some(truth) => {
             let depth_m = if ahead { truth.distance_m * ray.direction.z + ray.origin_m.z } else { f64::NAN };
@@ -136,13 +140,13 @@ pub(crate) fn seen(view: &View<'_>, palette: &Palette, camera: &CameraPlan, fron
 }
 
 /// Whether a pixel sees a surface that may be cut out: where at least half of it is there. Panes of glass are seen.
-fn is_there(view: &View<'_>, palette: &Palette, point: &SurfacePoint) -> bool {
-    if !palette.lets_pass(point.material) {
+fn is_there(view: &View<'_>, material_table: &MaterialTable, point: &SurfacePoint) -> bool {
+    if !material_table.lets_pass(point.material) {
         return true;
     }
     let origin = view.local_origin(point.instance);
     let at = Lookup { local: point.local, origin, local_normal: point.local_normal, ..Lookup::point(point.uv) };
-    palette.opacity(point.material, &at) >= 0.5
+    material_table.opacity(point.material, &at) >= 0.5
 }
 
 fn plane<Q: Quantity>(looks: &[Look], width: usize, height: usize, of: impl Fn(&Look) -> Q::Sample) -> Plane<Q> {

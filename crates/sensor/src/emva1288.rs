@@ -14,7 +14,7 @@ use etendue_core::maths::f64::{log2, log10};
 pub const QUANTISATION_DN2: f64 = 1.0 / 12.0;
 
 /// The least temporal variance of dark pixels that tells their noise, DN²: below, rounding decides what is measured.
-pub const LEAST_DARK_DN2: f64 = 0.24;
+pub const MIN_DARK_DN2: f64 = 0.24;
 
 /// Temporal dark noise, e⁻, of a measured deviation of digital numbers (rounding included) at a gain in DN/e⁻; `None` where
 /// rounding alone makes more.

@@ -28,7 +28,7 @@ pub struct ExposureControl {
     pub analogue_gain: [f64; 2],
 }
 
-const LARGEST_STEP: f64 = 16.0;
+const MAX_STEP: f64 = 16.0;
 
 impl ExposureControl {
     pub(crate) fn check(&self, p: &SensorParameters, checks: &mut Checks) {
@@ -57,7 +57,7 @@ impl ExposureControl {
     /// The operating point of the frame after `raw`, which was taken at `point`.
     pub(crate) fn next(&self, raw: &Raw, point: OperatingPoint) -> OperatingPoint {
         let Some(level) = self.level(raw) else { return point };
-        let ratio = (self.target / level.max(1e-9)).clamp(1.0 / LARGEST_STEP, LARGEST_STEP);
+        let ratio = (self.target / level.max(1e-9)).clamp(1.0 / MAX_STEP, MAX_STEP);
         let total = point.exposure_s * point.analogue_gain * pow(ratio, self.damping);
         let exposure_s = (total / self.analogue_gain[0]).clamp(self.exposure_s[0], self.exposure_s[1]);
         let analogue_gain = (total / exposure_s).clamp(self.analogue_gain[0], self.analogue_gain[1]);

@@ -16,7 +16,7 @@
 //! (n_g − n_F)/(n_F − n_C) = 0.6438 − 0.001682 V_d (Schott TIE-29): a third condition that ordinary glasses obey to 1 %
 //! and that fluor crowns and short flints, made to depart from it, do not.
 
-use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
+use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use std::sync::LazyLock;
 
 /// The helium d line, nm: the wavelength of n_d.
@@ -130,7 +130,7 @@ impl Dispersion {
     /// # Errors
     /// Where the index leaves 1 to 5 between 300 and 1 100 nm.
     pub fn checked(self) -> Result<Self, GlassError> {
-        let grid = (SHORTEST_NM as u32..=LONGEST_NM as u32).map(f64::from);
+        let grid = (SHORTEST_NM as u32..=MAX_NM as u32).map(f64::from);
         let outside = grid.map(|nm| (nm, self.index(nm))).find(|(_, n)| !(1.0..=5.0).contains(n));
         outside.map_or(Ok(self), |(nm, n)| Err(GlassError::Range { nm, n }))
     }

@@ -1,7 +1,7 @@
 //! A function of wavelength.
 
 use crate::table::{self, Place, SpectrumError};
-use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
+use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_core::{Bands, Spectral, Wavelengths};
 
 /// Nodes of the grid: 300, 301, … 1 100 nm.
@@ -38,7 +38,7 @@ impl Spectrum {
     #[must_use]
     pub fn from_fn(mut f: impl FnMut(f64) -> f64) -> Self {
         let values = (0..NODES).map(|i| f(node_nm(i)) as f32).collect();
-        Self { values: boxed(values), covered_nm: (SHORTEST_NM, LONGEST_NM) }
+        Self { values: boxed(values), covered_nm: (SHORTEST_NM, MAX_NM) }
     }
 
     /// A spectrum through points (wavelength in nm, value), wavelengths rising; linear between points.
@@ -66,7 +66,7 @@ impl Spectrum {
     pub(crate) fn from_checked(points: &[(f64, f64)], outside: Outside) -> Self {
         let values = (0..NODES).map(|i| table::node_value(points, outside, node_nm(i)) as f32).collect();
         let (first, last) = (points[0].0, points[points.len() - 1].0);
-        Self { values: boxed(values), covered_nm: (first.max(SHORTEST_NM), last.min(LONGEST_NM)) }
+        Self { values: boxed(values), covered_nm: (first.max(SHORTEST_NM), last.min(MAX_NM)) }
     }
 
     /// The value at a wavelength of 300 to 1 100 nm; the end value beyond.
@@ -88,7 +88,7 @@ impl Spectrum {
     /// The unit is the value's × nm.
     #[must_use]
     pub fn integral(&self, low_nm: f64, high_nm: f64) -> f64 {
-        let (low, high) = (low_nm.max(SHORTEST_NM) - SHORTEST_NM, high_nm.min(LONGEST_NM) - SHORTEST_NM);
+        let (low, high) = (low_nm.max(SHORTEST_NM) - SHORTEST_NM, high_nm.min(MAX_NM) - SHORTEST_NM);
         if low >= high {
             return 0.0;
         }

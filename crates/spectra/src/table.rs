@@ -2,7 +2,7 @@
 
 use crate::Spectrum;
 use crate::spectrum::Outside;
-use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
+use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 
 /// Where in a table something is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,7 +94,7 @@ pub(crate) fn check(points: &[(f64, f64)], place: impl Fn(usize) -> Place) -> Re
     let (Some((low, _)), Some((high, _))) = (points.first().copied(), points.last().copied()) else {
         return Err(SpectrumError::Empty);
     };
-    if low <= LONGEST_NM && high >= SHORTEST_NM { Ok(()) } else { Err(SpectrumError::OutOfRange { low, high }) }
+    if low <= MAX_NM && high >= SHORTEST_NM { Ok(()) } else { Err(SpectrumError::OutOfRange { low, high }) }
 }
 
 /// The checked points of a text of two columns.

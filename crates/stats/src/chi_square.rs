@@ -33,7 +33,7 @@ impl ChiSquareTest {
 }
 
 /// A pooled bin needs this many expected counts for χ² to hold (Cochran 1954).
-const LEAST_EXPECTED: f64 = 5.0;
+const MIN_EXPECTED: f64 = 5.0;
 
 /// Whether `observed` counts come from a distribution that expects `expected` counts (same total, nothing fitted).
 ///
@@ -48,7 +48,7 @@ pub fn goodness_of_fit(observed: &[u64], expected: &[f64]) -> Option<ChiSquareTe
         return ChiSquareTest::new(f64::INFINITY, observed.len());
     }
     let pairs = observed.iter().zip(expected).map(|(o, e)| (*o as f64, *e));
-    let bins = pooled(pairs, |bin| bin.1 >= LEAST_EXPECTED);
+    let bins = pooled(pairs, |bin| bin.1 >= MIN_EXPECTED);
     let statistic = bins.iter().map(|(o, e)| (o - e) * (o - e) / e).sum();
     ChiSquareTest::new(statistic, bins.len())
 }
@@ -65,7 +65,7 @@ pub fn same_distribution(a: &[u64], b: &[u64]) -> Option<ChiSquareTest> {
     }
     let smaller_share = total_a.min(total_b) / (total_a + total_b);
     let pairs = a.iter().zip(b).map(|(x, y)| (*x as f64, *y as f64));
-    let bins = pooled(pairs, |bin| (bin.0 + bin.1) * smaller_share >= LEAST_EXPECTED);
+    let bins = pooled(pairs, |bin| (bin.0 + bin.1) * smaller_share >= MIN_EXPECTED);
     let (k_a, k_b) = ((total_b / total_a).sqrt(), (total_a / total_b).sqrt());
     let statistic = bins.iter().map(|(x, y)| (k_a * x - k_b * y) * (k_a * x - k_b * y) / (x + y)).sum();
     ChiSquareTest::new(statistic, bins.len())

@@ -14,12 +14,12 @@ mod truth;
 
 pub use truth::Truth;
 
-use crate::accel::top::Top;
+use crate::accel::tlas::Tlas;
 use crate::accel::{Simd, World};
 use crate::geometry::{Footprint, Shape, SurfacePoint};
 use etendue_core::Ray;
 use glam::{DVec3, Vec2, Vec3};
-pub(crate) use place::{Placed, uniform_scale};
+pub(crate) use place::{InstanceTransform, uniform_scale};
 
 /// What a ray meets first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,13 +41,13 @@ pub struct Hit {
 pub struct View<'w> {
     world: &'w World,
     origin_m: DVec3,
-    top: Top<'w>,
+    top: Tlas<'w>,
 }
 
 impl<'w> View<'w> {
     pub(crate) fn new(world: &'w World, origin_m: DVec3, simd: Simd) -> Self {
-        let placed: Vec<_> = world.instances().iter().map(|i| Placed::new(i, origin_m)).collect();
-        Self { world, origin_m, top: Top::new(world, placed, simd) }
+        let placed: Vec<_> = world.instances().iter().map(|i| InstanceTransform::new(i, origin_m)).collect();
+        Self { world, origin_m, top: Tlas::new(world, placed, simd) }
     }
 
     /// The world that is seen.
@@ -131,7 +131,7 @@ impl<'w> View<'w> {
     }
 
     /// An instance's place.
-    pub(crate) fn placed(&self, instance: u32) -> &Placed {
+    pub(crate) fn placed(&self, instance: u32) -> &InstanceTransform {
         &self.top.placed()[instance as usize]
     }
 

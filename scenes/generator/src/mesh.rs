@@ -47,7 +47,7 @@ pub struct Mesh {
 const CREASE_COS: f64 = 0.79;
 
 /// Faces below this area, m², are left out.
-const LEAST_AREA_M2: f64 = 1e-7;
+const MIN_AREA_M2: f64 = 1e-7;
 
 impl Mesh {
     /// The slot of this name, made when new.
@@ -92,7 +92,7 @@ impl Mesh {
         let slot = self.slot(slot);
         for corners in flattened(corners) {
             let polygon = Polygon { corners, slot, smooth };
-            if polygon.area_normal().length() > LEAST_AREA_M2 {
+            if polygon.area_normal().length() > MIN_AREA_M2 {
                 self.polygons.push(polygon);
             }
         }

@@ -8,7 +8,7 @@ use etendue_core::maths::f64::exp;
 use etendue_core::quantity::LinearRgb;
 use etendue_io::load_assets;
 use etendue_pipeline::plan::CameraPlan;
-use etendue_pipeline::twin::Twin;
+use etendue_pipeline::rectified::RectifiedCamera;
 use etendue_pipeline::{Choices, compile};
 use etendue_scene::{Description, Overrides};
 use etendue_tests::Shot;
@@ -155,7 +155,7 @@ fn the_charts_of_the_figures_are_still_those_of_this_program() {
 fn an_undistorted_chart_is_a_pinhole_s() {
     let View { shot, picture } = view("perspective", 3);
     let camera = shot.camera();
-    let twin = Twin::of(&camera.body, 0.9).expect("a twin");
+    let twin = RectifiedCamera::of(&camera.body, 0.9).expect("a twin");
     let straight = twin.resampled(&camera.body, &picture);
     let (mut off, mut moved) = (Vec::new(), 0.0_f64);
     for point in board() {

@@ -19,9 +19,9 @@ const REACH: f64 = 0.8;
 /// Texels of a pixel, each way.
 const TEXELS: f64 = 4.0;
 /// Largest side of a texture.
-const MOST_TEXELS: f64 = 6000.0;
+const MAX_TEXELS: f64 = 6000.0;
 /// Radius of the smallest leaf that a texel's middle can be expected to see, texels.
-const LEAST_RADIUS: f64 = 0.5;
+const MIN_RADIUS: f64 = 0.5;
 /// Darkest and lightest leaf.
 const GREYS: (f64, f64) = (0.1, 0.7);
 
@@ -37,7 +37,7 @@ pub struct DeadLeaves {
 impl DeadLeaves {
     pub(super) fn draw(&self, seen: &Footprint, seed: u64) -> Result<Drawing, ChartError> {
         let side = REACH * seen.inner_mm.min_element();
-        let texels = (TEXELS * side / seen.pixel_mm).min(MOST_TEXELS).round().max(16.0);
+        let texels = (TEXELS * side / seen.pixel_mm).min(MAX_TEXELS).round().max(16.0);
         let (smallest, largest) = (self.smallest_px * seen.pixel_mm / side, self.largest_ratio);
         if !(self.smallest_px > 0.0 && smallest < largest) {
             let told = "expected a radius above 0 px and below that of the largest leaves";
@@ -50,8 +50,8 @@ impl DeadLeaves {
                 "expected a share of the side, above 0 and at most 0.5",
             ));
         }
-        if smallest * texels < LEAST_RADIUS {
-            let least_px = LEAST_RADIUS * side / (texels * seen.pixel_mm);
+        if smallest * texels < MIN_RADIUS {
+            let least_px = MIN_RADIUS * side / (texels * seen.pixel_mm);
             let told = format!("leaves smaller than half a texel are not drawn: expected {least_px:.4} px or more");
             return Err(ChartError::option("smallest-px", self.smallest_px, told));
         }

@@ -34,10 +34,10 @@ fn usual_columns(width_px: f64) -> u32 {
     const MOST: f64 = 33.0;
     const FEW: f64 = 6.0;
     const STEP_PX: f64 = 24.0;
-    const LEAST_STEP_PX: f64 = 12.0;
+    const MIN_STEP_PX: f64 = 12.0;
     // Rounding shall not take the last column away.
     let fit = |step: f64| (width_px / step * (1.0 + 1e-9)).floor();
-    fit(STEP_PX).max(fit(LEAST_STEP_PX).min(FEW)).clamp(3.0, MOST) as u32
+    fit(STEP_PX).max(fit(MIN_STEP_PX).min(FEW)).clamp(3.0, MOST) as u32
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use etendue_spectra::colour::encode;
 use glam::DVec2;
 
 /// More pixels than this are taken for a slip.
-const MOST_PX: f64 = 2e8;
+const MAX_PX: f64 = 2e8;
 const MM_PER_INCH: f64 = 25.4;
 
 /// The first sheet, sRGB-encoded, at `dpi` pixels an inch. Coverage is exact; colours are mixed in linear light.
@@ -24,7 +24,7 @@ pub fn picture(drawing: &Drawing, dpi: f64) -> Result<Plane<Display>, ChartError
     let sheet = &drawing.panels[0].sheet;
     let px_per_mm = dpi / MM_PER_INCH;
     let size = (sheet.size_mm * px_per_mm).round();
-    if !(dpi > 0.0 && size.min_element() >= 1.0 && size.element_product() <= MOST_PX) {
+    if !(dpi > 0.0 && size.min_element() >= 1.0 && size.element_product() <= MAX_PX) {
         let [w, h] = sheet.size_mm.to_array();
         let told =
             format!("a sheet of {w:.0} x {h:.0} mm has {:.0} x {:.0} pixels then; expected 1 to 2e8", size.x, size.y);

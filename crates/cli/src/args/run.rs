@@ -1,16 +1,16 @@
 //! Seeds, frames, shards and levels as typed.
 
 use etendue::{Levels, ShardSpec};
-use etendue_scene::record::render::LARGEST_SEED;
+use etendue_scene::record::render::MAX_SEED;
 
 /// A seed, as the key `seed` admits it.
 pub fn seed(text: &str) -> Result<u64, String> {
-    let seed = text.parse().ok().filter(|seed| *seed <= LARGEST_SEED);
-    seed.ok_or_else(|| format!("expected a whole number from 0 to {LARGEST_SEED}, not '{text}'"))
+    let seed = text.parse().ok().filter(|seed| *seed <= MAX_SEED);
+    seed.ok_or_else(|| format!("expected a whole number from 0 to {MAX_SEED}, not '{text}'"))
 }
 
 /// Frames that one run takes at most.
-const MOST_FRAMES: usize = 100_000;
+const MAX_FRAMES: usize = 100_000;
 
 pub fn frames(text: &str) -> Result<std::ops::Range<u32>, String> {
     let expected = || format!("expected FIRST..END with FIRST < END, e.g. 0..10, not '{text}'");
@@ -19,7 +19,7 @@ pub fn frames(text: &str) -> Result<std::ops::Range<u32>, String> {
     let range = number(first)?..number(end)?;
     match range.len() {
         0 => Err(expected()),
-        count if count > MOST_FRAMES => Err(format!("{count} frames; one run takes at most {MOST_FRAMES}")),
+        count if count > MAX_FRAMES => Err(format!("{count} frames; one run takes at most {MAX_FRAMES}")),
         _ => Ok(range),
     }
 }
@@ -62,7 +62,7 @@ mod tests {
 
     #[test]
     fn seeds_and_frames_are_as_many_as_keys_and_memory_hold() {
-        assert_eq!(seed("9223372036854775807"), Ok(LARGEST_SEED));
+        assert_eq!(seed("9223372036854775807"), Ok(MAX_SEED));
         assert!(seed("9223372036854775808").is_err() && seed("-1").is_err());
         assert_eq!(frames("0..100000"), Ok(0..100_000));
         assert_eq!(frames("0..100001"), Err("100001 frames; one run takes at most 100000".to_owned()));

@@ -10,7 +10,7 @@ use super::truth::{Truth, TruthInput};
 use crate::error::Error;
 use crate::observer::Observer;
 use etendue_io::photograph::{Photograph, Stated};
-use etendue_metrology::calibrate::LEAST_VIEWS;
+use etendue_metrology::calibrate::MIN_VIEWS;
 use etendue_metrology::target::{Grid, Sought, Target, TargetError, find};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicUsize;
@@ -168,7 +168,7 @@ impl From<Unseen> for Error {
 pub(crate) type WithoutChart = (PathBuf, TargetError);
 
 /// The charts of several pictures of one size, and the pictures in which there is none, with the reason. A picture that is there twice is
-/// refused, and so are all where fewer than [`LEAST_VIEWS`] of several show the chart.
+/// refused, and so are all where fewer than [`MIN_VIEWS`] of several show the chart.
 pub(crate) fn all(
     chart: &ChartInput,
     files: &[PathBuf],
@@ -189,7 +189,7 @@ pub(crate) fn all(
             Err(Unseen::Failed(other)) => return Err(other),
         }
     }
-    if views.len() < LEAST_VIEWS {
+    if views.len() < MIN_VIEWS {
         faults.extend(too_few(&without, views.len()));
     }
     if faults.is_empty() { Ok((views, without)) } else { Err(Error::Input(faults)) }

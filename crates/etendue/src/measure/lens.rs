@@ -257,7 +257,7 @@ fn simple_field(lens: &Lens, at_mm: DVec2) -> (Option<f64>, Option<f64>, f64) {
     let angle = lens.angle_between_rad(DVec2::ZERO, at_mm).map(f64::to_degrees);
     let ideal = lens.tangent(at_mm).map(|t| t.length() * lens.principal_distance_mm());
     let distortion = ideal.filter(|r| r.is_finite() && *r > 0.0).map(|r| at_mm.length() / r - 1.0);
-    (angle, distortion, lens.etendue_sr(at_mm) / lens.etendue_sr(DVec2::ZERO))
+    (angle, distortion, lens.projected_solid_angle_sr(at_mm) / lens.projected_solid_angle_sr(DVec2::ZERO))
 }
 
 fn simple_json(body: &CameraBody, fields: usize) -> Value {

@@ -15,7 +15,7 @@ use etendue_io::{Provenance, png};
 use etendue_pipeline::photograph::{Frame, take, take_with_breakdown};
 use etendue_pipeline::plan::{CameraBody, Development, PictureFormat, Products, RawFormat};
 use etendue_pipeline::raw_colour::RawColour;
-use etendue_pipeline::twin::Twin;
+use etendue_pipeline::rectified::RectifiedCamera;
 use etendue_sensor::{FrameAddress, Raw, SensorState, SignalBreakdown, SignalComponent};
 use serde_json::Value;
 use std::ops::Range;
@@ -30,7 +30,7 @@ pub(crate) struct Wanted<'a> {
     /// The facts of files that tell them.
     pub(crate) facts: &'a Provenance,
     /// The twin whose pictures are wanted as well.
-    pub(crate) undistorted: Option<&'a Twin>,
+    pub(crate) undistorted: Option<&'a RectifiedCamera>,
     /// Who is told of pixels without valid light.
     pub(crate) observer: &'a dyn Observer,
 }

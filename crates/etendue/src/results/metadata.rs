@@ -10,7 +10,7 @@ use etendue_io::Provenance;
 use etendue_optics::front::Optic;
 use etendue_optics::{Cube, DepthOfField, Face, Front, Lens, PointSpread, PupilProjection, View, Window};
 use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, Route};
-use etendue_pipeline::twin::Twin;
+use etendue_pipeline::rectified::RectifiedCamera;
 use etendue_projection::Sense;
 use glam::DVec2;
 use serde_json::{Value, json};
@@ -72,7 +72,7 @@ pub(crate) fn radiance_provenance(plan: &Plan, camera: &CameraPlan) -> Provenanc
 }
 
 /// The facts of an undistorted twin's results.
-pub(crate) fn undistorted_provenance(plan: &Plan, camera: &CameraPlan, twin: &Twin) -> Provenance {
+pub(crate) fn undistorted_provenance(plan: &Plan, camera: &CameraPlan, twin: &RectifiedCamera) -> Provenance {
     let mut facts = provenance(plan, camera);
     UNDISTORTED.clone_into(&mut facts.geometry);
     let matrix = twin.matrix;
@@ -82,7 +82,7 @@ pub(crate) fn undistorted_provenance(plan: &Plan, camera: &CameraPlan, twin: &Tw
 }
 
 /// What the side-car says of an undistorted twin.
-pub(crate) fn undistorted(twin: &Twin) -> Value {
+pub(crate) fn undistorted(twin: &RectifiedCamera) -> Value {
     json!({
         "camera_matrix": twin.matrix.rows(),
         "camera_matrix_convention": RASTER,

@@ -18,8 +18,8 @@ use etendue_pipeline::photograph::{Frame, Light};
 use etendue_pipeline::plan::{CameraPlan, Plan};
 use etendue_pipeline::pupil_depth::{PupilDepth, pupil_depth};
 use etendue_pipeline::rays::{RayTable, ray_table};
+use etendue_pipeline::rectified::RectifiedCamera;
 use etendue_pipeline::truth::{GroundTruth, ground_truth};
-use etendue_pipeline::twin::Twin;
 use etendue_sensor::FrameAddress;
 use etendue_tracer::accel::Simd;
 use std::ops::Range;
@@ -42,7 +42,7 @@ pub struct CameraResults {
     camera: usize,
     light: Light,
     depth: Option<PupilDepth>,
-    undistorted: Option<Twin>,
+    undistorted: Option<RectifiedCamera>,
     frames: Range<u32>,
     simd: Simd,
 }
@@ -60,8 +60,9 @@ impl CameraResults {
         let light = Light::of_film(camera, film, depth.as_ref())
             .map_err(|error| Error::Run(format!("camera {}: {error}", camera.name)))?;
         let undistorted = camera.products.undistorted;
-        let undistorted = undistorted
-            .map(|scale| Twin::of(&camera.body, scale).expect("a compiled plan's camera has its rectified twin"));
+        let undistorted = undistorted.map(|scale| {
+            RectifiedCamera::of(&camera.body, scale).expect("a compiled plan's camera has its rectified twin")
+        });
         let (frames, simd) = (options.frames.clone(), options.simd);
         Ok(Self { plan: Arc::clone(plan), camera: place, light, depth, undistorted, frames, simd })
     }

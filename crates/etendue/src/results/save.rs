@@ -11,8 +11,8 @@ use crate::observer::Observer;
 use etendue_io::exr::{self, Lengths, encode_ground_truth, encode_plane, encode_radiance, encode_rays};
 use etendue_io::{Existing, OutputFolder, png};
 use etendue_pipeline::rays::{RayTable, ray_table};
+use etendue_pipeline::rectified::RectifiedCamera;
 use etendue_pipeline::truth::{GroundTruth, ground_truth};
-use etendue_pipeline::twin::Twin;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -147,7 +147,7 @@ impl CameraResults {
     }
 
     /// Ground truth and rays of the undistorted twin.
-    fn write_undistorted(&self, twin: &Twin, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+    fn write_undistorted(&self, twin: &RectifiedCamera, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
         let camera = self.camera();
         let facts = metadata::undistorted_provenance(&self.plan, camera, twin);
         if camera.products.rays {

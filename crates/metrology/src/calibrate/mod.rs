@@ -39,7 +39,7 @@ pub use error::CalibrateError;
 pub use family::{Family, Radial};
 pub use pose::Pose;
 pub use result::{Calibrated, Parameter};
-pub use spare::{LEAST_VIEWS, Spared, calibrate_sparing};
+pub use spare::{MIN_VIEWS, Spared, calibrate_sparing};
 
 use problem::Bundle;
 
@@ -87,7 +87,7 @@ pub struct Options {
 }
 
 /// Least of points of a view.
-const LEAST_POINTS: usize = 6;
+const MIN_POINTS: usize = 6;
 
 /// The camera of a picture size that saw the views.
 ///
@@ -119,8 +119,8 @@ pub fn calibrate_as_stated(
     family: Family,
     options: Options,
 ) -> Result<Calibrated, CalibrateError> {
-    if let Some(view) = views.iter().position(|v| v.points.len() < LEAST_POINTS) {
-        return Err(CalibrateError::Sparse { view, points: views[view].points.len(), least: LEAST_POINTS });
+    if let Some(view) = views.iter().position(|v| v.points.len() < MIN_POINTS) {
+        return Err(CalibrateError::Sparse { view, points: views[view].points.len(), least: MIN_POINTS });
     }
     if views.is_empty() {
         return Err(CalibrateError::NoViews);

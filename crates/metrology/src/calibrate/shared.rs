@@ -26,7 +26,7 @@ use std::collections::BTreeMap;
 const AXES: [usize; 2] = [0, 1];
 const KINDS: usize = 4;
 /// Student's variance of fewer free lines than three would be without limit.
-const LARGEST_STUDENT: f64 = 3.0;
+const MAX_STUDENT: f64 = 3.0;
 
 /// A coordinate of the points of a row or column of one view.
 struct Line {
@@ -124,7 +124,7 @@ fn of(unit: &Matrix, lines: &[Line], fit: &Fit) -> Matrix {
 }
 
 fn student(freedom: f64) -> f64 {
-    if freedom > 3.0 { (freedom / (freedom - 2.0)).min(LARGEST_STUDENT) } else { LARGEST_STUDENT }
+    if freedom > 3.0 { (freedom / (freedom - 2.0)).min(MAX_STUDENT) } else { MAX_STUDENT }
 }
 
 /// σ² and the four τ².

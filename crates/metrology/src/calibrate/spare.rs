@@ -17,7 +17,7 @@ pub struct Spared {
 }
 
 /// Least of views that make a camera by themselves: as many must be left where others are left out.
-pub const LEAST_VIEWS: usize = 3;
+pub const MIN_VIEWS: usize = 3;
 /// A view this many times farther off than the median of the others is tried without, and left out where that makes the others' distances
 /// half as large.
 const STRAY: f64 = 5.0;
@@ -40,7 +40,7 @@ pub fn calibrate_sparing(
     let mut kept: Vec<usize> = (0..views.len()).collect();
     let mut left_out = Vec::new();
     loop {
-        let may = kept.len() > LEAST_VIEWS && 3 * (kept.len() - 1) >= 2 * views.len();
+        let may = kept.len() > MIN_VIEWS && 3 * (kept.len() - 1) >= 2 * views.len();
         let (next, reason) = match of(&kept) {
             Ok(camera) => match stray(&camera).filter(|_| may) {
                 Some(v) => match of(&without(&kept, v)) {

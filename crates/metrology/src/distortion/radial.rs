@@ -35,7 +35,7 @@ impl RadialFit {
         half_diagonal_px: f64,
     ) -> Result<Self, FitError> {
         let pairs: Vec<[DVec2; 2]> = points.iter().map(|p| [p.chart, p.at]).collect();
-        let few = FitError::Few { residuals: 2 * pairs.len(), parameters: 12 };
+        let few = FitError::Underdetermined { residuals: 2 * pairs.len(), parameters: 12 };
         let start = Homography::direct(&pairs).ok_or(few)?;
         let (chart, size) = middle(&pairs);
         let problem = Radial { points, sense, half_diagonal_px, centre, free: false, chart, size };

@@ -71,7 +71,7 @@ pub enum FitError {
     #[error(
         "{residuals} observed numbers do not determine {parameters} parameters: give more points or views, or fit fewer coefficients"
     )]
-    Few {
+    Underdetermined {
         /// Residuals.
         residuals: usize,
         /// Parameters.
@@ -79,12 +79,12 @@ pub enum FitError {
     },
     /// It cannot begin.
     #[error("the fit's first guess cannot be evaluated: the points do not suit the model; choose another model")]
-    Start,
+    BadInitialGuess,
     /// It does not end.
     #[error(
         "the fit does not settle after {steps} steps: the model does not suit the points; choose another model, or fit fewer coefficients"
     )]
-    Restless {
+    NotConverged {
         /// Steps taken.
         steps: usize,
     },
@@ -100,29 +100,29 @@ const STEPS: usize = 200;
 /// [`FitError`].
 pub fn fit<P: Problem>(problem: &P, start: &[f64]) -> Result<Fit, FitError> {
     let mut at = start.to_vec();
-    let mut residuals = evaluate(problem, &at).ok_or(FitError::Start)?;
+    let mut residuals = evaluate(problem, &at).ok_or(FitError::BadInitialGuess)?;
     let count: usize = residuals.iter().map(Vec::len).sum();
     if count <= at.len() {
-        return Err(FitError::Few { residuals: count, parameters: at.len() });
+        return Err(FitError::Underdetermined { residuals: count, parameters: at.len() });
     }
     let mut lambda = 1e-3;
     for _ in 0..STEPS {
-        let (normal, gradient) = normal_equations(problem, &at, &residuals).ok_or(FitError::Start)?;
+        let (normal, gradient) = normal_equations(problem, &at, &residuals).ok_or(FitError::BadInitialGuess)?;
         let Some(better) = improved(problem, &at, &residuals, (&normal, &gradient), &mut lambda) else {
             return Ok(finished(at, residuals, &normal, count));
         };
         let settled = squares(&residuals) - squares(&better.1) <= GAIN * squares(&residuals);
         (at, residuals) = better;
         if settled {
-            let (normal, _) = normal_equations(problem, &at, &residuals).ok_or(FitError::Start)?;
+            let (normal, _) = normal_equations(problem, &at, &residuals).ok_or(FitError::BadInitialGuess)?;
             return Ok(finished(at, residuals, &normal, count));
         }
     }
-    let (normal, _) = normal_equations(problem, &at, &residuals).ok_or(FitError::Start)?;
+    let (normal, _) = normal_equations(problem, &at, &residuals).ok_or(FitError::BadInitialGuess)?;
     let fit = finished(at, residuals, &normal, count);
     // A valley without end: what is undetermined is said by its covariance.
     let open = (0..fit.parameters.len()).any(|i| fit.covariance.at(i, i).is_infinite());
-    if open { Ok(fit) } else { Err(FitError::Restless { steps: STEPS }) }
+    if open { Ok(fit) } else { Err(FitError::NotConverged { steps: STEPS }) }
 }
 
 fn evaluate<P: Problem>(problem: &P, at: &[f64]) -> Option<Vec<Vec<f64>>> {
@@ -310,7 +310,7 @@ mod tests {
         assert!((fit.parameters[0] - 3.0).abs() < 1e-9 && (fit.parameters[1] - 0.7).abs() < 1e-9, "{fit:?}");
         assert!(matches!(
             super::fit(&decay(&[0.0; 2]), &[1.0, 0.1]),
-            Err(FitError::Few { residuals: 2, parameters: 2 })
+            Err(FitError::Underdetermined { residuals: 2, parameters: 2 })
         ));
     }
 

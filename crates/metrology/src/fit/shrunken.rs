@@ -35,7 +35,7 @@ pub struct Shrunken {
 const RUNGS: i32 = 16;
 const FIRST: i32 = -4;
 /// Weight, over the largest, below which a rung is left out.
-const LEAST_WEIGHT: f64 = 1e-2;
+const MIN_WEIGHT: f64 = 1e-2;
 /// Rounding of an observation of size 1.
 const ROUNDING: f64 = 1e-12;
 
@@ -54,7 +54,7 @@ struct Rung {
 /// # Errors
 /// Where there are too few observations, or the free columns depend on one another.
 pub fn shrunken(design: &Matrix, values: &[f64], free: usize) -> Result<Shrunken, FitError> {
-    let few = || FitError::Few { residuals: values.len(), parameters: free };
+    let few = || FitError::Underdetermined { residuals: values.len(), parameters: free };
     // Student's variance, ν/(ν − 2), needs more than two.
     if values.len() < free + 3 {
         return Err(few());
@@ -68,7 +68,7 @@ pub fn shrunken(design: &Matrix, values: &[f64], free: usize) -> Result<Shrunken
     let rungs: Vec<Rung> = rungs.collect();
     let best = rungs.iter().map(|r| r.unlikely).reduce(f64::min).ok_or_else(few)?;
     let weight = |r: &Rung| exp(0.5 * (best - r.unlikely));
-    let kept: Vec<(f64, &Rung)> = rungs.iter().map(|r| (weight(r), r)).filter(|(w, _)| *w > LEAST_WEIGHT).collect();
+    let kept: Vec<(f64, &Rung)> = rungs.iter().map(|r| (weight(r), r)).filter(|(w, _)| *w > MIN_WEIGHT).collect();
     let whole: f64 = kept.iter().map(|(w, _)| w).sum();
     let kept: Vec<(f64, &Rung)> = kept.into_iter().map(|(w, r)| (w / whole, r)).collect();
     Ok(mean(&kept, freedom))

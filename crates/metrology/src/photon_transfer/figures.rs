@@ -25,7 +25,7 @@ use crate::propagate::{propagate, propagate_curved};
 /// Quantisation noise, DN².
 const QUANTISATION_DN2: f64 = 1.0 / 12.0;
 /// The least dark variance that the standard lets count, DN²: below it quantisation rules.
-const LEAST_DARK_VARIANCE_DN2: f64 = 0.24;
+const MIN_DARK_VARIANCE_DN2: f64 = 0.24;
 
 /// What a photon transfer curve says.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -193,7 +193,7 @@ impl<'a> Values<'a> {
         let r = through_zero((0..end).map(|i| (self.point(i).0, self.point(i).1)));
         let eta = r / k;
         let (level, mean_slope, variance, variance_slope) = self.dark_lines();
-        let variance = variance.max(LEAST_DARK_VARIANCE_DN2);
+        let variance = variance.max(MIN_DARK_VARIANCE_DN2);
         let dark_e = (variance - QUANTISATION_DN2).sqrt() / k;
         let emin = variance.sqrt() / k + 0.5;
         let psat = self.x[self.x.len() - 1];

@@ -30,7 +30,7 @@ pub(super) struct Covariance {
 }
 
 /// The least share of the variance without shared noise that is believed.
-const LEAST_SHARE: f64 = 0.1;
+const MIN_SHARE: f64 = 0.1;
 
 impl Covariance {
     /// Of coefficients that fit samples with these residuals; `inverse` is B.
@@ -53,7 +53,7 @@ impl Covariance {
     pub(super) fn variance(&self, weights: &[f64]) -> f64 {
         let own = self.own.form(weights).max(0.0);
         let shared = self.shared.as_ref().map(|c| c.form(weights));
-        shared.filter(|v| *v > LEAST_SHARE * own).unwrap_or(own)
+        shared.filter(|v| *v > MIN_SHARE * own).unwrap_or(own)
     }
 }
 

@@ -5,11 +5,11 @@ use crate::Image;
 use etendue_core::maths::f64::{atan, atan2, tan};
 
 /// Angles to rows, columns and diagonals that are refused, degrees.
-const LEAST_ANGLE_DEG: f64 = 1.9;
+const MIN_ANGLE_DEG: f64 = 1.9;
 /// The same of the first estimate, which is a third of a degree off at worst.
-const LEAST_FIRST_ANGLE_DEG: f64 = 0.8;
+const MIN_FIRST_ANGLE_DEG: f64 = 0.8;
 /// The share of the gradients' power that an edge's normal must hold over noise that has no direction.
-const LEAST_ANISOTROPY: f64 = 0.2;
+const MIN_ANISOTROPY: f64 = 0.2;
 
 /// What an edge runs along, nearly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +40,7 @@ impl Edge {
             return Err(SfrError::NoEdge("the picture is even"));
         }
         let spread = ((xx - yy) * (xx - yy) + 4.0 * xy * xy).sqrt();
-        if spread < LEAST_ANISOTROPY * (xx + yy) {
+        if spread < MIN_ANISOTROPY * (xx + yy) {
             return Err(SfrError::NoEdge("its gradients have no common direction"));
         }
         let normal_rad = 0.5 * atan2(2.0 * xy, xx - yy);
@@ -48,7 +48,7 @@ impl Edge {
         // The normal (cos α, sin α) of an edge x = c + s y is (1, −s); with x and y exchanged for a flat one.
         let slope = if vertical { -tan(normal_rad) } else { -1.0 / tan(normal_rad) };
         let angle_deg = atan(slope.abs()).to_degrees();
-        if !(LEAST_FIRST_ANGLE_DEG..=45.0 - LEAST_FIRST_ANGLE_DEG).contains(&angle_deg) {
+        if !(MIN_FIRST_ANGLE_DEG..=45.0 - MIN_FIRST_ANGLE_DEG).contains(&angle_deg) {
             return Err(SfrError::Angle { angle_deg });
         }
         let (height, middle) = if vertical { (image.height(), image.height()) } else { (image.width(), image.width()) };
@@ -143,7 +143,7 @@ impl Edge {
     /// Whether its angle can be measured.
     pub(super) fn check(&self) -> Result<(), SfrError> {
         let angle_deg = self.angle_deg();
-        let legal = (LEAST_ANGLE_DEG..=45.0 - LEAST_ANGLE_DEG).contains(&angle_deg);
+        let legal = (MIN_ANGLE_DEG..=45.0 - MIN_ANGLE_DEG).contains(&angle_deg);
         if legal { Ok(()) } else { Err(SfrError::Angle { angle_deg }) }
     }
 }

@@ -7,7 +7,7 @@ use crate::Image;
 
 /// Rounds of the refinement at most, and the move that ends it, px.
 const ROUNDS: usize = 30;
-const LEAST_MOVE_PX: f64 = 1e-4;
+const MIN_MOVE_PX: f64 = 1e-4;
 /// Pixels whose residuals differ from those of so many at the next smaller and larger distances by more than so many robust standard
 /// deviations (1.4826 times the median of the magnitudes in their zone, as demosaicing scatters pixels near the edge), and more than so much
 /// of the edge's height, are defects, and left out; the share of them at most, and how often they are sought.
@@ -15,7 +15,7 @@ const NEIGHBOURS: usize = 4;
 const ZONES_PX: [f64; 2] = [1.0, 3.0];
 const OUTLIER_SIGMAS: f64 = 6.0;
 const OUTLIER_SHARE: f64 = 0.05;
-const MOST_OUTLIERS: f64 = 0.02;
+const MAX_OUTLIERS: f64 = 0.02;
 const REJECTIONS: usize = 8;
 
 /// Fits edge and profile to the pixels that are `seen`, and again without those that are defects.
@@ -69,7 +69,7 @@ fn settled(image: &Image, start: Edge, kept: &[bool], settings: &SfrSettings) ->
             None => best = Some((squares, edge.clone(), by.clone())),
         }
         edge = edge.moved(&by);
-        if by.iter().all(|move_px| move_px.abs() < LEAST_MOVE_PX) {
+        if by.iter().all(|move_px| move_px.abs() < MIN_MOVE_PX) {
             break;
         }
     }
@@ -102,7 +102,7 @@ fn regular(
     let limits: Vec<f64> = (0..=ZONES_PX.len()).map(limit).collect();
     let defects: Vec<&Sample> =
         samples.iter().zip(&apart).filter(|(s, r)| **r > limits[zone(s)]).map(|(s, _)| s).collect();
-    if defects.len() as f64 > MOST_OUTLIERS * samples.len() as f64 {
+    if defects.len() as f64 > MAX_OUTLIERS * samples.len() as f64 {
         return Err(SfrError::NoEdge("more than a fiftieth of the pixels are far from one straight edge"));
     }
     let mut kept = seen.to_vec();

@@ -15,11 +15,11 @@ pub(super) const STEP_OVER_GAP: f64 = 1.25;
 pub(super) const USUAL_REACH_PX: f64 = 10.0;
 /// The step of the splines beyond, px, and how far they go.
 const COARSE_STEP_PX: f64 = 2.0;
-pub(super) const FARTHEST_PX: f64 = 100.0;
+pub(super) const MAX_PX: f64 = 100.0;
 /// How much of the picture's nearer side the profile may change in; the rest is plateau, whose mean the response at 0 rests on.
 const CHANGING: f64 = 0.65;
 /// The largest move of a round of the refinement, px.
-const LARGEST_MOVE_PX: f64 = 2.0;
+const MAX_MOVE_PX: f64 = 2.0;
 
 /// A pixel: its place in the picture, its distance from the edge, its row, and its reading.
 #[derive(Clone, Copy)]
@@ -80,7 +80,7 @@ impl Knots {
             return Err(SfrError::NoEdge("the edge lies too near to the picture's border"));
         }
         let reach_px = 0.5 * step_px * (count + SUPPORT - 1) as f64;
-        Ok(Self { step_px, reach_px, count, coarse: coarse(reach_px, (CHANGING * most).min(FARTHEST_PX)) })
+        Ok(Self { step_px, reach_px, count, coarse: coarse(reach_px, (CHANGING * most).min(MAX_PX)) })
     }
 
     /// The coefficients that a reading depends on, and how. The profile is a sum of levels, each of which holds from one step to the next:
@@ -191,7 +191,7 @@ impl Knots {
         let levels = self.normal(samples, &rows).solve().ok_or_else(failed)?;
         let mut by = vec![0.0; degree + 1];
         by[0] = self.middle_px(&levels);
-        if by[0].abs() > LARGEST_MOVE_PX {
+        if by[0].abs() > MAX_MOVE_PX {
             return Ok((f64::INFINITY, by));
         }
         let linear = levels.len();
@@ -209,7 +209,7 @@ impl Knots {
             normal.add_at(&places, &values, residual, 1.0);
         }
         let moves = normal.solve().ok_or_else(failed)?;
-        let bounded = |v: &f64| v.clamp(-LARGEST_MOVE_PX, LARGEST_MOVE_PX);
+        let bounded = |v: &f64| v.clamp(-MAX_MOVE_PX, MAX_MOVE_PX);
         by[1..].iter_mut().zip(moves[linear..].iter().map(bounded)).for_each(|(b, v)| *b = v);
         Ok((squares, by))
     }

@@ -187,7 +187,7 @@ pub fn measure_edge(image: &Image, settings: &SfrSettings) -> Result<Sfr, SfrErr
     };
     let found = by_degree(settings.shading_degree)?;
     let further = settings.shading_degree + 1;
-    let other = (further <= shading::LARGEST_DEGREE).then(|| by_degree(further)).and_then(Result::ok);
+    let other = (further <= shading::MAX_DEGREE).then(|| by_degree(further)).and_then(Result::ok);
     Ok(match other {
         Some(other) => found.with_choice_of_shading(&other),
         None => found,
@@ -285,7 +285,7 @@ fn check(image: &Image, settings: &SfrSettings) -> Result<(), SfrError> {
     if settings.reach_px.is_some_and(|reach| reach.is_nan() || reach < 2.0) {
         return Err(SfrError::Settings("the profile's reach must be 2 pixels or more"));
     }
-    if settings.shading_degree > shading::LARGEST_DEGREE {
+    if settings.shading_degree > shading::MAX_DEGREE {
         return Err(SfrError::Settings("the degree of the shading must be 0 to 2"));
     }
     if settings.last_frequency.is_nan() || settings.last_frequency <= 0.0 {

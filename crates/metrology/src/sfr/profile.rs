@@ -1,7 +1,7 @@
 //! The edge's profile and the response that follows.
 
 use super::covariance::Covariance;
-use super::knots::{FARTHEST_PX, FINEST_STEP_PX, Knots, STEP_OVER_GAP, Sample, Step};
+use super::knots::{FINEST_STEP_PX, Knots, MAX_PX, STEP_OVER_GAP, Sample, Step};
 use super::spline::step;
 use super::{Edge, SfrError, SfrPoint};
 use crate::{Estimate, Image};
@@ -9,7 +9,7 @@ use core::f64::consts::{PI, TAU};
 use etendue_core::maths::f64::{sin, sin_cos};
 
 /// The largest response at half the frequency of the profile's sampling: what is beyond is folded back into the response.
-const MOST_BEYOND: f64 = 0.03;
+const MAX_BEYOND: f64 = 0.03;
 
 /// A profile fitted to the pixels.
 pub(super) struct Profile {
@@ -51,7 +51,7 @@ impl Profile {
         }
         let gap_px = self.step_px / STEP_OVER_GAP;
         let finest = self.step_px <= FINEST_STEP_PX;
-        if !finest && self.response(0.5 / gap_px).response.value > MOST_BEYOND {
+        if !finest && self.response(0.5 / gap_px).response.value > MAX_BEYOND {
             return Err(SfrError::Steep { gap_px, angle_deg: edge.angle_deg() });
         }
         Ok(())
@@ -62,8 +62,8 @@ impl Profile {
     }
 
     pub(super) fn levels(&self) -> [f64; 2] {
-        let left = self.reading(-2.0 * FARTHEST_PX);
-        let right = self.reading(2.0 * FARTHEST_PX);
+        let left = self.reading(-2.0 * MAX_PX);
+        let right = self.reading(2.0 * MAX_PX);
         [left.min(right), left.max(right)]
     }
 

@@ -17,7 +17,7 @@ use crate::Image;
 use crate::solve::Normal;
 
 /// The largest degree of a surface.
-pub(super) const LARGEST_DEGREE: usize = 2;
+pub(super) const MAX_DEGREE: usize = 2;
 
 /// A surface over the picture.
 struct Surface {

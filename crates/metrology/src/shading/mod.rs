@@ -269,11 +269,11 @@ fn powers(square: f64) -> [f64; TERMS] {
 }
 
 /// The noise of a pixel that the fit assumes at least, of its reading, so that no ring rules alone.
-const LEAST_NOISE: f64 = 1e-3;
+const MIN_NOISE: f64 = 1e-3;
 
 /// A ring's weight in the fit.
 fn weight(ring: &Sums) -> f64 {
-    let (u, least) = (ring.standard_uncertainty(), LEAST_NOISE * ring.mean().abs() / ring.count.sqrt());
+    let (u, least) = (ring.standard_uncertainty(), MIN_NOISE * ring.mean().abs() / ring.count.sqrt());
     1.0 / (u * u + least * least).max(f64::MIN_POSITIVE)
 }
 
@@ -381,7 +381,7 @@ fn relative_map(blocks: &[Sums], settings: &ShadingSettings) -> Result<Vec<Vec<E
 }
 
 /// The largest deviation of blocks from the fall-off that still is a flat field: lamps and lenses that are not centred.
-const LARGEST_DEVIATION: f64 = 0.15;
+const MAX_DEVIATION: f64 = 0.15;
 
 fn flatness(blocks: &[Sums], fit: &Falloff, settings: &ShadingSettings) -> Result<(), ShadingError> {
     let deviation = |block: &Sums| {
@@ -390,7 +390,7 @@ fn flatness(blocks: &[Sums], fit: &Falloff, settings: &ShadingSettings) -> Resul
         (difference * difference - noise * noise).max(0.0) / (fit.b[0] * fit.b[0])
     };
     let rms = (blocks.iter().map(deviation).sum::<f64>() / blocks.len() as f64).sqrt();
-    if rms <= LARGEST_DEVIATION {
+    if rms <= MAX_DEVIATION {
         return Ok(());
     }
     Err(ShadingError::NotFlat { percent: 100.0 * rms, blocks: settings.blocks })

@@ -41,11 +41,11 @@ fn blobs(image: &Image, block: usize) -> Vec<Blob> {
 
 /// A region that is whole, large enough and an ellipse.
 fn blob(image: &Image, runs: &[Run]) -> Option<Blob> {
-    const LEAST_PX: f64 = 12.0;
+    const MIN_PX: f64 = 12.0;
     const SMALL_PX: usize = 200;
     let inside = |r: &Run| r.row > 0 && r.row + 1 < image.height() && r.from > 0 && r.to < image.width();
     let pixels: usize = runs.iter().map(|r| r.to - r.from).sum();
-    if (pixels as f64) < LEAST_PX || pixels > image.samples().len() / 10 || !runs.iter().all(inside) {
+    if (pixels as f64) < MIN_PX || pixels > image.samples().len() / 10 || !runs.iter().all(inside) {
         return None;
     }
     let mut moments = Moments::default();

@@ -55,7 +55,7 @@ const LEAST: usize = 16;
 
 /// Least median distance of neighbours. Smaller things in rows and columns (screens, prints, pins of circuits) are no chart,
 /// and a chart that is seen so small is not measured to hundredths of a pixel.
-const LEAST_STEP_PX: f64 = 10.0;
+const MIN_STEP_PX: f64 = 10.0;
 
 /// The chart's points.
 ///
@@ -104,8 +104,8 @@ fn checked(grid: Grid, stated: Option<[usize; 2]>, sought: &'static str) -> Resu
         return Err(TargetError::Gaps { points: best, size: grid.size });
     }
     let step_px = grid.step_px();
-    if step_px < LEAST_STEP_PX {
-        return Err(TargetError::Small { step_px, least_px: LEAST_STEP_PX });
+    if step_px < MIN_STEP_PX {
+        return Err(TargetError::Small { step_px, least_px: MIN_STEP_PX });
     }
     let larger = |stated: [usize; 2]| grid.size[0] > stated[0] || grid.size[1] > stated[1];
     match stated {

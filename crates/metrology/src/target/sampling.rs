@@ -23,7 +23,7 @@ use glam::DVec2;
 /// Harmonics that are taken off.
 const HARMONICS: u32 = 3;
 /// Least half width, px.
-const LEAST_PX: f64 = 1.6;
+const MIN_PX: f64 = 1.6;
 /// Q of a sharp edge, px.
 const SHARP_PX: f64 = 1.0 / 6.0;
 
@@ -56,7 +56,7 @@ fn shift(centre: DVec2, half: DVec2, blur_px2: f64) -> DVec2 {
             disc(TAU * k * a) * blur * sin_cos(TAU * k * c).0 / (PI * k)
         };
         // A shape that noise has spoiled, or too small for the expansion, tells nothing.
-        let told = a.is_finite() && a >= LEAST_PX;
+        let told = a.is_finite() && a >= MIN_PX;
         if told { (1..=HARMONICS).map(|k| harmonic(f64::from(k))).sum() } else { 0.0 }
     };
     DVec2::new(along(half.x, centre.x), along(half.y, centre.y))

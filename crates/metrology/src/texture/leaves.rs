@@ -24,7 +24,7 @@ use core::f64::consts::TAU;
 use etendue_core::maths::f64::{atan2, cos, hypot, sin_cos};
 
 /// The largest shift between picture and reference: beyond it blocks show too much of what their neighbours in the other do, px.
-const MOST_SHIFT_PX: f64 = 2.0;
+const MAX_SHIFT_PX: f64 = 2.0;
 /// Bands by which the shift is found, first roughly, then finely.
 const SHIFT_BANDS: [usize; 2] = [6, 20];
 /// Side of a block, px.
@@ -88,7 +88,7 @@ pub fn measure_texture(
     if first.coherence.is_nan() || first.coherence < 0.2 {
         return Err(TextureError::Unlike);
     }
-    if hypot(shift_px[0], shift_px[1]) > MOST_SHIFT_PX {
+    if hypot(shift_px[0], shift_px[1]) > MAX_SHIFT_PX {
         return Err(TextureError::Shifted { shift_px });
     }
     let scaled = |p: TexturePoint| TexturePoint {

@@ -64,7 +64,7 @@ pub fn measure_star(image: &Image, star: &Star) -> Result<(Vec<StarPoint>, (f64,
     }
     // Of n pixels a wave of amplitude A in noise σ has u² = 2 σ²/(n a²) and holds A²/2 of A²/2 + σ².
     let (squared, u) = (outer.value * outer.value, outer.standard_uncertainty);
-    if squared < LEAST_HELD * (squared + u * u * TAU * star.outer_px) {
+    if squared < MIN_HELD * (squared + u * u * TAU * star.outer_px) {
         return Err(TextureError::Star(
             "a wave of that many cycles about its centre, which lies within two pixels of where it is told",
         ));
@@ -103,9 +103,9 @@ fn check(image: &Image, star: &Star) -> Result<(), TextureError> {
 }
 
 /// The least share of the rim's variance that the wave must hold: hard sectors leave 8/π² of it, a centre beside the star's next to none.
-const LEAST_HELD: f64 = 0.5;
+const MIN_HELD: f64 = 0.5;
 /// How far the centre is sought from where it is told, px.
-const FARTHEST_PX: f64 = 2.0;
+const MAX_PX: f64 = 2.0;
 
 /// Modulation of the pixels within half a pixel of a circle.
 fn modulation(image: &Image, star: &Star, radius: f64) -> Option<Estimate> {
@@ -153,7 +153,7 @@ fn refined(image: &Image, star: &Star) -> (f64, f64) {
         let (x, y) = best.0;
         let around = [(x + step, y), (x - step, y), (x, y + step), (x, y - step)];
         let better = around.into_iter().map(|c| (c, merit(c))).fold(best, |a, b| if b.1 > a.1 { b } else { a });
-        let near = hypot(better.0.0 - star.centre_px.0, better.0.1 - star.centre_px.1) <= FARTHEST_PX;
+        let near = hypot(better.0.0 - star.centre_px.0, better.0.1 - star.centre_px.1) <= MAX_PX;
         if better.1 > best.1 && near {
             best = better;
         } else {

@@ -19,7 +19,7 @@ const MANY_LINES: i64 = 256;
 /// Shifts below this leave a small footprint on its pixel, px.
 const STILL_PX: f64 = 0.02;
 /// The least side of a polygon, px, before it is widened to a pixel.
-const LEAST_PX: f64 = 1e-3;
+const MIN_PX: f64 = 1e-3;
 
 /// Where the coverage of a row changes, and by what share of the whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +71,7 @@ impl Scan {
         if size.max_element() < 1.0 {
             return self.shift(if centre.length() < STILL_PX { DVec2::ZERO } else { centre }, emit);
         }
-        let growth = size.max(DVec2::splat(LEAST_PX)).recip().max(DVec2::ONE);
+        let growth = size.max(DVec2::splat(MIN_PX)).recip().max(DVec2::ONE);
         let grown = polygon.map(|v| centre + (v - centre) * growth + 0.5);
         let half = 0.5 * size.max(DVec2::ONE).y;
         let rows = (LINES / (2.0 * half)).ceil().clamp(1.0, LINES_A_ROW);

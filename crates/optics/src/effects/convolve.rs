@@ -10,7 +10,7 @@ use core::ops::Range;
 /// Taps up to which the sum is taken directly.
 const DIRECT_TAPS: usize = 49;
 /// Most blocks along an axis that are tried.
-const MOST_BLOCKS: usize = 24;
+const MAX_BLOCKS: usize = 24;
 
 /// Numbers in a rectangle, row by row.
 #[derive(Clone, Debug, PartialEq)]
@@ -132,8 +132,8 @@ fn through(plan: &Plan, spectrum: &Grid, pair: &[Block], picture: &Field) -> Gri
 fn fourier(kernel: &Kernel, size: [usize; 2], region: &Region) -> Method {
     let [rx, ry] = kernel.reach();
     let (mut best, mut cost) = ([1, 1], f64::INFINITY);
-    for columns in 1..=MOST_BLOCKS {
-        for rows in 1..=MOST_BLOCKS {
+    for columns in 1..=MAX_BLOCKS {
+        for rows in 1..=MAX_BLOCKS {
             let (width, height) =
                 (length(&spans(&region.x, columns, rx, size[0])), length(&spans(&region.y, rows, ry, size[1])));
             let this = (columns * rows).div_ceil(2) as f64 * work(width, height);

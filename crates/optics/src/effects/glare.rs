@@ -20,7 +20,7 @@ use etendue_core::maths::f64::{atan2, exp_m1, ln_1p, pow, sin_cos};
 use glam::DVec2;
 
 /// The largest scattered share.
-const MOST_SCATTER: f64 = 0.5;
+const MAX_SCATTER: f64 = 0.5;
 const MM_PER_UM: f64 = 1e-3;
 /// Columns and rows about the middle whose taps are summed ring by ring; beyond them K is nearly even over a pixel.
 const NEAR_PX: usize = 8;
@@ -57,8 +57,8 @@ impl Glare {
     /// Where a number is outside of its range, or the kernel's integral is infinite.
     pub fn new(parameters: GlareParameters) -> Result<Self, EffectsError> {
         let GlareParameters { scatter, core_um, exponent, reach_mm } = parameters;
-        if !(0.0..=MOST_SCATTER).contains(&scatter) {
-            return Err(EffectsError::Scatter { share: scatter, most: MOST_SCATTER });
+        if !(0.0..=MAX_SCATTER).contains(&scatter) {
+            return Err(EffectsError::Scatter { share: scatter, most: MAX_SCATTER });
         }
         positive("core_um", core_um)?;
         positive("exponent", exponent)?;

@@ -15,7 +15,7 @@ use super::band::BandLimited;
 use super::convolve::Field;
 use super::error::{EffectsError, positive};
 use super::kernel::Kernel;
-use super::psf::{FARTHEST_PX, MM_PER_UM, VISIBLE_NM, mid_wavelengths};
+use super::psf::{MAX_PX, MM_PER_UM, VISIBLE_NM, mid_wavelengths};
 use super::{Canvas, Spread, Verdict};
 use core::fmt;
 use etendue_projection::Raster;
@@ -91,8 +91,8 @@ impl SpreadImage {
             return Err(EffectsError::Coarse { step_um: step_mm / MM_PER_UM, pixel_um: pixel_mm / MM_PER_UM });
         }
         let [x, y] = self.reach_px(pitch_mm);
-        if x.max(y) > FARTHEST_PX {
-            return Err(EffectsError::Wide { reach_px: x.max(y), most_px: FARTHEST_PX });
+        if x.max(y) > MAX_PX {
+            return Err(EffectsError::Wide { reach_px: x.max(y), most_px: MAX_PX });
         }
         Ok(())
     }

@@ -18,7 +18,7 @@ const LOOK_COLUMNS: usize = 32;
 const LOOK_ROWS: usize = 16;
 
 /// Rays that land further from the axis than this count as lost, mm.
-const FARTHEST_MM: f32 = 1e4;
+const MAX_MM: f32 = 1e4;
 
 /// A ray's end.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,7 +89,7 @@ impl<'a> Beam<'a> {
             let end = ghost.ray.point + d * ((self.lens.sensor_mm() - ghost.ray.point.z) / d.z);
             let (x, y, weight, filling) = (end.x as f32, end.y as f32, ghost.weight as f32, ghost.filling as f32);
             // Rays along the sensor or away from it do not land.
-            let lands = d.z > 0.0 && x.abs().max(y.abs()) < FARTHEST_MM;
+            let lands = d.z > 0.0 && x.abs().max(y.abs()) < MAX_MM;
             if lands { Node { x, y, weight, filling, cosine: d.z as f32 } } else { Node::LOST }
         };
         (0..(size[0] + 1) * (size[1] + 1)).map(node).collect()

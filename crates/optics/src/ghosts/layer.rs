@@ -199,7 +199,7 @@ impl Field {
         let angles: Vec<f64> = (0..=RINGS).map_while(|i| lens.field_angle(step_mm * i as f64)).collect();
         let coarse: Vec<f64> = (0..=RINGS / ETENDUE_STEP)
             .into_par_iter()
-            .map(|i| lens.etendue_sr(DVec2::new(step_mm * (i * ETENDUE_STEP) as f64, 0.0)))
+            .map(|i| lens.projected_solid_angle_sr(DVec2::new(step_mm * (i * ETENDUE_STEP) as f64, 0.0)))
             .collect();
         let factor = |i: usize| {
             let place = (i as f64 + 0.5) / ETENDUE_STEP as f64;

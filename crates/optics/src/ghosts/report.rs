@@ -34,7 +34,7 @@ pub fn strongest(lens: &Prescribed, height_mm: f64, settings: GhostSettings, mos
     let (Some(angle), Some(image_mm2)) = (lens.field_angle(height_mm), image_mm2(lens, height_mm)) else {
         return Vec::new();
     };
-    let etendue_sr = lens.etendue_sr(DVec2::new(height_mm, 0.0));
+    let projected_solid_angle_sr = lens.projected_solid_angle_sr(DVec2::new(height_mm, 0.0));
     let prescription = lens.prescription();
     let beam = Beam::new(prescription, angle);
     let report = |pair: GhostPair| {
@@ -44,7 +44,7 @@ pub fn strongest(lens: &Prescribed, height_mm: f64, settings: GhostSettings, mos
         let area_mm2 = area_mm2 * mirrored(lens, pair.rear, settings);
         let throw_mm = prescription.ghost_first_order(pair, PRINCIPAL_NM).throw_mm;
         let size_mm2 = PI * radius_mm * radius_mm + SUN_SR * throw_mm * throw_mm;
-        let sun_irradiance = SUN_SR * area_mm2 / (size_mm2 * etendue_sr);
+        let sun_irradiance = SUN_SR * area_mm2 / (size_mm2 * projected_solid_angle_sr);
         Some(GhostReport { pair, light: area_mm2 / image_mm2, height_mm: centre_mm, radius_mm, sun_irradiance })
     };
     let pairs = prescription.ghost_pairs(settings.sensor_reflectance > 0.0);
@@ -62,7 +62,7 @@ fn image_mm2(lens: &Prescribed, height_mm: f64) -> Option<f64> {
     let outer = inner + step_mm;
     let [a, b] = [lens.field_angle(inner)?, lens.field_angle(outer)?];
     let sr_per_mm2 = 4.0 * sin(0.5 * (a + b)) * sin(0.5 * (b - a)) / (outer * outer - inner * inner);
-    Some(lens.etendue_sr(DVec2::new(height_mm, 0.0)) / sr_per_mm2).filter(|area| *area > 0.0)
+    Some(lens.projected_solid_angle_sr(DVec2::new(height_mm, 0.0)) / sr_per_mm2).filter(|area| *area > 0.0)
 }
 
 struct Moments {

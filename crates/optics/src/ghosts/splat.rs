@@ -11,7 +11,7 @@ use glam::DVec2;
 
 /// Cells across a ghost of a source that has [`SHARE`] of the light, and at most.
 const CELLS: f64 = 32.0;
-const MOST_CELLS: f64 = 192.0;
+const MAX_CELLS: f64 = 192.0;
 /// Distance of points, cells.
 const STEP: f32 = 0.35;
 /// Coarsest levels still have this many cells across the picture's shorter side.
@@ -110,7 +110,7 @@ fn bounds(footprints: &[Footprint]) -> Option<[DVec2; 2]> {
 
 /// The coarsest level with as many cells across a ghost as its source is worth.
 fn level(bounds: [DVec2; 2], share: f64, levels: &[Level]) -> usize {
-    let cells = (CELLS * (share / SHARE).max(1.0).sqrt()).min(MOST_CELLS);
+    let cells = (CELLS * (share / SHARE).max(1.0).sqrt()).min(MAX_CELLS);
     let cell_mm = (bounds[1] - bounds[0]).max_element() / cells;
     levels.iter().rposition(|level| level.cell_mm.max_element() <= cell_mm).unwrap_or(0)
 }

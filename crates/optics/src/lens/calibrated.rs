@@ -186,7 +186,7 @@ impl Calibrated {
         Some(at_the_centre(sight.direction, weight_sr))
     }
 
-    pub(super) fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
+    pub(super) fn projected_solid_angle_sr(&self, sensor_mm: DVec2) -> f64 {
         self.principal_ray(sensor_mm).map_or(0.0, |ray| ray.weight_sr)
     }
 

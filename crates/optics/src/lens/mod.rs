@@ -6,7 +6,7 @@
 //!   **entrance pupil**. Sensor points are mm of the erect picture from the principal point.
 //! - [`Lens::ray`] makes a ray of a sensor point and a pupil sample; the mean over pupil samples of `weight_sr` × radiance
 //!   is the irradiance of the sensor point. `None` means no light by this sample: it counts as zero.
-//! - [`Lens::etendue_sr`] is the mean of the weights, computed without samples: a closed form, or a quadrature to 1e-9
+//! - [`Lens::projected_solid_angle_sr`] is the mean of the weights, computed without samples: a closed form, or a quadrature to 1e-9
 //!   (through a prescription, whose clear apertures have no closed form, at 587.56 nm and to 1e-5).
 //! - [`Lens::principal_ray`] goes through the centre of the pupil (of the real stop) at 587.56 nm, and [`Lens::project`] is
 //!   its inverse.
@@ -264,11 +264,11 @@ impl Lens {
 
     /// Irradiance of a sensor point per uniform radiance, sr; 0 where no light comes.
     #[must_use]
-    pub fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
+    pub fn projected_solid_angle_sr(&self, sensor_mm: DVec2) -> f64 {
         each!(self,
-            lens => lens.etendue_sr(sensor_mm),
-            Prescription(lens) => lens.etendue_sr(sensor_mm),
-            Calibrated(lens) => lens.etendue_sr(sensor_mm),
+            lens => lens.projected_solid_angle_sr(sensor_mm),
+            Prescription(lens) => lens.projected_solid_angle_sr(sensor_mm),
+            Calibrated(lens) => lens.projected_solid_angle_sr(sensor_mm),
             Telecentric(lens) => lens.principal_ray(sensor_mm).weight_sr,
         )
     }

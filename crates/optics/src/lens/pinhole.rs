@@ -59,7 +59,7 @@ impl Pinhole {
         self.ray(sensor_mm, DVec2::ZERO, PRINCIPAL_NM)
     }
 
-    pub(super) fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
+    pub(super) fn projected_solid_angle_sr(&self, sensor_mm: DVec2) -> f64 {
         self.principal_ray(sensor_mm).map_or(0.0, |ray| ray.weight_sr)
     }
 

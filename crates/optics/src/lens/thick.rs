@@ -209,7 +209,7 @@ impl Thick {
         Some(pencil.ray(q * bundle.entrance_radius_mm, weight_sr))
     }
 
-    pub(super) fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
+    pub(super) fn projected_solid_angle_sr(&self, sensor_mm: DVec2) -> f64 {
         let Some(bundle) = self.bundle(sensor_mm) else { return 0.0 };
         let rims = self.rim_discs(&bundle, sensor_mm.length());
         let clipped = rims.into_iter().flatten().any(|disc| disc.clips_unit_disc());
@@ -217,7 +217,7 @@ impl Thick {
             * if clipped {
                 clipped_etendue_sr(&bundle.view, sensor_mm.length(), rims)
             } else {
-                bundle.view.etendue_sr(sensor_mm)
+                bundle.view.projected_solid_angle_sr(sensor_mm)
             }
     }
 

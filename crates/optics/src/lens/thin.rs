@@ -71,11 +71,11 @@ impl Thin {
         Some(self.pencil(sensor_mm, nm)?.ray(point_mm, weight_sr))
     }
 
-    pub(super) fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
+    pub(super) fn projected_solid_angle_sr(&self, sensor_mm: DVec2) -> f64 {
         if self.body.ideal(sensor_mm).is_none() {
             return 0.0;
         }
-        self.body.transmittance * self.view().etendue_sr(sensor_mm)
+        self.body.transmittance * self.view().projected_solid_angle_sr(sensor_mm)
     }
 
     fn view(&self) -> PupilView {

@@ -7,20 +7,20 @@
 
 use core::f64::consts::PI;
 use etendue_core::maths::f64::cos;
-use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
+use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_spectra::glass::Dispersion;
 
 const PIECES: usize = 40;
 /// Inverse of the longest wavelength, and a piece's width, 1/nm.
-const LOW: f64 = 1.0 / LONGEST_NM;
+const LOW: f64 = 1.0 / MAX_NM;
 const WIDTH: f64 = (1.0 / SHORTEST_NM - LOW) / PIECES as f64;
 const COEFFICIENTS: usize = 8;
 
 /// Most different media that a lens may have.
-pub(crate) const MOST_MEDIA: usize = 16;
+pub(crate) const MAX_MEDIA: usize = 16;
 
 /// Indices of a lens's media at one wavelength, in the order of its list.
-pub(crate) type Media = [f64; MOST_MEDIA];
+pub(crate) type Media = [f64; MAX_MEDIA];
 
 /// A table over wavelength of several media.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,11 +43,11 @@ impl IndexTable {
     /// The indices at a wavelength; those of the nearest legal one outside 300 to 1 100 nm.
     #[inline]
     pub(super) fn at(&self, nm: f64) -> Media {
-        let inverse = 1.0 / nm.clamp(SHORTEST_NM, LONGEST_NM);
+        let inverse = 1.0 / nm.clamp(SHORTEST_NM, MAX_NM);
         let piece = (((inverse - LOW) / WIDTH) as usize).min(PIECES - 1);
         let x = (inverse - centre(piece)) * (2.0 / WIDTH);
         let stride = COEFFICIENTS * self.media;
-        let mut media = [0.0; MOST_MEDIA];
+        let mut media = [0.0; MAX_MEDIA];
         for power in self.coefficients[piece * stride..(piece + 1) * stride].chunks_exact(self.media).rev() {
             media.iter_mut().zip(power).for_each(|(n, c)| *n = *n * x + c);
         }
@@ -89,7 +89,7 @@ mod tests {
 
     #[test]
     fn the_table_keeps_ten_digits_of_every_glass() {
-        for glasses in catalogue().chunks(MOST_MEDIA) {
+        for glasses in catalogue().chunks(MAX_MEDIA) {
             let media: Vec<_> = glasses.iter().map(|glass| glass.dispersion).collect();
             let table = IndexTable::new(&media);
             for step in 0..=8000 {

@@ -25,7 +25,7 @@ pub mod trace;
 use crate::error::PRINCIPAL_NM;
 use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
-use indices::{IndexTable, MOST_MEDIA, Media};
+use indices::{IndexTable, MAX_MEDIA, Media};
 use paraxial::Paraxial;
 use trace::{Element, Fullness, LensRay, Lost, Rims, Through, Way, walk};
 
@@ -275,8 +275,8 @@ fn media(surfaces: &[Surface]) -> Result<(Vec<Dispersion>, Vec<[usize; 2]>), Pre
             [core::mem::replace(&mut before, after), after]
         })
         .collect();
-    if list.len() > MOST_MEDIA {
-        return Err(PrescriptionError::Media { found: list.len(), most: MOST_MEDIA });
+    if list.len() > MAX_MEDIA {
+        return Err(PrescriptionError::Media { found: list.len(), most: MAX_MEDIA });
     }
     if before == 0 { Ok((list, places)) } else { Err(PrescriptionError::LastMedium) }
 }

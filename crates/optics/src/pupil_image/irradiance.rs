@@ -1,6 +1,6 @@
 //! Radiance to irradiance: the lens's étendue at each pixel.
 //!
-//! E = L · Ω(x), with Ω = [`Lens::etendue_sr`] at the pixel's centre. Ω varies over a pixel of pitch p by about (p/c)² of
+//! E = L · Ω(x), with Ω = [`Lens::projected_solid_angle_sr`] at the pixel's centre. Ω varies over a pixel of pitch p by about (p/c)² of
 //! itself, so its mean over the pixel is the same to f32 rounding for pitches below a thousandth of the principal distance;
 //! at the very edge of mechanical vignetting the difference is that of one pixel's width.
 //!
@@ -42,15 +42,15 @@ pub fn irradiance(
             }
         }
         _ => {
-            let etendue = over_pixels(raster, |at| lens.etendue_sr(at));
+            let etendue = over_pixels(raster, |at| lens.projected_solid_angle_sr(at));
             pairs.for_each(|(from, to)| times(from, &etendue, to));
         }
     }
     Ok(result)
 }
 
-fn times(radiance: &Plane<Radiance>, etendue_sr: &[f64], irradiance: &mut Plane<Irradiance>) {
-    let pixels = radiance.samples().iter().zip(etendue_sr);
+fn times(radiance: &Plane<Radiance>, projected_solid_angle_sr: &[f64], irradiance: &mut Plane<Irradiance>) {
+    let pixels = radiance.samples().iter().zip(projected_solid_angle_sr);
     for (e, (l, sr)) in irradiance.samples_mut().iter_mut().zip(pixels) {
         *e = (f64::from(*l) * sr) as f32;
     }

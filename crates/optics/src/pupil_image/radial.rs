@@ -26,13 +26,13 @@ impl RadialEtendue {
     /// At 587.56 nm, as far as `reach_mm` from the axis.
     pub(super) fn new(lens: &Prescribed, reach_mm: f64) -> Self {
         let step_mm = reach_mm / (KNOTS - 1) as f64;
-        let at = |i: usize| lens.etendue_at_sr(step_mm * i as f64, PRINCIPAL_NM, DIRECTIONS);
+        let at = |i: usize| lens.projected_solid_angle_at_sr(step_mm * i as f64, PRINCIPAL_NM, DIRECTIONS);
         Self { step_mm, values: (0..KNOTS).into_par_iter().map(at).collect() }
     }
 
     /// The same at another wavelength: each radius that is lit at 587.56 nm.
     pub(super) fn at_wavelength(&self, lens: &Prescribed, nm: f64) -> Self {
-        let at = |i: usize, nm: f64| lens.etendue_at_sr(self.step_mm * i as f64, nm, FEWER);
+        let at = |i: usize, nm: f64| lens.projected_solid_angle_at_sr(self.step_mm * i as f64, nm, FEWER);
         let lit = |i: usize| Some(at(i, PRINCIPAL_NM)).filter(|sr| *sr > 0.0);
         let knots = (0..KNOTS).into_par_iter().step_by(STRIDE);
         let found: Vec<Option<f64>> = knots.map(|i| Some(at(i, nm) / lit(i)?)).collect();
@@ -88,7 +88,7 @@ mod tests {
             let axis = table.values[0];
             let radii: Vec<f64> = (0..25).map(|i| radius_mm * (f64::from(i) + 0.37) / 25.0).collect();
             for (r, sr) in radii.iter().zip(table.at_radii(&radii)) {
-                let exact = lens.etendue_at_sr(*r, PRINCIPAL_NM, DIRECTIONS);
+                let exact = lens.projected_solid_angle_at_sr(*r, PRINCIPAL_NM, DIRECTIONS);
                 assert!((sr - exact).abs() < 1e-3 * axis, "{name} at {r} mm: {sr} for {exact}");
             }
         }
@@ -104,7 +104,7 @@ mod tests {
             let band = table.at_wavelength(&lens, nm);
             let radii: Vec<f64> = (0..12).map(|i| 19.2 * (f64::from(i) + 0.61) / 12.0).collect();
             for (r, sr) in radii.iter().zip(band.at_radii(&radii)) {
-                let exact = lens.etendue_at_sr(*r, nm, DIRECTIONS);
+                let exact = lens.projected_solid_angle_at_sr(*r, nm, DIRECTIONS);
                 // The edge of 20 nm crosses the field within a few of the 33 knots.
                 assert!((sr - exact).abs() < 4e-3 * table.values[0], "{nm} nm at {r} mm: {sr} for {exact}");
             }
@@ -118,7 +118,7 @@ mod tests {
         let pass = Spectrum::from_points(&points, Outside::Zero).expect("a table");
         let lens = lens("double-gauss", 21.6, Some(InterferenceFilter::new(pass, 1.8).expect("legal")));
         let band = RadialEtendue::new(&lens, 21.6).at_wavelength(&lens, 850.0);
-        let exact = lens.etendue_at_sr(0.0, 850.0, FEWER);
+        let exact = lens.projected_solid_angle_at_sr(0.0, 850.0, FEWER);
         assert!(exact > 0.01 && band.values[0] == exact, "{} for {exact}", band.values[0]);
     }
 }

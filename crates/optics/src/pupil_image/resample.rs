@@ -34,7 +34,7 @@ const CELLS: (usize, usize) = (2, 64);
 /// Stored pixels that a cell may be wide.
 const CELL_PX: f64 = 2.0;
 /// The least side of a cell's footprint, stored pixels: two make the box of a linear interpolation.
-const LEAST_PX: f64 = 0.5;
+const MIN_PX: f64 = 0.5;
 
 /// The map from a stored radiance image to the picture of a lens and a raster, with a margin about it.
 #[derive(Clone, Debug)]
@@ -246,11 +246,11 @@ fn footprint(view: &View, corners: [DVec3; 4], middle: DVec3) -> Option<[DVec2; 
     let [a, b, c, d] = corners.map(|corner| view.px(corner));
     let (centre, size) = if let [Some(a), Some(b), Some(c), Some(d)] = [a, b, c, d] {
         let (across, down) = (0.5 * ((b - a) + (d - c)), 0.5 * ((c - a) + (d - b)));
-        let moment = |x: f64, y: f64| (x * x + y * y).sqrt().max(LEAST_PX);
+        let moment = |x: f64, y: f64| (x * x + y * y).sqrt().max(MIN_PX);
         (0.25 * ((a + d) + (b + c)), DVec2::new(moment(across.x, down.x), moment(across.y, down.y)))
     } else {
         // A cell of a right angle and more.
-        (middle, DVec2::splat(LEAST_PX))
+        (middle, DVec2::splat(MIN_PX))
     };
     Some([centre - 0.5 * size, centre + 0.5 * size])
 }

@@ -126,9 +126,9 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
         let position = &setup.pose.position_m;
         context.accept(&position.place, world.check_reach(DVec3::from_array(position.value)));
     }
-    let (palette, materials) = builder.finish(context)?;
+    let (material_table, materials) = builder.finish(context)?;
     positions::remark(&cameras, context);
-    surroundings::remark(&cameras, &world, &palette, &materials, context);
+    surroundings::remark(&cameras, &world, &material_table, &materials, context);
     let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();
     let rendered = cameras.iter().map(|camera| camera.settings.range_nm);
     if let Some(remark) = rendered.reduce(coverage::around).and_then(|range_nm| context.coverage.remark(range_nm)) {
@@ -138,7 +138,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let notices = [&description.notices[..], &context.notices].concat();
     let hash = [0; 32];
     let mut plan =
-        Plan { world, palette, sources, sky, cameras, identities, materials, classes, remarks, notices, hash };
+        Plan { world, material_table, sources, sky, cameras, identities, materials, classes, remarks, notices, hash };
     plan.hash = fingerprint(&plan, context.assets);
     Some(plan)
 }

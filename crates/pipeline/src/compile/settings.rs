@@ -10,10 +10,10 @@ use crate::gather::Layout;
 use crate::photograph::front_on_picture;
 use crate::plan::{CameraBody, Products, RawFormat, Route, Settings};
 use crate::raw_colour::RawColour;
+use crate::rectified::RectifiedCamera;
 use crate::truth::depth_has_gaps;
-use crate::twin::Twin;
 use etendue_core::Bands;
-use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
+use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_optics::{DepthOfField, FastBlend, FastParameters, PupilProjection};
 use etendue_scene::record::output::{self, DepthScale};
 use etendue_scene::record::render::{self, Accumulate, DepthMethod};
@@ -116,7 +116,7 @@ fn undistorted(output: &Output, products: &Products, body: &CameraBody, context:
         context.fault(&key.place, problem, "remove the key, or \"roi_px\" and \"binning\" of the sensor");
     }
     let scale = scale.as_ref().map_or(1.0, |scale| scale.value);
-    context.accept(&key.place, Twin::of(body, scale)).map(|_| scale)
+    context.accept(&key.place, RectifiedCamera::of(body, scale)).map(|_| scale)
 }
 
 /// The raw's file format; what cannot hold it is refused.
@@ -247,7 +247,7 @@ fn blocks(level: Level, render: &Render, body: &CameraBody, folded: bool) -> Blo
 }
 
 /// The most that a film may take, bytes.
-const LARGEST_FILM: f64 = 32.0 * 1024.0 * 1024.0 * 1024.0;
+const MAX_FILM: f64 = 32.0 * 1024.0 * 1024.0 * 1024.0;
 
 /// A picture that no machine of today would hold is refused, and not tried.
 fn check_size(body: &CameraBody, route: &Route, layout: &Layout, context: &mut Context<'_>) -> Option<()> {
@@ -256,7 +256,7 @@ fn check_size(body: &CameraBody, route: &Route, layout: &Layout, context: &mut C
         Route::Pupil(projection) => (projection.width(), projection.height()),
     };
     let bytes = Film::bytes(width, height, layout);
-    if bytes <= LARGEST_FILM {
+    if bytes <= MAX_FILM {
         return Some(());
     }
     let problem = format!("a film of {width} × {height} pixels takes {:.0} GB", bytes / 1e9);
@@ -393,7 +393,7 @@ fn range(render: &Render, body: &CameraBody, cube: bool) -> (f64, f64) {
         return (low, high);
     }
     let step = render.band_width_nm.as_ref().map_or(BAND_WIDTH_NM, |w| w.value);
-    (((low / step).floor() * step).max(SHORTEST_NM), ((high / step).ceil() * step).min(LONGEST_NM))
+    (((low / step).floor() * step).max(SHORTEST_NM), ((high / step).ceil() * step).min(MAX_NM))
 }
 
 fn bands(render: &Render, range_nm: (f64, f64), context: &mut Context<'_>) -> Option<Bands> {
@@ -402,7 +402,7 @@ fn bands(render: &Render, range_nm: (f64, f64), context: &mut Context<'_>) -> Op
     if bands.is_none() {
         let place = render.band_width_nm.as_ref().map_or_else(|| range_place(render), |w| &w.place);
         let problem = format!(
-            "{} to {} nm is not a whole number of bands of {width_nm} nm within {SHORTEST_NM} to {LONGEST_NM} nm",
+            "{} to {} nm is not a whole number of bands of {width_nm} nm within {SHORTEST_NM} to {MAX_NM} nm",
             range_nm.0, range_nm.1
         );
         context.fault(place, problem, "change \"band_width_nm\" or \"wavelength_range_nm\"");

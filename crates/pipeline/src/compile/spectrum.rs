@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use core::f64::consts::FRAC_1_PI;
-use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
+use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_scene::record::{Curve, Emission, Level, LightColour};
 use etendue_scene::{Place, Placed};
 use etendue_spectra::{Outside, Spectrum, illuminant, observer, upsample};
@@ -79,5 +79,5 @@ pub(super) fn bright(relative: &Spectrum, level: f64, place: &Place, context: &m
 
 /// A relative spectrum scaled to a power summed over all legal wavelengths.
 pub(super) fn powered(relative: &Spectrum, total: f64) -> Spectrum {
-    relative.scaled(total / relative.integral(SHORTEST_NM, LONGEST_NM))
+    relative.scaled(total / relative.integral(SHORTEST_NM, MAX_NM))
 }

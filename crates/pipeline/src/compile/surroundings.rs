@@ -5,22 +5,22 @@ use crate::plan::CameraPlan;
 use etendue_tracer::MaterialId;
 use etendue_tracer::accel::World;
 use etendue_tracer::integrator::Surroundings;
-use etendue_tracer::materials::Palette;
+use etendue_tracer::materials::MaterialTable;
 
 /// Says which cameras stand in a transparent solid, and where that cannot be told for sure.
 pub(super) fn remark(
     cameras: &[CameraPlan],
     world: &World,
-    palette: &Palette,
+    material_table: &MaterialTable,
     materials: &[String],
     context: &mut Context<'_>,
 ) {
-    if !palette.has_solids() {
+    if !material_table.has_solids() {
         return;
     }
     let name = |id: MaterialId| &materials[id.0 as usize];
     for camera in cameras {
-        let around = Surroundings::of(&world.view(camera.pose.position_m), palette);
+        let around = Surroundings::of(&world.view(camera.pose.position_m), material_table);
         if let Some(solid) = around.solid {
             context.remark_on(format!("camera \"{}\"", camera.name), format!(
                 "stands inside \"{}\": its entrance pupil lies in that medium, which absorbs from there on, and radiance is n² times \

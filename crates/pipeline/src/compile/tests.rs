@@ -252,7 +252,7 @@ fn ghosts_are_of_a_lens_of_surfaces() {
     assert!(camera.settings.bands.is_some() && !camera.settings.folded && camera.products.ghosts);
     assert_eq!(camera.film_size(), (120, 90), "with light from a quarter of the picture beyond each edge");
     // The lens is traced as far as the film reaches.
-    let lit_sr = camera.body.lens.etendue_sr(glam::DVec2::new(2.9, 2.2));
+    let lit_sr = camera.body.lens.projected_solid_angle_sr(glam::DVec2::new(2.9, 2.2));
     assert!(lit_sr > 0.0, "lit beyond the picture's corner");
     let fault = |lens: &str, effects: &str, output: &str| behind(lens, effects, output).expect_err("a fault");
     let said = fault("type = \"pinhole\", focal_length_mm = 6, f_number = 2", "ghosts = true", "");

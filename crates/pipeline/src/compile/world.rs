@@ -23,7 +23,7 @@ const MISSING_GREY: f64 = 0.5;
 pub(super) fn world(
     scene: &Scene,
     unused: &Unused,
-    palette: &mut PaletteBuilder,
+    material_table: &mut PaletteBuilder,
     context: &mut Context<'_>,
 ) -> Option<(World, Vec<Identity>)> {
     let mut assembly = Assembly { builder: WorldBuilder::new(), meshes: BTreeMap::new(), identities: Vec::new() };
@@ -31,7 +31,7 @@ pub(super) fn world(
         assembly.add_mesh(mesh, context);
     }
     for object in &scene.objects {
-        assembly.add_object(object, scene, palette, context);
+        assembly.add_object(object, scene, material_table, context);
     }
     if !context.faults.is_empty() {
         return None;
@@ -73,10 +73,16 @@ impl Assembly {
         self.meshes.insert(record.name.value.clone(), id);
     }
 
-    fn add_object(&mut self, object: &Object, scene: &Scene, palette: &mut PaletteBuilder, context: &mut Context<'_>) {
+    fn add_object(
+        &mut self,
+        object: &Object,
+        scene: &Scene,
+        material_table: &mut PaletteBuilder,
+        context: &mut Context<'_>,
+    ) {
         let prototype = match &object.body {
-            Body::Mesh(name) => self.of_mesh(object, &name.value, scene, palette, context),
-            Body::Shape(shape) => self.of_shape(object, shape, palette, context),
+            Body::Mesh(name) => self.of_mesh(object, &name.value, scene, material_table, context),
+            Body::Shape(shape) => self.of_shape(object, shape, material_table, context),
         };
         let Some(prototype) = prototype else { return };
         let class = class_of(object, scene);
@@ -93,7 +99,7 @@ impl Assembly {
                 instance_id: self.identities.len() as u32,
                 semantic_id: class,
             };
-            self.share_flux(&mut instance, object, palette, context);
+            self.share_flux(&mut instance, object, material_table, context);
             self.builder.add_instance(instance);
         }
     }
@@ -103,16 +109,16 @@ impl Assembly {
         &self,
         instance: &mut Instance,
         object: &Object,
-        palette: &mut PaletteBuilder,
+        material_table: &mut PaletteBuilder,
         context: &mut Context<'_>,
     ) {
-        let shared: Vec<_> = instance.materials.iter().copied().filter(|id| palette.gives_flux(*id)).collect();
+        let shared: Vec<_> = instance.materials.iter().copied().filter(|id| material_table.gives_flux(*id)).collect();
         for id in shared {
             match self.builder.area_m2(instance, id) {
                 // None of its surfaces has the material, or another slot of the same has been served.
                 Some(0.0) => {}
                 Some(area_m2) => {
-                    let like = palette.of_area(id, area_m2);
+                    let like = material_table.of_area(id, area_m2);
                     instance.materials.iter_mut().filter(|m| **m == id).for_each(|m| *m = like);
                 }
                 None => context.fault(
@@ -129,14 +135,14 @@ impl Assembly {
         object: &Object,
         name: &str,
         scene: &Scene,
-        palette: &mut PaletteBuilder,
+        material_table: &mut PaletteBuilder,
         context: &mut Context<'_>,
     ) -> Option<Prototype> {
         let record = scene.meshes.iter().find(|m| m.name.value == name)?;
         let asset = context.assets.meshes.get(&record.file.value)?;
         let shape = Shape::Mesh(*self.meshes.get(name)?);
-        let materials = slot_materials(object, record, asset, palette, context)?;
-        check_coordinates(record, asset, &materials, palette, object, context);
+        let materials = slot_materials(object, record, asset, material_table, context)?;
+        check_coordinates(record, asset, &materials, material_table, object, context);
         let to_object = DAffine3::from_mat3(record.to_object()) * DAffine3::from_translation(asset.origin.into());
         Some(Prototype { shape, materials, to_object })
     }
@@ -145,10 +151,10 @@ impl Assembly {
         &mut self,
         object: &Object,
         record: &ShapeRecord,
-        palette: &PaletteBuilder,
+        material_table: &PaletteBuilder,
         context: &mut Context<'_>,
     ) -> Option<Prototype> {
-        let material = palette.named(&object.material.as_ref()?.value)?;
+        let material = material_table.named(&object.material.as_ref()?.value)?;
         let shape = match record {
             ShapeRecord::Sphere(sphere) => Shape::Sphere { radius_m: sphere.radius_m.value },
             ShapeRecord::Quad(quad) => self.own_mesh(shape::quad(quad.size_m.value).into_mesh(), object, context)?,
@@ -182,11 +188,11 @@ fn slot_materials(
     object: &Object,
     mesh: &record::Mesh,
     asset: &MeshAsset,
-    palette: &mut PaletteBuilder,
+    material_table: &mut PaletteBuilder,
     context: &mut Context<'_>,
 ) -> Option<Vec<MaterialId>> {
     if let Some(material) = &object.material {
-        return Some(vec![palette.named(&material.value)?; asset.slot_materials.len().max(1)]);
+        return Some(vec![material_table.named(&material.value)?; asset.slot_materials.len().max(1)]);
     }
     for (slot, _) in &object.materials {
         check_slot(slot, mesh, asset, context);
@@ -196,8 +202,10 @@ fn slot_materials(
         .slot_materials
         .iter()
         .map(|slot| match named(&slot.name) {
-            Some(material) => palette.named(&material.value),
-            None => palette.of_slot(&mesh.file.value, &known(slot, mesh, asset, context), &object.place, context),
+            Some(material) => material_table.named(&material.value),
+            None => {
+                material_table.of_slot(&mesh.file.value, &known(slot, mesh, asset, context), &object.place, context)
+            }
         })
         .collect()
 }
@@ -224,11 +232,13 @@ fn check_coordinates(
     mesh: &record::Mesh,
     asset: &MeshAsset,
     materials: &[MaterialId],
-    palette: &PaletteBuilder,
+    material_table: &PaletteBuilder,
     object: &Object,
     context: &mut Context<'_>,
 ) {
-    if let (true, Some(name)) = (asset.uvs.is_empty(), materials.iter().find_map(|id| palette.needs_coordinates(*id))) {
+    if let (true, Some(name)) =
+        (asset.uvs.is_empty(), materials.iter().find_map(|id| material_table.needs_coordinates(*id)))
+    {
         let file = mesh.file.value.display();
         let problem = format!("{file} has no texture coordinates, but its material \"{name}\" has a texture");
         context.fault(&object.place, problem, "export them with the mesh, or use a plain reflectance");

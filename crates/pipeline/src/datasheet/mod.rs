@@ -12,7 +12,7 @@ mod write;
 
 use etendue_scene::Fault;
 use etendue_scene::record::DataSheet;
-use etendue_sensor::emva1288::{LEAST_DARK_DN2, dark_noise_e};
+use etendue_sensor::emva1288::{MIN_DARK_DN2, dark_noise_e};
 
 /// Relative difference (of amplitudes) up to which figures of a data sheet are told to differ and are taken.
 pub const LOOSE: f64 = 0.05;
@@ -103,7 +103,7 @@ fn remarks(sheet: &DataSheet) -> Vec<String> {
             error.place, error.value
         ));
     }
-    if let Some(dn) = sheet.temporal_dark_noise_dn.as_ref().filter(|dn| dn.value * dn.value <= LEAST_DARK_DN2) {
+    if let Some(dn) = sheet.temporal_dark_noise_dn.as_ref().filter(|dn| dn.value * dn.value <= MIN_DARK_DN2) {
         remarks.push(format!(
             "{}: {} DN is the least that the standard states: the noise may be smaller",
             dn.place, dn.value

@@ -60,14 +60,14 @@ struct Polynomial {
 }
 
 /// Larger than any picture, px.
-const FARTHEST_PX: f64 = 1e6;
+const MAX_PX: f64 = 1e6;
 
 impl Polynomial {
     fn new(f: Vec<f64>) -> Self {
         // dθ/dρ has the sign of −f + ρ f′ = Σ (k − 1) aₖ ρᵏ.
         let turn: Vec<f64> = f.iter().enumerate().map(|(k, a)| (k as f64 - 1.0) * a).collect();
-        let fold = first_sign_change(&turn, FARTHEST_PX);
-        let greatest_px = fold.unwrap_or(FARTHEST_PX);
+        let fold = first_sign_change(&turn, MAX_PX);
+        let greatest_px = fold.unwrap_or(MAX_PX);
         let angle_rad = atan2(greatest_px, -polynomial(&f, greatest_px));
         Self { slope: derivative(&f), f, greatest_px, edge: Edge { angle_rad, folds: fold.is_some() } }
     }

@@ -5,7 +5,7 @@ use crate::place::{Place, Placed};
 use crate::reader::{Rule, RuleExt as _, among, choice, either, flag, keyed, number, record, vector, whole};
 
 /// The largest seed: TOML holds no larger whole number.
-pub const LARGEST_SEED: u64 = i64::MAX.cast_unsigned();
+pub const MAX_SEED: u64 = i64::MAX.cast_unsigned();
 
 record! {
     /// How the light is found.
@@ -41,7 +41,7 @@ record! {
         /// Side of a tile, px, 4 … 1 024. Default: 32.
         optional tile_px: Placed<u64> = whole(4, 1024);
         /// Seed of every random number, 0 … 2⁶³ − 1. Default: 0.
-        optional seed: Placed<u64> = whole(0, LARGEST_SEED);
+        optional seed: Placed<u64> = whole(0, MAX_SEED);
         /// With route "pupil": margin on every side, as a share of the picture's width and height, 0 … 1. Default: 0.
         optional overscan: Placed<f64> = number("").at_least(0.0).at_most(1.0);
         /// With route "pupil": how things out of focus are blurred in the picture. Default: "physical".

@@ -16,7 +16,7 @@ const CORNER: f32 = 0.05;
 /// Excess that is clipped rather than moved, e⁻ a pixel.
 const NEGLIGIBLE_E: f32 = 1e-3;
 /// A pixel with more counts as one with this: what neighbours add up stays finite.
-const MOST_E: f32 = 1e38;
+const MAX_E: f32 = 1e38;
 
 pub(super) fn apply(plane: &mut Plane<Electrons>, well: f32, overflow_fraction: f64, account: &mut ChargeAccount) {
     let (width, height) = (plane.width(), plane.height());
@@ -25,7 +25,7 @@ pub(super) fn apply(plane: &mut Plane<Electrons>, well: f32, overflow_fraction: 
     let mut rows = 0..height;
     let own = |_, charge: &mut [f32], excess: &mut [f32]| {
         charge.iter_mut().zip(excess).for_each(|(q, e)| {
-            let own = std::mem::take(q).min(MOST_E);
+            let own = std::mem::take(q).min(MAX_E);
             *e = hold(q, own, well);
         });
     };

@@ -40,12 +40,12 @@ pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
 
 /// Brighter-fatter, prepared.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct MovedBorders {
+pub(crate) struct PreparedBrighterFatter {
     quarter: f64,
     full_well_e: f64,
 }
 
-impl MovedBorders {
+impl PreparedBrighterFatter {
     pub(crate) fn new(context: &Context<'_>) -> Self {
         let quarter = 0.25 * context.p.charge.brighter_fatter_per_e;
         Self { quarter, full_well_e: context.operation.full_well_e }
@@ -112,7 +112,7 @@ mod tests {
         let value = |i: usize| if i.is_multiple_of(7) { 100_000.0 } else { (i * 7919 % 977) as f32 };
         let plane = Plane::from_samples(20, 15, (0..300).map(value).collect()).expect("filled");
         let context = crate::frame::tests::context(&p, 20, 15);
-        let out = MovedBorders::new(&context).apply(&plane);
+        let out = PreparedBrighterFatter::new(&context).apply(&plane);
         let sum = |p: &Plane<Electrons>| p.samples().iter().map(|q| f64::from(*q)).sum::<f64>();
         assert!((sum(&out) / sum(&plane) - 1.0).abs() < 1e-7);
         assert!(out.samples().iter().all(|q| *q >= 0.0));

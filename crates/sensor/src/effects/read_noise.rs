@@ -49,11 +49,11 @@ pub(super) fn need(p: &SensorParameters, operation: &Operation) -> (Verdict, Str
 
 /// Read noise, prepared.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct NoisyRead {
+pub(crate) struct PreparedReadNoise {
     deviations: Deviations,
 }
 
-impl NoisyRead {
+impl PreparedReadNoise {
     pub(crate) fn new(context: &Context<'_>) -> Self {
         let draws = [NoiseDraw::Read, NoiseDraw::RowRead, NoiseDraw::ColumnRead];
         let sigmas = context.p.read_out.noise.sigmas(&context.operation);

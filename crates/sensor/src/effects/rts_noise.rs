@@ -31,11 +31,11 @@ pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
 
 /// Telegraph noise, prepared: half the jump of each pixel, up or down.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Jumps {
+pub(crate) struct PreparedRts {
     halves: Vec<Site>,
 }
 
-impl Jumps {
+impl PreparedRts {
     pub(crate) fn new(sites: &[Site], high: &[bool]) -> Self {
         let half =
             |(site, high): (&Site, &bool)| Site { amplitude: if *high { 0.5 } else { -0.5 } * site.amplitude, ..*site };

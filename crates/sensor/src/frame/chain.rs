@@ -3,7 +3,7 @@
 use super::Memory;
 use crate::account::{ChargeAccount, RowTally};
 use crate::effects::angle_response::AngleFactors;
-use crate::effects::brighter_fatter::MovedBorders;
+use crate::effects::brighter_fatter::PreparedBrighterFatter;
 use crate::effects::dark_current::DarkElectrons;
 use crate::effects::dead_pixels::DeadPixels;
 use crate::effects::full_well::{Clip, Overflow};
@@ -11,9 +11,9 @@ use crate::effects::lag::Traps;
 use crate::effects::neighbours::Neighbours;
 use crate::effects::offset_pattern::Offsets;
 use crate::effects::photo_response::ResponsePattern;
-use crate::effects::read_noise::NoisyRead;
+use crate::effects::read_noise::PreparedReadNoise;
 use crate::effects::response::Response;
-use crate::effects::rts_noise::Jumps;
+use crate::effects::rts_noise::PreparedRts;
 use crate::effects::shot_noise::ShotNoise;
 use crate::effects::smear::ColumnSmear;
 use crate::effects::two_level::{self, Draws, Site};
@@ -35,8 +35,8 @@ pub(super) enum RowEffect {
     Dead(DeadPixels),
     Response(Response),
     Offsets(Offsets),
-    Read(NoisyRead),
-    RtsNoise(Jumps),
+    Read(PreparedReadNoise),
+    RtsNoise(PreparedRts),
 }
 
 impl RowEffect {
@@ -63,7 +63,7 @@ pub(super) enum PlaneEffect {
     Neighbours(Neighbours),
     Smear(ColumnSmear),
     Lag(Traps),
-    BrighterFatter(MovedBorders),
+    BrighterFatter(PreparedBrighterFatter),
     Overflow(Overflow),
     Binning(Binning),
 }
@@ -150,7 +150,7 @@ fn stage(effect: Effect, context: &Context<'_>, memory: &mut Memory) -> Option<S
         Effect::ShotNoise => row(RowEffect::Shot(ShotNoise::new(context))),
         Effect::DarkCurrent => row(RowEffect::Dark(DarkElectrons::new(context, &blinking(context, memory)))),
         Effect::Lag => plane(PlaneEffect::Lag(Traps::new(context))),
-        Effect::BrighterFatter => plane(PlaneEffect::BrighterFatter(MovedBorders::new(context))),
+        Effect::BrighterFatter => plane(PlaneEffect::BrighterFatter(PreparedBrighterFatter::new(context))),
         Effect::FullWell => match p.charge.blooming {
             None => row(RowEffect::Clip(Clip::new(context))),
             Some(blooming) => plane(PlaneEffect::Overflow(Overflow::new(blooming, context))),
@@ -160,7 +160,7 @@ fn stage(effect: Effect, context: &Context<'_>, memory: &mut Memory) -> Option<S
         Effect::Response => row(RowEffect::Response(p.read_out.response.clone())),
         Effect::InterPixelCapacitance => plane(PlaneEffect::Neighbours(p.read_out.capacitance?.0)),
         Effect::OffsetPattern => row(RowEffect::Offsets(Offsets::new(context))),
-        Effect::ReadNoise => row(RowEffect::Read(NoisyRead::new(context))),
+        Effect::ReadNoise => row(RowEffect::Read(PreparedReadNoise::new(context))),
         Effect::RtsNoise => row(RowEffect::RtsNoise(rts_noise(context, memory)?)),
         Effect::ExposureControl | Effect::Converter | Effect::Merge | Effect::Companding => None,
     }
@@ -177,12 +177,12 @@ fn blinking(context: &Context<'_>, memory: &mut Memory) -> Vec<Site> {
     up
 }
 
-fn rts_noise(context: &Context<'_>, memory: &mut Memory) -> Option<Jumps> {
+fn rts_noise(context: &Context<'_>, memory: &mut Memory) -> Option<PreparedRts> {
     let two = context.p.read_out.rts_noise?.0;
     let draws = Draws { which: NoiseDraw::Telegraph, flip: NoiseDraw::TelegraphFlip };
     let size = (context.width, context.height);
     let (sites, high) = two_level::next(&two, (context.p, draws), context.address, size, &memory.before.telegraph_high);
-    let jumps = Jumps::new(&sites, &high);
+    let jumps = PreparedRts::new(&sites, &high);
     memory.after.telegraph_high = high;
     Some(jumps)
 }

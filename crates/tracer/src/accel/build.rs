@@ -6,7 +6,7 @@
 //! the number of threads.
 
 use super::boxes::Box3;
-use super::halve::{halve, is_crowded};
+use super::median_split::{halve, is_crowded};
 use glam::Vec3;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;

@@ -14,13 +14,13 @@
 //! operations in the same order, so the same bits.
 
 mod best;
+mod blas;
 pub(crate) mod boxes;
 mod build;
 mod collapse;
-mod halve;
 pub(crate) mod lanes;
 pub(crate) mod local;
-mod mesh_tree;
+mod median_split;
 mod node;
 mod packet;
 mod pending;
@@ -30,7 +30,7 @@ mod reach;
 mod simd;
 #[cfg(test)]
 pub(crate) mod tests;
-pub(crate) mod top;
+pub(crate) mod tlas;
 mod walk;
 mod world;
 

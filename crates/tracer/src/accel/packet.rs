@@ -35,7 +35,7 @@ pub(super) struct Packet<'a> {
 }
 
 /// Where a ray meets the triangles of a packet, for the lanes it meets. Iterates over them.
-pub(super) struct Meeting<'a> {
+pub(super) struct LaneHits<'a> {
     lanes: u32,
     t: Eight,
     u: Eight,
@@ -52,7 +52,7 @@ pub(super) struct PrimitiveHit {
     pub(super) primitive: u32,
 }
 
-impl Iterator for Meeting<'_> {
+impl Iterator for LaneHits<'_> {
     type Item = PrimitiveHit;
 
     #[inline(always)]
@@ -148,11 +148,17 @@ impl<'a> Packet<'a> {
 
     /// Which triangles the ray meets with 0 < t ≤ `limit`, and where.
     #[inline(always)]
-    pub(super) fn meet<L: Lanes>(&self, l: L, spread: &RayLanes<L>, ray: &LocalRay, limit: f32) -> Option<Meeting<'a>> {
+    pub(super) fn meet<L: Lanes>(
+        &self,
+        l: L,
+        spread: &RayLanes<L>,
+        ray: &LocalRay,
+        limit: f32,
+    ) -> Option<LaneHits<'a>> {
         let Test { hit, doubtful, edges, sum, t } = self.test(l, spread, ray, limit)?;
         let (u, v) = (l.div(edges.y, sum), l.div(edges.z, sum));
         let mut meeting =
-            Meeting { lanes: hit & !doubtful, t: l.store(t), u: l.store(u), v: l.store(v), packet: *self };
+            LaneHits { lanes: hit & !doubtful, t: l.store(t), u: l.store(u), v: l.store(v), packet: *self };
         if doubtful != 0 {
             self.settle(ray, limit, doubtful, &mut meeting);
         }
@@ -232,7 +238,7 @@ impl<'a> Packet<'a> {
     /// Decides doubtful lanes in f64.
     #[cold]
     #[inline(never)]
-    fn settle(&self, ray: &LocalRay, limit: f32, doubtful: u32, meeting: &mut Meeting<'_>) {
+    fn settle(&self, ray: &LocalRay, limit: f32, doubtful: u32, meeting: &mut LaneHits<'_>) {
         for lane in (0..8).filter(|lane| doubtful >> lane & 1 == 1) {
             if let Some((t, u, v)) = exact(self.triangle(lane), ray, limit) {
                 meeting.lanes |= 1 << lane;

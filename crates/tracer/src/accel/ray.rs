@@ -6,7 +6,7 @@ use glam::Vec3;
 
 /// Below this a component of a direction counts as this small: its reciprocal stays finite, and the ray strays by less
 /// than any coordinate's rounding.
-const LEAST_COMPONENT: f32 = 1e-18;
+const MIN_COMPONENT: f32 = 1e-18;
 /// Shrinks the entry into a box by more than the rounding of the operations that made it, and of those that made the
 /// exit: 2·3 roundings of 2⁻²⁴ (after Ize 2013, "Robust BVH ray traversal"), and as many for the triangle's. What the
 /// difference of two products errs by more, two roundings of the plane's coordinate, the boxes' padding covers; being
@@ -31,7 +31,7 @@ impl SlabRay {
     /// Of an origin and the reciprocals of a direction's components; those of zeros, of either sign, become finite.
     #[inline(always)]
     pub(super) fn with_inverse(origin: Vec3, inverse: Vec3) -> Self {
-        const MOST: f32 = 1.0 / LEAST_COMPONENT;
+        const MOST: f32 = 1.0 / MIN_COMPONENT;
         let inverse = inverse.to_array().map(|i| i.clamp(-MOST, MOST));
         Self { origin: origin.to_array(), inverse, is_backward: inverse.map(|i| i < 0.0) }
     }

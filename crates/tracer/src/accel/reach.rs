@@ -16,7 +16,7 @@
 use super::World;
 use super::world::WorldError;
 use crate::geometry::{Instance, Mesh, Shape};
-use crate::view::Placed;
+use crate::view::InstanceTransform;
 use glam::DVec3;
 
 /// R, in units of the mesh's frame; m for spheres.
@@ -25,7 +25,7 @@ const FARTHEST: f64 = 1e12;
 /// Whether every mesh can be met from the camera at `origin_m` and from every surface.
 pub(super) fn check(world: &World, origin_m: DVec3) -> Result<(), WorldError> {
     let instances = world.instances();
-    let placed: Vec<_> = instances.iter().map(|i| Placed::new(i, origin_m)).collect();
+    let placed: Vec<_> = instances.iter().map(|i| InstanceTransform::new(i, origin_m)).collect();
     let bounds = placed.iter().zip(instances).filter_map(|(p, i)| p.bounds(i, world));
     // Rays start at the camera, which is the origin, or on a surface.
     let (low, high) = bounds.fold((DVec3::ZERO, DVec3::ZERO), |(low, high), b| (low.min(b.0), high.max(b.1)));
@@ -45,7 +45,7 @@ pub(super) fn check(world: &World, origin_m: DVec3) -> Result<(), WorldError> {
 }
 
 /// Whether the camera's place in the frame of a mesh stays before the box that holds the mesh when it is rounded to f32.
-fn check_rounding(instance: usize, placed: &Placed, mesh: &Mesh) -> Result<(), WorldError> {
+fn check_rounding(instance: usize, placed: &InstanceTransform, mesh: &Mesh) -> Result<(), WorldError> {
     let Some((low, high)) = mesh.bounds() else { return Ok(()) };
     let (camera, _) = placed.line_to_local(DVec3::ZERO, DVec3::X);
     let away = (low.as_dvec3() - camera).max(camera - high.as_dvec3());
@@ -60,7 +60,12 @@ fn check_rounding(instance: usize, placed: &Placed, mesh: &Mesh) -> Result<(), W
     Ok(())
 }
 
-fn check_sphere(index: usize, placed: &Placed, instance: &Instance, world: &World) -> Result<(), WorldError> {
+fn check_sphere(
+    index: usize,
+    placed: &InstanceTransform,
+    instance: &Instance,
+    world: &World,
+) -> Result<(), WorldError> {
     let reach = placed.bounds(instance, world).map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
     if (0.0..=FARTHEST).contains(&reach) { Ok(()) } else { Err(WorldError::Sphere { instance: index, reach_m: reach }) }
 }

@@ -1,7 +1,7 @@
 //! The world: meshes with their trees, and instances of them.
 
 use super::Simd;
-use super::mesh_tree::MeshTree;
+use super::blas::Blas;
 use super::reach;
 use crate::MaterialId;
 use crate::geometry::{Instance, Mesh, MeshId, Shape};
@@ -143,7 +143,7 @@ impl WorldBuilder {
         for (index, instance) in self.instances.iter().enumerate() {
             check(index, instance, &self.meshes)?;
         }
-        let trees = self.meshes.iter().map(MeshTree::new).collect();
+        let trees = self.meshes.iter().map(Blas::new).collect();
         Ok(World { meshes: self.meshes, trees, instances: self.instances })
     }
 }
@@ -178,7 +178,7 @@ fn is_invertible(transform: &DAffine3) -> bool {
 #[derive(Clone, Debug)]
 pub struct World {
     meshes: Vec<Mesh>,
-    trees: Vec<MeshTree>,
+    trees: Vec<Blas>,
     instances: Vec<Instance>,
 }
 
@@ -195,7 +195,7 @@ impl World {
         &self.meshes[id.0 as usize]
     }
 
-    pub(crate) fn tree(&self, id: MeshId) -> &MeshTree {
+    pub(crate) fn tree(&self, id: MeshId) -> &Blas {
         &self.trees[id.0 as usize]
     }
 

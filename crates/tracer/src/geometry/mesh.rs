@@ -10,9 +10,9 @@ use glam::{DVec3, Vec2, Vec3};
 use std::collections::HashSet;
 
 /// Coordinates beyond this are refused: products of three of them must stay finite in f32.
-const LARGEST_COORDINATE_M: f32 = 1e12;
+const MAX_COORDINATE_M: f32 = 1e12;
 /// Trees name leaves by 30 bits, and have no more of them than pieces of triangles.
-const MOST_TRIANGLES: usize = (1 << 29) - 1;
+const MAX_TRIANGLES: usize = (1 << 29) - 1;
 
 /// Triangles over shared vertices, in the mesh's own frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -162,7 +162,7 @@ fn check_counts(
     check_count("normals", normals.len(), positions.len())?;
     check_count("texture coordinates", uvs.len(), positions.len())?;
     check_count("material slots", slots.len(), triangles.len())?;
-    if triangles.len() > MOST_TRIANGLES {
+    if triangles.len() > MAX_TRIANGLES {
         return Err(MeshError::TooManyTriangles { triangles: triangles.len() });
     }
     Ok(())
@@ -179,7 +179,7 @@ fn check_vertices(positions: &[Vec3], uvs: &[Vec2]) -> Result<(), MeshError> {
     if let Some(vertex) = positions.iter().position(|p| !p.is_finite()) {
         return Err(MeshError::NonFinitePosition { vertex });
     }
-    if let Some(vertex) = positions.iter().position(|p| p.abs().max_element() > LARGEST_COORDINATE_M) {
+    if let Some(vertex) = positions.iter().position(|p| p.abs().max_element() > MAX_COORDINATE_M) {
         return Err(MeshError::TooFar { vertex });
     }
     match uvs.iter().position(|uv| !uv.is_finite()) {

@@ -32,7 +32,7 @@ use etendue_core::random::PathStream;
 use etendue_core::{FieldRay, RadianceField, Ray, Spectral, Wavelengths};
 
 use crate::lights::Lights;
-use crate::materials::Palette;
+use crate::materials::MaterialTable;
 use crate::view::View;
 use medium::Medium;
 use path::Path;
@@ -76,7 +76,7 @@ impl Default for PathSettings {
 #[derive(Clone, Copy, Debug)]
 pub struct PathTracer<'a> {
     view: &'a View<'a>,
-    palette: &'a Palette,
+    material_table: &'a MaterialTable,
     lights: &'a Lights,
     settings: PathSettings,
     /// What the entrance pupil lies in: paths begin there.
@@ -85,12 +85,17 @@ pub struct PathTracer<'a> {
 
 impl<'a> PathTracer<'a> {
     /// A path tracer of a view with the materials that its instances name; `lights` must be collected from the same
-    /// view and palette.
+    /// view and material_table.
     #[must_use]
-    pub fn new(view: &'a View<'a>, palette: &'a Palette, lights: &'a Lights, settings: PathSettings) -> Self {
-        let solid = Surroundings::of(view, palette).solid;
-        let medium = Medium::inside(solid.and_then(|id| palette.absorption(id)));
-        Self { view, palette, lights, settings, medium }
+    pub fn new(
+        view: &'a View<'a>,
+        material_table: &'a MaterialTable,
+        lights: &'a Lights,
+        settings: PathSettings,
+    ) -> Self {
+        let solid = Surroundings::of(view, material_table).solid;
+        let medium = Medium::inside(solid.and_then(|id| material_table.absorption(id)));
+        Self { view, material_table, lights, settings, medium }
     }
 
     /// How paths are followed.

@@ -13,13 +13,13 @@ use super::medium::Medium;
 use super::{Level, PathTracer};
 use crate::MaterialId;
 use crate::geometry::SurfacePoint;
-use crate::lights::{LightSample, Met, Receiver};
+use crate::lights::{LightHit, LightSample, LightSampleContext};
 use crate::materials::{Bsdf, BsdfSample, Event, ShadingFrame};
 use crate::textures::Lookup;
 
 /// Surfaces that a path meets at most, with those that it passes. No scene needs as many; among surfaces closer together
 /// than the step from one to the next a path might turn in circles.
-pub(super) const MOST_MET: u32 = 8192;
+pub(super) const MAX_MET: u32 = 8192;
 
 /// A path on its way.
 #[derive(Clone)]
@@ -38,7 +38,7 @@ pub(super) struct Path<'a, const N: usize> {
     /// Density of the ray's direction, 1/sr; `None` where it came from the camera or a mirror.
     pub(super) scattered: Option<f32>,
     /// Where the ray was last scattered; `None` where it came from the camera or a mirror.
-    receiver: Option<Receiver>,
+    receiver: Option<LightSampleContext>,
     pub(super) medium: Medium<'a>,
     history: History,
     /// What the path carried when its throughput was last set to one: roulette looks at the product.
@@ -59,7 +59,7 @@ pub(super) struct Vertex<'a, const N: usize> {
 }
 
 /// What a path meets.
-pub(super) enum Meeting {
+pub(super) enum Intersection {
     /// Nothing: infinity.
     Nothing,
     /// A surface that is not there for this path.
@@ -69,7 +69,7 @@ pub(super) enum Meeting {
 }
 
 /// How a path goes on.
-pub(super) enum Onward {
+pub(super) enum PathStep {
     /// To another surface.
     Goes,
     /// Not at all.
@@ -104,7 +104,7 @@ impl<'a, const N: usize> Path<'a, N> {
 
     /// Radiance at the camera.
     pub(super) fn follow(mut self) -> Spectral<N> {
-        while self.met < MOST_MET && matches!(self.step(), Onward::Goes) {
+        while self.met < MAX_MET && matches!(self.step(), PathStep::Goes) {
             self.met += 1;
         }
         self.radiance
@@ -117,8 +117,8 @@ impl<'a, const N: usize> Path<'a, N> {
         self.throughput = Spectral::ONE;
         self.radiance = Spectral::ZERO;
         match self.scatter(vertex) {
-            Onward::Ends => self.radiance,
-            Onward::Goes => {
+            PathStep::Ends => self.radiance,
+            PathStep::Goes => {
                 self.met += 1;
                 self.follow()
             }
@@ -126,12 +126,12 @@ impl<'a, const N: usize> Path<'a, N> {
     }
 
     /// To the next surface and on from it, or to infinity.
-    fn step(&mut self) -> Onward {
+    fn step(&mut self) -> PathStep {
         match self.meet() {
-            Meeting::Nothing => Onward::Ends,
-            Meeting::Passed => Onward::Goes,
-            Meeting::Surface(point, lookup) if self.is_spent() => self.only_pass(point, &lookup),
-            Meeting::Surface(point, lookup) => self.scatter(&self.vertex(point, &lookup)),
+            Intersection::Nothing => PathStep::Ends,
+            Intersection::Passed => PathStep::Goes,
+            Intersection::Surface(point, lookup) if self.is_spent() => self.only_pass(point, &lookup),
+            Intersection::Surface(point, lookup) => self.scatter(&self.vertex(point, &lookup)),
         }
     }
 
@@ -142,29 +142,29 @@ impl<'a, const N: usize> Path<'a, N> {
 
     /// To the next surface, whose glow is gathered, or to infinity.
     #[inline(always)]
-    pub(super) fn meet(&mut self) -> Meeting {
+    pub(super) fn meet(&mut self) -> Intersection {
         let Some(hit) = self.tracer.view.closest(&self.ray) else {
             self.gather_distant();
-            return Meeting::Nothing;
+            return Intersection::Nothing;
         };
         let point = self.tracer.view.surface(&self.ray, &hit);
         self.cone.travel(hit.t);
         self.travelled_m += hit.t;
         self.throughput = self.medium.attenuate(self.throughput, hit.t, self.wavelengths);
         let lookup = self.lookup(&point, self.cone, self.ray.direction);
-        self.gather_glow(&point, &lookup);
+        self.add_emission(&point, &lookup);
         if self.is_passed(&point, &lookup) {
             self.pass(&point);
-            return Meeting::Passed;
+            return Intersection::Passed;
         }
-        Meeting::Surface(point, lookup)
+        Intersection::Surface(point, lookup)
     }
 
     /// Where textures are read at a point that a ray of unit `direction` has met whose cone is `cone` there.
     #[inline(always)]
     pub(super) fn lookup(&self, point: &SurfacePoint, cone: Cone, direction: Vec3) -> Lookup {
         let at = Lookup { local: point.local, local_normal: point.local_normal, ..Lookup::point(point.uv) };
-        if !self.tracer.palette.needs_footprint(point.material) {
+        if !self.tracer.material_table.needs_footprint(point.material) {
             return at;
         }
         let at = Lookup { origin: self.tracer.view.local_origin(point.instance), ..at };
@@ -191,25 +191,25 @@ impl<'a, const N: usize> Path<'a, N> {
     }
 
     /// Light that the surface met emits against the ray.
-    fn gather_glow(&mut self, point: &SurfacePoint, lookup: &Lookup) {
-        let palette = self.tracer.palette;
-        let Some(emission) = palette.emission(point.material) else { return };
+    fn add_emission(&mut self, point: &SurfacePoint, lookup: &Lookup) {
+        let material_table = self.tracer.material_table;
+        let Some(emission) = material_table.emission(point.material) else { return };
         if !emission.leaves(point.geometric_normal, -self.ray.direction) || !self.follows(self.history.is_caustic()) {
             return;
         }
         let (direction, distance_m) = (self.ray.direction, self.travelled_m);
-        let met = |receiver| Met { receiver, point, direction, distance_m };
-        let drawn = self.receiver.as_ref().map_or(0.0, |receiver| self.tracer.lights.met_pdf(&met(receiver)));
+        let met = |receiver| LightHit { receiver, point, direction, distance_m };
+        let drawn = self.receiver.as_ref().map_or(0.0, |receiver| self.tracer.lights.light_pdf(&met(receiver)));
         let weight = self.tracer.settings.strategies.met(self.scattered, drawn);
         self.radiance +=
-            self.throughput * palette.radiance(point.material, emission, lookup, self.wavelengths) * weight;
+            self.throughput * material_table.radiance(point.material, emission, lookup, self.wavelengths) * weight;
     }
 
     /// Whether the surface is not there for this path.
     fn is_passed(&self, point: &SurfacePoint, lookup: &Lookup) -> bool {
-        let palette = self.tracer.palette;
-        palette.lets_pass(point.material)
-            && self.stream.one(Draw::Opacity, self.met) >= palette.opacity(point.material, lookup)
+        let material_table = self.tracer.material_table;
+        material_table.lets_pass(point.material)
+            && self.stream.one(Draw::Opacity, self.met) >= material_table.opacity(point.material, lookup)
     }
 
     /// Straight on from a surface.
@@ -218,44 +218,44 @@ impl<'a, const N: usize> Path<'a, N> {
     }
 
     /// Beyond the last scattering event light may still come straight through.
-    pub(super) fn only_pass(&mut self, point: SurfacePoint, lookup: &Lookup) -> Onward {
-        if !self.tracer.palette.lets_pass(point.material) {
-            return Onward::Ends;
+    pub(super) fn only_pass(&mut self, point: SurfacePoint, lookup: &Lookup) -> PathStep {
+        if !self.tracer.material_table.lets_pass(point.material) {
+            return PathStep::Ends;
         }
         let vertex = self.vertex(point, lookup);
         match self.sample(&vertex) {
-            Some(sample) if sample.event == Event::Pass => self.go_through(&vertex, &sample),
-            _ => Onward::Ends,
+            Some(sample) if sample.event == Event::Null => self.go_through(&vertex, &sample),
+            _ => PathStep::Ends,
         }
     }
 
     /// Gathers drawn light at a surface and goes on from it.
     #[inline(always)]
-    pub(super) fn scatter(&mut self, vertex: &Vertex<'a, N>) -> Onward {
+    pub(super) fn scatter(&mut self, vertex: &Vertex<'a, N>) -> PathStep {
         if matches!(vertex.bsdf, Bsdf::Absorber) {
-            return Onward::Ends;
+            return PathStep::Ends;
         }
         // Light from behind counts where the surface lets it through.
         let normal = if vertex.bsdf.transmits() { Vec3::ZERO } else { vertex.frame.normal() };
-        let receiver = Receiver { position: vertex.point.position, normal };
-        self.gather_drawn(vertex, &receiver);
+        let receiver = LightSampleContext { position: vertex.point.position, normal };
+        self.sample_direct(vertex, &receiver);
         match self.sample(vertex) {
-            None => Onward::Ends,
-            Some(sample) if sample.event == Event::Pass => self.go_through(vertex, &sample),
+            None => PathStep::Ends,
+            Some(sample) if sample.event == Event::Null => self.go_through(vertex, &sample),
             Some(sample) => self.go_on(vertex, &sample, receiver),
         }
     }
 
     #[inline(always)]
     pub(super) fn vertex(&self, point: SurfacePoint, lookup: &Lookup) -> Vertex<'a, N> {
-        let palette = self.tracer.palette;
-        let material = if palette.is_mix(point.material) {
-            palette.resolve(point.material, lookup, self.stream.one(Draw::Mix, self.met))
+        let material_table = self.tracer.material_table;
+        let material = if material_table.is_mix(point.material) {
+            material_table.resolve(point.material, lookup, self.stream.one(Draw::Mix, self.met))
         } else {
             point.material
         };
         let frame = self.frame(material, &point, lookup, self.ray.direction);
-        Vertex { bsdf: palette.bsdf(material, lookup, frame.front, self.wavelengths), point, frame, material }
+        Vertex { bsdf: material_table.bsdf(material, lookup, frame.front, self.wavelengths), point, frame, material }
     }
 
     /// The shading frame of a material at a point that a ray of unit `direction` has met.
@@ -267,9 +267,9 @@ impl<'a, const N: usize> Path<'a, N> {
         lookup: &Lookup,
         direction: Vec3,
     ) -> ShadingFrame {
-        let palette = self.tracer.palette;
-        let normal = if palette.needs_tangents(material) {
-            palette.shading_normal(material, lookup, point, self.tracer.view.tangents(point))
+        let material_table = self.tracer.material_table;
+        let normal = if material_table.needs_tangents(material) {
+            material_table.shading_normal(material, lookup, point, self.tracer.view.tangents(point))
         } else {
             point.shading_normal
         };
@@ -277,15 +277,16 @@ impl<'a, const N: usize> Path<'a, N> {
     }
 
     /// Next-event estimation: light of one drawn light, as far as it comes through.
-    fn gather_drawn(&mut self, vertex: &Vertex<'a, N>, receiver: &Receiver) {
+    fn sample_direct(&mut self, vertex: &Vertex<'a, N>, receiver: &LightSampleContext) {
         let lights = self.tracer.lights;
-        if !lights.can_be_drawn() || vertex.bsdf.is_mirror() {
+        if !lights.can_be_drawn() || vertex.bsdf.is_delta() {
             return;
         }
         let choice = if lights.are_many() { self.stream.one(Draw::LightChoice, self.met) } else { 0.0 };
         let u = self.stream.two(Draw::LightPoint, self.met);
         let spread = self.cone.spread_rad;
-        let Some(light) = lights.sample(receiver, (choice, u), spread, self.tracer.palette, self.wavelengths) else {
+        let Some(light) = lights.sample(receiver, (choice, u), spread, self.tracer.material_table, self.wavelengths)
+        else {
             return;
         };
         let Some(wi) = vertex.frame.inward(light.direction) else { return };
@@ -335,22 +336,22 @@ impl<'a, const N: usize> Path<'a, N> {
     /// What light crosses that arrives at a surface from `wi`.
     fn medium_towards(&self, vertex: &Vertex<'a, N>, wi: Vec3) -> Medium<'a> {
         if wi.z < 0.0 {
-            Medium::beyond(vertex.frame.front, self.tracer.palette.absorption(vertex.material))
+            Medium::beyond(vertex.frame.front, self.tracer.material_table.absorption(vertex.material))
         } else {
             self.medium
         }
     }
 
     /// Straight through a surface that takes its share.
-    fn go_through(&mut self, vertex: &Vertex<'_, N>, sample: &BsdfSample<N>) -> Onward {
+    fn go_through(&mut self, vertex: &Vertex<'_, N>, sample: &BsdfSample<N>) -> PathStep {
         self.throughput *= sample.weight;
         self.pass(&vertex.point);
         self.unless_dark()
     }
 
     /// On in a new direction.
-    fn go_on(&mut self, vertex: &Vertex<'a, N>, sample: &BsdfSample<N>, receiver: Receiver) -> Onward {
-        let Some(direction) = vertex.frame.outward(sample.wi) else { return Onward::Ends };
+    fn go_on(&mut self, vertex: &Vertex<'a, N>, sample: &BsdfSample<N>, receiver: LightSampleContext) -> PathStep {
+        let Some(direction) = vertex.frame.outward(sample.wi) else { return PathStep::Ends };
         self.throughput *= sample.weight;
         self.scattered = (sample.event == Event::Scatter).then_some(sample.pdf);
         self.receiver = self.scattered.map(|_| receiver);
@@ -364,16 +365,16 @@ impl<'a, const N: usize> Path<'a, N> {
         self.bounces += 1;
         if self.tracer.settings.level == Level::Flat {
             self.gather_distant();
-            return Onward::Ends;
+            return PathStep::Ends;
         }
         match self.unless_dark() {
-            Onward::Goes if self.survives() => Onward::Goes,
-            _ => Onward::Ends,
+            PathStep::Goes if self.survives() => PathStep::Goes,
+            _ => PathStep::Ends,
         }
     }
 
-    fn unless_dark(&self) -> Onward {
-        if self.throughput.is_zero() { Onward::Ends } else { Onward::Goes }
+    fn unless_dark(&self) -> PathStep {
+        if self.throughput.is_zero() { PathStep::Ends } else { PathStep::Goes }
     }
 
     /// Russian roulette: the path goes on with the probability of its greatest throughput, and then counts for those

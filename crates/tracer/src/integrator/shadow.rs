@@ -5,7 +5,7 @@ use glam::Vec3;
 
 use super::Level;
 use super::medium::Medium;
-use super::path::{MOST_MET, Path, Vertex};
+use super::path::{MAX_MET, Path, Vertex};
 use crate::geometry::SurfacePoint;
 use crate::lights::LightSample;
 
@@ -21,7 +21,7 @@ impl<const N: usize> Path<'_, N> {
             return Some(Spectral::ONE);
         }
         let ray = self.towards(&vertex.point, light.direction, light.target);
-        let share = if self.tracer.palette.has_passages() {
+        let share = if self.tracer.material_table.has_passages() {
             self.share_through(ray, light)
         } else {
             (!self.tracer.view.occluded(&ray)).then_some(Spectral::ONE)
@@ -44,19 +44,19 @@ impl<const N: usize> Path<'_, N> {
 
     /// As [`Path::share`], surface by surface: cut-outs and thin panes let light pass straight.
     fn share_through(&self, mut ray: Ray, light: &LightSample<N>) -> Option<Spectral<N>> {
-        let palette = self.tracer.palette;
+        let material_table = self.tracer.material_table;
         let mut share = Spectral::ONE;
         let mut cone = self.cone;
-        for _ in 0..MOST_MET {
+        for _ in 0..MAX_MET {
             let Some(hit) = self.tracer.view.closest(&ray) else { return Some(share) };
             let point = self.tracer.view.surface(&ray, &hit);
-            if !palette.lets_pass(point.material) {
+            if !material_table.lets_pass(point.material) {
                 return None;
             }
             cone.travel(hit.t * ray.direction.length());
             let lookup = self.lookup(&point, cone, light.direction);
             let cos = |part| self.frame(part, &point, &lookup, light.direction).wo.z;
-            share *= palette.passage(point.material, &lookup, &cos, self.wavelengths)?;
+            share *= material_table.passage(point.material, &lookup, &cos, self.wavelengths)?;
             if share.is_zero() {
                 return None;
             }

@@ -21,7 +21,7 @@ use etendue_core::random::Draw;
 use etendue_core::{FieldRay, Ray, Spectral, Wavelengths};
 use glam::Vec3;
 
-use super::path::{MOST_MET, Meeting, Onward, Path, Vertex};
+use super::path::{Intersection, MAX_MET, Path, PathStep, Vertex};
 use super::{Level, PathTracer};
 use crate::materials::Bsdf;
 
@@ -147,12 +147,12 @@ impl<'a, const N: usize> Opening<'a, N> {
     /// Follows a path to the end, or to a second surface whose light may be shared.
     fn of(mut path: Path<'a, N>) -> Self {
         let mut first: Option<First<'a, N>> = None;
-        while path.met < MOST_MET {
+        while path.met < MAX_MET {
             let onward = match path.meet() {
-                Meeting::Nothing => Onward::Ends,
-                Meeting::Passed => Onward::Goes,
-                Meeting::Surface(point, lookup) if path.is_spent() => path.only_pass(point, &lookup),
-                Meeting::Surface(point, lookup) => {
+                Intersection::Nothing => PathStep::Ends,
+                Intersection::Passed => PathStep::Goes,
+                Intersection::Surface(point, lookup) if path.is_spent() => path.only_pass(point, &lookup),
+                Intersection::Surface(point, lookup) => {
                     let vertex = path.vertex(point, &lookup);
                     if first.as_ref().is_some_and(|first| first.leads_to(&path, &vertex)) {
                         return Self { path, first, second: Some(vertex) };
@@ -163,7 +163,7 @@ impl<'a, const N: usize> Opening<'a, N> {
                     path.scatter(&vertex)
                 }
             };
-            if matches!(onward, Onward::Ends) {
+            if matches!(onward, PathStep::Ends) {
                 break;
             }
             path.met += 1;
@@ -214,6 +214,6 @@ impl<const N: usize> First<'_, N> {
 
 /// Whether a surface that a path has just met is the first to scatter it, in air.
 fn may_be_first<const N: usize>(path: &Path<'_, N>, vertex: &Vertex<'_, N>) -> bool {
-    let scatters = !vertex.bsdf.is_mirror() && !matches!(vertex.bsdf, Bsdf::Absorber | Bsdf::Dielectric(_));
+    let scatters = !vertex.bsdf.is_delta() && !matches!(vertex.bsdf, Bsdf::Absorber | Bsdf::Dielectric(_));
     path.bounces == 0 && path.medium.is_clear() && scatters
 }

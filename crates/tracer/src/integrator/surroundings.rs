@@ -10,14 +10,14 @@ use etendue_core::maths::f32::sin_cos;
 use glam::Vec3;
 
 use crate::MaterialId;
-use crate::materials::Palette;
+use crate::materials::MaterialTable;
 use crate::view::View;
 
 /// Rays that are followed.
 const RAYS: u32 = 15;
 
 /// Surfaces that a ray is followed through at most.
-const MOST_PASSED: u32 = 4096;
+const MAX_PASSED: u32 = 4096;
 
 /// What surrounds a camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -31,11 +31,11 @@ pub struct Surroundings {
 impl Surroundings {
     /// What surrounds the camera of a view.
     #[must_use]
-    pub fn of(view: &View<'_>, palette: &Palette) -> Self {
-        if !palette.has_solids() {
+    pub fn of(view: &View<'_>, material_table: &MaterialTable) -> Self {
+        if !material_table.has_solids() {
             return Self::default();
         }
-        let around: Vec<_> = (0..RAYS).map(|i| left_first(view, palette, direction(i))).collect();
+        let around: Vec<_> = (0..RAYS).map(|i| left_first(view, material_table, direction(i))).collect();
         let votes = |id: Option<MaterialId>| around.iter().filter(|seen| **seen == id).count();
         let solid = around.iter().flatten().copied().find(|id| 2 * votes(Some(*id)) > around.len());
         let open = around.iter().flatten().copied().find(|id| votes(Some(*id)) < around.len());
@@ -52,14 +52,14 @@ fn direction(i: u32) -> Vec3 {
 }
 
 /// Of the solids that hold the camera as seen along one direction, the one that is left first.
-fn left_first(view: &View<'_>, palette: &Palette, direction: Vec3) -> Option<MaterialId> {
+fn left_first(view: &View<'_>, material_table: &MaterialTable, direction: Vec3) -> Option<MaterialId> {
     // Instance, material, how often it was left more than entered; in the order in which they were first left.
     let mut met: Vec<(u32, MaterialId, i32)> = vec![];
     let mut ray = Ray::new(Vec3::ZERO, direction, 0.0);
-    for _ in 0..MOST_PASSED {
+    for _ in 0..MAX_PASSED {
         let Some(hit) = view.closest(&ray) else { break };
         let point = view.surface(&ray, &hit);
-        if let Some(material) = palette.solid(point.material) {
+        if let Some(material) = material_table.solid(point.material) {
             let step = if point.geometric_normal.dot(direction) > 0.0 { 1 } else { -1 };
             match met.iter_mut().find(|(instance, ..)| *instance == hit.instance) {
                 Some((.., left)) => *left += step,

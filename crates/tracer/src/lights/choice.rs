@@ -20,9 +20,9 @@
 //! | 0.50 | 1.96 | 1.96 | 1.96 |
 //! | 0.35 | 2.59 | 2.30 | 2.72 |
 
-use super::Receiver;
+use super::LightSampleContext;
 use super::sun::Sun;
-use super::tree::{LightBounds, LightTree, Question};
+use super::tree::{LightBounds, LightTree, TreeQuery};
 
 /// Least share of the draws of lights in the scene beside those at infinity, and the other way round.
 const FLOOR: f32 = 0.05;
@@ -70,7 +70,7 @@ impl Choice {
     }
 
     /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver.
-    pub(super) fn pick<F: Fn(u32) -> f32>(&self, question: &Question<'_, F>, u: f64) -> Option<(Chosen, f32)> {
+    pub(super) fn pick<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, u: f64) -> Option<(Chosen, f32)> {
         let local = self.local_share(question);
         let (share, chosen) = match &self.tree {
             Some(tree) if u < f64::from(local) => {
@@ -85,7 +85,7 @@ impl Choice {
         Some((chosen.0, share * chosen.1))
     }
 
-    fn pick_distant(&self, receiver: &Receiver, u: f32) -> Option<(Chosen, f32)> {
+    fn pick_distant(&self, receiver: &LightSampleContext, u: f32) -> Option<(Chosen, f32)> {
         let total = self.distant_irradiance(receiver);
         let mut rest = u * total;
         for i in 0..self.suns.len() {
@@ -99,7 +99,7 @@ impl Choice {
     }
 
     /// The probability by which [`Choice::pick`] gives a light.
-    pub(super) fn probability<F: Fn(u32) -> f32>(&self, question: &Question<'_, F>, light: Chosen) -> f32 {
+    pub(super) fn probability<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, light: Chosen) -> f32 {
         let irradiance = match (light, &self.tree) {
             (Chosen::Local(_), None) => return 0.0,
             (Chosen::Local(i), Some(tree)) => return self.local_share(question) * tree.probability(question, i),
@@ -110,7 +110,7 @@ impl Choice {
         if irradiance > 0.0 { (1.0 - self.local_share(question)) * (irradiance / total) } else { 0.0 }
     }
 
-    fn local_share<F: Fn(u32) -> f32>(&self, question: &Question<'_, F>) -> f32 {
+    fn local_share<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>) -> f32 {
         let Some(tree) = &self.tree else { return 0.0 };
         let distant = self.distant_irradiance(question.receiver);
         if distant <= 0.0 {
@@ -120,12 +120,12 @@ impl Choice {
         if local > 0.0 { (1.0 / (1.0 + distant / local)).clamp(FLOOR, 1.0 - FLOOR) } else { 0.0 }
     }
 
-    fn distant_irradiance(&self, receiver: &Receiver) -> f32 {
+    fn distant_irradiance(&self, receiver: &LightSampleContext) -> f32 {
         (0..self.suns.len()).map(|i| self.of_sun(i, receiver)).sum::<f32>() + self.environment
     }
 
     /// What a sun counts for a receiver.
-    fn of_sun(&self, i: usize, receiver: &Receiver) -> f32 {
+    fn of_sun(&self, i: usize, receiver: &LightSampleContext) -> f32 {
         let (sun, irradiance) = &self.suns[i];
         if receiver.normal == glam::Vec3::ZERO || sun.rises_over(receiver.normal) { *irradiance } else { 0.0 }
     }

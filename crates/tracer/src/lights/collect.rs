@@ -9,7 +9,7 @@ use super::tree::LightBounds;
 use super::triangle::TriangleLight;
 use crate::MaterialId;
 use crate::geometry::{Instance, Mesh, Shape};
-use crate::materials::{Emission, Glow, Palette};
+use crate::materials::{Emission, Glow, MaterialTable};
 use crate::view::View;
 
 /// Why lights cannot be collected.
@@ -47,16 +47,16 @@ pub(super) struct Gathered {
 
 /// What a material's glow weighs.
 struct Weigher<'a> {
-    palette: &'a Palette,
+    material_table: &'a MaterialTable,
     /// Mean radiance of each material that glows, W·m⁻²·sr⁻¹·nm⁻¹, and which sides do.
     glows: Vec<Option<(f64, Glow)>>,
 }
 
 impl<'a> Weigher<'a> {
-    fn new(palette: &'a Palette, (low_nm, high_nm): (f64, f64)) -> Self {
-        let weigh = |e: &Emission| (e.mean_radiance(palette.textures(), low_nm, high_nm), e.glow);
-        let glows = palette.materials().iter().map(|m| m.emission.as_ref().map(weigh)).collect();
-        Self { palette, glows }
+    fn new(material_table: &'a MaterialTable, (low_nm, high_nm): (f64, f64)) -> Self {
+        let weigh = |e: &Emission| (e.mean_radiance(material_table.textures(), low_nm, high_nm), e.glow);
+        let glows = material_table.materials().iter().map(|m| m.emission.as_ref().map(weigh)).collect();
+        Self { material_table, glows }
     }
 
     fn glow(&self, material: MaterialId) -> Option<(f64, Glow)> {
@@ -64,9 +64,13 @@ impl<'a> Weigher<'a> {
     }
 }
 
-pub(super) fn of_surfaces(view: &View<'_>, palette: &Palette, support_nm: (f64, f64)) -> Result<Gathered, LightError> {
+pub(super) fn of_surfaces(
+    view: &View<'_>,
+    material_table: &MaterialTable,
+    support_nm: (f64, f64),
+) -> Result<Gathered, LightError> {
     let world = view.world();
-    let weigher = Weigher::new(palette, support_nm);
+    let weigher = Weigher::new(material_table, support_nm);
     let mut gathered = Gathered::default();
     for (index, instance) in world.instances().iter().enumerate() {
         check_materials(index, instance, &weigher)?;
@@ -81,7 +85,7 @@ pub(super) fn of_surfaces(view: &View<'_>, palette: &Palette, support_nm: (f64, 
 }
 
 fn check_materials(index: usize, instance: &Instance, weigher: &Weigher<'_>) -> Result<(), LightError> {
-    let materials = weigher.palette.materials().len();
+    let materials = weigher.material_table.materials().len();
     match instance.materials.iter().find(|m| m.0 as usize >= materials) {
         Some(m) => Err(LightError::UnknownMaterial { instance: index, material: m.0, materials }),
         None => Ok(()),
@@ -113,7 +117,7 @@ impl Gathered {
 
     fn add_sphere(&mut self, radius_m: f64, material: MaterialId, to_render: &DAffine3, weigher: &Weigher<'_>) {
         let Some((radiance, _)) = weigher.glow(material) else { return self.primitives.push([]) };
-        let light = SphereLight::new(radius_m, to_render, material, weigher.palette);
+        let light = SphereLight::new(radius_m, to_render, material, weigher.material_table);
         let added = self.add(light.bounds(radiance), Light::Sphere(light));
         self.primitives.push([Some(added)]);
     }

@@ -15,7 +15,7 @@ use glam::{DMat3, DVec3, Mat3, Vec3};
 
 use super::profile::Profile;
 use super::tree::LightBounds;
-use super::{BRIGHTEST, LightSample, Receiver};
+use super::{BRIGHTEST, LightSample, LightSampleContext};
 
 /// Why a lamp is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -150,7 +150,7 @@ impl LampLight {
     }
 
     /// Mean irradiance at a receiver, W·m⁻²·nm⁻¹: that of its surface, or of one facing the lamp.
-    pub(super) fn irradiance(&self, receiver: &Receiver) -> f32 {
+    pub(super) fn irradiance(&self, receiver: &LightSampleContext) -> f32 {
         let Some((direction, factor)) = self.reach(receiver.position) else { return 0.0 };
         let cos = if receiver.normal == Vec3::ZERO { 1.0 } else { receiver.normal.dot(direction).max(0.0) };
         self.mean_intensity * factor * cos

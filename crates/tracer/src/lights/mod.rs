@@ -4,11 +4,11 @@
 //! - [`Lights`] are those of one view: emissive triangles and spheres of its instances in the render frame, lamps, suns,
 //!   and an environment. They are collected once and never change.
 //! - [`Lights::sample`] draws a light and a direction towards it. Its `pdf` is by solid angle and includes the choice of
-//!   the light. Exactly the same density is told for light that was met by chance: [`Lights::met_pdf`] for surfaces,
+//!   the light. Exactly the same density is told for light that was met by chance: [`Lights::light_pdf`] for surfaces,
 //!   [`Lights::distant`] for what lies beyond them, so that both can be weighed against each other.
 //! - Every light but a uniform environment can be drawn with a positive probability. A uniform environment is not drawn:
 //!   no direction of it is better than the one that the surface prefers; its density is told as 0.
-//! - Densities belong to a [`Receiver`], the point that asks.
+//! - Densities belong to a [`LightSampleContext`], the point that asks.
 //! - Radiance is spectral, W·m⁻²·sr⁻¹·nm⁻¹.
 
 pub mod almanac;
@@ -20,7 +20,7 @@ mod lamp;
 mod near;
 mod primitives;
 mod profile;
-mod receiver;
+mod sample_context;
 mod sky;
 mod sphere;
 mod spherical;
@@ -32,7 +32,7 @@ pub use collect::LightError;
 pub use environment::{Environment, EnvironmentError, ImageEnvironment};
 pub use lamp::{Lamp, LampError};
 pub use profile::{Cone, ConeError, Masked, Profile, Slide, SlideError, Web, WebAxes, WebError};
-pub use receiver::Receiver;
+pub use sample_context::LightSampleContext;
 pub use sky::SkyEnvironment;
 pub use sun::{SUN_ANGULAR_DIAMETER_DEG, Sun, SunError};
 
@@ -40,14 +40,14 @@ use etendue_core::{Spectral, Wavelengths};
 use glam::{Vec2, Vec3};
 
 use crate::geometry::SurfacePoint;
-use crate::materials::Palette;
+use crate::materials::MaterialTable;
 use crate::textures::Lookup;
 use crate::view::View;
 use choice::{Choice, Chosen};
 use lamp::LampLight;
 use primitives::Primitives;
 use sphere::SphereLight;
-use tree::Question;
+use tree::TreeQuery;
 use triangle::TriangleLight;
 
 /// The greatest radiance, irradiance or intensity of a light at any wavelength, in its unit: products of it with weights and
@@ -168,9 +168,9 @@ struct SurfaceSample {
 
 /// The light that a surface point belongs to, as seen along a ray that met it.
 #[derive(Clone, Copy, Debug)]
-pub struct Met<'a> {
+pub struct LightHit<'a> {
     /// The point that the ray came from.
-    pub receiver: &'a Receiver,
+    pub receiver: &'a LightSampleContext,
     /// The point that was met.
     pub point: &'a SurfacePoint,
     /// The ray's unit direction.
@@ -184,15 +184,15 @@ impl Lights {
     /// to `high_nm` decide how the lights share the draws.
     ///
     /// # Errors
-    /// Where an instance names a material that the palette does not have, or moves.
+    /// Where an instance names a material that the material_table does not have, or moves.
     pub fn new(
         view: &View<'_>,
-        palette: &Palette,
+        material_table: &MaterialTable,
         sources: Sources,
         (low_nm, high_nm): (f64, f64),
     ) -> Result<Self, LightError> {
         let Sources { suns, lamps, environment } = sources;
-        let mut gathered = collect::of_surfaces(view, palette, (low_nm, high_nm))?;
+        let mut gathered = collect::of_surfaces(view, material_table, (low_nm, high_nm))?;
         for lamp in lamps {
             let lamp = LampLight::new(lamp, view.origin_m(), (low_nm, high_nm));
             gathered.add(lamp.bounds(), Light::Lamp(lamp));
@@ -236,10 +236,10 @@ impl Lights {
     #[must_use]
     pub fn sample<const N: usize>(
         &self,
-        receiver: &Receiver,
+        receiver: &LightSampleContext,
         (choice, u): (f32, Vec2),
         spread_rad: f32,
-        palette: &Palette,
+        material_table: &MaterialTable,
         wavelengths: &Wavelengths<N>,
     ) -> Option<LightSample<N>> {
         // Deep in a tree more digits are needed than the one number has; the other's place on the light is not felt.
@@ -248,8 +248,12 @@ impl Lights {
         let from = receiver.position;
         let sample = match chosen {
             Chosen::Local(i) => match &self.lights[i] {
-                Light::Triangle(t) => t.glowing(palette).towards(&t.sample(from, u)?, from, spread_rad, wavelengths),
-                Light::Sphere(s) => s.glowing(palette).towards(&s.sample(from, u)?, from, spread_rad, wavelengths),
+                Light::Triangle(t) => {
+                    t.glowing(material_table).towards(&t.sample(from, u)?, from, spread_rad, wavelengths)
+                }
+                Light::Sphere(s) => {
+                    s.glowing(material_table).towards(&s.sample(from, u)?, from, spread_rad, wavelengths)
+                }
                 Light::Lamp(lamp) => lamp.sample(from, wavelengths),
             },
             Chosen::Sun(i) => Some(self.suns[i].sample(u, wavelengths)),
@@ -259,18 +263,18 @@ impl Lights {
         (pdf > 0.0).then_some(LightSample { pdf, ..sample })
     }
 
-    fn question<'a>(&'a self, receiver: &'a Receiver) -> Question<'a, impl Fn(u32) -> f32 + 'a> {
+    fn question<'a>(&'a self, receiver: &'a LightSampleContext) -> TreeQuery<'a, impl Fn(u32) -> f32 + 'a> {
         let lamp = |i: u32| match &self.lights[i as usize] {
             Light::Lamp(lamp) => lamp.irradiance(receiver),
             Light::Triangle(_) | Light::Sphere(_) => 0.0,
         };
-        Question { receiver, lamp }
+        TreeQuery { receiver, lamp }
     }
 
     /// Density by which [`Lights::sample`] would have given the direction to a surface point that was met, 1/sr; 0
     /// where the surface is no light.
     #[must_use]
-    pub fn met_pdf(&self, met: &Met<'_>) -> f32 {
+    pub fn light_pdf(&self, met: &LightHit<'_>) -> f32 {
         let Some(i) = self.primitives.light(met.point.instance, met.point.primitive) else { return 0.0 };
         let pdf = match &self.lights[i] {
             Light::Triangle(light) => light.pdf(met),
@@ -285,7 +289,7 @@ impl Lights {
     pub fn distant<'a, const N: usize>(
         &'a self,
         direction: Vec3,
-        receiver: Option<&'a Receiver>,
+        receiver: Option<&'a LightSampleContext>,
         wavelengths: &'a Wavelengths<N>,
     ) -> impl Iterator<Item = DistantLight<N>> + 'a {
         let drawn = move |light: Chosen| {
@@ -313,7 +317,7 @@ struct Glowing<'a> {
     error_m: f32,
     /// How far before the point, along the ray to it, the accelerator may already meet the surface.
     early_m: f32,
-    palette: &'a Palette,
+    material_table: &'a MaterialTable,
 }
 
 impl Glowing<'_> {
@@ -328,7 +332,7 @@ impl Glowing<'_> {
     ) -> Option<LightSample<N>> {
         let distance = surface.distance;
         let direction = (distance > 0.0).then(|| surface.way * (1.0 / distance))?;
-        let emission = self.palette.emission(self.material).filter(|e| e.leaves(surface.normal, -direction))?;
+        let emission = self.material_table.emission(self.material).filter(|e| e.leaves(surface.normal, -direction))?;
         let lookup = Lookup { width: spread_rad * distance * surface.uv_per_m, ..Lookup::point(surface.uv) };
         let side = -1.0_f32.copysign(surface.normal.dot(direction));
         Some(LightSample {
@@ -337,7 +341,7 @@ impl Glowing<'_> {
                 from + (surface.way - direction * self.early_m.min(0.5 * distance))
                     + surface.normal * (side * (self.error_m + ROUNDING * distance)),
             ),
-            radiance: self.palette.radiance(self.material, emission, &lookup, wavelengths),
+            radiance: self.material_table.radiance(self.material, emission, &lookup, wavelengths),
             pdf: surface.pdf,
             delta: false,
             surrounds: false,

@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 use super::spherical::SphericalTriangle;
 
 /// Least solid angle that is drawn by, sr: below, by area (as pbrt-v4 does from 3e-4 on, in f32).
-const LEAST_SR: f64 = 1e-5;
+const MIN_SR: f64 = 1e-5;
 
 /// Within how many times its own radius, from the middle to the farthest corner, a point is near.
 const NEAR: f32 = 2.0;
@@ -88,7 +88,7 @@ impl Near {
         let far = flat.doubled.then(|| SphericalTriangle::new([along + edges[1], across, along]));
         let solid_angle_sr = triangle.solid_angle_sr() + far.map_or(0.0, |far| far.solid_angle_sr());
         let per_sr = (1.0 / solid_angle_sr) as f32;
-        (solid_angle_sr > LEAST_SR).then_some(Self { corner, edges, triangle, far, solid_angle_sr, per_sr })
+        (solid_angle_sr > MIN_SR).then_some(Self { corner, edges, triangle, far, solid_angle_sr, per_sr })
     }
 
     /// A point of the light, in shares of its edges; `None` where rounding leaves no number.

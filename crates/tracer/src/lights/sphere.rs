@@ -11,10 +11,10 @@ use etendue_core::warp::{uniform_cone, uniform_sphere};
 use glam::{DAffine3, DMat3, DVec3, Mat3, Vec2, Vec3};
 
 use super::tree::LightBounds;
-use super::{Glowing, Met, ROUNDING, SurfaceSample, solid_angle_pdf};
+use super::{Glowing, LightHit, ROUNDING, SurfaceSample, solid_angle_pdf};
 use crate::MaterialId;
 use crate::geometry::sphere;
-use crate::materials::Palette;
+use crate::materials::MaterialTable;
 
 /// A glowing sphere in the render frame.
 #[derive(Clone, Debug)]
@@ -42,7 +42,12 @@ struct Cone {
 }
 
 impl SphereLight {
-    pub(super) fn new(radius_m: f64, to_render: &DAffine3, material: MaterialId, palette: &Palette) -> Self {
+    pub(super) fn new(
+        radius_m: f64,
+        to_render: &DAffine3,
+        material: MaterialId,
+        material_table: &MaterialTable,
+    ) -> Self {
         let linear = to_render.matrix3 * radius_m;
         let centre = to_render.translation.as_vec3();
         let longest = linear.x_axis.length().max(linear.y_axis.length()).max(linear.z_axis.length());
@@ -51,11 +56,11 @@ impl SphereLight {
             linear: linear.as_mat3(),
             normals: linear.inverse().transpose().as_mat3(),
             determinant: linear.determinant().abs() as f32,
-            radius: round_radius(&linear).filter(|_| !palette.lets_pass(material)).map(|r| r as f32),
+            radius: round_radius(&linear).filter(|_| !material_table.lets_pass(material)).map(|r| r as f32),
             area_m2: mean_area(&linear),
             error_m: ROUNDING * (centre.abs().max_element() + longest as f32),
             material,
-            textured: palette.needs_footprint(material),
+            textured: material_table.needs_footprint(material),
         }
     }
 
@@ -126,7 +131,7 @@ impl SphereLight {
         (sphere::uv(unit).as_vec2(), sphere::uv_per_m(mean_radius_m) as f32)
     }
 
-    pub(super) fn pdf(&self, met: &Met<'_>) -> f32 {
+    pub(super) fn pdf(&self, met: &LightHit<'_>) -> f32 {
         if let Some((cone, _)) = self.cone(met.receiver.position) {
             return 1.0 / (TAU * cone.one_minus_cos);
         }
@@ -135,8 +140,8 @@ impl SphereLight {
         solid_angle_pdf(1.0 / (4.0 * PI * stretch), met.direction * met.distance_m, met.distance_m, normal)
     }
 
-    pub(super) fn glowing<'a>(&self, palette: &'a Palette) -> Glowing<'a> {
-        Glowing { material: self.material, error_m: self.error_m, early_m: 0.0, palette }
+    pub(super) fn glowing<'a>(&self, material_table: &'a MaterialTable) -> Glowing<'a> {
+        Glowing { material: self.material, error_m: self.error_m, early_m: 0.0, material_table }
     }
 }
 

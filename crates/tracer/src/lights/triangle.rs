@@ -8,10 +8,10 @@ use glam::{DAffine3, Mat3, Vec2, Vec3};
 
 use super::near::{Flat, Near, Nearness};
 use super::tree::LightBounds;
-use super::{Glowing, Met, ROUNDING, SurfaceSample, solid_angle_pdf};
+use super::{Glowing, LightHit, ROUNDING, SurfaceSample, solid_angle_pdf};
 use crate::MaterialId;
 use crate::geometry::Mesh;
-use crate::materials::Palette;
+use crate::materials::MaterialTable;
 
 /// A glowing triangle in the render frame, or a parallelogram.
 #[derive(Clone, Debug)]
@@ -103,7 +103,7 @@ impl TriangleLight {
         (pdf > 0.0).then_some(SurfaceSample { way, distance, normal: self.normal, pdf, uv, uv_per_m: self.uv_per_m })
     }
 
-    pub(super) fn pdf(&self, met: &Met<'_>) -> f32 {
+    pub(super) fn pdf(&self, met: &LightHit<'_>) -> f32 {
         let near = self.near(met.receiver.position);
         self.density(near.as_ref(), met.direction * met.distance_m, met.distance_m)
     }
@@ -123,8 +123,8 @@ impl TriangleLight {
         if self.nearness.holds(from) { Near::new(&self.flat, from) } else { None }
     }
 
-    pub(super) fn glowing<'a>(&self, palette: &'a Palette) -> Glowing<'a> {
-        Glowing { material: self.material, error_m: self.error_m, early_m: self.flat.early_m(), palette }
+    pub(super) fn glowing<'a>(&self, material_table: &'a MaterialTable) -> Glowing<'a> {
+        Glowing { material: self.material, error_m: self.error_m, early_m: self.flat.early_m(), material_table }
     }
 }
 

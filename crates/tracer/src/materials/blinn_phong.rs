@@ -16,8 +16,8 @@ use etendue_core::{Spectral, Wavelengths};
 use etendue_spectra::Spectrum;
 use glam::{Vec2, Vec3};
 
+use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable, EnergyGain};
-use super::lottery::Lottery;
 use super::microfacet::{half_vector, mirrored};
 use super::{BsdfSample, BsdfValue, Event, Reflectance};
 
@@ -156,28 +156,29 @@ pub struct BlinnPhongBsdf<'a, const N: usize> {
 }
 
 impl<const N: usize> BlinnPhongBsdf<'_, N> {
-    fn lottery(&self, wo: Vec3) -> Option<Lottery<2>> {
+    fn discrete_sampler(&self, wo: Vec3) -> Option<DiscreteSampler<2>> {
         let (base, lobe) = (self.base.mean(), self.gloss.mean() * self.model.albedo.at(wo.z));
-        Lottery::new(if self.model.lobe.n < WIDE { [base + lobe, 0.0] } else { [base, lobe] })
+        DiscreteSampler::new(if self.model.lobe.n < WIDE { [base + lobe, 0.0] } else { [base, lobe] })
     }
 
     pub(super) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
-        self.lottery(wo).map_or(BsdfValue::ZERO, |lottery| self.value(lottery, wo, wi, half_vector(wo, wi)))
+        self.discrete_sampler(wo)
+            .map_or(BsdfValue::ZERO, |discrete_sampler| self.value(discrete_sampler, wo, wi, half_vector(wo, wi)))
     }
 
-    fn value(&self, lottery: Lottery<2>, wo: Vec3, wi: Vec3, h: Vec3) -> BsdfValue<N> {
+    fn value(&self, discrete_sampler: DiscreteSampler<2>, wo: Vec3, wi: Vec3, h: Vec3) -> BsdfValue<N> {
         let Lobe { n, scale } = self.model.lobe;
         let power = maths::f32::pow(h.z.clamp(0.0, 1.0), n);
         let lobe_pdf = (n + 2.0) / TAU * power * h.z / (4.0 * wo.dot(h)).max(1e-20);
         BsdfValue {
             value_cos: self.base * (wi.z * FRAC_1_PI) + self.gloss * (scale * power * wi.z),
-            pdf: lottery.of(0) * cosine_hemisphere_pdf(wi.z) + lottery.of(1) * lobe_pdf,
+            pdf: discrete_sampler.of(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.of(1) * lobe_pdf,
         }
     }
 
     pub(super) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
-        let lottery = self.lottery(wo)?;
-        let (wi, h) = if lottery.draw(choice) == 0 {
+        let discrete_sampler = self.discrete_sampler(wo)?;
+        let (wi, h) = if discrete_sampler.draw(choice) == 0 {
             let wi = cosine_hemisphere(u);
             (wi, half_vector(wo, wi))
         } else {
@@ -187,7 +188,7 @@ impl<const N: usize> BlinnPhongBsdf<'_, N> {
         if wi.z <= 0.0 || wo.dot(h) <= 0.0 {
             return None;
         }
-        let BsdfValue { value_cos, pdf } = self.value(lottery, wo, wi, h);
+        let BsdfValue { value_cos, pdf } = self.value(discrete_sampler, wo, wi, h);
         (pdf > 0.0).then(|| BsdfSample { wi, weight: value_cos / pdf, pdf, event: Event::Scatter })
     }
 }

@@ -27,8 +27,8 @@ use etendue_spectra::metal::ComplexIndex;
 use glam::{Vec2, Vec3};
 
 use super::coated::{COAT_INDICES, Coat, PlaceInRows};
+use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable};
-use super::lottery::Lottery;
 use super::microfacet::{Ggx, half_vector, mirrored};
 use super::{BsdfSample, BsdfValue, Event, Factor, MaterialError, Reflectance, fresnel};
 use crate::textures::{ImageTexture, Lookup};
@@ -250,30 +250,30 @@ impl<const N: usize> CarPaintBsdf<'_, N> {
     }
 
     /// Coat, flakes and what is matt, by what each sends back.
-    fn lottery(&self, wo: Vec3) -> Option<Lottery<3>> {
+    fn discrete_sampler(&self, wo: Vec3) -> Option<DiscreteSampler<3>> {
         let (inside, through) = (&self.paint.inside, self.through(wo.z));
         let flakes = self.flakes.mean() * (inside.sent.at(wo.z) - inside.turned.at(wo.z)).max(0.0);
         let (f, d) = (self.flakes.mean(), self.pigment.mean());
         let out = f * inside.out + d * self.turned * (1.0 - self.turned);
         let matt = d * (1.0 - self.turned) + self.round(wo.z).mean() * self.again.mean() * out;
-        Lottery::new([1.0 - through, through * flakes, through * matt])
+        DiscreteSampler::new([1.0 - through, through * flakes, through * matt])
     }
 
     pub(super) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
-        self.lottery(wo).map_or(BsdfValue::ZERO, |lottery| self.value(&lottery, wo, wi))
+        self.discrete_sampler(wo).map_or(BsdfValue::ZERO, |discrete_sampler| self.value(&discrete_sampler, wo, wi))
     }
 
-    fn value(&self, lottery: &Lottery<3>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+    fn value(&self, discrete_sampler: &DiscreteSampler<3>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let n = self.paint.coat.n;
         let both = self.through(wo.z) * self.through(wi.z) / (n * n);
         let (flake, flake_pdf) = self.flake(wo, wi);
         let matt = self.pigment + self.round(wo.z) * self.round(wi.z) * self.again;
         let mut value_cos = self.flakes * (both * flake) + matt * (both * FRAC_1_PI * wi.z);
-        let mut pdf = lottery.of(1) * flake_pdf + lottery.of(2) * cosine_hemisphere_pdf(wi.z);
+        let mut pdf = discrete_sampler.of(1) * flake_pdf + discrete_sampler.of(2) * cosine_hemisphere_pdf(wi.z);
         if let Some(facets) = self.paint.coat_facets {
             let m = half_vector(wo, wi);
             value_cos += Spectral::splat(fresnel::dielectric(wo.dot(m), n) * facets.reflect(wo, wi, m));
-            pdf += lottery.of(0) * facets.reflect_pdf(wo, m);
+            pdf += discrete_sampler.of(0) * facets.reflect_pdf(wo, m);
         }
         BsdfValue { value_cos, pdf }
     }
@@ -296,11 +296,11 @@ impl<const N: usize> CarPaintBsdf<'_, N> {
     }
 
     pub(super) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
-        let lottery = self.lottery(wo)?;
-        let wi = match (lottery.draw(choice), self.paint.coat_facets) {
+        let discrete_sampler = self.discrete_sampler(wo)?;
+        let wi = match (discrete_sampler.draw(choice), self.paint.coat_facets) {
             (0, Some(facets)) => mirrored(wo, facets.sample(wo, u)),
             (0, None) => {
-                let reflectance = fresnel::dielectric(wo.z, self.paint.coat.n) / lottery.of(0);
+                let reflectance = fresnel::dielectric(wo.z, self.paint.coat.n) / discrete_sampler.of(0);
                 return Some(BsdfSample::mirror(wo, Spectral::splat(reflectance)));
             }
             (1, _) => self.sample_flake(wo, u)?,
@@ -309,7 +309,7 @@ impl<const N: usize> CarPaintBsdf<'_, N> {
         if wi.z <= 0.0 {
             return None;
         }
-        let BsdfValue { value_cos, pdf } = self.value(&lottery, wo, wi);
+        let BsdfValue { value_cos, pdf } = self.value(&discrete_sampler, wo, wi);
         (pdf > 0.0).then(|| BsdfSample { wi, weight: value_cos / pdf, pdf, event: Event::Scatter })
     }
 }

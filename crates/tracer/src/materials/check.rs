@@ -1,4 +1,4 @@
-//! What a palette's materials must be.
+//! What a material_table's materials must be.
 
 use super::mix;
 use super::{Emission, EnergyGain, Factor, Leaf, Material, MaterialError, Reflectance, Surface};

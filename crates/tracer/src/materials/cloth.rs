@@ -18,8 +18,8 @@ use etendue_core::{Spectral, Wavelengths};
 use etendue_spectra::Spectrum;
 use glam::{Vec2, Vec3};
 
+use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable};
-use super::lottery::Lottery;
 use super::microfacet::half_vector;
 use super::{BsdfSample, BsdfValue, Event, Reflectance};
 use crate::textures::{ImageTexture, Lookup};
@@ -198,22 +198,23 @@ pub struct ClothBsdf<'a, const N: usize> {
 }
 
 impl<const N: usize> ClothBsdf<'_, N> {
-    fn lottery(&self, wo_albedo: f32) -> Option<Lottery<2>> {
+    fn discrete_sampler(&self, wo_albedo: f32) -> Option<DiscreteSampler<2>> {
         let sheen = self.colour_mean * wo_albedo;
-        Lottery::new([self.base_mean * (1.0 - sheen), sheen])
+        DiscreteSampler::new([self.base_mean * (1.0 - sheen), sheen])
     }
 
     pub(super) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let wo_albedo = self.cloth.albedo.at(wo.z);
-        self.lottery(wo_albedo).map_or(BsdfValue::ZERO, |lottery| self.value(lottery, wo_albedo, wo, wi))
+        self.discrete_sampler(wo_albedo)
+            .map_or(BsdfValue::ZERO, |discrete_sampler| self.value(discrete_sampler, wo_albedo, wo, wi))
     }
 
-    fn value(&self, lottery: Lottery<2>, wo_albedo: f32, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+    fn value(&self, discrete_sampler: DiscreteSampler<2>, wo_albedo: f32, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let wi_albedo = self.cloth.albedo.at(wi.z);
         let left = self.colour.map(|c| (1.0 - c * wo_albedo) * (1.0 - c * wi_albedo));
         BsdfValue {
             value_cos: self.under * left * (FRAC_1_PI * wi.z) + self.colour * self.cloth.sheen.value_cos(wo, wi),
-            pdf: lottery.of(0) * cosine_hemisphere_pdf(wi.z) + lottery.of(1) * self.sheen_pdf(wo, wi),
+            pdf: discrete_sampler.of(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.of(1) * self.sheen_pdf(wo, wi),
         }
     }
 
@@ -235,12 +236,12 @@ impl<const N: usize> ClothBsdf<'_, N> {
 
     pub(super) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let wo_albedo = self.cloth.albedo.at(wo.z);
-        let lottery = self.lottery(wo_albedo)?;
-        let wi = if lottery.draw(choice) == 0 { cosine_hemisphere(u) } else { self.sample_sheen(wo, u) };
+        let discrete_sampler = self.discrete_sampler(wo_albedo)?;
+        let wi = if discrete_sampler.draw(choice) == 0 { cosine_hemisphere(u) } else { self.sample_sheen(wo, u) };
         if wi.z <= 0.0 {
             return None;
         }
-        let BsdfValue { value_cos, pdf } = self.value(lottery, wo_albedo, wo, wi);
+        let BsdfValue { value_cos, pdf } = self.value(discrete_sampler, wo_albedo, wo, wi);
         (pdf > 0.0).then(|| BsdfSample { wi, weight: value_cos / pdf, pdf, event: Event::Scatter })
     }
 }

@@ -163,7 +163,7 @@ impl<const N: usize> ConductorBsdf<N> {
         }
     }
 
-    pub(super) fn is_mirror(&self) -> bool {
+    pub(super) fn is_delta(&self) -> bool {
         self.facets.is_none()
     }
 

@@ -158,7 +158,7 @@ impl DielectricBsdf {
         }
         let thinned = if reflected { 1.0 } else { 1.0 / (self.eta * self.eta) };
         let Some(facets) = self.facets else {
-            return Some(BsdfSample { wi, weight: Spectral::splat(thinned), pdf: 0.0, event: Event::Mirror });
+            return Some(BsdfSample { wi, weight: Spectral::splat(thinned), pdf: 0.0, event: Event::Specular });
         };
         let (weight, (_, pdf)) = match reflected {
             true => (facets.weight(wo, wi), self.reflect(facets, wo, wi)),

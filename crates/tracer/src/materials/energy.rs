@@ -97,7 +97,7 @@ fn greatest(base: &Spectrum, lobes: &[(&Spectrum, &AlbedoTable)], node: usize) -
     EnergyGain { albedo, incidence_deg, wavelength_nm: 300 + k as u16 }
 }
 
-/// A reflectance's spectrum; black for a texture, whose range the palette checks once it has its pictures.
+/// A reflectance's spectrum; black for a texture, whose range the material_table checks once it has its pictures.
 pub(super) fn known(reflectance: &Reflectance) -> Spectrum {
     match reflectance {
         Reflectance::Spectrum(spectrum) => spectrum.clone(),

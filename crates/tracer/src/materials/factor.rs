@@ -19,7 +19,7 @@ impl From<f64> for Factor {
 }
 
 impl Factor {
-    /// The factor as a roughness α: a number must lie in 0 to 1. Textures are looked at when the palette has them.
+    /// The factor as a roughness α: a number must lie in 0 to 1. Textures are looked at when the material_table has them.
     pub(super) fn checked_alpha(self) -> Result<Self, MaterialError> {
         match self {
             Self::Number(alpha) if !(0.0..=1.0).contains(&alpha) => {

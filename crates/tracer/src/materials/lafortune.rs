@@ -20,8 +20,8 @@ use etendue_core::{Basis, Spectral, Wavelengths};
 use etendue_spectra::Spectrum;
 use glam::{Vec2, Vec3};
 
+use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable, EnergyGain};
-use super::lottery::Lottery;
 use super::{BsdfSample, BsdfValue, Event, Reflectance};
 
 /// The most lobes that a model may have.
@@ -211,21 +211,21 @@ pub struct LafortuneBsdf<'a, const N: usize> {
 
 impl<const N: usize> LafortuneBsdf<'_, N> {
     /// Base first, then the lobes, by what each sends back.
-    fn lottery(&self, wo: Vec3) -> Option<Lottery<{ MAX_LOBES + 1 }>> {
-        Lottery::new(core::array::from_fn(|k| match k.checked_sub(1) {
+    fn discrete_sampler(&self, wo: Vec3) -> Option<DiscreteSampler<{ MAX_LOBES + 1 }>> {
+        DiscreteSampler::new(core::array::from_fn(|k| match k.checked_sub(1) {
             None => self.base.mean(),
             Some(i) => self.model.albedos.get(i).map_or(0.0, |table| table.at(wo.z) * self.weights[i].mean()),
         }))
     }
 
     pub(super) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
-        let Some(lottery) = self.lottery(wo) else { return BsdfValue::ZERO };
-        self.value(&lottery, wo, wi)
+        let Some(discrete_sampler) = self.discrete_sampler(wo) else { return BsdfValue::ZERO };
+        self.value(&discrete_sampler, wo, wi)
     }
 
-    fn value(&self, lottery: &Lottery<{ MAX_LOBES + 1 }>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+    fn value(&self, discrete_sampler: &DiscreteSampler<{ MAX_LOBES + 1 }>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let mut value_cos = self.base * (wi.z * FRAC_1_PI);
-        let mut pdf = lottery.of(0) * cosine_hemisphere_pdf(wi.z);
+        let mut pdf = discrete_sampler.of(0) * cosine_hemisphere_pdf(wi.z);
         for (i, lobe) in self.model.lobes.iter().enumerate() {
             let (axis, n) = (lobe.axis(wo), lobe.exponent as f32);
             let length = axis.length();
@@ -233,15 +233,15 @@ impl<const N: usize> LafortuneBsdf<'_, N> {
             if cos > 0.0 {
                 let power = maths::f32::pow(cos.min(1.0), n);
                 value_cos += self.weights[i] * (maths::f32::pow(length, n) * power * wi.z);
-                pdf += lottery.of(i + 1) * (n + 1.0) / TAU * power;
+                pdf += discrete_sampler.of(i + 1) * (n + 1.0) / TAU * power;
             }
         }
         BsdfValue { value_cos, pdf }
     }
 
     pub(super) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
-        let lottery = self.lottery(wo)?;
-        let wi = match lottery.draw(choice).checked_sub(1) {
+        let discrete_sampler = self.discrete_sampler(wo)?;
+        let wi = match discrete_sampler.draw(choice).checked_sub(1) {
             None => cosine_hemisphere(u),
             Some(i) => {
                 let lobe = &self.model.lobes[i];
@@ -252,7 +252,7 @@ impl<const N: usize> LafortuneBsdf<'_, N> {
         if wi.z <= 0.0 {
             return None;
         }
-        let BsdfValue { value_cos, pdf } = self.value(&lottery, wo, wi);
+        let BsdfValue { value_cos, pdf } = self.value(&discrete_sampler, wo, wi);
         (pdf > 0.0).then(|| BsdfSample { wi, weight: value_cos / pdf, pdf, event: Event::Scatter })
     }
 }

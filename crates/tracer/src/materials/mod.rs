@@ -2,8 +2,8 @@
 //!
 //! # Contract
 //! - A [`Material`] is a [`Surface`] and, where it has them, an [`Emission`], an opacity and a normal map.
-//! - At a point of a surface, [`Palette::resolve`] follows mixes by chance, [`Palette::shading_normal`] bends the normal,
-//!   and [`Palette::bsdf`] evaluates textures and spectra once and gives a [`Bsdf`] for the path's wavelengths. Which side
+//! - At a point of a surface, [`MaterialTable::resolve`] follows mixes by chance, [`MaterialTable::shading_normal`] bends the normal,
+//!   and [`MaterialTable::bsdf`] evaluates textures and spectra once and gives a [`Bsdf`] for the path's wavelengths. Which side
 //!   is seen (`front`) matters to solids like glass alone.
 //! - Directions `wo` (towards the viewer) and `wi` (towards the light) are unit vectors that point away from the
 //!   surface, in the shading frame: z is the shading normal on the side of `wo`, which has z > 0. Light with wi.z > 0 is
@@ -26,21 +26,22 @@ mod coated;
 mod conductor;
 mod dielectric;
 mod diffuse;
+mod discrete_sampler;
 mod emission;
 mod energy;
 mod error;
 mod facets;
 mod factor;
+mod flags;
 pub mod fresnel;
 mod gauss;
 mod interreflection;
 mod lafortune;
 mod leaf;
-mod lottery;
+mod material_table;
 mod microfacet;
 mod mix;
 mod normal_map;
-mod palette;
 mod reflectance;
 mod retro;
 mod shading;
@@ -48,7 +49,6 @@ mod slopes;
 #[cfg(test)]
 mod tests;
 mod thin_sheet;
-mod traits;
 
 pub use blinn_phong::{BlinnPhong, BlinnPhongBsdf, BlinnPhongError, blinn_phong_normalisation};
 pub use car_paint::{CarPaint, CarPaintBsdf, CarPaintError, CarPaintParts, flake_reflectance};
@@ -64,10 +64,10 @@ pub use facets::Distribution;
 pub use factor::Factor;
 pub use lafortune::{Lafortune, LafortuneBsdf, LafortuneError, Lobe, MAX_LOBES};
 pub use leaf::{Leaf, LeafBsdf};
+pub use material_table::MaterialTable;
 pub use microfacet::MIRROR_ALPHA;
 pub use mix::Mix;
 pub use normal_map::{Green, NormalMap};
-pub use palette::Palette;
 pub use reflectance::Reflectance;
 pub use retro::{
     DayTime, MarkingBsdf, MarkingError, RetroTable, RetroTableError, RoadMarking, SHEETING_CLASSES, SHEETING_COLOURS,
@@ -184,9 +184,9 @@ pub enum Event {
     /// It was scattered, by a finite density.
     Scatter,
     /// It was reflected or refracted in the one exact direction.
-    Mirror,
+    Specular,
     /// It went straight on, as if nothing had been there: no scattering event. The path keeps the direction it had.
-    Pass,
+    Null,
 }
 
 /// A direction drawn from a bsdf.
@@ -204,16 +204,16 @@ pub struct BsdfSample<const N: usize> {
 
 impl<const N: usize> BsdfSample<N> {
     fn mirror(wo: Vec3, weight: Spectral<N>) -> Self {
-        Self { wi: Vec3::new(-wo.x, -wo.y, wo.z), weight, pdf: 0.0, event: Event::Mirror }
+        Self { wi: Vec3::new(-wo.x, -wo.y, wo.z), weight, pdf: 0.0, event: Event::Specular }
     }
 }
 
 impl<const N: usize> Bsdf<'_, N> {
     /// Whether light goes on in exact directions only, so that asking for a light drawn elsewhere is in vain.
     #[must_use]
-    pub fn is_mirror(&self) -> bool {
+    pub fn is_delta(&self) -> bool {
         match self {
-            Self::Conductor(conductor) => conductor.is_mirror(),
+            Self::Conductor(conductor) => conductor.is_delta(),
             Self::Dielectric(dielectric) => dielectric.is_smooth(),
             Self::ThinSheet(_) => true,
             Self::Absorber | Self::Diffuse(_) | Self::Coated(_) | Self::Leaf(_) => false,

@@ -8,7 +8,7 @@
 //! R = ρ + ρ (1 − ρ)² a² / (1 − ρ² a²),  T = (1 − ρ)² a / (1 − ρ² a²),
 //!
 //! each the mean of both planes, which is exact for unpolarised light (Stokes 1862; Born & Wolf, ch. 7.6, without
-//! interference). R + T = 1 where nothing is absorbed. What passes goes on straight ([`Event::Pass`]); its shift aside,
+//! interference). R + T = 1 where nothing is absorbed. What passes goes on straight ([`Event::Null`]); its shift aside,
 //! by up to the pane's thickness, is left out, as are interference, dispersion and dirt. Both sides are alike.
 
 use etendue_core::{Spectral, Wavelengths, maths};
@@ -88,7 +88,7 @@ impl<const N: usize> ThinSheetBsdf<N> {
             return Some(BsdfSample::mirror(wo, reflected / share));
         }
         // Where nothing passes, the share is 1; NaN where nothing at all goes on.
-        (share < 1.0).then(|| BsdfSample { wi: -wo, weight: passed / (1.0 - share), pdf: 0.0, event: Event::Pass })
+        (share < 1.0).then(|| BsdfSample { wi: -wo, weight: passed / (1.0 - share), pdf: 0.0, event: Event::Null })
     }
 }
 

@@ -15,7 +15,7 @@ use super::texels::{Store, Texel, Texels};
 use super::{Channel, Lookup, Wrap};
 
 /// Most readings along a long footprint.
-const MOST_PROBES: f32 = 8.0;
+const MAX_PROBES: f32 = 8.0;
 
 /// How texels become a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -245,7 +245,7 @@ impl ImageTexture {
 /// Readings along a footprint of `across` by `along` texels.
 fn probes(across: f32, along: f32) -> u32 {
     let ratio = along / across.max(1.0);
-    if ratio > 2.0 { (0.5 * ratio).ceil().min(MOST_PROBES) as u32 } else { 1 }
+    if ratio > 2.0 { (0.5 * ratio).ceil().min(MAX_PROBES) as u32 } else { 1 }
 }
 
 fn check_size(width: u32, height: u32, found: usize) -> Result<(), TextureError> {

@@ -1,15 +1,15 @@
 //! How large textures and shapes are about a point, for filtering. Looked up where a material asks.
 
-use super::place::Placed;
+use super::place::InstanceTransform;
 use crate::geometry::{Footprint, Mesh, sphere};
 use core::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3, Vec3};
 
-pub(super) fn of_mesh(mesh: &Mesh, placed: &Placed, primitive: u32) -> Footprint {
+pub(super) fn of_mesh(mesh: &Mesh, placed: &InstanceTransform, primitive: u32) -> Footprint {
     Footprint { uv_per_m: uv_per_m(mesh, placed, primitive), local_per_m: local_per_m(placed) }
 }
 
-pub(super) fn of_sphere(radius_m: f64, placed: &Placed) -> Footprint {
+pub(super) fn of_sphere(radius_m: f64, placed: &InstanceTransform) -> Footprint {
     let uv_per_m = sphere::uv_per_m(radius_m * placed.mean_scale()) as f32;
     Footprint { uv_per_m, local_per_m: local_per_m(placed) }
 }
@@ -42,7 +42,7 @@ pub(super) fn globe_along(point: DVec3, vector: DVec3) -> DVec2 {
 }
 
 /// Root of the ratio of a triangle's areas in texture units and in the render frame.
-fn uv_per_m(mesh: &Mesh, placed: &Placed, primitive: u32) -> f32 {
+fn uv_per_m(mesh: &Mesh, placed: &InstanceTransform, primitive: u32) -> f32 {
     if mesh.uvs().is_empty() {
         return 0.0;
     }
@@ -53,6 +53,6 @@ fn uv_per_m(mesh: &Mesh, placed: &Placed, primitive: u32) -> f32 {
     (texture / (b - a).cross(c - a).length()).sqrt() as f32
 }
 
-fn local_per_m(placed: &Placed) -> f32 {
+fn local_per_m(placed: &InstanceTransform) -> f32 {
     (1.0 / placed.mean_scale()) as f32
 }

@@ -7,7 +7,7 @@ use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
 
 /// An instance's transforms between its own frame and the render frame, in f64.
 #[derive(Clone, Debug)]
-pub(crate) struct Placed {
+pub(crate) struct InstanceTransform {
     to_render: DAffine3,
     to_local: DAffine3,
     /// Takes normals to the render frame, up to their length.
@@ -19,7 +19,7 @@ pub(crate) struct Placed {
     is_shifted: bool,
 }
 
-impl Placed {
+impl InstanceTransform {
     /// Places an instance relative to a camera at `origin_m`. Its track must stand still, as the world has checked.
     pub(crate) fn new(instance: &Instance, origin_m: DVec3) -> Self {
         let mut to_render = instance.to_world.as_still().unwrap_or(DAffine3::IDENTITY);
@@ -60,7 +60,7 @@ impl Placed {
         self.line_to_local(ray.origin.as_dvec3(), ray.direction.as_dvec3())
     }
 
-    /// As [`Placed::ray_to_local`], rounded to f32; quick where the instance is only moved.
+    /// As [`InstanceTransform::ray_to_local`], rounded to f32; quick where the instance is only moved.
     #[inline(always)]
     pub(crate) fn rounded_ray_to_local(&self, ray: &Ray) -> (Vec3, Vec3) {
         if self.is_shifted {
@@ -70,7 +70,7 @@ impl Placed {
         (origin.as_vec3(), direction.as_vec3())
     }
 
-    /// As [`Placed::ray_to_local`], in f64.
+    /// As [`InstanceTransform::ray_to_local`], in f64.
     #[inline]
     pub(crate) fn line_to_local(&self, origin: DVec3, direction: DVec3) -> (DVec3, DVec3) {
         (self.to_local.transform_point3(origin), self.to_local.transform_vector3(direction))

@@ -5,12 +5,12 @@
 //! length of the ray (after Wächter & Binder 2019, "A fast and robust method for avoiding self-intersection").
 
 use super::Hit;
-use super::place::Placed;
+use super::place::InstanceTransform;
 use crate::geometry::{Instance, Mesh, SurfacePoint, sphere};
 use etendue_core::Ray;
 use glam::{DVec3, Vec2, Vec3};
 
-pub(super) fn of_mesh(mesh: &Mesh, instance: &Instance, placed: &Placed, hit: &Hit) -> SurfacePoint {
+pub(super) fn of_mesh(mesh: &Mesh, instance: &Instance, placed: &InstanceTransform, hit: &Hit) -> SurfacePoint {
     let weights = weights(f64::from(hit.u), f64::from(hit.v));
     let local = blend(mesh.corners(hit.primitive).map(Vec3::as_dvec3), weights);
     let position = placed.point_to_render(local).as_vec3();
@@ -34,7 +34,7 @@ pub(super) fn of_mesh(mesh: &Mesh, instance: &Instance, placed: &Placed, hit: &H
 
 /// The interpolated normal in the render frame, on the side of the triangle's own, `flat`, and in the mesh's frame; unit.
 /// In f32, but for lengths of which f32 has no squares.
-fn bent(mesh: &Mesh, primitive: u32, weights: [f64; 3], placed: &Placed, flat: Vec3) -> (Vec3, Vec3) {
+fn bent(mesh: &Mesh, primitive: u32, weights: [f64; 3], placed: &InstanceTransform, flat: Vec3) -> (Vec3, Vec3) {
     let [a, b, c] = mesh.triangles()[primitive as usize].map(|v| mesh.normals()[v as usize]);
     let [wa, wb, wc] = weights.map(|w| w as f32);
     let own = a * wa + b * wb + c * wc;
@@ -51,7 +51,13 @@ fn bent(mesh: &Mesh, primitive: u32, weights: [f64; 3], placed: &Placed, flat: V
 /// Squared lengths whose numbers f32 holds to all digits, and which are no remainders of normals that cancel.
 const MODERATE: core::ops::RangeInclusive<f32> = 1e-6..=1e20;
 
-pub(super) fn of_sphere(radius_m: f64, instance: &Instance, placed: &Placed, ray: &Ray, hit: &Hit) -> SurfacePoint {
+pub(super) fn of_sphere(
+    radius_m: f64,
+    instance: &Instance,
+    placed: &InstanceTransform,
+    ray: &Ray,
+    hit: &Hit,
+) -> SurfacePoint {
     let (origin, direction) = placed.ray_to_local(ray);
     let unit = (origin + direction * f64::from(hit.t)).try_normalize().unwrap_or(DVec3::Z);
     let local = unit * radius_m;
@@ -88,7 +94,7 @@ pub(super) struct Normals {
 }
 
 impl Normals {
-    pub(super) fn of_mesh(mesh: &Mesh, primitive: u32, weights: [f64; 3], placed: &Placed) -> Self {
+    pub(super) fn of_mesh(mesh: &Mesh, primitive: u32, weights: [f64; 3], placed: &InstanceTransform) -> Self {
         let [a, b, c] = mesh.corners(primitive).map(Vec3::as_dvec3);
         let local = (b - a).cross(c - a);
         let geometric = placed.normal_to_render(local).unwrap_or(DVec3::Z);
@@ -96,7 +102,7 @@ impl Normals {
         flat.interpolated(mesh, primitive, weights, placed).unwrap_or(flat)
     }
 
-    fn interpolated(&self, mesh: &Mesh, primitive: u32, weights: [f64; 3], placed: &Placed) -> Option<Self> {
+    fn interpolated(&self, mesh: &Mesh, primitive: u32, weights: [f64; 3], placed: &InstanceTransform) -> Option<Self> {
         if mesh.normals().is_empty() {
             return None;
         }

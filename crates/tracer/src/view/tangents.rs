@@ -1,6 +1,6 @@
 //! Directions in which texture coordinates grow. Looked up where a material asks.
 
-use super::place::Placed;
+use super::place::InstanceTransform;
 use crate::geometry::Mesh;
 use glam::{DVec2, DVec3, Vec3};
 
@@ -28,7 +28,7 @@ pub(super) fn of_sphere(point: DVec3) -> Option<[DVec3; 2]> {
 }
 
 /// Two directions of the instance's frame as unit ones of the render frame.
-pub(super) fn to_render(local: [DVec3; 2], placed: &Placed) -> Option<[Vec3; 2]> {
+pub(super) fn to_render(local: [DVec3; 2], placed: &InstanceTransform) -> Option<[Vec3; 2]> {
     let [u, v] = local.map(|d| placed.vector_to_render(d).try_normalize());
     Some([u?.as_vec3(), v?.as_vec3()])
 }

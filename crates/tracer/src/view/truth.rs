@@ -9,7 +9,7 @@
 //! anywhere. A plane is believed up to 1e-3 of the triangle beyond its edges (the least barycentric weight is −1e-3 or
 //! more). Beyond that, the answer is that of the accelerator's ray, solved in f64: a point of the triangle's edge.
 
-use super::place::Placed;
+use super::place::InstanceTransform;
 use super::point::{self, Normals};
 use super::{Hit, View};
 use crate::geometry::{Instance, Mesh, Shape, SurfacePoint, sphere};
@@ -41,7 +41,7 @@ pub struct Truth {
 
 /// After so many surfaces that are passed, the next is taken as it is. Rays go on from one to the next by the least
 /// step; among surfaces closer together than that they might turn in circles.
-const MOST_PASSES: usize = 4096;
+const MAX_PASSES: usize = 4096;
 
 impl View<'_> {
     /// What the ray from `origin_m` (render frame, m) along `direction` (any length) meets first that `accept` takes;
@@ -51,7 +51,7 @@ impl View<'_> {
         let direction = direction.try_normalize()?;
         let mut rounded = Ray::new(origin_m.as_vec3(), direction.as_vec3(), 0.0);
         let mut hit = self.closest(&rounded)?;
-        for _ in 0..MOST_PASSES {
+        for _ in 0..MAX_PASSES {
             let point = self.surface(&rounded, &hit);
             if accept(&point) {
                 break;
@@ -96,13 +96,13 @@ fn report(instance: &Instance, slot: usize, distance_m: f64, position_m: DVec3, 
 }
 
 /// The line that the accelerator follows in a mesh's frame, which begins at `start`.
-fn traced(placed: &Placed, rounded: &Ray, start: f64) -> Line {
+fn traced(placed: &InstanceTransform, rounded: &Ray, start: f64) -> Line {
     let (origin, direction) = placed.ray_to_local(rounded);
     (origin.as_vec3().as_dvec3(), direction.as_vec3().as_dvec3(), start)
 }
 
 /// Where the first of `lines` that meets the triangle does so.
-fn on_mesh(mesh: &Mesh, placed: &Placed, hit: &Hit, lines: [Line; 2]) -> (f64, DVec3, usize) {
+fn on_mesh(mesh: &Mesh, placed: &InstanceTransform, hit: &Hit, lines: [Line; 2]) -> (f64, DVec3, usize) {
     let corners = mesh.corners(hit.primitive).map(Vec3::as_dvec3);
     let meets = |(t, u, v): &(f64, f64, f64)| *t > 0.0 && u.min(*v).min(1.0 - u - v) >= -BEYOND;
     let solve =
@@ -128,7 +128,7 @@ pub(super) fn plane([a, b, c]: [DVec3; 3], origin: DVec3, direction: DVec3) -> O
 /// Where a line meets a sphere: for a ray that has passed other points, the root nearest to what the accelerator found.
 fn on_sphere(
     radius_m: f64,
-    placed: &Placed,
+    placed: &InstanceTransform,
     (origin, direction): (DVec3, DVec3),
     passed_to: Option<f64>,
 ) -> (f64, DVec3, usize) {

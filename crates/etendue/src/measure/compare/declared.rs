@@ -155,7 +155,10 @@ fn illumination(body: &CameraBody, field: f64) -> f64 {
     let angles = body.sensor.as_ref().and_then(|s| s.parameters().optics.angle_response.as_ref());
     let response = |at: DVec2| angles.map_or(1.0, |a| a.at(atan(at.length() / a.exit_pupil_mm).to_degrees()));
     let light = |field: f64| {
-        places(body, field, half_px(body)).iter().map(|at| body.lens.etendue_sr(*at) * response(*at)).sum::<f64>()
+        places(body, field, half_px(body))
+            .iter()
+            .map(|at| body.lens.projected_solid_angle_sr(*at) * response(*at))
+            .sum::<f64>()
     };
     light(field) / light(0.0)
 }

@@ -2,7 +2,7 @@
 
 mod defects;
 mod plots;
-mod told;
+mod report;
 
 use super::pictures::Pictures;
 use super::readings::Selection;
@@ -76,7 +76,7 @@ struct Fixed {
 pub fn ptc(request: &PtcRequest, observer: &dyn Observer) -> Result<Report, Error> {
     let descriptor = read_emva_descriptor(&request.descriptor).map_err(Error::input)?;
     let found = measure(request, &descriptor, observer)?;
-    let mut report = told::report(request, &found);
+    let mut report = report::report(request, &found);
     report.encoding(&stated(&request.selection, &descriptor)?);
     Ok(report)
 }

@@ -1,7 +1,7 @@
 //! `measure sfr`: the response of slanted edges.
 
 mod planes;
-mod told;
+mod report;
 
 use super::picture_input::{PictureInput, refused};
 use super::readings::{Readings, field_position};
@@ -107,7 +107,7 @@ pub fn sfr(request: &SfrRequest) -> Result<Report, Error> {
         let (sought, error) = &left_out[0];
         return Err(failure(request, sought, error));
     }
-    Ok(told::report(request, &found, &left_out, &readings))
+    Ok(report::report(request, &found, &left_out, &readings))
 }
 
 fn positive(option: &str, value: Option<f64>) -> Result<(), Error> {

@@ -2,7 +2,7 @@
 
 mod outline;
 pub(crate) mod points;
-mod said;
+mod truth_file;
 
 use super::readings::{Readings, pixels};
 use super::sfr::{Sought, Spoke, Star};
@@ -10,8 +10,8 @@ use crate::error::Error;
 use etendue_core::maths::f64::sin;
 use etendue_metrology::sfr::Strip;
 use glam::DVec2;
-use said::{CameraSaid, FeatureSaid, Said};
 use std::path::{Path, PathBuf};
+use truth_file::{CameraSaid, FeatureSaid, Said};
 
 /// Where the chart's truth lies.
 #[derive(Clone, Debug, Default)]
@@ -77,7 +77,7 @@ impl TruthInput {
 
 impl Truth {
     fn read(file: &Path, camera: Option<&str>, charts: &[&str]) -> Result<Self, Error> {
-        let said = said::read(file)?;
+        let said = truth_file::read(file)?;
         let refused = |what: String| Error::input(format!("{}: {what}", file.display()));
         if !charts.contains(&said.chart.as_str()) {
             let wanted = charts.join(", ");

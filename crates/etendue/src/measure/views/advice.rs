@@ -6,7 +6,7 @@ use etendue_metrology::calibrate::{Calibrated, Options, Sightings, calibrate};
 
 /// A fit that leaves this many times the points' own uncertainty, and this much, is looked into.
 const TIMES: f64 = 5.0;
-const LEAST_PX: f64 = 0.05;
+const MIN_PX: f64 = 0.05;
 /// It is told where another model leaves less than this share of it, or where it is as many times the uncertainty, and as much, again.
 const SHARE: f64 = 0.5;
 const SURELY: f64 = 4.0;
@@ -31,7 +31,7 @@ pub(crate) fn unsuited(
     let squares: f64 = nodes().map(|n| n.uncertainty_px * n.uncertainty_px).sum();
     let own = (squares / nodes().count() as f64).sqrt();
     let left = camera.sigma_px;
-    if left < LEAST_PX || left < TIMES * own {
+    if left < MIN_PX || left < TIMES * own {
         return None;
     }
     let sightings: Vec<Sightings> = sightings.iter().map(|s| (*s).clone()).collect();
@@ -50,7 +50,7 @@ pub(crate) fn unsuited(
                 "warning: {than}: the model {named} does not describe this camera; {other} leaves {sigma:.3} px"
             ))
         }
-        None if own > 0.0 && left > SURELY * LEAST_PX.max(TIMES * own) => Some(format!(
+        None if own > 0.0 && left > SURELY * MIN_PX.max(TIMES * own) => Some(format!(
             "warning: {than}: the model {named} does not describe this camera, or the chart is not flat; uncertainties are too small"
         )),
         None => None,

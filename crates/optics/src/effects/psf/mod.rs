@@ -39,7 +39,7 @@ const NM_PER_UM: f64 = 1e3;
 /// Wavelengths of a band are at most this far apart, nm.
 const STEP_NM: f64 = 10.0;
 /// The farthest that a function reaches, px.
-pub(super) const FARTHEST_PX: usize = 512;
+pub(super) const MAX_PX: usize = 512;
 /// Wavelengths for which the pupil's lattice must hold the wavefront, nm.
 pub(super) const VISIBLE_NM: (f64, f64) = (380.0, 780.0);
 /// Patches where the function varies and nothing is said.
@@ -183,7 +183,7 @@ impl Psf {
     fn reach_px_of(&self, longest_nm: f64, fineness: f64, pitch_mm: f64, stretch: f64) -> usize {
         let computed = 0.5 * CELLS as f64 * longest_nm * MM_PER_NM * self.f_number / fineness * stretch;
         let reach = self.parameters.reach_mm.map_or(computed, |mm| mm.min(computed));
-        ((reach / pitch_mm).ceil() as usize + 1).min(FARTHEST_PX)
+        ((reach / pitch_mm).ceil() as usize + 1).min(MAX_PX)
     }
 
     /// How much wider the pattern is along the radius and across it, at a distance from the axis on the sensor.

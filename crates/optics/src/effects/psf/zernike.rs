@@ -7,7 +7,7 @@ use etendue_core::maths::f64::{atan2, sin_cos};
 use glam::DVec2;
 
 /// The largest radial order.
-const LARGEST_ORDER: u32 = 12;
+const MAX_ORDER: u32 = 12;
 
 /// A polynomial.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,7 +20,7 @@ impl Zernike {
     /// By Noll's index, from 1; `None` beyond the order 12.
     #[must_use]
     pub fn noll(index: u32) -> Option<Self> {
-        let n = (0..=LARGEST_ORDER).find(|n| index >= 1 && index <= (n + 1) * (n + 2) / 2)?;
+        let n = (0..=MAX_ORDER).find(|n| index >= 1 && index <= (n + 1) * (n + 2) / 2)?;
         let k = index - n * (n + 1) / 2 - 1;
         let m = if n.is_multiple_of(2) { 2 * k.div_ceil(2) } else { 2 * (k / 2) + 1 };
         let m = m.cast_signed();
@@ -30,7 +30,7 @@ impl Zernike {
     /// By the index of OSA and ANSI, from 0; `None` beyond the order 12.
     #[must_use]
     pub fn osa(index: u32) -> Option<Self> {
-        let n = (0..=LARGEST_ORDER).find(|n| index < (n + 1) * (n + 2) / 2)?;
+        let n = (0..=MAX_ORDER).find(|n| index < (n + 1) * (n + 2) / 2)?;
         Some(Self { n, m: (2 * index).cast_signed() - (n * (n + 2)).cast_signed() })
     }
 

@@ -66,13 +66,13 @@ impl Prescribed {
         DVec3::new(point.x, point.y, z) * MM
     }
 
-    pub(crate) fn etendue_sr(&self, sensor_mm: DVec2) -> f64 {
-        self.etendue_at_sr(sensor_mm.length(), PRINCIPAL_NM, DIRECTIONS)
+    pub(crate) fn projected_solid_angle_sr(&self, sensor_mm: DVec2) -> f64 {
+        self.projected_solid_angle_at_sr(sensor_mm.length(), PRINCIPAL_NM, DIRECTIONS)
     }
 
     /// ∫ τ cos⁴ θ dt over what passes at a wavelength and a distance from the axis: over the one opening that most lenses show a sensor point, or
     /// over all of several.
-    pub(crate) fn etendue_at_sr(&self, s_mm: f64, nm: f64, directions: usize) -> f64 {
+    pub(crate) fn projected_solid_angle_at_sr(&self, s_mm: f64, nm: f64, directions: usize) -> f64 {
         let Some(ellipse) = self.regions.ellipse(s_mm) else { return 0.0 };
         let media = self.prescription.media(nm);
         let meridian = Meridian::at(s_mm, self.prescription.sensor_mm());

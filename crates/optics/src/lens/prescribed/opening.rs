@@ -34,7 +34,7 @@ const GRID: usize = 96;
 const BEYOND: f64 = 0.01;
 /// Rows of a part's first quadrature and of its last, and the relative change at which it stands still.
 const ROWS: usize = 24;
-const MOST_ROWS: usize = 192;
+const MAX_ROWS: usize = 192;
 const SETTLED: f64 = 1e-6;
 
 impl Opening<'_> {
@@ -138,7 +138,7 @@ fn converged<F: Fn(DVec2) -> Option<f64>>(area: &mut Area<'_, F>, f: &impl Fn(DV
     loop {
         rows *= 2;
         let next = sum(rows);
-        if (next - last).abs() <= SETTLED * next || rows >= MOST_ROWS {
+        if (next - last).abs() <= SETTLED * next || rows >= MAX_ROWS {
             return next;
         }
         last = next;

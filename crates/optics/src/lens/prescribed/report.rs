@@ -101,7 +101,7 @@ impl Prescribed {
         let lens = &self.prescription;
         let edge = fields.max(2) - 1;
         let height = |i: usize| self.regions.limit_mm * i as f64 / edge as f64;
-        let axis_sr = self.etendue_sr(DVec2::ZERO);
+        let axis_sr = self.projected_solid_angle_sr(DVec2::ZERO);
         let image_mm = |nm: f64| lens.image_mm(nm);
         let last = self.chiefs.ray(lens, height(edge));
         LensReport {
@@ -119,7 +119,7 @@ impl Prescribed {
     }
 
     fn field(&self, height_mm: f64, axis_sr: f64) -> FieldReport {
-        let relative_illumination = self.etendue_sr(DVec2::new(height_mm, 0.0)) / axis_sr;
+        let relative_illumination = self.projected_solid_angle_sr(DVec2::new(height_mm, 0.0)) / axis_sr;
         FieldReport { height_mm, relative_illumination, image: self.image(height_mm) }
     }
 

@@ -275,7 +275,7 @@ fn no_lens_is_faster_than_half() {
     for model in models {
         refused(&format!("{model}f_number = 0.001\n"), "", &["f_number", "0.5"]);
         // Light on the axis is at most all of the half space: E/L = π.
-        let light = camera(&format!("{model}f_number = 0.5\n")).body.lens.etendue_sr(glam::DVec2::ZERO);
+        let light = camera(&format!("{model}f_number = 0.5\n")).body.lens.projected_solid_angle_sr(glam::DVec2::ZERO);
         assert!(light <= core::f64::consts::PI * (1.0 + 1e-12), "{model}: {light}");
     }
     refused("type = \"pinhole\"\nfocal_length_mm = 1e-9\nf_number = 2\n", "", &["focal lengths", "sideways"]);

@@ -1,4 +1,4 @@
-//! Materials and textures: from records and from the meshes' own files to the tracer's palette.
+//! Materials and textures: from records and from the meshes' own files to the tracer's material_table.
 
 mod metal;
 mod number;
@@ -15,7 +15,7 @@ use etendue_scene::asset::SlotMaterial;
 use etendue_scene::record::{self, Scene};
 use etendue_spectra::upsample;
 use etendue_tracer::MaterialId;
-use etendue_tracer::materials::{Material, Palette, Reflectance, Surface};
+use etendue_tracer::materials::{Material, MaterialTable, Reflectance, Surface};
 pub(super) use metal::complex_index;
 use picture::Pictures;
 pub(super) use share::share;
@@ -60,7 +60,7 @@ impl Made {
 }
 
 /// What materials are made with.
-struct Workshop<'w, 'a> {
+struct MaterialCompiler<'w, 'a> {
     scene: &'w Scene,
     pictures: &'w mut Pictures,
     context: &'w mut Context<'a>,
@@ -80,9 +80,11 @@ impl PaletteBuilder {
                 continue;
             }
             let pictures = &mut builder.pictures;
-            let mut workshop = Workshop { scene, pictures, context, needs_coordinates: false, flux_sides: None };
-            if let Some(material) = workshop.material(record) {
-                let (needs_coordinates, flux_sides) = (workshop.needs_coordinates, workshop.flux_sides);
+            let mut material_compiler =
+                MaterialCompiler { scene, pictures, context, needs_coordinates: false, flux_sides: None };
+            if let Some(material) = material_compiler.material(record) {
+                let (needs_coordinates, flux_sides) =
+                    (material_compiler.needs_coordinates, material_compiler.flux_sides);
                 let (place, name) = (record.place.clone(), record.name.value.clone());
                 let id = builder.add(Made { material, place, name: name.clone(), needs_coordinates, flux_sides });
                 builder.by_name.insert(name, id);
@@ -163,13 +165,13 @@ impl PaletteBuilder {
         made
     }
 
-    /// The palette, and the materials' names in the order of their ids.
-    pub(super) fn finish(self, context: &mut Context<'_>) -> Option<(Palette, Vec<String>)> {
+    /// The material_table, and the materials' names in the order of their ids.
+    pub(super) fn finish(self, context: &mut Context<'_>) -> Option<(MaterialTable, Vec<String>)> {
         let names = self.materials.iter().map(|made| made.name.clone()).collect();
         let places: Vec<_> = self.materials.iter().map(|made| made.place.clone()).collect();
         let materials = self.materials.into_iter().map(|made| made.material).collect();
-        match Palette::new(materials, self.pictures.into_textures()) {
-            Ok(palette) => Some((palette, names)),
+        match MaterialTable::new(materials, self.pictures.into_textures()) {
+            Ok(material_table) => Some((material_table, names)),
             Err(error) => {
                 if let Some(place) = error.material().and_then(|i| places.get(i)) {
                     context.fault(place, error.to_string(), "");
@@ -185,7 +187,7 @@ impl PaletteBuilder {
     }
 }
 
-impl Workshop<'_, '_> {
+impl MaterialCompiler<'_, '_> {
     fn material(&mut self, record: &record::Material) -> Option<Material> {
         let surface = self.surface(&record.surface.0);
         let emission = record.emission.as_ref().map(|e| self.emission(e));

@@ -1,12 +1,12 @@
 //! Numbers over a surface, and normal maps.
 
-use super::Workshop;
+use super::MaterialCompiler;
 use super::picture::Use;
 use etendue_scene::record::material::{self, Factor};
 use etendue_tracer::materials;
 use etendue_tracer::textures::Channel;
 
-impl Workshop<'_, '_> {
+impl MaterialCompiler<'_, '_> {
     pub(super) fn factor(&mut self, factor: &Factor) -> Option<materials::Factor> {
         let texture = match factor {
             Factor::Number(number) => return Some(materials::Factor::Number(number.value as f32)),

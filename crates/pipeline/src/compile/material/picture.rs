@@ -1,7 +1,7 @@
 //! Pictures as textures, each made once for every way in which it is laid out.
 
 use super::super::context::Context;
-use super::Workshop;
+use super::MaterialCompiler;
 use etendue_scene::asset::{ImageAsset, ImagePixels};
 use etendue_scene::record::Texture;
 use etendue_scene::record::texture::{self, Encoding, Mapping};
@@ -46,7 +46,7 @@ pub(super) struct Pictures {
     made: BTreeMap<(PathBuf, String), TextureId>,
 }
 
-impl Workshop<'_, '_> {
+impl MaterialCompiler<'_, '_> {
     /// The texture of a name for a use.
     pub(super) fn texture(&mut self, name: &Placed<String>, usage: Use, scale: f64) -> Option<TextureId> {
         let record = self.named_texture(&name.value)?.clone();

@@ -1,6 +1,6 @@
 //! Retro-reflective sheeting and road markings.
 
-use super::Workshop;
+use super::MaterialCompiler;
 use super::share::share;
 use etendue_scene::Placed;
 use etendue_scene::asset::RetroTableAsset;
@@ -12,7 +12,7 @@ use etendue_spectra::Spectrum;
 use etendue_tracer::materials::{DayTime, RetroTable, RoadMarking, Sheeting, SheetingPreset, Surface, marking_class};
 use std::path::PathBuf;
 
-impl Workshop<'_, '_> {
+impl MaterialCompiler<'_, '_> {
     pub(super) fn sheeting(&mut self, r: &record::Sheeting) -> Option<Surface> {
         let print = match &r.print {
             Some(print) => Some(self.reflectance(print)?),

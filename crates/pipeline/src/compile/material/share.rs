@@ -2,7 +2,7 @@
 
 use super::super::context::Context;
 use super::super::spectrum::{emitted, from_file};
-use super::Workshop;
+use super::MaterialCompiler;
 use super::picture::Use;
 use etendue_scene::record::material::Sides;
 use etendue_scene::record::{self, Colour, SurfaceEmission};
@@ -28,7 +28,7 @@ pub(in super::super) fn share(colour: &Colour, context: &mut Context<'_>) -> Opt
     }
 }
 
-impl Workshop<'_, '_> {
+impl MaterialCompiler<'_, '_> {
     pub(super) fn reflectance(&mut self, reflectance: &record::Reflectance) -> Option<Reflectance> {
         match reflectance {
             record::Reflectance::Plain(colour) => share(colour, self.context).map(Reflectance::Spectrum),

@@ -1,10 +1,10 @@
 //! How a surface scatters: from the record's type to the tracer's model.
 
 use super::super::spectrum::curve;
-use super::Workshop;
+use super::MaterialCompiler;
 use super::metal::{self, complex_index};
 use super::share::share;
-use etendue_core::wavelength::{LONGEST_NM, SHORTEST_NM};
+use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_scene::Placed;
 use etendue_scene::record::material::{
     self as record, Absorption, Interface, LobeDirection, LobeKind, LobeStrength, Surface as Record,
@@ -24,7 +24,7 @@ const SHEEN: f64 = 0.1;
 const SHEEN_ALPHA: f64 = 0.5;
 const MM_PER_M: f64 = 1000.0;
 
-impl Workshop<'_, '_> {
+impl MaterialCompiler<'_, '_> {
     pub(super) fn surface(&mut self, record: &Record) -> Option<Surface> {
         match record {
             Record::Diffuse(r) => Some(Surface::Diffuse(self.reflectance(&r.reflectance)?)),
@@ -195,5 +195,5 @@ fn number(given: Option<&Placed<f64>>, default: f64) -> f64 {
 /// exp(−a d): what comes through a thickness `m` of a substance, reflections taken out.
 fn beer_lambert(coefficient_per_m: &Spectrum, m: f64) -> Spectrum {
     let at = |nm: f64| etendue_core::maths::f64::exp(-f64::from(coefficient_per_m.at(nm as f32)) * m);
-    Spectrum::from_fn(|nm| at(nm.clamp(SHORTEST_NM, LONGEST_NM)))
+    Spectrum::from_fn(|nm| at(nm.clamp(SHORTEST_NM, MAX_NM)))
 }

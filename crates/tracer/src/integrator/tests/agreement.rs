@@ -88,7 +88,7 @@ fn answers_are_the_same_bits_when_asked_again() {
     let ready = mixed(paint(0.6, 0.3));
     let view = ready.world.view(DVec3::ZERO);
     let lights = ready.lights(&view);
-    let tracer = PathTracer::new(&view, &ready.palette, &lights, PathSettings::default());
+    let tracer = PathTracer::new(&view, &ready.material_table, &lights, PathSettings::default());
     let r = ray([-2.0, -2.0, 2.0], [0.2, 0.1, 0.0]);
     let ask = || replicate(&tracer, &r, 64, 7).to_bits();
     assert_eq!(ask(), ask());
@@ -99,8 +99,8 @@ fn paths_of_one_four_and_eight_wavelengths_agree_where_nothing_disperses() {
     let ready = mixed(matt(0.7));
     let view = ready.world.view(DVec3::ZERO);
     let sources = Sources { environment: None, ..ready.sources.clone() };
-    let lights = Lights::new(&view, &ready.palette, sources, (380.0, 780.0)).expect("lights");
-    let tracer = PathTracer::new(&view, &ready.palette, &lights, bounces(2));
+    let lights = Lights::new(&view, &ready.material_table, sources, (380.0, 780.0)).expect("lights");
+    let tracer = PathTracer::new(&view, &ready.material_table, &lights, bounces(2));
     let address = PixelAddress { seed: 1, camera: 0, frame: 0, capture: 0, pixel: Pixel { x: 0, y: 0 }, replicate: 0 };
     let stream = PathStream::new(&address, 3);
     let r = ray([-2.0, -2.0, 2.0], [0.2, 0.1, 0.0]);

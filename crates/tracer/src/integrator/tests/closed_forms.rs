@@ -114,7 +114,7 @@ fn a_texture_is_read_in_its_place() {
     let texture =
         ImageTexture::new(2, 1, Texels::Linear8(vec![[51; 3], [204; 3]]), Sampling::default()).expect("texels");
     let surface = Surface::Diffuse(Reflectance::Texture(TextureId(0)));
-    let palette = Palette::new(vec![Material::new(surface)], vec![texture]).expect("a material");
+    let material_table = MaterialTable::new(vec![Material::new(surface)], vec![texture]).expect("a material");
     let mut builder = WorldBuilder::new();
     let positions = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Vec3::new(x, y, 0.0)).to_vec();
     let uvs = vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
@@ -124,7 +124,7 @@ fn a_texture_is_read_in_its_place() {
     builder.add_instance(Instance { shape, to_world, materials: vec![MaterialId(0)], instance_id: 1, semantic_id: 1 });
     let world = builder.build().expect("a world");
     let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));
-    let ready = Ready { world, palette, sources: Sources { environment, ..Sources::default() } };
+    let ready = Ready { world, material_table, sources: Sources { environment, ..Sources::default() } };
     agrees(&ready.look(&ray([-0.5, 0.3, 1.0], [-0.5, 0.3, 0.0]), 4, bounces(1)), 0.2);
     agrees(&ready.look(&ray([0.5, 0.3, 1.0], [0.5, 0.3, 0.0]), 4, bounces(1)), 0.8);
 }

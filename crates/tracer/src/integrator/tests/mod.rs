@@ -77,28 +77,28 @@ impl Scene {
     }
 
     fn ready(self) -> Ready {
-        let palette = Palette::new(self.materials, vec![]).expect("materials");
+        let material_table = MaterialTable::new(self.materials, vec![]).expect("materials");
         let world = self.builder.build().expect("a world");
-        Ready { world, palette, sources: self.sources }
+        Ready { world, material_table, sources: self.sources }
     }
 }
 
 struct Ready {
     world: World,
-    palette: Palette,
+    material_table: MaterialTable,
     sources: Sources,
 }
 
 impl Ready {
     fn lights(&self, view: &View<'_>) -> Lights {
-        Lights::new(view, &self.palette, self.sources.clone(), (380.0, 780.0)).expect("lights")
+        Lights::new(view, &self.material_table, self.sources.clone(), (380.0, 780.0)).expect("lights")
     }
 
     /// Radiance along a ray, from 32 replicates of `samples`, at the second wavelength.
     fn look(&self, ray: &Ray, samples: u32, settings: PathSettings) -> ReplicateEstimate {
         let view = self.world.view(DVec3::ZERO);
         let lights = self.lights(&view);
-        let tracer = PathTracer::new(&view, &self.palette, &lights, settings);
+        let tracer = PathTracer::new(&view, &self.material_table, &lights, settings);
         let means: Vec<_> = (0..32).map(|r| replicate(&tracer, ray, samples, r)).collect();
         ReplicateEstimate::of(&means).expect("replicates")
     }

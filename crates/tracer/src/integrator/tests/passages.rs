@@ -95,8 +95,8 @@ fn thin_ball(opacity: Factor, textures: Vec<ImageTexture>, stretched: DVec3) -> 
     scene.materials[ball.0 as usize].opacity = Some(opacity);
     let place = DAffine3::from_scale_rotation_translation(stretched, glam::DQuat::IDENTITY, DVec3::new(0.3, 0.2, 1.0));
     scene.place(Shape::Sphere { radius_m: 0.5 }, place, ball);
-    let palette = Palette::new(core::mem::take(&mut scene.materials), textures).expect("materials");
-    Ready { world: scene.builder.build().expect("a world"), palette, sources: scene.sources }
+    let material_table = MaterialTable::new(core::mem::take(&mut scene.materials), textures).expect("materials");
+    Ready { world: scene.builder.build().expect("a world"), material_table, sources: scene.sources }
 }
 
 #[test]
@@ -150,8 +150,8 @@ fn a_pane_of_bent_normals_passes_the_same_to_all_ways_of_finding_light() {
     // A slope of 2 along u.
     let texels = Texels::Float(vec![[0.95, 0.5, 0.72]]);
     let picture = ImageTexture::new(1, 1, texels, Sampling::default()).expect("a picture");
-    let palette = Palette::new(core::mem::take(&mut scene.materials), vec![picture]).expect("materials");
-    let ready = Ready { world: scene.builder.build().expect("a world"), palette, sources: scene.sources };
+    let material_table = MaterialTable::new(core::mem::take(&mut scene.materials), vec![picture]).expect("materials");
+    let ready = Ready { world: scene.builder.build().expect("a world"), material_table, sources: scene.sources };
     found_alike(&ready, [0.3, -0.3, 0.4], 1);
 }
 

@@ -58,7 +58,7 @@ fn looks(ready: &Ready, targets: &[[f32; 3]], samples: u32, shared: bool) -> Vec
     let lights = ready.lights(&view);
     let tracer = PathTracer::new(
         &view,
-        &ready.palette,
+        &ready.material_table,
         &lights,
         PathSettings { max_bounces: 6, samples, ..PathSettings::default() },
     );

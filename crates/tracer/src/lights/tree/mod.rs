@@ -24,7 +24,7 @@ mod tests;
 
 pub(super) use bounds::LightBounds;
 
-use super::Receiver;
+use super::LightSampleContext;
 use node::{LANES, Node};
 
 /// Where a light or a node hangs.
@@ -49,8 +49,8 @@ pub(super) struct LightTree {
 }
 
 /// A receiver with what leaves are asked for: the irradiance that a lamp gives it, W·m⁻²·nm⁻¹.
-pub(super) struct Question<'a, F: Fn(u32) -> f32> {
-    pub(super) receiver: &'a Receiver,
+pub(super) struct TreeQuery<'a, F: Fn(u32) -> f32> {
+    pub(super) receiver: &'a LightSampleContext,
     pub(super) lamp: F,
 }
 
@@ -67,7 +67,7 @@ impl LightTree {
 
     /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver, unless
     /// there is but one light.
-    pub(super) fn pick<F: Fn(u32) -> f32>(&self, question: &Question<'_, F>, u: f64) -> Option<(usize, f32)> {
+    pub(super) fn pick<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, u: f64) -> Option<(usize, f32)> {
         if self.len() == 1 {
             return Some((0, 1.0));
         }
@@ -86,18 +86,18 @@ impl LightTree {
     }
 
     /// The probability by which [`LightTree::pick`] gives a light.
-    pub(super) fn probability<F: Fn(u32) -> f32>(&self, question: &Question<'_, F>, light: usize) -> f32 {
+    pub(super) fn probability<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, light: usize) -> f32 {
         if self.len() == 1 { 1.0 } else { self.reach(question, self.leaves[light]) }
     }
 
     /// Probability of coming to a slot.
-    fn reach<F: Fn(u32) -> f32>(&self, question: &Question<'_, F>, slot: Slot) -> f32 {
+    fn reach<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, slot: Slot) -> f32 {
         let above = if slot.node == 0 { 1.0 } else { self.reach(question, self.parents[slot.node as usize]) };
         if above > 0.0 { above * share(&self.weights(slot.node, question), usize::from(slot.lane)) } else { 0.0 }
     }
 
     /// Estimate of the irradiance at the receiver, W·m⁻²·nm⁻¹: finer where the greatest cluster is near.
-    pub(super) fn irradiance<F: Fn(u32) -> f32>(&self, question: &Question<'_, F>) -> f64 {
+    pub(super) fn irradiance<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>) -> f64 {
         let (mut node, mut sum) = (0, 0.0);
         loop {
             let mut weights = self.weights(node, question);
@@ -114,7 +114,7 @@ impl LightTree {
         }
     }
 
-    fn weights<F: Fn(u32) -> f32>(&self, node: u32, question: &Question<'_, F>) -> [f32; LANES] {
+    fn weights<F: Fn(u32) -> f32>(&self, node: u32, question: &TreeQuery<'_, F>) -> [f32; LANES] {
         let node = &self.nodes[node as usize];
         let mut weights = node.weights(question.receiver);
         for (lane, weight) in weights.iter_mut().enumerate() {

@@ -10,7 +10,7 @@
 //! A single point thus counts its irradiance.
 
 use super::bounds::LightBounds;
-use crate::lights::Receiver;
+use crate::lights::LightSampleContext;
 use glam::Vec3;
 
 /// Children of a node.
@@ -92,7 +92,7 @@ impl Node {
     }
 
     /// What each child counts for a receiver: four children at a time, the second four where there are any.
-    pub(super) fn weights(&self, receiver: &Receiver) -> Lanes {
+    pub(super) fn weights(&self, receiver: &LightSampleContext) -> Lanes {
         let mut weights = [0.0; LANES];
         weights[..4].copy_from_slice(&self.four(0, receiver));
         if self.used > 4 {
@@ -104,7 +104,7 @@ impl Node {
     /// The weights of four children from lane `from` on. In small steps without branches, each over all four, so that
     /// the compiler lets them go side by side.
     #[inline(always)]
-    fn four(&self, from: usize, receiver: &Receiver) -> Four {
+    fn four(&self, from: usize, receiver: &LightSampleContext) -> Four {
         let (p, n) = (receiver.position, receiver.normal);
         // 1 where light counts from everywhere, and the cosine then does not.
         let everywhere = if n == Vec3::ZERO { 1.0 } else { 0.0 };

@@ -35,13 +35,18 @@ fn lamps(count: u32, centre: DVec3, size: f64, decades: f64) -> Vec<LampLight> {
 }
 
 /// Calls `f` with a tree over lamps and questions of receivers near and far, facing all ways or none.
-fn ask(lamps: &[LampLight], size: f64, centre: DVec3, f: impl Fn(&LightTree, &Receiver, &dyn Fn(u32) -> f32)) {
+fn ask(
+    lamps: &[LampLight],
+    size: f64,
+    centre: DVec3,
+    f: impl Fn(&LightTree, &LightSampleContext, &dyn Fn(u32) -> f32),
+) {
     let bounds: Vec<_> = lamps.iter().map(LampLight::bounds).collect();
     let tree = LightTree::new(&bounds).expect("lamps that shine");
     for i in 0..12 {
         let position = (centre + direction(i, 0) * size * [0.01, 0.3, 1.0, 20.0][i as usize % 4]).as_vec3();
         let normal = if i % 3 == 0 { Vec3::ZERO } else { direction(i, 2).as_vec3().normalize() };
-        let receiver = Receiver { position, normal };
+        let receiver = LightSampleContext { position, normal };
         f(&tree, &receiver, &|lamp| lamps[lamp as usize].irradiance(&receiver));
     }
 }
@@ -55,7 +60,7 @@ fn draws_fall_as_often_as_is_told() {
     ];
     for (lamps, size) in &sets {
         ask(lamps, *size, DVec3::ZERO, |tree, receiver, lamp| {
-            let question = Question { receiver, lamp };
+            let question = TreeQuery { receiver, lamp };
             let n = 1 << 14;
             let mut counts = vec![0.0; lamps.len()];
             let mut none = 0.0;
@@ -90,7 +95,7 @@ fn no_light_that_arrives_is_lost() {
         (lamps(100, DVec3::ONE, 0.0, 3.0), 10.0, DVec3::ONE),
     ] {
         ask(&lamps, size, centre, |tree, receiver, lamp| {
-            let question = Question { receiver, lamp };
+            let question = TreeQuery { receiver, lamp };
             for (i, light) in lamps.iter().enumerate() {
                 let (told, arrives) = (tree.probability(&question, i), light.irradiance(receiver) > 0.0);
                 assert!(told.is_finite() && (told > 0.0) == arrives, "lamp {i}: {told}, {arrives}");
@@ -110,9 +115,9 @@ fn an_estimate_is_zero_only_where_nothing_arrives() {
     let lamps: Vec<_> = [spot(DVec3::Y), spot(DVec3::NEG_Y)].into_iter().chain((0..12).map(far)).collect();
     let bounds: Vec<_> = lamps.iter().map(LampLight::bounds).collect();
     let tree = LightTree::new(&bounds).expect("lamps that shine");
-    let receiver = Receiver { position: Vec3::ZERO, normal: Vec3::ZERO };
+    let receiver = LightSampleContext { position: Vec3::ZERO, normal: Vec3::ZERO };
     let irradiance =
-        tree.irradiance(&Question { receiver: &receiver, lamp: |i| lamps[i as usize].irradiance(&receiver) });
+        tree.irradiance(&TreeQuery { receiver: &receiver, lamp: |i| lamps[i as usize].irradiance(&receiver) });
     // Twelve lamps of 1 W/sr at 100 km.
     assert!((0.5..2.0).contains(&(irradiance / 12e-10)), "{irradiance}");
 }
@@ -123,7 +128,7 @@ fn estimates_are_of_the_size_of_what_arrives() {
     ask(&lamps, 200.0, DVec3::ZERO, |tree, receiver, lamp| {
         if receiver.normal == Vec3::ZERO {
             let exact: f64 = lamps.iter().map(|l| f64::from(l.irradiance(receiver))).sum();
-            let ratio = tree.irradiance(&Question { receiver, lamp }) / exact;
+            let ratio = tree.irradiance(&TreeQuery { receiver, lamp }) / exact;
             assert!((0.2..5.0).contains(&ratio), "{ratio}");
         }
     });
@@ -136,6 +141,6 @@ fn dark_lamps_make_no_tree() {
     let lamps =
         [lamp(DVec3::ZERO, DVec3::X, 0.0, Profile::Isotropic), lamp(DVec3::X, DVec3::X, 1.0, Profile::Isotropic)];
     ask(&lamps, 3.0, DVec3::ZERO, |tree, receiver, lamp| {
-        assert_eq!(tree.probability(&Question { receiver, lamp }, 0), 0.0);
+        assert_eq!(tree.probability(&TreeQuery { receiver, lamp }, 0), 0.0);
     });
 }

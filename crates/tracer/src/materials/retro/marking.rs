@@ -25,8 +25,8 @@ use etendue_spectra::{Spectrum, illuminant, observer};
 use glam::{Vec2, Vec3};
 
 use super::photometric;
+use crate::materials::discrete_sampler::DiscreteSampler;
 use crate::materials::energy::{self, AlbedoTable, EnergyGain};
-use crate::materials::lottery::Lottery;
 use crate::materials::{BsdfSample, BsdfValue, Event};
 
 /// The 30 m geometry of EN 1436: the lamp's elevation, degrees.
@@ -231,29 +231,30 @@ pub struct MarkingBsdf<'a, const N: usize> {
 }
 
 impl<const N: usize> MarkingBsdf<'_, N> {
-    fn lottery(&self, wo: Vec3) -> Option<Lottery<2>> {
-        Lottery::new([self.base.mean(), self.colour.mean() * self.marking.albedo.at(wo.z)])
+    fn discrete_sampler(&self, wo: Vec3) -> Option<DiscreteSampler<2>> {
+        DiscreteSampler::new([self.base.mean(), self.colour.mean() * self.marking.albedo.at(wo.z)])
     }
 
     pub(in crate::materials) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
-        self.lottery(wo).map_or(BsdfValue::ZERO, |lottery| self.value(lottery, wo, wi))
+        self.discrete_sampler(wo).map_or(BsdfValue::ZERO, |discrete_sampler| self.value(discrete_sampler, wo, wi))
     }
 
-    fn value(&self, lottery: Lottery<2>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+    fn value(&self, discrete_sampler: DiscreteSampler<2>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let lobe = self.marking.lobe;
         BsdfValue {
             value_cos: self.base * (wi.z * FRAC_1_PI) + self.colour * lobe.value_cos(wo, wi),
-            pdf: lottery.of(0) * cosine_hemisphere_pdf(wi.z) + lottery.of(1) * lobe.pdf(wo, wi),
+            pdf: discrete_sampler.of(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.of(1) * lobe.pdf(wo, wi),
         }
     }
 
     pub(in crate::materials) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
-        let lottery = self.lottery(wo)?;
-        let wi = if lottery.draw(choice) == 0 { cosine_hemisphere(u) } else { self.marking.lobe.sample(wo, u) };
+        let discrete_sampler = self.discrete_sampler(wo)?;
+        let wi =
+            if discrete_sampler.draw(choice) == 0 { cosine_hemisphere(u) } else { self.marking.lobe.sample(wo, u) };
         if wi.z <= 0.0 {
             return None;
         }
-        let BsdfValue { value_cos, pdf } = self.value(lottery, wo, wi);
+        let BsdfValue { value_cos, pdf } = self.value(discrete_sampler, wo, wi);
         (pdf > 0.0).then(|| BsdfSample { wi, weight: value_cos / pdf, pdf, event: Event::Scatter })
     }
 }

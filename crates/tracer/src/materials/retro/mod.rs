@@ -36,8 +36,8 @@ use etendue_core::{Spectral, Wavelengths};
 use etendue_spectra::{Spectrum, illuminant, observer};
 use glam::{Vec2, Vec3};
 
+use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, EnergyGain};
-use super::lottery::Lottery;
 use super::{BsdfSample, BsdfValue, Event, Reflectance};
 use crate::textures::{ImageTexture, Lookup};
 use lobe::{GRAZING_DEG, RetroLobe, WIDEST_DEG};
@@ -185,28 +185,28 @@ pub struct SheetingBsdf<'a, const N: usize> {
 }
 
 impl<const N: usize> SheetingBsdf<'_, N> {
-    fn lottery(&self, wo: Vec3) -> Option<Lottery<2>> {
-        Lottery::new([self.base.mean(), self.colour.mean() * self.lobe.albedo.at(wo.z)])
+    fn discrete_sampler(&self, wo: Vec3) -> Option<DiscreteSampler<2>> {
+        DiscreteSampler::new([self.base.mean(), self.colour.mean() * self.lobe.albedo.at(wo.z)])
     }
 
     pub(super) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
-        self.lottery(wo).map_or(BsdfValue::ZERO, |lottery| self.value(lottery, wo, wi))
+        self.discrete_sampler(wo).map_or(BsdfValue::ZERO, |discrete_sampler| self.value(discrete_sampler, wo, wi))
     }
 
-    fn value(&self, lottery: Lottery<2>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+    fn value(&self, discrete_sampler: DiscreteSampler<2>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         BsdfValue {
             value_cos: self.base * (wi.z * FRAC_1_PI) + self.colour * self.lobe.value_cos(wo, wi),
-            pdf: lottery.of(0) * cosine_hemisphere_pdf(wi.z) + lottery.of(1) * self.lobe.pdf(wo, wi),
+            pdf: discrete_sampler.of(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.of(1) * self.lobe.pdf(wo, wi),
         }
     }
 
     pub(super) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
-        let lottery = self.lottery(wo)?;
-        let wi = if lottery.draw(choice) == 0 { cosine_hemisphere(u) } else { self.lobe.sample(wo, u) };
+        let discrete_sampler = self.discrete_sampler(wo)?;
+        let wi = if discrete_sampler.draw(choice) == 0 { cosine_hemisphere(u) } else { self.lobe.sample(wo, u) };
         if wi.z <= 0.0 {
             return None;
         }
-        let BsdfValue { value_cos, pdf } = self.value(lottery, wo, wi);
+        let BsdfValue { value_cos, pdf } = self.value(discrete_sampler, wo, wi);
         (pdf > 0.0).then(|| BsdfSample { wi, weight: value_cos / pdf, pdf, event: Event::Scatter })
     }
 }

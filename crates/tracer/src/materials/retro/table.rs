@@ -6,7 +6,7 @@ use etendue_core::maths::f32::{exp, ln};
 const NEXT_TO_NOTHING: f64 = 1e-4;
 
 /// What stands for an observation angle of 0, degrees.
-const SMALLEST_DEG: f64 = 0.01;
+const MIN_DEG: f64 = 0.01;
 
 /// R_A (cd·lx⁻¹·m⁻²) over the observation angle α between the ways to lamp and observer, and the entrance angle β
 /// between the way to the lamp and the normal.
@@ -34,7 +34,7 @@ impl RetroTable {
     pub fn new(observation_deg: &[f64], entrance_deg: &[f64], values: &[f64]) -> Result<Self, RetroTableError> {
         check_angles("observation", observation_deg, 180.0)?;
         check_angles("entrance", entrance_deg, 89.0)?;
-        if let Some(deg) = observation_deg.iter().skip(1).find(|a| **a <= SMALLEST_DEG) {
+        if let Some(deg) = observation_deg.iter().skip(1).find(|a| **a <= MIN_DEG) {
             return Err(RetroTableError::TooFine { deg: *deg });
         }
         let expected = observation_deg.len() * entrance_deg.len();
@@ -45,7 +45,7 @@ impl RetroTable {
             return Err(RetroTableError::Value { value: *value });
         }
         Ok(Self {
-            ln_observation: observation_deg.iter().map(|a| ln(a.max(SMALLEST_DEG).to_radians() as f32)).collect(),
+            ln_observation: observation_deg.iter().map(|a| ln(a.max(MIN_DEG).to_radians() as f32)).collect(),
             entrance: entrance_deg.iter().map(|b| b.to_radians() as f32).collect(),
             ln_values: values.iter().map(|v| ln(v.max(NEXT_TO_NOTHING) as f32)).collect(),
             observation_deg: observation_deg.to_vec(),
@@ -92,7 +92,7 @@ impl RetroTable {
 
     /// The first and last observation angle, radians.
     pub(super) fn observation_range(&self) -> (f32, f32) {
-        let at = |deg: f64| deg.max(SMALLEST_DEG).to_radians() as f32;
+        let at = |deg: f64| deg.max(MIN_DEG).to_radians() as f32;
         (at(self.observation_deg[0]), at(self.observation_deg[self.observation_deg.len() - 1]))
     }
 }
@@ -150,9 +150,7 @@ pub enum RetroTableError {
         second: f64,
     },
     /// An observation angle beside 0 is too small.
-    #[error(
-        "an observation angle of {deg}° follows another, but only the first may be below {SMALLEST_DEG}°; leave it out"
-    )]
+    #[error("an observation angle of {deg}° follows another, but only the first may be below {MIN_DEG}°; leave it out")]
     TooFine {
         /// What was given, degrees.
         deg: f64,

@@ -116,7 +116,7 @@ pub(in crate::materials) fn judge(p_values: &[(f64, String)]) {
 
 #[test]
 fn a_wrong_density_is_found() {
-    let (told, drawn) = (palette(perfect_metal(0.40)), palette(perfect_metal(0.42)));
+    let (told, drawn) = (material_table(perfect_metal(0.40)), material_table(perfect_metal(0.42)));
     let wo = at_degrees(30.0);
     let p = p_of((&bsdf(&told), &bsdf(&drawn)), wo, &Grid::of_mirror(wo, 0.5), 999);
     assert!(p < 1e-6, "a roughness told 5 % wrong has p = {p}");
@@ -135,10 +135,10 @@ fn directions_are_drawn_by_the_density_told() {
     ];
     let mut p_values = vec![];
     for (k, (surface, scale)) in cases.into_iter().enumerate() {
-        let palette = palette(surface);
+        let material_table = material_table(surface);
         for (i, degrees) in [0.0, 30.0, 70.0, 86.0].into_iter().enumerate() {
             let wo = at_degrees(degrees);
-            let p = p_of_draws(&bsdf(&palette), wo, &Grid::of_mirror(wo, scale), (k * 4 + i) as u32);
+            let p = p_of_draws(&bsdf(&material_table), wo, &Grid::of_mirror(wo, scale), (k * 4 + i) as u32);
             p_values.push((p, format!("case {k} at {degrees}°")));
         }
     }

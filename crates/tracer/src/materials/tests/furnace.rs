@@ -6,8 +6,8 @@ use super::*;
 /// Allowed difference from 1: 3e-4 of it are the sum's.
 const ALLOWED: f32 = 1e-3;
 
-fn sent_back(palette: &Palette, degrees: f32) -> f32 {
-    albedos_of::<{ 1 << 20 }>(&bsdf(palette), at_degrees(degrees))[0][0]
+fn sent_back(material_table: &MaterialTable, degrees: f32) -> f32 {
+    albedos_of::<{ 1 << 20 }>(&bsdf(material_table), at_degrees(degrees))[0][0]
 }
 
 /// So good a conductor that it reflects all but 4e-12, by numbers as large as are legal.
@@ -16,9 +16,9 @@ fn bright_metal() -> metal::ComplexIndex {
 }
 
 fn assert_white(name: &str, surface: Surface, angles: &[f32]) {
-    let palette = palette(surface);
+    let material_table = material_table(surface);
     for degrees in angles {
-        let sent = sent_back(&palette, *degrees);
+        let sent = sent_back(&material_table, *degrees);
         assert!((sent - 1.0).abs() < ALLOWED, "{name} at {degrees}°: {sent}");
     }
 }
@@ -56,9 +56,9 @@ fn white_cloth_sends_back_all_light() {
 #[test]
 fn car_paint_never_sends_back_more_than_arrives() {
     for (coverage, flake_alpha, coat_alpha) in [(0.0, 0.3, 0.0), (0.5, 0.1, 0.0), (1.0, 0.05, 0.0), (0.7, 0.3, 0.1)] {
-        let palette = palette(car_paint(1.0, 1.0, coverage, flake_alpha, coat_alpha));
+        let material_table = material_table(car_paint(1.0, 1.0, coverage, flake_alpha, coat_alpha));
         for degrees in [0.0, 40.0, 75.0, 89.0, 89.99] {
-            let sent = sent_back(&palette, degrees);
+            let sent = sent_back(&material_table, degrees);
             assert!(sent < 1.0 + ALLOWED, "{coverage} {flake_alpha} {coat_alpha} at {degrees}°: {sent}");
         }
     }

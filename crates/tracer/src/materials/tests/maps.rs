@@ -20,13 +20,13 @@ fn at(i: usize) -> Lookup {
 fn a_mix_follows_its_map() {
     let mix = Surface::Mix(Mix { a: MaterialId(0), b: MaterialId(1), weight: RAMP });
     let materials = [Surface::Diffuse(grey(0.2)), Surface::Diffuse(grey(0.6)), mix].map(Material::new).to_vec();
-    let palette = Palette::new(materials, vec![ramp()]).expect("a mix");
+    let material_table = MaterialTable::new(materials, vec![ramp()]).expect("a mix");
     for i in 0..4 {
-        let met = (0..3000).map(|k| palette.resolve(MaterialId(2), &at(i), (k as f32 + 0.5) / 3000.0));
+        let met = (0..3000).map(|k| material_table.resolve(MaterialId(2), &at(i), (k as f32 + 0.5) / 3000.0));
         let of_b = met.filter(|id| *id == MaterialId(1)).count();
         assert!(of_b.abs_diff(i * 1000) <= 1, "{of_b}");
     }
-    assert!(palette.needs_footprint(MaterialId(2)) && !palette.needs_footprint(MaterialId(1)));
+    assert!(material_table.needs_footprint(MaterialId(2)) && !material_table.needs_footprint(MaterialId(1)));
 }
 
 #[test]
@@ -34,14 +34,15 @@ fn passages_of_cut_out_mixes_are_means() {
     let mix = Surface::Mix(Mix { a: MaterialId(0), b: MaterialId(1), weight: Factor::Number(0.25) });
     let whole = Material { opacity: Some(RAMP), ..Material::new(mix) };
     let materials = vec![Material::new(Surface::Absorber), Material::new(pane(1.5, 1.0)), whole];
-    let palette = Palette::new(materials, vec![ramp()]).expect("a mix");
-    assert_eq!(palette.passage(MaterialId(0), &at(0), &|_| 1.0, &WAVELENGTHS), None);
+    let material_table = MaterialTable::new(materials, vec![ramp()]).expect("a mix");
+    assert_eq!(material_table.passage(MaterialId(0), &at(0), &|_| 1.0, &WAVELENGTHS), None);
     for i in 0..4 {
         let opacity = i as f32 / 3.0;
         let expected = 1.0 - opacity + opacity * 0.25 * 0.96 / 1.04;
-        let passage = palette.passage(MaterialId(2), &at(i), &|_| 1.0, &WAVELENGTHS).expect("a passage");
+        let passage = material_table.passage(MaterialId(2), &at(i), &|_| 1.0, &WAVELENGTHS).expect("a passage");
         assert!(
-            (passage[2] - expected).abs() < 1e-6 && (palette.opacity(MaterialId(2), &at(i)) - opacity).abs() < 1e-6
+            (passage[2] - expected).abs() < 1e-6
+                && (material_table.opacity(MaterialId(2), &at(i)) - opacity).abs() < 1e-6
         );
     }
 }
@@ -50,10 +51,10 @@ fn passages_of_cut_out_mixes_are_means() {
 fn what_is_cut_out_does_not_glow() {
     let emission = Emission { radiance: Spectrum::constant(6.0), factor: None, glow: Glow::Both };
     let lamp = Material { emission: Some(emission), opacity: Some(RAMP), ..Material::new(Surface::Absorber) };
-    let palette = Palette::new(vec![lamp], vec![ramp()]).expect("a lamp");
-    let emission = palette.emission(MaterialId(0)).expect("it glows");
+    let material_table = MaterialTable::new(vec![lamp], vec![ramp()]).expect("a lamp");
+    let emission = material_table.emission(MaterialId(0)).expect("it glows");
     for i in 0..4 {
-        let radiance = palette.radiance(MaterialId(0), emission, &at(i), &WAVELENGTHS);
+        let radiance = material_table.radiance(MaterialId(0), emission, &at(i), &WAVELENGTHS);
         assert!((radiance[0] - 2.0 * i as f32).abs() < 1e-5);
     }
 }
@@ -65,13 +66,13 @@ fn a_roughness_map_is_that_roughness_at_each_point() {
     let glass = |alpha: Factor| Surface::Dielectric(Box::new(Dielectric::new(1.5, alpha, None).expect("a glass")));
     let (wo, wi) = (at_degrees(30.0), Vec3::new(-0.3, 0.2, 0.932_738));
     for of in [&metal as &dyn Fn(Factor) -> Surface, &glass] {
-        let mapped = Palette::new(vec![Material::new(of(RAMP))], vec![ramp()]).expect("a map");
+        let mapped = MaterialTable::new(vec![Material::new(of(RAMP))], vec![ramp()]).expect("a map");
         assert!(mapped.needs_footprint(MaterialId(0)));
         for i in 0..4 {
-            let one = palette(of(Factor::Number(i as f32 / 3.0)));
+            let one = material_table(of(Factor::Number(i as f32 / 3.0)));
             let bsdf = mapped.bsdf(MaterialId(0), &at(i), true, &WAVELENGTHS);
             assert_eq!(bsdf.evaluate(wo, wi), super::bsdf(&one).evaluate(wo, wi));
-            assert_eq!(bsdf.is_mirror(), i == 0);
+            assert_eq!(bsdf.is_delta(), i == 0);
         }
     }
 }
@@ -79,9 +80,10 @@ fn a_roughness_map_is_that_roughness_at_each_point() {
 #[test]
 fn a_white_base_under_a_mapped_coat_keeps_all_light() {
     let coated = Coated::new(grey(1.0), 1.5, RAMP).expect("a paint");
-    let palette = Palette::new(vec![Material::new(Surface::Coated(Box::new(coated)))], vec![ramp()]).expect("a map");
+    let material_table =
+        MaterialTable::new(vec![Material::new(Surface::Coated(Box::new(coated)))], vec![ramp()]).expect("a map");
     for u in [0.125, 0.2, 0.3, 0.6, 0.875] {
-        let bsdf = palette.bsdf(MaterialId(0), &Lookup::point(Vec2::new(u, 0.5)), true, &WAVELENGTHS);
+        let bsdf = material_table.bsdf(MaterialId(0), &Lookup::point(Vec2::new(u, 0.5)), true, &WAVELENGTHS);
         for degrees in [0.0, 60.0, 80.0, 88.0] {
             let albedo = albedo(&bsdf, at_degrees(degrees));
             // That of the table over roughness (see `coated`), beside the 3e-3 of single roughnesses.

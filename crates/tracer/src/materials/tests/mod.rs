@@ -18,17 +18,17 @@ use etendue_spectra::{Spectrum, metal};
 const WAVELENGTHS: Wavelengths<4> = Wavelengths { nm: [450.0, 520.0, 600.0, 680.0], pdf: [1.0 / 400.0; 4] };
 const LOOKUP: Lookup = Lookup::point(Vec2::ZERO);
 
-fn palette(surface: Surface) -> Palette {
-    Palette::new(vec![Material::new(surface)], vec![]).expect("a legal material")
+fn material_table(surface: Surface) -> MaterialTable {
+    MaterialTable::new(vec![Material::new(surface)], vec![]).expect("a legal material")
 }
 
-fn bsdf(palette: &Palette) -> Bsdf<'_, 4> {
-    palette.bsdf(MaterialId(0), &LOOKUP, true, &WAVELENGTHS)
+fn bsdf(material_table: &MaterialTable) -> Bsdf<'_, 4> {
+    material_table.bsdf(MaterialId(0), &LOOKUP, true, &WAVELENGTHS)
 }
 
 /// The same surface seen from its back.
-fn from_back(palette: &Palette) -> Bsdf<'_, 4> {
-    palette.bsdf(MaterialId(0), &LOOKUP, false, &WAVELENGTHS)
+fn from_back(material_table: &MaterialTable) -> Bsdf<'_, 4> {
+    material_table.bsdf(MaterialId(0), &LOOKUP, false, &WAVELENGTHS)
 }
 
 fn grey(value: f64) -> Reflectance {
@@ -100,8 +100,8 @@ fn all_surfaces() -> Vec<Surface> {
 #[test]
 fn weights_are_value_over_density() {
     for (k, surface) in all_surfaces().into_iter().enumerate() {
-        let palette = palette(surface);
-        let bsdf = bsdf(&palette);
+        let material_table = material_table(surface);
+        let bsdf = bsdf(&material_table);
         let mut stream = noise(100 + k as u32);
         for degrees in [0.0, 45.0, 80.0, 88.0] {
             let wo = at_degrees(degrees);
@@ -121,36 +121,36 @@ fn weights_are_value_over_density() {
 }
 
 /// Index of the far side over that of the viewer's, seen from the front.
-fn eta(palette: &Palette) -> f32 {
-    match bsdf(palette) {
+fn eta(material_table: &MaterialTable) -> f32 {
+    match bsdf(material_table) {
         Bsdf::Dielectric(dielectric) => dielectric.eta(),
         _ => 1.0,
     }
 }
 
 /// The bsdf and value × |cos| of a pair of directions told the other way round.
-fn swapped(palette: &Palette, wo: Vec3, wi: Vec3) -> Spectral<4> {
+fn swapped(material_table: &MaterialTable, wo: Vec3, wi: Vec3) -> Spectral<4> {
     if wi.z > 0.0 {
-        return bsdf(palette).evaluate(wi, wo).value_cos / wo.z;
+        return bsdf(material_table).evaluate(wi, wo).value_cos / wo.z;
     }
     let flip = Vec3::new(1.0, 1.0, -1.0);
-    from_back(palette).evaluate(wi * flip, wo * flip).value_cos / wo.z
+    from_back(material_table).evaluate(wi * flip, wo * flip).value_cos / wo.z
 }
 
 #[test]
 fn every_material_is_reciprocal() {
     for (k, surface) in all_surfaces().into_iter().enumerate() {
-        let palette = palette(surface);
-        let bsdf = bsdf(&palette);
+        let material_table = material_table(surface);
+        let bsdf = bsdf(&material_table);
         let mut stream = noise(200 + k as u32);
         for i in 0..4000 {
             let mut draw = || etendue_core::warp::cosine_hemisphere(Vec2::new(stream.unit_f32(), stream.unit_f32()));
             let (a, mut b) = (draw(), draw());
             let mut n2 = 1.0;
             if i % 2 == 1 {
-                (b.z, n2) = (-b.z, eta(&palette) * eta(&palette));
+                (b.z, n2) = (-b.z, eta(&material_table) * eta(&material_table));
             }
-            let (there, back) = (bsdf.evaluate(a, b).value_cos / b.z.abs() * n2, swapped(&palette, a, b));
+            let (there, back) = (bsdf.evaluate(a, b).value_cos / b.z.abs() * n2, swapped(&material_table, a, b));
             // Near the critical angle Fresnel's equations subtract nearly equal numbers.
             let (digits, least) = if b.z > 0.0 { (1e-4, 1e-10) } else { (1e-4, 2e-5) };
             for i in 0..4 {
@@ -191,8 +191,12 @@ fn albedos_of<const N: u32>(bsdf: &Bsdf<'_, 4>, wo: Vec3) -> [Spectral<4>; 2] {
 fn nothing_sends_on_more_than_arrives() {
     for (k, surface) in all_surfaces().into_iter().enumerate() {
         let seen_alike = !matches!(surface, Surface::Dielectric(_));
-        let palette = palette(surface);
-        let sides = if seen_alike { vec![bsdf(&palette)] } else { vec![bsdf(&palette), from_back(&palette)] };
+        let material_table = material_table(surface);
+        let sides = if seen_alike {
+            vec![bsdf(&material_table)]
+        } else {
+            vec![bsdf(&material_table), from_back(&material_table)]
+        };
         for (side, bsdf) in sides.into_iter().enumerate() {
             for degrees in [0.0, 20.0, 40.0, 60.0, 75.0, 85.0, 89.0, 89.9, 89.99] {
                 let albedo = albedo(&bsdf, at_degrees(degrees));
@@ -206,28 +210,29 @@ fn nothing_sends_on_more_than_arrives() {
 fn a_smooth_paint_has_saundersons_albedo() {
     // Under a smooth coat, seen along the normal: F + (1 − F)(1 − F_ext) a / (n² (1 − a F_int)) with the textbook's
     // F = 0.04, F_ext = 0.0918, F_int = 0.5963.
-    let palette = palette(paint(0.5, 1.5, 0.0));
+    let material_table = material_table(paint(0.5, 1.5, 0.0));
     let expected = 0.04 + 0.96 * (1.0 - 0.0918) * 0.5 / (2.25 * (1.0 - 0.5 * 0.5963));
-    let albedo = albedo(&bsdf(&palette), Vec3::Z)[0];
+    let albedo = albedo(&bsdf(&material_table), Vec3::Z)[0];
     assert!((albedo - expected).abs() < 2e-3, "{albedo} {expected}");
 }
 
 #[test]
 fn a_smooth_metal_mirrors_by_fresnel() {
-    let palette = palette(metal_of("Al", 0.0));
+    let material_table = material_table(metal_of("Al", 0.0));
     let index = metal::named("Al").expect("aluminium");
-    let sample = bsdf(&palette).sample(Vec3::Z, 0.0, Vec2::ZERO).expect("a mirror");
-    assert!(sample.event == Event::Mirror && sample.wi == Vec3::new(-0.0, -0.0, 1.0));
+    let sample = bsdf(&material_table).sample(Vec3::Z, 0.0, Vec2::ZERO).expect("a mirror");
+    assert!(sample.event == Event::Specular && sample.wi == Vec3::new(-0.0, -0.0, 1.0));
     let (n, k) = (index.n.at(520.0), index.k.at(520.0));
     let expected = ((n - 1.0) * (n - 1.0) + k * k) / ((n + 1.0) * (n + 1.0) + k * k);
     assert!((sample.weight[1] - expected).abs() < 1e-6);
-    assert_eq!(bsdf(&palette).evaluate(Vec3::Z, Vec3::Z), BsdfValue::ZERO);
+    assert_eq!(bsdf(&material_table).evaluate(Vec3::Z, Vec3::Z), BsdfValue::ZERO);
 }
 
 #[test]
 fn a_metal_that_is_hardly_rough_reflects_like_a_mirror() {
     for degrees in [0.0, 60.0, 85.0] {
-        let (mirror, rough) = (palette(metal_of("Cu", 0.0)), palette(metal_of("Cu", 2.0 * f64::from(MIRROR_ALPHA))));
+        let (mirror, rough) =
+            (material_table(metal_of("Cu", 0.0)), material_table(metal_of("Cu", 2.0 * f64::from(MIRROR_ALPHA))));
         let (a, b) = (albedo(&bsdf(&mirror), at_degrees(degrees)), albedo(&bsdf(&rough), at_degrees(degrees)));
         assert!((a - b).map(f32::abs).max_value() < 1e-3, "{degrees}: {a:?} {b:?}");
     }
@@ -238,8 +243,10 @@ fn extreme_directions_give_numbers() {
     let edges =
         [Vec3::Z, Vec3::new(1.0, 0.0, 1e-7), Vec3::new(0.0, 1.0, 1e-20), Vec3::new(1.0, 0.0, f32::MIN_POSITIVE)];
     for surface in all_surfaces() {
-        let palette = palette(surface);
-        for (bsdf, wo) in [bsdf(&palette), from_back(&palette)].iter().flat_map(|b| edges.map(|wo| (b, wo))) {
+        let material_table = material_table(surface);
+        for (bsdf, wo) in
+            [bsdf(&material_table), from_back(&material_table)].iter().flat_map(|b| edges.map(|wo| (b, wo)))
+        {
             for wi in edges.into_iter().chain([-edges[0], Vec3::new(-1.0, 0.0, 1e-7), Vec3::new(-1.0, 0.0, -1e-7)]) {
                 let value = bsdf.evaluate(wo, wi);
                 assert!(value.value_cos.is_finite() && value.pdf.is_finite(), "{bsdf:?} {wo} {wi}");

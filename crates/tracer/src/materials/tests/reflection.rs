@@ -98,10 +98,10 @@ fn directions_are_drawn_by_the_density_told() {
     ];
     let mut p_values = vec![];
     for (k, (surface, scale)) in cases.into_iter().enumerate() {
-        let palette = palette(surface);
+        let material_table = material_table(surface);
         for (i, degrees) in [0.0, 30.0, 70.0, 86.0].into_iter().enumerate() {
             let wo = at_degrees(degrees);
-            let p = p_of_draws(&bsdf(&palette), wo, &Grid::of_mirror(wo, scale), 1000 + (k * 4 + i) as u32);
+            let p = p_of_draws(&bsdf(&material_table), wo, &Grid::of_mirror(wo, scale), 1000 + (k * 4 + i) as u32);
             p_values.push((p, format!("case {k} at {degrees}°")));
         }
     }
@@ -111,7 +111,7 @@ fn directions_are_drawn_by_the_density_told() {
 #[test]
 fn interreflection_gives_back_less_where_metals_absorb() {
     // Gold at 450 nm reflects four tenths, at 680 nm nearly all: what is scattered twice is redder.
-    let [once, all] = [false, true].map(|all| palette(rough(&gold(), 0.9, Distribution::Ggx, all)));
+    let [once, all] = [false, true].map(|all| material_table(rough(&gold(), 0.9, Distribution::Ggx, all)));
     let (once, all) = (albedo(&bsdf(&once), at_degrees(40.0)), albedo(&bsdf(&all), at_degrees(40.0)));
     let gain = [0, 3].map(|i| all[i] / once[i]);
     assert!(gain[0] > 1.0 && gain[1] > gain[0] + 0.05, "{once:?} {all:?}");
@@ -120,7 +120,8 @@ fn interreflection_gives_back_less_where_metals_absorb() {
 #[test]
 fn paint_without_flakes_is_a_solid_paint() {
     for (d, coat_alpha) in [(0.6, 0.0), (0.9, 0.2)] {
-        let (metallic, solid) = (palette(car_paint(d, 0.9, 0.0, 0.3, coat_alpha)), palette(paint(d, 1.5, coat_alpha)));
+        let (metallic, solid) =
+            (material_table(car_paint(d, 0.9, 0.0, 0.3, coat_alpha)), material_table(paint(d, 1.5, coat_alpha)));
         for (wo, wi) in [(10.0, 40.0), (60.0, 5.0), (80.0, 70.0)] {
             let pair = (at_degrees(wo), at_degrees(wi));
             let [a, b] = [&metallic, &solid].map(|p| bsdf(p).evaluate(pair.0, pair.1).value_cos[0]);
@@ -132,11 +133,11 @@ fn paint_without_flakes_is_a_solid_paint() {
 #[test]
 fn metallic_paint_is_darker_away_from_the_mirror() {
     // Silver: the flop index of car makers compares 15°, 45° and 110° off the mirror direction of light at 45°.
-    let palette = palette(car_paint(0.02, 0.87, 0.7, 0.25, 0.0));
+    let material_table = material_table(car_paint(0.02, 0.87, 0.7, 0.25, 0.0));
     let at = |off: f32| {
         let (s, c) = etendue_core::maths::f32::sin_cos((45.0 - off).to_radians());
         let light = Vec3::new(-core::f32::consts::FRAC_1_SQRT_2, 0.0, core::f32::consts::FRAC_1_SQRT_2);
-        bsdf(&palette).evaluate(Vec3::new(s, 0.0, c), light).value_cos[0]
+        bsdf(&material_table).evaluate(Vec3::new(s, 0.0, c), light).value_cos[0]
     };
     assert!(at(15.0) > 2.5 * at(45.0) && at(45.0) > 2.5 * at(110.0), "{} {} {}", at(15.0), at(45.0), at(110.0));
 }

@@ -4,7 +4,7 @@ use super::*;
 
 #[test]
 fn faulty_materials_are_refused() {
-    let of = |surface| Palette::new(vec![Material::new(surface)], vec![]).err();
+    let of = |surface| MaterialTable::new(vec![Material::new(surface)], vec![]).err();
     assert!(matches!(of(Surface::Diffuse(grey(1.2))), Some(MaterialError::Reflectance { material: 0, .. })));
     assert!(matches!(of(Surface::Diffuse(grey(-0.1))), Some(MaterialError::Reflectance { .. })));
     let textured = Surface::Diffuse(Reflectance::Texture(crate::textures::TextureId(2)));
@@ -22,13 +22,13 @@ fn faulty_materials_are_refused() {
 
 #[test]
 fn leaves_send_on_no_more_than_arrives() {
-    let of = |r, t| Palette::new(vec![Material::new(leaf(r, t))], vec![]).err();
+    let of = |r, t| MaterialTable::new(vec![Material::new(leaf(r, t))], vec![]).err();
     assert_eq!(of(0.5, 0.5), None);
     assert!(matches!(of(0.6, 0.5), Some(MaterialError::LeafSum { material: 0, value }) if (value - 1.1).abs() < 1e-6));
     // Spectra are summed node by node: two that take turns may each be 1.
     let step = |up: bool| Reflectance::Spectrum(Spectrum::from_fn(|nm| f64::from(u8::from((nm < 600.0) == up))));
     let turns = Surface::Leaf(Box::new(Leaf { reflectance: step(true), transmittance: step(false) }));
-    assert!(Palette::new(vec![Material::new(turns)], vec![]).is_ok());
+    assert!(MaterialTable::new(vec![Material::new(turns)], vec![]).is_ok());
 }
 
 #[test]
@@ -43,14 +43,14 @@ fn factors_of_textures_are_looked_at() {
         let alpha = Factor::Texture(TextureId(0), channel);
         Surface::Conductor(Box::new(Conductor::new(index, alpha).expect("a metal")))
     };
-    assert!(Palette::new(vec![Material::new(metal(Channel::Red))], texture()).is_ok());
+    assert!(MaterialTable::new(vec![Material::new(metal(Channel::Red))], texture()).is_ok());
     for (channel, value) in [(Channel::Green, 1.5), (Channel::Blue, -0.5)] {
-        let refused = Palette::new(vec![Material::new(metal(channel))], texture()).err();
+        let refused = MaterialTable::new(vec![Material::new(metal(channel))], texture()).err();
         let expected = MaterialError::Factor { material: 0, quantity: "a roughness α", value };
         assert_eq!(refused, Some(expected));
     }
     let see_through = Material { opacity: Some(Factor::Number(1.2)), ..Material::new(Surface::Absorber) };
-    let refused = Palette::new(vec![see_through], vec![]).err();
+    let refused = MaterialTable::new(vec![see_through], vec![]).err();
     assert_eq!(refused, Some(MaterialError::Factor { material: 0, quantity: "an opacity", value: 1.2 }));
 }
 
@@ -58,7 +58,7 @@ fn factors_of_textures_are_looked_at() {
 fn what_counts_on_a_mix_alone_is_refused_on_its_parts() {
     let mix = Surface::Mix(Mix { a: MaterialId(0), b: MaterialId(1), weight: Factor::Number(0.5) });
     let of = |part: Material, whole: Material| {
-        Palette::new(vec![Material::new(Surface::Absorber), part, whole], vec![]).err()
+        MaterialTable::new(vec![Material::new(Surface::Absorber), part, whole], vec![]).err()
     };
     let plain = || Material::new(Surface::Absorber);
     let whole = || Material::new(mix.clone());
@@ -80,7 +80,8 @@ fn what_glows_has_no_gaps_laid_on_from_three_sides() {
         let sampling = Sampling { projection, ..Sampling::default() };
         let picture = ImageTexture::new(1, 1, Texels::Float(vec![[0.5; 3]]), sampling).expect("a texel");
         let opacity = Some(Factor::Texture(TextureId(0), Channel::Red));
-        Palette::new(vec![Material { emission, opacity, ..Material::new(Surface::Absorber) }], vec![picture]).err()
+        MaterialTable::new(vec![Material { emission, opacity, ..Material::new(Surface::Absorber) }], vec![picture])
+            .err()
     };
     let glow = Emission { radiance: Spectrum::constant(1.0), factor: None, glow: Glow::Both };
     assert_eq!(of(None), None);

@@ -3,14 +3,14 @@
 use super::chi_square::{Grid, judge, p_of_draws};
 use super::*;
 
-fn sheeting(class: &str, colour: &str) -> Palette {
+fn sheeting(class: &str, colour: &str) -> MaterialTable {
     let preset = SheetingPreset::named(class, colour).expect("a preset");
-    palette(Surface::Sheeting(Box::new(preset.sheeting().expect("a sheeting"))))
+    material_table(Surface::Sheeting(Box::new(preset.sheeting().expect("a sheeting"))))
 }
 
-fn marking(r_l: f64, day: DayTime) -> Palette {
+fn marking(r_l: f64, day: DayTime) -> MaterialTable {
     let white = Spectrum::constant(1.0);
-    palette(Surface::Marking(Box::new(RoadMarking::new(r_l, day, &white).expect("a marking"))))
+    material_table(Surface::Marking(Box::new(RoadMarking::new(r_l, day, &white).expect("a marking"))))
 }
 
 /// Unit directions at an elevation angle from the normal, one in the plane of the other or across it.
@@ -24,11 +24,11 @@ fn lamp_and_viewer(entrance_deg: f64, observation_deg: f64, turn_deg: f64) -> (V
 }
 
 /// Luminance over the illuminance across the beam, in the light of illuminant A.
-fn luminance(palette: &Palette, (lamp, viewer): (Vec3, Vec3)) -> f64 {
+fn luminance(material_table: &MaterialTable, (lamp, viewer): (Vec3, Vec3)) -> f64 {
     let a = etendue_spectra::illuminant::named("A").expect("A");
     let seen = Spectrum::from_fn(|nm| {
         let wavelengths = Wavelengths { nm: [nm as f32; 4], pdf: [1.0; 4] };
-        f64::from(palette.bsdf(MaterialId(0), &LOOKUP, true, &wavelengths).evaluate(viewer, lamp).value_cos[0])
+        f64::from(material_table.bsdf(MaterialId(0), &LOOKUP, true, &wavelengths).evaluate(viewer, lamp).value_cos[0])
     });
     etendue_spectra::observer::xyz_of_reflectance(&seen, a)[1]
 }
@@ -60,7 +60,7 @@ fn a_sign_is_never_darker_than_its_base() {
     let table = RetroTable::new(&[0.2, 2.0], &[5.0], &[70.0, 0.01]).expect("a table");
     let white = Spectrum::constant(1.0);
     let sheet = Sheeting::new(white.scaled(0.4), &white, table).expect("a sheeting");
-    let sign = palette(Surface::Sheeting(Box::new(sheet)));
+    let sign = material_table(Surface::Sheeting(Box::new(sheet)));
     let (lamp, viewer) = lamp_and_viewer(5.0, 2.0, 0.0);
     let base = f64::from(0.4 * core::f32::consts::FRAC_1_PI * lamp.z);
     assert!((luminance(&sign, (lamp, viewer)) / base - 1.0).abs() < 1e-5);
@@ -70,8 +70,8 @@ fn a_sign_is_never_darker_than_its_base() {
 fn a_marking_returns_its_coefficient_at_the_30_m_geometry() {
     for (r_l, day) in [(100.0, DayTime::Qd(100.0)), (300.0, DayTime::Qd(160.0)), (150.0, DayTime::LuminanceFactor(0.6))]
     {
-        let palette = marking(r_l, day);
-        let found = luminance(&palette, lamp_and_viewer(88.76, 1.05, 0.0));
+        let material_table = marking(r_l, day);
+        let found = luminance(&material_table, lamp_and_viewer(88.76, 1.05, 0.0));
         assert!((found / (r_l * 1e-3) - 1.0).abs() < 1e-3, "{r_l}: {found}");
     }
 }
@@ -103,11 +103,11 @@ fn directions_are_drawn_by_the_density_told() {
         (marking(300.0, DayTime::Qd(130.0)), 0.03),
     ];
     let mut p_values = vec![];
-    for (k, (palette, scale)) in cases.iter().enumerate() {
+    for (k, (material_table, scale)) in cases.iter().enumerate() {
         for (i, degrees) in [0.0, 30.0, 70.0, 86.0].into_iter().enumerate() {
             let wo = at_degrees(degrees);
             let grid = Grid::new((wo, *scale), (Vec3::NEG_Z, 1.0));
-            let p = p_of_draws(&bsdf(palette), wo, &grid, 2000 + (k * 4 + i) as u32);
+            let p = p_of_draws(&bsdf(material_table), wo, &grid, 2000 + (k * 4 + i) as u32);
             p_values.push((p, format!("case {k} at {degrees}°")));
         }
     }
@@ -136,9 +136,9 @@ fn lamp_and_viewer_may_nearly_be_exchanged() {
 fn no_sign_sends_back_more_than_arrives() {
     for class in SHEETING_CLASSES {
         for colour in ["white", "red"] {
-            let palette = sheeting(class, colour);
+            let material_table = sheeting(class, colour);
             for degrees in [0.0, 5.0, 30.0, 60.0, 75.0, 80.0, 85.0, 89.0, 89.9] {
-                let albedo = albedo(&bsdf(&palette), at_degrees(degrees));
+                let albedo = albedo(&bsdf(&material_table), at_degrees(degrees));
                 assert!(albedo.max_value() < 1.002, "{class} {colour} at {degrees}: {albedo:?}");
             }
         }

@@ -2,9 +2,9 @@
 
 /// Probabilities of `K` lobes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Lottery<const K: usize>([f32; K]);
+pub(super) struct DiscreteSampler<const K: usize>([f32; K]);
 
-impl<const K: usize> Lottery<K> {
+impl<const K: usize> DiscreteSampler<K> {
     /// Probabilities in proportion to `shares` (0 or more); `None` where all are zero.
     pub(super) fn new(shares: [f32; K]) -> Option<Self> {
         let total: f32 = shares.iter().sum();
@@ -37,12 +37,12 @@ mod tests {
 
     #[test]
     fn lobes_are_drawn_by_weight() {
-        let lottery = Lottery::new([0.0, 1.0, 0.0, 3.0, 0.0]).expect("weights");
+        let discrete_sampler = DiscreteSampler::new([0.0, 1.0, 0.0, 3.0, 0.0]).expect("weights");
         let mut counts = [0; 5];
-        (0..1000).for_each(|i| counts[lottery.draw((i as f32 + 0.5) / 1000.0)] += 1);
+        (0..1000).for_each(|i| counts[discrete_sampler.draw((i as f32 + 0.5) / 1000.0)] += 1);
         assert_eq!(counts, [0, 250, 0, 750, 0]);
-        assert_eq!(lottery.draw(0.999_999_94), 3);
-        assert_eq!(lottery.of(3), 0.75);
-        assert!(Lottery::new([0.0; 3]).is_none());
+        assert_eq!(discrete_sampler.draw(0.999_999_94), 3);
+        assert_eq!(discrete_sampler.of(3), 0.75);
+        assert!(DiscreteSampler::new([0.0; 3]).is_none());
     }
 }

@@ -1,12 +1,12 @@
 //! The tree over the instances of a view.
 
 use super::best::Best;
+use super::blas::Blas;
 use super::boxes::Box3;
 use super::build::over_boxes;
 use super::collapse::collapse;
 use super::lanes::{Job, Lanes, Plain};
 use super::local::LocalRay;
-use super::mesh_tree::MeshTree;
 use super::node::{Child, Node};
 use super::packet::PrimitiveHit;
 use super::ray::SlabRay;
@@ -15,14 +15,14 @@ use super::simd::Avx2;
 use super::walk::{Leaves, walk};
 use super::{Simd, World};
 use crate::geometry::{Instance, Shape, sphere};
-use crate::view::{Hit, Placed};
+use crate::view::{Hit, InstanceTransform};
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};
 
 /// A shape with what is needed to meet it.
 #[derive(Clone, Debug)]
 enum Target<'w> {
-    Mesh(&'w MeshTree),
+    Mesh(&'w Blas),
     Sphere(f64),
 }
 
@@ -57,19 +57,19 @@ impl Chosen {
 
 /// The instances of a view, with a tree over them.
 #[derive(Clone, Debug)]
-pub(crate) struct Top<'w> {
+pub(crate) struct Tlas<'w> {
     nodes: Vec<Node>,
     root: Option<Child>,
     /// The instance of each leaf.
     leaves: Vec<u32>,
     targets: Vec<Target<'w>>,
-    placed: Vec<Placed>,
+    placed: Vec<InstanceTransform>,
     chosen: Chosen,
 }
 
-impl<'w> Top<'w> {
+impl<'w> Tlas<'w> {
     /// Builds the tree over instances placed in the render frame.
-    pub(crate) fn new(world: &'w World, placed: Vec<Placed>, simd: Simd) -> Self {
+    pub(crate) fn new(world: &'w World, placed: Vec<InstanceTransform>, simd: Simd) -> Self {
         let bounded = placed.iter().zip(world.instances()).zip(0_u32..);
         let (boxes, members): (Vec<_>, Vec<_>) = bounded
             .filter_map(|((placed, instance), index)| Some((Box3::from_f64(placed.bounds(instance, world)?), index)))
@@ -81,7 +81,7 @@ impl<'w> Top<'w> {
     }
 
     /// The instances' places, by their index.
-    pub(crate) fn placed(&self) -> &[Placed] {
+    pub(crate) fn placed(&self) -> &[InstanceTransform] {
         &self.placed
     }
 
@@ -114,7 +114,7 @@ fn is_traceable(ray: &Ray) -> bool {
 }
 
 struct Closest<'a, 'w> {
-    top: &'a Top<'w>,
+    top: &'a Tlas<'w>,
     ray: &'a Ray,
 }
 
@@ -138,7 +138,7 @@ impl Job for Closest<'_, '_> {
 
 struct ClosestLeaf<'a, 'w, L> {
     l: L,
-    top: &'a Top<'w>,
+    top: &'a Tlas<'w>,
     ray: &'a Ray,
     best: Best,
 }
@@ -165,7 +165,7 @@ impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
 }
 
 struct Occluded<'a, 'w> {
-    top: &'a Top<'w>,
+    top: &'a Tlas<'w>,
     ray: &'a Ray,
 }
 
@@ -187,7 +187,7 @@ impl Job for Occluded<'_, '_> {
 
 struct AnyLeaf<'a, 'w, L> {
     l: L,
-    top: &'a Top<'w>,
+    top: &'a Tlas<'w>,
     ray: &'a Ray,
 }
 

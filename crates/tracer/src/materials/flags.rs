@@ -5,7 +5,7 @@ use crate::textures::TextureId;
 
 /// What holds for a material or any of its parts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Traits {
+pub(super) struct MaterialFlags {
     /// Light may pass straight through.
     pub(super) passage: bool,
     /// It has a normal map.
@@ -16,7 +16,7 @@ pub(super) struct Traits {
     pub(super) solid: bool,
 }
 
-impl Traits {
+impl MaterialFlags {
     fn or(self, other: Self) -> Self {
         Self {
             passage: self.passage | other.passage,
@@ -27,10 +27,10 @@ impl Traits {
     }
 }
 
-/// The traits of each material. The mixes among them are free of circles.
-pub(super) fn traits(materials: &[Material]) -> Vec<Traits> {
+/// The flags of each material. The mixes among them are free of circles.
+pub(super) fn flags(materials: &[Material]) -> Vec<MaterialFlags> {
     let mut known: Vec<_> = materials.iter().map(own).collect();
-    // Every round takes the parts' traits one mix higher up: settled after as many as mixes are nested.
+    // Every round takes the parts' flags one mix higher up: settled after as many as mixes are nested.
     loop {
         let next: Vec<_> = materials.iter().zip(&known).map(|(m, own)| own.or(of_parts(m, &known))).collect();
         if next == known {
@@ -40,16 +40,16 @@ pub(super) fn traits(materials: &[Material]) -> Vec<Traits> {
     }
 }
 
-fn of_parts(material: &Material, known: &[Traits]) -> Traits {
+fn of_parts(material: &Material, known: &[MaterialFlags]) -> MaterialFlags {
     match &material.surface {
         Surface::Mix(mix) => known[mix.a.0 as usize].or(known[mix.b.0 as usize]),
-        _ => Traits::default(),
+        _ => MaterialFlags::default(),
     }
 }
 
-fn own(material: &Material) -> Traits {
+fn own(material: &Material) -> MaterialFlags {
     let passage = material.opacity.is_some() || matches!(material.surface, Surface::ThinSheet(_));
-    Traits {
+    MaterialFlags {
         passage,
         tangents: material.normal_map.is_some(),
         footprint: !material.textures().is_empty(),

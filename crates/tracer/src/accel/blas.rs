@@ -16,14 +16,14 @@ const LEAF_SIZE: usize = 8;
 
 /// A tree over the triangles of a mesh.
 #[derive(Clone, Debug)]
-pub(crate) struct MeshTree {
+pub(crate) struct Blas {
     nodes: Vec<Node>,
     /// The leaves' triangles; a leaf's index is twice that of its first half, and one more where it has two.
     halves: Vec<Half>,
     root: Option<Child>,
 }
 
-impl MeshTree {
+impl Blas {
     /// Builds the tree. The same mesh gives the same tree.
     pub(crate) fn new(mesh: &Mesh) -> Self {
         let triangles: Vec<_> = (0..mesh.triangles().len() as u32).map(|p| mesh.corners(p)).collect();
@@ -61,7 +61,7 @@ impl MeshTree {
 
 /// A task of its own, so that the compiler keeps what a walk needs at hand.
 struct Closest<'a> {
-    tree: &'a MeshTree,
+    tree: &'a Blas,
     ray: &'a LocalRay,
     instance: u32,
     best: &'a mut Best,
@@ -81,7 +81,7 @@ impl Job for Closest<'_> {
 }
 
 struct Occluded<'a> {
-    tree: &'a MeshTree,
+    tree: &'a Blas,
     ray: &'a LocalRay,
     t_max: f32,
 }
@@ -107,7 +107,7 @@ impl Job for Occluded<'_> {
 
 struct ClosestLeaf<'a, L: Lanes> {
     l: L,
-    tree: &'a MeshTree,
+    tree: &'a Blas,
     ray: &'a LocalRay,
     instance: u32,
     best: &'a mut Best,
@@ -128,7 +128,7 @@ impl<L: Lanes> Leaves for ClosestLeaf<'_, L> {
 
 struct AnyLeaf<'a, L: Lanes> {
     l: L,
-    tree: &'a MeshTree,
+    tree: &'a Blas,
     ray: &'a LocalRay,
 }
 

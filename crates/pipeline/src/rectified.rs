@@ -31,7 +31,7 @@ const WIDEST_DEG: f64 = 85.0;
 
 /// Why a camera has no undistorted twin.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum TwinError {
+pub enum RectifiedCameraError {
     /// Rays that do not meet.
     #[error(
         "a telecentric camera has no undistorted twin: its rays do not meet, and are straight as they are; remove the key"
@@ -72,26 +72,26 @@ pub enum TwinError {
 
 /// The rectilinear twin of a camera.
 #[derive(Clone, Debug)]
-pub struct Twin {
+pub struct RectifiedCamera {
     /// Its camera matrix, in raster coordinates.
     pub matrix: CameraMatrix,
     /// The camera with a rectilinear lens.
     body: CameraBody,
 }
 
-impl Twin {
+impl RectifiedCamera {
     /// The twin of a camera, its focal lengths `scale` times the camera's own.
     ///
     /// # Errors
-    /// [`TwinError`].
-    pub fn of(camera: &CameraBody, scale: f64) -> Result<Self, TwinError> {
+    /// [`RectifiedCameraError`].
+    pub fn of(camera: &CameraBody, scale: f64) -> Result<Self, RectifiedCameraError> {
         if let Some(optic) = camera.front.as_ref().and_then(|front| front.optic()) {
-            return Err(TwinError::Front { what: optic.name() });
+            return Err(RectifiedCameraError::Front { what: optic.name() });
         }
         let matrix = enlarged(own_matrix(camera)?, scale);
         let angle_deg = widest_deg(camera);
         if angle_deg >= WIDEST_DEG {
-            return Err(TwinError::Field { angle_deg });
+            return Err(RectifiedCameraError::Field { angle_deg });
         }
         let raster = &camera.raster;
         let centre = DVec2::new(matrix.cx, matrix.cy);
@@ -148,21 +148,25 @@ impl Twin {
 }
 
 /// The camera's own matrix, as one of tangents.
-fn own_matrix(camera: &CameraBody) -> Result<CameraMatrix, TwinError> {
+fn own_matrix(camera: &CameraBody) -> Result<CameraMatrix, RectifiedCameraError> {
     match &camera.lens {
-        Lens::Telecentric(_) => Err(TwinError::Telecentric),
+        Lens::Telecentric(_) => Err(RectifiedCameraError::Telecentric),
         Lens::Calibrated(lens) => of_tangents(&lens.parameters().calibration),
         lens => Ok(camera.raster.camera_matrix(lens.principal_distance_mm())),
     }
 }
 
 /// A calibration's matrix for tangents: near the axis every model is a multiple of the tangent.
-fn of_tangents(calibration: &Calibration) -> Result<CameraMatrix, TwinError> {
+fn of_tangents(calibration: &Calibration) -> Result<CameraMatrix, RectifiedCameraError> {
     let matrix = CameraMatrix { skew: 0.0, ..calibration.matrix() };
     if matches!(calibration.model(), Model::Perspective(_) | Model::Radial(_)) {
         return Ok(matrix);
     }
-    let seen = calibration.model().solid_angle_per_area(DVec2::ZERO).filter(|sr| *sr > 0.0).ok_or(TwinError::Blind)?;
+    let seen = calibration
+        .model()
+        .solid_angle_per_area(DVec2::ZERO)
+        .filter(|sr| *sr > 0.0)
+        .ok_or(RectifiedCameraError::Blind)?;
     Ok(enlarged(matrix, 1.0 / seen.sqrt()))
 }
 
@@ -171,7 +175,7 @@ fn enlarged(matrix: CameraMatrix, ratio: f64) -> CameraMatrix {
 }
 
 /// The lens of the twin: of a paraxial lens a pinhole at its principal distance, else a projection by the matrix.
-fn rectilinear(lens: &Lens, matrix: CameraMatrix, raster: &Raster, scale: f64) -> Result<Lens, TwinError> {
+fn rectilinear(lens: &Lens, matrix: CameraMatrix, raster: &Raster, scale: f64) -> Result<Lens, RectifiedCameraError> {
     let (f_number, transmittance) = (lens.f_number(), lens.transmittance());
     if matches!(lens, Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_)) {
         let focal_length_mm = lens.principal_distance_mm() * scale;
@@ -251,7 +255,7 @@ mod tests {
             body("type = \"thin\"\nfocal_length_mm = 7\nfocus_distance_m = 2\n"),
             calibrated("type = \"opencv\", fx_px = 70, fy_px = 71, cx_px = 30, cy_px = 25"),
         ] {
-            let twin = Twin::of(&camera, 1.0).expect("a twin");
+            let twin = RectifiedCamera::of(&camera, 1.0).expect("a twin");
             assert_eq!(ray_table(twin.body()), ray_table(&camera), "to the bit");
             let picture = Plane::from_samples(64, 48, (0..64 * 48).map(|i| [i as f32, 0.5, (i % 7) as f32]).collect());
             let picture = picture.expect("filled");
@@ -277,7 +281,7 @@ mod tests {
         for (projection, focal) in cases {
             for scale in [1.0, 0.5] {
                 let camera = calibrated(projection);
-                let Twin { matrix, body } = Twin::of(&camera, scale).expect("a twin");
+                let RectifiedCamera { matrix, body } = RectifiedCamera::of(&camera, scale).expect("a twin");
                 assert!(
                     (matrix.fx / (scale * focal[0]) - 1.0).abs() < 1e-12
                         && (matrix.fy / (scale * focal[1]) - 1.0).abs() < 1e-12
@@ -298,7 +302,7 @@ mod tests {
         let camera = calibrated("type = \"opencv\", fx_px = 50, distortion = [-0.2, 0.02, 0, 0]");
         let even = Plane::filled(64, 48, [0.25, 0.5, 1.0]);
         // A barrel is drawn out: the twin of the same scale shows a part of it, one of half the scale all, and black around.
-        let of = |scale| Twin::of(&camera, scale).expect("a twin").resampled(&camera, &even);
+        let of = |scale| RectifiedCamera::of(&camera, scale).expect("a twin").resampled(&camera, &even);
         assert!(of(1.0).samples().iter().all(|v| *v == [0.25, 0.5, 1.0]));
         let small = of(0.5);
         assert_eq!((small.at(0, 0), small.at(32, 24)), ([0.0; 3], [0.25, 0.5, 1.0]));
@@ -307,7 +311,8 @@ mod tests {
 
     #[test]
     fn cameras_without_a_twin_say_why() {
-        let refused = |camera: &CameraBody| Twin::of(camera, 1.0).map(|_| ()).expect_err("no twin").to_string();
+        let refused =
+            |camera: &CameraBody| RectifiedCamera::of(camera, 1.0).map(|_| ()).expect_err("no twin").to_string();
         let wide = refused(&calibrated("type = \"equidistant\", fx_px = 20"));
         assert!(wide.contains("114.6°") && wide.contains("85°"), "{wide}");
         assert!(refused(&body("type = \"telecentric\"\nfield_width_m = 1\n")).contains("telecentric"));

@@ -4,23 +4,23 @@ use etendue_core::{Spectral, Wavelengths};
 use etendue_spectra::Spectrum;
 use glam::Vec3;
 
-use super::traits::{Traits, traits};
+use super::flags::{MaterialFlags, flags};
 use super::{Bsdf, DiffuseBsdf, Emission, LeafBsdf, Material, MaterialError, Surface, check, mix};
 use crate::MaterialId;
 use crate::geometry::SurfacePoint;
 use crate::textures::{ImageTexture, Lookup};
 
 /// Materials and textures. Immutable; every texture and part that a material names is here, every reflectance lies in
-/// 0–1. The methods that take a material's id panic on one of another palette.
+/// 0–1. The methods that take a material's id panic on one of another material_table.
 #[derive(Clone, Debug, Default)]
-pub struct Palette {
+pub struct MaterialTable {
     materials: Vec<Material>,
     textures: Vec<ImageTexture>,
-    traits: Vec<Traits>,
+    flags: Vec<MaterialFlags>,
     has_passages: bool,
 }
 
-impl Palette {
+impl MaterialTable {
     /// Materials, in the order of their ids, and the textures they name.
     ///
     /// # Errors
@@ -28,9 +28,9 @@ impl Palette {
     /// light.
     pub fn new(materials: Vec<Material>, textures: Vec<ImageTexture>) -> Result<Self, MaterialError> {
         (0..materials.len()).try_for_each(|i| check::material(&materials, i, &textures))?;
-        let traits = traits(&materials);
-        let has_passages = traits.iter().any(|t| t.passage);
-        Ok(Self { materials, textures, traits, has_passages })
+        let flags = flags(&materials);
+        let has_passages = flags.iter().any(|t| t.passage);
+        Ok(Self { materials, textures, flags, has_passages })
     }
 
     /// The materials, in the order of their ids.
@@ -54,20 +54,20 @@ impl Palette {
     /// Whether a material lets light pass straight through, or any of its parts does.
     #[must_use]
     pub fn lets_pass(&self, id: MaterialId) -> bool {
-        self.traits[id.0 as usize].passage
+        self.flags[id.0 as usize].passage
     }
 
-    /// Whether a material, or any of its parts, has a normal map: only then does [`Palette::shading_normal`] look at
+    /// Whether a material, or any of its parts, has a normal map: only then does [`MaterialTable::shading_normal`] look at
     /// tangents.
     #[must_use]
     pub fn needs_tangents(&self, id: MaterialId) -> bool {
-        self.traits[id.0 as usize].tangents
+        self.flags[id.0 as usize].tangents
     }
 
     /// Whether a material, or any of its parts, has a texture: only then is the width of a [`Lookup`] looked at.
     #[must_use]
     pub fn needs_footprint(&self, id: MaterialId) -> bool {
-        self.traits[id.0 as usize].footprint
+        self.flags[id.0 as usize].footprint
     }
 
     /// A material's emission.
@@ -147,14 +147,14 @@ impl Palette {
     /// Whether any material bounds a transparent solid.
     #[must_use]
     pub fn has_solids(&self) -> bool {
-        self.traits.iter().any(|t| t.solid)
+        self.flags.iter().any(|t| t.solid)
     }
 
     /// The material of the transparent solid that a material bounds: itself or, of a mix, its first part that is one; `None`
     /// where it bounds none.
     #[must_use]
     pub fn solid(&self, id: MaterialId) -> Option<MaterialId> {
-        if !self.traits[id.0 as usize].solid {
+        if !self.flags[id.0 as usize].solid {
             return None;
         }
         match &self.materials[id.0 as usize].surface {
@@ -163,7 +163,7 @@ impl Palette {
         }
     }
 
-    /// Whether a material is a mix, so that [`Palette::resolve`] needs a number.
+    /// Whether a material is a mix, so that [`MaterialTable::resolve`] needs a number.
     #[must_use]
     pub fn is_mix(&self, id: MaterialId) -> bool {
         matches!(self.materials[id.0 as usize].surface, Surface::Mix(_))
@@ -196,7 +196,7 @@ impl Palette {
     }
 
     /// A material's scattering at a point, for a path's wavelengths, seen from its `front` or its back. Panics on a mix:
-    /// [`Palette::resolve`] it first.
+    /// [`MaterialTable::resolve`] it first.
     #[must_use]
     pub fn bsdf<const N: usize>(
         &self,
