@@ -26,6 +26,8 @@ pub struct Calibrated {
     pub parameters: Vec<Parameter>,
     /// Their covariance, in their order.
     pub covariance: Matrix,
+    /// Their standard uncertainties if the errors of points were independent of one another, as other programs state them.
+    pub independent_uncertainties: Vec<f64>,
     /// Where the chart stood in each view.
     pub poses: Vec<Pose>,
     /// Fitted less seen, px, of every point of each view.
@@ -117,12 +119,14 @@ pub(super) fn result(bundle: &Bundle<'_>, fit: Fit) -> Result<Calibrated, Calibr
         let image = placed.calibration.project(placed.poses[v].camera(bundle.views[v].points[p].chart));
         image.map(|image| image - bundle.seen(v, p))
     };
+    let independent = |i: usize| (widening * fit.covariance.at(i, i)).sqrt();
     let residuals_px: Option<Vec<Vec<DVec2>>> =
         (0..bundle.views.len()).map(|v| (0..bundle.views[v].points.len()).map(|p| off(v, p)).collect()).collect();
     Ok(Calibrated {
         calibration: placed.calibration,
         parameters,
         covariance,
+        independent_uncertainties: (0..names.len()).map(independent).collect(),
         poses: placed.poses,
         residuals_px: residuals_px.ok_or(CalibrateError::Start)?,
         sigma_px: fit.sigma,
