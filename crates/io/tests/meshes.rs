@@ -1,5 +1,6 @@
 //! Meshes from the disk: whole, damaged, and real ones with what is known of them.
 
+use etendue_testkit::skip::all_here;
 use std::fs;
 use std::path::Path;
 
@@ -154,11 +155,9 @@ fn bounds(mesh: &MeshAsset) -> [[f32; 3]; 2] {
 }
 
 #[test]
-#[expect(clippy::print_stderr, reason = "a test that is skipped says so")]
 fn real_meshes_have_the_triangles_and_bounds_of_their_text() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/assets/kenney-city");
-    if !folder.exists() {
-        eprintln!("skipped: {} is not here", folder.display());
+    if !all_here("real_meshes_have_the_triangles_and_bounds_of_their_text", &[&folder]) {
         return;
     }
     for (name, triangles, expected) in KENNEY {

@@ -5,6 +5,7 @@
 //! | [`judge`] | is an estimated picture what a closed form says? |
 //! | [`quadrature`] | integrals by plain sums |
 //! | [`form_factor`] | irradiance from spheres and polygons |
+//! | [`skip`] | tests whose files are missing, counted |
 //! | [`pupil`] | irradiance behind a round, perhaps clipped, pupil |
 //!
 //! Nothing here shares code with what it judges, but for the vocabulary and the elementary functions of `core`.
@@ -13,3 +14,4 @@ pub mod form_factor;
 pub mod judge;
 pub mod pupil;
 pub mod quadrature;
+pub mod skip;

@@ -2,20 +2,15 @@
 
 use crate::support::{contents, etendue, root, tests, text};
 use etendue_io::exr::{ExrFile, Samples, read_exr};
+use etendue_testkit::skip::all_here;
 use std::path::Path;
 
 /// The job, where the models are at hand.
 fn job() -> Option<String> {
     let assets = root().join("../shared/assets");
-    let folders = ["kenney-city", "kenney-vehicles", "hdri"];
-    if folders.iter().all(|folder| assets.join(folder).is_dir()) {
-        return Some(text(&tests().join("jobs/kenney.toml")));
-    }
-    // Cargo shows what a test prints when asked (--nocapture).
-    #[allow(clippy::print_stderr)]
-    let skip = || eprintln!("skipped: {} has not all of {}", assets.display(), folders.join(", "));
-    skip();
-    None
+    let folders = ["kenney-city", "kenney-vehicles", "hdri"].map(|folder| assets.join(folder));
+    let needed = folders.each_ref().map(AsRef::as_ref);
+    all_here("kenney", &needed).then(|| text(&tests().join("jobs/kenney.toml")))
 }
 
 /// Values of a channel of the ground truth where `instance.ID` is one of `instances`.

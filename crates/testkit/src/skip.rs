@@ -1,0 +1,34 @@
+//! Tests that need files which may be missing: they pass, say so, and are counted.
+
+use std::io::Write as _;
+use std::path::Path;
+
+/// The variable that names the file to which a skipped test adds a line; CI counts and prints them.
+const LIST: &str = "ETENDUE_SKIPPED";
+
+/// Whether all files or folders are there. Where one is not, the test is skipped: it is said on stderr and in the list that CI prints.
+///
+/// # Panics
+/// Where the list cannot be written.
+#[must_use]
+pub fn all_here(test: &str, needed: &[&Path]) -> bool {
+    let Some(missing) = needed.iter().find(|path| !path.exists()) else { return true };
+    let line = format!("skipped: {test}: {} is not here\n", missing.display());
+    // Cargo shows what a test prints when asked (--nocapture).
+    std::io::stderr().write_all(line.as_bytes()).expect("stderr");
+    if let Some(list) = std::env::var_os(LIST) {
+        let file = std::fs::OpenOptions::new().append(true).create(true).open(list);
+        file.and_then(|mut file| file.write_all(line.as_bytes())).expect("the list of skipped tests");
+    }
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_there_is_not_skipped() {
+        assert!(all_here("itself", &[Path::new(env!("CARGO_MANIFEST_DIR"))]));
+    }
+}
