@@ -1,19 +1,19 @@
 //! The examples run, and give what their heads promise.
 
 #[path = "../examples/another_lens.rs"]
-#[allow(dead_code, clippy::print_stdout)]
+#[allow(dead_code)]
 mod another_lens;
 #[path = "../examples/first_picture.rs"]
-#[allow(dead_code, clippy::print_stdout)]
+#[allow(dead_code)]
 mod first_picture;
 #[path = "../examples/measure_chart.rs"]
-#[allow(dead_code, clippy::print_stdout)]
+#[allow(dead_code)]
 mod measure_chart;
 #[path = "../examples/own_camera.rs"]
-#[allow(dead_code, clippy::print_stdout)]
+#[allow(dead_code)]
 mod own_camera;
 #[path = "../examples/scene_from_arrays.rs"]
-#[allow(dead_code, clippy::print_stdout)]
+#[allow(dead_code)]
 mod scene_from_arrays;
 
 #[test]
