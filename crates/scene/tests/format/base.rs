@@ -33,7 +33,7 @@ fn a_base_alone_is_the_base() {
 #[test]
 fn tables_are_merged_and_forms_replaced() {
     let uniform = "[environment]\ntype = \"uniform\"\nradiance_w_m2_sr_nm = 0.1\n";
-    let camera = "[sensor]\nexposure_s = 0.25\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm = 3\nf_number = 8\n";
+    let camera = "[sensor]\nexposure_s = 0.25\n[lens]\ntype = \"pinhole\"\nfocal_length_mm = 3\nf_number = 8\n";
     let description = load(&derived(uniform, camera), &[]).expect("laid over");
     assert!(matches!(description.scene.environment, Some(Environment::Uniform(_))));
     let camera = &description.cameras[0].camera;
@@ -82,6 +82,6 @@ fn faults_name_the_file_that_says_it() {
         "scene.toml:2:8: base: \"scene.toml\" is built on itself; name another base, or none"
     );
     let mut files = Files::of_example(&doc());
-    files.edit("scene.toml", "format = 1", "format = 1\nwithout = []");
+    files.edit("scene.toml", "format = 1", "format = 1\nremove = []");
     assert!(load(&files, &[]).expect_err("a fault").to_string().contains("\"without\" has no effect without \"base\""));
 }
