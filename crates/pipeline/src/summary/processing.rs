@@ -24,7 +24,7 @@ impl fmt::Display for Development {
         let steps = corrections(processing)
             .into_iter()
             .chain(colour(processing, mosaic))
-            .chain([format!("gain {}", isp.exposure_gain)])
+            .chain([format!("gain {}", processing.exposure_gain)])
             .chain(paper(processing, Stage::Linear))
             .chain([tone(&processing.tone)])
             .chain(processing.sharpening.map(|s| format!("unsharp mask of {} px by {}", s.radius_px, s.amount)))
