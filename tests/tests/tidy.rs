@@ -225,3 +225,60 @@ fn words_are_the_field_s_own() {
     }
     assert!(faults.is_empty(), "{faults:#?}");
 }
+
+/// Words in backticks.
+fn quoted(page: &str) -> impl Iterator<Item = &str> {
+    page.split('`').skip(1).step_by(2)
+}
+
+/// Whether a word means a file or folder of the repository.
+fn is_path(word: &&str) -> bool {
+    let rooms = ["crates/", "docs/", "tests/", "scenes/", "charts/", "benches/", ".ci/"];
+    rooms.iter().any(|room| word.starts_with(room)) && !word.contains(char::is_whitespace)
+}
+
+/// Pages for those who add to the project.
+fn contributors_pages() -> Vec<(String, String)> {
+    let is_one = |name: &str| name == "CONTRIBUTING.md" || name.starts_with("docs/how-to-add/");
+    tracked(&[".md"]).into_iter().filter(|(name, _)| is_one(name)).collect()
+}
+
+#[test]
+fn paths_for_contributors_exist() {
+    let pages = contributors_pages();
+    assert!(pages.len() > 8, "CONTRIBUTING.md and docs/how-to-add");
+    let mut faults = Vec::new();
+    for (name, page) in &pages {
+        let missing = quoted(page).filter(is_path).filter(|path| !root().join(path).exists());
+        faults.extend(missing.map(|path| format!("{name}: {path} does not exist")));
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+}
+
+/// How many code files adding a thing touches is a measure of the design: each page states it, its steps name them, the index repeats it.
+#[test]
+fn how_to_add_counts_its_code_files() {
+    const LONGEST: usize = 80;
+    let pages = contributors_pages();
+    let index = "docs/how-to-add/README.md";
+    let (_, table) = pages.iter().find(|(name, _)| name == index).expect("an index");
+    let mut faults = Vec::new();
+    for (name, page) in pages.iter().filter(|(name, _)| name.starts_with("docs/how-to-add/") && name != index) {
+        let stated = page.split_once("Touches ").and_then(|(_, rest)| rest.split_once(" code files"));
+        let stated = stated.and_then(|(count, _)| count.parse::<usize>().ok());
+        let steps = page.split_once("\n## Steps\n").map_or("", |(_, rest)| rest.split("\n## ").next().unwrap_or(rest));
+        let files: BTreeSet<&str> = quoted(steps).filter(|w| w.starts_with("crates/") && w.ends_with(".rs")).collect();
+        if stated != Some(files.len()) {
+            faults.push(format!("{name} states {stated:?} code files, its steps name {}", files.len()));
+        }
+        let file = name.trim_start_matches("docs/how-to-add/");
+        let row = table.lines().find(|line| line.contains(&format!("]({file})")));
+        if !row.is_some_and(|row| row.ends_with(&format!("| {} |", files.len()))) {
+            faults.push(format!("{index}: the row of {file} lacks its {} code files", files.len()));
+        }
+        if page.lines().count() > LONGEST {
+            faults.push(format!("{name}: more than {LONGEST} lines"));
+        }
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+}
