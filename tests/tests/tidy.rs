@@ -208,7 +208,7 @@ fn words_are_the_field_s_own() {
     let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let mut faults = Vec::new();
     for (name, text) in tracked(&[".rs", ".toml", ".md", ".py", ".txt"]) {
-        if name == "tests/tests/tidy.rs" || name == "docs/glossary.md" {
+        if ["tests/tests/tidy.rs", "docs/glossary.md", "CHANGELOG.md"].contains(&name.as_str()) {
             continue;
         }
         for (old, new) in REPLACED {

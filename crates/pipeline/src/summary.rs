@@ -255,7 +255,7 @@ fn left_out(lens: &Lens, effects: &Effects) -> String {
     };
     match lens {
         Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Calibrated(_) if lens.lateral_colour().is_some() => {
-            "aberrations but lateral colour, diffraction, glare and ghosts: not modelled".to_owned()
+            format!("{}: not modelled", missing(&["aberrations but lateral colour", "diffraction", "glare", "ghosts"]))
         }
         Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Telecentric(_) => {
             let missing = missing(&["aberrations", "diffraction", "glare", "ghosts"]);

@@ -43,7 +43,7 @@ pub struct SensorState {
     /// Charge in the traps, e⁻: for each kind of trap one number a pixel, row by row.
     pub trapped_e: Vec<Vec<f32>>,
     /// Which blinking pixels are at their upper level, in raster order.
-    pub blinking_high: Vec<bool>,
+    pub dark_current_rts_high: Vec<bool>,
     /// Which pixels of RTS noise are at their upper level, in raster order.
-    pub telegraph_high: Vec<bool>,
+    pub rts_noise_high: Vec<bool>,
 }

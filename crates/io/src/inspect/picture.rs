@@ -7,11 +7,10 @@ use image::{ColorType, DynamicImage, GenericImageView as _};
 use super::statistics::ChannelReport;
 use super::{FileReport, Preview};
 use crate::Error;
-use crate::photograph::KINDS;
 use crate::picture::decode_raster;
 
 pub(super) fn report(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
-    let (format, picture) = decode_raster(file, bytes, KINDS)?;
+    let (format, picture) = decode_raster(file, bytes, "PNG, JPEG, Radiance HDR or OpenEXR")?;
     let mut report = FileReport::new(file, format!("picture, {}", format!("{format:?}").to_uppercase()));
     let (width, height) = (picture.width() as usize, picture.height() as usize);
     report.state("size", format!("{width} x {height} pixels"));

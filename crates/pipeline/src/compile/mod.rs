@@ -35,7 +35,7 @@ use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;
 use etendue_scene::{CameraSetup, Description, Fault};
 use glam::DVec3;
-use material::PaletteBuilder;
+use material::MaterialTableBuilder;
 
 /// What the caller chooses beside the description. Samples and seed are no choices but keys: [`Overrides`] set them, and the
 /// description's own checks see them.
@@ -115,7 +115,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let scene = &description.scene;
     let unused = &description.unused;
     unused.remarks().into_iter().for_each(|remark| context.remark(remark));
-    let mut builder = PaletteBuilder::of_scene(scene, unused, context);
+    let mut builder = MaterialTableBuilder::of_scene(scene, unused, context);
     let (sources, sky) = light::sources(scene, context);
     let setups = description.cameras.iter().enumerate();
     let mut cameras: Vec<_> =

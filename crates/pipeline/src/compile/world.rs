@@ -1,7 +1,7 @@
 //! Meshes, shapes and their instances: from records to the tracer's world.
 
 use super::context::Context;
-use super::material::PaletteBuilder;
+use super::material::MaterialTableBuilder;
 use super::shape;
 use crate::plan::Identity;
 use etendue_core::Track;
@@ -23,7 +23,7 @@ const MISSING_GREY: f64 = 0.5;
 pub(super) fn world(
     scene: &Scene,
     unused: &Unused,
-    material_table: &mut PaletteBuilder,
+    material_table: &mut MaterialTableBuilder,
     context: &mut Context<'_>,
 ) -> Option<(World, Vec<Identity>)> {
     let mut assembly = Assembly { builder: WorldBuilder::new(), meshes: BTreeMap::new(), identities: Vec::new() };
@@ -77,7 +77,7 @@ impl Assembly {
         &mut self,
         object: &Object,
         scene: &Scene,
-        material_table: &mut PaletteBuilder,
+        material_table: &mut MaterialTableBuilder,
         context: &mut Context<'_>,
     ) {
         let prototype = match &object.body {
@@ -109,7 +109,7 @@ impl Assembly {
         &self,
         instance: &mut Instance,
         object: &Object,
-        material_table: &mut PaletteBuilder,
+        material_table: &mut MaterialTableBuilder,
         context: &mut Context<'_>,
     ) {
         let shared: Vec<_> = instance.materials.iter().copied().filter(|id| material_table.gives_flux(*id)).collect();
@@ -135,7 +135,7 @@ impl Assembly {
         object: &Object,
         name: &str,
         scene: &Scene,
-        material_table: &mut PaletteBuilder,
+        material_table: &mut MaterialTableBuilder,
         context: &mut Context<'_>,
     ) -> Option<Prototype> {
         let record = scene.meshes.iter().find(|m| m.name.value == name)?;
@@ -151,7 +151,7 @@ impl Assembly {
         &mut self,
         object: &Object,
         record: &ShapeRecord,
-        material_table: &PaletteBuilder,
+        material_table: &MaterialTableBuilder,
         context: &mut Context<'_>,
     ) -> Option<Prototype> {
         let material = material_table.named(&object.material.as_ref()?.value)?;
@@ -188,7 +188,7 @@ fn slot_materials(
     object: &Object,
     mesh: &record::Mesh,
     asset: &MeshAsset,
-    material_table: &mut PaletteBuilder,
+    material_table: &mut MaterialTableBuilder,
     context: &mut Context<'_>,
 ) -> Option<Vec<MaterialId>> {
     if let Some(material) = &object.material {
@@ -232,7 +232,7 @@ fn check_coordinates(
     mesh: &record::Mesh,
     asset: &MeshAsset,
     materials: &[MaterialId],
-    material_table: &PaletteBuilder,
+    material_table: &MaterialTableBuilder,
     object: &Object,
     context: &mut Context<'_>,
 ) {

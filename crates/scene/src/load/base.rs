@@ -136,7 +136,7 @@ fn merge_lists(base: &mut Vec<Node>, list: Vec<Node>) {
 
 /// Whether a table chooses among the forms of its kind, so that the base's keys may not fit.
 fn says_its_kind(table: &Table) -> bool {
-    table.get("type").is_some() || table.get("model").is_some()
+    table.get("type").is_some()
 }
 
 fn named(list: &[Node]) -> bool {

@@ -330,6 +330,9 @@ mod tests {
         let (_, second) = sensor.step(state.clone(), &dark, FrameAddress { frame: 3, ..ADDRESS });
         let up = |raw: &crate::Raw| raw.plane.samples().iter().map(|dn| *dn > 0).collect::<Vec<_>>();
         assert_ne!(up(&first), up(&second));
-        assert_eq!(state.blinking_high.iter().filter(|h| **h).count(), up(&first).iter().filter(|h| **h).count());
+        assert_eq!(
+            state.dark_current_rts_high.iter().filter(|h| **h).count(),
+            up(&first).iter().filter(|h| **h).count()
+        );
     }
 }

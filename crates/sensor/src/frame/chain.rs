@@ -171,9 +171,10 @@ fn blinking(context: &Context<'_>, memory: &mut Memory) -> Vec<Site> {
     let Some(two) = context.p.charge.dark.dark_current_rts.filter(|_| context.p.noise) else { return Vec::new() };
     let draws = Draws { which: NoiseDraw::Blinking, flip: NoiseDraw::BlinkingFlip };
     let size = (context.width, context.height);
-    let (sites, high) = two_level::next(&two, (context.p, draws), context.address, size, &memory.before.blinking_high);
+    let (sites, high) =
+        two_level::next(&two, (context.p, draws), context.address, size, &memory.before.dark_current_rts_high);
     let up = sites.into_iter().zip(&high).filter(|(_, high)| **high).map(|(site, _)| site).collect();
-    memory.after.blinking_high = high;
+    memory.after.dark_current_rts_high = high;
     up
 }
 
@@ -181,8 +182,8 @@ fn rts_noise(context: &Context<'_>, memory: &mut Memory) -> Option<PreparedRts> 
     let two = context.p.read_out.rts_noise?.0;
     let draws = Draws { which: NoiseDraw::Telegraph, flip: NoiseDraw::TelegraphFlip };
     let size = (context.width, context.height);
-    let (sites, high) = two_level::next(&two, (context.p, draws), context.address, size, &memory.before.telegraph_high);
+    let (sites, high) = two_level::next(&two, (context.p, draws), context.address, size, &memory.before.rts_noise_high);
     let jumps = PreparedRts::new(&sites, &high);
-    memory.after.telegraph_high = high;
+    memory.after.rts_noise_high = high;
     Some(jumps)
 }

@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 
 /// Materials and textures as they are found, and where each was named.
 #[derive(Default)]
-pub(super) struct PaletteBuilder {
+pub(super) struct MaterialTableBuilder {
     materials: Vec<Made>,
     by_name: BTreeMap<String, MaterialId>,
     /// Materials that meshes bring themselves, by mesh file and slot name.
@@ -42,7 +42,7 @@ struct Made {
     /// Whether any of its textures is laid by texture coordinates.
     needs_coordinates: bool,
     /// Of a material whose light is stated as a flux: how many sides glow. Its radiance is that of an area of 1 m² in all
-    /// until [`PaletteBuilder::of_area`] knows better.
+    /// until [`MaterialTableBuilder::of_area`] knows better.
     flux_sides: Option<f64>,
 }
 
@@ -70,7 +70,7 @@ struct MaterialCompiler<'w, 'a> {
     flux_sides: Option<f64>,
 }
 
-impl PaletteBuilder {
+impl MaterialTableBuilder {
     /// All materials of a scene; of those that nothing uses and whose files are not read, a place in the list.
     pub(super) fn of_scene(scene: &Scene, unused: &Unused, context: &mut Context<'_>) -> Self {
         let mut builder = Self::default();
@@ -142,7 +142,7 @@ impl PaletteBuilder {
         Some(id)
     }
 
-    /// Whether a material's light is stated as a flux, so that [`PaletteBuilder::of_area`] has to make its like.
+    /// Whether a material's light is stated as a flux, so that [`MaterialTableBuilder::of_area`] has to make its like.
     pub(super) fn gives_flux(&self, id: MaterialId) -> bool {
         self.materials.get(id.0 as usize).is_some_and(|made| made.flux_sides.is_some())
     }

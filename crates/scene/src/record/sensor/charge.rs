@@ -53,7 +53,7 @@ record! {
         /// Pixels with far more current. Default: none.
         optional hot: Hot = record();
         /// Pixels that have more current at one of two levels. Default: none.
-        optional dark_current_rts: Blinking = record();
+        optional dark_current_rts: DarkCurrentRts = record();
     }
 }
 
@@ -79,7 +79,7 @@ record! {
 
 record! {
     /// Blinking pixels.
-    pub struct Blinking {
+    pub struct DarkCurrentRts {
         /// Share of pixels, above 0.
         required share: Placed<f64> = number("").above(0.0).at_most(1.0);
         /// Mean of their additional current at the upper level (exponential), e⁻/s, above 0.

@@ -16,7 +16,7 @@ pub use efficiency::QuantumEfficiency;
 use efficiency::{check_channels, quantum_efficiency};
 use exposure::{AngleResponse, AutoExposure, Exchange};
 use hdr::{Companding, Hdr};
-use read_out::{Binning, OpticalBlack, Response, Telegraph};
+use read_out::{Binning, OpticalBlack, Response, RtsNoise};
 
 record! {
     /// A sensor: its geometry, and its electronics where electrons are wanted.
@@ -96,7 +96,7 @@ record! {
         /// Noise common to all pixels of a column, e⁻, above 0. Default: none.
         optional column_noise_e: Placed<f64> = number("e⁻").above(0.0);
         /// Pixels whose voltage jumps between two levels. Default: none.
-        optional rts_noise: Telegraph = record();
+        optional rts_noise: RtsNoise = record();
         /// Pixels beside the picture that no light reaches; they are in the raw. Default: none.
         optional optical_black: OpticalBlack = record();
         /// The part of the picture that is read: first column, first row, columns, rows. Default: all of it.

@@ -31,7 +31,7 @@ record! {
 
 record! {
     /// Random RTS noise.
-    pub struct Telegraph {
+    pub struct RtsNoise {
         /// Share of pixels, above 0.
         required share: Placed<f64> = number("").above(0.0).at_most(1.0);
         /// Mean of their jumps (exponential), e⁻, above 0.
