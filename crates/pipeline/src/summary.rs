@@ -1,5 +1,6 @@
 //! The plan in words: what is modelled, what is left out and why, what it will cost.
 
+mod effects_cost;
 mod front;
 mod processing;
 mod shared_light;
@@ -11,6 +12,7 @@ use crate::film::Film;
 use crate::plan::{CameraPlan, Plan, Products, RawFormat, Route, Settings, SkyFacts};
 use crate::remark::grouped;
 use crate::render::{census, layout};
+use effects_cost::Share;
 use etendue_core::{Bands, Verdict};
 use etendue_optics::effects::Effect;
 use etendue_optics::{DepthOfField, Effects, Lens, PupilProjection, PupilStance};
@@ -411,9 +413,18 @@ fn products(p: &Products) -> String {
     if list.is_empty() { "nothing".to_owned() } else { list.join(", ") }
 }
 
+/// What is listed beside the paths: what takes longer than this, s, or more than this share of the whole.
+const LISTED_CPU_S: f64 = 0.5;
+const LISTED_SHARE: f64 = 0.05;
+/// A whole that is too short for shares, s.
+const SHORT_CPU_S: f64 = 1.0;
+
 fn cost(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let shares = effects_cost::shares(plan, camera);
+    let beside: f64 = shares.iter().map(|share| share.cpu_s).sum();
     if let Some(server) = shared_light::server(plan, camera) {
-        return line(f, "cost", format!("no paths of its own: those of camera {}", server.name));
+        line(f, "cost", format!("no paths of its own: those of camera {}", server.name))?;
+        return cost_beside(&shares, beside, f);
     }
     let (width, height) = camera.film_size();
     let paths = f64::from(width) * f64::from(height) * f64::from(camera.settings.spp);
@@ -427,5 +438,26 @@ fn cost(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result 
             "{:.1} million paths, about {cpu:.0} CPU seconds at the street's rate{served}; film {film:.1} MB",
             paths / 1e6
         ),
-    )
+    )?;
+    cost_beside(&shares, cpu + beside, f)
+}
+
+/// What takes time beside the paths, and the whole; nothing where it is little.
+fn cost_beside(shares: &[Share], whole_s: f64, f: &mut Formatter<'_>) -> fmt::Result {
+    let least_s = LISTED_CPU_S.min(LISTED_SHARE * whole_s);
+    let listed = |share: &&Share| whole_s > SHORT_CPU_S && share.cpu_s > least_s;
+    let words = |share: &Share| {
+        let why = if share.holds_for.is_empty() { String::new() } else { format!(" ({})", share.holds_for) };
+        format!("{} {}{why}", share.name, seconds(share.cpu_s))
+    };
+    let list: Vec<String> = shares.iter().filter(|share| share.cpu_s > 0.0).filter(listed).map(words).collect();
+    if list.is_empty() {
+        return Ok(());
+    }
+    line(f, "", format!("on the film: {}; about {} CPU seconds in all", list.join(", "), seconds(whole_s)))
+}
+
+/// Seconds in words: to a tenth below ten.
+fn seconds(s: f64) -> String {
+    if s < 10.0 { format!("{s:.1}") } else { format!("{s:.0}") }
 }

@@ -5,6 +5,7 @@
 
 use super::fourier::{Grid, Plan, fast_length};
 use super::kernel::Kernel;
+use super::work::{Uses, Work};
 use core::ops::Range;
 
 /// Taps up to which the sum is taken directly.
@@ -129,21 +130,51 @@ fn through(plan: &Plan, spectrum: &Grid, pair: &[Block], picture: &Field) -> Gri
     grid
 }
 
-fn fourier(kernel: &Kernel, size: [usize; 2], region: &Region) -> Method {
-    let [rx, ry] = kernel.reach();
-    let (mut best, mut cost) = ([1, 1], f64::INFINITY);
-    for columns in 1..=MAX_BLOCKS {
-        for rows in 1..=MAX_BLOCKS {
-            let (width, height) =
-                (length(&spans(&region.x, columns, rx, size[0])), length(&spans(&region.y, rows, ry, size[1])));
-            let this = (columns * rows).div_ceil(2) as f64 * work(width, height);
-            if this < cost {
-                (best, cost) = ([columns, rows], this);
+/// The work of a kernel without a tap of zero on pictures of `size`, of whose result `region` is wanted.
+pub(super) fn work(reach: [usize; 2], size: [usize; 2], region: &Region, uses: Uses) -> Work {
+    let taps = (2 * reach[0] + 1) * (2 * reach[1] + 1);
+    if taps <= DIRECT_TAPS {
+        return Work { taps: uses.applied * (taps * region.x.len() * region.y.len()) as f64, ..Work::default() };
+    }
+    let Cut { blocks, sides } = Cut::best(reach, size, region);
+    let pairs = (blocks[0] * blocks[1]).div_ceil(2) as f64;
+    // A pair of blocks goes there and back.
+    let transforms = uses.ready + 2.0 * pairs * uses.applied;
+    Work { transformed: transforms * effort(sides), ..Work::default() }
+}
+
+/// Blocks across and down, and the sides of their transform.
+struct Cut {
+    blocks: [usize; 2],
+    sides: [usize; 2],
+}
+
+impl Cut {
+    /// The one that costs least.
+    fn best(reach: [usize; 2], size: [usize; 2], region: &Region) -> Self {
+        let lengths = |wanted: &Range<usize>, axis: usize| -> Vec<usize> {
+            (1..=MAX_BLOCKS).map(|count| length(&spans(wanted, count, reach[axis], size[axis]))).collect()
+        };
+        let (widths, heights) = (lengths(&region.x, 0), lengths(&region.y, 1));
+        let (mut best, mut cost) = (Self { blocks: [1, 1], sides: [widths[0], heights[0]] }, f64::INFINITY);
+        for (width, columns) in widths.iter().zip(1_usize..) {
+            for (height, rows) in heights.iter().zip(1_usize..) {
+                let sides = [*width, *height];
+                let this = (columns * rows).div_ceil(2) as f64 * effort(sides);
+                if this < cost {
+                    (best, cost) = (Self { blocks: [columns, rows], sides }, this);
+                }
             }
         }
+        best
     }
-    let (across, down) = (spans(&region.x, best[0], rx, size[0]), spans(&region.y, best[1], ry, size[1]));
-    let plan = Box::new(Plan::new(length(&across), length(&down)));
+}
+
+fn fourier(kernel: &Kernel, size: [usize; 2], region: &Region) -> Method {
+    let [rx, ry] = kernel.reach();
+    let Cut { blocks, sides } = Cut::best([rx, ry], size, region);
+    let (across, down) = (spans(&region.x, blocks[0], rx, size[0]), spans(&region.y, blocks[1], ry, size[1]));
+    let plan = Box::new(Plan::new(sides[0], sides[1]));
     let pairs = down.iter().flat_map(|y| across.iter().map(move |x| (x, y)));
     let block = |(x, y): (&Span, &Span)| Block {
         out: Region { x: x.out.clone(), y: y.out.clone() },
@@ -154,7 +185,7 @@ fn fourier(kernel: &Kernel, size: [usize; 2], region: &Region) -> Method {
 }
 
 /// Work of a transform of this size, in no particular unit: n log n.
-fn work(width: usize, height: usize) -> f64 {
+fn effort([width, height]: [usize; 2]) -> f64 {
     let bits = |n: usize| f64::from(usize::BITS - n.leading_zeros());
     (width * height) as f64 * (bits(width) + bits(height))
 }

@@ -14,7 +14,8 @@
 
 use super::error::{EffectsError, positive};
 use super::kernel::Kernel;
-use super::{Canvas, Verdict};
+use super::work::{Uses, Work};
+use super::{Canvas, Verdict, convolve};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use etendue_core::maths::f64::{atan2, exp_m1, ln_1p, pow, sin_cos};
 use glam::DVec2;
@@ -115,12 +116,24 @@ impl Glare {
         Some([px(pitch_mm.x)(reach), px(pitch_mm.y)(reach)])
     }
 
+    /// What it has to do on so many pictures, one kernel for all.
+    pub(super) fn work(&self, canvas: &Canvas, pictures: f64) -> Work {
+        let reach = self.reach_on(canvas);
+        let shared = RINGS * ANGLES + (reach[0] + 1) * (reach[1] + 1);
+        let uses = Uses { ready: 2.0, applied: pictures };
+        Work { shared: shared as f64, ..Work::default() } + convolve::work(reach, canvas.size(), &canvas.whole(), uses)
+    }
+
+    /// Columns and rows that light is scattered over on a canvas.
+    fn reach_on(&self, canvas: &Canvas) -> [usize; 2] {
+        let far = canvas.size().map(|side| side.saturating_sub(1));
+        self.reach_px(canvas.pitch_mm()).map_or(far, |[x, y]| [far[0].min(x + 1), far[1].min(y + 1)])
+    }
+
     /// The kernel (1 − s) δ + s K on a canvas: as far as any two of its pixels are apart.
     pub(super) fn kernel(&self, canvas: &Canvas) -> Kernel {
-        let [width, height] = canvas.size();
         let pitch = canvas.pitch_mm();
-        let far = [width.saturating_sub(1), height.saturating_sub(1)];
-        let reach = self.reach_px(pitch).map_or(far, |[x, y]| [far[0].min(x + 1), far[1].min(y + 1)]);
+        let reach = self.reach_on(canvas);
         let mut kernel = Kernel::zeros(reach);
         self.add_near(&mut kernel, pitch);
         self.add_far(&mut kernel, pitch);

@@ -28,6 +28,7 @@ mod kernel;
 mod point_spread;
 pub mod psf;
 pub mod spread_image;
+mod work;
 
 pub use error::EffectsError;
 pub use etendue_core::Verdict;
@@ -35,11 +36,12 @@ pub use glare::{Glare, GlareParameters};
 pub use point_spread::PointSpread;
 pub use psf::{Psf, PsfParameters, WavefrontTerm, Zernike};
 pub use spread_image::{SpreadImage, SpreadImageParameters};
+pub use work::Work;
 
 use crate::ghosts::GhostSettings;
 use convolve::{Convolver, Field, Region};
-use etendue_core::Plane;
 use etendue_core::quantity::{Irradiance, Quantity, Variance};
+use etendue_core::{Bands, Plane};
 use etendue_projection::Raster;
 use glam::DVec2;
 use kernel::Kernel;
@@ -188,6 +190,17 @@ impl Effects {
 
     fn needs_glare(&self) -> Option<&Glare> {
         self.glare.as_ref().filter(|glare| Glare::need(Some(glare)).0 != Verdict::Skipped)
+    }
+
+    /// What the point spread and the veiling glare of a picture have to do, of its bands and, if asked for, their variances.
+    /// (Ghosts: [`crate::ghosts::work`].)
+    #[must_use]
+    pub fn work(&self, picture: &Raster, bands: Bands, with_variance: bool) -> [(Effect, Work); 2] {
+        let canvas = Canvas::new(picture, self.margin_px);
+        let pictures = if with_variance { 2.0 } else { 1.0 };
+        let psf = self.psf.as_ref().map(|psf| psf.work(&canvas, bands, pictures));
+        let glare = self.needs_glare().map(|glare| glare.work(&canvas, pictures * bands.count() as f64));
+        [(Effect::PointSpread, psf.unwrap_or_default()), (Effect::Glare, glare.unwrap_or_default())]
     }
 
     /// The effects made ready for a picture and a range of wavelengths (nm): what does not depend on the band.

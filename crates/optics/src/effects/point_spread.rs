@@ -3,8 +3,10 @@
 use super::convolve::Field;
 use super::psf::{Psf, Ready};
 use super::spread_image::{ReadyImage, SpreadImage};
+use super::work::Work;
 use super::{Canvas, Verdict};
 use core::fmt;
+use etendue_core::Bands;
 use glam::DVec2;
 
 /// A point-spread function.
@@ -40,6 +42,14 @@ impl PointSpread {
         match self {
             Self::Aperture(psf) => psf.reach_px(pitch_mm),
             Self::Image(image) => image.reach_px(pitch_mm),
+        }
+    }
+
+    /// What it has to do on so many pictures a band.
+    pub(super) fn work(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> Work {
+        match self {
+            Self::Aperture(psf) => psf.work(canvas, bands, pictures),
+            Self::Image(image) => image.work(canvas, bands, pictures),
         }
     }
 

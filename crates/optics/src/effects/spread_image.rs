@@ -12,12 +12,14 @@
 //! Left out: a function that varies over the picture.
 
 use super::band::BandLimited;
-use super::convolve::Field;
+use super::convolve::{self, Field};
 use super::error::{EffectsError, positive};
 use super::kernel::Kernel;
 use super::psf::{MAX_PX, MM_PER_UM, VISIBLE_NM, mid_wavelengths};
+use super::work::{Uses, Work};
 use super::{Canvas, Spread, Verdict};
 use core::fmt;
+use etendue_core::Bands;
 use etendue_projection::Raster;
 use glam::DVec2;
 
@@ -137,6 +139,21 @@ impl SpreadImage {
             }
         }
         kernel.kernel()
+    }
+
+    /// What it has to do on so many pictures a band.
+    pub(super) fn work(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> Work {
+        let count = bands.count() as f64;
+        let of_band = (bands.low_nm(), bands.low_nm() + bands.width_nm());
+        let (kernels, of_kernel) = match self.parameters.wavelength_nm {
+            None => (1.0, VISIBLE_NM),
+            Some(_) => (count, of_band),
+        };
+        let points = mid_wavelengths(of_kernel).count() * self.parameters.light.len();
+        let reach = self.reach_px_at(0.5 * (bands.low_nm() + bands.high_nm()), canvas.pitch_mm());
+        let uses = Uses { ready: 2.0 * kernels, applied: pictures * count };
+        Work { shared: kernels * points as f64, ..Work::default() }
+            + convolve::work(reach, canvas.size(), &canvas.whole(), uses)
     }
 
     /// The function made ready for a film.

@@ -16,6 +16,9 @@ const ROWS: usize = 16;
 /// The same of a first look, over the whole front.
 const LOOK_COLUMNS: usize = 32;
 const LOOK_ROWS: usize = 16;
+/// Rays of either.
+pub(super) const NODES: usize = (COLUMNS + 1) * (ROWS + 1);
+pub(super) const NODES_OF_LOOK: usize = (LOOK_COLUMNS + 1) * (LOOK_ROWS + 1);
 
 /// Rays that land further from the axis than this count as lost, mm.
 const MAX_MM: f32 = 1e4;

@@ -28,6 +28,7 @@ mod report;
 mod response;
 mod source;
 mod splat;
+mod work;
 
 use crate::effects::Verdict;
 use crate::error::OpticsError;
@@ -35,6 +36,7 @@ use crate::lens::Prescribed;
 
 pub use layer::layer;
 pub use report::{GhostReport, strongest};
+pub use work::{GhostWork, work};
 
 /// What a layer of ghosts is asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

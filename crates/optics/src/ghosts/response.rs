@@ -67,7 +67,7 @@ fn place(angle: f64, step: f64) -> (usize, f32) {
 }
 
 /// Wavelengths over a range, evenly: one in its middle for a lens that treats all alike.
-fn knots(lens: &Prescribed, [low, high]: [f64; 2]) -> Vec<f64> {
+pub(super) fn knots(lens: &Prescribed, [low, high]: [f64; 2]) -> Vec<f64> {
     if !lens.disperses() {
         return vec![0.5 * (low + high)];
     }

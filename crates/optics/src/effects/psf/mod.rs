@@ -23,11 +23,13 @@ mod zernike;
 pub use zernike::Zernike;
 
 use super::band::BandLimited;
-use super::convolve::{Convolver, Field, Region};
+use super::convolve::{self, Convolver, Field, Region};
 use super::error::EffectsError;
 use super::kernel::Kernel;
+use super::work::{Uses, Work};
 use super::{Canvas, Verdict};
 use crate::lens::Lens;
+use etendue_core::Bands;
 use etendue_projection::Raster;
 use glam::{DMat2, DVec2};
 use outline::Outline;
@@ -222,6 +224,37 @@ impl Psf {
         self.parameters.wavefront.iter().map(term).sum()
     }
 
+    /// What it has to do on so many pictures a band: all bands as the middle one.
+    pub(super) fn work(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> Work {
+        let half_nm = 0.5 * bands.width_nm();
+        let middle_nm = bands.low_nm() + half_nm * bands.count() as f64;
+        let band_nm = (middle_nm - half_nm, middle_nm + half_nm);
+        let pitch_mm = canvas.pitch_mm().min_element();
+        let fineness = self.fineness(bands.high_nm(), pitch_mm);
+        let parts = mid_wavelengths(band_nm).count() as f64;
+        let patch = |i: usize| {
+            let [x, y] = self.hats(canvas, i % self.patches[0], i / self.patches[0]);
+            let widest = self.stretch(canvas.sensor_mm(DVec2::new(x.middle, y.middle)).length())[0];
+            let reach = self.reach_px_of(band_nm.1, fineness, pitch_mm, widest);
+            let region = Region { x: x.range(), y: y.range() };
+            let uses = Uses { ready: pictures, applied: pictures };
+            let kernel = Work {
+                shared: parts * (CELLS * CELLS) as f64,
+                patterns: if self.parameters.wavefront.is_empty() { 0.0 } else { parts },
+                ..Work::default()
+            };
+            kernel + convolve::work([reach, reach], canvas.size(), &region, uses)
+        };
+        (0..self.patches[0] * self.patches[1]).map(patch).sum::<Work>() * bands.count() as f64
+    }
+
+    fn hats(&self, canvas: &Canvas, column: usize, row: usize) -> [Hat; 2] {
+        let region = canvas.picture();
+        let x = Hat::new(column, self.patches[0], &region.x, canvas.size()[0]);
+        let y = Hat::new(row, self.patches[1], &region.y, canvas.size()[1]);
+        [x, y]
+    }
+
     /// The function made ready for a film and the wavelengths of a range.
     pub(super) fn ready(&self, canvas: &Canvas, range_nm: (f64, f64)) -> Ready {
         let fineness = self.fineness(range_nm.1, canvas.pitch_mm().min_element());
@@ -233,9 +266,7 @@ impl Psf {
     }
 
     fn patch(&self, canvas: &Canvas, pupil: &Pupil, column: usize, row: usize) -> Patch {
-        let region = canvas.picture();
-        let x = Hat::new(column, self.patches[0], &region.x, canvas.size()[0]);
-        let y = Hat::new(row, self.patches[1], &region.y, canvas.size()[1]);
+        let [x, y] = self.hats(canvas, column, row);
         let point = canvas.sensor_mm(DVec2::new(x.middle, y.middle));
         let radius_mm = point.length();
         let outwards = if radius_mm > 0.0 { point / radius_mm } else { DVec2::X };
