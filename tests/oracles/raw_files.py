@@ -152,7 +152,7 @@ def layers(program, folder):
         "largest_difference_of_the_sum_e": float(np.abs(off).max()),
         "electrons_channel": name,
         "signal_is_electrons": bool((mean.pixels == signal.astype(np.float32)).all()),
-        "raw_without_causes_is_the_same": (at / "raw.0000.tif").read_bytes() == (plain / "raw.0000.tif").read_bytes(),
+        "raw_without_breakdown_is_the_same": (at / "raw.0000.tif").read_bytes() == (plain / "raw.0000.tif").read_bytes(),
     }
 
 

@@ -164,7 +164,7 @@ fn pictures_that_cannot_be_written() {
 
 #[test]
 fn filters_of_the_paper_that_cannot_be() {
-    let filter = |keys: &str, phrases: &[&str]| refused(&format!("image_filters = [{{ filter = {keys} }}]"), phrases);
+    let filter = |keys: &str, phrases: &[&str]| refused(&format!("image_filters = [{{ type = {keys} }}]"), phrases);
     filter("\"pulse_noise\", amplitude_dn = 10, probability = 0.51", &["probability", "0.5"]);
     filter("\"pulse_noise\", amplitude_dn = 256, probability = 0.1", &["amplitude_dn", "255"]);
     filter("\"gaussian_noise\", sigma_dn = -1", &["sigma_dn"]);

@@ -401,7 +401,7 @@ impl Found {
         let count = self.views.len();
         let views = if count == 1 { "view" } else { "views" };
         Ok(format!(
-            "# Found by etendue {verb} from {count} {views}; points lie {:.4} px (rms) from the fit.\nformat = 1\n\n[lens]\nmodel = \
+            "# Found by etendue {verb} from {count} {views}; points lie {:.4} px (rms) from the fit.\nformat = 1\n\n[lens]\ntype = \
              \"calibrated\"\nf_number = {f_number}{told}\nprojection = {{ {} }}\n\n[sensor]\nwidth_px = {width}\nheight_px = \
              {height}\npixel_pitch_um = {pixel_pitch_um}\n",
             self.camera.rms_px(),
