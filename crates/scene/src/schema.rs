@@ -62,11 +62,11 @@ fn whole<T: Record>() -> Json {
 /// A file that is laid over another: any part of it may be missing, so only the names of its keys are told.
 fn derived<T: Record>() -> Json {
     let base = "The path of a file of this kind, over which this one is laid.";
-    let without = "Dotted keys of entries that are taken out of the base: \"environment\", \"lights.sun\".";
+    let removed = "Dotted keys of entries that are taken out of the base: \"environment\", \"lights.sun\".";
     let mut properties = json!({
         "format": format(),
         "base": { "type": "string", "description": base },
-        "remove": { "type": "array", "items": { "type": "string" }, "description": without },
+        "remove": { "type": "array", "items": { "type": "string" }, "description": removed },
     });
     T::keys().into_iter().for_each(|key| properties[key] = json!({}));
     json!({ "type": "object", "properties": properties, "required": ["format", "base"], "additionalProperties": false })

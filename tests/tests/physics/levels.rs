@@ -14,7 +14,7 @@ fn room() -> Job {
             "[[cameras]]\nname = \"{level}\"\nposition_m = [-1.9, 0.34, 1.23]\nlook_at_m = [2, 0, 0.8]\n\
              lens = {{ type = \"pinhole\", focal_length_mm = 10, f_number = 8 }}\n\
              sensor = {{ width_px = {SIDE_PX}, height_px = {SIDE_PX}, pixel_pitch_um = 1000, fill_factor = 1e-6 }}\n\
-             render = {{ level = \"{level}\" }}\n"
+             render = {{ integrator = \"{level}\" }}\n"
         )
     };
     let cameras = ["flat", "direct", "path"].map(camera).concat();

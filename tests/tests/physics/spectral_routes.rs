@@ -97,7 +97,7 @@ fn differences(band_width_nm: u32, wavelengths: u32) -> [ReplicateEstimate; 3] {
         .map(|seed| {
             // Other seeds: nothing is shared between the two.
             let cube = channel_means(&job("cube", band_width_nm, wavelengths, seed).shot());
-            let folded = channel_means(&job("folded", band_width_nm, wavelengths, seed + SEEDS).shot());
+            let folded = channel_means(&job("electrons", band_width_nm, wavelengths, seed + SEEDS).shot());
             std::array::from_fn(|c| cube[c] / folded[c] - 1.0)
         })
         .collect();
@@ -108,7 +108,7 @@ fn differences(band_width_nm: u32, wavelengths: u32) -> [ReplicateEstimate; 3] {
 }
 
 fn bias(band_width_nm: u32) -> [f64; 3] {
-    let plan = job("folded", 5, 4, 1).plan();
+    let plan = job("electrons", 5, 4, 1).plan();
     let sensor = plan.cameras[0].body.sensor.as_ref().expect("a sensor");
     std::array::from_fn(|c| of_bands(&light(), sensor.responsivity(c), band_width_nm) - 1.0)
 }
@@ -142,8 +142,8 @@ fn wider_bands_cost_more_and_five_nanometres_little() {
 #[test]
 fn both_are_the_integral_of_light_and_responsivity() {
     // E = w ρ L; the pinhole's weight is π/(4N²) on the axis, cos⁴ ≥ 1 − 2 (20 µm · √2/6 mm)² = 1 − 5e-5.
-    let shots: Vec<[f64; 3]> = (1..=SEEDS).map(|seed| channel_means(&job("folded", 5, 8, seed).shot())).collect();
-    let plan = job("folded", 5, 4, 1).plan();
+    let shots: Vec<[f64; 3]> = (1..=SEEDS).map(|seed| channel_means(&job("electrons", 5, 8, seed).shot())).collect();
+    let plan = job("electrons", 5, 4, 1).plan();
     let sensor = plan.cameras[0].body.sensor.as_ref().expect("a sensor");
     let lamp = illuminant::named("FL2").expect("known");
     let scale = 100.0 / etendue_spectra::observer::luminance(lamp) * core::f64::consts::PI / 64.0;

@@ -363,13 +363,13 @@ fn accumulation(
         Some((Accumulate::Cube, _)) => (true, false),
         Some((Accumulate::Electrons, place)) => {
             if pupil || body.sensor.is_none() {
-                let problem = "\"folded\" needs a sensor with electronics and route = \"lens\"";
+                let problem = "\"electrons\" needs a sensor with electronics and route = \"lens\"";
                 context.fault(place, problem, "use \"auto\" or \"cube\"");
             } else if spectral {
-                let problem = "\"folded\" keeps no spectrum, and radiance or irradiance is asked for";
+                let problem = "\"electrons\" keeps no spectrum, and radiance or irradiance is asked for";
                 context.fault(place, problem, "use \"auto\", which keeps both, or do not ask for them");
             } else if effects {
-                let problem = "\"folded\" keeps no spectrum, and the camera's [effects] act on one";
+                let problem = "\"electrons\" keeps no spectrum, and the camera's [effects] act on one";
                 context.fault(place, problem, "use \"auto\" or \"cube\", or remove [effects]");
             }
             (false, true)

@@ -31,17 +31,17 @@ pub(super) fn lay_over(
     faults: &mut Faults,
 ) -> Option<Node> {
     let table = tree.as_table_mut()?;
-    let (base, without) = (table.remove("base"), table.remove("remove"));
+    let (base, removed) = (table.remove("base"), table.remove("remove"));
     let Some(base) = base else {
-        if let Some(without) = without {
-            faults.add(&without.place, "\"without\" has no effect without \"base\"", "name the base, or remove it");
+        if let Some(removed) = removed {
+            faults.add(&removed.place, "\"remove\" has no effect without \"base\"", "name the base, or remove it");
         }
         return Some(tree);
     };
     let file = path(&["toml"]).read(&base.node, faults)?;
     let mut under = based_on(&file.value, kind, read, &base.node.place, chain, faults)?;
-    if let Some(without) = without {
-        take_out(&mut under, &without.node, faults);
+    if let Some(removed) = removed {
+        take_out(&mut under, &removed.node, faults);
     }
     merge(&mut under, tree);
     Some(under)

@@ -50,7 +50,7 @@ fn entries_are_replaced_by_name_added_and_taken_out() {
     };
     let first = names(&base)[0].clone();
     let scene = format!(
-        "without = [\"lights.sun\"]\n[[materials]]\nname = \"{first}\"\ntype = \"diffuse\"\nreflectance = 0.125\n\
+        "remove = [\"lights.sun\"]\n[[materials]]\nname = \"{first}\"\ntype = \"diffuse\"\nreflectance = 0.125\n\
          [[materials]]\nname = \"new\"\ntype = \"diffuse\"\nreflectance = 0.5\n"
     );
     let over = load(&derived(&scene, ""), &[]).expect("laid over");
@@ -67,7 +67,7 @@ fn faults_name_the_file_that_says_it() {
     );
     assert_eq!(
         faults("remove = [\"lights.son\"]\n", ""),
-        "scene.toml:3:12: without[0]: the base has nothing called the text \"lights.son\"; give dotted keys of the base: \
+        "scene.toml:3:11: remove[0]: the base has nothing called the text \"lights.son\"; give dotted keys of the base: \
          \"environment\", \"lights.sun\""
     );
     assert!(faults("remove = 3\n", "").contains("remove: found 3; give a list of dotted keys"));
@@ -83,5 +83,5 @@ fn faults_name_the_file_that_says_it() {
     );
     let mut files = Files::of_example(&doc());
     files.edit("scene.toml", "format = 1", "format = 1\nremove = []");
-    assert!(load(&files, &[]).expect_err("a fault").to_string().contains("\"without\" has no effect without \"base\""));
+    assert!(load(&files, &[]).expect_err("a fault").to_string().contains("\"remove\" has no effect without \"base\""));
 }

@@ -272,7 +272,7 @@ fn the_command_line_supersedes_what_it_makes_meaningless() {
     let expected =
         "--set render.integrator=direct supersedes \"max_bounces\" (job.toml:31), \"caustics\" (job.toml:32)";
     assert_eq!(told, Ok(vec![expected.to_owned()]));
-    let told = notices("max_bounces = 8", |o| o.push_render("--integrator flat", "level", "\"flat\""));
+    let told = notices("max_bounces = 8", |o| o.push_render("--integrator flat", "integrator", "\"flat\""));
     assert_eq!(told, Ok(vec!["--integrator flat supersedes \"max_bounces\" (job.toml:31)".to_owned()]));
     let told = notices("route = \"pupil\"\noverscan = 0.1", |o| o.push("render.route=lens"));
     assert_eq!(told, Ok(vec!["--set render.route=lens supersedes \"overscan\" (job.toml:32)".to_owned()]));
