@@ -15,7 +15,7 @@ record! {
         /// Light scattered in the lens. Default: none.
         optional glare: Glare = record();
         /// Whether light that two surfaces of a prescription reflect is traced and added: its ghosts; only with a lens whose
-        /// "model" is "prescription". Default: false.
+        /// "type" is "prescription". Default: false.
         optional ghosts: Placed<bool> = flag();
         /// With "ghosts": the share of light that the sensor itself mirrors, 0 … 0.5. Default: 0.
         optional sensor_reflectance: Placed<f64> = number("").at_least(0.0).at_most(0.5);

@@ -23,7 +23,7 @@ record! {
         optional raw_format: Placed<RawFormat> = choice();
         /// What each pixel's digital number is made of, one layer a component, in electrons, EXR. Default: false.
         optional signal_breakdown: Placed<bool> = flag();
-        /// The picture, 8-bit PNG. Default: true for a camera with `[processing]`.
+        /// The picture, 8-bit PNG. Default: true for a camera with `[isp]`.
         optional picture: Placed<bool> = flag();
         /// Depth, distance, normals, positions and identities of the ground truth, EXR. The depth along the camera's axis is NaN where
         /// a pixel looks sideways, back or at a mirror: "camera_space_position" has a signed z there. Default: true.

@@ -1,4 +1,4 @@
-//! `[processing]`: from raw to picture, step by step.
+//! `[isp]`: from raw to picture, step by step.
 
 pub mod colour;
 pub mod correction;
