@@ -2,11 +2,11 @@
 
 use etendue_scene::record::{Environment, Lens};
 
-use crate::files::{Files, doc, load};
+use crate::files::{Files, load};
 
 /// The page's example, its scene and camera made bases of files that say only what `scene` and `camera` say.
 fn derived(scene: &str, camera: &str) -> Files {
-    let mut files = Files::of_example(&doc());
+    let mut files = Files::of_example();
     files.rename("scene.toml", "base/scene.toml");
     files.rename("camera.toml", "base/camera.toml");
     files.put("scene.toml", &format!("format = 1\nbase = \"base/scene.toml\"\n{scene}"));
@@ -20,7 +20,7 @@ fn faults(scene: &str, camera: &str) -> String {
 
 #[test]
 fn a_base_alone_is_the_base() {
-    let (plain, over) = (load(&Files::of_example(&doc()), &[]), load(&derived("", ""), &[]));
+    let (plain, over) = (load(&Files::of_example(), &[]), load(&derived("", ""), &[]));
     let (plain, over) = (plain.expect("the example"), over.expect("over the example"));
     assert_eq!(plain.scene.objects.len(), over.scene.objects.len());
     assert_eq!(plain.cameras[0].camera.sensor.width_px, over.cameras[0].camera.sensor.width_px);
@@ -33,7 +33,7 @@ fn a_base_alone_is_the_base() {
 #[test]
 fn tables_are_merged_and_forms_replaced() {
     let uniform = "[environment]\ntype = \"uniform\"\nradiance_w_m2_sr_nm = 0.1\n";
-    let camera = "[sensor]\nexposure_s = 0.25\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm = 3\nf_number = 8\n";
+    let camera = "[sensor]\nexposure_s = 0.25\n[lens]\ntype = \"pinhole\"\nfocal_length_mm = 3\nf_number = 8\n";
     let description = load(&derived(uniform, camera), &[]).expect("laid over");
     assert!(matches!(description.scene.environment, Some(Environment::Uniform(_))));
     let camera = &description.cameras[0].camera;
@@ -44,13 +44,13 @@ fn tables_are_merged_and_forms_replaced() {
 
 #[test]
 fn entries_are_replaced_by_name_added_and_taken_out() {
-    let base = load(&Files::of_example(&doc()), &[]).expect("the example");
+    let base = load(&Files::of_example(), &[]).expect("the example");
     let names = |d: &etendue_scene::Description| -> Vec<String> {
         d.scene.materials.iter().map(|m| m.name.value.clone()).collect()
     };
     let first = names(&base)[0].clone();
     let scene = format!(
-        "without = [\"lights.sun\"]\n[[materials]]\nname = \"{first}\"\ntype = \"diffuse\"\nreflectance = 0.125\n\
+        "remove = [\"lights.sun\"]\n[[materials]]\nname = \"{first}\"\ntype = \"diffuse\"\nreflectance = 0.125\n\
          [[materials]]\nname = \"new\"\ntype = \"diffuse\"\nreflectance = 0.5\n"
     );
     let over = load(&derived(&scene, ""), &[]).expect("laid over");
@@ -67,7 +67,7 @@ fn faults_name_the_file_that_says_it() {
     );
     assert_eq!(
         faults("remove = [\"lights.son\"]\n", ""),
-        "scene.toml:3:12: without[0]: the base has nothing called the text \"lights.son\"; give dotted keys of the base: \
+        "scene.toml:3:11: remove[0]: the base has nothing called the text \"lights.son\"; give dotted keys of the base: \
          \"environment\", \"lights.sun\""
     );
     assert!(faults("remove = 3\n", "").contains("remove: found 3; give a list of dotted keys"));
@@ -81,7 +81,7 @@ fn faults_name_the_file_that_says_it() {
         load(&files, &[]).expect_err("a fault").to_string(),
         "scene.toml:2:8: base: \"scene.toml\" is built on itself; name another base, or none"
     );
-    let mut files = Files::of_example(&doc());
-    files.edit("scene.toml", "format = 1", "format = 1\nwithout = []");
-    assert!(load(&files, &[]).expect_err("a fault").to_string().contains("\"without\" has no effect without \"base\""));
+    let mut files = Files::of_example();
+    files.edit("scene.toml", "format = 1", "format = 1\nremove = []");
+    assert!(load(&files, &[]).expect_err("a fault").to_string().contains("\"remove\" has no effect without \"base\""));
 }

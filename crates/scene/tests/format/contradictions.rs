@@ -183,7 +183,7 @@ fn levels_that_trace_no_paths() {
 /// The faults of a camera with these keys in its [effects.psf], line 2 of the file `camera.toml`.
 fn psf(keys: &str) -> String {
     let text = format!(
-        "format = 1\neffects = {{ psf = {{ {keys} }} }}\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm = 6\n\
+        "format = 1\neffects = {{ psf = {{ {keys} }} }}\n[lens]\ntype = \"pinhole\"\nfocal_length_mm = 6\n\
                         f_number = 2\n[sensor]\nwidth_px = 64\nheight_px = 48\npixel_pitch_um = 6\n"
     );
     let read = |_: &std::path::Path| Ok(text.clone());
