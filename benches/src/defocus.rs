@@ -74,7 +74,7 @@ fn plan(route: &str, depth_m: f64) -> Plan {
         "format = 1\n[scene]\nmaterials = [{{ name = \"glow\", type = \"emitter\", emission = {{ luminance_cd_m2 = 1000, \
          illuminant = \"E\" }} }}]\n[[scene.objects]]\nname = \"dot\"\nshape = {{ type = \"quad\", size_m = [{side_m}, \
          {side_m}] }}\nmaterial = \"glow\"\nposition_m = [{depth_m}, 0, 0]\nrotation_deg = [0, -90, 0]\n[[cameras]]\n\
-         name = \"eye\"\nposition_m = [0, 0, 0]\nlook_at_m = [1, 0, 0]\n[cameras.lens]\nmodel = \"thick\"\n\
+         name = \"eye\"\nposition_m = [0, 0, 0]\nlook_at_m = [1, 0, 0]\n[cameras.lens]\ntype = \"thick\"\n\
          focal_length_mm = 50\nf_number = 2\nfocus_distance_m = {FOCUS_M}\nconstant_pupil = \"exit\"\n[cameras.sensor]\n\
          width_px = {width}\nheight_px = {height}\npixel_pitch_um = {}\n[render]\nspp = {spp}\nreplicates = 1\n\
          wavelength_range_nm = [400, 700]\nband_width_nm = 15\nroute = \"{route}\"\n[output]\nradiance = true\n\

@@ -42,17 +42,17 @@ const LENSES: [(&str, &str); 12] = [
     ("double Gauss, f/2.03", "type = \"prescription\"\npublished = \"double-gauss\"\nfocus_distance_m = 5"),
     (
         "pinhole behind a wind-screen",
-        "type = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4\n[front.windscreen]\ndistance_mm = 100\ntilt_deg = 60\n\
+        "type = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4\n[external_optics.windscreen]\ndistance_mm = 100\ntilt_deg = 60\n\
          radius_across_mm = 3000\nradius_upright_mm = 8000",
     ),
     (
         "pinhole behind a flat pane",
-        "type = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4\n[front.windscreen]\ndistance_mm = 100\n\
+        "type = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4\n[external_optics.windscreen]\ndistance_mm = 100\n\
          layers = [{ thickness_mm = 5, index = 1.52 }]\ndouble_image = false",
     ),
     (
         "pinhole at a hyperbolic mirror",
-        "type = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4\n[front.mirror]\nshape = \"hyperboloid\"\nradius_mm = 30\n\
+        "type = \"pinhole\"\nfocal_length_mm = 50\nf_number = 4\n[external_optics.mirror]\ntype = \"hyperboloid\"\nradius_mm = 30\n\
          conic = -1.69\nrim_radius_mm = 40\nreflectance = 0.9",
     ),
     ("telephoto, f/5.6", "type = \"prescription\"\npublished = \"telephoto\"\nfocus_distance_m = 5"),

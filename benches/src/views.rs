@@ -20,12 +20,12 @@ const NOTE: &str = "The street, 16 samples a pixel in bands of 50 nm, one thread
 const CAMERAS: [(&str, &str); 2] = [
     (
         "fisheye of 180°, 240 × 240 px",
-        "width_px = 240\nheight_px = 240\npixel_pitch_um = 10\n[lens]\nmodel = \"calibrated\"\nf_number = 4\n\
+        "width_px = 240\nheight_px = 240\npixel_pitch_um = 10\n[lens]\ntype = \"calibrated\"\nf_number = 4\n\
          greatest_angle_deg = 90\nprojection = { type = \"equidistant\", fx_px = 76.4 }",
     ),
     (
         "panorama of 360°, 320 × 160 px",
-        "width_px = 320\nheight_px = 160\npixel_pitch_um = 10\n[lens]\nmodel = \"calibrated\"\nf_number = 4\n\
+        "width_px = 320\nheight_px = 160\npixel_pitch_um = 10\n[lens]\ntype = \"calibrated\"\nf_number = 4\n\
          projection = { type = \"equirectangular\", field_of_view_deg = 360 }",
     ),
 ];

@@ -1,11 +1,13 @@
 //! The reference cameras, and where their files lie.
 
-use crate::program::{Program, text, words};
-use std::path::{Path, PathBuf};
+use crate::run::Warnings;
+use etendue::chart::{Chart, ChartRequest, make};
+use etendue::{Error, Existing, JobRequest, RenderOptions};
+use std::path::PathBuf;
 
-/// A stand-in and what its charts need.
+/// A reference camera and what its charts need.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct StandIn {
+pub(crate) struct ReferenceCamera {
     /// Of its folder in charts/ and of its file in scenes/cameras/.
     pub(crate) name: &'static str,
     /// Colour filters, where pixels have colours.
@@ -19,72 +21,70 @@ pub(crate) struct StandIn {
     pub(crate) dark_exposure_s: f64,
 }
 
-pub(crate) const CAMERAS: [StandIn; 3] = [
-    StandIn { name: "ccd-mono", filters: None, dot_columns: 30, transfer_exposure_s: 1e-3, dark_exposure_s: 40.0 },
-    StandIn {
+pub(crate) const CAMERAS: [ReferenceCamera; 3] = [
+    ReferenceCamera {
+        name: "ccd-mono",
+        filters: None,
+        dot_columns: 30,
+        transfer_exposure_s: 1e-3,
+        dark_exposure_s: 40.0,
+    },
+    ReferenceCamera {
         name: "ccd-bayer",
         filters: Some("RGGB"),
         dot_columns: 30,
         transfer_exposure_s: 1e-3,
         dark_exposure_s: 40.0,
     },
-    StandIn { name: "web", filters: Some("GRBG"), dot_columns: 31, transfer_exposure_s: 5e-4, dark_exposure_s: 4.0 },
+    ReferenceCamera {
+        name: "web",
+        filters: Some("GRBG"),
+        dot_columns: 31,
+        transfer_exposure_s: 5e-4,
+        dark_exposure_s: 4.0,
+    },
 ];
 
-/// A stand-in on the bench.
-pub(crate) struct Bench<'a> {
-    pub(crate) program: &'a Program,
-    pub(crate) camera: StandIn,
+/// A reference camera on the bench.
+pub(crate) struct Bench {
+    pub(crate) camera: ReferenceCamera,
     /// Of renders and reports.
     pub(crate) folder: PathBuf,
     /// Of plots.
     pub(crate) pictures: PathBuf,
 }
 
-impl Bench<'_> {
-    /// A camera file of the stand-in: camera, quiet, middle.
+impl Bench {
+    /// A camera file of the reference camera: camera, quiet, middle.
     pub(crate) fn file(&self, which: &str) -> PathBuf {
         PathBuf::from(format!("charts/{}/{which}.toml", self.camera.name))
     }
 
-    /// `--channel` of the raw readings of green, where pixels have colours.
-    pub(crate) fn green(&self) -> Vec<String> {
-        if self.camera.filters.is_some() { words("--channel green") } else { Vec::new() }
+    /// The channel of the raw readings of green, where pixels have colours.
+    pub(crate) fn green(&self) -> Option<String> {
+        self.camera.filters.map(|_| "green".to_owned())
     }
 
-    /// A chart drawn for a camera file: its folder.
-    pub(crate) fn chart(&self, chart: &str, file: &str, options: &str) -> Result<PathBuf, String> {
-        let to = self.folder.join(chart);
-        self.drawn(&to, chart, &self.file(file), options)?;
-        Ok(to)
+    /// A chart for a camera file of the reference camera.
+    pub(crate) fn request(&self, chart: Chart, file: &str) -> ChartRequest {
+        ChartRequest::new(chart, self.file(file).display().to_string())
     }
 
-    fn drawn(&self, to: &Path, chart: &str, camera: &Path, options: &str) -> Result<(), String> {
-        let camera = [words("--camera"), vec![text(camera)]].concat();
-        let out = vec!["-o".to_owned(), text(to)];
-        self.program.run(&[words("chart"), words(chart), camera, words(options), out].concat()).map(drop)
+    /// A chart drawn into a folder of the bench.
+    pub(crate) fn drawn(&self, name: &str, request: &ChartRequest) -> Result<PathBuf, Error> {
+        let folder = self.folder.join(name);
+        make(request, (&folder, Existing::Refuse))?;
+        Ok(folder)
     }
 
     /// A chart drawn and photographed: its folder; pictures are in render/camera.
-    pub(crate) fn photographed(&self, chart: &str, file: &str, options: &str, samples: u32) -> Result<PathBuf, String> {
-        let to = self.folder.join(chart);
-        self.photograph(&to, chart, &self.file(file), options, samples)?;
-        Ok(to)
-    }
-
-    /// The same into a folder, by any camera file.
-    pub(crate) fn photograph(
-        &self,
-        to: &Path,
-        chart: &str,
-        camera: &Path,
-        options: &str,
-        samples: u32,
-    ) -> Result<(), String> {
-        self.drawn(to, chart, camera, options)?;
-        let job = vec!["render".to_owned(), text(&to.join("job.toml")), "-o".to_owned(), text(&to.join("render"))];
-        let settings = words(&format!("--set render.spp={samples} --set output.ground_truth=false"));
-        self.program.run(&[job, settings].concat()).map(drop)
+    pub(crate) fn photographed(&self, name: &str, request: &ChartRequest, samples: u32) -> Result<PathBuf, Error> {
+        let folder = self.drawn(name, request)?;
+        let mut job = JobRequest::new(folder.join("job.toml"));
+        job.set = vec![format!("render.spp={samples}"), "output.ground_truth=false".to_owned()];
+        let render = (&*folder.join("render"), Existing::Refuse);
+        job.open()?.save(&RenderOptions::default(), render, &Warnings)?;
+        Ok(folder)
     }
 
     /// The plot of a section, as the page names it.

@@ -45,8 +45,15 @@ impl Comparison {
     }
 
     /// The first curve beside its bound: an entry of its row, times a factor.
-    pub(crate) fn curve(&self, quantity: &str, bound: Bound, entry: &str, factor: f64) -> Result<Reached, String> {
-        let row = self.curves().next().ok_or_else(|| format!("{quantity}: no curve was compared"))?;
+    pub(crate) fn curve(
+        &self,
+        quantity: &str,
+        bound: Bound,
+        entry: &str,
+        factor: f64,
+    ) -> Result<Reached, etendue::Error> {
+        let row =
+            self.curves().next().ok_or_else(|| etendue::Error::input(format!("{quantity}: no curve was compared")))?;
         let error = row[entry].as_f64().map(|e| factor * e);
         Ok(Reached { quantity: quantity.to_owned(), bound, error, e_n: row["e_n"].as_f64() })
     }

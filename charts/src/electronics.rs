@@ -4,21 +4,22 @@ use crate::bounds;
 use crate::cameras::Bench;
 use crate::comparison::Comparison;
 use crate::page::Section;
-use crate::program::{text, words};
+use crate::run::{Warnings, compared, keep};
+use etendue::measure::{CompareRequest, PtcRequest, Selection, ptc};
+use etendue::{Error, Existing, FlatRequest, FlatSource, flat};
 
-const WAVELENGTH_NM: u32 = 550;
+const WAVELENGTH_NM: f64 = 550.0;
 /// Without the pixels at the border, which have fewer neighbours to exchange light with: a pattern of rows and columns that is no PRNU.
-const INNER: &str = "--region 2,2,316,236";
+const INNER: [usize; 4] = [2, 2, 316, 236];
 pub(crate) const DARK_CURRENT: &str = "dark_current_mean_e_per_s";
 
-pub(crate) fn sections(bench: &Bench<'_>) -> Result<Vec<Section>, String> {
+pub(crate) fn sections(bench: &Bench) -> Result<Vec<Section>, Error> {
     Ok(vec![transfer(bench)?, dark_current(bench)?])
 }
 
-fn transfer(bench: &Bench<'_>) -> Result<Section, String> {
-    let longest = bench.camera.transfer_exposure_s;
-    let found =
-        series(bench, "levels", &format!("--photon-transfer 15 --stack 100 --set sensor.exposure_s={longest}"))?;
+fn transfer(bench: &Bench) -> Result<Section, Error> {
+    let longest = format!("sensor.exposure_s={}", bench.camera.transfer_exposure_s);
+    let found = series(bench, "levels", FlatSource::PhotonTransfer { levels: 15, stack: 100 }, vec![longest])?;
     // What exposures of milliseconds hold of the dark current is less than they tell.
     let wanted = |key: &str| key != DARK_CURRENT;
     Ok(Section {
@@ -28,14 +29,13 @@ fn transfer(bench: &Bench<'_>) -> Result<Section, String> {
     })
 }
 
-fn dark_current(bench: &Bench<'_>) -> Result<Section, String> {
-    let longest = bench.camera.dark_exposure_s;
-    let limits =
-        if bench.camera.name == "web" { "--set sensor.auto_exposure.exposure_limits_s=[50e-6,50]" } else { "" };
-    let told = format!(
-        "--photon-transfer 10 --stack 3 --set sensor.exposure_s={longest} --set sensor.frame_period_s=50 {limits}"
-    );
-    let found = series(bench, "dark", &told)?;
+fn dark_current(bench: &Bench) -> Result<Section, Error> {
+    let longest = format!("sensor.exposure_s={}", bench.camera.dark_exposure_s);
+    let mut set = vec![longest, "sensor.frame_period_s=50".to_owned()];
+    if bench.camera.name == "web" {
+        set.push("sensor.auto_exposure.exposure_limits_s=[50e-6,50]".to_owned());
+    }
+    let found = series(bench, "dark", FlatSource::PhotonTransfer { levels: 10, stack: 3 }, set)?;
     let wanted = |key: &str| key == DARK_CURRENT;
     Ok(Section {
         title: "Dark current, exposures of seconds",
@@ -45,15 +45,16 @@ fn dark_current(bench: &Bench<'_>) -> Result<Section, String> {
 }
 
 /// A series of EMVA 1288, measured and compared.
-fn series(bench: &Bench<'_>, name: &str, told: &str) -> Result<Comparison, String> {
-    let to = bench.folder.join(name);
-    let light = format!("--wavelength-nm {WAVELENGTH_NM}");
-    let flat = ["flat".to_owned(), text(&bench.file("middle")), "-o".to_owned(), text(&to)];
-    bench.program.run(&[flat.to_vec(), words(&light), words(told)].concat())?;
-    let report = bench.folder.join(format!("{name}.json"));
-    let descriptor = text(&to.join("middle/emva1288.txt"));
+fn series(bench: &Bench, name: &str, source: FlatSource, set: Vec<String>) -> Result<Comparison, Error> {
+    let (folder, camera) = (bench.folder.join(name), bench.file("middle"));
+    let request = FlatRequest { set, ..FlatRequest::new(&camera, WAVELENGTH_NM, source) };
+    flat(&request, (&folder, Existing::Refuse), &Warnings)?;
     // The list of levels comes without a side-car for its frames: their filters are told.
-    let colours = bench.camera.filters.map_or_else(Vec::new, |tile| words(&format!("--cfa {tile} --channel G")));
-    bench.program.measured(&report, &[vec!["ptc".to_owned(), descriptor], colours, words(INNER)].concat())?;
-    Ok(Comparison(bench.program.compared(&report, &bench.file("middle"), &words(&light))?))
+    let cfa = bench.camera.filters.map(str::to_owned);
+    let channel = cfa.as_ref().map(|_| "G".to_owned());
+    let selection = Selection { channel, cfa, region: Some(INNER), ..Selection::default() };
+    let descriptor = folder.join("middle/emva1288.txt");
+    let report = bench.folder.join(format!("{name}.json"));
+    keep(&ptc(&PtcRequest { selection, ..PtcRequest::new(descriptor) }, &Warnings)?, &report)?;
+    compared(&CompareRequest { wavelength_nm: Some(WAVELENGTH_NM), ..CompareRequest::new(report, camera) }, None)
 }

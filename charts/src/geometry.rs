@@ -3,29 +3,44 @@
 
 use crate::bounds;
 use crate::cameras::Bench;
-use crate::comparison::Comparison;
 use crate::page::Section;
-use crate::program::{json, text, words};
+use crate::run::{Warnings, compared, json, keep, number};
+use etendue::chart::design::{Dots, GridSize};
+use etendue::chart::{Chart, ChartRequest};
+use etendue::measure::{
+    CameraModel, ChartInput, CompareRequest, DistortionRequest, FocalRequest, StatedLength, Target, ViewsRequest,
+};
+use etendue::{Error, Existing, measure, write_file};
 use std::path::{Path, PathBuf};
 
 /// The chart's place is known to so much, mm: as well as a laboratory knows it.
 const DISTANCE_UNCERTAINTY_MM: f64 = 1.0;
 
-pub(crate) fn sections(bench: &Bench<'_>) -> Result<Vec<Section>, String> {
-    let dots = bench.photographed("dots", "camera", &format!("--columns {}", bench.camera.dot_columns), 16)?;
-    Ok(vec![distortion(bench, &dots)?, focal(bench, &dots)?, twin(bench, &dots)?])
+pub(crate) fn sections(bench: &Bench) -> Result<Vec<Section>, Error> {
+    let dots = bench.photographed("dots", &bench.request(dots(bench), "camera"), 16)?;
+    Ok(vec![distortion(bench, &dots)?, focal(bench, &dots)?, simulated(bench, &dots)?])
 }
 
-fn picture(dots: &Path) -> String {
-    text(&dots.join("render/camera/picture.0000.png"))
+/// The chart of dots.
+fn dots(bench: &Bench) -> Chart {
+    let size = GridSize { columns: Some(bench.camera.dot_columns), rows: None, pitch_mm: None };
+    Chart::Dots(Dots { size, dot_ratio: 0.5 })
 }
 
-fn distortion(bench: &Bench<'_>, dots: &Path) -> Result<Section, String> {
+fn picture(dots: &Path) -> PathBuf {
+    dots.join("render/camera/picture.0000.png")
+}
+
+fn of_dots() -> ChartInput {
+    ChartInput { target: Some(Target::Dots), ..ChartInput::default() }
+}
+
+fn distortion(bench: &Bench, dots: &Path) -> Result<Section, Error> {
     let report = bench.folder.join("distortion.json");
-    bench.program.measured(&report, &[words("distortion --target dots"), vec![picture(dots)]].concat())?;
+    let request = DistortionRequest { chart: of_dots(), ..DistortionRequest::new(picture(dots)) };
+    keep(&measure::distortion(&request)?, &report)?;
     let (plot, shown) = bench.plot("distortion");
-    let found = bench.program.compared(&report, &bench.file("camera"), &["--plot".to_owned(), text(&plot)])?;
-    let found = Comparison(found);
+    let found = compared(&CompareRequest::new(report, bench.file("camera")), Some(&plot))?;
     Ok(Section {
         title: "Distortion",
         body: found.quantities(|_| true) + &found.told("Observed over ideal distance") + &shown,
@@ -34,55 +49,62 @@ fn distortion(bench: &Bench<'_>, dots: &Path) -> Result<Section, String> {
     })
 }
 
-fn focal(bench: &Bench<'_>, dots: &Path) -> Result<Section, String> {
-    let found =
-        Comparison(bench.program.compared(&measured_focal(bench, dots, "focal")?, &bench.file("camera"), &[])?);
+fn focal(bench: &Bench, dots: &Path) -> Result<Section, Error> {
+    let report = measured_focal(bench, dots, "focal")?;
+    let found = compared(&CompareRequest::new(report, bench.file("camera")), None)?;
     let mut reached = found.reached(bounds::FOCAL_LENGTH, |key| key == "fx_mm");
     reached.iter_mut().for_each(|r| r.quantity = "focal length".to_owned());
     Ok(Section { title: "Focal length", body: found.quantities(|_| true), reached })
 }
 
 /// Focal length, k1 and k2 of a picture of dots: the report.
-fn measured_focal(bench: &Bench<'_>, dots: &Path, name: &str) -> Result<PathBuf, String> {
+fn measured_focal(bench: &Bench, dots: &Path, name: &str) -> Result<PathBuf, Error> {
     let (truth, side_car) = (json(&dots.join("truth.json"))?, json(&dots.join("render/camera/camera.json"))?);
-    let number = |value: &serde_json::Value, what: &str| value.as_f64().ok_or_else(|| format!("{what} is not told"));
     let distance_mm = 1e3 * number(&truth["seen"]["distance_m"], "the chart's distance")?;
-    let pitch_mm = number(&truth["sizes"]["pitch_mm"], "the chart's pitch")?;
-    let pixel_um = number(&side_car["sensor"]["pixel_pitch_um"], "the pixels' pitch")?;
-    let told = format!(
-        "focal --target dots --model radial --pitch-mm {pitch_mm} --pixel-pitch-um {pixel_um} --distance-mm {distance_mm} \
-         --distance-uncertainty-mm {DISTANCE_UNCERTAINTY_MM}"
-    );
+    let views = ViewsRequest {
+        chart: of_dots(),
+        pitch_mm: Some(number(&truth["sizes"]["pitch_mm"], "the chart's pitch")?),
+        model: CameraModel::Radial,
+        distance_mm: Some(StatedLength { value: distance_mm, digit: 0.0 }),
+        distance_uncertainty_mm: Some(DISTANCE_UNCERTAINTY_MM),
+        pixel_pitch_um: Some(number(&side_car["sensor"]["pixel_pitch_um"], "the pixels' pitch")?),
+        ..ViewsRequest::new(vec![picture(dots)])
+    };
     let report = bench.folder.join(format!("{name}.json"));
-    bench.program.measured(&report, &[words(&told), vec![picture(dots)]].concat())?;
+    keep(&measure::focal(&FocalRequest::new(views), &Warnings)?, &report)?;
     Ok(report)
 }
 
-fn twin(bench: &Bench<'_>, dots: &Path) -> Result<Section, String> {
+/// The camera that was found, simulated, and measured as the first.
+fn simulated(bench: &Bench, found: &Path) -> Result<Section, Error> {
     let first = bench.folder.join("focal.json");
-    let (found, declared) = (json(&first)?, bench.program.compared(&first, &bench.file("camera"), &[])?);
-    let figure = |key: &str| found["figures"][key]["value"].as_f64().ok_or_else(|| format!("{key} is not measured"));
-    let side_car = json(&dots.join("render/camera/camera.json"))?;
-    let stated = side_car["optics"]["focal_length_mm"].as_f64().ok_or("the focal length is not told")?;
-    // The principal distance is measured, at the focus that is declared: the focal length is in proportion to it.
-    let ratio = Comparison(declared).reached(bounds::FOCAL_LENGTH, |key| key == "fx_mm").first().and_then(|r| r.error);
-    let focal_length_mm = stated * (1.0 + 0.01 * ratio.ok_or("the focal length is not declared")?);
-    let camera = std::path::absolute(bench.file("camera")).map_err(|cause| cause.to_string())?;
+    let declared = compared(&CompareRequest::new(&first, bench.file("camera")), None)?;
     let file = bench.folder.join("twin.toml");
-    let text = format!(
+    // The principal distance is measured, at the focus that is declared: the focal length is in proportion to it.
+    let ratio = declared.reached(bounds::FOCAL_LENGTH, |key| key == "fx_mm").first().and_then(|r| r.error);
+    let ratio = 1.0 + 0.01 * ratio.ok_or_else(|| Error::input("the focal length is not declared"))?;
+    let text = camera_of(bench, &first, found, ratio)?;
+    write_file(&file, text.as_bytes(), Existing::Replace)?;
+    let request = ChartRequest::new(dots(bench), file.display().to_string());
+    let chart = bench.photographed("twin", &request, 16)?;
+    let second = measured_focal(bench, &chart, "twin-focal")?;
+    let beside = compared(&CompareRequest::new(second, &first), None)?;
+    let of = |key: &str| ["fx_mm", "k1", "k2"].contains(&key);
+    Ok(Section { title: "Declared, measured and simulated", body: beside.three(&declared, of), reached: Vec::new() })
+}
+
+/// The reference camera with the focal length and the distortion that were found.
+fn camera_of(bench: &Bench, report: &Path, dots: &Path, ratio: f64) -> Result<String, Error> {
+    let found = json(report)?;
+    let figure = |key: &str| number(&found["figures"][key]["value"], key);
+    let side_car = json(&dots.join("render/camera/camera.json"))?;
+    let focal_length_mm = ratio * number(&side_car["optics"]["focal_length_mm"], "the focal length")?;
+    let base = std::path::absolute(bench.file("camera")).map_err(Error::input)?;
+    Ok(format!(
         "format = 1\nbase = {:?}\n\n[lens]\nfocal_length_mm = {focal_length_mm}\n\n[lens.distortion]\nk1 = {}\nk2 = {}\n\
          direction = \"ideal_to_observed\"\nradius_unit = \"focal_lengths\"\n",
-        camera.display().to_string(),
+        base.display().to_string(),
         figure("k1")?,
         figure("k2")?
-    );
-    std::fs::write(&file, text).map_err(|cause| format!("{}: {cause}", file.display()))?;
-    let options = format!("--columns {}", bench.camera.dot_columns);
-    let chart = bench.folder.join("twin");
-    bench.photograph(&chart, "dots", &file, &options, 16)?;
-    let second = measured_focal(bench, &chart, "twin")?;
-    let beside = Comparison(bench.program.compared(&second, &first, &[])?);
-    let of = |key: &str| ["fx_mm", "k1", "k2"].contains(&key);
-    let found = Comparison(bench.program.compared(&first, &bench.file("camera"), &[])?);
-    Ok(Section { title: "Declared, measured and simulated", body: beside.three(&found, of), reached: Vec::new() })
+    ))
 }

@@ -2,28 +2,40 @@
 
 use crate::bounds;
 use crate::cameras::Bench;
-use crate::comparison::Comparison;
+use crate::comparison::Reached;
 use crate::page::Section;
-use crate::program::{json, text, words};
+use crate::run::{Warnings, compared, json, keep, number};
+use etendue::chart::design::{Backlit, FlatField};
+use etendue::chart::{Chart, ChartRequest, Exposures, Series, Spacing};
+use etendue::measure::{
+    CompareRequest, FlatFieldRequest, OecfRequest, PictureInput, Selection, SignalLevels, VignettingRequest,
+};
+use etendue::{Error, Existing, ExposeRequest, JobRequest, RenderOptions, expose, measure};
 use std::path::{Path, PathBuf};
 
 const EXPOSURES: usize = 15;
+/// What white reaches in the shortest and the longest exposure, of saturation.
+const RANGE: [f64; 2] = [0.003, 1.3];
 /// Of the 96 × 72 pixels, where the light is even to 0.1 %.
-const MIDDLE: &str = "--region 32,20,32,32";
+const MIDDLE: [usize; 4] = [32, 20, 32, 32];
 
-pub(crate) fn sections(bench: &Bench<'_>) -> Result<Vec<Section>, String> {
+pub(crate) fn sections(bench: &Bench) -> Result<Vec<Section>, Error> {
     Ok(vec![vignetting(bench)?, tone(bench)?])
 }
 
-fn vignetting(bench: &Bench<'_>) -> Result<Section, String> {
-    let field = bench.photographed("flat-field", "camera", "", 64)?;
+fn vignetting(bench: &Bench) -> Result<Section, Error> {
+    let chart = bench.request(Chart::FlatField(FlatField { reflectance: 0.9 }), "camera");
+    let field = bench.photographed("flat-field", &chart, 64)?;
     let report = bench.folder.join("vignetting.json");
-    let raw = text(&field.join("render/camera/raw.0000.png"));
-    let black = vec!["--black".to_owned(), black_dn(bench, &field)?.to_string()];
-    bench.program.measured(&report, &[vec!["vignetting".to_owned(), raw], bench.green(), black].concat())?;
+    let input = PictureInput {
+        selection: Selection { channel: bench.green(), ..Selection::default() },
+        levels: SignalLevels { black: Some(black_dn(bench, &field)?), full_scale: None },
+        ..PictureInput::default()
+    };
+    let flat = FlatFieldRequest { input, ..FlatFieldRequest::new(field.join("render/camera/raw.0000.png")) };
+    keep(&measure::vignetting(&VignettingRequest::new(flat))?, &report)?;
     let (plot, shown) = bench.plot("vignetting");
-    let found = bench.program.compared(&report, &bench.file("camera"), &["--plot".to_owned(), text(&plot)])?;
-    let found = Comparison(found);
+    let found = compared(&CompareRequest::new(report, bench.file("camera")), Some(&plot))?;
     Ok(Section {
         title: "Vignetting",
         body: found.quantities(|_| true) + &found.told("Light over that of the centre") + &shown,
@@ -33,65 +45,64 @@ fn vignetting(bench: &Bench<'_>) -> Result<Section, String> {
 
 /// The reading without light at the picture's exposure, dark current in it, by the dark current's series: a tenth of a per cent of the light,
 /// which the corner would have three times.
-fn black_dn(bench: &Bench<'_>, field: &Path) -> Result<f64, String> {
+fn black_dn(bench: &Bench, field: &Path) -> Result<f64, Error> {
     let dark = json(&bench.folder.join("dark.json"))?;
-    let figure = |key: &str| dark["figures"][key]["value"].as_f64().ok_or_else(|| format!("{key} is not measured"));
+    let figure = |key: &str| number(&dark["figures"][key]["value"], key);
     let exposure_s = exposure_s(&field.join("render/camera"))?;
     Ok(figure("dark_level_dn")? + figure("gain_dn_per_e")? * figure(crate::electronics::DARK_CURRENT)? * exposure_s)
 }
 
-fn tone(bench: &Bench<'_>) -> Result<Section, String> {
-    let panel = bench.chart("backlit", "tone", &format!("--exposures {EXPOSURES}"))?;
+fn tone(bench: &Bench) -> Result<Section, Error> {
+    let [lowest, highest] = RANGE;
+    let exposures = Exposures::spaced(EXPOSURES as u32, Spacing::Log, lowest, highest).map_err(Error::input)?;
+    let series = Some(Series { exposures, required: true });
+    let chart = ChartRequest { series, ..bench.request(Chart::Backlit(Backlit), "tone") };
+    let panel = bench.drawn("backlit", &chart)?;
     let cameras: Vec<PathBuf> = (1..=EXPOSURES).map(|i| panel.join(format!("exposure-{i:02}.toml"))).collect();
-    let shots = exposed(bench, &panel, &cameras)?;
-    let exposures: Vec<String> =
-        shots.iter().map(|shot| Ok(exposure_s(shot)?.to_string())).collect::<Result<_, String>>()?;
-    let raws: Vec<String> = shots.iter().map(|shot| text(&shot.join("raw.0000.png"))).collect();
-    let (raw, body) = curve(bench, "raw", &[raws, bench.green()].concat())?;
-    let pictures: Vec<String> = shots.iter().map(|shot| text(&shot.join("picture.0000.png"))).collect();
-    let told = [words("--channel G --exposures"), vec![exposures.join(",")]].concat();
-    let (picture, more) = curve(bench, "picture", &[pictures, told].concat())?;
-    Ok(Section { title: "Tone curve, fifteen exposures", body: body + &more, reached: vec![raw, picture] })
+    let shots = exposed(&panel, &cameras)?;
+    let pictures = |name: &str| shots.iter().map(|shot| shot.join(name)).collect::<Vec<_>>();
+    let raw = curve(bench, "raw", bench.green(), OecfRequest::new(pictures("raw.0000.png")))?;
+    let exposures = shots.iter().map(|shot| exposure_s(shot)).collect::<Result<Vec<f64>, _>>()?;
+    let request = OecfRequest { exposures, ..OecfRequest::new(pictures("picture.0000.png")) };
+    let picture = curve(bench, "picture", Some("G".to_owned()), request)?;
+    Ok(Section { title: "Tone curve, fifteen exposures", body: raw.1 + &picture.1, reached: vec![raw.0, picture.0] })
 }
 
 /// The light of a panel rendered once, and exposed by each camera: their folders of pictures.
-fn exposed(bench: &Bench<'_>, panel: &Path, cameras: &[PathBuf]) -> Result<Vec<PathBuf>, String> {
-    let job = vec!["render".to_owned(), text(&panel.join("job.toml")), "-o".to_owned(), text(&panel.join("light"))];
-    let settings = "--camera exposure-01 --set render.route=\"pupil\" --set output.radiance=true --set render.spp=64";
-    bench.program.run(&[job, words(settings)].concat())?;
+fn exposed(panel: &Path, cameras: &[PathBuf]) -> Result<Vec<PathBuf>, Error> {
+    let mut job = JobRequest::new(panel.join("job.toml"));
+    job.camera = Some("exposure-01".to_owned());
+    let settings = ["render.route=\"pupil\"", "output.radiance=true", "render.spp=64"];
+    job.set = settings.map(str::to_owned).to_vec();
+    job.open()?.save(&RenderOptions::default(), (&panel.join("light"), Existing::Refuse), &Warnings)?;
     let light = panel.join("light/exposure-01/radiance.exr");
     let mut shots = Vec::new();
     // Each frame has noise of its own.
     for (seed, camera) in (1..).zip(cameras) {
         let to = panel.join(format!("shot-{seed}"));
-        let one =
-            vec!["expose".to_owned(), text(&light), "--camera".to_owned(), text(camera), "-o".to_owned(), text(&to)];
-        bench.program.run(&[one, words(&format!("--seed {seed}"))].concat())?;
-        shots.push(only_folder(&to)?);
+        let request = ExposeRequest { seed: Some(seed), ..ExposeRequest::new(&light, camera) };
+        let files = expose(&request, (&to, Existing::Refuse), &Warnings)?;
+        let folder = files.first().and_then(|file| file.parent()).ok_or_else(|| Error::input("no results"))?;
+        shots.push(folder.to_owned());
     }
     Ok(shots)
 }
 
-fn only_folder(folder: &Path) -> Result<PathBuf, String> {
-    let told = |cause: std::io::Error| format!("{}: {cause}", folder.display());
-    let mut entries = std::fs::read_dir(folder).map_err(told)?.filter_map(Result::ok).map(|entry| entry.path());
-    entries.find(|path| path.is_dir()).ok_or_else(|| format!("{}: no results", folder.display()))
-}
-
-fn exposure_s(shot: &Path) -> Result<f64, String> {
+fn exposure_s(shot: &Path) -> Result<f64, Error> {
     let side_car = json(&shot.join("camera.json"))?;
-    let exposure = side_car["frames"][0]["exposure_s"].as_f64();
-    exposure.ok_or_else(|| format!("{}: its exposure is not told", shot.display()))
+    number(&side_car["frames"][0]["exposure_s"], &format!("{}: the exposure", shot.display()))
 }
 
 /// A tone curve measured and compared.
-fn curve(bench: &Bench<'_>, of: &str, pictures: &[String]) -> Result<(crate::comparison::Reached, String), String> {
+fn curve(bench: &Bench, of: &str, channel: Option<String>, request: OecfRequest) -> Result<(Reached, String), Error> {
+    let selection = Selection { channel, region: Some(MIDDLE), ..Selection::default() };
+    let measured =
+        measure::oecf(&OecfRequest { input: PictureInput { selection, ..PictureInput::default() }, ..request })?;
     let report = bench.folder.join(format!("tone-{of}.json"));
-    bench.program.measured(&report, &[words("oecf"), pictures.to_vec(), words(MIDDLE)].concat())?;
+    keep(&measured, &report)?;
     let (plot, shown) = bench.plot(&format!("tone-{of}"));
-    let found = bench.program.compared(&report, &bench.file("tone"), &["--plot".to_owned(), text(&plot)])?;
-    let full_scale = json(&report)?["figures"]["full_scale"]["value"].as_f64().ok_or("the full scale is not told")?;
-    let found = Comparison(found);
+    let found = compared(&CompareRequest::new(report, bench.file("tone")), Some(&plot))?;
+    let full_scale = measured.value("full_scale").ok_or_else(|| Error::input("the full scale is not told"))?.value;
     let of = format!("tone curve, {of}");
     let reached = found.curve(&of, bounds::TONE, "largest_difference", 100.0 / full_scale)?;
     Ok((reached, found.told(&format!("Reading over exposure ({of})")) + &shown))

@@ -2,8 +2,7 @@
 //! files declare. Writes docs/validation.md with its plots; exit status 1 where a bound is broken, 2 where something fails.
 //!
 //! `just validate` runs all; `just validate web ccd-mono` runs those that are named and leaves the page in the folder of renders.
-//! Everything is rendered again each time. Environment: ETENDUE names the program (default: a release build is made), BENCH the
-//! folder of renders (default: target/validation).
+//! Everything is rendered again each time. Environment: BENCH names the folder of renders (default: target/validation).
 
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "a program that reports to its user")]
 
@@ -14,18 +13,18 @@ mod electronics;
 mod geometry;
 mod light;
 mod page;
-mod program;
 mod response;
+mod run;
 
-use cameras::{Bench, CAMERAS, StandIn};
+use cameras::{Bench, CAMERAS, ReferenceCamera};
+use etendue::Error;
 use page::{Report, Section};
-use program::Program;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
 /// A part of the bench, and what it finds.
-type Part = (&'static str, fn(&Bench<'_>) -> Result<Vec<Section>, String>);
+type Part = (&'static str, fn(&Bench) -> Result<Vec<Section>, Error>);
 
 const PARTS: [Part; 4] = [
     ("distortion and focal length", geometry::sections),
@@ -59,10 +58,9 @@ fn validated(names: &[String]) -> Result<Vec<String>, String> {
     let folder = PathBuf::from(std::env::var_os("BENCH").unwrap_or_else(|| "target/validation".into()));
     let pictures = if whole { PathBuf::from("docs/pictures") } else { folder.join("pictures") };
     std::fs::create_dir_all(&pictures).map_err(|cause| format!("{}: {cause}", pictures.display()))?;
-    let program = Program::found()?;
-    let report = |camera: &StandIn| {
+    let report = |camera: &ReferenceCamera| {
         let folder = emptied(&folder.join(camera.name))?;
-        let bench = Bench { program: &program, camera: *camera, folder, pictures: pictures.clone() };
+        let bench = Bench { camera: *camera, folder, pictures: pictures.clone() };
         reported(&bench)
     };
     let reports = cameras.iter().map(report).collect::<Result<Vec<_>, String>>()?;
@@ -72,7 +70,7 @@ fn validated(names: &[String]) -> Result<Vec<String>, String> {
     Ok(reports.iter().flat_map(broken).collect())
 }
 
-fn chosen(names: &[String]) -> Result<Vec<StandIn>, String> {
+fn chosen(names: &[String]) -> Result<Vec<ReferenceCamera>, String> {
     let find = |name: &String| {
         let known = || CAMERAS.map(|c| c.name).join(", ");
         CAMERAS.into_iter().find(|c| c.name == name).ok_or_else(|| format!("no camera '{name}'; there are {}", known()))
@@ -90,12 +88,12 @@ fn emptied(folder: &Path) -> Result<PathBuf, String> {
     Ok(folder.to_path_buf())
 }
 
-fn reported(bench: &Bench<'_>) -> Result<Report, String> {
+fn reported(bench: &Bench) -> Result<Report, String> {
     let mut sections = Vec::new();
     for (what, part) in PARTS {
         let start = Instant::now();
         eprint!("{}: {what} … ", bench.camera.name);
-        sections.extend(part(bench)?);
+        sections.extend(part(bench).map_err(|error| error.to_string())?);
         eprintln!("{:.0} s", start.elapsed().as_secs_f64());
     }
     Ok(Report { camera: bench.camera.name, sections })

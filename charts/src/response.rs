@@ -4,41 +4,50 @@ use crate::bounds;
 use crate::cameras::Bench;
 use crate::comparison::{Comparison, Reached};
 use crate::page::Section;
-use crate::program::{text, words};
+use crate::run::{compared, keep};
+use etendue::Error;
+use etendue::chart::Chart;
+use etendue::chart::design::{GridSize, SlantedEdges};
+use etendue::measure::{CompareRequest, PictureInput, Selection, SfrRequest, TruthInput, sfr};
 use serde_json::Value;
 
-pub(crate) fn sections(bench: &Bench<'_>) -> Result<Vec<Section>, String> {
+pub(crate) fn sections(bench: &Bench) -> Result<Vec<Section>, Error> {
     Ok(vec![
         section(bench, "quiet", "Response of slanted edges", "response up to 0.5 cycles a pixel")?,
         section(bench, "diffraction", "Response with diffraction", "response with diffraction")?,
     ])
 }
 
-fn section(bench: &Bench<'_>, file: &str, title: &'static str, quantity: &str) -> Result<Section, String> {
-    let edges = bench.folder.join(format!("edges-{file}"));
-    bench.photograph(&edges, "slanted-edges", &bench.file(file), "--columns 3", 96)?;
+fn section(bench: &Bench, file: &str, title: &'static str, quantity: &str) -> Result<Section, Error> {
+    let size = GridSize { columns: Some(3), rows: None, pitch_mm: None };
+    let chart = Chart::SlantedEdges(SlantedEdges { size, angle_deg: 5.0, contrast: 4.0 });
+    let edges = bench.photographed(&format!("edges-{file}"), &bench.request(chart, file), 96)?;
     let report = bench.folder.join(format!("response-{file}.json"));
-    let raw = text(&edges.join("render/camera/raw.0000.png"));
     // Six readings, which lie two pixels apart where pixels have colours.
-    let reach_px = if bench.camera.filters.is_some() { 12 } else { 6 };
-    let told = words(&format!("--edge-degree 2 --shading-degree 1 --reach-px {reach_px} --truth"));
-    let truth = vec![text(&edges.join("truth.json"))];
-    let measured = [vec!["sfr".to_owned(), raw], told, truth, bench.green()].concat();
-    bench.program.measured(&report, &measured)?;
+    let reach_px = if bench.camera.filters.is_some() { 12.0 } else { 6.0 };
+    let input = PictureInput {
+        selection: Selection { channel: bench.green(), ..Selection::default() },
+        truth: TruthInput { truth: Some(edges.join("truth.json")), camera: None },
+        ..PictureInput::default()
+    };
+    let raw = edges.join("render/camera/raw.0000.png");
+    let request =
+        SfrRequest { edge_degree: 2, shading_degree: 1, reach_px: Some(reach_px), input, ..SfrRequest::new(raw) };
+    keep(&sfr(&request)?, &report)?;
     let (plot, shown) = bench.plot(&format!("response-{file}"));
-    let found = bench.program.compared(&report, &bench.file(file), &["--plot".to_owned(), text(&plot)])?;
-    let reached = Reached { quantity: quantity.to_owned(), ..mean_of_edges(&Comparison(found))? };
+    let found = compared(&CompareRequest::new(report, bench.file(file)), Some(&plot))?;
+    let reached = Reached { quantity: quantity.to_owned(), ..mean_of_edges(&found)? };
     Ok(Section { title, body: shown, reached: vec![reached] })
 }
 
 /// The largest error of the mean of all edges up to half a cycle a pixel.
-fn mean_of_edges(found: &Comparison) -> Result<Reached, String> {
+fn mean_of_edges(found: &Comparison) -> Result<Reached, Error> {
     let points = found.0["tables"]["means"].as_array().into_iter().flatten();
     let pair = |row: &Value| {
         let difference = &row["difference"];
         Some((row["at"].as_f64()?, difference["value"].as_f64()?, difference["standard_uncertainty"].as_f64()?))
     };
     let worst = points.filter_map(pair).filter(|(at, ..)| *at <= 0.5).max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-    let (_, error, u) = worst.ok_or("no response was compared")?;
+    let (_, error, u) = worst.ok_or_else(|| Error::input("no response was compared"))?;
     Ok(Reached { quantity: String::new(), bound: bounds::RESPONSE, error: Some(error), e_n: Some(0.5 * error / u) })
 }

@@ -19,7 +19,7 @@ pub(crate) fn run(pitches_um: &[f64]) -> Result<Vec<f64>, Error> {
 fn middle_electrons(scene: &str, pitch_um: f64) -> Result<f64, Error> {
     let camera = format!(
         "format = 1\n\
-         [lens]\nmodel = \"thin\"\nfocal_length_mm = 8\nf_number = 4\nfocus_distance_m = 3\n\
+         [lens]\ntype = \"thin\"\nfocal_length_mm = 8\nf_number = 4\nfocus_distance_m = 3\n\
          [sensor]\nwidth_px = 17\nheight_px = 17\npixel_pitch_um = {pitch_um}\ncfa = \"mono\"\n\
          exposure_s = 0.001\nquantum_efficiency = 0.5\nfull_well_e = 1e6\nread_noise_e = 2\ndark_current_e_s = 0\n\
          gain_dn_per_e = 0.01\nblack_level_dn = 16\nbits = 14\n"

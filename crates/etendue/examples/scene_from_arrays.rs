@@ -1,4 +1,4 @@
-//! A scene from arrays: a wavy sheet made in code, and its depth as an array.
+//! A scene from arrays: a folded sheet made in code, and its depth as an array.
 //!
 //! `cargo run --release -p etendue --example scene_from_arrays`
 
@@ -10,7 +10,7 @@ use etendue::{Error, JobRequest, MemoryFiles, RenderOptions, Triangles, Unobserv
 /// Vertices along each side of the sheet.
 const SIDE: u32 = 65;
 
-/// The job: a sheet 4 m wide, waves 0.2 m high, seen by a pinhole 5 m above it.
+/// The job: a sheet 4 m wide in folds 0.2 m high and 1 m apart, seen by a pinhole 5 m above it.
 const JOB: &str = r#"
 format = 1
 
@@ -59,7 +59,8 @@ pub(crate) fn run() -> Result<Vec<f32>, Error> {
     let place = |i: u32| 4.0 * (i as f32 / (SIDE - 1) as f32) - 2.0;
     let vertex = |i: u32| {
         let (x, y) = (place(i % SIDE), place(i / SIDE));
-        [x, y, 0.2 * (3.0 * x).sin()]
+        // Up and down along x: 0 at the folds' feet, 0.2 on their ridges.
+        [x, y, 0.2 * (1.0 - 2.0 * (x.rem_euclid(1.0) - 0.5).abs())]
     };
     let positions: Vec<[f32; 3]> = (0..SIDE * SIDE).map(vertex).collect();
     let cells = (0..SIDE - 1).flat_map(|row| (0..SIDE - 1).map(move |column| row * SIDE + column));

@@ -128,7 +128,7 @@ mod tests {
 
     fn calibration(projection: &str) -> Calibration {
         let text = format!(
-            "format = 1\n[sensor]\nwidth_px = 64\nheight_px = 48\npixel_pitch_um = 6\n[lens]\nmodel = \"calibrated\"\n\
+            "format = 1\n[sensor]\nwidth_px = 64\nheight_px = 48\npixel_pitch_um = 6\n[lens]\ntype = \"calibrated\"\n\
              f_number = 4\nprojection = {projection}\n"
         );
         let camera = load_camera(Path::new("camera.toml"), &|_| Ok(text.clone()), &Overrides::default());

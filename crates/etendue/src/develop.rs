@@ -89,7 +89,7 @@ fn all(camera: &Camera<'_>, request: &DevelopRequest, writer: &mut ResultWriter<
         "program": "etendue",
         "version": metadata::VERSION,
         "sensor": metadata::sensor(camera.body),
-        "processing": camera.development.to_string(),
+        "isp": camera.development.to_string(),
         "frames": frames,
         "sampling": { "correlated_block_px": correlated_block_px },
         "files": files,

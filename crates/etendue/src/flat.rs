@@ -3,6 +3,7 @@
 use crate::camera_file::{open_camera, stem};
 use crate::error::Error;
 use crate::observer::{Message, Observer};
+use crate::ranges::{number, whole};
 use crate::results::Files;
 use crate::results::frames::{Wanted, encoded_raw, write_frames};
 use crate::results::metadata;
@@ -73,6 +74,20 @@ impl FlatRequest {
     }
 }
 
+impl FlatRequest {
+    fn check(&self) -> Result<(), Error> {
+        number("--wavelength-nm", self.wavelength_nm, 300.0..=1100.0, "nm")?;
+        match self.source {
+            FlatSource::Irradiance { w_m2 } => number("--irradiance-w-m2", w_m2, 0.0..=f64::MAX, "W/m²"),
+            FlatSource::Photons { per_pixel } => number("--photons", per_pixel, 0.0..=f64::MAX, "photons a pixel"),
+            FlatSource::PhotonTransfer { levels, stack } => {
+                whole("--photon-transfer", levels, 3..=10_000)?;
+                whole("--stack", stack, 3..=10_000)
+            }
+        }
+    }
+}
+
 /// Photographs even light by a camera's bare sensor, or takes the series by which EMVA 1288 measures; nothing is traced. Writes into a
 /// folder and answers with the files' paths. Runs on the caller's thread pool.
 ///
@@ -83,6 +98,7 @@ pub fn flat(
     (folder, existing): (&Path, Existing),
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
+    request.check()?;
     let body = body(request)?;
     let name = stem(&request.camera);
     let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
@@ -97,10 +113,14 @@ pub fn flat(
             files.try_for_each(|file| writer.claim(&file))?;
             task.series(&series, &mut writer)?;
         }
-        FlatSource::Irradiance { .. } | FlatSource::Photons { .. } => {
-            let files = Files::of(&task.products(), &body, &request.frames);
-            files.keys().map(String::as_str).chain([Files::SIDECAR]).try_for_each(|file| writer.claim(file))?;
-            task.frames(&files, &mut writer)?;
+        FlatSource::Irradiance { w_m2 } => {
+            let light = FlatLight { wavelength_nm: request.wavelength_nm, irradiance_w_m2: w_m2 };
+            task.single(light, &format!("--irradiance-w-m2 {w_m2:e}"), &mut writer)?;
+        }
+        FlatSource::Photons { per_pixel } => {
+            let light = FlatLight::of_photons(task.sensor, request.wavelength_nm, per_pixel)
+                .map_err(|error| Error::input(format!("--photons {per_pixel}: {error}")))?;
+            task.single(light, &format!("--photons {per_pixel:e}"), &mut writer)?;
         }
     }
     folder.commit().map_err(Error::run)
@@ -152,27 +172,13 @@ impl Task<'_> {
         FrameAddress { seed: self.seed(), camera: 0, frame, capture: 0 }
     }
 
-    /// The light of single frames.
-    fn light(&self) -> Result<FlatLight, Error> {
-        let wavelength_nm = self.request.wavelength_nm;
-        match self.request.source {
-            FlatSource::Photons { per_pixel } => FlatLight::of_photons(self.sensor, wavelength_nm, per_pixel)
-                .map_err(|error| Error::input(format!("--photons {per_pixel}: {error}"))),
-            FlatSource::Irradiance { w_m2 } => Ok(FlatLight { wavelength_nm, irradiance_w_m2: w_m2 }),
-            FlatSource::PhotonTransfer { .. } => Ok(FlatLight { wavelength_nm, irradiance_w_m2: 0.0 }),
-        }
-    }
-
-    /// Single frames of one light.
-    fn frames(&self, files: &BTreeMap<String, Value>, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
-        let light = self.light()?;
+    /// Single frames of one light, which was `given` so.
+    fn single(&self, light: FlatLight, given: &str, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+        let files = Files::of(&self.products(), self.body, &self.request.frames);
+        files.keys().map(String::as_str).chain([Files::SIDECAR]).try_for_each(|file| writer.claim(file))?;
         let electrons = flat::electrons(self.body, light).expect("it has electronics");
         if let Some(most) = electrons.samples().iter().find(|e| **e > MAX_E) {
             let why = format!("makes {most:.1e} electrons a pixel, and at most {MAX_E:.0e} can be counted: give less");
-            let given = match self.request.source {
-                FlatSource::Photons { per_pixel } => format!("--photons {per_pixel:e}"),
-                _ => format!("--irradiance-w-m2 {:e}", light.irradiance_w_m2),
-            };
             return Err(Error::input(format!("{given}: {why}")));
         }
         let (products, facts, camera) = (self.products(), self.provenance(writer), writer.prefix.clone());

@@ -48,6 +48,7 @@ mod merge;
 mod named_file;
 mod observer;
 mod plot;
+mod ranges;
 mod raw_file;
 pub mod report;
 mod results;

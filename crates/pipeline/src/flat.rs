@@ -184,7 +184,7 @@ mod tests {
     use etendue_scene::{Overrides, load_camera};
     use std::path::Path;
 
-    const CAMERA: &str = "format = 1\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm = 5\nf_number = 8\n[sensor]\nwidth_px = 4\n\
+    const CAMERA: &str = "format = 1\n[lens]\ntype = \"pinhole\"\nfocal_length_mm = 5\nf_number = 8\n[sensor]\nwidth_px = 4\n\
         height_px = 2\npixel_pitch_um = 5\nfill_factor = 0.5\nexposure_s = 0.01\ncfa = \"rggb\"\nquantum_efficiency = [0.2, 0.6, 0.4]\n\
         full_well_e = 10000\nread_noise_e = 0\ndark_current_e_s = 0\ngain_dn_per_e = 0.1\nblack_level_dn = 10\nbits = 12\n\
         auto_exposure = { percentile = 50, target = 0.5, exposure_limits_s = [0.001, 0.1], gain_limits = [1, 2] }\n\

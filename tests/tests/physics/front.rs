@@ -32,7 +32,7 @@ fn job(scene: &str, front: &str, render: &str) -> Job {
 const UNIFORM: &str = "environment = { type = \"uniform\", radiance_w_m2_sr_nm = 1 }";
 const GROUND: &str = "[[scene.materials]]\nname = \"grey\"\ntype = \"diffuse\"\nreflectance = 0.5\n[[scene.objects]]\n\
                       name = \"road\"\nmaterial = \"grey\"\nshape = { type = \"quad\", size_m = [4000, 4000] }";
-const MIRROR: &str = "[cameras.front.mirror]\nshape = \"hyperboloid\"\nradius_mm = 30\nconic = -1.69\n\
+const MIRROR: &str = "[cameras.external_optics.mirror]\ntype = \"hyperboloid\"\nradius_mm = 30\nconic = -1.69\n\
                       rim_radius_mm = 40\nreflectance = 0.75";
 
 /// The camera looks up at a mirror that shows the ground, all of it on the plane z = 0.
@@ -91,7 +91,7 @@ fn a_uniform_surround_is_as_bright_by_a_mirror_as_it_reflects() {
 
 #[test]
 fn dirt_is_the_same_by_both_routes() {
-    let front = "[cameras.front.dirt]\nmask = \"dirt.png\"\nsize_mm = [4, 4]\ndistance_mm = 6";
+    let front = "[cameras.external_optics.dirt]\nmask = \"dirt.png\"\nsize_mm = [4, 4]\ndistance_mm = 6";
     let row = (0..64).map(|x| [if x < 32 { 1.0 } else { 0.1 }; 3]);
     let job = |render: &str| {
         let job = job(UNIFORM, front, render).replacing("spp = 256", "spp = 4096");

@@ -26,7 +26,7 @@ pub(super) fn job(request: &Request<'_>) -> String {
     // Level "direct": flat sheets light nothing but the camera. Boxes behind holes do.
     let level = if request.drawing.cavities.is_empty() { "direct" } else { "path" };
     let (spp, seed) = (request.drawing.spp, request.seed);
-    let _ = write!(text, "\n[render]\nspp = {spp}\nreplicates = 1\nlevel = \"{level}\"\nseed = {seed}\n");
+    let _ = write!(text, "\n[render]\nspp = {spp}\nreplicates = 1\nintegrator = \"{level}\"\nseed = {seed}\n");
     text
 }
 

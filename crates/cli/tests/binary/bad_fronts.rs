@@ -3,7 +3,7 @@
 use crate::support::{Ran, etendue, text};
 use std::fs;
 
-const CAMERA: &str = "format = 1\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm = 6\nf_number = 4\n[sensor]\nwidth_px = 8\n\
+const CAMERA: &str = "format = 1\n[lens]\ntype = \"pinhole\"\nfocal_length_mm = 6\nf_number = 4\n[sensor]\nwidth_px = 8\n\
                       height_px = 6\npixel_pitch_um = 100\n";
 const JOB: &str = "format = 1\nscene = {}\n[[cameras]]\nname = \"c\"\nfile = \"camera.toml\"\nposition_m = [0, 0, 1]\n\
                    look_at_m = [9, 0, 1]\n";
@@ -16,7 +16,8 @@ fn plan(front: &str, job: &str) -> Ran {
     etendue(["plan", &text(&place.path().join("job.toml"))])
 }
 
-const SPHERE: &str = "[front.mirror]\nshape = \"sphere\"\nradius_mm = 30\nrim_radius_mm = 25\nreflectance = 0.9\n";
+const SPHERE: &str =
+    "[external_optics.mirror]\ntype = \"sphere\"\nradius_mm = 30\nrim_radius_mm = 25\nreflectance = 0.9\n";
 const GLASS: &str = "[external_optics.windscreen]\ndistance_mm = 100\n";
 
 #[test]
@@ -41,7 +42,7 @@ fn glass_that_the_camera_cannot_look_through() {
     let wedge = format!("{GLASS}tilt_deg = 60\nwedge_mrad = 100");
     plan(&wedge, "").refused(&["camera.toml:10", "external_optics.windscreen", "faces cross", "wedge_mrad"]);
     plan(&format!("{GLASS}reference_thickness_mm = 4"), "").refused(&["camera.toml:12", "no effect"]);
-    plan(&format!("{GLASS}double_image = false\ndouble_image_share = 0.5"), "").refused(&["no effect"]);
+    plan(&format!("{GLASS}double_image = false\ndouble_image_sample_fraction = 0.5"), "").refused(&["no effect"]);
     plan(&format!("{GLASS}internal_transmittance = 0"), "").refused(&["camera.toml:10", "internal_transmittance"]);
     plan("[external_optics]", "").refused(&["camera.toml:10", "nothing stands in front"]);
     let both = format!("{GLASS}{SPHERE}distance_mm = 50");

@@ -1,4 +1,4 @@
-//! Faults of `[processing]`: each is told with its file, line and key, and nothing is written.
+//! Faults of `[isp]`: each is told with its file, line and key, and nothing is written.
 
 use crate::bad_input::Spoilt;
 use crate::support::{Ran, etendue};
@@ -22,7 +22,7 @@ fn plan(spoilt: &Spoilt) -> Ran {
 fn refused(keys: &str, phrases: &[&str]) {
     let (spoilt, place) = with(keys);
     let key = keys.split(" =").next().unwrap_or(keys);
-    plan(&spoilt).refused(&[&[place.as_str(), "cameras.front.processing", key], phrases].concat());
+    plan(&spoilt).refused(&[&[place.as_str(), "cameras.front.isp", key], phrases].concat());
 }
 
 /// The same with a table beside the job.

@@ -42,7 +42,7 @@ fn a_camera_that_sees_more_than_was_stored_is_refused() {
     let camera = place.path().join("wide.toml");
     fs::write(
         &camera,
-        "format = 1\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm = 2\nf_number = 8\n\
+        "format = 1\n[lens]\ntype = \"pinhole\"\nfocal_length_mm = 2\nf_number = 8\n\
          [sensor]\nwidth_px = 46\nheight_px = 30\npixel_pitch_um = 120\n",
     )
     .expect("written");
@@ -60,7 +60,7 @@ fn a_camera_that_sees_more_than_was_stored_is_refused() {
 fn a_camera_file_with_faults_is_refused_by_line_and_key() {
     let place = place();
     let camera = place.path().join("camera.toml");
-    fs::write(&camera, "format = 1\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm = 2\n[sensor]\nwidth = 3\n")
+    fs::write(&camera, "format = 1\n[lens]\ntype = \"pinhole\"\nfocal_length_mm = 2\n[sensor]\nwidth = 3\n")
         .expect("written");
     etendue(["expose", "x.exr", "--camera", &text(&camera), "-o", "y"])
         .refused(&["camera.toml:6", "sensor.width", "\"width_px\""])

@@ -24,7 +24,7 @@ const CHARTS: [&str; 15] = [
 ];
 
 /// A small camera with a barrel, its axis beside the picture's middle.
-const CAMERA: &str = "format = 1\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm = 2\nf_number = 4\n[lens.distortion]\nk1 = -0.6\ndirection \
+const CAMERA: &str = "format = 1\n[lens]\ntype = \"pinhole\"\nfocal_length_mm = 2\nf_number = 4\n[lens.distortion]\nk1 = -0.6\ndirection \
                       = \"ideal_to_observed\"\nradius_unit = \"focal_lengths\"\n[sensor]\nwidth_px = 96\nheight_px = \
                       72\npixel_pitch_um = 8\nprincipal_point_px = [50, 34]\nexposure_s = 0.01\ncfa = \
                       \"mono\"\nquantum_efficiency = 0.5\nfull_well_e = 20000\nread_noise_e = 5\ndark_current_e_s = \

@@ -190,7 +190,7 @@ fn a_linear_picture_of_the_sensors_colours_is_called_that() {
     let facts: serde_json::Value = serde_json::from_slice(&made["develop.json"]).expect("JSON");
     let entry = &facts["files"]["picture.0000.png"];
     assert_eq!((&entry["encoding"], &entry["quantity"]), (&"linear".into(), &"linear picture".into()));
-    let words = facts["processing"].as_str().expect("words");
+    let words = facts["isp"].as_str().expect("words");
     assert!(words.contains("linear tone") && !words.contains("matrix"), "{words}");
     let has = |name: &[u8]| made["picture.0000.png"].windows(4).any(|four| four == name);
     assert!(has(b"gAMA") && !has(b"sRGB"));

@@ -72,7 +72,7 @@ fn the_distortion_of_dots_is_the_one_they_were_drawn_with() {
     assert!((centre - 200.0).abs() < 0.3 && uncertainty < 0.3, "{found}");
     let keys = std::fs::read_to_string(&camera).expect("written");
     let lens =
-        "format = 1\n[lens]\nmodel = \"thin\"\nfocal_length_mm = 6\nf_number = 2\nfocus_distance_m = \"infinity\"\n";
+        "format = 1\n[lens]\ntype = \"thin\"\nfocal_length_mm = 6\nf_number = 2\nfocus_distance_m = \"infinity\"\n";
     let sensor = "[sensor]\nwidth_px = 400\nheight_px = 300\npixel_pitch_um = 6\n";
     let whole = folder.path().join("camera.toml");
     std::fs::write(&whole, format!("{lens}{keys}{sensor}")).expect("written");

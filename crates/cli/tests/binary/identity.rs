@@ -58,7 +58,7 @@ fn an_exposed_image_states_its_own_camera_and_geometry() {
     let radiance = place.path().join("radiance.exr");
     fs::write(&radiance, &files["front/radiance.exr"]).expect("written");
     let camera = place.path().join("other.toml");
-    let narrow = "format = 1\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm = 12\nf_number = 8\n\
+    let narrow = "format = 1\n[lens]\ntype = \"pinhole\"\nfocal_length_mm = 12\nf_number = 8\n\
                   [sensor]\nwidth_px = 9\nheight_px = 6\npixel_pitch_um = 100\n";
     fs::write(&camera, narrow).expect("written");
     let output = text(&place.path().join("out"));

@@ -5,11 +5,11 @@ use serde_json::Value;
 use std::path::PathBuf;
 
 /// A small camera whose response is the pixel's aperture alone: its readings are 500 + 1.5 electrons.
-const CAMERA: &str = "format = 1\n[lens]\nmodel = \"pinhole\"\nfocal_length_mm = 16\nf_number = 4\n[sensor]\nwidth_px = \
+const CAMERA: &str = "format = 1\n[lens]\ntype = \"pinhole\"\nfocal_length_mm = 16\nf_number = 4\n[sensor]\nwidth_px = \
                       160\nheight_px = 120\npixel_pitch_um = 8\nexposure_s = 0.01\nfull_well_e = 40000\nread_noise_e = \
                       5\ndark_current_e_s = 0\ngain_dn_per_e = 1.5\nblack_level_dn = 500\nbits = 16\n";
 const MONO: &str = "cfa = \"mono\"\nquantum_efficiency = 0.5\n";
-const BAYER: &str = "cfa = \"rggb\"\nquantum_efficiency = { camera = \"nikon-d5100\", peak = 0.35 }\n[processing]\nwhite_balance = \
+const BAYER: &str = "cfa = \"rggb\"\nquantum_efficiency = { camera = \"nikon-d5100\", peak = 0.35 }\n[isp]\nwhite_balance = \
                      \"D65\"\ncolour_matrix = { fit = \"D65\" }\n";
 
 /// A chart with its pictures.

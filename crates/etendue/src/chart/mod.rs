@@ -4,6 +4,7 @@ mod camera;
 mod exposure;
 
 use crate::error::Error;
+use crate::ranges::whole;
 use camera::ChartCamera;
 pub use etendue_charts::design;
 pub use etendue_charts::{Chart, ChartError, Exposures, Spacing};
@@ -85,6 +86,7 @@ impl ChartRequest {
 /// # Errors
 /// Where the camera cannot be used, the chart does not fit it, or the folder cannot be written.
 pub fn make(request: &ChartRequest, (folder, existing): (&Path, Existing)) -> Result<Vec<PathBuf>, Error> {
+    whole("--views", request.views, 1..=200)?;
     let camera = ChartCamera::load(&request.camera)?;
     let body = &camera.body;
     let ray = |at: DVec2| {

@@ -86,7 +86,7 @@ fn made_camera(lens: &str, radius_mm: f64) -> String {
         if is_lens_file(lens) { ("file", "") } else { ("published", "focus_distance_m = \"infinity\"\n") };
     let name = Value::from(lens);
     format!(
-        "format = 1\n[lens]\nmodel = \"prescription\"\n{key} = {name}\n{focus}[sensor]\n\
+        "format = 1\n[lens]\ntype = \"prescription\"\n{key} = {name}\n{focus}[sensor]\n\
          width_px = {PIXELS}\nheight_px = {PIXELS}\npixel_pitch_um = {pitch_um}\n"
     )
 }

@@ -3,6 +3,7 @@
 use super::body::body;
 use super::ghosts;
 use crate::error::Error;
+use crate::ranges::whole;
 use crate::report::fixed;
 use etendue_optics::lens::{FieldReport, ImageReport, LensReport, OtherBundle};
 use etendue_optics::{Lens, Prescribed};
@@ -48,6 +49,7 @@ pub struct LensMeasurement {
 /// # Errors
 /// Where the camera or lens file cannot be used.
 pub fn lens(request: &LensRequest) -> Result<LensMeasurement, Error> {
+    whole("--fields", request.fields, 2..=1000)?;
     let (body, remarks) = body(request)?;
     Ok(LensMeasurement { body, remarks, fields: request.fields as usize })
 }

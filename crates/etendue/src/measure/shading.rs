@@ -4,6 +4,7 @@ use super::picture_input::{PictureInput, refused};
 use super::readings::Readings;
 use crate::error::Error;
 use crate::plot::{Axis, Mark, Plot, Series};
+use crate::ranges::whole;
 use crate::report::{Cell, Report, Table};
 use etendue_metrology::Estimate;
 use etendue_metrology::shading::{
@@ -91,6 +92,8 @@ impl FlatFieldRequest {
     }
 
     fn measured(&self, blocks: u32, report: &mut Report) -> Result<(Shading, (f64, f64)), Error> {
+        whole("--rings", self.rings, 4..=1000)?;
+        whole("--blocks", blocks, 1..=501)?;
         let readings = self.input.linear(&self.picture)?;
         readings.independent(&self.picture, 1)?;
         self.check(&readings)?;

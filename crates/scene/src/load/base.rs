@@ -34,7 +34,7 @@ pub(super) fn lay_over(
     let (base, without) = (table.remove("base"), table.remove("remove"));
     let Some(base) = base else {
         if let Some(without) = without {
-            faults.add(&without.place, "\"without\" has no effect without \"base\"", "name the base, or remove it");
+            faults.add(&without.place, "\"remove\" has no effect without \"base\"", "name the base, or remove it");
         }
         return Some(tree);
     };

@@ -124,10 +124,10 @@ impl Overflow {
         if plane.samples().par_iter().any(|q| *q > well) {
             match self.blooming {
                 Blooming::Column { overflow_fraction } => {
-                    bloom_column::apply(plane, well, overflow_fraction, &mut account)
+                    bloom_column::apply(plane, well, overflow_fraction, &mut account);
                 }
                 Blooming::Around { overflow_fraction } => {
-                    bloom_around::apply(plane, well, overflow_fraction, &mut account)
+                    bloom_around::apply(plane, well, overflow_fraction, &mut account);
                 }
             }
         }

@@ -44,7 +44,7 @@ impl Temperature {
         match self.law {
             TemperatureLaw::Doubling { step_k } => checks.positive("dark.doubling_k", step_k),
             TemperatureLaw::BandGap { diffusion_fraction } => {
-                checks.share("dark.diffusion_fraction", diffusion_fraction)
+                checks.share("dark.diffusion_fraction", diffusion_fraction);
             }
         }
         checks.agree("dark.temperature_c", !checks.errors.is_empty() || self.factor().is_finite(), || {

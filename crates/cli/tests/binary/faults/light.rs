@@ -51,7 +51,7 @@ fn a_power_for_the_tone_curve_of_srgb_is_flagged() {
     let exposures = [2e-5, 5e-5, 1e-4, 2e-4, 3e-4, 4e-4, 5e-4, 6e-4, 7e-4, 8e-4, 9e-4];
     let told = exposures.map(|s| s.to_string()).join(",");
     // As bright by smear as its rows are many.
-    let small = ["--set", "sensor.width_px=96", "--set", "sensor.height_px=64", "--set", "processing.picture_bits=16"];
+    let small = ["--set", "sensor.width_px=96", "--set", "sensor.height_px=64", "--set", "isp.picture_bits=16"];
     let measured = |name: &str, fault: &[&str]| {
         let picture = |exposure_s: f64| {
             let (output, exposure) =
@@ -69,6 +69,6 @@ fn a_power_for_the_tone_curve_of_srgb_is_flagged() {
     };
     let healthy = measured("healthy", &[]);
     sound(&healthy);
-    let faulty = measured("gamma", &["--set", "processing.tone_curve={ gamma = 2.2 }"]);
-    flagged("gamma 2.2 for sRGB", "`processing.tone_curve` gamma 2.2 for srgb", "points", &faulty, &healthy);
+    let faulty = measured("gamma", &["--set", "isp.tone_curve={ gamma = 2.2 }"]);
+    flagged("gamma 2.2 for sRGB", "`isp.tone_curve` gamma 2.2 for srgb", "points", &faulty, &healthy);
 }

@@ -7,6 +7,7 @@ use super::picture_input::{PictureInput, refused};
 use super::readings::{Readings, field_position};
 use super::truth::Truth;
 use crate::error::Error;
+use crate::ranges::whole;
 use crate::report::Report;
 use etendue_metrology::sfr::{Sfr, SfrError, SfrSettings, Strip, measure_edge, measure_strip};
 use rayon::prelude::*;
@@ -81,6 +82,8 @@ struct Found<'a> {
 /// # Errors
 /// Where the picture holds no edge that can be measured.
 pub fn sfr(request: &SfrRequest) -> Result<Report, Error> {
+    whole("--edge-degree", request.edge_degree, 1..=5)?;
+    whole("--shading-degree", request.shading_degree, 0..=2)?;
     positive("--pixel-pitch-um", request.pixel_pitch_um)?;
     positive("--pixels-per-degree", Some(request.pixels_per_degree))?;
     let readings = request.input.linear(&request.picture)?;

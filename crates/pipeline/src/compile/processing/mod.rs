@@ -1,4 +1,4 @@
-//! `[processing]`: from the record to the settings of development.
+//! `[isp]`: from the record to the settings of development.
 
 mod colour;
 mod correction;

@@ -1,4 +1,4 @@
-//! `[[processing.image_filters]]`: the filters of the paper.
+//! `[[isp.image_filters]]`: the filters of the paper.
 
 use super::tone::{ToneCurve, tone_curve};
 use crate::place::{Place, Placed};
