@@ -90,7 +90,7 @@ def flat_normals(corners):
 
 
 def quad(width, height):
-    """Of docs/scene-format.md: in z = 0, front towards +z."""
+    """Of docs/format/scene.md: in z = 0, front towards +z."""
     x, y = width / 2, height / 2
     points = np.array([[-x, -y, 0], [x, -y, 0], [x, y, 0], [-x, y, 0]])
     corners = points[[[0, 1, 2], [0, 2, 3]]]

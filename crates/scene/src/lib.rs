@@ -2,7 +2,7 @@
 //!
 //! A description is TOML, `format = 1` at the head of every file. A *job* names its scene and its cameras, inline or by
 //! file, and what to render; a *scene* holds what is seen; a *camera* holds lens, sensor and processing. The format is
-//! told key by key in `docs/scene-format.md`, which a test keeps in step with the records here.
+//! told in `docs/scene-format.md` and key by key in `docs/format`, which a test keeps in step with the records here.
 //!
 //! [`Description::load`] reads a job through a reader that the caller gives, applies overrides (`--set key=value`) and
 //! collects **all** faults with their places: unknown keys, wrong types and ranges, dangling names, contradictions.

@@ -75,7 +75,7 @@ impl From<&Flat> for FlatRequest {
 /// `etendue datasheet`
 #[derive(Debug, Args)]
 pub struct DataSheet {
-    /// The data sheet's figures (TOML; docs/scene-format.md has the keys)
+    /// The data sheet's figures (TOML; docs/format/datasheet.md has the keys)
     #[arg(value_name = "SHEET.toml")]
     pub sheet: PathBuf,
     #[command(flatten)]

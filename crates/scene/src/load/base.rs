@@ -2,7 +2,7 @@
 //!
 //! A scene or a camera file may name a base of its own kind and say only what differs. What it says is laid over the
 //! base's tree before any key is looked at:
-//! - a table is laid over the base's key by key, but one that says its `type` or `model` replaces the base's as a whole;
+//! - a table is laid over the base's key by key, but one that says its `type` replaces the base's as a whole;
 //! - of lists whose entries have names, an entry takes the place of the base's of the same name; others follow at the
 //!   end;
 //! - any other value replaces the base's.

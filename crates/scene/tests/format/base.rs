@@ -2,11 +2,11 @@
 
 use etendue_scene::record::{Environment, Lens};
 
-use crate::files::{Files, doc, load};
+use crate::files::{Files, load};
 
 /// The page's example, its scene and camera made bases of files that say only what `scene` and `camera` say.
 fn derived(scene: &str, camera: &str) -> Files {
-    let mut files = Files::of_example(&doc());
+    let mut files = Files::of_example();
     files.rename("scene.toml", "base/scene.toml");
     files.rename("camera.toml", "base/camera.toml");
     files.put("scene.toml", &format!("format = 1\nbase = \"base/scene.toml\"\n{scene}"));
@@ -20,7 +20,7 @@ fn faults(scene: &str, camera: &str) -> String {
 
 #[test]
 fn a_base_alone_is_the_base() {
-    let (plain, over) = (load(&Files::of_example(&doc()), &[]), load(&derived("", ""), &[]));
+    let (plain, over) = (load(&Files::of_example(), &[]), load(&derived("", ""), &[]));
     let (plain, over) = (plain.expect("the example"), over.expect("over the example"));
     assert_eq!(plain.scene.objects.len(), over.scene.objects.len());
     assert_eq!(plain.cameras[0].camera.sensor.width_px, over.cameras[0].camera.sensor.width_px);
@@ -44,7 +44,7 @@ fn tables_are_merged_and_forms_replaced() {
 
 #[test]
 fn entries_are_replaced_by_name_added_and_taken_out() {
-    let base = load(&Files::of_example(&doc()), &[]).expect("the example");
+    let base = load(&Files::of_example(), &[]).expect("the example");
     let names = |d: &etendue_scene::Description| -> Vec<String> {
         d.scene.materials.iter().map(|m| m.name.value.clone()).collect()
     };
@@ -81,7 +81,7 @@ fn faults_name_the_file_that_says_it() {
         load(&files, &[]).expect_err("a fault").to_string(),
         "scene.toml:2:8: base: \"scene.toml\" is built on itself; name another base, or none"
     );
-    let mut files = Files::of_example(&doc());
+    let mut files = Files::of_example();
     files.edit("scene.toml", "format = 1", "format = 1\nremove = []");
     assert!(load(&files, &[]).expect_err("a fault").to_string().contains("\"remove\" has no effect without \"base\""));
 }

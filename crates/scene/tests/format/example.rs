@@ -1,8 +1,8 @@
-//! The example of the page is read as it says.
+//! The examples of the pages are read as they say.
 
 use std::path::Path;
 
-use crate::files::{Files, doc, load};
+use crate::files::{Files, load};
 use glam::DVec3;
 
 use etendue_scene::asset::{AssetKind, Assets};
@@ -10,7 +10,7 @@ use etendue_scene::record::{Lens, Light, Surface};
 use etendue_scene::{Overrides, load_camera};
 
 fn example() -> Files {
-    Files::of_example(&doc())
+    Files::of_example()
 }
 
 #[test]
@@ -23,6 +23,12 @@ fn the_example_is_read() {
     let Light::Sun(sun) = &d.scene.lights[0] else { panic!("a sun") };
     assert_eq!(sun.name, "sun".to_owned());
     assert!(matches!(d.scene.materials[2].surface.0, Surface::Conductor(_)));
+}
+
+#[test]
+fn the_small_example_is_read() {
+    let d = load(&Files::of_small_example(), &[]).unwrap_or_else(|faults| panic!("{faults}"));
+    assert_eq!((d.cameras.len(), d.scene.objects.len()), (1, 1));
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use etendue_scene::{Overrides, load_camera};
 
-use crate::files::{Files, doc, load};
+use crate::files::{Files, load};
 
 /// What makes a small job that is right.
 const JOB: &str = r#"
@@ -88,7 +88,7 @@ fn a_wrong_type() {
 
 #[test]
 fn a_negative_exposure() {
-    let mut files = Files::of_example(&doc());
+    let mut files = Files::of_example();
     files.edit("camera.toml", "exposure_s = 0.002", "exposure_s = -0.002");
     let text = load(&files, &[]).expect_err("negative").to_string();
     assert_eq!(text, "camera.toml:16:14: sensor.exposure_s: found -0.002; give a number of at least 0 (s)");
@@ -301,7 +301,7 @@ fn a_flag_goes_through_the_check_of_its_key() {
 
 #[test]
 fn files_that_cannot_be_read() {
-    let mut files = Files::of_example(&doc());
+    let mut files = Files::of_example();
     files.edit("job.toml", "scene = \"scene.toml\"", "scene = \"scenes.toml\"");
     files.edit("job.toml", "seed = 1", "sede = 1");
     let text = load(&files, &[]).expect_err("no scene").to_string();
@@ -314,9 +314,9 @@ fn files_that_cannot_be_read() {
 
 #[test]
 fn a_file_of_another_kind_is_one_fault() {
-    let example = Files::of_example(&doc());
+    let example = Files::of_example();
     let as_job = |kind: &str| {
-        let mut files = Files::of_example(&doc());
+        let mut files = Files::of_example();
         files.put("job.toml", &example.text(kind));
         load(&files, &[]).expect_err("no job").to_string()
     };
@@ -364,7 +364,7 @@ fn text_that_is_not_toml() {
 
 #[test]
 fn several_faults_at_once() {
-    let mut files = Files::of_example(&doc());
+    let mut files = Files::of_example();
     files.edit("job.toml", "spp = 64", "spp = -64");
     files.edit("camera.toml", "bits = 12", "bits = 33");
     files.edit("camera.toml", "fill_factor", "fil_factor");
@@ -401,7 +401,7 @@ fn light_that_says_too_little_or_too_much() {
 #[test]
 fn sensors_that_contradict_themselves() {
     let faults = |old: &str, new: &str| {
-        let mut files = Files::of_example(&doc());
+        let mut files = Files::of_example();
         files.edit("camera.toml", old, new);
         load(&files, &[]).err().map_or(String::new(), |f| f.to_string())
     };

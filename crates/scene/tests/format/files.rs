@@ -1,21 +1,18 @@
 //! Files in memory.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use etendue_scene::{Description, Faults, Overrides};
 
-/// The page of the format.
-pub(crate) const DOC: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/scene-format.md");
-
-pub(crate) fn doc() -> String {
-    page("scene-format.md")
+/// Where a page of the documentation stands.
+pub(crate) fn page_path(name: &str) -> PathBuf {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs")).join(name)
 }
 
 /// A page of the documentation.
 pub(crate) fn page(name: &str) -> String {
-    let path = Path::new(DOC).with_file_name(name);
-    std::fs::read_to_string(path).expect("the page is in the repository")
+    std::fs::read_to_string(page_path(name)).expect("the page is in the repository")
 }
 
 /// A job's head: its format and a camera that is right.
@@ -42,15 +39,25 @@ pixel_pitch_um = 6.0
 pub(crate) struct Files(BTreeMap<String, String>);
 
 impl Files {
-    /// The three files of the page's example: each follows a line that ends with its name.
-    pub(crate) fn of_example(page: &str) -> Self {
-        let mut files = BTreeMap::new();
-        for part in page.split("\nThe ").skip(1) {
-            let Some(name) = part.split('`').nth(1).filter(|n| n.ends_with(".toml")) else { continue };
-            let text = part.split("```toml\n").nth(1).and_then(|t| t.split("```").next()).expect("a block");
-            files.insert(name.to_owned(), text.to_owned());
-        }
-        Self(files)
+    /// The example of the pages of jobs, scenes and cameras.
+    pub(crate) fn of_example() -> Self {
+        Self::on_pages(["job", "scene", "camera"].map(|kind| (kind, page(&format!("format/{kind}.md")))))
+    }
+
+    /// The small example of the overview.
+    pub(crate) fn of_small_example() -> Self {
+        let overview = page("scene-format.md");
+        Self::on_pages(["job", "scene", "camera"].map(|kind| (kind, overview.clone())))
+    }
+
+    /// Files by their kind: each is the block after a line that ends with its name.
+    fn on_pages(pages: [(&str, String); 3]) -> Self {
+        let file = |(kind, page): (&str, String)| {
+            let name = format!("{kind}.toml");
+            let text = page.split(&format!("`{name}`:\n\n```toml\n")).nth(1).and_then(|t| t.split("```").next());
+            (name, text.expect("a block").to_owned())
+        };
+        Self(pages.into_iter().map(file).collect())
     }
 
     /// One job.

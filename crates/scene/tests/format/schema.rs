@@ -3,7 +3,7 @@
 use etendue_scene::{FileKind, schema};
 use serde_json::{Map, Value as Json, json};
 
-use crate::files::{Files, doc, load};
+use crate::files::{Files, load};
 
 /// Why `value` does not fit `schema`, if it does not: the keywords that our schemas use.
 fn misfit(value: &Json, schema: &Json, path: &str) -> Option<String> {
@@ -98,7 +98,7 @@ fn choices(schema: &Json) -> Vec<(Vec<&str>, bool)> {
 
 #[test]
 fn the_example_fits_the_schema() {
-    let files = Files::of_example(&doc());
+    let files = Files::of_example();
     for (name, kind) in
         [("job.toml", FileKind::Job), ("scene.toml", FileKind::Scene), ("camera.toml", FileKind::Camera)]
     {
@@ -109,7 +109,7 @@ fn the_example_fits_the_schema() {
 
 #[test]
 fn what_the_parser_refuses_does_not_fit_the_schema() {
-    let camera = Files::of_example(&doc()).text("camera.toml");
+    let camera = Files::of_example().text("camera.toml");
     for (old, new) in [
         ("f_number", "f_nmuber"),
         ("width_px = 640", "width_px = 0"),

@@ -1,4 +1,4 @@
-//! `[front]`: what stands in front of the lens, attached to the camera.
+//! `[external_optics]`: what stands in front of the lens, attached to the camera.
 
 pub mod dirt;
 pub mod mirror;

@@ -1,0 +1,170 @@
+//! The tables of the files: each record once, with every place where it may stand.
+
+use etendue_scene::FileKind;
+use serde_json::Value as Json;
+
+use super::keys::keys_of;
+
+/// A kind of file, with its page.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum File {
+    Scene,
+    Camera,
+    Job,
+    DataSheet,
+}
+
+impl File {
+    /// In the order in which they are searched for tables: what belongs to files of its own comes before the job that may hold it.
+    pub(super) const ALL: [Self; 4] = [Self::Scene, Self::Camera, Self::Job, Self::DataSheet];
+
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::Scene => "scene",
+            Self::Camera => "camera",
+            Self::Job => "job",
+            Self::DataSheet => "datasheet",
+        }
+    }
+
+    /// The schema of a whole file, not of one over a base.
+    fn schema(self) -> Json {
+        let schema = etendue_scene::schema(match self {
+            Self::Scene => FileKind::Scene,
+            Self::Camera => FileKind::Camera,
+            Self::Job => FileKind::Job,
+            Self::DataSheet => FileKind::DataSheet,
+        });
+        schema.get("else").unwrap_or(&schema).clone()
+    }
+}
+
+/// How a table is written at its place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Brackets {
+    /// `[x]`
+    Table,
+    /// `[[x]]`
+    List,
+    /// An entry of a list that may hold other things too: `x = [{ … }]`.
+    Entry,
+}
+
+/// Where a table stands: the file and the keys on the way to it, none for the file itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Place {
+    pub(super) file: File,
+    keys: Vec<String>,
+    brackets: Brackets,
+}
+
+impl Place {
+    fn head(file: File) -> Self {
+        Self { file, keys: Vec::new(), brackets: Brackets::Table }
+    }
+
+    fn child(&self, key: &str) -> Self {
+        let keys = self.keys.iter().map(String::as_str).chain([key]).map(str::to_owned).collect();
+        Self { file: self.file, keys, brackets: Brackets::Table }
+    }
+
+    fn with(&self, brackets: Brackets) -> Self {
+        Self { brackets, ..self.clone() }
+    }
+
+    pub(super) fn depth(&self) -> usize {
+        self.keys.len()
+    }
+
+    /// The table's header in TOML, as code.
+    pub(super) fn header(&self) -> String {
+        let keys = self.keys.join(".");
+        match self.brackets {
+            Brackets::Table => format!("`[{keys}]`"),
+            Brackets::List => format!("`[[{keys}]]`"),
+            Brackets::Entry => format!("`{keys} = [{{ … }}]`"),
+        }
+    }
+
+    /// The anchor on the file's page: `sensor-dark`.
+    pub(super) fn anchor(&self) -> String {
+        match self.keys.as_slice() {
+            [] => self.file.word().to_owned(),
+            keys => keys.join("-").replace(['<', '>'], ""),
+        }
+    }
+}
+
+/// A record and all its places.
+#[derive(Debug)]
+pub(super) struct Section {
+    pub(super) schema: Json,
+    pub(super) places: Vec<Place>,
+}
+
+impl Section {
+    /// The file on whose page the record is described; none where it stands in several kinds of file.
+    pub(super) fn file(&self) -> Option<File> {
+        let file = self.places[0].file;
+        self.places.iter().all(|place| place.file == file).then_some(file)
+    }
+}
+
+/// The records of all files, parents before their children.
+pub(super) fn sections() -> Vec<Section> {
+    let mut sections = Vec::new();
+    for file in File::ALL {
+        meet_table(&mut sections, &file.schema(), &Place::head(file));
+    }
+    sections.iter_mut().for_each(|section| section.places.sort_by_key(Place::depth));
+    sections
+}
+
+fn meet_table(sections: &mut Vec<Section>, schema: &Json, place: &Place) {
+    let schema = plain(schema);
+    let known = sections.iter_mut().find(|section| section.schema == schema);
+    // A job may hold what stands at the head of other files: the rules say so of all of it.
+    let held = |section: &Section| section.places.iter().any(|p| p.file != place.file && p.depth() <= 1);
+    match known {
+        Some(section) if section.places.contains(place) || held(section) => return,
+        Some(section) => section.places.push(place.clone()),
+        None => sections.push(Section { schema: schema.clone(), places: vec![place.clone()] }),
+    }
+    let forms = schema["oneOf"].as_array().cloned().unwrap_or_else(|| vec![schema.clone()]);
+    for (key, value) in forms.iter().flat_map(|form| keys_of(std::slice::from_ref(form))) {
+        meet_value(sections, &value, &place.child(&key));
+    }
+}
+
+/// The tables that a value may be or hold.
+fn meet_value(sections: &mut Vec<Section>, schema: &Json, place: &Place) {
+    let items = &schema["items"];
+    if is_table(schema) {
+        meet_table(sections, schema, place);
+    } else if let Some(options) = schema["anyOf"].as_array() {
+        options.iter().for_each(|option| meet_value(sections, option, place));
+    } else if is_table(items) {
+        meet_table(sections, items, &place.with(Brackets::List));
+    } else if let Some(options) = items["anyOf"].as_array() {
+        options.iter().filter(|o| is_table(o)).for_each(|o| meet_table(sections, o, &place.with(Brackets::Entry)));
+    } else if schema["additionalProperties"].is_object() {
+        meet_value(sections, &schema["additionalProperties"], &place.child("<name>"));
+    }
+}
+
+pub(super) fn is_table(schema: &Json) -> bool {
+    schema.get("properties").is_some() || schema.get("oneOf").is_some()
+}
+
+/// The schema without what only the head of a file has.
+pub(super) fn plain(schema: &Json) -> Json {
+    let mut schema = schema.clone();
+    if let Some(table) = schema.as_object_mut() {
+        ["$schema", "title", "description"].iter().for_each(|k| {
+            table.remove(*k);
+        });
+        table.get_mut("properties").and_then(Json::as_object_mut).map(|p| p.remove("format"));
+        table.get_mut("required").and_then(Json::as_array_mut).iter_mut().for_each(|r| r.retain(|k| k != "format"));
+    }
+    schema
+}
