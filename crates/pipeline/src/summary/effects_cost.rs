@@ -172,8 +172,8 @@ mod tests {
     use etendue_scene::{Description, Overrides};
     use std::path::Path;
 
-    const THIN: &str = "lens = { model = \"thin\", focal_length_mm = 6, f_number = 4.0, focus_distance_m = 5 }";
-    const GAUSS: &str = "lens = { model = \"prescription\", published = \"double-gauss\", f_number = 4, focus_distance_m = \"infinity\" }";
+    const THIN: &str = "lens = { type = \"thin\", focal_length_mm = 6, f_number = 4.0, focus_distance_m = 5 }";
+    const GAUSS: &str = "lens = { type = \"prescription\", published = \"double-gauss\", f_number = 4, focus_distance_m = \"infinity\" }";
     const PITCH: [&str; 2] = ["6.0", "300.0"];
 
     /// Seconds of the parts of a camera that looks along +x.
