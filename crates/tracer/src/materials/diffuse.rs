@@ -7,7 +7,35 @@ use etendue_core::Spectral;
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use glam::{Vec2, Vec3};
 
-use super::{BsdfSample, BsdfValue, Event};
+use super::bsdf::{BsdfSample, BsdfValue, Event};
+use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
+use super::parameter::Parameter;
+use super::reflectance::Reflectance;
+use super::shading_point::ShadingPoint;
+
+/// A matt surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Diffuse {
+    /// Reflectance ρ.
+    pub reflectance: Reflectance,
+}
+
+impl SurfaceModel for Diffuse {
+    type Bsdf<'a, const N: usize> = DiffuseBsdf<N>;
+
+    fn parameters(&self) -> Vec<Parameter<'_>> {
+        vec![Parameter::Reflectance(&self.reflectance)]
+    }
+
+    fn passage(&self) -> Passage<'_> {
+        Passage::None
+    }
+
+    #[inline]
+    fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> DiffuseBsdf<N> {
+        DiffuseBsdf { reflectance: point.reflectance(&self.reflectance) }
+    }
+}
 
 /// Lambert's law with the reflectances of one point at a path's wavelengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,12 +44,17 @@ pub struct DiffuseBsdf<const N: usize> {
     pub reflectance: Spectral<N>,
 }
 
-impl<const N: usize> DiffuseBsdf<N> {
-    pub(super) fn evaluate(&self, wi: Vec3) -> BsdfValue<N> {
+impl<const N: usize> BsdfModel<N> for DiffuseBsdf<N> {
+    #[inline]
+    fn flags(&self) -> BsdfFlags {
+        BsdfFlags { delta: false, transmits: false, has_parts: false }
+    }
+
+    fn evaluate(&self, _wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         BsdfValue { value_cos: self.reflectance * (wi.z * FRAC_1_PI), pdf: cosine_hemisphere_pdf(wi.z) }
     }
 
-    pub(super) fn sample(&self, u: Vec2) -> Option<BsdfSample<N>> {
+    fn sample(&self, _wo: Vec3, _choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let wi = cosine_hemisphere(u);
         let pdf = cosine_hemisphere_pdf(wi.z);
         (pdf > 0.0).then_some(BsdfSample { wi, weight: self.reflectance, pdf, event: Event::Scatter })
