@@ -67,12 +67,6 @@ impl BlinnPhong {
         Ok(model)
     }
 
-    /// The matt base's reflectance.
-    #[must_use]
-    pub fn base(&self) -> &Reflectance {
-        &self.base
-    }
-
     /// Refuses a base with which more is sent back than arrives.
     fn refuse_gain(&self, base: &Spectrum) -> Result<(), EnergyGain> {
         energy::check(base, &[(&self.gloss, &self.albedo)])

@@ -177,12 +177,6 @@ impl CarPaint {
         })
     }
 
-    /// The reflectance of the pigment.
-    #[must_use]
-    pub fn pigment(&self) -> &Reflectance {
-        &self.pigment
-    }
-
     /// Share of diffuse light inside that the coat turns round.
     fn turned_diffuse(&self) -> f32 {
         1.0 - self.coat.mean_transmittance(self.place) / (self.coat.n * self.coat.n)

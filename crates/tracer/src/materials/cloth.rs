@@ -62,12 +62,6 @@ impl Cloth {
         Ok(Self { base, colour, sheen, mean: albedo.mean(), albedo, cumulative })
     }
 
-    /// The base's reflectance.
-    #[must_use]
-    pub fn base(&self) -> &Reflectance {
-        &self.base
-    }
-
     /// The row of a viewer's cosine.
     fn shares(&self, cos: f32) -> &[f32] {
         let row = (cos.min(1.0).sqrt() * ROWS as f32 + 0.5) as usize;

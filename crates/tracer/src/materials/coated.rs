@@ -53,18 +53,6 @@ impl Coated {
         }
         Ok(Self { base, coat: Coat::new(n as f32, alpha.into().checked_alpha()?) })
     }
-
-    /// The reflectance under the coat.
-    #[must_use]
-    pub fn base(&self) -> &Reflectance {
-        &self.base
-    }
-
-    /// The coat's roughness α.
-    #[must_use]
-    pub fn alpha(&self) -> Factor {
-        self.coat.alpha
-    }
 }
 
 impl SurfaceModel for Coated {

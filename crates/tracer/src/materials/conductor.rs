@@ -85,12 +85,6 @@ impl Conductor {
         let mean = Spectrum::from_fn(|nm| self.index.mean_fresnel(nm as f32));
         Self { mean_fresnel: Some(mean), ..self }
     }
-
-    /// Its roughness, α.
-    #[must_use]
-    pub fn alpha(&self) -> Factor {
-        self.alpha
-    }
 }
 
 impl SurfaceModel for Conductor {

@@ -13,7 +13,7 @@
 //! metals have. A roughness below [`super::MIRROR_ALPHA`] is smooth: both directions are exact.
 //!
 //! Inside, light is absorbed by Beer and Lambert's law: exp(−a·s) over a way of s metres, a(λ) in 1/m
-//! ([`Dielectric::absorption`]; who follows the path applies it).
+//! ([`super::MaterialTable::absorption`]; who follows the path applies it).
 //!
 //! Left out: dispersion (n is one number at all wavelengths, so that a path keeps all of its own), polarisation, light
 //! scattered among facets more than once (lost: up to some tenths at α near 1), scattering inside.
@@ -62,18 +62,6 @@ impl Dielectric {
             return Err(MaterialError::Absorption { value });
         }
         Ok(Self { n: n as f32, alpha, absorption })
-    }
-
-    /// Absorption coefficient inside, 1/m.
-    #[must_use]
-    pub fn absorption(&self) -> Option<&Spectrum> {
-        self.absorption.as_ref()
-    }
-
-    /// The roughness α.
-    #[must_use]
-    pub fn alpha(&self) -> Factor {
-        self.alpha
     }
 }
 

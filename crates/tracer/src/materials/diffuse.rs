@@ -13,18 +13,12 @@ use super::parameter::Parameter;
 use super::reflectance::Reflectance;
 use super::shading_point::ShadingPoint;
 
-/// A matt surface.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Diffuse {
-    /// Reflectance ρ.
-    pub reflectance: Reflectance,
-}
-
-impl SurfaceModel for Diffuse {
+/// A reflectance alone is Lambert's law.
+impl SurfaceModel for Reflectance {
     type Bsdf<'a, const N: usize> = DiffuseBsdf<N>;
 
     fn parameters(&self) -> Vec<Parameter<'_>> {
-        vec![Parameter::Reflectance(&self.reflectance)]
+        vec![Parameter::Reflectance(self)]
     }
 
     fn passage(&self) -> Passage<'_> {
@@ -33,7 +27,7 @@ impl SurfaceModel for Diffuse {
 
     #[inline]
     fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> DiffuseBsdf<N> {
-        DiffuseBsdf { reflectance: point.reflectance(&self.reflectance) }
+        DiffuseBsdf { reflectance: point.reflectance(self) }
     }
 }
 

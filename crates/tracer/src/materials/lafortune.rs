@@ -144,12 +144,6 @@ impl Lafortune {
         Ok(model)
     }
 
-    /// The matt base's reflectance.
-    #[must_use]
-    pub fn base(&self) -> &Reflectance {
-        &self.base
-    }
-
     /// Refuses a base under which more is sent back than arrives.
     fn refuse_gain(&self, base: &Spectrum) -> Result<(), EnergyGain> {
         let lobes: Vec<_> = self.lobes.iter().map(|lobe| &lobe.weight).zip(&self.albedos).collect();

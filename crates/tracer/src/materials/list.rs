@@ -1,16 +1,16 @@
 //! The macro that makes one list of models the types [`super::Surface`] and [`super::Bsdf`].
 
-/// Each row is `Model(what the surface holds) => what it is at a point,` under a line of documentation. The model is a
+/// Each row is `Variant(what the surface holds) from Model => what it is at a point,` under a line of documentation. The model is a
 /// [`super::model::SurfaceModel`]; what it is at a point a [`super::model::BsdfModel`]. Two members are no models and stand here: a surface that
 /// scatters nothing, and a mix, which scatters by its parts alone.
 macro_rules! surfaces {
-    ($( $(#[doc = $doc:literal])* $model:ident($held:ty) => $bsdf:ty, )*) => {
+    ($( $(#[doc = $doc:literal])* $variant:ident($held:ty) from $model:ty => $bsdf:ty, )*) => {
         /// How a surface scatters light.
         #[derive(Clone, Debug, PartialEq)]
         pub enum Surface {
             /// All light that arrives is absorbed: a pure emitter, or black.
             Absorber,
-            $( $(#[doc = $doc])* $model($held), )*
+            $( $(#[doc = $doc])* $variant($held), )*
             /// Two materials side by side.
             Mix(Mix),
         }
@@ -18,7 +18,7 @@ macro_rules! surfaces {
         $(
             impl From<$model> for Surface {
                 fn from(model: $model) -> Self {
-                    Self::$model(model.into())
+                    Self::$variant(model.into())
                 }
             }
         )*
@@ -27,7 +27,7 @@ macro_rules! surfaces {
             fn parameters(&self) -> Vec<Parameter<'_>> {
                 match self {
                     Self::Absorber => Vec::new(),
-                    $( Self::$model(model) => model.parameters(), )*
+                    $( Self::$variant(model) => model.parameters(), )*
                     Self::Mix(mix) => mix.parameters(),
                 }
             }
@@ -36,14 +36,14 @@ macro_rules! surfaces {
             fn passage(&self) -> Passage<'_> {
                 match self {
                     Self::Absorber | Self::Mix(_) => Passage::None,
-                    $( Self::$model(model) => model.passage(), )*
+                    $( Self::$variant(model) => model.passage(), )*
                 }
             }
 
             fn check_energy(&self, check: &TextureCheck<'_>) -> Result<(), MaterialError> {
                 match self {
                     Self::Absorber | Self::Mix(_) => Ok(()),
-                    $( Self::$model(model) => model.check_energy(check), )*
+                    $( Self::$variant(model) => model.check_energy(check), )*
                 }
             }
 
@@ -51,7 +51,7 @@ macro_rules! surfaces {
             fn straight_transmittance<const N: usize>(&self, point: &ShadingPoint<'_, N>, cos: f32) -> Spectral<N> {
                 match self {
                     Self::Absorber | Self::Mix(_) => Spectral::ZERO,
-                    $( Self::$model(model) => model.straight_transmittance(point, cos), )*
+                    $( Self::$variant(model) => model.straight_transmittance(point, cos), )*
                 }
             }
 
@@ -59,7 +59,7 @@ macro_rules! surfaces {
             fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> Bsdf<'_, N> {
                 match self {
                     Self::Absorber => Bsdf::Absorber,
-                    $( Self::$model(model) => Bsdf::$model(model.resolve(point)), )*
+                    $( Self::$variant(model) => Bsdf::$variant(model.resolve(point)), )*
                     Self::Mix(_) => panic!("a mix scatters by its parts alone: resolve it first"),
                 }
             }
@@ -70,7 +70,7 @@ macro_rules! surfaces {
         pub enum Bsdf<'a, const N: usize> {
             /// Nothing is scattered.
             Absorber,
-            $( $(#[doc = $doc])* $model($bsdf), )*
+            $( $(#[doc = $doc])* $variant($bsdf), )*
         }
 
         impl<const N: usize> Bsdf<'_, N> {
@@ -78,7 +78,7 @@ macro_rules! surfaces {
             fn flags(&self) -> BsdfFlags {
                 match self {
                     Self::Absorber => BsdfFlags { delta: false, transmits: false, has_parts: false },
-                    $( Self::$model(bsdf) => BsdfModel::<N>::flags(bsdf), )*
+                    $( Self::$variant(bsdf) => BsdfModel::<N>::flags(bsdf), )*
                 }
             }
 
@@ -112,7 +112,7 @@ macro_rules! surfaces {
                 }
                 match self {
                     Self::Absorber => BsdfValue::ZERO,
-                    $( Self::$model(bsdf) => bsdf.evaluate(wo, wi), )*
+                    $( Self::$variant(bsdf) => bsdf.evaluate(wo, wi), )*
                 }
             }
 
@@ -125,7 +125,7 @@ macro_rules! surfaces {
                 }
                 match self {
                     Self::Absorber => None,
-                    $( Self::$model(bsdf) => bsdf.sample(wo, choice, u), )*
+                    $( Self::$variant(bsdf) => bsdf.sample(wo, choice, u), )*
                 }
             }
         }

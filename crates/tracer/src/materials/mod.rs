@@ -66,7 +66,7 @@ pub use cloth::{Cloth, ClothBsdf, ClothError};
 pub use coated::{COAT_INDICES, Coated, CoatedBsdf};
 pub use conductor::{Conductor, ConductorBsdf};
 pub use dielectric::{DIELECTRIC_INDICES, Dielectric, DielectricBsdf, absorption_of};
-pub use diffuse::{Diffuse, DiffuseBsdf};
+pub use diffuse::DiffuseBsdf;
 pub use emission::{Emission, Glow};
 pub use energy::EnergyGain;
 pub use error::MaterialError;
@@ -97,27 +97,27 @@ use texture_check::TextureCheck;
 
 surfaces! {
     /// Lambert's law with a reflectance.
-    Diffuse(Diffuse) => DiffuseBsdf<N>,
+    Diffuse(Reflectance) from Reflectance => DiffuseBsdf<N>,
     /// A smooth or rough metal.
-    Conductor(Box<Conductor>) => ConductorBsdf<N>,
+    Conductor(Box<Conductor>) from Conductor => ConductorBsdf<N>,
     /// A matt base under a clear coat.
-    Coated(Box<Coated>) => CoatedBsdf<'a, N>,
+    Coated(Box<Coated>) from Coated => CoatedBsdf<'a, N>,
     /// A matt base with generalised cosine lobes.
-    Lafortune(Box<Lafortune>) => LafortuneBsdf<'a, N>,
+    Lafortune(Box<Lafortune>) from Lafortune => LafortuneBsdf<'a, N>,
     /// A matt base with a glossy lobe about the half vector.
-    BlinnPhong(Box<BlinnPhong>) => BlinnPhongBsdf<'a, N>,
+    BlinnPhong(Box<BlinnPhong>) from BlinnPhong => BlinnPhongBsdf<'a, N>,
     /// Metal flakes and pigment under a clear coat.
-    CarPaint(Box<CarPaint>) => CarPaintBsdf<'a, N>,
+    CarPaint(Box<CarPaint>) from CarPaint => CarPaintBsdf<'a, N>,
     /// A matt base with the sheen of fibres.
-    Cloth(Box<Cloth>) => ClothBsdf<'a, N>,
+    Cloth(Box<Cloth>) from Cloth => ClothBsdf<'a, N>,
     /// Retro-reflective sheeting.
-    Sheeting(Box<Sheeting>) => SheetingBsdf<'a, N>,
+    Sheeting(Box<Sheeting>) from Sheeting => SheetingBsdf<'a, N>,
     /// A road marking with glass beads.
-    RoadMarking(Box<RoadMarking>) => MarkingBsdf<'a, N>,
+    Marking(Box<RoadMarking>) from RoadMarking => MarkingBsdf<'a, N>,
     /// The outside of a transparent solid.
-    Dielectric(Box<Dielectric>) => DielectricBsdf,
+    Dielectric(Box<Dielectric>) from Dielectric => DielectricBsdf,
     /// A thin pane.
-    ThinSheet(Box<ThinSheet>) => ThinSheetBsdf<N>,
+    ThinSheet(Box<ThinSheet>) from ThinSheet => ThinSheetBsdf<N>,
     /// A thin sheet that scatters to both sides.
-    Leaf(Box<Leaf>) => LeafBsdf<N>,
+    Leaf(Box<Leaf>) from Leaf => LeafBsdf<N>,
 }

@@ -42,12 +42,6 @@ impl ThinSheet {
         }
         Ok(Self { n: n as f32, transmittance })
     }
-
-    /// Internal transmittance along the normal.
-    #[must_use]
-    pub fn transmittance(&self) -> &Reflectance {
-        &self.transmittance
-    }
 }
 
 impl SurfaceModel for ThinSheet {

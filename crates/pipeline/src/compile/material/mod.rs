@@ -15,7 +15,7 @@ use etendue_scene::asset::SlotMaterial;
 use etendue_scene::record::{self, Scene};
 use etendue_spectra::upsample;
 use etendue_tracer::MaterialId;
-use etendue_tracer::materials::{Diffuse, Material, MaterialTable, Reflectance, Surface};
+use etendue_tracer::materials::{Material, MaterialTable, Reflectance, Surface};
 pub(super) use metal::complex_index;
 use picture::Pictures;
 pub(super) use share::share;
@@ -50,9 +50,7 @@ impl Made {
     /// Black, in the place of a material that nothing uses and whose files are not read: ids of materials do not depend on what is used.
     fn unused(record: &record::Material) -> Self {
         Self {
-            material: Material::new(Diffuse {
-                reflectance: Reflectance::Spectrum(upsample::reflectance_spectrum([0.0; 3])),
-            }),
+            material: Material::new(Reflectance::Spectrum(upsample::reflectance_spectrum([0.0; 3]))),
             place: record.place.clone(),
             name: record.name.value.clone(),
             needs_coordinates: false,

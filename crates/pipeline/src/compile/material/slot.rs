@@ -5,7 +5,7 @@ use super::picture::Pictures;
 use etendue_scene::Place;
 use etendue_scene::asset::{SlotMaterial, SlotReflectance, SlotSurface};
 use etendue_spectra::upsample;
-use etendue_tracer::materials::{Coated, Diffuse, Reflectance, Surface};
+use etendue_tracer::materials::{Coated, Reflectance, Surface};
 use std::path::Path;
 
 /// How a slot reflects. A fault at `place` where the file does not say it.
@@ -32,7 +32,7 @@ pub(super) fn surface(
         SlotReflectance::Image(picture) => Reflectance::Texture(pictures.of_slot(picture, place, context)?),
     };
     match surface {
-        SlotSurface::Diffuse { .. } => Some(Diffuse { reflectance: base }.into()),
+        SlotSurface::Diffuse { .. } => Some(base.into()),
         SlotSurface::Coated { index, alpha, .. } => {
             context.accept(place, Coated::new(base, *index, *alpha)).map(Surface::from)
         }

@@ -11,8 +11,8 @@ use etendue_scene::record::material::{
 };
 use etendue_spectra::{Outside, Spectrum};
 use etendue_tracer::materials::{
-    BlinnPhong, CarPaint, CarPaintParts, Cloth, Coated, Conductor, Dielectric, Diffuse, Distribution, Lafortune, Leaf,
-    Lobe, Mix, Reflectance, Surface, ThinSheet, absorption_of, flake_reflectance,
+    BlinnPhong, CarPaint, CarPaintParts, Cloth, Coated, Conductor, Dielectric, Distribution, Lafortune, Leaf, Lobe,
+    Mix, Reflectance, Surface, ThinSheet, absorption_of, flake_reflectance,
 };
 
 /// The index of a coat or a pane that does not state one.
@@ -27,7 +27,7 @@ const MM_PER_M: f64 = 1000.0;
 impl MaterialCompiler<'_, '_> {
     pub(super) fn surface(&mut self, record: &Record) -> Option<Surface> {
         match record {
-            Record::Diffuse(r) => Some(Diffuse { reflectance: self.reflectance(&r.reflectance)? }.into()),
+            Record::Diffuse(r) => self.reflectance(&r.reflectance).map(Surface::from),
             Record::Conductor(r) => self.conductor(r),
             Record::Coated(r) => self.coated(r),
             Record::CookTorrance(r) => self.cook_torrance(r),

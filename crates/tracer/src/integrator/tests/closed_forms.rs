@@ -113,7 +113,7 @@ fn a_texture_is_read_in_its_place() {
     use crate::textures::{ImageTexture, Sampling, Texels, TextureId};
     let texture =
         ImageTexture::new(2, 1, Texels::Linear8(vec![[51; 3], [204; 3]]), Sampling::default()).expect("texels");
-    let surface = Diffuse { reflectance: Reflectance::Texture(TextureId(0)) };
+    let surface = Surface::Diffuse(Reflectance::Texture(TextureId(0)));
     let material_table = MaterialTable::new(vec![Material::new(surface)], vec![texture]).expect("a material");
     let mut builder = WorldBuilder::new();
     let positions = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Vec3::new(x, y, 0.0)).to_vec();

@@ -18,7 +18,7 @@ use crate::MaterialId;
 use crate::accel::{World, WorldBuilder};
 use crate::geometry::{Instance, Mesh, Shape};
 use crate::lights::{Environment, ImageEnvironment, Sources, Sun};
-use crate::materials::{Coated, Conductor, Diffuse, Emission, Glow, Material, Reflectance, Surface};
+use crate::materials::{Coated, Conductor, Emission, Glow, Material, Reflectance, Surface};
 use core::f64::consts::PI;
 use etendue_core::random::{Pixel, PixelAddress};
 use etendue_core::{Track, maths};
@@ -123,7 +123,7 @@ fn agree(a: &ReplicateEstimate, b: &ReplicateEstimate) {
 }
 
 fn matt(reflectance: f64) -> Surface {
-    Diffuse { reflectance: Reflectance::Spectrum(Spectrum::constant(reflectance)) }.into()
+    Surface::Diffuse(Reflectance::Spectrum(Spectrum::constant(reflectance)))
 }
 
 fn paint(base: f64, alpha: f64) -> Surface {

@@ -90,15 +90,6 @@ impl Sheeting {
         Ok(Self { face: Face::Printed(white as f32, print), table, lobe })
     }
 
-    /// The print, if it has one.
-    #[must_use]
-    pub fn print(&self) -> Option<&Reflectance> {
-        match &self.face {
-            Face::Plain(..) => None,
-            Face::Printed(_, print) => Some(print),
-        }
-    }
-
     /// The observation angle beyond which nothing is retro-reflected, degrees.
     #[must_use]
     pub fn cut_off_deg(&self) -> f64 {

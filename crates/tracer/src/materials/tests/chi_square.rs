@@ -125,7 +125,7 @@ fn a_wrong_density_is_found() {
 #[test]
 fn directions_are_drawn_by_the_density_told() {
     let cases = [
-        (matt(grey(0.5)), 1.0),
+        (Surface::Diffuse(grey(0.5)), 1.0),
         (metal_of("Al", 0.01), 0.01),
         (metal_of("Au", 0.1), 0.1),
         (metal_of("Cu", 0.5), 0.5),

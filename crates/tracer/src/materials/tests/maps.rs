@@ -19,7 +19,7 @@ fn at(i: usize) -> Lookup {
 #[test]
 fn a_mix_follows_its_map() {
     let mix = Surface::Mix(Mix { a: MaterialId(0), b: MaterialId(1), weight: RAMP });
-    let materials = [matt(grey(0.2)), matt(grey(0.6)), mix].map(Material::new).to_vec();
+    let materials = [Surface::Diffuse(grey(0.2)), Surface::Diffuse(grey(0.6)), mix].map(Material::new).to_vec();
     let material_table = MaterialTable::new(materials, vec![ramp()]).expect("a mix");
     for i in 0..4 {
         let met = (0..3000).map(|k| material_table.resolve(MaterialId(2), &at(i), (k as f32 + 0.5) / 3000.0));

@@ -35,10 +35,6 @@ fn grey(value: f64) -> Reflectance {
     Reflectance::Spectrum(Spectrum::constant(value))
 }
 
-fn matt(reflectance: Reflectance) -> Surface {
-    Diffuse { reflectance }.into()
-}
-
 fn metal_of(name: &str, alpha: f64) -> Surface {
     let index = metal::named(name).expect("a known metal").clone();
     Surface::Conductor(Box::new(Conductor::new(index, alpha).expect("a metal")))
@@ -79,7 +75,7 @@ fn noise(draw: u32) -> NoiseStream {
 fn all_surfaces() -> Vec<Surface> {
     let mut surfaces = vec![
         Surface::Absorber,
-        matt(grey(1.0)),
+        Surface::Diffuse(grey(1.0)),
         metal_of("Ag", 0.0),
         metal_of("Al", 1e-3),
         metal_of("Fe", 0.3),

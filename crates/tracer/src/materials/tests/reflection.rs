@@ -38,7 +38,7 @@ fn glaze(alpha: f64) -> Surface {
 
 fn marking() -> Surface {
     let white = Spectrum::constant(1.0);
-    Surface::RoadMarking(Box::new(RoadMarking::new(300.0, DayTime::Qd(130.0), &white).expect("a marking")))
+    Surface::Marking(Box::new(RoadMarking::new(300.0, DayTime::Qd(130.0), &white).expect("a marking")))
 }
 
 pub(super) fn car_paint(pigment: f64, flakes: f64, coverage: f64, flake_alpha: f64, coat_alpha: f64) -> Surface {

@@ -5,9 +5,9 @@ use super::*;
 #[test]
 fn faulty_materials_are_refused() {
     let of = |surface| MaterialTable::new(vec![Material::new(surface)], vec![]).err();
-    assert!(matches!(of(matt(grey(1.2))), Some(MaterialError::Reflectance { material: 0, .. })));
-    assert!(matches!(of(matt(grey(-0.1))), Some(MaterialError::Reflectance { .. })));
-    let textured = matt(Reflectance::Texture(crate::textures::TextureId(2)));
+    assert!(matches!(of(Surface::Diffuse(grey(1.2))), Some(MaterialError::Reflectance { material: 0, .. })));
+    assert!(matches!(of(Surface::Diffuse(grey(-0.1))), Some(MaterialError::Reflectance { .. })));
+    let textured = Surface::Diffuse(Reflectance::Texture(crate::textures::TextureId(2)));
     assert_eq!(of(textured), Some(MaterialError::UnknownTexture { material: 0, texture: 2, textures: 0 }));
     assert_eq!(Coated::new(grey(0.5), 1.0, 0.1), Err(MaterialError::CoatIndex { n: 1.0 }));
     assert_eq!(Coated::new(grey(0.5), 1.5, 1.5), Err(MaterialError::Roughness { alpha: 1.5 }));

@@ -10,7 +10,7 @@ fn sheeting(class: &str, colour: &str) -> MaterialTable {
 
 fn marking(r_l: f64, day: DayTime) -> MaterialTable {
     let white = Spectrum::constant(1.0);
-    material_table(Surface::RoadMarking(Box::new(RoadMarking::new(r_l, day, &white).expect("a marking"))))
+    material_table(Surface::Marking(Box::new(RoadMarking::new(r_l, day, &white).expect("a marking"))))
 }
 
 /// Unit directions at an elevation angle from the normal, one in the plane of the other or across it.
