@@ -1,15 +1,73 @@
-//! Opaque surfaces: matt, metallic, coated.
+//! How surfaces reflect: the list of types, and the records of opaque surfaces (glass, signs and mixes have files of their own).
 
 use std::path::PathBuf;
 
 use super::factor::{Factor, any_factor};
+use super::glass::{Dielectric, Leaf, ThinSheet};
+use super::mix::Mix;
+use super::road::{RoadMarking, Sheeting};
 use crate::asset::COAT_INDICES;
+use crate::asset::file_list::{FileList, NamesFiles};
+use crate::asset::request::{AssetKind, Values};
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{choice, flag, keyed, known, list, number, path, record, vector};
+use crate::reader::{choice, flag, keyed, known, list, number, path, record, variants, vector};
 use crate::record::curve::{Curve, curve};
 use crate::record::reflectance::{Colour, Reflectance, any_colour, any_reflectance};
 use etendue_spectra::metal;
+
+/// The list of surfaces: each row is the word of a type and its record, which says by [`NamesFiles`] which files it names.
+macro_rules! surfaces {
+    ($( $(#[doc = $doc:literal])* $word:literal => $record:ident, )*) => {
+        variants! {
+            /// How a surface reflects.
+            pub enum Surface by "type" {
+                $( $(#[doc = $doc])* $word => $record($record), )*
+            }
+        }
+
+        impl NamesFiles for Surface {
+            fn name_files(&self, files: &mut FileList) {
+                match self {
+                    $( Self::$record(record) => record.name_files(files), )*
+                }
+            }
+        }
+    };
+}
+
+surfaces! {
+    /// Lambert's law.
+    "diffuse" => Diffuse,
+    /// A bare metal, smooth or rough.
+    "conductor" => Conductor,
+    /// A diffuse base under a clear dielectric coat.
+    "coated" => Coated,
+    /// Cook and Torrance's model: bare microfacets of any refractive index, and nothing below them.
+    "cook_torrance" => CookTorrance,
+    /// Lafortune's model: a diffuse base with generalised cosine lobes.
+    "lafortune" => Lafortune,
+    /// Blinn and Phong's model: a diffuse base with a glossy lobe.
+    "blinn_phong" => BlinnPhong,
+    /// Metallic car paint: flakes in pigment under a clear coat.
+    "car_paint" => CarPaint,
+    /// Cloth with a sheen.
+    "cloth" => Cloth,
+    /// Retro-reflective sheeting over a matt base: signs, number plates.
+    "retro_sheeting" => Sheeting,
+    /// A road marking with glass beads.
+    "road_marking" => RoadMarking,
+    /// Clear or tinted glass or water as a solid with two sides: refracts, and absorbs inside. The mesh must be closed.
+    "dielectric" => Dielectric,
+    /// A pane without thickness of its own: reflects and lets light straight through, all inner reflections included.
+    "thin_sheet" => ThinSheet,
+    /// A leaf: reflects from the side that is lit and glows through on the other, both by Lambert's law.
+    "leaf" => Leaf,
+    /// Two other materials side by side, finer than anything seen.
+    "mix" => Mix,
+    /// Reflects nothing, gives light: needs "emission".
+    "emitter" => Emitter,
+}
 
 record! {
     /// Lambert's law.
@@ -17,6 +75,13 @@ record! {
         /// Share of light reflected: a number, `[r, g, b]` (linear sRGB), `{ srgb = [r, g, b] }`,
         /// `{ spectrum = file }` or `{ texture = name, scale = … }`; 0 … 1.
         required reflectance: Reflectance = any_reflectance();
+    }
+}
+
+impl NamesFiles for Diffuse {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, reflectance } = self;
+        reflectance.name_files(files);
     }
 }
 
@@ -36,6 +101,13 @@ record! {
     }
 }
 
+impl NamesFiles for Conductor {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, metal, alpha: _, distribution: _, multiple_scattering: _ } = self;
+        metal.name_files(files);
+    }
+}
+
 keyed! {
     /// A metal, by its complex refractive index.
     pub enum Metal {
@@ -43,6 +115,15 @@ keyed! {
         metal => Named(Placed<String>) = known("a metal", metal::names());
         /// A table of three columns: wavelength in nm, n, k (above 0 where it absorbs); end values hold beyond the table.
         index_file => File(Placed<PathBuf>) = path(&["csv"]);
+    }
+}
+
+impl NamesFiles for Metal {
+    fn name_files(&self, files: &mut FileList) {
+        match self {
+            Self::Named(_) => {}
+            Self::File(file) => files.add(AssetKind::ComplexIndex, file),
+        }
     }
 }
 
@@ -62,6 +143,13 @@ record! {
     }
 }
 
+impl NamesFiles for CookTorrance {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, interface, alpha: _, distribution: _, multiple_scattering: _ } = self;
+        interface.name_files(files);
+    }
+}
+
 keyed! {
     /// What an interface is made of, by its refractive index.
     pub enum Interface {
@@ -71,6 +159,16 @@ keyed! {
         index_file => File(Placed<PathBuf>) = path(&["csv"]);
         /// A real refractive index against air, 1 … 4: a number, or `{ spectrum = file }`.
         index => Index(Curve) = curve(number("").at_least(1.0).at_most(4.0));
+    }
+}
+
+impl NamesFiles for Interface {
+    fn name_files(&self, files: &mut FileList) {
+        match self {
+            Self::Named(_) => {}
+            Self::File(file) => files.add(AssetKind::ComplexIndex, file),
+            Self::Index(curve) => curve.name_file(Values::Index, files),
+        }
     }
 }
 
@@ -97,6 +195,13 @@ record! {
     }
 }
 
+impl NamesFiles for Coated {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, reflectance, index: _, alpha: _ } = self;
+        reflectance.name_files(files);
+    }
+}
+
 record! {
     /// A diffuse base and up to four cosine lobes, f = k_d/π + Σ w [C_t (wᵢₓ wₒₓ + wᵢ_y wₒ_y) + C_n wᵢ_z wₒ_z]ⁿ.
     pub struct Lafortune {
@@ -104,6 +209,14 @@ record! {
         required reflectance: Reflectance = any_reflectance();
         /// The lobes, one to four.
         many lobes: Lobe = list(record(), 1);
+    }
+}
+
+impl NamesFiles for Lafortune {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, reflectance, lobes } = self;
+        reflectance.name_files(files);
+        lobes.iter().for_each(|lobe| lobe.name_files(files));
     }
 }
 
@@ -116,6 +229,13 @@ record! {
         required exponent: Placed<f64> = number("").at_least(0.0).at_most(1e4);
         /// How strong it is.
         inside strength: LobeStrength;
+    }
+}
+
+impl NamesFiles for Lobe {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, direction: _, exponent: _, strength } = self;
+        strength.name_files(files);
     }
 }
 
@@ -141,6 +261,15 @@ keyed! {
     }
 }
 
+impl NamesFiles for LobeStrength {
+    fn name_files(&self, files: &mut FileList) {
+        match self {
+            Self::Albedo(colour) => colour.name_files(files),
+            Self::Weight(curve) => curve.name_file(Values::Light, files),
+        }
+    }
+}
+
 choice! {
     /// Where a lobe points.
     pub enum LobeKind {
@@ -161,6 +290,14 @@ record! {
         required specular: Colour = any_colour();
         /// Exponent n, 0 … 100 000: the greater, the narrower. It is no roughness.
         required exponent: Placed<f64> = number("").at_least(0.0).at_most(1e5);
+    }
+}
+
+impl NamesFiles for BlinnPhong {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, reflectance, specular, exponent: _ } = self;
+        reflectance.name_files(files);
+        specular.name_files(files);
     }
 }
 
@@ -195,6 +332,16 @@ record! {
     }
 }
 
+impl NamesFiles for CarPaint {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, reflectance, metal, flake_tint, flake_coverage: _, flake_alpha: _, index: _, alpha: _ } =
+            self;
+        reflectance.name_files(files);
+        metal.name_files(files);
+        flake_tint.name_files(files);
+    }
+}
+
 record! {
     /// Cloth: a matt base under a sheen of fibres that stand up.
     pub struct Cloth {
@@ -205,5 +352,24 @@ record! {
         optional sheen: Colour = any_colour();
         /// Roughness α of the sheen, 0.1 … 1: the less, the narrower the rim of light. Default: 0.5.
         optional alpha: Placed<f64> = number("").at_least(0.1).at_most(1.0);
+    }
+}
+
+impl NamesFiles for Cloth {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, reflectance, sheen, alpha: _ } = self;
+        reflectance.name_files(files);
+        sheen.name_files(files);
+    }
+}
+
+record! {
+    /// A surface that reflects nothing.
+    pub struct Emitter {}
+}
+
+impl NamesFiles for Emitter {
+    fn name_files(&self, _files: &mut FileList) {
+        let Self { place: _ } = self;
     }
 }
