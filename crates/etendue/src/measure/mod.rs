@@ -3,7 +3,6 @@
 //! Each takes a request with typed arguments and answers with a [`Report`](crate::report::Report): numbers with unit and standard
 //! uncertainty, tables, plots and notes. Pictures are read from files.
 
-mod body;
 mod calibrate;
 mod cdp;
 mod chart_points;
@@ -16,7 +15,6 @@ mod distortion;
 mod encoding;
 mod flare;
 mod focal;
-mod ghosts;
 mod lens;
 mod noise;
 mod oecf;

@@ -14,9 +14,9 @@
 //! How bright the surface was is no fact of the camera: s is what brings the readings between 5 % and 95 % of the range nearest
 //! (least squares of s H on the light that the declared curve reads from them). So the form is compared, and its ends, not the sensitivity.
 
+use super::channel::{channel, place_of};
 use super::curve::Curve;
-use super::declared::{channel, place_of};
-use super::response::{spectrum, weighed};
+use super::light::{spectrum, weighed};
 use super::side::Side;
 use crate::measure::readings::LUMINANCE;
 use etendue_isp::WhiteBalance;

@@ -1,7 +1,9 @@
 //! `measure lens`: what a lens does, without rendering.
 
-use super::body::body;
-use super::ghosts;
+mod body;
+mod ghosts;
+mod request;
+
 use crate::error::Error;
 use crate::ranges::whole;
 use crate::report::fixed;
@@ -9,32 +11,9 @@ use etendue_optics::lens::{FieldReport, ImageReport, LensReport, OtherBundle};
 use etendue_optics::{Lens, Prescribed};
 use etendue_pipeline::plan::CameraBody;
 use glam::DVec2;
+pub use request::LensRequest;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
-
-/// A lens and where it is measured.
-#[derive(Clone, Debug)]
-pub struct LensRequest {
-    /// A camera file (TOML), a lens of Zemax (.zmx) or CODE V (.seq), or the name of a published lens (double-gauss, wide-angle, fisheye,
-    /// telephoto).
-    pub lens: String,
-    /// Changes of the camera's keys, `key=value`.
-    pub set: Vec<String>,
-    /// The f-number at infinity focus; `None`: the camera's or the lens file's.
-    pub f_number: Option<f64>,
-    /// How many field heights, from the axis to the picture's edge, 2 or more.
-    pub fields: u32,
-    /// For a lens without a sensor: how far the picture reaches from the axis, mm; `None`: the largest field that a lens file states, otherwise
-    /// 21.64; or as far as there is light.
-    pub picture_radius_mm: Option<f64>,
-}
-
-impl LensRequest {
-    /// The same as the program without options.
-    pub fn new(lens: impl Into<String>) -> Self {
-        Self { lens: lens.into(), set: Vec::new(), f_number: None, fields: 6, picture_radius_mm: None }
-    }
-}
 
 /// What a lens does by first order and by field heights.
 #[derive(Clone, Debug)]
@@ -50,7 +29,7 @@ pub struct LensMeasurement {
 /// Where the camera or lens file cannot be used.
 pub fn lens(request: &LensRequest) -> Result<LensMeasurement, Error> {
     whole("--fields", request.fields, 2..=1000)?;
-    let (body, remarks) = body(request)?;
+    let (body, remarks) = body::body(request)?;
     Ok(LensMeasurement { body, remarks, fields: request.fields as usize })
 }
 

@@ -1,6 +1,6 @@
 //! The camera that is measured: that of a camera file, or one about a lens.
 
-use super::lens::LensRequest;
+use super::request::LensRequest;
 use crate::camera_file::read_text;
 use crate::error::Error;
 use etendue_core::maths::f64::sin_cos;
@@ -19,10 +19,10 @@ use std::path::{Path, PathBuf};
 const FULL_FRAME_MM: f64 = 21.64;
 
 /// A camera, and what is remarked of it.
-pub(crate) type Told = (CameraBody, Vec<String>);
+pub(super) type Told = (CameraBody, Vec<String>);
 
 /// The camera: of a camera file, or about a lens file or a published lens.
-pub(crate) fn body(request: &LensRequest) -> Result<Told, Error> {
+pub(super) fn body(request: &LensRequest) -> Result<Told, Error> {
     let given = Path::new(&request.lens);
     if given.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml")) {
         return match request.picture_radius_mm {
