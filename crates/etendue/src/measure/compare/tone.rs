@@ -18,12 +18,12 @@ use super::channel::{channel, place_of};
 use super::curve::Curve;
 use super::light::{spectrum, weighed};
 use super::side::Side;
-use crate::measure::readings::LUMINANCE;
 use etendue_isp::WhiteBalance;
 use etendue_metrology::Estimate;
 use etendue_pipeline::plan::{CameraBody, Development};
 use etendue_sensor::Sensor;
 use etendue_sensor::effects::response::Response;
+use etendue_spectra::colour::BT709;
 
 /// What turns a share of saturation into a reading.
 struct Tone<'a> {
@@ -96,7 +96,7 @@ fn developed(
         Some("G") => Ok(of([0.0, 1.0, 0.0])),
         Some("B") => Ok(of([0.0, 0.0, 1.0])),
         Some(other) => Err(format!("the picture has no channel '{other}' of which the camera file declares a curve")),
-        None => Ok(of(LUMINANCE)),
+        None => Ok(of(BT709)),
     }
 }
 
