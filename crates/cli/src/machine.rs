@@ -1,6 +1,8 @@
 //! The machine's threads and instruction sets. They change how long a result takes, not the result.
 
+use crate::output::print_paths;
 use etendue::{Error, Simd};
+use std::path::PathBuf;
 
 /// The variable that chooses the accelerator's instruction set: `auto` (default) or `scalar`.
 const SIMD_VARIABLE: &str = "ETENDUE_SIMD";
@@ -9,6 +11,12 @@ const SIMD_VARIABLE: &str = "ETENDUE_SIMD";
 pub fn pool(threads: Option<u32>) -> Result<rayon::ThreadPool, Error> {
     let builder = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0) as usize);
     builder.build().map_err(|error| Error::Run(format!("the worker threads cannot be started: {error}")))
+}
+
+/// Runs a task on a thread a processor, and prints the files that it wrote.
+pub fn print_written(task: impl FnOnce() -> Result<Vec<PathBuf>, Error> + Send) -> Result<(), Error> {
+    print_paths(&pool(None)?.install(task)?);
+    Ok(())
 }
 
 /// The instruction set that the environment asks for.

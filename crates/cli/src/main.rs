@@ -4,19 +4,30 @@
 #![allow(unreachable_pub)]
 
 mod args;
-mod commands;
 mod machine;
 mod output;
 mod progress;
+mod subcommands;
+mod verbs;
 
-use args::{Arguments, Verb};
 use clap::Parser;
 use etendue::Error;
 use std::process::ExitCode;
+use verbs::Verb;
+
+/// Spectral path tracing joined to a physical camera: from a scene file to the picture that camera would have taken.
+#[derive(Debug, Parser)]
+#[command(name = "etendue", version, max_term_width = 110)]
+#[command(after_help = "Exit status: 0 done, 1 a comparison or run failed, 2 unusable input or arguments.\n\
+    Results go to stdout, everything else to stderr. Start with: etendue render scenes/street/street.toml -o out/street")]
+struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    verb: Verb,
+}
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    match run(&arguments.verb) {
+    match Arguments::parse().verb.run() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             output::print_message(&error.to_string());
@@ -33,20 +44,13 @@ fn status(error: &Error) -> u8 {
     }
 }
 
-fn run(verb: &Verb) -> Result<(), Error> {
-    match verb {
-        Verb::Render(arguments) => commands::render::run(arguments),
-        Verb::Merge(arguments) => commands::render::merge(arguments),
-        Verb::Plan(arguments) => commands::plan::run(arguments),
-        Verb::Expose(arguments) => commands::render::expose(arguments),
-        Verb::Develop(arguments) => commands::render::develop(arguments),
-        Verb::Flat(arguments) => commands::sensor::flat(arguments),
-        Verb::Datasheet(arguments) => commands::sensor::datasheet(arguments),
-        Verb::Inspect(arguments) => commands::inspect::run(arguments),
-        Verb::Compare(arguments) => commands::compare::run(arguments),
-        Verb::Chart(arguments) => commands::chart::run(arguments),
-        Verb::Measure(arguments) => commands::measure::run(arguments),
-        Verb::Calibrate(arguments) => commands::measure::calibrate(arguments),
-        Verb::Schema(arguments) => commands::schema::run(arguments),
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_well_formed() {
+        Arguments::command().debug_assert();
     }
 }

@@ -19,12 +19,6 @@ pub fn of_parts<'a>(parts: impl IntoIterator<Item = &'a [u8]>) -> ContentHash {
     of_bytes(&hashes)
 }
 
-/// A hash as 64 lower-case hexadecimal digits.
-#[must_use]
-pub fn hex(hash: &ContentHash) -> String {
-    hash.iter().map(|byte| format!("{byte:02x}")).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -33,7 +27,8 @@ mod tests {
     fn the_hash_of_abc_is_the_standards_example() {
         // FIPS 180-4, appendix B.1.
         let expected = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
-        assert_eq!(hex(&of_bytes(b"abc")), expected);
+        let digits: String = of_bytes(b"abc").iter().map(|byte| format!("{byte:02x}")).collect();
+        assert_eq!(digits, expected);
     }
 
     #[test]

@@ -25,7 +25,6 @@ pub mod defects;
 pub mod demosaic;
 pub mod detail;
 mod develop;
-mod luma;
 mod mosaic;
 pub mod paper;
 mod raw;

@@ -20,7 +20,7 @@ pub struct Checkerboard {
 }
 
 impl Checkerboard {
-    pub(super) fn draw(&self, seen: &Footprint) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         let grid = self.size.in_room(seen.inner_mm * ROOM, 12, 3)?;
         let lattice = Lattice::framed(grid.columns, grid.rows, DVec2::splat(grid.pitch_mm), seen.outer_mm * BLEED);
         let sheet = lattice.sheet(|column, row| {

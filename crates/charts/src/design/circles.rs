@@ -21,7 +21,7 @@ pub struct Circles {
 }
 
 impl Circles {
-    pub(super) fn draw(&self, seen: &Footprint) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         let columns = if self.asymmetric { 15 } else { 11 };
         let grid = self.size.in_room(seen.inner_mm * ROOM, columns, 3)?;
         let here = |column: usize, row: usize| !self.asymmetric || (column + row).is_multiple_of(2);

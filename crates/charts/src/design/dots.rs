@@ -17,7 +17,7 @@ pub struct Dots {
 }
 
 impl Dots {
-    pub(super) fn draw(&self, seen: &Footprint) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         if !(0.05..=0.9).contains(&self.dot_ratio) {
             return Err(ChartError::option("dot-ratio", self.dot_ratio, "expected 0.05 … 0.9"));
         }

@@ -29,7 +29,7 @@ pub struct Flare {
 }
 
 impl Flare {
-    pub(super) fn draw(&self, seen: &Footprint) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         if !(0.02..=0.8).contains(&self.trap_ratio) {
             return Err(ChartError::option("trap-ratio", self.trap_ratio, "expected 0.02 … 0.8"));
         }

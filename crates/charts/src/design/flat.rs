@@ -21,15 +21,15 @@ pub struct FlatField {
 pub struct Backlit;
 
 impl FlatField {
-    pub(super) fn draw(&self, seen: &Footprint) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         let reflectance = share("reflectance", self.reflectance)?;
         Ok(even(seen, Ink::grey("sheet", reflectance)))
     }
 }
 
 impl Backlit {
-    pub(super) fn draw(self, seen: &Footprint) -> Drawing {
-        Drawing { lit: false, ..even(seen, Ink::new("panel", Paint::Glow(1.0))) }
+    pub(super) fn draw(self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
+        Ok(Drawing { lit: false, ..even(seen, Ink::new("panel", Paint::Glow(1.0))) })
     }
 }
 

@@ -40,87 +40,84 @@ pub use siemens_star::SiemensStar;
 pub use slanted_edges::SlantedEdges;
 pub use slanted_star::SlantedStar;
 
-/// A chart: the closed list.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Chart {
-    /// Black dots in a square lattice.
-    Dots(Dots),
-    /// A checkerboard.
-    Checkerboard(Checkerboard),
-    /// Circles to calibrate with, in a square or a staggered lattice.
-    Circles(Circles),
-    /// An even white sheet in even light.
-    FlatField(FlatField),
-    /// An even panel that shines by itself.
-    Backlit(Backlit),
-    /// Squares with slanted edges over the field.
-    SlantedEdges(SlantedEdges),
-    /// Stars of slanted wedges.
-    SlantedStar(SlantedStar),
-    /// A star of many cycles.
-    SiemensStar(SiemensStar),
-    /// Discs upon discs.
-    DeadLeaves(DeadLeaves),
-    /// Grey steps around a ring.
-    OecfSteps(OecfSteps),
-    /// 24 measured colours.
-    ColorChecker(ColorChecker),
-    /// Shining greys over decades.
-    ContrastPatches(ContrastPatches),
-    /// White with light traps.
-    Flare(Flare),
-    /// Small lamps in the dark.
-    Points(Points),
-    /// Panels at known distances.
-    DepthWedge(DepthWedge),
+/// The closed list of charts: what each shows, its design, its name.
+macro_rules! charts {
+    ($($(#[$about:meta])* $Design:ident $name:literal,)*) => {
+        /// A chart: the closed list.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Chart {
+            $($(#[$about])* $Design($Design),)*
+        }
+
+        impl Chart {
+            /// The names of all charts.
+            pub const NAMES: &[&str] = &[$($name),*];
+
+            /// Its name on the command line and in its truth.
+            #[must_use]
+            pub fn name(&self) -> &'static str {
+                match self {
+                    $(Self::$Design(_) => $name,)*
+                }
+            }
+
+            /// Draws it for what a camera sees.
+            ///
+            /// # Errors
+            /// Where a size or number is one that the chart cannot have.
+            pub fn draw(&self, seen: &Footprint, seed: u64) -> Result<Drawing, ChartError> {
+                match self {
+                    $(Self::$Design(chart) => chart.draw(seen, seed),)*
+                }
+            }
+        }
+
+        $(
+            impl $Design {
+                /// The chart's name on the command line and in its truth.
+                pub const NAME: &str = $name;
+            }
+
+            impl From<$Design> for Chart {
+                fn from(design: $Design) -> Self {
+                    Self::$Design(design)
+                }
+            }
+        )*
+    };
 }
 
-impl Chart {
-    /// Its name on the command line.
-    #[must_use]
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Dots(_) => "dots",
-            Self::Checkerboard(_) => "checkerboard",
-            Self::Circles(_) => "circles",
-            Self::FlatField(_) => "flat-field",
-            Self::Backlit(_) => "backlit",
-            Self::SlantedEdges(_) => "slanted-edges",
-            Self::SlantedStar(_) => "slanted-star",
-            Self::SiemensStar(_) => "siemens-star",
-            Self::DeadLeaves(_) => "dead-leaves",
-            Self::OecfSteps(_) => "oecf-steps",
-            Self::ColorChecker(_) => "colorchecker",
-            Self::ContrastPatches(_) => "contrast-patches",
-            Self::Flare(_) => "flare",
-            Self::Points(_) => "points",
-            Self::DepthWedge(_) => "depth-wedge",
-        }
-    }
-
-    /// Draws it for what a camera sees.
-    ///
-    /// # Errors
-    /// Where a size or number is one that the chart cannot have.
-    pub fn draw(&self, seen: &Footprint, seed: u64) -> Result<Drawing, ChartError> {
-        match self {
-            Self::Dots(chart) => chart.draw(seen),
-            Self::Checkerboard(chart) => chart.draw(seen),
-            Self::Circles(chart) => chart.draw(seen),
-            Self::FlatField(chart) => chart.draw(seen),
-            Self::Backlit(chart) => Ok(chart.draw(seen)),
-            Self::SlantedEdges(chart) => chart.draw(seen),
-            Self::SlantedStar(chart) => chart.draw(seen),
-            Self::SiemensStar(chart) => chart.draw(seen),
-            Self::DeadLeaves(chart) => chart.draw(seen, seed),
-            Self::OecfSteps(chart) => chart.draw(seen),
-            Self::ColorChecker(chart) => chart.draw(seen),
-            Self::ContrastPatches(chart) => chart.draw(seen),
-            Self::Flare(chart) => chart.draw(seen),
-            Self::Points(chart) => chart.draw(seen),
-            Self::DepthWedge(chart) => chart.draw(seen, seed),
-        }
-    }
+charts! {
+    /// Black dots in a square lattice.
+    Dots "dots",
+    /// A checkerboard.
+    Checkerboard "checkerboard",
+    /// Circles to calibrate with, in a square or a staggered lattice.
+    Circles "circles",
+    /// An even white sheet in even light.
+    FlatField "flat-field",
+    /// An even panel that shines by itself.
+    Backlit "backlit",
+    /// Squares with slanted edges over the field.
+    SlantedEdges "slanted-edges",
+    /// Stars of slanted wedges.
+    SlantedStar "slanted-star",
+    /// A star of many cycles.
+    SiemensStar "siemens-star",
+    /// Discs upon discs.
+    DeadLeaves "dead-leaves",
+    /// Grey steps around a ring.
+    OecfSteps "oecf-steps",
+    /// 24 measured colours.
+    ColorChecker "colorchecker",
+    /// Shining greys over decades.
+    ContrastPatches "contrast-patches",
+    /// White with light traps.
+    Flare "flare",
+    /// Small lamps in the dark.
+    Points "points",
+    /// Panels at known distances.
+    DepthWedge "depth-wedge",
 }
 
 /// How far sheets reach beyond what the camera sees, as a share of it: blur and glare look there too.

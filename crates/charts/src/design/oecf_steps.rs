@@ -35,7 +35,7 @@ pub struct OecfSteps {
 }
 
 impl OecfSteps {
-    pub(super) fn draw(&self, seen: &Footprint) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         if !(2..=60).contains(&self.steps) {
             return Err(ChartError::option("steps", self.steps, "expected 2 … 60 steps"));
         }

@@ -33,7 +33,7 @@ pub struct ContrastPatches {
 }
 
 impl ColorChecker {
-    pub(super) fn draw(self, seen: &Footprint) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         let size = GridSize { columns: Some(6), rows: Some(4), pitch_mm: None };
         let grid = size.in_room(seen.inner_mm * ROOM, 6, 1)?;
         let name = |name: &str| {
@@ -54,7 +54,7 @@ impl ColorChecker {
 }
 
 impl ContrastPatches {
-    pub(super) fn draw(&self, seen: &Footprint) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         if !(self.decades > 0.0 && self.decades <= 8.0) {
             return Err(ChartError::option("decades", self.decades, "expected a number above 0 and up to 8"));
         }

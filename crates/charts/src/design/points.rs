@@ -24,7 +24,7 @@ pub struct Points {
 }
 
 impl Points {
-    pub(super) fn draw(&self, seen: &Footprint) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         if !(0.05..=10.0).contains(&self.diameter_px) {
             return Err(ChartError::option("diameter-px", self.diameter_px, "expected 0.05 … 10 px"));
         }

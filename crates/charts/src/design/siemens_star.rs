@@ -36,7 +36,7 @@ pub struct SiemensStar {
 }
 
 impl SiemensStar {
-    pub(super) fn draw(&self, seen: &Footprint) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         if !(4..=360).contains(&self.cycles) {
             return Err(ChartError::option("cycles", self.cycles, "expected 4 … 360 cycles"));
         }

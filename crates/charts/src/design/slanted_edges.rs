@@ -27,7 +27,7 @@ pub struct SlantedEdges {
 }
 
 impl SlantedEdges {
-    pub(super) fn draw(&self, seen: &Footprint) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         let (turn, contrast) = (angle(self.angle_deg)?, contrast(self.contrast)?);
         if !is_measurable(self.angle_deg) {
             let told = "expected 2 … 43 or -43 … -2: only such edges are sampled between the pixels (measure sfr)";

@@ -32,7 +32,7 @@ pub struct SlantedStar {
 }
 
 impl SlantedStar {
-    pub(super) fn draw(&self, seen: &Footprint) -> Result<Drawing, ChartError> {
+    pub(super) fn draw(&self, seen: &Footprint, _seed: u64) -> Result<Drawing, ChartError> {
         let (turn, contrast) = (angle(self.angle_deg)?, contrast(self.contrast)?);
         if !(2..=36).contains(&self.spokes) {
             return Err(ChartError::option("spokes", self.spokes, "expected 2 … 36 dark wedges"));

@@ -5,6 +5,7 @@ use super::readings::Readings;
 use crate::error::Error;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use etendue_charts::design::{ContrastPatches, OecfSteps};
 use etendue_metrology::contrast::{ContrastPair, ContrastSettings, measure_contrast};
 use std::path::PathBuf;
 
@@ -40,7 +41,7 @@ impl CdpRequest {
 }
 
 /// Charts of patches of one luminance each.
-const CHARTS: [&str; 2] = ["contrast-patches", "oecf-steps"];
+const CHARTS: [&str; 2] = [ContrastPatches::NAME, OecfSteps::NAME];
 
 /// Two patches of the scene.
 struct Pair {
@@ -90,7 +91,7 @@ fn pairs(request: &CdpRequest, readings: &Readings) -> Result<Vec<Pair>, Error> 
     if let Some(truth) = request.input.truth(&CHARTS, &request.picture, readings)? {
         let (mut patches, _) = truth.patches(readings)?;
         patches.sort_by(|a, b| a.luminance_cd_m2.total_cmp(&b.luminance_cd_m2));
-        let pair = |two: &[super::truth::Patch]| Pair {
+        let pair = |two: &[super::truth::place::Patch]| Pair {
             darker: two[0].at,
             brighter: two[1].at,
             contrast: two[1].luminance_cd_m2 / two[0].luminance_cd_m2 - 1.0,

@@ -2,10 +2,12 @@
 
 use super::picture_input::{PictureInput, refused};
 use super::readings::Readings;
-use super::truth::{Patch, Truth};
+use super::truth::Truth;
+use super::truth::place::Patch;
 use crate::error::Error;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use etendue_charts::design::ColorChecker;
 use etendue_metrology::Estimate;
 use etendue_metrology::colour::{ColourError, ColourPatch, measure_colour};
 use etendue_spectra::chart::colorchecker;
@@ -45,7 +47,7 @@ pub fn colour(request: &ColourRequest) -> Result<Report, Error> {
         let expected = "expected a picture in colour: channels R, G and B, or a raw mosaic of them";
         return Err(refused(&request.picture, expected));
     };
-    let (patches, white) = match request.input.truth(&["colorchecker"], &request.picture, &colours[1])? {
+    let (patches, white) = match request.input.truth(&[ColorChecker::NAME], &request.picture, &colours[1])? {
         Some(truth) => (told(&truth, &colours)?, truth.white_xyz()),
         None => (between_corners(request, &colours)?, colour::D65_WHITE),
     };

@@ -2,10 +2,11 @@
 
 use super::picture_input::{PictureInput, refused};
 use super::readings::{Readings, field_position};
-use super::truth::TrapPlace;
+use super::truth::place::TrapPlace;
 use crate::error::Error;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use etendue_charts::design::Flare;
 use etendue_metrology::Estimate;
 use etendue_metrology::flare::measure_flare;
 use std::path::PathBuf;
@@ -30,7 +31,7 @@ impl FlareRequest {
     }
 }
 
-const CHARTS: [&str; 1] = ["flare"];
+const CHARTS: [&str; 1] = [Flare::NAME];
 
 /// Light in traps that send none (ISO 18844).
 ///

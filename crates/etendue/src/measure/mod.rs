@@ -3,7 +3,6 @@
 //! Each takes a request with typed arguments and answers with a [`Report`](crate::report::Report): numbers with unit and standard
 //! uncertainty, tables, plots and notes. Pictures are read from files.
 
-mod body;
 mod calibrate;
 mod cdp;
 mod chart_points;
@@ -16,7 +15,6 @@ mod distortion;
 mod encoding;
 mod flare;
 mod focal;
-mod ghosts;
 mod lens;
 mod noise;
 mod oecf;
@@ -41,6 +39,7 @@ pub use dark_current::{DarkCurrentRequest, dark_current};
 pub use depth::{DepthAlignment, DepthRequest, depth_errors};
 pub use distortion::{DistortionRequest, distortion};
 pub use encoding::{ChosenEncoding, EncodingChoice};
+pub use etendue_metrology::calibrate::CameraModel;
 pub use etendue_metrology::target::Target;
 pub use flare::{FlareRequest, flare};
 pub use focal::{FocalRequest, focal};
@@ -54,4 +53,4 @@ pub use sfr::{SfrRequest, sfr};
 pub use shading::{FlatFieldRequest, ShadingRequest, VignettingRequest, shading, vignetting};
 pub use texture::{StarRequest, TextureRequest, star, texture};
 pub use truth::TruthInput;
-pub use views::{CameraModel, StatedLength, ViewsRequest};
+pub use views::{StatedLength, ViewsRequest};

@@ -2,10 +2,12 @@
 
 use super::picture_input::{PictureInput, refused};
 use super::readings::Readings;
-use super::truth::{Patch, Truth};
+use super::truth::Truth;
+use super::truth::place::Patch;
 use crate::error::Error;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use etendue_charts::design::{Backlit, ContrastPatches, FlatField, OecfSteps};
 use etendue_metrology::Estimate;
 use etendue_metrology::noise::{Noise, check_frame, measure_noise};
 use etendue_metrology::photon_transfer::Stack;
@@ -28,8 +30,8 @@ impl NoiseRequest {
 }
 
 /// Charts of one even surface, and of many.
-const EVEN: [&str; 2] = ["flat-field", "backlit"];
-const CHARTS: [&str; 4] = ["flat-field", "backlit", "oecf-steps", "contrast-patches"];
+const EVEN: [&str; 2] = [FlatField::NAME, Backlit::NAME];
+const CHARTS: [&str; 4] = [FlatField::NAME, Backlit::NAME, OecfSteps::NAME, ContrastPatches::NAME];
 
 /// An even surface over the frames.
 struct Surface {

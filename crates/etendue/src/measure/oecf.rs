@@ -6,6 +6,7 @@ use super::truth::Truth;
 use crate::error::Error;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use etendue_charts::design::{Backlit, FlatField, OecfSteps};
 use etendue_io::photograph::{Encoding, Stated};
 use etendue_metrology::oecf::response::{Response, ResponseSettings, camera_response};
 use etendue_metrology::oecf::{ExposurePoint, Oecf};
@@ -71,8 +72,8 @@ pub fn oecf(request: &OecfRequest) -> Result<Report, Error> {
 }
 
 /// Charts of one even surface, and of steps.
-const EVEN: [&str; 2] = ["flat-field", "backlit"];
-const CHARTS: [&str; 3] = ["oecf-steps", "flat-field", "backlit"];
+const EVEN: [&str; 2] = [FlatField::NAME, Backlit::NAME];
+const CHARTS: [&str; 3] = [OecfSteps::NAME, FlatField::NAME, Backlit::NAME];
 
 /// Points of the curve, the reading of no light, the unit of the exposures, and patches that are not seen.
 struct Measured {
@@ -190,7 +191,7 @@ fn patches(request: &OecfRequest, truth: &Truth) -> Result<Measured, Error> {
     truth.fits(picture, &readings)?;
     let (patches, left_out) = truth.patches(&readings)?;
     let levels = &request.input.levels;
-    let point = |patch: &super::truth::Patch| {
+    let point = |patch: &super::truth::place::Patch| {
         let surface = readings.part(patch.at, &patch.name)?;
         Ok(ExposurePoint::of(patch.luminance_cd_m2, &surface, levels.full_scale(&readings), readings.shared_px))
     };

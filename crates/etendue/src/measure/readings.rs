@@ -4,6 +4,7 @@ use super::encoding::{EncodingChoice, ToLight};
 use crate::error::Error;
 use etendue_io::photograph::{FilterTile, Photograph, Stated};
 use etendue_metrology::Image;
+use etendue_spectra::colour::BT709;
 use std::path::Path;
 
 /// Choice of a part of a picture.
@@ -121,9 +122,6 @@ impl Readings {
         if self.black.is_some() { "raw" } else { "picture" }
     }
 }
-
-/// Weights of linear sRGB in the luminance (IEC 61966-2-1).
-pub(super) const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
 impl Selection {
     /// One channel's readings as stored.
@@ -335,7 +333,7 @@ fn luminance(file: &Path, photograph: &Photograph, light: &ToLight) -> Result<Ve
             photograph.names().join(", ")
         )));
     };
-    let [red, green, blue] = LUMINANCE.map(|weight| weight as f32);
+    let [red, green, blue] = BT709.map(|weight| weight as f32);
     // Where one of them is clipped, the luminance is too: it is told as full.
     let full = light.full_scale(photograph).map(|full| full as f32);
     let mixed = |((r, g), b): ((&f32, &f32), &f32)| match full.filter(|full| r.max(*g).max(*b) >= *full) {

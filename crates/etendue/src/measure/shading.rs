@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::ranges::whole;
 use crate::report::{Cell, Report, Table};
+use etendue_charts::design::{Backlit, FlatField};
 use etendue_metrology::Estimate;
 use etendue_metrology::shading::{
     ColourShading, Shading, ShadingError, ShadingSettings, colour_shading, measure_shading,
@@ -69,7 +70,7 @@ impl ShadingRequest {
 /// Blocks of the map along each side (ISO 17957).
 const BLOCKS: u32 = 11;
 /// Charts of one even surface.
-const CHARTS: [&str; 2] = ["flat-field", "backlit"];
+const CHARTS: [&str; 2] = [FlatField::NAME, Backlit::NAME];
 
 impl FlatFieldRequest {
     fn settings(&self, readings: &Readings, blocks: u32) -> ShadingSettings {

@@ -6,6 +6,7 @@ use super::readings::{Readings, Selection};
 use crate::error::Error;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
+use etendue_charts::design::{DeadLeaves, SiemensStar};
 use etendue_io::photograph::Stated;
 use etendue_metrology::texture::leaves::{TexturePoint, measure_texture};
 use etendue_metrology::texture::star::{Star, StarPoint, measure_star};
@@ -78,7 +79,7 @@ fn star_told(request: &StarRequest, readings: &Readings) -> Result<Star, Error> 
         let centre_px = readings.place([x, y]).into();
         Star { centre_px, cycles, inner_px: inner_px / step, outer_px: outer_px / step, black, full_scale }
     };
-    let Some(truth) = request.input.truth(&["siemens-star"], &request.picture, readings)? else {
+    let Some(truth) = request.input.truth(&[SiemensStar::NAME], &request.picture, readings)? else {
         let circles = request.inner_px.zip(request.outer_px);
         let (inner_px, outer_px) = circles.ok_or_else(needed)?;
         let (centre_px, cycles) = request.centre_px.zip(request.cycles).ok_or_else(needed)?;
@@ -152,7 +153,7 @@ struct Leaves {
 fn leaves(input: &PictureInput, readings: Readings, file: &Path) -> Result<Leaves, Error> {
     readings.independent(file, 1)?;
     let (full_scale, stated) = (input.levels.full_scale(&readings), readings.stated.clone());
-    let image = match input.truth(&["dead-leaves"], file, &readings)? {
+    let image = match input.truth(&[DeadLeaves::NAME], file, &readings)? {
         Some(truth) => readings.part(truth.patches(&readings)?.0[0].at, "--truth: the leaves")?,
         None => readings.image,
     };

@@ -3,7 +3,7 @@
 //! Linear values are divided by their 99th percentile of luminance, so that one lamp does not make everything black, and
 //! encoded. NaN becomes magenta, which no exposure hides; +∞ becomes white.
 
-use etendue_spectra::colour::encode;
+use etendue_spectra::colour::{encode, luma};
 
 use crate::exr::EncodeError;
 use crate::png::encode_rgb8;
@@ -42,14 +42,9 @@ impl Preview {
     }
 }
 
-/// Luminance of linear sRGB (IEC 61966-2-1).
-fn luminance([r, g, b]: [f32; 3]) -> f32 {
-    0.2126 * r + 0.7152 * g + 0.0722 * b
-}
-
 /// The 99th percentile of the luminances that are finite and above 0; 1 where there is none.
 fn white_level(pixels: &[[f32; 3]]) -> f32 {
-    let mut lit: Vec<f32> = pixels.iter().map(|p| luminance(*p)).filter(|y| y.is_finite() && *y > 0.0).collect();
+    let mut lit: Vec<f32> = pixels.iter().map(|p| luma(*p)).filter(|y| y.is_finite() && *y > 0.0).collect();
     if lit.is_empty() {
         return 1.0;
     }

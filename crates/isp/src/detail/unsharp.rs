@@ -5,9 +5,9 @@
 //! 0 … 1.
 
 use super::{DetailError, blur, within};
-use crate::luma::luma;
 use etendue_core::Plane;
 use etendue_core::quantity::Display;
+use etendue_spectra::colour::luma;
 use rayon::prelude::*;
 
 /// How much is added, and from what.

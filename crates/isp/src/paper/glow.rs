@@ -14,9 +14,9 @@
 
 use super::{FilterError, demand, for_each};
 use crate::detail::blur;
-use crate::luma::luma;
 use etendue_core::Plane;
 use etendue_core::quantity::LinearRgb;
+use etendue_spectra::colour::luma;
 use rayon::prelude::*;
 
 /// Gain control and blooming.

@@ -1,10 +1,67 @@
-//! Which model is fitted, and its coefficients as a list of numbers.
+//! Which models can be fitted: their names, and the coefficients of each as a list of numbers.
 
 use etendue_projection::model::{
     Division, DoubleSphere, ExtendedUnified, FieldOfView, Ideal, KannalaBrandt, ModelError, Perspective, Unified,
 };
 use etendue_projection::plane::DistortionTerms;
 use etendue_projection::{Model, RadialDistortion, Sense};
+
+/// The closed list of models by name: each with what it is, and its family.
+macro_rules! camera_models {
+    ($($Model:ident $name:literal, $about:literal: $family:expr;)*) => {
+        /// A model that can be fitted, by name.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum CameraModel {
+            $(#[doc = $about] $Model,)*
+        }
+
+        impl CameraModel {
+            /// All of them, the simplest first.
+            pub const ALL: &[Self] = &[$(Self::$Model),*];
+
+            /// Its name, as a user types it.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$Model => $name,)* }
+            }
+
+            /// What it is, in a few words.
+            #[must_use]
+            pub fn about(self) -> &'static str {
+                match self { $(Self::$Model => $about,)* }
+            }
+
+            /// The family whose coefficients are fitted.
+            #[must_use]
+            pub fn family(self) -> Family {
+                match self { $(Self::$Model => $family,)* }
+            }
+        }
+    };
+}
+
+camera_models! {
+    Pinhole "pinhole", "No distortion": perspective(Radial::Polynomial(0), false);
+    Opencv "opencv", "k1 k2 p1 p2": perspective(Radial::Polynomial(2), true);
+    Opencv5 "opencv5", "k1 k2 p1 p2 k3": perspective(Radial::Polynomial(3), true);
+    Opencv8 "opencv8", "k1 … k6 p1 p2": perspective(Radial::Rational, true);
+    Radial "radial", "k1 k2, from ideal to observed": Family::Polynomial(Sense::IdealToObserved);
+    RadialInverse "radial-inverse", "k1 k2, from observed to ideal": Family::Polynomial(Sense::ObservedToIdeal);
+    KannalaBrandt "kannala-brandt", "Polynomial fisheye, k1 … k4": Family::KannalaBrandt(4);
+    Division "division", "Division model": Family::Division;
+    FieldOfView "field-of-view", "FOV model": Family::FieldOfView;
+    Unified "unified", "Unified omnidirectional, with k1 k2": Family::Unified;
+    ExtendedUnified "extended-unified", "Extended unified": Family::ExtendedUnified;
+    DoubleSphere "double-sphere", "Double sphere": Family::DoubleSphere;
+    Equidistant "equidistant", "Ideal fisheye, r = f θ": Family::Ideal(Ideal::Equidistant);
+    Equisolid "equisolid", "Ideal fisheye of equal areas": Family::Ideal(Ideal::Equisolid);
+    Stereographic "stereographic", "Ideal fisheye that keeps angles": Family::Ideal(Ideal::Stereographic);
+    Orthographic "orthographic", "r = f sin θ": Family::Ideal(Ideal::Orthographic);
+}
+
+fn perspective(radial: Radial, tangential: bool) -> Family {
+    Family::Perspective { radial, tangential }
+}
 
 /// Radial terms of a perspective camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

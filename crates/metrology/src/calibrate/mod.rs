@@ -36,7 +36,7 @@ use crate::fit::{Fit, fit};
 use glam::DVec2;
 
 pub use error::CalibrateError;
-pub use family::{Family, Radial};
+pub use family::{CameraModel, Family, Radial};
 pub use pose::Pose;
 pub use result::{Calibrated, Parameter};
 pub use spare::{MIN_VIEWS, Spared, calibrate_sparing};

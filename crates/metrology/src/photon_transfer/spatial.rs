@@ -118,12 +118,6 @@ impl Pattern {
         }
     }
 
-    /// Temporal variance of single pixels, DN².
-    #[must_use]
-    pub fn temporal_dn2(&self) -> f64 {
-        self.temporal[0]
-    }
-
     /// Temporal variance that whole rows and whole columns share, DN²: that of their averages beyond σ²/N and σ²/M.
     #[must_use]
     pub fn shared_temporal_dn2(&self) -> (f64, f64) {

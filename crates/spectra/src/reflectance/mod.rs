@@ -1,4 +1,4 @@
-//! Typical spectra of the materials of roads and streets, by name; dyed cloth by its dye.
+//! Typical spectra of the materials of roads and streets, by name.
 //!
 //! Values are typical of a material class and set down by hand: level and form follow what the works that [`source`]
 //! names report, to some tens of per cent, but no figure was read off them and none is the measurement of a sample. (Leaves
@@ -7,8 +7,6 @@
 //!
 //! **Left out:** spread within a class, dirt, weathering, fluorescence (so no daylight-fluorescent sheeting, no
 //! brightener in cloth), dependence on direction.
-
-pub mod cloth;
 
 use crate::{Outside, Spectrum, table};
 use std::sync::LazyLock;

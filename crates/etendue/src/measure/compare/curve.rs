@@ -4,7 +4,6 @@
 //! |E_n| of two equal curves passes 1 more often than a single one; the limit is the one that a family of n independent
 //! points passes as often as one point passes 1 (k = 2: 4.55 %), by Šidák's level; n counts the points of all curves of one kind, such as those of all edges. Points of fitted curves share errors: there it errs towards agreement.
 
-use super::side::estimate;
 use etendue_metrology::Estimate;
 use etendue_stats::family::sidak_level;
 use etendue_stats::normal::{quantile, two_sided_p};
@@ -34,6 +33,11 @@ pub(crate) struct Curve {
     pub points: Vec<(f64, Estimate)>,
     /// Standard deviation of single readings at each x, where it is stated.
     pub noise: Vec<(f64, f64)>,
+}
+
+/// An estimate of a table's cell.
+fn estimate(cell: &Value) -> Option<Estimate> {
+    Some(Estimate::new(cell["value"].as_f64()?, cell["standard_uncertainty"].as_f64()?))
 }
 
 /// The curves of a report's tables.

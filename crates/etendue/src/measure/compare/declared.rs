@@ -14,7 +14,9 @@
 //! Left out: what the file does not state but causes (shifts by aberrations, charge that blooms).
 
 use super::super::distortion::centre_words;
+use super::channel::channel;
 use super::curve::Curve;
+use super::light::Light;
 use super::side::{Quantity, Side};
 use super::{response, tone};
 use etendue_core::maths::f64::atan;
@@ -27,12 +29,6 @@ use etendue_sensor::effects::dark_current::DarkCurrent;
 use etendue_sensor::effects::temperature::{Temperature, TemperatureLaw};
 use glam::DVec2;
 use std::collections::BTreeMap;
-
-/// The light that was measured by, as told.
-pub(crate) struct Light {
-    pub wavelength_nm: Option<f64>,
-    pub illuminant: Option<String>,
-}
 
 type Quantities = BTreeMap<String, Quantity>;
 
@@ -215,24 +211,6 @@ fn achromatic(body: &CameraBody, put: &mut impl FnMut(&str, f64, &str)) -> Resul
         ["x", "y"].iter().for_each(|axis| put(&format!("{channel}_shift_{axis}_px"), 0.0, "px"));
     }
     Ok(())
-}
-
-/// The channel that was measured, by its name or its first letter.
-pub(crate) fn channel(p: &SensorParameters, measured: Option<&str>) -> Result<usize, String> {
-    let names = || p.channels.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(", ");
-    let Some(name) = measured else {
-        let several = || format!("the pixels have colours ({}): measure one with --channel", names());
-        return if p.channels.len() == 1 { Ok(0) } else { Err(several()) };
-    };
-    let alike = |own: &str| own.eq_ignore_ascii_case(name) || (name.len() == 1 && own[..1].eq_ignore_ascii_case(name));
-    let found = p.channels.iter().position(|c| alike(&c.name));
-    found.ok_or_else(|| format!("the channel '{name}' was measured; the file has {}", names()))
-}
-
-/// The first place of a channel in the tile, which is the one that measurements take.
-pub(crate) fn place_of(p: &SensorParameters, channel: usize) -> [usize; 2] {
-    let at = p.cfa.channels().iter().position(|c| *c == channel).unwrap_or(0);
-    [at % p.cfa.width(), at / p.cfa.width()]
 }
 
 /// Noise of the chain in a pixel without light, at exposures too short for dark current.

@@ -4,21 +4,26 @@
 //! E_n (ISO 13528) by both standard uncertainties. |E_n| > 1 is a difference; of curves the largest |E_n| with a limit
 //! that allows for their number of points.
 
+mod channel;
 mod curve;
 mod declared;
+mod light;
 mod mean;
+mod measurement;
 mod response;
 mod side;
+mod sides;
 mod tone;
 
 use crate::error::Error;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 use curve::{Curve, Gap, gaps, limit};
-use declared::Light;
 use etendue_metrology::Estimate;
+use light::Light;
 use mean::{Compared, means};
-use side::{Quantity, Side, sides};
+use side::{Quantity, Side};
+use sides::sides;
 use std::path::PathBuf;
 
 /// `etendue measure compare`

@@ -15,19 +15,17 @@
 //! Refused, as nothing here says what they do: lenses other than a thin one or a pinhole, glare, ghosts, glass before the lens, blades,
 //! obstructions and wavefront errors, capacitance between pixels, developed pictures of mosaics.
 
+use super::channel::{channel, place_of};
 use super::curve::Curve;
-use super::declared::{channel, place_of};
+use super::light::{spectrum, weighed};
 use super::side::Side;
 use etendue_core::maths::f64::{acos, cos, sin, sin_cos};
 use etendue_metrology::Estimate;
 use etendue_optics::effects::{PointSpread, PsfParameters, SpreadImage};
 use etendue_pipeline::plan::CameraBody;
-use etendue_spectra::{Spectrum, illuminant};
+use etendue_spectra::Spectrum;
 use glam::DVec2;
 use std::f64::consts::{PI, TAU};
-
-/// Wavelengths of averages, nm apart.
-const STEP_NM: usize = 5;
 
 /// What the curves of a camera are made of.
 struct Response<'a> {
@@ -150,19 +148,6 @@ impl<'a> Response<'a> {
 fn place_px(word: &str) -> Option<DVec2> {
     let (x, y) = word.split_once(',')?;
     Some(DVec2::new(x.parse().ok()?, y.parse().ok()?))
-}
-
-/// The light's spectrum.
-pub(crate) fn spectrum(light: &str) -> Result<&'static Spectrum, String> {
-    let unknown = || format!("--illuminant {light}: give one of {}", illuminant::names().join(", "));
-    illuminant::named(light).ok_or_else(unknown)
-}
-
-/// Light of a spectrum that a pixel sees, by wavelength, nm.
-pub(crate) fn weighed(light: &Spectrum, responsivity: &Spectrum) -> impl Iterator<Item = (f64, f64)> {
-    (300..=1100)
-        .step_by(STEP_NM)
-        .map(move |nm| (f64::from(light.at(nm as f32) * responsivity.at(nm as f32)), f64::from(nm)))
 }
 
 fn weights(light: &Spectrum, responsivity: &Spectrum) -> Vec<(f64, f64)> {

@@ -14,16 +14,16 @@
 //! How bright the surface was is no fact of the camera: s is what brings the readings between 5 % and 95 % of the range nearest
 //! (least squares of s H on the light that the declared curve reads from them). So the form is compared, and its ends, not the sensitivity.
 
+use super::channel::{channel, place_of};
 use super::curve::Curve;
-use super::declared::{channel, place_of};
-use super::response::{spectrum, weighed};
+use super::light::{spectrum, weighed};
 use super::side::Side;
-use crate::measure::readings::LUMINANCE;
 use etendue_isp::WhiteBalance;
 use etendue_metrology::Estimate;
 use etendue_pipeline::plan::{CameraBody, Development};
 use etendue_sensor::Sensor;
 use etendue_sensor::effects::response::Response;
+use etendue_spectra::colour::BT709;
 
 /// What turns a share of saturation into a reading.
 struct Tone<'a> {
@@ -96,7 +96,7 @@ fn developed(
         Some("G") => Ok(of([0.0, 1.0, 0.0])),
         Some("B") => Ok(of([0.0, 0.0, 1.0])),
         Some(other) => Err(format!("the picture has no channel '{other}' of which the camera file declares a curve")),
-        None => Ok(of(LUMINANCE)),
+        None => Ok(of(BT709)),
     }
 }
 

@@ -6,10 +6,12 @@ mod report;
 use super::picture_input::{PictureInput, refused};
 use super::readings::{Readings, field_position};
 use super::truth::Truth;
+use super::truth::place::Sought;
 use crate::error::Error;
 use crate::ranges::whole;
 use crate::report::Report;
-use etendue_metrology::sfr::{Sfr, SfrError, SfrSettings, Strip, measure_edge, measure_strip};
+use etendue_charts::design::{SlantedEdges, SlantedStar};
+use etendue_metrology::sfr::{Sfr, SfrError, SfrSettings, measure_edge, measure_strip};
 use rayon::prelude::*;
 use std::path::PathBuf;
 
@@ -50,25 +52,7 @@ impl SfrRequest {
     }
 }
 
-/// An edge of a star among its others.
-pub(crate) struct Spoke {
-    pub strip: Strip,
-    pub star: Star,
-}
-
-/// A star: which, and where its centre is in the picture.
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) struct Star {
-    pub index: [usize; 2],
-    pub centre_px: [f64; 2],
-}
-
-/// An edge and where it is sought.
-pub(crate) struct Sought {
-    /// Left column, top row, width, height, of the picture.
-    pub at: [usize; 4],
-    pub spoke: Option<Spoke>,
-}
+const CHARTS: [&str; 2] = [SlantedEdges::NAME, SlantedStar::NAME];
 
 /// An edge that was measured.
 struct Found<'a> {
@@ -95,7 +79,7 @@ pub fn sfr(request: &SfrRequest) -> Result<Report, Error> {
             "its filters repeat at other steps along rows than along columns: measure the developed picture",
         ));
     }
-    let truth = request.input.truth(&["slanted-edges", "slanted-star"], &request.picture, &readings)?;
+    let truth = request.input.truth(&CHARTS, &request.picture, &readings)?;
     let all = sought(request, truth.as_ref(), &readings)?;
     let measured = all.par_iter().map(|one| measured(request, one, &readings)).collect::<Result<Vec<_>, Error>>()?;
     let (mut found, mut left_out) = (Vec::new(), Vec::new());
@@ -122,7 +106,7 @@ fn sought(request: &SfrRequest, truth: Option<&Truth>, readings: &Readings) -> R
     let (width, height) = readings.picture_px;
     let regions = |list: Vec<[usize; 4]>| list.into_iter().map(|at| Sought { at, spoke: None }).collect();
     match truth {
-        Some(truth) if truth.chart() == "slanted-star" => truth.spokes(readings),
+        Some(truth) if truth.chart() == SlantedStar::NAME => truth.spokes(readings),
         Some(truth) => Ok(regions(truth.edges(readings)?)),
         None if request.edges.is_empty() => Ok(regions(vec![[0, 0, width, height]])),
         None => Ok(regions(request.edges.clone())),

@@ -2,7 +2,8 @@
 //! from the picture's middle (sagittal: structure across the radius is told by edges along it), and within 22.5° of its perpendicular (tangential).
 //! A star in the middle has neither: its plane is every direction.
 
-use super::{Found, Star};
+use super::Found;
+use crate::measure::truth::place::Star;
 use etendue_metrology::sfr::{SfrPoint, mean_curve};
 use glam::DVec2;
 

@@ -1,8 +1,9 @@
 //! What `measure sfr` tells.
 
 use super::planes::{self, Plane};
-use super::{Found, SfrRequest, Sought, shading_hint};
+use super::{Found, SfrRequest, shading_hint};
 use crate::measure::readings::Readings;
+use crate::measure::truth::place::Sought;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 use etendue_metrology::Estimate;

@@ -1,15 +1,16 @@
 //! What the truth.json of a chart says of a picture of it.
 
 mod outline;
+pub(crate) mod place;
 pub(crate) mod points;
 mod truth_file;
 
 use super::readings::{Readings, pixels};
-use super::sfr::{Sought, Spoke, Star};
 use crate::error::Error;
 use etendue_core::maths::f64::sin;
 use etendue_metrology::sfr::Strip;
 use glam::DVec2;
+use place::{Patch, Sought, Spoke, Star, StarPlace, TrapPlace};
 use std::path::{Path, PathBuf};
 use truth_file::{CameraSaid, FeatureSaid, Said};
 
@@ -40,32 +41,6 @@ pub(crate) struct Truth {
     file: PathBuf,
     said: Said,
     camera: usize,
-}
-
-/// A patch in the picture.
-#[derive(Clone, Debug)]
-pub(crate) struct Patch {
-    pub name: String,
-    /// Left column, top row, width, height, of the picture.
-    pub at: [usize; 4],
-    /// Its luminance, cd/m².
-    pub luminance_cd_m2: f64,
-    /// CIE XYZ, Y of the perfect diffuser 1.
-    pub xyz: [f64; 3],
-}
-
-/// A star in the picture: its centre, and the rims of its ground and its own.
-pub(crate) struct StarPlace {
-    pub centre_px: [f64; 2],
-    pub cycles: u32,
-    pub inner_px: f64,
-    pub outer_px: f64,
-}
-
-/// A light trap and the white about it.
-pub(crate) struct TrapPlace {
-    pub trap: [usize; 4],
-    pub whites: Vec<[usize; 4]>,
 }
 
 impl TruthInput {

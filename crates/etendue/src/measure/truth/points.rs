@@ -2,12 +2,13 @@
 
 use super::Truth;
 use crate::error::Error;
+use etendue_charts::design::{Checkerboard, Circles, Dots};
 use etendue_metrology::target::Target;
 use glam::DVec3;
 use std::path::Path;
 
 /// Charts of points.
-pub(crate) const CHARTS: [&str; 3] = ["dots", "checkerboard", "circles"];
+pub(crate) const CHARTS: [&str; 3] = [Dots::NAME, Checkerboard::NAME, Circles::NAME];
 
 /// A chart of points.
 pub(crate) struct PointsTold {
@@ -22,7 +23,7 @@ impl Truth {
     pub(crate) fn points(&self) -> Result<PointsTold, Error> {
         let pitch_mm = self.said.size("pitch_mm").ok_or_else(|| self.refused("lacks the pitch of the points"))?;
         let staggered = self.said.sizes.get("asymmetric").and_then(serde_json::Value::as_bool) == Some(true);
-        let checkerboard = self.said.chart == "checkerboard";
+        let checkerboard = self.said.chart == Checkerboard::NAME;
         Ok(PointsTold {
             target: if checkerboard { Target::Checkerboard } else { Target::Dots },
             // Of cells in which every other one holds a circle.

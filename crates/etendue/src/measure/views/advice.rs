@@ -1,8 +1,7 @@
 //! Whether the model suits the points, and which would suit them better.
 
-use super::CameraModel;
 use crate::measure::chart_points::Seen;
-use etendue_metrology::calibrate::{Calibrated, Options, Sightings, calibrate};
+use etendue_metrology::calibrate::{Calibrated, CameraModel, Options, Sightings, calibrate};
 
 /// A fit that leaves this many times the points' own uncertainty, and this much, is looked into.
 const TIMES: f64 = 5.0;

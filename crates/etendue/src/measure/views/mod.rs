@@ -12,10 +12,9 @@ use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Covariance, Report, Table, with_uncertainty};
 use etendue_core::maths::f64::{acos, atan};
 use etendue_metrology::Estimate;
-use etendue_metrology::calibrate::{CalibrateError, Calibrated, Family, Options, Radial, Sightings, calibrate_sparing};
+use etendue_metrology::calibrate::{CalibrateError, Calibrated, CameraModel, Options, Sightings, calibrate_sparing};
 use etendue_metrology::target::Node;
-use etendue_projection::model::Ideal;
-use etendue_projection::{CalibrationError, Sense};
+use etendue_projection::CalibrationError;
 use glam::DVec2;
 use serde_json::Value;
 pub use stated::StatedLength;
@@ -61,90 +60,6 @@ impl ViewsRequest {
             distance_uncertainty_mm: None,
             pixel_pitch_um: None,
             robust: false,
-        }
-    }
-}
-
-/// Models that can be fitted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CameraModel {
-    /// No distortion
-    Pinhole,
-    /// k1 k2 p1 p2
-    Opencv,
-    /// k1 k2 p1 p2 k3
-    Opencv5,
-    /// k1 … k6 p1 p2
-    Opencv8,
-    /// k1 k2, from ideal to observed
-    Radial,
-    /// k1 k2, from observed to ideal
-    RadialInverse,
-    /// Polynomial fisheye, k1 … k4
-    KannalaBrandt,
-    /// Division model
-    Division,
-    /// FOV model
-    FieldOfView,
-    /// Unified omnidirectional, with k1 k2
-    Unified,
-    /// Extended unified
-    ExtendedUnified,
-    /// Double sphere
-    DoubleSphere,
-    /// Ideal fisheye, r = f θ
-    Equidistant,
-    /// Ideal fisheye of equal areas
-    Equisolid,
-    /// Ideal fisheye that keeps angles
-    Stereographic,
-    /// r = f sin θ
-    Orthographic,
-}
-
-impl CameraModel {
-    /// As on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Pinhole => "pinhole",
-            Self::Opencv => "opencv",
-            Self::Opencv5 => "opencv5",
-            Self::Opencv8 => "opencv8",
-            Self::Radial => "radial",
-            Self::RadialInverse => "radial-inverse",
-            Self::KannalaBrandt => "kannala-brandt",
-            Self::Division => "division",
-            Self::FieldOfView => "field-of-view",
-            Self::Unified => "unified",
-            Self::ExtendedUnified => "extended-unified",
-            Self::DoubleSphere => "double-sphere",
-            Self::Equidistant => "equidistant",
-            Self::Equisolid => "equisolid",
-            Self::Stereographic => "stereographic",
-            Self::Orthographic => "orthographic",
-        }
-    }
-
-    fn family(self) -> Family {
-        let perspective = |radial, tangential| Family::Perspective { radial, tangential };
-        match self {
-            Self::Pinhole => perspective(Radial::Polynomial(0), false),
-            Self::Opencv => perspective(Radial::Polynomial(2), true),
-            Self::Opencv5 => perspective(Radial::Polynomial(3), true),
-            Self::Opencv8 => perspective(Radial::Rational, true),
-            Self::Radial => Family::Polynomial(Sense::IdealToObserved),
-            Self::RadialInverse => Family::Polynomial(Sense::ObservedToIdeal),
-            Self::KannalaBrandt => Family::KannalaBrandt(4),
-            Self::Division => Family::Division,
-            Self::FieldOfView => Family::FieldOfView,
-            Self::Unified => Family::Unified,
-            Self::ExtendedUnified => Family::ExtendedUnified,
-            Self::DoubleSphere => Family::DoubleSphere,
-            Self::Equidistant => Family::Ideal(Ideal::Equidistant),
-            Self::Equisolid => Family::Ideal(Ideal::Equisolid),
-            Self::Stereographic => Family::Ideal(Ideal::Stereographic),
-            Self::Orthographic => Family::Ideal(Ideal::Orthographic),
         }
     }
 }

@@ -62,7 +62,7 @@ impl Operation {
 /// The weights of luminance.
 fn weights(stage: Stage) -> [f64; 3] {
     match stage {
-        Stage::Linear => crate::luma::BT709,
+        Stage::Linear => etendue_spectra::colour::BT709,
         Stage::Display => [0.299, 0.587, 0.114],
     }
 }

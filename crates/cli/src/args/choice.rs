@@ -1,0 +1,18 @@
+//! A choice of words.
+
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+
+/// What a word stands for, the word, and its line of help.
+pub type Word<T> = (T, &'static str, &'static str);
+
+/// One of a closed list of words.
+pub fn choice<T>(words: impl IntoIterator<Item = Word<T>>) -> impl TypedValueParser<Value = T>
+where
+    T: Copy + Send + Sync + 'static,
+{
+    let words: Vec<Word<T>> = words.into_iter().collect();
+    let listed: Vec<PossibleValue> =
+        words.iter().map(|(_, word, help)| PossibleValue::new(*word).help(*help)).collect();
+    let meant = move |typed: String| words.iter().find(|(_, word, _)| *word == typed).map(|(value, ..)| *value);
+    PossibleValuesParser::new(listed).map(move |typed| meant(typed).expect("clap admits listed words only"))
+}

@@ -1,0 +1,68 @@
+//! The job of `render` and `plan`.
+
+use super::choice::{Word, choice};
+use crate::output::print_message;
+use clap::Args;
+use etendue::{Error, Integrator, Job, JobRequest, Quality};
+use std::path::PathBuf;
+
+const INTEGRATORS: [Word<Integrator>; 3] = [
+    (Integrator::Flat, "flat", "Local shading by lamps, suns and sky, without shadows"),
+    (Integrator::Direct, "direct", "The same with shadows"),
+    (Integrator::Path, "path", "Everything, by path tracing"),
+];
+
+const QUALITIES: [Word<Quality>; 3] = [
+    (Quality::Draft, "draft", "16 samples a pixel, 4 bounces: to frame and expose"),
+    (Quality::Standard, "standard", "64 samples a pixel, 16 bounces"),
+    (Quality::Reference, "reference", "1024 samples a pixel, 64 bounces"),
+];
+
+/// A job file and what the command line changes in it.
+#[derive(Debug, Args)]
+pub struct JobArgs {
+    /// The job file (TOML)
+    #[arg(value_name = "JOB.toml")]
+    pub job: PathBuf,
+    /// Change a key of the job, its scene or a camera, e.g. --set render.spp=16 or --set cameras.front.lens.f_number=4
+    #[arg(long, value_name = "KEY=VALUE")]
+    pub set: Vec<String>,
+    /// Samples a pixel, over all replicates, of every camera [default: the job's, or the quality's]
+    #[arg(long, value_name = "N")]
+    pub spp: Option<u64>,
+    /// How much of the light's ways every camera follows, as render.integrator says it [default: the job's, or path]
+    #[arg(long, value_parser = choice(INTEGRATORS))]
+    pub integrator: Option<Integrator>,
+    /// A preset of samples and bounces, for what the job file leaves open
+    #[arg(long, value_parser = choice(QUALITIES))]
+    pub quality: Option<Quality>,
+    /// Render only this camera of the job
+    #[arg(long, value_name = "NAME")]
+    pub camera: Option<String>,
+    /// The seed of all random numbers [default: the job's, or 0]
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+}
+
+impl From<&JobArgs> for JobRequest {
+    fn from(a: &JobArgs) -> Self {
+        Self {
+            job: a.job.clone(),
+            set: a.set.clone(),
+            spp: a.spp,
+            integrator: a.integrator,
+            quality: a.quality,
+            camera: a.camera.clone(),
+            seed: a.seed,
+        }
+    }
+}
+
+impl JobArgs {
+    /// Opens the job and prints what the command line supersedes of it.
+    pub fn open(&self, pool: &rayon::ThreadPool) -> Result<Job, Error> {
+        let job = pool.install(|| JobRequest::from(self).open())?;
+        job.notices().iter().for_each(|notice| print_message(&format!("note: {notice}\n")));
+        Ok(job)
+    }
+}

@@ -1,0 +1,23 @@
+//! Closed lists of subcommands.
+
+/// A closed list of subcommands, each a line of help and the arguments, which run themselves
+/// (`run(&self) -> Result<(), Error>`): yields the enum that clap parses, and its dispatch.
+macro_rules! subcommands {
+    ($(#[$about:meta])* $List:ident: $($(#[$help:meta])* $Name:ident($Arguments:ty),)*) => {
+        $(#[$about])*
+        #[derive(Debug, clap::Subcommand)]
+        pub enum $List {
+            $($(#[$help])* $Name($Arguments),)*
+        }
+
+        impl $List {
+            /// Does what the arguments ask for, and prints it.
+            pub fn run(&self) -> Result<(), etendue::Error> {
+                match self {
+                    $(Self::$Name(arguments) => arguments.run(),)*
+                }
+            }
+        }
+    };
+}
+pub(crate) use subcommands;

@@ -1,0 +1,160 @@
+//! Options that charts share.
+
+use crate::args::choice::{Word, choice};
+use crate::args::folder::Output;
+use crate::args::run::seed;
+use crate::output::print_paths;
+use clap::Args;
+use etendue::Error;
+use etendue::chart::design::GridSize;
+use etendue::chart::{self, Chart, ChartError, ChartRequest, Exposures, Spacing};
+
+/// What all charts have in common.
+#[derive(Debug, Args)]
+pub struct Common {
+    /// The camera: a camera file (TOML), or a stand-in: web, ccd-mono, ccd-bayer, automotive, laboratory
+    #[arg(long, value_name = "CAMERA.toml", default_value = "web")]
+    pub camera: String,
+    /// Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1]
+    #[arg(long, value_name = "M", conflicts_with = "width_mm", allow_negative_numbers = true)]
+    pub distance_m: Option<f64>,
+    /// Width of what the camera sees of the sheet, mm: the distance follows
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub width_mm: Option<f64>,
+    /// The light's spectrum: D65, A, E, LED-B3, …
+    #[arg(long, value_name = "NAME", default_value = "D65")]
+    pub illuminant: String,
+    /// Luminance of a perfect white sheet (or of the panel), cd/m² [default: what --white asks for]
+    #[arg(long, value_name = "CD_M2", conflicts_with = "white", allow_negative_numbers = true)]
+    pub luminance_cd_m2: Option<f64>,
+    /// The share of the sensor's saturation that a perfect white sheet (or the panel) reaches in the camera's own exposure
+    #[arg(long, value_name = "SHARE", default_value_t = 0.7, allow_negative_numbers = true)]
+    pub white: f64,
+    /// The seed of all random numbers
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = seed)]
+    pub seed: u64,
+    /// Write the print as chart.png too, at this many pixels an inch
+    #[arg(long, value_name = "DPI", allow_negative_numbers = true)]
+    pub png: Option<f64>,
+    #[command(flatten)]
+    pub output: Output,
+}
+
+impl Common {
+    /// A chart by these options, in one view without a series.
+    pub fn request(&self, chart: Chart) -> ChartRequest {
+        ChartRequest {
+            distance_m: self.distance_m,
+            width_mm: self.width_mm,
+            illuminant: self.illuminant.clone(),
+            luminance_cd_m2: self.luminance_cd_m2,
+            white: self.white,
+            seed: self.seed,
+            png_dpi: self.png,
+            ..ChartRequest::new(chart, self.camera.as_str())
+        }
+    }
+
+    /// Makes the chart that is asked for, and prints its files.
+    pub fn make(&self, request: &ChartRequest) -> Result<(), Error> {
+        print_paths(&chart::make(request, self.output.folder())?);
+        Ok(())
+    }
+}
+
+/// How many figures, and how far apart.
+#[derive(Debug, Args)]
+pub struct Size {
+    /// Columns [default: as many as the field takes]
+    #[arg(long, value_name = "N")]
+    pub columns: Option<u32>,
+    /// Rows [default: as many as the field takes]
+    #[arg(long, value_name = "N")]
+    pub rows: Option<u32>,
+    /// Distance from centre to centre (of squares: their side), mm [default: what the columns allow]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub pitch_mm: Option<f64>,
+}
+
+impl Size {
+    pub fn grid(&self) -> GridSize {
+        GridSize { columns: self.columns, rows: self.rows, pitch_mm: self.pitch_mm }
+    }
+}
+
+/// How many cameras look at the chart.
+#[derive(Debug, Args)]
+pub struct Views {
+    /// Views of the chart: the first square to it, the others tilted by 25 degrees all round
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=200))]
+    pub views: u32,
+}
+
+/// How a slanted edge lies between light and dark.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct Edge {
+    /// By how much it is turned clockwise, degrees: a square by 2 … 43 either way, or the first edge of a star by up to 45
+    #[arg(long, value_name = "DEG", default_value_t = 5.0, allow_negative_numbers = true)]
+    pub angle_deg: f64,
+    /// Luminance of light over dark
+    #[arg(long, value_name = "RATIO", default_value_t = 4.0, allow_negative_numbers = true)]
+    pub contrast: f64,
+}
+
+/// Exposures of the retro-lighting chart (Gruyer and others 2012).
+pub const RETRO_LIGHTING: u32 = 15;
+const LOWEST: f64 = 0.003;
+const HIGHEST: f64 = 1.3;
+
+const SPACINGS: [Word<Spacing>; 2] =
+    [(Spacing::Log, "log", "Equal ratios"), (Spacing::Linear, "linear", "Equal steps")];
+
+/// A series of exposures.
+#[derive(Debug, Args)]
+pub struct Series {
+    /// How many exposures, one camera each
+    #[arg(long, value_name = "N", conflicts_with = "levels", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub exposures: Option<u32>,
+    /// How they are spaced from --lowest to --highest [default: log]
+    #[arg(long, value_parser = choice(SPACINGS), conflicts_with = "levels")]
+    pub spacing: Option<Spacing>,
+    /// Share of saturation that white reaches in the shortest [default: 0.003]
+    #[arg(long, value_name = "SHARE", conflicts_with = "levels", allow_negative_numbers = true)]
+    pub lowest: Option<f64>,
+    /// The same in the longest [default: 1.3]
+    #[arg(long, value_name = "SHARE", conflicts_with = "levels", allow_negative_numbers = true)]
+    pub highest: Option<f64>,
+    /// The shares themselves, e.g. 0.01,0.1,0.5,1.2
+    #[arg(long, value_name = "SHARES", value_delimiter = ',', allow_negative_numbers = true)]
+    pub levels: Option<Vec<f64>>,
+}
+
+impl Series {
+    /// The series that is asked for; `usual` exposures where nothing is, which a camera without electronics does without.
+    pub fn asked(&self, usual: Option<u32>) -> Result<Option<chart::Series>, Error> {
+        let required = self.exposures.is_some() || self.levels.is_some();
+        let exposures = self.exposures(usual).map_err(Error::input)?;
+        Ok(exposures.map(|exposures| chart::Series { exposures, required }))
+    }
+
+    fn exposures(&self, usual: Option<u32>) -> Result<Option<Exposures>, ChartError> {
+        if let Some(levels) = &self.levels {
+            return Exposures::listed(levels.clone()).map(Some);
+        }
+        let Some(count) = self.exposures.or(usual) else {
+            return self.idle().map_or(Ok(None), |(name, value)| {
+                Err(ChartError::option(name, value, "has no effect without --exposures; give how many"))
+            });
+        };
+        let spacing = self.spacing.unwrap_or(Spacing::Log);
+        let (lowest, highest) = (self.lowest.unwrap_or(LOWEST), self.highest.unwrap_or(HIGHEST));
+        Exposures::spaced(count, spacing, lowest, highest).map(Some)
+    }
+
+    /// An option of a series, and its value, where there is no series.
+    fn idle(&self) -> Option<(&'static str, String)> {
+        let given = [("lowest", self.lowest), ("highest", self.highest)];
+        let number = given.into_iter().find_map(|(name, value)| Some((name, value?.to_string())));
+        number.or(self.spacing.map(|_| ("spacing", String::new())))
+    }
+}

@@ -1,0 +1,43 @@
+//! `etendue inspect`: what is in a file, with units; a picture of it.
+
+use crate::args::file_name::png;
+use crate::output::{print, print_message};
+use clap::Args;
+use etendue::{Error, Existing, inspect, write_file};
+use std::path::{Path, PathBuf};
+
+/// `etendue inspect`
+#[derive(Debug, Args)]
+pub struct Inspect {
+    /// A file that Étendue reads or writes: EXR, PNG, JPEG, HDR, OBJ, lamps (IES, LDT), JSON side-car
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Write a picture of it here
+    #[arg(long, value_name = "OUT.png", value_parser = png)]
+    pub png: Option<PathBuf>,
+}
+
+impl Inspect {
+    pub fn run(&self) -> Result<(), Error> {
+        let report = inspect(&self.file).map_err(Error::input)?;
+        if let Some(path) = &self.png {
+            if same(path, &self.file) {
+                let told = format!("--png {}: this is the file itself; choose another name", path.display());
+                return Err(Error::input(told));
+            }
+            let Some(preview) = &report.preview else {
+                return Err(Error::input(format!("{}: no picture can be made of it", self.file.display())));
+            };
+            let bytes = preview.to_png().map_err(|error| Error::Run(error.to_string()))?;
+            write_file(path, &bytes, Existing::Replace)?;
+            print_message(&format!("wrote {}\n", path.display()));
+        }
+        print(&report.to_string());
+        Ok(())
+    }
+}
+
+/// Whether two names are of one file that is there.
+fn same(a: &Path, b: &Path) -> bool {
+    a.canonicalize().ok().zip(b.canonicalize().ok()).is_some_and(|(a, b)| a == b)
+}

@@ -1,0 +1,50 @@
+//! How a report is printed, and what is written of it.
+
+use crate::args::file_name::{svg, toml};
+use crate::output::print;
+use clap::Args;
+use etendue::report::Report;
+use etendue::{Error, Existing, write_file};
+use std::path::PathBuf;
+
+/// How results are printed.
+#[derive(Debug, Args)]
+pub struct ReportArgs {
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Draw the curves here; an earlier drawing is replaced
+    #[arg(long, value_name = "FILE.svg", value_parser = svg)]
+    pub plot: Option<PathBuf>,
+}
+
+impl ReportArgs {
+    /// Prints a report and draws its plots.
+    pub fn show(&self, report: &Report) -> Result<(), Error> {
+        if let Some(file) = &self.plot {
+            write_file(file, report.svg()?.as_bytes(), Existing::Replace)?;
+        }
+        print(&if self.json { format!("{:#}\n", report.json()) } else { report.to_string() });
+        Ok(())
+    }
+}
+
+/// Of measurements of what a camera file states.
+#[derive(Debug, Default, Args)]
+pub struct CameraOut {
+    /// Write what was found as keys of a camera file
+    #[arg(long, value_name = "CAMERA.toml", value_parser = toml)]
+    pub camera_out: Option<PathBuf>,
+    /// Replace a camera file that is already there
+    #[arg(long, requires = "camera_out")]
+    pub overwrite: bool,
+}
+
+impl CameraOut {
+    /// Writes the keys of a camera file that a report holds, where it is asked for.
+    pub fn write(&self, report: &Report) -> Result<(), Error> {
+        let Some((file, keys)) = self.camera_out.as_ref().zip(report.camera_keys()) else { return Ok(()) };
+        let existing = if self.overwrite { Existing::Replace } else { Existing::Refuse };
+        write_file(file, keys.as_bytes(), existing)
+    }
+}

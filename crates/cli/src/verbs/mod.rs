@@ -1,0 +1,48 @@
+//! The verbs: the closed list, one file each, from its arguments to a call of the library and its answer to the terminal.
+
+mod calibrate;
+mod chart;
+mod compare;
+mod datasheet;
+mod develop;
+mod expose;
+mod flat;
+mod inspect;
+mod measure;
+mod merge;
+mod plan;
+mod render;
+mod schema;
+
+use crate::subcommands::subcommands;
+
+subcommands! {
+    /// The verbs of the command line.
+    Verb:
+    /// Render radiance, image, raw and ground truth of a job's cameras
+    Render(render::Render),
+    /// Join the shards of one job to the result of an unsharded run, byte for byte
+    Merge(merge::Merge),
+    /// Print what will be modelled, what is left out and why, and what it will cost
+    Plan(plan::Plan),
+    /// Photograph a stored radiance image (rendered with route = "pupil") by another lens and sensor
+    Expose(expose::Expose),
+    /// Make pictures of raws that were taken before, by another processing
+    Develop(develop::Develop),
+    /// Photograph even light by a camera's bare sensor, or take the series by which EMVA 1288 measures; nothing is traced
+    Flat(flat::Flat),
+    /// Make a camera file of an EMVA 1288 data sheet; figures that contradict each other are refused
+    Datasheet(datasheet::DataSheet),
+    /// Say what is in a file, with units; make a picture of it
+    Inspect(inspect::Inspect),
+    /// Compare two results: errors with their uncertainty; exit status 1 where they differ
+    Compare(compare::Compare),
+    /// Make a test chart as a scene ready to render, with its truth beside it
+    Chart(chart::Chart),
+    /// Measure a camera: from pictures, or its lens without rendering
+    Measure(measure::Measure),
+    /// Find a camera's intrinsics and distortion from several pictures of a chart, as a camera file
+    Calibrate(calibrate::CalibrateArgs),
+    /// Print the JSON Schema of a file kind, for editors
+    Schema(schema::Schema),
+}

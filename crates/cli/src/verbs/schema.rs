@@ -1,0 +1,30 @@
+//! `etendue schema`: the JSON Schema of a file kind.
+
+use crate::args::choice::{Word, choice};
+use crate::output::print;
+use clap::Args;
+use etendue::Error;
+use etendue_scene::{FileKind, schema};
+
+const KINDS: [Word<FileKind>; 4] = [
+    (FileKind::Scene, "scene", "Geometry, materials, lights"),
+    (FileKind::Camera, "camera", "Lens, sensor, processing"),
+    (FileKind::Job, "job", "Scene, cameras, render and output settings"),
+    (FileKind::DataSheet, "datasheet", "What `etendue datasheet` reads"),
+];
+
+/// `etendue schema`
+#[derive(Debug, Args)]
+pub struct Schema {
+    /// The kind of file
+    #[arg(value_parser = choice(KINDS))]
+    pub kind: FileKind,
+}
+
+impl Schema {
+    pub fn run(&self) -> Result<(), Error> {
+        let text = serde_json::to_string_pretty(&schema(self.kind)).map_err(|error| Error::Run(error.to_string()))?;
+        print(&format!("{text}\n"));
+        Ok(())
+    }
+}
