@@ -115,13 +115,6 @@ impl Table {
         self.entries().find(|(known, _)| *known == key).map(|(_, item)| item)
     }
 
-    /// The table without a key of its own.
-    #[must_use]
-    pub fn without(mut self, key: &str) -> Self {
-        self.entries.retain(|(known, _)| known != key);
-        self
-    }
-
     /// Where the innermost part of a dotted key stands that is stated: of `dark.hot.share` the share, else `hot`, else `dark`;
     /// of a list its first entry. `None` where none of it is.
     #[must_use]

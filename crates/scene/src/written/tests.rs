@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value as Json, json};
 
-use super::{File, Table};
+use super::{File, Item, Table};
 use crate::document::{Entry, Node, Table as Tree, Value, parse};
 use crate::fault::Faults;
 use crate::place::Place;
@@ -172,6 +172,65 @@ fn differences(key: &str, a: &Json, b: &Json) -> String {
         (Json::Number(a), Json::Number(b)) if a.as_f64() == b.as_f64() => String::new(),
         (a, b) if a == b => String::new(),
         (a, b) => format!("{key}: {a}, not {b}\n"),
+    }
+}
+
+/// What a hash knows of a table.
+fn bytes(table: &Table) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    table.feed(&|path| path.to_string_lossy().into_owned().into_bytes(), &mut |part| bytes.extend_from_slice(part));
+    bytes
+}
+
+fn table(json: &Json) -> Table {
+    let mut table = Table::new();
+    for (key, value) in json.as_object().expect("a table") {
+        table.put(key, item(value));
+    }
+    table
+}
+
+fn item(json: &Json) -> Item {
+    match json {
+        Json::Bool(flag) => (*flag).into(),
+        Json::Number(number) => number.as_u64().map_or_else(|| number.as_f64().expect("finite").into(), Item::from),
+        Json::String(text) => text.as_str().into(),
+        Json::Array(list) => list.iter().map(item).collect::<Vec<_>>().into(),
+        Json::Object(_) => table(json).into(),
+        Json::Null => panic!("TOML has no null"),
+    }
+}
+
+/// The value with its part `which` another, of as many as it has.
+fn changed(json: &Json, which: &mut usize) -> Json {
+    match json {
+        Json::Array(list) => list.iter().map(|entry| changed(entry, which)).collect(),
+        Json::Object(table) => table.iter().map(|(key, value)| (key.clone(), changed(value, which))).collect(),
+        leaf => {
+            let is_it = *which == 0;
+            *which = which.wrapping_sub(1);
+            if is_it { json!("another") } else { leaf.clone() }
+        }
+    }
+}
+
+#[test]
+fn every_value_of_every_key_changes_the_bytes() {
+    let schema = record::<Job>().schema();
+    let of = |json: &Json| bytes(&table(json));
+    for turn in 0..12 {
+        let sample = of_schema(&schema, turn);
+        let whole = of(&sample);
+        let mut known = std::collections::BTreeSet::from([whole.clone()]);
+        for leaf in 0.. {
+            let mut which = leaf;
+            let other = changed(&sample, &mut which);
+            if other == sample {
+                break;
+            }
+            assert!(known.insert(of(&other)), "part {leaf} of sample {turn}");
+        }
+        assert!(known.len() > 100 && whole == of(&sample), "equal tables have equal bytes");
     }
 }
 
