@@ -2,21 +2,17 @@
 
 use etendue_projection::model::{FTheta, FThetaSense, Ideal, Ocam, Panorama, Perspective, ThinPrismFisheye};
 use etendue_projection::plane::{Affine, DistortionTerms};
-use etendue_projection::{Calibration, Model, RadialDistortion, Sense};
+use etendue_projection::{Calibration, CameraMatrix, Model, RadialDistortion, Sense};
+use etendue_scene::Placed;
+use etendue_scene::record::lens::Direction;
+use etendue_scene::record::lens::projection::{self as record, Projection};
 use serde_json::{Value, json};
 
 /// Model, coefficients, camera matrix (raster coordinates), size and limit.
 pub(crate) fn keys(calibration: &Calibration) -> Value {
     let [width, height] = calibration.size_px();
-    let matrix = calibration.matrix();
-    let mut projection = projection(calibration.model());
-    let entries = projection.as_object_mut().expect("a projection is an object");
-    if !in_pixels(calibration.model()) {
-        entries.extend([("fx_px", matrix.fx), ("fy_px", matrix.fy), ("skew_px", matrix.skew)].map(entry));
-    }
-    entries.extend([("cx_px", matrix.cx), ("cy_px", matrix.cy)].map(entry));
     json!({
-        "projection": projection,
+        "projection": projection(calibration).to_table().to_json(),
         "convention": "as [lens] projection of a camera file; raster: the top-left corner of the image is (0, 0), pixel centres \
                        at +0.5",
         "width_px": width,
@@ -25,35 +21,48 @@ pub(crate) fn keys(calibration: &Calibration) -> Value {
     })
 }
 
-fn entry((key, value): (&str, f64)) -> (String, Value) {
-    (key.to_owned(), json!(value))
-}
-
-/// Whether the model's own numbers are in pixels.
-fn in_pixels(model: &Model) -> bool {
-    matches!(model, Model::Ocam(_) | Model::FTheta(_))
-}
-
-fn projection(model: &Model) -> Value {
-    match model {
-        Model::Perspective(m) => json!({ "type": "opencv", "distortion": opencv(m) }),
-        Model::Radial(m) => radial(m),
-        Model::Division(m) => json!({ "type": "division", "k": m.k() }),
-        Model::FieldOfView(m) => json!({ "type": "field_of_view", "omega_rad": m.omega_rad() }),
-        Model::KannalaBrandt(m) => json!({ "type": "kannala_brandt", "k": m.coefficients()[..4] }),
-        Model::ThinPrismFisheye(m) => thin_prism(m),
+/// The calibration as a camera file states it.
+pub(crate) fn projection(calibration: &Calibration) -> Projection {
+    let matrix = matrix(calibration);
+    let centre = matrix.centre.clone();
+    match calibration.model() {
+        Model::Perspective(m) => {
+            Projection::OpenCv(record::OpenCv { distortion: Some(list(opencv(m))), ..record::OpenCv::new(matrix) })
+        }
+        Model::Radial(m) => Projection::Radial(radial(m, matrix)),
+        Model::Division(m) => Projection::Division(record::Division::new(matrix, m.k())),
+        Model::FieldOfView(m) => Projection::FieldOfView(record::FieldOfView::new(matrix, m.omega_rad())),
+        Model::KannalaBrandt(m) => {
+            let [k1, k2, k3, k4, ..] = m.coefficients();
+            Projection::KannalaBrandt(record::KannalaBrandt::new(matrix, [k1, k2, k3, k4].map(Placed::from)))
+        }
+        Model::ThinPrismFisheye(m) => Projection::ThinPrismFisheye(Box::new(thin_prism(m, matrix))),
         Model::Unified(m) => {
             let DistortionTerms { numerator: [k1, k2, ..], tangential: [p1, p2], .. } = m.distortion().terms();
-            json!({ "type": "unified", "xi": m.xi(), "distortion": [k1, k2, p1, p2] })
+            let distortion = Some([k1, k2, p1, p2].map(Placed::from).into());
+            Projection::Unified(record::Unified { distortion, ..record::Unified::new(matrix, m.xi()) })
         }
-        Model::ExtendedUnified(m) => json!({ "type": "extended_unified", "alpha": m.alpha(), "beta": m.beta() }),
-        Model::DoubleSphere(m) => json!({ "type": "double_sphere", "xi": m.xi(), "alpha": m.alpha() }),
-        Model::Ocam(m) => ocam(m),
-        Model::FTheta(m) => f_theta(m),
-        Model::Ideal(m) => json!({ "type": ideal(*m) }),
-        Model::Panorama(Panorama::Cylindrical) => json!({ "type": "cylindrical" }),
-        Model::Panorama(Panorama::Equirectangular) => json!({ "type": "equirectangular" }),
+        Model::ExtendedUnified(m) => {
+            Projection::ExtendedUnified(record::ExtendedUnified::new(matrix, m.alpha(), m.beta()))
+        }
+        Model::DoubleSphere(m) => Projection::DoubleSphere(record::DoubleSphere::new(matrix, m.xi(), m.alpha())),
+        Model::Ocam(m) => Projection::Ocam(ocam(m, centre)),
+        Model::FTheta(m) => Projection::FTheta(f_theta(m, centre)),
+        Model::Ideal(m) => ideal(*m, record::Scaled::new(matrix)),
+        Model::Panorama(Panorama::Cylindrical) => Projection::Cylindrical(record::Scaled::new(matrix)),
+        Model::Panorama(Panorama::Equirectangular) => Projection::Equirectangular(record::Scaled::new(matrix)),
     }
+}
+
+fn list<T>(values: impl IntoIterator<Item = T>) -> Vec<Placed<T>> {
+    values.into_iter().map(Placed::from).collect()
+}
+
+fn matrix(calibration: &Calibration) -> record::Matrix {
+    let CameraMatrix { fx, fy, skew, cx, cy } = calibration.matrix();
+    let centre = record::Centre { cx_px: Some(cx.into()), cy_px: Some(cy.into()), ..record::Centre::default() };
+    let scale = record::Scale::Columns(fx.into());
+    record::Matrix { fy_px: Some(fy.into()), skew_px: Some(skew.into()), ..record::Matrix::new(scale, centre) }
 }
 
 /// k1, k2, p1, p2, k3 … k6, s1 … s4, τx, τy.
@@ -65,55 +74,50 @@ fn opencv(m: &Perspective) -> [f64; 14] {
     [k1, k2, p1, p2, k3, k4, k5, k6, s1, s2, s3, s4, tau_x, tau_y]
 }
 
-fn radial(m: &RadialDistortion) -> Value {
+fn radial(m: &RadialDistortion, matrix: record::Matrix) -> record::Radial {
     let [k1, k2] = m.coefficients();
     let direction = match m.sense() {
-        Sense::IdealToObserved => "ideal_to_observed",
-        Sense::ObservedToIdeal => "observed_to_ideal",
+        Sense::IdealToObserved => Direction::IdealToObserved,
+        Sense::ObservedToIdeal => Direction::ObservedToIdeal,
     };
-    json!({ "type": "radial", "k1": k1, "k2": k2, "direction": direction })
+    record::Radial { k2: Some(k2.into()), ..record::Radial::new(matrix, k1, direction) }
 }
 
-fn thin_prism(m: &ThinPrismFisheye) -> Value {
+fn thin_prism(m: &ThinPrismFisheye, matrix: record::Matrix) -> record::ThinPrismFisheye {
     let terms = m.distortion().terms();
-    json!({
-        "type": "thin_prism_fisheye",
-        "k": m.fisheye().coefficients(),
-        "plane_k": terms.numerator,
-        "p": terms.tangential,
-        "s": terms.prism,
-    })
+    record::ThinPrismFisheye {
+        k: Some(m.fisheye().coefficients().map(Placed::from).into()),
+        plane_k: Some(terms.numerator.map(Placed::from).into()),
+        p: Some(terms.tangential.map(Placed::from).into()),
+        s: Some(terms.prism.map(Placed::from).into()),
+        ..record::ThinPrismFisheye::new(matrix)
+    }
 }
 
-fn ocam(m: &Ocam) -> Value {
-    let Affine { c, d, e } = m.affine();
-    json!({ "type": "ocam", "polynomial": m.coefficients(), "c": c, "d": d, "e": e })
+fn stretch(Affine { c, d, e }: Affine) -> record::Stretch {
+    record::Stretch { c: Some(c.into()), d: Some(d.into()), e: Some(e.into()), ..record::Stretch::default() }
 }
 
-fn f_theta(m: &FTheta) -> Value {
-    let Affine { c, d, e } = m.affine();
+fn ocam(m: &Ocam, centre: record::Centre) -> record::Ocam {
+    record::Ocam::new(centre, list(m.coefficients().iter().copied()), stretch(m.affine()))
+}
+
+fn f_theta(m: &FTheta, centre: record::Centre) -> record::FTheta {
     let maps = match m.sense() {
-        FThetaSense::AngleToRadius => "angle_to_radius",
-        FThetaSense::RadiusToAngle => "radius_to_angle",
+        FThetaSense::AngleToRadius => record::FThetaSense::AngleToRadius,
+        FThetaSense::RadiusToAngle => record::FThetaSense::RadiusToAngle,
     };
-    json!({
-        "type": "f_theta",
-        "polynomial": m.coefficients()[1..],
-        "maps": maps,
-        "greatest_angle_deg": m.greatest_angle_rad().to_degrees(),
-        "c": c,
-        "d": d,
-        "e": e,
-    })
+    let polynomial = list(m.coefficients()[1..].iter().copied());
+    record::FTheta::new(centre, polynomial, maps, m.greatest_angle_rad().to_degrees(), stretch(m.affine()))
 }
 
-fn ideal(m: Ideal) -> &'static str {
+fn ideal(m: Ideal, scaled: record::Scaled) -> Projection {
     match m {
-        Ideal::Equidistant => "equidistant",
-        Ideal::Equisolid => "equisolid",
-        Ideal::Stereographic => "stereographic",
-        Ideal::Orthographic => "orthographic",
-        Ideal::Rectilinear => "rectilinear",
+        Ideal::Equidistant => Projection::Equidistant(scaled),
+        Ideal::Equisolid => Projection::Equisolid(scaled),
+        Ideal::Stereographic => Projection::Stereographic(scaled),
+        Ideal::Orthographic => Projection::Orthographic(scaled),
+        Ideal::Rectilinear => Projection::Rectilinear(scaled),
     }
 }
 

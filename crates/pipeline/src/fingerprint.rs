@@ -1,85 +1,79 @@
-//! The hash of a plan: everything that decides its result, and nothing else (no path, no thread count, no tile size).
+//! The hash of a plan: of everything that decides its result, and of nothing else (no path, no comment, no number of threads, no
+//! size of tiles).
+//!
+//! A plan is made of a description, of the contents of the files that it names, of the caller's choices, and by a version of the
+//! program. These are hashed, the description by the bytes that its records give ([`Table::feed`]): a key that can be read
+//! cannot be left out. The same statement in other words (a default spelt out) is another plan.
 
-use crate::plan::{CameraBody, CameraPlan, Plan, Settings};
-use etendue_optics::DepthOfField;
+use crate::compile::{Choices, Quality};
 use etendue_scene::asset::Assets;
-use etendue_tracer::geometry::Mesh;
+use etendue_scene::record::Render;
+use etendue_scene::written::Table;
+use etendue_scene::{CameraSetup, Description};
 use sha2::{Digest, Sha256};
-use std::fmt::{Debug, Write};
-
-/// Feeds texts and bytes to the hash.
-struct Hasher(Sha256);
-
-impl Write for Hasher {
-    fn write_str(&mut self, text: &str) -> std::fmt::Result {
-        self.0.update(text.as_bytes());
-        Ok(())
-    }
-}
-
-impl Hasher {
-    /// Adds a value by its `Debug` text, which shows every float so that it reads back to the same bits.
-    fn add(&mut self, value: &impl Debug) {
-        // Writing to a hash does not fail.
-        let _ = writeln!(self, "{value:?}");
-    }
-
-    /// Pictures and tables by their content: `Debug` texts leave texels out.
-    fn add_assets(&mut self, assets: &Assets) {
-        let hashes = |of: &mut dyn Iterator<Item = [u8; 32]>| of.collect::<Vec<_>>();
-        self.add(&hashes(&mut assets.images.values().map(|image| image.hash)));
-        self.add(&hashes(&mut assets.spectra.values().map(|spectrum| spectrum.hash)));
-        self.add(&hashes(&mut assets.photometry.values().map(|lamp| lamp.hash)));
-        self.add(&hashes(&mut assets.indices.values().map(|table| table.hash)));
-        self.add(&hashes(&mut assets.retro_tables.values().map(|table| table.hash)));
-        // Lenses and calibrations are in the cameras, whole.
-    }
-
-    fn add_mesh(&mut self, mesh: &Mesh) {
-        let counts = [mesh.positions().len(), mesh.normals().len(), mesh.uvs().len(), mesh.triangles().len()];
-        self.add(&counts);
-        self.0.update(bytemuck::cast_slice(mesh.positions()));
-        self.0.update(bytemuck::cast_slice(mesh.normals()));
-        self.0.update(bytemuck::cast_slice(mesh.uvs()));
-        self.0.update(bytemuck::cast_slice(mesh.triangles()));
-        self.0.update(bytemuck::cast_slice(mesh.slots()));
-        // Nothing is added for meshes near their file's origin.
-        if mesh.origin() != glam::DVec3::ZERO {
-            self.add(&mesh.origin());
-        }
-    }
-
-    fn add_camera(&mut self, camera: &CameraPlan) {
-        let CameraBody { place: _, raster, lens, front, effects, aperture_px, sensor, development } = &camera.body;
-        self.add(&(&camera.name, camera.index, camera.pose, camera.products));
-        self.add(&(raster, lens, aperture_px, sensor, development));
-        // Nothing is added where light is a camera's own.
-        if !camera.owns_light() {
-            self.add(&camera.light.index);
-        }
-        // A camera without effects is what it was before there were any.
-        if !effects.is_idle() {
-            self.add(effects);
-        }
-        front.iter().for_each(|front| self.add(front));
-        // Nor is one that blurs nothing in image space.
-        if camera.depth_of_field != DepthOfField::None {
-            self.add(&camera.depth_of_field);
-        }
-        // The size of a tile does not change the result.
-        self.add(&Settings { tile_px: 0, ..camera.settings });
-    }
-}
 
 /// SHA-256 of all that decides the plan's result, the program's version included.
-pub(crate) fn fingerprint(plan: &Plan, assets: &Assets) -> [u8; 32] {
-    let mut hasher = Hasher(Sha256::new());
-    hasher.add(&env!("CARGO_PKG_VERSION"));
-    hasher.add_assets(assets);
-    plan.world.meshes().iter().for_each(|mesh| hasher.add_mesh(mesh));
-    hasher.add(&plan.world.instances());
-    hasher.add(&plan.material_table);
-    hasher.add(&plan.sources);
-    plan.cameras.iter().for_each(|camera| hasher.add_camera(camera));
-    hasher.0.finalize().into()
+pub(crate) fn fingerprint(description: &Description, assets: &Assets, choices: &Choices) -> [u8; 32] {
+    let Choices { quality } = choices;
+    let cameras: Vec<_> = description.cameras.iter().map(camera).collect();
+    let table = Table::new()
+        .with("version", env!("CARGO_PKG_VERSION"))
+        .with("quality", quality.unwrap_or(Quality::Standard).name())
+        .with("scene", description.scene.to_table())
+        .with("cameras", cameras);
+    let mut hash = Sha256::new();
+    table.feed(&|path| assets.hashes(path), &mut |bytes| hash.update(bytes));
+    hash.finalize().into()
+}
+
+/// The size of a tile does not change the result.
+fn camera(setup: &CameraSetup) -> Table {
+    CameraSetup { render: Render { tile_px: None, ..setup.render.clone() }, ..setup.clone() }.to_table()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_scene::Overrides;
+    use etendue_scene::asset::SpectrumAsset;
+    use std::path::{Path, PathBuf};
+
+    const JOB: &str = "format = 1\n[scene]\nmaterials = [{ name = \"m\", type = \"diffuse\", reflectance = { spectrum = \
+                       \"paint.csv\" } }]\n[[cameras]]\nname = \"c\"\nposition_m = [0, 0, 1]\nlook_at_m = [1, 0, 1]\n\
+                       lens = { type = \"pinhole\", focal_length_mm = 6, f_number = 2 }\n\
+                       sensor = { width_px = 8, height_px = 6, pixel_pitch_um = 6 }\n[render]\nspp = 4\n";
+
+    /// Of a job in a folder whose paint has this content.
+    fn of(folder: &str, job: &str, sets: &[&str], paint: u8, quality: Option<Quality>) -> [u8; 32] {
+        let read = |_: &Path| Ok(job.to_owned());
+        let file = Path::new(folder).join("job.toml");
+        let description = Description::load(&file, &read, &Overrides::new(sets.iter().copied()));
+        let spectrum = SpectrumAsset { points: vec![(400.0, 0.5)], hash: [paint; 32] };
+        let spectra = [(PathBuf::from(folder).join("paint.csv"), spectrum)].into();
+        let assets = Assets { spectra, ..Assets::default() };
+        fingerprint(&description.unwrap_or_else(|faults| panic!("{faults}")), &assets, &Choices { quality })
+    }
+
+    #[test]
+    fn one_plan_has_one_hash_however_and_wherever_it_is_written() {
+        let plain = of("", JOB, &[], 1, None);
+        let spaced = JOB.replace(" = ", "  =  ").replace("[render]", "# How.\n\n[render] # so");
+        let turned = JOB.replace("spp = 4", "seed = 3\nspp = 4");
+        let other = JOB.replace("spp = 4", "spp = 4\nseed = 3");
+        assert_eq!(plain, of("elsewhere", &spaced, &["render.spp=4", "render.tile_px=8"], 1, Some(Quality::Standard)));
+        assert_eq!(of("", &turned, &[], 1, None), of("", &other, &[], 1, None));
+        assert_ne!(plain, of("", &turned, &[], 1, None));
+    }
+
+    #[test]
+    fn what_is_stated_chosen_or_read_changes_the_hash() {
+        let plain = of("", JOB, &[], 1, None);
+        for set in
+            ["render.spp=8", "output.ghosts=false", "cameras.c.sensor.width_px=9", "cameras.c.position_m=[0, 0, 2]"]
+        {
+            assert_ne!(plain, of("", JOB, &[set], 1, None), "{set}");
+        }
+        assert_ne!(plain, of("", JOB, &[], 2, None), "another content of a file");
+        assert_ne!(plain, of("", JOB, &[], 1, Some(Quality::Draft)), "another preset");
+    }
 }

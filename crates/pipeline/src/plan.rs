@@ -13,7 +13,6 @@ use etendue_tracer::integrator::Level;
 use etendue_tracer::lights::Sources;
 use etendue_tracer::materials::MaterialTable;
 use glam::DVec2;
-use std::fmt;
 
 /// What a rendering does, for all cameras of a job.
 #[derive(Clone, Debug)]
@@ -242,7 +241,7 @@ impl RawFormat {
 }
 
 /// What a camera delivers.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Products {
     /// Spectral radiance.
     pub radiance: bool,
@@ -272,30 +271,6 @@ pub struct Products {
     pub rays: bool,
     /// Ground truth, rays and picture of the undistorted twin as well, by its focal length over the camera's.
     pub undistorted: Option<f64>,
-}
-
-/// As derived, but that what few ask for (a twin, the breakdown of the signal, a raw format, positions in the camera's frame) is not named where it is not: plans without keep their hash.
-impl fmt::Debug for Products {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut all = f.debug_struct("Products");
-        all.field("radiance", &self.radiance).field("irradiance", &self.irradiance).field("variance", &self.variance);
-        all.field("electrons", &self.electrons).field("raw", &self.raw).field("picture", &self.picture);
-        all.field("ground_truth", &self.ground_truth).field("depth_png_per_m", &self.depth_png_per_m);
-        all.field("rays", &self.rays);
-        if let Some(scale) = &self.undistorted {
-            all.field("undistorted", scale);
-        }
-        if self.raw_format != RawFormat::Png {
-            all.field("raw_format", &self.raw_format);
-        }
-        if self.signal_breakdown {
-            all.field("signal_breakdown", &self.signal_breakdown);
-        }
-        if self.camera_space_position {
-            all.field("camera_space_position", &self.camera_space_position);
-        }
-        all.finish()
-    }
 }
 
 impl Products {

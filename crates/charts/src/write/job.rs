@@ -2,32 +2,41 @@
 
 use super::Request;
 use crate::station::Station;
-use std::fmt::Write as _;
+use etendue_scene::record::pose::Aim;
+use etendue_scene::record::render::Integrator;
+use etendue_scene::record::sensor::charge::NonUniformity;
+use etendue_scene::record::{Output, Pose, Render};
+use etendue_scene::written::{File, Table};
 
 /// The job file.
 pub(super) fn job(request: &Request<'_>) -> String {
-    let mut text = format!(
-        "# The chart \"{}\": etendue render job.toml -o DIR. truth.json says what is where.\nformat = 1\nscene = \"scene.toml\"\n",
-        request.chart.name()
-    );
     let series = request.stations.iter().any(|station| station.exposure_s.is_some());
-    for station in request.stations {
-        let [p, t, u] = [station.position_m, station.target_m, station.up].map(|v| v.to_array());
-        let name = &station.name;
-        let file = camera_file(station);
-        let _ = write!(
-            text,
-            "\n[[cameras]]\nname = \"{name}\"\nfile = \"{file}\"\nposition_m = {p:?}\nlook_at_m = {t:?}\nup = {u:?}\n"
-        );
-        if series {
-            text.push_str("output = { ground_truth = false }\n");
-        }
-    }
+    let cameras: Vec<_> = request.stations.iter().map(|station| camera_entry(station, series)).collect();
     // Level "direct": flat sheets light nothing but the camera. Boxes behind holes do.
-    let level = if request.drawing.cavities.is_empty() { "direct" } else { "path" };
-    let (spp, seed) = (request.drawing.spp, request.seed);
-    let _ = write!(text, "\n[render]\nspp = {spp}\nreplicates = 1\nintegrator = \"{level}\"\nseed = {seed}\n");
-    text
+    let integrator = if request.drawing.cavities.is_empty() { Integrator::Direct } else { Integrator::Path };
+    let render = Render {
+        spp: Some(u64::from(request.drawing.spp).into()),
+        replicates: Some(1.into()),
+        integrator: Some(integrator.into()),
+        seed: Some(request.seed.into()),
+        ..Render::default()
+    };
+    let job = Table::new().with("scene", "scene.toml").with("cameras", cameras).with("render", render.to_table());
+    let name = request.chart.name();
+    let about = format!("The chart \"{name}\": etendue render job.toml -o DIR. truth.json says what is where.");
+    File::new(job).head(about).to_string()
+}
+
+/// A station as a camera of the job; in a series, whose views are the same, without ground truth.
+fn camera_entry(station: &Station, series: bool) -> Table {
+    let [position_m, target_m, up] = [station.position_m, station.target_m, station.up].map(|v| v.to_array());
+    let pose = Pose { up: Some(up.into()), ..Pose::new(position_m, Aim::LookAt(target_m.into())) };
+    let entry =
+        Table::new().with("name", station.name.as_str()).with("file", camera_file(station)).and(pose.to_table());
+    match series {
+        true => entry.with("output", Output { ground_truth: Some(false.into()), ..Output::default() }.to_table()),
+        false => entry,
+    }
 }
 
 /// The camera file of a station. A dark frame has that of the exposure before it.
@@ -40,15 +49,17 @@ pub(super) fn camera_file(station: &Station) -> String {
 
 /// The camera of a station: the caller's, and what differs.
 pub(super) fn camera(request: &Request<'_>, station: &Station) -> String {
-    let mut text = format!("format = 1\nbase = \"{}\"\n", request.camera);
+    let mut camera = Table::new().with("base", request.camera);
     if !request.remove.is_empty() {
-        let _ = writeln!(text, "remove = {:?}", request.remove);
+        camera.put("remove", request.remove.to_vec());
     }
     if let Some(exposure_s) = station.exposure_s {
-        let _ = write!(text, "\n[sensor]\nexposure_s = {exposure_s:e}\n");
+        let mut sensor = Table::new().with("exposure_s", exposure_s);
         if let Some(specimen) = request.specimen {
-            let _ = write!(text, "\n# One specimen for all exposures.\n[sensor.non_uniformity]\nseed = {specimen}\n");
+            let pattern = NonUniformity { seed: Some(specimen.into()), ..NonUniformity::default() };
+            sensor.put("non_uniformity", pattern.to_table());
         }
+        camera.put("sensor", sensor);
     }
-    text
+    File::new(camera).above("sensor.non_uniformity", "One specimen for all exposures.").to_string()
 }

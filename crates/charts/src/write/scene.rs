@@ -1,45 +1,55 @@
 //! The scene: inks as materials, even light from everywhere or none.
 
-use crate::drawing::Drawing;
+use crate::drawing::{Drawing, Texture};
 use crate::ink::{Ink, Paint};
 use crate::light::Light;
+use crate::panel::Panel;
+use crate::shape::Fill;
+use etendue_scene::record::material::{Diffuse, Emitter};
+use etendue_scene::record::mesh::Axis;
+use etendue_scene::record::texture::{Encoding, Wrap};
+use etendue_scene::record::{
+    self, Body, Colour, Emission, Environment, Level, LightColour, Material, Mesh, Object, Reflectance, Scene, Surface,
+    SurfaceEmission, Transform,
+};
+use etendue_scene::written::File;
 use etendue_spectra::Spectrum;
 use glam::DVec2;
-use std::fmt::Write as _;
 
 /// The scene file.
 pub(super) fn scene(drawing: &Drawing, light: &Light) -> String {
-    let mut text = String::from("format = 1\n");
-    if drawing.lit {
-        let _ = write!(
-            text,
-            "\n# The same from everywhere: a matt surface of reflectance R has the luminance R times this.\n[environment]\ntype = \
-             \"uniform\"\n{}",
-            level(light, 1.0, "\n")
-        );
-        text.push('\n');
+    let texture = |texture: &Texture| self::texture(texture, drawing);
+    let scene = Scene {
+        meshes: drawing.panels.iter().map(mesh).collect(),
+        textures: drawing.textures.iter().map(texture).collect(),
+        materials: drawing.inks.iter().map(|ink| material(ink, drawing, light)).collect(),
+        objects: drawing.panels.iter().map(|panel| object(panel, drawing)).collect(),
+        environment: drawing.lit.then(|| Environment::Uniform(emission(light, 1.0))),
+        ..Scene::default()
+    };
+    let about = "The same from everywhere: a matt surface of reflectance R has the luminance R times this.";
+    File::new(scene.to_table()).above("environment", about).to_string()
+}
+
+fn texture(texture: &Texture, drawing: &Drawing) -> record::Texture {
+    let (scale, offset) = mapping(drawing.panels[texture.panel].sheet.size_mm, texture.place_mm);
+    record::Texture {
+        wrap: Some(Wrap::Mirror.into()),
+        uv_scale: Some(scale.into()),
+        uv_offset: Some(offset.into()),
+        ..record::Texture::new(texture.name.as_str(), texture.file.as_str(), Encoding::Linear)
     }
-    for texture in &drawing.textures {
-        let (scale, offset) = mapping(drawing.panels[texture.panel].sheet.size_mm, texture.place_mm);
-        let _ = write!(
-            text,
-            "\n[[textures]]\nname = \"{}\"\nfile = \"{}\"\nencoding = \"linear\"\nwrap = \"mirror\"\nuv_scale = {scale:?}\nuv_offset = {offset:?}\n",
-            texture.name, texture.file
-        );
-    }
-    for ink in &drawing.inks {
-        let _ = write!(text, "\n[[materials]]\nname = \"{}\"\n{}\n", ink.name, material(ink, drawing, light));
-    }
-    for panel in &drawing.panels {
-        let (name, [x, y, z]) = (&panel.name, panel.position_m.to_array());
-        let _ = write!(
-            text,
-            "\n[[meshes]]\nname = \"{name}\"\nfile = \"{name}.obj\"\nup_axis = \"z\"\n\n[[objects]]\nname = \"{name}\"\nmesh = \
-             \"{name}\"\nposition_m = [{x}, {y}, {z}]\nmaterials = {{ {} }}\n",
-            materials(drawing, panel)
-        );
-    }
-    text
+}
+
+fn mesh(panel: &Panel) -> Mesh {
+    Mesh::new(panel.name.as_str(), format!("{}.obj", panel.name).as_str(), Axis::Z)
+}
+
+fn object(panel: &Panel, drawing: &Drawing) -> Object {
+    let position_m = Some(panel.position_m.to_array().into());
+    let transform = Transform { position_m, ..Transform::default() };
+    let materials = shown(drawing, panel).map(|name| (name.into(), name.into())).collect();
+    Object { materials, ..Object::new(panel.name.as_str(), Body::Mesh(panel.name.as_str().into()), transform) }
 }
 
 /// How often a picture stands along a sheet's u and v, and where in the picture the sheet's lower left corner lies.
@@ -50,32 +60,37 @@ fn mapping(size_mm: DVec2, (low, high): (DVec2, DVec2)) -> ([f64; 2], [f64; 2]) 
     (scale.to_array(), (corner / (high - low)).to_array())
 }
 
-/// A luminance in the light's colour, its keys parted by `between`.
-fn level(light: &Light, share: f64, between: &str) -> String {
-    format!("luminance_cd_m2 = {}{between}illuminant = \"{}\"", share * light.luminance_cd_m2(), light.name())
+/// A share of the light.
+fn emission(light: &Light, share: f64) -> Emission {
+    let level = Level::Luminance((share * light.luminance_cd_m2()).into());
+    Emission { colour: Some(LightColour::Illuminant(light.name().into())), ..Emission::new(level) }
 }
 
-fn material(ink: &Ink, drawing: &Drawing, light: &Light) -> String {
+fn material(ink: &Ink, drawing: &Drawing, light: &Light) -> Material {
+    let name = ink.name.as_str();
+    let matt = |reflectance| Material::new(name, Surface::Diffuse(Diffuse::new(reflectance)));
     match &ink.paint {
-        Paint::Grey(reflectance) => format!("type = \"diffuse\"\nreflectance = {reflectance}"),
-        Paint::Spectral(_) => format!("type = \"diffuse\"\nreflectance = {{ spectrum = \"{}\" }}", spectrum_file(ink)),
+        Paint::Grey(reflectance) => matt(Reflectance::Plain(Colour::Grey((*reflectance).into()))),
+        Paint::Spectral(_) => matt(Reflectance::Plain(Colour::Spectrum(spectrum_file(ink).as_str().into()))),
         Paint::Texture { texture, .. } => {
-            format!("type = \"diffuse\"\nreflectance = {{ texture = \"{}\" }}", drawing.textures[*texture].name)
+            matt(Reflectance::Texture { name: drawing.textures[*texture].name.as_str().into(), scale: None })
         }
-        Paint::Glow(share) => format!("type = \"emitter\"\nemission = {{ {} }}", level(light, *share, ", ")),
+        Paint::Glow(share) => {
+            let emission = Some(SurfaceEmission::new(emission(light, *share)));
+            Material { emission, ..Material::new(name, Surface::Emitter(Emitter::default())) }
+        }
     }
 }
 
-/// The inks that a panel shows, each as itself.
-fn materials(drawing: &Drawing, panel: &crate::panel::Panel) -> String {
-    use crate::shape::Fill;
+/// The names of the inks that a panel shows, each as itself.
+fn shown<'a>(drawing: &'a Drawing, panel: &Panel) -> impl Iterator<Item = &'a str> {
     let number = drawing.panels.iter().position(|p| p.name == panel.name);
-    let shown = |i: &usize| {
+    let is_shown = |i: &usize| {
         let printed = panel.sheet.pieces.iter().any(|piece| piece.fill == Fill::Ink(*i));
         printed || drawing.cavities.iter().any(|c| Some(c.panel) == number && c.ink == *i)
     };
-    let names = (0..drawing.inks.len()).filter(shown).map(|i| &drawing.inks[i].name);
-    names.map(|name| format!("\"{name}\" = \"{name}\"")).collect::<Vec<_>>().join(", ")
+    let shown: Vec<usize> = (0..drawing.inks.len()).filter(is_shown).collect();
+    shown.into_iter().map(|i| drawing.inks[i].name.as_str())
 }
 
 /// The files of measured reflectances.

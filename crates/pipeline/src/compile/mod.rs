@@ -59,6 +59,16 @@ pub enum Quality {
 }
 
 impl Quality {
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Draft => "draft",
+            Self::Standard => "standard",
+            Self::Reference => "reference",
+        }
+    }
+
     /// Samples a pixel.
     #[must_use]
     pub fn spp(self) -> u32 {
@@ -136,11 +146,8 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     }
     let remarks = std::mem::take(&mut context.remarks);
     let notices = [&description.notices[..], &context.notices].concat();
-    let hash = [0; 32];
-    let mut plan =
-        Plan { world, material_table, sources, sky, cameras, identities, materials, classes, remarks, notices, hash };
-    plan.hash = fingerprint(&plan, context.assets);
-    Some(plan)
+    let hash = fingerprint(description, context.assets, choices);
+    Some(Plan { world, material_table, sources, sky, cameras, identities, materials, classes, remarks, notices, hash })
 }
 
 fn camera_plan(index: u32, setup: &CameraSetup, choices: &Choices, context: &mut Context<'_>) -> Option<CameraPlan> {

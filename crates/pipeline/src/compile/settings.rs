@@ -193,7 +193,7 @@ pub(super) fn settings(
         replicates,
         level,
         max_bounces: max_bounces(level, render, choices),
-        // What has no effect must not change the hash.
+        // Of paths only.
         caustics: level != Level::Path || render.caustics.as_ref().is_none_or(|c| c.value),
         wavelengths: wavelengths(render, body, &route, context)?,
         route,

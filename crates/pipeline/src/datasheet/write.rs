@@ -1,92 +1,95 @@
 //! The camera file of a data sheet, with the origin of every number.
 
 use super::Figures;
-use etendue_scene::record::DataSheet;
 use etendue_scene::record::datasheet::Points;
-use etendue_scene::record::sensor::cfa::Cfa;
-use std::fmt::Write as _;
-
-/// Lines of a file, each number with what it rests on above it.
-struct Lines(String);
-
-impl Lines {
-    fn line(&mut self, text: &str) {
-        self.0 += text;
-        self.0.push('\n');
-    }
-
-    fn key(&mut self, about: &str, key: &str, value: impl std::fmt::Display) {
-        // Writing to a string does not fail.
-        let _ = writeln!(self.0, "# {about}\n{key} = {value}");
-    }
-}
+use etendue_scene::record::lens::Pinhole;
+use etendue_scene::record::sensor::QuantumEfficiency;
+use etendue_scene::record::sensor::cfa::CfaSource;
+use etendue_scene::record::sensor::charge::{Dark, NonUniformity};
+use etendue_scene::record::{Camera, Curve, DataSheet, Electronics, Lens, Sensor};
+use etendue_scene::written::File;
 
 pub(super) fn camera(sheet: &DataSheet, figures: Figures, stem: &str) -> String {
-    let mut lines = Lines(String::new());
-    // A comment ends with its line.
-    let name: String = sheet.camera.value.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-    lines.line(&format!(
-        "# {name}, from its EMVA 1288 data sheet by `etendue datasheet`. \"Stated\" is what the sheet says."
-    ));
-    lines.line("format = 1\n\n[lens]");
-    lines.line("# Not on the sheet: put the lens here. This one sees 53° across and gives light of f/8, as the standard measures.");
-    lines.line("type = \"pinhole\"");
     let width_um = sheet.pixel_pitch_um.value * sheet.width_px.value as f64;
-    lines.line(&format!("focal_length_mm = {}", width_um.round().max(1.0) / 1e3));
-    lines.line("f_number = 8\n\n[sensor]");
-    lines.line(&format!("width_px = {}\nheight_px = {}", sheet.width_px.value, sheet.height_px.value));
-    lines.line(&format!("pixel_pitch_um = {}", sheet.pixel_pitch_um.value));
-    lines.key("Not on the sheet: put the exposure here.", "exposure_s", "0.01");
-    lines.line(&format!("cfa = \"{}\"", cfa_name(sheet.filters())));
-    let about = "Stated; the standard's efficiency has the fill factor in it, so \"fill_factor\" stays 1.";
-    lines.key(about, "quantum_efficiency", efficiency(sheet, stem));
-    noises(&mut lines, sheet, figures);
-    patterns(&mut lines, sheet);
-    lines.0
+    let lens = Lens::Pinhole(Pinhole::new(width_um.round().max(1.0) / 1e3, 8.0));
+    let (width, height, pitch) = (sheet.width_px.value, sheet.height_px.value, sheet.pixel_pitch_um.value);
+    let sensor = Sensor { electronics: Some(electronics(sheet, figures, stem)), ..Sensor::new(width, height, pitch) };
+    let name = &sheet.camera.value;
+    let head =
+        format!("{name}, from its EMVA 1288 data sheet by `etendue datasheet`. \"Stated\" is what the sheet says.");
+    // A comment of several lines would be none of the name's.
+    let file = File::new(Camera::new(lens, sensor).to_table()).head(head.replace('\n', " "));
+    let file = origins(sheet).into_iter().fold(file, |file, (key, about)| file.above(key, about));
+    match &sheet.linearity_error_percent {
+        Some(error) => {
+            file.above("sensor", format!("The stated linearity error of {} % is not modelled.", error.value))
+        }
+        None => file,
+    }
+    .to_string()
 }
 
-fn noises(lines: &mut Lines, sheet: &DataSheet, figures: Figures) {
-    let about = "Stated saturation capacity: where the temporal variance is largest, a little below the well itself.";
-    lines.key(about, "full_well_e", sheet.saturation_capacity_e.value);
-    let about = match sheet.temporal_dark_noise_e {
+fn electronics(sheet: &DataSheet, figures: Figures, stem: &str) -> Electronics {
+    let dark_current_e_s = sheet.dark_current_e_s.as_ref().map_or(0.0, |i| i.value);
+    let needed = Electronics::new(
+        0.01,
+        CfaSource::Named(sheet.filters().into()),
+        efficiency(sheet, stem),
+        sheet.saturation_capacity_e.value,
+        figures.dark_noise_e,
+        dark_current_e_s,
+        figures.gain_dn_e,
+        figures.black_level_dn,
+        sheet.bits.value,
+    );
+    Electronics { non_uniformity: pattern(sheet), dark: dark(sheet), ..needed }
+}
+
+/// What each number rests on, by its key.
+fn origins(sheet: &DataSheet) -> [(&'static str, &'static str); 10] {
+    let stated = |is_stated: bool, otherwise: &'static str| if is_stated { "Stated." } else { otherwise };
+    let noise = match sheet.temporal_dark_noise_e {
         Some(_) => "Stated temporal dark noise, without quantisation.",
         None => "From the stated dark noise in DN: √(σ² − 1/12)/K, so that rounding is not counted twice.",
     };
-    lines.key(about, "read_noise_e", figures.dark_noise_e);
-    let about = if sheet.dark_current_e_s.is_some() { "Stated." } else { "Not on the sheet." };
-    lines.key(about, "dark_current_e_s", sheet.dark_current_e_s.as_ref().map_or(0.0, |i| i.value));
-    let about = if sheet.gain_dn_per_e.is_some() { "Stated." } else { "The inverse of the stated 1/K." };
-    lines.key(about, "gain_dn_per_e", figures.gain_dn_e);
-    let about = match sheet.black_level_dn {
-        Some(_) => "Stated.",
-        None => "Not on the sheet: five deviations of the dark noise, as far as the converter leaves room.",
-    };
-    lines.key(about, "black_level_dn", figures.black_level_dn);
-    lines.line(&format!("bits = {}", sheet.bits.value));
-    if let Some(error) = &sheet.linearity_error_percent {
-        lines.line(&format!("# The stated linearity error of {} % is not modelled.", error.value));
-    }
+    let black = "Not on the sheet: five deviations of the dark noise, as far as the converter leaves room.";
+    [
+        (
+            "lens.type",
+            "Not on the sheet: put the lens here. This one sees 53° across and gives light of f/8, as the standard measures.",
+        ),
+        ("sensor.exposure_s", "Not on the sheet: put the exposure here."),
+        (
+            "sensor.quantum_efficiency",
+            "Stated; the standard's efficiency has the fill factor in it, so \"fill_factor\" stays 1.",
+        ),
+        (
+            "sensor.full_well_e",
+            "Stated saturation capacity: where the temporal variance is largest, a little below the well itself.",
+        ),
+        ("sensor.read_noise_e", noise),
+        ("sensor.dark_current_e_s", stated(sheet.dark_current_e_s.is_some(), "Not on the sheet.")),
+        ("sensor.gain_dn_per_e", stated(sheet.gain_dn_per_e.is_some(), "The inverse of the stated 1/K.")),
+        ("sensor.black_level_dn", stated(sheet.black_level_dn.is_some(), black)),
+        ("sensor.non_uniformity", "Stated."),
+        ("sensor.dark", "The temperature of the stated dark current; put the sensor's own in the first line."),
+    ]
 }
 
-fn patterns(lines: &mut Lines, sheet: &DataSheet) {
-    if sheet.prnu_percent.is_some() || sheet.dsnu_e.is_some() {
-        lines.line("\n# Stated.\n[sensor.non_uniformity]");
-    }
-    if let Some(prnu) = &sheet.prnu_percent {
-        lines.line(&format!("prnu = {}", share(prnu.value)));
-    }
-    if let Some(dsnu) = &sheet.dsnu_e {
-        lines.line(&format!("dsnu_e = {}", dsnu.value));
-    }
-    if let Some(celsius) = sheet.dark_current_at_c.as_ref().map(|t| t.value) {
-        lines.line(
-            "\n# The temperature of the stated dark current; put the sensor's own in the first line.\n[sensor.dark]",
-        );
-        lines.line(&format!("temperature_c = {celsius}\nreference_c = {celsius}"));
-        if let Some(step) = &sheet.doubling_k {
-            lines.line(&format!("doubling_k = {}", step.value));
-        }
-    }
+fn pattern(sheet: &DataSheet) -> Option<NonUniformity> {
+    let prnu = sheet.prnu_percent.as_ref().map(|prnu| share(prnu.value).into());
+    let dsnu_e = sheet.dsnu_e.as_ref().map(|dsnu| dsnu.value.into());
+    (prnu.is_some() || dsnu_e.is_some()).then(|| NonUniformity { prnu, dsnu_e, ..NonUniformity::default() })
+}
+
+fn dark(sheet: &DataSheet) -> Option<Dark> {
+    let celsius = sheet.dark_current_at_c.as_ref()?.value;
+    Some(Dark {
+        temperature_c: Some(celsius.into()),
+        reference_c: Some(celsius.into()),
+        doubling_k: sheet.doubling_k.as_ref().map(|step| step.value.into()),
+        ..Dark::default()
+    })
 }
 
 /// A percentage as a share, without the noise of a division.
@@ -95,19 +98,17 @@ fn share(percent: f64) -> f64 {
 }
 
 /// One number, or a table, of each channel.
-fn efficiency(sheet: &DataSheet, stem: &str) -> String {
-    let curves = sheet.quantum_efficiency_percent.curves();
+fn efficiency(sheet: &DataSheet, stem: &str) -> QuantumEfficiency {
     let value = |channel: &str, points: &Points| match points.as_slice() {
-        [only] => format!("{}", share(only.value[1])),
-        _ => format!("{{ spectrum = \"{}\" }}", table_name(stem, channel)),
+        [only] => Curve::Constant(share(only.value[1]).into()),
+        _ => Curve::File(table_name(stem, channel).as_str().into()),
     };
+    let curves = sheet.quantum_efficiency_percent.curves();
     match curves.as_slice() {
-        [(channel, points)] => value(channel, points),
-        many => {
-            let parts: Vec<String> =
-                many.iter().map(|(channel, points)| format!("{channel} = {}", value(channel, points))).collect();
-            format!("{{ channels = {{ {} }} }}", parts.join(", "))
-        }
+        [(channel, points)] => QuantumEfficiency::Same(value(channel, points)),
+        many => QuantumEfficiency::Named(
+            many.iter().map(|(channel, points)| ((*channel).into(), value(channel, points))).collect(),
+        ),
     }
 }
 
@@ -124,20 +125,4 @@ pub(super) fn tables(sheet: &DataSheet, stem: &str) -> Vec<(String, String)> {
         (table_name(stem, channel), format!("wavelength_nm,quantum_efficiency\n{rows}"))
     };
     curves.iter().filter(|(_, points)| points.len() > 1).map(table).collect()
-}
-
-/// The word of a filter array in files.
-fn cfa_name(cfa: Cfa) -> &'static str {
-    match cfa {
-        Cfa::Mono => "mono",
-        Cfa::Rggb => "rggb",
-        Cfa::Bggr => "bggr",
-        Cfa::Grbg => "grbg",
-        Cfa::Gbrg => "gbrg",
-        Cfa::Rccc => "rccc",
-        Cfa::Rccb => "rccb",
-        Cfa::Rgwb => "rgwb",
-        Cfa::Rgib => "rgib",
-        Cfa::Cygm => "cygm",
-    }
 }

@@ -47,6 +47,26 @@ impl Assets {
         missing
     }
 
+    /// The hashes of all that was read of a file, and of the pictures that a mesh names, one after the other: the same where the
+    /// contents are, wherever they lie. None of a file that was not read.
+    #[must_use]
+    pub fn hashes(&self, path: &Path) -> Vec<u8> {
+        let Self { meshes, images, spectra, photometry, indices, retro_tables, numbers, prescriptions, calibrations } =
+            self;
+        let mesh = meshes.get(path);
+        let pictures = mesh.into_iter().flat_map(|mesh| mesh.slot_materials.iter().filter_map(picture));
+        let mut hashes: Vec<[u8; 32]> = mesh.map(|asset| asset.hash).into_iter().collect();
+        hashes.extend(pictures.chain([path]).filter_map(|path| images.get(path)).map(|asset| asset.hash));
+        hashes.extend(spectra.get(path).map(|asset| asset.hash));
+        hashes.extend(photometry.get(path).map(|asset| asset.hash));
+        hashes.extend(indices.get(path).map(|asset| asset.hash));
+        hashes.extend(retro_tables.get(path).map(|asset| asset.hash));
+        hashes.extend(numbers.get(path).map(|asset| asset.hash));
+        hashes.extend(prescriptions.get(path).map(|asset| asset.hash));
+        hashes.extend(calibrations.iter().filter(|((file, _), _)| file == path).map(|(_, asset)| asset.hash));
+        hashes.concat()
+    }
+
     fn has(&self, kind: &AssetKind, path: &Path) -> bool {
         match kind {
             AssetKind::Mesh => self.meshes.contains_key(path),
@@ -70,12 +90,16 @@ fn textures_of<'a>(
 ) -> impl Iterator<Item = AssetRequest> + 'a {
     let requests = move || named.iter().filter(move |request| request.kind == AssetKind::Mesh && request.path == file);
     let is_seen = move |slot: &&SlotMaterial| requests().any(|request| !request.covered.has(&slot.name));
-    let surfaces = mesh.slot_materials.iter().filter(is_seen).filter_map(|slot| slot.surface.as_ref());
-    surfaces.filter_map(move |surface| match surface.reflectance() {
-        SlotReflectance::Image(path) => {
-            let (path, place) = (path.clone(), Place::file_head(file));
-            Some(AssetRequest { path, kind: AssetKind::Image, place, covered: Covered::All })
-        }
-        SlotReflectance::LinearSrgb(_) => None,
+    mesh.slot_materials.iter().filter(is_seen).filter_map(picture).map(move |path| {
+        let (path, place) = (path.to_owned(), Place::file_head(file));
+        AssetRequest { path, kind: AssetKind::Image, place, covered: Covered::All }
     })
+}
+
+/// The picture that a mesh's own material names.
+fn picture(slot: &SlotMaterial) -> Option<&Path> {
+    match slot.surface.as_ref()?.reflectance() {
+        SlotReflectance::Image(path) => Some(path),
+        SlotReflectance::LinearSrgb(_) => None,
+    }
 }

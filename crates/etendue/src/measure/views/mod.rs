@@ -15,8 +15,10 @@ use etendue_metrology::Estimate;
 use etendue_metrology::calibrate::{CalibrateError, Calibrated, CameraModel, Options, Sightings, calibrate_sparing};
 use etendue_metrology::target::Node;
 use etendue_projection::CalibrationError;
+use etendue_scene::record::lens::calibrated::View;
+use etendue_scene::record::{self, Camera, Lens, Sensor};
+use etendue_scene::written::File;
 use glam::DVec2;
-use serde_json::Value;
 pub use stated::StatedLength;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -308,19 +310,20 @@ impl Found {
     pub(crate) fn camera_file(&self, verb: &str, pixel_pitch_um: f64, f_number: Option<f64>) -> Result<String, Error> {
         let refused = |folds| Error::input(format!("no camera file of this, figures only: {folds}"));
         self.camera.calibration.check().map_err(refused)?;
-        let facts = calibration::keys(&self.camera.calibration);
-        let keys = facts["projection"].as_object().expect("a projection is an object").iter();
-        let keys: Vec<String> = keys.map(|(key, value): (&String, &Value)| format!("{key} = {value}")).collect();
-        let [width, height] = self.camera.calibration.size_px();
-        let (f_number, told) = f_number.map_or((4.0, "  # a stand-in: not measured"), |n| (n, ""));
+        let [width, height] = self.camera.calibration.size_px().map(|n| n as u64);
+        let view = View::Projection(Box::new(calibration::projection(&self.camera.calibration)));
+        let lens = Lens::Calibrated(Box::new(record::lens::Calibrated::new(view, f_number.unwrap_or(4.0))));
+        let camera = Camera::new(lens, Sensor::new(width, height, pixel_pitch_um));
         let count = self.views.len();
         let views = if count == 1 { "view" } else { "views" };
-        Ok(format!(
-            "# Found by etendue {verb} from {count} {views}; points lie {:.4} px (rms) from the fit.\nformat = 1\n\n[lens]\ntype = \
-             \"calibrated\"\nf_number = {f_number}{told}\nprojection = {{ {} }}\n\n[sensor]\nwidth_px = {width}\nheight_px = \
-             {height}\npixel_pitch_um = {pixel_pitch_um}\n",
-            self.camera.rms_px(),
-            keys.join(", ")
-        ))
+        let rms_px = self.camera.rms_px();
+        let about =
+            format!("Found by etendue {verb} from {count} {views}; points lie {rms_px:.4} px (rms) from the fit.");
+        let file = File::new(camera.to_table()).head(about);
+        Ok(match f_number {
+            Some(_) => file,
+            None => file.beside("lens.f_number", "a stand-in: not measured"),
+        }
+        .to_string())
     }
 }
