@@ -84,6 +84,7 @@ impl WavelengthDensity {
     }
 
     /// The density at a wavelength, 1/nm.
+    #[inline]
     #[must_use]
     pub fn pdf(&self, nm: f32) -> f32 {
         let piece = self.pieces.iter().find(|piece| (piece.low_nm..=piece.high_nm).contains(&nm));
@@ -105,6 +106,7 @@ impl Piece {
     }
 }
 
+#[inline]
 fn guide(pieces: &[Piece], steps: usize) -> Vec<u16> {
     let begin = |step: usize| {
         let u = step as f64 / steps as f64;

@@ -28,6 +28,7 @@ pub struct PixelAddress {
 
 impl PixelAddress {
     /// A 64-bit key of the whole address.
+    #[inline]
     #[must_use]
     pub fn key(&self) -> u64 {
         let words = [
@@ -70,6 +71,7 @@ pub enum Draw {
 }
 
 /// A bijection of 64-bit words that scatters its bits (the finaliser of splitmix64, Steele et al. 2014).
+#[inline]
 pub(super) fn mix(mut z: u64) -> u64 {
     z = z.wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

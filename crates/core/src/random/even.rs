@@ -27,12 +27,14 @@ impl EvenNumbers {
     }
 
     /// The number of a sample, below the count.
+    #[inline]
     #[must_use]
     pub fn at(&self, sample: u32) -> f64 {
         (f64::from(self.shuffled(sample)) + self.shift) / f64::from(self.count)
     }
 
     /// A permutation of 0 … count − 1: one of the next power of two, walked until it falls below the count.
+    #[inline]
     fn shuffled(&self, sample: u32) -> u32 {
         let mask = self.count.next_power_of_two() - 1;
         let mut i = sample % self.count;
@@ -45,6 +47,7 @@ impl EvenNumbers {
     }
 
     /// A bijection of the numbers of `mask`: each step is one (an odd product, a sum, a shift to the right folded in).
+    #[inline]
     fn scattered(&self, i: u32, mask: u32) -> u32 {
         let bits = mask.count_ones();
         let mut x = i;

@@ -21,12 +21,14 @@ pub use path::PathStream;
 pub use philox::philox4x32;
 
 /// A float in [0, 1) from the upper 24 bits of a word.
+#[inline]
 #[must_use]
 pub fn unit_f32(word: u32) -> f32 {
     (word >> 8) as f32 * (1.0 / 16_777_216.0)
 }
 
 /// A float in [0, 1) from 53 bits of a double word.
+#[inline]
 #[must_use]
 pub fn unit_f64(word: u64) -> f64 {
     (word >> 11) as f64 * (1.0 / 9_007_199_254_740_992.0)

@@ -72,6 +72,7 @@ impl NoiseKey {
     }
 
     /// The stream of a pixel.
+    #[inline]
     #[must_use]
     pub fn stream(self, pixel: Pixel) -> NoiseStream {
         NoiseStream { key: self.0, counter: [0, 0, pixel.x, pixel.y], words: [0; 4], used: 4 }
@@ -97,6 +98,7 @@ impl NoiseStream {
     }
 
     /// The next 32 bits.
+    #[inline]
     pub fn word(&mut self) -> u32 {
         if self.used == 4 {
             self.words = philox4x32(self.counter, self.key);
@@ -108,17 +110,20 @@ impl NoiseStream {
     }
 
     /// The next 64 bits.
+    #[inline]
     pub fn double_word(&mut self) -> u64 {
         let low = u64::from(self.word());
         low | u64::from(self.word()) << 32
     }
 
     /// The next number in [0, 1), of 24 bits.
+    #[inline]
     pub fn unit_f32(&mut self) -> f32 {
         unit_f32(self.word())
     }
 
     /// The next number in [0, 1), of 53 bits.
+    #[inline]
     pub fn unit_f64(&mut self) -> f64 {
         unit_f64(self.double_word())
     }
@@ -127,10 +132,12 @@ impl NoiseStream {
 impl TryRng for NoiseStream {
     type Error = Infallible;
 
+    #[inline]
     fn try_next_u32(&mut self) -> Result<u32, Infallible> {
         Ok(self.word())
     }
 
+    #[inline]
     fn try_next_u64(&mut self) -> Result<u64, Infallible> {
         Ok(self.double_word())
     }

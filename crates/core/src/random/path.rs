@@ -25,18 +25,21 @@ impl PathStream {
     }
 
     /// The numbers of another sample of the same pixel and replicate.
+    #[inline]
     #[must_use]
     pub fn with_sample(self, sample: u32) -> Self {
         Self { mirrored: sample.reverse_bits(), ..self }
     }
 
     /// Which sample of its pixel and replicate.
+    #[inline]
     #[must_use]
     pub fn sample(&self) -> u32 {
         self.mirrored.reverse_bits()
     }
 
     /// A number in [0, 1) for `draw`; `sub` tells vertices and repetitions apart.
+    #[inline]
     #[must_use]
     pub fn one(&self, draw: Draw, sub: u32) -> f32 {
         let key = self.draw_key(draw, sub);
@@ -46,6 +49,7 @@ impl PathStream {
 
     /// A point of the unit square for `draw`, independent of [`PathStream::one`] of the same draw only in that both
     /// are never taken: a draw is used in one form.
+    #[inline]
     #[must_use]
     pub fn two(&self, draw: Draw, sub: u32) -> Vec2 {
         let key = self.draw_key(draw, sub);
@@ -54,6 +58,7 @@ impl PathStream {
         Vec2::new(unit_f32(x), unit_f32(y))
     }
 
+    #[inline]
     fn draw_key(&self, draw: Draw, sub: u32) -> u64 {
         mix(self.key ^ (u64::from(draw as u32) << 32 | u64::from(sub)).wrapping_mul(0xd6e8_feb8_6659_fd93))
     }

@@ -5,11 +5,13 @@
 //! and pads low dimensions to any number. The constants of the hash are Vegdahl's (2021), which scramble better.
 
 /// Dimension 0 (the van der Corput sequence) at `index`, Owen-scrambled by `seed`; fixed point, 2³² is one.
+#[inline]
 pub(super) fn scrambled_0(index: u32, seed: u32) -> u32 {
     upward_hash(index, seed).reverse_bits()
 }
 
 /// Dimensions 0 and 1 at `index`, Owen-scrambled by a seed each; fixed point, 2³² is one. Both are reversed at once.
+#[inline]
 pub(super) fn scrambled_pair(index: u32, seed_0: u32, seed_1: u32) -> (u32, u32) {
     let (low, high) = (upward_hash(mirrored_1(index), seed_1), upward_hash(index, seed_0));
     let both = (u64::from(low) | u64::from(high) << 32).reverse_bits();
@@ -18,12 +20,14 @@ pub(super) fn scrambled_pair(index: u32, seed_0: u32, seed_1: u32) -> (u32, u32)
 
 /// A shuffle of indices that keeps every aligned power-of-two block together, so prefixes stay well distributed. The
 /// index is given with its bits reversed.
+#[inline]
 pub(super) fn shuffle_mirrored(mirrored: u32, seed: u32) -> u32 {
     upward_hash(mirrored, seed).reverse_bits()
 }
 
 /// Dimension 1 with its bits reversed: its matrix is Pascal's triangle modulo 2, the Kronecker power of a triangle of
 /// ones, and so applied by doubling steps.
+#[inline]
 fn mirrored_1(index: u32) -> u32 {
     let mut x = index;
     x ^= (x & 0xaaaa_aaaa) >> 1;
@@ -33,6 +37,7 @@ fn mirrored_1(index: u32) -> u32 {
     x ^ (x & 0xffff_0000) >> 16
 }
 
+#[inline]
 fn upward_hash(mut x: u32, seed: u32) -> u32 {
     x ^= x.wrapping_mul(0x3d20_adea);
     x = x.wrapping_add(seed);

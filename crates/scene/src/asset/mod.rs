@@ -1,20 +1,23 @@
 //! Contents of the files that a description names: inert data, filled by whoever reads files.
 
 mod calibration;
+pub(crate) mod file_list;
 mod mesh;
 mod mtl;
+mod named_files;
 mod photometry;
 mod prescription;
-mod request;
+pub(crate) mod request;
 mod store;
 mod table;
 
 pub use calibration::{CalibrationAsset, CalibrationChoice, CalibrationFormat};
 pub use mesh::{ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
 pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurface};
+pub use named_files::of_camera;
+pub(crate) use named_files::{names_files, requests};
 pub use photometry::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
 pub use prescription::{GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
-pub use request::{AssetKind, AssetRequest, Covered, Values, of_camera};
-pub(crate) use request::{names_files, requests};
+pub use request::{AssetKind, AssetRequest, Covered, Values};
 pub use store::Assets;
 pub use table::{ComplexIndexAsset, NumbersAsset, RetroTableAsset};

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::asset::file_list::FileList;
+use crate::asset::request::{AssetKind, Values};
 use crate::place::Placed;
 use crate::reader::{Number, Rule, RuleExt as _, either, keyed, path, record};
 
@@ -12,6 +14,15 @@ pub enum Curve {
     Constant(Placed<f64>),
     /// A table of wavelength (nm) and value.
     File(Placed<PathBuf>),
+}
+
+impl Curve {
+    /// Requests its file, whose values are `values`, where it has one.
+    pub(crate) fn name_file(&self, values: Values, files: &mut FileList) {
+        if let Self::File(file) = self {
+            files.add(AssetKind::Spectrum(values), file);
+        }
+    }
 }
 
 keyed! {

@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 
 use super::curve::spectrum_file;
+use crate::asset::file_list::{FileList, NamesFiles};
+use crate::asset::request::{AssetKind, Values};
 use crate::fault::{Faults, Named};
 use crate::place::{Place, Placed};
 use crate::reader::{Number, Rule, RuleExt as _, either, keyed, known, name_of, number, record, vector};
@@ -46,6 +48,22 @@ impl Colour {
             Self::LinearSrgb(v) | Self::EncodedSrgb(v) => &v.place,
             Self::Spectrum(v) => &v.place,
             Self::Named(v) => &v.place,
+        }
+    }
+}
+
+impl NamesFiles for Colour {
+    fn name_files(&self, files: &mut FileList) {
+        if let Self::Spectrum(file) = self {
+            files.add(AssetKind::Spectrum(Values::Share), file);
+        }
+    }
+}
+
+impl NamesFiles for Reflectance {
+    fn name_files(&self, files: &mut FileList) {
+        if let Self::Plain(colour) = self {
+            colour.name_files(files);
         }
     }
 }

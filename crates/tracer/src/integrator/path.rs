@@ -55,7 +55,7 @@ pub(super) struct Vertex<'a, const N: usize> {
     pub(super) frame: ShadingFrame,
     pub(super) bsdf: Bsdf<'a, N>,
     /// Of mixes the part that was drawn.
-    material: MaterialId,
+    pub(super) material: MaterialId,
 }
 
 /// What a path meets.

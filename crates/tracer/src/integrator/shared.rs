@@ -214,6 +214,7 @@ impl<const N: usize> First<'_, N> {
 
 /// Whether a surface that a path has just met is the first to scatter it, in air.
 fn may_be_first<const N: usize>(path: &Path<'_, N>, vertex: &Vertex<'_, N>) -> bool {
-    let scatters = !vertex.bsdf.is_delta() && !matches!(vertex.bsdf, Bsdf::Absorber | Bsdf::Dielectric(_));
-    path.bounces == 0 && path.medium.is_clear() && scatters
+    let scatters = !vertex.bsdf.is_delta() && !matches!(vertex.bsdf, Bsdf::Absorber);
+    let in_air = path.medium.is_clear() && path.tracer.material_table.solid(vertex.material).is_none();
+    path.bounces == 0 && scatters && in_air
 }

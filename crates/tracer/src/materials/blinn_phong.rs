@@ -10,16 +10,22 @@
 //! incidence the lobe loses energy, as it has no Fresnel factor; shadowing is left out.
 
 use core::f32::consts::{FRAC_1_PI, TAU};
+use etendue_core::Spectral;
 use etendue_core::maths;
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
-use etendue_core::{Spectral, Wavelengths};
 use etendue_spectra::Spectrum;
 use glam::{Vec2, Vec3};
 
+use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable, EnergyGain};
+use super::error::MaterialError;
 use super::microfacet::{half_vector, mirrored};
-use super::{BsdfSample, BsdfValue, Event, Reflectance};
+use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
+use super::parameter::Parameter;
+use super::reflectance::Reflectance;
+use super::shading_point::ShadingPoint;
+use super::texture_check::TextureCheck;
 
 /// The sharpest lobe: about 0.2° wide.
 const MAX_EXPONENT: f64 = 1e5;
@@ -57,27 +63,34 @@ impl BlinnPhong {
         }
         let lobe = Lobe { n: exponent as f32, scale: blinn_phong_normalisation(exponent) as f32 };
         let model = Self { base, gloss, lobe, albedo: AlbedoTable::new(|cos| lobe.albedo(cos)) };
-        model.check_energy(&energy::known(&model.base))?;
+        model.refuse_gain(&energy::known(&model.base))?;
         Ok(model)
     }
 
-    /// The matt base's reflectance.
-    #[must_use]
-    pub fn base(&self) -> &Reflectance {
-        &self.base
-    }
-
     /// Refuses a base with which more is sent back than arrives.
-    pub(super) fn check_energy(&self, base: &Spectrum) -> Result<(), EnergyGain> {
+    fn refuse_gain(&self, base: &Spectrum) -> Result<(), EnergyGain> {
         energy::check(base, &[(&self.gloss, &self.albedo)])
     }
+}
 
-    pub(super) fn resolve<const N: usize>(
-        &self,
-        base: Spectral<N>,
-        wavelengths: &Wavelengths<N>,
-    ) -> BlinnPhongBsdf<'_, N> {
-        BlinnPhongBsdf { model: self, base, gloss: self.gloss.sample(wavelengths) }
+impl SurfaceModel for BlinnPhong {
+    type Bsdf<'a, const N: usize> = BlinnPhongBsdf<'a, N>;
+
+    fn parameters(&self) -> Vec<Parameter<'_>> {
+        vec![Parameter::Reflectance(&self.base)]
+    }
+
+    fn passage(&self) -> Passage<'_> {
+        Passage::None
+    }
+
+    fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> BlinnPhongBsdf<'_, N> {
+        BlinnPhongBsdf { model: self, base: point.reflectance(&self.base), gloss: self.gloss.sample(point.wavelengths) }
+    }
+
+    fn check_energy(&self, check: &TextureCheck<'_>) -> Result<(), MaterialError> {
+        let gained = |gain| MaterialError::Gain { material: check.material, gain };
+        self.refuse_gain(&check.brightest(&self.base)).map_err(gained)
     }
 }
 
@@ -161,11 +174,6 @@ impl<const N: usize> BlinnPhongBsdf<'_, N> {
         DiscreteSampler::new(if self.model.lobe.n < WIDE { [base + lobe, 0.0] } else { [base, lobe] })
     }
 
-    pub(super) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
-        self.discrete_sampler(wo)
-            .map_or(BsdfValue::ZERO, |discrete_sampler| self.value(discrete_sampler, wo, wi, half_vector(wo, wi)))
-    }
-
     fn value(&self, discrete_sampler: DiscreteSampler<2>, wo: Vec3, wi: Vec3, h: Vec3) -> BsdfValue<N> {
         let Lobe { n, scale } = self.model.lobe;
         let power = maths::f32::pow(h.z.clamp(0.0, 1.0), n);
@@ -175,8 +183,20 @@ impl<const N: usize> BlinnPhongBsdf<'_, N> {
             pdf: discrete_sampler.of(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.of(1) * lobe_pdf,
         }
     }
+}
 
-    pub(super) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
+impl<const N: usize> BsdfModel<N> for BlinnPhongBsdf<'_, N> {
+    #[inline]
+    fn flags(&self) -> BsdfFlags {
+        BsdfFlags::LOBES
+    }
+
+    fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+        self.discrete_sampler(wo)
+            .map_or(BsdfValue::ZERO, |discrete_sampler| self.value(discrete_sampler, wo, wi, half_vector(wo, wi)))
+    }
+
+    fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let discrete_sampler = self.discrete_sampler(wo)?;
         let (wi, h) = if discrete_sampler.draw(choice) == 0 {
             let wi = cosine_hemisphere(u);

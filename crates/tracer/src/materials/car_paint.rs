@@ -20,18 +20,24 @@
 //! hardly does), pearl and interference pigments, absorption in the coat.
 
 use core::f32::consts::FRAC_1_PI;
+use etendue_core::Spectral;
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
-use etendue_core::{Spectral, Wavelengths};
 use etendue_spectra::Spectrum;
 use etendue_spectra::metal::ComplexIndex;
 use glam::{Vec2, Vec3};
 
+use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::coated::{COAT_INDICES, Coat, PlaceInRows};
 use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable};
+use super::error::MaterialError;
+use super::factor::Factor;
+use super::fresnel;
 use super::microfacet::{Ggx, half_vector, mirrored};
-use super::{BsdfSample, BsdfValue, Event, Factor, MaterialError, Reflectance, fresnel};
-use crate::textures::{ImageTexture, Lookup};
+use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
+use super::parameter::Parameter;
+use super::reflectance::Reflectance;
+use super::shading_point::ShadingPoint;
 
 /// What a metallic paint is made of.
 #[derive(Clone, Debug, PartialEq)]
@@ -171,25 +177,26 @@ impl CarPaint {
         })
     }
 
-    /// The reflectance of the pigment.
-    #[must_use]
-    pub fn pigment(&self) -> &Reflectance {
-        &self.pigment
-    }
-
     /// Share of diffuse light inside that the coat turns round.
     fn turned_diffuse(&self) -> f32 {
         1.0 - self.coat.mean_transmittance(self.place) / (self.coat.n * self.coat.n)
     }
+}
 
-    pub(super) fn resolve<const N: usize>(
-        &self,
-        textures: &[ImageTexture],
-        lookup: &Lookup,
-        wavelengths: &Wavelengths<N>,
-    ) -> CarPaintBsdf<'_, N> {
-        let flakes = self.flakes.sample(wavelengths) * self.coverage;
-        let pigment = self.pigment.at(textures, lookup, wavelengths) * (1.0 - self.coverage);
+impl SurfaceModel for CarPaint {
+    type Bsdf<'a, const N: usize> = CarPaintBsdf<'a, N>;
+
+    fn parameters(&self) -> Vec<Parameter<'_>> {
+        vec![Parameter::Reflectance(&self.pigment)]
+    }
+
+    fn passage(&self) -> Passage<'_> {
+        Passage::None
+    }
+
+    fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> CarPaintBsdf<'_, N> {
+        let flakes = self.flakes.sample(point.wavelengths) * self.coverage;
+        let pigment = point.reflectance(&self.pigment) * (1.0 - self.coverage);
         let turned = self.turned_diffuse();
         let again = Spectral::from_fn(|i| {
             let (f, d) = (flakes[i], pigment[i]);
@@ -259,10 +266,6 @@ impl<const N: usize> CarPaintBsdf<'_, N> {
         DiscreteSampler::new([1.0 - through, through * flakes, through * matt])
     }
 
-    pub(super) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
-        self.discrete_sampler(wo).map_or(BsdfValue::ZERO, |discrete_sampler| self.value(&discrete_sampler, wo, wi))
-    }
-
     fn value(&self, discrete_sampler: &DiscreteSampler<3>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let n = self.paint.coat.n;
         let both = self.through(wo.z) * self.through(wi.z) / (n * n);
@@ -294,8 +297,19 @@ impl<const N: usize> CarPaintBsdf<'_, N> {
         let cos = outer_cos(i.z, n).filter(|_| i.z > 0.0)?;
         Some(bent(i, n, cos))
     }
+}
 
-    pub(super) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
+impl<const N: usize> BsdfModel<N> for CarPaintBsdf<'_, N> {
+    #[inline]
+    fn flags(&self) -> BsdfFlags {
+        BsdfFlags::LOBES
+    }
+
+    fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+        self.discrete_sampler(wo).map_or(BsdfValue::ZERO, |discrete_sampler| self.value(&discrete_sampler, wo, wi))
+    }
+
+    fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let discrete_sampler = self.discrete_sampler(wo)?;
         let wi = match (discrete_sampler.draw(choice), self.paint.coat_facets) {
             (0, Some(facets)) => mirrored(wo, facets.sample(wo, u)),

@@ -1,137 +1,109 @@
 //! What a material_table's materials must be.
 
-use super::mix;
-use super::{Emission, EnergyGain, Factor, Leaf, Material, MaterialError, Reflectance, Surface};
+use super::Surface;
+use super::emission::Emission;
+use super::error::MaterialError;
+use super::material::Material;
+use super::mix::Mix;
+use super::parameter::Parameter;
+use super::texture_check::TextureCheck;
 use crate::lights::BRIGHTEST;
-use crate::textures::{Channel, ImageTexture, TextureId};
-use etendue_spectra::Spectrum;
-
-/// Rounding in the basis spectra may take white a little over 1.
-const WHITE: f32 = 1.0 + 1e-4;
+use crate::textures::ImageTexture;
 
 /// Checks material `index` of `materials`.
 pub(super) fn material(materials: &[Material], index: usize, textures: &[ImageTexture]) -> Result<(), MaterialError> {
     let material = &materials[index];
-    match &material.surface {
-        Surface::Absorber | Surface::Marking(_) => {}
-        Surface::Diffuse(r) => reflectance(index, r, textures)?,
-        Surface::Lafortune(model) => base(index, model.base(), textures, |s| model.check_energy(s))?,
-        Surface::BlinnPhong(model) => base(index, model.base(), textures, |s| model.check_energy(s))?,
-        Surface::CarPaint(paint) => reflectance(index, paint.pigment(), textures)?,
-        Surface::Cloth(cloth) => reflectance(index, cloth.base(), textures)?,
-        Surface::Sheeting(sheeting) => sheeting.print().map_or(Ok(()), |print| reflectance(index, print, textures))?,
-        Surface::Conductor(conductor) => alpha(index, conductor.alpha(), textures)?,
-        Surface::Coated(coated) => {
-            reflectance(index, coated.base(), textures)?;
-            alpha(index, coated.alpha(), textures)?;
-        }
-        Surface::Dielectric(dielectric) => alpha(index, dielectric.alpha(), textures)?,
-        Surface::ThinSheet(sheet) => reflectance(index, sheet.transmittance(), textures)?,
-        Surface::Leaf(both) => leaf(index, both, textures)?,
-        Surface::Mix(parts) => {
-            mix::check(materials, index, parts)?;
-            factor(index, "a share", parts.weight, textures)?;
-            if material.normal_map.is_some() {
-                return Err(MaterialError::MixNormal { material: index });
-            }
-        }
+    let check = TextureCheck { material: index, textures };
+    if let Surface::Mix(mix) = &material.surface {
+        parts(materials, index, mix)?;
     }
-    if let Some(glow) = &material.emission {
-        emission(index, glow, textures)?;
+    material.surface.parameters().into_iter().try_for_each(|p| check.parameter(p))?;
+    material.surface.check_energy(&check)?;
+    if let (Surface::Mix(_), Some(_)) = (&material.surface, &material.normal_map) {
+        return Err(MaterialError::MixNormal { material: index });
+    }
+    if let Some(of_surface) = &material.emission {
+        emission(&check, of_surface)?;
     }
     if let Some(opacity) = material.opacity {
-        factor(index, "an opacity", opacity, textures)?;
+        check.parameter(Parameter::Factor(opacity, "an opacity"))?;
         if let (Some(_), Some(id)) = (&material.emission, opacity.texture()) {
-            laid_by_uv(index, "an opacity beside its emission", id, textures)?;
+            check.laid_by_uv("an opacity beside its emission", id)?;
         }
     }
     if let Some(map) = material.normal_map {
-        laid_by_uv(index, "a normal map", map.texture(), textures)?;
+        check.laid_by_uv("a normal map", map.texture())?;
     }
     Ok(())
 }
 
-fn reflectance(material: usize, r: &Reflectance, textures: &[ImageTexture]) -> Result<(), MaterialError> {
-    let (low, high) = match r {
-        Reflectance::Spectrum(s) => (s.min_value(), s.max_value()),
-        Reflectance::Texture(id) => find(material, *id, textures)?.range(),
-    };
-    match [low, high].into_iter().find(|v| !(0.0..=WHITE).contains(v)) {
-        Some(value) => Err(MaterialError::Reflectance { material, value }),
-        None => Ok(()),
-    }
-}
-
-/// Checks the base of a model whose lobes leave less than everything for it: of a texture its brightest colour counts.
-fn base(
-    material: usize,
-    r: &Reflectance,
-    textures: &[ImageTexture],
-    check_energy: impl Fn(&Spectrum) -> Result<(), EnergyGain>,
-) -> Result<(), MaterialError> {
-    reflectance(material, r, textures)?;
-    let Reflectance::Texture(id) = r else { return Ok(()) };
-    let brightest = f64::from(find(material, *id, textures)?.range().1);
-    check_energy(&Spectrum::constant(brightest)).map_err(|gain| MaterialError::Gain { material, gain })
-}
-
-/// Checks that no wavelength sends on more than arrives: node by node for spectra, by its greatest value for a texture.
-fn leaf(material: usize, leaf: &Leaf, textures: &[ImageTexture]) -> Result<(), MaterialError> {
-    let parts = [&leaf.reflectance, &leaf.transmittance];
-    parts.into_iter().try_for_each(|part| reflectance(material, part, textures))?;
-    let [r, t] = parts.map(|part| match part {
-        Reflectance::Spectrum(spectrum) => spectrum.clone(),
-        Reflectance::Texture(id) => Spectrum::constant(f64::from(textures[id.0 as usize].range().1)),
-    });
-    let greatest = r.nodes().iter().zip(t.nodes()).map(|(r, t)| r + t).fold(0.0, f32::max);
-    if greatest > WHITE { Err(MaterialError::LeafSum { material, value: greatest }) } else { Ok(()) }
-}
-
-fn alpha(material: usize, alpha: Factor, textures: &[ImageTexture]) -> Result<(), MaterialError> {
-    factor(material, "a roughness α", alpha, textures)
-}
-
-fn factor(material: usize, quantity: &'static str, f: Factor, textures: &[ImageTexture]) -> Result<(), MaterialError> {
-    let (low, high) = match f {
-        Factor::Number(value) => (value, value),
-        Factor::Texture(id, channel) => {
-            let texture = find(material, id, textures)?;
-            if channel == Channel::Alpha && !texture.has_alpha() {
-                return Err(MaterialError::NoAlpha { material, texture: id.0 });
-            }
-            texture.channel_range(channel)
-        }
-    };
-    match [low, high].into_iter().find(|v| !(0.0..=1.0).contains(v)) {
-        Some(value) => Err(MaterialError::Factor { material, quantity, value }),
-        None => Ok(()),
-    }
-}
-
-fn emission(material: usize, glow: &Emission, textures: &[ImageTexture]) -> Result<(), MaterialError> {
-    let (mut low, mut high) = (glow.radiance.min_value(), glow.radiance.max_value());
-    if let Some(id) = glow.factor {
-        let range = laid_by_uv(material, "an emission", id, textures)?.range();
+fn emission(check: &TextureCheck<'_>, emission: &Emission) -> Result<(), MaterialError> {
+    let (mut low, mut high) = (emission.radiance.min_value(), emission.radiance.max_value());
+    if let Some(id) = emission.factor {
+        let range = check.laid_by_uv("an emission", id)?.range();
         (low, high) = (low.min(range.0), high * range.1);
     }
     match [low, high].into_iter().find(|v| !(0.0..=BRIGHTEST).contains(v)) {
-        Some(value) => Err(MaterialError::Radiance { material, value }),
+        Some(value) => Err(MaterialError::Radiance { material: check.material, value }),
         None => Ok(()),
     }
 }
 
-/// The texture of what only texture coordinates can place.
-fn laid_by_uv<'a>(
-    material: usize,
-    what: &'static str,
-    id: TextureId,
-    textures: &'a [ImageTexture],
-) -> Result<&'a ImageTexture, MaterialError> {
-    let texture = find(material, id, textures)?;
-    if texture.needs_uv() { Ok(texture) } else { Err(MaterialError::Projected { material, what }) }
+/// Checks that the parts of material `index` are there, and that it is no part of itself.
+fn parts(materials: &[Material], index: usize, mix: &Mix) -> Result<(), MaterialError> {
+    for part in [mix.a, mix.b] {
+        let unknown = MaterialError::UnknownMaterial { material: index, part: part.0, materials: materials.len() };
+        let found = materials.get(part.0 as usize).ok_or(unknown)?;
+        let refused = |what| Err(MaterialError::Part { material: index, part: part.0, what });
+        if found.emission.is_some() {
+            return refused("an emission");
+        }
+        if found.opacity.is_some() {
+            return refused("an opacity");
+        }
+    }
+    // Marks of what was visited bound the work where parts are shared.
+    let mut visited = vec![false; materials.len()];
+    let mut open = vec![mix.a, mix.b];
+    while let Some(part) = open.pop() {
+        if part.0 as usize == index {
+            return Err(MaterialError::Circle { material: index });
+        }
+        let new = visited.get_mut(part.0 as usize).is_some_and(|seen| !core::mem::replace(seen, true));
+        if let (true, Some(Surface::Mix(inner))) = (new, materials.get(part.0 as usize).map(|m| &m.surface)) {
+            open.extend([inner.a, inner.b]);
+        }
+    }
+    Ok(())
 }
 
-fn find(material: usize, id: TextureId, textures: &[ImageTexture]) -> Result<&ImageTexture, MaterialError> {
-    let unknown = MaterialError::UnknownTexture { material, texture: id.0, textures: textures.len() };
-    textures.get(id.0 as usize).ok_or(unknown)
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::MaterialId;
+    use crate::materials::factor::Factor;
+
+    fn mix(a: u32, b: u32) -> Mix {
+        Mix { a: MaterialId(a), b: MaterialId(b), weight: Factor::Number(0.25) }
+    }
+
+    #[test]
+    fn circles_are_found_and_shared_parts_are_none() {
+        let of = |mixes: &[Option<Mix>]| -> Vec<Material> {
+            mixes.iter().map(|m| Material::new(m.map_or(Surface::Absorber, Surface::Mix))).collect()
+        };
+        let shared = of(&[None, None, Some(mix(0, 1)), Some(mix(2, 2)), Some(mix(2, 3))]);
+        let check_all = |materials: &[Material]| {
+            materials.iter().enumerate().try_for_each(|(i, m)| match &m.surface {
+                Surface::Mix(mix) => parts(materials, i, mix),
+                _ => Ok(()),
+            })
+        };
+        assert_eq!(check_all(&shared), Ok(()));
+        let circle = of(&[None, Some(mix(0, 2)), Some(mix(3, 0)), Some(mix(0, 1))]);
+        assert_eq!(check_all(&circle), Err(MaterialError::Circle { material: 1 }));
+        assert_eq!(check_all(&of(&[Some(mix(0, 0))])), Err(MaterialError::Circle { material: 0 }));
+        let unknown = MaterialError::UnknownMaterial { material: 1, part: 7, materials: 2 };
+        assert_eq!(check_all(&of(&[None, Some(mix(0, 7))])), Err(unknown));
+    }
 }

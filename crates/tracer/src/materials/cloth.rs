@@ -12,17 +12,20 @@
 //! Left out: the weave, threads' highlights and their direction, light through the cloth (see the leaf for that).
 
 use core::f32::consts::{FRAC_1_PI, PI, TAU};
+use etendue_core::Spectral;
 use etendue_core::maths::f32::{exp, pow, sin_cos};
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
-use etendue_core::{Spectral, Wavelengths};
 use etendue_spectra::Spectrum;
 use glam::{Vec2, Vec3};
 
+use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable};
 use super::microfacet::half_vector;
-use super::{BsdfSample, BsdfValue, Event, Reflectance};
-use crate::textures::{ImageTexture, Lookup};
+use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
+use super::parameter::Parameter;
+use super::reflectance::Reflectance;
+use super::shading_point::ShadingPoint;
 
 /// A cloth.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,28 +62,29 @@ impl Cloth {
         Ok(Self { base, colour, sheen, mean: albedo.mean(), albedo, cumulative })
     }
 
-    /// The base's reflectance.
-    #[must_use]
-    pub fn base(&self) -> &Reflectance {
-        &self.base
-    }
-
-    pub(super) fn resolve<const N: usize>(
-        &self,
-        textures: &[ImageTexture],
-        lookup: &Lookup,
-        wavelengths: &Wavelengths<N>,
-    ) -> ClothBsdf<'_, N> {
-        let colour = self.colour.sample(wavelengths);
-        let base = self.base.at(textures, lookup, wavelengths);
-        let under = Spectral::from_fn(|i| base[i] / (1.0 - colour[i] * self.mean));
-        ClothBsdf { cloth: self, colour, under, base_mean: base.mean(), colour_mean: colour.mean() }
-    }
-
     /// The row of a viewer's cosine.
     fn shares(&self, cos: f32) -> &[f32] {
         let row = (cos.min(1.0).sqrt() * ROWS as f32 + 0.5) as usize;
         &self.cumulative[row * (CELLS + 1)..(row + 1) * (CELLS + 1)]
+    }
+}
+
+impl SurfaceModel for Cloth {
+    type Bsdf<'a, const N: usize> = ClothBsdf<'a, N>;
+
+    fn parameters(&self) -> Vec<Parameter<'_>> {
+        vec![Parameter::Reflectance(&self.base)]
+    }
+
+    fn passage(&self) -> Passage<'_> {
+        Passage::None
+    }
+
+    fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> ClothBsdf<'_, N> {
+        let colour = self.colour.sample(point.wavelengths);
+        let base = point.reflectance(&self.base);
+        let under = Spectral::from_fn(|i| base[i] / (1.0 - colour[i] * self.mean));
+        ClothBsdf { cloth: self, colour, under, base_mean: base.mean(), colour_mean: colour.mean() }
     }
 }
 
@@ -203,12 +207,6 @@ impl<const N: usize> ClothBsdf<'_, N> {
         DiscreteSampler::new([self.base_mean * (1.0 - sheen), sheen])
     }
 
-    pub(super) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
-        let wo_albedo = self.cloth.albedo.at(wo.z);
-        self.discrete_sampler(wo_albedo)
-            .map_or(BsdfValue::ZERO, |discrete_sampler| self.value(discrete_sampler, wo_albedo, wo, wi))
-    }
-
     fn value(&self, discrete_sampler: DiscreteSampler<2>, wo_albedo: f32, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let wi_albedo = self.cloth.albedo.at(wi.z);
         let left = self.colour.map(|c| (1.0 - c * wo_albedo) * (1.0 - c * wi_albedo));
@@ -233,8 +231,21 @@ impl<const N: usize> ClothBsdf<'_, N> {
         let sin = (1.0 - cos * cos).max(0.0).sqrt();
         Vec3::new(sin * c, sin * s, cos)
     }
+}
 
-    pub(super) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
+impl<const N: usize> BsdfModel<N> for ClothBsdf<'_, N> {
+    #[inline]
+    fn flags(&self) -> BsdfFlags {
+        BsdfFlags::LOBES
+    }
+
+    fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+        let wo_albedo = self.cloth.albedo.at(wo.z);
+        self.discrete_sampler(wo_albedo)
+            .map_or(BsdfValue::ZERO, |discrete_sampler| self.value(discrete_sampler, wo_albedo, wo, wi))
+    }
+
+    fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let wo_albedo = self.cloth.albedo.at(wo.z);
         let discrete_sampler = self.discrete_sampler(wo_albedo)?;
         let wi = if discrete_sampler.draw(choice) == 0 { cosine_hemisphere(u) } else { self.sample_sheen(wo, u) };

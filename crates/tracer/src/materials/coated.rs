@@ -13,17 +13,23 @@
 //! Left out: absorption in the coat, dispersion, refraction of the roughness on the way in and out.
 
 use core::f32::consts::FRAC_1_PI;
+use etendue_core::Spectral;
 use etendue_core::maths::f32::{exp, ln};
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
-use etendue_core::{Spectral, Wavelengths};
 use glam::{Vec2, Vec3};
 
+use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::energy::CosineTable;
+use super::error::MaterialError;
 use super::facets::Distribution;
-use super::microfacet::{Ggx, half_vector, mirrored};
+use super::factor::Factor;
+use super::fresnel;
+use super::microfacet::{Ggx, MIRROR_ALPHA, half_vector, mirrored};
+use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
+use super::parameter::Parameter;
+use super::reflectance::Reflectance;
+use super::shading_point::ShadingPoint;
 use super::slopes::SeenFacets;
-use super::{BsdfSample, BsdfValue, Event, Factor, MIRROR_ALPHA, MaterialError, Reflectance, fresnel};
-use crate::textures::{ImageTexture, Lookup};
 
 /// Refractive indices that a coat may have: from a little above air's, below which the coat would do nothing that f32
 /// and the table resolve, to that of germanium. Scene files state the same range.
@@ -47,31 +53,26 @@ impl Coated {
         }
         Ok(Self { base, coat: Coat::new(n as f32, alpha.into().checked_alpha()?) })
     }
+}
 
-    /// The reflectance under the coat.
-    #[must_use]
-    pub fn base(&self) -> &Reflectance {
-        &self.base
+impl SurfaceModel for Coated {
+    type Bsdf<'a, const N: usize> = CoatedBsdf<'a, N>;
+
+    fn parameters(&self) -> Vec<Parameter<'_>> {
+        vec![Parameter::Reflectance(&self.base), Parameter::alpha(self.coat.alpha)]
     }
 
-    /// The coat's roughness α.
-    #[must_use]
-    pub fn alpha(&self) -> Factor {
-        self.coat.alpha
+    fn passage(&self) -> Passage<'_> {
+        Passage::None
     }
 
-    pub(super) fn resolve<const N: usize>(
-        &self,
-        textures: &[ImageTexture],
-        lookup: &Lookup,
-        wavelengths: &Wavelengths<N>,
-    ) -> CoatedBsdf<'_, N> {
-        let alpha = self.coat.alpha.at(textures, lookup);
+    fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> CoatedBsdf<'_, N> {
+        let alpha = point.factor(self.coat.alpha);
         let place = self.coat.place(alpha);
         let mean = self.coat.mean_transmittance(place);
         let n2 = self.coat.n * self.coat.n;
         let inner = 1.0 - mean / n2;
-        let seen = self.base.at(textures, lookup, wavelengths).map(|a| a / (n2 * (1.0 - a * inner)));
+        let seen = point.reflectance(&self.base).map(|a| a / (n2 * (1.0 - a * inner)));
         let facets = Ggx::of(alpha);
         CoatedBsdf { coat: &self.coat, facets, place, mean_transmittance: mean, seen_mean: seen.mean(), seen }
     }
@@ -186,8 +187,15 @@ impl<const N: usize> CoatedBsdf<'_, N> {
     fn base_value_cos(&self, through: f32, wi: Vec3) -> Spectral<N> {
         self.seen * (FRAC_1_PI * wi.z * through * self.coat.transmittance(self.place, wi.z))
     }
+}
 
-    pub(super) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+impl<const N: usize> BsdfModel<N> for CoatedBsdf<'_, N> {
+    #[inline]
+    fn flags(&self) -> BsdfFlags {
+        BsdfFlags::LOBES
+    }
+
+    fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let through = self.coat.transmittance(self.place, wo.z);
         let share = self.coat_fraction(through);
         let base = self.base_value_cos(through, wi);
@@ -198,7 +206,7 @@ impl<const N: usize> CoatedBsdf<'_, N> {
         BsdfValue { value_cos: base + Spectral::splat(coat), pdf: base_pdf + share * facets.reflect_pdf(wo, m) }
     }
 
-    pub(super) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
+    fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let share = self.coat_fraction(self.coat.transmittance(self.place, wo.z));
         let wi = match self.facets {
             _ if choice >= share => cosine_hemisphere(u),

@@ -10,16 +10,21 @@
 //! Light scattered among facets more than once is left out (a white surface of α = 1 loses up to six tenths), unless it
 //! is asked for: see `interreflection`.
 
-use etendue_core::{Spectral, Wavelengths};
+use etendue_core::Spectral;
 use etendue_spectra::Spectrum;
 use etendue_spectra::metal::ComplexIndex;
 use glam::{Vec2, Vec3};
 
+use super::bsdf::{BsdfSample, BsdfValue, Event};
+use super::error::MaterialError;
 use super::facets::{Distribution, Facets};
+use super::factor::Factor;
+use super::fresnel;
 use super::interreflection::{self, LossOfAlpha};
-use super::microfacet::{half_vector, mirrored};
-use super::{BsdfSample, BsdfValue, Event, Factor, MIRROR_ALPHA, MaterialError, fresnel};
-use crate::textures::{ImageTexture, Lookup};
+use super::microfacet::{MIRROR_ALPHA, half_vector, mirrored};
+use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
+use super::parameter::Parameter;
+use super::shading_point::ShadingPoint;
 
 /// A metal, or another interface that light does not come out of again.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,29 +85,32 @@ impl Conductor {
         let mean = Spectrum::from_fn(|nm| self.index.mean_fresnel(nm as f32));
         Self { mean_fresnel: Some(mean), ..self }
     }
+}
 
-    /// Its roughness, α.
-    #[must_use]
-    pub fn alpha(&self) -> Factor {
-        self.alpha
+impl SurfaceModel for Conductor {
+    type Bsdf<'a, const N: usize> = ConductorBsdf<N>;
+
+    fn parameters(&self) -> Vec<Parameter<'_>> {
+        vec![Parameter::alpha(self.alpha)]
     }
 
-    pub(super) fn resolve<const N: usize>(
-        &self,
-        textures: &[ImageTexture],
-        lookup: &Lookup,
-        wavelengths: &Wavelengths<N>,
-    ) -> ConductorBsdf<N> {
-        let alpha = self.alpha.at(textures, lookup);
+    fn passage(&self) -> Passage<'_> {
+        Passage::None
+    }
+
+    fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> ConductorBsdf<N> {
+        let alpha = point.factor(self.alpha);
         let rough = alpha >= MIRROR_ALPHA;
         let more = self.mean_fresnel.as_ref().filter(|_| rough).map(|mean| {
             let loss = interreflection::table(self.distribution).of_alpha(alpha);
-            More { loss, tint: mean.sample(wavelengths).map(|mean| loss.tint(mean)) }
+            More { loss, tint: mean.sample(point.wavelengths).map(|mean| loss.tint(mean)) }
         });
         ConductorBsdf {
             fresnel: match &self.index {
-                Index::Complex(index) => Fresnel::Complex(index.n.sample(wavelengths), index.k.sample(wavelengths)),
-                Index::Real(n) => Fresnel::Real(n.sample(wavelengths)),
+                Index::Complex(index) => {
+                    Fresnel::Complex(index.n.sample(point.wavelengths), index.k.sample(point.wavelengths))
+                }
+                Index::Real(n) => Fresnel::Real(n.sample(point.wavelengths)),
             },
             facets: rough.then(|| self.distribution.of_alpha(alpha)),
             more,
@@ -163,17 +171,30 @@ impl<const N: usize> ConductorBsdf<N> {
         }
     }
 
-    pub(super) fn is_delta(&self) -> bool {
-        self.facets.is_none()
-    }
-
     /// Probability of drawing from what is scattered more than once: about its share of what goes back.
     fn share_of(&self, more: &More<N>, wo_loss: f32, wo: Vec3) -> f32 {
         let (again, once) = (more.tint.mean() * wo_loss, self.fresnel(wo.z).mean() * (1.0 - wo_loss));
         if again + once > 0.0 { again / (again + once) } else { 0.0 }
     }
 
-    pub(super) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+    fn sample_both(&self, facets: Facets, more: &More<N>, wo: Vec3, (choice, u): (f32, Vec2)) -> Option<BsdfSample<N>> {
+        let share = self.share_of(more, more.loss.at(wo.z), wo);
+        let wi = if choice < share { more.loss.sample(u) } else { mirrored(wo, facets.sample(wo, u)) };
+        if wi.z <= 0.0 {
+            return None;
+        }
+        let BsdfValue { value_cos, pdf } = self.evaluate(wo, wi);
+        (pdf > 0.0).then(|| BsdfSample { wi, weight: value_cos / pdf, pdf, event: Event::Scatter })
+    }
+}
+
+impl<const N: usize> BsdfModel<N> for ConductorBsdf<N> {
+    #[inline]
+    fn flags(&self) -> BsdfFlags {
+        BsdfFlags { delta: self.facets.is_none(), transmits: false, has_parts: true }
+    }
+
+    fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let Some(facets) = self.facets else { return BsdfValue::ZERO };
         let m = half_vector(wo, wi);
         let (once, pdf) = (self.fresnel(wo.dot(m)) * facets.reflect(wo, wi, m), facets.reflect_pdf(wo, m));
@@ -186,7 +207,7 @@ impl<const N: usize> ConductorBsdf<N> {
         }
     }
 
-    pub(super) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
+    fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let Some(facets) = self.facets else { return Some(BsdfSample::mirror(wo, self.fresnel(wo.z))) };
         if let Some(more) = &self.more {
             return self.sample_both(facets, more, wo, (choice, u));
@@ -199,15 +220,5 @@ impl<const N: usize> ConductorBsdf<N> {
             pdf: facets.reflect_pdf(wo, m),
             event: Event::Scatter,
         })
-    }
-
-    fn sample_both(&self, facets: Facets, more: &More<N>, wo: Vec3, (choice, u): (f32, Vec2)) -> Option<BsdfSample<N>> {
-        let share = self.share_of(more, more.loss.at(wo.z), wo);
-        let wi = if choice < share { more.loss.sample(u) } else { mirrored(wo, facets.sample(wo, u)) };
-        if wi.z <= 0.0 {
-            return None;
-        }
-        let BsdfValue { value_cos, pdf } = self.evaluate(wo, wi);
-        (pdf > 0.0).then(|| BsdfSample { wi, weight: value_cos / pdf, pdf, event: Event::Scatter })
     }
 }

@@ -13,7 +13,7 @@
 //! metals have. A roughness below [`super::MIRROR_ALPHA`] is smooth: both directions are exact.
 //!
 //! Inside, light is absorbed by Beer and Lambert's law: exp(−a·s) over a way of s metres, a(λ) in 1/m
-//! ([`Dielectric::absorption`]; who follows the path applies it).
+//! ([`super::MaterialTable::absorption`]; who follows the path applies it).
 //!
 //! Left out: dispersion (n is one number at all wavelengths, so that a path keeps all of its own), polarisation, light
 //! scattered among facets more than once (lost: up to some tenths at α near 1), scattering inside.
@@ -22,9 +22,14 @@ use etendue_core::{Spectral, maths};
 use etendue_spectra::Spectrum;
 use glam::{Vec2, Vec3};
 
+use super::bsdf::{BsdfSample, BsdfValue, Event};
+use super::error::MaterialError;
+use super::factor::Factor;
+use super::fresnel;
 use super::microfacet::{Ggx, half_vector, mirrored};
-use super::{BsdfSample, BsdfValue, Event, Factor, MaterialError, fresnel};
-use crate::textures::{ImageTexture, Lookup};
+use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
+use super::parameter::Parameter;
+use super::shading_point::ShadingPoint;
 
 /// Refractive indices against air that a solid or a pane may have: from that of a substance which nobody sees.
 pub const DIELECTRIC_INDICES: core::ops::RangeInclusive<f64> = 1.0..=4.0;
@@ -58,22 +63,22 @@ impl Dielectric {
         }
         Ok(Self { n: n as f32, alpha, absorption })
     }
+}
 
-    /// Absorption coefficient inside, 1/m.
-    #[must_use]
-    pub fn absorption(&self) -> Option<&Spectrum> {
-        self.absorption.as_ref()
+impl SurfaceModel for Dielectric {
+    type Bsdf<'a, const N: usize> = DielectricBsdf;
+
+    fn parameters(&self) -> Vec<Parameter<'_>> {
+        vec![Parameter::alpha(self.alpha)]
     }
 
-    /// The roughness α.
-    #[must_use]
-    pub fn alpha(&self) -> Factor {
-        self.alpha
+    fn passage(&self) -> Passage<'_> {
+        Passage::Solid(self.absorption.as_ref())
     }
 
-    pub(super) fn resolve(&self, textures: &[ImageTexture], lookup: &Lookup, front: bool) -> DielectricBsdf {
-        let eta = if front { self.n } else { 1.0 / self.n };
-        let facets = Ggx::of(self.alpha.at(textures, lookup)).filter(|_| self.n - 1.0 >= FACETS_FROM);
+    fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> DielectricBsdf {
+        let eta = if point.front { self.n } else { 1.0 / self.n };
+        let facets = Ggx::of(point.factor(self.alpha)).filter(|_| self.n - 1.0 >= FACETS_FROM);
         DielectricBsdf { eta, facets }
     }
 }
@@ -115,16 +120,6 @@ impl DielectricBsdf {
         self.eta
     }
 
-    pub(super) fn is_smooth(&self) -> bool {
-        self.facets.is_none()
-    }
-
-    pub(super) fn evaluate<const N: usize>(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
-        let Some(facets) = self.facets else { return BsdfValue::ZERO };
-        let (value, pdf) = if wi.z > 0.0 { self.reflect(facets, wo, wi) } else { self.transmit(facets, wo, wi) };
-        BsdfValue { value_cos: Spectral::splat(value), pdf }
-    }
-
     fn reflect(&self, facets: Ggx, wo: Vec3, wi: Vec3) -> (f32, f32) {
         let m = half_vector(wo, wi);
         let share = fresnel::interface(wo.dot(m), self.eta);
@@ -147,8 +142,21 @@ impl DielectricBsdf {
         // The surface seen through itself edge-on: a density beyond f32 is none.
         if pdf.is_finite() { (value, pdf) } else { (0.0, 0.0) }
     }
+}
 
-    pub(super) fn sample<const N: usize>(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
+impl<const N: usize> BsdfModel<N> for DielectricBsdf {
+    #[inline]
+    fn flags(&self) -> BsdfFlags {
+        BsdfFlags { delta: self.facets.is_none(), transmits: self.facets.is_some(), has_parts: true }
+    }
+
+    fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+        let Some(facets) = self.facets else { return BsdfValue::ZERO };
+        let (value, pdf) = if wi.z > 0.0 { self.reflect(facets, wo, wi) } else { self.transmit(facets, wo, wi) };
+        BsdfValue { value_cos: Spectral::splat(value), pdf }
+    }
+
+    fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let m = self.facets.map_or(Vec3::Z, |facets| facets.sample(wo, u));
         let share = fresnel::interface(wo.dot(m), self.eta);
         let reflected = choice < share;
@@ -182,6 +190,8 @@ pub(super) fn refracted(wo: Vec3, m: Vec3, eta: f32) -> Option<Vec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::textures::Lookup;
+    use etendue_core::Wavelengths;
 
     #[test]
     fn light_bends_by_snell() {
@@ -199,12 +209,14 @@ mod tests {
         for (n, alpha) in [(1.0, 0.0), (1.0, 0.4), (1.0001, 0.0), (1.0001, 0.4), (1.001, 0.4), (1.05, 0.1)] {
             let glass = Dielectric::new(n, alpha, None).expect("legal");
             for (cos, front) in [(1.0_f32, true), (0.3, true), (1e-4, true), (0.5, false), (1e-4, false)] {
-                let bsdf = glass.resolve(&[], &Lookup::point(Vec2::ZERO), front);
+                let (lookup, wavelengths) = (Lookup::point(Vec2::ZERO), Wavelengths::<1>::uniform(400.0, 700.0, 0.5));
+                let point = ShadingPoint { textures: &[], lookup: &lookup, front, wavelengths: &wavelengths };
+                let bsdf = glass.resolve(&point);
                 let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
                 let cell = |i: u32| {
                     let u = Vec2::new((i % 32) as f32 + 0.5, (i / 32) as f32 + 0.5) / 32.0;
                     let choice = ((i * 37) % 1024) as f32 / 1024.0;
-                    bsdf.sample::<1>(wo, choice, u)
+                    BsdfModel::<1>::sample(&bsdf, wo, choice, u)
                 };
                 let samples: Vec<_> = (0..1024).filter_map(cell).collect();
                 if n == 1.0 {
@@ -218,7 +230,7 @@ mod tests {
                     |s: &BsdfSample<1>| if s.wi.z > 0.0 { s.weight[0] } else { s.weight[0] * bsdf.eta * bsdf.eta };
                 let sum = samples.iter().map(power).sum::<f32>() / 1024.0;
                 // A smooth surface loses nothing; facets lose among themselves what those of any index do.
-                let least = match (bsdf.is_smooth(), cos > 0.99) {
+                let least = match (bsdf.facets.is_none(), cos > 0.99) {
                     (true, _) => 1.0 - 2e-3,
                     (false, true) => 0.94,
                     (false, false) => 0.0,

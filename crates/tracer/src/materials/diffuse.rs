@@ -7,7 +7,29 @@ use etendue_core::Spectral;
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use glam::{Vec2, Vec3};
 
-use super::{BsdfSample, BsdfValue, Event};
+use super::bsdf::{BsdfSample, BsdfValue, Event};
+use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
+use super::parameter::Parameter;
+use super::reflectance::Reflectance;
+use super::shading_point::ShadingPoint;
+
+/// A reflectance alone is Lambert's law.
+impl SurfaceModel for Reflectance {
+    type Bsdf<'a, const N: usize> = DiffuseBsdf<N>;
+
+    fn parameters(&self) -> Vec<Parameter<'_>> {
+        vec![Parameter::Reflectance(self)]
+    }
+
+    fn passage(&self) -> Passage<'_> {
+        Passage::None
+    }
+
+    #[inline]
+    fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> DiffuseBsdf<N> {
+        DiffuseBsdf { reflectance: point.reflectance(self) }
+    }
+}
 
 /// Lambert's law with the reflectances of one point at a path's wavelengths.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,12 +38,17 @@ pub struct DiffuseBsdf<const N: usize> {
     pub reflectance: Spectral<N>,
 }
 
-impl<const N: usize> DiffuseBsdf<N> {
-    pub(super) fn evaluate(&self, wi: Vec3) -> BsdfValue<N> {
+impl<const N: usize> BsdfModel<N> for DiffuseBsdf<N> {
+    #[inline]
+    fn flags(&self) -> BsdfFlags {
+        BsdfFlags { delta: false, transmits: false, has_parts: false }
+    }
+
+    fn evaluate(&self, _wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         BsdfValue { value_cos: self.reflectance * (wi.z * FRAC_1_PI), pdf: cosine_hemisphere_pdf(wi.z) }
     }
 
-    pub(super) fn sample(&self, u: Vec2) -> Option<BsdfSample<N>> {
+    fn sample(&self, _wo: Vec3, _choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let wi = cosine_hemisphere(u);
         let pdf = cosine_hemisphere_pdf(wi.z);
         (pdf > 0.0).then_some(BsdfSample { wi, weight: self.reflectance, pdf, event: Event::Scatter })

@@ -1,7 +1,8 @@
-//! What a material asks of its callers, known once for all points.
+//! What holds for a material or any of its parts, known once for all points.
 
-use super::{Material, Reflectance, Surface};
-use crate::textures::TextureId;
+use super::Surface;
+use super::material::Material;
+use super::model::Passage;
 
 /// What holds for a material or any of its parts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -48,42 +49,15 @@ fn of_parts(material: &Material, known: &[MaterialFlags]) -> MaterialFlags {
 }
 
 fn own(material: &Material) -> MaterialFlags {
-    let passage = material.opacity.is_some() || matches!(material.surface, Surface::ThinSheet(_));
+    let (straight, solid) = match material.surface.passage() {
+        Passage::None => (false, false),
+        Passage::Straight => (true, false),
+        Passage::Solid(_) => (false, true),
+    };
     MaterialFlags {
-        passage,
+        passage: material.opacity.is_some() || straight,
         tangents: material.normal_map.is_some(),
         footprint: !material.textures().is_empty(),
-        solid: matches!(material.surface, Surface::Dielectric(_)),
-    }
-}
-
-impl Material {
-    /// The textures that it reads; those of a mix's parts are not among them.
-    #[must_use]
-    pub fn textures(&self) -> Vec<TextureId> {
-        let glow = self.emission.as_ref().and_then(|e| e.factor);
-        let opacity = self.opacity.and_then(|o| o.texture());
-        let normals = self.normal_map.map(|map| map.texture());
-        self.surface.textures().into_iter().chain([glow, opacity, normals]).flatten().collect()
-    }
-}
-
-impl Surface {
-    fn textures(&self) -> [Option<TextureId>; 2] {
-        match self {
-            Self::Absorber | Self::Marking(_) => [None; 2],
-            Self::Diffuse(r) => [r.texture(), None],
-            Self::Conductor(conductor) => [None, conductor.alpha().texture()],
-            Self::Coated(coated) => [coated.base().texture(), coated.alpha().texture()],
-            Self::Lafortune(model) => [model.base().texture(), None],
-            Self::BlinnPhong(model) => [model.base().texture(), None],
-            Self::CarPaint(paint) => [paint.pigment().texture(), None],
-            Self::Cloth(cloth) => [cloth.base().texture(), None],
-            Self::Sheeting(sheeting) => [sheeting.print().and_then(Reflectance::texture), None],
-            Self::Dielectric(dielectric) => [None, dielectric.alpha().texture()],
-            Self::ThinSheet(sheet) => [sheet.transmittance().texture(), None],
-            Self::Leaf(leaf) => [leaf.reflectance.texture(), leaf.transmittance.texture()],
-            Self::Mix(mix) => [mix.weight.texture(), None],
-        }
+        solid,
     }
 }

@@ -16,13 +16,19 @@
 use core::f32::consts::{FRAC_1_PI, TAU};
 use etendue_core::maths;
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
-use etendue_core::{Basis, Spectral, Wavelengths};
+use etendue_core::{Basis, Spectral};
 use etendue_spectra::Spectrum;
 use glam::{Vec2, Vec3};
 
+use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable, EnergyGain};
-use super::{BsdfSample, BsdfValue, Event, Reflectance};
+use super::error::MaterialError;
+use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
+use super::parameter::Parameter;
+use super::reflectance::Reflectance;
+use super::shading_point::ShadingPoint;
+use super::texture_check::TextureCheck;
 
 /// The most lobes that a model may have.
 pub const MAX_LOBES: usize = 4;
@@ -134,29 +140,36 @@ impl Lafortune {
         lobes.retain(|lobe| lobe.weight.max_value() > 0.0);
         let albedos = lobes.iter().map(|lobe| AlbedoTable::new(|cos| lobe.albedo(cos))).collect();
         let model = Self { base, lobes, albedos };
-        model.check_energy(&energy::known(&model.base))?;
+        model.refuse_gain(&energy::known(&model.base))?;
         Ok(model)
     }
 
-    /// The matt base's reflectance.
-    #[must_use]
-    pub fn base(&self) -> &Reflectance {
-        &self.base
-    }
-
     /// Refuses a base under which more is sent back than arrives.
-    pub(super) fn check_energy(&self, base: &Spectrum) -> Result<(), EnergyGain> {
+    fn refuse_gain(&self, base: &Spectrum) -> Result<(), EnergyGain> {
         let lobes: Vec<_> = self.lobes.iter().map(|lobe| &lobe.weight).zip(&self.albedos).collect();
         energy::check(base, &lobes)
     }
+}
 
-    pub(super) fn resolve<const N: usize>(
-        &self,
-        base: Spectral<N>,
-        wavelengths: &Wavelengths<N>,
-    ) -> LafortuneBsdf<'_, N> {
-        let weight = |i: usize| self.lobes.get(i).map_or(Spectral::ZERO, |lobe| lobe.weight.sample(wavelengths));
-        LafortuneBsdf { model: self, base, weights: core::array::from_fn(weight) }
+impl SurfaceModel for Lafortune {
+    type Bsdf<'a, const N: usize> = LafortuneBsdf<'a, N>;
+
+    fn parameters(&self) -> Vec<Parameter<'_>> {
+        vec![Parameter::Reflectance(&self.base)]
+    }
+
+    fn passage(&self) -> Passage<'_> {
+        Passage::None
+    }
+
+    fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> LafortuneBsdf<'_, N> {
+        let weight = |i: usize| self.lobes.get(i).map_or(Spectral::ZERO, |lobe| lobe.weight.sample(point.wavelengths));
+        LafortuneBsdf { model: self, base: point.reflectance(&self.base), weights: core::array::from_fn(weight) }
+    }
+
+    fn check_energy(&self, check: &TextureCheck<'_>) -> Result<(), MaterialError> {
+        let gained = |gain| MaterialError::Gain { material: check.material, gain };
+        self.refuse_gain(&check.brightest(&self.base)).map_err(gained)
     }
 }
 
@@ -218,11 +231,6 @@ impl<const N: usize> LafortuneBsdf<'_, N> {
         }))
     }
 
-    pub(super) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
-        let Some(discrete_sampler) = self.discrete_sampler(wo) else { return BsdfValue::ZERO };
-        self.value(&discrete_sampler, wo, wi)
-    }
-
     fn value(&self, discrete_sampler: &DiscreteSampler<{ MAX_LOBES + 1 }>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let mut value_cos = self.base * (wi.z * FRAC_1_PI);
         let mut pdf = discrete_sampler.of(0) * cosine_hemisphere_pdf(wi.z);
@@ -238,8 +246,20 @@ impl<const N: usize> LafortuneBsdf<'_, N> {
         }
         BsdfValue { value_cos, pdf }
     }
+}
 
-    pub(super) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
+impl<const N: usize> BsdfModel<N> for LafortuneBsdf<'_, N> {
+    #[inline]
+    fn flags(&self) -> BsdfFlags {
+        BsdfFlags::LOBES
+    }
+
+    fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+        let Some(discrete_sampler) = self.discrete_sampler(wo) else { return BsdfValue::ZERO };
+        self.value(&discrete_sampler, wo, wi)
+    }
+
+    fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let discrete_sampler = self.discrete_sampler(wo)?;
         let wi = match discrete_sampler.draw(choice).checked_sub(1) {
             None => cosine_hemisphere(u),
@@ -268,6 +288,8 @@ fn cosine_power(u: Vec2, n: f32) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::textures::Lookup;
+    use etendue_core::Wavelengths;
 
     fn black() -> Reflectance {
         Reflectance::Spectrum(Spectrum::constant(0.0))
@@ -311,7 +333,9 @@ mod tests {
         let lobe = Lobe { tangential: -1.2, normal: 1.0, exponent: 1e4, weight: Spectrum::constant(0.0) };
         let base = Reflectance::Spectrum(Spectrum::constant(0.5));
         let model = Lafortune::new(base, vec![lobe]).expect("a matt surface");
-        let bsdf = model.resolve(Spectral([0.5]), &Wavelengths::<1>::uniform(400.0, 700.0, 0.5));
+        let (lookup, wavelengths) = (Lookup::point(Vec2::ZERO), Wavelengths::<1>::uniform(400.0, 700.0, 0.5));
+        let bsdf =
+            model.resolve(&ShadingPoint { textures: &[], lookup: &lookup, front: true, wavelengths: &wavelengths });
         let (wo, wi) = (Vec3::new(0.8, 0.0, 0.6), Vec3::new(-0.8, 0.0, 0.6));
         let value = bsdf.evaluate(wo, wi);
         assert!((value.value_cos[0] - 0.3 * FRAC_1_PI).abs() < 1e-7 && value.pdf > 0.0, "{value:?}");

@@ -10,7 +10,13 @@ use etendue_core::Spectral;
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use glam::{Vec2, Vec3};
 
-use super::{BsdfSample, BsdfValue, Event, Reflectance};
+use super::bsdf::{BsdfSample, BsdfValue, Event};
+use super::error::MaterialError;
+use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
+use super::parameter::Parameter;
+use super::reflectance::Reflectance;
+use super::shading_point::ShadingPoint;
+use super::texture_check::{TextureCheck, WHITE};
 
 /// A sheet that scatters to both sides.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,6 +25,32 @@ pub struct Leaf {
     pub reflectance: Reflectance,
     /// τ.
     pub transmittance: Reflectance,
+}
+
+impl SurfaceModel for Leaf {
+    type Bsdf<'a, const N: usize> = LeafBsdf<N>;
+
+    fn parameters(&self) -> Vec<Parameter<'_>> {
+        vec![Parameter::Reflectance(&self.reflectance), Parameter::Reflectance(&self.transmittance)]
+    }
+
+    fn passage(&self) -> Passage<'_> {
+        Passage::None
+    }
+
+    fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> LeafBsdf<N> {
+        LeafBsdf::new(point.reflectance(&self.reflectance), point.reflectance(&self.transmittance))
+    }
+
+    /// No wavelength sends on more than arrives: node by node for spectra, by its greatest value for a texture.
+    fn check_energy(&self, check: &TextureCheck<'_>) -> Result<(), MaterialError> {
+        let [r, t] = [&self.reflectance, &self.transmittance].map(|part| check.brightest(part));
+        let greatest = r.nodes().iter().zip(t.nodes()).map(|(r, t)| r + t).fold(0.0, f32::max);
+        if greatest > WHITE {
+            return Err(MaterialError::LeafSum { material: check.material, value: greatest });
+        }
+        Ok(())
+    }
 }
 
 /// A leaf at one point and a path's wavelengths.
@@ -31,13 +63,20 @@ pub struct LeafBsdf<const N: usize> {
 }
 
 impl<const N: usize> LeafBsdf<N> {
-    pub(super) fn new(reflectance: Spectral<N>, transmittance: Spectral<N>) -> Self {
+    fn new(reflectance: Spectral<N>, transmittance: Spectral<N>) -> Self {
         let (r, t) = (reflectance.mean(), transmittance.mean());
         let share = if r + t > 0.0 { r / (r + t) } else { 1.0 };
         Self { reflectance, transmittance, share }
     }
+}
 
-    pub(super) fn evaluate(&self, wi: Vec3) -> BsdfValue<N> {
+impl<const N: usize> BsdfModel<N> for LeafBsdf<N> {
+    #[inline]
+    fn flags(&self) -> BsdfFlags {
+        BsdfFlags { delta: false, transmits: true, has_parts: true }
+    }
+
+    fn evaluate(&self, _wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let (scattered, share) = match wi.z > 0.0 {
             true => (self.reflectance, self.share),
             false => (self.transmittance, 1.0 - self.share),
@@ -46,7 +85,7 @@ impl<const N: usize> LeafBsdf<N> {
         BsdfValue { value_cos: scattered * (cos * FRAC_1_PI), pdf: share * cosine_hemisphere_pdf(cos) }
     }
 
-    pub(super) fn sample(&self, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
+    fn sample(&self, _wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let above = cosine_hemisphere(u);
         let (wi, weight, share) = match choice < self.share {
             true => (above, self.reflectance, self.share),

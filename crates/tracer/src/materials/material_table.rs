@@ -4,8 +4,13 @@ use etendue_core::{Spectral, Wavelengths};
 use etendue_spectra::Spectrum;
 use glam::Vec3;
 
+use super::emission::Emission;
+use super::error::MaterialError;
 use super::flags::{MaterialFlags, flags};
-use super::{Bsdf, DiffuseBsdf, Emission, LeafBsdf, Material, MaterialError, Surface, check, mix};
+use super::material::Material;
+use super::model::Passage;
+use super::shading_point::ShadingPoint;
+use super::{Bsdf, Surface, check, mix};
 use crate::MaterialId;
 use crate::geometry::SurfacePoint;
 use crate::textures::{ImageTexture, Lookup};
@@ -124,11 +129,13 @@ impl MaterialTable {
         wavelengths: &Wavelengths<N>,
     ) -> Spectral<N> {
         match &self.materials[id.0 as usize].surface {
-            Surface::ThinSheet(sheet) => sheet.resolve(&self.textures, lookup, wavelengths).shares(cos(id)).1,
             Surface::Mix(parts) if self.lets_pass(parts.a) || self.lets_pass(parts.b) => {
                 let weight = parts.weight.at(&self.textures, lookup);
                 let [a, b] = [parts.a, parts.b].map(|part| self.through(part, lookup, cos, wavelengths));
                 a * (1.0 - weight) + b * weight
+            }
+            surface if matches!(surface.passage(), Passage::Straight) => {
+                surface.straight_transmittance(&self.point(lookup, true, wavelengths), cos(id))
             }
             _ => Spectral::ZERO,
         }
@@ -138,9 +145,9 @@ impl MaterialTable {
     /// material is no solid's. The id is a resolved one.
     #[must_use]
     pub fn absorption(&self, id: MaterialId) -> Option<&Spectrum> {
-        match &self.materials[id.0 as usize].surface {
-            Surface::Dielectric(dielectric) => dielectric.absorption(),
-            _ => None,
+        match self.materials[id.0 as usize].surface.passage() {
+            Passage::Solid(absorption) => absorption,
+            Passage::None | Passage::Straight => None,
         }
     }
 
@@ -205,29 +212,15 @@ impl MaterialTable {
         front: bool,
         wavelengths: &Wavelengths<N>,
     ) -> Bsdf<'_, N> {
-        let textures = &self.textures;
-        match &self.materials[id.0 as usize].surface {
-            Surface::Absorber => Bsdf::Absorber,
-            Surface::Diffuse(r) => Bsdf::Diffuse(DiffuseBsdf { reflectance: r.at(textures, lookup, wavelengths) }),
-            Surface::Conductor(conductor) => Bsdf::Conductor(conductor.resolve(textures, lookup, wavelengths)),
-            Surface::Coated(coated) => Bsdf::Coated(coated.resolve(textures, lookup, wavelengths)),
-            Surface::Lafortune(model) => {
-                Bsdf::Lafortune(model.resolve(model.base().at(textures, lookup, wavelengths), wavelengths))
-            }
-            Surface::BlinnPhong(model) => {
-                Bsdf::BlinnPhong(model.resolve(model.base().at(textures, lookup, wavelengths), wavelengths))
-            }
-            Surface::CarPaint(paint) => Bsdf::CarPaint(paint.resolve(textures, lookup, wavelengths)),
-            Surface::Cloth(cloth) => Bsdf::Cloth(cloth.resolve(textures, lookup, wavelengths)),
-            Surface::Sheeting(sheeting) => Bsdf::Sheeting(sheeting.resolve(textures, lookup, wavelengths)),
-            Surface::Marking(marking) => Bsdf::Marking(marking.resolve(wavelengths)),
-            Surface::Dielectric(dielectric) => Bsdf::Dielectric(dielectric.resolve(textures, lookup, front)),
-            Surface::ThinSheet(sheet) => Bsdf::ThinSheet(sheet.resolve(textures, lookup, wavelengths)),
-            Surface::Leaf(leaf) => Bsdf::Leaf(LeafBsdf::new(
-                leaf.reflectance.at(textures, lookup, wavelengths),
-                leaf.transmittance.at(textures, lookup, wavelengths),
-            )),
-            Surface::Mix(_) => panic!("material {} is a mix: resolve it first", id.0),
-        }
+        self.materials[id.0 as usize].surface.resolve(&self.point(lookup, front, wavelengths))
+    }
+
+    fn point<'p, const N: usize>(
+        &'p self,
+        lookup: &'p Lookup,
+        front: bool,
+        wavelengths: &'p Wavelengths<N>,
+    ) -> ShadingPoint<'p, N> {
+        ShadingPoint { textures: &self.textures, lookup, front, wavelengths }
     }
 }

@@ -14,11 +14,14 @@
 //!   viewer's), values and weights hold its factor 1/η² (Veach 1997, section 5.2).
 //! - A mirrored or refracted direction has no finite density, nor has one that goes straight through: samples say so by
 //!   their [`Event`], and evaluation leaves such parts out.
+//! - A model states its textures, what it lets pass and what holds for all directions itself (`model`); the list below takes every
+//!   question to it by a `match`.
 //! - Every bsdf is reciprocal, f(wo, wi)/n²(wi's side) = f(wi, wo)/n²(wo's side) where it transmits, and sends on no
 //!   more power than arrives; no input in range gives a NaN.
 
 mod beckmann;
 mod blinn_phong;
+mod bsdf;
 mod car_paint;
 mod check;
 mod cloth;
@@ -38,19 +41,26 @@ mod gauss;
 mod interreflection;
 mod lafortune;
 mod leaf;
+mod list;
+mod material;
 mod material_table;
 mod microfacet;
 mod mix;
+mod model;
 mod normal_map;
+mod parameter;
 mod reflectance;
 mod retro;
 mod shading;
+mod shading_point;
 mod slopes;
 #[cfg(test)]
 mod tests;
+mod texture_check;
 mod thin_sheet;
 
 pub use blinn_phong::{BlinnPhong, BlinnPhongBsdf, BlinnPhongError, blinn_phong_normalisation};
+pub use bsdf::{BsdfSample, BsdfValue, Event};
 pub use car_paint::{CarPaint, CarPaintBsdf, CarPaintError, CarPaintParts, flake_reflectance};
 pub use cloth::{Cloth, ClothBsdf, ClothError};
 pub use coated::{COAT_INDICES, Coated, CoatedBsdf};
@@ -64,6 +74,7 @@ pub use facets::Distribution;
 pub use factor::Factor;
 pub use lafortune::{Lafortune, LafortuneBsdf, LafortuneError, Lobe, MAX_LOBES};
 pub use leaf::{Leaf, LeafBsdf};
+pub use material::Material;
 pub use material_table::MaterialTable;
 pub use microfacet::MIRROR_ALPHA;
 pub use mix::Mix;
@@ -78,212 +89,35 @@ pub use thin_sheet::{ThinSheet, ThinSheetBsdf};
 
 use etendue_core::Spectral;
 use glam::{Vec2, Vec3};
+use list::surfaces;
+use model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
+use parameter::Parameter;
+use shading_point::ShadingPoint;
+use texture_check::TextureCheck;
 
-/// A material: what happens to light at a surface, and what light starts there.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Material {
-    /// How it scatters.
-    pub surface: Surface,
-    /// What it emits; `None` where it does not glow.
-    pub emission: Option<Emission>,
-    /// Share of the surface that is there, 0 to 1: through the rest light goes straight. `None` where all of it is.
-    pub opacity: Option<Factor>,
-    /// Finer normals than the mesh's.
-    pub normal_map: Option<NormalMap>,
-}
-
-impl Material {
-    /// A material that only scatters.
-    #[must_use]
-    pub fn new(surface: Surface) -> Self {
-        Self { surface, emission: None, opacity: None, normal_map: None }
-    }
-}
-
-/// How a surface scatters light.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Surface {
-    /// All light that arrives is absorbed: a pure emitter, or black.
-    Absorber,
+surfaces! {
     /// Lambert's law with a reflectance.
-    Diffuse(Reflectance),
+    Diffuse(Reflectance) from Reflectance => DiffuseBsdf<N>,
     /// A smooth or rough metal.
-    Conductor(Box<Conductor>),
+    Conductor(Box<Conductor>) from Conductor => ConductorBsdf<N>,
     /// A matt base under a clear coat.
-    Coated(Box<Coated>),
+    Coated(Box<Coated>) from Coated => CoatedBsdf<'a, N>,
     /// A matt base with generalised cosine lobes.
-    Lafortune(Box<Lafortune>),
+    Lafortune(Box<Lafortune>) from Lafortune => LafortuneBsdf<'a, N>,
     /// A matt base with a glossy lobe about the half vector.
-    BlinnPhong(Box<BlinnPhong>),
+    BlinnPhong(Box<BlinnPhong>) from BlinnPhong => BlinnPhongBsdf<'a, N>,
     /// Metal flakes and pigment under a clear coat.
-    CarPaint(Box<CarPaint>),
+    CarPaint(Box<CarPaint>) from CarPaint => CarPaintBsdf<'a, N>,
     /// A matt base with the sheen of fibres.
-    Cloth(Box<Cloth>),
+    Cloth(Box<Cloth>) from Cloth => ClothBsdf<'a, N>,
     /// Retro-reflective sheeting.
-    Sheeting(Box<Sheeting>),
+    Sheeting(Box<Sheeting>) from Sheeting => SheetingBsdf<'a, N>,
     /// A road marking with glass beads.
-    Marking(Box<RoadMarking>),
+    Marking(Box<RoadMarking>) from RoadMarking => MarkingBsdf<'a, N>,
     /// The outside of a transparent solid.
-    Dielectric(Box<Dielectric>),
+    Dielectric(Box<Dielectric>) from Dielectric => DielectricBsdf,
     /// A thin pane.
-    ThinSheet(Box<ThinSheet>),
+    ThinSheet(Box<ThinSheet>) from ThinSheet => ThinSheetBsdf<N>,
     /// A thin sheet that scatters to both sides.
-    Leaf(Box<Leaf>),
-    /// Two materials side by side.
-    Mix(Mix),
-}
-
-/// Scattering at one point, at the wavelengths of one path.
-#[derive(Clone, Copy, Debug)]
-pub enum Bsdf<'a, const N: usize> {
-    /// Nothing is scattered.
-    Absorber,
-    /// Lambert's law.
-    Diffuse(DiffuseBsdf<N>),
-    /// A metal.
-    Conductor(ConductorBsdf<N>),
-    /// A coated base.
-    Coated(CoatedBsdf<'a, N>),
-    /// Generalised cosine lobes.
-    Lafortune(LafortuneBsdf<'a, N>),
-    /// A lobe about the half vector.
-    BlinnPhong(BlinnPhongBsdf<'a, N>),
-    /// Metal flakes under a clear coat.
-    CarPaint(CarPaintBsdf<'a, N>),
-    /// The sheen of fibres.
-    Cloth(ClothBsdf<'a, N>),
-    /// Retro-reflective sheeting.
-    Sheeting(SheetingBsdf<'a, N>),
-    /// Glass beads.
-    Marking(MarkingBsdf<'a, N>),
-    /// An interface.
-    Dielectric(DielectricBsdf),
-    /// A pane.
-    ThinSheet(ThinSheetBsdf<N>),
-    /// A sheet that scatters to both sides.
-    Leaf(LeafBsdf<N>),
-}
-
-/// What a bsdf says of a pair of directions.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BsdfValue<const N: usize> {
-    /// bsdf × |cos θᵢ|, 1/sr.
-    pub value_cos: Spectral<N>,
-    /// Density with which sampling would give this `wi`, 1/sr.
-    pub pdf: f32,
-}
-
-impl<const N: usize> BsdfValue<N> {
-    /// Nothing goes this way.
-    pub const ZERO: Self = Self { value_cos: Spectral::ZERO, pdf: 0.0 };
-}
-
-/// What happened to a path at a surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Event {
-    /// It was scattered, by a finite density.
-    Scatter,
-    /// It was reflected or refracted in the one exact direction.
-    Specular,
-    /// It went straight on, as if nothing had been there: no scattering event. The path keeps the direction it had.
-    Null,
-}
-
-/// A direction drawn from a bsdf.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BsdfSample<const N: usize> {
-    /// Where light comes from; unit, never in the surface's plane.
-    pub wi: Vec3,
-    /// bsdf × |cos θᵢ| / pdf; of an exact direction its reflectance or transmittance over the probability of choosing it.
-    pub weight: Spectral<N>,
-    /// Density of `wi`, 1/sr; 0 and without meaning for an exact direction.
-    pub pdf: f32,
-    /// What happened.
-    pub event: Event,
-}
-
-impl<const N: usize> BsdfSample<N> {
-    fn mirror(wo: Vec3, weight: Spectral<N>) -> Self {
-        Self { wi: Vec3::new(-wo.x, -wo.y, wo.z), weight, pdf: 0.0, event: Event::Specular }
-    }
-}
-
-impl<const N: usize> Bsdf<'_, N> {
-    /// Whether light goes on in exact directions only, so that asking for a light drawn elsewhere is in vain.
-    #[must_use]
-    pub fn is_delta(&self) -> bool {
-        match self {
-            Self::Conductor(conductor) => conductor.is_delta(),
-            Self::Dielectric(dielectric) => dielectric.is_smooth(),
-            Self::ThinSheet(_) => true,
-            Self::Absorber | Self::Diffuse(_) | Self::Coated(_) | Self::Leaf(_) => false,
-            Self::Lafortune(_) | Self::BlinnPhong(_) | Self::Sheeting(_) | Self::Marking(_) => false,
-            Self::CarPaint(_) | Self::Cloth(_) => false,
-        }
-    }
-
-    /// Whether light may come from behind (wi.z < 0) by a finite density.
-    #[must_use]
-    pub fn transmits(&self) -> bool {
-        match self {
-            Self::Absorber | Self::Diffuse(_) | Self::Conductor(_) | Self::Coated(_) | Self::ThinSheet(_) => false,
-            Self::Lafortune(_) | Self::BlinnPhong(_) | Self::Sheeting(_) | Self::Marking(_) => false,
-            Self::CarPaint(_) | Self::Cloth(_) => false,
-            Self::Dielectric(dielectric) => !dielectric.is_smooth(),
-            Self::Leaf(_) => true,
-        }
-    }
-
-    /// Whether [`Bsdf::sample`] looks at the number that picks a lobe.
-    #[must_use]
-    pub fn has_parts(&self) -> bool {
-        !matches!(self, Self::Absorber | Self::Diffuse(_))
-    }
-
-    /// Value and density of a pair of directions; zero where `wo` is behind the surface, or light from there is not let
-    /// through.
-    #[must_use]
-    pub fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
-        if wo.z <= 0.0 || wi.z == 0.0 || (wi.z < 0.0 && !self.transmits()) {
-            return BsdfValue::ZERO;
-        }
-        match self {
-            Self::Absorber => BsdfValue::ZERO,
-            Self::Diffuse(diffuse) => diffuse.evaluate(wi),
-            Self::Conductor(conductor) => conductor.evaluate(wo, wi),
-            Self::Coated(coated) => coated.evaluate(wo, wi),
-            Self::Lafortune(lafortune) => lafortune.evaluate(wo, wi),
-            Self::BlinnPhong(blinn_phong) => blinn_phong.evaluate(wo, wi),
-            Self::CarPaint(paint) => paint.evaluate(wo, wi),
-            Self::Cloth(cloth) => cloth.evaluate(wo, wi),
-            Self::Sheeting(sheeting) => sheeting.evaluate(wo, wi),
-            Self::Marking(marking) => marking.evaluate(wo, wi),
-            Self::Dielectric(dielectric) => dielectric.evaluate(wo, wi),
-            Self::ThinSheet(_) => BsdfValue::ZERO,
-            Self::Leaf(leaf) => leaf.evaluate(wi),
-        }
-    }
-
-    /// A direction for light to come from; `None` where the light is absorbed. `choice` picks a lobe, `u` a direction.
-    #[must_use]
-    pub fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
-        if wo.z <= 0.0 {
-            return None;
-        }
-        match self {
-            Self::Absorber => None,
-            Self::Diffuse(diffuse) => diffuse.sample(u),
-            Self::Conductor(conductor) => conductor.sample(wo, choice, u),
-            Self::Coated(coated) => coated.sample(wo, choice, u),
-            Self::Lafortune(lafortune) => lafortune.sample(wo, choice, u),
-            Self::BlinnPhong(blinn_phong) => blinn_phong.sample(wo, choice, u),
-            Self::CarPaint(paint) => paint.sample(wo, choice, u),
-            Self::Cloth(cloth) => cloth.sample(wo, choice, u),
-            Self::Sheeting(sheeting) => sheeting.sample(wo, choice, u),
-            Self::Marking(marking) => marking.sample(wo, choice, u),
-            Self::Dielectric(dielectric) => dielectric.sample(wo, choice, u),
-            Self::ThinSheet(sheet) => sheet.sample(wo, choice),
-            Self::Leaf(leaf) => leaf.sample(choice, u),
-        }
-    }
+    Leaf(Box<Leaf>) from Leaf => LeafBsdf<N>,
 }

@@ -11,12 +11,17 @@
 //! interference). R + T = 1 where nothing is absorbed. What passes goes on straight ([`Event::Null`]); its shift aside,
 //! by up to the pane's thickness, is left out, as are interference, dispersion and dirt. Both sides are alike.
 
-use etendue_core::{Spectral, Wavelengths, maths};
-use glam::Vec3;
+use etendue_core::{Spectral, maths};
+use glam::{Vec2, Vec3};
 
+use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::dielectric::DIELECTRIC_INDICES;
-use super::{BsdfSample, Event, MaterialError, Reflectance, fresnel};
-use crate::textures::{ImageTexture, Lookup};
+use super::error::MaterialError;
+use super::fresnel;
+use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
+use super::parameter::Parameter;
+use super::reflectance::Reflectance;
+use super::shading_point::ShadingPoint;
 
 /// A thin pane.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,20 +42,25 @@ impl ThinSheet {
         }
         Ok(Self { n: n as f32, transmittance })
     }
+}
 
-    /// Internal transmittance along the normal.
-    #[must_use]
-    pub fn transmittance(&self) -> &Reflectance {
-        &self.transmittance
+impl SurfaceModel for ThinSheet {
+    type Bsdf<'a, const N: usize> = ThinSheetBsdf<N>;
+
+    fn parameters(&self) -> Vec<Parameter<'_>> {
+        vec![Parameter::Reflectance(&self.transmittance)]
     }
 
-    pub(super) fn resolve<const N: usize>(
-        &self,
-        textures: &[ImageTexture],
-        lookup: &Lookup,
-        wavelengths: &Wavelengths<N>,
-    ) -> ThinSheetBsdf<N> {
-        ThinSheetBsdf { n: self.n, inner: self.transmittance.at(textures, lookup, wavelengths) }
+    fn passage(&self) -> Passage<'_> {
+        Passage::Straight
+    }
+
+    fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> ThinSheetBsdf<N> {
+        ThinSheetBsdf { n: self.n, inner: point.reflectance(&self.transmittance) }
+    }
+
+    fn straight_transmittance<const N: usize>(&self, point: &ShadingPoint<'_, N>, cos: f32) -> Spectral<N> {
+        self.resolve(point).shares(cos).1
     }
 }
 
@@ -64,7 +74,7 @@ pub struct ThinSheetBsdf<const N: usize> {
 
 impl<const N: usize> ThinSheetBsdf<N> {
     /// What the pane reflects and what it lets pass at a cosine of incidence.
-    pub(super) fn shares(&self, cos: f32) -> (Spectral<N>, Spectral<N>) {
+    fn shares(&self, cos: f32) -> (Spectral<N>, Spectral<N>) {
         let cos = cos.clamp(0.0, 1.0);
         let planes = fresnel::planes(cos, self.n);
         let cos_inside = (fresnel::cos_square(cos, self.n) / (self.n * self.n)).sqrt();
@@ -79,8 +89,19 @@ impl<const N: usize> ThinSheetBsdf<N> {
         }
         (reflected, passed)
     }
+}
 
-    pub(super) fn sample(&self, wo: Vec3, choice: f32) -> Option<BsdfSample<N>> {
+impl<const N: usize> BsdfModel<N> for ThinSheetBsdf<N> {
+    #[inline]
+    fn flags(&self) -> BsdfFlags {
+        BsdfFlags { delta: true, transmits: false, has_parts: true }
+    }
+
+    fn evaluate(&self, _wo: Vec3, _wi: Vec3) -> BsdfValue<N> {
+        BsdfValue::ZERO
+    }
+
+    fn sample(&self, wo: Vec3, choice: f32, _u: Vec2) -> Option<BsdfSample<N>> {
         let (reflected, passed) = self.shares(wo.z);
         let (r, t) = (reflected.mean(), passed.mean());
         let share = r / (r + t);
@@ -167,7 +188,7 @@ mod tests {
                 assert!((0.0..=1.0).contains(&reflected[0]) && (0.0..=1.0).contains(&passed[0]), "{cos} {inner}");
                 for choice in [0.0, 0.5, 0.999_999_94] {
                     let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
-                    let sample = pane(1.1, inner).sample(wo, choice);
+                    let sample = pane(1.1, inner).sample(wo, choice, Vec2::ZERO);
                     assert!(sample.is_none_or(|s| s.weight.is_finite()), "{cos} {inner} {sample:?}");
                 }
             }

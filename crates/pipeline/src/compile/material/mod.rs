@@ -50,7 +50,7 @@ impl Made {
     /// Black, in the place of a material that nothing uses and whose files are not read: ids of materials do not depend on what is used.
     fn unused(record: &record::Material) -> Self {
         Self {
-            material: Material::new(Surface::Diffuse(Reflectance::Spectrum(upsample::reflectance_spectrum([0.0; 3])))),
+            material: Material::new(Reflectance::Spectrum(upsample::reflectance_spectrum([0.0; 3]))),
             place: record.place.clone(),
             name: record.name.value.clone(),
             needs_coordinates: false,

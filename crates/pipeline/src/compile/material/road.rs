@@ -43,7 +43,7 @@ impl MaterialCompiler<'_, '_> {
         };
         let sheeting = self.context.accept(&r.place, made)?;
         self.context.remark_on(r.place.key(), sheeting.limits().to_string());
-        Some(Surface::Sheeting(Box::new(sheeting)))
+        Some(sheeting.into())
     }
 
     fn retro_table(&mut self, file: &Placed<PathBuf>) -> Option<RetroTable> {
@@ -75,7 +75,7 @@ impl MaterialCompiler<'_, '_> {
             Some(spread) => RoadMarking::with_spread(r_l, day, &colour, spread.value),
             None => RoadMarking::new(r_l, day, &colour),
         };
-        Some(Surface::Marking(Box::new(self.context.accept(&r.place, made)?)))
+        self.context.accept(&r.place, made).map(Surface::from)
     }
 }
 

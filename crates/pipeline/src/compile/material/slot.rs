@@ -32,9 +32,9 @@ pub(super) fn surface(
         SlotReflectance::Image(picture) => Reflectance::Texture(pictures.of_slot(picture, place, context)?),
     };
     match surface {
-        SlotSurface::Diffuse { .. } => Some(Surface::Diffuse(base)),
+        SlotSurface::Diffuse { .. } => Some(base.into()),
         SlotSurface::Coated { index, alpha, .. } => {
-            Some(Surface::Coated(Box::new(context.accept(place, Coated::new(base, *index, *alpha))?)))
+            context.accept(place, Coated::new(base, *index, *alpha)).map(Surface::from)
         }
     }
 }

@@ -27,7 +27,7 @@ const MM_PER_M: f64 = 1000.0;
 impl MaterialCompiler<'_, '_> {
     pub(super) fn surface(&mut self, record: &Record) -> Option<Surface> {
         match record {
-            Record::Diffuse(r) => Some(Surface::Diffuse(self.reflectance(&r.reflectance)?)),
+            Record::Diffuse(r) => self.reflectance(&r.reflectance).map(Surface::from),
             Record::Conductor(r) => self.conductor(r),
             Record::Coated(r) => self.coated(r),
             Record::CookTorrance(r) => self.cook_torrance(r),
@@ -67,7 +67,7 @@ impl MaterialCompiler<'_, '_> {
         let base = self.reflectance(&r.reflectance)?;
         let alpha = self.factor(&r.alpha)?;
         let index = number(r.index.as_ref(), USUAL_INDEX);
-        Some(Surface::Coated(Box::new(self.context.accept(&r.place, Coated::new(base, index, alpha))?)))
+        self.context.accept(&r.place, Coated::new(base, index, alpha)).map(Surface::from)
     }
 
     fn car_paint(&mut self, r: &record::CarPaint) -> Option<Surface> {
@@ -86,7 +86,7 @@ impl MaterialCompiler<'_, '_> {
             coat_index,
             coat_alpha: number(r.alpha.as_ref(), COAT_ALPHA),
         };
-        Some(Surface::CarPaint(Box::new(self.context.accept(&r.place, CarPaint::new(parts))?)))
+        self.context.accept(&r.place, CarPaint::new(parts)).map(Surface::from)
     }
 
     fn cloth(&mut self, r: &record::Cloth) -> Option<Surface> {
@@ -96,14 +96,13 @@ impl MaterialCompiler<'_, '_> {
             None => Spectrum::constant(SHEEN),
         };
         let made = Cloth::new(base, sheen, number(r.alpha.as_ref(), SHEEN_ALPHA));
-        Some(Surface::Cloth(Box::new(self.context.accept(&r.place, made)?)))
+        self.context.accept(&r.place, made).map(Surface::from)
     }
 
     fn lafortune(&mut self, r: &record::Lafortune) -> Option<Surface> {
         let base = self.reflectance(&r.reflectance)?;
         let lobes: Option<Vec<Lobe>> = r.lobes.iter().map(|lobe| self.lobe(lobe)).collect();
-        let made = self.context.accept(&r.place, Lafortune::new(base, lobes?))?;
-        Some(Surface::Lafortune(Box::new(made)))
+        self.context.accept(&r.place, Lafortune::new(base, lobes?)).map(Surface::from)
     }
 
     fn lobe(&mut self, r: &record::Lobe) -> Option<Lobe> {
@@ -129,8 +128,7 @@ impl MaterialCompiler<'_, '_> {
     fn blinn_phong(&mut self, r: &record::BlinnPhong) -> Option<Surface> {
         let base = self.reflectance(&r.reflectance)?;
         let specular = share(&r.specular, self.context)?;
-        let made = self.context.accept(&r.place, BlinnPhong::new(base, specular, r.exponent.value))?;
-        Some(Surface::BlinnPhong(Box::new(made)))
+        self.context.accept(&r.place, BlinnPhong::new(base, specular, r.exponent.value)).map(Surface::from)
     }
 
     fn dielectric(&mut self, r: &record::Dielectric) -> Option<Surface> {
@@ -148,7 +146,7 @@ impl MaterialCompiler<'_, '_> {
             }
         };
         let made = Dielectric::new(r.index.value, alpha, absorption);
-        Some(Surface::Dielectric(Box::new(self.context.accept(&r.place, made)?)))
+        self.context.accept(&r.place, made).map(Surface::from)
     }
 
     fn thin_sheet(&mut self, r: &record::ThinSheet) -> Option<Surface> {
@@ -161,12 +159,12 @@ impl MaterialCompiler<'_, '_> {
             }
         };
         let made = ThinSheet::new(number(r.index.as_ref(), USUAL_INDEX), Reflectance::Spectrum(transmittance));
-        Some(Surface::ThinSheet(Box::new(self.context.accept(&r.place, made)?)))
+        self.context.accept(&r.place, made).map(Surface::from)
     }
 
     fn leaf(&mut self, r: &record::Leaf) -> Option<Surface> {
         let (reflectance, transmittance) = (self.reflectance(&r.reflectance), self.reflectance(&r.transmittance));
-        Some(Surface::Leaf(Box::new(Leaf { reflectance: reflectance?, transmittance: transmittance? })))
+        Some(Leaf { reflectance: reflectance?, transmittance: transmittance? }.into())
     }
 
     fn mix(&mut self, r: &record::Mix) -> Option<Surface> {
@@ -185,7 +183,7 @@ fn with_facets(
         Some(record::Distribution::Ggx) | None => Distribution::Ggx,
     });
     let more = multiple_scattering.is_some_and(|m| m.value);
-    Surface::Conductor(Box::new(if more { conductor.with_interreflection() } else { conductor }))
+    if more { conductor.with_interreflection().into() } else { conductor.into() }
 }
 
 fn number(given: Option<&Placed<f64>>, default: f64) -> f64 {

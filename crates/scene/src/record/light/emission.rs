@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::asset::file_list::{FileList, NamesFiles};
+use crate::asset::request::{AssetKind, Values};
 use crate::fault::Faults;
 use crate::place::{Place, Placed};
 use crate::reader::{Known, keyed, known, number, record, vector};
@@ -61,6 +63,24 @@ record! {
         inside level: Level;
         /// Of which colour.
         group colour: LightColour;
+    }
+}
+
+impl NamesFiles for Emission {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, level, colour } = self;
+        if let Level::Radiance(curve) = level {
+            curve.name_file(Values::Light, files);
+        }
+        colour.name_files(files);
+    }
+}
+
+impl NamesFiles for LightColour {
+    fn name_files(&self, files: &mut FileList) {
+        if let Self::Spectrum(file) = self {
+            files.add(AssetKind::Spectrum(Values::Light), file);
+        }
     }
 }
 

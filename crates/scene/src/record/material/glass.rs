@@ -1,6 +1,8 @@
 //! What lets light through: solids, panes, leaves.
 
 use super::factor::{Factor, any_factor};
+use crate::asset::file_list::{FileList, NamesFiles};
+use crate::asset::request::Values;
 use crate::fault::Faults;
 use crate::place::Placed;
 use crate::reader::{Number, keyed, number, record};
@@ -21,6 +23,13 @@ record! {
     }
 }
 
+impl NamesFiles for Dielectric {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, index: _, alpha: _, absorption, thickness_mm: _ } = self;
+        absorption.name_files(files);
+    }
+}
+
 record! {
     /// A pane.
     pub struct ThinSheet check(check_sheet) {
@@ -30,6 +39,13 @@ record! {
         group absorption: Absorption;
         /// With "absorption_per_m": how thick the pane is, mm, above 0.
         optional thickness_mm: Placed<f64> = number("mm").above(0.0);
+    }
+}
+
+impl NamesFiles for ThinSheet {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, index: _, absorption, thickness_mm: _ } = self;
+        absorption.name_files(files);
     }
 }
 
@@ -45,6 +61,15 @@ keyed! {
     }
 }
 
+impl NamesFiles for Absorption {
+    fn name_files(&self, files: &mut FileList) {
+        match self {
+            Self::Coefficient(curve) => curve.name_file(Values::Light, files),
+            Self::Transmittance(share) => share.name_files(files),
+        }
+    }
+}
+
 record! {
     /// A leaf.
     pub struct Leaf {
@@ -52,6 +77,14 @@ record! {
         required reflectance: Reflectance = any_reflectance();
         /// Share of light let through, as for "diffuse".
         required transmittance: Reflectance = any_reflectance();
+    }
+}
+
+impl NamesFiles for Leaf {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, reflectance, transmittance } = self;
+        reflectance.name_files(files);
+        transmittance.name_files(files);
     }
 }
 

@@ -1,5 +1,6 @@
 //! Light that a surface gives.
 
+use crate::asset::file_list::{FileList, NamesFiles};
 use crate::fault::{Faults, Named};
 use crate::place::Placed;
 use crate::reader::{choice, name_of, record};
@@ -16,6 +17,13 @@ record! {
         /// The name of a texture whose colours are factors on the light: the stated level holds where the picture is 1, 1, 1,
         /// so that a picture in units (HDR, EXR) with level 1 gives its own numbers. Default: none.
         optional texture: Placed<String> = name_of(Named::Texture);
+    }
+}
+
+impl NamesFiles for SurfaceEmission {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, light, sides: _, texture: _ } = self;
+        light.name_files(files);
     }
 }
 

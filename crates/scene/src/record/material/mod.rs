@@ -4,25 +4,23 @@ pub mod factor;
 pub mod glass;
 pub mod glow;
 pub mod mix;
-pub mod reflector;
 pub mod road;
+pub mod surface;
 
 pub use factor::{Channel, Factor, Green, NormalMap};
 pub use glass::{Absorption, Dielectric, Leaf, ThinSheet};
 pub use glow::{Sides, SurfaceEmission};
 pub use mix::Mix;
-pub use reflector::{
-    BlinnPhong, CarPaint, Cloth, Coated, Conductor, CookTorrance, Diffuse, Distribution, Interface, Lafortune, Lobe,
-    LobeDirection, LobeKind, LobeStrength, Metal,
-};
 pub use road::{
     MarkingClass, MarkingDay, MarkingNight, RoadMarking, Sheeting, SheetingClass, SheetingColour, SheetingTable,
 };
+pub use surface::*;
 
+use crate::asset::file_list::{FileList, NamesFiles};
 use crate::fault::Faults;
 use crate::place::Placed;
 use crate::preset;
-use crate::reader::{Form, Reader, Record, record, text, variants};
+use crate::reader::{Form, Reader, Record, record, text};
 use factor::any_factor;
 use serde_json::json;
 
@@ -43,39 +41,11 @@ record! {
     }
 }
 
-variants! {
-    /// How a surface reflects.
-    pub enum Surface by "type" {
-        /// Lambert's law.
-        "diffuse" => Diffuse(Diffuse),
-        /// A bare metal, smooth or rough.
-        "conductor" => Conductor(Conductor),
-        /// A diffuse base under a clear dielectric coat.
-        "coated" => Coated(Coated),
-        /// Cook and Torrance's model: bare microfacets of any refractive index, and nothing below them.
-        "cook_torrance" => CookTorrance(CookTorrance),
-        /// Lafortune's model: a diffuse base with generalised cosine lobes.
-        "lafortune" => Lafortune(Lafortune),
-        /// Blinn and Phong's model: a diffuse base with a glossy lobe.
-        "blinn_phong" => BlinnPhong(BlinnPhong),
-        /// Metallic car paint: flakes in pigment under a clear coat.
-        "car_paint" => CarPaint(CarPaint),
-        /// Cloth with a sheen.
-        "cloth" => Cloth(Cloth),
-        /// Retro-reflective sheeting over a matt base: signs, number plates.
-        "retro_sheeting" => Sheeting(Sheeting),
-        /// A road marking with glass beads.
-        "road_marking" => RoadMarking(RoadMarking),
-        /// Clear or tinted glass or water as a solid with two sides: refracts, and absorbs inside. The mesh must be closed.
-        "dielectric" => Dielectric(Dielectric),
-        /// A pane without thickness of its own: reflects and lets light straight through, all inner reflections included.
-        "thin_sheet" => ThinSheet(ThinSheet),
-        /// A leaf: reflects from the side that is lit and glows through on the other, both by Lambert's law.
-        "leaf" => Leaf(Leaf),
-        /// Two other materials side by side, finer than anything seen.
-        "mix" => Mix(Mix),
-        /// Reflects nothing, gives light: needs "emission".
-        "emitter" => Emitter(Emitter),
+impl NamesFiles for Material {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, name: _, surface: SurfaceSource(surface), emission, opacity: _, normal_map: _ } = self;
+        surface.name_files(files);
+        emission.name_files(files);
     }
 }
 
@@ -99,11 +69,6 @@ impl Record for SurfaceSource {
         }
         [vec![preset], models].concat()
     }
-}
-
-record! {
-    /// A surface that reflects nothing.
-    pub struct Emitter {}
 }
 
 fn check(material: &Material, faults: &mut Faults) {

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::asset::file_list::{FileList, NamesFiles};
+use crate::asset::request::AssetKind;
 use crate::fault::Faults;
 use crate::place::{Place, Placed};
 use crate::reader::{choice, keyed, number, path, record};
@@ -26,6 +28,16 @@ record! {
     }
 }
 
+impl NamesFiles for Sheeting {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, table, colour: _, reflectance, retro_colour, print } = self;
+        table.name_files(files);
+        reflectance.name_files(files);
+        retro_colour.name_files(files);
+        print.name_files(files);
+    }
+}
+
 keyed! {
     /// Coefficients of retro-reflection R_A.
     pub enum SheetingTable {
@@ -34,6 +46,15 @@ keyed! {
         /// A measured table: coefficients in cd·lx⁻¹·m⁻² by observation and entrance angle, CSV: a row of entrance angles
         /// (degrees) after a first field, then rows of an observation angle (degrees) and its coefficients.
         r_a_table => File(Placed<PathBuf>) = path(&["csv"]);
+    }
+}
+
+impl NamesFiles for SheetingTable {
+    fn name_files(&self, files: &mut FileList) {
+        match self {
+            Self::Class(_) => {}
+            Self::File(file) => files.add(AssetKind::RetroTable, file),
+        }
     }
 }
 
@@ -78,6 +99,13 @@ record! {
         /// Angle from the way back to the lamp at which the light sent back has fallen to a quarter, degrees, 0.5 … 30.
         /// Default: 3, an assumption.
         optional spread_deg: Placed<f64> = number("°").at_least(0.5).at_most(30.0);
+    }
+}
+
+impl NamesFiles for RoadMarking {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, night: _, day: _, colour, spread_deg: _ } = self;
+        colour.name_files(files);
     }
 }
 

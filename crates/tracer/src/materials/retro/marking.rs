@@ -20,14 +20,17 @@
 use core::f32::consts::{FRAC_1_PI, PI, TAU};
 use etendue_core::maths::f32::sin_cos;
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
-use etendue_core::{Basis, Spectral, Wavelengths, maths};
+use etendue_core::{Basis, Spectral, maths};
 use etendue_spectra::{Spectrum, illuminant, observer};
 use glam::{Vec2, Vec3};
 
 use super::photometric;
+use crate::materials::bsdf::{BsdfSample, BsdfValue, Event};
 use crate::materials::discrete_sampler::DiscreteSampler;
 use crate::materials::energy::{self, AlbedoTable, EnergyGain};
-use crate::materials::{BsdfSample, BsdfValue, Event};
+use crate::materials::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
+use crate::materials::parameter::Parameter;
+use crate::materials::shading_point::ShadingPoint;
 
 /// The 30 m geometry of EN 1436: the lamp's elevation, degrees.
 const LAMP_DEG: f64 = 1.24;
@@ -114,9 +117,25 @@ impl RoadMarking {
         energy::check(&base, &[(&colour, &albedo)])?;
         Ok(Self { base, colour, lobe, albedo })
     }
+}
 
-    pub(in crate::materials) fn resolve<const N: usize>(&self, wavelengths: &Wavelengths<N>) -> MarkingBsdf<'_, N> {
-        MarkingBsdf { marking: self, base: self.base.sample(wavelengths), colour: self.colour.sample(wavelengths) }
+impl SurfaceModel for RoadMarking {
+    type Bsdf<'a, const N: usize> = MarkingBsdf<'a, N>;
+
+    fn parameters(&self) -> Vec<Parameter<'_>> {
+        Vec::new()
+    }
+
+    fn passage(&self) -> Passage<'_> {
+        Passage::None
+    }
+
+    fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> MarkingBsdf<'_, N> {
+        MarkingBsdf {
+            marking: self,
+            base: self.base.sample(point.wavelengths),
+            colour: self.colour.sample(point.wavelengths),
+        }
     }
 }
 
@@ -235,10 +254,6 @@ impl<const N: usize> MarkingBsdf<'_, N> {
         DiscreteSampler::new([self.base.mean(), self.colour.mean() * self.marking.albedo.at(wo.z)])
     }
 
-    pub(in crate::materials) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
-        self.discrete_sampler(wo).map_or(BsdfValue::ZERO, |discrete_sampler| self.value(discrete_sampler, wo, wi))
-    }
-
     fn value(&self, discrete_sampler: DiscreteSampler<2>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let lobe = self.marking.lobe;
         BsdfValue {
@@ -246,8 +261,19 @@ impl<const N: usize> MarkingBsdf<'_, N> {
             pdf: discrete_sampler.of(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.of(1) * lobe.pdf(wo, wi),
         }
     }
+}
 
-    pub(in crate::materials) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
+impl<const N: usize> BsdfModel<N> for MarkingBsdf<'_, N> {
+    #[inline]
+    fn flags(&self) -> BsdfFlags {
+        BsdfFlags::LOBES
+    }
+
+    fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+        self.discrete_sampler(wo).map_or(BsdfValue::ZERO, |discrete_sampler| self.value(discrete_sampler, wo, wi))
+    }
+
+    fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let discrete_sampler = self.discrete_sampler(wo)?;
         let wi =
             if discrete_sampler.draw(choice) == 0 { cosine_hemisphere(u) } else { self.marking.lobe.sample(wo, u) };

@@ -31,15 +31,18 @@ pub use preset::{SHEETING_CLASSES, SHEETING_COLOURS, SheetingPreset};
 pub use table::{RetroTable, RetroTableError};
 
 use core::f32::consts::FRAC_1_PI;
+use etendue_core::Spectral;
 use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
-use etendue_core::{Spectral, Wavelengths};
 use etendue_spectra::{Spectrum, illuminant, observer};
 use glam::{Vec2, Vec3};
 
+use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, EnergyGain};
-use super::{BsdfSample, BsdfValue, Event, Reflectance};
-use crate::textures::{ImageTexture, Lookup};
+use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
+use super::parameter::Parameter;
+use super::reflectance::Reflectance;
+use super::shading_point::ShadingPoint;
 use lobe::{GRAZING_DEG, RetroLobe, WIDEST_DEG};
 
 /// A retro-reflective sheeting over a matt base.
@@ -87,15 +90,6 @@ impl Sheeting {
         Ok(Self { face: Face::Printed(white as f32, print), table, lobe })
     }
 
-    /// The print, if it has one.
-    #[must_use]
-    pub fn print(&self) -> Option<&Reflectance> {
-        match &self.face {
-            Face::Plain(..) => None,
-            Face::Printed(_, print) => Some(print),
-        }
-    }
-
     /// The observation angle beyond which nothing is retro-reflected, degrees.
     #[must_use]
     pub fn cut_off_deg(&self) -> f64 {
@@ -115,17 +109,27 @@ impl Sheeting {
             deepest.max(GRAZING_DEG)
         )
     }
+}
 
-    pub(super) fn resolve<const N: usize>(
-        &self,
-        textures: &[ImageTexture],
-        lookup: &Lookup,
-        wavelengths: &Wavelengths<N>,
-    ) -> SheetingBsdf<'_, N> {
+impl SurfaceModel for Sheeting {
+    type Bsdf<'a, const N: usize> = SheetingBsdf<'a, N>;
+
+    fn parameters(&self) -> Vec<Parameter<'_>> {
+        match &self.face {
+            Face::Plain(..) => Vec::new(),
+            Face::Printed(_, print) => vec![Parameter::Reflectance(print)],
+        }
+    }
+
+    fn passage(&self) -> Passage<'_> {
+        Passage::None
+    }
+
+    fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> SheetingBsdf<'_, N> {
         let (base, colour) = match &self.face {
-            Face::Plain(base, colour) => (base.sample(wavelengths), colour.sample(wavelengths)),
+            Face::Plain(base, colour) => (base.sample(point.wavelengths), colour.sample(point.wavelengths)),
             Face::Printed(white, print) => {
-                let print = print.at(textures, lookup, wavelengths);
+                let print = point.reflectance(print);
                 (print * *white, print)
             }
         };
@@ -189,18 +193,25 @@ impl<const N: usize> SheetingBsdf<'_, N> {
         DiscreteSampler::new([self.base.mean(), self.colour.mean() * self.lobe.albedo.at(wo.z)])
     }
 
-    pub(super) fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
-        self.discrete_sampler(wo).map_or(BsdfValue::ZERO, |discrete_sampler| self.value(discrete_sampler, wo, wi))
-    }
-
     fn value(&self, discrete_sampler: DiscreteSampler<2>, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         BsdfValue {
             value_cos: self.base * (wi.z * FRAC_1_PI) + self.colour * self.lobe.value_cos(wo, wi),
             pdf: discrete_sampler.of(0) * cosine_hemisphere_pdf(wi.z) + discrete_sampler.of(1) * self.lobe.pdf(wo, wi),
         }
     }
+}
 
-    pub(super) fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
+impl<const N: usize> BsdfModel<N> for SheetingBsdf<'_, N> {
+    #[inline]
+    fn flags(&self) -> BsdfFlags {
+        BsdfFlags::LOBES
+    }
+
+    fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+        self.discrete_sampler(wo).map_or(BsdfValue::ZERO, |discrete_sampler| self.value(discrete_sampler, wo, wi))
+    }
+
+    fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
         let discrete_sampler = self.discrete_sampler(wo)?;
         let wi = if discrete_sampler.draw(choice) == 0 { cosine_hemisphere(u) } else { self.lobe.sample(wo, u) };
         if wi.z <= 0.0 {

@@ -1,0 +1,141 @@
+//! Which files a description names.
+
+use std::collections::BTreeMap;
+
+use super::file_list::{FileList, NamesFiles as _};
+use super::request::{AssetKind, AssetRequest, Covered, Values};
+use crate::load::Description;
+use crate::record::front::mirror::{Finish, MirrorShape};
+use crate::record::lens::calibrated::View;
+use crate::record::lens::prescription::{IrCutCurve, Source};
+use crate::record::sensor::QuantumEfficiency;
+use crate::record::{Body, Camera, Environment, Front, Lens, Light, Material, Object, Processing, Scene};
+
+/// Every file that is named, each once.
+pub(crate) fn requests(description: &Description) -> Vec<AssetRequest> {
+    let mut files = FileList::default();
+    let scene = &description.scene;
+    let unused = &description.unused;
+    let covered = covered(scene);
+    for mesh in scene.meshes.iter().filter(|m| !unused.meshes.contains(&m.name.value)) {
+        let covered = covered.get(mesh.name.as_str()).cloned().unwrap_or(Covered::All);
+        files.mesh(&mesh.file, covered);
+    }
+    let textures = scene.textures.iter().filter(|t| !unused.textures.contains(&t.name.value));
+    textures.for_each(|t| files.add(AssetKind::Image, &t.file));
+    let materials = scene.materials.iter().filter(|m| !unused.materials.contains(&m.name.value));
+    materials.for_each(|m| m.name_files(&mut files));
+    scene.lights.iter().for_each(|l| light(l, &mut files));
+    scene.environment.iter().for_each(|e| environment(e, &mut files));
+    description.cameras.iter().for_each(|c| self::camera(&c.camera, &mut files));
+    files.into_requests()
+}
+
+/// What all objects of a mesh cover of its own materials, by the mesh's name.
+fn covered(scene: &Scene) -> BTreeMap<&str, Covered> {
+    let mut covered: BTreeMap<&str, Covered> = BTreeMap::new();
+    for object in &scene.objects {
+        if let Body::Mesh(name) = &object.body {
+            let before = covered.remove(name.as_str()).unwrap_or(Covered::All);
+            covered.insert(name, before.and(covered_by(object)));
+        }
+    }
+    covered
+}
+
+/// What one object covers.
+fn covered_by(object: &Object) -> Covered {
+    match &object.material {
+        Some(_) => Covered::All,
+        None => Covered::Slots(object.materials.iter().map(|(slot, _)| slot.value.clone()).collect()),
+    }
+}
+
+/// Every file that a camera names, each once.
+#[must_use]
+pub fn of_camera(camera: &Camera) -> Vec<AssetRequest> {
+    let mut files = FileList::default();
+    self::camera(camera, &mut files);
+    files.into_requests()
+}
+
+/// Whether a material names files itself.
+pub(crate) fn names_files(material: &Material) -> bool {
+    let mut files = FileList::default();
+    material.name_files(&mut files);
+    !files.is_empty()
+}
+
+fn light(light: &Light, files: &mut FileList) {
+    let mask = match light {
+        Light::Sun(_) => None,
+        Light::Point(lamp) => lamp.mask.as_ref(),
+        Light::Spot(lamp) => lamp.mask.as_ref(),
+        Light::Measured(lamp) => lamp.mask.as_ref(),
+        Light::HeadLamp(lamp) => lamp.mask.as_ref(),
+    };
+    mask.into_iter().for_each(|mask| files.add(AssetKind::Image, &mask.file));
+    if let Light::Measured(lamp) = light {
+        files.add(AssetKind::Photometry, &lamp.file);
+    }
+    light.colour().into_iter().for_each(|colour| colour.name_files(files));
+}
+
+fn environment(environment: &Environment, files: &mut FileList) {
+    match environment {
+        Environment::Uniform(emission) => emission.name_files(files),
+        Environment::Image(image) => files.add(AssetKind::Image, &image.file),
+        Environment::Sky(_) => {}
+    }
+}
+
+fn lens(lens: &Lens, files: &mut FileList) {
+    match lens {
+        Lens::Pinhole(_) | Lens::Thin(_) | Lens::Thick(_) | Lens::Telecentric(_) => {}
+        Lens::Prescription(lens) => {
+            if let Source::File(file) = &lens.source {
+                files.add(AssetKind::Prescription, file);
+            }
+            if let Some(IrCutCurve::Spectrum(file)) = lens.ir_cut.as_ref().map(|filter| &filter.normal) {
+                files.add(AssetKind::Spectrum(Values::Share), file);
+            }
+        }
+        Lens::Calibrated(lens) => {
+            if let View::Calibration(calibration) = &lens.view {
+                files.add(AssetKind::Calibration(calibration.choice()), &calibration.file);
+            }
+        }
+    }
+}
+
+fn front(front: &Front, files: &mut FileList) {
+    if let Some(glass) = &front.windscreen {
+        glass.layers.iter().flatten().for_each(|layer| layer.index.name_file(Values::Index, files));
+        glass.internal_transmittance.name_files(files);
+    }
+    front.dirt.iter().for_each(|dirt| files.add(AssetKind::Image, &dirt.mask));
+    if let Some(mirror) = &front.mirror {
+        if let MirrorShape::Mesh(mesh) = &mirror.shape {
+            files.mesh(&mesh.file, Covered::All);
+        }
+        match &mirror.finish {
+            Finish::Share(colour) => colour.name_files(files),
+            Finish::File(file) => files.add(AssetKind::ComplexIndex, file),
+            Finish::Named(_) => {}
+        }
+    }
+}
+
+fn camera(camera: &Camera, files: &mut FileList) {
+    lens(&camera.lens, files);
+    camera.external_optics.iter().for_each(|f| front(f, files));
+    let psf = camera.effects.as_ref().and_then(|effects| effects.psf.as_ref());
+    psf.and_then(|psf| psf.image.as_ref()).into_iter().for_each(|image| files.add(AssetKind::Image, image));
+    camera.isp.iter().flat_map(Processing::files).for_each(|file| files.add(AssetKind::Numbers, file));
+    match camera.sensor.electronics.as_ref().map(|e| &e.quantum_efficiency) {
+        Some(QuantumEfficiency::Same(curve)) => curve.name_file(Values::Share, files),
+        Some(QuantumEfficiency::PerChannel(curves)) => curves.iter().for_each(|c| c.name_file(Values::Share, files)),
+        Some(QuantumEfficiency::Named(list)) => list.iter().for_each(|(_, c)| c.name_file(Values::Share, files)),
+        Some(QuantumEfficiency::Measured { .. }) | None => {}
+    }
+}

@@ -1,0 +1,135 @@
+//! The macro that makes one list of models the types [`super::Surface`] and [`super::Bsdf`].
+
+/// Each row is `Variant(what the surface holds) from Model => what it is at a point,` under a line of documentation. The model is a
+/// [`super::model::SurfaceModel`]; what it is at a point a [`super::model::BsdfModel`]. Two members are no models and stand here: a surface that
+/// scatters nothing, and a mix, which scatters by its parts alone.
+macro_rules! surfaces {
+    ($( $(#[doc = $doc:literal])* $variant:ident($held:ty) from $model:ty => $bsdf:ty, )*) => {
+        /// How a surface scatters light.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Surface {
+            /// All light that arrives is absorbed: a pure emitter, or black.
+            Absorber,
+            $( $(#[doc = $doc])* $variant($held), )*
+            /// Two materials side by side.
+            Mix(Mix),
+        }
+
+        $(
+            impl From<$model> for Surface {
+                fn from(model: $model) -> Self {
+                    Self::$variant(model.into())
+                }
+            }
+        )*
+
+        impl Surface {
+            fn parameters(&self) -> Vec<Parameter<'_>> {
+                match self {
+                    Self::Absorber => Vec::new(),
+                    $( Self::$variant(model) => model.parameters(), )*
+                    Self::Mix(mix) => mix.parameters(),
+                }
+            }
+
+            #[inline]
+            fn passage(&self) -> Passage<'_> {
+                match self {
+                    Self::Absorber | Self::Mix(_) => Passage::None,
+                    $( Self::$variant(model) => model.passage(), )*
+                }
+            }
+
+            fn check_energy(&self, check: &TextureCheck<'_>) -> Result<(), MaterialError> {
+                match self {
+                    Self::Absorber | Self::Mix(_) => Ok(()),
+                    $( Self::$variant(model) => model.check_energy(check), )*
+                }
+            }
+
+            #[inline]
+            fn straight_transmittance<const N: usize>(&self, point: &ShadingPoint<'_, N>, cos: f32) -> Spectral<N> {
+                match self {
+                    Self::Absorber | Self::Mix(_) => Spectral::ZERO,
+                    $( Self::$variant(model) => model.straight_transmittance(point, cos), )*
+                }
+            }
+
+            #[inline]
+            fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> Bsdf<'_, N> {
+                match self {
+                    Self::Absorber => Bsdf::Absorber,
+                    $( Self::$variant(model) => Bsdf::$variant(model.resolve(point)), )*
+                    Self::Mix(_) => panic!("a mix scatters by its parts alone: resolve it first"),
+                }
+            }
+        }
+
+        /// Scattering at one point, at the wavelengths of one path.
+        #[derive(Clone, Copy, Debug)]
+        pub enum Bsdf<'a, const N: usize> {
+            /// Nothing is scattered.
+            Absorber,
+            $( $(#[doc = $doc])* $variant($bsdf), )*
+        }
+
+        impl<const N: usize> Bsdf<'_, N> {
+            #[inline]
+            fn flags(&self) -> BsdfFlags {
+                match self {
+                    Self::Absorber => BsdfFlags { delta: false, transmits: false, has_parts: false },
+                    $( Self::$variant(bsdf) => BsdfModel::<N>::flags(bsdf), )*
+                }
+            }
+
+            /// Whether light goes on in exact directions only, so that asking for a light drawn elsewhere is in vain.
+            #[must_use]
+            #[inline]
+            pub fn is_delta(&self) -> bool {
+                self.flags().delta
+            }
+
+            /// Whether light may come from behind (wi.z < 0) by a finite density.
+            #[must_use]
+            #[inline]
+            pub fn transmits(&self) -> bool {
+                self.flags().transmits
+            }
+
+            /// Whether [`Bsdf::sample`] looks at the number that picks a lobe.
+            #[must_use]
+            #[inline]
+            pub fn has_parts(&self) -> bool {
+                self.flags().has_parts
+            }
+
+            /// Value and density of a pair of directions; zero where `wo` is behind the surface, or light from there is
+            /// not let through.
+            #[must_use]
+            pub fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
+                if wo.z <= 0.0 || wi.z == 0.0 || (wi.z < 0.0 && !self.transmits()) {
+                    return BsdfValue::ZERO;
+                }
+                match self {
+                    Self::Absorber => BsdfValue::ZERO,
+                    $( Self::$variant(bsdf) => bsdf.evaluate(wo, wi), )*
+                }
+            }
+
+            /// A direction for light to come from; `None` where the light is absorbed. `choice` picks a lobe, `u` a
+            /// direction; both are uniform in [0, 1).
+            #[must_use]
+            pub fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {
+                if wo.z <= 0.0 {
+                    return None;
+                }
+                match self {
+                    Self::Absorber => None,
+                    $( Self::$variant(bsdf) => bsdf.sample(wo, choice, u), )*
+                }
+            }
+        }
+    };
+}
+
+pub(super) use surfaces;

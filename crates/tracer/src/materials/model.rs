@@ -1,0 +1,81 @@
+//! What a model of scattering must say: once for all points ([`SurfaceModel`]), and at one point for the wavelengths of one path
+//! ([`BsdfModel`]). `surfaces!` takes every question to the model by a `match`.
+
+use etendue_core::Spectral;
+use etendue_spectra::Spectrum;
+use glam::{Vec2, Vec3};
+
+use super::bsdf::{BsdfSample, BsdfValue};
+use super::error::MaterialError;
+use super::parameter::Parameter;
+use super::shading_point::ShadingPoint;
+use super::texture_check::TextureCheck;
+
+/// A model of scattering with its parameters: a row of `surfaces!`.
+pub(super) trait SurfaceModel {
+    /// The model at one point.
+    type Bsdf<'a, const N: usize>: BsdfModel<N>
+    where
+        Self: 'a;
+
+    /// Every parameter that may be a texture.
+    fn parameters(&self) -> Vec<Parameter<'_>>;
+
+    /// How light gets behind the surface other than by being scattered there.
+    fn passage(&self) -> Passage<'_>;
+
+    /// Evaluates textures and spectra at a point, once for all that is asked there.
+    fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> Self::Bsdf<'_, N>;
+
+    /// Refuses parameters, each within its range, with which together more would be sent on than arrives. Left out by models that
+    /// cannot gain energy.
+    fn check_energy(&self, _check: &TextureCheck<'_>) -> Result<(), MaterialError> {
+        Ok(())
+    }
+
+    /// The share of light that goes straight on, 0 to 1, at the cosine of incidence `cos` in (0, 1]. Asked of models of
+    /// [`Passage::Straight`] alone.
+    fn straight_transmittance<const N: usize>(&self, _point: &ShadingPoint<'_, N>, _cos: f32) -> Spectral<N> {
+        unreachable!("a model that lets light go straight on says how much")
+    }
+}
+
+/// How light gets behind a surface other than by being scattered there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Passage<'a> {
+    /// It does not.
+    None,
+    /// It goes straight on, as if nothing had been there ([`super::Event::Null`]).
+    Straight,
+    /// It enters the solid that the surface bounds. Its absorption coefficient, 1/m; `None` where it absorbs nothing.
+    Solid(Option<&'a Spectrum>),
+}
+
+/// A model at one point, for the wavelengths of one path: the contract is that of [`super::Bsdf`].
+pub(super) trait BsdfModel<const N: usize>: Copy {
+    /// What holds for all directions.
+    fn flags(&self) -> BsdfFlags;
+
+    /// Value and density of a pair of directions, wo.z > 0; wi.z > 0 too unless the flags say `transmits`.
+    fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N>;
+
+    /// A direction for light to come from, wo.z > 0; `None` where the light is absorbed. `choice` picks a lobe, `u` a direction;
+    /// both are uniform in [0, 1).
+    fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>>;
+}
+
+/// What holds for all directions at a point. There is no default: a model states each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct BsdfFlags {
+    /// Light goes on in exact directions only, so that asking for a light drawn elsewhere is in vain.
+    pub(super) delta: bool,
+    /// Light may come from behind (wi.z < 0) by a finite density.
+    pub(super) transmits: bool,
+    /// [`BsdfModel::sample`] looks at the number that picks a lobe.
+    pub(super) has_parts: bool,
+}
+
+impl BsdfFlags {
+    /// Of what reflects by a finite density through several lobes.
+    pub(super) const LOBES: Self = Self { delta: false, transmits: false, has_parts: true };
+}
