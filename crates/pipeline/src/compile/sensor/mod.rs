@@ -18,14 +18,16 @@ pub(super) fn sensor(record: &record::Sensor, exit_pupil_mm: f64, context: &mut 
     let electronics = record.electronics.as_ref()?;
     refuse_no_shield(electronics.optical_black.as_ref(), context);
     let channels = channels(electronics, context)?;
+    let specimen = electronics.non_uniformity.as_ref().and_then(|n| n.seed.as_ref());
     let parameters = SensorParameters {
         pixel: Pixel { pitch_um: record.pixel_pitch_um.value, fill_factor: fill_factor(record) },
         cfa: cfa(&electronics.cfa, context)?,
         channels,
         exposure: light::exposure(electronics),
-        optics: light::optics(record, electronics, exit_pupil_mm),
-        pattern: charge::pattern(electronics),
+        specimen: specimen.map(|seed| seed.value),
+        light: light::light(record, electronics, exit_pupil_mm),
         charge: charge::charge(electronics),
+        voltage: read_out::voltage(electronics),
         read_out: read_out::read_out(electronics),
         hdr: read_out::hdr(electronics),
         noise: electronics.noise.as_ref().is_none_or(|n| n.value),
@@ -73,7 +75,7 @@ fn place<'a>(record: &'a record::Sensor, e: &'a record::Electronics, key: &str) 
         "inter_pixel_capacitance" => e.inter_pixel_capacitance.as_ref().map(|t| &t.place),
         "non_uniformity" => e.non_uniformity.as_ref().map(|t| &t.place),
         "dark" => e.dark.as_ref().map(|t| &t.place),
-        "smear" => e.smear.as_ref().map(charge::smear_place),
+        "smear" => e.smear.as_ref().map(light::smear_place),
         "lag" => e.lag.first().map(|t| &t.place),
         "brighter_fatter_per_e" => e.brighter_fatter_per_e.as_ref().map(|k| &k.place),
         "blooming" => e.blooming.as_ref().map(|t| &t.place),
@@ -90,7 +92,7 @@ fn place<'a>(record: &'a record::Sensor, e: &'a record::Electronics, key: &str) 
     found.unwrap_or(&record.place)
 }
 
-/// Share of a pixel's area that is sensitive.
+/// Fraction of a pixel's area that is sensitive.
 pub(super) fn fill_factor(record: &record::Sensor) -> f64 {
     record.fill_factor.as_ref().map_or(1.0, |f| f.value)
 }
