@@ -25,6 +25,7 @@ mod reader;
 pub mod record;
 mod schema;
 mod suggest;
+pub mod written;
 
 pub use fault::{Fault, Faults, stated};
 pub use load::{CameraSetup, Description, ReadText, Unused, load_camera, load_datasheet};

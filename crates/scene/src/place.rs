@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 /// Where a value or a fault stands.
 ///
@@ -20,9 +20,24 @@ enum Spot {
     At { line: u32, column: u32 },
     Set(Arc<str>),
     Flag(Arc<str>),
+    Unstated,
 }
 
 impl Place {
+    /// Of what no file states: a record that a program made.
+    #[must_use]
+    pub fn unstated() -> Self {
+        static UNSTATED: LazyLock<Place> =
+            LazyLock::new(|| Place { file: Arc::from(Path::new("")), spot: Spot::Unstated, key: "".into() });
+        UNSTATED.clone()
+    }
+
+    /// Whether a file or the command line states it.
+    #[must_use]
+    pub fn is_stated(&self) -> bool {
+        self.spot != Spot::Unstated
+    }
+
     /// The first character of `file`.
     #[must_use]
     pub fn file_head(file: impl Into<Arc<Path>>) -> Self {
@@ -62,12 +77,12 @@ impl Place {
         &self.key
     }
 
-    /// Line and column, both from 1; `None` for an override.
+    /// Line and column, both from 1; `None` for an override and for what no file states.
     #[must_use]
     pub fn line_column(&self) -> Option<(u32, u32)> {
         match self.spot {
             Spot::At { line, column } => Some((line, column)),
-            Spot::Set(_) | Spot::Flag(_) => None,
+            Spot::Set(_) | Spot::Flag(_) | Spot::Unstated => None,
         }
     }
 
@@ -84,6 +99,7 @@ impl fmt::Display for Place {
             Spot::At { line, column } => write!(f, "{}:{line}:{column}", self.file.display())?,
             Spot::Set(text) => return write_set(f, text),
             Spot::Flag(text) => return f.write_str(text),
+            Spot::Unstated => return f.write_str("a value that no file states"),
         }
         if self.key.is_empty() { Ok(()) } else { write!(f, ": {}", self.key) }
     }
@@ -117,6 +133,25 @@ impl<T> Placed<T> {
     /// Another value at the same place.
     pub fn map<U>(self, f: impl FnOnce(T) -> U) -> Placed<U> {
         Placed { value: f(self.value), place: self.place }
+    }
+}
+
+impl<T> From<T> for Placed<T> {
+    /// A value that no file states.
+    fn from(value: T) -> Self {
+        Self::new(value, Place::unstated())
+    }
+}
+
+impl From<&str> for Placed<String> {
+    fn from(text: &str) -> Self {
+        text.to_owned().into()
+    }
+}
+
+impl From<&str> for Placed<PathBuf> {
+    fn from(path: &str) -> Self {
+        PathBuf::from(path).into()
     }
 }
 

@@ -19,6 +19,7 @@ use crate::reader::{Rule as _, record};
 use crate::record::job::CameraSource;
 use crate::record::render::{check_levels, check_merged};
 use crate::record::{Camera, CameraEntry, DataSheet, Job, Output, Pose, Render, Scene};
+use crate::written::Table;
 
 /// Reads the text of a file; the error says in a few words why it cannot.
 pub type ReadText<'r> = dyn Fn(&Path) -> Result<String, String> + 'r;
@@ -88,6 +89,13 @@ impl Description {
         })
     }
 
+    /// What the job says, its scene and cameras in place of the names of their files: one table, one file.
+    #[must_use]
+    pub fn to_table(&self) -> Table {
+        let cameras: Vec<_> = self.cameras.iter().map(CameraSetup::to_table).collect();
+        Table::new().with("scene", self.scene.to_table()).with("cameras", cameras)
+    }
+
     /// Every file that the description names, that is used, and that is not text of its own, each once.
     #[must_use]
     pub fn assets(&self) -> Vec<AssetRequest> {
@@ -104,6 +112,15 @@ impl CameraSetup {
         let render = render.map_or(own_render.clone(), |base| own_render.over(base));
         let output = output.map_or(own_output.clone(), |base| own_output.over(base));
         Self { name, camera, pose, render, output }
+    }
+
+    /// What a job says of the camera, and how it renders and writes where the job says it for all: keys that have no effect on
+    /// this camera are among them.
+    #[must_use]
+    pub fn to_table(&self) -> Table {
+        let named = Table::new().with("name", self.name.clone());
+        let placed = named.and(self.camera.to_table()).and(self.pose.to_table());
+        placed.with("render", self.render.to_table()).with("output", self.output.to_table())
     }
 }
 

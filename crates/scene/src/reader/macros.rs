@@ -43,7 +43,15 @@ macro_rules! record {
                 )*
                 forms
             }
+
+            fn write_keys(&self, table: &mut $crate::written::Table) {
+                table.stand(&self.place);
+                $( $crate::reader::macros::field!(write $kind $key, self, table $(, $rule)?); )*
+            }
         }
+
+        $crate::reader::macros::constructor!($name [] [] $( $kind $key : $ty; )*);
+        $crate::reader::macros::as_table!($name);
     };
 }
 
@@ -75,6 +83,28 @@ macro_rules! field {
         }
     };
 
+    (write required $key:ident, $record:ident, $table:ident, $rule:expr) => {
+        $crate::reader::macros::put($table, stringify!($key), &$rule, &$record.$key);
+    };
+    (write optional $key:ident, $record:ident, $table:ident, $rule:expr) => {
+        if let Some(value) = &$record.$key {
+            $crate::reader::macros::put($table, stringify!($key), &$rule, value);
+        }
+    };
+    (write many $key:ident, $record:ident, $table:ident, $rule:expr) => {
+        if !$record.$key.is_empty() {
+            $crate::reader::macros::put($table, stringify!($key), &$rule, &$record.$key);
+        }
+    };
+    (write inside $key:ident, $record:ident, $table:ident) => {
+        $crate::reader::Record::write_keys(&$record.$key, $table);
+    };
+    (write group $key:ident, $record:ident, $table:ident) => {
+        if let Some(group) = &$record.$key {
+            $crate::reader::Record::write_keys(group, $table);
+        }
+    };
+
     (forms required $key:ident, $ty:ty, $forms:ident, $about:ident, $rule:expr) => {
         $crate::reader::macros::with_key::<$ty, _>($forms, stringify!($key), true, $about, &$rule)
     };
@@ -93,6 +123,85 @@ macro_rules! field {
         let group = $crate::reader::Form::all_or_none(<$ty as $crate::reader::Record>::forms());
         $crate::reader::Form::product(&$forms, &group)
     }};
+}
+
+/// A rule whose values become a variant of an enum, and back:
+///
+/// - `variant!(rule, Enum::Variant)`: the variant holds the value;
+/// - `variant!(rule, Table::Key => Enum::Variant)`: it holds what is under the only key of a table written with `keyed!`;
+/// - `variant!(rule, Words::Word == Enum::Variant)`: it stands for the only word of a `choice!`.
+macro_rules! variant {
+    ($rule:expr, $name:ident::$variant:ident) => {
+        $crate::reader::RuleExt::map($rule, $name::$variant, |value| match value {
+            $name::$variant(value) => Some(value.clone()),
+            _ => None,
+        })
+    };
+    ($rule:expr, $table:ident::$key:ident => $name:ident::$variant:ident) => {
+        $crate::reader::RuleExt::map(
+            $rule,
+            |$table::$key(value)| $name::$variant(value),
+            |value| match value {
+                $name::$variant(value) => Some($table::$key(value.clone())),
+                _ => None,
+            },
+        )
+    };
+    ($rule:expr, $words:ident::$word:ident == $name:ident::$variant:ident) => {
+        $crate::reader::RuleExt::map(
+            $rule,
+            |_| $name::$variant,
+            |value| matches!(value, $name::$variant).then(|| $words::$word.into()),
+        )
+    };
+}
+
+/// The constructor of a record, of what it must have; of a record that must have nothing, its default.
+macro_rules! constructor {
+    ($name:ident [] [$($left:ident)*]) => {
+        impl Default for $name {
+            /// Nothing is given, and it stands nowhere.
+            fn default() -> Self {
+                Self { place: $crate::place::Place::unstated(), $( $left: Default::default(), )* }
+            }
+        }
+    };
+    ($name:ident [$($needed:ident : $ty:ty,)*] [$($left:ident)*]) => {
+        impl $name {
+            /// The record of what it must have, without a place; all else is not given.
+            #[must_use]
+            #[allow(clippy::too_many_arguments, reason = "a record has the keys that it has")]
+            pub fn new($($needed: impl Into<$ty>),*) -> Self {
+                Self {
+                    place: $crate::place::Place::unstated(),
+                    $( $needed: $needed.into(), )*
+                    $( $left: Default::default(), )*
+                }
+            }
+        }
+    };
+    ($name:ident [$($needed:tt)*] [$($left:ident)*] required $key:ident : $ty:ty; $($rest:tt)*) => {
+        $crate::reader::macros::constructor!($name [$($needed)* $key: $ty,] [$($left)*] $($rest)*);
+    };
+    ($name:ident [$($needed:tt)*] [$($left:ident)*] inside $key:ident : $ty:ty; $($rest:tt)*) => {
+        $crate::reader::macros::constructor!($name [$($needed)* $key: $ty,] [$($left)*] $($rest)*);
+    };
+    ($name:ident [$($needed:tt)*] [$($left:ident)*] $kind:ident $key:ident : $ty:ty; $($rest:tt)*) => {
+        $crate::reader::macros::constructor!($name [$($needed)*] [$($left)* $key] $($rest)*);
+    };
+}
+
+/// What a record says, for all who may know.
+macro_rules! as_table {
+    ($name:ident) => {
+        impl $name {
+            /// What it says, as a table of the format: the keys that are given, in their order.
+            #[must_use]
+            pub fn to_table(&self) -> $crate::written::Table {
+                $crate::reader::Record::written(self)
+            }
+        }
+    };
 }
 
 /// An enum told apart by the word under one key; the variant's record shares the table.
@@ -127,7 +236,17 @@ macro_rules! variants {
                 )*
                 forms
             }
+
+            fn write_keys(&self, table: &mut $crate::written::Table) {
+                match self {
+                    $( Self::$variant(record) => {
+                        table.put($by, $word);
+                        $crate::reader::Record::write_keys(record, table);
+                    } )*
+                }
+            }
         }
+        $crate::reader::macros::as_table!($name);
     };
 }
 
@@ -158,7 +277,16 @@ macro_rules! keyed {
                     $( $crate::reader::macros::key_of::<$ty, _>(stringify!($key), true, concat!($($doc),*), &$rule) ),*
                 ])]
             }
+
+            fn write_keys(&self, table: &mut $crate::written::Table) {
+                match self {
+                    $( Self::$variant(value) => {
+                        $crate::reader::macros::put(table, stringify!($key), &$rule, value);
+                    } )*
+                }
+            }
         }
+        $crate::reader::macros::as_table!($name);
     };
 }
 
@@ -178,12 +306,13 @@ macro_rules! choice {
     };
 }
 
-pub(crate) use {choice, field, keyed, record, variants};
+pub(crate) use {as_table, choice, constructor, field, keyed, record, variant, variants};
 
 use super::rule::Rule;
 use super::table::{Form, Key, Reader};
 use super::word::{one_of, quoted, word};
 use crate::fault::Faults;
+use crate::written::Table;
 
 /// The forms, each with a key more.
 pub(crate) fn with_key<T, R: Rule<Out = T>>(
@@ -200,6 +329,13 @@ pub(crate) fn with_key<T, R: Rule<Out = T>>(
 /// A key of a rule's values.
 pub(crate) fn key_of<T, R: Rule<Out = T>>(name: &'static str, must: bool, about: &str, rule: &R) -> Key {
     Key::new(name, must, about, rule.schema())
+}
+
+/// Writes a key by its rule, which reads every value of its record.
+pub(crate) fn put<R: Rule>(table: &mut Table, key: &str, rule: &R, value: &R::Out) {
+    let item = rule.write(value);
+    debug_assert!(item.is_some(), "\"{key}\" cannot be written");
+    item.into_iter().for_each(|item| table.put(key, item));
 }
 
 /// The word that tells which variant the table is.

@@ -10,7 +10,7 @@ mod rule;
 mod table;
 mod word;
 
-pub(crate) use macros::{choice, keyed, record, variants};
+pub(crate) use macros::{choice, keyed, record, variant, variants};
 pub(crate) use number::{Number, among, number, percentile, vector, whole};
 pub(crate) use rule::{Kind, Rule, RuleExt, either, exactly, keyed_by_name, list, record};
 pub(crate) use table::{Form, Key, Reader, Record};

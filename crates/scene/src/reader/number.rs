@@ -6,6 +6,7 @@ use super::rule::{Kind, Rule};
 use crate::document::{Node, Value};
 use crate::fault::Faults;
 use crate::place::Placed;
+use crate::written::Item;
 
 /// A finite number; `unit` is named where it is missing or wrong ("" for a pure number).
 pub(crate) const fn number(unit: &'static str) -> Number {
@@ -84,6 +85,9 @@ impl Rule for Number {
             None => self.refuse(node, faults),
         }
     }
+    fn write(&self, value: &Placed<f64>) -> Option<Item> {
+        Some(value.clone().into())
+    }
 }
 
 /// A percentile, above 1 and at most 100: a number up to 1 is a share to whoever writes it, and would mean something else
@@ -117,6 +121,9 @@ impl Rule for Percentile {
             }
             None => self.0.read(node, faults),
         }
+    }
+    fn write(&self, value: &Placed<f64>) -> Option<Item> {
+        self.0.write(value)
     }
 }
 
@@ -162,6 +169,9 @@ impl Rule for Whole {
             None => self.refuse(node, faults),
         }
     }
+    fn write(&self, value: &Placed<u64>) -> Option<Item> {
+        Some(value.clone().into())
+    }
 }
 
 /// One of a few whole numbers.
@@ -192,6 +202,9 @@ impl Rule for Among {
             Some(v) => Some(Placed::new(v, node.place.clone())),
             None => self.refuse(node, faults),
         }
+    }
+    fn write(&self, value: &Placed<u64>) -> Option<Item> {
+        Some(value.clone().into())
     }
 }
 
@@ -230,5 +243,8 @@ impl<const N: usize> Rule for Vector<N> {
         }
         let read: Vec<f64> = node.as_list().iter().filter_map(|n| self.of.read(n, faults)).map(|v| v.value).collect();
         Some(Placed::new(read.try_into().ok()?, node.place.clone()))
+    }
+    fn write(&self, value: &Self::Out) -> Option<Item> {
+        Some(value.clone().into())
     }
 }

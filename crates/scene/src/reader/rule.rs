@@ -8,6 +8,7 @@ use super::table::{Reader, Record, record_schema};
 use crate::document::{Node, Value};
 use crate::fault::Faults;
 use crate::place::Placed;
+use crate::written::{Item, Table, Value as Said};
 
 /// What kind of TOML a value is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +48,8 @@ pub(crate) trait Rule {
     fn schema(&self) -> Json;
     /// The value; `None` after noting at least one fault.
     fn read(&self, node: &Node, faults: &mut Faults) -> Option<Self::Out>;
+    /// The value as it is written, so that [`Rule::read`] gives it back; `None` where another rule reads such values.
+    fn write(&self, value: &Self::Out) -> Option<Item>;
 
     /// Notes that the node is not what the rule expects.
     fn refuse<T>(&self, node: &Node, faults: &mut Faults) -> Option<T> {
@@ -61,9 +64,9 @@ pub(crate) trait Rule {
 
 /// What can be made of any rule.
 pub(crate) trait RuleExt: Rule + Sized {
-    /// The rule, with another result.
-    fn map<T>(self, f: fn(Self::Out) -> T) -> Mapped<Self, T> {
-        Mapped { rule: self, f }
+    /// The rule, with another result; `back` gives what it was made of, `None` where it was made otherwise.
+    fn map<T>(self, f: fn(Self::Out) -> T, back: fn(&T) -> Option<Self::Out>) -> Mapped<Self, T> {
+        Mapped { rule: self, f, back }
     }
 }
 
@@ -73,6 +76,7 @@ impl<R: Rule> RuleExt for R {}
 pub(crate) struct Mapped<R: Rule, T> {
     rule: R,
     f: fn(R::Out) -> T,
+    back: fn(&T) -> Option<R::Out>,
 }
 
 impl<R: Rule, T> Rule for Mapped<R, T> {
@@ -88,6 +92,9 @@ impl<R: Rule, T> Rule for Mapped<R, T> {
     }
     fn read(&self, node: &Node, faults: &mut Faults) -> Option<T> {
         self.rule.read(node, faults).map(self.f)
+    }
+    fn write(&self, value: &T) -> Option<Item> {
+        self.rule.write(&(self.back)(value)?)
     }
 }
 
@@ -120,6 +127,10 @@ impl<A: Rule, B: Rule<Out = A::Out>> Rule for Either<A, B> {
             (_, true) => self.b.read(node, faults),
             _ => self.refuse(node, faults),
         }
+    }
+    fn write(&self, value: &A::Out) -> Option<Item> {
+        // A table that stands for a value.
+        self.a.write(value).or_else(|| self.b.write(value)).map(Item::in_line)
     }
 }
 
@@ -156,6 +167,9 @@ impl<R: Rule> Rule for List<R> {
         }
         Some(node.as_list().iter().filter_map(|n| self.rule.read(n, faults)).collect())
     }
+    fn write(&self, value: &Self::Out) -> Option<Item> {
+        Some(value.iter().map(|v| self.rule.write(v)).collect::<Option<Vec<_>>>()?.into())
+    }
 }
 
 /// A list of exactly `N` values.
@@ -185,6 +199,10 @@ impl<R: Rule, const N: usize> Rule for Exactly<R, N> {
         }
         let read: Vec<_> = node.as_list().iter().filter_map(|n| self.rule.read(n, faults)).collect();
         Some(Placed::new(read.try_into().ok()?, node.place.clone()))
+    }
+    fn write(&self, value: &Self::Out) -> Option<Item> {
+        let list = value.value.iter().map(|v| self.rule.write(v)).collect::<Option<_>>()?;
+        Some(Item::at(&value.place, Said::List(list)))
     }
 }
 
@@ -217,6 +235,14 @@ impl<R: Rule> Rule for ByName<R> {
         });
         Some(read.collect())
     }
+    fn write(&self, value: &Self::Out) -> Option<Item> {
+        let mut table = Table::new().in_line();
+        for (name, v) in value {
+            table.stand(&name.place);
+            table.put(name, self.rule.write(v)?);
+        }
+        Some(table.into())
+    }
 }
 
 /// A table that is the record `T`.
@@ -248,5 +274,8 @@ impl<T: Record> Rule for RecordRule<T> {
         let read = T::read_keys(&mut reader, faults);
         reader.finish::<T>(faults);
         read
+    }
+    fn write(&self, value: &T) -> Option<Item> {
+        Some(value.written().into())
     }
 }

@@ -8,6 +8,7 @@ use crate::document::{Node, Table};
 use crate::fault::Faults;
 use crate::place::Place;
 use crate::suggest::nearest;
+use crate::written::Table as Written;
 
 /// A struct or an enum of structs whose fields are keys of a table.
 pub(crate) trait Record: Sized {
@@ -15,6 +16,15 @@ pub(crate) trait Record: Sized {
     fn read_keys(reader: &mut Reader<'_>, faults: &mut Faults) -> Option<Self>;
     /// The shapes the table can have: one for a plain record, one a variant for an enum.
     fn forms() -> Vec<Form>;
+    /// Adds the record's keys to the table that it is, or is a part of.
+    fn write_keys(&self, table: &mut Written);
+
+    /// The record as a table.
+    fn written(&self) -> Written {
+        let mut table = Written::new();
+        self.write_keys(&mut table);
+        table
+    }
 
     /// Every key of every form, each once.
     fn keys() -> Vec<&'static str> {
@@ -39,6 +49,9 @@ impl<T: Record> Record for Box<T> {
     }
     fn forms() -> Vec<Form> {
         T::forms()
+    }
+    fn write_keys(&self, table: &mut Written) {
+        T::write_keys(self, table);
     }
 }
 

@@ -10,6 +10,7 @@ use crate::document::{Node, Value};
 use crate::fault::{Faults, Named};
 use crate::place::Placed;
 use crate::suggest::nearest;
+use crate::written::{Item, Value as Said};
 
 /// `"a", "b", "c"`.
 pub(crate) fn quoted<S: AsRef<str>>(words: &[S]) -> String {
@@ -41,6 +42,9 @@ impl Rule for Flag {
             _ => self.refuse(node, faults),
         }
     }
+    fn write(&self, value: &Placed<bool>) -> Option<Item> {
+        Some(value.clone().into())
+    }
 }
 
 /// A text that is not empty; `what` says of what: "the name of a material".
@@ -70,6 +74,9 @@ impl Rule for Text {
             Some(v) => Some(Placed::new(v.to_owned(), node.place.clone())),
             None => self.refuse(node, faults),
         }
+    }
+    fn write(&self, value: &Placed<String>) -> Option<Item> {
+        Some(value.clone().into())
     }
 }
 
@@ -101,6 +108,9 @@ impl Rule for NameOf {
         faults.note_use(self.named, name.clone());
         Some(name)
     }
+    fn write(&self, value: &Placed<String>) -> Option<Item> {
+        Some(value.clone().into())
+    }
 }
 
 /// A text that can be part of a file's name on every system: letters, digits, `-` and `_`.
@@ -131,6 +141,9 @@ impl Rule for FileName {
             Some(v) => Some(Placed::new(v.to_owned(), node.place.clone())),
             None => self.refuse(node, faults),
         }
+    }
+    fn write(&self, value: &Placed<String>) -> Option<Item> {
+        Some(value.clone().into())
     }
 }
 
@@ -169,10 +182,13 @@ impl Rule for FilePath {
             None => self.refuse(node, faults),
         }
     }
+    fn write(&self, value: &Placed<PathBuf>) -> Option<Item> {
+        Some(value.clone().into())
+    }
 }
 
 /// A word that has a meaning: an enum written with `choice!`.
-pub(crate) trait Choice: Copy + 'static {
+pub(crate) trait Choice: Copy + PartialEq + 'static {
     /// The words and their meanings.
     const WORDS: &'static [(&'static str, Self)];
 
@@ -208,6 +224,9 @@ impl Rule for Known {
         let name = word(node, &self.names, faults)?;
         Some(Placed::new(name.to_owned(), node.place.clone()))
     }
+    fn write(&self, value: &Placed<String>) -> Option<Item> {
+        Some(value.clone().into())
+    }
 }
 
 /// One of the words of `C`.
@@ -232,6 +251,10 @@ impl<C: Choice> Rule for Word<C> {
     fn read(&self, node: &Node, faults: &mut Faults) -> Option<Placed<C>> {
         let word = word(node, &C::words(), faults)?;
         C::WORDS.iter().find(|(w, _)| *w == word).map(|(_, c)| Placed::new(*c, node.place.clone()))
+    }
+    fn write(&self, value: &Placed<C>) -> Option<Item> {
+        let (word, _) = C::WORDS.iter().find(|(_, c)| *c == value.value)?;
+        Some(Item::at(&value.place, Said::Text((*word).to_owned())))
     }
 }
 

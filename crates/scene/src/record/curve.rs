@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::place::Placed;
-use crate::reader::{Number, Rule, RuleExt as _, either, keyed, path, record};
+use crate::reader::{Number, Rule, either, keyed, path, record, variant};
 
 /// A quantity over the wavelength.
 #[derive(Clone, Debug)]
@@ -29,5 +29,5 @@ pub(crate) fn spectrum_file() -> impl Rule<Out = Placed<PathBuf>> {
 
 /// A constant within the bounds of `constant`, or a file.
 pub(crate) fn curve(constant: Number) -> impl Rule<Out = Curve> {
-    either(constant.map(Curve::Constant), record::<CurveFile>().map(|CurveFile::Spectrum(f)| Curve::File(f)))
+    either(variant!(constant, Curve::Constant), variant!(record::<CurveFile>(), CurveFile::Spectrum => Curve::File))
 }

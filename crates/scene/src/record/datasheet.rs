@@ -3,7 +3,7 @@
 use super::sensor::cfa::Cfa;
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{Rule, RuleExt as _, choice, either, keyed_by_name, list, number, record, text, vector, whole};
+use crate::reader::{Rule, choice, either, keyed_by_name, list, number, record, text, variant, vector, whole};
 
 /// Points of a curve: wavelength, nm, and quantum efficiency, %.
 pub type Points = Vec<Placed<[f64; 2]>>;
@@ -99,7 +99,8 @@ fn points() -> impl Rule<Out = Points> {
 }
 
 fn efficiency() -> impl Rule<Out = SheetEfficiency> {
-    either(points().map(SheetEfficiency::Mono), keyed_by_name(points()).map(SheetEfficiency::Channels))
+    let channels = variant!(keyed_by_name(points()), SheetEfficiency::Channels);
+    either(variant!(points(), SheetEfficiency::Mono), channels)
 }
 
 impl DataSheet {

@@ -95,7 +95,8 @@ keyed! {
 }
 
 fn sizes(unit: &'static str) -> impl Rule<Out = Vec<Placed<f64>>> {
-    either(number(unit).map(|v| vec![v]), list(number(unit), 2))
+    let one = |list: &Vec<Placed<f64>>| list.first().filter(|_| list.len() == 1).cloned();
+    either(number(unit).map(|v| vec![v], one), list(number(unit), 2))
 }
 
 fn check_psf(psf: &Psf, faults: &mut Faults) {

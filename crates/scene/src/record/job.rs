@@ -11,6 +11,7 @@ use crate::document::Node;
 use crate::fault::Faults;
 use crate::place::Placed;
 use crate::reader::{Form, Key, Kind, Reader, Record, Rule, file_name, list, path, record};
+use crate::written::{Item, Table};
 
 record! {
     /// Which scene, seen by which cameras, rendered how.
@@ -69,6 +70,10 @@ impl Record for CameraSource {
         let by_file = Form::default().with(Key::new("file", true, about, path(&["toml"]).schema()));
         [vec![by_file], Camera::forms()].concat()
     }
+
+    fn write_keys(&self, table: &mut Table) {
+        self.0.write_keys(table);
+    }
 }
 
 /// A record in a file of its own, or in place. Files are read before records are: what arrives here is a table.
@@ -94,5 +99,8 @@ impl<T: Record> Rule for FileOrTable<T> {
             return self.refuse(node, faults);
         }
         record::<T>().read(node, faults)
+    }
+    fn write(&self, value: &T) -> Option<Item> {
+        record().write(value)
     }
 }

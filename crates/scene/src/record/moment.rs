@@ -6,6 +6,7 @@ use crate::document::{Node, Value};
 use crate::fault::Faults;
 use crate::place::Placed;
 use crate::reader::{Kind, Rule};
+use crate::written::{Item, Value as Said};
 
 /// A day of the Gregorian calendar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -58,6 +59,10 @@ impl Rule for DateRule {
             None => self.refuse(node, faults),
         }
     }
+    fn write(&self, value: &Placed<Date>) -> Option<Item> {
+        let Date { year, month, day } = value.value;
+        Some(Item::at(&value.place, Said::Moment(format!("{year:04}-{month:02}-{day:02}"))))
+    }
 }
 
 impl Rule for TimeRule {
@@ -76,6 +81,11 @@ impl Rule for TimeRule {
             Some(time) => Some(Placed::new(time, node.place.clone())),
             None => self.refuse(node, faults),
         }
+    }
+    fn write(&self, value: &Placed<TimeOfDay>) -> Option<Item> {
+        let seconds = value.seconds;
+        let [hour, minute, second] = [seconds / 3600, seconds / 60 % 60, seconds % 60];
+        Some(Item::at(&value.place, Said::Moment(format!("{hour:02}:{minute:02}:{second:02}"))))
     }
 }
 

@@ -1,7 +1,7 @@
 //! `[output]`: what is written. `None` everywhere means: the plan decides.
 
 use crate::place::{Place, Placed};
-use crate::reader::{Rule, RuleExt as _, choice, either, flag, number, record};
+use crate::reader::{Rule, choice, either, flag, number, record, variant};
 
 record! {
     /// What is written.
@@ -98,7 +98,7 @@ impl DepthScale {
 }
 
 fn depth_scale() -> impl Rule<Out = DepthScale> {
-    either(number("1/m").above(0.0).map(DepthScale::PerMetre), choice().map(DepthScale::Named))
+    either(variant!(number("1/m").above(0.0), DepthScale::PerMetre), variant!(choice(), DepthScale::Named))
 }
 
 impl Output {

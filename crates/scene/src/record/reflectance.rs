@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::curve::spectrum_file;
 use crate::fault::{Faults, Named};
 use crate::place::{Place, Placed};
-use crate::reader::{Number, Rule, RuleExt as _, either, keyed, known, name_of, number, record, vector};
+use crate::reader::{Number, Rule, RuleExt as _, either, keyed, known, name_of, number, record, variant, vector};
 use etendue_spectra::reflectance;
 
 /// The share of light that a surface reflects or lets through.
@@ -92,22 +92,59 @@ fn share() -> Number {
 
 /// A number, `[r, g, b]` in linear sRGB, or a table.
 pub(crate) fn any_reflectance() -> impl Rule<Out = Reflectance> {
-    let grey = share().map(|v| Reflectance::Plain(Colour::Grey(v)));
-    let rgb = vector::<3>(share()).map(|v| Reflectance::Plain(Colour::LinearSrgb(v)));
-    either(grey, either(rgb, record::<ReflectanceTable>().map(ReflectanceTable::resolve)))
+    let texture = record().map(ReflectanceTable::resolve, ReflectanceTable::of);
+    either(variant!(grey(), Reflectance::Plain), either(variant!(linear_srgb(), Reflectance::Plain), texture))
 }
 
 /// The same without textures.
 pub(crate) fn any_colour() -> impl Rule<Out = Colour> {
-    let table = record::<ColourTable>().map(|table| match table {
-        ColourTable::Srgb(v) => Colour::EncodedSrgb(v),
-        ColourTable::Spectrum(v) => Colour::Spectrum(v),
-        ColourTable::Named(v) => Colour::Named(v),
-    });
-    either(share().map(Colour::Grey), either(vector::<3>(share()).map(Colour::LinearSrgb), table))
+    either(grey(), either(linear_srgb(), record().map(ColourTable::resolve, ColourTable::of)))
+}
+
+/// A number.
+fn grey() -> impl Rule<Out = Colour> {
+    variant!(share(), Colour::Grey)
+}
+
+/// `[r, g, b]`.
+fn linear_srgb() -> impl Rule<Out = Colour> {
+    variant!(vector::<3>(share()), Colour::LinearSrgb)
+}
+
+impl ColourTable {
+    fn resolve(self) -> Colour {
+        match self {
+            Self::Srgb(v) => Colour::EncodedSrgb(v),
+            Self::Spectrum(v) => Colour::Spectrum(v),
+            Self::Named(v) => Colour::Named(v),
+        }
+    }
+
+    /// The table that becomes a colour; `None` where no table does.
+    fn of(colour: &Colour) -> Option<Self> {
+        match colour {
+            Colour::EncodedSrgb(v) => Some(Self::Srgb(v.clone())),
+            Colour::Spectrum(v) => Some(Self::Spectrum(v.clone())),
+            Colour::Named(v) => Some(Self::Named(v.clone())),
+            Colour::Grey(_) | Colour::LinearSrgb(_) => None,
+        }
+    }
 }
 
 impl ReflectanceTable {
+    /// The table that becomes a reflectance; `None` where no table does.
+    fn of(reflectance: &Reflectance) -> Option<Self> {
+        match reflectance {
+            Reflectance::Texture { name, scale } => {
+                Some(Self { scale: scale.clone(), ..Self::new(ReflectanceSource::Texture(name.clone())) })
+            }
+            Reflectance::Plain(Colour::EncodedSrgb(v)) => Some(Self::new(ReflectanceSource::Srgb(v.clone()))),
+            Reflectance::Plain(Colour::Spectrum(v)) => Some(Self::new(ReflectanceSource::Spectrum(v.clone()))),
+            Reflectance::Plain(Colour::Named(v)) => Some(Self::new(ReflectanceSource::Named(v.clone()))),
+            Reflectance::Plain(Colour::Grey(_) | Colour::LinearSrgb(_)) => None,
+        }
+    }
+
     fn resolve(self) -> Reflectance {
         match self.source {
             ReflectanceSource::Texture(name) => Reflectance::Texture { name, scale: self.scale },

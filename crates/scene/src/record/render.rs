@@ -2,7 +2,7 @@
 
 use crate::fault::Faults;
 use crate::place::{Place, Placed};
-use crate::reader::{Rule, RuleExt as _, among, choice, either, flag, keyed, number, record, vector, whole};
+use crate::reader::{Rule, among, choice, either, flag, keyed, number, record, variant, vector, whole};
 
 /// The largest seed: TOML holds no larger whole number.
 pub const MAX_SEED: u64 = i64::MAX.cast_unsigned();
@@ -92,8 +92,8 @@ record! {
 }
 
 fn depth_of_field() -> impl Rule<Out = DepthOfField> {
-    let fast = record::<DepthOfFieldTable>().map(|DepthOfFieldTable::Fast(blend)| DepthOfField::Fast(blend));
-    either(choice().map(DepthOfField::Named), fast)
+    let fast = variant!(record::<DepthOfFieldTable>(), DepthOfFieldTable::Fast => DepthOfField::Fast);
+    either(variant!(choice(), DepthOfField::Named), fast)
 }
 
 fn check_blend(blend: &FastBlend, faults: &mut Faults) {

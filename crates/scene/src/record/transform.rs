@@ -22,7 +22,11 @@ record! {
 
 fn scale() -> impl Rule<Out = Placed<[f64; 3]>> {
     let factor = number("").above(0.0);
-    either(factor.map(|f| f.map(|s| [s; 3])), vector::<3>(factor))
+    let same = |scale: &Placed<[f64; 3]>| {
+        let [x, y, z] = scale.value;
+        (x == y && y == z).then(|| scale.clone().map(|_| x))
+    };
+    either(factor.map(|f| f.map(|s| [s; 3]), same), vector::<3>(factor))
 }
 
 impl Transform {

@@ -10,3 +10,4 @@ mod pages;
 mod reference;
 mod schema;
 mod unused;
+mod written;

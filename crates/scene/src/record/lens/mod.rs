@@ -6,7 +6,7 @@ pub mod projection;
 
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{Number, Rule, RuleExt as _, choice, either, list, number, record, variants};
+use crate::reader::{Number, Rule, choice, either, list, number, record, variant, variants};
 pub use calibrated::Calibrated;
 pub use prescription::Prescription;
 
@@ -219,6 +219,6 @@ fn share() -> Number {
 }
 
 fn focus_distance() -> impl Rule<Out = FocusDistance> {
-    let metres = number("m").above(0.0).map(FocusDistance::Metres);
-    either(metres, choice::<Endless>().map(|_| FocusDistance::Infinity))
+    let metres = variant!(number("m").above(0.0), FocusDistance::Metres);
+    either(metres, variant!(choice::<Endless>(), Endless::Infinity == FocusDistance::Infinity))
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::{FocusDistance, f_number, focus_distance};
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{Rule, RuleExt as _, choice, either, flag, keyed, list, number, path, record, text, vector};
+use crate::reader::{Rule, choice, either, flag, keyed, list, number, path, record, text, variant, vector};
 use crate::record::curve::spectrum_file;
 
 record! {
@@ -172,18 +172,18 @@ keyed! {
 }
 
 fn glass() -> impl Rule<Out = Glass> {
-    either(text("the name of a glass").map(Glass::Named), record::<GlassNumbers>().map(Glass::Numbers))
+    either(variant!(text("the name of a glass"), Glass::Named), variant!(record::<GlassNumbers>(), Glass::Numbers))
 }
 
 pub(crate) fn coating() -> impl Rule<Out = Coating> {
-    let share = number("").above(0.0).at_most(1.0).map(Coating::Share);
-    let layer = record::<Layer>().map(|Layer::QuarterWave(nm)| Coating::QuarterWave(nm));
-    either(choice::<Bare>().map(|_| Coating::Uncoated), either(share, layer))
+    let share = variant!(number("").above(0.0).at_most(1.0), Coating::Share);
+    let layer = variant!(record::<Layer>(), Layer::QuarterWave => Coating::QuarterWave);
+    either(variant!(choice::<Bare>(), Bare::Uncoated == Coating::Uncoated), either(share, layer))
 }
 
 fn focus_by() -> impl Rule<Out = FocusBy> {
-    let group = vector::<2>(number("").at_least(1.0)).map(FocusBy::Group);
-    either(choice::<Mover>().map(|_| FocusBy::Sensor), group)
+    let group = variant!(vector::<2>(number("").at_least(1.0)), FocusBy::Group);
+    either(variant!(choice::<Mover>(), Mover::Sensor == FocusBy::Sensor), group)
 }
 
 fn check(lens: &Prescription, faults: &mut Faults) {

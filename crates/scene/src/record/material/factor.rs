@@ -2,7 +2,7 @@
 
 use crate::fault::Named;
 use crate::place::Placed;
-use crate::reader::{Rule, RuleExt as _, choice, either, name_of, number, record};
+use crate::reader::{Rule, choice, either, name_of, number, record, variant};
 
 /// A number from 0 to 1 over a surface.
 #[derive(Clone, Debug)]
@@ -66,5 +66,5 @@ choice! {
 /// A number, or a texture.
 pub(crate) fn any_factor() -> impl Rule<Out = Factor> {
     let share = number("").at_least(0.0).at_most(1.0);
-    either(share.map(Factor::Number), record::<FactorTexture>().map(Factor::Texture))
+    either(variant!(share, Factor::Number), variant!(record::<FactorTexture>(), Factor::Texture))
 }

@@ -23,6 +23,7 @@ use crate::fault::Faults;
 use crate::place::Placed;
 use crate::preset;
 use crate::reader::{Form, Reader, Record, record, text, variants};
+use crate::written::Table;
 use factor::any_factor;
 use serde_json::json;
 
@@ -98,6 +99,16 @@ impl Record for SurfaceSource {
             preset = preset.or_with(key);
         }
         [vec![preset], models].concat()
+    }
+
+    fn write_keys(&self, table: &mut Table) {
+        self.0.write_keys(table);
+    }
+}
+
+impl From<Surface> for SurfaceSource {
+    fn from(surface: Surface) -> Self {
+        Self(surface)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::super::light::illuminants;
 use crate::place::Placed;
-use crate::reader::{Rule, RuleExt as _, choice, either, exactly, keyed, known, list, number, record};
+use crate::reader::{Rule, choice, either, exactly, keyed, known, list, number, record, variant};
 use etendue_spectra::illuminant;
 
 choice! {
@@ -49,13 +49,13 @@ keyed! {
 }
 
 pub(super) fn white_balance() -> impl Rule<Out = WhiteBalance> {
-    let factors = list(number("").above(0.0), 2).map(WhiteBalance::Factors);
+    let factors = variant!(list(number("").above(0.0), 2), WhiteBalance::Factors);
     let names = [&[WhiteBalance::GREY_WORLD, "solar"], illuminant::names()].concat();
-    either(factors, known("a rule or an illuminant", &names).map(WhiteBalance::Named))
+    either(factors, variant!(known("a rule or an illuminant", &names), WhiteBalance::Named))
 }
 
 pub(super) fn colour_matrix() -> impl Rule<Out = ColourMatrix> {
-    let rows = exactly(list(number(""), 2)).map(ColourMatrix::Rows);
-    let fit = record::<ColourMatrixTable>().map(|ColourMatrixTable::Fit(name)| ColourMatrix::Fit(name));
+    let rows = variant!(exactly(list(number(""), 2)), ColourMatrix::Rows);
+    let fit = variant!(record::<ColourMatrixTable>(), ColourMatrixTable::Fit => ColourMatrix::Fit);
     either(rows, fit)
 }

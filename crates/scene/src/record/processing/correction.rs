@@ -1,7 +1,7 @@
 //! What is put right before colours are made.
 
 use crate::place::Placed;
-use crate::reader::{Rule, RuleExt as _, choice, either, keyed, list, number, path, record, vector};
+use crate::reader::{Rule, choice, either, keyed, list, number, path, record, variant, vector};
 use std::path::PathBuf;
 
 /// What counts as no light.
@@ -24,7 +24,7 @@ choice! {
 }
 
 pub(super) fn black_level() -> impl Rule<Out = BlackLevel> {
-    either(number("DN").at_least(0.0).map(BlackLevel::Dn), choice().map(BlackLevel::Rule))
+    either(variant!(number("DN").at_least(0.0), BlackLevel::Dn), variant!(choice(), BlackLevel::Rule))
 }
 
 keyed! {

@@ -88,7 +88,7 @@ keyed! {
         /// From this colour space.
         from => From(Placed<ColourSpace>) = choice();
         /// Any affine map: three rows of four numbers, the last of each is added.
-        matrix => Matrix(Box<Placed<[Placed<[f64; 4]>; 3]>>) = exactly(vector::<4>(number(""))).map(Box::new);
+        matrix => Matrix(Box<Placed<[Placed<[f64; 4]>; 3]>>) = exactly(vector::<4>(number(""))).map(Box::new, |rows| Some((**rows).clone()));
     }
 }
 

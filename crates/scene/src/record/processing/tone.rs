@@ -2,7 +2,7 @@
 
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{Rule, RuleExt as _, choice, either, keyed, number, path, record};
+use crate::reader::{Rule, choice, either, keyed, number, path, record, variant};
 use std::path::PathBuf;
 
 /// From linear light to a picture's numbers.
@@ -64,7 +64,7 @@ fn check(curve: &CurveTable, faults: &mut Faults) {
 }
 
 pub(super) fn tone_curve() -> impl Rule<Out = ToneCurve> {
-    either(choice().map(ToneCurve::Named), record().map(|curve| ToneCurve::Curve(Box::new(curve))))
+    either(variant!(choice(), ToneCurve::Named), variant!(record(), ToneCurve::Curve))
 }
 
 impl ToneCurve {

@@ -1,7 +1,7 @@
 //! `cfa`: which pixel measures what.
 
 use crate::place::Placed;
-use crate::reader::{Rule, RuleExt as _, choice, either, list, record, text, whole};
+use crate::reader::{Rule, choice, either, list, record, text, variant, whole};
 
 /// A colour filter array.
 #[derive(Clone, Debug)]
@@ -92,5 +92,5 @@ impl CfaSource {
 }
 
 pub(super) fn cfa() -> impl Rule<Out = CfaSource> {
-    either(choice().map(CfaSource::Named), record::<Tile>().map(CfaSource::Tile))
+    either(variant!(choice(), CfaSource::Named), variant!(record::<Tile>(), CfaSource::Tile))
 }

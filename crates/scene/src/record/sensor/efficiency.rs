@@ -3,7 +3,7 @@
 use super::Electronics;
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{Rule, RuleExt as _, either, exactly, keyed, keyed_by_name, known, number, record};
+use crate::reader::{Rule, RuleExt as _, either, exactly, keyed, keyed_by_name, known, number, record, variant};
 use crate::record::curve::{Curve, curve, spectrum_file};
 use etendue_spectra::camera;
 
@@ -52,12 +52,25 @@ fn share() -> crate::reader::Number {
 }
 
 pub(super) fn quantum_efficiency() -> impl Rule<Out = QuantumEfficiency> {
-    let same = share().map(|v| QuantumEfficiency::Same(Curve::Constant(v)));
-    let source = record::<QuantumEfficiencySource>().map(QuantumEfficiencySource::resolve);
-    either(same, either(source, exactly(curve(share())).map(QuantumEfficiency::PerChannel)))
+    let same = variant!(variant!(share(), Curve::Constant), QuantumEfficiency::Same);
+    let source = record().map(QuantumEfficiencySource::resolve, QuantumEfficiencySource::of);
+    either(same, either(source, variant!(exactly(curve(share())), QuantumEfficiency::PerChannel)))
 }
 
 impl QuantumEfficiencySource {
+    /// What the table says that becomes an efficiency; `None` where no table does.
+    fn of(efficiency: &QuantumEfficiency) -> Option<Self> {
+        let (table, peak) = match efficiency {
+            QuantumEfficiency::Same(Curve::File(file)) => (QuantumEfficiencyTable::Spectrum(file.clone()), None),
+            QuantumEfficiency::Named(list) => (QuantumEfficiencyTable::Channels(list.clone()), None),
+            QuantumEfficiency::Measured { camera, peak } => {
+                (QuantumEfficiencyTable::Camera(camera.clone()), Some(peak.clone()))
+            }
+            QuantumEfficiency::Same(Curve::Constant(_)) | QuantumEfficiency::PerChannel(_) => return None,
+        };
+        Some(Self { peak, ..Self::new(table) })
+    }
+
     fn resolve(self) -> QuantumEfficiency {
         match (self.table, self.peak) {
             (QuantumEfficiencyTable::Spectrum(file), _) => QuantumEfficiency::Same(Curve::File(file)),

@@ -1,0 +1,69 @@
+//! A table as a file of the format, with comments.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use super::Table;
+use super::layout::write_section;
+
+/// A file of the format: `format = 1`, a table, and comments.
+///
+/// Its text ([`fmt::Display`]) has the keys in the table's order, but tables of their own behind the values: a table that is a
+/// value of its own is `[key]`, one that stands for a value is written in line, lists of tables are `[[key]]`, within one of these
+/// lists of lines.
+#[derive(Clone, Debug, Default)]
+pub struct File {
+    head: String,
+    table: Table,
+    /// Comments above keys and sections, by their dotted keys.
+    pub(super) above: BTreeMap<String, String>,
+    /// Comments on the lines of keys.
+    pub(super) beside: BTreeMap<String, String>,
+}
+
+impl File {
+    /// A file that says what the table says.
+    #[must_use]
+    pub fn new(table: Table) -> Self {
+        Self { table, ..Self::default() }
+    }
+
+    /// With a comment at its head, one line or more.
+    #[must_use]
+    pub fn head(mut self, comment: impl Into<String>) -> Self {
+        self.head = comment.into();
+        self
+    }
+
+    /// With a comment, one line or more, above a key or a section: `sensor.dark`, `materials.glass` of an entry with a name.
+    /// A key that is not written has none.
+    #[must_use]
+    pub fn above(mut self, key: &str, comment: impl Into<String>) -> Self {
+        self.above.insert(key.to_owned(), comment.into());
+        self
+    }
+
+    /// With a comment on the line of a key.
+    #[must_use]
+    pub fn beside(mut self, key: &str, comment: impl Into<String>) -> Self {
+        self.beside.insert(key.to_owned(), comment.into());
+        self
+    }
+}
+
+impl fmt::Display for File {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write_comment(f, Some(&self.head).filter(|head| !head.is_empty()))?;
+        f.write_str("format = 1\n")?;
+        write_section(f, self, "", &self.table)
+    }
+}
+
+/// The lines of a comment. A control character would end it, and is a space.
+pub(super) fn write_comment(f: &mut fmt::Formatter<'_>, comment: Option<&String>) -> fmt::Result {
+    for line in comment.into_iter().flat_map(|comment| comment.split('\n')) {
+        let line: String = line.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+        writeln!(f, "{}", format!("# {line}").trim_end())?;
+    }
+    Ok(())
+}
