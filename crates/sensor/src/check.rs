@@ -48,12 +48,13 @@ pub enum SensorError {
 
 impl SensorError {
     /// The key at fault, by its path below `[sensor]` in a camera file, such as `dark.temperature_c`; of a list of tables without a number.
-    /// `None` where it is a channel.
+
     #[must_use]
-    pub fn key(&self) -> Option<&'static str> {
+    pub fn key(&self) -> &'static str {
         match self {
-            Self::Range { key, .. } | Self::Conflict { key, .. } => Some(key),
-            Self::Efficiency { .. } | Self::NoSuchChannel { .. } | Self::UnusedChannel(_) => None,
+            Self::Range { key, .. } | Self::Conflict { key, .. } => key,
+            Self::Efficiency { .. } => "quantum_efficiency",
+            Self::NoSuchChannel { .. } | Self::UnusedChannel(_) => "cfa",
         }
     }
 }

@@ -1,7 +1,6 @@
 //! What light meets before it is counted, and its time.
 
 use super::or;
-use etendue_scene::Place;
 use etendue_scene::record;
 use etendue_scene::record::sensor::charge as description;
 use etendue_scene::record::sensor::exposure::{self, AutoExposure, Exchange};
@@ -73,12 +72,5 @@ pub(super) fn neighbours(record: &Exchange) -> Neighbours {
         horizontal: record.horizontal.value,
         vertical: record.vertical.value,
         corner: or(record.corner.as_ref(), 0.0),
-    }
-}
-
-pub(super) fn smear_place(record: &description::Smear) -> &Place {
-    match record {
-        description::Smear::Interline(smear) => &smear.place,
-        description::Smear::FrameTransfer(smear) => &smear.place,
     }
 }

@@ -2,7 +2,6 @@
 
 use super::light::neighbours;
 use super::or;
-use etendue_scene::Place;
 use etendue_scene::record;
 use etendue_scene::record::sensor::charge::NonUniformity;
 use etendue_scene::record::sensor::{hdr as of_hdr, read_out as description};
@@ -52,29 +51,12 @@ pub(super) fn read_out(e: &record::Electronics) -> ReadOut {
     }
 }
 
-/// Where the entry of `[sensor.hdr]` stands that a key of the model belongs to.
-pub(super) fn hdr_place<'a>(record: &'a of_hdr::Hdr, key: &str) -> &'a Place {
-    match key {
-        "hdr.merged_bits" => &record.merged_bits.place,
-        "hdr.transition_level" => record.transition_level.as_ref().map_or(&record.place, |s| &s.place),
-        key if key.starts_with("hdr.captures") => record.captures.first().map_or(&record.place, |c| &c.place),
-        _ => &record.place,
-    }
-}
-
 fn response(record: &description::Response) -> Response {
     match record {
         description::Response::Knees(record) => {
             Response::Knees(record.knees.iter().map(|k| Knee { at_e: k.value[0], slope: k.value[1] }).collect())
         }
         description::Response::Logarithmic(record) => Response::Logarithmic { from_e: record.from_e.value },
-    }
-}
-
-pub(super) fn response_place(record: &description::Response) -> &Place {
-    match record {
-        description::Response::Knees(record) => &record.place,
-        description::Response::Logarithmic(record) => &record.place,
     }
 }
 
