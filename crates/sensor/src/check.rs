@@ -48,7 +48,6 @@ pub enum SensorError {
 
 impl SensorError {
     /// The key at fault, by its path below `[sensor]` in a camera file, such as `dark.temperature_c`; of a list of tables without a number.
-
     #[must_use]
     pub fn key(&self) -> &'static str {
         match self {

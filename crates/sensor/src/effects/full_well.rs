@@ -47,7 +47,7 @@ impl Blooming {
     fn check(&self, checks: &mut Checks) {
         match *self {
             Self::Column { overflow_fraction } => {
-                checks.fraction_above_0("blooming.overflow_fraction", overflow_fraction)
+                checks.fraction_above_0("blooming.overflow_fraction", overflow_fraction);
             }
             // Without any drain, charge of a wide light would spread without end.
             Self::Around { overflow_fraction } => {

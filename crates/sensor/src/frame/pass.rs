@@ -139,10 +139,13 @@ pub(super) fn is_valid(mean: f32) -> bool {
     mean.is_finite() && mean >= 0.0
 }
 
+/// Acts on the numbers of a row, its place in the plane and its tally of charge.
+type RowStep = dyn Fn(&mut [f64], u32, &mut Option<RowTally>) + Send + Sync;
+
 /// An effect on rows that waits for a pass, whatever its quantity: the pass that it waits in has it.
 struct Step {
     component: SignalComponent,
-    apply: Box<dyn Fn(&mut [f64], u32, &mut Option<RowTally>) + Send + Sync>,
+    apply: Box<RowStep>,
 }
 
 /// Stored numbers, and the effects on rows that wait for a pass over them.
