@@ -6,7 +6,7 @@ use crate::scenes::{STREET, camera};
 use crate::table::Table;
 use crate::threads::pool;
 use etendue_core::Plane;
-use etendue_core::quantity::Electrons;
+use etendue_core::quantity::MeanElectrons;
 use etendue_isp::paper::PictureAddress;
 use etendue_isp::{RawPicture, develop};
 use etendue_pipeline::plan::{CameraBody, Development};
@@ -22,7 +22,7 @@ pub fn table() -> Table {
     let plan = STREET.plan();
     let body = &camera(&plan).body;
     let sensor = sensor(body);
-    let means = ramp(sensor.parameters().charge.full_well_e);
+    let means = ramp(sensor.parameters().charge.full_well.capacity_e);
     let development = body.development.as_ref().expect("the street's camera makes pictures");
     let raw = expose(&sensor, &means);
     let one = pool(1);
@@ -48,12 +48,12 @@ fn sensor(body: &CameraBody) -> Sensor {
     Sensor::new(warm).expect("a legal sensor")
 }
 
-fn ramp(full_well_e: f64) -> Plane<Electrons> {
+fn ramp(full_well_e: f64) -> Plane<MeanElectrons> {
     let mean = |i: usize| (full_well_e * (i % WIDTH) as f64 / WIDTH as f64) as f32;
     Plane::from_samples(WIDTH, HEIGHT, (0..WIDTH * HEIGHT).map(mean).collect()).expect("one mean a pixel")
 }
 
-fn expose(sensor: &Sensor, means: &Plane<Electrons>) -> Raw {
+fn expose(sensor: &Sensor, means: &Plane<MeanElectrons>) -> Raw {
     sensor.step(SensorState::default(), means, FrameAddress { seed: 1, camera: 0, frame: 0, capture: 0 }).1
 }
 

@@ -8,7 +8,7 @@ use crate::runs::Runs;
 use crate::table::Table;
 use crate::threads::pool;
 use etendue_core::Plane;
-use etendue_core::quantity::Electrons;
+use etendue_core::quantity::MeanElectrons;
 use etendue_sensor::{FrameAddress, Raw, Sensor, SensorState};
 use rayon::ThreadPool;
 use sensors::{bare, kinds};
@@ -63,7 +63,7 @@ struct Measured {
 }
 
 impl Measured {
-    fn of(sensor: &Sensor, bare: &Sensor, means: &Plane<Electrons>, [one, two]: &[ThreadPool; 2]) -> Self {
+    fn of(sensor: &Sensor, bare: &Sensor, means: &Plane<MeanElectrons>, [one, two]: &[ThreadPool; 2]) -> Self {
         let mut measured = Self::default();
         for _ in 0..crate::runs::COUNT {
             let alone = |sensor| one.install(|| timed(|| std::hint::black_box(expose(sensor, means))).1);
@@ -79,7 +79,7 @@ impl Measured {
 }
 
 /// Time of a frame on a pool: by the clock, and the busiest thread's.
-fn shared(sensor: &Sensor, means: &Plane<Electrons>, pool: &ThreadPool) -> (f64, f64) {
+fn shared(sensor: &Sensor, means: &Plane<MeanElectrons>, pool: &ThreadPool) -> (f64, f64) {
     let accounts = || pool.broadcast(|_| cpu_s());
     let (start, before) = (clock_s(), accounts());
     pool.install(|| std::hint::black_box(expose(sensor, means)));
@@ -89,7 +89,7 @@ fn shared(sensor: &Sensor, means: &Plane<Electrons>, pool: &ThreadPool) -> (f64,
 }
 
 /// A ramp from none to the full well, with a lamp in it.
-fn scene() -> Plane<Electrons> {
+fn scene() -> Plane<MeanElectrons> {
     let mean = |i: usize| {
         let (x, y) = (i % WIDTH, i / WIDTH);
         let in_lamp = (x.abs_diff(1300).pow(2) + y.abs_diff(500).pow(2)) < 24 * 24;
@@ -102,6 +102,6 @@ fn scene() -> Plane<Electrons> {
     Plane::from_samples(WIDTH, HEIGHT, (0..WIDTH * HEIGHT).map(mean).collect()).expect("one mean a pixel")
 }
 
-fn expose(sensor: &Sensor, means: &Plane<Electrons>) -> (SensorState, Raw) {
+fn expose(sensor: &Sensor, means: &Plane<MeanElectrons>) -> (SensorState, Raw) {
     sensor.step(SensorState::default(), means, FrameAddress { seed: 1, camera: 0, frame: 0, capture: 0 })
 }

@@ -16,7 +16,9 @@ use etendue_sensor::effects::rts_noise::RtsNoise;
 use etendue_sensor::effects::smear::Smear;
 use etendue_sensor::effects::two_level::TwoLevel;
 use etendue_sensor::hdr::{Capture, HighDynamicRange};
-use etendue_sensor::{Channel, Charge, Exposure, FixedPattern, Optics, Pixel, ReadOut, SensorParameters};
+use etendue_sensor::{
+    Channel, ChargeEffects, Exposure, LightEffects, Pixel, ReadOut, SensorParameters, VoltageEffects,
+};
 use etendue_spectra::Spectrum;
 
 /// Electrons that a pixel holds.
@@ -32,10 +34,11 @@ pub(super) fn bare() -> SensorParameters {
         channels: vec![Channel { name: "mono".into(), quantum_efficiency: Spectrum::constant(0.5) }],
         cfa: Cfa::mono(),
         exposure: Exposure { exposure_s: 0.01, frame_period_s: Some(0.04), control: None },
-        optics: Optics::default(),
-        pattern: FixedPattern::default(),
-        charge: Charge::plain(FULL_WELL_E, 0.0),
-        read_out: ReadOut::linear(0.7, 100.0, 14, 0.0),
+        specimen: None,
+        light: LightEffects::default(),
+        charge: ChargeEffects::plain(FULL_WELL_E, 0.0),
+        voltage: VoltageEffects::default(),
+        read_out: ReadOut::linear(0.7, 100.0, 14),
         hdr: HighDynamicRange::default(),
         noise: true,
     }
@@ -81,56 +84,56 @@ type Addition = (&'static str, fn(&mut SensorParameters));
 const EACH: [Addition; 18] = [
     ("shot noise", |p| p.noise = true),
     ("angle response", angle),
-    ("crosstalk", |p| p.optics.crosstalk = Some(Crosstalk(SHARES))),
-    ("photo-response pattern", |p| p.pattern.photo_response = PhotoResponse { white: 0.01, row: 0.002, column: 0.002 }),
-    ("smear", |p| p.charge.smear = Some(Smear::Interline { smear_db: -100.0, measured_exposure_ratio: 1.0 })),
+    ("crosstalk", |p| p.light.crosstalk = Some(Crosstalk(SHARES))),
+    ("photo-response pattern", |p| p.light.photo_response = PhotoResponse { white: 0.01, row: 0.002, column: 0.002 }),
+    ("smear", |p| p.light.smear = Some(Smear::Interline { smear_db: -100.0, measured_exposure_ratio: 1.0 })),
     ("dark current, even", |p| p.charge.dark = DarkCurrent::even(500.0)),
     ("dark current with pattern", |p| p.charge.dark = patterned_dark()),
-    ("lag", |p| p.charge.traps = vec![Trap { share: 0.02, time_constant_s: 0.1 }]),
-    ("brighter-fatter", |p| p.charge.brighter_fatter_per_e = 1e-6),
-    ("blooming along the column", |p| p.charge.blooming = Some(Blooming::Column { overflow_fraction: 0.9 })),
-    ("blooming around", |p| p.charge.blooming = Some(Blooming::Around { overflow_fraction: 0.6 })),
-    ("dead pixels", |p| p.pattern.dead_fraction = 1e-4),
+    ("lag", |p| p.charge.lag.traps = vec![Trap { fraction: 0.02, time_constant_s: 0.1 }]),
+    ("brighter-fatter", |p| p.charge.brighter_fatter.shift_per_e = 1e-6),
+    ("blooming along the column", |p| p.charge.full_well.blooming = Some(Blooming::Column { overflow_fraction: 0.9 })),
+    ("blooming around", |p| p.charge.full_well.blooming = Some(Blooming::Around { overflow_fraction: 0.6 })),
+    ("dead pixels", |p| p.charge.dead_pixels.fraction = 1e-4),
     ("response, two knees", |p| p.read_out.response = knees()),
-    ("capacitance", |p| p.read_out.capacitance = Some(InterPixelCapacitance(SHARES))),
-    ("offset pattern", |p| p.pattern.offset = OffsetPattern { white_e: 2.0, row_e: 1.0, column_e: 1.0 }),
-    ("shot and read noise", |p| (p.noise, p.read_out.noise) = (true, READ)),
-    ("shot and RTS noise", |p| (p.noise, p.read_out.rts_noise) = (true, Some(RtsNoise(TWO)))),
+    ("capacitance", |p| p.voltage.capacitance = Some(InterPixelCapacitance(SHARES))),
+    ("offset pattern", |p| p.voltage.offset = OffsetPattern { white_e: 2.0, row_e: 1.0, column_e: 1.0 }),
+    ("shot and read noise", |p| (p.noise, p.voltage.noise) = (true, READ)),
+    ("shot and RTS noise", |p| (p.noise, p.voltage.rts_noise) = (true, Some(RtsNoise(TWO)))),
     ("digital gain", |p| p.read_out.digital_gain = 1.5),
 ];
 
 const SHARES: Neighbours = Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.002 };
 const READ: ReadNoise = ReadNoise { white_e: 5.0, row_e: 0.5, column_e: 0.5 };
-const TWO: TwoLevel = TwoLevel { share: 0.001, mean: 20.0, dwell_frames: 5.0 };
+const TWO: TwoLevel = TwoLevel { fraction: 0.001, mean: 20.0, dwell_frames: 5.0 };
 
 fn noises(p: &mut SensorParameters) {
-    (p.noise, p.read_out.noise) = (true, READ);
-    p.read_out.rts_noise = Some(RtsNoise(TWO));
+    (p.noise, p.voltage.noise) = (true, READ);
+    p.voltage.rts_noise = Some(RtsNoise(TWO));
     p.charge.dark = patterned_dark();
-    p.pattern.photo_response = PhotoResponse { white: 0.01, row: 0.002, column: 0.002 };
-    p.pattern.offset = OffsetPattern { white_e: 2.0, row_e: 1.0, column_e: 1.0 };
-    p.pattern.dead_fraction = 1e-4;
+    p.light.photo_response = PhotoResponse { white: 0.01, row: 0.002, column: 0.002 };
+    p.voltage.offset = OffsetPattern { white_e: 2.0, row_e: 1.0, column_e: 1.0 };
+    p.charge.dead_pixels.fraction = 1e-4;
 }
 
 fn the_rest(p: &mut SensorParameters) {
     angle(p);
-    p.optics.crosstalk = Some(Crosstalk(SHARES));
-    p.charge.smear = Some(Smear::Interline { smear_db: -100.0, measured_exposure_ratio: 1.0 });
-    p.charge.traps = vec![Trap { share: 0.02, time_constant_s: 0.1 }];
-    p.charge.brighter_fatter_per_e = 1e-6;
-    p.charge.blooming = Some(Blooming::Around { overflow_fraction: 0.6 });
+    p.light.crosstalk = Some(Crosstalk(SHARES));
+    p.light.smear = Some(Smear::Interline { smear_db: -100.0, measured_exposure_ratio: 1.0 });
+    p.charge.lag.traps = vec![Trap { fraction: 0.02, time_constant_s: 0.1 }];
+    p.charge.brighter_fatter.shift_per_e = 1e-6;
+    p.charge.full_well.blooming = Some(Blooming::Around { overflow_fraction: 0.6 });
     p.read_out.response = knees();
-    p.read_out.capacitance = Some(InterPixelCapacitance(SHARES));
+    p.voltage.capacitance = Some(InterPixelCapacitance(SHARES));
     p.read_out.digital_gain = 1.5;
 }
 
 /// Everything described, nothing with strength.
 fn silent(p: &mut SensorParameters) {
     p.charge.dark = DarkCurrent { spread: spread(), ..DarkCurrent::even(0.0) };
-    p.read_out.noise = READ;
-    p.read_out.rts_noise = Some(RtsNoise(TWO));
-    p.pattern.photo_response = PhotoResponse::default();
-    p.pattern.offset = OffsetPattern::default();
+    p.voltage.noise = READ;
+    p.voltage.rts_noise = Some(RtsNoise(TWO));
+    p.light.photo_response = PhotoResponse::default();
+    p.voltage.offset = OffsetPattern::default();
 }
 
 fn captures(p: &mut SensorParameters) {
@@ -144,7 +147,7 @@ fn captures(p: &mut SensorParameters) {
 
 fn angle(p: &mut SensorParameters) {
     let table = vec![[0.0, 1.0], [10.0, 0.97], [20.0, 0.88], [30.0, 0.7]];
-    p.optics.angle_response = Some(AngleResponse { table, exit_pupil_mm: 8.0, principal_px: [960.0, 540.0] });
+    p.light.angle_response = Some(AngleResponse { table, exit_pupil_mm: 8.0, principal_px: [960.0, 540.0] });
 }
 
 fn spread() -> DarkSpread {
@@ -154,7 +157,7 @@ fn spread() -> DarkSpread {
 fn patterned_dark() -> DarkCurrent {
     DarkCurrent {
         spread: spread(),
-        hot: Some(Hot { share: 1e-4, mean_e_s: 1e5 }),
+        hot: Some(Hot { fraction: 1e-4, mean_e_s: 1e5 }),
         dark_current_rts: Some(TwoLevel { mean: 1e4, ..TWO }),
         ..DarkCurrent::even(500.0)
     }

@@ -16,6 +16,7 @@
 //! | raster | x right, y down, the top-left corner is (0, 0), pixel centres at + 0.5 | px, f64 |
 
 pub mod distribution;
+mod effect_status;
 pub mod field;
 pub mod frame;
 pub mod maths;
@@ -23,15 +24,14 @@ pub mod plane;
 pub mod quantity;
 pub mod random;
 pub mod ray;
-pub mod verdict;
 pub mod warp;
 pub mod wavelength;
 mod wavelength_density;
 
+pub use effect_status::EffectStatus;
 pub use field::{FieldRay, RadianceField};
 pub use frame::{Basis, CameraPose, Track};
 pub use plane::{Plane, SpectralCube};
 pub use ray::{PupilRay, Ray};
-pub use verdict::Verdict;
 pub use wavelength::{Bands, Spectral, Wavelengths};
 pub use wavelength_density::WavelengthDensity;

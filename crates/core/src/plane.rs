@@ -66,6 +66,12 @@ impl<Q: Quantity> Plane<Q> {
         &mut self.samples
     }
 
+    /// The samples, row by row from the top left.
+    #[must_use]
+    pub fn into_samples(self) -> Vec<Q::Sample> {
+        self.samples
+    }
+
     /// `width` × `height` pixels of the plane from column `x`, row `y` on. Panics outside the plane.
     #[must_use]
     pub fn part(&self, x: usize, y: usize, width: usize, height: usize) -> Self {

@@ -1,6 +1,7 @@
 //! The quantities that stages hand to each other, as types.
 //!
-//! A [`Quantity`] is a marker: a `Plane<Irradiance>` cannot be given to an effect that works on electrons.
+//! A [`Quantity`] is a marker: a `Plane<Irradiance>` cannot be given to an effect that works on electrons, nor a plane of mean
+//! electrons to one that works on counted charge.
 
 /// A physical quantity of an image, named so that a plane of it cannot be taken for another.
 pub trait Quantity: Copy + Send + Sync + 'static {
@@ -35,8 +36,12 @@ quantities! {
     SolidAngle(f32) = "projected solid angle", "sr";
     /// Variance of a mean, in the square of that mean's unit.
     Variance(f32) = "variance of the mean", "(unit of the mean)^2";
-    /// Mean or collected electrons of a pixel.
-    Electrons(f32) = "electrons", "e";
+    /// Mean electrons of a pixel: the expected number of photo-electrons of an exposure, before any is counted.
+    MeanElectrons(f32) = "electrons", "e";
+    /// Charge of a pixel: the electrons that it has collected.
+    Charge(f32) = "charge", "e";
+    /// Voltage of a pixel after the sense node, in electrons of charge that would make it at little light.
+    Voltage(f32) = "voltage", "e";
     /// Mean electrons that a pixel makes of a second of light.
     ElectronRate(f32) = "electron rate", "e.s^-1";
     /// Digital numbers out of the converter, of up to 24 bits.

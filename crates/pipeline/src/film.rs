@@ -2,7 +2,9 @@
 
 use crate::gather::{Gather, Layout};
 use crate::tile::Tile;
-use etendue_core::quantity::{ElectronRate, Electrons, Identity, Irradiance, Quantity, Radiance, SolidAngle, Variance};
+use etendue_core::quantity::{
+    ElectronRate, Identity, Irradiance, MeanElectrons, Quantity, Radiance, SolidAngle, Variance,
+};
 use etendue_core::random::Pixel;
 use etendue_core::{Bands, Plane, SpectralCube};
 
@@ -24,7 +26,7 @@ impl<Q: Quantity> Estimate<Q> {
 impl Estimate<ElectronRate> {
     /// Electrons of an exposure, s, and the variance of their mean.
     #[must_use]
-    pub fn exposed(&self, exposure_s: f64) -> Estimate<Electrons> {
+    pub fn exposed(&self, exposure_s: f64) -> Estimate<MeanElectrons> {
         let scaled = |by: f64| move |value: f32| (f64::from(value) * by) as f32;
         Estimate {
             mean: self.mean.map(scaled(exposure_s)),

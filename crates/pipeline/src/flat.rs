@@ -9,7 +9,7 @@
 
 use crate::plan::CameraBody;
 use etendue_core::Plane;
-use etendue_core::quantity::Electrons;
+use etendue_core::quantity::MeanElectrons;
 use etendue_sensor::effects::response::Response;
 use etendue_sensor::hdr::HighDynamicRange;
 use etendue_sensor::photon::photons_per_joule;
@@ -49,7 +49,7 @@ impl FlatLight {
 #[must_use]
 pub fn bare(body: &CameraBody) -> Option<CameraBody> {
     let mut parameters = body.sensor.as_ref()?.parameters().clone();
-    parameters.optics.angle_response = None;
+    parameters.light.angle_response = None;
     parameters.exposure.control = None;
     let sensor = Sensor::new(parameters).expect("what can be can be without a part");
     Some(CameraBody { sensor: Some(sensor), ..body.clone() })
@@ -57,7 +57,7 @@ pub fn bare(body: &CameraBody) -> Option<CameraBody> {
 
 /// Mean electrons of every pixel in the described exposure; `None` where the camera has no electronics.
 #[must_use]
-pub fn electrons(body: &CameraBody, light: FlatLight) -> Option<Plane<Electrons>> {
+pub fn electrons(body: &CameraBody, light: FlatLight) -> Option<Plane<MeanElectrons>> {
     let sensor = body.sensor.as_ref()?;
     let means =
         |channel| light.irradiance_w_m2 * f64::from(sensor.responsivity(channel).at(light.wavelength_nm as f32));
@@ -227,7 +227,7 @@ mod tests {
         let electrons = |i: usize| 0.3 * series.stacks[i].photons;
         assert!((electrons(98) - 10_500.0).abs() < 0.01 && (electrons(100) - 5000.0).abs() < 0.01);
         assert_eq!((series.stacks[99].photons, series.stacks[98].exposure_s), (0.0, 0.01));
-        assert!(sensor.parameters().exposure.control.is_none() && sensor.parameters().optics.angle_response.is_none());
+        assert!(sensor.parameters().exposure.control.is_none() && sensor.parameters().light.angle_response.is_none());
     }
 
     #[test]

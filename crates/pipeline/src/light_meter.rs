@@ -44,8 +44,8 @@ impl<'a> LightMeter<'a> {
         let largest_dn = f64::from((1_u32 << read_out.bits) - 1);
         let gain_dn_e = read_out.gain_dn_e * read_out.analogue_gain * read_out.digital_gain.max(1.0);
         match read_out.response {
-            Response::Linear => p.charge.full_well_e.min((largest_dn - read_out.black_level_dn) / gain_dn_e),
-            Response::Knees(_) | Response::Logarithmic { .. } => p.charge.full_well_e,
+            Response::Linear => p.charge.full_well.capacity_e.min((largest_dn - read_out.black_level_dn) / gain_dn_e),
+            Response::Knees(_) | Response::Logarithmic { .. } => p.charge.full_well.capacity_e,
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::effects::{EffectsOutput, behind, picture};
 use crate::film::{CubeEstimate, Film};
 use crate::plan::{CameraBody, CameraPlan, Development, Route};
 use crate::pupil_depth::PupilDepth;
-use etendue_core::quantity::{Electrons, Irradiance, Length, Radiance, Variance};
+use etendue_core::quantity::{Irradiance, Length, MeanElectrons, Radiance, Variance};
 use etendue_core::{Plane, SpectralCube};
 use etendue_isp::paper::PictureAddress;
 pub use etendue_isp::{DevelopError, Developed};
@@ -29,7 +29,7 @@ pub struct Light {
     /// The part of the irradiance that is ghosts, where the camera has them.
     pub ghosts: Option<SpectralCube<Irradiance>>,
     /// Mean electrons of each pixel.
-    pub electrons: Option<Plane<Electrons>>,
+    pub electrons: Option<Plane<MeanElectrons>>,
     /// Their variance; `None` where they come from a cube.
     pub electrons_variance: Option<Plane<Variance>>,
 }
@@ -150,7 +150,7 @@ pub(crate) fn front_on_picture(body: &CameraBody) -> Result<(), OpticsError> {
     }
 }
 
-fn electrons(body: &CameraBody, irradiance: &SpectralCube<Irradiance>) -> Option<Plane<Electrons>> {
+fn electrons(body: &CameraBody, irradiance: &SpectralCube<Irradiance>) -> Option<Plane<MeanElectrons>> {
     body.sensor.as_ref().map(|sensor| sensor.electrons(irradiance))
 }
 
@@ -195,7 +195,7 @@ fn own_picture(body: &CameraBody, raw: &Raw, address: FrameAddress) -> Option<De
 pub fn take(
     body: &CameraBody,
     state: SensorState,
-    electrons: &Plane<Electrons>,
+    electrons: &Plane<MeanElectrons>,
     address: FrameAddress,
 ) -> Option<(SensorState, Frame)> {
     let (state, raw) = body.sensor.as_ref()?.step(state, electrons, address);
@@ -208,7 +208,7 @@ pub fn take(
 pub fn take_with_breakdown(
     body: &CameraBody,
     state: SensorState,
-    electrons: &Plane<Electrons>,
+    electrons: &Plane<MeanElectrons>,
     address: FrameAddress,
 ) -> Option<(SensorState, Frame)> {
     let (state, raw, signal_breakdown) = body.sensor.as_ref()?.step_with_breakdown(state, electrons, address);

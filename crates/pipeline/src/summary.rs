@@ -14,8 +14,9 @@ use crate::plan::{CameraPlan, Plan, Products, RawFormat, Settings, SkyFacts};
 use crate::remark::grouped;
 use crate::render::{census, layout};
 use effects_cost::Share;
-use etendue_core::Bands;
+use etendue_core::{Bands, EffectStatus};
 use etendue_optics::DepthOfField;
+use etendue_optics::effects::Effect;
 use etendue_sensor::dynamic_range::{DynamicRange, Switch};
 use etendue_sensor::emva1288::db;
 use etendue_tracer::geometry::Shape;
@@ -189,8 +190,9 @@ fn effects(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
         }
     };
     line(f, "effects", about)?;
-    for need in effects.needs() {
-        line(f, "", format!("{}: {}: {}", need.effect.name(), need.verdict, need.reason))?;
+    for effect in Effect::ALL {
+        let status = effects.status(effect);
+        line(f, "", format!("{}: {status}: {}", effect.name(), status.reason()))?;
     }
     Ok(())
 }
@@ -239,13 +241,17 @@ fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     line(
         f,
         "sensor",
-        format!("{size}, {} s, {} bits, {} e⁻ full well", p.exposure.exposure_s, p.read_out.bits, p.charge.full_well_e),
+        format!(
+            "{size}, {} s, {} bits, {} e⁻ full well",
+            p.exposure.exposure_s, p.read_out.bits, p.charge.full_well.capacity_e
+        ),
     )?;
-    let (silent, said): (Vec<_>, Vec<_>) = sensor.needs().into_iter().partition(etendue_sensor::Need::is_silent);
-    for need in said {
-        line(f, "", format!("{}: {}: {}", need.effect.name(), need.verdict, need.reason))?;
+    let (silent, stated): (Vec<_>, Vec<_>) =
+        sensor.effects().into_iter().partition(|(_, status)| *status == EffectStatus::NotDescribed);
+    for (name, status) in stated {
+        line(f, "", format!("{name}: {status}: {}", status.reason()))?;
     }
-    let silent: Vec<_> = silent.iter().map(|need| need.effect.name()).collect();
+    let silent: Vec<_> = silent.into_iter().map(|(name, _)| name).collect();
     line(f, "", format!("left out, as not described: {}", silent.join(", ")))?;
     line(f, "", range(&sensor.dynamic_range()))
 }

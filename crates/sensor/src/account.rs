@@ -46,14 +46,14 @@ impl ChargeAccount {
 pub(crate) mod tests {
     use super::ChargeAccount;
     use etendue_core::Plane;
-    use etendue_core::quantity::Electrons;
+    use etendue_core::quantity::Charge;
 
     /// What an effect that moves charge makes of a plane, and the account of it.
     pub(crate) fn accounted(
-        plane: &Plane<Electrons>,
-        effect: impl Fn(&mut Plane<Electrons>, &mut ChargeAccount),
-    ) -> (Plane<Electrons>, ChargeAccount) {
-        let sum = |p: &Plane<Electrons>| p.samples().iter().map(|q| f64::from(*q)).sum::<f64>();
+        plane: &Plane<Charge>,
+        effect: impl Fn(&mut Plane<Charge>, &mut ChargeAccount),
+    ) -> (Plane<Charge>, ChargeAccount) {
+        let sum = |p: &Plane<Charge>| p.samples().iter().map(|q| f64::from(*q)).sum::<f64>();
         let mut out = plane.clone();
         let mut account = ChargeAccount { generated_e: sum(plane), ..ChargeAccount::default() };
         effect(&mut out, &mut account);

@@ -47,12 +47,13 @@ pub enum SensorError {
 }
 
 impl SensorError {
-    /// The parameter at fault, as camera files name it; `None` where it is a channel.
+    /// The key at fault, by its path below `[sensor]` in a camera file, such as `dark.temperature_c`; of a list of tables without a number.
     #[must_use]
-    pub fn key(&self) -> Option<&'static str> {
+    pub fn key(&self) -> &'static str {
         match self {
-            Self::Range { key, .. } | Self::Conflict { key, .. } => Some(key),
-            Self::Efficiency { .. } | Self::NoSuchChannel { .. } | Self::UnusedChannel(_) => None,
+            Self::Range { key, .. } | Self::Conflict { key, .. } => key,
+            Self::Efficiency { .. } => "quantum_efficiency",
+            Self::NoSuchChannel { .. } | Self::UnusedChannel(_) => "cfa",
         }
     }
 }
@@ -79,12 +80,12 @@ impl Checks {
         self.legal(key, value, value.is_finite() && value >= 0.0, "a finite number of at least 0");
     }
 
-    pub(crate) fn share(&mut self, key: &'static str, value: f64) {
-        self.legal(key, value, (0.0..=1.0).contains(&value), "a share from 0 to 1");
+    pub(crate) fn fraction(&mut self, key: &'static str, value: f64) {
+        self.legal(key, value, (0.0..=1.0).contains(&value), "a fraction from 0 to 1");
     }
 
-    pub(crate) fn share_above_0(&mut self, key: &'static str, value: f64) {
-        self.legal(key, value, value > 0.0 && value <= 1.0, "a share above 0 and up to 1");
+    pub(crate) fn fraction_above_0(&mut self, key: &'static str, value: f64) {
+        self.legal(key, value, value > 0.0 && value <= 1.0, "a fraction above 0 and up to 1");
     }
 
     /// Refuses a combination unless it is `legal`.

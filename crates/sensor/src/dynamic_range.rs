@@ -7,7 +7,6 @@
 //! Captures are read up to their switch; there the signal-to-noise ratio falls from μ_k/√(μ_k + σ_k²), with μ_k the electrons
 //! that this capture has of the light, to that of the next one. Fixed patterns are no part of it.
 
-use crate::effects::converter::Converter;
 use crate::emva1288::db;
 use crate::operation::Operation;
 use crate::parameters::SensorParameters;
@@ -62,7 +61,7 @@ impl Sensor {
     }
 }
 
-/// One capture and what share of the first one's light it has.
+/// One capture and what fraction of the first one's light it has.
 struct Reading<'a> {
     p: &'a SensorParameters,
     operation: Operation,
@@ -76,21 +75,21 @@ fn readings(p: &SensorParameters) -> Vec<Reading<'_>> {
         let dark_e = p.wells_read() * dark.current_e_s * dark.temperature_factor() * operation.exposure_s;
         Reading { p, operation, light: operation.light, dark_e }
     };
-    p.hdr.operations(Operation::described(p)).into_iter().map(of).collect()
+    p.hdr.operations(p.described_operation()).into_iter().map(of).collect()
 }
 
 impl Reading<'_> {
-    /// The signal (e⁻ of the first capture) that brings this one to a share of its range.
-    fn signal_e(&self, share: f64) -> f64 {
-        let (response, converter) = (&self.p.read_out.response, Converter::of(self.p, &self.operation));
+    /// The signal (e⁻ of the first capture) that brings this one to a fraction of its range.
+    fn signal_e(&self, fraction: f64) -> f64 {
+        let (response, converter) = (&self.p.read_out.response, self.p.converter(&self.operation));
         let white = self.p.capture_white_dn(&self.operation);
-        let charge_e = response.charge_e(share * converter.electrons(white));
+        let charge_e = response.charge_e(fraction * converter.electrons(white));
         (charge_e - self.dark_e).max(0.0) / self.light
     }
 
     /// Variance of everything but the signal's own shot noise at a charge, e⁻².
     fn dark_variance_e2(&self, charge_e: f64) -> f64 {
-        let (read, operation) = (self.p.read_out.noise, &self.operation);
+        let (read, operation) = (self.p.voltage.noise, &self.operation);
         let squares: f64 = [operation.read_noise_e, read.row_e, read.column_e].iter().map(|e| e * e).sum();
         let chain = if self.p.noise { squares } else { 0.0 };
         let slope = self.p.read_out.response.slope(charge_e);
@@ -125,7 +124,7 @@ mod tests {
     fn binned_wells_bring_their_dark_electrons() {
         let mut p = ideal();
         (p.charge.dark.current_e_s, p.exposure.exposure_s) = (100.0, 1.0);
-        (p.charge.full_well_e, p.read_out.gain_dn_e) = (10_000.0, 1.0);
+        (p.charge.full_well.capacity_e, p.read_out.gain_dn_e) = (10_000.0, 1.0);
         let of = crate::layout::BinningOf::Charge;
         p.read_out.layout.binning = Some(crate::layout::Binning { columns: 2, rows: 2, of });
         let range = Sensor::new(p).expect("legal").dynamic_range();
@@ -137,7 +136,7 @@ mod tests {
     #[test]
     fn ratios_fall_at_a_switch_by_the_root_of_what_is_lost() {
         let mut p = ideal();
-        (p.read_out.noise.white_e, p.read_out.gain_dn_e) = (1e-3, 1.0);
+        (p.voltage.noise.white_e, p.read_out.gain_dn_e) = (1e-3, 1.0);
         p.hdr.captures = vec![Capture { exposure_ratio: 1.0 / 16.0, ..Capture::default() }];
         p.hdr.bits = Some(24);
         let range = Sensor::new(p).expect("legal").dynamic_range();

@@ -1,7 +1,7 @@
 //! From a cube of spectral irradiance to mean electrons.
 
 use crate::sensor::Sensor;
-use etendue_core::quantity::{Electrons, Irradiance};
+use etendue_core::quantity::{Irradiance, MeanElectrons};
 use etendue_core::{Plane, SpectralCube};
 use rayon::prelude::*;
 
@@ -11,7 +11,7 @@ impl Sensor {
     /// Exact where E or R is constant within each band. Light outside the cube's bands is not there. The sum runs in f64
     /// in order of wavelength, so the result does not depend on threads; it uses the rayon pool of its caller.
     #[must_use]
-    pub fn electrons(&self, irradiance: &SpectralCube<Irradiance>) -> Plane<Electrons> {
+    pub fn electrons(&self, irradiance: &SpectralCube<Irradiance>) -> Plane<MeanElectrons> {
         let (width, height) = (irradiance.width(), irradiance.height());
         let mut plane = Plane::new(width, height);
         let weights = self.band_weights(irradiance);

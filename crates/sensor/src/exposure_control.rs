@@ -1,24 +1,25 @@
 //! Automatic exposure: time and gain that bring a percentile of the picture to a target.
 //!
-//! After a frame, ℓ is the level below which a share p of the picture's pixels lies, as a share of the range from black to white.
+//! After a frame, ℓ is the level below which a fraction p of the picture's pixels lies, as a fraction of the range from black to white.
 //! With E the product of time and gain, the next frame has E ← E (target/ℓ)^d, d the damping in (0, 1], the factor kept within
 //! 1/16 and 16. Time is used first, then gain, each within its limits: t = clamp(E/g_min), g = clamp(E/t). Where ℓ is white,
 //! target/ℓ is the target itself: the control walks down by that factor a frame until it sees.
 //! Left out: metering by region, flicker avoidance, delays of more than a frame, steps of lines.
 
 use crate::check::Checks;
-use crate::effects::{NOT_DESCRIBED, Verdict};
-use crate::parameters::SensorParameters;
+use crate::effect::{Effect, SensorFacts};
+use crate::operation::Operation;
 use crate::raw::Raw;
 use crate::state::OperatingPoint;
+use etendue_core::EffectStatus;
 use etendue_core::maths::f64::pow;
 
 /// How exposure is set from frame to frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExposureControl {
-    /// Percentile of the picture that shall reach the target, (0, 100).
+    /// Percentile of the picture's levels that shall reach the target, (0, 100).
     pub percentile: f64,
-    /// Where that share shall end, as a share of the range from black to white, (0, 1).
+    /// Where it shall end, as a fraction of the range from black to white, (0, 1).
     pub target: f64,
     /// Exponent of a frame's correction, (0, 1].
     pub damping: f64,
@@ -31,29 +32,6 @@ pub struct ExposureControl {
 const MAX_STEP: f64 = 16.0;
 
 impl ExposureControl {
-    pub(crate) fn check(&self, p: &SensorParameters, checks: &mut Checks) {
-        let inside = |v: f64| v > 0.0 && v < 1.0;
-        let is_percentile = self.percentile > 0.0 && self.percentile < 100.0;
-        checks.legal("auto_exposure.percentile", self.percentile, is_percentile, "a percentile between 0 and 100");
-        checks.legal("auto_exposure.target", self.target, inside(self.target), "a share between 0 and 1");
-        checks.share_above_0("auto_exposure.damping", self.damping);
-        let [low, high] = self.exposure_s;
-        checks.positive("auto_exposure.exposure_limits_s", low);
-        let around = |[low, high]: [f64; 2], v: f64| low <= v && v <= high && high.is_finite();
-        checks.agree("auto_exposure.exposure_limits_s", around(self.exposure_s, p.exposure.exposure_s), || {
-            format!("the limits must rise and hold the exposure of the first frame, {} s", p.exposure.exposure_s)
-        });
-        checks.agree(
-            "auto_exposure.exposure_limits_s",
-            p.exposure.frame_period_s.is_none_or(|period| high <= period),
-            || "the longest exposure is longer than \"frame_period_s\"".to_owned(),
-        );
-        checks.positive("auto_exposure.gain_limits", self.analogue_gain[0]);
-        checks.agree("auto_exposure.gain_limits", around(self.analogue_gain, p.read_out.analogue_gain), || {
-            format!("the limits must rise and hold the gain of the first frame, {}", p.read_out.analogue_gain)
-        });
-    }
-
     /// The operating point of the frame after `raw`, which was taken at `point`.
     pub(crate) fn next(&self, raw: &Raw, point: OperatingPoint) -> OperatingPoint {
         let Some(level) = self.level(raw) else { return point };
@@ -75,16 +53,38 @@ impl ExposureControl {
     }
 }
 
-pub(crate) fn need(p: &SensorParameters) -> (Verdict, String) {
-    match &p.exposure.control {
-        None => (Verdict::Skipped, NOT_DESCRIBED.into()),
-        Some(c) => (
-            Verdict::Required,
-            format!(
-                "from frame to frame, {} % of pixels below {} of the range; {} to {} s, gain {} to {}",
-                c.percentile, c.target, c.exposure_s[0], c.exposure_s[1], c.analogue_gain[0], c.analogue_gain[1]
-            ),
-        ),
+impl Effect for ExposureControl {
+    const NAME: &'static str = "exposure control";
+
+    fn check(&self, facts: &SensorFacts, checks: &mut Checks) {
+        let inside = |v: f64| v > 0.0 && v < 1.0;
+        let is_percentile = self.percentile > 0.0 && self.percentile < 100.0;
+        checks.legal("auto_exposure.percentile", self.percentile, is_percentile, "a percentile between 0 and 100");
+        checks.legal("auto_exposure.target", self.target, inside(self.target), "a fraction between 0 and 1");
+        checks.fraction_above_0("auto_exposure.damping", self.damping);
+        let [low, high] = self.exposure_s;
+        checks.positive("auto_exposure.exposure_limits_s", low);
+        let around = |[low, high]: [f64; 2], v: f64| low <= v && v <= high && high.is_finite();
+        checks.agree("auto_exposure.exposure_limits_s", around(self.exposure_s, facts.exposure_s), || {
+            format!("the limits must rise and hold the exposure of the first frame, {} s", facts.exposure_s)
+        });
+        checks.agree(
+            "auto_exposure.exposure_limits_s",
+            facts.frame_period_s.is_none_or(|period| high <= period),
+            || "the longest exposure is longer than \"frame_period_s\"".to_owned(),
+        );
+        checks.positive("auto_exposure.gain_limits", self.analogue_gain[0]);
+        checks.agree("auto_exposure.gain_limits", around(self.analogue_gain, facts.analogue_gain), || {
+            format!("the limits must rise and hold the gain of the first frame, {}", facts.analogue_gain)
+        });
+    }
+
+    fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
+        let ([shortest, longest], [smallest, largest]) = (self.exposure_s, self.analogue_gain);
+        EffectStatus::Modelled(format!(
+            "from frame to frame, {} % of pixels below {} of the range; {shortest} to {longest} s, gain {smallest} to {largest}",
+            self.percentile, self.target
+        ))
     }
 }
 
@@ -98,7 +98,7 @@ mod tests {
 
     fn controlled(damping: f64) -> Sensor {
         let mut p = quiet();
-        (p.charge.full_well_e, p.exposure.exposure_s, p.read_out.bits) = (1e4, 0.01, 14);
+        (p.charge.full_well.capacity_e, p.exposure.exposure_s, p.read_out.bits) = (1e4, 0.01, 14);
         p.exposure.control = Some(ExposureControl {
             percentile: 90.0,
             target: 0.5,

@@ -11,10 +11,10 @@
 
 use crate::cfa::Cfa;
 use crate::check::{Checks, SensorError};
-use crate::effects::{NOT_DESCRIBED, Verdict};
-use crate::parameters::SensorParameters;
-use etendue_core::Plane;
-use etendue_core::quantity::{DigitalNumber, Electrons, Quantity};
+use crate::effect::{Effect, SensorFacts};
+use crate::operation::Operation;
+use etendue_core::quantity::{DigitalNumber, MeanElectrons, Quantity};
+use etendue_core::{EffectStatus, Plane};
 
 /// Pixels that no light reaches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -69,20 +69,27 @@ pub struct Layout {
     pub binning: Option<Binning>,
 }
 
-pub(crate) fn need(p: &SensorParameters) -> (Verdict, String) {
-    let Layout { optical_black: dark, region, binning } = p.read_out.layout;
-    let mut parts = Vec::new();
-    if dark != OpticalBlack::default() {
-        parts.push(format!("{} rows above and {} columns left are optically black", dark.rows, dark.columns));
+impl Effect for Layout {
+    const NAME: &'static str = "region and binning";
+
+    /// It has to fit the picture, whose size the sensor does not know ([`Layout::errors`]).
+    fn check(&self, _: &SensorFacts, _: &mut Checks) {}
+
+    fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
+        let Layout { optical_black: dark, region, binning } = *self;
+        let mut parts = Vec::new();
+        if dark != OpticalBlack::default() {
+            parts.push(format!("{} rows above and {} columns left are optically black", dark.rows, dark.columns));
+        }
+        if let Some(Binning { columns, rows, of }) = binning {
+            let how = if of == BinningOf::Charge { "charge is added" } else { "digital numbers are averaged" };
+            parts.push(format!("{columns} × {rows} pixels of a colour give one: {how}"));
+        }
+        if let Some(Region { x, y, width, height }) = region {
+            parts.push(format!("{width} × {height} pixels from column {x}, row {y} are read"));
+        }
+        if parts.is_empty() { EffectStatus::NotDescribed } else { EffectStatus::Modelled(parts.join("; ")) }
     }
-    if let Some(Binning { columns, rows, of }) = binning {
-        let how = if of == BinningOf::Charge { "charge is added" } else { "digital numbers are averaged" };
-        parts.push(format!("{columns} × {rows} pixels of a colour give one: {how}"));
-    }
-    if let Some(Region { x, y, width, height }) = region {
-        parts.push(format!("{width} × {height} pixels from column {x}, row {y} are read"));
-    }
-    if parts.is_empty() { (Verdict::Skipped, NOT_DESCRIBED.into()) } else { (Verdict::Required, parts.join("; ")) }
 }
 
 impl Layout {
@@ -129,7 +136,7 @@ impl Layout {
     }
 
     /// The whole array: the picture with the pixels that no light reaches. `None` where there are none.
-    pub(crate) fn with_optical_black(&self, picture: &Plane<Electrons>) -> Option<Plane<Electrons>> {
+    pub(crate) fn with_optical_black(&self, picture: &Plane<MeanElectrons>) -> Option<Plane<MeanElectrons>> {
         let OpticalBlack { rows, columns } = self.optical_black;
         if rows == 0 && columns == 0 {
             return None;
@@ -215,12 +222,12 @@ impl Binning {
     }
 
     /// Charge added.
-    pub(crate) fn added(&self, cfa: &Cfa, plane: &Plane<Electrons>) -> Plane<Electrons> {
+    pub(crate) fn added<Q: Quantity<Sample = f32>>(&self, cfa: &Cfa, plane: &Plane<Q>) -> Plane<Q> {
         self.folded(cfa, plane, |q| q.iter().map(|q| f64::from(*q)).sum::<f64>() as f32)
     }
 
     /// The mean of layers.
-    pub(crate) fn mean(&self, cfa: &Cfa, plane: &Plane<Electrons>) -> Plane<Electrons> {
+    pub(crate) fn mean<Q: Quantity<Sample = f32>>(&self, cfa: &Cfa, plane: &Plane<Q>) -> Plane<Q> {
         self.folded(cfa, plane, |q| (q.iter().map(|q| f64::from(*q)).sum::<f64>() / q.len() as f64) as f32)
     }
 
@@ -245,6 +252,7 @@ mod tests {
     use super::*;
     use crate::cfa::BayerPhase;
     use crate::frame::tests::{ADDRESS, quiet, run};
+    use crate::parameters::SensorParameters;
     use crate::sensor::Sensor;
 
     #[test]
@@ -253,7 +261,7 @@ mod tests {
         let channel = p.channels[0].clone();
         p.channels = ["r", "g", "b"].map(|name| crate::Channel { name: name.into(), ..channel.clone() }).to_vec();
         p.cfa = Cfa::bayer(BayerPhase::Rggb);
-        p.charge.full_well_e = 1e5;
+        p.charge.full_well.capacity_e = 1e5;
         let mut means = Plane::new(8, 4);
         for (x, y) in (0..32).map(|i| (i % 8, i / 8)) {
             means.set(x, y, [100.0, 200.0, 300.0][p.cfa.channel_at(x, y)]);

@@ -1,7 +1,7 @@
 //! Irradiance to electrons to digital numbers, every noise with a cause.
 //!
 //! ```text
-//! E(λ) W·m⁻²·nm⁻¹ ──responsivity──▶ mean electrons ──charge effects──▶ electrons ──converter──▶ DN
+//! E(λ) W·m⁻²·nm⁻¹ ──responsivity──▶ mean electrons ──shot noise──▶ charge ──response──▶ voltage ──converter──▶ DN
 //! ```
 //!
 //! - [`Sensor::responsivity`] says how many electrons a channel makes of an irradiance during the exposure; an irradiance
@@ -9,7 +9,7 @@
 //! - [`Sensor::step`] makes a raw picture of mean electrons by the effects a sensor has, in their physical order
 //!   ([`effects`]). It is an ordered fold over frames; its state is [`SensorState`]. [`Sensor::step_with_breakdown`] says
 //!   beside it what each pixel's value is made of.
-//! - [`Sensor::needs`] says which effects a sensor has, and why others are absent.
+//! - [`Sensor::effects`] says which effects a sensor has, and why others are absent.
 //!
 //! The model is that of EMVA 1288 (linear), with what the standard leaves out. Every random number has an address, so a
 //! picture's bits do not depend on threads or on the order of work. Noise from frame to frame is drawn from the job's seed,
@@ -19,6 +19,7 @@ mod account;
 pub mod cfa;
 mod check;
 pub mod dynamic_range;
+mod effect;
 pub mod effects;
 mod electrons;
 pub mod emva1288;
@@ -35,13 +36,14 @@ mod raw;
 mod sensor;
 mod signal_breakdown;
 mod state;
+mod validity;
 
 pub use account::ChargeAccount;
 pub use cfa::{BayerPhase, Cfa, CfaError};
 pub use check::SensorError;
 pub use dynamic_range::DynamicRange;
-pub use effects::{Effect, Need, Verdict};
-pub use parameters::{Channel, Charge, Exposure, FixedPattern, Optics, Pixel, ReadOut, SensorParameters};
+pub use effects::{ChargeEffects, LightEffects, VoltageEffects};
+pub use parameters::{Channel, Exposure, Pixel, ReadOut, SensorParameters};
 pub use raw::{LinearRaw, Raw};
 pub use sensor::Sensor;
 pub use signal_breakdown::{SignalBreakdown, SignalComponent};

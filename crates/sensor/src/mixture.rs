@@ -34,28 +34,22 @@ impl Sensor {
     /// The weight of each channel's light (second index) in each channel's pixels (first).
     fn channel_weights(&self) -> Vec<Vec<f64>> {
         let p = self.parameters();
-        let exchanges = [p.optics.crosstalk.map(|c| c.0), p.read_out.capacitance.map(|c| c.0)];
+        let exchanges = [p.light.crosstalk.map(|c| c.0), p.voltage.capacitance.map(|c| c.0)];
         let one_hot = |channel: &usize| (0..p.channels.len()).map(|c| f64::from(u8::from(c == *channel))).collect();
         let tile: Vec<Vec<f64>> = p.cfa.channels().iter().map(one_hot).collect();
-        let tile = exchanges.iter().flatten().fold(tile, |tile, shares| exchanged(&p.cfa, &tile, shares));
+        let tile = exchanges.iter().flatten().fold(tile, |tile, neighbours| exchanged(&p.cfa, &tile, neighbours));
         (0..p.channels.len()).map(|channel| mean_of(channel, &p.cfa, &tile)).collect()
     }
 }
 
 /// The weights of each place of a tile after an exchange with the eight neighbours.
-fn exchanged(cfa: &Cfa, tile: &[Vec<f64>], shares: &Neighbours) -> Vec<Vec<f64>> {
+fn exchanged(cfa: &Cfa, tile: &[Vec<f64>], neighbours: &Neighbours) -> Vec<Vec<f64>> {
     let (width, height) = (cfa.width(), cfa.height());
-    let share = |dx: usize, dy: usize| match (dx, dy) {
-        (1, 1) => 1.0 - shares.given(),
-        (_, 1) => shares.horizontal,
-        (1, _) => shares.vertical,
-        _ => shares.corner,
-    };
     let place = |i: usize| {
         let mut sum = vec![0.0; tile[i].len()];
         for (dx, dy) in (0..9).map(|n| (n % 3, n / 3)) {
             let from = (i / width + dy + height - 1) % height * width + (i % width + dx + width - 1) % width;
-            sum.iter_mut().zip(&tile[from]).for_each(|(to, weight)| *to += share(dx, dy) * weight);
+            sum.iter_mut().zip(&tile[from]).for_each(|(to, weight)| *to += neighbours.weight(dx, dy) * weight);
         }
         sum
     };
@@ -100,7 +94,7 @@ mod tests {
     #[test]
     fn red_takes_from_green_and_blue() {
         let mut p = bayer(BayerPhase::Gbrg);
-        p.optics.crosstalk = Some(Crosstalk(Neighbours { horizontal: 0.02, vertical: 0.03, corner: 0.01 }));
+        p.light.crosstalk = Some(Crosstalk(Neighbours { horizontal: 0.02, vertical: 0.03, corner: 0.01 }));
         let sensor = Sensor::new(p).expect("legal");
         let of = |c: usize| f64::from(sensor.responsivity(c).at(500.0));
         let red = f64::from(sensor.picture_responsivities()[0].at(500.0));
@@ -112,10 +106,10 @@ mod tests {
     #[test]
     fn an_even_picture_has_them() {
         let mut p = bayer(BayerPhase::Grbg);
-        p.optics.crosstalk = Some(Crosstalk(Neighbours { horizontal: 0.05, vertical: 0.02, corner: 0.004 }));
-        p.read_out.capacitance =
+        p.light.crosstalk = Some(Crosstalk(Neighbours { horizontal: 0.05, vertical: 0.02, corner: 0.004 }));
+        p.voltage.capacitance =
             Some(InterPixelCapacitance(Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.0 }));
-        (p.charge.full_well_e, p.read_out.bits) = (1e6, 20);
+        (p.charge.full_well.capacity_e, p.read_out.bits) = (1e6, 20);
         let sensor = Sensor::new(p.clone()).expect("legal");
         let level = |r: &Spectrum| f64::from(r.at(500.0)) / f64::from(sensor.responsivity(1).at(500.0)) * 1e5;
         let mut means = Plane::new(8, 8);

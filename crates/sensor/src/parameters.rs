@@ -1,25 +1,20 @@
 //! What a sensor is, as the description says it. Each effect's own parameters stand in the effect's file.
 
 use crate::cfa::Cfa;
-use crate::check::{Checks, SensorError};
-use crate::effects::angle_response::AngleResponse;
-use crate::effects::converter::Converter;
-use crate::effects::crosstalk::Crosstalk;
+use crate::effect::{Effect, SensorFacts, named_status};
+use crate::effects::converter::{self, Converter};
 use crate::effects::dark_current::DarkCurrent;
-use crate::effects::full_well::Blooming;
-use crate::effects::inter_pixel_capacitance::InterPixelCapacitance;
-use crate::effects::lag::Trap;
-use crate::effects::offset_pattern::OffsetPattern;
-use crate::effects::photo_response::PhotoResponse;
+use crate::effects::full_well::FullWell;
 use crate::effects::read_noise::ReadNoise;
 use crate::effects::response::Response;
-use crate::effects::rts_noise::RtsNoise;
-use crate::effects::smear::Smear;
+use crate::effects::shot_noise::ShotNoise;
+use crate::effects::{ChargeEffects, LightEffects, VoltageEffects};
 use crate::exposure_control::ExposureControl;
 use crate::hdr::HighDynamicRange;
 use crate::layout::Layout;
 use crate::operation::Operation;
 use crate::state::OperatingPoint;
+use etendue_core::EffectStatus;
 use etendue_spectra::Spectrum;
 
 /// One kind of pixel.
@@ -36,7 +31,7 @@ pub struct Channel {
 pub struct Pixel {
     /// Distance between the centres of neighbours, µm; pixels are square.
     pub pitch_um: f64,
-    /// Share of the pixel's square that collects light, (0, 1].
+    /// Fraction of the pixel's square that collects light, (0, 1].
     pub fill_factor: f64,
 }
 
@@ -51,56 +46,11 @@ pub struct Exposure {
     pub control: Option<ExposureControl>,
 }
 
-/// What light meets before it is counted.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Optics {
-    /// Response of the micro-lenses over the angle of the light.
-    pub angle_response: Option<AngleResponse>,
-    /// Light that neighbours exchange.
-    pub crosstalk: Option<Crosstalk>,
-}
-
-/// How pixels differ, frame after frame the same.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct FixedPattern {
-    /// Which specimen this is. `None`: the one of the camera's place in the job.
-    pub seed: Option<u64>,
-    /// Differences in response to light (PRNU).
-    pub photo_response: PhotoResponse,
-    /// Differences without light that do not grow with time (DSNU).
-    pub offset: OffsetPattern,
-    /// Share of pixels that hold no charge.
-    pub dead_fraction: f64,
-}
-
-/// What happens to charge in its pixel.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Charge {
-    /// Electrons that heat sets free.
-    pub dark: DarkCurrent,
-    /// Electrons that a pixel can hold.
-    pub full_well_e: f64,
-    /// Where charge above the full well goes; `None`: it is lost.
-    pub blooming: Option<Blooming>,
-    /// Light that charge meets on its way down the column.
-    pub smear: Option<Smear>,
-    /// Traps that keep charge from frame to frame.
-    pub traps: Vec<Trap>,
-    /// Shift of a pixel's border by its own charge, 1/e⁻.
-    pub brighter_fatter_per_e: f64,
-}
-
 /// From charge to digital numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadOut {
     /// Voltage over charge.
     pub response: Response,
-    /// Voltage that neighbours exchange.
-    pub capacitance: Option<InterPixelCapacitance>,
-    /// Noise of the chain.
-    pub noise: ReadNoise,
-    /// Pixels whose noise has two levels.
-    pub rts_noise: Option<RtsNoise>,
     /// Digital numbers an electron (EMVA's K) at an analogue gain of 1.
     pub gain_dn_e: f64,
     /// Factor on the voltage before the converter.
@@ -126,12 +76,14 @@ pub struct SensorParameters {
     pub cfa: Cfa,
     /// When light is collected.
     pub exposure: Exposure,
+    /// Which specimen the fixed patterns are of. `None`: the one of the camera's place in the job.
+    pub specimen: Option<u64>,
     /// What light meets before it is counted.
-    pub optics: Optics,
-    /// How pixels differ.
-    pub pattern: FixedPattern,
+    pub light: LightEffects,
     /// What happens to charge in its pixel.
-    pub charge: Charge,
+    pub charge: ChargeEffects,
+    /// What happens to voltage before the converter.
+    pub voltage: VoltageEffects,
     /// From charge to digital numbers.
     pub read_out: ReadOut,
     /// Several captures a frame, or fewer bits by a curve.
@@ -141,16 +93,62 @@ pub struct SensorParameters {
 }
 
 impl SensorParameters {
-    /// The largest digital number of the converter.
-    #[must_use]
-    pub(crate) fn largest_dn(&self) -> f64 {
-        f64::from((1_u32 << self.read_out.bits) - 1)
+    /// What all captures have in common.
+    pub(crate) fn facts(&self) -> SensorFacts {
+        let captures = &self.hdr.captures;
+        let dark = &self.read_out.layout.optical_black;
+        SensorFacts {
+            noise: self.noise,
+            specimen: self.specimen,
+            pitch_um: self.pixel.pitch_um,
+            first_lit: [dark.columns, dark.rows],
+            exposure_s: self.exposure.exposure_s,
+            frame_period_s: self.exposure.frame_period_s,
+            exposures: 1 + captures.iter().filter(|capture| !capture.dual_conversion_gain).count(),
+            is_split_pixel: captures.iter().any(|capture| capture.sensitivity_ratio != 1.0),
+            max_full_well_e: captures
+                .iter()
+                .filter_map(|capture| capture.full_well_e)
+                .fold(self.charge.full_well.capacity_e, f64::max),
+            analogue_gain: self.read_out.analogue_gain,
+            converter_range_dn: converter::largest_dn(self.read_out.bits) - self.read_out.black_level_dn,
+        }
     }
 
-    /// The digital number of a saturated pixel of one capture.
-    pub(crate) fn capture_white_dn(&self, operation: &Operation) -> f64 {
-        let charge_e = self.wells_read() * operation.full_well_e;
-        Converter::of(self, operation).level_dn(self.read_out.response.voltage_e(charge_e))
+    /// Exposure and gain that the description says.
+    pub(crate) fn described_point(&self) -> OperatingPoint {
+        OperatingPoint { exposure_s: self.exposure.exposure_s, analogue_gain: self.read_out.analogue_gain }
+    }
+
+    /// The point of the smallest gain that the sensor can come to.
+    pub(crate) fn least_point(&self) -> OperatingPoint {
+        let point = self.described_point();
+        let analogue_gain = self.exposure.control.map_or(point.analogue_gain, |control| control.analogue_gain[0]);
+        OperatingPoint { analogue_gain, ..point }
+    }
+
+    /// How the first capture of a frame at an operating point is taken.
+    pub(crate) fn operation(&self, point: OperatingPoint) -> Operation {
+        let described_s = self.exposure.exposure_s;
+        let light = if point.exposure_s == described_s { 1.0 } else { point.exposure_s / described_s };
+        Operation {
+            exposure_s: point.exposure_s,
+            light,
+            full_well_e: self.charge.full_well.capacity_e,
+            gain_dn_e: self.read_out.gain_dn_e * point.analogue_gain,
+            read_noise_e: self.voltage.noise.white_e,
+        }
+    }
+
+    /// How the first capture is taken, as described.
+    pub(crate) fn described_operation(&self) -> Operation {
+        self.operation(self.described_point())
+    }
+
+    /// The converter at the gain of a capture.
+    pub(crate) fn converter(&self, operation: &Operation) -> Converter {
+        let ReadOut { black_level_dn, bits, digital_gain, .. } = self.read_out;
+        Converter { gain_dn_e: operation.gain_dn_e, black_level_dn, bits, digital_gain }
     }
 
     /// How many pixels' charge is read together.
@@ -158,140 +156,85 @@ impl SensorParameters {
         self.read_out.layout.charge_binning().map_or(1, |b| b.columns * b.rows) as f64
     }
 
-    /// The point of the smallest gain that the sensor can come to.
-    pub(crate) fn least_point(&self) -> OperatingPoint {
-        let point = OperatingPoint::described(self);
-        let analogue_gain = self.exposure.control.map_or(point.analogue_gain, |control| control.analogue_gain[0]);
-        OperatingPoint { analogue_gain, ..point }
+    /// The digital number of a saturated pixel of one capture.
+    pub(crate) fn capture_white_dn(&self, operation: &Operation) -> f64 {
+        let charge_e = self.wells_read() * operation.full_well_e;
+        self.converter(operation).level_dn(self.read_out.response.voltage_e(charge_e))
     }
 
-    /// All contradictions, in the order of the parameters.
-    pub(crate) fn errors(&self) -> Vec<SensorError> {
-        let mut checks = Checks::default();
-        self.check_exposure(&mut checks);
-        self.check_charge(&mut checks);
-        self.check_read_out(&mut checks);
-        self.check_channels(&mut checks);
-        if checks.errors.is_empty() {
-            self.hdr.check(self, &mut checks);
-        }
-        if checks.errors.is_empty() {
-            self.check_range(&mut checks);
-        }
-        checks.errors
+    /// The digital number of a saturated pixel after merging, at an operating point.
+    pub(crate) fn merged_white_dn(&self, point: OperatingPoint) -> f64 {
+        let last = self.hdr.captures.len();
+        let operation = &self.hdr.operations(self.operation(point))[last];
+        self.read_out.black_level_dn + self.merged_range_dn(last, operation)
     }
 
-    /// Whether light has numbers of its own.
-    fn check_range(&self, checks: &mut Checks) {
-        let white = self.hdr.white_level_dn(self, Operation::base(self, self.least_point()));
-        checks.agree("gain_dn_per_e", white > self.read_out.black_level_dn, || {
-            format!(
-                "the gain is so small that a full pixel has the number of a dark one, {white} DN: give a larger one"
-            )
-        });
+    /// Merged numbers from black to where capture `k`, taken by `operation`, is saturated.
+    pub(crate) fn merged_range_dn(&self, k: usize, operation: &Operation) -> f64 {
+        self.hdr.scale(k) * (self.capture_white_dn(operation) - self.read_out.black_level_dn)
     }
 
-    fn check_exposure(&self, checks: &mut Checks) {
-        checks.positive("pixel_pitch_um", self.pixel.pitch_um);
-        checks.share_above_0("fill_factor", self.pixel.fill_factor);
-        checks.not_negative("exposure_s", self.exposure.exposure_s);
-        if let Some(period_s) = self.exposure.frame_period_s {
-            checks.positive("frame_period_s", period_s);
-            checks.agree("frame_period_s", period_s >= self.exposure.exposure_s, || {
-                format!("{period_s} s is shorter than exposure_s, {} s: give a longer one", self.exposure.exposure_s)
-            });
-        }
-        if let Some(control) = &self.exposure.control {
-            control.check(self, checks);
-        }
-        if let Some(response) = &self.optics.angle_response {
-            response.check(checks);
-        }
-        if let Some(crosstalk) = &self.optics.crosstalk {
-            crosstalk.check(checks);
-        }
-        self.pattern.photo_response.check(checks);
-        self.pattern.offset.check(checks);
-        checks.share("non_uniformity.dead_fraction", self.pattern.dead_fraction);
+    /// The exposure that smear adds to every pixel of an evenly and steadily lit picture of so many rows, s. Shielded rows take their
+    /// time, too, and add nothing.
+    #[must_use]
+    pub fn even_smear_s(&self, rows: usize) -> f64 {
+        let all = rows + self.read_out.layout.optical_black.rows;
+        self.light.smear.map_or(0.0, |smear| smear.even_s(self.exposure.frame_period_s, rows, all))
     }
 
-    fn check_charge(&self, checks: &mut Checks) {
-        let charge = &self.charge;
-        charge.dark.check(checks);
-        checks.positive("full_well_e", charge.full_well_e);
-        if let Some(blooming) = &charge.blooming {
-            blooming.check(checks);
+    /// All effects by their names, whether the first capture as described has them, and why, in physical order.
+    pub(crate) fn effects(&self) -> Vec<(&'static str, EffectStatus)> {
+        fn one<E: Effect>(
+            effect: &E,
+            (facts, operation): (&SensorFacts, &Operation),
+        ) -> Vec<(&'static str, EffectStatus)> {
+            vec![named_status(effect, facts, operation)]
         }
-        if let Some(smear) = &charge.smear {
-            smear.check(self, checks);
-        }
-        charge.traps.iter().for_each(|trap| trap.check(self, checks));
-        crate::effects::lag::check_sum(&charge.traps, checks);
-        crate::effects::brighter_fatter::check(self, checks);
-    }
-
-    fn check_read_out(&self, checks: &mut Checks) {
-        let read_out = &self.read_out;
-        read_out.response.check(checks);
-        if let Some(capacitance) = &read_out.capacitance {
-            capacitance.check(checks);
-        }
-        read_out.noise.check(checks);
-        if let Some(rts_noise) = &read_out.rts_noise {
-            rts_noise.check(checks);
-        }
-        checks.positive("gain_dn_per_e", read_out.gain_dn_e);
-        checks.positive("analogue_gain", read_out.analogue_gain);
-        checks.positive("digital_gain", read_out.digital_gain);
-        let bits = read_out.bits;
-        let largest_dn = if bits <= 24 { f64::from((1_u32 << bits) - 1) } else { f64::INFINITY };
-        let black = read_out.black_level_dn;
-        let black_is_legal = black >= 0.0 && black < largest_dn;
-        checks.legal("black_level_dn", black, black_is_legal, "a number from 0 to below the converter's largest");
-        checks.legal("bits", f64::from(bits), (1..=24).contains(&bits), "a whole number from 1 to 24");
-    }
-
-    fn check_channels(&self, checks: &mut Checks) {
-        for (i, channel) in self.channels.iter().enumerate() {
-            let (low, high) = (channel.quantum_efficiency.min_value(), channel.quantum_efficiency.max_value());
-            if !(low >= 0.0 && high <= 1.0) {
-                checks.errors.push(SensorError::Efficiency { channel: channel.name.clone(), low, high });
-            }
-            if !self.cfa.channels().contains(&i) {
-                checks.errors.push(SensorError::UnusedChannel(channel.name.clone()));
-            }
-        }
-        let largest = self.cfa.channels().iter().copied().max().unwrap_or(0);
-        if largest >= self.channels.len() {
-            checks.errors.push(SensorError::NoSuchChannel { channel: largest, channels: self.channels.len() });
-        }
+        let (facts, operation) = (&self.facts(), &self.described_operation());
+        let at = (facts, operation);
+        [
+            one(&self.exposure.control, at),
+            self.light.statuses(facts, operation),
+            one(&ShotNoise, at),
+            self.charge.statuses(facts, operation),
+            one(&self.read_out.layout, at),
+            one(&self.read_out.response, at),
+            self.voltage.statuses(facts, operation),
+            one(&self.converter(operation), at),
+            one(&self.hdr, at),
+            one(&self.hdr.companding, at),
+        ]
+        .concat()
     }
 }
 
-impl Charge {
+impl ChargeEffects {
     /// Charge with a well and an even dark current, and nothing else.
     #[must_use]
     pub fn plain(full_well_e: f64, dark_current_e_s: f64) -> Self {
         Self {
             dark: DarkCurrent::even(dark_current_e_s),
-            full_well_e,
-            blooming: None,
-            smear: None,
-            traps: Vec::new(),
-            brighter_fatter_per_e: 0.0,
+            full_well: FullWell { capacity_e: full_well_e, blooming: None },
+            ..Self::default()
         }
     }
 }
 
-impl ReadOut {
-    /// A linear chain with white noise and nothing else.
+impl VoltageEffects {
+    /// White read noise, e⁻, and nothing else.
     #[must_use]
-    pub fn linear(gain_dn_e: f64, black_level_dn: f64, bits: u32, noise_e: f64) -> Self {
+    pub fn plain(read_noise_e: f64) -> Self {
+        let noise = ReadNoise { white_e: read_noise_e, ..ReadNoise::default() };
+        Self { noise, ..Self::default() }
+    }
+}
+
+impl ReadOut {
+    /// A linear chain, each pixel on its own.
+    #[must_use]
+    pub fn linear(gain_dn_e: f64, black_level_dn: f64, bits: u32) -> Self {
         Self {
             response: Response::Linear,
-            capacitance: None,
-            noise: ReadNoise { white_e: noise_e, row_e: 0.0, column_e: 0.0 },
-            rts_noise: None,
             gain_dn_e,
             analogue_gain: 1.0,
             black_level_dn,
@@ -313,31 +256,13 @@ pub(crate) mod tests {
             channels: vec![Channel { name: "mono".into(), quantum_efficiency: Spectrum::constant(1.0) }],
             cfa: Cfa::mono(),
             exposure: Exposure { exposure_s: 0.01, frame_period_s: None, control: None },
-            optics: Optics::default(),
-            pattern: FixedPattern::default(),
-            charge: Charge::plain(60_000.0, 0.0),
-            read_out: ReadOut::linear(0.25, 100.0, 16, 5.0),
+            specimen: None,
+            light: LightEffects::default(),
+            charge: ChargeEffects::plain(60_000.0, 0.0),
+            voltage: VoltageEffects::plain(5.0),
+            read_out: ReadOut::linear(0.25, 100.0, 16),
             hdr: HighDynamicRange::default(),
             noise: true,
         }
-    }
-
-    #[test]
-    fn every_contradiction_is_told() {
-        let mut p = ideal();
-        p.exposure.exposure_s = -1.0;
-        p.read_out.noise.white_e = f64::NAN;
-        p.read_out.bits = 33;
-        p.channels[0].quantum_efficiency = Spectrum::constant(1.5);
-        p.channels.push(Channel { name: "r".into(), quantum_efficiency: Spectrum::constant(0.5) });
-        let errors = p.errors();
-        assert_eq!(errors.len(), 5, "{errors:?}");
-        assert_eq!(errors[0].to_string(), "exposure_s is -1, but a finite number of at least 0 is needed");
-        let mut p = ideal();
-        p.read_out.gain_dn_e = 1e-30;
-        assert!(p.errors()[0].to_string().starts_with("gain_dn_per_e: the gain is so small"), "{:?}", p.errors());
-        let mut p = ideal();
-        p.cfa = Cfa::tile(2, 1, vec![0, 3]).expect("a rectangle");
-        assert_eq!(p.errors().len(), 1);
     }
 }

@@ -4,11 +4,11 @@
 //! exposure time, quantum efficiency with the colour filter in it, photons a joule (EMVA 1288, equation 2).
 
 use crate::check::SensorError;
-use crate::effects::{self, Need};
-use crate::operation::Operation;
 use crate::parameters::{Channel, SensorParameters};
 use crate::photon::photons_per_joule;
 use crate::state::OperatingPoint;
+use crate::validity;
+use etendue_core::EffectStatus;
 use etendue_spectra::Spectrum;
 use std::borrow::Cow;
 
@@ -25,7 +25,7 @@ impl Sensor {
     /// # Errors
     /// All contradictions found, in the order of the parameters.
     pub fn new(parameters: SensorParameters) -> Result<Self, Vec<SensorError>> {
-        let errors = parameters.errors();
+        let errors = validity::errors(&parameters);
         if !errors.is_empty() {
             return Err(errors);
         }
@@ -116,7 +116,7 @@ impl Sensor {
     /// that comes first.
     #[must_use]
     pub fn white_level_dn(&self) -> f64 {
-        self.white_level_at(OperatingPoint::described(&self.parameters))
+        self.white_level_at(self.parameters.described_point())
     }
 
     /// The same at the smallest gain that exposure control can come to.
@@ -129,17 +129,17 @@ impl Sensor {
     pub(crate) fn white_level_at(&self, point: OperatingPoint) -> f64 {
         let p = &self.parameters;
         let largest = f64::from((1_u32 << p.hdr.bits.unwrap_or(p.read_out.bits)) - 1);
-        self.delivered(p.hdr.white_level_dn(p, Operation::base(p, point)).min(largest))
+        self.delivered(p.merged_white_dn(point).min(largest))
     }
 
     fn delivered(&self, linear_dn: f64) -> f64 {
         self.parameters.hdr.companding.as_ref().map_or(linear_dn, |c| c.companded(linear_dn))
     }
 
-    /// What is modelled and what is not, with reasons, in physical order.
+    /// All effects by their names in a plan, whether they are modelled and why, in physical order, of the first capture as described.
     #[must_use]
-    pub fn needs(&self) -> Vec<Need> {
-        effects::needs(&self.parameters)
+    pub fn effects(&self) -> Vec<(&'static str, EffectStatus)> {
+        self.parameters.effects()
     }
 }
 

@@ -5,7 +5,7 @@
 //! those of the one that the pixel's number was taken from, in electrons of the first; companding comes after them.
 
 use etendue_core::Plane;
-use etendue_core::quantity::Electrons;
+use etendue_core::quantity::{Quantity, Voltage};
 
 /// A component of a pixel's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,7 +68,7 @@ impl SignalComponent {
 /// The layers of a raw picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignalBreakdown {
-    layers: Vec<Plane<Electrons>>,
+    layers: Vec<Plane<Voltage>>,
 }
 
 impl SignalBreakdown {
@@ -78,22 +78,27 @@ impl SignalBreakdown {
 
     /// The layer of a component.
     #[must_use]
-    pub fn layer(&self, cause: SignalComponent) -> &Plane<Electrons> {
-        &self.layers[cause as usize]
+    pub fn layer(&self, component: SignalComponent) -> &Plane<Voltage> {
+        &self.layers[component as usize]
     }
 
     /// Adds what a plane became from what it was.
-    pub(crate) fn note(&mut self, cause: SignalComponent, before: &Plane<Electrons>, after: &Plane<Electrons>) {
+    pub(crate) fn note<Q: Quantity<Sample = f32>>(
+        &mut self,
+        component: SignalComponent,
+        before: &Plane<Q>,
+        after: &Plane<Q>,
+    ) {
         let pairs = before.samples().iter().zip(after.samples());
-        for (layer, (before, after)) in self.layers[cause as usize].samples_mut().iter_mut().zip(pairs) {
+        for (layer, (before, after)) in self.layers[component as usize].samples_mut().iter_mut().zip(pairs) {
             *layer += after - before;
         }
     }
 
     /// Puts the layers of another capture, times a factor, in the place of those of some pixels.
     pub(crate) fn replace(&mut self, pixels: &[bool], by: &Self, factor: f64) {
-        for (cause, (own, by)) in SignalComponent::ALL.into_iter().zip(self.layers.iter_mut().zip(&by.layers)) {
-            let factor = if cause == SignalComponent::Saturated { 1.0 } else { factor };
+        for (component, (own, by)) in SignalComponent::ALL.into_iter().zip(self.layers.iter_mut().zip(&by.layers)) {
+            let factor = if component == SignalComponent::Saturated { 1.0 } else { factor };
             for ((own, by), _) in own.samples_mut().iter_mut().zip(by.samples()).zip(pixels).filter(|(_, here)| **here)
             {
                 *own = (factor * f64::from(*by)) as f32;
@@ -102,7 +107,7 @@ impl SignalBreakdown {
     }
 
     /// The same, of planes of another layout.
-    pub(crate) fn mapped(self, f: impl Fn(&Plane<Electrons>) -> Plane<Electrons>) -> Self {
+    pub(crate) fn mapped(self, f: impl Fn(&Plane<Voltage>) -> Plane<Voltage>) -> Self {
         Self { layers: self.layers.iter().map(f).collect() }
     }
 
@@ -126,14 +131,14 @@ pub(crate) struct SignalComponentRow<'a> {
 
 impl SignalComponentRow<'_> {
     /// Adds what a row became from what it was.
-    pub(crate) fn note(&mut self, cause: SignalComponent, before: &[f64], after: &[f64]) {
-        for (layer, (before, after)) in self.layers[cause as usize].iter_mut().zip(before.iter().zip(after)) {
+    pub(crate) fn note(&mut self, component: SignalComponent, before: &[f64], after: &[f64]) {
+        for (layer, (before, after)) in self.layers[component as usize].iter_mut().zip(before.iter().zip(after)) {
             *layer += (after - before) as f32;
         }
     }
 
     /// Adds to one pixel.
-    pub(crate) fn add(&mut self, cause: SignalComponent, x: usize, value: f64) {
-        self.layers[cause as usize][x] += value as f32;
+    pub(crate) fn add(&mut self, component: SignalComponent, x: usize, value: f64) {
+        self.layers[component as usize][x] += value as f32;
     }
 }

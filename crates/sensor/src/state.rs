@@ -1,6 +1,5 @@
 //! What a sensor remembers from frame to frame, and where a frame stands.
 
-use crate::parameters::SensorParameters;
 use serde::{Deserialize, Serialize};
 
 /// The part of a random address that a raw picture's pixels share.
@@ -24,13 +23,6 @@ pub struct OperatingPoint {
     pub exposure_s: f64,
     /// Factor on the voltage before the converter.
     pub analogue_gain: f64,
-}
-
-impl OperatingPoint {
-    /// The one that the description says.
-    pub(crate) fn described(p: &SensorParameters) -> Self {
-        Self { exposure_s: p.exposure.exposure_s, analogue_gain: p.read_out.analogue_gain }
-    }
 }
 
 /// What a sensor remembers from frame to frame. The default is a sensor that has rested in the dark; so is, for each

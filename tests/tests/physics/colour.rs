@@ -87,7 +87,7 @@ fn the_chart_has_the_colours_that_spectra_and_matrix_say() {
         let d65 = illuminant::d65();
         // Irradiance on the axis: ρ L π/(4N²); electrons over the full well is the white level's share.
         let scale = LIGHT / observer::luminance(d65) * core::f64::consts::PI / 64.0;
-        let white_e = sensor.parameters().charge.full_well_e;
+        let white_e = sensor.parameters().charge.full_well.capacity_e;
         let processing = &body.development.as_ref().expect("a processing").processing;
         let colour = processing.colour.as_ref().expect("colour");
         let WhiteBalance::Gains(gains) = &colour.white_balance else { panic!("the illuminant gives gains") };

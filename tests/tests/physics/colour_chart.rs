@@ -5,7 +5,7 @@
 //! that noise is left with 0.05 % of the brightest patch and 0.3 % of the black one: some hundredths of ΔE₀₀.
 
 use etendue_core::Plane;
-use etendue_core::quantity::{Electrons, LinearRgb};
+use etendue_core::quantity::{LinearRgb, MeanElectrons};
 use etendue_pipeline::photograph::take;
 use etendue_pipeline::plan::CameraBody;
 use etendue_sensor::{FrameAddress, Sensor, SensorState};
@@ -65,9 +65,9 @@ fn electrons_of(sensor: &Sensor, channel: usize, light: &Spectrum, patch: Option
 }
 
 /// Mean electrons of a picture of 24 patches.
-fn electrons(sensor: &Sensor, light: &Spectrum, chart: &[&Spectrum]) -> Plane<Electrons> {
+fn electrons(sensor: &Sensor, light: &Spectrum, chart: &[&Spectrum]) -> Plane<MeanElectrons> {
     let white = (0..3).map(|c| electrons_of(sensor, c, light, None)).fold(0.0, f64::max);
-    let scale = WHITE * sensor.parameters().charge.full_well_e / white;
+    let scale = WHITE * sensor.parameters().charge.full_well.capacity_e / white;
     let of_patch = |patch: &&Spectrum| [0, 1, 2].map(|c| (scale * electrons_of(sensor, c, light, Some(patch))) as f32);
     let patches: Vec<[f32; 3]> = chart.iter().map(of_patch).collect();
     let width = SIDE * COLUMNS;

@@ -1,7 +1,7 @@
 //! Luminances of seven decades in one frame of the camera of high dynamic range, and head lamps in sensors that have none.
 
 use etendue_core::Plane;
-use etendue_core::quantity::Electrons;
+use etendue_core::quantity::MeanElectrons;
 use etendue_pipeline::{Choices, Plan, compile};
 use etendue_scene::asset::Assets;
 use etendue_scene::{Description, Overrides};
@@ -20,7 +20,7 @@ fn shipped(job: &str) -> Plan {
     compile(&description, &Assets::default(), &Choices::default()).unwrap_or_else(|faults| panic!("{faults:?}"))
 }
 
-fn frame(sensor: &Sensor, means: &Plane<Electrons>, frame: u32) -> Raw {
+fn frame(sensor: &Sensor, means: &Plane<MeanElectrons>, frame: u32) -> Raw {
     sensor.step(SensorState::default(), means, FrameAddress { seed: 3, camera: 0, frame, capture: 0 }).1
 }
 
@@ -95,11 +95,11 @@ fn the_declared_range_is_that_of_its_frames() {
 }
 
 /// A dark street of 10 e⁻ a pixel with a lamp of 3000 wells, 13 pixels across.
-fn lamp(sensor: &Sensor) -> Plane<Electrons> {
+fn lamp(sensor: &Sensor) -> Plane<MeanElectrons> {
     let mut means = Plane::filled(161, 301, 10.0);
     let inside = |x: usize, y: usize| x.abs_diff(80).pow(2) + y.abs_diff(150).pow(2) <= 36;
     for (x, y) in (0..301).flat_map(|y| (0..161).map(move |x| (x, y))).filter(|(x, y)| inside(*x, *y)) {
-        means.set(x, y, (3000.0 * sensor.parameters().charge.full_well_e) as f32);
+        means.set(x, y, (3000.0 * sensor.parameters().charge.full_well.capacity_e) as f32);
     }
     means
 }
@@ -110,15 +110,15 @@ fn before_the_lamp(camera: usize) -> (Sensor, Vec<f64>, Vec<(usize, usize)>) {
     let mut parameters = sensor.parameters().clone();
     parameters.cfa = etendue_sensor::Cfa::mono();
     parameters.channels.truncate(1);
-    parameters.optics = etendue_sensor::Optics::default();
+    parameters.light = etendue_sensor::LightEffects::default();
     parameters.exposure.control = None;
     let sensor = Sensor::new(parameters).expect("legal");
     let raw = frame(&sensor, &lamp(&sensor), 0);
-    let well = sensor.parameters().charge.full_well_e;
+    let well = sensor.parameters().charge.full_well.capacity_e;
     let e = electrons(&sensor, &raw);
     // What stands above the well is noise of the chain: six standard deviations, 50 000 pixels; a number of rounding.
     let noise_e =
-        6.0 * (sensor.parameters().read_out.noise.white_e + 3.0) + 1.0 / sensor.parameters().read_out.gain_dn_e;
+        6.0 * (sensor.parameters().voltage.noise.white_e + 3.0) + 1.0 / sensor.parameters().read_out.gain_dn_e;
     assert!(e.iter().all(|e| *e < well + noise_e), "the well is never exceeded");
     let (_, account) = raw.accounts[0];
     assert!(account.imbalance_e().abs() < 1e-5 * account.generated_e && account.drained_e > 0.0);
@@ -142,8 +142,8 @@ fn a_ccd_shows_the_column() {
     let column = |x: usize, rows: core::ops::Range<usize>| Moments::of(rows.map(|y| e[y * 161 + x])).mean();
     let p = sensor.parameters();
     let rows = 301.0 + p.read_out.layout.optical_black.rows as f64;
-    let lit = 13.0 * 3000.0 * p.charge.full_well_e;
-    let leak = p.charge.smear.as_ref().expect("a CCD").leak();
+    let lit = 13.0 * 3000.0 * p.charge.full_well.capacity_e;
+    let leak = p.light.smear.as_ref().expect("a CCD").leak();
     let smear_e = leak * p.exposure.frame_period_s.expect("stated") / rows * lit / p.exposure.exposure_s;
     for rows in [0..90, 211..301] {
         let seen = column(80, rows.clone()) - column(20, rows);

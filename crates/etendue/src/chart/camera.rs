@@ -93,7 +93,7 @@ impl ChartCamera {
     /// The specimen to name in the cameras of a series, so that all of them are the same one.
     pub(super) fn specimen(&self, stations: &[Station]) -> Option<u64> {
         let sensor = self.body.sensor.as_ref()?;
-        let open = sensor.parameters().pattern.seed.is_none();
+        let open = sensor.parameters().specimen.is_none();
         (open && stations.len() > 1).then_some(SPECIMEN)
     }
 }

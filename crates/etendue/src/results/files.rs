@@ -1,7 +1,7 @@
 //! The files that a camera can deliver: their names, and what they hold.
 
 use crate::tone_curve::encoding;
-use etendue_core::quantity::{DigitalNumber, Electrons, Irradiance, Quantity, Radiance};
+use etendue_core::quantity::{DigitalNumber, Irradiance, MeanElectrons, Quantity, Radiance};
 use etendue_pipeline::plan::{CameraBody, Development, PictureFormat, Products, RawFormat};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -85,7 +85,7 @@ impl Files {
         add(p.radiance, Self::RADIANCE, entry_of::<Radiance>());
         add(p.irradiance, Self::IRRADIANCE, entry_of::<Irradiance>());
         add(p.ghosts, Self::GHOSTS, entry_of::<Irradiance>());
-        add(p.electrons, Self::ELECTRONS, entry_of::<Electrons>());
+        add(p.electrons, Self::ELECTRONS, entry_of::<MeanElectrons>());
         add(p.ground_truth, Self::GROUND_TRUTH, entry("depth, distance, normal, position, ids", "m, m, 1, m, 1"));
         let depth_unit = format!("1/{} m", p.depth_png_per_m.unwrap_or(0.0));
         add(p.depth_png_per_m.is_some(), Self::DEPTH, entry("planar depth, 0 is invalid", &depth_unit));

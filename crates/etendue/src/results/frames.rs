@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::observer::{Message, Observer};
 use crate::tone_curve::encoding;
 use etendue_core::Plane;
-use etendue_core::quantity::{DigitalNumber, Display, Electrons};
+use etendue_core::quantity::{DigitalNumber, Display, MeanElectrons};
 use etendue_io::exr::{self, EncodeError};
 use etendue_io::jpeg::encode_jpeg;
 use etendue_io::tiff::{self, DngFacts};
@@ -49,7 +49,7 @@ pub(crate) fn encoded(picture: &Plane<Display>, development: &Development) -> Re
 /// wanted. Ends where the camera has no electronics.
 pub(crate) fn frames<'a>(
     body: &'a CameraBody,
-    electrons: &'a Plane<Electrons>,
+    electrons: &'a Plane<MeanElectrons>,
     frames: Range<u32>,
     address: impl Fn(u32) -> FrameAddress + 'a,
     signal_breakdown: bool,
@@ -65,7 +65,7 @@ pub(crate) fn frames<'a>(
 /// Takes frame after frame and writes what is wanted of each. Answers with exposure and gain of each frame.
 pub(crate) fn write_frames(
     body: &CameraBody,
-    electrons: &Plane<Electrons>,
+    electrons: &Plane<MeanElectrons>,
     numbers: &Range<u32>,
     address: impl Fn(u32) -> FrameAddress,
     wanted: Wanted<'_>,

@@ -12,7 +12,7 @@ pub use save::Results;
 use crate::error::Error;
 use crate::job::RenderOptions;
 use etendue_core::Plane;
-use etendue_core::quantity::Electrons;
+use etendue_core::quantity::MeanElectrons;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::photograph::{Frame, Light};
 use etendue_pipeline::plan::{CameraPlan, Plan};
@@ -87,7 +87,7 @@ impl CameraResults {
 
     /// Mean electrons of each pixel; `None` where the camera has no electronics.
     #[must_use]
-    pub fn electrons(&self) -> Option<&Plane<Electrons>> {
+    pub fn electrons(&self) -> Option<&Plane<MeanElectrons>> {
         self.light.electrons.as_ref()
     }
 

@@ -4,7 +4,7 @@ use etendue_testkit::skip::all_here;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use etendue_core::quantity::{Electrons, Identity, Irradiance, Length, Quantity, Radiance, Variance, Vector};
+use etendue_core::quantity::{Identity, Irradiance, Length, MeanElectrons, Quantity, Radiance, Variance, Vector};
 use etendue_core::{Bands, Plane, SpectralCube};
 use etendue_io::Provenance;
 use etendue_io::exr::{
@@ -127,7 +127,7 @@ fn ground_truth_keeps_its_names_types_and_the_sky() {
 #[test]
 fn electrons_say_what_they_are() {
     let folder = tempfile::tempdir().expect("temporary folder");
-    let (mean, variance) = (Plane::<Electrons>::filled(4, 3, 250.0), Plane::<Variance>::filled(4, 3, 2.5));
+    let (mean, variance) = (Plane::<MeanElectrons>::filled(4, 3, 250.0), Plane::<Variance>::filled(4, 3, 2.5));
     let bytes = encode_plane(&mean, Some(&variance), &provenance()).expect("encodable");
     let report = inspect(&written(folder.path(), "a.exr", &bytes)).expect("electrons");
     assert!(report.facts.contains(&("units".to_owned(), "e".to_owned())));
@@ -151,7 +151,7 @@ fn a_truncated_file_is_refused() {
 #[test]
 fn what_is_no_spectral_image_is_refused_in_words() {
     let folder = tempfile::tempdir().expect("temporary folder");
-    let plane = encode_plane(&Plane::<Electrons>::new(2, 2), None, &provenance()).expect("encodable");
+    let plane = encode_plane(&Plane::<MeanElectrons>::new(2, 2), None, &provenance()).expect("encodable");
     let told = read_spectral(&written(folder.path(), "a.exr", &plane)).expect_err("electrons").to_string();
     assert!(told.contains("holds electrons in e; expected spectral radiance in W.m^-2.sr^-1.nm^-1"), "{told}");
 }

@@ -15,8 +15,9 @@
 use super::error::{EffectsError, positive};
 use super::kernel::Kernel;
 use super::work::{Uses, Work};
-use super::{Canvas, Verdict, convolve};
+use super::{Canvas, convolve};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
+use etendue_core::EffectStatus;
 use etendue_core::maths::f64::{atan2, exp_m1, ln_1p, pow, sin_cos};
 use glam::DVec2;
 
@@ -95,18 +96,18 @@ impl Glare {
         self.constant() * pow(1.0 + self.relative(radius_mm), -self.half())
     }
 
-    pub(super) fn need(glare: Option<&Self>) -> (Verdict, String) {
-        let Some(glare) = glare else { return (Verdict::Skipped, "no [effects.glare] is described".to_owned()) };
+    pub(super) fn status(glare: Option<&Self>) -> EffectStatus {
+        let Some(glare) = glare else { return EffectStatus::LeftOut("no [effects.glare] is described".to_owned()) };
         let p = glare.parameters;
         if p.scatter == 0.0 {
-            return (Verdict::Skipped, "nothing is scattered".to_owned());
+            return EffectStatus::LeftOut("nothing is scattered".to_owned());
         }
         let end = p.reach_mm.map_or_else(|| "over the whole plane".to_owned(), |mm| format!("as far as {mm} mm"));
         let how = format!(
             "{} of the light scattered {end}, falling with r^-{} beyond {} µm",
             p.scatter, p.exponent, p.core_um
         );
-        (Verdict::Required, how)
+        EffectStatus::Modelled(how)
     }
 
     /// Columns and rows that light is scattered over; `None` without end.

@@ -3,7 +3,7 @@
 //! # Contract
 //!
 //! - Effects act on band means of the irradiance (W·m⁻²·nm⁻¹), one band after the other, in the order of the table. Each
-//!   says whether a camera needs it and why (`need`), beside what it does.
+//!   says whether a camera needs it and why (`status`), beside what it does.
 //! - They need light from outside the picture: the film is wider by a margin on every side ([`Effects::margin_px`]), which
 //!   is cut off at the end. Nothing comes from beyond the margin, and what leaves it is lost.
 //! - All are linear with weights that are not negative. Variances go through the squared weights: errors of different pixels
@@ -31,7 +31,6 @@ pub mod spread_image;
 mod work;
 
 pub use error::EffectsError;
-pub use etendue_core::Verdict;
 pub use glare::{Glare, GlareParameters};
 pub use point_spread::PointSpread;
 pub use psf::{Psf, PsfParameters, WavefrontTerm, Zernike};
@@ -41,7 +40,7 @@ pub use work::Work;
 use crate::ghosts::GhostSettings;
 use convolve::{Convolver, Field, Region};
 use etendue_core::quantity::{Irradiance, Quantity, Variance};
-use etendue_core::{Bands, Plane};
+use etendue_core::{Bands, EffectStatus, Plane};
 use etendue_projection::Raster;
 use glam::DVec2;
 use kernel::Kernel;
@@ -74,17 +73,6 @@ impl Effect {
             Self::Ghosts => "ghosts",
         }
     }
-}
-
-/// What a plan says about an effect.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Need {
-    /// The effect.
-    pub effect: Effect,
-    /// Whether it is modelled.
-    pub verdict: Verdict,
-    /// Why, in words.
-    pub reason: String,
 }
 
 /// The effects of a camera.
@@ -138,24 +126,20 @@ impl Effects {
         [reach[0].min(cap[0]), reach[1].min(cap[1])]
     }
 
-    /// What the camera needs, in the order of the effects.
+    /// Whether an effect is modelled, and why.
     #[must_use]
-    pub fn needs(&self) -> Vec<Need> {
-        let need = |effect| {
-            let (verdict, reason) = match effect {
-                Effect::PointSpread => PointSpread::need(self.psf.as_ref()),
-                Effect::Glare => Glare::need(self.glare.as_ref()),
-                Effect::Ghosts => GhostSettings::need(self.ghosts.as_ref()),
-            };
-            Need { effect, verdict, reason }
-        };
-        Effect::ALL.into_iter().map(need).collect()
+    pub fn status(&self, effect: Effect) -> EffectStatus {
+        match effect {
+            Effect::PointSpread => PointSpread::status(self.psf.as_ref()),
+            Effect::Glare => Glare::status(self.glare.as_ref()),
+            Effect::Ghosts => GhostSettings::status(self.ghosts.as_ref()),
+        }
     }
 
     /// Whether nothing is to be done.
     #[must_use]
     pub fn is_idle(&self) -> bool {
-        self.needs().iter().all(|need| need.verdict == Verdict::Skipped)
+        !Effect::ALL.into_iter().any(|effect| self.status(effect).is_modelled())
     }
 
     /// Columns and rows that the film needs beyond the picture, on every side.
@@ -189,7 +173,7 @@ impl Effects {
     }
 
     fn needs_glare(&self) -> Option<&Glare> {
-        self.glare.as_ref().filter(|glare| Glare::need(Some(glare)).0 != Verdict::Skipped)
+        self.glare.as_ref().filter(|glare| Glare::status(Some(glare)).is_modelled())
     }
 
     /// What the point spread and the veiling glare of a picture have to do, of its bands and, if asked for, their variances.

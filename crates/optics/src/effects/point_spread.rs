@@ -1,12 +1,12 @@
 //! The point-spread functions that there are.
 
+use super::Canvas;
 use super::convolve::Field;
 use super::psf::{Psf, Ready};
 use super::spread_image::{ReadyImage, SpreadImage};
 use super::work::Work;
-use super::{Canvas, Verdict};
 use core::fmt;
-use etendue_core::Bands;
+use etendue_core::{Bands, EffectStatus};
 use glam::DVec2;
 
 /// A point-spread function.
@@ -29,11 +29,11 @@ impl fmt::Debug for PointSpread {
 }
 
 impl PointSpread {
-    pub(super) fn need(spread: Option<&Self>) -> (Verdict, String) {
+    pub(super) fn status(spread: Option<&Self>) -> EffectStatus {
         match spread {
-            None => (Verdict::Skipped, "no [effects.psf] is described".to_owned()),
-            Some(Self::Aperture(psf)) => psf.need(),
-            Some(Self::Image(image)) => image.need(),
+            None => EffectStatus::LeftOut("no [effects.psf] is described".to_owned()),
+            Some(Self::Aperture(psf)) => psf.status(),
+            Some(Self::Image(image)) => image.status(),
         }
     }
 

@@ -17,9 +17,9 @@ use super::error::{EffectsError, positive};
 use super::kernel::Kernel;
 use super::psf::{MAX_PX, MM_PER_UM, VISIBLE_NM, mid_wavelengths};
 use super::work::{Uses, Work};
-use super::{Canvas, Spread, Verdict};
+use super::{Canvas, Spread};
 use core::fmt;
-use etendue_core::Bands;
+use etendue_core::{Bands, EffectStatus};
 use etendue_projection::Raster;
 use glam::DVec2;
 
@@ -99,13 +99,13 @@ impl SpreadImage {
         Ok(())
     }
 
-    pub(super) fn need(&self) -> (Verdict, String) {
+    pub(super) fn status(&self) -> EffectStatus {
         let p = &self.parameters;
         let scale = p.wavelength_nm.map_or("the same at all wavelengths".to_owned(), |nm| {
             format!("at {nm} nm, in proportion to the wavelength elsewhere")
         });
         let size = format!("{} × {} samples, {} µm apart", p.width, p.height(), p.pitch_um);
-        (Verdict::Required, format!("a picture of {size}, {scale}"))
+        EffectStatus::Modelled(format!("a picture of {size}, {scale}"))
     }
 
     /// Columns and rows that light is spread over.

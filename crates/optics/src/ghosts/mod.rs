@@ -30,9 +30,9 @@ mod source;
 mod splat;
 mod work;
 
-use crate::effects::Verdict;
 use crate::error::OpticsError;
 use crate::lens::Prescribed;
+use etendue_core::EffectStatus;
 
 pub use layer::layer;
 pub use report::{GhostReport, strongest};
@@ -58,18 +58,17 @@ impl GhostSettings {
     }
 
     /// Whether a camera needs ghosts, and why.
-    pub(crate) fn need(settings: Option<&Self>) -> (Verdict, String) {
+    pub(crate) fn status(settings: Option<&Self>) -> EffectStatus {
         match settings {
-            None => (Verdict::Skipped, "not asked for".to_owned()),
-            Some(Self { sensor_reflectance: 0.0 }) => (
-                Verdict::Required,
+            None => EffectStatus::LeftOut("not asked for".to_owned()),
+            Some(Self { sensor_reflectance: 0.0 }) => EffectStatus::Modelled(
                 "every two surfaces of the lens, by their coatings; the sensor mirrors nothing".to_owned(),
             ),
             Some(Self { sensor_reflectance }) => {
                 let why = format!(
                     "every two surfaces of the lens, by their coatings; the sensor mirrors {sensor_reflectance}"
                 );
-                (Verdict::Required, why)
+                EffectStatus::Modelled(why)
             }
         }
     }

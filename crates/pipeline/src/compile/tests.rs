@@ -290,7 +290,7 @@ fn chief_rays_come_from_the_lens() {
         let job = Description::load(Path::new("job.toml"), &read, &Overrides::default()).expect("a job");
         let plan = compile(&job, &Assets::default(), &Choices::default()).expect("a plan");
         let body = &plan.cameras[0].body;
-        let response = body.sensor.as_ref().expect("a sensor").parameters().optics.angle_response.as_ref();
+        let response = body.sensor.as_ref().expect("a sensor").parameters().light.angle_response.as_ref();
         (response.map(|r| r.exit_pupil_mm), body.lens.exit_pupil_distance_mm())
     };
     let gauss = "type = \"prescription\", published = \"double-gauss\", focus_distance_m = 2";

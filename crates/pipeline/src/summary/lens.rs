@@ -2,7 +2,6 @@
 
 use super::{depth_of_field, figure, front, line, list};
 use crate::plan::{CameraPlan, Route};
-use etendue_core::Verdict;
 use etendue_optics::effects::Effect;
 use etendue_optics::{Effects, Lens, PupilProjection, PupilStance};
 use etendue_projection::Sense;
@@ -57,7 +56,7 @@ pub(super) fn lens(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
 
 fn left_out(lens: &Lens, effects: &Effects) -> String {
     let missing = |words: &[&'static str]| {
-        let models = |effect| effects.needs().iter().any(|n| n.effect == effect && n.verdict != Verdict::Skipped);
+        let models = |effect| effects.status(effect).is_modelled();
         let effect = |word: &str| match word {
             "glare" => Some(Effect::Glare),
             "diffraction" => Some(Effect::PointSpread),

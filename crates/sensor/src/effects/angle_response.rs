@@ -6,11 +6,13 @@
 //! of the exit pupil (makers state g as "CRA response"; the geometry is that of Catrysse, Liu and El Gamal 2000).
 //! Left out: dependence on wavelength, on the channel, on the azimuth and on the spread of the light's cone.
 
-use super::Verdict;
 use crate::check::Checks;
-use crate::operation::Context;
-use crate::parameters::SensorParameters;
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts};
+use crate::operation::Operation;
+use crate::signal_breakdown::SignalComponent;
+use etendue_core::EffectStatus;
 use etendue_core::maths::f64::atan;
+use etendue_core::quantity::MeanElectrons;
 
 /// Response over angle, and where light comes from.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,17 +26,6 @@ pub struct AngleResponse {
 }
 
 impl AngleResponse {
-    pub(crate) fn check(&self, checks: &mut Checks) {
-        checks.positive("angle_response.exit_pupil_mm", self.exit_pupil_mm);
-        let rising = self.table.len() > 1 && self.table.windows(2).all(|pair| pair[0][0] < pair[1][0]);
-        let starts = self.table.first().is_some_and(|[angle, response]| *angle == 0.0 && *response == 1.0);
-        let ends = self.table.last().is_some_and(|[angle, _]| *angle < 90.0);
-        checks.agree("angle_response", rising && starts && ends, || {
-            "two angles or more must rise from 0 (where the response is 1) to less than 90 degrees".to_owned()
-        });
-        self.table.iter().for_each(|[_, response]| checks.share("angle_response", *response));
-    }
-
     /// The response at an angle, degrees.
     #[must_use]
     pub fn at(&self, angle_deg: f64) -> f64 {
@@ -49,33 +40,52 @@ impl AngleResponse {
     }
 }
 
-pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
-    match &p.optics.angle_response {
-        None => (Verdict::Skipped, super::NOT_DESCRIBED.into()),
-        Some(a) => (Verdict::Required, format!("light comes from an exit pupil {} mm away", a.exit_pupil_mm)),
+impl Effect for AngleResponse {
+    const NAME: &'static str = "angle response";
+
+    fn check(&self, _: &SensorFacts, checks: &mut Checks) {
+        checks.positive("angle_response.exit_pupil_mm", self.exit_pupil_mm);
+        let rising = self.table.len() > 1 && self.table.windows(2).all(|pair| pair[0][0] < pair[1][0]);
+        let starts = self.table.first().is_some_and(|[angle, response]| *angle == 0.0 && *response == 1.0);
+        let ends = self.table.last().is_some_and(|[angle, _]| *angle < 90.0);
+        checks.agree("angle_response", rising && starts && ends, || {
+            "two angles or more must rise from 0 (where the response is 1) to less than 90 degrees".to_owned()
+        });
+        self.table.iter().for_each(|[_, response]| checks.fraction("angle_response", *response));
+    }
+
+    fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
+        EffectStatus::Modelled(format!("light comes from an exit pupil {} mm away", self.exit_pupil_mm))
+    }
+}
+
+impl EffectOn for AngleResponse {
+    type On = MeanElectrons;
+    const COMPONENT: SignalComponent = SignalComponent::Transfer;
+
+    fn prepare(&self, context: &Context, _: &mut Memory) -> Action<MeanElectrons> {
+        Action::rows(AngleFactors {
+            response: self.clone(),
+            pitch_mm: 1e-3 * context.facts.pitch_um,
+            origin_px: context.facts.first_lit.map(|pixels| pixels as f64),
+        })
     }
 }
 
 /// Angle response, prepared: factors by the square of the radius.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct AngleFactors {
+struct AngleFactors {
     response: AngleResponse,
     pitch_mm: f64,
     /// Columns and rows that lie before the first active pixel.
     origin_px: [f64; 2],
 }
 
-impl AngleFactors {
-    pub(crate) fn new(response: &AngleResponse, context: &Context<'_>) -> Self {
-        let dark = &context.p.read_out.layout.optical_black;
-        let origin_px = [dark.columns as f64, dark.rows as f64];
-        Self { response: response.clone(), pitch_mm: 1e-3 * context.p.pixel.pitch_um, origin_px }
-    }
-
-    pub(crate) fn apply(&self, means: &mut [f64], y: u32) {
+impl RowEffect<MeanElectrons> for AngleFactors {
+    fn apply(&self, row: &mut Row<'_, MeanElectrons>) {
         let [cx, cy] = self.response.principal_px;
-        let dy = f64::from(y) + 0.5 - self.origin_px[1] - cy;
-        for (x, mean) in means.iter_mut().enumerate() {
+        let dy = f64::from(row.y) + 0.5 - self.origin_px[1] - cy;
+        for (x, mean) in row.values.iter_mut().enumerate() {
             let dx = x as f64 + 0.5 - self.origin_px[0] - cx;
             let radius_mm = self.pitch_mm * (dx * dx + dy * dy).sqrt();
             *mean *= self.response.at(atan(radius_mm / self.response.exit_pupil_mm).to_degrees());
@@ -93,12 +103,12 @@ mod tests {
         let mut p = quiet();
         p.pixel.pitch_um = 100.0;
         let table = vec![[0.0, 1.0], [45.0, 0.5], [60.0, 0.2]];
-        p.optics.angle_response = Some(AngleResponse { table, exit_pupil_mm: 1.0, principal_px: [0.5, 0.5] });
+        p.light.angle_response = Some(AngleResponse { table, exit_pupil_mm: 1.0, principal_px: [0.5, 0.5] });
         let raw = run(&p, &etendue_core::Plane::filled(31, 1, 1000.0), ADDRESS);
         let dn: Vec<u32> = raw.plane.samples().to_vec();
         // On the axis; at tan θ = 1; at tan θ = 3, beyond the table. One DN an electron.
         assert_eq!((dn[0], dn[10], dn[30]), (1000, 500, 200));
-        let share = atan(0.5).to_degrees() / 45.0;
-        assert!((f64::from(dn[5]) - 1000.0 * (1.0 - 0.5 * share * share)).abs() <= 0.5);
+        let angle = atan(0.5).to_degrees() / 45.0;
+        assert!((f64::from(dn[5]) - 1000.0 * (1.0 - 0.5 * angle * angle)).abs() <= 0.5);
     }
 }

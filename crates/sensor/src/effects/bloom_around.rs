@@ -7,7 +7,7 @@
 
 use crate::account::ChargeAccount;
 use etendue_core::Plane;
-use etendue_core::quantity::Electrons;
+use etendue_core::quantity::Charge;
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -18,7 +18,7 @@ const NEGLIGIBLE_E: f32 = 1e-3;
 /// A pixel with more counts as one with this: what neighbours add up stays finite.
 const MAX_E: f32 = 1e38;
 
-pub(super) fn apply(plane: &mut Plane<Electrons>, well: f32, overflow_fraction: f64, account: &mut ChargeAccount) {
+pub(super) fn apply(plane: &mut Plane<Charge>, well: f32, overflow_fraction: f64, account: &mut ChargeAccount) {
     let (width, height) = (plane.width(), plane.height());
     let mut excess = vec![0.0_f32; plane.samples().len()];
     let mut next = excess.clone();
@@ -139,7 +139,7 @@ mod tests {
     use super::*;
     use crate::account::tests::accounted;
 
-    fn bloomed(plane: &Plane<Electrons>, well: f32, overflow_fraction: f64) -> (Plane<Electrons>, ChargeAccount) {
+    fn bloomed(plane: &Plane<Charge>, well: f32, overflow_fraction: f64) -> (Plane<Charge>, ChargeAccount) {
         accounted(plane, |out, account| apply(out, well, overflow_fraction, account))
     }
 

@@ -1,7 +1,7 @@
 //! Blooming of a CCD: charge overflows along its column.
 //!
 //! A pixel above its well gives half of what may go on upwards and half downwards. Each half goes to the next pixel that is not
-//! full, fills it and goes on. At every full pixel, that of its origin included, the drain takes the share 1 − b of what
+//! full, fills it and goes on. At every full pixel, that of its origin included, the drain takes the fraction 1 − b of what
 //! passes (b = 1: a CCD without anti-blooming). What passes the first or last row has left the array.
 //!
 //! Two streams that meet compete for the same pixels. The charge that goes up is moved first in one solution and last in
@@ -10,10 +10,10 @@
 
 use crate::account::ChargeAccount;
 use etendue_core::Plane;
-use etendue_core::quantity::Electrons;
+use etendue_core::quantity::Charge;
 use rayon::prelude::*;
 
-pub(super) fn apply(plane: &mut Plane<Electrons>, well: f32, overflow_fraction: f64, account: &mut ChargeAccount) {
+pub(super) fn apply(plane: &mut Plane<Charge>, well: f32, overflow_fraction: f64, account: &mut ChargeAccount) {
     let (width, height) = (plane.width(), plane.height());
     let samples = plane.samples();
     let column = |x: usize| (0..height).map(move |y| samples[y * width + x]);
@@ -81,7 +81,7 @@ mod tests {
     use super::*;
     use crate::account::tests::accounted;
 
-    fn bloomed(plane: &Plane<Electrons>, well: f32, overflow_fraction: f64) -> (Plane<Electrons>, ChargeAccount) {
+    fn bloomed(plane: &Plane<Charge>, well: f32, overflow_fraction: f64) -> (Plane<Charge>, ChargeAccount) {
         accounted(plane, |out, account| apply(out, well, overflow_fraction, account))
     }
 
@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn drains_take_their_share_at_every_full_pixel() {
+    fn drains_take_their_part_at_every_full_pixel() {
         // Excess 800: half is drained, 200 go each way; 100 fill a pixel, of the other 100 half is drained, 50 go on.
         let mut plane = Plane::new(1, 9);
         plane.set(0, 4, 900.0);
@@ -122,12 +122,12 @@ mod tests {
             // f32 samples of at most 1000 e⁻, 165 of them.
             assert!(account.imbalance_e().abs() < 165.0 * 3.1e-5, "{seed}: {account:?}");
             assert!(account.drained_e >= 0.0 && account.spilt_e >= 0.0 && account.clipped_e == 0.0);
-            let sums = |p: &Plane<Electrons>, x: usize| (0..33).map(|y| f64::from(p.at(x, y))).sum::<f64>();
+            let sums = |p: &Plane<Charge>, x: usize| (0..33).map(|y| f64::from(p.at(x, y))).sum::<f64>();
             for x in 0..5 {
                 assert!(sums(&out, x) <= sums(&plane, x) + 1e-2, "nothing comes from another column");
             }
             // Upside down gives the same upside down.
-            let flip = |p: &Plane<Electrons>| {
+            let flip = |p: &Plane<Charge>| {
                 let samples = (0..165).map(|i| p.at(i % 5, 32 - i / 5)).collect();
                 Plane::from_samples(5, 33, samples).expect("filled")
             };

@@ -10,48 +10,72 @@
 //! al. 2014; Astier et al. 2019, whose a₁₀ is a). Charges above the full well count as a full well.
 //! Left out: neighbours farther away, different borders along rows and columns, colour.
 
-use super::Verdict;
 use crate::check::Checks;
-use crate::operation::Context;
-use crate::parameters::SensorParameters;
-use etendue_core::Plane;
-use etendue_core::quantity::Electrons;
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, SensorFacts, Traces};
+use crate::operation::Operation;
+use crate::signal_breakdown::SignalComponent;
+use etendue_core::quantity::Charge;
+use etendue_core::{EffectStatus, Plane};
 use rayon::prelude::*;
 
-pub(crate) fn check(p: &SensorParameters, checks: &mut Checks) {
-    let a = p.charge.brighter_fatter_per_e;
-    checks.not_negative("brighter_fatter_per_e", a);
-    let full_well_e = p.hdr.captures.iter().filter_map(|c| c.full_well_e).fold(p.charge.full_well_e, f64::max);
-    checks.agree("brighter_fatter_per_e", a * full_well_e <= 0.25, || {
-        format!(
-            "a full well would move its borders by {} pixels, and the model holds for small shifts: give at most {}",
-            a * full_well_e,
-            0.25 / full_well_e
-        )
-    });
+/// Borders that charge moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BrighterFatter {
+    /// Shift of a pixel's border by its own charge, pixels an electron, 0 or more; 0: none.
+    pub shift_per_e: f64,
 }
 
-pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
-    match p.charge.brighter_fatter_per_e {
-        0.0 => (Verdict::Skipped, super::NOT_DESCRIBED.into()),
-        a => (Verdict::Required, format!("borders move by {a} pixels an electron")),
+impl Effect for BrighterFatter {
+    const NAME: &'static str = "brighter-fatter";
+
+    fn check(&self, facts: &SensorFacts, checks: &mut Checks) {
+        let (a, full_well_e) = (self.shift_per_e, facts.max_full_well_e);
+        checks.not_negative("brighter_fatter_per_e", a);
+        checks.agree("brighter_fatter_per_e", a * full_well_e <= 0.25, || {
+            format!(
+                "a full well would move its borders by {} pixels, and the model holds for small shifts: give at most {}",
+                a * full_well_e,
+                0.25 / full_well_e
+            )
+        });
+    }
+
+    fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
+        match self.shift_per_e {
+            0.0 => EffectStatus::NotDescribed,
+            a => EffectStatus::Modelled(format!("borders move by {a} pixels an electron")),
+        }
+    }
+}
+
+impl EffectOn for BrighterFatter {
+    type On = Charge;
+    const COMPONENT: SignalComponent = SignalComponent::Transfer;
+
+    fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Charge> {
+        Action::plane(PreparedBrighterFatter::new(self.shift_per_e, context.operation.full_well_e))
     }
 }
 
 /// Brighter-fatter, prepared.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct PreparedBrighterFatter {
+struct PreparedBrighterFatter {
     quarter: f64,
     full_well_e: f64,
 }
 
+impl PlaneEffect<Charge> for PreparedBrighterFatter {
+    fn apply(&self, plane: Plane<Charge>, _: &mut Traces<'_>) -> Plane<Charge> {
+        self.moved(&plane)
+    }
+}
+
 impl PreparedBrighterFatter {
-    pub(crate) fn new(context: &Context<'_>) -> Self {
-        let quarter = 0.25 * context.p.charge.brighter_fatter_per_e;
-        Self { quarter, full_well_e: context.operation.full_well_e }
+    fn new(shift_per_e: f64, full_well_e: f64) -> Self {
+        Self { quarter: 0.25 * shift_per_e, full_well_e }
     }
 
-    pub(crate) fn apply(&self, plane: &Plane<Electrons>) -> Plane<Electrons> {
+    fn moved(&self, plane: &Plane<Charge>) -> Plane<Charge> {
         let (width, height) = (plane.width(), plane.height());
         let mut out = Plane::new(width, height);
         if width == 0 {
@@ -84,12 +108,13 @@ impl PreparedBrighterFatter {
 mod tests {
     use super::*;
     use crate::frame::tests::{ADDRESS, covariance, one_dn_an_electron, quiet, run};
+    use crate::parameters::SensorParameters;
 
     #[test]
     fn flat_pictures_get_the_variance_and_covariance_of_the_model() {
         let (mu, a) = (50_000.0, 5e-7);
         let mut p = one_dn_an_electron();
-        (p.charge.full_well_e, p.charge.brighter_fatter_per_e) = (2e5, a);
+        (p.charge.full_well.capacity_e, p.charge.brighter_fatter.shift_per_e) = (2e5, a);
         let raw = run(&p, &Plane::filled(1024, 1024, mu as f32), ADDRESS);
         // Linear in the fluctuations: the kernel 1 − 2aμ and aμ/2 on each side, and 1/12 of rounding.
         let (own, side) = (1.0 - 2.0 * a * mu, 0.5 * a * mu);
@@ -108,17 +133,16 @@ mod tests {
     #[test]
     fn charge_is_kept_and_never_negative() {
         let mut p = quiet();
-        (p.charge.full_well_e, p.charge.brighter_fatter_per_e) = (1e5, 2.5e-6);
+        (p.charge.full_well.capacity_e, p.charge.brighter_fatter.shift_per_e) = (1e5, 2.5e-6);
         let value = |i: usize| if i.is_multiple_of(7) { 100_000.0 } else { (i * 7919 % 977) as f32 };
         let plane = Plane::from_samples(20, 15, (0..300).map(value).collect()).expect("filled");
-        let context = crate::frame::tests::context(&p, 20, 15);
-        let out = PreparedBrighterFatter::new(&context).apply(&plane);
-        let sum = |p: &Plane<Electrons>| p.samples().iter().map(|q| f64::from(*q)).sum::<f64>();
+        let out = PreparedBrighterFatter::new(2.5e-6, 1e5).moved(&plane);
+        let sum = |p: &Plane<Charge>| p.samples().iter().map(|q| f64::from(*q)).sum::<f64>();
         assert!((sum(&out) / sum(&plane) - 1.0).abs() < 1e-7);
         assert!(out.samples().iter().all(|q| *q >= 0.0));
         let refused = |p: &SensorParameters| {
             let mut checks = Checks::default();
-            check(p, &mut checks);
+            p.charge.brighter_fatter.check(&p.facts(), &mut checks);
             !checks.errors.is_empty()
         };
         assert!(!refused(&p));
@@ -128,7 +152,7 @@ mod tests {
             hdr: crate::hdr::HighDynamicRange { captures: vec![larger], ..Default::default() },
             ..p.clone()
         }));
-        p.charge.brighter_fatter_per_e = 1e-5;
+        p.charge.brighter_fatter.shift_per_e = 1e-5;
         assert!(refused(&p));
     }
 }

@@ -6,46 +6,62 @@
 //! before rounding and clipping, so read noise below zero survives.
 //! Left out: missing codes, integral and differential non-linearity of the converter.
 
-use super::Verdict;
-use crate::operation::{Context, Operation};
-use crate::parameters::SensorParameters;
+use crate::check::Checks;
+use crate::effect::{Effect, Row, SensorFacts};
+use crate::operation::Operation;
+use etendue_core::EffectStatus;
+use etendue_core::quantity::Voltage;
 
-pub(super) fn need(p: &SensorParameters, operation: &Operation) -> (Verdict, String) {
-    let read_out = &p.read_out;
-    let digital = match read_out.digital_gain {
-        1.0 => String::new(),
-        gain => format!(", then a digital gain of {gain}"),
-    };
-    let (gain, black, bits) = (operation.gain_dn_e, read_out.black_level_dn, read_out.bits);
-    (Verdict::Required, format!("{gain} DN/e⁻, black at {black} DN, {bits} bits{digital}"))
-}
-
-/// The converter, prepared.
+/// The converter at the gain of a capture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Converter {
-    gain_dn_e: f64,
-    black_level_dn: f64,
-    largest_dn: f64,
-    digital_gain: f64,
+    /// Digital numbers an electron, analogue gain included.
+    pub(crate) gain_dn_e: f64,
+    /// Digital number of no charge, DN.
+    pub(crate) black_level_dn: f64,
+    /// Bits of its numbers, 1 to 24.
+    pub(crate) bits: u32,
+    /// Factor on digital numbers above black.
+    pub(crate) digital_gain: f64,
+}
+
+/// The largest digital number of a converter; infinite beyond the bits that there are.
+pub(crate) fn largest_dn(bits: u32) -> f64 {
+    if bits <= 24 { f64::from((1_u32 << bits) - 1) } else { f64::INFINITY }
+}
+
+impl Effect for Converter {
+    const NAME: &'static str = "converter";
+
+    fn check(&self, facts: &SensorFacts, checks: &mut Checks) {
+        checks.positive("gain_dn_per_e", self.gain_dn_e);
+        checks.positive("analogue_gain", facts.analogue_gain);
+        checks.positive("digital_gain", self.digital_gain);
+        let black = self.black_level_dn;
+        let is_below = black >= 0.0 && black < largest_dn(self.bits);
+        checks.legal("black_level_dn", black, is_below, "a number from 0 to below the converter's largest");
+        let is_bits = (1..=24).contains(&self.bits);
+        checks.legal("bits", f64::from(self.bits), is_bits, "a whole number from 1 to 24");
+    }
+
+    fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
+        let digital = match self.digital_gain {
+            1.0 => String::new(),
+            gain => format!(", then a digital gain of {gain}"),
+        };
+        let Self { gain_dn_e, black_level_dn, bits, .. } = self;
+        EffectStatus::Modelled(format!("{gain_dn_e} DN/e⁻, black at {black_level_dn} DN, {bits} bits{digital}"))
+    }
 }
 
 impl Converter {
-    pub(crate) fn new(context: &Context<'_>) -> Self {
-        Self::of(context.p, &context.operation)
-    }
-
-    pub(crate) fn of(p: &SensorParameters, operation: &Operation) -> Self {
-        let read_out = &p.read_out;
-        Self {
-            gain_dn_e: operation.gain_dn_e,
-            black_level_dn: read_out.black_level_dn,
-            largest_dn: p.largest_dn(),
-            digital_gain: read_out.digital_gain,
-        }
+    /// The digital numbers of a row.
+    pub(crate) fn convert(&self, row: &Row<'_, Voltage>, numbers: &mut [u32]) {
+        numbers.iter_mut().zip(&*row.values).for_each(|(dn, e)| *dn = self.digital_number(*e));
     }
 
     /// The digital number of a voltage.
-    pub(crate) fn digital_number(&self, electrons: f64) -> u32 {
+    fn digital_number(&self, electrons: f64) -> u32 {
         let dn = self.rounded(self.black_level_dn + self.gain_dn_e * electrons);
         if self.digital_gain == 1.0 {
             return dn as u32;
@@ -54,7 +70,7 @@ impl Converter {
     }
 
     fn rounded(&self, dn: f64) -> f64 {
-        dn.round_ties_even().clamp(0.0, self.largest_dn)
+        dn.round_ties_even().clamp(0.0, largest_dn(self.bits))
     }
 
     /// The electrons that a digital number stands for.
@@ -64,28 +80,26 @@ impl Converter {
 
     /// The digital number of a voltage without rounding, up to the largest.
     pub(crate) fn level_dn(&self, electrons: f64) -> f64 {
-        let before = (self.black_level_dn + self.gain_dn_e * electrons).min(self.largest_dn);
-        (self.black_level_dn + self.digital_gain * (before - self.black_level_dn)).min(self.largest_dn)
+        let largest = largest_dn(self.bits);
+        let before = (self.black_level_dn + self.gain_dn_e * electrons).min(largest);
+        (self.black_level_dn + self.digital_gain * (before - self.black_level_dn)).min(largest)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::tests::ideal;
 
     #[test]
     fn rounds_to_even_and_clips_after_the_offset() {
-        let mut p = ideal();
-        (p.read_out.bits, p.read_out.black_level_dn, p.read_out.gain_dn_e) = (8, 10.0, 0.5);
-        let with = |p: &SensorParameters| Converter::of(p, &Operation::described(p));
-        let dn = [-100.0, -20.0, -3.0, 0.0, 1.0, 3.0, 4.0, 490.0, 1e12].map(|e| with(&p).digital_number(e));
+        let mut converter = Converter { gain_dn_e: 0.5, black_level_dn: 10.0, bits: 8, digital_gain: 1.0 };
+        let dn = [-100.0, -20.0, -3.0, 0.0, 1.0, 3.0, 4.0, 490.0, 1e12].map(|e| converter.digital_number(e));
         assert_eq!(dn, [0, 0, 8, 10, 10, 12, 12, 255, 255]);
-        p.read_out.digital_gain = 2.0;
-        let dn = [-3.0, 0.0, 4.0, 1e12].map(|e| with(&p).digital_number(e));
+        converter.digital_gain = 2.0;
+        let dn = [-3.0, 0.0, 4.0, 1e12].map(|e| converter.digital_number(e));
         assert_eq!(dn, [6, 10, 14, 255]);
-        p.read_out.digital_gain = 1.0;
-        p.read_out.bits = 24;
-        assert_eq!(with(&p).digital_number(1e12), 16_777_215);
+        converter.digital_gain = 1.0;
+        converter.bits = 24;
+        assert_eq!(converter.digital_number(1e12), 16_777_215);
     }
 }

@@ -3,23 +3,25 @@
 //! k ~ Poisson(I t), I the dark current (e⁻/s) of the pixel at the sensor's temperature ([`temperature`](super::temperature)); the
 //! mean I t itself where noise is off. I is the same for all pixels unless the description says how they differ:
 //!
-//! - spread: I f, f of mean 1 (but for the cut) with a white, a row and a column part of stated standard deviation (shares of the mean). Normal:
+//! - spread: I f, f of mean 1 (but for the cut) with a white, a row and a column part of stated standard deviation (fractions of the mean). Normal:
 //!   f = max(1 + d, 0). Log-normal (the long tail of most sensors): the white part is exp(s z − s²/2), s² = ln(1 + σ²);
-//! - hot pixels: a share of pixels has an exponential current more, of a stated mean;
-//! - blinking pixels: a share of pixels has it only at the upper one of two levels ([`two_level`](super::two_level)).
+//! - hot pixels: a fraction of pixels has an exponential current more, of a stated mean;
+//! - blinking pixels: a fraction of pixels has it only at the upper one of two levels ([`two_level`](super::two_level)).
 //!
 //! Draws: `Dark` of the pixel; of the specimen: `PixelDark`, `RowDark`, `ColumnDark`, `Hot`, `Blinking`; `BlinkingFlip`.
 //! All currents are stated at the reference temperature. Left out: glow of amplifiers, activation energies pixel by pixel.
 
-use super::Verdict;
 use super::temperature::Temperature;
-use super::two_level::{Site, TwoLevel, high_in_row};
+use super::two_level::{self, Draws, Site, TwoLevel, high_in_row};
 use crate::check::Checks;
-use crate::operation::{Context, Operation};
-use crate::parameters::SensorParameters;
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts};
+use crate::operation::Operation;
 use crate::random::pattern::{Deviations, Sigmas};
 use crate::random::{Poisson, sparse, standard_normal};
+use crate::signal_breakdown::SignalComponent;
+use etendue_core::EffectStatus;
 use etendue_core::maths::f64::{exp, ln_1p};
+use etendue_core::quantity::Charge;
 use etendue_core::random::{NoiseDraw, NoiseKey, Pixel};
 
 /// Shape of the distribution of dark currents over pixels.
@@ -32,7 +34,7 @@ pub enum SpreadDistribution {
     LogNormal,
 }
 
-/// How pixels' dark currents differ: standard deviations as shares of the mean.
+/// How pixels' dark currents differ: standard deviations as fractions of the mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DarkSpread {
     /// From pixel to pixel.
@@ -48,14 +50,14 @@ pub struct DarkSpread {
 /// Pixels with far more dark current.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hot {
-    /// Share of pixels.
-    pub share: f64,
+    /// Fraction of pixels, above 0 and up to 1.
+    pub fraction: f64,
     /// Mean of their additional current, e⁻/s.
     pub mean_e_s: f64,
 }
 
-/// Dark current of a sensor.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Dark current of a sensor. The default has none.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct DarkCurrent {
     /// Mean dark current of a pixel at the reference temperature, e⁻·s⁻¹.
     pub current_e_s: f64,
@@ -76,26 +78,6 @@ impl DarkCurrent {
         Self { current_e_s, temperature: None, spread: DarkSpread::default(), hot: None, dark_current_rts: None }
     }
 
-    pub(crate) fn check(&self, checks: &mut Checks) {
-        checks.not_negative("dark_current_e_s", self.current_e_s);
-        if let Some(temperature) = &self.temperature {
-            temperature.check(checks);
-        }
-        checks.not_negative("dark.spread", self.spread.white);
-        checks.not_negative("dark.spread_row", self.spread.row);
-        checks.not_negative("dark.spread_column", self.spread.column);
-        if let Some(hot) = &self.hot {
-            checks.share_above_0("dark.hot.share", hot.share);
-            checks.positive("dark.hot.mean_e_s", hot.mean_e_s);
-        }
-        if let Some(rts) = &self.dark_current_rts {
-            rts.check(
-                ["dark.dark_current_rts.share", "dark.dark_current_rts.mean_e_s", "dark.dark_current_rts.dwell_frames"],
-                checks,
-            );
-        }
-    }
-
     /// Factor of the sensor's temperature on all currents.
     #[must_use]
     pub fn temperature_factor(&self) -> f64 {
@@ -106,7 +88,7 @@ impl DarkCurrent {
     /// wide normal spread at no current.
     #[must_use]
     pub fn mean_e_s(&self) -> f64 {
-        let hot = self.hot.map_or(0.0, |hot| hot.share * hot.mean_e_s);
+        let hot = self.hot.map_or(0.0, |hot| hot.fraction * hot.mean_e_s);
         (self.current_e_s + hot) * self.temperature_factor()
     }
 
@@ -116,26 +98,69 @@ impl DarkCurrent {
     }
 }
 
-pub(super) fn need(p: &SensorParameters, operation: &Operation) -> (Verdict, String) {
-    let dark = &p.charge.dark;
-    let mean_e = dark.current_e_s * dark.temperature_factor() * operation.exposure_s;
-    let none = mean_e == 0.0 && dark.hot.is_none() && dark.dark_current_rts.is_none();
-    if none || operation.exposure_s == 0.0 {
-        return (
-            Verdict::Skipped,
-            format!("{} e-/s over {} s frees no electron", dark.current_e_s, operation.exposure_s),
-        );
+impl Effect for DarkCurrent {
+    const NAME: &'static str = "dark current";
+
+    fn check(&self, _: &SensorFacts, checks: &mut Checks) {
+        checks.not_negative("dark_current_e_s", self.current_e_s);
+        if let Some(temperature) = &self.temperature {
+            temperature.check(checks);
+        }
+        checks.not_negative("dark.spread", self.spread.white);
+        checks.not_negative("dark.spread_row", self.spread.row);
+        checks.not_negative("dark.spread_column", self.spread.column);
+        if let Some(hot) = &self.hot {
+            checks.fraction_above_0("dark.hot.share", hot.fraction);
+            checks.positive("dark.hot.mean_e_s", hot.mean_e_s);
+        }
+        if let Some(rts) = &self.dark_current_rts {
+            rts.check(
+                ["dark.dark_current_rts.share", "dark.dark_current_rts.mean_e_s", "dark.dark_current_rts.dwell_frames"],
+                checks,
+            );
+        }
     }
-    let mean_e = four_digits(mean_e);
-    let counted = if p.noise {
-        format!("{mean_e} e⁻ a pixel on average, Poisson")
-    } else {
-        format!("{mean_e} e⁻ a pixel; its shot noise is switched off")
-    };
-    (Verdict::Required, counted + &differences(dark))
+
+    fn status(&self, facts: &SensorFacts, operation: &Operation) -> EffectStatus {
+        let exposure_s = operation.exposure_s;
+        let mean_e = self.current_e_s * self.temperature_factor() * exposure_s;
+        let none = mean_e == 0.0 && self.hot.is_none() && self.dark_current_rts.is_none();
+        if none || exposure_s == 0.0 {
+            let text = format!("{} e-/s over {exposure_s} s frees no electron", self.current_e_s);
+            return EffectStatus::LeftOut(text);
+        }
+        let mean_e = four_digits(mean_e);
+        let counted = if facts.noise {
+            format!("{mean_e} e⁻ a pixel on average, Poisson")
+        } else {
+            format!("{mean_e} e⁻ a pixel; its shot noise is switched off")
+        };
+        EffectStatus::Modelled(counted + &differences(self))
+    }
 }
 
-/// A number as it is told, to four digits.
+impl EffectOn for DarkCurrent {
+    type On = Charge;
+    const COMPONENT: SignalComponent = SignalComponent::Dark;
+
+    fn prepare(&self, context: &Context, memory: &mut Memory) -> Action<Charge> {
+        Action::rows(DarkElectrons::new(self, context, &self.at_upper_level(context, memory)))
+    }
+}
+
+impl DarkCurrent {
+    /// The blinking pixels at their upper level. Without noise from frame to frame none is.
+    fn at_upper_level(&self, context: &Context, memory: &mut Memory) -> Vec<Site> {
+        let Some(two) = self.dark_current_rts.filter(|_| context.facts.noise) else { return Vec::new() };
+        let draws = Draws { which: NoiseDraw::Blinking, flip: NoiseDraw::BlinkingFlip };
+        let (sites, high) = two_level::next(&two, draws, context, &memory.before.dark_current_rts_high);
+        let up = sites.into_iter().zip(&high).filter(|(_, high)| **high).map(|(site, _)| site).collect();
+        memory.after.dark_current_rts_high = high;
+        up
+    }
+}
+
+/// A number as a plan states it, to four digits.
 fn four_digits(x: f64) -> f64 {
     format!("{x:.3e}").parse().unwrap_or(x)
 }
@@ -149,17 +174,17 @@ fn differences(dark: &DarkCurrent) -> String {
         text += "; pixels differ";
     }
     if let Some(hot) = dark.hot {
-        text += &format!("; {} of pixels are hot", hot.share);
+        text += &format!("; {} of pixels are hot", hot.fraction);
     }
     if let Some(rts) = dark.dark_current_rts {
-        text += &format!("; {} of pixels blink", rts.share);
+        text += &format!("; {} of pixels blink", rts.fraction);
     }
     text
 }
 
 /// Dark current, prepared.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct DarkElectrons {
+struct DarkElectrons {
     key: NoiseKey,
     /// Mean of a pixel that is as all others, e⁻.
     mean_e: f64,
@@ -175,7 +200,7 @@ struct DarkPattern {
     deviations: Deviations,
     /// s of the log-normal white part, and its key.
     log_normal: Option<(f64, NoiseKey)>,
-    /// Share, and mean in electrons.
+    /// Fraction, and mean in electrons.
     hot: Option<(f64, f64, NoiseKey)>,
     /// Pixels that are at their upper level, amplitudes in electrons.
     dark_current_rts: Vec<Site>,
@@ -183,20 +208,26 @@ struct DarkPattern {
 
 impl DarkElectrons {
     /// `high`: the blinking pixels at their upper level.
-    pub(crate) fn new(context: &Context<'_>, high: &[Site]) -> Self {
-        let dark = &context.p.charge.dark;
+    fn new(dark: &DarkCurrent, context: &Context, high: &[Site]) -> Self {
         let electrons_per_current = dark.temperature_factor() * context.operation.exposure_s;
         let mean_e = dark.current_e_s * electrons_per_current;
         Self {
             key: context.noise(NoiseDraw::Dark),
             mean_e,
-            counts: Poisson::new(mean_e).filter(|_| context.p.noise),
-            pattern: (!dark.is_even()).then(|| DarkPattern::new(context, high, electrons_per_current)),
+            counts: Poisson::new(mean_e).filter(|_| context.facts.noise),
+            pattern: (!dark.is_even()).then(|| DarkPattern::new(dark, context, high, electrons_per_current)),
         }
     }
 
+    fn draw(&self, counts: &Poisson, x: usize, y: u32) -> f64 {
+        counts.draw(&mut self.key.stream(Pixel { x: x as u32, y }))
+    }
+}
+
+impl RowEffect<Charge> for DarkElectrons {
     /// Adds dark electrons.
-    pub(crate) fn apply(&self, electrons: &mut [f64], y: u32) {
+    fn apply(&self, row: &mut Row<'_, Charge>) {
+        let (electrons, y) = (&mut *row.values, row.y);
         match (&self.pattern, self.counts) {
             (None, None) => electrons.iter_mut().for_each(|e| *e += self.mean_e),
             (None, Some(counts)) => {
@@ -211,25 +242,20 @@ impl DarkElectrons {
             }
         }
     }
-
-    fn draw(&self, counts: &Poisson, x: usize, y: u32) -> f64 {
-        counts.draw(&mut self.key.stream(Pixel { x: x as u32, y }))
-    }
 }
 
 impl DarkPattern {
-    fn new(context: &Context<'_>, high: &[Site], electrons_per_current: f64) -> Self {
-        let DarkSpread { white, row, column, distribution } = context.p.charge.dark.spread;
+    fn new(dark: &DarkCurrent, context: &Context, high: &[Site], electrons_per_current: f64) -> Self {
+        let DarkSpread { white, row, column, distribution } = dark.spread;
         let log_normal = (distribution == SpreadDistribution::LogNormal && white > 0.0)
             .then(|| (ln_1p(white * white).sqrt(), context.pattern(NoiseDraw::PixelDark)));
         let sigmas = Sigmas { white: if log_normal.is_some() { 0.0 } else { white }, row, column };
         let draws = [NoiseDraw::PixelDark, NoiseDraw::RowDark, NoiseDraw::ColumnDark];
-        let hot = context.p.charge.dark.hot;
         let in_electrons = |site: &Site| Site { amplitude: site.amplitude * electrons_per_current, ..*site };
         Self {
             deviations: Deviations::new(sigmas, draws, |draw| context.pattern(draw), context.width),
             log_normal,
-            hot: hot.map(|h| (h.share, h.mean_e_s * electrons_per_current, context.pattern(NoiseDraw::Hot))),
+            hot: dark.hot.map(|h| (h.fraction, h.mean_e_s * electrons_per_current, context.pattern(NoiseDraw::Hot))),
             dark_current_rts: high.iter().map(in_electrons).collect(),
         }
     }
@@ -244,8 +270,8 @@ impl DarkPattern {
                 *mean *= exp(s * z - 0.5 * s * s);
             }
         }
-        if let Some((share, hot_e, key)) = self.hot {
-            sparse::each(key, y, share, width, |x, stream| means[x] += sparse::exponential(hot_e, stream));
+        if let Some((fraction, hot_e, key)) = self.hot {
+            sparse::each(key, y, fraction, width, |x, stream| means[x] += sparse::exponential(hot_e, stream));
         }
         for site in high_in_row(&self.dark_current_rts, y) {
             means[site.x as usize] += site.amplitude;
@@ -258,6 +284,7 @@ impl DarkPattern {
 mod tests {
     use super::*;
     use crate::frame::tests::{ADDRESS, covariance, one_dn_an_electron, quiet, run};
+    use crate::parameters::SensorParameters;
     use crate::sensor::Sensor;
     use crate::state::{FrameAddress, SensorState};
     use etendue_core::Plane;
@@ -309,7 +336,7 @@ mod tests {
     #[test]
     fn hot_pixels_are_a_few_and_stay() {
         let mut p = quiet();
-        p.charge.dark.hot = Some(Hot { share: 0.01, mean_e_s: 1e4 / p.exposure.exposure_s });
+        p.charge.dark.hot = Some(Hot { fraction: 0.01, mean_e_s: 1e4 / p.exposure.exposure_s });
         let first = run(&p, &Plane::filled(256, 256, 0.0), ADDRESS);
         let hot = first.plane.samples().iter().filter(|dn| **dn > 0).count();
         // 655 ± 25.
@@ -323,7 +350,7 @@ mod tests {
     fn blinking_pixels_blink_over_frames() {
         let mut p = one_dn_an_electron();
         p.charge.dark.dark_current_rts =
-            Some(TwoLevel { share: 0.02, mean: 1e6 / p.exposure.exposure_s, dwell_frames: 2.0 });
+            Some(TwoLevel { fraction: 0.02, mean: 1e6 / p.exposure.exposure_s, dwell_frames: 2.0 });
         let sensor = Sensor::new(p).expect("legal");
         let dark = Plane::filled(64, 64, 0.0);
         let (state, first) = sensor.step(SensorState::default(), &dark, ADDRESS);

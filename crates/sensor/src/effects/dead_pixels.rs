@@ -1,35 +1,59 @@
 //! Dead pixels: they hold no charge, whatever falls on them.
 //!
-//! e ← 0 for a share of pixels, after the full well: they still drain and pass what overflows. Which ones is the specimen's.
+//! e ← 0 for a fraction of pixels, after the full well: they still drain and pass what overflows. Which ones is the specimen's.
 //! Draw: `Dead`. Left out: pixels stuck at other values, dead rows and columns, clusters.
 
-use super::Verdict;
-use crate::operation::Context;
-use crate::parameters::SensorParameters;
+use crate::check::Checks;
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts};
+use crate::operation::Operation;
 use crate::random::sparse;
+use crate::signal_breakdown::SignalComponent;
+use etendue_core::EffectStatus;
+use etendue_core::quantity::Charge;
 use etendue_core::random::{NoiseDraw, NoiseKey};
 
-pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
-    match p.pattern.dead_fraction {
-        0.0 => (Verdict::Skipped, super::NOT_DESCRIBED.into()),
-        share => (Verdict::Required, format!("{share} of pixels hold no charge")),
+/// Dead pixels.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct DeadPixels {
+    /// Fraction of pixels that hold no charge, 0 to 1; 0: none.
+    pub fraction: f64,
+}
+
+impl Effect for DeadPixels {
+    const NAME: &'static str = "dead pixels";
+
+    fn check(&self, _: &SensorFacts, checks: &mut Checks) {
+        checks.fraction("non_uniformity.dead_fraction", self.fraction);
+    }
+
+    fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
+        match self.fraction {
+            0.0 => EffectStatus::NotDescribed,
+            fraction => EffectStatus::Modelled(format!("{fraction} of pixels hold no charge")),
+        }
+    }
+}
+
+impl EffectOn for DeadPixels {
+    type On = Charge;
+    const COMPONENT: SignalComponent = SignalComponent::FixedPattern;
+
+    fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Charge> {
+        Action::rows(Emptied { fraction: self.fraction, key: context.pattern(NoiseDraw::Dead) })
     }
 }
 
 /// Dead pixels, prepared.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct DeadPixels {
-    share: f64,
+struct Emptied {
+    fraction: f64,
     key: NoiseKey,
 }
 
-impl DeadPixels {
-    pub(crate) fn new(context: &Context<'_>) -> Self {
-        Self { share: context.p.pattern.dead_fraction, key: context.pattern(NoiseDraw::Dead) }
-    }
-
-    pub(crate) fn apply(&self, electrons: &mut [f64], y: u32) {
-        sparse::each(self.key, y, self.share, electrons.len(), |x, _| electrons[x] = 0.0);
+impl RowEffect<Charge> for Emptied {
+    fn apply(&self, row: &mut Row<'_, Charge>) {
+        let charges = &mut *row.values;
+        sparse::each(self.key, row.y, self.fraction, charges.len(), |x, _| charges[x] = 0.0);
     }
 }
 
@@ -40,9 +64,9 @@ mod tests {
     use etendue_core::Plane;
 
     #[test]
-    fn a_share_of_pixels_is_dark_in_every_frame() {
+    fn a_fraction_of_pixels_is_dark_in_every_frame() {
         let mut p = quiet();
-        p.pattern.dead_fraction = 0.02;
+        p.charge.dead_pixels.fraction = 0.02;
         let means = Plane::filled(200, 200, 100.0);
         let raw = run(&p, &means, ADDRESS);
         let dead = raw.plane.samples().iter().filter(|dn| **dn == 0).count() as f64;

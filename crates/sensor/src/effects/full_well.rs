@@ -1,6 +1,6 @@
 //! Full well: the most electrons a pixel holds, and where the rest goes.
 //!
-//! Without blooming e ← min(e, capacity), and the rest is lost. With it, a share b of what a pixel cannot hold goes on to its
+//! Without blooming e ← min(e, capacity), and the rest is lost. With it, a fraction b of what a pixel cannot hold goes on to its
 //! neighbours and 1 − b is taken by the overflow drain, again and again until every pixel holds what it has:
 //!
 //! - along the column, half up and half down ([`bloom_column`]): a CCD, whose channel stops block sideways;
@@ -9,87 +9,120 @@
 //! generated = collected + drained + spilt off the edge + clipped ([`ChargeAccount`]).
 //! Left out: the bend of the response before the well is full (see [`response`](super::response)).
 
-use super::Verdict;
 use super::{bloom_around, bloom_column};
 use crate::account::{ChargeAccount, RowTally};
 use crate::check::Checks;
-use crate::operation::{Context, Operation};
-use crate::parameters::SensorParameters;
-use etendue_core::Plane;
-use etendue_core::quantity::Electrons;
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, Row, RowEffect, SensorFacts, Traces};
+use crate::operation::Operation;
+use crate::signal_breakdown::SignalComponent;
+use etendue_core::quantity::Charge;
+use etendue_core::{EffectStatus, Plane};
 use rayon::prelude::*;
+
+/// The most electrons a pixel holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FullWell {
+    /// Electrons that a pixel can hold, above 0; captures may have their own.
+    pub capacity_e: f64,
+    /// Where charge above it goes; `None`: it is lost.
+    pub blooming: Option<Blooming>,
+}
 
 /// Where charge above the full well goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Blooming {
     /// Along the column (CCD).
     Column {
-        /// Share that goes on; the rest is drained.
+        /// Fraction that goes on, above 0 and up to 1; the rest is drained.
         overflow_fraction: f64,
     },
     /// To all sides (CMOS).
     Around {
-        /// Share that goes on; the rest is drained.
+        /// Fraction that goes on, above 0 and up to 0.95; the rest is drained.
         overflow_fraction: f64,
     },
 }
 
 impl Blooming {
-    pub(crate) fn check(&self, checks: &mut Checks) {
+    fn check(&self, checks: &mut Checks) {
         match *self {
-            Self::Column { overflow_fraction } => checks.share_above_0("blooming.overflow_fraction", overflow_fraction),
+            Self::Column { overflow_fraction } => {
+                checks.fraction_above_0("blooming.overflow_fraction", overflow_fraction);
+            }
             // Without any drain, charge of a wide light would spread without end.
             Self::Around { overflow_fraction } => {
                 checks.legal(
                     "blooming.overflow_fraction",
                     overflow_fraction,
                     overflow_fraction > 0.0 && overflow_fraction <= 0.95,
-                    "a share above 0 and up to 0.95",
+                    "a fraction above 0 and up to 0.95",
                 );
             }
         }
     }
 }
 
-pub(super) fn need(p: &SensorParameters, operation: &Operation) -> (Verdict, String) {
-    let capacity = operation.full_well_e;
-    let clips = match p.charge.blooming {
-        None => format!("a pixel's charge above {capacity} e⁻ is lost"),
-        Some(Blooming::Column { overflow_fraction }) => {
-            format!("of what exceeds {capacity} e⁻, {overflow_fraction} goes on along the column, the rest is drained")
+impl Effect for FullWell {
+    const NAME: &'static str = "full well";
+
+    fn check(&self, _: &SensorFacts, checks: &mut Checks) {
+        checks.positive("full_well_e", self.capacity_e);
+        if let Some(blooming) = &self.blooming {
+            blooming.check(checks);
         }
-        Some(Blooming::Around { overflow_fraction }) => {
-            format!("of what exceeds {capacity} e⁻, {overflow_fraction} goes on to all sides, the rest is drained")
+    }
+
+    fn status(&self, facts: &SensorFacts, operation: &Operation) -> EffectStatus {
+        let capacity = operation.full_well_e;
+        let clips = match self.blooming {
+            None => format!("a pixel's charge above {capacity} e⁻ is lost"),
+            Some(Blooming::Column { overflow_fraction: b }) => {
+                format!("of what exceeds {capacity} e⁻, {b} goes on along the column, the rest is drained")
+            }
+            Some(Blooming::Around { overflow_fraction: b }) => {
+                format!("of what exceeds {capacity} e⁻, {b} goes on to all sides, the rest is drained")
+            }
+        };
+        let range_e = facts.converter_range_dn / operation.gain_dn_e;
+        if range_e < capacity {
+            EffectStatus::WhereNeeded(format!("{clips}; the converter's range ends before, at {range_e:.0} e⁻"))
+        } else {
+            EffectStatus::WhereNeeded(clips)
         }
-    };
-    let range_e = (p.largest_dn() - p.read_out.black_level_dn) / operation.gain_dn_e;
-    if range_e < capacity {
-        (Verdict::Guarded, format!("{clips}; the converter's range ends before, at {range_e:.0} e⁻"))
-    } else {
-        (Verdict::Guarded, clips)
+    }
+}
+
+impl EffectOn for FullWell {
+    type On = Charge;
+    const COMPONENT: SignalComponent = SignalComponent::Blooming;
+
+    fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Charge> {
+        let capacity_e = context.operation.full_well_e;
+        match self.blooming {
+            None => Action::rows(Clip { capacity_e }),
+            Some(blooming) => Action::plane(Overflow { blooming, capacity_e }),
+        }
     }
 }
 
 /// Full well without blooming, prepared.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Clip {
+struct Clip {
     capacity_e: f64,
 }
 
-impl Clip {
-    pub(crate) fn new(context: &Context<'_>) -> Self {
-        Self { capacity_e: context.operation.full_well_e }
-    }
-
+impl RowEffect<Charge> for Clip {
     /// Clips, where a pixel of the row needs it, and notes the row's charge.
-    pub(crate) fn apply(&self, electrons: &mut [f64], tally: &mut RowTally) {
+    fn apply(&self, row: &mut Row<'_, Charge>) {
+        let electrons = &mut *row.values;
         let generated_e = row_sum(electrons);
-        *tally = RowTally { generated_e, collected_e: generated_e, clipped_e: 0.0 };
+        let mut tally = RowTally { generated_e, collected_e: generated_e, clipped_e: 0.0 };
         if electrons.iter().any(|e| *e > self.capacity_e) {
             tally.clipped_e = electrons.iter().map(|e| (e - self.capacity_e).max(0.0)).sum();
             electrons.iter_mut().for_each(|e| *e = e.min(self.capacity_e));
             tally.collected_e = row_sum(electrons);
         }
+        *row.tally = Some(tally);
     }
 }
 
@@ -105,18 +138,21 @@ fn row_sum(electrons: &[f64]) -> f64 {
 
 /// Full well with blooming, prepared.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Overflow {
-    pub(super) blooming: Blooming,
-    pub(super) capacity_e: f64,
+struct Overflow {
+    blooming: Blooming,
+    capacity_e: f64,
+}
+
+impl PlaneEffect<Charge> for Overflow {
+    fn apply(&self, mut plane: Plane<Charge>, traces: &mut Traces<'_>) -> Plane<Charge> {
+        *traces.account = Some(self.spread(&mut plane));
+        plane
+    }
 }
 
 impl Overflow {
-    pub(crate) fn new(blooming: Blooming, context: &Context<'_>) -> Self {
-        Self { blooming, capacity_e: context.operation.full_well_e }
-    }
-
     /// Moves what pixels cannot hold.
-    pub(crate) fn apply(&self, plane: &mut Plane<Electrons>) -> ChargeAccount {
+    fn spread(&self, plane: &mut Plane<Charge>) -> ChargeAccount {
         let generated_e = sum(plane);
         // The well in the precision of the plane.
         let well = self.capacity_e as f32;
@@ -137,7 +173,7 @@ impl Overflow {
 }
 
 /// Sum of a plane, rows first, so that it does not depend on threads.
-fn sum(plane: &Plane<Electrons>) -> f64 {
+fn sum(plane: &Plane<Charge>) -> f64 {
     let rows = plane.samples().par_chunks(plane.width().max(1));
     let sums: Vec<f64> = rows.map(|row| row.iter().map(|q| f64::from(*q)).sum()).collect();
     sums.iter().sum()
@@ -152,7 +188,7 @@ mod tests {
     #[test]
     fn what_a_full_well_loses_is_accounted() {
         let mut p = quiet();
-        p.charge.full_well_e = 2000.0;
+        p.charge.full_well.capacity_e = 2000.0;
         let mut means = Plane::filled(10, 3, 500.0);
         means.set(7, 1, 5000.0);
         let [(0, account)] = run(&p, &means, ADDRESS).accounts[..] else { panic!("one capture, one account") };

@@ -1,28 +1,39 @@
 //! Inter-pixel capacitance: the voltage of a pixel is seen by its neighbours too.
 //!
-//! Shares of the voltage are exchanged with the eight neighbours ([`Neighbours`]) after the well and the response: counts
+//! Fractions of the voltage are exchanged with the eight neighbours ([`Neighbours`]) after the well and the response: counts
 //! and their noise are made before it, so it correlates noise without adding any (Moore, Ninkov and Forrest 2006). Sums are kept.
 //! Left out: dependence on the signal.
 
-use super::Verdict;
-use super::neighbours::Neighbours;
+use super::neighbours::{Exchange, Neighbours};
 use crate::check::Checks;
-use crate::parameters::SensorParameters;
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, SensorFacts};
+use crate::operation::Operation;
+use crate::signal_breakdown::SignalComponent;
+use etendue_core::EffectStatus;
+use etendue_core::quantity::Voltage;
 
-/// Shares of a pixel's voltage that couple to its neighbours.
+/// Fractions of a pixel's voltage that couple to its neighbours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InterPixelCapacitance(pub Neighbours);
 
-impl InterPixelCapacitance {
-    pub(crate) fn check(&self, checks: &mut Checks) {
+impl Effect for InterPixelCapacitance {
+    const NAME: &'static str = "inter-pixel capacitance";
+
+    fn check(&self, _: &SensorFacts, checks: &mut Checks) {
         self.0.check("inter_pixel_capacitance", checks);
+    }
+
+    fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
+        EffectStatus::Modelled(format!("{} of a pixel's voltage couples to its neighbours", self.0.given()))
     }
 }
 
-pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
-    match p.read_out.capacitance {
-        None => (Verdict::Skipped, super::NOT_DESCRIBED.into()),
-        Some(c) => (Verdict::Required, format!("{} of a pixel's voltage couples to its neighbours", c.0.given())),
+impl EffectOn for InterPixelCapacitance {
+    type On = Voltage;
+    const COMPONENT: SignalComponent = SignalComponent::Transfer;
+
+    fn prepare(&self, _: &Context, _: &mut Memory) -> Action<Voltage> {
+        Action::plane(Exchange(self.0))
     }
 }
 
@@ -35,8 +46,8 @@ mod tests {
     #[test]
     fn noise_is_correlated_and_the_variance_falls() {
         let mut p = one_dn_an_electron();
-        let shares = Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.0 };
-        p.read_out.capacitance = Some(InterPixelCapacitance(shares));
+        let given = Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.0 };
+        p.voltage.capacitance = Some(InterPixelCapacitance(given));
         let raw = run(&p, &Plane::filled(512, 512, 10_000.0), ADDRESS);
         // White noise of variance μ through the kernel: Σ k² at no shift, 2 k₀ k₁ at a shift of one (and 1/12 of rounding).
         let (own, one) = (0.96, 0.01);

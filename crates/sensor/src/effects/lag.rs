@@ -1,6 +1,6 @@
 //! Lag: charge that traps keep and give back in later frames (image retention, persistence).
 //!
-//! For each kind of trap k, with capture share f_k and time constant τ_k, and frames T apart, a pixel's charge q and its trapped
+//! For each kind of trap k, with capture fraction f_k and time constant τ_k, and frames T apart, a pixel's charge q and its trapped
 //! charge Q_k become
 //!
 //! - released: r_k = Q_k (1 − exp(−T/τ_k)), added to the pixel;
@@ -10,71 +10,99 @@
 //! Charge is conserved: q + Σ Q_k before is q + Σ Q_k after. (The linear limit of the trap model in Pyxel's `persistence`
 //! and of Smith et al. 2008.) Left out: shot noise of catching and releasing, traps that fill up, dependence on temperature.
 
-use super::Verdict;
 use crate::check::Checks;
-use crate::operation::Context;
-use crate::parameters::SensorParameters;
-use etendue_core::Plane;
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, SensorFacts, Traces};
+use crate::operation::Operation;
+use crate::signal_breakdown::SignalComponent;
+use crate::state::SensorState;
 use etendue_core::maths::f64::exp;
-use etendue_core::quantity::Electrons;
+use etendue_core::quantity::Charge;
+use etendue_core::{EffectStatus, Plane};
 use rayon::prelude::*;
 
 /// A kind of trap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trap {
-    /// Share of a frame's charge that it keeps.
-    pub share: f64,
+    /// Fraction of a frame's charge that it keeps, above 0; all kinds together at most 0.5.
+    pub fraction: f64,
     /// Time after which 1/e of it is left, s.
     pub time_constant_s: f64,
 }
 
-impl Trap {
-    pub(crate) fn check(&self, p: &SensorParameters, checks: &mut Checks) {
-        checks.share_above_0("lag.share", self.share);
-        checks.positive("lag.time_constant_s", self.time_constant_s);
-        checks.agree("lag", p.exposure.frame_period_s.is_some(), || {
-            "what is given back depends on the time between frames: give \"frame_period_s\"".to_owned()
-        });
-        checks.agree("lag", p.hdr.captures.iter().all(|capture| capture.sensitivity_ratio == 1.0), || {
-            "traps are those of one photodiode, and a capture of another sensitivity has its own: remove one of both".to_owned()
-        });
+/// Traps that keep charge from frame to frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Lag {
+    /// The kinds of traps; empty: none.
+    pub traps: Vec<Trap>,
+}
+
+impl Lag {
+    /// Fraction that all traps keep together.
+    fn kept(&self) -> f64 {
+        self.traps.iter().map(|trap| trap.fraction).sum()
     }
 }
 
-/// Traps together cannot keep all.
-pub(crate) fn check_sum(traps: &[Trap], checks: &mut Checks) {
-    let sum: f64 = traps.iter().map(|trap| trap.share).sum();
-    checks.agree("lag", sum <= 0.5 || traps.is_empty(), || format!("traps keep {sum} in all: give at most 0.5"));
+impl Effect for Lag {
+    const NAME: &'static str = "lag";
+
+    fn check(&self, facts: &SensorFacts, checks: &mut Checks) {
+        for trap in &self.traps {
+            checks.fraction_above_0("lag.share", trap.fraction);
+            checks.positive("lag.time_constant_s", trap.time_constant_s);
+            checks.agree("lag", facts.frame_period_s.is_some(), || {
+                "what is given back depends on the time between frames: give \"frame_period_s\"".to_owned()
+            });
+            checks.agree("lag", !facts.is_split_pixel, || {
+                "traps are those of one photodiode, and a capture of another sensitivity has its own: remove one of both".to_owned()
+            });
+        }
+        let kept = self.kept();
+        let legal = kept <= 0.5 || self.traps.is_empty();
+        checks.agree("lag", legal, || format!("traps keep {kept} in all: give at most 0.5"));
+    }
+
+    fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
+        if self.traps.is_empty() {
+            return EffectStatus::NotDescribed;
+        }
+        let kind = |t: &Trap| format!("{} of the charge for about {} s", t.fraction, t.time_constant_s);
+        let kinds: Vec<_> = self.traps.iter().map(kind).collect();
+        EffectStatus::Modelled(format!("traps keep {}", kinds.join(", ")))
+    }
 }
 
-pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
-    if p.charge.traps.is_empty() {
-        return (Verdict::Skipped, super::NOT_DESCRIBED.into());
+impl EffectOn for Lag {
+    type On = Charge;
+    const COMPONENT: SignalComponent = SignalComponent::Transfer;
+
+    fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Charge> {
+        let frame_s = context.facts.frame_period_s.expect("checked with the parameters");
+        let period_s = frame_s / context.facts.exposures as f64;
+        let kinds = self.traps.iter().map(|t| (t.fraction, 1.0 - exp(-period_s / t.time_constant_s)));
+        Action::plane(Traps { kinds: kinds.collect(), full_well_e: context.operation.full_well_e })
     }
-    let list: Vec<_> =
-        p.charge.traps.iter().map(|t| format!("{} of the charge for about {} s", t.share, t.time_constant_s)).collect();
-    (Verdict::Required, format!("traps keep {}", list.join(", ")))
 }
 
 /// Traps, prepared.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Traps {
-    /// Share caught, and share released.
+struct Traps {
+    /// Fraction caught, and fraction released.
     kinds: Vec<(f64, f64)>,
     full_well_e: f64,
 }
 
-impl Traps {
-    pub(crate) fn new(context: &Context<'_>) -> Self {
-        let frame_s = context.p.exposure.frame_period_s.expect("checked with the parameters");
-        let exposures = 1 + context.p.hdr.captures.iter().filter(|capture| !capture.dual_conversion_gain).count();
-        let period_s = frame_s / exposures as f64;
-        let kinds = context.p.charge.traps.iter().map(|t| (t.share, 1.0 - exp(-period_s / t.time_constant_s)));
-        Self { kinds: kinds.collect(), full_well_e: context.operation.full_well_e }
+impl PlaneEffect<Charge> for Traps {
+    fn apply(&self, mut plane: Plane<Charge>, traces: &mut Traces<'_>) -> Plane<Charge> {
+        self.exchange(&mut plane, traces.after);
+        plane
     }
+}
 
+impl Traps {
     /// Exchanges charge with the traps of each pixel.
-    pub(crate) fn apply(&self, plane: &mut Plane<Electrons>, trapped_e: &mut Vec<Vec<f32>>) {
+    fn exchange(&self, plane: &mut Plane<Charge>, after: &mut SensorState) {
+        let trapped_e = &mut after.trapped_e;
         let size = plane.samples().len();
         if trapped_e.len() != self.kinds.len() || trapped_e.iter().any(|kind| kind.len() != size) {
             *trapped_e = vec![vec![0.0; size]; self.kinds.len()];
@@ -86,10 +114,10 @@ impl Traps {
                 (*trapped, *q) = (*trapped - back, *q + back);
             });
         }
-        let total: f64 = self.kinds.iter().map(|(share, _)| share).sum();
-        for (kind, (share, _)) in trapped_e.iter_mut().zip(&self.kinds) {
+        let total: f64 = self.kinds.iter().map(|(caught, _)| caught).sum();
+        for (kind, (caught, _)) in trapped_e.iter_mut().zip(&self.kinds) {
             kind.par_iter_mut().zip(plane.samples().par_iter()).for_each(|(trapped, q)| {
-                *trapped += (share * f64::from(*q).min(self.full_well_e)) as f32;
+                *trapped += (caught * f64::from(*q).min(self.full_well_e)) as f32;
             });
         }
         let well = self.full_well_e;
@@ -106,8 +134,9 @@ mod tests {
 
     fn lagging() -> Sensor {
         let mut p = quiet();
-        (p.exposure.frame_period_s, p.charge.full_well_e) = (Some(0.04), 1e6);
-        p.charge.traps = vec![Trap { share: 0.05, time_constant_s: 0.04 }, Trap { share: 0.01, time_constant_s: 1.0 }];
+        (p.exposure.frame_period_s, p.charge.full_well.capacity_e) = (Some(0.04), 1e6);
+        p.charge.lag.traps =
+            vec![Trap { fraction: 0.05, time_constant_s: 0.04 }, Trap { fraction: 0.01, time_constant_s: 1.0 }];
         Sensor::new(p).expect("legal")
     }
 
@@ -117,7 +146,7 @@ mod tests {
         use crate::hdr::{Capture, HighDynamicRange};
         let mut p = lagging().parameters().clone();
         p.read_out.bits = 20;
-        p.charge.traps.remove(0);
+        p.charge.lag.traps.remove(0);
         let second = Capture { exposure_ratio: 0.5, ..Capture::default() };
         let again = Capture { gain_ratio: 0.5, dual_conversion_gain: true, ..Capture::default() };
         p.hdr = HighDynamicRange { captures: vec![second, again], bits: Some(24), ..HighDynamicRange::default() };

@@ -4,11 +4,12 @@
 //! sum is kept to the last bit of rounding, an even plane stays even, and nothing crosses the array's edge.
 
 use crate::check::Checks;
+use crate::effect::{PlaneEffect, Traces};
 use etendue_core::Plane;
-use etendue_core::quantity::Electrons;
+use etendue_core::quantity::Quantity;
 use rayon::prelude::*;
 
-/// Shares given to each neighbour.
+/// Fractions given to each neighbour, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Neighbours {
     /// To each neighbour left and right.
@@ -21,8 +22,8 @@ pub struct Neighbours {
 
 impl Neighbours {
     pub(crate) fn check(&self, key: &'static str, checks: &mut Checks) {
-        for share in [self.horizontal, self.vertical, self.corner] {
-            checks.share(key, share);
+        for given in [self.horizontal, self.vertical, self.corner] {
+            checks.fraction(key, given);
         }
         let given = self.given();
         checks.agree(key, given <= 0.75, || {
@@ -36,8 +37,18 @@ impl Neighbours {
         2.0 * self.horizontal + 2.0 * self.vertical + 4.0 * self.corner
     }
 
+    /// What a pixel has afterwards of the one `dx` − 1 columns and `dy` − 1 rows from it, in an even picture.
+    pub(crate) fn weight(&self, dx: usize, dy: usize) -> f64 {
+        match (dx, dy) {
+            (1, 1) => 1.0 - self.given(),
+            (_, 1) => self.horizontal,
+            (1, _) => self.vertical,
+            _ => self.corner,
+        }
+    }
+
     /// The plane after the exchange.
-    pub(crate) fn exchange(&self, plane: &Plane<Electrons>) -> Plane<Electrons> {
+    fn exchange<Q: Quantity<Sample = f32>>(&self, plane: &Plane<Q>) -> Plane<Q> {
         let (width, height) = (plane.width(), plane.height());
         let mut out = Plane::new(width, height);
         if width > 0 {
@@ -53,7 +64,7 @@ impl Neighbours {
 
     fn exchange_row(&self, above: Option<&[f32]>, here: &[f32], below: Option<&[f32]>, out: &mut [f32]) {
         let flow = |row: &[f32], x: usize, own: f64, straight: f64, across: f64| {
-            let term = |share: f64, value: Option<&f32>| value.map_or(0.0, |v| share * (f64::from(*v) - own));
+            let term = |fraction: f64, value: Option<&f32>| value.map_or(0.0, |v| fraction * (f64::from(*v) - own));
             let left = term(across, x.checked_sub(1).and_then(|i| row.get(i)));
             left + term(straight, row.get(x)) + term(across, row.get(x + 1))
         };
@@ -68,17 +79,27 @@ impl Neighbours {
     }
 }
 
+/// The exchange, prepared.
+pub(crate) struct Exchange(pub(crate) Neighbours);
+
+impl<Q: Quantity<Sample = f32>> PlaneEffect<Q> for Exchange {
+    fn apply(&self, plane: Plane<Q>, _: &mut Traces<'_>) -> Plane<Q> {
+        self.0.exchange(&plane)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use etendue_core::quantity::Voltage;
 
-    const SHARES: Neighbours = Neighbours { horizontal: 0.02, vertical: 0.03, corner: 0.005 };
+    const GIVEN: Neighbours = Neighbours { horizontal: 0.02, vertical: 0.03, corner: 0.005 };
 
     #[test]
     fn a_point_becomes_the_kernel() {
-        let mut plane = Plane::new(5, 5);
+        let mut plane = Plane::<Voltage>::new(5, 5);
         plane.set(2, 2, 1000.0);
-        let out = SHARES.exchange(&plane);
+        let out = GIVEN.exchange(&plane);
         let near = |x, y, want: f32| assert!((out.at(x, y) - want).abs() < 1e-3, "{x} {y}: {}", out.at(x, y));
         near(1, 2, 20.0);
         near(2, 3, 30.0);
@@ -92,11 +113,12 @@ mod tests {
         for (width, height) in [(1, 1), (1, 7), (6, 1), (7, 5)] {
             let value = |i: usize| (i * 7919 % 977) as f32;
             let plane = Plane::from_samples(width, height, (0..width * height).map(value).collect()).expect("filled");
-            let sum = |plane: &Plane<Electrons>| plane.samples().iter().map(|v| f64::from(*v)).sum::<f64>();
-            let out = SHARES.exchange(&plane);
+            let sum = |plane: &Plane<Voltage>| plane.samples().iter().map(|v| f64::from(*v)).sum::<f64>();
+            let out = GIVEN.exchange(&plane);
             // Samples are f32: 24 bits each.
             assert!((sum(&out) - sum(&plane)).abs() <= 6e-8 * sum(&plane).max(1.0));
-            assert_eq!(SHARES.exchange(&Plane::filled(width, height, 3.5)), Plane::filled(width, height, 3.5));
+            let even = Plane::<Voltage>::filled(width, height, 3.5);
+            assert_eq!(GIVEN.exchange(&even), even);
         }
     }
 }

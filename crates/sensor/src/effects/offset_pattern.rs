@@ -4,14 +4,16 @@
 //! Draws: `PixelOffset`, `RowOffset`, `ColumnOffset`. What grows with the exposure is the spread of the
 //! [dark current](super::dark_current).
 
-use super::Verdict;
 use crate::check::Checks;
-use crate::operation::Context;
-use crate::parameters::SensorParameters;
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, SensorFacts};
+use crate::operation::Operation;
 use crate::random::pattern::{Deviations, Sigmas};
+use crate::signal_breakdown::SignalComponent;
+use etendue_core::EffectStatus;
+use etendue_core::quantity::Voltage;
 use etendue_core::random::NoiseDraw;
 
-/// Standard deviations of the offsets, e⁻.
+/// Standard deviations of the offsets, e⁻, 0 or more; 0: none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct OffsetPattern {
     /// From pixel to pixel.
@@ -23,41 +25,36 @@ pub struct OffsetPattern {
 }
 
 impl OffsetPattern {
-    pub(crate) fn check(&self, checks: &mut Checks) {
-        checks.not_negative("non_uniformity.dsnu_e", self.white_e);
-        checks.not_negative("non_uniformity.dsnu_row_e", self.row_e);
-        checks.not_negative("non_uniformity.dsnu_column_e", self.column_e);
-    }
-
     fn sigmas(self) -> Sigmas {
         Sigmas { white: self.white_e, row: self.row_e, column: self.column_e }
     }
 }
 
-pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
-    let o = p.pattern.offset;
-    if o.sigmas().is_zero() {
-        return (Verdict::Skipped, super::NOT_DESCRIBED.into());
+impl Effect for OffsetPattern {
+    const NAME: &'static str = "offset non-uniformity";
+
+    fn check(&self, _: &SensorFacts, checks: &mut Checks) {
+        checks.not_negative("non_uniformity.dsnu_e", self.white_e);
+        checks.not_negative("non_uniformity.dsnu_row_e", self.row_e);
+        checks.not_negative("non_uniformity.dsnu_column_e", self.column_e);
     }
-    let part = |name, e: f64| if e > 0.0 { format!(", {name} by {e} e⁻") } else { String::new() };
-    let parts = [part("pixels", o.white_e), part("rows", o.row_e), part("columns", o.column_e)].concat();
-    (Verdict::Required, format!("offsets differ: {}", parts.trim_start_matches(", ")))
+
+    fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
+        let sigmas = self.sigmas();
+        if sigmas.is_zero() {
+            return EffectStatus::NotDescribed;
+        }
+        EffectStatus::Modelled(format!("offsets differ: {}", sigmas.described(" e⁻")))
+    }
 }
 
-/// Offset non-uniformity, prepared.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Offsets {
-    deviations: Deviations,
-}
+impl EffectOn for OffsetPattern {
+    type On = Voltage;
+    const COMPONENT: SignalComponent = SignalComponent::FixedPattern;
 
-impl Offsets {
-    pub(crate) fn new(context: &Context<'_>) -> Self {
+    fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Voltage> {
         let draws = [NoiseDraw::PixelOffset, NoiseDraw::RowOffset, NoiseDraw::ColumnOffset];
-        let sigmas = context.p.pattern.offset.sigmas();
-        Self { deviations: Deviations::new(sigmas, draws, |draw| context.pattern(draw), context.width) }
-    }
-
-    pub(crate) fn apply(&self, electrons: &mut [f64], y: u32) {
-        self.deviations.of_row(y, electrons.len(), |x, d| electrons[x] += d);
+        let key = |draw| context.pattern(draw);
+        Action::rows(Deviations::new(self.sigmas(), draws, key, context.width))
     }
 }

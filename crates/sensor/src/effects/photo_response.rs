@@ -1,17 +1,19 @@
 //! Photo-response non-uniformity (PRNU): pixels differ in how much of the light they count.
 //!
-//! μ ← μ max(1 + d, 0), d normal with a white, a row and a column part, each as a share (EMVA 1288 states them in per cent).
+//! μ ← μ max(1 + d, 0), d normal with a white, a row and a column part, each as a fraction (EMVA 1288 states them in per cent).
 //! The pattern is the specimen's: the same in every frame. Draws: `PixelResponse`, `RowResponse`, `ColumnResponse`.
 //! Left out: differences that depend on wavelength; patterns of lower frequency (shading).
 
-use super::Verdict;
 use crate::check::Checks;
-use crate::operation::Context;
-use crate::parameters::SensorParameters;
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, Row, RowEffect, SensorFacts};
+use crate::operation::Operation;
 use crate::random::pattern::{Deviations, Sigmas};
+use crate::signal_breakdown::SignalComponent;
+use etendue_core::EffectStatus;
+use etendue_core::quantity::MeanElectrons;
 use etendue_core::random::NoiseDraw;
 
-/// Standard deviations of the response, as shares of it.
+/// Standard deviations of the response, as fractions of it, 0 to 1; 0: none.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PhotoResponse {
     /// From pixel to pixel.
@@ -23,42 +25,50 @@ pub struct PhotoResponse {
 }
 
 impl PhotoResponse {
-    pub(crate) fn check(&self, checks: &mut Checks) {
-        checks.share("non_uniformity.prnu", self.white);
-        checks.share("non_uniformity.prnu_row", self.row);
-        checks.share("non_uniformity.prnu_column", self.column);
-    }
-
     fn sigmas(self) -> Sigmas {
         Sigmas { white: self.white, row: self.row, column: self.column }
     }
 }
 
-pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
-    let r = p.pattern.photo_response;
-    if r.sigmas().is_zero() {
-        return (Verdict::Skipped, super::NOT_DESCRIBED.into());
+impl Effect for PhotoResponse {
+    const NAME: &'static str = "photo-response non-uniformity";
+
+    fn check(&self, _: &SensorFacts, checks: &mut Checks) {
+        checks.fraction("non_uniformity.prnu", self.white);
+        checks.fraction("non_uniformity.prnu_row", self.row);
+        checks.fraction("non_uniformity.prnu_column", self.column);
     }
-    let part = |name, share: f64| if share > 0.0 { format!(", {name} by {share}") } else { String::new() };
-    let parts = [part("pixels", r.white), part("rows", r.row), part("columns", r.column)].concat();
-    (Verdict::Required, format!("responses differ: {}", parts.trim_start_matches(", ")))
+
+    fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
+        let sigmas = self.sigmas();
+        if sigmas.is_zero() {
+            return EffectStatus::NotDescribed;
+        }
+        EffectStatus::Modelled(format!("responses differ: {}", sigmas.described("")))
+    }
+}
+
+impl EffectOn for PhotoResponse {
+    type On = MeanElectrons;
+    const COMPONENT: SignalComponent = SignalComponent::FixedPattern;
+
+    fn prepare(&self, context: &Context, _: &mut Memory) -> Action<MeanElectrons> {
+        let draws = [NoiseDraw::PixelResponse, NoiseDraw::RowResponse, NoiseDraw::ColumnResponse];
+        let key = |draw| context.pattern(draw);
+        Action::rows(ResponsePattern { deviations: Deviations::new(self.sigmas(), draws, key, context.width) })
+    }
 }
 
 /// Photo-response non-uniformity, prepared.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct ResponsePattern {
+struct ResponsePattern {
     deviations: Deviations,
 }
 
-impl ResponsePattern {
-    pub(crate) fn new(context: &Context<'_>) -> Self {
-        let draws = [NoiseDraw::PixelResponse, NoiseDraw::RowResponse, NoiseDraw::ColumnResponse];
-        let sigmas = context.p.pattern.photo_response.sigmas();
-        Self { deviations: Deviations::new(sigmas, draws, |draw| context.pattern(draw), context.width) }
-    }
-
-    pub(crate) fn apply(&self, means: &mut [f64], y: u32) {
-        self.deviations.of_row(y, means.len(), |x, d| means[x] *= (1.0 + d).max(0.0));
+impl RowEffect<MeanElectrons> for ResponsePattern {
+    fn apply(&self, row: &mut Row<'_, MeanElectrons>) {
+        let means = &mut *row.values;
+        self.deviations.of_row(row.y, means.len(), |x, d| means[x] *= (1.0 + d).max(0.0));
     }
 }
 
@@ -66,12 +76,13 @@ impl ResponsePattern {
 mod tests {
     use super::*;
     use crate::frame::tests::{ADDRESS, covariance, quiet, run};
+    use crate::parameters::SensorParameters;
     use crate::state::FrameAddress;
     use etendue_core::Plane;
 
     fn patterned() -> SensorParameters {
         let mut p = quiet();
-        p.pattern.photo_response = PhotoResponse { white: 0.01, row: 0.0, column: 0.0 };
+        p.light.photo_response = PhotoResponse { white: 0.01, row: 0.0, column: 0.0 };
         p
     }
 
@@ -91,7 +102,7 @@ mod tests {
         let means = Plane::filled(32, 32, 1e4);
         let with = |seed, address| {
             let mut p = patterned();
-            p.pattern.seed = seed;
+            p.specimen = seed;
             run(&p, &means, address).plane
         };
         let first = with(None, ADDRESS);

@@ -7,10 +7,13 @@
 //!
 //! Acts after the well and before read noise, as it happens in the pixel. Left out: differences of knees from pixel to pixel.
 
-use super::Verdict;
 use crate::check::Checks;
-use crate::parameters::SensorParameters;
+use crate::effect::{Effect, Row, RowConversion, SensorFacts};
+use crate::operation::Operation;
+use crate::signal_breakdown::SignalComponent;
+use etendue_core::EffectStatus;
 use etendue_core::maths::f64::{exp, ln};
+use etendue_core::quantity::{Charge, Voltage};
 
 /// A change of slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,20 +40,6 @@ pub enum Response {
 }
 
 impl Response {
-    pub(crate) fn check(&self, checks: &mut Checks) {
-        match self {
-            Self::Linear => {}
-            Self::Logarithmic { from_e } => checks.positive("response.from_e", *from_e),
-            Self::Knees(knees) => {
-                let rising = knees.windows(2).all(|k| k[0].at_e < k[1].at_e && k[0].slope > k[1].slope);
-                let legal = knees.iter().all(|k| k.at_e > 0.0 && k.at_e.is_finite() && k.slope > 0.0 && k.slope < 1.0);
-                checks.agree("response.knees", rising && legal && !knees.is_empty(), || {
-                    "charges must rise from above 0, and slopes must fall from below 1 to above 0".to_owned()
-                });
-            }
-        }
-    }
-
     /// Electrons' worth of the voltage of a charge.
     #[must_use]
     pub fn voltage_e(&self, charge_e: f64) -> f64 {
@@ -100,19 +89,49 @@ impl Response {
         }
     }
 
-    pub(crate) fn apply(&self, electrons: &mut [f64]) {
-        electrons.iter_mut().for_each(|e| *e = self.voltage_e(*e));
+    /// The response as what makes voltage of charge; `None` where the numbers are the same.
+    pub(crate) fn prepare(&self) -> Option<Self> {
+        (*self != Self::Linear).then(|| self.clone())
     }
 }
 
-pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
-    match &p.read_out.response {
-        Response::Linear => (Verdict::Skipped, "voltage is proportional to charge".into()),
-        Response::Logarithmic { from_e } => (Verdict::Required, format!("logarithmic above {from_e} e⁻")),
-        Response::Knees(knees) => {
-            let list: Vec<_> = knees.iter().map(|k| format!("slope {} above {} e⁻", k.slope, k.at_e)).collect();
-            (Verdict::Required, list.join(", "))
+impl Effect for Response {
+    const NAME: &'static str = "response";
+
+    fn check(&self, _: &SensorFacts, checks: &mut Checks) {
+        match self {
+            Self::Linear => {}
+            Self::Logarithmic { from_e } => checks.positive("response.from_e", *from_e),
+            Self::Knees(knees) => {
+                let rising = knees.windows(2).all(|k| k[0].at_e < k[1].at_e && k[0].slope > k[1].slope);
+                let legal = knees.iter().all(|k| k.at_e > 0.0 && k.at_e.is_finite() && k.slope > 0.0 && k.slope < 1.0);
+                checks.agree("response.knees", rising && legal && !knees.is_empty(), || {
+                    "charges must rise from above 0, and slopes must fall from below 1 to above 0".to_owned()
+                });
+            }
         }
+    }
+
+    fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
+        match self {
+            Self::Linear => EffectStatus::LeftOut("voltage is proportional to charge".into()),
+            Self::Logarithmic { from_e } => EffectStatus::Modelled(format!("logarithmic above {from_e} e⁻")),
+            Self::Knees(knees) => {
+                let list: Vec<_> = knees.iter().map(|k| format!("slope {} above {} e⁻", k.slope, k.at_e)).collect();
+                EffectStatus::Modelled(list.join(", "))
+            }
+        }
+    }
+}
+
+impl RowConversion for Response {
+    type From = Charge;
+    type To = Voltage;
+    const COMPONENT: SignalComponent = SignalComponent::Transfer;
+
+    fn convert<'a>(&self, row: Row<'a, Charge>) -> Row<'a, Voltage> {
+        row.values.iter_mut().for_each(|e| *e = self.voltage_e(*e));
+        row.sensed()
     }
 }
 

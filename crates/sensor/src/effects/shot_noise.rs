@@ -3,39 +3,61 @@
 //! k ~ Poisson(μ), μ the mean photo-electrons of the pixel during the exposure; exact at every mean.
 //! Draw: `NoiseDraw::Shot` of the pixel. Left out: several electrons a photon (below 400 nm).
 
-use super::{NOISE_OFF, Verdict};
-use crate::operation::{Context, Operation};
-use crate::parameters::SensorParameters;
+use crate::check::Checks;
+use crate::effect::{Context, Effect, NOISE_OFF, Row, RowConversion, SensorFacts};
+use crate::operation::Operation;
 use crate::random::Poisson;
+use crate::signal_breakdown::SignalComponent;
+use etendue_core::EffectStatus;
+use etendue_core::quantity::{Charge, MeanElectrons};
 use etendue_core::random::{NoiseDraw, NoiseKey, Pixel};
 
-pub(super) fn need(p: &SensorParameters, operation: &Operation) -> (Verdict, String) {
-    if !p.noise {
-        (Verdict::Skipped, NOISE_OFF.into())
-    } else if operation.exposure_s == 0.0 {
-        (Verdict::Skipped, "the exposure is zero: no photon is counted".into())
-    } else {
-        (Verdict::Required, "photo-electrons are counted: Poisson, exact at every mean".into())
+/// Photon shot noise; it has no parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ShotNoise;
+
+impl ShotNoise {
+    /// Counting, prepared; `None` where charge is its mean.
+    pub(crate) fn prepare(self, context: &Context) -> Option<Counting> {
+        let counted = self.status(&context.facts, &context.operation).is_modelled();
+        counted.then(|| Counting { key: context.noise(NoiseDraw::Shot) })
     }
 }
 
-/// Photon shot noise, prepared.
+impl Effect for ShotNoise {
+    const NAME: &'static str = "shot noise";
+
+    fn check(&self, _: &SensorFacts, _: &mut Checks) {}
+
+    fn status(&self, facts: &SensorFacts, operation: &Operation) -> EffectStatus {
+        if !facts.noise {
+            EffectStatus::LeftOut(NOISE_OFF.into())
+        } else if operation.exposure_s == 0.0 {
+            EffectStatus::LeftOut("the exposure is zero: no photon is counted".into())
+        } else {
+            EffectStatus::Modelled("photo-electrons are counted: Poisson, exact at every mean".into())
+        }
+    }
+}
+
+/// Makes charge of mean electrons.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct ShotNoise {
+pub(crate) struct Counting {
     key: NoiseKey,
 }
 
-impl ShotNoise {
-    pub(crate) fn new(context: &Context<'_>) -> Self {
-        Self { key: context.noise(NoiseDraw::Shot) }
-    }
+impl RowConversion for Counting {
+    type From = MeanElectrons;
+    type To = Charge;
+    const COMPONENT: SignalComponent = SignalComponent::Shot;
 
     /// Replaces means (finite, not negative) by counts.
-    pub(crate) fn apply(self, electrons: &mut [f64], y: u32) {
-        for (x, e) in electrons.iter_mut().enumerate() {
+    fn convert<'a>(&self, row: Row<'a, MeanElectrons>) -> Row<'a, Charge> {
+        for (x, e) in row.values.iter_mut().enumerate() {
             if let Some(poisson) = Poisson::new(*e) {
-                *e = poisson.draw(&mut self.key.stream(Pixel { x: x as u32, y }));
+                *e = poisson.draw(&mut self.key.stream(Pixel { x: x as u32, y: row.y }));
             }
         }
+        row.counted()
     }
 }

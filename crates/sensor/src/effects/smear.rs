@@ -11,13 +11,13 @@
 //! S is added to the mean before counting, so it has its own shot noise: a sum of Poisson counts is a Poisson count.
 //! Left out: light that changes during the frame; blooming into the register.
 
-use super::Verdict;
 use crate::check::Checks;
-use crate::operation::Context;
-use crate::parameters::SensorParameters;
-use etendue_core::Plane;
+use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, SensorFacts, Traces};
+use crate::operation::Operation;
+use crate::signal_breakdown::SignalComponent;
 use etendue_core::maths::f64::pow;
-use etendue_core::quantity::Electrons;
+use etendue_core::quantity::MeanElectrons;
+use etendue_core::{EffectStatus, Plane};
 use rayon::prelude::*;
 
 /// How charge is moved past the light.
@@ -38,32 +38,20 @@ pub enum Smear {
 }
 
 impl Smear {
-    pub(crate) fn check(&self, p: &SensorParameters, checks: &mut Checks) {
+    /// The time in which charge passes one of so many rows, s.
+    fn line_s(&self, frame_period_s: Option<f64>, rows: usize) -> f64 {
         match *self {
-            Self::Interline { smear_db, measured_exposure_ratio } => {
-                let legal = smear_db.is_finite() && smear_db <= -20.0;
-                checks.legal("smear.smear_db", smear_db, legal, "a data sheet's figure of at most -20 dB");
-                checks.share_above_0("smear.measured_exposure_ratio", measured_exposure_ratio);
-                checks.agree("smear.smear_db", p.exposure.frame_period_s.is_some(), || {
-                    "smear grows with the time of a whole frame: give \"frame_period_s\"".to_owned()
-                });
-            }
-            Self::FrameTransfer { line_shift_s } => checks.positive("smear.line_shift_s", line_shift_s),
-        }
-        checks.agree("smear", p.exposure.exposure_s > 0.0, || {
-            "the rate of light is not known at an exposure_s of 0: give a longer one".to_owned()
-        });
-    }
-
-    /// The time in which charge passes a row.
-    fn line_s(&self, p: &SensorParameters, rows: usize) -> f64 {
-        match *self {
-            Self::Interline { .. } => p.exposure.frame_period_s.expect("checked with the parameters") / rows as f64,
+            Self::Interline { .. } => frame_period_s.expect("checked with the parameters") / rows as f64,
             Self::FrameTransfer { line_shift_s } => line_shift_s,
         }
     }
 
-    /// The share ε of the light that passing charge collects.
+    /// The exposure that smear adds to every pixel of an evenly and steadily lit picture of so many lit rows among `rows`, s.
+    pub(crate) fn even_s(&self, frame_period_s: Option<f64>, lit: usize, rows: usize) -> f64 {
+        self.leak() * self.line_s(frame_period_s, rows) * lit as f64
+    }
+
+    /// The fraction ε of the light that passing charge collects.
     #[must_use]
     pub fn leak(&self) -> f64 {
         match *self {
@@ -75,53 +63,66 @@ impl Smear {
     }
 }
 
-impl SensorParameters {
-    /// The exposure that smear adds to every pixel of an evenly and steadily lit picture of so many rows, s. Shielded rows take their
-    /// time, too, and add nothing.
-    #[must_use]
-    pub fn even_smear_s(&self, rows: usize) -> f64 {
-        let all = rows + self.read_out.layout.optical_black.rows;
-        self.charge.smear.map_or(0.0, |smear| smear.leak() * smear.line_s(self, all) * rows as f64)
+impl Effect for Smear {
+    const NAME: &'static str = "smear";
+
+    fn check(&self, facts: &SensorFacts, checks: &mut Checks) {
+        match *self {
+            Self::Interline { smear_db, measured_exposure_ratio } => {
+                let legal = smear_db.is_finite() && smear_db <= -20.0;
+                checks.legal("smear.smear_db", smear_db, legal, "a data sheet's figure of at most -20 dB");
+                checks.fraction_above_0("smear.measured_exposure_ratio", measured_exposure_ratio);
+                checks.agree("smear.smear_db", facts.frame_period_s.is_some(), || {
+                    "smear grows with the time of a whole frame: give \"frame_period_s\"".to_owned()
+                });
+            }
+            Self::FrameTransfer { line_shift_s } => checks.positive("smear.line_shift_s", line_shift_s),
+        }
+        checks.agree("smear", facts.exposure_s > 0.0, || {
+            "the rate of light is not known at an exposure_s of 0: give a longer one".to_owned()
+        });
+    }
+
+    fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
+        EffectStatus::Modelled(match self {
+            Self::Interline { smear_db, .. } => format!("interline, {smear_db} dB: a leak of {:.3e}", self.leak()),
+            Self::FrameTransfer { line_shift_s } => format!("frame transfer, {line_shift_s} s a row"),
+        })
     }
 }
 
-pub(super) fn need(p: &SensorParameters) -> (Verdict, String) {
-    match &p.charge.smear {
-        None => (Verdict::Skipped, super::NOT_DESCRIBED.into()),
-        Some(smear @ Smear::Interline { smear_db, .. }) => {
-            (Verdict::Required, format!("interline, {smear_db} dB: a leak of {:.3e}", smear.leak()))
-        }
-        Some(Smear::FrameTransfer { line_shift_s }) => {
-            (Verdict::Required, format!("frame transfer, {line_shift_s} s a row"))
-        }
+impl EffectOn for Smear {
+    type On = MeanElectrons;
+    const COMPONENT: SignalComponent = SignalComponent::Smear;
+
+    fn prepare(&self, context: &Context, _: &mut Memory) -> Action<MeanElectrons> {
+        let line_s = self.line_s(context.facts.frame_period_s, context.height);
+        Action::plane(ColumnSmear { factor: self.leak() * line_s / context.operation.exposure_s })
     }
 }
 
 /// Smear, prepared: the factor on the sum of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct ColumnSmear {
+struct ColumnSmear {
     factor: f64,
 }
 
-impl ColumnSmear {
-    pub(crate) fn new(smear: &Smear, context: &Context<'_>) -> Self {
-        let line_s = smear.line_s(context.p, context.height);
-        Self { factor: smear.leak() * line_s / context.operation.exposure_s }
-    }
-
-    pub(crate) fn apply(&self, means: &mut Plane<Electrons>) {
+impl PlaneEffect<MeanElectrons> for ColumnSmear {
+    fn apply(&self, mut means: Plane<MeanElectrons>, _: &mut Traces<'_>) -> Plane<MeanElectrons> {
         let width = means.width();
-        if width == 0 {
-            return;
+        if width > 0 {
+            let smear = self.of_columns(&means);
+            means.samples_mut().par_chunks_mut(width).for_each(|row| {
+                row.iter_mut().zip(&smear).for_each(|(mean, s)| *mean = (f64::from(*mean) + s) as f32);
+            });
         }
-        let smear = self.of_columns(means);
-        means.samples_mut().par_chunks_mut(width).for_each(|row| {
-            row.iter_mut().zip(&smear).for_each(|(mean, s)| *mean = (f64::from(*mean) + s) as f32);
-        });
+        means
     }
+}
 
+impl ColumnSmear {
     /// Columns are summed from the top by one owner each, so the bits do not depend on threads.
-    fn of_columns(&self, means: &Plane<Electrons>) -> Vec<f64> {
+    fn of_columns(&self, means: &Plane<MeanElectrons>) -> Vec<f64> {
         const BLOCK: usize = 64;
         let mut sums = vec![0.0; means.width()];
         sums.par_chunks_mut(BLOCK).enumerate().for_each(|(block, sums)| {
@@ -138,14 +139,15 @@ impl ColumnSmear {
 mod tests {
     use super::*;
     use crate::frame::tests::{ADDRESS, one_dn_an_electron, quiet, run};
+    use crate::parameters::SensorParameters;
     use etendue_stats::Moments;
 
     const INTERLINE: Smear = Smear::Interline { smear_db: -80.0, measured_exposure_ratio: 1.0 };
 
     fn smeared(noise: bool, exposure_s: f64) -> SensorParameters {
         let mut p = if noise { one_dn_an_electron() } else { quiet() };
-        p.charge.smear = Some(INTERLINE);
-        p.charge.full_well_e = 1e9;
+        p.light.smear = Some(INTERLINE);
+        p.charge.full_well.capacity_e = 1e9;
         (p.exposure.exposure_s, p.exposure.frame_period_s) = (exposure_s, Some(0.04));
         p
     }
@@ -210,7 +212,7 @@ mod tests {
     #[test]
     fn frame_transfer_passes_the_open_pixels() {
         let mut p = quiet();
-        p.charge.smear = Some(Smear::FrameTransfer { line_shift_s: 1e-6 });
+        p.light.smear = Some(Smear::FrameTransfer { line_shift_s: 1e-6 });
         p.exposure.exposure_s = 0.01;
         let raw = run(&p, &Plane::filled(2, 100, 10_000.0), ADDRESS);
         // 100 rows · 1 µs · 1e6 e⁻/s.

@@ -2,7 +2,7 @@
 //!
 //! - Doubling (EMVA 1288, equation 14): I(T) = I(T₀) 2^((T − T₀)/T_d).
 //! - Band gap of silicon: thermal generation in the depleted zone, I ∝ T^1.5 exp(−E_g/(2 k T)), and diffusion from the bulk,
-//!   I ∝ T³ exp(−E_g/(k T)), mixed by their shares at T₀; E_g(T) = 1.1557 − 7.021e-4 T²/(T + 1108) eV (Varshni 1967; the form of
+//!   I ∝ T³ exp(−E_g/(k T)), mixed by their fractions at T₀; E_g(T) = 1.1557 − 7.021e-4 T²/(T + 1108) eV (Varshni 1967; the form of
 //!   Janesick 2001). Generation doubles every 8.5 K at 300 K and every 11.8 K at 358 K; no doubling constant holds for both.
 
 use crate::check::Checks;
@@ -18,7 +18,7 @@ pub enum TemperatureLaw {
     },
     /// Silicon's band gap.
     BandGap {
-        /// Share of diffusion in the current at the reference temperature; the rest is generation.
+        /// Fraction of diffusion in the current, 0 to 1, at the reference temperature; the rest is generation.
         diffusion_fraction: f64,
     },
 }
@@ -44,7 +44,7 @@ impl Temperature {
         match self.law {
             TemperatureLaw::Doubling { step_k } => checks.positive("dark.doubling_k", step_k),
             TemperatureLaw::BandGap { diffusion_fraction } => {
-                checks.share("dark.diffusion_fraction", diffusion_fraction);
+                checks.fraction("dark.diffusion_fraction", diffusion_fraction);
             }
         }
         checks.agree("dark.temperature_c", !checks.errors.is_empty() || self.factor().is_finite(), || {

@@ -1,22 +1,20 @@
 //! Pixels with two levels between which they jump at random: a telegraph signal over frames.
 //!
-//! A share of pixels has it; each has its own amplitude (exponential) and level. From frame to frame it changes its level with
+//! A fraction of pixels has it; each has its own amplitude (exponential) and level. From frame to frame it changes its level with
 //! probability 1/dwell, so it stays for a mean of `dwell` frames at each; before the first frame both are as likely.
 //! Which pixels, and how much, are the specimen's; the jumps are the frames'.
 //! Left out: unequal dwell times of the two levels, more than two levels.
 
 use crate::check::Checks;
-use crate::operation::pattern_key;
-use crate::parameters::SensorParameters;
+use crate::effect::Context;
 use crate::random::sparse;
-use crate::state::FrameAddress;
-use etendue_core::random::{NoiseDraw, NoiseKey, Pixel};
+use etendue_core::random::{NoiseDraw, Pixel};
 
 /// Pixels that jump between two levels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoLevel {
-    /// Share of pixels that do.
-    pub share: f64,
+    /// Fraction of pixels that do, above 0 and up to 1.
+    pub fraction: f64,
     /// Mean of their amplitudes, from the lower level to the upper one, in the unit of what jumps.
     pub mean: f64,
     /// Mean number of frames at a level, 1 or more.
@@ -24,8 +22,9 @@ pub struct TwoLevel {
 }
 
 impl TwoLevel {
+    /// `keys`: those of the fraction, the mean and the dwell.
     pub(crate) fn check(&self, keys: [&'static str; 3], checks: &mut Checks) {
-        checks.share_above_0(keys[0], self.share);
+        checks.fraction_above_0(keys[0], self.fraction);
         checks.positive(keys[1], self.mean);
         let legal = self.dwell_frames.is_finite() && self.dwell_frames >= 1.0;
         checks.legal(keys[2], self.dwell_frames, legal, "a number of frames of at least 1");
@@ -46,23 +45,17 @@ pub(crate) struct Draws {
     pub(crate) flip: NoiseDraw,
 }
 
-/// The sites of an array, and which of them are at their upper level in the frame of `address`.
-pub(crate) fn next(
-    two: &TwoLevel,
-    (p, draws): (&SensorParameters, Draws),
-    address: FrameAddress,
-    (width, height): (usize, usize),
-    before: &[bool],
-) -> (Vec<Site>, Vec<bool>) {
-    let key = pattern_key(p, address.camera, draws.which);
+/// The sites of a capture's array, and which of them are at their upper level, where `before` says it of the frame before.
+pub(crate) fn next(two: &TwoLevel, draws: Draws, context: &Context, before: &[bool]) -> (Vec<Site>, Vec<bool>) {
+    let key = context.pattern(draws.which);
     let mut sites = Vec::new();
-    for y in 0..height as u32 {
-        sparse::each(key, y, two.share, width, |x, stream| {
+    for y in 0..context.height as u32 {
+        sparse::each(key, y, two.fraction, context.width, |x, stream| {
             sites.push(Site { x: x as u32, y, amplitude: sparse::exponential(two.mean, stream) });
         });
     }
     // All captures of a frame see one level.
-    let flips = NoiseKey::new(address.seed, address.camera, address.frame, 0, draws.flip);
+    let flips = context.frame_noise(draws.flip);
     let draw = |site: &Site| flips.stream(Pixel { x: site.x, y: site.y }).unit_f64();
     let high = if before.len() == sites.len() {
         sites.iter().zip(before).map(|(site, high)| high ^ (draw(site) * two.dwell_frames < 1.0)).collect()
@@ -83,14 +76,17 @@ pub(crate) fn high_in_row(sites: &[Site], y: u32) -> &[Site] {
 mod tests {
     use super::*;
     use crate::parameters::tests::ideal;
+    use crate::state::FrameAddress;
 
     #[test]
     fn levels_stay_for_their_dwell_and_are_as_likely_as_each_other() {
-        let two = TwoLevel { share: 0.05, mean: 3.0, dwell_frames: 4.0 };
+        let two = TwoLevel { fraction: 0.05, mean: 3.0, dwell_frames: 4.0 };
         let p = ideal();
         let frame = |frame: u32, before: &[bool]| {
             let draws = Draws { which: NoiseDraw::Telegraph, flip: NoiseDraw::TelegraphFlip };
-            next(&two, (&p, draws), FrameAddress { seed: 1, camera: 0, frame, capture: 0 }, (200, 200), before)
+            let address = FrameAddress { seed: 1, camera: 0, frame, capture: 0 };
+            let operation = p.operation(p.described_point());
+            next(&two, draws, &Context { facts: p.facts(), operation, address, width: 200, height: 200 }, before)
         };
         let (sites, mut high) = frame(0, &[]);
         let n = sites.len() as f64;
@@ -106,7 +102,7 @@ mod tests {
             up += next.iter().filter(|h| **h).count() as f64;
             high = next;
         }
-        // 50 n jumps of probability 1/4. The share up is correlated over (1 + r)/(1 − r) = 3 frames, r = 1 − 2/4.
+        // 50 n jumps of probability 1/4. The fraction up is correlated over (1 + r)/(1 − r) = 3 frames, r = 1 − 2/4.
         assert!((jumps / (50.0 * n) - 0.25).abs() < 4.0 * (0.1875 / (50.0 * n)).sqrt());
         assert!((up / (50.0 * n) - 0.5).abs() < 4.0 * (0.25 * 3.0 / (50.0 * n)).sqrt());
     }

@@ -42,7 +42,7 @@ fn no_time_and_no_light_leave_the_read_noise() {
 #[test]
 fn a_well_of_an_electron_has_one_or_none() {
     let mut p = one_dn_an_electron();
-    p.charge.full_well_e = 1.0;
+    p.charge.full_well.capacity_e = 1.0;
     let none = etendue_core::maths::f64::exp(-0.7);
     share_is(p.clone(), 0.7, 0, none);
     share_is(p.clone(), 0.7, 1, 1.0 - none);
@@ -63,7 +63,7 @@ fn a_million_seconds_are_counted_or_fill_the_well() {
 #[test]
 fn a_million_million_electrons_have_their_shot_noise() {
     let mut p = one_dn_an_electron();
-    (p.charge.full_well_e, p.read_out.gain_dn_e) = (1e13, 1e-5);
+    (p.charge.full_well.capacity_e, p.read_out.gain_dn_e) = (1e13, 1e-5);
     // The mean as f32 has it; K² μ + 1/12.
     let mean_e = f64::from(1e12_f32);
     has(p, 1e12, 1e-5 * mean_e, 1e-10 * mean_e + 1.0 / 12.0);
@@ -72,7 +72,7 @@ fn a_million_million_electrons_have_their_shot_noise() {
 #[test]
 fn a_converter_of_one_bit_is_a_threshold() {
     let mut p = one_dn_an_electron();
-    (p.read_out.bits, p.read_out.noise.white_e, p.noise) = (1, 5.0, true);
+    (p.read_out.bits, p.voltage.noise.white_e, p.noise) = (1, 5.0, true);
     p.read_out.gain_dn_e = 0.1;
     // Half a number is 5 e⁻: a standard deviation above black.
     share_is(p.clone(), 0.0, 1, normal::cdf(-1.0));

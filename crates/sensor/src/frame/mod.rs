@@ -1,26 +1,29 @@
 //! From mean electrons to a raw picture, frame after frame.
 
-mod chain;
 mod pass;
 
 use crate::account::ChargeAccount;
-use crate::effects::converter::Converter;
+use crate::effect::{Context, Memory};
+use crate::effects::shot_noise::ShotNoise;
 use crate::hdr::merge::Merged;
-use crate::operation::{Context, Operation};
+use crate::operation::Operation;
 use crate::raw::Raw;
 use crate::sensor::Sensor;
 use crate::signal_breakdown::SignalBreakdown;
 use crate::state::{FrameAddress, OperatingPoint, SensorState};
 use etendue_core::Plane;
-use etendue_core::quantity::{DigitalNumber, Electrons};
+use etendue_core::quantity::{Charge, DigitalNumber, MeanElectrons};
 use etendue_core::random::Pixel;
 use pass::Pass;
 
-/// What a sensor remembers, as the last frame left it and as this frame leaves it.
-#[derive(Clone, Debug)]
-pub(crate) struct Memory {
-    before: SensorState,
-    after: SensorState,
+/// What a capture's charge has become.
+struct Reading {
+    numbers: Plane<DigitalNumber>,
+    /// The number of a saturated pixel.
+    white_dn: f64,
+    signal_breakdown: Option<SignalBreakdown>,
+    /// Where its charge went at the full well, where the pass came by it.
+    account: Option<ChargeAccount>,
 }
 
 /// What all captures of a frame have become.
@@ -40,7 +43,7 @@ impl Sensor {
     pub fn step(
         &self,
         state: SensorState,
-        mean_electrons: &Plane<Electrons>,
+        mean_electrons: &Plane<MeanElectrons>,
         address: FrameAddress,
     ) -> (SensorState, Raw) {
         let (state, raw, _) = self.frame(state, mean_electrons, address, false);
@@ -52,7 +55,7 @@ impl Sensor {
     pub fn step_with_breakdown(
         &self,
         state: SensorState,
-        mean_electrons: &Plane<Electrons>,
+        mean_electrons: &Plane<MeanElectrons>,
         address: FrameAddress,
     ) -> (SensorState, Raw, SignalBreakdown) {
         let (state, raw, signal_breakdown) = self.frame(state, mean_electrons, address, true);
@@ -62,17 +65,16 @@ impl Sensor {
     fn frame(
         &self,
         state: SensorState,
-        means: &Plane<Electrons>,
+        means: &Plane<MeanElectrons>,
         address: FrameAddress,
         with_breakdown: bool,
     ) -> (SensorState, Raw, Option<SignalBreakdown>) {
         let p = self.parameters();
-        let point = state.operating_point.unwrap_or_else(|| OperatingPoint::described(p));
-        let after = SensorState { trapped_e: state.trapped_e.clone(), ..SensorState::default() };
-        let mut memory = Memory { before: state, after };
+        let point = state.operating_point.unwrap_or_else(|| p.described_point());
+        let mut memory = Memory { after: state.clone(), before: state };
         let extended = p.read_out.layout.with_optical_black(means);
         let array = extended.as_ref().unwrap_or(means);
-        let first = Operation::base(p, point);
+        let first = p.operation(point);
         let taken = if p.hdr.captures.is_empty() {
             self.single(array, first, address, &mut memory, with_breakdown)
         } else {
@@ -84,30 +86,60 @@ impl Sensor {
         (state, raw, signal_breakdown)
     }
 
-    fn context(&self, array: &Plane<Electrons>, operation: Operation, address: FrameAddress) -> Context<'_> {
-        Context { p: self.parameters(), operation, address, width: array.width(), height: array.height() }
+    fn context(&self, array: &Plane<MeanElectrons>, operation: Operation, address: FrameAddress) -> Context {
+        let facts = self.parameters().facts();
+        Context { facts, operation, address, width: array.width(), height: array.height() }
+    }
+
+    /// The charge of a capture.
+    fn charge<'a>(
+        &self,
+        array: &'a Plane<MeanElectrons>,
+        context: &Context,
+        memory: &mut Memory,
+        with_breakdown: bool,
+    ) -> Pass<'a, Charge> {
+        let p = self.parameters();
+        let mut means = Pass::new(array, context.operation.light, with_breakdown);
+        means.run(p.light.stages(context, memory), &mut memory.after);
+        let mut charge = means.converted(ShotNoise.prepare(context));
+        charge.run(p.charge.stages(context, memory), &mut memory.after);
+        charge
+    }
+
+    /// The digital numbers of charge, and what they are made of. `context` has the size of the array.
+    fn reading(&self, mut charge: Pass<'_, Charge>, context: &Context, memory: &mut Memory) -> Reading {
+        let p = self.parameters();
+        let mut context = *context;
+        if let Some(binning) = p.read_out.layout.charge_binning() {
+            charge.bin(binning, &p.cfa);
+            (context.width, context.height) = (context.width / binning.columns, context.height / binning.rows);
+        }
+        let mut voltage = charge.converted(p.read_out.response.prepare());
+        voltage.run(p.voltage.stages(&context, memory), &mut memory.after);
+        let white_dn = p.capture_white_dn(&context.operation);
+        let numbers = voltage.convert(&p.converter(&context.operation), white_dn);
+        Reading { numbers, white_dn, signal_breakdown: voltage.signal_breakdown, account: voltage.account }
     }
 
     /// The only capture, from means to numbers.
     fn single(
         &self,
-        array: &Plane<Electrons>,
+        array: &Plane<MeanElectrons>,
         operation: Operation,
         address: FrameAddress,
         memory: &mut Memory,
         with_breakdown: bool,
     ) -> Taken {
         let context = self.context(array, operation, address);
-        let mut pass = Pass::new(array, operation.light, with_breakdown);
-        let stages = [chain::charge(&context, memory), chain::reading(&context, memory)].concat();
-        pass.run(stages, &context, &mut memory.after.trapped_e);
-        let linear = self.merged_of(pass.convert(&Converter::new(&context), context.p.capture_white_dn(&operation)));
-        let accounts = pass.account.map(|account| (0, account)).into_iter().collect();
-        Taken { numbers: linear, signal_breakdown: pass.signal_breakdown, accounts }
+        let charge = self.charge(array, &context, memory, with_breakdown);
+        let Reading { numbers, signal_breakdown, account, .. } = self.reading(charge, &context, memory);
+        let accounts = account.map(|account| (0, account)).into_iter().collect();
+        Taken { numbers: self.companded(numbers), signal_breakdown, accounts }
     }
 
     /// Companding of a single capture.
-    fn merged_of(&self, numbers: Plane<DigitalNumber>) -> Plane<DigitalNumber> {
+    fn companded(&self, numbers: Plane<DigitalNumber>) -> Plane<DigitalNumber> {
         match &self.parameters().hdr.companding {
             None => numbers,
             Some(curve) => numbers.map(|dn| curve.companded(f64::from(dn)).round_ties_even() as u32),
@@ -117,7 +149,7 @@ impl Sensor {
     /// Several captures, merged.
     fn merged(
         &self,
-        array: &Plane<Electrons>,
+        array: &Plane<MeanElectrons>,
         first: Operation,
         address: FrameAddress,
         memory: &mut Memory,
@@ -125,31 +157,23 @@ impl Sensor {
     ) -> Taken {
         let p = self.parameters();
         let mut merged = Merged::new(p.read_out.black_level_dn);
-        let (mut held, mut accounts): (Option<Pass<'_>>, _) = (None, Vec::new());
+        let (mut held, mut accounts): (Option<Pass<'_, Charge>>, _) = (None, Vec::new());
         for (k, operation) in p.hdr.operations(first).into_iter().enumerate() {
             let address = FrameAddress { capture: address.capture + k as u32, ..address };
             let context = self.context(array, operation, address);
             if k == 0 || !p.hdr.captures[k - 1].dual_conversion_gain {
-                let mut pass = Pass::new(array, operation.light, with_breakdown);
-                pass.run(chain::charge(&context, memory), &context, &mut memory.after.trapped_e);
-                pass.settle();
-                accounts.extend(pass.account.map(|account| (k, account)));
-                held = Some(pass);
+                let mut charge = self.charge(array, &context, memory, with_breakdown);
+                charge.settle();
+                accounts.extend(charge.account.map(|account| (k, account)));
+                held = Some(charge);
             }
             let Some(charge) = &held else { continue };
-            let mut pass = charge.again();
-            pass.run(chain::reading(&context, memory), &context, &mut memory.after.trapped_e);
-            let white_dn = p.capture_white_dn(&operation);
-            let numbers = pass.convert(&Converter::new(&context), white_dn);
+            let reading = self.reading(charge.again(), &context, memory);
             let black_dn = p.read_out.black_level_dn;
-            let switch_dn = black_dn + p.hdr.switch() * (white_dn - black_dn);
+            let switch_dn = black_dn + p.hdr.switch() * (reading.white_dn - black_dn);
             let factor = p.hdr.scale(k) * operation.gain_dn_e / first.gain_dn_e;
-            merged.take(
-                &numbers,
-                p.hdr.scale(k),
-                switch_dn,
-                pass.signal_breakdown.as_ref().map(|signal_breakdown| (signal_breakdown, factor)),
-            );
+            let signal_breakdown = reading.signal_breakdown.as_ref().map(|layers| (layers, factor));
+            merged.take(&reading.numbers, p.hdr.scale(k), switch_dn, signal_breakdown);
         }
         Taken { numbers: self.rounded(&merged), signal_breakdown: merged.into_breakdown(), accounts }
     }
@@ -166,7 +190,7 @@ impl Sensor {
     }
 
     /// The raw of what was taken: numbers put together, the part that is read, what was no light.
-    fn raw(&self, taken: Taken, array: &Plane<Electrons>, point: OperatingPoint) -> (Raw, Option<SignalBreakdown>) {
+    fn raw(&self, taken: Taken, array: &Plane<MeanElectrons>, point: OperatingPoint) -> (Raw, Option<SignalBreakdown>) {
         let p = self.parameters();
         let layout = &p.read_out.layout;
         let Taken { mut numbers, mut signal_breakdown, accounts } = taken;
@@ -198,7 +222,7 @@ impl Sensor {
     }
 }
 
-fn invalid_pixels(means: &Plane<Electrons>) -> Vec<Pixel> {
+fn invalid_pixels(means: &Plane<MeanElectrons>) -> Vec<Pixel> {
     let width = means.width();
     let wrong = means.samples().iter().enumerate().filter(|(_, m)| !pass::is_valid(**m));
     wrong.map(|(i, _)| Pixel { x: (i % width) as u32, y: (i / width) as u32 }).collect()

@@ -12,8 +12,9 @@ pub(crate) const ADDRESS: FrameAddress = FrameAddress { seed: 5, camera: 1, fram
 pub(crate) fn quiet() -> SensorParameters {
     let mut p = ideal();
     p.noise = false;
-    p.charge.full_well_e = 1e7;
-    p.read_out = crate::ReadOut::linear(1.0, 0.0, 24, 0.0);
+    p.charge.full_well.capacity_e = 1e7;
+    p.read_out = crate::ReadOut::linear(1.0, 0.0, 24);
+    p.voltage = crate::VoltageEffects::default();
     p
 }
 
@@ -23,13 +24,8 @@ pub(crate) fn one_dn_an_electron() -> SensorParameters {
 }
 
 /// One frame.
-pub(crate) fn run(p: &SensorParameters, means: &Plane<Electrons>, address: FrameAddress) -> Raw {
+pub(crate) fn run(p: &SensorParameters, means: &Plane<MeanElectrons>, address: FrameAddress) -> Raw {
     Sensor::new(p.clone()).expect("legal").step(SensorState::default(), means, address).1
-}
-
-/// What an effect is told of the described capture.
-pub(crate) fn context(p: &SensorParameters, width: usize, height: usize) -> Context<'_> {
-    Context { p, operation: Operation::described(p), address: ADDRESS, width, height }
 }
 
 /// Covariance of pixels `dx` columns and `dy` rows apart.
@@ -86,7 +82,7 @@ fn the_photon_transfer_curve_gives_the_gain_back() {
 #[test]
 fn dark_current_has_its_own_shot_noise() {
     let mut p = ideal();
-    (p.charge.dark.current_e_s, p.exposure.exposure_s, p.read_out.noise.white_e, p.read_out.gain_dn_e) =
+    (p.charge.dark.current_e_s, p.exposure.exposure_s, p.voltage.noise.white_e, p.read_out.gain_dn_e) =
         (400.0, 0.1, 0.0, 1.0);
     let m = moments(&expose(p, 0.0, 512));
     assert!((m.mean() - 40.0).abs() < 4.0 * (40.0_f64 / 262_144.0).sqrt());
@@ -158,17 +154,17 @@ pub(crate) fn everything() -> SensorParameters {
     };
     use crate::effects::{neighbours::Neighbours, two_level::TwoLevel};
     let mut p = ideal();
-    (p.charge.full_well_e, p.read_out.bits) = (20_000.0, 14);
+    (p.charge.full_well.capacity_e, p.read_out.bits) = (20_000.0, 14);
     (p.exposure.frame_period_s, p.read_out.digital_gain) = (Some(0.04), 1.5);
     let table = vec![[0.0, 1.0], [30.0, 0.8]];
-    p.optics.angle_response =
+    p.light.angle_response =
         Some(angle_response::AngleResponse { table, exit_pupil_mm: 2.0, principal_px: [30.0, 20.0] });
-    let shares = Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.002 };
-    p.optics.crosstalk = Some(crosstalk::Crosstalk(shares));
-    p.pattern.photo_response = crate::effects::photo_response::PhotoResponse { white: 0.01, row: 0.002, column: 0.003 };
-    p.pattern.offset = crate::effects::offset_pattern::OffsetPattern { white_e: 2.0, row_e: 1.0, column_e: 1.0 };
-    p.pattern.dead_fraction = 1e-3;
-    let two = |mean| TwoLevel { share: 0.01, mean, dwell_frames: 3.0 };
+    let given = Neighbours { horizontal: 0.01, vertical: 0.01, corner: 0.002 };
+    p.light.crosstalk = Some(crosstalk::Crosstalk(given));
+    p.light.photo_response = crate::effects::photo_response::PhotoResponse { white: 0.01, row: 0.002, column: 0.003 };
+    p.voltage.offset = crate::effects::offset_pattern::OffsetPattern { white_e: 2.0, row_e: 1.0, column_e: 1.0 };
+    p.charge.dead_pixels.fraction = 1e-3;
+    let two = |mean| TwoLevel { fraction: 0.01, mean, dwell_frames: 3.0 };
     p.charge.dark = dark_current::DarkCurrent {
         spread: dark_current::DarkSpread {
             white: 0.3,
@@ -176,23 +172,23 @@ pub(crate) fn everything() -> SensorParameters {
             column: 0.05,
             distribution: dark_current::SpreadDistribution::LogNormal,
         },
-        hot: Some(dark_current::Hot { share: 0.01, mean_e_s: 1e5 }),
+        hot: Some(dark_current::Hot { fraction: 0.01, mean_e_s: 1e5 }),
         dark_current_rts: Some(two(1e5)),
         ..dark_current::DarkCurrent::even(2000.0)
     };
-    p.charge.smear = Some(smear::Smear::Interline { smear_db: -70.0, measured_exposure_ratio: 1.0 });
-    p.charge.traps = vec![lag::Trap { share: 0.02, time_constant_s: 0.1 }];
-    p.charge.brighter_fatter_per_e = 2e-6;
-    p.charge.blooming = Some(full_well::Blooming::Around { overflow_fraction: 0.6 });
+    p.light.smear = Some(smear::Smear::Interline { smear_db: -70.0, measured_exposure_ratio: 1.0 });
+    p.charge.lag.traps = vec![lag::Trap { fraction: 0.02, time_constant_s: 0.1 }];
+    p.charge.brighter_fatter.shift_per_e = 2e-6;
+    p.charge.full_well.blooming = Some(full_well::Blooming::Around { overflow_fraction: 0.6 });
     let knee = crate::effects::response::Knee { at_e: 10_000.0, slope: 0.5 };
     p.read_out.response = crate::effects::response::Response::Knees(vec![knee]);
-    p.read_out.capacitance = Some(inter_pixel_capacitance::InterPixelCapacitance(shares));
-    (p.read_out.noise.row_e, p.read_out.noise.column_e) = (1.0, 1.0);
-    p.read_out.rts_noise = Some(rts_noise::RtsNoise(two(20.0)));
+    p.voltage.capacitance = Some(inter_pixel_capacitance::InterPixelCapacitance(given));
+    (p.voltage.noise.row_e, p.voltage.noise.column_e) = (1.0, 1.0);
+    p.voltage.rts_noise = Some(rts_noise::RtsNoise(two(20.0)));
     p
 }
 
-fn scene() -> Plane<Electrons> {
+fn scene() -> Plane<MeanElectrons> {
     let mut means = Plane::from_samples(64, 48, (0..64 * 48).map(|i| (i * 7 % 5000) as f32).collect()).expect("filled");
     means.set(30, 20, 3e5);
     means.set(31, 20, 3e5);

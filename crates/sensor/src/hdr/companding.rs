@@ -6,6 +6,9 @@
 //! Companding acts on the merged number before rounding, and after all noise.
 
 use crate::check::Checks;
+use crate::effect::{Effect, SensorFacts};
+use crate::operation::Operation;
+use etendue_core::EffectStatus;
 
 /// Straight lines to fewer bits.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,8 +19,20 @@ pub struct Companding {
     pub bits: u32,
 }
 
+impl Effect for Companding {
+    const NAME: &'static str = "companding";
+
+    /// It is checked with the whole sensor, as it begins where merging ends.
+    fn check(&self, _: &SensorFacts, _: &mut Checks) {}
+
+    fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
+        EffectStatus::Modelled(format!("{} straight lines to {} bits", self.knees.len(), self.bits))
+    }
+}
+
 impl Companding {
-    pub(crate) fn check(&self, linear_bits: u32, checks: &mut Checks) {
+    /// Refuses a curve that does not take numbers of so many bits, or cannot be undone.
+    pub(crate) fn check_curve(&self, linear_bits: u32, checks: &mut Checks) {
         checks.legal(
             "companding.bits",
             f64::from(self.bits),
@@ -106,7 +121,7 @@ mod tests {
     fn curves_that_cannot_be_undone_are_refused() {
         let errors = |knees: Vec<[f64; 2]>, bits| {
             let mut checks = Checks::default();
-            Companding { knees, bits }.check(16, &mut checks);
+            Companding { knees, bits }.check_curve(16, &mut checks);
             checks.errors.len()
         };
         assert_eq!(errors(vec![[1000.0, 1000.0], [65_535.0, 4095.0]], 12), 0);

@@ -83,7 +83,7 @@ pub(crate) mod tests {
     /// 12 bits; a well of 4000 e⁻ at one DN an electron.
     fn three_exposures() -> SensorParameters {
         let mut p = quiet();
-        (p.charge.full_well_e, p.read_out.bits, p.read_out.black_level_dn) = (3900.0, 12, 100.0);
+        (p.charge.full_well.capacity_e, p.read_out.bits, p.read_out.black_level_dn) = (3900.0, 12, 100.0);
         p.hdr.captures = vec![
             Capture { exposure_ratio: 1.0 / 16.0, ..Capture::default() },
             Capture { exposure_ratio: 1.0 / 256.0, ..Capture::default() },
@@ -115,7 +115,7 @@ pub(crate) mod tests {
     #[test]
     fn captures_have_their_own_noise_and_snr_drops_at_the_switch() {
         let mut p = three_exposures();
-        (p.noise, p.read_out.noise.white_e) = (true, 2.0);
+        (p.noise, p.voltage.noise.white_e) = (true, 2.0);
         let snr = |mean: f32| {
             let raw = run(&p, &Plane::filled(256, 256, mean), ADDRESS);
             let m = Moments::of(raw.plane.samples().iter().map(|dn| f64::from(*dn) - 100.0));
@@ -131,7 +131,7 @@ pub(crate) mod tests {
     fn causes_are_those_of_the_capture_that_is_used() {
         use crate::{Sensor, SensorState, SignalComponent};
         let mut p = three_exposures();
-        (p.noise, p.read_out.noise.white_e, p.charge.dark.current_e_s) = (true, 2.0, 1000.0);
+        (p.noise, p.voltage.noise.white_e, p.charge.dark.current_e_s) = (true, 2.0, 1000.0);
         let again = Capture { gain_ratio: 1.0 / 4.0, dual_conversion_gain: true, ..Capture::default() };
         p.hdr.captures.insert(0, again);
         let sensor = Sensor::new(p).expect("legal");
@@ -156,7 +156,7 @@ pub(crate) mod tests {
     #[test]
     fn every_capture_has_its_account_of_charge() {
         let mut p = three_exposures();
-        p.charge.blooming = Some(crate::effects::full_well::Blooming::Around { overflow_fraction: 0.5 });
+        p.charge.full_well.blooming = Some(crate::effects::full_well::Blooming::Around { overflow_fraction: 0.5 });
         p.hdr.captures.insert(0, Capture { gain_ratio: 0.5, dual_conversion_gain: true, ..Capture::default() });
         let raw = run(&p, &Plane::filled(9, 9, 100_000.0), ADDRESS);
         let places: Vec<usize> = raw.accounts.iter().map(|(k, _)| *k).collect();
@@ -168,7 +168,7 @@ pub(crate) mod tests {
     #[test]
     fn dual_gain_reads_the_same_charge_twice() {
         let mut p = quiet();
-        (p.noise, p.charge.full_well_e, p.read_out.bits) = (true, 60_000.0, 12);
+        (p.noise, p.charge.full_well.capacity_e, p.read_out.bits) = (true, 60_000.0, 12);
         p.hdr.captures = vec![Capture { gain_ratio: 1.0 / 16.0, dual_conversion_gain: true, ..Capture::default() }];
         p.hdr.bits = Some(16);
         let means = Plane::filled(64, 64, 20_000.0);

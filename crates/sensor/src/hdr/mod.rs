@@ -20,11 +20,10 @@ pub mod companding;
 pub mod merge;
 
 use crate::check::Checks;
-use crate::effects::response::Response;
-use crate::effects::{NOT_DESCRIBED, Verdict};
+use crate::effect::{Effect, SensorFacts};
 use crate::operation::Operation;
-use crate::parameters::SensorParameters;
 use companding::Companding;
+use etendue_core::EffectStatus;
 
 /// A capture after the first, relative to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,7 +61,7 @@ impl Default for Capture {
 pub struct HighDynamicRange {
     /// Captures after the first.
     pub captures: Vec<Capture>,
-    /// Share of a capture's range above which the next one is taken, (0, 1); `None`: 0.9.
+    /// Fraction of a capture's range above which the next one is taken, (0, 1); `None`: 0.9.
     pub transition_level: Option<f64>,
     /// Bits of the merged number, the converter's to 24; `None` without captures.
     pub bits: Option<u32>,
@@ -89,9 +88,9 @@ impl Capture {
     }
 
     fn check(&self, number: usize, checks: &mut Checks) {
-        checks.share_above_0("hdr.captures.exposure_ratio", self.exposure_ratio);
-        checks.share_above_0("hdr.captures.sensitivity_ratio", self.sensitivity_ratio);
-        checks.share_above_0("hdr.captures.gain_ratio", self.gain_ratio);
+        checks.fraction_above_0("hdr.captures.exposure_ratio", self.exposure_ratio);
+        checks.fraction_above_0("hdr.captures.sensitivity_ratio", self.sensitivity_ratio);
+        checks.fraction_above_0("hdr.captures.gain_ratio", self.gain_ratio);
         if let Some(e) = self.full_well_e {
             checks.positive("hdr.captures.full_well_e", e);
         }
@@ -106,7 +105,7 @@ impl Capture {
 }
 
 impl HighDynamicRange {
-    /// The share of a capture's range above which the next one is taken.
+    /// The fraction of a capture's range above which the next one is taken.
     pub(crate) fn switch(&self) -> f64 {
         self.transition_level.unwrap_or(0.9)
     }
@@ -143,129 +142,32 @@ impl HighDynamicRange {
         all
     }
 
-    /// Merged white level, DN, where the first capture is `first`.
-    pub(crate) fn white_level_dn(&self, p: &SensorParameters, first: Operation) -> f64 {
-        let last = self.captures.len();
-        p.read_out.black_level_dn + self.range_dn(p, last, &self.operations(first)[last])
-    }
-
-    /// Merged numbers from black to where capture `k` is saturated.
-    fn range_dn(&self, p: &SensorParameters, k: usize, operation: &Operation) -> f64 {
-        self.scale(k) * (p.capture_white_dn(operation) - p.read_out.black_level_dn)
-    }
-
-    pub(crate) fn check(&self, p: &SensorParameters, checks: &mut Checks) {
+    /// Refuses captures that are illegal, one by one.
+    pub(crate) fn check_each(&self, checks: &mut Checks) {
         self.captures.iter().enumerate().for_each(|(i, capture)| capture.check(i, checks));
-        if let Some(share) = self.transition_level {
-            checks.legal("hdr.transition_level", share, share > 0.0 && share < 1.0, "a share between 0 and 1");
+        if let Some(level) = self.transition_level {
+            checks.legal("hdr.transition_level", level, level > 0.0 && level < 1.0, "a fraction between 0 and 1");
             checks.agree("hdr.transition_level", !self.captures.is_empty(), || {
                 "there are no captures to switch between".to_owned()
             });
         }
-        self.check_captures(p, checks);
-        if checks.errors.is_empty() {
-            self.check_bits(p, checks);
-        }
-        if let Some(companding) = &self.companding {
-            companding.check(self.bits.unwrap_or(p.read_out.bits), checks);
-        }
-    }
-
-    /// Whether captures can be taken and merged together.
-    fn check_captures(&self, p: &SensorParameters, checks: &mut Checks) {
-        let linear = p.read_out.response == Response::Linear;
-        checks.agree("hdr.captures", linear || self.captures.is_empty(), || {
-            "captures are merged in proportion to the light, which \"response\" bends: remove one of both".to_owned()
-        });
-        let operations = self.operations(Operation::described(p));
-        for (k, pair) in operations.windows(2).enumerate() {
-            let same = self.scale(k + 1) == self.scale(k) && pair[1].full_well_e == pair[0].full_well_e;
-            checks.agree("hdr.captures", !same, || {
-                format!("entry {k} (from 0) reaches no further than the capture before it and is never used: remove it")
-            });
-        }
-        if let Some(period_s) = p.exposure.frame_period_s {
-            let sum_s = self.longest_s(p.exposure.exposure_s);
-            checks.agree("hdr.captures", sum_s <= period_s, || {
-                format!("the exposures of a photodiode follow each other and take {sum_s} s together, more than frame_period_s, {period_s} s")
-            });
-        }
-    }
-
-    /// The time that the exposures of one photodiode take one after the other, s, the greatest of all photodiodes; those of one
-    /// sensitivity are of one photodiode.
-    fn longest_s(&self, exposure_s: f64) -> f64 {
-        let exposed =
-            self.captures.iter().filter(|c| !c.dual_conversion_gain).map(|c| (c.sensitivity_ratio, c.exposure_ratio));
-        let all: Vec<(f64, f64)> = core::iter::once((1.0, 1.0)).chain(exposed).collect();
-        let sum = |sensitivity: f64| all.iter().filter(|(s, _)| *s == sensitivity).map(|(_, share)| share).sum::<f64>();
-        exposure_s * all.iter().map(|(sensitivity, _)| sum(*sensitivity)).fold(0.0, f64::max)
-    }
-
-    fn check_bits(&self, p: &SensorParameters, checks: &mut Checks) {
-        let Some(bits) = self.bits else {
-            checks.agree("hdr.merged_bits", self.captures.is_empty(), || {
-                "several captures need \"merged_bits\"".to_owned()
-            });
-            return;
-        };
-        checks.agree("hdr.merged_bits", !self.captures.is_empty(), || {
-            "there are no captures to merge: remove it".to_owned()
-        });
-        let legal = (p.read_out.bits..=24).contains(&bits);
-        checks.legal("hdr.merged_bits", f64::from(bits), legal, "a whole number from the converter's bits to 24");
-        let more_sensitive = (1..=self.captures.len()).find(|k| self.scale(*k) < self.scale(*k - 1));
-        checks.agree("hdr.captures", more_sensitive.is_none(), || {
-            let number = more_sensitive.unwrap_or(1) - 1;
-            format!(
-                "entry {number} (from 0) is more sensitive than the one before it: list them by falling sensitivity"
-            )
-        });
-        self.check_ranges(p, checks);
-        if checks.errors.is_empty() {
-            let white = self.white_level_dn(p, Operation::described(p));
-            checks.agree("hdr.merged_bits", white < f64::from(1_u32 << bits), || {
-                format!("the merged range reaches {white:.0} DN, and {bits} bits end at {}: give more bits or fewer captures", (1_u32 << bits) - 1)
-            });
-        }
-    }
-
-    /// Each capture has to reach beyond what the one before is used for. At a larger gain, where the converter ends before the
-    /// well, it does so all the more.
-    fn check_ranges(&self, p: &SensorParameters, checks: &mut Checks) {
-        let operations = self.operations(Operation::base(p, p.least_point()));
-        let ranges: Vec<f64> = (0..).zip(&operations).map(|(k, operation)| self.range_dn(p, k, operation)).collect();
-        for (k, pair) in ranges.windows(2).enumerate() {
-            let used = self.switch() * pair[0];
-            checks.agree("hdr.captures", pair[1] > used, || {
-                format!(
-                    "entry {k} (from 0) is saturated {:.0} merged DN above black, and the one before it is used up to {used:.0}: give it \
-                     a larger \"full_well_e\" or a smaller share",
-                    pair[1]
-                )
-            });
-        }
     }
 }
 
-pub(crate) fn need_merge(p: &SensorParameters) -> (Verdict, String) {
-    let hdr = &p.hdr;
-    let Some(bits) = hdr.bits else { return (Verdict::Skipped, NOT_DESCRIBED.into()) };
-    let scales: Vec<String> = (0..=hdr.captures.len()).map(|k| format!("{}", hdr.scale(k))).collect();
-    let switch = hdr.switch();
-    (
-        Verdict::Required,
-        format!(
-            "{} captures of scales {}, each used up to {switch} of its range, merged to {bits} bits",
+impl Effect for HighDynamicRange {
+    const NAME: &'static str = "merging of captures";
+
+    /// Captures are checked with the whole sensor, when its own figures are legal.
+    fn check(&self, _: &SensorFacts, _: &mut Checks) {}
+
+    fn status(&self, _: &SensorFacts, _: &Operation) -> EffectStatus {
+        let Some(bits) = self.bits else { return EffectStatus::NotDescribed };
+        let scales: Vec<String> = (0..=self.captures.len()).map(|k| format!("{}", self.scale(k))).collect();
+        EffectStatus::Modelled(format!(
+            "{} captures of scales {}, each used up to {} of its range, merged to {bits} bits",
             scales.len(),
-            scales.join(", ")
-        ),
-    )
-}
-
-pub(crate) fn need_companding(p: &SensorParameters) -> (Verdict, String) {
-    match &p.hdr.companding {
-        None => (Verdict::Skipped, NOT_DESCRIBED.into()),
-        Some(c) => (Verdict::Required, format!("{} straight lines to {} bits", c.knees.len(), c.bits)),
+            scales.join(", "),
+            self.switch()
+        ))
     }
 }

@@ -14,7 +14,7 @@ pub fn standard_normal(stream: &mut NoiseStream) -> f64 {
     quantile(u)
 }
 
-/// The standard normal number below which a share `u` in (0, 1) lies.
+/// The standard normal number below which a fraction `u` in (0, 1) lies.
 fn quantile(u: f64) -> f64 {
     let q = u - 0.5;
     if q.abs() <= 0.425 {

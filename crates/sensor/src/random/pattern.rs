@@ -4,6 +4,8 @@
 //! the same three parts). A part of zero draws nothing.
 
 use super::standard_normal;
+use crate::effect::{Row, RowEffect};
+use etendue_core::quantity::Voltage;
 use etendue_core::random::{NoiseDraw, NoiseKey, Pixel};
 
 /// Standard deviations of the three parts.
@@ -17,6 +19,15 @@ pub(crate) struct Sigmas {
 impl Sigmas {
     pub(crate) fn is_zero(self) -> bool {
         self.white == 0.0 && self.row == 0.0 && self.column == 0.0
+    }
+}
+
+impl Sigmas {
+    /// The parts that there are, in words: `pixels by 0.01, rows by 0.002`, each with its unit.
+    pub(crate) fn described(self, unit: &str) -> String {
+        let parts = [("pixels", self.white), ("rows", self.row), ("columns", self.column)];
+        let stated = parts.into_iter().filter(|(_, sigma)| *sigma > 0.0);
+        stated.map(|(name, sigma)| format!("{name} by {sigma}{unit}")).collect::<Vec<_>>().join(", ")
     }
 }
 
@@ -51,6 +62,14 @@ impl Deviations {
             let white = self.white.map_or(0.0, |(sigma, key)| sigma * normal(key, x as u32, y));
             take(x, shared + white);
         }
+    }
+}
+
+/// Voltages that differ by them.
+impl RowEffect<Voltage> for Deviations {
+    fn apply(&self, row: &mut Row<'_, Voltage>) {
+        let voltages = &mut *row.values;
+        self.of_row(row.y, voltages.len(), |x, d| voltages[x] += d);
     }
 }
 

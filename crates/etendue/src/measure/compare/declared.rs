@@ -148,7 +148,7 @@ fn intrinsics(body: &CameraBody, measured: &Side, put: &mut impl FnMut(&str, f64
 
 /// Light on a pixel over that in the picture's middle.
 fn illumination(body: &CameraBody, field: f64) -> f64 {
-    let angles = body.sensor.as_ref().and_then(|s| s.parameters().optics.angle_response.as_ref());
+    let angles = body.sensor.as_ref().and_then(|s| s.parameters().light.angle_response.as_ref());
     let response = |at: DVec2| angles.map_or(1.0, |a| a.at(atan(at.length() / a.exit_pupil_mm).to_degrees()));
     let light = |field: f64| {
         places(body, field, half_px(body))
@@ -171,7 +171,7 @@ fn electronics(
     put("gain_dn_per_e", gain, "DN/e⁻");
     put("dark_noise_e", dark_noise_e(p), "e⁻");
     put("dark_current_mean_e_per_s", p.charge.dark.mean_e_s(), "e⁻/s");
-    let (offset, response) = (p.pattern.offset, p.pattern.photo_response);
+    let (offset, response) = (p.voltage.offset, p.light.photo_response);
     for (part, e, share) in [
         ("pixel", offset.white_e, response.white),
         ("row", offset.row_e, response.row),
@@ -215,6 +215,6 @@ fn achromatic(body: &CameraBody, put: &mut impl FnMut(&str, f64, &str)) -> Resul
 
 /// Noise of the chain in a pixel without light, at exposures too short for dark current.
 fn dark_noise_e(p: &SensorParameters) -> f64 {
-    let noise = &p.read_out.noise;
+    let noise = &p.voltage.noise;
     (noise.white_e * noise.white_e + noise.row_e * noise.row_e + noise.column_e * noise.column_e).sqrt()
 }

@@ -49,7 +49,7 @@ fn in_closed_form(body: &CameraBody) -> Result<(), String> {
         return Err("the response of this lens has no closed form here: expected a thin lens or pinhole without glare, ghosts and [external_optics]"
             .to_owned());
     }
-    if body.sensor.as_ref().is_some_and(|s| s.parameters().read_out.capacitance.is_some()) {
+    if body.sensor.as_ref().is_some_and(|s| s.parameters().voltage.capacitance.is_some()) {
         return Err("the response has no closed form here where pixels have a capacitance between them".to_owned());
     }
     match body.effects.psf() {
@@ -85,7 +85,7 @@ impl<'a> Response<'a> {
         let at = place_of(p, channel);
         let mut neighbours = Vec::new();
         for (dx, dy) in (0..9).map(|n| (n % 3, n / 3)) {
-            let share = p.optics.crosstalk.map_or(f64::from(u8::from((dx, dy) == (1, 1))), |c| match (dx, dy) {
+            let share = p.light.crosstalk.map_or(f64::from(u8::from((dx, dy) == (1, 1))), |c| match (dx, dy) {
                 (1, 1) => 1.0 - c.0.given(),
                 (_, 1) => c.0.horizontal,
                 (1, _) => c.0.vertical,

@@ -2,7 +2,7 @@
 
 use etendue_pipeline::plan::CameraBody;
 use etendue_sensor::dynamic_range::Switch;
-use etendue_sensor::{ChargeAccount, DynamicRange, Raw, Sensor, Verdict};
+use etendue_sensor::{ChargeAccount, DynamicRange, Raw, Sensor};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
@@ -16,8 +16,8 @@ pub(crate) fn sensor(body: &CameraBody) -> Value {
             "gain_dn_per_e": p.read_out.gain_dn_e,
             "black_level_dn": sensor.black_level_dn(),
             "white_level_dn": sensor.white_level_dn(),
-            "full_well_e": p.charge.full_well_e,
-            "read_noise_e": p.read_out.noise.white_e,
+            "full_well_e": p.charge.full_well.capacity_e,
+            "read_noise_e": p.voltage.noise.white_e,
             "dark_current_e_s": p.charge.dark.current_e_s,
             "bits": sensor.delivered_bits(),
             "noise": p.noise,
@@ -52,8 +52,8 @@ fn dynamic_range(range: &DynamicRange) -> Value {
 
 /// What is modelled, in the words of the plan.
 fn sensor_effects(sensor: &Sensor) -> BTreeMap<&'static str, String> {
-    let modelled = sensor.needs().into_iter().filter(|need| need.verdict != Verdict::Skipped);
-    modelled.map(|need| (need.effect.name(), need.reason)).collect()
+    let modelled = sensor.effects().into_iter().filter(|(_, status)| status.is_modelled());
+    modelled.map(|(name, status)| (name, status.reason().to_owned())).collect()
 }
 
 /// What a frame says of itself: the file of its raw, exposure and gain, levels, and where overflowing charge went.

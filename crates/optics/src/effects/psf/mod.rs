@@ -22,14 +22,14 @@ mod zernike;
 
 pub use zernike::Zernike;
 
+use super::Canvas;
 use super::band::BandLimited;
 use super::convolve::{self, Convolver, Field, Region};
 use super::error::EffectsError;
 use super::kernel::Kernel;
 use super::work::{Uses, Work};
-use super::{Canvas, Verdict};
 use crate::lens::Lens;
-use etendue_core::Bands;
+use etendue_core::{Bands, EffectStatus};
 use etendue_projection::Raster;
 use glam::{DMat2, DVec2};
 use outline::Outline;
@@ -148,7 +148,7 @@ impl Psf {
         self.f_number
     }
 
-    pub(super) fn need(&self) -> (Verdict, String) {
+    pub(super) fn status(&self) -> EffectStatus {
         let shape = match self.parameters.blades {
             0 => "a circle".to_owned(),
             n => format!("{n} blades of curvature {}", self.parameters.curvature),
@@ -160,7 +160,7 @@ impl Psf {
         };
         let [x, y] = self.patches;
         let n = (self.f_number * 1e3).round() / 1e3;
-        (Verdict::Required, format!("diffraction of {shape} at f/{n}, {error}, in {x} × {y} patches"))
+        EffectStatus::Modelled(format!("diffraction of {shape} at f/{n}, {error}, in {x} × {y} patches"))
     }
 
     /// Columns and rows that light is spread over.

@@ -3,7 +3,6 @@
 use super::super::context::Context;
 use super::super::spectrum::curve;
 use etendue_scene::record;
-use etendue_scene::record::Curve;
 use etendue_scene::record::sensor::QuantumEfficiency;
 use etendue_scene::record::sensor::cfa::CfaSource;
 use etendue_scene::{Place, Placed};
@@ -19,23 +18,10 @@ pub(super) fn cfa(source: &CfaSource, context: &mut Context<'_>) -> Option<Cfa> 
     context.accept(cfa_place(source), Cfa::tile(columns, numbers.len() / columns, numbers))
 }
 
-pub(super) fn cfa_place(source: &CfaSource) -> &Place {
+fn cfa_place(source: &CfaSource) -> &Place {
     match source {
         CfaSource::Named(name) => &name.place,
         CfaSource::Tile(tile) => &tile.place,
-    }
-}
-
-/// Where a quantum efficiency stands, the first of several.
-pub(super) fn efficiency_place(source: &QuantumEfficiency) -> Option<&Place> {
-    match source {
-        QuantumEfficiency::Same(curve) => Some(match curve {
-            Curve::Constant(number) => &number.place,
-            Curve::File(file) => &file.place,
-        }),
-        QuantumEfficiency::PerChannel(curves) => Some(&curves.place),
-        QuantumEfficiency::Measured { camera, .. } => Some(&camera.place),
-        QuantumEfficiency::Named(list) => list.first().map(|(name, _)| &name.place),
     }
 }
 

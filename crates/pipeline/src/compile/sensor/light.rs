@@ -2,12 +2,15 @@
 
 use super::or;
 use etendue_scene::record;
+use etendue_scene::record::sensor::charge as description;
 use etendue_scene::record::sensor::exposure::{self, AutoExposure, Exchange};
 use etendue_sensor::effects::angle_response::AngleResponse;
 use etendue_sensor::effects::crosstalk::Crosstalk;
 use etendue_sensor::effects::neighbours::Neighbours;
+use etendue_sensor::effects::photo_response::PhotoResponse;
+use etendue_sensor::effects::smear::Smear;
 use etendue_sensor::exposure_control::ExposureControl;
-use etendue_sensor::{Exposure, Optics};
+use etendue_sensor::{Exposure, LightEffects};
 
 pub(super) fn exposure(e: &record::Electronics) -> Exposure {
     Exposure {
@@ -28,7 +31,7 @@ fn control(record: &AutoExposure) -> ExposureControl {
 }
 
 /// `exit_pupil_mm` is the lens's own.
-pub(super) fn optics(sensor: &record::Sensor, e: &record::Electronics, exit_pupil_mm: f64) -> Optics {
+pub(super) fn light(sensor: &record::Sensor, e: &record::Electronics, exit_pupil_mm: f64) -> LightEffects {
     let middle = [0.5 * sensor.width_px.value as f64, 0.5 * sensor.height_px.value as f64];
     let principal_px = sensor.principal_point_px.as_ref().map_or(middle, |p| p.value);
     let response = |record: &exposure::AngleResponse| AngleResponse {
@@ -38,7 +41,30 @@ pub(super) fn optics(sensor: &record::Sensor, e: &record::Electronics, exit_pupi
     };
     // From infinitely far all light comes at 0°, where the response is 1.
     let angle_response = e.angle_response.as_ref().map(response).filter(|r| r.exit_pupil_mm.is_finite());
-    Optics { angle_response, crosstalk: e.crosstalk.as_ref().map(|shares| Crosstalk(neighbours(shares))) }
+    LightEffects {
+        angle_response,
+        crosstalk: e.crosstalk.as_ref().map(|given| Crosstalk(neighbours(given))),
+        photo_response: e.non_uniformity.as_ref().map(photo_response).unwrap_or_default(),
+        smear: e.smear.as_ref().map(smear),
+    }
+}
+
+fn photo_response(n: &description::NonUniformity) -> PhotoResponse {
+    PhotoResponse {
+        white: or(n.prnu.as_ref(), 0.0),
+        row: or(n.prnu_row.as_ref(), 0.0),
+        column: or(n.prnu_column.as_ref(), 0.0),
+    }
+}
+
+fn smear(record: &description::Smear) -> Smear {
+    match record {
+        description::Smear::Interline(smear) => Smear::Interline {
+            smear_db: smear.smear_db.value,
+            measured_exposure_ratio: or(smear.measured_exposure_ratio.as_ref(), 1.0),
+        },
+        description::Smear::FrameTransfer(smear) => Smear::FrameTransfer { line_shift_s: smear.line_shift_s.value },
+    }
 }
 
 pub(super) fn neighbours(record: &Exchange) -> Neighbours {

@@ -7,9 +7,9 @@ mod read_out;
 
 use super::context::Context;
 use channels::{cfa, channels};
+use etendue_scene::Placed;
 use etendue_scene::record;
 use etendue_scene::record::sensor::read_out::OpticalBlack;
-use etendue_scene::{Place, Placed};
 use etendue_sensor::{Pixel, Sensor, SensorError, SensorParameters};
 
 /// The sensor with its electronics, `exit_pupil_mm` behind its lens's exit pupil; `None` where the record has none or they are
@@ -18,21 +18,23 @@ pub(super) fn sensor(record: &record::Sensor, exit_pupil_mm: f64, context: &mut 
     let electronics = record.electronics.as_ref()?;
     refuse_no_shield(electronics.optical_black.as_ref(), context);
     let channels = channels(electronics, context)?;
+    let specimen = electronics.non_uniformity.as_ref().and_then(|n| n.seed.as_ref());
     let parameters = SensorParameters {
         pixel: Pixel { pitch_um: record.pixel_pitch_um.value, fill_factor: fill_factor(record) },
         cfa: cfa(&electronics.cfa, context)?,
         channels,
         exposure: light::exposure(electronics),
-        optics: light::optics(record, electronics, exit_pupil_mm),
-        pattern: charge::pattern(electronics),
+        specimen: specimen.map(|seed| seed.value),
+        light: light::light(record, electronics, exit_pupil_mm),
         charge: charge::charge(electronics),
+        voltage: read_out::voltage(electronics),
         read_out: read_out::read_out(electronics),
         hdr: read_out::hdr(electronics),
         noise: electronics.noise.as_ref().is_none_or(|n| n.value),
     };
-    let sensor = Sensor::new(parameters).map_err(|errors| refuse(record, electronics, &errors, context)).ok()?;
+    let sensor = Sensor::new(parameters).map_err(|errors| refuse(record, &errors, context)).ok()?;
     let misfits = sensor.misfits(record.width_px.value as usize, record.height_px.value as usize);
-    refuse(record, electronics, &misfits, context);
+    refuse(record, &misfits, context);
     misfits.is_empty().then_some(sensor)
 }
 
@@ -45,52 +47,15 @@ fn refuse_no_shield(record: Option<&OpticalBlack>, context: &mut Context<'_>) {
     }
 }
 
-fn refuse(
-    record: &record::Sensor,
-    electronics: &record::Electronics,
-    errors: &[SensorError],
-    context: &mut Context<'_>,
-) {
+/// Each refusal stands where its key does, or the innermost table around it that is stated.
+fn refuse(record: &record::Sensor, errors: &[SensorError], context: &mut Context<'_>) {
+    let table = record.to_table();
     for error in errors {
-        let place = match (error, error.key()) {
-            (SensorError::Efficiency { .. }, _) => channels::efficiency_place(&electronics.quantum_efficiency),
-            (_, Some(key)) => Some(place(record, electronics, key)),
-            (_, None) => None,
-        };
-        context.fault(place.unwrap_or(&record.place), error.to_string(), "");
+        context.fault(table.place_of(error.key()).unwrap_or(&record.place), error.to_string(), "");
     }
 }
 
-/// Where the table or key stands that a key of the model belongs to.
-fn place<'a>(record: &'a record::Sensor, e: &'a record::Electronics, key: &str) -> &'a Place {
-    let table = key.split('.').next().unwrap_or(key);
-    let found = match table {
-        "gain_dn_per_e" => Some(&e.gain_dn_per_e.place),
-        "frame_period_s" => e.frame_period_s.as_ref().map(|k| &k.place),
-        "auto_exposure" => e.auto_exposure.as_ref().map(|t| &t.place),
-        "angle_response" => e.angle_response.as_ref().map(|t| &t.place),
-        "crosstalk" => e.crosstalk.as_ref().map(|t| &t.place),
-        "inter_pixel_capacitance" => e.inter_pixel_capacitance.as_ref().map(|t| &t.place),
-        "non_uniformity" => e.non_uniformity.as_ref().map(|t| &t.place),
-        "dark" => e.dark.as_ref().map(|t| &t.place),
-        "smear" => e.smear.as_ref().map(charge::smear_place),
-        "lag" => e.lag.first().map(|t| &t.place),
-        "brighter_fatter_per_e" => e.brighter_fatter_per_e.as_ref().map(|k| &k.place),
-        "blooming" => e.blooming.as_ref().map(|t| &t.place),
-        "response" => e.response.as_ref().map(read_out::response_place),
-        "rts_noise" => e.rts_noise.as_ref().map(|t| &t.place),
-        "optical_black" => e.optical_black.as_ref().map(|t| &t.place),
-        "roi_px" => e.roi_px.as_ref().map(|k| &k.place),
-        "binning" => e.binning.as_ref().map(|t| &t.place),
-        "hdr" => e.hdr.as_ref().map(|t| read_out::hdr_place(t, key)),
-        "companding" => e.companding.as_ref().map(|t| &t.place),
-        "cfa" => Some(channels::cfa_place(&e.cfa)),
-        _ => None,
-    };
-    found.unwrap_or(&record.place)
-}
-
-/// Share of a pixel's area that is sensitive.
+/// Fraction of a pixel's area that is sensitive.
 pub(super) fn fill_factor(record: &record::Sensor) -> f64 {
     record.fill_factor.as_ref().map_or(1.0, |f| f.value)
 }

@@ -1,12 +1,12 @@
-//! From charge to digital numbers.
+//! From charge to digital numbers: voltage, converter, layout, captures.
 
 use super::light::neighbours;
 use super::or;
-use etendue_scene::Place;
 use etendue_scene::record;
+use etendue_scene::record::sensor::charge::NonUniformity;
 use etendue_scene::record::sensor::{hdr as of_hdr, read_out as description};
-use etendue_sensor::ReadOut;
 use etendue_sensor::effects::inter_pixel_capacitance::InterPixelCapacitance;
+use etendue_sensor::effects::offset_pattern::OffsetPattern;
 use etendue_sensor::effects::read_noise::ReadNoise;
 use etendue_sensor::effects::response::{Knee, Response};
 use etendue_sensor::effects::rts_noise::RtsNoise;
@@ -14,19 +14,34 @@ use etendue_sensor::effects::two_level::TwoLevel;
 use etendue_sensor::hdr::companding::Companding;
 use etendue_sensor::hdr::{Capture, HighDynamicRange};
 use etendue_sensor::layout::{Binning, BinningOf, Layout, OpticalBlack, Region};
+use etendue_sensor::{ReadOut, VoltageEffects};
 
-pub(super) fn read_out(e: &record::Electronics) -> ReadOut {
-    ReadOut {
-        response: e.response.as_ref().map_or(Response::Linear, response),
-        capacitance: e.inter_pixel_capacitance.as_ref().map(|shares| InterPixelCapacitance(neighbours(shares))),
+pub(super) fn voltage(e: &record::Electronics) -> VoltageEffects {
+    VoltageEffects {
+        capacitance: e.inter_pixel_capacitance.as_ref().map(|given| InterPixelCapacitance(neighbours(given))),
+        offset: e.non_uniformity.as_ref().map(offset).unwrap_or_default(),
         noise: ReadNoise {
             white_e: e.read_noise_e.value,
             row_e: or(e.row_noise_e.as_ref(), 0.0),
             column_e: or(e.column_noise_e.as_ref(), 0.0),
         },
         rts_noise: e.rts_noise.as_ref().map(|t| {
-            RtsNoise(TwoLevel { share: t.share.value, mean: t.mean_e.value, dwell_frames: t.dwell_frames.value })
+            RtsNoise(TwoLevel { fraction: t.share.value, mean: t.mean_e.value, dwell_frames: t.dwell_frames.value })
         }),
+    }
+}
+
+fn offset(n: &NonUniformity) -> OffsetPattern {
+    OffsetPattern {
+        white_e: or(n.dsnu_e.as_ref(), 0.0),
+        row_e: or(n.dsnu_row_e.as_ref(), 0.0),
+        column_e: or(n.dsnu_column_e.as_ref(), 0.0),
+    }
+}
+
+pub(super) fn read_out(e: &record::Electronics) -> ReadOut {
+    ReadOut {
+        response: e.response.as_ref().map_or(Response::Linear, response),
         gain_dn_e: e.gain_dn_per_e.value,
         analogue_gain: or(e.analogue_gain.as_ref(), 1.0),
         black_level_dn: e.black_level_dn.value,
@@ -36,29 +51,12 @@ pub(super) fn read_out(e: &record::Electronics) -> ReadOut {
     }
 }
 
-/// Where the entry of `[sensor.hdr]` stands that a key of the model belongs to.
-pub(super) fn hdr_place<'a>(record: &'a of_hdr::Hdr, key: &str) -> &'a Place {
-    match key {
-        "hdr.merged_bits" => &record.merged_bits.place,
-        "hdr.transition_level" => record.transition_level.as_ref().map_or(&record.place, |s| &s.place),
-        key if key.starts_with("hdr.captures") => record.captures.first().map_or(&record.place, |c| &c.place),
-        _ => &record.place,
-    }
-}
-
 fn response(record: &description::Response) -> Response {
     match record {
         description::Response::Knees(record) => {
             Response::Knees(record.knees.iter().map(|k| Knee { at_e: k.value[0], slope: k.value[1] }).collect())
         }
         description::Response::Logarithmic(record) => Response::Logarithmic { from_e: record.from_e.value },
-    }
-}
-
-pub(super) fn response_place(record: &description::Response) -> &Place {
-    match record {
-        description::Response::Knees(record) => &record.place,
-        description::Response::Logarithmic(record) => &record.place,
     }
 }
 
