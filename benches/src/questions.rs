@@ -1,6 +1,6 @@
 //! Rays as a renderer asks them: what a camera sees, where light goes on, whether a light is free.
 
-use etendue_core::random::{Draw, PathStream, Pixel, PixelAddress};
+use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
 use etendue_core::{Basis, Ray, warp};
 use etendue_pipeline::Plan;
 use etendue_pipeline::plan::CameraPlan;
@@ -74,7 +74,7 @@ fn seen(view: &View<'_>, ray: &Ray, number: u32) -> Option<Seen> {
     let outward = point.geometric_normal;
     let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
     let pixel = Pixel { x: number, y: 0 };
-    let address = PixelAddress { seed: 1, camera: 0, frame: 0, capture: 0, pixel, replicate: 0 };
+    let address = PixelAddress { frame: FrameAddress { seed: 1, ..FrameAddress::default() }, pixel, replicate: 0 };
     Some(Seen { point, normal, stream: PathStream::new(&address, 0) })
 }
 

@@ -1,7 +1,10 @@
 //! From planes of mean electrons to digital numbers in memory, two megapixels: all noises, all effects, each alone.
 
+mod frame;
 mod memory;
 mod sensors;
+
+use frame::{HEIGHT, PIXELS, WIDTH, expose, scene};
 
 use crate::clock::{clock_s, cpu_s, timed};
 use crate::runs::Runs;
@@ -20,9 +23,6 @@ const NOTE: &str = "1920 × 1080 px, a ramp of light from none to the full well 
     processor time of the busier one. Beside: run by run, over the bare converter (one thread). Memory: most of it above \
     the means, the numbers included. \"Described, without strength\" has every effect in its description, at a strength of \
     zero or switched off.";
-const WIDTH: usize = 1920;
-const HEIGHT: usize = 1080;
-const PIXELS: f64 = (WIDTH * HEIGHT) as f64;
 
 /// Time and memory of a frame, for all noises, all effects, and each effect alone.
 pub fn table() -> Table {
@@ -86,22 +86,4 @@ fn shared(sensor: &Sensor, means: &Plane<Electrons>, pool: &ThreadPool) -> (f64,
     let clock = clock_s() - start;
     let busiest = accounts().iter().zip(&before).map(|(after, before)| after - before).fold(0.0, f64::max);
     (clock, busiest)
-}
-
-/// A ramp from none to the full well, with a lamp in it.
-fn scene() -> Plane<Electrons> {
-    let mean = |i: usize| {
-        let (x, y) = (i % WIDTH, i / WIDTH);
-        let in_lamp = (x.abs_diff(1300).pow(2) + y.abs_diff(500).pow(2)) < 24 * 24;
-        if in_lamp {
-            100.0 * sensors::FULL_WELL_E as f32
-        } else {
-            (sensors::FULL_WELL_E * x as f64 / WIDTH as f64) as f32
-        }
-    };
-    Plane::from_samples(WIDTH, HEIGHT, (0..WIDTH * HEIGHT).map(mean).collect()).expect("one mean a pixel")
-}
-
-fn expose(sensor: &Sensor, means: &Plane<Electrons>) -> (SensorState, Raw) {
-    sensor.step(SensorState::default(), means, FrameAddress { seed: 1, camera: 0, frame: 0, capture: 0 })
 }

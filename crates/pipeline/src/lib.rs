@@ -27,6 +27,7 @@ pub mod remark;
 pub mod render;
 mod shared_light;
 pub mod spectrum_spread;
+pub mod stored;
 pub mod summary;
 pub mod tile;
 pub mod truth;

@@ -7,7 +7,7 @@ use crate::mosaic::{Mosaic, Site};
 use crate::observer::Observer;
 use crate::spectrum_spread::{Heroes, SpectrumSpread};
 use crate::tile::{Shard, Tile, tiles};
-use etendue_core::random::{Draw, PathStream, Pixel, PixelAddress};
+use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
 use etendue_core::{CameraPose, FieldRay, PupilRay, RadianceField, Ray, Spectral, Wavelengths};
 use glam::DVec2;
 use rayon::prelude::*;
@@ -143,7 +143,7 @@ impl<S: RaySource> RenderJob<'_, S> {
 
     fn address(&self, pixel: Pixel, replicate: u32) -> PixelAddress {
         let Sampling { seed, camera, .. } = self.sampling;
-        PixelAddress { seed, camera, frame: 0, capture: 0, pixel, replicate }
+        PixelAddress { frame: FrameAddress { seed, camera, ..FrameAddress::default() }, pixel, replicate }
     }
 
     /// The wavelengths of a replicate of a block, which are those of its first pixel.

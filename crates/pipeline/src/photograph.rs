@@ -5,14 +5,15 @@ use crate::effects::{EffectsOutput, behind, picture};
 use crate::film::{CubeEstimate, Film};
 use crate::plan::{CameraBody, CameraPlan, Development, Route};
 use crate::pupil_depth::PupilDepth;
-use etendue_core::quantity::{Electrons, Irradiance, Length, Radiance, Variance};
+use crate::stored::Stored;
+use etendue_core::quantity::{Electrons, Irradiance, Radiance, Variance};
+use etendue_core::random::FrameAddress;
 use etendue_core::{Plane, SpectralCube};
-use etendue_isp::paper::PictureAddress;
 pub use etendue_isp::{DevelopError, Developed};
 use etendue_isp::{RawPicture, develop};
 use etendue_optics::front::{Dirt, Front};
-use etendue_optics::{DepthOfField, OpticsError, PupilProjection, Resampling, irradiance};
-use etendue_sensor::{FrameAddress, Raw, SensorState, SignalBreakdown};
+use etendue_optics::{DepthOfField, OpticsError, irradiance};
+use etendue_sensor::{Raw, SensorState, SignalBreakdown};
 use glam::DVec2;
 use rayon::prelude::*;
 
@@ -32,40 +33,6 @@ pub struct Light {
     pub electrons: Option<Plane<Electrons>>,
     /// Their variance; `None` where they come from a cube.
     pub electrons_variance: Option<Plane<Variance>>,
-}
-
-/// A stored radiance image: what the route at the pupil begins with.
-#[derive(Clone, Copy, Debug)]
-pub struct Stored<'a> {
-    /// Its geometry.
-    pub projection: &'a PupilProjection,
-    /// Radiance as seen from the centre of the entrance pupil.
-    pub radiance: &'a SpectralCube<Radiance>,
-    /// Distance of what each of its pixels sees, where it is known.
-    pub distance: Option<&'a Plane<Length>>,
-}
-
-impl Stored<'_> {
-    /// Radiance and distance in the raster of a camera's picture, with `margin_px` more columns and rows on all sides.
-    ///
-    /// # Errors
-    /// Where the picture needs directions that the image does not hold.
-    pub fn seen(&self, body: &CameraBody, margin_px: [usize; 2]) -> Result<Sight, OpticsError> {
-        let (lens, bands) = (&body.lens, self.radiance.bands());
-        let resampling = Resampling::new(*self.projection, lens, &body.raster, margin_px, bands)?;
-        let radiance = resampling.apply(self.radiance)?;
-        let distance = self.distance.map(|plane| resampling.nearest(plane, f32::NAN)).transpose()?;
-        Ok(Sight { radiance, distance })
-    }
-}
-
-/// What a camera's pixels see from the centre of the entrance pupil.
-#[derive(Clone, Debug)]
-pub struct Sight {
-    /// Mean radiance of each pixel.
-    pub radiance: SpectralCube<Radiance>,
-    /// Distance of what each pixel's centre sees, m; +∞ for the sky, NaN where no ray is.
-    pub distance: Option<Plane<Length>>,
 }
 
 impl Light {
@@ -179,8 +146,7 @@ pub fn developed(development: &Development, raw: &Raw, address: FrameAddress) ->
         mosaic: &development.mosaic,
         optical_black: linear.optical_black.as_ref(),
     };
-    let FrameAddress { seed, camera, frame, .. } = address;
-    develop(&picture, &development.processing, PictureAddress { seed, camera, frame })
+    develop(&picture, &development.processing, address)
 }
 
 /// The picture of a frame of the camera's own, where it makes one.

@@ -17,12 +17,11 @@
 use crate::plan::{CameraBody, CameraPlan};
 use etendue_core::Plane;
 use etendue_core::quantity::{Display, LinearRgb};
-use etendue_isp::paper::PictureAddress;
+use etendue_core::random::FrameAddress;
 use etendue_optics::lens::PinholeParameters;
 use etendue_optics::{CalibratedParameters, Lens, OpticsError, PupilStance};
 use etendue_projection::model::Perspective;
 use etendue_projection::{Calibration, CalibrationError, CameraMatrix, Model, Raster, RasterError};
-use etendue_sensor::FrameAddress;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -141,8 +140,6 @@ impl RectifiedCamera {
         address: FrameAddress,
     ) -> Option<Plane<Display>> {
         let processing = &camera.development.as_ref()?.processing;
-        let FrameAddress { seed, camera: index, frame, .. } = address;
-        let address = PictureAddress { seed, camera: index, frame };
         Some(processing.displayed(&self.resampled(camera, linear), address))
     }
 }

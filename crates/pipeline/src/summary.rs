@@ -1,21 +1,25 @@
 //! The plan in words: what is modelled, what is left out and why, what it will cost.
 
+mod depth_of_field;
 mod effects_cost;
 mod front;
 mod lens;
 mod processing;
 mod shared_light;
 mod spectrum;
+mod words;
+
+use depth_of_field::depth_of_field;
+
+use words::{count, figure, line, list};
 
 use crate::block::Blocks;
-use crate::defocus::margin_px;
 use crate::film::Film;
 use crate::plan::{CameraPlan, Plan, Products, RawFormat, Settings, SkyFacts};
 use crate::remark::grouped;
 use crate::render::{census, layout};
 use effects_cost::Share;
 use etendue_core::Bands;
-use etendue_optics::DepthOfField;
 use etendue_sensor::dynamic_range::{DynamicRange, Switch};
 use etendue_sensor::emva1288::db;
 use etendue_tracer::geometry::Shape;
@@ -43,25 +47,6 @@ impl Display for Summary<'_> {
         }
         grouped(&plan.remarks).iter().try_for_each(|remark| writeln!(f, "  {remark}"))
     }
-}
-
-/// "a, b and c".
-fn list(words: &[&str]) -> String {
-    match words {
-        [] => "nothing".to_owned(),
-        [one] => (*one).to_owned(),
-        [some @ .., last] => format!("{} and {last}", some.join(", ")),
-    }
-}
-
-/// A number of things: "1 sphere", "2 spheres".
-fn count(n: usize, thing: &str) -> String {
-    if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
-}
-
-/// One line: a name and what is said of it.
-fn line(f: &mut Formatter<'_>, name: &str, text: impl Display) -> fmt::Result {
-    writeln!(f, "  {name:<14} {text}")
 }
 
 fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
@@ -170,11 +155,6 @@ fn level(settings: &Settings) -> String {
     }
 }
 
-/// A number as the user would write it: to four decimals.
-fn figure(x: f64) -> f64 {
-    (x * 1e4).round() / 1e4
-}
-
 /// The irradiance effects, each with its need.
 fn effects(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let effects = &camera.body.effects;
@@ -193,40 +173,6 @@ fn effects(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
         line(f, "", format!("{}: {}: {}", need.effect.name(), need.verdict, need.reason))?;
     }
     Ok(())
-}
-
-/// What becomes of defocus at the pupil.
-fn depth_of_field(camera: &CameraPlan) -> String {
-    match &camera.depth_of_field {
-        DepthOfField::None => format!("defocus is left out ({})", blur(camera)),
-        DepthOfField::Physical => {
-            let margin = margin_px(&camera.depth_of_field, &camera.body);
-            format!(
-                "defocus by the pupil's outline, spread in the order of depth ({}; {margin} px around the picture); what lies \
-                 behind edges is guessed from beside them",
-                blur(camera)
-            )
-        }
-        DepthOfField::Fast(blend) => {
-            let p = blend.parameters();
-            format!(
-                "a look of defocus: sharp from {} to {} m, blended with a copy blurred by {} px, wholly before {} m and beyond \
-                 {} m (the lens's own blur: {})",
-                p.sharp_near_m,
-                p.sharp_far_m,
-                p.blur_px,
-                p.blurred_near_m,
-                p.blurred_far_m,
-                blur(camera)
-            )
-        }
-    }
-}
-
-/// The blur of the lens.
-fn blur(camera: &CameraPlan) -> String {
-    let pixels = |depth_m: f64| camera.body.lens.circle_of_confusion_mm(depth_m) / camera.body.raster.pitch_mm().x;
-    format!("{:.2} px across at 1 m, {:.2} px at infinity", pixels(1.0), pixels(f64::INFINITY))
 }
 
 fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {

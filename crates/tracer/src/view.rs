@@ -5,7 +5,6 @@
 //! the world, origin at the entrance pupil, m). Nothing about a mesh is rebuilt.
 
 mod footprint;
-mod place;
 mod point;
 mod tangents;
 #[cfg(test)]
@@ -16,24 +15,22 @@ pub use truth::Truth;
 
 use crate::accel::tlas::Tlas;
 use crate::accel::{Simd, World};
-use crate::geometry::{Footprint, Shape, SurfacePoint};
+use crate::geometry::{Footprint, Hit, InstanceTransform, Shape, SurfacePoint};
 use etendue_core::Ray;
 use glam::{DVec3, Vec2, Vec3};
-pub(crate) use place::{InstanceTransform, uniform_scale};
 
-/// What a ray meets first.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// Where, in lengths of the ray's direction.
-    pub t: f32,
-    /// Index of the instance in the world.
-    pub instance: u32,
-    /// Primitive within the instance's shape: the triangle, or 0 for a sphere.
-    pub primitive: u32,
-    /// Barycentric weight of the triangle's vertex 1.
-    pub u: f32,
-    /// Barycentric weight of the triangle's vertex 2.
-    pub v: f32,
+impl World {
+    /// The world placed about a camera whose entrance pupil is at `origin_m` (world, m).
+    #[must_use]
+    pub fn view(&self, origin_m: DVec3) -> View<'_> {
+        self.view_with(origin_m, Simd::Auto)
+    }
+
+    /// As [`World::view`], with a choice of instruction set.
+    #[must_use]
+    pub fn view_with(&self, origin_m: DVec3, simd: Simd) -> View<'_> {
+        View::new(self, origin_m, simd)
+    }
 }
 
 /// A world placed about a camera, ready to be asked by rays.
@@ -170,7 +167,7 @@ impl<'w> View<'w> {
     #[must_use]
     pub fn bounds(&self) -> (Vec3, f32) {
         let boxes = self.top.placed().iter().zip(self.world.instances());
-        let boxes = boxes.filter_map(|(placed, instance)| placed.bounds(instance, self.world));
+        let boxes = boxes.filter_map(|(placed, instance)| placed.bounds(instance, self.world.meshes()));
         let Some((low, high)) = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else {
             return (Vec3::ZERO, 0.0);
         };

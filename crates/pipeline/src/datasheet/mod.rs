@@ -8,14 +8,15 @@
 
 mod consistency;
 mod digits;
+mod figures;
 mod write;
+
+pub use figures::LOOSE;
+use figures::{Figures, largest_dn};
 
 use etendue_scene::Fault;
 use etendue_scene::record::DataSheet;
 use etendue_sensor::emva1288::{MIN_DARK_DN2, dark_noise_e};
-
-/// Relative difference (of amplitudes) up to which figures of a data sheet are told to differ and are taken.
-pub const LOOSE: f64 = 0.05;
 
 /// A camera file made of a data sheet.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -26,17 +27,6 @@ pub struct Imported {
     pub tables: Vec<(String, String)>,
     /// What is doubtful or left out.
     pub warnings: Vec<String>,
-}
-
-/// The figures that a camera is made of.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Figures {
-    /// K, DN/e⁻.
-    gain_dn_e: f64,
-    /// σ_d, e⁻, without quantisation.
-    dark_noise_e: f64,
-    /// Digital number of no signal.
-    black_level_dn: f64,
 }
 
 /// The camera file of a data sheet; the names of its tables begin with `stem`.
@@ -81,10 +71,6 @@ fn black_level(sheet: &DataSheet, gain_dn_e: f64, noise_e: f64) -> f64 {
     }
     let room = largest_dn(sheet) - gain_dn_e * sheet.saturation_capacity_e.value;
     (5.0 * gain_dn_e * noise_e + 1.0).ceil().min(room.floor()).max(0.0)
-}
-
-fn largest_dn(sheet: &DataSheet) -> f64 {
-    f64::from((1_u32 << sheet.bits.value) - 1)
 }
 
 /// What the sheet leaves open, or the camera leaves out.

@@ -1,6 +1,6 @@
 //! How large textures and shapes are about a point, for filtering. Looked up where a material asks.
 
-use super::place::InstanceTransform;
+use crate::geometry::InstanceTransform;
 use crate::geometry::{Footprint, Mesh, sphere};
 use core::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3, Vec3};

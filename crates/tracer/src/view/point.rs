@@ -4,8 +4,8 @@
 //! putting the ray's point back onto the sphere, both in f64. Their error is then that of rounding to f32, whatever the
 //! length of the ray (after Wächter & Binder 2019, "A fast and robust method for avoiding self-intersection").
 
-use super::Hit;
-use super::place::InstanceTransform;
+use crate::geometry::Hit;
+use crate::geometry::InstanceTransform;
 use crate::geometry::{Instance, Mesh, SurfacePoint, sphere};
 use etendue_core::Ray;
 use glam::{DVec3, Vec2, Vec3};

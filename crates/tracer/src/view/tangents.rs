@@ -1,6 +1,6 @@
 //! Directions in which texture coordinates grow. Looked up where a material asks.
 
-use super::place::InstanceTransform;
+use crate::geometry::InstanceTransform;
 use crate::geometry::Mesh;
 use glam::{DVec2, DVec3, Vec3};
 

@@ -9,9 +9,9 @@
 //! anywhere. A plane is believed up to 1e-3 of the triangle beyond its edges (the least barycentric weight is −1e-3 or
 //! more). Beyond that, the answer is that of the accelerator's ray, solved in f64: a point of the triangle's edge.
 
-use super::place::InstanceTransform;
 use super::point::{self, Normals};
 use super::{Hit, View};
+use crate::geometry::InstanceTransform;
 use crate::geometry::{Instance, Mesh, Shape, SurfacePoint, sphere};
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};

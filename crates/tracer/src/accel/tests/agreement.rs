@@ -5,8 +5,9 @@ use crate::accel::lanes::Plain;
 use crate::accel::local::LocalRay;
 use crate::accel::packet::{Half, Packet, RayLanes};
 use crate::accel::{Simd, World};
+use crate::geometry::Hit;
 use crate::geometry::{Shape, sphere};
-use crate::view::{Hit, View};
+use crate::view::View;
 use etendue_core::Ray;
 use glam::{DAffine3, DVec3, Vec3};
 

@@ -1,6 +1,7 @@
 //! The path tracer against itself: ways of finding light, roulette, wavelengths, repetition.
 
 use super::*;
+use crate::lights::Lights;
 
 /// A floor and a block under lights of every kind.
 fn mixed(floor: Surface) -> Ready {
@@ -101,7 +102,11 @@ fn paths_of_one_four_and_eight_wavelengths_agree_where_nothing_disperses() {
     let sources = Sources { environment: None, ..ready.sources.clone() };
     let lights = Lights::new(&view, &ready.material_table, sources, (380.0, 780.0)).expect("lights");
     let tracer = PathTracer::new(&view, &ready.material_table, &lights, bounces(2));
-    let address = PixelAddress { seed: 1, camera: 0, frame: 0, capture: 0, pixel: Pixel { x: 0, y: 0 }, replicate: 0 };
+    let address = PixelAddress {
+        frame: FrameAddress { seed: 1, ..FrameAddress::default() },
+        pixel: Pixel { x: 0, y: 0 },
+        replicate: 0,
+    };
     let stream = PathStream::new(&address, 3);
     let r = ray([-2.0, -2.0, 2.0], [0.2, 0.1, 0.0]);
     let one = tracer.radiance(&r, &Wavelengths::<1>::uniform(400.0, 700.0, 0.3), &stream)[0];

@@ -17,10 +17,14 @@ use super::*;
 use crate::MaterialId;
 use crate::accel::{World, WorldBuilder};
 use crate::geometry::{Instance, Mesh, Shape};
+use crate::lights::Lights;
 use crate::lights::{Environment, ImageEnvironment, Sources, Sun};
+use crate::materials::MaterialTable;
 use crate::materials::{Coated, Conductor, Emission, Glow, Material, Reflectance, Surface};
+use crate::view::View;
 use core::f64::consts::PI;
-use etendue_core::random::{Pixel, PixelAddress};
+use etendue_core::random::{FrameAddress, PathStream, Pixel, PixelAddress};
+use etendue_core::{FieldRay, RadianceField, Ray, Spectral, Wavelengths};
 use etendue_core::{Track, maths};
 use etendue_spectra::{Spectrum, metal, upsample};
 use etendue_stats::ReplicateEstimate;
@@ -106,7 +110,7 @@ impl Ready {
 
 fn replicate(tracer: &PathTracer<'_>, ray: &Ray, samples: u32, replicate: u32) -> f64 {
     let pixel = Pixel { x: 3, y: 4 };
-    let address = PixelAddress { seed: 5, camera: 0, frame: 0, capture: 0, pixel, replicate };
+    let address = PixelAddress { frame: FrameAddress { seed: 5, ..FrameAddress::default() }, pixel, replicate };
     let stream = PathStream::new(&address, 0);
     let sum: f64 = (0..samples).map(|s| f64::from(tracer.radiance(ray, &WAVELENGTHS, &stream.with_sample(s))[1])).sum();
     sum / f64::from(samples)

@@ -55,11 +55,6 @@ pub(super) struct TreeQuery<'a, F: Fn(u32) -> f32> {
 }
 
 impl LightTree {
-    /// A tree over lights; `None` where none of them shines.
-    pub(super) fn new(lights: &[LightBounds]) -> Option<Self> {
-        build::tree(lights)
-    }
-
     /// How many lights there are.
     pub(super) fn len(&self) -> usize {
         self.leaves.len()

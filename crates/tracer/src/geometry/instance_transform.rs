@@ -1,7 +1,6 @@
 //! An instance relative to the camera.
 
-use crate::accel::World;
-use crate::geometry::{Instance, Shape};
+use super::{Instance, Mesh, Shape};
 use etendue_core::{Ray, maths};
 use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
 
@@ -108,10 +107,10 @@ impl InstanceTransform {
         self.mean_scale
     }
 
-    /// Least and greatest coordinates in the render frame, m; `None` for a mesh without triangles.
-    pub(crate) fn bounds(&self, instance: &Instance, world: &World) -> Option<(DVec3, DVec3)> {
+    /// Least and greatest coordinates in the render frame, m, of the instance's shape among the world's `meshes`; `None` for a mesh without triangles.
+    pub(crate) fn bounds(&self, instance: &Instance, meshes: &[Mesh]) -> Option<(DVec3, DVec3)> {
         let (low, high) = match instance.shape {
-            Shape::Mesh(id) => world.mesh(id).bounds().map(|(low, high)| (low.as_dvec3(), high.as_dvec3()))?,
+            Shape::Mesh(id) => meshes[id.0 as usize].bounds().map(|(low, high)| (low.as_dvec3(), high.as_dvec3()))?,
             Shape::Sphere { radius_m } => return Some(self.sphere_bounds(radius_m)),
         };
         let half = self.abs_matrix() * ((high - low) * 0.5);
