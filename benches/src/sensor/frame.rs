@@ -1,13 +1,9 @@
 //! One frame: what all sensors of the table are given, and what they do.
 
-use crate::clock::{clock_s, cpu_s, timed};
-use crate::runs::Runs;
-use crate::table::Table;
-use crate::threads::pool;
+use super::sensors;
 use etendue_core::Plane;
 use etendue_core::quantity::Electrons;
 use etendue_sensor::{FrameAddress, Raw, Sensor, SensorState};
-use rayon::ThreadPool;
 
 pub(super) const WIDTH: usize = 1920;
 

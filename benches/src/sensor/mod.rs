@@ -4,7 +4,7 @@ mod frame;
 mod memory;
 mod sensors;
 
-use frame::{HEIGHT, PIXELS, WIDTH, expose, scene};
+use frame::{PIXELS, expose, scene};
 
 use crate::clock::{clock_s, cpu_s, timed};
 use crate::runs::Runs;
@@ -12,7 +12,7 @@ use crate::table::Table;
 use crate::threads::pool;
 use etendue_core::Plane;
 use etendue_core::quantity::Electrons;
-use etendue_sensor::{FrameAddress, Raw, Sensor, SensorState};
+use etendue_sensor::Sensor;
 use rayon::ThreadPool;
 use sensors::{bare, kinds};
 

@@ -14,10 +14,7 @@ mod range;
 mod wavelength;
 
 pub use defocus::{DepthOfField, FastBlend, FastParameters};
-pub use effects::{
-    Effects, EffectsError, EffectsParameters, Glare, GlareParameters, PointSpread, Psf, PsfParameters, SpreadImage,
-    SpreadImageParameters,
-};
+pub use effects::{Effects, EffectsError, EffectsParameters};
 pub use error::OpticsError;
 pub use front::{Front, FrontError, FrontRay};
 pub use lens::{

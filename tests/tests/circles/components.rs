@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::house::Arrows;
 
 /// Groups of two files or more, each of which leads to every other.
-pub fn circles(arrows: &Arrows) -> Vec<Vec<String>> {
+pub(crate) fn circles(arrows: &Arrows) -> Vec<Vec<String>> {
     let mut placed = BTreeSet::new();
     let mut circles = Vec::new();
     for file in arrows.keys() {

@@ -8,10 +8,10 @@ use crate::source::{Import, Source};
 type Module = Vec<String>;
 
 /// The names that one file takes from each other one.
-pub type Arrows = BTreeMap<String, BTreeMap<String, BTreeSet<String>>>;
+pub(crate) type Arrows = BTreeMap<String, BTreeMap<String, BTreeSet<String>>>;
 
 /// One crate.
-pub struct House {
+pub(crate) struct House {
     files: BTreeMap<Module, String>,
     sources: BTreeMap<Module, Source>,
 }
@@ -27,7 +27,7 @@ enum End {
 
 impl House {
     /// From the files under a crate's `src/` (paths from there, with their text); what only tests compile is left out.
-    pub fn new(folder: &str, texts: &[(String, String)]) -> Self {
+    pub(crate) fn new(folder: &str, texts: &[(String, String)]) -> Self {
         let mut house = Self { files: BTreeMap::new(), sources: BTreeMap::new() };
         for (path, text) in texts {
             let module = module_of(path);
@@ -49,7 +49,7 @@ impl House {
     }
 
     /// Who takes which names from whom.
-    pub fn arrows(&self) -> Arrows {
+    pub(crate) fn arrows(&self) -> Arrows {
         let mut arrows = Arrows::new();
         for (module, source) in &self.sources {
             for (end, name) in self.taken(module, source) {

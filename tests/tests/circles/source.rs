@@ -6,31 +6,31 @@ use crate::tokens::{self, Token};
 
 /// `use path as name`, or `use path::*` where the name is missing.
 #[derive(Clone, Debug)]
-pub struct Import {
-    pub path: Vec<String>,
-    pub name: Option<String>,
+pub(crate) struct Import {
+    pub(crate) path: Vec<String>,
+    pub(crate) name: Option<String>,
     /// `pub use`: handed on, and an arrow only where the file itself says the name.
-    pub handed_on: bool,
+    pub(crate) handed_on: bool,
 }
 
 /// One file.
 #[derive(Debug, Default)]
-pub struct Source {
+pub(crate) struct Source {
     /// Modules that only tests compile.
-    pub tests: Vec<String>,
-    pub defines: BTreeSet<String>,
-    pub imports: Vec<Import>,
+    pub(crate) tests: Vec<String>,
+    pub(crate) defines: BTreeSet<String>,
+    pub(crate) imports: Vec<Import>,
     /// Paths of two words or more in its code.
-    pub paths: BTreeSet<Vec<String>>,
+    pub(crate) paths: BTreeSet<Vec<String>>,
     /// Every word of its code outside of `use`.
-    pub words: BTreeSet<String>,
+    pub(crate) words: BTreeSet<String>,
 }
 
 /// What may stand before the name that it defines.
 const DEFINING: [&str; 9] = ["struct", "enum", "union", "trait", "type", "fn", "const", "static", "macro_rules"];
 
 impl Source {
-    pub fn read(text: &str) -> Self {
+    pub(crate) fn read(text: &str) -> Self {
         let (tokens, tests) = tokens::read(text);
         let mut source = Self { tests, ..Self::default() };
         let (mut at, mut depth) = (0, 0_usize);

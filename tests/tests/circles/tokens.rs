@@ -2,7 +2,7 @@
 
 /// A word of the program, the `::` of a path, or another mark.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Token {
+pub(crate) enum Token {
     Word(String),
     Of,
     Mark(char),
@@ -10,24 +10,24 @@ pub enum Token {
 
 impl Token {
     /// Its text, if it is a word.
-    pub fn word(&self) -> Option<&str> {
+    pub(crate) fn word(&self) -> Option<&str> {
         match self {
             Self::Word(word) => Some(word),
             _ => None,
         }
     }
 
-    pub fn is(&self, word: &str) -> bool {
+    pub(crate) fn is(&self, word: &str) -> bool {
         self.word() == Some(word)
     }
 
-    pub fn is_mark(&self, mark: char) -> bool {
+    pub(crate) fn is_mark(&self, mark: char) -> bool {
         *self == Self::Mark(mark)
     }
 }
 
 /// The tokens of a file, with the names of the modules that stand under `#[cfg(test)]`.
-pub fn read(text: &str) -> (Vec<Token>, Vec<String>) {
+pub(crate) fn read(text: &str) -> (Vec<Token>, Vec<String>) {
     without_tests(&tokens(text))
 }
 

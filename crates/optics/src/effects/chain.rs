@@ -1,16 +1,16 @@
 //! The effects of a camera, one behind the other, and the margin that they need.
 
 use super::canvas::Canvas;
-use super::effect::{Effect, Need};
+use super::convolve::{Field, Region};
 use super::error::EffectsError;
 use super::glare::Glare;
-use super::point_spread::PointSpread;
-use super::prepared::Prepared;
+use super::point_spread::{PointSpread, ReadySpread};
 use super::spread::Spread;
 use super::work::Work;
+use super::{Effect, Need};
 use crate::ghosts::GhostSettings;
-use etendue_core::Bands;
-use etendue_core::Verdict;
+use etendue_core::quantity::{Irradiance, Quantity, Variance};
+use etendue_core::{Bands, Plane, Verdict};
 use etendue_projection::Raster;
 
 /// The widest margin that is chosen without being asked for, as a share of the picture's width and height.
@@ -19,10 +19,10 @@ pub const MARGIN_CAP: f64 = 0.25;
 /// The effects of a camera.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Effects {
-    pub(super) psf: Option<PointSpread>,
-    pub(super) glare: Option<Glare>,
-    pub(super) ghosts: Option<GhostSettings>,
-    pub(super) margin_px: [usize; 2],
+    psf: Option<PointSpread>,
+    glare: Option<Glare>,
+    ghosts: Option<GhostSettings>,
+    margin_px: [usize; 2],
 }
 
 /// The members that a camera can have, and its margin.
@@ -57,7 +57,7 @@ impl Effects {
     }
 
     /// How far the effects reach, at most a quarter of the picture.
-    pub(super) fn reach_px(&self, picture: &Raster) -> [usize; 2] {
+    fn reach_px(&self, picture: &Raster) -> [usize; 2] {
         let cap = share(MARGIN_CAP, picture);
         let glare = self.needs_glare().map(|glare| glare.reach_px(picture.pitch_mm()).unwrap_or(cap));
         let psf = self.psf.as_ref().map(|psf| psf.reach_px(picture.pitch_mm()));
@@ -117,7 +117,7 @@ impl Effects {
         self.ghosts
     }
 
-    pub(super) fn needs_glare(&self) -> Option<&Glare> {
+    fn needs_glare(&self) -> Option<&Glare> {
         self.glare.as_ref().filter(|glare| Glare::need(Some(glare)).0 != Verdict::Skipped)
     }
 
@@ -144,4 +144,59 @@ impl Effects {
 
 pub(super) fn share(margin: f64, picture: &Raster) -> [usize; 2] {
     [(margin * picture.width() as f64).ceil() as usize, (margin * picture.height() as f64).ceil() as usize]
+}
+
+/// Effects that are ready to be applied.
+#[derive(Debug)]
+pub struct Prepared {
+    canvas: Canvas,
+    psf: Option<ReadySpread>,
+    glare: Option<Spread>,
+}
+
+impl Prepared {
+    /// The picture's irradiance in the band from `band_nm.0` to `band_nm.1`, of the film's; and its variance, of the film's.
+    ///
+    /// A pixel of the film that is not finite makes others so: none that holds a number has met it.
+    #[must_use]
+    pub fn apply(
+        &self,
+        band_nm: (f64, f64),
+        film: &Plane<Irradiance>,
+        variance: Option<&Plane<Variance>>,
+    ) -> (Plane<Irradiance>, Option<Plane<Variance>>) {
+        // One replicate knows no variance.
+        let known = variance.filter(|plane| plane.samples().iter().all(|v| !v.is_nan())).map(field);
+        let (mean, spread) = self.spread(band_nm, field(film), known);
+        let variance = variance.map(|_| spread.map_or_else(|| self.unknown(), |v| self.cut(&v)));
+        (self.cut(&mean), variance)
+    }
+
+    fn spread(&self, band_nm: (f64, f64), mut light: Field, mut variance: Option<Field>) -> (Field, Option<Field>) {
+        if let Some(psf) = &self.psf {
+            (light, variance) = psf.apply(band_nm, &light, variance.as_ref());
+        }
+        if let Some(glare) = &self.glare {
+            (light, variance) = glare.apply(&light, variance.as_ref());
+        }
+        (light, variance)
+    }
+
+    /// The picture of a film. Rounding of the transforms below zero is no light.
+    fn cut<Q: Quantity<Sample = f32>>(&self, film: &Field) -> Plane<Q> {
+        let Region { x, y } = self.canvas.picture();
+        let (width, height) = (x.len(), y.len());
+        let positive = |v: &f64| if *v < 0.0 { 0.0 } else { *v as f32 };
+        let samples = y.flat_map(|y| film.row(y)[x.clone()].iter().map(positive)).collect();
+        Plane::from_samples(width, height, samples).expect("a sample a pixel")
+    }
+
+    fn unknown(&self) -> Plane<Variance> {
+        let Region { x, y } = self.canvas.picture();
+        Plane::filled(x.len(), y.len(), f32::NAN)
+    }
+}
+
+fn field<Q: Quantity<Sample = f32>>(plane: &Plane<Q>) -> Field {
+    Field { width: plane.width(), values: plane.samples().iter().map(|v| f64::from(*v)).collect() }
 }

@@ -23,28 +23,18 @@ mod band;
 mod canvas;
 mod chain;
 mod convolve;
-mod effect;
 mod error;
 mod fourier;
 pub mod glare;
 mod kernel;
 mod point_spread;
-mod prepared;
 pub mod psf;
 mod spread;
 pub mod spread_image;
 mod work;
 
-pub use chain::{Effects, EffectsParameters, MARGIN_CAP};
-
-pub use effect::{Effect, Need};
-
-pub use prepared::Prepared;
-
-use spread::Spread;
-
 pub(crate) use canvas::Canvas;
-
+pub use chain::{Effects, EffectsParameters, MARGIN_CAP, Prepared};
 pub use error::EffectsError;
 pub use etendue_core::Verdict;
 pub use glare::{Glare, GlareParameters};
@@ -52,3 +42,40 @@ pub use point_spread::PointSpread;
 pub use psf::{Psf, PsfParameters, WavefrontTerm, Zernike};
 pub use spread_image::{SpreadImage, SpreadImageParameters};
 pub use work::Work;
+
+/// The effects that there are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Effect {
+    /// Diffraction and wavefront error.
+    PointSpread,
+    /// Light scattered in the lens.
+    Glare,
+    /// Light that two surfaces reflect.
+    Ghosts,
+}
+
+impl Effect {
+    /// All effects, in their order.
+    pub const ALL: [Self; 3] = [Self::PointSpread, Self::Glare, Self::Ghosts];
+
+    /// The effect's name in a plan.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::PointSpread => "point spread",
+            Self::Glare => "veiling glare",
+            Self::Ghosts => "ghosts",
+        }
+    }
+}
+
+/// What a plan says about an effect.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Need {
+    /// The effect.
+    pub effect: Effect,
+    /// Whether it is modelled.
+    pub verdict: Verdict,
+    /// Why, in words.
+    pub reason: String,
+}

@@ -30,10 +30,10 @@ mod world;
 
 pub use choices::{Choices, Quality};
 
-use crate::fingerprint::fingerprint;
+use crate::plan::fingerprint::fingerprint;
+use crate::plan::remark::grouped;
+use crate::plan::shared_light;
 use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan};
-use crate::remark::grouped;
-use crate::shared_light;
 use context::Context;
 use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;

@@ -24,7 +24,7 @@ use crate::materials::{Coated, Conductor, Emission, Glow, Material, Reflectance,
 use crate::view::View;
 use core::f64::consts::PI;
 use etendue_core::random::{FrameAddress, PathStream, Pixel, PixelAddress};
-use etendue_core::{FieldRay, RadianceField, Ray, Spectral, Wavelengths};
+use etendue_core::{RadianceField, Ray, Wavelengths};
 use etendue_core::{Track, maths};
 use etendue_spectra::{Spectrum, metal, upsample};
 use etendue_stats::ReplicateEstimate;

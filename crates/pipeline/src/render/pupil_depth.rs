@@ -5,7 +5,7 @@
 //! seen under the angle α from its normal distances are right to tan α times that angle.
 
 use crate::plan::{CameraPlan, Plan, Route};
-use crate::truth::{Seen, seen};
+use crate::render::truth::{Seen, seen};
 use etendue_core::quantity::Length;
 use etendue_core::{Plane, PupilRay};
 use etendue_optics::FrontRay;

@@ -6,7 +6,7 @@
 //! light share one film: that of the first of them in the job, whose place is in the random addresses of all.
 
 use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan, Route, Settings};
-use crate::spectrum_spread::SpectrumSpread;
+use crate::render::spectrum_spread::SpectrumSpread;
 use etendue_core::CameraPose;
 use etendue_optics::{Front, Lens, PupilProjection};
 use etendue_projection::Raster;

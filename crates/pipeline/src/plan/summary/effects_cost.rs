@@ -6,7 +6,7 @@
 //! `etendue render --threads 1` by `/usr/bin/time`, shares of its parts by
 //! `perf record -e cpu-clock`; other programs were at work, so a tenth either way).
 
-use crate::defocus::{margin_px, whole_margin_px};
+use crate::camera::defocus::{margin_px, whole_margin_px};
 use crate::plan::{CameraBody, CameraPlan, Plan, Route};
 use etendue_core::Bands;
 use etendue_optics::effects::{Effect, Work};

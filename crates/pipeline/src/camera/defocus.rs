@@ -1,7 +1,7 @@
 //! Depth of field behind stored radiance: the margin it needs, and the work on several threads.
 
+use crate::camera::stored::{Sight, Stored};
 use crate::plan::CameraBody;
-use crate::stored::{Sight, Stored};
 use etendue_core::quantity::Radiance;
 use etendue_core::{Bands, SpectralCube};
 use etendue_optics::defocus::{self, Physical};

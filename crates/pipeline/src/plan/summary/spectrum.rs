@@ -1,7 +1,7 @@
 //! What the choice of wavelengths alone leaves of noise in a band.
 
 use crate::plan::CameraPlan;
-use crate::spectrum_spread::{SpectrumSpread, band_share};
+use crate::render::spectrum_spread::{SpectrumSpread, band_share};
 use etendue_core::Bands;
 
 /// The noise of a band of even light, as a part of a sentence.

@@ -1,12 +1,12 @@
 //! The light of a frame: every pixel's samples sent into a radiance field and gathered on the film.
 
-use crate::block::Blocks;
-use crate::film::Film;
-use crate::gather::{Gather, Layout};
-use crate::mosaic::{Mosaic, Site};
-use crate::observer::Observer;
-use crate::spectrum_spread::{Heroes, SpectrumSpread};
-use crate::tile::{Shard, Tile, tiles};
+use crate::render::block::Blocks;
+use crate::render::film::Film;
+use crate::render::gather::{Gather, Layout};
+use crate::render::mosaic::{Mosaic, Site};
+use crate::render::observer::Observer;
+use crate::render::spectrum_spread::{Heroes, SpectrumSpread};
+use crate::render::tile::{Shard, Tile, tiles};
 use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
 use etendue_core::{CameraPose, FieldRay, PupilRay, RadianceField, Ray, Spectral, Wavelengths};
 use glam::DVec2;
@@ -202,7 +202,7 @@ impl<S: RaySource> RenderJob<'_, S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::observer::Unobserved;
+    use crate::render::observer::Unobserved;
     use etendue_core::Bands;
     use etendue_core::field::ConstantField;
     use glam::{DMat3, DVec3};

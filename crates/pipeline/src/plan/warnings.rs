@@ -1,7 +1,7 @@
 //! What of a plan a rendering repeats: why the picture may not be what was meant.
 
 use crate::plan::Plan;
-use crate::remark::{Weight, grouped};
+use crate::plan::remark::{Weight, grouped};
 use crate::render::census;
 
 impl Plan {

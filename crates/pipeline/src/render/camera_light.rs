@@ -1,13 +1,13 @@
 //! Rendering a camera's light.
 
-use crate::film::Film;
-use crate::gather::Layout;
-use crate::light::{Cancelled, RaySource, RenderJob, Sampling};
-use crate::mosaic::Mosaic;
-use crate::observer::Observer;
 use crate::plan::{CameraBody, CameraPlan, Plan, Route};
-use crate::spectrum_spread::SpectrumSpread;
-use crate::tile::Shard;
+use crate::render::film::Film;
+use crate::render::gather::Layout;
+use crate::render::light::{Cancelled, RaySource, RenderJob, Sampling};
+use crate::render::mosaic::Mosaic;
+use crate::render::observer::Observer;
+use crate::render::spectrum_spread::SpectrumSpread;
+use crate::render::tile::Shard;
 use etendue_core::PupilRay;
 use etendue_core::maths::f64::atan2;
 use etendue_optics::{Front, Lens, PupilProjection};

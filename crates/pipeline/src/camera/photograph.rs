@@ -1,11 +1,11 @@
 //! From light to photographs: irradiance, electrons, raw, picture.
 
-use crate::defocus;
-use crate::effects::{EffectsOutput, behind, picture};
-use crate::film::{CubeEstimate, Film};
+use crate::camera::defocus;
+use crate::camera::effects::{EffectsOutput, behind, picture};
+use crate::camera::stored::Stored;
 use crate::plan::{CameraBody, CameraPlan, Development, Route};
-use crate::pupil_depth::PupilDepth;
-use crate::stored::Stored;
+use crate::render::film::{CubeEstimate, Film};
+use crate::render::pupil_depth::PupilDepth;
 use etendue_core::quantity::{Electrons, Irradiance, Radiance, Variance};
 use etendue_core::random::FrameAddress;
 use etendue_core::{Plane, SpectralCube};

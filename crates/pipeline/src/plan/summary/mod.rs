@@ -13,10 +13,10 @@ use depth_of_field::depth_of_field;
 
 use words::{count, figure, line, list};
 
-use crate::block::Blocks;
-use crate::film::Film;
+use crate::plan::remark::grouped;
 use crate::plan::{CameraPlan, Plan, Products, RawFormat, Settings, SkyFacts};
-use crate::remark::grouped;
+use crate::render::block::Blocks;
+use crate::render::film::Film;
 use crate::render::{census, layout};
 use effects_cost::Share;
 use etendue_core::Bands;

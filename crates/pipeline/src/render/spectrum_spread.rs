@@ -8,8 +8,8 @@
 //! Replicates that tell the variance must be independent: each is spread by itself. Where nobody asks for the variance, the
 //! wavelengths of all replicates are spread together, which leaves less noise.
 
-use crate::mosaic::UNIFORM_SHARE_WITH_BANDS;
 use crate::plan::{CameraPlan, Settings};
+use crate::render::mosaic::UNIFORM_SHARE_WITH_BANDS;
 use etendue_core::Bands;
 use etendue_core::random::{Draw, EvenNumbers, PathStream, PixelAddress};
 

@@ -3,7 +3,7 @@
 //! The pixels of a block carry the same wavelengths, so they are pixels of one colour of the sensor's filter: every
 //! `stride`-th of a square. Blocks lie on a grid of the whole frame, whatever the tiles.
 
-use crate::tile::Tile;
+use crate::render::tile::Tile;
 use etendue_core::random::Pixel;
 
 /// How a frame falls into blocks.
@@ -96,7 +96,7 @@ fn least_common_multiple(a: u32, b: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::tile::{Shard, tiles};
+    use crate::render::tile::{Shard, tiles};
 
     /// Blocks of a frame of 37 × 23 pixels, cut into tiles of at least `tile_px`.
     fn blocks(blocks: Blocks, tile_px: u32) -> Vec<Vec<(u32, u32)>> {

@@ -227,7 +227,7 @@ fn between(picture: &Plane<LinearRgb>, at: DVec2) -> Option<[f32; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::rays::ray_table;
+    use crate::render::rays::ray_table;
     use etendue_scene::asset::Assets;
     use etendue_scene::{Overrides, load_camera};
     use std::path::Path;

@@ -1,6 +1,6 @@
 //! What becomes of defocus at the pupil, in words.
 
-use crate::defocus::margin_px;
+use crate::camera::defocus::margin_px;
 use crate::plan::CameraPlan;
 use etendue_optics::DepthOfField;
 

@@ -1,7 +1,7 @@
 //! The light of a whole frame: f32 means and variances, filled tile by tile by one owner each.
 
-use crate::gather::{Gather, Layout};
-use crate::tile::Tile;
+use crate::render::gather::{Gather, Layout};
+use crate::render::tile::Tile;
 use etendue_core::quantity::{ElectronRate, Electrons, Identity, Irradiance, Quantity, Radiance, SolidAngle, Variance};
 use etendue_core::random::Pixel;
 use etendue_core::{Bands, Plane, SpectralCube};

@@ -1,8 +1,8 @@
 //! Whose light a camera sees, and why one that looks the same way has its own.
 
 use super::list;
+use crate::plan::shared_light::why_apart;
 use crate::plan::{CameraPlan, Plan};
-use crate::shared_light::why_apart;
 
 /// The camera of the plan whose film serves this one, where that is another.
 pub(super) fn server<'a>(plan: &'a Plan, camera: &CameraPlan) -> Option<&'a CameraPlan> {
