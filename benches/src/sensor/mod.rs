@@ -4,8 +4,6 @@ mod frame;
 mod memory;
 mod sensors;
 
-use frame::{PIXELS, expose, scene};
-
 use crate::clock::{clock_s, cpu_s, timed};
 use crate::runs::Runs;
 use crate::table::Table;
@@ -13,6 +11,7 @@ use crate::threads::pool;
 use etendue_core::Plane;
 use etendue_core::quantity::Electrons;
 use etendue_sensor::Sensor;
+use frame::{PIXELS, expose, scene};
 use rayon::ThreadPool;
 use sensors::{bare, kinds};
 

@@ -22,11 +22,10 @@ mod siemens_star;
 mod slanted_edges;
 mod slanted_star;
 
-use option::{BLACK, BLEED, WHITE, angle, contrast, is_measurable, share};
-
 use crate::drawing::Drawing;
 use crate::error::ChartError;
 use crate::eye::Footprint;
+use option::{BLACK, BLEED, WHITE, angle, contrast, is_measurable, share};
 
 pub use checkerboard::Checkerboard;
 pub use circles::Circles;

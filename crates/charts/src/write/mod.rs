@@ -10,13 +10,11 @@ mod scene;
 mod svg;
 mod truth;
 
-pub use file::{ChartFile, Contents};
-
 use print::{print_name, print_of};
 
-pub use request::Request;
-
+pub use file::{ChartFile, Contents};
 pub use picture::picture;
+pub use request::Request;
 
 /// The files of a chart.
 #[must_use]

@@ -23,16 +23,14 @@ mod opencv;
 mod ros;
 mod yaml;
 
-use found::{Fault, Found, Read, of_camera, passed_over};
-
-use std::path::Path;
-
-use etendue_projection::Calibration;
-pub use etendue_scene::asset::CalibrationFormat;
-
 use crate::Error;
 use crate::hash::{self, ContentHash};
 use crate::source::{decode_text, read_bytes};
+use etendue_projection::Calibration;
+use found::{Fault, Found, Read, of_camera, passed_over};
+use std::path::Path;
+
+pub use etendue_scene::asset::CalibrationFormat;
 
 /// A camera of a calibration file.
 #[derive(Clone, Debug, PartialEq)]

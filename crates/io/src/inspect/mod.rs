@@ -12,18 +12,16 @@ mod statistics;
 mod text;
 mod tiff;
 
-pub use report::FileReport;
-
-use std::path::Path;
-
-pub use lamp::passing_beam;
-pub use preview::Preview;
-pub use statistics::ChannelReport;
-
 use crate::Error;
 use crate::photograph::is_tiff;
 use crate::picture::EXR_MAGIC;
 use crate::source::read_bytes;
+use std::path::Path;
+
+pub use lamp::passing_beam;
+pub use preview::Preview;
+pub use report::FileReport;
+pub use statistics::ChannelReport;
 
 /// Looks into `file`.
 pub fn inspect(file: &Path) -> Result<FileReport, Error> {

@@ -22,17 +22,18 @@ mod raw;
 mod side_car;
 mod tiff;
 
-use std::path::Path;
-
-pub(crate) use tiff::is_tiff;
-
-pub use encoding::{Encoding, Stated};
-pub use raw::{FilterTile, RawFacts, RawFrame};
-
 use crate::Error;
 use crate::exr::decode_exr;
 use crate::picture::EXR_MAGIC;
 use crate::source::read_bytes;
+use channels::{channel_names, guess, of_floats, separated};
+use std::path::Path;
+
+pub(crate) use channels::KINDS;
+pub use channels::{Channel, Photograph};
+pub use encoding::{Encoding, Stated};
+pub use raw::{FilterTile, RawFacts, RawFrame};
+pub(crate) use tiff::is_tiff;
 
 /// Reads a photograph and what a side-car beside it says of it.
 ///
@@ -96,7 +97,3 @@ fn of_exr(file: &Path, bytes: &[u8]) -> Result<Photograph, Error> {
 
 #[cfg(test)]
 mod tests;
-
-pub(crate) use channels::KINDS;
-pub use channels::{Channel, Photograph};
-use channels::{channel_names, guess, of_floats, separated};

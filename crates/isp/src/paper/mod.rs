@@ -26,20 +26,18 @@ mod tone_map;
 mod uniform_noise;
 
 use brightness::{Change, FilterAddress, change_brightness, for_each};
-
 use error::demand;
-pub use error::{FilterError, Stage};
+use etendue_core::Plane;
+use etendue_core::quantity::{Display, LinearRgb};
+use etendue_core::random::FrameAddress;
 
 pub use colour::{Affine, ColourChange, ColourSpace, Operation};
+pub use error::{FilterError, Stage};
 pub use gaussian_noise::GaussianNoise;
 pub use glow::Glow;
 pub use pulse_noise::PulseNoise;
 pub use tone_map::{Sensitivity, ToneMap};
 pub use uniform_noise::UniformNoise;
-
-use etendue_core::Plane;
-use etendue_core::quantity::{Display, LinearRgb};
-use etendue_core::random::FrameAddress;
 
 /// One of the paper's filters.
 #[derive(Clone, Debug, PartialEq)]

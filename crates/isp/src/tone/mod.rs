@@ -15,14 +15,13 @@ mod oecf;
 mod s_curve;
 mod table;
 
-pub use error::ToneError;
-
 use etendue_core::Plane;
 use etendue_core::maths::f32::pow;
 use etendue_core::quantity::{Display, LinearRgb};
 use etendue_spectra::colour;
 use rayon::prelude::*;
 
+pub use error::ToneError;
 pub use oecf::Oecf;
 pub use s_curve::SCurve;
 pub use table::Table;

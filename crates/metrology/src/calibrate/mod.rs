@@ -33,20 +33,17 @@ mod sightings;
 mod spare;
 mod start;
 
-pub use options::Options;
-
-pub use sightings::{Sighting, Sightings};
-
 use crate::Estimate;
 use crate::fit::{Fit, fit};
+use problem::Bundle;
 
 pub use error::CalibrateError;
 pub use family::{Family, Radial};
+pub use options::Options;
 pub use pose::Pose;
 pub use result::{Calibrated, Parameter};
+pub use sightings::{Sighting, Sightings};
 pub use spare::{MIN_VIEWS, Spared, calibrate_sparing};
-
-use problem::Bundle;
 
 /// Least of points of a view.
 const MIN_POINTS: usize = 6;

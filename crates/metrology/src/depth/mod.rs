@@ -26,16 +26,13 @@ mod sums;
 #[cfg(test)]
 mod tests;
 
+use crate::Image;
 use edges::{edges, known};
+use sums::Sums;
 
 pub use error::DepthError;
-
 pub use report::{DepthErrors, DepthReport};
-
 pub use settings::{Alignment, DepthSettings};
-
-use crate::Image;
-use sums::Sums;
 
 /// Judges an estimate against the truth, both in m.
 ///

@@ -30,20 +30,19 @@ mod lines;
 mod local;
 mod radial;
 
-pub use error::DistortionError;
-
-pub use curve::CurvePoint;
-pub use ideal::Ideal;
-pub use lines::LineBow;
-pub use local::LocalDistortion;
-pub use radial::RadialFit;
-
 use crate::Estimate;
 use crate::calibrate::Sightings;
 use crate::target::{Grid, Node};
 use etendue_projection::Sense;
 use glam::DVec2;
 use rayon::prelude::*;
+
+pub use curve::CurvePoint;
+pub use error::DistortionError;
+pub use ideal::Ideal;
+pub use lines::LineBow;
+pub use local::LocalDistortion;
+pub use radial::RadialFit;
 
 /// The distortion of a picture.
 #[derive(Clone, Debug)]

@@ -47,17 +47,13 @@ mod strip;
 #[cfg(test)]
 mod tests;
 
-pub use measure::measure_edge;
 use measure::{check, told};
 
-pub use response::Sfr;
-
-pub use curve::{SfrPoint, crossing, mean_curve};
-
-pub use settings::SfrSettings;
-
-pub use error::SfrError;
-
 pub use acutance::acutance;
+pub use curve::{SfrPoint, crossing, mean_curve};
 pub use edge::{Edge, Orientation};
+pub use error::SfrError;
+pub use measure::measure_edge;
+pub use response::Sfr;
+pub use settings::SfrSettings;
 pub use strip::{Strip, measure_strip};

@@ -26,21 +26,16 @@ mod sums;
 #[cfg(test)]
 mod tests;
 
-pub use report::{Ring, Shading};
-
-use falloff::Falloff;
-
-use sums::{Sums, readings, ring_at, square_position};
-
-pub use settings::ShadingSettings;
-
-pub use error::ShadingError;
-
 use crate::flat::{SATURATED_SHARE, neighbour_variances, saturated_fraction};
 use crate::linear::Matrix;
 use crate::{Estimate, Image};
+use falloff::Falloff;
+use sums::{Sums, readings, ring_at, square_position};
 
 pub use colour::{ColourShading, colour_shading};
+pub use error::ShadingError;
+pub use report::{Ring, Shading};
+pub use settings::ShadingSettings;
 
 /// The shading of a flat field.
 ///

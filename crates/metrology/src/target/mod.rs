@@ -28,12 +28,11 @@ mod saddle;
 mod sampling;
 mod threshold;
 
+use crate::Image;
 use least::LEAST;
 
 pub use error::TargetError;
 pub use grid::{Grid, Node};
-
-use crate::Image;
 
 /// Kinds of charts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -26,8 +26,6 @@ mod scan;
 mod sight;
 mod strip;
 
-pub use sight::Sight;
-
 use crate::lens::Lens;
 use etendue_core::plane::SpectralCube;
 use etendue_core::quantity::Radiance;
@@ -35,6 +33,7 @@ use etendue_projection::Raster;
 
 pub use fast::{FastBlend, FastParameters};
 pub use physical::Physical;
+pub use sight::Sight;
 
 /// The methods: the closed list.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -20,24 +20,22 @@ mod mirror;
 mod stand;
 mod windscreen;
 
-pub use front_ray::FrontRay;
-
-pub(crate) use line::{Fate, Line};
-use line::{line, outgoing};
-
 use crate::lens::Lens;
 use crate::pupil::MM;
 use crate::wavelength::PRINCIPAL_NM;
 use etendue_core::ray::PupilRay;
 use etendue_projection::Raster;
 use glam::{DVec2, DVec3};
+use line::{line, outgoing};
+use windscreen::Way;
 
 pub use curve::Curve;
 pub use dirt::{Dirt, DirtParameters, Mask};
 pub use error::FrontError;
+pub use front_ray::FrontRay;
+pub(crate) use line::{Fate, Line};
 pub use mirror::{MeshMirror, Mirror, MirrorParameters, MirrorShape, Quadric, QuadricKind, Reflectance};
 pub use stand::Stand;
-use windscreen::Way;
 pub use windscreen::{Layer, Tint, Windscreen, WindscreenParameters};
 
 /// What stands in front of a lens.

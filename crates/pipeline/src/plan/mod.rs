@@ -10,18 +10,15 @@ pub(crate) mod shared_light;
 pub mod summary;
 mod warnings;
 
-pub use camera::{CameraBody, CameraPlan, LightOwner};
-
-pub use products::{Products, RawFormat};
-
-pub use settings::{Route, Settings};
-
-pub use development::{Development, PictureFormat};
-
 use crate::plan::remark::Remark;
 use etendue_tracer::accel::World;
 use etendue_tracer::lights::Sources;
 use etendue_tracer::materials::MaterialTable;
+
+pub use camera::{CameraBody, CameraPlan, LightOwner};
+pub use development::{Development, PictureFormat};
+pub use products::{Products, RawFormat};
+pub use settings::{Route, Settings};
 
 /// What a rendering does, for all cameras of a job.
 #[derive(Clone, Debug)]

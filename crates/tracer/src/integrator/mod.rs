@@ -27,10 +27,8 @@ mod surroundings;
 #[cfg(test)]
 mod tests;
 
-pub use path_tracer::PathTracer;
-
-pub use settings::PathSettings;
-
 pub use level::Level;
 pub use mis::Strategies;
+pub use path_tracer::PathTracer;
+pub use settings::PathSettings;
 pub use surroundings::Surroundings;

@@ -35,24 +35,18 @@ mod surface;
 mod tree;
 mod triangle;
 
-pub use scene_lights::Lights;
-
-pub use sources::Sources;
-
-pub use census::LightCensus;
-
 use light::Light;
-
 use surface::{Glowing, ROUNDING, SurfaceSample, solid_angle_pdf};
 
-pub use light_sample::{DistantLight, LightHit, LightSample};
-
-pub use limit::BRIGHTEST;
-
+pub use census::LightCensus;
 pub use collect::LightError;
 pub use environment::{Environment, EnvironmentError, ImageEnvironment};
 pub use lamp::{Lamp, LampError};
+pub use light_sample::{DistantLight, LightHit, LightSample};
+pub use limit::BRIGHTEST;
 pub use profile::{Cone, ConeError, Masked, Profile, Slide, SlideError, Web, WebAxes, WebError};
 pub use sample_context::LightSampleContext;
+pub use scene_lights::Lights;
 pub use sky::SkyEnvironment;
+pub use sources::Sources;
 pub use sun::{SUN_ANGULAR_DIAMETER_DEG, Sun, SunError};

@@ -15,13 +15,12 @@ mod reflectance;
 mod touch;
 mod tree;
 
-pub(super) use touch::Touch;
-
 use super::{Fate, FrontError, Line, Stand};
 
 pub use mesh::MeshMirror;
 pub use quadric::{Quadric, QuadricKind};
 pub use reflectance::Reflectance;
+pub(super) use touch::Touch;
 
 /// The surface of a mirror: the closed list.
 #[derive(Clone, Debug, PartialEq)]

@@ -9,15 +9,12 @@ mod shared_light;
 mod spectrum;
 mod words;
 
-use depth_of_field::depth_of_field;
-
-use words::{count, figure, line, list};
-
 use crate::plan::remark::grouped;
 use crate::plan::{CameraPlan, Plan, Products, RawFormat, Settings, SkyFacts};
 use crate::render::block::Blocks;
 use crate::render::film::Film;
 use crate::render::{census, layout};
+use depth_of_field::depth_of_field;
 use effects_cost::Share;
 use etendue_core::Bands;
 use etendue_sensor::dynamic_range::{DynamicRange, Switch};
@@ -25,6 +22,7 @@ use etendue_sensor::emva1288::db;
 use etendue_tracer::geometry::Shape;
 use etendue_tracer::integrator::Level;
 use std::fmt::{self, Display, Formatter};
+use words::{count, figure, line, list};
 
 /// Displays a plan for people.
 #[derive(Clone, Copy, Debug)]

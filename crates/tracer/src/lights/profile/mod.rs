@@ -20,14 +20,13 @@ mod web;
 #[cfg(test)]
 mod tests;
 
-pub use cone::{Cone, ConeError};
-pub use slide::{Slide, SlideError};
-pub use web::{Web, WebAxes, WebError};
-
-pub(in crate::lights) use spread::Spread;
-
 use glam::Vec3;
 use quadrature::{Node, cap};
+
+pub use cone::{Cone, ConeError};
+pub use slide::{Slide, SlideError};
+pub(in crate::lights) use spread::Spread;
+pub use web::{Web, WebAxes, WebError};
 
 /// The spread of a lamp's intensity.
 #[derive(Clone, Debug, PartialEq)]

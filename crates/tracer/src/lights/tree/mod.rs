@@ -22,10 +22,10 @@ mod node;
 #[cfg(test)]
 mod tests;
 
-pub(super) use bounds::LightBounds;
-
 use super::LightSampleContext;
 use node::{LANES, Node};
+
+pub(super) use bounds::LightBounds;
 
 /// Where a light or a node hangs.
 #[derive(Clone, Copy, Debug, Default)]
