@@ -15,7 +15,7 @@ use etendue_projection::Raster;
 use etendue_tracer::accel::Simd;
 use etendue_tracer::integrator::{PathSettings, PathTracer};
 use etendue_tracer::lights::{LightCensus, Lights};
-use etendue_tracer::view::View;
+use etendue_tracer::render_space::RenderSpace;
 use glam::{DVec2, DVec3};
 
 /// Where paths may begin to end at random.
@@ -56,10 +56,10 @@ pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn 
 /// Which lights a camera's paths ask.
 #[must_use]
 pub fn census(plan: &Plan, camera: &CameraPlan) -> LightCensus {
-    lights(plan, camera, &plan.world.view(camera.pose.position_m)).census()
+    lights(plan, camera, &plan.world.render_space(camera.pose.position_m)).census()
 }
 
-fn lights(plan: &Plan, camera: &CameraPlan, view: &View<'_>) -> Lights {
+fn lights(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -> Lights {
     Lights::new(view, &plan.material_table, plan.sources.clone(), camera.settings.range_nm)
         .expect("a compiled plan names only materials that it has, and nothing moves")
 }
@@ -71,7 +71,7 @@ fn through<S: RaySource>(
     observer: &dyn Observer,
     source: &S,
 ) -> Result<Film, Cancelled> {
-    let view = plan.world.view_with(camera.pose.position_m, request.simd);
+    let view = plan.world.render_space_with(camera.pose.position_m, request.simd);
     let lights = lights(plan, camera, &view);
     let tracer = PathTracer::new(&view, &plan.material_table, &lights, path_settings(camera));
     let settings = &camera.settings;

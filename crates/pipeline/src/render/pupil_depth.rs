@@ -27,7 +27,7 @@ pub struct PupilDepth {
 pub fn pupil_depth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> Option<PupilDepth> {
     let Route::Pupil(projection) = &camera.settings.route else { return None };
     let (width, height) = (projection.width(), projection.height());
-    let view = plan.world.view_with(camera.pose.position_m, simd);
+    let view = plan.world.render_space_with(camera.pose.position_m, simd);
     let look = |i: usize| {
         let direction = projection.direction(DVec2::new((i % width) as f64, (i / width) as f64) + 0.5);
         direction.map_or(Seen::Nothing, |direction| {

@@ -8,8 +8,8 @@ use etendue_optics::front::{FrontRay, Optic};
 use etendue_tracer::accel::Simd;
 use etendue_tracer::geometry::SurfacePoint;
 use etendue_tracer::materials::MaterialTable;
+use etendue_tracer::render_space::{RenderSpace, Truth};
 use etendue_tracer::textures::Lookup;
-use etendue_tracer::view::{Truth, View};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -70,7 +70,7 @@ struct Look {
 pub fn ground_truth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> GroundTruth {
     let raster = &camera.body.raster;
     let (width, height) = (raster.width(), raster.height());
-    let view = plan.world.view_with(camera.pose.position_m, simd);
+    let view = plan.world.render_space_with(camera.pose.position_m, simd);
     let looks: Vec<Look> = (0..width * height)
         .into_par_iter()
         .map(|i| look(&view, &plan.material_table, camera, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
@@ -112,7 +112,7 @@ fn has_planar_depth(front: &FrontRay) -> bool {
     front.ray.direction.z > 0.0 && front.mirror_m.is_none()
 }
 
-fn look(view: &View<'_>, material_table: &MaterialTable, camera: &CameraPlan, raster_px: DVec2) -> Look {
+fn look(view: &RenderSpace<'_>, material_table: &MaterialTable, camera: &CameraPlan, raster_px: DVec2) -> Look {
     match camera.body.truth_ray(raster_px) {
         None => Look { ray: 0, seen: Seen::Nothing, mirror_m: None },
         Some((front, off_centre)) => Look {
@@ -124,7 +124,12 @@ fn look(view: &View<'_>, material_table: &MaterialTable, camera: &CameraPlan, ra
 }
 
 /// What a ray that left a camera meets.
-pub(crate) fn seen(view: &View<'_>, material_table: &MaterialTable, camera: &CameraPlan, front: &FrontRay) -> Seen {
+pub(crate) fn seen(
+    view: &RenderSpace<'_>,
+    material_table: &MaterialTable,
+    camera: &CameraPlan,
+    front: &FrontRay,
+) -> Seen {
     let ray = &front.ray;
     let direction = camera.pose.direction_to_world(ray.direction);
     let ahead = has_planar_depth(front);
@@ -140,7 +145,7 @@ pub(crate) fn seen(view: &View<'_>, material_table: &MaterialTable, camera: &Cam
 }
 
 /// Whether a pixel sees a surface that may be cut out: where at least half of it is there. Panes of glass are seen.
-fn is_there(view: &View<'_>, material_table: &MaterialTable, point: &SurfacePoint) -> bool {
+fn is_there(view: &RenderSpace<'_>, material_table: &MaterialTable, point: &SurfacePoint) -> bool {
     if !material_table.lets_pass(point.material) {
         return true;
     }

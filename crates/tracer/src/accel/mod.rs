@@ -1,7 +1,7 @@
 //! The accelerator: which primitive a ray meets first.
 //!
 //! A [`World`] holds meshes, each with a tree in its own frame, and instances of them. It is built once; a
-//! [`crate::view::View`] places the instances about one camera and adds a tree over them.
+//! [`crate::render_space::RenderSpace`] places the instances about one camera and adds a tree over them.
 //!
 //! - `build`: binary trees by the library that builds best (parallel locally-ordered clustering and reinsertion).
 //! - `median_split`: binary trees for crowds, which that library would take too long for.

@@ -6,12 +6,12 @@ use super::settings::PathSettings;
 use super::surroundings::Surroundings;
 use crate::lights::Lights;
 use crate::materials::MaterialTable;
-use crate::view::View;
+use crate::render_space::RenderSpace;
 
 /// Answers rays of a view with spectral radiance.
 #[derive(Clone, Copy, Debug)]
 pub struct PathTracer<'a> {
-    pub(super) view: &'a View<'a>,
+    pub(super) view: &'a RenderSpace<'a>,
     pub(super) material_table: &'a MaterialTable,
     pub(super) lights: &'a Lights,
     pub(super) settings: PathSettings,
@@ -24,7 +24,7 @@ impl<'a> PathTracer<'a> {
     /// view and material_table.
     #[must_use]
     pub fn new(
-        view: &'a View<'a>,
+        view: &'a RenderSpace<'a>,
         material_table: &'a MaterialTable,
         lights: &'a Lights,
         settings: PathSettings,

@@ -14,7 +14,7 @@ use super::sources::Sources;
 use super::sun::Sun;
 use super::tree::TreeQuery;
 use crate::materials::MaterialTable;
-use crate::view::View;
+use crate::render_space::RenderSpace;
 use etendue_core::Wavelengths;
 use glam::{Vec2, Vec3};
 
@@ -35,7 +35,7 @@ impl Lights {
     /// # Errors
     /// Where an instance names a material that the material_table does not have, or moves.
     pub fn new(
-        view: &View<'_>,
+        view: &RenderSpace<'_>,
         material_table: &MaterialTable,
         sources: Sources,
         (low_nm, high_nm): (f64, f64),

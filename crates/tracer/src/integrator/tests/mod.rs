@@ -21,7 +21,7 @@ use crate::lights::Lights;
 use crate::lights::{Environment, ImageEnvironment, Sources, Sun};
 use crate::materials::MaterialTable;
 use crate::materials::{Coated, Conductor, Emission, Glow, Material, Reflectance, Surface};
-use crate::view::View;
+use crate::render_space::RenderSpace;
 use core::f64::consts::PI;
 use etendue_core::random::{FrameAddress, PathStream, Pixel, PixelAddress};
 use etendue_core::{RadianceField, Ray, Wavelengths};
@@ -94,13 +94,13 @@ struct Ready {
 }
 
 impl Ready {
-    fn lights(&self, view: &View<'_>) -> Lights {
+    fn lights(&self, view: &RenderSpace<'_>) -> Lights {
         Lights::new(view, &self.material_table, self.sources.clone(), (380.0, 780.0)).expect("lights")
     }
 
     /// Radiance along a ray, from 32 replicates of `samples`, at the second wavelength.
     fn look(&self, ray: &Ray, samples: u32, settings: PathSettings) -> ReplicateEstimate {
-        let view = self.world.view(DVec3::ZERO);
+        let view = self.world.render_space(DVec3::ZERO);
         let lights = self.lights(&view);
         let tracer = PathTracer::new(&view, &self.material_table, &lights, settings);
         let means: Vec<_> = (0..32).map(|r| replicate(&tracer, ray, samples, r)).collect();

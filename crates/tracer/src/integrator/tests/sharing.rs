@@ -54,7 +54,7 @@ fn spotted(scene: &mut Scene, a: MaterialId) -> MaterialId {
 
 /// Means of `replicates` of each ray, shared or not.
 fn looks(ready: &Ready, targets: &[[f32; 3]], samples: u32, shared: bool) -> Vec<ReplicateEstimate> {
-    let view = ready.world.view(DVec3::ZERO);
+    let view = ready.world.render_space(DVec3::ZERO);
     let lights = ready.lights(&view);
     let tracer = PathTracer::new(
         &view,

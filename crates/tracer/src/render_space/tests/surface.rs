@@ -4,11 +4,11 @@ use crate::MaterialId;
 use crate::accel::WorldBuilder;
 use crate::accel::tests::shapes::{Random, icosphere, instance, world_of};
 use crate::geometry::{Mesh, Shape, SurfacePoint};
-use crate::view::View;
+use crate::render_space::RenderSpace;
 use etendue_core::Ray;
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3};
 
-fn point(view: &View<'_>, ray: Ray) -> SurfacePoint {
+fn point(view: &RenderSpace<'_>, ray: Ray) -> SurfacePoint {
     let hit = view.closest(&ray).expect("a hit");
     view.surface(&ray, &hit)
 }
@@ -33,7 +33,7 @@ fn placed(mesh: Mesh, to_world: DAffine3) -> crate::accel::World {
 #[test]
 fn a_point_of_a_square_is_where_its_texture_says() {
     let world = placed(square(vec![]), DAffine3::from_scale(DVec3::splat(10.0)));
-    let view = world.view(DVec3::new(0.0, 0.0, 5.0));
+    let view = world.render_space(DVec3::new(0.0, 0.0, 5.0));
     let mut random = Random::new(1);
     for _ in 0..500 {
         let (x, y) = (random.between(-10.0, 10.0) as f32, random.between(-10.0, 10.0) as f32);
@@ -57,7 +57,7 @@ fn shading_normals_are_on_the_side_of_the_surface_and_fall_back_to_it() {
     let tilted = Vec3::new(0.6, 0.0, 0.8);
     let shading = |normals, to_world| {
         let world = placed(square(normals), to_world);
-        point(&world.view(DVec3::ZERO), down).shading_normal
+        point(&world.render_space(DVec3::ZERO), down).shading_normal
     };
     assert!((shading(vec![tilted * 3.0; 4], DAffine3::IDENTITY) - tilted).length() < 1e-6);
     assert!((shading(vec![-tilted; 4], DAffine3::IDENTITY) - tilted).length() < 1e-6);
@@ -83,7 +83,7 @@ fn normals_are_those_of_ground_truth() {
         let world = placed(square(normals), DAffine3::from_mat3(matrix));
         let aim = matrix * DVec3::new(random.between(-0.9, 0.9), random.between(-0.9, 0.9), 0.0);
         let above = aim + matrix.inverse().transpose() * DVec3::Z.normalize() * (scale * scale);
-        let view = world.view(above);
+        let view = world.render_space(above);
         let direction = (aim - above).normalize();
         let p = point(&view, Ray::new(Vec3::ZERO, direction.as_vec3(), 0.0));
         let truth = view.truth(DVec3::ZERO, direction, |_| true).expect("the same surface");
@@ -112,7 +112,7 @@ fn normals_point_outwards_even_where_an_instance_mirrors() {
         let matrix = random.rotation() * DMat3::from_diagonal(DVec3::new(sign, 1.0, 1.0));
         let placement = DAffine3::from_mat3_translation(matrix, random.cube() * 5.0);
         let world = world_of(icosphere(2), placement);
-        let view = world.view(DVec3::ZERO);
+        let view = world.render_space(DVec3::ZERO);
         let centre = placement.translation.as_vec3();
         for _ in 0..200 {
             let p = point(&view, Ray::new(centre, random.direction().as_vec3(), 0.0));
@@ -135,7 +135,7 @@ fn lights_learn_where_spheres_and_everything_are() {
     let uneven = DAffine3::from_scale(DVec3::new(1.0, 1.0, 2.0));
     builder.add_instance(instance(Shape::Sphere { radius_m: 0.5 }, uneven));
     let world = builder.build().expect("legal");
-    let view = world.view(DVec3::new(1e6, 1.0, 0.0));
+    let view = world.render_space(DVec3::new(1e6, 1.0, 0.0));
     let (centre, radius) = view.sphere(0).expect("a sphere");
     assert!((centre - Vec3::new(0.0, -1.0, 2.0)).length() < 1e-6 && (radius - 1.5).abs() < 1e-6);
     assert_eq!((view.sphere(1), view.primitive_count(0)), (None, 1));
@@ -148,7 +148,7 @@ fn a_sphere_has_the_texture_of_a_globe() {
     let mut builder = WorldBuilder::new();
     builder.add_instance(instance(Shape::Sphere { radius_m: 2.0 }, DAffine3::IDENTITY));
     let world = builder.build().expect("legal");
-    let view = world.view(DVec3::ZERO);
+    let view = world.render_space(DVec3::ZERO);
     let p = point(&view, Ray::new(Vec3::ZERO, Vec3::Y, 0.0));
     assert!((p.position - Vec3::Y * 2.0).length() < 1e-6 && (p.uv - Vec2::new(0.25, 0.5)).length() < 1e-6);
     assert_eq!((p.geometric_normal, p.shading_normal, p.local_normal), (Vec3::Y, Vec3::Y, Vec3::Y));
@@ -165,7 +165,7 @@ fn tangents_follow_the_texture_through_mirrors_and_stretches() {
     };
     for (mesh, sign) in [(square(vec![]), -1.0), (mirrored_uv(square(vec![])), 1.0)] {
         let world = placed(mesh, stretch);
-        let view = world.view(DVec3::new(0.0, 0.0, 5.0));
+        let view = world.render_space(DVec3::new(0.0, 0.0, 5.0));
         let p = point(&view, Ray::new(Vec3::ZERO, Vec3::new(0.3, 0.2, -5.0), 0.0));
         assert_eq!(view.tangents(&p), Some([Vec3::X * sign, Vec3::Y]));
     }
@@ -177,7 +177,7 @@ fn without_texture_coordinates_that_span_it_a_triangle_has_no_tangents() {
         let mesh = square(vec![]);
         let mesh = Mesh::new(mesh.positions().to_vec(), vec![], uvs, mesh.triangles().to_vec(), vec![0, 1]);
         let world = placed(mesh.expect("legal").0, DAffine3::IDENTITY);
-        let view = world.view(DVec3::new(0.0, 0.0, 5.0));
+        let view = world.render_space(DVec3::new(0.0, 0.0, 5.0));
         let p = point(&view, Ray::new(Vec3::ZERO, Vec3::new(0.3, 0.2, -5.0), 0.0));
         (view.tangents(&p), view.footprint(&p).uv_per_m)
     };
@@ -204,7 +204,7 @@ fn texture_coordinates_change_as_they_do_between_neighbours() {
         let is_flat = centre == stretch.translation;
         let target = if is_flat { stretch.transform_point3(aim) } else { centre + aim.normalize() * 0.7 };
         let normal = if is_flat { stretch.matrix3.inverse().transpose() * DVec3::Z } else { aim }.normalize();
-        let view = world.view(target + normal * 0.25);
+        let view = world.render_space(target + normal * 0.25);
         let at = |offset: DVec3| point(&view, Ray::new(Vec3::ZERO, (offset - normal * 0.25).as_vec3(), 0.0));
         let middle = at(DVec3::ZERO);
         for along in [normal.any_orthonormal_vector(), normal.cross(normal.any_orthonormal_vector())] {

@@ -1,6 +1,6 @@
 //! The world about one camera.
 //!
-//! A [`View`] places every instance relative to the camera's entrance pupil in f64 and only then goes to f32, so that
+//! A [`RenderSpace`] places every instance relative to the camera's entrance pupil in f64 and only then goes to f32, so that
 //! precision is best near the camera wherever in the world it stands. Rays and answers are in the render frame (axes of
 //! the world, origin at the entrance pupil, m). Nothing about a mesh is rebuilt.
 
@@ -22,26 +22,26 @@ use glam::{DVec3, Vec2, Vec3};
 impl World {
     /// The world placed about a camera whose entrance pupil is at `origin_m` (world, m).
     #[must_use]
-    pub fn view(&self, origin_m: DVec3) -> View<'_> {
-        self.view_with(origin_m, Simd::Auto)
+    pub fn render_space(&self, origin_m: DVec3) -> RenderSpace<'_> {
+        self.render_space_with(origin_m, Simd::Auto)
     }
 
-    /// As [`World::view`], with a choice of instruction set.
+    /// As [`World::render_space`], with a choice of instruction set.
     #[must_use]
-    pub fn view_with(&self, origin_m: DVec3, simd: Simd) -> View<'_> {
-        View::new(self, origin_m, simd)
+    pub fn render_space_with(&self, origin_m: DVec3, simd: Simd) -> RenderSpace<'_> {
+        RenderSpace::new(self, origin_m, simd)
     }
 }
 
 /// A world placed about a camera, ready to be asked by rays.
 #[derive(Clone, Debug)]
-pub struct View<'w> {
+pub struct RenderSpace<'w> {
     world: &'w World,
     origin_m: DVec3,
     top: Tlas<'w>,
 }
 
-impl<'w> View<'w> {
+impl<'w> RenderSpace<'w> {
     pub(crate) fn new(world: &'w World, origin_m: DVec3, simd: Simd) -> Self {
         let placed: Vec<_> = world.instances().iter().map(|i| InstanceTransform::new(i, origin_m)).collect();
         Self { world, origin_m, top: Tlas::new(world, placed, simd) }

@@ -10,7 +10,7 @@
 //! more). Beyond that, the answer is that of the accelerator's ray, solved in f64: a point of the triangle's edge.
 
 use super::point::{self, Normals};
-use super::{Hit, View};
+use super::{Hit, RenderSpace};
 use crate::geometry::InstanceTransform;
 use crate::geometry::{Instance, Mesh, Shape, SurfacePoint, sphere};
 use etendue_core::Ray;
@@ -43,7 +43,7 @@ pub struct Truth {
 /// step; among surfaces closer together than that they might turn in circles.
 const MAX_PASSES: usize = 4096;
 
-impl View<'_> {
+impl RenderSpace<'_> {
     /// What the ray from `origin_m` (render frame, m) along `direction` (any length) meets first that `accept` takes;
     /// it goes straight on through other points. `None` for the background.
     #[must_use]

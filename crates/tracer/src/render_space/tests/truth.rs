@@ -3,7 +3,7 @@
 use crate::accel::WorldBuilder;
 use crate::accel::tests::shapes::{Random, instance, mesh};
 use crate::geometry::{Shape, SurfacePoint};
-use crate::view::truth::plane;
+use crate::render_space::truth::plane;
 use etendue_core::maths;
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
@@ -33,7 +33,7 @@ fn planes_are_met_where_they_are() {
                 let (s, c) = maths::f64::sin_cos(random.between(0.0, core::f64::consts::TAU));
                 let from = target + DVec3::new(s * sine, c * sine, cosine) * distance;
                 let [from, target] = [from, target].map(|p| placement.transform_point3(p));
-                let view = world.view(from);
+                let view = world.render_space(from);
                 let truth = view.truth(DVec3::ZERO, target - from, |_| true).expect("the square");
                 worst = worst.max((truth.distance_m / distance - 1.0).abs());
                 assert!((truth.position_m - target).length() < 1e-6 * distance);
@@ -62,7 +62,7 @@ fn spheres_are_met_where_they_are() {
                 let (sine, cosine) = maths::f64::sin_cos(incidence);
                 let target = centre + frame.z_axis * (distance / 5.0);
                 let from = target + (frame.z_axis * cosine + frame.x_axis * sine) * distance;
-                let view = world.view(from);
+                let view = world.render_space(from);
                 let truth = view.truth(DVec3::ZERO, target - from, |_| true).expect("the sphere");
                 worst = worst.max((truth.distance_m / distance - 1.0).abs());
                 assert!((truth.normal - frame.z_axis).length() < 1e-6);
@@ -87,7 +87,7 @@ fn a_silhouette_is_met_where_the_triangle_is() {
         let placement = DAffine3::from_mat3_translation(random.rotation(), random.cube());
         builder.add_instance(instance(Shape::Mesh(id), placement));
         let world = builder.build().expect("legal");
-        let view = world.view(placement.transform_point3(from));
+        let view = world.render_space(placement.transform_point3(from));
         for _ in 0..500 {
             let about = DVec3::new(0.0, random.between(-side, 2.0 * side), random.between(-side, side));
             let target = placement.transform_point3(about) - view.origin_m();
@@ -108,7 +108,7 @@ fn the_background_has_no_truth() {
     let mut builder = WorldBuilder::new();
     builder.add_instance(instance(Shape::Sphere { radius_m: 1.0 }, DAffine3::from_translation(DVec3::X * 5.0)));
     let world = builder.build().expect("legal");
-    let view = world.view(DVec3::ZERO);
+    let view = world.render_space(DVec3::ZERO);
     assert!(
         view.truth(DVec3::ZERO, DVec3::NEG_X, |_| true).is_none()
             && view.truth(DVec3::ZERO, DVec3::ZERO, |_| true).is_none()
@@ -132,7 +132,7 @@ fn what_is_not_accepted_is_passed_and_the_rest_is_as_exact() {
     let centre = DAffine3::from_translation(DVec3::Z * 40.0);
     builder.add_instance(instance(Shape::Sphere { radius_m: 1.0 }, placement * centre));
     let world = builder.build().expect("legal");
-    let view = world.view(placement.translation);
+    let view = world.render_space(placement.translation);
     let along = placement.matrix3.z_axis;
     for from in 0..30 {
         let truth = view.truth(DVec3::ZERO, along, |p| p.instance >= from).expect("a square");

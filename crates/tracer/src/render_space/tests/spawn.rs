@@ -4,7 +4,7 @@ use crate::accel::World;
 use crate::accel::WorldBuilder;
 use crate::accel::tests::shapes::{Random, icosphere, instance, mesh, world_of};
 use crate::geometry::{Shape, SurfacePoint};
-use crate::view::View;
+use crate::render_space::RenderSpace;
 use etendue_core::Ray;
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
@@ -18,7 +18,7 @@ fn leaving(normal: Vec3, random: &mut Random) -> Vec3 {
     (along * (1.0 - sine * sine).max(0.0).sqrt() + normal * sine).as_vec3()
 }
 
-fn met(view: &View<'_>, origin: DVec3, target: DVec3) -> Option<SurfacePoint> {
+fn met(view: &RenderSpace<'_>, origin: DVec3, target: DVec3) -> Option<SurfacePoint> {
     let ray = Ray::new(origin.as_vec3(), (target - origin).normalize().as_vec3(), 0.0);
     view.closest(&ray).map(|hit| view.surface(&ray, &hit))
 }
@@ -30,7 +30,7 @@ fn check_plane(half_m: f32, placement: DAffine3, height: f64) {
     let corners = corners.map(|(x, y)| Vec3::new(x * half_m, y * half_m, 0.0)).to_vec();
     let world = world_of(mesh(corners, vec![[0, 1, 2], [0, 2, 3]]), placement);
     let over = placement.transform_point3(DVec3::Z * height);
-    let view = world.view(over);
+    let view = world.render_space(over);
     let mut random = Random::new(14);
     for _ in 0..3000 {
         let reach = f64::from(half_m) * 0.99 * etendue_core::maths::f64::pow(10.0, random.between(-6.0, 0.0));
@@ -63,7 +63,7 @@ fn a_plane_far_from_its_own_origin_is_not_met_again() {
     let placement = DAffine3::from_mat3_translation(random.rotation(), DVec3::ZERO);
     let world = world_of(mesh(corners, vec![[0, 1, 2]]), placement);
     let camera = placement.transform_point3(DVec3::new(1e5 + 10.0, 10.0, 8.0));
-    let view = world.view(camera);
+    let view = world.render_space(camera);
     for _ in 0..3000 {
         let at = DVec3::new(1e5 + random.between(1.0, 30.0), random.between(1.0, 30.0), 3.0);
         let point = met(&view, DVec3::ZERO, placement.transform_point3(at) - camera).expect("the floor");
@@ -74,7 +74,7 @@ fn a_plane_far_from_its_own_origin_is_not_met_again() {
 
 /// Rays from a convex body's surface: outward ones meet nothing, inward ones always do.
 fn check_convex(world: &World, camera: DVec3, random: &mut Random) {
-    let view = world.view(camera);
+    let view = world.render_space(camera);
     for _ in 0..3000 {
         let origin = random.direction() * 500.0;
         let point = met(&view, origin, random.cube() * 0.4 - camera).expect("the body");
