@@ -1,43 +1,50 @@
 //! Addressed random numbers of the generator: Philox words under a scene's own key.
 
+use core::convert::Infallible;
 use etendue_core::random::{philox4x32, unit_f64};
+use rand::TryRng;
 
-/// A running stream of numbers, the same on every machine.
+/// A running stream of words, the same on every machine. rand's distributions draw from it.
 #[derive(Clone, Debug)]
-pub struct Dice {
+pub struct RandomStream {
     key: u32,
     count: u32,
 }
 
-impl Dice {
+impl RandomStream {
     /// The stream of one key.
     #[must_use]
     pub fn new(key: u32) -> Self {
         Self { key, count: 0 }
     }
+}
 
-    /// The next number in [0, 1).
-    pub fn unit(&mut self) -> f64 {
+impl TryRng for RandomStream {
+    type Error = Infallible;
+
+    fn try_next_u32(&mut self) -> Result<u32, Infallible> {
+        self.try_next_u64().map(|word| (word >> 32) as u32)
+    }
+
+    fn try_next_u64(&mut self) -> Result<u64, Infallible> {
         self.count += 1;
-        hash([self.count, 0, 0], self.key)
+        Ok(word([self.count, 0, 0], self.key))
     }
 
-    /// The next number in [low, high).
-    pub fn range(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    /// The next whole number below `count`.
-    pub fn below(&mut self, count: usize) -> usize {
-        ((self.unit() * count as f64) as usize).min(count - 1)
+    fn try_fill_bytes(&mut self, bytes: &mut [u8]) -> Result<(), Infallible> {
+        rand::rand_core::utils::fill_bytes_via_next_word(bytes, || self.try_next_u64())
     }
 }
 
 /// A number in [0, 1) that belongs to three whole numbers and a key.
 #[must_use]
 pub fn hash(at: [u32; 3], key: u32) -> f64 {
+    unit_f64(word(at, key))
+}
+
+fn word(at: [u32; 3], key: u32) -> u64 {
     let words = philox4x32([at[0], at[1], at[2], 0], [key, 0x5ce_ae5]);
-    unit_f64(u64::from(words[0]) | u64::from(words[1]) << 32)
+    u64::from(words[0]) | u64::from(words[1]) << 32
 }
 
 /// Smooth value noise in [0, 1) on a square lattice of `period` cells that repeats.

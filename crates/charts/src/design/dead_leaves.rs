@@ -13,6 +13,7 @@ use crate::panel::Panel;
 use crate::shape::{Cell, Fill, Lattice, rectangle};
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
 use glam::DVec2;
+use rand::RngExt;
 
 /// Side over the height that is wholly seen.
 const REACH: f64 = 0.8;
@@ -88,10 +89,10 @@ pub(super) fn leaves(side: usize, smallest: f64, largest: f64, seed: u64) -> (Ve
     let [small, large] = [smallest, largest].map(|r| 1.0 / (r * r));
     while open > 0 {
         // Density r⁻³: 1/r² is even between its limits.
-        let radius = 1.0 / (small - random.unit_f64() * (small - large)).sqrt();
-        let mut place = || random.unit_f64() * (side as f64 + 2.0 * largest) - largest;
+        let radius = 1.0 / (small - random.random::<f64>() * (small - large)).sqrt();
+        let mut place = || random.random_range(-largest..side as f64 + largest);
         let centre = DVec2::new(place(), place());
-        let grey = GREYS.0 + random.unit_f64() * (GREYS.1 - GREYS.0);
+        let grey = random.random_range(GREYS.0..GREYS.1);
         open -= lay(&mut values, side, centre, radius, (grey * 65_535.0).round() as u16);
         laid += 1;
     }

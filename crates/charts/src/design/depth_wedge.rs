@@ -12,6 +12,7 @@ use crate::shape::{Sheet, rectangle};
 use etendue_core::maths::f64::{exp, ln};
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
 use glam::{DMat3, DVec2, DVec3};
+use rand::RngExt;
 use serde_json::json;
 
 /// Side of the texture, texels; it is mirrored from tile to tile.
@@ -77,7 +78,7 @@ impl DepthWedge {
             let tile = DVec2::splat(TILE_PX * seen.pixel_mm * nearest_m / seen.distance_m);
             let (name, file) = (format!("{}-texture", panel.name), "leaves.png".to_owned());
             // Every panel begins elsewhere in the picture: neighbours do not look alike.
-            let corner = -panel.sheet.size_mm / 2.0 - tile * DVec2::new(random.unit_f64(), random.unit_f64());
+            let corner = -panel.sheet.size_mm / 2.0 - tile * DVec2::new(random.random(), random.random());
             let place_mm = (corner, corner + tile);
             let values = values.clone();
             drawing.textures.push(Texture { name, file, panel: i, place_mm, width: SIDE, height: SIDE, values });

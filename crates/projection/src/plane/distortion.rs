@@ -176,20 +176,28 @@ impl Distortion {
     /// The smallest radius in any direction at which the determinant vanishes within the limit.
     fn first_fold(&self) -> Option<f64> {
         const DIRECTIONS: i32 = 64;
-        let width = TAU / f64::from(DIRECTIONS);
-        let folds = (0..DIRECTIONS).map(|i| (self.fold_towards(f64::from(i) * width), f64::from(i) * width));
+        let (width, radii) = (TAU / f64::from(DIRECTIONS), self.scanned_radii());
+        let folds =
+            (0..DIRECTIONS).map(|i| f64::from(i) * width).map(|azimuth| (self.fold_towards(azimuth, &radii), azimuth));
         let (nearest, azimuth) = folds.fold((f64::INFINITY, 0.0), |a, b| if b.0 < a.0 { b } else { a });
-        nearest.is_finite().then(|| self.least_fold([azimuth - width, azimuth + width]).min(nearest))
+        nearest.is_finite().then(|| self.least_fold([azimuth - width, azimuth + width], &radii).min(nearest))
+    }
+
+    /// The radii between which a change of sign is looked for: equal steps of the angle, up to the limit.
+    fn scanned_radii(&self) -> Vec<f64> {
+        const STEPS: i32 = 256;
+        let end = atan(self.limit);
+        (0..=STEPS).map(|i| tan(end * f64::from(i) / f64::from(STEPS)).min(self.limit)).collect()
     }
 
     /// The fold's least radius over a range of azimuths that holds one least, by golden section.
-    fn least_fold(&self, [mut low, mut high]: [f64; 2]) -> f64 {
+    fn least_fold(&self, [mut low, mut high]: [f64; 2], radii: &[f64]) -> f64 {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
         let mut least = f64::INFINITY;
         // The radius has a minimum there: its error is the square of the azimuth's, 1e-4.
         for _ in 0..18 {
             let (a, b) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
-            let (at_a, at_b) = (self.fold_towards(a), self.fold_towards(b));
+            let (at_a, at_b) = (self.fold_towards(a, radii), self.fold_towards(b, radii));
             least = least.min(at_a).min(at_b);
             if at_a < at_b {
                 high = b;
@@ -201,14 +209,13 @@ impl Distortion {
     }
 
     /// The first radius towards an azimuth at which the determinant vanishes within the limit; infinite where none.
-    fn fold_towards(&self, azimuth: f64) -> f64 {
-        const STEPS: i32 = 256;
+    fn fold_towards(&self, azimuth: f64, radii: &[f64]) -> f64 {
         let (sin, cos) = sin_cos(azimuth);
         let determinant = |r: f64| self.area_ratio(DVec2::new(cos, sin) * r);
-        let end = atan(self.limit);
-        let radius = |i: i32| tan(end * f64::from(i) / f64::from(STEPS)).min(self.limit);
-        let found = (0..STEPS).find_map(|i| crossing([radius(i), radius(i + 1)], determinant));
-        found.unwrap_or(f64::INFINITY)
+        let mut negative = radii.iter().map(|r| determinant(*r) < 0.0);
+        let Some(first) = negative.next() else { return f64::INFINITY };
+        let Some(i) = negative.position(|sign| sign != first) else { return f64::INFINITY };
+        crossing([radii[i], radii[i + 1]], determinant).unwrap_or(f64::INFINITY)
     }
 }
 

@@ -8,7 +8,7 @@ use super::house::{GROUND_M, Ground, House, STOREY_M};
 use super::opening::{self, Frame};
 use super::roof;
 use crate::mesh::Mesh;
-use crate::random::Dice;
+use crate::random::RandomStream;
 use glam::{DVec2, DVec3};
 
 /// Height of a window's sill above its floor, m.
@@ -28,7 +28,7 @@ impl House {
     #[must_use]
     pub(super) fn mesh(&self) -> Mesh {
         let mut mesh = Mesh::default();
-        let mut dice = Dice::new(self.key);
+        let mut dice = RandomStream::new(self.key);
         self.ground_floor(&mut mesh, &mut dice);
         for storey in 1..self.storeys {
             self.upper_storey(storey, &mut mesh, &mut dice);
@@ -43,7 +43,7 @@ impl House {
         self.width * (bay as f64 + 0.5) / self.bays as f64
     }
 
-    fn upper_storey(&self, storey: usize, mesh: &mut Mesh, dice: &mut Dice) {
+    fn upper_storey(&self, storey: usize, mesh: &mut Mesh, dice: &mut RandomStream) {
         let floor = GROUND_M + (storey - 1) as f64 * STOREY_M;
         let top = if storey + 1 == self.storeys { self.eaves() } else { floor + STOREY_M };
         let balcony = |bay: usize| self.balconies && bay % 2 == 1;
@@ -67,14 +67,14 @@ impl House {
         Hole { low: DVec2::new(centre - half, bottom), high: DVec2::new(centre + half, sill + self.window[1]) }
     }
 
-    fn ground_floor(&self, mesh: &mut Mesh, dice: &mut Dice) {
+    fn ground_floor(&self, mesh: &mut Mesh, dice: &mut RandomStream) {
         match self.ground {
             Ground::Home => self.home_floor(mesh, dice),
             Ground::Shop => self.shop_floor(mesh),
         }
     }
 
-    fn home_floor(&self, mesh: &mut Mesh, dice: &mut Dice) {
+    fn home_floor(&self, mesh: &mut Mesh, dice: &mut RandomStream) {
         let door_bay = self.bays / 2;
         let hole = |bay: usize| {
             let centre = self.bay_centre(bay);

@@ -1,7 +1,9 @@
 //! Lamp posts, sign posts, bins, bollards and benches.
 
 use crate::mesh::{Mesh, along, circle};
+use crate::random::RandomStream;
 use glam::{DAffine3, DVec2, DVec3};
+use rand::RngExt;
 
 /// A lamp post 7 m high whose arm reaches 1.4 m towards +y.
 #[must_use]
@@ -154,17 +156,18 @@ pub(super) fn bench() -> Mesh {
 #[must_use]
 pub(super) fn hedge(size: DVec3, leaves: usize, key: u32) -> Mesh {
     let mut mesh = Mesh::default();
-    let mut dice = crate::random::Dice::new(key);
+    let mut dice = RandomStream::new(key);
     mesh.block("hedge", DVec3::new(0.08, 0.08, 0.0), size - DVec3::new(0.08, 0.08, 0.08));
     for _ in 0..leaves {
-        let mut at = DVec3::new(dice.unit(), dice.unit(), dice.unit()) * size;
-        let axis = dice.below(3);
-        at[axis] = if axis == 2 || dice.unit() < 0.5 { size[axis] - 0.04 } else { 0.04 };
+        let mut at = DVec3::new(dice.random::<f64>(), dice.random::<f64>(), dice.random::<f64>()) * size;
+        let axis = dice.random_range(0..3);
+        at[axis] = if axis == 2 || dice.random_bool(0.5) { size[axis] - 0.04 } else { 0.04 };
         let normal =
-            DVec3::new(dice.range(-1.0, 1.0), dice.range(-1.0, 1.0), dice.range(-0.2, 1.0)).normalize_or(DVec3::Z);
+            DVec3::new(dice.random_range(-1.0..1.0), dice.random_range(-1.0..1.0), dice.random_range(-0.2..1.0))
+                .normalize_or(DVec3::Z);
         let frame = along(at, normal);
         let (a, b) = (frame.matrix3.x_axis * 0.07, frame.matrix3.y_axis * 0.045);
-        mesh.flat(if dice.unit() < 0.5 { "leaf" } else { "leaf-light" }, &[at - a, at - b, at + a, at + b]);
+        mesh.flat(if dice.random_bool(0.5) { "leaf" } else { "leaf-light" }, &[at - a, at - b, at + a, at + b]);
     }
     mesh
 }

@@ -5,8 +5,9 @@ use super::road::{self, KERB_M, LANE_M, NOSE_X, PARKING_Y, REACH_X};
 use super::tree::Growth;
 use super::{fleet, person};
 use crate::description::{Description, Spot};
-use crate::random::Dice;
+use crate::random::RandomStream;
 use glam::DVec3;
+use rand::RngExt;
 
 /// Road, pavements, kerbs.
 pub(super) fn ground(street: &mut Description) {
@@ -44,12 +45,12 @@ pub(super) fn greenery(street: &mut Description) {
     street.mesh("tree-b", maple.mesh());
     street.mesh("hedge", things::hedge(DVec3::new(8.0, 0.7, 1.1), 420, 73));
     street.mesh("island", road::island());
-    let mut dice = Dice::new(80);
+    let mut dice = RandomStream::new(80);
     let mut trees = [Vec::new(), Vec::new()];
     let mut plant = |x: f64, y: f64, z: f64| {
-        let kind = dice.below(2);
-        let scale = (dice.range(0.9, 1.15) * 100.0).round() / 100.0;
-        trees[kind].push(Spot { scale, ..Spot::new(x, y, z, (dice.unit() * 36.0).floor() * 10.0) });
+        let kind = dice.random_range(0..2);
+        let scale = (dice.random_range::<f64, _>(0.9..1.15) * 100.0).round() / 100.0;
+        trees[kind].push(Spot { scale, ..Spot::new(x, y, z, 10.0 * f64::from(dice.random_range(0..36))) });
     };
     for i in 0..15 {
         let x = -46.0 + 14.0 * f64::from(i);

@@ -1,8 +1,9 @@
 //! What fills the holes of a front: windows, doors, shop windows, balconies. Fronts look towards −y.
 
 use crate::mesh::Mesh;
-use crate::random::Dice;
+use crate::random::RandomStream;
 use glam::{DVec2, DVec3};
+use rand::RngExt;
 
 /// Depth of the wall before the frame, m.
 const REVEAL_M: f64 = 0.14;
@@ -63,15 +64,15 @@ fn sash(mesh: &mut Mesh, slot: &'static str, low: DVec2, high: DVec2, bar: f64) 
 }
 
 /// A window of two casements; behind the glass a dark room, a curtain or a shutter partly down.
-pub(super) fn window(mesh: &mut Mesh, low: DVec2, high: DVec2, frame: Frame, surround: bool, dice: &mut Dice) {
+pub(super) fn window(mesh: &mut Mesh, low: DVec2, high: DVec2, frame: Frame, surround: bool, dice: &mut RandomStream) {
     let middle = (low.x + high.x) / 2.0;
-    let glass = if dice.unit() < 0.35 { "curtain-glass" } else { "glass" };
+    let glass = if dice.random_bool(0.35) { "curtain-glass" } else { "glass" };
     for x in [[low.x, middle], [middle, high.x]] {
         sash(mesh, "frame", DVec2::new(x[0], low.y), DVec2::new(x[1], high.y), 0.06);
         pane(mesh, glass, x, [low.y, high.y], REVEAL_M + GLASS_M);
     }
-    if dice.unit() < 0.22 {
-        let down = high.y - (high.y - low.y) * dice.range(0.25, 0.7);
+    if dice.random_bool(0.22) {
+        let down = high.y - (high.y - low.y) * dice.random_range(0.25..0.7);
         pane(mesh, "shutter", [low.x, high.x], [down, high.y], REVEAL_M - 0.02);
     }
     if frame == Frame::Window {

@@ -2,8 +2,9 @@
 
 use crate::mesh::{Mesh, circle};
 use crate::paint::{grass, ground};
-use crate::random::Dice;
+use crate::random::RandomStream;
 use glam::{DVec2, DVec3};
+use rand::RngExt;
 
 /// Half the width of the carriageway: one lane, m.
 pub(super) const LANE_M: f64 = 3.25;
@@ -63,7 +64,7 @@ pub(super) fn repairs() -> Mesh {
     for [x0, x1, y0, y1] in patches {
         level(&mut mesh, "fresh-asphalt", [x0, x1], [y0, y1], 0.002, [ground::FRESH_M; 2]);
     }
-    let mut dice = Dice::new(900);
+    let mut dice = RandomStream::new(900);
     for (x, y) in [(-6.0, -0.15), (6.0, -2.4), (22.0, -1.1), (12.5, 1.7), (40.0, 0.2), (55.0, -2.0)] {
         seal(&mut mesh, DVec2::new(x, y), DVec2::X, 34, &mut dice);
     }
@@ -77,16 +78,16 @@ pub(super) fn repairs() -> Mesh {
 }
 
 /// A crack sealed with bitumen: a strip that wanders along `heading` in steps of 0.35 m.
-fn seal(mesh: &mut Mesh, start: DVec2, heading: DVec2, steps: usize, dice: &mut Dice) {
+fn seal(mesh: &mut Mesh, start: DVec2, heading: DVec2, steps: usize, dice: &mut RandomStream) {
     let side = heading.perp();
     let (mut at, mut sway) = (start, 0.0);
-    let edge = |at: DVec2, dice: &mut Dice| {
-        let half = side * dice.range(0.018, 0.032);
+    let edge = |at: DVec2, dice: &mut RandomStream| {
+        let half = side * dice.random_range(0.018..0.032);
         [at - half, at + half].map(|p| p.extend(0.003))
     };
     let mut before = edge(at, dice);
     for _ in 0..steps {
-        sway = 0.7 * sway + dice.range(-0.09, 0.09);
+        sway = 0.7 * sway + dice.random_range(-0.09..0.09);
         at += heading * 0.35 + side * sway;
         let next = edge(at, dice);
         mesh.flat("bitumen", &[before[0], next[0], next[1], before[1]]);

@@ -1,0 +1,4 @@
+//! Charts as they are written to files.
+
+mod files;
+mod partition;

@@ -1,0 +1,11 @@
+//! Files read and written: formats of others and our own.
+
+mod assets;
+mod calibrations;
+mod exr_files;
+mod f_theta;
+mod lamps;
+mod meshes;
+mod openexr;
+mod pixel_centres;
+mod prescriptions;

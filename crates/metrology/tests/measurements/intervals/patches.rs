@@ -1,0 +1,150 @@
+//! Even patches: noise, flare, contrast, colour.
+
+use super::{normals, picture};
+use crate::coverage::covers;
+use etendue_core::maths::f64::pow;
+use etendue_metrology::colour::{ColourError, ColourPatch, measure_colour};
+use etendue_metrology::contrast::{ContrastSettings, detection_probability, measure_contrast};
+use etendue_metrology::flare::measure_flare;
+use etendue_metrology::noise::measure_noise;
+use etendue_metrology::oecf::ExposurePoint;
+use etendue_metrology::photon_transfer::Stack;
+use etendue_metrology::{Estimate, Image};
+use etendue_spectra::{chart::colorchecker, colour::D65_WHITE, illuminant, observer};
+
+/// Temporal noise 4, fixed pattern 3 in readings of 200 over a black of 40.
+#[test]
+fn noise() {
+    const SIDE: usize = 24;
+    covers("noise", |seed| {
+        let mut normal = normals(seed, 0);
+        let pattern: Vec<f64> = (0..SIDE * SIDE).map(|_| 3.0 * normal()).collect();
+        let mut stack = Stack::new(SIDE, SIDE);
+        for _ in 0..8 {
+            stack.push(&picture(SIDE, SIDE, |i| 200.0 + pattern[i] + 4.0 * normal())).expect("a frame");
+        }
+        let found = measure_noise(&stack, 40.0).expect("eight frames");
+        // The signal is that of these pixels.
+        let signal = 160.0 + pattern.iter().sum::<f64>() / (SIDE * SIDE) as f64;
+        let [total, temporal, fixed] = found.snr();
+        vec![
+            ("signal", found.signal, signal),
+            ("temporal", found.temporal, 4.0),
+            ("fixed pattern", found.fixed, 3.0),
+            ("total", found.total, 5.0),
+            ("SNR, total", total, signal / 5.0),
+            ("SNR, temporal", temporal, signal / 4.0),
+            ("SNR, fixed pattern", fixed, signal / 3.0),
+        ]
+    });
+}
+
+#[test]
+fn flare() {
+    covers("flare", |seed| {
+        let mut normal = normals(seed, 0);
+        let mut patch = |mean: f64, sigma: f64| picture(12, 12, |_| mean + sigma * normal());
+        let (white, trap) = (patch(900.0, 30.0), patch(25.0, 3.0));
+        let found = measure_flare(&trap, &[white], 20.0, None, 1).expect("regions");
+        vec![("share of a trap", found, 5.0 / 880.0)]
+    });
+}
+
+/// A patch as bilinear demosaicking leaves a channel that every other pixel has: the others are means of their neighbours.
+fn developed(mean: f64, sigma: f64, mut normal: impl FnMut() -> f64) -> Image {
+    const SIDE: usize = 24;
+    let own: Vec<f64> = (0..(SIDE + 2) * (SIDE + 2)).map(|_| mean + sigma * normal()).collect();
+    let at = |x: usize, y: usize| own[y * (SIDE + 2) + x];
+    picture(SIDE, SIDE, |i| {
+        let (x, y) = (i % SIDE + 1, i / SIDE + 1);
+        let beside = 0.25 * (at(x - 1, y) + at(x + 1, y) + at(x, y - 1) + at(x, y + 1));
+        if (x + y) % 2 == 0 { at(x, y) } else { beside }
+    })
+}
+
+#[test]
+fn patches_of_developed_pictures() {
+    covers("developed pictures", |seed| {
+        let mut normal = normals(seed, 0);
+        let [white, trap] = [(900.0, 30.0), (25.0, 3.0)].map(|(m, s)| developed(m, s, &mut normal));
+        let flare = measure_flare(&trap, &[white], 20.0, None, 1).expect("regions");
+        let [dark, bright] = [(1000.0, 100.0), (1500.0, 120.0)].map(|(m, s)| developed(m, s, &mut normal));
+        let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5, shared_px: 1 };
+        let contrast = measure_contrast(&dark, &bright, 0.5, &settings).expect("patches");
+        let point = ExposurePoint::of(1.0, &dark, None, 1);
+        vec![
+            ("flare of a trap", flare, 5.0 / 880.0),
+            ("contrast", contrast.measured, 0.5),
+            ("reading of an exposure", point.reading, 1000.0),
+        ]
+    });
+}
+
+#[test]
+fn contrast() {
+    let settings = ContrastSettings { black: 0.0, full_scale: None, share: 0.5, shared_px: 1 };
+    let (dark, bright) = ([1000.0, 300.0], [1500.0, 360.0]);
+    covers("cdp", |seed| {
+        let mut normal = normals(seed, 0);
+        let mut patch = |[mean, sigma]: [f64; 2]| picture(20, 20, |_| mean + sigma * normal());
+        let (a, b) = (patch(dark), patch(bright));
+        let found = measure_contrast(&a, &b, 0.5, &settings).expect("patches");
+        let square = |[mean, sigma]: [f64; 2]| [mean, sigma * sigma];
+        let probability = detection_probability(square(dark), square(bright), 0.5, 0.5);
+        vec![
+            ("contrast", found.measured, 0.5),
+            ("detection probability", found.detection, probability),
+            ("transfer", found.transfer, 1.0),
+            ("contrast to noise", found.contrast_snr, 500.0 / (300.0_f64 * 300.0 + 360.0 * 360.0).sqrt()),
+        ]
+    });
+}
+
+/// A camera whose channels are a matrix of XYZ, each to a power: powers of 1 leave no error.
+fn patches(powers: [f64; 3], sigma: f64, side: usize, mut normal: impl FnMut() -> f64) -> Vec<ColourPatch> {
+    let mut patch = |p: &etendue_spectra::chart::Patch| {
+        let [x, y, z] = observer::xyz_of_reflectance(&p.reflectance, illuminant::d65());
+        let channels = [0.5 * x + 0.09 * y, 0.04 * x + 0.6 * y + 0.02 * z, 0.07 * y + 0.45 * z];
+        let pixels = [0, 1, 2].map(|c| {
+            let mean = 16.0 + 900.0 * pow(channels[c], powers[c]);
+            picture(side, side, |_| mean + sigma * normal())
+        });
+        ColourPatch { name: p.name.to_owned(), pixels, reference: [x, y, z] }
+    };
+    colorchecker().iter().map(&mut patch).collect()
+}
+
+/// A camera of errors of some ΔE, and one whose colours are right: there none may be told from 0.
+fn colours(powers: [f64; 3], side: usize, seed: u64) -> [ColourError; 2] {
+    let found = |sigma| measure_colour(&patches(powers, sigma, side, normals(seed, 0)), 16.0, None, D65_WHITE, 1);
+    [3.0, 0.0].map(|sigma| found(sigma).expect("a chart"))
+}
+
+#[test]
+fn colour_errors() {
+    covers("colour", |seed| {
+        let [measured, truth] = colours([0.9, 0.95, 0.85], 24, seed);
+        let patch = |name, i: usize| (name, measured.differences[i], truth.differences[i].value);
+        vec![
+            patch("ΔE of dark skin", 0),
+            patch("ΔE of blue sky", 2),
+            patch("ΔE of red", 14),
+            patch("ΔE of grey 5", 21),
+            ("mean ΔE", measured.mean, truth.mean.value),
+        ]
+    });
+}
+
+/// Lengths that are 0: of all patches one in ten at most may have an interval that leaves 0 out, and their mean has none.
+#[test]
+fn errors_of_colour_that_are_only_noise_are_told_as_such() {
+    let told: Vec<Estimate> = (0..40)
+        .flat_map(|seed| {
+            let [measured, _] = colours([1.0; 3], 8, seed);
+            assert!(measured.mean.standard_uncertainty.is_infinite(), "{:?}", measured.mean);
+            measured.differences
+        })
+        .collect();
+    let wrong = told.iter().filter(|d| d.value > 1.96 * d.standard_uncertainty).count();
+    assert!(10 * wrong < told.len(), "{wrong} of {}", told.len());
+}

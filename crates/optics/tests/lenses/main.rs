@@ -1,0 +1,21 @@
+//! Lenses, their image and what they add to light: closed forms, other programs, conservation.
+
+mod calibrated;
+mod defocus;
+mod front_dirt;
+mod front_mesh;
+mod front_mirror;
+mod front_windscreen;
+mod ghosts;
+mod glare;
+mod lens_geometry;
+mod lens_light;
+mod lens_programs;
+mod openings;
+mod prescribed;
+mod prescription;
+mod psf;
+mod pupil_image;
+mod pupil_views;
+mod spots;
+mod spread_image;
