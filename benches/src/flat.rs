@@ -4,11 +4,11 @@ use etendue_core::Track;
 use etendue_tracer::MaterialId;
 use etendue_tracer::accel::{World, WorldBuilder};
 use etendue_tracer::geometry::{Instance, Mesh, Shape};
-use etendue_tracer::view::View;
+use etendue_tracer::render_space::RenderSpace;
 use glam::{DAffine3, Vec3};
 
 /// All triangles of a view in one mesh, in the render frame. Spheres are left out.
-pub fn mesh(view: &View<'_>) -> Mesh {
+pub fn mesh(view: &RenderSpace<'_>) -> Mesh {
     let corners: Vec<Vec3> = instances(view).flat_map(|i| triangles(view, i)).flatten().collect();
     let triangles = (0..corners.len() as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
     Mesh::new(corners, vec![], vec![], triangles, vec![]).expect("triangles of a legal world").0
@@ -23,11 +23,11 @@ pub fn world(mesh: Mesh) -> World {
     builder.build().expect("a legal world")
 }
 
-fn instances<'w>(view: &View<'w>) -> impl Iterator<Item = u32> + use<'w> {
+fn instances<'w>(view: &RenderSpace<'w>) -> impl Iterator<Item = u32> + use<'w> {
     let shapes = view.world().instances().iter().enumerate();
     shapes.filter(|(_, instance)| matches!(instance.shape, Shape::Mesh(_))).map(|(i, _)| i as u32)
 }
 
-fn triangles<'a>(view: &'a View<'_>, instance: u32) -> impl Iterator<Item = [Vec3; 3]> + 'a {
+fn triangles<'a>(view: &'a RenderSpace<'_>, instance: u32) -> impl Iterator<Item = [Vec3; 3]> + 'a {
     (0..view.primitive_count(instance)).map(move |primitive| view.triangle(instance, primitive))
 }

@@ -7,7 +7,6 @@ use crate::table::Table;
 use crate::threads::pool;
 use etendue_core::Plane;
 use etendue_core::quantity::MeanElectrons;
-use etendue_isp::paper::PictureAddress;
 use etendue_isp::{RawPicture, develop};
 use etendue_pipeline::plan::{CameraBody, Development};
 use etendue_sensor::{FrameAddress, Raw, Sensor, SensorParameters, SensorState};
@@ -65,5 +64,5 @@ fn picture(raw: &Raw, development: &Development) -> etendue_isp::Developed {
         mosaic: &development.mosaic,
         optical_black: None,
     };
-    develop(&picture, &development.processing, PictureAddress::default()).expect("the camera's own processing")
+    develop(&picture, &development.processing, FrameAddress::default()).expect("the camera's own processing")
 }

@@ -1,11 +1,11 @@
 //! Rays as a renderer asks them: what a camera sees, where light goes on, whether a light is free.
 
-use etendue_core::random::{Draw, PathStream, Pixel, PixelAddress};
+use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
 use etendue_core::{Basis, Ray, warp};
 use etendue_pipeline::Plan;
 use etendue_pipeline::plan::CameraPlan;
 use etendue_tracer::geometry::SurfacePoint;
-use etendue_tracer::view::View;
+use etendue_tracer::render_space::RenderSpace;
 use glam::{DVec2, Vec3};
 
 /// Rays of one kind.
@@ -21,7 +21,7 @@ pub struct Questions {
 
 impl Questions {
     /// Asks all of them; the number of rays that met something.
-    pub fn ask(&self, view: &View<'_>) -> usize {
+    pub fn ask(&self, view: &RenderSpace<'_>) -> usize {
         match self.any_hit {
             true => self.rays.iter().filter(|ray| view.occluded(ray)).count(),
             false => self.rays.iter().filter(|ray| view.closest(ray).is_some()).count(),
@@ -37,12 +37,12 @@ struct Seen {
 }
 
 /// Questions of all kinds about a plan's first camera, in the order of its pixels.
-pub fn questions(plan: &Plan, camera: &CameraPlan, view: &View<'_>) -> Vec<Questions> {
+pub fn questions(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -> Vec<Questions> {
     about(primary(camera), plan.sources.suns.first().expect("the street has a sun").direction(), view)
 }
 
 /// Questions of all kinds that begin with `primary` rays, under a sun in direction `sun`.
-pub fn about(primary: Vec<Ray>, sun: Vec3, view: &View<'_>) -> Vec<Questions> {
+pub fn about(primary: Vec<Ray>, sun: Vec3, view: &RenderSpace<'_>) -> Vec<Questions> {
     let seen: Vec<Seen> = primary.iter().enumerate().filter_map(|(i, ray)| seen(view, ray, i as u32)).collect();
     vec![
         Questions { name: "primary", rays: primary, any_hit: false },
@@ -69,12 +69,12 @@ fn principal(camera: &CameraPlan, sensor_mm: DVec2) -> Option<Ray> {
     Some(Ray::new(camera.pose.point_to_render(ray.origin_m).as_vec3(), direction, 0.0))
 }
 
-fn seen(view: &View<'_>, ray: &Ray, number: u32) -> Option<Seen> {
+fn seen(view: &RenderSpace<'_>, ray: &Ray, number: u32) -> Option<Seen> {
     let point = view.surface(ray, &view.closest(ray)?);
     let outward = point.geometric_normal;
     let normal = if outward.dot(ray.direction) > 0.0 { -outward } else { outward };
     let pixel = Pixel { x: number, y: 0 };
-    let address = PixelAddress { seed: 1, camera: 0, frame: 0, capture: 0, pixel, replicate: 0 };
+    let address = PixelAddress { frame: FrameAddress { seed: 1, ..FrameAddress::default() }, pixel, replicate: 0 };
     Some(Seen { point, normal, stream: PathStream::new(&address, 0) })
 }
 

@@ -7,7 +7,7 @@ use crate::runs::{COUNT, Runs};
 use crate::scenes::{STREET, camera};
 use crate::table::Table;
 use etendue_tracer::accel::Simd;
-use etendue_tracer::view::View;
+use etendue_tracer::render_space::RenderSpace;
 use glam::DVec3;
 
 const NOTE: &str = "Millions a second. One thread, one ray after the other. Bounces leave the points that the primary rays meet in the \
@@ -18,12 +18,12 @@ pub fn table() -> Table {
     let plan = STREET.plan();
     let camera = camera(&plan);
     let origin_m = camera.pose.position_m;
-    let flat = flat::world(flat::mesh(&plan.world.view(origin_m)));
+    let flat = flat::world(flat::mesh(&plan.world.render_space(origin_m)));
     let views = [
-        plan.world.view_with(origin_m, Simd::Auto),
-        plan.world.view_with(origin_m, Simd::Scalar),
-        flat.view_with(DVec3::ZERO, Simd::Auto),
-        flat.view_with(DVec3::ZERO, Simd::Scalar),
+        plan.world.render_space_with(origin_m, Simd::Auto),
+        plan.world.render_space_with(origin_m, Simd::Scalar),
+        flat.render_space_with(DVec3::ZERO, Simd::Auto),
+        flat.render_space_with(DVec3::ZERO, Simd::Scalar),
     ];
     let questions = questions(&plan, camera, &views[0]);
     let head = ["ray", "thousands", "met", "AVX2", "scalar", "as one mesh, AVX2", "as one mesh, scalar", "spread"];
@@ -35,7 +35,7 @@ pub fn table() -> Table {
 }
 
 /// Rates of every kind of ray in every view. Views and kinds take turns, so that their ratios hold on a busy machine.
-fn measured(questions: &[Questions], views: &[View<'_>]) -> Vec<Vec<Runs>> {
+fn measured(questions: &[Questions], views: &[RenderSpace<'_>]) -> Vec<Vec<Runs>> {
     let mut rates = vec![vec![Runs::default(); views.len()]; questions.len()];
     for _ in 0..COUNT {
         for (asked, rates) in questions.iter().zip(&mut rates) {
@@ -45,7 +45,7 @@ fn measured(questions: &[Questions], views: &[View<'_>]) -> Vec<Vec<Runs>> {
     rates
 }
 
-fn rate(asked: &Questions, view: &View<'_>) -> f64 {
+fn rate(asked: &Questions, view: &RenderSpace<'_>) -> f64 {
     let (_, seconds) = timed(|| std::hint::black_box(asked.ask(view)));
     asked.rays.len() as f64 / seconds / 1e6
 }

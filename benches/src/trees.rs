@@ -14,7 +14,7 @@ const NOTE: &str = "The street: once as it is (the triangles of each mesh once, 
 /// Build times of the street.
 pub fn table() -> Table {
     let plan = STREET.plan();
-    let view = plan.world.view(camera(&plan).pose.position_m);
+    let view = plan.world.render_space(camera(&plan).pose.position_m);
     let flat = flat::world(flat::mesh(&view));
     let mut table =
         Table::new("Trees", NOTE, &["world", "triangles", "build, ms", "µs a triangle", "view, ms", "spread"]);
@@ -27,7 +27,7 @@ pub fn table() -> Table {
 fn row(name: &str, world: &World) -> Vec<String> {
     let triangles: usize = world.meshes().iter().map(|mesh| mesh.triangles().len()).sum();
     let build = Runs::of(|| build_s(world));
-    let view = Runs::of(|| timed(|| std::hint::black_box(world.view(glam::DVec3::ZERO))).1);
+    let view = Runs::of(|| timed(|| std::hint::black_box(world.render_space(glam::DVec3::ZERO))).1);
     vec![
         name.to_owned(),
         triangles.to_string(),

@@ -1,5 +1,6 @@
 //! From planes of mean electrons to digital numbers in memory, two megapixels: all noises, all effects, each alone.
 
+mod frame;
 mod memory;
 mod sensors;
 
@@ -9,7 +10,8 @@ use crate::table::Table;
 use crate::threads::pool;
 use etendue_core::Plane;
 use etendue_core::quantity::MeanElectrons;
-use etendue_sensor::{FrameAddress, Raw, Sensor, SensorState};
+use etendue_sensor::Sensor;
+use frame::{PIXELS, expose, scene};
 use rayon::ThreadPool;
 use sensors::{bare, kinds};
 
@@ -20,9 +22,6 @@ const NOTE: &str = "1920 × 1080 px, a ramp of light from none to the full well 
     processor time of the busier one. Beside: run by run, over the bare converter (one thread). Memory: most of it above \
     the means, the numbers included. \"Described, without strength\" has every effect in its description, at a strength of \
     zero or switched off.";
-const WIDTH: usize = 1920;
-const HEIGHT: usize = 1080;
-const PIXELS: f64 = (WIDTH * HEIGHT) as f64;
 
 /// Time and memory of a frame, for all noises, all effects, and each effect alone.
 pub fn table() -> Table {
@@ -86,22 +85,4 @@ fn shared(sensor: &Sensor, means: &Plane<MeanElectrons>, pool: &ThreadPool) -> (
     let clock = clock_s() - start;
     let busiest = accounts().iter().zip(&before).map(|(after, before)| after - before).fold(0.0, f64::max);
     (clock, busiest)
-}
-
-/// A ramp from none to the full well, with a lamp in it.
-fn scene() -> Plane<MeanElectrons> {
-    let mean = |i: usize| {
-        let (x, y) = (i % WIDTH, i / WIDTH);
-        let in_lamp = (x.abs_diff(1300).pow(2) + y.abs_diff(500).pow(2)) < 24 * 24;
-        if in_lamp {
-            100.0 * sensors::FULL_WELL_E as f32
-        } else {
-            (sensors::FULL_WELL_E * x as f64 / WIDTH as f64) as f32
-        }
-    };
-    Plane::from_samples(WIDTH, HEIGHT, (0..WIDTH * HEIGHT).map(mean).collect()).expect("one mean a pixel")
-}
-
-fn expose(sensor: &Sensor, means: &Plane<MeanElectrons>) -> (SensorState, Raw) {
-    sensor.step(SensorState::default(), means, FrameAddress { seed: 1, camera: 0, frame: 0, capture: 0 })
 }

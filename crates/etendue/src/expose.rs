@@ -13,8 +13,9 @@ use etendue_io::exr::{SpectralImage, read_spectral};
 use etendue_io::{Existing, OutputFolder, Provenance};
 use etendue_optics::{DepthOfField, OpticsError, PupilProjection};
 use etendue_pipeline::defocus::{held_margin_px, margin_px};
-use etendue_pipeline::photograph::{self, Light};
+use etendue_pipeline::photograph::Light;
 use etendue_pipeline::plan::{CameraBody, Products, RawFormat};
+use etendue_pipeline::stored;
 use etendue_sensor::FrameAddress;
 use serde_json::json;
 use std::ops::Range;
@@ -131,7 +132,7 @@ fn write(
     writer: &mut ResultWriter<'_>,
 ) -> Result<(), Error> {
     let Stored { radiance, projection, distance, .. } = stored;
-    let at_pupil = photograph::Stored { projection, radiance, distance: distance.as_ref() };
+    let at_pupil = stored::Stored { projection, radiance, distance: distance.as_ref() };
     let refuse = |error: OpticsError| {
         let (radiance, camera) = (request.radiance.display(), request.camera.display());
         Error::input(format!("{radiance} through {camera}: {error}{}", margin(body)))

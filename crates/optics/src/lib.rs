@@ -10,13 +10,12 @@ mod overlap;
 pub mod prescription;
 mod pupil;
 pub mod pupil_image;
+mod range;
+mod wavelength;
 
 pub use defocus::{DepthOfField, FastBlend, FastParameters};
-pub use effects::{
-    Effects, EffectsError, EffectsParameters, Glare, GlareParameters, PointSpread, Psf, PsfParameters, SpreadImage,
-    SpreadImageParameters,
-};
-pub use error::{OpticsError, PRINCIPAL_NM};
+pub use effects::{Effects, EffectsError, EffectsParameters};
+pub use error::OpticsError;
 pub use front::{Front, FrontError, FrontRay};
 pub use lens::{
     Calibrated, CalibratedParameters, ConstantPupil, Falloff, LateralColour, Lens, Pinhole, PinholeParameters,
@@ -25,3 +24,4 @@ pub use lens::{
 };
 pub use prescription::{Prescription, PrescriptionError, PrescriptionParameters};
 pub use pupil_image::{Cube, Face, PupilProjection, Resampling, View, Window, irradiance};
+pub use wavelength::PRINCIPAL_NM;

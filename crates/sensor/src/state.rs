@@ -1,19 +1,8 @@
 //! What a sensor remembers from frame to frame, and where a frame stands.
 
-use serde::{Deserialize, Serialize};
+pub use etendue_core::random::FrameAddress;
 
-/// The part of a random address that a raw picture's pixels share.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct FrameAddress {
-    /// The job's seed.
-    pub seed: u64,
-    /// The camera's place in the job.
-    pub camera: u32,
-    /// The frame.
-    pub frame: u32,
-    /// The capture within the frame; those of a frame of several captures follow on.
-    pub capture: u32,
-}
+use serde::{Deserialize, Serialize};
 
 /// Exposure time and gain of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -4,7 +4,7 @@
 //! one camera compare with each other, but their scale is not a quantum efficiency. They are responses per unit of
 //! radiant power, lens and filters included.
 
-use crate::table::embedded;
+use crate::embedded::embedded;
 use crate::{Outside, Spectrum};
 use std::sync::LazyLock;
 

@@ -1,6 +1,6 @@
 //! The ColorChecker of 24 patches: BabelColor's average of measured reflectances, 380–730 nm, end values held.
 
-use crate::table::{embedded, embedded_names};
+use crate::embedded::{embedded, embedded_names};
 use crate::{Outside, Spectrum};
 use std::sync::LazyLock;
 

@@ -3,7 +3,7 @@
 //! CIE illuminants and measured lamps are **relative** powers: scale them with
 //! [`observer::with_luminance`](crate::observer::with_luminance). The Sun and the black body are absolute.
 
-use crate::table::embedded;
+use crate::embedded::embedded;
 use crate::{Outside, Spectrum};
 use etendue_core::maths;
 use std::sync::LazyLock;

@@ -10,6 +10,7 @@ pub mod camera;
 pub mod chart;
 pub mod colour;
 pub mod dielectric;
+mod embedded;
 pub mod glass;
 pub mod illuminant;
 pub mod metal;
@@ -20,5 +21,5 @@ mod spectrum;
 mod table;
 pub mod upsample;
 
-pub use spectrum::{Outside, Spectrum};
-pub use table::{Place, SpectrumError};
+pub use spectrum::Spectrum;
+pub use table::{Outside, Place, SpectrumError};

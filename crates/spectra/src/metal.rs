@@ -3,7 +3,7 @@
 //! Johnson & Christy 1972 (Ag, Au, Cu) and 1974 (Cr, Fe), Rakić 1995 (Al); end values held. Surfaces are taken clean:
 //! oxide layers are left out.
 
-use crate::table::embedded;
+use crate::embedded::embedded;
 use crate::{Outside, Spectrum};
 use std::sync::LazyLock;
 

@@ -1,20 +1,11 @@
 //! A function of wavelength.
 
-use crate::table::{self, Place, SpectrumError};
+use crate::table::{self, Outside, Place, SpectrumError};
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
 use etendue_core::{Bands, Spectral, Wavelengths};
 
 /// Nodes of the grid: 300, 301, … 1 100 nm.
 pub(crate) const NODES: usize = 801;
-
-/// What a table means beyond its first and last wavelength.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outside {
-    /// Zero: for emissions and sensitivities.
-    Zero,
-    /// The end value: for reflectances, transmittances and refractive indices.
-    Hold,
-}
 
 /// A function of wavelength: values at every nanometre from 300 to 1 100 nm, linear between; the unit is its owner's.
 ///

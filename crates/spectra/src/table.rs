@@ -1,8 +1,15 @@
 //! Tables of points: reading, checking, and resampling on the grid of 1 nm.
 
-use crate::Spectrum;
-use crate::spectrum::Outside;
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};
+
+/// What a table means beyond its first and last wavelength.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outside {
+    /// Zero: for emissions and sensitivities.
+    Zero,
+    /// The end value: for reflectances, transmittances and refractive indices.
+    Hold,
+}
 
 /// Where in a table something is wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,18 +139,6 @@ fn numbers<const C: usize>(line: usize, text: &str) -> Result<[f64; C], Spectrum
     array.ok_or_else(|| SpectrumError::Malformed { line, found: text.to_owned(), columns: C })
 }
 
-/// The spectra of a table that comes with the crate: `C` columns, the first the wavelength in nm.
-pub(crate) fn embedded<const C: usize>(text: &str, outside: Outside) -> Vec<Spectrum> {
-    let rows = rows::<C>(text).expect("a table of the crate has numbers in every column");
-    let column = |c: usize| rows.iter().map(|(_, row)| (row[0], row[c])).collect::<Vec<_>>();
-    (1..C).map(|c| Spectrum::from_points(&column(c), outside).expect("a table of the crate is in order")).collect()
-}
-
-/// The column names of a table that comes with the crate, without the wavelength's.
-pub(crate) fn embedded_names(text: &'static str) -> impl Iterator<Item = &'static str> {
-    text.lines().next().unwrap_or("").split(',').skip(1)
-}
-
 /// A node's value: the broken line itself, or, where a point lies closer than 1 nm beside it, the line's mean under the
 /// hat that falls to zero at the neighbouring nodes.
 pub(crate) fn node_value(points: &[(f64, f64)], outside: Outside, nm: f64) -> f64 {
@@ -198,6 +193,7 @@ fn line_at(points: &[(f64, f64)], outside: Outside, nm: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Spectrum;
 
     fn error(text: &str) -> String {
         Spectrum::from_csv(text, Outside::Zero).expect_err("a fault").to_string()

@@ -9,10 +9,10 @@
 //! model says nothing true about infrared or ultraviolet. Components outside 0 to 1 are mixed all the same; whether
 //! they are legal is for the description to say.
 
+use crate::embedded::embedded;
 use crate::illuminant;
 use crate::observer;
 use crate::spectrum::{NODES, node_below};
-use crate::table::embedded;
 use crate::{Outside, Spectrum};
 use etendue_core::{Spectral, Wavelengths};
 use std::sync::LazyLock;

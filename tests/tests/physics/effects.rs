@@ -1,6 +1,6 @@
 //! Irradiance effects behind both routes.
 
-use etendue_optics::{Glare, GlareParameters};
+use etendue_optics::effects::{Glare, GlareParameters};
 use etendue_tests::Job;
 use glam::DVec2;
 

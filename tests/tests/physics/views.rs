@@ -4,9 +4,9 @@
 
 use etendue_core::Plane;
 use etendue_core::quantity::Length;
-use etendue_pipeline::photograph::Stored;
 use etendue_pipeline::plan::Route;
 use etendue_pipeline::pupil_depth::pupil_depth;
+use etendue_pipeline::stored::Stored;
 use etendue_stats::family::sidak_level;
 use etendue_stats::{ReplicateEstimate, student};
 use etendue_testkit::judge::SIGNIFICANCE;

@@ -8,7 +8,7 @@ use etendue_benches::runs::Runs;
 use etendue_benches::table::Table;
 use etendue_tracer::accel::{Simd, World};
 use etendue_tracer::geometry::Mesh;
-use etendue_tracer::view::View;
+use etendue_tracer::render_space::RenderSpace;
 use glam::DVec3;
 use std::hint::black_box;
 
@@ -84,8 +84,8 @@ impl Rates {
 }
 
 fn contest_rates(embree: &Embree, contest: &Contest) -> Vec<Rates> {
-    let ours = contest.world.view(DVec3::ZERO);
-    let scalar = contest.world.view_with(DVec3::ZERO, Simd::Scalar);
+    let ours = contest.world.render_space(DVec3::ZERO);
+    let scalar = contest.world.render_space_with(DVec3::ZERO, Simd::Scalar);
     let theirs: Vec<Scene<'_>> = MODES.iter().map(|(_, mode)| embree.scene(contest.mesh(), *mode)).collect();
     let new = |_: &Questions| Rates {
         ours: Runs::default(),
@@ -105,7 +105,7 @@ fn contest_rates(embree: &Embree, contest: &Contest) -> Vec<Rates> {
     rates
 }
 
-fn our_rate(asked: &Questions, view: &View<'_>) -> f64 {
+fn our_rate(asked: &Questions, view: &RenderSpace<'_>) -> f64 {
     let (_, seconds) = timed(|| black_box(asked.ask(view)));
     asked.rays.len() as f64 / seconds / 1e6
 }
@@ -139,7 +139,7 @@ pub fn agreement(embree: &Embree, contests: &[Contest]) -> Table {
     let head = ["ray", "mode", "met or not", "triangle", "distance"];
     let mut table = Table::new("Agreement", note, &head);
     for contest in contests {
-        let ours = contest.world.view(DVec3::ZERO);
+        let ours = contest.world.render_space(DVec3::ZERO);
         for (mode, scene) in MODES.map(|(name, mode)| (name, embree.scene(contest.mesh(), mode))).iter().take(2) {
             for asked in &contest.questions {
                 table.row(disagreement(contest.name, mode, asked, &ours, scene));
@@ -149,7 +149,7 @@ pub fn agreement(embree: &Embree, contests: &[Contest]) -> Table {
     table
 }
 
-fn disagreement(name: &str, mode: &str, asked: &Questions, ours: &View<'_>, theirs: &Scene<'_>) -> Vec<String> {
+fn disagreement(name: &str, mode: &str, asked: &Questions, ours: &RenderSpace<'_>, theirs: &Scene<'_>) -> Vec<String> {
     let (mut met, mut triangle, mut distance) = (0, 0, 0);
     for ray in &asked.rays {
         if asked.any_hit {

@@ -62,13 +62,13 @@ fn report(embree: &Embree, names: &[String]) {
 fn street() -> Contest {
     let plan = scenes::STREET.plan();
     let camera = scenes::camera(&plan);
-    let view = plan.world.view(camera.pose.position_m);
+    let view = plan.world.render_space(camera.pose.position_m);
     let questions = questions::questions(&plan, camera, &view);
     Contest { name: "street", world: flat::world(flat::mesh(&view)), questions }
 }
 
 fn hills() -> Contest {
     let world = flat::world(terrain::mesh(HILLS));
-    let questions = questions::about(terrain::primary(), terrain::SUN, &world.view(DVec3::ZERO));
+    let questions = questions::about(terrain::primary(), terrain::SUN, &world.render_space(DVec3::ZERO));
     Contest { name: "hills", world, questions }
 }

@@ -58,7 +58,7 @@ impl Row {
             timed(|| flat::world(mesh))
         });
         let (scene, their_build_s) = timed(|| embree.scene(&mesh, DEFAULT));
-        let view = world.view(DVec3::ZERO);
+        let view = world.render_space(DVec3::ZERO);
         let (mut ours, mut theirs) = (Runs::default(), Runs::default());
         for _ in 0..TURNS {
             ours.add(ns(&rays, |ray| view.closest(ray).is_some()));

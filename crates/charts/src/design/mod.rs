@@ -15,6 +15,7 @@ mod flare;
 mod flat;
 mod grid;
 mod oecf_steps;
+mod option;
 mod patches;
 mod points;
 mod siemens_star;
@@ -24,6 +25,7 @@ mod slanted_star;
 use crate::drawing::Drawing;
 use crate::error::ChartError;
 use crate::eye::Footprint;
+use option::{BLACK, BLEED, WHITE, angle, contrast, is_measurable, share};
 
 pub use checkerboard::Checkerboard;
 pub use circles::Circles;
@@ -118,39 +120,4 @@ charts! {
     Points "points",
     /// Panels at known distances.
     DepthWedge "depth-wedge",
-}
-
-/// How far sheets reach beyond what the camera sees, as a share of it: blur and glare look there too.
-const BLEED: f64 = 1.15;
-
-/// Reflectance of white paper.
-const WHITE: f64 = 0.9;
-/// Reflectance of black ink.
-const BLACK: f64 = 0.03;
-
-/// A reflectance between 0 and 1.
-fn share(option: &'static str, value: f64) -> Result<f64, ChartError> {
-    let legal = (0.0..=1.0).contains(&value);
-    legal.then_some(value).ok_or_else(|| ChartError::option(option, value, "expected a share, 0 … 1"))
-}
-
-/// An angle that edges are turned by, degrees, in radians.
-fn angle(degrees: f64) -> Result<f64, ChartError> {
-    let legal = (-45.0..=45.0).contains(&degrees);
-    legal.then_some(degrees.to_radians()).ok_or_else(|| ChartError::option("angle-deg", degrees, "expected -45 … 45"))
-}
-
-/// Whether an edge at an angle to rows or columns can be measured: `measure sfr` expects 2° to 43° to the nearer of both.
-fn is_measurable(degrees: f64) -> bool {
-    let to_axis = (degrees - 90.0 * (degrees / 90.0).round()).abs();
-    // Angles of a star's edges are sums of rounded numbers.
-    (2.0 - 1e-9..=43.0 + 1e-9).contains(&to_axis)
-}
-
-/// A ratio of luminances.
-fn contrast(ratio: f64) -> Result<f64, ChartError> {
-    let legal = ratio > 1.0 && ratio <= 1000.0;
-    legal
-        .then_some(ratio)
-        .ok_or_else(|| ChartError::option("contrast", ratio, "expected a ratio above 1 and up to 1000"))
 }

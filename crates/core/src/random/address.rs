@@ -9,17 +9,24 @@ pub struct Pixel {
     pub y: u32,
 }
 
+/// The part of a random address that a picture's pixels share.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct FrameAddress {
+    /// The job's seed.
+    pub seed: u64,
+    /// The camera's place in the job, from 0.
+    pub camera: u32,
+    /// The frame, from 0. A still world's light is that of frame 0.
+    pub frame: u32,
+    /// The capture within the frame, from 0; a picture made of all captures has that of the first.
+    pub capture: u32,
+}
+
 /// The part of a random address that one pixel's samples share.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct PixelAddress {
-    /// The job's seed.
-    pub seed: u64,
-    /// The camera's place in the job.
-    pub camera: u32,
-    /// The frame. A still world's light is that of frame 0.
-    pub frame: u32,
-    /// The capture within the frame.
-    pub capture: u32,
+    /// The picture.
+    pub frame: FrameAddress,
     /// The pixel.
     pub pixel: Pixel,
     /// The independently scrambled replicate.
@@ -31,12 +38,13 @@ impl PixelAddress {
     #[inline]
     #[must_use]
     pub fn key(&self) -> u64 {
+        let FrameAddress { seed, camera, frame, capture } = self.frame;
         let words = [
-            u64::from(self.camera) | u64::from(self.frame) << 32,
-            u64::from(self.capture) | u64::from(self.replicate) << 32,
+            u64::from(camera) | u64::from(frame) << 32,
+            u64::from(capture) | u64::from(self.replicate) << 32,
             u64::from(self.pixel.x) | u64::from(self.pixel.y) << 32,
         ];
-        words.into_iter().fold(mix(self.seed ^ 0x9e37_79b9_7f4a_7c15), |key, word| mix(key ^ mix(word)))
+        words.into_iter().fold(mix(seed ^ 0x9e37_79b9_7f4a_7c15), |key, word| mix(key ^ mix(word)))
     }
 }
 

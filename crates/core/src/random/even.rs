@@ -64,10 +64,12 @@ impl EvenNumbers {
 mod tests {
     use super::super::Pixel;
     use super::*;
+    use crate::random::FrameAddress;
 
     fn numbers(x: u32, count: u32) -> Vec<f64> {
         let pixel = Pixel { x, y: 5 };
-        let address = PixelAddress { seed: 7, camera: 1, frame: 0, capture: 0, pixel, replicate: 0 };
+        let address =
+            PixelAddress { frame: FrameAddress { seed: 7, camera: 1, ..FrameAddress::default() }, pixel, replicate: 0 };
         let even = EvenNumbers::new(&address, count);
         (0..count).map(|sample| even.at(sample)).collect()
     }

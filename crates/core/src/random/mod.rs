@@ -14,7 +14,7 @@ mod path;
 mod philox;
 mod sobol;
 
-pub use address::{Draw, Pixel, PixelAddress};
+pub use address::{Draw, FrameAddress, Pixel, PixelAddress};
 pub use even::EvenNumbers;
 pub use noise::{NoiseDraw, NoiseKey, NoiseStream};
 pub use path::PathStream;

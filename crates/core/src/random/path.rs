@@ -68,9 +68,14 @@ impl PathStream {
 mod tests {
     use super::super::Pixel;
     use super::*;
+    use crate::random::FrameAddress;
 
     fn address() -> PixelAddress {
-        PixelAddress { seed: 7, camera: 1, frame: 2, capture: 0, pixel: Pixel { x: 3, y: 5 }, replicate: 1 }
+        PixelAddress {
+            frame: FrameAddress { seed: 7, camera: 1, frame: 2, ..FrameAddress::default() },
+            pixel: Pixel { x: 3, y: 5 },
+            replicate: 1,
+        }
     }
 
     #[test]

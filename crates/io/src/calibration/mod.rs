@@ -15,6 +15,7 @@
 
 mod colmap;
 mod f_theta;
+mod found;
 mod kalibr;
 mod matrix;
 mod ocam;
@@ -22,14 +23,14 @@ mod opencv;
 mod ros;
 mod yaml;
 
-use std::path::Path;
-
-use etendue_projection::{Calibration, CalibrationError};
-pub use etendue_scene::asset::CalibrationFormat;
-
 use crate::Error;
 use crate::hash::{self, ContentHash};
 use crate::source::{decode_text, read_bytes};
+use etendue_projection::Calibration;
+use found::{Fault, Found, Read, of_camera, passed_over};
+use std::path::Path;
+
+pub use etendue_scene::asset::CalibrationFormat;
 
 /// A camera of a calibration file.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,55 +63,4 @@ pub fn read_calibration(file: &Path, format: CalibrationFormat, camera: Option<&
     };
     let (name, calibration, notes) = read.and_then(|found| found.chosen(camera)).map_err(|fault| fault.of(file))?;
     Ok(ImportedCamera { name, calibration, notes, hash: hash::of_bytes(&bytes) })
-}
-
-/// What is wrong, and in which line (from 1; 0 for the whole file).
-#[derive(Debug)]
-struct Fault {
-    line: usize,
-    what: String,
-}
-
-type Read<T> = Result<T, Fault>;
-
-impl Fault {
-    fn at(line: usize, what: impl Into<String>) -> Self {
-        Self { line, what: what.into() }
-    }
-
-    fn of(self, file: &Path) -> Error {
-        if self.line == 0 { Error::new(file, self.what) } else { Error::at(file, self.line, self.what) }
-    }
-}
-
-/// What a reader found.
-struct Found {
-    name: String,
-    calibration: Calibration,
-    notes: Vec<String>,
-}
-
-impl Found {
-    /// The camera, if it is the one asked for.
-    fn chosen(self, camera: Option<&str>) -> Read<(String, Calibration, Vec<String>)> {
-        match camera {
-            Some(asked) if asked != self.name && self.name.is_empty() => {
-                Err(Fault::at(0, format!("holds one camera without a name; do not ask for \"{asked}\"")))
-            }
-            Some(asked) if asked != self.name => {
-                Err(Fault::at(0, format!("holds no camera \"{asked}\"; it holds \"{}\"", self.name)))
-            }
-            _ => Ok((self.name, self.calibration, self.notes)),
-        }
-    }
-}
-
-/// A note of keys that say nothing of the camera.
-fn passed_over(keys: &[&str]) -> Vec<String> {
-    if keys.is_empty() { Vec::new() } else { vec![format!("passed over: {}", keys.join(", "))] }
-}
-
-/// A fault of the camera as a whole, told at the line where it starts.
-fn of_camera(line: usize) -> impl Fn(CalibrationError) -> Fault {
-    move |cause| Fault::at(line, cause.to_string())
 }

@@ -2,8 +2,12 @@
 
 mod bilateral;
 pub(crate) mod blur;
+mod error;
 mod median;
 mod unsharp;
+
+pub use error::DetailError;
+use error::within;
 
 pub use bilateral::Bilateral;
 pub use unsharp::Unsharp;
@@ -17,21 +21,6 @@ pub enum NoiseReduction {
     Median {
         /// r, px.
         radius_px: usize,
-    },
-}
-
-/// Why detail cannot be treated so.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum DetailError {
-    /// A length or share out of its range.
-    #[error("{name} is {value}, but a number {range} is needed")]
-    Range {
-        /// Which number.
-        name: &'static str,
-        /// What it is.
-        value: f64,
-        /// What it should be.
-        range: &'static str,
     },
 }
 
@@ -57,9 +46,4 @@ impl NoiseReduction {
             Self::Median { radius_px } => median::apply(picture, width, *radius_px),
         }
     }
-}
-
-/// Refuses a number that is not within `low` (excluded) and `high`.
-fn within(name: &'static str, value: f64, low: f64, high: f64, range: &'static str) -> Result<(), DetailError> {
-    if value > low && value <= high { Ok(()) } else { Err(DetailError::Range { name, value, range }) }
 }

@@ -10,11 +10,12 @@ use crate::black_level::black_level;
 use crate::colour_matrix::ColourMatrix;
 use crate::defects;
 use crate::mosaic::{Mosaic, Tile};
-use crate::paper::{self, PictureAddress, Stage};
+use crate::paper::{self, Stage};
 use crate::raw::{RawPicture, normalised};
 use crate::white_balance::{WhiteBalance, grey_world};
 use etendue_core::Plane;
 use etendue_core::quantity::{Display, LinearRgb};
+use etendue_core::random::FrameAddress;
 use rayon::prelude::*;
 
 /// A developed picture.
@@ -52,7 +53,7 @@ impl Processing {
     /// A picture in linear light as a display takes it: tone curve, sharpening, the paper's filters of encoded pictures with
     /// the random numbers of `address`.
     #[must_use]
-    pub fn displayed(&self, linear: &Plane<LinearRgb>, address: PictureAddress) -> Plane<Display> {
+    pub fn displayed(&self, linear: &Plane<LinearRgb>, address: FrameAddress) -> Plane<Display> {
         let mut display = self.tone.encode_plane(linear);
         if let Some(sharpening) = &self.sharpening {
             sharpening.apply(&mut display);
@@ -70,7 +71,7 @@ impl Processing {
 pub fn develop(
     raw: &RawPicture<'_>,
     processing: &Processing,
-    address: PictureAddress,
+    address: FrameAddress,
 ) -> Result<Developed, DevelopError> {
     processing.check(raw.mosaic, raw.plane.width(), raw.plane.height())?;
     let black = black_level(processing.black_level, raw).ok_or(DevelopError::NoOpticalBlack)?;
@@ -197,7 +198,7 @@ mod tests {
 
     fn developed(dn: [Dn; 4], processing: &Processing) -> Developed {
         let plane = plane(8, 6, |x, y| dn[y % 2 * 2 + x % 2]);
-        develop(&raw(&plane, &bayer()), processing, PictureAddress::default()).expect("legal")
+        develop(&raw(&plane, &bayer()), processing, FrameAddress::default()).expect("legal")
     }
 
     #[test]
@@ -228,7 +229,7 @@ mod tests {
         let plane = plane(18, 18, lamp);
         let bright = |filters| {
             let settings = Processing { exposure_gain: 64.0, image_filters: filters, ..processing() };
-            develop(&raw(&plane, &bayer()), &settings, PictureAddress::default()).expect("legal")
+            develop(&raw(&plane, &bayer()), &settings, FrameAddress::default()).expect("legal")
         };
         let whole = bright(Vec::new());
         assert!(to_8_bit(&whole.display).iter().all(|rgb| *rgb == [255; 3]));
@@ -251,7 +252,7 @@ mod tests {
     fn mono_is_grey() {
         let plane = plane(3, 1, |x, _| [100, 600, 1100][x]);
         let picture =
-            develop(&raw(&plane, &Mosaic::Mono), &Processing::plain(None), PictureAddress::default()).expect("legal");
+            develop(&raw(&plane, &Mosaic::Mono), &Processing::plain(None), FrameAddress::default()).expect("legal");
         assert_eq!(picture.linear.samples(), [[0.0; 3], [0.5; 3], [1.0; 3]]);
     }
 
@@ -280,7 +281,7 @@ mod tests {
             ..Processing::plain(None)
         };
         let raw = RawPicture { optical_black: Some(&dark), ..raw(&shaded, &Mosaic::Mono) };
-        let picture = develop(&raw, &settings, PictureAddress::default()).expect("legal");
+        let picture = develop(&raw, &settings, FrameAddress::default()).expect("legal");
         assert_eq!((picture.facts.black_level_dn, picture.facts.corrected_pixels), (200.0, 1));
         let grey = |x: usize| f64::from(picture.linear.at(x, 2)[0]);
         let want = |x: usize| 0.5 * fall(x) * (2.0 - (x as f64 + 0.5) / 8.0);
@@ -296,7 +297,7 @@ mod tests {
             let white_balance = WhiteBalance::Gains(vec![1.0; matrix.channels()]);
             let plane = plane(6, 6, |x, y| dn[y % 2 * 2 + x % 2]);
             let settings = Processing::plain(Some(Colour { white_balance, matrix }));
-            develop(&raw(&plane, mosaic), &settings, PictureAddress::default()).expect("legal").linear.at(3, 3)
+            develop(&raw(&plane, mosaic), &settings, FrameAddress::default()).expect("legal").linear.at(3, 3)
         };
         // Red as it is, grey of clear.
         assert_eq!(of(&rccc, [vec![1.0, 0.0], vec![0.0, 1.0], vec![0.0, 1.0]], [350, 600, 600, 600]), [0.25, 0.5, 0.5]);
@@ -355,7 +356,7 @@ mod tests {
             ),
         ];
         for (raw, processing, error) in cases {
-            assert_eq!(develop(&raw, &processing, PictureAddress::default()), Err(error));
+            assert_eq!(develop(&raw, &processing, FrameAddress::default()), Err(error));
         }
     }
 
@@ -364,7 +365,7 @@ mod tests {
         let (plane, mosaic) = (plane(31, 17, |x, y| ((y * 31 + x) * 37 % 1200) as Dn), bayer());
         let with = |threads, settings: &Processing| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
-            pool.install(|| develop(&raw(&plane, &mosaic), settings, PictureAddress::default()).expect("legal"))
+            pool.install(|| develop(&raw(&plane, &mosaic), settings, FrameAddress::default()).expect("legal"))
         };
         let bilateral = crate::Bilateral { radius_px: 1.5, range: 0.1 };
         let full = Processing {

@@ -16,43 +16,28 @@
 //! noise are digital numbers of an 8-bit picture (white is 255), whatever bits are written; every result of an encoded
 //! picture is clipped to 0 … 255.
 
+mod brightness;
 mod colour;
+mod error;
 mod gaussian_noise;
 mod glow;
 mod pulse_noise;
 mod tone_map;
 mod uniform_noise;
 
+use brightness::{Change, FilterAddress, change_brightness, for_each};
+use error::demand;
+use etendue_core::Plane;
+use etendue_core::quantity::{Display, LinearRgb};
+use etendue_core::random::FrameAddress;
+
 pub use colour::{Affine, ColourChange, ColourSpace, Operation};
+pub use error::{FilterError, Stage};
 pub use gaussian_noise::GaussianNoise;
 pub use glow::Glow;
 pub use pulse_noise::PulseNoise;
 pub use tone_map::{Sensitivity, ToneMap};
 pub use uniform_noise::UniformNoise;
-
-use etendue_core::Plane;
-use etendue_core::quantity::{Display, LinearRgb, Quantity};
-use etendue_core::random::{NoiseDraw, NoiseKey, NoiseStream, Pixel};
-use rayon::prelude::*;
-
-/// Which picture the random numbers are for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct PictureAddress {
-    /// The job's seed.
-    pub seed: u64,
-    /// The camera's place in the job.
-    pub camera: u32,
-    /// The frame.
-    pub frame: u32,
-}
-
-/// Which filter of a picture the random numbers are for: two of a kind have their own.
-#[derive(Clone, Copy, Debug, Default)]
-struct FilterAddress {
-    picture: PictureAddress,
-    /// Its place among the filters of the encoded picture.
-    place: u32,
-}
 
 /// One of the paper's filters.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,43 +54,6 @@ pub enum Filter {
     GaussianNoise(GaussianNoise),
     /// A uniform number as a factor.
     UniformNoise(UniformNoise),
-}
-
-/// What a filter works on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Stage {
-    /// Linear light, before the tone curve; white is 1 and more is possible.
-    Linear,
-    /// The encoded picture, 0 to 1.
-    Display,
-}
-
-/// Why a filter cannot be applied.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum FilterError {
-    /// A number out of its range.
-    #[error("{name} is {value}, but a number {range} is needed")]
-    Range {
-        /// Which number.
-        name: &'static str,
-        /// What it is.
-        value: f64,
-        /// What it should be.
-        range: &'static str,
-    },
-    /// A filter of linear light after one of the encoded picture.
-    #[error(
-        "filter {0} (from 1) works on linear light, but one before it on the encoded picture: give glow, tone map and linear colour first"
-    )]
-    Order(usize),
-    /// A conversion that belongs to the other stage.
-    #[error("conversions to and from {space} are for {wanted}: set \"on\" accordingly")]
-    Space {
-        /// The colour space.
-        space: &'static str,
-        /// The stage it is made for.
-        wanted: &'static str,
-    },
 }
 
 impl Filter {
@@ -170,57 +118,20 @@ pub(crate) fn apply_linear(filters: &[Filter], picture: &mut Plane<LinearRgb>) {
 }
 
 /// Applies the filters of the encoded picture.
-pub(crate) fn apply_display(filters: &[Filter], picture: &mut Plane<Display>, address: PictureAddress) {
+pub(crate) fn apply_display(filters: &[Filter], picture: &mut Plane<Display>, address: FrameAddress) {
     for (place, filter) in filters.iter().filter(|f| f.stage() == Stage::Display).enumerate() {
         filter.apply_display(picture, FilterAddress { picture: address, place: place as u32 });
     }
 }
 
-/// DN of white.
-const WHITE_DN: f64 = 255.0;
-
-/// Gives each pixel's channels the same change of brightness in DN, from a random number of its own, and clips.
-fn change_brightness(
-    picture: &mut Plane<Display>,
-    FilterAddress { picture: address, place }: FilterAddress,
-    draw: NoiseDraw,
-    change: impl Fn(&mut NoiseStream) -> Change + Sync,
-) {
-    let (width, key) =
-        (picture.width().max(1), NoiseKey::new(address.seed, address.camera, address.frame, place, draw));
-    for_each(picture, |i, rgb| {
-        let mut stream = key.stream(Pixel { x: (i % width) as u32, y: (i / width) as u32 });
-        let Change { factor, offset_dn } = change(&mut stream);
-        rgb.map(|v| (f64::from(v) * factor + offset_dn / WHITE_DN).clamp(0.0, 1.0) as f32)
-    });
-}
-
-/// What happens to a pixel's brightness.
-struct Change {
-    factor: f64,
-    offset_dn: f64,
-}
-
-/// Replaces every pixel. Runs in the rayon pool of the caller.
-fn for_each<Q: Quantity<Sample = [f32; 3]>>(
-    picture: &mut Plane<Q>,
-    change: impl Fn(usize, [f32; 3]) -> [f32; 3] + Sync,
-) {
-    picture.samples_mut().par_iter_mut().enumerate().for_each(|(i, rgb)| *rgb = change(i, *rgb));
-}
-
-/// Refuses a number outside a range.
-fn demand(legal: bool, name: &'static str, value: f64, range: &'static str) -> Result<(), FilterError> {
-    if legal && value.is_finite() { Ok(()) } else { Err(FilterError::Range { name, value, range }) }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::paper::brightness::WHITE_DN;
 
     /// The first filter of a frame.
     pub(super) fn address(seed: u64, camera: u32, frame: u32) -> FilterAddress {
-        FilterAddress { picture: PictureAddress { seed, camera, frame }, place: 0 }
+        FilterAddress { picture: FrameAddress { seed, camera, frame, capture: 0 }, place: 0 }
     }
 
     fn spread(picture: &Plane<Display>) -> f64 {
@@ -234,14 +145,14 @@ mod tests {
     fn two_noises_of_a_kind_are_independent() {
         let noise = Filter::GaussianNoise(GaussianNoise { sigma_dn: 6.0 });
         let mut picture = Plane::filled(200, 200, [0.5; 3]);
-        apply_display(&[noise.clone(), noise], &mut picture, PictureAddress::default());
+        apply_display(&[noise.clone(), noise], &mut picture, FrameAddress::default());
         // √2 · 6 DN; of 40 000 numbers 4.5 standard errors are 1.6 %. The same numbers twice would give 12 DN.
         assert!((spread(&picture) / 72.0_f64.sqrt() - 1.0).abs() < 0.016, "{}", spread(&picture));
     }
 
     #[test]
     fn numbers_are_those_of_an_8_bit_picture_and_clip_at_its_ends() {
-        let (pulse, seed) = (PulseNoise { amplitude_dn: 51.0, probability: 0.5 }, PictureAddress::default());
+        let (pulse, seed) = (PulseNoise { amplitude_dn: 51.0, probability: 0.5 }, FrameAddress::default());
         let mut picture = Plane::filled(64, 64, [0.1, 0.5, 0.9]);
         apply_display(&[Filter::PulseNoise(pulse)], &mut picture, seed);
         // 51 of 255 are 0.2; black and white are the ends.

@@ -24,67 +24,26 @@
 
 mod error;
 mod family;
+mod options;
 mod pose;
 mod problem;
 mod result;
 mod shared;
+mod sightings;
 mod spare;
 mod start;
 
 use crate::Estimate;
 use crate::fit::{Fit, fit};
-use glam::DVec2;
+use problem::Bundle;
 
 pub use error::CalibrateError;
 pub use family::{CameraModel, Family, Radial};
+pub use options::Options;
 pub use pose::Pose;
 pub use result::{Calibrated, Parameter};
+pub use sightings::{Sighting, Sightings};
 pub use spare::{MIN_VIEWS, Spared, calibrate_sparing};
-
-use problem::Bundle;
-
-/// A point of a chart and where it is seen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sighting {
-    /// On the chart, in the caller's unit of length.
-    pub chart: DVec2,
-    /// Raster coordinates, px.
-    pub at: DVec2,
-}
-
-/// One picture of the chart.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Sightings {
-    /// Its points.
-    pub points: Vec<Sighting>,
-    /// Of discs, whose centroids were seen: their radius, in the caller's unit of length.
-    pub disc_radius: Option<f64>,
-}
-
-impl Sightings {
-    /// The points of a grid whose steps on the chart have a length.
-    #[must_use]
-    pub fn of_grid(grid: &crate::target::Grid, step: f64) -> Self {
-        let chart = |[i, j]: [usize; 2]| DVec2::new(i as f64, j as f64) * step;
-        let points = grid.nodes.iter().map(|n| Sighting { chart: chart(n.index), at: n.at });
-        Self { points: points.collect(), disc_radius: grid.disc_radius_steps.map(|r| r * step) }
-    }
-}
-
-/// What is known before.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Options {
-    /// fx = fy.
-    pub square_pixels: bool,
-    /// The principal point is this, raster coordinates; otherwise it is fitted.
-    pub principal_px: Option<DVec2>,
-    /// The focal length (principal distance) is this, px; otherwise it is fitted.
-    pub focal_px: Option<f64>,
-    /// The entrance pupil is at this distance from the chart's plane in every view, in the caller's unit of length.
-    pub distance: Option<Estimate>,
-    /// Points far from the fit count less.
-    pub robust: bool,
-}
 
 /// Least of points of a view.
 const MIN_POINTS: usize = 6;

@@ -18,131 +18,21 @@
 //! away from edges ([`Alignment::Median`]). Uncertainty: errors of neighbours belong together, so that all means are taken from
 //! blocks of 16 × 16 pixels as if these were independent.
 
+mod edges;
+mod error;
+mod report;
+mod settings;
 mod sums;
 #[cfg(test)]
 mod tests;
 
-use crate::{Estimate, Image};
+use crate::Image;
+use edges::{edges, known};
 use sums::Sums;
 
-/// How depth is judged.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DepthSettings {
-    /// Limits of the ranges, m, rising.
-    pub ranges_m: Vec<f64>,
-    /// An outlier is off by more than this share of the depth …
-    pub outlier_ratio: f64,
-    /// … and by more than this, m.
-    pub outlier_least_m: f64,
-    /// A jump of more than this share of the depth is an edge.
-    pub edge_ratio: f64,
-    /// Pixels this near to a jump are edge pixels.
-    pub edge_px: usize,
-    /// A stereo rig's focal length times its base, px m, for errors of disparity.
-    pub focal_base_px_m: Option<f64>,
-    /// What is done to the estimate before.
-    pub alignment: Alignment,
-}
-
-/// What is done to an estimate before it is judged.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Alignment {
-    /// Nothing: it is in metres.
-    #[default]
-    None,
-    /// It is multiplied by the median of truth over estimate.
-    Median,
-}
-
-impl Default for DepthSettings {
-    fn default() -> Self {
-        Self {
-            ranges_m: vec![0.0, 5.0, 10.0, 20.0, 40.0, 80.0, f64::INFINITY],
-            outlier_ratio: 0.05,
-            outlier_least_m: 0.0,
-            edge_ratio: 0.1,
-            edge_px: 2,
-            focal_base_px_m: None,
-            alignment: Alignment::None,
-        }
-    }
-}
-
-/// Errors of a set of pixels.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DepthErrors {
-    /// Pixels with truth and estimate.
-    pub pixels: usize,
-    /// Pixels with truth and no estimate.
-    pub missing: usize,
-    /// Mean error, m.
-    pub bias_m: Estimate,
-    /// Mean magnitude of the error, m.
-    pub mean_m: Estimate,
-    /// Root mean square error, m.
-    pub rmse_m: Estimate,
-    /// Mean magnitude of the relative error.
-    pub relative: Estimate,
-    /// Mean of e²/d, m.
-    pub squared_relative_m: Estimate,
-    /// Root mean square difference of natural logarithms.
-    pub rmse_log: Estimate,
-    /// Their standard deviation: SILog.
-    pub scale_invariant: Estimate,
-    /// Root mean square error of 1/d, 1/km.
-    pub inverse_rmse_per_km: Estimate,
-    /// Share of outliers.
-    pub outliers: Estimate,
-    /// Shares of ratios within 1.25, 1.25², 1.25³.
-    pub within: [Estimate; 3],
-    /// Share of disparities off by more than 3 px and 5 %, and mean error of disparity, px; of a stereo rig.
-    pub disparity: Option<[Estimate; 2]>,
-}
-
-/// Errors over all, by range, and at edges.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DepthReport {
-    /// All pixels but those at edges.
-    pub all: DepthErrors,
-    /// The same by range: lower and upper limit, m.
-    pub ranges: Vec<(f64, f64, DepthErrors)>,
-    /// Pixels at edges.
-    pub edges: DepthErrors,
-    /// What the estimate was multiplied by.
-    pub scale: f64,
-}
-
-/// Why depth cannot be judged.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum DepthError {
-    /// Pictures of different sizes.
-    #[error("the estimate is {} × {} pixels, the truth {} × {}: both must have one size", estimate.0, estimate.1, truth.0, truth.1)]
-    Size {
-        /// Width and height of the estimate.
-        estimate: (usize, usize),
-        /// Width and height of the truth.
-        truth: (usize, usize),
-    },
-    /// No pixel has both.
-    #[error("no pixel away from edges has a finite depth above zero in both pictures: are these depths in metres?")]
-    Nothing,
-    /// Ranges that do not rise.
-    #[error("the limits of the ranges must rise from 0 or more, two or more of them")]
-    Ranges,
-    /// A setting that is no such number.
-    #[error("{name}: expected a finite number of {least} or more, not {value}")]
-    Setting {
-        /// Which.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-        /// The least that it may be.
-        least: &'static str,
-    },
-    /// The same picture twice.
-    #[error("the estimate is the truth, pixel by pixel: give two different pictures")]
-    Same,
-}
+pub use error::DepthError;
+pub use report::{DepthErrors, DepthReport};
+pub use settings::{Alignment, DepthSettings};
 
 /// Judges an estimate against the truth, both in m.
 ///
@@ -176,30 +66,6 @@ pub fn measure_depth(estimate: &Image, truth: &Image, settings: &DepthSettings) 
     Ok(DepthReport { all, ranges, edges: sums(&|i, _| edges[i]), scale })
 }
 
-impl DepthSettings {
-    fn check(&self) -> Result<(), DepthError> {
-        let limits = &self.ranges_m;
-        let rising = limits.len() >= 2 && limits[0] >= 0.0 && limits.windows(2).all(|pair| pair[0] < pair[1]);
-        if !rising {
-            return Err(DepthError::Ranges);
-        }
-        let shares = [
-            ("outlier share", self.outlier_ratio),
-            ("least error of an outlier", self.outlier_least_m),
-            ("edge ratio", self.edge_ratio),
-        ];
-        let wrong = shares.into_iter().find(|(_, value)| !(value.is_finite() && *value >= 0.0));
-        let wrong = wrong.map(|(name, value)| DepthError::Setting { name, value, least: "0" });
-        let rig = self.focal_base_px_m.filter(|value| !(value.is_finite() && *value > 0.0));
-        let rig = rig.map(|value| DepthError::Setting { name: "focal length times base", value, least: "more than 0" });
-        wrong.or(rig).map_or(Ok(()), Err)
-    }
-}
-
-fn known(depth: f64) -> bool {
-    depth.is_finite() && depth > 0.0
-}
-
 fn median_ratio(estimate: &Image, truth: &Image, edges: &[bool]) -> Option<f64> {
     let pairs = estimate.samples().iter().zip(truth.samples()).zip(edges);
     let pairs = pairs.map(|((a, b), edge)| (f64::from(*a), f64::from(*b), *edge));
@@ -207,40 +73,4 @@ fn median_ratio(estimate: &Image, truth: &Image, edges: &[bool]) -> Option<f64> 
         pairs.filter(|(a, b, edge)| !edge && known(*a) && known(*b)).map(|(a, b, _)| b / a).collect();
     ratios.sort_by(f64::total_cmp);
     ratios.get(ratios.len() / 2).copied()
-}
-
-/// Whether each pixel lies at an edge of the truth; sky beside something is an edge, too.
-fn edges(truth: &Image, settings: &DepthSettings) -> Vec<bool> {
-    let (width, height) = (truth.width(), truth.height());
-    let at = |x: usize, y: usize| f64::from(truth.at(x, y));
-    let sky = |depth: f64| depth == f64::INFINITY;
-    let jump = |a: f64, b: f64| match (known(a), known(b)) {
-        (true, true) => (a - b).abs() > settings.edge_ratio * a.min(b),
-        (true, false) => sky(b),
-        (false, true) => sky(a),
-        _ => false,
-    };
-    let mut edges = vec![false; width * height];
-    let mut mark = |x: usize, y: usize| {
-        let reach = settings.edge_px;
-        for row in y.saturating_sub(reach)..(y + reach + 1).min(height) {
-            edges[row * width + x.saturating_sub(reach)..row * width + (x + reach + 1).min(width)].fill(true);
-        }
-    };
-    for y in 0..height {
-        for x in 0..width {
-            let right = x + 1 < width && jump(at(x, y), at(x + 1, y));
-            let below = y + 1 < height && jump(at(x, y), at(x, y + 1));
-            if right || below {
-                mark(x, y);
-            }
-            if right {
-                mark(x + 1, y);
-            }
-            if below {
-                mark(x, y + 1);
-            }
-        }
-    }
-    edges
 }

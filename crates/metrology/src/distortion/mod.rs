@@ -23,49 +23,26 @@
 
 mod base;
 mod curve;
+mod error;
 mod fields;
 mod ideal;
 mod lines;
 mod local;
 mod radial;
 
-pub use curve::CurvePoint;
-pub use ideal::Ideal;
-pub use lines::LineBow;
-pub use local::LocalDistortion;
-pub use radial::RadialFit;
-
 use crate::Estimate;
 use crate::calibrate::Sightings;
-use crate::fit::FitError;
 use crate::target::{Grid, Node};
 use etendue_projection::Sense;
 use glam::DVec2;
 use rayon::prelude::*;
 
-/// Why a picture has no distortion to tell.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum DistortionError {
-    /// Too few points.
-    #[error(
-        "{points} points of the chart are too few for a distortion curve; at least {least} are needed: use a chart of more points"
-    )]
-    Few {
-        /// Points found.
-        points: usize,
-        /// Points that would do.
-        least: usize,
-    },
-    /// The chart does not show the centre.
-    #[error("the chart does not cover the picture's centre, ({:.1}, {:.1}) px, where ideal scale is taken: centre the chart, or state another centre", centre_px[0], centre_px[1])]
-    Centre {
-        /// The centre, px.
-        centre_px: [f64; 2],
-    },
-    /// A fit failed.
-    #[error(transparent)]
-    Fit(#[from] FitError),
-}
+pub use curve::CurvePoint;
+pub use error::DistortionError;
+pub use ideal::Ideal;
+pub use lines::LineBow;
+pub use local::LocalDistortion;
+pub use radial::RadialFit;
 
 /// The distortion of a picture.
 #[derive(Clone, Debug)]

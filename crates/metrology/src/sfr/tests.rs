@@ -1,6 +1,7 @@
 //! Edges in closed form: the pixel's square times a lens.
 
 use super::*;
+use crate::Image;
 use core::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 use etendue_core::maths::f64::{acos, asin, cos, exp, sin, sin_cos};
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};

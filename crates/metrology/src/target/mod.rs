@@ -22,15 +22,17 @@ mod dots;
 mod error;
 mod grid;
 mod lattice;
+mod least;
 mod neighbours;
 mod saddle;
 mod sampling;
 mod threshold;
 
+use crate::Image;
+use least::LEAST;
+
 pub use error::TargetError;
 pub use grid::{Grid, Node};
-
-use crate::Image;
 
 /// Kinds of charts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,9 +51,6 @@ pub struct Sought {
     /// Columns and rows of points that the chart has, either way round; a picture may show fewer, not more.
     pub size: Option<[usize; 2]>,
 }
-
-/// Least points of a grid whose size is not stated.
-const LEAST: usize = 16;
 
 /// Least median distance of neighbours. Smaller things in rows and columns (screens, prints, pins of circuits) are no chart,
 /// and a chart that is seen so small is not measured to hundredths of a pixel.

@@ -10,7 +10,8 @@
 //! a lens at one distance at most.
 
 use super::Sight;
-use crate::error::{OpticsError, positive};
+use crate::error::OpticsError;
+use crate::range::positive;
 use etendue_core::plane::{Plane, SpectralCube};
 use etendue_core::quantity::Radiance;
 

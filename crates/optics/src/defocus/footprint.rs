@@ -12,8 +12,8 @@
 //! (spherical aberration's rings, coma), colours' own outlines, the pupil's cos⁴ within itself.
 
 use super::Sight;
-use crate::error::PRINCIPAL_NM;
 use crate::lens::Lens;
+use crate::wavelength::PRINCIPAL_NM;
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{atan2, sin};
 use glam::{DVec2, DVec3};

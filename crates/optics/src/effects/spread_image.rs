@@ -11,13 +11,14 @@
 //!
 //! Left out: a function that varies over the picture.
 
+use super::Canvas;
 use super::band::BandLimited;
 use super::convolve::{self, Field};
 use super::error::{EffectsError, positive};
 use super::kernel::Kernel;
 use super::psf::{MAX_PX, MM_PER_UM, VISIBLE_NM, mid_wavelengths};
+use super::spread::Spread;
 use super::work::{Uses, Work};
-use super::{Canvas, Spread};
 use core::fmt;
 use etendue_core::{Bands, EffectStatus};
 use etendue_projection::Raster;

@@ -8,8 +8,8 @@
 
 use super::error::{FrontError, positive};
 use super::{Line, Stand, line};
-use crate::error::PRINCIPAL_NM;
 use crate::lens::Lens;
+use crate::wavelength::PRINCIPAL_NM;
 use core::fmt;
 use glam::{DVec2, DVec3};
 

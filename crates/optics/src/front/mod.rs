@@ -14,23 +14,28 @@
 mod curve;
 mod dirt;
 mod error;
+mod front_ray;
+mod line;
 mod mirror;
 mod stand;
 mod windscreen;
 
-use crate::error::PRINCIPAL_NM;
 use crate::lens::Lens;
 use crate::pupil::MM;
+use crate::wavelength::PRINCIPAL_NM;
 use etendue_core::ray::PupilRay;
 use etendue_projection::Raster;
 use glam::{DVec2, DVec3};
+use line::{line, outgoing};
+use windscreen::Way;
 
 pub use curve::Curve;
 pub use dirt::{Dirt, DirtParameters, Mask};
 pub use error::FrontError;
+pub use front_ray::FrontRay;
+pub(crate) use line::{Fate, Line};
 pub use mirror::{MeshMirror, Mirror, MirrorParameters, MirrorShape, Quadric, QuadricKind, Reflectance};
 pub use stand::Stand;
-use windscreen::Way;
 pub use windscreen::{Layer, Tint, Windscreen, WindscreenParameters};
 
 /// What stands in front of a lens.
@@ -57,49 +62,6 @@ impl Optic {
             Self::Windscreen(_) => "wind-screen",
             Self::Mirror(_) => "mirror",
         }
-    }
-}
-
-/// A ray that leaves the front.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrontRay {
-    /// The ray from the last surface that it met, camera frame.
-    pub ray: PupilRay,
-    /// What a distance along `ray` lacks to the distance that ground truth states, m: see [`FrontRay::truth_origin_m`].
-    pub path_m: f64,
-    /// Where it met a mirror, camera frame, m.
-    pub mirror_m: Option<DVec3>,
-}
-
-/// A ray of a member, mm.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Line {
-    pub(crate) point_mm: DVec3,
-    pub(crate) direction: DVec3,
-}
-
-/// What a member makes of a ray.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Fate {
-    /// It does not meet the member.
-    Past,
-    /// It ends: no light comes this way.
-    Lost,
-    /// It goes on here, with this factor on its weight.
-    On(Line, f64),
-}
-
-impl FrontRay {
-    /// A ray with nothing in front of the lens.
-    #[must_use]
-    pub fn bare(ray: PupilRay) -> Self {
-        Self { ray, path_m: 0.0, mirror_m: None }
-    }
-
-    /// Where the ray table says that the ray begins: at the mirror; else where distances count from.
-    #[must_use]
-    pub fn truth_origin_m(&self) -> DVec3 {
-        self.mirror_m.unwrap_or(self.ray.origin_m - self.ray.direction * self.path_m)
     }
 }
 
@@ -229,12 +191,4 @@ fn sights(raster: &Raster) -> impl Iterator<Item = DVec2> {
     let raster = *raster;
     let at = |i: u32| f64::from(i) / f64::from(SIDE);
     (0..=SIDE).flat_map(move |y| (0..=SIDE).map(move |x| raster.sensor_mm(size * DVec2::new(at(x), at(y)))))
-}
-
-fn line(ray: &PupilRay) -> Line {
-    Line { point_mm: ray.origin_m / MM, direction: ray.direction }
-}
-
-fn outgoing(line: Line, weight_sr: f64) -> PupilRay {
-    PupilRay { origin_m: line.point_mm * MM, direction: line.direction, weight_sr }
 }

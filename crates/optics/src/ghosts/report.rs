@@ -2,9 +2,9 @@
 
 use super::footprint::{Beam, Footprint};
 use super::{GhostSettings, mirrored};
-use crate::error::PRINCIPAL_NM;
 use crate::lens::Prescribed;
 use crate::prescription::ghost::GhostPair;
+use crate::wavelength::PRINCIPAL_NM;
 use core::f64::consts::PI;
 use etendue_core::maths::f64::sin;
 use glam::DVec2;

@@ -5,8 +5,9 @@
 //! object space become lengths on the sensor, is c = f (1 + |m|/m_p). The exit pupil is at m_p c from the sensor. For pupils
 //! in the principal planes m_p = 1 and these are the lens equation.
 
-use crate::error::{self, OpticsError, positive};
+use crate::error::OpticsError;
 use crate::pupil::MM;
+use crate::range::positive;
 
 /// Plane in focus and sensor plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +51,7 @@ pub(crate) struct PupilSize {
 impl PupilSize {
     pub(crate) fn new(focal_length_mm: f64, f_number: f64) -> Result<Self, OpticsError> {
         let focal_mm = positive("focal_length_mm", focal_length_mm)?;
-        Ok(Self { entrance_radius_mm: focal_mm / (2.0 * error::f_number(f_number)?) })
+        Ok(Self { entrance_radius_mm: focal_mm / (2.0 * crate::range::f_number(f_number)?) })
     }
 
     /// The focus distance at which a point at infinity blurs to `circle_mm`, m from the entrance pupil:

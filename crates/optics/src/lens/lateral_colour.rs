@@ -6,7 +6,8 @@
 //! sensor point itself. Typical lenses keep |m − 1| below 0.002. Left out: displacements that are not proportional to the
 //! distance from the axis (a prescription brings its own).
 
-use crate::error::{OpticsError, PRINCIPAL_NM};
+use crate::error::OpticsError;
+use crate::wavelength::PRINCIPAL_NM;
 
 /// Image size by wavelength over that at 587.56 nm.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,8 +6,10 @@
 //! unsharp or a large one blurred, is left out.
 
 use super::body::Body;
-use crate::error::{OpticsError, PRINCIPAL_NM, f_number, positive};
+use crate::error::OpticsError;
 use crate::pupil::{Pencil, PupilView};
+use crate::range::{f_number, positive};
+use crate::wavelength::PRINCIPAL_NM;
 use etendue_core::ray::PupilRay;
 use glam::DVec2;
 

@@ -2,7 +2,8 @@
 //!
 //! Both pupils are images of one stop, so each is the image of the other and one statement fixes all (`thick.rs`).
 
-use crate::error::{OpticsError, finite};
+use crate::error::OpticsError;
+use crate::range::finite;
 
 /// Statements about the pupils: none (pupils in the principal planes), one, or several that agree.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

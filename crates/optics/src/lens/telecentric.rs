@@ -5,7 +5,8 @@
 //! depend on distance: a length in the picture is the width of the field over that of the picture times as long. The camera's
 //! position is the middle of a plane across the axis from which the rays begin; it sees nothing behind that plane.
 
-use crate::error::{OpticsError, f_number, positive};
+use crate::error::OpticsError;
+use crate::range::{f_number, positive};
 use core::f64::consts::PI;
 use etendue_core::ray::PupilRay;
 use glam::{DVec2, DVec3};

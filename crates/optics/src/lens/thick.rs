@@ -49,9 +49,11 @@
 use super::body::Body;
 use super::focus::{Conjugates, PupilSize};
 use super::statements::PupilStatements;
-use crate::error::{OpticsError, PRINCIPAL_NM, finite, positive};
+use crate::error::OpticsError;
 use crate::overlap::{Disc, clipped_etendue_sr, open_centroid};
 use crate::pupil::{MM, Pencil, PupilView, concentric_disc};
+use crate::range::{finite, positive};
+use crate::wavelength::PRINCIPAL_NM;
 use etendue_core::ray::PupilRay;
 use glam::DVec2;
 

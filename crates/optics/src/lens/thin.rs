@@ -12,8 +12,9 @@
 
 use super::body::Body;
 use super::focus::{Conjugates, PupilSize};
-use crate::error::{OpticsError, PRINCIPAL_NM};
+use crate::error::OpticsError;
 use crate::pupil::{Pencil, PupilView, concentric_disc};
+use crate::wavelength::PRINCIPAL_NM;
 use etendue_core::ray::PupilRay;
 use glam::DVec2;
 

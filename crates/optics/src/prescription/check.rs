@@ -5,7 +5,7 @@ use super::coating::Coating;
 use super::error::PrescriptionError;
 use super::surface::{Shape, Surface};
 use super::trace::{LensRay, Loss, Rims, Way, walk};
-use crate::error::PRINCIPAL_NM;
+use crate::wavelength::PRINCIPAL_NM;
 use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
 

@@ -5,7 +5,8 @@
 //! λ₀ √(1 − sin²θ/n_eff²) (Macleod 1986). n_eff is 1.5 to 2.2 for usual stacks. Left out: what polarisation does to the edge's
 //! form, and the plate's thickness (give it as two plane surfaces of the prescription).
 
-use crate::error::{OpticsError, finite};
+use crate::error::OpticsError;
+use crate::range::finite;
 use etendue_spectra::Spectrum;
 
 /// A filter known by its transmittance at normal incidence.

@@ -4,7 +4,7 @@
 //! defocus that the prescription asks for). Distances are from the entrance pupil, as for every lens; moving a group moves
 //! the pupil and changes the focal length (focus breathing), both of which the search takes into account.
 
-use super::elements;
+use super::elements::elements;
 use super::error::PrescriptionError;
 use super::indices::Media;
 use super::paraxial::{Matrix, Paraxial, entrance, matrix};

@@ -9,9 +9,11 @@
 //!
 //! A [`Prescription`] is checked when it is made: afterwards nothing in it can fail but a ray.
 
+mod build;
 mod check;
 pub mod clear_apertures;
 pub mod coating;
+mod elements;
 mod error;
 pub mod filter;
 mod focus;
@@ -22,10 +24,8 @@ pub mod published;
 pub mod surface;
 pub mod trace;
 
-use crate::error::PRINCIPAL_NM;
-use etendue_spectra::glass::Dispersion;
 use glam::DVec3;
-use indices::{IndexTable, MAX_MEDIA, Media};
+use indices::{IndexTable, Media};
 use paraxial::Paraxial;
 use trace::{Element, Fullness, LensRay, Lost, Rims, Through, Way, walk};
 
@@ -61,38 +61,6 @@ pub struct Prescription {
 }
 
 impl Prescription {
-    /// A checked and focused lens.
-    ///
-    /// # Errors
-    /// Where the surfaces are no lens, or it cannot be focused as asked.
-    pub fn new(parameters: PrescriptionParameters) -> Result<Self, PrescriptionError> {
-        let PrescriptionParameters { mut surfaces, f_number, focus, defocus_mm } = parameters;
-        let stop = check::surfaces(&surfaces)?;
-        let (list, places) = media(&surfaces)?;
-        let table = IndexTable::new(&list);
-        let at_d = table.at(PRINCIPAL_NM);
-        focus::open(&mut surfaces, stop, f_number, &places, &at_d)?;
-        let focused = focus::focused(&mut surfaces, stop, focus, &places, &at_d)?;
-        check::overlaps(&surfaces)?;
-        let elements = elements(&surfaces, &places);
-        let paraxial = paraxial::paraxial(&elements, stop, surfaces[stop].semi_aperture_mm, &at_d);
-        let last_mm = elements.last().map_or(0.0, |e| e.z_mm);
-        let sensor_mm = last_mm + focused.image_mm + check::finite_number(surfaces.len(), "defocus_mm", defocus_mm)?;
-        let lens = Self {
-            sensor_mm,
-            focus_distance_m: focused.distance_m,
-            magnification: focused.magnification,
-            principal_distance_mm: focus::principal_distance_mm(&elements, &paraxial, sensor_mm - last_mm, &at_d),
-            surfaces,
-            elements,
-            table,
-            stop,
-            paraxial,
-        };
-        check::axial_bundle(&lens)?;
-        Ok(lens)
-    }
-
     /// The surfaces as they stand: opened and focused.
     #[must_use]
     pub fn surfaces(&self) -> &[Surface] {
@@ -258,42 +226,4 @@ impl Prescription {
         let axis = LensRay { point: DVec3::new(0.0, 0.0, self.sensor_mm), direction: DVec3::NEG_Z };
         self.to_scene(axis, nm).map_or(0.0, |(_, transmittance)| transmittance)
     }
-}
-
-/// The different media of a lens, air first, and for each surface its places in that list: before it, and behind it.
-fn media(surfaces: &[Surface]) -> Result<(Vec<Dispersion>, Vec<[usize; 2]>), PrescriptionError> {
-    let mut list = vec![Dispersion::AIR];
-    let mut before = 0;
-    let places = surfaces
-        .iter()
-        .map(|surface| {
-            let known = list.iter().position(|medium| *medium == surface.glass);
-            let after = known.unwrap_or_else(|| {
-                list.push(surface.glass);
-                list.len() - 1
-            });
-            [core::mem::replace(&mut before, after), after]
-        })
-        .collect();
-    if list.len() > MAX_MEDIA {
-        return Err(PrescriptionError::Media { found: list.len(), most: MAX_MEDIA });
-    }
-    if before == 0 { Ok((list, places)) } else { Err(PrescriptionError::LastMedium) }
-}
-
-/// Surfaces ready to be traced.
-fn elements(surfaces: &[Surface], places: &[[usize; 2]]) -> Vec<Element> {
-    let mut z_mm = 0.0;
-    let element = |(surface, media): (&Surface, &[usize; 2])| {
-        let element = Element {
-            shape: surface.shape(),
-            z_mm,
-            open_mm2: surface.semi_aperture_mm * surface.semi_aperture_mm,
-            media: *media,
-            coating: surface.coating,
-        };
-        z_mm += surface.thickness_mm;
-        element
-    };
-    surfaces.iter().zip(places).map(element).collect()
 }

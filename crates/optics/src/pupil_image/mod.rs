@@ -21,7 +21,6 @@ mod resample;
 mod survey;
 mod view;
 
-pub(crate) use aim::FieldAngles;
 pub use cube::{Cube, Window};
 pub use irradiance::irradiance;
 pub use projection::{PupilProjection, WIDEST_RECTILINEAR_RAD};

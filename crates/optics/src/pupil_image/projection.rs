@@ -12,7 +12,8 @@
 
 use super::cube::Cube;
 use super::view::{Face, View};
-use crate::error::{OpticsError, finite, positive};
+use crate::error::OpticsError;
+use crate::range::{finite, positive};
 use core::f64::consts::FRAC_PI_2;
 use etendue_core::maths::f64::atan2;
 use glam::{DVec2, DVec3};

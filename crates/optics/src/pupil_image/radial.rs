@@ -4,8 +4,8 @@
 //! interpolated linearly. The error is tested to stay below 1e-3 of the étendue on the axis (2e-4 where no aperture begins
 //! or ends to clip); where the lens gets dark the last step is one of 1/256 of the picture's radius.
 
-use crate::error::PRINCIPAL_NM;
 use crate::lens::{DIRECTIONS, Prescribed};
+use crate::wavelength::PRINCIPAL_NM;
 use rayon::prelude::*;
 
 /// Radii at which the quadrature is done.

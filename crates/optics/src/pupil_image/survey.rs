@@ -2,8 +2,8 @@
 
 use super::aim::Aim;
 use super::view::Face;
-use crate::error::PRINCIPAL_NM;
 use crate::lens::Lens;
+use crate::wavelength::PRINCIPAL_NM;
 use core::f64::consts::PI;
 use etendue_core::maths::f64::atan2;
 use etendue_projection::Raster;

@@ -2,7 +2,8 @@
 
 use etendue_core::Plane;
 use etendue_core::quantity::{Irradiance, Variance};
-use etendue_optics::{Effects, EffectsError, EffectsParameters, Glare, GlareParameters};
+use etendue_optics::effects::{Glare, GlareParameters};
+use etendue_optics::{Effects, EffectsError, EffectsParameters};
 use etendue_projection::Raster;
 
 const PITCH_MM: f64 = 0.01;

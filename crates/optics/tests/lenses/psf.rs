@@ -2,10 +2,9 @@
 
 use etendue_core::Plane;
 use etendue_core::quantity::{Irradiance, Variance};
+use etendue_optics::effects::{PointSpread, Psf, PsfParameters};
 use etendue_optics::effects::{WavefrontTerm, Zernike};
-use etendue_optics::{
-    Effects, EffectsError, EffectsParameters, Lens, PinholeParameters, PointSpread, Psf, PsfParameters,
-};
+use etendue_optics::{Effects, EffectsError, EffectsParameters, Lens, PinholeParameters};
 use etendue_projection::Raster;
 use glam::DVec2;
 

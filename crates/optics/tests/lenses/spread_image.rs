@@ -2,7 +2,8 @@
 
 use etendue_core::Plane;
 use etendue_core::quantity::{Irradiance, Variance};
-use etendue_optics::{Effects, EffectsError, EffectsParameters, PointSpread, SpreadImage, SpreadImageParameters};
+use etendue_optics::effects::{PointSpread, SpreadImage, SpreadImageParameters};
+use etendue_optics::{Effects, EffectsError, EffectsParameters};
 use etendue_projection::Raster;
 use glam::DVec2;
 

@@ -1,7 +1,7 @@
 //! What every step of compiling shares: the assets, the faults found so far, and remarks for the plan.
 
 use super::coverage::Coverage;
-use crate::remark::{Remark, Weight};
+use crate::plan::remark::{Remark, Weight};
 use etendue_scene::asset::Assets;
 use etendue_scene::{Fault, Place, stated};
 use std::fmt::Display;

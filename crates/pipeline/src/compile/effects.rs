@@ -2,12 +2,12 @@
 
 use super::context::Context;
 use super::picture::grey;
+use etendue_optics::effects::{
+    Glare, GlareParameters, PointSpread, Psf, PsfParameters, SpreadImage, SpreadImageParameters,
+};
 use etendue_optics::effects::{MARGIN_CAP, WavefrontTerm, Zernike};
 use etendue_optics::ghosts::GhostSettings;
-use etendue_optics::{
-    Effects, EffectsError, EffectsParameters, Glare, GlareParameters, Lens, PointSpread, Psf, PsfParameters,
-    SpreadImage, SpreadImageParameters,
-};
+use etendue_optics::{Effects, EffectsError, EffectsParameters, Lens};
 use etendue_projection::Raster;
 use etendue_scene::Placed;
 use etendue_scene::record::effects::{TermSize, ZernikeIndex};

@@ -1,7 +1,7 @@
 //! Lamps without extent: from records to the tracer's lamps.
 
 use super::context::Context;
-use super::light::linear;
+use super::linear_picture::linear;
 use super::spectrum::{bright, powered, relative};
 use etendue_scene::Place;
 use etendue_scene::asset::PhotometryAxes;

@@ -1,13 +1,13 @@
 //! Suns and the environment: from records to the tracer's lights.
 
 use super::context::Context;
+use super::linear_picture::linear;
 use super::spectrum::{bright, emitted, powered, relative};
 use super::{lamp, sky};
 use crate::plan::SkyFacts;
-use etendue_scene::asset::{ImageAsset, ImagePixels};
 use etendue_scene::record::environment::EnvironmentImage;
 use etendue_scene::record::{self, Light, Scene, SunLevel};
-use etendue_spectra::{Spectrum, colour};
+use etendue_spectra::Spectrum;
 use etendue_tracer::lights::{BRIGHTEST, Environment, ImageEnvironment, SUN_ANGULAR_DIAMETER_DEG, Sources, Sun};
 
 /// What shines but is no surface, and what the plan says of a sky.
@@ -96,16 +96,4 @@ fn light_only(mut texels: Vec<[f32; 3]>, record: &EnvironmentImage, context: &mu
     }
     texels.iter_mut().flatten().for_each(|v| *v = v.max(0.0));
     texels
-}
-
-/// Linear sRGB of a picture; bytes are taken as sRGB-encoded.
-pub(super) fn linear(picture: &ImageAsset) -> Vec<[f32; 3]> {
-    match &picture.pixels {
-        ImagePixels::Gray8(p) => p.iter().map(|g| [colour::decode_byte(*g); 3]).collect(),
-        ImagePixels::Gray16(p) => p.iter().map(|g| [f32::from(*g) / 65_535.0; 3]).collect(),
-        ImagePixels::Rgb8(p) => p.iter().map(|c| c.map(colour::decode_byte)).collect(),
-        ImagePixels::Rgba8(p) => p.iter().map(|[r, g, b, _]| [*r, *g, *b].map(colour::decode_byte)).collect(),
-        ImagePixels::Rgb32F(p) => p.clone(),
-        ImagePixels::Rgba32F(p) => p.iter().map(|[r, g, b, _]| [*r, *g, *b]).collect(),
-    }
 }

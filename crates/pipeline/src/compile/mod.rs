@@ -4,6 +4,7 @@
 //! nothing fails because of what the user wrote.
 
 mod camera;
+mod choices;
 mod context;
 mod coverage;
 mod effects;
@@ -11,6 +12,7 @@ mod front;
 mod lamp;
 mod lens;
 mod light;
+mod linear_picture;
 mod material;
 mod picture;
 mod positions;
@@ -26,69 +28,18 @@ mod surroundings;
 mod tests;
 mod world;
 
-use crate::fingerprint::fingerprint;
+pub use choices::{Choices, Quality};
+
+use crate::plan::fingerprint::fingerprint;
+use crate::plan::remark::grouped;
+use crate::plan::shared_light;
 use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan};
-use crate::remark::grouped;
-use crate::shared_light;
 use context::Context;
 use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;
 use etendue_scene::{CameraSetup, Description, Fault};
 use glam::DVec3;
 use material::MaterialTableBuilder;
-
-/// What the caller chooses beside the description. Samples and seed are no choices but keys: [`Overrides`] set them, and the
-/// description's own checks see them.
-///
-/// [`Overrides`]: etendue_scene::Overrides
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Choices {
-    /// A preset for what the description leaves open; `None` is standard.
-    pub quality: Option<Quality>,
-}
-
-/// Presets of the trade of time for accuracy.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quality {
-    /// To frame and expose.
-    Draft,
-    /// To look at.
-    Standard,
-    /// To compare with.
-    Reference,
-}
-
-impl Quality {
-    /// Its name.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Draft => "draft",
-            Self::Standard => "standard",
-            Self::Reference => "reference",
-        }
-    }
-
-    /// Samples a pixel.
-    #[must_use]
-    pub fn spp(self) -> u32 {
-        match self {
-            Self::Draft => 16,
-            Self::Standard => 64,
-            Self::Reference => 1024,
-        }
-    }
-
-    /// Greatest number of scattering events.
-    #[must_use]
-    pub fn max_bounces(self) -> u32 {
-        match self {
-            Self::Draft => 4,
-            Self::Standard => 16,
-            Self::Reference => 64,
-        }
-    }
-}
 
 /// The plan of a description.
 ///

@@ -2,7 +2,7 @@
 
 use super::{Choices, compile};
 use crate::Plan;
-use etendue_optics::PointSpread;
+use etendue_optics::effects::PointSpread;
 use etendue_scene::asset::{Assets, ImageAsset, ImagePixels};
 use etendue_scene::{Description, Overrides, preset};
 use etendue_spectra::observer::luminance;

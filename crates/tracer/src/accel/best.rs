@@ -1,7 +1,7 @@
 //! The best hit so far.
 
 use super::packet::PrimitiveHit;
-use crate::view::Hit;
+use crate::geometry::Hit;
 
 /// The best hit so far.
 #[derive(Default)]

@@ -5,6 +5,7 @@
 //! Large triangles may stand in several boxes, each about a piece of them. The same boxes give the same tree, whatever
 //! the number of threads.
 
+use super::binary::{BinaryKind, BinaryNode};
 use super::boxes::Box3;
 use super::median_split::{halve, is_crowded};
 use glam::Vec3;
@@ -13,22 +14,6 @@ use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 use obvhs::splits::split_aabbs_preset;
 use obvhs::triangle::Triangle;
-
-/// A node of a binary tree: the parent of two nodes, or a leaf of one primitive.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct BinaryNode {
-    pub(super) bounds: Box3,
-    pub(super) kind: BinaryKind,
-}
-
-/// What a binary node holds.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum BinaryKind {
-    /// Its two children are this node and the next.
-    Inner(u32),
-    /// A primitive.
-    Leaf(u32),
-}
 
 /// A tree over the triangles of a mesh, worth some effort: it is built once. Node 0 is the root; empty without
 /// triangles.

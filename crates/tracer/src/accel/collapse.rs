@@ -5,7 +5,7 @@
 //! "Efficient incoherent ray traversal on GPUs through compressed wide BVHs", section 3). The cost of a node is the
 //! area of its box, that of a leaf somewhat more, whatever the number of its primitives: they are tested at once.
 
-use super::build::{BinaryKind, BinaryNode};
+use super::binary::{BinaryKind, BinaryNode};
 use super::node::{Child, Node};
 
 /// Cost of testing a leaf's primitives relative to that of testing a node's boxes: the best of 1, 1.3, 2 and 3.

@@ -3,8 +3,8 @@
 //! The good builder joins nearest neighbours; among boxes within boxes there is one such pair at a time, and its work
 //! grows with the square of their number. Halving by the median takes little time whatever the boxes.
 
+use super::binary::{BinaryKind, BinaryNode};
 use super::boxes::Box3;
-use super::build::{BinaryKind, BinaryNode};
 use glam::{DVec3, Vec3};
 
 /// More boxes than this about one point are a crowd. A thousand times a thousand steps are still nothing.

@@ -1,10 +1,10 @@
 //! The accelerator: which primitive a ray meets first.
 //!
 //! A [`World`] holds meshes, each with a tree in its own frame, and instances of them. It is built once; a
-//! [`crate::view::View`] places the instances about one camera and adds a tree over them.
+//! [`crate::render_space::RenderSpace`] places the instances about one camera and adds a tree over them.
 //!
 //! - `build`: binary trees by the library that builds best (parallel locally-ordered clustering and reinsertion).
-//! - `halve`: binary trees for crowds, which that library would take too long for.
+//! - `median_split`: binary trees for crowds, which that library would take too long for.
 //! - `collapse`: binary to eight-wide, at least cost.
 //! - `node`, `packet`: what is tested eight at a time: boxes and triangles.
 //! - `reach`: how far rays may start from a mesh.
@@ -14,6 +14,7 @@
 //! operations in the same order, so the same bits.
 
 mod best;
+mod binary;
 mod blas;
 pub(crate) mod boxes;
 mod build;

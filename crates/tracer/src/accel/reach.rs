@@ -13,20 +13,29 @@
 //! Spheres are met in f64, and held to the same R in metres, where half a unit in the last place is 0.06 mm: beyond, the
 //! distance of a surface near the camera would be lost.
 
-use super::World;
-use super::world::WorldError;
-use crate::geometry::{Instance, Mesh, Shape};
-use crate::view::InstanceTransform;
+use super::world::{World, WorldError};
+use crate::geometry::{Instance, InstanceTransform, Mesh, Shape};
 use glam::DVec3;
 
 /// R, in units of the mesh's frame; m for spheres.
 const FARTHEST: f64 = 1e12;
 
+impl World {
+    /// Whether rays that start near `origin_m` (world, m) or on any surface can be met with every mesh.
+    ///
+    /// # Errors
+    /// Where a mesh is so far away from a ray's start, in units of its own frame, that products of three coordinates
+    /// leave f32: such a ray would pass it unseen.
+    pub fn check_reach(&self, origin_m: DVec3) -> Result<(), WorldError> {
+        check(self, origin_m)
+    }
+}
+
 /// Whether every mesh can be met from the camera at `origin_m` and from every surface.
-pub(super) fn check(world: &World, origin_m: DVec3) -> Result<(), WorldError> {
+fn check(world: &World, origin_m: DVec3) -> Result<(), WorldError> {
     let instances = world.instances();
     let placed: Vec<_> = instances.iter().map(|i| InstanceTransform::new(i, origin_m)).collect();
-    let bounds = placed.iter().zip(instances).filter_map(|(p, i)| p.bounds(i, world));
+    let bounds = placed.iter().zip(instances).filter_map(|(p, i)| p.bounds(i, world.meshes()));
     // Rays start at the camera, which is the origin, or on a surface.
     let (low, high) = bounds.fold((DVec3::ZERO, DVec3::ZERO), |(low, high), b| (low.min(b.0), high.max(b.1)));
     for (instance, placed) in placed.iter().enumerate() {
@@ -66,6 +75,7 @@ fn check_sphere(
     instance: &Instance,
     world: &World,
 ) -> Result<(), WorldError> {
-    let reach = placed.bounds(instance, world).map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
+    let reach =
+        placed.bounds(instance, world.meshes()).map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
     if (0.0..=FARTHEST).contains(&reach) { Ok(()) } else { Err(WorldError::Sphere { instance: index, reach_m: reach }) }
 }

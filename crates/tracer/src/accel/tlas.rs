@@ -1,5 +1,6 @@
 //! The tree over the instances of a view.
 
+use super::Simd;
 use super::best::Best;
 use super::blas::Blas;
 use super::boxes::Box3;
@@ -13,9 +14,8 @@ use super::ray::SlabRay;
 #[cfg(target_arch = "x86_64")]
 use super::simd::Avx2;
 use super::walk::{Leaves, walk};
-use super::{Simd, World};
-use crate::geometry::{Instance, Shape, sphere};
-use crate::view::{Hit, InstanceTransform};
+use super::world::World;
+use crate::geometry::{Hit, Instance, InstanceTransform, Shape, sphere};
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};
 
@@ -72,7 +72,9 @@ impl<'w> Tlas<'w> {
     pub(crate) fn new(world: &'w World, placed: Vec<InstanceTransform>, simd: Simd) -> Self {
         let bounded = placed.iter().zip(world.instances()).zip(0_u32..);
         let (boxes, members): (Vec<_>, Vec<_>) = bounded
-            .filter_map(|((placed, instance), index)| Some((Box3::from_f64(placed.bounds(instance, world)?), index)))
+            .filter_map(|((placed, instance), index)| {
+                Some((Box3::from_f64(placed.bounds(instance, world.meshes())?), index))
+            })
             .unzip();
         let wide = collapse(&over_boxes(&boxes), 1);
         let leaves = wide.leaves.iter().map(|leaf| members[leaf[0] as usize]).collect();

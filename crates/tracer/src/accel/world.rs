@@ -1,12 +1,9 @@
 //! The world: meshes with their trees, and instances of them.
 
-use super::Simd;
 use super::blas::Blas;
-use super::reach;
 use crate::MaterialId;
-use crate::geometry::{Instance, Mesh, MeshId, Shape};
-use crate::view::{View, uniform_scale};
-use glam::{DAffine3, DVec3};
+use crate::geometry::{Instance, Mesh, MeshId, Shape, uniform_scale};
+use glam::DAffine3;
 
 /// Why a world is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -203,26 +200,5 @@ impl World {
     #[must_use]
     pub fn instances(&self) -> &[Instance] {
         &self.instances
-    }
-
-    /// The world placed about a camera whose entrance pupil is at `origin_m` (world, m).
-    #[must_use]
-    pub fn view(&self, origin_m: DVec3) -> View<'_> {
-        self.view_with(origin_m, Simd::Auto)
-    }
-
-    /// Whether rays that start near `origin_m` (world, m) or on any surface can be met with every mesh.
-    ///
-    /// # Errors
-    /// Where a mesh is so far away from a ray's start, in units of its own frame, that products of three coordinates
-    /// leave f32: such a ray would pass it unseen.
-    pub fn check_reach(&self, origin_m: DVec3) -> Result<(), WorldError> {
-        reach::check(self, origin_m)
-    }
-
-    /// As [`World::view`], with a choice of instruction set.
-    #[must_use]
-    pub fn view_with(&self, origin_m: DVec3, simd: Simd) -> View<'_> {
-        View::new(self, origin_m, simd)
     }
 }

@@ -1,6 +1,5 @@
 //! What every hit on a triangle asks of it, in one place in memory.
 
-use super::Mesh;
 use glam::{DVec3, Vec3};
 
 /// Angle, rad, by which vertices' normals may lean for their triangle to be taken for flat: files give places and normals
@@ -18,24 +17,19 @@ pub(crate) struct Facet {
     pub(crate) is_flat: bool,
 }
 
-/// The facets of a mesh, one a triangle.
-pub(super) fn facets(mesh: &Mesh) -> Vec<Facet> {
-    (0..mesh.triangles().len()).map(|i| facet(mesh, i)).collect()
-}
-
-fn facet(mesh: &Mesh, i: usize) -> Facet {
-    let [a, b, c] = mesh.corners(i as u32).map(Vec3::as_dvec3);
-    let normal = (b - a).cross(c - a).normalize_or(DVec3::Z);
-    Facet { normal: normal.as_vec3(), slot: mesh.slots()[i], is_flat: is_flat(mesh, i, normal) }
-}
-
-/// On either side, but all on one.
-fn is_flat(mesh: &Mesh, i: usize, normal: DVec3) -> bool {
-    if mesh.normals().is_empty() {
-        return true;
+impl Facet {
+    /// Of a triangle's corners, its vertices' normals where they have any, and its material slot.
+    pub(super) fn new([a, b, c]: [Vec3; 3], normals: Option<[Vec3; 3]>, slot: u16) -> Self {
+        let [a, b, c] = [a, b, c].map(Vec3::as_dvec3);
+        let normal = (b - a).cross(c - a).normalize_or(DVec3::Z);
+        Self { normal: normal.as_vec3(), slot, is_flat: normals.is_none_or(|normals| are_along(normals, normal)) }
     }
-    let along = mesh.triangles()[i].map(|v| {
-        let own = mesh.normals()[v as usize].as_dvec3().normalize_or_zero();
+}
+
+/// Whether vertices' normals all lie along a triangle's own: on either side, but all on one.
+fn are_along(normals: [Vec3; 3], normal: DVec3) -> bool {
+    let along = normals.map(|own| {
+        let own = own.as_dvec3().normalize_or_zero();
         let along = own.dot(normal);
         if own.cross(normal).length() <= FLAT_RAD { along } else { 0.0 }
     });

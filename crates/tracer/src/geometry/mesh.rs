@@ -5,7 +5,7 @@
 //! cannot be told apart (exact duplicates, in any order of their corners) is dropped and counted.
 
 use super::MeshError;
-use super::facet::{Facet, facets};
+use super::facet::Facet;
 use glam::{DVec3, Vec2, Vec3};
 use std::collections::HashSet;
 
@@ -55,7 +55,7 @@ impl Mesh {
         let (bounds, slot_count, origin) = (None, 0, DVec3::ZERO);
         let mut mesh = Self { positions, normals, uvs, triangles, slots, facets: vec![], bounds, slot_count, origin };
         let dropped = mesh.drop_unusable();
-        mesh.facets = facets(&mesh);
+        mesh.facets = (0..mesh.triangles.len()).map(|i| mesh.new_facet(i)).collect();
         mesh.bounds = mesh.find_bounds();
         mesh.slot_count = mesh.slots.iter().max().map_or(0, |s| usize::from(*s) + 1);
         Ok((mesh, dropped))
@@ -102,6 +102,11 @@ impl Mesh {
     #[must_use]
     pub fn slots(&self) -> &[u16] {
         &self.slots
+    }
+
+    fn new_facet(&self, i: usize) -> Facet {
+        let normals = (!self.normals.is_empty()).then(|| self.triangles[i].map(|v| self.normals[v as usize]));
+        Facet::new(self.corners(i as u32), normals, self.slots[i])
     }
 
     /// What is known beforehand of a triangle.

@@ -4,13 +4,17 @@
 //! share its vertices and its tree.
 
 mod facet;
+mod hit;
 mod instance;
+mod instance_transform;
 mod mesh;
 mod mesh_error;
 pub(crate) mod sphere;
 mod surface;
 
+pub use hit::Hit;
 pub use instance::{Instance, MeshId, Shape};
+pub(crate) use instance_transform::{InstanceTransform, uniform_scale};
 pub use mesh::{Dropped, Mesh};
 pub use mesh_error::MeshError;
 pub use surface::{Footprint, SurfacePoint};

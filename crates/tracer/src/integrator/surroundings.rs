@@ -11,7 +11,7 @@ use glam::Vec3;
 
 use crate::MaterialId;
 use crate::materials::MaterialTable;
-use crate::view::View;
+use crate::render_space::RenderSpace;
 
 /// Rays that are followed.
 const RAYS: u32 = 15;
@@ -31,7 +31,7 @@ pub struct Surroundings {
 impl Surroundings {
     /// What surrounds the camera of a view.
     #[must_use]
-    pub fn of(view: &View<'_>, material_table: &MaterialTable) -> Self {
+    pub fn of(view: &RenderSpace<'_>, material_table: &MaterialTable) -> Self {
         if !material_table.has_solids() {
             return Self::default();
         }
@@ -52,7 +52,7 @@ fn direction(i: u32) -> Vec3 {
 }
 
 /// Of the solids that hold the camera as seen along one direction, the one that is left first.
-fn left_first(view: &View<'_>, material_table: &MaterialTable, direction: Vec3) -> Option<MaterialId> {
+fn left_first(view: &RenderSpace<'_>, material_table: &MaterialTable, direction: Vec3) -> Option<MaterialId> {
     // Instance, material, how often it was left more than entered; in the order in which they were first left.
     let mut met: Vec<(u32, MaterialId, i32)> = vec![];
     let mut ray = Ray::new(Vec3::ZERO, direction, 0.0);

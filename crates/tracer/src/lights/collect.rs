@@ -10,7 +10,7 @@ use super::triangle::TriangleLight;
 use crate::MaterialId;
 use crate::geometry::{Instance, Mesh, Shape};
 use crate::materials::{Emission, Glow, MaterialTable};
-use crate::view::View;
+use crate::render_space::RenderSpace;
 
 /// Why lights cannot be collected.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -65,7 +65,7 @@ impl<'a> Weigher<'a> {
 }
 
 pub(super) fn of_surfaces(
-    view: &View<'_>,
+    view: &RenderSpace<'_>,
     material_table: &MaterialTable,
     support_nm: (f64, f64),
 ) -> Result<Gathered, LightError> {

@@ -4,59 +4,13 @@
 //! along the front, the ground is z = 0. Sizes after common German practice: storeys of 3 m, ground floors of 3.6 m,
 //! sills at 0.9 m, wall openings set back by 0.14 m.
 
+use super::house::{GROUND_M, Ground, House, STOREY_M};
 use super::opening::{self, Frame};
 use super::roof;
 use crate::mesh::Mesh;
 use crate::random::RandomStream;
 use glam::{DVec2, DVec3};
 
-/// What the ground floor is used for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Ground {
-    /// Flats: windows and a door.
-    Home,
-    /// A shop under a board.
-    Shop,
-}
-
-/// What closes a house above.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Roof {
-    /// A ridge along the street and this many dormers.
-    Pitched(usize),
-    /// Flat, behind a parapet.
-    Flat,
-}
-
-/// A house.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct House {
-    /// Length of the front, m.
-    pub(super) width: f64,
-    /// Depth, m.
-    pub(super) depth: f64,
-    /// Storeys with the ground floor.
-    pub(super) storeys: usize,
-    /// Windows a storey.
-    pub(super) bays: usize,
-    /// Width and height of a window, m.
-    pub(super) window: [f64; 2],
-    /// Whether windows have raised surrounds.
-    pub(super) surrounds: bool,
-    /// Whether the upper storeys have balconies in every second bay.
-    pub(super) balconies: bool,
-    /// The ground floor.
-    pub(super) ground: Ground,
-    /// The roof.
-    pub(super) roof: Roof,
-    /// Key of the random curtains and shutters.
-    pub(super) key: u32,
-}
-
-/// Height of the ground floor, m.
-pub(super) const GROUND_M: f64 = 3.6;
-/// Height of the other storeys, m.
-pub(super) const STOREY_M: f64 = 3.0;
 /// Height of a window's sill above its floor, m.
 const SILL_M: f64 = 0.9;
 /// Metres that a wall texture covers.
@@ -70,12 +24,6 @@ struct Hole {
 }
 
 impl House {
-    /// Height of the eaves, m.
-    #[must_use]
-    pub(super) fn eaves(&self) -> f64 {
-        GROUND_M + (self.storeys - 1) as f64 * STOREY_M + 0.35
-    }
-
     /// The house's mesh.
     #[must_use]
     pub(super) fn mesh(&self) -> Mesh {

@@ -1,6 +1,6 @@
 //! The kinds of houses and the rows they stand in.
 
-use super::building::{Ground, House, Roof};
+use super::house::{Ground, House, Roof};
 use super::road::{FRONT_Y, KERB_M, REACH_X};
 use crate::description::{Description, Spot};
 

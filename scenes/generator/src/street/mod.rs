@@ -10,6 +10,7 @@ mod curve;
 mod fleet;
 mod furniture;
 mod hours;
+mod house;
 mod houses;
 mod layout;
 mod materials;

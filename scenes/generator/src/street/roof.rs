@@ -1,6 +1,6 @@
 //! Roofs: pitched with dormers, gutter and chimney, or flat behind a parapet.
 
-use super::building::{House, Roof};
+use super::house::{House, Roof};
 use crate::mesh::Mesh;
 use crate::paint::roof::SIDE_M;
 use glam::{DVec2, DVec3};

@@ -12,14 +12,15 @@
 mod mesh;
 mod quadric;
 mod reflectance;
+mod touch;
 mod tree;
 
 use super::{Fate, FrontError, Line, Stand};
-use glam::DVec3;
 
 pub use mesh::MeshMirror;
 pub use quadric::{Quadric, QuadricKind};
 pub use reflectance::Reflectance;
+pub(super) use touch::Touch;
 
 /// The surface of a mirror: the closed list.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,16 +46,6 @@ pub struct MirrorParameters {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mirror {
     parameters: MirrorParameters,
-}
-
-/// A point of a mirror's surface in its frame, and the normal of the reflecting side.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Touch {
-    pub(super) point_mm: DVec3,
-    /// The normal of the surface itself, which tells the sides apart.
-    pub(super) facing: DVec3,
-    /// The normal by which it reflects: of a mesh the smooth one.
-    pub(super) normal: DVec3,
 }
 
 /// How the camera sees the mirror along a ray.

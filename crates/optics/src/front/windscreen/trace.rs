@@ -16,7 +16,18 @@ struct Passage<'a> {
     path_mm: f64,
 }
 
-pub(super) fn through(glass: &Windscreen, line: Line, nm: f64, way: Way) -> Fate {
+impl Windscreen {
+    /// A ray from the camera, beyond the glass.
+    pub(in crate::front) fn through(&self, line: Line, nm: f64, way: Way) -> Fate {
+        let stand = &self.parameters.stand;
+        match through(self, stand.inward(line), nm, way) {
+            Fate::On(out, share) => Fate::On(stand.outward(out), share),
+            other => other,
+        }
+    }
+}
+
+fn through(glass: &Windscreen, line: Line, nm: f64, way: Way) -> Fate {
     let outer = glass.faces.len() - 1;
     let mut passage = Passage { glass, nm, line, medium: 0, share: 1.0, path_mm: 0.0 };
     if glass.faces[0].crossed(&line, 1.0).is_none() {

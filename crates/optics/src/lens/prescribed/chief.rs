@@ -5,11 +5,11 @@
 //! and the field angle of each height, which is inverted to project a direction.
 
 use super::meridian::Meridian;
-use crate::error::PRINCIPAL_NM;
+use crate::lens::FieldAngles;
 use crate::prescription::Prescription;
 use crate::prescription::indices::Media;
 use crate::prescription::trace::{LensRay, Rims};
-use crate::pupil_image::FieldAngles;
+use crate::wavelength::PRINCIPAL_NM;
 use core::f64::consts::FRAC_PI_2;
 use etendue_core::maths::f64::{atan2, sin_cos};
 use glam::{DVec2, DVec3};

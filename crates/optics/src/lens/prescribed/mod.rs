@@ -23,13 +23,15 @@ mod region;
 mod report;
 mod spot;
 
-use crate::error::{OpticsError, PRINCIPAL_NM, positive};
+use crate::error::OpticsError;
+use crate::lens::FieldAngles;
 use crate::lens::focus::Conjugates;
 use crate::prescription::coating::Coating;
 use crate::prescription::filter::InterferenceFilter;
 use crate::prescription::{Prescription, PrescriptionError, Surface};
 use crate::pupil::MM;
-use crate::pupil_image::FieldAngles;
+use crate::range::positive;
+use crate::wavelength::PRINCIPAL_NM;
 use chief::Chiefs;
 use glam::{DVec2, DVec3};
 use region::Regions;

@@ -13,8 +13,8 @@
 use super::bundles::Cell;
 use super::meridian::Meridian;
 use super::opening::{Opening, unit};
-use crate::error::PRINCIPAL_NM;
 use crate::prescription::Prescription;
+use crate::wavelength::PRINCIPAL_NM;
 use core::f64::consts::PI;
 use glam::DVec2;
 

@@ -18,8 +18,8 @@
 use super::Prescribed;
 use super::beam::Beam;
 use super::spot::{OtherBundle, Pupil, Spot};
-use crate::error::PRINCIPAL_NM;
 use crate::prescription::paraxial::Paraxial;
+use crate::wavelength::PRINCIPAL_NM;
 use etendue_core::maths::f64::sin_cos;
 use etendue_spectra::glass::{LINE_C_NM, LINE_F_NM};
 use glam::DVec2;

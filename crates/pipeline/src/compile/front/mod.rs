@@ -1,15 +1,17 @@
 //! `[front]`: what stands in front of the lens.
 
+mod curve;
 mod dirt;
 mod mirror;
 mod windscreen;
 
+use curve::curve;
+
 use super::context::Context;
-use super::material::share;
 use etendue_optics::Lens;
-use etendue_optics::front::{Curve, Front, Optic};
+use etendue_optics::front::{Front, Optic};
 use etendue_projection::Raster;
-use etendue_scene::record::{self, Colour};
+use etendue_scene::record::{self};
 
 /// The front of a camera, checked against what the camera sees; `None` with the faults noted.
 pub(super) fn front(record: &record::Front, lens: &Lens, raster: &Raster, context: &mut Context<'_>) -> Option<Front> {
@@ -25,12 +27,4 @@ pub(super) fn front(record: &record::Front, lens: &Lens, raster: &Raster, contex
     let front = Front::new(dirt, optic)?;
     context.accept(place, front.check(lens, raster))?;
     Some(front)
-}
-
-/// A share of light over the wavelength.
-fn curve(colour: &Colour, context: &mut Context<'_>) -> Option<Curve> {
-    match colour {
-        Colour::Grey(share) => Some(Curve::Constant(share.value)),
-        _ => share(colour, context).map(|spectrum| Curve::Table(Box::new(spectrum))),
-    }
 }

@@ -2,11 +2,15 @@
 
 mod calibrated;
 mod clear_apertures;
+mod file_surface;
 mod lens_file;
 mod prescription;
 mod projection;
+mod stated;
 #[cfg(test)]
 mod tests;
+
+use stated::{focus_m, transmittance};
 
 use super::context::Context;
 use super::effects::widest_film;
@@ -138,17 +142,6 @@ fn thick(r: &description::Thick) -> Result<Lens, OpticsError> {
         front_aperture: rim(&r.front_aperture),
         rear_aperture: rim(&r.rear_aperture),
     })
-}
-
-fn transmittance(given: Option<&Placed<f64>>) -> f64 {
-    given.map_or(1.0, |t| t.value)
-}
-
-fn focus_m(focus: &description::FocusDistance) -> f64 {
-    match focus {
-        description::FocusDistance::Metres(m) => m.value,
-        description::FocusDistance::Infinity => f64::INFINITY,
-    }
 }
 
 fn radial(r: &description::Distortion, lens: &Lens, raster: &Raster) -> Result<RadialDistortion, OpticsError> {

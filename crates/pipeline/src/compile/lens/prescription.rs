@@ -3,6 +3,7 @@
 use super::super::context::Context;
 use super::super::spectrum::from_file;
 use super::clear_apertures;
+use super::file_surface::of_file;
 use super::focus_m;
 use super::lens_file::{self, Stated};
 use etendue_optics::prescription::coating::Coating;
@@ -12,7 +13,7 @@ use etendue_optics::prescription::surface::ASPHERE_TERMS;
 use etendue_optics::prescription::{Focus, Surface};
 use etendue_optics::{Lens, Prescribed, Prescription, PrescriptionError, PrescriptionParameters};
 use etendue_projection::Raster;
-use etendue_scene::asset::{GlassAsset, PrescriptionAsset, SurfaceAsset};
+use etendue_scene::asset::PrescriptionAsset;
 use etendue_scene::record::lens::prescription::{self as record, Glass, GlassKnown, IrCutCurve, Source};
 use etendue_scene::{Place, Placed};
 use etendue_spectra::glass::{self, Dispersion, GlassError};
@@ -119,25 +120,6 @@ fn apertures(
             None
         }
     }
-}
-
-/// A surface of a file.
-///
-/// # Errors
-/// Where its glass is none.
-pub(super) fn of_file(surface: &SurfaceAsset, semi_aperture_mm: f64) -> Result<Surface, GlassError> {
-    let glass = match &surface.glass {
-        GlassAsset::Air => Dispersion::AIR,
-        GlassAsset::Named(name) => glass::named(name)?.dispersion,
-        GlassAsset::Index(n) => Dispersion::Constant { n: *n }.checked()?,
-        GlassAsset::Abbe { index, abbe } => Dispersion::of_abbe(*index, *abbe)?,
-    };
-    Ok(Surface {
-        conic: surface.conic,
-        asphere: surface.asphere,
-        stop: surface.stop,
-        ..Surface::sphere(surface.radius_mm, surface.thickness_mm, glass, semi_aperture_mm)
-    })
 }
 
 fn surface(s: &record::Surface, context: &mut Context<'_>) -> Option<Surface> {

@@ -2,7 +2,7 @@
 
 use crate::compile::{Choices, compile};
 use crate::plan::{CameraPlan, Plan};
-use crate::rays::ray_table;
+use crate::render::rays::ray_table;
 use etendue_optics::Lens;
 use etendue_scene::asset::{Assets, GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 use etendue_scene::{Description, Overrides};

@@ -2,8 +2,11 @@
 
 mod colour;
 mod correction;
+mod delivered;
 mod filter;
 mod tone;
+
+use delivered::Delivered;
 
 use super::context::Context;
 use crate::plan::{Development, PictureFormat};
@@ -50,21 +53,6 @@ pub(super) fn development(
     // What is accepted here fails in no frame.
     context.accept(&record.place, processing.check(&mosaic, picture.width, picture.height))?;
     Some(Development { mosaic, processing, format: format(record, &picture, context)? })
-}
-
-/// The picture that a sensor delivers: its region, binned.
-struct Delivered {
-    width: usize,
-    height: usize,
-    /// Where the optical axis meets it, px.
-    principal_px: [f64; 2],
-}
-
-impl Delivered {
-    fn of(sensor: &Sensor, raster: &Raster) -> Self {
-        let (width, height) = sensor.picture_size(raster.width(), raster.height());
-        Self { width, height, principal_px: sensor.in_picture(raster.principal_px().to_array()) }
-    }
 }
 
 fn noise_reduction(record: &description::NoiseReduction) -> NoiseReduction {

@@ -5,8 +5,9 @@ use crate::accel::lanes::Plain;
 use crate::accel::local::LocalRay;
 use crate::accel::packet::{Half, Packet, RayLanes};
 use crate::accel::{Simd, World};
+use crate::geometry::Hit;
 use crate::geometry::{Shape, sphere};
-use crate::view::{Hit, View};
+use crate::render_space::RenderSpace;
 use etendue_core::Ray;
 use glam::{DAffine3, DVec3, Vec3};
 
@@ -19,7 +20,7 @@ fn rays(count: u32, reach: f64, seed: u32) -> impl Iterator<Item = Ray> {
 }
 
 /// All primitives in turn, last first.
-fn brute_force(view: &View<'_>, ray: &Ray) -> Option<Hit> {
+fn brute_force(view: &RenderSpace<'_>, ray: &Ray) -> Option<Hit> {
     let world = view.world();
     let mut best: Option<Hit> = None;
     for (instance, primitive) in
@@ -33,7 +34,7 @@ fn brute_force(view: &View<'_>, ray: &Ray) -> Option<Hit> {
     best
 }
 
-fn alone(view: &View<'_>, ray: &Ray, instance: u32, primitive: u32) -> Option<Hit> {
+fn alone(view: &RenderSpace<'_>, ray: &Ray, instance: u32, primitive: u32) -> Option<Hit> {
     let world = view.world();
     let (origin, direction) = view.placed(instance).ray_to_local(ray);
     match world.instances()[instance as usize].shape {
@@ -52,7 +53,7 @@ fn alone(view: &View<'_>, ray: &Ray, instance: u32, primitive: u32) -> Option<Hi
 }
 
 fn check_against_brute_force(world: &World, count: u32, reach: f64) {
-    let view = world.view(DVec3::ZERO);
+    let view = world.render_space(DVec3::ZERO);
     let mut hits = 0;
     for ray in rays(count, reach, 21) {
         let hit = view.closest(&ray);
@@ -75,7 +76,7 @@ fn the_tree_finds_what_brute_force_finds() {
 fn the_tree_finds_what_f64_finds() {
     let mesh = soup(150, 8);
     let world = world_of(mesh.clone(), DAffine3::IDENTITY);
-    let view = world.view(DVec3::ZERO);
+    let view = world.render_space(DVec3::ZERO);
     let mut differences = 0;
     for ray in rays(4000, 3.0, 5) {
         let expected =
@@ -104,7 +105,8 @@ fn cramer(corners: [Vec3; 3], ray: &Ray) -> Option<f64> {
 fn instruction_sets_give_the_same_bits() {
     let bits = |h: Hit| (h.t.to_bits(), h.u.to_bits(), h.v.to_bits(), h.instance, h.primitive);
     for (world, reach) in [(world_of(soup(3000, 4), DAffine3::IDENTITY), 3.0), (medley(), 8.0)] {
-        let (auto, scalar) = (world.view_with(DVec3::ZERO, Simd::Auto), world.view_with(DVec3::ZERO, Simd::Scalar));
+        let (auto, scalar) =
+            (world.render_space_with(DVec3::ZERO, Simd::Auto), world.render_space_with(DVec3::ZERO, Simd::Scalar));
         for ray in rays(50_000, reach, 31) {
             assert_eq!(auto.closest(&ray).map(bits), scalar.closest(&ray).map(bits), "{ray:?}");
             let short = Ray { t_max: 0.5 * reach as f32, ..ray };
@@ -116,7 +118,7 @@ fn instruction_sets_give_the_same_bits() {
 #[test]
 fn a_ray_is_occluded_where_it_meets_something_before_its_end() {
     let world = medley();
-    let view = world.view(DVec3::ZERO);
+    let view = world.render_space(DVec3::ZERO);
     for ray in rays(20_000, 8.0, 41) {
         let hit = view.closest(&ray);
         assert_eq!(view.occluded(&ray), hit.is_some());

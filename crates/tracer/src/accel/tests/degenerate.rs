@@ -19,7 +19,7 @@ fn an_empty_world_is_met_by_nothing() {
             builder.add_instance(instance(Shape::Mesh(id), DAffine3::IDENTITY));
         }
         let world = builder.build().expect("legal");
-        let view = world.view(DVec3::ZERO);
+        let view = world.render_space(DVec3::ZERO);
         assert!(
             view.closest(&ray).is_none()
                 && !view.occluded(&ray)
@@ -35,7 +35,7 @@ fn twenty_thousand_coincident_triangles_are_one() {
     let (mesh, dropped) = Mesh::new(positions, vec![], vec![], vec![[0, 1, 2]; 20_000], vec![]).expect("legal");
     assert_eq!(dropped, Dropped { zero_area: 0, duplicate: 19_999 });
     let world = world_of(mesh, DAffine3::IDENTITY);
-    assert_eq!(world.view(DVec3::ZERO).closest(&Ray::new(Vec3::ZERO, Vec3::X, 0.0)).map(|h| h.t), Some(1.0));
+    assert_eq!(world.render_space(DVec3::ZERO).closest(&Ray::new(Vec3::ZERO, Vec3::X, 0.0)).map(|h| h.t), Some(1.0));
 }
 
 /// Boxes within boxes, which no tree can part, 20 000 deep.
@@ -50,7 +50,7 @@ fn nested_triangles_overflow_nothing() {
     let (mesh, _) =
         Mesh::new((0..count).flat_map(corners).collect(), vec![], vec![], faces.collect(), vec![]).expect("legal");
     let world = world_of(mesh, DAffine3::IDENTITY);
-    let view = world.view(DVec3::ZERO);
+    let view = world.render_space(DVec3::ZERO);
     let hit = view.closest(&Ray::new(Vec3::ZERO, Vec3::X, 0.0));
     assert_eq!(hit.map(|h| (h.t, h.primitive)), Some((1.0, 0)));
 }
@@ -66,7 +66,7 @@ fn a_hundred_thousand_instances_are_found() {
         builder.add_instance(instance(Shape::Mesh(id), place(i)));
     }
     let world = builder.build().expect("legal");
-    let view = world.view(DVec3::new(0.0, 0.0, 10.0));
+    let view = world.render_space(DVec3::new(0.0, 0.0, 10.0));
     let mut random = Random::new(2);
     for _ in 0..1000 {
         let i = random.between(0.0, f64::from(side * side)) as u32;
@@ -78,7 +78,7 @@ fn a_hundred_thousand_instances_are_found() {
 #[test]
 fn rays_that_are_none_meet_nothing() {
     let world = super::shapes::medley();
-    let view = world.view(DVec3::ZERO);
+    let view = world.render_space(DVec3::ZERO);
     let bad = [Vec3::NAN, Vec3::INFINITY, Vec3::new(0.0, f32::NAN, 1.0)];
     let rays = bad.iter().flat_map(|b| [Ray::new(*b, Vec3::X, 0.0), Ray::new(Vec3::ZERO, *b, 0.0)]);
     for ray in rays.chain([Ray::new(Vec3::ZERO, Vec3::ZERO, 0.0)]) {
@@ -134,7 +134,7 @@ fn rays_that_would_overflow_are_refused_and_all_others_meet() {
     for (unit_m, away_m) in [(1.0, 1e3), (1e-6, 9e5), (1e-11, 9.0), (1e9, 1e6)] {
         let world = of_unit(unit_m, away_m);
         assert_eq!(world.check_reach(DVec3::ZERO), Ok(()));
-        let t = world.view(DVec3::ZERO).closest(&along).map(|hit| hit.t);
+        let t = world.render_space(DVec3::ZERO).closest(&along).map(|hit| hit.t);
         // A few roundings of f32.
         assert!(t.is_some_and(|t| (f64::from(t) / away_m - 1.0).abs() < 1e-6), "{unit_m} {away_m}: {t:?}");
     }
@@ -163,7 +163,7 @@ fn a_mesh_into_which_the_camera_would_be_rounded_is_refused() {
         let triangles = vec![[1, 2, 3], [0, 1, 2]];
         let world = world_of(mesh(corners, triangles), DAffine3::from_translation(top - DVec3::Z * f64::from(half)));
         assert_eq!(world.check_reach(camera), Ok(()));
-        let t = world.view(camera).closest(&down).map(|hit| hit.t);
+        let t = world.render_space(camera).closest(&down).map(|hit| hit.t);
         assert!(t.is_some_and(|t| (t - 1.7).abs() < 0.9), "{half}: {t:?}");
     }
     let corners =
@@ -192,7 +192,7 @@ fn spheres_are_held_to_where_distances_are_right() {
     for radius_m in [1.0, 6.4e6, 1e9, 4e11] {
         let world = planet(radius_m);
         assert_eq!(world.check_reach(camera), Ok(()));
-        let t = world.view(camera).closest(&Ray::new(Vec3::ZERO, Vec3::NEG_Z, 0.0)).map(|hit| hit.t);
+        let t = world.render_space(camera).closest(&Ray::new(Vec3::ZERO, Vec3::NEG_Z, 0.0)).map(|hit| hit.t);
         assert!(t.is_some_and(|t| (t - 1.7).abs() < 2e-4), "{radius_m}: {t:?}");
     }
     for radius_m in [1e12, 1e18, 1e300] {

@@ -22,7 +22,7 @@ fn coplanar_triangles_yield_to_the_least_primitive() {
     let id = builder.add_mesh(stacked(50));
     builder.add_instance(instance(Shape::Mesh(id), DAffine3::IDENTITY));
     let world = builder.build().expect("legal");
-    let view = world.view(DVec3::ZERO);
+    let view = world.render_space(DVec3::ZERO);
     let mut random = Random::new(6);
     for _ in 0..2000 {
         let (x, y) = (random.between(-13.0, 13.0) as f32, random.between(-13.0, 13.0) as f32);
@@ -44,7 +44,7 @@ fn instances_at_one_place_yield_to_the_least() {
         builder.add_instance(instance(shape, DAffine3::from_translation(DVec3::new(0.0, 0.0, 1.0))));
     }
     let world = builder.build().expect("legal");
-    let view = world.view(DVec3::ZERO);
+    let view = world.render_space(DVec3::ZERO);
     let mut random = Random::new(8);
     for _ in 0..500 {
         let d = random.direction().as_vec3();

@@ -3,7 +3,7 @@
 use super::shapes::{Random, bumpy, icosphere, spindle, world_of};
 use crate::accel::Simd;
 use crate::geometry::Mesh;
-use crate::view::View;
+use crate::render_space::RenderSpace;
 use etendue_core::Ray;
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
@@ -28,7 +28,7 @@ fn placements(random: &mut Random) -> Vec<DAffine3> {
 }
 
 /// Counts the rays from inside a closed mesh that meet nothing.
-fn escapes(view: &View<'_>, to_render: &DAffine3, inside: &[DVec3], targets: &[Vec3]) -> usize {
+fn escapes(view: &RenderSpace<'_>, to_render: &DAffine3, inside: &[DVec3], targets: &[Vec3]) -> usize {
     let from = |o: &DVec3| to_render.transform_point3(*o).as_vec3();
     let at = |t: &Vec3| to_render.transform_point3(t.as_dvec3()).as_vec3();
     let rays = inside.iter().flat_map(|o| targets.iter().map(move |t| Ray::new(from(o), at(t) - from(o), 0.0)));
@@ -47,7 +47,7 @@ fn check_from_inside(mesh: &Mesh, inside: &[DVec3]) {
             let mut to_render = placement;
             to_render.translation -= camera;
             for simd in [Simd::Auto, Simd::Scalar] {
-                let lost = escapes(&world.view_with(camera, simd), &to_render, inside, &targets);
+                let lost = escapes(&world.render_space_with(camera, simd), &to_render, inside, &targets);
                 assert_eq!(lost, 0, "{simd:?} of {} rays in {placement}", inside.len() * targets.len());
             }
         }
@@ -77,14 +77,14 @@ fn nothing_escapes_from_a_spindle_of_needles() {
     let mesh = spindle();
     let targets = targets(&mesh, &mut Random::new(4));
     let world = world_of(mesh, DAffine3::IDENTITY);
-    assert_eq!(escapes(&world.view(DVec3::ZERO), &DAffine3::IDENTITY, &inside, &targets), 0);
+    assert_eq!(escapes(&world.render_space(DVec3::ZERO), &DAffine3::IDENTITY, &inside, &targets), 0);
 }
 
 /// Grid points and edges stand at whole numbers, so these rays go exactly through corners and along edges.
 #[test]
 fn nothing_escapes_along_the_axes() {
     let world = world_of(bumpy(8), DAffine3::IDENTITY);
-    let view = world.view(DVec3::ZERO);
+    let view = world.render_space(DVec3::ZERO);
     let directions = [Vec3::Z, Vec3::NEG_Z, Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y];
     let tilts = [0.0, -0.0, 1e-20, -1e-20, 1e-38];
     let halves = (1..16).flat_map(|x| (1..16).map(move |y| Vec3::new(x as f32 / 2.0, y as f32 / 2.0, -0.5)));
@@ -104,7 +104,7 @@ fn nothing_enters_a_sphere_of_triangles() {
     let world = world_of(mesh, DAffine3::IDENTITY);
     for distance in [2.0, 30.0, 1e4] {
         let camera = random.direction() * distance;
-        let view = world.view(camera);
+        let view = world.render_space(camera);
         for target in &targets {
             let to = target.as_dvec3() - camera;
             // Triangles of this sphere are turned from its radius by up to 6°.
@@ -127,7 +127,7 @@ fn axis_parallel_rays_keep_to_their_side() {
     let faces = |i: u32| [[4 * i, 4 * i + 1, 4 * i + 2], [4 * i, 4 * i + 2, 4 * i + 3]];
     let mesh = super::shapes::mesh((0..40).flat_map(square).collect(), (0..40).flat_map(faces).collect());
     let world = world_of(mesh, DAffine3::IDENTITY);
-    let view = world.view(DVec3::ZERO);
+    let view = world.render_space(DVec3::ZERO);
     for (y, expected) in [(1.0 - 1e-5, true), (1.0, true), (1.0 + 1e-5, false), (-1.0, true), (-1.0 - 1e-5, false)] {
         for z in [0.0, -0.0] {
             let ray = Ray::new(Vec3::new(-200.0, y, 0.25), Vec3::new(1.0, z, -0.0), 0.0);

@@ -1,6 +1,7 @@
 //! The path tracer against itself: ways of finding light, roulette, wavelengths, repetition.
 
 use super::*;
+use crate::lights::Lights;
 
 /// A floor and a block under lights of every kind.
 fn mixed(floor: Surface) -> Ready {
@@ -55,7 +56,7 @@ fn roulette_leaves_the_mean() {
 #[test]
 fn lights_are_counted_by_kind() {
     let ready = mixed(matt(0.5));
-    let view = ready.world.view(DVec3::ZERO);
+    let view = ready.world.render_space(DVec3::ZERO);
     let census = ready.lights(&view).census();
     assert_eq!((census.triangles, census.spheres, census.suns), (2, 2, 1));
     assert!(census.image_environment && !census.uniform_environment);
@@ -86,7 +87,7 @@ fn a_lamp_far_from_the_origin_of_its_mesh_still_shines() {
 #[test]
 fn answers_are_the_same_bits_when_asked_again() {
     let ready = mixed(paint(0.6, 0.3));
-    let view = ready.world.view(DVec3::ZERO);
+    let view = ready.world.render_space(DVec3::ZERO);
     let lights = ready.lights(&view);
     let tracer = PathTracer::new(&view, &ready.material_table, &lights, PathSettings::default());
     let r = ray([-2.0, -2.0, 2.0], [0.2, 0.1, 0.0]);
@@ -97,11 +98,15 @@ fn answers_are_the_same_bits_when_asked_again() {
 #[test]
 fn paths_of_one_four_and_eight_wavelengths_agree_where_nothing_disperses() {
     let ready = mixed(matt(0.7));
-    let view = ready.world.view(DVec3::ZERO);
+    let view = ready.world.render_space(DVec3::ZERO);
     let sources = Sources { environment: None, ..ready.sources.clone() };
     let lights = Lights::new(&view, &ready.material_table, sources, (380.0, 780.0)).expect("lights");
     let tracer = PathTracer::new(&view, &ready.material_table, &lights, bounces(2));
-    let address = PixelAddress { seed: 1, camera: 0, frame: 0, capture: 0, pixel: Pixel { x: 0, y: 0 }, replicate: 0 };
+    let address = PixelAddress {
+        frame: FrameAddress { seed: 1, ..FrameAddress::default() },
+        pixel: Pixel { x: 0, y: 0 },
+        replicate: 0,
+    };
     let stream = PathStream::new(&address, 3);
     let r = ray([-2.0, -2.0, 2.0], [0.2, 0.1, 0.0]);
     let one = tracer.radiance(&r, &Wavelengths::<1>::uniform(400.0, 700.0, 0.3), &stream)[0];

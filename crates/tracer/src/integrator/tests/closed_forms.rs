@@ -1,6 +1,7 @@
 //! Closed forms and conservation laws.
 
 use super::*;
+use crate::materials::MaterialTable;
 
 #[test]
 fn a_white_sphere_vanishes_in_a_uniform_environment() {

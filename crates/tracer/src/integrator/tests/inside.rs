@@ -77,7 +77,7 @@ fn the_innermost_of_nested_solids_surrounds_the_camera() {
         cube(&mut scene, 3.0, b, 6);
         scene.sphere(DVec3::new(1.9, 0.0, 0.0), 0.5, b);
         let ready = scene.ready();
-        Surroundings::of(&ready.world.view(DVec3::ZERO), &ready.material_table)
+        Surroundings::of(&ready.world.render_space(DVec3::ZERO), &ready.material_table)
     };
     assert_eq!(solid(Some(1.0), None), Surroundings { solid: Some(MaterialId(0)), open: None });
 }
@@ -92,7 +92,7 @@ fn a_hollow_holds_air() {
     let inwards = sides(6).map(|[a, b, c]| [a + 8, c + 8, b + 8]);
     scene.mesh(corners(2.0).chain(corners(1.0)).collect(), sides(6).chain(inwards).collect(), water);
     let ready = scene.ready();
-    let around = |at: DVec3| Surroundings::of(&ready.world.view(at), &ready.material_table).solid;
+    let around = |at: DVec3| Surroundings::of(&ready.world.render_space(at), &ready.material_table).solid;
     assert_eq!((around(DVec3::new(0.7, 0.0, 0.0)), around(DVec3::new(1.5, 0.1, 0.0))), (None, Some(water)));
     assert_eq!(around(DVec3::new(2.5, 0.1, 0.0)), None);
 }
@@ -103,7 +103,7 @@ fn a_body_with_a_hole_is_told() {
     let water = scene.material(glass(Some(1.0)), None);
     cube(&mut scene, 1.0, water, 5);
     let ready = scene.ready();
-    let around = |at: DVec3| Surroundings::of(&ready.world.view(at), &ready.material_table);
+    let around = |at: DVec3| Surroundings::of(&ready.world.render_space(at), &ready.material_table);
     assert_eq!(around(DVec3::ZERO), Surroundings { solid: Some(water), open: Some(water) });
     assert_eq!(around(DVec3::X * 5.0).solid, None);
 }

@@ -17,10 +17,14 @@ use super::*;
 use crate::MaterialId;
 use crate::accel::{World, WorldBuilder};
 use crate::geometry::{Instance, Mesh, Shape};
+use crate::lights::Lights;
 use crate::lights::{Environment, ImageEnvironment, Sources, Sun};
+use crate::materials::MaterialTable;
 use crate::materials::{Coated, Conductor, Emission, Glow, Material, Reflectance, Surface};
+use crate::render_space::RenderSpace;
 use core::f64::consts::PI;
-use etendue_core::random::{Pixel, PixelAddress};
+use etendue_core::random::{FrameAddress, PathStream, Pixel, PixelAddress};
+use etendue_core::{RadianceField, Ray, Wavelengths};
 use etendue_core::{Track, maths};
 use etendue_spectra::{Spectrum, metal, upsample};
 use etendue_stats::ReplicateEstimate;
@@ -90,13 +94,13 @@ struct Ready {
 }
 
 impl Ready {
-    fn lights(&self, view: &View<'_>) -> Lights {
+    fn lights(&self, view: &RenderSpace<'_>) -> Lights {
         Lights::new(view, &self.material_table, self.sources.clone(), (380.0, 780.0)).expect("lights")
     }
 
     /// Radiance along a ray, from 32 replicates of `samples`, at the second wavelength.
     fn look(&self, ray: &Ray, samples: u32, settings: PathSettings) -> ReplicateEstimate {
-        let view = self.world.view(DVec3::ZERO);
+        let view = self.world.render_space(DVec3::ZERO);
         let lights = self.lights(&view);
         let tracer = PathTracer::new(&view, &self.material_table, &lights, settings);
         let means: Vec<_> = (0..32).map(|r| replicate(&tracer, ray, samples, r)).collect();
@@ -106,7 +110,7 @@ impl Ready {
 
 fn replicate(tracer: &PathTracer<'_>, ray: &Ray, samples: u32, replicate: u32) -> f64 {
     let pixel = Pixel { x: 3, y: 4 };
-    let address = PixelAddress { seed: 5, camera: 0, frame: 0, capture: 0, pixel, replicate };
+    let address = PixelAddress { frame: FrameAddress { seed: 5, ..FrameAddress::default() }, pixel, replicate };
     let stream = PathStream::new(&address, 0);
     let sum: f64 = (0..samples).map(|s| f64::from(tracer.radiance(ray, &WAVELENGTHS, &stream.with_sample(s))[1])).sum();
     sum / f64::from(samples)

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::lights::{Lamp, Profile};
+use crate::materials::MaterialTable;
 use crate::materials::{Dielectric, Factor, Green, NormalMap, ThinSheet};
 use crate::textures::{Channel, ImageTexture, Sampling, Texels, TextureId};
 use glam::DMat3;

@@ -54,7 +54,7 @@ fn spotted(scene: &mut Scene, a: MaterialId) -> MaterialId {
 
 /// Means of `replicates` of each ray, shared or not.
 fn looks(ready: &Ready, targets: &[[f32; 3]], samples: u32, shared: bool) -> Vec<ReplicateEstimate> {
-    let view = ready.world.view(DVec3::ZERO);
+    let view = ready.world.render_space(DVec3::ZERO);
     let lights = ready.lights(&view);
     let tracer = PathTracer::new(
         &view,
@@ -70,7 +70,10 @@ fn looks(ready: &Ready, targets: &[[f32; 3]], samples: u32, shared: bool) -> Vec
 fn group(tracer: &PathTracer<'_>, targets: &[[f32; 3]], samples: u32, replicate: u32, shared: bool) -> Vec<f64> {
     let stream = |x| {
         let pixel = Pixel { x, y: 4 };
-        PathStream::new(&PixelAddress { seed: 5, camera: 0, frame: 0, capture: 0, pixel, replicate }, 0)
+        PathStream::new(
+            &PixelAddress { frame: FrameAddress { seed: 5, ..FrameAddress::default() }, pixel, replicate },
+            0,
+        )
     };
     let streams: Vec<_> = (0..targets.len()).map(|x| stream(x as u32)).collect();
     let mut sums = vec![0.0; targets.len()];

@@ -20,13 +20,13 @@ mod web;
 #[cfg(test)]
 mod tests;
 
+use glam::Vec3;
+use quadrature::{Node, cap};
+
 pub use cone::{Cone, ConeError};
 pub use slide::{Slide, SlideError};
-pub use web::{Web, WebAxes, WebError};
-
 pub(in crate::lights) use spread::Spread;
-
-use glam::Vec3;
+pub use web::{Web, WebAxes, WebError};
 
 /// The spread of a lamp's intensity.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,7 +56,7 @@ impl Profile {
     /// `lamp` seen through `mask`.
     #[must_use]
     pub fn masked(lamp: Self, mask: Self) -> Self {
-        let spread = Spread::of(&quadrature::product(&lamp, &mask));
+        let spread = Spread::of(&product(&lamp, &mask));
         Self::Masked(Masked { lamp: Box::new(lamp), mask: Box::new(mask), spread })
     }
 
@@ -108,5 +108,25 @@ impl Profile {
             Self::Slide(slide) => slide.spread(),
             Self::Masked(masked) => &masked.spread,
         }
+    }
+}
+
+/// The nodes of the profile that reaches less far, their values times those of the other: so they are dense enough for a
+/// narrow spot behind a wide mask.
+fn product(lamp: &Profile, mask: &Profile) -> Vec<Node> {
+    let narrower = lamp.spread().reach_rad < mask.spread().reach_rad;
+    let (of, factor) = if narrower { (lamp, mask) } else { (mask, lamp) };
+    let mut nodes = nodes(of);
+    nodes.iter_mut().for_each(|n| n.value *= factor.value(n.direction));
+    nodes
+}
+
+fn nodes(profile: &Profile) -> Vec<Node> {
+    match profile {
+        Profile::Isotropic => cap(2.0, |_| 1.0),
+        Profile::Cone(cone) => cone.nodes(),
+        Profile::Web(web) => web.nodes(),
+        Profile::Slide(slide) => slide.nodes(),
+        Profile::Masked(masked) => product(&masked.lamp, &masked.mask),
     }
 }

@@ -3,8 +3,6 @@
 use etendue_core::maths::f64::sin_cos;
 use glam::{DVec3, Vec3};
 
-use super::Profile;
-
 /// A direction with its share of the integral.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
@@ -44,24 +42,4 @@ pub(super) fn cap(one_minus_cos: f64, value: impl Fn(Vec3) -> f32) -> Vec<Node> 
         Node { direction, value: value(direction), weight_sr, spacing_rad }
     };
     cells.map(node).collect()
-}
-
-/// The nodes of the profile that reaches less far, their values times those of the other: so they are dense enough for a
-/// narrow spot behind a wide mask.
-pub(super) fn product(lamp: &Profile, mask: &Profile) -> Vec<Node> {
-    let narrower = lamp.spread().reach_rad < mask.spread().reach_rad;
-    let (of, factor) = if narrower { (lamp, mask) } else { (mask, lamp) };
-    let mut nodes = nodes(of);
-    nodes.iter_mut().for_each(|n| n.value *= factor.value(n.direction));
-    nodes
-}
-
-fn nodes(profile: &Profile) -> Vec<Node> {
-    match profile {
-        Profile::Isotropic => cap(2.0, |_| 1.0),
-        Profile::Cone(cone) => cone.nodes(),
-        Profile::Web(web) => web.nodes(),
-        Profile::Slide(slide) => slide.nodes(),
-        Profile::Masked(masked) => product(&masked.lamp, &masked.mask),
-    }
 }

@@ -27,7 +27,14 @@ struct Builder {
     per_scale: f64,
 }
 
-pub(super) fn tree(lights: &[LightBounds]) -> Option<LightTree> {
+impl LightTree {
+    /// A tree over lights; `None` where none of them shines.
+    pub(in crate::lights) fn new(lights: &[LightBounds]) -> Option<Self> {
+        tree(lights)
+    }
+}
+
+fn tree(lights: &[LightBounds]) -> Option<LightTree> {
     let scale = lights.iter().map(|l| l.intensity).fold(0.0, f64::max);
     if scale <= 0.0 {
         return None;

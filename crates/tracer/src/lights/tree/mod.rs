@@ -22,10 +22,10 @@ mod node;
 #[cfg(test)]
 mod tests;
 
-pub(super) use bounds::LightBounds;
-
 use super::LightSampleContext;
 use node::{LANES, Node};
+
+pub(super) use bounds::LightBounds;
 
 /// Where a light or a node hangs.
 #[derive(Clone, Copy, Debug, Default)]
@@ -55,11 +55,6 @@ pub(super) struct TreeQuery<'a, F: Fn(u32) -> f32> {
 }
 
 impl LightTree {
-    /// A tree over lights; `None` where none of them shines.
-    pub(super) fn new(lights: &[LightBounds]) -> Option<Self> {
-        build::tree(lights)
-    }
-
     /// How many lights there are.
     pub(super) fn len(&self) -> usize {
         self.leaves.len()

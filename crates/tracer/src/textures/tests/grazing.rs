@@ -7,7 +7,7 @@
 
 use super::*;
 use etendue_core::maths::f32::tan;
-use etendue_core::random::{Draw, PathStream, Pixel, PixelAddress};
+use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
 use etendue_stats::Moments;
 
 const HEIGHT_M: f32 = 1.5;
@@ -35,7 +35,7 @@ struct Seen<'a> {
 
 impl Seen<'_> {
     fn pixel(&self, pixel: Pixel, samples: u32, draw: Draw, way: Way) -> f64 {
-        let address = PixelAddress { seed: 1, camera: 0, frame: 0, capture: 0, pixel, replicate: 0 };
+        let address = PixelAddress { frame: FrameAddress { seed: 1, ..FrameAddress::default() }, pixel, replicate: 0 };
         let stream = PathStream::new(&address, 0);
         let corner = Vec2::new(pixel.x as f32 - 12.0, pixel.y as f32 - 4.0);
         let one = |s| f64::from(self.read(road(self.distance, corner + stream.with_sample(s).two(draw, 0)), way));
@@ -81,7 +81,11 @@ fn checker() -> ImageTexture {
 /// Stones, a texel each, of reflectance 0.02 to 0.3.
 fn asphalt() -> ImageTexture {
     picture(256, 256, Sampling::default(), |x, y| {
-        let address = PixelAddress { seed: 9, camera: 0, frame: 0, capture: 0, pixel: Pixel { x, y }, replicate: 0 };
+        let address = PixelAddress {
+            frame: FrameAddress { seed: 9, ..FrameAddress::default() },
+            pixel: Pixel { x, y },
+            replicate: 0,
+        };
         let grey = PathStream::new(&address, 0).one(Draw::PixelArea, 0);
         0.02 + 0.28 * grey * grey
     })

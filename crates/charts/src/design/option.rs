@@ -1,0 +1,39 @@
+//! Ranges of options that several charts share, and what all sheets have: bleed, white and black.
+
+use crate::error::ChartError;
+
+/// How far sheets reach beyond what the camera sees, as a share of it: blur and glare look there too.
+pub(super) const BLEED: f64 = 1.15;
+
+/// Reflectance of white paper.
+pub(super) const WHITE: f64 = 0.9;
+
+/// Reflectance of black ink.
+pub(super) const BLACK: f64 = 0.03;
+
+/// A reflectance between 0 and 1.
+pub(super) fn share(option: &'static str, value: f64) -> Result<f64, ChartError> {
+    let legal = (0.0..=1.0).contains(&value);
+    legal.then_some(value).ok_or_else(|| ChartError::option(option, value, "expected a share, 0 … 1"))
+}
+
+/// An angle that edges are turned by, degrees, in radians.
+pub(super) fn angle(degrees: f64) -> Result<f64, ChartError> {
+    let legal = (-45.0..=45.0).contains(&degrees);
+    legal.then_some(degrees.to_radians()).ok_or_else(|| ChartError::option("angle-deg", degrees, "expected -45 … 45"))
+}
+
+/// Whether an edge at an angle to rows or columns can be measured: `measure sfr` expects 2° to 43° to the nearer of both.
+pub(super) fn is_measurable(degrees: f64) -> bool {
+    let to_axis = (degrees - 90.0 * (degrees / 90.0).round()).abs();
+    // Angles of a star's edges are sums of rounded numbers.
+    (2.0 - 1e-9..=43.0 + 1e-9).contains(&to_axis)
+}
+
+/// A ratio of luminances.
+pub(super) fn contrast(ratio: f64) -> Result<f64, ChartError> {
+    let legal = ratio > 1.0 && ratio <= 1000.0;
+    legal
+        .then_some(ratio)
+        .ok_or_else(|| ChartError::option("contrast", ratio, "expected a ratio above 1 and up to 1000"))
+}

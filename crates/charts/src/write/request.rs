@@ -1,0 +1,33 @@
+//! What is asked for when a drawing becomes files.
+
+use crate::design::Chart;
+use crate::drawing::Drawing;
+use crate::eye::{Eye, Footprint};
+use crate::light::{Light, Meter};
+use crate::station::Station;
+
+/// Everything that decides a chart's files.
+pub struct Request<'a> {
+    /// The chart.
+    pub chart: &'a Chart,
+    /// Its drawing.
+    pub drawing: &'a Drawing,
+    /// What the camera sees of its plane.
+    pub seen: Footprint,
+    /// The camera's rays.
+    pub eye: &'a Eye<'a>,
+    /// What the camera makes of light; `None` without electronics.
+    pub meter: Option<&'a Meter<'a>>,
+    /// The light.
+    pub light: &'a Light,
+    /// The cameras of the job.
+    pub stations: &'a [Station],
+    /// The camera file that the job's cameras build on, as a path from the chart's folder.
+    pub camera: &'a str,
+    /// Keys that are taken out of it.
+    pub remove: &'a [&'a str],
+    /// The specimen that all cameras of a series share, where the camera file does not say one.
+    pub specimen: Option<u64>,
+    /// The seed.
+    pub seed: u64,
+}

@@ -1,0 +1,100 @@
+//! The fall-off over the field: an even polynomial of the distance from the centre.
+
+use super::error::ShadingError;
+use super::report::Ring;
+use super::settings::ShadingSettings;
+use super::sums::Sums;
+use super::sums::{TERMS, powers};
+use crate::Estimate;
+use crate::linear::Matrix;
+use crate::linear::matrix::dot;
+use crate::solve::Normal;
+
+/// I₀ (1 + a₂ r² + …) as b₀ + b₁ r² + ….
+pub(super) struct Falloff {
+    pub(super) b: Vec<f64>,
+    pub(super) covariance: Matrix,
+    /// The covariance of b₀ with each coefficient by the rings' own noise.
+    pub(super) own_of_centre: Vec<f64>,
+    /// Of each ring, by its number: the covariance of b₀ with what lines share in its mean, and the variance of that.
+    pub(super) with_lines: Vec<[f64; 2]>,
+}
+
+/// The noise of a pixel that the fit assumes at least, of its reading, so that no ring rules alone.
+pub(super) const MIN_NOISE: f64 = 1e-3;
+
+/// A ring's weight in the fit.
+pub(super) fn weight(ring: &Sums) -> f64 {
+    let (u, least) = (ring.standard_uncertainty(), MIN_NOISE * ring.mean().abs() / ring.count.sqrt());
+    1.0 / (u * u + least * least).max(f64::MIN_POSITIVE)
+}
+
+impl Falloff {
+    /// By the rings, whose means have a covariance by lines beside their own noise.
+    pub(super) fn fitted(rings: &[Sums], shared: &Matrix) -> Result<Self, ShadingError> {
+        let mut normal = Normal::new(TERMS);
+        for ring in rings {
+            normal.add(&ring.mean_powers(), ring.mean(), weight(ring));
+        }
+        let none = ShadingError::NotFlat { percent: f64::NAN, blocks: 0 };
+        let (b, own) = normal.solve().zip(normal.inverse()).ok_or(none)?;
+        // How each coefficient depends on the means of the rings.
+        let lever = |ring: &Sums| own.times(&ring.mean_powers().map(|p| p * weight(ring)));
+        let levers = Matrix::from_rows(TERMS, rings.iter().map(lever));
+        let column = |k: usize| (0..rings.len()).map(|i| levers.at(i, k)).collect::<Vec<f64>>();
+        let pulled: Vec<Vec<f64>> = (0..TERMS).map(|k| shared.times(&column(k))).collect();
+        let own_of_centre = own.row(0).to_vec();
+        let mut covariance = own;
+        for (i, pulled) in pulled.iter().enumerate() {
+            (0..TERMS).for_each(|j| *covariance.at_mut(i, j) += dot(pulled, &column(j)));
+        }
+        let mut with_lines = vec![[0.0; 2]; rings.iter().map(|ring| ring.number + 1).max().unwrap_or(0)];
+        rings.iter().enumerate().for_each(|(i, ring)| with_lines[ring.number] = [pulled[0][i], shared.at(i, i)]);
+        Ok(Self { b, covariance, own_of_centre, with_lines })
+    }
+
+    pub(super) fn centre(&self, settings: &ShadingSettings) -> Result<Estimate, ShadingError> {
+        let centre = Estimate::new(self.b[0], self.covariance.at(0, 0).sqrt());
+        let dark = ShadingError::Dark { reading: centre.value + settings.black, black: settings.black };
+        if centre.value > 3.0 * centre.standard_uncertainty && centre.value > 0.0 { Ok(centre) } else { Err(dark) }
+    }
+
+    /// The reading at a squared position.
+    pub(super) fn at(&self, square: f64) -> f64 {
+        powers(square).iter().zip(&self.b).map(|(p, b)| p * b).sum()
+    }
+
+    /// The fall-off's mean over a ring or block.
+    pub(super) fn mean(&self, pixels: &Sums) -> f64 {
+        pixels.mean_powers().iter().zip(&self.b).map(|(p, b)| p * b).sum()
+    }
+
+    /// A ring over the centre, which depends on the ring itself by its share in the fit.
+    pub(super) fn ring(&self, ring: &Sums) -> Ring {
+        let there = self.at(ring.square_position());
+        let curved = self.mean(ring) - there;
+        let (value, u) = ((ring.mean() - curved) / self.b[0], ring.standard_uncertainty());
+        let along: f64 = self.own_of_centre.iter().zip(ring.mean_powers()).map(|(c, p)| c * p).sum();
+        let [with_centre, of_lines] = self.with_lines[ring.number];
+        let common = u * u * along * weight(ring) + with_centre;
+        let variance = u * u + of_lines + value * value * self.covariance.at(0, 0) - 2.0 * value * common;
+        let u = variance.max(0.0).sqrt() / self.b[0];
+        Ring { position: ring.square_position().sqrt(), relative: Estimate::new(value, u) }
+    }
+
+    /// A linear form of the coefficients over b₀.
+    pub(super) fn over_centre(&self, form: [f64; TERMS]) -> Estimate {
+        let value = form.iter().zip(&self.b).map(|(f, b)| f * b).sum::<f64>() / self.b[0];
+        let mut slopes = form.map(|f| f / self.b[0]);
+        slopes[0] -= value / self.b[0];
+        Estimate::new(value, self.covariance.form(&slopes).max(0.0).sqrt())
+    }
+
+    pub(super) fn ratio(&self, k: usize) -> Estimate {
+        self.over_centre(core::array::from_fn(|i| f64::from(u8::from(i == k))))
+    }
+
+    pub(super) fn corner(&self) -> Estimate {
+        self.over_centre([1.0; TERMS])
+    }
+}

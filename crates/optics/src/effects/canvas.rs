@@ -1,0 +1,43 @@
+//! The film and the picture in it.
+
+use super::convolve::Region;
+use etendue_projection::Raster;
+use glam::DVec2;
+
+/// The film and the picture in it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Canvas {
+    pub(super) film: Raster,
+    pub(super) margin_px: [usize; 2],
+}
+
+impl Canvas {
+    pub(crate) fn new(picture: &Raster, margin_px: [usize; 2]) -> Self {
+        Self { film: picture.widened(margin_px), margin_px }
+    }
+
+    /// Columns and rows of the film.
+    pub(crate) fn size(&self) -> [usize; 2] {
+        [self.film.width(), self.film.height()]
+    }
+
+    /// The point of the sensor at a point of the film.
+    pub(super) fn sensor_mm(&self, film_px: DVec2) -> DVec2 {
+        self.film.sensor_mm(film_px)
+    }
+
+    pub(crate) fn pitch_mm(&self) -> DVec2 {
+        self.film.pitch_mm()
+    }
+
+    /// All of the film.
+    pub(super) fn whole(&self) -> Region {
+        Region { x: 0..self.film.width(), y: 0..self.film.height() }
+    }
+
+    /// The picture in the film.
+    pub(super) fn picture(&self) -> Region {
+        let [x, y] = self.margin_px;
+        Region { x: x..self.film.width() - x, y: y..self.film.height() - y }
+    }
+}

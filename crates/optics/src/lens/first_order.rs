@@ -1,0 +1,77 @@
+//! First-order quantities: focal length, f-number, transmittance, focus.
+
+use super::Lens;
+use etendue_projection::Rectilinear;
+
+impl Lens {
+    /// Focal length, mm; infinite for a telecentric camera.
+    #[must_use]
+    pub fn focal_length_mm(&self) -> f64 {
+        each!(self,
+            lens => lens.parameters().focal_length_mm,
+            Prescription(lens) => lens.prescription().paraxial().focal_length_mm,
+            Calibrated(lens) => lens.focal_length_mm(),
+            Telecentric(_) => f64::INFINITY,
+        )
+    }
+
+    /// f-number at infinity focus (of a telecentric camera: on the sensor's side).
+    #[must_use]
+    pub fn f_number(&self) -> f64 {
+        each!(self,
+            lens => lens.parameters().f_number,
+            Prescription(lens) => lens.prescription().paraxial().f_number(),
+            Calibrated(lens) => lens.parameters().f_number,
+            Telecentric(lens) => lens.parameters().f_number,
+        )
+    }
+
+    /// Transmittance τ.
+    #[must_use]
+    pub fn transmittance(&self) -> f64 {
+        each!(self,
+            lens => lens.parameters().transmittance,
+            Prescription(lens) => lens.transmittance(),
+            Calibrated(lens) => lens.parameters().transmittance,
+            Telecentric(lens) => lens.parameters().transmittance,
+        )
+    }
+
+    /// T-number N/√τ.
+    #[must_use]
+    pub fn t_number(&self) -> f64 {
+        self.f_number() / self.transmittance().sqrt()
+    }
+
+    /// Distance of the plane in focus from the entrance pupil, m; `None` where everything is sharp.
+    #[must_use]
+    pub fn focus_distance_m(&self) -> Option<f64> {
+        match self {
+            Self::Pinhole(_) | Self::Telecentric(_) => None,
+            Self::Calibrated(lens) => lens.parameters().focus_distance_m,
+            Self::Thin(lens) => Some(lens.parameters().focus_distance_m),
+            Self::Thick(lens) => Some(lens.parameters().focus_distance_m),
+            Self::Prescription(lens) => Some(lens.prescription().focus_distance_m()),
+        }
+    }
+
+    /// The principal distance c, mm: near the axis a tangent t of object space is seen at c·t on the sensor. Infinite for a
+    /// telecentric camera.
+    #[must_use]
+    pub fn principal_distance_mm(&self) -> f64 {
+        match self {
+            Self::Pinhole(lens) => lens.principal_distance_mm(),
+            Self::Thin(lens) => lens.conjugates.principal_distance_mm,
+            Self::Thick(lens) => lens.conjugates.principal_distance_mm,
+            Self::Prescription(lens) => lens.prescription().principal_distance_mm(),
+            Self::Calibrated(lens) => lens.focal_length_mm(),
+            Self::Telecentric(_) => f64::INFINITY,
+        }
+    }
+
+    /// The projection of the lens without its distortion.
+    #[must_use]
+    pub fn rectilinear(&self) -> Rectilinear {
+        Rectilinear { principal_distance_mm: self.principal_distance_mm() }
+    }
+}

@@ -1,0 +1,41 @@
+//! From what a maker states to a prescription that is open, in focus and checked.
+
+use super::elements::{elements, media};
+use super::error::PrescriptionError;
+use super::indices::IndexTable;
+use super::{Prescription, PrescriptionParameters, check, focus, paraxial};
+use crate::wavelength::PRINCIPAL_NM;
+
+impl Prescription {
+    /// A checked and focused lens.
+    ///
+    /// # Errors
+    /// Where the surfaces are no lens, or it cannot be focused as asked.
+    pub fn new(parameters: PrescriptionParameters) -> Result<Self, PrescriptionError> {
+        let PrescriptionParameters { mut surfaces, f_number, focus, defocus_mm } = parameters;
+        let stop = check::surfaces(&surfaces)?;
+        let (list, places) = media(&surfaces)?;
+        let table = IndexTable::new(&list);
+        let at_d = table.at(PRINCIPAL_NM);
+        focus::open(&mut surfaces, stop, f_number, &places, &at_d)?;
+        let focused = focus::focused(&mut surfaces, stop, focus, &places, &at_d)?;
+        check::overlaps(&surfaces)?;
+        let elements = elements(&surfaces, &places);
+        let paraxial = paraxial::paraxial(&elements, stop, surfaces[stop].semi_aperture_mm, &at_d);
+        let last_mm = elements.last().map_or(0.0, |e| e.z_mm);
+        let sensor_mm = last_mm + focused.image_mm + check::finite_number(surfaces.len(), "defocus_mm", defocus_mm)?;
+        let lens = Self {
+            sensor_mm,
+            focus_distance_m: focused.distance_m,
+            magnification: focused.magnification,
+            principal_distance_mm: focus::principal_distance_mm(&elements, &paraxial, sensor_mm - last_mm, &at_d),
+            surfaces,
+            elements,
+            table,
+            stop,
+            paraxial,
+        };
+        check::axial_bundle(&lens)?;
+        Ok(lens)
+    }
+}

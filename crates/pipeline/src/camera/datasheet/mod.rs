@@ -1,0 +1,105 @@
+//! From an EMVA 1288 data sheet to a camera file.
+//!
+//! A data sheet's figures follow from each other (`etendue_sensor::emva1288`), so it can be read wrongly only in ways that show: K·1/K = 1,
+//! SNR_max² = μ_e.sat, DR = μ_e.sat/μ_e.min, μ_e.min from σ_d and K, photons times efficiency are electrons, and the saturation
+//! capacity has a digital number. Each pair is compared with the tolerance of its digits: half a unit of the last one, of the figure
+//! and of all that it is computed from (zeros at the end do not count as digits). Data sheets mix means of several specimens, so
+//! what differs by more but by at most [`LOOSE`] is told and taken; beyond, the sheet contradicts itself and is refused.
+
+mod consistency;
+mod digits;
+mod figures;
+mod write;
+
+pub use figures::LOOSE;
+use figures::{Figures, largest_dn};
+
+use etendue_scene::Fault;
+use etendue_scene::record::DataSheet;
+use etendue_sensor::emva1288::{MIN_DARK_DN2, dark_noise_e};
+
+/// A camera file made of a data sheet.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Imported {
+    /// The camera file, TOML.
+    pub camera: String,
+    /// The tables that it names: file name and text.
+    pub tables: Vec<(String, String)>,
+    /// What is doubtful or left out.
+    pub warnings: Vec<String>,
+}
+
+/// The camera file of a data sheet; the names of its tables begin with `stem`.
+///
+/// # Errors
+/// All contradictions, with their places.
+pub fn imported(sheet: &DataSheet, stem: &str) -> Result<Imported, Vec<Fault>> {
+    let gain_dn_e = gain(sheet);
+    let noise = noise(sheet, gain_dn_e).map_err(|fault| vec![fault])?;
+    let consistency::Found { faults, mut warnings } = consistency::check(sheet, gain_dn_e);
+    if !faults.is_empty() {
+        return Err(faults);
+    }
+    let figures = Figures { gain_dn_e, dark_noise_e: noise, black_level_dn: black_level(sheet, gain_dn_e, noise) };
+    warnings.extend(remarks(sheet));
+    let tables = write::tables(sheet, stem);
+    Ok(Imported { camera: write::camera(sheet, figures, stem), tables, warnings })
+}
+
+/// K; where its inverse is stated too, the direct one is taken.
+fn gain(sheet: &DataSheet) -> f64 {
+    let inverse = sheet.inverse_gain_e_per_dn.as_ref().map(|k| 1.0 / k.value);
+    sheet.gain_dn_per_e.as_ref().map(|k| k.value).or(inverse).expect("a record that was read has one")
+}
+
+/// σ_d, e⁻, as stated or from σ_y.dark without its quantisation.
+fn noise(sheet: &DataSheet, gain_dn_e: f64) -> Result<f64, Fault> {
+    if let Some(noise) = &sheet.temporal_dark_noise_e {
+        return Ok(noise.value);
+    }
+    let dn = sheet.temporal_dark_noise_dn.as_ref().expect("a record that was read has one");
+    dark_noise_e(dn.value, gain_dn_e).ok_or_else(|| {
+        let problem = format!("a dark noise of {} DN is less than rounding alone makes, 0.289 DN", dn.value);
+        Fault::new(&dn.place, problem, "give the figure in DN with quantisation, or \"temporal_dark_noise_e\"")
+    })
+}
+
+/// As stated; else five deviations of the dark noise, as far as the converter holds the saturation capacity above it.
+fn black_level(sheet: &DataSheet, gain_dn_e: f64, noise_e: f64) -> f64 {
+    if let Some(level) = &sheet.black_level_dn {
+        return level.value;
+    }
+    let room = largest_dn(sheet) - gain_dn_e * sheet.saturation_capacity_e.value;
+    (5.0 * gain_dn_e * noise_e + 1.0).ceil().min(room.floor()).max(0.0)
+}
+
+/// What the sheet leaves open, or the camera leaves out.
+fn remarks(sheet: &DataSheet) -> Vec<String> {
+    let mut remarks = Vec::new();
+    let missing = [
+        (sheet.dsnu_e.is_none(), "dsnu_e"),
+        (sheet.prnu_percent.is_none(), "prnu_percent"),
+        (sheet.dark_current_e_s.is_none(), "dark_current_e_s"),
+    ];
+    remarks
+        .extend(missing.iter().filter(|m| m.0).map(|m| format!("{}: no \"{}\": it is taken as 0", sheet.place, m.1)));
+    if let Some(error) = &sheet.linearity_error_percent {
+        remarks.push(format!(
+            "{}: a linearity error of {} % is not modelled: the response is straight",
+            error.place, error.value
+        ));
+    }
+    if let Some(dn) = sheet.temporal_dark_noise_dn.as_ref().filter(|dn| dn.value * dn.value <= MIN_DARK_DN2) {
+        remarks.push(format!(
+            "{}: {} DN is the least that the standard states: the noise may be smaller",
+            dn.place, dn.value
+        ));
+    }
+    for (channel, points) in sheet.quantum_efficiency_percent.curves() {
+        if let [only] = points.as_slice() {
+            let told = format!("the efficiency of \"{channel}\" at {} nm is taken at all wavelengths", only.value[0]);
+            remarks.push(format!("{}: {told}", only.place));
+        }
+    }
+    remarks
+}

@@ -1,0 +1,88 @@
+//! Depth of field behind stored radiance: the margin it needs, and the work on several threads.
+
+use crate::camera::stored::{Sight, Stored};
+use crate::plan::CameraBody;
+use etendue_core::quantity::Radiance;
+use etendue_core::{Bands, SpectralCube};
+use etendue_optics::defocus::{self, Physical};
+use etendue_optics::{DepthOfField, OpticsError, PupilProjection, Resampling};
+use rayon::prelude::*;
+
+/// The nearest thing whose blur is followed from wholly outside of the picture, m.
+const NEAREST_M: f64 = 1.0;
+/// The margin at most, as a share of the picture's longer side.
+const MAX_MARGIN: f64 = 0.25;
+
+/// Pixels around the picture that its depth of field needs: as far as things at 1 m and farther blur, and a quarter of the
+/// picture's longer side at most.
+#[must_use]
+pub fn margin_px(depth_of_field: &DepthOfField, body: &CameraBody) -> usize {
+    let most = MAX_MARGIN * body.raster.width().max(body.raster.height()) as f64;
+    depth_of_field.reach_px(&body.lens, &body.raster, NEAREST_M).min(most as usize)
+}
+
+/// Pixels around the picture, columns and rows: those of the effects behind the lens, and `margin_px` for depth of field.
+#[must_use]
+pub fn whole_margin_px(body: &CameraBody, margin_px: usize) -> [usize; 2] {
+    body.effects.margin_px().map(|of_effects| of_effects + margin_px)
+}
+
+/// The margin, up to the one that is needed, that a stored image holds.
+///
+/// # Errors
+/// Where it does not hold the picture itself.
+pub fn held_margin_px(
+    stored: &PupilProjection,
+    body: &CameraBody,
+    bands: Bands,
+    depth_of_field: &DepthOfField,
+) -> Result<usize, OpticsError> {
+    let holds = |margin: usize| {
+        let margin = whole_margin_px(body, margin);
+        Resampling::new(*stored, &body.lens, &body.raster, margin, bands).map(|_| ())
+    };
+    let wanted = margin_px(depth_of_field, body);
+    if holds(wanted).is_ok() {
+        return Ok(wanted);
+    }
+    holds(0)?;
+    let (mut held, mut missing) = (0, wanted);
+    while missing - held > 1 {
+        let middle = usize::midpoint(held, missing);
+        if holds(middle).is_ok() {
+            held = middle;
+        } else {
+            missing = middle;
+        }
+    }
+    Ok(held)
+}
+
+/// What the pixels of a camera's film see, blurred as asked: each pixel the mean over its pupil. Without distances there is no blur.
+///
+/// # Errors
+/// Where the stored image does not hold the picture, or its radiance is no finite number.
+pub fn seen(
+    stored: &Stored<'_>,
+    body: &CameraBody,
+    depth_of_field: &DepthOfField,
+) -> Result<SpectralCube<Radiance>, OpticsError> {
+    let method = if stored.distance.is_some() { *depth_of_field } else { DepthOfField::None };
+    let margin = held_margin_px(stored.projection, body, stored.radiance.bands(), &method)?;
+    let Sight { radiance, distance } = stored.seen(body, whole_margin_px(body, margin))?;
+    let (Some(distance), true) = (distance, method != DepthOfField::None) else { return Ok(radiance) };
+    let film = body.film();
+    let sight = defocus::Sight::new(&body.lens, &film, margin, &radiance, &distance)?;
+    Ok(match method {
+        DepthOfField::Physical => physical(sight),
+        other => other.apply(&sight),
+    })
+}
+
+/// Strips do not depend on each other, so threads do not change the result.
+fn physical(sight: defocus::Sight<'_>) -> SpectralCube<Radiance> {
+    let prepared = Physical::new(sight);
+    let strips: Vec<_> = prepared.strips().collect();
+    let strips: Vec<_> = strips.into_par_iter().map(|rows| prepared.rows(rows)).collect();
+    prepared.joined(&strips)
+}

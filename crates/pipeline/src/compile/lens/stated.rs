@@ -1,0 +1,15 @@
+//! Numbers that all kinds of lenses state alike.
+
+use etendue_scene::Placed;
+use etendue_scene::record::lens as description;
+
+pub(super) fn transmittance(given: Option<&Placed<f64>>) -> f64 {
+    given.map_or(1.0, |t| t.value)
+}
+
+pub(super) fn focus_m(focus: &description::FocusDistance) -> f64 {
+    match focus {
+        description::FocusDistance::Metres(m) => m.value,
+        description::FocusDistance::Infinity => f64::INFINITY,
+    }
+}

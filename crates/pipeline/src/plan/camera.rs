@@ -1,0 +1,112 @@
+//! A camera of a plan.
+
+use super::development::{Development, PictureFormat};
+use super::products::Products;
+use super::settings::{Route, Settings};
+use etendue_core::CameraPose;
+use etendue_optics::{DepthOfField, Effects, Front, FrontRay, Lens};
+use etendue_projection::Raster;
+use etendue_scene::Place;
+use etendue_sensor::Sensor;
+use glam::DVec2;
+
+/// One camera of a plan.
+#[derive(Clone, Debug)]
+pub struct CameraPlan {
+    /// Its name, part of file names.
+    pub name: String,
+    /// Its place in the job, part of the random addresses of its noise.
+    pub index: u32,
+    /// Whose light it sees: its own, or that of the first camera of the job whose light is equal.
+    pub light: LightOwner,
+    /// Where it stands.
+    pub pose: CameraPose,
+    /// Everything behind the scene.
+    pub body: CameraBody,
+    /// How its light is found.
+    pub settings: Settings,
+    /// How things out of focus are blurred at the pupil; none through the lens, whose rays do it.
+    pub depth_of_field: DepthOfField,
+    /// What it delivers.
+    pub products: Products,
+}
+
+/// The camera that a film is rendered for; others of equal light use it too.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LightOwner {
+    /// Its name.
+    pub camera: String,
+    /// Its place in the job, part of the random addresses of the light.
+    pub index: u32,
+}
+
+/// A camera wherever it stands: lens, effects, sensor, processing.
+#[derive(Clone, Debug)]
+pub struct CameraBody {
+    /// Where the description says how large the picture is.
+    pub place: Place,
+    /// The pixel grid.
+    pub raster: Raster,
+    /// The lens.
+    pub lens: Lens,
+    /// What stands in front of it; `None` where nothing does.
+    pub front: Option<Front>,
+    /// What becomes of the irradiance behind the lens.
+    pub effects: Effects,
+    /// Side of the photosensitive area, in pixels.
+    pub aperture_px: f64,
+    /// The electronics; `None` where no electrons are wanted.
+    pub sensor: Option<Sensor>,
+    /// How raw becomes a picture; `None` where none is wanted.
+    pub development: Option<Development>,
+}
+
+impl CameraBody {
+    /// How its pictures are written.
+    #[must_use]
+    pub fn picture_format(&self) -> PictureFormat {
+        self.development.as_ref().map_or(PictureFormat::Png { bits: 8 }, |development| development.format)
+    }
+}
+
+impl CameraBody {
+    /// The pixels that are rendered: the picture's, and those beyond it that the effects need.
+    #[must_use]
+    pub fn film(&self) -> Raster {
+        self.effects.film(&self.raster)
+    }
+
+    /// The ray by which ground truth looks from a point of the picture (px), and whether it is off the pupil's centre;
+    /// `None` where no light comes.
+    #[must_use]
+    pub fn truth_ray(&self, raster_px: DVec2) -> Option<(FrontRay, bool)> {
+        let sensor_mm = self.raster.sensor_mm(raster_px);
+        match &self.front {
+            Some(front) => front.truth_ray(&self.lens, sensor_mm),
+            None => self.lens.truth_ray(sensor_mm).map(|truth| (FrontRay::bare(truth.ray), truth.off_centre)),
+        }
+    }
+
+    /// Whether a ray or its weight depends on the wavelength.
+    #[must_use]
+    pub fn disperses(&self) -> bool {
+        self.lens.disperses() || self.front.as_ref().is_some_and(Front::disperses)
+    }
+}
+
+impl CameraPlan {
+    /// Whether no camera before it in the job has the same light.
+    #[must_use]
+    pub fn owns_light(&self) -> bool {
+        self.light.index == self.index
+    }
+
+    /// Columns and rows of the film: of the picture with its margin, or of the stored radiance.
+    #[must_use]
+    pub fn film_size(&self) -> (u32, u32) {
+        match &self.settings.route {
+            Route::Lens => (self.body.film().width() as u32, self.body.film().height() as u32),
+            Route::Pupil(projection) => (projection.width() as u32, projection.height() as u32),
+        }
+    }
+}

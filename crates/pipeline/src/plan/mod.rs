@@ -1,0 +1,86 @@
+//! The plan: everything that a rendering needs, resolved and checked. Immutable.
+
+mod camera;
+mod development;
+pub(crate) mod fingerprint;
+mod products;
+pub mod remark;
+mod settings;
+pub(crate) mod shared_light;
+pub mod summary;
+mod warnings;
+
+use crate::plan::remark::Remark;
+use etendue_tracer::accel::World;
+use etendue_tracer::lights::Sources;
+use etendue_tracer::materials::MaterialTable;
+
+pub use camera::{CameraBody, CameraPlan, LightOwner};
+pub use development::{Development, PictureFormat};
+pub use products::{Products, RawFormat};
+pub use settings::{Route, Settings};
+
+/// What a rendering does, for all cameras of a job.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// Meshes and instances.
+    pub world: World,
+    /// Materials and textures.
+    pub material_table: MaterialTable,
+    /// What shines but is no surface.
+    pub sources: Sources,
+    /// What is said of the sky, where the surroundings are one.
+    pub sky: Option<SkyFacts>,
+    /// The cameras.
+    pub cameras: Vec<CameraPlan>,
+    /// What the instance ids of the ground truth stand for, from id 1.
+    pub identities: Vec<Identity>,
+    /// Names of the materials; the ground truth's material id is the place in this list, from 1.
+    pub materials: Vec<String>,
+    /// Semantic classes: name and id.
+    pub classes: Vec<(String, u32)>,
+    /// What was read and not used, what was dropped, where tables end.
+    pub remarks: Vec<Remark>,
+    /// Which keys of the files the command line makes meaningless, in sentences.
+    pub notices: Vec<String>,
+    /// Hash of all that decides the result: description, assets by content, version.
+    pub hash: [u8; 32],
+}
+
+/// A clear sky in figures, for people.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SkyFacts {
+    /// Turbidity.
+    pub turbidity: f64,
+    /// Height of the sun's centre, degrees.
+    pub sun_elevation_deg: f64,
+    /// Azimuth of the sun's centre from +x towards +y, degrees.
+    pub sun_azimuth_deg: f64,
+    /// Illuminance of level ground by the sky, lx.
+    pub sky_lx: f64,
+    /// Illuminance of level ground by the sky's own sun, lx; 0 where it is left out or down.
+    pub sun_lx: f64,
+}
+
+/// What an instance id stands for.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+pub struct Identity {
+    /// The instance's name.
+    pub name: String,
+    /// Its semantic class.
+    pub class: Option<String>,
+}
+
+impl Plan {
+    /// The camera of a name.
+    #[must_use]
+    pub fn camera(&self, name: &str) -> Option<&CameraPlan> {
+        self.cameras.iter().find(|camera| camera.name == name)
+    }
+
+    /// The hash in hexadecimal.
+    #[must_use]
+    pub fn hash_text(&self) -> String {
+        self.hash.iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}

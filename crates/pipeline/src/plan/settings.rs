@@ -1,0 +1,47 @@
+//! How the light of a camera is found.
+
+use crate::render::block::Blocks;
+use etendue_core::Bands;
+use etendue_optics::PupilProjection;
+use etendue_tracer::integrator::Level;
+
+/// The way to the sensor plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "there is one a camera, and settings that hold it stay Copy")]
+pub enum Route {
+    /// Every sample goes through the lens.
+    Lens,
+    /// Radiance at the centre of the entrance pupil in this geometry, then the lens on the picture.
+    Pupil(PupilProjection),
+}
+
+/// How the light of a camera is found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Samples a pixel.
+    pub spp: u32,
+    /// Independent replicates; divides `spp`.
+    pub replicates: u32,
+    /// How much of the light's ways is followed.
+    pub level: Level,
+    /// Greatest number of scattering events; 1 where no paths are traced.
+    pub max_bounces: u32,
+    /// Whether caustics of lamps are followed.
+    pub caustics: bool,
+    /// Wavelengths a path: 1, 4 or 8.
+    pub wavelengths: u32,
+    /// The way to the sensor plane.
+    pub route: Route,
+    /// Shortest and longest wavelength sampled, nm.
+    pub range_nm: (f64, f64),
+    /// Spectral bands, where a cube is kept.
+    pub bands: Option<Bands>,
+    /// Whether pixels fold their responsivity into electrons.
+    pub folded: bool,
+    /// Side of a tile, px.
+    pub tile_px: u32,
+    /// Pixels whose paths share their tails.
+    pub blocks: Blocks,
+    /// Seed of every random number.
+    pub seed: u64,
+}

@@ -1,0 +1,173 @@
+//! Which cameras of a plan see the same light.
+//!
+//! The light of a camera depends on where the camera stands, on its lens and what stands before it, on its film, on how light is
+//! sampled and kept, and, where pixels fold electrons, on their response to a second of light. It does not depend on
+//! exposure, noise, converter, effects behind the lens (but for the margin that they need) or processing. Cameras of equal
+//! light share one film: that of the first of them in the job, whose place is in the random addresses of all.
+
+use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan, Route, Settings};
+use crate::render::spectrum_spread::SpectrumSpread;
+use etendue_core::CameraPose;
+use etendue_optics::{Front, Lens, PupilProjection};
+use etendue_projection::Raster;
+use etendue_sensor::{Cfa, Sensor};
+use etendue_spectra::Spectrum;
+
+/// What, of a camera, its light depends on; the world is the plan's.
+#[derive(Clone, Debug, PartialEq)]
+struct LightKey<'a> {
+    pose: CameraPose,
+    optics: OpticsKey<'a>,
+    sampling: SamplingKey,
+    settings: Settings,
+    response: Option<ResponseKey<'a>>,
+}
+
+/// How rays leave the camera.
+#[derive(Clone, Debug, PartialEq)]
+enum OpticsKey<'a> {
+    Lens(Box<LensKey<'a>>),
+    Pupil(&'a PupilProjection),
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct LensKey<'a> {
+    lens: &'a Lens,
+    front: Option<&'a Front>,
+    film: Raster,
+    aperture_px: f64,
+    /// The picture itself, over which the pitch of what a mirror shows is taken.
+    mirrored: Option<&'a Raster>,
+}
+
+/// How many samples, of which seed, and whether wavelengths are spread for replicates that tell a variance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct SamplingKey {
+    spp: u32,
+    replicates: u32,
+    seed: u64,
+    spread: SpectrumSpread,
+}
+
+/// Electrons that pixels make of a second of light.
+#[derive(Clone, Debug, PartialEq)]
+struct ResponseKey<'a> {
+    filter: &'a Cfa,
+    pitch_um: f64,
+    fill_factor: f64,
+    efficiencies: Vec<&'a Spectrum>,
+}
+
+impl<'a> LightKey<'a> {
+    fn of(camera: &'a CameraPlan) -> Self {
+        let s = &camera.settings;
+        Self {
+            pose: camera.pose,
+            optics: OpticsKey::of(camera),
+            sampling: SamplingKey {
+                spp: s.spp,
+                replicates: s.replicates,
+                seed: s.seed,
+                spread: SpectrumSpread::of(camera),
+            },
+            // What has its own place in the key, and the size of a tile, which does not change the light.
+            settings: Settings { tile_px: 0, spp: 0, replicates: 0, seed: 0, route: Route::Lens, ..*s },
+            response: camera.body.sensor.as_ref().filter(|_| s.folded).map(ResponseKey::of),
+        }
+    }
+
+    /// In what two cameras differ that look at the same things by the same rays; `None` where they do not.
+    fn differences(&self, other: &Self) -> Option<Vec<&'static str>> {
+        if (self.pose, &self.optics) != (other.pose, &other.optics) {
+            return None;
+        }
+        let samples = |key: &Self| (key.sampling.spp, key.sampling.replicates, key.sampling.seed);
+        let kept = |s: &Settings| (s.bands, s.folded, s.range_nm);
+        let (a, b) = (&self.settings, &other.settings);
+        let same_kept = Settings { bands: b.bands, folded: b.folded, range_nm: b.range_nm, ..*a };
+        let unlike = [
+            (samples(self) != samples(other), "samples or seed"),
+            (kept(a) != kept(b), "what is kept of the spectrum"),
+            (
+                a.bands == b.bands && self.sampling.spread != other.sampling.spread,
+                "variance, for which replicates are independent",
+            ),
+            (same_kept != *b, "how light is followed"),
+            (self.response != other.response && a.folded && b.folded, "the response that pixels fold"),
+        ];
+        Some(unlike.iter().filter(|(unlike, _)| *unlike).map(|(_, name)| *name).collect())
+    }
+}
+
+impl<'a> OpticsKey<'a> {
+    fn of(camera: &'a CameraPlan) -> Self {
+        let CameraBody { lens, front, aperture_px, .. } = &camera.body;
+        match &camera.settings.route {
+            Route::Pupil(projection) => Self::Pupil(projection),
+            Route::Lens => Self::Lens(Box::new(LensKey {
+                lens,
+                front: front.as_ref(),
+                film: camera.body.film(),
+                aperture_px: *aperture_px,
+                mirrored: front.as_ref().map(|_| &camera.body.raster),
+            })),
+        }
+    }
+}
+
+impl<'a> ResponseKey<'a> {
+    fn of(sensor: &'a Sensor) -> Self {
+        let p = sensor.parameters();
+        Self {
+            filter: &p.cfa,
+            pitch_um: p.pixel.pitch_um,
+            fill_factor: p.pixel.fill_factor,
+            efficiencies: p.channels.iter().map(|channel| &channel.quantum_efficiency).collect(),
+        }
+    }
+}
+
+/// Gives every camera the light of the first that has the same.
+pub(crate) fn share(cameras: &mut [CameraPlan]) {
+    let owners: Vec<LightOwner> = {
+        let mut firsts: Vec<(LightKey<'_>, LightOwner)> = Vec::new();
+        let mut owner = |camera| owner_of(camera, &mut firsts);
+        cameras.iter().map(&mut owner).collect()
+    };
+    cameras.iter_mut().zip(owners).for_each(|(camera, owner)| camera.light = owner);
+}
+
+fn owner_of<'a>(camera: &'a CameraPlan, firsts: &mut Vec<(LightKey<'a>, LightOwner)>) -> LightOwner {
+    let key = LightKey::of(camera);
+    let owner = match firsts.iter().find(|(first, _)| *first == key) {
+        Some((_, owner)) => return owner.clone(),
+        None => LightOwner { camera: camera.name.clone(), index: camera.index },
+    };
+    firsts.push((key, owner.clone()));
+    owner
+}
+
+/// Why a camera has a light of its own although another before it looks at the same things by the same rays: that camera's name
+/// and what differs. `None` where there is no such camera, or the light is shared.
+pub(crate) fn why_apart<'a>(plan: &'a Plan, camera: &CameraPlan) -> Option<(&'a str, Vec<&'static str>)> {
+    let before = plan.cameras.iter().take_while(|other| other.index < camera.index);
+    let owners = before.filter(|other| other.owns_light() && other.light != camera.light);
+    let key = LightKey::of(camera);
+    let apart = owners.filter_map(|other| Some((other.name.as_str(), LightKey::of(other).differences(&key)?)));
+    camera.owns_light().then(|| apart.min_by_key(|(_, unlike)| unlike.len())).flatten()
+}
+
+impl Plan {
+    /// The cameras by their light, each group in the order of the job: one film serves a group.
+    #[must_use]
+    pub fn by_light(&self) -> Vec<Vec<&CameraPlan>> {
+        let mut groups: Vec<Vec<&CameraPlan>> = Vec::new();
+        for camera in &self.cameras {
+            match groups.iter_mut().find(|group| group[0].light == camera.light) {
+                Some(group) => group.push(camera),
+                None => groups.push(vec![camera]),
+            }
+        }
+        groups
+    }
+}

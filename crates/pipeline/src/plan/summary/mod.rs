@@ -1,0 +1,290 @@
+//! The plan in words: what is modelled, what is left out and why, what it will cost.
+
+mod depth_of_field;
+mod effects_cost;
+mod front;
+mod lens;
+mod processing;
+mod shared_light;
+mod spectrum;
+mod words;
+
+use crate::plan::remark::grouped;
+use crate::plan::{CameraPlan, Plan, Products, RawFormat, Settings, SkyFacts};
+use crate::render::block::Blocks;
+use crate::render::film::Film;
+use crate::render::{census, layout};
+use depth_of_field::depth_of_field;
+use effects_cost::Share;
+use etendue_core::{Bands, EffectStatus};
+use etendue_optics::effects::Effect;
+use etendue_sensor::dynamic_range::{DynamicRange, Switch};
+use etendue_sensor::emva1288::db;
+use etendue_tracer::geometry::Shape;
+use etendue_tracer::integrator::Level;
+use std::fmt::{self, Display, Formatter};
+use words::{count, figure, line, list};
+
+/// Displays a plan for people.
+#[derive(Clone, Copy, Debug)]
+pub struct Summary<'a>(pub &'a Plan);
+
+/// CPU time of a path of the street scene, for the estimate of the cost, s (docs/performance.md).
+const PATH_CPU_S: f64 = 3e-6;
+
+impl Display for Summary<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let plan = self.0;
+        writeln!(f, "plan {}", &plan.hash_text()[..16])?;
+        world(plan, f)?;
+        for camera in &plan.cameras {
+            writeln!(f)?;
+            self::camera(plan, camera, f)?;
+        }
+        if !plan.remarks.is_empty() {
+            writeln!(f, "\nremarks")?;
+        }
+        grouped(&plan.remarks).iter().try_for_each(|remark| writeln!(f, "  {remark}"))
+    }
+}
+
+fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
+    writeln!(f, "\nscene")?;
+    let stored: usize = plan.world.meshes().iter().map(|m| m.triangles().len()).sum();
+    let (mut seen, mut spheres) = (0, 0);
+    for instance in plan.world.instances() {
+        match instance.shape {
+            Shape::Mesh(id) => seen += plan.world.mesh(id).triangles().len(),
+            Shape::Sphere { .. } => spheres += 1,
+        }
+    }
+    let instances = plan.world.instances().len();
+    let triangles = format!("{} ({stored} stored)", count(seen, "triangle"));
+    line(f, "geometry", format!("{}, {triangles}, {}", count(instances, "instance"), count(spheres, "sphere")))?;
+    let textures = count(plan.material_table.textures().len(), "texture");
+    line(f, "materials", format!("{}, {textures}", plan.materials.len()))?;
+    if let Some(sky) = &plan.sky {
+        line(f, "sky", self::sky(sky))?;
+    }
+    line(f, "left out", "motion: nothing moves; air: it is clear; polarisation and fluorescence: not modelled")
+}
+
+fn sky(sky: &SkyFacts) -> String {
+    let SkyFacts { turbidity, sun_elevation_deg, sun_azimuth_deg, sky_lx, sun_lx } = sky;
+    let lux = |lx: &f64| if *lx >= 100.0 { format!("{lx:.0} lx") } else { format!("{lx:.3} lx") };
+    let sun = match (*sun_lx > 0.0, *sun_elevation_deg <= 0.0) {
+        (true, _) => format!("and {} of the sun", lux(sun_lx)),
+        (false, true) => "and none of the sun, which is down".to_owned(),
+        (false, false) => "and none of the sun, which is left out".to_owned(),
+    };
+    format!(
+        "turbidity {turbidity}, sun at elevation {sun_elevation_deg:.2}° and azimuth {sun_azimuth_deg:.2}°; level ground \
+         gets {} of the sky {sun}",
+        lux(sky_lx)
+    )
+}
+
+fn camera(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    writeln!(f, "camera {}", camera.name)?;
+    if let Some(text) = shared_light::light(plan, camera) {
+        line(f, "light", text)?;
+    }
+    lights(plan, camera, f)?;
+    light_paths(camera, f)?;
+    lens::lens(camera, f)?;
+    effects(camera, f)?;
+    sensor(camera, f)?;
+    processing::processing(camera, f)?;
+    line(f, "delivers", products(&camera.products))?;
+    cost(plan, camera, f)
+}
+
+fn lights(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let census = census(plan, camera);
+    let counted = [
+        (census.suns, "sun disc"),
+        (census.lamps, "lamp"),
+        (census.triangles, "glowing triangle"),
+        (census.spheres, "glowing sphere"),
+        (usize::from(census.image_environment), "surrounding picture"),
+        (usize::from(census.sky), "clear sky"),
+        (usize::from(census.uniform_environment), "uniform surrounding"),
+    ];
+    let list: Vec<String> = counted.iter().filter(|(n, _)| *n > 0).map(|(n, name)| count(*n, name)).collect();
+    line(f, "lights", if list.is_empty() { "none: the picture will be black".to_owned() } else { list.join(", ") })
+}
+
+fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let s = &camera.settings;
+    let samples = count(s.spp as usize, "sample");
+    let samples = format!("{samples} a pixel in {}", count(s.replicates as usize, "replicate"));
+    let alone =
+        if s.wavelengths == 1 && camera.body.disperses() { ", as the lens treats each differently" } else { "" };
+    let wavelengths = count(s.wavelengths as usize, "wavelength");
+    line(f, "sampling", format!("{samples}, seed {}, {wavelengths} a path{alone}", s.seed))?;
+    line(f, "paths", level(s))?;
+    if s.blocks != Blocks::SINGLE {
+        line(f, "shared", format!("tails of the paths of {} pixels, whose errors are alike", s.blocks.len_px()))?;
+    }
+    if !s.caustics {
+        line(f, "left out", "caustics of suns and lamps (light thrown by smooth surfaces on matt ones), as asked")?;
+    }
+    let cube = |bands: Bands| {
+        let noise = spectrum::band_noise(camera, bands);
+        format!("{} band means of {} nm are kept{noise}", bands.count(), bands.width_nm())
+    };
+    let kept = match (s.bands, s.folded) {
+        (Some(bands), false) => cube(bands),
+        (Some(bands), true) => format!("{}; electrons are summed beside them", cube(bands)),
+        (None, true) => "none is kept: pixels sum electrons directly".to_owned(),
+        (None, false) => "nothing is kept".to_owned(),
+    };
+    line(f, "spectrum", format!("{} to {} nm; {kept}", s.range_nm.0, s.range_nm.1))
+}
+
+fn level(settings: &Settings) -> String {
+    match settings.level {
+        Level::Flat => "none: local shading of lamps, suns and sky (level flat); shadows, reflections and light from \
+                        surface to surface are missing"
+            .to_owned(),
+        Level::Direct => "none: direct light with its shadows (level direct); reflections and light from surface to \
+                          surface are missing"
+            .to_owned(),
+        Level::Path => format!("at most {} bounces (light scattered more often is missing)", settings.max_bounces),
+    }
+}
+
+/// The irradiance effects, each with its need.
+fn effects(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let effects = &camera.body.effects;
+    let [columns, rows] = effects.margin_px();
+    let about = match (effects.is_idle(), columns + rows) {
+        (true, _) => "none on the irradiance".to_owned(),
+        (false, 0) => "on the irradiance; nothing comes from beyond the picture".to_owned(),
+        (false, _) => {
+            format!(
+                "on the irradiance, with {columns} columns and {rows} rows beyond each edge of the picture rendered"
+            )
+        }
+    };
+    line(f, "effects", about)?;
+    for effect in Effect::ALL {
+        let status = effects.status(effect);
+        line(f, "", format!("{}: {status}: {}", effect.name(), status.reason()))?;
+    }
+    Ok(())
+}
+
+fn sensor(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let raster = &camera.body.raster;
+    let size = format!("{} × {} px of {} µm", raster.width(), raster.height(), 1000.0 * raster.pitch_mm().x);
+    let Some(sensor) = &camera.body.sensor else {
+        return line(f, "sensor", format!("{size}; no electronics are described, so no electrons are made"));
+    };
+    let p = sensor.parameters();
+    line(
+        f,
+        "sensor",
+        format!(
+            "{size}, {} s, {} bits, {} e⁻ full well",
+            p.exposure.exposure_s, p.read_out.bits, p.charge.full_well.capacity_e
+        ),
+    )?;
+    let (silent, stated): (Vec<_>, Vec<_>) =
+        sensor.effects().into_iter().partition(|(_, status)| *status == EffectStatus::NotDescribed);
+    for (name, status) in stated {
+        line(f, "", format!("{name}: {status}: {}", status.reason()))?;
+    }
+    let silent: Vec<_> = silent.into_iter().map(|(name, _)| name).collect();
+    line(f, "", format!("left out, as not described: {}", silent.join(", ")))?;
+    line(f, "", range(&sensor.dynamic_range()))
+}
+
+/// What range of light a frame holds.
+fn range(range: &DynamicRange) -> String {
+    if range.most_e <= range.least_e {
+        return "dynamic range: none; the well or the converter ends below the noise".into();
+    }
+    let switch = |s: &Switch| {
+        format!("; at {:.4e} e⁻ the next capture: S/N {:.1} to {:.1} dB", s.at_e, db(s.before), db(s.after))
+    };
+    let switches: String = range.switches.iter().map(switch).collect();
+    format!("dynamic range: {:.1} dB, {:.4} to {:.4e} e⁻{switches}", range.db(), range.least_e, range.most_e)
+}
+
+fn raw_name(format: RawFormat) -> &'static str {
+    match format {
+        RawFormat::Png => "raw",
+        RawFormat::Tiff => "raw TIFF",
+        RawFormat::Dng => "raw DNG",
+    }
+}
+
+fn products(p: &Products) -> String {
+    let named = [
+        (p.radiance, "radiance"),
+        (p.irradiance, "irradiance"),
+        (p.ghosts, "ghosts"),
+        (p.variance, "variance"),
+        (p.electrons, "electrons"),
+        (p.raw, raw_name(p.raw_format)),
+        (p.signal_breakdown, "signal_breakdown"),
+        (p.picture, "picture"),
+        (p.ground_truth && !p.camera_space_position, "ground truth"),
+        (p.ground_truth && p.camera_space_position, "ground truth with positions in the camera's frame"),
+        (p.depth_png_per_m.is_some(), "depth PNG"),
+        (p.rays, "ray table"),
+        (p.undistorted.is_some(), "the undistorted twin of these"),
+    ];
+    let list: Vec<&str> = named.iter().filter(|(wanted, _)| *wanted).map(|(_, name)| *name).collect();
+    if list.is_empty() { "nothing".to_owned() } else { list.join(", ") }
+}
+
+/// What is listed beside the paths: what takes longer than this, s, or more than this share of the whole.
+const LISTED_CPU_S: f64 = 0.5;
+const LISTED_SHARE: f64 = 0.05;
+/// A whole that is too short for shares, s.
+const SHORT_CPU_S: f64 = 1.0;
+
+fn cost(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
+    let shares = effects_cost::shares(plan, camera);
+    let beside: f64 = shares.iter().map(|share| share.cpu_s).sum();
+    if let Some(server) = shared_light::server(plan, camera) {
+        line(f, "cost", format!("no paths of its own: those of camera {}", server.name))?;
+        return cost_beside(&shares, beside, f);
+    }
+    let (width, height) = camera.film_size();
+    let paths = f64::from(width) * f64::from(height) * f64::from(camera.settings.spp);
+    let film = Film::bytes(width as usize, height as usize, &layout(camera)) / 1e6;
+    let cpu = paths * PATH_CPU_S;
+    let served = shared_light::served(plan, camera);
+    line(
+        f,
+        "cost",
+        format!(
+            "{:.1} million paths, about {cpu:.0} CPU seconds at the street's rate{served}; film {film:.1} MB",
+            paths / 1e6
+        ),
+    )?;
+    cost_beside(&shares, cpu + beside, f)
+}
+
+/// What takes time beside the paths, and the whole; nothing where it is little.
+fn cost_beside(shares: &[Share], whole_s: f64, f: &mut Formatter<'_>) -> fmt::Result {
+    let least_s = LISTED_CPU_S.min(LISTED_SHARE * whole_s);
+    let listed = |share: &&Share| whole_s > SHORT_CPU_S && share.cpu_s > least_s;
+    let words = |share: &Share| {
+        let why = if share.holds_for.is_empty() { String::new() } else { format!(" ({})", share.holds_for) };
+        format!("{} {}{why}", share.name, seconds(share.cpu_s))
+    };
+    let list: Vec<String> = shares.iter().filter(|share| share.cpu_s > 0.0).filter(listed).map(words).collect();
+    if list.is_empty() {
+        return Ok(());
+    }
+    line(f, "", format!("on the film: {}; about {} CPU seconds in all", list.join(", "), seconds(whole_s)))
+}
+
+/// Seconds in words: to a tenth below ten.
+fn seconds(s: f64) -> String {
+    if s < 10.0 { format!("{s:.1}") } else { format!("{s:.0}") }
+}

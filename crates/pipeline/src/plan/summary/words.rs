@@ -1,0 +1,27 @@
+//! Lines, lists and numbers of a summary.
+
+use std::fmt::{self, Display, Formatter};
+
+/// "a, b and c".
+pub(super) fn list(words: &[&str]) -> String {
+    match words {
+        [] => "nothing".to_owned(),
+        [one] => (*one).to_owned(),
+        [some @ .., last] => format!("{} and {last}", some.join(", ")),
+    }
+}
+
+/// A number of things: "1 sphere", "2 spheres".
+pub(super) fn count(n: usize, thing: &str) -> String {
+    if n == 1 { format!("1 {thing}") } else { format!("{n} {thing}s") }
+}
+
+/// One line: a name and what is said of it.
+pub(super) fn line(f: &mut Formatter<'_>, name: &str, text: impl Display) -> fmt::Result {
+    writeln!(f, "  {name:<14} {text}")
+}
+
+/// A number as the user would write it: to four decimals.
+pub(super) fn figure(x: f64) -> f64 {
+    (x * 1e4).round() / 1e4
+}

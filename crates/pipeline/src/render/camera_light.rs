@@ -1,0 +1,204 @@
+//! Rendering a camera's light.
+
+use crate::plan::{CameraBody, CameraPlan, Plan, Route};
+use crate::render::film::Film;
+use crate::render::gather::Layout;
+use crate::render::light::{Cancelled, RaySource, RenderJob, Sampling};
+use crate::render::mosaic::Mosaic;
+use crate::render::observer::Observer;
+use crate::render::spectrum_spread::SpectrumSpread;
+use crate::render::tile::Shard;
+use etendue_core::PupilRay;
+use etendue_core::maths::f64::atan2;
+use etendue_optics::{Front, Lens, PupilProjection};
+use etendue_projection::Raster;
+use etendue_tracer::accel::Simd;
+use etendue_tracer::integrator::{PathSettings, PathTracer};
+use etendue_tracer::lights::{LightCensus, Lights};
+use etendue_tracer::render_space::RenderSpace;
+use glam::{DVec2, DVec3};
+
+/// Where paths may begin to end at random.
+const ROULETTE_START: u32 = 4;
+
+/// What a rendering is asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Request {
+    /// Which tiles.
+    pub shard: Shard,
+    /// Which instruction set the accelerator may use. It does not change the result.
+    pub simd: Simd,
+}
+
+impl Default for Request {
+    fn default() -> Self {
+        Self { shard: Shard::WHOLE, simd: Simd::Auto }
+    }
+}
+
+/// Renders the light of one camera on the caller's thread pool: irradiance and electrons through the lens, or (on the
+/// route at the pupil) radiance, for which every weight is 1.
+///
+/// # Errors
+/// [`Cancelled`] where the observer asked to stop.
+pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn Observer) -> Result<Film, Cancelled> {
+    match &camera.settings.route {
+        Route::Lens => match &camera.body.front {
+            None => through(plan, camera, request, observer, &LensSource::of(camera)),
+            Some(front) => {
+                through(plan, camera, request, observer, &FrontSource { lens: LensSource::of(camera), front })
+            }
+        },
+        Route::Pupil(projection) => through(plan, camera, request, observer, projection),
+    }
+}
+
+/// Which lights a camera's paths ask.
+#[must_use]
+pub fn census(plan: &Plan, camera: &CameraPlan) -> LightCensus {
+    lights(plan, camera, &plan.world.render_space(camera.pose.position_m)).census()
+}
+
+fn lights(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -> Lights {
+    Lights::new(view, &plan.material_table, plan.sources.clone(), camera.settings.range_nm)
+        .expect("a compiled plan names only materials that it has, and nothing moves")
+}
+
+fn through<S: RaySource>(
+    plan: &Plan,
+    camera: &CameraPlan,
+    request: Request,
+    observer: &dyn Observer,
+    source: &S,
+) -> Result<Film, Cancelled> {
+    let view = plan.world.render_space_with(camera.pose.position_m, request.simd);
+    let lights = lights(plan, camera, &view);
+    let tracer = PathTracer::new(&view, &plan.material_table, &lights, path_settings(camera));
+    let settings = &camera.settings;
+    let sensor = camera.body.sensor.as_ref().filter(|_| settings.folded);
+    let mosaic = sensor.map(|sensor| Mosaic::of(sensor, settings.range_nm, settings.bands.is_some()));
+    let exposure = exposure(camera, request, source, mosaic.as_ref());
+    match settings.wavelengths {
+        1 => exposure.gather::<1>(&tracer, observer),
+        8 => exposure.gather::<8>(&tracer, observer),
+        _ => exposure.gather::<4>(&tracer, observer),
+    }
+}
+
+fn exposure<'a, S>(
+    camera: &CameraPlan,
+    request: Request,
+    source: &'a S,
+    mosaic: Option<&'a Mosaic>,
+) -> RenderJob<'a, S> {
+    let settings = &camera.settings;
+    let (width, height) = camera.film_size();
+    RenderJob {
+        source,
+        pose: camera.pose,
+        width,
+        height,
+        aperture_px: if settings.route == Route::Lens { camera.body.aperture_px } else { 1.0 },
+        layout: layout(camera),
+        mosaic,
+        sampling: Sampling {
+            spp: settings.spp,
+            replicates: settings.replicates,
+            seed: settings.seed,
+            camera: camera.light.index,
+            low_nm: settings.range_nm.0 as f32,
+            high_nm: settings.range_nm.1 as f32,
+            spread: SpectrumSpread::of(camera),
+        },
+        blocks: settings.blocks,
+        tile_px: settings.tile_px,
+        shard: request.shard,
+    }
+}
+
+/// What a camera's film keeps.
+#[must_use]
+pub fn layout(camera: &CameraPlan) -> Layout {
+    Layout { bands: camera.settings.bands, folded: camera.settings.folded }
+}
+
+fn path_settings(camera: &CameraPlan) -> PathSettings {
+    let pitch_tan = match &camera.settings.route {
+        Route::Lens => front_pitch(&camera.body)
+            .unwrap_or_else(|| camera.body.raster.pitch_mm().x / camera.body.lens.principal_distance_mm()),
+        Route::Pupil(projection) => projection.pitch_tan(),
+    };
+    let samples = camera.settings.spp / camera.settings.replicates;
+    PathSettings {
+        level: camera.settings.level,
+        max_bounces: camera.settings.max_bounces,
+        roulette_start: ROULETTE_START,
+        samples,
+        cone_spread_rad: pitch_tan as f32 * sample_width(samples),
+        caustics: camera.settings.caustics,
+        ..PathSettings::default()
+    }
+}
+
+/// Angle between what neighbouring pixels see in a mirror, which widens the view: the median over the picture.
+fn front_pitch(body: &CameraBody) -> Option<f64> {
+    const SIDE: u32 = 24;
+    body.front.as_ref()?;
+    let size = DVec2::new(body.raster.width() as f64, body.raster.height() as f64);
+    let seen =
+        |at: DVec2| body.truth_ray(at).filter(|(ray, _)| ray.mirror_m.is_some()).map(|(ray, _)| ray.ray.direction);
+    let angle = |i: u32| {
+        let at = size * (DVec2::new(f64::from(i % SIDE), f64::from(i / SIDE)) + 0.5) / f64::from(SIDE);
+        let (a, b) = (seen(at)?, seen(at + DVec2::X)?);
+        Some(atan2(a.cross(b).length(), a.dot(b)))
+    };
+    let mut angles: Vec<f64> = (0..SIDE * SIDE).filter_map(angle).collect();
+    angles.sort_by(f64::total_cmp);
+    angles.get(angles.len() / 2).copied()
+}
+
+/// Share of a pixel's width that one of its samples stands for: together they cover the pixel once, so that textures are
+/// not averaged over the pixel twice. Not less than an eighth, to read textures in fewer places.
+fn sample_width(samples: u32) -> f32 {
+    (1.0 / (samples.max(1) as f32).sqrt()).max(0.125)
+}
+
+/// Rays through a lens.
+struct LensSource {
+    lens: Lens,
+    raster: Raster,
+}
+
+impl LensSource {
+    fn of(camera: &CameraPlan) -> Self {
+        Self { lens: camera.body.lens.clone(), raster: camera.body.film() }
+    }
+}
+
+impl RaySource for LensSource {
+    fn ray(&self, raster_px: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<PupilRay> {
+        self.lens.ray(self.raster.sensor_mm(raster_px), pupil, wavelength_nm)
+    }
+}
+
+/// Rays through a lens and what stands in front of it.
+struct FrontSource<'a> {
+    lens: LensSource,
+    front: &'a Front,
+}
+
+impl RaySource for FrontSource<'_> {
+    fn ray(&self, raster_px: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<PupilRay> {
+        let LensSource { lens, raster } = &self.lens;
+        self.front.ray(lens, raster.sensor_mm(raster_px), pupil, wavelength_nm).map(|front| front.ray)
+    }
+}
+
+/// Rays from the centre of the entrance pupil; their weight is 1, so that irradiance reads as radiance. Pixels between the
+/// views of a cube have none.
+impl RaySource for PupilProjection {
+    fn ray(&self, raster_px: DVec2, _pupil: DVec2, _wavelength_nm: f64) -> Option<PupilRay> {
+        let direction = self.direction(raster_px)?;
+        Some(PupilRay { origin_m: DVec3::ZERO, direction, weight_sr: 1.0 })
+    }
+}

@@ -1,0 +1,318 @@
+//! The light of a frame: every pixel's samples sent into a radiance field and gathered on the film.
+
+use crate::render::block::Blocks;
+use crate::render::film::Film;
+use crate::render::gather::{Gather, Layout};
+use crate::render::mosaic::{Mosaic, Site};
+use crate::render::observer::Observer;
+use crate::render::spectrum_spread::{Heroes, SpectrumSpread};
+use crate::render::tile::{Shard, Tile, tiles};
+use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
+use etendue_core::{CameraPose, FieldRay, PupilRay, RadianceField, Ray, Spectral, Wavelengths};
+use glam::DVec2;
+use rayon::prelude::*;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// How a raster point becomes a ray: through a lens, or from the centre of the entrance pupil.
+pub trait RaySource: Sync {
+    /// The ray of a raster point (px) through the pupil sample (in [0, 1)²) at `wavelength_nm`, in the camera frame.
+    /// `None` where the lens stops it.
+    fn ray(&self, raster_px: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<PupilRay>;
+}
+
+/// How densely light is sampled, and by which random addresses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampling {
+    /// Samples a pixel, over all replicates.
+    pub spp: u32,
+    /// Independently scrambled replicates; divides `spp`.
+    pub replicates: u32,
+    /// The job's seed.
+    pub seed: u64,
+    /// The place in the job of the camera whose light it is.
+    pub camera: u32,
+    /// Shortest wavelength sampled, nm.
+    pub low_nm: f32,
+    /// Longest wavelength sampled, nm.
+    pub high_nm: f32,
+    /// How wavelengths lie over the spectrum.
+    pub spread: SpectrumSpread,
+}
+
+/// What a frame's light is gathered from and into.
+#[derive(Debug)]
+pub struct RenderJob<'a, S> {
+    /// Makes the rays.
+    pub source: &'a S,
+    /// Where the camera stands.
+    pub pose: CameraPose,
+    /// Columns of the film.
+    pub width: u32,
+    /// Rows of the film.
+    pub height: u32,
+    /// Side of a pixel's photosensitive area, in pixels (the root of the fill factor).
+    pub aperture_px: f64,
+    /// What is kept.
+    pub layout: Layout,
+    /// Responsivities to fold, where electrons are folded.
+    pub mosaic: Option<&'a Mosaic>,
+    /// Samples and addresses.
+    pub sampling: Sampling,
+    /// Pixels whose paths share their tails.
+    pub blocks: Blocks,
+    /// Side of a tile, px, that cuts no block. It does not change the result.
+    pub tile_px: u32,
+    /// Which tiles to render; the others stay zero.
+    pub shard: Shard,
+}
+
+/// One sample of each pixel of a block, while it is answered.
+#[derive(Default)]
+struct Asked<const N: usize> {
+    /// Pixels that light reaches, by their place in the block, and the weights of their rays.
+    pixels: Vec<(usize, f64)>,
+    rays: Vec<FieldRay>,
+    radiance: Vec<Spectral<N>>,
+}
+
+impl<const N: usize> Asked<N> {
+    fn clear(&mut self) {
+        self.pixels.clear();
+        self.rays.clear();
+        self.radiance.clear();
+    }
+}
+
+/// The caller asked to stop before the film was complete.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the rendering was cancelled")]
+pub struct Cancelled;
+
+impl<S: RaySource> RenderJob<'_, S> {
+    /// Renders the shard's tiles in parallel on the caller's thread pool.
+    ///
+    /// # Errors
+    /// [`Cancelled`] where the observer asked to stop.
+    pub fn gather<const N: usize>(
+        &self,
+        field: &impl RadianceField<N>,
+        observer: &dyn Observer,
+    ) -> Result<Film, Cancelled> {
+        let film = Mutex::new(self.empty_film());
+        let tiles = tiles(self.width, self.height, self.tile_px, self.shard);
+        let done = AtomicUsize::new(0);
+        tiles.par_iter().try_for_each(|tile| {
+            if observer.cancelled() {
+                return Err(Cancelled);
+            }
+            self.gather_tile(field, *tile, &film);
+            observer.tiles(done.fetch_add(1, Ordering::Relaxed) + 1, tiles.len());
+            Ok(())
+        })?;
+        Ok(film.into_inner().expect("no tile panicked"))
+    }
+
+    fn empty_film(&self) -> Film {
+        let Sampling { spp, replicates, .. } = self.sampling;
+        Film::new(self.width as usize, self.height as usize, &self.layout, spp, replicates)
+    }
+
+    /// Gathers a tile's pixels, then stores them together: the film is locked once a tile.
+    fn gather_tile<const N: usize>(&self, field: &impl RadianceField<N>, tile: Tile, film: &Mutex<Film>) {
+        let pixels: Vec<_> = self.blocks.of(tile).flat_map(|block| self.gather_block(field, &block)).collect();
+        let mut film = film.lock().expect("no tile panicked");
+        pixels.iter().for_each(|(pixel, gather)| film.store(*pixel, gather));
+    }
+
+    /// Gathers the pixels of a block, sample by sample.
+    fn gather_block<const N: usize>(&self, field: &impl RadianceField<N>, block: &[Pixel]) -> Vec<(Pixel, Gather)> {
+        let mut gathers: Vec<_> = block.iter().map(|pixel| (*pixel, Gather::new(self.layout.clone()))).collect();
+        let mut asked = Asked::default();
+        let samples = self.sampling.spp / self.sampling.replicates;
+        for replicate in 0..self.sampling.replicates {
+            let streams: Vec<_> = block.iter().map(|p| PathStream::new(&self.address(*p, replicate), 0)).collect();
+            let heroes = self.heroes(block[0], replicate);
+            for sample in 0..samples {
+                self.add_samples(field, (&streams, &heroes), sample, &mut asked, &mut gathers);
+            }
+            gathers.iter_mut().for_each(|(_, gather)| gather.end_replicate(samples));
+        }
+        gathers
+    }
+
+    fn address(&self, pixel: Pixel, replicate: u32) -> PixelAddress {
+        let Sampling { seed, camera, .. } = self.sampling;
+        PixelAddress { frame: FrameAddress { seed, camera, ..FrameAddress::default() }, pixel, replicate }
+    }
+
+    /// The wavelengths of a replicate of a block, which are those of its first pixel.
+    fn heroes(&self, pixel: Pixel, replicate: u32) -> Heroes {
+        let Sampling { spp, replicates, spread, .. } = self.sampling;
+        Heroes::new(spread, &self.address(pixel, replicate), spp / replicates, replicates)
+    }
+
+    /// One sample of each pixel of a block.
+    fn add_samples<const N: usize>(
+        &self,
+        field: &impl RadianceField<N>,
+        (streams, heroes): (&[PathStream], &Heroes),
+        sample: u32,
+        asked: &mut Asked<N>,
+        gathers: &mut [(Pixel, Gather)],
+    ) {
+        asked.clear();
+        let site = self.mosaic.map(|mosaic| mosaic.at(gathers[0].0));
+        let wavelengths = self.wavelengths::<N>(site, heroes.number(&streams[0].with_sample(sample), N));
+        for (index, (stream, (pixel, _))) in streams.iter().zip(gathers.iter()).enumerate() {
+            let stream = stream.with_sample(sample);
+            if let Some(pupil_ray) = self.pupil_ray(*pixel, &stream, wavelengths.nm[0]) {
+                asked.pixels.push((index, pupil_ray.weight_sr));
+                asked.rays.push(FieldRay { ray: self.to_render(&pupil_ray), stream });
+            }
+        }
+        field.radiance_of_group(&asked.rays, &wavelengths, &mut asked.radiance);
+        for ((index, weight_sr), radiance) in asked.pixels.iter().zip(&asked.radiance) {
+            gathers[*index].1.add(*weight_sr, *radiance, &wavelengths, site.map(|s| &s.responsivity));
+        }
+    }
+
+    /// The ray of a sample; `None` where the lens stops it.
+    fn pupil_ray(&self, pixel: Pixel, stream: &PathStream, hero_nm: f32) -> Option<PupilRay> {
+        let area = stream.two(Draw::PixelArea, 0).as_dvec2() - 0.5;
+        let raster = DVec2::new(f64::from(pixel.x), f64::from(pixel.y)) + 0.5 + area * self.aperture_px;
+        self.source.ray(raster, stream.two(Draw::Pupil, 0).as_dvec2(), f64::from(hero_nm))
+    }
+
+    /// A pixel that folds its responsivity draws wavelengths by it.
+    fn wavelengths<const N: usize>(&self, site: Option<&Site>, u: f32) -> Wavelengths<N> {
+        let Sampling { low_nm, high_nm, .. } = self.sampling;
+        match site {
+            Some(site) => site.density.draw(u),
+            None => Wavelengths::uniform(low_nm, high_nm, u),
+        }
+    }
+
+    fn to_render(&self, ray: &PupilRay) -> Ray {
+        let origin = self.pose.point_to_render(ray.origin_m).as_vec3();
+        Ray::new(origin, self.pose.direction_to_world(ray.direction).as_vec3().normalize(), 0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::observer::Unobserved;
+    use etendue_core::Bands;
+    use etendue_core::field::ConstantField;
+    use glam::{DMat3, DVec3};
+
+    struct Half;
+
+    impl RaySource for Half {
+        fn ray(&self, raster_px: DVec2, _pupil: DVec2, _wavelength_nm: f64) -> Option<PupilRay> {
+            let ray = PupilRay { origin_m: DVec3::ZERO, direction: DVec3::Z, weight_sr: 0.25 };
+            (raster_px.x < 4.0).then_some(ray)
+        }
+    }
+
+    fn exposure(tile_px: u32, shard: Shard) -> RenderJob<'static, Half> {
+        let bands = Bands::covering(400.0, 700.0, 50.0);
+        RenderJob {
+            source: &Half,
+            pose: CameraPose { position_m: DVec3::ZERO, rotation: DMat3::IDENTITY },
+            width: 9,
+            height: 5,
+            aperture_px: 1.0,
+            layout: Layout { bands, folded: false },
+            mosaic: None,
+            sampling: Sampling {
+                spp: 64,
+                replicates: 2,
+                seed: 3,
+                camera: 0,
+                low_nm: 400.0,
+                high_nm: 700.0,
+                spread: SpectrumSpread::EachReplicate,
+            },
+            blocks: Blocks::SINGLE,
+            tile_px,
+            shard,
+        }
+    }
+
+    fn film(tile_px: u32, shard: Shard) -> Film {
+        exposure(tile_px, shard).gather::<4>(&ConstantField { radiance: 2.0 }, &Unobserved).expect("not cancelled")
+    }
+
+    #[test]
+    fn a_stopped_pixel_is_dark_and_an_open_one_sees_weight_times_radiance() {
+        let film = film(4, Shard::WHOLE);
+        let cube = film.cube.as_ref().expect("a cube");
+        let sum = |x: usize| cube.mean.planes().iter().map(|p| p.at(x, 2)).sum::<f32>() / 6.0;
+        assert!((sum(1) - 0.5).abs() < 1e-6, "the mean over all bands is exact: {}", sum(1));
+        assert_eq!(sum(7), 0.0);
+        assert_eq!(film.radiance().expect("a cube").mean.planes()[0].at(7, 2), 0.0);
+    }
+
+    #[test]
+    fn tiles_and_shards_do_not_change_the_film() {
+        let whole = film(16, Shard::WHOLE);
+        assert_eq!(film(2, Shard::WHOLE), whole);
+        let mut joined = exposure(2, Shard::WHOLE).empty_film();
+        for index in 0..3 {
+            let shard = Shard::new(index, 3).expect("a shard");
+            let part = film(2, shard);
+            tiles(9, 5, 2, shard).into_iter().for_each(|tile| joined.copy_tile(tile, &part));
+        }
+        assert_eq!(joined, whole);
+    }
+
+    /// All values of the lit pixels of an even field of radiance 1 over a weight of 0.25, in bands of 5 nm.
+    fn bands(spp: u32, replicates: u32, spread: SpectrumSpread) -> Vec<f64> {
+        let mut exposure = exposure(16, Shard::WHOLE);
+        exposure.width = 64;
+        exposure.height = 40;
+        exposure.layout.bands = Bands::covering(380.0, 780.0, 5.0);
+        let (low_nm, high_nm) = (380.0, 780.0);
+        exposure.sampling = Sampling { spp, replicates, low_nm, high_nm, spread, ..exposure.sampling };
+        let film = exposure.gather::<4>(&ConstantField { radiance: 4.0 }, &Unobserved).expect("not cancelled");
+        let cube = film.cube.expect("a cube");
+        let lit =
+            |y: usize, x: usize| cube.mean.planes().iter().map(move |p| f64::from(p.at(x, y))).collect::<Vec<_>>();
+        (0..40).flat_map(|y| (0..4).flat_map(move |x| lit(y, x)).collect::<Vec<_>>()).collect()
+    }
+
+    fn moments(values: &[f64]) -> (f64, f64) {
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let square = values.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>();
+        (mean, (square / values.len() as f64).sqrt())
+    }
+
+    /// 64 wavelengths of 80 bands: none or one in each, where drawn ones left 0 to 7.5.
+    #[test]
+    fn bands_of_even_light_are_met_as_evenly_as_wavelengths_allow() {
+        let even = bands(16, 4, SpectrumSpread::AllReplicates);
+        assert!(even.iter().all(|v| *v == 0.0 || (v - 1.25).abs() < 1e-5), "{:?}", moments(&even));
+        let drawn = bands(16, 4, SpectrumSpread::Drawn);
+        assert!(drawn.iter().any(|v| *v > 4.0), "{:?}", moments(&drawn));
+        // 320 wavelengths: four in every band.
+        assert!(bands(80, 4, SpectrumSpread::AllReplicates).iter().all(|v| (v - 1.0).abs() < 1e-5));
+    }
+
+    #[test]
+    fn the_noise_of_a_band_is_the_foretold_one_and_its_mean_the_light() {
+        for (spp, replicates, spread) in [
+            (16, 4, SpectrumSpread::AllReplicates),
+            (48, 2, SpectrumSpread::AllReplicates),
+            (16, 4, SpectrumSpread::EachReplicate),
+            (64, 4, SpectrumSpread::EachReplicate),
+        ] {
+            let values = bands(spp, replicates, spread);
+            let ((mean, noise), n) = (moments(&values), values.len() as f64);
+            let told = spread.band_noise(spp, replicates, 4, 5.0 / 400.0).expect("spread");
+            assert!((mean - 1.0).abs() < 5.0 * told / n.sqrt() + 1e-6, "{spread:?} {spp}: {mean}");
+            assert!((noise / told - 1.0).abs() < 0.05, "{spread:?} {spp}: {noise} for {told}");
+        }
+    }
+}

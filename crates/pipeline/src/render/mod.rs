@@ -1,0 +1,23 @@
+//! Rendering: from a plan to the light of a camera, tile by tile.
+//!
+//! # Contract
+//! - [`light`](light()) renders one camera of a plan and answers with a [`film::Film`]: spectral irradiance (W·m⁻²·nm⁻¹) or mean
+//!   electrons a second through the lens, spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) on the route at the pupil, with the variance of the means.
+//! - [`truth`], [`rays`] and [`pupil_depth`] are point-sampled beside it, along principal rays.
+//! - Every pixel has one owner and its own random address: the result depends on neither threads, nor tiles, nor shards.
+//! - Work runs on the caller's rayon pool, under the caller's [`observer::Observer`].
+
+pub mod block;
+mod camera_light;
+pub mod film;
+pub mod gather;
+pub mod light;
+pub mod mosaic;
+pub mod observer;
+pub mod pupil_depth;
+pub mod rays;
+pub mod spectrum_spread;
+pub mod tile;
+pub mod truth;
+
+pub use camera_light::{Request, census, layout, light};

@@ -1,0 +1,42 @@
+//! How far off the scene is, as seen from the centre of the entrance pupil: the ground truth of a stored radiance image.
+//!
+//! One ray through the centre of each stored pixel, never filtered. A picture takes the stored pixel nearest to each of its
+//! own, which looks at most half a stored pixel's diagonal elsewhere (exactly where it does, without distortion): on a surface
+//! seen under the angle α from its normal distances are right to tan α times that angle.
+
+use crate::plan::{CameraPlan, Plan, Route};
+use crate::render::truth::{Seen, seen};
+use etendue_core::quantity::Length;
+use etendue_core::{Plane, PupilRay};
+use etendue_optics::FrontRay;
+use etendue_tracer::accel::Simd;
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+/// Distances of what the pixels of a stored radiance image see.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PupilDepth {
+    /// Along the pixel's ray from the pupil's centre, m; +∞ for the sky, NaN between views.
+    pub distance: Plane<Length>,
+    /// Along the optical axis, m; +∞ for the sky, NaN between views and where a pixel does not look ahead.
+    pub depth: Plane<Length>,
+}
+
+/// The distances of a camera whose route is at the pupil, on the caller's pool; `None` through the lens.
+#[must_use]
+pub fn pupil_depth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> Option<PupilDepth> {
+    let Route::Pupil(projection) = &camera.settings.route else { return None };
+    let (width, height) = (projection.width(), projection.height());
+    let view = plan.world.render_space_with(camera.pose.position_m, simd);
+    let look = |i: usize| {
+        let direction = projection.direction(DVec2::new((i % width) as f64, (i / width) as f64) + 0.5);
+        direction.map_or(Seen::Nothing, |direction| {
+            let ray = PupilRay { origin_m: DVec3::ZERO, direction, weight_sr: 1.0 };
+            seen(&view, &plan.material_table, camera, &FrontRay::bare(ray))
+        })
+    };
+    let pairs = (0..width * height).into_par_iter().map(look).map(|seen| (seen.distance(), seen.depth()));
+    let (distance, depth): (Vec<f32>, Vec<f32>) = pairs.unzip();
+    let plane = |samples| Plane::from_samples(width, height, samples).expect("one sample a pixel");
+    Some(PupilDepth { distance: plane(distance), depth: plane(depth) })
+}

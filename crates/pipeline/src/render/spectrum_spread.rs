@@ -1,0 +1,106 @@
+//! How the wavelengths of a pixel's samples lie over its spectrum.
+//!
+//! A path's N wavelengths are rotations of one number by steps of 1/N in the cumulative distribution that they are drawn by.
+//! Where a spectral cube is the product, that number is taken so that all N · n wavelengths of n samples lie at equal steps:
+//! every band is met as evenly as so many wavelengths can meet it. Which of the N is the hero stays a draw of the path.
+//! Each wavelength alone is drawn by the density, and the sum over a path's wavelengths stays unbiased.
+//!
+//! Replicates that tell the variance must be independent: each is spread by itself. Where nobody asks for the variance, the
+//! wavelengths of all replicates are spread together, which leaves less noise.
+
+use crate::plan::{CameraPlan, Settings};
+use crate::render::mosaic::UNIFORM_SHARE_WITH_BANDS;
+use etendue_core::Bands;
+use etendue_core::random::{Draw, EvenNumbers, PathStream, PixelAddress};
+
+/// Over what wavelengths are spread.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpectrumSpread {
+    /// Each replicate's heroes are a stratified sequence: what pixels that fold electrons draw.
+    Drawn,
+    /// The wavelengths of each replicate lie at equal steps.
+    EachReplicate,
+    /// The wavelengths of all replicates together lie at equal steps.
+    AllReplicates,
+}
+
+impl SpectrumSpread {
+    /// What a camera's light asks for.
+    #[must_use]
+    pub fn of(camera: &CameraPlan) -> Self {
+        match (camera.settings.bands, camera.products.variance) {
+            (None, _) => Self::Drawn,
+            (Some(_), true) => Self::EachReplicate,
+            (Some(_), false) => Self::AllReplicates,
+        }
+    }
+
+    /// Groups of samples that are spread, each independently.
+    fn groups(self, replicates: u32) -> u32 {
+        if self == Self::AllReplicates { 1 } else { replicates }
+    }
+
+    /// Standard deviation of a band of an even spectrum in even light over its mean, by the choice of `wavelengths` a path
+    /// alone: a part `share` of the density falls in the band. Of ⌊m⌋ or ⌈m⌉ wavelengths in the band, m their mean in a group,
+    /// the variance is f (1 − f), f the fraction of m. `None` where wavelengths are drawn.
+    #[must_use]
+    pub fn band_noise(self, spp: u32, replicates: u32, wavelengths: u32, share: f64) -> Option<f64> {
+        let (mean, groups) = self.in_band(spp, replicates, wavelengths, share)?;
+        let fraction = (mean - (mean + 1e-9).floor()).max(0.0);
+        Some((fraction * (1.0 - fraction) / groups).sqrt() / mean)
+    }
+
+    /// The most that [`SpectrumSpread::band_noise`] may be where at least a part `share` of the density falls in the band.
+    #[must_use]
+    pub fn most_band_noise(self, spp: u32, replicates: u32, wavelengths: u32, share: f64) -> Option<f64> {
+        let (mean, groups) = self.in_band(spp, replicates, wavelengths, share)?;
+        let fraction = mean.min(0.5);
+        Some((fraction * (1.0 - fraction) / groups).sqrt() / mean)
+    }
+
+    /// Mean wavelengths of a group in a band, and the groups.
+    fn in_band(self, spp: u32, replicates: u32, wavelengths: u32, share: f64) -> Option<(f64, f64)> {
+        let groups = f64::from(self.groups(replicates));
+        (self != Self::Drawn).then(|| (f64::from(spp) * f64::from(wavelengths) * share / groups, groups))
+    }
+}
+
+/// The least part of the density of wavelengths that falls in a band: where electrons are folded beside bands, half of the
+/// density is by the pixel's response, which may be nothing there.
+#[must_use]
+pub fn band_share(settings: &Settings, bands: Bands) -> f64 {
+    let even = bands.width_nm() / (settings.range_nm.1 - settings.range_nm.0);
+    if settings.folded { UNIFORM_SHARE_WITH_BANDS * even } else { even }
+}
+
+/// The numbers of a replicate's wavelengths.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Heroes {
+    even: Option<EvenNumbers>,
+    /// The first sample's place among those that are spread together.
+    first: u32,
+}
+
+impl Heroes {
+    /// Those of the replicate of `address`, which has `samples` samples, of `replicates`.
+    pub(crate) fn new(spread: SpectrumSpread, address: &PixelAddress, samples: u32, replicates: u32) -> Self {
+        let (even, first) = match spread {
+            SpectrumSpread::Drawn => (None, 0),
+            SpectrumSpread::EachReplicate => (Some(EvenNumbers::new(address, samples)), 0),
+            SpectrumSpread::AllReplicates => {
+                let all = PixelAddress { replicate: 0, ..*address };
+                (Some(EvenNumbers::new(&all, samples * replicates)), address.replicate * samples)
+            }
+        };
+        Self { even, first }
+    }
+
+    /// The number from which a sample's `wavelengths` wavelengths are drawn, in [0, 1).
+    pub(crate) fn number(&self, stream: &PathStream, wavelengths: usize) -> f32 {
+        let drawn = stream.one(Draw::Wavelength, 0);
+        let Some(even) = &self.even else { return drawn };
+        let n = wavelengths as f64;
+        let rotation = (f64::from(drawn) * n).floor();
+        (((rotation + even.at(self.first + stream.sample())) / n) as f32).min(1.0_f32.next_down())
+    }
+}

@@ -1,0 +1,197 @@
+//! Ground truth: what each pixel's principal ray meets. Point-sampled, never filtered: a surface that is cut out by its
+//! opacity is there where at least half of it is.
+
+use crate::plan::{CameraBody, CameraPlan, Plan};
+use etendue_core::Plane;
+use etendue_core::quantity::{Identity, Length, Quantity, Vector};
+use etendue_optics::front::{FrontRay, Optic};
+use etendue_tracer::accel::Simd;
+use etendue_tracer::geometry::SurfacePoint;
+use etendue_tracer::materials::MaterialTable;
+use etendue_tracer::render_space::{RenderSpace, Truth};
+use etendue_tracer::textures::Lookup;
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+/// Planes of ground truth, in the raster of the picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GroundTruth {
+    /// Distance along the camera's axis from the entrance pupil, m; +∞ for the sky, NaN where no principal ray passes and
+    /// where it looks sideways or back or at a mirror, so that depth along the axis means nothing.
+    pub depth: Plane<Length>,
+    /// Distance along the pixel's ray from its origin (which the ray table states; the centre of the entrance pupil but for
+    /// real pupils, which move with the field), m; through a mirror the whole path from the pupil. +∞ for the sky, NaN
+    /// where no ray passes.
+    pub distance: Plane<Length>,
+    /// Unit shading normal in the world; zero for the sky.
+    pub normal: Plane<Vector>,
+    /// Position in the world, m; zero for the sky.
+    pub position: Plane<Vector>,
+    /// Position in the camera's frame, m; z is negative behind the camera; zero for the sky. `None` where it is not asked for.
+    pub camera_space_position: Option<Plane<Vector>>,
+    /// Instance ids; 0 is the background.
+    pub instance: Plane<Identity>,
+    /// Class ids; 0 is the background and what has no class.
+    pub semantic: Plane<Identity>,
+    /// Places in the plan's list of materials, from 1; 0 is the background.
+    pub material: Plane<Identity>,
+    /// By which ray the pixel looks: 0 none passes the lens, 1 the principal ray, 2 that is clipped and the ray through
+    /// the centroid of the open pupil is taken.
+    pub ray: Plane<Identity>,
+    /// Of a camera with a mirror: where the ray meets it, in the camera frame, m; NaN where it does not.
+    pub mirror: Option<Plane<Vector>>,
+}
+
+/// What one pixel sees.
+pub(crate) enum Seen {
+    /// No principal ray: the lens stops it.
+    Nothing,
+    Sky {
+        ahead: bool,
+    },
+    Surface {
+        depth_m: f64,
+        distance_m: f64,
+        truth: Truth,
+    },
+}
+
+/// A pixel's ray and what it meets.
+struct Look {
+    /// As [`GroundTruth::ray`].
+    ray: u32,
+    seen: Seen,
+    mirror_m: Option<DVec3>,
+}
+
+/// The ground truth of a camera, along the principal rays (587.56 nm) of its pixels' centres, on the caller's pool.
+/// Where the lens clips that ray but lets light through, the ray through the centroid of the open pupil is used.
+#[must_use]
+pub fn ground_truth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> GroundTruth {
+    let raster = &camera.body.raster;
+    let (width, height) = (raster.width(), raster.height());
+    let view = plan.world.render_space_with(camera.pose.position_m, simd);
+    let looks: Vec<Look> = (0..width * height)
+        .into_par_iter()
+        .map(|i| look(&view, &plan.material_table, camera, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
+        .collect();
+    GroundTruth {
+        depth: plane(&looks, width, height, |l| l.seen.depth()),
+        distance: plane(&looks, width, height, |l| l.seen.distance()),
+        normal: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.normal)),
+        position: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.position_m)),
+        camera_space_position: camera.products.camera_space_position.then(|| {
+            let in_camera = |truth: &Truth| camera.pose.point_to_camera(truth.position_m);
+            plane(&looks, width, height, |l| l.seen.vector(in_camera))
+        }),
+        instance: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.instance_id)),
+        semantic: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.semantic_id)),
+        material: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.material + 1)),
+        ray: plane(&looks, width, height, |l| l.ray),
+        mirror: has_mirror(camera).then(|| plane(&looks, width, height, Look::mirror)),
+    }
+}
+
+fn has_mirror(camera: &CameraPlan) -> bool {
+    matches!(camera.body.front.as_ref().and_then(|front| front.optic()), Some(Optic::Mirror(_)))
+}
+
+/// Whether some pixels look sideways, back or at a mirror, where depth along the axis means nothing: of a grid over the picture, its
+/// edges included.
+pub(crate) fn depth_has_gaps(body: &CameraBody) -> bool {
+    const STEPS: usize = 16;
+    let at = |i: usize, size: usize| (i * (size - 1)) as f64 / STEPS as f64 + 0.5;
+    let pixels = (0..=STEPS).flat_map(|y| (0..=STEPS).map(move |x| (x, y)));
+    let mut rays = pixels.filter_map(|(x, y)| {
+        body.truth_ray(DVec2::new(at(x, body.raster.width()), at(y, body.raster.height()))).map(|(front, _)| front)
+    });
+    rays.any(|front| !has_planar_depth(&front))
+}
+
+fn has_planar_depth(front: &FrontRay) -> bool {
+    front.ray.direction.z > 0.0 && front.mirror_m.is_none()
+}
+
+fn look(view: &RenderSpace<'_>, material_table: &MaterialTable, camera: &CameraPlan, raster_px: DVec2) -> Look {
+    match camera.body.truth_ray(raster_px) {
+        None => Look { ray: 0, seen: Seen::Nothing, mirror_m: None },
+        Some((front, off_centre)) => Look {
+            ray: 1 + u32::from(off_centre),
+            seen: seen(view, material_table, camera, &front),
+            mirror_m: front.mirror_m,
+        },
+    }
+}
+
+/// What a ray that left a camera meets.
+pub(crate) fn seen(
+    view: &RenderSpace<'_>,
+    material_table: &MaterialTable,
+    camera: &CameraPlan,
+    front: &FrontRay,
+) -> Seen {
+    let ray = &front.ray;
+    let direction = camera.pose.direction_to_world(ray.direction);
+    let ahead = has_planar_depth(front);
+    match view
+        .truth(camera.pose.point_to_render(ray.origin_m), direction, |point| is_there(view, material_table, point))
+    {
+        None => Seen::Sky { ahead },
+        Some(truth) => {
+            let depth_m = if ahead { truth.distance_m * ray.direction.z + ray.origin_m.z } else { f64::NAN };
+            Seen::Surface { depth_m, distance_m: truth.distance_m + front.path_m, truth }
+        }
+    }
+}
+
+/// Whether a pixel sees a surface that may be cut out: where at least half of it is there. Panes of glass are seen.
+fn is_there(view: &RenderSpace<'_>, material_table: &MaterialTable, point: &SurfacePoint) -> bool {
+    if !material_table.lets_pass(point.material) {
+        return true;
+    }
+    let origin = view.local_origin(point.instance);
+    let at = Lookup { local: point.local, origin, local_normal: point.local_normal, ..Lookup::point(point.uv) };
+    material_table.opacity(point.material, &at) >= 0.5
+}
+
+fn plane<Q: Quantity>(looks: &[Look], width: usize, height: usize, of: impl Fn(&Look) -> Q::Sample) -> Plane<Q> {
+    Plane::from_samples(width, height, looks.iter().map(of).collect()).expect("one sample a pixel")
+}
+
+impl Look {
+    fn mirror(&self) -> [f32; 3] {
+        self.mirror_m.map_or([f32::NAN; 3], |m| m.as_vec3().to_array())
+    }
+}
+
+impl Seen {
+    pub(crate) fn depth(&self) -> f32 {
+        match self {
+            Self::Nothing | Self::Sky { ahead: false } => f32::NAN,
+            Self::Sky { ahead: true } => f32::INFINITY,
+            Self::Surface { depth_m, .. } => *depth_m as f32,
+        }
+    }
+
+    pub(crate) fn distance(&self) -> f32 {
+        match self {
+            Self::Nothing => f32::NAN,
+            Self::Sky { .. } => f32::INFINITY,
+            Self::Surface { distance_m, .. } => *distance_m as f32,
+        }
+    }
+
+    fn vector(&self, of: impl Fn(&Truth) -> DVec3) -> [f32; 3] {
+        match self {
+            Self::Surface { truth, .. } => of(truth).as_vec3().to_array(),
+            Self::Nothing | Self::Sky { .. } => [0.0; 3],
+        }
+    }
+
+    fn identity(&self, of: impl Fn(&Truth) -> u32) -> u32 {
+        match self {
+            Self::Surface { truth, .. } => of(truth),
+            Self::Nothing | Self::Sky { .. } => 0,
+        }
+    }
+}

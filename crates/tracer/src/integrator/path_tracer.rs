@@ -1,0 +1,56 @@
+//! What a path tracer asks: a view, its materials and its lights.
+
+use super::level::Level;
+use super::medium::Medium;
+use super::settings::PathSettings;
+use super::surroundings::Surroundings;
+use crate::lights::Lights;
+use crate::materials::MaterialTable;
+use crate::render_space::RenderSpace;
+
+/// Answers rays of a view with spectral radiance.
+#[derive(Clone, Copy, Debug)]
+pub struct PathTracer<'a> {
+    pub(super) view: &'a RenderSpace<'a>,
+    pub(super) material_table: &'a MaterialTable,
+    pub(super) lights: &'a Lights,
+    pub(super) settings: PathSettings,
+    /// What the entrance pupil lies in: paths begin there.
+    pub(super) medium: Medium<'a>,
+}
+
+impl<'a> PathTracer<'a> {
+    /// A path tracer of a view with the materials that its instances name; `lights` must be collected from the same
+    /// view and material_table.
+    #[must_use]
+    pub fn new(
+        view: &'a RenderSpace<'a>,
+        material_table: &'a MaterialTable,
+        lights: &'a Lights,
+        settings: PathSettings,
+    ) -> Self {
+        let solid = Surroundings::of(view, material_table).solid;
+        let medium = Medium::inside(solid.and_then(|id| material_table.absorption(id)));
+        Self { view, material_table, lights, settings, medium }
+    }
+
+    /// How paths are followed.
+    #[must_use]
+    pub fn settings(&self) -> &PathSettings {
+        &self.settings
+    }
+
+    /// Scattering events that a path may have.
+    pub(super) fn max_bounces(&self) -> u32 {
+        match self.settings.level {
+            Level::Flat | Level::Direct => 1,
+            Level::Path => self.settings.max_bounces,
+        }
+    }
+
+    /// The lights.
+    #[must_use]
+    pub fn lights(&self) -> &'a Lights {
+        self.lights
+    }
+}

@@ -1,0 +1,39 @@
+//! How paths are followed.
+
+use super::level::Level;
+use super::mis::Strategies;
+
+/// How paths are followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathSettings {
+    /// How much of light transport is followed.
+    pub level: Level,
+    /// Greatest number of scattering events; of the level [`Level::Path`] alone.
+    pub max_bounces: u32,
+    /// Scattering events after which paths may end at random.
+    pub roulette_start: u32,
+    /// Samples of a replicate: paths that share their tails take turns over them.
+    pub samples: u32,
+    /// Full angle of the cone that a camera ray stands for, rad: that of a pixel over the root of its samples. Chooses the
+    /// resolution of textures.
+    pub cone_spread_rad: f32,
+    /// Which ways of finding light are used.
+    pub strategies: Strategies,
+    /// Whether light of suns and glowing surfaces that smooth surfaces throw on matt ones is followed (`caustic.rs`).
+    /// Without it the picture is darker by that light, and free of the rare bright samples that find it.
+    pub caustics: bool,
+}
+
+impl Default for PathSettings {
+    fn default() -> Self {
+        Self {
+            level: Level::Path,
+            max_bounces: 16,
+            roulette_start: 4,
+            samples: 1,
+            cone_spread_rad: 0.0,
+            strategies: Strategies::Both,
+            caustics: true,
+        }
+    }
+}

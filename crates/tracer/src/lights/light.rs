@@ -1,0 +1,19 @@
+//! A light in the scene: the closed list.
+
+use super::lamp::LampLight;
+use super::sphere::SphereLight;
+use super::triangle::TriangleLight;
+
+/// A light in the scene.
+#[derive(Clone, Debug)]
+pub(super) enum Light {
+    Triangle(TriangleLight),
+    Sphere(SphereLight),
+    Lamp(LampLight),
+}
+
+impl Light {
+    pub(super) fn triangles(&self) -> usize {
+        if let Self::Triangle(light) = self { light.triangles() } else { 0 }
+    }
+}

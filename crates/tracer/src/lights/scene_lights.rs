@@ -1,0 +1,161 @@
+//! All lights of a view, and how they share the draws.
+
+use super::census::LightCensus;
+use super::choice::{Choice, Chosen};
+use super::collect;
+use super::collect::LightError;
+use super::environment::Environment;
+use super::lamp::LampLight;
+use super::light::Light;
+use super::light_sample::{DistantLight, LightHit, LightSample};
+use super::primitives::Primitives;
+use super::sample_context::LightSampleContext;
+use super::sources::Sources;
+use super::sun::Sun;
+use super::tree::TreeQuery;
+use crate::materials::MaterialTable;
+use crate::render_space::RenderSpace;
+use etendue_core::Wavelengths;
+use glam::{Vec2, Vec3};
+
+/// All lights of a view.
+#[derive(Clone, Debug)]
+pub struct Lights {
+    pub(super) lights: Vec<Light>,
+    pub(super) choice: Choice,
+    pub(super) primitives: Primitives,
+    pub(super) suns: Vec<Sun>,
+    pub(super) environment: Option<Environment>,
+}
+
+impl Lights {
+    /// The lights of a view: its surfaces that glow, and `sources`. Wavelengths from `low_nm`
+    /// to `high_nm` decide how the lights share the draws.
+    ///
+    /// # Errors
+    /// Where an instance names a material that the material_table does not have, or moves.
+    pub fn new(
+        view: &RenderSpace<'_>,
+        material_table: &MaterialTable,
+        sources: Sources,
+        (low_nm, high_nm): (f64, f64),
+    ) -> Result<Self, LightError> {
+        let Sources { suns, lamps, environment } = sources;
+        let mut gathered = collect::of_surfaces(view, material_table, (low_nm, high_nm))?;
+        for lamp in lamps {
+            let lamp = LampLight::new(lamp, view.origin_m(), (low_nm, high_nm));
+            gathered.add(lamp.bounds(), Light::Lamp(lamp));
+        }
+        let weighed = suns.iter().map(|sun| (sun.clone(), sun.mean_irradiance(low_nm, high_nm) as f32)).collect();
+        let surroundings = environment.as_ref().map_or(0.0, |e| e.drawn_irradiance(low_nm, high_nm)) as f32;
+        let choice = Choice::new(&gathered.bounds, weighed, surroundings);
+        Ok(Self { lights: gathered.lights, choice, primitives: gathered.primitives, suns, environment })
+    }
+
+    /// How many lights of each kind there are.
+    #[must_use]
+    pub fn census(&self) -> LightCensus {
+        let count = |kind: fn(&Light) -> bool| self.lights.iter().filter(|l| kind(l)).count();
+        LightCensus {
+            triangles: self.lights.iter().map(Light::triangles).sum(),
+            spheres: count(|l| matches!(l, Light::Sphere(_))),
+            lamps: count(|l| matches!(l, Light::Lamp(_))),
+            suns: self.suns.len(),
+            uniform_environment: matches!(&self.environment, Some(Environment::Uniform(l)) if l.max_value() > 0.0),
+            image_environment: matches!(self.environment, Some(Environment::Image(_))),
+            sky: matches!(self.environment, Some(Environment::Sky(_))),
+        }
+    }
+
+    /// Whether any light can be drawn.
+    #[must_use]
+    pub fn can_be_drawn(&self) -> bool {
+        self.choice.is_possible()
+    }
+
+    /// Whether there is more than one light to choose from; [`Lights::sample`] does not look at the number that chooses
+    /// where there is not.
+    #[must_use]
+    pub fn are_many(&self) -> bool {
+        self.choice.is_open()
+    }
+
+    /// A light and a direction towards it from the `receiver`; `None` where the light drawn sends nothing there.
+    /// `spread_rad` is the width of the path's cone, for the footprint of textures.
+    #[must_use]
+    pub fn sample<const N: usize>(
+        &self,
+        receiver: &LightSampleContext,
+        (choice, u): (f32, Vec2),
+        spread_rad: f32,
+        material_table: &MaterialTable,
+        wavelengths: &Wavelengths<N>,
+    ) -> Option<LightSample<N>> {
+        // Deep in a tree more digits are needed than the one number has; the other's place on the light is not felt.
+        let fine = f64::from(choice) + f64::from(u.x) * DIGIT;
+        let (chosen, probability) = self.choice.pick(&self.question(receiver), fine)?;
+        let from = receiver.position;
+        let sample = match chosen {
+            Chosen::Local(i) => match &self.lights[i] {
+                Light::Triangle(t) => {
+                    t.glowing(material_table).towards(&t.sample(from, u)?, from, spread_rad, wavelengths)
+                }
+                Light::Sphere(s) => {
+                    s.glowing(material_table).towards(&s.sample(from, u)?, from, spread_rad, wavelengths)
+                }
+                Light::Lamp(lamp) => lamp.sample(from, wavelengths),
+            },
+            Chosen::Sun(i) => Some(self.suns[i].sample(u, wavelengths)),
+            Chosen::Environment => self.environment.as_ref()?.sample(u, wavelengths),
+        }?;
+        let pdf = sample.pdf * probability;
+        (pdf > 0.0).then_some(LightSample { pdf, ..sample })
+    }
+
+    pub(super) fn question<'a>(&'a self, receiver: &'a LightSampleContext) -> TreeQuery<'a, impl Fn(u32) -> f32 + 'a> {
+        let lamp = |i: u32| match &self.lights[i as usize] {
+            Light::Lamp(lamp) => lamp.irradiance(receiver),
+            Light::Triangle(_) | Light::Sphere(_) => 0.0,
+        };
+        TreeQuery { receiver, lamp }
+    }
+
+    /// Density by which [`Lights::sample`] would have given the direction to a surface point that was met, 1/sr; 0
+    /// where the surface is no light.
+    #[must_use]
+    pub fn light_pdf(&self, met: &LightHit<'_>) -> f32 {
+        let Some(i) = self.primitives.light(met.point.instance, met.point.primitive) else { return 0.0 };
+        let pdf = match &self.lights[i] {
+            Light::Triangle(light) => light.pdf(met),
+            Light::Sphere(light) => light.pdf(met),
+            Light::Lamp(_) => 0.0,
+        };
+        pdf * self.choice.probability(&self.question(met.receiver), Chosen::Local(i))
+    }
+
+    /// Light from infinity along the unit `direction` away from the viewer, each contribution by itself. `receiver` is
+    /// where the ray came from; without one nothing could have been drawn from there, and densities are 0.
+    pub fn distant<'a, const N: usize>(
+        &'a self,
+        direction: Vec3,
+        receiver: Option<&'a LightSampleContext>,
+        wavelengths: &'a Wavelengths<N>,
+    ) -> impl Iterator<Item = DistantLight<N>> + 'a {
+        let drawn = move |light: Chosen| {
+            receiver.map_or(0.0, |receiver| self.choice.probability(&self.question(receiver), light))
+        };
+        let suns = self.suns.iter().enumerate().filter(move |(_, sun)| sun.covers(direction)).map(move |(i, sun)| {
+            let pdf = sun.pdf() * drawn(Chosen::Sun(i));
+            DistantLight { radiance: sun.radiance_from(direction, wavelengths), pdf, surrounds: false }
+        });
+        let environment = self.environment.iter().map(move |environment| {
+            let (radiance, pdf) = environment.seen(direction, receiver.is_some(), wavelengths);
+            let pdf = if pdf > 0.0 { pdf * drawn(Chosen::Environment) } else { 0.0 };
+            DistantLight { radiance, pdf, surrounds: true }
+        });
+        suns.chain(environment)
+    }
+}
+
+/// Weight of the digits that a second number adds to the 24 bits of the first: 2⁻²⁴.
+pub(super) const DIGIT: f64 = 0.5 * 1.192_092_895_507_812_5e-7;

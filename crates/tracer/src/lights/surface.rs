@@ -1,0 +1,67 @@
+//! What lights that are surfaces have in common.
+
+use super::light_sample::LightSample;
+use crate::materials::MaterialTable;
+use crate::textures::Lookup;
+use etendue_core::Wavelengths;
+use glam::{Vec2, Vec3};
+
+/// A point of a light's surface, drawn for a point of the scene.
+pub(super) struct SurfaceSample {
+    /// From the point of the scene, and its length, m.
+    pub(super) way: Vec3,
+    pub(super) distance: f32,
+    pub(super) normal: Vec3,
+    /// By solid angle, without the choice of the light.
+    pub(super) pdf: f32,
+    pub(super) uv: Vec2,
+    pub(super) uv_per_m: f32,
+}
+
+/// What surface lights have in common.
+pub(super) struct Glowing<'a> {
+    pub(super) material: crate::MaterialId,
+    pub(super) error_m: f32,
+    /// How far before the point, along the ray to it, the accelerator may already meet the surface.
+    pub(super) early_m: f32,
+    pub(super) material_table: &'a MaterialTable,
+}
+
+impl Glowing<'_> {
+    /// The light sample of a surface sample seen from `from`; `None` where the side seen does not glow.
+    #[inline(always)]
+    pub(super) fn towards<const N: usize>(
+        &self,
+        surface: &SurfaceSample,
+        from: Vec3,
+        spread_rad: f32,
+        wavelengths: &Wavelengths<N>,
+    ) -> Option<LightSample<N>> {
+        let distance = surface.distance;
+        let direction = (distance > 0.0).then(|| surface.way * (1.0 / distance))?;
+        let emission = self.material_table.emission(self.material).filter(|e| e.leaves(surface.normal, -direction))?;
+        let lookup = Lookup { width: spread_rad * distance * surface.uv_per_m, ..Lookup::point(surface.uv) };
+        let side = -1.0_f32.copysign(surface.normal.dot(direction));
+        Some(LightSample {
+            direction,
+            target: Some(
+                from + (surface.way - direction * self.early_m.min(0.5 * distance))
+                    + surface.normal * (side * (self.error_m + ROUNDING * distance)),
+            ),
+            radiance: self.material_table.radiance(self.material, emission, &lookup, wavelengths),
+            pdf: surface.pdf,
+            delta: false,
+            surrounds: false,
+        })
+    }
+}
+
+/// Relative error allowed for a point on a light and a ray to it: sixteen roundings of f32.
+pub(super) const ROUNDING: f32 = 16.0 * 0.5 * f32::EPSILON;
+
+/// Density by solid angle of a point drawn with density `per_area` (1/m²) on a surface of unit `normal`, seen from
+/// a point at the far end of `way` of length `distance`; 0 where it is seen edge-on.
+pub(super) fn solid_angle_pdf(per_area: f32, way: Vec3, distance: f32, normal: Vec3) -> f32 {
+    let height = normal.dot(way).abs();
+    if height > 0.0 { per_area * (distance * distance) * (distance / height) } else { 0.0 }
+}

@@ -1,0 +1,177 @@
+//! The world about one camera.
+//!
+//! A [`RenderSpace`] places every instance relative to the camera's entrance pupil in f64 and only then goes to f32, so that
+//! precision is best near the camera wherever in the world it stands. Rays and answers are in the render frame (axes of
+//! the world, origin at the entrance pupil, m). Nothing about a mesh is rebuilt.
+
+mod footprint;
+mod point;
+mod tangents;
+#[cfg(test)]
+mod tests;
+mod truth;
+
+pub use truth::Truth;
+
+use crate::accel::tlas::Tlas;
+use crate::accel::{Simd, World};
+use crate::geometry::{Footprint, Hit, InstanceTransform, Shape, SurfacePoint};
+use etendue_core::Ray;
+use glam::{DVec3, Vec2, Vec3};
+
+impl World {
+    /// The world placed about a camera whose entrance pupil is at `origin_m` (world, m).
+    #[must_use]
+    pub fn render_space(&self, origin_m: DVec3) -> RenderSpace<'_> {
+        self.render_space_with(origin_m, Simd::Auto)
+    }
+
+    /// As [`World::render_space`], with a choice of instruction set.
+    #[must_use]
+    pub fn render_space_with(&self, origin_m: DVec3, simd: Simd) -> RenderSpace<'_> {
+        RenderSpace::new(self, origin_m, simd)
+    }
+}
+
+/// A world placed about a camera, ready to be asked by rays.
+#[derive(Clone, Debug)]
+pub struct RenderSpace<'w> {
+    world: &'w World,
+    origin_m: DVec3,
+    top: Tlas<'w>,
+}
+
+impl<'w> RenderSpace<'w> {
+    pub(crate) fn new(world: &'w World, origin_m: DVec3, simd: Simd) -> Self {
+        let placed: Vec<_> = world.instances().iter().map(|i| InstanceTransform::new(i, origin_m)).collect();
+        Self { world, origin_m, top: Tlas::new(world, placed, simd) }
+    }
+
+    /// The world that is seen.
+    #[must_use]
+    pub fn world(&self) -> &'w World {
+        self.world
+    }
+
+    /// The camera's entrance pupil in the world, m: the origin of the render frame.
+    #[must_use]
+    pub fn origin_m(&self) -> DVec3 {
+        self.origin_m
+    }
+
+    /// The first surface that a ray meets, with t > 0 and t < `ray.t_max`. Surfaces are met from both sides. Of several
+    /// at the same t, the one of the least instance, then the least primitive.
+    #[must_use]
+    pub fn closest(&self, ray: &Ray) -> Option<Hit> {
+        self.top.closest(ray)
+    }
+
+    /// Whether a ray meets anything, with t > 0 and t < `ray.t_max`.
+    #[must_use]
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        self.top.occluded(ray)
+    }
+
+    /// The point of the surface that `ray` met at `hit`.
+    #[must_use]
+    pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        let instance = &self.world.instances()[hit.instance as usize];
+        let placed = self.placed(hit.instance);
+        match instance.shape {
+            Shape::Mesh(id) => point::of_mesh(self.world.mesh(id), instance, placed, hit),
+            Shape::Sphere { radius_m } => point::of_sphere(radius_m, instance, placed, ray, hit),
+        }
+    }
+
+    /// How large texture and shape are about a point of this view's surfaces.
+    #[must_use]
+    pub fn footprint(&self, point: &SurfacePoint) -> Footprint {
+        let placed = self.placed(point.instance);
+        match self.world.instances()[point.instance as usize].shape {
+            Shape::Mesh(id) => footprint::of_mesh(self.world.mesh(id), placed, point.primitive),
+            Shape::Sphere { radius_m } => footprint::of_sphere(radius_m, placed),
+        }
+    }
+
+    /// What is to be added to [`SurfacePoint::local`] of an instance's points for the coordinates of its shape's file.
+    #[must_use]
+    pub fn local_origin(&self, instance: u32) -> DVec3 {
+        match self.world.instances()[instance as usize].shape {
+            Shape::Mesh(id) => self.world.mesh(id).origin(),
+            Shape::Sphere { .. } => DVec3::ZERO,
+        }
+    }
+
+    /// How texture coordinates and the place in the own frame of the shape change along a `vector` (render frame, m) in
+    /// the surface at a point.
+    #[must_use]
+    pub fn change_along(&self, point: &SurfacePoint, vector: Vec3) -> (Vec2, Vec3) {
+        let local = self.placed(point.instance).vector_to_local(vector.as_dvec3());
+        let uv = match self.world.instances()[point.instance as usize].shape {
+            Shape::Mesh(id) => footprint::uv_along(self.world.mesh(id), point.primitive, local),
+            Shape::Sphere { .. } => footprint::globe_along(point.local.as_dvec3(), local),
+        };
+        (uv.as_vec2(), local.as_vec3())
+    }
+
+    /// The directions in which the two texture coordinates grow at a point of this view's surfaces, in its plane: unit,
+    /// in the render frame, neither perpendicular to each other nor to the shading normal. `None` where there are none:
+    /// without texture coordinates, where they do not span the triangle, at the poles of a sphere.
+    #[must_use]
+    pub fn tangents(&self, point: &SurfacePoint) -> Option<[Vec3; 2]> {
+        let placed = self.placed(point.instance);
+        let local = match self.world.instances()[point.instance as usize].shape {
+            Shape::Mesh(id) => tangents::of_mesh(self.world.mesh(id), point.primitive)?,
+            Shape::Sphere { .. } => tangents::of_sphere(point.local.as_dvec3())?,
+        };
+        tangents::to_render(local, placed)
+    }
+
+    /// An instance's place.
+    pub(crate) fn placed(&self, instance: u32) -> &InstanceTransform {
+        &self.top.placed()[instance as usize]
+    }
+
+    /// Primitives of an instance: its triangles, or 1 for a sphere.
+    #[must_use]
+    pub fn primitive_count(&self, instance: u32) -> u32 {
+        match self.world.instances()[instance as usize].shape {
+            Shape::Mesh(id) => self.world.mesh(id).triangles().len() as u32,
+            Shape::Sphere { .. } => 1,
+        }
+    }
+
+    /// The corners of a triangle in the render frame, m, anticlockwise about its geometric normal: in the mesh's order,
+    /// but vertices 1 and 2 exchanged in an instance that mirrors. Panics where the instance is a sphere.
+    #[must_use]
+    pub fn triangle(&self, instance: u32, primitive: u32) -> [Vec3; 3] {
+        let Shape::Mesh(id) = self.world.instances()[instance as usize].shape else {
+            panic!("instance {instance} is a sphere and has no triangles");
+        };
+        let placed = self.placed(instance);
+        let [a, b, c] = self.world.mesh(id).corners(primitive).map(|p| placed.point_to_render(p.as_dvec3()).as_vec3());
+        if placed.mirrors() { [a, c, b] } else { [a, b, c] }
+    }
+
+    /// Centre (render frame, m) and radius (m) of an instance that is a sphere there too; `None` for meshes and for
+    /// spheres that their instance stretches unevenly.
+    #[must_use]
+    pub fn sphere(&self, instance: u32) -> Option<(Vec3, f32)> {
+        let Shape::Sphere { radius_m } = self.world.instances()[instance as usize].shape else { return None };
+        let placed = self.placed(instance);
+        let scale = placed.uniform_scale()?;
+        Some((placed.point_to_render(DVec3::ZERO).as_vec3(), (radius_m * scale) as f32))
+    }
+
+    /// Centre (render frame, m) and radius (m) of a sphere about everything; both zero in an empty world.
+    #[must_use]
+    pub fn bounds(&self) -> (Vec3, f32) {
+        let boxes = self.top.placed().iter().zip(self.world.instances());
+        let boxes = boxes.filter_map(|(placed, instance)| placed.bounds(instance, self.world.meshes()));
+        let Some((low, high)) = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))) else {
+            return (Vec3::ZERO, 0.0);
+        };
+        // Room for the rounding of centre and radius.
+        (((low + high) * 0.5).as_vec3(), ((high - low).length() * 0.5 * (1.0 + 1e-6)) as f32)
+    }
+}

@@ -1,0 +1,127 @@
+//! From a hit to the point of the surface.
+//!
+//! Positions are made from the primitive, not from the ray: a triangle's from barycentric coordinates, a sphere's by
+//! putting the ray's point back onto the sphere, both in f64. Their error is then that of rounding to f32, whatever the
+//! length of the ray (after Wächter & Binder 2019, "A fast and robust method for avoiding self-intersection").
+
+use crate::geometry::Hit;
+use crate::geometry::InstanceTransform;
+use crate::geometry::{Instance, Mesh, SurfacePoint, sphere};
+use etendue_core::Ray;
+use glam::{DVec3, Vec2, Vec3};
+
+pub(super) fn of_mesh(mesh: &Mesh, instance: &Instance, placed: &InstanceTransform, hit: &Hit) -> SurfacePoint {
+    let weights = weights(f64::from(hit.u), f64::from(hit.v));
+    let local = blend(mesh.corners(hit.primitive).map(Vec3::as_dvec3), weights);
+    let position = placed.point_to_render(local).as_vec3();
+    let facet = mesh.facet(hit.primitive);
+    let flat = placed.unit_normal_to_render(facet.normal);
+    let (shading, own) =
+        if facet.is_flat { (flat, facet.normal) } else { bent(mesh, hit.primitive, weights, placed, flat) };
+    SurfacePoint {
+        position,
+        position_error: placed.position_error(position, local),
+        geometric_normal: flat,
+        shading_normal: shading,
+        uv: uv(mesh, mesh.triangles()[hit.primitive as usize], weights),
+        local: local.as_vec3(),
+        local_normal: own,
+        instance: hit.instance,
+        primitive: hit.primitive,
+        material: instance.materials[usize::from(facet.slot)],
+    }
+}
+
+/// The interpolated normal in the render frame, on the side of the triangle's own, `flat`, and in the mesh's frame; unit.
+/// In f32, but for lengths of which f32 has no squares.
+fn bent(mesh: &Mesh, primitive: u32, weights: [f64; 3], placed: &InstanceTransform, flat: Vec3) -> (Vec3, Vec3) {
+    let [a, b, c] = mesh.triangles()[primitive as usize].map(|v| mesh.normals()[v as usize]);
+    let [wa, wb, wc] = weights.map(|w| w as f32);
+    let own = a * wa + b * wb + c * wc;
+    let normal = placed.long_normal_to_render(own);
+    let squares = [own.length_squared(), normal.length_squared()];
+    if !squares.iter().all(|square| MODERATE.contains(square)) {
+        let normals = Normals::of_mesh(mesh, primitive, weights, placed);
+        return (normals.shading.as_vec3(), normals.local.normalize_or(DVec3::Z).as_vec3());
+    }
+    let side = 1.0_f32.copysign(normal.dot(flat));
+    (normal * (side / squares[1].sqrt()), own * (1.0 / squares[0].sqrt()))
+}
+
+/// Squared lengths whose numbers f32 holds to all digits, and which are no remainders of normals that cancel.
+const MODERATE: core::ops::RangeInclusive<f32> = 1e-6..=1e20;
+
+pub(super) fn of_sphere(
+    radius_m: f64,
+    instance: &Instance,
+    placed: &InstanceTransform,
+    ray: &Ray,
+    hit: &Hit,
+) -> SurfacePoint {
+    let (origin, direction) = placed.ray_to_local(ray);
+    let unit = (origin + direction * f64::from(hit.t)).try_normalize().unwrap_or(DVec3::Z);
+    let local = unit * radius_m;
+    let position = placed.point_to_render(local).as_vec3();
+    let normal = placed.normal_to_render(unit).unwrap_or(DVec3::Z).as_vec3();
+    SurfacePoint {
+        position,
+        position_error: placed.position_error(position, local),
+        geometric_normal: normal,
+        shading_normal: normal,
+        uv: sphere::uv(unit).as_vec2(),
+        local: local.as_vec3(),
+        local_normal: unit.as_vec3(),
+        instance: hit.instance,
+        primitive: hit.primitive,
+        material: instance.materials[0],
+    }
+}
+
+/// Weights of a triangle's three vertices.
+pub(super) fn weights(u: f64, v: f64) -> [f64; 3] {
+    [1.0 - u - v, u, v]
+}
+
+/// Normals at a point of a mesh, in f64.
+pub(super) struct Normals {
+    /// Of the triangle's plane in the render frame, by its winding in its own frame; unit.
+    geometric: DVec3,
+    /// The interpolated one in the render frame, on the side of the geometric one, which takes its place where there is
+    /// none; unit.
+    pub(super) shading: DVec3,
+    /// For shading, in the mesh's own frame, of whatever length.
+    local: DVec3,
+}
+
+impl Normals {
+    pub(super) fn of_mesh(mesh: &Mesh, primitive: u32, weights: [f64; 3], placed: &InstanceTransform) -> Self {
+        let [a, b, c] = mesh.corners(primitive).map(Vec3::as_dvec3);
+        let local = (b - a).cross(c - a);
+        let geometric = placed.normal_to_render(local).unwrap_or(DVec3::Z);
+        let flat = Self { geometric, shading: geometric, local };
+        flat.interpolated(mesh, primitive, weights, placed).unwrap_or(flat)
+    }
+
+    fn interpolated(&self, mesh: &Mesh, primitive: u32, weights: [f64; 3], placed: &InstanceTransform) -> Option<Self> {
+        if mesh.normals().is_empty() {
+            return None;
+        }
+        let normals = mesh.triangles()[primitive as usize].map(|v| mesh.normals()[v as usize].as_dvec3());
+        let local = blend(normals, weights);
+        let normal = placed.normal_to_render(local)?;
+        let shading = if normal.dot(self.geometric) < 0.0 { -normal } else { normal };
+        Some(Self { geometric: self.geometric, shading, local })
+    }
+}
+
+fn blend(values: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
+    values[0] * weights[0] + values[1] * weights[1] + values[2] * weights[2]
+}
+
+fn uv(mesh: &Mesh, triangle: [u32; 3], weights: [f64; 3]) -> Vec2 {
+    if mesh.uvs().is_empty() {
+        return Vec2::ZERO;
+    }
+    let [a, b, c] = triangle.map(|v| mesh.uvs()[v as usize].as_dvec2());
+    (a * weights[0] + b * weights[1] + c * weights[2]).as_vec2()
+}

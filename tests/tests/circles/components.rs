@@ -1,0 +1,37 @@
+//! Strongly connected components of the arrows between files.
+
+use std::collections::BTreeSet;
+
+use crate::house::Arrows;
+
+/// Groups of two files or more, each of which leads to every other.
+pub(crate) fn circles(arrows: &Arrows) -> Vec<Vec<String>> {
+    let mut placed = BTreeSet::new();
+    let mut circles = Vec::new();
+    for file in arrows.keys() {
+        if placed.contains(file) {
+            continue;
+        }
+        let back = |other: &&String| reached(arrows, other).contains(file);
+        let circle: Vec<String> = reached(arrows, file).iter().filter(back).cloned().collect();
+        if circle.len() > 1 {
+            placed.extend(circle.iter().cloned());
+            circles.push(circle);
+        }
+    }
+    circles
+}
+
+/// The files to which the arrows lead from one, itself only by a circle.
+fn reached(arrows: &Arrows, from: &str) -> BTreeSet<String> {
+    let mut reached = BTreeSet::new();
+    let mut open = vec![from.to_owned()];
+    while let Some(file) = open.pop() {
+        for to in arrows.get(&file).into_iter().flat_map(|to| to.keys()) {
+            if reached.insert(to.clone()) {
+                open.push(to.clone());
+            }
+        }
+    }
+    reached
+}

@@ -1,0 +1,102 @@
+//! Files that import each other in a circle can only be read together: each crate's files stand in layers, and no import leads up. What is
+//! shared by two files stands in a third below them.
+
+mod components;
+mod house;
+mod source;
+mod tokens;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use house::{Arrows, House};
+
+/// The only circles: files (or folders), and why they may stand in one.
+const EXCEPTIONS: &[(&[&str], &str)] = &[
+    (&["crates/scene/src/load/base.rs", "crates/scene/src/load/files.rs"], "a file names its base, which is a file"),
+    (
+        &["crates/scene/src/reader/rule.rs", "crates/scene/src/reader/table.rs", "crates/scene/src/reader/word.rs"],
+        "a table is read by rules of its keys, and a rule may ask for a table",
+    ),
+    (&["crates/sensor/src/"], "for a while: effects are being typed by what they act on"),
+    (&["crates/pipeline/src/compile/sensor/"], "for a while: as above"),
+    (&["crates/scene/src/record/"], "for a while: records are being written once"),
+    (&["crates/scene/src/asset/request.rs", "crates/scene/src/load/"], "for a while: as above"),
+    (&["crates/tracer/src/materials/"], "for a while: materials are being put into one list"),
+    (&["crates/pipeline/src/compile/material/"], "for a while: as above"),
+    (&["crates/etendue/src/measure/"], "for a while: measurements are being written once"),
+    (&["crates/etendue/src/"], "for a while: as above"),
+    (&["crates/cli/src/"], "for a while: as above"),
+];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the workspace").to_path_buf()
+}
+
+/// Every crate's files by the folder `…/src/`: paths from there, with their text.
+fn crates() -> BTreeMap<String, Vec<(String, String)>> {
+    let arguments = ["ls-files", "-z", "--cached", "--others", "--exclude-standard", "*.rs"];
+    let output = Command::new("git").args(arguments).current_dir(root()).output().expect("git runs");
+    let names = String::from_utf8(output.stdout).expect("names in UTF-8");
+    let mut crates: BTreeMap<String, Vec<(String, String)>> = BTreeMap::new();
+    for name in names.split('\0') {
+        let Some((folder, path)) = name.split_once("/src/") else { continue };
+        let Ok(text) = std::fs::read_to_string(root().join(name)) else { continue };
+        crates.entry(format!("{folder}/src/")).or_default().push((path.to_owned(), text));
+    }
+    crates
+}
+
+fn is_allowed(circle: &[String]) -> bool {
+    EXCEPTIONS.iter().any(|(paths, _)| circle.iter().all(|file| paths.iter().any(|path| file.starts_with(path))))
+}
+
+/// What ties the files of a circle.
+fn ties(circle: &[String], arrows: &Arrows) -> String {
+    let mut text = String::new();
+    for from in circle {
+        for (to, names) in arrows[from].iter().filter(|(to, _)| circle.contains(to)) {
+            let names: Vec<&str> = names.iter().map(String::as_str).collect();
+            text.push_str(&format!("\n  {from} -> {to}: {}", names.join(", ")));
+        }
+    }
+    text
+}
+
+#[test]
+fn no_files_import_each_other_in_a_circle() {
+    let mut faults = String::new();
+    for (folder, files) in crates() {
+        let arrows = House::new(&folder, &files).arrows();
+        for (n, circle) in components::circles(&arrows).iter().filter(|circle| !is_allowed(circle)).enumerate() {
+            faults.push_str(&format!("\n{folder} circle {}: {} files{}", n + 1, circle.len(), ties(circle, &arrows)));
+        }
+    }
+    assert!(faults.is_empty(), "files that import each other in a circle:{faults}");
+}
+
+/// Arrows of a small crate, to see that the test sees.
+fn small(files: &[(&str, &str)]) -> Arrows {
+    let files: Vec<(String, String)> = files.iter().map(|(p, t)| ((*p).to_owned(), (*t).to_owned())).collect();
+    House::new("", &files).arrows()
+}
+
+#[test]
+fn a_child_that_imports_its_parent_which_uses_it_is_a_circle() {
+    let parent = "mod child; pub use child::Leaf; pub struct Shared; fn grow(leaf: Leaf) {}";
+    let arrows = small(&[("lib.rs", "mod tree;"), ("tree/mod.rs", parent), ("tree/child.rs", "use super::Shared;")]);
+    assert_eq!(components::circles(&arrows), [["tree/child.rs", "tree/mod.rs"]]);
+}
+
+#[test]
+fn a_module_that_only_hands_on_is_no_part_of_a_circle() {
+    let parent =
+        "mod child; mod stem; pub use child::Leaf; pub use stem::Stem; #[cfg(test)] mod tests { use super::Leaf; }";
+    let child = "/// As [`crate::tree::Leaf`].\nuse crate::tree::Stem; pub struct Leaf;";
+    let files = [("lib.rs", "mod tree;"), ("tree/mod.rs", parent), ("tree/child.rs", child), ("tree/stem.rs", "")];
+    let files = files.map(|(path, text)| if text.is_empty() { (path, "pub struct Stem;") } else { (path, text) });
+    let arrows = small(&files);
+    assert!(components::circles(&arrows).is_empty(), "{arrows:?}");
+    assert!(arrows["tree/child.rs"].contains_key("tree/stem.rs"), "{arrows:?}");
+}
