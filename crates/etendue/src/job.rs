@@ -3,9 +3,10 @@
 use crate::error::Error;
 use crate::memory::MemoryFiles;
 use crate::observer::{Message, Observer, Tiles};
-use crate::results::{CameraResults, Results};
-use crate::shard::ShardSpec;
-use etendue_io::complete_assets;
+use crate::render_options::RenderOptions;
+use crate::results::{CameraResults, Results, file_names};
+use crate::shard_spec::ShardSpec;
+use etendue_io::{Existing, OutputFolder, complete_assets};
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::render::{Request, light};
@@ -15,7 +16,7 @@ use etendue_pipeline::{Choices, Plan, compile};
 use etendue_scene::{Description, Overrides};
 use etendue_tracer::accel::Simd;
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// How much of the light transport is followed: the key `render.integrator`.
@@ -145,22 +146,6 @@ impl JobRequest {
     }
 }
 
-/// Which frames are taken, and how: what does not change the light.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct RenderOptions {
-    /// Frames to take, the last excluded; each has its own sensor noise. The light of a still world is rendered once.
-    pub frames: Range<u32>,
-    /// The instruction set of the accelerator. The result does not depend on it.
-    pub simd: Simd,
-}
-
-impl Default for RenderOptions {
-    /// Frame 0, by the best instruction set of the processor.
-    fn default() -> Self {
-        Self { frames: 0..1, simd: Simd::Auto }
-    }
-}
-
 /// A job that was read, checked and compiled: nothing after it fails because of what its user wrote.
 #[derive(Clone, Debug)]
 pub struct Job {
@@ -204,7 +189,7 @@ impl Job {
     /// The names of all files of a whole run, relative to its output folder.
     #[must_use]
     pub fn file_names(&self, frames: &Range<u32>) -> Vec<String> {
-        crate::results::file_names(&self.plan, frames)
+        file_names(&self.plan, frames)
     }
 
     /// Renders all cameras and keeps their light. For many large cameras [`render_each`](Self::render_each) holds one at a time.
@@ -238,6 +223,23 @@ impl Job {
             deliver(&self.plan, &group, film, options, &mut take)?;
         }
         Ok(())
+    }
+
+    /// Renders camera after camera and writes each one's files before the next is rendered; answers with their paths. Runs on the caller's
+    /// thread pool.
+    ///
+    /// # Errors
+    /// Where the observer cancels, light is not finite, or the folder cannot be written.
+    pub fn save(
+        &self,
+        options: &RenderOptions,
+        (folder, existing): (&Path, Existing),
+        observer: &dyn Observer,
+    ) -> Result<Vec<PathBuf>, Error> {
+        let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
+        folder.claim(self.file_names(&options.frames).iter().map(String::as_str)).map_err(Error::input)?;
+        self.render_each(options, observer, |camera| camera.write(&mut folder, observer))?;
+        folder.commit().map_err(Error::run)
     }
 
     /// Renders the tiles of one shard: a film for each group of cameras of equal light, with the first of these.

@@ -1,8 +1,9 @@
 //! The shards of one job to the result of an unsharded run.
 
 use crate::error::Error;
-use crate::job::{RenderOptions, deliver};
+use crate::job::deliver;
 use crate::observer::Observer;
+use crate::render_options::RenderOptions;
 use crate::shard::{self, Manifest};
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::Plan;

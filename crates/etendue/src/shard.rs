@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::job::{Job, JobRequest};
 use crate::observer::Observer;
 use crate::results::metadata;
+use crate::shard_spec::ShardSpec;
 use etendue_core::Plane;
 use etendue_core::quantity::Quantity;
 use etendue_io::exr::{ExrFile, Layer, Samples, encode_layers, read_exr_within};
@@ -16,26 +17,9 @@ use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::render::layout;
-use etendue_pipeline::tile::Shard;
 use etendue_tracer::accel::Simd;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-
-/// A shard of a run: every tile whose number is `index` modulo `count`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ShardSpec {
-    /// Which shard, from 0.
-    pub index: u32,
-    /// Of how many.
-    pub count: u32,
-}
-
-impl ShardSpec {
-    pub(crate) fn shard(self) -> Result<Shard, Error> {
-        let told = || Error::input(format!("shard {}/{}: expected an index below the count", self.index, self.count));
-        Shard::new(self.index, self.count).ok_or_else(told)
-    }
-}
 
 impl Job {
     /// The names of the files of a shard, relative to its folder.

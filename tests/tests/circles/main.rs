@@ -19,15 +19,6 @@ const EXCEPTIONS: &[(&[&str], &str)] = &[
         &["crates/scene/src/reader/rule.rs", "crates/scene/src/reader/table.rs", "crates/scene/src/reader/word.rs"],
         "a table is read by rules of its keys, and a rule may ask for a table",
     ),
-    (&["crates/sensor/src/"], "for a while: effects are being typed by what they act on"),
-    (&["crates/pipeline/src/compile/sensor/"], "for a while: as above"),
-    (&["crates/scene/src/record/"], "for a while: records are being written once"),
-    (&["crates/scene/src/asset/request.rs", "crates/scene/src/load/"], "for a while: as above"),
-    (&["crates/tracer/src/materials/"], "for a while: materials are being put into one list"),
-    (&["crates/pipeline/src/compile/material/"], "for a while: as above"),
-    (&["crates/etendue/src/measure/"], "for a while: measurements are being written once"),
-    (&["crates/etendue/src/"], "for a while: as above"),
-    (&["crates/cli/src/"], "for a while: as above"),
 ];
 
 fn root() -> PathBuf {

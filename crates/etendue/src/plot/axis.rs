@@ -1,6 +1,6 @@
 //! Ranges and ticks.
 
-use super::{Axis, Scale};
+use super::figure::{Axis, Scale};
 use etendue_core::maths::f64::{log10, pow};
 
 /// An axis with its range.

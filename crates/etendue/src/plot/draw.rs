@@ -1,7 +1,7 @@
 //! The drawing itself.
 
 use super::axis::Fitted;
-use super::{Colour, Mark, Plot, Series};
+use super::figure::{Colour, Mark, Plot, Series};
 use std::fmt::Write as _;
 
 const WIDTH: f64 = 760.0;
@@ -13,7 +13,8 @@ const BOTTOM: f64 = 60.0;
 /// Colours that people with colour-blindness tell apart (Okabe & Ito 2008).
 const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#000000", "#e69f00", "#56b4e9"];
 
-pub(super) fn document(plots: &[Plot]) -> String {
+/// Plots one below the other as one SVG file.
+pub(crate) fn svg(plots: &[Plot]) -> String {
     let height = HEIGHT * plots.len() as f64;
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {WIDTH} {height}\" \
@@ -162,7 +163,8 @@ fn escaped(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Axis, Mark, Plot, Series, svg};
+    use super::super::figure::Axis;
+    use super::*;
 
     #[test]
     fn a_plot_holds_its_points_and_its_texts() {

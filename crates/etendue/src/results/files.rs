@@ -2,9 +2,10 @@
 
 use crate::tone_curve::encoding;
 use etendue_core::quantity::{DigitalNumber, Irradiance, MeanElectrons, Quantity, Radiance};
-use etendue_pipeline::plan::{CameraBody, Development, PictureFormat, Products, RawFormat};
+use etendue_pipeline::plan::{CameraBody, CameraPlan, Development, PictureFormat, Plan, Products, RawFormat};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// What a file holds: its quantity and unit.
 fn entry(quantity: &str, unit: &str) -> Value {
@@ -75,7 +76,7 @@ impl Files {
 
     /// All files of a camera over frames, with what they hold.
     #[must_use]
-    pub fn of(p: &Products, body: &CameraBody, frames: &std::ops::Range<u32>) -> BTreeMap<String, Value> {
+    pub fn of(p: &Products, body: &CameraBody, frames: &Range<u32>) -> BTreeMap<String, Value> {
         let mut files = BTreeMap::new();
         let mut add = |wanted: bool, name: &str, entry: Value| {
             if wanted {
@@ -111,4 +112,13 @@ impl Files {
         }
         files
     }
+}
+
+/// The names, relative to the output folder, of all files of a plan.
+pub(crate) fn file_names(plan: &Plan, frames: &Range<u32>) -> Vec<String> {
+    let of_camera = |camera: &CameraPlan| {
+        let names = Files::of(&camera.products, &camera.body, frames).into_keys().chain([Files::SIDECAR.to_owned()]);
+        names.map(|name| format!("{}/{name}", camera.name)).collect::<Vec<_>>()
+    };
+    plan.cameras.iter().flat_map(of_camera).collect()
 }

@@ -1,12 +1,11 @@
 //! A camera's results as files.
 
-use super::files::Files;
+use super::camera::CameraResults;
+use super::files::{Files, file_names};
 use super::frames::{Wanted, write_frames};
 use super::metadata;
 use super::writer::ResultWriter;
-use super::{CameraResults, file_names};
 use crate::error::Error;
-use crate::job::{Job, RenderOptions};
 use crate::observer::Observer;
 use etendue_io::exr::{self, Lengths, encode_ground_truth, encode_plane, encode_radiance, encode_rays};
 use etendue_io::{Existing, OutputFolder, png};
@@ -52,25 +51,6 @@ impl Results {
             folder.claim(own.map(String::as_str)).map_err(Error::input)?;
         }
         self.cameras.iter().try_for_each(|camera| camera.write(&mut folder, observer))?;
-        folder.commit().map_err(Error::run)
-    }
-}
-
-impl Job {
-    /// Renders camera after camera and writes each one's files before the next is rendered; answers with their paths. Runs on the caller's
-    /// thread pool.
-    ///
-    /// # Errors
-    /// Where the observer cancels, light is not finite, or the folder cannot be written.
-    pub fn save(
-        &self,
-        options: &RenderOptions,
-        (folder, existing): (&Path, Existing),
-        observer: &dyn Observer,
-    ) -> Result<Vec<PathBuf>, Error> {
-        let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
-        folder.claim(self.file_names(&options.frames).iter().map(String::as_str)).map_err(Error::input)?;
-        self.render_each(options, observer, |camera| camera.write(&mut folder, observer))?;
         folder.commit().map_err(Error::run)
     }
 }

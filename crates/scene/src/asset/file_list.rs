@@ -16,6 +16,13 @@ pub(crate) trait NamesFiles {
     fn name_files(&self, files: &mut FileList);
 }
 
+/// Whether a record names files itself.
+pub(crate) fn names_files(record: &impl NamesFiles) -> bool {
+    let mut files = FileList::default();
+    record.name_files(&mut files);
+    !files.0.is_empty()
+}
+
 impl<T: NamesFiles> NamesFiles for Option<T> {
     fn name_files(&self, files: &mut FileList) {
         self.iter().for_each(|given| given.name_files(files));
@@ -23,10 +30,6 @@ impl<T: NamesFiles> NamesFiles for Option<T> {
 }
 
 impl FileList {
-    pub(super) fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
     pub(super) fn into_requests(self) -> Vec<AssetRequest> {
         self.0
     }

@@ -15,7 +15,7 @@ pub use calibration::{CalibrationAsset, CalibrationChoice, CalibrationFormat};
 pub use mesh::{ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
 pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurface};
 pub use named_files::of_camera;
-pub(crate) use named_files::{names_files, requests};
+pub(crate) use named_files::requests;
 pub use photometry::{Opening, OpeningShape, PhotometryAsset, PhotometryAxes, Tilt};
 pub use prescription::{GlassAsset, LensFields, LensOpening, PrescriptionAsset, SurfaceAsset};
 pub use request::{AssetKind, AssetRequest, Covered, Values};

@@ -4,18 +4,20 @@ use std::collections::BTreeMap;
 
 use super::file_list::{FileList, NamesFiles as _};
 use super::request::{AssetKind, AssetRequest, Covered, Values};
-use crate::load::Description;
+use crate::load::Unused;
 use crate::record::front::mirror::{Finish, MirrorShape};
 use crate::record::lens::calibrated::View;
 use crate::record::lens::prescription::{IrCutCurve, Source};
 use crate::record::sensor::QuantumEfficiency;
-use crate::record::{Body, Camera, Environment, Front, Lens, Light, Material, Object, Processing, Scene};
+use crate::record::{Body, Camera, Environment, Front, Lens, Light, Object, Processing, Scene};
 
 /// Every file that is named, each once.
-pub(crate) fn requests(description: &Description) -> Vec<AssetRequest> {
+pub(crate) fn requests<'d>(
+    scene: &Scene,
+    unused: &Unused,
+    cameras: impl Iterator<Item = &'d Camera>,
+) -> Vec<AssetRequest> {
     let mut files = FileList::default();
-    let scene = &description.scene;
-    let unused = &description.unused;
     let covered = covered(scene);
     for mesh in scene.meshes.iter().filter(|m| !unused.meshes.contains(&m.name.value)) {
         let covered = covered.get(mesh.name.as_str()).cloned().unwrap_or(Covered::All);
@@ -27,7 +29,7 @@ pub(crate) fn requests(description: &Description) -> Vec<AssetRequest> {
     materials.for_each(|m| m.name_files(&mut files));
     scene.lights.iter().for_each(|l| light(l, &mut files));
     scene.environment.iter().for_each(|e| environment(e, &mut files));
-    description.cameras.iter().for_each(|c| self::camera(&c.camera, &mut files));
+    cameras.for_each(|c| camera(c, &mut files));
     files.into_requests()
 }
 
@@ -57,13 +59,6 @@ pub fn of_camera(camera: &Camera) -> Vec<AssetRequest> {
     let mut files = FileList::default();
     self::camera(camera, &mut files);
     files.into_requests()
-}
-
-/// Whether a material names files itself.
-pub(crate) fn names_files(material: &Material) -> bool {
-    let mut files = FileList::default();
-    material.name_files(&mut files);
-    !files.is_empty()
 }
 
 fn light(light: &Light, files: &mut FileList) {

@@ -12,8 +12,8 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::ReadText;
 use super::files::{FileKind, open};
+use super::read_text::ReadText;
 use crate::document::{Node, Table, Value};
 use crate::fault::Faults;
 use crate::place::Place;

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{ReadText, base};
+use super::base;
+use super::read_text::ReadText;
 use crate::document::{Node, Value, parse};
 use crate::fault::Faults;
 use crate::overrides::Overrides;

@@ -4,12 +4,14 @@ mod base;
 mod check;
 mod files;
 mod names;
+mod read_text;
 mod usage;
 
 use std::path::{Path, PathBuf};
 
 use crate::asset::{AssetRequest, requests};
 use crate::document::Node;
+pub use read_text::ReadText;
 pub use usage::Unused;
 
 use crate::fault::Faults;
@@ -20,9 +22,6 @@ use crate::record::job::CameraSource;
 use crate::record::render::{check_levels, check_merged};
 use crate::record::{Camera, CameraEntry, DataSheet, Job, Output, Pose, Render, Scene};
 use crate::written::Table;
-
-/// Reads the text of a file; the error says in a few words why it cannot.
-pub type ReadText<'r> = dyn Fn(&Path) -> Result<String, String> + 'r;
 
 /// A job with its scene and cameras, checked.
 #[derive(Clone, Debug)]
@@ -99,7 +98,7 @@ impl Description {
     /// Every file that the description names, that is used, and that is not text of its own, each once.
     #[must_use]
     pub fn assets(&self) -> Vec<AssetRequest> {
-        requests(self)
+        requests(&self.scene, &self.unused, self.cameras.iter().map(|entry| &entry.camera))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::asset::names_files;
+use crate::asset::file_list::names_files;
 use crate::fault::Named;
 use crate::place::{Place, Placed};
 use crate::record::{Material, Scene};
@@ -45,7 +45,7 @@ impl Unused {
         let materials: BTreeSet<String> = rest(Named::Material, &mut scene.materials.iter().map(|m| &m.name));
         let has_texture =
             |name: &str| by_owner.get(&Some(name)).is_some_and(|uses| uses.iter().any(|u| u.0 == Named::Texture));
-        let is_unread = |m: &&Material| materials.contains(&m.name.value) && (has_texture(&m.name) || names_files(m));
+        let is_unread = |m: &&Material| materials.contains(&m.name.value) && (has_texture(&m.name) || names_files(*m));
         Self {
             unread: scene.materials.iter().filter(is_unread).map(|m| m.name.value.clone()).collect(),
             meshes: rest(Named::Mesh, &mut scene.meshes.iter().map(|m| &m.name)),

@@ -1,9 +1,9 @@
 //! A table as a file of the format, with comments.
 
-use std::collections::BTreeMap;
 use std::fmt;
 
 use super::Table;
+use super::comments::{Comments, write_comment};
 use super::layout::write_section;
 
 /// A file of the format: `format = 1`, a table, and comments.
@@ -15,10 +15,7 @@ use super::layout::write_section;
 pub struct File {
     head: String,
     table: Table,
-    /// Comments above keys and sections, by their dotted keys.
-    pub(super) above: BTreeMap<String, String>,
-    /// Comments on the lines of keys.
-    pub(super) beside: BTreeMap<String, String>,
+    comments: Comments,
 }
 
 impl File {
@@ -39,14 +36,14 @@ impl File {
     /// A key that is not written has none.
     #[must_use]
     pub fn above(mut self, key: &str, comment: impl Into<String>) -> Self {
-        self.above.insert(key.to_owned(), comment.into());
+        self.comments.above.insert(key.to_owned(), comment.into());
         self
     }
 
     /// With a comment on the line of a key.
     #[must_use]
     pub fn beside(mut self, key: &str, comment: impl Into<String>) -> Self {
-        self.beside.insert(key.to_owned(), comment.into());
+        self.comments.beside.insert(key.to_owned(), comment.into());
         self
     }
 }
@@ -55,15 +52,6 @@ impl fmt::Display for File {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write_comment(f, Some(&self.head).filter(|head| !head.is_empty()))?;
         f.write_str("format = 1\n")?;
-        write_section(f, self, "", &self.table)
+        write_section(f, &self.comments, "", &self.table)
     }
-}
-
-/// The lines of a comment. A control character would end it, and is a space.
-pub(super) fn write_comment(f: &mut fmt::Formatter<'_>, comment: Option<&String>) -> fmt::Result {
-    for line in comment.into_iter().flat_map(|comment| comment.split('\n')) {
-        let line: String = line.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-        writeln!(f, "{}", format!("# {line}").trim_end())?;
-    }
-    Ok(())
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write as _};
 
-use super::file::{File, write_comment};
+use super::comments::{Comments, write_comment};
 use super::{Item, Table, Value};
 use crate::document::join;
 
@@ -10,8 +10,8 @@ use crate::document::join;
 const LINE: usize = 120;
 
 /// The keys of a table: values first, then sections.
-pub(super) fn write_section(f: &mut fmt::Formatter<'_>, file: &File, path: &str, table: &Table) -> fmt::Result {
-    write_keys(f, file, path, table, is_section)
+pub(super) fn write_section(f: &mut fmt::Formatter<'_>, comments: &Comments, path: &str, table: &Table) -> fmt::Result {
+    write_keys(f, comments, path, table, is_section)
 }
 
 /// As a table of its own.
@@ -31,17 +31,17 @@ fn is_section_of_entry(item: &Item, key: &str) -> bool {
 
 fn write_keys(
     f: &mut fmt::Formatter<'_>,
-    file: &File,
+    comments: &Comments,
     path: &str,
     table: &Table,
     is_section: fn(&Item, &str) -> bool,
 ) -> fmt::Result {
     for (key, item) in table.entries().filter(|(key, item)| !is_section(item, key)) {
         let path = join(path, key);
-        write_comment(f, file.above.get(&path))?;
+        write_comment(f, comments.above.get(&path))?;
         write!(f, "{} = ", Key(key))?;
         write_value(f, item)?;
-        match file.beside.get(&path) {
+        match comments.beside.get(&path) {
             Some(comment) => writeln!(f, " # {comment}")?,
             None => f.write_char('\n')?,
         }
@@ -50,13 +50,13 @@ fn write_keys(
         let path = join(path, key);
         match (&item.value, tables_of(item)) {
             (Value::Table(table), _) => {
-                write_head(f, file, &path, ["[", &path, "]"])?;
-                write_keys(f, file, &path, table, is_section)?;
+                write_head(f, comments, &path, ["[", &path, "]"])?;
+                write_keys(f, comments, &path, table, is_section)?;
             }
             (_, Some(tables)) => {
                 for (index, (item, table)) in tables.into_iter().enumerate() {
-                    write_head(f, file, &item.key_in(&path, index), ["[[", &path, "]]"])?;
-                    write_keys(f, file, &path, table, is_section_of_entry)?;
+                    write_head(f, comments, &item.key_in(&path, index), ["[[", &path, "]]"])?;
+                    write_keys(f, comments, &path, table, is_section_of_entry)?;
                 }
             }
             _ => {}
@@ -65,9 +65,9 @@ fn write_keys(
     Ok(())
 }
 
-fn write_head(f: &mut fmt::Formatter<'_>, file: &File, path: &str, head: [&str; 3]) -> fmt::Result {
+fn write_head(f: &mut fmt::Formatter<'_>, comments: &Comments, path: &str, head: [&str; 3]) -> fmt::Result {
     f.write_char('\n')?;
-    write_comment(f, file.above.get(path))?;
+    write_comment(f, comments.above.get(path))?;
     writeln!(f, "{}", head.concat())
 }
 

@@ -5,6 +5,7 @@
 //! there: a default is never spelt out.
 
 mod bytes;
+mod comments;
 mod file;
 mod json;
 mod layout;

@@ -1,11 +1,11 @@
 //! Histograms of how far pixels lie off.
 
-use super::Fixed;
+use super::found::Fixed;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Report, Table};
 use etendue_metrology::photon_transfer::Deviations;
 
-pub(crate) fn tell(report: &mut Report, fixed: &Fixed) {
+pub(super) fn tell(report: &mut Report, fixed: &Fixed) {
     let dark = Deviations::of_dark(&fixed.dark);
     let response = Deviations::of_response(&fixed.dark, &fixed.bright);
     report.fact("dsnu_sigma_dn", "deviation of most pixels in the dark", "DN", dark.sigma);

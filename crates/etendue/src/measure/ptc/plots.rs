@@ -1,11 +1,11 @@
 //! Curves of photon transfer.
 
-use super::Found;
+use super::found::Found;
 use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::Report;
 use etendue_metrology::photon_transfer::{Stack, TransferData, model_snr, spectrogram};
 
-pub(crate) fn draw(report: &mut Report, found: &Found) {
+pub(super) fn draw(report: &mut Report, found: &Found) {
     report.plot(transfer_plot(found));
     report.plot(snr_plot(found));
     report.plot(linearity_plot(&found.data));

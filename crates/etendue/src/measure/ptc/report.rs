@@ -1,11 +1,13 @@
 //! What photon transfer found, in words and as keys of a camera file.
 
-use super::{Found, PtcRequest, defects, plots};
+use super::found::Found;
+use super::request::PtcRequest;
+use super::{defects, plots};
 use crate::report::{Cell, Report, Table};
 use etendue_metrology::Estimate;
 use etendue_metrology::photon_transfer::{Figures, Nonuniformity, Parts, TransferData};
 
-pub(crate) fn report(request: &PtcRequest, found: &Found) -> Report {
+pub(super) fn report(request: &PtcRequest, found: &Found) -> Report {
     let mut report = Report::new("ptc", "EMVA 1288 release 4.0 linear (± one standard uncertainty)");
     if let Some(channel) = &request.selection.channel {
         report.setting("channel", channel.clone());

@@ -2,12 +2,12 @@
 //! from the picture's middle (sagittal: structure across the radius is told by edges along it), and within 22.5° of its perpendicular (tangential).
 //! A star in the middle has neither: its plane is every direction.
 
-use super::Found;
+use super::found::Found;
 use crate::measure::truth::place::Star;
 use etendue_metrology::sfr::{SfrPoint, mean_curve};
 use glam::DVec2;
 
-pub(crate) const SAGITTAL: &str = "sagittal";
+pub(super) const SAGITTAL: &str = "sagittal";
 const TANGENTIAL: &str = "tangential";
 const EVERY: &str = "every direction";
 /// cos 22.5°.
@@ -16,7 +16,7 @@ const NEAR: f64 = 0.923_879_532_511_286_7;
 const MIDDLE: f64 = 0.05;
 
 /// A star's response in a plane.
-pub(crate) struct Plane {
+pub(super) struct Plane {
     /// The star's centre, px.
     pub place: String,
     /// Of the half diagonal.
@@ -27,7 +27,7 @@ pub(crate) struct Plane {
 }
 
 /// The planes of the stars among what was found, star by star.
-pub(crate) fn of(found: &[Found<'_>], (width, height): (usize, usize)) -> Vec<Plane> {
+pub(super) fn of(found: &[Found<'_>], (width, height): (usize, usize)) -> Vec<Plane> {
     let mut stars: Vec<Star> = Vec::new();
     for star in found.iter().filter_map(|one| one.sought.spoke.as_ref().map(|spoke| spoke.star)) {
         if !stars.contains(&star) {

@@ -1,7 +1,9 @@
 //! What `measure sfr` tells.
 
+use super::found::Found;
 use super::planes::{self, Plane};
-use super::{Found, SfrRequest, shading_hint};
+use super::refusal::shading_hint;
+use super::request::SfrRequest;
 use crate::measure::readings::Readings;
 use crate::measure::truth::place::Sought;
 use crate::plot::{Axis, Mark, Plot, Series};
@@ -9,7 +11,7 @@ use crate::report::{Cell, Report, Table};
 use etendue_metrology::Estimate;
 use etendue_metrology::sfr::{Orientation, SfrError, SfrPoint, acutance, crossing};
 
-pub(crate) fn report(
+pub(super) fn report(
     request: &SfrRequest,
     found: &[Found<'_>],
     left_out: &[(&Sought, SfrError)],

@@ -1,6 +1,6 @@
 //! What one picture does not tell and is assumed: its share of the uncertainty.
 
-use super::Found;
+use super::found::Found;
 use crate::error::Error;
 use etendue_metrology::calibrate::{Calibrated, Family, Options, Radial, Sightings, calibrate_as_stated};
 use glam::DVec2;

@@ -1,7 +1,7 @@
 //! Numbers over a surface, and normal maps.
 
-use super::MaterialCompiler;
-use super::picture::Use;
+use super::compiler::MaterialCompiler;
+use super::texture::Use;
 use etendue_scene::record::material::{self, Factor};
 use etendue_tracer::materials;
 use etendue_tracer::textures::Channel;

@@ -1,6 +1,6 @@
 //! Retro-reflective sheeting and road markings.
 
-use super::MaterialCompiler;
+use super::compiler::MaterialCompiler;
 use super::share::share;
 use etendue_scene::Placed;
 use etendue_scene::asset::RetroTableAsset;

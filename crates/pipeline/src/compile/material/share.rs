@@ -2,8 +2,8 @@
 
 use super::super::context::Context;
 use super::super::spectrum::{emitted, from_file};
-use super::MaterialCompiler;
-use super::picture::Use;
+use super::compiler::MaterialCompiler;
+use super::texture::Use;
 use etendue_scene::record::material::Sides;
 use etendue_scene::record::{self, Colour, SurfaceEmission};
 use etendue_spectra::{Outside, Spectrum, colour, reflectance, upsample};

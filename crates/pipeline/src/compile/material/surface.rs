@@ -1,7 +1,7 @@
 //! How a surface scatters: from the record's type to the tracer's model.
 
 use super::super::spectrum::curve;
-use super::MaterialCompiler;
+use super::compiler::MaterialCompiler;
 use super::metal::{self, complex_index};
 use super::share::share;
 use etendue_core::wavelength::{MAX_NM, SHORTEST_NM};

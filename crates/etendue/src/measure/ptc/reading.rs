@@ -1,0 +1,121 @@
+//! From a descriptor's pictures to the curve and the fixed patterns.
+
+use super::found::{Fixed, Found};
+use crate::error::Error;
+use crate::measure::pictures::Pictures;
+use crate::measure::readings::Selection;
+use etendue_io::emva_descriptor::{DescribedLevel, EmvaDescriptor};
+use etendue_metrology::Image;
+use etendue_metrology::photon_transfer::{Figures, Level, Pattern, Stack, TransferData, TransferError, nonuniformity};
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+
+/// Levels measured side by side, and frames read ahead: twice as many pictures are in memory at a time.
+const AT_A_TIME: usize = 4;
+
+/// Reading of a descriptor's pictures.
+pub(super) struct Reading<'a> {
+    pub(super) selection: &'a Selection,
+    pub(super) descriptor: &'a EmvaDescriptor,
+    pub(super) pictures: Pictures<'a>,
+}
+
+fn refused(error: TransferError) -> Error {
+    Error::input(error)
+}
+
+/// Adds pictures to a stack, which the first begins.
+fn add(stack: &mut Option<Stack>, images: &[(&Path, Image)]) -> Result<(), Error> {
+    for (file, image) in images {
+        let named = |error: TransferError| Error::input(format!("{}: {error}", file.display()));
+        let stack = stack.get_or_insert_with(|| Stack::new(image.width(), image.height()));
+        stack.push(image).map_err(named)?;
+    }
+    Ok(())
+}
+
+impl Reading<'_> {
+    /// Everything that the pictures tell.
+    pub(super) fn found(&self) -> Result<Found, Error> {
+        let (pairs, stacks): (Vec<_>, Vec<_>) = self.descriptor.levels.iter().partition(|level| level.files.len() == 2);
+        let mut levels = Vec::new();
+        for some in pairs.chunks(AT_A_TIME) {
+            levels.extend(some.par_iter().map(|level| self.pair(level)).collect::<Result<Vec<_>, Error>>()?);
+        }
+        let bright = |(level, marks): &(Level, Vec<u64>)| if level.photons > 0.0 { marks.clone() } else { Vec::new() };
+        let mut marks: Vec<u64> = levels.iter().flat_map(bright).collect();
+        marks.sort_unstable();
+        if marks.windows(2).any(|pair| pair[0] == pair[1]) {
+            return Err(refused(TransferError::Copies));
+        }
+        let levels: Vec<Level> = levels.into_iter().map(|(level, _)| level).collect();
+        let data = TransferData::new(&levels).map_err(refused)?;
+        let figures = data.figures().map_err(refused)?;
+        let fixed = self.fixed_patterns(&stacks, &data, &figures)?;
+        Ok(Found { data, figures, fixed })
+    }
+
+    fn pair(&self, level: &DescribedLevel) -> Result<(Level, Vec<u64>), Error> {
+        let stack = self.stack(level)?;
+        let statistics = stack.statistics().map_err(refused)?;
+        let marks = stack.fingerprints().to_vec();
+        Ok((Level { exposure_s: level.exposure_s, photons: level.photons, statistics }, marks))
+    }
+
+    /// A level's pictures, added up in their order while the next are read.
+    fn stack(&self, level: &DescribedLevel) -> Result<Stack, Error> {
+        let mut stack: Option<Stack> = None;
+        let mut waiting = Vec::new();
+        for files in level.files.chunks(AT_A_TIME) {
+            let (added, read) = rayon::join(|| add(&mut stack, &waiting), || self.images(files));
+            added?;
+            waiting = read?;
+        }
+        add(&mut stack, &waiting)?;
+        Ok(stack.expect("a described level has pictures"))
+    }
+
+    fn images<'f>(&self, files: &'f [PathBuf]) -> Result<Vec<(&'f Path, Image)>, Error> {
+        files.par_iter().map(|file| Ok((file.as_path(), self.image(file)?))).collect()
+    }
+
+    fn image(&self, file: &Path) -> Result<Image, Error> {
+        let readings = self.selection.raw(file)?;
+        readings.independent(file, 1)?;
+        let image = readings.image;
+        let whole = self.selection.region.is_none() && self.selection.channel.is_none();
+        let (size, expected) = ((image.width(), image.height()), (self.descriptor.width, self.descriptor.height));
+        if whole && size != expected {
+            return Err(Error::input(format!("{}: {}", file.display(), TransferError::Size { size, expected })));
+        }
+        self.pictures.step();
+        Ok(image)
+    }
+
+    fn fixed_patterns(
+        &self,
+        stacks: &[&DescribedLevel],
+        data: &TransferData,
+        figures: &Figures,
+    ) -> Result<Option<Fixed>, Error> {
+        let dark = stacks.iter().find(|level| level.photons == 0.0);
+        let bright = stacks.iter().find(|level| level.photons > 0.0);
+        let (dark, bright) = match (dark, bright) {
+            (Some(dark), Some(bright)) => (dark, bright),
+            (None, None) => return Ok(None),
+            _ => {
+                return Err(Error::input(
+                    "stacks of more than two pictures: expected one with light and one without, of one exposure time",
+                ));
+            }
+        };
+        if stacks.len() > 2 || dark.exposure_s != bright.exposure_s {
+            return Err(Error::input("stacks of more than two pictures: expected two, of one exposure time"));
+        }
+        let (dark, bright) = (self.stack(dark)?, self.stack(bright)?);
+        let pattern = |stack| Pattern::of(stack).map_err(refused);
+        let gain = figures.gain_dn_per_e;
+        let patterns = nonuniformity(&pattern(&dark)?, &pattern(&bright)?, gain, data).map_err(refused)?;
+        Ok(Some(Fixed { dark, bright, patterns }))
+    }
+}

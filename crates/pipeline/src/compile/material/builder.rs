@@ -1,0 +1,193 @@
+//! The table of materials, as the scene and its meshes name them.
+
+use super::super::context::Context;
+use super::compiler::MaterialCompiler;
+use super::picture::Pictures;
+use super::slot;
+use etendue_scene::Place;
+use etendue_scene::Unused;
+use etendue_scene::asset::SlotMaterial;
+use etendue_scene::record::{self, Scene};
+use etendue_spectra::upsample;
+use etendue_tracer::MaterialId;
+use etendue_tracer::materials::{Material, MaterialTable, Reflectance, Surface};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Materials and textures as they are found, and where each was named.
+#[derive(Default)]
+pub(in super::super) struct MaterialTableBuilder {
+    materials: Vec<Made>,
+    by_name: BTreeMap<String, MaterialId>,
+    /// Materials that meshes bring themselves, by mesh file and slot name.
+    by_slot: BTreeMap<(PathBuf, String), MaterialId>,
+    /// Materials of a flux, by the bits of the area that gives it.
+    by_area: BTreeMap<(u32, u64), MaterialId>,
+    pictures: Pictures,
+}
+
+/// A material, and what is said of it.
+struct Made {
+    material: Material,
+    place: Place,
+    name: String,
+    /// Whether any of its textures is laid by texture coordinates.
+    needs_coordinates: bool,
+    /// Of a material whose light is stated as a flux: how many sides glow. Its radiance is that of an area of 1 m² in all
+    /// until [`MaterialTableBuilder::of_area`] knows better.
+    flux_sides: Option<f64>,
+}
+
+impl Made {
+    /// Black, in the place of a material that nothing uses and whose files are not read: ids of materials do not depend on what is used.
+    fn unused(record: &record::Material) -> Self {
+        Self {
+            material: Material::new(Reflectance::Spectrum(upsample::reflectance_spectrum([0.0; 3]))),
+            place: record.place.clone(),
+            name: record.name.value.clone(),
+            needs_coordinates: false,
+            flux_sides: None,
+        }
+    }
+}
+
+impl MaterialTableBuilder {
+    /// All materials of a scene; of those that nothing uses and whose files are not read, a place in the list.
+    pub(in super::super) fn of_scene(scene: &Scene, unused: &Unused, context: &mut Context<'_>) -> Self {
+        let mut builder = Self::default();
+        for record in &scene.materials {
+            if unused.unread.contains(&record.name.value) {
+                builder.add(Made::unused(record));
+                continue;
+            }
+            let pictures = &mut builder.pictures;
+            let mut material_compiler =
+                MaterialCompiler { scene, pictures, context, needs_coordinates: false, flux_sides: None };
+            if let Some(material) = material_compiler.material(record) {
+                let (needs_coordinates, flux_sides) =
+                    (material_compiler.needs_coordinates, material_compiler.flux_sides);
+                let (place, name) = (record.place.clone(), record.name.value.clone());
+                let id = builder.add(Made { material, place, name: name.clone(), needs_coordinates, flux_sides });
+                builder.by_name.insert(name, id);
+            }
+        }
+        builder
+    }
+
+    /// The material of a name that the scene defines; `None` where it is faulty.
+    pub(in super::super) fn named(&self, name: &str) -> Option<MaterialId> {
+        self.by_name.get(name).copied()
+    }
+
+    /// The name of a material that has a texture laid by texture coordinates, or a part that has; `None` for others.
+    pub(in super::super) fn needs_coordinates(&self, id: MaterialId) -> Option<&str> {
+        let mut visited = vec![false; self.materials.len()];
+        let mut open = vec![id];
+        while let Some(id) = open.pop() {
+            // A part that is faulty has no material.
+            let Some(made) = self.materials.get(id.0 as usize) else { continue };
+            if made.needs_coordinates {
+                return Some(&made.name);
+            }
+            if let (Surface::Mix(mix), false) = (&made.material.surface, visited[id.0 as usize]) {
+                open.extend([mix.a, mix.b]);
+            }
+            visited[id.0 as usize] = true;
+        }
+        None
+    }
+
+    /// The material that a mesh's own file gives a slot. A fault at `place` where the file gives none.
+    pub(in super::super) fn of_slot(
+        &mut self,
+        file: &Path,
+        slot: &SlotMaterial,
+        place: &Place,
+        context: &mut Context<'_>,
+    ) -> Option<MaterialId> {
+        let key = (file.to_owned(), slot.name.clone());
+        if let Some(id) = self.by_slot.get(&key) {
+            return Some(*id);
+        }
+        let surface = slot::surface(file, slot, place, &mut self.pictures, context)?;
+        let needs_coordinates = slot::has_picture(slot);
+        let material = Material::new(surface);
+        let id = self.add(Made {
+            material,
+            place: place.clone(),
+            name: slot.name.clone(),
+            needs_coordinates,
+            flux_sides: None,
+        });
+        self.by_slot.insert(key, id);
+        Some(id)
+    }
+
+    /// Whether a material's light is stated as a flux, so that [`MaterialTableBuilder::of_area`] has to make its like.
+    pub(in super::super) fn gives_flux(&self, id: MaterialId) -> bool {
+        self.materials.get(id.0 as usize).is_some_and(|made| made.flux_sides.is_some())
+    }
+
+    /// The like of a material of a flux for an object whose surfaces of it have `area_m2` on one side.
+    pub(in super::super) fn of_area(&mut self, id: MaterialId, area_m2: f64) -> MaterialId {
+        let key = (id.0, area_m2.to_bits());
+        if let Some(known) = self.by_area.get(&key) {
+            return *known;
+        }
+        let made = &self.materials[id.0 as usize];
+        let sides = made.flux_sides.unwrap_or(1.0);
+        let mut like =
+            Made { material: made.material.clone(), place: made.place.clone(), name: made.name.clone(), ..*made };
+        if let Some(emission) = &mut like.material.emission {
+            emission.radiance = emission.radiance.scaled(1.0 / (sides * area_m2));
+        }
+        let made = self.add(like);
+        self.by_area.insert(key, made);
+        made
+    }
+
+    /// The material_table, and the materials' names in the order of their ids.
+    pub(in super::super) fn finish(self, context: &mut Context<'_>) -> Option<(MaterialTable, Vec<String>)> {
+        let names = self.materials.iter().map(|made| made.name.clone()).collect();
+        let places: Vec<_> = self.materials.iter().map(|made| made.place.clone()).collect();
+        let materials = self.materials.into_iter().map(|made| made.material).collect();
+        match MaterialTable::new(materials, self.pictures.into_textures()) {
+            Ok(material_table) => Some((material_table, names)),
+            Err(error) => {
+                if let Some(place) = error.material().and_then(|i| places.get(i)) {
+                    context.fault(place, error.to_string(), "");
+                }
+                None
+            }
+        }
+    }
+
+    fn add(&mut self, made: Made) -> MaterialId {
+        self.materials.push(made);
+        MaterialId((self.materials.len() - 1) as u32)
+    }
+}
+
+impl MaterialCompiler<'_, '_> {
+    fn material(&mut self, record: &record::Material) -> Option<Material> {
+        let surface = self.surface(&record.surface.0);
+        let emission = record.emission.as_ref().map(|e| self.emission(e));
+        let opacity = record.opacity.as_ref().map(|o| self.factor(o));
+        let normal_map = record.normal_map.as_ref().map(|map| self.normal_map(map));
+        Some(Material {
+            surface: surface?,
+            emission: whole(emission)?,
+            opacity: whole(opacity)?,
+            normal_map: whole(normal_map)?,
+        })
+    }
+}
+
+/// What is given and right, or not given; `None` where it is given and faulty.
+#[allow(clippy::option_option, reason = "the outer level tells faults, the inner what is not given")]
+fn whole<T>(given: Option<Option<T>>) -> Option<Option<T>> {
+    match given {
+        None => Some(None),
+        Some(made) => made.map(Some),
+    }
+}

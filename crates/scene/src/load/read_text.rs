@@ -1,0 +1,6 @@
+//! How the loader reads: it opens no file itself.
+
+use std::path::Path;
+
+/// Reads the text of a file; the error says in a few words why it cannot.
+pub type ReadText<'r> = dyn Fn(&Path) -> Result<String, String> + 'r;
