@@ -110,7 +110,7 @@ fn before_the_lamp(camera: usize) -> (Sensor, Vec<f64>, Vec<(usize, usize)>) {
     let mut parameters = sensor.parameters().clone();
     parameters.cfa = etendue_sensor::Cfa::mono();
     parameters.channels.truncate(1);
-    parameters.light = etendue_sensor::LightEffects::default();
+    (parameters.light.angle_response, parameters.light.crosstalk) = (None, None);
     parameters.exposure.control = None;
     let sensor = Sensor::new(parameters).expect("legal");
     let raw = frame(&sensor, &lamp(&sensor), 0);
