@@ -12,7 +12,7 @@ use etendue_scene::record::light::{
 use etendue_scene::record::transform::yaw_pitch_roll;
 use etendue_scene::record::{Light, LightColour};
 use etendue_spectra::{Spectrum, colour};
-use etendue_tracer::lights::{Cone, Lamp, Profile, Slide, Web, WebAxes, head_lamp};
+use etendue_tracer::lights::{Cone, Lamp, MaskImage, Profile, Web, WebAxes, head_lamp};
 use glam::{DMat3, DVec3};
 use std::sync::Arc;
 
@@ -92,8 +92,8 @@ fn masked(profile: Profile, mask: Option<&Mask>, context: &mut Context<'_>) -> O
     let size = (picture.width as usize, picture.height as usize);
     let texels = linear(picture).into_iter().map(luminance).collect();
     let [horizontal_rad, vertical_rad] = mask.field_deg.value.map(f64::to_radians);
-    let slide = context.accept(&mask.file.place, Slide::new(size, texels, horizontal_rad, vertical_rad))?;
-    Some(Profile::masked(profile, Profile::Slide(slide)))
+    let image = context.accept(&mask.file.place, MaskImage::new(size, texels, horizontal_rad, vertical_rad))?;
+    Some(Profile::masked(profile, Profile::MaskImage(image)))
 }
 
 /// Luminance of a linear colour, 1 for white.
