@@ -12,7 +12,9 @@ use crate::plot::{Axis, Mark, Plot, Series};
 use crate::report::{Cell, Covariance, Report, Table, with_uncertainty};
 use etendue_core::maths::f64::{acos, atan};
 use etendue_metrology::Estimate;
-use etendue_metrology::calibrate::{CalibrateError, Calibrated, CameraModel, Options, Sightings, calibrate_sparing};
+use etendue_metrology::calibrate::{
+    CalibrateError, Calibrated, CameraModel, Options, Sightings, calibrate_rejecting_outliers,
+};
 use etendue_metrology::target::Node;
 use etendue_projection::CalibrationError;
 use etendue_scene::record::lens::calibrated::View;
@@ -116,7 +118,7 @@ impl ViewsRequest {
         let sightings: Vec<Sightings> = views.iter().map(|v| Sightings::of_grid(&v.grid, pitch_mm)).collect();
         let size = views[0].size_px;
         let options = options(size);
-        let spared = calibrate_sparing(&sightings, size, self.model.family(), options);
+        let spared = calibrate_rejecting_outliers(&sightings, size, self.model.family(), options);
         let spared = spared.map_err(|error| Error::input(of_files(&error, &views)))?;
         let left_out = |file: &Path, why: &dyn Display| format!("warning: {}: left out: {why}", file.display());
         let mut notes: Vec<String> = without.iter().map(|(file, why)| left_out(file, why)).collect();
