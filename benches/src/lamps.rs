@@ -5,7 +5,7 @@ use crate::runs::Runs;
 use crate::scenes::{STREET, camera};
 use crate::table::Table;
 use crate::threads::pool;
-use etendue_pipeline::render::{Request, census, light};
+use etendue_pipeline::render::{Request, light, light_counts};
 use etendue_pipeline::{Plan, Unobserved};
 use rayon::ThreadPool;
 
@@ -43,7 +43,7 @@ struct Measured {
 
 impl Measured {
     fn of(plan: &mut Plan, pool: &ThreadPool) -> Self {
-        let (_, start_s) = timed(|| census(plan, camera(plan)));
+        let (_, start_s) = timed(|| light_counts(plan, camera(plan)));
         let (mut path_s, mut pictures) = (Runs::default(), vec![]);
         for seed in 1..=SEEDS {
             let (picture, seconds) = rendered(plan, pool, seed);

@@ -5,7 +5,7 @@ use crate::runs::Runs;
 use crate::scenes::{ALL, Scene, camera};
 use crate::table::Table;
 use crate::threads::pool;
-use etendue_pipeline::render::{Request, census, light};
+use etendue_pipeline::render::{Request, light, light_counts};
 use etendue_pipeline::{Plan, Unobserved};
 use rayon::ThreadPool;
 
@@ -47,7 +47,7 @@ pub fn table() -> Table {
 
 fn row(scene: &Scene, pools: &[ThreadPool; 2]) -> Vec<String> {
     let plan = scene.small_plan();
-    let (_, start_s) = timed(|| census(&plan, camera(&plan)));
+    let (_, start_s) = timed(|| light_counts(&plan, camera(&plan)));
     let measured = measured(&plan, pools, start_s);
     let (width, height) = camera(&plan).film_size();
     let paths = f64::from(width) * f64::from(height) * f64::from(scene.spp);

@@ -8,26 +8,26 @@
 //! stands in the world's plane x = distance and faces the origin, where the camera stands: (x, y) mm is the point
 //! (distance, −x/1000, −y/1000) m.
 //!
-//! This crate knows no lens and no sensor: a camera is a function from raster points to rays ([`Eye`]) and one from light to
+//! This crate knows no lens and no sensor: a camera is a function from raster points to rays ([`RayCamera`]) and one from light to
 //! electrons ([`Meter`]), given by the caller. It reads no file and measures nothing.
 
+mod camera_station;
 pub mod design;
 mod drawing;
 mod error;
-mod eye;
 mod ink;
 mod light;
 mod panel;
+mod ray_camera;
 pub mod shape;
-mod station;
 mod write;
 
+pub use camera_station::{CameraStation, Exposures, Spacing, camera_stations};
 pub use design::Chart;
 pub use drawing::{Cavity, Drawing, Feature, Kind, Patch, Texture};
 pub use error::ChartError;
-pub use eye::{Eye, Footprint, RasterRay};
 pub use ink::{Ink, Paint};
 pub use light::{Light, Meter};
 pub use panel::Panel;
-pub use station::{Exposures, Spacing, Station, stations};
+pub use ray_camera::{Footprint, RasterRay, RayCamera};
 pub use write::{ChartFile, Contents, Request, files, picture};

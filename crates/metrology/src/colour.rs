@@ -10,8 +10,8 @@
 //! one stated of the largest, which is chosen by its noise as well. Left out: matrices that keep
 //! white, weights by perceived difference, more than three channels.
 
-use crate::even::even;
 use crate::flat::saturated_percent;
+use crate::patch_statistics::patch_statistics;
 use crate::propagate::{Curved, propagate_curved};
 use crate::solve::Normal;
 use crate::{Estimate, Image};
@@ -92,8 +92,10 @@ pub fn measure_colour(
     }
     patches.iter().try_for_each(|patch| check(patch, full_scale))?;
     let less_black = |e: Estimate| Estimate::new(e.value - black, e.standard_uncertainty);
-    let means: Vec<Vec<Estimate>> =
-        patches.iter().map(|p| p.pixels.iter().map(|c| less_black(even(c, shared_px).mean)).collect()).collect();
+    let means: Vec<Vec<Estimate>> = patches
+        .iter()
+        .map(|p| p.pixels.iter().map(|c| less_black(patch_statistics(c, shared_px).mean)).collect())
+        .collect();
     let values: Vec<f64> = means.iter().flatten().map(|e| e.value).collect();
     let matrix = fitted(patches, &values).ok_or(ColourFault::Ambiguous)?;
     let colours = seen(&values, matrix, white);

@@ -11,10 +11,10 @@
 //! ```
 //!
 //! Means and variances of patches replace all pairs of pixels (an error below 0.04 where readings are near Gaussian and positive).
-//! Uncertainty: of means and of variances ([`even`](crate::even)), propagated.
+//! Uncertainty: of means and of variances ([`patch_statistics`](crate::patch_statistics)), propagated.
 
-use crate::even::even;
 use crate::flat::saturated_percent;
+use crate::patch_statistics::patch_statistics;
 use crate::propagate::propagate;
 use crate::{Estimate, Image};
 use etendue_core::maths::f64::hypot;
@@ -130,8 +130,8 @@ pub fn detection_probability(darker: [f64; 2], brighter: [f64; 2], scene_contras
 
 /// Mean less black, and variance.
 fn moments(patch: &Image, black: f64, shared_px: usize) -> [Estimate; 2] {
-    let even = even(patch, shared_px);
-    [Estimate::new(even.mean.value - black, even.mean.standard_uncertainty), even.variance]
+    let patch = patch_statistics(patch, shared_px);
+    [Estimate::new(patch.mean.value - black, patch.mean.standard_uncertainty), patch.variance]
 }
 
 #[cfg(test)]

@@ -7,11 +7,11 @@
 //! ```
 //!
 //! at each trap against the white about it, the mean of one or more regions. Uncertainty: of the regions' means
-//! ([`even`](crate::even)); light that the traps themselves reflect is not in it. IEEE 2020 adds a source within or outside the field: measure its traps the same way with the
+//! ([`patch_statistics`](crate::patch_statistics)); light that the traps themselves reflect is not in it. IEEE 2020 adds a source within or outside the field: measure its traps the same way with the
 //! source on.
 
-use crate::even::even;
 use crate::flat::saturated_percent;
+use crate::patch_statistics::patch_statistics;
 use crate::{Estimate, Image};
 
 /// Why flare cannot be measured.
@@ -54,10 +54,10 @@ pub fn measure_flare(
         return Err(FlareError::Saturated { percent });
     }
     let count = whites.len() as f64;
-    let all = whites.iter().map(|w| even(w, shared_px).mean).fold([0.0; 2], |[value, squares], e| {
+    let all = whites.iter().map(|w| patch_statistics(w, shared_px).mean).fold([0.0; 2], |[value, squares], e| {
         [value + e.value, squares + e.standard_uncertainty * e.standard_uncertainty]
     });
-    flare(even(trap, shared_px).mean, Estimate::new(all[0] / count, all[1].sqrt() / count), black)
+    flare(patch_statistics(trap, shared_px).mean, Estimate::new(all[0] / count, all[1].sqrt() / count), black)
 }
 
 fn flare(trap: Estimate, white: Estimate, black: f64) -> Result<Estimate, FlareError> {

@@ -15,8 +15,8 @@
 //! picture's bits do not depend on threads or on the order of work. Noise from frame to frame is drawn from the job's seed,
 //! fixed patterns from the specimen's.
 
-mod account;
 pub mod cfa;
+mod charge_account;
 mod check;
 pub mod dynamic_range;
 mod effect;
@@ -38,8 +38,8 @@ mod signal_breakdown;
 mod state;
 mod validity;
 
-pub use account::ChargeAccount;
 pub use cfa::{BayerPhase, Cfa, CfaError};
+pub use charge_account::ChargeAccount;
 pub use check::SensorError;
 pub use dynamic_range::DynamicRange;
 pub use effects::{ChargeEffects, LightEffects, VoltageEffects};

@@ -1,6 +1,6 @@
 //! A raw picture, with what development needs to know.
 
-use crate::account::ChargeAccount;
+use crate::charge_account::ChargeAccount;
 use crate::hdr::companding::Companding;
 use crate::layout::Region;
 use crate::state::OperatingPoint;

@@ -3,9 +3,9 @@
 use super::{BLACK, BLEED, GridSize, WHITE};
 use crate::drawing::{Drawing, Feature, Kind};
 use crate::error::ChartError;
-use crate::eye::Footprint;
 use crate::ink::Ink;
 use crate::panel::Panel;
+use crate::ray_camera::Footprint;
 use crate::shape::{Cell, Fill, Lattice};
 use glam::DVec2;
 

@@ -4,7 +4,7 @@
 use super::{GridSize, discs};
 use crate::drawing::Drawing;
 use crate::error::ChartError;
-use crate::eye::Footprint;
+use crate::ray_camera::Footprint;
 
 /// How much of what is wholly seen the lattice takes.
 const ROOM: f64 = 0.92;

@@ -7,9 +7,9 @@
 use super::BLEED;
 use crate::drawing::{Drawing, Patch, Texture};
 use crate::error::ChartError;
-use crate::eye::Footprint;
 use crate::ink::{Ink, Paint};
 use crate::panel::Panel;
+use crate::ray_camera::Footprint;
 use crate::shape::{Cell, Fill, Lattice, rectangle};
 use etendue_core::random::{NoiseDraw, NoiseStream, Pixel};
 use glam::DVec2;

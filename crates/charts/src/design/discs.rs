@@ -3,9 +3,9 @@
 use super::grid::Grid;
 use super::{BLACK, BLEED, WHITE};
 use crate::drawing::{Drawing, Feature, Kind};
-use crate::eye::Footprint;
 use crate::ink::Ink;
 use crate::panel::Panel;
+use crate::ray_camera::Footprint;
 use crate::shape::{Cell, Figure, Fill, Lattice, disc};
 use core::f64::consts::FRAC_PI_4;
 use glam::DVec2;

@@ -4,7 +4,7 @@
 use super::{GridSize, discs};
 use crate::drawing::Drawing;
 use crate::error::ChartError;
-use crate::eye::Footprint;
+use crate::ray_camera::Footprint;
 
 /// A chart of dots.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,9 +6,9 @@
 use super::{BLEED, GridSize, WHITE};
 use crate::drawing::{Cavity, Drawing, Patch};
 use crate::error::ChartError;
-use crate::eye::Footprint;
 use crate::ink::Ink;
 use crate::panel::Panel;
+use crate::ray_camera::Footprint;
 use crate::shape::{Cell, Figure, Fill, Lattice, Zone, disc};
 use glam::DVec2;
 

@@ -4,9 +4,9 @@
 use super::{BLEED, share};
 use crate::drawing::{Drawing, Patch};
 use crate::error::ChartError;
-use crate::eye::Footprint;
 use crate::ink::{Ink, Paint};
 use crate::panel::Panel;
+use crate::ray_camera::Footprint;
 use crate::shape::{Sheet, rectangle};
 
 /// A white sheet.

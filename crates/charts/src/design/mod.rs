@@ -24,7 +24,7 @@ mod slanted_star;
 
 use crate::drawing::Drawing;
 use crate::error::ChartError;
-use crate::eye::Footprint;
+use crate::ray_camera::Footprint;
 use option::{BLACK, BLEED, WHITE, angle, contrast, is_measurable, share};
 
 pub use checkerboard::Checkerboard;

@@ -4,9 +4,9 @@
 use super::BLEED;
 use crate::drawing::{Drawing, Patch};
 use crate::error::ChartError;
-use crate::eye::Footprint;
 use crate::ink::{Ink, Paint};
 use crate::panel::Panel;
+use crate::ray_camera::Footprint;
 use crate::shape::{Cell, Figure, Fill, Lattice, Zone, disc};
 use etendue_core::maths::f64::pow;
 use glam::DVec2;

@@ -4,9 +4,9 @@
 use super::{BLEED, GridSize};
 use crate::drawing::{Drawing, Feature, Kind};
 use crate::error::ChartError;
-use crate::eye::Footprint;
 use crate::ink::{Ink, Paint};
 use crate::panel::Panel;
+use crate::ray_camera::Footprint;
 use crate::shape::{Cell, Figure, Fill, Lattice, disc};
 use glam::DVec2;
 use std::f64::consts::{FRAC_PI_4, PI};

@@ -7,9 +7,9 @@
 use super::BLEED;
 use crate::drawing::{Drawing, Feature, Kind, Patch};
 use crate::error::ChartError;
-use crate::eye::Footprint;
 use crate::ink::Ink;
 use crate::panel::Panel;
+use crate::ray_camera::Footprint;
 use crate::shape::{Cell, Figure, Fill, Lattice, Zone, disc};
 use etendue_core::maths::f64::{cos, sin};
 use glam::DVec2;

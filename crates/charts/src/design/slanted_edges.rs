@@ -4,9 +4,9 @@
 use super::{BLEED, GridSize, angle, contrast, is_measurable};
 use crate::drawing::{Drawing, Feature, Patch};
 use crate::error::ChartError;
-use crate::eye::Footprint;
 use crate::ink::Ink;
 use crate::panel::Panel;
+use crate::ray_camera::Footprint;
 use crate::shape::{Cell, Figure, Fill, Lattice, rectangle, turned};
 use glam::DVec2;
 

@@ -4,9 +4,9 @@
 use super::{BLEED, GridSize, angle, contrast, is_measurable};
 use crate::drawing::{Drawing, Feature, Kind};
 use crate::error::ChartError;
-use crate::eye::Footprint;
 use crate::ink::Ink;
 use crate::panel::Panel;
+use crate::ray_camera::Footprint;
 use crate::shape::{Cell, Figure, Fill, Lattice, Zone, disc};
 use glam::DVec2;
 use serde_json::json;

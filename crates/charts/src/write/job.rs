@@ -1,7 +1,7 @@
 //! The job and its cameras.
 
 use super::Request;
-use crate::station::Station;
+use crate::camera_station::CameraStation;
 use etendue_scene::record::pose::Aim;
 use etendue_scene::record::render::Integrator;
 use etendue_scene::record::sensor::charge::NonUniformity;
@@ -28,7 +28,7 @@ pub(super) fn job(request: &Request<'_>) -> String {
 }
 
 /// A station as a camera of the job; in a series, whose views are the same, without ground truth.
-fn camera_entry(station: &Station, series: bool) -> Table {
+fn camera_entry(station: &CameraStation, series: bool) -> Table {
     let [position_m, target_m, up] = [station.position_m, station.target_m, station.up].map(|v| v.to_array());
     let pose = Pose { up: Some(up.into()), ..Pose::new(position_m, Aim::LookAt(target_m.into())) };
     let entry =
@@ -40,7 +40,7 @@ fn camera_entry(station: &Station, series: bool) -> Table {
 }
 
 /// The camera file of a station. A dark frame has that of the exposure before it.
-pub(super) fn camera_file(station: &Station) -> String {
+pub(super) fn camera_file(station: &CameraStation) -> String {
     match station.exposure_s {
         Some(_) => format!("{}.toml", station.name.replace("dark", "exposure")),
         None => "camera.toml".to_owned(),
@@ -48,7 +48,7 @@ pub(super) fn camera_file(station: &Station) -> String {
 }
 
 /// The camera of a station: the caller's, and what differs.
-pub(super) fn camera(request: &Request<'_>, station: &Station) -> String {
+pub(super) fn camera(request: &Request<'_>, station: &CameraStation) -> String {
     let mut camera = Table::new().with("base", request.camera);
     if !request.remove.is_empty() {
         camera.put("remove", request.remove.to_vec());

@@ -1,10 +1,10 @@
 //! What is asked for when a drawing becomes files.
 
+use crate::camera_station::CameraStation;
 use crate::design::Chart;
 use crate::drawing::Drawing;
-use crate::eye::{Eye, Footprint};
 use crate::light::{Light, Meter};
-use crate::station::Station;
+use crate::ray_camera::{Footprint, RayCamera};
 
 /// Everything that decides a chart's files.
 pub struct Request<'a> {
@@ -15,13 +15,13 @@ pub struct Request<'a> {
     /// What the camera sees of its plane.
     pub seen: Footprint,
     /// The camera's rays.
-    pub eye: &'a Eye<'a>,
+    pub ray_camera: &'a RayCamera<'a>,
     /// What the camera makes of light; `None` without electronics.
     pub meter: Option<&'a Meter<'a>>,
     /// The light.
     pub light: &'a Light,
     /// The cameras of the job.
-    pub stations: &'a [Station],
+    pub stations: &'a [CameraStation],
     /// The camera file that the job's cameras build on, as a path from the chart's folder.
     pub camera: &'a str,
     /// Keys that are taken out of it.

@@ -1,12 +1,12 @@
 //! What is true of a chart: sizes, light, features, patches, and where each camera sees them.
 
 use super::Request;
+use crate::camera_station::CameraStation;
 use crate::drawing::{Feature, Kind, Patch};
-use crate::eye::RasterRay;
 use crate::ink::{Ink, Paint};
 use crate::panel::Panel;
+use crate::ray_camera::RasterRay;
 use crate::shape::{centroid, disc};
-use crate::station::Station;
 use etendue_core::CameraPose;
 use glam::{DVec2, DVec3};
 use serde_json::{Map, Value, json};
@@ -145,9 +145,9 @@ fn patch(patch: &Patch, request: &Request<'_>) -> Value {
 
 /// Each camera's pose and exposure, and where it sees what. Cameras of one pose share what they see.
 fn cameras(request: &Request<'_>) -> Vec<Value> {
-    let starts = request.eye.starts();
+    let starts = request.ray_camera.starts();
     let mut told: Vec<(CameraPose, Map<String, Value>)> = Vec::new();
-    let mut of = |station: &Station| {
+    let mut of = |station: &CameraStation| {
         let pose = station.pose();
         let known = told.iter().find(|(other, _)| *other == pose).map(|(_, seen)| seen.clone());
         let seen = known.unwrap_or_else(|| {
@@ -163,7 +163,7 @@ fn cameras(request: &Request<'_>) -> Vec<Value> {
     request.stations.iter().map(&mut of).collect()
 }
 
-fn camera(request: &Request<'_>, station: &Station, pose: &CameraPose) -> Map<String, Value> {
+fn camera(request: &Request<'_>, station: &CameraStation, pose: &CameraPose) -> Map<String, Value> {
     let rows: [[f64; 4]; 3] = std::array::from_fn(|i| {
         let row = pose.rotation.row(i);
         [row.x, row.y, row.z, pose.position_m[i]]
@@ -177,7 +177,7 @@ fn camera(request: &Request<'_>, station: &Station, pose: &CameraPose) -> Map<St
     facts.insert("name".into(), json!(station.name));
     facts.insert("file".into(), json!(super::job::camera_file(station)));
     facts.insert("dark".into(), json!(station.dark));
-    let size = request.eye.size_px;
+    let size = request.ray_camera.size_px;
     facts.insert("picture_px".into(), json!([size.x as u32, size.y as u32]));
     facts.insert("exposure_s".into(), json!(exposure_s));
     facts.insert("saturation_share_of_the_light".into(), json!(white));
@@ -218,7 +218,7 @@ impl View<'_> {
 
     fn project(&self, panel: &Panel, point_mm: DVec2) -> Option<DVec2> {
         let point_m: DVec3 = self.pose.rotation.transpose() * (panel.world_m(point_mm) - self.pose.position_m);
-        self.request.eye.project(self.starts, point_m)
+        self.request.ray_camera.project(self.starts, point_m)
     }
 
     fn raster(&self, panel: &Panel, point_mm: DVec2) -> Value {

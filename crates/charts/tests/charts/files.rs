@@ -3,7 +3,9 @@
 use etendue_charts::design::{
     Backlit, Checkerboard, ColorChecker, DeadLeaves, DepthWedge, Dots, Flare, GridSize, SlantedEdges,
 };
-use etendue_charts::{Chart, ChartFile, Contents, Eye, Light, Meter, RasterRay, Request, Station, files, stations};
+use etendue_charts::{
+    CameraStation, Chart, ChartFile, Contents, Light, Meter, RasterRay, RayCamera, Request, camera_stations, files,
+};
 use etendue_scene::{Description, Overrides};
 use etendue_spectra::Spectrum;
 use glam::{DVec2, DVec3};
@@ -23,9 +25,9 @@ fn pinhole(at: DVec2) -> Option<RasterRay> {
     Some(RasterRay { origin_m: DVec3::ZERO, direction })
 }
 
-fn made(chart: &Chart, stations: &[Station]) -> Vec<ChartFile> {
-    let eye = Eye { size_px: SIZE, ray: &pinhole };
-    let seen = eye.footprint(2.0).expect("it looks ahead");
+fn made(chart: &Chart, stations: &[CameraStation]) -> Vec<ChartFile> {
+    let ray_camera = RayCamera { size_px: SIZE, ray: &pinhole };
+    let seen = ray_camera.footprint(2.0).expect("it looks ahead");
     let drawing = chart.draw(&seen, 3).expect("a legal chart");
     let electrons = |radiance: &Spectrum| vec![("mono".to_owned(), 1e6 * radiance.integral(300.0, 1100.0))];
     let meter = Meter { exposure_s: 0.01, longest_s: None, saturation_e: 2e4, electrons: &electrons };
@@ -34,7 +36,7 @@ fn made(chart: &Chart, stations: &[Station]) -> Vec<ChartFile> {
         chart,
         drawing: &drawing,
         seen,
-        eye: &eye,
+        ray_camera: &ray_camera,
         meter: Some(&meter),
         light: &light,
         stations,
@@ -69,7 +71,7 @@ fn charts() -> Vec<Chart> {
 fn descriptions_parse() {
     for chart in charts() {
         let exposures: &[f64] = if matches!(chart, Chart::Backlit(_)) { &[0.001, 0.002, 0.004] } else { &[] };
-        let files = made(&chart, &stations(2.0, 1, exposures, true));
+        let files = made(&chart, &camera_stations(2.0, 1, exposures, true));
         let read = |path: &Path| {
             let name = path.file_name().and_then(|name| name.to_str()).ok_or("a name")?;
             let base = (name == "base.toml").then_some(CAMERA);
@@ -87,7 +89,7 @@ fn descriptions_parse() {
 #[test]
 fn positions_are_those_of_a_pinhole() {
     let chart = Chart::Checkerboard(Checkerboard { size: GridSize::default() });
-    let files = made(&chart, &stations(2.0, 4, &[], false));
+    let files = made(&chart, &camera_stations(2.0, 4, &[], false));
     let truth: Value = serde_json::from_str(text(&files, "truth.json").expect("a truth")).expect("JSON");
     let number = |value: &Value| value.as_f64().expect("a number");
     let features = truth["features"].as_array().expect("features");
@@ -111,7 +113,7 @@ fn positions_are_those_of_a_pinhole() {
 #[test]
 fn the_first_corner_is_at_the_top_left() {
     let chart = Chart::Checkerboard(Checkerboard { size: GridSize::default() });
-    let files = made(&chart, &stations(2.0, 1, &[], false));
+    let files = made(&chart, &camera_stations(2.0, 1, &[], false));
     let truth: Value = serde_json::from_str(text(&files, "truth.json").expect("a truth")).expect("JSON");
     let first = &truth["features"][0];
     assert_eq!(first["index"], serde_json::json!([0, 0]));

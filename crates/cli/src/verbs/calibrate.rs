@@ -8,7 +8,7 @@ use crate::machine;
 use crate::progress::Terminal;
 use clap::Args;
 use etendue::Error;
-use etendue::measure::{self, CalibrateRequest};
+use etendue::measure::{self, CalibrationRequest};
 use std::path::PathBuf;
 
 /// `etendue calibrate`
@@ -39,7 +39,7 @@ impl CalibrateArgs {
     }
 }
 
-impl From<&CalibrateArgs> for CalibrateRequest {
+impl From<&CalibrateArgs> for CalibrationRequest {
     fn from(a: &CalibrateArgs) -> Self {
         Self { views: (&a.views).into(), camera_keys: a.output.is_some(), f_number: a.f_number }
     }

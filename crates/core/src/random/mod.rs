@@ -4,21 +4,21 @@
 //! replicate, sample, draw, sub-counter), so frames, tiles and shards can be made anywhere in any order.
 //!
 //! - [`PathStream`] serves light transport: scrambled Sobol points, stratified over the samples of a replicate.
-//! - [`EvenNumbers`] spread the wavelengths of a pixel's samples evenly.
+//! - [`ShiftedLattice`] spreads the wavelengths of a pixel's samples evenly.
 //! - [`NoiseStream`] serves the sensor: independent words from a counter-based generator.
 
 mod address;
-mod even;
 mod noise;
 mod path;
 mod philox;
+mod shifted_lattice;
 mod sobol;
 
 pub use address::{Draw, FrameAddress, Pixel, PixelAddress};
-pub use even::EvenNumbers;
 pub use noise::{NoiseDraw, NoiseKey, NoiseStream};
 pub use path::PathStream;
 pub use philox::philox4x32;
+pub use shifted_lattice::ShiftedLattice;
 
 /// A float in [0, 1) from the upper 24 bits of a word.
 #[inline]

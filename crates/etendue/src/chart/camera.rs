@@ -2,7 +2,7 @@
 
 use crate::camera_file::read_text;
 use crate::error::Error;
-use etendue_charts::Station;
+use etendue_charts::CameraStation;
 use etendue_io::load_assets;
 use etendue_pipeline::compile_camera;
 use etendue_pipeline::plan::CameraBody;
@@ -91,7 +91,7 @@ impl ChartCamera {
     }
 
     /// The specimen to name in the cameras of a series, so that all of them are the same one.
-    pub(super) fn specimen(&self, stations: &[Station]) -> Option<u64> {
+    pub(super) fn specimen(&self, stations: &[CameraStation]) -> Option<u64> {
         let sensor = self.body.sensor.as_ref()?;
         let open = sensor.parameters().specimen.is_none();
         (open && stations.len() > 1).then_some(SPECIMEN)

@@ -8,7 +8,7 @@ use crate::ranges::whole;
 use camera::ChartCamera;
 pub use etendue_charts::design;
 pub use etendue_charts::{Chart, ChartError, Exposures, Spacing};
-use etendue_charts::{Contents, Eye, Footprint, Meter, RasterRay, Request, files, picture, stations};
+use etendue_charts::{Contents, Footprint, Meter, RasterRay, RayCamera, Request, camera_stations, files, picture};
 use etendue_core::Plane;
 use etendue_core::quantity::DigitalNumber;
 use etendue_io::photograph::Encoding;
@@ -94,7 +94,7 @@ pub fn make(request: &ChartRequest, (folder, existing): (&Path, Existing)) -> Re
         Some(RasterRay { origin_m: front.truth_origin_m(), direction: front.ray.direction })
     };
     let size_px = DVec2::new(body.raster.width() as f64, body.raster.height() as f64);
-    let eye = Eye { size_px, ray: &ray };
+    let ray_camera = RayCamera { size_px, ray: &ray };
     let light_meter = LightMeter::of(body);
     let electrons = |radiance: &_| light_meter.as_ref().map_or_else(Vec::new, |meter| meter.electrons(radiance));
     let meter = light_meter.as_ref().zip(body.sensor.as_ref()).map(|(meter, sensor)| Meter {
@@ -105,17 +105,17 @@ pub fn make(request: &ChartRequest, (folder, existing): (&Path, Existing)) -> Re
     });
     // Nothing is measured in no time.
     let meter = meter.filter(|meter| meter.exposure_s > 0.0);
-    let seen = footprint(request, &camera, &eye)?;
+    let seen = footprint(request, &camera, &ray_camera)?;
     let drawing = request.chart.draw(&seen, request.seed).map_err(refused)?;
     let light = request.light(meter.as_ref(), LUMINANCE_CD_M2).map_err(refused)?;
     let exposures_s = request.exposures_s(&light, &drawing, meter.as_ref()).map_err(refused)?;
-    let stations = stations(seen.distance_m, request.views, &exposures_s, request.dark);
+    let stations = camera_stations(seen.distance_m, request.views, &exposures_s, request.dark);
     let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
     let files = Request {
         chart: &request.chart,
         drawing: &drawing,
         seen,
-        eye: &eye,
+        ray_camera: &ray_camera,
         meter: meter.as_ref(),
         light: &light,
         stations: &stations,
@@ -133,7 +133,7 @@ fn refused(error: ChartError) -> Error {
 }
 
 /// What the camera sees at the distance that is asked for, directly or by the width.
-fn footprint(request: &ChartRequest, camera: &ChartCamera, eye: &Eye<'_>) -> Result<Footprint, Error> {
+fn footprint(request: &ChartRequest, camera: &ChartCamera, ray_camera: &RayCamera<'_>) -> Result<Footprint, Error> {
     let legal = |option: &'static str, value: f64| match value.is_finite() && value > 0.0 {
         true => Ok(value),
         false => Err(refused(ChartError::option(option, value, "expected a number above 0"))),
@@ -147,10 +147,10 @@ fn footprint(request: &ChartRequest, camera: &ChartCamera, eye: &Eye<'_>) -> Res
         let width_mm = legal("width-mm", width_mm)?;
         // The width is all but proportional to the distance.
         for _ in 0..8 {
-            distance_m *= width_mm / eye.footprint(distance_m).map_err(refused)?.outer_mm.x;
+            distance_m *= width_mm / ray_camera.footprint(distance_m).map_err(refused)?.outer_mm.x;
         }
     }
-    eye.footprint(distance_m).map_err(refused)
+    ray_camera.footprint(distance_m).map_err(refused)
 }
 
 fn write(

@@ -7,7 +7,7 @@ use crate::report::Report;
 
 /// `etendue calibrate`
 #[derive(Clone, Debug)]
-pub struct CalibrateRequest {
+pub struct CalibrationRequest {
     /// The pictures, the chart and what is known of the camera.
     pub views: ViewsRequest,
     /// Whether the report holds a camera file; needs the pixels' pitch.
@@ -16,7 +16,7 @@ pub struct CalibrateRequest {
     pub f_number: Option<f64>,
 }
 
-impl CalibrateRequest {
+impl CalibrationRequest {
     /// The same as the program without options.
     pub fn new(views: ViewsRequest) -> Self {
         Self { views, camera_keys: false, f_number: None }
@@ -27,7 +27,7 @@ impl CalibrateRequest {
 ///
 /// # Errors
 /// Where views are too few, show no chart or do not determine the model.
-pub fn calibrate(request: &CalibrateRequest, observer: &dyn Observer) -> Result<Report, Error> {
+pub fn calibrate(request: &CalibrationRequest, observer: &dyn Observer) -> Result<Report, Error> {
     let views = &request.views;
     let found = views.found(views.options(), observer)?;
     let mut report = Report::new("calibrate", "camera from views of a plane chart, least squares of all points");

@@ -29,7 +29,7 @@ mod texture;
 mod truth;
 mod views;
 
-pub use calibrate::{CalibrateRequest, calibrate};
+pub use calibrate::{CalibrationRequest, calibrate};
 pub use cdp::{CdpRequest, cdp};
 pub use chart_points::ChartInput;
 pub use chromatic::{ChromaticRequest, chromatic};

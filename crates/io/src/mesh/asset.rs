@@ -23,7 +23,7 @@ pub fn read_mesh(file: &Path) -> Result<MeshAsset, Error> {
         let slot = part.material_id.unwrap_or(0); // without a `usemtl`: the first slot, which has no name
         builder
             .part(part, slot as u16, &layouts[slot])
-            .map_err(|told| Error::at(file, obj.fed.line_of_face(builder.faces), told))?;
+            .map_err(|told| Error::at(file, obj.input.line_of_face(builder.faces), told))?;
     }
     let mut mesh = builder.finish();
     mesh.hash = hash::of_parts(std::iter::once(&bytes).chain(&library_bytes).map(Vec::as_slice));

@@ -16,8 +16,7 @@
 mod asset;
 mod corner_tree;
 mod crossing;
-mod ears;
-mod fed;
+mod ear_clipping;
 mod mtl;
 mod obj;
 mod plane;
@@ -25,5 +24,6 @@ mod polygon;
 mod slot;
 mod statement;
 mod texture_option;
+mod tobj_input;
 
 pub use asset::read_mesh;

@@ -9,9 +9,9 @@ use std::path::{Path, PathBuf};
 
 use etendue_scene::asset::{MtlFields, SlotMaterial};
 
-use super::fed::Fed;
 use super::statement::{Statement, statements};
 use super::texture_option::{UvLayout, parse as parse_texture};
+use super::tobj_input::TobjInput;
 use crate::Error;
 
 /// The materials of one library, by name, and what of it is not used.
@@ -33,11 +33,12 @@ pub(super) struct LibraryMaterial {
 
 /// Reads the text of `file`.
 pub(super) fn parse(file: &Path, text: &str) -> Result<Library, Error> {
-    let mut scan = Scan { file, fed: Fed::default(), places: Vec::new(), first: BTreeMap::new(), report: Vec::new() };
+    let mut scan =
+        Scan { file, input: TobjInput::default(), places: Vec::new(), first: BTreeMap::new(), report: Vec::new() };
     for statement in statements(text) {
         scan.take(&statement).map_err(|told| Error::at(file, statement.line, told))?;
     }
-    let (materials, _) = scan.fed.read(file, |text| tobj::load_mtl_buf(text))?;
+    let (materials, _) = scan.input.read(file, |text| tobj::load_mtl_buf(text))?;
     let materials = materials.into_iter().zip(scan.places);
     let materials = materials.map(|(material, (name, place))| (name, LibraryMaterial::new(file, &material, place)));
     Ok(Library { materials: materials.collect(), report: scan.report })
@@ -46,7 +47,7 @@ pub(super) fn parse(file: &Path, text: &str) -> Result<Library, Error> {
 /// The lines of a library: what tobj is given of them, and what is not used.
 struct Scan<'a> {
     file: &'a Path,
-    fed: Fed,
+    input: TobjInput,
     /// The materials in order, with `file:line` of their `newmtl`.
     places: Vec<(String, String)>,
     /// Where each was begun, by name.
@@ -63,10 +64,10 @@ impl Scan<'_> {
         let Some((name, _)) = self.places.last() else {
             return Err(format!("`{}` stands before any `newmtl`", statement.keyword()));
         };
-        let (fed, notes) = field(statement)?;
+        let (value, notes) = field(statement)?;
         self.report.extend(notes.into_iter().map(|note| format!("{place}: material \"{name}\": {note}")));
-        if let Some(value) = fed {
-            self.fed.push(statement.line, &format!("{} {value}", statement.keyword()));
+        if let Some(value) = value {
+            self.input.push(statement.line, &format!("{} {value}", statement.keyword()));
         }
         Ok(())
     }
@@ -76,7 +77,7 @@ impl Scan<'_> {
         if let Some(first) = self.first.insert(name.clone(), place.clone()) {
             return Err(format!("material \"{name}\" is defined a second time, first at {first}; rename one of them"));
         }
-        self.fed.push(statement.line, &format!("newmtl {name}"));
+        self.input.push(statement.line, &format!("newmtl {name}"));
         self.places.push((name, place));
         Ok(())
     }

@@ -7,8 +7,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use super::fed::Fed;
 use super::statement::{Statement, statements};
+use super::tobj_input::TobjInput;
 use crate::Error;
 
 /// What a corner names, in order.
@@ -17,7 +17,7 @@ const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 /// What is known of an OBJ file before tobj reads it.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Obj {
-    pub(super) fed: Fed,
+    pub(super) input: TobjInput,
     /// Names of materials in order of first use; faces before any have the empty name.
     pub(super) materials: Vec<String>,
     known: BTreeSet<String>,
@@ -38,7 +38,7 @@ pub(super) struct Obj {
 /// Checks the text of `file`.
 pub(super) fn scan(file: &Path, text: &str) -> Result<Obj, Error> {
     let mut obj = Obj::default();
-    obj.fed.push(0, "mtllib materials");
+    obj.input.push(0, "mtllib materials");
     for statement in statements(text) {
         obj.take(&statement).map_err(|told| Error::at(file, statement.line, told))?;
     }
@@ -60,7 +60,7 @@ impl Obj {
     pub(super) fn parts(&self, file: &Path) -> Result<Vec<tobj::Mesh>, Error> {
         let slots = |_: &Path| Ok((Vec::new(), self.materials.iter().cloned().zip(0..).collect()));
         let options = tobj::LoadOptions { single_index: true, ..tobj::LoadOptions::default() };
-        let (models, _no_materials) = self.fed.read(file, |text| tobj::load_obj_buf(text, &options, slots))?;
+        let (models, _no_materials) = self.input.read(file, |text| tobj::load_obj_buf(text, &options, slots))?;
         Ok(models.into_iter().map(|model| model.mesh).collect())
     }
 
@@ -106,7 +106,7 @@ impl Obj {
             return Err(format!("`{}` has {found} numbers, expected at most 3", statement.keyword()));
         }
         self.counts[kind] += 1;
-        self.fed.push(statement.line, &format!("{} {numbers}", statement.keyword()));
+        self.input.push(statement.line, &format!("{} {numbers}", statement.keyword()));
         Ok(())
     }
 
@@ -128,9 +128,9 @@ impl Obj {
         }
         if self.form != form {
             self.form = form;
-            self.fed.push(statement.line, "g");
+            self.input.push(statement.line, "g");
         }
-        self.fed.push(statement.line, &format!("f {}", statement.rest()));
+        self.input.push(statement.line, &format!("f {}", statement.rest()));
         Ok(())
     }
 
@@ -159,7 +159,7 @@ impl Obj {
             return Err("more than 65 536 materials in one mesh; split the mesh".to_owned());
         }
         if let Some(line) = line {
-            self.fed.push(line, &format!("usemtl {name}"));
+            self.input.push(line, &format!("usemtl {name}"));
         }
         Ok(())
     }

@@ -4,7 +4,7 @@
 //! their Newell normal, in 64 bits. A polygon that crosses itself has no answer and is refused.
 
 use super::crossing::edges_cross;
-use super::ears::clip_ears;
+use super::ear_clipping::clip_ears;
 use super::plane::{Point, turn};
 
 /// Why a polygon has no triangles.

@@ -25,12 +25,12 @@
 mod error;
 mod family;
 mod options;
+mod outlier_rejection;
 mod pose;
 mod problem;
 mod result;
 mod shared;
 mod sightings;
-mod spare;
 mod start;
 
 use crate::Estimate;
@@ -40,10 +40,10 @@ use problem::Bundle;
 pub use error::CalibrateError;
 pub use family::{CameraModel, Family, Radial};
 pub use options::Options;
+pub use outlier_rejection::{MIN_VIEWS, OutlierRejection, calibrate_rejecting_outliers};
 pub use pose::Pose;
 pub use result::{Calibrated, Parameter};
 pub use sightings::{Sighting, Sightings};
-pub use spare::{MIN_VIEWS, Spared, calibrate_sparing};
 
 /// Least of points of a view.
 const MIN_POINTS: usize = 6;

@@ -3,14 +3,14 @@
 //! ideal(p) = base(p) + Σ βₖ Fₖ(p), the base a radial polynomial ([`base`](super::base)), F how it depends on its own numbers and
 //! the fields of [`fields`], none of which has place, slope or tilt at the centre; and ideal(p) = H(chart), H a homography.
 //! β and what H lacks are found by least squares of the distances in the picture, in which all but the base's own fields
-//! are as small as the picture shows them to be ([`shrunken`]): large where many points tell them, and where few do, what
+//! are as small as the picture shows them to be ([`fit_mixed_model`]): large where many points tell them, and where few do, what
 //! they might be is in the uncertainty.
 
 use super::base::Base;
 use super::fields::{self, PLANE};
 use super::{DistortionError, RadialFit};
 use crate::disc::centroid_shift;
-use crate::fit::{Homography, Shrunken, shrunken};
+use crate::fit::{Homography, MixedModelFit, fit_mixed_model};
 use crate::linear::Matrix;
 use crate::target::Node;
 use glam::{DMat2, DMat3, DVec2};
@@ -87,7 +87,8 @@ impl Ideal {
     fn fitted(self, nodes: &[Node], rough: f64) -> Result<Self, DistortionError> {
         let (design, values) =
             self.equations(nodes, rough).ok_or(DistortionError::Few { points: nodes.len(), least: LEAST })?;
-        let Shrunken { parameters, covariance, sigma, tau } = shrunken(&design, &values, PLANE + self.base.count().0)?;
+        let MixedModelFit { parameters, covariance, sigma, tau } =
+            fit_mixed_model(&design, &values, PLANE + self.base.count().0)?;
         let plane = self.moved(&parameters[..PLANE]);
         let count = parameters.len() - PLANE;
         let part = |i: usize| (0..count).map(|j| covariance.at(PLANE + i, PLANE + j)).collect::<Vec<f64>>();

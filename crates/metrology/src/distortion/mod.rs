@@ -15,7 +15,7 @@
 //!
 //! Positions are raster coordinates, px; ratios are pure. Ideal scale is a slope at one place, where a chart of few points says little
 //! of it: terms beyond k₁, k₂ and second degree count as far as the points show them, and what the points leave open of
-//! them is in the uncertainty with the points' own scatter ([`shrunken`](crate::fit::shrunken())). So charts of 16 points on are
+//! them is in the uncertainty with the points' own scatter ([`fit_mixed_model`](crate::fit::fit_mixed_model())). So charts of 16 points on are
 //! measured; the fewer, the less certain. Assumed: errors of points are independent and alike; what departs from k₁ and k₂ is a smooth field,
 //! about as large across the chart as along it. What of a distortion centred elsewhere looks
 //! like a tilt at the centre is in it no more than in the curve: [`Distortion::largest_difference`] tells. Left out: the

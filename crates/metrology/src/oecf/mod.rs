@@ -4,7 +4,7 @@
 //! picture; figure 13 of Gruyer, Grapinet & De Souza uses fifteen exposures of a back-lit panel. What is found:
 //!
 //! ```text
-//! points      mean reading against exposure, with its standard uncertainty ([`even`](crate::even)) and what rounding leaves
+//! points      mean reading against exposure, with its standard uncertainty ([`patch_statistics`](crate::patch_statistics)) and what rounding leaves
 //!             ([`rounding_variance`])
 //! curve       monotone cubic through the points (Fritsch & Carlson 1980), and its slope (incremental gain)
 //! linearity   straight line y = a + b H over 5…95 % of the range, weights 1/(y − black)² (EMVA 1288): largest relative deviation
@@ -21,8 +21,8 @@ pub mod response;
 #[cfg(test)]
 mod tests;
 
-use crate::even::even;
 use crate::flat::saturated_percent;
+use crate::patch_statistics::patch_statistics;
 use crate::{Estimate, Image};
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{exp, ln};
@@ -45,14 +45,14 @@ impl ExposurePoint {
     /// the reading of a saturated pixel.
     #[must_use]
     pub fn of(exposure: f64, surface: &Image, full_scale: Option<f64>, shared_px: usize) -> Self {
-        let even = even(surface, shared_px);
+        let patch = patch_statistics(surface, shared_px);
         let whole = surface.samples().iter().all(|s| s.fract() == 0.0);
-        let rounding = if whole { rounding_variance(even.variance.value) } else { 0.0 };
-        let own = even.mean.standard_uncertainty;
+        let rounding = if whole { rounding_variance(patch.variance.value) } else { 0.0 };
+        let own = patch.mean.standard_uncertainty;
         Self {
             exposure,
-            reading: Estimate::new(even.mean.value, (own * own + rounding).sqrt()),
-            noise: Some(even.variance.value.sqrt()),
+            reading: Estimate::new(patch.mean.value, (own * own + rounding).sqrt()),
+            noise: Some(patch.variance.value.sqrt()),
             clipped: saturated_percent([surface], full_scale).is_some(),
         }
     }

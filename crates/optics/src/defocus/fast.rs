@@ -9,7 +9,7 @@
 //! not depend on the width. Near things bleed onto far ones and the other way round, and every blur has one size: it fits
 //! a lens at one distance at most.
 
-use super::Sight;
+use super::PinholeView;
 use crate::error::OpticsError;
 use crate::range::positive;
 use etendue_core::plane::{Plane, SpectralCube};
@@ -79,26 +79,26 @@ impl FastBlend {
         }
     }
 
-    pub(super) fn picture(&self, sight: &Sight<'_>) -> SpectralCube<Radiance> {
+    pub(super) fn picture(&self, view: &PinholeView<'_>) -> SpectralCube<Radiance> {
         let mean = Mean::new(self.parameters.blur_px);
-        let size = [sight.width(), sight.height()];
+        let size = [view.width(), view.height()];
         let seen: Vec<f64> =
-            (0..size[0] * size[1]).map(|i| f64::from(u8::from(sight.inverse_per_m(i).is_some()))).collect();
+            (0..size[0] * size[1]).map(|i| f64::from(u8::from(view.inverse_per_m(i).is_some()))).collect();
         let coverage = mean.blurred(seen.clone(), size);
-        let mut picture = sight.cropped();
-        for (from, to) in sight.radiance.planes().iter().zip(picture.planes_mut()) {
+        let mut picture = view.cropped();
+        for (from, to) in view.radiance.planes().iter().zip(picture.planes_mut()) {
             let light = from.samples().iter().zip(&seen);
             let light = light.map(|(l, s)| if *s > 0.0 { f64::from(*l) } else { 0.0 }).collect();
-            self.blend(sight, &mean.blurred(light, size), &coverage, to);
+            self.blend(view, &mean.blurred(light, size), &coverage, to);
         }
         picture
     }
 
-    fn blend(&self, sight: &Sight<'_>, blurred: &[f64], coverage: &[f64], to: &mut Plane<Radiance>) {
+    fn blend(&self, view: &PinholeView<'_>, blurred: &[f64], coverage: &[f64], to: &mut Plane<Radiance>) {
         let width = to.width();
         for (i, light) in to.samples_mut().iter_mut().enumerate() {
-            let pixel = (i / width + sight.margin_px) * sight.width() + i % width + sight.margin_px;
-            let distance = f64::from(sight.distance.samples()[pixel]);
+            let pixel = (i / width + view.margin_px) * view.width() + i % width + view.margin_px;
+            let distance = f64::from(view.distance.samples()[pixel]);
             let share = if distance > 0.0 { self.share(distance) } else { 0.0 };
             if share > 0.0 {
                 *light = ((1.0 - share) * f64::from(*light) + share * blurred[pixel] / coverage[pixel]) as f32;

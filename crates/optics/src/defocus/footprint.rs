@@ -11,7 +11,7 @@
 //! Outlines are traced on a lattice over the picture at 587.56 nm and interpolated. Left out: caustics within the blur
 //! (spherical aberration's rings, coma), colours' own outlines, the pupil's cos⁴ within itself.
 
-use super::Sight;
+use super::PinholeView;
 use crate::lens::Lens;
 use crate::wavelength::PRINCIPAL_NM;
 use core::f64::consts::PI;
@@ -59,20 +59,20 @@ pub(super) struct Footprints {
 }
 
 impl Footprints {
-    /// The footprints of a sight of things between two inverse distances; `None` where everything is sharp.
-    pub(super) fn new(sight: &Sight<'_>, inverse_range_per_m: [f64; 2]) -> Option<Self> {
-        if sight.lens.entrance_pupil_radius_m() == 0.0 {
+    /// The footprints of a view of things between two inverse distances; `None` where everything is sharp.
+    pub(super) fn new(view: &PinholeView<'_>, inverse_range_per_m: [f64; 2]) -> Option<Self> {
+        if view.lens.entrance_pupil_radius_m() == 0.0 {
             return None;
         }
-        let focus_per_m = sight.lens.focus_distance_m().map_or(0.0, f64::recip);
+        let focus_per_m = view.lens.focus_distance_m().map_or(0.0, f64::recip);
         let [far, near] = inverse_range_per_m;
         let other_per_m = if near - focus_per_m > focus_per_m - far { near } else { far };
         if other_per_m == focus_per_m {
             return None;
         }
-        let size = DVec2::new(sight.width() as f64, sight.height() as f64);
+        let size = DVec2::new(view.width() as f64, view.height() as f64);
         let step_px = size / (NODES - 1) as f64;
-        let tracer = Tracer { sight, focus_per_m, other_per_m };
+        let tracer = Tracer { view, focus_per_m, other_per_m };
         let node = |i: usize| tracer.outline(DVec2::new((i % NODES) as f64, (i / NODES) as f64) * step_px);
         let nodes = filled(&(0..NODES * NODES).map(node).collect::<Vec<_>>())?;
         Some(Self::of(nodes, step_px, focus_per_m, inverse_range_per_m))
@@ -159,15 +159,15 @@ fn filled(nodes: &[Option<Outline>]) -> Option<Vec<Outline>> {
 
 /// Traces outlines.
 struct Tracer<'a> {
-    sight: &'a Sight<'a>,
+    view: &'a PinholeView<'a>,
     focus_per_m: f64,
     other_per_m: f64,
 }
 
 impl Tracer<'_> {
-    /// The outline of a field point, px of the sight.
+    /// The outline of a field point, px of the view.
     fn outline(&self, px: DVec2) -> Option<Outline> {
-        let sensor_mm = self.sight.raster.sensor_mm(px - self.sight.margin_px as f64);
+        let sensor_mm = self.view.raster.sensor_mm(px - self.view.margin_px as f64);
         let edge = self.edge(sensor_mm)?;
         let (mut anchor, mut slope) = ([DVec2::ZERO; VERTICES], [DVec2::ZERO; VERTICES]);
         for (k, pupil) in edge.into_iter().enumerate() {
@@ -191,7 +191,7 @@ impl Tracer<'_> {
 
     /// Pupil samples just inside the edge of the open part.
     fn edge(&self, sensor_mm: DVec2) -> Option<[DVec2; VERTICES]> {
-        let open = |pupil: DVec2| self.sight.lens.ray(sensor_mm, pupil, PRINCIPAL_NM).is_some();
+        let open = |pupil: DVec2| self.view.lens.ray(sensor_mm, pupil, PRINCIPAL_NM).is_some();
         let cell = |i: usize| (DVec2::new((i % GRID) as f64, (i / GRID) as f64) + 0.5) / GRID as f64;
         let seen: Vec<DVec2> = (0..GRID * GRID).map(cell).filter(|pupil| open(*pupil)).collect();
         let mean = seen.iter().copied().sum::<DVec2>() / seen.len() as f64;
@@ -215,7 +215,7 @@ impl Tracer<'_> {
     /// Turns by which the pupil samples of a field point are turned against the picture, whose directions the vertices keep so
     /// that those of neighbouring nodes belong together: a prescription samples its pupil in the meridian's frame.
     fn turn(&self, sensor_mm: DVec2) -> f64 {
-        match self.sight.lens {
+        match self.view.lens {
             Lens::Prescription(_) => {
                 let outward = (-sensor_mm).normalize_or(DVec2::X);
                 atan2(outward.y, outward.x) / (2.0 * PI)
@@ -226,14 +226,14 @@ impl Tracer<'_> {
 
     /// Steps (px) to where the ray of a pupil sample meets the planes at the distance in focus and at another.
     fn steps_px(&self, sensor_mm: DVec2, pupil: DVec2, other_per_m: f64) -> Option<[DVec2; 2]> {
-        let lens = self.sight.lens;
+        let lens = self.view.lens;
         let ahead = lens.direction(sensor_mm)?.normalize();
         let ray = lens.ray(sensor_mm, pupil, PRINCIPAL_NM)?;
         let across = if ahead.z > ACROSS_AXIS { DVec3::Z } else { ahead };
         let step = |inverse_per_m: f64| {
             let origin = ray.origin_m * inverse_per_m;
             let along = (ahead - origin).dot(across) / ray.direction.dot(across);
-            Some((lens.project(origin + ray.direction * along)? - sensor_mm) / self.sight.raster.pitch_mm())
+            Some((lens.project(origin + ray.direction * along)? - sensor_mm) / self.view.raster.pitch_mm())
         };
         Some([step(self.focus_per_m)?, step(other_per_m)?])
     }
@@ -280,9 +280,9 @@ mod tests {
         let raster = Raster::centred(72, 48, radius_mm / 43.3).expect("a raster");
         let radiance = SpectralCube::new(72, 48, Bands::covering(500.0, 600.0, 100.0).expect("a band"));
         let distance = Plane::filled(72, 48, distance_m);
-        let sight = Sight::new(&lens, &raster, 0, &radiance, &distance).expect("fits");
+        let view = PinholeView::new(&lens, &raster, 0, &radiance, &distance).expect("fits");
         let inverse = 1.0 / f64::from(distance_m);
-        let footprints = Footprints::new(&sight, [inverse, inverse]).expect("blurred");
+        let footprints = Footprints::new(&view, [inverse, inverse]).expect("blurred");
         let step = |i: i32| DVec2::new(36.0, 24.0) + DVec2::new(0.9, 0.7) * f64::from(i);
         let circle_px = lens.circle_of_confusion_mm(f64::from(distance_m)) / raster.pitch_mm().x;
         let disc = 0.25 * PI * circle_px * circle_px;

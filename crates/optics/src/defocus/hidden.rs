@@ -5,7 +5,7 @@
 //! may be mixed), fills the place behind the pixel with its mean light and distance, weighted by the inverse square of the
 //! way.
 
-use super::Sight;
+use super::PinholeView;
 use super::footprint::Footprints;
 
 const DIRECTIONS: [[i64; 2]; 8] = [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]];
@@ -23,14 +23,14 @@ pub(super) struct Fill {
 }
 
 /// What lies behind pixels, where something does that rays from the rim of the pupil can meet.
-pub(super) fn fills(sight: &Sight<'_>, footprints: &Footprints) -> Vec<Fill> {
+pub(super) fn fills(view: &PinholeView<'_>, footprints: &Footprints) -> Vec<Fill> {
     let inverse: Vec<f32> =
-        (0..sight.width() * sight.height()).map(|i| sight.inverse_per_m(i).unwrap_or(f32::NAN)).collect();
+        (0..view.width() * view.height()).map(|i| view.inverse_per_m(i).unwrap_or(f32::NAN)).collect();
     let radius = |w: f32| if w.is_nan() { 0.0 } else { footprints.reach_px(f64::from(w)) as f32 };
     let radii: Vec<f32> = inverse.iter().map(|w| radius(*w)).collect();
     let farthest = radii.iter().copied().fold(0.0, f32::max);
     let search = Search {
-        size: [sight.width() as i64, sight.height() as i64],
+        size: [view.width() as i64, view.height() as i64],
         jump_per_m: JUMP_PX / footprints.spread_px() as f32,
         steps: farthest.ceil() as i64 + 1,
         inverse: &inverse,

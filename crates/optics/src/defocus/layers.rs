@@ -3,7 +3,7 @@
 //! Layers are equally thick in inverse distance, in which rays through the pupil are straight lines of the picture: a layer is
 //! as thick as the distance over which the blur grows by a pixel. Each source keeps its own distance; layers give the order.
 
-use super::Sight;
+use super::PinholeView;
 use super::footprint::Footprints;
 use super::hidden::{Fill, fills};
 
@@ -13,7 +13,7 @@ const MOST: f64 = 1024.0;
 /// Something that shines into the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Source {
-    /// The pixel of the sight where it is seen.
+    /// The pixel of the view where it is seen.
     pub(super) pixel: u32,
     pub(super) inverse_per_m: f32,
     /// The place in the list of fills of its light; its pixel's own where there is none.
@@ -28,7 +28,7 @@ pub(super) struct Layer {
     pub(super) reach_px: f64,
 }
 
-/// All sources of a sight.
+/// All sources of a view.
 #[derive(Clone, Debug)]
 pub(super) struct Layers {
     /// The nearest first.
@@ -37,7 +37,7 @@ pub(super) struct Layers {
 }
 
 impl Layers {
-    pub(super) fn new(sight: &Sight<'_>, footprints: &Footprints, inverse_range_per_m: [f64; 2]) -> Self {
+    pub(super) fn new(view: &PinholeView<'_>, footprints: &Footprints, inverse_range_per_m: [f64; 2]) -> Self {
         let [far, near] = inverse_range_per_m;
         let count = ((near - far) * footprints.spread_px()).floor().min(MOST - 1.0) + 1.0;
         let per_layer = (near - far) / count;
@@ -49,9 +49,9 @@ impl Layers {
                 (((near - f64::from(inverse)) / per_layer) as usize).min(count as usize - 1)
             }
         };
-        let seen = (0..sight.width() * sight.height())
-            .filter_map(|i| Some(Source { pixel: i as u32, inverse_per_m: sight.inverse_per_m(i)?, fill: None }));
-        let fills = fills(sight, footprints);
+        let seen = (0..view.width() * view.height())
+            .filter_map(|i| Some(Source { pixel: i as u32, inverse_per_m: view.inverse_per_m(i)?, fill: None }));
+        let fills = fills(view, footprints);
         let hidden = fills.iter().enumerate().map(|(i, fill)| Source {
             pixel: fill.pixel,
             inverse_per_m: fill.inverse_per_m,

@@ -2,7 +2,7 @@
 //!
 //! # Contract
 //!
-//! - Input ([`Sight`]): radiance as seen from the centre of the entrance pupil, in the raster of the picture with a margin
+//! - Input ([`PinholeView`]): radiance as seen from the centre of the entrance pupil, in the raster of the picture with a margin
 //!   of pixels around it, and the distance (m, along each pixel's ray from the pupil's centre; +∞ the sky, NaN no ray).
 //! - Output: radiance in the raster of the picture, each pixel the mean over its pupil, which [`crate::irradiance()`]
 //!   then multiplies by the étendue.
@@ -22,8 +22,8 @@ mod footprint;
 mod hidden;
 mod layers;
 mod physical;
+mod pinhole_view;
 mod scan;
-mod sight;
 mod strip;
 
 use crate::lens::Lens;
@@ -33,7 +33,7 @@ use etendue_projection::Raster;
 
 pub use fast::{FastBlend, FastParameters};
 pub use physical::Physical;
-pub use sight::Sight;
+pub use pinhole_view::PinholeView;
 
 /// The methods: the closed list.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -48,18 +48,18 @@ pub enum DepthOfField {
 }
 
 impl DepthOfField {
-    /// The picture of a sight, on the caller's thread. ([`Physical`] makes rows on several.)
+    /// The picture of a view, on the caller's thread. ([`Physical`] makes rows on several.)
     #[must_use]
-    pub fn apply(&self, sight: &Sight<'_>) -> SpectralCube<Radiance> {
+    pub fn apply(&self, view: &PinholeView<'_>) -> SpectralCube<Radiance> {
         match self {
-            Self::None => sight.cropped(),
-            Self::Physical => Physical::new(*sight).picture(),
-            Self::Fast(blend) => blend.picture(sight),
+            Self::None => view.cropped(),
+            Self::Physical => Physical::new(*view).picture(),
+            Self::Fast(blend) => blend.picture(view),
         }
     }
 
     /// Pixels around the picture that its blurs reach beyond it, of things at `nearest_m` and farther: the margin that a
-    /// sight needs so that nothing is missing at the picture's edges.
+    /// view needs so that nothing is missing at the picture's edges.
     #[must_use]
     pub fn reach_px(&self, lens: &Lens, raster: &Raster, nearest_m: f64) -> usize {
         match self {

@@ -15,7 +15,7 @@
 //! and glass (they are blurred with the surface that shows them), and which part of the pupil a thing in front of two others
 //! covers (it covers an even share of both).
 
-use super::Sight;
+use super::PinholeView;
 use super::footprint::Footprints;
 use super::hidden::Fill;
 use super::layers::{Layer, Layers};
@@ -32,45 +32,45 @@ const ROWS: usize = 32;
 /// The steps of a pixel that keeps its light.
 const KEPT: [Step; 2] = [Step { column: 0, share: 1.0 }, Step { column: 1, share: -1.0 }];
 
-/// A sight whose footprints and layers are known: rows of its picture can be made, on any number of threads.
+/// A view whose footprints and layers are known: rows of its picture can be made, on any number of threads.
 #[derive(Clone, Debug)]
 pub struct Physical<'a> {
-    sight: Sight<'a>,
+    view: PinholeView<'a>,
     /// `None` where everything is sharp.
     blurs: Option<(Footprints, Layers)>,
 }
 
 impl<'a> Physical<'a> {
-    /// Traces the pupil of a sight and sorts its pixels.
+    /// Traces the pupil of a view and sorts its pixels.
     #[must_use]
-    pub fn new(sight: Sight<'a>) -> Self {
-        let range = inverse_range_per_m(&sight);
+    pub fn new(view: PinholeView<'a>) -> Self {
+        let range = inverse_range_per_m(&view);
         let blurs = range.and_then(|range| {
-            let footprints = Footprints::new(&sight, range)?;
-            let layers = Layers::new(&sight, &footprints, range);
+            let footprints = Footprints::new(&view, range)?;
+            let layers = Layers::new(&view, &footprints, range);
             Some((footprints, layers))
         });
-        Self { sight, blurs }
+        Self { view, blurs }
     }
 
     /// The rows in which the picture is best made, one range after the other.
     pub fn strips(&self) -> impl Iterator<Item = Range<usize>> + use<> {
-        let height = self.sight.raster.height();
+        let height = self.view.raster.height();
         (0..height).step_by(ROWS).map(move |first| first..(first + ROWS).min(height))
     }
 
     /// Some rows of the picture, as a cube of as many rows.
     #[must_use]
     pub fn rows(&self, rows: Range<usize>) -> SpectralCube<Radiance> {
-        let (width, bands) = (self.sight.raster.width(), self.sight.radiance.bands());
+        let (width, bands) = (self.view.raster.width(), self.view.radiance.bands());
         let mut cube = SpectralCube::new(width, rows.len(), bands);
         let mut strip = self.blurs.as_ref().map(|(footprints, layers)| self.strip(footprints, layers, rows.clone()));
         for y in rows.clone() {
             for x in 0..width {
-                let pixel = (y + self.sight.margin_px) * self.sight.width() + x + self.sight.margin_px;
+                let pixel = (y + self.view.margin_px) * self.view.width() + x + self.view.margin_px;
                 let light = strip.as_mut().and_then(|strip| strip.light(x, y));
                 let Some(light) = light else {
-                    let stored = self.sight.radiance.planes().iter().map(|plane| plane.samples()[pixel]);
+                    let stored = self.view.radiance.planes().iter().map(|plane| plane.samples()[pixel]);
                     cube.planes_mut().iter_mut().zip(stored).for_each(|(to, light)| to.set(x, y - rows.start, light));
                     continue;
                 };
@@ -92,8 +92,8 @@ impl<'a> Physical<'a> {
     /// The picture of the cubes of all strips, in their order.
     #[must_use]
     pub fn joined(&self, strips: &[SpectralCube<Radiance>]) -> SpectralCube<Radiance> {
-        let (width, height) = (self.sight.raster.width(), self.sight.raster.height());
-        let mut picture = SpectralCube::new(width, height, self.sight.radiance.bands());
+        let (width, height) = (self.view.raster.width(), self.view.raster.height());
+        let mut picture = SpectralCube::new(width, height, self.view.radiance.bands());
         for (band, to) in picture.planes_mut().iter_mut().enumerate() {
             let from = strips.iter().flat_map(|strip| strip.planes()[band].samples());
             to.samples_mut().iter_mut().zip(from).for_each(|(to, from)| *to = *from);
@@ -102,9 +102,9 @@ impl<'a> Physical<'a> {
     }
 
     fn strip(&self, footprints: &Footprints, layers: &Layers, rows: Range<usize>) -> Strip {
-        let mut strip = Strip::new(rows.clone(), self.sight.raster.width(), self.sight.radiance.bands().count());
-        let mut splat = Splat { sight: &self.sight, footprints, fills: &layers.fills, scan: Scan::default() };
-        let mut light = vec![0.0; self.sight.radiance.bands().count() + 1];
+        let mut strip = Strip::new(rows.clone(), self.view.raster.width(), self.view.radiance.bands().count());
+        let mut splat = Splat { view: &self.view, footprints, fills: &layers.fills, scan: Scan::default() };
+        let mut light = vec![0.0; self.view.radiance.bands().count() + 1];
         for (number, layer) in layers.layers.iter().enumerate() {
             splat.layer(layer, &rows, &mut light, &mut strip);
             strip.lay(number);
@@ -113,16 +113,16 @@ impl<'a> Physical<'a> {
     }
 }
 
-/// The least and the greatest inverse distance of a sight, 1/m; `None` where no pixel has a ray.
-fn inverse_range_per_m(sight: &Sight<'_>) -> Option<[f64; 2]> {
-    let all = (0..sight.width() * sight.height()).filter_map(|pixel| sight.inverse_per_m(pixel));
+/// The least and the greatest inverse distance of a view, 1/m; `None` where no pixel has a ray.
+fn inverse_range_per_m(view: &PinholeView<'_>) -> Option<[f64; 2]> {
+    let all = (0..view.width() * view.height()).filter_map(|pixel| view.inverse_per_m(pixel));
     let range = all.fold([f32::INFINITY, 0.0], |[far, near], w| [far.min(w), near.max(w)]);
     (range[0] <= range[1]).then(|| range.map(f64::from))
 }
 
 /// Spreads sources over strips.
 struct Splat<'a> {
-    sight: &'a Sight<'a>,
+    view: &'a PinholeView<'a>,
     footprints: &'a Footprints,
     fills: &'a [Fill],
     scan: Scan,
@@ -131,10 +131,10 @@ struct Splat<'a> {
 impl Splat<'_> {
     /// Spreads the sources of a layer that reach some rows of the picture.
     fn layer(&mut self, layer: &Layer, rows: &Range<usize>, light: &mut [f64], strip: &mut Strip) {
-        let (margin, width) = (self.sight.margin_px, self.sight.width());
+        let (margin, width) = (self.view.margin_px, self.view.width());
         let reach = layer.reach_px.ceil() as usize + 1;
         let first = (rows.start + margin).saturating_sub(reach);
-        let end = (rows.end + margin + reach).min(self.sight.height());
+        let end = (rows.end + margin + reach).min(self.view.height());
         for source in layer.rows(first, end, width) {
             let place = [source.pixel as usize % width, source.pixel as usize / width];
             let [column, row] = place.map(|p| p as i64 - margin as i64);
@@ -147,7 +147,7 @@ impl Splat<'_> {
             let px = DVec2::new(place[0] as f64, place[1] as f64) + 0.5;
             let polygon = self.footprints.landing(px, inverse);
             let window = Window {
-                columns: -column..self.sight.raster.width() as i64 - column,
+                columns: -column..self.view.raster.width() as i64 - column,
                 rows: rows.start as i64 - row..rows.end as i64 - row,
             };
             self.scan.spread(&polygon, &window, |down, steps| strip.add(row + down, column, steps, light));
@@ -157,7 +157,7 @@ impl Splat<'_> {
     /// The light of a source: 1, then its radiance in each band.
     fn light(&self, pixel: usize, fill: Option<u32>, light: &mut [f64]) {
         light[0] = 1.0;
-        let planes = self.sight.radiance.planes().iter().zip(&mut light[1..]);
+        let planes = self.view.radiance.planes().iter().zip(&mut light[1..]);
         match fill {
             None => planes.for_each(|(plane, to)| *to = f64::from(plane.samples()[pixel])),
             Some(i) => {

@@ -5,9 +5,9 @@ use super::canvas::Canvas;
 use super::convolve::{Field, Region};
 use super::error::EffectsError;
 use super::glare::Glare;
+use super::operation_counts::OperationCounts;
 use super::point_spread::{PointSpread, ReadySpread};
 use super::spread::Spread;
-use super::work::Work;
 use crate::ghosts::GhostSettings;
 use etendue_core::quantity::{Irradiance, Quantity, Variance};
 use etendue_core::{Bands, EffectStatus, Plane};
@@ -118,13 +118,18 @@ impl Effects {
     }
 
     /// What the point spread and the veiling glare of a picture have to do, of its bands and, if asked for, their variances.
-    /// (Ghosts: [`crate::ghosts::work`].)
+    /// (Ghosts: [`crate::ghosts::operation_counts`].)
     #[must_use]
-    pub fn work(&self, picture: &Raster, bands: Bands, with_variance: bool) -> [(Effect, Work); 2] {
+    pub fn operation_counts(
+        &self,
+        picture: &Raster,
+        bands: Bands,
+        with_variance: bool,
+    ) -> [(Effect, OperationCounts); 2] {
         let canvas = Canvas::new(picture, self.margin_px);
         let pictures = if with_variance { 2.0 } else { 1.0 };
-        let psf = self.psf.as_ref().map(|psf| psf.work(&canvas, bands, pictures));
-        let glare = self.needs_glare().map(|glare| glare.work(&canvas, pictures * bands.count() as f64));
+        let psf = self.psf.as_ref().map(|psf| psf.operation_counts(&canvas, bands, pictures));
+        let glare = self.needs_glare().map(|glare| glare.operation_counts(&canvas, pictures * bands.count() as f64));
         [(Effect::PointSpread, psf.unwrap_or_default()), (Effect::Glare, glare.unwrap_or_default())]
     }
 

@@ -5,7 +5,7 @@
 
 use super::fourier::{Grid, Plan, fast_length};
 use super::kernel::Kernel;
-use super::work::{Uses, Work};
+use super::operation_counts::{OperationCounts, Uses};
 use core::ops::Range;
 
 /// Taps up to which the sum is taken directly.
@@ -131,16 +131,19 @@ fn through(plan: &Plan, spectrum: &Grid, pair: &[Block], picture: &Field) -> Gri
 }
 
 /// The work of a kernel without a tap of zero on pictures of `size`, of whose result `region` is wanted.
-pub(super) fn work(reach: [usize; 2], size: [usize; 2], region: &Region, uses: Uses) -> Work {
+pub(super) fn operation_counts(reach: [usize; 2], size: [usize; 2], region: &Region, uses: Uses) -> OperationCounts {
     let taps = (2 * reach[0] + 1) * (2 * reach[1] + 1);
     if taps <= DIRECT_TAPS {
-        return Work { taps: uses.applied * (taps * region.x.len() * region.y.len()) as f64, ..Work::default() };
+        return OperationCounts {
+            taps: uses.applied * (taps * region.x.len() * region.y.len()) as f64,
+            ..OperationCounts::default()
+        };
     }
     let Cut { blocks, sides } = Cut::best(reach, size, region);
     let pairs = (blocks[0] * blocks[1]).div_ceil(2) as f64;
     // A pair of blocks goes there and back.
     let transforms = uses.ready + 2.0 * pairs * uses.applied;
-    Work { transformed: transforms * effort(sides), ..Work::default() }
+    OperationCounts { transformed: transforms * effort(sides), ..OperationCounts::default() }
 }
 
 /// Blocks across and down, and the sides of their transform.

@@ -14,7 +14,7 @@
 
 use super::error::{EffectsError, positive};
 use super::kernel::Kernel;
-use super::work::{Uses, Work};
+use super::operation_counts::{OperationCounts, Uses};
 use super::{Canvas, convolve};
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 use etendue_core::EffectStatus;
@@ -118,11 +118,12 @@ impl Glare {
     }
 
     /// What it has to do on so many pictures, one kernel for all.
-    pub(super) fn work(&self, canvas: &Canvas, pictures: f64) -> Work {
+    pub(super) fn operation_counts(&self, canvas: &Canvas, pictures: f64) -> OperationCounts {
         let reach = self.reach_on(canvas);
         let shared = RINGS * ANGLES + (reach[0] + 1) * (reach[1] + 1);
         let uses = Uses { ready: 2.0, applied: pictures };
-        Work { shared: shared as f64, ..Work::default() } + convolve::work(reach, canvas.size(), &canvas.whole(), uses)
+        OperationCounts { shared: shared as f64, ..OperationCounts::default() }
+            + convolve::operation_counts(reach, canvas.size(), &canvas.whole(), uses)
     }
 
     /// Columns and rows that light is scattered over on a canvas.

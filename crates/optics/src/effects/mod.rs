@@ -27,20 +27,20 @@ mod error;
 mod fourier;
 pub mod glare;
 mod kernel;
+mod operation_counts;
 mod point_spread;
 pub mod psf;
 mod spread;
 pub mod spread_image;
-mod work;
 
 pub(crate) use canvas::Canvas;
 pub use chain::{Effects, EffectsParameters, MARGIN_CAP, Prepared};
 pub use error::EffectsError;
 pub use glare::{Glare, GlareParameters};
+pub use operation_counts::OperationCounts;
 pub use point_spread::PointSpread;
-pub use psf::{Psf, PsfParameters, WavefrontTerm, Zernike};
+pub use psf::{Psf, PsfParameters, Zernike, ZernikeTerm};
 pub use spread_image::{SpreadImage, SpreadImageParameters};
-pub use work::Work;
 
 /// The effects that there are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

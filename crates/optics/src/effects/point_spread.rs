@@ -2,9 +2,9 @@
 
 use super::Canvas;
 use super::convolve::Field;
+use super::operation_counts::OperationCounts;
 use super::psf::{Psf, Ready};
 use super::spread_image::{ReadyImage, SpreadImage};
-use super::work::Work;
 use core::fmt;
 use etendue_core::{Bands, EffectStatus};
 use glam::DVec2;
@@ -46,10 +46,10 @@ impl PointSpread {
     }
 
     /// What it has to do on so many pictures a band.
-    pub(super) fn work(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> Work {
+    pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
         match self {
-            Self::Aperture(psf) => psf.work(canvas, bands, pictures),
-            Self::Image(image) => image.work(canvas, bands, pictures),
+            Self::Aperture(psf) => psf.operation_counts(canvas, bands, pictures),
+            Self::Image(image) => image.operation_counts(canvas, bands, pictures),
         }
     }
 

@@ -16,9 +16,9 @@ use super::band::BandLimited;
 use super::convolve::{self, Field};
 use super::error::{EffectsError, positive};
 use super::kernel::Kernel;
+use super::operation_counts::{OperationCounts, Uses};
 use super::psf::{MAX_PX, MM_PER_UM, VISIBLE_NM, mid_wavelengths};
 use super::spread::Spread;
-use super::work::{Uses, Work};
 use core::fmt;
 use etendue_core::{Bands, EffectStatus};
 use etendue_projection::Raster;
@@ -143,7 +143,7 @@ impl SpreadImage {
     }
 
     /// What it has to do on so many pictures a band.
-    pub(super) fn work(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> Work {
+    pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
         let count = bands.count() as f64;
         let of_band = (bands.low_nm(), bands.low_nm() + bands.width_nm());
         let (kernels, of_kernel) = match self.parameters.wavelength_nm {
@@ -153,8 +153,8 @@ impl SpreadImage {
         let points = mid_wavelengths(of_kernel).count() * self.parameters.light.len();
         let reach = self.reach_px_at(0.5 * (bands.low_nm() + bands.high_nm()), canvas.pitch_mm());
         let uses = Uses { ready: 2.0 * kernels, applied: pictures * count };
-        Work { shared: kernels * points as f64, ..Work::default() }
-            + convolve::work(reach, canvas.size(), &canvas.whole(), uses)
+        OperationCounts { shared: kernels * points as f64, ..OperationCounts::default() }
+            + convolve::operation_counts(reach, canvas.size(), &canvas.whole(), uses)
     }
 
     /// The function made ready for a film.

@@ -7,7 +7,7 @@
 //! Left out: light that the dirt scatters into the picture (a matter of glare), its thickness, its colour.
 
 use super::error::{FrontError, positive};
-use super::{Line, Stand, line};
+use super::{Line, Placement, line};
 use crate::lens::Lens;
 use crate::wavelength::PRINCIPAL_NM;
 use core::fmt;
@@ -66,7 +66,7 @@ impl Mask {
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirtParameters {
     /// Where it lies: the middle of the mask at the origin, in the plane z = 0, x to the right, y down.
-    pub stand: Stand,
+    pub placement: Placement,
     /// Width and height of the mask, mm. Beyond it the glass is clean.
     pub size_mm: DVec2,
     /// The mask.
@@ -98,12 +98,12 @@ impl Dirt {
 
     /// Whether a ray starts on the camera's side of the dirt.
     pub(super) fn is_after(&self, start: Line) -> bool {
-        self.parameters.stand.inward(start).point_mm.z < 0.0
+        self.parameters.placement.inward(start).point_mm.z < 0.0
     }
 
     /// The share of a ray's light that passes.
     pub(super) fn share(&self, ray: Line) -> f64 {
-        let Line { point_mm, direction } = self.parameters.stand.inward(ray);
+        let Line { point_mm, direction } = self.parameters.placement.inward(ray);
         let way = -point_mm.z / direction.z;
         if !(way.is_finite() && way > 0.0) {
             return 1.0;

@@ -17,7 +17,7 @@ mod error;
 mod front_ray;
 mod line;
 mod mirror;
-mod stand;
+mod placement;
 mod windscreen;
 
 use crate::lens::Lens;
@@ -35,7 +35,7 @@ pub use error::FrontError;
 pub use front_ray::FrontRay;
 pub(crate) use line::{Fate, Line};
 pub use mirror::{MeshMirror, Mirror, MirrorParameters, MirrorShape, Quadric, QuadricKind, Reflectance};
-pub use stand::Stand;
+pub use placement::Placement;
 pub use windscreen::{Layer, Tint, Windscreen, WindscreenParameters};
 
 /// What stands in front of a lens.

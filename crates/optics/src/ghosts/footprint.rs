@@ -89,7 +89,7 @@ impl<'a> Beam<'a> {
             let ray = LensRay { point: self.across * at.x + DVec3::Y * at.y, direction: self.direction };
             let Ok(ghost) = self.lens.ghost_in(pair, ray, nm, &media) else { return Node::LOST };
             let d = ghost.ray.direction;
-            let end = ghost.ray.point + d * ((self.lens.sensor_mm() - ghost.ray.point.z) / d.z);
+            let end = ghost.ray.point + d * ((self.lens.sensor_position_mm() - ghost.ray.point.z) / d.z);
             let (x, y, weight, filling) = (end.x as f32, end.y as f32, ghost.weight as f32, ghost.filling as f32);
             // Rays along the sensor or away from it do not land.
             let lands = d.z > 0.0 && x.abs().max(y.abs()) < MAX_MM;

@@ -24,19 +24,19 @@
 
 mod footprint;
 mod layer;
+mod operation_counts;
 mod report;
 mod response;
 mod source;
 mod splat;
-mod work;
 
 use crate::error::OpticsError;
 use crate::lens::Prescribed;
 use etendue_core::EffectStatus;
 
 pub use layer::layer;
+pub use operation_counts::{GhostOperationCounts, operation_counts};
 pub use report::{GhostReport, strongest};
-pub use work::{GhostWork, work};
 
 /// What a layer of ghosts is asked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

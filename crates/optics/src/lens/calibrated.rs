@@ -16,10 +16,10 @@
 //! Left out: what the projection does not hold: aberrations, colours (but for [`LateralColour`]), a pupil that moves with the field (all rays meet in
 //! one point), clipping.
 
-use super::body::Body;
-use super::course;
 use super::falloff::Falloff;
 use super::lateral_colour::LateralColour;
+use super::paraxial_properties::ParaxialProperties;
+use super::plausibility;
 use crate::error::OpticsError;
 use crate::pupil::{MM, concentric_disc};
 use crate::range::{f_number, positive};
@@ -89,7 +89,7 @@ impl Calibrated {
     pub fn new(parameters: CalibratedParameters) -> Result<Self, OpticsError> {
         let pitch_mm = positive("pixel_pitch_mm", parameters.pixel_pitch_mm)?;
         let n = f_number(parameters.f_number)?;
-        let transmittance = Body::new(parameters.transmittance)?.transmittance;
+        let transmittance = ParaxialProperties::new(parameters.transmittance)?.transmittance;
         if let Some(focus_m) = parameters.focus_distance_m
             && (focus_m.is_nan() || focus_m <= 0.0)
         {
@@ -152,7 +152,7 @@ impl Calibrated {
             let angle = direction.map(|d| etendue_core::maths::f64::atan2(d.truncate().length(), d.z));
             angle.or(limited.then_some(r_mm / self.focal_length_mm)).map(|angle| angle * self.focal_length_mm)
         };
-        course::check(radius_mm, self.focal_length_mm, &course::NEAR, ideal)
+        plausibility::check(radius_mm, self.focal_length_mm, &plausibility::NEAR, ideal)
     }
 
     fn raster_px(&self, sensor_mm: DVec2) -> DVec2 {

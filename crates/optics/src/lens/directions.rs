@@ -27,7 +27,7 @@ impl Lens {
     #[must_use]
     pub fn direction_at(&self, sensor_mm: DVec2, nm: f64) -> Option<DVec3> {
         each!(self,
-            lens => Some((lens.body.ideal_at(sensor_mm, nm)? / self.principal_distance_mm()).extend(1.0)),
+            lens => Some((lens.properties.ideal_at(sensor_mm, nm)? / self.principal_distance_mm()).extend(1.0)),
             Prescription(lens) => lens.direction(sensor_mm),
             Calibrated(lens) => lens.direction_at(sensor_mm, nm),
             Telecentric(_) => Some(DVec3::Z),

@@ -38,7 +38,7 @@ impl Lens {
             Self::Pinhole(_) | Self::Thin(_) | Self::Calibrated(_) | Self::Telecentric(_) => {
                 self.principal_distance_mm()
             }
-            Self::Thick(lens) => lens.sensor_mm() - lens.exit_pupil_mm(),
+            Self::Thick(lens) => lens.sensor_position_mm() - lens.exit_pupil_position_mm(),
             Self::Prescription(lens) => lens.prescription().exit_distance_mm().abs(),
         }
     }
@@ -63,9 +63,10 @@ impl Lens {
             Self::Pinhole(_) | Self::Thin(_) | Self::Calibrated(_) | Self::Telecentric(_) => {
                 -self.principal_distance_mm() * MM
             }
-            Self::Thick(lens) => (lens.entrance_pupil_mm() - lens.sensor_mm()) * MM,
+            Self::Thick(lens) => (lens.entrance_pupil_position_mm() - lens.sensor_position_mm()) * MM,
             Self::Prescription(lens) => {
-                (lens.prescription().paraxial().entrance_pupil_mm - lens.prescription().sensor_mm()) * MM
+                (lens.prescription().paraxial().entrance_pupil_position_mm - lens.prescription().sensor_position_mm())
+                    * MM
             }
         }
     }

@@ -28,9 +28,7 @@ macro_rules! each {
     };
 }
 
-mod body;
 mod calibrated;
-mod course;
 mod directions;
 mod falloff;
 mod field_angles;
@@ -38,10 +36,12 @@ mod first_order;
 mod focus;
 mod lateral_colour;
 mod measures;
+mod paraxial_properties;
 mod pinhole;
+mod plausibility;
 mod prescribed;
+mod pupil_statements;
 mod rays;
-mod statements;
 mod telecentric;
 mod thick;
 mod thin;
@@ -57,8 +57,8 @@ pub use lateral_colour::LateralColour;
 pub use pinhole::{Pinhole, PinholeParameters};
 pub(crate) use prescribed::DIRECTIONS;
 pub use prescribed::{FieldReport, ImageReport, LateralShift, LensReport, OtherBundle, Prescribed, Spot};
+pub use pupil_statements::PupilStatements;
 pub use rays::TruthRay;
-pub use statements::PupilStatements;
 pub use telecentric::{Telecentric, TelecentricParameters};
 pub use thick::{ConstantPupil, Rim, Thick, ThickParameters};
 pub use thin::{Thin, ThinParameters};
@@ -134,7 +134,7 @@ impl Lens {
     /// For a prescription, a calibrated and a telecentric camera, which have their own.
     pub fn with_distortion(mut self, distortion: RadialDistortion) -> Result<Self, OpticsError> {
         each!(&mut self,
-            lens => lens.body.distortion = Some(distortion),
+            lens => lens.properties.distortion = Some(distortion),
             Prescription(_) => return Err(OpticsError::OwnDistortion),
             Calibrated(_) => return Err(OpticsError::OwnDistortion),
             Telecentric(_) => return Err(OpticsError::OwnDistortion),
@@ -145,7 +145,7 @@ impl Lens {
     /// The radial distortion that was laid over the lens, where there is one.
     #[must_use]
     pub fn distortion(&self) -> Option<&RadialDistortion> {
-        each!(self, lens => lens.body.distortion.as_ref(), Prescription(_) => None, Calibrated(_) => None, Telecentric(_) => None)
+        each!(self, lens => lens.properties.distortion.as_ref(), Prescription(_) => None, Calibrated(_) => None, Telecentric(_) => None)
     }
 
     /// The same lens with lateral colour.
@@ -154,7 +154,7 @@ impl Lens {
     /// For a prescription, which has its own, and a telecentric camera, which has no principal point to be large about.
     pub fn with_lateral_colour(mut self, colour: LateralColour) -> Result<Self, OpticsError> {
         each!(&mut self,
-            lens => lens.body.lateral_colour = Some(Arc::new(colour)),
+            lens => lens.properties.lateral_colour = Some(Arc::new(colour)),
             Prescription(_) => return Err(OpticsError::OwnColour { kind: "prescription" }),
             Calibrated(lens) => Arc::make_mut(lens).lateral_colour = Some(colour),
             Telecentric(_) => return Err(OpticsError::OwnColour { kind: "telecentric camera" }),
@@ -166,7 +166,7 @@ impl Lens {
     #[must_use]
     pub fn lateral_colour(&self) -> Option<&LateralColour> {
         each!(self,
-            lens => lens.body.lateral_colour.as_deref(),
+            lens => lens.properties.lateral_colour.as_deref(),
             Prescription(_) => None,
             Calibrated(lens) => lens.lateral_colour.as_ref(),
             Telecentric(_) => None,
@@ -199,9 +199,11 @@ impl Lens {
         match (self, self.distortion()) {
             (_, Some(distortion)) => {
                 distortion.check(radius_mm)?;
-                course::check(radius_mm, focal_mm, &course::ALL, |r| distortion.ideal_radius_mm(r))
+                plausibility::check(radius_mm, focal_mm, &plausibility::ALL, |r| distortion.ideal_radius_mm(r))
             }
-            (Self::Pinhole(_) | Self::Thin(_) | Self::Thick(_), None) => course::check(radius_mm, focal_mm, &[], Some),
+            (Self::Pinhole(_) | Self::Thin(_) | Self::Thick(_), None) => {
+                plausibility::check(radius_mm, focal_mm, &[], Some)
+            }
             _ => Ok(()),
         }
     }

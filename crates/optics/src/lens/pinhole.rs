@@ -5,7 +5,7 @@
 //! distance from sensor to pinhole is the focal length. Diffraction, which would make a real pinhole of this f-number
 //! unsharp or a large one blurred, is left out.
 
-use super::body::Body;
+use super::paraxial_properties::ParaxialProperties;
 use crate::error::OpticsError;
 use crate::pupil::{Pencil, PupilView};
 use crate::range::{f_number, positive};
@@ -27,7 +27,7 @@ pub struct PinholeParameters {
 /// A pinhole camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pinhole {
-    pub(super) body: Body,
+    pub(super) properties: ParaxialProperties,
     parameters: PinholeParameters,
     /// The nominal pupil, used in the limit of small pupils only.
     pupil: PupilView,
@@ -41,8 +41,8 @@ impl Pinhole {
     pub fn new(parameters: PinholeParameters) -> Result<Self, OpticsError> {
         let distance_mm = positive("focal_length_mm", parameters.focal_length_mm)?;
         let radius_mm = distance_mm / (2.0 * f_number(parameters.f_number)?);
-        let body = Body::new(parameters.transmittance)?;
-        Ok(Self { body, parameters, pupil: PupilView { distance_mm, radius_mm } })
+        let properties = ParaxialProperties::new(parameters.transmittance)?;
+        Ok(Self { properties, parameters, pupil: PupilView { distance_mm, radius_mm } })
     }
 
     /// What the pinhole was made of.
@@ -52,9 +52,9 @@ impl Pinhole {
     }
 
     pub(super) fn ray(&self, sensor_mm: DVec2, _pupil: DVec2, nm: f64) -> Option<PupilRay> {
-        let tangent = self.body.ideal_at(sensor_mm, nm)? / self.principal_distance_mm();
+        let tangent = self.properties.ideal_at(sensor_mm, nm)? / self.principal_distance_mm();
         let pencil = Pencil { tangent, inverse_focus_per_mm: 0.0 };
-        Some(pencil.ray(DVec2::ZERO, self.body.transmittance * self.pupil.weight_sr(sensor_mm, DVec2::ZERO)))
+        Some(pencil.ray(DVec2::ZERO, self.properties.transmittance * self.pupil.weight_sr(sensor_mm, DVec2::ZERO)))
     }
 
     pub(super) fn principal_ray(&self, sensor_mm: DVec2) -> Option<PupilRay> {

@@ -57,7 +57,7 @@ impl Lens {
     pub fn project(&self, direction: DVec3) -> Option<DVec2> {
         let ideal_mm = || self.rectilinear().project(direction);
         each!(self,
-            lens => lens.body.observed(ideal_mm()?),
+            lens => lens.properties.observed(ideal_mm()?),
             Prescription(lens) => lens.project(direction),
             Calibrated(lens) => lens.project(direction),
             Telecentric(_) => None,

@@ -5,6 +5,7 @@
 //! depend on distance: a length in the picture is the width of the field over that of the picture times as long. The camera's
 //! position is the middle of a plane across the axis from which the rays begin; it sees nothing behind that plane.
 
+use super::paraxial_properties::ParaxialProperties;
 use crate::error::OpticsError;
 use crate::range::{f_number, positive};
 use core::f64::consts::PI;
@@ -37,7 +38,7 @@ impl Telecentric {
     pub fn new(parameters: TelecentricParameters) -> Result<Self, OpticsError> {
         positive("field_width_m", parameters.metres_per_mm)?;
         let n = f_number(parameters.f_number)?;
-        let transmittance = super::body::Body::new(parameters.transmittance)?.transmittance;
+        let transmittance = ParaxialProperties::new(parameters.transmittance)?.transmittance;
         Ok(Self { parameters, weight_sr: transmittance * PI / (4.0 * n * n) })
     }
 

@@ -46,9 +46,9 @@
 //! With m_p = 1, no rims and no distortion this is the thin lens. Left out: aberrations, dispersion, diffraction, and
 //! telecentric lenses (a pupil at infinity).
 
-use super::body::Body;
 use super::focus::{Conjugates, PupilSize};
-use super::statements::PupilStatements;
+use super::paraxial_properties::ParaxialProperties;
+use super::pupil_statements::PupilStatements;
 use crate::error::OpticsError;
 use crate::overlap::{Disc, clipped_etendue_sr, open_centroid};
 use crate::pupil::{MM, Pencil, PupilView, concentric_disc};
@@ -101,7 +101,7 @@ pub struct Rim {
 /// A thick lens.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Thick {
-    pub(super) body: Body,
+    pub(super) properties: ParaxialProperties,
     parameters: ThickParameters,
     pub(super) conjugates: Conjugates,
     pub(super) size: PupilSize,
@@ -137,9 +137,15 @@ impl Thick {
         finite("principal_separation_mm", p.principal_separation_mm)?;
         let pupil_magnification = p.pupils.magnification(p.focal_length_mm, p.principal_separation_mm)?;
         let conjugates = Conjugates::new(p.focal_length_mm, pupil_magnification, p.focus_distance_m)?;
-        let body = Body::new(p.transmittance)?;
-        let mut lens =
-            Self { body, parameters, conjugates, size, pupil_magnification, rims: Rims { front: None, rear: None } };
+        let properties = ParaxialProperties::new(p.transmittance)?;
+        let mut lens = Self {
+            properties,
+            parameters,
+            conjugates,
+            size,
+            pupil_magnification,
+            rims: Rims { front: None, rear: None },
+        };
         lens.rims.front = p.front_aperture.map(|rim| lens.front_aperture(rim)).transpose()?;
         lens.rims.rear = p.rear_aperture.map(|rim| lens.rear_aperture(rim)).transpose()?;
         Ok(lens)
@@ -159,20 +165,20 @@ impl Thick {
 
     /// Position of the entrance pupil, mm behind the front principal plane.
     #[must_use]
-    pub fn entrance_pupil_mm(&self) -> f64 {
+    pub fn entrance_pupil_position_mm(&self) -> f64 {
         self.parameters.focal_length_mm * (1.0 / self.pupil_magnification - 1.0)
     }
 
     /// Position of the exit pupil, mm behind the front principal plane.
     #[must_use]
-    pub fn exit_pupil_mm(&self) -> f64 {
+    pub fn exit_pupil_position_mm(&self) -> f64 {
         self.parameters.principal_separation_mm + self.parameters.focal_length_mm * (1.0 - self.pupil_magnification)
     }
 
     /// Position of the sensor, mm behind the front principal plane.
     #[must_use]
-    pub fn sensor_mm(&self) -> f64 {
-        self.exit_pupil_mm() + self.exit_distance_mm()
+    pub fn sensor_position_mm(&self) -> f64 {
+        self.exit_pupil_position_mm() + self.exit_distance_mm()
     }
 
     /// Distance from exit pupil to sensor, mm.
@@ -203,8 +209,8 @@ impl Thick {
         if !self.rim_discs(&bundle, sensor_mm.length()).into_iter().flatten().all(open) {
             return None;
         }
-        let weight_sr = self.body.transmittance * bundle.view.weight_sr(sensor_mm, q * bundle.view.radius_mm);
-        let pencil = match &self.body.lateral_colour {
+        let weight_sr = self.properties.transmittance * bundle.view.weight_sr(sensor_mm, q * bundle.view.radius_mm);
+        let pencil = match &self.properties.lateral_colour {
             None => bundle.pencil,
             Some(_) => Pencil { tangent: self.tangent(sensor_mm, nm)?, ..bundle.pencil },
         };
@@ -215,7 +221,7 @@ impl Thick {
         let Some(bundle) = self.bundle(sensor_mm) else { return 0.0 };
         let rims = self.rim_discs(&bundle, sensor_mm.length());
         let clipped = rims.into_iter().flatten().any(|disc| disc.clips_unit_disc());
-        self.body.transmittance
+        self.properties.transmittance
             * if clipped {
                 clipped_etendue_sr(&bundle.view, sensor_mm.length(), rims)
             } else {
@@ -225,7 +231,7 @@ impl Thick {
 
     /// Tangents of the chief ray at a wavelength.
     fn tangent(&self, sensor_mm: DVec2, nm: f64) -> Option<DVec2> {
-        Some(self.body.ideal_at(sensor_mm, nm)? / self.conjugates.principal_distance_mm)
+        Some(self.properties.ideal_at(sensor_mm, nm)? / self.conjugates.principal_distance_mm)
     }
 
     /// At 587.56 nm, as rims and pupils stay where they are at other wavelengths.
@@ -249,7 +255,7 @@ impl Thick {
     fn exit_growth(&self, sensor_mm: DVec2, tangent: DVec2) -> Option<f64> {
         let image_tangent = sensor_mm / self.exit_distance_mm();
         let secants = (1.0 + image_tangent.length_squared()) / (1.0 + tangent.length_squared());
-        Some(secants * self.body.ideal_area_per_observed(sensor_mm)?.sqrt())
+        Some(secants * self.properties.ideal_area_per_observed(sensor_mm)?.sqrt())
     }
 
     /// The rims as discs in the plane of the unit disc, centres along the direction of the sensor point.
@@ -269,10 +275,10 @@ impl Thick {
     fn front_aperture(&self, rim: Rim) -> Result<[f64; 2], OpticsError> {
         let position_mm = finite("front_aperture.position_mm", rim.position_mm)?;
         let radius_mm = positive("front_aperture.radius_mm", rim.radius_mm)?;
-        let ahead_mm = self.entrance_pupil_mm() - position_mm;
+        let ahead_mm = self.entrance_pupil_position_mm() - position_mm;
         let left = 1.0 - ahead_mm * self.conjugates.inverse_focus_per_mm;
         if left <= 0.0 {
-            let plane_mm = self.entrance_pupil_mm() - self.parameters.focus_distance_m / MM;
+            let plane_mm = self.entrance_pupil_position_mm() - self.parameters.focus_distance_m / MM;
             return Err(OpticsError::RimMisplaced {
                 rim: "front_aperture",
                 position_mm,
@@ -287,10 +293,10 @@ impl Thick {
     fn rear_aperture(&self, rim: Rim) -> Result<[f64; 2], OpticsError> {
         let position_mm = finite("rear_aperture.position_mm", rim.position_mm)?;
         let radius_mm = positive("rear_aperture.radius_mm", rim.radius_mm)?;
-        let behind_mm = position_mm - self.exit_pupil_mm();
+        let behind_mm = position_mm - self.exit_pupil_position_mm();
         let left = 1.0 - behind_mm / self.exit_distance_mm();
         if left <= 0.0 {
-            let plane_mm = self.sensor_mm();
+            let plane_mm = self.sensor_position_mm();
             return Err(OpticsError::RimMisplaced { rim: "rear_aperture", position_mm, plane: "sensor", plane_mm });
         }
         let exit_radius_mm = self.size.entrance_radius_mm * self.pupil_magnification;

@@ -10,8 +10,8 @@
 //! chief ray is the ideal point's, and the disc is seen from the sensor point itself. Left out: aberrations, dispersion,
 //! diffraction, and a mount that clips.
 
-use super::body::Body;
 use super::focus::{Conjugates, PupilSize};
+use super::paraxial_properties::ParaxialProperties;
 use crate::error::OpticsError;
 use crate::pupil::{Pencil, PupilView, concentric_disc};
 use crate::wavelength::PRINCIPAL_NM;
@@ -34,7 +34,7 @@ pub struct ThinParameters {
 /// A thin lens.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Thin {
-    pub(super) body: Body,
+    pub(super) properties: ParaxialProperties,
     parameters: ThinParameters,
     pub(super) conjugates: Conjugates,
     pub(super) size: PupilSize,
@@ -48,7 +48,7 @@ impl Thin {
     pub fn new(parameters: ThinParameters) -> Result<Self, OpticsError> {
         let size = PupilSize::new(parameters.focal_length_mm, parameters.f_number)?;
         let conjugates = Conjugates::new(parameters.focal_length_mm, 1.0, parameters.focus_distance_m)?;
-        Ok(Self { body: Body::new(parameters.transmittance)?, parameters, conjugates, size })
+        Ok(Self { properties: ParaxialProperties::new(parameters.transmittance)?, parameters, conjugates, size })
     }
 
     /// What the lens was made of.
@@ -68,15 +68,15 @@ impl Thin {
     /// The ray through the point `q` of the unit disc.
     fn through(&self, sensor_mm: DVec2, q: DVec2, nm: f64) -> Option<PupilRay> {
         let point_mm = q * self.size.entrance_radius_mm;
-        let weight_sr = self.body.transmittance * self.view().weight_sr(sensor_mm, point_mm);
+        let weight_sr = self.properties.transmittance * self.view().weight_sr(sensor_mm, point_mm);
         Some(self.pencil(sensor_mm, nm)?.ray(point_mm, weight_sr))
     }
 
     pub(super) fn projected_solid_angle_sr(&self, sensor_mm: DVec2) -> f64 {
-        if self.body.ideal(sensor_mm).is_none() {
+        if self.properties.ideal(sensor_mm).is_none() {
             return 0.0;
         }
-        self.body.transmittance * self.view().projected_solid_angle_sr(sensor_mm)
+        self.properties.transmittance * self.view().projected_solid_angle_sr(sensor_mm)
     }
 
     fn view(&self) -> PupilView {
@@ -84,7 +84,7 @@ impl Thin {
     }
 
     fn pencil(&self, sensor_mm: DVec2, nm: f64) -> Option<Pencil> {
-        let tangent = self.body.ideal_at(sensor_mm, nm)? / self.conjugates.principal_distance_mm;
+        let tangent = self.properties.ideal_at(sensor_mm, nm)? / self.conjugates.principal_distance_mm;
         Some(Pencil { tangent, inverse_focus_per_mm: self.conjugates.inverse_focus_per_mm })
     }
 }

@@ -23,12 +23,18 @@ impl Prescription {
         let elements = elements(&surfaces, &places);
         let paraxial = paraxial::paraxial(&elements, stop, surfaces[stop].semi_aperture_mm, &at_d);
         let last_mm = elements.last().map_or(0.0, |e| e.z_mm);
-        let sensor_mm = last_mm + focused.image_mm + check::finite_number(surfaces.len(), "defocus_mm", defocus_mm)?;
+        let sensor_position_mm =
+            last_mm + focused.image_mm + check::finite_number(surfaces.len(), "defocus_mm", defocus_mm)?;
         let lens = Self {
-            sensor_mm,
+            sensor_position_mm,
             focus_distance_m: focused.distance_m,
             magnification: focused.magnification,
-            principal_distance_mm: focus::principal_distance_mm(&elements, &paraxial, sensor_mm - last_mm, &at_d),
+            principal_distance_mm: focus::principal_distance_mm(
+                &elements,
+                &paraxial,
+                sensor_position_mm - last_mm,
+                &at_d,
+            ),
             surfaces,
             elements,
             table,

@@ -119,7 +119,7 @@ pub(super) fn axial_bundle(lens: &Prescription) -> Result<(), PrescriptionError>
 
 /// From the axial point in focus through a height of the entrance pupil.
 fn axial_ray(lens: &Prescription, height_mm: f64) -> LensRay {
-    let pupil = DVec3::new(height_mm, 0.0, lens.paraxial.entrance_pupil_mm);
+    let pupil = DVec3::new(height_mm, 0.0, lens.paraxial.entrance_pupil_position_mm);
     let slope = height_mm / (lens.focus_distance_m * 1e3);
     LensRay { point: pupil, direction: DVec3::new(slope, 0.0, 1.0).normalize() }
 }

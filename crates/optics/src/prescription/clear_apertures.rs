@@ -118,7 +118,7 @@ impl FromStop<'_> {
         ray.direction = -ray.direction;
         let behind = &self.lens.elements[self.lens.stop..];
         let out = walk(behind, self.lens.stop, Way::ToSensor, &self.media, ray, journey).ok()?;
-        Some(out.point.x + (self.lens.sensor_mm - out.point.z) * out.direction.x / out.direction.z)
+        Some(out.point.x + (self.lens.sensor_position_mm - out.point.z) * out.direction.x / out.direction.z)
     }
 
     /// How far a ray passes its field point: an angle, or mm.

@@ -128,8 +128,8 @@ pub(super) fn focused(
         }
         Focus::Sensor { distance_m } => at(&State::new(surfaces, stop, places, media), legal(distance_m)?),
         Focus::Group { distance_m, first, last } => {
-            let sensor_mm = behind(State::new(surfaces, stop, places, media).image_mm(f64::INFINITY))?;
-            let group = Group::new(surfaces, first, last, sensor_mm)?;
+            let sensor_position_mm = behind(State::new(surfaces, stop, places, media).image_mm(f64::INFINITY))?;
+            let group = Group::new(surfaces, first, last, sensor_position_mm)?;
             group.bring(surfaces, legal(distance_m)?, |s| State::new(s, stop, places, media))
         }
     }
@@ -163,7 +163,7 @@ struct Group {
     first: usize,
     last: usize,
     /// The sensor from the first vertex as given, mm.
-    sensor_mm: f64,
+    sensor_position_mm: f64,
     /// Room towards the scene and the sensor, mm.
     low_mm: f64,
     high_mm: f64,
@@ -183,7 +183,14 @@ impl Group {
         let after = if last + 1 == count { back_mm } else { surfaces[last].thickness_mm };
         let total: f64 = surfaces[..count - 1].iter().map(|s| s.thickness_mm).sum();
         let low_mm = -before.min(total + back_mm);
-        Ok(Self { first, last, sensor_mm: total + back_mm, low_mm, high_mm: after, spaces_mm: [before, after] })
+        Ok(Self {
+            first,
+            last,
+            sensor_position_mm: total + back_mm,
+            low_mm,
+            high_mm: after,
+            spaces_mm: [before, after],
+        })
     }
 
     /// Moves the group by `shift_mm` towards the sensor; where the sensor then stands behind the last vertex.
@@ -198,7 +205,7 @@ impl Group {
         let total: f64 = surfaces[..count - 1].iter().map(|s| s.thickness_mm).sum();
         // Where the first surface moves, the lens frame moves with it.
         let origin = if self.first == 0 { shift_mm } else { 0.0 };
-        self.sensor_mm - origin - total
+        self.sensor_position_mm - origin - total
     }
 
     /// The shift nearest to none that brings the distance into focus, by scanning outwards and bisection.
@@ -247,5 +254,5 @@ fn bisect(error: &mut impl FnMut(f64) -> f64, bracket: [f64; 2], ends: [f64; 2])
 /// Height on the sensor per tangent at the entrance pupil, mm.
 pub(super) fn principal_distance_mm(elements: &[Element], p: &Paraxial, image_mm: f64, media: &Media) -> f64 {
     let m = matrix(elements, media).moved(image_mm);
-    m.b - m.a * p.entrance_pupil_mm
+    m.b - m.a * p.entrance_pupil_position_mm
 }

@@ -122,7 +122,7 @@ impl Prescription {
     }
 
     fn off_sensor(&self, ray: LensRay) -> LensRay {
-        let t = (self.sensor_mm - ray.point.z) / ray.direction.z;
+        let t = (self.sensor_position_mm - ray.point.z) / ray.direction.z;
         let LensRay { point, direction: d } = ray;
         LensRay { point: point + d * t, direction: DVec3::new(d.x, d.y, -d.z) }
     }
@@ -165,7 +165,7 @@ impl Prescription {
         let (mut m, mut z_mm, mut index, mut turned) = (Matrix::IDENTITY, 0.0, 1.0_f64, 0);
         for (i, to_sensor) in mirrors_and_surfaces {
             let (vertex_mm, curvature) =
-                self.elements.get(i).map_or((self.sensor_mm, 0.0), |e| (e.z_mm, e.shape.vertex_curvature()));
+                self.elements.get(i).map_or((self.sensor_position_mm, 0.0), |e| (e.z_mm, e.shape.vertex_curvature()));
             m = m.moved((vertex_mm - z_mm) / index);
             let mirror = (turned == 0 && i == pair.rear) || (turned == 1 && i == pair.front);
             let behind = match (mirror, self.elements.get(i)) {
@@ -176,7 +176,7 @@ impl Prescription {
             m = m.refracted((behind - index) * curvature);
             (z_mm, index) = (vertex_mm, behind);
         }
-        m.moved((self.sensor_mm - z_mm) / index)
+        m.moved((self.sensor_position_mm - z_mm) / index)
     }
 }
 

@@ -54,7 +54,7 @@ pub struct Prescription {
     table: IndexTable,
     stop: usize,
     paraxial: Paraxial,
-    sensor_mm: f64,
+    sensor_position_mm: f64,
     focus_distance_m: f64,
     magnification: f64,
     principal_distance_mm: f64,
@@ -87,8 +87,8 @@ impl Prescription {
 
     /// The sensor's place in the lens frame: mm from the first vertex.
     #[must_use]
-    pub fn sensor_mm(&self) -> f64 {
-        self.sensor_mm
+    pub fn sensor_position_mm(&self) -> f64 {
+        self.sensor_position_mm
     }
 
     /// The last vertex's place in the lens frame, mm.
@@ -173,20 +173,20 @@ impl Prescription {
     /// Where the paraxial image of the plane in focus lies at a wavelength, mm behind the last vertex.
     #[must_use]
     pub fn image_mm(&self, nm: f64) -> f64 {
-        let before = self.focus_distance_m * 1e3 - self.paraxial.entrance_pupil_mm;
+        let before = self.focus_distance_m * 1e3 - self.paraxial.entrance_pupil_position_mm;
         paraxial::matrix(&self.elements, &self.media(nm)).image_mm(1.0 / before)
     }
 
     /// Least and greatest distance of the last surface's opening from the sensor, mm.
     pub(crate) fn rear_distances_mm(&self) -> [f64; 2] {
-        let vertex = self.sensor_mm - self.last_vertex_mm();
+        let vertex = self.sensor_position_mm - self.last_vertex_mm();
         let rim = self.surfaces.last().and_then(|s| s.shape().sag(s.semi_aperture_mm)).unwrap_or(0.0);
         [vertex - rim.max(0.0), vertex - rim.min(0.0)]
     }
 
     /// Distance of the exit pupil before the sensor, mm; infinite for a telecentric lens.
     pub(crate) fn exit_distance_mm(&self) -> f64 {
-        self.sensor_mm - self.last_vertex_mm() - self.paraxial.exit_pupil_mm
+        self.sensor_position_mm - self.last_vertex_mm() - self.paraxial.exit_pupil_position_mm
     }
 
     pub(crate) fn media(&self, nm: f64) -> Media {
@@ -223,7 +223,7 @@ impl Prescription {
     /// Transmittance of the coatings on the axis.
     #[must_use]
     pub fn axial_transmittance(&self, nm: f64) -> f64 {
-        let axis = LensRay { point: DVec3::new(0.0, 0.0, self.sensor_mm), direction: DVec3::NEG_Z };
+        let axis = LensRay { point: DVec3::new(0.0, 0.0, self.sensor_position_mm), direction: DVec3::NEG_Z };
         self.to_scene(axis, nm).map_or(0.0, |(_, transmittance)| transmittance)
     }
 }

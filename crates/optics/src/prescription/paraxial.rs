@@ -22,11 +22,11 @@ pub struct Paraxial {
     /// Rear principal point from the last vertex, mm; in air also the rear nodal point.
     pub rear_principal_mm: f64,
     /// Entrance pupil from the first vertex, mm.
-    pub entrance_pupil_mm: f64,
+    pub entrance_pupil_position_mm: f64,
     /// Its radius, mm.
     pub entrance_radius_mm: f64,
     /// Exit pupil from the last vertex, mm; infinite for an image-side telecentric lens.
-    pub exit_pupil_mm: f64,
+    pub exit_pupil_position_mm: f64,
     /// Its radius, mm.
     pub exit_radius_mm: f64,
     /// Radius of the Petzval surface, mm, signed as a surface's: 1/R = −Σ φ/(n n′), negative where it curves towards the
@@ -105,7 +105,7 @@ pub(super) fn entrance(elements: &[Element], stop: usize, media: &Media) -> [f64
 pub(super) fn paraxial(elements: &[Element], stop: usize, stop_mm: f64, media: &Media) -> Paraxial {
     let m = matrix(elements, media);
     let focal_length_mm = -1.0 / m.c;
-    let [entrance_pupil_mm, magnified] = entrance(elements, stop, media);
+    let [entrance_pupil_position_mm, magnified] = entrance(elements, stop, media);
     // From the stop's plane on; the surface that is the stop refracts behind its opening.
     let rear = matrix(&elements[stop..], media);
     let petzval = |e: &Element| power(e, media) / (media[e.media[0]] * media[e.media[1]]);
@@ -115,9 +115,9 @@ pub(super) fn paraxial(elements: &[Element], stop: usize, stop_mm: f64, media: &
         back_focus_mm: -m.a / m.c,
         front_principal_mm: m.d / m.c + focal_length_mm,
         rear_principal_mm: -m.a / m.c - focal_length_mm,
-        entrance_pupil_mm,
+        entrance_pupil_position_mm,
         entrance_radius_mm: stop_mm / magnified.abs(),
-        exit_pupil_mm: -rear.b / rear.d,
+        exit_pupil_position_mm: -rear.b / rear.d,
         exit_radius_mm: (stop_mm / rear.d).abs(),
         petzval_radius_mm: -1.0 / elements.iter().map(petzval).sum::<f64>(),
     }

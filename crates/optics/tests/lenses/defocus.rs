@@ -2,7 +2,7 @@
 
 use etendue_core::quantity::{Length, Radiance};
 use etendue_core::{Bands, Plane, SpectralCube};
-use etendue_optics::defocus::{Physical, Sight};
+use etendue_optics::defocus::{Physical, PinholeView};
 use etendue_optics::{
     ConstantPupil, DepthOfField, FastBlend, FastParameters, Lens, OpticsError, PinholeParameters, PupilStatements, Rim,
     ThickParameters, ThinParameters,
@@ -65,8 +65,8 @@ fn physical(
     scene: impl Fn(DVec2) -> (f64, f64),
 ) -> SpectralCube<Radiance> {
     let (radiance, distance) = seen(lens, raster, margin, scene);
-    let sight = Sight::new(lens, raster, margin, &radiance, &distance).expect("sizes");
-    DepthOfField::Physical.apply(&sight)
+    let view = PinholeView::new(lens, raster, margin, &radiance, &distance).expect("sizes");
+    DepthOfField::Physical.apply(&view)
 }
 
 /// Sum, mean and root of the mean variance along both axes, px, of the light of a picture.
@@ -109,8 +109,8 @@ fn a_uniform_radiance_stays_uniform_whatever_the_distances() {
         FastParameters { sharp_near_m: 2.0, sharp_far_m: 4.0, blurred_near_m: 1.0, blurred_far_m: 9.0, blur_px: 7.0 };
     let (radiance, distance) = seen(&thin(), &raster, 4, steps);
     let lens = thin();
-    let sight = Sight::new(&lens, &raster, 4, &radiance, &distance).expect("sizes");
-    let picture = DepthOfField::Fast(FastBlend::new(blend).expect("legal")).apply(&sight);
+    let view = PinholeView::new(&lens, &raster, 4, &radiance, &distance).expect("sizes");
+    let picture = DepthOfField::Fast(FastBlend::new(blend).expect("legal")).apply(&view);
     assert!(picture.planes()[0].samples().iter().all(|l| (l / 0.37 - 1.0).abs() < 1e-6));
 }
 
@@ -236,14 +236,14 @@ fn all_bands_have_the_same_weights_and_strips_join_to_the_same_bits() {
     let plane = &one.planes()[0];
     let three = vec![plane.clone(), plane.map(|l| 2.0 * l), plane.clone()];
     let three = SpectralCube::from_planes(bands(3), three).expect("sizes");
-    let sight = Sight::new(&lens, &raster, 10, &three, &distance).expect("sizes");
-    let picture = Physical::new(sight).picture();
+    let view = PinholeView::new(&lens, &raster, 10, &three, &distance).expect("sizes");
+    let picture = Physical::new(view).picture();
     let [a, b, c] = picture.planes() else { panic!("three bands") };
     assert_eq!(a, c);
     for (a, b) in a.samples().iter().zip(b.samples()) {
         assert!((b / a - 2.0).abs() < 1e-6);
     }
-    let prepared = Physical::new(sight);
+    let prepared = Physical::new(view);
     let rows: Vec<_> = (0..70).rev().map(|y| prepared.rows(y..y + 1)).collect();
     let rows: Vec<_> = rows.into_iter().rev().collect();
     assert_eq!(prepared.joined(&rows), picture);
@@ -258,13 +258,13 @@ fn pixels_without_a_ray_are_no_light_and_radiance_must_be_numbers() {
         distance.set(29, y, f32::NAN);
         radiance.planes_mut()[0].set(29, y, f32::NAN);
     }
-    let sight = Sight::new(&lens, &raster, 0, &radiance, &distance).expect("no ray, no light");
-    let picture = DepthOfField::Physical.apply(&sight);
+    let view = PinholeView::new(&lens, &raster, 0, &radiance, &distance).expect("no ray, no light");
+    let picture = DepthOfField::Physical.apply(&view);
     assert!((0..29).all(|x| (picture.planes()[0].at(x, 15) - 1.0).abs() < 1e-6));
     radiance.planes_mut()[0].set(3, 4, f32::INFINITY);
-    let refused = Sight::new(&lens, &raster, 0, &radiance, &distance);
+    let refused = PinholeView::new(&lens, &raster, 0, &radiance, &distance);
     assert!(matches!(refused, Err(OpticsError::RadianceNotFinite { x: 3, y: 4 })));
-    assert!(matches!(Sight::new(&lens, &raster, 1, &radiance, &distance), Err(OpticsError::Size { .. })));
+    assert!(matches!(PinholeView::new(&lens, &raster, 1, &radiance, &distance), Err(OpticsError::Size { .. })));
 }
 
 #[test]
@@ -283,8 +283,8 @@ fn the_fast_blend_has_its_diameter_where_it_is_whole_and_none_where_it_is_sharp(
     for (depth_m, diameter_px) in [(1.2, 9.0), (3.0, 0.0), (50.0, 9.0)] {
         let point = |t: DVec2| (depth_m, if t.length() < 1e-6 { 1.0 } else { 0.0 });
         let (radiance, distance) = seen(&lens, &raster, margin, point);
-        let sight = Sight::new(&lens, &raster, margin, &radiance, &distance).expect("sizes");
-        let (_, _, deviation) = spot(&DepthOfField::Fast(blend).apply(&sight));
+        let view = PinholeView::new(&lens, &raster, margin, &radiance, &distance).expect("sizes");
+        let (_, _, deviation) = spot(&DepthOfField::Fast(blend).apply(&view));
         assert!((4.0 * deviation - diameter_px).abs() < 1e-3, "{depth_m} m: {deviation}");
     }
 }

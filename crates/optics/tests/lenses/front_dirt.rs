@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 use etendue_core::maths::f64::acos;
-use etendue_optics::front::{Dirt, DirtParameters, Front, Mask, Stand};
+use etendue_optics::front::{Dirt, DirtParameters, Front, Mask, Placement};
 use etendue_optics::{Lens, ThinParameters};
 use glam::{DVec2, DVec3};
 
@@ -15,8 +15,8 @@ const TEXELS: usize = 2000;
 fn half_plane() -> Dirt {
     let row = (0..TEXELS).map(|x| if x < TEXELS / 2 { 1.0 } else { 0.0 }).collect();
     let mask = Mask::new(TEXELS, 1, row).expect("a mask");
-    let stand = Stand::turned(DVec3::new(0.0, 0.0, DISTANCE_MM), [0.0; 3]);
-    Dirt::new(DirtParameters { stand, size_mm: DVec2::splat(SIZE_MM), mask }).expect("dirt")
+    let placement = Placement::turned(DVec3::new(0.0, 0.0, DISTANCE_MM), [0.0; 3]);
+    Dirt::new(DirtParameters { placement, size_mm: DVec2::splat(SIZE_MM), mask }).expect("dirt")
 }
 
 fn lens() -> Lens {
@@ -78,8 +78,8 @@ fn both_routes_agree() {
 #[test]
 fn beyond_the_mask_the_glass_is_clean_and_a_mask_is_upright() {
     let mask = Mask::new(2, 2, vec![0.0, 0.25, 0.5, 1.0]).expect("a mask");
-    let stand = Stand::turned(DVec3::new(0.0, 0.0, DISTANCE_MM), [0.0; 3]);
-    let dirt = Dirt::new(DirtParameters { stand, size_mm: DVec2::splat(8.0), mask }).expect("dirt");
+    let placement = Placement::turned(DVec3::new(0.0, 0.0, DISTANCE_MM), [0.0; 3]);
+    let dirt = Dirt::new(DirtParameters { placement, size_mm: DVec2::splat(8.0), mask }).expect("dirt");
     let front = Front::new(Some(dirt), None).expect("dirt");
     // Close to a pinhole: what the middle of the pupil sees.
     let p = ThinParameters {

@@ -3,8 +3,8 @@
 use core::f64::consts::TAU;
 use etendue_core::maths::f64::sin_cos;
 use etendue_optics::front::{
-    Curve, Front, FrontError, MeshMirror, Mirror, MirrorParameters, MirrorShape, Optic, Quadric, QuadricKind,
-    Reflectance, Stand,
+    Curve, Front, FrontError, MeshMirror, Mirror, MirrorParameters, MirrorShape, Optic, Placement, Quadric,
+    QuadricKind, Reflectance,
 };
 use etendue_optics::{Lens, PinholeParameters};
 use etendue_projection::Raster;
@@ -44,9 +44,9 @@ fn mesh(rings: u32, spokes: u32, with_normals: bool) -> MeshMirror {
 }
 
 fn front(shape: MirrorShape, degrees: [f64; 3]) -> Front {
-    let stand = Stand::turned(DVec3::new(0.0, 0.0, 100.0), degrees);
+    let placement = Placement::turned(DVec3::new(0.0, 0.0, 100.0), degrees);
     let reflectance = Reflectance::Share(Curve::Constant(1.0));
-    let mirror = Mirror::new(MirrorParameters { shape, stand, reflectance }).expect("a mirror");
+    let mirror = Mirror::new(MirrorParameters { shape, placement, reflectance }).expect("a mirror");
     Front::new(None, Some(Optic::Mirror(Box::new(mirror)))).expect("a mirror")
 }
 

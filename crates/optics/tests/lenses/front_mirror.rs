@@ -3,8 +3,8 @@
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{acos, atan2, sin, sin_cos};
 use etendue_optics::front::{
-    Curve, Front, FrontError, FrontRay, Mirror, MirrorParameters, MirrorShape, Optic, Quadric, QuadricKind,
-    Reflectance, Stand,
+    Curve, Front, FrontError, FrontRay, Mirror, MirrorParameters, MirrorShape, Optic, Placement, Quadric, QuadricKind,
+    Reflectance,
 };
 use etendue_optics::{Lens, PinholeParameters, TelecentricParameters};
 use etendue_projection::Raster;
@@ -15,15 +15,15 @@ const PARABOLOID: QuadricKind = QuadricKind::Conic { radius_mm: 40.0, conic: -1.
 const HYPERBOLOID: QuadricKind = QuadricKind::Conic { radius_mm: 20.0, conic: -2.25 };
 const SPHERE: QuadricKind = QuadricKind::Conic { radius_mm: 30.0, conic: 0.0 };
 
-fn front(kind: QuadricKind, stand: Stand, rim_mm: f64, hole_mm: f64) -> Front {
+fn front(kind: QuadricKind, placement: Placement, rim_mm: f64, hole_mm: f64) -> Front {
     let shape = MirrorShape::Quadric(Quadric::new(kind, rim_mm, hole_mm).expect("a legal mirror"));
     let reflectance = Reflectance::Share(Curve::Constant(0.8));
-    let mirror = Mirror::new(MirrorParameters { shape, stand, reflectance }).expect("a legal mirror");
+    let mirror = Mirror::new(MirrorParameters { shape, placement, reflectance }).expect("a legal mirror");
     Front::new(None, Some(Optic::Mirror(Box::new(mirror)))).expect("a mirror")
 }
 
-fn on_axis(distance_mm: f64) -> Stand {
-    Stand::turned(DVec3::new(0.0, 0.0, distance_mm), [0.0; 3])
+fn on_axis(distance_mm: f64) -> Placement {
+    Placement::turned(DVec3::new(0.0, 0.0, distance_mm), [0.0; 3])
 }
 
 fn pinhole() -> Lens {
@@ -127,9 +127,9 @@ fn rays_beside_the_mirror_and_through_its_hole_look_past() {
 
 #[test]
 fn a_turned_mirror_turns_what_is_seen_by_twice_the_angle() {
-    let stand = |degrees| Stand::turned(DVec3::new(0.0, 0.0, 100.0), [degrees, 0.0, 0.0]);
+    let placement = |degrees| Placement::turned(DVec3::new(0.0, 0.0, 100.0), [degrees, 0.0, 0.0]);
     let lens = pinhole();
-    let axis = |degrees| seen(&front(SPHERE, stand(degrees), 29.0, 0.0), &lens, DVec2::ZERO).ray.direction;
+    let axis = |degrees| seen(&front(SPHERE, placement(degrees), 29.0, 0.0), &lens, DVec2::ZERO).ray.direction;
     assert!((axis(0.0) + DVec3::Z).length() < 1e-15);
     // About its vertex: the normal there was −z and now is (0, sin 10°, −cos 10°).
     let (s, c) = sin_cos(20.0 * PI / 180.0);
@@ -146,14 +146,14 @@ fn what_cannot_be_seen_is_refused() {
         "the pupil within the other sheet is right"
     );
     assert_eq!(check(&front(SPHERE, on_axis(-5.0), 25.0, 0.0)), Err(FrontError::SeenFromInside));
-    let turned = Stand::turned(DVec3::new(0.0, 0.0, 50.0), [180.0, 0.0, 0.0]);
+    let turned = Placement::turned(DVec3::new(0.0, 0.0, 50.0), [180.0, 0.0, 0.0]);
     assert_eq!(check(&front(PARABOLOID, turned, 25.0, 0.0)), Err(FrontError::SeenFromInside));
     assert_eq!(
         check(&front(PARABOLOID, on_axis(-500.0), 5.0, 0.0)),
         Err(FrontError::SeenFromInside),
         "far within its axis"
     );
-    let aside = Stand::turned(DVec3::new(500.0, 0.0, 50.0), [0.0; 3]);
+    let aside = Placement::turned(DVec3::new(500.0, 0.0, 50.0), [0.0; 3]);
     assert_eq!(check(&front(SPHERE, aside, 25.0, 0.0)), Err(FrontError::NotVisible));
 }
 

@@ -3,7 +3,7 @@
 use core::f64::consts::PI;
 use etendue_core::maths::f64::{asin, pow, sin_cos};
 use etendue_optics::front::{
-    Curve, Front, FrontError, FrontRay, Layer, Optic, Stand, Tint, Windscreen, WindscreenParameters,
+    Curve, Front, FrontError, FrontRay, Layer, Optic, Placement, Tint, Windscreen, WindscreenParameters,
 };
 use etendue_optics::prescription::coating::Coating;
 use etendue_optics::{Lens, PinholeParameters, ThinParameters};
@@ -15,7 +15,7 @@ const THICK_MM: f64 = 5.0;
 
 fn plate(tilt_deg: f64) -> WindscreenParameters {
     WindscreenParameters {
-        stand: Stand::turned(DVec3::new(0.0, 0.0, 300.0), [tilt_deg, 0.0, 0.0]),
+        placement: Placement::turned(DVec3::new(0.0, 0.0, 300.0), [tilt_deg, 0.0, 0.0]),
         radius_across_mm: f64::INFINITY,
         radius_upright_mm: f64::INFINITY,
         layers: vec![Layer { thickness_mm: THICK_MM, index: Curve::Constant(INDEX) }],
@@ -189,7 +189,7 @@ fn curved_glass_of_constant_thickness_is_a_weak_negative_lens() {
 #[test]
 fn rays_that_do_not_meet_the_glass_pass_it() {
     let sideways = WindscreenParameters {
-        stand: Stand::turned(DVec3::new(0.0, 0.0, 300.0), [80.0, 0.0, 0.0]),
+        placement: Placement::turned(DVec3::new(0.0, 0.0, 300.0), [80.0, 0.0, 0.0]),
         double_image_fraction: Some(0.25),
         ..plate(0.0)
     };
@@ -206,13 +206,14 @@ fn rays_that_do_not_meet_the_glass_pass_it() {
 #[test]
 fn glass_that_cannot_be_is_refused() {
     let raster = Raster::new(80, 80, DVec2::splat(0.1), DVec2::splat(40.0)).expect("a raster");
-    let check = |stand: Stand| front(WindscreenParameters { stand, ..plate(0.0) }).check(&pinhole(), &raster);
-    assert_eq!(check(Stand::turned(DVec3::new(0.0, 0.0, 300.0), [60.0, 0.0, 0.0])), Ok(()));
-    assert_eq!(check(Stand::turned(DVec3::new(0.0, 0.0, -1.0), [0.0; 3])), Err(FrontError::ThroughLens));
-    let steep = Stand::turned(DVec3::new(0.0, 0.0, 1.0), [60.0, 0.0, 0.0]);
+    let check =
+        |placement: Placement| front(WindscreenParameters { placement, ..plate(0.0) }).check(&pinhole(), &raster);
+    assert_eq!(check(Placement::turned(DVec3::new(0.0, 0.0, 300.0), [60.0, 0.0, 0.0])), Ok(()));
+    assert_eq!(check(Placement::turned(DVec3::new(0.0, 0.0, -1.0), [0.0; 3])), Err(FrontError::ThroughLens));
+    let steep = Placement::turned(DVec3::new(0.0, 0.0, 1.0), [60.0, 0.0, 0.0]);
     let thin = ThinParameters { focal_length_mm: 6.0, f_number: 2.0, focus_distance_m: 10.0, transmittance: 1.0 };
     let wide = Lens::thin(thin).expect("a lens");
-    let close = front(WindscreenParameters { stand: steep, ..plate(0.0) });
+    let close = front(WindscreenParameters { placement: steep, ..plate(0.0) });
     assert_eq!(close.check(&wide, &raster), Err(FrontError::ThroughLens), "a pupil of 1.5 mm reaches through");
     let refused = |parameters| Windscreen::new(parameters).expect_err("no glass").to_string();
     assert!(refused(WindscreenParameters { layers: vec![], ..plate(0.0) }).contains("no layers"));

@@ -110,7 +110,7 @@ fn a_thin_lenss_ghost_focuses_where_it_should() {
     let f = lens.paraxial().focal_length_mm;
     let expected = f * (n - 1.0) / (3.0 * n - 1.0);
     let first = lens.ghost_first_order(GhostPair { front: 1, rear: 2 }, NM);
-    let behind_lens = lens.sensor_mm() + first.focus_mm - sags;
+    let behind_lens = lens.sensor_position_mm() + first.focus_mm - sags;
     // The thickness moves it by about as much as it is.
     assert!((behind_lens - expected).abs() < 1.5 * sags, "{behind_lens} {expected}");
 }
@@ -124,7 +124,7 @@ fn rays_near_the_axis_follow_first_order() {
             let step = 1e-6;
             let lands = |ray| {
                 let ray: LensRay = lens.ghost(pair, ray, NM).expect("near the axis").ray;
-                (ray.point + ray.direction * ((lens.sensor_mm() - ray.point.z) / ray.direction.z)).x / step
+                (ray.point + ray.direction * ((lens.sensor_position_mm() - ray.point.z) / ray.direction.z)).x / step
             };
             // The third order is some 1e-12 of the first at this height and slope.
             let (height, slope) = (lands(parallel(step, 0.0)), lands(parallel(0.0, step)));
@@ -176,8 +176,8 @@ fn plain_sum(lens: &Prescribed, at_mm: DVec2, nm: f64, sensor: f64) -> (f64, DVe
             let point =
                 u * (step * (f64::from(i % SIDE) + 0.5) - reach) + v * (step * (f64::from(i / SIDE) + 0.5) - reach);
             let Ok(ghost) = p.ghost(pair, LensRay { point, direction: travel }, nm) else { continue };
-            let end =
-                ghost.ray.point + ghost.ray.direction * ((p.sensor_mm() - ghost.ray.point.z) / ghost.ray.direction.z);
+            let end = ghost.ray.point
+                + ghost.ray.direction * ((p.sensor_position_mm() - ghost.ray.point.z) / ghost.ray.direction.z);
             // The picture is erect.
             let end = -end.truncate();
             if ghost.filling <= 1.0 && end.abs().max_element() < edge {

@@ -83,19 +83,19 @@ fn both_sides_of_a_thick_lens_meet_its_principal_planes_at_one_height() {
     // Gauss: object-side ray at H and image-side ray at H′ are equally far from the axis.
     let lens = thick();
     let wrapped = Lens::Thick(lens.clone());
-    let exit_mm = lens.exit_pupil_mm();
-    let exit_to_sensor_mm = lens.sensor_mm() - exit_mm;
+    let exit_mm = lens.exit_pupil_position_mm();
+    let exit_to_sensor_mm = lens.sensor_position_mm() - exit_mm;
     // Near the axis, where the scaling of the entrance pupil (1 + O(field²)) is below the tolerance.
     let sensor = DVec2::new(1e-3, 2e-3);
     let ray = wrapped.ray(sensor, DVec2::new(0.97, 0.3), 550.0).expect("open");
     // H lies at z = + entrance position (positive positions are towards the sensor) in the camera frame.
-    let at_h_mm = at_depth(&ray, lens.entrance_pupil_mm() / 1000.0).truncate() * 1000.0;
+    let at_h_mm = at_depth(&ray, lens.entrance_pupil_position_mm() / 1000.0).truncate() * 1000.0;
     let exit_point = ray.origin_m.truncate() * 1000.0 * lens.pupil_magnification();
     let share = (5.0 - exit_mm) / exit_to_sensor_mm;
     let at_h2_mm = exit_point + (-sensor - exit_point) * share;
     assert!((at_h_mm - at_h2_mm).length() < 1e-6, "{at_h_mm} {at_h2_mm}");
     // And sensor and plane in focus are conjugate: 1/v + 1/u = 1/f from H′ and H.
-    let (v, u) = (lens.sensor_mm() - 5.0, 600.0 - lens.entrance_pupil_mm());
+    let (v, u) = (lens.sensor_position_mm() - 5.0, 600.0 - lens.entrance_pupil_position_mm());
     assert!((1.0 / v + 1.0 / u - 1.0 / 16.0).abs() < 1e-15);
 }
 
@@ -103,7 +103,7 @@ fn both_sides_of_a_thick_lens_meet_its_principal_planes_at_one_height() {
 fn one_statement_about_the_pupils_fixes_the_others() {
     let lens = thick();
     assert!((lens.pupil_magnification() - 16.0 / 12.8).abs() < 1e-15);
-    assert!((lens.exit_pupil_mm() - (5.0 + 16.0 * (1.0 - 1.25))).abs() < 1e-12);
+    assert!((lens.exit_pupil_position_mm() - (5.0 + 16.0 * (1.0 - 1.25))).abs() < 1e-12);
     let agreeing =
         PupilStatements { entrance_pupil_mm: Some(-3.2), exit_pupil_mm: Some(1.0), pupil_magnification: Some(1.25) };
     assert!(Thick::new(ThickParameters { pupils: agreeing, ..thick_parameters() }).is_ok());

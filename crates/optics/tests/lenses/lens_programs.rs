@@ -51,10 +51,10 @@ fn paraxial_quantities_agree() {
                 "focal_length_mm" => p.focal_length_mm,
                 "back_focus_mm" => p.back_focus_mm,
                 "front_focus_mm" => p.front_focus_mm,
-                "entrance_pupil_mm" => p.entrance_pupil_mm,
+                "entrance_pupil_mm" => p.entrance_pupil_position_mm,
                 "entrance_diameter_mm" => 2.0 * p.entrance_radius_mm,
                 "exit_diameter_mm" => 2.0 * p.exit_radius_mm,
-                "exit_pupil_from_image_mm" => p.exit_pupil_mm - to_image,
+                "exit_pupil_from_image_mm" => p.exit_pupil_position_mm - to_image,
                 other => panic!("{other}"),
             };
             for program in ["optiland", "rayoptics"] {
@@ -75,7 +75,7 @@ fn real_rays_agree() {
             let ray = LensRay { point: vector(&row["point_mm"]), direction: vector(&row["direction"]).normalize() };
             // The programs looked at no clear apertures: clipped rays have nothing to compare.
             let Ok((out, _)) = lens.to_sensor(ray, number(&row["nm"])) else { continue };
-            let at = out.point + out.direction * ((lens.sensor_mm() - out.point.z) / out.direction.z);
+            let at = out.point + out.direction * ((lens.sensor_position_mm() - out.point.z) / out.direction.z);
             compared += 1;
             for program in ["optiland", "rayoptics"] {
                 let [image, direction] = ["image_mm", "direction"].map(|key| list(&row[program][key]));
@@ -94,7 +94,7 @@ fn real_rays_agree() {
 
 /// Compares a ray's end behind the last surface with both programs' to 1e-6 mm.
 fn agrees(lens: &Prescription, out: LensRay, row: &Value) {
-    let at = out.point + out.direction * ((lens.sensor_mm() - out.point.z) / out.direction.z);
+    let at = out.point + out.direction * ((lens.sensor_position_mm() - out.point.z) / out.direction.z);
     for program in ["optiland", "rayoptics"] {
         let [image, direction] = ["image_mm", "direction"].map(|key| list(&row[program][key]));
         let miss = at.truncate() - DVec2::from_slice(&image);

@@ -31,9 +31,9 @@ fn counted(lens: &Lens, s_mm: f64, side: usize) -> (f64, usize) {
     let Lens::Prescription(prescribed) = lens else { panic!("a prescription") };
     let lens = prescribed.prescription();
     let last = lens.surfaces().last().expect("a surface");
-    let back_mm = lens.sensor_mm() - lens.last_vertex_mm();
+    let back_mm = lens.sensor_position_mm() - lens.last_vertex_mm();
     let reach = last.semi_aperture_mm / back_mm * 1.3;
-    let from = DVec3::new(s_mm, 0.0, lens.sensor_mm());
+    let from = DVec3::new(s_mm, 0.0, lens.sensor_position_mm());
     let step = 2.0 * reach / side as f64;
     let weight = |x: f64, y: f64| {
         let t = DVec2::new(x - s_mm / back_mm, y);

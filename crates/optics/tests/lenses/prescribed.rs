@@ -79,7 +79,7 @@ fn no_light_is_lost_outside_the_region() {
     for (name, radius_mm) in LENSES {
         let lens = published(name, radius_mm);
         let Lens::Prescription(prescribed) = &lens else { panic!("a prescription") };
-        let sensor_z = prescribed.prescription().sensor_mm();
+        let sensor_z = prescribed.prescription().sensor_position_mm();
         for (height, nm) in [(0.03, 430.0), (0.37, 1050.0), (0.71, 320.0), (0.983, 650.0)] {
             let s_mm = height * radius_mm;
             let (mut brute_sr, mut sampled_sr) = (0.0, 0.0);
@@ -123,14 +123,14 @@ fn principal_rays_cross_the_middle_of_the_stop_and_project_inverts_them() {
             assert!(ray.direction.cross(direction).length() < 1e-12 && ray.origin_m.dot(ray.direction).abs() < 1e-12);
             // Into the lens again from the scene, and on to the sensor.
             let p = prescribed.prescription();
-            let z_mm = |z_m: f64| p.paraxial().entrance_pupil_mm - z_m * 1e3;
+            let z_mm = |z_m: f64| p.paraxial().entrance_pupil_position_mm - z_m * 1e3;
             let from = ray.origin_m + ray.direction * 0.5;
             let into = LensRay {
                 point: DVec3::new(from.x * 1e3, from.y * 1e3, z_mm(from.z)),
                 direction: DVec3::new(-ray.direction.x, -ray.direction.y, ray.direction.z),
             };
             let (out, _) = p.to_sensor(into, 587.56).expect("back through the lens");
-            let at = out.point + out.direction * ((p.sensor_mm() - out.point.z) / out.direction.z);
+            let at = out.point + out.direction * ((p.sensor_position_mm() - out.point.z) / out.direction.z);
             assert!((at.truncate() + sensor_mm).length() < 1e-9, "{name}: {at} {sensor_mm}");
             let stop = p.at_stop(LensRay { point: at, direction: -out.direction }, 587.56).expect("the stop");
             assert!(stop.truncate().length() < 1e-8, "{name}: {stop}");

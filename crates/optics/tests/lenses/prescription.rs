@@ -36,13 +36,17 @@ fn the_lensmakers_equation() {
     let f = 1.0 / (0.5 * (2.0 / 50.0 - 0.5 * 6.0 / (1.5 * 2500.0)));
     assert!((p.focal_length_mm / f - 1.0).abs() < 1e-14);
     assert!((p.back_focus_mm - f * (1.0 - 0.5 * 6.0 / (1.5 * 50.0))).abs() < 1e-12);
-    assert_eq!([p.entrance_pupil_mm, p.entrance_radius_mm], [0.0, 4.0], "a stop in front is the entrance pupil");
+    assert_eq!(
+        [p.entrance_pupil_position_mm, p.entrance_radius_mm],
+        [0.0, 4.0],
+        "a stop in front is the entrance pupil"
+    );
     // The Petzval sum of two surfaces: 2 (n − 1)/(n R).
     assert!((p.petzval_radius_mm + 1.5 * 50.0 / (2.0 * 0.5)).abs() < 1e-12);
     // The exit pupil is the stop's image: 1/s′ = 1/f − 1/s from the principal planes, both 2.04… mm inside.
     let s = 2.0 + p.front_principal_mm - 2.0;
     let image = 1.0 / (1.0 / f - 1.0 / s);
-    assert!((p.exit_pupil_mm - (p.rear_principal_mm + image)).abs() < 1e-10);
+    assert!((p.exit_pupil_position_mm - (p.rear_principal_mm + image)).abs() < 1e-10);
     assert!((p.exit_radius_mm - 4.0 * (image / s).abs()).abs() < 1e-12);
 }
 
@@ -66,11 +70,11 @@ fn a_plano_hyperbolic_lens_is_stigmatic() {
     // (Descartes 1637), at every height.
     let hyperbola = Surface { conic: -2.25, ..Surface::sphere(-20.0, 0.0, AIR, 15.0) };
     let lens = lens(vec![Surface::stop(1.0, 14.0), Surface::sphere(f64::INFINITY, 9.0, GLASS, 15.0), hyperbola]);
-    assert!((lens.sensor_mm() - (10.0 + 40.0)).abs() < 1e-12);
+    assert!((lens.sensor_position_mm() - (10.0 + 40.0)).abs() < 1e-12);
     for height in [0.1, 3.0, 9.0, 13.9] {
         let ray = LensRay { point: DVec3::new(0.0, height, -5.0), direction: DVec3::Z };
         let (out, transmittance) = lens.to_sensor(ray, 550.0).expect("through");
-        let t = (lens.sensor_mm() - out.point.z) / out.direction.z;
+        let t = (lens.sensor_position_mm() - out.point.z) / out.direction.z;
         let at = out.point + out.direction * t;
         assert!(at.truncate().length() < 1e-12, "{height}: {at}");
         assert!(transmittance < 0.9217 && transmittance > 0.85, "two bare faces: at most 0.96² and less at an angle");
@@ -82,7 +86,7 @@ fn light_comes_back_the_way_it_went() {
     for published in published::LENSES {
         let lens = lens(published.surfaces());
         let start = LensRay {
-            point: DVec3::new(0.3, 0.2, lens.sensor_mm()),
+            point: DVec3::new(0.3, 0.2, lens.sensor_position_mm()),
             direction: DVec3::new(0.02, -0.03, -1.0).normalize(),
         };
         let (out, t) = lens.to_scene(start, 480.0).expect("through");
@@ -105,18 +109,18 @@ fn close_focus_follows_the_lens_equation_and_a_group_may_bring_it() {
     let by_sensor = near(Focus::Sensor { distance_m: 0.5 });
     let object = 500.0 + by_sensor.paraxial().front_principal_mm;
     let image = 1.0 / (1.0 / f - 1.0 / object);
-    let behind = by_sensor.sensor_mm() - by_sensor.last_vertex_mm() - by_sensor.paraxial().rear_principal_mm;
+    let behind = by_sensor.sensor_position_mm() - by_sensor.last_vertex_mm() - by_sensor.paraxial().rear_principal_mm;
     assert!((behind - image).abs() < 1e-10 && (by_sensor.magnification() - image / object).abs() < 1e-12);
     // Moving all surfaces is moving the sensor.
     let by_all = near(Focus::Group { distance_m: 0.5, first: 0, last: 2 });
     assert!(
-        (by_all.sensor_mm() - by_sensor.sensor_mm()).abs() < 1e-9,
+        (by_all.sensor_position_mm() - by_sensor.sensor_position_mm()).abs() < 1e-9,
         "{} {}",
-        by_all.sensor_mm(),
-        by_sensor.sensor_mm()
+        by_all.sensor_position_mm(),
+        by_sensor.sensor_position_mm()
     );
     // A sensor where that one stands sees the same distance sharp.
-    let fixed = near(Focus::Fixed { back_focus_mm: by_sensor.sensor_mm() - by_sensor.last_vertex_mm() });
+    let fixed = near(Focus::Fixed { back_focus_mm: by_sensor.sensor_position_mm() - by_sensor.last_vertex_mm() });
     assert!((fixed.focus_distance_m() - 0.5).abs() < 1e-12, "{}", fixed.focus_distance_m());
 }
 
@@ -165,11 +169,13 @@ fn focusing_refuses_what_cannot_be() {
 #[test]
 fn lost_rays_say_where() {
     let lens = lens(biconvex());
-    let beside = LensRay { point: DVec3::new(0.0, 11.0, lens.sensor_mm()), direction: DVec3::NEG_Z };
+    let beside = LensRay { point: DVec3::new(0.0, 11.0, lens.sensor_position_mm()), direction: DVec3::NEG_Z };
     let lost = lens.to_scene(beside, 550.0).expect_err("beside the lens");
     assert_eq!((lost.surface, lost.loss), (2, Loss::Clipped));
-    let away =
-        LensRay { point: DVec3::new(0.0, 0.0, lens.sensor_mm()), direction: DVec3::new(0.95, 0.0, -0.1).normalize() };
+    let away = LensRay {
+        point: DVec3::new(0.0, 0.0, lens.sensor_position_mm()),
+        direction: DVec3::new(0.95, 0.0, -0.1).normalize(),
+    };
     assert_eq!(lens.to_scene(away, 550.0).expect_err("beside the sphere").loss, Loss::Missed);
 }
 
@@ -180,10 +186,10 @@ fn a_group_inside_the_lens_focuses_and_breathes() {
     let focus = Focus::Group { distance_m: 3.0, first: 6, last: 10 };
     let near = Prescription::new(PrescriptionParameters { focus, ..parameters(surfaces) }).expect("in focus");
     // The sensor has not moved, the group has, and the image of 3 m lies on the sensor.
-    assert!((near.sensor_mm() - far.sensor_mm()).abs() < 1e-12);
+    assert!((near.sensor_position_mm() - far.sensor_position_mm()).abs() < 1e-12);
     let moved_mm = near.surfaces()[5].thickness_mm - far.surfaces()[5].thickness_mm;
     assert!(moved_mm.abs() > 0.1 && (near.surfaces()[10].thickness_mm).abs() < 1e-12, "{moved_mm}");
-    let miss_mm = near.image_mm(587.56) - (near.sensor_mm() - near.last_vertex_mm());
+    let miss_mm = near.image_mm(587.56) - (near.sensor_position_mm() - near.last_vertex_mm());
     assert!(miss_mm.abs() < 1e-9, "{miss_mm}");
     assert!((near.paraxial().focal_length_mm - far.paraxial().focal_length_mm).abs() > 1e-3, "it breathes");
     assert!((near.magnification() / (near.paraxial().focal_length_mm / 3000.0) - 1.0).abs() < 0.1);

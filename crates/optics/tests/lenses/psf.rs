@@ -3,7 +3,7 @@
 use etendue_core::Plane;
 use etendue_core::quantity::{Irradiance, Variance};
 use etendue_optics::effects::{PointSpread, Psf, PsfParameters};
-use etendue_optics::effects::{WavefrontTerm, Zernike};
+use etendue_optics::effects::{Zernike, ZernikeTerm};
 use etendue_optics::{Effects, EffectsError, EffectsParameters, Lens, PinholeParameters};
 use etendue_projection::Raster;
 use glam::DVec2;
@@ -62,7 +62,7 @@ fn a_point_keeps_its_light_and_its_place() {
 fn a_uniform_irradiance_stays_uniform_whatever_the_patches() {
     let raster = Raster::centred(90, 70, 0.006).expect("legal");
     let coma =
-        WavefrontTerm { zernike: Zernike::noll(8).expect("known"), field_mm: vec![0.0, 0.3], rms_um: vec![0.0, 0.2] };
+        ZernikeTerm { zernike: Zernike::noll(8).expect("known"), field_mm: vec![0.0, 0.3], rms_um: vec![0.0, 0.2] };
     let parameters = PsfParameters { wavefront: vec![coma], reach_mm: Some(0.05), ..round() };
     let effects = effects(PsfParameters { patches: Some([3, 2]), ..parameters }, &lens(0.4, 4.0), &raster);
     let film = Plane::filled(90, 70, 2.0);
@@ -98,7 +98,7 @@ fn away_from_the_axis_the_pattern_is_wider_towards_it() {
 #[test]
 fn coma_points_outwards_and_turns_with_the_field() {
     let raster = Raster::centred(81, 81, 0.004).expect("legal");
-    let coma = |rms_um: f64| WavefrontTerm {
+    let coma = |rms_um: f64| ZernikeTerm {
         zernike: Zernike::noll(8).expect("known"),
         field_mm: vec![0.0, 0.1],
         rms_um: vec![rms_um; 2],
@@ -132,7 +132,7 @@ fn variances_go_through_the_squared_function() {
 #[test]
 fn what_cannot_be_is_refused() {
     let raster = Raster::centred(61, 61, 0.003).expect("legal");
-    let defocus = |rms_um| WavefrontTerm { zernike: Zernike::noll(4).expect("known"), field_mm: Vec::new(), rms_um };
+    let defocus = |rms_um| ZernikeTerm { zernike: Zernike::noll(4).expect("known"), field_mm: Vec::new(), rms_um };
     let new = |term| Psf::new(PsfParameters { wavefront: vec![term], ..round() }, &lens(50.0, 5.6), &raster);
     assert!(matches!(new(defocus(vec![30.0])), Err(EffectsError::Slope { .. })));
     assert_eq!(new(defocus(vec![0.1, 0.2])).expect_err("two"), EffectsError::Table);

@@ -1,6 +1,6 @@
 //! Depth of field behind stored radiance: the margin it needs, and the work on several threads.
 
-use crate::camera::stored::{Sight, Stored};
+use crate::camera::stored::{PinholeImages, Stored};
 use crate::plan::CameraBody;
 use etendue_core::quantity::Radiance;
 use etendue_core::{Bands, SpectralCube};
@@ -69,19 +69,19 @@ pub fn seen(
 ) -> Result<SpectralCube<Radiance>, OpticsError> {
     let method = if stored.distance.is_some() { *depth_of_field } else { DepthOfField::None };
     let margin = held_margin_px(stored.projection, body, stored.radiance.bands(), &method)?;
-    let Sight { radiance, distance } = stored.seen(body, whole_margin_px(body, margin))?;
+    let PinholeImages { radiance, distance } = stored.seen(body, whole_margin_px(body, margin))?;
     let (Some(distance), true) = (distance, method != DepthOfField::None) else { return Ok(radiance) };
     let film = body.film();
-    let sight = defocus::Sight::new(&body.lens, &film, margin, &radiance, &distance)?;
+    let view = defocus::PinholeView::new(&body.lens, &film, margin, &radiance, &distance)?;
     Ok(match method {
-        DepthOfField::Physical => physical(sight),
-        other => other.apply(&sight),
+        DepthOfField::Physical => physical(view),
+        other => other.apply(&view),
     })
 }
 
 /// Strips do not depend on each other, so threads do not change the result.
-fn physical(sight: defocus::Sight<'_>) -> SpectralCube<Radiance> {
-    let prepared = Physical::new(sight);
+fn physical(view: defocus::PinholeView<'_>) -> SpectralCube<Radiance> {
+    let prepared = Physical::new(view);
     let strips: Vec<_> = prepared.strips().collect();
     let strips: Vec<_> = strips.into_par_iter().map(|rows| prepared.rows(rows)).collect();
     prepared.joined(&strips)

@@ -21,18 +21,18 @@ impl Stored<'_> {
     ///
     /// # Errors
     /// Where the picture needs directions that the image does not hold.
-    pub fn seen(&self, body: &CameraBody, margin_px: [usize; 2]) -> Result<Sight, OpticsError> {
+    pub fn seen(&self, body: &CameraBody, margin_px: [usize; 2]) -> Result<PinholeImages, OpticsError> {
         let (lens, bands) = (&body.lens, self.radiance.bands());
         let resampling = Resampling::new(*self.projection, lens, &body.raster, margin_px, bands)?;
         let radiance = resampling.apply(self.radiance)?;
         let distance = self.distance.map(|plane| resampling.nearest(plane, f32::NAN)).transpose()?;
-        Ok(Sight { radiance, distance })
+        Ok(PinholeImages { radiance, distance })
     }
 }
 
 /// What a camera's pixels see from the centre of the entrance pupil.
 #[derive(Clone, Debug)]
-pub struct Sight {
+pub struct PinholeImages {
     /// Mean radiance of each pixel.
     pub radiance: SpectralCube<Radiance>,
     /// Distance of what each pixel's centre sees, m; +∞ for the sky, NaN where no ray is.

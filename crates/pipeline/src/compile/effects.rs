@@ -5,7 +5,7 @@ use super::picture::grey;
 use etendue_optics::effects::{
     Glare, GlareParameters, PointSpread, Psf, PsfParameters, SpreadImage, SpreadImageParameters,
 };
-use etendue_optics::effects::{MARGIN_CAP, WavefrontTerm, Zernike};
+use etendue_optics::effects::{MARGIN_CAP, Zernike, ZernikeTerm};
 use etendue_optics::ghosts::GhostSettings;
 use etendue_optics::{Effects, EffectsError, EffectsParameters, Lens};
 use etendue_projection::Raster;
@@ -119,7 +119,7 @@ fn psf(record: &description::Psf, lens: &Lens, picture: &Raster) -> Result<Psf, 
 }
 
 /// A term whose index the record holds within the known ones.
-fn term(record: &description::WavefrontTerm) -> WavefrontTerm {
+fn term(record: &description::ZernikeTerm) -> ZernikeTerm {
     let zernike = match &record.index {
         ZernikeIndex::Noll(index) => Zernike::noll(index.value as u32),
         ZernikeIndex::Osa(index) => Zernike::osa(index.value as u32),
@@ -128,7 +128,7 @@ fn term(record: &description::WavefrontTerm) -> WavefrontTerm {
         TermSize::Micrometres(sizes) => (sizes, 1.0),
         TermSize::Waves(sizes) => (sizes, record.wavelength_nm.as_ref().map_or(0.0, |nm| nm.value / NM_PER_UM)),
     };
-    WavefrontTerm {
+    ZernikeTerm {
         zernike: zernike.expect("an index that was read is one of the known"),
         field_mm: record.field_radius_mm.iter().map(|r| r.value).collect(),
         rms_um: sizes.iter().map(|s| s.value * um).collect(),

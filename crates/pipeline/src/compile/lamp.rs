@@ -5,14 +5,15 @@ use super::linear_picture::linear;
 use super::spectrum::{bright, powered, relative};
 use etendue_scene::Place;
 use etendue_scene::asset::PhotometryAxes;
-use etendue_scene::record::light::stand::MainAxis;
+use etendue_scene::record::light::placement::MainAxis;
 use etendue_scene::record::light::{
-    Beam, HeadLamp, LampAim, LampStrength, Mask, MeasuredLamp, MeasuredStrength, PointLamp, SpotLamp, Stand, Traffic,
+    Beam, HeadLamp, LampAim, LampPlacement, LampStrength, Mask, MeasuredLamp, MeasuredStrength, PointLamp, SpotLamp,
+    Traffic,
 };
 use etendue_scene::record::transform::yaw_pitch_roll;
 use etendue_scene::record::{Light, LightColour};
 use etendue_spectra::{Spectrum, colour};
-use etendue_tracer::lights::{Cone, Lamp, Profile, Slide, Web, WebAxes, head_lamp};
+use etendue_tracer::lights::{Cone, Lamp, MaskImage, Profile, Web, WebAxes, head_lamp};
 use glam::{DMat3, DVec3};
 use std::sync::Arc;
 
@@ -31,7 +32,7 @@ pub(super) fn lamps(light: &Light, context: &mut Context<'_>) -> Vec<Lamp> {
 fn point(lamp: &PointLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>> {
     let intensity = intensity(&lamp.strength, &lamp.colour, &Profile::Isotropic, context)?;
     let profile = masked(Profile::Isotropic, lamp.mask.as_ref(), context)?;
-    placed(&lamp.stand, MainAxis::Forward, DMat3::IDENTITY, (intensity, profile), &lamp.place, context)
+    placed(&lamp.placement, MainAxis::Forward, DMat3::IDENTITY, (intensity, profile), &lamp.place, context)
 }
 
 fn spot(lamp: &SpotLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>> {
@@ -42,7 +43,7 @@ fn spot(lamp: &SpotLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>> {
     let profile = Profile::Cone(cone);
     let intensity = intensity(&lamp.strength, &lamp.colour, &profile, context)?;
     let profile = masked(profile, lamp.mask.as_ref(), context)?;
-    placed(&lamp.stand, MainAxis::Forward, DMat3::IDENTITY, (intensity, profile), &lamp.place, context)
+    placed(&lamp.placement, MainAxis::Forward, DMat3::IDENTITY, (intensity, profile), &lamp.place, context)
 }
 
 fn measured(lamp: &MeasuredLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>> {
@@ -66,7 +67,7 @@ fn measured(lamp: &MeasuredLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>>
     let profile = Profile::Web(context.accept(&lamp.file.place, web)?);
     let intensity = of_candela(lamp.strength.as_ref(), &lamp.colour, &profile, context)?;
     let profile = masked(profile, lamp.mask.as_ref(), context)?;
-    placed(&lamp.stand, main, DMat3::IDENTITY, (intensity, profile), &lamp.place, context)
+    placed(&lamp.placement, main, DMat3::IDENTITY, (intensity, profile), &lamp.place, context)
 }
 
 fn head_lamp(lamp: &HeadLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>> {
@@ -79,7 +80,7 @@ fn head_lamp(lamp: &HeadLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>> {
     let profile = masked(profile, lamp.mask.as_ref(), context)?;
     let down_deg = lamp.aim_down_deg.as_ref().map_or(0.0, |d| d.value);
     let turn = yaw_pitch_roll([0.0, down_deg, 0.0]);
-    placed(&lamp.stand, MainAxis::Forward, turn, (intensity, profile), &lamp.place, context)
+    placed(&lamp.placement, MainAxis::Forward, turn, (intensity, profile), &lamp.place, context)
 }
 
 /// A profile behind its mask.
@@ -92,8 +93,8 @@ fn masked(profile: Profile, mask: Option<&Mask>, context: &mut Context<'_>) -> O
     let size = (picture.width as usize, picture.height as usize);
     let texels = linear(picture).into_iter().map(luminance).collect();
     let [horizontal_rad, vertical_rad] = mask.field_deg.value.map(f64::to_radians);
-    let slide = context.accept(&mask.file.place, Slide::new(size, texels, horizontal_rad, vertical_rad))?;
-    Some(Profile::masked(profile, Profile::Slide(slide)))
+    let image = context.accept(&mask.file.place, MaskImage::new(size, texels, horizontal_rad, vertical_rad))?;
+    Some(Profile::masked(profile, Profile::MaskImage(image)))
 }
 
 /// Luminance of a linear colour, 1 for white.
@@ -140,7 +141,7 @@ fn of_candela(
 
 /// A lamp everywhere where it stands; `turn` turns it in its own frame.
 fn placed(
-    stand: &Stand,
+    placement: &LampPlacement,
     main: MainAxis,
     turn: DMat3,
     (intensity, profile): (Spectrum, Profile),
@@ -148,12 +149,12 @@ fn placed(
     context: &mut Context<'_>,
 ) -> Option<Vec<Lamp>> {
     let (intensity, profile) = (Arc::new(intensity), Arc::new(profile));
-    let attenuation = stand.attenuation_per_m.as_ref().map_or(0.0, |a| a.value);
+    let attenuation = placement.attenuation_per_m.as_ref().map_or(0.0, |a| a.value);
     let lamp = |(position, aim): (&etendue_scene::Placed<[f64; 3]>, Option<&LampAim>)| {
         // An aim that was read has been checked.
         let axes = aim.map_or(Some(DMat3::IDENTITY), |aim| aim.axes(position.value, main))? * turn;
         let made = Lamp::new(DVec3::from_array(position.value), axes, intensity.clone(), profile.clone());
         context.accept(place, made.and_then(|lamp| lamp.attenuated(attenuation)))
     };
-    stand.placements().map(lamp).collect()
+    placement.placements().map(lamp).collect()
 }

@@ -7,7 +7,7 @@ use etendue_scene::record::environment::{Sky, SunMoment};
 use etendue_scene::{Place, Placed};
 use etendue_spectra::sky::{SkyModel, sun};
 use etendue_spectra::{Spectrum, observer};
-use etendue_tracer::lights::almanac::{UtcTime, sun_position};
+use etendue_tracer::lights::sun_position::{UtcTime, sun_position};
 use etendue_tracer::lights::{SUN_ANGULAR_DIAMETER_DEG, SkyEnvironment, Sun};
 use glam::DVec3;
 

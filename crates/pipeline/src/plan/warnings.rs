@@ -2,7 +2,7 @@
 
 use crate::plan::Plan;
 use crate::plan::remark::{Weight, grouped};
-use crate::render::census;
+use crate::render::light_counts;
 
 impl Plan {
     /// Warnings that concern the picture, each a sentence without a full stop: those of the remarks, and of each camera that
@@ -15,7 +15,7 @@ impl Plan {
     }
 
     fn dark_cameras(&self) -> Option<String> {
-        let dark = self.cameras.iter().filter(|camera| census(self, camera).is_dark());
+        let dark = self.cameras.iter().filter(|camera| light_counts(self, camera).is_dark());
         let names: Vec<&str> = dark.map(|camera| camera.name.as_str()).collect();
         let told = format!("camera {}: nothing gives light, so that the picture will be black", names.join(", "));
         (!names.is_empty()).then_some(told)

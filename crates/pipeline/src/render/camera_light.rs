@@ -14,7 +14,7 @@ use etendue_optics::{Front, Lens, PupilProjection};
 use etendue_projection::Raster;
 use etendue_tracer::accel::Simd;
 use etendue_tracer::integrator::{PathSettings, PathTracer};
-use etendue_tracer::lights::{LightCensus, Lights};
+use etendue_tracer::lights::{LightCounts, Lights};
 use etendue_tracer::render_space::RenderSpace;
 use glam::{DVec2, DVec3};
 
@@ -55,8 +55,8 @@ pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn 
 
 /// Which lights a camera's paths ask.
 #[must_use]
-pub fn census(plan: &Plan, camera: &CameraPlan) -> LightCensus {
-    lights(plan, camera, &plan.world.render_space(camera.pose.position_m)).census()
+pub fn light_counts(plan: &Plan, camera: &CameraPlan) -> LightCounts {
+    lights(plan, camera, &plan.world.render_space(camera.pose.position_m)).light_counts()
 }
 
 fn lights(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -> Lights {

@@ -20,4 +20,4 @@ pub mod spectrum_spread;
 pub mod tile;
 pub mod truth;
 
-pub use camera_light::{Request, census, layout, light};
+pub use camera_light::{Request, layout, light, light_counts};

@@ -11,7 +11,7 @@
 use crate::plan::{CameraPlan, Settings};
 use crate::render::mosaic::UNIFORM_SHARE_WITH_BANDS;
 use etendue_core::Bands;
-use etendue_core::random::{Draw, EvenNumbers, PathStream, PixelAddress};
+use etendue_core::random::{Draw, PathStream, PixelAddress, ShiftedLattice};
 
 /// Over what wavelengths are spread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,7 +76,7 @@ pub fn band_share(settings: &Settings, bands: Bands) -> f64 {
 /// The numbers of a replicate's wavelengths.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Heroes {
-    even: Option<EvenNumbers>,
+    even: Option<ShiftedLattice>,
     /// The first sample's place among those that are spread together.
     first: u32,
 }
@@ -86,10 +86,10 @@ impl Heroes {
     pub(crate) fn new(spread: SpectrumSpread, address: &PixelAddress, samples: u32, replicates: u32) -> Self {
         let (even, first) = match spread {
             SpectrumSpread::Drawn => (None, 0),
-            SpectrumSpread::EachReplicate => (Some(EvenNumbers::new(address, samples)), 0),
+            SpectrumSpread::EachReplicate => (Some(ShiftedLattice::new(address, samples)), 0),
             SpectrumSpread::AllReplicates => {
                 let all = PixelAddress { replicate: 0, ..*address };
-                (Some(EvenNumbers::new(&all, samples * replicates)), address.replicate * samples)
+                (Some(ShiftedLattice::new(&all, samples * replicates)), address.replicate * samples)
             }
         };
         Self { even, first }

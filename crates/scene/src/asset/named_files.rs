@@ -97,7 +97,7 @@ fn lens(lens: &Lens, files: &mut FileList) {
         }
         Lens::Calibrated(lens) => {
             if let View::Calibration(calibration) = &lens.view {
-                files.add(AssetKind::Calibration(calibration.choice()), &calibration.file);
+                files.add(AssetKind::Calibration(calibration.camera_in_file()), &calibration.file);
             }
         }
     }

@@ -39,7 +39,7 @@ record! {
         optional obstruction: Placed<f64> = number("").at_least(0.0).at_most(0.9);
         /// Zernike terms of the wavefront's error; a ray through the point u of the pupil (of radius one) lands at 2N ∂W/∂u.
         /// Default: none.
-        many wavefront: WavefrontTerm = list(record::<WavefrontTerm>(), 1);
+        many wavefront: ZernikeTerm = list(record::<ZernikeTerm>(), 1);
         /// Where the function ends, mm, above 0. Default: some 256 px, or 256 λN where λN is less
         /// than a pixel.
         optional reach_mm: Placed<f64> = number("mm").above(0.0);
@@ -61,7 +61,7 @@ record! {
 
 record! {
     /// A Zernike term, of root mean square one over the pupil of the f-number; beyond it, in the corners of blades, it goes on.
-    pub struct WavefrontTerm check(check_term) {
+    pub struct ZernikeTerm check(check_term) {
         /// Which.
         inside index: ZernikeIndex;
         /// How large.
@@ -151,7 +151,7 @@ fn check_blades(psf: &Psf, faults: &mut Faults) {
     }
 }
 
-fn check_term(term: &WavefrontTerm, faults: &mut Faults) {
+fn check_term(term: &ZernikeTerm, faults: &mut Faults) {
     match (&term.size, &term.wavelength_nm) {
         (TermSize::Waves(_), None) => {
             faults.add(&term.place, "\"rms_waves\" does not say of which wavelength", "add \"wavelength_nm\"");

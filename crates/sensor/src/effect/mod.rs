@@ -12,7 +12,7 @@ pub(crate) use context::{Context, Memory, SensorFacts};
 pub(crate) use domain::domain;
 pub(crate) use row::Row;
 
-use crate::account::ChargeAccount;
+use crate::charge_account::ChargeAccount;
 use crate::check::Checks;
 use crate::operation::Operation;
 use crate::signal_breakdown::SignalComponent;

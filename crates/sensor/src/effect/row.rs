@@ -1,6 +1,6 @@
 //! A row of pixels on its way through the effects.
 
-use crate::account::RowTally;
+use crate::charge_account::RowTally;
 use core::marker::PhantomData;
 use etendue_core::quantity::{Charge, MeanElectrons, Voltage};
 

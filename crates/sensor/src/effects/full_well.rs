@@ -10,7 +10,7 @@
 //! Left out: the bend of the response before the well is full (see [`response`](super::response)).
 
 use super::{bloom_around, bloom_column};
-use crate::account::{ChargeAccount, RowTally};
+use crate::charge_account::{ChargeAccount, RowTally};
 use crate::check::Checks;
 use crate::effect::{Action, Context, Effect, EffectOn, Memory, PlaneEffect, Row, RowEffect, SensorFacts, Traces};
 use crate::operation::Operation;

@@ -2,7 +2,7 @@
 
 mod pass;
 
-use crate::account::ChargeAccount;
+use crate::charge_account::ChargeAccount;
 use crate::effect::{Context, Memory};
 use crate::effects::shot_noise::ShotNoise;
 use crate::hdr::merge::Merged;

@@ -4,8 +4,8 @@
 //! array, also where the picture becomes another quantity between them, and a plane is stored only before an effect on planes, before a
 //! second reading, and never where there is neither: an ordinary sensor goes from means to digital numbers row by row.
 
-use crate::account::{ChargeAccount, RowTally};
 use crate::cfa::Cfa;
+use crate::charge_account::{ChargeAccount, RowTally};
 use crate::effect::{Action, Row, RowConversion, Stage, Traces};
 use crate::effects::converter::Converter;
 use crate::layout::Binning;

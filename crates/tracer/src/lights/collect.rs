@@ -9,7 +9,7 @@ use super::tree::LightBounds;
 use super::triangle::TriangleLight;
 use crate::MaterialId;
 use crate::geometry::{Instance, Mesh, Shape};
-use crate::materials::{Emission, Glow, MaterialTable};
+use crate::materials::{Emission, EmissionSides, MaterialTable};
 use crate::render_space::RenderSpace;
 
 /// Why lights cannot be collected.
@@ -49,17 +49,17 @@ pub(super) struct Gathered {
 struct Weigher<'a> {
     material_table: &'a MaterialTable,
     /// Mean radiance of each material that glows, W·m⁻²·sr⁻¹·nm⁻¹, and which sides do.
-    glows: Vec<Option<(f64, Glow)>>,
+    glows: Vec<Option<(f64, EmissionSides)>>,
 }
 
 impl<'a> Weigher<'a> {
     fn new(material_table: &'a MaterialTable, (low_nm, high_nm): (f64, f64)) -> Self {
-        let weigh = |e: &Emission| (e.mean_radiance(material_table.textures(), low_nm, high_nm), e.glow);
+        let weigh = |e: &Emission| (e.mean_radiance(material_table.textures(), low_nm, high_nm), e.sides);
         let glows = material_table.materials().iter().map(|m| m.emission.as_ref().map(weigh)).collect();
         Self { material_table, glows }
     }
 
-    fn glow(&self, material: MaterialId) -> Option<(f64, Glow)> {
+    fn glow(&self, material: MaterialId) -> Option<(f64, EmissionSides)> {
         self.glows[material.0 as usize]
     }
 }
@@ -107,7 +107,10 @@ impl Gathered {
                 let light = pair
                     .and_then(|pair| TriangleLight::of_two(mesh, pair, to_render, material(first)))
                     .or_else(|| TriangleLight::new(mesh, first, to_render, material(first)))?;
-                Some((light.triangles(), self.add(light.bounds(radiance, glow == Glow::Both), Light::Triangle(light))))
+                Some((
+                    light.triangles(),
+                    self.add(light.bounds(radiance, glow == EmissionSides::Both), Light::Triangle(light)),
+                ))
             });
             let (triangles, light) = light.map_or((1, None), |(triangles, light)| (triangles, Some(light)));
             lights.extend(core::iter::repeat_n(light, triangles));

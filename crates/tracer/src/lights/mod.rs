@@ -11,14 +11,13 @@
 //! - Densities belong to a [`LightSampleContext`], the point that asks.
 //! - Radiance is spectral, W·m⁻²·sr⁻¹·nm⁻¹.
 
-pub mod almanac;
-mod census;
 mod choice;
 mod collect;
 mod environment;
 pub mod head_lamp;
 mod lamp;
 mod light;
+mod light_counts;
 mod light_sample;
 mod limit;
 mod near;
@@ -31,6 +30,7 @@ mod sources;
 mod sphere;
 mod spherical;
 mod sun;
+pub mod sun_position;
 mod surface;
 mod tree;
 mod triangle;
@@ -38,13 +38,13 @@ mod triangle;
 use light::Light;
 use surface::{Glowing, ROUNDING, SurfaceSample, solid_angle_pdf};
 
-pub use census::LightCensus;
 pub use collect::LightError;
 pub use environment::{Environment, EnvironmentError, ImageEnvironment};
 pub use lamp::{Lamp, LampError};
+pub use light_counts::LightCounts;
 pub use light_sample::{DistantLight, LightHit, LightSample};
 pub use limit::BRIGHTEST;
-pub use profile::{Cone, ConeError, Masked, Profile, Slide, SlideError, Web, WebAxes, WebError};
+pub use profile::{Cone, ConeError, MaskImage, MaskImageError, Masked, Profile, Web, WebAxes, WebError};
 pub use sample_context::LightSampleContext;
 pub use scene_lights::Lights;
 pub use sky::SkyEnvironment;

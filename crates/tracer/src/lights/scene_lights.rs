@@ -1,12 +1,12 @@
 //! All lights of a view, and how they share the draws.
 
-use super::census::LightCensus;
 use super::choice::{Choice, Chosen};
 use super::collect;
 use super::collect::LightError;
 use super::environment::Environment;
 use super::lamp::LampLight;
 use super::light::Light;
+use super::light_counts::LightCounts;
 use super::light_sample::{DistantLight, LightHit, LightSample};
 use super::primitives::Primitives;
 use super::sample_context::LightSampleContext;
@@ -54,9 +54,9 @@ impl Lights {
 
     /// How many lights of each kind there are.
     #[must_use]
-    pub fn census(&self) -> LightCensus {
+    pub fn light_counts(&self) -> LightCounts {
         let count = |kind: fn(&Light) -> bool| self.lights.iter().filter(|l| kind(l)).count();
-        LightCensus {
+        LightCounts {
             triangles: self.lights.iter().map(Light::triangles).sum(),
             spheres: count(|l| matches!(l, Light::Sphere(_))),
             lamps: count(|l| matches!(l, Light::Lamp(_))),

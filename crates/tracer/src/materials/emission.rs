@@ -14,7 +14,7 @@ use crate::textures::{ImageTexture, Lookup, TextureId};
 
 /// Which sides of a surface glow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Glow {
+pub enum EmissionSides {
     /// The side that the geometric normal points to: by the winding of a triangle, outwards for a sphere.
     Front,
     /// Both, each with the stated radiance.
@@ -30,14 +30,14 @@ pub struct Emission {
     /// (white is 1 at every wavelength).
     pub factor: Option<TextureId>,
     /// Which sides glow.
-    pub glow: Glow,
+    pub sides: EmissionSides,
 }
 
 impl Emission {
     /// Whether light leaves along `direction` from a surface of this geometric normal.
     #[must_use]
     pub fn leaves(&self, geometric_normal: Vec3, direction: Vec3) -> bool {
-        self.glow == Glow::Both || geometric_normal.dot(direction) > 0.0
+        self.sides == EmissionSides::Both || geometric_normal.dot(direction) > 0.0
     }
 
     pub(crate) fn at<const N: usize>(
@@ -72,7 +72,7 @@ mod tests {
         let picture =
             ImageTexture::new(1, 1, Texels::Float(vec![colour]), Sampling::default()).expect("a picture above 1");
         let unit = upsample::emission_spectrum([1.0; 3]);
-        let emission = Emission { radiance: unit, factor: Some(TextureId(0)), glow: Glow::Front };
+        let emission = Emission { radiance: unit, factor: Some(TextureId(0)), sides: EmissionSides::Front };
         let wavelengths = Wavelengths::<8>::uniform(380.0, 780.0, 0.3);
         let radiance = emission.at(&[picture], &Lookup::point(Vec2::ZERO), &wavelengths);
         let expected = upsample::emission(colour, &wavelengths);

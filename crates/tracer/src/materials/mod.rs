@@ -67,7 +67,7 @@ pub use coated::{COAT_INDICES, Coated, CoatedBsdf};
 pub use conductor::{Conductor, ConductorBsdf};
 pub use dielectric::{DIELECTRIC_INDICES, Dielectric, DielectricBsdf, absorption_of};
 pub use diffuse::DiffuseBsdf;
-pub use emission::{Emission, Glow};
+pub use emission::{Emission, EmissionSides};
 pub use energy::EnergyGain;
 pub use error::MaterialError;
 pub use facets::Distribution;

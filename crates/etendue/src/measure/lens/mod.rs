@@ -74,9 +74,9 @@ fn traced_json(lens: &Prescribed, r: &LensReport) -> Value {
         "back_focus_from_last_vertex_mm": p.back_focus_mm,
         "front_principal_from_first_vertex_mm": p.front_principal_mm,
         "rear_principal_from_last_vertex_mm": p.rear_principal_mm,
-        "entrance_pupil_from_first_vertex_mm": p.entrance_pupil_mm,
+        "entrance_pupil_from_first_vertex_mm": p.entrance_pupil_position_mm,
         "entrance_pupil_diameter_mm": 2.0 * p.entrance_radius_mm,
-        "exit_pupil_from_last_vertex_mm": finite(p.exit_pupil_mm),
+        "exit_pupil_from_last_vertex_mm": finite(p.exit_pupil_position_mm),
         "exit_pupil_diameter_mm": finite(2.0 * p.exit_radius_mm),
         "petzval_radius_mm": finite(p.petzval_radius_mm),
         "sensor_from_last_vertex_mm": r.sensor_mm,
@@ -153,8 +153,11 @@ fn traced_text(lens: &Prescribed, r: &LensReport) -> String {
         format!("{} mm from the first vertex, {} mm from the last", mm(p.front_focus_mm), mm(p.back_focus_mm)),
     );
     line("principal planes", format!("{} mm, {} mm", mm(p.front_principal_mm), mm(p.rear_principal_mm)));
-    line("entrance pupil", format!("{} mm, {:.4} mm across", mm(p.entrance_pupil_mm), 2.0 * p.entrance_radius_mm));
-    line("exit pupil", format!("{} mm, {:.4} mm across", mm(p.exit_pupil_mm), 2.0 * p.exit_radius_mm));
+    line(
+        "entrance pupil",
+        format!("{} mm, {:.4} mm across", mm(p.entrance_pupil_position_mm), 2.0 * p.entrance_radius_mm),
+    );
+    line("exit pupil", format!("{} mm, {:.4} mm across", mm(p.exit_pupil_position_mm), 2.0 * p.exit_radius_mm));
     line("Petzval radius", format!("{:.3} mm", p.petzval_radius_mm));
     line("field of view", r.field_of_view_rad.map_or("unknown".to_owned(), |a| format!("{:.3}°", a.to_degrees())));
     line("axial colour", format!("F {} mm, C {} mm", mm(r.axial_colour_f_mm), mm(r.axial_colour_c_mm)));

@@ -6,7 +6,7 @@ use super::{advice, assumed};
 use crate::error::Error;
 use crate::measure::chart_points::{Seen, all};
 use crate::observer::Observer;
-use etendue_metrology::calibrate::{CalibrateError, Options, Sightings, calibrate_sparing};
+use etendue_metrology::calibrate::{CalibrateError, Options, Sightings, calibrate_rejecting_outliers};
 use glam::DVec2;
 use std::fmt::Display;
 use std::path::Path;
@@ -50,7 +50,7 @@ impl ViewsRequest {
         let sightings: Vec<Sightings> = views.iter().map(|v| Sightings::of_grid(&v.grid, pitch_mm)).collect();
         let size = views[0].size_px;
         let options = options(size);
-        let spared = calibrate_sparing(&sightings, size, self.model.family(), options);
+        let spared = calibrate_rejecting_outliers(&sightings, size, self.model.family(), options);
         let spared = spared.map_err(|error| Error::input(of_files(&error, &views)))?;
         let left_out = |file: &Path, why: &dyn Display| format!("warning: {}: left out: {why}", file.display());
         let mut notes: Vec<String> = without.iter().map(|(file, why)| left_out(file, why)).collect();

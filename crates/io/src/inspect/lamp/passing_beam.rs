@@ -17,7 +17,7 @@ pub enum Limit {
 
 /// A point at which a passing beam is judged, for traffic on the right.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TestPoint {
+pub struct BeamTestPoint {
     /// Its name in the regulation.
     pub name: &'static str,
     /// Degrees to the right of the lamp's axis.
@@ -28,12 +28,12 @@ pub struct TestPoint {
     pub limit: Limit,
 }
 
-const fn point(name: &'static str, right_deg: f64, up_deg: f64, limit: Limit) -> TestPoint {
-    TestPoint { name, right_deg, up_deg, limit }
+const fn point(name: &'static str, right_deg: f64, up_deg: f64, limit: Limit) -> BeamTestPoint {
+    BeamTestPoint { name, right_deg, up_deg, limit }
 }
 
 /// The points for traffic on the right.
-pub const POINTS: [TestPoint; 9] = [
+pub const POINTS: [BeamTestPoint; 9] = [
     point("B50L", -3.43, 0.57, Limit::AtMost(350.0)),
     point("BR", 2.5, 1.0, Limit::AtMost(1750.0)),
     point("75R", 1.15, -0.57, Limit::AtLeast(10_100.0)),
@@ -66,7 +66,7 @@ impl Limit {
 /// Adds the table to the report of a lamp that has a direction ahead.
 pub(super) fn state(lamp: &PhotometryAsset, report: &mut FileReport) {
     let mut met = [0, 0];
-    for TestPoint { name, right_deg: right, up_deg: up, limit } in POINTS {
+    for BeamTestPoint { name, right_deg: right, up_deg: up, limit } in POINTS {
         let (Some(here), Some(mirrored)) = (lamp.candela_ahead(right, up), lamp.candela_ahead(-right, up)) else {
             return;
         };

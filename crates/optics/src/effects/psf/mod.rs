@@ -27,7 +27,7 @@ use super::band::BandLimited;
 use super::convolve::{self, Convolver, Field, Region};
 use super::error::EffectsError;
 use super::kernel::Kernel;
-use super::work::{Uses, Work};
+use super::operation_counts::{OperationCounts, Uses};
 use crate::lens::Lens;
 use etendue_core::{Bands, EffectStatus};
 use etendue_projection::Raster;
@@ -51,7 +51,7 @@ const SAME: f64 = 1.05;
 
 /// A Zernike term of the wavefront.
 #[derive(Clone, Debug, PartialEq)]
-pub struct WavefrontTerm {
+pub struct ZernikeTerm {
     /// The polynomial.
     pub zernike: Zernike,
     /// Distances from the axis, mm, rising; empty where the term is the same everywhere.
@@ -60,7 +60,7 @@ pub struct WavefrontTerm {
     pub rms_um: Vec<f64>,
 }
 
-impl WavefrontTerm {
+impl ZernikeTerm {
     /// The coefficient at a distance from the axis, linear in between, the ends held.
     fn at(&self, radius_mm: f64) -> f64 {
         let (field, rms) = (&self.field_mm, &self.rms_um);
@@ -98,7 +98,7 @@ pub struct PsfParameters {
     /// Radius of an obstruction in the middle over the pupil's.
     pub obstruction: f64,
     /// The wavefront's error.
-    pub wavefront: Vec<WavefrontTerm>,
+    pub wavefront: Vec<ZernikeTerm>,
     /// Where the function ends, mm; `None` for as far as it is computed.
     pub reach_mm: Option<f64>,
     /// Patches across and down; `None` for one where the function is nearly the same everywhere, and 5 × 3.
@@ -120,11 +120,11 @@ impl Psf {
     /// # Errors
     /// Where a table is none, or the wavefront is steeper than the pupil's lattice can hold.
     pub fn new(parameters: PsfParameters, lens: &Lens, picture: &Raster) -> Result<Self, EffectsError> {
-        parameters.wavefront.iter().try_for_each(WavefrontTerm::check)?;
+        parameters.wavefront.iter().try_for_each(ZernikeTerm::check)?;
         let (f_number, exit_mm) = (lens.working_f_number(), lens.exit_pupil_distance_mm());
         let mut psf = Self { parameters, f_number, exit_mm, patches: [1, 1] };
         let corner_mm = picture.max_radius_mm();
-        let varies = psf.stretch(corner_mm)[0] > SAME || psf.parameters.wavefront.iter().any(WavefrontTerm::varies);
+        let varies = psf.stretch(corner_mm)[0] > SAME || psf.parameters.wavefront.iter().any(ZernikeTerm::varies);
         psf.patches = psf.parameters.patches.unwrap_or(if varies { PATCHES } else { [1, 1] });
         psf.check_slope(picture.pitch_mm().min_element())?;
         Ok(psf)
@@ -220,12 +220,12 @@ impl Psf {
     /// W at a point of the pupil, for a field point at `radius_mm` in the direction `outwards`.
     fn wavefront_um(&self, radius_mm: f64, outwards: DVec2, point: DVec2) -> f64 {
         let turned = DVec2::new(point.dot(outwards), outwards.perp_dot(point));
-        let term = |t: &WavefrontTerm| t.at(radius_mm) * t.zernike.at(if t.varies() { turned } else { point });
+        let term = |t: &ZernikeTerm| t.at(radius_mm) * t.zernike.at(if t.varies() { turned } else { point });
         self.parameters.wavefront.iter().map(term).sum()
     }
 
     /// What it has to do on so many pictures a band: all bands as the middle one.
-    pub(super) fn work(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> Work {
+    pub(super) fn operation_counts(&self, canvas: &Canvas, bands: Bands, pictures: f64) -> OperationCounts {
         let half_nm = 0.5 * bands.width_nm();
         let middle_nm = bands.low_nm() + half_nm * bands.count() as f64;
         let band_nm = (middle_nm - half_nm, middle_nm + half_nm);
@@ -238,14 +238,14 @@ impl Psf {
             let reach = self.reach_px_of(band_nm.1, fineness, pitch_mm, widest);
             let region = Region { x: x.range(), y: y.range() };
             let uses = Uses { ready: pictures, applied: pictures };
-            let kernel = Work {
+            let kernel = OperationCounts {
                 shared: parts * (CELLS * CELLS) as f64,
                 patterns: if self.parameters.wavefront.is_empty() { 0.0 } else { parts },
-                ..Work::default()
+                ..OperationCounts::default()
             };
-            kernel + convolve::work([reach, reach], canvas.size(), &region, uses)
+            kernel + convolve::operation_counts([reach, reach], canvas.size(), &region, uses)
         };
-        (0..self.patches[0] * self.patches[1]).map(patch).sum::<Work>() * bands.count() as f64
+        (0..self.patches[0] * self.patches[1]).map(patch).sum::<OperationCounts>() * bands.count() as f64
     }
 
     fn hats(&self, canvas: &Canvas, column: usize, row: usize) -> [Hat; 2] {

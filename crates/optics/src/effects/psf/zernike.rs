@@ -36,7 +36,7 @@ impl Zernike {
 
     /// Radial and azimuthal order.
     #[must_use]
-    pub fn orders(&self) -> (u32, i32) {
+    pub fn radial_and_azimuthal_order(&self) -> (u32, i32) {
         (self.n, self.m)
     }
 
@@ -75,12 +75,12 @@ mod tests {
         let noll =
             [(1, 0, 0), (2, 1, 1), (3, 1, -1), (4, 2, 0), (5, 2, -2), (6, 2, 2), (7, 3, -1), (8, 3, 1), (11, 4, 0)];
         for (j, n, m) in noll {
-            assert_eq!(Zernike::noll(j).expect("known").orders(), (n, m), "Noll {j}");
+            assert_eq!(Zernike::noll(j).expect("known").radial_and_azimuthal_order(), (n, m), "Noll {j}");
         }
         let osa =
             [(0, 0, 0), (1, 1, -1), (2, 1, 1), (3, 2, -2), (4, 2, 0), (5, 2, 2), (7, 3, -1), (8, 3, 1), (12, 4, 0)];
         for (j, n, m) in osa {
-            assert_eq!(Zernike::osa(j).expect("known").orders(), (n, m), "OSA {j}");
+            assert_eq!(Zernike::osa(j).expect("known").radial_and_azimuthal_order(), (n, m), "OSA {j}");
         }
         assert!(Zernike::noll(0).is_none() && Zernike::noll(92).is_none() && Zernike::osa(91).is_none());
     }

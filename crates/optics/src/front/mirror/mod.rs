@@ -15,7 +15,7 @@ mod reflectance;
 mod touch;
 mod tree;
 
-use super::{Fate, FrontError, Line, Stand};
+use super::{Fate, FrontError, Line, Placement};
 
 pub use mesh::MeshMirror;
 pub use quadric::{Quadric, QuadricKind};
@@ -37,7 +37,7 @@ pub struct MirrorParameters {
     /// Its surface.
     pub shape: MirrorShape,
     /// Where it stands: a quadric with its vertex (a cone with its apex) at the origin.
-    pub stand: Stand,
+    pub placement: Placement,
     /// The share of light that it reflects.
     pub reflectance: Reflectance,
 }
@@ -86,7 +86,7 @@ impl Mirror {
     }
 
     pub(super) fn reflect(&self, line: Line, nm: f64) -> Fate {
-        let local = self.parameters.stand.inward(line);
+        let local = self.parameters.placement.inward(line);
         let Some(touch) = self.touch(&local) else { return Fate::Past };
         if local.direction.dot(touch.facing) >= 0.0 {
             return Fate::Lost;
@@ -95,12 +95,12 @@ impl Mirror {
         let normal = if local.direction.dot(touch.normal) < 0.0 { touch.normal } else { touch.facing };
         let along = local.direction.dot(normal);
         let direction = (local.direction - normal * (2.0 * along)).normalize();
-        let out = self.parameters.stand.outward(Line { point_mm: touch.point_mm, direction });
+        let out = self.parameters.placement.outward(Line { point_mm: touch.point_mm, direction });
         Fate::On(out, self.parameters.reflectance.at(nm, along.abs()))
     }
 
     fn sight(&self, line: &Line) -> Sight {
-        let local = self.parameters.stand.inward(*line);
+        let local = self.parameters.placement.inward(*line);
         match self.touch(&local) {
             None => Sight::Past,
             Some(touch) if local.direction.dot(touch.facing) < 0.0 => Sight::Front,
@@ -112,7 +112,7 @@ impl Mirror {
     pub(super) fn check(&self, lines: &[Line]) -> Result<(), FrontError> {
         // Of a mesh, which may be open, the back alone tells.
         let inside = |line: &Line| match &self.parameters.shape {
-            MirrorShape::Quadric(quadric) => quadric.holds(self.parameters.stand.inward(*line).point_mm),
+            MirrorShape::Quadric(quadric) => quadric.holds(self.parameters.placement.inward(*line).point_mm),
             MirrorShape::Mesh(_) => false,
         };
         let sees = |sight: Sight| lines.iter().any(|line| self.sight(line) == sight);

@@ -95,12 +95,12 @@ impl Face {
 mod tests {
     use super::*;
     use crate::front::windscreen::Layer;
-    use crate::front::{Curve, Stand};
+    use crate::front::{Curve, Placement};
     use crate::prescription::coating::Coating;
 
     fn faces_of(across_mm: f64, upright_mm: f64, wedge_rad: f64) -> Vec<Face> {
         faces(&WindscreenParameters {
-            stand: Stand::turned(DVec3::ZERO, [0.0; 3]),
+            placement: Placement::turned(DVec3::ZERO, [0.0; 3]),
             radius_across_mm: across_mm,
             radius_upright_mm: upright_mm,
             layers: vec![Layer { thickness_mm: 5.0, index: Curve::Constant(1.5) }],

@@ -121,7 +121,7 @@ impl Windscreen {
 
     /// Whether a point of the camera frame is on the camera's side.
     pub(super) fn is_before(&self, point_mm: DVec3) -> bool {
-        let local = self.parameters.stand.inward(Line { point_mm, direction: DVec3::Z });
+        let local = self.parameters.placement.inward(Line { point_mm, direction: DVec3::Z });
         self.faces[0].height(local.point_mm).0 < 0.0
     }
 

@@ -1,6 +1,6 @@
 //! What a wind-screen is made of.
 
-use crate::front::Stand;
+use crate::front::Placement;
 use crate::front::curve::Curve;
 use crate::front::error::{FrontError, positive};
 use crate::prescription::coating::Coating;
@@ -27,7 +27,7 @@ pub struct Tint {
 #[derive(Clone, Debug, PartialEq)]
 pub struct WindscreenParameters {
     /// Where it stands: the origin on its inner face, z outwards.
-    pub stand: Stand,
+    pub placement: Placement,
     /// Radius of curvature of the inner face to left and right, mm, its centre on the camera's side; infinite for none.
     pub radius_across_mm: f64,
     /// The same upwards and downwards.

@@ -19,9 +19,9 @@ struct Passage<'a> {
 impl Windscreen {
     /// A ray from the camera, beyond the glass.
     pub(in crate::front) fn through(&self, line: Line, nm: f64, way: Way) -> Fate {
-        let stand = &self.parameters.stand;
-        match through(self, stand.inward(line), nm, way) {
-            Fate::On(out, share) => Fate::On(stand.outward(out), share),
+        let placement = &self.parameters.placement;
+        match through(self, placement.inward(line), nm, way) {
+            Fate::On(out, share) => Fate::On(placement.outward(out), share),
             other => other,
         }
     }

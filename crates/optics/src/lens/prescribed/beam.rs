@@ -33,7 +33,7 @@ pub(super) enum Source {
 impl Source {
     /// The point of the plane in focus on a principal ray (which runs towards the scene), or its direction for infinity.
     pub(super) fn of(lens: &Prescription, principal: LensRay) -> Self {
-        let plane_mm = lens.paraxial().entrance_pupil_mm - lens.focus_distance_m() * 1e3;
+        let plane_mm = lens.paraxial().entrance_pupil_position_mm - lens.focus_distance_m() * 1e3;
         let t = (plane_mm - principal.point.z) / principal.direction.z;
         let ahead = t.is_finite() && t > 0.0;
         if ahead {
@@ -69,7 +69,7 @@ impl<'a> Beam<'a> {
     pub(super) fn new(lens: &'a Prescription, principal: LensRay, nm: f64) -> Self {
         let ahead = -principal.direction;
         let outward = DVec3::new(ahead.z, 0.0, -ahead.x);
-        let nearest = DVec3::new(0.0, 0.0, lens.paraxial().entrance_pupil_mm);
+        let nearest = DVec3::new(0.0, 0.0, lens.paraxial().entrance_pupil_position_mm);
         let origin = principal.point + ahead * (nearest - principal.point).dot(ahead);
         Self { lens, media: lens.media(nm), source: Source::of(lens, principal), origin, ahead, outward }
     }
@@ -96,7 +96,7 @@ impl<'a> Beam<'a> {
     /// Where a ray meets the sensor's plane, clipped or not, mm.
     pub(super) fn lands(&self, q: DVec2) -> Option<DVec2> {
         let out = self.lens.arrives(self.ray(q), &self.media, Rims::Ignore).ok()?;
-        let t = (self.lens.sensor_mm() - out.point.z) / out.direction.z;
+        let t = (self.lens.sensor_position_mm() - out.point.z) / out.direction.z;
         Some((out.point + out.direction * t).truncate())
     }
 
@@ -152,7 +152,7 @@ impl<'a> Beam<'a> {
         let (a, b) = (out(-1.0).ok()?, out(1.0).ok()?);
         // Heights and slopes across the axis, at the sensor.
         let slope = |ray: &LensRay| ray.direction.dot(axis) / ray.direction.z;
-        let height = |ray: &LensRay| ray.point.dot(axis) + (self.lens.sensor_mm() - ray.point.z) * slope(ray);
+        let height = |ray: &LensRay| ray.point.dot(axis) + (self.lens.sensor_position_mm() - ray.point.z) * slope(ray);
         Some(-(height(&b) - height(&a)) / (slope(&b) - slope(&a)))
     }
 }

@@ -116,13 +116,13 @@ pub(super) fn field_angle(direction: DVec3) -> f64 {
 }
 
 fn front(lens: &Prescription, media: &Media, s_mm: f64, slope: f64) -> Option<LensRay> {
-    let ray = Meridian::at(s_mm, lens.sensor_mm()).ray(DVec2::new(slope, 0.0));
+    let ray = Meridian::at(s_mm, lens.sensor_position_mm()).ray(DVec2::new(slope, 0.0));
     lens.passes(ray, media, Rims::Ignore).ok()
 }
 
 /// The slope at which a ray from a height meets the stop's centre, near a guess.
 fn solve(lens: &Prescription, media: &Media, s_mm: f64, guess: f64) -> Option<f64> {
-    let meridian = Meridian::at(s_mm, lens.sensor_mm());
+    let meridian = Meridian::at(s_mm, lens.sensor_position_mm());
     let error = |slope: f64| {
         let at = lens.stop_point(meridian.ray(DVec2::new(slope, 0.0)), media).ok()?;
         Some(meridian.height_mm(at))

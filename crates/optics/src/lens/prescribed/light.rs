@@ -24,7 +24,7 @@ const GAUSS: [[f64; 2]; 5] = [
 
 impl Prescribed {
     pub(in crate::lens) fn ray(&self, sensor_mm: DVec2, pupil: DVec2, nm: f64) -> Option<PupilRay> {
-        let meridian = Meridian::new(sensor_mm, self.prescription.sensor_mm());
+        let meridian = Meridian::new(sensor_mm, self.prescription.sensor_position_mm());
         let (disc, turn) = concentric(pupil);
         let proposal = self.regions.propose(meridian.s_mm, disc, turn)?;
         let (ray, transmittance) = self.out(&meridian, proposal.slope, nm)?;
@@ -52,7 +52,7 @@ impl Prescribed {
 
     /// A meridional ray at 587.56 nm with the whole pupil's weight, from its point nearest to the entrance pupil's centre.
     fn seen(&self, sensor_mm: DVec2, slope: f64) -> Option<PupilRay> {
-        let meridian = Meridian::new(sensor_mm, self.prescription.sensor_mm());
+        let meridian = Meridian::new(sensor_mm, self.prescription.sensor_position_mm());
         let t = DVec2::new(slope, 0.0);
         let (ray, transmittance) = self.out(&meridian, t, PRINCIPAL_NM)?;
         let weight_sr = self.regions.area(meridian.s_mm) * Meridian::cos4(t) * transmittance;
@@ -62,7 +62,7 @@ impl Prescribed {
 
     /// From the lens frame (mm, z towards the sensor, from the first vertex) to the camera frame.
     fn point_m(&self, point: DVec3) -> DVec3 {
-        let z = self.prescription.paraxial().entrance_pupil_mm - point.z;
+        let z = self.prescription.paraxial().entrance_pupil_position_mm - point.z;
         DVec3::new(point.x, point.y, z) * MM
     }
 
@@ -75,7 +75,7 @@ impl Prescribed {
     pub(crate) fn projected_solid_angle_at_sr(&self, s_mm: f64, nm: f64, directions: usize) -> f64 {
         let Some(ellipse) = self.regions.ellipse(s_mm) else { return 0.0 };
         let media = self.prescription.media(nm);
-        let meridian = Meridian::at(s_mm, self.prescription.sensor_mm());
+        let meridian = Meridian::at(s_mm, self.prescription.sensor_position_mm());
         let opening = Opening { lens: &self.prescription, media: &media, meridian };
         let passing = |t: DVec2| self.passing(&meridian, t, nm);
         over_a_star(&opening, &ellipse, directions, &passing).unwrap_or_else(|| opening.integral(&passing))

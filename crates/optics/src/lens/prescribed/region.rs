@@ -142,7 +142,7 @@ impl Regions {
 pub(super) fn ellipse(lens: &Prescription, s_mm: f64, chief: Option<f64>) -> Option<Ellipse> {
     WAVELENGTHS_NM.into_iter().find_map(|nm| {
         let media = lens.media(nm);
-        let opening = Opening { lens, media: &media, meridian: Meridian::at(s_mm, lens.sensor_mm()) };
+        let opening = Opening { lens, media: &media, meridian: Meridian::at(s_mm, lens.sensor_position_mm()) };
         let [low, high] = opening.meridional(chief)?;
         let (centre, half) = (0.5 * (low + high), 0.5 * (high - low));
         let across = match opening.extent().filter(|_| !opening.is_one_piece()) {
@@ -180,7 +180,7 @@ impl Interval {
     /// between them.
     fn hold(&mut self, lens: &Prescription, s_mm: f64, share: f64, nm: f64) {
         let media = lens.media(nm);
-        let opening = Opening { lens, media: &media, meridian: Meridian::at(s_mm, lens.sensor_mm()) };
+        let opening = Opening { lens, media: &media, meridian: Meridian::at(s_mm, lens.sensor_position_mm()) };
         let ellipse = self.ends[0].mix(&self.ends[1], share);
         if !opening.is_one_piece() {
             if let Some(Cell { low, high }) = opening.extent() {

@@ -109,7 +109,7 @@ impl Prescribed {
             f_number: lens.paraxial().f_number(),
             focus_distance_m: lens.focus_distance_m(),
             magnification: lens.magnification(),
-            sensor_mm: lens.sensor_mm() - lens.last_vertex_mm(),
+            sensor_mm: lens.sensor_position_mm() - lens.last_vertex_mm(),
             transmittance: self.transmittance(),
             field_of_view_rad: last.map(|ray| 2.0 * super::chief::field_angle(ray.direction)),
             axial_colour_f_mm: image_mm(LINE_F_NM) - image_mm(PRINCIPAL_NM),

@@ -4,7 +4,7 @@ use super::super::context::Context;
 use super::super::material::complex_index;
 use super::curve;
 use etendue_optics::front::{
-    FrontError, MeshMirror, Mirror, MirrorParameters, MirrorShape, Quadric, QuadricKind, Reflectance, Stand,
+    FrontError, MeshMirror, Mirror, MirrorParameters, MirrorShape, Placement, Quadric, QuadricKind, Reflectance,
 };
 use etendue_scene::record::front::mirror::{self as record, Edges, Finish, MirrorShape as Shape};
 use glam::DVec3;
@@ -16,8 +16,8 @@ pub(super) fn mirror(r: &record::Mirror, context: &mut Context<'_>) -> Option<Mi
     let distance_mm = r.distance_mm.as_ref().map(|d| d.value).or(usual_mm)?;
     let [x, y] = r.offset_mm.as_ref().map_or([0.0; 2], |o| o.value);
     let degrees = r.rotation_deg.as_ref().map_or([0.0; 3], |d| d.value);
-    let stand = Stand::turned(DVec3::new(x, y, distance_mm), degrees);
-    context.accept(&r.place, Mirror::new(MirrorParameters { shape, stand, reflectance: reflectance? }))
+    let placement = Placement::turned(DVec3::new(x, y, distance_mm), degrees);
+    context.accept(&r.place, Mirror::new(MirrorParameters { shape, placement, reflectance: reflectance? }))
 }
 
 /// The surface, and where its vertex stands if it is not said.

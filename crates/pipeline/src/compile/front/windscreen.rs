@@ -4,7 +4,7 @@ use super::super::context::Context;
 use super::super::lens::coating;
 use super::super::spectrum::from_file;
 use super::curve;
-use etendue_optics::front::{Curve, Layer, Stand, Tint, Windscreen, WindscreenParameters};
+use etendue_optics::front::{Curve, Layer, Placement, Tint, Windscreen, WindscreenParameters};
 use etendue_optics::prescription::coating::Coating;
 use etendue_scene::Placed;
 use etendue_scene::record::Curve as CurveRecord;
@@ -22,7 +22,7 @@ pub(super) fn windscreen(r: &record::Windscreen, context: &mut Context<'_>) -> O
     let degrees = [number(&r.tilt_deg, 0.0), number(&r.yaw_deg, 0.0), 0.0];
     let doubles = r.double_image.as_ref().is_none_or(|d| d.value);
     let parameters = WindscreenParameters {
-        stand: Stand::turned(DVec3::new(0.0, 0.0, r.distance_mm.value), degrees),
+        placement: Placement::turned(DVec3::new(0.0, 0.0, r.distance_mm.value), degrees),
         radius_across_mm: number(&r.radius_across_mm, f64::INFINITY),
         radius_upright_mm: number(&r.radius_upright_mm, f64::INFINITY),
         layers: layers(r.layers.as_deref(), context)?,

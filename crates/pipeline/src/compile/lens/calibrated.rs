@@ -69,7 +69,7 @@ fn falloff(table: &RelativeIllumination) -> Result<Falloff, OpticsError> {
 /// The camera of a calibration file, with what of the file was passed over remarked.
 fn imported(file: &CalibrationFile, context: &mut Context<'_>) -> Option<Calibration> {
     let assets = context.assets;
-    let Some(asset) = assets.calibrations.get(&(file.file.value.clone(), file.choice())) else {
+    let Some(asset) = assets.calibrations.get(&(file.file.value.clone(), file.camera_in_file())) else {
         context.fault(&file.file.place, "the calibration was not loaded", "give a readable file");
         return None;
     };

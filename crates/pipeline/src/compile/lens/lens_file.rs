@@ -33,10 +33,10 @@ impl Stated {
         let far = narrow(surfaces, Focus::Sensor { distance_m: f64::INFINITY })
             .or_else(|_| narrow(surfaces, Focus::Fixed { back_focus_mm: asset.back_focus_mm }))?;
         let p = far.paraxial();
-        let distance_m = (asset.object_distance_mm + p.entrance_pupil_mm) / M;
+        let distance_m = (asset.object_distance_mm + p.entrance_pupil_position_mm) / M;
         let distance_m = if distance_m > 0.0 { distance_m } else { f64::INFINITY };
         let near = if distance_m.is_finite() { narrow(surfaces, Focus::Sensor { distance_m })? } else { far.clone() };
-        let image_mm = near.sensor_mm() - near.last_vertex_mm();
+        let image_mm = near.sensor_position_mm() - near.last_vertex_mm();
         let stated = asset.back_focus_mm > 0.0;
         // An opening at the pupil is an opening at the stop by the pupil's magnification.
         let stop_per_pupil = far.stop_mm() / p.entrance_radius_mm;
@@ -118,7 +118,7 @@ fn tell_image(
     lens: &Prescription,
     tell: &mut impl FnMut(String),
 ) {
-    let at_mm = lens.sensor_mm() - lens.last_vertex_mm();
+    let at_mm = lens.sensor_position_mm() - lens.last_vertex_mm();
     let file_mm = asset.back_focus_mm;
     let other_focus = record.focus_distance_m.as_ref().is_some_and(|focus| {
         let asked = 1.0 / focus_m(focus);

@@ -197,7 +197,7 @@ fn the_cone_to_the_image_opens_the_lens_for_its_object() {
     // At unit magnification the object's cone is the image's.
     let near = opened(cone(0.05, 2.0 * f_mm - lens.prescription().paraxial().front_principal_mm));
     let distance_mm = 2.0 * f_mm - lens.prescription().paraxial().front_principal_mm
-        + lens.prescription().paraxial().entrance_pupil_mm;
+        + lens.prescription().paraxial().entrance_pupil_position_mm;
     let wanted_mm = 0.05 / (1.0_f64 - 0.05 * 0.05).sqrt() * distance_mm;
     assert!((near.1 / wanted_mm - 1.0).abs() < 1e-6, "{near:?} {wanted_mm}");
     let told = plan_of_file(cone(0.9, 11.0)).map(|_| ()).expect_err("too large a cone");

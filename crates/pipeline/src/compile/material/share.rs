@@ -7,7 +7,7 @@ use super::texture::Use;
 use etendue_scene::record::material::Sides;
 use etendue_scene::record::{self, Colour, SurfaceEmission};
 use etendue_spectra::{Outside, Spectrum, colour, reflectance, upsample};
-use etendue_tracer::materials::{Emission, Glow, Reflectance};
+use etendue_tracer::materials::{Emission, EmissionSides, Reflectance};
 
 /// A share of light over the wavelength.
 pub(in super::super) fn share(colour: &Colour, context: &mut Context<'_>) -> Option<Spectrum> {
@@ -41,15 +41,15 @@ impl MaterialCompiler<'_, '_> {
 
     pub(super) fn emission(&mut self, record: &SurfaceEmission) -> Option<Emission> {
         let glow = match record.sides.as_ref().map(|s| s.value) {
-            Some(Sides::Both) => Glow::Both,
-            Some(Sides::Front) | None => Glow::Front,
+            Some(Sides::Both) => EmissionSides::Both,
+            Some(Sides::Front) | None => EmissionSides::Front,
         };
         let factor = match &record.texture {
             Some(name) => Some(self.texture(name, Use::Colour, 1.0)?),
             None => None,
         };
         let radiance = emitted(&record.light, self.context)?;
-        self.flux_sides = record.light.level.flux().map(|_| if glow == Glow::Both { 2.0 } else { 1.0 });
-        Some(Emission { radiance, factor, glow })
+        self.flux_sides = record.light.level.flux().map(|_| if glow == EmissionSides::Both { 2.0 } else { 1.0 });
+        Some(Emission { radiance, factor, sides: glow })
     }
 }

@@ -9,7 +9,7 @@
 use crate::camera::defocus::{margin_px, whole_margin_px};
 use crate::plan::{CameraBody, CameraPlan, Plan, Route};
 use etendue_core::Bands;
-use etendue_optics::effects::{Effect, Work};
+use etendue_optics::effects::{Effect, OperationCounts};
 use etendue_optics::ghosts;
 use etendue_optics::{DepthOfField, Lens};
 use etendue_tracer::lights::Sun;
@@ -79,11 +79,11 @@ fn bands(camera: &CameraPlan) -> Option<Bands> {
 fn of(camera: &CameraPlan, effect: Effect) -> f64 {
     let Some(bands) = bands(camera) else { return 0.0 };
     let with_variance = camera.settings.replicates > 1 && camera.settings.route == Route::Lens;
-    let works = camera.body.effects.work(&camera.body.raster, bands, with_variance);
+    let works = camera.body.effects.operation_counts(&camera.body.raster, bands, with_variance);
     works.into_iter().filter(|(which, _)| *which == effect).map(|(_, work)| seconds(work)).sum()
 }
 
-fn seconds(work: Work) -> f64 {
+fn seconds(work: OperationCounts) -> f64 {
     work.taps * TAP_S + work.transformed * TRANSFORMED_S + work.shared * SHARED_S + work.patterns * PATTERN_S
 }
 
@@ -110,7 +110,7 @@ fn ghosts(plan: &Plan, camera: &CameraPlan) -> (f64, &'static str) {
         false if sky => (SOURCES_EVEN, "for even light; a quarter of it where a few lamps outshine the picture"),
         false => (SOURCES_OUTSHONE, "for a few lamps that outshine the picture; four times as long for even light"),
     };
-    let work = ghosts::work(lens, settings, [bands.low_nm(), bands.high_nm()], sources);
+    let work = ghosts::operation_counts(lens, settings, [bands.low_nm(), bands.high_nm()], sources);
     (work.met * GHOST_SURFACE_S + work.laid * GHOST_BEAM_S, holds_for)
 }
 

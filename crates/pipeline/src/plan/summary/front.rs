@@ -7,7 +7,7 @@ use etendue_optics::front::{Front, Mirror, MirrorShape, Optic, Reflectance, Wind
 pub(super) fn front(front: &Front) -> Vec<String> {
     let dirt = front.dirt().map(|dirt| {
         let p = dirt.parameters();
-        let distance = super::figure(p.stand.origin_mm.z);
+        let distance = super::figure(p.placement.origin_mm.z);
         format!("dirt, {distance} mm before the pupil: each ray by the mask; light that it scatters is left out")
     });
     dirt.into_iter().chain(optic(front)).collect()
@@ -29,7 +29,7 @@ fn optic(front: &Front) -> Vec<String> {
 
 fn glass(glass: &Windscreen) -> String {
     let p = glass.parameters();
-    let normal = p.stand.rotation.z_axis;
+    let normal = p.placement.rotation.z_axis;
     let tilt = acos(normal.z.clamp(-1.0, 1.0)).to_degrees();
     let thick = super::figure(glass.thickness_mm());
     let light = match glass.axial_transmittances() {
@@ -40,7 +40,7 @@ fn glass(glass: &Windscreen) -> String {
             100.0 * glass.double_image_fraction()
         ),
     };
-    let distance = super::figure(p.stand.origin_mm.z);
+    let distance = super::figure(p.placement.origin_mm.z);
     format!(
         "{} of {thick} mm, {distance} mm before the pupil, {tilt:.1}° from the axis; {light}",
         super::count(p.layers.len(), "layer")
@@ -49,7 +49,7 @@ fn glass(glass: &Windscreen) -> String {
 
 fn shape(mirror: &Mirror) -> String {
     let parameters = mirror.parameters();
-    let distance = super::figure(parameters.stand.origin_mm.z);
+    let distance = super::figure(parameters.placement.origin_mm.z);
     match &parameters.shape {
         MirrorShape::Mesh(mesh) => {
             format!("{} with smooth normals, {distance} mm before the pupil", super::count(mesh.len(), "triangle"))
@@ -57,7 +57,9 @@ fn shape(mirror: &Mirror) -> String {
         MirrorShape::Quadric(quadric) => {
             let reach = super::figure(quadric.rim_mm());
             let single = match quadric.outer_focus_mm() {
-                Some(focus) if (focus - parameters.stand.origin_mm.z).abs() <= 1e-9 * focus => ", a single viewpoint",
+                Some(focus) if (focus - parameters.placement.origin_mm.z).abs() <= 1e-9 * focus => {
+                    ", a single viewpoint"
+                }
                 _ => "",
             };
             format!(

@@ -13,7 +13,7 @@ use crate::plan::remark::grouped;
 use crate::plan::{CameraPlan, Plan, Products, RawFormat, Settings, SkyFacts};
 use crate::render::block::Blocks;
 use crate::render::film::Film;
-use crate::render::{census, layout};
+use crate::render::{layout, light_counts};
 use depth_of_field::depth_of_field;
 use effects_cost::Share;
 use etendue_core::{Bands, EffectStatus};
@@ -100,15 +100,15 @@ fn camera(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Resul
 }
 
 fn lights(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
-    let census = census(plan, camera);
+    let counts = light_counts(plan, camera);
     let counted = [
-        (census.suns, "sun disc"),
-        (census.lamps, "lamp"),
-        (census.triangles, "glowing triangle"),
-        (census.spheres, "glowing sphere"),
-        (usize::from(census.image_environment), "surrounding picture"),
-        (usize::from(census.sky), "clear sky"),
-        (usize::from(census.uniform_environment), "uniform surrounding"),
+        (counts.suns, "sun disc"),
+        (counts.lamps, "lamp"),
+        (counts.triangles, "glowing triangle"),
+        (counts.spheres, "glowing sphere"),
+        (usize::from(counts.image_environment), "surrounding picture"),
+        (usize::from(counts.sky), "clear sky"),
+        (usize::from(counts.uniform_environment), "uniform surrounding"),
     ];
     let list: Vec<String> = counted.iter().filter(|(n, _)| *n > 0).map(|(n, name)| count(*n, name)).collect();
     line(f, "lights", if list.is_empty() { "none: the picture will be black".to_owned() } else { list.join(", ") })

@@ -1,7 +1,9 @@
 //! A camera known by where its pixels look.
 
+use super::focus::{FocusDistance, focus_distance};
+use super::lateral_colour::LateralColour;
+use super::numbers::{f_number, share};
 use super::projection::{CalibrationFile, Projection};
-use super::{FocusDistance, LateralColour, f_number, focus_distance, share};
 use crate::fault::Faults;
 use crate::place::Placed;
 use crate::reader::{choice, keyed, list, number, record};

@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::{FocusDistance, f_number, focus_distance};
+use super::focus::{FocusDistance, focus_distance};
+use super::numbers::f_number;
 use crate::fault::Faults;
 use crate::place::Placed;
 use crate::reader::{Rule, choice, either, flag, keyed, list, number, path, record, text, variant, vector};

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::Direction;
+use super::distortion::Direction;
 use crate::asset::{CalibrationChoice, CalibrationFormat};
 use crate::place::Placed;
 use crate::reader::{choice, exactly, keyed, list, number, path, record, text, variants};
@@ -22,7 +22,7 @@ record! {
 impl CalibrationFile {
     /// Which camera of the file it is.
     #[must_use]
-    pub fn choice(&self) -> CalibrationChoice {
+    pub fn camera_in_file(&self) -> CalibrationChoice {
         CalibrationChoice { format: self.format.value, camera: self.camera.as_ref().map(|c| c.value.clone()) }
     }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::emission::{LightColour, check_colour};
-use super::stand::{LampInstance, Stand};
+use super::placement::{LampInstance, LampPlacement};
 use super::strength::{LampStrength, MeasuredStrength};
 use crate::fault::Faults;
 use crate::place::Placed;
@@ -15,7 +15,7 @@ record! {
         /// Its name.
         required name: Placed<String> = text("the name of the light");
         /// Where it stands. It points somewhere only with "mask".
-        inside stand: Stand;
+        inside placement: LampPlacement;
         /// How much light, before the mask.
         inside strength: LampStrength;
         /// Of which colour.
@@ -31,7 +31,7 @@ record! {
         /// Its name.
         required name: Placed<String> = text("the name of the light");
         /// Where it stands.
-        inside stand: Stand;
+        inside placement: LampPlacement;
         /// How much light.
         inside strength: LampStrength;
         /// Of which colour.
@@ -55,7 +55,7 @@ record! {
         /// The file of the intensities.
         required file: Placed<PathBuf> = path(&["ies", "ldt"]);
         /// Where it stands.
-        inside stand: Stand;
+        inside placement: LampPlacement;
         /// Whether it is stronger or weaker than measured. Default: as measured.
         group strength: MeasuredStrength;
         /// Of which colour; the file does not say it.
@@ -79,7 +79,7 @@ record! {
         /// Default: 0.
         optional aim_down_deg: Placed<f64> = number("°").at_least(-10.0).at_most(10.0);
         /// Where it stands.
-        inside stand: Stand;
+        inside placement: LampPlacement;
         /// Whether it is stronger or weaker than the ready beam. Default: as it is.
         group strength: MeasuredStrength;
         /// Of which colour.
@@ -128,8 +128,8 @@ fn check_point(lamp: &PointLamp, faults: &mut Faults) {
     if lamp.mask.is_some() {
         return;
     }
-    let instances = lamp.stand.instances.iter().filter_map(|i: &LampInstance| i.aim.as_ref());
-    for aim in lamp.stand.aim.iter().chain(instances) {
+    let instances = lamp.placement.instances.iter().filter_map(|i: &LampInstance| i.aim.as_ref());
+    for aim in lamp.placement.aim.iter().chain(instances) {
         faults.add(aim.place(), "a lamp that shines alike in all directions points nowhere", "remove it");
     }
 }

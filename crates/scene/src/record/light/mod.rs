@@ -2,14 +2,14 @@
 
 pub mod emission;
 pub mod lamp;
-pub mod stand;
+pub mod placement;
 pub mod strength;
 pub mod sun;
 
 pub(crate) use emission::illuminants;
 pub use emission::{Emission, Level, LightColour};
 pub use lamp::{Beam, HeadLamp, Mask, MeasuredLamp, PointLamp, SpotLamp, Traffic};
-pub use stand::{LampAim, LampInstance, Stand};
+pub use placement::{LampAim, LampInstance, LampPlacement};
 pub use strength::{LampStrength, MeasuredStrength};
 pub use sun::{Sun, SunLevel};
 

@@ -7,6 +7,7 @@ pub mod filter;
 pub mod output;
 pub mod tone;
 
+use crate::fault::Faults;
 use crate::place::Placed;
 use crate::reader::{among, choice, list, number, path, record, whole};
 use std::path::PathBuf;
@@ -20,7 +21,7 @@ pub use tone::ToneCurve;
 
 record! {
     /// From raw to picture. The steps are those of docs/processing.md, in their order.
-    pub struct Processing check(output::check) {
+    pub struct Processing check(check) {
         /// What counts as no light: "sensor" (the sensor's black level), "optical_black" (from the sensor's shielded rows), or
         /// a number, DN. Default: "sensor".
         optional black_level: BlackLevel = correction::black_level();
@@ -59,6 +60,11 @@ record! {
         /// With "jpeg": quality, 1 … 100. Default: 90.
         optional jpeg_quality: Placed<u64> = whole(1, 100);
     }
+}
+
+fn check(processing: &Processing, faults: &mut Faults) {
+    let (bits, quality) = (processing.picture_bits.as_ref(), processing.jpeg_quality.as_ref());
+    output::check(processing.picture_format.as_ref(), bits, quality, faults);
 }
 
 impl Processing {

@@ -1,7 +1,7 @@
 //! How pictures are written.
 
-use super::Processing;
 use crate::fault::Faults;
+use crate::place::Placed;
 use crate::reader::choice;
 
 choice! {
@@ -15,16 +15,21 @@ choice! {
 }
 
 /// Bits and quality must fit the format.
-pub(super) fn check(processing: &Processing, faults: &mut Faults) {
-    let jpeg = processing.picture_format.as_ref().is_some_and(|f| f.value == PictureFormat::Jpeg);
-    if let Some(bits) = processing.picture_bits.as_ref().filter(|bits| jpeg && bits.value != 8) {
+pub(super) fn check(
+    format: Option<&Placed<PictureFormat>>,
+    bits: Option<&Placed<u64>>,
+    quality: Option<&Placed<u64>>,
+    faults: &mut Faults,
+) {
+    let jpeg = format.is_some_and(|f| f.value == PictureFormat::Jpeg);
+    if let Some(bits) = bits.filter(|bits| jpeg && bits.value != 8) {
         faults.add(
             &bits.place,
             format!("a JPEG cannot hold {} bits", bits.value),
             "give 8, or picture_format = \"png\"",
         );
     }
-    if let Some(quality) = processing.jpeg_quality.as_ref().filter(|_| !jpeg) {
+    if let Some(quality) = quality.filter(|_| !jpeg) {
         faults.add(
             &quality.place,
             "\"jpeg_quality\" has no effect on PNG",

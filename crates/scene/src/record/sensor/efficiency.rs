@@ -1,8 +1,7 @@
 //! `quantum_efficiency`: electrons a photon.
 
-use super::Electronics;
 use crate::fault::Faults;
-use crate::place::Placed;
+use crate::place::{Place, Placed};
 use crate::reader::{Rule, RuleExt as _, either, exactly, keyed, keyed_by_name, known, number, record, variant};
 use crate::record::curve::{Curve, curve, spectrum_file};
 use etendue_spectra::camera;
@@ -97,18 +96,17 @@ fn check_source(source: &QuantumEfficiencySource, faults: &mut Faults) {
     }
 }
 
-/// Whether quantum efficiencies are those of the filter array's channels.
-pub(super) fn check_channels(electronics: &Electronics, faults: &mut Faults) {
-    let channels = electronics.cfa.channels();
-    match &electronics.quantum_efficiency {
+/// Whether quantum efficiencies are those of the filter array's channels; `table` is where a list that is empty is at fault.
+pub(super) fn check_channels(efficiency: &QuantumEfficiency, channels: &[&str], table: &Place, faults: &mut Faults) {
+    match efficiency {
         QuantumEfficiency::Same(_) => {}
-        QuantumEfficiency::PerChannel(list) => check_colours(&list.place, &channels, faults),
-        QuantumEfficiency::Measured { camera, .. } => check_colours(&camera.place, &channels, faults),
-        QuantumEfficiency::Named(list) => check_names(electronics, list, &channels, faults),
+        QuantumEfficiency::PerChannel(list) => check_colours(&list.place, channels, faults),
+        QuantumEfficiency::Measured { camera, .. } => check_colours(&camera.place, channels, faults),
+        QuantumEfficiency::Named(list) => check_names(table, list, channels, faults),
     }
 }
 
-fn check_colours(place: &crate::place::Place, channels: &[&str], faults: &mut Faults) {
+fn check_colours(place: &Place, channels: &[&str], faults: &mut Faults) {
     if channels == ["mono"] {
         let remedy = "give one number or one spectrum, or a \"cfa\" with colours";
         faults.add(place, "a quantum efficiency of three channels contradicts cfa = \"mono\"", remedy);
@@ -119,13 +117,13 @@ fn check_colours(place: &crate::place::Place, channels: &[&str], faults: &mut Fa
     }
 }
 
-fn check_names(electronics: &Electronics, list: &[(Placed<String>, Curve)], channels: &[&str], faults: &mut Faults) {
+fn check_names(table: &Place, list: &[(Placed<String>, Curve)], channels: &[&str], faults: &mut Faults) {
     for (name, _) in list.iter().filter(|(name, _)| !channels.contains(&name.value.as_str())) {
         let problem = format!("the filter array has no channel \"{}\"", name.value);
         faults.add(&name.place, problem, format!("give one of {}", channels.join(", ")));
     }
     for channel in channels.iter().filter(|c| !list.iter().any(|(name, _)| name.value == **c)) {
-        let place = list.first().map_or(&electronics.place, |(name, _)| &name.place);
+        let place = list.first().map_or(table, |(name, _)| &name.place);
         faults.add(place, format!("the channel \"{channel}\" has no quantum efficiency"), format!("add \"{channel}\""));
     }
 }

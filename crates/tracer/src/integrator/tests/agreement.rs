@@ -13,7 +13,7 @@ fn mixed(floor: Surface) -> Ready {
     };
     let mut scene = Scene { sources, ..Scene::default() };
     let floor = scene.material(floor, None);
-    let lamp = scene.material(matt(0.2), Some((0.05, Glow::Both)));
+    let lamp = scene.material(matt(0.2), Some((0.05, EmissionSides::Both)));
     let block = scene.material(matt(0.7), None);
     scene.square(Vec3::ZERO, 5.0, floor);
     scene.square(Vec3::new(1.0, 0.0, 1.5), 0.5, lamp);
@@ -57,16 +57,17 @@ fn roulette_leaves_the_mean() {
 fn lights_are_counted_by_kind() {
     let ready = mixed(matt(0.5));
     let view = ready.world.render_space(DVec3::ZERO);
-    let census = ready.lights(&view).census();
-    assert_eq!((census.triangles, census.spheres, census.suns), (2, 2, 1));
-    assert!(census.image_environment && !census.uniform_environment);
+    let counts = ready.lights(&view).light_counts();
+    assert_eq!((counts.triangles, counts.spheres, counts.suns), (2, 2, 1));
+    assert!(counts.image_environment && !counts.uniform_environment);
 }
 
 #[test]
 fn a_lamp_far_from_the_origin_of_its_mesh_still_shines() {
     // The camera stands at the origin; the lamp's own frame is 100 km away, where f32 resolves 8 mm.
     let mut scene = Scene::default();
-    let (floor, lamp) = (scene.material(matt(0.5), None), scene.material(Surface::Absorber, Some((1.0, Glow::Both))));
+    let (floor, lamp) =
+        (scene.material(matt(0.5), None), scene.material(Surface::Absorber, Some((1.0, EmissionSides::Both))));
     scene.square(Vec3::new(0.0, 0.0, -1.0), 50.0, floor);
     let far = Vec3::new(1e5, 0.0, 0.0);
     let positions =

@@ -20,7 +20,7 @@ use crate::geometry::{Instance, Mesh, Shape};
 use crate::lights::Lights;
 use crate::lights::{Environment, ImageEnvironment, Sources, Sun};
 use crate::materials::MaterialTable;
-use crate::materials::{Coated, Conductor, Emission, Glow, Material, Reflectance, Surface};
+use crate::materials::{Coated, Conductor, Emission, EmissionSides, Material, Reflectance, Surface};
 use crate::render_space::RenderSpace;
 use core::f64::consts::PI;
 use etendue_core::random::{FrameAddress, PathStream, Pixel, PixelAddress};
@@ -41,9 +41,9 @@ struct Scene {
 }
 
 impl Scene {
-    fn material(&mut self, surface: Surface, glow: Option<(f64, Glow)>) -> MaterialId {
+    fn material(&mut self, surface: Surface, glow: Option<(f64, EmissionSides)>) -> MaterialId {
         let emission =
-            glow.map(|(radiance, glow)| Emission { radiance: Spectrum::constant(radiance), factor: None, glow });
+            glow.map(|(radiance, glow)| Emission { radiance: Spectrum::constant(radiance), factor: None, sides: glow });
         self.materials.push(Material { emission, ..Material::new(surface) });
         MaterialId(self.materials.len() as u32 - 1)
     }

@@ -12,8 +12,8 @@
 
 mod axis;
 mod cone;
+mod mask_image;
 mod quadrature;
-mod slide;
 mod spread;
 mod web;
 
@@ -24,7 +24,7 @@ use glam::Vec3;
 use quadrature::{Node, cap};
 
 pub use cone::{Cone, ConeError};
-pub use slide::{Slide, SlideError};
+pub use mask_image::{MaskImage, MaskImageError};
 pub(in crate::lights) use spread::Spread;
 pub use web::{Web, WebAxes, WebError};
 
@@ -38,7 +38,7 @@ pub enum Profile {
     /// A measured grid.
     Web(Web),
     /// A picture, projected along +x.
-    Slide(Slide),
+    MaskImage(MaskImage),
     /// One profile seen through another: their product.
     Masked(Masked),
 }
@@ -67,7 +67,7 @@ impl Profile {
             Self::Isotropic => 1.0,
             Self::Cone(cone) => cone.value(direction),
             Self::Web(web) => web.value(direction),
-            Self::Slide(slide) => slide.value(direction),
+            Self::MaskImage(image) => image.value(direction),
             Self::Masked(masked) => masked.mask.value(direction) * masked.lamp.value(direction),
         }
     }
@@ -105,7 +105,7 @@ impl Profile {
             Self::Isotropic => &Spread::EVERYWHERE,
             Self::Cone(cone) => cone.spread(),
             Self::Web(web) => web.spread(),
-            Self::Slide(slide) => slide.spread(),
+            Self::MaskImage(image) => image.spread(),
             Self::Masked(masked) => &masked.spread,
         }
     }
@@ -126,7 +126,7 @@ fn nodes(profile: &Profile) -> Vec<Node> {
         Profile::Isotropic => cap(2.0, |_| 1.0),
         Profile::Cone(cone) => cone.nodes(),
         Profile::Web(web) => web.nodes(),
-        Profile::Slide(slide) => slide.nodes(),
+        Profile::MaskImage(image) => image.nodes(),
         Profile::Masked(masked) => product(&masked.lamp, &masked.mask),
     }
 }

@@ -106,10 +106,11 @@ fn nothing_shines_outside_a_grid() {
 }
 
 #[test]
-fn a_slide_fills_its_field_the_right_way_up() {
+fn a_mask_fills_its_field_the_right_way_up() {
     // Rows from the top: left and right, lower left and lower right.
-    let slide = Slide::new((2, 2), vec![1.0, 2.0, 3.0, 4.0], 90_f64.to_radians(), 60_f64.to_radians()).expect("a mask");
-    let profile = Profile::Slide(slide);
+    let image =
+        MaskImage::new((2, 2), vec![1.0, 2.0, 3.0, 4.0], 90_f64.to_radians(), 60_f64.to_radians()).expect("a mask");
+    let profile = Profile::MaskImage(image);
     for (azimuth, elevation, value) in [(-44.9, 20.0, 1.0), (44.9, 20.0, 2.0), (-40.0, -20.0, 3.0), (40.0, -20.0, 4.0)]
     {
         assert!((profile.value(towards(azimuth, elevation)) - value).abs() < 1e-5, "{azimuth} {elevation}");
@@ -119,8 +120,9 @@ fn a_slide_fills_its_field_the_right_way_up() {
         assert_eq!(profile.value(towards(azimuth, elevation)), 0.0);
     }
     // The solid angle of a rectangular field: 4 asin(sin(h/2)·sin(v/2) …) = 4 atan(a b / √(1 + a² + b²)).
-    let white =
-        Profile::Slide(Slide::new((3, 2), vec![1.0; 6], 90_f64.to_radians(), 60_f64.to_radians()).expect("white"));
+    let white = Profile::MaskImage(
+        MaskImage::new((3, 2), vec![1.0; 6], 90_f64.to_radians(), 60_f64.to_radians()).expect("white"),
+    );
     let (a, b) = (1.0_f64, 1.0 / 3.0_f64.sqrt());
     let solid = 4.0 * etendue_core::maths::f64::atan(a * b / (1.0 + a * a + b * b).sqrt());
     assert!((white.flux_sr() / solid - 1.0).abs() < 1e-6, "{} {solid}", white.flux_sr());
@@ -128,10 +130,10 @@ fn a_slide_fills_its_field_the_right_way_up() {
 
 #[test]
 fn a_mask_cuts_what_it_covers() {
-    let half = Slide::new((2, 1), vec![0.0, 1.0], 80_f64.to_radians(), 80_f64.to_radians()).expect("a mask");
+    let half = MaskImage::new((2, 1), vec![0.0, 1.0], 80_f64.to_radians(), 80_f64.to_radians()).expect("a mask");
     let spot = Cone::new(0.2, 0.3).expect("a spot");
     let whole = spot.spread().flux_sr;
-    let masked = Profile::masked(Profile::Cone(spot), Profile::Slide(half));
+    let masked = Profile::masked(Profile::Cone(spot), Profile::MaskImage(half));
     // Odd about the middle: the mask lets half of the spot pass.
     assert!((masked.flux_sr() / whole - 0.5).abs() < 2e-3, "{}", masked.flux_sr() / whole);
     assert_eq!(masked.value(towards(-0.35_f64.to_degrees(), 0.0)), 0.0);
@@ -143,7 +145,7 @@ fn the_reach_holds_all_light() {
     let profiles = [
         Profile::Web(web(WebAxes::A, steps(-30.0, 30.0, 3), steps(-60.0, 60.0, 3), |_, _| 5.0)),
         Profile::Web(web(WebAxes::C, steps(0.0, 90.0, 4), vec![0.0], |v, _| v)),
-        Profile::Slide(Slide::new((4, 4), vec![1.0; 16], 1.0, 2.0).expect("a mask")),
+        Profile::MaskImage(MaskImage::new((4, 4), vec![1.0; 16], 1.0, 2.0).expect("a mask")),
         Profile::Cone(Cone::new(0.1, 0.4).expect("a spot")),
     ];
     for profile in &profiles {
@@ -168,16 +170,16 @@ fn faulty_profiles_are_refused() {
     assert_eq!(negative.err(), Some(WebError::Value { value: 1 }));
     assert!(matches!(Cone::new(0.5, 0.4), Err(ConeError::Angles { .. })));
     assert!(matches!(Cone::new(0.0, 0.0), Err(ConeError::Angles { .. })));
-    assert!(matches!(Slide::new((1, 1), vec![1.0], 0.0, 1.0), Err(SlideError::Field { .. })));
-    assert!(matches!(Slide::new((1, 1), vec![f32::NAN], 1.0, 1.0), Err(SlideError::Texel { texel: 0 })));
+    assert!(matches!(MaskImage::new((1, 1), vec![1.0], 0.0, 1.0), Err(MaskImageError::Field { .. })));
+    assert!(matches!(MaskImage::new((1, 1), vec![f32::NAN], 1.0, 1.0), Err(MaskImageError::Texel { texel: 0 })));
 }
 
 #[test]
 fn a_mask_wider_than_its_spot_takes_no_light() {
     for field_deg in [0.05_f64, 0.3, 2.0, 20.0] {
         let cone = Profile::Cone(Cone::new(0.0, field_deg.to_radians()).expect("a spot"));
-        let slide = Slide::new((3, 2), vec![1.0; 6], 2.0, 1.5).expect("a mask");
-        let masked = Profile::masked(cone.clone(), Profile::Slide(slide));
+        let image = MaskImage::new((3, 2), vec![1.0; 6], 2.0, 1.5).expect("a mask");
+        let masked = Profile::masked(cone.clone(), Profile::MaskImage(image));
         // The midpoint rule in 128 rings.
         assert!((masked.flux_sr() / cone.flux_sr() - 1.0).abs() < 5e-3, "{field_deg}°: {}", masked.flux_sr());
         let (seen, reach) = (f64::from(masked.spread().reach_rad), field_deg.to_radians());

@@ -49,7 +49,7 @@ fn passages_of_cut_out_mixes_are_means() {
 
 #[test]
 fn what_is_cut_out_does_not_glow() {
-    let emission = Emission { radiance: Spectrum::constant(6.0), factor: None, glow: Glow::Both };
+    let emission = Emission { radiance: Spectrum::constant(6.0), factor: None, sides: EmissionSides::Both };
     let lamp = Material { emission: Some(emission), opacity: Some(RAMP), ..Material::new(Surface::Absorber) };
     let material_table = MaterialTable::new(vec![lamp], vec![ramp()]).expect("a lamp");
     let emission = material_table.emission(MaterialId(0)).expect("it glows");

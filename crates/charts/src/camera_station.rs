@@ -8,7 +8,7 @@ use std::f64::consts::TAU;
 
 /// A camera of the job.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Station {
+pub struct CameraStation {
     /// Its name in the job, which is that of its file.
     pub name: String,
     /// Where it stands, m.
@@ -23,7 +23,7 @@ pub struct Station {
     pub dark: bool,
 }
 
-impl Station {
+impl CameraStation {
     /// The pose. Stations look neither at themselves nor along their up.
     #[must_use]
     pub fn pose(&self) -> CameraPose {
@@ -86,8 +86,8 @@ impl Exposures {
 /// The cameras of a job: one square before the sheet at `distance_m`; or `views` of them around it, tilted by 25 degrees and
 /// farther away so that the sheet stays in the picture, the first square; or one for each exposure (s).
 #[must_use]
-pub fn stations(distance_m: f64, views: u32, exposures_s: &[f64], dark: bool) -> Vec<Station> {
-    let ahead = |name: String, exposure_s| Station {
+pub fn camera_stations(distance_m: f64, views: u32, exposures_s: &[f64], dark: bool) -> Vec<CameraStation> {
+    let ahead = |name: String, exposure_s| CameraStation {
         name,
         position_m: DVec3::ZERO,
         target_m: DVec3::X * distance_m,
@@ -98,15 +98,21 @@ pub fn stations(distance_m: f64, views: u32, exposures_s: &[f64], dark: bool) ->
     if !exposures_s.is_empty() {
         let of = |(i, t): (usize, &f64)| {
             let lit = ahead(format!("exposure-{:02}", i + 1), Some(*t));
-            let away =
-                Station { name: format!("dark-{:02}", i + 1), target_m: -lit.target_m, dark: true, ..lit.clone() };
+            let away = CameraStation {
+                name: format!("dark-{:02}", i + 1),
+                target_m: -lit.target_m,
+                dark: true,
+                ..lit.clone()
+            };
             [Some(lit), dark.then_some(away)]
         };
         return exposures_s.iter().enumerate().flat_map(of).flatten().collect();
     }
     match views {
         0 | 1 => vec![ahead("camera".to_owned(), None)],
-        _ => (0..views).map(|i| Station { name: format!("view-{:02}", i + 1), ..view(distance_m, i, views) }).collect(),
+        _ => (0..views)
+            .map(|i| CameraStation { name: format!("view-{:02}", i + 1), ..view(distance_m, i, views) })
+            .collect(),
     }
 }
 
@@ -118,7 +124,7 @@ const FARTHER: f64 = 1.45;
 const ROLLS_DEG: [f64; 3] = [0.0, 10.0, -10.0];
 
 /// View `i` of `count`: the first square, the others around it in even steps, rolled in turn.
-fn view(distance_m: f64, i: u32, count: u32) -> Station {
+fn view(distance_m: f64, i: u32, count: u32) -> CameraStation {
     let centre = DVec3::X * distance_m;
     let turn = TAU * f64::from(i.saturating_sub(1)) / f64::from(count - 1);
     let (tilt, away) = if i == 0 { (0.0, 1.0) } else { (TILT_DEG.to_radians(), FARTHER) };
@@ -126,7 +132,7 @@ fn view(distance_m: f64, i: u32, count: u32) -> Station {
     let (up, left) = sin_cos(turn);
     let from = DVec3::new(-along, across * left, across * up) * distance_m * away;
     let (sin, cos) = sin_cos(ROLLS_DEG[i as usize % 3].to_radians());
-    Station {
+    CameraStation {
         name: String::new(),
         position_m: centre + from,
         target_m: centre,
@@ -153,14 +159,14 @@ mod tests {
 
     #[test]
     fn views_look_at_the_sheet_and_dark_frames_away() {
-        let views = stations(2.0, 7, &[], false);
+        let views = camera_stations(2.0, 7, &[], false);
         assert_eq!((views.len(), views[0].position_m), (7, DVec3::ZERO));
         for view in &views[1..] {
             let axis = view.pose().rotation.z_axis;
             assert!((axis.x - sin_cos(TILT_DEG.to_radians()).1).abs() < 1e-12, "{axis}");
             assert!(((view.position_m - DVec3::X * 2.0).length() - 2.9).abs() < 1e-12);
         }
-        let series = stations(2.0, 1, &[0.1, 0.2], true);
+        let series = camera_stations(2.0, 1, &[0.1, 0.2], true);
         let names: Vec<&str> = series.iter().map(|s| s.name.as_str()).collect();
         assert_eq!(names, ["exposure-01", "dark-01", "exposure-02", "dark-02"]);
         assert!(series[1].dark && series[1].target_m.x < 0.0);

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 /// Transmittance, distortion and lateral colour of a lens.
 #[derive(Clone, PartialEq)]
-pub(crate) struct Body {
+pub(crate) struct ParaxialProperties {
     /// Transmittance τ, the same at every wavelength.
     pub(crate) transmittance: f64,
     /// Radial distortion; `None` for a rectilinear lens.
@@ -18,10 +18,10 @@ pub(crate) struct Body {
     pub(crate) lateral_colour: Option<Arc<LateralColour>>,
 }
 
-/// A lens without lateral colour has the text (and plans have the hashes) that it had before there was any.
-impl Debug for Body {
+/// A lens without lateral colour does not mention it.
+impl Debug for ParaxialProperties {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let mut text = f.debug_struct("Body");
+        let mut text = f.debug_struct("ParaxialProperties");
         text.field("transmittance", &self.transmittance).field("distortion", &self.distortion);
         if let Some(colour) = &self.lateral_colour {
             text.field("lateral_colour", colour);
@@ -30,7 +30,7 @@ impl Debug for Body {
     }
 }
 
-impl Body {
+impl ParaxialProperties {
     pub(crate) fn new(transmittance: f64) -> Result<Self, OpticsError> {
         if transmittance > 0.0 && transmittance <= 1.0 {
             Ok(Self { transmittance, distortion: None, lateral_colour: None })

@@ -7,7 +7,7 @@ use super::{CalibrateError, Calibrated, Family, Options, Sightings, calibrate};
 
 /// A camera, and the views that are not in it.
 #[derive(Clone, Debug)]
-pub struct Spared {
+pub struct OutlierRejection {
     /// The camera of the other views, its poses and residuals in their order.
     pub camera: Calibrated,
     /// Views in it, from 0.
@@ -27,12 +27,12 @@ const GAIN: f64 = 0.5;
 ///
 /// # Errors
 /// [`CalibrateError`]; [`CalibrateError::View`] where one view is at fault and too few are left without it.
-pub fn calibrate_sparing(
+pub fn calibrate_rejecting_outliers(
     views: &[Sightings],
     size_px: [usize; 2],
     family: Family,
     options: Options,
-) -> Result<Spared, CalibrateError> {
+) -> Result<OutlierRejection, CalibrateError> {
     let of = |kept: &[usize]| {
         let kept: Vec<Sightings> = kept.iter().map(|v| views[*v].clone()).collect();
         calibrate(&kept, size_px, family, options)
@@ -47,9 +47,9 @@ pub fn calibrate_sparing(
                     Ok(better) if better.rms_px() < GAIN * camera.rms_px() => {
                         (v, format!("its points lie {:.1} px from the fit", camera.view_rms_px(v)))
                     }
-                    _ => return Ok(Spared { camera, kept, left_out }),
+                    _ => return Ok(OutlierRejection { camera, kept, left_out }),
                 },
-                None => return Ok(Spared { camera, kept, left_out }),
+                None => return Ok(OutlierRejection { camera, kept, left_out }),
             },
             Err(error) => match culprit(&kept, &error, &of) {
                 Some(v) if may => (v, error.to_string()),

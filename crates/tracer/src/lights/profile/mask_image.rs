@@ -13,9 +13,9 @@ use glam::{DVec3, Vec2, Vec3};
 use super::quadrature::{GAUSS, Node};
 use super::spread::Spread;
 
-/// Why a slide is refused.
+/// Why a mask is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum SlideError {
+pub enum MaskImageError {
     /// The texels do not fill the picture.
     #[error("a mask of {width} × {height} needs as many texels, but {found} were given; check its size")]
     Size {
@@ -48,7 +48,7 @@ pub enum SlideError {
 
 /// A mask over a field. Its `Debug` text leaves out the texels.
 #[derive(Clone, PartialEq)]
-pub struct Slide {
+pub struct MaskImage {
     width: usize,
     height: usize,
     texels: Vec<f32>,
@@ -57,9 +57,9 @@ pub struct Slide {
     spread: Spread,
 }
 
-impl core::fmt::Debug for Slide {
+impl core::fmt::Debug for MaskImage {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.debug_struct("Slide")
+        f.debug_struct("MaskImage")
             .field("size", &(self.width, self.height))
             .field("half", &self.half)
             .field("spread", &self.spread)
@@ -67,7 +67,7 @@ impl core::fmt::Debug for Slide {
     }
 }
 
-impl Slide {
+impl MaskImage {
     /// A picture of factors, rows from the top, over a field of full angles.
     ///
     /// # Errors
@@ -77,21 +77,21 @@ impl Slide {
         texels: Vec<f32>,
         horizontal_rad: f64,
         vertical_rad: f64,
-    ) -> Result<Self, SlideError> {
+    ) -> Result<Self, MaskImageError> {
         if texels.is_empty() || texels.len() != width * height {
-            return Err(SlideError::Size { width, height, found: texels.len() });
+            return Err(MaskImageError::Size { width, height, found: texels.len() });
         }
         if let Some(texel) = texels.iter().position(|t| !(t.is_finite() && *t >= 0.0)) {
-            return Err(SlideError::Texel { texel });
+            return Err(MaskImageError::Texel { texel });
         }
         if ![horizontal_rad, vertical_rad].iter().all(|a| *a > 1e-6 && *a < PI - 1e-6) {
-            return Err(SlideError::Field { horizontal_rad, vertical_rad });
+            return Err(MaskImageError::Field { horizontal_rad, vertical_rad });
         }
         let half = [horizontal_rad, vertical_rad].map(|a| maths::f64::tan(0.5 * a) as f32);
-        let mut slide = Self { width, height, texels, half: Vec2::from(half), spread: Spread::EVERYWHERE };
-        let peak = slide.texels.iter().copied().fold(0.0, f32::max);
-        slide.spread = Spread { peak: f64::from(peak), ..Spread::of(&slide.nodes()) };
-        Ok(slide)
+        let mut image = Self { width, height, texels, half: Vec2::from(half), spread: Spread::EVERYWHERE };
+        let peak = image.texels.iter().copied().fold(0.0, f32::max);
+        image.spread = Spread { peak: f64::from(peak), ..Spread::of(&image.nodes()) };
+        Ok(image)
     }
 
     pub(super) fn value(&self, direction: Vec3) -> f32 {

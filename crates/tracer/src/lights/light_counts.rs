@@ -2,7 +2,7 @@
 
 /// What is lit by what: for the plan.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct LightCensus {
+pub struct LightCounts {
     /// Emissive triangles.
     pub triangles: usize,
     /// Emissive spheres.
@@ -19,7 +19,7 @@ pub struct LightCensus {
     pub sky: bool,
 }
 
-impl LightCensus {
+impl LightCounts {
     /// Whether nothing gives light.
     #[must_use]
     pub fn is_dark(&self) -> bool {

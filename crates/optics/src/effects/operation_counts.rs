@@ -5,7 +5,7 @@ use core::ops::{Add, Mul};
 
 /// Numbers of what takes time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Work {
+pub struct OperationCounts {
     /// Products of a pixel and a tap, where few taps are summed directly.
     pub taps: f64,
     /// Numbers that pass a Fourier transform, each times the bits of both its sides' lengths.
@@ -16,7 +16,7 @@ pub struct Work {
     pub patterns: f64,
 }
 
-impl Add for Work {
+impl Add for OperationCounts {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
@@ -29,7 +29,7 @@ impl Add for Work {
     }
 }
 
-impl Mul<f64> for Work {
+impl Mul<f64> for OperationCounts {
     type Output = Self;
 
     fn mul(self, by: f64) -> Self {
@@ -42,7 +42,7 @@ impl Mul<f64> for Work {
     }
 }
 
-impl Sum for Work {
+impl Sum for OperationCounts {
     fn sum<I: Iterator<Item = Self>>(works: I) -> Self {
         works.fold(Self::default(), Add::add)
     }

@@ -8,7 +8,7 @@ use etendue_projection::Raster;
 
 /// What a lens looks at, as seen from the centre of its entrance pupil.
 #[derive(Clone, Copy, Debug)]
-pub struct Sight<'a> {
+pub struct PinholeView<'a> {
     pub(super) lens: &'a Lens,
     pub(super) raster: &'a Raster,
     pub(super) margin_px: usize,
@@ -16,8 +16,8 @@ pub struct Sight<'a> {
     pub(super) distance: &'a Plane<Length>,
 }
 
-impl<'a> Sight<'a> {
-    /// A sight of a picture: `radiance` and `distance` have `margin_px` more pixels than `raster` on each side.
+impl<'a> PinholeView<'a> {
+    /// A view of a picture: `radiance` and `distance` have `margin_px` more pixels than `raster` on each side.
     ///
     /// # Errors
     /// Where the images are not of that size, or the radiance of a pixel with a distance is no finite number.
@@ -34,9 +34,9 @@ impl<'a> Sight<'a> {
                 return Err(OpticsError::Size { got_width, got_height, width, height });
             }
         }
-        let sight = Self { lens, raster, margin_px, radiance, distance };
-        sight.check_finite()?;
-        Ok(sight)
+        let view = Self { lens, raster, margin_px, radiance, distance };
+        view.check_finite()?;
+        Ok(view)
     }
 
     /// Pixels a row, margin included.

@@ -14,7 +14,7 @@ pub struct RasterRay {
 }
 
 /// A camera: the size of its picture and the ray of each raster point (top left corner 0, 0; pixel centres at +0.5).
-pub struct Eye<'a> {
+pub struct RayCamera<'a> {
     /// Columns and rows.
     pub size_px: DVec2,
     /// The ray of a raster point; `None` where no light comes.
@@ -49,7 +49,7 @@ pub struct Footprint {
     pub fills: bool,
 }
 
-impl Eye<'_> {
+impl RayCamera<'_> {
     /// What is seen of the plane square to the axis at `distance_m`.
     ///
     /// # Errors
@@ -169,22 +169,22 @@ mod tests {
 
     #[test]
     fn projection_inverts_the_rays() {
-        let eye = Eye { size_px: SIZE, ray: &barrel };
-        let starts = eye.starts();
+        let ray_camera = RayCamera { size_px: SIZE, ray: &barrel };
+        let starts = ray_camera.starts();
         for (x, y) in [(0.0, 0.0), (3.25, 470.0), (320.0, 240.0), (639.9, 0.1), (100.7, 300.3)] {
             let at = DVec2::new(x, y);
             let ray = barrel(at).expect("everywhere");
-            let found = eye.project(&starts, ray.origin_m + 2.5 * ray.direction).expect("inside");
+            let found = ray_camera.project(&starts, ray.origin_m + 2.5 * ray.direction).expect("inside");
             assert!((found - at).length() < 1e-7, "{at} {found}");
         }
-        assert_eq!(eye.project(&starts, DVec3::new(3.0, 0.0, 1.0)), None);
-        assert_eq!(eye.project(&starts, DVec3::new(0.1, 0.0, -1.0)), None);
+        assert_eq!(ray_camera.project(&starts, DVec3::new(3.0, 0.0, 1.0)), None);
+        assert_eq!(ray_camera.project(&starts, DVec3::new(0.1, 0.0, -1.0)), None);
     }
 
     #[test]
     fn a_footprint_holds_the_field() {
-        let eye = Eye { size_px: SIZE, ray: &barrel };
-        let seen = eye.footprint(2.0).expect("ahead");
+        let ray_camera = RayCamera { size_px: SIZE, ray: &barrel };
+        let seen = ray_camera.footprint(2.0).expect("ahead");
         // The corner: p = (0.64, 0.48), r² = 0.64, ideal = 1.128 p.
         assert!((seen.outer_mm - 4000.0 * 1.128 * DVec2::new(0.64, 0.48)).length() < 1e-9, "{seen:?}");
         // The tightest: the middle of the upper side, ideal y = 0.48 (1 + 0.2 · 0.2304).
@@ -202,11 +202,11 @@ mod tests {
             let across = p.normalize_or_zero() * s;
             (theta < 1.15).then_some(RasterRay { origin_m: DVec3::ZERO, direction: across.extend(c) })
         };
-        let eye = Eye { size_px: SIZE, ray: &equidistant };
-        let seen = eye.footprint(1.0).expect("ahead");
+        let ray_camera = RayCamera { size_px: SIZE, ray: &equidistant };
+        let seen = ray_camera.footprint(1.0).expect("ahead");
         assert!(!seen.fills && (seen.outer_mm.x - 2000.0 * 3.0_f64.sqrt()).abs() < 1e-6, "{seen:?}");
         let mirrored = |_| Some(RasterRay { origin_m: DVec3::ZERO, direction: DVec3::X });
-        let eye = Eye { size_px: SIZE, ray: &mirrored };
-        assert!(matches!(eye.footprint(1.0), Err(ChartError::Camera(_))));
+        let ray_camera = RayCamera { size_px: SIZE, ray: &mirrored };
+        assert!(matches!(ray_camera.footprint(1.0), Err(ChartError::Camera(_))));
     }
 }

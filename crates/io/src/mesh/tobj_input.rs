@@ -9,12 +9,12 @@ use crate::Error;
 
 /// Statements for tobj.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Fed {
+pub(super) struct TobjInput {
     text: String,
     lines: Vec<usize>,
 }
 
-impl Fed {
+impl TobjInput {
     /// Adds a statement of line `line`.
     pub(super) fn push(&mut self, line: usize, statement: &str) {
         self.text.push_str(statement);
@@ -49,11 +49,11 @@ mod tests {
 
     #[test]
     fn what_is_refused_is_named_with_its_line() {
-        let mut fed = Fed::default();
+        let mut input = TobjInput::default();
         for (line, statement) in [(2, "newmtl a"), (5, "illum two"), (7, "Kd 1 1 1")] {
-            fed.push(line, statement);
+            input.push(line, statement);
         }
-        let error = fed.read(Path::new("a.mtl"), |text| tobj::load_mtl_buf(text)).expect_err("no number");
+        let error = input.read(Path::new("a.mtl"), |text| tobj::load_mtl_buf(text)).expect_err("no number");
         assert_eq!(
             error.to_string(),
             "a.mtl:5: `illum two` is refused (material parse error); correct or remove this line"
@@ -62,10 +62,10 @@ mod tests {
 
     #[test]
     fn faces_are_found_by_their_order() {
-        let mut fed = Fed::default();
+        let mut input = TobjInput::default();
         for (line, statement) in [(1, "v 0 0 0"), (4, "f 1 1 1"), (5, "g"), (9, "f 1 1 1")] {
-            fed.push(line, statement);
+            input.push(line, statement);
         }
-        assert_eq!([0, 1].map(|i| fed.line_of_face(i)), [4, 9]);
+        assert_eq!([0, 1].map(|i| input.line_of_face(i)), [4, 9]);
     }
 }

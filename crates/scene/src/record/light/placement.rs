@@ -9,7 +9,7 @@ use crate::record::transform::yaw_pitch_roll;
 
 record! {
     /// Where a lamp stands, once or many times.
-    pub struct Stand check(check) {
+    pub struct LampPlacement check(check) {
         /// Where it stands in the world, m, where it stands once.
         optional position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
         /// Where it points, where it stands once. Default: not turned.
@@ -86,7 +86,7 @@ fn towards(direction: DVec3, main: MainAxis) -> Option<DMat3> {
     })
 }
 
-impl Stand {
+impl LampPlacement {
     /// Every place where the lamp stands, with its aim.
     pub fn placements(&self) -> impl Iterator<Item = (&Placed<[f64; 3]>, Option<&LampAim>)> {
         let own = self.position_m.iter().map(|p| (p, self.aim.as_ref()));
@@ -94,21 +94,25 @@ impl Stand {
     }
 }
 
-fn check(stand: &Stand, faults: &mut Faults) {
-    let own = stand.position_m.as_ref().map(|p| ("\"position_m\"", &p.place));
-    let own = own.or(stand.aim.as_ref().map(|a| ("the lamp's own aim", a.place())));
-    match (own, stand.instances.first()) {
+fn check(placement: &LampPlacement, faults: &mut Faults) {
+    let own = placement.position_m.as_ref().map(|p| ("\"position_m\"", &p.place));
+    let own = own.or(placement.aim.as_ref().map(|a| ("the lamp's own aim", a.place())));
+    match (own, placement.instances.first()) {
         (Some((said, _)), Some(first)) => faults.add(
             &first.place,
             format!("\"instances\" contradicts {said}: both say where the lamp stands"),
             "keep one of the two",
         ),
-        (_, None) if stand.position_m.is_none() => {
-            faults.add(&stand.place, "the lamp stands nowhere", "add \"position_m\", or \"instances\" for many places");
+        (_, None) if placement.position_m.is_none() => {
+            faults.add(
+                &placement.place,
+                "the lamp stands nowhere",
+                "add \"position_m\", or \"instances\" for many places",
+            );
         }
         _ => {}
     }
-    if let (Some(position), Some(aim)) = (&stand.position_m, &stand.aim) {
+    if let (Some(position), Some(aim)) = (&placement.position_m, &placement.aim) {
         check_aim(position, aim, faults);
     }
 }

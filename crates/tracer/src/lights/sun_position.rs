@@ -32,7 +32,7 @@ pub struct SunPosition {
 
 /// Why there is no such time or place.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum AlmanacError {
+pub enum SunPositionError {
     /// A year beyond the formulas.
     #[error("year {found} is outside 1900 to 2100: the Sun's place is not computed for others")]
     Year {
@@ -78,16 +78,16 @@ impl UtcTime {
     ///
     /// # Errors
     /// Where the calendar or the day has no such moment, or the year is out of range.
-    pub fn new(date: (i32, u32, u32), time: (u32, u32, f64)) -> Result<Self, AlmanacError> {
+    pub fn new(date: (i32, u32, u32), time: (u32, u32, f64)) -> Result<Self, SunPositionError> {
         let ((year, month, day), (hour, minute, second)) = (date, time);
         if !(1900..=2100).contains(&year) {
-            return Err(AlmanacError::Year { found: year });
+            return Err(SunPositionError::Year { found: year });
         }
         if !(1..=12).contains(&month) || !(1..=days_of_month(year, month)).contains(&day) {
-            return Err(AlmanacError::Date { year, month, day });
+            return Err(SunPositionError::Date { year, month, day });
         }
         if hour > 23 || minute > 59 || !(0.0..60.0).contains(&second) {
-            return Err(AlmanacError::Time { hour, minute, second });
+            return Err(SunPositionError::Time { hour, minute, second });
         }
         let of_day = (f64::from(hour) + (f64::from(minute) + second / 60.0) / 60.0) / 24.0;
         Ok(Self { days: days_since_2000(year, month, day) - 0.5 + of_day })
@@ -118,9 +118,9 @@ fn days_since_2000(year: i32, month: u32, day: u32) -> f64 {
 ///
 /// # Errors
 /// Where there is no such place.
-pub fn sun_position(time: UtcTime, latitude_deg: f64, longitude_deg: f64) -> Result<SunPosition, AlmanacError> {
+pub fn sun_position(time: UtcTime, latitude_deg: f64, longitude_deg: f64) -> Result<SunPosition, SunPositionError> {
     if !(latitude_deg.abs() <= 90.0 && longitude_deg.abs() <= 180.0) {
-        return Err(AlmanacError::Place { latitude_deg, longitude_deg });
+        return Err(SunPositionError::Place { latitude_deg, longitude_deg });
     }
     let sun = apparent(time);
     let hour_angle = sun.greenwich_hour_angle_rad + longitude_deg.to_radians();

@@ -20,7 +20,7 @@ use etendue_core::maths::f64::{exp, exp2, ln};
 
 /// The coefficients, with what is known of them.
 #[derive(Clone, Debug)]
-pub struct Shrunken {
+pub struct MixedModelFit {
     /// The free coefficients, then the small ones.
     pub parameters: Vec<f64>,
     /// Their covariance.
@@ -53,7 +53,7 @@ struct Rung {
 ///
 /// # Errors
 /// Where there are too few observations, or the free columns depend on one another.
-pub fn shrunken(design: &Matrix, values: &[f64], free: usize) -> Result<Shrunken, FitError> {
+pub fn fit_mixed_model(design: &Matrix, values: &[f64], free: usize) -> Result<MixedModelFit, FitError> {
     let few = || FitError::Underdetermined { residuals: values.len(), parameters: free };
     // Student's variance, ν/(ν − 2), needs more than two.
     if values.len() < free + 3 {
@@ -86,7 +86,7 @@ fn rung(normal: &Matrix, right: &[f64], (size, free, freedom): (f64, usize, f64)
 }
 
 /// The mean over rungs, each with its weight.
-fn mean(rungs: &[(f64, &Rung)], freedom: f64) -> Shrunken {
+fn mean(rungs: &[(f64, &Rung)], freedom: f64) -> MixedModelFit {
     let count = rungs[0].1.parameters.len();
     let over = |value: &dyn Fn(&Rung) -> f64| rungs.iter().map(|(w, r)| w * value(r)).sum::<f64>();
     let parameters: Vec<f64> = (0..count).map(|i| over(&|r| r.parameters[i])).collect();
@@ -102,7 +102,7 @@ fn mean(rungs: &[(f64, &Rung)], freedom: f64) -> Shrunken {
         }
     }
     let (sigma, tau) = (over(&|r| r.variance).sqrt(), over(&|r| r.lambda * r.variance).sqrt());
-    Shrunken { parameters, covariance, sigma, tau }
+    MixedModelFit { parameters, covariance, sigma, tau }
 }
 
 fn transposed_times(design: &Matrix, values: &[f64]) -> Vec<f64> {
@@ -140,7 +140,7 @@ mod tests {
     fn slopes(size: f64) -> (f64, f64) {
         let found = (0..200).map(|seed| {
             let (design, values) = line(size, seed);
-            let fit = shrunken(&design, &values, 2).expect("40 observations");
+            let fit = fit_mixed_model(&design, &values, 2).expect("40 observations");
             let u = fit.covariance.at(1, 1).sqrt();
             ((fit.parameters[1] - 3.0) / u, u)
         });

@@ -7,14 +7,14 @@ use glam::{DMat3, DVec3};
 
 /// A frame of its own within the camera frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stand {
+pub struct Placement {
     /// Its origin in the camera frame, mm.
     pub origin_mm: DVec3,
     /// From it to the camera frame: a rotation.
     pub rotation: DMat3,
 }
 
-impl Stand {
+impl Placement {
     /// A frame that was turned, at first parallel to the camera frame, right-handed about the camera's x, then its y, then
     /// its z axis, degrees.
     #[must_use]
@@ -42,18 +42,18 @@ mod tests {
 
     #[test]
     fn a_positive_turn_about_x_leans_the_upper_edge_towards_the_camera() {
-        let stand = Stand::turned(DVec3::new(0.0, 0.0, 500.0), [30.0, 0.0, 0.0]);
-        let upper = stand.outward(Line { point_mm: DVec3::new(0.0, -100.0, 0.0), direction: DVec3::Z });
+        let placement = Placement::turned(DVec3::new(0.0, 0.0, 500.0), [30.0, 0.0, 0.0]);
+        let upper = placement.outward(Line { point_mm: DVec3::new(0.0, -100.0, 0.0), direction: DVec3::Z });
         // y is down: the upper edge lies at 500 − 100 sin 30° and its normal looks up.
         assert!((upper.point_mm.z - 450.0).abs() < 1e-12 && (upper.direction.y + 0.5).abs() < 1e-15);
-        let back = stand.inward(upper);
+        let back = placement.inward(upper);
         assert!((back.point_mm - DVec3::new(0.0, -100.0, 0.0)).length() < 1e-12);
     }
 
     #[test]
     fn a_positive_turn_about_y_looks_to_the_right() {
-        let stand = Stand::turned(DVec3::ZERO, [0.0, 20.0, 0.0]);
-        assert!((stand.rotation * DVec3::Z).x > 0.3);
-        assert!((stand.rotation.determinant() - 1.0).abs() < 1e-15);
+        let placement = Placement::turned(DVec3::ZERO, [0.0, 20.0, 0.0]);
+        assert!((placement.rotation * DVec3::Z).x > 0.3);
+        assert!((placement.rotation.determinant() - 1.0).abs() < 1e-15);
     }
 }

@@ -4,25 +4,25 @@ use super::address::{PixelAddress, mix};
 use super::unit_f64;
 
 /// Tells the key of these numbers from those of a path's.
-const EVEN: u64 = 0x5bd1_e995_94d0_49bb;
+const LATTICE: u64 = 0x5bd1_e995_94d0_49bb;
 
 /// As many numbers in [0, 1) as there are samples, at equal distances: a lattice of rank 1 with a random shift (Cranley and
 /// Patterson 1976), taken in a random order so that it says nothing of a sample's other numbers. Each alone is uniform.
 ///
 /// An interval of length a holds ⌊n a⌋ or ⌈n a⌉ of n numbers. No power of two is needed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EvenNumbers {
+pub struct ShiftedLattice {
     key: u64,
     count: u32,
     /// Of one step, in [0, 1).
     shift: f64,
 }
 
-impl EvenNumbers {
+impl ShiftedLattice {
     /// `count` numbers (at least 1) of an address; different addresses have independent shifts and orders.
     #[must_use]
     pub fn new(address: &PixelAddress, count: u32) -> Self {
-        let key = mix(address.key() ^ EVEN);
+        let key = mix(address.key() ^ LATTICE);
         Self { key, count: count.max(1), shift: unit_f64(mix(key)) }
     }
 
@@ -70,7 +70,7 @@ mod tests {
         let pixel = Pixel { x, y: 5 };
         let address =
             PixelAddress { frame: FrameAddress { seed: 7, camera: 1, ..FrameAddress::default() }, pixel, replicate: 0 };
-        let even = EvenNumbers::new(&address, count);
+        let even = ShiftedLattice::new(&address, count);
         (0..count).map(|sample| even.at(sample)).collect()
     }
 

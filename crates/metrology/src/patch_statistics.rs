@@ -24,7 +24,7 @@ const ENOUGH: usize = 256;
 
 /// What an even patch says.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Even {
+pub struct PatchStatistics {
     /// Mean reading.
     pub mean: Estimate,
     /// Variance of a pixel.
@@ -33,11 +33,11 @@ pub struct Even {
 
 /// Mean and variance of a patch, in which errors are alike in blocks of `shared_px` × `shared_px` pixels (1: in none).
 #[must_use]
-pub fn even(patch: &Image, shared_px: usize) -> Even {
+pub fn patch_statistics(patch: &Image, shared_px: usize) -> PatchStatistics {
     let moments = Moments::of(patch.samples().iter().map(|s| f64::from(*s)));
     let (count, variance) = (moments.count() as f64, moments.variance().unwrap_or(0.0));
     let alike = if shared_px > 1 { alike_in_blocks(patch, shared_px) } else { alike(patch, REACH) };
-    Even {
+    PatchStatistics {
         mean: Estimate::new(moments.mean(), (variance / count * alike).sqrt()),
         variance: Estimate::new(variance, variance * (2.0 / (count - 1.0) * alike).sqrt()),
     }
@@ -95,14 +95,14 @@ mod tests {
         let (single, double) = (of(&|i| noise(i % 96, i / 96)), of(&|i| noise(i % 96 / 2, i / 96 / 2)));
         let [one, four] = [alike(&single, REACH), alike(&double, REACH)];
         assert!((four / one - 4.0).abs() < 1.0, "{four} {one}");
-        let [a, b] = [even(&single, 1), even(&double, 1)].map(|e| e.mean.standard_uncertainty);
+        let [a, b] = [patch_statistics(&single, 1), patch_statistics(&double, 1)].map(|e| e.mean.standard_uncertainty);
         assert!((b / a - 2.0).abs() < 0.3, "{a} {b}");
     }
 
     #[test]
     fn a_patch_of_one_value_is_known() {
-        let even = even(&Image::filled(12, 12, 7.0), 1);
-        assert_eq!((even.mean, even.variance), (Estimate::new(7.0, 0.0), Estimate::new(0.0, 0.0)));
+        let patch = patch_statistics(&Image::filled(12, 12, 7.0), 1);
+        assert_eq!((patch.mean, patch.variance), (Estimate::new(7.0, 0.0), Estimate::new(0.0, 0.0)));
     }
 
     /// A number from −1/2 to 1/2 for a place and a picture.
@@ -127,7 +127,7 @@ mod tests {
             let means: Vec<Estimate> = (0..PICTURES)
                 .map(|picture| {
                     let samples = (0..side * side).map(|i| reading(i, picture) as f32).collect();
-                    even(&Image::from_samples(side, side, samples).expect("a square"), shared).mean
+                    patch_statistics(&Image::from_samples(side, side, samples).expect("a square"), shared).mean
                 })
                 .collect();
             let inside = means.iter().filter(|m| (m.value - 100.0).abs() <= 2.0 * m.standard_uncertainty).count();

@@ -1,0 +1,28 @@
+//! The image's size by wavelength.
+
+use crate::fault::Faults;
+use crate::place::Placed;
+use crate::reader::{list, number, record};
+
+record! {
+    /// Lateral colour: the image's size about the principal point, by wavelength. Linear between the points, the end values
+    /// hold beyond them.
+    pub struct LateralColour check(check_colour) {
+        /// Wavelengths, nm, rising; two or more.
+        required wavelength_nm: Vec<Placed<f64>> = list(number("nm").above(0.0), 1);
+        /// Image size over that at 587.56 nm (only ratios count), above 0; a good lens keeps within 0.999 and 1.001.
+        required magnification: Vec<Placed<f64>> = list(number("").above(0.0), 1);
+    }
+}
+
+fn check_colour(table: &LateralColour, faults: &mut Faults) {
+    let (wavelengths, sizes) = (&table.wavelength_nm, &table.magnification);
+    if wavelengths.len() != sizes.len() {
+        let problem = format!("{} wavelengths and {} magnifications", wavelengths.len(), sizes.len());
+        faults.add(&table.place, problem, "give as many of one as of the other");
+    }
+    if let Some(pair) = wavelengths.windows(2).find(|pair| pair[1].value <= pair[0].value) {
+        let problem = format!("{} does not lie beyond {}", pair[1].value, pair[0].value);
+        faults.add(&pair[1].place, problem, "give rising wavelengths");
+    }
+}
