@@ -79,5 +79,4 @@ fn an_effect_that_is_switched_off_changes_no_bit() {
         with.light().irradiance.expect("kept").planes()[0].samples().to_vec(),
         without.light().irradiance.expect("kept").planes()[0].samples().to_vec()
     );
-    assert_eq!(with.plan.hash, without.plan.hash);
 }

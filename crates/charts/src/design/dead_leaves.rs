@@ -135,4 +135,14 @@ mod tests {
         let changes = values.windows(2).filter(|w| w[0] != w[1]).count();
         assert!((1000..16_000).contains(&changes), "{changes}");
     }
+
+    /// The digest is FNV-1a of the values' bytes, little-endian.
+    #[test]
+    fn leaves_of_a_seed_are_the_same_in_every_version_of_rand() {
+        let (values, laid) = leaves(32, 1.0, 8.0, 3);
+        let bytes = values.iter().flat_map(|value| value.to_le_bytes());
+        let digest = bytes
+            .fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3));
+        assert_eq!((laid, digest), (1007, 0x0589_e092_cf3d_3aa6), "{digest:#x}");
+    }
 }

@@ -97,8 +97,19 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     }
     let remarks = std::mem::take(&mut context.remarks);
     let notices = [&description.notices[..], &context.notices].concat();
-    let hash = fingerprint(description, context.assets, choices);
+    if context.faults.is_empty() {
+        unread(description, context);
+    }
+    let hash = context.faults.is_empty().then(|| fingerprint(description, context.assets, choices))?;
     Some(Plan { world, material_table, sources, sky, cameras, identities, materials, classes, remarks, notices, hash })
+}
+
+/// Refuses files that are named and were not read, also those that no step asked for: two contents would have one hash.
+fn unread(description: &Description, context: &mut Context<'_>) {
+    for request in context.assets.missing(&description.assets()) {
+        let problem = format!("the file {} was not read", request.path.display());
+        context.fault(&request.place, problem, "read all files that the description names");
+    }
 }
 
 fn camera_plan(index: u32, setup: &CameraSetup, choices: &Choices, context: &mut Context<'_>) -> Option<CameraPlan> {

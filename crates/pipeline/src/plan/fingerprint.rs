@@ -1,9 +1,14 @@
-//! The hash of a plan: of everything that decides its result, and of nothing else (no path, no comment, no number of threads, no
-//! size of tiles).
+//! The hash of a plan: of everything that decides its result. No path, no comment, no number of threads and no size of tiles is
+//! in it.
 //!
 //! A plan is made of a description, of the contents of the files that it names, of the caller's choices, and by a version of the
-//! program. These are hashed, the description by the bytes that its records give ([`Table::feed`]): a key that can be read
-//! cannot be left out. The same statement in other words (a default spelt out) is another plan.
+//! program with the data and defaults built into it. These are hashed: the description by the bytes that its records give
+//! ([`Table::feed`]), so that a key that can be read cannot be left out, and what is built in by [`RESULTS_REVISION`], because the
+//! description has only words for it (the name of a metal) or nothing (a default).
+//!
+//! The hash is stricter than the result: a default spelt out, an effect of no strength, a material, mesh or texture that
+//! nothing uses, and the quality where every key that it governs is stated make another plan of the same picture. To leave these
+//! out, what has no effect would have to be known here a second time, and a mistake in it would give two pictures one hash.
 
 use crate::compile::{Choices, Quality};
 use etendue_scene::asset::Assets;
@@ -12,12 +17,18 @@ use etendue_scene::written::Table;
 use etendue_scene::{CameraSetup, Description};
 use sha2::{Digest, Sha256};
 
-/// SHA-256 of all that decides the plan's result, the program's version included.
+/// Raised whenever the same description gives other bits: with every blessing of golden images and every change of built-in data
+/// or of a default.
+const RESULTS_REVISION: u32 = 1;
+
+/// SHA-256 of all that decides the plan's result, the program's version and revision included. Every file that the description
+/// uses is among the assets.
 pub(crate) fn fingerprint(description: &Description, assets: &Assets, choices: &Choices) -> [u8; 32] {
     let Choices { quality } = choices;
     let cameras: Vec<_> = description.cameras.iter().map(camera).collect();
     let table = Table::new()
         .with("version", env!("CARGO_PKG_VERSION"))
+        .with("results_revision", RESULTS_REVISION)
         .with("quality", quality.unwrap_or(Quality::Standard).name())
         .with("scene", description.scene.to_table())
         .with("cameras", cameras);

@@ -48,7 +48,7 @@ impl Assets {
     }
 
     /// The hashes of all that was read of a file, and of the pictures that a mesh names, one after the other: the same where the
-    /// contents are, wherever they lie. None of a file that was not read.
+    /// contents are, wherever they lie. None of a file that was not read, as of a mesh that nothing uses.
     #[must_use]
     pub fn hashes(&self, path: &Path) -> Vec<u8> {
         let Self { meshes, images, spectra, photometry, indices, retro_tables, numbers, prescriptions, calibrations } =
@@ -101,5 +101,121 @@ fn picture(slot: &SlotMaterial) -> Option<&Path> {
     match slot.surface.as_ref()?.reflectance() {
         SlotReflectance::Image(path) => Some(path),
         SlotReflectance::LinearSrgb(_) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::photometry::{Opening, OpeningShape, PhotometryAxes, Tilt};
+    use super::super::{CalibrationFormat, ImagePixels, SlotSurface, Values};
+    use super::*;
+    use etendue_projection::model::Perspective;
+    use etendue_projection::{Calibration, CameraMatrix, Model};
+
+    /// The file "file" of such a hash.
+    fn of(kind: &AssetKind, hash: [u8; 32]) -> Assets {
+        let (file, mut assets) = (PathBuf::from("file"), Assets::default());
+        match kind {
+            AssetKind::Mesh => drop(assets.meshes.insert(file, MeshAsset { hash, ..Default::default() })),
+            AssetKind::Image => drop(assets.images.insert(file, image(hash))),
+            AssetKind::Spectrum(_) => drop(assets.spectra.insert(file, SpectrumAsset { hash, ..Default::default() })),
+            AssetKind::Photometry => drop(assets.photometry.insert(file, lamp(hash))),
+            AssetKind::ComplexIndex => {
+                drop(assets.indices.insert(file, ComplexIndexAsset { hash, ..Default::default() }));
+            }
+            AssetKind::RetroTable => {
+                drop(assets.retro_tables.insert(file, RetroTableAsset { hash, ..Default::default() }));
+            }
+            AssetKind::Numbers => drop(assets.numbers.insert(file, NumbersAsset { hash, ..Default::default() })),
+            AssetKind::Prescription => drop(assets.prescriptions.insert(file, lens(hash))),
+            AssetKind::Calibration(choice) => {
+                drop(assets.calibrations.insert((file, choice.clone()), camera(hash)));
+            }
+        }
+        assets
+    }
+
+    fn image(hash: [u8; 32]) -> ImageAsset {
+        ImageAsset { width: 1, height: 1, pixels: ImagePixels::Gray8(vec![0]), hash }
+    }
+
+    fn lamp(hash: [u8; 32]) -> PhotometryAsset {
+        PhotometryAsset {
+            format: String::new(),
+            axes: PhotometryAxes::C,
+            vertical_deg: Vec::new(),
+            horizontal_deg: Vec::new(),
+            candela: Vec::new(),
+            rated_lumens: None,
+            output_ratio: None,
+            lamps: 1,
+            factor: 1.0,
+            watts: 0.0,
+            opening: Opening { shape: OpeningShape::Point, length_m: 0.0, width_m: 0.0, height_m: 0.0 },
+            tilt: Tilt::None,
+            texts: Vec::new(),
+            report: Vec::new(),
+            hash,
+        }
+    }
+
+    fn lens(hash: [u8; 32]) -> PrescriptionAsset {
+        PrescriptionAsset {
+            title: String::new(),
+            surfaces: Vec::new(),
+            object_distance_mm: f64::INFINITY,
+            back_focus_mm: 0.0,
+            defocus_mm: 0.0,
+            opening: None,
+            opening_line: 0,
+            fields: None,
+            vignetting: [Vec::new(), Vec::new()],
+            wavelengths_nm: Vec::new(),
+            notes: Vec::new(),
+            hash,
+        }
+    }
+
+    fn camera(hash: [u8; 32]) -> CalibrationAsset {
+        let matrix = CameraMatrix { fx: 1.0, fy: 1.0, skew: 0.0, cx: 0.5, cy: 0.5 };
+        let model = Model::Perspective(Perspective::from_opencv(&[]).expect("no distortion"));
+        let calibration = Calibration::new(model, matrix, [1, 1]).expect("legal");
+        CalibrationAsset { calibration, report: Vec::new(), hash }
+    }
+
+    #[test]
+    fn a_file_of_any_kind_has_the_hash_of_its_contents() {
+        let choice = CalibrationChoice { format: CalibrationFormat::OpenCv, camera: None };
+        let kinds = [
+            AssetKind::Mesh,
+            AssetKind::Image,
+            AssetKind::Spectrum(Values::Share),
+            AssetKind::Photometry,
+            AssetKind::ComplexIndex,
+            AssetKind::RetroTable,
+            AssetKind::Numbers,
+            AssetKind::Prescription,
+            AssetKind::Calibration(choice),
+        ];
+        for kind in kinds {
+            for hash in [[1; 32], [2; 32]] {
+                let assets = of(&kind, hash);
+                assert!(assets.has(&kind, Path::new("file")), "{kind:?}");
+                assert_eq!(assets.hashes(Path::new("file")), hash, "{kind:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_picture_that_a_mesh_names_belongs_to_the_mesh() {
+        let surface = Some(SlotSurface::Diffuse { reflectance: SlotReflectance::Image("wood.png".into()) });
+        let slot_materials = vec![SlotMaterial { name: "wood".to_owned(), surface }];
+        let mesh = MeshAsset { slot_materials, hash: [1; 32], ..Default::default() };
+        for picture in [[2; 32], [3; 32]] {
+            let meshes = [("chair.obj".into(), mesh.clone())].into();
+            let images = [("wood.png".into(), image(picture))].into();
+            let assets = Assets { meshes, images, ..Default::default() };
+            assert_eq!(assets.hashes(Path::new("chair.obj")), [[1; 32], picture].concat());
+        }
     }
 }

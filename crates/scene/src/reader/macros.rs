@@ -331,11 +331,10 @@ pub(crate) fn key_of<T, R: Rule<Out = T>>(name: &'static str, must: bool, about:
     Key::new(name, must, about, rule.schema())
 }
 
-/// Writes a key by its rule, which reads every value of its record.
+/// Writes a key by its rule, which reads every value of its record: one that cannot be written is a defect of the program.
 pub(crate) fn put<R: Rule>(table: &mut Table, key: &str, rule: &R, value: &R::Out) {
     let item = rule.write(value);
-    debug_assert!(item.is_some(), "\"{key}\" cannot be written");
-    item.into_iter().for_each(|item| table.put(key, item));
+    table.put(key, item.unwrap_or_else(|| panic!("a defect of the program: no rule of \"{key}\" writes its value")));
 }
 
 /// The word that tells which variant the table is.

@@ -10,7 +10,8 @@ use super::layout::write_section;
 ///
 /// Its text ([`fmt::Display`]) has the keys in the table's order, but tables of their own behind the values: a table that is a
 /// value of its own is `[key]`, one that stands for a value is written in line, lists of tables are `[[key]]`, within one of these
-/// lists of lines.
+/// lists of lines. A file of the format is UTF-8: a table with a path that is not has no text, and to write it is an error
+/// (`to_string` panics).
 #[derive(Clone, Debug, Default)]
 pub struct File {
     head: String,

@@ -1,6 +1,7 @@
 //! How tables are laid out in a file: what is a section, what a line.
 
 use std::fmt::{self, Write as _};
+use std::path::{MAIN_SEPARATOR, Path};
 
 use super::comments::{Comments, write_comment};
 use super::{Item, Table, Value};
@@ -26,7 +27,9 @@ fn is_section(item: &Item, _: &str) -> bool {
 /// The same within an entry of a list.
 fn is_section_of_entry(item: &Item, key: &str) -> bool {
     let Value::Table(table) = &item.value else { return false };
-    !table.inline && format!("{key} = {}", InLine(item)).chars().count() > LINE
+    let mut line = String::new();
+    let is_text = write!(line, "{key} = {}", InLine(item)).is_ok();
+    !table.inline && is_text && line.chars().count() > LINE
 }
 
 fn write_keys(
@@ -101,7 +104,7 @@ impl fmt::Display for InLine<'_> {
             Value::Whole(number) => write!(f, "{number}"),
             Value::Number(number) => write_number(f, *number),
             Value::Text(text) => write_text(f, text),
-            Value::Path(path) => write_text(f, &path.to_string_lossy()),
+            Value::Path(path) => write_path(f, path),
             Value::Moment(text) => f.write_str(text),
             Value::List(list) => {
                 f.write_char('[')?;
@@ -140,6 +143,15 @@ fn write_number(f: &mut fmt::Formatter<'_>, number: f64) -> fmt::Result {
         true if number == 0.0 && number.is_sign_negative() => f.write_str("-0.0"),
         true => write!(f, "{number}"),
         false => write!(f, "{number:e}"),
+    }
+}
+
+/// With `/` between its parts, as files of the format have it on every system.
+fn write_path(f: &mut fmt::Formatter<'_>, path: &Path) -> fmt::Result {
+    let text = path.to_str().ok_or(fmt::Error)?;
+    match MAIN_SEPARATOR {
+        '/' => write_text(f, text),
+        separator => write_text(f, &text.replace(separator, "/")),
     }
 }
 

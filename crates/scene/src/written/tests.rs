@@ -261,3 +261,22 @@ fn keys_have_the_places_of_the_file() {
     let line = |key: &str| table.place_of(key).and_then(Place::line_column).map(|(line, _)| line);
     assert_eq!([line("dark"), line("dark.spread"), line("dark.hot"), line("lag")], [Some(4), Some(4), Some(5), None]);
 }
+
+#[test]
+fn a_path_has_slashes_on_every_system() {
+    let path: std::path::PathBuf = ["spectra", "a\"b.csv"].iter().collect();
+    let file = File::new(Table::new().with("reflectance", path));
+    assert_eq!(file.to_string(), "format = 1\nreflectance = \"spectra/a\\\"b.csv\"\n");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_path_that_is_not_utf_8_is_not_written_as_another() {
+    use std::fmt::Write as _;
+    use std::os::unix::ffi::OsStrExt as _;
+    let path = Path::new(std::ffi::OsStr::from_bytes(b"a\xff.csv"));
+    let list = [Table::new().with("inner", Table::new().with("file", path))];
+    for table in [Table::new().with("file", path), Table::new().with("list", list)] {
+        assert!(write!(String::new(), "{}", File::new(table)).is_err());
+    }
+}
