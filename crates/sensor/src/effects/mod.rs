@@ -48,6 +48,7 @@ pub mod shot_noise;
 pub mod smear;
 pub mod temperature;
 pub mod two_level;
+mod voltage_deviations;
 
 use crate::effect::domain;
 use angle_response::AngleResponse;
