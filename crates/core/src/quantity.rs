@@ -42,6 +42,9 @@ quantities! {
     Charge(f32) = "charge", "e";
     /// Voltage of a pixel after the sense node, in electrons of charge that would make it at little light.
     Voltage(f32) = "voltage", "e";
+    /// What one cause adds to a pixel's value on its way to a number, at whatever stage it does, in electrons at the converter's input; also
+    /// the flag, 0 or 1, of a breakdown into such parts.
+    SignalPart(f32) = "part of a signal", "e";
     /// Mean electrons that a pixel makes of a second of light.
     ElectronRate(f32) = "electron rate", "e.s^-1";
     /// Digital numbers out of the converter, of up to 24 bits.

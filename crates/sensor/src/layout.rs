@@ -13,7 +13,7 @@ use crate::cfa::Cfa;
 use crate::check::{Checks, SensorError};
 use crate::effect::{Effect, SensorFacts};
 use crate::operation::Operation;
-use etendue_core::quantity::{DigitalNumber, MeanElectrons, Quantity};
+use etendue_core::quantity::{Charge, DigitalNumber, MeanElectrons, Quantity, SignalPart};
 use etendue_core::{EffectStatus, Plane};
 
 /// Pixels that no light reaches.
@@ -202,6 +202,12 @@ impl Layout {
     }
 }
 
+/// What pixels that are read together have the sum of.
+pub(crate) trait AddsUp: Quantity<Sample = f32> {}
+
+impl AddsUp for Charge {}
+impl AddsUp for SignalPart {}
+
 impl Binning {
     /// Samples of the same colour put together by `fold`.
     fn folded<Q: Quantity>(&self, cfa: &Cfa, plane: &Plane<Q>, fold: impl Fn(&[Q::Sample]) -> Q::Sample) -> Plane<Q> {
@@ -221,13 +227,13 @@ impl Binning {
         out
     }
 
-    /// Charge added.
-    pub(crate) fn added<Q: Quantity<Sample = f32>>(&self, cfa: &Cfa, plane: &Plane<Q>) -> Plane<Q> {
+    /// Charge added, or the parts that it is made of.
+    pub(crate) fn added<Q: AddsUp>(&self, cfa: &Cfa, plane: &Plane<Q>) -> Plane<Q> {
         self.folded(cfa, plane, |q| q.iter().map(|q| f64::from(*q)).sum::<f64>() as f32)
     }
 
-    /// The mean of layers.
-    pub(crate) fn mean<Q: Quantity<Sample = f32>>(&self, cfa: &Cfa, plane: &Plane<Q>) -> Plane<Q> {
+    /// The mean of the parts that numbers are made of.
+    pub(crate) fn mean(&self, cfa: &Cfa, plane: &Plane<SignalPart>) -> Plane<SignalPart> {
         self.folded(cfa, plane, |q| (q.iter().map(|q| f64::from(*q)).sum::<f64>() / q.len() as f64) as f32)
     }
 

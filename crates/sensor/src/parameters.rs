@@ -1,7 +1,7 @@
 //! What a sensor is, as the description says it. Each effect's own parameters stand in the effect's file.
 
 use crate::cfa::Cfa;
-use crate::effect::{Effect, SensorFacts, named_status};
+use crate::effect::{Effect, SensorFacts, Visitor};
 use crate::effects::converter::{self, Converter};
 use crate::effects::dark_current::DarkCurrent;
 use crate::effects::full_well::FullWell;
@@ -110,6 +110,7 @@ impl SensorParameters {
                 .iter()
                 .filter_map(|capture| capture.full_well_e)
                 .fold(self.charge.full_well.capacity_e, f64::max),
+            gain_dn_e: self.read_out.gain_dn_e,
             analogue_gain: self.read_out.analogue_gain,
             converter_range_dn: converter::largest_dn(self.read_out.bits) - self.read_out.black_level_dn,
         }
@@ -182,29 +183,39 @@ impl SensorParameters {
         self.light.smear.map_or(0.0, |smear| smear.even_s(self.exposure.frame_period_s, rows, all))
     }
 
+    /// Shows all effects, in physical order; the converter at the gain of the first capture as described. Checks and plans are made of this
+    /// list, so that what it has is both checked and told.
+    pub(crate) fn show(&self, visitor: &mut impl Visitor) {
+        visitor.visit(&self.exposure.control);
+        self.light.show(visitor);
+        visitor.visit(&ShotNoise);
+        self.charge.show(visitor);
+        visitor.visit(&self.read_out.layout);
+        visitor.visit(&self.read_out.response);
+        self.voltage.show(visitor);
+        visitor.visit(&self.converter(&self.described_operation()));
+        visitor.visit(&self.hdr);
+        visitor.visit(&self.hdr.companding);
+    }
+
     /// All effects by their names, whether the first capture as described has them, and why, in physical order.
     pub(crate) fn effects(&self) -> Vec<(&'static str, EffectStatus)> {
-        fn one<E: Effect>(
-            effect: &E,
-            (facts, operation): (&SensorFacts, &Operation),
-        ) -> Vec<(&'static str, EffectStatus)> {
-            vec![named_status(effect, facts, operation)]
-        }
-        let (facts, operation) = (&self.facts(), &self.described_operation());
-        let at = (facts, operation);
-        [
-            one(&self.exposure.control, at),
-            self.light.statuses(facts, operation),
-            one(&ShotNoise, at),
-            self.charge.statuses(facts, operation),
-            one(&self.read_out.layout, at),
-            one(&self.read_out.response, at),
-            self.voltage.statuses(facts, operation),
-            one(&self.converter(operation), at),
-            one(&self.hdr, at),
-            one(&self.hdr.companding, at),
-        ]
-        .concat()
+        let mut statuses = Statuses { facts: self.facts(), operation: self.described_operation(), effects: Vec::new() };
+        self.show(&mut statuses);
+        statuses.effects
+    }
+}
+
+/// Names of effects, whether a capture has them, and why.
+struct Statuses {
+    facts: SensorFacts,
+    operation: Operation,
+    effects: Vec<(&'static str, EffectStatus)>,
+}
+
+impl Visitor for Statuses {
+    fn visit<E: Effect>(&mut self, effect: &E) {
+        self.effects.push((E::NAME, effect.status(&self.facts, &self.operation)));
     }
 }
 

@@ -5,7 +5,7 @@
 //! those of the one that the pixel's number was taken from, in electrons of the first; companding comes after them.
 
 use etendue_core::Plane;
-use etendue_core::quantity::{Quantity, Voltage};
+use etendue_core::quantity::{Quantity, SignalPart};
 
 /// A component of a pixel's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,7 +68,7 @@ impl SignalComponent {
 /// The layers of a raw picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SignalBreakdown {
-    layers: Vec<Plane<Voltage>>,
+    layers: Vec<Plane<SignalPart>>,
 }
 
 impl SignalBreakdown {
@@ -78,7 +78,7 @@ impl SignalBreakdown {
 
     /// The layer of a component.
     #[must_use]
-    pub fn layer(&self, component: SignalComponent) -> &Plane<Voltage> {
+    pub fn layer(&self, component: SignalComponent) -> &Plane<SignalPart> {
         &self.layers[component as usize]
     }
 
@@ -107,7 +107,7 @@ impl SignalBreakdown {
     }
 
     /// The same, of planes of another layout.
-    pub(crate) fn mapped(self, f: impl Fn(&Plane<Voltage>) -> Plane<Voltage>) -> Self {
+    pub(crate) fn mapped(self, f: impl Fn(&Plane<SignalPart>) -> Plane<SignalPart>) -> Self {
         Self { layers: self.layers.iter().map(f).collect() }
     }
 

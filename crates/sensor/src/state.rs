@@ -15,7 +15,8 @@ pub struct OperatingPoint {
 }
 
 /// What a sensor remembers from frame to frame. The default is a sensor that has rested in the dark; so is, for each
-/// part, a state of another size of sensor.
+/// part, a state of another size of sensor. Traps keep their charge over a frame that has no lag; every other part is what the frame's own
+/// effects leave, and the default where the frame does not have them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SensorState {

@@ -1,8 +1,7 @@
 //! Whether a sensor can be: all of its parameters, one by one and together.
 
 use crate::check::{Checks, SensorError};
-use crate::effect::Effect;
-use crate::effects::converter::Converter;
+use crate::effect::{Effect, SensorFacts, Visitor};
 use crate::effects::response::Response;
 use crate::parameters::SensorParameters;
 
@@ -10,7 +9,7 @@ use crate::parameters::SensorParameters;
 pub(crate) fn errors(p: &SensorParameters) -> Vec<SensorError> {
     let mut checks = Checks::default();
     check_exposure(p, &mut checks);
-    check_effects(p, &mut checks);
+    p.show(&mut EffectChecks { facts: p.facts(), checks: &mut checks });
     check_channels(p, &mut checks);
     if checks.errors.is_empty() {
         check_hdr(p, &mut checks);
@@ -33,15 +32,16 @@ fn check_exposure(p: &SensorParameters, checks: &mut Checks) {
     }
 }
 
-fn check_effects(p: &SensorParameters, checks: &mut Checks) {
-    let facts = &p.facts();
-    p.exposure.control.check(facts, checks);
-    p.light.check(facts, checks);
-    p.charge.check(facts, checks);
-    p.read_out.response.check(facts, checks);
-    p.voltage.check(facts, checks);
-    let converter = p.converter(&p.described_operation());
-    Converter { gain_dn_e: p.read_out.gain_dn_e, ..converter }.check(facts, checks);
+/// Each effect's own checks.
+struct EffectChecks<'a> {
+    facts: SensorFacts,
+    checks: &'a mut Checks,
+}
+
+impl Visitor for EffectChecks<'_> {
+    fn visit<E: Effect>(&mut self, effect: &E) {
+        effect.check(&self.facts, self.checks);
+    }
 }
 
 fn check_channels(p: &SensorParameters, checks: &mut Checks) {

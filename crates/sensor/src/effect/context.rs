@@ -25,6 +25,8 @@ pub(crate) struct SensorFacts {
     pub(crate) is_split_pixel: bool,
     /// The largest full well of all captures, e⁻.
     pub(crate) max_full_well_e: f64,
+    /// Digital numbers an electron at an analogue gain of 1.
+    pub(crate) gain_dn_e: f64,
     /// Factor on the voltage before the converter, as described.
     pub(crate) analogue_gain: f64,
     /// Digital numbers from black to the converter's largest.

@@ -1,8 +1,8 @@
 //! The macro that writes a domain: the effects on one quantity, listed once.
 
 /// A struct with the parameters of all effects on a quantity, in physical order, `field: Effect,` or, where the description may say
-/// nothing of it, `field: Option<Effect>,`. The list is all there is: the checks, what a plan says and what a capture runs are made of it,
-/// so that an effect cannot be in one and not in the other.
+/// nothing of it, `field: Option<Effect>,`. Of the list are made the checks and what a plan says, by way of `show`, and what a
+/// capture runs, so that an effect on the quantity cannot be in one and not in the other.
 macro_rules! domain {
     (
         $(#[doc = $about:literal])*
@@ -17,18 +17,9 @@ macro_rules! domain {
         }
 
         impl $name {
-            /// Refuses what is illegal.
-            pub(crate) fn check(&self, facts: &$crate::effect::SensorFacts, checks: &mut $crate::check::Checks) {
-                $( $crate::effect::Effect::check(&self.$field, facts, checks); )*
-            }
-
-            /// The names of the effects, whether a capture has them, and why.
-            pub(crate) fn statuses(
-                &self,
-                facts: &$crate::effect::SensorFacts,
-                operation: &$crate::operation::Operation,
-            ) -> Vec<(&'static str, etendue_core::EffectStatus)> {
-                vec![$( $crate::effect::named_status(&self.$field, facts, operation) ),*]
+            /// Shows the effects.
+            pub(crate) fn show(&self, visitor: &mut impl $crate::effect::Visitor) {
+                $( visitor.visit(&self.$field); )*
             }
 
             /// The effects that a capture has, made ready.

@@ -49,6 +49,11 @@ impl<E: Effect> Effect for Option<E> {
     }
 }
 
+/// Is shown the effects of a sensor one by one, in physical order: what it does, it does to all of them.
+pub(crate) trait Visitor {
+    fn visit<E: Effect>(&mut self, effect: &E);
+}
+
 /// An effect on one quantity.
 pub(crate) trait EffectOn: Effect {
     /// The quantity.
@@ -140,13 +145,4 @@ impl<E: EffectOn> Listed for Option<E> {
     fn stage(&self, context: &Context, memory: &mut Memory) -> Option<Stage<E::On>> {
         self.as_ref()?.stage(context, memory)
     }
-}
-
-/// The name of an effect, whether a capture has it, and why.
-pub(crate) fn named_status<E: Effect>(
-    effect: &E,
-    facts: &SensorFacts,
-    operation: &Operation,
-) -> (&'static str, EffectStatus) {
-    (E::NAME, effect.status(facts, operation))
 }

@@ -33,8 +33,9 @@ pub(crate) fn largest_dn(bits: u32) -> f64 {
 impl Effect for Converter {
     const NAME: &'static str = "converter";
 
+    /// Of the gain each factor is checked, as it is described.
     fn check(&self, facts: &SensorFacts, checks: &mut Checks) {
-        checks.positive("gain_dn_per_e", self.gain_dn_e);
+        checks.positive("gain_dn_per_e", facts.gain_dn_e);
         checks.positive("analogue_gain", facts.analogue_gain);
         checks.positive("digital_gain", self.digital_gain);
         let black = self.black_level_dn;

@@ -1,8 +1,13 @@
-//! The effects of a sensor, listed once by what they act on.
+//! The effects of a sensor, by what they act on.
 //!
 //! Each file is an effect: its physics, its own parameters, what is illegal (`check`), whether a capture has it and why (`status`, whose
 //! sentence is the plan's), and what it does, prepared for a capture. What a capture does not have is absent: a strength of zero is never
-//! run. The lists below are in physical order; the checks, the plan and the run are all made of them.
+//! run. Light, charge and voltage have a list each, below, in physical order: checks, plan and run are made of it.
+//!
+//! What stands between the lists or around them is named by hand, twice: exposure control, shot noise, layout, response, converter, merging
+//! and companding stand beside the lists in `SensorParameters::show`, of which all checks and the plan are made, and in `Sensor::frame`
+//! and what it calls, which runs them. What needs the whole sensor or the picture's size is checked elsewhere: captures and companding in
+//! `validity`, the layout where the size is known.
 //!
 //! | order | effect | on | acts on |
 //! | --- | --- | --- | --- |
@@ -48,6 +53,7 @@ pub mod shot_noise;
 pub mod smear;
 pub mod temperature;
 pub mod two_level;
+mod voltage_deviations;
 
 use crate::effect::domain;
 use angle_response::AngleResponse;

@@ -37,8 +37,10 @@ impl Neighbours {
         2.0 * self.horizontal + 2.0 * self.vertical + 4.0 * self.corner
     }
 
-    /// What a pixel has afterwards of the one `dx` − 1 columns and `dy` − 1 rows from it, in an even picture.
-    pub(crate) fn weight(&self, dx: usize, dy: usize) -> f64 {
+    /// The share of a pixel's value afterwards that comes from the pixel `dx` − 1 columns and `dy` − 1 rows from it, where no edge is near;
+    /// `dx` and `dy` are 0 to 2, and (1, 1) is the pixel itself.
+    #[must_use]
+    pub fn weight(&self, dx: usize, dy: usize) -> f64 {
         match (dx, dy) {
             (1, 1) => 1.0 - self.given(),
             (_, 1) => self.horizontal,

@@ -4,6 +4,7 @@
 //! Draws: `PixelOffset`, `RowOffset`, `ColumnOffset`. What grows with the exposure is the spread of the
 //! [dark current](super::dark_current).
 
+use super::voltage_deviations::VoltageDeviations;
 use crate::check::Checks;
 use crate::effect::{Action, Context, Effect, EffectOn, Memory, SensorFacts};
 use crate::operation::Operation;
@@ -55,6 +56,6 @@ impl EffectOn for OffsetPattern {
     fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Voltage> {
         let draws = [NoiseDraw::PixelOffset, NoiseDraw::RowOffset, NoiseDraw::ColumnOffset];
         let key = |draw| context.pattern(draw);
-        Action::rows(Deviations::new(self.sigmas(), draws, key, context.width))
+        Action::rows(VoltageDeviations(Deviations::new(self.sigmas(), draws, key, context.width)))
     }
 }

@@ -4,6 +4,7 @@
 //! level takes up. Draws: `Read` of the pixel, `RowRead`, `ColumnRead`.
 //! Left out: spread of σ over pixels (see [`rts_noise`](super::rts_noise) for its tail), correlation along a row (1/f).
 
+use super::voltage_deviations::VoltageDeviations;
 use crate::check::Checks;
 use crate::effect::{Action, Context, Effect, EffectOn, Memory, NOISE_OFF, SensorFacts};
 use crate::operation::Operation;
@@ -59,6 +60,6 @@ impl EffectOn for ReadNoise {
     fn prepare(&self, context: &Context, _: &mut Memory) -> Action<Voltage> {
         let draws = [NoiseDraw::Read, NoiseDraw::RowRead, NoiseDraw::ColumnRead];
         let key = |draw| context.noise(draw);
-        Action::rows(Deviations::new(self.sigmas(&context.operation), draws, key, context.width))
+        Action::rows(VoltageDeviations(Deviations::new(self.sigmas(&context.operation), draws, key, context.width)))
     }
 }

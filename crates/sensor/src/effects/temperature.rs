@@ -39,6 +39,7 @@ const BOLTZMANN_EV_K: f64 = 1.380_649e-23 / 1.602_176_634e-19;
 
 impl Temperature {
     pub(crate) fn check(&self, checks: &mut Checks) {
+        let before = checks.errors.len();
         checks.positive("dark.temperature_c", self.sensor_k);
         checks.positive("dark.reference_c", self.reference_k);
         match self.law {
@@ -47,7 +48,7 @@ impl Temperature {
                 checks.fraction("dark.diffusion_fraction", diffusion_fraction);
             }
         }
-        checks.agree("dark.temperature_c", !checks.errors.is_empty() || self.factor().is_finite(), || {
+        checks.agree("dark.temperature_c", checks.errors.len() > before || self.factor().is_finite(), || {
             "the dark current would be larger than any number: give temperatures nearer to each other".to_owned()
         });
     }
@@ -109,6 +110,11 @@ mod tests {
             checks.errors.len()
         };
         assert_eq!((errors(310.0), errors(500.0), errors(-1.0)), (0, 1, 1));
+        let mut checks = Checks::default();
+        checks.positive("pixel_pitch_um", -1.0);
+        Temperature { sensor_k: 500.0, reference_k: 300.0, law: TemperatureLaw::Doubling { step_k: 0.1 } }
+            .check(&mut checks);
+        assert_eq!(checks.errors.len(), 2, "beside what else is wrong");
     }
 
     #[test]

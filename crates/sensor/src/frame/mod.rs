@@ -71,7 +71,8 @@ impl Sensor {
     ) -> (SensorState, Raw, Option<SignalBreakdown>) {
         let p = self.parameters();
         let point = state.operating_point.unwrap_or_else(|| p.described_point());
-        let mut memory = Memory { after: state.clone(), before: state };
+        let after = SensorState { trapped_e: state.trapped_e.clone(), ..SensorState::default() };
+        let mut memory = Memory { before: state, after };
         let extended = p.read_out.layout.with_optical_black(means);
         let array = extended.as_ref().unwrap_or(means);
         let first = p.operation(point);

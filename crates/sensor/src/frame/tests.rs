@@ -253,6 +253,21 @@ fn counts_are_poisson_at_every_mean() {
 }
 
 #[test]
+fn traps_outlast_a_frame_without_lag_and_what_blinked_does_not() {
+    let trapped_e = vec![vec![3.0; 4]];
+    let high = vec![true];
+    let before = SensorState {
+        trapped_e: trapped_e.clone(),
+        dark_current_rts_high: high.clone(),
+        rts_noise_high: high,
+        ..SensorState::default()
+    };
+    let sensor = Sensor::new(quiet()).expect("legal");
+    let (after, _) = sensor.step(before, &Plane::filled(2, 2, 10.0), ADDRESS);
+    assert_eq!(after, SensorState { trapped_e, ..SensorState::default() });
+}
+
+#[test]
 fn companding_of_a_single_capture_is_undone() {
     let mut p = quiet();
     p.read_out.bits = 16;

@@ -4,8 +4,6 @@
 //! the same three parts). A part of zero draws nothing.
 
 use super::standard_normal;
-use crate::effect::{Row, RowEffect};
-use etendue_core::quantity::Voltage;
 use etendue_core::random::{NoiseDraw, NoiseKey, Pixel};
 
 /// Standard deviations of the three parts.
@@ -62,14 +60,6 @@ impl Deviations {
             let white = self.white.map_or(0.0, |(sigma, key)| sigma * normal(key, x as u32, y));
             take(x, shared + white);
         }
-    }
-}
-
-/// Voltages that differ by them.
-impl RowEffect<Voltage> for Deviations {
-    fn apply(&self, row: &mut Row<'_, Voltage>) {
-        let voltages = &mut *row.values;
-        self.of_row(row.y, voltages.len(), |x, d| voltages[x] += d);
     }
 }
 

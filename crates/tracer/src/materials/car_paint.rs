@@ -38,6 +38,7 @@ use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
 use super::reflectance::Reflectance;
 use super::shading_point::ShadingPoint;
+use super::texture_check::TextureCheck;
 
 /// What a metallic paint is made of.
 #[derive(Clone, Debug, PartialEq)]
@@ -206,6 +207,14 @@ impl SurfaceModel for CarPaint {
             if round > 1e-6 { (sent / (round * (1.0 - round))).min(1.0 / out) } else { 0.0 }
         });
         CarPaintBsdf { paint: self, flakes, pigment, turned, again }
+    }
+
+    fn check_energy(&self, _: &TextureCheck<'_>) -> Result<(), MaterialError> {
+        Ok(())
+    }
+
+    fn straight_transmittance<const N: usize>(&self, _: &ShadingPoint<'_, N>, _: f32) -> Spectral<N> {
+        Spectral::ZERO
     }
 }
 

@@ -21,11 +21,13 @@ use glam::{Vec2, Vec3};
 use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable};
+use super::error::MaterialError;
 use super::microfacet::half_vector;
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
 use super::reflectance::Reflectance;
 use super::shading_point::ShadingPoint;
+use super::texture_check::TextureCheck;
 
 /// A cloth.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,6 +87,14 @@ impl SurfaceModel for Cloth {
         let base = point.reflectance(&self.base);
         let under = Spectral::from_fn(|i| base[i] / (1.0 - colour[i] * self.mean));
         ClothBsdf { cloth: self, colour, under, base_mean: base.mean(), colour_mean: colour.mean() }
+    }
+
+    fn check_energy(&self, _: &TextureCheck<'_>) -> Result<(), MaterialError> {
+        Ok(())
+    }
+
+    fn straight_transmittance<const N: usize>(&self, _: &ShadingPoint<'_, N>, _: f32) -> Spectral<N> {
+        Spectral::ZERO
     }
 }
 

@@ -30,6 +30,7 @@ use super::parameter::Parameter;
 use super::reflectance::Reflectance;
 use super::shading_point::ShadingPoint;
 use super::slopes::SeenFacets;
+use super::texture_check::TextureCheck;
 
 /// Refractive indices that a coat may have: from a little above air's, below which the coat would do nothing that f32
 /// and the table resolve, to that of germanium. Scene files state the same range.
@@ -75,6 +76,14 @@ impl SurfaceModel for Coated {
         let seen = point.reflectance(&self.base).map(|a| a / (n2 * (1.0 - a * inner)));
         let facets = Ggx::of(alpha);
         CoatedBsdf { coat: &self.coat, facets, place, mean_transmittance: mean, seen_mean: seen.mean(), seen }
+    }
+
+    fn check_energy(&self, _: &TextureCheck<'_>) -> Result<(), MaterialError> {
+        Ok(())
+    }
+
+    fn straight_transmittance<const N: usize>(&self, _: &ShadingPoint<'_, N>, _: f32) -> Spectral<N> {
+        Spectral::ZERO
     }
 }
 

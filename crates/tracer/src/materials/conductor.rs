@@ -25,6 +25,7 @@ use super::microfacet::{MIRROR_ALPHA, half_vector, mirrored};
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
 use super::shading_point::ShadingPoint;
+use super::texture_check::TextureCheck;
 
 /// A metal, or another interface that light does not come out of again.
 #[derive(Clone, Debug, PartialEq)]
@@ -115,6 +116,14 @@ impl SurfaceModel for Conductor {
             facets: rough.then(|| self.distribution.of_alpha(alpha)),
             more,
         }
+    }
+
+    fn check_energy(&self, _: &TextureCheck<'_>) -> Result<(), MaterialError> {
+        Ok(())
+    }
+
+    fn straight_transmittance<const N: usize>(&self, _: &ShadingPoint<'_, N>, _: f32) -> Spectral<N> {
+        Spectral::ZERO
     }
 }
 

@@ -30,6 +30,7 @@ use super::microfacet::{Ggx, half_vector, mirrored};
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
 use super::shading_point::ShadingPoint;
+use super::texture_check::TextureCheck;
 
 /// Refractive indices against air that a solid or a pane may have: from that of a substance which nobody sees.
 pub const DIELECTRIC_INDICES: core::ops::RangeInclusive<f64> = 1.0..=4.0;
@@ -80,6 +81,14 @@ impl SurfaceModel for Dielectric {
         let eta = if point.front { self.n } else { 1.0 / self.n };
         let facets = Ggx::of(point.factor(self.alpha)).filter(|_| self.n - 1.0 >= FACETS_FROM);
         DielectricBsdf { eta, facets }
+    }
+
+    fn check_energy(&self, _: &TextureCheck<'_>) -> Result<(), MaterialError> {
+        Ok(())
+    }
+
+    fn straight_transmittance<const N: usize>(&self, _: &ShadingPoint<'_, N>, _: f32) -> Spectral<N> {
+        Spectral::ZERO
     }
 }
 

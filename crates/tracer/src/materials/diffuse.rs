@@ -8,10 +8,12 @@ use etendue_core::warp::{cosine_hemisphere, cosine_hemisphere_pdf};
 use glam::{Vec2, Vec3};
 
 use super::bsdf::{BsdfSample, BsdfValue, Event};
+use super::error::MaterialError;
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
 use super::reflectance::Reflectance;
 use super::shading_point::ShadingPoint;
+use super::texture_check::TextureCheck;
 
 /// A reflectance alone is Lambert's law.
 impl SurfaceModel for Reflectance {
@@ -28,6 +30,14 @@ impl SurfaceModel for Reflectance {
     #[inline]
     fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> DiffuseBsdf<N> {
         DiffuseBsdf { reflectance: point.reflectance(self) }
+    }
+
+    fn check_energy(&self, _: &TextureCheck<'_>) -> Result<(), MaterialError> {
+        Ok(())
+    }
+
+    fn straight_transmittance<const N: usize>(&self, _: &ShadingPoint<'_, N>, _: f32) -> Spectral<N> {
+        Spectral::ZERO
     }
 }
 

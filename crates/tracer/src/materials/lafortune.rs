@@ -171,6 +171,10 @@ impl SurfaceModel for Lafortune {
         let gained = |gain| MaterialError::Gain { material: check.material, gain };
         self.refuse_gain(&check.brightest(&self.base)).map_err(gained)
     }
+
+    fn straight_transmittance<const N: usize>(&self, _: &ShadingPoint<'_, N>, _: f32) -> Spectral<N> {
+        Spectral::ZERO
+    }
 }
 
 /// Why a Lafortune model is refused. Lobes are counted from 0.

@@ -51,6 +51,10 @@ impl SurfaceModel for Leaf {
         }
         Ok(())
     }
+
+    fn straight_transmittance<const N: usize>(&self, _: &ShadingPoint<'_, N>, _: f32) -> Spectral<N> {
+        Spectral::ZERO
+    }
 }
 
 /// A leaf at one point and a path's wavelengths.

@@ -27,17 +27,13 @@ pub(super) trait SurfaceModel {
     /// Evaluates textures and spectra at a point, once for all that is asked there.
     fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> Self::Bsdf<'_, N>;
 
-    /// Refuses parameters, each within its range, with which together more would be sent on than arrives. Left out by models that
-    /// cannot gain energy.
-    fn check_energy(&self, _check: &TextureCheck<'_>) -> Result<(), MaterialError> {
-        Ok(())
-    }
+    /// Refuses parameters, each within its range, with which together more would be sent on than arrives. There is no default: a
+    /// model that cannot gain energy says `Ok(())`.
+    fn check_energy(&self, check: &TextureCheck<'_>) -> Result<(), MaterialError>;
 
-    /// The share of light that goes straight on, 0 to 1, at the cosine of incidence `cos` in (0, 1]. Asked of models of
-    /// [`Passage::Straight`] alone.
-    fn straight_transmittance<const N: usize>(&self, _point: &ShadingPoint<'_, N>, _cos: f32) -> Spectral<N> {
-        unreachable!("a model that lets light go straight on says how much")
-    }
+    /// The share of light that goes straight on, 0 to 1, at the cosine of incidence `cos` in (0, 1]: zero unless the
+    /// passage is [`Passage::Straight`].
+    fn straight_transmittance<const N: usize>(&self, point: &ShadingPoint<'_, N>, cos: f32) -> Spectral<N>;
 }
 
 /// How light gets behind a surface other than by being scattered there.

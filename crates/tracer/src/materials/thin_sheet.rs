@@ -22,6 +22,7 @@ use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
 use super::reflectance::Reflectance;
 use super::shading_point::ShadingPoint;
+use super::texture_check::TextureCheck;
 
 /// A thin pane.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,6 +58,10 @@ impl SurfaceModel for ThinSheet {
 
     fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> ThinSheetBsdf<N> {
         ThinSheetBsdf { n: self.n, inner: point.reflectance(&self.transmittance) }
+    }
+
+    fn check_energy(&self, _: &TextureCheck<'_>) -> Result<(), MaterialError> {
+        Ok(())
     }
 
     fn straight_transmittance<const N: usize>(&self, point: &ShadingPoint<'_, N>, cos: f32) -> Spectral<N> {

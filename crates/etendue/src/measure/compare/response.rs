@@ -85,12 +85,7 @@ impl<'a> Response<'a> {
         let at = place_of(p, channel);
         let mut neighbours = Vec::new();
         for (dx, dy) in (0..9).map(|n| (n % 3, n / 3)) {
-            let share = p.light.crosstalk.map_or(f64::from(u8::from((dx, dy) == (1, 1))), |c| match (dx, dy) {
-                (1, 1) => 1.0 - c.0.given(),
-                (_, 1) => c.0.horizontal,
-                (1, _) => c.0.vertical,
-                _ => c.0.corner,
-            });
+            let share = p.light.crosstalk.map_or(f64::from(u8::from((dx, dy) == (1, 1))), |c| c.0.weight(dx, dy));
             let there = sensor.channel_at(at[0] + p.cfa.width() + dx - 1, at[1] + p.cfa.height() + dy - 1);
             neighbours.push((share * seen(there), dx as f64 - 1.0, dy as f64 - 1.0));
         }

@@ -28,9 +28,11 @@ use super::photometric;
 use crate::materials::bsdf::{BsdfSample, BsdfValue, Event};
 use crate::materials::discrete_sampler::DiscreteSampler;
 use crate::materials::energy::{self, AlbedoTable, EnergyGain};
+use crate::materials::error::MaterialError;
 use crate::materials::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use crate::materials::parameter::Parameter;
 use crate::materials::shading_point::ShadingPoint;
+use crate::materials::texture_check::TextureCheck;
 
 /// The 30 m geometry of EN 1436: the lamp's elevation, degrees.
 const LAMP_DEG: f64 = 1.24;
@@ -136,6 +138,14 @@ impl SurfaceModel for RoadMarking {
             base: self.base.sample(point.wavelengths),
             colour: self.colour.sample(point.wavelengths),
         }
+    }
+
+    fn check_energy(&self, _: &TextureCheck<'_>) -> Result<(), MaterialError> {
+        Ok(())
+    }
+
+    fn straight_transmittance<const N: usize>(&self, _: &ShadingPoint<'_, N>, _: f32) -> Spectral<N> {
+        Spectral::ZERO
     }
 }
 

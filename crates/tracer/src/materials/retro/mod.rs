@@ -39,10 +39,12 @@ use glam::{Vec2, Vec3};
 use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, EnergyGain};
+use super::error::MaterialError;
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
 use super::reflectance::Reflectance;
 use super::shading_point::ShadingPoint;
+use super::texture_check::TextureCheck;
 use lobe::{GRAZING_DEG, RetroLobe, WIDEST_DEG};
 
 /// A retro-reflective sheeting over a matt base.
@@ -134,6 +136,14 @@ impl SurfaceModel for Sheeting {
             }
         };
         SheetingBsdf { lobe: &self.lobe, base, colour }
+    }
+
+    fn check_energy(&self, _: &TextureCheck<'_>) -> Result<(), MaterialError> {
+        Ok(())
+    }
+
+    fn straight_transmittance<const N: usize>(&self, _: &ShadingPoint<'_, N>, _: f32) -> Spectral<N> {
+        Spectral::ZERO
     }
 }
 
