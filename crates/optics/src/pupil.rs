@@ -1,6 +1,6 @@
 //! A flat disc pupil: points of it, rays from it, and what it sends to a point of the sensor.
 //!
-//! Spectral irradiance at a sensor point is E = τ ∫ L cos θ cos θ′ / d² dA over the exit pupil (PHYSICS.md §3). Pupil and
+//! Spectral irradiance at a sensor point is E = τ ∫ L cos θ cos θ′ / d² dA over the exit pupil. Pupil and
 //! sensor are parallel planes a distance z apart, so both cosines are z/d and the integrand is L z²/d⁴.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};

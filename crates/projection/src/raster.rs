@@ -206,7 +206,7 @@ mod tests {
 
     #[test]
     fn the_sensor_of_the_paper_has_its_size() {
-        // PHYSICS.md §17: 776 × 582 at 8.3 µm is 6.4408 × 4.8306 mm.
+        // 776 × 582 at 8.3 µm is 6.4408 × 4.8306 mm.
         let raster = Raster::centred(776, 582, 0.0083).expect("legal");
         assert!((raster.size_mm() - DVec2::new(6.4408, 4.8306)).length() < 1e-12);
         assert!((raster.max_radius_mm() - raster.half_diagonal_mm()).abs() < 1e-12);

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// `etendue inspect`
 #[derive(Debug, Args)]
 pub struct Inspect {
-    /// A file that Étendue reads or writes: EXR, PNG, JPEG, HDR, OBJ, lamps (IES, LDT), JSON side-car
+    /// A file that Étendue reads or writes: EXR, PNG, JPEG, HDR, TIFF, DNG, OBJ, tables (CSV), lamps (IES, EULUMDAT), JSON side-car
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// Write a picture of it here

@@ -1,4 +1,4 @@
-//! The camera that a chart is made for: a camera file, or a stand-in that is written beside the chart.
+//! The camera that a chart is made for: a camera file, or a reference camera that is written beside the chart.
 
 use crate::camera_file::read_text;
 use crate::error::Error;
@@ -34,7 +34,7 @@ enum Source {
 }
 
 impl ChartCamera {
-    /// Reads and compiles a camera file, or a stand-in by its name.
+    /// Reads and compiles a camera file, or a reference camera by its name.
     pub(super) fn load(given: &str) -> Result<Self, Error> {
         let stand_in = STAND_INS.iter().find(|(name, _)| *name == given);
         let source = match stand_in {
@@ -59,7 +59,7 @@ impl ChartCamera {
         Ok(Self { body: compile_camera(&camera, &assets).map_err(Error::inputs)?, source })
     }
 
-    /// The stand-in's file and its text.
+    /// The reference camera's file and its text.
     pub(super) fn stand_in(&self) -> Option<(String, &'static str)> {
         match &self.source {
             Source::File(_) => None,

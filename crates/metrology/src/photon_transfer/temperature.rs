@@ -197,7 +197,7 @@ mod tests {
 
     #[test]
     fn silicon_doubles_as_in_the_tables() {
-        // PHYSICS.md's figures, to their one decimal: generation 8.5 K at 300 K, 10.3 K at 333 K; diffusion 4.2, 5.2.
+        // To one decimal: generation 8.5 K at 300 K, 10.3 K at 333 K; diffusion 4.2, 5.2.
         for (law, kelvin, want) in [
             (Law::Generation, 300.0, 8.5),
             (Law::Generation, 333.0, 10.3),

@@ -1,7 +1,7 @@
 //! Veiling glare: light that dust, coatings and barrel scatter over the sensor.
 //!
 //! Of the light that would fall on a point, the share 1 − s does, and s is spread over the plane with the density
-//! K(r) = C (r₀² + r²)^(−p/2), r the distance on the sensor (PHYSICS.md §13; the form is Harvey and Shack's ABg scatter
+//! K(r) = C (r₀² + r²)^(−p/2), r the distance on the sensor (the form is Harvey and Shack's ABg scatter
 //! (1976), taken to be the same for every point of the sensor and every wavelength). C makes the integral of K one, over
 //! the plane (p > 2) or over a disc of the radius "reach" (any p). With G(r) the integral of ρ (r₀² + ρ²)^(−p/2) from 0 to
 //! r, the share of K within r is F(r) = G(r)/G(reach); over the plane F(r) = 1 − (1 + r²/r₀²)^(1 − p/2).

@@ -10,7 +10,7 @@
 //!   (through a prescription, whose clear apertures have no closed form, at 587.56 nm and to 1e-5).
 //! - [`Lens::principal_ray`] goes through the centre of the pupil (of the real stop) at 587.56 nm, and [`Lens::project`] is
 //!   its inverse.
-//! - A calibrated camera and a parallel one say their own (`calibrated.rs`, `parallel.rs`).
+//! - A calibrated camera and a telecentric one say their own (`calibrated.rs`, `telecentric.rs`).
 //! - A radial distortion, where there is one, maps the observed sensor point to the ideal one before the ray is made; the
 //!   weight is that of the observed point, where the light arrives. A lateral colour ([`LateralColour`]) acts before it.
 //! - f-number, of the paraxial lenses: a flat pupil disc, tan θ′ = 1/2N at infinity focus, so E = π τ L / (1 + 4N²) on the axis. (The pinhole is

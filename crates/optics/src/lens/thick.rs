@@ -27,7 +27,7 @@
 //!
 //! A point of the exit pupil is imaged to the point of the entrance pupil 1/m_p times as far from the axis; a sensor point
 //! to the point in the plane in focus; the ray joins both. The exit pupil stands m_p c from the sensor (c of `focus.rs`), so
-//! on the axis E = π τ L / (1 + 4N²(1 − m/m_p)²) with m < 0 for a real image: the classical form of PHYSICS.md §3 with
+//! on the axis E = π τ L / (1 + 4N²(1 − m/m_p)²) with m < 0 for a real image: the classical form with
 //! the **flat-disc convention** tan θ′ = 1/(2N (1 − m/m_p)).
 //!
 //! Off the axis a flat disc of fixed size cannot be both pupils at once (étendue would not be conserved; the two choices

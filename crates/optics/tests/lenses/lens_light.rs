@@ -47,7 +47,7 @@ fn sampled_sr(lens: &Lens, sensor_mm: DVec2, side: u32) -> f64 {
     samples.filter_map(|u| lens.ray(sensor_mm, u, 550.0)).map(|ray| ray.weight_sr).sum::<f64>() / f64::from(side * side)
 }
 
-/// PHYSICS.md §3 as it stands there: π times Foote's form factor of a disc of half-aperture `a` at field tangent `t`.
+/// π times Foote's form factor of a disc of half-aperture `a` at field tangent `t`.
 fn foote_sr(a: f64, t: f64) -> f64 {
     let s = 1.0 + t * t + a * a;
     PI * 0.5 * (1.0 - (1.0 + t * t - a * a) / (s * s - 4.0 * t * t * a * a).sqrt())
@@ -76,7 +76,7 @@ fn a_thin_lens_s_samples_have_foote_s_mean() {
 
 #[test]
 fn a_wide_pupil_exceeds_cos4_by_the_known_share() {
-    // PHYSICS.md §17: + 2.5 % at f/2 and 20°, + 1.3 % at f/4 and 30°; the last digit given is 0.1 %.
+    // + 2.5 % at f/2 and 20°, + 1.3 % at f/4 and 30°; the last digit given is 0.1 %.
     for (f_number, field, excess) in [(2.0, 20.0, 0.025), (4.0, 30.0, 0.013)] {
         let lens = thin(f_number, f64::INFINITY);
         let off = lens.projected_solid_angle_sr(DVec2::new(FOCAL_MM * tan(degrees(field)), 0.0));
@@ -127,7 +127,7 @@ fn close_focus_costs_light() {
         assert!((lens.projected_solid_angle_sr(DVec2::ZERO) / expected - 1.0).abs() < 1e-12);
         assert!((lens.working_f_number() / (2.0 * bellows) - 1.0).abs() < 1e-12);
     }
-    // PHYSICS.md §3: m = −0.02 costs 3.9 %, m = −0.1 costs 17 % (small pupils).
+    // m = −0.02 costs 3.9 %, m = −0.1 costs 17 % (small pupils).
     let slow = |m: f64| thin(100.0, FOCAL_MM * (1.0 + 1.0 / m) / 1000.0).projected_solid_angle_sr(DVec2::ZERO);
     let far = thin(100.0, f64::INFINITY).projected_solid_angle_sr(DVec2::ZERO);
     assert!((1.0 - slow(0.02) / far - 0.039).abs() < 5e-4);
@@ -176,7 +176,7 @@ fn the_constant_pupil_rules_the_fall_off() {
     assert!((entrance / cos4(degrees(30.0)) - 1.0).abs() < 2e-3, "{entrance}");
     let t = tan(degrees(30.0)) / 2.0;
     assert!((exit * (1.0 + t * t) * (1.0 + t * t) - 1.0).abs() < 2e-3, "{exit}");
-    // PHYSICS.md §3: they part by 1.52 at 30° for a pupil magnification of 2; (16/13)² = 1.5148, and the disc's excess.
+    // They part by 1.52 at 30° for a pupil magnification of 2; (16/13)² = 1.5148, and the disc's excess.
     assert!((exit / entrance / (256.0 / 169.0) - 1.0).abs() < 1e-3, "{}", exit / entrance);
 }
 
@@ -196,7 +196,7 @@ fn a_constant_entrance_pupil_conserves_etendue_through_distortion() {
     assert!((lens.projected_solid_angle_sr(at) / expected - 1.0).abs() < 2e-5);
 }
 
-/// PHYSICS.md §3: common area of two circles.
+/// Common area of two circles.
 fn two_circles(r1: f64, r2: f64, d: f64) -> f64 {
     let a1 = acos((d * d + r1 * r1 - r2 * r2) / (2.0 * d * r1));
     let a2 = acos((d * d + r2 * r2 - r1 * r1) / (2.0 * d * r2));

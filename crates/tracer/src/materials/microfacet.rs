@@ -3,7 +3,7 @@
 //! D(m) = 1 / (π α² ((mₓ² + m_y²)/α² + m_z²)²) (Walter et al. 2007), isotropic, roughness α in (0, 1].
 //! Reflection: f = F · D · G₂ / (4 cos θₒ cos θᵢ), G₂ = 1/(1 + Λₒ + Λᵢ) (Heitz 2014). Facets are drawn from those
 //! visible (Heitz 2018) by the spherical-cap construction (Dupuy & Benyoub 2023). Light that a facet sends into
-//! another facet is left out: a rough white surface loses up to a few tenths at α near 1.
+//! another facet is left out: a rough white surface of α = 1 loses up to six tenths.
 //!
 //! All directions are in the shading frame (z = normal), unit, on the side z > 0.
 

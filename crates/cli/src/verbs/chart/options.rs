@@ -12,7 +12,7 @@ use etendue::chart::{self, Chart, ChartError, ChartRequest, Exposures, Spacing};
 /// What all charts have in common.
 #[derive(Debug, Args)]
 pub struct Common {
-    /// The camera: a camera file (TOML), or a stand-in: web, ccd-mono, ccd-bayer, automotive, laboratory
+    /// The camera: a camera file (TOML), or a reference camera: web, ccd-mono, ccd-bayer, automotive, laboratory
     #[arg(long, value_name = "CAMERA.toml", default_value = "web")]
     pub camera: String,
     /// Distance of the sheet from the entrance pupil, m [default: where the camera is focused, or 1]

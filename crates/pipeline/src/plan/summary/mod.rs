@@ -144,12 +144,16 @@ fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
 
 fn level(settings: &Settings) -> String {
     match settings.level {
-        Level::Flat => "none: local shading of lamps, suns and sky (level flat); shadows, reflections and light from \
+        Level::Flat => {
+            "none: local shading of lamps, suns and sky (integrator flat); shadows, reflections and light from \
                         surface to surface are missing"
-            .to_owned(),
-        Level::Direct => "none: direct light with its shadows (level direct); reflections and light from surface to \
+                .to_owned()
+        }
+        Level::Direct => {
+            "none: direct light with its shadows (integrator direct); reflections and light from surface to \
                           surface are missing"
-            .to_owned(),
+                .to_owned()
+        }
         Level::Path => format!("at most {} bounces (light scattered more often is missing)", settings.max_bounces),
     }
 }

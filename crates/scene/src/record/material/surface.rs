@@ -96,7 +96,7 @@ record! {
         /// How the slopes of the facets are distributed. Default: "ggx".
         optional distribution: Placed<Distribution> = choice();
         /// Whether light that meets several facets before it leaves is added (Kulla and Conty 2017); without it rough metals
-        /// are too dark, by up to half. Default: false.
+        /// are too dark, by up to six tenths. Default: false.
         optional multiple_scattering: Placed<bool> = flag();
     }
 }

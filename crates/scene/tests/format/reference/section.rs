@@ -163,8 +163,11 @@ pub(super) fn plain(schema: &Json) -> Json {
         ["$schema", "title", "description"].iter().for_each(|k| {
             table.remove(*k);
         });
-        table.get_mut("properties").and_then(Json::as_object_mut).map(|p| p.remove("format"));
-        table.get_mut("required").and_then(Json::as_array_mut).iter_mut().for_each(|r| r.retain(|k| k != "format"));
+        // The format's number; a key of that name in a table is a key like others.
+        if table.get("properties").is_some_and(|p| p["format"].get("const").is_some()) {
+            table.get_mut("properties").and_then(Json::as_object_mut).map(|p| p.remove("format"));
+            table.get_mut("required").and_then(Json::as_array_mut).iter_mut().for_each(|r| r.retain(|k| k != "format"));
+        }
     }
     schema
 }
