@@ -1,4 +1,4 @@
-//! What a record says, as a table of the format: what the macros of [`crate::reader`] write back.
+//! What a record says, as a table of the format: what the macros of `reader` write back.
 //!
 //! A [`Table`] is text of a file ([`File`]), the bytes of a hash ([`Table::feed`]) and the places of keys
 //! ([`Table::place_of`]), all three from the one statement of each key that also reads it. Keys that were not given are not

@@ -6,7 +6,7 @@
 //! - spread: I f, f of mean 1 (but for the cut) with a white, a row and a column part of stated standard deviation (fractions of the mean). Normal:
 //!   f = max(1 + d, 0). Log-normal (the long tail of most sensors): the white part is exp(s z − s²/2), s² = ln(1 + σ²);
 //! - hot pixels: a fraction of pixels has an exponential current more, of a stated mean;
-//! - blinking pixels: a fraction of pixels has it only at the upper one of two levels ([`two_level`](super::two_level)).
+//! - blinking pixels: a fraction of pixels has it only at the upper one of two levels ([`two_level`]).
 //!
 //! Draws: `Dark` of the pixel; of the specimen: `PixelDark`, `RowDark`, `ColumnDark`, `Hot`, `Blinking`; `BlinkingFlip`.
 //! All currents are stated at the reference temperature. Left out: glow of amplifiers, activation energies pixel by pixel.

@@ -3,8 +3,8 @@
 //! Without blooming e ← min(e, capacity), and the rest is lost. With it, a fraction b of what a pixel cannot hold goes on to its
 //! neighbours and 1 − b is taken by the overflow drain, again and again until every pixel holds what it has:
 //!
-//! - along the column, half up and half down ([`bloom_column`]): a CCD, whose channel stops block sideways;
-//! - to all sides ([`bloom_around`]): a CMOS sensor.
+//! - along the column, half up and half down (`bloom_column`): a CCD, whose channel stops block sideways;
+//! - to all sides (`bloom_around`): a CMOS sensor.
 //!
 //! generated = collected + drained + spilt off the edge + clipped ([`ChargeAccount`]).
 //! Left out: the bend of the response before the well is full (see [`response`](super::response)).

@@ -1,7 +1,7 @@
 //! Random RTS noise: a trap at a pixel's transistor makes its voltage jump between two levels.
 //!
 //! e ← e ± a/2 for a fraction of pixels, a exponential of a stated mean, the level from a two-level state over frames
-//! ([`two_level`](super::two_level)). The mean of both levels is the pixel's own. Draws: `Telegraph` (specimen), `TelegraphFlip`.
+//! ([`two_level`]). The mean of both levels is the pixel's own. Draws: `Telegraph` (specimen), `TelegraphFlip`.
 
 use super::two_level::{self, Draws, Site, TwoLevel, high_in_row};
 use crate::check::Checks;

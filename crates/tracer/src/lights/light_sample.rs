@@ -36,7 +36,7 @@ impl<const N: usize> LightSample<N> {
 pub struct DistantLight<const N: usize> {
     /// Spectral radiance.
     pub radiance: Spectral<N>,
-    /// Density by which [`Lights::sample`] would have given the direction for it, 1/sr.
+    /// Density by which `Lights::sample` would have given the direction for it, 1/sr.
     pub pdf: f32,
     /// Whether it is light of the surroundings, and of no sun.
     pub surrounds: bool,
