@@ -16,16 +16,14 @@ pub fn line(library: &str, isa: Option<&str>) -> String {
     let program = std::env::current_exe().expect("this program has a file");
     let output = Command::new(program).args([CHILD, library]).args(isa).output().expect("this program runs again");
     let text = String::from_utf8_lossy(&output.stdout);
-    let told = |start: &str, end: &str| -> Vec<String> {
-        let found = text.lines().filter_map(|line| line.trim().strip_prefix(start)?.split(end).next());
-        found.map(str::trim).map(str::to_owned).collect()
+    let told = |start: &str, end: &str| {
+        let mut found = text.lines().filter_map(|line| line.trim().strip_prefix(start));
+        let name = found.find(|name| name.ends_with(end)).unwrap_or("unknown");
+        name.trim_end_matches(" ...").to_owned()
     };
-    let builders = told("building BVH8<triangle4> using", " ...");
-    let mut rays = told("intersector1  =", " ");
-    rays.dedup();
-    let first = |names: &[String]| names.first().cloned().unwrap_or_else(|| "unknown".to_owned());
-    let robust = rays.iter().find(|name| name.ends_with("Pluecker")).cloned().unwrap_or_else(|| "unknown".to_owned());
-    format!("Embree's kernels: {}; robust {robust}; builder {}", first(&rays), first(&builders))
+    let ray = |end: &str| told("intersector1  = ", end);
+    let builder = told("building BVH8<triangle4> using ", " ...");
+    format!("Embree's kernels: {}; robust {}; builder {builder}", ray("Moeller"), ray("Pluecker"))
 }
 
 /// The child's work.
