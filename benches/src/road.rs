@@ -72,7 +72,7 @@ fn error(pictures: &[Vec<f64>]) -> f64 {
     let (n, count) = (pictures.len() as f64, pictures[0].len() as f64);
     let mean_of = |i: usize| pictures.iter().map(|p| p[i]).sum::<f64>() / n;
     let means: Vec<f64> = (0..pictures[0].len()).map(mean_of).collect();
-    let square = |picture: &Vec<f64>| picture.iter().zip(&means).map(|(p, mean)| (p - mean).powi(2)).sum::<f64>();
+    let square = |picture: &Vec<f64>| picture.iter().zip(&means).map(|(p, mean)| (p - mean) * (p - mean)).sum::<f64>();
     let variance = pictures.iter().map(square).sum::<f64>() / (n - 1.0) / count;
     variance.sqrt() / (means.iter().sum::<f64>() / count)
 }
