@@ -118,7 +118,8 @@ def arguments():
                         help=f"{', '.join(scenes.SCENES)}; or all")
     parser.add_argument("--binary", default=str(ROOT / "target/release/etendue-benches"))
     parser.add_argument("--target", default=str(ROOT / "target/peers"))
-    parser.add_argument("--renderers", nargs="+", default=list(RENDERERS), choices=RENDERERS)
+    parser.add_argument("--renderers", nargs="+", default=list(PEERS), choices=PEERS,
+                        help="peers beside Etendue, which always renders without and with path reuse")
     parser.add_argument("--spp", type=int, default=64)
     parser.add_argument("--runs", type=int, default=5, help="pictures of each renderer, which take turns; 2 or more")
     parser.add_argument("--threads", type=int, default=os.cpu_count())
@@ -132,7 +133,7 @@ def arguments():
 def main():
     options = arguments()
     bench = Bench(options)
-    options.renderers = sorted({"etendue", *options.renderers}, key=RENDERERS.index)
+    options.renderers = sorted({*OURS, *options.renderers}, key=RENDERERS.index)
     found = {"processor": processor(), "options": vars(options), "load_before": os.getloadavg()[0], "scenes": {}}
     for name in options.scenes:
         found["scenes"][name] = bench.scene(name)
