@@ -1,9 +1,9 @@
 //! A mesh's tree, in the mesh's own frame.
 
 use super::best::Best;
-use super::build::over_triangles;
+use super::build::{TreeQuality, over_triangles};
 use super::collapse::{Wide, collapse};
-use super::lanes::{Job, Lanes};
+use super::lanes::{Job, Lanes, Visit};
 use super::local::LocalRay;
 use super::node::{Child, Node};
 use super::packet::{Half, Packet, RayLanes};
@@ -24,20 +24,22 @@ pub(crate) struct Blas {
 }
 
 impl Blas {
-    /// Builds the tree. The same mesh gives the same tree.
-    pub(crate) fn new(mesh: &Mesh) -> Self {
-        let triangles: Vec<_> = (0..mesh.triangles().len() as u32).map(|p| mesh.corners(p)).collect();
-        let Wide { mut nodes, root, leaves } = collapse(&over_triangles(&triangles), LEAF_SIZE);
-        let (mut halves, mut places) = (Vec::new(), Vec::with_capacity(leaves.len()));
-        for leaf in &leaves {
+    /// Builds the tree. The same mesh and quality give the same tree; every quality gives the same answers.
+    pub(crate) fn new(mesh: &Mesh, quality: TreeQuality) -> Self {
+        let count = mesh.triangles().len();
+        let binary = over_triangles(count, |p| mesh.corners(p), quality);
+        // What even meshes need; others get room by and by, since memory is short just now.
+        let mut halves = Vec::with_capacity(count * 9 / 32 + 2);
+        let Wide { nodes, root } = collapse(&binary, LEAF_SIZE, |leaf| {
             let first = halves.len();
-            let members: Vec<_> = leaf.iter().map(|p| (*p, triangles[*p as usize])).collect();
-            halves.extend(Half::of(&members));
-            places.push(Child::leaf(2 * first + halves.len() - first - 1));
-        }
-        let place = |child: Child| if child.as_node().is_some() { child } else { places[child.leaf_index()] };
-        nodes.iter_mut().for_each(|node| node.children = node.children.map(place));
-        Self { nodes, halves, root: root.map(place) }
+            if halves.capacity() < first + 2 {
+                halves.reserve_exact(count / 16 + 2);
+            }
+            halves.extend(Half::of(leaf, |p| mesh.corners(p)));
+            2 * first + halves.len() - first - 1
+        });
+        halves.shrink_to_fit();
+        Self { nodes, halves, root }
     }
 
     #[inline(always)]
@@ -116,6 +118,7 @@ struct ClosestLeaf<'a, L: Lanes> {
 impl<L: Lanes> Leaves for ClosestLeaf<'_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
+        self.l.note(Visit::Leaf);
         let spread = RayLanes::new(self.l, self.ray);
         if let Some(meeting) = self.tree.packet(leaf).meet(self.l, &spread, self.ray, *limit) {
             for hit in meeting {
@@ -135,6 +138,7 @@ struct AnyLeaf<'a, L: Lanes> {
 impl<L: Lanes> Leaves for AnyLeaf<'_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
+        self.l.note(Visit::Leaf);
         let spread = RayLanes::new(self.l, self.ray);
         self.tree.packet(leaf).blocks(self.l, &spread, self.ray, *limit)
     }

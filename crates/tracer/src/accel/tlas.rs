@@ -6,16 +6,18 @@ use super::blas::Blas;
 use super::boxes::Box3;
 use super::build::over_boxes;
 use super::collapse::collapse;
-use super::lanes::{Job, Lanes, Plain};
+use super::lanes::{Job, Lanes, Plain, Visit};
 use super::local::LocalRay;
 use super::node::{Child, Node};
 use super::packet::PrimitiveHit;
 use super::ray::SlabRay;
 #[cfg(target_arch = "x86_64")]
 use super::simd::Avx2;
+use super::visits::{Counting, Visits};
 use super::walk::{Leaves, walk};
 use super::world::World;
 use crate::geometry::{Hit, Instance, InstanceTransform, Shape, sphere};
+use core::cell::Cell;
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};
 
@@ -76,8 +78,11 @@ impl<'w> Tlas<'w> {
                 Some((Box3::from_f64(placed.bounds(instance, world.meshes())?), index))
             })
             .unzip();
-        let wide = collapse(&over_boxes(&boxes), 1);
-        let leaves = wide.leaves.iter().map(|leaf| members[leaf[0] as usize]).collect();
+        let mut leaves = Vec::with_capacity(members.len());
+        let wide = collapse(&over_boxes(&boxes), 1, |leaf| {
+            leaves.push(members[leaf[0] as usize]);
+            leaves.len() - 1
+        });
         let targets = world.instances().iter().map(|instance| Target::new(world, instance)).collect();
         Self { nodes: wide.nodes, root: wide.root, leaves, targets, placed, chosen: Chosen::new(simd) }
     }
@@ -90,6 +95,17 @@ impl<'w> Tlas<'w> {
     /// The first primitive that a ray meets.
     pub(crate) fn closest(&self, ray: &Ray) -> Option<Hit> {
         self.chosen.run(Closest { top: self, ray })
+    }
+
+    /// What a ray visits on its way to the first primitive that it meets, or to any.
+    pub(crate) fn visits(&self, ray: &Ray, any: bool) -> Visits {
+        let visits = Cell::new(Visits::default());
+        if any {
+            Counting(&visits).run(Occluded { top: self, ray });
+        } else {
+            Counting(&visits).run(Closest { top: self, ray });
+        }
+        visits.get()
     }
 
     /// Whether a ray meets anything.
@@ -148,6 +164,7 @@ struct ClosestLeaf<'a, 'w, L> {
 impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
+        self.l.note(Visit::Instance);
         let instance = self.top.leaves[leaf];
         let placed = &self.top.placed[instance as usize];
         match self.top.targets[instance as usize] {
@@ -196,6 +213,7 @@ struct AnyLeaf<'a, 'w, L> {
 impl<L: Lanes> Leaves for AnyLeaf<'_, '_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
+        self.l.note(Visit::Instance);
         let instance = self.top.leaves[leaf] as usize;
         let placed = &self.top.placed[instance];
         match self.top.targets[instance] {
