@@ -51,6 +51,11 @@ impl Box3 {
         self.low * 0.5 + self.high * 0.5
     }
 
+    /// The box about both.
+    pub(crate) fn union(&self, other: &Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
     /// Half the area of the box's surface.
     pub(crate) fn half_area(&self) -> f32 {
         let e = self.high - self.low;

@@ -6,6 +6,7 @@
 //! - `build`: trees from the top down by the surface area heuristic, in blocks.
 //! - `collapse`: binary to eight-wide, at least cost.
 //! - `node`, `packet`: what is tested eight at a time: boxes and triangles.
+//! - `merged`: small instances written out as one mesh.
 //! - `reach`: how far rays may start from a mesh.
 //! - `walk`, `pending`: near to far through a tree for the first hit, or through the largest boxes for any.
 //!
@@ -20,6 +21,7 @@ mod build;
 mod collapse;
 pub(crate) mod lanes;
 pub(crate) mod local;
+mod merged;
 mod node;
 mod packet;
 mod pending;

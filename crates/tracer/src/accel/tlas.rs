@@ -1,13 +1,14 @@
 //! The tree over the instances of a view.
 
 use super::Simd;
-use super::best::Best;
+use super::best::{Best, Names};
 use super::blas::Blas;
 use super::boxes::Box3;
 use super::build::over_boxes;
 use super::collapse::collapse;
 use super::lanes::{Job, Lanes, Plain, Visit};
 use super::local::LocalRay;
+use super::merged::Merged;
 use super::node::{Child, Node};
 use super::packet::PrimitiveHit;
 use super::ray::SlabRay;
@@ -57,13 +58,17 @@ impl Chosen {
     }
 }
 
+/// What a leaf holds that is no single instance.
+const MERGED: u32 = u32::MAX;
+
 /// The instances of a view, with a tree over them.
 #[derive(Clone, Debug)]
 pub(crate) struct Tlas<'w> {
     nodes: Vec<Node>,
     root: Option<Child>,
-    /// The instance of each leaf.
+    /// The instance of each leaf, or [`MERGED`].
     leaves: Vec<u32>,
+    merged: Option<Merged>,
     targets: Vec<Target<'w>>,
     placed: Vec<InstanceTransform>,
     chosen: Chosen,
@@ -71,20 +76,21 @@ pub(crate) struct Tlas<'w> {
 
 impl<'w> Tlas<'w> {
     /// Builds the tree over instances placed in the render frame.
-    pub(crate) fn new(world: &'w World, placed: Vec<InstanceTransform>, simd: Simd) -> Self {
-        let bounded = placed.iter().zip(world.instances()).zip(0_u32..);
-        let (boxes, members): (Vec<_>, Vec<_>) = bounded
-            .filter_map(|((placed, instance), index)| {
-                Some((Box3::from_f64(placed.bounds(instance, world.meshes())?), index))
-            })
-            .unzip();
+    pub(crate) fn new(world: &'w World, mut placed: Vec<InstanceTransform>, simd: Simd) -> Self {
+        let merged = Merged::new(world, &mut placed);
+        let bounded = placed.iter().zip(world.instances()).zip(0_u32..).filter(|((placed, _), _)| !placed.is_merged());
+        let single = bounded.filter_map(|((placed, instance), index)| {
+            Some((Box3::from_f64(placed.bounds(instance, world.meshes())?), index))
+        });
+        let bounds = merged.as_ref().map(|merged| merged.bounds);
+        let (boxes, members): (Vec<_>, Vec<_>) = single.chain(bounds.map(|bounds| (bounds, MERGED))).unzip();
         let mut leaves = Vec::with_capacity(members.len());
         let wide = collapse(&over_boxes(&boxes), 1, |leaf| {
             leaves.push(members[leaf[0] as usize]);
             leaves.len() - 1
         });
         let targets = world.instances().iter().map(|instance| Target::new(world, instance)).collect();
-        Self { nodes: wide.nodes, root: wide.root, leaves, targets, placed, chosen: Chosen::new(simd) }
+        Self { nodes: wide.nodes, root: wide.root, leaves, merged, targets, placed, chosen: Chosen::new(simd) }
     }
 
     /// The instances' places, by their index.
@@ -166,16 +172,27 @@ impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
         self.l.note(Visit::Instance);
         let instance = self.top.leaves[leaf];
+        if let (MERGED, Some(merged)) = (instance, &self.top.merged) {
+            let local = LocalRay::new(self.ray.origin, self.ray.direction);
+            merged.tree.closest(self.l, &local, merged.names(), &mut self.best, limit);
+            return false;
+        }
         let placed = &self.top.placed[instance as usize];
         match self.top.targets[instance as usize] {
             Target::Mesh(tree) => {
                 let (origin, direction) = placed.rounded_ray_to_local(self.ray);
-                tree.closest(self.l, &LocalRay::new(origin, direction), instance, &mut self.best, limit);
+                tree.closest(
+                    self.l,
+                    &LocalRay::new(origin, direction),
+                    Names::Instance(instance),
+                    &mut self.best,
+                    limit,
+                );
             }
             Target::Sphere(radius) => {
                 let (origin, direction) = placed.ray_to_local(self.ray);
                 if let Some(hit) = meet_sphere(radius, origin, direction) {
-                    self.best.offer(instance, hit, limit);
+                    self.best.offer(Names::Instance(instance), hit, limit);
                 }
             }
         }
@@ -214,7 +231,12 @@ impl<L: Lanes> Leaves for AnyLeaf<'_, '_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
         self.l.note(Visit::Instance);
-        let instance = self.top.leaves[leaf] as usize;
+        let instance = self.top.leaves[leaf];
+        if let (MERGED, Some(merged)) = (instance, &self.top.merged) {
+            let local = LocalRay::new(self.ray.origin, self.ray.direction);
+            return merged.tree.occluded(self.l, &local, *limit);
+        }
+        let instance = instance as usize;
         let placed = &self.top.placed[instance];
         match self.top.targets[instance] {
             Target::Mesh(tree) => {

@@ -150,7 +150,7 @@ impl WorldBuilder {
             check(index, instance, &self.meshes)?;
         }
         let trees = self.meshes.par_iter().map(|mesh| Blas::new(mesh, self.tree_quality)).collect();
-        Ok(World { meshes: self.meshes, trees, instances: self.instances })
+        Ok(World { meshes: self.meshes, trees, instances: self.instances, tree_quality: self.tree_quality })
     }
 }
 
@@ -186,6 +186,7 @@ pub struct World {
     meshes: Vec<Mesh>,
     trees: Vec<Blas>,
     instances: Vec<Instance>,
+    tree_quality: TreeQuality,
 }
 
 impl World {
@@ -199,6 +200,12 @@ impl World {
     #[must_use]
     pub fn mesh(&self, id: MeshId) -> &Mesh {
         &self.meshes[id.0 as usize]
+    }
+
+    /// What was spent on the trees.
+    #[must_use]
+    pub fn tree_quality(&self) -> TreeQuality {
+        self.tree_quality
     }
 
     pub(crate) fn tree(&self, id: MeshId) -> &Blas {

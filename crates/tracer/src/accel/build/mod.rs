@@ -21,7 +21,7 @@ use reinsertion::Effort;
 
 /// What is spent on the trees of meshes. Every choice gives the same answers to rays; docs/performance.md has the price of
 /// each.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum TreeQuality {
     /// The least time to build: one pass from the top down.
     Fast,
