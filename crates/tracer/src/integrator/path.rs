@@ -13,7 +13,7 @@ use super::medium::Medium;
 use super::{Level, PathTracer};
 use crate::MaterialId;
 use crate::geometry::SurfacePoint;
-use crate::lights::{LightHit, LightSample, LightSampleContext};
+use crate::lights::{LightHit, LightSample, LightSampleContext, ReceiverGloss};
 use crate::materials::{Bsdf, BsdfSample, Event, ShadingFrame};
 use crate::textures::Lookup;
 
@@ -237,7 +237,9 @@ impl<'a, const N: usize> Path<'a, N> {
         }
         // Light from behind counts where the surface lets it through.
         let normal = if vertex.bsdf.transmits() { Vec3::ZERO } else { vertex.frame.normal() };
-        let receiver = LightSampleContext { position: vertex.point.position, normal };
+        let gloss =
+            ReceiverGloss::new(&vertex.bsdf.gloss(vertex.frame.wo), &vertex.frame).filter(|_| normal != Vec3::ZERO);
+        let receiver = LightSampleContext { position: vertex.point.position, normal, gloss };
         self.sample_direct(vertex, &receiver);
         match self.sample(vertex) {
             None => PathStep::Ends,

@@ -127,6 +127,10 @@ impl Choice {
     /// What a sun counts for a receiver.
     fn of_sun(&self, i: usize, receiver: &LightSampleContext) -> f32 {
         let (sun, irradiance) = &self.suns[i];
-        if receiver.normal == glam::Vec3::ZERO || sun.rises_over(receiver.normal) { *irradiance } else { 0.0 }
+        if receiver.normal == glam::Vec3::ZERO || sun.rises_over(receiver.normal) {
+            *irradiance * (1.0 + receiver.glossy(sun.direction(), sun.sin()))
+        } else {
+            0.0
+        }
     }
 }

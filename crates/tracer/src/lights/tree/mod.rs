@@ -13,11 +13,16 @@
 //! variance of a pixel at 4 samples × time, against a choice of all lamps alike): 50 lamps 2.33 → 0.075 at 1.7 times the
 //! time, 1 000 lamps 12.0 → 0.14 at 2 times the time. Keeping one of two to four candidates by resampling (Talbot, Cline
 //! and Egbert 2005) takes another half to nine tenths off the variance of direct light alone, but with bounces costs more
-//! time than it saves (0.141 → 0.194, 0.247, 0.340 variance × µs for two, three, four of 50 lamps): left out. So is the
-//! surface's own reflection: a lamp far from where a smooth surface mirrors it counts as much as one near.
+//! time than it saves (0.141 → 0.194, 0.247, 0.340 variance × µs for two, three, four of 50 lamps): left out.
+//!
+//! A glossy receiver's lobes raise the estimates (`lights/gloss.rs`), and it chooses from a finer cut of the tree ([`cut`]);
+//! docs/decisions/light-choice.md has the figures.
 
 mod bounds;
 mod build;
+mod cut;
+#[cfg(test)]
+mod glossy_tests;
 mod node;
 #[cfg(test)]
 mod tests;
@@ -26,9 +31,10 @@ use super::LightSampleContext;
 use node::{LANES, Node};
 
 pub(super) use bounds::LightBounds;
+use cut::Cut;
 
 /// Where a light or a node hangs.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Slot {
     node: u32,
     lane: u8,
@@ -66,7 +72,23 @@ impl LightTree {
         if self.len() == 1 {
             return Some((0, 1.0));
         }
-        let (mut node, mut u, mut probability) = (0, u, 1.0);
+        let Some(gloss) = &question.receiver.gloss else { return self.pick_below(0, question, (u, 1.0)) };
+        let (slot, share, within) = self.cut(question, gloss).draw(u)?;
+        let child = self.nodes[slot.node as usize].child(usize::from(slot.lane));
+        if child.is_node {
+            self.pick_below(child.index, question, (within, share))
+        } else {
+            Some((child.index as usize, share))
+        }
+    }
+
+    /// A light below a node that was come to with a probability.
+    fn pick_below<F: Fn(u32) -> f32>(
+        &self,
+        mut node: u32,
+        question: &TreeQuery<'_, F>,
+        (mut u, mut probability): (f64, f32),
+    ) -> Option<(usize, f32)> {
         loop {
             let weights = self.weights(node, question);
             let (lane, share, within) = draw(&weights, u)?;
@@ -82,17 +104,37 @@ impl LightTree {
 
     /// The probability by which [`LightTree::pick`] gives a light.
     pub(super) fn probability<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, light: usize) -> f32 {
-        if self.len() == 1 { 1.0 } else { self.reach(question, self.leaves[light]) }
+        if self.len() == 1 {
+            return 1.0;
+        }
+        let cut = question.receiver.gloss.as_ref().map(|gloss| self.cut(question, gloss));
+        self.reach(question, cut.as_ref(), self.leaves[light])
     }
 
-    /// Probability of coming to a slot.
-    fn reach<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, slot: Slot) -> f32 {
-        let above = if slot.node == 0 { 1.0 } else { self.reach(question, self.parents[slot.node as usize]) };
+    /// Probability of coming to a slot, from the root or a cut.
+    fn reach<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, cut: Option<&Cut>, slot: Slot) -> f32 {
+        if let Some(share) = cut.and_then(|cut| cut.share(slot)) {
+            return share;
+        }
+        let above = match slot.node {
+            // What is on no way from the cut was weighed and counts nothing.
+            0 => {
+                if cut.is_some() {
+                    0.0
+                } else {
+                    1.0
+                }
+            }
+            node => self.reach(question, cut, self.parents[node as usize]),
+        };
         if above > 0.0 { above * share(&self.weights(slot.node, question), usize::from(slot.lane)) } else { 0.0 }
     }
 
     /// Estimate of the irradiance at the receiver, W·m⁻²·nm⁻¹: finer where the greatest cluster is near.
     pub(super) fn irradiance<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>) -> f64 {
+        if let Some(gloss) = &question.receiver.gloss {
+            return self.scale * f64::from(self.cut(question, gloss).total());
+        }
         let (mut node, mut sum) = (0, 0.0);
         loop {
             let mut weights = self.weights(node, question);
@@ -128,7 +170,12 @@ fn share(weights: &[f32; LANES], lane: usize) -> f32 {
 
 /// The lane that `u` in [0, 1) falls on, its share, and where in it `u` lies, in [0, 1).
 fn draw(weights: &[f32; LANES], u: f64) -> Option<(usize, f32, f64)> {
-    let total: f32 = weights.iter().sum();
+    let (lane, within) = fall(weights, weights.iter().sum(), u)?;
+    Some((lane, share(weights, lane), within))
+}
+
+/// The weight of a row of sum `total` that `u` in [0, 1) falls on, and where in it.
+fn fall(weights: &[f32], total: f32, u: f64) -> Option<(usize, f64)> {
     let mut rest = u * f64::from(total);
     let mut chosen = None;
     for (lane, weight) in weights.iter().enumerate().filter(|(_, w)| **w > 0.0) {
@@ -139,8 +186,7 @@ fn draw(weights: &[f32; LANES], u: f64) -> Option<(usize, f32, f64)> {
         }
         rest -= weight;
     }
-    let (lane, within) = chosen?;
-    Some((lane, share(weights, lane), within))
+    chosen
 }
 
 /// The largest `f64` below one.

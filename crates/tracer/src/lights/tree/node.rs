@@ -7,10 +7,11 @@
 //! I · cos max(θ − θ_o − θ_u, 0) · cos max(θ_i − θ_u, 0) / max(d², r²/4),
 //!
 //! nothing where the first angle exceeds θ_e or the second a right angle, and the cosines are 1 from inside the sphere.
-//! A single point thus counts its irradiance.
+//! A single point thus counts its irradiance. For a glossy receiver the last cosine grows by what its lobes send of light from
+//! there (`lights/gloss.rs`).
 
 use super::bounds::LightBounds;
-use crate::lights::LightSampleContext;
+use crate::lights::{LightSampleContext, ReceiverGloss};
 use glam::Vec3;
 
 /// Children of a node.
@@ -87,6 +88,14 @@ impl Node {
         (self.centre_of(lane) - position).length_squared() > 4.0 * self.radius2[lane]
     }
 
+    /// Whether a lobe tells parts of a child apart.
+    pub(super) fn is_divided(&self, lane: usize, position: Vec3, gloss: &ReceiverGloss) -> bool {
+        let way = self.centre_of(lane) - position;
+        let distance2 = way.length_squared();
+        distance2 <= self.radius2[lane]
+            || gloss.divides(way / distance2.sqrt(), (self.radius2[lane] / distance2).sqrt())
+    }
+
     fn centre_of(&self, lane: usize) -> Vec3 {
         Vec3::new(self.centre[0][lane], self.centre[1][lane], self.centre[2][lane])
     }
@@ -94,17 +103,25 @@ impl Node {
     /// What each child counts for a receiver: four children at a time, the second four where there are any.
     pub(super) fn weights(&self, receiver: &LightSampleContext) -> Lanes {
         let mut weights = [0.0; LANES];
-        weights[..4].copy_from_slice(&self.four(0, receiver));
-        if self.used > 4 {
-            weights[4..].copy_from_slice(&self.four(4, receiver));
+        match &receiver.gloss {
+            None => self.fill(&mut weights, receiver, |_, _| 0.0),
+            Some(gloss) => self.fill(&mut weights, receiver, |direction, sin| gloss.relative(direction, sin)),
         }
         weights
+    }
+
+    #[inline(always)]
+    fn fill(&self, weights: &mut Lanes, receiver: &LightSampleContext, glossy: impl Fn(Vec3, f32) -> f32) {
+        weights[..4].copy_from_slice(&self.four(0, receiver, &glossy));
+        if self.used > 4 {
+            weights[4..].copy_from_slice(&self.four(4, receiver, &glossy));
+        }
     }
 
     /// The weights of four children from lane `from` on. In small steps without branches, each over all four, so that
     /// the compiler lets them go side by side.
     #[inline(always)]
-    fn four(&self, from: usize, receiver: &LightSampleContext) -> Four {
+    fn four(&self, from: usize, receiver: &LightSampleContext, glossy: &impl Fn(Vec3, f32) -> f32) -> Four {
         let (p, n) = (receiver.position, receiver.normal);
         // 1 where light counts from everywhere, and the cosine then does not.
         let everywhere = if n == Vec3::ZERO { 1.0 } else { 0.0 };
@@ -130,7 +147,9 @@ impl Node {
         let (_, cos_3) = less((sin_i, cos_i), (sin_u, cos_u));
         let receives = each(|i| at_least(at_least(cos_3[i] + MARGIN, 0.0), everywhere));
 
-        let seen = each(|i| if d2[i] <= radius2[i] { 1.0 } else { emits[i] * receives[i] });
+        let gloss = |i: usize| glossy(Vec3::new(x[i], y[i], z[i]) * per_d[i], sin_u[i]);
+        let scattered = each(|i| if receives[i] > 0.0 { receives[i] + gloss(i) } else { 0.0 });
+        let seen = each(|i| if d2[i] <= radius2[i] { 1.0 + gloss(i) } else { emits[i] * scattered[i] });
         let far2 = each(|i| at_least(at_least(d2[i], INSIDE * radius2[i]), f32::MIN_POSITIVE));
         each(|i| self.intensity[from + i] * seen[i] / far2[i])
     }

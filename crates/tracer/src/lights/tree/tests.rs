@@ -7,16 +7,16 @@ use etendue_spectra::Spectrum;
 use glam::{DMat3, DVec3, Vec3};
 
 /// A fixed row of numbers in [0, 1): steps of irrational numbers.
-fn number(i: u32, k: u32) -> f64 {
+pub(super) fn number(i: u32, k: u32) -> f64 {
     let steps = [0.618_033_988_75, 0.754_877_666_25, 0.569_840_290_998, 0.819_172_513_396, 0.324_717_957_24];
     (steps[k as usize % 5] * f64::from(i + 1) + 0.137 * f64::from(k)).fract()
 }
 
-fn direction(i: u32, k: u32) -> DVec3 {
+pub(super) fn direction(i: u32, k: u32) -> DVec3 {
     etendue_core::warp::uniform_sphere(glam::Vec2::new(number(i, k) as f32, number(i, k + 1) as f32)).as_dvec3()
 }
 
-fn lamp(at: DVec3, towards: DVec3, intensity: f64, profile: Profile) -> LampLight {
+pub(super) fn lamp(at: DVec3, towards: DVec3, intensity: f64, profile: Profile) -> LampLight {
     let basis = etendue_core::Basis::about(towards.as_vec3().normalize());
     let axes = DMat3::from_cols(basis.z.as_dvec3(), basis.x.as_dvec3(), basis.y.as_dvec3());
     let lamp = Lamp::new(at, axes, Spectrum::constant(intensity), profile).expect("a lamp");
@@ -24,7 +24,7 @@ fn lamp(at: DVec3, towards: DVec3, intensity: f64, profile: Profile) -> LampLigh
 }
 
 /// Lamps in a box of `size`, about `centre`, every third a spot, of powers over `decades`.
-fn lamps(count: u32, centre: DVec3, size: f64, decades: f64) -> Vec<LampLight> {
+pub(super) fn lamps(count: u32, centre: DVec3, size: f64, decades: f64) -> Vec<LampLight> {
     let one = |i: u32| {
         let at = centre + size * (DVec3::new(number(i, 0), number(i, 1), number(i, 2)) - 0.5);
         let intensity = etendue_core::maths::f64::pow(10.0, decades * (number(i, 3) - 0.5));
@@ -46,7 +46,7 @@ fn ask(
     for i in 0..12 {
         let position = (centre + direction(i, 0) * size * [0.01, 0.3, 1.0, 20.0][i as usize % 4]).as_vec3();
         let normal = if i % 3 == 0 { Vec3::ZERO } else { direction(i, 2).as_vec3().normalize() };
-        let receiver = LightSampleContext { position, normal };
+        let receiver = LightSampleContext::matt(position, normal);
         f(&tree, &receiver, &|lamp| lamps[lamp as usize].irradiance(&receiver));
     }
 }
@@ -115,7 +115,7 @@ fn an_estimate_is_zero_only_where_nothing_arrives() {
     let lamps: Vec<_> = [spot(DVec3::Y), spot(DVec3::NEG_Y)].into_iter().chain((0..12).map(far)).collect();
     let bounds: Vec<_> = lamps.iter().map(LampLight::bounds).collect();
     let tree = LightTree::new(&bounds).expect("lamps that shine");
-    let receiver = LightSampleContext { position: Vec3::ZERO, normal: Vec3::ZERO };
+    let receiver = LightSampleContext::matt(Vec3::ZERO, Vec3::ZERO);
     let irradiance =
         tree.irradiance(&TreeQuery { receiver: &receiver, lamp: |i| lamps[i as usize].irradiance(&receiver) });
     // Twelve lamps of 1 W/sr at 100 km.
