@@ -237,8 +237,7 @@ impl<'a, const N: usize> Path<'a, N> {
         }
         // Light from behind counts where the surface lets it through.
         let normal = if vertex.bsdf.transmits() { Vec3::ZERO } else { vertex.frame.normal() };
-        let gloss =
-            ReceiverGloss::new(&vertex.bsdf.gloss(vertex.frame.wo), &vertex.frame).filter(|_| normal != Vec3::ZERO);
+        let gloss = if vertex.bsdf.transmits() { None } else { self.gloss(vertex) };
         let receiver = LightSampleContext { position: vertex.point.position, normal, gloss };
         self.sample_direct(vertex, &receiver);
         match self.sample(vertex) {
@@ -246,6 +245,13 @@ impl<'a, const N: usize> Path<'a, N> {
             Some(sample) if sample.event == Event::Null => self.go_through(vertex, &sample),
             Some(sample) => self.go_on(vertex, &sample, receiver),
         }
+    }
+
+    /// What the choice among lights is told of a surface: nothing where light that lobes send on is left out as a caustic.
+    #[inline(always)]
+    fn gloss(&self, vertex: &Vertex<'a, N>) -> Option<ReceiverGloss> {
+        let counts = self.follows(self.history.would_be_caustic(f32::INFINITY));
+        if counts { ReceiverGloss::new(&vertex.bsdf.gloss(vertex.frame.wo), &vertex.frame) } else { None }
     }
 
     #[inline(always)]

@@ -19,6 +19,10 @@ const LEAST: f32 = 0.05;
 /// How many times as bright as the matt part lobes are at least together; where less, they are left out.
 const BRIGHT: f32 = 4.0;
 
+/// Least width of a lobe that clusters are opened for: what narrower ones mirror of a lamp is smaller than a pixel, whose error
+/// is then that of its place in the pixel.
+const RESOLVED: f32 = 0.004;
+
 /// How many widths from its axis a lobe ends, for whether a cluster reaches into it.
 const INTO: f32 = 2.0;
 
@@ -101,6 +105,9 @@ impl ReceiverGloss {
 
     fn lobe_divides(&self, lobe: &Lobe, direction: Vec3, sin: f32) -> bool {
         let width = lobe.width2.sqrt();
+        if width < RESOLVED {
+            return false;
+        }
         match lobe.about {
             About::HalfVector => {
                 let half = self.viewer + direction;
