@@ -9,10 +9,11 @@ made of the scenes that ship with the project:
   are more than 800 000 triangles. Only materials that all renderers have: leaves and retro-reflecting signs are matt, and
   coats have alpha of 0.1 or more, so that no renderer waits for caustics.
 - `night`: the same at night, under 50 lamps.
+- `wet-night`: the night after rain: the carriageway under the coat of water of scenes/street/scene-wet-night.toml, with its
+  own index and alpha.
 """
 
 import json
-import os
 import sys
 import tomllib
 from pathlib import Path
@@ -23,25 +24,31 @@ import sky
 from spectra import DATA, NM, OBSERVER, ROOT, black_body, on_grid, table, with_luminance
 
 WIDTH, HEIGHT = 512, 384
-# Side of the blocks of pixels whose paths share their tails in Etendue, px.
-SHARING = int(os.environ.get("ETENDUE_SHARING", "8"))
+# Etendue's jobs, and the side of the blocks of pixels whose paths share their tails in each, px.
+JOBS = {"job.toml": 1, "job-reuse.toml": 8}
 BOUNCES = 8
 # The street's textures are named from where they lie.
 STREET = ROOT / "scenes/street"
 DIVIDED = {"hatchback", "saloon", "van", "house-a", "kerb"}
 LEAST_ALPHA = 0.1
 LEAST_TRIANGLES = 800_000
-# What stands for ready materials, and is enough like them.
+# Ready materials as the program knows them, and those whose alpha stays theirs.
+PRESETS = tomllib.loads((ROOT / "crates/scene/src/preset/materials.toml").read_text())
+OWN_ALPHA = {"asphalt_wet"}
+# What stands for ready materials that not all renderers have, and is enough like them.
 READY = {
     "marking_white": {"type": "diffuse", "reflectance": [0.56, 0.56, 0.54]},
     "car_paint_silver": {"type": "coated", "reflectance": [0.42, 0.43, 0.44], "alpha": LEAST_ALPHA},
     "car_paint_metallic_blue": {"type": "coated", "reflectance": [0.02, 0.06, 0.20], "alpha": LEAST_ALPHA},
     "rubber": {"type": "diffuse", "reflectance": [0.04, 0.04, 0.04]},
+    "marking_white_wet": {"type": "diffuse", "reflectance": [0.56, 0.56, 0.54]},
     "skin_light": {"type": "diffuse", "reflectance": [0.45, 0.28, 0.20]},
 }
 SUN = {"elevation_deg": 38.0, "azimuth_deg": 150.0, "diameter_deg": 0.5338, "illuminance_lx": 75_000.0}
 SUN_K, SKY_LX, GROUND_CD_M2 = 5300.0, 15_000.0, 2900.0
 LAMPS, LAMP_CD_M2, LAMP_SIZE_M = 50, 6000.0, (0.6, 0.25)
+# The lane ahead in the streets' pictures, 8 to 23 m away: first and last column and row, px.
+ROAD = {"columns": (228, 284), "rows": (212, 260)}
 
 
 class Mesh:
@@ -179,9 +186,11 @@ def cornell():
 
 def street_material(m, files):
     """In terms of what all renderers have."""
-    m = READY[m["preset"]] | {"name": m["name"]} if "preset" in m else m
+    preset = m.get("preset")
+    m = READY.get(preset, PRESETS.get(preset, {})) | m
+    alpha = m["alpha"] if preset in OWN_ALPHA else max(m.get("alpha", 0.0), LEAST_ALPHA)
     if m["type"] == "conductor":
-        return {"name": m["name"], "kind": "conductor", "metal": m["metal"], "alpha": max(m["alpha"], LEAST_ALPHA)}
+        return {"name": m["name"], "kind": "conductor", "metal": m["metal"], "alpha": alpha}
     material = {"name": m["name"], "kind": "coated" if m["type"] == "coated" else "diffuse"}
     colour = m["print"] if m["type"] == "retro_sheeting" else m["reflectance"]
     if isinstance(colour, dict):
@@ -189,7 +198,7 @@ def street_material(m, files):
     else:
         material["rgb"] = colour
     if m["type"] == "coated":
-        material["alpha"] = max(m["alpha"], LEAST_ALPHA)
+        material |= {"alpha": alpha, "index": m.get("index", 1.5)}
     return material
 
 
@@ -207,15 +216,16 @@ def street_mesh(described, names):
     return mesh
 
 
-def street():
-    """By day."""
+def street(changed=()):
+    """By day; materials that are changed stand in the place of those of their names."""
     described = tomllib.loads((STREET / "scene.toml").read_text())
     files = {t["name"]: str(STREET / t["file"]) for t in described["textures"]}
-    materials = [street_material(m, files) for m in described["materials"]]
+    changes = {m["name"]: m for m in changed}
+    materials = [street_material(changes.get(m["name"], m), files) for m in described["materials"]]
     mesh = street_mesh(described, [m["name"] for m in materials])
     light = SUN | {"irradiance": emission(black_body(SUN_K), SUN["illuminance_lx"])}
     view = pinhole([0, -1.6, 1.35], [0, 0.5, 0], 4.6, 5760.0 / WIDTH)
-    return {"materials": materials, "camera": view, "sun": light, "sky": "sky.hdr"}, mesh
+    return {"materials": materials, "camera": view, "sun": light, "sky": "sky.hdr", "road": ROAD}, mesh
 
 
 def towards_sun():
@@ -223,9 +233,9 @@ def towards_sun():
     return np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
 
 
-def night():
+def night(changed=()):
     """By night: lamps face down, 6 m above the kerbs, on both sides in turn."""
-    scene, mesh = street()
+    scene, mesh = street(changed)
     del scene["sun"], scene["sky"]
     relative = on_grid(table(DATA / "illuminant_led_b3.csv"))
     scene["materials"].append({"name": "lamp", "kind": "emitter", "emission": emission(relative, LAMP_CD_M2)})
@@ -234,6 +244,11 @@ def night():
         place = {"position_m": position, "rotation_deg": [0, 180, 0]}
         mesh.add(*placed(quad(*LAMP_SIZE_M), place), len(scene["materials"]) - 1)
     return scene, mesh
+
+
+def wet_night():
+    """The night after rain."""
+    return night(tomllib.loads((STREET / "scene-wet-night.toml").read_text())["materials"])
 
 
 def write_spectrum(folder, name, points):
@@ -253,6 +268,8 @@ def toml_material(folder, m):
         lines.append(f'metal = "{m["metal"]}"')
     if "alpha" in m:
         lines.append(f"alpha = {m['alpha']}")
+    if "index" in m:
+        lines.append(f"index = {m['index']}")
     if "emission" in m:
         light = write_spectrum(folder, m["name"] + "-emission.csv", m["emission"])
         lines.append(f"emission = {{ radiance_w_m2_sr_nm = {light} }}")
@@ -273,8 +290,8 @@ def toml_lights(folder, scene):
     return lines
 
 
-def job(folder, scene):
-    """Etendue's job: a pinhole whose pixels respond like the eye, so that electrons stand for luminance."""
+def job(folder, scene, reuse_px):
+    """Etendue's job as text: a pinhole whose pixels respond like the eye, so that electrons stand for luminance."""
     write_spectrum(folder, "eye.csv", zip(NM, 400.0 * OBSERVER[:, 1] / NM))
     c = scene["camera"]
     lines = ["format = 1", "", "[scene]"]
@@ -292,9 +309,9 @@ def job(folder, scene):
               f"pixel_pitch_um = {c['pixel_pitch_um']}", "exposure_s = 1.0", 'cfa = "mono"',
               'quantum_efficiency = { spectrum = "eye.csv" }', "full_well_e = 1e12", "read_noise_e = 0",
               "dark_current_e_s = 0", "gain_dn_per_e = 1", "black_level_dn = 0", "bits = 16",
-              "", "[render]", "spp = 64", "replicates = 1", f"path_reuse_px = {SHARING}", f"max_bounces = {BOUNCES}", "wavelength_range_nm = [360, 830]",
+              "", "[render]", "spp = 64", "replicates = 1", f"path_reuse_px = {reuse_px}", f"max_bounces = {BOUNCES}", "wavelength_range_nm = [360, 830]",
               "", "[output]", "electrons = true", "raw = false", "ground_truth = false", ""]
-    (folder / "job.toml").write_text("\n".join(lines))
+    return "\n".join(lines)
 
 
 def write_obj(path, arrays, names):
@@ -310,7 +327,7 @@ def write_obj(path, arrays, names):
                 out.write("".join("f " + " ".join(f"{k}/{k}/{k}" for k in t) + "\n" for t in chosen.tolist()))
 
 
-SCENES = {"cornell": cornell, "street": street, "night": night}
+SCENES = {"cornell": cornell, "street": street, "night": night, "wet-night": wet_night}
 
 
 def write(name, folder):
@@ -327,7 +344,8 @@ def write(name, folder):
     if "sky" in scene:
         sky.write(folder / scene["sky"], sky.pixels(towards_sun(), SKY_LX, GROUND_CD_M2))
     write_obj(folder / "mesh.obj", arrays, [m["name"] for m in scene["materials"]])
-    job(folder, scene)
+    for name_of_job, reuse_px in JOBS.items():
+        (folder / name_of_job).write_text(job(folder, scene, reuse_px))
     (folder / "scene.json").write_text(json.dumps(scene))
     print(f"{name}: {scene['triangles']} triangles")
 

@@ -14,6 +14,7 @@ pub mod paths;
 pub mod peer;
 pub mod questions;
 pub mod rays;
+pub mod road;
 pub mod runs;
 pub mod scenes;
 pub mod sensor;

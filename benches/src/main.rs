@@ -8,6 +8,7 @@
 //! | `rays` | millions of rays a second in the street: primary, bounce, shadow; AVX2 and scalar |
 //! | `paths` | paths a second of the scenes that ship with the project, one thread and two |
 //! | `lamps` | cost and error of a path under 10 to 10 000 lamps |
+//! | `road` | error of the road by night at 64 samples a pixel, dry and wet |
 //! | `lenses` | nanoseconds of a ray through each kind of lens |
 //! | `defocus` | depth of field through the lens, physical and fast: error of a point's blur, time |
 //! | `ghosts` | milliseconds of a picture's layer of ghosts |
@@ -25,17 +26,18 @@
 
 use etendue_benches::table::Table;
 use etendue_benches::{
-    defocus, files, frames, lamps, lenses, machine, memory, paths, peer, rays, sensor, trees, views,
+    defocus, files, frames, lamps, lenses, machine, memory, paths, peer, rays, road, sensor, trees, views,
 };
 use std::process::ExitCode;
 
 /// A benchmark: its name and what it answers.
 type Benchmark = (&'static str, fn() -> Table);
 
-const BENCHMARKS: [Benchmark; 12] = [
+const BENCHMARKS: [Benchmark; 13] = [
     ("rays", rays::table),
     ("paths", paths::table),
     ("lamps", lamps::table),
+    ("road", road::table),
     ("lenses", lenses::table),
     ("defocus", defocus::table),
     ("ghosts", lenses::ghosts),

@@ -4,10 +4,11 @@
 //! `etendue-benches --peer JOB.toml OUT.f32 SPP THREADS SEED…` renders the first camera once for each seed, after a
 //! small rendering that warms caches; the electrons of seed n go to `OUT.f32` with `n` in place of a `%`, row by row as
 //! little-endian f32. Each line of the standard output has a seed and the seconds of all threads, user and system
-//! together. Reading files and compiling the scene, its tree of boxes included, are not in them; placing the world
+//! together; the first, after a `#`, the instruction set of the accelerator. Reading files and compiling the scene, its tree of boxes included, are not in them; placing the world
 //! about the camera and collecting the lights are.
 
 use crate::clock::cpu_s;
+use crate::machine;
 use crate::scenes::{camera, plan_of};
 use crate::threads::pool;
 use etendue_pipeline::film::Film;
@@ -37,7 +38,8 @@ pub fn rendered(arguments: &[String]) -> Result<Vec<String>, String> {
     let mut order = Order { plan: plan_of(Path::new(job)), pool: pool(number(threads)?), out };
     order.render(1, 0);
     let spp = number(spp)?;
-    seeds.iter().map(|seed| order.line(spp, number(seed)?)).collect()
+    let kernels = std::iter::once(Ok(format!("# {}", machine::our_set())));
+    kernels.chain(seeds.iter().map(|seed| order.line(spp, number(seed)?))).collect()
 }
 
 fn number<T: std::str::FromStr>(text: &str) -> Result<T, String> {

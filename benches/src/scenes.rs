@@ -69,9 +69,18 @@ impl Scene {
     }
 
     fn job(&self) -> PathBuf {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("benches/ lies in the workspace");
-        root.join("scenes").join(self.name).join(format!("{}.toml", self.name))
+        scenes().join(self.name).join(format!("{}.toml", self.name))
     }
+}
+
+/// The plan of a job that ships, named as `scenes/` has it, with changes. Panics where it cannot be used.
+pub fn shipped(job: &str, changes: &[&str]) -> Plan {
+    compiled(&scenes().join(job), &read, &Overrides::new(changes))
+}
+
+fn scenes() -> PathBuf {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("benches/ lies in the workspace");
+    root.join("scenes")
 }
 
 /// The plan of a job file. Panics where the file or what it names cannot be used.

@@ -19,6 +19,7 @@ import spectra  # noqa: E402
 from scenes import rotation  # noqa: E402
 
 import bpy  # noqa: E402
+import _cycles  # noqa: E402 (bpy brings it along)
 from mathutils import Matrix, Vector  # noqa: E402
 
 # Cycles' radiance of 1 stands for this luminance, cd/m2.
@@ -56,7 +57,7 @@ def surface(tree, m, light):
         made.inputs["Extinction"].default_value = (7.52, 6.42, 5.64)
         return made
     if m["kind"] == "coated":
-        made = node(tree, "ShaderNodeBsdfPrincipled", Roughness=math.sqrt(m["alpha"]), IOR=1.5)
+        made = node(tree, "ShaderNodeBsdfPrincipled", Roughness=math.sqrt(m["alpha"]), IOR=m["index"])
         made.distribution = "GGX"
         colour = made.inputs["Base Color"]
     else:
@@ -217,6 +218,7 @@ def main(folder, out, spp, threads, *seeds):
     # Blender talks on the standard output; the answers go where it was.
     answers = os.fdopen(os.dup(1), "w")
     os.dup2(2, 1)
+    print("#", *_cycles.system_info().split(), file=answers, flush=True)
     load(Path(folder), int(threads))
     spp = int(spp)
     with tempfile.TemporaryDirectory() as temporary:

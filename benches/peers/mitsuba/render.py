@@ -2,12 +2,13 @@
 
 render.py SCENE_DIR OUT.npy SPP THREADS SEED... renders once for each seed, after a rendering of another seed that
 compiles the kernels; the luminance (cd/m2) of seed n goes to OUT.npy with n in place of a %. Each line of the standard
-output has a seed and the processor seconds of all threads.
+output has a seed and the processor seconds of all threads; the first, after a #, the instruction set of the kernels.
 """
 
 import json
 import math
 import os
+import re
 import resource
 import sys
 from pathlib import Path
@@ -53,7 +54,7 @@ def bsdf(m):
         inner = {"type": "diffuse", "reflectance": reflectance(m)}
     elif m["kind"] == "coated":
         inner = {"type": "roughplastic", "diffuse_reflectance": reflectance(m), "alpha": m["alpha"],
-                 "distribution": "ggx", "int_ior": 1.5, "ext_ior": 1.0, "nonlinear": True}
+                 "distribution": "ggx", "int_ior": m["index"], "ext_ior": 1.0, "nonlinear": True}
     elif m["kind"] == "conductor":
         inner = {"type": "roughconductor", "material": m["metal"], "alpha": m["alpha"], "distribution": "ggx"}
     else:
@@ -161,8 +162,19 @@ def render(scene, spp, seed):
     return np.mean(parts, axis=0)
 
 
+def instructions():
+    """The lanes and the target of a kernel that LLVM was given."""
+    with dr.scoped_set_flag(dr.JitFlag.KernelHistory, True):
+        dr.eval(dr.llvm.Float([1.0, 2.0]) + 1.0)
+        code = dr.kernel_history()[0]["ir"].getvalue()
+    lanes, target = re.search(r"<(\d+) x float>", code)[1], re.search(r'"target-cpu"="([^"]*)"', code)[1]
+    wide = next((name for name in ("avx512f", "avx2", "neon") if f"+{name}" in code), "baseline")
+    return f"LLVM {'.'.join(map(str, dr.detail.llvm_version()))} for {target}, {wide}, {lanes} lanes"
+
+
 def main(folder, out, spp, threads, *seeds):
     dr.set_thread_count(int(threads))
+    print("#", instructions(), flush=True)
     scene = load(Path(folder))
     render(scene, min(int(spp), LAUNCH_SPP), 999)
     for seed in seeds:

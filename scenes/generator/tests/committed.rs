@@ -51,6 +51,9 @@ fn the_street_is_large() {
 fn jobs_can_be_read() {
     let jobs = [
         "street/street.toml",
+        "street/sunset.toml",
+        "street/night.toml",
+        "street/wet-night.toml",
         "cornell/cornell.toml",
         "furnace/furnace.toml",
         "sphere-on-plane/sphere-on-plane.toml",

@@ -3,12 +3,14 @@
 //! Only what a triangle mesh and single rays need. Layouts and numbers are those of Embree 4's public interface
 //! (rtcore_ray.h, rtcore_geometry.h, rtcore_buffer.h, rtcore_scene.h).
 
+use crate::heap;
 use core::ffi::{c_char, c_int, c_uint, c_void};
 use core::mem::ManuallyDrop;
-use core::ptr::null;
+use core::ptr::{null, null_mut};
 use etendue_core::Ray;
 use etendue_tracer::geometry::Mesh;
 use libloading::Library;
+use std::ffi::CString;
 use std::path::Path;
 
 type Handle = *mut c_void;
@@ -85,13 +87,27 @@ pub struct Scene<'a> {
 }
 
 impl Embree {
-    /// Opens the library with one thread of its own.
-    pub fn open(path: &Path) -> Result<Self, libloading::Error> {
+    /// Opens the library with one thread of its own, and with no larger instruction set than `isa`, in Embree's words.
+    pub fn open(path: &Path, isa: Option<&str>) -> Result<Self, libloading::Error> {
+        Self::configured(path, isa, "")
+    }
+
+    /// As [`Embree::open`]; it says on the standard output what it does.
+    pub fn verbose(path: &Path, isa: Option<&str>) -> Result<Self, libloading::Error> {
+        Self::configured(path, isa, ",verbose=2")
+    }
+
+    fn configured(path: &Path, isa: Option<&str>, more: &str) -> Result<Self, libloading::Error> {
+        let isa = isa.map_or_else(String::new, |isa| format!(",max_isa={isa}"));
+        let config = CString::new(format!("threads=1,set_affinity=0{isa}{more}")).expect("words without zeros");
         // SAFETY: a library of this name runs nothing but its own initialisation; the signatures are those of Embree 4.
         unsafe {
             let library = Library::new(path)?;
             let new_device = *library.get::<unsafe extern "C" fn(*const c_char) -> Handle>(b"rtcNewDevice")?;
-            let device = new_device(c"threads=1,set_affinity=0".as_ptr());
+            let device = new_device(config.as_ptr());
+            type Watch = unsafe extern "C" fn(Handle, extern "C" fn(Handle, isize, bool) -> bool, Handle);
+            let watch = *library.get::<Watch>(b"rtcSetDeviceMemoryMonitorFunction")?;
+            watch(device, heap::monitor, null_mut());
             let (intersect, occluded) =
                 (*library.get::<Query>(b"rtcIntersect1")?, *library.get::<Query>(b"rtcOccluded1")?);
             Ok(Self { device, intersect, occluded, library: ManuallyDrop::new(library) })

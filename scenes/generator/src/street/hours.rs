@@ -14,6 +14,14 @@ const STREET_LAMP_COUNT: usize = 9;
 const ONCOMING: [[f64; 5]; 3] =
     [[25.5, 1.7, 2.05, 1.16, 0.70], [52.0, 1.65, 2.5, 1.4, 0.78], [74.0, 1.7, 2.3, 1.3, 0.70]];
 
+/// What lies in the carriageway, and its reflectance when dry (see `materials`): water covers it when it rains.
+const WET_ROAD: [(&str, &str); 4] = [
+    ("asphalt", "{ texture = \"asphalt\" }"),
+    ("fresh-asphalt", "{ texture = \"fresh-asphalt\" }"),
+    ("bitumen", "[0.03, 0.03, 0.03]"),
+    ("manhole", "[0.085, 0.08, 0.075]"),
+];
+
 /// The scene at sunset.
 pub(super) fn sunset_scene() -> String {
     String::from(
@@ -77,6 +85,21 @@ pub(super) fn night_scene() -> String {
         }
     }
     text.push_str("]\n");
+    text
+}
+
+/// The scene at night after rain: a film of water on the carriageway, over the textures and the paint of the dry one.
+pub(super) fn wet_night_scene() -> String {
+    let mut text = String::from(
+        "# The street at night after rain: the carriageway is wet, the pavements have drained. Made by scenes/generator.\n\
+         format = 1\n\
+         base = \"scene-night.toml\"\n",
+    );
+    for (name, reflectance) in WET_ROAD {
+        let _ =
+            write!(text, "\n[[materials]]\nname = \"{name}\"\npreset = \"asphalt_wet\"\nreflectance = {reflectance}\n");
+    }
+    text.push_str("\n[[materials]]\nname = \"marking\"\npreset = \"marking_white_wet\"\n");
     text
 }
 

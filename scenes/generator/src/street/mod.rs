@@ -41,11 +41,14 @@ pub fn files() -> Vec<File> {
 fn other_hours() -> Vec<File> {
     let sunset = hours::job("The street in the evening sun.", "scene-sunset.toml", "automotive-evening.toml");
     let night = hours::job("The street at night.", "scene-night.toml", "automotive-night.toml");
+    let wet = hours::job("The street at night after rain.", "scene-wet-night.toml", "automotive-night.toml");
     let files = [
         ("scene-sunset.toml", hours::sunset_scene()),
         ("sunset.toml", sunset),
         ("scene-night.toml", hours::night_scene()),
         ("night.toml", night),
+        ("scene-wet-night.toml", hours::wet_night_scene()),
+        ("wet-night.toml", wet),
         ("street-lamp.ies", luminaire::ies()),
     ];
     files.map(|(name, text)| File::text(format!("street/{name}"), text)).into()
