@@ -243,7 +243,7 @@ impl<'a, const N: usize> Path<'a, N> {
         match self.sample(vertex) {
             None => PathStep::Ends,
             Some(sample) if sample.event == Event::Null => self.go_through(vertex, &sample),
-            Some(sample) => self.go_on(vertex, &sample, receiver),
+            Some(sample) => self.go_on(vertex, &sample, &receiver),
         }
     }
 
@@ -358,11 +358,11 @@ impl<'a, const N: usize> Path<'a, N> {
     }
 
     /// On in a new direction.
-    fn go_on(&mut self, vertex: &Vertex<'a, N>, sample: &BsdfSample<N>, receiver: LightSampleContext) -> PathStep {
+    fn go_on(&mut self, vertex: &Vertex<'a, N>, sample: &BsdfSample<N>, receiver: &LightSampleContext) -> PathStep {
         let Some(direction) = vertex.frame.outward(sample.wi) else { return PathStep::Ends };
         self.throughput *= sample.weight;
         self.scattered = (sample.event == Event::Scatter).then_some(sample.pdf);
-        self.receiver = self.scattered.map(|_| receiver);
+        self.receiver = self.scattered.map(|_| *receiver);
         self.history.scatter(self.scattered);
         if let Some(pdf) = self.scattered {
             self.cone.scatter(pdf);

@@ -11,20 +11,18 @@
 use core::f32::consts::{FRAC_1_PI, PI};
 use glam::Vec3;
 
+use super::four::{Four, at_least, at_most, each};
 use crate::materials::{About, Gloss, GlossLobe, ShadingFrame, TOLD, schlick};
 
 /// Share of what the lobes send back that the matt part counts at least.
 const LEAST: f32 = 0.05;
 
 /// How many times as bright as the matt part lobes are at least together; where less, they are left out.
-const BRIGHT: f32 = 4.0;
+const BRIGHT: f32 = 8.0;
 
 /// Least width of a lobe that clusters are opened for: what narrower ones mirror of a lamp is smaller than a pixel, whose error
 /// is then that of its place in the pixel.
 const RESOLVED: f32 = 0.004;
-
-/// How many widths from its axis a lobe ends, for whether a cluster reaches into it.
-const INTO: f32 = 2.0;
 
 /// Mean square along one axis over a disc of radius 1.
 const SPREAD2: f32 = 0.25;
@@ -83,58 +81,89 @@ impl ReceiverGloss {
     /// the matt part sends of light from above.
     #[inline]
     pub(super) fn relative(&self, direction: Vec3, sin: f32) -> f32 {
-        self.lobes.iter().map(|lobe| if lobe.peak > 0.0 { self.of_lobe(lobe, direction, sin) } else { 0.0 }).sum()
+        self.relative_four(direction.to_array().map(|x| [x; 4]), [sin; 4])[0]
     }
 
+    /// The same of four cones.
     #[inline(always)]
-    fn of_lobe(&self, lobe: &Lobe, direction: Vec3, sin: f32) -> f32 {
-        match lobe.about {
-            About::HalfVector => self.of_half_vectors(lobe, direction, sin),
-            About::Direction(axis) => {
-                let width2 = lobe.width2 + SPREAD2 * sin * sin;
-                let fallen = width2 / (width2 + (direction - axis).length_squared());
-                lobe.peak * (lobe.width2 / width2) * (fallen * fallen)
-            }
+    pub(super) fn relative_four(&self, directions: [Four; 3], sin: Four) -> Four {
+        let mut sum = [0.0; 4];
+        for lobe in self.lobes.iter().filter(|lobe| lobe.peak > 0.0) {
+            let of = match lobe.about {
+                About::HalfVector => self.of_half_vectors(lobe, directions, sin),
+                About::Direction(axis) => of_direction(lobe, axis, directions, sin),
+            };
+            sum = each(|i| sum[i] + of[i]);
         }
+        sum
     }
 
-    /// Whether a lobe is narrower than a cone that reaches into it, so that it tells parts of it apart.
-    pub(super) fn divides(&self, direction: Vec3, sin: f32) -> bool {
-        self.lobes.iter().any(|lobe| lobe.peak > 0.0 && self.lobe_divides(lobe, direction, sin))
+    /// How many times as much as in the mean light counts from that place in a cone which the lobes favour most.
+    pub(super) fn raised(&self, direction: Vec3, sin: f32) -> f32 {
+        let greatest: f32 = self.lobes.iter().map(|lobe| self.greatest(lobe, direction, sin)).sum();
+        (1.0 + greatest) / (1.0 + self.relative(direction, sin))
     }
 
-    fn lobe_divides(&self, lobe: &Lobe, direction: Vec3, sin: f32) -> bool {
-        let width = lobe.width2.sqrt();
-        if width < RESOLVED {
-            return false;
+    /// The greatest value of a lobe in a cone; 0 of lobes that are as wide, or too narrow to be told apart.
+    fn greatest(&self, lobe: &Lobe, direction: Vec3, sin: f32) -> f32 {
+        if lobe.peak <= 0.0 || lobe.width2 < RESOLVED * RESOLVED {
+            return 0.0;
         }
-        match lobe.about {
+        let (aside2, fresnel) = match lobe.about {
             About::HalfVector => {
                 let half = self.viewer + direction;
                 let height = half.dot(self.normal).max(LOWEST);
-                let reach = (0.5 * sin, sin / height);
-                let (along, across) = (half.dot(self.along).abs() / height, half.dot(self.across).abs() / height);
-                reach.0.max(reach.1) > width && along < reach.0 + INTO * width && across < reach.1 + INTO * width
+                let outside = |of: Vec3, reach: f32| (half.dot(of).abs() / height - reach).max(0.0);
+                let (along, across) = (outside(self.along, 0.5 * sin), outside(self.across, sin / height));
+                (along * along + across * across, schlick(lobe.f0, 0.5 * half.length()))
             }
-            About::Direction(axis) => sin > width && (direction - axis).length() < sin + INTO * width,
-        }
+            About::Direction(axis) => {
+                let outside = ((direction - axis).length() - sin).max(0.0);
+                (outside * outside, 1.0)
+            }
+        };
+        let fallen = lobe.width2 / (lobe.width2 + aside2);
+        lobe.peak * fresnel * fallen * fallen
     }
 
     #[inline(always)]
-    fn of_half_vectors(&self, lobe: &Lobe, direction: Vec3, sin: f32) -> f32 {
-        let half = self.viewer + direction;
+    fn of_half_vectors(&self, lobe: &Lobe, [x, y, z]: [Four; 3], sin: Four) -> Four {
+        let half = [each(|i| x[i] + self.viewer.x), each(|i| y[i] + self.viewer.y), each(|i| z[i] + self.viewer.z)];
+        let dot = |v: Vec3| each(|i| half[0][i] * v.x + half[1][i] * v.y + half[2][i] * v.z);
+        let length2 = each(|i| half[0][i] * half[0][i] + half[1][i] * half[1][i] + half[2][i] * half[2][i]);
+        let cos = each(|i| at_most(0.5 * length2[i].sqrt(), 1.0));
+        let (up, along, across) = (dot(self.normal), dot(self.along), dot(self.across));
         // A cone that reaches below the horizon counts by its part above.
-        let height = half.dot(self.normal).max(0.25 * sin).max(LOWEST);
-        let (along, across) = (half.dot(self.along) / height, half.dot(self.across) / height);
-        let spread2 = SPREAD2 * sin * sin;
-        let width2_along = lobe.width2 + 0.25 * spread2;
-        let width2_across = lobe.width2 + spread2 / (height * height);
-        let aside2 = along * along + across * across;
-        let scaled2 = along * along / width2_along + across * across / width2_across;
-        let shape = (1.0 + aside2) / (1.0 + scaled2.max(aside2));
-        let lowered = lobe.width2 / (width2_along * width2_across).sqrt();
-        lobe.peak * schlick(lobe.f0, 0.5 * half.length()) * lowered * (shape * shape)
+        let per_height = each(|i| 1.0 / at_least(at_least(up[i], 0.25 * sin[i]), LOWEST));
+        let along2 = each(|i| along[i] * along[i] * per_height[i] * per_height[i]);
+        let across2 = each(|i| across[i] * across[i] * per_height[i] * per_height[i]);
+        let spread2 = each(|i| SPREAD2 * sin[i] * sin[i]);
+        let width2_along = each(|i| lobe.width2 + 0.25 * spread2[i]);
+        let width2_across = each(|i| lobe.width2 + spread2[i] * per_height[i] * per_height[i]);
+        let aside2 = each(|i| along2[i] + across2[i]);
+        let scaled2 = each(|i| along2[i] / width2_along[i] + across2[i] / width2_across[i]);
+        let shape = each(|i| (1.0 + aside2[i]) / (1.0 + at_least(scaled2[i], aside2[i])));
+        let lowered = each(|i| lobe.width2 / (width2_along[i] * width2_across[i]).sqrt());
+        let fresnel = each(|i| schlick_of(lobe.f0, cos[i]));
+        each(|i| lobe.peak * fresnel[i] * lowered[i] * (shape[i] * shape[i]))
     }
+}
+
+#[inline(always)]
+fn of_direction(lobe: &Lobe, axis: Vec3, [x, y, z]: [Four; 3], sin: Four) -> Four {
+    let (x, y, z) = (each(|i| x[i] - axis.x), each(|i| y[i] - axis.y), each(|i| z[i] - axis.z));
+    let aside2 = each(|i| x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
+    let width2 = each(|i| lobe.width2 + SPREAD2 * sin[i] * sin[i]);
+    let fallen = each(|i| width2[i] / (width2[i] + aside2[i]));
+    each(|i| lobe.peak * (lobe.width2 / width2[i]) * (fallen[i] * fallen[i]))
+}
+
+/// Schlick's approximation, of a cosine of at most 1.
+#[inline(always)]
+fn schlick_of(f0: f32, cos: f32) -> f32 {
+    let x = 1.0 - cos;
+    let x2 = x * x;
+    f0 + (1.0 - f0) * (x2 * x2 * x)
 }
 
 /// Least cos θₒ + cos θᵢ.

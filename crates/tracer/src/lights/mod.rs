@@ -14,6 +14,7 @@
 mod choice;
 mod collect;
 mod environment;
+mod four;
 mod gloss;
 pub mod head_lamp;
 mod lamp;

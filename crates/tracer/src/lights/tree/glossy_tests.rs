@@ -90,18 +90,19 @@ fn frequencies_of_draws_are_the_probabilities_told() {
     let mut least = (1.0_f64, 0);
     each_receiver(|receiver, _| {
         let question = TreeQuery { receiver, lamp: |i| lamps[i as usize].irradiance(receiver) };
+        let start = tree.start(&question);
         let draws = 100_000;
         let mut counts = vec![0_u64; lamps.len() + 1];
         for i in 0..draws {
             // Irregular, unlike the points of a grid: the fraction of a great multiple.
             let u = (number(i, 0) * 7_919.0 + number(i, 1) * 104_729.0).fract();
-            let chosen = tree.pick(&question, u);
+            let chosen = tree.pick(&question, &start, u);
             if let Some((light, told)) = chosen {
-                assert_eq!(told.to_bits(), tree.probability(&question, light).to_bits());
+                assert_eq!(told.to_bits(), tree.probability(&question, &start, light).to_bits());
             }
             counts[chosen.map_or(lamps.len(), |(light, _)| light)] += 1;
         }
-        let mut told: Vec<_> = (0..lamps.len()).map(|i| f64::from(tree.probability(&question, i))).collect();
+        let mut told: Vec<_> = (0..lamps.len()).map(|i| f64::from(tree.probability(&question, &start, i))).collect();
         let none = 1.0 - told.iter().sum::<f64>();
         // A few branches may hold lamps below the horizon alone; rounding of f32 in some hundred sums.
         assert!((-1e-4..0.05).contains(&none), "{none}");
@@ -120,8 +121,9 @@ fn no_lamp_that_a_glossy_surface_sees_is_lost() {
     let tree = tree_of(&lamps);
     each_receiver(|receiver, _| {
         let question = TreeQuery { receiver, lamp: |i| lamps[i as usize].irradiance(receiver) };
+        let start = tree.start(&question);
         for (i, light) in lamps.iter().enumerate() {
-            let (told, arrives) = (tree.probability(&question, i), light.irradiance(receiver) > 0.0);
+            let (told, arrives) = (tree.probability(&question, &start, i), light.irradiance(receiver) > 0.0);
             assert!(told.is_finite() && (told > 0.0) == arrives, "lamp {i}: {told}, {arrives}");
         }
     });
@@ -141,9 +143,10 @@ fn what_is_mirrored_is_drawn_as_often_as_it_counts() {
         let blind = LightSampleContext { gloss: None, ..*receiver };
         let error = |choice: &LightSampleContext| {
             let question = TreeQuery { receiver: choice, lamp: |i| lamps[i as usize].irradiance(choice) };
+            let start = tree.start(&question);
             let (mut sum, mut square) = (0.0, 0.0);
             for (i, light) in lamps.iter().enumerate() {
-                let p = f64::from(tree.probability(&question, i));
+                let p = f64::from(tree.probability(&question, &start, i));
                 if p > 0.0 {
                     let way = light.position() - receiver.position;
                     let value = f64::from(scattered(way.normalize()) / way.length_squared());

@@ -24,6 +24,7 @@ mod cut;
 #[cfg(test)]
 mod glossy_tests;
 mod node;
+mod start;
 #[cfg(test)]
 mod tests;
 
@@ -31,7 +32,7 @@ use super::LightSampleContext;
 use node::{LANES, Node};
 
 pub(super) use bounds::LightBounds;
-use cut::Cut;
+pub(super) use start::Start;
 
 /// Where a light or a node hangs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -67,77 +68,56 @@ impl LightTree {
     }
 
     /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver, unless
-    /// there is but one light.
-    pub(super) fn pick<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, u: f64) -> Option<(usize, f32)> {
-        if self.len() == 1 {
-            return Some((0, 1.0));
-        }
-        let Some(gloss) = &question.receiver.gloss else { return self.pick_below(0, question, (u, 1.0)) };
-        let (slot, share, within) = self.cut(question, gloss).draw(u)?;
-        let child = self.nodes[slot.node as usize].child(usize::from(slot.lane));
-        if child.is_node {
-            self.pick_below(child.index, question, (within, share))
-        } else {
-            Some((child.index as usize, share))
-        }
-    }
-
-    /// A light below a node that was come to with a probability.
-    fn pick_below<F: Fn(u32) -> f32>(
+    /// there is but one light. `start` is this receiver's.
+    pub(super) fn pick<F: Fn(u32) -> f32>(
         &self,
-        mut node: u32,
         question: &TreeQuery<'_, F>,
-        (mut u, mut probability): (f64, f32),
+        start: &Start,
+        u: f64,
     ) -> Option<(usize, f32)> {
-        loop {
-            let weights = self.weights(node, question);
-            let (lane, share, within) = draw(&weights, u)?;
+        let (slot, mut probability, mut u) = start.draw(u)?;
+        let mut child = self.nodes[slot.node as usize].child(usize::from(slot.lane));
+        while child.is_node {
+            let (lane, share, within) = draw(&self.weights(child.index, question), u)?;
             probability *= share;
             u = within;
-            let child = self.nodes[node as usize].child(lane);
-            if !child.is_node {
-                return Some((child.index as usize, probability));
-            }
-            node = child.index;
+            child = self.nodes[child.index as usize].child(lane);
         }
+        Some((child.index as usize, probability))
     }
 
     /// The probability by which [`LightTree::pick`] gives a light.
-    pub(super) fn probability<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, light: usize) -> f32 {
-        if self.len() == 1 {
-            return 1.0;
-        }
-        let cut = question.receiver.gloss.as_ref().map(|gloss| self.cut(question, gloss));
-        self.reach(question, cut.as_ref(), self.leaves[light])
+    pub(super) fn probability<F: Fn(u32) -> f32>(
+        &self,
+        question: &TreeQuery<'_, F>,
+        start: &Start,
+        light: usize,
+    ) -> f32 {
+        self.reach(question, start, self.leaves[light])
     }
 
-    /// Probability of coming to a slot, from the root or a cut.
-    fn reach<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, cut: Option<&Cut>, slot: Slot) -> f32 {
-        if let Some(share) = cut.and_then(|cut| cut.share(slot)) {
+    /// Probability of coming to a slot.
+    fn reach<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, start: &Start, slot: Slot) -> f32 {
+        if let Some(share) = start.share(slot) {
             return share;
         }
         let above = match slot.node {
-            // What is on no way from the cut was weighed and counts nothing.
-            0 => {
-                if cut.is_some() {
-                    0.0
-                } else {
-                    1.0
-                }
-            }
-            node => self.reach(question, cut, self.parents[node as usize]),
+            // What is on no way from the start was weighed and counts nothing.
+            0 => 0.0,
+            node => self.reach(question, start, self.parents[node as usize]),
         };
         if above > 0.0 { above * share(&self.weights(slot.node, question), usize::from(slot.lane)) } else { 0.0 }
     }
 
     /// Estimate of the irradiance at the receiver, W·m⁻²·nm⁻¹: finer where the greatest cluster is near.
-    pub(super) fn irradiance<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>) -> f64 {
-        if let Some(gloss) = &question.receiver.gloss {
-            return self.scale * f64::from(self.cut(question, gloss).total());
-        }
+    pub(super) fn irradiance<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, start: &Start) -> f64 {
+        let mut weights = match start {
+            Start::Cut(cut) => return self.scale * f64::from(cut.total()),
+            Start::Root(weights) => *weights,
+            Start::Only => self.weights(0, question),
+        };
         let (mut node, mut sum) = (0, 0.0);
         loop {
-            let mut weights = self.weights(node, question);
             let total: f32 = weights.iter().sum();
             let lane = (0..LANES).fold(0, |best, i| if weights[i] > weights[best] { i } else { best });
             let child = self.nodes[node as usize].child(lane);
@@ -148,6 +128,7 @@ impl LightTree {
             weights[lane] = 0.0;
             sum += f64::from(weights.iter().sum::<f32>());
             node = child.index;
+            weights = self.weights(node, question);
         }
     }
 

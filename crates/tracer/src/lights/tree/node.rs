@@ -11,6 +11,7 @@
 //! there (`lights/gloss.rs`).
 
 use super::bounds::LightBounds;
+use crate::lights::four::{Four, at_least, at_most, each};
 use crate::lights::{LightSampleContext, ReceiverGloss};
 use glam::Vec3;
 
@@ -18,9 +19,6 @@ use glam::Vec3;
 pub(super) const LANES: usize = 8;
 
 type Lanes = [f32; LANES];
-
-/// What goes side by side.
-type Four = [f32; 4];
 
 /// Eight children, component by component. Lanes without a child have no intensity.
 #[derive(Clone, Debug, Default)]
@@ -88,12 +86,12 @@ impl Node {
         (self.centre_of(lane) - position).length_squared() > 4.0 * self.radius2[lane]
     }
 
-    /// Whether a lobe tells parts of a child apart.
-    pub(super) fn is_divided(&self, lane: usize, position: Vec3, gloss: &ReceiverGloss) -> bool {
-        let way = self.centre_of(lane) - position;
-        let distance2 = way.length_squared();
-        distance2 <= self.radius2[lane]
-            || gloss.divides(way / distance2.sqrt(), (self.radius2[lane] / distance2).sqrt())
+    /// How many times as much as in the mean a part of a child may count, by where it lies in the lobes; 0 where all parts count
+    /// about alike.
+    pub(super) fn raised(&self, lane: usize, receiver: &LightSampleContext, gloss: &ReceiverGloss) -> f32 {
+        let way = self.centre_of(lane) - receiver.position;
+        let distance2 = way.length_squared().max(f32::MIN_POSITIVE);
+        gloss.raised(way / distance2.sqrt(), (self.radius2[lane] / distance2).sqrt().min(1.0))
     }
 
     fn centre_of(&self, lane: usize) -> Vec3 {
@@ -104,14 +102,14 @@ impl Node {
     pub(super) fn weights(&self, receiver: &LightSampleContext) -> Lanes {
         let mut weights = [0.0; LANES];
         match &receiver.gloss {
-            None => self.fill(&mut weights, receiver, |_, _| 0.0),
-            Some(gloss) => self.fill(&mut weights, receiver, |direction, sin| gloss.relative(direction, sin)),
+            None => self.fill(&mut weights, receiver, |_, _| [0.0; 4]),
+            Some(gloss) => self.fill(&mut weights, receiver, |direction, sin| gloss.relative_four(direction, sin)),
         }
         weights
     }
 
     #[inline(always)]
-    fn fill(&self, weights: &mut Lanes, receiver: &LightSampleContext, glossy: impl Fn(Vec3, f32) -> f32) {
+    fn fill(&self, weights: &mut Lanes, receiver: &LightSampleContext, glossy: impl Fn([Four; 3], Four) -> Four) {
         weights[..4].copy_from_slice(&self.four(0, receiver, &glossy));
         if self.used > 4 {
             weights[4..].copy_from_slice(&self.four(4, receiver, &glossy));
@@ -121,7 +119,7 @@ impl Node {
     /// The weights of four children from lane `from` on. In small steps without branches, each over all four, so that
     /// the compiler lets them go side by side.
     #[inline(always)]
-    fn four(&self, from: usize, receiver: &LightSampleContext, glossy: &impl Fn(Vec3, f32) -> f32) -> Four {
+    fn four(&self, from: usize, receiver: &LightSampleContext, glossy: &impl Fn([Four; 3], Four) -> Four) -> Four {
         let (p, n) = (receiver.position, receiver.normal);
         // 1 where light counts from everywhere, and the cosine then does not.
         let everywhere = if n == Vec3::ZERO { 1.0 } else { 0.0 };
@@ -147,27 +145,12 @@ impl Node {
         let (_, cos_3) = less((sin_i, cos_i), (sin_u, cos_u));
         let receives = each(|i| at_least(at_least(cos_3[i] + MARGIN, 0.0), everywhere));
 
-        let gloss = |i: usize| glossy(Vec3::new(x[i], y[i], z[i]) * per_d[i], sin_u[i]);
-        let scattered = each(|i| if receives[i] > 0.0 { receives[i] + gloss(i) } else { 0.0 });
-        let seen = each(|i| if d2[i] <= radius2[i] { 1.0 + gloss(i) } else { emits[i] * scattered[i] });
+        let gloss = glossy([each(|i| x[i] * per_d[i]), each(|i| y[i] * per_d[i]), each(|i| z[i] * per_d[i])], sin_u);
+        let scattered = each(|i| if receives[i] > 0.0 { receives[i] + gloss[i] } else { 0.0 });
+        let seen = each(|i| if d2[i] <= radius2[i] { 1.0 + gloss[i] } else { emits[i] * scattered[i] });
         let far2 = each(|i| at_least(at_least(d2[i], INSIDE * radius2[i]), f32::MIN_POSITIVE));
         each(|i| self.intensity[from + i] * seen[i] / far2[i])
     }
-}
-
-#[inline(always)]
-fn each(f: impl Fn(usize) -> f32) -> Four {
-    core::array::from_fn(f)
-}
-
-/// The greater of two numbers, as one instruction.
-fn at_least(x: f32, low: f32) -> f32 {
-    if x > low { x } else { low }
-}
-
-/// The smaller of two numbers, as one instruction.
-fn at_most(x: f32, high: f32) -> f32 {
-    if x < high { x } else { high }
 }
 
 /// Sine and cosine of max(a − b, 0), for angles of 0…π given by theirs.

@@ -61,19 +61,20 @@ fn draws_fall_as_often_as_is_told() {
     for (lamps, size) in &sets {
         ask(lamps, *size, DVec3::ZERO, |tree, receiver, lamp| {
             let question = TreeQuery { receiver, lamp };
+            let start = tree.start(&question);
             let n = 1 << 14;
             let mut counts = vec![0.0; lamps.len()];
             let mut none = 0.0;
             for i in 0..n {
-                match tree.pick(&question, (f64::from(i) + 0.5) / f64::from(n)) {
+                match tree.pick(&question, &start, (f64::from(i) + 0.5) / f64::from(n)) {
                     Some((light, told)) => {
                         counts[light] += 1.0;
-                        assert_eq!(told.to_bits(), tree.probability(&question, light).to_bits());
+                        assert_eq!(told.to_bits(), tree.probability(&question, &start, light).to_bits());
                     }
                     None => none += 1.0,
                 }
             }
-            let told: Vec<_> = (0..lamps.len()).map(|i| f64::from(tree.probability(&question, i))).collect();
+            let told: Vec<_> = (0..lamps.len()).map(|i| f64::from(tree.probability(&question, &start, i))).collect();
             for (count, told) in counts.iter().zip(&told) {
                 // Each light has one interval of u: its points of the grid differ from its length by less than one, and
                 // a few more where rounding in f32 moves both ends.
@@ -96,11 +97,12 @@ fn no_light_that_arrives_is_lost() {
     ] {
         ask(&lamps, size, centre, |tree, receiver, lamp| {
             let question = TreeQuery { receiver, lamp };
+            let start = tree.start(&question);
             for (i, light) in lamps.iter().enumerate() {
-                let (told, arrives) = (tree.probability(&question, i), light.irradiance(receiver) > 0.0);
+                let (told, arrives) = (tree.probability(&question, &start, i), light.irradiance(receiver) > 0.0);
                 assert!(told.is_finite() && (told > 0.0) == arrives, "lamp {i}: {told}, {arrives}");
             }
-            assert!(tree.irradiance(&question).is_finite());
+            assert!(tree.irradiance(&question, &start).is_finite());
         });
     }
 }
@@ -116,8 +118,8 @@ fn an_estimate_is_zero_only_where_nothing_arrives() {
     let bounds: Vec<_> = lamps.iter().map(LampLight::bounds).collect();
     let tree = LightTree::new(&bounds).expect("lamps that shine");
     let receiver = LightSampleContext::matt(Vec3::ZERO, Vec3::ZERO);
-    let irradiance =
-        tree.irradiance(&TreeQuery { receiver: &receiver, lamp: |i| lamps[i as usize].irradiance(&receiver) });
+    let question = TreeQuery { receiver: &receiver, lamp: |i| lamps[i as usize].irradiance(&receiver) };
+    let irradiance = tree.irradiance(&question, &tree.start(&question));
     // Twelve lamps of 1 W/sr at 100 km.
     assert!((0.5..2.0).contains(&(irradiance / 12e-10)), "{irradiance}");
 }
@@ -128,7 +130,8 @@ fn estimates_are_of_the_size_of_what_arrives() {
     ask(&lamps, 200.0, DVec3::ZERO, |tree, receiver, lamp| {
         if receiver.normal == Vec3::ZERO {
             let exact: f64 = lamps.iter().map(|l| f64::from(l.irradiance(receiver))).sum();
-            let ratio = tree.irradiance(&TreeQuery { receiver, lamp }) / exact;
+            let question = TreeQuery { receiver, lamp };
+            let ratio = tree.irradiance(&question, &tree.start(&question)) / exact;
             assert!((0.2..5.0).contains(&ratio), "{ratio}");
         }
     });
@@ -141,6 +144,7 @@ fn dark_lamps_make_no_tree() {
     let lamps =
         [lamp(DVec3::ZERO, DVec3::X, 0.0, Profile::Isotropic), lamp(DVec3::X, DVec3::X, 1.0, Profile::Isotropic)];
     ask(&lamps, 3.0, DVec3::ZERO, |tree, receiver, lamp| {
-        assert_eq!(tree.probability(&TreeQuery { receiver, lamp }, 0), 0.0);
+        let question = TreeQuery { receiver, lamp };
+        assert_eq!(tree.probability(&question, &tree.start(&question), 0), 0.0);
     });
 }
