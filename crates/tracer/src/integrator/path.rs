@@ -13,7 +13,7 @@ use super::medium::Medium;
 use super::{Level, PathTracer};
 use crate::MaterialId;
 use crate::geometry::SurfacePoint;
-use crate::lights::{LightHit, LightSample, LightSampleContext};
+use crate::lights::{LightHit, LightSample, LightSampleContext, ReceiverGloss};
 use crate::materials::{Bsdf, BsdfSample, Event, ShadingFrame};
 use crate::textures::Lookup;
 
@@ -237,13 +237,21 @@ impl<'a, const N: usize> Path<'a, N> {
         }
         // Light from behind counts where the surface lets it through.
         let normal = if vertex.bsdf.transmits() { Vec3::ZERO } else { vertex.frame.normal() };
-        let receiver = LightSampleContext { position: vertex.point.position, normal };
+        let gloss = if vertex.bsdf.transmits() { None } else { self.gloss(vertex) };
+        let receiver = LightSampleContext { position: vertex.point.position, normal, gloss };
         self.sample_direct(vertex, &receiver);
         match self.sample(vertex) {
             None => PathStep::Ends,
             Some(sample) if sample.event == Event::Null => self.go_through(vertex, &sample),
-            Some(sample) => self.go_on(vertex, &sample, receiver),
+            Some(sample) => self.go_on(vertex, &sample, &receiver),
         }
+    }
+
+    /// What the choice among lights is told of a surface: nothing where light that lobes send on is left out as a caustic.
+    #[inline(always)]
+    fn gloss(&self, vertex: &Vertex<'a, N>) -> Option<ReceiverGloss> {
+        let counts = self.follows(self.history.would_be_caustic(f32::INFINITY));
+        if counts { ReceiverGloss::new(&vertex.bsdf.gloss(vertex.frame.wo), &vertex.frame) } else { None }
     }
 
     #[inline(always)]
@@ -350,11 +358,11 @@ impl<'a, const N: usize> Path<'a, N> {
     }
 
     /// On in a new direction.
-    fn go_on(&mut self, vertex: &Vertex<'a, N>, sample: &BsdfSample<N>, receiver: LightSampleContext) -> PathStep {
+    fn go_on(&mut self, vertex: &Vertex<'a, N>, sample: &BsdfSample<N>, receiver: &LightSampleContext) -> PathStep {
         let Some(direction) = vertex.frame.outward(sample.wi) else { return PathStep::Ends };
         self.throughput *= sample.weight;
         self.scattered = (sample.event == Event::Scatter).then_some(sample.pdf);
-        self.receiver = self.scattered.map(|_| receiver);
+        self.receiver = self.scattered.map(|_| *receiver);
         self.history.scatter(self.scattered);
         if let Some(pdf) = self.scattered {
             self.cone.scatter(pdf);

@@ -22,7 +22,7 @@
 
 use super::LightSampleContext;
 use super::sun::Sun;
-use super::tree::{LightBounds, LightTree, TreeQuery};
+use super::tree::{LightBounds, LightTree, Start, TreeQuery};
 
 /// Least share of the draws of lights in the scene beside those at infinity, and the other way round.
 const FLOOR: f32 = 0.05;
@@ -71,10 +71,11 @@ impl Choice {
 
     /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver.
     pub(super) fn pick<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, u: f64) -> Option<(Chosen, f32)> {
-        let local = self.local_share(question);
-        let (share, chosen) = match &self.tree {
-            Some(tree) if u < f64::from(local) => {
-                let (light, probability) = tree.pick(question, u / f64::from(local))?;
+        let near = self.near(question);
+        let local = self.local_share(question, near.as_ref());
+        let (share, chosen) = match &near {
+            Some((tree, start)) if u < f64::from(local) => {
+                let (light, probability) = tree.pick(question, start, u / f64::from(local))?;
                 (local, (Chosen::Local(light), probability))
             }
             _ => {
@@ -100,23 +101,32 @@ impl Choice {
 
     /// The probability by which [`Choice::pick`] gives a light.
     pub(super) fn probability<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, light: Chosen) -> f32 {
-        let irradiance = match (light, &self.tree) {
+        let near = self.near(question);
+        let irradiance = match (&light, &near) {
             (Chosen::Local(_), None) => return 0.0,
-            (Chosen::Local(i), Some(tree)) => return self.local_share(question) * tree.probability(question, i),
-            (Chosen::Sun(i), _) => self.of_sun(i, question.receiver),
+            (Chosen::Local(i), Some((tree, start))) => {
+                return self.local_share(question, near.as_ref()) * tree.probability(question, start, *i);
+            }
+            (Chosen::Sun(i), _) => self.of_sun(*i, question.receiver),
             (Chosen::Environment, _) => self.environment,
         };
         let total = self.distant_irradiance(question.receiver);
-        if irradiance > 0.0 { (1.0 - self.local_share(question)) * (irradiance / total) } else { 0.0 }
+        if irradiance > 0.0 { (1.0 - self.local_share(question, near.as_ref())) * (irradiance / total) } else { 0.0 }
     }
 
-    fn local_share<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>) -> f32 {
-        let Some(tree) = &self.tree else { return 0.0 };
+    /// The tree, and where the receiver starts in it.
+    #[inline(always)]
+    fn near<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>) -> Option<(&LightTree, Start)> {
+        self.tree.as_ref().map(|tree| (tree, tree.start(question)))
+    }
+
+    fn local_share<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, near: Option<&(&LightTree, Start)>) -> f32 {
+        let Some((tree, start)) = near else { return 0.0 };
         let distant = self.distant_irradiance(question.receiver);
         if distant <= 0.0 {
             return 1.0;
         }
-        let local = tree.irradiance(question) as f32;
+        let local = tree.irradiance(question, start) as f32;
         if local > 0.0 { (1.0 / (1.0 + distant / local)).clamp(FLOOR, 1.0 - FLOOR) } else { 0.0 }
     }
 
@@ -127,6 +137,10 @@ impl Choice {
     /// What a sun counts for a receiver.
     fn of_sun(&self, i: usize, receiver: &LightSampleContext) -> f32 {
         let (sun, irradiance) = &self.suns[i];
-        if receiver.normal == glam::Vec3::ZERO || sun.rises_over(receiver.normal) { *irradiance } else { 0.0 }
+        if receiver.normal == glam::Vec3::ZERO || sun.rises_over(receiver.normal) {
+            *irradiance * (1.0 + receiver.glossy(sun.direction(), sun.sin()))
+        } else {
+            0.0
+        }
     }
 }

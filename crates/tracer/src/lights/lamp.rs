@@ -133,6 +133,12 @@ impl LampLight {
         }
     }
 
+    /// Where it is, render frame, m.
+    #[cfg(test)]
+    pub(super) fn position(&self) -> Vec3 {
+        self.position
+    }
+
     /// For the choice among lights.
     pub(super) fn bounds(&self) -> LightBounds {
         let spread = self.profile.spread();
@@ -149,11 +155,12 @@ impl LampLight {
         }
     }
 
-    /// Mean irradiance at a receiver, W·m⁻²·nm⁻¹: that of its surface, or of one facing the lamp.
+    /// Mean irradiance at a receiver, W·m⁻²·nm⁻¹: that of its surface, or of one facing the lamp; raised by its gloss.
     pub(super) fn irradiance(&self, receiver: &LightSampleContext) -> f32 {
         let Some((direction, factor)) = self.reach(receiver.position) else { return 0.0 };
         let cos = if receiver.normal == Vec3::ZERO { 1.0 } else { receiver.normal.dot(direction).max(0.0) };
-        self.mean_intensity * factor * cos
+        let counts = if cos > 0.0 { cos + receiver.glossy(direction, 0.0) } else { 0.0 };
+        self.mean_intensity * factor * counts
     }
 
     /// Direction to the lamp, and what a unit of intensity gives a surface that faces it; `None` where there is none.

@@ -14,6 +14,8 @@
 mod choice;
 mod collect;
 mod environment;
+mod four;
+mod gloss;
 pub mod head_lamp;
 mod lamp;
 mod light;
@@ -40,6 +42,7 @@ use surface::{Glowing, ROUNDING, SurfaceSample, solid_angle_pdf};
 
 pub use collect::LightError;
 pub use environment::{Environment, EnvironmentError, ImageEnvironment};
+pub use gloss::ReceiverGloss;
 pub use lamp::{Lamp, LampError};
 pub use light_counts::LightCounts;
 pub use light_sample::{DistantLight, LightHit, LightSample};

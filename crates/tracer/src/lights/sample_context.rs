@@ -2,7 +2,10 @@
 
 use glam::Vec3;
 
-/// A point that light is drawn for. Its normal lets lights be passed over that cannot reach it.
+use super::ReceiverGloss;
+
+/// A point that light is drawn for. Its normal lets lights be passed over that cannot reach it, its gloss lets those be asked
+/// more often that it mirrors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightSampleContext {
     /// Where it is, render frame, m.
@@ -10,4 +13,21 @@ pub struct LightSampleContext {
     /// The unit normal that light must come from the side of: the shading normal on the side of the viewer. Zero where
     /// light counts from every side.
     pub normal: Vec3,
+    /// Narrow lobes; `None` where the choice need not know of any.
+    pub gloss: Option<ReceiverGloss>,
+}
+
+impl LightSampleContext {
+    /// A matt receiver.
+    #[must_use]
+    pub fn matt(position: Vec3, normal: Vec3) -> Self {
+        Self { position, normal, gloss: None }
+    }
+
+    /// What the lobes send of light from a cone about a unit direction whose half angle has the sine `sin`, relative to the
+    /// matt part under light from above.
+    #[inline]
+    pub(super) fn glossy(&self, direction: Vec3, sin: f32) -> f32 {
+        self.gloss.as_ref().map_or(0.0, |gloss| gloss.relative(direction, sin))
+    }
 }

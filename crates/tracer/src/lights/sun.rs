@@ -134,6 +134,11 @@ impl Sun {
         centre * darkening
     }
 
+    /// Sine of half its diameter.
+    pub(super) fn sin(&self) -> f32 {
+        (self.sin2 as f32).sqrt()
+    }
+
     /// Whether the unit `direction` meets the disc. By the sine, which f32 resolves where it cannot the cosine.
     pub(super) fn covers(&self, direction: Vec3) -> bool {
         let aside2 = self.basis.z.cross(direction).length_squared();

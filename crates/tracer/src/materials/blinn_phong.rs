@@ -20,6 +20,7 @@ use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable, EnergyGain};
 use super::error::MaterialError;
+use super::gloss::{About, Gloss, GlossLobe};
 use super::microfacet::{half_vector, mirrored};
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
@@ -198,6 +199,14 @@ impl<const N: usize> BsdfModel<N> for BlinnPhongBsdf<'_, N> {
     fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         self.discrete_sampler(wo)
             .map_or(BsdfValue::ZERO, |discrete_sampler| self.value(discrete_sampler, wo, wi, half_vector(wo, wi)))
+    }
+
+    fn gloss(&self, wo: Vec3) -> Gloss {
+        let Lobe { n, scale } = self.model.lobe;
+        // cosⁿ of the half vector's angle and the kernel bend alike at the axis, t² n/2 = 2 t² (1/w² − 1).
+        let width = (4.0 / (n + 4.0)).sqrt();
+        let peak = self.gloss.mean() * scale * wo.z;
+        Gloss::over(self.base.mean() * FRAC_1_PI).with(GlossLobe { about: About::HalfVector, width, peak, f0: 1.0 })
     }
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {

@@ -33,6 +33,7 @@ use super::energy::{self, AlbedoTable};
 use super::error::MaterialError;
 use super::factor::Factor;
 use super::fresnel;
+use super::gloss::{About, Gloss, GlossLobe};
 use super::microfacet::{Ggx, half_vector, mirrored};
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
@@ -316,6 +317,23 @@ impl<const N: usize> BsdfModel<N> for CarPaintBsdf<'_, N> {
 
     fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         self.discrete_sampler(wo).map_or(BsdfValue::ZERO, |discrete_sampler| self.value(&discrete_sampler, wo, wi))
+    }
+
+    fn gloss(&self, wo: Vec3) -> Gloss {
+        let n = self.paint.coat.n;
+        let (through, inner) = (self.through(wo.z), inner_cos(wo.z, n));
+        let both = through * through / (n * n);
+        let matt = self.pigment + self.round(wo.z) * self.round(wo.z) * self.again;
+        // Slopes of half vectors are those inside times n cos θ′/cos θ.
+        let width = (self.paint.facets.alpha * n * inner / wo.z).min(1.0);
+        let mirror = Vec3::new(-wo.x, -wo.y, wo.z);
+        let peak = self.flakes.mean() * both * self.flake(wo, mirror).0;
+        let flakes = GlossLobe { about: About::HalfVector, width, peak, f0: 1.0 };
+        let gloss = Gloss::over(matt.mean() * both * FRAC_1_PI).with(flakes);
+        match self.paint.coat_facets {
+            Some(facets) => gloss.with(facets.gloss(wo, fresnel::dielectric(1.0, n))),
+            None => gloss,
+        }
     }
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {

@@ -22,6 +22,7 @@ use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable};
 use super::error::MaterialError;
+use super::gloss::Gloss;
 use super::microfacet::half_vector;
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
@@ -253,6 +254,10 @@ impl<const N: usize> BsdfModel<N> for ClothBsdf<'_, N> {
         let wo_albedo = self.cloth.albedo.at(wo.z);
         self.discrete_sampler(wo_albedo)
             .map_or(BsdfValue::ZERO, |discrete_sampler| self.value(discrete_sampler, wo_albedo, wo, wi))
+    }
+
+    fn gloss(&self, _: Vec3) -> Gloss {
+        Gloss::MATT
     }
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {

@@ -24,6 +24,7 @@ use super::error::MaterialError;
 use super::facets::Distribution;
 use super::factor::Factor;
 use super::fresnel;
+use super::gloss::Gloss;
 use super::microfacet::{Ggx, MIRROR_ALPHA, half_vector, mirrored};
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
@@ -213,6 +214,12 @@ impl<const N: usize> BsdfModel<N> for CoatedBsdf<'_, N> {
         let m = half_vector(wo, wi);
         let coat = fresnel::dielectric(wo.dot(m), self.coat.n) * facets.reflect(wo, wi, m);
         BsdfValue { value_cos: base + Spectral::splat(coat), pdf: base_pdf + share * facets.reflect_pdf(wo, m) }
+    }
+
+    fn gloss(&self, wo: Vec3) -> Gloss {
+        let Some(facets) = self.facets else { return Gloss::MATT };
+        let matt = self.seen_mean * self.coat.transmittance(self.place, wo.z) * self.mean_transmittance * FRAC_1_PI;
+        Gloss::over(matt).with(facets.gloss(wo, fresnel::dielectric(1.0, self.coat.n)))
     }
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {

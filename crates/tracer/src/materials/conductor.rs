@@ -10,6 +10,7 @@
 //! Light scattered among facets more than once is left out (a white surface of α = 1 loses up to six tenths), unless it
 //! is asked for: see `interreflection`.
 
+use core::f32::consts::FRAC_1_PI;
 use etendue_core::Spectral;
 use etendue_spectra::Spectrum;
 use etendue_spectra::metal::ComplexIndex;
@@ -20,6 +21,7 @@ use super::error::MaterialError;
 use super::facets::{Distribution, Facets};
 use super::factor::Factor;
 use super::fresnel;
+use super::gloss::Gloss;
 use super::interreflection::{self, LossOfAlpha};
 use super::microfacet::{MIRROR_ALPHA, half_vector, mirrored};
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
@@ -214,6 +216,12 @@ impl<const N: usize> BsdfModel<N> for ConductorBsdf<N> {
             value_cos: once + more.tint * more.loss.value_cos(wo_loss, wi),
             pdf: pdf * (1.0 - share) + share * more.loss.pdf(wi.z),
         }
+    }
+
+    fn gloss(&self, wo: Vec3) -> Gloss {
+        let Some(facets) = self.facets else { return Gloss::MATT };
+        let matt = self.more.as_ref().map_or(0.0, |more| more.tint.mean() * more.loss.at(wo.z) * FRAC_1_PI);
+        Gloss::over(matt).with(facets.gloss(wo, self.fresnel(1.0).mean()))
     }
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {

@@ -26,6 +26,7 @@ use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::error::MaterialError;
 use super::factor::Factor;
 use super::fresnel;
+use super::gloss::Gloss;
 use super::microfacet::{Ggx, half_vector, mirrored};
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
@@ -163,6 +164,10 @@ impl<const N: usize> BsdfModel<N> for DielectricBsdf {
         let Some(facets) = self.facets else { return BsdfValue::ZERO };
         let (value, pdf) = if wi.z > 0.0 { self.reflect(facets, wo, wi) } else { self.transmit(facets, wo, wi) };
         BsdfValue { value_cos: Spectral::splat(value), pdf }
+    }
+
+    fn gloss(&self, _: Vec3) -> Gloss {
+        Gloss::MATT
     }
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {

@@ -9,6 +9,7 @@ use glam::{Vec2, Vec3};
 
 use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::error::MaterialError;
+use super::gloss::Gloss;
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
 use super::reflectance::Reflectance;
@@ -56,6 +57,10 @@ impl<const N: usize> BsdfModel<N> for DiffuseBsdf<N> {
 
     fn evaluate(&self, _wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         BsdfValue { value_cos: self.reflectance * (wi.z * FRAC_1_PI), pdf: cosine_hemisphere_pdf(wi.z) }
+    }
+
+    fn gloss(&self, _: Vec3) -> Gloss {
+        Gloss::MATT
     }
 
     fn sample(&self, _wo: Vec3, _choice: f32, u: Vec2) -> Option<BsdfSample<N>> {

@@ -3,6 +3,7 @@
 use glam::{Vec2, Vec3};
 
 use super::beckmann::Beckmann;
+use super::gloss::GlossLobe;
 use super::microfacet::Ggx;
 
 /// How the slopes of a rough surface's facets are distributed.
@@ -45,6 +46,14 @@ impl Facets {
         match self {
             Self::Ggx(ggx) => ggx.reflect_pdf(wo, m),
             Self::Beckmann(beckmann) => beckmann.reflect_pdf(wo, m),
+        }
+    }
+
+    /// The lobe of facets of reflectance `f0` at normal incidence. A Gaussian of slopes has the same peak as GGX of its roughness.
+    pub(super) fn gloss(self, wo: Vec3, f0: f32) -> GlossLobe {
+        match self {
+            Self::Ggx(ggx) => ggx.gloss(wo, f0),
+            Self::Beckmann(beckmann) => Ggx { alpha: beckmann.alpha }.gloss(wo, f0),
         }
     }
 

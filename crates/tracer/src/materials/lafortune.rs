@@ -24,6 +24,7 @@ use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, AlbedoTable, EnergyGain};
 use super::error::MaterialError;
+use super::gloss::{About, Gloss, GlossLobe};
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
 use super::reflectance::Reflectance;
@@ -72,6 +73,14 @@ impl Lobe {
     /// The lobe's axis for a viewer: C·wₒ, not of unit length.
     fn axis(&self, wo: Vec3) -> Vec3 {
         Vec3::new(self.tangential as f32 * wo.x, self.tangential as f32 * wo.y, self.normal as f32 * wo.z)
+    }
+
+    /// The lobe for a viewer at a mean weight, 1/sr: cosⁿγ falls at the axis as the kernel of width 2/√n.
+    fn gloss(&self, wo: Vec3, weight: f32) -> GlossLobe {
+        let (axis, n) = (self.axis(wo), self.exponent as f32);
+        let length = axis.length().max(f32::MIN_POSITIVE);
+        let peak = weight * maths::f32::pow(length, n) * (axis.z / length);
+        GlossLobe { about: About::Direction(axis / length), width: 2.0 / n.max(1.0).sqrt(), peak, f0: 1.0 }
     }
 
     fn check(&self, lobe: usize) -> Result<(), LafortuneError> {
@@ -261,6 +270,15 @@ impl<const N: usize> BsdfModel<N> for LafortuneBsdf<'_, N> {
     fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         let Some(discrete_sampler) = self.discrete_sampler(wo) else { return BsdfValue::ZERO };
         self.value(&discrete_sampler, wo, wi)
+    }
+
+    fn gloss(&self, wo: Vec3) -> Gloss {
+        let matt = Gloss::over(self.base.mean() * FRAC_1_PI);
+        self.model
+            .lobes
+            .iter()
+            .zip(&self.weights)
+            .fold(matt, |gloss, (lobe, weight)| gloss.with(lobe.gloss(wo, weight.mean())))
     }
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {

@@ -12,6 +12,7 @@ use glam::{Vec2, Vec3};
 
 use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::error::MaterialError;
+use super::gloss::Gloss;
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
 use super::reflectance::Reflectance;
@@ -87,6 +88,10 @@ impl<const N: usize> BsdfModel<N> for LeafBsdf<N> {
         };
         let cos = wi.z.abs();
         BsdfValue { value_cos: scattered * (cos * FRAC_1_PI), pdf: share * cosine_hemisphere_pdf(cos) }
+    }
+
+    fn gloss(&self, _: Vec3) -> Gloss {
+        Gloss::MATT
     }
 
     fn sample(&self, _wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {

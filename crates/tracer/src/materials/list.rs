@@ -116,6 +116,15 @@ macro_rules! surfaces {
                 }
             }
 
+            /// What the choice among lights is told for the viewer's direction `wo`.
+            #[inline]
+            pub(crate) fn gloss(&self, wo: Vec3) -> Gloss {
+                match self {
+                    Self::Absorber => Gloss::MATT,
+                    $( Self::$variant(bsdf) => BsdfModel::<N>::gloss(bsdf, wo), )*
+                }
+            }
+
             /// A direction for light to come from; `None` where the light is absorbed. `choice` picks a lobe, `u` a
             /// direction; both are uniform in [0, 1).
             #[must_use]

@@ -11,6 +11,8 @@ use core::f32::consts::{PI, TAU};
 use etendue_core::maths::f32::sin_cos;
 use glam::{Vec2, Vec3};
 
+use super::gloss::{About, GlossLobe};
+
 /// Roughness α below which a surface is an exact mirror: the lobe would be narrower than a hundredth of a degree.
 pub const MIRROR_ALPHA: f32 = 1e-4;
 
@@ -47,6 +49,12 @@ impl Ggx {
     /// Density by solid angle of the direction mirrored at a visible facet `m`, 1/sr.
     pub(super) fn reflect_pdf(self, wo: Vec3, m: Vec3) -> f32 {
         0.5 * self.density(m) / (wo.z + self.slant(wo))
+    }
+
+    /// The lobe of facets of reflectance `f0` at normal incidence: its value at the axis is that of [`Self::reflect`] there.
+    pub(super) fn gloss(self, wo: Vec3, f0: f32) -> GlossLobe {
+        let peak = 0.5 * self.density(Vec3::Z) / (wo.z + self.slant(wo));
+        GlossLobe { about: About::HalfVector, width: self.alpha, peak, f0 }
     }
 
     /// G₂/G₁ = f cos θᵢ / (F · pdf) of a direction mirrored at a visible facet.

@@ -7,6 +7,7 @@ use glam::{Vec2, Vec3};
 
 use super::bsdf::{BsdfSample, BsdfValue};
 use super::error::MaterialError;
+use super::gloss::Gloss;
 use super::parameter::Parameter;
 use super::shading_point::ShadingPoint;
 use super::texture_check::TextureCheck;
@@ -54,6 +55,9 @@ pub(super) trait BsdfModel<const N: usize>: Copy {
 
     /// Value and density of a pair of directions, wo.z > 0; wi.z > 0 too unless the flags say `transmits`.
     fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N>;
+
+    /// What the choice among lights is told, wo.z > 0: [`Gloss::MATT`] where no lobe is narrow.
+    fn gloss(&self, wo: Vec3) -> Gloss;
 
     /// A direction for light to come from, wo.z > 0; `None` where the light is absorbed. `choice` picks a lobe, `u` a direction;
     /// both are uniform in [0, 1).

@@ -44,6 +44,11 @@ impl ShadingFrame {
         self.basis.z
     }
 
+    /// A vector of the shading frame, in the render frame.
+    pub(crate) fn turned_outward(&self, local: Vec3) -> Vec3 {
+        self.basis.outward(local)
+    }
+
     /// Cosine of a unit direction (render frame) to the normal of the true surface on the viewer's side.
     #[must_use]
     pub fn true_cos(&self, direction: Vec3) -> f32 {

@@ -18,6 +18,7 @@ use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::dielectric::DIELECTRIC_INDICES;
 use super::error::MaterialError;
 use super::fresnel;
+use super::gloss::Gloss;
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
 use super::reflectance::Reflectance;
@@ -104,6 +105,10 @@ impl<const N: usize> BsdfModel<N> for ThinSheetBsdf<N> {
 
     fn evaluate(&self, _wo: Vec3, _wi: Vec3) -> BsdfValue<N> {
         BsdfValue::ZERO
+    }
+
+    fn gloss(&self, _: Vec3) -> Gloss {
+        Gloss::MATT
     }
 
     fn sample(&self, wo: Vec3, choice: f32, _u: Vec2) -> Option<BsdfSample<N>> {

@@ -5,6 +5,7 @@
 
 mod agreement;
 mod closed_forms;
+mod glossy;
 mod inside;
 mod lamps;
 mod levels;

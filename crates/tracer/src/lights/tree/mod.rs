@@ -13,12 +13,18 @@
 //! variance of a pixel at 4 samples × time, against a choice of all lamps alike): 50 lamps 2.33 → 0.075 at 1.7 times the
 //! time, 1 000 lamps 12.0 → 0.14 at 2 times the time. Keeping one of two to four candidates by resampling (Talbot, Cline
 //! and Egbert 2005) takes another half to nine tenths off the variance of direct light alone, but with bounces costs more
-//! time than it saves (0.141 → 0.194, 0.247, 0.340 variance × µs for two, three, four of 50 lamps): left out. So is the
-//! surface's own reflection: a lamp far from where a smooth surface mirrors it counts as much as one near.
+//! time than it saves (0.141 → 0.194, 0.247, 0.340 variance × µs for two, three, four of 50 lamps): left out.
+//!
+//! A glossy receiver's lobes raise the estimates (`lights/gloss.rs`), and it chooses from a finer cut of the tree ([`cut`]);
+//! docs/decisions/light-choice.md has the figures.
 
 mod bounds;
 mod build;
+mod cut;
+#[cfg(test)]
+mod glossy_tests;
 mod node;
+mod start;
 #[cfg(test)]
 mod tests;
 
@@ -26,9 +32,10 @@ use super::LightSampleContext;
 use node::{LANES, Node};
 
 pub(super) use bounds::LightBounds;
+pub(super) use start::Start;
 
 /// Where a light or a node hangs.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Slot {
     node: u32,
     lane: u8,
@@ -61,41 +68,56 @@ impl LightTree {
     }
 
     /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver, unless
-    /// there is but one light.
-    pub(super) fn pick<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, u: f64) -> Option<(usize, f32)> {
-        if self.len() == 1 {
-            return Some((0, 1.0));
-        }
-        let (mut node, mut u, mut probability) = (0, u, 1.0);
-        loop {
-            let weights = self.weights(node, question);
-            let (lane, share, within) = draw(&weights, u)?;
+    /// there is but one light. `start` is this receiver's.
+    pub(super) fn pick<F: Fn(u32) -> f32>(
+        &self,
+        question: &TreeQuery<'_, F>,
+        start: &Start,
+        u: f64,
+    ) -> Option<(usize, f32)> {
+        let (slot, mut probability, mut u) = start.draw(u)?;
+        let mut child = self.nodes[slot.node as usize].child(usize::from(slot.lane));
+        while child.is_node {
+            let (lane, share, within) = draw(&self.weights(child.index, question), u)?;
             probability *= share;
             u = within;
-            let child = self.nodes[node as usize].child(lane);
-            if !child.is_node {
-                return Some((child.index as usize, probability));
-            }
-            node = child.index;
+            child = self.nodes[child.index as usize].child(lane);
         }
+        Some((child.index as usize, probability))
     }
 
     /// The probability by which [`LightTree::pick`] gives a light.
-    pub(super) fn probability<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, light: usize) -> f32 {
-        if self.len() == 1 { 1.0 } else { self.reach(question, self.leaves[light]) }
+    pub(super) fn probability<F: Fn(u32) -> f32>(
+        &self,
+        question: &TreeQuery<'_, F>,
+        start: &Start,
+        light: usize,
+    ) -> f32 {
+        self.reach(question, start, self.leaves[light])
     }
 
     /// Probability of coming to a slot.
-    fn reach<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, slot: Slot) -> f32 {
-        let above = if slot.node == 0 { 1.0 } else { self.reach(question, self.parents[slot.node as usize]) };
+    fn reach<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, start: &Start, slot: Slot) -> f32 {
+        if let Some(share) = start.share(slot) {
+            return share;
+        }
+        let above = match slot.node {
+            // What is on no way from the start was weighed and counts nothing.
+            0 => 0.0,
+            node => self.reach(question, start, self.parents[node as usize]),
+        };
         if above > 0.0 { above * share(&self.weights(slot.node, question), usize::from(slot.lane)) } else { 0.0 }
     }
 
     /// Estimate of the irradiance at the receiver, W·m⁻²·nm⁻¹: finer where the greatest cluster is near.
-    pub(super) fn irradiance<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>) -> f64 {
+    pub(super) fn irradiance<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, start: &Start) -> f64 {
+        let mut weights = match start {
+            Start::Cut(cut) => return self.scale * f64::from(cut.total()),
+            Start::Root(weights) => *weights,
+            Start::Only => self.weights(0, question),
+        };
         let (mut node, mut sum) = (0, 0.0);
         loop {
-            let mut weights = self.weights(node, question);
             let total: f32 = weights.iter().sum();
             let lane = (0..LANES).fold(0, |best, i| if weights[i] > weights[best] { i } else { best });
             let child = self.nodes[node as usize].child(lane);
@@ -106,6 +128,7 @@ impl LightTree {
             weights[lane] = 0.0;
             sum += f64::from(weights.iter().sum::<f32>());
             node = child.index;
+            weights = self.weights(node, question);
         }
     }
 
@@ -128,7 +151,12 @@ fn share(weights: &[f32; LANES], lane: usize) -> f32 {
 
 /// The lane that `u` in [0, 1) falls on, its share, and where in it `u` lies, in [0, 1).
 fn draw(weights: &[f32; LANES], u: f64) -> Option<(usize, f32, f64)> {
-    let total: f32 = weights.iter().sum();
+    let (lane, within) = fall(weights, weights.iter().sum(), u)?;
+    Some((lane, share(weights, lane), within))
+}
+
+/// The weight of a row of sum `total` that `u` in [0, 1) falls on, and where in it.
+fn fall(weights: &[f32], total: f32, u: f64) -> Option<(usize, f64)> {
     let mut rest = u * f64::from(total);
     let mut chosen = None;
     for (lane, weight) in weights.iter().enumerate().filter(|(_, w)| **w > 0.0) {
@@ -139,8 +167,7 @@ fn draw(weights: &[f32; LANES], u: f64) -> Option<(usize, f32, f64)> {
         }
         rest -= weight;
     }
-    let (lane, within) = chosen?;
-    Some((lane, share(weights, lane), within))
+    chosen
 }
 
 /// The largest `f64` below one.

@@ -7,19 +7,18 @@
 //! I · cos max(θ − θ_o − θ_u, 0) · cos max(θ_i − θ_u, 0) / max(d², r²/4),
 //!
 //! nothing where the first angle exceeds θ_e or the second a right angle, and the cosines are 1 from inside the sphere.
-//! A single point thus counts its irradiance.
+//! A single point thus counts its irradiance. For a glossy receiver the last cosine grows by what its lobes send of light from
+//! there (`lights/gloss.rs`).
 
 use super::bounds::LightBounds;
-use crate::lights::LightSampleContext;
+use crate::lights::four::{Four, at_least, at_most, each};
+use crate::lights::{LightSampleContext, ReceiverGloss};
 use glam::Vec3;
 
 /// Children of a node.
 pub(super) const LANES: usize = 8;
 
 type Lanes = [f32; LANES];
-
-/// What goes side by side.
-type Four = [f32; 4];
 
 /// Eight children, component by component. Lanes without a child have no intensity.
 #[derive(Clone, Debug, Default)]
@@ -87,6 +86,14 @@ impl Node {
         (self.centre_of(lane) - position).length_squared() > 4.0 * self.radius2[lane]
     }
 
+    /// How many times as much as in the mean a part of a child may count, by where it lies in the lobes; 0 where all parts count
+    /// about alike.
+    pub(super) fn raised(&self, lane: usize, receiver: &LightSampleContext, gloss: &ReceiverGloss) -> f32 {
+        let way = self.centre_of(lane) - receiver.position;
+        let distance2 = way.length_squared().max(f32::MIN_POSITIVE);
+        gloss.raised(way / distance2.sqrt(), (self.radius2[lane] / distance2).sqrt().min(1.0))
+    }
+
     fn centre_of(&self, lane: usize) -> Vec3 {
         Vec3::new(self.centre[0][lane], self.centre[1][lane], self.centre[2][lane])
     }
@@ -94,17 +101,25 @@ impl Node {
     /// What each child counts for a receiver: four children at a time, the second four where there are any.
     pub(super) fn weights(&self, receiver: &LightSampleContext) -> Lanes {
         let mut weights = [0.0; LANES];
-        weights[..4].copy_from_slice(&self.four(0, receiver));
-        if self.used > 4 {
-            weights[4..].copy_from_slice(&self.four(4, receiver));
+        match &receiver.gloss {
+            None => self.fill(&mut weights, receiver, |_, _| [0.0; 4]),
+            Some(gloss) => self.fill(&mut weights, receiver, |direction, sin| gloss.relative_four(direction, sin)),
         }
         weights
+    }
+
+    #[inline(always)]
+    fn fill(&self, weights: &mut Lanes, receiver: &LightSampleContext, glossy: impl Fn([Four; 3], Four) -> Four) {
+        weights[..4].copy_from_slice(&self.four(0, receiver, &glossy));
+        if self.used > 4 {
+            weights[4..].copy_from_slice(&self.four(4, receiver, &glossy));
+        }
     }
 
     /// The weights of four children from lane `from` on. In small steps without branches, each over all four, so that
     /// the compiler lets them go side by side.
     #[inline(always)]
-    fn four(&self, from: usize, receiver: &LightSampleContext) -> Four {
+    fn four(&self, from: usize, receiver: &LightSampleContext, glossy: &impl Fn([Four; 3], Four) -> Four) -> Four {
         let (p, n) = (receiver.position, receiver.normal);
         // 1 where light counts from everywhere, and the cosine then does not.
         let everywhere = if n == Vec3::ZERO { 1.0 } else { 0.0 };
@@ -130,25 +145,12 @@ impl Node {
         let (_, cos_3) = less((sin_i, cos_i), (sin_u, cos_u));
         let receives = each(|i| at_least(at_least(cos_3[i] + MARGIN, 0.0), everywhere));
 
-        let seen = each(|i| if d2[i] <= radius2[i] { 1.0 } else { emits[i] * receives[i] });
+        let gloss = glossy([each(|i| x[i] * per_d[i]), each(|i| y[i] * per_d[i]), each(|i| z[i] * per_d[i])], sin_u);
+        let scattered = each(|i| if receives[i] > 0.0 { receives[i] + gloss[i] } else { 0.0 });
+        let seen = each(|i| if d2[i] <= radius2[i] { 1.0 + gloss[i] } else { emits[i] * scattered[i] });
         let far2 = each(|i| at_least(at_least(d2[i], INSIDE * radius2[i]), f32::MIN_POSITIVE));
         each(|i| self.intensity[from + i] * seen[i] / far2[i])
     }
-}
-
-#[inline(always)]
-fn each(f: impl Fn(usize) -> f32) -> Four {
-    core::array::from_fn(f)
-}
-
-/// The greater of two numbers, as one instruction.
-fn at_least(x: f32, low: f32) -> f32 {
-    if x > low { x } else { low }
-}
-
-/// The smaller of two numbers, as one instruction.
-fn at_most(x: f32, high: f32) -> f32 {
-    if x < high { x } else { high }
 }
 
 /// Sine and cosine of max(a − b, 0), for angles of 0…π given by theirs.

@@ -7,16 +7,16 @@ use etendue_spectra::Spectrum;
 use glam::{DMat3, DVec3, Vec3};
 
 /// A fixed row of numbers in [0, 1): steps of irrational numbers.
-fn number(i: u32, k: u32) -> f64 {
+pub(super) fn number(i: u32, k: u32) -> f64 {
     let steps = [0.618_033_988_75, 0.754_877_666_25, 0.569_840_290_998, 0.819_172_513_396, 0.324_717_957_24];
     (steps[k as usize % 5] * f64::from(i + 1) + 0.137 * f64::from(k)).fract()
 }
 
-fn direction(i: u32, k: u32) -> DVec3 {
+pub(super) fn direction(i: u32, k: u32) -> DVec3 {
     etendue_core::warp::uniform_sphere(glam::Vec2::new(number(i, k) as f32, number(i, k + 1) as f32)).as_dvec3()
 }
 
-fn lamp(at: DVec3, towards: DVec3, intensity: f64, profile: Profile) -> LampLight {
+pub(super) fn lamp(at: DVec3, towards: DVec3, intensity: f64, profile: Profile) -> LampLight {
     let basis = etendue_core::Basis::about(towards.as_vec3().normalize());
     let axes = DMat3::from_cols(basis.z.as_dvec3(), basis.x.as_dvec3(), basis.y.as_dvec3());
     let lamp = Lamp::new(at, axes, Spectrum::constant(intensity), profile).expect("a lamp");
@@ -24,7 +24,7 @@ fn lamp(at: DVec3, towards: DVec3, intensity: f64, profile: Profile) -> LampLigh
 }
 
 /// Lamps in a box of `size`, about `centre`, every third a spot, of powers over `decades`.
-fn lamps(count: u32, centre: DVec3, size: f64, decades: f64) -> Vec<LampLight> {
+pub(super) fn lamps(count: u32, centre: DVec3, size: f64, decades: f64) -> Vec<LampLight> {
     let one = |i: u32| {
         let at = centre + size * (DVec3::new(number(i, 0), number(i, 1), number(i, 2)) - 0.5);
         let intensity = etendue_core::maths::f64::pow(10.0, decades * (number(i, 3) - 0.5));
@@ -46,7 +46,7 @@ fn ask(
     for i in 0..12 {
         let position = (centre + direction(i, 0) * size * [0.01, 0.3, 1.0, 20.0][i as usize % 4]).as_vec3();
         let normal = if i % 3 == 0 { Vec3::ZERO } else { direction(i, 2).as_vec3().normalize() };
-        let receiver = LightSampleContext { position, normal };
+        let receiver = LightSampleContext::matt(position, normal);
         f(&tree, &receiver, &|lamp| lamps[lamp as usize].irradiance(&receiver));
     }
 }
@@ -61,19 +61,20 @@ fn draws_fall_as_often_as_is_told() {
     for (lamps, size) in &sets {
         ask(lamps, *size, DVec3::ZERO, |tree, receiver, lamp| {
             let question = TreeQuery { receiver, lamp };
+            let start = tree.start(&question);
             let n = 1 << 14;
             let mut counts = vec![0.0; lamps.len()];
             let mut none = 0.0;
             for i in 0..n {
-                match tree.pick(&question, (f64::from(i) + 0.5) / f64::from(n)) {
+                match tree.pick(&question, &start, (f64::from(i) + 0.5) / f64::from(n)) {
                     Some((light, told)) => {
                         counts[light] += 1.0;
-                        assert_eq!(told.to_bits(), tree.probability(&question, light).to_bits());
+                        assert_eq!(told.to_bits(), tree.probability(&question, &start, light).to_bits());
                     }
                     None => none += 1.0,
                 }
             }
-            let told: Vec<_> = (0..lamps.len()).map(|i| f64::from(tree.probability(&question, i))).collect();
+            let told: Vec<_> = (0..lamps.len()).map(|i| f64::from(tree.probability(&question, &start, i))).collect();
             for (count, told) in counts.iter().zip(&told) {
                 // Each light has one interval of u: its points of the grid differ from its length by less than one, and
                 // a few more where rounding in f32 moves both ends.
@@ -96,11 +97,12 @@ fn no_light_that_arrives_is_lost() {
     ] {
         ask(&lamps, size, centre, |tree, receiver, lamp| {
             let question = TreeQuery { receiver, lamp };
+            let start = tree.start(&question);
             for (i, light) in lamps.iter().enumerate() {
-                let (told, arrives) = (tree.probability(&question, i), light.irradiance(receiver) > 0.0);
+                let (told, arrives) = (tree.probability(&question, &start, i), light.irradiance(receiver) > 0.0);
                 assert!(told.is_finite() && (told > 0.0) == arrives, "lamp {i}: {told}, {arrives}");
             }
-            assert!(tree.irradiance(&question).is_finite());
+            assert!(tree.irradiance(&question, &start).is_finite());
         });
     }
 }
@@ -115,9 +117,9 @@ fn an_estimate_is_zero_only_where_nothing_arrives() {
     let lamps: Vec<_> = [spot(DVec3::Y), spot(DVec3::NEG_Y)].into_iter().chain((0..12).map(far)).collect();
     let bounds: Vec<_> = lamps.iter().map(LampLight::bounds).collect();
     let tree = LightTree::new(&bounds).expect("lamps that shine");
-    let receiver = LightSampleContext { position: Vec3::ZERO, normal: Vec3::ZERO };
-    let irradiance =
-        tree.irradiance(&TreeQuery { receiver: &receiver, lamp: |i| lamps[i as usize].irradiance(&receiver) });
+    let receiver = LightSampleContext::matt(Vec3::ZERO, Vec3::ZERO);
+    let question = TreeQuery { receiver: &receiver, lamp: |i| lamps[i as usize].irradiance(&receiver) };
+    let irradiance = tree.irradiance(&question, &tree.start(&question));
     // Twelve lamps of 1 W/sr at 100 km.
     assert!((0.5..2.0).contains(&(irradiance / 12e-10)), "{irradiance}");
 }
@@ -128,7 +130,8 @@ fn estimates_are_of_the_size_of_what_arrives() {
     ask(&lamps, 200.0, DVec3::ZERO, |tree, receiver, lamp| {
         if receiver.normal == Vec3::ZERO {
             let exact: f64 = lamps.iter().map(|l| f64::from(l.irradiance(receiver))).sum();
-            let ratio = tree.irradiance(&TreeQuery { receiver, lamp }) / exact;
+            let question = TreeQuery { receiver, lamp };
+            let ratio = tree.irradiance(&question, &tree.start(&question)) / exact;
             assert!((0.2..5.0).contains(&ratio), "{ratio}");
         }
     });
@@ -141,6 +144,7 @@ fn dark_lamps_make_no_tree() {
     let lamps =
         [lamp(DVec3::ZERO, DVec3::X, 0.0, Profile::Isotropic), lamp(DVec3::X, DVec3::X, 1.0, Profile::Isotropic)];
     ask(&lamps, 3.0, DVec3::ZERO, |tree, receiver, lamp| {
-        assert_eq!(tree.probability(&TreeQuery { receiver, lamp }, 0), 0.0);
+        let question = TreeQuery { receiver, lamp };
+        assert_eq!(tree.probability(&question, &tree.start(&question), 0), 0.0);
     });
 }

@@ -29,6 +29,7 @@ use crate::materials::bsdf::{BsdfSample, BsdfValue, Event};
 use crate::materials::discrete_sampler::DiscreteSampler;
 use crate::materials::energy::{self, AlbedoTable, EnergyGain};
 use crate::materials::error::MaterialError;
+use crate::materials::gloss::{About, Gloss, GlossLobe};
 use crate::materials::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use crate::materials::parameter::Parameter;
 use crate::materials::shading_point::ShadingPoint;
@@ -281,6 +282,13 @@ impl<const N: usize> BsdfModel<N> for MarkingBsdf<'_, N> {
 
     fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         self.discrete_sampler(wo).map_or(BsdfValue::ZERO, |discrete_sampler| self.value(discrete_sampler, wo, wi))
+    }
+
+    fn gloss(&self, wo: Vec3) -> Gloss {
+        let lobe = self.marking.lobe;
+        let (width, peak) = (lobe.width2.sqrt(), self.colour.mean() * lobe.strength);
+        let beads = GlossLobe { about: About::Direction(wo), width, peak, f0: 1.0 };
+        Gloss::over(self.base.mean() * FRAC_1_PI).with(beads)
     }
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {

@@ -40,6 +40,7 @@ use super::bsdf::{BsdfSample, BsdfValue, Event};
 use super::discrete_sampler::DiscreteSampler;
 use super::energy::{self, EnergyGain};
 use super::error::MaterialError;
+use super::gloss::{Gloss, GlossLobe};
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
 use super::reflectance::Reflectance;
@@ -219,6 +220,12 @@ impl<const N: usize> BsdfModel<N> for SheetingBsdf<'_, N> {
 
     fn evaluate(&self, wo: Vec3, wi: Vec3) -> BsdfValue<N> {
         self.discrete_sampler(wo).map_or(BsdfValue::ZERO, |discrete_sampler| self.value(discrete_sampler, wo, wi))
+    }
+
+    fn gloss(&self, wo: Vec3) -> Gloss {
+        let colour = self.colour.mean();
+        let (peak, albedo) = (self.lobe.value_cos(wo, wo), self.lobe.albedo.at(wo.z));
+        Gloss::over(self.base.mean() * FRAC_1_PI).with(GlossLobe::of_albedo(wo, colour * peak, colour * albedo))
     }
 
     fn sample(&self, wo: Vec3, choice: f32, u: Vec2) -> Option<BsdfSample<N>> {

@@ -1,0 +1,73 @@
+//! Many lights over glossy surfaces: the choice that knows of gloss leaves means as they are.
+
+use super::*;
+use crate::lights::{Lamp, Profile};
+use crate::materials::SheetingPreset;
+use glam::DMat3;
+
+/// Lamps in two rows along a road, unlike in strength.
+fn road_lamps() -> Vec<Lamp> {
+    let one = |i: u32| {
+        let at =
+            DVec3::new(4.0 * f64::from(i / 2), if i.is_multiple_of(2) { -3.0 } else { 4.0 }, 2.0 + f64::from(i % 5));
+        let intensity = Spectrum::constant(1.0 + f64::from(i % 7));
+        Lamp::new(at, DMat3::IDENTITY, intensity, Profile::Isotropic).expect("a lamp")
+    };
+    (0..40).map(one).collect()
+}
+
+fn sign() -> Surface {
+    let preset = SheetingPreset::named("ra2", "white").expect("a preset");
+    Surface::Sheeting(Box::new(preset.sheeting().expect("a sheeting")))
+}
+
+fn floor_under(surface: &Surface, lamps: Vec<Lamp>) -> Ready {
+    let mut scene = Scene { sources: Sources { lamps, ..Sources::default() }, ..Scene::default() };
+    let floor = scene.material(surface.clone(), None);
+    scene.square(Vec3::ZERO, 200.0, floor);
+    scene.ready()
+}
+
+/// Each lamp by itself is found without any chance: their sum is the answer.
+#[test]
+fn many_lamps_together_give_the_sum_of_each_alone() {
+    let rays = [ray([-6.0, 0.0, 1.3], [9.0, 0.4, 0.0]), ray([-6.0, 0.0, 1.3], [30.0, -1.0, 0.0])];
+    for surface in [paint(0.1, 0.06), paint(0.1, 0.01), aluminium(0.2), sign()] {
+        for look in &rays {
+            let alone = |lamp: Lamp| floor_under(&surface, vec![lamp]).look(look, 1, bounces(1)).mean;
+            let expected: f64 = road_lamps().into_iter().map(alone).sum();
+            let together = floor_under(&surface, road_lamps()).look(look, 256, bounces(1));
+            agrees(&together, expected);
+            // 8192 draws; the choice blind to gloss had up to 25 %.
+            assert!(together.standard_error() < 0.02 * expected, "{surface:?}: {together:?} of {expected}");
+        }
+    }
+}
+
+/// A glossy floor among glowing squares and spheres, a sun and a picture of the surroundings.
+#[test]
+fn drawn_and_met_light_agree_on_gloss() {
+    for surface in [paint(0.2, 0.08), aluminium(0.15), sign()] {
+        let mut scene = Scene::default();
+        scene.sources.suns =
+            vec![Sun::of_radiance(DVec3::new(1.0, 0.3, 0.5), 20.0, Spectrum::constant(0.5)).expect("a sun")];
+        scene.sources.environment = Some(white_picture());
+        let floor = scene.material(surface, None);
+        scene.square(Vec3::ZERO, 20.0, floor);
+        for i in 0..30_u8 {
+            let at = Vec3::new(f32::from(i % 6) * 3.0 - 7.5, f32::from(i / 6) * 3.0 - 6.0, 0.6 + 0.1 * f32::from(i));
+            let lamp = scene.material(Surface::Absorber, Some((0.5 + f64::from(i % 4), EmissionSides::Both)));
+            scene.square(at, 0.15, lamp);
+            scene.sphere((at + Vec3::new(1.0, 0.0, 0.4)).as_dvec3(), 0.1, lamp);
+        }
+        let ready = scene.ready();
+        let look = |strategies, samples| {
+            let settings = PathSettings { max_bounces: 2, strategies, ..PathSettings::default() };
+            ready.look(&ray([-2.0, -2.0, 0.5], [-0.6, -1.6, 0.0]), samples, settings)
+        };
+        let both = look(Strategies::Both, 512);
+        agree(&look(Strategies::Scattering, 4096), &both);
+        agree(&look(Strategies::Lights, 4096), &both);
+        assert!(both.standard_error() < 0.01 * both.mean, "{both:?}");
+    }
+}

@@ -1,0 +1,180 @@
+//! A receiver's gloss in the choice among lights.
+//!
+//! What a light counts is its irradiance times 1 + the lobes' values relative to the matt part. Of a light or cluster that is
+//! seen under a half angle with sine r, a lobe's mean over it is estimated: the kernel of `materials::gloss`, its width w
+//! grown to √(w² + (r/2)²) by the share of a disc's radius that is its root mean square along one axis, its peak lowered so that
+//! as much light is sent back. Half vectors move by half of what the light does in the plane of incidence, and by
+//! 1/(cos θₒ + cos θᵢ) of it across: both widths are told apart, as towards grazing they differ by orders of magnitude.
+//!
+//! A matt part is never taken for less than [`LEAST`] of what the lobes send back: a floor for lights outside them.
+
+use core::f32::consts::{FRAC_1_PI, PI};
+use glam::Vec3;
+
+use super::four::{Four, at_least, at_most, each};
+use crate::materials::{About, Gloss, GlossLobe, ShadingFrame, TOLD, schlick};
+
+/// Share of what the lobes send back that the matt part counts at least.
+const LEAST: f32 = 0.05;
+
+/// How many times as bright as the matt part lobes are at least together; where less, they are left out.
+const BRIGHT: f32 = 8.0;
+
+/// Least width of a lobe that clusters are opened for: what narrower ones mirror of a lamp is smaller than a pixel, whose error
+/// is then that of its place in the pixel.
+const RESOLVED: f32 = 0.004;
+
+/// Mean square along one axis over a disc of radius 1.
+const SPREAD2: f32 = 0.25;
+
+/// The lobes of a receiver in the render frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReceiverGloss {
+    /// Towards the viewer, unit.
+    viewer: Vec3,
+    normal: Vec3,
+    /// Unit, in the surface: in the plane of incidence of the viewer, and across.
+    along: Vec3,
+    across: Vec3,
+    lobes: [Lobe; TOLD],
+}
+
+/// A lobe relative to the matt part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Lobe {
+    about: About,
+    width2: f32,
+    peak: f32,
+    f0: f32,
+}
+
+impl ReceiverGloss {
+    /// The gloss of a surface seen in `frame`; `None` where no lobe is bright enough to matter.
+    pub(crate) fn new(gloss: &Gloss, frame: &ShadingFrame) -> Option<Self> {
+        let cos_o = frame.wo.z;
+        if gloss.lobes.iter().all(|lobe| lobe.peak <= 0.0) {
+            return None;
+        }
+        let sent: f32 = gloss.lobes.iter().map(|lobe| albedo(lobe, cos_o)).sum();
+        let matt = gloss.matt.max(LEAST * FRAC_1_PI * sent).max(f32::MIN_POSITIVE);
+        let bright: f32 = gloss.lobes.iter().map(|lobe| lobe.peak * lobe.fresnel_at_axis(cos_o)).sum();
+        if !(bright > BRIGHT * matt && bright.is_finite()) {
+            return None;
+        }
+        let (viewer, normal) = (frame.turned_outward(frame.wo), frame.normal());
+        let along =
+            (viewer - normal * viewer.dot(normal)).try_normalize().unwrap_or_else(|| normal.any_orthonormal_vector());
+        let lobe = |told: &GlossLobe| Lobe {
+            about: match told.about {
+                About::HalfVector => About::HalfVector,
+                About::Direction(axis) => About::Direction(frame.turned_outward(axis)),
+            },
+            width2: told.width * told.width,
+            peak: told.peak / matt,
+            f0: told.f0,
+        };
+        let lobes = core::array::from_fn(|i| lobe(&gloss.lobes[i]));
+        Some(Self { viewer, normal, along, across: normal.cross(along), lobes })
+    }
+
+    /// What lobes send of light from a cone about the unit `direction` whose half angle has the sine `sin`, relative to what
+    /// the matt part sends of light from above.
+    #[inline]
+    pub(super) fn relative(&self, direction: Vec3, sin: f32) -> f32 {
+        self.relative_four(direction.to_array().map(|x| [x; 4]), [sin; 4])[0]
+    }
+
+    /// The same of four cones.
+    #[inline(always)]
+    pub(super) fn relative_four(&self, directions: [Four; 3], sin: Four) -> Four {
+        let mut sum = [0.0; 4];
+        for lobe in self.lobes.iter().filter(|lobe| lobe.peak > 0.0) {
+            let of = match lobe.about {
+                About::HalfVector => self.of_half_vectors(lobe, directions, sin),
+                About::Direction(axis) => of_direction(lobe, axis, directions, sin),
+            };
+            sum = each(|i| sum[i] + of[i]);
+        }
+        sum
+    }
+
+    /// How many times as much as in the mean light counts from that place in a cone which the lobes favour most.
+    pub(super) fn raised(&self, direction: Vec3, sin: f32) -> f32 {
+        let greatest: f32 = self.lobes.iter().map(|lobe| self.greatest(lobe, direction, sin)).sum();
+        (1.0 + greatest) / (1.0 + self.relative(direction, sin))
+    }
+
+    /// The greatest value of a lobe in a cone; 0 of lobes that are as wide, or too narrow to be told apart.
+    fn greatest(&self, lobe: &Lobe, direction: Vec3, sin: f32) -> f32 {
+        if lobe.peak <= 0.0 || lobe.width2 < RESOLVED * RESOLVED {
+            return 0.0;
+        }
+        let (aside2, fresnel) = match lobe.about {
+            About::HalfVector => {
+                let half = self.viewer + direction;
+                let height = half.dot(self.normal).max(LOWEST);
+                let outside = |of: Vec3, reach: f32| (half.dot(of).abs() / height - reach).max(0.0);
+                let (along, across) = (outside(self.along, 0.5 * sin), outside(self.across, sin / height));
+                (along * along + across * across, schlick(lobe.f0, 0.5 * half.length()))
+            }
+            About::Direction(axis) => {
+                let outside = ((direction - axis).length() - sin).max(0.0);
+                (outside * outside, 1.0)
+            }
+        };
+        let fallen = lobe.width2 / (lobe.width2 + aside2);
+        lobe.peak * fresnel * fallen * fallen
+    }
+
+    #[inline(always)]
+    fn of_half_vectors(&self, lobe: &Lobe, [x, y, z]: [Four; 3], sin: Four) -> Four {
+        let half = [each(|i| x[i] + self.viewer.x), each(|i| y[i] + self.viewer.y), each(|i| z[i] + self.viewer.z)];
+        let dot = |v: Vec3| each(|i| half[0][i] * v.x + half[1][i] * v.y + half[2][i] * v.z);
+        let length2 = each(|i| half[0][i] * half[0][i] + half[1][i] * half[1][i] + half[2][i] * half[2][i]);
+        let cos = each(|i| at_most(0.5 * length2[i].sqrt(), 1.0));
+        let (up, along, across) = (dot(self.normal), dot(self.along), dot(self.across));
+        // A cone that reaches below the horizon counts by its part above.
+        let per_height = each(|i| 1.0 / at_least(at_least(up[i], 0.25 * sin[i]), LOWEST));
+        let along2 = each(|i| along[i] * along[i] * per_height[i] * per_height[i]);
+        let across2 = each(|i| across[i] * across[i] * per_height[i] * per_height[i]);
+        let spread2 = each(|i| SPREAD2 * sin[i] * sin[i]);
+        let width2_along = each(|i| lobe.width2 + 0.25 * spread2[i]);
+        let width2_across = each(|i| lobe.width2 + spread2[i] * per_height[i] * per_height[i]);
+        let aside2 = each(|i| along2[i] + across2[i]);
+        let scaled2 = each(|i| along2[i] / width2_along[i] + across2[i] / width2_across[i]);
+        let shape = each(|i| (1.0 + aside2[i]) / (1.0 + at_least(scaled2[i], aside2[i])));
+        let lowered = each(|i| lobe.width2 / (width2_along[i] * width2_across[i]).sqrt());
+        let fresnel = each(|i| schlick_of(lobe.f0, cos[i]));
+        each(|i| lobe.peak * fresnel[i] * lowered[i] * (shape[i] * shape[i]))
+    }
+}
+
+#[inline(always)]
+fn of_direction(lobe: &Lobe, axis: Vec3, [x, y, z]: [Four; 3], sin: Four) -> Four {
+    let (x, y, z) = (each(|i| x[i] - axis.x), each(|i| y[i] - axis.y), each(|i| z[i] - axis.z));
+    let aside2 = each(|i| x[i] * x[i] + y[i] * y[i] + z[i] * z[i]);
+    let width2 = each(|i| lobe.width2 + SPREAD2 * sin[i] * sin[i]);
+    let fallen = each(|i| width2[i] / (width2[i] + aside2[i]));
+    each(|i| lobe.peak * (lobe.width2 / width2[i]) * (fallen[i] * fallen[i]))
+}
+
+/// Schlick's approximation, of a cosine of at most 1.
+#[inline(always)]
+fn schlick_of(f0: f32, cos: f32) -> f32 {
+    let x = 1.0 - cos;
+    let x2 = x * x;
+    f0 + (1.0 - f0) * (x2 * x2 * x)
+}
+
+/// Least cos θₒ + cos θᵢ.
+const LOWEST: f32 = 1e-4;
+
+/// Share of light that a lobe sends back, about.
+fn albedo(lobe: &GlossLobe, cos_o: f32) -> f32 {
+    let solid = PI * lobe.width * lobe.width;
+    match lobe.about {
+        // Directions move twice as far as half vectors, and about the mirror direction across only cos θ as much.
+        About::HalfVector => 4.0 * solid * cos_o * lobe.peak * lobe.fresnel_at_axis(cos_o),
+        About::Direction(_) => solid * lobe.peak,
+    }
+}

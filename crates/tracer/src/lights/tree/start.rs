@@ -1,0 +1,57 @@
+//! Where a receiver's way down the tree starts: made once, and asked for how strong the lights are and which one is drawn.
+
+use super::cut::Cut;
+use super::node::LANES;
+use super::{LightTree, Slot, TreeQuery, draw, share};
+
+/// What a receiver chooses from first.
+#[expect(
+    clippy::large_enum_variant,
+    reason = "lives on the stack for one draw; a box would cost an allocation at each vertex"
+)]
+pub(in crate::lights) enum Start {
+    /// The one light that there is.
+    Only,
+    /// The root's children, by their weights.
+    Root([f32; LANES]),
+    /// For a glossy receiver: lights and clusters of a cut.
+    Cut(Cut),
+}
+
+impl LightTree {
+    /// Where the way down starts.
+    #[inline(always)]
+    pub(in crate::lights) fn start<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>) -> Start {
+        if self.len() == 1 {
+            return Start::Only;
+        }
+        let weights = self.weights(0, question);
+        match &question.receiver.gloss {
+            None => Start::Root(weights),
+            Some(gloss) => Start::Cut(self.cut(question, gloss, weights)),
+        }
+    }
+}
+
+impl Start {
+    /// The slot that `u` in [0, 1) falls on, its probability, and where in it `u` lies; `None` where nothing counts.
+    pub(super) fn draw(&self, u: f64) -> Option<(Slot, f32, f64)> {
+        match self {
+            Self::Only => Some((Slot::default(), 1.0, u)),
+            Self::Cut(cut) => cut.draw(u),
+            Self::Root(weights) => {
+                let (lane, share, within) = draw(weights, u)?;
+                Some((Slot { node: 0, lane: lane as u8 }, share, within))
+            }
+        }
+    }
+
+    /// The probability of a slot; `None` where it is not among those that are chosen from first.
+    pub(super) fn share(&self, slot: Slot) -> Option<f32> {
+        match self {
+            Self::Only => Some(1.0),
+            Self::Cut(cut) => cut.share(slot),
+            Self::Root(weights) => (slot.node == 0).then(|| share(weights, usize::from(slot.lane))),
+        }
+    }
+}

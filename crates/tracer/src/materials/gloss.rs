@@ -1,0 +1,86 @@
+//! What the choice among lights is told of a surface: how matt it is, and where its narrow lobes lie.
+//!
+//! A lobe is told by a kernel of one shape (that of GGX, Walter et al. 2007),
+//!
+//! f cos θᵢ ≈ peak · F · [w²/(w² + t²)]²,
+//!
+//! t the distance from the lobe's axis. Values are those of the model at the axis, so that both agree where a lobe is brightest;
+//! elsewhere they need not, as a choice may be by any probabilities.
+
+use glam::Vec3;
+
+/// How many lobes are told at most: the brightest.
+pub(crate) const TOLD: usize = 2;
+
+/// A surface's gloss at one point for one viewer, in the shading frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Gloss {
+    /// Mean bsdf of what is scattered to all sides, 1/sr.
+    pub(crate) matt: f32,
+    /// Those without a peak are none.
+    pub(crate) lobes: [GlossLobe; TOLD],
+}
+
+/// A narrow lobe.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct GlossLobe {
+    /// What t is measured from.
+    pub(crate) about: About,
+    /// w, in units of t.
+    pub(crate) width: f32,
+    /// f cos θᵢ at the axis but for the Fresnel factor, 1/sr.
+    pub(crate) peak: f32,
+    /// F at normal incidence; elsewhere it is Schlick's (1994).
+    pub(crate) f0: f32,
+}
+
+/// The axis of a lobe.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum About {
+    /// The normal, as which the half vector of viewer and light should lie: t is the tangent of their angle.
+    HalfVector,
+    /// A unit direction that light should come from: t is its distance on the unit sphere.
+    Direction(Vec3),
+}
+
+impl GlossLobe {
+    const NONE: Self = Self { about: About::HalfVector, width: 1.0, peak: 0.0, f0: 0.0 };
+
+    /// A lobe about a unit direction whose whole share of light sent back is `albedo`: ∫ [w²/(w² + t²)]² 2π t dt = π w².
+    pub(super) fn of_albedo(direction: Vec3, peak: f32, albedo: f32) -> Self {
+        let width2 = core::f32::consts::FRAC_1_PI * albedo / peak.max(f32::MIN_POSITIVE);
+        Self { about: About::Direction(direction), width: width2.sqrt(), peak, f0: 1.0 }
+    }
+
+    /// F at the axis, for a viewer of this cosine.
+    pub(crate) fn fresnel_at_axis(&self, cos_o: f32) -> f32 {
+        schlick(self.f0, cos_o)
+    }
+}
+
+impl Gloss {
+    /// A surface without narrow lobes.
+    pub(super) const MATT: Self = Self { matt: 1.0, lobes: [GlossLobe::NONE; TOLD] };
+
+    /// A matt part alone, of mean bsdf `matt`, 1/sr.
+    pub(super) fn over(matt: f32) -> Self {
+        Self { matt, ..Self::MATT }
+    }
+
+    /// With another lobe; of too many the weakest is left out.
+    pub(super) fn with(mut self, lobe: GlossLobe) -> Self {
+        let weakest =
+            (0..TOLD).fold(0, |weakest, i| if self.lobes[i].peak < self.lobes[weakest].peak { i } else { weakest });
+        if lobe.peak > self.lobes[weakest].peak && lobe.peak.is_finite() {
+            self.lobes[weakest] = lobe;
+        }
+        self
+    }
+}
+
+/// Schlick's approximation of Fresnel's reflectance.
+pub(crate) fn schlick(f0: f32, cos: f32) -> f32 {
+    let x = 1.0 - cos.clamp(0.0, 1.0);
+    let x2 = x * x;
+    f0 + (1.0 - f0) * (x2 * x2 * x)
+}
