@@ -27,11 +27,36 @@ pub(super) fn compress(image: &Image<Layer<AnyChannels<FlatSamples>>>) -> Result
                 let data = layers.extract_uncompressed_block(&meta.headers, *index);
                 UncompressedBlock { index: *index, data }.compress_to_chunk(&meta.headers)
             });
-            for ((place, _), chunk) in some.iter().zip(compressed.collect::<Result<Vec<_>>>()?) {
-                file.write_chunk(*place, chunk)?;
+            for ((place, _), chunk) in some.iter().zip(compressed.collect::<Vec<_>>()) {
+                file.write_chunk(*place, chunk?)?;
             }
         }
         Ok(())
     })?;
     Ok(bytes.into_inner())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ::exr::prelude::{AnyChannel, Encoding, LayerAttributes, WritableImage};
+
+    /// More rows than one round of blocks has on these numbers of threads, and a last block of few rows.
+    #[test]
+    fn the_bytes_are_those_of_the_encoder_on_one_thread() {
+        let floats = (0..5 * 1003).map(|i| (i * 7919 % 1009) as f32).collect();
+        let uints = (0..5 * 1003).map(|i| i / 3).collect();
+        let channels = [("Y", FlatSamples::F32(floats)), ("Z", FlatSamples::U32(uints))];
+        let channels =
+            AnyChannels::sort(channels.into_iter().map(|(name, samples)| AnyChannel::new(name, samples)).collect());
+        let encoding = Encoding { compression: ::exr::prelude::Compression::ZIP16, ..Encoding::default() };
+        let image = Image::from_layer(Layer::new((5, 1003), LayerAttributes::default(), encoding, channels));
+        let mut plain = Cursor::new(Vec::new());
+        image.write().non_parallel().to_buffered(&mut plain).expect("a picture");
+        for threads in [1, 2, 3, 7] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+            let bytes = pool.install(|| compress(&image)).expect("a picture");
+            assert!(bytes == *plain.get_ref(), "{threads} threads");
+        }
+    }
 }

@@ -189,23 +189,6 @@ mod tests {
         }
     }
 
-    /// More rows than one round of blocks has on any of these numbers of threads.
-    #[test]
-    fn bytes_are_the_same_on_any_number_of_threads() {
-        let encoded = || {
-            let mut image = ExrImage::new(5, 1000, &Provenance::default());
-            image.float("Y", (0..5000).map(|i| (i * 7919 % 1009) as f32).collect());
-            image.uint("Z", (0..5000).map(|i| i / 3).collect());
-            image.into_bytes().expect("a picture")
-        };
-        let on = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-            pool.install(encoded)
-        };
-        let one = on(1);
-        assert!([2, 3, 7].into_iter().all(|threads| on(threads) == one));
-    }
-
     #[test]
     fn what_an_exr_cannot_hold_is_refused() {
         let mut odd = image();
