@@ -14,6 +14,8 @@
 //! | `ghosts` | milliseconds of a picture's layer of ghosts |
 //! | `views` | a fisheye and a panorama, through the lens and by six views |
 //! | `trees` | time to build the accelerator, a triangle |
+//! | `obj` | a million triangles from their OBJ file to the first ray, by stages |
+//! | `instances` | the street with 10⁵ instances more: time and memory until its light can be gathered |
 //! | `memory` | peak memory of a scene, in a process of its own |
 //! | `frames` | raw and picture of a frame of two megapixels |
 //! | `sensor` | mean electrons to digital numbers: all noises, all effects, each alone; time and memory |
@@ -26,14 +28,15 @@
 
 use etendue_benches::table::Table;
 use etendue_benches::{
-    defocus, files, frames, lamps, lenses, machine, memory, paths, peer, rays, road, sensor, trees, views,
+    defocus, files, frames, instances, lamps, lenses, machine, memory, obj, paths, peer, rays, road, sensor, trees,
+    views,
 };
 use std::process::ExitCode;
 
 /// A benchmark: its name and what it answers.
 type Benchmark = (&'static str, fn() -> Table);
 
-const BENCHMARKS: [Benchmark; 13] = [
+const BENCHMARKS: [Benchmark; 15] = [
     ("rays", rays::table),
     ("paths", paths::table),
     ("lamps", lamps::table),
@@ -43,6 +46,8 @@ const BENCHMARKS: [Benchmark; 13] = [
     ("ghosts", lenses::ghosts),
     ("views", views::table),
     ("trees", trees::table),
+    ("obj", obj::table),
+    ("instances", instances::table),
     ("memory", memory::table),
     ("frames", frames::table),
     ("sensor", sensor::table),
@@ -54,6 +59,10 @@ fn main() -> ExitCode {
     match arguments.as_slice() {
         [flag, scene] if flag == memory::CHILD => {
             println!("{}", memory::child(scene));
+            ExitCode::SUCCESS
+        }
+        [flag, way] if flag == instances::CHILD => {
+            println!("{}", instances::child(way));
             ExitCode::SUCCESS
         }
         [flag, name] if flag == sensor::CHILD => {

@@ -1,10 +1,10 @@
 //! Paths a second of the scenes that ship with the project: all of the way from the sensor to the film.
 
-use crate::clock::{clock_s, cpu_s, timed};
+use crate::clock::{clock_s, timed};
 use crate::runs::Runs;
 use crate::scenes::{ALL, Scene, camera};
 use crate::table::Table;
-use crate::threads::pool;
+use crate::threads::{busiest, pool};
 use etendue_pipeline::render::{Request, light, light_counts};
 use etendue_pipeline::{Plan, Unobserved};
 use rayon::ThreadPool;
@@ -80,11 +80,9 @@ fn measured(plan: &Plan, [one, two]: &[ThreadPool; 2], start_s: f64) -> Measured
 
 /// Time by the clock, and processor time of the busiest thread, of one rendering, s.
 fn rendered(plan: &Plan, pool: &ThreadPool) -> (f64, f64) {
-    let before = pool.broadcast(|_| cpu_s());
     let start = clock_s();
-    let film = pool.install(|| light(plan, camera(plan), Request::default(), &Unobserved));
+    let (film, cpu) = busiest(pool, || light(plan, camera(plan), Request::default(), &Unobserved));
     let clock = clock_s() - start;
     std::hint::black_box(film.expect("nobody cancels"));
-    let after = pool.broadcast(|_| cpu_s());
-    (clock, after.iter().zip(&before).map(|(after, before)| after - before).fold(0.0, f64::max))
+    (clock, cpu)
 }

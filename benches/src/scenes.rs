@@ -78,6 +78,11 @@ pub fn shipped(job: &str, changes: &[&str]) -> Plan {
     compiled(&scenes().join(job), &read, &Overrides::new(changes))
 }
 
+/// The text of a file of `scenes/`. Panics where it cannot be read.
+pub fn text_of(file: &str) -> String {
+    read(&scenes().join(file)).unwrap_or_else(|fault| panic!("{fault}"))
+}
+
 fn scenes() -> PathBuf {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("benches/ lies in the workspace");
     root.join("scenes")

@@ -22,6 +22,13 @@ pub const SUN: Vec3 = Vec3::new(-0.779_8, -0.248_6, 0.574_6);
 /// Hills of about `triangles` triangles (two a cell of a square grid), with the camera in the origin.
 #[must_use]
 pub fn mesh(triangles: usize) -> Mesh {
+    let (positions, triangles) = grid(triangles);
+    Mesh::new(positions, vec![], vec![], triangles, vec![]).expect("hills are legal").0
+}
+
+/// The vertices of hills of about `triangles` triangles relative to the camera, and the vertices of each triangle.
+#[must_use]
+pub fn grid(triangles: usize) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     let cells = ((triangles as f64 / 2.0).sqrt().round() as u32).max(1);
     let at = |i: u32| SIDE_M * (i as f32 / cells as f32 - 0.5);
     let points = (0..=cells).flat_map(|y| (0..=cells).map(move |x| (at(x), at(y))));
@@ -32,7 +39,7 @@ pub fn mesh(triangles: usize) -> Mesh {
         [[a, b, c], [a, c, d]]
     };
     let triangles = (0..cells).flat_map(|y| (0..cells).flat_map(move |x| cell(x, y))).collect();
-    Mesh::new(positions, vec![], vec![], triangles, vec![]).expect("hills are legal").0
+    (positions, triangles)
 }
 
 /// A ray through the centre of every pixel of a camera that looks north and a little down, row by row.

@@ -12,6 +12,7 @@ use etendue_pipeline::plan::CameraPlan;
 use etendue_pipeline::render::layout;
 use etendue_pipeline::tile::{Shard, tiles};
 use etendue_tracer::accel::Simd;
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 
 /// Joins the folders of all shards of one run to the files of an unsharded one, byte for byte, and answers with their paths. Runs on
@@ -85,16 +86,22 @@ fn check_same_plan(plan: &Plan, manifest: &Manifest) -> Result<(), Error> {
     )))
 }
 
+/// Shards that are read side by side: each takes the memory of the whole film.
+const AT_ONCE: usize = 4;
+
 /// The film of all shards' tiles.
 fn joined(camera: &CameraPlan, shards: &[(Manifest, &PathBuf)]) -> Result<Film, Error> {
     let (width, height) = camera.film_size();
     let settings = &camera.settings;
     let mut film = Film::new(width as usize, height as usize, &layout(camera), settings.spp, settings.replicates);
-    for (manifest, folder) in shards {
-        let part = shard::read(folder, camera)?;
-        let shard = Shard::new(manifest.index, manifest.count)
-            .ok_or_else(|| refuse(folder, "its manifest is damaged; render the shard again"))?;
-        tiles(width, height, settings.tile_px, shard).into_iter().for_each(|tile| film.copy_tile(tile, &part));
+    for some in shards.chunks(AT_ONCE) {
+        let parts: Vec<Result<Film, Error>> = some.par_iter().map(|(_, folder)| shard::read(folder, camera)).collect();
+        for ((manifest, folder), part) in some.iter().zip(parts) {
+            let part = part?;
+            let shard = Shard::new(manifest.index, manifest.count)
+                .ok_or_else(|| refuse(folder, "its manifest is damaged; render the shard again"))?;
+            tiles(width, height, settings.tile_px, shard).into_iter().for_each(|tile| film.copy_tile(tile, &part));
+        }
     }
     Ok(film)
 }

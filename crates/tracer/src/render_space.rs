@@ -14,7 +14,7 @@ mod truth;
 pub use truth::Truth;
 
 use crate::accel::tlas::Tlas;
-use crate::accel::{Simd, World};
+use crate::accel::{Simd, Visits, World};
 use crate::geometry::{Footprint, Hit, InstanceTransform, Shape, SurfacePoint};
 use etendue_core::Ray;
 use glam::{DVec3, Vec2, Vec3};
@@ -70,6 +70,13 @@ impl<'w> RenderSpace<'w> {
     #[must_use]
     pub fn occluded(&self, ray: &Ray) -> bool {
         self.top.occluded(ray)
+    }
+
+    /// What `ray` visits in the accelerator until its first hit is found, or any; for benchmarks of trees. Slower than the
+    /// question itself.
+    #[must_use]
+    pub fn visits(&self, ray: &Ray, any: bool) -> Visits {
+        self.top.visits(ray, any)
     }
 
     /// The point of the surface that `ray` met at `hit`.

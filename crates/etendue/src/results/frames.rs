@@ -2,7 +2,7 @@
 
 use super::files::Files;
 use super::metadata;
-use super::writer::ResultWriter;
+use super::writer::{Encoder, ResultWriter};
 use crate::error::Error;
 use crate::observer::{Message, Observer};
 use crate::tone_curve::encoding;
@@ -98,26 +98,33 @@ fn write_frame(
     writer: &mut ResultWriter<'_>,
 ) -> Result<(), Error> {
     let (products, number) = (wanted.products, address.frame);
+    let Frame { raw, signal_breakdown, picture } = &frame;
+    let mut files: Vec<(String, Encoder<'_>)> = Vec::new();
     if products.raw {
-        let bytes = match products.raw_format {
-            RawFormat::Dng => dng(body, &frame.raw, wanted.camera),
-            format => encoded_raw(&frame.raw, &frame.raw.plane, format),
+        let name = Files::raw(number, products.raw_format);
+        let encode = || match products.raw_format {
+            RawFormat::Dng => dng(body, raw, wanted.camera),
+            format => encoded_raw(raw, &raw.plane, format),
         };
-        writer.write(&Files::raw(number, products.raw_format), bytes)?;
+        files.push((name, Box::new(encode)));
     }
-    if let Some(signal_breakdown) = &frame.signal_breakdown {
+    if let Some(signal_breakdown) = signal_breakdown {
         let facts = Provenance { frame: number.into(), ..wanted.facts.clone() };
-        writer.write(&Files::signal_breakdown(number), encode_breakdown(signal_breakdown, &facts))?;
+        let encode = move || encode_breakdown(signal_breakdown, &facts);
+        files.push((Files::signal_breakdown(number), Box::new(encode)));
     }
-    if let Some((picture, development)) = frame.picture.filter(|_| products.picture).zip(body.development.as_ref()) {
+    if let Some((picture, development)) = picture.as_ref().filter(|_| products.picture).zip(body.development.as_ref()) {
         let name = Files::picture(number, development.format);
-        writer.write(&name, encoded(&picture.display, development))?;
+        files.push((name.clone(), Box::new(|| encoded(&picture.display, development))));
         if let Some(twin) = wanted.undistorted {
-            let display = twin.picture(body, &picture.linear, address).expect("a picture was developed");
-            writer.write(&Files::undistorted(&name), encoded(&display, development))?;
+            let encode = move || {
+                let display = twin.picture(body, &picture.linear, address).expect("a picture was developed");
+                encoded(&display, development)
+            };
+            files.push((Files::undistorted(&name), Box::new(encode)));
         }
     }
-    Ok(())
+    writer.write_together(files)
 }
 
 /// Digital numbers of a raw without its facts: TIFF or PNG.

@@ -4,7 +4,7 @@ use super::camera::CameraResults;
 use super::files::{Files, file_names};
 use super::frames::{Wanted, write_frames};
 use super::metadata;
-use super::writer::ResultWriter;
+use super::writer::{Encoder, ResultWriter};
 use crate::error::Error;
 use crate::observer::Observer;
 use etendue_io::exr::{self, Lengths, encode_ground_truth, encode_plane, encode_radiance, encode_rays};
@@ -116,14 +116,17 @@ impl CameraResults {
         if !products.ground_truth && products.depth_png_per_m.is_none() {
             return Ok(());
         }
-        let truth = self.ground_truth();
+        let (truth, facts) = (self.ground_truth(), facts());
+        let mut files: Vec<(String, Encoder<'_>)> = Vec::new();
         if products.ground_truth {
-            writer.write(Files::GROUND_TRUTH, encode_ground_truth(&planes(&truth), &facts()))?;
+            let encode = || encode_ground_truth(&planes(&truth), &facts);
+            files.push((Files::GROUND_TRUTH.to_owned(), Box::new(encode)));
         }
         if let Some(per_metre) = products.depth_png_per_m {
-            writer.write(Files::DEPTH, png::encode_depth16(&truth.depth, per_metre))?;
+            let depth = &truth.depth;
+            files.push((Files::DEPTH.to_owned(), Box::new(move || png::encode_depth16(depth, per_metre))));
         }
-        Ok(())
+        writer.write_together(files)
     }
 
     /// Ground truth and rays of the undistorted twin.

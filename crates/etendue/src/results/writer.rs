@@ -5,6 +5,10 @@ use crate::error::Error;
 use etendue_io::exr::{EncodeError, encode_spectral};
 use etendue_io::{OutputFolder, Provenance, sidecar};
 use etendue_pipeline::photograph::Light;
+use rayon::prelude::*;
+
+/// Makes the bytes of a file.
+pub(crate) type Encoder<'a> = Box<dyn FnOnce() -> Result<Vec<u8>, EncodeError> + Send + 'a>;
 
 /// Where the results of one camera go.
 pub(crate) struct ResultWriter<'a> {
@@ -25,6 +29,12 @@ impl ResultWriter<'_> {
         let name = format!("{}/{name}", self.prefix);
         let bytes = bytes.map_err(|error| Error::Run(format!("{name}: {error}")))?;
         self.folder.write(&name, &bytes).map_err(Error::run)
+    }
+
+    /// Writes files in their order, encoded side by side on the caller's thread pool.
+    pub(crate) fn write_together(&mut self, files: Vec<(String, Encoder<'_>)>) -> Result<(), Error> {
+        let encoded: Vec<_> = files.into_par_iter().map(|(name, encode)| (name, encode())).collect();
+        encoded.into_iter().try_for_each(|(name, bytes)| self.write(&name, bytes))
     }
 
     /// Writes a side-car.

@@ -1,14 +1,12 @@
 //! Channels and facts to the bytes of an EXR file.
 
 use std::collections::BTreeMap;
-use std::io::Cursor;
 
 use ::exr::meta::attribute::AttributeValue;
-use ::exr::prelude::{
-    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, Text, WritableImage,
-};
+use ::exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, Text};
 use ::exr::prelude::{Blocks, Compression, LineOrder};
 
+use super::compress::compress;
 use crate::Provenance;
 
 /// Why values cannot become an EXR or PNG file.
@@ -85,7 +83,7 @@ impl ExrImage {
         self.channels.push((name.into(), FlatSamples::U32(samples)));
     }
 
-    /// The bytes of the file.
+    /// The bytes of the file. Runs on the caller's thread pool.
     pub(crate) fn into_bytes(self) -> Result<Vec<u8>, EncodeError> {
         self.check()?;
         let mut attributes = LayerAttributes { white_luminance: self.white_luminance, ..LayerAttributes::default() };
@@ -95,10 +93,8 @@ impl ExrImage {
         let channels = self.channels.into_iter().map(|(name, samples)| Ok(AnyChannel::new(text(&name)?, samples)));
         let channels = AnyChannels::sort(channels.collect::<Result<_, EncodeError>>()?);
         let layer = Layer::new((self.width, self.height), attributes, ENCODING, channels);
-        let mut bytes = Cursor::new(Vec::new());
-        let written = Image::from_layer(layer).write().non_parallel().to_buffered(&mut bytes);
-        written.map_err(|cause| EncodeError::Encoder(cause.to_string()))?;
-        let mut bytes = bytes.into_inner();
+        let file = compress(&Image::from_layer(layer));
+        let mut bytes = file.map_err(|cause| EncodeError::Encoder(cause.to_string()))?;
         sort_header(&mut bytes).ok_or_else(|| EncodeError::Encoder("the header cannot be followed".to_owned()))?;
         Ok(bytes)
     }

@@ -1,8 +1,9 @@
 //! OpenEXR files: spectral images, ground truth, planes of one quantity.
 //!
 //! Everything is written as one part of scan lines, ZIP16 compression, increasing line order, channels sorted by name and
-//! header records sorted by name, on one thread: the same values give the same bytes, in any process. 32-bit floats
-//! and unsigned integers pass unchanged, NaN and infinities included.
+//! header records sorted by name: the same values give the same bytes, in any process and on any number of threads (blocks
+//! are compressed on the caller's thread pool). 32-bit floats and unsigned integers pass unchanged, NaN and infinities
+//! included.
 //!
 //! | writer | channels |
 //! | --- | --- |
@@ -13,6 +14,7 @@
 //! | [`encode_layers`] | as named |
 //! | [`encode_plane`] | the quantity's name, `variance.` and the quantity's name |
 
+mod compress;
 mod encode;
 mod ground_truth;
 mod layers;

@@ -64,23 +64,38 @@ impl Builder {
 
     /// Takes a part of one material, whose vertices all have a normal or none, and so texture coordinates.
     fn part(&mut self, part: &tobj::Mesh, slot: u16, layout: &UvLayout) -> Result<(), String> {
-        let positions = part.positions.as_chunks().0;
-        self.placed = vec![None; positions.len()];
+        self.placed = vec![None; part.positions.len() / 3];
         let mut rest = &part.indices[..];
         // tobj tells the numbers of corners unless all are triangles.
         let arity = |face: usize| part.face_arities.get(face).map_or(3, |n| *n as usize);
         for corners in (0..).map(arity).map_while(|count| rest.split_off(..count)) {
-            let polygon: Vec<[f64; 3]> = corners.iter().map(|&i| positions[i as usize]).collect();
-            let triangles = triangulate(&polygon).map_err(|_| {
-                let count = corners.len();
-                format!("polygon of {count} corners crosses itself; triangulate the mesh where it was modelled")
-            })?;
-            let facing = LazyCell::new(|| newell(&polygon));
-            let vertices: Vec<u32> = corners.iter().map(|&i| self.vertex(part, layout, i as usize, &facing)).collect();
-            self.mesh.triangles.extend(triangles.iter().map(|t| t.map(|i| vertices[i])));
+            match corners {
+                [a, b, c] => self.triangle(part, layout, [*a, *b, *c]),
+                _ => self.polygon(part, layout, corners)?,
+            }
             self.mesh.slots.resize(self.mesh.triangles.len(), slot);
             self.faces += 1;
         }
+        Ok(())
+    }
+
+    fn triangle(&mut self, part: &tobj::Mesh, layout: &UvLayout, corners: [u32; 3]) {
+        let positions: &[[f64; 3]] = part.positions.as_chunks().0;
+        let facing = LazyCell::new(|| newell(&corners.map(|i| positions[i as usize])));
+        let triangle = corners.map(|i| self.vertex(part, layout, i as usize, &facing));
+        self.mesh.triangles.push(triangle);
+    }
+
+    fn polygon(&mut self, part: &tobj::Mesh, layout: &UvLayout, corners: &[u32]) -> Result<(), String> {
+        let positions = part.positions.as_chunks().0;
+        let polygon: Vec<[f64; 3]> = corners.iter().map(|&i| positions[i as usize]).collect();
+        let triangles = triangulate(&polygon).map_err(|_| {
+            let count = corners.len();
+            format!("polygon of {count} corners crosses itself; triangulate the mesh where it was modelled")
+        })?;
+        let facing = LazyCell::new(|| newell(&polygon));
+        let vertices: Vec<u32> = corners.iter().map(|&i| self.vertex(part, layout, i as usize, &facing)).collect();
+        self.mesh.triangles.extend(triangles.iter().map(|t| t.map(|i| vertices[i])));
         Ok(())
     }
 

@@ -56,7 +56,7 @@ struct Scan<'a> {
 }
 
 impl Scan<'_> {
-    fn take(&mut self, statement: &Statement) -> Result<(), String> {
+    fn take(&mut self, statement: &Statement<'_>) -> Result<(), String> {
         let place = format!("{}:{}", self.file.file_name().unwrap_or_default().to_string_lossy(), statement.line);
         if statement.keyword() == "newmtl" {
             return self.begin(statement, place);
@@ -72,7 +72,7 @@ impl Scan<'_> {
         Ok(())
     }
 
-    fn begin(&mut self, statement: &Statement, place: String) -> Result<(), String> {
+    fn begin(&mut self, statement: &Statement<'_>, place: String) -> Result<(), String> {
         let name = statement.rest().to_owned();
         if let Some(first) = self.first.insert(name.clone(), place.clone()) {
             return Err(format!("material \"{name}\" is defined a second time, first at {first}; rename one of them"));
@@ -84,7 +84,7 @@ impl Scan<'_> {
 }
 
 /// Checks a field: the value for tobj, which panics at colours of fewer than three numbers, and what of it is not used.
-fn field(statement: &Statement) -> Result<(Option<String>, Vec<String>), String> {
+fn field(statement: &Statement<'_>) -> Result<(Option<String>, Vec<String>), String> {
     let (keyword, rest) = (statement.keyword(), statement.rest());
     let value = match keyword {
         "Kd" | "Ks" | "Ke" | "Ka" | "Tf" => numbers(statement, 3, f64::MAX)?,
@@ -104,7 +104,7 @@ fn field(statement: &Statement) -> Result<(Option<String>, Vec<String>), String>
 }
 
 /// `count` numbers from 0 to `high`, as text; one number stands for all.
-fn numbers(statement: &Statement, count: usize, high: f64) -> Result<String, String> {
+fn numbers(statement: &Statement<'_>, count: usize, high: f64) -> Result<String, String> {
     let expected = match (count, high) {
         (3, _) => "three numbers of 0 or more".to_owned(),
         (_, f64::MAX) => "a number of 0 or more".to_owned(),

@@ -64,12 +64,12 @@ impl Obj {
         Ok(models.into_iter().map(|model| model.mesh).collect())
     }
 
-    fn take(&mut self, statement: &Statement) -> Result<(), String> {
+    fn take(&mut self, statement: &Statement<'_>) -> Result<(), String> {
         let (line, rest) = (statement.line, statement.rest());
         match statement.keyword() {
             "v" => self.vertex(statement)?,
-            "vt" => self.feed(1, statement, &format!("{rest} 0"))?,
-            "vn" => self.feed(2, statement, rest)?,
+            "vt" => self.coordinates(1, statement, &["vt", rest, "0"])?,
+            "vn" => self.coordinates(2, statement, &["vn", rest])?,
             "f" => self.face(statement)?,
             "usemtl" => self.use_material(rest, Some(line))?,
             "mtllib" => self.libraries.push((rest.to_owned(), line)),
@@ -81,48 +81,62 @@ impl Obj {
         Ok(())
     }
 
-    fn vertex(&mut self, statement: &Statement) -> Result<(), String> {
+    fn vertex(&mut self, statement: &Statement<'_>) -> Result<(), String> {
         let numbers = statement.numbers()?;
         if let Some(far) = numbers.iter().find(|v| v.abs() > f64::from(f32::MAX)) {
             return Err(format!("coordinate {far:e} is beyond the range of 32-bit floats"));
         }
         match numbers[..] {
-            [x, y, z] | [x, y, z, 1.0] => self.feed(0, statement, &format!("{x} {y} {z}")),
+            [_, _, _] => self.feed(0, statement.line, &["v", statement.rest()]),
+            [x, y, z, 1.0] => self.feed(0, statement.line, &[&format!("v {x} {y} {z}")]),
             [_, _, _, w] => {
-                Err(format!("vertex with the weight {w}; expected three coordinates, weights belong to curves"))
+                return Err(format!(
+                    "vertex with the weight {w}; expected three coordinates, weights belong to curves"
+                ));
             }
             [x, y, z, _, _, _] => {
                 self.pass_over("v with a colour", statement.line);
-                self.feed(0, statement, &format!("{x} {y} {z}"))
+                self.feed(0, statement.line, &[&format!("v {x} {y} {z}")]);
             }
-            _ => Err(wrong_count("v", "3 coordinates", numbers.len())),
+            _ => return Err(wrong_count("v", "3 coordinates", numbers.len())),
         }
-    }
-
-    /// Gives tobj one of `kind` if its numbers are finite. Too few are left to tobj.
-    fn feed(&mut self, kind: usize, statement: &Statement, numbers: &str) -> Result<(), String> {
-        let found = statement.numbers()?.len();
-        if kind > 0 && found > 3 {
-            return Err(format!("`{}` has {found} numbers, expected at most 3", statement.keyword()));
-        }
-        self.counts[kind] += 1;
-        self.input.push(statement.line, &format!("{} {numbers}", statement.keyword()));
         Ok(())
     }
 
-    fn face(&mut self, statement: &Statement) -> Result<(), String> {
-        let forms = statement.words().map(|w| self.corner(w, statement.line)).collect::<Result<Vec<_>, _>>()?;
-        let [form, _, _, ..] = forms[..] else {
-            return Err(wrong_count("f", "3 or more corners", forms.len()));
-        };
-        if !form[0] || forms.iter().any(|f| *f != form) {
+    /// Texture coordinates or a normal: given to tobj as `parts` if its numbers are finite. Too few are left to tobj.
+    fn coordinates(&mut self, kind: usize, statement: &Statement<'_>, parts: &[&str]) -> Result<(), String> {
+        let found = statement.numbers()?.len();
+        if found > 3 {
+            return Err(format!("`{}` has {found} numbers, expected at most 3", statement.keyword()));
+        }
+        self.feed(kind, statement.line, parts);
+        Ok(())
+    }
+
+    /// Gives tobj one of `kind`.
+    fn feed(&mut self, kind: usize, line: usize, parts: &[&str]) {
+        self.counts[kind] += 1;
+        self.input.push_parts(line, parts);
+    }
+
+    fn face(&mut self, statement: &Statement<'_>) -> Result<(), String> {
+        let (mut corners, mut form, mut is_even) = (0_usize, [false; 3], true);
+        for word in statement.words() {
+            let own = self.corner(word, statement.line)?;
+            is_even &= corners == 0 || own == form;
+            (corners, form) = (corners + 1, own);
+        }
+        if corners < 3 {
+            return Err(wrong_count("f", "3 or more corners", corners));
+        }
+        if !form[0] || !is_even {
             return Err(format!(
                 "corners of no form or of several in `f {}`; expected all as v, v/vt, v//vn or v/vt/vn",
                 statement.rest()
             ));
         }
-        let corners = u32::try_from(forms.len()).ok().and_then(|n| self.corners.checked_add(n));
-        self.corners = corners.ok_or("more than 2³² corners of faces; split the mesh")?;
+        let sum = u32::try_from(corners).ok().and_then(|n| self.corners.checked_add(n));
+        self.corners = sum.ok_or("more than 2³² corners of faces; split the mesh")?;
         if self.materials.is_empty() {
             self.use_material("", None)?;
         }
@@ -130,7 +144,7 @@ impl Obj {
             self.form = form;
             self.input.push(statement.line, "g");
         }
-        self.input.push(statement.line, &format!("f {}", statement.rest()));
+        self.input.push_parts(statement.line, &["f", statement.rest()]);
         Ok(())
     }
 
@@ -159,7 +173,7 @@ impl Obj {
             return Err("more than 65 536 materials in one mesh; split the mesh".to_owned());
         }
         if let Some(line) = line {
-            self.input.push(line, &format!("usemtl {name}"));
+            self.input.push_parts(line, &["usemtl", name]);
         }
         Ok(())
     }

@@ -2,23 +2,32 @@
 //!
 //! Blanks are those of Unicode, as tobj has them.
 
+use std::borrow::Cow;
+
 /// One statement: a line without its comment and outer blanks, never empty.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Statement {
+pub(super) struct Statement<'a> {
     /// Line it begins on, from 1.
     pub(super) line: usize,
-    text: String,
+    text: Cow<'a, str>,
+    /// Where the first word ends.
+    keyword_end: usize,
 }
 
-impl Statement {
+impl<'a> Statement<'a> {
+    fn new(line: usize, text: Cow<'a, str>) -> Self {
+        let keyword_end = text.find(char::is_whitespace).unwrap_or(text.len());
+        Self { line, text, keyword_end }
+    }
+
     /// The first word.
     pub(super) fn keyword(&self) -> &str {
-        &self.text[..self.keyword_end()]
+        &self.text[..self.keyword_end]
     }
 
     /// The rest, without blanks at its ends.
     pub(super) fn rest(&self) -> &str {
-        self.text[self.keyword_end()..].trim()
+        self.text[self.keyword_end..].trim()
     }
 
     /// The words behind the keyword.
@@ -30,10 +39,6 @@ impl Statement {
     pub(super) fn numbers(&self) -> Result<Vec<f64>, String> {
         self.words().map(number).collect()
     }
-
-    fn keyword_end(&self) -> usize {
-        self.text.find(char::is_whitespace).unwrap_or(self.text.len())
-    }
 }
 
 /// A finite number.
@@ -43,24 +48,33 @@ pub(super) fn number(word: &str) -> Result<f64, String> {
 }
 
 /// The statements of `text`: comments and empty lines left out, lines that end in a backslash joined.
-pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement> {
+pub(super) fn statements(text: &str) -> impl Iterator<Item = Statement<'_>> {
     let mut lines = text.lines().enumerate();
     std::iter::from_fn(move || {
         loop {
             let (index, first) = lines.next()?;
-            let mut whole = trimmed(first).to_owned();
-            while whole.ends_with('\\') {
-                whole.pop();
-                whole.push(' ');
-                whole.push_str(lines.next().map_or("", |(_, line)| trimmed(line)));
-                whole.truncate(whole.trim_end().len());
-            }
-            let text = if whole.starts_with(' ') { whole.trim_start().to_owned() } else { whole };
+            let first = trimmed(first);
+            let text = match first.ends_with('\\') {
+                true => Cow::Owned(joined(first, &mut lines)),
+                false => Cow::Borrowed(first),
+            };
             if !text.is_empty() {
-                return Some(Statement { line: index + 1, text });
+                return Some(Statement::new(index + 1, text));
             }
         }
     })
+}
+
+/// A line that ends in a backslash, and those that continue it.
+fn joined<'a>(first: &str, lines: &mut impl Iterator<Item = (usize, &'a str)>) -> String {
+    let mut whole = first.to_owned();
+    while whole.ends_with('\\') {
+        whole.pop();
+        whole.push(' ');
+        whole.push_str(lines.next().map_or("", |(_, line)| trimmed(line)));
+        whole.truncate(whole.trim_end().len());
+    }
+    if whole.starts_with(' ') { whole.trim_start().to_owned() } else { whole }
 }
 
 /// A line without blanks at its ends and without what follows a `#` that begins a word: names may hold one inside.
@@ -97,7 +111,7 @@ mod tests {
     #[test]
     fn a_statement_goes_over_many_lines() {
         let text = format!("f{}", " 1\\\n".repeat(1_000_000));
-        let found: Vec<Statement> = statements(&text).collect();
+        let found: Vec<Statement<'_>> = statements(&text).collect();
         assert_eq!((found.len(), found[0].words().count()), (1, 1_000_000));
     }
 

@@ -17,7 +17,16 @@ pub(super) struct TobjInput {
 impl TobjInput {
     /// Adds a statement of line `line`.
     pub(super) fn push(&mut self, line: usize, statement: &str) {
-        self.text.push_str(statement);
+        self.push_parts(line, &[statement]);
+    }
+
+    /// Adds a statement of line `line`, given in parts with a blank between them.
+    pub(super) fn push_parts(&mut self, line: usize, parts: &[&str]) {
+        for part in parts {
+            self.text.push_str(part);
+            self.text.push(' ');
+        }
+        self.text.pop();
         self.text.push('\n');
         self.lines.push(line);
     }

@@ -82,7 +82,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let mut cameras: Vec<_> =
         setups.filter_map(|(index, setup)| camera_plan(index as u32, setup, choices, context)).collect();
     shared_light::share(&mut cameras);
-    let (world, identities) = world::world(scene, unused, &mut builder, context)?;
+    let (world, identities) = world::world(description, &mut builder, context)?;
     for setup in &description.cameras {
         let position = &setup.pose.position_m;
         context.accept(&position.place, world.check_reach(DVec3::from_array(position.value)));

@@ -5,12 +5,13 @@ use super::material::MaterialTableBuilder;
 use super::shape;
 use crate::plan::Identity;
 use etendue_core::Track;
-use etendue_scene::Unused;
 use etendue_scene::asset::{MeshAsset, SlotMaterial, SlotReflectance, SlotSurface};
+use etendue_scene::record::render::Accelerator;
 use etendue_scene::record::shape::Shape as ShapeRecord;
 use etendue_scene::record::{self, Body, Object, Scene};
+use etendue_scene::{CameraSetup, Description};
 use etendue_tracer::MaterialId;
-use etendue_tracer::accel::{World, WorldBuilder};
+use etendue_tracer::accel::{TreeQuality, World, WorldBuilder};
 use etendue_tracer::geometry::{Dropped, Instance, Mesh, MeshError, MeshId, Shape};
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 use std::borrow::Cow;
@@ -21,12 +22,13 @@ const MISSING_GREY: f64 = 0.5;
 
 /// The world and the identities that its ground truth names, in the order of the instance ids from 1.
 pub(super) fn world(
-    scene: &Scene,
-    unused: &Unused,
+    description: &Description,
     material_table: &mut MaterialTableBuilder,
     context: &mut Context<'_>,
 ) -> Option<(World, Vec<Identity>)> {
-    let mut assembly = Assembly { builder: WorldBuilder::new(), meshes: BTreeMap::new(), identities: Vec::new() };
+    let (scene, unused) = (&description.scene, &description.unused);
+    let builder = WorldBuilder::new().with_tree_quality(tree_quality(&description.cameras));
+    let mut assembly = Assembly { builder, meshes: BTreeMap::new(), identities: Vec::new() };
     for mesh in scene.meshes.iter().filter(|mesh| !unused.meshes.contains(&mesh.name.value)) {
         assembly.add_mesh(mesh, context);
     }
@@ -39,6 +41,17 @@ pub(super) fn world(
     let built = assembly.builder.build();
     let place = scene.place.clone();
     Some((context.accept(&place, built)?, assembly.identities))
+}
+
+/// All cameras see one world: the best of what they ask for.
+fn tree_quality(cameras: &[CameraSetup]) -> TreeQuality {
+    let asked = cameras.iter().filter_map(|camera| camera.render.accelerator.as_ref());
+    let quality = asked.map(|accelerator| match accelerator.value {
+        Accelerator::Fast => TreeQuality::Fast,
+        Accelerator::Default => TreeQuality::Default,
+        Accelerator::Best => TreeQuality::Best,
+    });
+    quality.max().unwrap_or_default()
 }
 
 struct Assembly {

@@ -1,5 +1,5 @@
-//! The hash of a plan: of everything that decides its result. No path, no comment, no number of threads and no size of tiles is
-//! in it.
+//! The hash of a plan: of everything that decides its result. No path, no comment, no number of threads, no size of tiles and no
+//! quality of trees is in it.
 //!
 //! A plan is made of a description, of the contents of the files that it names, of the caller's choices, and by a version of the
 //! program with the data and defaults built into it. These are hashed: the description by the bytes that its records give
@@ -19,7 +19,7 @@ use sha2::{Digest, Sha256};
 
 /// Raised whenever the same description gives other bits: with every blessing of golden images and every change of built-in data
 /// or of a default.
-const RESULTS_REVISION: u32 = 1;
+const RESULTS_REVISION: u32 = 2;
 
 /// SHA-256 of all that decides the plan's result, the program's version and revision included. Every file that the description
 /// uses is among the assets.
@@ -37,9 +37,10 @@ pub(crate) fn fingerprint(description: &Description, assets: &Assets, choices: &
     hash.finalize().into()
 }
 
-/// The size of a tile does not change the result.
+/// The size of a tile and the trees do not change the result.
 fn camera(setup: &CameraSetup) -> Table {
-    CameraSetup { render: Render { tile_px: None, ..setup.render.clone() }, ..setup.clone() }.to_table()
+    CameraSetup { render: Render { tile_px: None, accelerator: None, ..setup.render.clone() }, ..setup.clone() }
+        .to_table()
 }
 
 #[cfg(test)]
@@ -71,7 +72,16 @@ mod tests {
         let spaced = JOB.replace(" = ", "  =  ").replace("[render]", "# How.\n\n[render] # so");
         let turned = JOB.replace("spp = 4", "seed = 3\nspp = 4");
         let other = JOB.replace("spp = 4", "spp = 4\nseed = 3");
-        assert_eq!(plain, of("elsewhere", &spaced, &["render.spp=4", "render.tile_px=8"], 1, Some(Quality::Standard)));
+        assert_eq!(
+            plain,
+            of(
+                "elsewhere",
+                &spaced,
+                &["render.spp=4", "render.tile_px=8", "render.accelerator=best"],
+                1,
+                Some(Quality::Standard)
+            )
+        );
         assert_eq!(of("", &turned, &[], 1, None), of("", &other, &[], 1, None));
         assert_ne!(plain, of("", &turned, &[], 1, None));
     }

@@ -102,7 +102,8 @@ impl<S: RaySource> RenderJob<'_, S> {
         let film = Mutex::new(self.empty_film());
         let tiles = tiles(self.width, self.height, self.tile_px, self.shard);
         let done = AtomicUsize::new(0);
-        tiles.par_iter().try_for_each(|tile| {
+        // Tile by tile, or the last of a thread are a row of tiles that no other can take over.
+        tiles.par_iter().with_max_len(1).try_for_each(|tile| {
             if observer.cancelled() {
                 return Err(Cancelled);
             }

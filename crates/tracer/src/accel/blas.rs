@@ -1,15 +1,16 @@
 //! A mesh's tree, in the mesh's own frame.
 
-use super::best::Best;
-use super::build::over_triangles;
+use super::best::{Best, Names};
+use super::build::{TreeQuality, over_triangles};
 use super::collapse::{Wide, collapse};
-use super::lanes::{Job, Lanes};
+use super::lanes::{Job, Lanes, Visit};
 use super::local::LocalRay;
 use super::node::{Child, Node};
 use super::packet::{Half, Packet, RayLanes};
 use super::ray::SlabRay;
 use super::walk::{Leaves, walk};
 use crate::geometry::Mesh;
+use glam::Vec3;
 
 /// Triangles a leaf: as many as are met at once.
 const LEAF_SIZE: usize = 8;
@@ -24,20 +25,26 @@ pub(crate) struct Blas {
 }
 
 impl Blas {
-    /// Builds the tree. The same mesh gives the same tree.
-    pub(crate) fn new(mesh: &Mesh) -> Self {
-        let triangles: Vec<_> = (0..mesh.triangles().len() as u32).map(|p| mesh.corners(p)).collect();
-        let Wide { mut nodes, root, leaves } = collapse(&over_triangles(&triangles), LEAF_SIZE);
-        let (mut halves, mut places) = (Vec::new(), Vec::with_capacity(leaves.len()));
-        for leaf in &leaves {
+    /// Builds the tree. The same mesh and quality give the same tree; every quality gives the same answers.
+    pub(crate) fn new(mesh: &Mesh, quality: TreeQuality) -> Self {
+        Self::over(mesh.triangles().len(), |p| mesh.corners(p), quality)
+    }
+
+    /// A tree over so many triangles with the given corners.
+    pub(super) fn over(count: usize, corners: impl Fn(u32) -> [Vec3; 3] + Sync, quality: TreeQuality) -> Self {
+        let binary = over_triangles(count, &corners, quality);
+        // What even meshes need; others get room by and by, since memory is short just now.
+        let mut halves = Vec::with_capacity(count * 9 / 32 + 2);
+        let Wide { nodes, root } = collapse(&binary, LEAF_SIZE, |leaf| {
             let first = halves.len();
-            let members: Vec<_> = leaf.iter().map(|p| (*p, triangles[*p as usize])).collect();
-            halves.extend(Half::of(&members));
-            places.push(Child::leaf(2 * first + halves.len() - first - 1));
-        }
-        let place = |child: Child| if child.as_node().is_some() { child } else { places[child.leaf_index()] };
-        nodes.iter_mut().for_each(|node| node.children = node.children.map(place));
-        Self { nodes, halves, root: root.map(place) }
+            if halves.capacity() < first + 2 {
+                halves.reserve_exact(count / 16 + 2);
+            }
+            halves.extend(Half::of(leaf, &corners));
+            2 * first + halves.len() - first - 1
+        });
+        halves.shrink_to_fit();
+        Self { nodes, halves, root }
     }
 
     #[inline(always)]
@@ -45,11 +52,11 @@ impl Blas {
         Packet::new(&self.halves, leaf / 2, leaf / 2 + leaf % 2)
     }
 
-    /// Offers the triangles that the ray meets with 0 < t ≤ `limit` to `best`, as those of `instance`; near ones come
+    /// Offers the triangles that the ray meets with 0 < t ≤ `limit` to `best`, by their `names`; near ones come
     /// first by and by, and `limit` is lowered to the best.
     #[inline(always)]
-    pub(super) fn closest<L: Lanes>(&self, l: L, ray: &LocalRay, instance: u32, best: &mut Best, limit: &mut f32) {
-        l.run(Closest { tree: self, ray, instance, best, limit });
+    pub(super) fn closest<L: Lanes>(&self, l: L, ray: &LocalRay, names: Names<'_>, best: &mut Best, limit: &mut f32) {
+        l.run(Closest { tree: self, ray, names, best, limit });
     }
 
     /// Whether the ray meets a triangle with 0 < t < `t_max`.
@@ -63,7 +70,7 @@ impl Blas {
 struct Closest<'a> {
     tree: &'a Blas,
     ray: &'a LocalRay,
-    instance: u32,
+    names: Names<'a>,
     best: &'a mut Best,
     limit: &'a mut f32,
 }
@@ -73,9 +80,9 @@ impl Job for Closest<'_> {
 
     #[inline(always)]
     fn work<L: Lanes>(self, l: L) {
-        let Self { tree, ray, instance, best, limit } = self;
+        let Self { tree, ray, names, best, limit } = self;
         let Some(root) = tree.root else { return };
-        let mut leaves = ClosestLeaf { l, tree, ray, instance, best };
+        let mut leaves = ClosestLeaf { l, tree, ray, names, best };
         walk::<L, true>(l, &tree.nodes, root, &SlabRay::with_inverse(ray.origin, ray.inverse), limit, &mut leaves);
     }
 }
@@ -109,17 +116,18 @@ struct ClosestLeaf<'a, L: Lanes> {
     l: L,
     tree: &'a Blas,
     ray: &'a LocalRay,
-    instance: u32,
+    names: Names<'a>,
     best: &'a mut Best,
 }
 
 impl<L: Lanes> Leaves for ClosestLeaf<'_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
+        self.l.note(Visit::Leaf);
         let spread = RayLanes::new(self.l, self.ray);
         if let Some(meeting) = self.tree.packet(leaf).meet(self.l, &spread, self.ray, *limit) {
             for hit in meeting {
-                self.best.offer(self.instance, hit, limit);
+                self.best.offer(self.names, hit, limit);
             }
         }
         false
@@ -135,6 +143,7 @@ struct AnyLeaf<'a, L: Lanes> {
 impl<L: Lanes> Leaves for AnyLeaf<'_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
+        self.l.note(Visit::Leaf);
         let spread = RayLanes::new(self.l, self.ray);
         self.tree.packet(leaf).blocks(self.l, &spread, self.ray, *limit)
     }

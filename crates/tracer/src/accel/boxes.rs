@@ -17,6 +17,16 @@ impl Box3 {
         Self { low: low.as_vec3(), high: high.as_vec3() }
     }
 
+    /// The box about a triangle.
+    pub(crate) fn about([a, b, c]: &[Vec3; 3]) -> Self {
+        Self { low: a.min(*b).min(*c), high: a.max(*b).max(*c) }
+    }
+
+    /// Whether there is a point in it; not so with coordinates that are no numbers.
+    pub(crate) fn is_valid(&self) -> bool {
+        self.low.cmple(self.high).all()
+    }
+
     /// By how much a primitive's box is enlarged on all sides so that no rounding of a box test loses a hit that the
     /// primitive's own test grants: 6e-7 · (greatest coordinate + greatest extent), some ten roundings.
     pub(crate) fn padding(&self) -> Vec3 {

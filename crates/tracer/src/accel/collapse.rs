@@ -11,40 +11,37 @@ use super::node::{Child, Node};
 /// Cost of testing a leaf's primitives relative to that of testing a node's boxes: the best of 1, 1.3, 2 and 3.
 const LEAF_COST: f32 = 1.3;
 
-/// An eight-wide tree.
+/// The nodes of an eight-wide tree.
 #[derive(Clone, Debug)]
 pub(super) struct Wide {
     pub(super) nodes: Vec<Node>,
     /// Where rays begin; `None` for an empty tree.
     pub(super) root: Option<Child>,
-    /// The primitives of each leaf, at most as many as asked for.
-    pub(super) leaves: Vec<Vec<u32>>,
 }
 
-/// Makes a binary tree (node 0 its root) eight wide, with at most `leaf_size` primitives a leaf.
-pub(super) fn collapse(binary: &[BinaryNode], leaf_size: usize) -> Wide {
-    let mut wide = Wide { nodes: Vec::new(), root: None, leaves: Vec::new() };
+/// Makes a binary tree eight wide, with at most `leaf_size` primitives a leaf. `place` takes the primitives of each leaf, in
+/// ascending order and each once, and says by which index its node names it.
+pub(super) fn collapse(binary: &[BinaryNode], leaf_size: usize, place: impl FnMut(&[u32]) -> usize) -> Wide {
     if binary.is_empty() {
-        return wide;
+        return Wide { nodes: Vec::new(), root: None };
     }
     let plans = plan(binary, leaf_size as u32);
-    let child = Writer { binary, plans: &plans, wide: &mut wide }.write();
-    wide.root = Some(child);
-    wide
+    let mut writer = Writer {
+        binary,
+        plans: &plans,
+        nodes: Vec::with_capacity(binary.len() / 56 + 1),
+        place,
+        primitives: Vec::new(),
+    };
+    let root = Some(writer.write());
+    let mut nodes = writer.nodes;
+    nodes.shrink_to_fit();
+    Wide { nodes, root }
 }
 
-/// How a binary node best stands in one to seven slots.
+/// How a binary node best stands in one to seven slots, and in the eight of a wide node of its own, in 32 bits.
 #[derive(Clone, Copy, Debug)]
-struct Plan {
-    /// Cost by number of slots, less one.
-    cost: [f32; 7],
-    /// How the slots are used, by their number, less one.
-    slots: [Slots; 7],
-    /// Slots for the first child where the node becomes a wide one with eight.
-    as_wide: u8,
-    /// Primitives below, capped.
-    primitives: u32,
-}
+struct Plan(u32);
 
 /// What to do with some slots.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,61 +56,95 @@ enum Slots {
     Fewer,
 }
 
-fn plan(binary: &[BinaryNode], leaf_size: u32) -> Vec<Plan> {
-    let leaf = Plan { cost: [0.0; 7], slots: [Slots::Fewer; 7], as_wide: 0, primitives: 1 };
-    let mut plans = vec![leaf; binary.len()];
-    for node in parents_first(binary).into_iter().rev() {
-        let BinaryNode { bounds, kind } = binary[node as usize];
-        plans[node as usize] = match kind {
-            BinaryKind::Leaf(_) => plan_leaf(bounds.half_area()),
-            BinaryKind::Inner(first) => {
-                let children = [plans[first as usize], plans[first as usize + 1]];
-                plan_inner(bounds.half_area(), &children, leaf_size)
-            }
-        };
+impl Plan {
+    /// A leaf, however many slots there are.
+    const LEAF: Self = Self(1);
+
+    /// A leaf or a wide node in one slot; in two to eight slots as many for the first child, 0 where one is better left
+    /// empty.
+    #[inline(always)]
+    fn new(is_leaf: bool, first: [u8; 7]) -> Self {
+        let word = first.iter().rev().fold(0, |word, share| word << 3 | u32::from(*share));
+        Self(word << 1 | u32::from(is_leaf))
     }
+
+    #[inline(always)]
+    fn of(self, slots: u8) -> Slots {
+        match (slots, self.0 & 1 == 1) {
+            (1, true) => Slots::Leaf,
+            (1, false) => Slots::Wide,
+            _ => match self.first(slots) {
+                0 => Slots::Fewer,
+                first => Slots::Split(first),
+            },
+        }
+    }
+
+    /// Slots for the first child, of two to eight.
+    #[inline(always)]
+    fn first(self, slots: u8) -> u8 {
+        (self.0 >> (3 * slots - 5) & 7) as u8
+    }
+}
+
+/// What a binary node costs.
+#[derive(Clone, Copy, Debug)]
+struct Cost {
+    /// By number of slots, less one.
+    slots: [f32; 7],
+    /// Primitives below, capped.
+    primitives: u32,
+}
+
+/// Plans of a tree, its last nodes first. What is below a pair of children stands after it, that of the first before that of
+/// the second: so the costs that are still needed are a stack.
+fn plan(binary: &[BinaryNode], leaf_size: u32) -> Vec<Plan> {
+    let mut plans = vec![Plan::LEAF; binary.len()];
+    let mut pending: Vec<[Cost; 2]> = Vec::with_capacity(128);
+    for first in (1..binary.len()).step_by(2).rev() {
+        let children = [first, first + 1].map(|node| {
+            let (plan, cost) = plan_node(&binary[node], leaf_size, &mut pending);
+            plans[node] = plan;
+            cost
+        });
+        pending.push(children);
+    }
+    plans[0] = plan_node(&binary[0], leaf_size, &mut pending).0;
     plans
 }
 
-fn parents_first(binary: &[BinaryNode]) -> Vec<u32> {
-    let mut order = Vec::with_capacity(binary.len());
-    let mut pending = vec![0];
-    while let Some(node) = pending.pop() {
-        order.push(node);
-        if let BinaryKind::Inner(first) = binary[node as usize].kind {
-            pending.extend([first + 1, first]);
-        }
+#[inline(always)]
+fn plan_node(node: &BinaryNode, leaf_size: u32, pending: &mut Vec<[Cost; 2]>) -> (Plan, Cost) {
+    let area = node.bounds.half_area();
+    match node.kind() {
+        BinaryKind::Leaf(_) => (Plan::LEAF, Cost { slots: [area * LEAF_COST; 7], primitives: 1 }),
+        BinaryKind::Inner(_) => plan_inner(area, &pending.pop().expect("children are planned first"), leaf_size),
     }
-    order
 }
 
-fn plan_leaf(area: f32) -> Plan {
-    let mut slots = [Slots::Fewer; 7];
-    slots[0] = Slots::Leaf;
-    Plan { cost: [area * LEAF_COST; 7], slots, as_wide: 0, primitives: 1 }
-}
-
-fn plan_inner(area: f32, children: &[Plan; 2], leaf_size: u32) -> Plan {
+fn plan_inner(area: f32, children: &[Cost; 2], leaf_size: u32) -> (Plan, Cost) {
     let primitives = children[0].primitives.saturating_add(children[1].primitives);
     let (below, as_wide) = best_split(children, 8);
     let wide = area + below;
     let leaf = if primitives <= leaf_size { area * LEAF_COST } else { f32::INFINITY };
-    let mut plan = Plan { cost: [wide.min(leaf); 7], slots: [Slots::Fewer; 7], as_wide, primitives };
-    plan.slots[0] = if leaf <= wide { Slots::Leaf } else { Slots::Wide };
+    let mut cost = Cost { slots: [wide.min(leaf); 7], primitives };
+    let mut first = [0; 7];
+    first[6] = as_wide;
     for slots in 2..=7 {
-        let (cost, first) = best_split(children, slots);
-        let fewer = plan.cost[slots - 2];
-        plan.cost[slots - 1] = cost.min(fewer);
-        plan.slots[slots - 1] = if cost < fewer { Slots::Split(first) } else { Slots::Fewer };
+        let (split, share) = best_split(children, slots);
+        let fewer = cost.slots[slots - 2];
+        cost.slots[slots - 1] = split.min(fewer);
+        first[slots - 2] = if split < fewer { share } else { 0 };
     }
-    plan
+    (Plan::new(leaf <= wide, first), cost)
 }
 
 /// The least cost of two children that share `slots`, and how many the first gets.
-fn best_split(children: &[Plan; 2], slots: usize) -> (f32, u8) {
+#[inline(always)]
+fn best_split(children: &[Cost; 2], slots: usize) -> (f32, u8) {
     let mut best = (f32::INFINITY, 1);
     for first in 1..slots {
-        let cost = children[0].cost[first - 1] + children[1].cost[slots - first - 1];
+        let cost = children[0].slots[first - 1] + children[1].slots[slots - first - 1];
         if cost < best.0 {
             best = (cost, first as u8);
         }
@@ -121,26 +152,30 @@ fn best_split(children: &[Plan; 2], slots: usize) -> (f32, u8) {
     best
 }
 
-struct Writer<'a> {
+struct Writer<'a, F> {
     binary: &'a [BinaryNode],
     plans: &'a [Plan],
-    wide: &'a mut Wide,
+    nodes: Vec<Node>,
+    place: F,
+    /// Those of the leaf at hand.
+    primitives: Vec<u32>,
 }
 
-impl Writer<'_> {
+impl<F: FnMut(&[u32]) -> usize> Writer<'_, F> {
     /// Writes the tree, parents before children and near relatives near each other; returns its root.
-    fn write(mut self) -> Child {
+    fn write(&mut self) -> Child {
         let root = self.child(0);
         let mut pending: Vec<_> = root.as_node().map(|node| (0, node)).into_iter().collect();
+        let mut slots = Vec::with_capacity(8);
         while let Some((binary, node)) = pending.pop() {
-            let mut slots = Vec::with_capacity(8);
+            slots.clear();
             self.spread_wide(binary, &mut slots);
             // Rays that ask for any hit take the last slots first: large boxes are likely to stop them.
             slots.sort_by(|a, b| self.area(*a).total_cmp(&self.area(*b)));
-            for (slot, binary) in slots.into_iter().enumerate() {
-                let child = self.child(binary);
-                self.wide.nodes[node].set(slot, &self.binary[binary as usize].bounds, child);
-                pending.extend(child.as_node().map(|node| (binary, node)));
+            for (slot, binary) in slots.iter().enumerate() {
+                let child = self.child(*binary);
+                self.nodes[node].set(slot, &self.binary[*binary as usize].bounds, child);
+                pending.extend(child.as_node().map(|node| (*binary, node)));
             }
         }
         root
@@ -148,13 +183,15 @@ impl Writer<'_> {
 
     /// Makes room for a binary node that stands in one slot.
     fn child(&mut self, binary: u32) -> Child {
-        if self.plans[binary as usize].slots[0] == Slots::Leaf {
-            let primitives = self.primitives(binary);
-            self.wide.leaves.push(primitives);
-            Child::leaf(self.wide.leaves.len() - 1)
+        if self.plans[binary as usize].of(1) == Slots::Leaf {
+            self.gather(binary);
+            Child::leaf((self.place)(&self.primitives))
         } else {
-            self.wide.nodes.push(Node::EMPTY);
-            Child::node(self.wide.nodes.len() - 1)
+            if self.nodes.len() == self.nodes.capacity() {
+                self.nodes.reserve_exact(self.binary.len() / 224 + 1);
+            }
+            self.nodes.push(Node::EMPTY);
+            Child::node(self.nodes.len() - 1)
         }
     }
 
@@ -163,8 +200,8 @@ impl Writer<'_> {
     }
 
     fn spread_wide(&self, binary: u32, out: &mut Vec<u32>) {
-        if let BinaryKind::Inner(first) = self.binary[binary as usize].kind {
-            let share = self.plans[binary as usize].as_wide;
+        if let BinaryKind::Inner(first) = self.binary[binary as usize].kind() {
+            let share = self.plans[binary as usize].first(8);
             self.spread(first, share, out);
             self.spread(first + 1, 8 - share, out);
         }
@@ -172,7 +209,8 @@ impl Writer<'_> {
 
     /// The binary nodes that stand in the slots given to `binary`. At most seven calls deep.
     fn spread(&self, binary: u32, slots: u8, out: &mut Vec<u32>) {
-        match (self.plans[binary as usize].slots[usize::from(slots) - 1], self.binary[binary as usize].kind) {
+        match (self.plans[binary as usize].of(slots), self.binary[binary as usize].kind()) {
+            (_, BinaryKind::Leaf(_)) => out.push(binary),
             (Slots::Fewer, _) => self.spread(binary, slots - 1, out),
             (Slots::Split(share), BinaryKind::Inner(first)) => {
                 self.spread(first, share, out);
@@ -182,18 +220,22 @@ impl Writer<'_> {
         }
     }
 
-    /// The primitives below a binary node, in ascending order, each once.
-    fn primitives(&self, binary: u32) -> Vec<u32> {
-        let mut primitives = Vec::with_capacity(8);
-        let mut pending = vec![binary];
-        while let Some(node) = pending.pop() {
-            match self.binary[node as usize].kind {
-                BinaryKind::Leaf(primitive) => primitives.push(primitive),
-                BinaryKind::Inner(first) => pending.extend([first, first + 1]),
+    /// Takes the primitives below a binary node, in ascending order, each once.
+    fn gather(&mut self, binary: u32) {
+        self.primitives.clear();
+        self.add_below(binary);
+        self.primitives.sort_unstable();
+        self.primitives.dedup();
+    }
+
+    /// At most as deep as a leaf has primitives.
+    fn add_below(&mut self, binary: u32) {
+        match self.binary[binary as usize].kind() {
+            BinaryKind::Leaf(primitive) => self.primitives.push(primitive),
+            BinaryKind::Inner(first) => {
+                self.add_below(first);
+                self.add_below(first + 1);
             }
         }
-        primitives.sort_unstable();
-        primitives.dedup();
-        primitives
     }
 }

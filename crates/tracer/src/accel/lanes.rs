@@ -73,8 +73,22 @@ pub(crate) trait Lanes: Copy {
     fn or(self, a: Self::M, b: Self::M) -> Self::M;
     /// Lane i in bit i.
     fn bits(self, m: Self::M) -> u32;
+    /// Told of every visit of a walk; only lanes that count do anything with it.
+    #[inline(always)]
+    fn note(self, _visit: Visit) {}
     /// Runs a task, compiled for these lanes.
     fn run<J: Job>(self, job: J) -> J::Output;
+}
+
+/// What a ray visits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Visit {
+    /// A node, whose eight boxes are tested at once.
+    Node,
+    /// A leaf of a mesh, whose triangles are tested at once.
+    Leaf,
+    /// An instance.
+    Instance,
 }
 
 /// A task that can be compiled for any lanes.

@@ -3,10 +3,10 @@
 //! A [`World`] holds meshes, each with a tree in its own frame, and instances of them. It is built once; a
 //! [`crate::render_space::RenderSpace`] places the instances about one camera and adds a tree over them.
 //!
-//! - `build`: binary trees by the library that builds best (parallel locally-ordered clustering and reinsertion).
-//! - `median_split`: binary trees for crowds, which that library would take too long for.
+//! - `build`: trees from the top down by the surface area heuristic, in blocks.
 //! - `collapse`: binary to eight-wide, at least cost.
 //! - `node`, `packet`: what is tested eight at a time: boxes and triangles.
+//! - `merged`: small instances written out as one mesh.
 //! - `reach`: how far rays may start from a mesh.
 //! - `walk`, `pending`: near to far through a tree for the first hit, or through the largest boxes for any.
 //!
@@ -21,7 +21,7 @@ mod build;
 mod collapse;
 pub(crate) mod lanes;
 pub(crate) mod local;
-mod median_split;
+mod merged;
 mod node;
 mod packet;
 mod pending;
@@ -32,9 +32,12 @@ mod simd;
 #[cfg(test)]
 pub(crate) mod tests;
 pub(crate) mod tlas;
+mod visits;
 mod walk;
 mod world;
 
+pub use build::TreeQuality;
+pub use visits::Visits;
 pub use world::{World, WorldBuilder, WorldError};
 
 /// Which instruction set the accelerator uses. Every choice gives the same bits.

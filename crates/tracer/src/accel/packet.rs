@@ -114,16 +114,16 @@ struct Test<L: Lanes> {
 }
 
 impl Half {
-    /// Halves, one or two, of at most eight triangles.
-    pub(super) fn of(triangles: &[(u32, [Vec3; 3])]) -> impl Iterator<Item = Self> {
-        triangles.chunks(HALF).map(Self::new)
+    /// Halves, one or two, of at most eight triangles by their numbers.
+    pub(super) fn of(primitives: &[u32], corners: impl Fn(u32) -> [Vec3; 3]) -> impl Iterator<Item = Self> {
+        primitives.chunks(HALF).map(move |chunk| Self::new(chunk, &corners))
     }
 
-    fn new(triangles: &[(u32, [Vec3; 3])]) -> Self {
+    fn new(primitives: &[u32], corners: impl Fn(u32) -> [Vec3; 3]) -> Self {
         let mut half = Self { corners: [[Four([f32::NAN; HALF]); 3]; 3], primitives: [u32::MAX; HALF] };
-        for (lane, (primitive, corners)) in triangles.iter().enumerate() {
+        for (lane, primitive) in primitives.iter().enumerate() {
             half.primitives[lane] = *primitive;
-            for (corner, position) in corners.iter().enumerate() {
+            for (corner, position) in corners(*primitive).iter().enumerate() {
                 for axis in 0..3 {
                     half.corners[corner][axis].0[lane] = position[axis];
                 }

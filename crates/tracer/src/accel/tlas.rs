@@ -1,21 +1,24 @@
 //! The tree over the instances of a view.
 
 use super::Simd;
-use super::best::Best;
+use super::best::{Best, Names};
 use super::blas::Blas;
 use super::boxes::Box3;
 use super::build::over_boxes;
 use super::collapse::collapse;
-use super::lanes::{Job, Lanes, Plain};
+use super::lanes::{Job, Lanes, Plain, Visit};
 use super::local::LocalRay;
+use super::merged::Merged;
 use super::node::{Child, Node};
 use super::packet::PrimitiveHit;
 use super::ray::SlabRay;
 #[cfg(target_arch = "x86_64")]
 use super::simd::Avx2;
+use super::visits::{Counting, Visits};
 use super::walk::{Leaves, walk};
 use super::world::World;
 use crate::geometry::{Hit, Instance, InstanceTransform, Shape, sphere};
+use core::cell::Cell;
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};
 
@@ -55,13 +58,17 @@ impl Chosen {
     }
 }
 
+/// What a leaf holds that is no single instance.
+const MERGED: u32 = u32::MAX;
+
 /// The instances of a view, with a tree over them.
 #[derive(Clone, Debug)]
 pub(crate) struct Tlas<'w> {
     nodes: Vec<Node>,
     root: Option<Child>,
-    /// The instance of each leaf.
+    /// The instance of each leaf, or [`MERGED`].
     leaves: Vec<u32>,
+    merged: Option<Merged>,
     targets: Vec<Target<'w>>,
     placed: Vec<InstanceTransform>,
     chosen: Chosen,
@@ -69,17 +76,21 @@ pub(crate) struct Tlas<'w> {
 
 impl<'w> Tlas<'w> {
     /// Builds the tree over instances placed in the render frame.
-    pub(crate) fn new(world: &'w World, placed: Vec<InstanceTransform>, simd: Simd) -> Self {
-        let bounded = placed.iter().zip(world.instances()).zip(0_u32..);
-        let (boxes, members): (Vec<_>, Vec<_>) = bounded
-            .filter_map(|((placed, instance), index)| {
-                Some((Box3::from_f64(placed.bounds(instance, world.meshes())?), index))
-            })
-            .unzip();
-        let wide = collapse(&over_boxes(&boxes), 1);
-        let leaves = wide.leaves.iter().map(|leaf| members[leaf[0] as usize]).collect();
+    pub(crate) fn new(world: &'w World, mut placed: Vec<InstanceTransform>, simd: Simd) -> Self {
+        let merged = Merged::new(world, &mut placed);
+        let bounded = placed.iter().zip(world.instances()).zip(0_u32..).filter(|((placed, _), _)| !placed.is_merged());
+        let single = bounded.filter_map(|((placed, instance), index)| {
+            Some((Box3::from_f64(placed.bounds(instance, world.meshes())?), index))
+        });
+        let bounds = merged.as_ref().map(|merged| merged.bounds);
+        let (boxes, members): (Vec<_>, Vec<_>) = single.chain(bounds.map(|bounds| (bounds, MERGED))).unzip();
+        let mut leaves = Vec::with_capacity(members.len());
+        let wide = collapse(&over_boxes(&boxes), 1, |leaf| {
+            leaves.push(members[leaf[0] as usize]);
+            leaves.len() - 1
+        });
         let targets = world.instances().iter().map(|instance| Target::new(world, instance)).collect();
-        Self { nodes: wide.nodes, root: wide.root, leaves, targets, placed, chosen: Chosen::new(simd) }
+        Self { nodes: wide.nodes, root: wide.root, leaves, merged, targets, placed, chosen: Chosen::new(simd) }
     }
 
     /// The instances' places, by their index.
@@ -90,6 +101,17 @@ impl<'w> Tlas<'w> {
     /// The first primitive that a ray meets.
     pub(crate) fn closest(&self, ray: &Ray) -> Option<Hit> {
         self.chosen.run(Closest { top: self, ray })
+    }
+
+    /// What a ray visits on its way to the first primitive that it meets, or to any.
+    pub(crate) fn visits(&self, ray: &Ray, any: bool) -> Visits {
+        let visits = Cell::new(Visits::default());
+        if any {
+            Counting(&visits).run(Occluded { top: self, ray });
+        } else {
+            Counting(&visits).run(Closest { top: self, ray });
+        }
+        visits.get()
     }
 
     /// Whether a ray meets anything.
@@ -148,17 +170,29 @@ struct ClosestLeaf<'a, 'w, L> {
 impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
+        self.l.note(Visit::Instance);
         let instance = self.top.leaves[leaf];
+        if let (MERGED, Some(merged)) = (instance, &self.top.merged) {
+            let local = LocalRay::new(self.ray.origin, self.ray.direction);
+            merged.tree.closest(self.l, &local, merged.names(), &mut self.best, limit);
+            return false;
+        }
         let placed = &self.top.placed[instance as usize];
         match self.top.targets[instance as usize] {
             Target::Mesh(tree) => {
                 let (origin, direction) = placed.rounded_ray_to_local(self.ray);
-                tree.closest(self.l, &LocalRay::new(origin, direction), instance, &mut self.best, limit);
+                tree.closest(
+                    self.l,
+                    &LocalRay::new(origin, direction),
+                    Names::Instance(instance),
+                    &mut self.best,
+                    limit,
+                );
             }
             Target::Sphere(radius) => {
                 let (origin, direction) = placed.ray_to_local(self.ray);
                 if let Some(hit) = meet_sphere(radius, origin, direction) {
-                    self.best.offer(instance, hit, limit);
+                    self.best.offer(Names::Instance(instance), hit, limit);
                 }
             }
         }
@@ -196,7 +230,13 @@ struct AnyLeaf<'a, 'w, L> {
 impl<L: Lanes> Leaves for AnyLeaf<'_, '_, L> {
     #[inline(always)]
     fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
-        let instance = self.top.leaves[leaf] as usize;
+        self.l.note(Visit::Instance);
+        let instance = self.top.leaves[leaf];
+        if let (MERGED, Some(merged)) = (instance, &self.top.merged) {
+            let local = LocalRay::new(self.ray.origin, self.ray.direction);
+            return merged.tree.occluded(self.l, &local, *limit);
+        }
+        let instance = instance as usize;
         let placed = &self.top.placed[instance];
         match self.top.targets[instance] {
             Target::Mesh(tree) => {

@@ -1,6 +1,6 @@
 //! Through an eight-wide tree.
 
-use super::lanes::{Eight, Lanes};
+use super::lanes::{Eight, Lanes, Visit};
 use super::node::{Child, Node};
 use super::pending::{Pending, entry};
 use super::ray::{SlabLanes, SlabRay};
@@ -52,6 +52,7 @@ fn descend<L: Lanes, const SORTED: bool>(
     limits: L::V,
     pending: &mut Pending,
 ) -> Option<Child> {
+    l.note(Visit::Node);
     let (mut lanes, near) = ray.enter(l, node, limits);
     if lanes == 0 {
         return None;

@@ -1,9 +1,11 @@
 //! The world: meshes with their trees, and instances of them.
 
 use super::blas::Blas;
+use super::build::TreeQuality;
 use crate::MaterialId;
 use crate::geometry::{Instance, Mesh, MeshId, Shape, uniform_scale};
 use glam::DAffine3;
+use rayon::prelude::*;
 
 /// Why a world is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -90,6 +92,7 @@ pub enum WorldError {
 pub struct WorldBuilder {
     meshes: Vec<Mesh>,
     instances: Vec<Instance>,
+    tree_quality: TreeQuality,
 }
 
 impl WorldBuilder {
@@ -97,6 +100,12 @@ impl WorldBuilder {
     #[must_use]
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// The same with another quality of its meshes' trees.
+    #[must_use]
+    pub fn with_tree_quality(self, tree_quality: TreeQuality) -> Self {
+        Self { tree_quality, ..self }
     }
 
     /// Adds a mesh.
@@ -140,8 +149,8 @@ impl WorldBuilder {
         for (index, instance) in self.instances.iter().enumerate() {
             check(index, instance, &self.meshes)?;
         }
-        let trees = self.meshes.iter().map(Blas::new).collect();
-        Ok(World { meshes: self.meshes, trees, instances: self.instances })
+        let trees = self.meshes.par_iter().map(|mesh| Blas::new(mesh, self.tree_quality)).collect();
+        Ok(World { meshes: self.meshes, trees, instances: self.instances, tree_quality: self.tree_quality })
     }
 }
 
@@ -177,6 +186,7 @@ pub struct World {
     meshes: Vec<Mesh>,
     trees: Vec<Blas>,
     instances: Vec<Instance>,
+    tree_quality: TreeQuality,
 }
 
 impl World {
@@ -190,6 +200,12 @@ impl World {
     #[must_use]
     pub fn mesh(&self, id: MeshId) -> &Mesh {
         &self.meshes[id.0 as usize]
+    }
+
+    /// What was spent on the trees.
+    #[must_use]
+    pub fn tree_quality(&self) -> TreeQuality {
+        self.tree_quality
     }
 
     pub(crate) fn tree(&self, id: MeshId) -> &Blas {

@@ -16,6 +16,8 @@ pub(crate) struct InstanceTransform {
     mean_scale: f64,
     /// Whether the instance is only moved, neither turned nor scaled.
     is_shifted: bool,
+    /// Where the corners of its triangles are rounded in the render frame: their greatest coordinates by axis, m.
+    merged: Option<DVec3>,
 }
 
 impl InstanceTransform {
@@ -35,7 +37,19 @@ impl InstanceTransform {
             keeps_length: scale.is_some(),
             is_shifted: to_render.matrix3 == DMat3::IDENTITY,
             mean_scale: maths::f64::cbrt(to_render.matrix3.determinant().abs()),
+            merged: None,
         }
+    }
+
+    /// Notes that the corners of its triangles, with coordinates up to `greatest` (by axis, m), are rounded to f32 in the
+    /// render frame, where rays then meet them.
+    pub(crate) fn merge(&mut self, greatest: DVec3) {
+        self.merged = Some(greatest);
+    }
+
+    /// Whether the corners of its triangles are rounded in the render frame.
+    pub(crate) fn is_merged(&self) -> bool {
+        self.merged.is_some()
     }
 
     /// A point of the instance's frame, in the render frame.
@@ -134,9 +148,11 @@ impl InstanceTransform {
     /// How far, per axis of the render frame (m), rounding may move a surface point or a ray's origin made from it off
     /// the surface: the point and the pushed origin are each rounded to f32 in the render frame (half a unit in the last
     /// place each, ≤ 2⁻²⁴ of the coordinate), and the origin once more in the instance's frame. The factors 3 and 2 for
-    /// 2 and 1 make room for the push itself and for the f64 arithmetic, which is 2²⁹ times finer.
+    /// 2 and 1 make room for the push itself and for the f64 arithmetic, which is 2²⁹ times finer. Of a merged instance the
+    /// corners are rounded in the place of the origin, and with them all points between.
+    #[inline]
     pub(crate) fn position_error(&self, position: Vec3, local: DVec3) -> Vec3 {
-        let carried = self.abs_matrix() * local.abs();
+        let carried = self.merged.unwrap_or_else(|| self.abs_matrix() * local.abs());
         (position.as_dvec3().abs() * (3.0 * HALF_ULP) + carried * (2.0 * HALF_ULP)).as_vec3()
             + Vec3::splat(f32::MIN_POSITIVE)
     }

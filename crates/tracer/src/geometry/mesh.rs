@@ -6,8 +6,9 @@
 
 use super::MeshError;
 use super::facet::Facet;
+use super::repeats::repeats;
 use glam::{DVec3, Vec2, Vec3};
-use std::collections::HashSet;
+use rayon::prelude::*;
 
 /// Coordinates beyond this are refused: products of three of them must stay finite in f32.
 const MAX_COORDINATE_M: f32 = 1e12;
@@ -40,7 +41,8 @@ pub struct Dropped {
 
 impl Mesh {
     /// A checked mesh. `normals` and `uvs` are one a vertex or empty; `slots` (material slots) one a triangle, or empty
-    /// for slot 0 throughout. Triangles kept stay in their order; a primitive is counted among those kept.
+    /// for slot 0 throughout. Triangles kept stay in their order; a primitive is counted among those kept. Runs on the caller's
+    /// thread pool.
     pub fn new(
         positions: Vec<Vec3>,
         normals: Vec<Vec3>,
@@ -55,7 +57,7 @@ impl Mesh {
         let (bounds, slot_count, origin) = (None, 0, DVec3::ZERO);
         let mut mesh = Self { positions, normals, uvs, triangles, slots, facets: vec![], bounds, slot_count, origin };
         let dropped = mesh.drop_unusable();
-        mesh.facets = (0..mesh.triangles.len()).map(|i| mesh.new_facet(i)).collect();
+        mesh.facets = (0..mesh.triangles.len()).into_par_iter().map(|i| mesh.new_facet(i)).collect();
         mesh.bounds = mesh.find_bounds();
         mesh.slot_count = mesh.slots.iter().max().map_or(0, |s| usize::from(*s) + 1);
         Ok((mesh, dropped))
@@ -138,22 +140,17 @@ impl Mesh {
     }
 
     fn drop_unusable(&mut self) -> Dropped {
-        let mut dropped = Dropped::default();
-        let mut seen = HashSet::with_capacity(self.triangles.len());
-        let mut kept = Vec::with_capacity(self.triangles.len());
-        for triangle in 0..self.triangles.len() {
-            let corners = self.corners(triangle as u32);
-            let usable = !is_flat(corners);
-            let fresh = usable && seen.insert(unordered_bits(corners));
-            dropped.zero_area += usize::from(!usable);
-            dropped.duplicate += usize::from(usable && !fresh);
-            kept.push(fresh);
-        }
+        let count = self.triangles.len();
+        let mut kept: Vec<bool> =
+            (0..count as u32).into_par_iter().map(|triangle| !is_flat(self.corners(triangle))).collect();
+        let usable = kept.iter().filter(|kept| **kept).count();
+        let repeated = repeats(&kept, |triangle| unordered_bits(self.corners(triangle)));
+        repeated.iter().for_each(|triangle| kept[*triangle as usize] = false);
         let mut keep = kept.iter();
         self.triangles.retain(|_| *keep.next().unwrap_or(&true));
         let mut keep = kept.iter();
         self.slots.retain(|_| *keep.next().unwrap_or(&true));
-        dropped
+        Dropped { zero_area: count - usable, duplicate: repeated.len() }
     }
 }
 

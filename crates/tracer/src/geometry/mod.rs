@@ -9,6 +9,7 @@ mod instance;
 mod instance_transform;
 mod mesh;
 mod mesh_error;
+mod repeats;
 pub(crate) mod sphere;
 mod surface;
 

@@ -20,6 +20,7 @@ use etendue_core::{Bands, EffectStatus};
 use etendue_optics::effects::Effect;
 use etendue_sensor::dynamic_range::{DynamicRange, Switch};
 use etendue_sensor::emva1288::db;
+use etendue_tracer::accel::TreeQuality;
 use etendue_tracer::geometry::Shape;
 use etendue_tracer::integrator::Level;
 use std::fmt::{self, Display, Formatter};
@@ -60,7 +61,13 @@ fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     }
     let instances = plan.world.instances().len();
     let triangles = format!("{} ({stored} stored)", count(seen, "triangle"));
-    line(f, "geometry", format!("{}, {triangles}, {}", count(instances, "instance"), count(spheres, "sphere")))?;
+    let trees = match plan.world.tree_quality() {
+        TreeQuality::Fast => "; trees built fast: rays take longer",
+        TreeQuality::Default => "",
+        TreeQuality::Best => "; trees built with care",
+    };
+    let (instances, spheres) = (count(instances, "instance"), count(spheres, "sphere"));
+    line(f, "geometry", format!("{instances}, {triangles}, {spheres}{trees}"))?;
     let textures = count(plan.material_table.textures().len(), "texture");
     line(f, "materials", format!("{}, {textures}", plan.materials.len()))?;
     if let Some(sky) = &plan.sky {

@@ -71,7 +71,9 @@ fn a_hundred_thousand_instances_are_found() {
     for _ in 0..1000 {
         let i = random.between(0.0, f64::from(side * side)) as u32;
         let over = place(i).translation.as_vec3() + Vec3::new(0.25, 0.25, 0.0);
-        assert_eq!(view.closest(&Ray::new(over, Vec3::NEG_Z, 0.0)).map(|h| (h.instance, h.t)), Some((i, 10.0)));
+        let hit = view.closest(&Ray::new(over, Vec3::NEG_Z, 0.0)).expect("a triangle");
+        // A mean of three depths of 10 m, by weights of f32.
+        assert!(hit.instance == i && (hit.t - 10.0).abs() < 4e-6, "{hit:?}");
     }
 }
 

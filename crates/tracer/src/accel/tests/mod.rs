@@ -2,6 +2,7 @@
 
 mod agreement;
 mod degenerate;
+mod needles;
 pub(crate) mod shapes;
 mod ties;
 mod watertight;

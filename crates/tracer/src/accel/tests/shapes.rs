@@ -1,7 +1,7 @@
 //! Closed meshes, worlds and random numbers for tests.
 
 use crate::MaterialId;
-use crate::accel::{World, WorldBuilder};
+use crate::accel::{TreeQuality, World, WorldBuilder};
 use crate::geometry::{Instance, Mesh, Shape};
 use etendue_core::Track;
 use etendue_core::random::{philox4x32, unit_f64};
@@ -170,6 +170,17 @@ pub(crate) fn world_of(mesh: Mesh, to_world: DAffine3) -> World {
     builder.build().expect("a legal world")
 }
 
+/// The same world, and one in which the mesh has company far away, so that a view may write it out ([`super::super::merged`]).
+pub(crate) fn alone_and_merged(mesh: Mesh, to_world: DAffine3) -> [World; 2] {
+    let mut builder = WorldBuilder::new();
+    let id = builder.add_mesh(mesh.clone());
+    builder.add_instance(instance(Shape::Mesh(id), to_world));
+    let speck = builder.add_mesh(soup(1, 5));
+    let away = DVec3::new(0.4, 0.3, 0.87) * 1e8;
+    builder.add_instance(instance(Shape::Mesh(speck), DAffine3::from_translation(away)));
+    [world_of(mesh, to_world), builder.build().expect("a legal world")]
+}
+
 /// Triangles anywhere in the unit cube, of many sizes.
 pub(crate) fn soup(count: u32, seed: u32) -> Mesh {
     let mut random = Random::new(seed);
@@ -183,8 +194,12 @@ pub(crate) fn soup(count: u32, seed: u32) -> Mesh {
 
 /// A world of soups and spheres, turned, stretched and mirrored.
 pub(crate) fn medley() -> World {
+    medley_of(TreeQuality::Default)
+}
+
+pub(crate) fn medley_of(quality: TreeQuality) -> World {
     let mut random = Random::new(77);
-    let mut builder = WorldBuilder::new();
+    let mut builder = WorldBuilder::new().with_tree_quality(quality);
     let meshes = [soup(300, 1), soup(40, 2), icosphere(2), soup(1, 3)].map(|m| builder.add_mesh(m));
     for i in 0..24 {
         let stretch = DVec3::new(random.between(0.3, 2.0), random.between(0.3, 2.0), random.between(-2.0, -0.3));

@@ -1,6 +1,6 @@
 //! No ray passes between triangles that share an edge or a corner.
 
-use super::shapes::{Random, bumpy, icosphere, spindle, world_of};
+use super::shapes::{Random, alone_and_merged, bumpy, icosphere, spindle, world_of};
 use crate::accel::Simd;
 use crate::geometry::Mesh;
 use crate::render_space::RenderSpace;
@@ -41,9 +41,10 @@ fn check_from_inside(mesh: &Mesh, inside: &[DVec3]) {
     let mut random = Random::new(3);
     let targets = targets(mesh, &mut random);
     for placement in placements(&mut random) {
-        let world = world_of(mesh.clone(), placement);
         let centre = placement.transform_point3(inside[0]);
-        for camera in [centre, centre + DVec3::new(0.3, 0.2, -0.7)] {
+        let cameras = [centre, centre + DVec3::new(0.3, 0.2, -0.7)];
+        let worlds = alone_and_merged(mesh.clone(), placement);
+        for (world, camera) in worlds.iter().flat_map(|world| cameras.map(|camera| (world, camera))) {
             let mut to_render = placement;
             to_render.translation -= camera;
             for simd in [Simd::Auto, Simd::Scalar] {

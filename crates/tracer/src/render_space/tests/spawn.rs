@@ -2,7 +2,7 @@
 
 use crate::accel::World;
 use crate::accel::WorldBuilder;
-use crate::accel::tests::shapes::{Random, icosphere, instance, mesh, world_of};
+use crate::accel::tests::shapes::{Random, alone_and_merged, icosphere, instance, mesh, world_of};
 use crate::geometry::{Shape, SurfacePoint};
 use crate::render_space::RenderSpace;
 use etendue_core::Ray;
@@ -28,15 +28,16 @@ fn met(view: &RenderSpace<'_>, origin: DVec3, target: DVec3) -> Option<SurfacePo
 fn check_plane(half_m: f32, placement: DAffine3, height: f64) {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let corners = corners.map(|(x, y)| Vec3::new(x * half_m, y * half_m, 0.0)).to_vec();
-    let world = world_of(mesh(corners, vec![[0, 1, 2], [0, 2, 3]]), placement);
     let over = placement.transform_point3(DVec3::Z * height);
-    let view = world.render_space(over);
+    let worlds = alone_and_merged(mesh(corners, vec![[0, 1, 2], [0, 2, 3]]), placement);
+    let [alone, merged] = worlds.each_ref().map(|world| world.render_space(over));
+    assert!(!alone.placed(0).is_merged() && merged.placed(0).is_merged());
     let mut random = Random::new(14);
-    for _ in 0..3000 {
+    for view in [&alone, &merged].into_iter().flat_map(|view| core::iter::repeat_n(view, 3000)) {
         let reach = f64::from(half_m) * 0.99 * etendue_core::maths::f64::pow(10.0, random.between(-6.0, 0.0));
         let target =
             placement.transform_point3(DVec3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), 0.0) * reach);
-        let point = met(&view, DVec3::ZERO, target - over).expect("a point of the plane");
+        let point = met(view, DVec3::ZERO, target - over).expect("a point of the plane");
         for side in [1.0, -1.0] {
             let d = leaving(point.geometric_normal * side, &mut random);
             let ray = Ray::new(point.spawn(d), d, 0.0);
@@ -97,7 +98,9 @@ fn spheres_do_not_leak_and_are_not_met_again() {
             let mut builder = WorldBuilder::new();
             builder.add_instance(instance(Shape::Sphere { radius_m: 1.0 }, DAffine3::from_mat3(matrix)));
             check_convex(&builder.build().expect("legal"), camera, &mut random);
-            check_convex(&world_of(icosphere(2), DAffine3::from_mat3(matrix)), camera, &mut random);
+            for world in alone_and_merged(icosphere(2), DAffine3::from_mat3(matrix)) {
+                check_convex(&world, camera, &mut random);
+            }
         }
     }
 }

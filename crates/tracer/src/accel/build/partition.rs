@@ -1,0 +1,263 @@
+//! Where a range of references is cut in two: the surface area heuristic over bins.
+//!
+//! The cut is the plane between bins of the centres' box, on any axis, at which the sum over both sides of (area of the box ×
+//! number of primitives) is least (Wald 2007, "On fast construction of SAH-based bounding volume hierarchies").
+//! References change places within their range, in the same way whatever the number of threads.
+
+use super::reference::{Extent, Reference};
+use glam::Vec4;
+
+/// Ranges of fewer references are cut between 8 bins an axis, others between 32.
+const FEW: usize = 64;
+/// Ranges that are longer are put into bins in pieces, by as many threads as there are.
+const PIECE: usize = 1 << 15;
+
+/// What is known of a range of references.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Range {
+    /// The box about all of them.
+    pub(super) extent: Extent,
+    /// The box about their centres.
+    centres: Extent,
+}
+
+impl Range {
+    const NOTHING: Self = Self { extent: Extent::NOTHING, centres: Extent::NOTHING };
+
+    #[inline(always)]
+    fn union(self, other: Self) -> Self {
+        Self { extent: self.extent.union(&other.extent), centres: self.centres.union(&other.centres) }
+    }
+
+    /// The range of these references.
+    pub(super) fn of(references: &[Reference]) -> Self {
+        let of = |piece: &[Reference]| {
+            let mut range = Self::NOTHING;
+            piece.iter().for_each(|r| {
+                range.extent.add(r);
+                range.centres.add_point(r.centre());
+            });
+            range
+        };
+        in_pieces(references, of, Self::union)
+    }
+
+    /// The axis on which centres spread most.
+    fn longest_axis(&self) -> usize {
+        let size = self.centres.size();
+        (0..3).fold(0, |best, axis| if size[axis] > size[best] { axis } else { best })
+    }
+}
+
+/// Two ranges made of one: how many references are in the first, and what is known of both.
+pub(super) struct Cut {
+    pub(super) at: usize,
+    pub(super) ranges: [Range; 2],
+}
+
+/// Cuts two references or more so that each side has at least one.
+pub(super) fn cut(references: &mut [Reference], range: &Range) -> Cut {
+    let best = match references.len() {
+        ..=2 => None,
+        3..FEW => best_plane::<8>(references, range),
+        _ => best_plane::<32>(references, range),
+    };
+    match best {
+        Some((grid, plane)) => partition(references, &grid, &plane),
+        None => cut_anywhere(references),
+    }
+}
+
+/// Cuts references into halves by number, along the axis on which their centres spread most.
+pub(super) fn halve(references: &mut [Reference], range: &Range) -> Cut {
+    let axis = range.longest_axis();
+    let along = |r: &Reference| r.centre()[axis];
+    references.select_nth_unstable_by(references.len() / 2, |a, b| {
+        along(a).total_cmp(&along(b)).then(a.primitive().cmp(&b.primitive()))
+    });
+    cut_anywhere(references)
+}
+
+/// The first half and the second.
+fn cut_anywhere(references: &[Reference]) -> Cut {
+    let at = references.len() / 2;
+    Cut { at, ranges: [Range::of(&references[..at]), Range::of(&references[at..])] }
+}
+
+/// What `of` says of pieces of a long range, put together from the first to the last; of a short one, of it as a whole.
+#[inline(always)]
+fn in_pieces<T: Send>(
+    references: &[Reference],
+    of: impl Fn(&[Reference]) -> T + Sync + Send,
+    join: fn(T, T) -> T,
+) -> T {
+    use rayon::prelude::*;
+    if references.len() <= PIECE {
+        return of(references);
+    }
+    let pieces: Vec<T> = references.par_chunks(PIECE).map(of).collect();
+    pieces.into_iter().reduce(join).expect("a long range has pieces")
+}
+
+/// Bins of a range on each axis: from a centre to its bin.
+#[derive(Clone, Copy, Debug)]
+struct Grid {
+    low: Vec4,
+    /// Bins a unit of length; 0 on an axis without extent.
+    scale: Vec4,
+    /// One less than there are.
+    last: u32,
+}
+
+impl Grid {
+    #[inline(always)]
+    fn new(centres: &Extent, bins: usize) -> Self {
+        let scale = (bins as f32 * (1.0 - 1e-6)) / centres.size();
+        let finite = Vec4::select(scale.cmplt(Vec4::INFINITY), scale, Vec4::ZERO);
+        Self { low: centres.low(), scale: finite, last: bins as u32 - 1 }
+    }
+
+    /// A centre's bin on each axis.
+    #[inline(always)]
+    fn bins(&self, centre: Vec4) -> [usize; 3] {
+        let [x, y, z, _] = ((centre - self.low) * self.scale).to_array();
+        [x, y, z].map(|b| (b as u32).min(self.last) as usize)
+    }
+
+    /// A centre's bin on one axis.
+    #[inline(always)]
+    fn bin(&self, centre: Vec4, axis: usize) -> usize {
+        (((centre[axis] - self.low[axis]) * self.scale[axis]) as u32).min(self.last) as usize
+    }
+}
+
+/// What has fallen into a range of bins.
+#[derive(Clone, Copy, Debug)]
+struct Share {
+    extent: Extent,
+    count: u32,
+}
+
+impl Share {
+    const NONE: Self = Self { extent: Extent::NOTHING, count: 0 };
+
+    #[inline(always)]
+    fn add(&mut self, extent: &Extent, count: u32) {
+        self.extent = self.extent.union(extent);
+        self.count += count;
+    }
+
+    /// Area × number.
+    #[inline(always)]
+    fn cost(&self) -> f32 {
+        self.extent.half_area() * self.count as f32
+    }
+}
+
+/// Bins of each axis.
+#[derive(Clone, Copy)]
+struct Bins<const B: usize> {
+    extents: [[Extent; B]; 3],
+    counts: [[u32; B]; 3],
+}
+
+impl<const B: usize> Bins<B> {
+    #[inline(always)]
+    fn of(references: &[Reference], grid: &Grid) -> Self {
+        let mut bins = Self { extents: [[Extent::NOTHING; B]; 3], counts: [[0; B]; 3] };
+        for reference in references {
+            let [x, y, z] = grid.bins(reference.centre()).map(|bin| bin % B);
+            bins.extents[0][x].add(reference);
+            bins.extents[1][y].add(reference);
+            bins.extents[2][z].add(reference);
+            bins.counts[0][x] += 1;
+            bins.counts[1][y] += 1;
+            bins.counts[2][z] += 1;
+        }
+        bins
+    }
+
+    fn union(mut self, other: Self) -> Self {
+        for axis in 0..3 {
+            for bin in 0..B {
+                self.extents[axis][bin] = self.extents[axis][bin].union(&other.extents[axis][bin]);
+                self.counts[axis][bin] += other.counts[axis][bin];
+            }
+        }
+        self
+    }
+
+    /// The best plane of an axis; `None` where all are in one bin.
+    #[inline(always)]
+    fn plane(&self, axis: usize) -> Option<Plane> {
+        let (extents, counts) = (&self.extents[axis], &self.counts[axis]);
+        let mut after = [Share::NONE; B];
+        let mut sum = Share::NONE;
+        for i in (1..B).rev() {
+            sum.add(&extents[i], counts[i]);
+            after[i] = sum;
+        }
+        let (mut before, mut best) = (Share::NONE, None::<Plane>);
+        for i in 1..B {
+            before.add(&extents[i - 1], counts[i - 1]);
+            if before.count == 0 || after[i].count == 0 {
+                continue;
+            }
+            let cost = before.cost() + after[i].cost();
+            if best.is_none_or(|b| cost < b.cost) {
+                best = Some(Plane { cost, axis, bin: i, extents: [before.extent, after[i].extent] });
+            }
+        }
+        best
+    }
+}
+
+/// A plane before a bin of an axis, and what it parts.
+#[derive(Clone, Copy, Debug)]
+struct Plane {
+    cost: f32,
+    axis: usize,
+    bin: usize,
+    extents: [Extent; 2],
+}
+
+/// The best of all planes between so many bins an axis; `None` where all centres are in one place.
+#[inline(never)]
+fn best_plane<const B: usize>(references: &[Reference], range: &Range) -> Option<(Grid, Plane)> {
+    let grid = Grid::new(&range.centres, B);
+    let bins = in_pieces(references, |piece| Bins::<B>::of(piece, &grid), Bins::union);
+    let planes = (0..3).filter_map(|axis| bins.plane(axis));
+    let best = planes.reduce(|a, b| if b.cost < a.cost { b } else { a })?;
+    Some((grid, best))
+}
+
+/// Puts those before the plane first.
+fn partition(references: &mut [Reference], grid: &Grid, plane: &Plane) -> Cut {
+    let is_before = |centre| grid.bin(centre, plane.axis) < plane.bin;
+    let (mut begin, mut end) = (0, references.len());
+    let [mut before, mut after] = [Extent::NOTHING; 2];
+    loop {
+        while begin < end {
+            let centre = references[begin].centre();
+            if !is_before(centre) {
+                break;
+            }
+            before.add_point(centre);
+            begin += 1;
+        }
+        while begin < end {
+            let centre = references[end - 1].centre();
+            if is_before(centre) {
+                break;
+            }
+            after.add_point(centre);
+            end -= 1;
+        }
+        if begin == end {
+            break;
+        }
+        references.swap(begin, end - 1);
+    }
+    let [first, second] = plane.extents;
+    Cut { at: begin, ranges: [Range { extent: first, centres: before }, Range { extent: second, centres: after }] }
+}

@@ -1,0 +1,105 @@
+//! Instances written out as one mesh in the render frame, under one tree.
+//!
+//! Entering an instance costs a ray as much as several nodes, and where boxes of instances overlap it enters many in vain. So a
+//! view writes out what is small enough: its rays then need no other frame, and walk one tree.
+//!
+//! Corners are rounded to f32 in the render frame, by half a unit in the last place of their coordinates. A point of such a
+//! triangle is off the true surface by no more than its corners are, and [`InstanceTransform::merged`] has it in its error bound.
+//! An instance with a triangle that is not [`STEEP`] times as high as that is left as it is: its plane would tilt.
+
+use super::best::Names;
+use super::blas::Blas;
+use super::boxes::Box3;
+use super::build::TreeQuality;
+use super::world::World;
+use crate::geometry::{InstanceTransform, MeshId, Shape};
+use glam::{DVec3, Vec3};
+
+/// Triangles written out at most: 32 MB of trees, and less than half a second of one thread to build them for a view.
+const MOST: usize = 1 << 19;
+/// Triangles of an instance at most: what is larger is entered by rays that stay in it for long.
+const MOST_OF_ONE: usize = 1 << 16;
+/// Least height of a triangle, in roundings of its corners: the plane then tilts by less than a twentieth.
+const STEEP: f64 = 32.0;
+/// Half a unit in the last place of f32, of a coordinate.
+const HALF_ULP: f64 = 1.0 / (1 << 24) as f64;
+
+/// Instances under one tree.
+#[derive(Clone, Debug)]
+pub(super) struct Merged {
+    pub(super) tree: Blas,
+    /// The box about all triangles.
+    pub(super) bounds: Box3,
+    /// Instance and primitive of each triangle, in ascending order.
+    names: Vec<(u32, u32)>,
+}
+
+impl Merged {
+    /// Writes out instances of `world` as they are `placed`, and tells these so; `None` where there are none to write out.
+    pub(super) fn new(world: &World, placed: &mut [InstanceTransform]) -> Option<Self> {
+        if world.tree_quality() == TreeQuality::Fast {
+            return None;
+        }
+        let (mut corners, mut names) = (Vec::new(), Vec::new());
+        for instance in few(world) {
+            let Shape::Mesh(id) = world.instances()[instance].shape else { continue };
+            let begin = corners.len();
+            if write_out(world, id, &placed[instance], &mut corners) {
+                names.extend((0..(corners.len() - begin) as u32).map(|primitive| (instance as u32, primitive)));
+                let greatest =
+                    corners[begin..].iter().flatten().fold(Vec3::ZERO, |most, corner| most.max(corner.abs()));
+                placed[instance].merge(greatest.as_dvec3());
+            } else {
+                corners.truncate(begin);
+            }
+        }
+        let bounds = corners.iter().map(Box3::about).reduce(|a, b| a.union(&b))?;
+        let tree = Blas::over(corners.len(), |triangle| corners[triangle as usize], world.tree_quality());
+        Some(Self { tree, bounds, names })
+    }
+
+    #[inline(always)]
+    pub(super) fn names(&self) -> Names<'_> {
+        Names::Merged(&self.names)
+    }
+}
+
+/// Instances of meshes, those of few triangles chosen first, that have [`MOST`] triangles together at most, in ascending order;
+/// none where there is one only.
+fn few(world: &World) -> Vec<usize> {
+    let triangles = |instance: &usize| match world.instances()[*instance].shape {
+        Shape::Mesh(id) => world.mesh(id).triangles().len(),
+        Shape::Sphere { .. } => 0,
+    };
+    let mut instances: Vec<usize> = (0..world.instances().len()).filter(|i| triangles(i) > 0).collect();
+    instances.sort_by_key(triangles);
+    let mut sum = 0;
+    instances.retain(|instance| {
+        sum += triangles(instance);
+        sum <= MOST && triangles(instance) <= MOST_OF_ONE
+    });
+    if instances.len() < 2 {
+        return Vec::new();
+    }
+    instances.sort_unstable();
+    instances
+}
+
+/// Adds the corners of an instance's triangles in the render frame; whether all of them are high enough.
+fn write_out(world: &World, id: MeshId, placed: &InstanceTransform, corners: &mut Vec<[Vec3; 3]>) -> bool {
+    let mesh = world.mesh(id);
+    (0..mesh.triangles().len() as u32).all(|primitive| {
+        let exact = mesh.corners(primitive).map(|corner| placed.point_to_render(corner.as_dvec3()));
+        corners.push(exact.map(DVec3::as_vec3));
+        is_steep(exact)
+    })
+}
+
+/// Whether the least height of a triangle is large beside the rounding of its corners.
+fn is_steep([a, b, c]: [DVec3; 3]) -> bool {
+    let edges = [b - a, c - b, a - c];
+    let longest = edges.iter().map(|edge| edge.length_squared()).fold(0.0, f64::max).sqrt();
+    let height = edges[0].cross(edges[1]).length() / longest;
+    let rounding = a.abs().max(b.abs()).max(c.abs()).length() * HALF_ULP;
+    height > STEEP * rounding
+}

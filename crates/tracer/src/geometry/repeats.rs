@@ -1,0 +1,65 @@
+//! Which triangles are there already.
+//!
+//! A hash of each triangle is sorted together with its number, so that equal triangles stand side by side; equal hashes are
+//! believed only where the triangles themselves are equal.
+
+use rayon::prelude::*;
+
+/// The corners of a triangle, as bits in an order that all its rotations and mirror images share.
+pub(super) type Corners = [[u32; 3]; 3];
+
+/// Of the triangles that are `kept`, those that are equal to an earlier one of them. Runs on the caller's thread pool.
+pub(super) fn repeats(kept: &[bool], corners: impl Fn(u32) -> Corners + Sync) -> Vec<u32> {
+    let numbers = 0..kept.len() as u32;
+    let candidates = numbers.into_par_iter().filter(|number| kept[*number as usize]);
+    let mut hashed: Vec<(u64, u32)> = candidates.map(|number| (hash(&corners(number)), number)).collect();
+    hashed.par_sort_unstable();
+    let runs = hashed.chunk_by(|a, b| a.0 == b.0).filter(|run| run.len() > 1);
+    runs.flat_map(|run| repeats_of_run(run, &corners)).collect()
+}
+
+/// The same of triangles of one hash, in increasing order: nearly always one triangle, over and over.
+fn repeats_of_run(run: &[(u64, u32)], corners: &impl Fn(u32) -> Corners) -> Vec<u32> {
+    let mut first: Vec<Corners> = Vec::new();
+    let mut repeats = Vec::new();
+    for (_, number) in run {
+        let own = corners(*number);
+        match first.contains(&own) {
+            true => repeats.push(*number),
+            false => first.push(own),
+        }
+    }
+    repeats
+}
+
+/// Word by word: added, multiplied by an odd number, upper bits folded into lower ones (the step of Fowler, Noll and Vo's
+/// FNV-1a on 32 bits at a time, with a shift so that upper bits count).
+fn hash(corners: &Corners) -> u64 {
+    const OFFSET: u64 = 0xcbf2_9ce4_8422_2325;
+    const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
+    corners.as_flattened().iter().fold(OFFSET, |hash, word| {
+        let mixed = (hash ^ u64::from(*word)).wrapping_mul(FACTOR);
+        mixed ^ (mixed >> 32)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_of_equal_triangles_is_no_repeat_and_what_is_dropped_does_not_count() {
+        let list = [3, 1, 3, 2, 1, 3, 2].map(|n: u32| [[n, 0, 0], [0, n, 0], [0, 0, n]]);
+        let kept = [false, true, true, true, true, true, true];
+        let mut found = repeats(&kept, |i| list[i as usize]);
+        found.sort_unstable();
+        assert_eq!(found, [4, 5, 6]);
+    }
+
+    #[test]
+    fn equal_hashes_are_no_proof() {
+        let list = [1, 2, 1].map(|n: u32| [[n; 3]; 3]);
+        let run = [(7, 0), (7, 1), (7, 2)];
+        assert_eq!(repeats_of_run(&run, &|i| list[i as usize]), [2]);
+    }
+}
