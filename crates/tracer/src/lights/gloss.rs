@@ -17,8 +17,9 @@ use crate::materials::{About, Gloss, GlossLobe, ShadingFrame, TOLD, schlick};
 /// Share of what the lobes send back that the matt part counts at least.
 const LEAST: f32 = 0.05;
 
-/// How many times as bright as the matt part lobes are at least together; where less, they are left out.
-const BRIGHT: f32 = 8.0;
+/// How many times as bright as the matt part lobes are at least together; where less, they are left out. From 4 to 32 the error of
+/// the dry street stays the same; below, draws by the matt part alone are as good.
+const BRIGHT: f32 = 16.0;
 
 /// Least width of a lobe that clusters are opened for: what narrower ones mirror of a lamp is smaller than a pixel, whose error
 /// is then that of its place in the pixel.
@@ -98,10 +99,12 @@ impl ReceiverGloss {
         sum
     }
 
-    /// How many times as much as in the mean light counts from that place in a cone which the lobes favour most.
-    pub(super) fn raised(&self, direction: Vec3, sin: f32) -> f32 {
+    /// Whether a cluster in a cone that counts `weight` in the mean counted more than `least` if all its light came from that place
+    /// in the cone which the lobes favour most.
+    pub(super) fn may_exceed(&self, least: f32, weight: f32, direction: Vec3, sin: f32) -> bool {
         let greatest: f32 = self.lobes.iter().map(|lobe| self.greatest(lobe, direction, sin)).sum();
-        (1.0 + greatest) / (1.0 + self.relative(direction, sin))
+        let raised = weight * (1.0 + greatest);
+        raised > least && raised > least * (1.0 + self.relative(direction, sin))
     }
 
     /// The greatest value of a lobe in a cone; 0 of lobes that are as wide, or too narrow to be told apart.

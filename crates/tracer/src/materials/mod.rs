@@ -39,6 +39,8 @@ mod flags;
 pub mod fresnel;
 mod gauss;
 mod gloss;
+#[cfg(test)]
+mod glossy_surfaces;
 mod interreflection;
 mod lafortune;
 mod leaf;
@@ -74,6 +76,8 @@ pub use error::MaterialError;
 pub use facets::Distribution;
 pub use factor::Factor;
 pub(crate) use gloss::{About, Gloss, GlossLobe, TOLD, schlick};
+#[cfg(test)]
+pub(crate) use glossy_surfaces::glossy_surfaces;
 pub use lafortune::{Lafortune, LafortuneBsdf, LafortuneError, Lobe, MAX_LOBES};
 pub use leaf::{Leaf, LeafBsdf};
 pub use material::Material;

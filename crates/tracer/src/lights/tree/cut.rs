@@ -44,7 +44,8 @@ impl LightTree {
             let node = &self.nodes[index as usize];
             for (lane, weight) in weights.into_iter().enumerate().filter(|(_, weight)| *weight > 0.0) {
                 let child = node.child(lane);
-                if child.is_node && opened < OPENED && weight * node.raised(lane, question.receiver, gloss) > least {
+                let opens = child.is_node && opened < OPENED;
+                if opens && node.may_exceed(least, (lane, weight), question.receiver, gloss) {
                     open[opened] = child.index;
                     opened += 1;
                 } else {

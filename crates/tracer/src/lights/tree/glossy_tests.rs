@@ -6,37 +6,17 @@ use crate::MaterialId;
 use crate::geometry::SurfacePoint;
 use crate::lights::lamp::LampLight;
 use crate::lights::{Profile, ReceiverGloss};
-use crate::materials::{
-    Bsdf, Coated, Conductor, Material, MaterialTable, Reflectance, ShadingFrame, SheetingPreset, Surface,
-};
+use crate::materials::{Bsdf, Material, MaterialTable, ShadingFrame, Surface, glossy_surfaces};
 use crate::textures::Lookup;
 use etendue_core::Wavelengths;
-use etendue_spectra::{Spectrum, metal};
 use etendue_stats::{chi_square, family};
 use glam::{DVec3, Vec2, Vec3};
 
 /// Chance that a set of right tests fails.
 const SIGNIFICANCE: f64 = 1e-4;
 
-fn grey(reflectance: f64) -> Reflectance {
-    Reflectance::Spectrum(Spectrum::constant(reflectance))
-}
-
-/// A wet road, a varnished board, brushed metal, a sign.
-fn surfaces() -> Vec<Surface> {
-    let coated = |n, alpha| Surface::Coated(Box::new(Coated::new(grey(0.1), n, alpha).expect("a coat")));
-    let metal = metal::named("Al").expect("aluminium").clone();
-    let sheeting = SheetingPreset::named("ra2", "white").expect("a preset").sheeting().expect("a sheeting");
-    vec![
-        coated(1.33, 0.06),
-        coated(1.5, 0.005),
-        Surface::Conductor(Box::new(Conductor::new(metal, 0.15).expect("a metal"))),
-        Surface::Sheeting(Box::new(sheeting)),
-    ]
-}
-
-/// A receiver at `position` on a level surface, seen from `to_viewer`, and what it scatters.
-fn receiver(surface: &Surface, position: Vec3, to_viewer: Vec3) -> (LightSampleContext, impl Fn(Vec3) -> f32) {
+/// A receiver at `position` on a level surface, seen from `to_viewer`, and what it scatters; `None` where no lobe is bright.
+fn receiver(surface: &Surface, position: Vec3, to_viewer: Vec3) -> Option<(LightSampleContext, impl Fn(Vec3) -> f32)> {
     let table = MaterialTable::new(vec![Material::new(surface.clone())], vec![]).expect("a material");
     let point = SurfacePoint {
         position,
@@ -56,25 +36,30 @@ fn receiver(surface: &Surface, position: Vec3, to_viewer: Vec3) -> (LightSampleC
         ask(&table.bsdf(MaterialId(0), &Lookup::point(Vec2::ZERO), true, &wavelengths))
     };
     let bsdf = table.bsdf(MaterialId(0), &Lookup::point(Vec2::ZERO), true, &wavelengths);
-    let gloss = ReceiverGloss::new(&bsdf.gloss(frame.wo), &frame);
-    assert!(gloss.is_some(), "no gloss: {surface:?}");
+    let gloss = Some(ReceiverGloss::new(&bsdf.gloss(frame.wo), &frame)?);
     let scattered = move |towards: Vec3| {
         let wi = frame.inward(towards);
         wi.map_or(0.0, |wi| of(&table, &|bsdf| bsdf.evaluate(frame.wo, wi).value_cos.mean()))
     };
-    (LightSampleContext { position, normal: Vec3::Z, gloss }, scattered)
+    Some((LightSampleContext { position, normal: Vec3::Z, gloss }, scattered))
 }
 
 /// Directions of viewers: steep, slanting and grazing.
 const VIEWERS: [[f32; 3]; 3] = [[0.1, 0.05, 1.0], [-1.0, 0.3, 0.8], [0.4, -1.0, 0.06]];
 
-fn each_receiver(mut f: impl FnMut(&LightSampleContext, &dyn Fn(Vec3) -> f32)) {
-    for surface in surfaces() {
+/// Calls `f` with every glossy surface as these viewers see it, by its name.
+fn each_receiver(mut f: impl FnMut(&str, &LightSampleContext, &dyn Fn(Vec3) -> f32)) {
+    for (name, surface) in glossy_surfaces() {
+        let mut told = false;
         for (i, viewer) in VIEWERS.iter().enumerate() {
             let position = Vec3::new(3.0 * i as f32, -2.0, -20.0);
-            let (receiver, scattered) = receiver(&surface, position, Vec3::from(*viewer).normalize());
-            f(&receiver, &scattered);
+            let Some((receiver, scattered)) = receiver(&surface, position, Vec3::from(*viewer).normalize()) else {
+                continue;
+            };
+            f(name, &receiver, &scattered);
+            told = true;
         }
+        assert!(told, "{name}: nobody is told of gloss");
     }
 }
 
@@ -87,11 +72,11 @@ fn tree_of(lamps: &[LampLight]) -> LightTree {
 fn frequencies_of_draws_are_the_probabilities_told() {
     let lamps = lamps(300, DVec3::ZERO, 40.0, 2.0);
     let tree = tree_of(&lamps);
-    let mut least = (1.0_f64, 0);
-    each_receiver(|receiver, _| {
+    let mut p_values = vec![];
+    each_receiver(|name, receiver, _| {
         let question = TreeQuery { receiver, lamp: |i| lamps[i as usize].irradiance(receiver) };
         let start = tree.start(&question);
-        let draws = 100_000;
+        let draws = 50_000;
         let mut counts = vec![0_u64; lamps.len() + 1];
         for i in 0..draws {
             // Irregular, unlike the points of a grid: the fraction of a great multiple.
@@ -105,26 +90,26 @@ fn frequencies_of_draws_are_the_probabilities_told() {
         let mut told: Vec<_> = (0..lamps.len()).map(|i| f64::from(tree.probability(&question, &start, i))).collect();
         let none = 1.0 - told.iter().sum::<f64>();
         // A few branches may hold lamps below the horizon alone; rounding of f32 in some hundred sums.
-        assert!((-1e-4..0.05).contains(&none), "{none}");
+        assert!((-1e-4..0.05).contains(&none), "{name}: {none}");
         told.push(none.max(0.0));
         let expected: Vec<_> = told.iter().map(|p| p * f64::from(draws)).collect();
         let test = chi_square::goodness_of_fit(&counts, &expected).expect("lamps that are drawn");
-        least = (least.0.min(test.p), least.1 + 1);
+        p_values.push((test.p, name.to_owned()));
     });
-    let p = family::sidak_p(least.0, least.1);
-    assert!(p > SIGNIFICANCE, "p = {p}");
+    let (p, name) = p_values.iter().min_by(|a, b| a.0.total_cmp(&b.0)).expect("receivers");
+    assert!(family::sidak_p(*p, p_values.len()) > SIGNIFICANCE, "{name}: p = {p}");
 }
 
 #[test]
 fn no_lamp_that_a_glossy_surface_sees_is_lost() {
     let lamps = lamps(200, DVec3::new(0.0, 0.0, -15.0), 40.0, 8.0);
     let tree = tree_of(&lamps);
-    each_receiver(|receiver, _| {
+    each_receiver(|name, receiver, _| {
         let question = TreeQuery { receiver, lamp: |i| lamps[i as usize].irradiance(receiver) };
         let start = tree.start(&question);
         for (i, light) in lamps.iter().enumerate() {
             let (told, arrives) = (tree.probability(&question, &start, i), light.irradiance(receiver) > 0.0);
-            assert!(told.is_finite() && (told > 0.0) == arrives, "lamp {i}: {told}, {arrives}");
+            assert!(told.is_finite() && (told > 0.0) == arrives, "{name}, lamp {i}: {told}, {arrives}");
         }
     });
 }
@@ -139,7 +124,7 @@ fn what_is_mirrored_is_drawn_as_often_as_it_counts() {
     let lamps: Vec<_> = (0..300).map(spread).collect();
     let tree = tree_of(&lamps);
     let (mut worst, mut worst_blind) = (0.0_f64, 0.0_f64);
-    each_receiver(|receiver, scattered| {
+    each_receiver(|_, receiver, scattered| {
         let blind = LightSampleContext { gloss: None, ..*receiver };
         let error = |choice: &LightSampleContext| {
             let question = TreeQuery { receiver: choice, lamp: |i| lamps[i as usize].irradiance(choice) };
@@ -162,5 +147,5 @@ fn what_is_mirrored_is_drawn_as_often_as_it_counts() {
     assert!(worst < WORST && worst_blind > 10.0 * WORST, "{worst}, blind {worst_blind}");
 }
 
-/// Relative variance of one draw of 300 lamps; seen: 2.1, and 69.8 of the choice blind to gloss.
-const WORST: f64 = 4.2;
+/// Relative variance of one draw of 300 lamps; seen: 2.3, and 188 of the choice blind to gloss.
+const WORST: f64 = 4.6;

@@ -86,12 +86,18 @@ impl Node {
         (self.centre_of(lane) - position).length_squared() > 4.0 * self.radius2[lane]
     }
 
-    /// How many times as much as in the mean a part of a child may count, by where it lies in the lobes; 0 where all parts count
-    /// about alike.
-    pub(super) fn raised(&self, lane: usize, receiver: &LightSampleContext, gloss: &ReceiverGloss) -> f32 {
+    /// Whether a child that counts `weight` in the mean may count more than `least`, by where its light comes from.
+    pub(super) fn may_exceed(
+        &self,
+        least: f32,
+        (lane, weight): (usize, f32),
+        receiver: &LightSampleContext,
+        gloss: &ReceiverGloss,
+    ) -> bool {
         let way = self.centre_of(lane) - receiver.position;
         let distance2 = way.length_squared().max(f32::MIN_POSITIVE);
-        gloss.raised(way / distance2.sqrt(), (self.radius2[lane] / distance2).sqrt().min(1.0))
+        let sin = (self.radius2[lane] / distance2).sqrt().min(1.0);
+        gloss.may_exceed(least, weight, way / distance2.sqrt(), sin)
     }
 
     fn centre_of(&self, lane: usize) -> Vec3 {
