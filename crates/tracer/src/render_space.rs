@@ -29,7 +29,19 @@ impl World {
     /// As [`World::render_space`], with a choice of instruction set.
     #[must_use]
     pub fn render_space_with(&self, origin_m: DVec3, simd: Simd) -> RenderSpace<'_> {
-        RenderSpace::new(self, origin_m, simd)
+        let placed = self.placed(origin_m);
+        RenderSpace { world: self, origin_m, top: Tlas::merging(self, placed, simd) }
+    }
+
+    /// As [`World::render_space`], made in less time for few rays, which take longer: no instance is written out.
+    #[must_use]
+    pub fn render_space_for_few(&self, origin_m: DVec3) -> RenderSpace<'_> {
+        let placed = self.placed(origin_m);
+        RenderSpace { world: self, origin_m, top: Tlas::new(self, placed, None, Simd::Auto) }
+    }
+
+    fn placed(&self, origin_m: DVec3) -> Vec<InstanceTransform> {
+        self.instances().iter().map(|i| InstanceTransform::new(i, origin_m)).collect()
     }
 }
 
@@ -42,11 +54,6 @@ pub struct RenderSpace<'w> {
 }
 
 impl<'w> RenderSpace<'w> {
-    pub(crate) fn new(world: &'w World, origin_m: DVec3, simd: Simd) -> Self {
-        let placed: Vec<_> = world.instances().iter().map(|i| InstanceTransform::new(i, origin_m)).collect();
-        Self { world, origin_m, top: Tlas::new(world, placed, simd) }
-    }
-
     /// The world that is seen.
     #[must_use]
     pub fn world(&self) -> &'w World {

@@ -20,7 +20,7 @@ pub(super) fn remark(
     }
     let name = |id: MaterialId| &materials[id.0 as usize];
     for camera in cameras {
-        let around = Surroundings::of(&world.render_space(camera.pose.position_m), material_table);
+        let around = Surroundings::of(&world.render_space_for_few(camera.pose.position_m), material_table);
         if let Some(solid) = around.solid {
             context.remark_on(format!("camera \"{}\"", camera.name), format!(
                 "stands inside \"{}\": its entrance pupil lies in that medium, which absorbs from there on, and radiance is n² times \

@@ -56,7 +56,7 @@ pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn 
 /// Which lights a camera's paths ask.
 #[must_use]
 pub fn light_counts(plan: &Plan, camera: &CameraPlan) -> LightCounts {
-    lights(plan, camera, &plan.world.render_space(camera.pose.position_m)).light_counts()
+    lights(plan, camera, &plan.world.render_space_for_few(camera.pose.position_m)).light_counts()
 }
 
 fn lights(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -> Lights {

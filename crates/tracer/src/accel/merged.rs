@@ -26,7 +26,7 @@ const HALF_ULP: f64 = 1.0 / (1 << 24) as f64;
 
 /// Instances under one tree.
 #[derive(Clone, Debug)]
-pub(super) struct Merged {
+pub(crate) struct Merged {
     pub(super) tree: Blas,
     /// The box about all triangles.
     pub(super) bounds: Box3,

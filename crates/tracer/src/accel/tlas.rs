@@ -75,9 +75,14 @@ pub(crate) struct Tlas<'w> {
 }
 
 impl<'w> Tlas<'w> {
-    /// Builds the tree over instances placed in the render frame.
-    pub(crate) fn new(world: &'w World, mut placed: Vec<InstanceTransform>, simd: Simd) -> Self {
+    /// Builds the tree over instances placed in the render frame, small ones written out.
+    pub(crate) fn merging(world: &'w World, mut placed: Vec<InstanceTransform>, simd: Simd) -> Self {
         let merged = Merged::new(world, &mut placed);
+        Self::new(world, placed, merged, simd)
+    }
+
+    /// Builds the tree over instances placed in the render frame, of which some may be written out.
+    pub(crate) fn new(world: &'w World, placed: Vec<InstanceTransform>, merged: Option<Merged>, simd: Simd) -> Self {
         let bounded = placed.iter().zip(world.instances()).zip(0_u32..).filter(|((placed, _), _)| !placed.is_merged());
         let single = bounded.filter_map(|((placed, instance), index)| {
             Some((Box3::from_f64(placed.bounds(instance, world.meshes())?), index))
