@@ -248,13 +248,16 @@ mod tests {
     }
 
     proptest::proptest! {
-        /// Random outlines on a coarse grid: corners coincide, stand on edges, and lie on one line.
+        /// Random outlines on a coarse grid: corners coincide, stand on edges, and lie on one line. Those that cross themselves
+        /// are refused before ears are looked for.
         #[test]
         fn the_first_ear_is_found_as_by_looking_at_all_corners(
-            corners in proptest::collection::vec((0_i32..9, 0_i32..9), 4..40)
+            corners in proptest::collection::vec((0_i32..9, 0_i32..9), 4..10)
         ) {
             let flat: Vec<[f64; 2]> = corners.iter().map(|(x, y)| [f64::from(*x), f64::from(*y)]).collect();
-            proptest::prop_assert_eq!(clip_ears(&flat), by_all_corners(&flat));
+            if !edges_cross(&flat) {
+                proptest::prop_assert_eq!(clip_ears(&flat), by_all_corners(&flat));
+            }
         }
 
         #[test]

@@ -6,8 +6,8 @@
 //! [`DEEP`] + log₂ n.
 
 use super::bounds::LightBounds;
+use super::light_tree::{LightTree, Slot};
 use super::node::{Child, LANES, Node};
-use super::{LightTree, Slot};
 use core::ops::Range;
 
 /// Bins along an axis.

@@ -6,8 +6,9 @@
 //! the lobes take for points, and such as hardly count. (Conty Estevez and Kulla 2018 open clusters that are near in the same manner,
 //! and sample each; here one of all is drawn.)
 
+use super::falling::fall;
+use super::light_tree::{LightTree, Slot, TreeQuery};
 use super::node::LANES;
-use super::{LightTree, Slot, TreeQuery};
 use crate::lights::ReceiverGloss;
 
 /// Nodes opened at most.
@@ -76,7 +77,7 @@ impl Cut {
 
     /// The slot that `u` in [0, 1) falls on, its probability, and where in it `u` lies; `None` where nothing counts.
     pub(super) fn draw(&self, u: f64) -> Option<(Slot, f32, f64)> {
-        let (i, within) = super::fall(&self.weights[..self.len], self.total, u)?;
+        let (i, within) = fall(&self.weights[..self.len], self.total, u)?;
         Some((slot_of(self.slots[i]), self.weights[i] / self.total, within))
     }
 

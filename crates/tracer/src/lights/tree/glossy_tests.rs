@@ -4,6 +4,7 @@ use super::tests::{direction, lamp, lamps, number};
 use super::*;
 use crate::MaterialId;
 use crate::geometry::SurfacePoint;
+use crate::lights::LightSampleContext;
 use crate::lights::lamp::LampLight;
 use crate::lights::{Profile, ReceiverGloss};
 use crate::materials::{Bsdf, Material, MaterialTable, ShadingFrame, Surface, glossy_surfaces};

@@ -21,52 +21,24 @@
 mod bounds;
 mod build;
 mod cut;
+mod falling;
 #[cfg(test)]
 mod glossy_tests;
+mod light_tree;
 mod node;
 mod start;
 #[cfg(test)]
 mod tests;
 
-use super::LightSampleContext;
-use node::{LANES, Node};
+use falling::{draw, share};
+use light_tree::Slot;
+use node::LANES;
 
 pub(super) use bounds::LightBounds;
+pub(super) use light_tree::{LightTree, TreeQuery};
 pub(super) use start::Start;
 
-/// Where a light or a node hangs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Slot {
-    node: u32,
-    lane: u8,
-}
-
-/// A tree over lights that are numbered from 0.
-#[derive(Clone, Debug)]
-pub(super) struct LightTree {
-    /// The root first.
-    nodes: Vec<Node>,
-    /// Where each node hangs; of no meaning for the root.
-    parents: Vec<Slot>,
-    /// Where each light hangs.
-    leaves: Vec<Slot>,
-    /// Irradiance, W·m⁻²·nm⁻¹, of a weight of 1: weights are told in units of the strongest light, to fit into f32.
-    scale: f64,
-    per_irradiance: f32,
-}
-
-/// A receiver with what leaves are asked for: the irradiance that a lamp gives it, W·m⁻²·nm⁻¹.
-pub(super) struct TreeQuery<'a, F: Fn(u32) -> f32> {
-    pub(super) receiver: &'a LightSampleContext,
-    pub(super) lamp: F,
-}
-
 impl LightTree {
-    /// How many lights there are.
-    pub(super) fn len(&self) -> usize {
-        self.leaves.len()
-    }
-
     /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver, unless
     /// there is but one light. `start` is this receiver's.
     pub(super) fn pick<F: Fn(u32) -> f32>(
@@ -131,44 +103,4 @@ impl LightTree {
             weights = self.weights(node, question);
         }
     }
-
-    fn weights<F: Fn(u32) -> f32>(&self, node: u32, question: &TreeQuery<'_, F>) -> [f32; LANES] {
-        let node = &self.nodes[node as usize];
-        let mut weights = node.weights(question.receiver);
-        for (lane, weight) in weights.iter_mut().enumerate() {
-            if node.is_lamp(lane) && *weight > 0.0 {
-                *weight = (question.lamp)(node.child(lane).index) * self.per_irradiance;
-            }
-        }
-        weights
-    }
 }
-
-fn share(weights: &[f32; LANES], lane: usize) -> f32 {
-    let total: f32 = weights.iter().sum();
-    if total > 0.0 { weights[lane] / total } else { 0.0 }
-}
-
-/// The lane that `u` in [0, 1) falls on, its share, and where in it `u` lies, in [0, 1).
-fn draw(weights: &[f32; LANES], u: f64) -> Option<(usize, f32, f64)> {
-    let (lane, within) = fall(weights, weights.iter().sum(), u)?;
-    Some((lane, share(weights, lane), within))
-}
-
-/// The weight of a row of sum `total` that `u` in [0, 1) falls on, and where in it.
-fn fall(weights: &[f32], total: f32, u: f64) -> Option<(usize, f64)> {
-    let mut rest = u * f64::from(total);
-    let mut chosen = None;
-    for (lane, weight) in weights.iter().enumerate().filter(|(_, w)| **w > 0.0) {
-        let weight = f64::from(*weight);
-        chosen = Some((lane, (rest / weight).min(ONE_BELOW)));
-        if rest < weight {
-            break;
-        }
-        rest -= weight;
-    }
-    chosen
-}
-
-/// The largest `f64` below one.
-const ONE_BELOW: f64 = 1.0 - 0.5 * f64::EPSILON;

@@ -1,8 +1,9 @@
 //! Where a receiver's way down the tree starts: made once, and asked for how strong the lights are and which one is drawn.
 
 use super::cut::Cut;
+use super::falling::{draw, share};
+use super::light_tree::{LightTree, Slot, TreeQuery};
 use super::node::LANES;
-use super::{LightTree, Slot, TreeQuery, draw, share};
 
 /// What a receiver chooses from first.
 #[expect(

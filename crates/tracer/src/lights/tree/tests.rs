@@ -1,6 +1,7 @@
 //! The tree's probabilities: shares of one, told alike in both ways, never zero where light arrives.
 
 use super::*;
+use crate::lights::LightSampleContext;
 use crate::lights::lamp::LampLight;
 use crate::lights::{Cone, Lamp, Profile};
 use etendue_spectra::Spectrum;
