@@ -45,11 +45,11 @@ pub(super) fn world(
 
 /// All cameras see one world: the best of what they ask for.
 fn tree_quality(cameras: &[CameraSetup]) -> TreeQuality {
-    let asked = cameras.iter().filter_map(|camera| camera.render.accelerator.as_ref());
-    let quality = asked.map(|accelerator| match accelerator.value {
-        Accelerator::Fast => TreeQuality::Fast,
-        Accelerator::Default => TreeQuality::Default,
-        Accelerator::Best => TreeQuality::Best,
+    let asked = cameras.iter().map(|camera| camera.render.accelerator.as_ref().map(|accelerator| accelerator.value));
+    let quality = asked.map(|accelerator| match accelerator {
+        Some(Accelerator::Fast) => TreeQuality::Fast,
+        Some(Accelerator::Default) | None => TreeQuality::Default,
+        Some(Accelerator::Best) => TreeQuality::Best,
     });
     quality.max().unwrap_or_default()
 }

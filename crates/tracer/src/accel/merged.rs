@@ -10,7 +10,6 @@
 use super::best::Names;
 use super::blas::Blas;
 use super::boxes::Box3;
-use super::build::TreeQuality;
 use super::world::World;
 use crate::geometry::{InstanceTransform, MeshId, Shape};
 use glam::{DVec3, Vec3};
@@ -19,8 +18,12 @@ use glam::{DVec3, Vec3};
 const MOST: usize = 1 << 19;
 /// Triangles of an instance at most: what is larger is entered by rays that stay in it for long.
 const MOST_OF_ONE: usize = 1 << 16;
-/// Least height of a triangle, in roundings of its corners: the plane then tilts by less than a twentieth.
+/// Least height of a triangle, in roundings of its corners: the plane then tilts by a sixteenth at most.
 const STEEP: f64 = 32.0;
+/// Least height of a triangle, m: products of three lengths stay well within f32.
+const LEAST_HEIGHT_M: f64 = 1e-9;
+/// Greatest coordinate of an instance, m: rays that leave it are pushed off it by a tenth of a millimetre at most.
+const FARTHEST_M: f32 = 1000.0;
 /// Half a unit in the last place of f32, of a coordinate.
 const HALF_ULP: f64 = 1.0 / (1 << 24) as f64;
 
@@ -37,17 +40,12 @@ pub(crate) struct Merged {
 impl Merged {
     /// Writes out instances of `world` as they are `placed`, and tells these so; `None` where there are none to write out.
     pub(super) fn new(world: &World, placed: &mut [InstanceTransform]) -> Option<Self> {
-        if world.tree_quality() == TreeQuality::Fast {
-            return None;
-        }
         let (mut corners, mut names) = (Vec::new(), Vec::new());
         for instance in few(world) {
             let Shape::Mesh(id) = world.instances()[instance].shape else { continue };
             let begin = corners.len();
-            if write_out(world, id, &placed[instance], &mut corners) {
+            if let Some(greatest) = write_out(world, id, &placed[instance], &mut corners) {
                 names.extend((0..(corners.len() - begin) as u32).map(|primitive| (instance as u32, primitive)));
-                let greatest =
-                    corners[begin..].iter().flatten().fold(Vec3::ZERO, |most, corner| most.max(corner.abs()));
                 placed[instance].merge(greatest.as_dvec3());
             } else {
                 corners.truncate(begin);
@@ -85,14 +83,21 @@ fn few(world: &World) -> Vec<usize> {
     instances
 }
 
-/// Adds the corners of an instance's triangles in the render frame; whether all of them are high enough.
-fn write_out(world: &World, id: MeshId, placed: &InstanceTransform, corners: &mut Vec<[Vec3; 3]>) -> bool {
+/// Adds the corners of an instance's triangles in the render frame; their greatest coordinates by axis, m, or `None` where some
+/// are too far or some triangles too low.
+fn write_out(world: &World, id: MeshId, placed: &InstanceTransform, corners: &mut Vec<[Vec3; 3]>) -> Option<Vec3> {
     let mesh = world.mesh(id);
-    (0..mesh.triangles().len() as u32).all(|primitive| {
+    let mut greatest = Vec3::ZERO;
+    for primitive in 0..mesh.triangles().len() as u32 {
         let exact = mesh.corners(primitive).map(|corner| placed.point_to_render(corner.as_dvec3()));
-        corners.push(exact.map(DVec3::as_vec3));
-        is_steep(exact)
-    })
+        let rounded = exact.map(DVec3::as_vec3);
+        greatest = rounded.iter().fold(greatest, |most, corner| most.max(corner.abs()));
+        if greatest.max_element() > FARTHEST_M || !is_steep(exact) {
+            return None;
+        }
+        corners.push(rounded);
+    }
+    Some(greatest)
 }
 
 /// Whether the least height of a triangle is large beside the rounding of its corners.
@@ -101,5 +106,5 @@ fn is_steep([a, b, c]: [DVec3; 3]) -> bool {
     let longest = edges.iter().map(|edge| edge.length_squared()).fold(0.0, f64::max).sqrt();
     let height = edges[0].cross(edges[1]).length() / longest;
     let rounding = a.abs().max(b.abs()).max(c.abs()).length() * HALF_ULP;
-    height > STEEP * rounding
+    height > (STEEP * rounding).max(LEAST_HEIGHT_M)
 }

@@ -1,7 +1,7 @@
 //! Closed meshes, worlds and random numbers for tests.
 
 use crate::MaterialId;
-use crate::accel::{TreeQuality, World, WorldBuilder};
+use crate::accel::{World, WorldBuilder};
 use crate::geometry::{Instance, Mesh, Shape};
 use etendue_core::Track;
 use etendue_core::random::{philox4x32, unit_f64};
@@ -194,12 +194,8 @@ pub(crate) fn soup(count: u32, seed: u32) -> Mesh {
 
 /// A world of soups and spheres, turned, stretched and mirrored.
 pub(crate) fn medley() -> World {
-    medley_of(TreeQuality::Default)
-}
-
-pub(crate) fn medley_of(quality: TreeQuality) -> World {
     let mut random = Random::new(77);
-    let mut builder = WorldBuilder::new().with_tree_quality(quality);
+    let mut builder = WorldBuilder::new();
     let meshes = [soup(300, 1), soup(40, 2), icosphere(2), soup(1, 3)].map(|m| builder.add_mesh(m));
     for i in 0..24 {
         let stretch = DVec3::new(random.between(0.3, 2.0), random.between(0.3, 2.0), random.between(-2.0, -0.3));
