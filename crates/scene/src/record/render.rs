@@ -38,7 +38,7 @@ record! {
         optional wavelength_range_nm: Placed<[f64; 2]> = vector::<2>(number("nm").at_least(300.0).at_most(1100.0));
         /// Whether a spectral cube is kept or pixels sum electrons directly. Default: "auto", what the outputs need.
         optional accumulate: Placed<Accumulate> = choice();
-        /// What is spent on the trees by which rays find surfaces. No pixel depends on it; of several cameras that say it, the
+        /// What is spent on the trees by which rays find surfaces. No pixel depends on it; of several cameras, the
         /// last of "fast", "default", "best" counts. Default: "default".
         optional accelerator: Placed<Accelerator> = choice();
         /// Side of a tile, px, 4 … 1 024. Default: 32.
