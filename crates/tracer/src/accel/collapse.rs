@@ -7,6 +7,7 @@
 
 use super::binary::{BinaryKind, BinaryNode};
 use super::node::{Child, Node};
+use core::cmp::Reverse;
 
 /// Cost of testing a leaf's primitives relative to that of testing a node's boxes: the best of 1, 1.3, 2 and 3.
 const LEAF_COST: f32 = 1.3;
@@ -152,6 +153,14 @@ fn best_split(children: &[Cost; 2], slots: usize) -> (f32, u8) {
     best
 }
 
+/// A binary node and all below it.
+#[derive(Clone, Copy, Debug)]
+struct Subtree {
+    root: u32,
+    /// Where the binary nodes below it end.
+    end: u32,
+}
+
 struct Writer<'a, F> {
     binary: &'a [BinaryNode],
     plans: &'a [Plan],
@@ -164,18 +173,19 @@ struct Writer<'a, F> {
 impl<F: FnMut(&[u32]) -> usize> Writer<'_, F> {
     /// Writes the tree, parents before children and near relatives near each other; returns its root.
     fn write(&mut self) -> Child {
-        let root = self.child(0);
-        let mut pending: Vec<_> = root.as_node().map(|node| (0, node)).into_iter().collect();
+        let whole = Subtree { root: 0, end: self.binary.len() as u32 };
+        let root = self.child(whole.root);
+        let mut pending: Vec<_> = root.as_node().map(|node| (whole, node)).into_iter().collect();
         let mut slots = Vec::with_capacity(8);
-        while let Some((binary, node)) = pending.pop() {
+        while let Some((subtree, node)) = pending.pop() {
             slots.clear();
-            self.spread_wide(binary, &mut slots);
-            // Rays that ask for any hit take the last slots first: large boxes are likely to stop them.
-            slots.sort_by(|a, b| self.area(*a).total_cmp(&self.area(*b)));
-            for (slot, binary) in slots.iter().enumerate() {
-                let child = self.child(*binary);
-                self.nodes[node].set(slot, &self.binary[*binary as usize].bounds, child);
-                pending.extend(child.as_node().map(|node| (*binary, node)));
+            self.spread_wide(subtree, &mut slots);
+            // Rays that ask for any hit take the last slots first: what holds few primitives is decided soonest.
+            slots.sort_by_key(|subtree| Reverse(self.size(*subtree)));
+            for (slot, subtree) in slots.iter().enumerate() {
+                let child = self.child(subtree.root);
+                self.nodes[node].set(slot, &self.binary[subtree.root as usize].bounds, child);
+                pending.extend(child.as_node().map(|node| (*subtree, node)));
             }
         }
         root
@@ -195,28 +205,44 @@ impl<F: FnMut(&[u32]) -> usize> Writer<'_, F> {
         }
     }
 
-    fn area(&self, binary: u32) -> f32 {
-        self.binary[binary as usize].bounds.half_area()
-    }
-
-    fn spread_wide(&self, binary: u32, out: &mut Vec<u32>) {
-        if let BinaryKind::Inner(first) = self.binary[binary as usize].kind() {
-            let share = self.plans[binary as usize].first(8);
-            self.spread(first, share, out);
-            self.spread(first + 1, 8 - share, out);
+    /// Binary nodes below the root of a subtree.
+    fn size(&self, Subtree { root, end }: Subtree) -> u32 {
+        match self.binary[root as usize].kind() {
+            BinaryKind::Inner(first) => end - first,
+            BinaryKind::Leaf(_) => 0,
         }
     }
 
-    /// The binary nodes that stand in the slots given to `binary`. At most seven calls deep.
-    fn spread(&self, binary: u32, slots: u8, out: &mut Vec<u32>) {
-        match (self.plans[binary as usize].of(slots), self.binary[binary as usize].kind()) {
-            (_, BinaryKind::Leaf(_)) => out.push(binary),
-            (Slots::Fewer, _) => self.spread(binary, slots - 1, out),
+    /// The two halves of a subtree whose root's children are `first` and the next.
+    fn halves(&self, first: u32, end: u32) -> [Subtree; 2] {
+        let middle = match self.binary[first as usize + 1].kind() {
+            BinaryKind::Inner(below) => below,
+            BinaryKind::Leaf(_) => end,
+        };
+        [Subtree { root: first, end: middle }, Subtree { root: first + 1, end }]
+    }
+
+    fn spread_wide(&self, subtree: Subtree, out: &mut Vec<Subtree>) {
+        if let BinaryKind::Inner(first) = self.binary[subtree.root as usize].kind() {
+            let share = self.plans[subtree.root as usize].first(8);
+            let [a, b] = self.halves(first, subtree.end);
+            self.spread(a, share, out);
+            self.spread(b, 8 - share, out);
+        }
+    }
+
+    /// What stands in the slots given to a subtree. At most seven calls deep.
+    fn spread(&self, subtree: Subtree, slots: u8, out: &mut Vec<Subtree>) {
+        let root = subtree.root as usize;
+        match (self.plans[root].of(slots), self.binary[root].kind()) {
+            (_, BinaryKind::Leaf(_)) => out.push(subtree),
+            (Slots::Fewer, _) => self.spread(subtree, slots - 1, out),
             (Slots::Split(share), BinaryKind::Inner(first)) => {
-                self.spread(first, share, out);
-                self.spread(first + 1, slots - share, out);
+                let [a, b] = self.halves(first, subtree.end);
+                self.spread(a, share, out);
+                self.spread(b, slots - share, out);
             }
-            _ => out.push(binary),
+            _ => out.push(subtree),
         }
     }
 
