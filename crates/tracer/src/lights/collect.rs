@@ -25,8 +25,10 @@ pub enum LightError {
         /// Number of materials.
         materials: usize,
     },
-    /// An instance moves over time.
-    #[error("instance {instance} moves, but only still instances can be lit; give it one pose")]
+    /// An instance glows and moves.
+    #[error(
+        "instance {instance} glows and moves while light is gathered, but only what stands still can glow; give it one pose"
+    )]
     Moving {
         /// The instance, counted from 0.
         instance: usize,
@@ -74,7 +76,12 @@ pub(super) fn of_surfaces(
     let mut gathered = Gathered::default();
     for (index, instance) in world.instances().iter().enumerate() {
         check_materials(index, instance, &weigher)?;
-        let mut to_render = instance.to_world.as_still().ok_or(LightError::Moving { instance: index })?;
+        if !instance.materials.iter().any(|material| weigher.glow(*material).is_some()) {
+            gathered.primitives.push([]);
+            continue;
+        }
+        let still = instance.to_world.still_over(view.interval());
+        let mut to_render = still.ok_or(LightError::Moving { instance: index })?;
         to_render.translation -= view.origin_m();
         match instance.shape {
             Shape::Mesh(id) => gathered.add_mesh(world.mesh(id), instance, &to_render, &weigher),
@@ -94,9 +101,6 @@ fn check_materials(index: usize, instance: &Instance, weigher: &Weigher<'_>) -> 
 
 impl Gathered {
     fn add_mesh(&mut self, mesh: &Mesh, instance: &Instance, to_render: &DAffine3, weigher: &Weigher<'_>) {
-        if !instance.materials.iter().any(|m| weigher.glow(*m).is_some()) {
-            return self.primitives.push([]);
-        }
         let material = |primitive: usize| instance.materials[usize::from(mesh.slots()[primitive])];
         let count = mesh.triangles().len();
         let mut lights: Vec<Option<u32>> = Vec::with_capacity(count);

@@ -33,7 +33,7 @@ impl Lights {
     /// to `high_nm` decide how the lights share the draws.
     ///
     /// # Errors
-    /// Where an instance names a material that the material_table does not have, or moves.
+    /// Where an instance names a material that the material_table does not have, or glows and moves during the view's interval.
     pub fn new(
         view: &RenderSpace<'_>,
         material_table: &MaterialTable,

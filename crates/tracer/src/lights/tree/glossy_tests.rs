@@ -29,6 +29,7 @@ fn receiver(surface: &Surface, position: Vec3, to_viewer: Vec3) -> Option<(Light
         local_normal: Vec3::Z,
         instance: 0,
         primitive: 0,
+        time_s: 0.0,
         material: MaterialId(0),
     };
     let wavelengths = Wavelengths::<4>::uniform(400.0, 700.0, 0.3);
