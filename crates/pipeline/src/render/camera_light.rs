@@ -62,7 +62,7 @@ pub fn light_counts(plan: &Plan, camera: &CameraPlan) -> LightCounts {
 
 fn lights(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -> Lights {
     Lights::new(view, &plan.material_table, plan.sources.clone(), camera.settings.range_nm)
-        .expect("a compiled plan names only materials that it has, and nothing that glows moves")
+        .expect("a compiled plan names only materials that it has")
 }
 
 fn through<S: RaySource>(

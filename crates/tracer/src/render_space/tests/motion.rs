@@ -1,14 +1,10 @@
-//! Points, ground truth and lights of what moves: those of the ray's own time.
+//! Points and ground truth of what moves: those of the ray's own time.
 
-use crate::MaterialId;
-use crate::accel::tests::shapes::{Random, mesh, tracked};
+use crate::accel::tests::shapes::{Random, tracked};
 use crate::accel::{Simd, World, WorldBuilder};
 use crate::geometry::{Mesh, Shape};
-use crate::lights::{LightError, Lights, Sources};
-use crate::materials::{Emission, EmissionSides, Material, MaterialTable, Surface};
 use etendue_core::track::{Interpolation, Key};
 use etendue_core::{Ray, TimeInterval, Track, maths};
-use etendue_spectra::Spectrum;
 use glam::{DQuat, DVec3, Vec2, Vec3};
 
 const SHUTTER: (f64, f64) = (1000.0, 1000.5);
@@ -141,31 +137,5 @@ fn the_bounds_hold_the_whole_motion() {
         let corner = DVec3::new(20.0, -20.0, 0.0);
         let place = track.at(random.between(SHUTTER.0, SHUTTER.1)).transform_point3(corner) - CAMERA;
         assert!((place - centre.as_dvec3()).length() <= f64::from(radius));
-    }
-}
-
-/// What does not glow may move; what glows may move at other times.
-#[test]
-fn lights_stand_still_while_they_are_gathered() {
-    let glow = Emission { radiance: Spectrum::constant(1.0), factor: None, sides: EmissionSides::Both };
-    let dark = Material::new(Surface::Absorber);
-    let bright = Material { emission: Some(glow), ..dark.clone() };
-    let key = |time_s: f64| Key { time_s, position_m: DVec3::Z * time_s, rotation: DQuat::IDENTITY, scale: DVec3::ONE };
-    let track = Track::new(&[1.0, 2.0].map(key), Interpolation::Linear).expect("legal");
-    let triangle = mesh(vec![Vec3::ZERO, Vec3::X, Vec3::Y], vec![[0, 1, 2]]);
-    for (material, glows) in [(dark, false), (bright, true)] {
-        let mut builder = WorldBuilder::new();
-        let id = builder.add_mesh(triangle.clone());
-        let one = tracked(Shape::Mesh(id), track.clone());
-        builder.add_instance(crate::geometry::Instance { materials: vec![MaterialId(0)], ..one });
-        let world = builder.build().expect("legal");
-        let table = MaterialTable::new(vec![material], vec![]).expect("a material");
-        for (start_s, end_s, moves) in [(0.0, 1.0, false), (1.0, 1.5, true), (1.5, 1.5, false)] {
-            let interval = TimeInterval::new(start_s, end_s).expect("in order");
-            let view = world.render_space_for_few(DVec3::ZERO, interval);
-            let lights = Lights::new(&view, &table, Sources::default(), (400.0, 700.0));
-            let expected = if glows && moves { Err(LightError::Moving { instance: 0 }) } else { Ok(()) };
-            assert_eq!(lights.map(|_| ()), expected);
-        }
     }
 }
