@@ -149,3 +149,45 @@ enum Moment {
     Triangle(TriangleLight),
     Sphere(SphereLight),
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Mesh;
+    use etendue_core::maths;
+    use etendue_core::track::{Interpolation, Key};
+    use glam::DQuat;
+
+    /// At moments between those that are looked at: corners in the box, the normal in the cone (f32 rounds cosines to 1e-7).
+    #[test]
+    fn bounds_hold_the_light_at_every_moment() {
+        let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+        let mesh = Mesh::new(corners, vec![], vec![], vec![[0, 1, 2]], vec![]).expect("a mesh").0;
+        let key = |i: f64| {
+            let (sin, cos) = maths::f64::sin_cos(0.35 * i);
+            let rotation = DQuat::from_xyzw(sin * 0.6, sin * 0.8, 0.0, cos);
+            Key { time_s: i, position_m: DVec3::new(3.0 * i, i * i, -i), rotation, scale: DVec3::splat(2.0) }
+        };
+        for how in [Interpolation::Linear, Interpolation::Smooth] {
+            let to_world = Track::new(&[0.0, 1.0, 3.0].map(key), how).expect("legal");
+            let interval = TimeInterval::new(0.4, 1.3).expect("in order");
+            let way = Way { to_world, origin_m: DVec3::new(0.5, 0.2, 0.1), interval };
+            let light = MovingLight::of_facets(Facets::one(&mesh, 0), way, MaterialId(0));
+            let bounds = light.bounds(3.0, false).expect("an area");
+            assert!(bounds.theta_o > 0.2 && bounds.theta_o < 2.0, "{bounds:?}");
+            let mut widest: f32 = 0.0;
+            for i in 0..=1000_u16 {
+                let Some(Moment::Triangle(moment)) = light.at(0.0009 * f32::from(i)) else { panic!("a triangle") };
+                let own = moment.bounds(3.0, false);
+                assert!(bounds.low.cmple(own.low).all() && own.high.cmple(bounds.high).all());
+                let angle = maths::f32::atan2(own.axis.cross(bounds.axis).length(), own.axis.dot(bounds.axis));
+                assert!(
+                    angle <= bounds.theta_o && own.intensity <= bounds.intensity * (1.0 + 1e-6),
+                    "{angle} {bounds:?}"
+                );
+                widest = widest.max(angle);
+            }
+            assert!(bounds.theta_o < 1.5 * widest, "{widest} {bounds:?}");
+        }
+    }
+}
