@@ -20,7 +20,7 @@ use super::world::World;
 use crate::geometry::{Hit, Instance, Placement, Shape, sphere};
 use core::cell::Cell;
 use etendue_core::Ray;
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 
 /// A shape with what is needed to meet it.
 #[derive(Clone, Debug)]
@@ -185,7 +185,12 @@ impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
         let placed = &self.top.placed[instance as usize];
         match self.top.targets[instance as usize] {
             Target::Mesh(tree) => {
-                let (origin, direction) = placed.rounded_ray_to_local(self.ray);
+                let Some(still) = placed.still() else {
+                    let moving = Moving { l: self.l, tree, placed, ray: self.ray };
+                    (self.best.hit, *limit) = moving.closest(instance, self.best.hit, *limit);
+                    return false;
+                };
+                let (origin, direction) = still.rounded_ray_to_local(self.ray);
                 tree.closest(
                     self.l,
                     &LocalRay::new(origin, direction),
@@ -195,8 +200,8 @@ impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
                 );
             }
             Target::Sphere(radius) => {
-                let (origin, direction) = placed.ray_to_local(self.ray);
-                if let Some(hit) = meet_sphere(radius, origin, direction) {
+                if let Some(t) = meet_sphere(radius, placed, self.ray) {
+                    let hit = PrimitiveHit { t, u: 0.0, v: 0.0, primitive: 0 };
                     self.best.offer(Names::Instance(instance), hit, limit);
                 }
             }
@@ -245,18 +250,58 @@ impl<L: Lanes> Leaves for AnyLeaf<'_, '_, L> {
         let placed = &self.top.placed[instance];
         match self.top.targets[instance] {
             Target::Mesh(tree) => {
-                let (origin, direction) = placed.rounded_ray_to_local(self.ray);
+                let Some(still) = placed.still() else {
+                    return Moving { l: self.l, tree, placed, ray: self.ray }.occluded(*limit);
+                };
+                let (origin, direction) = still.rounded_ray_to_local(self.ray);
                 tree.occluded(self.l, &LocalRay::new(origin, direction), *limit)
             }
-            Target::Sphere(radius) => {
-                let (origin, direction) = placed.ray_to_local(self.ray);
-                meet_sphere(radius, origin, direction).is_some_and(|hit| hit.t > 0.0 && hit.t < *limit)
-            }
+            Target::Sphere(radius) => meet_sphere(radius, placed, self.ray).is_some_and(|t| t > 0.0 && t < *limit),
         }
     }
 }
 
-fn meet_sphere(radius: f64, origin: DVec3, direction: DVec3) -> Option<PrimitiveHit> {
-    let t = sphere::nearest(radius, origin, direction)? as f32;
-    Some(PrimitiveHit { t, u: 0.0, v: 0.0, primitive: 0 })
+/// A mesh in motion as a ray enters it. Apart from what stands still, whose code it would slow down: everything comes and goes by
+/// value, so that the rest stays in registers.
+struct Moving<'a, L> {
+    l: L,
+    tree: &'a Blas,
+    placed: &'a Placement,
+    ray: &'a Ray,
+}
+
+impl<L: Lanes> Moving<'_, L> {
+    /// The best hit and the limit, from those so far.
+    #[cold]
+    #[inline(never)]
+    fn closest(self, instance: u32, hit: Option<Hit>, mut limit: f32) -> (Option<Hit>, f32) {
+        let mut best = Best { hit };
+        let (origin, direction) = self.placed.rounded_ray_to_local(self.ray);
+        let local = LocalRay::new(origin, direction);
+        self.tree.closest(self.l, &local, Names::Instance(instance), &mut best, &mut limit);
+        (best.hit, limit)
+    }
+
+    /// Whether the ray meets a triangle before the limit.
+    #[cold]
+    #[inline(never)]
+    fn occluded(self, limit: f32) -> bool {
+        let (origin, direction) = self.placed.rounded_ray_to_local(self.ray);
+        self.tree.occluded(self.l, &LocalRay::new(origin, direction), limit)
+    }
+}
+
+/// Where a ray meets a sphere first.
+#[inline(always)]
+fn meet_sphere(radius: f64, placed: &Placement, ray: &Ray) -> Option<f32> {
+    let Some(still) = placed.still() else { return meet_moving_sphere(radius, placed, ray) };
+    let (origin, direction) = still.ray_to_local(ray);
+    Some(sphere::nearest(radius, origin, direction)? as f32)
+}
+
+#[cold]
+#[inline(never)]
+fn meet_moving_sphere(radius: f64, placed: &Placement, ray: &Ray) -> Option<f32> {
+    let (origin, direction) = placed.ray_to_local(ray);
+    Some(sphere::nearest(radius, origin, direction)? as f32)
 }

@@ -50,6 +50,7 @@ impl Placement {
     }
 
     /// The transforms of what does not move.
+    #[inline(always)]
     pub(crate) fn still(&self) -> Option<&InstanceTransform> {
         match self {
             Self::Still(transform) => Some(transform),
@@ -80,13 +81,10 @@ impl Placement {
         }
     }
 
-    /// As [`Placement::ray_to_local`], rounded to f32; quick where the instance is only shifted.
-    #[inline(always)]
+    /// As [`Placement::ray_to_local`], rounded to f32.
     pub(crate) fn rounded_ray_to_local(&self, ray: &Ray) -> (Vec3, Vec3) {
-        match self {
-            Self::Still(transform) => transform.rounded_ray_to_local(ray),
-            Self::Moving(moving) => moving.rounded_ray_to_local(ray),
-        }
+        let (origin, direction) = self.ray_to_local(ray);
+        (origin.as_vec3(), direction.as_vec3())
     }
 
     /// Least and greatest coordinates in the render frame, m, of the instance's shape among the world's `meshes` at any time of
@@ -128,18 +126,9 @@ impl Moving {
         InstanceTransform::new(self.to_world.at(time_s), self.origin_m)
     }
 
-    #[cold]
-    #[inline(never)]
     fn ray_to_local(&self, ray: &Ray) -> (DVec3, DVec3) {
         let (_, to_local) = about(self.to_world.at(self.interval.moment(ray.time_s)), self.origin_m);
         (to_local.transform_point3(ray.origin.as_dvec3()), to_local.transform_vector3(ray.direction.as_dvec3()))
-    }
-
-    #[cold]
-    #[inline(never)]
-    fn rounded_ray_to_local(&self, ray: &Ray) -> (Vec3, Vec3) {
-        let (origin, direction) = self.ray_to_local(ray);
-        (origin.as_vec3(), direction.as_vec3())
     }
 
     fn bounds(&self, instance: &Instance, meshes: &[Mesh]) -> Option<(DVec3, DVec3)> {
