@@ -71,7 +71,11 @@ impl Choice {
     }
 
     /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver.
-    pub(super) fn pick<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, u: f64) -> Option<(Chosen, f32)> {
+    pub(super) fn pick<F: Fn(u32) -> LampIrradiance>(
+        &self,
+        question: &TreeQuery<'_, F>,
+        u: f64,
+    ) -> Option<(Chosen, f32)> {
         let near = self.near(question);
         let local = self.local_share(question, near.as_ref());
         let (share, chosen) = match &near {
@@ -140,7 +144,11 @@ impl Choice {
         self.tree.as_ref().map(|tree| (tree, tree.start(question)))
     }
 
-    fn local_share<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, near: Option<&(&LightTree, Start)>) -> f32 {
+    fn local_share<F: Fn(u32) -> LampIrradiance>(
+        &self,
+        question: &TreeQuery<'_, F>,
+        near: Option<&(&LightTree, Start)>,
+    ) -> f32 {
         let Some((tree, start)) = near else { return 0.0 };
         let distant = self.distant_irradiance(question.receiver);
         if distant <= 0.0 {

@@ -112,7 +112,10 @@ impl Lights {
         (pdf > 0.0).then_some(LightSample { pdf, ..sample })
     }
 
-    pub(super) fn question<'a>(&'a self, receiver: &'a LightSampleContext) -> TreeQuery<'a, impl Fn(u32) -> LampIrradiance + 'a> {
+    pub(super) fn question<'a>(
+        &'a self,
+        receiver: &'a LightSampleContext,
+    ) -> TreeQuery<'a, impl Fn(u32) -> LampIrradiance + 'a> {
         let lamp = |i: u32| match &self.lights[i as usize] {
             Light::Lamp(lamp) => lamp.irradiance(receiver),
             Light::Triangle(_) | Light::Sphere(_) => LampIrradiance::default(),
