@@ -35,6 +35,7 @@ use crate::plan::remark::grouped;
 use crate::plan::shared_light;
 use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan};
 use context::Context;
+use etendue_core::TimeInterval;
 use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;
 use etendue_scene::{CameraSetup, Description, Fault};
@@ -85,7 +86,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let (world, identities) = world::world(description, &mut builder, context)?;
     for setup in &description.cameras {
         let position = &setup.pose.position_m;
-        context.accept(&position.place, world.check_reach(DVec3::from_array(position.value)));
+        context.accept(&position.place, world.check_reach(DVec3::from_array(position.value), TimeInterval::default()));
     }
     let (material_table, materials) = builder.finish(context)?;
     positions::remark(&cameras, context);

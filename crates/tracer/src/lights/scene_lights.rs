@@ -33,7 +33,7 @@ impl Lights {
     /// to `high_nm` decide how the lights share the draws.
     ///
     /// # Errors
-    /// Where an instance names a material that the material_table does not have, or moves.
+    /// Where an instance names a material that the material_table does not have.
     pub fn new(
         view: &RenderSpace<'_>,
         material_table: &MaterialTable,
@@ -58,7 +58,7 @@ impl Lights {
         let count = |kind: fn(&Light) -> bool| self.lights.iter().filter(|l| kind(l)).count();
         LightCounts {
             triangles: self.lights.iter().map(Light::triangles).sum(),
-            spheres: count(|l| matches!(l, Light::Sphere(_))),
+            spheres: count(Light::is_sphere),
             lamps: count(|l| matches!(l, Light::Lamp(_))),
             suns: self.suns.len(),
             uniform_environment: matches!(&self.environment, Some(Environment::Uniform(l)) if l.max_value() > 0.0),
@@ -104,6 +104,7 @@ impl Lights {
                     s.glowing(material_table).towards(&s.sample(from, u)?, from, spread_rad, wavelengths)
                 }
                 Light::Lamp(lamp) => lamp.sample(from, wavelengths),
+                Light::Moving(light) => light.sample(receiver, u, spread_rad, material_table, wavelengths),
             },
             Chosen::Sun(i) => Some(self.suns[i].sample(u, wavelengths)),
             Chosen::Environment => self.environment.as_ref()?.sample(u, wavelengths),
@@ -118,7 +119,7 @@ impl Lights {
     ) -> TreeQuery<'a, impl Fn(u32) -> LampIrradiance + 'a> {
         let lamp = |i: u32| match &self.lights[i as usize] {
             Light::Lamp(lamp) => lamp.irradiance(receiver),
-            Light::Triangle(_) | Light::Sphere(_) => LampIrradiance::default(),
+            Light::Triangle(_) | Light::Sphere(_) | Light::Moving(_) => LampIrradiance::default(),
         };
         TreeQuery { receiver, lamp }
     }
@@ -131,6 +132,7 @@ impl Lights {
         let pdf = match &self.lights[i] {
             Light::Triangle(light) => light.pdf(met),
             Light::Sphere(light) => light.pdf(met),
+            Light::Moving(light) => light.pdf(met),
             Light::Lamp(_) => 0.0,
         };
         pdf * self.choice.probability(&self.question(met.receiver), Chosen::Local(i))
