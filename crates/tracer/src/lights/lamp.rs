@@ -39,6 +39,15 @@ pub enum LampError {
     },
 }
 
+/// Irradiance of a lamp at a receiver, the mean over the wavelengths that lights are chosen by, W·m⁻²·nm⁻¹.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct LampIrradiance {
+    /// That of the receiver's surface, or of one facing the lamp where light counts from every side.
+    pub(super) plain: f32,
+    /// The same, raised by the receiver's gloss.
+    pub(super) raised: f32,
+}
+
 /// A lamp without extent. Intensity and profile are shared between lamps of a kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lamp {
@@ -155,12 +164,13 @@ impl LampLight {
         }
     }
 
-    /// Mean irradiance at a receiver, W·m⁻²·nm⁻¹: that of its surface, or of one facing the lamp; raised by its gloss.
-    pub(super) fn irradiance(&self, receiver: &LightSampleContext) -> f32 {
-        let Some((direction, factor)) = self.reach(receiver.position) else { return 0.0 };
+    /// Mean irradiance at a receiver.
+    pub(super) fn irradiance(&self, receiver: &LightSampleContext) -> LampIrradiance {
+        let Some((direction, factor)) = self.reach(receiver.position) else { return LampIrradiance::default() };
         let cos = if receiver.normal == Vec3::ZERO { 1.0 } else { receiver.normal.dot(direction).max(0.0) };
-        let counts = if cos > 0.0 { cos + receiver.glossy(direction, 0.0) } else { 0.0 };
-        self.mean_intensity * factor * counts
+        let raised = if cos > 0.0 { cos + receiver.glossy(direction, 0.0) } else { 0.0 };
+        let faced = self.mean_intensity * factor;
+        LampIrradiance { plain: faced * cos, raised: faced * raised }
     }
 
     /// Direction to the lamp, and what a unit of intensity gives a surface that faces it; `None` where there is none.
