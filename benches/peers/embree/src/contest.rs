@@ -6,10 +6,10 @@ use etendue_benches::clock::timed;
 use etendue_benches::questions::Questions;
 use etendue_benches::runs::Runs;
 use etendue_benches::table::Table;
+use etendue_core::TimeInterval;
 use etendue_tracer::accel::{Simd, World};
 use etendue_tracer::geometry::Mesh;
 use etendue_tracer::render_space::RenderSpace;
-use etendue_core::TimeInterval;
 use glam::DVec3;
 use std::hint::black_box;
 
