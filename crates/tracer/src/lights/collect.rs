@@ -3,6 +3,8 @@
 use glam::DAffine3;
 
 use super::Light;
+use super::lamp::LampLight;
+use super::opening::{Opening, OpeningLight};
 use super::primitives::Primitives;
 use super::sphere::SphereLight;
 use super::tree::LightBounds;
@@ -30,6 +32,15 @@ pub enum LightError {
     Moving {
         /// The instance, counted from 0.
         instance: usize,
+    },
+    /// The surface of a lamp's opening is not what the opening asks for.
+    #[error(
+        "instance {instance} is not the surface of a lamp's opening, which its lamp takes it for; place the opening's own mesh, or a \
+         sphere, of one material that does not glow"
+    )]
+    Opening {
+        /// The instance, counted from 0.
+        instance: u32,
     },
     /// More glowing triangles than can be told apart.
     #[error("the scene has more than four thousand million glowing triangles; let fewer glow")]
@@ -74,14 +85,20 @@ pub(super) fn of_surfaces(
     let mut gathered = Gathered::default();
     for (index, instance) in world.instances().iter().enumerate() {
         check_materials(index, instance, &weigher)?;
-        let mut to_render = instance.to_world.as_still().ok_or(LightError::Moving { instance: index })?;
-        to_render.translation -= view.origin_m();
+        let to_render = to_render(view, index, instance)?;
         match instance.shape {
             Shape::Mesh(id) => gathered.add_mesh(world.mesh(id), instance, &to_render, &weigher),
             Shape::Sphere { radius_m } => gathered.add_sphere(radius_m, instance.materials[0], &to_render, &weigher),
         }
     }
     if gathered.lights.len() >= u32::MAX as usize { Err(LightError::TooMany) } else { Ok(gathered) }
+}
+
+/// From an instance's frame to the render frame.
+fn to_render(view: &RenderSpace<'_>, index: usize, instance: &Instance) -> Result<DAffine3, LightError> {
+    let mut to_render = instance.to_world.as_still().ok_or(LightError::Moving { instance: index })?;
+    to_render.translation -= view.origin_m();
+    Ok(to_render)
 }
 
 fn check_materials(index: usize, instance: &Instance, weigher: &Weigher<'_>) -> Result<(), LightError> {
@@ -123,6 +140,32 @@ impl Gathered {
         let light = SphereLight::new(radius_m, to_render, material, weigher.material_table);
         let added = self.add(light.bounds(radiance), Light::Sphere(light));
         self.primitives.push([Some(added)]);
+    }
+
+    /// Adds a lamp whose opening is an instance of the world.
+    pub(super) fn add_opening(
+        &mut self,
+        lamp: LampLight,
+        (opening, instance): (Opening, u32),
+        view: &RenderSpace<'_>,
+        material_table: &MaterialTable,
+    ) -> Result<(), LightError> {
+        let fault = LightError::Opening { instance };
+        let placed = view.world().instances().get(instance as usize).ok_or(fault)?;
+        let [material] = placed.materials[..] else { return Err(fault) };
+        let to_render = to_render(view, instance as usize, placed)?;
+        let light = match placed.shape {
+            Shape::Mesh(id) => OpeningLight::of_mesh(lamp, opening, (view.world().mesh(id), &to_render), material),
+            Shape::Sphere { radius_m } => {
+                let sphere = SphereLight::new(radius_m, &to_render, material, material_table);
+                Some(OpeningLight::of_sphere(lamp, opening, sphere))
+            }
+        };
+        let light = light.filter(|_| material_table.emission(material).is_none()).ok_or(fault)?;
+        let primitives = light.primitives();
+        let added = self.add(light.bounds(), Light::Opening(light));
+        self.primitives.assign(instance, primitives, added);
+        Ok(())
     }
 
     pub(super) fn add(&mut self, bounds: LightBounds, light: Light) -> u32 {

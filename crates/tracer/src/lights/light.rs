@@ -1,6 +1,7 @@
 //! A light in the scene: the closed list.
 
 use super::lamp::LampLight;
+use super::opening::OpeningLight;
 use super::sphere::SphereLight;
 use super::triangle::TriangleLight;
 
@@ -10,6 +11,7 @@ pub(super) enum Light {
     Triangle(TriangleLight),
     Sphere(SphereLight),
     Lamp(LampLight),
+    Opening(OpeningLight),
 }
 
 impl Light {

@@ -10,6 +10,7 @@ mod inside;
 mod lamps;
 mod levels;
 mod near_lights;
+mod openings;
 mod passages;
 mod sharing;
 mod sides;

@@ -30,6 +30,9 @@ pub(in crate::lights) struct TreeQuery<'a, F: Fn(u32) -> f32> {
     pub(in crate::lights) lamp: F,
 }
 
+/// Share of a cluster's estimate that a lamp with an opening counts at least, whatever its profile is worth from its middle.
+const LEAST_OF_EXTENT: f32 = 0.05;
+
 impl LightTree {
     /// How many lights there are.
     pub(in crate::lights) fn len(&self) -> usize {
@@ -42,7 +45,9 @@ impl LightTree {
         let mut weights = node.weights(question.receiver);
         for (lane, weight) in weights.iter_mut().enumerate() {
             if node.is_lamp(lane) && *weight > 0.0 {
-                *weight = (question.lamp)(node.child(lane).index) * self.per_irradiance;
+                let own = (question.lamp)(node.child(lane).index) * self.per_irradiance;
+                // Parts of an opening may light what its middle does not.
+                *weight = if node.has_extent(lane) { own.max(LEAST_OF_EXTENT * *weight) } else { own };
             }
         }
         weights
