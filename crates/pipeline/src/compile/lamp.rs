@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use super::linear_picture::linear;
+use super::open_lamp::OpenLamp;
 use super::opening::opening;
 use super::spectrum::{bright, powered, relative};
 use etendue_scene::Place;
@@ -14,7 +15,7 @@ use etendue_scene::record::light::{
 use etendue_scene::record::transform::yaw_pitch_roll;
 use etendue_scene::record::{Light, LightColour};
 use etendue_spectra::{Spectrum, colour};
-use etendue_tracer::lights::{Cone, Lamp, MaskImage, Opening, Profile, Web, WebAxes, head_lamp};
+use etendue_tracer::lights::{Cone, Lamp, MaskImage, Profile, Web, WebAxes, head_lamp};
 use glam::{DMat3, DVec3};
 use std::sync::Arc;
 
@@ -24,14 +25,6 @@ pub(super) enum Lamps {
     Points(Vec<Lamp>),
     /// With an opening that is to be placed in the world.
     Open(OpenLamp),
-}
-
-/// A lamp with an opening, everywhere where it stands.
-pub(super) struct OpenLamp {
-    /// By the names of its places.
-    pub(super) alike: Vec<(String, Lamp)>,
-    pub(super) opening: Opening,
-    pub(super) place: Place,
 }
 
 /// What lamps of a kind have in common, but for their intensity.
@@ -116,7 +109,7 @@ fn measured(lamp: &MeasuredLamp, context: &mut Context<'_>) -> Option<Lamps> {
     let kind = Kind {
         name: &lamp.name.value,
         placement: &lamp.placement,
-        main: main,
+        main,
         turn: DMat3::IDENTITY,
         opening: lamp.opening.as_ref(),
         file: Some(asset),
@@ -139,7 +132,7 @@ fn head_lamp(lamp: &HeadLamp, context: &mut Context<'_>) -> Option<Lamps> {
         name: &lamp.name.value,
         placement: &lamp.placement,
         main: MainAxis::Forward,
-        turn: turn,
+        turn,
         opening: lamp.opening.as_ref(),
         file: None,
         place: &lamp.place,

@@ -1,8 +1,9 @@
 //! Suns and the environment: from records to the tracer's lights.
 
 use super::context::Context;
-use super::lamp::{Lamps, OpenLamp};
+use super::lamp::Lamps;
 use super::linear_picture::linear;
+use super::open_lamp::OpenLamp;
 use super::spectrum::{bright, emitted, powered, relative};
 use super::{lamp, sky};
 use crate::plan::SkyFacts;

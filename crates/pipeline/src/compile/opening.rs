@@ -1,8 +1,8 @@
 //! Luminous openings of lamps: from records to the tracer's, and into the world.
 
 use super::context::Context;
-use super::lamp::OpenLamp;
 use super::material::MaterialTableBuilder;
+use super::open_lamp::OpenLamp;
 use crate::plan::Identity;
 use etendue_core::Track;
 use etendue_scene::Place;

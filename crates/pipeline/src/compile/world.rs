@@ -1,8 +1,8 @@
 //! Meshes, shapes and their instances: from records to the tracer's world.
 
 use super::context::Context;
-use super::lamp::OpenLamp;
 use super::material::MaterialTableBuilder;
+use super::open_lamp::OpenLamp;
 use super::{opening, shape};
 use crate::plan::Identity;
 use etendue_core::Track;
