@@ -21,8 +21,9 @@
 //! | 0.35 | 2.59 | 2.30 | 2.72 |
 
 use super::LightSampleContext;
+use super::lamp::LampIrradiance;
 use super::sun::Sun;
-use super::tree::{LightBounds, LightTree, Start, TreeQuery};
+use super::tree::{LightBounds, LightTree, MATT_SHARE, Start, TreeQuery};
 
 /// Least share of the draws of lights in the scene beside those at infinity, and the other way round.
 const FLOOR: f32 = 0.05;
@@ -70,7 +71,11 @@ impl Choice {
     }
 
     /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver.
-    pub(super) fn pick<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, u: f64) -> Option<(Chosen, f32)> {
+    pub(super) fn pick<F: Fn(u32) -> LampIrradiance>(
+        &self,
+        question: &TreeQuery<'_, F>,
+        u: f64,
+    ) -> Option<(Chosen, f32)> {
         let near = self.near(question);
         let local = self.local_share(question, near.as_ref());
         let (share, chosen) = match &near {
@@ -87,40 +92,63 @@ impl Choice {
     }
 
     fn pick_distant(&self, receiver: &LightSampleContext, u: f32) -> Option<(Chosen, f32)> {
-        let total = self.distant_irradiance(receiver);
-        let mut rest = u * total;
-        for i in 0..self.suns.len() {
-            let irradiance = self.of_sun(i, receiver);
-            if rest < irradiance {
-                return Some((Chosen::Sun(i), irradiance / total));
+        let of = |light: Chosen| self.share_of_distant(light, receiver);
+        let suns = (0..self.suns.len()).map(Chosen::Sun);
+        let lights = suns.chain((self.environment > 0.0).then_some(Chosen::Environment));
+        let (mut rest, mut chosen) = (u, None);
+        for (light, share) in lights.map(|light| (light, of(light))).filter(|(_, share)| *share > 0.0) {
+            chosen = Some((light, share));
+            if rest < share {
+                break;
             }
-            rest -= irradiance;
+            rest -= share;
         }
-        (self.environment > 0.0).then(|| (Chosen::Environment, self.environment / total))
+        chosen
+    }
+
+    /// The share of a light at infinity among those at infinity: by what they count, and to [`MATT_SHARE`] by what they count for a
+    /// matt receiver.
+    fn share_of_distant(&self, light: Chosen, receiver: &LightSampleContext) -> f32 {
+        let share = |counts: f32, total: f32| if counts > 0.0 { counts / total } else { 0.0 };
+        let raised = share(self.of_distant(light, receiver), self.distant_irradiance(receiver));
+        if receiver.gloss.is_none() {
+            return raised;
+        }
+        let matt = LightSampleContext { gloss: None, ..*receiver };
+        let plain = share(self.of_distant(light, &matt), self.distant_irradiance(&matt));
+        (1.0 - MATT_SHARE) * raised + MATT_SHARE * plain
+    }
+
+    fn of_distant(&self, light: Chosen, receiver: &LightSampleContext) -> f32 {
+        match light {
+            Chosen::Sun(i) => self.of_sun(i, receiver),
+            Chosen::Environment => self.environment,
+            Chosen::Local(_) => 0.0,
+        }
     }
 
     /// The probability by which [`Choice::pick`] gives a light.
-    pub(super) fn probability<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, light: Chosen) -> f32 {
+    pub(super) fn probability<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, light: Chosen) -> f32 {
         let near = self.near(question);
-        let irradiance = match (&light, &near) {
-            (Chosen::Local(_), None) => return 0.0,
-            (Chosen::Local(i), Some((tree, start))) => {
-                return self.local_share(question, near.as_ref()) * tree.probability(question, start, *i);
-            }
-            (Chosen::Sun(i), _) => self.of_sun(*i, question.receiver),
-            (Chosen::Environment, _) => self.environment,
-        };
-        let total = self.distant_irradiance(question.receiver);
-        if irradiance > 0.0 { (1.0 - self.local_share(question, near.as_ref())) * (irradiance / total) } else { 0.0 }
+        let local = self.local_share(question, near.as_ref());
+        match (light, &near) {
+            (Chosen::Local(_), None) => 0.0,
+            (Chosen::Local(i), Some((tree, start))) => local * tree.probability(question, start, i),
+            _ => (1.0 - local) * self.share_of_distant(light, question.receiver),
+        }
     }
 
     /// The tree, and where the receiver starts in it.
     #[inline(always)]
-    fn near<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>) -> Option<(&LightTree, Start)> {
+    fn near<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>) -> Option<(&LightTree, Start)> {
         self.tree.as_ref().map(|tree| (tree, tree.start(question)))
     }
 
-    fn local_share<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, near: Option<&(&LightTree, Start)>) -> f32 {
+    fn local_share<F: Fn(u32) -> LampIrradiance>(
+        &self,
+        question: &TreeQuery<'_, F>,
+        near: Option<&(&LightTree, Start)>,
+    ) -> f32 {
         let Some((tree, start)) = near else { return 0.0 };
         let distant = self.distant_irradiance(question.receiver);
         if distant <= 0.0 {

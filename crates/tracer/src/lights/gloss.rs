@@ -25,6 +25,9 @@ const BRIGHT: f32 = 16.0;
 /// is then that of its place in the pixel.
 const RESOLVED: f32 = 0.004;
 
+/// Sine of a cone's half angle above which the change of half vectors over it is not taken for linear.
+const WIDE: f32 = 0.2;
+
 /// Mean square along one axis over a disc of radius 1.
 const SPREAD2: f32 = 0.25;
 
@@ -113,6 +116,7 @@ impl ReceiverGloss {
             return 0.0;
         }
         let (aside2, fresnel) = match lobe.about {
+            About::HalfVector if sin > WIDE => self.nearest_to_mirrored(lobe, direction, sin),
             About::HalfVector => {
                 let half = self.viewer + direction;
                 let height = half.dot(self.normal).max(LOWEST);
@@ -121,12 +125,29 @@ impl ReceiverGloss {
                 (along * along + across * across, schlick(lobe.f0, 0.5 * half.length()))
             }
             About::Direction(axis) => {
-                let outside = ((direction - axis).length() - sin).max(0.0);
+                let reach = (2.0 - 2.0 * (1.0 - sin * sin).max(0.0).sqrt()).sqrt();
+                let outside = ((direction - axis).length() - reach).max(0.0);
                 (outside * outside, 1.0)
             }
         };
-        let fallen = lobe.width2 / (lobe.width2 + aside2);
+        let fallen = (1.0 + aside2) / (1.0 + (aside2 / lobe.width2).max(aside2));
         lobe.peak * fresnel * fallen * fallen
+    }
+
+    /// Least tan² of half vector and normal in a wide cone, and the Fresnel factor in the mirror direction. A direction at an angle δ from
+    /// the mirror direction has its half vector at δ/2 or more from the normal: mirroring at the one and at the other differ by
+    /// a rotation of twice the angle between them.
+    fn nearest_to_mirrored(&self, lobe: &Lobe, direction: Vec3, sin: f32) -> (f32, f32) {
+        let cos_o = self.viewer.dot(self.normal);
+        let mirrored = self.normal * (2.0 * cos_o) - self.viewer;
+        let (cos_a, cos) = (mirrored.dot(direction).clamp(-1.0, 1.0), (1.0 - sin * sin).max(0.0).sqrt());
+        let aside2 = if cos_a >= cos {
+            0.0
+        } else {
+            let cos_d = cos_a * cos + (1.0 - cos_a * cos_a).sqrt() * sin;
+            (1.0 - cos_d) / (1.0 + cos_d).max(f32::MIN_POSITIVE)
+        };
+        (aside2, schlick(lobe.f0, cos_o))
     }
 
     #[inline(always)]
@@ -179,5 +200,53 @@ fn albedo(lobe: &GlossLobe, cos_o: f32) -> f32 {
         // Directions move twice as far as half vectors, and about the mirror direction across only cos θ as much.
         About::HalfVector => 4.0 * solid * cos_o * lobe.peak * lobe.fresnel_at_axis(cos_o),
         About::Direction(_) => solid * lobe.peak,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_core::random::{philox4x32, unit_f32};
+    use etendue_core::warp::uniform_sphere;
+    use glam::Vec2;
+
+    fn number(i: u32, k: u32) -> f32 {
+        unit_f32(philox4x32([i, k, 0, 0], [7, 0])[0])
+    }
+
+    fn direction(i: u32, k: u32) -> Vec3 {
+        uniform_sphere(Vec2::new(number(i, k), number(i, k + 1)))
+    }
+
+    /// A surface facing up with one lobe that mirrors all light, so that Fresnel's factor is 1 everywhere.
+    fn mirror(viewer: Vec3, width: f32, about: About) -> ReceiverGloss {
+        let along = Vec3::new(viewer.x, viewer.y, 0.0).normalize();
+        let lobe = Lobe { about, width2: width * width, peak: 1e4, f0: 1.0 };
+        let none = Lobe { peak: 0.0, ..lobe };
+        ReceiverGloss { viewer, normal: Vec3::Z, along, across: Vec3::Z.cross(along), lobes: [lobe, none] }
+    }
+
+    /// A receiver among the lights sees their cluster all around: whatever of them it mirrors counts no more than the cluster may.
+    #[test]
+    fn no_light_in_a_wide_cone_counts_more_than_the_cone_may() {
+        for i in 0..40_000 {
+            let viewer = direction(i, 0);
+            let viewer = Vec3::new(viewer.x, viewer.y, viewer.z.abs().max(0.02)).normalize();
+            let width = [0.01, 0.06, 0.3][i as usize % 3];
+            let about = if i % 2 == 0 { About::HalfVector } else { About::Direction(direction(i, 2)) };
+            let gloss = mirror(viewer, width, about);
+            let (axis, sin) = (direction(i, 4), 0.2 + 0.8 * number(i, 6));
+            let least = (1.0 - sin * sin).max(0.0).sqrt();
+            // Half of the lights lie about the mirror direction, where it matters.
+            let mirrored = Vec3::new(-viewer.x, -viewer.y, viewer.z);
+            let light =
+                direction(i, 7) * if i % 4 < 2 { 1.0 } else { 0.1 } + mirrored * if i % 4 < 2 { 0.0 } else { 1.0 };
+            let light = light.normalize();
+            if light.dot(axis) >= least && light.z > 0.0 {
+                let (counts, greatest) = (gloss.relative(light, 0.0), gloss.greatest(&gloss.lobes[0], axis, sin));
+                // Some roundings of f32 in half vectors near grazing.
+                assert!(counts <= 1.01 * greatest, "{i}: {counts} of at most {greatest}");
+            }
+        }
     }
 }

@@ -58,6 +58,15 @@ pub enum LampError {
     },
 }
 
+/// Irradiance of a lamp at a receiver, the mean over the wavelengths that lights are chosen by, W·m⁻²·nm⁻¹.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct LampIrradiance {
+    /// That of the receiver's surface, or of one facing the lamp where light counts from every side.
+    pub(super) plain: f32,
+    /// The same, raised by the receiver's gloss.
+    pub(super) raised: f32,
+}
+
 /// A lamp. Intensity and profile are shared between lamps of a kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lamp {
@@ -205,25 +214,29 @@ impl LampLight {
         }
     }
 
-    /// Mean irradiance at a receiver, W·m⁻²·nm⁻¹: that of its surface, or of one facing the lamp; raised by its gloss.
-    pub(super) fn irradiance(&self, receiver: &LightSampleContext) -> f32 {
-        let Some((direction, factor)) = self.reach(receiver.position) else { return 0.0 };
+    /// Mean irradiance at a receiver.
+    pub(super) fn irradiance(&self, receiver: &LightSampleContext) -> LampIrradiance {
+        let Some((direction, factor)) = self.reach(receiver.position) else { return LampIrradiance::default() };
         let cos = if receiver.normal == Vec3::ZERO { 1.0 } else { receiver.normal.dot(direction).max(0.0) };
-        let counts = if cos > 0.0 { cos + receiver.glossy(direction, 0.0) } else { 0.0 };
-        self.mean_intensity * factor * counts
+        let raised = if cos > 0.0 { cos + receiver.glossy(direction, 0.0) } else { 0.0 };
+        let faced = self.mean_intensity * factor;
+        LampIrradiance { plain: faced * cos, raised: faced * raised }
     }
 
     /// The same of a lamp whose light starts within `extent_m` of its place.
-    pub(super) fn irradiance_of_extent(&self, receiver: &LightSampleContext, extent_m: f32) -> f32 {
+    pub(super) fn irradiance_of_extent(&self, receiver: &LightSampleContext, extent_m: f32) -> LampIrradiance {
         let way = self.position - receiver.position;
         let distance = way.length();
-        let Some(direction) = (distance > 0.0).then(|| way / distance) else { return 0.0 };
+        let Some(direction) = (distance > 0.0).then(|| way / distance) else {
+            return LampIrradiance::default();
+        };
         let sin = (extent_m / distance).min(1.0);
         let cos =
             if receiver.normal == Vec3::ZERO { 1.0 } else { (receiver.normal.dot(direction) + sin).clamp(0.0, 1.0) };
-        let counts = if cos > 0.0 { cos + receiver.glossy(direction, sin) } else { 0.0 };
+        let raised = if cos > 0.0 { cos + receiver.glossy(direction, sin) } else { 0.0 };
         let near = distance.max(0.5 * extent_m);
-        self.mean_intensity * self.profile.value(self.to_lamp(-direction)) / (near * near) * counts
+        let faced = self.mean_intensity * self.profile.value(self.to_lamp(-direction)) / (near * near);
+        LampIrradiance { plain: faced * cos, raised: faced * raised }
     }
 
     /// A direction of the render frame in the lamp's.

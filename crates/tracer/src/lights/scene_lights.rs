@@ -4,7 +4,7 @@ use super::choice::{Choice, Chosen};
 use super::collect;
 use super::collect::LightError;
 use super::environment::Environment;
-use super::lamp::LampLight;
+use super::lamp::{LampIrradiance, LampLight};
 use super::light::Light;
 use super::light_counts::LightCounts;
 use super::light_sample::{DistantLight, LightHit, LightSample};
@@ -121,11 +121,14 @@ impl Lights {
         (pdf > 0.0).then_some(LightSample { pdf, ..sample })
     }
 
-    pub(super) fn question<'a>(&'a self, receiver: &'a LightSampleContext) -> TreeQuery<'a, impl Fn(u32) -> f32 + 'a> {
+    pub(super) fn question<'a>(
+        &'a self,
+        receiver: &'a LightSampleContext,
+    ) -> TreeQuery<'a, impl Fn(u32) -> LampIrradiance + 'a> {
         let lamp = |i: u32| match &self.lights[i as usize] {
             Light::Lamp(lamp) => lamp.irradiance(receiver),
             Light::Opening(opening) => opening.irradiance(receiver),
-            Light::Triangle(_) | Light::Sphere(_) => 0.0,
+            Light::Triangle(_) | Light::Sphere(_) => LampIrradiance::default(),
         };
         TreeQuery { receiver, lamp }
     }

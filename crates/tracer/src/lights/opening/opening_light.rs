@@ -6,7 +6,7 @@ use glam::{DAffine3, Vec2, Vec3};
 use super::body::Opening;
 use super::facets::{Drawn, Facets};
 use crate::geometry::{Mesh, SurfacePoint};
-use crate::lights::lamp::LampLight;
+use crate::lights::lamp::{LampIrradiance, LampLight};
 use crate::lights::sphere::SphereLight;
 use crate::lights::tree::LightBounds;
 use crate::lights::{LightHit, LightSample, LightSampleContext};
@@ -64,7 +64,7 @@ impl OpeningLight {
     }
 
     /// Mean irradiance at a receiver as if the lamp had no extent, but for receivers close by.
-    pub(in crate::lights) fn irradiance(&self, receiver: &LightSampleContext) -> f32 {
+    pub(in crate::lights) fn irradiance(&self, receiver: &LightSampleContext) -> LampIrradiance {
         self.lamp.irradiance_of_extent(receiver, self.reach_m)
     }
 

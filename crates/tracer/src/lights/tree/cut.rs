@@ -6,10 +6,11 @@
 //! the lobes take for points, and such as hardly count. (Conty Estevez and Kulla 2018 open clusters that are near in the same manner,
 //! and sample each; here one of all is drawn.)
 
-use super::falling::fall;
-use super::light_tree::{LightTree, Slot, TreeQuery};
+use super::falling::{draw, share};
+use super::light_tree::{LightTree, Slot, TreeQuery, mix};
 use super::node::LANES;
 use crate::lights::ReceiverGloss;
+use crate::lights::lamp::LampIrradiance;
 
 /// Nodes opened at most.
 const OPENED: usize = 16;
@@ -22,69 +23,75 @@ const MATTERS: f32 = 0.3;
 pub(in crate::lights) struct Cut {
     /// Node × [`LANES`] + lane.
     slots: [u32; OPENED * LANES],
-    weights: [f32; OPENED * LANES],
+    /// What each counts raised by the gloss; in the end by what they share the draws.
+    shares: [f32; OPENED * LANES],
+    /// What each counts for a matt receiver.
+    plain: [f32; OPENED * LANES],
     len: usize,
+    /// Sum of what they count.
     total: f32,
 }
 
 impl LightTree {
-    /// The cut of a receiver, to whom the root's children count `weights`.
+    /// The cut of a receiver.
     #[inline(always)]
-    pub(super) fn cut<F: Fn(u32) -> f32>(
-        &self,
-        question: &TreeQuery<'_, F>,
-        gloss: &ReceiverGloss,
-        mut weights: [f32; LANES],
-    ) -> Cut {
-        let least = MATTERS * weights.iter().sum::<f32>();
-        let mut cut = Cut { slots: [0; OPENED * LANES], weights: [0.0; OPENED * LANES], len: 0, total: 0.0 };
+    pub(super) fn cut<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, gloss: &ReceiverGloss) -> Cut {
+        let mut weights = self.glossy_weights(0, question, gloss);
+        let least = MATTERS * weights.raised.iter().sum::<f32>();
+        let mut cut = Cut::empty();
         let mut open = [0_u32; OPENED];
         let (mut next, mut opened) = (0, 1);
         while next < opened {
             let index = open[next];
             let node = &self.nodes[index as usize];
-            for (lane, weight) in weights.into_iter().enumerate().filter(|(_, weight)| *weight > 0.0) {
+            for (lane, weight) in weights.raised.into_iter().enumerate().filter(|(_, weight)| *weight > 0.0) {
                 let child = node.child(lane);
                 let opens = child.is_node && opened < OPENED;
                 if opens && node.may_exceed(least, (lane, weight), question.receiver, gloss) {
                     open[opened] = child.index;
                     opened += 1;
                 } else {
-                    cut.push(coded(Slot { node: index, lane: lane as u8 }), weight);
+                    cut.push(coded(Slot { node: index, lane: lane as u8 }), weight, weights.plain[lane]);
                 }
             }
             next += 1;
             if next < opened {
-                weights = self.weights(open[next], question);
+                weights = self.glossy_weights(open[next], question, gloss);
             }
         }
+        cut.total = mix(&mut cut.shares[..cut.len], &cut.plain[..cut.len]);
         cut
     }
 }
 
 impl Cut {
-    fn push(&mut self, slot: u32, weight: f32) {
-        self.slots[self.len] = slot;
-        self.weights[self.len] = weight;
-        self.len += 1;
-        self.total += weight;
+    fn empty() -> Self {
+        const NONE: [f32; OPENED * LANES] = [0.0; OPENED * LANES];
+        Self { slots: [0; OPENED * LANES], shares: NONE, plain: NONE, len: 0, total: 0.0 }
     }
 
-    /// Sum of all weights.
+    fn push(&mut self, slot: u32, raised: f32, plain: f32) {
+        self.slots[self.len] = slot;
+        self.shares[self.len] = raised;
+        self.plain[self.len] = plain;
+        self.len += 1;
+    }
+
+    /// Sum of what all count, raised by the gloss.
     pub(super) fn total(&self) -> f32 {
         self.total
     }
 
     /// The slot that `u` in [0, 1) falls on, its probability, and where in it `u` lies; `None` where nothing counts.
     pub(super) fn draw(&self, u: f64) -> Option<(Slot, f32, f64)> {
-        let (i, within) = fall(&self.weights[..self.len], self.total, u)?;
-        Some((slot_of(self.slots[i]), self.weights[i] / self.total, within))
+        let (i, share, within) = draw(&self.shares[..self.len], u)?;
+        Some((slot_of(self.slots[i]), share, within))
     }
 
     /// The probability of a slot; `None` where it is no part of the cut.
     pub(super) fn share(&self, slot: Slot) -> Option<f32> {
         let i = self.slots[..self.len].iter().position(|other| *other == coded(slot))?;
-        Some(self.weights[i] / self.total)
+        Some(share(&self.shares[..self.len], i))
     }
 }
 

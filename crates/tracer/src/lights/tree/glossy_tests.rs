@@ -109,7 +109,7 @@ fn no_lamp_that_a_glossy_surface_sees_is_lost() {
         let question = TreeQuery { receiver, lamp: |i| lamps[i as usize].irradiance(receiver) };
         let start = tree.start(&question);
         for (i, light) in lamps.iter().enumerate() {
-            let (told, arrives) = (tree.probability(&question, &start, i), light.irradiance(receiver) > 0.0);
+            let (told, arrives) = (tree.probability(&question, &start, i), light.irradiance(receiver).raised > 0.0);
             assert!(told.is_finite() && (told > 0.0) == arrives, "{name}, lamp {i}: {told}, {arrives}");
         }
     });

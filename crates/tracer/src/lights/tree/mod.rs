@@ -34,14 +34,16 @@ use falling::{draw, share};
 use light_tree::Slot;
 use node::LANES;
 
+use crate::lights::lamp::LampIrradiance;
+
 pub(super) use bounds::LightBounds;
-pub(super) use light_tree::{LightTree, TreeQuery};
+pub(super) use light_tree::{LightTree, MATT_SHARE, TreeQuery};
 pub(super) use start::Start;
 
 impl LightTree {
     /// The light that `u` in [0, 1) falls on, and its probability; `None` where nothing reaches the receiver, unless
     /// there is but one light. `start` is this receiver's.
-    pub(super) fn pick<F: Fn(u32) -> f32>(
+    pub(super) fn pick<F: Fn(u32) -> LampIrradiance>(
         &self,
         question: &TreeQuery<'_, F>,
         start: &Start,
@@ -50,7 +52,7 @@ impl LightTree {
         let (slot, mut probability, mut u) = start.draw(u)?;
         let mut child = self.nodes[slot.node as usize].child(usize::from(slot.lane));
         while child.is_node {
-            let (lane, share, within) = draw(&self.weights(child.index, question), u)?;
+            let (lane, share, within) = draw(&self.shares(child.index, question), u)?;
             probability *= share;
             u = within;
             child = self.nodes[child.index as usize].child(lane);
@@ -59,7 +61,7 @@ impl LightTree {
     }
 
     /// The probability by which [`LightTree::pick`] gives a light.
-    pub(super) fn probability<F: Fn(u32) -> f32>(
+    pub(super) fn probability<F: Fn(u32) -> LampIrradiance>(
         &self,
         question: &TreeQuery<'_, F>,
         start: &Start,
@@ -69,7 +71,7 @@ impl LightTree {
     }
 
     /// Probability of coming to a slot.
-    fn reach<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, start: &Start, slot: Slot) -> f32 {
+    fn reach<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, start: &Start, slot: Slot) -> f32 {
         if let Some(share) = start.share(slot) {
             return share;
         }
@@ -78,15 +80,15 @@ impl LightTree {
             0 => 0.0,
             node => self.reach(question, start, self.parents[node as usize]),
         };
-        if above > 0.0 { above * share(&self.weights(slot.node, question), usize::from(slot.lane)) } else { 0.0 }
+        if above > 0.0 { above * share(&self.shares(slot.node, question), usize::from(slot.lane)) } else { 0.0 }
     }
 
     /// Estimate of the irradiance at the receiver, W·m⁻²·nm⁻¹: finer where the greatest cluster is near.
-    pub(super) fn irradiance<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>, start: &Start) -> f64 {
+    pub(super) fn irradiance<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>, start: &Start) -> f64 {
         let mut weights = match start {
             Start::Cut(cut) => return self.scale * f64::from(cut.total()),
             Start::Root(weights) => *weights,
-            Start::Only => self.weights(0, question),
+            Start::Only => self.raised_weights(0, question),
         };
         let (mut node, mut sum) = (0, 0.0);
         loop {
@@ -100,7 +102,7 @@ impl LightTree {
             weights[lane] = 0.0;
             sum += f64::from(weights.iter().sum::<f32>());
             node = child.index;
-            weights = self.weights(node, question);
+            weights = self.raised_weights(node, question);
         }
     }
 }

@@ -18,7 +18,8 @@ use glam::Vec3;
 /// Children of a node.
 pub(super) const LANES: usize = 8;
 
-type Lanes = [f32; LANES];
+/// One number for each of a node's children.
+pub(super) type Lanes = [f32; LANES];
 
 /// Eight children, component by component. Lanes without a child have no intensity.
 #[derive(Clone, Debug, Default)]
@@ -112,25 +113,32 @@ impl Node {
     /// What each child counts for a receiver: four children at a time, the second four where there are any.
     pub(super) fn weights(&self, receiver: &LightSampleContext) -> Lanes {
         let mut weights = [0.0; LANES];
-        match &receiver.gloss {
-            None => self.fill(&mut weights, receiver, |_, _| [0.0; 4]),
-            Some(gloss) => self.fill(&mut weights, receiver, |direction, sin| gloss.relative_four(direction, sin)),
-        }
+        self.fill(receiver, |from, reached| weights[from..from + 4].copy_from_slice(&reached.plain()));
+        weights
+    }
+
+    /// What each child counts for a receiver of this gloss, and what it counts for a matt one.
+    pub(super) fn glossy_weights(&self, receiver: &LightSampleContext, gloss: &ReceiverGloss) -> GlossyWeights {
+        let mut weights = GlossyWeights::default();
+        self.fill(receiver, |from, reached| {
+            weights.plain[from..from + 4].copy_from_slice(&reached.plain());
+            weights.raised[from..from + 4].copy_from_slice(&reached.raised(gloss));
+        });
         weights
     }
 
     #[inline(always)]
-    fn fill(&self, weights: &mut Lanes, receiver: &LightSampleContext, glossy: impl Fn([Four; 3], Four) -> Four) {
-        weights[..4].copy_from_slice(&self.four(0, receiver, &glossy));
+    fn fill(&self, receiver: &LightSampleContext, mut keep: impl FnMut(usize, Reached)) {
+        keep(0, self.four(0, receiver));
         if self.used > 4 {
-            weights[4..].copy_from_slice(&self.four(4, receiver, &glossy));
+            keep(4, self.four(4, receiver));
         }
     }
 
-    /// The weights of four children from lane `from` on. In small steps without branches, each over all four, so that
+    /// What reaches the receiver of four children from lane `from` on. In small steps without branches, each over all four, so that
     /// the compiler lets them go side by side.
     #[inline(always)]
-    fn four(&self, from: usize, receiver: &LightSampleContext, glossy: &impl Fn([Four; 3], Four) -> Four) -> Four {
+    fn four(&self, from: usize, receiver: &LightSampleContext) -> Reached {
         let (p, n) = (receiver.position, receiver.normal);
         // 1 where light counts from everywhere, and the cosine then does not.
         let everywhere = if n == Vec3::ZERO { 1.0 } else { 0.0 };
@@ -156,12 +164,59 @@ impl Node {
         let (_, cos_3) = less((sin_i, cos_i), (sin_u, cos_u));
         let receives = each(|i| at_least(at_least(cos_3[i] + MARGIN, 0.0), everywhere));
 
-        let gloss = glossy([each(|i| x[i] * per_d[i]), each(|i| y[i] * per_d[i]), each(|i| z[i] * per_d[i])], sin_u);
-        let scattered = each(|i| if receives[i] > 0.0 { receives[i] + gloss[i] } else { 0.0 });
-        let seen = each(|i| if d2[i] <= radius2[i] { 1.0 + gloss[i] } else { emits[i] * scattered[i] });
         let far2 = each(|i| at_least(at_least(d2[i], INSIDE * radius2[i]), f32::MIN_POSITIVE));
-        each(|i| self.intensity[from + i] * seen[i] / far2[i])
+        Reached {
+            directions: [each(|i| x[i] * per_d[i]), each(|i| y[i] * per_d[i]), each(|i| z[i] * per_d[i])],
+            sin_u,
+            is_inside: core::array::from_fn(|i| d2[i] <= radius2[i]),
+            emits,
+            receives,
+            intensity: each(|i| self.intensity[from + i]),
+            far2,
+        }
     }
+}
+
+/// What of four clusters reaches a receiver.
+struct Reached {
+    /// Unit, towards them.
+    directions: [Four; 3],
+    sin_u: Four,
+    /// Whether the receiver is within the cluster's sphere.
+    is_inside: [bool; 4],
+    emits: Four,
+    receives: Four,
+    intensity: Four,
+    /// Squared distance, m², or a little more from within or near by.
+    far2: Four,
+}
+
+impl Reached {
+    /// What it counts for a matt receiver.
+    #[inline(always)]
+    fn plain(&self) -> Four {
+        self.counted([0.0; 4])
+    }
+
+    /// What it counts for a glossy one.
+    #[inline(always)]
+    fn raised(&self, gloss: &ReceiverGloss) -> Four {
+        self.counted(gloss.relative_four(self.directions, self.sin_u))
+    }
+
+    #[inline(always)]
+    fn counted(&self, gloss: Four) -> Four {
+        let scattered = each(|i| if self.receives[i] > 0.0 { self.receives[i] + gloss[i] } else { 0.0 });
+        let seen = each(|i| if self.is_inside[i] { 1.0 + gloss[i] } else { self.emits[i] * scattered[i] });
+        each(|i| self.intensity[i] * seen[i] / self.far2[i])
+    }
+}
+
+/// What eight children count for a glossy receiver, and for a matt one in its place.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct GlossyWeights {
+    pub(super) raised: Lanes,
+    pub(super) plain: Lanes,
 }
 
 /// Sine and cosine of max(a − b, 0), for angles of 0…π given by theirs.

@@ -4,6 +4,7 @@ use super::cut::Cut;
 use super::falling::{draw, share};
 use super::light_tree::{LightTree, Slot, TreeQuery};
 use super::node::LANES;
+use crate::lights::lamp::LampIrradiance;
 
 /// What a receiver chooses from first.
 #[expect(
@@ -22,14 +23,13 @@ pub(in crate::lights) enum Start {
 impl LightTree {
     /// Where the way down starts.
     #[inline(always)]
-    pub(in crate::lights) fn start<F: Fn(u32) -> f32>(&self, question: &TreeQuery<'_, F>) -> Start {
+    pub(in crate::lights) fn start<F: Fn(u32) -> LampIrradiance>(&self, question: &TreeQuery<'_, F>) -> Start {
         if self.len() == 1 {
             return Start::Only;
         }
-        let weights = self.weights(0, question);
         match &question.receiver.gloss {
-            None => Start::Root(weights),
-            Some(gloss) => Start::Cut(self.cut(question, gloss, weights)),
+            None => Start::Root(self.weights(0, question)),
+            Some(gloss) => Start::Cut(self.cut(question, gloss)),
         }
     }
 }

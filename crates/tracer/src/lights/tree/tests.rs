@@ -40,7 +40,7 @@ fn ask(
     lamps: &[LampLight],
     size: f64,
     centre: DVec3,
-    f: impl Fn(&LightTree, &LightSampleContext, &dyn Fn(u32) -> f32),
+    f: impl Fn(&LightTree, &LightSampleContext, &dyn Fn(u32) -> LampIrradiance),
 ) {
     let bounds: Vec<_> = lamps.iter().map(LampLight::bounds).collect();
     let tree = LightTree::new(&bounds).expect("lamps that shine");
@@ -100,7 +100,7 @@ fn no_light_that_arrives_is_lost() {
             let question = TreeQuery { receiver, lamp };
             let start = tree.start(&question);
             for (i, light) in lamps.iter().enumerate() {
-                let (told, arrives) = (tree.probability(&question, &start, i), light.irradiance(receiver) > 0.0);
+                let (told, arrives) = (tree.probability(&question, &start, i), light.irradiance(receiver).raised > 0.0);
                 assert!(told.is_finite() && (told > 0.0) == arrives, "lamp {i}: {told}, {arrives}");
             }
             assert!(tree.irradiance(&question, &start).is_finite());
@@ -130,7 +130,7 @@ fn estimates_are_of_the_size_of_what_arrives() {
     let lamps = lamps(400, DVec3::ZERO, 200.0, 1.0);
     ask(&lamps, 200.0, DVec3::ZERO, |tree, receiver, lamp| {
         if receiver.normal == Vec3::ZERO {
-            let exact: f64 = lamps.iter().map(|l| f64::from(l.irradiance(receiver))).sum();
+            let exact: f64 = lamps.iter().map(|l| f64::from(l.irradiance(receiver).raised)).sum();
             let question = TreeQuery { receiver, lamp };
             let ratio = tree.irradiance(&question, &tree.start(&question)) / exact;
             assert!((0.2..5.0).contains(&ratio), "{ratio}");
