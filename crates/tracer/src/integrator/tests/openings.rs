@@ -269,7 +269,7 @@ fn points_are_drawn_by_the_densities_told() {
                     sample.pdf
                 );
             }
-            let cuts = shape.mesh().map_or(80, |mesh| 1 + (5000 / mesh.triangles().len()).isqrt());
+            let cuts = shape.mesh().map_or(60, |mesh| 1 + (5000 / mesh.triangles().len()).isqrt());
             for (place, area) in patches(&shape, to_world, cuts) {
                 let way = place.as_vec3() - from;
                 let cos = area.normalize().dot(way.as_dvec3().normalize());

@@ -97,8 +97,8 @@ impl Opening {
         if share > MOST_LOST { Err(OpeningError::EdgeOn { share }) } else { Ok(()) }
     }
 
-    /// Share of a profile's flux that is lost along the plane of a flat opening, ∫ (1 − |c|/[`LEAST_COS`]) dc dφ with the cosine c from
-    /// the plane's normal; 0 of bodies.
+    /// Share of a profile's flux that is lost along the plane of a flat opening, ∫ (1 − |c|/10⁻³) dc dφ over |c| < 10⁻³ with the cosine c
+    /// from the plane's normal; 0 of bodies.
     #[must_use]
     pub fn lost_share(&self, profile: &Profile) -> f64 {
         let Some(axis) = self.flat_axis().filter(|_| profile.flux_sr() > 0.0) else { return 0.0 };
