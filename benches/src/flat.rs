@@ -29,5 +29,5 @@ fn instances<'w>(view: &RenderSpace<'w>) -> impl Iterator<Item = u32> + use<'w> 
 }
 
 fn triangles<'a>(view: &'a RenderSpace<'_>, instance: u32) -> impl Iterator<Item = [Vec3; 3]> + 'a {
-    (0..view.primitive_count(instance)).map(move |primitive| view.triangle(instance, primitive))
+    (0..view.primitive_count(instance)).map(move |primitive| view.triangle(instance, primitive, 0.0))
 }

@@ -6,6 +6,7 @@ use crate::questions::{Questions, questions};
 use crate::runs::{COUNT, Runs};
 use crate::scenes::{STREET, camera};
 use crate::table::Table;
+use etendue_core::TimeInterval;
 use etendue_tracer::accel::Simd;
 use etendue_tracer::render_space::RenderSpace;
 use glam::DVec3;
@@ -20,10 +21,10 @@ pub fn table() -> Table {
     let origin_m = camera.pose.position_m;
     let flat = flat::world(flat::mesh(&plan.world.render_space(origin_m)));
     let views = [
-        plan.world.render_space_with(origin_m, Simd::Auto),
-        plan.world.render_space_with(origin_m, Simd::Scalar),
-        flat.render_space_with(DVec3::ZERO, Simd::Auto),
-        flat.render_space_with(DVec3::ZERO, Simd::Scalar),
+        plan.world.render_space_with(origin_m, TimeInterval::default(), Simd::Auto),
+        plan.world.render_space_with(origin_m, TimeInterval::default(), Simd::Scalar),
+        flat.render_space_with(DVec3::ZERO, TimeInterval::default(), Simd::Auto),
+        flat.render_space_with(DVec3::ZERO, TimeInterval::default(), Simd::Scalar),
     ];
     let questions = questions(&plan, camera, &views[0]);
     let head = ["ray", "thousands", "met", "AVX2", "scalar", "as one mesh, AVX2", "as one mesh, scalar", "spread"];

@@ -1,6 +1,6 @@
-//! Coordinate frames: bases about a direction, keyframe tracks, camera poses.
+//! Coordinate frames: bases about a direction, camera poses.
 
-use glam::{DAffine3, DMat3, DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 
 /// A right-handed orthonormal basis whose third axis is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,29 +37,6 @@ impl Basis {
     #[must_use]
     pub fn inward(&self, v: Vec3) -> Vec3 {
         Vec3::new(self.x.dot(v), self.y.dot(v), self.z.dot(v))
-    }
-}
-
-/// A transform over time: keyframes in order of time. One key is an object that stands still.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Track {
-    keys: Vec<(f64, DAffine3)>,
-}
-
-impl Track {
-    /// A transform that does not change.
-    #[must_use]
-    pub fn still(transform: DAffine3) -> Self {
-        Self { keys: vec![(0.0, transform)] }
-    }
-
-    /// Where the track does not change over time, its transform; `None` for a moving one.
-    #[must_use]
-    pub fn as_still(&self) -> Option<DAffine3> {
-        match self.keys.as_slice() {
-            [(_, only)] => Some(*only),
-            _ => None,
-        }
     }
 }
 

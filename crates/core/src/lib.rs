@@ -1,6 +1,6 @@
 //! Vocabulary of Étendue.
 //!
-//! Quantities with units, coordinate frames, rays, wavelength sets, planes of pixels, random addresses and
+//! Quantities with units, coordinate frames, transforms over time, rays, wavelength sets, planes of pixels, random addresses and
 //! deterministic mathematics: the words in which the stages of the simulation speak to each other.
 //!
 //! This crate knows no stage, does no input or output and holds no policy.
@@ -24,14 +24,18 @@ pub mod plane;
 pub mod quantity;
 pub mod random;
 pub mod ray;
+mod time_interval;
+pub mod track;
 pub mod warp;
 pub mod wavelength;
 mod wavelength_density;
 
 pub use effect_status::EffectStatus;
 pub use field::{FieldRay, RadianceField};
-pub use frame::{Basis, CameraPose, Track};
+pub use frame::{Basis, CameraPose};
 pub use plane::{Plane, SpectralCube};
 pub use ray::{PupilRay, Ray};
+pub use time_interval::TimeInterval;
+pub use track::Track;
 pub use wavelength::{Bands, Spectral, Wavelengths};
 pub use wavelength_density::WavelengthDensity;

@@ -1,7 +1,8 @@
 //! The world about one camera.
 //!
 //! A [`RenderSpace`] places every instance relative to the camera's entrance pupil in f64 and only then goes to f32, so that
-//! precision is best near the camera wherever in the world it stands. Rays and answers are in the render frame (axes of
+//! precision is best near the camera wherever in the world it stands. So are times: rays count theirs from the start of the view's
+//! interval. What moves is where it is at a ray's own time. Rays and answers are in the render frame (axes of
 //! the world, origin at the entrance pupil, m). Nothing about a mesh is rebuilt.
 
 mod footprint;
@@ -15,41 +16,44 @@ pub use truth::Truth;
 
 use crate::accel::tlas::Tlas;
 use crate::accel::{Simd, Visits, World};
-use crate::geometry::{Footprint, Hit, InstanceTransform, Shape, SurfacePoint};
-use etendue_core::Ray;
+use crate::geometry::{Footprint, Hit, InstanceTransform, Placement, Shape, SurfacePoint};
+use etendue_core::{Ray, TimeInterval};
 use glam::{DVec3, Vec2, Vec3};
+use std::borrow::Cow;
 
 impl World {
-    /// The world placed about a camera whose entrance pupil is at `origin_m` (world, m).
+    /// The world placed about a camera whose entrance pupil is at `origin_m` (world, m), at the time 0.
     #[must_use]
     pub fn render_space(&self, origin_m: DVec3) -> RenderSpace<'_> {
-        self.render_space_with(origin_m, Simd::Auto)
+        self.render_space_with(origin_m, TimeInterval::default(), Simd::Auto)
     }
 
-    /// As [`World::render_space`], with a choice of instruction set.
+    /// As [`World::render_space`], during an interval of time and with a choice of instruction set. The rays of the view have
+    /// times in that interval, which count from its start; a ray of a time outside sees the world at the nearer end.
     #[must_use]
-    pub fn render_space_with(&self, origin_m: DVec3, simd: Simd) -> RenderSpace<'_> {
-        let placed = self.placed(origin_m);
-        RenderSpace { world: self, origin_m, top: Tlas::merging(self, placed, simd) }
+    pub fn render_space_with(&self, origin_m: DVec3, interval: TimeInterval, simd: Simd) -> RenderSpace<'_> {
+        let placed = self.placed(origin_m, interval);
+        RenderSpace { world: self, origin_m, interval, top: Tlas::merging(self, placed, simd) }
     }
 
-    /// As [`World::render_space`], made in less time for few rays, which take longer: no instance is written out.
+    /// As [`World::render_space_with`], made in less time for few rays, which take longer: no instance is written out.
     #[must_use]
-    pub fn render_space_for_few(&self, origin_m: DVec3) -> RenderSpace<'_> {
-        let placed = self.placed(origin_m);
-        RenderSpace { world: self, origin_m, top: Tlas::new(self, placed, None, Simd::Auto) }
+    pub fn render_space_for_few(&self, origin_m: DVec3, interval: TimeInterval) -> RenderSpace<'_> {
+        let placed = self.placed(origin_m, interval);
+        RenderSpace { world: self, origin_m, interval, top: Tlas::new(self, placed, None, Simd::Auto) }
     }
 
-    fn placed(&self, origin_m: DVec3) -> Vec<InstanceTransform> {
-        self.instances().iter().map(|i| InstanceTransform::new(i, origin_m)).collect()
+    fn placed(&self, origin_m: DVec3, interval: TimeInterval) -> Vec<Placement> {
+        self.instances().iter().map(|i| Placement::new(i, origin_m, interval)).collect()
     }
 }
 
-/// A world placed about a camera, ready to be asked by rays.
+/// A world placed about a camera during an interval of time, ready to be asked by rays.
 #[derive(Clone, Debug)]
 pub struct RenderSpace<'w> {
     world: &'w World,
     origin_m: DVec3,
+    interval: TimeInterval,
     top: Tlas<'w>,
 }
 
@@ -64,6 +68,12 @@ impl<'w> RenderSpace<'w> {
     #[must_use]
     pub fn origin_m(&self) -> DVec3 {
         self.origin_m
+    }
+
+    /// The interval of time that is seen; rays' times count from its start.
+    #[must_use]
+    pub fn interval(&self) -> TimeInterval {
+        self.interval
     }
 
     /// The first surface that a ray meets, with t > 0 and t < `ray.t_max`. Surfaces are met from both sides. Of several
@@ -90,9 +100,9 @@ impl<'w> RenderSpace<'w> {
     #[must_use]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let instance = &self.world.instances()[hit.instance as usize];
-        let placed = self.placed(hit.instance);
+        let placed = &*self.placed_at(hit.instance, ray.time_s);
         match instance.shape {
-            Shape::Mesh(id) => point::of_mesh(self.world.mesh(id), instance, placed, hit),
+            Shape::Mesh(id) => point::of_mesh(self.world.mesh(id), instance, placed, ray, hit),
             Shape::Sphere { radius_m } => point::of_sphere(radius_m, instance, placed, ray, hit),
         }
     }
@@ -100,7 +110,7 @@ impl<'w> RenderSpace<'w> {
     /// How large texture and shape are about a point of this view's surfaces.
     #[must_use]
     pub fn footprint(&self, point: &SurfacePoint) -> Footprint {
-        let placed = self.placed(point.instance);
+        let placed = &*self.placed_at(point.instance, point.time_s);
         match self.world.instances()[point.instance as usize].shape {
             Shape::Mesh(id) => footprint::of_mesh(self.world.mesh(id), placed, point.primitive),
             Shape::Sphere { radius_m } => footprint::of_sphere(radius_m, placed),
@@ -120,7 +130,7 @@ impl<'w> RenderSpace<'w> {
     /// the surface at a point.
     #[must_use]
     pub fn change_along(&self, point: &SurfacePoint, vector: Vec3) -> (Vec2, Vec3) {
-        let local = self.placed(point.instance).vector_to_local(vector.as_dvec3());
+        let local = self.placed_at(point.instance, point.time_s).vector_to_local(vector.as_dvec3());
         let uv = match self.world.instances()[point.instance as usize].shape {
             Shape::Mesh(id) => footprint::uv_along(self.world.mesh(id), point.primitive, local),
             Shape::Sphere { .. } => footprint::globe_along(point.local.as_dvec3(), local),
@@ -133,7 +143,7 @@ impl<'w> RenderSpace<'w> {
     /// without texture coordinates, where they do not span the triangle, at the poles of a sphere.
     #[must_use]
     pub fn tangents(&self, point: &SurfacePoint) -> Option<[Vec3; 2]> {
-        let placed = self.placed(point.instance);
+        let placed = &*self.placed_at(point.instance, point.time_s);
         let local = match self.world.instances()[point.instance as usize].shape {
             Shape::Mesh(id) => tangents::of_mesh(self.world.mesh(id), point.primitive)?,
             Shape::Sphere { .. } => tangents::of_sphere(point.local.as_dvec3())?,
@@ -142,8 +152,13 @@ impl<'w> RenderSpace<'w> {
     }
 
     /// An instance's place.
-    pub(crate) fn placed(&self, instance: u32) -> &InstanceTransform {
+    pub(crate) fn placed(&self, instance: u32) -> &Placement {
         &self.top.placed()[instance as usize]
+    }
+
+    /// An instance's transforms at a ray's time.
+    fn placed_at(&self, instance: u32, time_s: f32) -> Cow<'_, InstanceTransform> {
+        self.placed(instance).at(time_s)
     }
 
     /// Primitives of an instance: its triangles, or 1 for a sphere.
@@ -155,29 +170,29 @@ impl<'w> RenderSpace<'w> {
         }
     }
 
-    /// The corners of a triangle in the render frame, m, anticlockwise about its geometric normal: in the mesh's order,
+    /// The corners of a triangle in the render frame at a ray's time, m, anticlockwise about its geometric normal: in the mesh's order,
     /// but vertices 1 and 2 exchanged in an instance that mirrors. Panics where the instance is a sphere.
     #[must_use]
-    pub fn triangle(&self, instance: u32, primitive: u32) -> [Vec3; 3] {
+    pub fn triangle(&self, instance: u32, primitive: u32, time_s: f32) -> [Vec3; 3] {
         let Shape::Mesh(id) = self.world.instances()[instance as usize].shape else {
             panic!("instance {instance} is a sphere and has no triangles");
         };
-        let placed = self.placed(instance);
+        let placed = self.placed_at(instance, time_s);
         let [a, b, c] = self.world.mesh(id).corners(primitive).map(|p| placed.point_to_render(p.as_dvec3()).as_vec3());
         if placed.mirrors() { [a, c, b] } else { [a, b, c] }
     }
 
-    /// Centre (render frame, m) and radius (m) of an instance that is a sphere there too; `None` for meshes and for
-    /// spheres that their instance stretches unevenly.
+    /// Centre (render frame, m) and radius (m) of an instance that is a sphere there too, at a ray's time; `None` for meshes and
+    /// for spheres that their instance stretches unevenly.
     #[must_use]
-    pub fn sphere(&self, instance: u32) -> Option<(Vec3, f32)> {
+    pub fn sphere(&self, instance: u32, time_s: f32) -> Option<(Vec3, f32)> {
         let Shape::Sphere { radius_m } = self.world.instances()[instance as usize].shape else { return None };
-        let placed = self.placed(instance);
+        let placed = self.placed_at(instance, time_s);
         let scale = placed.uniform_scale()?;
         Some((placed.point_to_render(DVec3::ZERO).as_vec3(), (radius_m * scale) as f32))
     }
 
-    /// Centre (render frame, m) and radius (m) of a sphere about everything; both zero in an empty world.
+    /// Centre (render frame, m) and radius (m) of a sphere about everything during the interval; both zero in an empty world.
     #[must_use]
     pub fn bounds(&self) -> (Vec3, f32) {
         let boxes = self.top.placed().iter().zip(self.world.instances());

@@ -9,6 +9,7 @@ use etendue_benches::table::Table;
 use etendue_tracer::accel::{Simd, World};
 use etendue_tracer::geometry::Mesh;
 use etendue_tracer::render_space::RenderSpace;
+use etendue_core::TimeInterval;
 use glam::DVec3;
 use std::hint::black_box;
 
@@ -83,7 +84,7 @@ impl Rates {
 
 fn contest_rates(embree: &Embree, contest: &Contest) -> Vec<Rates> {
     let ours = contest.world.render_space(DVec3::ZERO);
-    let scalar = contest.world.render_space_with(DVec3::ZERO, Simd::Scalar);
+    let scalar = contest.world.render_space_with(DVec3::ZERO, TimeInterval::default(), Simd::Scalar);
     let theirs: Vec<Scene<'_>> = MODES.iter().map(|(_, mode)| embree.scene(contest.mesh(), *mode)).collect();
     let new = |_: &Questions| Rates {
         ours: Runs::default(),

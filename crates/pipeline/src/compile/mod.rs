@@ -37,6 +37,7 @@ use crate::plan::remark::grouped;
 use crate::plan::shared_light;
 use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan};
 use context::Context;
+use etendue_core::TimeInterval;
 use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;
 use etendue_scene::{CameraSetup, Description, Fault};
@@ -88,7 +89,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     sources.lamps.extend(opened);
     for setup in &description.cameras {
         let position = &setup.pose.position_m;
-        context.accept(&position.place, world.check_reach(DVec3::from_array(position.value)));
+        context.accept(&position.place, world.check_reach(DVec3::from_array(position.value), TimeInterval::default()));
     }
     let (material_table, materials) = builder.finish(context)?;
     positions::remark(&cameras, context);

@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use crate::plan::CameraPlan;
+use etendue_core::TimeInterval;
 use etendue_tracer::MaterialId;
 use etendue_tracer::accel::World;
 use etendue_tracer::integrator::Surroundings;
@@ -20,7 +21,10 @@ pub(super) fn remark(
     }
     let name = |id: MaterialId| &materials[id.0 as usize];
     for camera in cameras {
-        let around = Surroundings::of(&world.render_space_for_few(camera.pose.position_m), material_table);
+        let around = Surroundings::of(
+            &world.render_space_for_few(camera.pose.position_m, TimeInterval::default()),
+            material_table,
+        );
         if let Some(solid) = around.solid {
             context.remark_on(format!("camera \"{}\"", camera.name), format!(
                 "stands inside \"{}\": its entrance pupil lies in that medium, which absorbs from there on, and radiance is n² times \

@@ -8,8 +8,8 @@ use crate::render::mosaic::Mosaic;
 use crate::render::observer::Observer;
 use crate::render::spectrum_spread::SpectrumSpread;
 use crate::render::tile::Shard;
-use etendue_core::PupilRay;
 use etendue_core::maths::f64::atan2;
+use etendue_core::{PupilRay, TimeInterval};
 use etendue_optics::{Front, Lens, PupilProjection};
 use etendue_projection::Raster;
 use etendue_tracer::accel::Simd;
@@ -56,12 +56,13 @@ pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn 
 /// Which lights a camera's paths ask.
 #[must_use]
 pub fn light_counts(plan: &Plan, camera: &CameraPlan) -> LightCounts {
-    lights(plan, camera, &plan.world.render_space_for_few(camera.pose.position_m)).light_counts()
+    lights(plan, camera, &plan.world.render_space_for_few(camera.pose.position_m, TimeInterval::default()))
+        .light_counts()
 }
 
 fn lights(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -> Lights {
     Lights::new(view, &plan.material_table, plan.sources.clone(), camera.settings.range_nm)
-        .expect("a compiled plan names only materials that it has, and nothing moves")
+        .expect("a compiled plan names only materials that it has")
 }
 
 fn through<S: RaySource>(
@@ -71,7 +72,7 @@ fn through<S: RaySource>(
     observer: &dyn Observer,
     source: &S,
 ) -> Result<Film, Cancelled> {
-    let view = plan.world.render_space_with(camera.pose.position_m, request.simd);
+    let view = plan.world.render_space_with(camera.pose.position_m, TimeInterval::default(), request.simd);
     let lights = lights(plan, camera, &view);
     let tracer = PathTracer::new(&view, &plan.material_table, &lights, path_settings(camera));
     let settings = &camera.settings;

@@ -7,7 +7,7 @@
 use crate::plan::{CameraPlan, Plan, Route};
 use crate::render::truth::{Seen, seen};
 use etendue_core::quantity::Length;
-use etendue_core::{Plane, PupilRay};
+use etendue_core::{Plane, PupilRay, TimeInterval};
 use etendue_optics::FrontRay;
 use etendue_tracer::accel::Simd;
 use glam::{DVec2, DVec3};
@@ -27,7 +27,7 @@ pub struct PupilDepth {
 pub fn pupil_depth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> Option<PupilDepth> {
     let Route::Pupil(projection) = &camera.settings.route else { return None };
     let (width, height) = (projection.width(), projection.height());
-    let view = plan.world.render_space_with(camera.pose.position_m, simd);
+    let view = plan.world.render_space_with(camera.pose.position_m, TimeInterval::default(), simd);
     let look = |i: usize| {
         let direction = projection.direction(DVec2::new((i % width) as f64, (i / width) as f64) + 0.5);
         direction.map_or(Seen::Nothing, |direction| {

@@ -2,8 +2,8 @@
 //! opacity is there where at least half of it is.
 
 use crate::plan::{CameraBody, CameraPlan, Plan};
-use etendue_core::Plane;
 use etendue_core::quantity::{Identity, Length, Quantity, Vector};
+use etendue_core::{Plane, TimeInterval};
 use etendue_optics::front::{FrontRay, Optic};
 use etendue_tracer::accel::Simd;
 use etendue_tracer::geometry::SurfacePoint;
@@ -70,7 +70,7 @@ struct Look {
 pub fn ground_truth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> GroundTruth {
     let raster = &camera.body.raster;
     let (width, height) = (raster.width(), raster.height());
-    let view = plan.world.render_space_with(camera.pose.position_m, simd);
+    let view = plan.world.render_space_with(camera.pose.position_m, TimeInterval::default(), simd);
     let looks: Vec<Look> = (0..width * height)
         .into_par_iter()
         .map(|i| look(&view, &plan.material_table, camera, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
@@ -133,9 +133,8 @@ pub(crate) fn seen(
     let ray = &front.ray;
     let direction = camera.pose.direction_to_world(ray.direction);
     let ahead = has_planar_depth(front);
-    match view
-        .truth(camera.pose.point_to_render(ray.origin_m), direction, |point| is_there(view, material_table, point))
-    {
+    let origin_m = camera.pose.point_to_render(ray.origin_m);
+    match view.truth(origin_m, direction, 0.0, |point| is_there(view, material_table, point)) {
         None => Seen::Sky { ahead },
         Some(truth) => {
             let depth_m = if ahead { truth.distance_m * ray.direction.z + ray.origin_m.z } else { f64::NAN };

@@ -5,13 +5,13 @@
 //!
 //! Corners are rounded to f32 in the render frame, by half a unit in the last place of their coordinates. A point of such a
 //! triangle is off the true surface by no more than its corners are, and [`InstanceTransform::merged`] has it in its error bound.
-//! An instance with a triangle that is not [`STEEP`] times as high as that is left as it is: its plane would tilt.
+//! An instance that moves has no one place to be written out at, and one with a triangle that is not [`STEEP`] times as high as that is left as it is too: its plane would tilt.
 
 use super::best::Names;
 use super::blas::Blas;
 use super::boxes::Box3;
 use super::world::World;
-use crate::geometry::{InstanceTransform, MeshId, Shape};
+use crate::geometry::{InstanceTransform, MeshId, Placement, Shape};
 use glam::{DVec3, Vec3};
 
 /// Triangles written out at most: 32 MB of trees, and less than half a second of one thread to build them for a view.
@@ -39,14 +39,15 @@ pub(crate) struct Merged {
 
 impl Merged {
     /// Writes out instances of `world` as they are `placed`, and tells these so; `None` where there are none to write out.
-    pub(super) fn new(world: &World, placed: &mut [InstanceTransform]) -> Option<Self> {
+    pub(super) fn new(world: &World, placed: &mut [Placement]) -> Option<Self> {
         let (mut corners, mut names) = (Vec::new(), Vec::new());
-        for instance in few(world) {
+        for instance in few(world, placed) {
             let Shape::Mesh(id) = world.instances()[instance].shape else { continue };
+            let Some(transform) = placed[instance].still_mut() else { continue };
             let begin = corners.len();
-            if let Some(greatest) = write_out(world, id, &placed[instance], &mut corners) {
+            if let Some(greatest) = write_out(world, id, transform, &mut corners) {
                 names.extend((0..(corners.len() - begin) as u32).map(|primitive| (instance as u32, primitive)));
-                placed[instance].merge(greatest.as_dvec3());
+                transform.merge(greatest.as_dvec3());
             } else {
                 corners.truncate(begin);
             }
@@ -62,14 +63,15 @@ impl Merged {
     }
 }
 
-/// Instances of meshes, those of few triangles chosen first, that have [`MOST`] triangles together at most, in ascending order;
+/// Instances of meshes that stand still, those of few triangles chosen first, that have [`MOST`] triangles together at most, in ascending order;
 /// none where there is one only.
-fn few(world: &World) -> Vec<usize> {
+fn few(world: &World, placed: &[Placement]) -> Vec<usize> {
     let triangles = |instance: &usize| match world.instances()[*instance].shape {
         Shape::Mesh(id) => world.mesh(id).triangles().len(),
         Shape::Sphere { .. } => 0,
     };
-    let mut instances: Vec<usize> = (0..world.instances().len()).filter(|i| triangles(i) > 0).collect();
+    let mut instances: Vec<usize> =
+        (0..placed.len()).filter(|i| triangles(i) > 0 && placed[*i].still().is_some()).collect();
     instances.sort_by_key(triangles);
     let mut sum = 0;
     instances.retain(|instance| {

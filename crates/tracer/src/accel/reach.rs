@@ -14,27 +14,29 @@
 //! distance of a surface near the camera would be lost.
 
 use super::world::{World, WorldError};
-use crate::geometry::{Instance, InstanceTransform, Mesh, Shape};
+use crate::geometry::{Instance, InstanceTransform, Mesh, Placement, Shape};
+use etendue_core::TimeInterval;
 use glam::DVec3;
 
 /// R, in units of the mesh's frame; m for spheres.
 const FARTHEST: f64 = 1e12;
 
 impl World {
-    /// Whether rays that start near `origin_m` (world, m) or on any surface can be met with every mesh.
+    /// Whether rays that start near `origin_m` (world, m) or on any surface can be met with every mesh at any time of an interval.
+    /// Of a mesh that moves, the camera's rounding in its frame is checked at seventeen even moments, all else by bounds.
     ///
     /// # Errors
     /// Where a mesh is so far away from a ray's start, in units of its own frame, that products of three coordinates
     /// leave f32: such a ray would pass it unseen.
-    pub fn check_reach(&self, origin_m: DVec3) -> Result<(), WorldError> {
-        check(self, origin_m)
+    pub fn check_reach(&self, origin_m: DVec3, interval: TimeInterval) -> Result<(), WorldError> {
+        check(self, origin_m, interval)
     }
 }
 
 /// Whether every mesh can be met from the camera at `origin_m` and from every surface.
-fn check(world: &World, origin_m: DVec3) -> Result<(), WorldError> {
+fn check(world: &World, origin_m: DVec3, interval: TimeInterval) -> Result<(), WorldError> {
     let instances = world.instances();
-    let placed: Vec<_> = instances.iter().map(|i| InstanceTransform::new(i, origin_m)).collect();
+    let placed: Vec<_> = instances.iter().map(|i| Placement::new(i, origin_m, interval)).collect();
     let bounds = placed.iter().zip(instances).filter_map(|(p, i)| p.bounds(i, world.meshes()));
     // Rays start at the camera, which is the origin, or on a surface.
     let (low, high) = bounds.fold((DVec3::ZERO, DVec3::ZERO), |(low, high), b| (low.min(b.0), high.max(b.1)));
@@ -45,7 +47,7 @@ fn check(world: &World, origin_m: DVec3) -> Result<(), WorldError> {
                 if !(0.0..=FARTHEST).contains(&reach) {
                     return Err(WorldError::Reach { instance, reach });
                 }
-                check_rounding(instance, placed, world.mesh(id))?;
+                placed.moments().iter().try_for_each(|moment| check_rounding(instance, moment, world.mesh(id)))?;
             }
             Shape::Sphere { .. } => check_sphere(instance, placed, &instances[instance], world)?,
         }
@@ -69,12 +71,7 @@ fn check_rounding(instance: usize, placed: &InstanceTransform, mesh: &Mesh) -> R
     Ok(())
 }
 
-fn check_sphere(
-    index: usize,
-    placed: &InstanceTransform,
-    instance: &Instance,
-    world: &World,
-) -> Result<(), WorldError> {
+fn check_sphere(index: usize, placed: &Placement, instance: &Instance, world: &World) -> Result<(), WorldError> {
     let reach =
         placed.bounds(instance, world.meshes()).map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
     if (0.0..=FARTHEST).contains(&reach) { Ok(()) } else { Err(WorldError::Sphere { instance: index, reach_m: reach }) }

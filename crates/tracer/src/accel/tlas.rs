@@ -17,7 +17,7 @@ use super::simd::Avx2;
 use super::visits::{Counting, Visits};
 use super::walk::{Leaves, walk};
 use super::world::World;
-use crate::geometry::{Hit, Instance, InstanceTransform, Shape, sphere};
+use crate::geometry::{Hit, Instance, Placement, Shape, sphere};
 use core::cell::Cell;
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};
@@ -70,19 +70,19 @@ pub(crate) struct Tlas<'w> {
     leaves: Vec<u32>,
     merged: Option<Merged>,
     targets: Vec<Target<'w>>,
-    placed: Vec<InstanceTransform>,
+    placed: Vec<Placement>,
     chosen: Chosen,
 }
 
 impl<'w> Tlas<'w> {
     /// Builds the tree over instances placed in the render frame, small ones written out.
-    pub(crate) fn merging(world: &'w World, mut placed: Vec<InstanceTransform>, simd: Simd) -> Self {
+    pub(crate) fn merging(world: &'w World, mut placed: Vec<Placement>, simd: Simd) -> Self {
         let merged = Merged::new(world, &mut placed);
         Self::new(world, placed, merged, simd)
     }
 
     /// Builds the tree over instances placed in the render frame, of which some may be written out.
-    pub(crate) fn new(world: &'w World, placed: Vec<InstanceTransform>, merged: Option<Merged>, simd: Simd) -> Self {
+    pub(crate) fn new(world: &'w World, placed: Vec<Placement>, merged: Option<Merged>, simd: Simd) -> Self {
         let bounded = placed.iter().zip(world.instances()).zip(0_u32..).filter(|((placed, _), _)| !placed.is_merged());
         let single = bounded.filter_map(|((placed, instance), index)| {
             Some((Box3::from_f64(placed.bounds(instance, world.meshes())?), index))
@@ -99,7 +99,7 @@ impl<'w> Tlas<'w> {
     }
 
     /// The instances' places, by their index.
-    pub(crate) fn placed(&self) -> &[InstanceTransform] {
+    pub(crate) fn placed(&self) -> &[Placement] {
         &self.placed
     }
 

@@ -4,7 +4,6 @@ use super::blas::Blas;
 use super::build::TreeQuality;
 use crate::MaterialId;
 use crate::geometry::{Instance, Mesh, MeshId, Shape, uniform_scale};
-use glam::DAffine3;
 use rayon::prelude::*;
 
 /// Why a world is refused.
@@ -36,9 +35,12 @@ pub enum WorldError {
         /// The instance, counted from 0.
         instance: usize,
     },
-    /// An instance moves over time.
-    #[error("instance {instance} moves, but only still instances can be traced; give it one pose")]
-    Moving {
+    /// The motion of an instance takes a scale to zero or through it.
+    #[error(
+        "instance {instance} is flattened at some time of its motion; give its scale one sign along each axis at all keys, and \
+         keys near zero so close in time that smooth interpolation does not pass through it"
+    )]
+    Flattened {
         /// The instance, counted from 0.
         instance: usize,
     },
@@ -159,8 +161,11 @@ fn check(index: usize, instance: &Instance, meshes: &[Mesh]) -> Result<(), World
     if instance.materials.len() < expected {
         return Err(WorldError::MissingMaterials { instance: index, found: instance.materials.len(), expected });
     }
-    let still = instance.to_world.as_still().ok_or(WorldError::Moving { instance: index })?;
-    if is_invertible(&still) { Ok(()) } else { Err(WorldError::Transform { instance: index }) }
+    match (instance.to_world.is_invertible(), instance.to_world.as_still()) {
+        (true, _) => Ok(()),
+        (false, Some(_)) => Err(WorldError::Transform { instance: index }),
+        (false, None) => Err(WorldError::Flattened { instance: index }),
+    }
 }
 
 fn slots(index: usize, instance: &Instance, meshes: &[Mesh]) -> Result<usize, WorldError> {
@@ -173,11 +178,6 @@ fn slots(index: usize, instance: &Instance, meshes: &[Mesh]) -> Result<usize, Wo
         Shape::Sphere { radius_m } if radius_m > 0.0 && radius_m.is_finite() => Ok(1),
         Shape::Sphere { radius_m } => Err(WorldError::Radius { instance: index, radius_m }),
     }
-}
-
-fn is_invertible(transform: &DAffine3) -> bool {
-    let inverse = transform.inverse();
-    transform.is_finite() && transform.matrix3.determinant() != 0.0 && inverse.is_finite()
 }
 
 /// Meshes with their trees, and instances of them. Immutable.

@@ -1,4 +1,4 @@
-//! An instance relative to the camera.
+//! An instance relative to the camera, at one moment.
 
 use super::{Instance, Mesh, Shape};
 use etendue_core::{Ray, maths};
@@ -21,11 +21,9 @@ pub(crate) struct InstanceTransform {
 }
 
 impl InstanceTransform {
-    /// Places an instance relative to a camera at `origin_m`. Its track must stand still, as the world has checked.
-    pub(crate) fn new(instance: &Instance, origin_m: DVec3) -> Self {
-        let mut to_render = instance.to_world.as_still().unwrap_or(DAffine3::IDENTITY);
-        to_render.translation -= origin_m;
-        let to_local = to_render.inverse();
+    /// Places an instance relative to a camera at `origin_m`.
+    pub(crate) fn new(to_world: DAffine3, origin_m: DVec3) -> Self {
+        let (to_render, to_local) = about(to_world, origin_m);
         let scale = uniform_scale(&to_render.matrix3);
         // Not by the matrix itself: of very large and very small instances f32 could not hold it.
         let turned = to_local.matrix3.transpose();
@@ -161,6 +159,12 @@ impl InstanceTransform {
         let m = self.to_render.matrix3;
         DMat3::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs())
     }
+}
+
+/// To the render frame of a camera at `origin_m`, and back.
+pub(super) fn about(mut to_world: DAffine3, origin_m: DVec3) -> (DAffine3, DAffine3) {
+    to_world.translation -= origin_m;
+    (to_world, to_world.inverse())
 }
 
 pub(crate) fn uniform_scale(m: &DMat3) -> Option<f64> {

@@ -25,6 +25,8 @@ pub struct SurfacePoint {
     pub instance: u32,
     /// Primitive within the instance's shape.
     pub primitive: u32,
+    /// When it is there: the time of the ray that met it, s ([`etendue_core::Ray::time_s`]).
+    pub time_s: f32,
     /// The material here.
     pub material: MaterialId,
 }

@@ -248,7 +248,8 @@ impl<'a, const N: usize> Path<'a, N> {
         // Light from behind counts where the surface lets it through.
         let normal = if vertex.bsdf.transmits() { Vec3::ZERO } else { vertex.frame.normal() };
         let gloss = if vertex.bsdf.transmits() { None } else { self.gloss(vertex) };
-        let receiver = LightSampleContext { position: vertex.point.position, normal, gloss };
+        let receiver =
+            LightSampleContext { position: vertex.point.position, normal, gloss, time_s: vertex.point.time_s };
         self.sample_direct(vertex, &receiver);
         match self.sample(vertex) {
             None => PathStep::Ends,

@@ -13,7 +13,7 @@
 //! pixels of one group are alike.
 //!
 //! Shared is what every path of the group could have found: y is matt, so that L is the same in all directions, is met
-//! straight from x with nothing between, in air, and x is the first surface that scattered the path. All else (light
+//! straight from x with nothing between, in air, at the same time, and x is the first surface that scattered the path. All else (light
 //! met directly, mirrors, glossy second surfaces, cut-outs and panes in between) stays with its own path. Textures at y are
 //! read over the width of the path that is followed on.
 
@@ -182,6 +182,9 @@ impl<'a, const N: usize> Opening<'a, N> {
     /// What the path would get of the tail of another; `None` where it could not have found its second surface.
     fn claim(&self, index: usize, second: &Vertex<'_, N>) -> Option<Claim<N>> {
         let first = self.first.as_ref()?;
+        if first.vertex.point.time_s != second.point.time_s {
+            return None;
+        }
         let between = second.point.position - first.vertex.point.position;
         let direction = between.try_normalize()?;
         if -direction.dot(second.frame.normal()) < UNBENT {

@@ -4,11 +4,12 @@ use glam::DAffine3;
 
 use super::Light;
 use super::lamp::LampLight;
+use super::moving::{MovingLight, Way};
 use super::opening::{Opening, OpeningLight};
 use super::primitives::Primitives;
 use super::sphere::SphereLight;
 use super::tree::LightBounds;
-use super::triangle::TriangleLight;
+use super::triangle::{Facets, TriangleLight};
 use crate::MaterialId;
 use crate::geometry::{Instance, Mesh, Shape};
 use crate::materials::{Emission, EmissionSides, MaterialTable};
@@ -26,12 +27,6 @@ pub enum LightError {
         material: u32,
         /// Number of materials.
         materials: usize,
-    },
-    /// An instance moves over time.
-    #[error("instance {instance} moves, but only still instances can be lit; give it one pose")]
-    Moving {
-        /// The instance, counted from 0.
-        instance: usize,
     },
     /// The surface of a lamp's opening is not what the opening asks for.
     #[error(
@@ -85,20 +80,17 @@ pub(super) fn of_surfaces(
     let mut gathered = Gathered::default();
     for (index, instance) in world.instances().iter().enumerate() {
         check_materials(index, instance, &weigher)?;
-        let to_render = to_render(view, index, instance)?;
+        if !instance.materials.iter().any(|material| weigher.glow(*material).is_some()) {
+            gathered.primitives.push([]);
+            continue;
+        }
+        let place = Place::of(instance, view);
         match instance.shape {
-            Shape::Mesh(id) => gathered.add_mesh(world.mesh(id), instance, &to_render, &weigher),
-            Shape::Sphere { radius_m } => gathered.add_sphere(radius_m, instance.materials[0], &to_render, &weigher),
+            Shape::Mesh(id) => gathered.add_mesh(world.mesh(id), instance, &place, &weigher),
+            Shape::Sphere { radius_m } => gathered.add_sphere(radius_m, instance.materials[0], place, &weigher),
         }
     }
     if gathered.lights.len() >= u32::MAX as usize { Err(LightError::TooMany) } else { Ok(gathered) }
-}
-
-/// From an instance's frame to the render frame.
-fn to_render(view: &RenderSpace<'_>, index: usize, instance: &Instance) -> Result<DAffine3, LightError> {
-    let mut to_render = instance.to_world.as_still().ok_or(LightError::Moving { instance: index })?;
-    to_render.translation -= view.origin_m();
-    Ok(to_render)
 }
 
 fn check_materials(index: usize, instance: &Instance, weigher: &Weigher<'_>) -> Result<(), LightError> {
@@ -109,25 +101,85 @@ fn check_materials(index: usize, instance: &Instance, weigher: &Weigher<'_>) -> 
     }
 }
 
-impl Gathered {
-    fn add_mesh(&mut self, mesh: &Mesh, instance: &Instance, to_render: &DAffine3, weigher: &Weigher<'_>) {
-        if !instance.materials.iter().any(|m| weigher.glow(*m).is_some()) {
-            return self.primitives.push([]);
+/// Where an instance is during the view's interval.
+enum Place {
+    /// To the render frame.
+    Still(DAffine3),
+    Moving(Way),
+}
+
+impl Place {
+    fn of(instance: &Instance, view: &RenderSpace<'_>) -> Self {
+        let (origin_m, interval) = (view.origin_m(), view.interval());
+        match instance.to_world.still_over(interval) {
+            Some(mut to_render) => {
+                to_render.translation -= origin_m;
+                Self::Still(to_render)
+            }
+            None => Self::Moving(Way { to_world: instance.to_world.clone(), origin_m, interval }),
         }
+    }
+
+    /// The light of a triangle, of two together if they are to be a pair and make up a parallelogram, with its bounds.
+    fn facets(
+        &self,
+        mesh: &Mesh,
+        (first, is_pair): (usize, bool),
+        material: MaterialId,
+        (radiance, both): (f64, bool),
+    ) -> Option<(Light, LightBounds)> {
+        let pair = is_pair.then_some([first, first + 1]);
+        match self {
+            Self::Still(to_render) => {
+                let light = pair
+                    .and_then(|pair| TriangleLight::of_two(mesh, pair, to_render, material))
+                    .or_else(|| TriangleLight::new(mesh, first, to_render, material))?;
+                let bounds = light.bounds(radiance, both);
+                Some((Light::Triangle(light), bounds))
+            }
+            Self::Moving(way) => {
+                let facets = pair.and_then(|pair| Facets::two(mesh, pair)).unwrap_or_else(|| Facets::one(mesh, first));
+                let light = MovingLight::of_facets(facets, way.clone(), material);
+                let bounds = light.bounds(radiance, both)?;
+                Some((Light::Moving(Box::new(light)), bounds))
+            }
+        }
+    }
+
+    fn sphere(
+        self,
+        radius_m: f64,
+        material: MaterialId,
+        material_table: &MaterialTable,
+        radiance: f64,
+    ) -> Option<(Light, LightBounds)> {
+        match self {
+            Self::Still(to_render) => {
+                let light = SphereLight::new(radius_m, &to_render, material, material_table);
+                let bounds = light.bounds(radiance);
+                Some((Light::Sphere(light), bounds))
+            }
+            Self::Moving(way) => {
+                let light = MovingLight::of_sphere(radius_m, way, material, material_table);
+                let bounds = light.bounds(radiance, true)?;
+                Some((Light::Moving(Box::new(light)), bounds))
+            }
+        }
+    }
+}
+
+impl Gathered {
+    fn add_mesh(&mut self, mesh: &Mesh, instance: &Instance, place: &Place, weigher: &Weigher<'_>) {
         let material = |primitive: usize| instance.materials[usize::from(mesh.slots()[primitive])];
         let count = mesh.triangles().len();
         let mut lights: Vec<Option<u32>> = Vec::with_capacity(count);
         while lights.len() < count {
             let first = lights.len();
             let light = weigher.glow(material(first)).and_then(|(radiance, glow)| {
-                let pair = (first + 1 < count && material(first + 1) == material(first)).then_some([first, first + 1]);
-                let light = pair
-                    .and_then(|pair| TriangleLight::of_two(mesh, pair, to_render, material(first)))
-                    .or_else(|| TriangleLight::new(mesh, first, to_render, material(first)))?;
-                Some((
-                    light.triangles(),
-                    self.add(light.bounds(radiance, glow == EmissionSides::Both), Light::Triangle(light)),
-                ))
+                let is_pair = first + 1 < count && material(first + 1) == material(first);
+                let both = glow == EmissionSides::Both;
+                let (light, bounds) = place.facets(mesh, (first, is_pair), material(first), (radiance, both))?;
+                Some((light.triangles(), self.add(bounds, light)))
             });
             let (triangles, light) = light.map_or((1, None), |(triangles, light)| (triangles, Some(light)));
             lights.extend(core::iter::repeat_n(light, triangles));
@@ -135,11 +187,12 @@ impl Gathered {
         self.primitives.push(lights);
     }
 
-    fn add_sphere(&mut self, radius_m: f64, material: MaterialId, to_render: &DAffine3, weigher: &Weigher<'_>) {
-        let Some((radiance, _)) = weigher.glow(material) else { return self.primitives.push([]) };
-        let light = SphereLight::new(radius_m, to_render, material, weigher.material_table);
-        let added = self.add(light.bounds(radiance), Light::Sphere(light));
-        self.primitives.push([Some(added)]);
+    fn add_sphere(&mut self, radius_m: f64, material: MaterialId, place: Place, weigher: &Weigher<'_>) {
+        let light = weigher.glow(material).and_then(|(radiance, _)| {
+            let (light, bounds) = place.sphere(radius_m, material, weigher.material_table, radiance)?;
+            Some(self.add(bounds, light))
+        });
+        self.primitives.push([light]);
     }
 
     /// Adds a lamp whose opening is an instance of the world.
@@ -153,7 +206,9 @@ impl Gathered {
         let fault = LightError::Opening { instance };
         let placed = view.world().instances().get(instance as usize).ok_or(fault)?;
         let [material] = placed.materials[..] else { return Err(fault) };
-        let to_render = to_render(view, instance as usize, placed)?;
+        // Lamps stand still.
+        let mut to_render = placed.to_world.as_still().ok_or(fault)?;
+        to_render.translation -= view.origin_m();
         let light = match placed.shape {
             Shape::Mesh(id) => OpeningLight::of_mesh(lamp, opening, (view.world().mesh(id), &to_render), material),
             Shape::Sphere { radius_m } => {

@@ -22,6 +22,7 @@ mod light;
 mod light_counts;
 mod light_sample;
 mod limit;
+mod moving;
 mod near;
 mod opening;
 mod primitives;

@@ -15,13 +15,15 @@ pub struct LightSampleContext {
     pub normal: Vec3,
     /// Narrow lobes; `None` where the choice need not know of any.
     pub gloss: Option<ReceiverGloss>,
+    /// When light is asked for, s: as [`etendue_core::Ray::time_s`].
+    pub time_s: f32,
 }
 
 impl LightSampleContext {
-    /// A matt receiver.
+    /// A matt receiver at the start of the view's interval.
     #[must_use]
     pub fn matt(position: Vec3, normal: Vec3) -> Self {
-        Self { position, normal, gloss: None }
+        Self { position, normal, gloss: None, time_s: 0.0 }
     }
 
     /// What the lobes send of light from a cone about a unit direction whose half angle has the sine `sin`, relative to the

@@ -35,7 +35,7 @@ impl Lights {
     /// to `high_nm` decide how the lights share the draws.
     ///
     /// # Errors
-    /// Where an instance names a material that the material_table does not have, or moves.
+    /// Where an instance names a material that the material_table does not have.
     pub fn new(
         view: &RenderSpace<'_>,
         material_table: &MaterialTable,
@@ -65,7 +65,7 @@ impl Lights {
         let count = |kind: fn(&Light) -> bool| self.lights.iter().filter(|l| kind(l)).count();
         LightCounts {
             triangles: self.lights.iter().map(Light::triangles).sum(),
-            spheres: count(|l| matches!(l, Light::Sphere(_))),
+            spheres: count(Light::is_sphere),
             lamps: count(|l| matches!(l, Light::Lamp(_))),
             openings: count(|l| matches!(l, Light::Opening(_))),
             suns: self.suns.len(),
@@ -113,6 +113,7 @@ impl Lights {
                 }
                 Light::Lamp(lamp) => lamp.sample(from, wavelengths),
                 Light::Opening(opening) => opening.sample(from, u, wavelengths),
+                Light::Moving(light) => light.sample(receiver, u, spread_rad, material_table, wavelengths),
             },
             Chosen::Sun(i) => Some(self.suns[i].sample(u, wavelengths)),
             Chosen::Environment => self.environment.as_ref()?.sample(u, wavelengths),
@@ -128,7 +129,7 @@ impl Lights {
         let lamp = |i: u32| match &self.lights[i as usize] {
             Light::Lamp(lamp) => lamp.irradiance(receiver),
             Light::Opening(opening) => opening.irradiance(receiver),
-            Light::Triangle(_) | Light::Sphere(_) => LampIrradiance::default(),
+            Light::Triangle(_) | Light::Sphere(_) | Light::Moving(_) => LampIrradiance::default(),
         };
         TreeQuery { receiver, lamp }
     }
@@ -142,6 +143,7 @@ impl Lights {
             Light::Triangle(light) => light.pdf(met),
             Light::Sphere(light) => light.pdf(met),
             Light::Opening(light) => light.pdf(met),
+            Light::Moving(light) => light.pdf(met),
             Light::Lamp(_) => 0.0,
         };
         pdf * self.choice.probability(&self.question(met.receiver), Chosen::Local(i))
@@ -159,7 +161,7 @@ impl Lights {
         let light = self.has_openings.then(|| self.primitives.light(point.instance, point.primitive))??;
         match &self.lights[light] {
             Light::Opening(opening) => opening.met(point, direction, wavelengths),
-            Light::Lamp(_) | Light::Triangle(_) | Light::Sphere(_) => None,
+            Light::Lamp(_) | Light::Triangle(_) | Light::Sphere(_) | Light::Moving(_) => None,
         }
     }
 

@@ -34,6 +34,21 @@ pub(super) struct SphereLight {
     textured: bool,
 }
 
+/// What of a sphere's material decides how it is drawn.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SphereLook {
+    /// Whether light passes through its surface.
+    lets_pass: bool,
+    /// Whether texture coordinates are needed.
+    textured: bool,
+}
+
+impl SphereLook {
+    pub(super) fn of(material: MaterialId, material_table: &MaterialTable) -> Self {
+        Self { lets_pass: material_table.lets_pass(material), textured: material_table.needs_footprint(material) }
+    }
+}
+
 /// The cone that a round sphere fills, seen from outside.
 struct Cone {
     axis: Vec3,
@@ -48,6 +63,11 @@ impl SphereLight {
         material: MaterialId,
         material_table: &MaterialTable,
     ) -> Self {
+        Self::seen(radius_m, to_render, material, SphereLook::of(material, material_table))
+    }
+
+    /// Of a material of which all is known that matters.
+    pub(super) fn seen(radius_m: f64, to_render: &DAffine3, material: MaterialId, look: SphereLook) -> Self {
         let linear = to_render.matrix3 * radius_m;
         let centre = to_render.translation.as_vec3();
         let longest = linear.x_axis.length().max(linear.y_axis.length()).max(linear.z_axis.length());
@@ -56,11 +76,11 @@ impl SphereLight {
             linear: linear.as_mat3(),
             normals: linear.inverse().transpose().as_mat3(),
             determinant: linear.determinant().abs() as f32,
-            radius: round_radius(&linear).filter(|_| !material_table.lets_pass(material)).map(|r| r as f32),
+            radius: round_radius(&linear).filter(|_| !look.lets_pass).map(|r| r as f32),
             area_m2: mean_area(&linear),
             error_m: ROUNDING * (centre.abs().max_element() + longest as f32),
             material,
-            textured: material_table.needs_footprint(material),
+            textured: look.textured,
         }
     }
 

@@ -4,7 +4,7 @@
 //! square, and there are half as many lights to choose from.
 
 use etendue_core::warp::uniform_triangle;
-use glam::{DAffine3, Mat3, Vec2, Vec3};
+use glam::{DAffine3, DVec3, Mat3, Vec2, Vec3};
 
 use super::near::{Flat, Near, Nearness};
 use super::tree::LightBounds;
@@ -31,7 +31,7 @@ pub(super) struct TriangleLight {
 impl TriangleLight {
     /// `None` where rounding leaves no area: such a triangle sends no light that could be drawn.
     pub(super) fn new(mesh: &Mesh, primitive: usize, to_render: &DAffine3, material: MaterialId) -> Option<Self> {
-        Self::of_corners(&Corners::of(mesh, primitive), to_render, material)
+        Facets::one(mesh, primitive).light(to_render, material)
     }
 
     fn of_corners(corners: &Corners, to_render: &DAffine3, material: MaterialId) -> Option<Self> {
@@ -62,13 +62,7 @@ impl TriangleLight {
         to_render: &DAffine3,
         material: MaterialId,
     ) -> Option<Self> {
-        let whole = primitives.map(|primitive| Corners::of(mesh, primitive));
-        let turn = (0..9).find(|turn| whole[0].turned(turn % 3).meets(&whole[1].turned(turn / 3)))?;
-        let (near, far) = (whole[0].turned(turn % 3), whole[1].turned(turn / 3));
-        let single = Self::of_corners(&near, to_render, material)?;
-        let error_m = single.error_m.max(Self::of_corners(&far, to_render, material)?.error_m);
-        let flat = Flat { doubled: true, ..single.flat };
-        Some(Self { flat, nearness: Nearness::of(&flat), per_area: 0.5 * single.per_area, error_m, ..single })
+        Facets::two(mesh, primitives)?.light(to_render, material)
     }
 
     /// How many triangles it is.
@@ -143,8 +137,49 @@ impl TriangleLight {
     }
 }
 
+/// A triangle in its own frame, or two that make up a parallelogram.
+#[derive(Clone, Debug)]
+pub(super) struct Facets {
+    near: Corners,
+    far: Option<Corners>,
+}
+
+impl Facets {
+    pub(super) fn one(mesh: &Mesh, primitive: usize) -> Self {
+        Self { near: Corners::of(mesh, primitive), far: None }
+    }
+
+    /// `None` where the two make up no parallelogram, to the rounding of coordinates.
+    pub(super) fn two(mesh: &Mesh, primitives: [usize; 2]) -> Option<Self> {
+        let whole = primitives.map(|primitive| Corners::of(mesh, primitive));
+        let turn = (0..9).find(|turn| whole[0].turned(turn % 3).meets(&whole[1].turned(turn / 3)))?;
+        Some(Self { near: whole[0].turned(turn % 3), far: Some(whole[1].turned(turn / 3)) })
+    }
+
+    /// How many triangles it is.
+    pub(super) fn triangles(&self) -> usize {
+        1 + usize::from(self.far.is_some())
+    }
+
+    /// Least and greatest coordinates in its own frame.
+    pub(super) fn own_box(&self) -> (DVec3, DVec3) {
+        let corners = self.far.iter().fold(self.near.own.to_vec(), |corners, far| [corners, far.own.to_vec()].concat());
+        let corners = corners.into_iter().map(Vec3::as_dvec3);
+        corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
+    }
+
+    /// The light that it is where it is placed; `None` where rounding leaves no area.
+    pub(super) fn light(&self, to_render: &DAffine3, material: MaterialId) -> Option<TriangleLight> {
+        let single = TriangleLight::of_corners(&self.near, to_render, material)?;
+        let Some(far) = &self.far else { return Some(single) };
+        let error_m = single.error_m.max(TriangleLight::of_corners(far, to_render, material)?.error_m);
+        let flat = Flat { doubled: true, ..single.flat };
+        Some(TriangleLight { flat, nearness: Nearness::of(&flat), per_area: 0.5 * single.per_area, error_m, ..single })
+    }
+}
+
 /// The corners of a triangle in its own frame, with their texture coordinates.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Corners {
     own: [Vec3; 3],
     uvs: [Vec2; 3],

@@ -10,7 +10,13 @@ use crate::geometry::{Instance, Mesh, SurfacePoint, sphere};
 use etendue_core::Ray;
 use glam::{DVec3, Vec2, Vec3};
 
-pub(super) fn of_mesh(mesh: &Mesh, instance: &Instance, placed: &InstanceTransform, hit: &Hit) -> SurfacePoint {
+pub(super) fn of_mesh(
+    mesh: &Mesh,
+    instance: &Instance,
+    placed: &InstanceTransform,
+    ray: &Ray,
+    hit: &Hit,
+) -> SurfacePoint {
     let weights = weights(f64::from(hit.u), f64::from(hit.v));
     let local = blend(mesh.corners(hit.primitive).map(Vec3::as_dvec3), weights);
     let position = placed.point_to_render(local).as_vec3();
@@ -28,6 +34,7 @@ pub(super) fn of_mesh(mesh: &Mesh, instance: &Instance, placed: &InstanceTransfo
         local_normal: own,
         instance: hit.instance,
         primitive: hit.primitive,
+        time_s: ray.time_s,
         material: instance.materials[usize::from(facet.slot)],
     }
 }
@@ -73,6 +80,7 @@ pub(super) fn of_sphere(
         local_normal: unit.as_vec3(),
         instance: hit.instance,
         primitive: hit.primitive,
+        time_s: ray.time_s,
         material: instance.materials[0],
     }
 }

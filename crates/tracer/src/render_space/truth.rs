@@ -44,12 +44,18 @@ pub struct Truth {
 const MAX_PASSES: usize = 4096;
 
 impl RenderSpace<'_> {
-    /// What the ray from `origin_m` (render frame, m) along `direction` (any length) meets first that `accept` takes;
-    /// it goes straight on through other points. `None` for the background.
+    /// What the ray from `origin_m` (render frame, m) along `direction` (any length) meets first that `accept` takes at `time_s`
+    /// (as [`Ray::time_s`]); it goes straight on through other points. `None` for the background.
     #[must_use]
-    pub fn truth(&self, origin_m: DVec3, direction: DVec3, accept: impl Fn(&SurfacePoint) -> bool) -> Option<Truth> {
+    pub fn truth(
+        &self,
+        origin_m: DVec3,
+        direction: DVec3,
+        time_s: f32,
+        accept: impl Fn(&SurfacePoint) -> bool,
+    ) -> Option<Truth> {
         let direction = direction.try_normalize()?;
-        let mut rounded = Ray::new(origin_m.as_vec3(), direction.as_vec3(), 0.0);
+        let mut rounded = Ray::new(origin_m.as_vec3(), direction.as_vec3(), time_s);
         let mut hit = self.closest(&rounded)?;
         for _ in 0..MAX_PASSES {
             let point = self.surface(&rounded, &hit);
@@ -65,7 +71,7 @@ impl RenderSpace<'_> {
     /// The exact ray from `origin_m` along `direction` (unit) against the primitive that `rounded` has met.
     fn solve(&self, origin_m: DVec3, direction: DVec3, rounded: &Ray, hit: &Hit) -> Truth {
         let instance = &self.world.instances()[hit.instance as usize];
-        let placed = self.placed(hit.instance);
+        let placed = &*self.placed_at(hit.instance, rounded.time_s);
         let (origin, along) = placed.line_to_local(origin_m, direction);
         // Where the rounded ray begins, along the exact one.
         let passed = rounded.origin != origin_m.as_vec3();

@@ -8,7 +8,7 @@ use crate::accel::{Simd, World};
 use crate::geometry::Hit;
 use crate::geometry::{Shape, sphere};
 use crate::render_space::RenderSpace;
-use etendue_core::Ray;
+use etendue_core::{Ray, TimeInterval};
 use glam::{DAffine3, DVec3, Vec3};
 
 fn rays(count: u32, reach: f64, seed: u32) -> impl Iterator<Item = Ray> {
@@ -20,7 +20,7 @@ fn rays(count: u32, reach: f64, seed: u32) -> impl Iterator<Item = Ray> {
 }
 
 /// All primitives in turn, last first.
-fn brute_force(view: &RenderSpace<'_>, ray: &Ray) -> Option<Hit> {
+pub(super) fn brute_force(view: &RenderSpace<'_>, ray: &Ray) -> Option<Hit> {
     let world = view.world();
     let mut best: Option<Hit> = None;
     for (instance, primitive) in
@@ -53,7 +53,7 @@ fn alone(view: &RenderSpace<'_>, ray: &Ray, instance: u32, primitive: u32) -> Op
 }
 
 fn check_against_brute_force(world: &World, count: u32, reach: f64) {
-    let view = world.render_space_for_few(DVec3::ZERO);
+    let view = world.render_space_for_few(DVec3::ZERO, TimeInterval::default());
     let mut hits = 0;
     for ray in rays(count, reach, 21) {
         let hit = view.closest(&ray);
@@ -105,8 +105,8 @@ fn cramer(corners: [Vec3; 3], ray: &Ray) -> Option<f64> {
 fn instruction_sets_give_the_same_bits() {
     let bits = |h: Hit| (h.t.to_bits(), h.u.to_bits(), h.v.to_bits(), h.instance, h.primitive);
     for (world, reach) in [(world_of(soup(3000, 4), DAffine3::IDENTITY), 3.0), (medley(), 8.0)] {
-        let (auto, scalar) =
-            (world.render_space_with(DVec3::ZERO, Simd::Auto), world.render_space_with(DVec3::ZERO, Simd::Scalar));
+        let [auto, scalar] =
+            [Simd::Auto, Simd::Scalar].map(|simd| world.render_space_with(DVec3::ZERO, TimeInterval::default(), simd));
         for ray in rays(50_000, reach, 31) {
             assert_eq!(auto.closest(&ray).map(bits), scalar.closest(&ray).map(bits), "{ray:?}");
             let short = Ray { t_max: 0.5 * reach as f32, ..ray };
@@ -135,7 +135,8 @@ fn a_ray_is_occluded_where_it_meets_something_before_its_end() {
 #[test]
 fn instances_written_out_are_met_as_instances_are() {
     let world = medley();
-    let (merged, apart) = (world.render_space(DVec3::ZERO), world.render_space_for_few(DVec3::ZERO));
+    let (merged, apart) =
+        (world.render_space(DVec3::ZERO), world.render_space_for_few(DVec3::ZERO, TimeInterval::default()));
     assert!((0..5).any(|instance| merged.placed(instance).is_merged()));
     let mut differences = 0;
     for ray in rays(20_000, 8.0, 51) {

@@ -4,7 +4,7 @@ use super::shapes::{Random, instance, mesh, world_of};
 use crate::MaterialId;
 use crate::accel::{WorldBuilder, WorldError};
 use crate::geometry::{Dropped, Mesh, MeshId, Shape};
-use etendue_core::{Ray, Track};
+use etendue_core::{Ray, TimeInterval, Track};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 #[test]
@@ -23,7 +23,7 @@ fn an_empty_world_is_met_by_nothing() {
         assert!(
             view.closest(&ray).is_none()
                 && !view.occluded(&ray)
-                && view.truth(DVec3::ZERO, DVec3::X, |_| true).is_none()
+                && view.truth(DVec3::ZERO, DVec3::X, 0.0, |_| true).is_none()
         );
         assert_eq!(view.bounds(), (Vec3::ZERO, 0.0));
     }
@@ -135,18 +135,18 @@ fn rays_that_would_overflow_are_refused_and_all_others_meet() {
     let along = Ray::new(Vec3::ZERO, Vec3::Z, 0.0);
     for (unit_m, away_m) in [(1.0, 1e3), (1e-6, 9e5), (1e-11, 9.0), (1e9, 1e6)] {
         let world = of_unit(unit_m, away_m);
-        assert_eq!(world.check_reach(DVec3::ZERO), Ok(()));
+        assert_eq!(world.check_reach(DVec3::ZERO, TimeInterval::default()), Ok(()));
         let t = world.render_space(DVec3::ZERO).closest(&along).map(|hit| hit.t);
         // A few roundings of f32.
         assert!(t.is_some_and(|t| (f64::from(t) / away_m - 1.0).abs() < 1e-6), "{unit_m} {away_m}: {t:?}");
     }
     for (unit_m, away_m) in [(1e-11, 11.0), (1e-9, 1e5)] {
-        let refused = of_unit(unit_m, away_m).check_reach(DVec3::ZERO);
+        let refused = of_unit(unit_m, away_m).check_reach(DVec3::ZERO, TimeInterval::default());
         assert!(matches!(refused, Err(WorldError::Reach { instance: 0, .. })), "{refused:?}");
     }
     let here = of_unit(1e-11, 0.0);
-    assert_eq!(here.check_reach(DVec3::X), Ok(()));
-    assert!(here.check_reach(DVec3::X * 20.0).is_err(), "the camera is too far away");
+    assert_eq!(here.check_reach(DVec3::X, TimeInterval::default()), Ok(()));
+    assert!(here.check_reach(DVec3::X * 20.0, TimeInterval::default()).is_err(), "the camera is too far away");
 }
 
 /// At a box of 2e8 m, the camera 1.7 m above it was taken to be in it, and saw its bottom.
@@ -164,19 +164,22 @@ fn a_mesh_into_which_the_camera_would_be_rounded_is_refused() {
         ];
         let triangles = vec![[1, 2, 3], [0, 1, 2]];
         let world = world_of(mesh(corners, triangles), DAffine3::from_translation(top - DVec3::Z * f64::from(half)));
-        assert_eq!(world.check_reach(camera), Ok(()));
+        assert_eq!(world.check_reach(camera, TimeInterval::default()), Ok(()));
         let t = world.render_space(camera).closest(&down).map(|hit| hit.t);
         assert!(t.is_some_and(|t| (t - 1.7).abs() < 0.9), "{half}: {t:?}");
     }
     let corners =
         vec![Vec3::splat(-1e8), Vec3::new(1e8, 0.0, 1e8), Vec3::new(-1e8, 1e8, 1e8), Vec3::new(-1e8, -1e8, 1e8)];
     let world = world_of(mesh(corners, vec![[1, 2, 3], [0, 1, 2]]), DAffine3::from_translation(DVec3::NEG_Z * 1e8));
-    assert!(matches!(world.check_reach(camera), Err(WorldError::Rounding { instance: 0, .. })));
-    assert_eq!(world.check_reach(DVec3::Z * 100.0), Ok(()), "from farther away it is right");
+    assert!(matches!(
+        world.check_reach(camera, TimeInterval::default()),
+        Err(WorldError::Rounding { instance: 0, .. })
+    ));
+    assert_eq!(world.check_reach(DVec3::Z * 100.0, TimeInterval::default()), Ok(()), "from farther away it is right");
     let ground =
         mesh(vec![Vec3::new(-1e9, -1e9, 0.0), Vec3::new(1e9, -1e9, 0.0), Vec3::new(0.0, 1e9, 0.0)], vec![[0, 1, 2]]);
     assert_eq!(
-        world_of(ground, DAffine3::IDENTITY).check_reach(DVec3::new(5e8, 0.0, 1.7)),
+        world_of(ground, DAffine3::IDENTITY).check_reach(DVec3::new(5e8, 0.0, 1.7), TimeInterval::default()),
         Ok(()),
         "level ground is met at its height"
     );
@@ -193,13 +196,16 @@ fn spheres_are_held_to_where_distances_are_right() {
     let camera = DVec3::Z * 1.7;
     for radius_m in [1.0, 6.4e6, 1e9, 4e11] {
         let world = planet(radius_m);
-        assert_eq!(world.check_reach(camera), Ok(()));
+        assert_eq!(world.check_reach(camera, TimeInterval::default()), Ok(()));
         let t = world.render_space(camera).closest(&Ray::new(Vec3::ZERO, Vec3::NEG_Z, 0.0)).map(|hit| hit.t);
         assert!(t.is_some_and(|t| (t - 1.7).abs() < 2e-4), "{radius_m}: {t:?}");
     }
     for radius_m in [1e12, 1e18, 1e300] {
         assert!(
-            matches!(planet(radius_m).check_reach(camera), Err(WorldError::Sphere { instance: 0, .. })),
+            matches!(
+                planet(radius_m).check_reach(camera, TimeInterval::default()),
+                Err(WorldError::Sphere { instance: 0, .. })
+            ),
             "{radius_m}"
         );
     }
@@ -211,9 +217,9 @@ fn rays_that_start_on_another_surface_are_within_reach_too() {
     let corners = vec![Vec3::ZERO, Vec3::X * 1e10, Vec3::Y * 1e10];
     let id = builder.add_mesh(mesh(corners, vec![[0, 1, 2]]));
     builder.add_instance(instance(Shape::Mesh(id), DAffine3::from_scale(DVec3::splat(1e-11))));
-    assert_eq!(builder.clone().build().expect("legal").check_reach(DVec3::ZERO), Ok(()));
+    assert_eq!(builder.clone().build().expect("legal").check_reach(DVec3::ZERO, TimeInterval::default()), Ok(()));
     let away = DAffine3::from_translation(DVec3::X * 100.0);
     builder.add_instance(instance(Shape::Sphere { radius_m: 1.0 }, away));
-    let refused = builder.build().expect("legal").check_reach(DVec3::ZERO);
+    let refused = builder.build().expect("legal").check_reach(DVec3::ZERO, TimeInterval::default());
     assert!(matches!(refused, Err(WorldError::Reach { instance: 0, .. })), "{refused:?}");
 }

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod degenerate;
+mod motion;
 mod needles;
 pub(crate) mod shapes;
 mod ties;

@@ -153,13 +153,12 @@ pub(crate) fn spindle() -> Mesh {
 
 /// An instance of one material.
 pub(crate) fn instance(shape: Shape, to_world: DAffine3) -> Instance {
-    Instance {
-        shape,
-        to_world: Track::still(to_world),
-        materials: vec![MaterialId(7)],
-        instance_id: 11,
-        semantic_id: 13,
-    }
+    tracked(shape, Track::still(to_world))
+}
+
+/// As [`instance`], on a track.
+pub(crate) fn tracked(shape: Shape, to_world: Track) -> Instance {
+    Instance { shape, to_world, materials: vec![MaterialId(7)], instance_id: 11, semantic_id: 13 }
 }
 
 /// A world of one mesh, placed once.

@@ -4,7 +4,7 @@ use super::shapes::{Random, alone_and_merged, bumpy, icosphere, spindle, world_o
 use crate::accel::Simd;
 use crate::geometry::Mesh;
 use crate::render_space::RenderSpace;
-use etendue_core::Ray;
+use etendue_core::{Ray, TimeInterval};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 /// The corner, the middle and a random point of each edge of each triangle.
@@ -48,7 +48,12 @@ fn check_from_inside(mesh: &Mesh, inside: &[DVec3]) {
             let mut to_render = placement;
             to_render.translation -= camera;
             for simd in [Simd::Auto, Simd::Scalar] {
-                let lost = escapes(&world.render_space_with(camera, simd), &to_render, inside, &targets);
+                let lost = escapes(
+                    &world.render_space_with(camera, TimeInterval::default(), simd),
+                    &to_render,
+                    inside,
+                    &targets,
+                );
                 assert_eq!(lost, 0, "{simd:?} of {} rays in {placement}", inside.len() * targets.len());
             }
         }

@@ -9,6 +9,7 @@ mod glossy;
 mod inside;
 mod lamps;
 mod levels;
+mod motion;
 mod near_lights;
 mod openings;
 mod passages;

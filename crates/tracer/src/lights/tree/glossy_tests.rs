@@ -29,6 +29,7 @@ fn receiver(surface: &Surface, position: Vec3, to_viewer: Vec3) -> Option<(Light
         local_normal: Vec3::Z,
         instance: 0,
         primitive: 0,
+        time_s: 0.0,
         material: MaterialId(0),
     };
     let wavelengths = Wavelengths::<4>::uniform(400.0, 700.0, 0.3);
@@ -42,7 +43,7 @@ fn receiver(surface: &Surface, position: Vec3, to_viewer: Vec3) -> Option<(Light
         let wi = frame.inward(towards);
         wi.map_or(0.0, |wi| of(&table, &|bsdf| bsdf.evaluate(frame.wo, wi).value_cos.mean()))
     };
-    Some((LightSampleContext { position, normal: Vec3::Z, gloss }, scattered))
+    Some((LightSampleContext { position, normal: Vec3::Z, gloss, time_s: 0.0 }, scattered))
 }
 
 /// Directions of viewers: steep, slanting and grazing.

@@ -1,5 +1,6 @@
 //! Tests of what a view answers about surfaces.
 
+mod motion;
 mod spawn;
 mod surface;
 mod truth;

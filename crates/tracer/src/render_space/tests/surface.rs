@@ -86,7 +86,7 @@ fn normals_are_those_of_ground_truth() {
         let view = world.render_space(above);
         let direction = (aim - above).normalize();
         let p = point(&view, Ray::new(Vec3::ZERO, direction.as_vec3(), 0.0));
-        let truth = view.truth(DVec3::ZERO, direction, |_| true).expect("the same surface");
+        let truth = view.truth(DVec3::ZERO, direction, 0.0, |_| true).expect("the same surface");
         // Some ten roundings of 6e-8; the ray meets the triangle at places told by f32.
         assert!((p.shading_normal.as_dvec3() - truth.normal).length() < 2e-6, "{i}: {p:?} {truth:?}");
         assert!(p.shading_normal.dot(p.geometric_normal) > 0.0);
@@ -117,7 +117,7 @@ fn normals_point_outwards_even_where_an_instance_mirrors() {
         for _ in 0..200 {
             let p = point(&view, Ray::new(centre, random.direction().as_vec3(), 0.0));
             assert!(p.geometric_normal.dot((p.position - centre).normalize()) > 0.9);
-            let [a, b, c] = view.triangle(0, p.primitive);
+            let [a, b, c] = view.triangle(0, p.primitive, 0.0);
             assert!((b - a).cross(c - a).normalize().dot(p.geometric_normal) > 0.999);
         }
     }
@@ -136,9 +136,9 @@ fn lights_learn_where_spheres_and_everything_are() {
     builder.add_instance(instance(Shape::Sphere { radius_m: 0.5 }, uneven));
     let world = builder.build().expect("legal");
     let view = world.render_space(DVec3::new(1e6, 1.0, 0.0));
-    let (centre, radius) = view.sphere(0).expect("a sphere");
+    let (centre, radius) = view.sphere(0, 0.0).expect("a sphere");
     assert!((centre - Vec3::new(0.0, -1.0, 2.0)).length() < 1e-6 && (radius - 1.5).abs() < 1e-6);
-    assert_eq!((view.sphere(1), view.primitive_count(0)), (None, 1));
+    assert_eq!((view.sphere(1, 0.0), view.primitive_count(0)), (None, 1));
     let (centre, radius) = view.bounds();
     assert!((centre.x + 5e5).abs() < 2.0 && (radius - 5e5).abs() < 5.0);
 }

@@ -34,7 +34,7 @@ fn planes_are_met_where_they_are() {
                 let from = target + DVec3::new(s * sine, c * sine, cosine) * distance;
                 let [from, target] = [from, target].map(|p| placement.transform_point3(p));
                 let view = world.render_space(from);
-                let truth = view.truth(DVec3::ZERO, target - from, |_| true).expect("the square");
+                let truth = view.truth(DVec3::ZERO, target - from, 0.0, |_| true).expect("the square");
                 worst = worst.max((truth.distance_m / distance - 1.0).abs());
                 assert!((truth.position_m - target).length() < 1e-6 * distance);
                 assert!((truth.normal - placement.matrix3.z_axis).length() < 1e-12);
@@ -63,7 +63,7 @@ fn spheres_are_met_where_they_are() {
                 let target = centre + frame.z_axis * (distance / 5.0);
                 let from = target + (frame.z_axis * cosine + frame.x_axis * sine) * distance;
                 let view = world.render_space(from);
-                let truth = view.truth(DVec3::ZERO, target - from, |_| true).expect("the sphere");
+                let truth = view.truth(DVec3::ZERO, target - from, 0.0, |_| true).expect("the sphere");
                 worst = worst.max((truth.distance_m / distance - 1.0).abs());
                 assert!((truth.normal - frame.z_axis).length() < 1e-6);
             }
@@ -91,7 +91,7 @@ fn a_silhouette_is_met_where_the_triangle_is() {
         for _ in 0..500 {
             let about = DVec3::new(0.0, random.between(-side, 2.0 * side), random.between(-side, side));
             let target = placement.transform_point3(about) - view.origin_m();
-            let Some(truth) = view.truth(DVec3::ZERO, target, |_| true) else { continue };
+            let Some(truth) = view.truth(DVec3::ZERO, target, 0.0, |_| true) else { continue };
             let exact = plane(corners.map(Vec3::as_dvec3), from, about - from);
             met += 1;
             beyond += usize::from(exact.is_none_or(|(_, u, v)| u.min(v).min(1.0 - u - v) < -0.1));
@@ -110,10 +110,10 @@ fn the_background_has_no_truth() {
     let world = builder.build().expect("legal");
     let view = world.render_space(DVec3::ZERO);
     assert!(
-        view.truth(DVec3::ZERO, DVec3::NEG_X, |_| true).is_none()
-            && view.truth(DVec3::ZERO, DVec3::ZERO, |_| true).is_none()
+        view.truth(DVec3::ZERO, DVec3::NEG_X, 0.0, |_| true).is_none()
+            && view.truth(DVec3::ZERO, DVec3::ZERO, 0.0, |_| true).is_none()
     );
-    let truth = view.truth(DVec3::ZERO, DVec3::X * 100.0, |_| true).expect("the sphere");
+    let truth = view.truth(DVec3::ZERO, DVec3::X * 100.0, 0.0, |_| true).expect("the sphere");
     assert!((truth.distance_m - 4.0).abs() < 1e-12 && (truth.normal - DVec3::NEG_X).length() < 1e-12);
 }
 
@@ -135,11 +135,11 @@ fn what_is_not_accepted_is_passed_and_the_rest_is_as_exact() {
     let view = world.render_space(placement.translation);
     let along = placement.matrix3.z_axis;
     for from in 0..30 {
-        let truth = view.truth(DVec3::ZERO, along, |p| p.instance >= from).expect("a square");
+        let truth = view.truth(DVec3::ZERO, along, 0.0, |p| p.instance >= from).expect("a square");
         assert!((truth.distance_m - f64::from(from + 1)).abs() < TOLERANCE);
         assert!((truth.normal - along).length() < 1e-12);
     }
-    let sphere = |accept: &dyn Fn(&SurfacePoint) -> bool| view.truth(DVec3::ZERO, along, accept);
+    let sphere = |accept: &dyn Fn(&SurfacePoint) -> bool| view.truth(DVec3::ZERO, along, 0.0, accept);
     assert!((sphere(&|p| p.instance == 30).expect("near side").distance_m - 39.0).abs() < TOLERANCE);
     let inside = |p: &SurfacePoint| p.instance == 30 && p.geometric_normal.as_dvec3().dot(along) > 0.0;
     assert!((sphere(&inside).expect("far side").distance_m - 41.0).abs() < TOLERANCE);

@@ -1,0 +1,75 @@
+//! Intervals of simulated time.
+
+/// A closed interval of simulated time: that of a shutter, of an exposure, of a frame. The default is the single moment 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TimeInterval {
+    start_s: f64,
+    end_s: f64,
+}
+
+impl TimeInterval {
+    /// From `start_s` to `end_s`, s; `None` where one is not finite or the end lies before the start.
+    #[must_use]
+    pub fn new(start_s: f64, end_s: f64) -> Option<Self> {
+        let is_legal = start_s.is_finite() && end_s.is_finite() && start_s <= end_s;
+        is_legal.then_some(Self { start_s, end_s })
+    }
+
+    /// A single moment, s; `None` where it is not finite.
+    #[must_use]
+    pub fn at(time_s: f64) -> Option<Self> {
+        Self::new(time_s, time_s)
+    }
+
+    /// Where it begins, s.
+    #[must_use]
+    pub fn start_s(&self) -> f64 {
+        self.start_s
+    }
+
+    /// Where it ends, s.
+    #[must_use]
+    pub fn end_s(&self) -> f64 {
+        self.end_s
+    }
+
+    /// How long it is, s; 0 for a single moment.
+    #[must_use]
+    pub fn length_s(&self) -> f64 {
+        self.end_s - self.start_s
+    }
+
+    /// Whether it is a single moment.
+    #[must_use]
+    pub fn is_moment(&self) -> bool {
+        self.start_s == self.end_s
+    }
+
+    /// The simulated time, s, of a ray's [`crate::Ray::time_s`], which counts from the interval's start; that of its nearer end
+    /// for times outside, of its start for NaN.
+    #[must_use]
+    pub fn moment(&self, time_s: f32) -> f64 {
+        (self.start_s + f64::from(time_s)).max(self.start_s).min(self.end_s)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_interval_has_finite_ends_in_order() {
+        assert!(TimeInterval::new(1.0, 0.999).is_none() && TimeInterval::new(f64::NAN, 1.0).is_none());
+        assert!(TimeInterval::new(0.0, f64::INFINITY).is_none() && TimeInterval::at(f64::NAN).is_none());
+        assert_eq!(TimeInterval::at(0.0), Some(TimeInterval::default()));
+    }
+
+    #[test]
+    fn the_time_of_a_ray_counts_from_the_start_and_stays_within() {
+        let interval = TimeInterval::new(1e6, 1e6 + 0.03125).expect("in order");
+        assert_eq!(interval.moment(0.0), 1e6);
+        assert_eq!(interval.moment(0.015625), 1e6 + 0.015625);
+        let outside = [(-1.0, 1e6), (1.0, 1e6 + 0.03125), (f32::NAN, 1e6), (f32::INFINITY, 1e6 + 0.03125)];
+        outside.into_iter().for_each(|(time_s, expected)| assert_eq!(interval.moment(time_s), expected));
+    }
+}

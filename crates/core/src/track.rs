@@ -1,0 +1,319 @@
+//! Transforms over time: keys of position, rotation and scale, and the motion between them.
+//!
+//! A track that does not change holds one matrix. One that moves is cut at its keys into spans, each a smooth function of
+//! time, so that it can be asked for its transform at any time and for boxes that hold all of an interval (`bounds`).
+
+mod bounds;
+mod cubic;
+mod span;
+#[cfg(test)]
+mod tests;
+mod turn;
+
+use crate::TimeInterval;
+use cubic::Cubic;
+use glam::{DAffine3, DQuat, DVec3};
+use span::{Pose, Span};
+use std::sync::Arc;
+use turn::{Turn, vector_between};
+
+/// Where something is at a moment: it is scaled, then rotated, then moved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Key {
+    /// Simulated time, s.
+    pub time_s: f64,
+    /// Origin of the moved frame in the frame that it moves in, m.
+    pub position_m: DVec3,
+    /// Rotation, a quaternion of any length but 0; it is made one of length 1. q and −q are the same.
+    pub rotation: DQuat,
+    /// Scale along each axis of the moved frame; negative ones mirror.
+    pub scale: DVec3,
+}
+
+/// How a track moves from key to key.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Position and scale along straight lines at an even speed; rotation the short way about one axis at an even rate (slerp,
+    /// Shoemake 1985, "Animating rotation with quaternion curves", SIGGRAPH).
+    #[default]
+    Linear,
+    /// Without jumps of the velocities at the keys. Position and scale by cubic Hermite curves whose derivative at a key is that
+    /// of the parabola through it and its two neighbours (Catmull–Rom for uneven times: Barry, Goldman 1988, "A recursive
+    /// evaluation algorithm for a class of Catmull-Rom splines", SIGGRAPH), at the first and last key that of the parabola
+    /// through three; rotation by the cubic Hermite curve of quaternions (Kim, Kim, Shin 1995) with angular velocities made
+    /// alike from those of the slerps beside a key. Two keys are joined as by `Linear`. The curves may overshoot the keys.
+    Smooth,
+}
+
+/// Why a track is refused. Keys are counted from 0.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum TrackError {
+    /// No key.
+    #[error("a track without keys is nowhere; give it one key at least")]
+    Empty,
+    /// A number that is infinite or NaN, or so large that velocities are.
+    #[error("key {key} of the track is not finite, or motion from it to the next is faster than numbers can say")]
+    NotFinite {
+        /// The key.
+        key: usize,
+    },
+    /// A quaternion of length 0.
+    #[error("key {key} of the track has a rotation quaternion of length 0; give it the length 1")]
+    NoRotation {
+        /// The key.
+        key: usize,
+    },
+    /// A key before its predecessor.
+    #[error("key {key} of the track is at {time_s} s, before key {} at {before_s} s; give the keys in the order of time", .key - 1)]
+    Unordered {
+        /// The later key of the two.
+        key: usize,
+        /// Its time, s.
+        time_s: f64,
+        /// The time of the key before it, s.
+        before_s: f64,
+    },
+    /// Two keys at the same time.
+    #[error("keys {} and {key} of the track are both at {time_s} s; leave one out", .key - 1)]
+    Repeated {
+        /// The later key of the two.
+        key: usize,
+        /// Their time, s.
+        time_s: f64,
+    },
+}
+
+/// A transform over time. Before its first key and after its last it holds still.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Track(Kind);
+
+#[derive(Clone, Debug, PartialEq)]
+enum Kind {
+    Still(DAffine3),
+    Moving(Arc<Motion>),
+}
+
+/// Two keys or more, not all alike.
+#[derive(Clone, Debug, PartialEq)]
+struct Motion {
+    /// Of the keys, in increasing order.
+    times_s: Vec<f64>,
+    /// From each key but the last to the next.
+    spans: Vec<Span>,
+    /// The last key.
+    last: Pose,
+    /// What is applied before all that.
+    first: DAffine3,
+}
+
+impl Track {
+    /// A transform that does not change: any affine one, kept bit for bit.
+    #[must_use]
+    pub fn still(transform: DAffine3) -> Self {
+        Self(Kind::Still(transform))
+    }
+
+    /// Through `keys`, which must be in the order of time.
+    ///
+    /// # Errors
+    /// Where there are no keys, where they are out of order or two are at the same time, where numbers are not finite, where a
+    /// rotation has the length 0.
+    pub fn new(keys: &[Key], interpolation: Interpolation) -> Result<Self, TrackError> {
+        check(keys)?;
+        let poses = poses(keys);
+        let times_s: Vec<f64> = keys.iter().map(|key| key.time_s).collect();
+        let spans = match interpolation {
+            Interpolation::Linear => poses.windows(2).map(|pair| straight(&pair[0], &pair[1])).collect(),
+            Interpolation::Smooth => smooth(&times_s, &poses),
+        };
+        if let Some(key) = spans.iter().position(|span| !span.is_finite()) {
+            return Err(TrackError::NotFinite { key });
+        }
+        if spans.iter().all(Span::is_constant) {
+            return Ok(Self::still(poses[0].transform()));
+        }
+        let last = poses[poses.len() - 1];
+        Ok(Self(Kind::Moving(Arc::new(Motion { times_s, spans, last, first: DAffine3::IDENTITY }))))
+    }
+
+    /// The same track of something that `first` is applied to before it moves.
+    #[must_use]
+    pub fn after(&self, first: &DAffine3) -> Self {
+        match &self.0 {
+            Kind::Still(transform) => Self::still(*transform * *first),
+            Kind::Moving(motion) => {
+                let moved = Motion { first: motion.first * *first, ..Motion::clone(motion) };
+                Self(Kind::Moving(Arc::new(moved)))
+            }
+        }
+    }
+
+    /// The transform at `time_s`.
+    #[must_use]
+    pub fn at(&self, time_s: f64) -> DAffine3 {
+        match &self.0 {
+            Kind::Still(transform) => *transform,
+            Kind::Moving(motion) => motion.at(time_s),
+        }
+    }
+
+    /// Where the track does not change over time, its transform; `None` for a moving one.
+    #[must_use]
+    pub fn as_still(&self) -> Option<DAffine3> {
+        match &self.0 {
+            Kind::Still(transform) => Some(*transform),
+            Kind::Moving(_) => None,
+        }
+    }
+
+    /// Where the track does not change within an interval, its transform there. A single moment is such an interval.
+    #[must_use]
+    pub fn still_over(&self, interval: TimeInterval) -> Option<DAffine3> {
+        match &self.0 {
+            Kind::Still(transform) => Some(*transform),
+            Kind::Moving(motion) => {
+                let holds = interval.is_moment() || motion.during(interval).all(|(span, _)| span.is_constant());
+                holds.then(|| motion.at(interval.start_s()))
+            }
+        }
+    }
+}
+
+impl Motion {
+    fn at(&self, time_s: f64) -> DAffine3 {
+        self.pose(time_s).transform() * self.first
+    }
+
+    fn pose(&self, time_s: f64) -> Pose {
+        let passed = self.times_s.partition_point(|key_s| *key_s <= time_s);
+        match passed {
+            0 => self.spans[0].at(0.0),
+            _ if passed == self.times_s.len() => self.last,
+            _ => self.spans[passed - 1].at(self.part(passed - 1, time_s)),
+        }
+    }
+
+    /// The part of a span that has passed.
+    fn part(&self, span: usize, time_s: f64) -> f64 {
+        let (start_s, end_s) = (self.times_s[span], self.times_s[span + 1]);
+        ((time_s - start_s) / (end_s - start_s)).clamp(0.0, 1.0)
+    }
+
+    /// The spans that an interval has more than a moment of, with the parts where it begins and ends.
+    fn during(&self, interval: TimeInterval) -> impl Iterator<Item = (&Span, (f64, f64))> {
+        let inner = &self.times_s[1..self.times_s.len() - 1];
+        let first = inner.partition_point(|key_s| *key_s <= interval.start_s());
+        let last = inner.partition_point(|key_s| *key_s < interval.end_s());
+        let ends_s = (self.times_s[0], self.times_s[self.times_s.len() - 1]);
+        let holds = interval.is_moment() || interval.end_s() <= ends_s.0 || interval.start_s() >= ends_s.1;
+        let spans = if holds { 0..0 } else { first..last + 1 };
+        spans.map(move |span| {
+            (&self.spans[span], (self.part(span, interval.start_s()), self.part(span, interval.end_s())))
+        })
+    }
+}
+
+fn check(keys: &[Key]) -> Result<(), TrackError> {
+    if keys.is_empty() {
+        return Err(TrackError::Empty);
+    }
+    for (key, found) in keys.iter().enumerate() {
+        if !(found.time_s.is_finite()
+            && found.position_m.is_finite()
+            && found.rotation.is_finite()
+            && found.scale.is_finite())
+        {
+            return Err(TrackError::NotFinite { key });
+        }
+        if found.rotation.length_squared() == 0.0 {
+            return Err(TrackError::NoRotation { key });
+        }
+    }
+    for (key, pair) in (1..).zip(keys.windows(2)) {
+        let (before_s, time_s) = (pair[0].time_s, pair[1].time_s);
+        if time_s == before_s {
+            return Err(TrackError::Repeated { key, time_s });
+        }
+        if time_s < before_s {
+            return Err(TrackError::Unordered { key, time_s, before_s });
+        }
+    }
+    Ok(())
+}
+
+/// The keys with rotations of length 1, each of the two quaternions of a rotation being the one nearer to the key before.
+fn poses(keys: &[Key]) -> Vec<Pose> {
+    let mut before = DQuat::IDENTITY;
+    let pose = |key: &Key| {
+        let unit = unit(key.rotation);
+        let rotation = if unit.dot(before) < 0.0 { -unit } else { unit };
+        before = rotation;
+        Pose { position: key.position_m, rotation, scale: key.scale }
+    };
+    keys.iter().map(pose).collect()
+}
+
+/// A quaternion made one of length 1. What has that length to eight roundings is left as it is.
+fn unit(q: DQuat) -> DQuat {
+    if (q.length_squared() - 1.0).abs() <= 8.0 * f64::EPSILON { q } else { q.normalize() }
+}
+
+fn straight(from: &Pose, to: &Pose) -> Span {
+    Span {
+        position: Cubic::straight(from.position, to.position),
+        scale: Cubic::straight(from.scale, to.scale),
+        turn: Turn::even(from.rotation, to.rotation),
+    }
+}
+
+/// How fast position, scale and rotation change at a key, per second.
+type Rates = [DVec3; 3];
+
+fn smooth(times_s: &[f64], poses: &[Pose]) -> Vec<Span> {
+    let rates = rates(times_s, poses);
+    let span = |i: usize| {
+        let (from, to) = (&poses[i], &poses[i + 1]);
+        let length_s = times_s[i + 1] - times_s[i];
+        let [leaves, arrives] = [rates[i], rates[i + 1]].map(|rates| rates.map(|rate| rate * length_s));
+        Span {
+            position: Cubic::hermite(from.position, to.position, leaves[0], arrives[0]),
+            scale: Cubic::hermite(from.scale, to.scale, leaves[1], arrives[1]),
+            turn: Turn::smooth(from.rotation, to.rotation, leaves[2], arrives[2]),
+        }
+    };
+    (0..poses.len() - 1).map(span).collect()
+}
+
+/// The rates at all keys; none for a single one.
+fn rates(times_s: &[f64], poses: &[Pose]) -> Vec<Rates> {
+    let lengths_s: Vec<f64> = times_s.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let means: Vec<Rates> =
+        poses.windows(2).zip(&lengths_s).map(|(pair, length_s)| mean_rates(pair, *length_s)).collect();
+    let Some(last) = means.len().checked_sub(1) else { return Vec::new() };
+    if last == 0 {
+        return vec![means[0]; 2];
+    }
+    // The derivative at a key of the parabola through three, from the mean rates before and after it.
+    let inner = |i: usize| {
+        let (before_s, after_s) = (lengths_s[i - 1], lengths_s[i]);
+        let weight = before_s / (before_s + after_s);
+        join(&means[i - 1], &means[i], |before, after| before * (1.0 - weight) + after * weight)
+    };
+    // That of the same parabola at its end: the mean rate of a span is that at its middle.
+    let end = |mean: &Rates, inner: &Rates| join(mean, inner, |mean, inner| mean * 2.0 - inner);
+    let mut rates: Vec<Rates> = (1..=last).map(inner).collect();
+    let (first, end) = (end(&means[0], &rates[0]), end(&means[last], &rates[last - 1]));
+    rates.insert(0, first);
+    rates.push(end);
+    rates
+}
+
+fn mean_rates(pair: &[Pose], length_s: f64) -> Rates {
+    let [from, to] = [&pair[0], &pair[1]];
+    let way = [to.position - from.position, to.scale - from.scale, vector_between(from.rotation, to.rotation)];
+    way.map(|way| way / length_s)
+}
+
+fn join(a: &Rates, b: &Rates, f: impl Fn(DVec3, DVec3) -> DVec3) -> Rates {
+    [f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2])]
+}

@@ -1,0 +1,181 @@
+//! What holds a moving thing during an interval.
+//!
+//! Every span that the interval has a part of is cut into sixteen (one where it moves along straight lines without turning).
+//! The box of a part is that of the corners at its two ends, enlarged by how far their paths stray from the chords between
+//! ([`Span::each_box`]): at each moment the transform is affine, so that the moved box is the convex hull of its moved corners.
+
+use super::span::Span;
+use super::{Kind, Motion, Track};
+use crate::TimeInterval;
+use core::f64::consts::PI;
+use glam::{BVec3, DAffine3, DMat3, DVec3};
+
+/// Room for rounding, relative to what is added up: some thirty operations of 1.1e-16 each, at most.
+const ROUNDING: f64 = 1e-14;
+/// Least scale of a moving thing, relative to its greatest along the same axis: what is smaller counts as flattened.
+const FLAT: f64 = 1e-12;
+
+impl Track {
+    /// Least and greatest coordinates of a box that holds the box from `low` to `high` (of the moved frame) at every moment of
+    /// an interval, by the arithmetic of [`Track::at`] too.
+    #[must_use]
+    pub fn bounds_over(&self, interval: TimeInterval, (low, high): (DVec3, DVec3)) -> (DVec3, DVec3) {
+        let corner = |i: u32| DVec3::select(BVec3::new(i & 1 == 0, i & 2 == 0, i & 4 == 0), low, high);
+        let corners: Vec<DVec3> = (0..8).map(corner).collect();
+        self.bounds_of_points(interval, &corners)
+    }
+
+    /// As [`Track::bounds_over`], of a ball.
+    #[must_use]
+    pub fn bounds_of_ball(&self, interval: TimeInterval, centre: DVec3, radius: f64) -> (DVec3, DVec3) {
+        let (low, high) = self.bounds_of_points(interval, &[centre]);
+        let reach = DVec3::splat(radius * self.stretch_over(interval).1 * (1.0 + ROUNDING));
+        (low - reach, high + reach)
+    }
+
+    /// Bounds, during an interval, of the least and the greatest factor by which lengths change; exact where each scale is the
+    /// same along all axes and nothing is applied before.
+    #[must_use]
+    pub fn stretch_over(&self, interval: TimeInterval) -> (f64, f64) {
+        let of_matrix = |m: &DMat3| (1.0 / most_stretch(&m.inverse()), most_stretch(m));
+        match &self.0 {
+            Kind::Still(transform) => of_matrix(&transform.matrix3),
+            Kind::Moving(motion) => {
+                let (least, most) = motion.scales_over(interval);
+                let first = of_matrix(&motion.first.matrix3);
+                (least.min_element() * first.0, most.max_element() * first.1)
+            }
+        }
+    }
+
+    /// A bound, during an interval, of the greatest coordinate in the moved frame of what lies in the box from `low` to `high`
+    /// of the frame that it moves in.
+    #[must_use]
+    pub fn local_reach(&self, interval: TimeInterval, (low, high): (DVec3, DVec3)) -> f64 {
+        let keyed = match &self.0 {
+            Kind::Still(_) => self.clone(),
+            Kind::Moving(motion) => {
+                Self(Kind::Moving(Motion { first: DAffine3::IDENTITY, ..Motion::clone(motion) }.into()))
+            }
+        };
+        let (origin_low, origin_high) = keyed.bounds_of_points(interval, &[DVec3::ZERO]);
+        let away = (high - origin_low).abs().max((origin_high - low).abs()).length();
+        let reach = away / keyed.stretch_over(interval).0;
+        match &self.0 {
+            Kind::Still(_) => reach,
+            Kind::Moving(motion) => {
+                let back = motion.first.inverse();
+                (back.translation.abs() + row_lengths(&back.matrix3) * reach).max_element()
+            }
+        }
+    }
+
+    /// A bound of the angle, rad, by which normals turn during an interval from where they are at its start; π where scales
+    /// change.
+    #[must_use]
+    pub fn turning_over(&self, interval: TimeInterval) -> f64 {
+        let of_span = |(span, (u0, u1)): (&Span, (f64, f64))| {
+            if span.scale.is_constant() { span.turn.most_rates(u0, u1).0 * (u1 - u0) } else { PI }
+        };
+        match &self.0 {
+            Kind::Still(_) => 0.0,
+            Kind::Moving(motion) => motion.during(interval).map(of_span).sum::<f64>().min(PI),
+        }
+    }
+
+    /// Whether the transform has an inverse at every time. No scale of a moving one passes through zero or is less than 1e-12 of
+    /// its greatest.
+    #[must_use]
+    pub fn is_invertible(&self) -> bool {
+        match &self.0 {
+            Kind::Still(transform) => has_inverse(transform),
+            Kind::Moving(motion) => motion.is_invertible(),
+        }
+    }
+
+    fn bounds_of_points(&self, interval: TimeInterval, points: &[DVec3]) -> (DVec3, DVec3) {
+        match &self.0 {
+            Kind::Still(transform) => {
+                let moved = points.iter().map(|point| transform.transform_point3(*point));
+                let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+                let (low, high) = moved.fold(none, |(low, high), p| (low.min(p), high.max(p)));
+                let room = most_of(transform, points) * ROUNDING;
+                (low - room, high + room)
+            }
+            Kind::Moving(motion) => motion.bounds_of_points(interval, points),
+        }
+    }
+}
+
+impl Motion {
+    fn bounds_of_points(&self, interval: TimeInterval, points: &[DVec3]) -> (DVec3, DVec3) {
+        let most = most_of(&self.first, points);
+        let points: Vec<DVec3> = points.iter().map(|point| self.first.transform_point3(*point)).collect();
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let mut room = DVec3::ZERO;
+        let mut hold = |a: DVec3, b: DVec3| (low, high) = (low.min(a), high.max(b));
+        let mut is_held = true;
+        for (span, parts) in self.during(interval) {
+            span.each_box(&points, parts, &mut hold);
+            room = room.max(span.magnitude(most));
+            is_held = false;
+        }
+        if is_held {
+            let pose = self.pose(interval.start_s());
+            let transform = pose.transform();
+            points.iter().map(|point| transform.transform_point3(*point)).for_each(|p| hold(p, p));
+            room = pose.position.abs() + DVec3::splat((pose.scale.abs() * most).length());
+        }
+        (low - room * ROUNDING, high + room * ROUNDING)
+    }
+
+    /// Bounds of the scales' magnitudes by axis during an interval.
+    fn scales_over(&self, interval: TimeInterval) -> (DVec3, DVec3) {
+        let ranges = self.during(interval).map(|(span, (u0, u1))| span.scale.range(u0, u1));
+        let (low, high) = ranges.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or_else(|| {
+            let pose = self.pose(interval.start_s());
+            (pose.scale, pose.scale)
+        });
+        magnitudes(low, high)
+    }
+
+    fn is_invertible(&self) -> bool {
+        let ranges = self.spans.iter().map(|span| span.scale.range(0.0, 1.0));
+        let whole = ranges.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let Some((low, high)) = whole else { return false };
+        let (least, most) = magnitudes(low, high);
+        let keeps_sides = (low.cmpgt(DVec3::ZERO) | high.cmplt(DVec3::ZERO)).all();
+        let ends = [least, most].map(|scale| DAffine3::from_scale(scale) * self.first);
+        keeps_sides && least.cmpgt(most * FLAT).all() && ends.iter().all(has_inverse)
+    }
+}
+
+/// Least and greatest magnitude of numbers from `low` to `high`, by axis.
+fn magnitudes(low: DVec3, high: DVec3) -> (DVec3, DVec3) {
+    (low.max(-high).max(DVec3::ZERO), high.max(-low))
+}
+
+fn has_inverse(transform: &DAffine3) -> bool {
+    transform.is_finite() && transform.matrix3.determinant() != 0.0 && transform.inverse().is_finite()
+}
+
+/// A bound of the greatest factor by which a matrix changes lengths: the lesser of two norms that are no less than it.
+fn most_stretch(m: &DMat3) -> f64 {
+    let sums =
+        |m: &DMat3| [m.x_axis, m.y_axis, m.z_axis].map(|c| c.abs().element_sum()).into_iter().fold(0.0, f64::max);
+    let squares: f64 = m.to_cols_array().iter().map(|x| x * x).sum();
+    (sums(m) * sums(&m.transpose())).sqrt().min(squares.sqrt())
+}
+
+fn row_lengths(m: &DMat3) -> DVec3 {
+    let rows = m.transpose();
+    DVec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length())
+}
+
+/// Bounds of what is added up when `points` are transformed, by axis.
+fn most_of(transform: &DAffine3, points: &[DVec3]) -> DVec3 {
+    let most = points.iter().fold(DVec3::ZERO, |most, point| most.max(point.abs()));
+    let m = &transform.matrix3;
+    let rows = DMat3::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs());
+    rows * most + transform.translation.abs()
+}

@@ -1,0 +1,155 @@
+//! An instance relative to the camera, during an interval of time.
+//!
+//! What stands still has one transform. What moves has that of a ray's own time, made when a ray comes to it: nothing between is
+//! blended or rounded to steps. Rays are met in its own frame, where its mesh has its tree; only its box in the render frame,
+//! by which rays come to it, is that of the whole interval.
+
+use super::instance_transform::about;
+use super::{Instance, InstanceTransform, Mesh, Shape};
+use etendue_core::{Ray, TimeInterval, Track};
+use glam::{DVec3, Vec3};
+use std::borrow::Cow;
+
+/// Moments of an interval for which is checked what no bound tells of a moving instance.
+const MOMENTS: u32 = 16;
+
+/// An instance relative to the camera.
+#[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "rays come to what stands still without another step in memory")]
+pub(crate) enum Placement {
+    /// At rest during the interval.
+    Still(InstanceTransform),
+    /// In motion.
+    Moving(Box<Moving>),
+}
+
+/// An instance that moves during an interval.
+#[derive(Clone, Debug)]
+pub(crate) struct Moving {
+    to_world: Track,
+    origin_m: DVec3,
+    interval: TimeInterval,
+}
+
+impl Placement {
+    /// Places an instance relative to a camera at `origin_m` during an interval.
+    pub(crate) fn new(instance: &Instance, origin_m: DVec3, interval: TimeInterval) -> Self {
+        match instance.to_world.still_over(interval) {
+            Some(to_world) => Self::Still(InstanceTransform::new(to_world, origin_m)),
+            None => Self::Moving(Box::new(Moving { to_world: instance.to_world.clone(), origin_m, interval })),
+        }
+    }
+
+    /// The transforms at a ray's [`Ray::time_s`].
+    #[inline]
+    pub(crate) fn at(&self, time_s: f32) -> Cow<'_, InstanceTransform> {
+        match self {
+            Self::Still(transform) => Cow::Borrowed(transform),
+            Self::Moving(moving) => Cow::Owned(moving.at(moving.interval.moment(time_s))),
+        }
+    }
+
+    /// The transforms of what does not move.
+    pub(crate) fn still(&self) -> Option<&InstanceTransform> {
+        match self {
+            Self::Still(transform) => Some(transform),
+            Self::Moving(_) => None,
+        }
+    }
+
+    /// As [`Placement::still`], to be changed.
+    pub(crate) fn still_mut(&mut self) -> Option<&mut InstanceTransform> {
+        match self {
+            Self::Still(transform) => Some(transform),
+            Self::Moving(_) => None,
+        }
+    }
+
+    /// Whether the corners of its triangles are rounded in the render frame.
+    pub(crate) fn is_merged(&self) -> bool {
+        self.still().is_some_and(InstanceTransform::is_merged)
+    }
+
+    /// A ray's origin and direction in the instance's frame at the ray's time. The direction keeps its stretch, so t keeps its
+    /// meaning.
+    #[inline]
+    pub(crate) fn ray_to_local(&self, ray: &Ray) -> (DVec3, DVec3) {
+        match self {
+            Self::Still(transform) => transform.ray_to_local(ray),
+            Self::Moving(moving) => moving.ray_to_local(ray),
+        }
+    }
+
+    /// As [`Placement::ray_to_local`], rounded to f32; quick where the instance is only shifted.
+    #[inline(always)]
+    pub(crate) fn rounded_ray_to_local(&self, ray: &Ray) -> (Vec3, Vec3) {
+        match self {
+            Self::Still(transform) => transform.rounded_ray_to_local(ray),
+            Self::Moving(moving) => moving.rounded_ray_to_local(ray),
+        }
+    }
+
+    /// Least and greatest coordinates in the render frame, m, of the instance's shape among the world's `meshes` at any time of
+    /// the interval; `None` for a mesh without triangles.
+    pub(crate) fn bounds(&self, instance: &Instance, meshes: &[Mesh]) -> Option<(DVec3, DVec3)> {
+        match self {
+            Self::Still(transform) => transform.bounds(instance, meshes),
+            Self::Moving(moving) => moving.bounds(instance, meshes),
+        }
+    }
+
+    /// The greatest coordinate, in the instance's frame, of a box of the render frame, or a bound of it.
+    pub(crate) fn greatest_local(&self, low: DVec3, high: DVec3) -> f64 {
+        match self {
+            Self::Still(transform) => transform.greatest_local(low, high),
+            Self::Moving(moving) => {
+                moving.to_world.local_reach(moving.interval, (low + moving.origin_m, high + moving.origin_m))
+            }
+        }
+    }
+
+    /// The transforms at some moments of the interval, both its ends among them.
+    pub(crate) fn moments(&self) -> Vec<Cow<'_, InstanceTransform>> {
+        match self {
+            Self::Still(transform) => vec![Cow::Borrowed(transform)],
+            Self::Moving(moving) => {
+                let time_s = |i: u32| {
+                    let part = f64::from(i) / f64::from(MOMENTS);
+                    moving.interval.start_s() + moving.interval.length_s() * part
+                };
+                (0..=MOMENTS).map(|i| Cow::Owned(moving.at(time_s(i)))).collect()
+            }
+        }
+    }
+}
+
+impl Moving {
+    fn at(&self, time_s: f64) -> InstanceTransform {
+        InstanceTransform::new(self.to_world.at(time_s), self.origin_m)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn ray_to_local(&self, ray: &Ray) -> (DVec3, DVec3) {
+        let (_, to_local) = about(self.to_world.at(self.interval.moment(ray.time_s)), self.origin_m);
+        (to_local.transform_point3(ray.origin.as_dvec3()), to_local.transform_vector3(ray.direction.as_dvec3()))
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn rounded_ray_to_local(&self, ray: &Ray) -> (Vec3, Vec3) {
+        let (origin, direction) = self.ray_to_local(ray);
+        (origin.as_vec3(), direction.as_vec3())
+    }
+
+    fn bounds(&self, instance: &Instance, meshes: &[Mesh]) -> Option<(DVec3, DVec3)> {
+        let (low, high) = match instance.shape {
+            Shape::Mesh(id) => {
+                let (low, high) = meshes[id.0 as usize].bounds()?;
+                self.to_world.bounds_over(self.interval, (low.as_dvec3(), high.as_dvec3()))
+            }
+            Shape::Sphere { radius_m } => self.to_world.bounds_of_ball(self.interval, DVec3::ZERO, radius_m),
+        };
+        Some((low - self.origin_m, high - self.origin_m))
+    }
+}
