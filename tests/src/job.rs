@@ -84,15 +84,20 @@ impl Job {
     /// Where the text is not a good job, with all faults.
     #[must_use]
     pub fn plan(&self) -> Plan {
+        self.compiled().unwrap_or_else(|faults| panic!("{faults}\n{}", self.text))
+    }
+
+    /// The plan, or all faults, one a line.
+    ///
+    /// # Errors
+    /// Where the text is not a good job.
+    pub fn compiled(&self) -> Result<Plan, String> {
         let read = |_: &Path| Ok(self.text.clone());
         let mut overrides = Overrides::default();
         overrides.push_render(&format!("--seed {}", self.seed), "seed", &self.seed.to_string());
-        let description = Description::load(Path::new("job.toml"), &read, &overrides)
-            .unwrap_or_else(|faults| panic!("{faults}\n{}", self.text));
-        compile(&description, &self.assets, &Choices::default()).unwrap_or_else(|faults| {
-            let lines: Vec<String> = faults.iter().map(ToString::to_string).collect();
-            panic!("{}\n{}", lines.join("\n"), self.text)
-        })
+        let description = Description::load(Path::new("job.toml"), &read, &overrides).map_err(|f| f.to_string())?;
+        compile(&description, &self.assets, &Choices::default())
+            .map_err(|faults| faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
     }
 
     /// The light of the first camera.

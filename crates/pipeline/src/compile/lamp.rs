@@ -1,14 +1,16 @@
-//! Lamps without extent: from records to the tracer's lamps.
+//! Lamps: from records to the tracer's lamps.
 
 use super::context::Context;
 use super::linear_picture::linear;
+use super::open_lamp::OpenLamp;
+use super::opening::opening;
 use super::spectrum::{bright, powered, relative};
 use etendue_scene::Place;
-use etendue_scene::asset::PhotometryAxes;
+use etendue_scene::asset::{PhotometryAsset, PhotometryAxes};
 use etendue_scene::record::light::placement::MainAxis;
 use etendue_scene::record::light::{
-    Beam, HeadLamp, LampAim, LampPlacement, LampStrength, Mask, MeasuredLamp, MeasuredStrength, PointLamp, SpotLamp,
-    Traffic,
+    Beam, HeadLamp, LampAim, LampInstance, LampOpening, LampPlacement, LampStrength, Mask, MeasuredLamp,
+    MeasuredStrength, PointLamp, SpotLamp, Traffic,
 };
 use etendue_scene::record::transform::yaw_pitch_roll;
 use etendue_scene::record::{Light, LightColour};
@@ -17,25 +19,53 @@ use etendue_tracer::lights::{Cone, Lamp, MaskImage, Profile, Web, WebAxes, head_
 use glam::{DMat3, DVec3};
 use std::sync::Arc;
 
-/// The lamps of a light that is one, one a place where it stands; empty where it is faulty.
-pub(super) fn lamps(light: &Light, context: &mut Context<'_>) -> Vec<Lamp> {
-    let made = match light {
+/// A lamp everywhere where it stands.
+pub(super) enum Lamps {
+    /// As points.
+    Points(Vec<Lamp>),
+    /// With an opening that is to be placed in the world.
+    Open(OpenLamp),
+}
+
+/// What lamps of a kind have in common, but for their intensity.
+struct Kind<'a> {
+    name: &'a str,
+    placement: &'a LampPlacement,
+    main: MainAxis,
+    /// How they are turned in their own frame.
+    turn: DMat3,
+    opening: Option<&'a LampOpening>,
+    file: Option<&'a PhotometryAsset>,
+    place: &'a Place,
+}
+
+/// The lamps of a light that is one; `None` where it is faulty, or a sun.
+pub(super) fn lamps(light: &Light, context: &mut Context<'_>) -> Option<Lamps> {
+    match light {
         Light::Sun(_) => None,
         Light::Point(lamp) => point(lamp, context),
         Light::Spot(lamp) => spot(lamp, context),
         Light::Measured(lamp) => measured(lamp, context),
         Light::HeadLamp(lamp) => head_lamp(lamp, context),
-    };
-    made.unwrap_or_default()
+    }
 }
 
-fn point(lamp: &PointLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>> {
+fn point(lamp: &PointLamp, context: &mut Context<'_>) -> Option<Lamps> {
     let intensity = intensity(&lamp.strength, &lamp.colour, &Profile::Isotropic, context)?;
     let profile = masked(Profile::Isotropic, lamp.mask.as_ref(), context)?;
-    placed(&lamp.placement, MainAxis::Forward, DMat3::IDENTITY, (intensity, profile), &lamp.place, context)
+    let kind = Kind {
+        name: &lamp.name.value,
+        placement: &lamp.placement,
+        main: MainAxis::Forward,
+        turn: DMat3::IDENTITY,
+        opening: lamp.opening.as_ref(),
+        file: None,
+        place: &lamp.place,
+    };
+    placed(&kind, (intensity, profile), context)
 }
 
-fn spot(lamp: &SpotLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>> {
+fn spot(lamp: &SpotLamp, context: &mut Context<'_>) -> Option<Lamps> {
     let outer = lamp.field_angle_deg.value;
     let inner = lamp.inner_angle_deg.as_ref().map_or(outer, |a| a.value);
     let half_rad = |full_deg: f64| 0.5 * full_deg.to_radians();
@@ -43,10 +73,19 @@ fn spot(lamp: &SpotLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>> {
     let profile = Profile::Cone(cone);
     let intensity = intensity(&lamp.strength, &lamp.colour, &profile, context)?;
     let profile = masked(profile, lamp.mask.as_ref(), context)?;
-    placed(&lamp.placement, MainAxis::Forward, DMat3::IDENTITY, (intensity, profile), &lamp.place, context)
+    let kind = Kind {
+        name: &lamp.name.value,
+        placement: &lamp.placement,
+        main: MainAxis::Forward,
+        turn: DMat3::IDENTITY,
+        opening: lamp.opening.as_ref(),
+        file: None,
+        place: &lamp.place,
+    };
+    placed(&kind, (intensity, profile), context)
 }
 
-fn measured(lamp: &MeasuredLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>> {
+fn measured(lamp: &MeasuredLamp, context: &mut Context<'_>) -> Option<Lamps> {
     let Some(asset) = context.assets.photometry.get(&lamp.file.value) else {
         context.fault(&lamp.file.place, "the photometric file was not loaded", "give a readable file");
         return None;
@@ -67,10 +106,19 @@ fn measured(lamp: &MeasuredLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>>
     let profile = Profile::Web(context.accept(&lamp.file.place, web)?);
     let intensity = of_candela(lamp.strength.as_ref(), &lamp.colour, &profile, context)?;
     let profile = masked(profile, lamp.mask.as_ref(), context)?;
-    placed(&lamp.placement, main, DMat3::IDENTITY, (intensity, profile), &lamp.place, context)
+    let kind = Kind {
+        name: &lamp.name.value,
+        placement: &lamp.placement,
+        main,
+        turn: DMat3::IDENTITY,
+        opening: lamp.opening.as_ref(),
+        file: Some(asset),
+        place: &lamp.place,
+    };
+    placed(&kind, (intensity, profile), context)
 }
 
-fn head_lamp(lamp: &HeadLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>> {
+fn head_lamp(lamp: &HeadLamp, context: &mut Context<'_>) -> Option<Lamps> {
     let profile = Profile::Web(match (lamp.beam.value, lamp.traffic.as_ref().map(|t| t.value)) {
         (Beam::High, _) => head_lamp::high_beam(),
         (Beam::Low, Some(Traffic::Left)) => head_lamp::low_beam(head_lamp::Traffic::Left),
@@ -80,7 +128,16 @@ fn head_lamp(lamp: &HeadLamp, context: &mut Context<'_>) -> Option<Vec<Lamp>> {
     let profile = masked(profile, lamp.mask.as_ref(), context)?;
     let down_deg = lamp.aim_down_deg.as_ref().map_or(0.0, |d| d.value);
     let turn = yaw_pitch_roll([0.0, down_deg, 0.0]);
-    placed(&lamp.placement, MainAxis::Forward, turn, (intensity, profile), &lamp.place, context)
+    let kind = Kind {
+        name: &lamp.name.value,
+        placement: &lamp.placement,
+        main: MainAxis::Forward,
+        turn,
+        opening: lamp.opening.as_ref(),
+        file: None,
+        place: &lamp.place,
+    };
+    placed(&kind, (intensity, profile), context)
 }
 
 /// A profile behind its mask.
@@ -139,22 +196,40 @@ fn of_candela(
     bright(&relative, factor, colour.place(), context)
 }
 
-/// A lamp everywhere where it stands; `turn` turns it in its own frame.
-fn placed(
-    placement: &LampPlacement,
-    main: MainAxis,
-    turn: DMat3,
-    (intensity, profile): (Spectrum, Profile),
-    place: &Place,
-    context: &mut Context<'_>,
-) -> Option<Vec<Lamp>> {
+/// A lamp everywhere where it stands.
+fn placed(kind: &Kind<'_>, (intensity, profile): (Spectrum, Profile), context: &mut Context<'_>) -> Option<Lamps> {
+    let opening = match kind.opening {
+        None => None,
+        Some(record) => Some(opening(record, kind.main, kind.file, &profile, context)?),
+    };
     let (intensity, profile) = (Arc::new(intensity), Arc::new(profile));
-    let attenuation = placement.attenuation_per_m.as_ref().map_or(0.0, |a| a.value);
+    let attenuation = kind.placement.attenuation_per_m.as_ref().map_or(0.0, |a| a.value);
     let lamp = |(position, aim): (&etendue_scene::Placed<[f64; 3]>, Option<&LampAim>)| {
         // An aim that was read has been checked.
-        let axes = aim.map_or(Some(DMat3::IDENTITY), |aim| aim.axes(position.value, main))? * turn;
+        let axes = aim.map_or(Some(DMat3::IDENTITY), |aim| aim.axes(position.value, kind.main))? * kind.turn;
         let made = Lamp::new(DVec3::from_array(position.value), axes, intensity.clone(), profile.clone());
-        context.accept(place, made.and_then(|lamp| lamp.attenuated(attenuation)))
+        context.accept(kind.place, made.and_then(|lamp| lamp.attenuated(attenuation)))
     };
-    placement.placements().map(lamp).collect()
+    let lamps: Vec<Lamp> = kind.placement.placements().map(lamp).collect::<Option<_>>()?;
+    Some(match opening {
+        None => Lamps::Points(lamps),
+        Some(opening) => {
+            let alike = names(kind).into_iter().zip(lamps).collect();
+            Lamps::Open(OpenLamp { alike, opening, place: kind.place.clone() })
+        }
+    })
+}
+
+/// The names of a lamp's places: those given, or the lamp's with a number where there are many.
+fn names(kind: &Kind<'_>) -> Vec<String> {
+    match &kind.placement.instances[..] {
+        [] => vec![kind.name.to_owned()],
+        many => {
+            let numbered = |(i, instance): (usize, &LampInstance)| match &instance.name {
+                Some(name) => name.value.clone(),
+                None => format!("{} {}", kind.name, i + 1),
+            };
+            many.iter().enumerate().map(numbered).collect()
+        }
+    }
 }

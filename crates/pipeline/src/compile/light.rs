@@ -1,7 +1,9 @@
 //! Suns and the environment: from records to the tracer's lights.
 
 use super::context::Context;
+use super::lamp::Lamps;
 use super::linear_picture::linear;
+use super::open_lamp::OpenLamp;
 use super::spectrum::{bright, emitted, powered, relative};
 use super::{lamp, sky};
 use crate::plan::SkyFacts;
@@ -10,13 +12,19 @@ use etendue_scene::record::{self, Light, Scene, SunLevel};
 use etendue_spectra::Spectrum;
 use etendue_tracer::lights::{BRIGHTEST, Environment, ImageEnvironment, SUN_ANGULAR_DIAMETER_DEG, Sources, Sun};
 
-/// What shines but is no surface, and what the plan says of a sky.
-pub(super) fn sources(scene: &Scene, context: &mut Context<'_>) -> (Sources, Option<SkyFacts>) {
+/// What shines but is no surface that glows, the lamps whose openings are yet to be placed in the world, and what the plan says of
+/// a sky.
+pub(super) fn sources(scene: &Scene, context: &mut Context<'_>) -> (Sources, Vec<OpenLamp>, Option<SkyFacts>) {
     let mut sources = Sources::default();
+    let mut open_lamps = Vec::new();
     for light in &scene.lights {
         match light {
             Light::Sun(record) => sources.suns.extend(sun(record, context)),
-            lamp => sources.lamps.extend(lamp::lamps(lamp, context)),
+            lamp => match lamp::lamps(lamp, context) {
+                None => {}
+                Some(Lamps::Points(lamps)) => sources.lamps.extend(lamps),
+                Some(Lamps::Open(lamps)) => open_lamps.push(lamps),
+            },
         }
     }
     let mut facts = None;
@@ -30,7 +38,7 @@ pub(super) fn sources(scene: &Scene, context: &mut Context<'_>) -> (Sources, Opt
             Some(Environment::Sky(Box::new(made.environment)))
         }
     });
-    (sources, facts)
+    (sources, open_lamps, facts)
 }
 
 fn sun(record: &record::Sun, context: &mut Context<'_>) -> Option<Sun> {

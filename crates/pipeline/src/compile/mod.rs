@@ -14,6 +14,8 @@ mod lens;
 mod light;
 mod linear_picture;
 mod material;
+mod open_lamp;
+mod opening;
 mod picture;
 mod positions;
 mod processing;
@@ -78,12 +80,13 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let unused = &description.unused;
     unused.remarks().into_iter().for_each(|remark| context.remark(remark));
     let mut builder = MaterialTableBuilder::of_scene(scene, unused, context);
-    let (sources, sky) = light::sources(scene, context);
+    let (mut sources, open_lamps, sky) = light::sources(scene, context);
     let setups = description.cameras.iter().enumerate();
     let mut cameras: Vec<_> =
         setups.filter_map(|(index, setup)| camera_plan(index as u32, setup, choices, context)).collect();
     shared_light::share(&mut cameras);
-    let (world, identities) = world::world(description, &mut builder, context)?;
+    let (world, identities, opened) = world::world(description, open_lamps, &mut builder, context)?;
+    sources.lamps.extend(opened);
     for setup in &description.cameras {
         let position = &setup.pose.position_m;
         context.accept(&position.place, world.check_reach(DVec3::from_array(position.value), TimeInterval::default()));

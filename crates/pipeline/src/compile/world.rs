@@ -2,7 +2,8 @@
 
 use super::context::Context;
 use super::material::MaterialTableBuilder;
-use super::shape;
+use super::open_lamp::OpenLamp;
+use super::{opening, shape};
 use crate::plan::Identity;
 use etendue_core::Track;
 use etendue_scene::asset::{MeshAsset, SlotMaterial, SlotReflectance, SlotSurface};
@@ -13,6 +14,7 @@ use etendue_scene::{CameraSetup, Description};
 use etendue_tracer::MaterialId;
 use etendue_tracer::accel::{TreeQuality, World, WorldBuilder};
 use etendue_tracer::geometry::{Dropped, Instance, Mesh, MeshError, MeshId, Shape};
+use etendue_tracer::lights::Lamp;
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -20,12 +22,14 @@ use std::collections::BTreeMap;
 /// What a material reflects whose library does not exist: the grey of a surface that nobody described.
 const MISSING_GREY: f64 = 0.5;
 
-/// The world and the identities that its ground truth names, in the order of the instance ids from 1.
+/// The world with the openings of lamps, the identities that its ground truth names, in the order of the instance ids from 1, and
+/// the lamps of the openings.
 pub(super) fn world(
     description: &Description,
+    open_lamps: Vec<OpenLamp>,
     material_table: &mut MaterialTableBuilder,
     context: &mut Context<'_>,
-) -> Option<(World, Vec<Identity>)> {
+) -> Option<(World, Vec<Identity>, Vec<Lamp>)> {
     let (scene, unused) = (&description.scene, &description.unused);
     let builder = WorldBuilder::new().with_tree_quality(tree_quality(&description.cameras));
     let mut assembly = Assembly { builder, meshes: BTreeMap::new(), identities: Vec::new() };
@@ -35,12 +39,14 @@ pub(super) fn world(
     for object in &scene.objects {
         assembly.add_object(object, scene, material_table, context);
     }
+    let Assembly { mut builder, mut identities, .. } = assembly;
+    let lamps = opening::placed(open_lamps, &mut builder, &mut identities, material_table, context);
     if !context.faults.is_empty() {
         return None;
     }
-    let built = assembly.builder.build();
+    let built = builder.build();
     let place = scene.place.clone();
-    Some((context.accept(&place, built)?, assembly.identities))
+    Some((context.accept(&place, built)?, identities, lamps))
 }
 
 /// All cameras see one world: the best of what they ask for.

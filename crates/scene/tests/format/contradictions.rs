@@ -242,3 +242,21 @@ fn an_aperture_says_what_it_means() {
         assert!(said.starts_with("camera.toml:2:") && said.contains(words), "{keys}: {said}");
     }
 }
+
+#[test]
+fn openings_contradict_what_a_surface_cannot_be() {
+    let lamp = "type = \"point\"\nposition_m = [0, 0, 3]\nintensity_cd = 10\nilluminant = \"E\"";
+    let told = light(&format!("{lamp}\nattenuation_per_m = 0.1\nopening = {{ shape = \"sphere\", radius_m = 0.05 }}"));
+    assert!(told.contains("lights.l.attenuation_per_m: \"attenuation_per_m\" contradicts \"opening\""), "{told}");
+    let told = light(&format!("{lamp}\nopening = {{ shape = \"file\" }}"));
+    assert!(told.contains("lights.l.opening: shape = \"file\" has no effect here"), "{told}");
+    for size in ["radius_m = -0.05", "radius_m = 0", "radius_m = 51"] {
+        let told = light(&format!("{lamp}\nopening = {{ shape = \"disc\", {size} }}"));
+        assert!(told.contains("lights.l.opening.radius_m: "), "{told}");
+    }
+    let aim = "rotation_deg = [10, 0, 0]";
+    let told = light(&format!("{lamp}\n{aim}\nopening = {{ shape = \"sphere\", radius_m = 0.05 }}"));
+    assert!(told.contains("points nowhere"), "{told}");
+    let told = light(&format!("{lamp}\n{aim}\nopening = {{ shape = \"tube\", radius_m = 0.013, length_m = 1.2 }}"));
+    assert_eq!(told, "", "a tube points somewhere");
+}

@@ -192,17 +192,27 @@ impl<'a, const N: usize> Path<'a, N> {
 
     /// Light that the surface met emits against the ray.
     fn add_emission(&mut self, point: &SurfacePoint, lookup: &Lookup) {
-        let material_table = self.tracer.material_table;
-        let Some(emission) = material_table.emission(point.material) else { return };
-        if !emission.leaves(point.geometric_normal, -self.ray.direction) || !self.follows(self.history.is_caustic()) {
+        let Some(emitted) = self.emitted(point, lookup) else { return };
+        if !self.follows(self.history.is_caustic()) {
             return;
         }
         let (direction, distance_m) = (self.ray.direction, self.travelled_m);
         let met = |receiver| LightHit { receiver, point, direction, distance_m };
         let drawn = self.receiver.as_ref().map_or(0.0, |receiver| self.tracer.lights.light_pdf(&met(receiver)));
         let weight = self.tracer.settings.strategies.met(self.scattered, drawn);
-        self.radiance +=
-            self.throughput * material_table.radiance(point.material, emission, lookup, self.wavelengths) * weight;
+        self.radiance += self.throughput * emitted * weight;
+    }
+
+    /// Radiance of a surface against the ray: by its material, or as the opening of a lamp; `None` where its side does not shine.
+    #[inline(always)]
+    fn emitted(&self, point: &SurfacePoint, lookup: &Lookup) -> Option<Spectral<N>> {
+        let material_table = self.tracer.material_table;
+        match material_table.emission(point.material) {
+            None => self.tracer.lights.of_opening(point, self.ray.direction, self.wavelengths),
+            Some(emission) => emission
+                .leaves(point.geometric_normal, -self.ray.direction)
+                .then(|| material_table.radiance(point.material, emission, lookup, self.wavelengths)),
+        }
     }
 
     /// Whether the surface is not there for this path.
@@ -311,7 +321,7 @@ impl<'a, const N: usize> Path<'a, N> {
         }
     }
 
-    /// What drawn light counts beside the other way of finding it, over its density. A lamp without extent is found in no
+    /// What drawn light counts beside the other way of finding it, over its density. A lamp without an opening is found in no
     /// other way, and nor are surfaces where no ray is sent out to meet them.
     fn drawn_weight(&self, light: &LightSample<N>, scattered: f32) -> f32 {
         let settings = &self.tracer.settings;

@@ -3,7 +3,9 @@
 use glam::DAffine3;
 
 use super::Light;
+use super::lamp::LampLight;
 use super::moving::{MovingLight, Way};
+use super::opening::{Opening, OpeningLight};
 use super::primitives::Primitives;
 use super::sphere::SphereLight;
 use super::tree::LightBounds;
@@ -25,6 +27,15 @@ pub enum LightError {
         material: u32,
         /// Number of materials.
         materials: usize,
+    },
+    /// The surface of a lamp's opening is not what the opening asks for.
+    #[error(
+        "instance {instance} is not the surface of a lamp's opening, which its lamp takes it for; place the opening's own mesh, or a \
+         sphere, of one material that does not glow"
+    )]
+    Opening {
+        /// The instance, counted from 0.
+        instance: u32,
     },
     /// More glowing triangles than can be told apart.
     #[error("the scene has more than four thousand million glowing triangles; let fewer glow")]
@@ -182,6 +193,34 @@ impl Gathered {
             Some(self.add(bounds, light))
         });
         self.primitives.push([light]);
+    }
+
+    /// Adds a lamp whose opening is an instance of the world.
+    pub(super) fn add_opening(
+        &mut self,
+        lamp: LampLight,
+        (opening, instance): (Opening, u32),
+        view: &RenderSpace<'_>,
+        material_table: &MaterialTable,
+    ) -> Result<(), LightError> {
+        let fault = LightError::Opening { instance };
+        let placed = view.world().instances().get(instance as usize).ok_or(fault)?;
+        let [material] = placed.materials[..] else { return Err(fault) };
+        // Lamps stand still.
+        let mut to_render = placed.to_world.as_still().ok_or(fault)?;
+        to_render.translation -= view.origin_m();
+        let light = match placed.shape {
+            Shape::Mesh(id) => OpeningLight::of_mesh(lamp, opening, (view.world().mesh(id), &to_render), material),
+            Shape::Sphere { radius_m } => {
+                let sphere = SphereLight::new(radius_m, &to_render, material, material_table);
+                Some(OpeningLight::of_sphere(lamp, opening, sphere))
+            }
+        };
+        let light = light.filter(|_| material_table.emission(material).is_none()).ok_or(fault)?;
+        let primitives = light.primitives();
+        let added = self.add(light.bounds(), Light::Opening(light));
+        self.primitives.assign(instance, primitives, added);
+        Ok(())
     }
 
     pub(super) fn add(&mut self, bounds: LightBounds, light: Light) -> u32 {

@@ -1,18 +1,20 @@
-//! Lamps as points: intensity by direction, 1/d² by distance.
+//! Lamps: intensity by direction, and as points 1/d² by distance.
 //!
 //! A surface that faces a lamp of intensity I(λ) · value(direction) from the distance d has the spectral irradiance
 //! E(λ) = I(λ) · value / d² / (1 + a d). The last factor is the attenuation coefficient a (1/m) of the legacy mode, 0 by
 //! default; it is no physics of clear air.
 //!
-//! A lamp's frame is x forward, y left, z up; its axes say where these point in the world. Left out: the size of a lamp
-//! (shadows are sharp, and so near it that it is no point its light is too strong), polarisation, flicker.
+//! A lamp's frame is x forward, y left, z up; its axes say where these point in the world. A lamp without an opening has no
+//! size (shadows are sharp, and so near it that it is no point its light is too strong); one with an opening shines from a
+//! surface of the world (`opening/`). Left out: polarisation, flicker.
 
 use std::sync::Arc;
 
-use etendue_core::{Wavelengths, maths};
+use etendue_core::{Spectral, Wavelengths, maths};
 use etendue_spectra::Spectrum;
-use glam::{DMat3, DVec3, Mat3, Vec3};
+use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
 
+use super::opening::Opening;
 use super::profile::Profile;
 use super::tree::LightBounds;
 use super::{BRIGHTEST, LightSample, LightSampleContext};
@@ -37,6 +39,23 @@ pub enum LampError {
         /// What was given, 1/m.
         per_m: f64,
     },
+    /// Attenuation of a lamp with an opening.
+    #[error(
+        "an attenuation of {per_m} 1/m was given to a lamp with an opening, whose radiance is the same at every distance; remove one \
+         of the two"
+    )]
+    AttenuatedOpening {
+        /// What was given, 1/m.
+        per_m: f64,
+    },
+    /// Too bright an opening.
+    #[error(
+        "the opening would have a radiance of {radiance:e} W·m⁻²·sr⁻¹·nm⁻¹, at most 1e30 can be traced; give less light"
+    )]
+    OpeningRadiance {
+        /// At its brightest, W·m⁻²·sr⁻¹·nm⁻¹.
+        radiance: f32,
+    },
 }
 
 /// Irradiance of a lamp at a receiver, the mean over the wavelengths that lights are chosen by, W·m⁻²·nm⁻¹.
@@ -48,7 +67,7 @@ pub(super) struct LampIrradiance {
     pub(super) raised: f32,
 }
 
-/// A lamp without extent. Intensity and profile are shared between lamps of a kind.
+/// A lamp. Intensity and profile are shared between lamps of a kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lamp {
     position_m: DVec3,
@@ -56,6 +75,8 @@ pub struct Lamp {
     intensity: Arc<Spectrum>,
     profile: Arc<Profile>,
     attenuation_per_m: f64,
+    /// Its opening, and the instance of the world that is its surface.
+    opening: Option<(Opening, u32)>,
 }
 
 impl Lamp {
@@ -82,7 +103,7 @@ impl Lamp {
         if !(intensity.min_value() >= 0.0 && intensity.max_value() <= BRIGHTEST) {
             return Err(LampError::Intensity);
         }
-        Ok(Self { position_m, axes, intensity, profile, attenuation_per_m: 0.0 })
+        Ok(Self { position_m, axes, intensity, profile, attenuation_per_m: 0.0, opening: None })
     }
 
     /// The lamp with an attenuation coefficient, 1/m.
@@ -96,6 +117,35 @@ impl Lamp {
         } else {
             Err(LampError::Attenuation { per_m: attenuation_per_m })
         }
+    }
+
+    /// The lamp with an opening, whose surface is an instance of the world: that of [`Opening::mesh`] or of a sphere of radius
+    /// 1, placed by [`Lamp::opening_to_world`].
+    ///
+    /// # Errors
+    /// Where the lamp is attenuated, or the opening would be brighter than can be traced.
+    pub fn opened(self, opening: Opening, instance: u32) -> Result<Self, LampError> {
+        if self.attenuation_per_m > 0.0 {
+            return Err(LampError::AttenuatedOpening { per_m: self.attenuation_per_m });
+        }
+        let radiance = self.intensity.max_value() * self.profile.peak() as f32 / opening.least_area_m2();
+        if radiance <= BRIGHTEST {
+            Ok(Self { opening: Some((opening, instance)), ..self })
+        } else {
+            Err(LampError::OpeningRadiance { radiance })
+        }
+    }
+
+    /// From the frame of an opening's mesh or sphere to the world.
+    #[must_use]
+    pub fn opening_to_world(&self, opening: &Opening) -> DAffine3 {
+        DAffine3::from_mat3_translation(self.axes, self.position_m) * opening.to_lamp()
+    }
+
+    /// Its opening, and the instance of the world that is its surface.
+    #[must_use]
+    pub fn opening(&self) -> Option<(Opening, u32)> {
+        self.opening
     }
 
     /// Where it is, world, m.
@@ -171,6 +221,32 @@ impl LampLight {
         let raised = if cos > 0.0 { cos + receiver.glossy(direction, 0.0) } else { 0.0 };
         let faced = self.mean_intensity * factor;
         LampIrradiance { plain: faced * cos, raised: faced * raised }
+    }
+
+    /// The same of a lamp whose light starts within `extent_m` of its place.
+    pub(super) fn irradiance_of_extent(&self, receiver: &LightSampleContext, extent_m: f32) -> LampIrradiance {
+        let way = self.position - receiver.position;
+        let distance = way.length();
+        let Some(direction) = (distance > 0.0).then(|| way / distance) else {
+            return LampIrradiance::default();
+        };
+        let sin = (extent_m / distance).min(1.0);
+        let cos =
+            if receiver.normal == Vec3::ZERO { 1.0 } else { (receiver.normal.dot(direction) + sin).clamp(0.0, 1.0) };
+        let raised = if cos > 0.0 { cos + receiver.glossy(direction, sin) } else { 0.0 };
+        let near = distance.max(0.5 * extent_m);
+        let faced = self.mean_intensity * self.profile.value(self.to_lamp(-direction)) / (near * near);
+        LampIrradiance { plain: faced * cos, raised: faced * raised }
+    }
+
+    /// A direction of the render frame in the lamp's.
+    pub(super) fn to_lamp(&self, direction: Vec3) -> Vec3 {
+        self.to_lamp * direction
+    }
+
+    /// Spectral intensity along the unit `direction` of the lamp's frame, W·sr⁻¹·nm⁻¹.
+    pub(super) fn intensity_along<const N: usize>(&self, direction: Vec3, wavelengths: &Wavelengths<N>) -> Spectral<N> {
+        self.intensity.sample(wavelengths) * self.profile.value(direction)
     }
 
     /// Direction to the lamp, and what a unit of intensity gives a surface that faces it; `None` where there is none.

@@ -2,6 +2,7 @@
 
 use super::lamp::LampLight;
 use super::moving::MovingLight;
+use super::opening::OpeningLight;
 use super::sphere::SphereLight;
 use super::triangle::TriangleLight;
 
@@ -11,6 +12,7 @@ pub(super) enum Light {
     Triangle(TriangleLight),
     Sphere(SphereLight),
     Lamp(LampLight),
+    Opening(OpeningLight),
     Moving(Box<MovingLight>),
 }
 

@@ -7,8 +7,10 @@ pub struct LightCounts {
     pub triangles: usize,
     /// Emissive spheres.
     pub spheres: usize,
-    /// Lamps without extent.
+    /// Lamps without an opening.
     pub lamps: usize,
+    /// Lamps with a luminous opening.
+    pub openings: usize,
     /// Suns.
     pub suns: usize,
     /// Whether an environment of one radiance above 0 surrounds the scene.
@@ -24,6 +26,6 @@ impl LightCounts {
     #[must_use]
     pub fn is_dark(&self) -> bool {
         let environment = self.uniform_environment || self.image_environment || self.sky;
-        self.triangles + self.spheres + self.lamps + self.suns == 0 && !environment
+        self.triangles + self.spheres + self.lamps + self.openings + self.suns == 0 && !environment
     }
 }

@@ -12,12 +12,12 @@ pub struct LightSample<const N: usize> {
     pub direction: Vec3,
     /// The point of the light, moved off its surface by the error bound; `None` for light from infinity.
     pub target: Option<Vec3>,
-    /// Spectral radiance towards the point; of a lamp without extent the spectral irradiance of a surface that faces it.
+    /// Spectral radiance towards the point; of a lamp without an opening the spectral irradiance of a surface that faces it.
     pub radiance: Spectral<N>,
-    /// Density of the direction, with that of the choice, 1/sr; of a lamp without extent the probability of the choice.
+    /// Density of the direction, with that of the choice, 1/sr; of a lamp without an opening the probability of the choice.
     /// Positive.
     pub pdf: f32,
-    /// Whether it is a lamp without extent: nothing but a draw can find it.
+    /// Whether it is a lamp without an opening: nothing but a draw can find it.
     pub delta: bool,
     /// Whether it is light of the surroundings, and of no sun or surface.
     pub surrounds: bool,

@@ -18,6 +18,12 @@ impl Primitives {
         self.first.push(if self.lights.len() > first { first as u32 } else { NONE });
     }
 
+    /// Tells that all `count` primitives of an instance that does not glow by itself are one light.
+    pub(super) fn assign(&mut self, instance: u32, count: usize, light: u32) {
+        self.first[instance as usize] = self.lights.len() as u32;
+        self.lights.extend(core::iter::repeat_n(light, count));
+    }
+
     pub(super) fn light(&self, instance: u32, primitive: u32) -> Option<usize> {
         let first = self.first[instance as usize];
         if first == NONE {

@@ -13,9 +13,10 @@ use super::sample_context::LightSampleContext;
 use super::sources::Sources;
 use super::sun::Sun;
 use super::tree::TreeQuery;
+use crate::geometry::SurfacePoint;
 use crate::materials::MaterialTable;
 use crate::render_space::RenderSpace;
-use etendue_core::Wavelengths;
+use etendue_core::{Spectral, Wavelengths};
 use glam::{Vec2, Vec3};
 
 /// All lights of a view.
@@ -24,6 +25,7 @@ pub struct Lights {
     pub(super) lights: Vec<Light>,
     pub(super) choice: Choice,
     pub(super) primitives: Primitives,
+    has_openings: bool,
     pub(super) suns: Vec<Sun>,
     pub(super) environment: Option<Environment>,
 }
@@ -43,13 +45,18 @@ impl Lights {
         let Sources { suns, lamps, environment } = sources;
         let mut gathered = collect::of_surfaces(view, material_table, (low_nm, high_nm))?;
         for lamp in lamps {
+            let opening = lamp.opening();
             let lamp = LampLight::new(lamp, view.origin_m(), (low_nm, high_nm));
-            gathered.add(lamp.bounds(), Light::Lamp(lamp));
+            match opening {
+                None => drop(gathered.add(lamp.bounds(), Light::Lamp(lamp))),
+                Some(opening) => gathered.add_opening(lamp, opening, view, material_table)?,
+            }
         }
+        let has_openings = gathered.lights.iter().any(|light| matches!(light, Light::Opening(_)));
         let weighed = suns.iter().map(|sun| (sun.clone(), sun.mean_irradiance(low_nm, high_nm) as f32)).collect();
         let surroundings = environment.as_ref().map_or(0.0, |e| e.drawn_irradiance(low_nm, high_nm)) as f32;
         let choice = Choice::new(&gathered.bounds, weighed, surroundings);
-        Ok(Self { lights: gathered.lights, choice, primitives: gathered.primitives, suns, environment })
+        Ok(Self { lights: gathered.lights, choice, primitives: gathered.primitives, has_openings, suns, environment })
     }
 
     /// How many lights of each kind there are.
@@ -60,6 +67,7 @@ impl Lights {
             triangles: self.lights.iter().map(Light::triangles).sum(),
             spheres: count(Light::is_sphere),
             lamps: count(|l| matches!(l, Light::Lamp(_))),
+            openings: count(|l| matches!(l, Light::Opening(_))),
             suns: self.suns.len(),
             uniform_environment: matches!(&self.environment, Some(Environment::Uniform(l)) if l.max_value() > 0.0),
             image_environment: matches!(self.environment, Some(Environment::Image(_))),
@@ -104,6 +112,7 @@ impl Lights {
                     s.glowing(material_table).towards(&s.sample(from, u)?, from, spread_rad, wavelengths)
                 }
                 Light::Lamp(lamp) => lamp.sample(from, wavelengths),
+                Light::Opening(opening) => opening.sample(from, u, wavelengths),
                 Light::Moving(light) => light.sample(receiver, u, spread_rad, material_table, wavelengths),
             },
             Chosen::Sun(i) => Some(self.suns[i].sample(u, wavelengths)),
@@ -119,6 +128,7 @@ impl Lights {
     ) -> TreeQuery<'a, impl Fn(u32) -> LampIrradiance + 'a> {
         let lamp = |i: u32| match &self.lights[i as usize] {
             Light::Lamp(lamp) => lamp.irradiance(receiver),
+            Light::Opening(opening) => opening.irradiance(receiver),
             Light::Triangle(_) | Light::Sphere(_) | Light::Moving(_) => LampIrradiance::default(),
         };
         TreeQuery { receiver, lamp }
@@ -132,10 +142,27 @@ impl Lights {
         let pdf = match &self.lights[i] {
             Light::Triangle(light) => light.pdf(met),
             Light::Sphere(light) => light.pdf(met),
+            Light::Opening(light) => light.pdf(met),
             Light::Moving(light) => light.pdf(met),
             Light::Lamp(_) => 0.0,
         };
         pdf * self.choice.probability(&self.question(met.receiver), Chosen::Local(i))
+    }
+
+    /// Spectral radiance, W·m⁻²·sr⁻¹·nm⁻¹, of a lamp's opening that a ray of unit `direction` has met at `point`; `None` where
+    /// the surface is none, or its side does not shine.
+    #[inline(always)]
+    pub(crate) fn of_opening<const N: usize>(
+        &self,
+        point: &SurfacePoint,
+        direction: Vec3,
+        wavelengths: &Wavelengths<N>,
+    ) -> Option<Spectral<N>> {
+        let light = self.has_openings.then(|| self.primitives.light(point.instance, point.primitive))??;
+        match &self.lights[light] {
+            Light::Opening(opening) => opening.met(point, direction, wavelengths),
+            Light::Lamp(_) | Light::Triangle(_) | Light::Sphere(_) | Light::Moving(_) => None,
+        }
     }
 
     /// Light from infinity along the unit `direction` away from the viewer, each contribution by itself. `receiver` is

@@ -1,15 +1,15 @@
-//! What shines but is no surface.
+//! What shines but is no surface that glows by its material.
 
 use super::environment::Environment;
 use super::lamp::Lamp;
 use super::sun::Sun;
 
-/// What shines but is no surface.
+/// What shines but is no surface that glows by its material.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
     /// Suns.
     pub suns: Vec<Sun>,
-    /// Lamps without extent.
+    /// Lamps, as points or with the instances of the world that are their openings.
     pub lamps: Vec<Lamp>,
     /// What surrounds the scene.
     pub environment: Option<Environment>,

@@ -160,6 +160,11 @@ impl SphereLight {
         solid_angle_pdf(1.0 / (4.0 * PI * stretch), met.direction * met.distance_m, met.distance_m, normal)
     }
 
+    /// How far a stored point may be from where the accelerator sees it, m.
+    pub(super) fn error_m(&self) -> f32 {
+        self.error_m
+    }
+
     pub(super) fn glowing<'a>(&self, material_table: &'a MaterialTable) -> Glowing<'a> {
         Glowing { material: self.material, error_m: self.error_m, early_m: 0.0, material_table }
     }

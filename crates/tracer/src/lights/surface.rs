@@ -18,6 +18,23 @@ pub(super) struct SurfaceSample {
     pub(super) uv_per_m: f32,
 }
 
+impl SurfaceSample {
+    /// Unit direction to the point; `None` where it is the receiver itself.
+    #[inline(always)]
+    pub(super) fn direction(&self) -> Option<Vec3> {
+        (self.distance > 0.0).then(|| self.way * (1.0 / self.distance))
+    }
+
+    /// The point, moved off its surface by the error bound, and towards the receiver by as much as the accelerator may meet
+    /// the surface early.
+    #[inline(always)]
+    pub(super) fn target(&self, from: Vec3, direction: Vec3, error_m: f32, early_m: f32) -> Vec3 {
+        let side = -1.0_f32.copysign(self.normal.dot(direction));
+        from + (self.way - direction * early_m.min(0.5 * self.distance))
+            + self.normal * (side * (error_m + ROUNDING * self.distance))
+    }
+}
+
 /// What surface lights have in common.
 pub(super) struct Glowing<'a> {
     pub(super) material: crate::MaterialId,
@@ -38,16 +55,12 @@ impl Glowing<'_> {
         wavelengths: &Wavelengths<N>,
     ) -> Option<LightSample<N>> {
         let distance = surface.distance;
-        let direction = (distance > 0.0).then(|| surface.way * (1.0 / distance))?;
+        let direction = surface.direction()?;
         let emission = self.material_table.emission(self.material).filter(|e| e.leaves(surface.normal, -direction))?;
         let lookup = Lookup { width: spread_rad * distance * surface.uv_per_m, ..Lookup::point(surface.uv) };
-        let side = -1.0_f32.copysign(surface.normal.dot(direction));
         Some(LightSample {
             direction,
-            target: Some(
-                from + (surface.way - direction * self.early_m.min(0.5 * distance))
-                    + surface.normal * (side * (self.error_m + ROUNDING * distance)),
-            ),
+            target: Some(surface.target(from, direction, self.error_m, self.early_m)),
             radiance: self.material_table.radiance(self.material, emission, &lookup, wavelengths),
             pdf: surface.pdf,
             delta: false,

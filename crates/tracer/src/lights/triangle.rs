@@ -74,6 +74,21 @@ impl TriangleLight {
         1.0 / f64::from(self.per_area)
     }
 
+    /// On the same side as the surface's geometric normal.
+    pub(super) fn normal(&self) -> Vec3 {
+        self.normal
+    }
+
+    /// The middle of a parallelogram, render frame, m.
+    pub(super) fn middle(&self) -> Vec3 {
+        self.flat.at(Vec2::splat(0.5))
+    }
+
+    /// How far a stored point may be from where the accelerator sees it, and how far before it a ray may be met, m.
+    pub(super) fn rounding_m(&self) -> (f32, f32) {
+        (self.error_m, self.flat.early_m())
+    }
+
     /// For the choice among lights, at a mean radiance; `both` sides glow or only the front.
     pub(super) fn bounds(&self, radiance: f64, both: bool) -> LightBounds {
         let corners = self.flat.corners();

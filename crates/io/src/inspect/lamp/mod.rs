@@ -78,7 +78,7 @@ fn opening(lamp: &PhotometryAsset) -> String {
         OpeningShape::Rectangular => "rectangular",
         OpeningShape::Round => "round",
         OpeningShape::Ball => "a ball",
-        OpeningShape::Lying => "a lying cylinder",
+        OpeningShape::Lying | OpeningShape::LyingAcross => "a lying cylinder",
     };
     format!("{shape}, {} m long (C0), {} m wide (C90), {} m high", opening.length_m, opening.width_m, opening.height_m)
 }

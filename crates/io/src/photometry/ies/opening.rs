@@ -10,7 +10,8 @@ pub(super) fn of([width, length, height]: [f64; 3]) -> Opening {
         [false, false, _] => OpeningShape::Rectangular,
         [true, true, true] => OpeningShape::Ball,
         [_, _, false] => OpeningShape::Round,
-        [_, _, true] => OpeningShape::Lying,
+        [true, false, true] => OpeningShape::Lying,
+        [false, true, true] => OpeningShape::LyingAcross,
     };
     // Editions before 2002 state a circle by its width alone.
     let length = if shape == OpeningShape::Round && length == 0.0 { width } else { length };
@@ -32,7 +33,7 @@ mod tests {
             ([-1.0, -2.0, 0.5], OpeningShape::Round),
             ([-1.0, -1.0, -1.0], OpeningShape::Ball),
             ([-1.0, 2.0, -1.0], OpeningShape::Lying),
-            ([0.0, -1.0, -1.0], OpeningShape::Lying),
+            ([0.0, -1.0, -1.0], OpeningShape::LyingAcross),
         ];
         for (size, shape) in shapes {
             assert_eq!(of(size).shape, shape, "{size:?}");

@@ -23,6 +23,8 @@ pub(in super::super) struct MaterialTableBuilder {
     by_slot: BTreeMap<(PathBuf, String), MaterialId>,
     /// Materials of a flux, by the bits of the area that gives it.
     by_area: BTreeMap<(u32, u64), MaterialId>,
+    /// That of lamps' openings, once there are any.
+    of_openings: Option<MaterialId>,
     pictures: Pictures,
 }
 
@@ -143,6 +145,22 @@ impl MaterialTableBuilder {
         }
         let made = self.add(like);
         self.by_area.insert(key, made);
+        made
+    }
+
+    /// The black material of lamps' openings, which do not shine by their material.
+    pub(in super::super) fn of_openings(&mut self, place: &Place) -> MaterialId {
+        if let Some(known) = self.of_openings {
+            return known;
+        }
+        let made = self.add(Made {
+            material: Material::new(Surface::Absorber),
+            place: place.clone(),
+            name: "lamp opening".to_owned(),
+            needs_coordinates: false,
+            flux_sides: None,
+        });
+        self.of_openings = Some(made);
         made
     }
 

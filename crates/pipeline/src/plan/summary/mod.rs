@@ -111,6 +111,7 @@ fn lights(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Resul
     let counted = [
         (counts.suns, "sun disc"),
         (counts.lamps, "lamp"),
+        (counts.openings, "lamp opening"),
         (counts.triangles, "glowing triangle"),
         (counts.spheres, "glowing sphere"),
         (usize::from(counts.image_environment), "surrounding picture"),

@@ -52,8 +52,10 @@ pub enum OpeningShape {
     Round,
     /// A ball or an ellipsoid.
     Ball,
-    /// A cylinder that lies.
+    /// A cylinder that lies, its axis along the length.
     Lying,
+    /// A cylinder that lies, its axis along the width.
+    LyingAcross,
 }
 
 /// The luminous opening, m.

@@ -1,8 +1,9 @@
-//! Lamps without extent.
+//! Lamps: points, or openings that shine as points would from afar.
 
 use std::path::PathBuf;
 
 use super::emission::{LightColour, check_colour};
+use super::opening::{self, LampOpening};
 use super::placement::{LampInstance, LampPlacement};
 use super::strength::{LampStrength, MeasuredStrength};
 use crate::fault::Faults;
@@ -14,7 +15,7 @@ record! {
     pub struct PointLamp check(check_point) {
         /// Its name.
         required name: Placed<String> = text("the name of the light");
-        /// Where it stands. It points somewhere only with "mask".
+        /// Where it stands. It points somewhere only with "mask", or with an "opening" that is no sphere.
         inside placement: LampPlacement;
         /// How much light, before the mask.
         inside strength: LampStrength;
@@ -22,6 +23,8 @@ record! {
         inside colour: LightColour;
         /// A picture that shapes its light, along its +x axis. Default: none.
         optional mask: Mask = record();
+        /// The surface that its light leaves from. Default: none, a point, which casts sharp shadows and is not seen itself.
+        optional opening: LampOpening = record();
     }
 }
 
@@ -43,6 +46,8 @@ record! {
         optional inner_angle_deg: Placed<f64> = number("°").at_least(0.0).at_most(360.0);
         /// A picture that shapes its light, along its +x axis. Default: none.
         optional mask: Mask = record();
+        /// The surface that its light leaves from. Default: none, a point, which casts sharp shadows and is not seen itself.
+        optional opening: LampOpening = record();
     }
 }
 
@@ -63,6 +68,8 @@ record! {
         /// A picture that shapes its light, along its +x axis. Not for photometry of type C, which shines down. Default:
         /// none.
         optional mask: Mask = record();
+        /// The surface that its light leaves from. Default: none, a point, which casts sharp shadows and is not seen itself.
+        optional opening: LampOpening = record();
     }
 }
 
@@ -86,6 +93,8 @@ record! {
         inside colour: LightColour;
         /// A picture that shapes its light, along its +x axis. Default: none.
         optional mask: Mask = record();
+        /// The surface that its light leaves from. Default: none, a point, which casts sharp shadows and is not seen itself.
+        optional opening: LampOpening = record();
     }
 }
 
@@ -125,7 +134,8 @@ record! {
 /// A lamp that shines alike in all directions points nowhere.
 fn check_point(lamp: &PointLamp, faults: &mut Faults) {
     check_colour(&lamp.colour, faults);
-    if lamp.mask.is_some() {
+    opening::check(lamp.opening.as_ref(), &lamp.placement, false, faults);
+    if lamp.mask.is_some() || lamp.opening.as_ref().is_some_and(LampOpening::turns) {
         return;
     }
     let instances = lamp.placement.instances.iter().filter_map(|i: &LampInstance| i.aim.as_ref());
@@ -136,6 +146,7 @@ fn check_point(lamp: &PointLamp, faults: &mut Faults) {
 
 fn check_spot(lamp: &SpotLamp, faults: &mut Faults) {
     check_colour(&lamp.colour, faults);
+    opening::check(lamp.opening.as_ref(), &lamp.placement, false, faults);
     if let Some(inner) = &lamp.inner_angle_deg
         && inner.value > lamp.field_angle_deg.value
     {
@@ -146,10 +157,12 @@ fn check_spot(lamp: &SpotLamp, faults: &mut Faults) {
 
 fn check_measured(lamp: &MeasuredLamp, faults: &mut Faults) {
     check_colour(&lamp.colour, faults);
+    opening::check(lamp.opening.as_ref(), &lamp.placement, true, faults);
 }
 
 fn check_head_lamp(lamp: &HeadLamp, faults: &mut Faults) {
     check_colour(&lamp.colour, faults);
+    opening::check(lamp.opening.as_ref(), &lamp.placement, false, faults);
     match (lamp.beam.value, &lamp.traffic) {
         (Beam::Low, None) => faults.add(
             &lamp.beam.place,

@@ -2,6 +2,7 @@
 
 pub mod emission;
 pub mod lamp;
+pub mod opening;
 pub mod placement;
 pub mod strength;
 pub mod sun;
@@ -9,6 +10,7 @@ pub mod sun;
 pub(crate) use emission::illuminants;
 pub use emission::{Emission, Level, LightColour};
 pub use lamp::{Beam, HeadLamp, Mask, MeasuredLamp, PointLamp, SpotLamp, Traffic};
+pub use opening::LampOpening;
 pub use placement::{LampAim, LampInstance, LampPlacement};
 pub use strength::{LampStrength, MeasuredStrength};
 pub use sun::{Sun, SunLevel};
@@ -21,11 +23,11 @@ variants! {
     pub enum Light by "type" {
         /// The sun's disc, at infinity.
         "sun" => Sun(Sun),
-        /// A lamp without extent that shines alike in all directions.
+        /// A lamp that shines alike in all directions.
         "point" => Point(PointLamp),
-        /// A lamp without extent that shines in a cone about its +x axis.
+        /// A lamp that shines in a cone about its +x axis.
         "spot" => Spot(SpotLamp),
-        /// A lamp without extent whose intensities were measured: an IES LM-63 or EULUMDAT file.
+        /// A lamp whose intensities were measured: an IES LM-63 or EULUMDAT file.
         "measured" => Measured(MeasuredLamp),
         /// A head lamp's low or high beam, made after the test points of UN R149; the lamp's +x axis points forward.
         "head_lamp" => HeadLamp(HeadLamp),

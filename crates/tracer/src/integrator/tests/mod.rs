@@ -11,6 +11,7 @@ mod lamps;
 mod levels;
 mod motion;
 mod near_lights;
+mod openings;
 mod passages;
 mod sharing;
 mod sides;

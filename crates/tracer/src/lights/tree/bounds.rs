@@ -19,7 +19,7 @@ pub(in crate::lights) struct LightBounds {
     pub(in crate::lights) axis: Vec3,
     pub(in crate::lights) theta_o: f32,
     pub(in crate::lights) theta_e: f32,
-    /// Whether it is one lamp without extent.
+    /// Whether it is one lamp, with an opening or without.
     pub(in crate::lights) is_lamp: bool,
 }
 

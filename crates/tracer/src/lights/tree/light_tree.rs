@@ -31,9 +31,19 @@ pub(in crate::lights) struct TreeQuery<'a, F: Fn(u32) -> LampIrradiance> {
     pub(in crate::lights) lamp: F,
 }
 
+/// Share of a cluster's estimate that a lamp with an opening counts at least, whatever its profile is worth from its middle.
+const LEAST_OF_EXTENT: f32 = 0.05;
+
 /// What share of a glossy receiver's draws goes by what lights count for a matt one. A lamp that is mirrored may count 10⁴ times and more
 /// beside the others; where it is hidden, these are left with this share.
 pub(in crate::lights) const MATT_SHARE: f32 = 0.2;
+
+/// What a lamp counts that is worth `own` from its middle and is estimated as a cluster of one to be worth `weight`: parts of an opening
+/// may light what its middle does not.
+#[inline(always)]
+fn of_leaf(node: &Node, lane: usize, own: f32, weight: f32) -> f32 {
+    if node.has_extent(lane) { own.max(LEAST_OF_EXTENT * weight) } else { own }
+}
 
 impl LightTree {
     /// How many lights there are.
@@ -47,7 +57,8 @@ impl LightTree {
         let mut weights = node.weights(question.receiver);
         for (lane, weight) in weights.iter_mut().enumerate() {
             if node.is_lamp(lane) && *weight > 0.0 {
-                *weight = (question.lamp)(node.child(lane).index).plain * self.per_irradiance;
+                let own = (question.lamp)(node.child(lane).index).plain * self.per_irradiance;
+                *weight = of_leaf(node, lane, own, *weight);
             }
         }
         weights
@@ -65,8 +76,9 @@ impl LightTree {
         for lane in 0..LANES {
             if node.is_lamp(lane) && weights.plain[lane] > 0.0 {
                 let lamp = (question.lamp)(node.child(lane).index);
-                weights.plain[lane] = lamp.plain * self.per_irradiance;
-                weights.raised[lane] = lamp.raised * self.per_irradiance;
+                let of = |own: f32, weight: f32| of_leaf(node, lane, own * self.per_irradiance, weight);
+                weights.plain[lane] = of(lamp.plain, weights.plain[lane]);
+                weights.raised[lane] = of(lamp.raised, weights.raised[lane]);
             }
         }
         weights

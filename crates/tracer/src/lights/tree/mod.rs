@@ -3,7 +3,7 @@
 //! After Conty Estevez and Kulla 2018 ("Importance sampling of many lights with adaptive tree splitting"): clusters know
 //! a sphere about them, their intensity and a cone that holds their light; from these follows a bound-like estimate of
 //! the irradiance that they give a receiver, and a cluster is entered with a probability in proportion to it. Changed
-//! here: nodes have eight children, whose estimates are made four at once; leaves that are lamps without extent are weighed by
+//! here: nodes have eight children, whose estimates are made four at once; leaves that are lamps are weighed by
 //! their own intensity towards the receiver. A draw costs O(log n). [`LightTree::probability`] walks the way to a light
 //! through the same arithmetic in the same order, so that it tells the bits that [`LightTree::pick`] told.
 //!

@@ -35,7 +35,7 @@ pub(super) struct Node {
     children: [u32; LANES],
     /// How many children there are.
     used: u8,
-    /// By bits: which children are nodes, and which are lamps without extent.
+    /// By bits: which children are nodes, and which are lamps.
     nodes: u8,
     lamps: u8,
 }
@@ -80,6 +80,11 @@ impl Node {
 
     pub(super) fn is_lamp(&self, lane: usize) -> bool {
         self.lamps >> lane & 1 == 1
+    }
+
+    /// Whether a child is more than a point.
+    pub(super) fn has_extent(&self, lane: usize) -> bool {
+        self.radius2[lane] > 0.0
     }
 
     /// Whether a child is as good as a point from `position`.

@@ -1,0 +1,109 @@
+//! Luminous openings of lamps: from records to the tracer's, and into the world.
+
+use super::context::Context;
+use super::material::MaterialTableBuilder;
+use super::open_lamp::OpenLamp;
+use crate::plan::Identity;
+use etendue_core::Track;
+use etendue_scene::Place;
+use etendue_scene::asset::{OpeningShape, PhotometryAsset, PhotometryAxes};
+use etendue_scene::record::light::LampOpening;
+use etendue_scene::record::light::placement::MainAxis;
+use etendue_tracer::accel::WorldBuilder;
+use etendue_tracer::geometry::{Instance, Shape};
+use etendue_tracer::lights::{Lamp, Opening, OpeningBody, Profile};
+
+/// The opening of a lamp that shines along its `main` axis as `profile` says; `None` where it is faulty.
+pub(super) fn opening(
+    record: &LampOpening,
+    main: MainAxis,
+    file: Option<&PhotometryAsset>,
+    profile: &Profile,
+    context: &mut Context<'_>,
+) -> Option<Opening> {
+    let (body, extents_m) = match (record, file) {
+        (LampOpening::File(record), Some(asset)) => of_file(asset, &record.place, context)?,
+        // Refused where the record was read.
+        (LampOpening::File(_), None) => return None,
+        (LampOpening::Sphere(sphere), _) => (OpeningBody::Ellipsoid, [2.0 * sphere.radius_m.value; 3]),
+        (LampOpening::Tube(tube), _) => {
+            let across = 2.0 * tube.radius_m.value;
+            (OpeningBody::Cylinder(1), [across, tube.length_m.value, across])
+        }
+        (LampOpening::Disc(disc), _) => {
+            let across = 2.0 * disc.radius_m.value;
+            match main {
+                MainAxis::Forward => (OpeningBody::Cylinder(0), [0.0, across, across]),
+                MainAxis::Downward => (OpeningBody::Cylinder(2), [across, across, 0.0]),
+            }
+        }
+        (LampOpening::Rectangle(rectangle), _) => {
+            let (width, height) = (rectangle.width_m.value, rectangle.height_m.value);
+            match main {
+                MainAxis::Forward => (OpeningBody::Box, [0.0, width, height]),
+                MainAxis::Downward => (OpeningBody::Box, [height, width, 0.0]),
+            }
+        }
+    };
+    let made = context.accept(record.place(), Opening::new(body, extents_m))?;
+    context.accept(record.place(), made.check(profile))?;
+    Some(made)
+}
+
+/// The opening that a photometric file states. Length, width and height are along the photometric horizontal, across it and along
+/// the photometric zero (LM-63-2002, section 3): x, y and z of types A and C, z, y and x of type B.
+fn of_file(asset: &PhotometryAsset, place: &Place, context: &mut Context<'_>) -> Option<(OpeningBody, [f64; 3])> {
+    let stated = &asset.opening;
+    let (length, height) = match asset.axes {
+        PhotometryAxes::A | PhotometryAxes::C => (0, 2),
+        PhotometryAxes::B => (2, 0),
+    };
+    let body = match stated.shape {
+        OpeningShape::Point => {
+            context.fault(
+                place,
+                "the photometric file states no luminous opening: its length, width and height are 0, a point",
+                "give another shape, or remove \"opening\"",
+            );
+            return None;
+        }
+        OpeningShape::Rectangular => OpeningBody::Box,
+        OpeningShape::Round => OpeningBody::Cylinder(height),
+        OpeningShape::Lying => OpeningBody::Cylinder(length),
+        OpeningShape::LyingAcross => OpeningBody::Cylinder(1),
+        OpeningShape::Ball => OpeningBody::Ellipsoid,
+    };
+    let mut extents_m = [0.0; 3];
+    (extents_m[length], extents_m[1], extents_m[height]) = (stated.length_m, stated.width_m, stated.height_m);
+    Some((body, extents_m))
+}
+
+/// Places the openings in the world, each with an identity of its own, and gives their lamps.
+pub(super) fn placed(
+    open_lamps: Vec<OpenLamp>,
+    builder: &mut WorldBuilder,
+    identities: &mut Vec<Identity>,
+    material_table: &mut MaterialTableBuilder,
+    context: &mut Context<'_>,
+) -> Vec<Lamp> {
+    let mut lamps = Vec::new();
+    for OpenLamp { alike, opening, place } in open_lamps {
+        let shape = match opening.mesh() {
+            Some(mesh) => Shape::Mesh(builder.add_mesh(mesh)),
+            None => Shape::Sphere { radius_m: 1.0 },
+        };
+        let material = material_table.of_openings(&place);
+        for (name, lamp) in alike {
+            identities.push(Identity { name, class: None });
+            let instance = builder.add_instance(Instance {
+                shape,
+                to_world: Track::still(lamp.opening_to_world(&opening)),
+                materials: vec![material],
+                instance_id: identities.len() as u32,
+                semantic_id: 0,
+            });
+            lamps.extend(context.accept(&place, lamp.opened(opening, instance)));
+        }
+    }
+    lamps
+}

@@ -1,0 +1,111 @@
+//! The luminous opening of a lamp: the surface that its light leaves from.
+
+use super::placement::LampPlacement;
+use crate::fault::Faults;
+use crate::place::{Place, Placed};
+use crate::reader::{Number, number, record, variants};
+
+variants! {
+    /// A surface about the lamp's place that its light leaves from, seen and mirrored as it is; it turns with the lamp. Flat ones
+    /// lie across the lamp's main direction (+x, but the downward axis of a lamp that was measured in C planes) and shine to
+    /// either side as the lamp has light there.
+    pub enum LampOpening by "shape" {
+        /// A sphere.
+        "sphere" => Sphere(SphereOpening),
+        /// A disc: a regular polygon of 48 sides and the same area.
+        "disc" => Disc(DiscOpening),
+        /// A rectangle.
+        "rectangle" => Rectangle(RectangleOpening),
+        /// A cylinder that shines by its side and its ends, along the lamp's y axis (to the left): a prism of 48 sides.
+        "tube" => Tube(TubeOpening),
+        /// With type = "measured": what the file of the intensities states.
+        "file" => File(FileOpening),
+    }
+}
+
+record! {
+    /// A sphere.
+    pub struct SphereOpening {
+        /// Radius, m, 0.0001 … 50.
+        required radius_m: Placed<f64> = radius();
+    }
+}
+
+record! {
+    /// A disc.
+    pub struct DiscOpening {
+        /// Radius, m, 0.0001 … 50.
+        required radius_m: Placed<f64> = radius();
+    }
+}
+
+record! {
+    /// A rectangle.
+    pub struct RectangleOpening {
+        /// Extent along the lamp's y axis, m, 0.0001 … 100.
+        required width_m: Placed<f64> = side();
+        /// Extent along the lamp's z axis, m, 0.0001 … 100; along x of a lamp that was measured in C planes.
+        required height_m: Placed<f64> = side();
+    }
+}
+
+record! {
+    /// A cylinder.
+    pub struct TubeOpening {
+        /// Extent along the lamp's y axis, m, 0.0001 … 100.
+        required length_m: Placed<f64> = side();
+        /// Radius, m, 0.0001 … 50.
+        required radius_m: Placed<f64> = radius();
+    }
+}
+
+record! {
+    /// What the file states.
+    pub struct FileOpening {}
+}
+
+const fn radius() -> Number {
+    number("m").at_least(1e-4).at_most(50.0)
+}
+
+const fn side() -> Number {
+    number("m").at_least(1e-4).at_most(100.0)
+}
+
+impl LampOpening {
+    /// Where it stands.
+    #[must_use]
+    pub fn place(&self) -> &Place {
+        match self {
+            Self::Sphere(v) => &v.place,
+            Self::Disc(v) => &v.place,
+            Self::Rectangle(v) => &v.place,
+            Self::Tube(v) => &v.place,
+            Self::File(v) => &v.place,
+        }
+    }
+
+    /// Whether turning it shows; a file may say anything.
+    pub(super) fn turns(&self) -> bool {
+        !matches!(self, Self::Sphere(_))
+    }
+}
+
+/// What contradicts an opening.
+pub(super) fn check(opening: Option<&LampOpening>, placement: &LampPlacement, is_measured: bool, faults: &mut Faults) {
+    let Some(opening) = opening else { return };
+    if let (LampOpening::File(file), false) = (opening, is_measured) {
+        faults.add(
+            &file.place,
+            "shape = \"file\" has no effect here, it belongs to type = \"measured\"",
+            "give one of \"sphere\", \"disc\", \"rectangle\", \"tube\"",
+        );
+    }
+    if let Some(attenuation) = &placement.attenuation_per_m {
+        faults.add(
+            &attenuation.place,
+            "\"attenuation_per_m\" contradicts \"opening\": the radiance of a surface is the same at every distance",
+            "remove one of the two",
+        );
+    }
+}

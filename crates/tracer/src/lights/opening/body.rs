@@ -1,0 +1,215 @@
+//! What an opening is like, and how large it is seen.
+
+use core::f64::consts::{PI, TAU};
+use etendue_core::maths::f64::sin_cos;
+use glam::{DAffine3, DMat3, DVec3, Vec3};
+
+use super::mesh::{self, SIDES, polygon_area};
+use crate::geometry::Mesh;
+use crate::lights::profile::Profile;
+
+/// Least and greatest extent of an opening, m.
+const EXTENTS_M: [f64; 2] = [1e-4, 100.0];
+
+/// Least cosine that a flat face is seen at; beyond, it is taken for as wide as at this one.
+const LEAST_COS: f32 = 1e-3;
+
+/// Share of the flux that a flat opening may lose towards its own plane. A lamp alike in all directions loses half of [`LEAST_COS`].
+const MOST_LOST: f64 = 0.01;
+
+/// Directions in the plane of a flat opening that its loss is summed over: steps of 0.1°.
+const AROUND: u32 = 3600;
+
+/// Why an opening is refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum OpeningError {
+    /// An extent is out of range.
+    #[error(
+        "an opening of {} × {} × {} m (along the lamp's x, y, z) was given, but its extents must lie between 0.0001 and 100 m, and at \
+         most one of a flat one may be 0: correct them",
+        extents_m[0], extents_m[1], extents_m[2]
+    )]
+    Extents {
+        /// Along the lamp's axes, m.
+        extents_m: [f64; 3],
+    },
+    /// The lamp shines along the plane of its opening.
+    #[error(
+        "the lamp sends {:.1} % of its light along the plane of its flat opening, where the opening has no area to send it from: \
+         turn the opening towards the light, or give a body (sphere, tube)",
+        100.0 * share
+    )]
+    EdgeOn {
+        /// Share of the flux that would be lost.
+        share: f64,
+    },
+}
+
+/// What an opening is like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OpeningBody {
+    /// A box, or a rectangle where it has no extent along one axis.
+    Box,
+    /// A cylinder along the lamp's axis of this number (0 x, 1 y, 2 z), or a disc where it has no extent along it. Elliptic where
+    /// its other extents differ.
+    Cylinder(usize),
+    /// A sphere, or an ellipsoid.
+    Ellipsoid,
+}
+
+/// A luminous opening, about the lamp's place, in the lamp's frame (x forward, y left, z up).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Opening {
+    pub(super) body: OpeningBody,
+    /// Half extents along the lamp's axes, m.
+    pub(super) half_m: DVec3,
+    /// Area of one side of the faces across x, y and z, m²; 0 where there is none.
+    faces_m2: Vec3,
+}
+
+impl Opening {
+    /// An opening of extents along the lamp's x, y and z, m.
+    ///
+    /// # Errors
+    /// Where an extent is not 0.0001 to 100 m, but for one of a flat opening, which is 0.
+    pub fn new(body: OpeningBody, extents_m: [f64; 3]) -> Result<Self, OpeningError> {
+        let [least, most] = EXTENTS_M;
+        let legal = |axis: usize| (least..=most).contains(&extents_m[axis]);
+        let may_be_flat = |axis: usize| match body {
+            OpeningBody::Box => (0..3).all(|other| other == axis || legal(other)),
+            OpeningBody::Cylinder(along) => axis == along,
+            OpeningBody::Ellipsoid => false,
+        };
+        if (0..3).all(|axis| legal(axis) || (extents_m[axis] == 0.0 && may_be_flat(axis))) {
+            let half_m = DVec3::from_array(extents_m) * 0.5;
+            Ok(Self { body, half_m, faces_m2: faces_m2(body, half_m) })
+        } else {
+            Err(OpeningError::Extents { extents_m })
+        }
+    }
+
+    /// Whether `profile` can leave the opening.
+    ///
+    /// # Errors
+    /// Where more than a hundredth of the light would have to leave along the plane of a flat opening.
+    pub fn check(&self, profile: &Profile) -> Result<(), OpeningError> {
+        let share = self.lost_share(profile);
+        if share > MOST_LOST { Err(OpeningError::EdgeOn { share }) } else { Ok(()) }
+    }
+
+    /// Share of a profile's flux that is lost along the plane of a flat opening, ∫ (1 − |c|/10⁻³) dc dφ over |c| < 10⁻³ with the cosine c
+    /// from the plane's normal; 0 of bodies.
+    #[must_use]
+    pub fn lost_share(&self, profile: &Profile) -> f64 {
+        let Some(axis) = self.flat_axis().filter(|_| profile.flux_sr() > 0.0) else { return 0.0 };
+        let value = |k: u32| {
+            let (sin, cos) = sin_cos(TAU * f64::from(k) / f64::from(AROUND));
+            let mut direction = DVec3::ZERO;
+            (direction[(axis + 1) % 3], direction[(axis + 2) % 3]) = (cos, sin);
+            // Thirds of the triangle's base are its root mean square, about.
+            let at = |cos: f64| {
+                let mut aside = direction;
+                aside[axis] = cos;
+                f64::from(profile.value(aside.normalize().as_vec3()))
+            };
+            let least = f64::from(LEAST_COS);
+            (at(-least / 3.0) + at(0.0) + at(least / 3.0)) / 3.0
+        };
+        let mean = (0..AROUND).map(value).sum::<f64>() / f64::from(AROUND);
+        f64::from(LEAST_COS) * TAU * mean / profile.flux_sr()
+    }
+
+    /// The axis across a flat opening.
+    pub(super) fn flat_axis(&self) -> Option<usize> {
+        (0..3).find(|axis| self.half_m[*axis] == 0.0)
+    }
+
+    /// Whether it turns with the lamp to no effect.
+    #[must_use]
+    pub fn is_round(&self) -> bool {
+        self.body == OpeningBody::Ellipsoid && self.half_m == DVec3::splat(self.half_m.x)
+    }
+
+    /// Area seen from far along the unit `direction` of the lamp's frame, m²: positive.
+    #[must_use]
+    pub fn seen_area_m2(&self, direction: Vec3) -> f32 {
+        let faces = self.faces_m2;
+        let half = self.half_m.as_vec3();
+        match (self.body, self.flat_axis()) {
+            (OpeningBody::Ellipsoid, _) => (faces * direction).length(),
+            (_, Some(axis)) => faces[axis] * direction[axis].abs().max(LEAST_COS),
+            (OpeningBody::Box, None) => faces.dot(direction.abs()),
+            (OpeningBody::Cylinder(along), None) => {
+                let (p, q) = ((along + 1) % 3, (along + 2) % 3);
+                let across = glam::Vec2::new(half[q] * direction[p], half[p] * direction[q]);
+                4.0 * half[along] * across.length() + faces[along] * direction[along].abs()
+            }
+        }
+    }
+
+    /// The least of these areas, m².
+    pub(in crate::lights) fn least_area_m2(&self) -> f32 {
+        let axes = [Vec3::X, Vec3::Y, Vec3::Z];
+        // Seen areas of bodies are least along an axis, those of flat openings in their plane.
+        axes.into_iter().map(|axis| self.seen_area_m2(axis)).fold(f32::INFINITY, f32::min)
+    }
+
+    /// Radius of the sphere about the lamp's place that holds it, m.
+    pub(super) fn reach_m(&self) -> f64 {
+        match self.body {
+            OpeningBody::Ellipsoid => self.half_m.max_element(),
+            OpeningBody::Box => self.half_m.length(),
+            OpeningBody::Cylinder(along) => {
+                let rim = self.half_m[(along + 1) % 3].max(self.half_m[(along + 2) % 3]);
+                // The corners of a polygon as large as a circle lie outside of it.
+                let corner = mesh::disc_reach().max(mesh::tube_reach());
+                (corner * corner * rim * rim + self.half_m[along] * self.half_m[along]).sqrt()
+            }
+        }
+    }
+
+    /// Its surface in the frame that [`Opening::to_lamp`] takes to the lamp's; `None` of a sphere of radius 1.
+    #[must_use]
+    pub fn mesh(&self) -> Option<Mesh> {
+        match self.body {
+            OpeningBody::Ellipsoid => None,
+            OpeningBody::Box => Some(mesh::cuboid(self.half_m)),
+            OpeningBody::Cylinder(along) => Some(mesh::cylinder(self.half_m, along)),
+        }
+    }
+
+    /// How many parallelograms of two triangles its mesh begins with; polygons of [`SIDES`] triangles follow.
+    pub(super) fn parallelograms(&self) -> usize {
+        match (self.body, self.flat_axis()) {
+            (OpeningBody::Box, Some(_)) => 1,
+            (OpeningBody::Box, None) => 6,
+            (OpeningBody::Cylinder(_), None) => SIDES as usize,
+            (OpeningBody::Cylinder(_), Some(_)) | (OpeningBody::Ellipsoid, _) => 0,
+        }
+    }
+
+    /// From the frame of its mesh or sphere to the lamp's.
+    #[must_use]
+    pub fn to_lamp(&self) -> DAffine3 {
+        match self.body {
+            OpeningBody::Ellipsoid => DAffine3::from_mat3(DMat3::from_diagonal(self.half_m)),
+            OpeningBody::Box | OpeningBody::Cylinder(_) => DAffine3::IDENTITY,
+        }
+    }
+}
+
+/// Areas across x, y and z of one side of the faces; of an ellipsoid those of its sections.
+fn faces_m2(body: OpeningBody, half: DVec3) -> Vec3 {
+    let across = |axis: usize| half[(axis + 1) % 3] * half[(axis + 2) % 3];
+    let areas = DVec3::new(across(0), across(1), across(2));
+    match body {
+        OpeningBody::Ellipsoid => (areas * PI).as_vec3(),
+        OpeningBody::Box => (areas * 4.0).as_vec3(),
+        OpeningBody::Cylinder(along) => {
+            let mut faces = Vec3::ZERO;
+            let reach = if half[along] == 0.0 { mesh::disc_reach() } else { mesh::tube_reach() };
+            faces[along] = (areas[along] * polygon_area(reach)) as f32;
+            faces
+        }
+    }
+}

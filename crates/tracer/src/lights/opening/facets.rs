@@ -1,0 +1,220 @@
+//! The facets of an opening as seen by a receiver: parallelograms, and polygons that stand for discs.
+//!
+//! One facet is drawn in proportion to about the solid angle it fills, A h / (d² + A/4)^{3/2} with the height h of the receiver above its
+//! plane and the distance d from its middle; of a body only those that face the receiver, which no other part of a convex body hides. A
+//! parallelogram is then drawn by solid angle from near by and by area from afar (`lights/triangle.rs`), a polygon by area.
+
+use glam::{DAffine3, Vec2, Vec3};
+
+use super::body::{Opening, OpeningBody};
+use super::mesh::{self, SIDES, corner};
+use crate::MaterialId;
+use crate::geometry::Mesh;
+use crate::lights::triangle::TriangleLight;
+use crate::lights::{LightHit, ROUNDING, SurfaceSample, solid_angle_pdf};
+use etendue_core::warp::uniform_triangle;
+
+/// Facets at most: those of a tube with its two ends.
+const MOST: usize = SIDES as usize + 2;
+
+/// The facets of an opening in the render frame.
+#[derive(Clone, Debug)]
+pub(super) struct Facets {
+    facets: Vec<Facet>,
+    /// How many parallelograms there are, which come first.
+    parallelograms: usize,
+    /// Whether they shine to both sides.
+    both: bool,
+}
+
+#[derive(Clone, Debug)]
+struct Facet {
+    middle: Vec3,
+    /// Outward.
+    normal: Vec3,
+    area_m2: f32,
+    form: Form,
+}
+
+#[derive(Clone, Debug)]
+enum Form {
+    Parallelogram(TriangleLight),
+    Polygon(Polygon),
+}
+
+/// An affine image of a regular polygon.
+#[derive(Clone, Debug)]
+struct Polygon {
+    /// From the middle, the images of the unit vectors.
+    axes: [Vec3; 2],
+    /// Distance of the corners from the middle before the map.
+    reach: f32,
+    error_m: f32,
+}
+
+/// A point that was drawn, and how far the accelerator may see it elsewhere: off its plane, and before it along the ray.
+pub(super) struct Drawn {
+    pub(super) surface: SurfaceSample,
+    pub(super) error_m: f32,
+    pub(super) early_m: f32,
+}
+
+/// What each facet counts for a receiver.
+struct Weights {
+    of: [f32; MOST],
+    total: f32,
+}
+
+impl Facets {
+    /// The facets of an opening's mesh; `None` where rounding leaves one no area.
+    pub(super) fn new(opening: &Opening, mesh: &Mesh, to_render: &DAffine3, material: MaterialId) -> Option<Self> {
+        let parallelograms = opening.parallelograms();
+        let of_two = |k: usize| {
+            let light = TriangleLight::of_two(mesh, [2 * k, 2 * k + 1], to_render, material)?;
+            Some(Facet {
+                middle: light.middle(),
+                normal: light.normal(),
+                area_m2: light.area_m2() as f32,
+                form: Form::Parallelogram(light),
+            })
+        };
+        let mut facets = (0..parallelograms).map(of_two).collect::<Option<Vec<_>>>()?;
+        if let OpeningBody::Cylinder(along) = opening.body {
+            let ends: &[f64] = if opening.half_m[along] == 0.0 { &[1.0] } else { &[-1.0, 1.0] };
+            facets.extend(ends.iter().map(|end| polygon(opening, (along, *end), to_render)));
+        }
+        Some(Self { facets, parallelograms, both: opening.flat_axis().is_some() })
+    }
+
+    /// How many triangles the mesh of these facets has.
+    pub(super) fn triangles(&self) -> usize {
+        2 * self.parallelograms + SIDES as usize * (self.facets.len() - self.parallelograms)
+    }
+
+    fn weights(&self, from: Vec3) -> Weights {
+        let mut weights = Weights { of: [0.0; MOST], total: 0.0 };
+        for (weight, facet) in weights.of.iter_mut().zip(&self.facets) {
+            let way = from - facet.middle;
+            let height = facet.normal.dot(way);
+            let height = if self.both { height.abs() } else { height.max(0.0) };
+            let wide2 = way.length_squared() + 0.25 * facet.area_m2;
+            *weight = facet.area_m2 * height / (wide2 * wide2.sqrt());
+            weights.total += *weight;
+        }
+        weights
+    }
+
+    /// A point for a receiver; `None` where no facet faces it.
+    pub(super) fn sample(&self, from: Vec3, u: Vec2) -> Option<Drawn> {
+        let weights = self.weights(from);
+        let (chosen, within) = weights.fall(u.x)?;
+        let facet = &self.facets[chosen];
+        let mut drawn = facet.sample(from, Vec2::new(within, u.y))?;
+        drawn.surface.pdf *= weights.share(chosen);
+        (drawn.surface.pdf > 0.0).then_some(drawn)
+    }
+
+    /// Density by which [`Facets::sample`] gives the direction to a point that was met, 1/sr.
+    pub(super) fn pdf(&self, met: &LightHit<'_>) -> f32 {
+        let weights = self.weights(met.receiver.position);
+        let facet = self.facet_of(met.point.primitive as usize);
+        let share = weights.share(facet);
+        if share > 0.0 { share * self.facets[facet].pdf(met) } else { 0.0 }
+    }
+
+    /// The facet that a triangle of the mesh belongs to.
+    fn facet_of(&self, primitive: usize) -> usize {
+        match primitive.checked_sub(2 * self.parallelograms) {
+            None => primitive / 2,
+            Some(beyond) => self.parallelograms + beyond / SIDES as usize,
+        }
+    }
+}
+
+impl Weights {
+    fn share(&self, facet: usize) -> f32 {
+        if self.total > 0.0 { self.of[facet] / self.total } else { 0.0 }
+    }
+
+    /// The facet that `u` in [0, 1) falls on, and where in it.
+    fn fall(&self, u: f32) -> Option<(usize, f32)> {
+        let mut rest = u * self.total;
+        let mut chosen = None;
+        for (facet, weight) in self.of.iter().enumerate().filter(|(_, weight)| **weight > 0.0) {
+            chosen = Some((facet, (rest / weight).min(ONE_BELOW)));
+            if rest < *weight {
+                break;
+            }
+            rest -= weight;
+        }
+        chosen
+    }
+}
+
+/// The largest `f32` below one.
+const ONE_BELOW: f32 = 1.0 - 0.5 * f32::EPSILON;
+
+impl Facet {
+    fn sample(&self, from: Vec3, u: Vec2) -> Option<Drawn> {
+        match &self.form {
+            Form::Parallelogram(light) => {
+                let (error_m, early_m) = light.rounding_m();
+                Some(Drawn { surface: light.sample(from, u)?, error_m, early_m })
+            }
+            Form::Polygon(polygon) => {
+                let way = self.middle + polygon.place(u) - from;
+                let distance = way.length();
+                let pdf = solid_angle_pdf(1.0 / self.area_m2, way, distance, self.normal);
+                let surface = SurfaceSample { way, distance, normal: self.normal, pdf, uv: Vec2::ZERO, uv_per_m: 0.0 };
+                Some(Drawn { surface, error_m: polygon.error_m, early_m: 0.0 })
+            }
+        }
+    }
+
+    fn pdf(&self, met: &LightHit<'_>) -> f32 {
+        match &self.form {
+            Form::Parallelogram(light) => light.pdf(met),
+            Form::Polygon(_) => {
+                solid_angle_pdf(1.0 / self.area_m2, met.direction * met.distance_m, met.distance_m, self.normal)
+            }
+        }
+    }
+}
+
+impl Polygon {
+    /// A point, uniformly by area, from the middle.
+    fn place(&self, u: Vec2) -> Vec3 {
+        let scaled = u.x * SIDES as f32;
+        let side = (scaled as u32).min(SIDES - 1);
+        let [near, far] = [side, side + 1].map(|k| Vec2::from(corner(k, 1.0).map(|x| x as f32)) * self.reach);
+        let shares = uniform_triangle(Vec2::new((scaled - side as f32).min(ONE_BELOW), u.y));
+        let place = near * shares.x + far * shares.y;
+        self.axes[0] * place.x + self.axes[1] * place.y
+    }
+}
+
+/// The end of a cylinder towards one side of its axis, or a disc.
+fn polygon(opening: &Opening, (along, end): (usize, f64), to_render: &DAffine3) -> Facet {
+    let mut middle = glam::DVec3::ZERO;
+    middle[along] = end * opening.half_m[along];
+    let axis = |k: usize| {
+        let mut axis = glam::DVec3::ZERO;
+        axis[k] = opening.half_m[k];
+        to_render.transform_vector3(axis)
+    };
+    let axes = [axis((along + 1) % 3), axis((along + 2) % 3)];
+    let across = axes[0].cross(axes[1]);
+    let reach = if opening.half_m[along] == 0.0 { mesh::disc_reach() } else { mesh::tube_reach() };
+    let middle = to_render.transform_point3(middle).as_vec3();
+    let extent = (axes[0].length() + axes[1].length()) as f32 + middle.abs().max_element();
+    Facet {
+        middle,
+        normal: (across.normalize() * end).as_vec3(),
+        area_m2: (across.length() * mesh::polygon_area(reach)) as f32,
+        form: Form::Polygon(Polygon {
+            axes: axes.map(|axis| axis.as_vec3()),
+            reach: reach as f32,
+            error_m: ROUNDING * extent,
+        }),
+    }
+}

@@ -1,0 +1,121 @@
+//! A lamp with its opening, in the render frame.
+
+use etendue_core::{Spectral, Wavelengths};
+use glam::{DAffine3, Vec2, Vec3};
+
+use super::body::Opening;
+use super::facets::{Drawn, Facets};
+use crate::geometry::{Mesh, SurfacePoint};
+use crate::lights::lamp::{LampIrradiance, LampLight};
+use crate::lights::sphere::SphereLight;
+use crate::lights::tree::LightBounds;
+use crate::lights::{LightHit, LightSample, LightSampleContext};
+
+/// A lamp that shines from a surface.
+#[derive(Clone, Debug)]
+pub(in crate::lights) struct OpeningLight {
+    lamp: LampLight,
+    opening: Opening,
+    surface: Surface,
+    /// Radius of a sphere about the lamp's place that holds the opening, m.
+    reach_m: f32,
+}
+
+#[derive(Clone, Debug)]
+enum Surface {
+    Sphere(Box<SphereLight>),
+    Facets(Facets),
+}
+
+impl OpeningLight {
+    /// The light of a lamp whose opening is this `mesh`, placed by `to_render`; `None` where rounding leaves it no area.
+    pub(in crate::lights) fn of_mesh(
+        lamp: LampLight,
+        opening: Opening,
+        (mesh, to_render): (&Mesh, &DAffine3),
+        material: crate::MaterialId,
+    ) -> Option<Self> {
+        let facets = Facets::new(&opening, mesh, to_render, material)?;
+        (facets.triangles() == mesh.triangles().len()).then(|| Self::new(lamp, opening, Surface::Facets(facets)))
+    }
+
+    /// The light of a lamp whose opening is a sphere or an ellipsoid.
+    pub(in crate::lights) fn of_sphere(lamp: LampLight, opening: Opening, sphere: SphereLight) -> Self {
+        Self::new(lamp, opening, Surface::Sphere(Box::new(sphere)))
+    }
+
+    fn new(lamp: LampLight, opening: Opening, surface: Surface) -> Self {
+        // Room for rounding.
+        Self { reach_m: opening.reach_m() as f32 * (1.0 + 1e-5), lamp, opening, surface }
+    }
+
+    /// How many primitives its surface has.
+    pub(in crate::lights) fn primitives(&self) -> usize {
+        match &self.surface {
+            Surface::Sphere(_) => 1,
+            Surface::Facets(facets) => facets.triangles(),
+        }
+    }
+
+    /// For the choice among lights.
+    pub(in crate::lights) fn bounds(&self) -> LightBounds {
+        let lamp = self.lamp.bounds();
+        LightBounds { low: lamp.low - self.reach_m, high: lamp.high + self.reach_m, radius: self.reach_m, ..lamp }
+    }
+
+    /// Mean irradiance at a receiver as if the lamp had no extent, but for receivers close by.
+    pub(in crate::lights) fn irradiance(&self, receiver: &LightSampleContext) -> LampIrradiance {
+        self.lamp.irradiance_of_extent(receiver, self.reach_m)
+    }
+
+    /// Spectral radiance that leaves along the unit `direction`, W·m⁻²·sr⁻¹·nm⁻¹, on a side that shines.
+    fn radiance<const N: usize>(&self, direction: Vec3, wavelengths: &Wavelengths<N>) -> Spectral<N> {
+        let own = self.lamp.to_lamp(direction);
+        self.lamp.intensity_along(own, wavelengths) / self.opening.seen_area_m2(own)
+    }
+
+    /// Whether the side that `direction` leaves from shines.
+    fn leaves(&self, normal: Vec3, direction: Vec3) -> bool {
+        self.opening.flat_axis().is_some() || normal.dot(direction) > 0.0
+    }
+
+    /// What a ray of unit `direction` finds at a point of the opening.
+    pub(in crate::lights) fn met<const N: usize>(
+        &self,
+        point: &SurfacePoint,
+        direction: Vec3,
+        wavelengths: &Wavelengths<N>,
+    ) -> Option<Spectral<N>> {
+        self.leaves(point.geometric_normal, -direction).then(|| self.radiance(-direction, wavelengths))
+    }
+
+    pub(in crate::lights) fn sample<const N: usize>(
+        &self,
+        from: Vec3,
+        u: Vec2,
+        wavelengths: &Wavelengths<N>,
+    ) -> Option<LightSample<N>> {
+        let Drawn { surface, error_m, early_m } = match &self.surface {
+            Surface::Facets(facets) => facets.sample(from, u)?,
+            Surface::Sphere(sphere) => {
+                Drawn { surface: sphere.sample(from, u)?, error_m: sphere.error_m(), early_m: 0.0 }
+            }
+        };
+        let direction = surface.direction().filter(|direction| self.leaves(surface.normal, -*direction))?;
+        Some(LightSample {
+            direction,
+            target: Some(surface.target(from, direction, error_m, early_m)),
+            radiance: self.radiance(-direction, wavelengths),
+            pdf: surface.pdf,
+            delta: false,
+            surrounds: false,
+        })
+    }
+
+    pub(in crate::lights) fn pdf(&self, met: &LightHit<'_>) -> f32 {
+        match &self.surface {
+            Surface::Sphere(sphere) => sphere.pdf(met),
+            Surface::Facets(facets) => facets.pdf(met),
+        }
+    }
+}
