@@ -69,7 +69,7 @@ impl Turn {
 
     /// Bounds, within [u0, u1], of |Ṙ y| and |R̈ y| for vectors y of length 1.
     ///
-    /// With R = R₀ A₁ A₂ A₃, Aᵢ = exp(βᵢ [ωᵢ]×): Ȧᵢ = β̇ᵢ Aᵢ [ωᵢ]× has the norm aᵢ = |β̇ᵢ| |ωᵢ|, and Äᵢ one of at most
+    /// With R = R₀ A₁ A₂ A₃, Aᵢ = exp(βᵢ (ωᵢ×)): Ȧᵢ = β̇ᵢ Aᵢ (ωᵢ×) has the norm aᵢ = |β̇ᵢ| |ωᵢ|, and Äᵢ one of at most
     /// aᵢ² + |β̈ᵢ| |ωᵢ|. The product rule gives |Ṙ| ≤ Σ aᵢ and |R̈| ≤ (Σ aᵢ)² + Σ |β̈ᵢ| |ωᵢ|.
     pub(super) fn most_rates(&self, u0: f64, u1: f64) -> (f64, f64) {
         match self {
