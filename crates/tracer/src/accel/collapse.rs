@@ -180,7 +180,7 @@ impl<F: FnMut(&[u32]) -> usize> Writer<'_, F> {
         while let Some((subtree, node)) = pending.pop() {
             slots.clear();
             self.spread_wide(subtree, &mut slots);
-            // Rays that ask for any hit take the last slots first: what holds few primitives is decided soonest.
+            // Rays that ask for any hit take the last slots first: leaves, then what holds few of them, which is decided soonest.
             slots.sort_by_key(|subtree| Reverse(self.size(*subtree)));
             for (slot, subtree) in slots.iter().enumerate() {
                 let child = self.child(subtree.root);

@@ -109,8 +109,11 @@ impl Lamp {
     /// The lamp with an attenuation coefficient, 1/m.
     ///
     /// # Errors
-    /// Where it is negative or not finite.
+    /// Where it is negative or not finite, or the lamp has an opening.
     pub fn attenuated(self, attenuation_per_m: f64) -> Result<Self, LampError> {
+        if self.opening.is_some() && attenuation_per_m > 0.0 {
+            return Err(LampError::AttenuatedOpening { per_m: attenuation_per_m });
+        }
         let legal = attenuation_per_m >= 0.0 && attenuation_per_m.is_finite();
         if legal {
             Ok(Self { attenuation_per_m, ..self })

@@ -124,12 +124,6 @@ impl Opening {
         (0..3).find(|axis| self.half_m[*axis] == 0.0)
     }
 
-    /// Whether it turns with the lamp to no effect.
-    #[must_use]
-    pub fn is_round(&self) -> bool {
-        self.body == OpeningBody::Ellipsoid && self.half_m == DVec3::splat(self.half_m.x)
-    }
-
     /// Area seen from far along the unit `direction` of the lamp's frame, m²: positive.
     #[must_use]
     pub fn seen_area_m2(&self, direction: Vec3) -> f32 {

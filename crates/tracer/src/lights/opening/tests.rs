@@ -73,7 +73,6 @@ fn an_ellipsoid_is_seen_as_its_support_says() {
         assert!((f64::from(ball.seen_area_m2(axis)) / (PI * area) - 1.0).abs() < 1e-6);
     }
     let round = opening(OpeningBody::Ellipsoid, [0.4; 3]);
-    assert!(round.is_round() && !ball.is_round());
     for direction in directions(8) {
         assert!((f64::from(round.seen_area_m2(direction.as_vec3())) / (PI * 0.04) - 1.0).abs() < 1e-6);
     }

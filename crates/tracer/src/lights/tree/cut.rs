@@ -47,7 +47,7 @@ impl LightTree {
             for (lane, weight) in weights.raised.into_iter().enumerate().filter(|(_, weight)| *weight > 0.0) {
                 let child = node.child(lane);
                 let opens = child.is_node && opened < OPENED;
-                if opens && node.may_exceed(least, (lane, weight), question.receiver, gloss) {
+                if opens && node.greatest(lane, &weights, question.receiver, gloss) > least {
                     open[opened] = child.index;
                     opened += 1;
                 } else {

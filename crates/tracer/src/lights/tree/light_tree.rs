@@ -97,7 +97,7 @@ impl LightTree {
         match &question.receiver.gloss {
             None => self.weights(node, question),
             Some(gloss) => {
-                let GlossyWeights { mut raised, plain } = self.glossy_weights(node, question, gloss);
+                let GlossyWeights { mut raised, plain, .. } = self.glossy_weights(node, question, gloss);
                 mix(&mut raised, &plain);
                 raised
             }
@@ -110,7 +110,8 @@ impl LightTree {
 #[inline(always)]
 pub(super) fn mix(raised: &mut [f32], plain: &[f32]) -> f32 {
     let (total, plain_total) = (raised.iter().sum::<f32>(), plain.iter().sum::<f32>());
-    if total > 0.0 && plain_total > 0.0 {
+    // Below, quotients would not be finite; then there is no share for the matt part.
+    if total >= f32::MIN_POSITIVE && plain_total >= f32::MIN_POSITIVE {
         let (per_total, per_plain) = ((1.0 - MATT_SHARE) / total, MATT_SHARE / plain_total);
         for (raised, plain) in raised.iter_mut().zip(plain) {
             *raised = *raised * per_total + plain * per_plain;

@@ -92,18 +92,20 @@ impl Node {
         (self.centre_of(lane) - position).length_squared() > 4.0 * self.radius2[lane]
     }
 
-    /// Whether a child that counts `weight` in the mean may count more than `least`, by where its light comes from.
-    pub(super) fn may_exceed(
+    /// What a child may count for a receiver to whom it counts `weights`, if all its light came from that place in it which the
+    /// lobes favour most.
+    pub(super) fn greatest(
         &self,
-        least: f32,
-        (lane, weight): (usize, f32),
+        lane: usize,
+        weights: &GlossyWeights,
         receiver: &LightSampleContext,
         gloss: &ReceiverGloss,
-    ) -> bool {
+    ) -> f32 {
         let way = self.centre_of(lane) - receiver.position;
-        let distance2 = way.length_squared().max(f32::MIN_POSITIVE);
-        let sin = (self.radius2[lane] / distance2).sqrt().min(1.0);
-        gloss.may_exceed(least, weight, way / distance2.sqrt(), sin)
+        let (distance2, radius2) = (way.length_squared(), self.radius2[lane]);
+        // From within the light may come from everywhere.
+        let cone = (distance2 > radius2).then(|| (way / distance2.sqrt(), (radius2 / distance2).sqrt()));
+        weights.plain[lane] + weights.faced[lane] * gloss.greatest(cone)
     }
 
     fn centre_of(&self, lane: usize) -> Vec3 {
@@ -123,6 +125,7 @@ impl Node {
         self.fill(receiver, |from, reached| {
             weights.plain[from..from + 4].copy_from_slice(&reached.plain());
             weights.raised[from..from + 4].copy_from_slice(&reached.raised(gloss));
+            weights.faced[from..from + 4].copy_from_slice(&reached.faced());
         });
         weights
     }
@@ -204,6 +207,13 @@ impl Reached {
         self.counted(gloss.relative_four(self.directions, self.sin_u))
     }
 
+    /// What it counts for a receiver that faces it.
+    #[inline(always)]
+    fn faced(&self) -> Four {
+        let seen = each(|i| if self.is_inside[i] { 1.0 } else { self.emits[i] });
+        each(|i| self.intensity[i] * seen[i] / self.far2[i])
+    }
+
     #[inline(always)]
     fn counted(&self, gloss: Four) -> Four {
         let scattered = each(|i| if self.receives[i] > 0.0 { self.receives[i] + gloss[i] } else { 0.0 });
@@ -212,11 +222,12 @@ impl Reached {
     }
 }
 
-/// What eight children count for a glossy receiver, and for a matt one in its place.
+/// What eight children count for a glossy receiver, for a matt one in its place, and for one that faces them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct GlossyWeights {
     pub(super) raised: Lanes,
     pub(super) plain: Lanes,
+    pub(super) faced: Lanes,
 }
 
 /// Sine and cosine of max(a − b, 0), for angles of 0…π given by theirs.
