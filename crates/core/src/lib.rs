@@ -15,6 +15,7 @@
 //! | sensor | x right, y down as the erect picture is seen, origin at the principal point | mm, f64 |
 //! | raster | x right, y down, the top-left corner is (0, 0), pixel centres at + 0.5 | px, f64 |
 
+mod camera_path;
 pub mod distribution;
 mod effect_status;
 pub mod field;
@@ -24,17 +25,20 @@ pub mod plane;
 pub mod quantity;
 pub mod random;
 pub mod ray;
+mod shutter;
 mod time_interval;
 pub mod track;
 pub mod warp;
 pub mod wavelength;
 mod wavelength_density;
 
+pub use camera_path::CameraPath;
 pub use effect_status::EffectStatus;
 pub use field::{FieldRay, RadianceField};
 pub use frame::{Basis, CameraPose};
 pub use plane::{Plane, SpectralCube};
 pub use ray::{PupilRay, Ray};
+pub use shutter::{RowTiming, Shutter};
 pub use time_interval::TimeInterval;
 pub use track::Track;
 pub use wavelength::{Bands, Spectral, Wavelengths};

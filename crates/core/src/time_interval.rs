@@ -39,6 +39,24 @@ impl TimeInterval {
         self.end_s - self.start_s
     }
 
+    /// Half-way between its ends, s.
+    #[must_use]
+    pub fn middle_s(&self) -> f64 {
+        self.start_s + 0.5 * self.length_s()
+    }
+
+    /// The same interval later by `delay_s`, which is finite.
+    #[must_use]
+    pub fn later(&self, delay_s: f64) -> Self {
+        Self { start_s: self.start_s + delay_s, end_s: self.end_s + delay_s }
+    }
+
+    /// The least interval that holds both.
+    #[must_use]
+    pub fn union(&self, other: &Self) -> Self {
+        Self { start_s: self.start_s.min(other.start_s), end_s: self.end_s.max(other.end_s) }
+    }
+
     /// Whether it is a single moment.
     #[must_use]
     pub fn is_moment(&self) -> bool {
@@ -62,6 +80,14 @@ mod tests {
         assert!(TimeInterval::new(1.0, 0.999).is_none() && TimeInterval::new(f64::NAN, 1.0).is_none());
         assert!(TimeInterval::new(0.0, f64::INFINITY).is_none() && TimeInterval::at(f64::NAN).is_none());
         assert_eq!(TimeInterval::at(0.0), Some(TimeInterval::default()));
+    }
+
+    #[test]
+    fn intervals_are_moved_and_joined() {
+        let interval = TimeInterval::new(1.0, 3.0).expect("in order");
+        let later = interval.later(4.0);
+        assert_eq!((later.start_s(), later.end_s(), later.middle_s()), (5.0, 7.0, 6.0));
+        assert_eq!(Some(later.union(&interval)), TimeInterval::new(1.0, 7.0));
     }
 
     #[test]

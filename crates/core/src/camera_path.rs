@@ -1,0 +1,82 @@
+//! Where a camera stands over time.
+
+use crate::TimeInterval;
+use crate::frame::CameraPose;
+use crate::track::Track;
+
+/// The pose of a camera at every time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraPath(Kind);
+
+#[derive(Clone, Debug, PartialEq)]
+enum Kind {
+    Still(CameraPose),
+    Moving(Track),
+}
+
+impl CameraPath {
+    /// A camera that stands still.
+    #[must_use]
+    pub fn still(pose: CameraPose) -> Self {
+        Self(Kind::Still(pose))
+    }
+
+    /// A camera that moves: `to_world` goes from the camera frame (x right, y down, z forward; origin at the centre of the entrance
+    /// pupil) to the world, and scales nothing.
+    #[must_use]
+    pub fn moving(to_world: Track) -> Self {
+        Self(Kind::Moving(to_world))
+    }
+
+    /// The pose at a simulated time, s.
+    #[must_use]
+    pub fn at(&self, time_s: f64) -> CameraPose {
+        match &self.0 {
+            Kind::Still(pose) => *pose,
+            Kind::Moving(to_world) => {
+                let to_world = to_world.at(time_s);
+                CameraPose { position_m: to_world.translation, rotation: to_world.matrix3 }
+            }
+        }
+    }
+
+    /// The pose during all of an interval; `None` where the camera moves in it.
+    #[must_use]
+    pub fn still_over(&self, interval: TimeInterval) -> Option<CameraPose> {
+        match &self.0 {
+            Kind::Still(pose) => Some(*pose),
+            Kind::Moving(to_world) => to_world.still_over(interval).map(|_| self.at(interval.start_s())),
+        }
+    }
+
+    /// Whether it has one pose at all times.
+    #[must_use]
+    pub fn is_still(&self) -> bool {
+        matches!(self.0, Kind::Still(_))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::track::{Interpolation, Key};
+    use glam::{DMat3, DQuat, DVec3};
+
+    #[test]
+    fn a_camera_that_moves_has_the_pose_of_its_track() {
+        let key = |time_s: f64| Key {
+            time_s,
+            position_m: DVec3::X * (2.0 * time_s),
+            rotation: DQuat::IDENTITY,
+            scale: DVec3::ONE,
+        };
+        let track = Track::new(&[key(1.0), key(3.0)], Interpolation::Linear).expect("legal");
+        let path = CameraPath::moving(track);
+        let pose = path.at(2.0);
+        assert!((pose.position_m - DVec3::X * 4.0).length() < 1e-15 && pose.rotation == DMat3::IDENTITY);
+        let over = |start, end| path.still_over(TimeInterval::new(start, end).expect("in order"));
+        assert!(over(2.0, 2.5).is_none() && !path.is_still());
+        assert_eq!(over(3.0, 9.0), Some(path.at(3.0)));
+        assert!(CameraPath::still(pose).is_still());
+    }
+}
