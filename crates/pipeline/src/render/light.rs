@@ -8,7 +8,7 @@ use crate::render::observer::Observer;
 use crate::render::spectrum_spread::{Heroes, SpectrumSpread};
 use crate::render::tile::{Shard, Tile, tiles};
 use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
-use etendue_core::{CameraPose, FieldRay, PupilRay, RadianceField, Ray, Spectral, Wavelengths};
+use etendue_core::{CameraPose, FieldRay, PupilRay, RadianceField, Ray, Spectral, TimeInterval, Wavelengths};
 use glam::DVec2;
 use rayon::prelude::*;
 use std::sync::Mutex;
@@ -169,7 +169,7 @@ impl<S: RaySource> RenderJob<'_, S> {
             let stream = stream.with_sample(sample);
             if let Some(pupil_ray) = self.pupil_ray(*pixel, &stream, wavelengths.nm[0]) {
                 asked.pixels.push((index, pupil_ray.weight_sr));
-                asked.rays.push(FieldRay { ray: self.to_render(&pupil_ray), stream });
+                asked.rays.push(FieldRay { ray: self.to_render(&pupil_ray), stream, lit: TimeInterval::default() });
             }
         }
         field.radiance_of_group(&asked.rays, &wavelengths, &mut asked.radiance);

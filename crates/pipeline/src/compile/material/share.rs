@@ -50,6 +50,6 @@ impl MaterialCompiler<'_, '_> {
         };
         let radiance = emitted(&record.light, self.context)?;
         self.flux_sides = record.light.level.flux().map(|_| if glow == EmissionSides::Both { 2.0 } else { 1.0 });
-        Some(Emission { radiance, factor, sides: glow })
+        Some(Emission { radiance, factor, sides: glow, modulation: None })
     }
 }
