@@ -40,6 +40,12 @@ impl Modulation {
         Some(Self { waveform, rows: Some((rows, step_s)) })
     }
 
+    /// The same later by `delay_s`, which is finite.
+    #[must_use]
+    pub fn later(self, delay_s: f64) -> Self {
+        Self { waveform: Arc::new(self.waveform.as_ref().clone().later(delay_s)), ..self }
+    }
+
     /// Mean level over a time at texture coordinates.
     pub(crate) fn mean(&self, uv: Vec2, lit: TimeInterval) -> f32 {
         let over = match self.rows {
