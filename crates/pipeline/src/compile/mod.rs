@@ -14,6 +14,7 @@ mod lens;
 mod light;
 mod linear_picture;
 mod material;
+mod modulation;
 mod open_lamp;
 mod opening;
 mod picture;

@@ -174,7 +174,8 @@ impl<S: RaySource> RenderJob<'_, S> {
             if let Some(pupil_ray) = self.pupil_ray(*pixel, &stream, wavelengths.nm[0]) {
                 asked.pixels.push((index, pupil_ray.weight_sr));
                 let moment_s = self.exposure.moment_s(pixel.y, time_u);
-                asked.rays.push(FieldRay { ray: self.exposure.to_render(&pupil_ray, moment_s), stream });
+                let (ray, lit) = (self.exposure.to_render(&pupil_ray, moment_s), self.exposure.lit(pixel.y, moment_s));
+                asked.rays.push(FieldRay { ray, stream, lit });
             }
         }
         field.radiance_of_group(&asked.rays, &wavelengths, &mut asked.radiance);
