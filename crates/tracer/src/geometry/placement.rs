@@ -6,7 +6,7 @@
 
 use super::instance_transform::about;
 use super::{Instance, InstanceTransform, Mesh, Shape};
-use etendue_core::{Ray, TimeInterval, Track};
+use etendue_core::{Motion, Ray, TimeInterval};
 use glam::{DVec3, Vec3};
 use std::borrow::Cow;
 
@@ -26,7 +26,7 @@ pub(crate) enum Placement {
 /// An instance that moves during an interval.
 #[derive(Clone, Debug)]
 pub(crate) struct Moving {
-    to_world: Track,
+    to_world: Motion,
     origin_m: DVec3,
     interval: TimeInterval,
 }

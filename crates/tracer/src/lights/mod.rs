@@ -11,6 +11,7 @@
 //! - Densities belong to a [`LightSampleContext`], the point that asks.
 //! - Radiance is spectral, W·m⁻²·sr⁻¹·nm⁻¹.
 
+mod carried;
 mod choice;
 mod collect;
 mod environment;
@@ -38,6 +39,7 @@ pub mod sun_position;
 mod surface;
 mod tree;
 mod triangle;
+mod way;
 
 use light::Light;
 use surface::{Glowing, ROUNDING, SurfaceSample, solid_angle_pdf};
