@@ -5,7 +5,7 @@ use crate::runs::Runs;
 use crate::table::Table;
 use crate::terrain;
 use crate::threads::pool;
-use etendue_core::{Ray, Track};
+use etendue_core::{Motion, Ray};
 use etendue_io::mesh::read_mesh;
 use etendue_scene::asset::MeshAsset;
 use etendue_tracer::MaterialId;

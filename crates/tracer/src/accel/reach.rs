@@ -84,12 +84,7 @@ fn moments(interval: TimeInterval) -> Vec<f64> {
 
 /// Whether the camera's place in the frame of a mesh stays before the box that holds the mesh when it is rounded to f32. The camera is
 /// at `from` in the render frame, m.
-fn check_rounding(
-    instance: usize,
-    placed: &InstanceTransform,
-    mesh: &Mesh,
-    from: DVec3,
-) -> Result<(), WorldError> {
+fn check_rounding(instance: usize, placed: &InstanceTransform, mesh: &Mesh, from: DVec3) -> Result<(), WorldError> {
     let Some((low, high)) = mesh.bounds() else { return Ok(()) };
     let (camera, _) = placed.line_to_local(from, DVec3::X);
     let away = (low.as_dvec3() - camera).max(camera - high.as_dvec3());
