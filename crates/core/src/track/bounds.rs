@@ -5,7 +5,7 @@
 //! ([`Span::each_box`]): at each moment the transform is affine, so that the moved box is the convex hull of its moved corners.
 
 use super::span::Span;
-use super::{Kind, Motion, Track};
+use super::{Keyed, Kind, Track};
 use crate::TimeInterval;
 use core::f64::consts::PI;
 use glam::{BVec3, DAffine3, DMat3, DVec3};
@@ -40,9 +40,9 @@ impl Track {
         let of_matrix = |m: &DMat3| (1.0 / most_stretch(&m.inverse()), most_stretch(m));
         match &self.0 {
             Kind::Still(transform) => of_matrix(&transform.matrix3),
-            Kind::Moving(motion) => {
-                let (least, most) = motion.scales_over(interval);
-                let first = of_matrix(&motion.first.matrix3);
+            Kind::Moving(keyed) => {
+                let (least, most) = keyed.scales_over(interval);
+                let first = of_matrix(&keyed.first.matrix3);
                 (least.min_element() * first.0, most.max_element() * first.1)
             }
         }
@@ -54,8 +54,8 @@ impl Track {
     pub fn local_reach(&self, interval: TimeInterval, (low, high): (DVec3, DVec3)) -> f64 {
         let keyed = match &self.0 {
             Kind::Still(_) => self.clone(),
-            Kind::Moving(motion) => {
-                Self(Kind::Moving(Motion { first: DAffine3::IDENTITY, ..Motion::clone(motion) }.into()))
+            Kind::Moving(keyed) => {
+                Self(Kind::Moving(Keyed { first: DAffine3::IDENTITY, ..Keyed::clone(keyed) }.into()))
             }
         };
         let (origin_low, origin_high) = keyed.bounds_of_points(interval, &[DVec3::ZERO]);
@@ -63,8 +63,8 @@ impl Track {
         let reach = away / keyed.stretch_over(interval).0;
         match &self.0 {
             Kind::Still(_) => reach,
-            Kind::Moving(motion) => {
-                let back = motion.first.inverse();
+            Kind::Moving(keyed) => {
+                let back = keyed.first.inverse();
                 (back.translation.abs() + row_lengths(&back.matrix3) * reach).max_element()
             }
         }
@@ -79,7 +79,16 @@ impl Track {
         };
         match &self.0 {
             Kind::Still(_) => 0.0,
-            Kind::Moving(motion) => motion.during(interval).map(of_span).sum::<f64>().min(PI),
+            Kind::Moving(keyed) => keyed.during(interval).map(of_span).sum::<f64>().min(PI),
+        }
+    }
+
+    /// Whether the scale along every axis is one at all times.
+    #[must_use]
+    pub fn keeps_scale(&self) -> bool {
+        match &self.0 {
+            Kind::Still(_) => true,
+            Kind::Moving(keyed) => keyed.spans.iter().all(|span| span.scale.is_constant()),
         }
     }
 
@@ -89,7 +98,7 @@ impl Track {
     pub fn is_invertible(&self) -> bool {
         match &self.0 {
             Kind::Still(transform) => has_inverse(transform),
-            Kind::Moving(motion) => motion.is_invertible(),
+            Kind::Moving(keyed) => keyed.is_invertible(),
         }
     }
 
@@ -102,12 +111,12 @@ impl Track {
                 let room = most_of(transform, points) * ROUNDING;
                 (low - room, high + room)
             }
-            Kind::Moving(motion) => motion.bounds_of_points(interval, points),
+            Kind::Moving(keyed) => keyed.bounds_of_points(interval, points),
         }
     }
 }
 
-impl Motion {
+impl Keyed {
     fn bounds_of_points(&self, interval: TimeInterval, points: &[DVec3]) -> (DVec3, DVec3) {
         let most = most_of(&self.first, points);
         let points: Vec<DVec3> = points.iter().map(|point| self.first.transform_point3(*point)).collect();
@@ -160,7 +169,7 @@ fn has_inverse(transform: &DAffine3) -> bool {
 }
 
 /// A bound of the greatest factor by which a matrix changes lengths: the lesser of two norms that are no less than it.
-fn most_stretch(m: &DMat3) -> f64 {
+pub(super) fn most_stretch(m: &DMat3) -> f64 {
     let sums =
         |m: &DMat3| [m.x_axis, m.y_axis, m.z_axis].map(|c| c.abs().element_sum()).into_iter().fold(0.0, f64::max);
     let squares: f64 = m.to_cols_array().iter().map(|x| x * x).sum();

@@ -5,7 +5,7 @@ use super::material::MaterialTableBuilder;
 use super::open_lamp::OpenLamp;
 use super::{opening, shape};
 use crate::plan::Identity;
-use etendue_core::Track;
+use etendue_core::Motion;
 use etendue_scene::asset::{MeshAsset, SlotMaterial, SlotReflectance, SlotSurface};
 use etendue_scene::record::render::Accelerator;
 use etendue_scene::record::shape::Shape as ShapeRecord;
@@ -113,7 +113,7 @@ impl Assembly {
             self.identities.push(Identity { name, class: object.class.as_ref().map(|c| c.value.clone()) });
             let mut instance = Instance {
                 shape: prototype.shape,
-                to_world: Track::still(transform.to_world() * prototype.to_object),
+                to_world: Motion::still(transform.to_world() * prototype.to_object),
                 materials: prototype.materials.clone(),
                 instance_id: self.identities.len() as u32,
                 semantic_id: class,

@@ -6,12 +6,9 @@
 
 use super::instance_transform::about;
 use super::{Instance, InstanceTransform, Mesh, Shape};
-use etendue_core::{Ray, TimeInterval, Track};
+use etendue_core::{Motion, Ray, TimeInterval};
 use glam::{DVec3, Vec3};
 use std::borrow::Cow;
-
-/// Moments of an interval for which is checked what no bound tells of a moving instance.
-const MOMENTS: u32 = 16;
 
 /// An instance relative to the camera.
 #[derive(Clone, Debug)]
@@ -26,7 +23,7 @@ pub(crate) enum Placement {
 /// An instance that moves during an interval.
 #[derive(Clone, Debug)]
 pub(crate) struct Moving {
-    to_world: Track,
+    to_world: Motion,
     origin_m: DVec3,
     interval: TimeInterval,
 }
@@ -106,17 +103,11 @@ impl Placement {
         }
     }
 
-    /// The transforms at some moments of the interval, both its ends among them.
-    pub(crate) fn moments(&self) -> Vec<Cow<'_, InstanceTransform>> {
+    /// The transforms at a simulated time of the interval, s.
+    pub(crate) fn at_moment(&self, time_s: f64) -> Cow<'_, InstanceTransform> {
         match self {
-            Self::Still(transform) => vec![Cow::Borrowed(transform)],
-            Self::Moving(moving) => {
-                let time_s = |i: u32| {
-                    let part = f64::from(i) / f64::from(MOMENTS);
-                    moving.interval.start_s() + moving.interval.length_s() * part
-                };
-                (0..=MOMENTS).map(|i| Cow::Owned(moving.at(time_s(i)))).collect()
-            }
+            Self::Still(transform) => Cow::Borrowed(transform),
+            Self::Moving(moving) => Cow::Owned(moving.at(time_s)),
         }
     }
 }
