@@ -90,7 +90,13 @@ impl Scene {
                     _ => Track::still(DAffine3::from_translation(at)),
                 };
                 let materials = vec![material];
-                self.builder.add_instance(Instance { shape, to_world: to_world.into(), materials, instance_id: 1, semantic_id: 1 });
+                self.builder.add_instance(Instance {
+                    shape,
+                    to_world: to_world.into(),
+                    materials,
+                    instance_id: 1,
+                    semantic_id: 1,
+                });
             }
         }
     }
