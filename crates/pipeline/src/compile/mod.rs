@@ -4,16 +4,21 @@
 //! nothing fails because of what the user wrote.
 
 mod camera;
+mod camera_path;
 mod choices;
 mod context;
+mod course;
 mod coverage;
 mod effects;
+mod frames;
 mod front;
 mod lamp;
+mod lamp_motion;
 mod lens;
 mod light;
 mod linear_picture;
 mod material;
+mod object_motion;
 mod open_lamp;
 mod opening;
 mod picture;
@@ -36,12 +41,14 @@ use crate::plan::fingerprint::fingerprint;
 use crate::plan::remark::grouped;
 use crate::plan::shared_light;
 use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan};
+use camera_path::camera_path;
 use context::Context;
-use etendue_core::TimeInterval;
+use etendue_core::{CameraPath, TimeInterval};
 use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;
 use etendue_scene::{CameraSetup, Description, Fault};
-use glam::DVec3;
+use etendue_tracer::accel::World;
+use frames::Frames;
 use material::MaterialTableBuilder;
 
 /// The plan of a description.
@@ -80,16 +87,17 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let unused = &description.unused;
     unused.remarks().into_iter().for_each(|remark| context.remark(remark));
     let mut builder = MaterialTableBuilder::of_scene(scene, unused, context);
-    let (mut sources, open_lamps, sky) = light::sources(scene, context);
+    let frames = Frames::of(scene, unused, context);
+    let (mut sources, open_lamps, sky) = light::sources(scene, &frames, context);
     let setups = description.cameras.iter().enumerate();
     let mut cameras: Vec<_> =
-        setups.filter_map(|(index, setup)| camera_plan(index as u32, setup, choices, context)).collect();
+        setups.filter_map(|(index, setup)| camera_plan(index as u32, setup, &frames, choices, context)).collect();
     shared_light::share(&mut cameras);
-    let (world, identities, opened) = world::world(description, open_lamps, &mut builder, context)?;
+    let (world, identities, opened) = world::world(description, open_lamps, &frames, &mut builder, context)?;
     sources.lamps.extend(opened);
     for setup in &description.cameras {
-        let position = &setup.pose.position_m;
-        context.accept(&position.place, world.check_reach(DVec3::from_array(position.value), TimeInterval::default()));
+        let Some(path) = camera_path(&setup.pose, &frames, context) else { continue };
+        context.accept(setup.pose.stated_at(), world.check_reach_along(&path, whole_motion(&world, &path)));
     }
     let (material_table, materials) = builder.finish(context)?;
     positions::remark(&cameras, context);
@@ -116,14 +124,25 @@ fn unread(description: &Description, context: &mut Context<'_>) {
     }
 }
 
-fn camera_plan(index: u32, setup: &CameraSetup, choices: &Choices, context: &mut Context<'_>) -> Option<CameraPlan> {
+/// From the first key of all that moves to the last; a single moment where nothing does.
+fn whole_motion(world: &World, camera: &CameraPath) -> TimeInterval {
+    let moving = world.instances().iter().filter_map(|instance| instance.to_world.moves_during());
+    moving.chain(camera.moves_during()).reduce(|all, one| all.union(&one)).unwrap_or_default()
+}
+
+fn camera_plan(
+    index: u32,
+    setup: &CameraSetup,
+    frames: &Frames<'_>,
+    choices: &Choices,
+    context: &mut Context<'_>,
+) -> Option<CameraPlan> {
     let body = camera::body(&setup.camera, context)?;
     let mut products = settings::products(&setup.output, &body, context);
     let depth_of_field = settings::depth_of_field(&setup.render, &body, context)?;
     let delivered = (&setup.output, &mut products);
     let settings = settings::settings(&setup.render, &body, &depth_of_field, delivered, choices, context)?;
-    // A pose that was read has been checked.
-    let pose = setup.pose.to_camera_pose()?;
+    let pose = camera_path(&setup.pose, frames, context)?.at(0.0);
     let name = setup.name.value.clone();
     let light = LightOwner { camera: name.clone(), index };
     Some(CameraPlan { name, index, light, pose, body, settings, depth_of_field, products })

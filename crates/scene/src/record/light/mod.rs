@@ -11,7 +11,7 @@ pub(crate) use emission::illuminants;
 pub use emission::{Emission, Level, LightColour};
 pub use lamp::{Beam, HeadLamp, Mask, MeasuredLamp, PointLamp, SpotLamp, Traffic};
 pub use opening::LampOpening;
-pub use placement::{LampAim, LampInstance, LampPlacement};
+pub use placement::{LampAim, LampInstance, LampKey, LampPlacement};
 pub use strength::{LampStrength, MeasuredStrength};
 pub use sun::{Sun, SunLevel};
 
@@ -44,6 +44,18 @@ impl Light {
             Self::Spot(lamp) => &lamp.name,
             Self::Measured(lamp) => &lamp.name,
             Self::HeadLamp(lamp) => &lamp.name,
+        }
+    }
+
+    /// Where a lamp stands; `None` for a sun.
+    #[must_use]
+    pub fn placement(&self) -> Option<&LampPlacement> {
+        match self {
+            Self::Sun(_) => None,
+            Self::Point(lamp) => Some(&lamp.placement),
+            Self::Spot(lamp) => Some(&lamp.placement),
+            Self::Measured(lamp) => Some(&lamp.placement),
+            Self::HeadLamp(lamp) => Some(&lamp.placement),
         }
     }
 
