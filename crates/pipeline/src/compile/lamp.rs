@@ -4,16 +4,17 @@ use super::context::Context;
 use super::frames::Frames;
 use super::lamp_motion::lamp_motions;
 use super::linear_picture::linear;
+use super::modulation;
 use super::open_lamp::OpenLamp;
 use super::opening::opening;
 use super::spectrum::{bright, powered, relative};
-use etendue_core::Motion;
+use etendue_core::{Motion, Waveform};
 use etendue_scene::Place;
 use etendue_scene::asset::{PhotometryAsset, PhotometryAxes};
 use etendue_scene::record::light::placement::MainAxis;
 use etendue_scene::record::light::{
     Beam, HeadLamp, LampInstance, LampOpening, LampPlacement, LampStrength, Mask, MeasuredLamp, MeasuredStrength,
-    PointLamp, SpotLamp, Traffic,
+    Modulation, PointLamp, SpotLamp, Traffic,
 };
 use etendue_scene::record::transform::yaw_pitch_roll;
 use etendue_scene::record::{Light, LightColour};
@@ -38,6 +39,7 @@ struct Kind<'a> {
     /// How they are turned in their own frame.
     turn: DMat3,
     opening: Option<&'a LampOpening>,
+    modulation: Option<&'a Modulation>,
     file: Option<&'a PhotometryAsset>,
     place: &'a Place,
 }
@@ -62,6 +64,7 @@ fn point(lamp: &PointLamp, frames: &Frames<'_>, context: &mut Context<'_>) -> Op
         main: MainAxis::Forward,
         turn: DMat3::IDENTITY,
         opening: lamp.opening.as_ref(),
+        modulation: lamp.modulation.as_ref(),
         file: None,
         place: &lamp.place,
     };
@@ -82,6 +85,7 @@ fn spot(lamp: &SpotLamp, frames: &Frames<'_>, context: &mut Context<'_>) -> Opti
         main: MainAxis::Forward,
         turn: DMat3::IDENTITY,
         opening: lamp.opening.as_ref(),
+        modulation: lamp.modulation.as_ref(),
         file: None,
         place: &lamp.place,
     };
@@ -115,6 +119,7 @@ fn measured(lamp: &MeasuredLamp, frames: &Frames<'_>, context: &mut Context<'_>)
         main,
         turn: DMat3::IDENTITY,
         opening: lamp.opening.as_ref(),
+        modulation: lamp.modulation.as_ref(),
         file: Some(asset),
         place: &lamp.place,
     };
@@ -137,6 +142,7 @@ fn head_lamp(lamp: &HeadLamp, frames: &Frames<'_>, context: &mut Context<'_>) ->
         main: MainAxis::Forward,
         turn,
         opening: lamp.opening.as_ref(),
+        modulation: lamp.modulation.as_ref(),
         file: None,
         place: &lamp.place,
     };
@@ -213,11 +219,18 @@ fn placed(
     let motions = lamp_motions(kind.placement, (kind.main, kind.turn), frames, context)?;
     let (intensity, profile) = (Arc::new(intensity), Arc::new(profile));
     let attenuation = kind.placement.attenuation_per_m.as_ref().map_or(0.0, |a| a.value);
-    let lamp = |to_world: Motion| {
-        let made = Lamp::moving(to_world, intensity.clone(), profile.clone());
-        context.accept(kind.place, made.and_then(|lamp| lamp.attenuated(attenuation)))
+    let waveform = match kind.modulation {
+        None => None,
+        Some(record) => Some((record, modulation::waveform(record, context)?)),
     };
-    let lamps: Vec<Lamp> = motions.into_iter().map(lamp).collect::<Option<_>>()?;
+    let lamp = |(number, to_world): (usize, Motion)| {
+        let made = Lamp::moving(to_world, intensity.clone(), profile.clone());
+        let lamp = context.accept(kind.place, made.and_then(|lamp| lamp.attenuated(attenuation)))?;
+        let Some((record, waveform)) = &waveform else { return Some(lamp) };
+        let waveform = waveform.clone().later(delay_s(kind, record, waveform, number));
+        context.accept(record.place(), lamp.modulated(waveform))
+    };
+    let lamps: Vec<Lamp> = motions.into_iter().enumerate().map(lamp).collect::<Option<_>>()?;
     Some(match opening {
         None => Lamps::Points(lamps),
         Some(opening) => {
@@ -225,6 +238,15 @@ fn placed(
             Lamps::Open(OpenLamp { alike, opening, place: kind.place.clone() })
         }
     })
+}
+
+/// How much later the lamp's place of a number goes up and down than its record says, s.
+fn delay_s(kind: &Kind<'_>, record: &Modulation, waveform: &Waveform, number: usize) -> f64 {
+    let instance = kind.placement.instances.get(number);
+    let own_s = instance.and_then(|instance| instance.modulation_delay_s.as_ref()).map_or(0.0, |delay| delay.value);
+    let random = modulation::has_random_phases(record);
+    let name = || format!("{} {}", kind.name, number + 1);
+    own_s + if random { modulation::random_delay_s(waveform, &name()) } else { 0.0 }
 }
 
 /// The names of a lamp's places: those given, or the lamp's with a number where there are many.

@@ -18,12 +18,14 @@ mod lens;
 mod light;
 mod linear_picture;
 mod material;
+mod modulation;
 mod object_motion;
 mod open_lamp;
 mod opening;
 mod picture;
 mod positions;
 mod processing;
+mod row_exposure;
 mod samples;
 mod sensor;
 mod settings;
@@ -33,6 +35,7 @@ mod spectrum;
 mod surroundings;
 #[cfg(test)]
 mod tests;
+mod timing;
 mod world;
 
 pub use choices::{Choices, Quality};
@@ -40,7 +43,7 @@ pub use choices::{Choices, Quality};
 use crate::plan::fingerprint::fingerprint;
 use crate::plan::remark::grouped;
 use crate::plan::shared_light;
-use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan};
+use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan, TimeDependence};
 use camera_path::camera_path;
 use context::Context;
 use etendue_core::{CameraPath, TimeInterval};
@@ -91,8 +94,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let (mut sources, open_lamps, sky) = light::sources(scene, &frames, context);
     let setups = description.cameras.iter().enumerate();
     let mut cameras: Vec<_> =
-        setups.filter_map(|(index, setup)| camera_plan(index as u32, setup, &frames, choices, context)).collect();
-    shared_light::share(&mut cameras);
+        setups.filter_map(|setup| camera_plan(setup, (description, &frames), choices, context)).collect();
     let (world, identities, opened) = world::world(description, open_lamps, &frames, &mut builder, context)?;
     sources.lamps.extend(opened);
     for setup in &description.cameras {
@@ -100,6 +102,9 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
         context.accept(setup.pose.stated_at(), world.check_reach_along(&path, whole_motion(&world, &path)));
     }
     let (material_table, materials) = builder.finish(context)?;
+    let is_modulated = sources.is_modulated() || material_table.is_modulated();
+    timing::depend(&mut cameras, &world, (&sources, is_modulated), context);
+    shared_light::share(&mut cameras);
     positions::remark(&cameras, context);
     surroundings::remark(&cameras, &world, &material_table, &materials, context);
     let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();
@@ -131,9 +136,8 @@ fn whole_motion(world: &World, camera: &CameraPath) -> TimeInterval {
 }
 
 fn camera_plan(
-    index: u32,
-    setup: &CameraSetup,
-    frames: &Frames<'_>,
+    (index, setup): (usize, &CameraSetup),
+    (description, frames): (&Description, &Frames<'_>),
     choices: &Choices,
     context: &mut Context<'_>,
 ) -> Option<CameraPlan> {
@@ -142,8 +146,11 @@ fn camera_plan(
     let depth_of_field = settings::depth_of_field(&setup.render, &body, context)?;
     let delivered = (&setup.output, &mut products);
     let settings = settings::settings(&setup.render, &body, &depth_of_field, delivered, choices, context)?;
-    let pose = camera_path(&setup.pose, frames, context)?.at(0.0);
+    let index = index as u32;
+    let path = camera_path(&setup.pose, frames, context)?;
+    let timing = timing::timing((index, setup), description.sequence.as_ref(), &body, settings.seed, context);
     let name = setup.name.value.clone();
     let light = LightOwner { camera: name.clone(), index };
-    Some(CameraPlan { name, index, light, pose, body, settings, depth_of_field, products })
+    let time = TimeDependence::None;
+    Some(CameraPlan { name, index, light, path, timing, time, body, settings, depth_of_field, products })
 }

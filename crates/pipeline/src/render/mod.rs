@@ -9,6 +9,7 @@
 
 pub mod block;
 mod camera_light;
+pub mod exposure;
 pub mod film;
 pub mod gather;
 pub mod light;
@@ -21,3 +22,4 @@ pub mod tile;
 pub mod truth;
 
 pub use camera_light::{Request, layout, light, light_counts};
+pub use exposure::Shot;

@@ -63,6 +63,8 @@ record! {
         optional name: Placed<String> = text("the name of the instance");
         /// The frame that it is placed in, and moves with. Default: the object's.
         optional frame: Placed<String> = name_of(Named::Frame);
+        /// By how much the "modulation" of all its light is later here, s, besides its own delay. Default: 0.
+        optional modulation_delay_s: Placed<f64> = number("s");
         /// Where it stands.
         inside transform: Transform;
     }

@@ -13,7 +13,7 @@ use super::tree::LightBounds;
 use super::way::Way;
 use crate::geometry::SurfacePoint;
 use core::f32::consts::PI;
-use etendue_core::{Spectral, Wavelengths};
+use etendue_core::{Spectral, TimeInterval, Wavelengths};
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
 /// A lamp in motion.
@@ -86,13 +86,13 @@ impl CarriedLamp {
         &self,
         receiver: &LightSampleContext,
         u: Vec2,
-        wavelengths: &Wavelengths<N>,
+        asked: (&Wavelengths<N>, &TimeInterval),
     ) -> Option<LightSample<N>> {
         let carriage = self.carriage(receiver.time_s);
         let from = carriage.point_back(receiver.position);
         let drawn = match &self.lamp {
-            Started::Point(lamp) => lamp.sample(from, wavelengths),
-            Started::Opening(opening) => opening.sample(from, u, wavelengths),
+            Started::Point(lamp) => lamp.sample(from, asked),
+            Started::Opening(opening) => opening.sample(from, u, asked),
         }?;
         let direction = carriage.direction_forth(drawn.direction);
         // By the way to it, which is the same in both frames, so that it is rounded but once.
@@ -114,11 +114,11 @@ impl CarriedLamp {
         &self,
         point: &SurfacePoint,
         direction: Vec3,
-        wavelengths: &Wavelengths<N>,
+        asked: (&Wavelengths<N>, &TimeInterval),
     ) -> Option<Spectral<N>> {
         let Started::Opening(opening) = &self.lamp else { return None };
         let carriage = self.carriage(point.time_s);
-        opening.met(&carriage.surface(point), carriage.direction_back(direction), wavelengths)
+        opening.met(&carriage.surface(point), carriage.direction_back(direction), asked)
     }
 
     fn carriage(&self, time_s: f32) -> Carriage {

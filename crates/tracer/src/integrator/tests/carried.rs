@@ -117,7 +117,13 @@ fn a_moving_lamp_is_the_frozen_lamp_of_its_moment() {
             let still = LightSampleContext::matt(place, Vec3::ZERO);
             let receiver = LightSampleContext { time_s, ..still };
             let ask = |lights: &Lights, receiver| {
-                lights.sample(receiver, (0.5, Vec2::new(at(4), at(5))), 0.0, &ready.material_table, &WAVELENGTHS)
+                lights.sample(
+                    receiver,
+                    (0.5, Vec2::new(at(4), at(5))),
+                    0.0,
+                    &ready.material_table,
+                    (&WAVELENGTHS, &TimeInterval::default()),
+                )
             };
             let (Some(sample), Some(expected)) = (ask(&lights, &receiver), ask(&frozen, &still)) else { continue };
             // The cone that a ball fills is drawn about a basis that does not turn with the lamp.
@@ -138,7 +144,8 @@ fn a_moving_lamp_is_the_frozen_lamp_of_its_moment() {
             drawn += 1;
             let point = view.surface(&ray, &hit);
             let met = LightHit { receiver: &receiver, point: &point, direction: ray.direction, distance_m: hit.t };
-            let seen = lights.of_opening(&point, ray.direction, &WAVELENGTHS).expect("it shines");
+            let seen =
+                lights.of_opening(&point, ray.direction, (&WAVELENGTHS, &TimeInterval::default())).expect("it shines");
             assert!((seen[1] - sample.radiance[1]).abs() <= 1e-3 * sample.radiance[1], "{seen:?} {sample:?}");
             // A ray to the far side of a stretched ball meets the near one.
             let relative = lights.light_pdf(&met) / sample.pdf;
