@@ -56,7 +56,7 @@ impl CameraPath {
     pub fn bounds_over(&self, interval: TimeInterval) -> (DVec3, DVec3) {
         match &self.0 {
             Kind::Still(pose) => (pose.position_m, pose.position_m),
-            Kind::Moving(to_world) => to_world.bounds_over(interval, (DVec3::ZERO, DVec3::ZERO)),
+            Kind::Moving(to_world) => to_world.rough_bounds(interval, 0.0),
         }
     }
 

@@ -44,6 +44,17 @@ impl Motion {
         (low - reach, high + reach)
     }
 
+    /// A box that holds the ball of a radius about the moved frame's origin during an interval: looser than
+    /// [`Motion::bounds_of_ball`], and quick for intervals of many keys.
+    #[must_use]
+    pub fn rough_bounds(&self, interval: TimeInterval, radius: f64) -> (DVec3, DVec3) {
+        let carried = self.links()[1..].iter().rev().fold(radius, |radius, link| {
+            let (low, high) = link.rough_bounds(interval, radius);
+            low.abs().max(high.abs()).length()
+        });
+        self.links()[0].rough_bounds(interval, carried)
+    }
+
     /// Bounds, during an interval, of the least and the greatest factor by which lengths change.
     #[must_use]
     pub fn stretch_over(&self, interval: TimeInterval) -> (f64, f64) {
@@ -106,8 +117,18 @@ impl Motion {
     /// The interval cut at the keys within it.
     fn pieces(&self, interval: TimeInterval) -> Vec<(f64, f64)> {
         let (start_s, end_s) = (interval.start_s(), interval.end_s());
-        let within = self.times_s().into_iter().filter(|time_s| *time_s > start_s && *time_s < end_s);
-        let ends_s: Vec<f64> = [start_s].into_iter().chain(within).chain([end_s]).collect();
+        let mut ends_s = vec![start_s, end_s];
+        for times_s in self.links().iter().map(Track::times_s) {
+            let within =
+                |passes: fn(&f64, &f64) -> bool, end_s: f64| times_s.partition_point(|key_s| passes(key_s, &end_s));
+            let first = within(f64::le, start_s);
+            ends_s.extend(&times_s[first..within(f64::lt, end_s).max(first)]);
+        }
+        ends_s.sort_by(f64::total_cmp);
+        ends_s.dedup();
+        if ends_s.len() == 1 {
+            return vec![(start_s, end_s)];
+        }
         ends_s.windows(2).map(|pair| (pair[0], pair[1])).collect()
     }
 

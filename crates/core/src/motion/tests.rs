@@ -70,6 +70,7 @@ fn bounds_hold_what_is_carried() {
         let (centre, half) = (random.cube() * 5.0, random.cube().abs());
         let (low, high) = motion.bounds_over(interval, (centre - half, centre + half));
         let ball = motion.bounds_of_ball(interval, centre, half.x);
+        let rough = motion.rough_bounds(interval, (centre.abs() + half).length());
         let (least, most) = motion.stretch_over(interval);
         let reach = motion.local_reach(interval, (low, high));
         let turning = motion.turning_over(interval);
@@ -81,6 +82,7 @@ fn bounds_hold_what_is_carried() {
             let to_world = motion.at(interval.start_s() + interval.length_s() * part);
             let corner = to_world.transform_point3(centre + half * random.cube().signum());
             assert!(low.cmple(corner).all() && corner.cmple(high).all(), "{corner} {low} {high}");
+            assert!(rough.0.cmple(corner).all() && corner.cmple(rough.1).all());
             let direction = random.cube().normalize();
             let rim = to_world.transform_point3(centre + direction * half.x * (1.0 - 1e-12));
             assert!(ball.0.cmple(rim).all() && rim.cmple(ball.1).all());

@@ -33,6 +33,24 @@ impl Track {
         (low - reach, high + reach)
     }
 
+    /// A box that holds the ball of a radius about the moved frame's origin during an interval: looser than
+    /// [`Track::bounds_of_ball`] where something is applied before or scales change, and quick for long intervals.
+    #[must_use]
+    pub fn rough_bounds(&self, interval: TimeInterval, radius: f64) -> (DVec3, DVec3) {
+        let (first, (low, high)) = match &self.0 {
+            Kind::Still(transform) => (None, (transform.translation, transform.translation)),
+            Kind::Moving(keyed) => (Some(&keyed.first), keyed.origin_over(interval)),
+        };
+        let inner = first.map_or(radius, |first| most_stretch(&first.matrix3) * radius + first.translation.length());
+        let stretch = match &self.0 {
+            Kind::Still(transform) => most_stretch(&transform.matrix3),
+            Kind::Moving(keyed) => keyed.scales_over(interval).1.max_element(),
+        };
+        let reach = DVec3::splat(inner * stretch);
+        let room = (low.abs().max(high.abs()) + reach) * ROUNDING;
+        (low - reach - room, high + reach + room)
+    }
+
     /// Bounds, during an interval, of the least and the greatest factor by which lengths change; exact where each scale is the
     /// same along all axes and nothing is applied before.
     #[must_use]
@@ -52,15 +70,14 @@ impl Track {
     /// of the frame that it moves in.
     #[must_use]
     pub fn local_reach(&self, interval: TimeInterval, (low, high): (DVec3, DVec3)) -> f64 {
-        let keyed = match &self.0 {
-            Kind::Still(_) => self.clone(),
-            Kind::Moving(keyed) => {
-                Self(Kind::Moving(Keyed { first: DAffine3::IDENTITY, ..Keyed::clone(keyed) }.into()))
+        let ((origin_low, origin_high), least) = match &self.0 {
+            Kind::Still(transform) => {
+                ((transform.translation, transform.translation), 1.0 / most_stretch(&transform.matrix3.inverse()))
             }
+            Kind::Moving(keyed) => (keyed.origin_over(interval), keyed.scales_over(interval).0.min_element()),
         };
-        let (origin_low, origin_high) = keyed.bounds_of_points(interval, &[DVec3::ZERO]);
         let away = (high - origin_low).abs().max((origin_high - low).abs()).length();
-        let reach = away / keyed.stretch_over(interval).0;
+        let reach = away * (1.0 + ROUNDING) / least;
         match &self.0 {
             Kind::Still(_) => reach,
             Kind::Moving(keyed) => {
@@ -136,6 +153,15 @@ impl Keyed {
             room = pose.position.abs() + DVec3::splat((pose.scale.abs() * most).length());
         }
         (low - room * ROUNDING, high + room * ROUNDING)
+    }
+
+    /// Least and greatest coordinates of the keyed position during an interval.
+    fn origin_over(&self, interval: TimeInterval) -> (DVec3, DVec3) {
+        let ranges = self.during(interval).map(|(span, (u0, u1))| span.position.range(u0, u1));
+        ranges.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or_else(|| {
+            let position = self.pose(interval.start_s()).position;
+            (position, position)
+        })
     }
 
     /// Bounds of the scales' magnitudes by axis during an interval.

@@ -53,7 +53,7 @@ fn check(world: &World, camera: &CameraPath, interval: TimeInterval) -> Result<(
     let (camera_low, camera_high) = camera.bounds_over(interval);
     let moments = moments(interval);
     let placed: Vec<_> = instances.iter().map(|i| Placement::new(i, origin_m, interval)).collect();
-    let bounds = placed.iter().zip(instances).filter_map(|(p, i)| p.bounds(i, world.meshes()));
+    let bounds = placed.iter().zip(instances).filter_map(|(p, i)| p.rough_bounds(i, world.meshes()));
     // Rays start at the camera, which is the origin at the start, or on a surface.
     let about_camera = (camera_low - origin_m, camera_high - origin_m);
     let (low, high) = bounds.fold(about_camera, |(low, high), b| (low.min(b.0), high.max(b.1)));
@@ -100,7 +100,8 @@ fn check_rounding(instance: usize, placed: &InstanceTransform, mesh: &Mesh, from
 }
 
 fn check_sphere(index: usize, placed: &Placement, instance: &Instance, world: &World) -> Result<(), WorldError> {
-    let reach =
-        placed.bounds(instance, world.meshes()).map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
+    let reach = placed
+        .rough_bounds(instance, world.meshes())
+        .map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
     if (0.0..=FARTHEST).contains(&reach) { Ok(()) } else { Err(WorldError::Sphere { instance: index, reach_m: reach }) }
 }

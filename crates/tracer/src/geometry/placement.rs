@@ -93,6 +93,14 @@ impl Placement {
         }
     }
 
+    /// As [`Placement::bounds`]; of what moves looser, and quick for intervals of many keys.
+    pub(crate) fn rough_bounds(&self, instance: &Instance, meshes: &[Mesh]) -> Option<(DVec3, DVec3)> {
+        match self {
+            Self::Still(transform) => transform.bounds(instance, meshes),
+            Self::Moving(moving) => moving.rough_bounds(instance, meshes),
+        }
+    }
+
     /// The greatest coordinate, in the instance's frame, of a box of the render frame, or a bound of it.
     pub(crate) fn greatest_local(&self, low: DVec3, high: DVec3) -> f64 {
         match self {
@@ -130,6 +138,18 @@ impl Moving {
             }
             Shape::Sphere { radius_m } => self.to_world.bounds_of_ball(self.interval, DVec3::ZERO, radius_m),
         };
+        Some((low - self.origin_m, high - self.origin_m))
+    }
+
+    fn rough_bounds(&self, instance: &Instance, meshes: &[Mesh]) -> Option<(DVec3, DVec3)> {
+        let radius = match instance.shape {
+            Shape::Mesh(id) => {
+                let (low, high) = meshes[id.0 as usize].bounds()?;
+                low.abs().max(high.abs()).as_dvec3().length()
+            }
+            Shape::Sphere { radius_m } => radius_m,
+        };
+        let (low, high) = self.to_world.rough_bounds(self.interval, radius);
         Some((low - self.origin_m, high - self.origin_m))
     }
 }
