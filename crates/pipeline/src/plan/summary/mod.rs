@@ -133,7 +133,9 @@ fn lights(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Resul
         (usize::from(counts.uniform_environment), "uniform surrounding"),
     ];
     let list: Vec<String> = counted.iter().filter(|(n, _)| *n > 0).map(|(n, name)| count(*n, name)).collect();
-    line(f, "lights", if list.is_empty() { "none: the picture will be black".to_owned() } else { list.join(", ") })
+    let over_time = if plan.is_modulated() { "; strengths change over time" } else { "" };
+    let none = "none: the picture will be black".to_owned();
+    line(f, "lights", if list.is_empty() { none } else { list.join(", ") + over_time })
 }
 
 fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
