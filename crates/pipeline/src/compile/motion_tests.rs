@@ -152,6 +152,36 @@ fn lamps_and_cameras_move() {
     }
 }
 
+/// The last example of docs/motion.md: the wheels turn by the way that the car goes, the camera and the lamps go along.
+#[test]
+fn the_example_of_the_page_moves() {
+    let page = include_str!("../../../../docs/motion.md");
+    let example = page.rsplit("```toml\n").next().and_then(|rest| rest.split("```").next()).expect("an example");
+    let read = |_: &Path| Ok(example.to_owned());
+    let job = Description::load(Path::new("job.toml"), &read, &Overrides::default()).expect("no fault");
+    let plan = compile(&job, &Assets::default(), &Choices::default()).expect("no fault");
+    let moved = |motion: &Motion| motion.at(1.0).translation - motion.at(0.0).translation;
+    let instances = plan.world.instances();
+    assert_eq!(instances.iter().filter(|instance| instance.to_world.as_still().is_some()).count(), 1, "the ground");
+    assert!(instances[..5].iter().all(|instance| (moved(&instance.to_world).x - 12.0).abs() < 0.3));
+    assert!(plan.sources.lamps.iter().all(|lamp| (moved(lamp.to_world()).x - 12.0).abs() < 0.3));
+    let [front, roadside] = [0, 1].map(|i| &plan.cameras[i].path);
+    assert!(!front.is_still() && roadside.is_still());
+    // Each wheel's way by small steps along the body's x axis, of an error of h²/24 of the second derivative: below 1e-5 m.
+    for wheel in &instances[1..5] {
+        let step = |i: u32| {
+            let [from, middle, to] = [0.0, 0.5, 1.0].map(|part| 0.001 * (f64::from(i) + part));
+            let forward = instances[0].to_world.at(middle).matrix3.x_axis;
+            (wheel.to_world.at(to).translation - wheel.to_world.at(from).translation).dot(forward)
+        };
+        let angle = (0..1000).map(step).sum::<f64>() / 0.32;
+        let (sin, cos) = sin_cos(angle);
+        let body = instances[0].to_world.at(1.0).matrix3;
+        let off = body.transpose() * wheel.to_world.at(1.0).matrix3.x_axis - DVec3::new(cos, 0.0, -sin);
+        assert!(angle > 35.0 && off.length() < 1e-4, "{angle} {off}");
+    }
+}
+
 #[test]
 fn what_cannot_move_is_refused() {
     let fault = |scene: &str| plan(STILL, scene, &rows()).expect_err("a fault");
