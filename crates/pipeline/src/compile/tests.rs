@@ -84,7 +84,7 @@ fn a_lamp_stands_wherever_it_is_placed() {
     let keys = "type = \"head_lamp\"\nbeam = \"low_beam\"\ntraffic = \"right\"\nilluminant = \"LED-B3\"\n\
                 instances = [{ position_m = [0, 0.6, 0.7] }, { position_m = [0, -0.6, 0.7], rotation_deg = [180, 0, 0] }]";
     let plan = light(keys).expect("no fault");
-    let at: Vec<_> = plan.sources.lamps.iter().map(|l| l.position_m().y).collect();
+    let at: Vec<_> = plan.sources.lamps.iter().map(|l| l.to_world().at(0.0).translation.y).collect();
     assert_eq!(at, [0.6, -0.6]);
     assert!((luminance(plan.sources.lamps[0].intensity()) - 1.0).abs() < 1e-5, "candela as the beam says");
 }

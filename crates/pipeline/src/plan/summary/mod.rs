@@ -7,6 +7,7 @@ mod lens;
 mod processing;
 mod shared_light;
 mod spectrum;
+mod time;
 mod words;
 
 use crate::plan::remark::grouped;
@@ -73,7 +74,14 @@ fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     if let Some(sky) = &plan.sky {
         line(f, "sky", self::sky(sky))?;
     }
-    line(f, "left out", "motion: nothing moves; air: it is clear; polarisation and fluorescence: not modelled")
+    let left_out = "air: it is clear; polarisation and fluorescence: not modelled";
+    match time::motion(plan) {
+        None => line(f, "left out", format!("motion: nothing moves; {left_out}")),
+        Some(motion) => {
+            line(f, "motion", motion)?;
+            line(f, "left out", left_out)
+        }
+    }
 }
 
 fn sky(sky: &SkyFacts) -> String {
@@ -95,6 +103,12 @@ fn camera(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Resul
     writeln!(f, "camera {}", camera.name)?;
     if let Some(text) = shared_light::light(plan, camera) {
         line(f, "light", text)?;
+    }
+    if let Some(frames) = time::frames(camera) {
+        line(f, "frames", frames)?;
+    }
+    if let Some(shutter) = time::shutter(camera) {
+        line(f, "shutter", shutter)?;
     }
     lights(plan, camera, f)?;
     light_paths(camera, f)?;
