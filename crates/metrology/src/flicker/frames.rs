@@ -1,7 +1,7 @@
 //! Means of frames, one after the other.
 
-use super::FlickerTiming;
 use super::time_series::TimeSeries;
+use super::timing::FlickerTiming;
 use crate::Estimate;
 
 /// Least frames in which a frequency is looked for.

@@ -32,6 +32,7 @@ mod series;
 #[cfg(test)]
 mod tests;
 mod time_series;
+mod timing;
 
 use crate::flat::{SATURATED_SHARE, saturated_fraction};
 use crate::{Estimate, Image};
@@ -39,17 +40,7 @@ use crate::{Estimate, Image};
 pub use frames::{FrameFlicker, FrameFrequency};
 pub use pulses::PulseLight;
 pub use rows::{RowBands, RowFlicker};
-
-/// When rows and frames were exposed.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct FlickerTiming {
-    /// From one row of the images to the next, s; `None` where all rows are exposed together.
-    pub row_time_s: Option<f64>,
-    /// Frames a second; `None` where it is not known.
-    pub frame_rate_hz: Option<f64>,
-    /// How long each row is exposed, s; `None` where it is not known.
-    pub exposure_s: Option<f64>,
-}
+pub use timing::FlickerTiming;
 
 /// What flickers, and how.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,9 +1,9 @@
 //! Bands over the rows of a rolling shutter.
 
-use super::FlickerTiming;
 use super::pulses::{self, PulseLight};
 use super::series::weighted_mean;
 use super::time_series::{FourierFit, TimeSeries, criterion};
+use super::timing::FlickerTiming;
 use crate::Estimate;
 use core::f64::consts::PI;
 use etendue_core::maths::f64::sin;
