@@ -170,7 +170,7 @@ fn keys_in_their_order() {
     assert_eq!(keys(["0", "1"]), "");
     assert_eq!(
         keys(["2.5", "1"]),
-        "job.toml:31:10: scene.objects.wall.keys[1].time_s: the key at 1 s stands behind that at 2.5 s; give the keys in the order \
+        "job.toml:32:10: scene.objects.wall.keys[1].time_s: the key at 1 s stands behind that at 2.5 s; give the keys in the order \
          of time"
     );
     assert!(keys(["1", "1.0"]).ends_with("keys[1].time_s: two keys are both at 1 s; give each key a time of its own"));
