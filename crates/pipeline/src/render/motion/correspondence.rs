@@ -4,11 +4,11 @@
 //! ([`FrameView::middle_at_s`]). The iteration y ← image of p(t(y)) shrinks errors by |image velocity| × row time, far below 1 for whatever
 //! does not outrun the shutter; what does has no single image.
 
-use super::frame_view::FrameView;
-use super::image_point::{Target, image_point};
+use super::image_point::{Target, image_point, unbent};
 use super::surface_path::{HALF_STEP_S, SurfacePath};
-use etendue_core::CameraPose;
-use glam::DVec2;
+use crate::render::frame_view::FrameView;
+use etendue_core::{CameraPose, Track};
+use glam::{DVec2, DVec3};
 
 /// Where a pixel looks: its place, and whether its ray is off the pupil's centre.
 #[derive(Clone, Copy, Debug)]
@@ -67,4 +67,13 @@ pub(crate) fn image_velocity(
         image_point(frame.body, target, sight.at_px, sight.off_centre)
     };
     Some((image(time_s + HALF_STEP_S)? - image(time_s - HALF_STEP_S)?) / (2.0 * HALF_STEP_S))
+}
+
+/// Where a frame sees a point of an instance's own frame, px, sought from where the bare lens would see it; `None` where it has no image, and
+/// by mirrors.
+pub(crate) fn image_of(frame: &FrameView<'_>, local: DVec3, to_world: &Track) -> Option<DVec2> {
+    let surface = SurfacePath::Point { local, to_world };
+    let middle_s = frame.interval().middle_s();
+    let at_px = unbent(frame.body, surface.seen_from(&frame.path.at(middle_s), middle_s))?;
+    Some(correspondence(frame, &surface, Sight { at_px, off_centre: false })?.at_px)
 }

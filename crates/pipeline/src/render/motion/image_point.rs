@@ -8,6 +8,7 @@
 //!   follows that one; where the ray ends on the way (the rim of a mirror, the end of the field) there is none.
 
 use crate::plan::CameraBody;
+use etendue_optics::front::Optic;
 use etendue_optics::{FrontRay, Lens};
 use glam::{DMat2, DVec2, DVec3};
 
@@ -42,6 +43,17 @@ pub(crate) fn image_point(body: &CameraBody, target: Target, near_px: DVec2, off
         followed(body, target, near_px)
     } else {
         projected(body, target)
+    }
+}
+
+/// Where the lens would see a target (px) if nothing stood before it; of a telecentric camera the middle of the picture. `None` where it has no
+/// image, and by a mirror, before which the target is elsewhere.
+pub(super) fn unbent(body: &CameraBody, target: Target) -> Option<DVec2> {
+    let by_mirror = body.front.as_ref().is_some_and(|front| matches!(front.optic(), Some(Optic::Mirror(_))));
+    match body.lens {
+        _ if by_mirror => None,
+        Lens::Telecentric(_) => Some(body.raster.principal_px()),
+        _ => projected(body, target),
     }
 }
 

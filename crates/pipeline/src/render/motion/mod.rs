@@ -12,24 +12,23 @@
 //! exposures (the first one's times are used).
 
 mod correspondence;
-mod frame_view;
 mod image_point;
 mod neighbour;
 mod surface_path;
 #[cfg(test)]
 mod tests;
 
-pub use frame_view::FrameView;
+pub(crate) use correspondence::image_of;
 pub use neighbour::{NeighbourTruth, Visibility};
 
 use crate::plan::Plan;
-use crate::render::truth::is_there;
+use crate::render::frame_view::FrameView;
+use crate::render::look_at::LookAt;
 use correspondence::{Sight, image_velocity};
+use etendue_core::Plane;
 use etendue_core::quantity::{Disparity, Identity, ImageVelocity, Quantity, Time, Vector};
-use etendue_core::{CameraPose, Plane};
 use etendue_tracer::accel::Simd;
-use etendue_tracer::render_space::RenderSpace;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use neighbour::Neighbour;
 use rayon::prelude::*;
 use surface_path::SurfacePath;
@@ -59,11 +58,11 @@ struct Look {
 #[must_use]
 pub fn motion_truth(plan: &Plan, frame: &FrameView<'_>, others: &[FrameView<'_>], simd: Simd) -> MotionTruth {
     let (width, height) = (frame.body.raster.width(), frame.body.raster.height());
-    let view = render_space(plan, frame, simd);
-    let neighbours: Vec<Neighbour<'_>> = others.iter().map(|other| Neighbour::new(plan, *other, simd)).collect();
+    let looks_at = LookAt::new(plan, frame, simd);
+    let neighbours: Vec<Neighbour<'_>> = others.iter().map(|other| Neighbour::new(plan, other, simd)).collect();
     let looks: Vec<Look> = (0..width * height)
         .into_par_iter()
-        .map(|i| look(plan, &view, frame, &neighbours, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
+        .map(|i| look(plan, &looks_at, &neighbours, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
         .collect();
     MotionTruth {
         neighbours: (0..others.len()).map(|n| NeighbourTruth::of(width, height, &looks, n)).collect(),
@@ -87,48 +86,29 @@ pub fn disparity(
     (found.flow.map(|[u, _]| -u), found.visibility)
 }
 
-/// The world about a frame's camera, during the frame.
-fn render_space<'p>(plan: &'p Plan, frame: &FrameView<'_>, simd: Simd) -> RenderSpace<'p> {
-    plan.world.render_space_with(frame.path.at(frame.start_s).position_m, frame.interval(), simd)
-}
-
-/// A camera's point (m) in the render frame of a view, from a pose that need not be the view's own.
-fn to_render(view: &RenderSpace<'_>, pose: &CameraPose, point_m: DVec3) -> DVec3 {
-    pose.position_m - view.origin_m() + pose.point_to_render(point_m)
-}
-
-fn look(
-    plan: &Plan,
-    view: &RenderSpace<'_>,
-    frame: &FrameView<'_>,
-    neighbours: &[Neighbour<'_>],
-    at_px: DVec2,
-) -> Look {
-    let interval = view.interval();
-    let ray_time_s = (frame.row_middle_s(at_px.y as usize) - interval.start_s()) as f32;
-    // Rays have times of 32 bits: the time that they mean is the pixel's.
-    let time_s = interval.moment(ray_time_s);
+fn look(plan: &Plan, looks_at: &LookAt<'_>, neighbours: &[Neighbour<'_>], at_px: DVec2) -> Look {
     let nothing = || Look {
         motion_vector: [f32::NAN; 2],
         velocity: [f32::NAN; 3],
-        time_s: ray_time_s,
+        time_s: looks_at.ray_time_s(at_px.y as usize),
         neighbours: vec![neighbour::Found::default(); neighbours.len()],
     };
-    let Some((front, off_centre)) = frame.body.truth_ray(at_px) else { return nothing() };
-    let pose = frame.path.at(time_s);
-    let direction = pose.direction_to_world(front.ray.direction);
-    let origin_m = to_render(view, &pose, front.ray.origin_m);
-    let truth = view.truth(origin_m, direction, ray_time_s, |point| is_there(view, &plan.material_table, point));
-    let surface = truth.map_or(SurfacePath::Background(direction), |truth| {
-        let instance = &plan.world.instances()[truth.instance as usize];
-        SurfacePath::of_point(truth.position_m, &instance.to_world, time_s)
-    });
-    let sight = Sight { at_px, off_centre };
-    let here = surface.seen_from(&pose, time_s);
+    let Some(ray) = looks_at.ray(at_px) else { return nothing() };
+    let (line, pose, time_s) = (&ray.front.ray, &ray.pose, ray.time_s);
+    let surface = match looks_at.meets(pose, line.origin_m, line.direction, ray.ray_time_s, None) {
+        None => SurfacePath::Background(pose.direction_to_world(line.direction)),
+        Some(truth) => {
+            let instance = &plan.world.instances()[truth.instance as usize];
+            SurfacePath::of_point(truth.position_m, &instance.to_world, time_s)
+        }
+    };
+    let sight = Sight { at_px, off_centre: ray.off_centre };
+    let here = surface.seen_from(pose, time_s);
+    let image_velocity = image_velocity(&looks_at.frame, &surface, sight, time_s);
     Look {
-        motion_vector: image_velocity(frame, &surface, sight, time_s).map_or([f32::NAN; 2], |v| v.as_vec2().to_array()),
+        motion_vector: image_velocity.map_or([f32::NAN; 2], |v| v.as_vec2().to_array()),
         velocity: surface.velocity_m_s(time_s).map_or([f32::NAN; 3], |v| v.as_vec3().to_array()),
-        neighbours: neighbours.iter().map(|other| other.find(plan, &surface, sight, here)).collect(),
+        neighbours: neighbours.iter().map(|other| other.find(&surface, sight, here)).collect(),
         ..nothing()
     }
 }

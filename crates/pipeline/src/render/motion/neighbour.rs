@@ -1,16 +1,15 @@
 //! The other frame: where it sees a point, and whether it does.
 
 use super::correspondence::{Correspondence, Sight, correspondence};
-use super::frame_view::FrameView;
 use super::image_point::Target;
 use super::surface_path::SurfacePath;
-use super::{Look, plane, render_space, to_render};
+use super::{Look, plane};
 use crate::plan::Plan;
-use crate::render::truth::is_there;
+use crate::render::frame_view::FrameView;
+use crate::render::look_at::LookAt;
 use etendue_core::Plane;
 use etendue_core::quantity::{Identity, OpticalFlow, Vector};
 use etendue_tracer::accel::Simd;
-use etendue_tracer::render_space::RenderSpace;
 use glam::DVec2;
 
 /// Whether a point is seen in the other frame.
@@ -73,19 +72,16 @@ const NEARER: f64 = 1e-6;
 const GRAZING: f64 = 1e-3;
 
 /// Another frame with its world.
-pub(super) struct Neighbour<'a> {
-    frame: FrameView<'a>,
-    view: RenderSpace<'a>,
-}
+pub(super) struct Neighbour<'a>(LookAt<'a>);
 
 impl<'a> Neighbour<'a> {
-    pub(super) fn new(plan: &'a Plan, frame: FrameView<'a>, simd: Simd) -> Self {
-        Self { view: render_space(plan, &frame, simd), frame }
+    pub(super) fn new(plan: &'a Plan, frame: &FrameView<'a>, simd: Simd) -> Self {
+        Self(LookAt::new(plan, frame, simd))
     }
 
     /// Where and whether the frame sees what is seen from `sight` as `here`.
-    pub(super) fn find(&self, plan: &Plan, surface: &SurfacePath<'_>, sight: Sight, here: Target) -> Found {
-        let Some(there) = correspondence(&self.frame, surface, sight) else {
+    pub(super) fn find(&self, surface: &SurfacePath<'_>, sight: Sight, here: Target) -> Found {
+        let Some(there) = correspondence(&self.0.frame, surface, sight) else {
             return Found { visibility: Visibility::NoImage, ..Found::default() };
         };
         let scene_flow = match (here, there.target) {
@@ -93,28 +89,25 @@ impl<'a> Neighbour<'a> {
             _ => [f32::NAN; 3],
         };
         let flow = (there.at_px - sight.at_px).as_vec2().to_array();
-        Found { flow, visibility: self.visibility(plan, &there), scene_flow }
+        Found { flow, visibility: self.visibility(&there), scene_flow }
     }
 
-    fn visibility(&self, plan: &Plan, there: &Correspondence) -> Visibility {
-        let raster = &self.frame.body.raster;
-        let size = DVec2::new(raster.width() as f64, raster.height() as f64);
+    fn visibility(&self, there: &Correspondence) -> Visibility {
+        let frame = &self.0.frame;
+        let size = DVec2::new(frame.body.raster.width() as f64, frame.body.raster.height() as f64);
         if !(there.at_px.cmpge(DVec2::ZERO).all() && there.at_px.cmplt(size).all()) {
             return Visibility::Outside;
         }
-        let Some((front, _)) = self.frame.body.truth_ray(there.at_px) else { return Visibility::NoImage };
-        let Some(ahead) = there.target.direction_from(front.ray.origin_m) else { return Visibility::NoImage };
-        let (view, materials) = (&self.view, &plan.material_table);
-        let origin_m = to_render(view, &there.pose, front.ray.origin_m);
-        let direction = there.pose.direction_to_world(ahead);
-        let ray_time_s = (there.time_s - view.interval().start_s()) as f32;
-        let hit = view.truth(origin_m, direction, ray_time_s, |point| is_there(view, materials, point));
+        let Some((front, _)) = frame.body.truth_ray(there.at_px) else { return Visibility::NoImage };
+        let origin_m = front.ray.origin_m;
+        let Some(ahead) = there.target.direction_from(origin_m) else { return Visibility::NoImage };
+        let hit = self.0.meets(&there.pose, origin_m, ahead, (there.time_s - frame.start_s) as f32, None);
         let hidden = match (hit, there.target) {
             (None, _) => false,
             (Some(_), Target::Direction(_)) => true,
             (Some(hit), Target::Point(point_m)) => {
-                let distance_m = (point_m - front.ray.origin_m).length();
-                let cosine = hit.normal.dot(direction).abs().max(GRAZING);
+                let distance_m = (point_m - origin_m).length();
+                let cosine = hit.normal.dot(there.pose.direction_to_world(ahead)).abs().max(GRAZING);
                 hit.distance_m < distance_m * (1.0 - NEARER / cosine)
             }
         };

@@ -1,7 +1,8 @@
 //! Motion against closed forms. Flow is stored in 32-bit floats, which keep 6e-8 of it; geometry is f64: 1e-5 px is granted.
 
-use super::{FrameView, MotionTruth, Visibility, disparity, motion_truth};
+use super::{MotionTruth, Visibility, disparity, motion_truth};
 use crate::plan::CameraBody;
+use crate::render::frame_view::FrameView;
 use crate::{Choices, Plan, compile};
 use etendue_core::track::{Interpolation, Key};
 use etendue_core::{CameraPath, CameraPose, RowTiming, Shutter, Track};
