@@ -111,7 +111,7 @@ fn through_lens(plan: &Plan, pool: &ThreadPool) -> (SpectralCube<Radiance>, f64)
 fn at_pupil(plan: &Plan, pool: &ThreadPool, method: DepthOfField) -> (SpectralCube<Radiance>, f64) {
     let Route::Pupil(projection) = &camera(plan).settings.route else { panic!("the route at the pupil") };
     let (stored, _) = through_lens(plan, pool);
-    let depth = pupil_depth(plan, camera(plan), Simd::Auto).expect("the route at the pupil");
+    let depth = pupil_depth(plan, camera(plan), 0, Simd::Auto).expect("the route at the pupil");
     let stored = Stored { projection, radiance: &stored, distance: Some(&depth.distance) };
     let filtered = |method| seen(&stored, &camera(plan).body, &method).expect("the picture is covered");
     let (_, resampling_s) = pool.install(|| timed(|| filtered(DepthOfField::None)));

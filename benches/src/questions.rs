@@ -65,8 +65,8 @@ fn primary(camera: &CameraPlan) -> Vec<Ray> {
 
 fn principal(camera: &CameraPlan, sensor_mm: DVec2) -> Option<Ray> {
     let ray = camera.body.lens.principal_ray(sensor_mm)?;
-    let direction = camera.pose.direction_to_world(ray.direction).as_vec3().normalize();
-    Some(Ray::new(camera.pose.point_to_render(ray.origin_m).as_vec3(), direction, 0.0))
+    let direction = camera.path.at(0.0).direction_to_world(ray.direction).as_vec3().normalize();
+    Some(Ray::new(camera.path.at(0.0).point_to_render(ray.origin_m).as_vec3(), direction, 0.0))
 }
 
 fn seen(view: &RenderSpace<'_>, ray: &Ray, number: u32) -> Option<Seen> {

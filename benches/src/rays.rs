@@ -18,7 +18,7 @@ const NOTE: &str = "Millions a second. One thread, one ray after the other. Boun
 pub fn table() -> Table {
     let plan = STREET.plan();
     let camera = camera(&plan);
-    let origin_m = camera.pose.position_m;
+    let origin_m = camera.path.at(0.0).position_m;
     let flat = flat::world(flat::mesh(&plan.world.render_space(origin_m)));
     let views = [
         plan.world.render_space_with(origin_m, TimeInterval::default(), Simd::Auto),

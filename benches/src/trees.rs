@@ -14,7 +14,7 @@ const NOTE: &str = "The street: once as it is (the triangles of each mesh once, 
 /// Build times of the street.
 pub fn table() -> Table {
     let plan = STREET.plan();
-    let view = plan.world.render_space(camera(&plan).pose.position_m);
+    let view = plan.world.render_space(camera(&plan).path.at(0.0).position_m);
     let flat = flat::world(flat::mesh(&view));
     let mut table =
         Table::new("Trees", NOTE, &["world", "triangles", "build, ms", "µs a triangle", "view, ms", "spread"]);

@@ -55,7 +55,7 @@ impl Shot {
     /// The light, sorted by what it is.
     #[must_use]
     pub fn light(&self) -> Light {
-        let depth = pupil_depth(&self.plan, self.camera(), Simd::Auto);
+        let depth = pupil_depth(&self.plan, self.camera(), 0, Simd::Auto);
         Light::of_film(self.camera(), self.film.clone(), depth.as_ref()).expect("finite light")
     }
 
@@ -101,7 +101,7 @@ impl Shot {
     /// The ground truth.
     #[must_use]
     pub fn truth(&self) -> GroundTruth {
-        ground_truth(&self.plan, self.camera(), Simd::Auto)
+        ground_truth(&self.plan, self.camera(), 0, Simd::Auto)
     }
 }
 

@@ -1,5 +1,6 @@
 //! What optics asks of the world: the one open trait of the spine.
 
+use crate::TimeInterval;
 use crate::random::PathStream;
 use crate::ray::Ray;
 use crate::wavelength::{Spectral, Wavelengths};
@@ -8,13 +9,13 @@ use crate::wavelength::{Spectral, Wavelengths};
 pub trait RadianceField<const N: usize>: Sync {
     /// Spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) that arrives at the ray's origin against its direction, at the path's
     /// wavelengths; an unbiased estimate where the field is a path tracer. Not divided by the density of the
-    /// wavelengths. `ray` is in the render frame with unit direction; `stream` is the sample's random address.
-    fn radiance(&self, ray: &Ray, wavelengths: &Wavelengths<N>, stream: &PathStream) -> Spectral<N>;
+    /// wavelengths.
+    fn radiance(&self, asked: &FieldRay, wavelengths: &Wavelengths<N>) -> Spectral<N>;
 
     /// As [`RadianceField::radiance`] for each of several rays of neighbouring pixels that carry the same wavelengths,
     /// appended to `radiance`. Each is an unbiased estimate, but a field may let them share what it finds.
     fn radiance_of_group(&self, rays: &[FieldRay], wavelengths: &Wavelengths<N>, radiance: &mut Vec<Spectral<N>>) {
-        radiance.extend(rays.iter().map(|FieldRay { ray, stream }| self.radiance(ray, wavelengths, stream)));
+        radiance.extend(rays.iter().map(|asked| self.radiance(asked, wavelengths)));
     }
 }
 
@@ -25,6 +26,9 @@ pub struct FieldRay {
     pub ray: Ray,
     /// The sample's random address.
     pub stream: PathStream,
+    /// The simulated time over which the strength of a light that goes up and down is averaged: the exposure of the ray's row or,
+    /// where the ray has a moment of its own, that moment. Within the interval of the view.
+    pub lit: TimeInterval,
 }
 
 /// The same radiance in every direction and at every wavelength: for tests of optics and sensors without a tracer.
@@ -35,7 +39,7 @@ pub struct ConstantField {
 }
 
 impl<const N: usize> RadianceField<N> for ConstantField {
-    fn radiance(&self, _ray: &Ray, _wavelengths: &Wavelengths<N>, _stream: &PathStream) -> Spectral<N> {
+    fn radiance(&self, _asked: &FieldRay, _wavelengths: &Wavelengths<N>) -> Spectral<N> {
         Spectral::splat(self.radiance)
     }
 }

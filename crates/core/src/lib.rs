@@ -1,6 +1,6 @@
 //! Vocabulary of Étendue.
 //!
-//! Quantities with units, coordinate frames, transforms over time, rays, wavelength sets, planes of pixels, random addresses and
+//! Quantities with units, coordinate frames, transforms and light over time, rays, wavelength sets, planes of pixels, random addresses and
 //! deterministic mathematics: the words in which the stages of the simulation speak to each other.
 //!
 //! This crate knows no stage, does no input or output and holds no policy.
@@ -29,6 +29,7 @@ mod shutter;
 mod time_interval;
 pub mod track;
 pub mod warp;
+pub mod waveform;
 pub mod wavelength;
 mod wavelength_density;
 
@@ -41,5 +42,6 @@ pub use ray::{PupilRay, Ray};
 pub use shutter::{RowTiming, Shutter};
 pub use time_interval::TimeInterval;
 pub use track::Track;
+pub use waveform::Waveform;
 pub use wavelength::{Bands, Spectral, Wavelengths};
 pub use wavelength_density::WavelengthDensity;

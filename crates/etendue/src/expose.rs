@@ -16,7 +16,7 @@ use etendue_pipeline::defocus::{held_margin_px, margin_px};
 use etendue_pipeline::photograph::Light;
 use etendue_pipeline::plan::{CameraBody, Products, RawFormat};
 use etendue_pipeline::stored;
-use etendue_sensor::FrameAddress;
+use etendue_sensor::{FrameAddress, SensorState};
 use serde_json::json;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -142,15 +142,16 @@ fn write(
     let light = Light::at_pupil(body, &at_pupil, &depth_of_field).map_err(refuse)?;
     let seed = request.seed.unwrap_or(stored.provenance.seed);
     let facts = metadata::exposed_provenance(&stored.provenance, &writer.prefix, seed);
-    writer.irradiance(&light, false, &facts)?;
-    writer.ghosts(&light, &facts)?;
+    writer.irradiance(Files::IRRADIANCE, &light, false, &facts)?;
+    writer.ghosts(Files::GHOSTS, &light, &facts)?;
     let mut points = Vec::new();
-    if let Some(electrons) = &light.electrons {
+    if let Some(captures) = light.captures() {
         let address = |frame| FrameAddress { seed, camera: stored.camera_index(), frame, capture: 0 };
         let products = products(body);
         let wanted =
             Wanted { products: &products, camera: &writer.prefix.clone(), facts: &facts, undistorted: None, observer };
-        points = write_frames(body, electrons, &request.frames, address, wanted, writer)?;
+        let frames = (&request.frames, SensorState::default());
+        points = write_frames(body, captures, frames, address, wanted, writer)?;
     }
     let mut facts = sidecar(body, stored, request, seed, &depth_of_field);
     facts["frames"] = points.into();

@@ -11,7 +11,7 @@ use crate::results::writer::ResultWriter;
 use etendue_io::{Existing, OutputFolder, Provenance};
 use etendue_pipeline::flat::{self, FlatLight, PhotonTransfer, Stack};
 use etendue_pipeline::plan::{CameraBody, Products, RawFormat};
-use etendue_sensor::{FrameAddress, Sensor, SensorState};
+use etendue_sensor::{CaptureLight, FrameAddress, Sensor, SensorState};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -184,7 +184,9 @@ impl Task<'_> {
         let (products, facts, camera) = (self.products(), self.provenance(writer), writer.prefix.clone());
         let wanted =
             Wanted { products: &products, camera: &camera, facts: &facts, undistorted: None, observer: self.observer };
-        let points = write_frames(self.body, &electrons, &self.request.frames, |n| self.address(n), wanted, writer)?;
+        let frames = (&self.request.frames, SensorState::default());
+        let steady = CaptureLight::steady(&electrons);
+        let points = write_frames(self.body, steady, frames, |n| self.address(n), wanted, writer)?;
         let mut facts = self.sidecar(light);
         facts["light"]["photons_per_pixel"] =
             flat::photons(self.sensor, light, self.sensor.parameters().exposure.exposure_s).into();

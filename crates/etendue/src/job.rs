@@ -1,15 +1,16 @@
 //! From a job file and what changes it to a plan, and from a plan to results.
 
+use crate::delivery::{check_finite, deliver, shots_of};
 use crate::error::Error;
 use crate::memory::MemoryFiles;
 use crate::observer::{Message, Observer, Tiles};
 use crate::render_options::RenderOptions;
-use crate::results::{CameraResults, Results, file_names};
+use crate::results::{CameraResults, DoneFrames, Results, Sequence, file_names};
 use crate::shard_spec::ShardSpec;
 use etendue_io::{Existing, OutputFolder, complete_assets};
 use etendue_pipeline::film::Film;
-use etendue_pipeline::plan::CameraPlan;
-use etendue_pipeline::render::{Request, light};
+use etendue_pipeline::plan::{CameraPlan, TimeDependence};
+use etendue_pipeline::render::{Request, Shot, light};
 use etendue_pipeline::summary::Summary;
 use etendue_pipeline::tile::Shard;
 use etendue_pipeline::{Choices, Plan, compile};
@@ -217,16 +218,27 @@ impl Job {
         observer: &dyn Observer,
         mut take: impl FnMut(CameraResults) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        self.warn(observer);
-        for group in self.plan.by_light() {
-            let film = exposed(&self.plan, &group, Request { simd: options.simd, shard: Shard::WHOLE }, observer)?;
-            deliver(&self.plan, &group, film, options, &mut take)?;
-        }
-        Ok(())
+        self.deliver(options, &DoneFrames::default(), observer, &mut take)
     }
 
-    /// Renders camera after camera and writes each one's files before the next is rendered; answers with their paths. Runs on the caller's
-    /// thread pool.
+    fn deliver(
+        &self,
+        options: &RenderOptions,
+        done: &DoneFrames,
+        observer: &dyn Observer,
+        take: impl FnMut(CameraResults) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        self.warn(observer);
+        let film_of = |group: &[&CameraPlan], shot| {
+            let request = Request { shot, simd: options.simd, shard: Shard::WHOLE };
+            exposed(&self.plan, group, request, observer)
+        };
+        deliver(&self.plan, options, done, film_of, take)
+    }
+
+    /// Renders camera after camera, where light depends on time frame after frame, and writes each one's files before the next is
+    /// rendered; answers with the paths of what it wrote. Files get their names when all are complete, those of a frame that has a light of its
+    /// own when that frame is: a run that is interrupted keeps them, and one that resumes goes on after them. Runs on the caller's thread pool.
     ///
     /// # Errors
     /// Where the observer cancels, light is not finite, or the folder cannot be written.
@@ -236,26 +248,43 @@ impl Job {
         (folder, existing): (&Path, Existing),
         observer: &dyn Observer,
     ) -> Result<Vec<PathBuf>, Error> {
+        let done = match existing {
+            Existing::Resume => DoneFrames::in_folder(folder, &self.plan, &options.frames)?,
+            Existing::Refuse | Existing::Replace => DoneFrames::default(),
+        };
         let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
         folder.claim(self.file_names(&options.frames).iter().map(String::as_str)).map_err(Error::input)?;
-        self.render_each(options, observer, |camera| camera.write(&mut folder, observer))?;
-        folder.commit().map_err(Error::run)
+        let (mut sequence, mut written) = (Sequence::default(), Vec::new());
+        done.note_all(&self.plan, &options.frames, &mut sequence);
+        self.deliver(options, &done, observer, |camera| {
+            sequence.write(&camera, &mut folder, observer)?;
+            if camera.has_own_light() {
+                written.extend(folder.publish().map_err(Error::run)?);
+            }
+            Ok(())
+        })?;
+        sequence.finish(&mut folder)?;
+        written.extend(folder.commit().map_err(Error::run)?);
+        Ok(written)
     }
 
-    /// Renders the tiles of one shard: a film for each group of cameras of equal light, with the first of these.
+    /// Renders the tiles of one shard: a film for each group of cameras of equal light, with the first of these; where light depends on time,
+    /// of each of the frames.
     pub(crate) fn render_shard(
         &self,
-        spec: ShardSpec,
+        (spec, frames): (ShardSpec, &Range<u32>),
         simd: Simd,
         observer: &dyn Observer,
-        mut take: impl FnMut(&CameraPlan, Film) -> Result<(), Error>,
+        mut take: impl FnMut(&CameraPlan, Shot, Film) -> Result<(), Error>,
     ) -> Result<(), Error> {
         self.warn(observer);
         let shard = spec.shard()?;
         for group in self.plan.by_light() {
-            let film = exposed(&self.plan, &group, Request { simd, shard }, observer)?;
-            check_finite(group[0], &film)?;
-            take(group[0], film)?;
+            for shot in shots_of(group[0], frames) {
+                let film = exposed(&self.plan, &group, Request { shot, simd, shard }, observer)?;
+                check_finite(group[0], &film)?;
+                take(group[0], shot, film)?;
+            }
         }
         Ok(())
     }
@@ -275,34 +304,10 @@ fn exposed(plan: &Plan, group: &[&CameraPlan], request: Request, observer: &dyn 
         1 => group[0].name.clone(),
         n => format!("{} and {} more", group[0].name, n - 1),
     };
+    let heading = match group[0].time {
+        TimeDependence::None => heading,
+        TimeDependence::Lights | TimeDependence::Motion => format!("{heading}, frame {}", request.shot.frame),
+    };
     let film = light(plan, group[0], request, &Tiles { heading: &heading, observer });
     film.map_err(|cancelled| Error::Run(cancelled.to_string()))
-}
-
-/// Hands over the results of cameras that have the same light.
-pub(crate) fn deliver(
-    plan: &Arc<Plan>,
-    group: &[&CameraPlan],
-    film: Film,
-    options: &RenderOptions,
-    take: &mut impl FnMut(CameraResults) -> Result<(), Error>,
-) -> Result<(), Error> {
-    let Some((last, others)) = group.split_last() else { return Ok(()) };
-    check_finite(last, &film)?;
-    for camera in others {
-        take(CameraResults::of_film(plan, camera, film.clone(), options)?)?;
-    }
-    take(CameraResults::of_film(plan, last, film, options)?)
-}
-
-/// Refuses a film that holds what is no finite number.
-fn check_finite(camera: &CameraPlan, film: &Film) -> Result<(), Error> {
-    match film.not_finite_samples() {
-        0 => Ok(()),
-        count => Err(Error::Run(format!(
-            "camera {}: {count} samples of its light were not finite numbers, so nothing is delivered; a light is too bright \
-             or too near for 32-bit floats: lower it or move it",
-            camera.name
-        ))),
-    }
 }

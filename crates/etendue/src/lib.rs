@@ -37,6 +37,7 @@ pub mod chart;
 mod compare;
 mod compare_pictures;
 mod datasheet;
+mod delivery;
 mod develop;
 mod error;
 mod expose;

@@ -1,15 +1,16 @@
 //! The shards of one job to the result of an unsharded run.
 
+use crate::delivery::deliver;
 use crate::error::Error;
-use crate::job::deliver;
 use crate::observer::Observer;
 use crate::render_options::RenderOptions;
+use crate::results::{DoneFrames, Sequence};
 use crate::shard::{self, Manifest};
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
 use etendue_pipeline::plan::CameraPlan;
-use etendue_pipeline::render::layout;
+use etendue_pipeline::render::{Shot, layout};
 use etendue_pipeline::tile::{Shard, tiles};
 use etendue_tracer::accel::Simd;
 use rayon::prelude::*;
@@ -36,10 +37,12 @@ pub fn merge(
     let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
     folder.claim(job.file_names(&manifest.frames).iter().map(String::as_str)).map_err(Error::input)?;
     let options = RenderOptions { frames: manifest.frames.clone(), simd };
-    for group in job.plan().by_light() {
-        let film = joined(group[0], &shards)?;
-        deliver(job.shared_plan(), &group, film, &options, &mut |camera| camera.write(&mut folder, observer))?;
-    }
+    let mut sequence = Sequence::default();
+    let film_of = |group: &[&CameraPlan], shot| joined(group[0], shot, &shards);
+    deliver(job.shared_plan(), &options, &DoneFrames::default(), film_of, |camera| {
+        sequence.write(&camera, &mut folder, observer)
+    })?;
+    sequence.finish(&mut folder)?;
     folder.commit().map_err(Error::run)
 }
 
@@ -90,12 +93,13 @@ fn check_same_plan(plan: &Plan, manifest: &Manifest) -> Result<(), Error> {
 const AT_ONCE: usize = 4;
 
 /// The film of all shards' tiles.
-fn joined(camera: &CameraPlan, shards: &[(Manifest, &PathBuf)]) -> Result<Film, Error> {
+fn joined(camera: &CameraPlan, shot: Shot, shards: &[(Manifest, &PathBuf)]) -> Result<Film, Error> {
     let (width, height) = camera.film_size();
     let settings = &camera.settings;
     let mut film = Film::new(width as usize, height as usize, &layout(camera), settings.spp, settings.replicates);
     for some in shards.chunks(AT_ONCE) {
-        let parts: Vec<Result<Film, Error>> = some.par_iter().map(|(_, folder)| shard::read(folder, camera)).collect();
+        let parts: Vec<Result<Film, Error>> =
+            some.par_iter().map(|(_, folder)| shard::read(folder, camera, shot)).collect();
         for ((manifest, folder), part) in some.iter().zip(parts) {
             let part = part?;
             let shard = Shard::new(manifest.index, manifest.count)

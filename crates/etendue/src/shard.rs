@@ -4,6 +4,7 @@
 //! and refuses shards of another plan.
 
 use crate::camera_file::read_text;
+use crate::delivery::shots_of;
 use crate::error::Error;
 use crate::job::{Job, JobRequest};
 use crate::observer::Observer;
@@ -15,16 +16,20 @@ use etendue_io::exr::{ExrFile, Layer, Samples, encode_layers, read_exr_within};
 use etendue_io::{Existing, OutputFolder, Provenance, sidecar};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
-use etendue_pipeline::plan::CameraPlan;
-use etendue_pipeline::render::layout;
+use etendue_pipeline::plan::{CameraPlan, TimeDependence};
+use etendue_pipeline::render::{Shot, layout};
 use etendue_tracer::accel::Simd;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 impl Job {
     /// The names of the files of a shard, relative to its folder.
-    fn shard_names(&self) -> Vec<String> {
-        let films = self.plan().by_light().into_iter().map(|group| film_name(group[0]));
+    fn shard_names(&self, frames: &Range<u32>) -> Vec<String> {
+        let groups = self.plan().by_light();
+        let of_group = |group: &Vec<&CameraPlan>| {
+            shots_of(group[0], frames).into_iter().map(|shot| film_name(group[0], shot)).collect::<Vec<_>>()
+        };
+        let films = groups.iter().flat_map(of_group);
         films.chain([MANIFEST.to_owned()]).collect()
     }
 
@@ -42,10 +47,10 @@ impl Job {
         observer: &dyn Observer,
     ) -> Result<Vec<PathBuf>, Error> {
         let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
-        folder.claim(self.shard_names().iter().map(String::as_str)).map_err(Error::input)?;
-        self.render_shard(spec, simd, observer, |camera, film| {
-            let bytes = encode(&film, &metadata::provenance(self.plan(), camera))?;
-            folder.write(&film_name(camera), &bytes).map_err(Error::run)
+        folder.claim(self.shard_names(&frames).iter().map(String::as_str)).map_err(Error::input)?;
+        self.render_shard((spec, &frames), simd, observer, |camera, shot, film| {
+            let bytes = encode(&film, &metadata::provenance(self.plan(), camera, shot.frame))?;
+            folder.write(&film_name(camera, shot), &bytes).map_err(Error::run)
         })?;
         let (request, plan_hash, tile_px) = (self.request().clone(), self.plan().hash_text(), tile_sides(self.plan()));
         let ShardSpec { index, count } = spec;
@@ -98,9 +103,13 @@ impl Manifest {
     }
 }
 
-/// The name of a camera's film in a shard's folder.
-fn film_name(camera: &CameraPlan) -> String {
-    format!("{}.film.exr", camera.name)
+/// The name of a camera's film in a shard's folder; with frame and capture where each has its own.
+fn film_name(camera: &CameraPlan, shot: Shot) -> String {
+    let Shot { frame, capture } = shot;
+    match camera.time {
+        TimeDependence::None => format!("{}.film.exr", camera.name),
+        TimeDependence::Lights | TimeDependence::Motion => format!("{}.{frame:04}.{capture}.film.exr", camera.name),
+    }
 }
 
 /// The bytes of a film.
@@ -124,8 +133,8 @@ fn encode(film: &Film, facts: &Provenance) -> Result<Vec<u8>, Error> {
 }
 
 /// The film of a camera of the plan, from a shard's folder.
-pub(crate) fn read(folder: &Path, camera: &CameraPlan) -> Result<Film, Error> {
-    let path = folder.join(film_name(camera));
+pub(crate) fn read(folder: &Path, camera: &CameraPlan, shot: Shot) -> Result<Film, Error> {
+    let path = folder.join(film_name(camera, shot));
     let (width, height) = camera.film_size();
     // Most of a shard's film is black, and packs well.
     let most_bytes = Film::bytes(width as usize, height as usize, &layout(camera)) as u64;

@@ -19,6 +19,8 @@ pub enum Existing {
     Refuse,
     /// Replace them when the run commits.
     Replace,
+    /// Go on where an earlier run was interrupted: what it completed stays, the rest is replaced.
+    Resume,
 }
 
 /// A folder for results; see the module for its contract.
@@ -79,6 +81,11 @@ impl OutputFolder {
 
     /// Gives every file its final name and returns the names, in the order of writing.
     pub fn commit(mut self) -> Result<Vec<PathBuf>, Error> {
+        self.publish()
+    }
+
+    /// The same for what has been written so far; the run goes on.
+    pub fn publish(&mut self) -> Result<Vec<PathBuf>, Error> {
         for file in &self.pending {
             self.check_free(&file.name)?;
         }

@@ -15,6 +15,7 @@
 //! picture's bits do not depend on threads or on the order of work. Noise from frame to frame is drawn from the job's seed,
 //! fixed patterns from the specimen's.
 
+mod capture_light;
 pub mod cfa;
 mod charge_account;
 mod check;
@@ -38,6 +39,7 @@ mod signal_breakdown;
 mod state;
 mod validity;
 
+pub use capture_light::CaptureLight;
 pub use cfa::{BayerPhase, Cfa, CfaError};
 pub use charge_account::ChargeAccount;
 pub use check::SensorError;

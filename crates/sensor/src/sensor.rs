@@ -136,6 +136,14 @@ impl Sensor {
         self.parameters.hdr.companding.as_ref().map_or(linear_dn, |c| c.companded(linear_dn))
     }
 
+    /// Whether a frame depends on the frames before it: by exposure control, lag, or pixels that jump between two levels.
+    #[must_use]
+    pub fn remembers(&self) -> bool {
+        let p = &self.parameters;
+        let jumps = p.charge.dark.dark_current_rts.is_some() || p.voltage.rts_noise.is_some();
+        p.exposure.control.is_some() || !p.charge.lag.traps.is_empty() || jumps
+    }
+
     /// All effects by their names in a plan, whether they are modelled and why, in physical order, of the first capture as described.
     #[must_use]
     pub fn effects(&self) -> Vec<(&'static str, EffectStatus)> {

@@ -85,7 +85,7 @@ fn board() -> Vec<DVec3> {
 
 /// A direction of the camera to a point of the world.
 fn towards(camera: &CameraPlan, point: DVec3) -> DVec3 {
-    camera.pose.rotation.transpose() * (point - camera.pose.position_m)
+    camera.path.at(0.0).point_to_camera(point)
 }
 
 /// The corner near a raster point: where all edges' lines meet (Förstner & Gülch 1987) in the picture blurred by 1.5 px, by the

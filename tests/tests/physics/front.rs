@@ -41,7 +41,7 @@ fn ground_truth_by_a_mirror_is_where_the_ray_table_says() {
     let shot = job(GROUND, MIRROR, "").shot();
     let (truth, rays) = (shot.truth(), ray_table(&shot.camera().body));
     let (mirror, path) = (truth.mirror.as_ref().expect("a mirror"), rays.path.as_ref().expect("a mirror"));
-    let pose = shot.camera().pose;
+    let pose = shot.camera().path.at(0.0);
     let vector = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
     let mut met = 0;
     for (x, y) in (0..256).map(|i| (i % 16, i / 16)) {
@@ -75,7 +75,7 @@ fn a_mirror_mirrors() {
     // The camera looks up, the top of its picture is +x of the world: looking up so, its right is −y … of the world seen
     // directly; reflected straight down, points right of the middle are on the side of the camera's right.
     let right = DVec3::from_array(truth.position.at(11, 8).map(f64::from)) - DVec3::new(0.3, -0.2, 0.0);
-    let camera_right = shot.camera().pose.direction_to_world(DVec3::X);
+    let camera_right = shot.camera().path.at(0.0).direction_to_world(DVec3::X);
     assert!(right.dot(camera_right) > 0.1, "{right}");
     let up = DVec3::from_array(truth.position.at(8, 4).map(f64::from)) - DVec3::new(0.3, -0.2, 0.0);
     assert!(up.x > 0.1, "{up}");

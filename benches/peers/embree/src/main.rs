@@ -106,7 +106,7 @@ impl Order {
 fn street() -> Contest {
     let plan = scenes::STREET.plan();
     let camera = scenes::camera(&plan);
-    let view = plan.world.render_space(camera.pose.position_m);
+    let view = plan.world.render_space(camera.path.at(0.0).position_m);
     let questions = questions::questions(&plan, camera, &view);
     Contest { name: "street", world: flat::world(flat::mesh(&view)), questions }
 }

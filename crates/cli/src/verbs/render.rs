@@ -7,7 +7,8 @@ use crate::machine;
 use crate::output::print_paths;
 use crate::progress::Terminal;
 use clap::Args;
-use etendue::{Error, RenderOptions, ShardSpec};
+use etendue::{Error, Existing, RenderOptions, ShardSpec};
+use std::path::Path;
 
 /// `etendue render`
 #[derive(Debug, Args)]
@@ -16,10 +17,14 @@ pub struct Render {
     pub job: JobArgs,
     #[command(flatten)]
     pub output: Output,
-    /// Frames to take, first to last (the last excluded); each has its own sensor noise. The light of a still world is
+    /// Frames to take, first to last (the last excluded); each has its own sensor noise. Light that does not depend on time is
     /// rendered once
     #[arg(long, value_name = "A..B", value_parser = frames, default_value = "0..1")]
     pub frames: std::ops::Range<u32>,
+    /// Go on where a run of the same plan into this folder was interrupted: whole frames of light that depends on time are
+    /// kept, everything else is rendered and replaced
+    #[arg(long, conflicts_with_all = ["overwrite", "shard"])]
+    pub resume: bool,
     /// Worker threads [default: one a processor]. The result does not depend on it
     #[arg(long, value_name = "N", value_parser = whole(1, 1024))]
     pub threads: Option<u32>,
@@ -29,11 +34,16 @@ pub struct Render {
 }
 
 impl Render {
+    fn folder(&self) -> (&Path, Existing) {
+        let (folder, existing) = self.output.folder();
+        (folder, if self.resume { Existing::Resume } else { existing })
+    }
+
     pub fn run(&self) -> Result<(), Error> {
         let simd = machine::simd()?;
         let pool = machine::pool(self.threads)?;
         let job = self.job.open(&pool)?;
-        let (folder, frames) = (self.output.folder(), self.frames.clone());
+        let (folder, frames) = (self.folder(), self.frames.clone());
         let observer = Terminal::default();
         let written = pool.install(|| match self.shard {
             None => job.save(&RenderOptions { frames, simd }, folder, &observer),

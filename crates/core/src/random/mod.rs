@@ -6,8 +6,10 @@
 //! - [`PathStream`] serves light transport: scrambled Sobol points, stratified over the samples of a replicate.
 //! - [`ShiftedLattice`] spreads the wavelengths of a pixel's samples evenly.
 //! - [`NoiseStream`] serves the sensor: independent words from a counter-based generator.
+//! - [`number_of_name`] serves what belongs to a scene: a number by name alone.
 
 mod address;
+mod named;
 mod noise;
 mod path;
 mod philox;
@@ -15,6 +17,7 @@ mod shifted_lattice;
 mod sobol;
 
 pub use address::{Draw, FrameAddress, Pixel, PixelAddress};
+pub use named::number_of_name;
 pub use noise::{NoiseDraw, NoiseKey, NoiseStream};
 pub use path::PathStream;
 pub use philox::philox4x32;

@@ -50,6 +50,8 @@ pub enum NoiseDraw {
     Blinking = 18,
     /// Fixed pattern: which pixels of a row have RTS noise, and how much; at column 0.
     Telegraph = 19,
+    /// How much later or earlier a frame begins; at pixel (0, 0).
+    TriggerJitter = 20,
     /// The paper's pulse noise on a finished picture.
     PaperPulse = 64,
     /// The paper's additive Gaussian noise on a finished picture.

@@ -6,18 +6,18 @@ use crate::render_options::RenderOptions;
 use etendue_core::Plane;
 use etendue_core::quantity::MeanElectrons;
 use etendue_pipeline::film::Film;
-use etendue_pipeline::photograph::{Frame, Light};
-use etendue_pipeline::plan::{CameraPlan, Plan};
+use etendue_pipeline::photograph::{Frame, Light, take};
+use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
 use etendue_pipeline::pupil_depth::{PupilDepth, pupil_depth};
 use etendue_pipeline::rays::{RayTable, ray_table};
 use etendue_pipeline::rectified::RectifiedCamera;
 use etendue_pipeline::truth::{GroundTruth, ground_truth};
-use etendue_sensor::FrameAddress;
+use etendue_sensor::{FrameAddress, Sensor, SensorState};
 use etendue_tracer::accel::Simd;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// The results of one camera. Its light is held; frames, ground truth and rays are computed when they are asked for.
+/// The results of one camera: of all frames where its light does not depend on time, else of one. Its light is held; frames, ground truth and rays are computed when they are asked for.
 #[derive(Clone, Debug)]
 pub struct CameraResults {
     pub(super) plan: Arc<Plan>,
@@ -27,27 +27,37 @@ pub struct CameraResults {
     pub(super) depth: Option<PupilDepth>,
     pub(super) undistorted: Option<RectifiedCamera>,
     pub(super) frames: Range<u32>,
+    /// Of the sensor before the first of them.
+    state: SensorState,
+    /// After the only one, where it has a light of its own.
+    after: SensorState,
     pub(super) simd: Simd,
 }
 
 impl CameraResults {
-    /// Everything that a camera of the plan delivers of its film. Runs on the caller's thread pool.
-    pub(crate) fn of_film(
+    /// Everything that a camera of the plan delivers of its films, one for each capture whose exposure differs. Runs on the caller's thread pool.
+    pub(crate) fn of_films(
         plan: &Arc<Plan>,
         camera: &CameraPlan,
-        film: Film,
+        films: Vec<Film>,
+        state: SensorState,
         options: &RenderOptions,
     ) -> Result<Self, Error> {
         let place = plan.cameras.iter().position(|c| c.name == camera.name).expect("a camera of the plan");
-        let depth = pupil_depth(plan, camera, options.simd);
-        let light = Light::of_film(camera, film, depth.as_ref())
+        let depth = pupil_depth(plan, camera, options.frames.start, options.simd);
+        let light = Light::of_captures(camera, films, depth.as_ref())
             .map_err(|error| Error::Run(format!("camera {}: {error}", camera.name)))?;
         let undistorted = camera.products.undistorted;
         let undistorted = undistorted.map(|scale| {
             RectifiedCamera::of(&camera.body, scale).expect("a compiled plan's camera has its rectified twin")
         });
         let (frames, simd) = (options.frames.clone(), options.simd);
-        Ok(Self { plan: Arc::clone(plan), camera: place, light, depth, undistorted, frames, simd })
+        let (plan, after) = (Arc::clone(plan), SensorState::default());
+        let mut results = Self { plan, camera: place, light, depth, undistorted, frames, state, after, simd };
+        if results.has_own_light() {
+            results.after = results.remembered();
+        }
+        Ok(results)
     }
 
     /// The camera in the plan.
@@ -77,26 +87,57 @@ impl CameraResults {
     /// The photographs of the run's frames, one after the other as the sensor's state runs through them: raw, and picture where
     /// the camera processes it; nothing where the camera has no electronics.
     pub fn frames(&self) -> impl Iterator<Item = Frame> + '_ {
-        let electrons = self.electrons();
         let signal_breakdown = self.camera().products.signal_breakdown;
-        let frames = electrons.map(|electrons| {
-            let address = |frame| self.address(frame);
-            frames(&self.camera().body, electrons, self.frames.clone(), address, signal_breakdown)
+        let frames = self.light.captures().map(|light| {
+            let (address, state) = (|frame| self.address(frame), self.state.clone());
+            frames(&self.camera().body, light, (self.frames.clone(), state), address, signal_breakdown)
         });
         frames.into_iter().flatten().map(|(_, frame)| frame)
     }
 
-    /// Depth, normals, positions and identities along the principal rays of the pixels' centres. Traced anew at each call, on
+    /// The numbers of the run's frames that these results are of: one where light depends on time.
+    #[must_use]
+    pub fn frame_numbers(&self) -> Range<u32> {
+        self.frames.clone()
+    }
+
+    /// Depth, normals, positions and identities of the first of the frames along the principal rays of the pixels' centres. Traced anew at each call, on
     /// the caller's thread pool.
     #[must_use]
     pub fn ground_truth(&self) -> GroundTruth {
-        ground_truth(&self.plan, self.camera(), self.simd)
+        ground_truth(&self.plan, self.camera(), self.frames.start, self.simd)
     }
 
     /// The origin and direction of each pixel's ray.
     #[must_use]
     pub fn rays(&self) -> RayTable {
         ray_table(&self.camera().body)
+    }
+
+    /// Whether each frame has a light, and files of it, of its own.
+    pub(crate) fn has_own_light(&self) -> bool {
+        self.camera().time != TimeDependence::None
+    }
+
+    /// The state of the sensor before the first frame.
+    pub(super) fn state(&self) -> SensorState {
+        self.state.clone()
+    }
+
+    /// What the sensor remembers of a frame that has a light of its own.
+    pub(crate) fn state_after(&self) -> &SensorState {
+        &self.after
+    }
+
+    /// The frame is taken for it, where anything is remembered.
+    fn remembered(&self) -> SensorState {
+        let body = &self.camera().body;
+        let Some(light) = self.light.captures().filter(|_| body.sensor.as_ref().is_some_and(Sensor::remembers)) else {
+            return SensorState::default();
+        };
+        let step =
+            |state, frame| take(body, state, light, self.address(frame)).map_or_else(SensorState::default, |t| t.0);
+        self.frames.clone().fold(self.state.clone(), step)
     }
 
     /// Where a frame of the camera stands among all.

@@ -2,7 +2,9 @@
 
 use crate::tone_curve::encoding;
 use etendue_core::quantity::{DigitalNumber, Irradiance, MeanElectrons, Quantity, Radiance};
-use etendue_pipeline::plan::{CameraBody, CameraPlan, Development, PictureFormat, Plan, Products, RawFormat};
+use etendue_pipeline::plan::{
+    CameraBody, CameraPlan, Development, PictureFormat, Plan, Products, RawFormat, TimeDependence,
+};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -41,6 +43,19 @@ impl Files {
     /// What `develop` made of which raw.
     pub const DEVELOPMENT: &str = "develop.json";
 
+    /// What a frame is, where each has a light of its own: its times, its poses, and what the sensor remembers.
+    #[must_use]
+    pub fn frame(frame: u32) -> String {
+        format!("frame.{frame:04}.json")
+    }
+
+    /// A file of light or ground truth of one frame: `radiance.0007.exr`.
+    #[must_use]
+    pub fn numbered(name: &str, frame: u32) -> String {
+        let (stem, extension) = name.split_once('.').unwrap_or((name, ""));
+        format!("{stem}.{frame:04}.{extension}")
+    }
+
     /// The raw picture of a frame.
     #[must_use]
     pub fn raw(frame: u32, format: RawFormat) -> String {
@@ -74,9 +89,41 @@ impl Files {
         format!("undistorted/{name}")
     }
 
-    /// All files of a camera over frames, with what they hold.
+    /// All files of a camera whose frames have one light, with what they hold.
     #[must_use]
     pub fn of(p: &Products, body: &CameraBody, frames: &Range<u32>) -> BTreeMap<String, Value> {
+        let mut files = Self::of_light(p);
+        files.extend(Self::of_frames(p, body, frames));
+        files
+    }
+
+    /// All files of a camera of a plan over frames, with what they hold.
+    #[must_use]
+    pub fn of_camera(camera: &CameraPlan, frames: &Range<u32>) -> BTreeMap<String, Value> {
+        let (p, body) = (&camera.products, &camera.body);
+        if camera.time == TimeDependence::None {
+            return Self::of(p, body, frames);
+        }
+        let mut files = Self::of_frames(p, body, frames);
+        for (name, entry) in Self::of_light(p) {
+            if Self::is_of_camera(&name) {
+                files.insert(name, entry);
+                continue;
+            }
+            files.extend(frames.clone().map(|frame| (Self::numbered(&name, frame), entry.clone())));
+        }
+        let facts = entry("times, poses and sensor of a frame", "");
+        files.extend(frames.clone().map(|frame| (Self::frame(frame), facts.clone())));
+        files
+    }
+
+    /// Whether a file tells of the camera, and is the same in all frames.
+    pub(crate) fn is_of_camera(name: &str) -> bool {
+        name == Self::RAYS || name == Self::undistorted(Self::RAYS)
+    }
+
+    /// The files of light and ground truth.
+    fn of_light(p: &Products) -> BTreeMap<String, Value> {
         let mut files = BTreeMap::new();
         let mut add = |wanted: bool, name: &str, entry: Value| {
             if wanted {
@@ -96,6 +143,18 @@ impl Files {
         add(twin && p.ground_truth, &Self::undistorted(Self::GROUND_TRUTH), planes);
         let rays = entry("origin and direction of each pixel's ray of the undistorted twin, camera frame", "m, 1");
         add(twin && p.rays, &Self::undistorted(Self::RAYS), rays);
+        files
+    }
+
+    /// The files of photographs.
+    fn of_frames(p: &Products, body: &CameraBody, frames: &Range<u32>) -> BTreeMap<String, Value> {
+        let mut files = BTreeMap::new();
+        let mut add = |wanted: bool, name: &str, entry: Value| {
+            if wanted {
+                files.insert(name.to_owned(), entry);
+            }
+        };
+        let twin = p.undistorted.is_some();
         let format = body.picture_format();
         let picture = body.development.as_ref().map_or(Value::Null, Self::picture_entry);
         let mut undistorted = picture.clone();
@@ -117,7 +176,7 @@ impl Files {
 /// The names, relative to the output folder, of all files of a plan.
 pub(crate) fn file_names(plan: &Plan, frames: &Range<u32>) -> Vec<String> {
     let of_camera = |camera: &CameraPlan| {
-        let names = Files::of(&camera.products, &camera.body, frames).into_keys().chain([Files::SIDECAR.to_owned()]);
+        let names = Files::of_camera(camera, frames).into_keys().chain([Files::SIDECAR.to_owned()]);
         names.map(|name| format!("{}/{name}", camera.name)).collect::<Vec<_>>()
     };
     plan.cameras.iter().flat_map(of_camera).collect()

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::observer::{Message, Observer};
 use crate::tone_curve::encoding;
 use etendue_core::Plane;
-use etendue_core::quantity::{DigitalNumber, Display, MeanElectrons};
+use etendue_core::quantity::{DigitalNumber, Display};
 use etendue_io::exr::{self, EncodeError};
 use etendue_io::jpeg::encode_jpeg;
 use etendue_io::tiff::{self, DngFacts};
@@ -16,7 +16,7 @@ use etendue_pipeline::photograph::{Frame, take, take_with_breakdown};
 use etendue_pipeline::plan::{CameraBody, Development, PictureFormat, Products, RawFormat};
 use etendue_pipeline::raw_colour::RawColour;
 use etendue_pipeline::rectified::RectifiedCamera;
-use etendue_sensor::{FrameAddress, Raw, SensorState, SignalBreakdown, SignalComponent};
+use etendue_sensor::{CaptureLight, FrameAddress, Raw, SensorState, SignalBreakdown, SignalComponent};
 use serde_json::Value;
 use std::ops::Range;
 
@@ -45,18 +45,18 @@ pub(crate) fn encoded(picture: &Plane<Display>, development: &Development) -> Re
     }
 }
 
-/// Frame after frame with its number, as the sensor's state runs through them; with what each digital number is made of where `signal_breakdown` is
+/// Frame after frame with its number, as the sensor's state runs through them from `before` on; with what each digital number is made of where `signal_breakdown` is
 /// wanted. Ends where the camera has no electronics.
 pub(crate) fn frames<'a>(
     body: &'a CameraBody,
-    electrons: &'a Plane<MeanElectrons>,
-    frames: Range<u32>,
+    light: CaptureLight<'a>,
+    (frames, before): (Range<u32>, SensorState),
     address: impl Fn(u32) -> FrameAddress + 'a,
     signal_breakdown: bool,
 ) -> impl Iterator<Item = (u32, Frame)> + 'a {
     let step = if signal_breakdown { take_with_breakdown } else { take };
-    frames.scan(SensorState::default(), move |state, number| {
-        let (next, frame) = step(body, std::mem::take(state), electrons, address(number))?;
+    frames.scan(before, move |state, number| {
+        let (next, frame) = step(body, std::mem::take(state), light, address(number))?;
         *state = next;
         Some((number, frame))
     })
@@ -65,8 +65,8 @@ pub(crate) fn frames<'a>(
 /// Takes frame after frame and writes what is wanted of each. Answers with exposure and gain of each frame.
 pub(crate) fn write_frames(
     body: &CameraBody,
-    electrons: &Plane<MeanElectrons>,
-    numbers: &Range<u32>,
+    light: CaptureLight<'_>,
+    (numbers, before): (&Range<u32>, SensorState),
     address: impl Fn(u32) -> FrameAddress,
     wanted: Wanted<'_>,
     writer: &mut ResultWriter<'_>,
@@ -76,7 +76,7 @@ pub(crate) fn write_frames(
     if !(products.raw || products.picture || products.signal_breakdown) {
         return Ok(points);
     }
-    for (number, frame) in frames(body, electrons, numbers.clone(), &address, products.signal_breakdown) {
+    for (number, frame) in frames(body, light, (numbers.clone(), before), &address, products.signal_breakdown) {
         if !frame.raw.invalid.is_empty() {
             let count = frame.raw.invalid.len();
             let told = format!("frame {number}: {count} pixels have no valid light; their digital number is 0");

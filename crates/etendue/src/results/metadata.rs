@@ -1,7 +1,9 @@
 //! What every result says of itself: the side-car and the facts in EXR headers.
 
+mod frame;
 mod sensor;
 
+pub(crate) use frame::{own_frame, state_of, with_state, without_state};
 pub(crate) use sensor::{frame, sensor};
 
 use crate::calibration;
@@ -10,7 +12,7 @@ use etendue_io::Provenance;
 use etendue_optics::effects::PointSpread;
 use etendue_optics::front::Optic;
 use etendue_optics::{Cube, DepthOfField, Face, Front, Lens, PupilProjection, View, Window};
-use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, Route};
+use etendue_pipeline::plan::{CameraBody, CameraPlan, Plan, Route, Settings, TimeDependence};
 use etendue_pipeline::rectified::RectifiedCamera;
 use etendue_projection::Sense;
 use glam::DVec2;
@@ -24,6 +26,10 @@ const PRINCIPAL_X_PX: &str = "pupil_principal_x_px";
 const PRINCIPAL_Y_PX: &str = "pupil_principal_y_px";
 const FACE_PX: &str = "pupil_face_px";
 const VIEWS: &str = "pupil_views";
+
+/// Facts of light that depends on time: the exposure time that it was gathered over, and when the stated pose holds.
+pub(crate) const EXPOSURE_S: &str = "exposure_s";
+const POSE_TIME_S: &str = "pose_time_s";
 
 const THROUGH_LENS: &str = "through the lens, pixel centres at +0.5, x right, y down; pose: camera x right, y down, \
                             z forward, origin at the centre of the entrance pupil, to world x forward, y left, z up, m";
@@ -43,29 +49,49 @@ const RASTER: &str = "raster: the top-left corner of the image is (0, 0), pixel 
 /// The program's version.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// The facts of a camera's results.
-pub(crate) fn provenance(plan: &Plan, camera: &CameraPlan) -> Provenance {
+/// The facts of a camera's results of a frame; of the first one where all have the same light.
+pub(crate) fn provenance(plan: &Plan, camera: &CameraPlan, frame: u32) -> Provenance {
     let settings = &camera.settings;
+    let frame = if camera.time == TimeDependence::None { 0 } else { frame };
     Provenance {
         plan_hash: plan.hash_text(),
         seed: settings.seed,
         version: VERSION.to_owned(),
         camera: camera.name.clone(),
-        frame: 0,
-        time_s: 0.0,
+        frame: frame.into(),
+        time_s: camera.timing.frame_start_s(frame),
         geometry: THROUGH_LENS.to_owned(),
-        camera_to_world: Some(pose_rows(&camera.pose)),
-        further: BTreeMap::from([
-            ("spp".to_owned(), settings.spp.to_string()),
-            ("replicates".to_owned(), settings.replicates.to_string()),
-            ("correlated_block_px".to_owned(), settings.blocks.len_px().to_string()),
-        ]),
+        camera_to_world: Some(pose_rows(&camera.path.at(middle_s(camera, frame)))),
+        further: further(settings).into_iter().chain(exposure_facts(camera, frame)).collect(),
     }
 }
 
+fn further(settings: &Settings) -> [(String, String); 3] {
+    [
+        ("spp".to_owned(), settings.spp.to_string()),
+        ("replicates".to_owned(), settings.replicates.to_string()),
+        ("correlated_block_px".to_owned(), settings.blocks.len_px().to_string()),
+    ]
+}
+
+/// When light that depends on time was gathered.
+fn exposure_facts(camera: &CameraPlan, frame: u32) -> Vec<(String, String)> {
+    if camera.time == TimeDependence::None {
+        return Vec::new();
+    }
+    let exposure_s = camera.body.exposure.exposure_s;
+    [(EXPOSURE_S, exposure_s), (POSE_TIME_S, middle_s(camera, frame))]
+        .map(|(name, s)| (name.to_owned(), s.to_string()))
+        .to_vec()
+}
+
+/// Half-way through a frame's first exposure, s: when its pose holds.
+fn middle_s(camera: &CameraPlan, frame: u32) -> f64 {
+    camera.timing.capture(frame, 0).middle_s()
+}
+
 /// The facts of a radiance image; at the pupil its own geometry.
-pub(crate) fn radiance_provenance(plan: &Plan, camera: &CameraPlan) -> Provenance {
-    let facts = provenance(plan, camera);
+pub(crate) fn radiance_provenance(facts: Provenance, camera: &CameraPlan) -> Provenance {
     match &camera.settings.route {
         Route::Lens => facts,
         Route::Pupil(projection) => at_pupil(facts, projection, camera.index),
@@ -73,8 +99,7 @@ pub(crate) fn radiance_provenance(plan: &Plan, camera: &CameraPlan) -> Provenanc
 }
 
 /// The facts of an undistorted twin's results.
-pub(crate) fn undistorted_provenance(plan: &Plan, camera: &CameraPlan, twin: &RectifiedCamera) -> Provenance {
-    let mut facts = provenance(plan, camera);
+pub(crate) fn undistorted_provenance(mut facts: Provenance, twin: &RectifiedCamera) -> Provenance {
     UNDISTORTED.clone_into(&mut facts.geometry);
     let matrix = twin.matrix;
     let numbers = [("fx_px", matrix.fx), ("fy_px", matrix.fy), ("cx_px", matrix.cx), ("cy_px", matrix.cy)];
@@ -187,8 +212,8 @@ fn pose_rows(pose: &CameraPose) -> [[f64; 4]; 3] {
     })
 }
 
-/// The side-car of a rendered camera.
-pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String, Value>) -> Value {
+/// The side-car of a rendered camera, whose first frame it is.
+pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTreeMap<String, Value>) -> Value {
     let settings = &camera.settings;
     json!({
         "program": "etendue",
@@ -199,7 +224,7 @@ pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String,
         "camera_index": camera.index,
         "light": { "camera": camera.light.camera, "camera_index": camera.light.index },
         "pose": {
-            "camera_to_world": pose_rows(&camera.pose),
+            "camera_to_world": pose_rows(&camera.path.at(middle_s(camera, first))),
             "convention": "camera x right, y down, z forward (OpenCV), origin at the centre of the entrance pupil; \
                            world x forward, y left, z up; m",
         },
@@ -217,7 +242,7 @@ pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, files: &BTreeMap<String,
             "route": if settings.route == Route::Lens { "lens" } else { "pupil" },
             "depth_of_field": (settings.route != Route::Lens).then(|| depth_of_field(&camera.depth_of_field)),
         },
-        "time_s": 0.0,
+        "time_s": camera.timing.frame_start_s(first),
         "files": files,
         "ground_truth": {
             "ray.ID": "0: no ray passes the lens; 1: the principal ray; 2: that ray is clipped, the ray through the \

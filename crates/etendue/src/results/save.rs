@@ -4,6 +4,7 @@ use super::camera::CameraResults;
 use super::files::{Files, file_names};
 use super::frames::{Wanted, write_frames};
 use super::metadata;
+use super::sequence::Sequence;
 use super::writer::{Encoder, ResultWriter};
 use crate::error::Error;
 use crate::observer::Observer;
@@ -26,13 +27,13 @@ impl Results {
         Self { cameras }
     }
 
-    /// The cameras, those of equal light one after the other.
+    /// The cameras, those of equal light one after the other; where light depends on time, once for each frame.
     #[must_use]
     pub fn cameras(&self) -> &[CameraResults] {
         &self.cameras
     }
 
-    /// A camera by its name.
+    /// A camera by its name; where light depends on time, its first frame.
     #[must_use]
     pub fn camera(&self, name: &str) -> Option<&CameraResults> {
         self.cameras.iter().find(|camera| camera.name() == name)
@@ -50,7 +51,9 @@ impl Results {
             let own = names.iter().filter(|name| name.starts_with(&format!("{}/", camera.name())));
             folder.claim(own.map(String::as_str)).map_err(Error::input)?;
         }
-        self.cameras.iter().try_for_each(|camera| camera.write(&mut folder, observer))?;
+        let mut sequence = Sequence::default();
+        self.cameras.iter().try_for_each(|camera| sequence.write(camera, &mut folder, observer))?;
+        sequence.finish(&mut folder)?;
         folder.commit().map_err(Error::run)
     }
 }
@@ -61,86 +64,109 @@ impl CameraResults {
     /// # Errors
     /// Where a file cannot be written.
     pub fn write(&self, folder: &mut OutputFolder, observer: &dyn Observer) -> Result<(), Error> {
-        let camera = self.camera();
-        let mut writer = ResultWriter { prefix: camera.name.clone(), folder };
+        let mut sequence = Sequence::default();
+        sequence.write(self, folder, observer)?;
+        sequence.finish(folder)
+    }
+
+    /// Writes all files but the camera's side-car; answers with what that says of each frame.
+    pub(super) fn write_files(&self, folder: &mut OutputFolder, observer: &dyn Observer) -> Result<Vec<Value>, Error> {
+        let mut writer = ResultWriter { prefix: self.camera().name.clone(), folder };
         self.write_spectra(&mut writer)?;
         let points = self.write_photographs(&mut writer, observer)?;
         self.write_truth(&mut writer)?;
         if let Some(twin) = &self.undistorted {
             self.write_undistorted(twin, &mut writer)?;
         }
-        let files = Files::of(&camera.products, &camera.body, &self.frames);
-        let mut facts = metadata::sidecar(&self.plan, camera, &files);
-        facts["undistorted"] = self.undistorted.as_ref().map_or(Value::Null, metadata::undistorted);
-        facts["frames"] = points.into();
-        writer.json(Files::SIDECAR, &facts)
+        Ok(points)
+    }
+
+    /// Writes what is the same in all frames: the rays of the pixels.
+    pub(super) fn write_rays(&self, folder: &mut OutputFolder) -> Result<(), Error> {
+        let camera = self.camera();
+        if !camera.products.rays {
+            return Ok(());
+        }
+        let mut writer = ResultWriter { prefix: camera.name.clone(), folder };
+        let facts = self.provenance();
+        writer.write(Files::RAYS, encoded_rays(&self.rays(), &facts))?;
+        if let Some(twin) = &self.undistorted {
+            let facts = metadata::undistorted_provenance(facts, twin);
+            writer.write(&Files::undistorted(Files::RAYS), encoded_rays(&ray_table(twin.body()), &facts))?;
+        }
+        Ok(())
+    }
+
+    /// The name of a file of light or ground truth.
+    fn file(&self, name: &str) -> String {
+        if self.has_own_light() { Files::numbered(name, self.frame_numbers().start) } else { name.to_owned() }
+    }
+
+    /// The facts of the files of light and ground truth.
+    fn provenance(&self) -> etendue_io::Provenance {
+        metadata::provenance(&self.plan, self.camera(), self.frame_numbers().start)
     }
 
     fn write_spectra(&self, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
-        let (plan, camera, light) = (&self.plan, self.camera(), &self.light);
+        let (camera, light) = (self.camera(), &self.light);
         let products = &camera.products;
         if let Some(radiance) = light.radiance.as_ref().filter(|_| products.radiance) {
             let variance = products.variance.then_some(&radiance.variance);
-            let facts = metadata::radiance_provenance(plan, camera);
+            let facts = metadata::radiance_provenance(self.provenance(), camera);
             let lengths = self.depth.as_ref().map(|d| Lengths { distance: &d.distance, depth: &d.depth });
-            writer.write(Files::RADIANCE, encode_radiance(&radiance.mean, variance, lengths, &facts))?;
+            writer.write(&self.file(Files::RADIANCE), encode_radiance(&radiance.mean, variance, lengths, &facts))?;
         }
         if products.irradiance {
-            writer.irradiance(light, products.variance, &metadata::provenance(plan, camera))?;
+            writer.irradiance(&self.file(Files::IRRADIANCE), light, products.variance, &self.provenance())?;
         }
         if products.ghosts {
-            writer.ghosts(light, &metadata::provenance(plan, camera))?;
+            writer.ghosts(&self.file(Files::GHOSTS), light, &self.provenance())?;
         }
         if let Some(mean) = light.electrons.as_ref().filter(|_| products.electrons) {
             let variance = light.electrons_variance.as_ref().filter(|_| products.variance);
-            writer.write(Files::ELECTRONS, encode_plane(mean, variance, &metadata::provenance(plan, camera)))?;
+            writer.write(&self.file(Files::ELECTRONS), encode_plane(mean, variance, &self.provenance()))?;
         }
         Ok(())
     }
 
     /// The frames; answers with what the side-car says of each.
     fn write_photographs(&self, writer: &mut ResultWriter<'_>, observer: &dyn Observer) -> Result<Vec<Value>, Error> {
-        let (camera, Some(electrons)) = (self.camera(), self.electrons()) else { return Ok(Vec::new()) };
-        let facts = metadata::provenance(&self.plan, camera);
+        let (camera, Some(light)) = (self.camera(), self.light.captures()) else { return Ok(Vec::new()) };
+        let facts = self.provenance();
         let (products, undistorted) = (&camera.products, self.undistorted.as_ref());
         let wanted = Wanted { products, camera: &camera.name, facts: &facts, undistorted, observer };
-        write_frames(&camera.body, electrons, &self.frames, |frame| self.address(frame), wanted, writer)
+        let frames = (&self.frames, self.state());
+        write_frames(&camera.body, light, frames, |frame| self.address(frame), wanted, writer)
     }
 
     fn write_truth(&self, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
-        let (camera, facts) = (self.camera(), || metadata::provenance(&self.plan, self.camera()));
-        let products = &camera.products;
-        if products.rays {
-            writer.write(Files::RAYS, encoded_rays(&self.rays(), &facts()))?;
-        }
+        let products = &self.camera().products;
         if !products.ground_truth && products.depth_png_per_m.is_none() {
             return Ok(());
         }
-        let (truth, facts) = (self.ground_truth(), facts());
+        let (truth, facts) = (self.ground_truth(), self.provenance());
         let mut files: Vec<(String, Encoder<'_>)> = Vec::new();
         if products.ground_truth {
             let encode = || encode_ground_truth(&planes(&truth), &facts);
-            files.push((Files::GROUND_TRUTH.to_owned(), Box::new(encode)));
+            files.push((self.file(Files::GROUND_TRUTH), Box::new(encode)));
         }
         if let Some(per_metre) = products.depth_png_per_m {
             let depth = &truth.depth;
-            files.push((Files::DEPTH.to_owned(), Box::new(move || png::encode_depth16(depth, per_metre))));
+            files.push((self.file(Files::DEPTH), Box::new(move || png::encode_depth16(depth, per_metre))));
         }
         writer.write_together(files)
     }
 
-    /// Ground truth and rays of the undistorted twin.
+    /// Ground truth of the undistorted twin.
     fn write_undistorted(&self, twin: &RectifiedCamera, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
         let camera = self.camera();
-        let facts = metadata::undistorted_provenance(&self.plan, camera, twin);
-        if camera.products.rays {
-            writer.write(&Files::undistorted(Files::RAYS), encoded_rays(&ray_table(twin.body()), &facts))?;
+        if !camera.products.ground_truth {
+            return Ok(());
         }
-        if camera.products.ground_truth {
-            let truth = ground_truth(&self.plan, &twin.plan(camera), self.simd);
-            writer.write(&Files::undistorted(Files::GROUND_TRUTH), encode_ground_truth(&planes(&truth), &facts))?;
-        }
-        Ok(())
+        let facts = metadata::undistorted_provenance(self.provenance(), twin);
+        let truth = ground_truth(&self.plan, &twin.plan(camera), self.frame_numbers().start, self.simd);
+        let name = Files::undistorted(&self.file(Files::GROUND_TRUTH));
+        writer.write(&name, encode_ground_truth(&planes(&truth), &facts))
     }
 }
 

@@ -1,6 +1,5 @@
 //! Where the files of one camera go.
 
-use super::files::Files;
 use crate::error::Error;
 use etendue_io::exr::{EncodeError, encode_spectral};
 use etendue_io::{OutputFolder, Provenance, sidecar};
@@ -44,15 +43,21 @@ impl ResultWriter<'_> {
     }
 
     /// Writes an irradiance image.
-    pub(crate) fn irradiance(&mut self, light: &Light, variance: bool, facts: &Provenance) -> Result<(), Error> {
+    pub(crate) fn irradiance(
+        &mut self,
+        name: &str,
+        light: &Light,
+        variance: bool,
+        facts: &Provenance,
+    ) -> Result<(), Error> {
         let Some(cube) = &light.irradiance else { return Ok(()) };
         let variance = light.irradiance_variance.as_ref().filter(|_| variance);
-        self.write(Files::IRRADIANCE, encode_spectral(cube, variance, facts))
+        self.write(name, encode_spectral(cube, variance, facts))
     }
 
     /// Writes the part of the irradiance that is ghosts.
-    pub(crate) fn ghosts(&mut self, light: &Light, facts: &Provenance) -> Result<(), Error> {
+    pub(crate) fn ghosts(&mut self, name: &str, light: &Light, facts: &Provenance) -> Result<(), Error> {
         let Some(cube) = &light.ghosts else { return Ok(()) };
-        self.write(Files::GHOSTS, encode_spectral(cube, None, facts))
+        self.write(name, encode_spectral(cube, None, facts))
     }
 }

@@ -55,7 +55,8 @@ pub fn bare(body: &CameraBody) -> Option<CameraBody> {
     Some(CameraBody { sensor: Some(sensor), ..body.clone() })
 }
 
-/// Mean electrons of every pixel in the described exposure; `None` where the camera has no electronics.
+/// Mean electrons of every pixel in the described exposure, in which the light is on: rows of a global reset that are read later get no
+/// more of it; `None` where the camera has no electronics.
 #[must_use]
 pub fn electrons(body: &CameraBody, light: FlatLight) -> Option<Plane<MeanElectrons>> {
     let sensor = body.sensor.as_ref()?;

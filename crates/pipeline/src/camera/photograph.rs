@@ -3,17 +3,17 @@
 use crate::camera::defocus;
 use crate::camera::effects::{EffectsOutput, behind, picture};
 use crate::camera::stored::Stored;
-use crate::plan::{CameraBody, CameraPlan, Development, Route};
+use crate::plan::{CameraBody, CameraPlan, Development, Route, RowExposure};
 use crate::render::film::{CubeEstimate, Film};
 use crate::render::pupil_depth::PupilDepth;
-use etendue_core::quantity::{Irradiance, MeanElectrons, Radiance, Variance};
+use etendue_core::quantity::{Irradiance, MeanElectrons, Quantity, Radiance, Variance};
 use etendue_core::random::FrameAddress;
 use etendue_core::{Plane, SpectralCube};
 pub use etendue_isp::{DevelopError, Developed};
 use etendue_isp::{RawPicture, develop};
 use etendue_optics::front::{Dirt, Front};
 use etendue_optics::{DepthOfField, OpticsError, irradiance};
-use etendue_sensor::{Raw, SensorState, SignalBreakdown};
+use etendue_sensor::{CaptureLight, Raw, SensorState, SignalBreakdown};
 use glam::DVec2;
 use rayon::prelude::*;
 
@@ -29,8 +29,10 @@ pub struct Light {
     pub irradiance_variance: Option<SpectralCube<Variance>>,
     /// The part of the irradiance that is ghosts, where the camera has them.
     pub ghosts: Option<SpectralCube<Irradiance>>,
-    /// Mean electrons of each pixel.
+    /// Mean electrons of each pixel in the first capture.
     pub electrons: Option<Plane<MeanElectrons>>,
+    /// Those of the captures after it, each in the exposure of the first; empty where all captures see the same light.
+    pub further_electrons: Vec<Plane<MeanElectrons>>,
     /// Their variance; `None` where they come from a cube.
     pub electrons_variance: Option<Plane<Variance>>,
 }
@@ -42,13 +44,31 @@ impl Light {
     /// # Errors
     /// Where depth of field meets a radiance that is no finite number. (A compiled plan covers its own picture.)
     pub fn of_film(camera: &CameraPlan, film: Film, depth: Option<&PupilDepth>) -> Result<Self, OpticsError> {
+        Self::seen(camera, film, depth).map(|light| light.exposed(&camera.body.exposure, Vec::new()))
+    }
+
+    /// The light of a camera whose captures see different light: films of the distinct captures
+    /// ([`RowExposure::distinct_captures`]) in their order, or one that all of them see.
+    ///
+    /// # Errors
+    /// As [`Light::of_film`].
+    pub fn of_captures(camera: &CameraPlan, films: Vec<Film>, depth: Option<&PupilDepth>) -> Result<Self, OpticsError> {
+        let rows = &camera.body.exposure;
+        let mut lights =
+            films.into_iter().map(|film| Self::seen(camera, film, depth)).collect::<Result<Vec<_>, _>>()?;
+        let further = if lights.len() > 1 { further_electrons(rows, &lights) } else { Vec::new() };
+        Ok(lights.swap_remove(0).exposed(rows, further))
+    }
+
+    /// The light of a film, rows exposed alike.
+    fn seen(camera: &CameraPlan, film: Film, depth: Option<&PupilDepth>) -> Result<Self, OpticsError> {
         match &camera.settings.route {
             Route::Lens => Ok(Self::through_lens(&camera.body, film)),
             Route::Pupil(projection) => {
                 let radiance = film.radiance().expect("the route at the pupil keeps a cube");
                 let distance = depth.map(|depth| &depth.distance);
                 let stored = Stored { projection, radiance: &radiance.mean, distance };
-                let light = Self::at_pupil(&camera.body, &stored, &camera.depth_of_field)?;
+                let light = Self::of_stored(&camera.body, &stored, &camera.depth_of_field)?;
                 Ok(Self { radiance: Some(radiance), ..light })
             }
         }
@@ -68,7 +88,33 @@ impl Light {
         let exposed = film.electron_rate.zip(exposure_s).map(|(rate, exposure_s)| rate.exposed(exposure_s));
         let (folded, electrons_variance) = exposed.map(|e| (e.mean, e.variance)).unzip();
         let electrons = folded.or_else(|| electrons(body, irradiance.as_ref()?));
-        Self { radiance, irradiance, irradiance_variance, ghosts, electrons, electrons_variance }
+        let further_electrons = Vec::new();
+        Self { radiance, irradiance, irradiance_variance, ghosts, electrons, further_electrons, electrons_variance }
+    }
+
+    /// The same with each row's own exposure, and with the electrons of `further` captures of rows exposed alike; where there are none, all see
+    /// the light of the first.
+    fn exposed(mut self, rows: &RowExposure, mut further: Vec<Plane<MeanElectrons>>) -> Self {
+        if !rows.is_even() {
+            let Some(first) = &mut self.electrons else { return self };
+            if further.is_empty() {
+                further = vec![first.clone(); rows.captures.len() - 1];
+            }
+            scale_rows(first, |row| rows.exposure_ratio(0, row));
+            if let Some(variance) = &mut self.electrons_variance {
+                scale_rows(variance, |row| rows.exposure_ratio(0, row) * rows.exposure_ratio(0, row));
+            }
+            for (i, plane) in further.iter_mut().enumerate() {
+                scale_rows(plane, |row| rows.exposure_ratio(i + 1, row));
+            }
+        }
+        Self { further_electrons: further, ..self }
+    }
+
+    /// What the captures of a frame see; `None` where the camera has no electronics.
+    #[must_use]
+    pub fn captures(&self) -> Option<CaptureLight<'_>> {
+        self.electrons.as_ref().map(|first| CaptureLight { first, further: &self.further_electrons })
     }
 
     /// The light behind a lens of a stored radiance image (its radiance itself is not repeated).
@@ -80,6 +126,10 @@ impl Light {
         stored: &Stored<'_>,
         depth_of_field: &DepthOfField,
     ) -> Result<Self, OpticsError> {
+        Self::of_stored(body, stored, depth_of_field).map(|light| light.exposed(&body.exposure, Vec::new()))
+    }
+
+    fn of_stored(body: &CameraBody, stored: &Stored<'_>, depth_of_field: &DepthOfField) -> Result<Self, OpticsError> {
         front_on_picture(body)?;
         let seen = defocus::seen(stored, body, depth_of_field)?;
         let mut irradiance = irradiance(&seen, &body.lens, &body.film())?;
@@ -93,8 +143,25 @@ impl Light {
             irradiance: Some(irradiance),
             irradiance_variance: None,
             ghosts,
+            further_electrons: Vec::new(),
             electrons_variance: None,
         })
+    }
+}
+
+/// Electrons of the captures after the first, of the lights of the distinct ones.
+fn further_electrons(rows: &RowExposure, lights: &[Light]) -> Vec<Plane<MeanElectrons>> {
+    let distinct = rows.distinct_captures();
+    let same = |capture: usize| distinct.iter().position(|d| rows.captures[*d] == rows.captures[capture]);
+    (1..rows.captures.len()).filter_map(|capture| lights[same(capture)?].electrons.clone()).collect()
+}
+
+/// Multiplies each row.
+fn scale_rows<Q: Quantity<Sample = f32>>(plane: &mut Plane<Q>, by: impl Fn(usize) -> f64) {
+    let width = plane.width();
+    for (row, values) in plane.samples_mut().chunks_mut(width).enumerate() {
+        let by = by(row);
+        values.iter_mut().for_each(|value| *value = (f64::from(*value) * by) as f32);
     }
 }
 
@@ -155,16 +222,16 @@ fn own_picture(body: &CameraBody, raw: &Raw, address: FrameAddress) -> Option<De
     Some(developed(development, raw, address).expect("a compiled plan's processing fits its sensor"))
 }
 
-/// Takes one frame of `electrons`; the state is passed from frame to frame. `None` where the camera has no
+/// Takes one frame of `light`; the state is passed from frame to frame. `None` where the camera has no
 /// electronics.
 #[must_use]
 pub fn take(
     body: &CameraBody,
     state: SensorState,
-    electrons: &Plane<MeanElectrons>,
+    light: CaptureLight<'_>,
     address: FrameAddress,
 ) -> Option<(SensorState, Frame)> {
-    let (state, raw) = body.sensor.as_ref()?.step(state, electrons, address);
+    let (state, raw) = body.sensor.as_ref()?.step_captures(state, light, address);
     let picture = own_picture(body, &raw, address);
     Some((state, Frame { raw, signal_breakdown: None, picture }))
 }
@@ -174,10 +241,10 @@ pub fn take(
 pub fn take_with_breakdown(
     body: &CameraBody,
     state: SensorState,
-    electrons: &Plane<MeanElectrons>,
+    light: CaptureLight<'_>,
     address: FrameAddress,
 ) -> Option<(SensorState, Frame)> {
-    let (state, raw, signal_breakdown) = body.sensor.as_ref()?.step_with_breakdown(state, electrons, address);
+    let (state, raw, signal_breakdown) = body.sensor.as_ref()?.step_captures_with_breakdown(state, light, address);
     let picture = own_picture(body, &raw, address);
     Some((state, Frame { raw, signal_breakdown: Some(signal_breakdown), picture }))
 }

@@ -5,6 +5,7 @@ use super::effects::effects;
 use super::front::front;
 use super::lens::lens;
 use super::processing::development;
+use super::row_exposure::row_exposure;
 use super::sensor::{fill_factor, sensor};
 use crate::plan::CameraBody;
 use etendue_scene::record::Camera;
@@ -25,6 +26,7 @@ pub(super) fn body(camera: &Camera, context: &mut Context<'_>) -> Option<CameraB
     let (lens, raster) = lens?;
     let effects = effects(camera.effects.as_ref(), &lens, &raster, context)?;
     let front = camera.external_optics.as_ref().and_then(|record| front(record, &lens, &raster, context));
-    let body = CameraBody { place, raster, lens, front, effects, aperture_px, sensor, development };
+    let exposure = row_exposure(&camera.sensor, sensor.as_ref(), &raster, context);
+    let body = CameraBody { place, raster, lens, front, effects, aperture_px, exposure, sensor, development };
     (context.faults.len() == before).then_some(body)
 }

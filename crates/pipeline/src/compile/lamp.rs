@@ -2,15 +2,17 @@
 
 use super::context::Context;
 use super::linear_picture::linear;
+use super::modulation;
 use super::open_lamp::OpenLamp;
 use super::opening::opening;
 use super::spectrum::{bright, powered, relative};
+use etendue_core::Waveform;
 use etendue_scene::Place;
 use etendue_scene::asset::{PhotometryAsset, PhotometryAxes};
 use etendue_scene::record::light::placement::MainAxis;
 use etendue_scene::record::light::{
     Beam, HeadLamp, LampAim, LampInstance, LampOpening, LampPlacement, LampStrength, Mask, MeasuredLamp,
-    MeasuredStrength, PointLamp, SpotLamp, Traffic,
+    MeasuredStrength, Modulation, PointLamp, SpotLamp, Traffic,
 };
 use etendue_scene::record::transform::yaw_pitch_roll;
 use etendue_scene::record::{Light, LightColour};
@@ -35,6 +37,7 @@ struct Kind<'a> {
     /// How they are turned in their own frame.
     turn: DMat3,
     opening: Option<&'a LampOpening>,
+    modulation: Option<&'a Modulation>,
     file: Option<&'a PhotometryAsset>,
     place: &'a Place,
 }
@@ -59,6 +62,7 @@ fn point(lamp: &PointLamp, context: &mut Context<'_>) -> Option<Lamps> {
         main: MainAxis::Forward,
         turn: DMat3::IDENTITY,
         opening: lamp.opening.as_ref(),
+        modulation: lamp.modulation.as_ref(),
         file: None,
         place: &lamp.place,
     };
@@ -79,6 +83,7 @@ fn spot(lamp: &SpotLamp, context: &mut Context<'_>) -> Option<Lamps> {
         main: MainAxis::Forward,
         turn: DMat3::IDENTITY,
         opening: lamp.opening.as_ref(),
+        modulation: lamp.modulation.as_ref(),
         file: None,
         place: &lamp.place,
     };
@@ -112,6 +117,7 @@ fn measured(lamp: &MeasuredLamp, context: &mut Context<'_>) -> Option<Lamps> {
         main,
         turn: DMat3::IDENTITY,
         opening: lamp.opening.as_ref(),
+        modulation: lamp.modulation.as_ref(),
         file: Some(asset),
         place: &lamp.place,
     };
@@ -134,6 +140,7 @@ fn head_lamp(lamp: &HeadLamp, context: &mut Context<'_>) -> Option<Lamps> {
         main: MainAxis::Forward,
         turn,
         opening: lamp.opening.as_ref(),
+        modulation: lamp.modulation.as_ref(),
         file: None,
         place: &lamp.place,
     };
@@ -204,13 +211,20 @@ fn placed(kind: &Kind<'_>, (intensity, profile): (Spectrum, Profile), context: &
     };
     let (intensity, profile) = (Arc::new(intensity), Arc::new(profile));
     let attenuation = kind.placement.attenuation_per_m.as_ref().map_or(0.0, |a| a.value);
-    let lamp = |(position, aim): (&etendue_scene::Placed<[f64; 3]>, Option<&LampAim>)| {
+    let waveform = match kind.modulation {
+        None => None,
+        Some(record) => Some((record, modulation::waveform(record, context)?)),
+    };
+    let lamp = |(number, (position, aim)): (usize, (&etendue_scene::Placed<[f64; 3]>, Option<&LampAim>))| {
         // An aim that was read has been checked.
         let axes = aim.map_or(Some(DMat3::IDENTITY), |aim| aim.axes(position.value, kind.main))? * kind.turn;
         let made = Lamp::new(DVec3::from_array(position.value), axes, intensity.clone(), profile.clone());
-        context.accept(kind.place, made.and_then(|lamp| lamp.attenuated(attenuation)))
+        let lamp = context.accept(kind.place, made.and_then(|lamp| lamp.attenuated(attenuation)))?;
+        let Some((record, waveform)) = &waveform else { return Some(lamp) };
+        let waveform = waveform.clone().later(delay_s(kind, record, waveform, number));
+        context.accept(record.place(), lamp.modulated(waveform))
     };
-    let lamps: Vec<Lamp> = kind.placement.placements().map(lamp).collect::<Option<_>>()?;
+    let lamps: Vec<Lamp> = kind.placement.placements().enumerate().map(lamp).collect::<Option<_>>()?;
     Some(match opening {
         None => Lamps::Points(lamps),
         Some(opening) => {
@@ -218,6 +232,15 @@ fn placed(kind: &Kind<'_>, (intensity, profile): (Spectrum, Profile), context: &
             Lamps::Open(OpenLamp { alike, opening, place: kind.place.clone() })
         }
     })
+}
+
+/// How much later the lamp's place of a number goes up and down than its record says, s.
+fn delay_s(kind: &Kind<'_>, record: &Modulation, waveform: &Waveform, number: usize) -> f64 {
+    let instance = kind.placement.instances.get(number);
+    let own_s = instance.and_then(|instance| instance.modulation_delay_s.as_ref()).map_or(0.0, |delay| delay.value);
+    let random = modulation::has_random_phases(record);
+    let name = || format!("{} {}", kind.name, number + 1);
+    own_s + if random { modulation::random_delay_s(waveform, &name()) } else { 0.0 }
 }
 
 /// The names of a lamp's places: those given, or the lamp's with a number where there are many.

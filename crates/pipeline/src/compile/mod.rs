@@ -14,11 +14,13 @@ mod lens;
 mod light;
 mod linear_picture;
 mod material;
+mod modulation;
 mod open_lamp;
 mod opening;
 mod picture;
 mod positions;
 mod processing;
+mod row_exposure;
 mod samples;
 mod sensor;
 mod settings;
@@ -28,6 +30,7 @@ mod spectrum;
 mod surroundings;
 #[cfg(test)]
 mod tests;
+mod timing;
 mod world;
 
 pub use choices::{Choices, Quality};
@@ -35,9 +38,9 @@ pub use choices::{Choices, Quality};
 use crate::plan::fingerprint::fingerprint;
 use crate::plan::remark::grouped;
 use crate::plan::shared_light;
-use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan};
+use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan, TimeDependence};
 use context::Context;
-use etendue_core::TimeInterval;
+use etendue_core::{CameraPath, TimeInterval};
 use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;
 use etendue_scene::{CameraSetup, Description, Fault};
@@ -83,8 +86,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let (mut sources, open_lamps, sky) = light::sources(scene, context);
     let setups = description.cameras.iter().enumerate();
     let mut cameras: Vec<_> =
-        setups.filter_map(|(index, setup)| camera_plan(index as u32, setup, choices, context)).collect();
-    shared_light::share(&mut cameras);
+        setups.filter_map(|(index, setup)| camera_plan((index as u32, setup), description, choices, context)).collect();
     let (world, identities, opened) = world::world(description, open_lamps, &mut builder, context)?;
     sources.lamps.extend(opened);
     for setup in &description.cameras {
@@ -92,6 +94,8 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
         context.accept(&position.place, world.check_reach(DVec3::from_array(position.value), TimeInterval::default()));
     }
     let (material_table, materials) = builder.finish(context)?;
+    timing::depend(&mut cameras, &world, context);
+    shared_light::share(&mut cameras);
     positions::remark(&cameras, context);
     surroundings::remark(&cameras, &world, &material_table, &materials, context);
     let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();
@@ -116,15 +120,22 @@ fn unread(description: &Description, context: &mut Context<'_>) {
     }
 }
 
-fn camera_plan(index: u32, setup: &CameraSetup, choices: &Choices, context: &mut Context<'_>) -> Option<CameraPlan> {
+fn camera_plan(
+    (index, setup): (u32, &CameraSetup),
+    description: &Description,
+    choices: &Choices,
+    context: &mut Context<'_>,
+) -> Option<CameraPlan> {
     let body = camera::body(&setup.camera, context)?;
     let mut products = settings::products(&setup.output, &body, context);
     let depth_of_field = settings::depth_of_field(&setup.render, &body, context)?;
     let delivered = (&setup.output, &mut products);
     let settings = settings::settings(&setup.render, &body, &depth_of_field, delivered, choices, context)?;
     // A pose that was read has been checked.
-    let pose = setup.pose.to_camera_pose()?;
+    let path = CameraPath::still(setup.pose.to_camera_pose()?);
+    let timing = timing::timing((index, setup), description.sequence.as_ref(), &body, settings.seed, context);
     let name = setup.name.value.clone();
     let light = LightOwner { camera: name.clone(), index };
-    Some(CameraPlan { name, index, light, pose, body, settings, depth_of_field, products })
+    let time = TimeDependence::None;
+    Some(CameraPlan { name, index, light, path, timing, time, body, settings, depth_of_field, products })
 }

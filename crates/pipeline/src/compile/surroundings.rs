@@ -21,8 +21,12 @@ pub(super) fn remark(
     }
     let name = |id: MaterialId| &materials[id.0 as usize];
     for camera in cameras {
+        let start_s = camera.timing.frame_start_s(0);
         let around = Surroundings::of(
-            &world.render_space_for_few(camera.pose.position_m, TimeInterval::default()),
+            &world.render_space_for_few(
+                camera.path.at(start_s).position_m,
+                TimeInterval::at(start_s).unwrap_or_default(),
+            ),
             material_table,
         );
         if let Some(solid) = around.solid {

@@ -119,6 +119,7 @@ impl Assembly {
                 semantic_id: class,
             };
             self.share_flux(&mut instance, object, material_table, context);
+            delay_light(&mut instance, (object, number), material_table, context);
             self.builder.add_instance(instance);
         }
     }
@@ -196,6 +197,30 @@ impl Assembly {
     }
 }
 
+/// The light of an object's place goes up and down later by what that place says.
+fn delay_light(
+    instance: &mut Instance,
+    (object, number): (&Object, usize),
+    material_table: &mut MaterialTableBuilder,
+    context: &mut Context<'_>,
+) {
+    let own = object.instances.get(number).and_then(|place| place.modulation_delay_s.as_ref());
+    let own_s = own.map_or(0.0, |delay| delay.value);
+    let name = format!("{} {}", object.name.value, number + 1);
+    let mut is_modulated = false;
+    for id in instance.materials.iter_mut() {
+        if !material_table.is_modulated(*id) {
+            continue;
+        }
+        is_modulated = true;
+        *id = material_table.of_delay(*id, own_s, &name);
+    }
+    if let (Some(delay), false) = (own, is_modulated) {
+        let problem = "\"modulation_delay_s\" has no effect on an object whose light does not change";
+        context.fault(&delay.place, problem, "remove it, or add \"modulation\" to the emission of its material");
+    }
+}
+
 fn class_of(object: &Object, scene: &Scene) -> u32 {
     let number =
         |class: &str| scene.classes.iter().find(|(name, _)| name.value == class).map(|(_, id)| id.value as u32);
@@ -259,8 +284,8 @@ fn check_coordinates(
         (asset.uvs.is_empty(), materials.iter().find_map(|id| material_table.needs_coordinates(*id)))
     {
         let file = mesh.file.value.display();
-        let problem = format!("{file} has no texture coordinates, but its material \"{name}\" has a texture");
-        context.fault(&object.place, problem, "export them with the mesh, or use a plain reflectance");
+        let problem = format!("{file} has no texture coordinates, but its material \"{name}\" lays something by them");
+        context.fault(&object.place, problem, "export them with the mesh, or use a material without textures and multiplexed rows");
     }
 }
 

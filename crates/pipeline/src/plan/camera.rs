@@ -2,8 +2,10 @@
 
 use super::development::{Development, PictureFormat};
 use super::products::Products;
+use super::row_exposure::RowExposure;
 use super::settings::{Route, Settings};
-use etendue_core::CameraPose;
+use super::timing::{TimeDependence, Timing};
+use etendue_core::CameraPath;
 use etendue_optics::{DepthOfField, Effects, Front, FrontRay, Lens};
 use etendue_projection::Raster;
 use etendue_scene::Place;
@@ -19,8 +21,12 @@ pub struct CameraPlan {
     pub index: u32,
     /// Whose light it sees: its own, or that of the first camera of the job whose light is equal.
     pub light: LightOwner,
-    /// Where it stands.
-    pub pose: CameraPose,
+    /// Where it stands, at every time.
+    pub path: CameraPath,
+    /// When its frames and rows are exposed.
+    pub timing: Timing,
+    /// Whether its light depends on that.
+    pub time: TimeDependence,
     /// Everything behind the scene.
     pub body: CameraBody,
     /// How its light is found.
@@ -55,6 +61,8 @@ pub struct CameraBody {
     pub effects: Effects,
     /// Side of the photosensitive area, in pixels.
     pub aperture_px: f64,
+    /// When its rows are exposed.
+    pub exposure: RowExposure,
     /// The electronics; `None` where no electrons are wanted.
     pub sensor: Option<Sensor>,
     /// How raw becomes a picture; `None` where none is wanted.

@@ -32,6 +32,10 @@ pub(crate) fn fingerprint(description: &Description, assets: &Assets, choices: &
         .with("quality", quality.unwrap_or(Quality::Standard).name())
         .with("scene", description.scene.to_table())
         .with("cameras", cameras);
+    let table = match &description.sequence {
+        Some(sequence) => table.with("sequence", sequence.to_table()),
+        None => table,
+    };
     let mut hash = Sha256::new();
     table.feed(&|path| assets.hashes(path), &mut |bytes| hash.update(bytes));
     hash.finalize().into()

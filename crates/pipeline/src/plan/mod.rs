@@ -5,9 +5,11 @@ mod development;
 pub(crate) mod fingerprint;
 mod products;
 pub mod remark;
+mod row_exposure;
 mod settings;
 pub(crate) mod shared_light;
 pub mod summary;
+mod timing;
 mod warnings;
 
 use crate::plan::remark::Remark;
@@ -18,7 +20,9 @@ use etendue_tracer::materials::MaterialTable;
 pub use camera::{CameraBody, CameraPlan, LightOwner};
 pub use development::{Development, PictureFormat};
 pub use products::{Products, RawFormat};
+pub use row_exposure::{CaptureTiming, RowExposure};
 pub use settings::{Route, Settings};
+pub use timing::{Jitter, TimeDependence, Timing};
 
 /// What a rendering does, for all cameras of a job.
 #[derive(Clone, Debug)]

@@ -2,12 +2,12 @@
 //!
 //! The light of a camera depends on where the camera stands, on its lens and what stands before it, on its film, on how light is
 //! sampled and kept, and, where pixels fold electrons, on their response to a second of light. It does not depend on
-//! exposure, noise, converter, effects behind the lens (but for the margin that they need) or processing. Cameras of equal
+//! the exposure (but where something moves or flickers), noise, converter, effects behind the lens (but for the margin that they need) or processing. Cameras of equal
 //! light share one film: that of the first of them in the job, whose place is in the random addresses of all.
 
-use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan, Route, Settings};
+use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan, Route, Settings, TimeDependence, Timing};
 use crate::render::spectrum_spread::SpectrumSpread;
-use etendue_core::CameraPose;
+use etendue_core::CameraPath;
 use etendue_optics::{Front, Lens, PupilProjection};
 use etendue_projection::Raster;
 use etendue_sensor::{Cfa, Sensor};
@@ -16,7 +16,9 @@ use etendue_spectra::Spectrum;
 /// What, of a camera, its light depends on; the world is the plan's.
 #[derive(Clone, Debug, PartialEq)]
 struct LightKey<'a> {
-    pose: CameraPose,
+    path: &'a CameraPath,
+    /// Where light depends on time.
+    timing: Option<&'a Timing>,
     optics: OpticsKey<'a>,
     sampling: SamplingKey,
     settings: Settings,
@@ -62,7 +64,8 @@ impl<'a> LightKey<'a> {
     fn of(camera: &'a CameraPlan) -> Self {
         let s = &camera.settings;
         Self {
-            pose: camera.pose,
+            path: &camera.path,
+            timing: (camera.time != TimeDependence::None).then_some(&camera.timing),
             optics: OpticsKey::of(camera),
             sampling: SamplingKey {
                 spp: s.spp,
@@ -78,7 +81,7 @@ impl<'a> LightKey<'a> {
 
     /// In what two cameras differ that look at the same things by the same rays; `None` where they do not.
     fn differences(&self, other: &Self) -> Option<Vec<&'static str>> {
-        if (self.pose, &self.optics) != (other.pose, &other.optics) {
+        if (self.path, &self.optics) != (other.path, &other.optics) {
             return None;
         }
         let samples = |key: &Self| (key.sampling.spp, key.sampling.replicates, key.sampling.seed);
@@ -87,6 +90,7 @@ impl<'a> LightKey<'a> {
         let same_kept = Settings { bands: b.bands, folded: b.folded, range_nm: b.range_nm, ..*a };
         let unlike = [
             (samples(self) != samples(other), "samples or seed"),
+            (self.timing != other.timing, "the times of exposure"),
             (kept(a) != kept(b), "what is kept of the spectrum"),
             (
                 a.bands == b.bands && self.sampling.spread != other.sampling.spread,

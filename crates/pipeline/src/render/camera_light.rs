@@ -1,6 +1,7 @@
 //! Rendering a camera's light.
 
 use crate::plan::{CameraBody, CameraPlan, Plan, Route};
+use crate::render::exposure::{FilmExposure, Shot};
 use crate::render::film::Film;
 use crate::render::gather::Layout;
 use crate::render::light::{Cancelled, RaySource, RenderJob, Sampling};
@@ -8,8 +9,8 @@ use crate::render::mosaic::Mosaic;
 use crate::render::observer::Observer;
 use crate::render::spectrum_spread::SpectrumSpread;
 use crate::render::tile::Shard;
+use etendue_core::PupilRay;
 use etendue_core::maths::f64::atan2;
-use etendue_core::{PupilRay, TimeInterval};
 use etendue_optics::{Front, Lens, PupilProjection};
 use etendue_projection::Raster;
 use etendue_tracer::accel::Simd;
@@ -24,6 +25,8 @@ const ROULETTE_START: u32 = 4;
 /// What a rendering is asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Request {
+    /// Which picture; the first for a camera whose light does not depend on time.
+    pub shot: Shot,
     /// Which tiles.
     pub shard: Shard,
     /// Which instruction set the accelerator may use. It does not change the result.
@@ -32,7 +35,7 @@ pub struct Request {
 
 impl Default for Request {
     fn default() -> Self {
-        Self { shard: Shard::WHOLE, simd: Simd::Auto }
+        Self { shot: Shot::default(), shard: Shard::WHOLE, simd: Simd::Auto }
     }
 }
 
@@ -56,8 +59,9 @@ pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn 
 /// Which lights a camera's paths ask.
 #[must_use]
 pub fn light_counts(plan: &Plan, camera: &CameraPlan) -> LightCounts {
-    lights(plan, camera, &plan.world.render_space_for_few(camera.pose.position_m, TimeInterval::default()))
-        .light_counts()
+    let exposure = FilmExposure::of(camera, Shot::default());
+    let view = plan.world.render_space_for_few(exposure.origin_m(), exposure.interval());
+    lights(plan, camera, &view).light_counts()
 }
 
 fn lights(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -> Lights {
@@ -72,22 +76,23 @@ fn through<S: RaySource>(
     observer: &dyn Observer,
     source: &S,
 ) -> Result<Film, Cancelled> {
-    let view = plan.world.render_space_with(camera.pose.position_m, TimeInterval::default(), request.simd);
+    let rows = FilmExposure::of(camera, request.shot);
+    let view = plan.world.render_space_with(rows.origin_m(), rows.interval(), request.simd);
     let lights = lights(plan, camera, &view);
     let tracer = PathTracer::new(&view, &plan.material_table, &lights, path_settings(camera));
     let settings = &camera.settings;
     let sensor = camera.body.sensor.as_ref().filter(|_| settings.folded);
     let mosaic = sensor.map(|sensor| Mosaic::of(sensor, settings.range_nm, settings.bands.is_some()));
-    let exposure = exposure(camera, request, source, mosaic.as_ref());
+    let job = render_job((camera, rows), request, source, mosaic.as_ref());
     match settings.wavelengths {
-        1 => exposure.gather::<1>(&tracer, observer),
-        8 => exposure.gather::<8>(&tracer, observer),
-        _ => exposure.gather::<4>(&tracer, observer),
+        1 => job.gather::<1>(&tracer, observer),
+        8 => job.gather::<8>(&tracer, observer),
+        _ => job.gather::<4>(&tracer, observer),
     }
 }
 
-fn exposure<'a, S>(
-    camera: &CameraPlan,
+fn render_job<'a, S>(
+    (camera, exposure): (&CameraPlan, FilmExposure<'a>),
     request: Request,
     source: &'a S,
     mosaic: Option<&'a Mosaic>,
@@ -96,7 +101,7 @@ fn exposure<'a, S>(
     let (width, height) = camera.film_size();
     RenderJob {
         source,
-        pose: camera.pose,
+        exposure,
         width,
         height,
         aperture_px: if settings.route == Route::Lens { camera.body.aperture_px } else { 1.0 },
@@ -107,6 +112,7 @@ fn exposure<'a, S>(
             replicates: settings.replicates,
             seed: settings.seed,
             camera: camera.light.index,
+            shot: request.shot,
             low_nm: settings.range_nm.0 as f32,
             high_nm: settings.range_nm.1 as f32,
             spread: SpectrumSpread::of(camera),

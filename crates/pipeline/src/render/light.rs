@@ -1,6 +1,7 @@
 //! The light of a frame: every pixel's samples sent into a radiance field and gathered on the film.
 
 use crate::render::block::Blocks;
+use crate::render::exposure::{FilmExposure, Shot};
 use crate::render::film::Film;
 use crate::render::gather::{Gather, Layout};
 use crate::render::mosaic::{Mosaic, Site};
@@ -8,7 +9,7 @@ use crate::render::observer::Observer;
 use crate::render::spectrum_spread::{Heroes, SpectrumSpread};
 use crate::render::tile::{Shard, Tile, tiles};
 use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
-use etendue_core::{CameraPose, FieldRay, PupilRay, RadianceField, Ray, Spectral, Wavelengths};
+use etendue_core::{FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};
 use glam::DVec2;
 use rayon::prelude::*;
 use std::sync::Mutex;
@@ -32,6 +33,8 @@ pub struct Sampling {
     pub seed: u64,
     /// The place in the job of the camera whose light it is.
     pub camera: u32,
+    /// Which of its pictures; the first for light that serves all of them.
+    pub shot: Shot,
     /// Shortest wavelength sampled, nm.
     pub low_nm: f32,
     /// Longest wavelength sampled, nm.
@@ -45,8 +48,8 @@ pub struct Sampling {
 pub struct RenderJob<'a, S> {
     /// Makes the rays.
     pub source: &'a S,
-    /// Where the camera stands.
-    pub pose: CameraPose,
+    /// Where the camera is when.
+    pub exposure: FilmExposure<'a>,
     /// Columns of the film.
     pub width: u32,
     /// Rows of the film.
@@ -143,8 +146,8 @@ impl<S: RaySource> RenderJob<'_, S> {
     }
 
     fn address(&self, pixel: Pixel, replicate: u32) -> PixelAddress {
-        let Sampling { seed, camera, .. } = self.sampling;
-        PixelAddress { frame: FrameAddress { seed, camera, ..FrameAddress::default() }, pixel, replicate }
+        let Sampling { seed, camera, shot: Shot { frame, capture }, .. } = self.sampling;
+        PixelAddress { frame: FrameAddress { seed, camera, frame, capture }, pixel, replicate }
     }
 
     /// The wavelengths of a replicate of a block, which are those of its first pixel.
@@ -165,11 +168,14 @@ impl<S: RaySource> RenderJob<'_, S> {
         asked.clear();
         let site = self.mosaic.map(|mosaic| mosaic.at(gathers[0].0));
         let wavelengths = self.wavelengths::<N>(site, heroes.number(&streams[0].with_sample(sample), N));
+        let time_u = self.time_number(&streams[0].with_sample(sample));
         for (index, (stream, (pixel, _))) in streams.iter().zip(gathers.iter()).enumerate() {
             let stream = stream.with_sample(sample);
             if let Some(pupil_ray) = self.pupil_ray(*pixel, &stream, wavelengths.nm[0]) {
                 asked.pixels.push((index, pupil_ray.weight_sr));
-                asked.rays.push(FieldRay { ray: self.to_render(&pupil_ray), stream });
+                let moment_s = self.exposure.moment_s(pixel.y, time_u);
+                let (ray, lit) = (self.exposure.to_render(&pupil_ray, moment_s), self.exposure.lit(pixel.y, moment_s));
+                asked.rays.push(FieldRay { ray, stream, lit });
             }
         }
         field.radiance_of_group(&asked.rays, &wavelengths, &mut asked.radiance);
@@ -194,9 +200,9 @@ impl<S: RaySource> RenderJob<'_, S> {
         }
     }
 
-    fn to_render(&self, ray: &PupilRay) -> Ray {
-        let origin = self.pose.point_to_render(ray.origin_m).as_vec3();
-        Ray::new(origin, self.pose.direction_to_world(ray.direction).as_vec3().normalize(), 0.0)
+    /// The number by which the samples of a block have their moments, those of the block's first pixel.
+    fn time_number(&self, stream: &PathStream) -> f32 {
+        if self.exposure.has_moments() { stream.one(Draw::Time, 0) } else { 0.0 }
     }
 }
 
@@ -206,6 +212,7 @@ mod tests {
     use crate::render::observer::Unobserved;
     use etendue_core::Bands;
     use etendue_core::field::ConstantField;
+    use etendue_core::{CameraPath, CameraPose};
     use glam::{DMat3, DVec3};
 
     struct Half;
@@ -217,11 +224,15 @@ mod tests {
         }
     }
 
+    static PATH: std::sync::LazyLock<CameraPath> = std::sync::LazyLock::new(|| {
+        CameraPath::still(CameraPose { position_m: DVec3::ZERO, rotation: DMat3::IDENTITY })
+    });
+
     fn exposure(tile_px: u32, shard: Shard) -> RenderJob<'static, Half> {
         let bands = Bands::covering(400.0, 700.0, 50.0);
         RenderJob {
             source: &Half,
-            pose: CameraPose { position_m: DVec3::ZERO, rotation: DMat3::IDENTITY },
+            exposure: FilmExposure::still(&PATH),
             width: 9,
             height: 5,
             aperture_px: 1.0,
@@ -232,6 +243,7 @@ mod tests {
                 replicates: 2,
                 seed: 3,
                 camera: 0,
+                shot: Shot::default(),
                 low_nm: 400.0,
                 high_nm: 700.0,
                 spread: SpectrumSpread::EachReplicate,

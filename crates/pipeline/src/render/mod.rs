@@ -12,6 +12,7 @@
 pub mod block;
 pub mod boxes;
 mod camera_light;
+pub mod exposure;
 pub mod film;
 pub mod frame_view;
 pub mod gather;
@@ -27,3 +28,4 @@ pub mod tile;
 pub mod truth;
 
 pub use camera_light::{Request, layout, light, light_counts};
+pub use exposure::Shot;

@@ -5,9 +5,10 @@
 //! seen under the angle α from its normal distances are right to tan α times that angle.
 
 use crate::plan::{CameraPlan, Plan, Route};
-use crate::render::truth::{Seen, seen};
+use crate::render::exposure::{FilmExposure, Shot};
+use crate::render::truth::{Seen, Viewpoint, seen, truth_time_s};
 use etendue_core::quantity::Length;
-use etendue_core::{Plane, PupilRay, TimeInterval};
+use etendue_core::{Plane, PupilRay};
 use etendue_optics::FrontRay;
 use etendue_tracer::accel::Simd;
 use glam::{DVec2, DVec3};
@@ -22,17 +23,20 @@ pub struct PupilDepth {
     pub depth: Plane<Length>,
 }
 
-/// The distances of a camera whose route is at the pupil, on the caller's pool; `None` through the lens.
+/// The distances of a camera whose route is at the pupil half-way through a frame's exposure, on the caller's pool; `None` through
+/// the lens.
 #[must_use]
-pub fn pupil_depth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> Option<PupilDepth> {
+pub fn pupil_depth(plan: &Plan, camera: &CameraPlan, frame: u32, simd: Simd) -> Option<PupilDepth> {
     let Route::Pupil(projection) = &camera.settings.route else { return None };
     let (width, height) = (projection.width(), projection.height());
-    let view = plan.world.render_space_with(camera.pose.position_m, TimeInterval::default(), simd);
+    let exposure = FilmExposure::of(camera, Shot { frame, capture: 0 });
+    let view = plan.world.render_space_with(exposure.origin_m(), exposure.interval(), simd);
+    let viewpoint = Viewpoint::new(&view, camera, truth_time_s(camera, frame, 0));
     let look = |i: usize| {
         let direction = projection.direction(DVec2::new((i % width) as f64, (i / width) as f64) + 0.5);
         direction.map_or(Seen::Nothing, |direction| {
             let ray = PupilRay { origin_m: DVec3::ZERO, direction, weight_sr: 1.0 };
-            seen(&view, &plan.material_table, camera, &FrontRay::bare(ray))
+            seen(&view, &plan.material_table, &viewpoint, &FrontRay::bare(ray))
         })
     };
     let pairs = (0..width * height).into_par_iter().map(look).map(|seen| (seen.distance(), seen.depth()));

@@ -1,9 +1,10 @@
 //! Ground truth: what each pixel's principal ray meets. Point-sampled, never filtered: a surface that is cut out by its
 //! opacity is there where at least half of it is.
 
-use crate::plan::{CameraBody, CameraPlan, Plan};
+use crate::plan::{CameraBody, CameraPlan, Plan, TimeDependence};
+use crate::render::exposure::{FilmExposure, Shot};
 use etendue_core::quantity::{Identity, Length, Quantity, Vector};
-use etendue_core::{Plane, TimeInterval};
+use etendue_core::{CameraPose, Plane};
 use etendue_optics::front::{FrontRay, Optic};
 use etendue_tracer::accel::Simd;
 use etendue_tracer::geometry::SurfacePoint;
@@ -56,6 +57,34 @@ pub(crate) enum Seen {
     },
 }
 
+/// From where and when a pixel's truth is seen.
+#[derive(Clone, Copy)]
+pub(crate) struct Viewpoint {
+    pub(crate) pose: CameraPose,
+    /// From the origin of the render frame to the camera, m.
+    offset_m: DVec3,
+    /// As [`etendue_core::Ray::time_s`].
+    time_s: f32,
+}
+
+impl Viewpoint {
+    /// A camera at a moment, s, as a view of the world sees it.
+    pub(crate) fn new(view: &RenderSpace<'_>, camera: &CameraPlan, moment_s: f64) -> Self {
+        let pose = camera.path.at(moment_s);
+        let time_s = (moment_s - view.interval().start_s()) as f32;
+        Self { pose, offset_m: pose.position_m - view.origin_m(), time_s }
+    }
+}
+
+/// When the truth of a row of the picture holds, s: half-way through the row's first exposure.
+#[must_use]
+pub fn truth_time_s(camera: &CameraPlan, frame: u32, row: usize) -> f64 {
+    match camera.time {
+        TimeDependence::None => 0.0,
+        TimeDependence::Lights | TimeDependence::Motion => camera.timing.row(frame, 0, row).middle_s(),
+    }
+}
+
 /// A pixel's ray and what it meets.
 struct Look {
     /// As [`GroundTruth::ray`].
@@ -67,22 +96,29 @@ struct Look {
 /// The ground truth of a camera, along the principal rays (587.56 nm) of its pixels' centres, on the caller's pool.
 /// Where the lens clips that ray but lets light through, the ray through the centroid of the open pupil is used.
 #[must_use]
-pub fn ground_truth(plan: &Plan, camera: &CameraPlan, simd: Simd) -> GroundTruth {
+pub fn ground_truth(plan: &Plan, camera: &CameraPlan, frame: u32, simd: Simd) -> GroundTruth {
     let raster = &camera.body.raster;
     let (width, height) = (raster.width(), raster.height());
-    let view = plan.world.render_space_with(camera.pose.position_m, TimeInterval::default(), simd);
-    let looks: Vec<Look> = (0..width * height)
-        .into_par_iter()
-        .map(|i| look(&view, &plan.material_table, camera, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
-        .collect();
+    let exposure = FilmExposure::of(camera, Shot { frame, capture: 0 });
+    let view = plan.world.render_space_with(exposure.origin_m(), exposure.interval(), simd);
+    let viewpoints: Vec<Viewpoint> =
+        (0..height).map(|row| Viewpoint::new(&view, camera, truth_time_s(camera, frame, row))).collect();
+    let look = |i: usize| {
+        let centre = DVec2::new((i % width) as f64, (i / width) as f64) + 0.5;
+        look(&view, &plan.material_table, (camera, &viewpoints[i / width]), centre)
+    };
+    let looks: Vec<Look> = (0..width * height).into_par_iter().map(look).collect();
     GroundTruth {
         depth: plane(&looks, width, height, |l| l.seen.depth()),
         distance: plane(&looks, width, height, |l| l.seen.distance()),
         normal: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.normal)),
         position: plane(&looks, width, height, |l| l.seen.vector(|truth| truth.position_m)),
         camera_space_position: camera.products.camera_space_position.then(|| {
-            let in_camera = |truth: &Truth| camera.pose.point_to_camera(truth.position_m);
-            plane(&looks, width, height, |l| l.seen.vector(in_camera))
+            let points = looks.iter().enumerate().map(|(i, look)| {
+                let in_camera = |truth: &Truth| viewpoints[i / width].pose.point_to_camera(truth.position_m);
+                look.seen.vector(in_camera)
+            });
+            Plane::from_samples(width, height, points.collect()).expect("one sample a pixel")
         }),
         instance: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.instance_id)),
         semantic: plane(&looks, width, height, |l| l.seen.identity(|truth| truth.semantic_id)),
@@ -112,12 +148,17 @@ fn has_planar_depth(front: &FrontRay) -> bool {
     front.ray.direction.z > 0.0 && front.mirror_m.is_none()
 }
 
-fn look(view: &RenderSpace<'_>, material_table: &MaterialTable, camera: &CameraPlan, raster_px: DVec2) -> Look {
+fn look(
+    view: &RenderSpace<'_>,
+    material_table: &MaterialTable,
+    (camera, viewpoint): (&CameraPlan, &Viewpoint),
+    raster_px: DVec2,
+) -> Look {
     match camera.body.truth_ray(raster_px) {
         None => Look { ray: 0, seen: Seen::Nothing, mirror_m: None },
         Some((front, off_centre)) => Look {
             ray: 1 + u32::from(off_centre),
-            seen: seen(view, material_table, camera, &front),
+            seen: seen(view, material_table, viewpoint, &front),
             mirror_m: front.mirror_m,
         },
     }
@@ -127,14 +168,14 @@ fn look(view: &RenderSpace<'_>, material_table: &MaterialTable, camera: &CameraP
 pub(crate) fn seen(
     view: &RenderSpace<'_>,
     material_table: &MaterialTable,
-    camera: &CameraPlan,
+    viewpoint: &Viewpoint,
     front: &FrontRay,
 ) -> Seen {
     let ray = &front.ray;
-    let direction = camera.pose.direction_to_world(ray.direction);
+    let direction = viewpoint.pose.direction_to_world(ray.direction);
     let ahead = has_planar_depth(front);
-    let origin_m = camera.pose.point_to_render(ray.origin_m);
-    match view.truth(origin_m, direction, 0.0, |point| is_there(view, material_table, point)) {
+    let origin_m = viewpoint.pose.point_to_render(ray.origin_m) + viewpoint.offset_m;
+    match view.truth(origin_m, direction, viewpoint.time_s, |point| is_there(view, material_table, point)) {
         None => Seen::Sky { ahead },
         Some(truth) => {
             let depth_m = if ahead { truth.distance_m * ray.direction.z + ray.origin_m.z } else { f64::NAN };

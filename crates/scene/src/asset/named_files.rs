@@ -74,6 +74,7 @@ fn light(light: &Light, files: &mut FileList) {
         files.add(AssetKind::Photometry, &lamp.file);
     }
     light.colour().into_iter().for_each(|colour| colour.name_files(files));
+    light.modulation().into_iter().for_each(|modulation| modulation.name_files(files));
 }
 
 fn environment(environment: &Environment, files: &mut FileList) {

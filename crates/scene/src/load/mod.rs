@@ -20,7 +20,7 @@ use crate::preset;
 use crate::reader::{Rule as _, record};
 use crate::record::job::CameraSource;
 use crate::record::render::{check_levels, check_merged};
-use crate::record::{Camera, CameraEntry, DataSheet, Job, Output, Pose, Render, Scene};
+use crate::record::{Camera, CameraEntry, DataSheet, Job, Output, Pose, Render, Scene, Sequence};
 use crate::written::Table;
 
 /// A job with its scene and cameras, checked.
@@ -30,6 +30,8 @@ pub struct Description {
     pub file: PathBuf,
     /// What is seen.
     pub scene: Scene,
+    /// When frames are taken; `None`: frame 0 at 0 s.
+    pub sequence: Option<Sequence>,
     /// The cameras, one or more, names unique.
     pub cameras: Vec<CameraSetup>,
     /// What of the scene nothing uses.
@@ -47,10 +49,21 @@ pub struct CameraSetup {
     pub camera: Camera,
     /// Where it stands.
     pub pose: Pose,
+    /// When its frames begin, against the sequence.
+    pub trigger: Trigger,
     /// How it renders: what the camera says, else what the job says.
     pub render: Render,
     /// What it writes: what the camera says, else what the job says.
     pub output: Output,
+}
+
+/// When a camera's frames begin, against the sequence of its job.
+#[derive(Clone, Debug, Default)]
+pub struct Trigger {
+    /// How much later, s; `None`: 0.
+    pub offset_s: Option<crate::Placed<f64>>,
+    /// Greatest random deviation, s; `None`: 0.
+    pub jitter_s: Option<crate::Placed<f64>>,
 }
 
 impl Description {
@@ -70,7 +83,7 @@ impl Description {
         let job = record::<Job>().read(document, faults);
         names::check(document, faults);
         let uses = check::references(document, faults);
-        let Job { scene, cameras, render, output, .. } = job?;
+        let Job { scene, cameras, sequence, render, output, .. } = job?;
         let setup = |entry| CameraSetup::new(entry, render.as_ref(), output.as_ref());
         let cameras: Vec<_> = cameras.into_iter().map(setup).collect();
         cameras.iter().for_each(|c| check_merged(&c.render, faults));
@@ -83,6 +96,7 @@ impl Description {
             file: file.to_owned(),
             unused: Unused::of(&scene, &uses),
             scene,
+            sequence,
             cameras,
             notices: faults.notices(),
         })
@@ -92,7 +106,11 @@ impl Description {
     #[must_use]
     pub fn to_table(&self) -> Table {
         let cameras: Vec<_> = self.cameras.iter().map(CameraSetup::to_table).collect();
-        Table::new().with("scene", self.scene.to_table()).with("cameras", cameras)
+        let table = Table::new().with("scene", self.scene.to_table()).with("cameras", cameras);
+        match &self.sequence {
+            Some(sequence) => table.with("sequence", sequence.to_table()),
+            None => table,
+        }
     }
 
     /// Every file that the description names, that is used, and that is not text of its own, each once.
@@ -104,13 +122,22 @@ impl Description {
 
 impl CameraSetup {
     fn new(entry: CameraEntry, render: Option<&Render>, output: Option<&Output>) -> Self {
-        let CameraEntry { name, camera: CameraSource(camera), pose, render: own_render, output: own_output, place } =
-            entry;
+        let CameraEntry {
+            name,
+            camera: CameraSource(camera),
+            pose,
+            trigger_offset_s,
+            trigger_jitter_s,
+            render: own_render,
+            output: own_output,
+            place,
+        } = entry;
+        let trigger = Trigger { offset_s: trigger_offset_s, jitter_s: trigger_jitter_s };
         let own_render = own_render.unwrap_or_else(|| Render::silent(place.clone()));
         let own_output = own_output.unwrap_or_else(|| Output::silent(place));
         let render = render.map_or(own_render.clone(), |base| own_render.over(base));
         let output = output.map_or(own_output.clone(), |base| own_output.over(base));
-        Self { name, camera, pose, render, output }
+        Self { name, camera, pose, trigger, render, output }
     }
 
     /// What a job says of the camera, and how it renders and writes where the job says it for all: keys that have no effect on
@@ -118,8 +145,18 @@ impl CameraSetup {
     #[must_use]
     pub fn to_table(&self) -> Table {
         let named = Table::new().with("name", self.name.clone());
-        let placed = named.and(self.camera.to_table()).and(self.pose.to_table());
+        let placed = named.and(self.camera.to_table()).and(self.pose.to_table()).and(self.trigger.to_table());
         placed.with("render", self.render.to_table()).with("output", self.output.to_table())
+    }
+}
+
+impl Trigger {
+    fn to_table(&self) -> Table {
+        let keys = [("trigger_offset_s", &self.offset_s), ("trigger_jitter_s", &self.jitter_s)];
+        keys.into_iter().fold(Table::new(), |table, (key, value)| match value {
+            Some(value) => table.with(key, value.clone()),
+            None => table,
+        })
     }
 }
 

@@ -7,10 +7,11 @@ use super::output::Output;
 use super::pose::Pose;
 use super::render::Render;
 use super::scene::Scene;
+use super::sequence::Sequence;
 use crate::document::Node;
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{Form, Key, Kind, Reader, Record, Rule, file_name, list, path, record};
+use crate::reader::{Form, Key, Kind, Reader, Record, Rule, file_name, list, number, path, record};
 use crate::written::{Item, Table};
 
 record! {
@@ -20,6 +21,8 @@ record! {
         required scene: Scene = file_or_table::<Scene>();
         /// The cameras, one or more.
         required cameras: Vec<CameraEntry> = list(record(), 1);
+        /// When frames are taken. Default: frame 0 at 0 s.
+        optional sequence: Sequence = record();
         /// How the light is found. Default: that of each key.
         optional render: Render = record();
         /// What is written. Default: that of each key.
@@ -36,6 +39,11 @@ record! {
         inside camera: CameraSource;
         /// Where it stands and looks.
         inside pose: Pose;
+        /// How much later than the sequence says its frames begin, s; below 0 earlier. Default: 0.
+        optional trigger_offset_s: Placed<f64> = number("s");
+        /// Greatest deviation of a frame's beginning, s, 0 or more: each is moved by a random time, evenly spread over ± this.
+        /// Default: 0.
+        optional trigger_jitter_s: Placed<f64> = number("s").at_least(0.0);
         /// What this camera renders otherwise than the job says.
         optional render: Render = record();
         /// What this camera writes otherwise than the job says.

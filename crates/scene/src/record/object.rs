@@ -54,6 +54,8 @@ record! {
     pub struct Instance {
         /// Its name. Default: the object's name and its number.
         optional name: Placed<String> = text("the name of the instance");
+        /// By how much the "modulation" of all its light is later here, s, besides its own delay. Default: 0.
+        optional modulation_delay_s: Placed<f64> = number("s");
         /// Where it stands.
         inside transform: Transform;
     }

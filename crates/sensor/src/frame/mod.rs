@@ -2,6 +2,7 @@
 
 mod pass;
 
+use crate::capture_light::CaptureLight;
 use crate::charge_account::ChargeAccount;
 use crate::effect::{Context, Memory};
 use crate::effects::shot_noise::ShotNoise;
@@ -15,6 +16,7 @@ use etendue_core::Plane;
 use etendue_core::quantity::{Charge, DigitalNumber, MeanElectrons};
 use etendue_core::random::Pixel;
 use pass::Pass;
+use std::borrow::Cow;
 
 /// What a capture's charge has become.
 struct Reading {
@@ -46,7 +48,18 @@ impl Sensor {
         mean_electrons: &Plane<MeanElectrons>,
         address: FrameAddress,
     ) -> (SensorState, Raw) {
-        let (state, raw, _) = self.frame(state, mean_electrons, address, false);
+        self.step_captures(state, CaptureLight::steady(mean_electrons), address)
+    }
+
+    /// As [`Sensor::step`], of light that changes from capture to capture.
+    #[must_use]
+    pub fn step_captures(
+        &self,
+        state: SensorState,
+        light: CaptureLight<'_>,
+        address: FrameAddress,
+    ) -> (SensorState, Raw) {
+        let (state, raw, _) = self.frame(state, light, address, false);
         (state, raw)
     }
 
@@ -58,14 +71,25 @@ impl Sensor {
         mean_electrons: &Plane<MeanElectrons>,
         address: FrameAddress,
     ) -> (SensorState, Raw, SignalBreakdown) {
-        let (state, raw, signal_breakdown) = self.frame(state, mean_electrons, address, true);
+        self.step_captures_with_breakdown(state, CaptureLight::steady(mean_electrons), address)
+    }
+
+    /// As [`Sensor::step_with_breakdown`], of light that changes from capture to capture.
+    #[must_use]
+    pub fn step_captures_with_breakdown(
+        &self,
+        state: SensorState,
+        light: CaptureLight<'_>,
+        address: FrameAddress,
+    ) -> (SensorState, Raw, SignalBreakdown) {
+        let (state, raw, signal_breakdown) = self.frame(state, light, address, true);
         (state, raw, signal_breakdown.expect("they were asked for"))
     }
 
     fn frame(
         &self,
         state: SensorState,
-        means: &Plane<MeanElectrons>,
+        light: CaptureLight<'_>,
         address: FrameAddress,
         with_breakdown: bool,
     ) -> (SensorState, Raw, Option<SignalBreakdown>) {
@@ -73,18 +97,27 @@ impl Sensor {
         let point = state.operating_point.unwrap_or_else(|| p.described_point());
         let after = SensorState { trapped_e: state.trapped_e.clone(), ..SensorState::default() };
         let mut memory = Memory { before: state, after };
-        let extended = p.read_out.layout.with_optical_black(means);
-        let array = extended.as_ref().unwrap_or(means);
+        let arrays = self.arrays(light);
         let first = p.operation(point);
         let taken = if p.hdr.captures.is_empty() {
-            self.single(array, first, address, &mut memory, with_breakdown)
+            self.single(&arrays[0], first, address, &mut memory, with_breakdown)
         } else {
-            self.merged(array, first, address, &mut memory, with_breakdown)
+            self.merged(&arrays, first, address, &mut memory, with_breakdown)
         };
-        let (raw, signal_breakdown) = self.raw(taken, array, point);
+        let (raw, signal_breakdown) = self.raw(taken, &arrays[0], point);
         let mut state = memory.after;
         state.operating_point = p.exposure.control.map(|control| control.next(&raw, point));
         (state, raw, signal_breakdown)
+    }
+
+    /// The means of the whole array, optical black included: of each capture, or one for all where they see the same light.
+    fn arrays<'a>(&self, light: CaptureLight<'a>) -> Vec<Cow<'a, Plane<MeanElectrons>>> {
+        let layout = &self.parameters().read_out.layout;
+        let array = |k: usize| {
+            let means = light.of(k);
+            layout.with_optical_black(means).map_or(Cow::Borrowed(means), Cow::Owned)
+        };
+        (0..=light.further.len()).map(array).collect()
     }
 
     fn context(&self, array: &Plane<MeanElectrons>, operation: Operation, address: FrameAddress) -> Context {
@@ -150,7 +183,7 @@ impl Sensor {
     /// Several captures, merged.
     fn merged(
         &self,
-        array: &Plane<MeanElectrons>,
+        arrays: &[Cow<'_, Plane<MeanElectrons>>],
         first: Operation,
         address: FrameAddress,
         memory: &mut Memory,
@@ -160,6 +193,7 @@ impl Sensor {
         let mut merged = Merged::new(p.read_out.black_level_dn);
         let (mut held, mut accounts): (Option<Pass<'_, Charge>>, _) = (None, Vec::new());
         for (k, operation) in p.hdr.operations(first).into_iter().enumerate() {
+            let array = &*arrays[if arrays.len() > 1 { k } else { 0 }];
             let address = FrameAddress { capture: address.capture + k as u32, ..address };
             let context = self.context(array, operation, address);
             if k == 0 || !p.hdr.captures[k - 1].dual_conversion_gain {

@@ -3,8 +3,8 @@
 //! Where a surface is not there (opacity), or light goes straight through it (a thin pane), the path goes on as if it had
 //! met nothing: no scattering event, and light that it then meets is weighed as seen from where it was last scattered.
 
-use etendue_core::random::{Draw, PathStream};
-use etendue_core::{Ray, Spectral, Wavelengths};
+use etendue_core::random::Draw;
+use etendue_core::{FieldRay, Ray, Spectral, TimeInterval, Wavelengths};
 use glam::Vec3;
 
 use super::caustic::History;
@@ -26,7 +26,8 @@ pub(super) const MAX_MET: u32 = 8192;
 pub(super) struct Path<'a, const N: usize> {
     pub(super) tracer: &'a PathTracer<'a>,
     pub(super) wavelengths: &'a Wavelengths<N>,
-    stream: &'a PathStream,
+    /// What the camera asked: its random address, and when lights are looked at.
+    asked: &'a FieldRay,
     ray: Ray,
     pub(super) cone: Cone,
     /// Scattering events so far.
@@ -77,17 +78,12 @@ pub(super) enum PathStep {
 }
 
 impl<'a, const N: usize> Path<'a, N> {
-    pub(super) fn new(
-        tracer: &'a PathTracer<'a>,
-        ray: &Ray,
-        wavelengths: &'a Wavelengths<N>,
-        stream: &'a PathStream,
-    ) -> Self {
+    pub(super) fn new(tracer: &'a PathTracer<'a>, asked: &'a FieldRay, wavelengths: &'a Wavelengths<N>) -> Self {
         Self {
             tracer,
             wavelengths,
-            stream,
-            ray: *ray,
+            asked,
+            ray: asked.ray,
             cone: Cone::new(tracer.settings.cone_spread_rad),
             bounces: 0,
             met: 0,
@@ -208,10 +204,10 @@ impl<'a, const N: usize> Path<'a, N> {
     fn emitted(&self, point: &SurfacePoint, lookup: &Lookup) -> Option<Spectral<N>> {
         let material_table = self.tracer.material_table;
         match material_table.emission(point.material) {
-            None => self.tracer.lights.of_opening(point, self.ray.direction, self.wavelengths),
+            None => self.tracer.lights.of_opening(point, self.ray.direction, (self.wavelengths, self.lit())),
             Some(emission) => emission
                 .leaves(point.geometric_normal, -self.ray.direction)
-                .then(|| material_table.radiance(point.material, emission, lookup, self.wavelengths)),
+                .then(|| material_table.radiance(point.material, emission, lookup, (self.wavelengths, self.lit()))),
         }
     }
 
@@ -219,7 +215,7 @@ impl<'a, const N: usize> Path<'a, N> {
     fn is_passed(&self, point: &SurfacePoint, lookup: &Lookup) -> bool {
         let material_table = self.tracer.material_table;
         material_table.lets_pass(point.material)
-            && self.stream.one(Draw::Opacity, self.met) >= material_table.opacity(point.material, lookup)
+            && self.asked.stream.one(Draw::Opacity, self.met) >= material_table.opacity(point.material, lookup)
     }
 
     /// Straight on from a surface.
@@ -269,7 +265,7 @@ impl<'a, const N: usize> Path<'a, N> {
     pub(super) fn vertex(&self, point: SurfacePoint, lookup: &Lookup) -> Vertex<'a, N> {
         let material_table = self.tracer.material_table;
         let material = if material_table.is_mix(point.material) {
-            material_table.resolve(point.material, lookup, self.stream.one(Draw::Mix, self.met))
+            material_table.resolve(point.material, lookup, self.asked.stream.one(Draw::Mix, self.met))
         } else {
             point.material
         };
@@ -301,11 +297,11 @@ impl<'a, const N: usize> Path<'a, N> {
         if !lights.can_be_drawn() || vertex.bsdf.is_delta() {
             return;
         }
-        let choice = if lights.are_many() { self.stream.one(Draw::LightChoice, self.met) } else { 0.0 };
-        let u = self.stream.two(Draw::LightPoint, self.met);
+        let choice = if lights.are_many() { self.asked.stream.one(Draw::LightChoice, self.met) } else { 0.0 };
+        let u = self.asked.stream.two(Draw::LightPoint, self.met);
         let spread = self.cone.spread_rad;
-        let Some(light) = lights.sample(receiver, (choice, u), spread, self.tracer.material_table, self.wavelengths)
-        else {
+        let asked = (self.wavelengths, self.lit());
+        let Some(light) = lights.sample(receiver, (choice, u), spread, self.tracer.material_table, asked) else {
             return;
         };
         let Some(wi) = vertex.frame.inward(light.direction) else { return };
@@ -344,11 +340,16 @@ impl<'a, const N: usize> Path<'a, N> {
         self.ray.time_s
     }
 
+    /// The time over which lights are averaged.
+    pub(super) fn lit(&self) -> &'a TimeInterval {
+        &self.asked.lit
+    }
+
     /// Draws where the path goes; `None` where the light would be absorbed.
     #[inline(always)]
     fn sample(&self, vertex: &Vertex<'_, N>) -> Option<BsdfSample<N>> {
-        let choice = if vertex.bsdf.has_parts() { self.stream.one(Draw::BsdfChoice, self.met) } else { 0.0 };
-        let u = self.stream.two(Draw::BsdfDirection, self.met);
+        let choice = if vertex.bsdf.has_parts() { self.asked.stream.one(Draw::BsdfChoice, self.met) } else { 0.0 };
+        let u = self.asked.stream.two(Draw::BsdfDirection, self.met);
         vertex.bsdf.sample(vertex.frame.wo, choice, u)
     }
 
@@ -407,6 +408,6 @@ impl<'a, const N: usize> Path<'a, N> {
             return true;
         }
         self.throughput = self.throughput / chance;
-        self.stream.one(Draw::Roulette, self.bounces) < chance
+        self.asked.stream.one(Draw::Roulette, self.bounces) < chance
     }
 }

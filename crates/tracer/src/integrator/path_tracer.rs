@@ -17,6 +17,8 @@ pub struct PathTracer<'a> {
     pub(super) settings: PathSettings,
     /// What the entrance pupil lies in: paths begin there.
     pub(super) medium: Medium<'a>,
+    /// Whether any light goes up and down.
+    pub(super) is_modulated: bool,
 }
 
 impl<'a> PathTracer<'a> {
@@ -31,7 +33,8 @@ impl<'a> PathTracer<'a> {
     ) -> Self {
         let solid = Surroundings::of(view, material_table).solid;
         let medium = Medium::inside(solid.and_then(|id| material_table.absorption(id)));
-        Self { view, material_table, lights, settings, medium }
+        let is_modulated = material_table.is_modulated() || lights.are_modulated();
+        Self { view, material_table, lights, settings, medium, is_modulated }
     }
 
     /// How paths are followed.

@@ -13,12 +13,12 @@
 //! pixels of one group are alike.
 //!
 //! Shared is what every path of the group could have found: y is matt, so that L is the same in all directions, is met
-//! straight from x with nothing between, in air, at the same time, and x is the first surface that scattered the path. All else (light
+//! straight from x with nothing between, in air, at the same time, under lights averaged over the same time where any goes up and down, and x is the first surface that scattered the path. All else (light
 //! met directly, mirrors, glossy second surfaces, cut-outs and panes in between) stays with its own path. Textures at y are
 //! read over the width of the path that is followed on.
 
 use etendue_core::random::Draw;
-use etendue_core::{FieldRay, Ray, Spectral, Wavelengths};
+use etendue_core::{FieldRay, Ray, Spectral, TimeInterval, Wavelengths};
 use glam::Vec3;
 
 use super::path::{Intersection, MAX_MET, Path, PathStep, Vertex};
@@ -69,7 +69,7 @@ impl PathTracer<'_> {
         wavelengths: &Wavelengths<N>,
         radiance: &mut Vec<Spectral<N>>,
     ) {
-        let paths = rays.iter().map(|ray| Path::new(self, &ray.ray, wavelengths, &ray.stream));
+        let paths = rays.iter().map(|asked| Path::new(self, asked, wavelengths));
         let openings: Vec<_> = paths.map(Opening::of).collect();
         radiance.extend(openings.iter().map(|opening| opening.path.radiance));
         let shared = &mut radiance[..];
@@ -133,7 +133,7 @@ fn share_tail<'a, const N: usize>(
     let claims: Vec<_> = (0..openings.len())
         .filter_map(|index| match index == owner {
             true => openings[index].own_claim(index, second),
-            false => openings[index].claim(index, second),
+            false => openings[index].claim(index, second, openings[owner].path.lit()),
         })
         .collect();
     let density = share * claims.iter().map(|claim| claim.density).sum::<f32>();
@@ -180,9 +180,9 @@ impl<'a, const N: usize> Opening<'a, N> {
     }
 
     /// What the path would get of the tail of another; `None` where it could not have found its second surface.
-    fn claim(&self, index: usize, second: &Vertex<'_, N>) -> Option<Claim<N>> {
+    fn claim(&self, index: usize, second: &Vertex<'_, N>, lit: &TimeInterval) -> Option<Claim<N>> {
         let first = self.first.as_ref()?;
-        if first.vertex.point.time_s != second.point.time_s {
+        if first.vertex.point.time_s != second.point.time_s || !self.is_lit_over(lit) {
             return None;
         }
         let between = second.point.position - first.vertex.point.position;
@@ -196,6 +196,11 @@ impl<'a, const N: usize> Opening<'a, N> {
         let weight = first.throughput * value.value_cos * per_area;
         let claim = Claim { index, weight, density: value.pdf * per_area }.if_sound()?;
         self.sees(first, second, direction).then_some(claim)
+    }
+
+    /// Whether the path sees lights as strong as one that averages them over `lit`.
+    fn is_lit_over(&self, lit: &TimeInterval) -> bool {
+        !self.path.tracer.is_modulated || self.path.lit() == lit
     }
 
     /// Whether nothing stands between two surfaces.

@@ -1,5 +1,6 @@
 //! Finding the surfaces that glow.
 
+use etendue_core::TimeInterval;
 use glam::DAffine3;
 
 use super::Light;
@@ -54,13 +55,15 @@ pub(super) struct Gathered {
 /// What a material's glow weighs.
 struct Weigher<'a> {
     material_table: &'a MaterialTable,
-    /// Mean radiance of each material that glows, W·m⁻²·sr⁻¹·nm⁻¹, and which sides do.
+    /// Mean radiance of each material that glows, W·m⁻²·sr⁻¹·nm⁻¹, as its strength over the view's interval counts in the choice
+    /// among lights, and which sides do.
     glows: Vec<Option<(f64, EmissionSides)>>,
 }
 
 impl<'a> Weigher<'a> {
-    fn new(material_table: &'a MaterialTable, (low_nm, high_nm): (f64, f64)) -> Self {
-        let weigh = |e: &Emission| (e.mean_radiance(material_table.textures(), low_nm, high_nm), e.sides);
+    fn new(material_table: &'a MaterialTable, (low_nm, high_nm): (f64, f64), interval: TimeInterval) -> Self {
+        let counts = |e: &Emission| e.modulation.as_ref().map_or(1.0, |modulation| modulation.choice_level(interval));
+        let weigh = |e: &Emission| (e.mean_radiance(material_table.textures(), low_nm, high_nm) * counts(e), e.sides);
         let glows = material_table.materials().iter().map(|m| m.emission.as_ref().map(weigh)).collect();
         Self { material_table, glows }
     }
@@ -76,7 +79,7 @@ pub(super) fn of_surfaces(
     support_nm: (f64, f64),
 ) -> Result<Gathered, LightError> {
     let world = view.world();
-    let weigher = Weigher::new(material_table, support_nm);
+    let weigher = Weigher::new(material_table, support_nm, view.interval());
     let mut gathered = Gathered::default();
     for (index, instance) in world.instances().iter().enumerate() {
         check_materials(index, instance, &weigher)?;

@@ -6,11 +6,11 @@
 //!
 //! A lamp's frame is x forward, y left, z up; its axes say where these point in the world. A lamp without an opening has no
 //! size (shadows are sharp, and so near it that it is no point its light is too strong); one with an opening shines from a
-//! surface of the world (`opening/`). Left out: polarisation, flicker.
+//! surface of the world (`opening/`). Its strength may go up and down over time. Left out: polarisation.
 
 use std::sync::Arc;
 
-use etendue_core::{Spectral, Wavelengths, maths};
+use etendue_core::{Spectral, TimeInterval, Waveform, Wavelengths, maths};
 use etendue_spectra::Spectrum;
 use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
 
@@ -18,6 +18,7 @@ use super::opening::Opening;
 use super::profile::Profile;
 use super::tree::LightBounds;
 use super::{BRIGHTEST, LightSample, LightSampleContext};
+use crate::materials::choice_level;
 
 /// Why a lamp is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -75,6 +76,7 @@ pub struct Lamp {
     intensity: Arc<Spectrum>,
     profile: Arc<Profile>,
     attenuation_per_m: f64,
+    modulation: Option<Arc<Waveform>>,
     /// Its opening, and the instance of the world that is its surface.
     opening: Option<(Opening, u32)>,
 }
@@ -103,7 +105,7 @@ impl Lamp {
         if !(intensity.min_value() >= 0.0 && intensity.max_value() <= BRIGHTEST) {
             return Err(LampError::Intensity);
         }
-        Ok(Self { position_m, axes, intensity, profile, attenuation_per_m: 0.0, opening: None })
+        Ok(Self { position_m, axes, intensity, profile, attenuation_per_m: 0.0, modulation: None, opening: None })
     }
 
     /// The lamp with an attenuation coefficient, 1/m.
@@ -122,6 +124,19 @@ impl Lamp {
         }
     }
 
+    /// The lamp with a strength that changes over time: a factor on its intensity.
+    ///
+    /// # Errors
+    /// Where it would be brighter than can be traced, or has an opening already.
+    pub fn modulated(self, modulation: impl Into<Arc<Waveform>>) -> Result<Self, LampError> {
+        let modulation = modulation.into();
+        let brightest = f64::from(self.intensity.max_value()) * modulation.greatest_level();
+        if brightest > f64::from(BRIGHTEST) || self.opening.is_some() {
+            return Err(LampError::Intensity);
+        }
+        Ok(Self { modulation: Some(modulation), ..self })
+    }
+
     /// The lamp with an opening, whose surface is an instance of the world: that of [`Opening::mesh`] or of a sphere of radius
     /// 1, placed by [`Lamp::opening_to_world`].
     ///
@@ -131,7 +146,8 @@ impl Lamp {
         if self.attenuation_per_m > 0.0 {
             return Err(LampError::AttenuatedOpening { per_m: self.attenuation_per_m });
         }
-        let radiance = self.intensity.max_value() * self.profile.peak() as f32 / opening.least_area_m2();
+        let level = self.modulation.as_ref().map_or(1.0, |modulation| modulation.greatest_level() as f32);
+        let radiance = self.intensity.max_value() * level * self.profile.peak() as f32 / opening.least_area_m2();
         if radiance <= BRIGHTEST {
             Ok(Self { opening: Some((opening, instance)), ..self })
         } else {
@@ -163,7 +179,13 @@ impl Lamp {
         &self.profile
     }
 
-    /// Spectral intensity where the profile is 1, W·sr⁻¹·nm⁻¹.
+    /// How its strength changes over time; `None` where it does not.
+    #[must_use]
+    pub fn modulation(&self) -> Option<&Waveform> {
+        self.modulation.as_deref()
+    }
+
+    /// Spectral intensity where the profile is 1, W·sr⁻¹·nm⁻¹, at the level 1.
     #[must_use]
     pub fn intensity(&self) -> &Spectrum {
         &self.intensity
@@ -176,22 +198,26 @@ pub(super) struct LampLight {
     position: Vec3,
     /// From the render frame to the lamp's.
     to_lamp: Mat3,
-    /// Mean intensity over the wavelengths of the camera where the profile is 1, W·sr⁻¹·nm⁻¹.
+    /// Mean intensity over the wavelengths of the camera where the profile is 1, W·sr⁻¹·nm⁻¹, as the lamp's strength over the
+    /// view's interval counts in the choice among lights.
     mean_intensity: f32,
     attenuation: f32,
     intensity: Arc<Spectrum>,
     profile: Arc<Profile>,
+    modulation: Option<Arc<Waveform>>,
 }
 
 impl LampLight {
-    pub(super) fn new(lamp: Lamp, origin_m: DVec3, (low_nm, high_nm): (f64, f64)) -> Self {
+    pub(super) fn new(lamp: Lamp, (origin_m, interval): (DVec3, TimeInterval), (low_nm, high_nm): (f64, f64)) -> Self {
+        let counts = lamp.modulation().map_or(1.0, |modulation| choice_level(modulation, interval));
         Self {
             position: (lamp.position_m - origin_m).as_vec3(),
             to_lamp: lamp.axes.transpose().as_mat3(),
-            mean_intensity: lamp.intensity.band_mean(low_nm, high_nm) as f32,
+            mean_intensity: (lamp.intensity.band_mean(low_nm, high_nm) * counts) as f32,
             attenuation: lamp.attenuation_per_m as f32,
             intensity: lamp.intensity,
             profile: lamp.profile,
+            modulation: lamp.modulation,
         }
     }
 
@@ -248,8 +274,21 @@ impl LampLight {
     }
 
     /// Spectral intensity along the unit `direction` of the lamp's frame, W·sr⁻¹·nm⁻¹.
-    pub(super) fn intensity_along<const N: usize>(&self, direction: Vec3, wavelengths: &Wavelengths<N>) -> Spectral<N> {
-        self.intensity.sample(wavelengths) * self.profile.value(direction)
+    pub(super) fn intensity_along<const N: usize>(
+        &self,
+        direction: Vec3,
+        asked: (&Wavelengths<N>, &TimeInterval),
+    ) -> Spectral<N> {
+        self.intensity(asked) * self.profile.value(direction)
+    }
+
+    /// Spectral intensity where the profile is 1, W·sr⁻¹·nm⁻¹, averaged over a time.
+    fn intensity<const N: usize>(&self, (wavelengths, lit): (&Wavelengths<N>, &TimeInterval)) -> Spectral<N> {
+        let intensity = self.intensity.sample(wavelengths);
+        match &self.modulation {
+            None => intensity,
+            Some(modulation) => intensity * (modulation.mean(*lit) as f32),
+        }
     }
 
     /// Direction to the lamp, and what a unit of intensity gives a surface that faces it; `None` where there is none.
@@ -262,9 +301,13 @@ impl LampLight {
         (factor > 0.0 && factor.is_finite()).then_some((direction, factor))
     }
 
-    pub(super) fn sample<const N: usize>(&self, from: Vec3, wavelengths: &Wavelengths<N>) -> Option<LightSample<N>> {
+    pub(super) fn sample<const N: usize>(
+        &self,
+        from: Vec3,
+        asked: (&Wavelengths<N>, &TimeInterval),
+    ) -> Option<LightSample<N>> {
         let (direction, factor) = self.reach(from)?;
-        let radiance = self.intensity.sample(wavelengths) * factor;
+        let radiance = self.intensity(asked) * factor;
         let target = Some(self.position);
         Some(LightSample { direction, target, radiance, pdf: 1.0, delta: true, surrounds: false })
     }

@@ -10,6 +10,9 @@
 //!   no direction of it is better than the one that the surface prefers; its density is told as 0.
 //! - Densities belong to a [`LightSampleContext`], the point that asks.
 //! - Radiance is spectral, W·m⁻²·sr⁻¹·nm⁻¹.
+//! - Who asks for light names the time over which strengths that change are averaged, within the view's interval. A light that is
+//!   dark throughout that interval is never drawn; what others count in the choice is their level over it
+//!   ([`crate::materials::choice_level`]).
 
 mod choice;
 mod collect;

@@ -114,14 +114,14 @@ impl MovingLight {
         u: Vec2,
         spread_rad: f32,
         material_table: &MaterialTable,
-        wavelengths: &Wavelengths<N>,
+        asked: (&Wavelengths<N>, &TimeInterval),
     ) -> Option<LightSample<N>> {
         let from = receiver.position;
         let (glowing, drawn) = match self.at(receiver.time_s)? {
             Moment::Triangle(light) => (light.glowing(material_table), light.sample(from, u)?),
             Moment::Sphere(light) => (light.glowing(material_table), light.sample(from, u)?),
         };
-        glowing.towards(&drawn, from, spread_rad, wavelengths)
+        glowing.towards(&drawn, from, spread_rad, asked)
     }
 
     /// Density of what was met, without the probability of the choice, 1/sr.

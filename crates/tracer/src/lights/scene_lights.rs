@@ -16,7 +16,7 @@ use super::tree::TreeQuery;
 use crate::geometry::SurfacePoint;
 use crate::materials::MaterialTable;
 use crate::render_space::RenderSpace;
-use etendue_core::{Spectral, Wavelengths};
+use etendue_core::{Spectral, TimeInterval, Wavelengths};
 use glam::{Vec2, Vec3};
 
 /// All lights of a view.
@@ -26,6 +26,7 @@ pub struct Lights {
     pub(super) choice: Choice,
     pub(super) primitives: Primitives,
     has_openings: bool,
+    are_modulated: bool,
     pub(super) suns: Vec<Sun>,
     pub(super) environment: Option<Environment>,
 }
@@ -42,11 +43,12 @@ impl Lights {
         sources: Sources,
         (low_nm, high_nm): (f64, f64),
     ) -> Result<Self, LightError> {
+        let are_modulated = sources.is_modulated();
         let Sources { suns, lamps, environment } = sources;
         let mut gathered = collect::of_surfaces(view, material_table, (low_nm, high_nm))?;
         for lamp in lamps {
             let opening = lamp.opening();
-            let lamp = LampLight::new(lamp, view.origin_m(), (low_nm, high_nm));
+            let lamp = LampLight::new(lamp, (view.origin_m(), view.interval()), (low_nm, high_nm));
             match opening {
                 None => drop(gathered.add(lamp.bounds(), Light::Lamp(lamp))),
                 Some(opening) => gathered.add_opening(lamp, opening, view, material_table)?,
@@ -56,7 +58,8 @@ impl Lights {
         let weighed = suns.iter().map(|sun| (sun.clone(), sun.mean_irradiance(low_nm, high_nm) as f32)).collect();
         let surroundings = environment.as_ref().map_or(0.0, |e| e.drawn_irradiance(low_nm, high_nm)) as f32;
         let choice = Choice::new(&gathered.bounds, weighed, surroundings);
-        Ok(Self { lights: gathered.lights, choice, primitives: gathered.primitives, has_openings, suns, environment })
+        let collect::Gathered { lights, primitives, .. } = gathered;
+        Ok(Self { lights, choice, primitives, has_openings, are_modulated, suns, environment })
     }
 
     /// How many lights of each kind there are.
@@ -75,6 +78,12 @@ impl Lights {
         }
     }
 
+    /// Whether the strength of any lamp changes over time; [`MaterialTable::is_modulated`] tells it of surfaces.
+    #[must_use]
+    pub fn are_modulated(&self) -> bool {
+        self.are_modulated
+    }
+
     /// Whether any light can be drawn.
     #[must_use]
     pub fn can_be_drawn(&self) -> bool {
@@ -89,7 +98,8 @@ impl Lights {
     }
 
     /// A light and a direction towards it from the `receiver`; `None` where the light drawn sends nothing there.
-    /// `spread_rad` is the width of the path's cone, for the footprint of textures.
+    /// `spread_rad` is the width of the path's cone, for the footprint of textures. Light is asked for at wavelengths, and averaged
+    /// over a time within the view's interval.
     #[must_use]
     pub fn sample<const N: usize>(
         &self,
@@ -97,7 +107,7 @@ impl Lights {
         (choice, u): (f32, Vec2),
         spread_rad: f32,
         material_table: &MaterialTable,
-        wavelengths: &Wavelengths<N>,
+        asked: (&Wavelengths<N>, &TimeInterval),
     ) -> Option<LightSample<N>> {
         // Deep in a tree more digits are needed than the one number has; the other's place on the light is not felt.
         let fine = f64::from(choice) + f64::from(u.x) * DIGIT;
@@ -105,18 +115,14 @@ impl Lights {
         let from = receiver.position;
         let sample = match chosen {
             Chosen::Local(i) => match &self.lights[i] {
-                Light::Triangle(t) => {
-                    t.glowing(material_table).towards(&t.sample(from, u)?, from, spread_rad, wavelengths)
-                }
-                Light::Sphere(s) => {
-                    s.glowing(material_table).towards(&s.sample(from, u)?, from, spread_rad, wavelengths)
-                }
-                Light::Lamp(lamp) => lamp.sample(from, wavelengths),
-                Light::Opening(opening) => opening.sample(from, u, wavelengths),
-                Light::Moving(light) => light.sample(receiver, u, spread_rad, material_table, wavelengths),
+                Light::Triangle(t) => t.glowing(material_table).towards(&t.sample(from, u)?, from, spread_rad, asked),
+                Light::Sphere(s) => s.glowing(material_table).towards(&s.sample(from, u)?, from, spread_rad, asked),
+                Light::Lamp(lamp) => lamp.sample(from, asked),
+                Light::Opening(opening) => opening.sample(from, u, asked),
+                Light::Moving(light) => light.sample(receiver, u, spread_rad, material_table, asked),
             },
-            Chosen::Sun(i) => Some(self.suns[i].sample(u, wavelengths)),
-            Chosen::Environment => self.environment.as_ref()?.sample(u, wavelengths),
+            Chosen::Sun(i) => Some(self.suns[i].sample(u, asked.0)),
+            Chosen::Environment => self.environment.as_ref()?.sample(u, asked.0),
         }?;
         let pdf = sample.pdf * probability;
         (pdf > 0.0).then_some(LightSample { pdf, ..sample })
@@ -156,11 +162,11 @@ impl Lights {
         &self,
         point: &SurfacePoint,
         direction: Vec3,
-        wavelengths: &Wavelengths<N>,
+        asked: (&Wavelengths<N>, &TimeInterval),
     ) -> Option<Spectral<N>> {
         let light = self.has_openings.then(|| self.primitives.light(point.instance, point.primitive))??;
         match &self.lights[light] {
-            Light::Opening(opening) => opening.met(point, direction, wavelengths),
+            Light::Opening(opening) => opening.met(point, direction, asked),
             Light::Lamp(_) | Light::Triangle(_) | Light::Sphere(_) | Light::Moving(_) => None,
         }
     }

@@ -14,3 +14,11 @@ pub struct Sources {
     /// What surrounds the scene.
     pub environment: Option<Environment>,
 }
+
+impl Sources {
+    /// Whether the strength of any of them changes over time; [`crate::materials::MaterialTable::is_modulated`] tells it of surfaces.
+    #[must_use]
+    pub fn is_modulated(&self) -> bool {
+        self.lamps.iter().any(|lamp| lamp.modulation().is_some())
+    }
+}

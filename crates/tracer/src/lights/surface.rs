@@ -3,7 +3,7 @@
 use super::light_sample::LightSample;
 use crate::materials::MaterialTable;
 use crate::textures::Lookup;
-use etendue_core::Wavelengths;
+use etendue_core::{TimeInterval, Wavelengths};
 use glam::{Vec2, Vec3};
 
 /// A point of a light's surface, drawn for a point of the scene.
@@ -45,14 +45,14 @@ pub(super) struct Glowing<'a> {
 }
 
 impl Glowing<'_> {
-    /// The light sample of a surface sample seen from `from`; `None` where the side seen does not glow.
+    /// The light sample of a surface sample seen from `from`, with the strength of the time that is `asked` for; `None` where the side seen does not glow.
     #[inline(always)]
     pub(super) fn towards<const N: usize>(
         &self,
         surface: &SurfaceSample,
         from: Vec3,
         spread_rad: f32,
-        wavelengths: &Wavelengths<N>,
+        asked: (&Wavelengths<N>, &TimeInterval),
     ) -> Option<LightSample<N>> {
         let distance = surface.distance;
         let direction = surface.direction()?;
@@ -61,7 +61,7 @@ impl Glowing<'_> {
         Some(LightSample {
             direction,
             target: Some(surface.target(from, direction, self.error_m, self.early_m)),
-            radiance: self.material_table.radiance(self.material, emission, &lookup, wavelengths),
+            radiance: self.material_table.radiance(self.material, emission, &lookup, asked),
             pdf: surface.pdf,
             delta: false,
             surrounds: false,

@@ -43,6 +43,8 @@ fn emission(check: &TextureCheck<'_>, emission: &Emission) -> Result<(), Materia
         let range = check.laid_by_uv("an emission", id)?.range();
         (low, high) = (low.min(range.0), high * range.1);
     }
+    let level = emission.modulation.as_ref().map_or(1.0, |modulation| modulation.greatest_level() as f32);
+    high = high.max(high * level);
     match [low, high].into_iter().find(|v| !(0.0..=BRIGHTEST).contains(v)) {
         Some(value) => Err(MaterialError::Radiance { material: check.material, value }),
         None => Ok(()),

@@ -6,10 +6,11 @@
 //! radiance. With D65 of 1 cd/m² as the radiance, colours in cd/m² come out as
 //! [`etendue_spectra::upsample::emission`] has them.
 
-use etendue_core::{Spectral, Wavelengths};
+use etendue_core::{Spectral, TimeInterval, Wavelengths};
 use etendue_spectra::{Spectrum, upsample};
 use glam::Vec3;
 
+use super::modulation::Modulation;
 use crate::textures::{ImageTexture, Lookup, TextureId};
 
 /// Which sides of a surface glow.
@@ -31,6 +32,8 @@ pub struct Emission {
     pub factor: Option<TextureId>,
     /// Which sides glow.
     pub sides: EmissionSides,
+    /// How its strength changes over time; `None` where it does not.
+    pub modulation: Option<Modulation>,
 }
 
 impl Emission {
@@ -44,16 +47,20 @@ impl Emission {
         &self,
         textures: &[ImageTexture],
         lookup: &Lookup,
-        wavelengths: &Wavelengths<N>,
+        (wavelengths, lit): (&Wavelengths<N>, &TimeInterval),
     ) -> Spectral<N> {
         let radiance = self.radiance.sample(wavelengths);
-        match self.factor {
+        let radiance = match self.factor {
             None => radiance,
             Some(id) => radiance * upsample::reflectance(textures[id.0 as usize].sample(lookup), wavelengths),
+        };
+        match &self.modulation {
+            None => radiance,
+            Some(modulation) => radiance * modulation.mean(lookup.uv, *lit),
         }
     }
 
-    /// Mean radiance over a range of wavelengths and over the texture: how much this glow matters beside others.
+    /// Mean radiance over a range of wavelengths and over the texture: how much this glow matters beside others, at the level 1.
     pub(crate) fn mean_radiance(&self, textures: &[ImageTexture], low_nm: f64, high_nm: f64) -> f64 {
         let texture = self.factor.map_or(1.0, |id| f64::from(textures[id.0 as usize].mean().element_sum()) / 3.0);
         self.radiance.band_mean(low_nm, high_nm) * texture
@@ -72,9 +79,10 @@ mod tests {
         let picture =
             ImageTexture::new(1, 1, Texels::Float(vec![colour]), Sampling::default()).expect("a picture above 1");
         let unit = upsample::emission_spectrum([1.0; 3]);
-        let emission = Emission { radiance: unit, factor: Some(TextureId(0)), sides: EmissionSides::Front };
+        let emission =
+            Emission { radiance: unit, factor: Some(TextureId(0)), sides: EmissionSides::Front, modulation: None };
         let wavelengths = Wavelengths::<8>::uniform(380.0, 780.0, 0.3);
-        let radiance = emission.at(&[picture], &Lookup::point(Vec2::ZERO), &wavelengths);
+        let radiance = emission.at(&[picture], &Lookup::point(Vec2::ZERO), (&wavelengths, &TimeInterval::default()));
         let expected = upsample::emission(colour, &wavelengths);
         for i in 0..8 {
             // Products of interpolated spectra, and the product interpolated: tables of D65 bend by 1e-3 over a nanometre.

@@ -1,6 +1,6 @@
 //! The materials and textures of a world, checked once.
 
-use etendue_core::{Spectral, Wavelengths};
+use etendue_core::{Spectral, TimeInterval, Wavelengths};
 use etendue_spectra::Spectrum;
 use glam::Vec3;
 
@@ -50,6 +50,12 @@ impl MaterialTable {
         &self.textures
     }
 
+    /// Whether the strength of any surface's light changes over time.
+    #[must_use]
+    pub fn is_modulated(&self) -> bool {
+        self.materials.iter().any(|m| m.emission.as_ref().is_some_and(|emission| emission.modulation.is_some()))
+    }
+
     /// Whether any material lets light pass straight through.
     #[must_use]
     pub fn has_passages(&self) -> bool {
@@ -82,15 +88,15 @@ impl MaterialTable {
     }
 
     /// Radiance (W·m⁻²·sr⁻¹·nm⁻¹) of a glowing side at a point: as much as the material's opacity leaves of `emission`,
-    /// so that it counts before the path decides whether the surface is there.
+    /// so that it counts before the path decides whether the surface is there. It is asked for at wavelengths, averaged over a time.
     pub(crate) fn radiance<const N: usize>(
         &self,
         id: MaterialId,
         emission: &Emission,
         lookup: &Lookup,
-        wavelengths: &Wavelengths<N>,
+        asked: (&Wavelengths<N>, &TimeInterval),
     ) -> Spectral<N> {
-        let full = emission.at(&self.textures, lookup, wavelengths);
+        let full = emission.at(&self.textures, lookup, asked);
         match self.materials[id.0 as usize].opacity {
             None => full,
             Some(opacity) => full * opacity.at(&self.textures, lookup),

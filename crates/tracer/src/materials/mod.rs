@@ -50,6 +50,7 @@ mod material_table;
 mod microfacet;
 mod mix;
 mod model;
+mod modulation;
 mod normal_map;
 mod parameter;
 mod reflectance;
@@ -84,6 +85,7 @@ pub use material::Material;
 pub use material_table::MaterialTable;
 pub use microfacet::MIRROR_ALPHA;
 pub use mix::Mix;
+pub use modulation::{Modulation, choice_level};
 pub use normal_map::{Green, NormalMap};
 pub use reflectance::Reflectance;
 pub use retro::{

@@ -1,6 +1,7 @@
 //! What a side-car says of the sensor and of its frames.
 
-use etendue_pipeline::plan::CameraBody;
+use etendue_core::Shutter;
+use etendue_pipeline::plan::{CameraBody, RowExposure};
 use etendue_sensor::dynamic_range::Switch;
 use etendue_sensor::{ChargeAccount, DynamicRange, Raw, Sensor};
 use serde_json::{Value, json};
@@ -34,7 +35,25 @@ pub(crate) fn sensor(body: &CameraBody) -> Value {
         "height_px": raster.height(),
         "pixel_pitch_um": 1000.0 * raster.pitch_mm().x,
         "principal_point_px": raster.principal_px().to_array(),
+        "shutter": shutter(&body.exposure),
         "electronics": electronics,
+    })
+}
+
+/// When rows are exposed.
+fn shutter(rows: &RowExposure) -> Value {
+    let (word, timing) = match &rows.shutter {
+        Shutter::Global => return json!({ "type": "global" }),
+        Shutter::Rolling(timing) => ("rolling", timing),
+        Shutter::GlobalReset(timing) => ("global_reset", timing),
+    };
+    json!({
+        "type": word,
+        "row_time_s": timing.row_time_s,
+        "direction": if timing.upwards { "up" } else { "down" },
+        "fields": timing.fields,
+        "first_row": rows.first_row,
+        "rows": rows.rows,
     })
 }
 

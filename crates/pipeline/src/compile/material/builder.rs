@@ -1,6 +1,7 @@
 //! The table of materials, as the scene and its meshes name them.
 
 use super::super::context::Context;
+use super::super::modulation;
 use super::compiler::MaterialCompiler;
 use super::picture::Pictures;
 use super::slot;
@@ -10,7 +11,7 @@ use etendue_scene::asset::SlotMaterial;
 use etendue_scene::record::{self, Scene};
 use etendue_spectra::upsample;
 use etendue_tracer::MaterialId;
-use etendue_tracer::materials::{Material, MaterialTable, Reflectance, Surface};
+use etendue_tracer::materials::{Material, MaterialTable, Modulation, Reflectance, Surface};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -23,6 +24,8 @@ pub(in super::super) struct MaterialTableBuilder {
     by_slot: BTreeMap<(PathBuf, String), MaterialId>,
     /// Materials of a flux, by the bits of the area that gives it.
     by_area: BTreeMap<(u32, u64), MaterialId>,
+    /// Materials whose light goes up and down later than that of others, by the bits of the delay.
+    by_delay: BTreeMap<(u32, u64), MaterialId>,
     /// That of lamps' openings, once there are any.
     of_openings: Option<MaterialId>,
     pictures: Pictures,
@@ -38,9 +41,15 @@ struct Made {
     /// Of a material whose light is stated as a flux: how many sides glow. Its radiance is that of an area of 1 m² in all
     /// until [`MaterialTableBuilder::of_area`] knows better.
     flux_sides: Option<f64>,
+    /// Of a material whose light goes up and down: whether each of its objects has a phase of its own.
+    has_random_phases: bool,
 }
 
 impl Made {
+    fn like(&self) -> Self {
+        Self { material: self.material.clone(), place: self.place.clone(), name: self.name.clone(), ..*self }
+    }
+
     /// Black, in the place of a material that nothing uses and whose files are not read: ids of materials do not depend on what is used.
     fn unused(record: &record::Material) -> Self {
         Self {
@@ -49,6 +58,7 @@ impl Made {
             name: record.name.value.clone(),
             needs_coordinates: false,
             flux_sides: None,
+            has_random_phases: false,
         }
     }
 }
@@ -63,13 +73,25 @@ impl MaterialTableBuilder {
                 continue;
             }
             let pictures = &mut builder.pictures;
-            let mut material_compiler =
-                MaterialCompiler { scene, pictures, context, needs_coordinates: false, flux_sides: None };
+            let mut material_compiler = MaterialCompiler {
+                scene,
+                pictures,
+                context,
+                needs_coordinates: false,
+                flux_sides: None,
+                has_random_phases: false,
+            };
             if let Some(material) = material_compiler.material(record) {
-                let (needs_coordinates, flux_sides) =
-                    (material_compiler.needs_coordinates, material_compiler.flux_sides);
+                let MaterialCompiler { needs_coordinates, flux_sides, has_random_phases, .. } = material_compiler;
                 let (place, name) = (record.place.clone(), record.name.value.clone());
-                let id = builder.add(Made { material, place, name: name.clone(), needs_coordinates, flux_sides });
+                let id = builder.add(Made {
+                    material,
+                    place,
+                    name: name.clone(),
+                    needs_coordinates,
+                    flux_sides,
+                    has_random_phases,
+                });
                 builder.by_name.insert(name, id);
             }
         }
@@ -120,6 +142,7 @@ impl MaterialTableBuilder {
             name: slot.name.clone(),
             needs_coordinates,
             flux_sides: None,
+            has_random_phases: false,
         });
         self.by_slot.insert(key, id);
         Some(id)
@@ -138,13 +161,44 @@ impl MaterialTableBuilder {
         }
         let made = &self.materials[id.0 as usize];
         let sides = made.flux_sides.unwrap_or(1.0);
-        let mut like =
-            Made { material: made.material.clone(), place: made.place.clone(), name: made.name.clone(), ..*made };
+        let mut like = made.like();
         if let Some(emission) = &mut like.material.emission {
             emission.radiance = emission.radiance.scaled(1.0 / (sides * area_m2));
         }
         let made = self.add(like);
         self.by_area.insert(key, made);
+        made
+    }
+
+    /// Whether the strength of a material's light changes over time.
+    pub(in super::super) fn is_modulated(&self, id: MaterialId) -> bool {
+        self.modulation(id).is_some()
+    }
+
+    fn modulation(&self, id: MaterialId) -> Option<&Modulation> {
+        self.materials.get(id.0 as usize)?.material.emission.as_ref()?.modulation.as_ref()
+    }
+
+    /// The like of a material whose light goes up and down for an object of this `name`, where it does so later by `own_s` and by
+    /// what the material's phases ask for.
+    pub(in super::super) fn of_delay(&mut self, id: MaterialId, own_s: f64, name: &str) -> MaterialId {
+        let made = &self.materials[id.0 as usize];
+        let waveform = self.modulation(id).filter(|_| made.has_random_phases).map(Modulation::waveform);
+        let random_s = waveform.map_or(0.0, |w| modulation::random_delay_s(w, &format!("{name}, {}", made.name)));
+        let delay_s = own_s + random_s;
+        if delay_s == 0.0 {
+            return id;
+        }
+        let key = (id.0, delay_s.to_bits());
+        if let Some(known) = self.by_delay.get(&key) {
+            return *known;
+        }
+        let mut like = made.like();
+        if let Some(emission) = &mut like.material.emission {
+            emission.modulation = emission.modulation.take().map(|modulation| modulation.later(delay_s));
+        }
+        let made = self.add(like);
+        self.by_delay.insert(key, made);
         made
     }
 
@@ -159,6 +213,7 @@ impl MaterialTableBuilder {
             name: "lamp opening".to_owned(),
             needs_coordinates: false,
             flux_sides: None,
+            has_random_phases: false,
         });
         self.of_openings = Some(made);
         made

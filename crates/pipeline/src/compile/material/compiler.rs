@@ -14,6 +14,8 @@ pub(super) struct MaterialCompiler<'w, 'a> {
     pub(super) needs_coordinates: bool,
     /// Of a material whose light is stated as a flux: how many sides glow.
     pub(super) flux_sides: Option<f64>,
+    /// Of a material whose light goes up and down: whether each of its objects has a phase of its own.
+    pub(super) has_random_phases: bool,
 }
 
 impl MaterialCompiler<'_, '_> {

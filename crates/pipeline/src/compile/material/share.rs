@@ -1,13 +1,15 @@
 //! Shares of light over the wavelength, and what a surface emits.
 
 use super::super::context::Context;
+use super::super::modulation;
 use super::super::spectrum::{emitted, from_file};
 use super::compiler::MaterialCompiler;
 use super::texture::Use;
 use etendue_scene::record::material::Sides;
 use etendue_scene::record::{self, Colour, SurfaceEmission};
 use etendue_spectra::{Outside, Spectrum, colour, reflectance, upsample};
-use etendue_tracer::materials::{Emission, EmissionSides, Reflectance};
+use etendue_tracer::materials::{Emission, EmissionSides, Modulation, Reflectance};
+use std::num::NonZeroU32;
 
 /// A share of light over the wavelength.
 pub(in super::super) fn share(colour: &Colour, context: &mut Context<'_>) -> Option<Spectrum> {
@@ -39,6 +41,18 @@ impl MaterialCompiler<'_, '_> {
         }
     }
 
+    fn modulation(&mut self, record: &record::light::Modulation) -> Option<Modulation> {
+        self.has_random_phases = modulation::has_random_phases(record);
+        let waveform = modulation::waveform(record, self.context)?;
+        match record.multiplexed_rows().and_then(|rows| NonZeroU32::new(rows.value as u32)) {
+            None => Some(Modulation::of(waveform)),
+            Some(rows) => {
+                self.needs_coordinates = true;
+                Modulation::in_rows(waveform, rows)
+            }
+        }
+    }
+
     pub(super) fn emission(&mut self, record: &SurfaceEmission) -> Option<Emission> {
         let glow = match record.sides.as_ref().map(|s| s.value) {
             Some(Sides::Both) => EmissionSides::Both,
@@ -50,6 +64,10 @@ impl MaterialCompiler<'_, '_> {
         };
         let radiance = emitted(&record.light, self.context)?;
         self.flux_sides = record.light.level.flux().map(|_| if glow == EmissionSides::Both { 2.0 } else { 1.0 });
-        Some(Emission { radiance, factor, sides: glow })
+        let modulation = match &record.modulation {
+            None => None,
+            Some(record) => Some(self.modulation(record)?),
+        };
+        Some(Emission { radiance, factor, sides: glow, modulation })
     }
 }

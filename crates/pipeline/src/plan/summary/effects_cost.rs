@@ -117,7 +117,7 @@ fn ghosts(plan: &Plan, camera: &CameraPlan) -> (f64, &'static str) {
 /// Whether a sun stands in the film of a camera, hidden or not.
 fn is_seen(camera: &CameraPlan, sun: &Sun) -> bool {
     let film = camera.body.film();
-    let direction = camera.pose.rotation.transpose() * sun.direction().as_dvec3();
+    let direction = camera.path.at(camera.timing.frame_start_s(0)).rotation.transpose() * sun.direction().as_dvec3();
     let at_px = camera.body.lens.project(direction).map(|mm| film.raster_px(mm));
     at_px.is_some_and(|px| px.cmpge(DVec2::ZERO).all() && px.x < film.width() as f64 && px.y < film.height() as f64)
 }

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::emission::{LightColour, check_colour};
+use super::modulation::{self, Modulation};
 use super::opening::{self, LampOpening};
 use super::placement::{LampInstance, LampPlacement};
 use super::strength::{LampStrength, MeasuredStrength};
@@ -25,6 +26,8 @@ record! {
         optional mask: Mask = record();
         /// The surface that its light leaves from. Default: none, a point, which casts sharp shadows and is not seen itself.
         optional opening: LampOpening = record();
+        /// How its strength changes over time. Default: not at all.
+        optional modulation: Modulation = record();
     }
 }
 
@@ -48,6 +51,8 @@ record! {
         optional mask: Mask = record();
         /// The surface that its light leaves from. Default: none, a point, which casts sharp shadows and is not seen itself.
         optional opening: LampOpening = record();
+        /// How its strength changes over time. Default: not at all.
+        optional modulation: Modulation = record();
     }
 }
 
@@ -70,6 +75,8 @@ record! {
         optional mask: Mask = record();
         /// The surface that its light leaves from. Default: none, a point, which casts sharp shadows and is not seen itself.
         optional opening: LampOpening = record();
+        /// How its strength changes over time. Default: not at all.
+        optional modulation: Modulation = record();
     }
 }
 
@@ -95,6 +102,8 @@ record! {
         optional mask: Mask = record();
         /// The surface that its light leaves from. Default: none, a point, which casts sharp shadows and is not seen itself.
         optional opening: LampOpening = record();
+        /// How its strength changes over time. Default: not at all.
+        optional modulation: Modulation = record();
     }
 }
 
@@ -135,6 +144,7 @@ record! {
 fn check_point(lamp: &PointLamp, faults: &mut Faults) {
     check_colour(&lamp.colour, faults);
     opening::check(lamp.opening.as_ref(), &lamp.placement, false, faults);
+    modulation::check(lamp.modulation.as_ref(), &lamp.placement, faults);
     if lamp.mask.is_some() || lamp.opening.as_ref().is_some_and(LampOpening::turns) {
         return;
     }
@@ -147,6 +157,7 @@ fn check_point(lamp: &PointLamp, faults: &mut Faults) {
 fn check_spot(lamp: &SpotLamp, faults: &mut Faults) {
     check_colour(&lamp.colour, faults);
     opening::check(lamp.opening.as_ref(), &lamp.placement, false, faults);
+    modulation::check(lamp.modulation.as_ref(), &lamp.placement, faults);
     if let Some(inner) = &lamp.inner_angle_deg
         && inner.value > lamp.field_angle_deg.value
     {
@@ -158,11 +169,13 @@ fn check_spot(lamp: &SpotLamp, faults: &mut Faults) {
 fn check_measured(lamp: &MeasuredLamp, faults: &mut Faults) {
     check_colour(&lamp.colour, faults);
     opening::check(lamp.opening.as_ref(), &lamp.placement, true, faults);
+    modulation::check(lamp.modulation.as_ref(), &lamp.placement, faults);
 }
 
 fn check_head_lamp(lamp: &HeadLamp, faults: &mut Faults) {
     check_colour(&lamp.colour, faults);
     opening::check(lamp.opening.as_ref(), &lamp.placement, false, faults);
+    modulation::check(lamp.modulation.as_ref(), &lamp.placement, faults);
     match (lamp.beam.value, &lamp.traffic) {
         (Beam::Low, None) => faults.add(
             &lamp.beam.place,

@@ -2,6 +2,7 @@
 
 pub mod emission;
 pub mod lamp;
+pub mod modulation;
 pub mod opening;
 pub mod placement;
 pub mod strength;
@@ -10,6 +11,7 @@ pub mod sun;
 pub(crate) use emission::illuminants;
 pub use emission::{Emission, Level, LightColour};
 pub use lamp::{Beam, HeadLamp, Mask, MeasuredLamp, PointLamp, SpotLamp, Traffic};
+pub use modulation::Modulation;
 pub use opening::LampOpening;
 pub use placement::{LampAim, LampInstance, LampPlacement};
 pub use strength::{LampStrength, MeasuredStrength};
@@ -44,6 +46,18 @@ impl Light {
             Self::Spot(lamp) => &lamp.name,
             Self::Measured(lamp) => &lamp.name,
             Self::HeadLamp(lamp) => &lamp.name,
+        }
+    }
+
+    /// How its strength changes over time.
+    #[must_use]
+    pub fn modulation(&self) -> Option<&Modulation> {
+        match self {
+            Self::Sun(_) => None,
+            Self::Point(lamp) => lamp.modulation.as_ref(),
+            Self::Spot(lamp) => lamp.modulation.as_ref(),
+            Self::Measured(lamp) => lamp.modulation.as_ref(),
+            Self::HeadLamp(lamp) => lamp.modulation.as_ref(),
         }
     }
 

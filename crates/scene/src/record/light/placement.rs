@@ -31,6 +31,8 @@ record! {
         required position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
         /// Where it points. Default: not turned.
         group aim: LampAim;
+        /// By how much the lamp's "modulation" is later here, s, besides its own delay. Default: 0.
+        optional modulation_delay_s: Placed<f64> = number("s");
     }
 }
 

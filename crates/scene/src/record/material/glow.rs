@@ -4,7 +4,7 @@ use crate::asset::file_list::{FileList, NamesFiles};
 use crate::fault::{Faults, Named};
 use crate::place::Placed;
 use crate::reader::{choice, name_of, record};
-use crate::record::light::Emission;
+use crate::record::light::{Emission, Modulation};
 
 record! {
     /// Light that a surface gives.
@@ -17,13 +17,16 @@ record! {
         /// The name of a texture whose colours are factors on the light: the stated level holds where the picture is 1, 1, 1,
         /// so that a picture in units (HDR, EXR) with level 1 gives its own numbers. Default: none.
         optional texture: Placed<String> = name_of(Named::Texture);
+        /// How its strength changes over time. Default: not at all.
+        optional modulation: Modulation = record();
     }
 }
 
 impl NamesFiles for SurfaceEmission {
     fn name_files(&self, files: &mut FileList) {
-        let Self { place: _, light, sides: _, texture: _ } = self;
+        let Self { place: _, light, sides: _, texture: _, modulation } = self;
         light.name_files(files);
+        modulation.name_files(files);
     }
 }
 

@@ -20,6 +20,10 @@ record! {
     pub struct Capture {
         /// Its exposure over the first's, above 0 and at most 1. Default: 1.
         optional exposure_ratio: Placed<f64> = share();
+        /// When its exposure begins, s after that of the first, 0 or more. Default: when the exposure
+        /// before it of the same photodiode (of one "sensitivity_ratio") ends, with the first where there is none. Matters where light changes
+        /// meanwhile.
+        optional start_s: Placed<f64> = number("s").at_least(0.0);
         /// Its photodiode's sensitivity over the first's (split pixel), above 0 and at most 1. Default: 1.
         optional sensitivity_ratio: Placed<f64> = share();
         /// Its conversion gain over the first's, above 0 and at most 1. Default: 1.

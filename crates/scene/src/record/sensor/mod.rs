@@ -7,6 +7,7 @@ mod electronics;
 pub mod exposure;
 pub mod hdr;
 pub mod read_out;
+pub mod shutter;
 
 use crate::fault::Faults;
 use crate::place::Placed;
@@ -14,6 +15,7 @@ use crate::reader::{number, record, vector, whole};
 
 pub use efficiency::QuantumEfficiency;
 pub use electronics::Electronics;
+pub use shutter::Shutter;
 
 record! {
     /// A sensor: its geometry, and its electronics where electrons are wanted.
@@ -29,6 +31,8 @@ record! {
         /// Where the optical axis meets the picture, raster coordinates (the top-left corner is 0, 0), px.
         /// Default: the middle.
         optional principal_point_px: Placed<[f64; 2]> = vector::<2>(number("px"));
+        /// When its rows are exposed. Default: all together.
+        optional shutter: Shutter = record();
         /// The electronics.
         group electronics: Electronics;
     }
@@ -36,6 +40,14 @@ record! {
 
 fn check(sensor: &Sensor, faults: &mut Faults) {
     if let Some(electronics) = &sensor.electronics {
+        if let Some(exposure) = sensor.shutter.as_ref().and_then(Shutter::exposure_s) {
+            let problem = "\"exposure_s\" of the shutter contradicts that of the sensor's electronics";
+            faults.add(
+                &exposure.place,
+                problem,
+                "remove it here: the sensor's own \"exposure_s\" is the exposure time",
+            );
+        }
         electronics::check(electronics, faults);
     }
 }

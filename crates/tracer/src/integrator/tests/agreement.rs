@@ -110,9 +110,10 @@ fn paths_of_one_four_and_eight_wavelengths_agree_where_nothing_disperses() {
     };
     let stream = PathStream::new(&address, 3);
     let r = ray([-2.0, -2.0, 2.0], [0.2, 0.1, 0.0]);
-    let one = tracer.radiance(&r, &Wavelengths::<1>::uniform(400.0, 700.0, 0.3), &stream)[0];
-    let four = tracer.radiance(&r, &Wavelengths::<4>::uniform(400.0, 700.0, 0.3), &stream);
-    let eight = tracer.radiance(&r, &Wavelengths::<8>::uniform(400.0, 700.0, 0.3), &stream);
+    let asked = FieldRay { ray: r, stream, lit: TimeInterval::default() };
+    let one = tracer.radiance(&asked, &Wavelengths::<1>::uniform(400.0, 700.0, 0.3))[0];
+    let four = tracer.radiance(&asked, &Wavelengths::<4>::uniform(400.0, 700.0, 0.3));
+    let eight = tracer.radiance(&asked, &Wavelengths::<8>::uniform(400.0, 700.0, 0.3));
     // Every spectrum of this scene is constant.
     assert!(one > 0.0 && four.0.iter().chain(&eight.0).all(|v| (v - one).abs() <= 1e-6 * one), "{one} {four:?}");
 }

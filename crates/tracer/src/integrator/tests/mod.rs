@@ -9,6 +9,7 @@ mod glossy;
 mod inside;
 mod lamps;
 mod levels;
+mod modulation;
 mod motion;
 mod near_lights;
 mod openings;
@@ -27,7 +28,7 @@ use crate::materials::{Coated, Conductor, Emission, EmissionSides, Material, Ref
 use crate::render_space::RenderSpace;
 use core::f64::consts::PI;
 use etendue_core::random::{FrameAddress, PathStream, Pixel, PixelAddress};
-use etendue_core::{RadianceField, Ray, Wavelengths};
+use etendue_core::{FieldRay, RadianceField, Ray, TimeInterval, Wavelengths};
 use etendue_core::{Track, maths};
 use etendue_spectra::{Spectrum, metal, upsample};
 use etendue_stats::ReplicateEstimate;
@@ -45,8 +46,12 @@ struct Scene {
 
 impl Scene {
     fn material(&mut self, surface: Surface, glow: Option<(f64, EmissionSides)>) -> MaterialId {
-        let emission =
-            glow.map(|(radiance, glow)| Emission { radiance: Spectrum::constant(radiance), factor: None, sides: glow });
+        let emission = glow.map(|(radiance, glow)| Emission {
+            radiance: Spectrum::constant(radiance),
+            factor: None,
+            sides: glow,
+            modulation: None,
+        });
         self.materials.push(Material { emission, ..Material::new(surface) });
         MaterialId(self.materials.len() as u32 - 1)
     }
@@ -112,10 +117,16 @@ impl Ready {
 }
 
 fn replicate(tracer: &PathTracer<'_>, ray: &Ray, samples: u32, replicate: u32) -> f64 {
+    replicate_over(tracer, (ray, TimeInterval::default()), samples, replicate)
+}
+
+/// The same with lights averaged over a time.
+fn replicate_over(tracer: &PathTracer<'_>, (ray, lit): (&Ray, TimeInterval), samples: u32, replicate: u32) -> f64 {
     let pixel = Pixel { x: 3, y: 4 };
     let address = PixelAddress { frame: FrameAddress { seed: 5, ..FrameAddress::default() }, pixel, replicate };
     let stream = PathStream::new(&address, 0);
-    let sum: f64 = (0..samples).map(|s| f64::from(tracer.radiance(ray, &WAVELENGTHS, &stream.with_sample(s))[1])).sum();
+    let asked = |s| FieldRay { ray: *ray, stream: stream.with_sample(s), lit };
+    let sum: f64 = (0..samples).map(|s| f64::from(tracer.radiance(&asked(s), &WAVELENGTHS)[1])).sum();
     sum / f64::from(samples)
 }
 

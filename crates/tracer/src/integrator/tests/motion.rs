@@ -2,8 +2,6 @@
 
 use super::*;
 use crate::lights::{LightHit, LightSampleContext};
-use etendue_core::FieldRay;
-use etendue_core::TimeInterval;
 use etendue_core::track::{Interpolation, Key};
 use glam::{DMat3, DQuat};
 
@@ -111,7 +109,8 @@ fn a_moving_light_is_the_frozen_light_of_its_moment() {
                 LightSampleContext::matt(Vec3::new(4.0 * at(1) - 2.0, 4.0 * at(2) - 2.0, 0.3 * at(3)), Vec3::ZERO);
             let receiver = LightSampleContext { time_s, ..still };
             let ask = |lights: &Lights, receiver| {
-                lights.sample(receiver, (0.5, Vec2::new(at(4), at(5))), 0.0, &ready.material_table, &WAVELENGTHS)
+                let asked = (&WAVELENGTHS, &TimeInterval::default());
+                lights.sample(receiver, (0.5, Vec2::new(at(4), at(5))), 0.0, &ready.material_table, asked)
             };
             let (sample, expected) = (ask(&lights, &receiver), ask(&frozen, &still));
             assert_eq!(sample, expected);
@@ -182,6 +181,7 @@ fn tails_are_shared_at_one_time_only() {
             let of = |(x, time_s): (usize, &f32)| FieldRay {
                 ray: Ray { time_s: *time_s, ..ray([-2.0, -2.0, 2.0], [0.2, 0.1 + 0.05 * x as f32, 0.0]) },
                 stream: stream(x, replicate).with_sample(sample),
+                lit: TimeInterval::default(),
             };
             let rays: Vec<_> = times_s.iter().enumerate().map(of).collect();
             let mut radiance = vec![];

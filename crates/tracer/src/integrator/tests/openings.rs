@@ -256,7 +256,13 @@ fn points_are_drawn_by_the_densities_told() {
                     ((f64::from(k) * 0.754_877_666_246_69) % 1.0) as f32,
                     ((f64::from(k) * 0.569_840_290_998_05) % 1.0) as f32,
                 );
-                let Some(sample) = lights.sample(&receiver, (0.5, u), 0.0, &ready.material_table, &WAVELENGTHS) else {
+                let Some(sample) = lights.sample(
+                    &receiver,
+                    (0.5, u),
+                    0.0,
+                    &ready.material_table,
+                    (&WAVELENGTHS, &TimeInterval::default()),
+                ) else {
                     continue;
                 };
                 // At the rim a ray may pass by for rounding.

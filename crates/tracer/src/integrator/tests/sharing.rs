@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::materials::{Factor, Leaf, Mix, ThinSheet};
-use etendue_core::FieldRay;
 
 /// Rays of a group, which meet different surfaces.
 const TARGETS: [[f32; 3]; 7] = [
@@ -80,7 +79,11 @@ fn group(tracer: &PathTracer<'_>, targets: &[[f32; 3]], samples: u32, replicate:
     for sample in 0..samples {
         let rays = targets.iter().zip(&streams);
         let rays: Vec<_> = rays
-            .map(|(at, stream)| FieldRay { ray: ray([-2.0, -2.0, 2.0], *at), stream: stream.with_sample(sample) })
+            .map(|(at, stream)| FieldRay {
+                ray: ray([-2.0, -2.0, 2.0], *at),
+                stream: stream.with_sample(sample),
+                lit: TimeInterval::default(),
+            })
             .collect();
         let mut radiance = vec![];
         if shared {

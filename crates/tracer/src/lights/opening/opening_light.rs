@@ -1,6 +1,6 @@
 //! A lamp with its opening, in the render frame.
 
-use etendue_core::{Spectral, Wavelengths};
+use etendue_core::{Spectral, TimeInterval, Wavelengths};
 use glam::{DAffine3, Vec2, Vec3};
 
 use super::body::Opening;
@@ -69,9 +69,9 @@ impl OpeningLight {
     }
 
     /// Spectral radiance that leaves along the unit `direction`, W·m⁻²·sr⁻¹·nm⁻¹, on a side that shines.
-    fn radiance<const N: usize>(&self, direction: Vec3, wavelengths: &Wavelengths<N>) -> Spectral<N> {
+    fn radiance<const N: usize>(&self, direction: Vec3, asked: (&Wavelengths<N>, &TimeInterval)) -> Spectral<N> {
         let own = self.lamp.to_lamp(direction);
-        self.lamp.intensity_along(own, wavelengths) / self.opening.seen_area_m2(own)
+        self.lamp.intensity_along(own, asked) / self.opening.seen_area_m2(own)
     }
 
     /// Whether the side that `direction` leaves from shines.
@@ -84,16 +84,16 @@ impl OpeningLight {
         &self,
         point: &SurfacePoint,
         direction: Vec3,
-        wavelengths: &Wavelengths<N>,
+        asked: (&Wavelengths<N>, &TimeInterval),
     ) -> Option<Spectral<N>> {
-        self.leaves(point.geometric_normal, -direction).then(|| self.radiance(-direction, wavelengths))
+        self.leaves(point.geometric_normal, -direction).then(|| self.radiance(-direction, asked))
     }
 
     pub(in crate::lights) fn sample<const N: usize>(
         &self,
         from: Vec3,
         u: Vec2,
-        wavelengths: &Wavelengths<N>,
+        asked: (&Wavelengths<N>, &TimeInterval),
     ) -> Option<LightSample<N>> {
         let Drawn { surface, error_m, early_m } = match &self.surface {
             Surface::Facets(facets) => facets.sample(from, u)?,
@@ -105,7 +105,7 @@ impl OpeningLight {
         Some(LightSample {
             direction,
             target: Some(surface.target(from, direction, error_m, early_m)),
-            radiance: self.radiance(-direction, wavelengths),
+            radiance: self.radiance(-direction, asked),
             pdf: surface.pdf,
             delta: false,
             surrounds: false,

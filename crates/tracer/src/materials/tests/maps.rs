@@ -49,12 +49,18 @@ fn passages_of_cut_out_mixes_are_means() {
 
 #[test]
 fn what_is_cut_out_does_not_glow() {
-    let emission = Emission { radiance: Spectrum::constant(6.0), factor: None, sides: EmissionSides::Both };
+    let emission =
+        Emission { radiance: Spectrum::constant(6.0), factor: None, sides: EmissionSides::Both, modulation: None };
     let lamp = Material { emission: Some(emission), opacity: Some(RAMP), ..Material::new(Surface::Absorber) };
     let material_table = MaterialTable::new(vec![lamp], vec![ramp()]).expect("a lamp");
     let emission = material_table.emission(MaterialId(0)).expect("it glows");
     for i in 0..4 {
-        let radiance = material_table.radiance(MaterialId(0), emission, &at(i), &WAVELENGTHS);
+        let radiance = material_table.radiance(
+            MaterialId(0),
+            emission,
+            &at(i),
+            (&WAVELENGTHS, &etendue_core::TimeInterval::default()),
+        );
         assert!((radiance[0] - 2.0 * i as f32).abs() < 1e-5);
     }
 }

@@ -83,7 +83,8 @@ fn what_glows_has_no_gaps_laid_on_from_three_sides() {
         MaterialTable::new(vec![Material { emission, opacity, ..Material::new(Surface::Absorber) }], vec![picture])
             .err()
     };
-    let glow = Emission { radiance: Spectrum::constant(1.0), factor: None, sides: EmissionSides::Both };
+    let glow =
+        Emission { radiance: Spectrum::constant(1.0), factor: None, sides: EmissionSides::Both, modulation: None };
     assert_eq!(of(None), None);
     let refused = MaterialError::Projected { material: 0, what: "an opacity beside its emission" };
     assert_eq!(of(Some(glow)), Some(refused));

@@ -1,0 +1,304 @@
+//! How the light of a source goes over time: a factor on its strength, with exact means over any interval.
+//!
+//! What recurs is reduced to its period before anything else is done, so that after 10⁶ s the phase is still right to the 10⁻¹⁰ s to
+//! which f64 tells such times.
+
+mod levels;
+mod mains;
+#[cfg(test)]
+mod tests;
+
+use crate::TimeInterval;
+use levels::{Levels, Piece};
+use mains::Mains;
+
+/// The greatest level that a waveform may have.
+pub const MAX_LEVEL: f64 = 1e6;
+
+/// A factor on a light's strength over time, 0 … [`MAX_LEVEL`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct Waveform {
+    shape: Shape,
+    /// By how much all of it is later, s.
+    delay_s: f64,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Shape {
+    Mains(Mains),
+    Levels(Levels),
+}
+
+/// Pulses that recur: those of pulse-width modulation, or of a blinker.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pulses {
+    /// How often they come, Hz, above 0.
+    pub frequency_hz: f64,
+    /// Share of the period that a pulse takes between the moments at which it is half up and half down (the pulse duration of IEEE Std
+    /// 181), above 0 and below 1. It is the mean over the peak, however slow the edges.
+    pub duty: f64,
+    /// How long a pulse takes to rise and to fall, s, 0 or more: straight lines, half of which lies within the pulse. Half of both
+    /// together must fit into the pulse and into the pause.
+    pub edges_s: [f64; 2],
+    /// The level of a pulse, above 0.
+    pub peak: f64,
+}
+
+/// How a table is read between its rows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Between {
+    /// Along straight lines.
+    #[default]
+    Linear,
+    /// Each level holds until the next row.
+    Steps,
+}
+
+/// Why a waveform is refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum WaveformError {
+    /// A frequency that is not above 0, or not finite.
+    #[error("found a frequency of {frequency_hz} Hz; give one above 0")]
+    Frequency {
+        /// Found, Hz.
+        frequency_hz: f64,
+    },
+    /// A duty outside (0, 1).
+    #[error("found a duty of {duty}; give one above 0 and below 1")]
+    Duty {
+        /// Found.
+        duty: f64,
+    },
+    /// Edges that do not fit.
+    #[error(
+        "half of the rise and the fall together take {edges_s} s, which must fit into the pulse and into the pause, {room_s} s; make \
+         them faster"
+    )]
+    Edges {
+        /// Half of both, s.
+        edges_s: f64,
+        /// The shorter one of pulse and pause, s.
+        room_s: f64,
+    },
+    /// A modulation depth outside [0, 1].
+    #[error("found a modulation depth of {depth}; give one from 0 to 1")]
+    Depth {
+        /// Found.
+        depth: f64,
+    },
+    /// A level that is negative, too great or not finite.
+    #[error("found the level {level}; give one from 0 to 1e6")]
+    Level {
+        /// Found.
+        level: f64,
+    },
+    /// Levels that are all 0.
+    #[error("the light is dark at every time; give one level above 0")]
+    Dark,
+    /// No levels.
+    #[error("there are no levels; give one at least")]
+    Empty,
+    /// Times out of order, or not finite.
+    #[error("the time {time_s} s follows {before_s} s; give the times in rising order")]
+    Unordered {
+        /// The later row's time, s.
+        time_s: f64,
+        /// The time before it, s.
+        before_s: f64,
+    },
+    /// A duration that is not above 0, or not finite.
+    #[error("found a duration of {duration_s} s; give one above 0")]
+    Duration {
+        /// Found, s.
+        duration_s: f64,
+    },
+    /// A period in which the table does not fit.
+    #[error(
+        "the table lasts {length_s} s, and its period is {period_s} s; with steps the period must be longer, else at least as long"
+    )]
+    Period {
+        /// From the table's first time to its last, s.
+        length_s: f64,
+        /// Found, s.
+        period_s: f64,
+    },
+}
+
+impl Waveform {
+    /// Pulses, the first of which is half up at the time 0.
+    ///
+    /// # Errors
+    /// Where a number is out of its range.
+    pub fn pulses(pulses: &Pulses) -> Result<Self, WaveformError> {
+        let Pulses { frequency_hz, duty, edges_s: [rise_s, fall_s], peak } = *pulses;
+        let period_s = period_of(frequency_hz)?;
+        if !(duty > 0.0 && duty < 1.0) {
+            return Err(WaveformError::Duty { duty });
+        }
+        if !(peak > 0.0 && peak <= MAX_LEVEL) {
+            return Err(WaveformError::Level { level: peak });
+        }
+        let (pulse_s, pause_s) = (duty * period_s, (1.0 - duty) * period_s);
+        let (edges_s, room_s) = (0.5 * (rise_s + fall_s), pulse_s.min(pause_s));
+        // Written so that NaN is refused.
+        if !(rise_s >= 0.0 && fall_s >= 0.0 && edges_s <= room_s * (1.0 + 1e-12)) {
+            return Err(WaveformError::Edges { edges_s, room_s });
+        }
+        // From half a rise before 0: up, on, down, off.
+        let (plateau_s, dark_s) = ((pulse_s - edges_s).max(0.0), (pause_s - edges_s).max(0.0));
+        let pieces = [
+            Piece { length_s: rise_s, from: 0.0, to: peak },
+            Piece { length_s: plateau_s, from: peak, to: peak },
+            Piece { length_s: fall_s, from: peak, to: 0.0 },
+            Piece { length_s: dark_s, from: 0.0, to: 0.0 },
+        ];
+        Ok(Self::of_levels(Levels::recurring(-0.5 * rise_s, &pieces, period_s)))
+    }
+
+    /// The light of a lamp on mains of `frequency_hz`, 1 + m cos(2π · 2f t): brightest at the time 0 and twice a period of the mains,
+    /// with the `depth` of modulation m, 0 … 1. Its mean is 1. Left out are harmonics: give a table.
+    ///
+    /// # Errors
+    /// Where a number is out of its range.
+    pub fn mains(frequency_hz: f64, depth: f64) -> Result<Self, WaveformError> {
+        period_of(frequency_hz)?;
+        if !(0.0..=1.0).contains(&depth) {
+            return Err(WaveformError::Depth { depth });
+        }
+        Ok(Self { shape: Shape::Mains(Mains { frequency_hz, depth }), delay_s: 0.0 })
+    }
+
+    /// Levels at rising times (s): held before the first and after the last, or with a `period_s` recurring, the last row followed
+    /// by the first one a period later.
+    ///
+    /// # Errors
+    /// Where rows are out of order, a level is out of its range or all are 0, or the period is too short.
+    pub fn table(rows: &[(f64, f64)], between: Between, period_s: Option<f64>) -> Result<Self, WaveformError> {
+        check_levels(rows.iter().map(|(_, level)| *level))?;
+        let (first, last) = (rows[0], rows[rows.len() - 1]);
+        if let Some([before, after]) = rows.array_windows().find(|[a, b]| !(a.0 < b.0 && b.0.is_finite())) {
+            return Err(WaveformError::Unordered { time_s: after.0, before_s: before.0 });
+        }
+        if !first.0.is_finite() {
+            return Err(WaveformError::Unordered { time_s: first.0, before_s: first.0 });
+        }
+        let piece = |[a, b]: &[(f64, f64); 2]| {
+            let to = if between == Between::Linear { b.1 } else { a.1 };
+            Piece { length_s: b.0 - a.0, from: a.1, to }
+        };
+        let mut pieces: Vec<Piece> = rows.array_windows().map(piece).collect();
+        let Some(period_s) = period_s else { return Ok(Self::of_levels(Levels::once(first.0, &pieces, last.1))) };
+        let length_s = last.0 - first.0;
+        let fits = if between == Between::Linear { period_s >= length_s } else { period_s > length_s };
+        if !(fits && period_s > 0.0 && period_s.is_finite()) {
+            return Err(WaveformError::Period { length_s, period_s });
+        }
+        let to = if between == Between::Linear { first.1 } else { last.1 };
+        pieces.push(Piece { length_s: period_s - length_s, from: last.1, to });
+        Ok(Self::of_levels(Levels::recurring(first.0, &pieces, period_s)))
+    }
+
+    /// Levels that hold for their durations (s), one after the other from the time 0 on: again and again, or once, with the first
+    /// held before it and the last after it.
+    ///
+    /// # Errors
+    /// Where a duration or a level is out of its range, or all levels are 0.
+    pub fn programme(steps: &[(f64, f64)], repeats: bool) -> Result<Self, WaveformError> {
+        check_levels(steps.iter().map(|(_, level)| *level))?;
+        if let Some((duration_s, _)) = steps.iter().find(|(s, _)| !(*s > 0.0 && s.is_finite())) {
+            return Err(WaveformError::Duration { duration_s: *duration_s });
+        }
+        let piece = |(length_s, level): &(f64, f64)| Piece { length_s: *length_s, from: *level, to: *level };
+        let pieces: Vec<Piece> = steps.iter().map(piece).collect();
+        let period_s = pieces.iter().map(|piece| piece.length_s).sum();
+        let last = steps[steps.len() - 1].1;
+        Ok(Self::of_levels(match repeats {
+            true => Levels::recurring(0.0, &pieces, period_s),
+            false => Levels::once(0.0, &pieces, last),
+        }))
+    }
+
+    fn of_levels(levels: Levels) -> Self {
+        Self { shape: Shape::Levels(levels), delay_s: 0.0 }
+    }
+
+    /// The same later by `delay_s`, which is finite.
+    #[must_use]
+    pub fn later(self, delay_s: f64) -> Self {
+        Self { delay_s: self.delay_s + delay_s, ..self }
+    }
+
+    /// The level at a simulated time, s; at a jump the one after it.
+    #[must_use]
+    pub fn at(&self, time_s: f64) -> f64 {
+        let time_s = time_s - self.delay_s;
+        match &self.shape {
+            Shape::Mains(mains) => mains.at(time_s),
+            Shape::Levels(levels) => levels.at(time_s),
+        }
+    }
+
+    /// The mean level over an interval; at a single moment that of [`Waveform::at`].
+    #[must_use]
+    pub fn mean(&self, over: TimeInterval) -> f64 {
+        let over = over.later(-self.delay_s);
+        match &self.shape {
+            Shape::Mains(mains) => mains.mean(over),
+            Shape::Levels(levels) => levels.mean(over),
+        }
+    }
+
+    /// The mean over all times; `None` where nothing recurs.
+    #[must_use]
+    pub fn mean_level(&self) -> Option<f64> {
+        match &self.shape {
+            Shape::Mains(_) => Some(1.0),
+            Shape::Levels(levels) => levels.mean_level(),
+        }
+    }
+
+    /// The greatest level within an interval, its ends among it; 0 only where the light is dark throughout.
+    #[must_use]
+    pub fn greatest(&self, over: TimeInterval) -> f64 {
+        let over = over.later(-self.delay_s);
+        match &self.shape {
+            Shape::Mains(mains) => mains.greatest(over),
+            Shape::Levels(levels) => levels.greatest(over),
+        }
+    }
+
+    /// The greatest level at any time.
+    #[must_use]
+    pub fn greatest_level(&self) -> f64 {
+        match &self.shape {
+            Shape::Mains(mains) => 1.0 + mains.depth,
+            Shape::Levels(levels) => levels.greatest_level(),
+        }
+    }
+
+    /// After what time it recurs, s; `None` where it does not.
+    #[must_use]
+    pub fn period_s(&self) -> Option<f64> {
+        match &self.shape {
+            Shape::Mains(mains) => Some(0.5 / mains.frequency_hz),
+            Shape::Levels(levels) => levels.period_s(),
+        }
+    }
+}
+
+fn period_of(frequency_hz: f64) -> Result<f64, WaveformError> {
+    let period_s = 1.0 / frequency_hz;
+    let legal = frequency_hz > 0.0 && frequency_hz.is_finite() && period_s.is_finite();
+    if legal { Ok(period_s) } else { Err(WaveformError::Frequency { frequency_hz }) }
+}
+
+fn check_levels(levels: impl Iterator<Item = f64> + Clone) -> Result<(), WaveformError> {
+    if let Some(level) = levels.clone().find(|level| !(0.0..=MAX_LEVEL).contains(level)) {
+        return Err(WaveformError::Level { level });
+    }
+    match levels.reduce(f64::max) {
+        None => Err(WaveformError::Empty),
+        Some(0.0) => Err(WaveformError::Dark),
+        Some(_) => Ok(()),
+    }
+}

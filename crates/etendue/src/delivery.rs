@@ -1,0 +1,112 @@
+//! From films to the results of cameras, frame after frame.
+//!
+//! Light that does not depend on time is gathered once and serves all frames. Light that does is gathered for each frame and
+//! for each capture whose exposure differs; the state of a sensor goes from frame to frame in their order.
+
+use crate::error::Error;
+use crate::render_options::RenderOptions;
+use crate::results::{CameraResults, DoneFrames};
+use etendue_pipeline::Plan;
+use etendue_pipeline::film::Film;
+use etendue_pipeline::plan::{CameraPlan, TimeDependence};
+use etendue_pipeline::render::Shot;
+use etendue_sensor::SensorState;
+use std::ops::Range;
+use std::sync::Arc;
+
+/// The pictures of a frame that have a film of their own.
+fn shots(camera: &CameraPlan, frame: u32) -> Vec<Shot> {
+    match camera.time {
+        TimeDependence::None => vec![Shot::default()],
+        TimeDependence::Lights | TimeDependence::Motion => {
+            let captures = camera.body.exposure.distinct_captures();
+            captures.into_iter().map(|capture| Shot { frame, capture: capture as u32 }).collect()
+        }
+    }
+}
+
+/// All of some frames.
+pub(crate) fn shots_of(camera: &CameraPlan, frames: &Range<u32>) -> Vec<Shot> {
+    match camera.time {
+        TimeDependence::None => shots(camera, 0),
+        TimeDependence::Lights | TimeDependence::Motion => frames.clone().flat_map(|k| shots(camera, k)).collect(),
+    }
+}
+
+/// Hands over the results of all cameras: of each group of cameras of equal light in turn, where light depends on time frame after
+/// frame, but for frames that are `done`. `film_of` gathers the light of a group.
+pub(crate) fn deliver(
+    plan: &Arc<Plan>,
+    options: &RenderOptions,
+    done: &DoneFrames,
+    mut film_of: impl FnMut(&[&CameraPlan], Shot) -> Result<Film, Error>,
+    mut take: impl FnMut(CameraResults) -> Result<(), Error>,
+) -> Result<(), Error> {
+    check_frames(plan, options)?;
+    for group in plan.by_light() {
+        if group[0].time == TimeDependence::None {
+            let film = film_of(&group, Shot::default())?;
+            let states = vec![SensorState::default(); group.len()];
+            deliver_films(plan, &group, vec![film], &states, options, &mut take)?;
+            continue;
+        }
+        let mut states = vec![SensorState::default(); group.len()];
+        for frame in options.frames.clone() {
+            if let Some(kept) = done.states(&group, frame) {
+                states = kept;
+                continue;
+            }
+            let films = shots(group[0], frame).into_iter().map(|shot| film_of(&group, shot));
+            let films = films.collect::<Result<Vec<_>, _>>()?;
+            let options = RenderOptions { frames: frame..frame + 1, ..options.clone() };
+            states = deliver_films(plan, &group, films, &states, &options, &mut take)?;
+        }
+    }
+    Ok(())
+}
+
+/// Frames after the first need a rate where light depends on time.
+fn check_frames(plan: &Plan, options: &RenderOptions) -> Result<(), Error> {
+    let needs = |camera: &&CameraPlan| camera.time != TimeDependence::None && camera.timing.period_s.is_none();
+    match plan.cameras.iter().find(needs) {
+        Some(camera) if options.frames.end > 1 => Err(Error::input(format!(
+            "camera {}: its light depends on time, and nothing says when its frames after frame 0 are taken; add [sequence] with \
+             \"frame_rate_hz\" to the job, or render --frames 0..1",
+            camera.name
+        ))),
+        _ => Ok(()),
+    }
+}
+
+/// Hands over the results of cameras of equal light; answers with the states of their sensors afterwards.
+fn deliver_films(
+    plan: &Arc<Plan>,
+    group: &[&CameraPlan],
+    films: Vec<Film>,
+    states: &[SensorState],
+    options: &RenderOptions,
+    take: &mut impl FnMut(CameraResults) -> Result<(), Error>,
+) -> Result<Vec<SensorState>, Error> {
+    films.iter().try_for_each(|film| check_finite(group[0], film))?;
+    let mut after = Vec::with_capacity(group.len());
+    let mut films = Some(films);
+    for (i, (camera, state)) in group.iter().zip(states).enumerate() {
+        let films = if i + 1 == group.len() { films.take() } else { films.clone() };
+        let results = CameraResults::of_films(plan, camera, films.unwrap_or_default(), state.clone(), options)?;
+        after.push(results.state_after().clone());
+        take(results)?;
+    }
+    Ok(after)
+}
+
+/// Refuses a film that holds what is no finite number.
+pub(crate) fn check_finite(camera: &CameraPlan, film: &Film) -> Result<(), Error> {
+    match film.not_finite_samples() {
+        0 => Ok(()),
+        count => Err(Error::Run(format!(
+            "camera {}: {count} samples of its light were not finite numbers, so nothing is delivered; a light is too bright \
+             or too near for 32-bit floats: lower it or move it",
+            camera.name
+        ))),
+    }
+}

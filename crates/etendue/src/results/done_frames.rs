@@ -1,0 +1,68 @@
+//! Frames that an interrupted run has written, so that the next one goes on after them.
+
+use super::files::Files;
+use super::metadata;
+use super::sequence::Sequence;
+use crate::error::Error;
+use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
+use etendue_sensor::SensorState;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Frames that were written by a run of the same plan, by camera and number, with their facts.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct DoneFrames {
+    facts: BTreeMap<(String, u32), Value>,
+}
+
+impl DoneFrames {
+    /// What stands in a folder of results. A frame's own file is written last: where it is, the frame is whole.
+    ///
+    /// # Errors
+    /// Where a frame there is of another plan, or its file cannot be read.
+    pub(crate) fn in_folder(folder: &Path, plan: &Plan, frames: &Range<u32>) -> Result<Self, Error> {
+        let mut facts = BTreeMap::new();
+        for camera in plan.cameras.iter().filter(|camera| camera.time != TimeDependence::None) {
+            for frame in frames.clone() {
+                let path = folder.join(&camera.name).join(Files::frame(frame));
+                let Ok(text) = fs::read_to_string(&path) else { continue };
+                let refuse = |why: &str| Error::input(format!("{}: {why}", path.display()));
+                let value: Value = serde_json::from_str(&text).map_err(|_| {
+                    refuse("this is not the file of a frame; remove it, or choose another output folder")
+                })?;
+                if value["plan_hash"] != plan.hash_text() {
+                    return Err(refuse(
+                        "it is a frame of another plan; choose another output folder, or --overwrite it",
+                    ));
+                }
+                facts.insert((camera.name.clone(), frame), value);
+            }
+        }
+        Ok(Self { facts })
+    }
+
+    /// The states of the sensors of cameras after a frame; `None` where it is not whole for all of them.
+    pub(crate) fn states(&self, group: &[&CameraPlan], frame: u32) -> Option<Vec<SensorState>> {
+        group.iter().map(|camera| Some(metadata::state_of(self.of(camera, frame)?))).collect()
+    }
+
+    /// Notes the frames in a sequence that goes on after them.
+    pub(crate) fn note_all(&self, plan: &Arc<Plan>, frames: &Range<u32>, sequence: &mut Sequence) {
+        for group in plan.by_light() {
+            for frame in frames.clone().filter(|frame| self.states(&group, *frame).is_some()) {
+                let facts = |camera: &CameraPlan| self.of(camera, frame).cloned().map(metadata::without_state);
+                group.iter().for_each(|camera| {
+                    facts(camera).into_iter().for_each(|facts| sequence.keep(plan, camera, frame, facts));
+                });
+            }
+        }
+    }
+
+    fn of(&self, camera: &CameraPlan, frame: u32) -> Option<&Value> {
+        self.facts.get(&(camera.name.clone(), frame))
+    }
+}

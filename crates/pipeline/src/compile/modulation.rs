@@ -1,0 +1,39 @@
+//! Strengths that change over time: from records to waveforms.
+
+use super::context::Context;
+use etendue_core::Waveform;
+use etendue_core::random::number_of_name;
+use etendue_scene::record::light::Modulation;
+use etendue_scene::record::light::modulation::Phases;
+
+/// A record's waveform with its own delay; `None` where it is faulty.
+pub(super) fn waveform(record: &Modulation, context: &mut Context<'_>) -> Option<Waveform> {
+    let rows = match record.file() {
+        None => Vec::new(),
+        Some(file) => {
+            let Some(asset) = context.assets.numbers.get(&file.value) else {
+                context.fault(&file.place, "the table was not loaded", "give a readable file");
+                return None;
+            };
+            if asset.columns != 2 {
+                let problem = format!("{} has rows of {} numbers", file.value.display(), asset.columns);
+                context.fault(&file.place, problem, "give two columns: time in s, level");
+                return None;
+            }
+            asset.rows().map(|row| (row[0], row[1])).collect()
+        }
+    };
+    let place = record.file().map_or(record.place(), |file| &file.place);
+    let waveform = context.accept(place, record.waveform(&rows))?;
+    Some(waveform.later(record.timing().delay_s.as_ref().map_or(0.0, |delay| delay.value)))
+}
+
+/// Whether every place of the light has a phase of its own.
+pub(super) fn has_random_phases(record: &Modulation) -> bool {
+    matches!(record.timing().phases.as_ref().map(|word| word.value), Some(Phases::Random))
+}
+
+/// A random part of a waveform's period, s, for the place of this name.
+pub(super) fn random_delay_s(waveform: &Waveform, name: &str) -> f64 {
+    waveform.period_s().map_or(0.0, |period_s| period_s * number_of_name(name))
+}

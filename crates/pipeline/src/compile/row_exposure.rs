@@ -1,0 +1,84 @@
+//! When rows are exposed: from records to a camera's shutter.
+
+use super::context::Context;
+use crate::plan::{CaptureTiming, RowExposure};
+use etendue_core::{RowTiming, Shutter};
+use etendue_projection::Raster;
+use etendue_scene::Placed;
+use etendue_scene::record;
+use etendue_scene::record::sensor::hdr::Capture;
+use etendue_scene::record::sensor::shutter::{Direction, Rows};
+use etendue_sensor::Sensor;
+
+/// The exposures of a camera's rows.
+pub(super) fn row_exposure(
+    record: &record::Sensor,
+    sensor: Option<&Sensor>,
+    raster: &Raster,
+    context: &mut Context<'_>,
+) -> RowExposure {
+    let region = sensor.and_then(|sensor| sensor.parameters().read_out.layout.region);
+    let (first_row, rows) = region.map_or((0, raster.height()), |region| (region.y, region.height));
+    let exposure_s = exposure_s(record);
+    let hdr = record.electronics.as_ref().and_then(|e| e.hdr.as_ref());
+    let further = hdr.map_or(&[][..], |hdr| &hdr.captures);
+    refuse_idle_starts(further, context);
+    RowExposure {
+        shutter: record.shutter.as_ref().map_or(Shutter::Global, shutter),
+        first_row,
+        rows: rows.max(1),
+        exposure_s,
+        captures: captures(further, exposure_s),
+    }
+}
+
+fn shutter(record: &record::sensor::Shutter) -> Shutter {
+    match record {
+        record::sensor::Shutter::Global(_) => Shutter::Global,
+        record::sensor::Shutter::Rolling(rows) => Shutter::Rolling(row_timing(rows)),
+        record::sensor::Shutter::GlobalReset(rows) => Shutter::GlobalReset(row_timing(rows)),
+    }
+}
+
+fn row_timing(rows: &Rows) -> RowTiming {
+    RowTiming {
+        row_time_s: 1e-6 * rows.row_time_us.value,
+        upwards: rows.direction.as_ref().is_some_and(|d| d.value == Direction::Up),
+        fields: rows.fields.as_ref().map_or(1, |f| f.value as u32),
+    }
+}
+
+fn exposure_s(sensor: &record::Sensor) -> f64 {
+    let electronics = sensor.electronics.as_ref().map(|e| e.exposure_s.value);
+    let shutter = || sensor.shutter.as_ref().and_then(|s| s.exposure_s()).map(|e| e.value);
+    electronics.or_else(shutter).unwrap_or(0.0)
+}
+
+/// The exposures of a frame. Those of one photodiode follow each other, as it can collect one charge at a time.
+fn captures(further: &[Capture], exposure_s: f64) -> Vec<CaptureTiming> {
+    let or_1 = |ratio: &Option<Placed<f64>>| ratio.as_ref().map_or(1.0, |r| r.value);
+    let mut captures = vec![CaptureTiming { start_s: 0.0, exposure_ratio: 1.0 }];
+    // When each photodiode, told by its sensitivity, has ended its last exposure.
+    let mut ends = vec![(1.0, exposure_s)];
+    for capture in further {
+        if capture.dual_conversion_gain.as_ref().is_some_and(|d| d.value) {
+            captures.push(captures[captures.len() - 1]);
+            continue;
+        }
+        let (sensitivity, exposure_ratio) = (or_1(&capture.sensitivity_ratio), or_1(&capture.exposure_ratio));
+        let end = ends.iter().rev().find(|(s, _)| *s == sensitivity).map_or(0.0, |(_, end)| *end);
+        let start_s = capture.start_s.as_ref().map_or(end, |start| start.value);
+        ends.push((sensitivity, start_s + exposure_s * exposure_ratio));
+        captures.push(CaptureTiming { start_s, exposure_ratio });
+    }
+    captures
+}
+
+/// Charge that is read again has no beginning of its own.
+fn refuse_idle_starts(further: &[Capture], context: &mut Context<'_>) {
+    let again = |capture: &&Capture| capture.dual_conversion_gain.as_ref().is_some_and(|d| d.value);
+    for start in further.iter().filter(again).filter_map(|capture| capture.start_s.as_ref()) {
+        let problem = "\"start_s\" has no effect on charge that is read again: it has been collected before";
+        context.fault(&start.place, problem, "remove it");
+    }
+}

@@ -1,0 +1,91 @@
+//! When frames and rows are exposed: from records to a camera's timing.
+
+use super::context::Context;
+use crate::plan::{CameraBody, CameraPlan, Jitter, Route, TimeDependence, Timing};
+use etendue_scene::record::{self, Electronics, Sequence};
+use etendue_scene::{CameraSetup, Place};
+use etendue_tracer::accel::World;
+
+/// Relative difference of a sequence's frame rate and a sensor's frame period that is taken for rounding.
+const RATE_TOLERANCE: f64 = 1e-6;
+
+/// The timing of a camera of a job.
+pub(super) fn timing(
+    (index, setup): (u32, &CameraSetup),
+    sequence: Option<&Sequence>,
+    body: &CameraBody,
+    seed: u64,
+    context: &mut Context<'_>,
+) -> Timing {
+    let sensor = &setup.camera.sensor;
+    let trigger = &setup.trigger;
+    let offset_s = trigger.offset_s.as_ref().map_or(0.0, |o| o.value);
+    let half_width_s = trigger.jitter_s.as_ref().map_or(0.0, |j| j.value);
+    let timing = Timing {
+        start_s: sequence.and_then(|s| s.start_s.as_ref()).map_or(0.0, |s| s.value) + offset_s,
+        period_s: period_s(sequence, sensor, context),
+        jitter: (half_width_s > 0.0).then_some(Jitter { half_width_s, seed, camera: index }),
+        exposure: body.exposure.clone(),
+    };
+    check(&timing, sensor, sequence, context);
+    timing
+}
+
+/// Whether the light of each camera depends on time, and whether its route can show it.
+pub(super) fn depend(cameras: &mut [CameraPlan], world: &World, context: &mut Context<'_>) {
+    let moves = world.instances().iter().any(|instance| instance.to_world.as_still().is_none());
+    for camera in cameras {
+        camera.time = match () {
+            () if moves || !camera.path.is_still() => TimeDependence::Motion,
+            () => TimeDependence::None,
+        };
+        let at_pupil = matches!(camera.settings.route, Route::Pupil(_));
+        if camera.time != TimeDependence::None && at_pupil && !camera.timing.exposure.is_global() {
+            let problem = "rows that are read in turn see different moments, and route = \"pupil\" stores the light of one exposure for \
+                           all of them";
+            context.fault(&camera.body.place, problem, "give a \"global\" shutter, or route = \"lens\"");
+        }
+    }
+}
+
+/// From frame to frame: as the sequence says, or the sensor.
+fn period_s(sequence: Option<&Sequence>, sensor: &record::Sensor, context: &mut Context<'_>) -> Option<f64> {
+    let stated = sensor.electronics.as_ref().and_then(|e| e.frame_period_s.as_ref());
+    let Some(rate) = sequence.map(|s| &s.frame_rate_hz) else { return stated.map(|s| s.value) };
+    if let Some(stated) = stated.filter(|s| (s.value * rate.value - 1.0).abs() > RATE_TOLERANCE) {
+        let problem = format!(
+            "\"frame_period_s\" is {} s, and the job's sequence has {} frames a second, one every {} s",
+            stated.value,
+            rate.value,
+            1.0 / rate.value
+        );
+        context.fault(
+            &stated.place,
+            problem,
+            "make the two agree, or leave \"frame_period_s\" out where nothing needs it",
+        );
+    }
+    Some(1.0 / rate.value)
+}
+
+fn check(timing: &Timing, sensor: &record::Sensor, sequence: Option<&Sequence>, context: &mut Context<'_>) {
+    let jitter_s = timing.jitter.map_or(0.0, |jitter| 2.0 * jitter.half_width_s);
+    let (Some(period_s), length_s) = (timing.period_s, timing.exposure.length_s() + jitter_s) else { return };
+    if length_s > period_s * (1.0 + RATE_TOLERANCE) {
+        let problem = format!(
+            "a frame takes {length_s} s from the beginning of its first exposure to the end of its last, jitter included, and the \
+             next one begins after {period_s} s"
+        );
+        context.fault(
+            place(sensor, sequence),
+            problem,
+            "expose shorter, read rows faster, or take fewer frames a second",
+        );
+    }
+}
+
+fn place<'a>(sensor: &'a record::Sensor, sequence: Option<&'a Sequence>) -> &'a Place {
+    let electronics = |e: &'a Electronics| &e.exposure_s.place;
+    let by_sequence = sequence.map(|s| &s.frame_rate_hz.place);
+    sensor.electronics.as_ref().map(electronics).or(by_sequence).unwrap_or(&sensor.place)
+}

@@ -1,0 +1,327 @@
+//! How the strength of a light changes over time.
+
+use std::path::PathBuf;
+
+use etendue_core::waveform::{Between, MAX_LEVEL, Pulses, Waveform, WaveformError};
+
+use super::placement::LampPlacement;
+use crate::asset::file_list::{FileList, NamesFiles};
+use crate::asset::request::AssetKind;
+use crate::fault::Faults;
+use crate::place::{Place, Placed};
+use crate::reader::{Number, choice, flag, keyed, list, number, path, record, variants, vector, whole};
+
+variants! {
+    /// How the strength of a light changes over time. With "pwm" and "mains" the stated strength is the mean over time, what a
+    /// photometer reads; with the others it is that of the level 1.
+    pub enum Modulation by "type" {
+        /// Pulses of pulse-width modulation: the strength is their mean, so that a pulse is stronger by 1 / "duty_cycle".
+        "pwm" => Pwm(PwmModulation),
+        /// A lamp on alternating current: 1 + m cos(2π · 2f t), brightest at the time 0, about the stated strength.
+        "mains" => Mains(MainsModulation),
+        /// On at the stated strength and off, such as the indicator of a car.
+        "blink" => Blink(BlinkModulation),
+        /// Levels at stated times, from a file or written out.
+        "table" => Table(TableModulation),
+        /// Steps with durations, one after the other from the time 0 on, such as those of a traffic light.
+        "programme" => Programme(ProgrammeModulation),
+    }
+}
+
+record! {
+    /// Pulse-width modulation.
+    pub struct PwmModulation check(check_pwm) {
+        /// How often pulses come, Hz, above 0.
+        required frequency_hz: Placed<f64> = number("Hz").above(0.0).at_most(1e9);
+        /// Share of the period that a pulse lasts, between its half heights, above 0 and below 1.
+        required duty_cycle: Placed<f64> = number("").at_least(1e-6).at_most(0.999_999);
+        /// How long a pulse takes to rise, s, 0 or more: a straight line, half of which lies within the pulse. Default: 0.
+        optional rise_s: Placed<f64> = number("s").at_least(0.0);
+        /// How long it takes to fall, s, 0 or more. Default: 0.
+        optional fall_s: Placed<f64> = number("s").at_least(0.0);
+        /// Of a surface: rows of a panel whose pulses come one row after the other, from the top of the texture coordinates (v = 1) down,
+        /// each an even part of the period after the one above, 2 … 4096. Default: the whole surface at once.
+        optional multiplexed_rows: Placed<u64> = whole(2, 4096);
+        /// How much later all of it is.
+        inside timing: Recurring;
+    }
+}
+
+record! {
+    /// A lamp on alternating current.
+    pub struct MainsModulation {
+        /// Frequency of the mains, Hz, above 0; the light has twice that.
+        required frequency_hz: Placed<f64> = number("Hz").above(0.0).at_most(1e6);
+        /// Modulation depth m, (greatest − least) / (greatest + least), above 0 and at most 1: some 0.1 for filament lamps, 0.3 to 1 for
+        /// discharge lamps and plain LED lamps.
+        required modulation_depth: Placed<f64> = number("").above(0.0).at_most(1.0);
+        /// How much later all of it is.
+        inside timing: Recurring;
+    }
+}
+
+record! {
+    /// On and off.
+    pub struct BlinkModulation check(check_blink) {
+        /// How often it comes on, Hz, above 0.
+        required frequency_hz: Placed<f64> = number("Hz").above(0.0).at_most(1e9);
+        /// Share of the period that it is on, between half heights, above 0 and below 1. Default: 0.5.
+        optional on_fraction: Placed<f64> = number("").at_least(1e-6).at_most(0.999_999);
+        /// How long it takes to come on, s, 0 or more: a straight line, half of which lies within the time that it is on. Default: 0.
+        optional rise_s: Placed<f64> = number("s").at_least(0.0);
+        /// How long it takes to go off, s, 0 or more. Default: 0.
+        optional fall_s: Placed<f64> = number("s").at_least(0.0);
+        /// How much later all of it is.
+        inside timing: Recurring;
+    }
+}
+
+record! {
+    /// Levels at stated times.
+    pub struct TableModulation check(check_table) {
+        /// The levels.
+        inside rows: TableRows;
+        /// What holds between the rows. Default: "linear".
+        optional interpolation: Placed<Interpolation> = choice();
+        /// After what time it begins anew, s, above 0: at least from the first row to the last, more with steps. Default: it is gone
+        /// through once; before the first row that row's level holds, after the last the last one's.
+        optional period_s: Placed<f64> = number("s").above(0.0);
+        /// How much later all of it is.
+        inside timing: Recurring;
+    }
+}
+
+keyed! {
+    /// Where the levels stand.
+    pub enum TableRows {
+        /// Rows [time in s, level], the times rising, levels 0 … 1 000 000.
+        points => Points(Vec<Placed<[f64; 2]>>) = list(vector::<2>(number("")), 2);
+        /// A table of two columns, time in s (rising) and level (0 … 1 000 000).
+        file => File(Placed<PathBuf>) = path(&["csv"]);
+    }
+}
+
+choice! {
+    /// What holds between the rows of a table.
+    pub enum Interpolation {
+        /// Straight lines.
+        "linear" => Linear,
+        /// The level of the row before.
+        "steps" => Steps,
+    }
+}
+
+record! {
+    /// Steps with durations.
+    pub struct ProgrammeModulation check(check_programme) {
+        /// The steps.
+        many steps: Step = list(record(), 1);
+        /// Whether it begins anew after the last step; else the last level holds from then on, and the first before the beginning.
+        /// Default: true.
+        optional repeats: Placed<bool> = flag();
+        /// How much later all of it is.
+        inside timing: Recurring;
+    }
+}
+
+record! {
+    /// One step of a programme.
+    pub struct Step {
+        /// Factor on the stated strength, 0 … 1 000 000.
+        required level: Placed<f64> = level();
+        /// How long it holds, s, above 0.
+        required duration_s: Placed<f64> = number("s").above(0.0);
+    }
+}
+
+record! {
+    /// How much later all of it is.
+    pub struct Recurring {
+        /// By how much all of it is later, s. Default: 0.
+        optional delay_s: Placed<f64> = number("s");
+        /// Whether all places of the light (its instances, the objects of the material) go up and down together. Default: "common".
+        optional phases: Placed<Phases> = choice();
+    }
+}
+
+choice! {
+    /// Whether all places of a light go up and down together.
+    pub enum Phases {
+        /// Together.
+        "common" => Common,
+        /// Each place is later by a random part of the period, which its name and number tell; no seed does.
+        "random" => Random,
+    }
+}
+
+const fn level() -> Number {
+    number("").at_least(0.0).at_most(MAX_LEVEL)
+}
+
+impl Modulation {
+    /// Where it stands.
+    #[must_use]
+    pub fn place(&self) -> &Place {
+        match self {
+            Self::Pwm(record) => &record.place,
+            Self::Mains(record) => &record.place,
+            Self::Blink(record) => &record.place,
+            Self::Table(record) => &record.place,
+            Self::Programme(record) => &record.place,
+        }
+    }
+
+    /// How much later all of it is.
+    #[must_use]
+    pub fn timing(&self) -> &Recurring {
+        match self {
+            Self::Pwm(record) => &record.timing,
+            Self::Mains(record) => &record.timing,
+            Self::Blink(record) => &record.timing,
+            Self::Table(record) => &record.timing,
+            Self::Programme(record) => &record.timing,
+        }
+    }
+
+    /// The rows of a panel that are lit one after the other.
+    #[must_use]
+    pub fn multiplexed_rows(&self) -> Option<&Placed<u64>> {
+        match self {
+            Self::Pwm(record) => record.multiplexed_rows.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// The file of its levels.
+    #[must_use]
+    pub fn file(&self) -> Option<&Placed<PathBuf>> {
+        match self {
+            Self::Table(TableModulation { rows: TableRows::File(file), .. }) => Some(file),
+            _ => None,
+        }
+    }
+
+    /// The waveform, without any delay; `rows` are those of its file, where it has one.
+    ///
+    /// # Errors
+    /// Where a number is out of its range.
+    pub fn waveform(&self, rows: &[(f64, f64)]) -> Result<Waveform, WaveformError> {
+        match self {
+            Self::Pwm(record) => record.waveform(),
+            Self::Mains(record) => Waveform::mains(record.frequency_hz.value, record.modulation_depth.value),
+            Self::Blink(record) => record.waveform(),
+            Self::Table(record) => record.waveform(rows),
+            Self::Programme(record) => record.waveform(),
+        }
+    }
+}
+
+impl PwmModulation {
+    fn waveform(&self) -> Result<Waveform, WaveformError> {
+        let (frequency_hz, duty) = (self.frequency_hz.value, self.duty_cycle.value);
+        Waveform::pulses(&Pulses { frequency_hz, duty, edges_s: edges_s(&self.rise_s, &self.fall_s), peak: 1.0 / duty })
+    }
+}
+
+impl BlinkModulation {
+    fn waveform(&self) -> Result<Waveform, WaveformError> {
+        let duty = self.on_fraction.as_ref().map_or(0.5, |fraction| fraction.value);
+        let edges_s = edges_s(&self.rise_s, &self.fall_s);
+        Waveform::pulses(&Pulses { frequency_hz: self.frequency_hz.value, duty, edges_s, peak: 1.0 })
+    }
+}
+
+fn edges_s(rise_s: &Option<Placed<f64>>, fall_s: &Option<Placed<f64>>) -> [f64; 2] {
+    [rise_s, fall_s].map(|edge| edge.as_ref().map_or(0.0, |edge| edge.value))
+}
+
+impl TableModulation {
+    fn waveform(&self, of_file: &[(f64, f64)]) -> Result<Waveform, WaveformError> {
+        let between = match self.interpolation.as_ref().map(|word| word.value) {
+            None | Some(Interpolation::Linear) => Between::Linear,
+            Some(Interpolation::Steps) => Between::Steps,
+        };
+        let period_s = self.period_s.as_ref().map(|period| period.value);
+        match &self.rows {
+            TableRows::File(_) => Waveform::table(of_file, between, period_s),
+            TableRows::Points(points) => {
+                let rows: Vec<_> = points.iter().map(|point| (point.value[0], point.value[1])).collect();
+                Waveform::table(&rows, between, period_s)
+            }
+        }
+    }
+}
+
+impl ProgrammeModulation {
+    fn waveform(&self) -> Result<Waveform, WaveformError> {
+        let steps: Vec<_> = self.steps.iter().map(|step| (step.duration_s.value, step.level.value)).collect();
+        Waveform::programme(&steps, self.repeats.as_ref().is_none_or(|repeats| repeats.value))
+    }
+}
+
+impl NamesFiles for Modulation {
+    fn name_files(&self, files: &mut FileList) {
+        self.file().into_iter().for_each(|file| files.add(AssetKind::Numbers, file));
+    }
+}
+
+fn check_pwm(record: &PwmModulation, faults: &mut Faults) {
+    accept(record.waveform(), &record.place, faults);
+}
+
+fn check_blink(record: &BlinkModulation, faults: &mut Faults) {
+    accept(record.waveform(), &record.place, faults);
+}
+
+fn check_table(record: &TableModulation, faults: &mut Faults) {
+    if let TableRows::Points(_) = &record.rows {
+        accept(record.waveform(&[]), &record.place, faults);
+    }
+    check_phases(&record.timing, record.period_s.is_some(), "add \"period_s\"", faults);
+}
+
+fn check_programme(record: &ProgrammeModulation, faults: &mut Faults) {
+    if record.steps.is_empty() {
+        faults.add(
+            &record.place,
+            "a programme without steps",
+            "add \"steps\": a list of { level = …, duration_s = … }",
+        );
+        return;
+    }
+    accept(record.waveform(), &record.place, faults);
+    let repeats = record.repeats.as_ref().is_none_or(|repeats| repeats.value);
+    check_phases(&record.timing, repeats, "let it repeat", faults);
+}
+
+fn accept(made: Result<Waveform, WaveformError>, place: &Place, faults: &mut Faults) {
+    if let Err(error) = made {
+        faults.add(place, error.to_string(), "");
+    }
+}
+
+/// Only what recurs has phases.
+fn check_phases(timing: &Recurring, recurs: bool, otherwise: &str, faults: &mut Faults) {
+    if let (Some(phases), false) = (&timing.phases, recurs) {
+        let problem = "\"phases\" has no effect on what is gone through once";
+        faults.add(&phases.place, problem, format!("remove it, or {otherwise}"));
+    }
+}
+
+/// What contradicts a lamp's modulation.
+pub(super) fn check(modulation: Option<&Modulation>, placement: &LampPlacement, faults: &mut Faults) {
+    if let Some(rows) = modulation.and_then(Modulation::multiplexed_rows) {
+        faults.add(
+            &rows.place,
+            "a lamp has no rows that could be lit one after the other",
+            "remove it, or make a surface glow",
+        );
+    }
+    if modulation.is_none() {
+        let delays = placement.instances.iter().filter_map(|instance| instance.modulation_delay_s.as_ref());
+        for delay in delays {
+            let problem = "\"modulation_delay_s\" has no effect on a lamp whose strength does not change";
+            faults.add(&delay.place, problem, "remove it, or add \"modulation\" to the lamp");
+        }
+    }
+}

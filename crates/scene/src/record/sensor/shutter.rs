@@ -1,0 +1,61 @@
+//! When the rows of a sensor are exposed.
+
+use crate::place::Placed;
+use crate::reader::{choice, number, record, variants, whole};
+
+variants! {
+    /// When the rows of a sensor are exposed. Where nothing of a scene depends on time, only "global_reset" changes the picture.
+    pub enum Shutter by "type" {
+        /// All rows together.
+        "global" => Global(Global),
+        /// Row after row, each for the whole exposure.
+        "rolling" => Rolling(Rows),
+        /// All rows begin together and are read one after the other: each is exposed longer than the one read before it by the
+        /// row time, and gets more light.
+        "global_reset" => GlobalReset(Rows),
+    }
+}
+
+record! {
+    /// A shutter that exposes all rows together.
+    pub struct Global {
+        /// Exposure time of a sensor without electronics, s, 0 or more. Default: 0, one moment.
+        optional exposure_s: Placed<f64> = number("s").at_least(0.0);
+    }
+}
+
+record! {
+    /// A shutter whose rows are read in turn. Of a region ("roi_px") only its own rows take time.
+    pub struct Rows {
+        /// Time from one row to the next, µs, 0 or more.
+        required row_time_us: Placed<f64> = number("µs").at_least(0.0);
+        /// Which way rows are read, as the erect picture is seen. Default: "down".
+        optional direction: Placed<Direction> = choice();
+        /// Fields of which a frame is put together, 1 … 16: with 2, all even rows (from 0) are read before the odd ones
+        /// (interlaced). Default: 1.
+        optional fields: Placed<u64> = whole(1, 16);
+        /// Exposure time of a sensor without electronics, s, 0 or more. Default: 0, one moment.
+        optional exposure_s: Placed<f64> = number("s").at_least(0.0);
+    }
+}
+
+choice! {
+    /// Which way rows are read.
+    pub enum Direction {
+        /// The top row of the picture first.
+        "down" => Down,
+        /// The bottom row of the picture first.
+        "up" => Up,
+    }
+}
+
+impl Shutter {
+    /// Exposure time of a sensor without electronics, where it is given.
+    #[must_use]
+    pub fn exposure_s(&self) -> Option<&Placed<f64>> {
+        match self {
+            Self::Global(shutter) => shutter.exposure_s.as_ref(),
+            Self::Rolling(rows) | Self::GlobalReset(rows) => rows.exposure_s.as_ref(),
+        }
+    }
+}

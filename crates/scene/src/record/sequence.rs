@@ -1,0 +1,15 @@
+//! `[sequence]`: when the frames of a job are taken.
+
+use crate::place::Placed;
+use crate::reader::{number, record};
+
+record! {
+    /// When the frames of a job are taken. Frame k begins at start_s + k / frame_rate_hz, for each camera later by its
+    /// "trigger_offset_s". Without it frame 0 begins at 0 s, and there are no others where light changes from frame to frame.
+    pub struct Sequence {
+        /// Frames a second, Hz, above 0; 1/"frame_period_s" of a sensor that states one.
+        required frame_rate_hz: Placed<f64> = number("Hz").above(0.0);
+        /// Simulated time at which frame 0 begins, s. Default: 0.
+        optional start_s: Placed<f64> = number("s");
+    }
+}
