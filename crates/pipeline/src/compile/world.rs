@@ -285,7 +285,11 @@ fn check_coordinates(
     {
         let file = mesh.file.value.display();
         let problem = format!("{file} has no texture coordinates, but its material \"{name}\" lays something by them");
-        context.fault(&object.place, problem, "export them with the mesh, or use a material without textures and multiplexed rows");
+        context.fault(
+            &object.place,
+            problem,
+            "export them with the mesh, or use a material without textures and multiplexed rows",
+        );
     }
 }
 

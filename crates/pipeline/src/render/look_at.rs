@@ -33,22 +33,22 @@ pub(crate) struct PixelRay {
 
 impl<'a> LookAt<'a> {
     pub(crate) fn new(plan: &'a Plan, frame: &FrameView<'a>, simd: Simd) -> Self {
-        let origin_m = frame.path.at(frame.start_s).position_m;
+        let origin_m = frame.pose_at(frame.interval().middle_s()).position_m;
         let view = plan.world.render_space_with(origin_m, frame.interval(), simd);
         Self { frame: *frame, plan, view }
     }
 
     /// When a row looks, s from the frame's start. Rays have times of 32 bits.
     pub(crate) fn ray_time_s(&self, row: usize) -> f32 {
-        (self.frame.row_middle_s(row) - self.frame.start_s) as f32
+        (self.frame.row_middle_s(row) - self.view.interval().start_s()) as f32
     }
 
     /// The ray of a point of the picture (px) at the time of its row; `None` where no light comes.
     pub(crate) fn ray(&self, at_px: DVec2) -> Option<PixelRay> {
-        let (front, off_centre) = self.frame.body.truth_ray(at_px)?;
+        let (front, off_centre) = self.frame.body().truth_ray(at_px)?;
         let ray_time_s = self.ray_time_s(at_px.y as usize);
         let time_s = self.view.interval().moment(ray_time_s);
-        Some(PixelRay { front, off_centre, ray_time_s, time_s, pose: self.frame.path.at(time_s) })
+        Some(PixelRay { front, off_centre, ray_time_s, time_s, pose: self.frame.pose_at(time_s) })
     }
 
     /// What is met first from a point of a camera's frame (m) along a direction of it, the camera standing at `pose` at a time.
@@ -60,7 +60,7 @@ impl<'a> LookAt<'a> {
         ray_time_s: f32,
         instance: Option<u32>,
     ) -> Option<Truth> {
-        // The view's origin is where the camera was at the frame's start.
+        // The view's origin is where the camera is half-way through the frame.
         let from_m = pose.position_m - self.view.origin_m() + pose.point_to_render(origin_m);
         let wanted = |index: u32| instance.is_none_or(|wanted| wanted == index);
         self.view.truth(from_m, pose.direction_to_world(direction), ray_time_s, |point| {

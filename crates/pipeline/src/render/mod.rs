@@ -24,6 +24,8 @@ pub mod observer;
 pub mod pupil_depth;
 pub mod rays;
 pub mod spectrum_spread;
+#[cfg(test)]
+mod test_scenes;
 pub mod tile;
 pub mod truth;
 

@@ -56,7 +56,7 @@ fn points(plan: &Plan, frame: &FrameView<'_>, instance: &Instance, time_s: f64) 
         Shape::Mesh(id) => on_edges(plan.world.mesh(id)),
         Shape::Sphere { radius_m } => {
             let to_local = instance.to_world.at(time_s).inverse();
-            outline(radius_m, to_local.transform_point3(frame.path.at(time_s).position_m))
+            outline(radius_m, to_local.transform_point3(frame.pose_at(time_s).position_m))
         }
     }
 }

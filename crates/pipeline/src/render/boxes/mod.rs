@@ -6,7 +6,7 @@
 //! - **Visible**: the pixels that show the instance's identity.
 //! - **Alone**: the pixels that would show it were it the only instance; every pixel of its amodal box is asked.
 //! - **Amodal box**: about the images of its vertices and of points on its edges, at least some 500 (of a sphere: of its outline), and about
-//!   the pixels that it shows alone, which know how distortion bends an edge between; it may reach beyond the picture. Where a part has no image (behind the camera,
+//!   the centres of the pixels that it shows alone, which know how distortion bends an edge between; it may reach beyond the picture. Where a part has no image (behind the camera,
 //!   beyond the lens's field) it is about the rest, and `is_cut` says so.
 //! - **Box in space**: that of its mesh in the mesh's own frame, at the middle of the frame's exposure.
 //!
@@ -76,7 +76,7 @@ pub fn object_boxes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, s
     let seen = visible(ids);
     let looks = LookAt::new(plan, frame, simd);
     let time_s = frame.interval().middle_s();
-    let pose = frame.path.at(time_s);
+    let pose = frame.pose_at(time_s);
     let numbered = plan.world.instances().iter().enumerate().filter(|(_, instance)| instance.instance_id > 0);
     let boxes = numbered.collect::<Vec<_>>().into_par_iter().filter_map(|(index, instance)| {
         let amodal = Amodal::of(plan, frame, instance, time_s);
@@ -86,7 +86,10 @@ pub fn object_boxes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, s
         (visible_pixels + alone_pixels > 0).then(|| ObjectBoxes {
             id: instance.instance_id,
             visible,
-            amodal: PixelBox::union(PixelBox::union(amodal.image, shown), visible),
+            amodal: [shown, visible]
+                .into_iter()
+                .flatten()
+                .fold(amodal.image, |whole, pixels| PixelBox::union(whole, Some(pixels.of_centres()))),
             is_cut: amodal.is_cut,
             visible_pixels,
             alone_pixels,

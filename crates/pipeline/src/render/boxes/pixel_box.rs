@@ -17,6 +17,11 @@ impl PixelBox {
         Self { low, high: low + 1.0 }
     }
 
+    /// Of a box about pixels, that about their centres.
+    pub(super) fn of_centres(&self) -> Self {
+        Self { low: self.low + 0.5, high: self.high - 0.5 }
+    }
+
     /// The least box about both.
     #[must_use]
     pub fn about(&self, other: &Self) -> Self {

@@ -42,9 +42,9 @@ pub(crate) fn correspondence(frame: &FrameView<'_>, surface: &SurfacePath<'_>, s
     let mut at_px = sight.at_px;
     for _ in 0..MAX_STEPS {
         let time_s = frame.middle_at_s(at_px.y, row);
-        let pose = frame.path.at(time_s);
+        let pose = frame.pose_at(time_s);
         let target = surface.seen_from(&pose, time_s);
-        let image_px = image_point(frame.body, target, at_px, sight.off_centre)?;
+        let image_px = image_point(frame.body(), target, at_px, sight.off_centre)?;
         let step_px = (image_px.y - at_px.y).abs();
         at_px = image_px;
         let same_time = frame.middle_at_s(at_px.y, row) == time_s;
@@ -63,8 +63,8 @@ pub(crate) fn image_velocity(
     time_s: f64,
 ) -> Option<DVec2> {
     let image = |time_s: f64| {
-        let target = surface.seen_from(&frame.path.at(time_s), time_s);
-        image_point(frame.body, target, sight.at_px, sight.off_centre)
+        let target = surface.seen_from(&frame.pose_at(time_s), time_s);
+        image_point(frame.body(), target, sight.at_px, sight.off_centre)
     };
     Some((image(time_s + HALF_STEP_S)? - image(time_s - HALF_STEP_S)?) / (2.0 * HALF_STEP_S))
 }
@@ -74,6 +74,6 @@ pub(crate) fn image_velocity(
 pub(crate) fn image_of(frame: &FrameView<'_>, local: DVec3, to_world: &Track) -> Option<DVec2> {
     let surface = SurfacePath::Point { local, to_world };
     let middle_s = frame.interval().middle_s();
-    let at_px = unbent(frame.body, surface.seen_from(&frame.path.at(middle_s), middle_s))?;
+    let at_px = unbent(frame.body(), surface.seen_from(&frame.pose_at(middle_s), middle_s))?;
     Some(correspondence(frame, &surface, Sight { at_px, off_centre: false })?.at_px)
 }

@@ -57,7 +57,7 @@ struct Look {
 /// The truth of motion of a frame against others of the same world, on the caller's pool.
 #[must_use]
 pub fn motion_truth(plan: &Plan, frame: &FrameView<'_>, others: &[FrameView<'_>], simd: Simd) -> MotionTruth {
-    let (width, height) = (frame.body.raster.width(), frame.body.raster.height());
+    let (width, height) = (frame.body().raster.width(), frame.body().raster.height());
     let looks_at = LookAt::new(plan, frame, simd);
     let neighbours: Vec<Neighbour<'_>> = others.iter().map(|other| Neighbour::new(plan, other, simd)).collect();
     let looks: Vec<Look> = (0..width * height)

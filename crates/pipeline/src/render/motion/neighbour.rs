@@ -94,14 +94,15 @@ impl<'a> Neighbour<'a> {
 
     fn visibility(&self, there: &Correspondence) -> Visibility {
         let frame = &self.0.frame;
-        let size = DVec2::new(frame.body.raster.width() as f64, frame.body.raster.height() as f64);
+        let raster = &frame.body().raster;
+        let size = DVec2::new(raster.width() as f64, raster.height() as f64);
         if !(there.at_px.cmpge(DVec2::ZERO).all() && there.at_px.cmplt(size).all()) {
             return Visibility::Outside;
         }
-        let Some((front, _)) = frame.body.truth_ray(there.at_px) else { return Visibility::NoImage };
+        let Some((front, _)) = frame.body().truth_ray(there.at_px) else { return Visibility::NoImage };
         let origin_m = front.ray.origin_m;
         let Some(ahead) = there.target.direction_from(origin_m) else { return Visibility::NoImage };
-        let hit = self.0.meets(&there.pose, origin_m, ahead, (there.time_s - frame.start_s) as f32, None);
+        let hit = self.0.meets(&there.pose, origin_m, ahead, (there.time_s - frame.interval().start_s()) as f32, None);
         let hidden = match (hit, there.target) {
             (None, _) => false,
             (Some(_), Target::Direction(_)) => true,

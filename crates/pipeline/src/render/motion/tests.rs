@@ -1,87 +1,22 @@
 //! Motion against closed forms. Flow is stored in 32-bit floats, which keep 6e-8 of it; geometry is f64: 1e-5 px is granted.
 
 use super::{MotionTruth, Visibility, disparity, motion_truth};
-use crate::plan::CameraBody;
+use crate::Plan;
 use crate::render::frame_view::FrameView;
-use crate::{Choices, Plan, compile};
-use etendue_core::track::{Interpolation, Key};
-use etendue_core::{CameraPath, CameraPose, RowTiming, Shutter, Track};
-use etendue_scene::asset::Assets;
-use etendue_scene::{Description, Overrides};
-use etendue_tracer::accel::{Simd, World, WorldBuilder};
-use etendue_tracer::geometry::Instance;
-use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
-use std::path::Path;
+use crate::render::test_scenes::{
+    BOARD, FOCAL_PX, PINHOLE, WALL, camera, path, plan, plan_of, pose_of, shifting, track, with_motion,
+};
+use etendue_core::{CameraPath, CameraPose, RowTiming, Shutter};
+use etendue_tracer::accel::Simd;
+use glam::{DMat3, DQuat, DVec2, DVec3};
 
 const CLOSE_PX: f32 = 1e-5;
-const PINHOLE: &str = "type = \"pinhole\", focal_length_mm = 6, f_number = 2";
-/// Focal length over pitch.
-const FOCAL_PX: f64 = 60.0;
-/// A wall across the camera's view, 10 m before it.
-const WALL: &str = "[[scene.objects]]\nname = \"wall\"\nmaterial = \"grey\"\nshape = { type = \"quad\", size_m = [400, 400] }\n\
-                    position_m = [10, 0, 0]\nrotation_deg = [0, 90, 0]\n";
-/// A board of 2 m, 5 m before the camera, in the plane x = 5.
-const BOARD: &str = "[[scene.objects]]\nname = \"board\"\nmaterial = \"grey\"\nshape = { type = \"quad\", size_m = [2, 2] }\n\
-                     position_m = [5, 0, 0]\nrotation_deg = [0, 90, 0]\n";
 
-fn plan(lens: &str, objects: &str) -> Plan {
-    plan_of(&format!("lens = {{ {lens} }}\n"), 100.0, objects)
-}
-
-fn plan_of(camera: &str, pitch_um: f64, objects: &str) -> Plan {
-    let text = format!(
-        "format = 1\n[[cameras]]\nname = \"eye\"\nposition_m = [0, 0, 0]\nrotation_deg = [0, 0, 0]\n{camera}\
-         sensor = {{ width_px = 32, height_px = 24, pixel_pitch_um = {pitch_um} }}\n\
-         [[scene.materials]]\nname = \"grey\"\ntype = \"diffuse\"\nreflectance = 0.5\n{objects}"
-    );
-    let read = |_: &Path| Ok(text.clone());
-    let job = Description::load(Path::new("job.toml"), &read, &Overrides::default()).unwrap_or_else(|f| panic!("{f}"));
-    compile(&job, &Assets::default(), &Choices::default()).unwrap_or_else(|f| panic!("{f:?}"))
-}
-
-/// The plan with the track of an object's instance from its first place.
-fn with_motion(mut plan: Plan, instance: usize, motion: &Track) -> Plan {
-    let mut builder = WorldBuilder::new();
-    let meshes: Vec<_> = plan.world.meshes().iter().map(|mesh| builder.add_mesh(mesh.clone())).collect();
-    assert!(!meshes.is_empty());
-    for (i, placed) in plan.world.instances().iter().enumerate() {
-        let still = placed.to_world.as_still().expect("a still description");
-        let to_world = if i == instance { motion.after(&still) } else { placed.to_world.clone() };
-        builder.add_instance(Instance { to_world, ..placed.clone() });
-    }
-    let world: World = builder.build().expect("a legal world");
-    plan.world = world;
-    plan
-}
-
-/// A straight motion through (time, translation, rotation).
-fn track(keys: &[(f64, DVec3, DQuat)]) -> Track {
-    let key = |(time_s, position_m, rotation): &(f64, DVec3, DQuat)| Key {
-        time_s: *time_s,
-        position_m: *position_m,
-        rotation: *rotation,
-        scale: DVec3::ONE,
-    };
-    Track::new(&keys.iter().map(key).collect::<Vec<_>>(), Interpolation::Linear).expect("a legal track")
-}
-
-fn shifting(velocity_m_s: DVec3) -> Track {
-    track(&[(-10.0, velocity_m_s * -10.0, DQuat::IDENTITY), (10.0, velocity_m_s * 10.0, DQuat::IDENTITY)])
-}
-
-/// The camera's path: its pose (x right is −y of the world, y down is −z, z forward is x) moved by a track of the world.
-fn path(pose: CameraPose, motion: &Track) -> CameraPath {
-    CameraPath::moving(motion.after(&DAffine3::from_mat3_translation(pose.rotation, pose.position_m)))
-}
-
-fn frame<'a>(body: &'a CameraBody, path: &'a CameraPath, shutter: &'a Shutter, start_s: f64) -> FrameView<'a> {
-    FrameView { body, path, shutter, exposure_s: 0.01, start_s }
-}
-
-/// The truth of a frame at 0 against those 0.1 s later and before.
+/// The truth of the frame at 0 against those 0.1 s later and before.
 fn truth(plan: &Plan, path: &CameraPath, shutter: &Shutter) -> MotionTruth {
-    let at = |start_s: f64| frame(&plan.cameras[0].body, path, shutter, start_s);
-    motion_truth(plan, &at(0.0), &[at(0.1), at(-0.1)], Simd::Auto)
+    let camera = camera(plan, path, shutter);
+    let at = |frame: u32| FrameView { camera: &camera, frame };
+    motion_truth(plan, &at(1), &[at(2), at(0)], Simd::Auto)
 }
 
 fn centres() -> impl Iterator<Item = DVec2> {
@@ -104,7 +39,7 @@ fn counted(truth: &MotionTruth, neighbour: usize, visibility: Visibility) -> usi
 fn a_camera_that_moves_along_a_wall_sees_it_pass_by_f_v_over_z() {
     let plan = plan(PINHOLE, WALL);
     // 3 m/s to the left (the picture goes right) and 1 m/s up (the picture goes down).
-    let path = path(plan.cameras[0].pose, &shifting(DVec3::new(0.0, 3.0, 1.0)));
+    let path = path(pose_of(&plan), &shifting(DVec3::new(0.0, 3.0, 1.0)));
     let truth = truth(&plan, &path, &Shutter::Global);
     let velocity = DVec2::new(3.0, 1.0) * FOCAL_PX / 10.0;
     assert_flow(&truth, 0, |_| velocity * 0.1);
@@ -124,7 +59,7 @@ fn a_camera_that_moves_along_a_wall_sees_it_pass_by_f_v_over_z() {
 #[test]
 fn a_camera_that_comes_nearer_sees_everything_go_away_from_the_centre() {
     let plan = plan(PINHOLE, WALL);
-    let path = path(plan.cameras[0].pose, &shifting(DVec3::new(20.0, 0.0, 0.0)));
+    let path = path(pose_of(&plan), &shifting(DVec3::new(20.0, 0.0, 0.0)));
     // At the middle of the exposure the wall is 9.9 m away, 0.1 s later 7.9 m.
     assert_flow(&truth(&plan, &path, &Shutter::Global), 0, |at| (at - DVec2::new(16.0, 12.0)) * (9.9 / 7.9 - 1.0));
 }
@@ -136,7 +71,7 @@ fn a_camera_that_turns_sees_its_homography_and_the_background_as_well() {
         let axis = DVec3::new(0.2, -0.3, 1.0).normalize();
         let turned = |time_s: f64| DQuat::from_axis_angle(axis, 0.4 * time_s);
         let motion = track(&[(-1.0, DVec3::ZERO, turned(-1.0)), (1.0, DVec3::ZERO, turned(1.0))]);
-        let pose = plan.cameras[0].pose;
+        let pose = pose_of(&plan);
         let rotation = |time_s: f64| DMat3::from_quat(turned(time_s)) * pose.rotation;
         let k = DMat3::from_cols(DVec3::X * FOCAL_PX, DVec3::Y * FOCAL_PX, DVec3::new(16.0, 12.0, 1.0));
         let homography = k * rotation(0.105).transpose() * rotation(0.005) * k.inverse();
@@ -154,7 +89,7 @@ fn a_fisheye_that_turns_about_an_axis_sees_its_own_projection_turn() {
     let plan = plan(lens, "");
     let yaw = |time_s: f64| DQuat::from_rotation_z(-0.5 * time_s);
     let motion = track(&[(-1.0, DVec3::ZERO, yaw(-1.0)), (1.0, DVec3::ZERO, yaw(1.0))]);
-    let flow = truth(&plan, &path(plan.cameras[0].pose, &motion), &Shutter::Global).neighbours.remove(0).flow;
+    let flow = truth(&plan, &path(pose_of(&plan), &motion), &Shutter::Global).neighbours.remove(0).flow;
     // On the middle row r = f θ: 0.05 rad to the right move everything 0.6 px to the left, and the row stays one.
     let seen = |x: usize, y: usize| flow.at(x, y);
     let above_and_below: Vec<[f32; 2]> = (4..28).flat_map(|x| [seen(x, 11), seen(x, 12)]).collect();
@@ -180,7 +115,7 @@ fn a_fisheye_that_turns_about_an_axis_sees_its_own_projection_turn() {
 #[test]
 fn rolling_rows_see_a_point_when_it_comes_to_them() {
     let plan = plan(PINHOLE, WALL);
-    let path = path(plan.cameras[0].pose, &shifting(DVec3::new(0.0, 3.0, 5.0)));
+    let path = path(pose_of(&plan), &shifting(DVec3::new(0.0, 3.0, 5.0)));
     let velocity = DVec2::new(3.0, 5.0) * FOCAL_PX / 10.0;
     for upwards in [false, true] {
         let row_time_s = 1e-3;
@@ -197,7 +132,7 @@ fn rolling_rows_see_a_point_when_it_comes_to_them() {
 #[test]
 fn interlaced_rows_follow_their_own_field() {
     let plan = plan(PINHOLE, WALL);
-    let path = path(plan.cameras[0].pose, &shifting(DVec3::new(0.0, 3.0, 5.0)));
+    let path = path(pose_of(&plan), &shifting(DVec3::new(0.0, 3.0, 5.0)));
     let velocity = DVec2::new(3.0, 5.0) * FOCAL_PX / 10.0;
     let shutter = Shutter::Rolling(RowTiming { row_time_s: 1e-3, upwards: false, fields: 2 });
     // Within a field, a row of the picture is half a row time.
@@ -206,7 +141,7 @@ fn interlaced_rows_follow_their_own_field() {
 
 #[test]
 fn what_moves_and_turns_is_followed_in_its_own_frame() {
-    let still = CameraPath::still(plan(PINHOLE, "").cameras[0].pose);
+    let still = CameraPath::still(pose_of(&plan(PINHOLE, "")));
     let moved = with_motion(plan(PINHOLE, BOARD), 0, &shifting(DVec3::new(0.0, -4.0, 0.0)));
     let found = truth(&moved, &still, &Shutter::Global);
     for (i, at) in centres().enumerate() {
@@ -236,7 +171,7 @@ fn what_moves_and_turns_is_followed_in_its_own_frame() {
 
 #[test]
 fn what_another_surface_comes_before_is_hidden() {
-    let still = CameraPath::still(plan(PINHOLE, "").cameras[0].pose);
+    let still = CameraPath::still(pose_of(&plan(PINHOLE, "")));
     let board = with_motion(plan(PINHOLE, &format!("{WALL}{BOARD}")), 1, &shifting(DVec3::new(0.0, -4.0, 0.0)));
     let found = truth(&board, &still, &Shutter::Global);
     let [forward, backward] = [0, 1].map(|n| found.neighbours[n].visibility.samples());
@@ -262,7 +197,7 @@ fn what_another_surface_comes_before_is_hidden() {
 #[test]
 fn what_is_behind_the_camera_later_has_no_image() {
     let plan = plan(PINHOLE, BOARD);
-    let path = path(plan.cameras[0].pose, &shifting(DVec3::new(60.0, 0.0, 0.0)));
+    let path = path(pose_of(&plan), &shifting(DVec3::new(60.0, 0.0, 0.0)));
     let found = truth(&plan, &path, &Shutter::Global);
     let board = found.velocity.samples().iter().filter(|v| !v[0].is_nan()).count();
     assert_eq!(counted(&found, 0, Visibility::NoImage), board);
@@ -298,7 +233,7 @@ const BEHIND: &str = "[[scene.objects]]\nname = \"behind\"\nmaterial = \"grey\"\
 fn nothing_moves_where_nothing_moves_whatever_the_lens() {
     for (camera, pitch_um) in cameras() {
         let plan = plan_of(&camera, pitch_um, &format!("{WALL}{BOARD}{BEHIND}"));
-        let found = truth(&plan, &CameraPath::still(plan.cameras[0].pose), &Shutter::Global);
+        let found = truth(&plan, &CameraPath::still(pose_of(&plan)), &Shutter::Global);
         for (flow, seen) in found.neighbours[0].flow.samples().iter().zip(found.neighbours[0].visibility.samples()) {
             let is_still = flow.iter().all(|v| v.abs() < CLOSE_PX) && *seen == Visibility::Seen as u32;
             assert!(
@@ -314,7 +249,7 @@ fn nothing_moves_where_nothing_moves_whatever_the_lens() {
 fn the_ray_of_the_place_that_is_found_meets_the_point() {
     for (camera, pitch_um) in cameras() {
         let plan = plan_of(&camera, pitch_um, &format!("{WALL}{BEHIND}"));
-        let (body, pose) = (&plan.cameras[0].body, plan.cameras[0].pose);
+        let (body, pose) = (&plan.cameras[0].body, pose_of(&plan));
         let path = path(pose, &shifting(DVec3::new(1.0, 2.0, -1.0)));
         let found = truth(&plan, &path, &Shutter::Global);
         // Where the ray of a place at a time meets one of the walls, in the closed form of planes.
@@ -345,7 +280,7 @@ fn the_ray_of_the_place_that_is_found_meets_the_point() {
 #[test]
 fn a_telecentric_camera_sees_shifts_and_no_distance() {
     let plan = plan("type = \"telecentric\", f_number = 2, field_width_m = 3.2", &format!("{WALL}{BOARD}"));
-    let path = path(plan.cameras[0].pose, &shifting(DVec3::new(7.0, 1.0, -2.0)));
+    let path = path(pose_of(&plan), &shifting(DVec3::new(7.0, 1.0, -2.0)));
     // 0.1 m a pixel; 0.1 m left and 0.2 m down in 0.1 s.
     assert_flow(&truth(&plan, &path, &Shutter::Global), 0, |_| DVec2::new(1.0, -2.0));
 }
@@ -353,11 +288,11 @@ fn a_telecentric_camera_sees_shifts_and_no_distance() {
 #[test]
 fn disparity_is_base_times_focal_length_over_depth() {
     let plan = plan(PINHOLE, &format!("{WALL}{BOARD}"));
-    let (body, pose) = (&plan.cameras[0].body, plan.cameras[0].pose);
-    let left = CameraPath::still(pose);
-    let right = CameraPath::still(CameraPose { position_m: pose.position_m - DVec3::Y * 0.25, ..pose });
-    let at = |path| frame(body, path, &Shutter::Global, 0.0);
-    let (found, seen) = disparity(&plan, &at(&left), &at(&right), Simd::Auto);
+    let pose = pose_of(&plan);
+    let at = |y_m: f64| CameraPath::still(CameraPose { position_m: DVec3::Y * y_m, ..pose });
+    let [left, right] = [0.0, -0.25].map(|y_m| camera(&plan, &at(y_m), &Shutter::Global));
+    let [left, right] = [&left, &right].map(|camera| FrameView { camera, frame: 0 });
+    let (found, seen) = disparity(&plan, &left, &right, Simd::Auto);
     for (i, at) in centres().enumerate() {
         let is_board = (at - DVec2::new(16.0, 12.0)).abs().max_element() < 12.0;
         let expected = 0.25 * FOCAL_PX / if is_board { 5.0 } else { 10.0 };
