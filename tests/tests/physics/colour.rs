@@ -55,7 +55,13 @@ fn linear(shot: &Shot) -> [f64; 3] {
     let electrons = shot.light().electrons.expect("a sensor");
     let address = etendue_sensor::FrameAddress { seed: 1, camera: 0, frame: 0, capture: 0 };
     let start = etendue_sensor::SensorState::default();
-    let (_, frame) = etendue_pipeline::photograph::take(&shot.camera().body, start, &electrons, address).expect("raw");
+    let (_, frame) = etendue_pipeline::photograph::take(
+        &shot.camera().body,
+        start,
+        etendue_sensor::CaptureLight::steady(&electrons),
+        address,
+    )
+    .expect("raw");
     let largest = frame.raw.plane.samples().iter().max().expect("pixels");
     assert!(f64::from(*largest) < frame.raw.white_level_dn, "the card saturates: {largest}");
     let picture = frame.picture.expect("a processing").linear;

@@ -8,7 +8,7 @@ use etendue_core::Plane;
 use etendue_core::quantity::{LinearRgb, MeanElectrons};
 use etendue_pipeline::photograph::take;
 use etendue_pipeline::plan::CameraBody;
-use etendue_sensor::{FrameAddress, Sensor, SensorState};
+use etendue_sensor::{CaptureLight, FrameAddress, Sensor, SensorState};
 use etendue_spectra::colour::{D65_WHITE, Lab, ciede2000, lab, xyz_from_linear_srgb};
 use etendue_spectra::{Spectrum, camera, chart, illuminant, observer};
 use etendue_tests::Job;
@@ -99,7 +99,7 @@ fn seen(name: &str, light: &str, demosaic: &str, chart: &[&Spectrum]) -> Vec<Lab
     let (body, spectrum) = (body(name, light, demosaic), illuminant::named(light).expect("an illuminant"));
     let electrons = electrons(body.sensor.as_ref().expect("electronics"), spectrum, chart);
     let address = FrameAddress { seed: 1, camera: 0, frame: 0, capture: 0 };
-    let (_, frame) = take(&body, SensorState::default(), &electrons, address).expect("a frame");
+    let (_, frame) = take(&body, SensorState::default(), CaptureLight::steady(&electrons), address).expect("a frame");
     let picture = frame.picture.expect("a picture").linear;
     (0..24).map(|i| colour(&picture, i)).collect()
 }

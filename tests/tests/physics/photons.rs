@@ -105,7 +105,9 @@ fn digital_numbers_are_electrons_times_the_gain() {
     let sensor = body.sensor.as_ref().expect("a sensor");
     let address = etendue_sensor::FrameAddress { seed: 1, camera: 0, frame: 0, capture: 0 };
     let start = etendue_sensor::SensorState::default();
-    let (_, frame) = etendue_pipeline::photograph::take(body, start, &electrons, address).expect("a sensor");
+    let (_, frame) =
+        etendue_pipeline::photograph::take(body, start, etendue_sensor::CaptureLight::steady(&electrons), address)
+            .expect("a sensor");
     assert!(!sensor.parameters().noise);
     for (dn, e) in frame.raw.plane.samples().iter().zip(electrons.samples()) {
         // Without noise the converter rounds to the nearest whole number.

@@ -123,12 +123,12 @@ fn stored_distances_are_those_that_the_lens_sees() {
         let camera = &plan.cameras[0];
         let Route::Pupil(projection) = &camera.settings.route else { panic!("the route at the pupil") };
         assert!(projection.views().count() >= 5);
-        let depth = pupil_depth(&plan, camera, Simd::Auto).expect("at the pupil");
+        let depth = pupil_depth(&plan, camera, 0, Simd::Auto).expect("at the pupil");
         let bands = camera.settings.bands.expect("a cube");
         let radiance = etendue_core::SpectralCube::new(projection.width(), projection.height(), bands);
         let stored = Stored { projection, radiance: &radiance, distance: Some(&depth.distance) };
         let seen = stored.seen(&camera.body, [0, 0]).expect("covered").distance.expect("stored");
-        let direct = etendue_pipeline::truth::ground_truth(&plan, camera, Simd::Auto).distance;
+        let direct = etendue_pipeline::truth::ground_truth(&plan, camera, 0, Simd::Auto).distance;
         for y in 1..HEIGHT - 1 {
             for x in 1..WIDTH - 1 {
                 let d = seen.at(x, y);

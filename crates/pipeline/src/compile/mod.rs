@@ -94,7 +94,8 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
         context.accept(&position.place, world.check_reach(DVec3::from_array(position.value), TimeInterval::default()));
     }
     let (material_table, materials) = builder.finish(context)?;
-    timing::depend(&mut cameras, &world, context);
+    let is_modulated = sources.is_modulated() || material_table.is_modulated();
+    timing::depend(&mut cameras, &world, is_modulated, context);
     shared_light::share(&mut cameras);
     positions::remark(&cameras, context);
     surroundings::remark(&cameras, &world, &material_table, &materials, context);

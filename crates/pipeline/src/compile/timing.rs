@@ -32,11 +32,12 @@ pub(super) fn timing(
 }
 
 /// Whether the light of each camera depends on time, and whether its route can show it.
-pub(super) fn depend(cameras: &mut [CameraPlan], world: &World, context: &mut Context<'_>) {
+pub(super) fn depend(cameras: &mut [CameraPlan], world: &World, is_modulated: bool, context: &mut Context<'_>) {
     let moves = world.instances().iter().any(|instance| instance.to_world.as_still().is_none());
     for camera in cameras {
         camera.time = match () {
             () if moves || !camera.path.is_still() => TimeDependence::Motion,
+            () if is_modulated => TimeDependence::Lights,
             () => TimeDependence::None,
         };
         let at_pupil = matches!(camera.settings.route, Route::Pupil(_));
