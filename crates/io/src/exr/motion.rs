@@ -1,7 +1,7 @@
 //! Ground truth of motion as an EXR: where what a pixel sees is seen in the frames before and after it, and how it moves.
 
 use etendue_core::Plane;
-use etendue_core::quantity::{Identity, ImageVelocity, OpticalFlow, Quantity, Time, Vector};
+use etendue_core::quantity::{Disparity, Identity, ImageVelocity, OpticalFlow, Quantity, Time, Vector};
 
 use super::encode::{EncodeError, ExrImage};
 use super::ground_truth::add_vector;
@@ -10,10 +10,10 @@ use crate::Provenance;
 /// What a pixel's surface point is in one neighbouring frame.
 #[derive(Clone, Copy, Debug)]
 pub struct NeighbourTruth<'a> {
-    /// Where it is seen there, minus where it is seen here, px; NaN where it has no image there.
-    pub flow: &'a Plane<OpticalFlow>,
-    /// Whether it is seen there: [`VISIBILITY`].
-    pub visibility: &'a Plane<Identity>,
+    /// Where it is seen there, minus where it is seen here, px; NaN where it has no image there. `None` where it is not asked for.
+    pub flow: Option<&'a Plane<OpticalFlow>>,
+    /// Whether it is seen there: [`VISIBILITY`]. `None` where it is not asked for.
+    pub visibility: Option<&'a Plane<Identity>>,
     /// Its place in the camera's frame there minus that here, each camera's own frame, m; NaN for the background. `None` where it is not
     /// asked for.
     pub scene_flow: Option<&'a Plane<Vector>>,
@@ -47,8 +47,12 @@ pub fn encode_motion(truth: &MotionTruth<'_>, provenance: &Provenance) -> Result
     let mut image = ExrImage::new(width, height, provenance);
     for (direction, neighbour) in [("forward", truth.forward), ("backward", truth.backward)] {
         let Some(neighbour) = neighbour else { continue };
-        add_pair(&mut image, &format!("flow.{direction}"), neighbour.flow.samples());
-        image.uint(format!("visibility.{direction}.ID"), neighbour.visibility.samples().to_vec());
+        if let Some(plane) = neighbour.flow {
+            add_pair(&mut image, &format!("flow.{direction}"), plane.samples());
+        }
+        if let Some(plane) = neighbour.visibility {
+            image.uint(format!("visibility.{direction}.ID"), plane.samples().to_vec());
+        }
         if let Some(plane) = neighbour.scene_flow {
             add_vector(&mut image, &format!("scene_flow.{direction}"), plane);
         }
@@ -70,12 +74,32 @@ pub fn encode_motion(truth: &MotionTruth<'_>, provenance: &Provenance) -> Result
     image.into_bytes()
 }
 
+/// Disparity to a right camera and whether that sees the point, in one file.
+///
+/// # Errors
+/// Where planes have different sizes or none.
+pub fn encode_disparity(
+    disparity: &Plane<Disparity>,
+    visibility: &Plane<Identity>,
+    right: &str,
+    provenance: &Provenance,
+) -> Result<Vec<u8>, EncodeError> {
+    let mut image = ExrImage::new(disparity.width(), disparity.height(), provenance);
+    image.float("disparity.X", disparity.samples().to_vec());
+    image.uint("visibility.ID", visibility.samples().to_vec());
+    image.state("quantity", "disparity");
+    image.state("units", "px; the column here minus that in the right camera's picture; NaN: no image there");
+    image.state("right_camera", right);
+    image.state("visibility", VISIBILITY);
+    image.into_bytes()
+}
+
 impl MotionTruth<'_> {
     fn size(&self) -> Option<(usize, usize)> {
         fn of<Q: Quantity>(plane: &Plane<Q>) -> (usize, usize) {
             (plane.width(), plane.height())
         }
-        let neighbour = self.forward.or(self.backward).map(|n| of(n.flow));
+        let neighbour = self.forward.or(self.backward).and_then(|n| n.flow.map(of).or(n.scene_flow.map(of)));
         neighbour.or(self.motion_vector.map(of)).or(self.velocity.map(of)).or(self.time.map(of))
     }
 }
@@ -99,7 +123,7 @@ mod tests {
         let vector = Plane::<Vector>::filled(2, 1, [1.0, -2.0, 3.0]);
         let velocity = Plane::<ImageVelocity>::filled(2, 1, [-4.0, 5.0]);
         let time = Plane::<Time>::filled(2, 1, 0.25);
-        let neighbour = NeighbourTruth { flow: &flow, visibility: &ids, scene_flow: Some(&vector) };
+        let neighbour = NeighbourTruth { flow: Some(&flow), visibility: Some(&ids), scene_flow: Some(&vector) };
         let truth = MotionTruth {
             forward: Some(neighbour),
             backward: Some(NeighbourTruth { scene_flow: None, ..neighbour }),

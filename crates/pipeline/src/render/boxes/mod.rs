@@ -19,7 +19,7 @@ mod solid;
 mod tests;
 
 pub use pixel_box::PixelBox;
-pub use solid::SolidBox;
+pub use solid::{SolidBox, Stance};
 
 use crate::plan::Plan;
 use crate::render::frame_view::FrameView;
