@@ -1,6 +1,6 @@
 //! A world's instances written out as one mesh: what the accelerator does without instances.
 
-use etendue_core::Track;
+use etendue_core::Motion;
 use etendue_tracer::MaterialId;
 use etendue_tracer::accel::{World, WorldBuilder};
 use etendue_tracer::geometry::{Instance, Mesh, Shape};
@@ -18,7 +18,7 @@ pub fn mesh(view: &RenderSpace<'_>) -> Mesh {
 pub fn world(mesh: Mesh) -> World {
     let mut builder = WorldBuilder::new();
     let shape = Shape::Mesh(builder.add_mesh(mesh));
-    let to_world = Track::still(DAffine3::IDENTITY);
+    let to_world = Motion::still(DAffine3::IDENTITY);
     builder.add_instance(Instance { shape, to_world, materials: vec![MaterialId(0)], instance_id: 1, semantic_id: 0 });
     builder.build().expect("a legal world")
 }

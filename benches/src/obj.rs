@@ -5,7 +5,7 @@ use crate::runs::Runs;
 use crate::table::Table;
 use crate::terrain;
 use crate::threads::pool;
-use etendue_core::{Ray, Track};
+use etendue_core::{Motion, Ray};
 use etendue_io::mesh::read_mesh;
 use etendue_scene::asset::MeshAsset;
 use etendue_tracer::MaterialId;
@@ -58,7 +58,7 @@ fn stages(file: &Path) -> [(f64, f64); STAGES.len()] {
     let (world, building) = both(|| {
         let mut builder = WorldBuilder::new();
         let shape = Shape::Mesh(builder.add_mesh(mesh));
-        let to_world = Track::still(DAffine3::IDENTITY);
+        let to_world = Motion::still(DAffine3::IDENTITY);
         builder.add_instance(Instance {
             shape,
             to_world,

@@ -2,7 +2,8 @@
 
 use crate::TimeInterval;
 use crate::frame::CameraPose;
-use crate::track::Track;
+use crate::motion::Motion;
+use glam::{DAffine3, DVec3};
 
 /// The pose of a camera at every time.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,7 +12,7 @@ pub struct CameraPath(Kind);
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
     Still(CameraPose),
-    Moving(Track),
+    Moving(Motion),
 }
 
 impl CameraPath {
@@ -22,10 +23,14 @@ impl CameraPath {
     }
 
     /// A camera that moves: `to_world` goes from the camera frame (x right, y down, z forward; origin at the centre of the entrance
-    /// pupil) to the world, and scales nothing.
+    /// pupil) to the world, and scales nothing. One that never moves stands still.
     #[must_use]
-    pub fn moving(to_world: Track) -> Self {
-        Self(Kind::Moving(to_world))
+    pub fn moving(to_world: impl Into<Motion>) -> Self {
+        let to_world: Motion = to_world.into();
+        match to_world.as_still() {
+            Some(to_world) => Self::still(pose(&to_world)),
+            None => Self(Kind::Moving(to_world)),
+        }
     }
 
     /// The pose at a simulated time, s.
@@ -33,10 +38,7 @@ impl CameraPath {
     pub fn at(&self, time_s: f64) -> CameraPose {
         match &self.0 {
             Kind::Still(pose) => *pose,
-            Kind::Moving(to_world) => {
-                let to_world = to_world.at(time_s);
-                CameraPose { position_m: to_world.translation, rotation: to_world.matrix3 }
-            }
+            Kind::Moving(to_world) => pose(&to_world.at(time_s)),
         }
     }
 
@@ -49,6 +51,24 @@ impl CameraPath {
         }
     }
 
+    /// Least and greatest coordinates, m, of a box of the world that holds the centre of the entrance pupil during an interval.
+    #[must_use]
+    pub fn bounds_over(&self, interval: TimeInterval) -> (DVec3, DVec3) {
+        match &self.0 {
+            Kind::Still(pose) => (pose.position_m, pose.position_m),
+            Kind::Moving(to_world) => to_world.rough_bounds(interval, 0.0),
+        }
+    }
+
+    /// From the first time at which it moves to the last; `None` where it never does.
+    #[must_use]
+    pub fn moves_during(&self) -> Option<TimeInterval> {
+        match &self.0 {
+            Kind::Still(_) => None,
+            Kind::Moving(to_world) => to_world.moves_during(),
+        }
+    }
+
     /// Whether it has one pose at all times.
     #[must_use]
     pub fn is_still(&self) -> bool {
@@ -56,11 +76,15 @@ impl CameraPath {
     }
 }
 
+fn pose(to_world: &DAffine3) -> CameraPose {
+    CameraPose { position_m: to_world.translation, rotation: to_world.matrix3 }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::track::{Interpolation, Key};
-    use glam::{DMat3, DQuat, DVec3};
+    use crate::track::{Interpolation, Key, Track};
+    use glam::{DMat3, DQuat};
 
     #[test]
     fn a_camera_that_moves_has_the_pose_of_its_track() {

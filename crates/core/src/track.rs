@@ -5,10 +5,14 @@
 
 mod bounds;
 mod cubic;
+mod rates;
+mod rolling;
 mod span;
 #[cfg(test)]
 mod tests;
 mod turn;
+
+pub(crate) use rates::{Bend, Moving as MovingTransform};
 
 use crate::TimeInterval;
 use cubic::Cubic;
@@ -90,12 +94,12 @@ pub struct Track(Kind);
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
     Still(DAffine3),
-    Moving(Arc<Motion>),
+    Moving(Arc<Keyed>),
 }
 
 /// Two keys or more, not all alike.
 #[derive(Clone, Debug, PartialEq)]
-struct Motion {
+struct Keyed {
     /// Of the keys, in increasing order.
     times_s: Vec<f64>,
     /// From each key but the last to the next.
@@ -133,7 +137,7 @@ impl Track {
             return Ok(Self::still(poses[0].transform()));
         }
         let last = poses[poses.len() - 1];
-        Ok(Self(Kind::Moving(Arc::new(Motion { times_s, spans, last, first: DAffine3::IDENTITY }))))
+        Ok(Self(Kind::Moving(Arc::new(Keyed { times_s, spans, last, first: DAffine3::IDENTITY }))))
     }
 
     /// The same track of something that `first` is applied to before it moves.
@@ -141,8 +145,8 @@ impl Track {
     pub fn after(&self, first: &DAffine3) -> Self {
         match &self.0 {
             Kind::Still(transform) => Self::still(*transform * *first),
-            Kind::Moving(motion) => {
-                let moved = Motion { first: motion.first * *first, ..Motion::clone(motion) };
+            Kind::Moving(keyed) => {
+                let moved = Keyed { first: keyed.first * *first, ..Keyed::clone(keyed) };
                 Self(Kind::Moving(Arc::new(moved)))
             }
         }
@@ -153,7 +157,7 @@ impl Track {
     pub fn at(&self, time_s: f64) -> DAffine3 {
         match &self.0 {
             Kind::Still(transform) => *transform,
-            Kind::Moving(motion) => motion.at(time_s),
+            Kind::Moving(keyed) => keyed.at(time_s),
         }
     }
 
@@ -171,15 +175,15 @@ impl Track {
     pub fn still_over(&self, interval: TimeInterval) -> Option<DAffine3> {
         match &self.0 {
             Kind::Still(transform) => Some(*transform),
-            Kind::Moving(motion) => {
-                let holds = interval.is_moment() || motion.during(interval).all(|(span, _)| span.is_constant());
-                holds.then(|| motion.at(interval.start_s()))
+            Kind::Moving(keyed) => {
+                let holds = interval.is_moment() || keyed.during(interval).all(|(span, _)| span.is_constant());
+                holds.then(|| keyed.at(interval.start_s()))
             }
         }
     }
 }
 
-impl Motion {
+impl Keyed {
     fn at(&self, time_s: f64) -> DAffine3 {
         self.pose(time_s).transform() * self.first
     }

@@ -10,6 +10,7 @@ use crate::picture::read_picture;
 use crate::prescription::read_prescription;
 use crate::spectrum::read_spectrum_of;
 use crate::table::{read_complex_index, read_numbers, read_retro_table};
+use crate::trajectory::read_trajectory;
 
 /// Reads every file of `named` (as a description names them), and those that its meshes name in turn.
 ///
@@ -53,6 +54,7 @@ fn load(assets: &mut Assets, request: &AssetRequest) -> Result<(), Error> {
         AssetKind::RetroTable => drop(assets.retro_tables.insert(key, read_retro_table(path)?)),
         AssetKind::Numbers => drop(assets.numbers.insert(key, read_numbers(path)?)),
         AssetKind::Prescription => drop(assets.prescriptions.insert(key, read_prescription(path)?)),
+        AssetKind::Trajectory => drop(assets.trajectories.insert(key, read_trajectory(path)?)),
         AssetKind::Calibration(choice) => {
             let camera = read_calibration(path, choice.format, choice.camera.as_deref())?;
             let ImportedCamera { calibration, notes: report, hash, .. } = camera;

@@ -47,6 +47,7 @@ mod source;
 pub mod spectrum;
 pub mod table;
 pub mod tiff;
+pub mod trajectory;
 mod unpacked;
 
 pub use assets::{complete_assets, load_assets};

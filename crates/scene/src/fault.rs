@@ -31,6 +31,7 @@ impl Named {
             Self::Texture => "texture",
             Self::Material => "material",
             Self::Class => "class",
+            Self::Frame => "frame",
         }
     }
 }
@@ -66,6 +67,7 @@ pub(crate) enum Named {
     Texture,
     Material,
     Class,
+    Frame,
 }
 
 impl Faults {

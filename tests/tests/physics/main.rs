@@ -29,4 +29,5 @@ mod routes;
 mod signs;
 mod sky;
 mod spectral_routes;
+mod time;
 mod views;

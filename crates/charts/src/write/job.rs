@@ -2,7 +2,6 @@
 
 use super::Request;
 use crate::camera_station::CameraStation;
-use etendue_scene::record::pose::Aim;
 use etendue_scene::record::render::Integrator;
 use etendue_scene::record::sensor::charge::NonUniformity;
 use etendue_scene::record::{Output, Pose, Render};
@@ -30,7 +29,7 @@ pub(super) fn job(request: &Request<'_>) -> String {
 /// A station as a camera of the job; in a series, whose views are the same, without ground truth.
 fn camera_entry(station: &CameraStation, series: bool) -> Table {
     let [position_m, target_m, up] = [station.position_m, station.target_m, station.up].map(|v| v.to_array());
-    let pose = Pose { up: Some(up.into()), ..Pose::new(position_m, Aim::LookAt(target_m.into())) };
+    let pose = Pose::looking_at(position_m, target_m, up);
     let entry =
         Table::new().with("name", station.name.as_str()).with("file", camera_file(station)).and(pose.to_table());
     match series {

@@ -5,7 +5,7 @@
 //! ([`Span::each_box`]): at each moment the transform is affine, so that the moved box is the convex hull of its moved corners.
 
 use super::span::Span;
-use super::{Kind, Motion, Track};
+use super::{Keyed, Kind, Track};
 use crate::TimeInterval;
 use core::f64::consts::PI;
 use glam::{BVec3, DAffine3, DMat3, DVec3};
@@ -33,6 +33,24 @@ impl Track {
         (low - reach, high + reach)
     }
 
+    /// A box that holds the ball of a radius about the moved frame's origin during an interval: looser than
+    /// [`Track::bounds_of_ball`] where something is applied before or scales change, and quick for long intervals.
+    #[must_use]
+    pub fn rough_bounds(&self, interval: TimeInterval, radius: f64) -> (DVec3, DVec3) {
+        let (first, (low, high)) = match &self.0 {
+            Kind::Still(transform) => (None, (transform.translation, transform.translation)),
+            Kind::Moving(keyed) => (Some(&keyed.first), keyed.origin_over(interval)),
+        };
+        let inner = first.map_or(radius, |first| most_stretch(&first.matrix3) * radius + first.translation.length());
+        let stretch = match &self.0 {
+            Kind::Still(transform) => most_stretch(&transform.matrix3),
+            Kind::Moving(keyed) => keyed.scales_over(interval).1.max_element(),
+        };
+        let reach = DVec3::splat(inner * stretch);
+        let room = (low.abs().max(high.abs()) + reach) * ROUNDING;
+        (low - reach - room, high + reach + room)
+    }
+
     /// Bounds, during an interval, of the least and the greatest factor by which lengths change; exact where each scale is the
     /// same along all axes and nothing is applied before.
     #[must_use]
@@ -40,9 +58,9 @@ impl Track {
         let of_matrix = |m: &DMat3| (1.0 / most_stretch(&m.inverse()), most_stretch(m));
         match &self.0 {
             Kind::Still(transform) => of_matrix(&transform.matrix3),
-            Kind::Moving(motion) => {
-                let (least, most) = motion.scales_over(interval);
-                let first = of_matrix(&motion.first.matrix3);
+            Kind::Moving(keyed) => {
+                let (least, most) = keyed.scales_over(interval);
+                let first = of_matrix(&keyed.first.matrix3);
                 (least.min_element() * first.0, most.max_element() * first.1)
             }
         }
@@ -52,19 +70,18 @@ impl Track {
     /// of the frame that it moves in.
     #[must_use]
     pub fn local_reach(&self, interval: TimeInterval, (low, high): (DVec3, DVec3)) -> f64 {
-        let keyed = match &self.0 {
-            Kind::Still(_) => self.clone(),
-            Kind::Moving(motion) => {
-                Self(Kind::Moving(Motion { first: DAffine3::IDENTITY, ..Motion::clone(motion) }.into()))
+        let ((origin_low, origin_high), least) = match &self.0 {
+            Kind::Still(transform) => {
+                ((transform.translation, transform.translation), 1.0 / most_stretch(&transform.matrix3.inverse()))
             }
+            Kind::Moving(keyed) => (keyed.origin_over(interval), keyed.scales_over(interval).0.min_element()),
         };
-        let (origin_low, origin_high) = keyed.bounds_of_points(interval, &[DVec3::ZERO]);
         let away = (high - origin_low).abs().max((origin_high - low).abs()).length();
-        let reach = away / keyed.stretch_over(interval).0;
+        let reach = away * (1.0 + ROUNDING) / least;
         match &self.0 {
             Kind::Still(_) => reach,
-            Kind::Moving(motion) => {
-                let back = motion.first.inverse();
+            Kind::Moving(keyed) => {
+                let back = keyed.first.inverse();
                 (back.translation.abs() + row_lengths(&back.matrix3) * reach).max_element()
             }
         }
@@ -79,7 +96,16 @@ impl Track {
         };
         match &self.0 {
             Kind::Still(_) => 0.0,
-            Kind::Moving(motion) => motion.during(interval).map(of_span).sum::<f64>().min(PI),
+            Kind::Moving(keyed) => keyed.during(interval).map(of_span).sum::<f64>().min(PI),
+        }
+    }
+
+    /// Whether the scale along every axis is one at all times.
+    #[must_use]
+    pub fn keeps_scale(&self) -> bool {
+        match &self.0 {
+            Kind::Still(_) => true,
+            Kind::Moving(keyed) => keyed.spans.iter().all(|span| span.scale.is_constant()),
         }
     }
 
@@ -89,7 +115,7 @@ impl Track {
     pub fn is_invertible(&self) -> bool {
         match &self.0 {
             Kind::Still(transform) => has_inverse(transform),
-            Kind::Moving(motion) => motion.is_invertible(),
+            Kind::Moving(keyed) => keyed.is_invertible(),
         }
     }
 
@@ -102,12 +128,12 @@ impl Track {
                 let room = most_of(transform, points) * ROUNDING;
                 (low - room, high + room)
             }
-            Kind::Moving(motion) => motion.bounds_of_points(interval, points),
+            Kind::Moving(keyed) => keyed.bounds_of_points(interval, points),
         }
     }
 }
 
-impl Motion {
+impl Keyed {
     fn bounds_of_points(&self, interval: TimeInterval, points: &[DVec3]) -> (DVec3, DVec3) {
         let most = most_of(&self.first, points);
         let points: Vec<DVec3> = points.iter().map(|point| self.first.transform_point3(*point)).collect();
@@ -127,6 +153,15 @@ impl Motion {
             room = pose.position.abs() + DVec3::splat((pose.scale.abs() * most).length());
         }
         (low - room * ROUNDING, high + room * ROUNDING)
+    }
+
+    /// Least and greatest coordinates of the keyed position during an interval.
+    fn origin_over(&self, interval: TimeInterval) -> (DVec3, DVec3) {
+        let ranges = self.during(interval).map(|(span, (u0, u1))| span.position.range(u0, u1));
+        ranges.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or_else(|| {
+            let position = self.pose(interval.start_s()).position;
+            (position, position)
+        })
     }
 
     /// Bounds of the scales' magnitudes by axis during an interval.
@@ -160,7 +195,7 @@ fn has_inverse(transform: &DAffine3) -> bool {
 }
 
 /// A bound of the greatest factor by which a matrix changes lengths: the lesser of two norms that are no less than it.
-fn most_stretch(m: &DMat3) -> f64 {
+pub(super) fn most_stretch(m: &DMat3) -> f64 {
     let sums =
         |m: &DMat3| [m.x_axis, m.y_axis, m.z_axis].map(|c| c.abs().element_sum()).into_iter().fold(0.0, f64::max);
     let squares: f64 = m.to_cols_array().iter().map(|x| x * x).sum();

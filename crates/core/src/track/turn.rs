@@ -22,6 +22,11 @@ pub(super) enum Turn {
         /// Axes times angles, rad.
         vectors: [DVec3; 3],
     },
+    /// About y by an angle that is a cubic polynomial of u, of any size.
+    Rolling {
+        /// Coefficients of 1, u, u² and u³, rad.
+        angle: [f64; 4],
+    },
 }
 
 impl Turn {
@@ -49,6 +54,22 @@ impl Turn {
                 let weights = [1.0 - rest * rest * rest, u * u * (3.0 - 2.0 * u), u * u * u];
                 *start * exp(*a * weights[0]) * exp(*b * weights[1]) * exp(*c * weights[2])
             }
+            Self::Rolling { angle: [a, b, c, d] } => rolled(a + (b + (c + d * u) * u) * u),
+        }
+    }
+
+    /// The angular velocity, rad per unit of u, in the turning frame. With R = R₀ A₁ A₂ A₃ the part of Aᵢ is turned back by those
+    /// behind it.
+    pub(super) fn velocity(&self, u: f64) -> DVec3 {
+        match self {
+            Self::Even { vector, .. } => *vector,
+            Self::Smooth { vectors: [a, b, c], .. } => {
+                let rest = 1.0 - u;
+                let rates = [3.0 * rest * rest, 6.0 * u * rest, 3.0 * u * u];
+                let back = [exp(*b * (-u * u * (3.0 - 2.0 * u))), exp(*c * (-u * u * u))];
+                back[1] * (back[0] * (*a * rates[0]) + *b * rates[1]) + *c * rates[2]
+            }
+            Self::Rolling { angle } => DVec3::Y * slope(angle, u),
         }
     }
 
@@ -57,6 +78,7 @@ impl Turn {
         match self {
             Self::Even { vector, .. } => *vector == DVec3::ZERO,
             Self::Smooth { vectors, .. } => *vectors == [DVec3::ZERO; 3],
+            Self::Rolling { angle } => angle[1..] == [0.0; 3],
         }
     }
 
@@ -64,6 +86,7 @@ impl Turn {
         match self {
             Self::Even { start, vector } => start.is_finite() && vector.is_finite(),
             Self::Smooth { start, vectors } => start.is_finite() && vectors.iter().all(|v| v.is_finite()),
+            Self::Rolling { angle } => angle.iter().all(|a| a.is_finite()),
         }
     }
 
@@ -83,8 +106,26 @@ impl Turn {
                 let rate = sum(first);
                 (rate, rate * rate + sum(second))
             }
+            Self::Rolling { angle } => {
+                let curve = |u: f64| (2.0 * angle[2] + 6.0 * angle[3] * u).abs();
+                let second = curve(u0).max(curve(u1));
+                // No place is farther than half the length from an end.
+                let rate = slope(angle, u0).abs().max(slope(angle, u1).abs()) + second * (0.5 * (u1 - u0));
+                (rate, rate * rate + second)
+            }
         }
     }
+}
+
+/// The derivative of a cubic polynomial.
+fn slope([_, b, c, d]: &[f64; 4], u: f64) -> f64 {
+    b + (2.0 * c + 3.0 * d * u) * u
+}
+
+/// The rotation about y by an angle, rad.
+pub(super) fn rolled(angle: f64) -> DQuat {
+    let (sin, cos) = maths::f64::sin_cos(0.5 * angle);
+    DQuat::from_xyzw(0.0, sin, 0.0, cos)
 }
 
 /// Axis times angle, rad, of the short way from one rotation to another, in the frame of the first.

@@ -41,10 +41,9 @@ fn stored_flow(vector: [f32; 2]) -> [u16; 3] {
     u.zip(v).map_or([0; 3], |(u, v)| [u, v, 1])
 }
 
-/// The number of a disparity; 0 where it is not known, negative or too large.
+/// The number of a disparity; 0 where it is not known, negative (but for rounding) or too large.
 fn stored_disparity(px: f32) -> u16 {
-    let units = f64::from(px) * DISPARITY_UNITS;
-    if units >= 0.0 { in_16_bits(units).map_or(0, |units| units.max(1)) } else { 0 }
+    in_16_bits(f64::from(px) * DISPARITY_UNITS).map_or(0, |units| units.max(1))
 }
 
 fn in_16_bits(number: f64) -> Option<u16> {
@@ -87,7 +86,7 @@ mod tests {
 
     #[test]
     fn disparity_has_the_numbers_of_the_development_kit() {
-        assert_eq!([1.0, 0.0, 1e-4, 255.99, 37.5].map(stored_disparity), [256, 1, 1, 65_533, 9_600]);
+        assert_eq!([1.0, 0.0, 1e-4, -1e-12, 255.99, 37.5].map(stored_disparity), [256, 1, 1, 1, 65_533, 9_600]);
         assert_eq!([f32::NAN, -0.1, 256.0, f32::INFINITY].map(stored_disparity), [0; 4]);
     }
 

@@ -137,10 +137,10 @@ pub fn read_numbers(file: &Path) -> Result<NumbersAsset, Error> {
 }
 
 /// A row that holds something.
-struct Row<'a> {
+pub(crate) struct Row<'a> {
     /// Counted from 1.
-    line: usize,
-    cells: Vec<&'a str>,
+    pub(crate) line: usize,
+    pub(crate) cells: Vec<&'a str>,
 }
 
 impl Row<'_> {
@@ -151,7 +151,7 @@ impl Row<'_> {
 }
 
 /// Rows that are no comment. Cells are divided by commas, or else by blanks.
-fn rows(text: &str) -> impl Iterator<Item = Row<'_>> {
+pub(crate) fn rows(text: &str) -> impl Iterator<Item = Row<'_>> {
     text.lines().enumerate().filter_map(|(index, line)| {
         let content = line.split('#').next().unwrap_or_default().trim();
         let cells: Vec<&str> = match content.contains(',') {
@@ -162,7 +162,7 @@ fn rows(text: &str) -> impl Iterator<Item = Row<'_>> {
     })
 }
 
-fn number(cell: &str) -> Option<f64> {
+pub(crate) fn number(cell: &str) -> Option<f64> {
     cell.parse().ok().filter(|v: &f64| v.is_finite())
 }
 

@@ -1,24 +1,26 @@
 //! Lamps: from records to the tracer's lamps.
 
 use super::context::Context;
+use super::frames::Frames;
+use super::lamp_motion::lamp_motions;
 use super::linear_picture::linear;
 use super::modulation;
 use super::open_lamp::OpenLamp;
 use super::opening::opening;
 use super::spectrum::{bright, powered, relative};
-use etendue_core::Waveform;
+use etendue_core::{Motion, Waveform};
 use etendue_scene::Place;
 use etendue_scene::asset::{PhotometryAsset, PhotometryAxes};
 use etendue_scene::record::light::placement::MainAxis;
 use etendue_scene::record::light::{
-    Beam, HeadLamp, LampAim, LampInstance, LampOpening, LampPlacement, LampStrength, Mask, MeasuredLamp,
-    MeasuredStrength, Modulation, PointLamp, SpotLamp, Traffic,
+    Beam, HeadLamp, LampInstance, LampOpening, LampPlacement, LampStrength, Mask, MeasuredLamp, MeasuredStrength,
+    Modulation, PointLamp, SpotLamp, Traffic,
 };
 use etendue_scene::record::transform::yaw_pitch_roll;
 use etendue_scene::record::{Light, LightColour};
 use etendue_spectra::{Spectrum, colour};
 use etendue_tracer::lights::{Cone, Lamp, MaskImage, Profile, Web, WebAxes, head_lamp};
-use glam::{DMat3, DVec3};
+use glam::DMat3;
 use std::sync::Arc;
 
 /// A lamp everywhere where it stands.
@@ -43,17 +45,17 @@ struct Kind<'a> {
 }
 
 /// The lamps of a light that is one; `None` where it is faulty, or a sun.
-pub(super) fn lamps(light: &Light, context: &mut Context<'_>) -> Option<Lamps> {
+pub(super) fn lamps(light: &Light, frames: &Frames<'_>, context: &mut Context<'_>) -> Option<Lamps> {
     match light {
         Light::Sun(_) => None,
-        Light::Point(lamp) => point(lamp, context),
-        Light::Spot(lamp) => spot(lamp, context),
-        Light::Measured(lamp) => measured(lamp, context),
-        Light::HeadLamp(lamp) => head_lamp(lamp, context),
+        Light::Point(lamp) => point(lamp, frames, context),
+        Light::Spot(lamp) => spot(lamp, frames, context),
+        Light::Measured(lamp) => measured(lamp, frames, context),
+        Light::HeadLamp(lamp) => head_lamp(lamp, frames, context),
     }
 }
 
-fn point(lamp: &PointLamp, context: &mut Context<'_>) -> Option<Lamps> {
+fn point(lamp: &PointLamp, frames: &Frames<'_>, context: &mut Context<'_>) -> Option<Lamps> {
     let intensity = intensity(&lamp.strength, &lamp.colour, &Profile::Isotropic, context)?;
     let profile = masked(Profile::Isotropic, lamp.mask.as_ref(), context)?;
     let kind = Kind {
@@ -66,10 +68,10 @@ fn point(lamp: &PointLamp, context: &mut Context<'_>) -> Option<Lamps> {
         file: None,
         place: &lamp.place,
     };
-    placed(&kind, (intensity, profile), context)
+    placed(&kind, (intensity, profile), frames, context)
 }
 
-fn spot(lamp: &SpotLamp, context: &mut Context<'_>) -> Option<Lamps> {
+fn spot(lamp: &SpotLamp, frames: &Frames<'_>, context: &mut Context<'_>) -> Option<Lamps> {
     let outer = lamp.field_angle_deg.value;
     let inner = lamp.inner_angle_deg.as_ref().map_or(outer, |a| a.value);
     let half_rad = |full_deg: f64| 0.5 * full_deg.to_radians();
@@ -87,10 +89,10 @@ fn spot(lamp: &SpotLamp, context: &mut Context<'_>) -> Option<Lamps> {
         file: None,
         place: &lamp.place,
     };
-    placed(&kind, (intensity, profile), context)
+    placed(&kind, (intensity, profile), frames, context)
 }
 
-fn measured(lamp: &MeasuredLamp, context: &mut Context<'_>) -> Option<Lamps> {
+fn measured(lamp: &MeasuredLamp, frames: &Frames<'_>, context: &mut Context<'_>) -> Option<Lamps> {
     let Some(asset) = context.assets.photometry.get(&lamp.file.value) else {
         context.fault(&lamp.file.place, "the photometric file was not loaded", "give a readable file");
         return None;
@@ -121,10 +123,10 @@ fn measured(lamp: &MeasuredLamp, context: &mut Context<'_>) -> Option<Lamps> {
         file: Some(asset),
         place: &lamp.place,
     };
-    placed(&kind, (intensity, profile), context)
+    placed(&kind, (intensity, profile), frames, context)
 }
 
-fn head_lamp(lamp: &HeadLamp, context: &mut Context<'_>) -> Option<Lamps> {
+fn head_lamp(lamp: &HeadLamp, frames: &Frames<'_>, context: &mut Context<'_>) -> Option<Lamps> {
     let profile = Profile::Web(match (lamp.beam.value, lamp.traffic.as_ref().map(|t| t.value)) {
         (Beam::High, _) => head_lamp::high_beam(),
         (Beam::Low, Some(Traffic::Left)) => head_lamp::low_beam(head_lamp::Traffic::Left),
@@ -144,7 +146,7 @@ fn head_lamp(lamp: &HeadLamp, context: &mut Context<'_>) -> Option<Lamps> {
         file: None,
         place: &lamp.place,
     };
-    placed(&kind, (intensity, profile), context)
+    placed(&kind, (intensity, profile), frames, context)
 }
 
 /// A profile behind its mask.
@@ -204,27 +206,31 @@ fn of_candela(
 }
 
 /// A lamp everywhere where it stands.
-fn placed(kind: &Kind<'_>, (intensity, profile): (Spectrum, Profile), context: &mut Context<'_>) -> Option<Lamps> {
+fn placed(
+    kind: &Kind<'_>,
+    (intensity, profile): (Spectrum, Profile),
+    frames: &Frames<'_>,
+    context: &mut Context<'_>,
+) -> Option<Lamps> {
     let opening = match kind.opening {
         None => None,
         Some(record) => Some(opening(record, kind.main, kind.file, &profile, context)?),
     };
+    let motions = lamp_motions(kind.placement, (kind.main, kind.turn), frames, context)?;
     let (intensity, profile) = (Arc::new(intensity), Arc::new(profile));
     let attenuation = kind.placement.attenuation_per_m.as_ref().map_or(0.0, |a| a.value);
     let waveform = match kind.modulation {
         None => None,
         Some(record) => Some((record, modulation::waveform(record, context)?)),
     };
-    let lamp = |(number, (position, aim)): (usize, (&etendue_scene::Placed<[f64; 3]>, Option<&LampAim>))| {
-        // An aim that was read has been checked.
-        let axes = aim.map_or(Some(DMat3::IDENTITY), |aim| aim.axes(position.value, kind.main))? * kind.turn;
-        let made = Lamp::new(DVec3::from_array(position.value), axes, intensity.clone(), profile.clone());
+    let lamp = |(number, to_world): (usize, Motion)| {
+        let made = Lamp::moving(to_world, intensity.clone(), profile.clone());
         let lamp = context.accept(kind.place, made.and_then(|lamp| lamp.attenuated(attenuation)))?;
         let Some((record, waveform)) = &waveform else { return Some(lamp) };
         let waveform = waveform.clone().later(delay_s(kind, record, waveform, number));
         context.accept(record.place(), lamp.modulated(waveform))
     };
-    let lamps: Vec<Lamp> = kind.placement.placements().enumerate().map(lamp).collect::<Option<_>>()?;
+    let lamps: Vec<Lamp> = motions.into_iter().enumerate().map(lamp).collect::<Option<_>>()?;
     Some(match opening {
         None => Lamps::Points(lamps),
         Some(opening) => {

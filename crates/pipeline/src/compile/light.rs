@@ -1,6 +1,7 @@
 //! Suns and the environment: from records to the tracer's lights.
 
 use super::context::Context;
+use super::frames::Frames;
 use super::lamp::Lamps;
 use super::linear_picture::linear;
 use super::open_lamp::OpenLamp;
@@ -14,13 +15,17 @@ use etendue_tracer::lights::{BRIGHTEST, Environment, ImageEnvironment, SUN_ANGUL
 
 /// What shines but is no surface that glows, the lamps whose openings are yet to be placed in the world, and what the plan says of
 /// a sky.
-pub(super) fn sources(scene: &Scene, context: &mut Context<'_>) -> (Sources, Vec<OpenLamp>, Option<SkyFacts>) {
+pub(super) fn sources(
+    scene: &Scene,
+    frames: &Frames<'_>,
+    context: &mut Context<'_>,
+) -> (Sources, Vec<OpenLamp>, Option<SkyFacts>) {
     let mut sources = Sources::default();
     let mut open_lamps = Vec::new();
     for light in &scene.lights {
         match light {
             Light::Sun(record) => sources.suns.extend(sun(record, context)),
-            lamp => match lamp::lamps(lamp, context) {
+            lamp => match lamp::lamps(lamp, frames, context) {
                 None => {}
                 Some(Lamps::Points(lamps)) => sources.lamps.extend(lamps),
                 Some(Lamps::Open(lamps)) => open_lamps.push(lamps),

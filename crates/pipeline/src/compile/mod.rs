@@ -5,17 +5,22 @@
 
 mod annotations;
 mod camera;
+mod camera_path;
 mod choices;
 mod context;
+mod course;
 mod coverage;
 mod effects;
+mod frames;
 mod front;
 mod lamp;
+mod lamp_motion;
 mod lens;
 mod light;
 mod linear_picture;
 mod material;
 mod modulation;
+mod object_motion;
 mod open_lamp;
 mod opening;
 mod picture;
@@ -40,12 +45,14 @@ use crate::plan::fingerprint::fingerprint;
 use crate::plan::remark::grouped;
 use crate::plan::shared_light;
 use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan, TimeDependence};
+use camera_path::camera_path;
 use context::Context;
 use etendue_core::{CameraPath, TimeInterval};
 use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;
 use etendue_scene::{CameraSetup, Description, Fault};
-use glam::DVec3;
+use etendue_tracer::accel::World;
+use frames::Frames;
 use material::MaterialTableBuilder;
 
 /// The plan of a description.
@@ -84,20 +91,21 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let unused = &description.unused;
     unused.remarks().into_iter().for_each(|remark| context.remark(remark));
     let mut builder = MaterialTableBuilder::of_scene(scene, unused, context);
-    let (mut sources, open_lamps, sky) = light::sources(scene, context);
+    let frames = Frames::of(scene, unused, context);
+    let (mut sources, open_lamps, sky) = light::sources(scene, &frames, context);
     let setups = description.cameras.iter().enumerate();
     let mut cameras: Vec<_> =
-        setups.filter_map(|(index, setup)| camera_plan((index as u32, setup), description, choices, context)).collect();
-    let (world, identities, opened) = world::world(description, open_lamps, &mut builder, context)?;
+        setups.filter_map(|setup| camera_plan(setup, (description, &frames), choices, context)).collect();
+    let (world, identities, opened) = world::world(description, open_lamps, &frames, &mut builder, context)?;
     sources.lamps.extend(opened);
     for setup in &description.cameras {
-        let position = &setup.pose.position_m;
-        context.accept(&position.place, world.check_reach(DVec3::from_array(position.value), TimeInterval::default()));
+        let Some(path) = camera_path(&setup.pose, &frames, context) else { continue };
+        context.accept(setup.pose.stated_at(), world.check_reach_along(&path, whole_motion(&world, &path)));
     }
     let (material_table, materials) = builder.finish(context)?;
     let is_modulated = sources.is_modulated() || material_table.is_modulated();
     annotations::resolve(description, &mut cameras, context);
-    timing::depend(&mut cameras, &world, is_modulated, context);
+    timing::depend(&mut cameras, &world, (&sources, is_modulated), context);
     shared_light::share(&mut cameras);
     positions::remark(&cameras, context);
     surroundings::remark(&cameras, &world, &material_table, &materials, context);
@@ -123,9 +131,15 @@ fn unread(description: &Description, context: &mut Context<'_>) {
     }
 }
 
+/// From the first key of all that moves to the last; a single moment where nothing does.
+fn whole_motion(world: &World, camera: &CameraPath) -> TimeInterval {
+    let moving = world.instances().iter().filter_map(|instance| instance.to_world.moves_during());
+    moving.chain(camera.moves_during()).reduce(|all, one| all.union(&one)).unwrap_or_default()
+}
+
 fn camera_plan(
-    (index, setup): (u32, &CameraSetup),
-    description: &Description,
+    (index, setup): (usize, &CameraSetup),
+    (description, frames): (&Description, &Frames<'_>),
     choices: &Choices,
     context: &mut Context<'_>,
 ) -> Option<CameraPlan> {
@@ -134,8 +148,8 @@ fn camera_plan(
     let depth_of_field = settings::depth_of_field(&setup.render, &body, context)?;
     let delivered = (&setup.output, &mut products);
     let settings = settings::settings(&setup.render, &body, &depth_of_field, delivered, choices, context)?;
-    // A pose that was read has been checked.
-    let path = CameraPath::still(setup.pose.to_camera_pose()?);
+    let index = index as u32;
+    let path = camera_path(&setup.pose, frames, context)?;
     let timing = timing::timing((index, setup), description.sequence.as_ref(), &body, settings.seed, context);
     let name = setup.name.value.clone();
     let light = LightOwner { camera: name.clone(), index };

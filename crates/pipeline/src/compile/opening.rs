@@ -4,7 +4,6 @@ use super::context::Context;
 use super::material::MaterialTableBuilder;
 use super::open_lamp::OpenLamp;
 use crate::plan::Identity;
-use etendue_core::Track;
 use etendue_scene::Place;
 use etendue_scene::asset::{OpeningShape, PhotometryAsset, PhotometryAxes};
 use etendue_scene::record::light::LampOpening;
@@ -97,7 +96,7 @@ pub(super) fn placed(
             identities.push(Identity { name, class: None });
             let instance = builder.add_instance(Instance {
                 shape,
-                to_world: Track::still(lamp.opening_to_world(&opening)),
+                to_world: lamp.opening_to_world(&opening),
                 materials: vec![material],
                 instance_id: identities.len() as u32,
                 semantic_id: 0,

@@ -1,5 +1,7 @@
 //! Descriptions compiled: presets, lamps, skies, and what is refused only here.
 
+mod modulation;
+
 use super::{Choices, compile};
 use crate::Plan;
 use etendue_optics::effects::PointSpread;
@@ -19,11 +21,18 @@ sensor = { width_px = 8, height_px = 6, pixel_pitch_um = 6.0 }
 
 /// The plan of a scene without assets, or its faults, one a line.
 fn plan(scene: &str) -> Result<Plan, String> {
+    plan_with(scene, |_| ())
+}
+
+/// The same with assets.
+fn plan_with(scene: &str, fill: impl FnOnce(&mut Assets)) -> Result<Plan, String> {
     let text = format!("{CAMERA}{scene}");
     let read = |_: &Path| Ok(text.clone());
     let job = Description::load(Path::new("job.toml"), &read, &Overrides::default()).map_err(|f| f.to_string())?;
     let faults = |list: Vec<etendue_scene::Fault>| list.iter().map(|f| format!("{f}\n")).collect::<String>();
-    compile(&job, &Assets::default(), &Choices::default()).map_err(faults)
+    let mut assets = Assets::default();
+    fill(&mut assets);
+    compile(&job, &assets, &Choices::default()).map_err(faults)
 }
 
 #[test]
@@ -75,7 +84,7 @@ fn a_lamp_stands_wherever_it_is_placed() {
     let keys = "type = \"head_lamp\"\nbeam = \"low_beam\"\ntraffic = \"right\"\nilluminant = \"LED-B3\"\n\
                 instances = [{ position_m = [0, 0.6, 0.7] }, { position_m = [0, -0.6, 0.7], rotation_deg = [180, 0, 0] }]";
     let plan = light(keys).expect("no fault");
-    let at: Vec<_> = plan.sources.lamps.iter().map(|l| l.position_m().y).collect();
+    let at: Vec<_> = plan.sources.lamps.iter().map(|l| l.to_world().at(0.0).translation.y).collect();
     assert_eq!(at, [0.6, -0.6]);
     assert!((luminance(plan.sources.lamps[0].intensity()) - 1.0).abs() < 1e-5, "candela as the beam says");
 }

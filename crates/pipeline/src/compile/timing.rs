@@ -5,6 +5,7 @@ use crate::plan::{CameraBody, CameraPlan, Jitter, Route, TimeDependence, Timing}
 use etendue_scene::record::{self, Electronics, Sequence};
 use etendue_scene::{CameraSetup, Place};
 use etendue_tracer::accel::World;
+use etendue_tracer::lights::Sources;
 
 /// Relative difference of a sequence's frame rate and a sensor's frame period that is taken for rounding.
 const RATE_TOLERANCE: f64 = 1e-6;
@@ -32,8 +33,15 @@ pub(super) fn timing(
 }
 
 /// Whether the light of each camera depends on time, and whether its route can show it.
-pub(super) fn depend(cameras: &mut [CameraPlan], world: &World, is_modulated: bool, context: &mut Context<'_>) {
-    let moves = world.instances().iter().any(|instance| instance.to_world.as_still().is_none());
+pub(super) fn depend(
+    cameras: &mut [CameraPlan],
+    world: &World,
+    (sources, is_modulated): (&Sources, bool),
+    context: &mut Context<'_>,
+) {
+    let objects = world.instances().iter().map(|instance| &instance.to_world);
+    let lamps = sources.lamps.iter().map(|lamp| lamp.to_world());
+    let moves = objects.chain(lamps).any(|motion| motion.as_still().is_none());
     for camera in cameras {
         camera.time = match () {
             () if moves || !camera.path.is_still() => TimeDependence::Motion,

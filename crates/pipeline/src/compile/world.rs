@@ -1,11 +1,12 @@
 //! Meshes, shapes and their instances: from records to the tracer's world.
 
 use super::context::Context;
+use super::frames::Frames;
 use super::material::MaterialTableBuilder;
+use super::object_motion::placements;
 use super::open_lamp::OpenLamp;
 use super::{opening, shape};
 use crate::plan::Identity;
-use etendue_core::Track;
 use etendue_scene::asset::{MeshAsset, SlotMaterial, SlotReflectance, SlotSurface};
 use etendue_scene::record::render::Accelerator;
 use etendue_scene::record::shape::Shape as ShapeRecord;
@@ -27,6 +28,7 @@ const MISSING_GREY: f64 = 0.5;
 pub(super) fn world(
     description: &Description,
     open_lamps: Vec<OpenLamp>,
+    frames: &Frames<'_>,
     material_table: &mut MaterialTableBuilder,
     context: &mut Context<'_>,
 ) -> Option<(World, Vec<Identity>, Vec<Lamp>)> {
@@ -37,7 +39,7 @@ pub(super) fn world(
         assembly.add_mesh(mesh, context);
     }
     for object in &scene.objects {
-        assembly.add_object(object, scene, material_table, context);
+        assembly.add_object(object, (scene, frames), material_table, context);
     }
     let Assembly { mut builder, mut identities, .. } = assembly;
     let lamps = opening::placed(open_lamps, &mut builder, &mut identities, material_table, context);
@@ -95,7 +97,7 @@ impl Assembly {
     fn add_object(
         &mut self,
         object: &Object,
-        scene: &Scene,
+        (scene, frames): (&Scene, &Frames<'_>),
         material_table: &mut MaterialTableBuilder,
         context: &mut Context<'_>,
     ) {
@@ -105,15 +107,16 @@ impl Assembly {
         };
         let Some(prototype) = prototype else { return };
         let class = class_of(object, scene);
-        let many = object.placements().count() > 1;
-        for (number, (transform, name)) in object.placements().enumerate() {
+        let Some(placements) = placements(object, frames, context) else { return };
+        let many = placements.len() > 1;
+        for (number, (to_world, name)) in placements.into_iter().enumerate() {
             let numbered =
                 if many { format!("{} {}", object.name.value, number + 1) } else { object.name.value.clone() };
             let name = name.map_or(numbered, |n| n.value.clone());
             self.identities.push(Identity { name, class: object.class.as_ref().map(|c| c.value.clone()) });
             let mut instance = Instance {
                 shape: prototype.shape,
-                to_world: Track::still(transform.to_world() * prototype.to_object),
+                to_world: to_world.after(&prototype.to_object),
                 materials: prototype.materials.clone(),
                 instance_id: self.identities.len() as u32,
                 semantic_id: class,
@@ -141,6 +144,11 @@ impl Assembly {
                     let like = material_table.of_area(id, area_m2);
                     instance.materials.iter_mut().filter(|m| **m == id).for_each(|m| *m = like);
                 }
+                None if !instance.to_world.keeps_areas() => context.fault(
+                    &object.place,
+                    "a surface whose scale changes over time has no area from which its light's flux would follow",
+                    "give its keys one scale, or give the light's luminance or radiance",
+                ),
                 None => context.fault(
                     &object.place,
                     "a sphere that is stretched unevenly has no area from which its light's flux would follow",

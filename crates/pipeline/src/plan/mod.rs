@@ -84,6 +84,12 @@ impl Plan {
         self.cameras.iter().find(|camera| camera.name == name)
     }
 
+    /// Whether the strength of any light changes over time.
+    #[must_use]
+    pub fn is_modulated(&self) -> bool {
+        self.sources.is_modulated() || self.material_table.is_modulated()
+    }
+
     /// The hash in hexadecimal.
     #[must_use]
     pub fn hash_text(&self) -> String {

@@ -10,6 +10,7 @@ mod prescription;
 pub(crate) mod request;
 mod store;
 mod table;
+mod trajectory;
 
 pub use calibration::{CalibrationAsset, CalibrationChoice, CalibrationFormat};
 pub use mesh::{ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
@@ -21,3 +22,4 @@ pub use prescription::{GlassAsset, LensFields, LensOpening, PrescriptionAsset, S
 pub use request::{AssetKind, AssetRequest, Covered, Values};
 pub use store::Assets;
 pub use table::{ComplexIndexAsset, NumbersAsset, RetroTableAsset};
+pub use trajectory::{TrajectoryAsset, TrajectoryRow};

@@ -9,13 +9,13 @@ use crate::record::front::mirror::{Finish, MirrorShape};
 use crate::record::lens::calibrated::View;
 use crate::record::lens::prescription::{IrCutCurve, Source};
 use crate::record::sensor::QuantumEfficiency;
-use crate::record::{Body, Camera, Environment, Front, Lens, Light, Object, Processing, Scene};
+use crate::record::{Body, Camera, Course, Environment, Front, Lens, Light, Object, Pose, Processing, Scene};
 
 /// Every file that is named, each once.
 pub(crate) fn requests<'d>(
     scene: &Scene,
     unused: &Unused,
-    cameras: impl Iterator<Item = &'d Camera>,
+    cameras: impl Iterator<Item = (&'d Camera, &'d Pose)>,
 ) -> Vec<AssetRequest> {
     let mut files = FileList::default();
     let covered = covered(scene);
@@ -27,9 +27,15 @@ pub(crate) fn requests<'d>(
     textures.for_each(|t| files.add(AssetKind::Image, &t.file));
     let materials = scene.materials.iter().filter(|m| !unused.materials.contains(&m.name.value));
     materials.for_each(|m| m.name_files(&mut files));
+    let frames = scene.frames.iter().filter(|f| !unused.frames.contains(&f.name.value));
+    frames.for_each(|f| course(f.course.as_ref(), &mut files));
+    scene.objects.iter().for_each(|o| course(o.course.as_ref(), &mut files));
     scene.lights.iter().for_each(|l| light(l, &mut files));
     scene.environment.iter().for_each(|e| environment(e, &mut files));
-    cameras.for_each(|c| camera(c, &mut files));
+    for (record, pose) in cameras {
+        camera(record, &mut files);
+        course(pose.course.as_ref(), &mut files);
+    }
     files.into_requests()
 }
 
@@ -61,7 +67,13 @@ pub fn of_camera(camera: &Camera) -> Vec<AssetRequest> {
     files.into_requests()
 }
 
+fn course(course: Option<&Course>, files: &mut FileList) {
+    let trajectory = course.and_then(|course| course.trajectory.as_ref());
+    trajectory.into_iter().for_each(|trajectory| files.add(AssetKind::Trajectory, &trajectory.file));
+}
+
 fn light(light: &Light, files: &mut FileList) {
+    course(light.placement().and_then(|placement| placement.course.as_ref()), files);
     let mask = match light {
         Light::Sun(_) => None,
         Light::Point(lamp) => lamp.mask.as_ref(),

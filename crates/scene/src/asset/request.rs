@@ -68,6 +68,8 @@ pub enum AssetKind {
     Numbers,
     /// [`super::PrescriptionAsset`].
     Prescription,
+    /// [`super::TrajectoryAsset`].
+    Trajectory,
     /// [`super::CalibrationAsset`] of this camera.
     Calibration(CalibrationChoice),
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::mtl::{SlotMaterial, SlotReflectance};
 use super::{
     AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, Covered, ImageAsset, MeshAsset,
-    NumbersAsset, PhotometryAsset, PrescriptionAsset, RetroTableAsset, SpectrumAsset,
+    NumbersAsset, PhotometryAsset, PrescriptionAsset, RetroTableAsset, SpectrumAsset, TrajectoryAsset,
 };
 use crate::place::Place;
 
@@ -31,6 +31,8 @@ pub struct Assets {
     pub numbers: BTreeMap<PathBuf, NumbersAsset>,
     /// Lenses by path.
     pub prescriptions: BTreeMap<PathBuf, PrescriptionAsset>,
+    /// Places over time by path.
+    pub trajectories: BTreeMap<PathBuf, TrajectoryAsset>,
     /// Calibrated cameras by path and by which of the file's they are.
     pub calibrations: BTreeMap<(PathBuf, CalibrationChoice), CalibrationAsset>,
 }
@@ -51,8 +53,18 @@ impl Assets {
     /// contents are, wherever they lie. None of a file that was not read, as of a mesh that nothing uses.
     #[must_use]
     pub fn hashes(&self, path: &Path) -> Vec<u8> {
-        let Self { meshes, images, spectra, photometry, indices, retro_tables, numbers, prescriptions, calibrations } =
-            self;
+        let Self {
+            meshes,
+            images,
+            spectra,
+            photometry,
+            indices,
+            retro_tables,
+            numbers,
+            prescriptions,
+            trajectories,
+            calibrations,
+        } = self;
         let mesh = meshes.get(path);
         let pictures = mesh.into_iter().flat_map(|mesh| mesh.slot_materials.iter().filter_map(picture));
         let mut hashes: Vec<[u8; 32]> = mesh.map(|asset| asset.hash).into_iter().collect();
@@ -63,6 +75,7 @@ impl Assets {
         hashes.extend(retro_tables.get(path).map(|asset| asset.hash));
         hashes.extend(numbers.get(path).map(|asset| asset.hash));
         hashes.extend(prescriptions.get(path).map(|asset| asset.hash));
+        hashes.extend(trajectories.get(path).map(|asset| asset.hash));
         hashes.extend(calibrations.iter().filter(|((file, _), _)| file == path).map(|(_, asset)| asset.hash));
         hashes.concat()
     }
@@ -77,6 +90,7 @@ impl Assets {
             AssetKind::RetroTable => self.retro_tables.contains_key(path),
             AssetKind::Numbers => self.numbers.contains_key(path),
             AssetKind::Prescription => self.prescriptions.contains_key(path),
+            AssetKind::Trajectory => self.trajectories.contains_key(path),
             AssetKind::Calibration(choice) => self.calibrations.contains_key(&(path.to_owned(), choice.clone())),
         }
     }
@@ -128,6 +142,9 @@ mod tests {
             }
             AssetKind::Numbers => drop(assets.numbers.insert(file, NumbersAsset { hash, ..Default::default() })),
             AssetKind::Prescription => drop(assets.prescriptions.insert(file, lens(hash))),
+            AssetKind::Trajectory => {
+                drop(assets.trajectories.insert(file, TrajectoryAsset { hash, ..Default::default() }));
+            }
             AssetKind::Calibration(choice) => {
                 drop(assets.calibrations.insert((file, choice.clone()), camera(hash)));
             }
@@ -195,6 +212,7 @@ mod tests {
             AssetKind::RetroTable,
             AssetKind::Numbers,
             AssetKind::Prescription,
+            AssetKind::Trajectory,
             AssetKind::Calibration(choice),
         ];
         for kind in kinds {

@@ -17,8 +17,9 @@ pub(super) fn references(document: &Node, faults: &mut Faults) -> Vec<Use> {
         Named::Texture => names::of(document, "textures"),
         Named::Material => names::of(document, "materials"),
         Named::Class => names::of_classes(document),
+        Named::Frame => names::of(document, "frames"),
     };
-    for named in [Named::Mesh, Named::Texture, Named::Material, Named::Class] {
+    for named in [Named::Mesh, Named::Texture, Named::Material, Named::Class, Named::Frame] {
         let known = known(named);
         let defined: BTreeSet<_> = known.iter().copied().collect();
         for (_, name) in uses.iter().filter(|(n, name)| *n == named && !defined.contains(name.as_str())) {

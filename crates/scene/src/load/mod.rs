@@ -116,7 +116,7 @@ impl Description {
     /// Every file that the description names, that is used, and that is not text of its own, each once.
     #[must_use]
     pub fn assets(&self) -> Vec<AssetRequest> {
-        requests(&self.scene, &self.unused, self.cameras.iter().map(|entry| &entry.camera))
+        requests(&self.scene, &self.unused, self.cameras.iter().map(|entry| (&entry.camera, &entry.pose)))
     }
 }
 

@@ -18,38 +18,43 @@ pub struct Unused {
     pub materials: BTreeSet<String>,
     /// Those of them that name files or textures, and so cannot be made.
     pub unread: BTreeSet<String>,
+    /// Frames that nothing is placed in, itself or in a frame that they carry.
+    pub frames: BTreeSet<String>,
 }
 
 /// A use of a name: what it is of, and where.
 pub(super) type Use = (Named, Placed<String>);
 
 impl Unused {
-    /// Follows the `uses` of names from everything that is no material.
+    /// Follows the `uses` of names from everything that is no material and no frame.
     pub(super) fn of(scene: &Scene, uses: &[Use]) -> Self {
-        let materials: BTreeMap<&str, &str> =
-            scene.materials.iter().map(|m| (m.place.key(), m.name.value.as_str())).collect();
-        let mut by_owner: BTreeMap<Option<&str>, Vec<&Use>> = BTreeMap::new();
+        let materials = scene.materials.iter().map(|m| (m.place.key(), (Named::Material, m.name.value.as_str())));
+        let frames = scene.frames.iter().map(|f| (f.place.key(), (Named::Frame, f.name.value.as_str())));
+        let owners: BTreeMap<&str, Owner<'_>> = materials.chain(frames).collect();
+        let mut by_owner: BTreeMap<Option<Owner<'_>>, Vec<&Use>> = BTreeMap::new();
         for named in uses {
-            by_owner.entry(owner(&materials, &named.1.place)).or_default().push(named);
+            by_owner.entry(owner(&owners, &named.1.place)).or_default().push(named);
         }
         let mut used: BTreeSet<(Named, &str)> = BTreeSet::new();
         let mut open = by_owner.get(&None).cloned().unwrap_or_default();
         while let Some((named, name)) = open.pop() {
-            if used.insert((*named, name.as_str())) && *named == Named::Material {
-                open.extend(by_owner.get(&Some(name.as_str())).into_iter().flatten());
+            if used.insert((*named, name.as_str())) {
+                open.extend(by_owner.get(&Some((*named, name.as_str()))).into_iter().flatten());
             }
         }
         let rest = |named, names: &mut dyn Iterator<Item = &Placed<String>>| {
             names.filter(|name| !used.contains(&(named, name.as_str()))).map(|name| name.value.clone()).collect()
         };
         let materials: BTreeSet<String> = rest(Named::Material, &mut scene.materials.iter().map(|m| &m.name));
-        let has_texture =
-            |name: &str| by_owner.get(&Some(name)).is_some_and(|uses| uses.iter().any(|u| u.0 == Named::Texture));
+        let has_texture = |name: &str| {
+            by_owner.get(&Some((Named::Material, name))).is_some_and(|uses| uses.iter().any(|u| u.0 == Named::Texture))
+        };
         let is_unread = |m: &&Material| materials.contains(&m.name.value) && (has_texture(&m.name) || names_files(*m));
         Self {
             unread: scene.materials.iter().filter(is_unread).map(|m| m.name.value.clone()).collect(),
             meshes: rest(Named::Mesh, &mut scene.meshes.iter().map(|m| &m.name)),
             textures: rest(Named::Texture, &mut scene.textures.iter().map(|t| &t.name)),
+            frames: rest(Named::Frame, &mut scene.frames.iter().map(|f| &f.name)),
             materials,
         }
     }
@@ -66,6 +71,7 @@ impl Unused {
             told(&self.meshes, "the mesh that no object shows", "meshes that no object shows"),
             told(&self.materials, "the material that no object has", "materials that no object has"),
             told(&self.textures, "the texture that nothing shown has", "textures that nothing shown has"),
+            told(&self.frames, "the frame that nothing is placed in", "frames that nothing is placed in"),
         ];
         kinds.into_iter().flatten().collect()
     }
@@ -79,8 +85,11 @@ fn listed(names: &BTreeSet<String>) -> String {
     format!("{}{more}", first.join(", "))
 }
 
-/// The name of the material that says what stands at `place`.
-fn owner<'m>(materials: &BTreeMap<&str, &'m str>, place: &Place) -> Option<&'m str> {
+/// What uses names only where it is used itself: a material or a frame, by its name.
+type Owner<'a> = (Named, &'a str);
+
+/// The material or frame that says what stands at `place`.
+fn owner<'m>(materials: &BTreeMap<&str, Owner<'m>>, place: &Place) -> Option<Owner<'m>> {
     let key = place.key();
     // Names may hold dots ("wood", "wood.001"): the longest that fits.
     key.rmatch_indices(['.', '[']).find_map(|(end, _)| materials.get(&key[..end]).copied())

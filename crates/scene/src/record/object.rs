@@ -1,9 +1,10 @@
 //! `[[objects]]`: what stands where, of which material and class.
 
+use super::motion::{Course, Rolls, check_course, check_ways, trajectory_way};
 use super::shape::Shape;
 use super::transform::Transform;
 use crate::fault::{Faults, Named};
-use crate::place::{Place, Placed};
+use crate::place::Placed;
 use crate::reader::{keyed, keyed_by_name, list, name_of, number, record, text};
 
 record! {
@@ -22,8 +23,14 @@ record! {
         optional class: Placed<String> = name_of(Named::Class);
         /// Where it stands, where it stands once.
         inside transform: Transform;
-        /// Where it stands over time. One key stands still; more are refused until motion is rendered.
+        /// Where it stands over time; one key stands still.
         many keys: Keyframe = list(record(), 1);
+        /// How it moves.
+        group course: Course;
+        /// The frame that it is placed in, and moves with. Default: the world.
+        optional frame: Placed<String> = name_of(Named::Frame);
+        /// A wheel, which turns by the way that it goes. Default: none.
+        optional rolls: Rolls = record();
         /// Where it stands, where it stands many times; every instance has an identity of its own in the ground truth.
         many instances: Instance = list(record(), 1);
     }
@@ -42,7 +49,7 @@ keyed! {
 record! {
     /// Where an object stands at a time.
     pub struct Keyframe {
-        /// The time, s.
+        /// Simulated time, s.
         required time_s: Placed<f64> = number("s");
         /// Where it stands.
         inside transform: Transform;
@@ -54,6 +61,8 @@ record! {
     pub struct Instance {
         /// Its name. Default: the object's name and its number.
         optional name: Placed<String> = text("the name of the instance");
+        /// The frame that it is placed in, and moves with. Default: the object's.
+        optional frame: Placed<String> = name_of(Named::Frame);
         /// By how much the "modulation" of all its light is later here, s, besides its own delay. Default: 0.
         optional modulation_delay_s: Placed<f64> = number("s");
         /// Where it stands.
@@ -61,42 +70,32 @@ record! {
     }
 }
 
-impl Object {
-    /// Where the object stands: each transform with the place that states it and its instance's name.
-    pub fn placements(&self) -> impl Iterator<Item = (&Transform, Option<&Placed<String>>)> {
-        let many = self.instances.iter().map(|i| (&i.transform, i.name.as_ref()));
-        let key = self.keys.first().map(|k| (&k.transform, None));
-        let own = (self.instances.is_empty() && self.keys.is_empty()).then_some((&self.transform, None));
-        many.chain(key).chain(own)
-    }
-}
-
 fn check(object: &Object, faults: &mut Faults) {
-    check_motion(object, faults);
+    check_course(object.course.as_ref(), object.keys.iter().map(|key| &key.time_s), faults);
+    check_rolls(object, faults);
     check_placement(object, faults);
     check_materials(object, faults);
 }
 
-fn check_motion(object: &Object, faults: &mut Faults) {
-    if let Some(second) = object.keys.get(1) {
+/// A wheel turns within its scale, which therefore stays one.
+fn check_rolls(object: &Object, faults: &mut Faults) {
+    let scales = object.keys.iter().filter_map(|key| key.transform.scale.as_ref());
+    for scale in scales.filter(|_| object.rolls.is_some()) {
         faults.add(
-            &second.place,
-            "a second keyframe makes the object move, and motion is not rendered yet",
-            "keep one keyframe",
+            &scale.place,
+            "\"scale\" in the keys of a wheel (\"rolls\")",
+            "give the keys to a frame, and the scale to the object in it",
         );
     }
 }
 
 /// An object says once where it stands.
 fn check_placement(object: &Object, faults: &mut Faults) {
-    let own = object.transform.is_given().then_some(("\"position_m\", \"rotation_deg\", \"scale\"", &object.place));
-    let keys = object.keys.first().map(|k| ("\"keys\"", &k.place));
-    let instances = object.instances.first().map(|i| ("\"instances\"", &i.place));
-    let said: Vec<(&str, &Place)> = own.into_iter().chain(keys).chain(instances).collect();
-    if let [(first, _), (second, place), ..] = said.as_slice() {
-        let remedy = "keep the object's own position, or \"keys\", or \"instances\"";
-        faults.add(place, format!("{second} contradicts {first}: both say where the object stands"), remedy);
-    }
+    let own =
+        object.transform.is_given().then(|| ("\"position_m\", \"rotation_deg\", \"scale\"", object.place.clone()));
+    let keys = object.keys.first().map(|k| ("\"keys\"", k.place.clone()));
+    let instances = object.instances.first().map(|i| ("\"instances\"", i.place.clone()));
+    check_ways([own, keys, trajectory_way(object.course.as_ref()), instances], "the object", faults);
 }
 
 fn check_materials(object: &Object, faults: &mut Faults) {

@@ -1,6 +1,7 @@
 //! The scene: everything that is seen.
 
 use super::environment::Environment;
+use super::frame::{self, Frame};
 use super::light::Light;
 use super::material::Material;
 use super::mesh::Mesh;
@@ -21,6 +22,8 @@ record! {
         many materials: Material = list(record(), 0);
         /// Semantic classes: name and number, 1 … 65 535. Class 0 is the background and what has no class.
         many classes: (Placed<String>, Placed<u64>) = keyed_by_name(whole(1, 65_535));
+        /// What moves and carries objects, lamps and cameras.
+        many frames: Frame = list(record(), 0);
         /// What stands where; the order numbers the instances.
         many objects: Object = list(record(), 0);
         /// Lights that are no surfaces.
@@ -31,6 +34,7 @@ record! {
 }
 
 fn check(scene: &Scene, faults: &mut Faults) {
+    frame::check_circles(&scene.frames, faults);
     check_sun(scene, faults);
     if let Some(Environment::Uniform(emission)) = &scene.environment
         && let Some((key, place)) = emission.level.flux()

@@ -1,7 +1,7 @@
 //! Where an object stands and how it is turned.
 
 use etendue_core::maths::f64 as maths;
-use glam::{DAffine3, DMat3, DVec3};
+use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use crate::place::Placed;
 use crate::reader::{Rule, RuleExt as _, either, number, record, vector};
@@ -33,10 +33,35 @@ impl Transform {
     /// From the object's frame to the world.
     #[must_use]
     pub fn to_world(&self) -> DAffine3 {
-        let position = self.position_m.as_ref().map_or(DVec3::ZERO, |p| DVec3::from_array(p.value));
-        let rotation = self.rotation_deg.as_ref().map_or(DMat3::IDENTITY, |r| yaw_pitch_roll(r.value));
-        let scale = self.scale.as_ref().map_or(DVec3::ONE, |s| DVec3::from_array(s.value));
-        DAffine3::from_mat3_translation(rotation * DMat3::from_diagonal(scale), position)
+        DAffine3::from_mat3_translation(self.rotation() * DMat3::from_diagonal(self.factors()), self.position())
+    }
+
+    /// The same without its scale.
+    #[must_use]
+    pub fn to_world_unscaled(&self) -> DAffine3 {
+        DAffine3::from_mat3_translation(self.rotation(), self.position())
+    }
+
+    /// Where the object's origin is, m.
+    #[must_use]
+    pub fn position(&self) -> DVec3 {
+        self.position_m.as_ref().map_or(DVec3::ZERO, |p| DVec3::from_array(p.value))
+    }
+
+    /// Its rotation as a quaternion.
+    #[must_use]
+    pub fn quaternion(&self) -> DQuat {
+        self.rotation_deg.as_ref().map_or(DQuat::IDENTITY, |r| yaw_pitch_roll_quaternion(r.value))
+    }
+
+    /// Its scale along each axis.
+    #[must_use]
+    pub fn factors(&self) -> DVec3 {
+        self.scale.as_ref().map_or(DVec3::ONE, |s| DVec3::from_array(s.value))
+    }
+
+    fn rotation(&self) -> DMat3 {
+        self.rotation_deg.as_ref().map_or(DMat3::IDENTITY, |r| yaw_pitch_roll(r.value))
     }
 
     /// Whether any of its keys is given.
@@ -53,6 +78,14 @@ pub fn yaw_pitch_roll(degrees: [f64; 3]) -> DMat3 {
     let pitch = DMat3::from_cols(DVec3::new(cy, 0.0, -sy), DVec3::Y, DVec3::new(sy, 0.0, cy));
     let roll = DMat3::from_cols(DVec3::X, DVec3::new(0.0, cx, sx), DVec3::new(0.0, -sx, cx));
     yaw * pitch * roll
+}
+
+/// The same as a quaternion.
+#[must_use]
+pub fn yaw_pitch_roll_quaternion(degrees: [f64; 3]) -> DQuat {
+    let [(sz, cz), (sy, cy), (sx, cx)] = degrees.map(|angle| maths::sin_cos(0.5 * angle.to_radians()));
+    let (yaw, pitch) = (DQuat::from_xyzw(0.0, 0.0, sz, cz), DQuat::from_xyzw(0.0, sy, 0.0, cy));
+    yaw * pitch * DQuat::from_xyzw(sx, 0.0, 0.0, cx)
 }
 
 /// Sine and cosine of an angle in degrees, exact at quarter turns.
@@ -78,6 +111,15 @@ mod tests {
         assert_eq!(ahead([0.0, 90.0, 0.0]), DVec3::NEG_Z, "positive pitch lowers the front");
         assert_eq!(yaw_pitch_roll([0.0, 0.0, 90.0]) * DVec3::Y, DVec3::Z, "positive roll lifts the left side");
         assert_eq!(ahead([90.0, 90.0, 0.0]), DVec3::NEG_Z, "pitched before it is yawed");
+    }
+
+    #[test]
+    fn quaternions_are_the_rotations() {
+        for degrees in [[0.0; 3], [90.0, 0.0, 0.0], [10.0, 20.0, 30.0], [-170.0, 85.0, 721.0], [180.0, 90.0, -180.0]] {
+            let off = DMat3::from_quat(yaw_pitch_roll_quaternion(degrees)) - yaw_pitch_roll(degrees);
+            // Products of three unit quaternions and matrices, each rounded a few times; 721° as radians is rounded to 2e-15.
+            assert!(off.to_cols_array().iter().all(|x| x.abs() < 1e-14), "{degrees:?} {off}");
+        }
     }
 
     #[test]

@@ -17,7 +17,7 @@ fn example() -> Files {
 fn the_example_is_read() {
     let d = load(&example(), &[]).unwrap_or_else(|faults| panic!("{faults}"));
     assert_eq!(d.cameras.len(), 2);
-    assert_eq!(d.scene.objects[1].placements().count(), 2);
+    assert_eq!(d.scene.objects[1].instances.len(), 2);
     let Lens::Thin(lens) = &d.cameras[0].camera.lens else { panic!("a thin lens") };
     assert_eq!(lens.f_number, 2.0);
     let Light::Sun(sun) = &d.scene.lights[0] else { panic!("a sun") };
@@ -141,6 +141,6 @@ fn where_cameras_look() {
 #[test]
 fn instances_stand_where_they_say() {
     let d = load(&example(), &[]).expect("the example");
-    let at: Vec<_> = d.scene.objects[1].placements().map(|(t, _)| t.to_world().translation).collect();
+    let at: Vec<_> = d.scene.objects[1].instances.iter().map(|i| i.transform.to_world().translation).collect();
     assert_eq!(at, [DVec3::new(12.0, 3.0, 0.0), DVec3::new(18.0, 3.1, 0.0)]);
 }

@@ -6,6 +6,7 @@ mod example;
 mod faults;
 mod files;
 mod hostile;
+mod modulations;
 mod pages;
 mod reference;
 mod schema;

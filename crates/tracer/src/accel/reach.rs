@@ -15,8 +15,8 @@
 
 use super::world::{World, WorldError};
 use crate::geometry::{Instance, InstanceTransform, Mesh, Placement, Shape};
-use etendue_core::TimeInterval;
-use glam::DVec3;
+use etendue_core::{CameraPath, CameraPose, TimeInterval};
+use glam::{DMat3, DVec3};
 
 /// R, in units of the mesh's frame; m for spheres.
 const FARTHEST: f64 = 1e12;
@@ -29,17 +29,34 @@ impl World {
     /// Where a mesh is so far away from a ray's start, in units of its own frame, that products of three coordinates
     /// leave f32: such a ray would pass it unseen.
     pub fn check_reach(&self, origin_m: DVec3, interval: TimeInterval) -> Result<(), WorldError> {
-        check(self, origin_m, interval)
+        let rotation = DMat3::IDENTITY;
+        check(self, &CameraPath::still(CameraPose { position_m: origin_m, rotation }), interval)
+    }
+
+    /// As [`World::check_reach`], of rays that start near a camera wherever it is during the interval. Of one that moves, rounding
+    /// is checked at those moments too.
+    ///
+    /// # Errors
+    /// As [`World::check_reach`].
+    pub fn check_reach_along(&self, camera: &CameraPath, interval: TimeInterval) -> Result<(), WorldError> {
+        check(self, camera, interval)
     }
 }
 
-/// Whether every mesh can be met from the camera at `origin_m` and from every surface.
-fn check(world: &World, origin_m: DVec3, interval: TimeInterval) -> Result<(), WorldError> {
+/// Moments of an interval for which is checked what no bound tells of what moves.
+const MOMENTS: u32 = 16;
+
+/// Whether every mesh can be met from the camera, wherever it is, and from every surface.
+fn check(world: &World, camera: &CameraPath, interval: TimeInterval) -> Result<(), WorldError> {
     let instances = world.instances();
+    let origin_m = camera.at(interval.start_s()).position_m;
+    let (camera_low, camera_high) = camera.bounds_over(interval);
+    let moments = moments(interval);
     let placed: Vec<_> = instances.iter().map(|i| Placement::new(i, origin_m, interval)).collect();
-    let bounds = placed.iter().zip(instances).filter_map(|(p, i)| p.bounds(i, world.meshes()));
-    // Rays start at the camera, which is the origin, or on a surface.
-    let (low, high) = bounds.fold((DVec3::ZERO, DVec3::ZERO), |(low, high), b| (low.min(b.0), high.max(b.1)));
+    let bounds = placed.iter().zip(instances).filter_map(|(p, i)| p.rough_bounds(i, world.meshes()));
+    // Rays start at the camera, which is the origin at the start, or on a surface.
+    let about_camera = (camera_low - origin_m, camera_high - origin_m);
+    let (low, high) = bounds.fold(about_camera, |(low, high), b| (low.min(b.0), high.max(b.1)));
     for (instance, placed) in placed.iter().enumerate() {
         match instances[instance].shape {
             Shape::Mesh(id) => {
@@ -47,7 +64,11 @@ fn check(world: &World, origin_m: DVec3, interval: TimeInterval) -> Result<(), W
                 if !(0.0..=FARTHEST).contains(&reach) {
                     return Err(WorldError::Reach { instance, reach });
                 }
-                placed.moments().iter().try_for_each(|moment| check_rounding(instance, moment, world.mesh(id)))?;
+                let still = placed.still().is_some() && camera.is_still();
+                for time_s in &moments[..if still { 1 } else { moments.len() }] {
+                    let from = camera.at(*time_s).position_m - origin_m;
+                    check_rounding(instance, &placed.at_moment(*time_s), world.mesh(id), from)?;
+                }
             }
             Shape::Sphere { .. } => check_sphere(instance, placed, &instances[instance], world)?,
         }
@@ -55,15 +76,22 @@ fn check(world: &World, origin_m: DVec3, interval: TimeInterval) -> Result<(), W
     Ok(())
 }
 
-/// Whether the camera's place in the frame of a mesh stays before the box that holds the mesh when it is rounded to f32.
-fn check_rounding(instance: usize, placed: &InstanceTransform, mesh: &Mesh) -> Result<(), WorldError> {
+/// Even moments of an interval, both its ends among them.
+fn moments(interval: TimeInterval) -> Vec<f64> {
+    let part = |i: u32| f64::from(i) / f64::from(MOMENTS);
+    (0..=MOMENTS).map(|i| interval.start_s() + interval.length_s() * part(i)).collect()
+}
+
+/// Whether the camera's place in the frame of a mesh stays before the box that holds the mesh when it is rounded to f32. The camera is
+/// at `from` in the render frame, m.
+fn check_rounding(instance: usize, placed: &InstanceTransform, mesh: &Mesh, from: DVec3) -> Result<(), WorldError> {
     let Some((low, high)) = mesh.bounds() else { return Ok(()) };
-    let (camera, _) = placed.line_to_local(DVec3::ZERO, DVec3::X);
+    let (camera, _) = placed.line_to_local(from, DVec3::X);
     let away = (low.as_dvec3() - camera).max(camera - high.as_dvec3());
     let moved = (camera.as_vec3().as_dvec3() - camera).abs();
     let outside: Vec<usize> = (0..3).filter(|&axis| away[axis] > 0.0).collect();
-    // The camera is the origin of the render frame. Less than a millimetre carries it to a surface that it touches.
-    let moved_m = placed.point_to_render(camera.as_vec3().as_dvec3()).length();
+    // Less than a millimetre carries it to a surface that it touches.
+    let moved_m = (placed.point_to_render(camera.as_vec3().as_dvec3()) - from).length();
     let carries = outside.iter().all(|&axis| moved[axis] > 0.5 * away[axis]);
     if moved_m > 1e-3 && !outside.is_empty() && carries {
         return Err(WorldError::Rounding { instance, away: away.max_element(), moved: moved.max_element() });
@@ -72,7 +100,8 @@ fn check_rounding(instance: usize, placed: &InstanceTransform, mesh: &Mesh) -> R
 }
 
 fn check_sphere(index: usize, placed: &Placement, instance: &Instance, world: &World) -> Result<(), WorldError> {
-    let reach =
-        placed.bounds(instance, world.meshes()).map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
+    let reach = placed
+        .rough_bounds(instance, world.meshes())
+        .map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
     if (0.0..=FARTHEST).contains(&reach) { Ok(()) } else { Err(WorldError::Sphere { instance: index, reach_m: reach }) }
 }

@@ -122,11 +122,11 @@ impl WorldBuilder {
         (self.instances.len() - 1) as u32
     }
 
-    /// Area of one side of an instance's surfaces of a material, m² in the world; `None` where the instance moves, and for
-    /// a sphere that it stretches unevenly, of whose area no closed form is known.
+    /// Area of one side of an instance's surfaces of a material, m² in the world; `None` where it changes over time because
+    /// the instance's scale does, and for a sphere that it stretches unevenly, of whose area no closed form is known.
     #[must_use]
     pub fn area_m2(&self, instance: &Instance, material: MaterialId) -> Option<f64> {
-        let to_world = instance.to_world.as_still()?.matrix3;
+        let to_world = instance.to_world.keeps_areas().then(|| instance.to_world.at(0.0).matrix3)?;
         match instance.shape {
             Shape::Sphere { radius_m } => {
                 let radius_m = radius_m * uniform_scale(&to_world)?;

@@ -1,7 +1,7 @@
 //! Shapes placed in the world.
 
 use crate::MaterialId;
-use etendue_core::Track;
+use etendue_core::Motion;
 
 /// A mesh's place in the world's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -25,7 +25,7 @@ pub struct Instance {
     /// What is placed.
     pub shape: Shape,
     /// From the shape's own frame to the world.
-    pub to_world: Track,
+    pub to_world: Motion,
     /// The material of each slot of the shape; a sphere has one slot.
     pub materials: Vec<MaterialId>,
     /// Identity of the object in ground truth; 0 is the background.

@@ -6,12 +6,9 @@
 
 use super::instance_transform::about;
 use super::{Instance, InstanceTransform, Mesh, Shape};
-use etendue_core::{Ray, TimeInterval, Track};
+use etendue_core::{Motion, Ray, TimeInterval};
 use glam::{DVec3, Vec3};
 use std::borrow::Cow;
-
-/// Moments of an interval for which is checked what no bound tells of a moving instance.
-const MOMENTS: u32 = 16;
 
 /// An instance relative to the camera.
 #[derive(Clone, Debug)]
@@ -26,7 +23,7 @@ pub(crate) enum Placement {
 /// An instance that moves during an interval.
 #[derive(Clone, Debug)]
 pub(crate) struct Moving {
-    to_world: Track,
+    to_world: Motion,
     origin_m: DVec3,
     interval: TimeInterval,
 }
@@ -96,6 +93,14 @@ impl Placement {
         }
     }
 
+    /// As [`Placement::bounds`]; of what moves looser, and quick for intervals of many keys.
+    pub(crate) fn rough_bounds(&self, instance: &Instance, meshes: &[Mesh]) -> Option<(DVec3, DVec3)> {
+        match self {
+            Self::Still(transform) => transform.bounds(instance, meshes),
+            Self::Moving(moving) => moving.rough_bounds(instance, meshes),
+        }
+    }
+
     /// The greatest coordinate, in the instance's frame, of a box of the render frame, or a bound of it.
     pub(crate) fn greatest_local(&self, low: DVec3, high: DVec3) -> f64 {
         match self {
@@ -106,17 +111,11 @@ impl Placement {
         }
     }
 
-    /// The transforms at some moments of the interval, both its ends among them.
-    pub(crate) fn moments(&self) -> Vec<Cow<'_, InstanceTransform>> {
+    /// The transforms at a simulated time of the interval, s.
+    pub(crate) fn at_moment(&self, time_s: f64) -> Cow<'_, InstanceTransform> {
         match self {
-            Self::Still(transform) => vec![Cow::Borrowed(transform)],
-            Self::Moving(moving) => {
-                let time_s = |i: u32| {
-                    let part = f64::from(i) / f64::from(MOMENTS);
-                    moving.interval.start_s() + moving.interval.length_s() * part
-                };
-                (0..=MOMENTS).map(|i| Cow::Owned(moving.at(time_s(i)))).collect()
-            }
+            Self::Still(transform) => Cow::Borrowed(transform),
+            Self::Moving(moving) => Cow::Owned(moving.at(time_s)),
         }
     }
 }
@@ -139,6 +138,18 @@ impl Moving {
             }
             Shape::Sphere { radius_m } => self.to_world.bounds_of_ball(self.interval, DVec3::ZERO, radius_m),
         };
+        Some((low - self.origin_m, high - self.origin_m))
+    }
+
+    fn rough_bounds(&self, instance: &Instance, meshes: &[Mesh]) -> Option<(DVec3, DVec3)> {
+        let radius = match instance.shape {
+            Shape::Mesh(id) => {
+                let (low, high) = meshes[id.0 as usize].bounds()?;
+                low.abs().max(high.abs()).as_dvec3().length()
+            }
+            Shape::Sphere { radius_m } => radius_m,
+        };
+        let (low, high) = self.to_world.rough_bounds(self.interval, radius);
         Some((low - self.origin_m, high - self.origin_m))
     }
 }

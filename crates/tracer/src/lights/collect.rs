@@ -1,16 +1,18 @@
 //! Finding the surfaces that glow.
 
-use etendue_core::TimeInterval;
+use etendue_core::{Motion, TimeInterval};
 use glam::DAffine3;
 
 use super::Light;
-use super::lamp::LampLight;
-use super::moving::{MovingLight, Way};
+use super::carried::CarriedLamp;
+use super::lamp::{Lamp, LampLight};
+use super::moving::MovingLight;
 use super::opening::{Opening, OpeningLight};
 use super::primitives::Primitives;
 use super::sphere::SphereLight;
 use super::tree::LightBounds;
 use super::triangle::{Facets, TriangleLight};
+use super::way::Way;
 use crate::MaterialId;
 use crate::geometry::{Instance, Mesh, Shape};
 use crate::materials::{Emission, EmissionSides, MaterialTable};
@@ -87,7 +89,7 @@ pub(super) fn of_surfaces(
             gathered.primitives.push([]);
             continue;
         }
-        let place = Place::of(instance, view);
+        let place = Place::of(&instance.to_world, view);
         match instance.shape {
             Shape::Mesh(id) => gathered.add_mesh(world.mesh(id), instance, &place, &weigher),
             Shape::Sphere { radius_m } => gathered.add_sphere(radius_m, instance.materials[0], place, &weigher),
@@ -104,7 +106,7 @@ fn check_materials(index: usize, instance: &Instance, weigher: &Weigher<'_>) -> 
     }
 }
 
-/// Where an instance is during the view's interval.
+/// Where something is during the view's interval.
 enum Place {
     /// To the render frame.
     Still(DAffine3),
@@ -112,14 +114,22 @@ enum Place {
 }
 
 impl Place {
-    fn of(instance: &Instance, view: &RenderSpace<'_>) -> Self {
+    fn of(to_world: &Motion, view: &RenderSpace<'_>) -> Self {
         let (origin_m, interval) = (view.origin_m(), view.interval());
-        match instance.to_world.still_over(interval) {
+        match to_world.still_over(interval) {
             Some(mut to_render) => {
                 to_render.translation -= origin_m;
                 Self::Still(to_render)
             }
-            None => Self::Moving(Way { to_world: instance.to_world.clone(), origin_m, interval }),
+            None => Self::Moving(Way { to_world: to_world.clone(), origin_m, interval }),
+        }
+    }
+
+    /// To the render frame at the start of the interval.
+    fn at_start(&self) -> DAffine3 {
+        match self {
+            Self::Still(to_render) => *to_render,
+            Self::Moving(way) => way.at(way.interval.start_s()),
         }
     }
 
@@ -198,32 +208,36 @@ impl Gathered {
         self.primitives.push([light]);
     }
 
-    /// Adds a lamp whose opening is an instance of the world.
-    pub(super) fn add_opening(
+    /// Adds a lamp, as a point or with the instance of the world that is its opening.
+    pub(super) fn add_lamp(
         &mut self,
-        lamp: LampLight,
-        (opening, instance): (Opening, u32),
+        lamp: Lamp,
         view: &RenderSpace<'_>,
         material_table: &MaterialTable,
+        support_nm: (f64, f64),
     ) -> Result<(), LightError> {
-        let fault = LightError::Opening { instance };
-        let placed = view.world().instances().get(instance as usize).ok_or(fault)?;
-        let [material] = placed.materials[..] else { return Err(fault) };
-        // Lamps stand still.
-        let mut to_render = placed.to_world.as_still().ok_or(fault)?;
-        to_render.translation -= view.origin_m();
-        let light = match placed.shape {
-            Shape::Mesh(id) => OpeningLight::of_mesh(lamp, opening, (view.world().mesh(id), &to_render), material),
-            Shape::Sphere { radius_m } => {
-                let sphere = SphereLight::new(radius_m, &to_render, material, material_table);
-                Some(OpeningLight::of_sphere(lamp, opening, sphere))
-            }
+        let opening = lamp.opening();
+        let place = Place::of(lamp.to_world(), view);
+        let made = LampLight::new(lamp, (&place.at_start(), view.interval()), support_nm);
+        let Some((opening, instance)) = opening else {
+            match place {
+                Place::Still(_) => self.add(made.bounds(), Light::Lamp(made)),
+                Place::Moving(way) => self.add_carried(CarriedLamp::of_point(way, made)),
+            };
+            return Ok(());
         };
-        let light = light.filter(|_| material_table.emission(material).is_none()).ok_or(fault)?;
+        let light = opened(made, (opening, instance), view, material_table)?;
         let primitives = light.primitives();
-        let added = self.add(light.bounds(), Light::Opening(light));
+        let added = match place {
+            Place::Still(_) => self.add(light.bounds(), Light::Opening(light)),
+            Place::Moving(way) => self.add_carried(CarriedLamp::of_opening(way, light)),
+        };
         self.primitives.assign(instance, primitives, added);
         Ok(())
+    }
+
+    fn add_carried(&mut self, lamp: CarriedLamp) -> u32 {
+        self.add(lamp.bounds(), Light::Carried(Box::new(lamp)))
     }
 
     pub(super) fn add(&mut self, bounds: LightBounds, light: Light) -> u32 {
@@ -231,4 +245,25 @@ impl Gathered {
         self.bounds.push(bounds);
         (self.lights.len() - 1) as u32
     }
+}
+
+/// A lamp with the instance of the world that is its opening, at the start of the view's interval.
+fn opened(
+    lamp: LampLight,
+    (opening, instance): (Opening, u32),
+    view: &RenderSpace<'_>,
+    material_table: &MaterialTable,
+) -> Result<OpeningLight, LightError> {
+    let fault = LightError::Opening { instance };
+    let placed = view.world().instances().get(instance as usize).ok_or(fault)?;
+    let [material] = placed.materials[..] else { return Err(fault) };
+    let to_render = Place::of(&placed.to_world, view).at_start();
+    let light = match placed.shape {
+        Shape::Mesh(id) => OpeningLight::of_mesh(lamp, opening, (view.world().mesh(id), &to_render), material),
+        Shape::Sphere { radius_m } => {
+            let sphere = SphereLight::new(radius_m, &to_render, material, material_table);
+            Some(OpeningLight::of_sphere(lamp, opening, sphere))
+        }
+    };
+    light.filter(|_| material_table.emission(material).is_none()).ok_or(fault)
 }

@@ -9,7 +9,7 @@
 //! A matt part is never taken for less than [`LEAST`] of what the lobes send back: a floor for lights outside them.
 
 use core::f32::consts::{FRAC_1_PI, PI};
-use glam::Vec3;
+use glam::{Mat3, Vec3};
 
 use super::four::{Four, at_least, at_most, each};
 use crate::materials::{About, Gloss, GlossLobe, ShadingFrame, TOLD, schlick};
@@ -79,6 +79,17 @@ impl ReceiverGloss {
         };
         let lobes = core::array::from_fn(|i| lobe(&gloss.lobes[i]));
         Some(Self { viewer, normal, along, across: normal.cross(along), lobes })
+    }
+
+    /// The same gloss turned by a rotation.
+    pub(super) fn turned(&self, rotation: &Mat3) -> Self {
+        let lobe = |lobe: &Lobe| match lobe.about {
+            About::HalfVector => *lobe,
+            About::Direction(axis) => Lobe { about: About::Direction(*rotation * axis), ..*lobe },
+        };
+        let [viewer, normal, along, across] =
+            [self.viewer, self.normal, self.along, self.across].map(|axis| *rotation * axis);
+        Self { viewer, normal, along, across, lobes: core::array::from_fn(|i| lobe(&self.lobes[i])) }
     }
 
     /// What lobes send of light from a cone about the unit `direction` whose half angle has the sine `sin`, relative to what

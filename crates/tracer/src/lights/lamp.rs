@@ -6,11 +6,12 @@
 //!
 //! A lamp's frame is x forward, y left, z up; its axes say where these point in the world. A lamp without an opening has no
 //! size (shadows are sharp, and so near it that it is no point its light is too strong); one with an opening shines from a
-//! surface of the world (`opening/`). Its strength may go up and down over time. Left out: polarisation.
+//! surface of the world (`opening/`). One that moves is asked as the lamp that it is at the receiver's time (`carried`). Its strength
+//! may go up and down over time. Left out: polarisation.
 
 use std::sync::Arc;
 
-use etendue_core::{Spectral, TimeInterval, Waveform, Wavelengths, maths};
+use etendue_core::{Motion, Spectral, TimeInterval, Waveform, Wavelengths, maths};
 use etendue_spectra::Spectrum;
 use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
 
@@ -71,8 +72,7 @@ pub(super) struct LampIrradiance {
 /// A lamp. Intensity and profile are shared between lamps of a kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lamp {
-    position_m: DVec3,
-    axes: DMat3,
+    to_world: Motion,
     intensity: Arc<Spectrum>,
     profile: Arc<Profile>,
     attenuation_per_m: f64,
@@ -93,19 +93,29 @@ impl Lamp {
         intensity: impl Into<Arc<Spectrum>>,
         profile: impl Into<Arc<Profile>>,
     ) -> Result<Self, LampError> {
+        Self::moving(Motion::still(DAffine3::from_mat3_translation(axes, position_m)), intensity, profile)
+    }
+
+    /// A lamp that moves by `to_world`, which takes its frame to the world and scales nothing.
+    ///
+    /// # Errors
+    /// As [`Lamp::new`].
+    pub fn moving(
+        to_world: Motion,
+        intensity: impl Into<Arc<Spectrum>>,
+        profile: impl Into<Arc<Profile>>,
+    ) -> Result<Self, LampError> {
         let (intensity, profile) = (intensity.into(), profile.into());
-        let deviation = (axes.transpose() * axes - DMat3::IDENTITY).to_cols_array();
-        if !position_m.is_finite() {
+        if !to_world.at(0.0).translation.is_finite() {
             return Err(LampError::Position);
         }
-        // Descriptions are written with some ten digits.
-        if !deviation.iter().all(|x| x.abs() <= 1e-6) || axes.determinant() < 0.0 {
+        if !to_world.is_rigid() {
             return Err(LampError::Axes);
         }
         if !(intensity.min_value() >= 0.0 && intensity.max_value() <= BRIGHTEST) {
             return Err(LampError::Intensity);
         }
-        Ok(Self { position_m, axes, intensity, profile, attenuation_per_m: 0.0, modulation: None, opening: None })
+        Ok(Self { to_world, intensity, profile, attenuation_per_m: 0.0, modulation: None, opening: None })
     }
 
     /// The lamp with an attenuation coefficient, 1/m.
@@ -157,8 +167,8 @@ impl Lamp {
 
     /// From the frame of an opening's mesh or sphere to the world.
     #[must_use]
-    pub fn opening_to_world(&self, opening: &Opening) -> DAffine3 {
-        DAffine3::from_mat3_translation(self.axes, self.position_m) * opening.to_lamp()
+    pub fn opening_to_world(&self, opening: &Opening) -> Motion {
+        self.to_world.after(&opening.to_lamp())
     }
 
     /// Its opening, and the instance of the world that is its surface.
@@ -167,10 +177,10 @@ impl Lamp {
         self.opening
     }
 
-    /// Where it is, world, m.
+    /// From its frame (x forward, y left, z up) to the world.
     #[must_use]
-    pub fn position_m(&self) -> DVec3 {
-        self.position_m
+    pub fn to_world(&self) -> &Motion {
+        &self.to_world
     }
 
     /// How its intensity is spread.
@@ -208,11 +218,16 @@ pub(super) struct LampLight {
 }
 
 impl LampLight {
-    pub(super) fn new(lamp: Lamp, (origin_m, interval): (DVec3, TimeInterval), (low_nm, high_nm): (f64, f64)) -> Self {
+    /// The lamp where `to_render` places it, from its frame to the render frame, in a view of an `interval`.
+    pub(super) fn new(
+        lamp: Lamp,
+        (to_render, interval): (&DAffine3, TimeInterval),
+        (low_nm, high_nm): (f64, f64),
+    ) -> Self {
         let counts = lamp.modulation().map_or(1.0, |modulation| choice_level(modulation, interval));
         Self {
-            position: (lamp.position_m - origin_m).as_vec3(),
-            to_lamp: lamp.axes.transpose().as_mat3(),
+            position: to_render.translation.as_vec3(),
+            to_lamp: to_render.matrix3.transpose().as_mat3(),
             mean_intensity: (lamp.intensity.band_mean(low_nm, high_nm) * counts) as f32,
             attenuation: lamp.attenuation_per_m as f32,
             intensity: lamp.intensity,

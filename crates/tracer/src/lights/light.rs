@@ -1,5 +1,6 @@
 //! A light in the scene: the closed list.
 
+use super::carried::CarriedLamp;
 use super::lamp::LampLight;
 use super::moving::MovingLight;
 use super::opening::OpeningLight;
@@ -14,6 +15,7 @@ pub(super) enum Light {
     Lamp(LampLight),
     Opening(OpeningLight),
     Moving(Box<MovingLight>),
+    Carried(Box<CarriedLamp>),
 }
 
 impl Light {
@@ -21,6 +23,24 @@ impl Light {
         match self {
             Self::Sphere(_) => true,
             Self::Moving(light) => light.triangles() == 0,
+            _ => false,
+        }
+    }
+
+    /// Whether it is a lamp without an opening.
+    pub(super) fn is_point(&self) -> bool {
+        match self {
+            Self::Lamp(_) => true,
+            Self::Carried(lamp) => !lamp.is_open(),
+            _ => false,
+        }
+    }
+
+    /// Whether it is a lamp with an opening.
+    pub(super) fn is_open(&self) -> bool {
+        match self {
+            Self::Opening(_) => true,
+            Self::Carried(lamp) => lamp.is_open(),
             _ => false,
         }
     }

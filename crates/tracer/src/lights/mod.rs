@@ -14,6 +14,7 @@
 //!   dark throughout that interval is never drawn; what others count in the choice is their level over it
 //!   ([`crate::materials::choice_level`]).
 
+mod carried;
 mod choice;
 mod collect;
 mod environment;
@@ -41,6 +42,7 @@ pub mod sun_position;
 mod surface;
 mod tree;
 mod triangle;
+mod way;
 
 use light::Light;
 use surface::{Glowing, ROUNDING, SurfaceSample, solid_angle_pdf};

@@ -8,54 +8,11 @@ use super::sample_context::LightSampleContext;
 use super::sphere::{SphereLight, SphereLook};
 use super::tree::LightBounds;
 use super::triangle::{Facets, TriangleLight};
+use super::way::Way;
 use crate::MaterialId;
 use crate::materials::MaterialTable;
-use core::f32::consts::PI;
-use etendue_core::{TimeInterval, Track, Wavelengths};
-use glam::{DAffine3, DVec3, Vec2, Vec3};
-
-/// Moments of an interval at which a light's intensity is looked at.
-const MOMENTS: u32 = 16;
-
-/// The way of an instance through a view's interval.
-#[derive(Clone, Debug)]
-pub(super) struct Way {
-    /// That of the instance.
-    pub(super) to_world: Track,
-    /// The origin of the render frame in the world, m.
-    pub(super) origin_m: DVec3,
-    /// The view's.
-    pub(super) interval: TimeInterval,
-}
-
-impl Way {
-    fn at(&self, time_s: f64) -> DAffine3 {
-        let mut to_render = self.to_world.at(time_s);
-        to_render.translation -= self.origin_m;
-        to_render
-    }
-
-    /// To the render frame at even moments of the interval, both its ends among them.
-    fn moments(&self) -> impl Iterator<Item = DAffine3> {
-        let part = |i: u32| f64::from(i) / f64::from(MOMENTS);
-        (0..=MOMENTS).map(move |i| self.at(self.interval.start_s() + self.interval.length_s() * part(i)))
-    }
-
-    /// Bounds from those at some moments, and the box of all the motion: intensity is the greatest, the cone that of the start
-    /// opened by how far the light turns, or all directions where there is none at some of them.
-    fn bounds(&self, moments: Vec<LightBounds>, (low, high): (DVec3, DVec3)) -> Option<LightBounds> {
-        let first = *moments.first()?;
-        let box_of = [low, high].map(|corner| (corner - self.origin_m).as_vec3());
-        let room = (box_of[0].abs().max(box_of[1].abs()) + Vec3::splat(f32::MIN_POSITIVE)) * f32::EPSILON;
-        let intensity = moments.iter().map(|bounds| bounds.intensity).fold(0.0, f64::max);
-        let whole = LightBounds::of_surface(&[box_of[0] - room, box_of[1] + room], intensity, None);
-        let theta_o = first.theta_o + self.to_world.turning_over(self.interval) as f32 * (1.0 + 1e-5) + 1e-5;
-        if theta_o >= PI || moments.len() <= MOMENTS as usize {
-            return Some(whole);
-        }
-        Some(LightBounds { axis: first.axis, theta_o, theta_e: first.theta_e, ..whole })
-    }
-}
+use etendue_core::{TimeInterval, Wavelengths};
+use glam::{DVec3, Vec2};
 
 /// A triangle, a parallelogram or a sphere in motion.
 #[derive(Clone, Debug)]
@@ -154,9 +111,9 @@ enum Moment {
 mod tests {
     use super::*;
     use crate::geometry::Mesh;
-    use etendue_core::maths;
-    use etendue_core::track::{Interpolation, Key};
-    use glam::DQuat;
+    use etendue_core::track::{Interpolation, Key, Track};
+    use etendue_core::{TimeInterval, maths};
+    use glam::{DQuat, Vec3};
 
     /// At moments between those that are looked at: corners in the box, the normal in the cone (f32 rounds cosines to 1e-7).
     #[test]
@@ -169,7 +126,7 @@ mod tests {
             Key { time_s: i, position_m: DVec3::new(3.0 * i, i * i, -i), rotation, scale: DVec3::splat(2.0) }
         };
         for how in [Interpolation::Linear, Interpolation::Smooth] {
-            let to_world = Track::new(&[0.0, 1.0, 3.0].map(key), how).expect("legal");
+            let to_world = Track::new(&[0.0, 1.0, 3.0].map(key), how).expect("legal").into();
             let interval = TimeInterval::new(0.4, 1.3).expect("in order");
             let way = Way { to_world, origin_m: DVec3::new(0.5, 0.2, 0.1), interval };
             let light = MovingLight::of_facets(Facets::one(&mesh, 0), way, MaterialId(0));

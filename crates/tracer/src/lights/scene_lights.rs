@@ -4,7 +4,7 @@ use super::choice::{Choice, Chosen};
 use super::collect;
 use super::collect::LightError;
 use super::environment::Environment;
-use super::lamp::{LampIrradiance, LampLight};
+use super::lamp::LampIrradiance;
 use super::light::Light;
 use super::light_counts::LightCounts;
 use super::light_sample::{DistantLight, LightHit, LightSample};
@@ -47,14 +47,9 @@ impl Lights {
         let Sources { suns, lamps, environment } = sources;
         let mut gathered = collect::of_surfaces(view, material_table, (low_nm, high_nm))?;
         for lamp in lamps {
-            let opening = lamp.opening();
-            let lamp = LampLight::new(lamp, (view.origin_m(), view.interval()), (low_nm, high_nm));
-            match opening {
-                None => drop(gathered.add(lamp.bounds(), Light::Lamp(lamp))),
-                Some(opening) => gathered.add_opening(lamp, opening, view, material_table)?,
-            }
+            gathered.add_lamp(lamp, view, material_table, (low_nm, high_nm))?;
         }
-        let has_openings = gathered.lights.iter().any(|light| matches!(light, Light::Opening(_)));
+        let has_openings = gathered.lights.iter().any(Light::is_open);
         let weighed = suns.iter().map(|sun| (sun.clone(), sun.mean_irradiance(low_nm, high_nm) as f32)).collect();
         let surroundings = environment.as_ref().map_or(0.0, |e| e.drawn_irradiance(low_nm, high_nm)) as f32;
         let choice = Choice::new(&gathered.bounds, weighed, surroundings);
@@ -69,8 +64,8 @@ impl Lights {
         LightCounts {
             triangles: self.lights.iter().map(Light::triangles).sum(),
             spheres: count(Light::is_sphere),
-            lamps: count(|l| matches!(l, Light::Lamp(_))),
-            openings: count(|l| matches!(l, Light::Opening(_))),
+            lamps: count(Light::is_point),
+            openings: count(Light::is_open),
             suns: self.suns.len(),
             uniform_environment: matches!(&self.environment, Some(Environment::Uniform(l)) if l.max_value() > 0.0),
             image_environment: matches!(self.environment, Some(Environment::Image(_))),
@@ -120,6 +115,7 @@ impl Lights {
                 Light::Lamp(lamp) => lamp.sample(from, asked),
                 Light::Opening(opening) => opening.sample(from, u, asked),
                 Light::Moving(light) => light.sample(receiver, u, spread_rad, material_table, asked),
+                Light::Carried(lamp) => lamp.sample(receiver, u, asked),
             },
             Chosen::Sun(i) => Some(self.suns[i].sample(u, asked.0)),
             Chosen::Environment => self.environment.as_ref()?.sample(u, asked.0),
@@ -135,6 +131,7 @@ impl Lights {
         let lamp = |i: u32| match &self.lights[i as usize] {
             Light::Lamp(lamp) => lamp.irradiance(receiver),
             Light::Opening(opening) => opening.irradiance(receiver),
+            Light::Carried(lamp) => lamp.irradiance(receiver),
             Light::Triangle(_) | Light::Sphere(_) | Light::Moving(_) => LampIrradiance::default(),
         };
         TreeQuery { receiver, lamp }
@@ -150,6 +147,7 @@ impl Lights {
             Light::Sphere(light) => light.pdf(met),
             Light::Opening(light) => light.pdf(met),
             Light::Moving(light) => light.pdf(met),
+            Light::Carried(lamp) => lamp.pdf(met),
             Light::Lamp(_) => 0.0,
         };
         pdf * self.choice.probability(&self.question(met.receiver), Chosen::Local(i))
@@ -167,6 +165,7 @@ impl Lights {
         let light = self.has_openings.then(|| self.primitives.light(point.instance, point.primitive))??;
         match &self.lights[light] {
             Light::Opening(opening) => opening.met(point, direction, asked),
+            Light::Carried(lamp) => lamp.met(point, direction, asked),
             Light::Lamp(_) | Light::Triangle(_) | Light::Sphere(_) | Light::Moving(_) => None,
         }
     }

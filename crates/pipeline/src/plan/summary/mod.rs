@@ -7,6 +7,7 @@ mod lens;
 mod processing;
 mod shared_light;
 mod spectrum;
+mod time;
 mod words;
 
 use crate::plan::remark::grouped;
@@ -73,7 +74,14 @@ fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     if let Some(sky) = &plan.sky {
         line(f, "sky", self::sky(sky))?;
     }
-    line(f, "left out", "motion: nothing moves; air: it is clear; polarisation and fluorescence: not modelled")
+    let left_out = "air: it is clear; polarisation and fluorescence: not modelled";
+    match time::motion(plan) {
+        None => line(f, "left out", format!("motion: nothing moves; {left_out}")),
+        Some(motion) => {
+            line(f, "motion", motion)?;
+            line(f, "left out", left_out)
+        }
+    }
 }
 
 fn sky(sky: &SkyFacts) -> String {
@@ -95,6 +103,12 @@ fn camera(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Resul
     writeln!(f, "camera {}", camera.name)?;
     if let Some(text) = shared_light::light(plan, camera) {
         line(f, "light", text)?;
+    }
+    if let Some(frames) = time::frames(camera) {
+        line(f, "frames", frames)?;
+    }
+    if let Some(shutter) = time::shutter(camera) {
+        line(f, "shutter", shutter)?;
     }
     lights(plan, camera, f)?;
     light_paths(camera, f)?;
@@ -119,7 +133,9 @@ fn lights(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Resul
         (usize::from(counts.uniform_environment), "uniform surrounding"),
     ];
     let list: Vec<String> = counted.iter().filter(|(n, _)| *n > 0).map(|(n, name)| count(*n, name)).collect();
-    line(f, "lights", if list.is_empty() { "none: the picture will be black".to_owned() } else { list.join(", ") })
+    let over_time = if plan.is_modulated() { "; strengths change over time" } else { "" };
+    let none = "none: the picture will be black".to_owned();
+    line(f, "lights", if list.is_empty() { none } else { list.join(", ") + over_time })
 }
 
 fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {

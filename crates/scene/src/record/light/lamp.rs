@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::emission::{LightColour, check_colour};
 use super::modulation::{self, Modulation};
 use super::opening::{self, LampOpening};
-use super::placement::{LampInstance, LampPlacement};
+use super::placement::LampPlacement;
 use super::strength::{LampStrength, MeasuredStrength};
 use crate::fault::Faults;
 use crate::place::Placed;
@@ -148,8 +148,7 @@ fn check_point(lamp: &PointLamp, faults: &mut Faults) {
     if lamp.mask.is_some() || lamp.opening.as_ref().is_some_and(LampOpening::turns) {
         return;
     }
-    let instances = lamp.placement.instances.iter().filter_map(|i: &LampInstance| i.aim.as_ref());
-    for aim in lamp.placement.aim.iter().chain(instances) {
+    for aim in lamp.placement.aims() {
         faults.add(aim.place(), "a lamp that shines alike in all directions points nowhere", "remove it");
     }
 }

@@ -13,7 +13,7 @@ pub use emission::{Emission, Level, LightColour};
 pub use lamp::{Beam, HeadLamp, Mask, MeasuredLamp, PointLamp, SpotLamp, Traffic};
 pub use modulation::Modulation;
 pub use opening::LampOpening;
-pub use placement::{LampAim, LampInstance, LampPlacement};
+pub use placement::{LampAim, LampInstance, LampKey, LampPlacement};
 pub use strength::{LampStrength, MeasuredStrength};
 pub use sun::{Sun, SunLevel};
 
@@ -46,6 +46,18 @@ impl Light {
             Self::Spot(lamp) => &lamp.name,
             Self::Measured(lamp) => &lamp.name,
             Self::HeadLamp(lamp) => &lamp.name,
+        }
+    }
+
+    /// Where a lamp stands; `None` for a sun.
+    #[must_use]
+    pub fn placement(&self) -> Option<&LampPlacement> {
+        match self {
+            Self::Sun(_) => None,
+            Self::Point(lamp) => Some(&lamp.placement),
+            Self::Spot(lamp) => Some(&lamp.placement),
+            Self::Measured(lamp) => Some(&lamp.placement),
+            Self::HeadLamp(lamp) => Some(&lamp.placement),
         }
     }
 

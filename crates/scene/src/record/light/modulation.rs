@@ -33,7 +33,7 @@ record! {
     pub struct PwmModulation check(check_pwm) {
         /// How often pulses come, Hz, above 0.
         required frequency_hz: Placed<f64> = number("Hz").above(0.0).at_most(1e9);
-        /// Share of the period that a pulse lasts, between its half heights, above 0 and below 1.
+        /// Share of the period that a pulse lasts, between its half heights, 0.000001 … 0.999999.
         required duty_cycle: Placed<f64> = number("").at_least(1e-6).at_most(0.999_999);
         /// How long a pulse takes to rise, s, 0 or more: a straight line, half of which lies within the pulse. Default: 0.
         optional rise_s: Placed<f64> = number("s").at_least(0.0);
@@ -65,7 +65,7 @@ record! {
     pub struct BlinkModulation check(check_blink) {
         /// How often it comes on, Hz, above 0.
         required frequency_hz: Placed<f64> = number("Hz").above(0.0).at_most(1e9);
-        /// Share of the period that it is on, between half heights, above 0 and below 1. Default: 0.5.
+        /// Share of the period that it is on, between half heights, 0.000001 … 0.999999. Default: 0.5.
         optional on_fraction: Placed<f64> = number("").at_least(1e-6).at_most(0.999_999);
         /// How long it takes to come on, s, 0 or more: a straight line, half of which lies within the time that it is on. Default: 0.
         optional rise_s: Placed<f64> = number("s").at_least(0.0);

@@ -2,9 +2,10 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::fault::Faults;
+use crate::fault::{Faults, Named};
 use crate::place::{Place, Placed};
-use crate::reader::{keyed, list, number, record, text, vector};
+use crate::reader::{keyed, list, name_of, number, record, text, vector};
+use crate::record::motion::{Course, check_course, check_ways, trajectory_way};
 use crate::record::transform::yaw_pitch_roll;
 
 record! {
@@ -16,6 +17,12 @@ record! {
         group aim: LampAim;
         /// Where it stands, where the same lamp stands many times.
         many instances: LampInstance = list(record(), 1);
+        /// Where it stands over time; one key stands still.
+        many keys: LampKey = list(record(), 1);
+        /// How it moves.
+        group course: Course;
+        /// The frame that it is placed in, and moves with; positions and targets are in it. Default: the world.
+        optional frame: Placed<String> = name_of(Named::Frame);
         /// The paper's attenuation coefficient a, 1/m, 0 or more: a factor 1 / (1 + a·distance) besides the law of 1/d²,
         /// which always holds. Default: 0, as in clear air.
         optional attenuation_per_m: Placed<f64> = number("1/m").at_least(0.0);
@@ -27,12 +34,26 @@ record! {
     pub struct LampInstance check(check_instance) {
         /// Its name. Default: the lamp's name and its number.
         optional name: Placed<String> = text("the name of the instance");
+        /// The frame that it is placed in, and moves with. Default: the lamp's.
+        optional frame: Placed<String> = name_of(Named::Frame);
         /// Where it stands in the world, m.
         required position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
         /// Where it points. Default: not turned.
         group aim: LampAim;
         /// By how much the lamp's "modulation" is later here, s, besides its own delay. Default: 0.
         optional modulation_delay_s: Placed<f64> = number("s");
+    }
+}
+
+record! {
+    /// Where a lamp stands at a time.
+    pub struct LampKey check(check_key) {
+        /// Simulated time, s.
+        required time_s: Placed<f64> = number("s");
+        /// Where it stands in the world, m.
+        required position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
+        /// Where it points. Default: not turned.
+        group aim: LampAim;
     }
 }
 
@@ -89,30 +110,29 @@ fn towards(direction: DVec3, main: MainAxis) -> Option<DMat3> {
 }
 
 impl LampPlacement {
-    /// Every place where the lamp stands, with its aim.
-    pub fn placements(&self) -> impl Iterator<Item = (&Placed<[f64; 3]>, Option<&LampAim>)> {
-        let own = self.position_m.iter().map(|p| (p, self.aim.as_ref()));
-        own.chain(self.instances.iter().map(|i| (&i.position_m, i.aim.as_ref())))
+    /// Every aim that is stated.
+    pub(super) fn aims(&self) -> impl Iterator<Item = &LampAim> {
+        let instances = self.instances.iter().filter_map(|instance| instance.aim.as_ref());
+        self.aim.iter().chain(instances).chain(self.keys.iter().filter_map(|key| key.aim.as_ref()))
     }
 }
 
 fn check(placement: &LampPlacement, faults: &mut Faults) {
-    let own = placement.position_m.as_ref().map(|p| ("\"position_m\"", &p.place));
-    let own = own.or(placement.aim.as_ref().map(|a| ("the lamp's own aim", a.place())));
-    match (own, placement.instances.first()) {
-        (Some((said, _)), Some(first)) => faults.add(
-            &first.place,
-            format!("\"instances\" contradicts {said}: both say where the lamp stands"),
-            "keep one of the two",
-        ),
-        (_, None) if placement.position_m.is_none() => {
-            faults.add(
-                &placement.place,
-                "the lamp stands nowhere",
-                "add \"position_m\", or \"instances\" for many places",
-            );
-        }
-        _ => {}
+    let own = placement.position_m.as_ref().map(|p| ("\"position_m\"", p.place.clone()));
+    let own = own.or(placement.aim.as_ref().map(|a| ("the lamp's own aim", a.place().clone())));
+    let keys = placement.keys.first().map(|key| ("\"keys\"", key.place.clone()));
+    let instances = placement.instances.first().map(|first| ("\"instances\"", first.place.clone()));
+    let stands = placement.position_m.is_some()
+        || [&keys, &instances].iter().any(|way| way.is_some())
+        || trajectory_way(placement.course.as_ref()).is_some();
+    check_ways([own, keys, trajectory_way(placement.course.as_ref()), instances], "the lamp", faults);
+    check_course(placement.course.as_ref(), placement.keys.iter().map(|key| &key.time_s), faults);
+    if !stands {
+        faults.add(
+            &placement.place,
+            "the lamp stands nowhere",
+            "add \"position_m\", \"instances\" for many places, or \"keys\" or \"trajectory\" for one that moves",
+        );
     }
     if let (Some(position), Some(aim)) = (&placement.position_m, &placement.aim) {
         check_aim(position, aim, faults);
@@ -121,6 +141,10 @@ fn check(placement: &LampPlacement, faults: &mut Faults) {
 
 fn check_instance(instance: &LampInstance, faults: &mut Faults) {
     instance.aim.iter().for_each(|aim| check_aim(&instance.position_m, aim, faults));
+}
+
+fn check_key(key: &LampKey, faults: &mut Faults) {
+    key.aim.iter().for_each(|aim| check_aim(&key.position_m, aim, faults));
 }
 
 fn check_aim(position: &Placed<[f64; 3]>, aim: &LampAim, faults: &mut Faults) {

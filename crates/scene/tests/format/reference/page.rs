@@ -7,8 +7,12 @@ use super::section::{File, Place, Section, plain, sections};
 use super::value::value;
 
 /// The names of records that may stand in several places, by the first of them.
-const NAMES: [(&str, &str); 12] = [
+const NAMES: [(&str, &str); 16] = [
     ("environment-radiance_w_m2_sr_nm", "Spectrum"),
+    ("frames-rolls", "Wheel"),
+    ("frames-trajectory", "Trajectory"),
+    ("lights-modulation", "Modulation"),
+    ("lights-modulation-steps", "Step of a programme"),
     ("materials-alpha", "Texture of a number"),
     ("materials-colour", "Colour"),
     ("materials-print", "Colour or texture"),

@@ -4,7 +4,7 @@ use super::shapes::{Random, instance, mesh, world_of};
 use crate::MaterialId;
 use crate::accel::{WorldBuilder, WorldError};
 use crate::geometry::{Dropped, Mesh, MeshId, Shape};
-use etendue_core::{Ray, TimeInterval, Track};
+use etendue_core::{Motion, Ray, TimeInterval};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 
 #[test]
@@ -98,7 +98,7 @@ fn worlds_that_are_none_are_refused() {
         assert_eq!(id, MeshId(0));
         let mut one = instance(shape, to_world);
         one.materials = vec![MaterialId(0); materials];
-        one.to_world = Track::still(to_world);
+        one.to_world = Motion::still(to_world);
         builder.add_instance(one);
         builder.build().err()
     };

@@ -6,7 +6,7 @@ use crate::accel::{Simd, World, WorldBuilder, WorldError};
 use crate::geometry::{Hit, Mesh, Shape, sphere};
 use crate::render_space::RenderSpace;
 use etendue_core::track::{Interpolation, Key};
-use etendue_core::{Ray, TimeInterval, Track};
+use etendue_core::{Motion, Ray, TimeInterval, Track};
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3};
 
 fn interval(start_s: f64, end_s: f64) -> TimeInterval {
@@ -162,7 +162,7 @@ fn a_moment_of_motion_is_a_still_world() {
         let mut frozen = WorldBuilder::new();
         world.meshes().iter().for_each(|mesh| _ = frozen.add_mesh(mesh.clone()));
         for instance in world.instances() {
-            let to_world = Track::still(instance.to_world.at(end_s));
+            let to_world = Motion::still(instance.to_world.at(end_s));
             frozen.add_instance(crate::geometry::Instance { to_world, ..instance.clone() });
         }
         let frozen = frozen.build().expect("legal");

@@ -3,7 +3,7 @@
 use crate::MaterialId;
 use crate::accel::{World, WorldBuilder};
 use crate::geometry::{Instance, Mesh, Shape};
-use etendue_core::Track;
+use etendue_core::Motion;
 use etendue_core::random::{philox4x32, unit_f64};
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use std::collections::HashMap;
@@ -153,12 +153,12 @@ pub(crate) fn spindle() -> Mesh {
 
 /// An instance of one material.
 pub(crate) fn instance(shape: Shape, to_world: DAffine3) -> Instance {
-    tracked(shape, Track::still(to_world))
+    tracked(shape, Motion::still(to_world))
 }
 
 /// As [`instance`], on a track.
-pub(crate) fn tracked(shape: Shape, to_world: Track) -> Instance {
-    Instance { shape, to_world, materials: vec![MaterialId(7)], instance_id: 11, semantic_id: 13 }
+pub(crate) fn tracked(shape: Shape, to_world: impl Into<Motion>) -> Instance {
+    Instance { shape, to_world: to_world.into(), materials: vec![MaterialId(7)], instance_id: 11, semantic_id: 13 }
 }
 
 /// A world of one mesh, placed once.

@@ -122,7 +122,7 @@ fn a_texture_is_read_in_its_place() {
     let uvs = vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
     let (mesh, _) = Mesh::new(positions, vec![], uvs, vec![[0, 1, 2], [0, 2, 3]], vec![]).expect("a mesh");
     let shape = Shape::Mesh(builder.add_mesh(mesh));
-    let to_world = Track::still(DAffine3::IDENTITY);
+    let to_world = Motion::still(DAffine3::IDENTITY);
     builder.add_instance(Instance { shape, to_world, materials: vec![MaterialId(0)], instance_id: 1, semantic_id: 1 });
     let world = builder.build().expect("a world");
     let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));

@@ -4,6 +4,7 @@
 //! 31 degrees of freedom (0.5 %), plus 1e-5 for the rounding of f32.
 
 mod agreement;
+mod carried;
 mod closed_forms;
 mod glossy;
 mod inside;
@@ -29,7 +30,7 @@ use crate::render_space::RenderSpace;
 use core::f64::consts::PI;
 use etendue_core::random::{FrameAddress, PathStream, Pixel, PixelAddress};
 use etendue_core::{FieldRay, RadianceField, Ray, TimeInterval, Wavelengths};
-use etendue_core::{Track, maths};
+use etendue_core::{Motion, Track, maths};
 use etendue_spectra::{Spectrum, metal, upsample};
 use etendue_stats::ReplicateEstimate;
 use glam::{DAffine3, DVec3, Vec2, Vec3};
@@ -57,7 +58,7 @@ impl Scene {
     }
 
     fn place(&mut self, shape: Shape, to_world: DAffine3, material: MaterialId) {
-        let to_world = Track::still(to_world);
+        let to_world = Motion::still(to_world);
         self.builder.add_instance(Instance {
             shape,
             to_world,

@@ -90,7 +90,13 @@ impl Scene {
                     _ => Track::still(DAffine3::from_translation(at)),
                 };
                 let materials = vec![material];
-                self.builder.add_instance(Instance { shape, to_world, materials, instance_id: 1, semantic_id: 1 });
+                self.builder.add_instance(Instance {
+                    shape,
+                    to_world: to_world.into(),
+                    materials,
+                    instance_id: 1,
+                    semantic_id: 1,
+                });
             }
         }
     }
@@ -101,7 +107,7 @@ impl Scene {
         let shape = Shape::Mesh(self.builder.add_mesh(opening.mesh().expect("a box")));
         let instance = self.builder.add_instance(Instance {
             shape,
-            to_world: Track::still(lamp.opening_to_world(&opening)),
+            to_world: lamp.opening_to_world(&opening),
             materials: vec![black],
             instance_id: 9,
             semantic_id: 0,

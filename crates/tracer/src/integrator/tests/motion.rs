@@ -7,7 +7,7 @@ use glam::{DMat3, DQuat};
 
 const SHUTTER: (f64, f64) = (50.0, 50.4);
 
-fn shutter() -> TimeInterval {
+pub(super) fn shutter() -> TimeInterval {
     TimeInterval::new(SHUTTER.0, SHUTTER.1).expect("in order")
 }
 
@@ -46,7 +46,13 @@ fn moving(floor: Surface, sides: EmissionSides) -> Scene {
     ];
     for (shape, material, to_world) in ways {
         let materials = vec![material];
-        scene.builder.add_instance(Instance { shape, to_world, materials, instance_id: 1, semantic_id: 1 });
+        scene.builder.add_instance(Instance {
+            shape,
+            to_world: to_world.into(),
+            materials,
+            instance_id: 1,
+            semantic_id: 1,
+        });
     }
     scene
 }
@@ -57,7 +63,13 @@ fn shape(scene: &mut Scene, positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> S
 }
 
 /// As [`Ready::look`], through the shutter.
-fn look(ready: &Ready, interval: TimeInterval, ray: &Ray, settings: PathSettings, samples: u32) -> ReplicateEstimate {
+pub(super) fn look(
+    ready: &Ready,
+    interval: TimeInterval,
+    ray: &Ray,
+    settings: PathSettings,
+    samples: u32,
+) -> ReplicateEstimate {
     let view = ready.world.render_space_for_few(DVec3::ZERO, interval);
     let lights = ready.lights(&view);
     let tracer = PathTracer::new(&view, &ready.material_table, &lights, settings);

@@ -39,7 +39,7 @@ impl Scene {
         };
         let instance = self.builder.add_instance(Instance {
             shape,
-            to_world: Track::still(lamp.opening_to_world(&opening)),
+            to_world: lamp.opening_to_world(&opening),
             materials: vec![black],
             instance_id: 9,
             semantic_id: 0,
@@ -102,7 +102,7 @@ fn by_sum(opening: &Opening, at: DVec3, profile: &Profile, x: f64, visible: impl
         let lit = if visible(place) { 1.0 } else { 0.0 };
         lit * radiance * leaving * (-direction.z).max(0.0) / way.length_squared()
     };
-    patches(opening, lamp.opening_to_world(opening), 48).into_iter().map(of).sum()
+    patches(opening, lamp.opening_to_world(opening).at(0.0), 48).into_iter().map(of).sum()
 }
 
 fn above(height_m: f64) -> DVec3 {

@@ -9,7 +9,7 @@ use crate::geometry::{Mesh, SurfacePoint};
 use crate::lights::lamp::{LampIrradiance, LampLight};
 use crate::lights::sphere::SphereLight;
 use crate::lights::tree::LightBounds;
-use crate::lights::{LightHit, LightSample, LightSampleContext};
+use crate::lights::{LightHit, LightSample, LightSampleContext, ROUNDING};
 
 /// A lamp that shines from a surface.
 #[derive(Clone, Debug)]
@@ -19,6 +19,8 @@ pub(in crate::lights) struct OpeningLight {
     surface: Surface,
     /// Radius of a sphere about the lamp's place that holds the opening, m.
     reach_m: f32,
+    /// How much farther than they say its points may be from where the accelerator sees them, m.
+    room_m: f32,
 }
 
 #[derive(Clone, Debug)]
@@ -46,7 +48,12 @@ impl OpeningLight {
 
     fn new(lamp: LampLight, opening: Opening, surface: Surface) -> Self {
         // Room for rounding.
-        Self { reach_m: opening.reach_m() as f32 * (1.0 + 1e-5), lamp, opening, surface }
+        Self { reach_m: opening.reach_m() as f32 * (1.0 + 1e-5), lamp, opening, surface, room_m: 0.0 }
+    }
+
+    /// The same light where its points are moved and rounded anew, within `farthest_m` of the origin.
+    pub(in crate::lights) fn carried_within(self, farthest_m: f32) -> Self {
+        Self { room_m: ROUNDING * farthest_m, ..self }
     }
 
     /// How many primitives its surface has.
@@ -104,7 +111,7 @@ impl OpeningLight {
         let direction = surface.direction().filter(|direction| self.leaves(surface.normal, -*direction))?;
         Some(LightSample {
             direction,
-            target: Some(surface.target(from, direction, error_m, early_m)),
+            target: Some(surface.target(from, direction, error_m + self.room_m, early_m)),
             radiance: self.radiance(-direction, asked),
             pdf: surface.pdf,
             delta: false,

@@ -21,7 +21,8 @@ pub(super) fn lamp(at: DVec3, towards: DVec3, intensity: f64, profile: Profile) 
     let basis = etendue_core::Basis::about(towards.as_vec3().normalize());
     let axes = DMat3::from_cols(basis.z.as_dvec3(), basis.x.as_dvec3(), basis.y.as_dvec3());
     let lamp = Lamp::new(at, axes, Spectrum::constant(intensity), profile).expect("a lamp");
-    LampLight::new(lamp, (DVec3::ZERO, etendue_core::TimeInterval::default()), (400.0, 700.0))
+    let to_render = lamp.to_world().at(0.0);
+    LampLight::new(lamp, (&to_render, etendue_core::TimeInterval::default()), (400.0, 700.0))
 }
 
 /// Lamps in a box of `size`, about `centre`, every third a spot, of powers over `decades`.

@@ -1,0 +1,159 @@
+//! How fast a track's transform changes: exactly at a moment, and at most during a time that no key lies within.
+
+use super::bounds::most_stretch;
+use super::span::Span;
+use super::{Keyed, Kind, Track};
+use glam::{DAffine3, DMat3, DVec3};
+
+/// A transform and its derivative by time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moving {
+    pub(crate) at: DAffine3,
+    /// Of the matrix, 1/s.
+    pub(crate) turning: DMat3,
+    /// Of the translation, m/s.
+    pub(crate) velocity: DVec3,
+}
+
+impl Moving {
+    /// A transform that does not change.
+    pub(crate) fn still(at: DAffine3) -> Self {
+        Self { at, turning: DMat3::ZERO, velocity: DVec3::ZERO }
+    }
+
+    /// Of what moves by `inner` in a frame that moves by this: the product rule.
+    pub(crate) fn carrying(&self, inner: &Self) -> Self {
+        Self {
+            at: self.at * inner.at,
+            turning: self.turning * inner.at.matrix3 + self.at.matrix3 * inner.turning,
+            velocity: self.turning * inner.at.translation + self.at.matrix3 * inner.velocity + self.velocity,
+        }
+    }
+}
+
+/// Bounds of a point's motion: its distance from the frame's origin, m, and the magnitudes of its velocity, m/s, and its
+/// acceleration, m/s².
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Bend {
+    pub(crate) distance: f64,
+    pub(crate) speed: f64,
+    pub(crate) acceleration: f64,
+}
+
+impl Bend {
+    /// The same seen through a transform whose matrix has at most the norms `matrix` and whose translation at most the lengths
+    /// `place`: of themselves, of their first derivative and of their second. The product rule.
+    fn through(&self, matrix: [f64; 3], place: [f64; 3]) -> Self {
+        Self {
+            distance: matrix[0] * self.distance + place[0],
+            speed: matrix[1] * self.distance + matrix[0] * self.speed + place[1],
+            acceleration: matrix[2] * self.distance
+                + 2.0 * matrix[1] * self.speed
+                + matrix[0] * self.acceleration
+                + place[2],
+        }
+    }
+
+    fn moved(&self, transform: &DAffine3) -> Self {
+        self.through([most_stretch(&transform.matrix3), 0.0, 0.0], [transform.translation.length(), 0.0, 0.0])
+    }
+}
+
+impl Track {
+    /// The times of its keys, s; none where it does not change.
+    pub(crate) fn times_s(&self) -> &[f64] {
+        match &self.0 {
+            Kind::Still(_) => &[],
+            Kind::Moving(keyed) => &keyed.times_s,
+        }
+    }
+
+    /// The transform at `time_s` and how it changes there, by the motion that it has at `within_s`: at a key velocities may jump.
+    pub(crate) fn moving_at(&self, time_s: f64, within_s: f64) -> Moving {
+        match &self.0 {
+            Kind::Still(transform) => Moving::still(*transform),
+            Kind::Moving(keyed) => match keyed.span_at(within_s) {
+                Some(span) => keyed.moving_in(span, time_s),
+                None => Moving::still(keyed.at(time_s)),
+            },
+        }
+    }
+
+    /// Bounds, from `start_s` to `end_s` between which no key lies, for a point whose motion in the moved frame has the bounds
+    /// `inner`.
+    pub(crate) fn bend(&self, times_s: (f64, f64), inner: &Bend) -> Bend {
+        match &self.0 {
+            Kind::Still(transform) => inner.moved(transform),
+            Kind::Moving(keyed) => {
+                let inner = inner.moved(&keyed.first);
+                match keyed.part_of(times_s) {
+                    Some((span, parts, length_s)) => span.bend(parts, length_s, &inner),
+                    None => inner.moved(&keyed.pose(times_s.0).transform()),
+                }
+            }
+        }
+    }
+
+    /// A bound of the rate, rad/s, by which it turns from `start_s` to `end_s`, between which no key lies.
+    pub(crate) fn turning_rate(&self, times_s: (f64, f64)) -> f64 {
+        let Kind::Moving(keyed) = &self.0 else { return 0.0 };
+        keyed.part_of(times_s).map_or(0.0, |(span, (u0, u1), length_s)| span.turn.most_rates(u0, u1).0 / length_s)
+    }
+}
+
+impl Keyed {
+    /// The span that a time lies in.
+    fn span_at(&self, time_s: f64) -> Option<usize> {
+        let passed = self.times_s.partition_point(|key_s| *key_s <= time_s);
+        (passed > 0 && passed < self.times_s.len()).then(|| passed - 1)
+    }
+
+    /// The span between whose keys two times lie, the parts of it that have passed, and its length, s.
+    fn part_of(&self, (start_s, end_s): (f64, f64)) -> Option<(&Span, (f64, f64), f64)> {
+        let span = self.span_at(start_s + 0.5 * (end_s - start_s))?;
+        let length_s = self.times_s[span + 1] - self.times_s[span];
+        Some((&self.spans[span], (self.part(span, start_s), self.part(span, end_s)), length_s))
+    }
+
+    fn moving_in(&self, span: usize, time_s: f64) -> Moving {
+        let length_s = self.times_s[span + 1] - self.times_s[span];
+        let (span, u) = (&self.spans[span], self.part(span, time_s));
+        let pose = span.at(u);
+        let (rotation, scale) = (DMat3::from_quat(pose.rotation), DMat3::from_diagonal(pose.scale));
+        let turning = rotation * cross(span.turn.velocity(u)) * scale;
+        let growing = rotation * DMat3::from_diagonal(span.scale.slope(u));
+        let keyed = Moving {
+            at: pose.transform(),
+            turning: (turning + growing) * (1.0 / length_s),
+            velocity: span.position.slope(u) / length_s,
+        };
+        keyed.carrying(&Moving::still(self.first))
+    }
+}
+
+impl Span {
+    /// Bounds from u0 to u1 of a span of `length_s` seconds. With R the rotation and S the scale, |d(R S)/du| ≤ |Ṙ| |S| + |Ṡ| and
+    /// |d²(R S)/du²| ≤ |R̈| |S| + 2 |Ṙ| |Ṡ| + |S̈|.
+    fn bend(&self, (u0, u1): (f64, f64), length_s: f64, inner: &Bend) -> Bend {
+        let most = |range: (DVec3, DVec3)| range.0.abs().max(range.1.abs());
+        let (rate, second) = self.turn.most_rates(u0, u1);
+        let scale = [
+            most(self.scale.range(u0, u1)).max_element(),
+            self.scale.most_slope(u0, u1).max_element(),
+            self.scale.most_curvature(u0, u1).max_element(),
+        ];
+        let matrix = [scale[0], rate * scale[0] + scale[1], second * scale[0] + 2.0 * rate * scale[1] + scale[2]];
+        let place = [
+            most(self.position.range(u0, u1)).length(),
+            self.position.most_slope(u0, u1).length(),
+            self.position.most_curvature(u0, u1).length(),
+        ];
+        let by_time = |[own, first, second]: [f64; 3]| [own, first / length_s, second / (length_s * length_s)];
+        inner.through(by_time(matrix), by_time(place))
+    }
+}
+
+/// The matrix that takes v to ω × v.
+fn cross(omega: DVec3) -> DMat3 {
+    DMat3::from_cols(omega.cross(DVec3::X), omega.cross(DVec3::Y), omega.cross(DVec3::Z))
+}

@@ -1,0 +1,110 @@
+//! Wheels: what turns by the way that it goes.
+//!
+//! A wheel of radius r that rolls without slipping turns about its axle (y) by φ(t) = (1/r) ∫ v·x̂ dt, with the velocity v of its
+//! middle in the world and the unit direction x̂ in which its hub points forward. Between two moments without a key of any
+//! track that carries the hub the integrand is analytic; it is integrated by Gauss's rule of five points, and φ is kept as
+//! cubic Hermite polynomials with the exact rate at both ends. Their number is doubled until φ is met to 1e-6 rad at the quarters
+//! of each; along straight lines at an even speed one is exact.
+
+use super::cubic::Cubic;
+use super::span::{Pose, Span};
+use super::turn::{Turn, rolled};
+use super::{Keyed, Kind, Track};
+use glam::{DAffine3, DVec3};
+use std::sync::Arc;
+
+/// The greatest error of φ at the quarters of a polynomial, rad.
+const TOLERANCE_RAD: f64 = 1e-6;
+/// Polynomials between two keys at most.
+const MOST: u32 = 4096;
+
+impl Track {
+    /// The rotation about y of a wheel: 0 until the first of `times_s`, which increase, and from there on the integral of
+    /// `rate_rad_s`, which is asked for the rate at a time and, after it, a time between the same two of `times_s`: at these
+    /// themselves the rate may jump.
+    pub(crate) fn rolling(times_s: &[f64], rate_rad_s: impl Fn(f64, f64) -> f64) -> Self {
+        let (mut knots_s, mut spans, mut angle) = (Vec::new(), Vec::new(), 0.0);
+        for pair in times_s.windows(2) {
+            let within_s = pair[0] + 0.5 * (pair[1] - pair[0]);
+            for piece in pieces((pair[0], pair[1]), &|time_s| rate_rad_s(time_s, within_s)) {
+                knots_s.push(piece.start_s);
+                spans.push(turning(piece.cubic(angle)));
+                angle += piece.turns;
+            }
+        }
+        if spans.iter().all(Span::is_constant) {
+            return Self::still(DAffine3::IDENTITY);
+        }
+        knots_s.extend(times_s.last());
+        let last = Pose { position: DVec3::ZERO, rotation: rolled(angle), scale: DVec3::ONE };
+        Self(Kind::Moving(Arc::new(Keyed { times_s: knots_s, spans, last, first: DAffine3::IDENTITY })))
+    }
+}
+
+fn turning(angle: [f64; 4]) -> Span {
+    let still = |at: DVec3| Cubic::straight(at, at);
+    Span { position: still(DVec3::ZERO), scale: still(DVec3::ONE), turn: Turn::Rolling { angle } }
+}
+
+/// What is turned from a time on.
+struct Piece {
+    start_s: f64,
+    /// By how much in all, rad.
+    turns: f64,
+    /// At both ends, rad per length of the piece.
+    rates: [f64; 2],
+    /// At the quarters, rad.
+    quarters: [f64; 2],
+}
+
+impl Piece {
+    fn new(start_s: f64, end_s: f64, rate_rad_s: &impl Fn(f64) -> f64) -> Self {
+        let length_s = end_s - start_s;
+        let at = |u: f64| start_s + u * length_s;
+        let first = gauss(at(0.0), at(0.25), rate_rad_s);
+        let third = first + gauss(at(0.25), at(0.75), rate_rad_s);
+        let turns = third + gauss(at(0.75), end_s, rate_rad_s);
+        let rates = [start_s, end_s].map(|time_s| rate_rad_s(time_s) * length_s);
+        Self { start_s, turns, rates, quarters: [first, third] }
+    }
+
+    /// The coefficients of the Hermite polynomial that begins at `angle`.
+    fn cubic(&self, angle: f64) -> [f64; 4] {
+        let [leaves, arrives] = self.rates;
+        // Rounding gives even turning no curvature.
+        if (leaves - arrives).abs().max((leaves - self.turns).abs()) <= 1e-13 * leaves.abs() {
+            return [angle, self.turns, 0.0, 0.0];
+        }
+        [angle, leaves, 3.0 * self.turns - 2.0 * leaves - arrives, leaves + arrives - 2.0 * self.turns]
+    }
+
+    fn is_met(&self) -> bool {
+        let [_, b, c, d] = self.cubic(0.0);
+        let off = |u: f64, exact: f64| (((d * u + c) * u + b) * u - exact).abs();
+        off(0.25, self.quarters[0]).max(off(0.75, self.quarters[1])) <= TOLERANCE_RAD
+    }
+}
+
+/// As few pieces of one length as meet the tolerance.
+fn pieces((start_s, end_s): (f64, f64), rate_rad_s: &impl Fn(f64) -> f64) -> Vec<Piece> {
+    let mut made = vec![Piece::new(start_s, end_s, rate_rad_s)];
+    while !made.iter().all(Piece::is_met) {
+        let count = 2 * made.len() as u32;
+        let end_of = |i: u32| start_s + (end_s - start_s) * (f64::from(i) / f64::from(count));
+        let ends_s: Vec<f64> = (0..count).map(end_of).chain([end_s]).collect();
+        if count > MOST || ends_s.windows(2).any(|pair| pair[0] >= pair[1]) {
+            break;
+        }
+        made = ends_s.windows(2).map(|pair| Piece::new(pair[0], pair[1], rate_rad_s)).collect();
+    }
+    made
+}
+
+/// The integral from `a` to `b` by five points: exact for polynomials of degree nine.
+fn gauss(a: f64, b: f64, f: &impl Fn(f64) -> f64) -> f64 {
+    const NODES: [f64; 2] = [0.538_469_310_105_683_1, 0.906_179_845_938_664];
+    const WEIGHTS: [f64; 3] = [0.568_888_888_888_888_9, 0.478_628_670_499_366_47, 0.236_926_885_056_189_08];
+    let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
+    let pair = |node: f64| f(middle - half * node) + f(middle + half * node);
+    half * (WEIGHTS[0] * f(middle) + WEIGHTS[1] * pair(NODES[0]) + WEIGHTS[2] * pair(NODES[1]))
+}

@@ -1,0 +1,36 @@
+//! Where cameras stand, over time: from records to paths.
+
+use super::context::Context;
+use super::course::{along, through, trajectory};
+use super::frames::Frames;
+use etendue_core::track::Key;
+use etendue_core::{CameraPath, CameraPose, Motion};
+use etendue_scene::record::Pose;
+use etendue_scene::record::pose::{PoseKey, camera_axes};
+use glam::{DAffine3, DQuat, DVec3};
+
+/// The path of a camera; `None` where it is faulty.
+pub(super) fn camera_path(pose: &Pose, frames: &Frames<'_>, context: &mut Context<'_>) -> Option<CameraPath> {
+    let course = pose.course.as_ref();
+    let own = match (trajectory(course), &pose.keys[..]) {
+        (Some(file), _) => along(file, course, context)?.after(&DAffine3::from_mat3(camera_axes())),
+        // Poses that were read have been checked.
+        (None, []) => still(&pose.to_camera_pose()?),
+        (None, [only]) => still(&only.to_camera_pose()?),
+        (None, keys) => {
+            let keys: Vec<Key> = keys.iter().map(key).collect::<Option<_>>()?;
+            through(&keys, course, pose.stated_at(), context)?
+        }
+    };
+    Some(CameraPath::moving(frames.carrying(pose.frame.as_ref(), own)))
+}
+
+fn still(pose: &CameraPose) -> Motion {
+    Motion::still(DAffine3::from_mat3_translation(pose.rotation, pose.position_m))
+}
+
+fn key(key: &PoseKey) -> Option<Key> {
+    let CameraPose { position_m, rotation } = key.to_camera_pose()?;
+    let rotation = DQuat::from_mat3(&rotation);
+    Some(Key { time_s: key.time_s.value, position_m, rotation, scale: DVec3::ONE })
+}

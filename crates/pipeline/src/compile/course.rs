@@ -1,0 +1,62 @@
+//! Where things are over time: keys and trajectories to motions.
+
+use super::context::Context;
+use etendue_core::track::{Interpolation, Key};
+use etendue_core::{Motion, Track};
+use etendue_scene::Place;
+use etendue_scene::record::motion::{self, Course, Rolls, Trajectory, TrajectoryAxes};
+use glam::DVec3;
+
+/// Through `keys`, stated at `place`.
+pub(super) fn through(
+    keys: &[Key],
+    course: Option<&Course>,
+    place: &Place,
+    context: &mut Context<'_>,
+) -> Option<Motion> {
+    let interpolation = match course.and_then(|course| course.interpolation.as_ref()).map(|i| i.value) {
+        Some(motion::Interpolation::Smooth) => Interpolation::Smooth,
+        Some(motion::Interpolation::Linear) | None => Interpolation::Linear,
+    };
+    context.accept(place, Track::new(keys, interpolation)).map(Motion::from)
+}
+
+/// The trajectory of a course.
+pub(super) fn trajectory(course: Option<&Course>) -> Option<&Trajectory> {
+    course?.trajectory.as_ref()
+}
+
+/// Through the rows of a trajectory's file.
+pub(super) fn along(trajectory: &Trajectory, course: Option<&Course>, context: &mut Context<'_>) -> Option<Motion> {
+    let file = &trajectory.file;
+    let Some(asset) = context.assets.trajectories.get(&file.value) else {
+        context.fault(&file.place, "the trajectory was not loaded", "give a readable file");
+        return None;
+    };
+    if !asset.unread.is_empty() {
+        context.remark_on(file.value.display(), format!("not read: {}", asset.unread.join(", ")));
+    }
+    let offset_s = trajectory.time_offset_s.as_ref().map_or(0.0, |offset| offset.value);
+    let axes = trajectory.axes.as_ref().map_or(TrajectoryAxes::Flu, |axes| axes.value);
+    let key = |row: &_| {
+        let row = axes.turned(row);
+        let (position_m, rotation) = (row.position_m, row.rotation);
+        Key { time_s: row.time_s + offset_s, position_m, rotation, scale: DVec3::ONE }
+    };
+    let keys: Vec<Key> = asset.rows.iter().map(key).collect();
+    through(&keys, course, &file.place, context)
+}
+
+/// A hub with the wheel that rolls on it; without one itself.
+pub(super) fn rolling(hub: Motion, rolls: Option<&Rolls>, context: &mut Context<'_>) -> Option<Motion> {
+    let Some(rolls) = rolls else { return Some(hub) };
+    let rolling = hub.rolling(rolls.radius_m.value);
+    if rolling.is_none() {
+        context.fault(
+            &rolls.place,
+            "\"rolls\" has no effect here, as nothing moves the wheel",
+            "give it keys, a trajectory or a frame that moves, or remove it",
+        );
+    }
+    rolling
+}

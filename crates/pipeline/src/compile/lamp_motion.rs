@@ -1,0 +1,57 @@
+//! Where lamps stand and point, over time: from records to motions.
+
+use super::context::Context;
+use super::course::{along, through, trajectory};
+use super::frames::Frames;
+use etendue_core::Motion;
+use etendue_core::track::Key;
+use etendue_scene::Placed;
+use etendue_scene::record::light::placement::MainAxis;
+use etendue_scene::record::light::{LampAim, LampInstance, LampKey, LampPlacement};
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+
+/// Every place of a lamp of this main axis that is turned by `turn` in its own frame: from the lamp's frame to the world. `None`
+/// where one is faulty.
+pub(super) fn lamp_motions(
+    placement: &LampPlacement,
+    (main, turn): (MainAxis, DMat3),
+    frames: &Frames<'_>,
+    context: &mut Context<'_>,
+) -> Option<Vec<Motion>> {
+    let course = placement.course.as_ref();
+    let frame = placement.frame.as_ref();
+    // Aims that were read have been checked.
+    let still = |position: &Placed<[f64; 3]>, aim: Option<&LampAim>| {
+        let axes = axes(aim, position, main)? * turn;
+        Some(Motion::still(DAffine3::from_mat3_translation(axes, DVec3::from_array(position.value))))
+    };
+    if let Some(file) = trajectory(course) {
+        let own = along(file, course, context)?.after(&DAffine3::from_mat3(turn));
+        return Some(vec![frames.carrying(frame, own)]);
+    }
+    if let keys @ [_, _, ..] = &placement.keys[..] {
+        let keys: Vec<Key> = keys.iter().map(|stated| key(stated, main)).collect::<Option<_>>()?;
+        let own = through(&keys, course, &placement.place, context)?.after(&DAffine3::from_mat3(turn));
+        return Some(vec![frames.carrying(frame, own)]);
+    }
+    let of_instance = |instance: &LampInstance| {
+        let own = still(&instance.position_m, instance.aim.as_ref())?;
+        Some(frames.carrying(instance.frame.as_ref().or(frame), own))
+    };
+    let of_key = |key: &LampKey| Some(frames.carrying(frame, still(&key.position_m, key.aim.as_ref())?));
+    let own = placement
+        .position_m
+        .iter()
+        .map(|position| Some(frames.carrying(frame, still(position, placement.aim.as_ref())?)));
+    own.chain(placement.keys.iter().map(of_key)).chain(placement.instances.iter().map(of_instance)).collect()
+}
+
+fn key(key: &LampKey, main: MainAxis) -> Option<Key> {
+    let rotation = DQuat::from_mat3(&axes(key.aim.as_ref(), &key.position_m, main)?);
+    let position_m = DVec3::from_array(key.position_m.value);
+    Some(Key { time_s: key.time_s.value, position_m, rotation, scale: DVec3::ONE })
+}
+
+fn axes(aim: Option<&LampAim>, position: &Placed<[f64; 3]>, main: MainAxis) -> Option<DMat3> {
+    aim.map_or(Some(DMat3::IDENTITY), |aim| aim.axes(position.value, main))
+}

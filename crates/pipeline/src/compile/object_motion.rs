@@ -1,0 +1,61 @@
+//! Where objects stand, over time: from records to motions.
+
+use super::context::Context;
+use super::course::{along, rolling, through, trajectory};
+use super::frames::Frames;
+use etendue_core::Motion;
+use etendue_core::track::Key;
+use etendue_scene::Placed;
+use etendue_scene::record::object::Keyframe;
+use etendue_scene::record::transform::Transform;
+use etendue_scene::record::{Instance, Object};
+use glam::DAffine3;
+
+/// Every place of an object, from its frame to the world, with the name that the place has; `None` where one is faulty.
+pub(super) fn placements<'o>(
+    object: &'o Object,
+    frames: &Frames<'_>,
+    context: &mut Context<'_>,
+) -> Option<Vec<(Motion, Option<&'o Placed<String>>)>> {
+    let course = object.course.as_ref();
+    let mut moved = |frame: Option<&Placed<String>>, own: Motion| {
+        rolling(frames.carrying(frame, own), object.rolls.as_ref(), context)
+    };
+    if !object.instances.is_empty() {
+        let of = |instance: &'o Instance| {
+            let frame = instance.frame.as_ref().or(object.frame.as_ref());
+            Some((still(&instance.transform, object, |hub| moved(frame, hub))?, instance.name.as_ref()))
+        };
+        return object.instances.iter().map(of).collect();
+    }
+    let frame = object.frame.as_ref();
+    let motion = match (trajectory(course), &object.keys[..]) {
+        (None, []) => still(&object.transform, object, |hub| moved(frame, hub)),
+        (None, [only]) => still(&only.transform, object, |hub| moved(frame, hub)),
+        (Some(file), _) => {
+            let own = along(file, course, context)?;
+            rolling(frames.carrying(frame, own), object.rolls.as_ref(), context)
+        }
+        (None, keys) => {
+            let key = |key: &Keyframe| Key {
+                time_s: key.time_s.value,
+                position_m: key.transform.position(),
+                rotation: key.transform.quaternion(),
+                scale: key.transform.factors(),
+            };
+            let keys: Vec<Key> = keys.iter().map(key).collect();
+            let own = through(&keys, course, &object.place, context)?;
+            rolling(frames.carrying(frame, own), object.rolls.as_ref(), context)
+        }
+    };
+    Some(vec![(motion?, None)])
+}
+
+/// What does not move in its frame. A wheel turns within its scale.
+fn still(transform: &Transform, object: &Object, moved: impl FnOnce(Motion) -> Option<Motion>) -> Option<Motion> {
+    if object.rolls.is_none() {
+        return moved(Motion::still(transform.to_world()));
+    }
+    let hub = Motion::still(transform.to_world_unscaled());
+    Some(moved(hub)?.after(&DAffine3::from_scale(transform.factors())))
+}

@@ -1,0 +1,67 @@
+//! What of a plan depends on time, and when its frames and rows are exposed.
+
+use crate::plan::{CameraPlan, Plan, RowExposure, TimeDependence};
+use etendue_core::{RowTiming, Shutter};
+
+/// What moves; `None` where nothing does.
+pub(super) fn motion(plan: &Plan) -> Option<String> {
+    let instances = plan.world.instances().iter().filter(|i| i.to_world.as_still().is_none()).count();
+    let cameras = plan.cameras.iter().filter(|camera| !camera.path.is_still()).count();
+    let told = |count: usize, one: &str, many: &str| match count {
+        0 => None,
+        1 => Some(format!("one {one} moves")),
+        n => Some(format!("{n} {many} move")),
+    };
+    let moving = [told(instances, "instance", "instances"), told(cameras, "camera", "cameras")];
+    let moving: Vec<String> = moving.into_iter().flatten().collect();
+    (!moving.is_empty()).then(|| moving.join(", "))
+}
+
+/// When a camera's frames are taken; `None` where nothing depends on it.
+pub(super) fn frames(camera: &CameraPlan) -> Option<String> {
+    let why = match camera.time {
+        TimeDependence::None => return None,
+        TimeDependence::Lights => "nothing moves, lights change: each row sees their mean over its exposure",
+        TimeDependence::Motion => "each sample has a moment of its row's exposure",
+    };
+    let timing = &camera.timing;
+    let rate = match timing.period_s {
+        None => "only frame 0, as no [sequence] is described".to_owned(),
+        Some(period_s) => format!("one every {period_s} s"),
+    };
+    let jitter = timing.jitter.map_or_else(String::new, |j| format!(" ± {} s of jitter", j.half_width_s));
+    Some(format!("{rate}, from {} s on{jitter}; {why}", timing.start_s))
+}
+
+/// The shutter in words; `None` where nobody describes one and nothing depends on it.
+pub(super) fn shutter(camera: &CameraPlan) -> Option<String> {
+    let rows = &camera.body.exposure;
+    if rows.shutter == Shutter::Global && camera.time == TimeDependence::None {
+        return None;
+    }
+    let effect = match (camera.time, rows.is_even()) {
+        (TimeDependence::None, true) => "; without effect, as nothing depends on time",
+        (TimeDependence::None, false) => "; without effect but on the light of rows",
+        _ => "",
+    };
+    let captures = match rows.captures.len() {
+        1 => String::new(),
+        n => format!("; {n} captures, the last one from {} s on", rows.captures[n - 1].start_s),
+    };
+    let s = rows.exposure_s;
+    Some(match &rows.shutter {
+        Shutter::Global => format!("global, {s} s{captures}{effect}"),
+        Shutter::Rolling(timing) => format!("rolling, {s} s a row, {}{captures}{effect}", order(rows, timing)),
+        Shutter::GlobalReset(timing) => {
+            format!("global reset, {s} s in the first row, {}{captures}{effect}", order(rows, timing))
+        }
+    })
+}
+
+fn order(rows: &RowExposure, timing: &RowTiming) -> String {
+    let RowTiming { row_time_s, upwards, fields } = timing;
+    let from = if *upwards { "from the bottom" } else { "from the top" };
+    let fields = if *fields > 1 { format!(" in {fields} fields") } else { String::new() };
+    let last_s = rows.shutter.length_s(rows.rows, 0.0);
+    format!("{} µs from row to row {from}{fields}, the last one {last_s} s after the first", 1e6 * row_time_s)
+}

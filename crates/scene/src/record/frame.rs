@@ -1,0 +1,97 @@
+//! `[[frames]]`: what moves and carries objects, lamps and cameras.
+
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+
+use super::motion::{Course, Rolls, check_course, check_ways, trajectory_way};
+use super::transform::{yaw_pitch_roll, yaw_pitch_roll_quaternion};
+use crate::fault::{Faults, Named};
+use crate::place::{Place, Placed};
+use crate::reader::{list, name_of, number, record, text, vector};
+
+record! {
+    /// A frame that things are placed in, and move with.
+    pub struct Frame check(check) {
+        /// Its name.
+        required name: Placed<String> = text("the name of the frame");
+        /// The frame that it is placed in, and moves with. Default: the world.
+        optional parent: Placed<String> = name_of(Named::Frame);
+        /// Where it is, where it does not move in its parent.
+        inside placement: FramePlacement;
+        /// Where it is over time; one key stands still.
+        many keys: FrameKey = list(record(), 1);
+        /// How it moves.
+        group course: Course;
+        /// A wheel, which turns by the way that it goes. Default: none.
+        optional rolls: Rolls = record();
+    }
+}
+
+record! {
+    /// Where a frame is at a time.
+    pub struct FrameKey {
+        /// Simulated time, s.
+        required time_s: Placed<f64> = number("s");
+        /// Where it is.
+        inside placement: FramePlacement;
+    }
+}
+
+record! {
+    /// Where a frame is in its parent: first rotated, then moved. It scales nothing.
+    pub struct FramePlacement {
+        /// Where its origin is in its parent, m. Default: the parent's origin.
+        optional position_m: Placed<[f64; 3]> = vector::<3>(number("m"));
+        /// Yaw, pitch and roll, degrees, as for objects. Default: not turned.
+        optional rotation_deg: Placed<[f64; 3]> = vector::<3>(number("°"));
+    }
+}
+
+impl FramePlacement {
+    /// From the frame to its parent.
+    #[must_use]
+    pub fn to_parent(&self) -> DAffine3 {
+        let rotation = self.rotation_deg.as_ref().map_or(DMat3::IDENTITY, |r| yaw_pitch_roll(r.value));
+        DAffine3::from_mat3_translation(rotation, self.position())
+    }
+
+    /// Its origin in its parent, m.
+    #[must_use]
+    pub fn position(&self) -> DVec3 {
+        self.position_m.as_ref().map_or(DVec3::ZERO, |p| DVec3::from_array(p.value))
+    }
+
+    /// Its rotation in its parent.
+    #[must_use]
+    pub fn quaternion(&self) -> DQuat {
+        self.rotation_deg.as_ref().map_or(DQuat::IDENTITY, |r| yaw_pitch_roll_quaternion(r.value))
+    }
+
+    fn place(&self) -> Option<&Place> {
+        self.position_m.as_ref().map(|p| &p.place).or(self.rotation_deg.as_ref().map(|r| &r.place))
+    }
+}
+
+fn check(frame: &Frame, faults: &mut Faults) {
+    let own = frame.placement.place().map(|place| ("\"position_m\", \"rotation_deg\"", place.clone()));
+    let keys = frame.keys.first().map(|key| ("\"keys\"", key.place.clone()));
+    check_ways([own, keys, trajectory_way(frame.course.as_ref())], "the frame", faults);
+    check_course(frame.course.as_ref(), frame.keys.iter().map(|key| &key.time_s), faults);
+}
+
+/// Notes every frame that is carried by itself.
+pub(super) fn check_circles(frames: &[Frame], faults: &mut Faults) {
+    let parent = |frame: &Frame| frame.parent.as_ref().and_then(|name| frames.iter().find(|f| f.name == *name));
+    for frame in frames {
+        let mut chain = vec![frame.name.value.as_str()];
+        let mut above = parent(frame);
+        while let Some(found) = above.filter(|_| chain.len() <= frames.len()) {
+            chain.push(&found.name.value);
+            if let (true, Some(own)) = (found.name == frame.name, &frame.parent) {
+                let problem = format!("the frame carries itself: {}", chain.join(" in "));
+                faults.add(&own.place, problem, "name another parent, or none");
+                break;
+            }
+            above = parent(found);
+        }
+    }
+}

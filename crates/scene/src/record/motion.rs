@@ -1,0 +1,110 @@
+//! Motion: what objects, frames, lamps and cameras that move say alike.
+
+use std::path::PathBuf;
+
+use crate::fault::Faults;
+use crate::place::{Place, Placed};
+use crate::reader::{choice, number, path, record};
+
+choice! {
+    /// How something moves from key to key. Before the first key and after the last it holds still.
+    pub enum Interpolation {
+        /// Position and scale along straight lines at an even speed, rotation the short way about one axis at an even rate.
+        "linear" => Linear,
+        /// Without jumps of velocity at the keys: cubic curves whose velocity at a key is that of the parabola through it and its
+        /// neighbours. They may overshoot.
+        "smooth" => Smooth,
+    }
+}
+
+choice! {
+    /// The axes of a file of places over time, both of the world and of what moves.
+    pub enum TrajectoryAxes {
+        /// x forward, y left, z up (ISO 8855, REP-103); of the world also east, north, up.
+        "flu" => Flu,
+        /// x forward, y right, z down (SAE J670); of the world also north, east, down.
+        "frd" => Frd,
+        /// x right, y down, z forward: places of cameras as visual odometry writes them.
+        "rdf" => Rdf,
+    }
+}
+
+record! {
+    /// Keys from a file, as loggers write them.
+    pub struct Trajectory {
+        /// The file: CSV with a line of column names, or a JSON list of objects. `time_s`, `x_m`, `y_m`, `z_m`, and either `qw`,
+        /// `qx`, `qy`, `qz` or `yaw_deg`, `pitch_deg`, `roll_deg`; without rotations nothing turns. In any order; other columns are
+        /// not read.
+        required file: Placed<PathBuf> = path(&["csv", "json"]);
+        /// Added to the file's times, s. Default: 0.
+        optional time_offset_s: Placed<f64> = number("s");
+        /// What the file's axes point at. Default: "flu", those of the world.
+        optional axes: Placed<TrajectoryAxes> = choice();
+    }
+}
+
+record! {
+    /// How something moves.
+    pub struct Course {
+        /// How it moves from key to key, or from row to row of the trajectory. Default: "linear".
+        optional interpolation: Placed<Interpolation> = choice();
+        /// Where it is over time, from a file.
+        optional trajectory: Trajectory = record();
+    }
+}
+
+record! {
+    /// A wheel: it turns about its y axis by the way that its own origin goes in the world along its x axis, without slipping.
+    pub struct Rolls {
+        /// Radius on which it rolls, m, above 0.
+        required radius_m: Placed<f64> = number("m").above(0.0);
+    }
+}
+
+/// Where something is, is said once.
+pub(super) fn check_ways(
+    ways: impl IntoIterator<Item = Option<(&'static str, Place)>>,
+    what: &str,
+    faults: &mut Faults,
+) {
+    let said: Vec<(&str, Place)> = ways.into_iter().flatten().collect();
+    if let [(first, _), (second, place), ..] = said.as_slice() {
+        let problem = format!("{second} contradicts {first}: both say where {what} stands");
+        faults.add(place, problem, "keep one of the two; what moves can be a frame for what is placed in it");
+    }
+}
+
+/// The trajectory as a way of saying where something is.
+pub(super) fn trajectory_way(course: Option<&Course>) -> Option<(&'static str, Place)> {
+    course?.trajectory.as_ref().map(|trajectory| ("\"trajectory\"", trajectory.place.clone()))
+}
+
+/// What contradicts keys at these times.
+pub(super) fn check_course<'a>(
+    course: Option<&Course>,
+    times_s: impl Iterator<Item = &'a Placed<f64>>,
+    faults: &mut Faults,
+) {
+    let times_s: Vec<&Placed<f64>> = times_s.collect();
+    for pair in times_s.windows(2) {
+        check_order(pair[0], pair[1], faults);
+    }
+    let Some(Course { interpolation: Some(interpolation), trajectory: None, .. }) = course else { return };
+    if times_s.len() < 2 {
+        faults.add(
+            &interpolation.place,
+            "\"interpolation\" has no effect here, nothing moves from key to key",
+            "give two \"keys\" or more, or a \"trajectory\", or remove it",
+        );
+    }
+}
+
+fn check_order(before: &Placed<f64>, after: &Placed<f64>, faults: &mut Faults) {
+    let (before_s, after_s) = (before.value, after.value);
+    if after_s == before_s {
+        faults.add(&after.place, format!("two keys are both at {after_s} s"), "give each key a time of its own");
+    } else if after_s < before_s {
+        let problem = format!("the key at {after_s} s stands behind that at {before_s} s");
+        faults.add(&after.place, problem, "give the keys in the order of time");
+    }
+}
