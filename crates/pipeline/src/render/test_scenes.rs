@@ -44,7 +44,7 @@ pub(super) fn with_motion(mut plan: Plan, instance: usize, motion: &Track) -> Pl
     assert!(!meshes.is_empty());
     for (i, placed) in plan.world.instances().iter().enumerate() {
         let still = placed.to_world.as_still().expect("a still description");
-        let to_world = if i == instance { motion.after(&still) } else { placed.to_world.clone() };
+        let to_world = if i == instance { motion.after(&still).into() } else { placed.to_world.clone() };
         builder.add_instance(Instance { to_world, ..placed.clone() });
     }
     let world: World = builder.build().expect("a legal world");

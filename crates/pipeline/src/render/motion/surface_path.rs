@@ -1,7 +1,7 @@
 //! What a pixel sees, over time.
 
 use super::image_point::Target;
-use etendue_core::{CameraPose, Track};
+use etendue_core::{CameraPose, Motion};
 use glam::DVec3;
 
 /// A point of a surface, which moves with its instance, or a direction of the background.
@@ -12,7 +12,7 @@ pub(crate) enum SurfacePath<'w> {
         /// In the instance's own frame.
         local: DVec3,
         /// From there to the world.
-        to_world: &'w Track,
+        to_world: &'w Motion,
     },
     /// A direction of the world: the background is infinitely far and does not turn.
     Background(DVec3),
@@ -24,7 +24,7 @@ pub(super) const HALF_STEP_S: f64 = 2e-5;
 
 impl<'w> SurfacePath<'w> {
     /// The path of a point of the world (m) that belongs to an instance at a time.
-    pub(crate) fn of_point(world_m: DVec3, to_world: &'w Track, time_s: f64) -> Self {
+    pub(crate) fn of_point(world_m: DVec3, to_world: &'w Motion, time_s: f64) -> Self {
         Self::Point { local: to_world.at(time_s).inverse().transform_point3(world_m), to_world }
     }
 
