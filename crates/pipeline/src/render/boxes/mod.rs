@@ -10,7 +10,8 @@
 //!   beyond the lens's field) it is about the rest, and `is_cut` says so.
 //! - **Box in space**: that of its mesh in the mesh's own frame, at the middle of the frame's exposure.
 //!
-//! Left out: amodal boxes by mirrors, where a point may have several images: they are those of the pixels that the object shows alone.
+//! Left out: amodal boxes by mirrors, where a point may have several images: they are those of the pixels that the object shows alone, and
+//! what is not seen has none. What has no point on its edges with an image, and is hidden, has no entry.
 
 mod amodal;
 mod pixel_box;
@@ -80,6 +81,9 @@ pub fn object_boxes(plan: &Plan, frame: &FrameView<'_>, ids: &Plane<Identity>, s
     let numbered = plan.world.instances().iter().enumerate().filter(|(_, instance)| instance.instance_id > 0);
     let boxes = numbered.collect::<Vec<_>>().into_par_iter().filter_map(|(index, instance)| {
         let amodal = Amodal::of(plan, frame, instance, time_s);
+        if amodal.image.is_none() && !seen.contains_key(&instance.instance_id) {
+            return None; // Behind the camera, as far as its edges tell, and not seen: no pixel is asked.
+        }
         let alone = alone(&looks, index as u32, &amodal, ids);
         let (visible_pixels, visible) = seen.get(&instance.instance_id).map_or((0, None), |(n, b)| (*n, Some(*b)));
         let (alone_pixels, shown) = alone.map_or((0, None), |(n, b)| (n, Some(b)));
