@@ -20,6 +20,8 @@ mod light;
 mod linear_picture;
 mod material;
 mod modulation;
+#[cfg(test)]
+mod motion_tests;
 mod object_motion;
 mod open_lamp;
 mod opening;
