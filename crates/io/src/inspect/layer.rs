@@ -29,7 +29,11 @@ pub(super) fn names(exr: &ExrFile) -> Vec<&str> {
 
 fn flow(name: &str, [u, v]: [&[f32]; 2]) -> (Vec<[u8; 3]>, String) {
     let (rgb, scale) = of_flow(u, v);
-    let unit = if name.starts_with("flow") { " px" } else { "" };
+    let unit = match name {
+        "motion_vector" => " px/s",
+        name if name.starts_with("flow") => " px",
+        _ => "",
+    };
     (rgb, wheel_note(name, scale, unit))
 }
 

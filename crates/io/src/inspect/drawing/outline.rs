@@ -7,9 +7,9 @@ use crate::inspect::boxes::ObjectBox;
 /// Dots of a dotted line are one pixel of so many.
 const DOT_PITCH: usize = 4;
 
-/// Draws the boxes of objects that are seen, or would be without what is before them.
+/// Draws the boxes of objects that are seen.
 pub(in crate::inspect) fn draw_boxes(preview: &mut Preview, objects: &[ObjectBox]) {
-    for object in objects {
+    for object in objects.iter().filter(|object| object.visible_box_px.is_some()) {
         let colour = identity_colour(object.id);
         if let Some(edges) = object.amodal_box_px {
             outline(preview, edges, colour, DOT_PITCH);
