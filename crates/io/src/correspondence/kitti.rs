@@ -71,7 +71,7 @@ pub(crate) fn decode_kitti_flow(file: &Path, bytes: &[u8]) -> Result<Plane<Optic
 
 #[cfg(test)]
 mod tests {
-    use super::super::flow;
+    use super::super::tests_support::flow;
     use super::*;
 
     #[test]

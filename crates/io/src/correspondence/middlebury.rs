@@ -62,7 +62,7 @@ fn is_known(vector: [f32; 2]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::flow;
+    use super::super::tests_support::flow;
     use super::*;
 
     #[test]

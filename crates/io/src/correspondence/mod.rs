@@ -13,14 +13,11 @@
 mod kitti;
 mod middlebury;
 mod pfm;
+#[cfg(test)]
+pub(crate) mod tests_support;
 
 pub(crate) use kitti::{decode_kitti_flow, is_kitti_flow};
 pub use kitti::{encode_kitti_disparity, encode_kitti_flow};
 pub(crate) use middlebury::is_flo;
 pub use middlebury::{decode_flo, encode_flo};
 pub use pfm::encode_pfm;
-
-#[cfg(test)]
-pub(crate) fn flow(width: usize, vectors: &[[f32; 2]]) -> etendue_core::Plane<etendue_core::quantity::OpticalFlow> {
-    etendue_core::Plane::from_samples(width, vectors.len() / width, vectors.to_vec()).expect("full rows")
-}

@@ -1,5 +1,6 @@
 //! The boxes of objects in a file that this program has written (`boxes.0000.json`).
 
+use super::object_box::ObjectBox;
 use super::{FileReport, Preview, drawing};
 use crate::Error;
 use crate::source::read_bytes;
@@ -12,17 +13,6 @@ struct Boxes {
     width_px: usize,
     height_px: usize,
     objects: Vec<ObjectBox>,
-}
-
-/// What is read of one object. Boxes are left, top, right, bottom in raster coordinates, px.
-#[derive(Debug, Deserialize)]
-pub(in crate::inspect) struct ObjectBox {
-    /// Its identity.
-    pub(in crate::inspect) id: u32,
-    /// About its pixels; `None` where none is seen.
-    pub(in crate::inspect) visible_box_px: Option<[f64; 4]>,
-    /// About its whole projection, within the picture and beyond.
-    pub(in crate::inspect) amodal_box_px: Option<[f64; 4]>,
 }
 
 /// Draws the boxes of `boxes` over the picture of a report.

@@ -58,7 +58,8 @@ pub(super) fn float_map(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> 
 
 #[cfg(test)]
 mod tests {
-    use crate::correspondence::{encode_flo, encode_kitti_flow, encode_pfm, flow};
+    use crate::correspondence::tests_support::flow;
+    use crate::correspondence::{encode_flo, encode_kitti_flow, encode_pfm};
     use crate::inspect::inspect;
     use std::fs;
 

@@ -9,6 +9,7 @@ mod exr;
 mod flow;
 mod lamp;
 mod layer;
+mod object_box;
 mod picture;
 mod preview;
 mod report;

@@ -2,7 +2,7 @@
 //! their program colorcode.cpp has it. Hue is the direction (right red, down yellow, left cyan, up violet), white is no motion, full
 //! saturation is the length of the scale; longer vectors are darker. What is not known is black.
 
-use super::percentile;
+use super::percentile::percentile;
 use etendue_core::maths::f64::atan2;
 
 /// Steps from each of six colours to the next, and which of red, green and blue goes up (or down) on the way.

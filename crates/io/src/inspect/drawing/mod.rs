@@ -11,6 +11,7 @@
 mod flow_wheel;
 mod identity_colour;
 mod outline;
+mod percentile;
 mod vectors;
 mod viridis;
 
@@ -19,10 +20,3 @@ pub(super) use identity_colour::of_identities;
 pub(super) use outline::draw_boxes;
 pub(super) use vectors::of_vectors;
 pub(super) use viridis::{of_differences, of_lengths};
-
-/// The value of which `percent` of the finite values are not greater; `None` where no value is finite.
-fn percentile(values: impl Iterator<Item = f32>, percent: usize) -> Option<f32> {
-    let mut finite: Vec<f32> = values.filter(|v| v.is_finite()).collect();
-    let rank = finite.len().checked_sub(1)? * percent / 100;
-    Some(*finite.select_nth_unstable_by(rank, f32::total_cmp).1)
-}

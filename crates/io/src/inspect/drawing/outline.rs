@@ -2,7 +2,7 @@
 
 use super::identity_colour::identity_colour;
 use crate::inspect::Preview;
-use crate::inspect::boxes::ObjectBox;
+use crate::inspect::object_box::ObjectBox;
 
 /// Dots of a dotted line are one pixel of so many.
 const DOT_PITCH: usize = 4;

@@ -1,6 +1,6 @@
 //! Vectors as colours: x, y and z are red, green and blue, 0 is grey of half the range, the scale is full.
 
-use super::percentile;
+use super::percentile::percentile;
 
 /// The picture of vectors, and the component at full red, green or blue: 1 for unit vectors, else the 99th percentile of the components'
 /// sizes.

@@ -1,7 +1,7 @@
 //! Lengths and disparities as colours: viridis (Smith, van der Walt 2015; in the public domain), whose lightness grows evenly, for people with
 //! colour-blindness as well. Seventeen of its colours, with straight lines between.
 
-use super::percentile;
+use super::percentile::percentile;
 use etendue_core::maths::f64::ln;
 
 const COLOURS: [[u8; 3]; 17] = [

@@ -1,6 +1,6 @@
 //! The image of a whole object, whatever hides it.
 
-use super::PixelBox;
+use super::pixel_box::PixelBox;
 use crate::plan::Plan;
 use crate::render::frame_view::FrameView;
 use crate::render::motion::image_of;

@@ -14,6 +14,7 @@
 mod correspondence;
 mod image_point;
 mod neighbour;
+mod planes;
 mod surface_path;
 #[cfg(test)]
 mod tests;
@@ -26,10 +27,11 @@ use crate::render::frame_view::FrameView;
 use crate::render::look_at::LookAt;
 use correspondence::{Sight, image_velocity};
 use etendue_core::Plane;
-use etendue_core::quantity::{Disparity, Identity, ImageVelocity, Quantity, Time, Vector};
+use etendue_core::quantity::{Disparity, Identity, ImageVelocity, Time, Vector};
 use etendue_tracer::accel::Simd;
 use glam::DVec2;
 use neighbour::Neighbour;
+use planes::plane;
 use rayon::prelude::*;
 use surface_path::SurfacePath;
 
@@ -65,7 +67,9 @@ pub fn motion_truth(plan: &Plan, frame: &FrameView<'_>, others: &[FrameView<'_>]
         .map(|i| look(plan, &looks_at, &neighbours, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
         .collect();
     MotionTruth {
-        neighbours: (0..others.len()).map(|n| NeighbourTruth::of(width, height, &looks, n)).collect(),
+        neighbours: (0..others.len())
+            .map(|n| NeighbourTruth::of(width, &looks.iter().map(|look| look.neighbours[n]).collect::<Vec<_>>()))
+            .collect(),
         motion_vector: plane(&looks, width, |look| look.motion_vector),
         velocity: plane(&looks, width, |look| look.velocity),
         time: plane(&looks, width, |look| look.time_s),
@@ -111,8 +115,4 @@ fn look(plan: &Plan, looks_at: &LookAt<'_>, neighbours: &[Neighbour<'_>], at_px:
         neighbours: neighbours.iter().map(|other| other.find(&surface, sight, here)).collect(),
         ..nothing()
     }
-}
-
-fn plane<Q: Quantity>(looks: &[Look], width: usize, of: impl Fn(&Look) -> Q::Sample) -> Plane<Q> {
-    Plane::from_samples(width, looks.len() / width, looks.iter().map(of).collect()).expect("one sample a pixel")
 }

@@ -2,8 +2,8 @@
 
 use super::correspondence::{Correspondence, Sight, correspondence};
 use super::image_point::Target;
+use super::planes::plane;
 use super::surface_path::SurfacePath;
-use super::{Look, plane};
 use crate::plan::Plan;
 use crate::render::frame_view::FrameView;
 use crate::render::look_at::LookAt;
@@ -41,12 +41,11 @@ pub struct NeighbourTruth {
 }
 
 impl NeighbourTruth {
-    pub(super) fn of(width: usize, height: usize, looks: &[Look], n: usize) -> Self {
-        debug_assert_eq!(looks.len(), width * height);
+    pub(super) fn of(width: usize, found: &[Found]) -> Self {
         Self {
-            flow: plane(looks, width, |look| look.neighbours[n].flow),
-            visibility: plane(looks, width, |look| look.neighbours[n].visibility as u32),
-            scene_flow: plane(looks, width, |look| look.neighbours[n].scene_flow),
+            flow: plane(found, width, |found| found.flow),
+            visibility: plane(found, width, |found| found.visibility as u32),
+            scene_flow: plane(found, width, |found| found.scene_flow),
         }
     }
 }
