@@ -14,7 +14,7 @@ use etendue_io::{Existing, OutputFolder, Provenance};
 use etendue_optics::{DepthOfField, OpticsError, PupilProjection};
 use etendue_pipeline::defocus::{held_margin_px, margin_px};
 use etendue_pipeline::photograph::Light;
-use etendue_pipeline::plan::{CameraBody, Products, RawFormat};
+use etendue_pipeline::plan::{Annotations, CameraBody, Products, RawFormat};
 use etendue_pipeline::stored;
 use etendue_sensor::{FrameAddress, SensorState};
 use serde_json::json;
@@ -138,6 +138,7 @@ fn products(body: &CameraBody) -> Products {
         depth_png_per_m: None,
         rays: false,
         undistorted: None,
+        annotations: Annotations::default(),
     }
 }
 
