@@ -9,7 +9,7 @@ use etendue_core::Plane;
 use etendue_core::quantity::{Disparity, Identity};
 use etendue_io::Provenance;
 use etendue_io::correspondence::{encode_flo, encode_kitti_disparity, encode_kitti_flow, encode_pfm};
-use etendue_io::exr::{self, EncodeError, encode_disparity, encode_motion};
+use etendue_io::exr::{self, encode_disparity, encode_motion};
 use etendue_pipeline::boxes::{ObjectBoxes, object_boxes};
 use etendue_pipeline::frame_view::FrameView;
 use etendue_pipeline::motion::{MotionTruth, NeighbourTruth, disparity, motion_truth};
@@ -67,13 +67,14 @@ impl CameraResults {
         let mut files: Vec<(String, Encoder<'_>)> =
             vec![(self.file(Files::MOTION), Box::new(|| encode_motion(&planes(&truth, products), &facts)))];
         let flow = &truth.neighbours[0].flow;
-        let beside: Option<(&str, fn(&_) -> Result<Vec<u8>, EncodeError>)> = match products.annotations.optical_flow {
-            None | Some(CorrespondenceFormat::Exr) => None,
-            Some(CorrespondenceFormat::Middlebury) => Some((Files::FLOW_FLO, encode_flo)),
-            Some(CorrespondenceFormat::Kitti) => Some((Files::FLOW_PNG, encode_kitti_flow)),
-        };
-        if let Some((name, encode)) = beside {
-            files.push((self.file(name), Box::new(move || encode(flow))));
+        match products.annotations.optical_flow {
+            None | Some(CorrespondenceFormat::Exr) => {}
+            Some(CorrespondenceFormat::Middlebury) => {
+                files.push((self.file(Files::FLOW_FLO), Box::new(|| encode_flo(flow))));
+            }
+            Some(CorrespondenceFormat::Kitti) => {
+                files.push((self.file(Files::FLOW_PNG), Box::new(|| encode_kitti_flow(flow))));
+            }
         }
         writer.write_together(files)
     }
