@@ -23,6 +23,17 @@ pub enum Paint {
     Spectral(Spectrum),
     /// Gives light of its own: this share of the light's luminance, in its spectrum. Reflects nothing.
     Glow(f64),
+    /// The same in pulses, of which this share is the mean over time.
+    Pulses {
+        /// Share of the light's luminance.
+        share: f64,
+        /// How often they come, Hz.
+        frequency_hz: f64,
+        /// Share of the period that a pulse lasts.
+        duty: f64,
+        /// When the first begins, s.
+        delay_s: f64,
+    },
     /// Lambert's law with the reflectances of a texture of the drawing; their mean.
     Texture {
         /// The texture's place in the drawing's list.
@@ -50,9 +61,10 @@ impl Ink {
     #[must_use]
     pub fn radiance(&self, light: &Light) -> Spectrum {
         match &self.paint {
-            Paint::Grey(share) | Paint::Glow(share) | Paint::Texture { mean: share, .. } => {
-                light.radiance().scaled(*share)
-            }
+            Paint::Grey(share)
+            | Paint::Glow(share)
+            | Paint::Pulses { share, .. }
+            | Paint::Texture { mean: share, .. } => light.radiance().scaled(*share),
             Paint::Spectral(reflectance) => light.radiance().product(reflectance),
         }
     }
@@ -67,7 +79,10 @@ impl Ink {
     #[must_use]
     pub fn luminous_fraction(&self, light: &Light) -> f64 {
         match &self.paint {
-            Paint::Grey(share) | Paint::Glow(share) | Paint::Texture { mean: share, .. } => *share,
+            Paint::Grey(share)
+            | Paint::Glow(share)
+            | Paint::Pulses { share, .. }
+            | Paint::Texture { mean: share, .. } => *share,
             Paint::Spectral(reflectance) => xyz_of_reflectance(reflectance, light.spectrum())[1],
         }
     }
@@ -77,7 +92,10 @@ impl Ink {
     pub fn print_rgb(&self) -> [f64; 3] {
         let own = match &self.paint {
             Paint::Spectral(reflectance) => linear_srgb_from_xyz(xyz_of_reflectance(reflectance, illuminant::d65())),
-            Paint::Grey(share) | Paint::Glow(share) | Paint::Texture { mean: share, .. } => [*share; 3],
+            Paint::Grey(share)
+            | Paint::Glow(share)
+            | Paint::Pulses { share, .. }
+            | Paint::Texture { mean: share, .. } => [*share; 3],
         };
         own.map(|v| v.clamp(0.0, 1.0))
     }

@@ -17,6 +17,7 @@ pub mod estimate;
 pub mod fit;
 pub mod flare;
 mod flat;
+pub mod flicker;
 mod fourier;
 pub mod linear;
 pub mod noise;

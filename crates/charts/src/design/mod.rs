@@ -14,6 +14,7 @@ mod dots;
 mod flare;
 mod flat;
 mod grid;
+mod led_flicker;
 mod oecf_steps;
 mod option;
 mod patches;
@@ -35,6 +36,7 @@ pub use dots::Dots;
 pub use flare::Flare;
 pub use flat::{Backlit, FlatField};
 pub use grid::GridSize;
+pub use led_flicker::LedFlicker;
 pub use oecf_steps::OecfSteps;
 pub use patches::{ColorChecker, ContrastPatches};
 pub use points::Points;
@@ -116,6 +118,8 @@ charts! {
     ContrastPatches "contrast-patches",
     /// White with light traps.
     Flare "flare",
+    /// Lamps of several frequencies and duties.
+    LedFlicker "led-flicker",
     /// Small lamps in the dark.
     Points "points",
     /// Panels at known distances.

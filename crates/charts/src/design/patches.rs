@@ -13,9 +13,9 @@ use etendue_spectra::chart::colorchecker;
 use glam::DVec2;
 
 /// How much of what is wholly seen the patches take.
-const ROOM: f64 = 0.92;
+pub(super) const ROOM: f64 = 0.92;
 /// Side of a patch over the distance between middles.
-const SIDE: f64 = 0.86;
+pub(super) const SIDE: f64 = 0.86;
 /// Reflectance of the frame between colours.
 const FRAME: f64 = 0.04;
 
@@ -78,7 +78,7 @@ impl ContrastPatches {
 }
 
 /// Patches row by row from the top left, the inks from the second on, on a ground of the first.
-fn rows(columns: usize, rows: usize, pitch_mm: f64, seen: &Footprint, inks: &[Ink]) -> (Sheet, Vec<Patch>) {
+pub(super) fn rows(columns: usize, rows: usize, pitch_mm: f64, seen: &Footprint, inks: &[Ink]) -> (Sheet, Vec<Patch>) {
     let lines = |count: usize, edge: f64| -> Vec<f64> {
         let first = -pitch_mm * (count as f64 - 1.0) / 2.0;
         let sides = (0..count).flat_map(|i| [-0.5, 0.5].map(|s| first + pitch_mm * (i as f64 + s * SIDE)));

@@ -5,6 +5,8 @@ use crate::ink::{Ink, Paint};
 use crate::light::Light;
 use crate::panel::Panel;
 use crate::shape::Fill;
+use etendue_scene::record::light::Modulation;
+use etendue_scene::record::light::modulation::{PwmModulation, Recurring};
 use etendue_scene::record::material::{Diffuse, Emitter};
 use etendue_scene::record::mesh::Axis;
 use etendue_scene::record::texture::{Encoding, Wrap};
@@ -75,11 +77,17 @@ fn material(ink: &Ink, drawing: &Drawing, light: &Light) -> Material {
         Paint::Texture { texture, .. } => {
             matt(Reflectance::Texture { name: drawing.textures[*texture].name.as_str().into(), scale: None })
         }
-        Paint::Glow(share) => {
-            let emission = Some(SurfaceEmission::new(emission(light, *share)));
-            Material { emission, ..Material::new(name, Surface::Emitter(Emitter::default())) }
+        Paint::Glow(share) => glowing(name, SurfaceEmission::new(emission(light, *share))),
+        Paint::Pulses { share, frequency_hz, duty, delay_s } => {
+            let timing = Recurring { delay_s: Some((*delay_s).into()), ..Recurring::default() };
+            let modulation = Some(Modulation::Pwm(PwmModulation::new(*frequency_hz, *duty, timing)));
+            glowing(name, SurfaceEmission { modulation, ..SurfaceEmission::new(emission(light, *share)) })
         }
     }
+}
+
+fn glowing(name: &str, emission: SurfaceEmission) -> Material {
+    Material { emission: Some(emission), ..Material::new(name, Surface::Emitter(Emitter::default())) }
 }
 
 /// The names of the inks that a panel shows, each as itself.

@@ -98,6 +98,7 @@ fn ink(ink: &Ink, request: &Request<'_>) -> Value {
         Paint::Grey(_) => "flat reflectance",
         Paint::Spectral(_) => "measured reflectance",
         Paint::Glow(_) => "gives light",
+        Paint::Pulses { .. } => "gives light in pulses, their mean",
         Paint::Texture { .. } => "texture, its mean",
     };
     let mut facts = json!({

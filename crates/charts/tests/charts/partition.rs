@@ -3,7 +3,7 @@
 
 use etendue_charts::design::{
     Backlit, Checkerboard, Circles, ColorChecker, ContrastPatches, DeadLeaves, DepthWedge, Dots, Flare, FlatField,
-    GridSize, OecfSteps, Points, SiemensStar, SlantedEdges, SlantedStar,
+    GridSize, LedFlicker, OecfSteps, Points, SiemensStar, SlantedEdges, SlantedStar,
 };
 use etendue_charts::shape::{Sheet, area};
 use etendue_charts::{Chart, Drawing, Footprint};
@@ -41,6 +41,7 @@ fn charts() -> Vec<Chart> {
         Chart::ColorChecker(ColorChecker),
         Chart::ContrastPatches(ContrastPatches { size, decades: 3.0 }),
         Chart::Flare(Flare { size, trap_ratio: 0.25 }),
+        Chart::LedFlicker(LedFlicker { frequencies_hz: vec![90.0, 200.0, 411.0], duty_cycles: vec![0.1, 0.5] }),
         Chart::Points(Points { size: few, diameter_px: 0.5 }),
         Chart::DepthWedge(DepthWedge { steps: 5, far_ratio: 3.0 }),
     ]

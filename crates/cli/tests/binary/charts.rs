@@ -5,7 +5,7 @@ use etendue_io::exr::read_exr;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-const CHARTS: [&str; 15] = [
+const CHARTS: [&str; 16] = [
     "dots",
     "checkerboard",
     "circles",
@@ -19,6 +19,7 @@ const CHARTS: [&str; 15] = [
     "colorchecker",
     "contrast-patches",
     "flare",
+    "led-flicker",
     "points",
     "depth-wedge",
 ];
@@ -239,6 +240,8 @@ fn nonsense_is_refused_and_leaves_nothing() {
         (&["oecf-steps", "--density", "9"], &["--density"]),
         (&["contrast-patches", "--decades", "0"], &["--decades"]),
         (&["flare", "--trap-ratio", "0.9"], &["--trap-ratio"]),
+        (&["led-flicker", "--frequencies-hz", "90,0"], &["--frequencies-hz 0", "above 0"]),
+        (&["led-flicker", "--duty-cycles", "0.1,1"], &["--duty-cycles 1"]),
         (&["points", "--diameter-px", "0"], &["--diameter-px"]),
         (&["depth-wedge", "--far-ratio", "1"], &["--far-ratio"]),
         (&["depth-wedge", "--steps", "1"], &["--steps"]),

@@ -50,6 +50,8 @@ subcommands! {
     ContrastPatches(ContrastPatches),
     /// A white field with light traps: veiling glare (ISO 18844)
     Flare(Flare),
+    /// Lamps in pulses of several frequencies and duties, in the dark: LED flicker (IEEE P2020)
+    LedFlicker(LedFlicker),
     /// Small lamps in the dark: point-spread function, chromatic displacement
     Points(Points),
     /// A staircase and a slanted plane with texture at known distances: depth
@@ -309,6 +311,27 @@ pub struct Flare {
 impl Flare {
     pub fn run(&self) -> Result<(), Error> {
         let chart = design::Flare { size: self.size.grid(), trap_ratio: self.trap_ratio };
+        self.common.make(&self.common.request(chart.into()))
+    }
+}
+
+/// `etendue chart led-flicker`
+#[derive(Debug, Args)]
+pub struct LedFlicker {
+    /// Frequencies of the columns, Hz
+    #[arg(long, value_name = "HZ,…", value_delimiter = ',', default_values_t = [90.0, 110.0, 200.0, 400.0], allow_negative_numbers = true)]
+    pub frequencies_hz: Vec<f64>,
+    /// Duties of the rows: shares of the period that a pulse lasts
+    #[arg(long, value_name = "SHARE,…", value_delimiter = ',', default_values_t = [0.1, 0.25, 0.5], allow_negative_numbers = true)]
+    pub duty_cycles: Vec<f64>,
+    #[command(flatten)]
+    pub common: Common,
+}
+
+impl LedFlicker {
+    pub fn run(&self) -> Result<(), Error> {
+        let Self { frequencies_hz, duty_cycles, .. } = self;
+        let chart = design::LedFlicker { frequencies_hz: frequencies_hz.clone(), duty_cycles: duty_cycles.clone() };
         self.common.make(&self.common.request(chart.into()))
     }
 }

@@ -10,6 +10,7 @@ mod depth;
 mod distortion;
 mod encoding;
 mod flare;
+mod flicker;
 mod focal;
 mod lens;
 mod noise;
@@ -69,6 +70,8 @@ subcommands! {
     Noise(noise::NoiseArgs),
     /// Light in traps that send none (ISO 18844)
     Flare(flare::FlareArgs),
+    /// Light that goes up and down: frequency, modulation over rows and frames, duty of pulses (IEEE P2020)
+    Flicker(flicker::FlickerArgs),
     /// Colours of a ColorChecker after a fitted matrix, CIEDE2000
     Colour(colour::ColourArgs),
     /// Contrast detection probability of pairs of patches (IEEE P2020)

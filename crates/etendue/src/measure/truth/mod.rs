@@ -152,6 +152,13 @@ impl Truth {
         Ok((found, left_out))
     }
 
+    /// Frequency (Hz) and duty of a lamp whose light goes up and down, by its patch's name.
+    pub(crate) fn lamp(&self, name: &str) -> Option<(f64, f64)> {
+        let lamps = self.said.sizes.get("lamps")?.as_array()?;
+        let lamp = lamps.iter().find(|lamp| lamp["name"].as_str() == Some(name))?;
+        Some((lamp["frequency_hz"].as_f64()?, lamp["duty_cycle"].as_f64()?))
+    }
+
     /// What the bottom of a light trap sends of the white's light.
     pub(crate) fn light_of_traps(&self) -> Option<f64> {
         self.said.size("luminance_of_a_trap_s_bottom_over_white_about")

@@ -1,0 +1,242 @@
+//! `measure flicker`: light that goes up and down, over rows and over frames.
+
+use super::picture_input::{PictureInput, refused};
+use super::readings::Readings;
+use super::truth::Truth;
+use super::truth::place::Patch;
+use crate::error::Error;
+use crate::plot::{Axis, Mark, Plot, Series};
+use crate::report::{Cell, Report, Table};
+use etendue_charts::design::{Backlit, FlatField, LedFlicker};
+use etendue_metrology::flicker::{Flicker, FlickerTiming, RowBands, measure_flicker};
+use etendue_metrology::{Estimate, Image};
+use std::path::{Path, PathBuf};
+
+/// `etendue measure flicker`
+#[derive(Clone, Debug)]
+pub struct FlickerRequest {
+    /// Frames of a sequence in their order, or one of a rolling shutter
+    pub frames: Vec<PathBuf>,
+    /// Time from one row of the file to the next, µs, of a rolling shutter [default: all rows are exposed together]
+    pub row_time_us: Option<f64>,
+    /// Frames a second [default: not known; each frame is measured by itself]
+    pub frame_rate_hz: Option<f64>,
+    /// Exposure of a row, µs: tells the light's own modulation and the duty of its pulses [default: not known]
+    pub exposure_us: Option<f64>,
+    /// Which readings of the picture, what they mean, and the chart's truth.
+    pub input: PictureInput,
+}
+
+impl FlickerRequest {
+    /// The same as the program without options.
+    pub fn new(frames: Vec<PathBuf>) -> Self {
+        Self { frames, row_time_us: None, frame_rate_hz: None, exposure_us: None, input: PictureInput::default() }
+    }
+}
+
+/// Charts of one light, and of many.
+const EVEN: [&str; 2] = [FlatField::NAME, Backlit::NAME];
+const CHARTS: [&str; 3] = [FlatField::NAME, Backlit::NAME, LedFlicker::NAME];
+
+const METHOD: &str = "bands over rows and changes over frames, by least squares; modulation as IEEE P2020 defines it (± one standard uncertainty)";
+
+/// What is needed of the frames.
+struct Sequence {
+    frames: Vec<Readings>,
+    timing: FlickerTiming,
+    levels: (f64, Option<f64>),
+    name: String,
+}
+
+/// The flicker of an evenly lit region, or of each lamp of a chart.
+///
+/// # Errors
+/// Where times are missing, or a region is too small, saturated or dark.
+pub fn flicker(request: &FlickerRequest) -> Result<Report, Error> {
+    let (sequence, truth) = read(request)?;
+    let mut report = Report::new("flicker", METHOD);
+    match truth.as_ref().filter(|truth| !EVEN.contains(&truth.chart())) {
+        None => {
+            let at = truth.as_ref().map(|truth| truth.middle(&sequence.frames[0])).transpose()?;
+            one(&sequence, at, request, &mut report)?;
+        }
+        Some(truth) => lamps(&sequence, truth, request, &mut report)?,
+    }
+    sequence.frames.iter().for_each(|frame| report.encoding(&frame.stated));
+    Ok(report)
+}
+
+fn read(request: &FlickerRequest) -> Result<(Sequence, Option<Truth>), Error> {
+    let input = &request.input;
+    let frames = request.frames.iter().map(|file| input.linear(file)).collect::<Result<Vec<_>, _>>()?;
+    let Some((first, file)) = frames.first().zip(request.frames.first()) else {
+        return Err(Error::input("flicker is measured from one frame at least: give its file"));
+    };
+    for (frame, file) in frames.iter().zip(&request.frames) {
+        frame.independent(file, 1)?;
+    }
+    let truth = input.truth(&CHARTS, file, first)?;
+    let seconds = |us: f64| us * 1e-6;
+    let timing = FlickerTiming {
+        // Of a mosaic's colour every second row of the file is read.
+        row_time_s: request.row_time_us.map(|us| seconds(us) * first.period.1 as f64),
+        frame_rate_hz: request.frame_rate_hz,
+        exposure_s: request.exposure_us.map(seconds),
+    };
+    let levels = (input.levels.black(first), input.levels.full_scale(first));
+    Ok((Sequence { timing, levels, name: file.display().to_string(), frames }, truth))
+}
+
+impl Sequence {
+    fn measured(&self, at: Option<[usize; 4]>) -> Result<Flicker, String> {
+        let part = |frame: &Readings| match at {
+            None => Ok(frame.image.clone()),
+            Some(at) => frame.part(at, &self.name).map_err(|error| error.to_string()),
+        };
+        let images = self.frames.iter().map(part).collect::<Result<Vec<Image>, _>>()?;
+        measure_flicker(&images, &self.timing, self.levels).map_err(|error| error.to_string())
+    }
+}
+
+fn one(
+    sequence: &Sequence,
+    at: Option<[usize; 4]>,
+    request: &FlickerRequest,
+    report: &mut Report,
+) -> Result<(), Error> {
+    let found = sequence.measured(at).map_err(|error| refused(Path::new(&sequence.name), error))?;
+    report.figure("level", "mean reading less black", "", found.level);
+    if let Some(rows) = &found.rows {
+        match &rows.found {
+            Some(bands) => of_bands(bands, sequence.frames[0].period.1 as f64, report),
+            None => {
+                report.note(format!("no bands over the rows up to {:.0} Hz beyond what noise makes", rows.highest_hz))
+            }
+        }
+        missing(rows.found.as_ref(), request, report);
+    }
+    if let Some(frames) = &found.frames {
+        report.figure("modulation_frames", "modulation over frames, (max − min)/(max + min)", "", frames.modulation);
+        if let Some(beat) = frames.beat_hz {
+            report.figure("beat_frequency_hz", "bands come back to their place", "Hz", beat);
+        }
+        if let Some(seen) = &frames.frequency {
+            report.figure("frame_frequency_hz", "frequency seen over frames", "Hz", seen.seen_hz);
+            report.figure("amplitude_frames", "amplitude over mean, over frames", "", seen.amplitude_ratio);
+            if found.rows.as_ref().is_none_or(|rows| rows.found.is_none()) {
+                report.note(alike(seen.alike(9), seen.frame_rate_hz));
+            }
+        }
+    }
+    plot(sequence, at, report)
+}
+
+/// What frames of this rate cannot tell apart.
+fn alike(orders: Vec<(u32, f64)>, rate_hz: f64) -> String {
+    let list: Vec<String> = orders.iter().map(|(k, f)| format!("{f:.2} Hz (order {k})")).collect();
+    format!(
+        "frames at {rate_hz} Hz undersample: the light's frequency is one of {} …; rows of a rolling shutter tell which (--row-time-us)",
+        list.join(", ")
+    )
+}
+
+fn of_bands(bands: &RowBands, rows_of_file: f64, report: &mut Report) {
+    report.figure("frequency_hz", "frequency of the light", "Hz", bands.frequency_hz);
+    report.figure("period_rows", "rows from band to band", "rows", bands.period_rows.scaled(rows_of_file));
+    report.figure("modulation_rows", "modulation over rows, (max − min)/(max + min)", "", bands.modulation);
+    report.figure("amplitude_rows", "amplitude over mean, over rows", "", bands.amplitude_ratio);
+    if let Some(light) = bands.light_amplitude_ratio {
+        report.figure("amplitude_light", "amplitude over mean, of the light itself", "", light);
+    }
+    if let Some(pulses) = &bands.pulses {
+        report.figure("duty_cycle", "duty of the light's pulses", "", pulses.duty);
+        report.figure("pulsed_fraction", "share of the light that pulses", "", pulses.share);
+    }
+    report.fact("harmonics", "harmonics fitted", "", bands.harmonics as f64);
+    if !bands.shading {
+        report.note("fewer than three periods over the rows: shading of the region counts as flicker");
+    }
+}
+
+fn missing(bands: Option<&RowBands>, request: &FlickerRequest, report: &mut Report) {
+    if bands.is_some() && request.exposure_us.is_none() {
+        report.note(
+            "without the exposure (--exposure-us) the light's own modulation and the duty of its pulses are not known",
+        );
+    }
+    if request.frames.len() > 1 && request.frame_rate_hz.is_none() {
+        report.note(
+            "without the frame rate (--frame-rate-hz) each frame is measured by itself, and the means of all are told",
+        );
+    }
+}
+
+fn plot(sequence: &Sequence, at: Option<[usize; 4]>, report: &mut Report) -> Result<(), Error> {
+    let Some(row_time_s) = sequence.timing.row_time_s else { return Ok(()) };
+    let first = &sequence.frames[0];
+    let image = match at {
+        None => first.image.clone(),
+        Some(at) => first.part(at, &sequence.name)?,
+    };
+    let mean = |row: &[f32]| row.iter().map(|v| f64::from(*v)).sum::<f64>() / row.len() as f64 - sequence.levels.0;
+    let rows = image.samples().chunks_exact(image.width()).enumerate();
+    let points = rows.map(|(y, row)| (1e3 * y as f64 * row_time_s, mean(row)));
+    report.plot(Plot {
+        title: "rows of the first frame".to_owned(),
+        x: Axis::linear("time since the region's first row, ms"),
+        y: Axis::linear("reading less black"),
+        series: vec![Series::new("", Mark::Line, points)],
+    });
+    Ok(())
+}
+
+/// Each lamp of a chart, beside what the chart says of it.
+fn lamps(sequence: &Sequence, truth: &Truth, request: &FlickerRequest, report: &mut Report) -> Result<(), Error> {
+    let (patches, left_out) = truth.patches(&sequence.frames[0])?;
+    let mut rows = Vec::new();
+    for patch in &patches {
+        match sequence.measured(Some(patch.at)) {
+            Ok(found) => rows.push(row(patch, truth, &found)),
+            Err(fault) => report.note(format!("left out: {}: {fault}", patch.name)),
+        }
+    }
+    left_out.iter().for_each(|name| report.note(format!("left out: {name}: not whole in the picture, or too small")));
+    if rows.is_empty() {
+        return Err(Error::input(format!(
+            "{}: no lamp of the chart could be measured: {}",
+            sequence.name,
+            report.notes().join("; ")
+        )));
+    }
+    report.table(Table {
+        key: "lamps",
+        columns: vec![
+            ("lamp", "lamp"),
+            ("stated_frequency_hz", "stated Hz"),
+            ("stated_duty_cycle", "stated duty"),
+            ("frequency_hz", "Hz"),
+            ("duty_cycle", "duty"),
+            ("modulation_rows", "rows"),
+            ("modulation_frames", "frames"),
+        ],
+        rows,
+    });
+    missing(None, request, report);
+    Ok(())
+}
+
+fn row(patch: &Patch, truth: &Truth, found: &Flicker) -> Vec<Cell> {
+    let bands = found.rows.as_ref().and_then(|rows| rows.found.as_ref());
+    let cell = |value: Option<Estimate>| value.map_or(Cell::Nothing, Cell::Estimate);
+    let stated = truth.lamp(&patch.name);
+    let number = |value: Option<f64>| value.map_or(Cell::Nothing, |value| Cell::Number(value, 3));
+    vec![
+        Cell::Text(patch.name.clone()),
+        number(stated.map(|(frequency_hz, _)| frequency_hz)),
+        number(stated.map(|(_, duty)| duty)),
+        cell(bands.map(|bands| bands.frequency_hz)),
+        cell(bands.and_then(|bands| bands.pulses).map(|pulses| pulses.duty)),
+        cell(bands.map(|bands| bands.modulation)),
+        cell(found.frames.as_ref().map(|frames| frames.modulation)),
+    ]
+}

@@ -1,0 +1,171 @@
+//! Flicker: light that goes up and down, as rows of a rolling shutter and frames of a sequence see it.
+//!
+//! **Rows.** Row y of frame n is exposed from t = n/f_frame + y · t_row on, for the exposure t_e. The means of the rows are fitted by a level, a slope
+//! and a curvature over the rows (shading; left out where fewer than three periods are seen) and a Fourier series of the frequency f,
+//!
+//! ```text
+//! s(y, n) = Σ_k c_k u^k + Σ_h a_h cos 2πhft + b_h sin 2πhft        u: −1 … 1 over the rows
+//! ```
+//!
+//! f where the fundamental explains most (periodogram, then least squares), and as many harmonics, at most seven, as the Bayesian
+//! information criterion (Schwarz 1978) supports. Frames of a known rate are fitted together, which tells f by the whole sequence;
+//! of an unknown rate each by itself. Nothing is found where the fundamental gains less on the criterion than chance gives among that
+//! many frequencies.
+//!
+//! **Modulation** by two names: (greatest − least)/(greatest + least), the flicker modulation index of IEEE P2020 and Michelson contrast,
+//! over rows from the fitted pulses or series and over frames from the extremes of their means; and the fundamental's amplitude over the mean.
+//!
+//! **The light itself.** An exposure takes the fundamental by sin(πft_e)/(πft_e), which is undone where the exposure is known and more
+//! than a twentieth is left. Pulses of a duty d are fitted as their exact means over the exposures (a trapezoid), with f, phase, duty, pulse and
+//! steady light free: they are told where the criterion prefers them to the series.
+//!
+//! **Frames alone** tell frequencies up to half the frame rate: f = |k f_frame ± f_seen| for any k = 0, 1, 2, …
+//!
+//! Uncertainty: of the fits, from their own residuals, of the series with what neighbouring ones share (noise of whole rows is in it, fixed patterns that look
+//! like bands are not); of extremes over frames from the scatter of columns, without the bias that noise gives to extremes.
+//! Left out: light on part of the region only, rows read in fields or upwards.
+
+mod frames;
+mod pulses;
+mod rows;
+mod series;
+#[cfg(test)]
+mod tests;
+mod time_series;
+
+use crate::flat::{SATURATED_SHARE, saturated_fraction};
+use crate::{Estimate, Image};
+
+pub use frames::{FrameFlicker, FrameFrequency};
+pub use pulses::PulseLight;
+pub use rows::{RowBands, RowFlicker};
+
+/// When rows and frames were exposed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FlickerTiming {
+    /// From one row of the images to the next, s; `None` where all rows are exposed together.
+    pub row_time_s: Option<f64>,
+    /// Frames a second; `None` where it is not known.
+    pub frame_rate_hz: Option<f64>,
+    /// How long each row is exposed, s; `None` where it is not known.
+    pub exposure_s: Option<f64>,
+}
+
+/// What flickers, and how.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Flicker {
+    /// Mean over all frames, less black.
+    pub level: Estimate,
+    /// Over the rows; `None` without a row time.
+    pub rows: Option<RowFlicker>,
+    /// Over the frames; `None` of a single one.
+    pub frames: Option<FrameFlicker>,
+}
+
+/// Why flicker cannot be measured.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FlickerError {
+    /// A single frame without a row time.
+    #[error(
+        "one frame says nothing of flicker where all rows are exposed together: give the time from row to row (--row-time-us), or several frames"
+    )]
+    NoTime,
+    /// A time that is none.
+    #[error("found {what} of {value}: give a number above 0")]
+    Timing {
+        /// Which.
+        what: &'static str,
+        /// Found, in its unit.
+        value: f64,
+    },
+    /// Too few rows.
+    #[error("{rows} rows say too little of bands: give a region of {least} rows at least")]
+    FewRows {
+        /// Found.
+        rows: usize,
+        /// Needed.
+        least: usize,
+    },
+    /// Too narrow.
+    #[error("a region of {columns} columns says nothing of its noise: give one of two at least")]
+    Narrow {
+        /// Found.
+        columns: usize,
+    },
+    /// Frames differ in size.
+    #[error("the frames differ in size: give frames of one camera")]
+    Sizes,
+    /// Saturated pixels.
+    #[error("{percent:.1} % of the region is saturated, which cuts the light's peaks: expose less")]
+    Saturated {
+        /// Share of pixels.
+        percent: f64,
+    },
+    /// No light.
+    #[error("the mean reading {mean:.3} is not above that of no light, {black:.3}: is --black right?")]
+    Dark {
+        /// Mean of all frames.
+        mean: f64,
+        /// Reading of no light.
+        black: f64,
+    },
+}
+
+/// Least rows of a region whose bands are looked for.
+const MIN_ROWS: usize = 16;
+
+/// Measures the flicker of an evenly lit region over frames.
+///
+/// # Errors
+/// Where times are missing or wrong, or the region is too small, saturated or dark.
+pub fn measure_flicker(
+    frames: &[Image],
+    timing: &FlickerTiming,
+    (black, full_scale): (f64, Option<f64>),
+) -> Result<Flicker, FlickerError> {
+    check_timing(timing, frames.len())?;
+    check_frames(frames, timing, full_scale)?;
+    let rows: Vec<Vec<f64>> = frames.iter().map(|frame| series::row_means(frame, black)).collect();
+    let means = frames.iter().map(|frame| series::frame_mean(frame, black)).collect::<Vec<_>>();
+    let level = series::mean_of(&means);
+    if level.value <= 0.0 {
+        return Err(FlickerError::Dark { mean: level.value + black, black });
+    }
+    let found = timing.row_time_s.map(|row_time_s| rows::measure(&rows, row_time_s, timing));
+    let seen_hz = found.as_ref().and_then(|rows| rows.found.as_ref()).map(|found| found.frequency_hz);
+    let frames = (frames.len() > 1).then(|| frames::measure(&means, timing, seen_hz));
+    Ok(Flicker { level, rows: found, frames })
+}
+
+fn check_timing(timing: &FlickerTiming, frames: usize) -> Result<(), FlickerError> {
+    let times = [
+        ("a row time (s)", timing.row_time_s),
+        ("a frame rate (Hz)", timing.frame_rate_hz),
+        ("an exposure (s)", timing.exposure_s),
+    ];
+    for (what, value) in times {
+        if let Some(value) = value.filter(|value| !(*value > 0.0 && value.is_finite())) {
+            return Err(FlickerError::Timing { what, value });
+        }
+    }
+    if timing.row_time_s.is_none() && frames < 2 { Err(FlickerError::NoTime) } else { Ok(()) }
+}
+
+fn check_frames(frames: &[Image], timing: &FlickerTiming, full_scale: Option<f64>) -> Result<(), FlickerError> {
+    let Some(first) = frames.first() else { return Err(FlickerError::NoTime) };
+    let (columns, rows) = (first.width(), first.height());
+    if frames.iter().any(|frame| (frame.width(), frame.height()) != (columns, rows)) {
+        return Err(FlickerError::Sizes);
+    }
+    if columns < 2 {
+        return Err(FlickerError::Narrow { columns });
+    }
+    if timing.row_time_s.is_some() && rows < MIN_ROWS {
+        return Err(FlickerError::FewRows { rows, least: MIN_ROWS });
+    }
+    // Bands have plateaus of their own: only a known full scale tells of clipping.
+    let Some(full_scale) = full_scale else { return Ok(()) };
+    let shares = frames.iter().map(|frame| saturated_fraction(frame.samples(), Some(full_scale)));
+    let share = shares.fold(0.0, f64::max);
+    if share > SATURATED_SHARE { Err(FlickerError::Saturated { percent: 100.0 * share }) } else { Ok(()) }
+}

@@ -1,0 +1,160 @@
+//! Pulses as exposures see them: a trapezoid over time.
+
+use super::time_series::{FourierFit, TimeSeries, explained};
+use crate::Estimate;
+use crate::fit::{Fit, Problem, fit};
+use core::f64::consts::PI;
+use etendue_core::TimeInterval;
+use etendue_core::maths::f64::sin;
+use etendue_core::waveform::{Pulses, Waveform};
+
+/// Light of pulses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PulseLight {
+    /// Share of the period that a pulse lasts.
+    pub duty: Estimate,
+    /// Mean light of the pulses over that of all, the steady light included.
+    pub share: Estimate,
+    /// (greatest − least)/(greatest + least) of what exposures see of them.
+    pub modulation: Estimate,
+}
+
+/// Pulses that were fitted.
+pub(super) struct FittedPulses {
+    pub(super) light: PulseLight,
+    pub(super) frequency_hz: Estimate,
+    /// Sum of squared residuals.
+    pub(super) squares: f64,
+}
+
+/// Duties that are tried first.
+const DUTIES: u32 = 39;
+
+/// Where the parameters stand: level, pulses over level, frequency, phase of a pulse's middle (periods), duty, then shading.
+const SHARE: usize = 1;
+const FREQUENCY: usize = 2;
+const PHASE: usize = 3;
+const DUTY: usize = 4;
+const SHADING: usize = 5;
+
+struct PulseProblem<'a> {
+    series: &'a TimeSeries,
+    values: Vec<f64>,
+    times: Vec<(f64, f64)>,
+    shading: Vec<Vec<f64>>,
+    exposure_s: f64,
+    start: Vec<f64>,
+}
+
+/// Fits pulses, beginning with the frequency and phase of a Fourier series.
+pub(super) fn fitted(series: &TimeSeries, fourier: &FourierFit, exposure_s: f64) -> Option<FittedPulses> {
+    let frequency_hz = fourier.frequency_hz.value;
+    let x = PI * frequency_hz * exposure_s;
+    // An exposure beyond a period turns the fundamental over.
+    let turned = if sin(x) < 0.0 { 0.5 } else { 0.0 };
+    let middle = fourier.peak_periods() + 0.5 * frequency_hz * exposure_s + turned;
+    let shading = series.level_columns(fourier.shading).split_off(1);
+    let values: Vec<f64> = series.values().collect();
+    let mut problem =
+        PulseProblem { series, values, times: series.times().collect(), shading, exposure_s, start: Vec::new() };
+    let of = |i: u32| problem.begun(frequency_hz, middle, f64::from(i + 1) / f64::from(DUTIES + 1));
+    let (start, _) = (0..DUTIES).filter_map(of).min_by(|a, b| a.1.total_cmp(&b.1))?;
+    problem.start = start;
+    let start = problem.start.clone();
+    let found = fit(&problem, &start).ok()?;
+    let [share, duty] = [SHARE, DUTY].map(|i| found.estimate(i));
+    let squares = found.residuals.iter().flatten().map(|r| r * r).sum();
+    let known = [share, duty].iter().all(|e| e.standard_uncertainty.is_finite()) && share.value > 0.0;
+    let modulation = modulation_of(&found, exposure_s);
+    let light = PulseLight { duty, share, modulation };
+    known.then(|| FittedPulses { light, frequency_hz: found.estimate(FREQUENCY), squares })
+}
+
+/// What exposures of k T + r see of pulses of mean 1: of their light from k d T + max(0, r − (1 − d) T) to k d T + min(r, d T).
+fn extremes(frequency_hz: f64, duty: f64, exposure_s: f64) -> [f64; 2] {
+    let periods = exposure_s * frequency_hz;
+    let (whole, rest) = (periods.floor(), periods - periods.floor());
+    [(rest - (1.0 - duty)).max(0.0), rest.min(duty)].map(|part| (whole * duty + part) / (periods * duty))
+}
+
+/// With the covariance of share, frequency and duty.
+fn modulation_of(found: &Fit, exposure_s: f64) -> Estimate {
+    let of = |p: [f64; 3]| {
+        let [low, high] = extremes(p[1], p[2], exposure_s).map(|seen| 1.0 - p[0] + p[0] * seen);
+        (high - low) / (high + low)
+    };
+    let places = [SHARE, FREQUENCY, DUTY];
+    let at = places.map(|i| found.parameters[i]);
+    let slope = |i: usize| {
+        let step = 1e-6 * at[i];
+        let [mut below, mut above] = [at; 2];
+        (below[i], above[i]) = (at[i] - step, at[i] + step);
+        (of(above) - of(below)) / (2.0 * step)
+    };
+    let slopes = [0, 1, 2].map(slope);
+    let terms = (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
+    let variance: f64 = terms.map(|(i, j)| slopes[i] * found.covariance.at(places[i], places[j]) * slopes[j]).sum();
+    Estimate::new(of(at), variance.max(0.0).sqrt())
+}
+
+impl PulseProblem<'_> {
+    fn waveform(frequency_hz: f64, middle: f64, duty: f64) -> Option<Waveform> {
+        let pulses = Pulses { frequency_hz, duty, edges_s: [0.0; 2], peak: 1.0 / duty };
+        Waveform::pulses(&pulses).ok().map(|waveform| waveform.later((middle - 0.5 * duty) / frequency_hz))
+    }
+
+    /// What the exposures see of pulses of mean 1.
+    fn seen(&self, waveform: &Waveform) -> Option<Vec<f64>> {
+        let over =
+            |(time_s, _): &(f64, f64)| Some(waveform.mean(TimeInterval::new(*time_s, time_s + self.exposure_s)?));
+        self.times.iter().map(over).collect()
+    }
+
+    /// Parameters of a duty, and the sum of squares that they leave; `None` where the pulses would take light away.
+    fn begun(&self, frequency_hz: f64, middle: f64, duty: f64) -> Option<(Vec<f64>, f64)> {
+        let seen = self.seen(&Self::waveform(frequency_hz, middle, duty)?)?;
+        let columns = [&[vec![1.0; seen.len()], seen], &self.shading[..]].concat();
+        let (coefficients, squares) = explained(self.series, &columns)?;
+        let level = coefficients[0] + coefficients[1];
+        let legal = level > 0.0 && coefficients[1] > 0.0;
+        let head = [level, coefficients[1] / level, frequency_hz, middle, duty];
+        let all = [&head[..], &coefficients[2..]].concat();
+        legal.then_some((all, squares))
+    }
+}
+
+impl Problem for PulseProblem<'_> {
+    type State = Vec<f64>;
+
+    fn state(&self, parameters: &[f64]) -> Option<Vec<f64>> {
+        let [level, share, frequency_hz, middle, duty] = *parameters.first_chunk::<5>()?;
+        let legal = duty > 1e-4 && duty < 1.0 - 1e-4 && frequency_hz > 0.0;
+        let seen = self.seen(&legal.then(|| Self::waveform(frequency_hz, middle, duty)).flatten()?)?;
+        let shading = |i: usize| -> f64 {
+            self.shading.iter().zip(&parameters[SHADING..]).map(|(column, c)| c * column[i]).sum()
+        };
+        let of = |(i, seen): (usize, f64)| level * (1.0 - share + share * seen) + shading(i);
+        Some(seen.into_iter().enumerate().map(of).collect())
+    }
+
+    fn blocks(&self) -> usize {
+        1
+    }
+
+    fn residuals(&self, state: &Vec<f64>, _block: usize) -> Option<Vec<f64>> {
+        Some(self.values.iter().zip(state).map(|(value, model)| value - model).collect())
+    }
+
+    fn depends(&self, _block: usize, _parameter: usize) -> bool {
+        true
+    }
+
+    fn reach(&self, parameter: usize) -> f64 {
+        match parameter {
+            SHARE => 0.1,
+            FREQUENCY => 0.1 / self.series.length_s(),
+            PHASE | DUTY => 0.1,
+            _ => 0.1 * self.start[0],
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Bands over the rows of a rolling shutter.
+
+use super::FlickerTiming;
+use super::pulses::{self, PulseLight};
+use super::series::weighted_mean;
+use super::time_series::{FourierFit, TimeSeries, criterion};
+use crate::Estimate;
+use core::f64::consts::PI;
+use etendue_core::maths::f64::sin;
+
+/// Least share of the fundamental that an exposure must leave for it to be undone.
+const LEAST_LEFT: f64 = 0.05;
+
+/// Bands over the rows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowFlicker {
+    /// What goes up and down; `None` where nothing does that chance would not.
+    pub found: Option<RowBands>,
+    /// The highest frequency that was looked for, Hz: two rows a period.
+    pub highest_hz: f64,
+}
+
+/// What goes up and down over the rows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowBands {
+    /// Frequency of the light, Hz.
+    pub frequency_hz: Estimate,
+    /// Rows from one band to the next.
+    pub period_rows: Estimate,
+    /// (greatest − least)/(greatest + least) over a period, as rows see it.
+    pub modulation: Estimate,
+    /// Amplitude of the fundamental over the mean, as rows see it.
+    pub amplitude_ratio: Estimate,
+    /// The same of the light itself; `None` where the exposure is not known or leaves too little.
+    pub light_amplitude_ratio: Option<Estimate>,
+    /// Share of the period that a pulse lasts, and the share of all light that pulses; `None` where the light is none of pulses, or the
+    /// exposure is not known.
+    pub pulses: Option<PulseLight>,
+    /// Harmonics that were fitted, the fundamental among them.
+    pub harmonics: usize,
+    /// Whether shading over the rows was fitted with them.
+    pub shading: bool,
+}
+
+pub(super) fn measure(rows: &[Vec<f64>], row_time_s: f64, timing: &FlickerTiming) -> RowFlicker {
+    let highest_hz = 0.5 / row_time_s;
+    let block =
+        |(n, values): (usize, &Vec<f64>)| (timing.frame_rate_hz.map_or(0.0, |rate| n as f64 / rate), values.clone());
+    let together = timing.frame_rate_hz.is_some() || rows.len() == 1;
+    let found = match together {
+        true => bands(&TimeSeries { blocks: rows.iter().enumerate().map(block).collect(), step_s: row_time_s }, timing),
+        false => {
+            let each = rows.iter().map(|values| TimeSeries { blocks: vec![(0.0, values.clone())], step_s: row_time_s });
+            joined(&each.filter_map(|series| bands(&series, timing)).collect::<Vec<_>>())
+        }
+    };
+    RowFlicker { found, highest_hz }
+}
+
+fn bands(series: &TimeSeries, timing: &FlickerTiming) -> Option<RowBands> {
+    let fit = series.found(0.5 / series.step_s).filter(|fit| fit.mean() > 0.0)?;
+    let frequency_hz = fit.frequency_hz;
+    let pulses = timing.exposure_s.and_then(|exposure_s| pulses(series, &fit, exposure_s));
+    let frequency_hz = pulses.as_ref().map_or(frequency_hz, |(_, frequency_hz)| *frequency_hz);
+    let period_rows = 1.0 / (frequency_hz.value * series.step_s);
+    Some(RowBands {
+        frequency_hz,
+        period_rows: Estimate::new(period_rows, period_rows * frequency_hz.standard_uncertainty / frequency_hz.value),
+        modulation: pulses.as_ref().map_or_else(|| fit.michelson(), |(pulses, _)| pulses.modulation),
+        amplitude_ratio: fit.amplitude_ratio(),
+        light_amplitude_ratio: timing.exposure_s.and_then(|exposure_s| undone(&fit, exposure_s)),
+        pulses: pulses.map(|(pulses, _)| pulses),
+        harmonics: fit.harmonics,
+        shading: fit.shading,
+    })
+}
+
+/// The fundamental before the exposure.
+fn undone(fit: &FourierFit, exposure_s: f64) -> Option<Estimate> {
+    let x = PI * fit.frequency_hz.value * exposure_s;
+    let left = (sin(x) / x).abs();
+    (left >= LEAST_LEFT).then(|| fit.amplitude_ratio().scaled(1.0 / left))
+}
+
+/// Pulses, where the criterion prefers them to the series.
+fn pulses(series: &TimeSeries, fit: &FourierFit, exposure_s: f64) -> Option<(PulseLight, Estimate)> {
+    let found = pulses::fitted(series, fit, exposure_s)?;
+    let of_series = criterion(fit.squares, fit.count, fit.parameters);
+    let of_pulses = criterion(found.squares, fit.count, fit.level_parameters() + 4);
+    (of_pulses < of_series).then_some((found.light, found.frequency_hz))
+}
+
+/// Of frames at unknown times: the mean of each quantity over those that have it.
+fn joined(each: &[RowBands]) -> Option<RowBands> {
+    let first = each.first()?;
+    let mean = |of: fn(&RowBands) -> Option<Estimate>| weighted_mean(&each.iter().filter_map(of).collect::<Vec<_>>());
+    let duty = mean(|bands| bands.pulses.map(|pulses| pulses.duty));
+    let share = mean(|bands| bands.pulses.map(|pulses| pulses.share));
+    let modulation = mean(|bands| bands.pulses.map(|pulses| pulses.modulation));
+    Some(RowBands {
+        frequency_hz: mean(|bands| Some(bands.frequency_hz))?,
+        period_rows: mean(|bands| Some(bands.period_rows))?,
+        modulation: mean(|bands| Some(bands.modulation))?,
+        amplitude_ratio: mean(|bands| Some(bands.amplitude_ratio))?,
+        light_amplitude_ratio: mean(|bands| bands.light_amplitude_ratio),
+        pulses: duty.zip(share).zip(modulation).map(|((duty, share), modulation)| PulseLight {
+            duty,
+            share,
+            modulation,
+        }),
+        ..first.clone()
+    })
+}

@@ -1,0 +1,377 @@
+//! Numbers over time, and the frequency that explains them.
+
+use crate::Estimate;
+use crate::linear::{Cholesky, Matrix};
+use core::f64::consts::TAU;
+use etendue_core::maths::f64::{atan2, hypot, ln, sin_cos};
+
+/// Harmonics tried, the fundamental among them.
+const MAX_HARMONICS: usize = 7;
+/// Periods from which on shading is told from bands.
+const PERIODS_FOR_SHADING: f64 = 3.0;
+/// Whole frame rates, to either side, by which a frequency may have been mistaken.
+const MAX_ALIKE: f64 = 64.0;
+/// What the fundamental must gain on the criterion besides the frequencies tried: by chance in one of 150.
+const LEAST_GAIN: f64 = 10.0;
+
+/// Blocks of numbers at even steps: rows of frames, or frames.
+#[derive(Clone, Debug)]
+pub(super) struct TimeSeries {
+    /// When each block begins, s, and its numbers.
+    pub(super) blocks: Vec<(f64, Vec<f64>)>,
+    /// From one number of a block to the next, s.
+    pub(super) step_s: f64,
+}
+
+/// A level, its shading, and a Fourier series, fitted.
+#[derive(Clone, Debug)]
+pub(super) struct FourierFit {
+    pub(super) frequency_hz: Estimate,
+    pub(super) harmonics: usize,
+    pub(super) shading: bool,
+    coefficients: Vec<f64>,
+    covariance: Matrix,
+    /// Sum of squared residuals, and how many numbers and parameters there are.
+    pub(super) squares: f64,
+    pub(super) count: usize,
+    pub(super) parameters: usize,
+}
+
+/// What the criterion says of a fit: less is better.
+pub(super) fn criterion(squares: f64, count: usize, parameters: usize) -> f64 {
+    let n = count as f64;
+    n * ln((squares / n).max(f64::MIN_POSITIVE)) + parameters as f64 * ln(n)
+}
+
+struct LeastSquares {
+    coefficients: Vec<f64>,
+    squares: f64,
+    residuals: Vec<f64>,
+    inverse: Matrix,
+}
+
+impl TimeSeries {
+    pub(super) fn count(&self) -> usize {
+        self.blocks.iter().map(|(_, values)| values.len()).sum()
+    }
+
+    fn block_length_s(&self) -> f64 {
+        self.blocks.iter().map(|(_, values)| values.len()).max().unwrap_or(0) as f64 * self.step_s
+    }
+
+    pub(super) fn length_s(&self) -> f64 {
+        let last = self.blocks.last().map_or(0.0, |(start_s, _)| *start_s);
+        last - self.blocks.first().map_or(0.0, |(start_s, _)| *start_s) + self.block_length_s()
+    }
+
+    /// Each number's time (s), and its place in its block, −1 … 1.
+    pub(super) fn times(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.blocks.iter().flat_map(move |(start_s, values)| {
+            let middle = 0.5 * (values.len() as f64 - 1.0);
+            (0..values.len()).map(move |i| (start_s + i as f64 * self.step_s, (i as f64 - middle) / middle.max(1.0)))
+        })
+    }
+
+    pub(super) fn values(&self) -> impl Iterator<Item = f64> + '_ {
+        self.blocks.iter().flat_map(|(_, values)| values.iter().copied())
+    }
+
+    /// A level, and with shading a slope and a curvature over the block whose mean is 0.
+    pub(super) fn level_columns(&self, shading: bool) -> Vec<Vec<f64>> {
+        let u: Vec<f64> = self.times().map(|(_, u)| u).collect();
+        let mean = u.iter().map(|u| u * u).sum::<f64>() / u.len() as f64;
+        let ones = vec![1.0; u.len()];
+        match shading {
+            false => vec![ones],
+            true => vec![ones, u.clone(), u.iter().map(|u| u * u - mean).collect()],
+        }
+    }
+
+    fn columns(&self, frequency_hz: f64, harmonics: usize, shading: bool) -> Vec<Vec<f64>> {
+        let mut columns = self.level_columns(shading);
+        for h in 1..=harmonics {
+            let phases = self.times().map(|(time_s, _)| {
+                let periods = h as f64 * frequency_hz * time_s;
+                sin_cos(TAU * (periods - periods.round()))
+            });
+            let (sines, cosines): (Vec<f64>, Vec<f64>) = phases.unzip();
+            columns.extend([cosines, sines]);
+        }
+        columns
+    }
+
+    fn fit(&self, columns: &[Vec<f64>]) -> Option<LeastSquares> {
+        let values: Vec<f64> = self.values().collect();
+        least_squares(columns, &values)
+    }
+
+    fn squares(&self, frequency_hz: f64, harmonics: usize, shading: bool) -> f64 {
+        self.fit(&self.columns(frequency_hz, harmonics, shading)).map_or(f64::INFINITY, |fit| fit.squares)
+    }
+
+    /// The frequency that explains most, with its harmonics; `None` where none explains more than chance would.
+    pub(super) fn found(&self, highest_hz: f64) -> Option<FourierFit> {
+        let with_shading = self.blocks[0].1.len() >= 8;
+        let fitted = |shading: bool| self.found_with(highest_hz, shading);
+        let told = |fit: &FourierFit| fit.frequency_hz.value * self.block_length_s() >= PERIODS_FOR_SHADING;
+        fitted(with_shading).filter(|fit| !fit.shading || told(fit)).or_else(|| fitted(false))
+    }
+
+    fn found_with(&self, highest_hz: f64, shading: bool) -> Option<FourierFit> {
+        let start_hz = self.strongest(highest_hz, shading)?;
+        let reach_hz = 0.25 / self.length_s();
+        let frequency_hz = self.refined(start_hz, reach_hz, 1, shading);
+        self.is_significant(frequency_hz, shading, highest_hz).then_some(())?;
+        let alike = self.alike(frequency_hz).into_iter().filter(|f| (0.5 / self.length_s()..=highest_hz).contains(f));
+        let told = alike.map(|f| (f, self.best_harmonics(f, highest_hz, shading)));
+        let (frequency_hz, _) = told.min_by(|a, b| a.1.1.total_cmp(&b.1.1))?;
+        let (frequency_hz, harmonics) = self.with_harmonics(frequency_hz, reach_hz, highest_hz, shading)?;
+        self.finished(frequency_hz, harmonics, shading)
+    }
+
+    /// The frequency with as many harmonics as the criterion supports, each of which may move it.
+    fn with_harmonics(&self, start_hz: f64, reach_hz: f64, highest_hz: f64, shading: bool) -> Option<(f64, usize)> {
+        let level = if shading { 3 } else { 1 };
+        let next = |f: &mut f64, h: usize| {
+            *f = self.refined(*f, reach_hz / h as f64, h, shading);
+            Some((*f, h, criterion(self.squares(*f, h, shading), self.count(), level + 1 + 2 * h)))
+        };
+        let all = (1..=self.most_harmonics(start_hz, highest_hz)).scan(start_hz, next);
+        all.min_by(|a, b| a.2.total_cmp(&b.2)).map(|(f, h, _)| (f, h))
+    }
+
+    fn most_harmonics(&self, frequency_hz: f64, highest_hz: f64) -> usize {
+        MAX_HARMONICS.min((highest_hz / frequency_hz) as usize).min(self.count() / 6).max(1)
+    }
+
+    /// How many harmonics the criterion supports, and what it says of them.
+    fn best_harmonics(&self, frequency_hz: f64, highest_hz: f64, shading: bool) -> (usize, f64) {
+        let level = if shading { 3 } else { 1 };
+        let of = |h: usize| criterion(self.squares(frequency_hz, h, shading), self.count(), level + 1 + 2 * h);
+        (1..=self.most_harmonics(frequency_hz, highest_hz))
+            .map(|h| (h, of(h)))
+            .fold((1, f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
+    }
+
+    /// Frequencies that blocks at even steps see at the same phases, or at the opposite ones: only within the blocks do they differ.
+    /// The fundamental alone may prefer a wrong one of a light with harmonics.
+    fn alike(&self, frequency_hz: f64) -> Vec<f64> {
+        let [first, second, ..] = &self.blocks[..] else { return vec![frequency_hz] };
+        let rate_hz = 1.0 / (second.0 - first.0);
+        let reach = (1.5 / (self.block_length_s() * rate_hz)).ceil().min(MAX_ALIKE) as i32;
+        let nearest = (frequency_hz / rate_hz).round();
+        let orders = (-reach..=reach).map(|k| (nearest + f64::from(k)) * rate_hz);
+        let beyond = frequency_hz - nearest * rate_hz;
+        orders.flat_map(|order| [order + beyond, order - beyond]).collect()
+    }
+
+    /// Whether the fundamental gains more than the best of so many frequencies would by chance.
+    fn is_significant(&self, frequency_hz: f64, shading: bool, highest_hz: f64) -> bool {
+        let Some(level) = self.fit(&self.level_columns(shading)) else { return false };
+        let (n, tried) = (self.count() as f64, (highest_hz * self.length_s()).max(1.0));
+        // An exact fit of exact numbers.
+        let squares = self.squares(frequency_hz, 1, shading).max(level.squares * 1e-24);
+        level.squares > 0.0 && n * ln(level.squares / squares) > 3.0 * ln(n) + 2.0 * ln(tried) + LEAST_GAIN
+    }
+
+    /// The greatest of the periodogram: coarse over the blocks, each by itself, then about it over all of them together.
+    fn strongest(&self, highest_hz: f64, shading: bool) -> Option<f64> {
+        let level = self.fit(&self.level_columns(shading))?;
+        let columns = self.level_columns(shading);
+        let explained =
+            |i: usize| columns.iter().zip(&level.coefficients).map(|(column, c)| c * column[i]).sum::<f64>();
+        let rest: Vec<f64> = self.values().enumerate().map(|(i, value)| value - explained(i)).collect();
+        let block_s = self.block_length_s();
+        let coarse = best(0.25 / block_s, highest_hz, 0.25 / block_s, |f| {
+            self.transforms(&rest, f).map(|[re, im]| re * re + im * im).sum()
+        })?;
+        let length_s = self.length_s();
+        if self.blocks.len() == 1 {
+            return Some(coarse);
+        }
+        let (low, high) = ((coarse - 1.0 / block_s).max(0.5 / length_s), (coarse + 1.0 / block_s).min(highest_hz));
+        best(low, high, 0.15 / length_s, |f| {
+            let sum = self.transforms(&rest, f).zip(&self.blocks).fold([0.0; 2], |sum, (part, (start_s, _))| {
+                let (sin, cos) = sin_cos(-TAU * (f * start_s - (f * start_s).round()));
+                [sum[0] + part[0] * cos - part[1] * sin, sum[1] + part[0] * sin + part[1] * cos]
+            });
+            sum[0] * sum[0] + sum[1] * sum[1]
+        })
+    }
+
+    /// Of each block, as if it began at the time 0.
+    fn transforms<'a>(&'a self, rest: &'a [f64], frequency_hz: f64) -> impl Iterator<Item = [f64; 2]> + 'a {
+        let (sin, cos) = sin_cos(-TAU * frequency_hz * self.step_s);
+        let mut next = 0;
+        self.blocks.iter().map(move |(_, values)| {
+            let part = &rest[next..next + values.len()];
+            next += values.len();
+            let mut turn = [1.0, 0.0];
+            part.iter().fold([0.0; 2], |sum, value| {
+                let [re, im] = turn;
+                turn = [re * cos - im * sin, re * sin + im * cos];
+                [sum[0] + value * re, sum[1] + value * im]
+            })
+        })
+    }
+
+    /// The least sum of squares within a reach, by golden section.
+    fn refined(&self, start_hz: f64, reach_hz: f64, harmonics: usize, shading: bool) -> f64 {
+        const GOLDEN: f64 = 0.618_033_988_749_895;
+        let (mut low, mut high) = ((start_hz - reach_hz).max(0.05 * start_hz), start_hz + reach_hz);
+        let of = |f: f64| self.squares(f, harmonics, shading);
+        let place = |low: f64, high: f64| [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+        let [mut a, mut b] = place(low, high);
+        let (mut at_a, mut at_b) = (of(a), of(b));
+        for _ in 0..40 {
+            if at_a < at_b {
+                (high, b, at_b) = (b, a, at_a);
+                a = place(low, high)[0];
+                at_a = of(a);
+            } else {
+                (low, a, at_a) = (a, b, at_b);
+                b = place(low, high)[1];
+                at_b = of(b);
+            }
+        }
+        0.5 * (low + high)
+    }
+
+    /// The fit of a frequency, whose uncertainty is that of the sum of squares' curvature.
+    fn finished(&self, frequency_hz: f64, harmonics: usize, shading: bool) -> Option<FourierFit> {
+        let fit = self.fit(&self.columns(frequency_hz, harmonics, shading))?;
+        let (count, parameters) = (self.count(), fit.coefficients.len() + 1);
+        let variance = fit.squares / count.saturating_sub(parameters).max(1) as f64 * self.alikeness(&fit.residuals);
+        let step = 0.05 / (self.length_s() * harmonics as f64);
+        let [below, above] = [-step, step].map(|d| self.squares(frequency_hz + d, harmonics, shading));
+        let curvature = (below - 2.0 * fit.squares + above) / (step * step);
+        let u = if curvature > 0.0 { (2.0 * variance / curvature).sqrt() } else { f64::INFINITY };
+        let mut covariance = fit.inverse;
+        for i in 0..fit.coefficients.len() {
+            (0..fit.coefficients.len()).for_each(|j| *covariance.at_mut(i, j) *= variance);
+        }
+        let frequency_hz = Estimate::new(frequency_hz, u);
+        let (coefficients, squares) = (fit.coefficients, fit.squares);
+        Some(FourierFit { frequency_hz, harmonics, shading, coefficients, covariance, squares, count, parameters })
+    }
+}
+
+impl TimeSeries {
+    /// By how much errors that neighbours share, as where a series cannot follow an edge, count more than independent ones:
+    /// (1 + ρ)/(1 − ρ) of their correlation ρ, at least 1 (as for a first-order autoregression).
+    fn alikeness(&self, residuals: &[f64]) -> f64 {
+        let mut next = 0;
+        let (mut products, mut squares) = (0.0, 0.0);
+        for (_, values) in &self.blocks {
+            let part = &residuals[next..next + values.len()];
+            next += values.len();
+            products += part.array_windows().map(|[a, b]| a * b).sum::<f64>();
+            squares += part.iter().map(|r| r * r).sum::<f64>();
+        }
+        // What chance makes of independent errors is left out.
+        let correlation = if squares > 0.0 { products / squares } else { 0.0 };
+        let chance = 2.0 / (residuals.len() as f64).sqrt();
+        if correlation > chance { (1.0 + correlation) / (1.0 - correlation).max(1e-6) } else { 1.0 }
+    }
+}
+
+/// The place from `low` to `high`, in even steps, of the greatest value; `None` where there is no step.
+fn best(low: f64, high: f64, step: f64, value: impl Fn(f64) -> f64) -> Option<f64> {
+    let steps = ((high - low) / step).floor();
+    let places = (0..=steps.max(-1.0) as i64).map(|i| low + i as f64 * step);
+    places.map(|place| (place, value(place))).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(place, _)| place)
+}
+
+/// Coefficients of columns that explain values best.
+fn least_squares(columns: &[Vec<f64>], values: &[f64]) -> Option<LeastSquares> {
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let mut normal = Matrix::zeros(columns.len(), columns.len());
+    for i in 0..columns.len() {
+        for j in 0..=i {
+            let product = dot(&columns[i], &columns[j]);
+            (*normal.at_mut(i, j), *normal.at_mut(j, i)) = (product, product);
+        }
+    }
+    let right: Vec<f64> = columns.iter().map(|column| dot(column, values)).collect();
+    let factor = Cholesky::of(&normal, 1e-10)?;
+    let coefficients = factor.solve(&right);
+    let rest = |(i, value): (usize, &f64)| {
+        let explained: f64 = columns.iter().zip(&coefficients).map(|(column, c)| c * column[i]).sum();
+        value - explained
+    };
+    let residuals: Vec<f64> = values.iter().enumerate().map(rest).collect();
+    let squares = residuals.iter().map(|r| r * r).sum();
+    Some(LeastSquares { coefficients, squares, residuals, inverse: factor.inverse() })
+}
+
+/// Coefficients of columns that explain the series best, and what they leave, as a sum of squares.
+pub(super) fn explained(series: &TimeSeries, columns: &[Vec<f64>]) -> Option<(Vec<f64>, f64)> {
+    series.fit(columns).map(|fit| (fit.coefficients, fit.squares))
+}
+
+impl FourierFit {
+    /// Where the harmonics begin among the coefficients.
+    fn first(&self) -> usize {
+        if self.shading { 3 } else { 1 }
+    }
+
+    /// The level.
+    pub(super) fn mean(&self) -> f64 {
+        self.coefficients[0]
+    }
+
+    /// Parameters of the level and the shading.
+    pub(super) fn level_parameters(&self) -> usize {
+        self.first()
+    }
+
+    /// The fundamental's amplitude over the mean.
+    pub(super) fn amplitude_ratio(&self) -> Estimate {
+        let first = self.first();
+        let (a, b) = (self.coefficients[first], self.coefficients[first + 1]);
+        let (amplitude, mean) = (hypot(a, b), self.coefficients[0]);
+        let mut slopes = vec![0.0; self.coefficients.len()];
+        slopes[0] = -amplitude / (mean * mean);
+        (slopes[first], slopes[first + 1]) = (a / (amplitude * mean), b / (amplitude * mean));
+        Estimate::new(amplitude / mean, self.uncertainty(&slopes))
+    }
+
+    /// When the fundamental is greatest, periods after the time 0.
+    pub(super) fn peak_periods(&self) -> f64 {
+        let first = self.first();
+        atan2(self.coefficients[first + 1], self.coefficients[first]) / TAU
+    }
+
+    /// (greatest − least)/(greatest + least) of the fitted series.
+    pub(super) fn michelson(&self) -> Estimate {
+        const PHASES: u32 = 720;
+        let at = |slopes: &[f64]| slopes.iter().zip(&self.coefficients).map(|(s, c)| s * c).sum::<f64>();
+        let all = (0..PHASES).map(|i| self.slopes_at(f64::from(i) / f64::from(PHASES)));
+        let mut all: Vec<(f64, Vec<f64>)> = all.map(|slopes| (at(&slopes), slopes)).collect();
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let ((low, of_low), (high, of_high)) = (&all[0], &all[all.len() - 1]);
+        let total = high + low;
+        // ∂/∂high = 2 low/total², ∂/∂low = −2 high/total².
+        let slope = |(l, h): (&f64, &f64)| 2.0 * (low * h - high * l) / (total * total);
+        let slopes: Vec<f64> = of_low.iter().zip(of_high).map(slope).collect();
+        Estimate::new((high - low) / total, self.uncertainty(&slopes))
+    }
+
+    /// What each coefficient gives the series at a phase, without shading.
+    fn slopes_at(&self, phase: f64) -> Vec<f64> {
+        let mut slopes = vec![0.0; self.coefficients.len()];
+        slopes[0] = 1.0;
+        for h in 1..=self.harmonics {
+            let (sin, cos) = sin_cos(TAU * h as f64 * phase);
+            let at = self.first() + 2 * (h - 1);
+            (slopes[at], slopes[at + 1]) = (cos, sin);
+        }
+        slopes
+    }
+
+    fn uncertainty(&self, slopes: &[f64]) -> f64 {
+        let n = slopes.len();
+        let terms = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+        terms.map(|(i, j)| slopes[i] * self.covariance.at(i, j) * slopes[j]).sum::<f64>().max(0.0).sqrt()
+    }
+}
