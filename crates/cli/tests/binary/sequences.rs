@@ -75,14 +75,16 @@ fn a_frame_of_another_plan_is_no_part_of_the_run() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let out = place.path().join("out");
     render(&out, &["--frames", "0..1"]);
-    let options = ["render", &job(), "-o", &text(&out), "--frames", "0..2", "--resume", "--spp", "16"].map(str::to_owned);
+    let options =
+        ["render", &job(), "-o", &text(&out), "--frames", "0..2", "--resume", "--spp", "16"].map(str::to_owned);
     etendue(options).refused(&["frame.0000.json", "another plan"]);
 }
 
 #[test]
 fn frames_without_a_rate_are_refused_where_light_depends_on_time() {
     let place = tempfile::tempdir().expect("a temporary folder");
-    let text_of = fs::read_to_string(job()).expect("the job").replace("[sequence]\nframe_rate_hz = 20\nstart_s = 3\n", "");
+    let text_of =
+        fs::read_to_string(job()).expect("the job").replace("[sequence]\nframe_rate_hz = 20\nstart_s = 3\n", "");
     let file = place.path().join("job.toml");
     fs::write(&file, text_of.replace("trigger_jitter_s = 1e-3\n", "")).expect("a file");
     let arguments = ["render".to_owned(), text(&file), "-o".to_owned(), text(&place.path().join("out"))];
