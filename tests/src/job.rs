@@ -23,6 +23,17 @@ impl Job {
         Self { text: format!("format = 1\n{}", text.as_ref()), assets: Assets::default(), seed: 1 }
     }
 
+    /// With other words in place of some of the text.
+    ///
+    /// # Panics
+    /// Where the text does not hold them.
+    #[must_use]
+    pub fn replaced(mut self, words: &str, by: &str) -> Self {
+        assert!(self.text.contains(words), "the job does not say {words}");
+        self.text = self.text.replace(words, by);
+        self
+    }
+
     /// With a spectrum file of these points.
     #[must_use]
     pub fn with_spectrum(mut self, path: &str, points: &[(f64, f64)]) -> Self {

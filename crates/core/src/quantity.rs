@@ -57,6 +57,15 @@ quantities! {
     Length(f32) = "length", "m";
     /// An identity; 0 is the background.
     Identity(u32) = "identity", "1";
-    /// A vector of three components: a normal (dimensionless) or a position (m), as its owner states.
+    /// Optical flow: where the surface point that a pixel sees is seen in another picture, minus where it is seen here (x right, y
+    /// down); NaN where that is not known.
+    OpticalFlow([f32; 2]) = "optical flow", "px";
+    /// How far left of its place in a left picture a point is seen in the right one of a rectified pair; NaN where that is not known.
+    Disparity(f32) = "disparity", "px";
+    /// Simulated time, counted from where its owner states.
+    Time(f32) = "time", "s";
+    /// A velocity within the picture (x right, y down); NaN where there is none.
+    ImageVelocity([f32; 2]) = "image velocity", "px.s^-1";
+    /// A vector of three components: a normal (dimensionless), a position (m) or a velocity (m/s), as its owner states.
     Vector([f32; 3]) = "vector", "1";
 }

@@ -14,7 +14,7 @@ use etendue_io::{Existing, OutputFolder, Provenance};
 use etendue_optics::{DepthOfField, OpticsError, PupilProjection};
 use etendue_pipeline::defocus::{held_margin_px, margin_px};
 use etendue_pipeline::photograph::Light;
-use etendue_pipeline::plan::{CameraBody, Products, RawFormat};
+use etendue_pipeline::plan::{Annotations, CameraBody, Products, RawFormat};
 use etendue_pipeline::stored;
 use etendue_sensor::{FrameAddress, SensorState};
 use serde_json::json;
@@ -34,6 +34,11 @@ impl Stored {
     /// The place of the camera that rendered it in its job; 0 in files of former versions.
     fn camera_index(&self) -> u32 {
         self.provenance.further.get("camera_index").and_then(|i| i.parse().ok()).unwrap_or(0)
+    }
+
+    /// The exposure time over which light that depends on time was gathered; `None` where it does not.
+    fn exposure_s(&self) -> Option<f64> {
+        self.provenance.further.get(metadata::EXPOSURE_S).and_then(|s| s.parse().ok())
     }
 
     /// Pixels whose errors may be equal.
@@ -79,6 +84,7 @@ pub fn expose(
 ) -> Result<Vec<PathBuf>, Error> {
     let body = open_camera(&request.camera, &request.set)?;
     let stored = stored(&request.radiance)?;
+    check_shutter(&body, &stored, request, observer)?;
     let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
     let name = stem(&request.camera);
     let files = Files::of(&products(&body), &body, &request.frames);
@@ -87,6 +93,32 @@ pub fn expose(
     folder.claim(claimed.iter().map(String::as_str)).map_err(Error::input)?;
     write(&body, &stored, request, observer, &mut ResultWriter { prefix: name, folder: &mut folder })?;
     folder.commit().map_err(Error::run)
+}
+
+/// Refuses rows that are read in turn where light depends on time, as the image holds one exposure of it for all of them; says where
+/// another exposure is asked for than the image was gathered over.
+fn check_shutter(
+    body: &CameraBody,
+    stored: &Stored,
+    request: &ExposeRequest,
+    observer: &dyn Observer,
+) -> Result<(), Error> {
+    let Some(stored_s) = stored.exposure_s() else { return Ok(()) };
+    let (radiance, camera) = (request.radiance.display(), request.camera.display());
+    if !body.exposure.is_global() {
+        return Err(Error::input(format!(
+            "{radiance} through {camera}: its light depends on time and is the mean over one exposure of {stored_s} s, and the camera reads its rows \
+             in turn; give it a \"global\" shutter, or render the job through the lens"
+        )));
+    }
+    let exposure = &body.exposure;
+    if exposure.exposure_s != stored_s || exposure.distinct_captures().len() > 1 {
+        observer.message(Message::Warning(&format!(
+            "{radiance}: its light depends on time and is the mean over {stored_s} s; motion and flicker stay those of that exposure, whatever \
+             exposures {camera} takes"
+        )));
+    }
+    Ok(())
 }
 
 /// Everything that the camera can make of the light.
@@ -106,6 +138,7 @@ fn products(body: &CameraBody) -> Products {
         depth_png_per_m: None,
         rays: false,
         undistorted: None,
+        annotations: Annotations::default(),
     }
 }
 

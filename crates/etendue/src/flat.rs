@@ -10,7 +10,7 @@ use crate::results::metadata;
 use crate::results::writer::ResultWriter;
 use etendue_io::{Existing, OutputFolder, Provenance};
 use etendue_pipeline::flat::{self, FlatLight, PhotonTransfer, Stack};
-use etendue_pipeline::plan::{CameraBody, Products, RawFormat};
+use etendue_pipeline::plan::{Annotations, CameraBody, Products, RawFormat};
 use etendue_sensor::{CaptureLight, FrameAddress, Sensor, SensorState};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -157,6 +157,7 @@ impl Task<'_> {
             depth_png_per_m: None,
             rays: false,
             undistorted: None,
+            annotations: Annotations::default(),
         }
     }
 

@@ -64,7 +64,7 @@ pub use datasheet::datasheet;
 pub use develop::{DevelopRequest, develop};
 pub use error::Error;
 pub use etendue_io::Existing;
-pub use etendue_io::inspect::inspect;
+pub use etendue_io::inspect::{Shown, inspect, inspect_showing};
 pub use etendue_tracer::accel::Simd;
 pub use expose::{ExposeRequest, expose};
 pub use flat::{FlatRequest, FlatSource, flat};

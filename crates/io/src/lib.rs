@@ -12,6 +12,7 @@
 //! | in | everything a description names, with all errors at once | [`assets`] |
 //! | out and in | spectral EXR (layout of Fichet, Pacanowski and Wilkie 2021) | [`exr`] |
 //! | out | ground-truth EXR, planes as EXR, raw, depth and display PNG, raw TIFF and DNG, side-car JSON | [`exr`], [`png`], [`mod@tiff`], [`sidecar`] |
+//! | out | optical flow and disparity in the files of the benchmarks | [`correspondence`] |
 //! | look | two results, channel beside channel | [`compare`] |
 //! | look | what is in a file, with a picture of it | [`inspect`] |
 //!
@@ -24,6 +25,7 @@
 pub mod assets;
 pub mod calibration;
 pub mod compare;
+pub mod correspondence;
 pub mod emva_descriptor;
 pub mod error;
 pub mod exr;

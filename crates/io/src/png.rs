@@ -78,7 +78,19 @@ pub(crate) fn encode_rgb8(width: usize, height: usize, rgb: &[u8]) -> Result<Vec
     Ok(with_statement(file, &Encoding::Srgb))
 }
 
-fn encode_grey16(width: usize, height: usize, values: &[u16]) -> Result<Vec<u8>, EncodeError> {
+/// Three numbers of 16 bits a pixel, of which no chunk says that they are colours.
+pub(crate) fn encode_rgb16(width: usize, height: usize, values: &[u16]) -> Result<Vec<u8>, EncodeError> {
+    let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_ne_bytes()).collect();
+    encode(width, height, &bytes, ExtendedColorType::Rgb16)
+}
+
+/// Puts a text under a keyword behind the header (PNG specification, 11.3.3.2: Latin-1).
+pub(crate) fn with_text(file: Vec<u8>, keyword: &str, text: &str) -> Vec<u8> {
+    with_chunk(file, *b"tEXt", &[keyword.as_bytes(), b"\0", text.as_bytes()].concat())
+}
+
+/// Numbers of 16 bits, one a pixel.
+pub(crate) fn encode_grey16(width: usize, height: usize, values: &[u16]) -> Result<Vec<u8>, EncodeError> {
     // The encoder takes 16-bit values in the machine's byte order.
     let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_ne_bytes()).collect();
     encode(width, height, &bytes, ExtendedColorType::L16)

@@ -35,6 +35,13 @@ pub(crate) fn said(file: &[u8]) -> Said {
     said
 }
 
+/// The text under the keyword Title, where a PNG has one before its picture.
+pub(crate) fn title(file: &[u8]) -> Option<&str> {
+    let texts = chunks(file).into_iter().filter(|(name, _)| name == b"tEXt");
+    let titles = texts.filter_map(|(_, data)| data.strip_prefix(b"Title\0"));
+    titles.filter_map(|text| std::str::from_utf8(text).ok()).next()
+}
+
 /// Names and data of the chunks before the picture's own.
 fn chunks(file: &[u8]) -> Vec<([u8; 4], &[u8])> {
     let mut found = Vec::new();

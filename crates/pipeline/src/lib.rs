@@ -16,4 +16,6 @@ pub use camera::{datasheet, defocus, flat, light_meter, photograph, raw_colour, 
 pub use compile::{Choices, Quality, compile, compile_camera, compile_camera_with_remarks};
 pub use plan::{Plan, remark, summary};
 pub use render::observer::{Observer, Unobserved};
-pub use render::{block, film, gather, light, mosaic, pupil_depth, rays, spectrum_spread, tile, truth};
+pub use render::{
+    block, boxes, film, frame_view, gather, light, mosaic, motion, pupil_depth, rays, spectrum_spread, tile, truth,
+};

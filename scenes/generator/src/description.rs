@@ -169,17 +169,26 @@ impl Description {
         text
     }
 
-    fn object_text(&self, object: &Object, text: &mut String) {
-        let Object { name, mesh, class, .. } = object;
-        let _ = write!(text, "\n[[objects]]\nname = \"{name}\"\nmesh = \"{mesh}\"\nclass = \"{class}\"\n");
-        let (_, geometry) = self.meshes.iter().find(|(known, _)| known == mesh).expect("an object's mesh exists");
+    /// Name, mesh, class and materials of an object; of its own mesh's slots, or of `only` these.
+    #[must_use]
+    pub fn object_head(&self, object: &Object, mesh: &str, only: Option<&[&'static str]>) -> String {
+        let Object { name, class, .. } = object;
+        let geometry =
+            self.meshes.iter().find(|(known, _)| *known == object.mesh).map(|(_, geometry)| &geometry.slots[..]);
+        let slots = only.unwrap_or_else(|| geometry.expect("an object's mesh exists"));
         let wears = |slot: &'static str| {
             let other = object.dress.iter().find(|(dressed, _)| *dressed == slot);
             format!("{slot} = \"{}\"", other.map_or(slot, |(_, material)| *material))
         };
-        let materials: Vec<String> = geometry.slots.iter().map(|&slot| wears(slot)).collect();
-        let _ = writeln!(text, "materials = {{ {} }}", materials.join(", "));
-        text.push_str("instances = [\n");
+        let materials: Vec<String> = slots.iter().map(|&slot| wears(slot)).collect();
+        let materials = materials.join(", ");
+        format!(
+            "[[objects]]\nname = \"{name}\"\nmesh = \"{mesh}\"\nclass = \"{class}\"\nmaterials = {{ {materials} }}\n"
+        )
+    }
+
+    fn object_text(&self, object: &Object, text: &mut String) {
+        let _ = write!(text, "\n{}instances = [\n", self.object_head(object, object.mesh, None));
         for spot in &object.spots {
             let _ = writeln!(text, "  {},", spot_text(*spot));
         }

@@ -22,6 +22,7 @@ mod irradiance;
 mod lamps;
 mod lens_light;
 mod levels;
+mod motion;
 mod openings;
 mod photons;
 mod plausible;

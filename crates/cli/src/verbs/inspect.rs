@@ -3,23 +3,30 @@
 use crate::args::file_name::png;
 use crate::output::{print, print_message};
 use clap::Args;
-use etendue::{Error, Existing, inspect, write_file};
+use etendue::{Error, Existing, Shown, inspect_showing, write_file};
 use std::path::{Path, PathBuf};
 
 /// `etendue inspect`
 #[derive(Debug, Args)]
 pub struct Inspect {
-    /// A file that Étendue reads or writes: EXR, PNG, JPEG, HDR, TIFF, DNG, OBJ, tables (CSV), lamps (IES, EULUMDAT), JSON side-car
+    /// A file that Étendue reads or writes: EXR, PNG, JPEG, HDR, TIFF, DNG, PFM, optical flow (.flo), OBJ, tables (CSV), lamps (IES, EULUMDAT), JSON side-car
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
     /// Write a picture of it here
     #[arg(long, value_name = "OUT.png", value_parser = png)]
     pub png: Option<PathBuf>,
+    /// The layer of an EXR that the picture shows: a channel, or what channels have before their last dot (depth, instance, flow.forward, N)
+    #[arg(long, value_name = "NAME", requires = "png")]
+    pub layer: Option<String>,
+    /// Draw the boxes of a frame's objects over the picture
+    #[arg(long, value_name = "boxes.NNNN.json", requires = "png")]
+    pub boxes: Option<PathBuf>,
 }
 
 impl Inspect {
     pub fn run(&self) -> Result<(), Error> {
-        let report = inspect(&self.file).map_err(Error::input)?;
+        let shown = Shown { layer: self.layer.clone(), boxes: self.boxes.clone() };
+        let report = inspect_showing(&self.file, &shown).map_err(Error::input)?;
         if let Some(path) = &self.png {
             if same(path, &self.file) {
                 let told = format!("--png {}: this is the file itself; choose another name", path.display());

@@ -3,7 +3,8 @@
 use crate::tone_curve::encoding;
 use etendue_core::quantity::{DigitalNumber, Irradiance, MeanElectrons, Quantity, Radiance};
 use etendue_pipeline::plan::{
-    CameraBody, CameraPlan, Development, PictureFormat, Plan, Products, RawFormat, TimeDependence,
+    Annotations, CameraBody, CameraPlan, CorrespondenceFormat, Development, PictureFormat, Plan, Products, RawFormat,
+    TimeDependence,
 };
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -36,6 +37,20 @@ impl Files {
     pub const GROUND_TRUTH: &str = "ground_truth.exr";
     /// Planar depth as a picture.
     pub const DEPTH: &str = "depth.png";
+    /// Optical flow, visibility, image velocity and motion in space.
+    pub const MOTION: &str = "motion.exr";
+    /// Optical flow to the next frame, Middlebury.
+    pub const FLOW_FLO: &str = "flow_forward.flo";
+    /// Optical flow to the next frame, KITTI.
+    pub const FLOW_PNG: &str = "flow_forward.png";
+    /// Disparity and visibility.
+    pub const DISPARITY: &str = "disparity.exr";
+    /// Disparity as a float map.
+    pub const DISPARITY_PFM: &str = "disparity.pfm";
+    /// Disparity, KITTI.
+    pub const DISPARITY_PNG: &str = "disparity.png";
+    /// Boxes of objects.
+    pub const BOXES: &str = "boxes.json";
     /// The ray of each pixel.
     pub const RAYS: &str = "rays.exr";
     /// The side-car.
@@ -137,6 +152,7 @@ impl Files {
         add(p.ground_truth, Self::GROUND_TRUTH, entry("depth, distance, normal, position, ids", "m, m, 1, m, 1"));
         let depth_unit = format!("1/{} m", p.depth_png_per_m.unwrap_or(0.0));
         add(p.depth_png_per_m.is_some(), Self::DEPTH, entry("planar depth, 0 is invalid", &depth_unit));
+        Self::of_annotations(&p.annotations, &mut add);
         add(p.rays, Self::RAYS, entry("origin and direction of each pixel's ray, camera frame", "m, 1"));
         let twin = p.undistorted.is_some();
         let planes = entry("depth, distance, normal, position, ids of the undistorted twin", "m, m, 1, m, 1");
@@ -144,6 +160,21 @@ impl Files {
         let rays = entry("origin and direction of each pixel's ray of the undistorted twin, camera frame", "m, 1");
         add(twin && p.rays, &Self::undistorted(Self::RAYS), rays);
         files
+    }
+
+    fn of_annotations(asked: &Annotations, add: &mut impl FnMut(bool, &str, Value)) {
+        let flow = entry("optical flow to the next frame", "px");
+        let layers = "flow, visibility, image velocity, scene flow, velocity and time, as far as asked for";
+        add(asked.needs_neighbours(), Self::MOTION, entry(layers, "px, 1, px/s, m, m/s, s"));
+        add(asked.optical_flow == Some(CorrespondenceFormat::Middlebury), Self::FLOW_FLO, flow.clone());
+        add(asked.optical_flow == Some(CorrespondenceFormat::Kitti), Self::FLOW_PNG, flow);
+        let disparity = asked.disparity.map(|asked| asked.format);
+        add(disparity.is_some(), Self::DISPARITY, entry("disparity, visibility", "px, 1"));
+        let map = entry("disparity; infinite where it is not known", "px");
+        add(disparity == Some(CorrespondenceFormat::Middlebury), Self::DISPARITY_PFM, map);
+        let picture = entry("disparity; 0 where it is not known", "1/256 px");
+        add(disparity == Some(CorrespondenceFormat::Kitti), Self::DISPARITY_PNG, picture);
+        add(asked.boxes, Self::BOXES, entry("boxes of objects in the picture and in space", "px, m"));
     }
 
     /// The files of photographs.

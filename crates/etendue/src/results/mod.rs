@@ -1,5 +1,7 @@
 //! What a camera delivers: its light, its frames, ground truth and rays, in memory and as files.
 
+mod annotations;
+mod boxes;
 mod camera;
 mod done_frames;
 pub(crate) mod files;

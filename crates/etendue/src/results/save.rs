@@ -75,6 +75,7 @@ impl CameraResults {
         self.write_spectra(&mut writer)?;
         let points = self.write_photographs(&mut writer, observer)?;
         self.write_truth(&mut writer)?;
+        self.write_annotations(&mut writer)?;
         if let Some(twin) = &self.undistorted {
             self.write_undistorted(twin, &mut writer)?;
         }
@@ -98,12 +99,12 @@ impl CameraResults {
     }
 
     /// The name of a file of light or ground truth.
-    fn file(&self, name: &str) -> String {
+    pub(super) fn file(&self, name: &str) -> String {
         if self.has_own_light() { Files::numbered(name, self.frame_numbers().start) } else { name.to_owned() }
     }
 
     /// The facts of the files of light and ground truth.
-    fn provenance(&self) -> etendue_io::Provenance {
+    pub(super) fn provenance(&self) -> etendue_io::Provenance {
         metadata::provenance(&self.plan, self.camera(), self.frame_numbers().start)
     }
 

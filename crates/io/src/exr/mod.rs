@@ -10,6 +10,8 @@
 //! | [`encode_spectral`] | `S0.550,000000nm` …, `variance.S0.550,000000nm` …, preview `R`, `G`, `B` |
 //! | [`encode_radiance`] | the same, at the pupil `distance.Z` and `depth.Z` |
 //! | [`encode_ground_truth`] | `depth.Z`, `distance.Z`, `N.X/Y/Z`, `P.X/Y/Z`, `instance.ID`, `semantic.ID`, `material.ID` |
+//! | [`encode_motion`] | `flow.forward.X/Y`, `visibility.forward.ID`, `scene_flow.forward.X/Y/Z`, the same `.backward.`, `motion_vector.X/Y`, `velocity.X/Y/Z`, `time.T` |
+//! | [`encode_disparity`] | `disparity.X`, `visibility.ID` |
 //! | [`encode_rays`] | `origin.X/Y/Z`, `direction.X/Y/Z`, `ray.ID` |
 //! | [`encode_layers`] | as named |
 //! | [`encode_plane`] | the quantity's name, `variance.` and the quantity's name |
@@ -18,6 +20,7 @@ mod compress;
 mod encode;
 mod ground_truth;
 mod layers;
+mod motion;
 mod name;
 mod plane;
 mod preview;
@@ -31,6 +34,7 @@ pub(crate) mod tests_support;
 pub use encode::EncodeError;
 pub use ground_truth::{GroundTruth, encode_ground_truth};
 pub use layers::{Layer, encode_layers};
+pub use motion::{MotionTruth, NeighbourTruth, VISIBILITY, encode_disparity, encode_motion};
 pub use name::{SpectralChannel, Stokes, channel_name, parse_channel_name};
 pub use plane::encode_plane;
 pub use rays::encode_rays;

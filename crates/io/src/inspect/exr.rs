@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use super::statistics::ChannelReport;
-use super::{FileReport, Preview};
+use super::{FileReport, Preview, layer};
 use crate::Error;
 use crate::exr::{ExrFile, Samples, SpectralImage, decode_exr, linear_srgb, parse_channel_name, spectral_of};
 
-pub(super) fn report(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
+/// The report, with a picture of the layer that is asked for.
+pub(super) fn report(file: &Path, bytes: &[u8], shown: Option<&str>) -> Result<FileReport, Error> {
     let exr = decode_exr(file, bytes)?;
     let mut report = FileReport::new(file, kind(&exr));
     report.state("size", format!("{} x {} pixels", exr.width, exr.height));
@@ -16,8 +17,15 @@ pub(super) fn report(file: &Path, bytes: &[u8]) -> Result<FileReport, Error> {
         report.state(name.strip_prefix("etendue:").unwrap_or(name), text);
     }
     report.channels = exr.channels.iter().map(|c| channel(&c.name, &c.samples)).collect();
-    report.preview = preview(file, &exr, &mut report);
+    report.preview = match shown {
+        Some(name) => Some(drawn(&exr, name, &mut report).ok_or_else(|| no_layer(file, &exr, name))?),
+        None => preview(file, &exr, &mut report),
+    };
     Ok(report)
+}
+
+fn no_layer(file: &Path, exr: &ExrFile, name: &str) -> Error {
+    Error::new(file, format!("there is no layer \"{name}\"; give one of {}", layer::names(exr).join(", ")))
 }
 
 fn kind(exr: &ExrFile) -> &'static str {
@@ -25,6 +33,7 @@ fn kind(exr: &ExrFile) -> &'static str {
         Some("spectral radiance") => "spectral radiance, EXR",
         Some("spectral irradiance") => "spectral irradiance, EXR",
         Some("ground truth") => "ground truth, EXR",
+        Some("ground truth of motion") => "ground truth of motion, EXR",
         _ if is_spectral(exr) => "spectral image, EXR",
         _ => "EXR",
     }
@@ -42,17 +51,25 @@ fn channel(name: &str, samples: &Samples) -> ChannelReport {
     }
 }
 
-/// R, G, B where they are there, else the colour of the spectra, else depth or the first channel as grey.
+/// R, G, B where they are there, else the colour of the spectra, else depth, flow or the first channel.
 fn preview(file: &Path, exr: &ExrFile, report: &mut FileReport) -> Option<Preview> {
     let pixels = stored_colour(exr).or_else(|| spectral_colour(file, exr, report));
     match pixels {
         Some(pixels) => Some(Preview::of_linear(exr.width, exr.height, &pixels)),
         None => {
-            let shown = exr.channels.iter().find(|c| c.name == "depth.Z").or(exr.channels.first())?;
-            report.notes.push(format!("the picture shows channel {}", shown.name));
-            Some(Preview::of_grey(exr.width, exr.height, &shown.samples.to_floats()))
+            let first = exr.channels.first().map(|channel| channel.name.as_str());
+            ["depth.Z", "flow.forward", "flow.backward"]
+                .into_iter()
+                .chain(first)
+                .find_map(|name| drawn(exr, name, report))
         }
     }
+}
+
+fn drawn(exr: &ExrFile, name: &str, report: &mut FileReport) -> Option<Preview> {
+    let (preview, told) = layer::drawn(exr, name)?;
+    report.notes.push(told);
+    Some(preview)
 }
 
 fn stored_colour(exr: &ExrFile) -> Option<Vec<[f32; 3]>> {

@@ -1,10 +1,15 @@
 //! What is in a file, with units, and a picture of it.
 //!
-//! Any EXR, PNG, JPEG, HDR, TIFF, DNG, OBJ, side-car JSON, CSV of spectra, refractive indices or retro-reflection, and measured lamp (IES, EULUMDAT). Statistics leave out values that are not finite and
+//! Any EXR, PNG, JPEG, HDR, TIFF, DNG, PFM, optical flow (.flo, KITTI), OBJ, side-car JSON, CSV of spectra, refractive indices or retro-reflection, and measured lamp (IES, EULUMDAT). Statistics leave out values that are not finite and
 //! count them.
 
+mod boxes;
+mod drawing;
 mod exr;
+mod flow;
 mod lamp;
+mod layer;
+mod object_box;
 mod picture;
 mod preview;
 mod report;
@@ -13,22 +18,60 @@ mod text;
 mod tiff;
 
 use crate::Error;
-use crate::photograph::is_tiff;
+use crate::correspondence::{is_flo, is_kitti_flow};
+use crate::photograph::{is_pfm, is_tiff};
 use crate::picture::EXR_MAGIC;
 use crate::source::read_bytes;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 pub use lamp::passing_beam;
 pub use preview::Preview;
 pub use report::FileReport;
 pub use statistics::ChannelReport;
 
+/// What the picture of a file shows, where the file leaves a choice.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Shown {
+    /// The layer of an EXR: a channel's full name, or what several channels have before their last dot (`flow.forward`, `N`, `instance`).
+    /// `None`: its colours, else depth, flow or the first channel.
+    pub layer: Option<String>,
+    /// A file of boxes (`boxes.0000.json`) that are drawn over the picture.
+    pub boxes: Option<PathBuf>,
+}
+
 /// Looks into `file`.
+///
+/// # Errors
+/// Where it is missing, damaged, or of no kind that is known.
 pub fn inspect(file: &Path) -> Result<FileReport, Error> {
+    inspect_showing(file, &Shown::default())
+}
+
+/// Looks into `file`, for a picture of what is asked for.
+///
+/// # Errors
+/// As [`inspect()`]; where there is no such layer, or the boxes do not fit the picture.
+pub fn inspect_showing(file: &Path, shown: &Shown) -> Result<FileReport, Error> {
+    let mut report = report(file, shown.layer.as_deref())?;
+    if let Some(file) = &shown.boxes {
+        boxes::draw(&mut report, file)?;
+    }
+    Ok(report)
+}
+
+fn report(file: &Path, layer: Option<&str>) -> Result<FileReport, Error> {
     let bytes = read_bytes(file, "result or asset")?;
+    if bytes.starts_with(&EXR_MAGIC) {
+        return exr::report(file, &bytes, layer);
+    }
+    if let Some(layer) = layer {
+        return Err(Error::new(
+            file,
+            format!("no EXR, which alone has layers such as \"{layer}\"; leave the layer out"),
+        ));
+    }
     let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
     match extension.to_str() {
-        _ if bytes.starts_with(&EXR_MAGIC) => exr::report(file, &bytes),
         Some("obj") => text::mesh(file),
         Some("json") => text::sidecar(file, &bytes),
         Some("ies" | "ldt") => lamp::report(file),
@@ -36,6 +79,9 @@ pub fn inspect(file: &Path) -> Result<FileReport, Error> {
         Some("toml") => {
             Err(Error::new(file, "a description, neither result nor asset; `etendue plan` says what a job describes"))
         }
+        _ if is_flo(&bytes) => flow::middlebury(file, &bytes),
+        _ if is_kitti_flow(&bytes) => flow::kitti(file, &bytes),
+        _ if is_pfm(&bytes) => flow::float_map(file, &bytes),
         _ if is_tiff(&bytes) => tiff::report(file, &bytes),
         _ => picture::report(file, &bytes),
     }

@@ -32,6 +32,7 @@ use std::path::Path;
 pub(crate) use channels::KINDS;
 pub use channels::{Channel, Photograph};
 pub use encoding::{Encoding, Stated};
+pub(crate) use pfm::is_pfm;
 pub use raw::{FilterTile, RawFacts, RawFrame};
 pub(crate) use tiff::is_tiff;
 

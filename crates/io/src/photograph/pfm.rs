@@ -9,7 +9,7 @@ use std::path::Path;
 use super::{Photograph, channel_names, of_floats, separated};
 use crate::Error;
 
-pub(super) fn is_pfm(bytes: &[u8]) -> bool {
+pub(crate) fn is_pfm(bytes: &[u8]) -> bool {
     matches!(bytes, [b'P', b'f' | b'F', next, ..] if next.is_ascii_whitespace())
 }
 

@@ -11,7 +11,7 @@ use etendue_io::exr::{
     GroundTruth, Lengths, Samples, SpectralImage, encode_ground_truth, encode_plane, encode_radiance, encode_spectral,
     read_exr, read_spectral,
 };
-use etendue_io::inspect::inspect;
+use etendue_io::inspect::{Shown, inspect, inspect_showing};
 
 const ODD: [f32; 6] = [0.0, -0.0, 1.5e-42, f32::MAX, f32::INFINITY, 1.0 / 3.0];
 
@@ -119,7 +119,14 @@ fn ground_truth_keeps_its_names_types_and_the_sky() {
     let report = inspect(&path).expect("ground truth");
     assert_eq!(report.kind, "ground truth, EXR");
     assert_eq!(report.channels[3].infinite_count, 1);
-    assert_eq!(report.notes, ["the picture shows channel depth.Z"]);
+    assert!(report.notes[0].starts_with("the picture shows depth.Z in the colours of viridis"), "{:?}", report.notes);
+    let of = |layer: &str| inspect_showing(&path, &Shown { layer: Some(layer.to_owned()), boxes: None });
+    let shown = |layer: &str| of(layer).expect("a layer").preview.expect("a picture").rgb;
+    assert_eq!(shown("instance.ID"), shown("semantic"));
+    assert_eq!(shown("instance")[0], [0; 3], "the background");
+    assert_eq!(shown("N"), [[128, 204, 26]; 6]);
+    let told = of("flow").expect_err("none").to_string();
+    assert!(told.ends_with("there is no layer \"flow\"; give one of N, depth, instance, semantic"), "{told}");
     let told = inspect(&written(folder.path(), "job.toml", b"format = 1\n")).expect_err("no result").to_string();
     assert!(told.contains("job.toml: a description, neither result nor asset"), "{told}");
 }

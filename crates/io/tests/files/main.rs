@@ -2,6 +2,7 @@
 
 mod assets;
 mod calibrations;
+mod correspondence;
 mod exr_files;
 mod f_theta;
 mod lamps;

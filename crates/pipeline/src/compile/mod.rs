@@ -3,6 +3,7 @@
 //! Names are resolved, models are made, contradictions are collected, all of them, with their places. After this
 //! nothing fails because of what the user wrote.
 
+mod annotations;
 mod camera;
 mod camera_path;
 mod choices;
@@ -105,6 +106,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     }
     let (material_table, materials) = builder.finish(context)?;
     let is_modulated = sources.is_modulated() || material_table.is_modulated();
+    annotations::resolve(description, &mut cameras, context);
     timing::depend(&mut cameras, &world, (&sources, is_modulated), context);
     shared_light::share(&mut cameras);
     positions::remark(&cameras, context);

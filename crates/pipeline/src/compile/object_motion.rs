@@ -11,12 +11,15 @@ use etendue_scene::record::transform::Transform;
 use etendue_scene::record::{Instance, Object};
 use glam::DAffine3;
 
-/// Every place of an object, from its frame to the world, with the name that the place has; `None` where one is faulty.
+/// From an object's frame to the world, with the name that the place has.
+type Placement<'o> = (Motion, Option<&'o Placed<String>>);
+
+/// Every place of an object; `None` where one is faulty.
 pub(super) fn placements<'o>(
     object: &'o Object,
     frames: &Frames<'_>,
     context: &mut Context<'_>,
-) -> Option<Vec<(Motion, Option<&'o Placed<String>>)>> {
+) -> Option<Vec<Placement<'o>>> {
     let course = object.course.as_ref();
     let mut moved = |frame: Option<&Placed<String>>, own: Motion| {
         rolling(frames.carrying(frame, own), object.rolls.as_ref(), context)

@@ -73,6 +73,7 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
         depth_png_per_m: depth_png.then(|| output.depth_png_scale.as_ref().map_or(256.0, |s| s.per_metre())),
         rays: said(&output.rays, false),
         undistorted: None,
+        annotations: super::annotations::asked(output),
     };
     remark_depth(&products, body, context);
     let products = Products { undistorted: undistorted(output, &products, body, context), ..products };

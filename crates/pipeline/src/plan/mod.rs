@@ -1,5 +1,6 @@
 //! The plan: everything that a rendering needs, resolved and checked. Immutable.
 
+mod annotations;
 mod camera;
 mod development;
 pub(crate) mod fingerprint;
@@ -17,6 +18,7 @@ use etendue_tracer::accel::World;
 use etendue_tracer::lights::Sources;
 use etendue_tracer::materials::MaterialTable;
 
+pub use annotations::{Annotations, CorrespondenceFormat, DisparityProduct};
 pub use camera::{CameraBody, CameraPlan, LightOwner};
 pub use development::{Development, PictureFormat};
 pub use products::{Products, RawFormat};

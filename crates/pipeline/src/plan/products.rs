@@ -1,5 +1,6 @@
 //! What a camera delivers.
 
+use super::annotations::Annotations;
 use etendue_sensor::Sensor;
 
 /// File format of digital numbers.
@@ -62,6 +63,8 @@ pub struct Products {
     pub rays: bool,
     /// Ground truth, rays and picture of the undistorted twin as well, by its focal length over the camera's.
     pub undistorted: Option<f64>,
+    /// Flow, disparity and boxes.
+    pub annotations: Annotations,
 }
 
 impl Products {
@@ -70,6 +73,6 @@ impl Products {
     pub fn is_empty(&self) -> bool {
         let light = self.radiance || self.irradiance || self.ghosts || self.electrons;
         let images = light || self.raw || self.picture || self.signal_breakdown;
-        !(images || self.ground_truth || self.depth_png_per_m.is_some() || self.rays)
+        !(images || self.ground_truth || self.depth_png_per_m.is_some() || self.rays || !self.annotations.is_empty())
     }
 }

@@ -185,7 +185,7 @@ pub(crate) fn seen(
 }
 
 /// Whether a pixel sees a surface that may be cut out: where at least half of it is there. Panes of glass are seen.
-fn is_there(view: &RenderSpace<'_>, material_table: &MaterialTable, point: &SurfacePoint) -> bool {
+pub(crate) fn is_there(view: &RenderSpace<'_>, material_table: &MaterialTable, point: &SurfacePoint) -> bool {
     if !material_table.lets_pass(point.material) {
         return true;
     }

@@ -1,7 +1,7 @@
 //! `[output]`: what is written. `None` everywhere means: the plan decides.
 
 use crate::place::{Place, Placed};
-use crate::reader::{Rule, choice, either, flag, number, record, variant};
+use crate::reader::{Rule, choice, either, flag, number, record, text, variant};
 
 record! {
     /// What is written.
@@ -46,6 +46,21 @@ record! {
         /// With "undistorted": the twin's focal length over the camera's own, above 0; below 1 it shows more of a picture that
         /// barrels. Default: 1.
         optional undistorted_scale: Placed<f64> = number("").above(0.0);
+        /// Where what each pixel sees is seen in the next frame and in the one before (px), whether it is seen there, and how fast its image
+        /// moves (px/s): the layers "flow", "visibility" and "motion_vector" of "motion.exr". Needs `[sequence]`. "exr": these alone;
+        /// "middlebury", "kitti": the flow to the next frame as .flo or 16-bit PNG as well. Default: none.
+        optional optical_flow: Placed<CorrespondenceFormat> = choice();
+        /// How what each pixel sees moves in space: to the next frame and the one before (m, cameras' frames) and in the world (m/s), the layers
+        /// "scene_flow" and "velocity" of "motion.exr". Needs `[sequence]`. Default: false.
+        optional scene_flow: Placed<bool> = flag();
+        /// The name of a camera to the right whose view is rectified with this one's: how much farther left it sees what each pixel sees (px), and
+        /// whether it does, "disparity.exr". Default: none.
+        optional disparity_to: Placed<String> = text("the name of the right camera");
+        /// With "disparity_to": "exr", that file alone; "middlebury", "kitti": .pfm or 16-bit PNG as well. Default: "exr".
+        optional disparity_format: Placed<CorrespondenceFormat> = choice();
+        /// Boxes of the objects, in the picture (what is seen, and the whole object) and in space, with the part that is seen and the part that lies
+        /// within the picture, JSON. Default: false.
+        optional boxes: Placed<bool> = flag();
     }
 }
 
@@ -58,6 +73,18 @@ choice! {
         "tiff" => Tiff,
         /// Digital Negative, for raw readers.
         "dng" => Dng,
+    }
+}
+
+choice! {
+    /// The files of optical flow or disparity.
+    pub enum CorrespondenceFormat {
+        /// EXR.
+        "exr" => Exr,
+        /// EXR, and .flo (flow) or .pfm (disparity) of 32-bit floats.
+        "middlebury" => Middlebury,
+        /// EXR, and 16-bit PNG: flow in 1/64 px up to ±512 px, disparity in 1/256 px up to 256 px.
+        "kitti" => Kitti,
     }
 }
 
@@ -123,6 +150,11 @@ impl Output {
             rays: None,
             undistorted: None,
             undistorted_scale: None,
+            optical_flow: None,
+            scene_flow: None,
+            disparity_to: None,
+            disparity_format: None,
+            boxes: None,
         }
     }
 
@@ -148,6 +180,11 @@ impl Output {
             rays: a.rays.or(b.rays),
             undistorted: a.undistorted.or(b.undistorted),
             undistorted_scale: a.undistorted_scale.or(b.undistorted_scale),
+            optical_flow: a.optical_flow.or(b.optical_flow),
+            scene_flow: a.scene_flow.or(b.scene_flow),
+            disparity_to: a.disparity_to.or(b.disparity_to),
+            disparity_format: a.disparity_format.or(b.disparity_format),
+            boxes: a.boxes.or(b.boxes),
         }
     }
 }

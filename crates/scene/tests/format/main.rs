@@ -7,6 +7,7 @@ mod faults;
 mod files;
 mod hostile;
 mod modulations;
+mod motion;
 mod pages;
 mod reference;
 mod schema;

@@ -12,7 +12,7 @@
 use super::point::{self, Normals};
 use super::{Hit, RenderSpace};
 use crate::geometry::InstanceTransform;
-use crate::geometry::{Instance, Mesh, Shape, SurfacePoint, sphere};
+use crate::geometry::{Mesh, Shape, SurfacePoint, sphere};
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};
 
@@ -31,6 +31,8 @@ pub struct Truth {
     pub position_m: DVec3,
     /// Unit shading normal in the world, on the side of the surface's winding (outwards for spheres).
     pub normal: DVec3,
+    /// Place of the instance in the world's list.
+    pub instance: u32,
     /// The instance's identity.
     pub instance_id: u32,
     /// The instance's class.
@@ -86,18 +88,16 @@ impl RenderSpace<'_> {
                 on_sphere(radius_m, placed, (origin, along), about)
             }
         };
-        report(instance, slot, t, self.origin_m + origin_m + direction * t, normal)
-    }
-}
-
-fn report(instance: &Instance, slot: usize, distance_m: f64, position_m: DVec3, normal: DVec3) -> Truth {
-    Truth {
-        distance_m,
-        position_m,
-        normal,
-        instance_id: instance.instance_id,
-        semantic_id: instance.semantic_id,
-        material: instance.materials[slot].0,
+        let position_m = self.origin_m + origin_m + direction * t;
+        Truth {
+            distance_m: t,
+            position_m,
+            normal,
+            instance: hit.instance,
+            instance_id: instance.instance_id,
+            semantic_id: instance.semantic_id,
+            material: instance.materials[slot].0,
+        }
     }
 }
 

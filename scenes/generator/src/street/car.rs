@@ -56,6 +56,24 @@ impl Shape {
     /// The whole car.
     #[must_use]
     pub(super) fn mesh(&self) -> Mesh {
+        self.assembled(true)
+    }
+
+    /// The car without its wheels.
+    #[must_use]
+    pub(super) fn body(&self) -> Mesh {
+        self.assembled(false)
+    }
+
+    /// Where the wheels' axles are: front left and right, rear left and right, m.
+    pub(super) fn hubs(&self) -> impl Iterator<Item = [f64; 3]> {
+        self.axles.into_iter().flat_map(|axle| {
+            let reach = self.half_width.at(axle) - 0.125;
+            [[axle, reach, self.wheel_radius], [axle, -reach, self.wheel_radius]]
+        })
+    }
+
+    fn assembled(&self, with_wheels: bool) -> Mesh {
         let mut mesh = Mesh::default();
         let stations = self.stations();
         let rings: Vec<_> = stations.iter().map(|&x| self.ring(x)).collect();
@@ -69,7 +87,9 @@ impl Shape {
         self.handles(&mut half);
         mesh.add(&half, DAffine3::IDENTITY);
         mesh.add(&half, DAffine3::from_scale(DVec3::new(1.0, -1.0, 1.0)));
-        self.wheels(&mut mesh);
+        if with_wheels {
+            self.wheels(&mut mesh);
+        }
         self.plates(&mut mesh);
         mesh
     }

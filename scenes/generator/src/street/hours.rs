@@ -11,7 +11,7 @@ const STREET_LAMP_COUNT: usize = 9;
 
 /// Cars that drive towards the camera: x and y of their middle, how far ahead of it their lamps are and how far apart, and
 /// how high, m.
-const ONCOMING: [[f64; 5]; 3] =
+pub(super) const ONCOMING: [[f64; 5]; 3] =
     [[25.5, 1.7, 2.05, 1.16, 0.70], [52.0, 1.65, 2.5, 1.4, 0.78], [74.0, 1.7, 2.3, 1.3, 0.70]];
 
 /// What lies in the carriageway, and its reflectance when dry (see `materials`): water covers it when it rains.
@@ -57,19 +57,10 @@ pub(super) fn night_scene() -> String {
          [[materials]]\nname = \"taillamp-driving\"\ntype = \"coated\"\nreflectance = [0.28, 0.012, 0.01]\nalpha = 0.002\n\
          emission = { luminance_cd_m2 = 60, rgb = [1, 0.005, 0.002] }\n",
     );
-    let _ = write!(
-        text,
-        "\n# A stand-in for a LED luminaire: {} lm, made from a formula.\n\
-         [[lights]]\nname = \"street-lamp\"\ntype = \"measured\"\nfile = \"street-lamp.ies\"\nilluminant = \"LED-B3\"\n\
-         instances = [\n",
-        luminaire::FLUX_LM
-    );
-    let [x, y, z] = STREET_LAMPS;
-    for i in 0..STREET_LAMP_COUNT {
-        let _ = writeln!(text, "  {{ position_m = [{}, {y}, {z}] }},", x + STREET_LAMP_EVERY_M * i as f64);
-    }
+    let _ = writeln!(text, "\n# A stand-in for a LED luminaire: {} lm, made from a formula.", luminaire::FLUX_LM);
+    text.push_str(&street_lamps("street-lamp.ies", ""));
     text.push_str(
-        "]\n\n# The camera's own car: low beam.\n\
+        "\n# The camera's own car: low beam.\n\
          [[lights]]\nname = \"own-low-beam\"\ntype = \"head_lamp\"\nbeam = \"low_beam\"\ntraffic = \"right\"\n\
          illuminant = \"LED-B5\"\n\
          instances = [\n  { position_m = [1.9, -0.97, 0.65] },\n  { position_m = [1.9, -2.23, 0.65] },\n]\n\n\
@@ -86,6 +77,18 @@ pub(super) fn night_scene() -> String {
     }
     text.push_str("]\n");
     text
+}
+
+/// The street's lamps by their photometric file, with further keys.
+pub(super) fn street_lamps(file: &str, keys: &str) -> String {
+    let mut text = format!(
+        "[[lights]]\nname = \"street-lamp\"\ntype = \"measured\"\nfile = \"{file}\"\nilluminant = \"LED-B3\"\n{keys}instances = [\n"
+    );
+    let [x, y, z] = STREET_LAMPS;
+    for i in 0..STREET_LAMP_COUNT {
+        let _ = writeln!(text, "  {{ position_m = [{}, {y}, {z}] }},", x + STREET_LAMP_EVERY_M * i as f64);
+    }
+    text + "]\n"
 }
 
 /// The scene at night after rain: a film of water on the carriageway, over the textures and the paint of the dry one.

@@ -7,6 +7,7 @@
 mod building;
 mod car;
 mod curve;
+mod drive;
 mod fleet;
 mod furniture;
 mod hours;
@@ -25,6 +26,7 @@ mod wheel;
 use crate::File;
 use crate::description::Description;
 use crate::luminaire;
+use crate::obj::obj;
 
 /// Every generated file of the street.
 #[must_use]
@@ -34,6 +36,7 @@ pub fn files() -> Vec<File> {
     files.push(File::text(String::from("street/scene.toml"), text::scene(&street)));
     files.push(File::text(String::from("street/street.toml"), text::job()));
     files.extend(other_hours());
+    files.extend(drive(&street));
     files
 }
 
@@ -52,6 +55,19 @@ fn other_hours() -> Vec<File> {
         ("street-lamp.ies", luminaire::ies()),
     ];
     files.map(|(name, text)| File::text(format!("street/{name}"), text)).into()
+}
+
+/// A drive down the street: its scene and job, and a car in parts, whose wheels turn.
+fn drive(street: &Description) -> [File; 5] {
+    let part = |name: &str, mesh| File::text(format!("street/meshes/{name}.obj"), obj(&mesh, "street.mtl"));
+    let hatchback = fleet::hatchback();
+    [
+        part("hatchback-body", hatchback.body()),
+        part("wheel", wheel::mesh(hatchback.wheel_radius)),
+        File::text(String::from("drive/scene.toml"), drive::scene(street)),
+        File::text(String::from("drive/drive.toml"), drive::job()),
+        File::text(String::from("drive/ego.csv"), drive::ego()),
+    ]
 }
 
 /// Triangles of the street in its files, and with every instance counted.

@@ -43,6 +43,8 @@ const BLENDED_S: f64 = 100e-9;
 /// A pixel's ground truth: a primary ray and what it meets. night-flare.toml and sphere-on-plane.toml with and without it: less than the
 /// noise between runs.
 const TRUTH_S: f64 = 0.3e-6;
+/// Rays of ground truth a pixel for boxes: its own, and those of the objects whose boxes hold it, in a street.
+const BOX_RAYS: f64 = 8.0;
 /// A number of a cube written: "Spectral EXR" there.
 const WRITTEN_S: f64 = 4.0 / 34.5e6;
 
@@ -148,7 +150,16 @@ fn rows(body: &CameraBody) -> f64 {
 fn truth(camera: &CameraPlan) -> f64 {
     let products = &camera.products;
     let picture = pixels(camera.body.raster.width(), camera.body.raster.height());
-    if products.ground_truth || products.depth_png_per_m.is_some() || products.rays { picture * TRUTH_S } else { 0.0 }
+    let annotations = &products.annotations;
+    let planes = products.ground_truth || products.depth_png_per_m.is_some() || products.rays;
+    // A ray of the frame itself, and one of each that is compared; boxes: about one for every object that a pixel's ray passes.
+    let traced = [
+        (planes, 1.0),
+        (annotations.needs_neighbours(), 3.0),
+        (annotations.disparity.is_some(), 2.0),
+        (annotations.boxes, BOX_RAYS),
+    ];
+    picture * TRUTH_S * traced.iter().filter(|(wanted, _)| *wanted).map(|(_, rays)| rays).sum::<f64>()
 }
 
 /// Cubes of bands, encoded.

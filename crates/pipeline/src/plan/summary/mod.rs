@@ -263,6 +263,10 @@ fn products(p: &Products) -> String {
         (p.depth_png_per_m.is_some(), "depth PNG"),
         (p.rays, "ray table"),
         (p.undistorted.is_some(), "the undistorted twin of these"),
+        (p.annotations.optical_flow.is_some(), "optical flow"),
+        (p.annotations.scene_flow, "scene flow"),
+        (p.annotations.disparity.is_some(), "disparity"),
+        (p.annotations.boxes, "boxes"),
     ];
     let list: Vec<&str> = named.iter().filter(|(wanted, _)| *wanted).map(|(_, name)| *name).collect();
     if list.is_empty() { "nothing".to_owned() } else { list.join(", ") }

@@ -1,5 +1,6 @@
 //! What of a plan depends on time, and when its frames and rows are exposed.
 
+use super::words::figure;
 use crate::plan::{CameraPlan, Plan, RowExposure, TimeDependence};
 use etendue_core::{RowTiming, Shutter};
 
@@ -27,7 +28,7 @@ pub(super) fn frames(camera: &CameraPlan) -> Option<String> {
     let timing = &camera.timing;
     let rate = match timing.period_s {
         None => "only frame 0, as no [sequence] is described".to_owned(),
-        Some(period_s) => format!("one every {period_s} s"),
+        Some(period_s) => format!("{} a second", figure(1.0 / period_s)),
     };
     let jitter = timing.jitter.map_or_else(String::new, |j| format!(" ± {} s of jitter", j.half_width_s));
     Some(format!("{rate}, from {} s on{jitter}; {why}", timing.start_s))
@@ -46,7 +47,7 @@ pub(super) fn shutter(camera: &CameraPlan) -> Option<String> {
     };
     let captures = match rows.captures.len() {
         1 => String::new(),
-        n => format!("; {n} captures, the last one from {} s on", rows.captures[n - 1].start_s),
+        n => format!("; {n} captures, the last one from {} s on", figure(rows.captures[n - 1].start_s)),
     };
     let s = rows.exposure_s;
     Some(match &rows.shutter {
@@ -62,6 +63,6 @@ fn order(rows: &RowExposure, timing: &RowTiming) -> String {
     let RowTiming { row_time_s, upwards, fields } = timing;
     let from = if *upwards { "from the bottom" } else { "from the top" };
     let fields = if *fields > 1 { format!(" in {fields} fields") } else { String::new() };
-    let last_s = rows.shutter.length_s(rows.rows, 0.0);
-    format!("{} µs from row to row {from}{fields}, the last one {last_s} s after the first", 1e6 * row_time_s)
+    let last_ms = figure(1e3 * rows.shutter.length_s(rows.rows, 0.0));
+    format!("{} µs from row to row {from}{fields}, the last one {last_ms} ms after the first", figure(1e6 * row_time_s))
 }

@@ -1,0 +1,118 @@
+//! Ground truth between frames, between cameras and of objects: in memory, and as files.
+
+use super::boxes::boxes_json;
+use super::camera::CameraResults;
+use super::files::Files;
+use super::writer::{Encoder, ResultWriter};
+use crate::error::Error;
+use etendue_core::Plane;
+use etendue_core::quantity::{Disparity, Identity};
+use etendue_io::Provenance;
+use etendue_io::correspondence::{encode_flo, encode_kitti_disparity, encode_kitti_flow, encode_pfm};
+use etendue_io::exr::{self, encode_disparity, encode_motion};
+use etendue_pipeline::boxes::{ObjectBoxes, object_boxes};
+use etendue_pipeline::frame_view::FrameView;
+use etendue_pipeline::motion::{MotionTruth, NeighbourTruth, disparity, motion_truth};
+use etendue_pipeline::plan::{CorrespondenceFormat, Products};
+use serde_json::Value;
+
+impl CameraResults {
+    /// Optical flow, visibility and motion in space of the first of the frames: against the next frame, and then against the one before it,
+    /// but for frame 0, before which there is none. Traced anew at each call, on the caller's thread pool. Where no period of frames is stated
+    /// all frames are one moment.
+    #[must_use]
+    pub fn motion_truth(&self) -> MotionTruth {
+        let here = self.frame_view();
+        let before = here.frame.checked_sub(1);
+        let others: Vec<FrameView<'_>> =
+            [Some(here.frame + 1), before].into_iter().flatten().map(|frame| FrameView { frame, ..here }).collect();
+        motion_truth(&self.plan, &here, &others, self.simd)
+    }
+
+    /// Disparity to the camera that the job names, and whether that sees each point, of the first of the frames; `None` where it names none. Traced
+    /// anew at each call, on the caller's thread pool.
+    #[must_use]
+    pub fn disparity(&self) -> Option<(Plane<Disparity>, Plane<Identity>)> {
+        let here = self.frame_view();
+        let right = self.camera().products.annotations.disparity?.right;
+        let camera = self.plan.cameras.iter().find(|camera| camera.index == right)?;
+        Some(disparity(&self.plan, &here, &FrameView { camera, ..here }, self.simd))
+    }
+
+    /// The boxes of the objects in the first of the frames. Traced anew at each call, on the caller's thread pool.
+    #[must_use]
+    pub fn boxes(&self) -> Vec<ObjectBoxes> {
+        object_boxes(&self.plan, &self.frame_view(), &self.ground_truth().instance, self.simd)
+    }
+
+    fn frame_view(&self) -> FrameView<'_> {
+        FrameView { camera: self.camera(), frame: self.frame_numbers().start }
+    }
+
+    pub(super) fn write_annotations(&self, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+        let asked = &self.camera().products.annotations;
+        if asked.needs_neighbours() {
+            self.write_motion(writer)?;
+        }
+        if asked.boxes {
+            let facts: Value = boxes_json(&self.plan, &self.frame_view(), &self.boxes());
+            writer.json(&self.file(Files::BOXES), &facts)?;
+        }
+        self.write_disparity(writer)
+    }
+
+    fn write_motion(&self, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+        let (truth, facts) = (self.motion_truth(), self.provenance());
+        let products = &self.camera().products;
+        let mut files: Vec<(String, Encoder<'_>)> =
+            vec![(self.file(Files::MOTION), Box::new(|| encode_motion(&planes(&truth, products), &facts)))];
+        let flow = &truth.neighbours[0].flow;
+        match products.annotations.optical_flow {
+            None | Some(CorrespondenceFormat::Exr) => {}
+            Some(CorrespondenceFormat::Middlebury) => {
+                files.push((self.file(Files::FLOW_FLO), Box::new(|| encode_flo(flow))));
+            }
+            Some(CorrespondenceFormat::Kitti) => {
+                files.push((self.file(Files::FLOW_PNG), Box::new(|| encode_kitti_flow(flow))));
+            }
+        }
+        writer.write_together(files)
+    }
+
+    fn write_disparity(&self, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+        let Some((disparity, seen)) = self.disparity() else { return Ok(()) };
+        let asked = self.camera().products.annotations.disparity.expect("disparity is asked for");
+        let right = self.plan.cameras.iter().find(|camera| camera.index == asked.right).expect("a camera of the plan");
+        let facts: Provenance = self.provenance();
+        let exr = encode_disparity(&disparity, &seen, &right.name, &facts);
+        writer.write(&self.file(Files::DISPARITY), exr)?;
+        match asked.format {
+            CorrespondenceFormat::Exr => Ok(()),
+            CorrespondenceFormat::Middlebury => {
+                let bytes = encode_pfm(disparity.width(), disparity.samples());
+                writer.write(&self.file(Files::DISPARITY_PFM), bytes)
+            }
+            CorrespondenceFormat::Kitti => {
+                writer.write(&self.file(Files::DISPARITY_PNG), encode_kitti_disparity(&disparity))
+            }
+        }
+    }
+}
+
+/// The layers that are asked for.
+fn planes<'a>(truth: &'a MotionTruth, products: &Products) -> exr::MotionTruth<'a> {
+    let asked = &products.annotations;
+    let flow = asked.optical_flow.is_some();
+    let neighbour = |found: &'a NeighbourTruth| exr::NeighbourTruth {
+        flow: flow.then_some(&found.flow),
+        visibility: flow.then_some(&found.visibility),
+        scene_flow: asked.scene_flow.then_some(&found.scene_flow),
+    };
+    exr::MotionTruth {
+        forward: truth.neighbours.first().map(neighbour),
+        backward: truth.neighbours.get(1).map(neighbour),
+        motion_vector: flow.then_some(&truth.motion_vector),
+        velocity: asked.scene_flow.then_some(&truth.velocity),
+        time: Some(&truth.time),
+    }
+}

@@ -1,0 +1,161 @@
+//! Ground truth of motion as an EXR: where what a pixel sees is seen in the frames before and after it, and how it moves.
+
+use etendue_core::Plane;
+use etendue_core::quantity::{Disparity, Identity, ImageVelocity, OpticalFlow, Quantity, Time, Vector};
+
+use super::encode::{EncodeError, ExrImage};
+use super::ground_truth::add_vector;
+use crate::Provenance;
+
+/// What a pixel's surface point is in one neighbouring frame.
+#[derive(Clone, Copy, Debug)]
+pub struct NeighbourTruth<'a> {
+    /// Where it is seen there, minus where it is seen here, px; NaN where it has no image there. `None` where it is not asked for.
+    pub flow: Option<&'a Plane<OpticalFlow>>,
+    /// Whether it is seen there: [`VISIBILITY`]. `None` where it is not asked for.
+    pub visibility: Option<&'a Plane<Identity>>,
+    /// Its place in the camera's frame there minus that here, each camera's own frame, m; NaN for the background. `None` where it is not
+    /// asked for.
+    pub scene_flow: Option<&'a Plane<Vector>>,
+}
+
+/// Planes of the truth of motion of one frame; what a job did not ask for is `None`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MotionTruth<'a> {
+    /// In the next frame.
+    pub forward: Option<NeighbourTruth<'a>>,
+    /// In the frame before.
+    pub backward: Option<NeighbourTruth<'a>>,
+    /// Velocity of the image at the middle of the pixel's exposure, px/s.
+    pub motion_vector: Option<&'a Plane<ImageVelocity>>,
+    /// Velocity of the surface point in the world, m/s; NaN for the background.
+    pub velocity: Option<&'a Plane<Vector>>,
+    /// The moment of the pixel's truth, s from the frame's start.
+    pub time: Option<&'a Plane<Time>>,
+}
+
+/// What the numbers of a visibility plane mean.
+pub const VISIBILITY: &str =
+    "0 not known, 1 seen, 2 hidden by what is before it, 3 outside the picture, 4 no image by the lens";
+
+/// The planes of `truth` in one file.
+///
+/// # Errors
+/// Where there is no plane, or planes have different sizes.
+pub fn encode_motion(truth: &MotionTruth<'_>, provenance: &Provenance) -> Result<Vec<u8>, EncodeError> {
+    let (width, height) = truth.size().ok_or(EncodeError::NoChannels)?;
+    let mut image = ExrImage::new(width, height, provenance);
+    for (direction, neighbour) in [("forward", truth.forward), ("backward", truth.backward)] {
+        let Some(neighbour) = neighbour else { continue };
+        if let Some(plane) = neighbour.flow {
+            add_pair(&mut image, &format!("flow.{direction}"), plane.samples());
+        }
+        if let Some(plane) = neighbour.visibility {
+            image.uint(format!("visibility.{direction}.ID"), plane.samples().to_vec());
+        }
+        if let Some(plane) = neighbour.scene_flow {
+            add_vector(&mut image, &format!("scene_flow.{direction}"), plane);
+        }
+    }
+    if let Some(plane) = truth.motion_vector {
+        add_pair(&mut image, "motion_vector", plane.samples());
+    }
+    if let Some(plane) = truth.velocity {
+        add_vector(&mut image, "velocity", plane);
+    }
+    if let Some(plane) = truth.time {
+        image.float("time.T", plane.samples().to_vec());
+    }
+    image.state("quantity", "ground truth of motion");
+    image.state("units", "flow: px; motion_vector: px/s; scene_flow: m, camera frames; velocity: m/s, world; time: s");
+    image.state("flow", "place in the other frame minus place here, x right, y down; NaN: no image there");
+    image.state("visibility", VISIBILITY);
+    image.state("sampling", "point sample on the principal ray at the middle of the row's exposure, never filtered");
+    image.into_bytes()
+}
+
+/// Disparity to a right camera and whether that sees the point, in one file.
+///
+/// # Errors
+/// Where planes have different sizes or none.
+pub fn encode_disparity(
+    disparity: &Plane<Disparity>,
+    visibility: &Plane<Identity>,
+    right: &str,
+    provenance: &Provenance,
+) -> Result<Vec<u8>, EncodeError> {
+    let mut image = ExrImage::new(disparity.width(), disparity.height(), provenance);
+    image.float("disparity.X", disparity.samples().to_vec());
+    image.uint("visibility.ID", visibility.samples().to_vec());
+    image.state("quantity", "disparity");
+    image.state("units", "px; the column here minus that in the right camera's picture; NaN: no image there");
+    image.state("right_camera", right);
+    image.state("visibility", VISIBILITY);
+    image.into_bytes()
+}
+
+impl MotionTruth<'_> {
+    fn size(&self) -> Option<(usize, usize)> {
+        fn of<Q: Quantity>(plane: &Plane<Q>) -> (usize, usize) {
+            (plane.width(), plane.height())
+        }
+        let neighbour = self.forward.or(self.backward).and_then(|n| n.flow.map(of).or(n.scene_flow.map(of)));
+        neighbour.or(self.motion_vector.map(of)).or(self.velocity.map(of)).or(self.time.map(of))
+    }
+}
+
+fn add_pair(image: &mut ExrImage, layer: &str, samples: &[[f32; 2]]) {
+    for (axis, letter) in ["X", "Y"].into_iter().enumerate() {
+        image.float(format!("{layer}.{letter}"), samples.iter().map(|v| v[axis]).collect());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exr::{Samples, decode_exr};
+    use std::path::Path;
+
+    #[test]
+    fn every_plane_has_its_layer_and_keeps_its_numbers() {
+        let flow = Plane::<OpticalFlow>::filled(2, 1, [1.5, f32::NAN]);
+        let ids = Plane::<Identity>::from_samples(2, 1, vec![1, 3]).expect("two pixels");
+        let vector = Plane::<Vector>::filled(2, 1, [1.0, -2.0, 3.0]);
+        let velocity = Plane::<ImageVelocity>::filled(2, 1, [-4.0, 5.0]);
+        let time = Plane::<Time>::filled(2, 1, 0.25);
+        let neighbour = NeighbourTruth { flow: Some(&flow), visibility: Some(&ids), scene_flow: Some(&vector) };
+        let truth = MotionTruth {
+            forward: Some(neighbour),
+            backward: Some(NeighbourTruth { scene_flow: None, ..neighbour }),
+            motion_vector: Some(&velocity),
+            velocity: Some(&vector),
+            time: Some(&time),
+        };
+        let bytes = encode_motion(&truth, &Provenance::default()).expect("encodable");
+        let read = decode_exr(Path::new("motion.0000.exr"), &bytes).expect("our own");
+        let names: Vec<&str> = read.channels.iter().map(|c| c.name.as_str()).collect();
+        let layers = [
+            "flow.backward.X",
+            "flow.backward.Y",
+            "flow.forward.X",
+            "flow.forward.Y",
+            "motion_vector.X",
+            "motion_vector.Y",
+            "scene_flow.forward.X",
+            "scene_flow.forward.Y",
+            "scene_flow.forward.Z",
+            "time.T",
+            "velocity.X",
+            "velocity.Y",
+            "velocity.Z",
+            "visibility.backward.ID",
+            "visibility.forward.ID",
+        ];
+        assert_eq!(names, layers);
+        let first = |name: &str| read.channel(name).map(|samples| samples.to_floats()[0]);
+        assert_eq!(first("flow.forward.X").zip(first("motion_vector.Y")), Some((1.5, 5.0)));
+        assert!(first("flow.backward.Y").is_some_and(f32::is_nan));
+        assert_eq!(read.channel("visibility.forward.ID"), Some(&Samples::Uint(vec![1, 3])));
+        assert_eq!(encode_motion(&MotionTruth::default(), &Provenance::default()), Err(EncodeError::NoChannels));
+    }
+}

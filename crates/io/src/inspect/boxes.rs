@@ -1,0 +1,41 @@
+//! The boxes of objects in a file that this program has written (`boxes.0000.json`).
+
+use super::object_box::ObjectBox;
+use super::{FileReport, Preview, drawing};
+use crate::Error;
+use crate::source::read_bytes;
+use serde::Deserialize;
+use std::path::Path;
+
+/// What is read of the boxes of a frame.
+#[derive(Debug, Deserialize)]
+struct Boxes {
+    width_px: usize,
+    height_px: usize,
+    objects: Vec<ObjectBox>,
+}
+
+/// Draws the boxes of `boxes` over the picture of a report.
+///
+/// # Errors
+/// Where the file is none of boxes, or is of a picture of another size; where the report has no picture.
+pub(super) fn draw(report: &mut FileReport, boxes: &Path) -> Result<(), Error> {
+    let found: Boxes = serde_json::from_slice(&read_bytes(boxes, "file of boxes")?).map_err(|cause| {
+        Error::at(boxes, cause.line(), format!("no boxes of objects, as boxes.0000.json has them: {cause}"))
+    })?;
+    let Some(preview) = &mut report.preview else {
+        return Err(Error::new(&report.file, "there is no picture on which boxes could be drawn; give a picture"));
+    };
+    let Preview { width, height, .. } = *preview;
+    if (width, height) != (found.width_px, found.height_px) {
+        let (w, h) = (found.width_px, found.height_px);
+        let told = format!("boxes of a picture of {w} x {h} pixels, for one of {width} x {height}; give those of it");
+        return Err(Error::new(boxes, told));
+    }
+    drawing::draw_boxes(preview, &found.objects);
+    let seen = found.objects.iter().filter(|object| object.visible_box_px.is_some()).count();
+    report.notes.push(format!(
+        "boxes of {seen} objects that are seen: full lines about what is seen, dots about the whole object, in the colours of their ids"
+    ));
+    Ok(())
+}

@@ -1,0 +1,83 @@
+//! The layers of an EXR, and a picture of one.
+//!
+//! A layer is a channel by its full name, or what several channels have before their last dot: `flow.forward` of `flow.forward.X` and
+//! `flow.forward.Y`, `N` of `N.X`, `N.Y`, `N.Z`, `depth` of `depth.Z`.
+
+use super::Preview;
+use super::drawing::{of_differences, of_flow, of_identities, of_lengths, of_vectors};
+use crate::exr::{ExrFile, Samples};
+
+/// The picture of a layer and what it shows, in a sentence; `None` where the file has no such layer.
+pub(super) fn drawn(exr: &ExrFile, name: &str) -> Option<(Preview, String)> {
+    let part = |letter: &str| exr.channel(&format!("{name}.{letter}")).map(Samples::to_floats);
+    let (rgb, told) = match (part("X"), part("Y"), part("Z")) {
+        (Some(x), Some(y), Some(z)) => vectors(name, [&x, &y, &z]),
+        (Some(u), Some(v), None) => flow(name, [&u, &v]),
+        _ => return single(exr, name),
+    };
+    Some((Preview { width: exr.width, height: exr.height, rgb }, told))
+}
+
+/// The names of the layers, sorted, each once.
+pub(super) fn names(exr: &ExrFile) -> Vec<&str> {
+    let mut names: Vec<&str> =
+        exr.channels.iter().map(|c| c.name.rsplit_once('.').map_or(c.name.as_str(), |(layer, _)| layer)).collect();
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
+fn flow(name: &str, [u, v]: [&[f32]; 2]) -> (Vec<[u8; 3]>, String) {
+    let (rgb, scale) = of_flow(u, v);
+    let unit = match name {
+        "motion_vector" => " px/s",
+        name if name.starts_with("flow") => " px",
+        _ => "",
+    };
+    (rgb, wheel_note(name, scale, unit))
+}
+
+/// What a picture of flow says of itself.
+pub(super) fn wheel_note(name: &str, scale: f32, unit: &str) -> String {
+    format!(
+        "the picture shows {name} on the colour wheel of Baker et al. 2011 (right red, down yellow, left cyan, up violet), full colour at \
+         {scale:.4}{unit}, darker beyond; black is not known"
+    )
+}
+
+fn vectors(name: &str, components: [&[f32]; 3]) -> (Vec<[u8; 3]>, String) {
+    let (rgb, scale) = of_vectors(components, name == "N");
+    (rgb, format!("the picture shows {name}: x, y, z as red, green, blue, from {:.4} to {scale:.4}", -scale))
+}
+
+fn single(exr: &ExrFile, name: &str) -> Option<(Preview, String)> {
+    let (width, height) = (exr.width, exr.height);
+    let found = exr.channels.iter().find(|c| c.name == name || c.name.rsplit_once('.').is_some_and(|(l, _)| l == name));
+    let channel = found?;
+    let (rgb, told) = match &channel.samples {
+        Samples::Uint(ids) => (of_identities(ids), format!("the picture shows {}, a colour each", channel.name)),
+        samples if channel.name.ends_with(".Z") => lengths(&channel.name, &samples.to_floats()),
+        samples => {
+            let told = format!("the picture shows channel {}", channel.name);
+            return Some((Preview::of_grey(width, height, &samples.to_floats()), told));
+        }
+    };
+    Some((Preview { width, height, rgb }, told))
+}
+
+fn lengths(name: &str, values: &[f32]) -> (Vec<[u8; 3]>, String) {
+    let (rgb, [near, far]) = of_lengths(values);
+    let told = format!(
+        "the picture shows {name} in the colours of viridis by the logarithm, from {near:.4} (yellow) to {far:.4} (violet); white is infinite"
+    );
+    (rgb, told)
+}
+
+/// Disparities or other numbers of one channel.
+pub(super) fn differences(width: usize, height: usize, values: &[f32]) -> (Preview, String) {
+    let (rgb, [low, high]) = of_differences(values);
+    let told = format!(
+        "the picture shows the numbers in the colours of viridis, from {low:.4} (violet) to {high:.4} (yellow); white is infinite"
+    );
+    (Preview { width, height, rgb }, told)
+}

@@ -1,0 +1,138 @@
+//! Flow, disparity and boxes: from what is asked for to what is delivered.
+
+use super::context::Context;
+use crate::plan::{Annotations, CameraPlan, CorrespondenceFormat, DisparityProduct};
+use etendue_optics::Lens;
+use etendue_scene::Description;
+use etendue_scene::record::Output;
+use etendue_scene::record::output::CorrespondenceFormat as FormatRecord;
+use glam::{DVec2, DVec3};
+
+/// How far (px) a point may be seen above or below its row in the other camera of a rectified pair.
+const ROW_TOLERANCE_PX: f64 = 1e-3;
+
+/// What a camera delivers, but for disparity, for which all cameras must be known.
+pub(super) fn asked(output: &Output) -> Annotations {
+    Annotations {
+        optical_flow: output.optical_flow.as_ref().map(|key| format(key.value)),
+        scene_flow: output.scene_flow.as_ref().is_some_and(|key| key.value),
+        disparity: None,
+        boxes: output.boxes.as_ref().is_some_and(|key| key.value),
+    }
+}
+
+fn format(record: FormatRecord) -> CorrespondenceFormat {
+    match record {
+        FormatRecord::Exr => CorrespondenceFormat::Exr,
+        FormatRecord::Middlebury => CorrespondenceFormat::Middlebury,
+        FormatRecord::Kitti => CorrespondenceFormat::Kitti,
+    }
+}
+
+/// Finds the right cameras of disparities, and refuses what has no other frame or no rectified partner.
+pub(super) fn resolve(description: &Description, cameras: &mut [CameraPlan], context: &mut Context<'_>) {
+    for place in 0..cameras.len() {
+        let Some(setup) = description.cameras.get(cameras[place].index as usize) else { continue };
+        check_frames(&setup.output, &cameras[place], context);
+        cameras[place].products.annotations.disparity = disparity(&setup.output, &cameras[place], cameras, context);
+    }
+}
+
+fn check_frames(output: &Output, camera: &CameraPlan, context: &mut Context<'_>) {
+    if camera.timing.period_s.is_some() || !camera.products.annotations.needs_neighbours() {
+        return;
+    }
+    let keys = [
+        output.optical_flow.as_ref().map(|key| ("optical_flow", &key.place)),
+        output.scene_flow.as_ref().filter(|key| key.value).map(|key| ("scene_flow", &key.place)),
+    ];
+    for (name, place) in keys.into_iter().flatten() {
+        let problem = format!("\"{name}\" looks at the frames before and after, and nothing says when they are");
+        context.fault(place, problem, "add [sequence] with \"frame_rate_hz\" to the job, or remove the key");
+    }
+}
+
+fn disparity(
+    output: &Output,
+    left: &CameraPlan,
+    cameras: &[CameraPlan],
+    context: &mut Context<'_>,
+) -> Option<DisparityProduct> {
+    let Some(key) = &output.disparity_to else {
+        if let Some(format) = &output.disparity_format {
+            let problem = "\"disparity_format\" has no effect without \"disparity_to\"";
+            context.idle(
+                ("disparity_format", &format.place),
+                None,
+                problem,
+                "name the right camera, or remove the key",
+            );
+        }
+        return None;
+    };
+    let found = cameras.iter().find(|camera| camera.name == key.value && camera.index != left.index);
+    let Some(right) = found else {
+        let others: Vec<&str> = cameras.iter().filter(|c| c.index != left.index).map(|c| c.name.as_str()).collect();
+        let remedy = match others.is_empty() {
+            true => "add a second camera to the job, or remove the key".to_owned(),
+            false => format!("give one of {}", others.join(", ")),
+        };
+        context.fault(&key.place, format!("there is no other camera \"{}\"", key.value), remedy);
+        return None;
+    };
+    if let Some(problem) = not_rectified(left, right) {
+        let remedy = format!(
+            "give both cameras one lens without distortion, the same rotation, and \"{}\" a place straight to the right (+x of \
+             the camera), or remove the key",
+            right.name
+        );
+        context.fault(&key.place, problem, remedy);
+        return None;
+    }
+    let format = output.disparity_format.as_ref().map_or(CorrespondenceFormat::Exr, |key| format(key.value));
+    Some(DisparityProduct { right: right.index, format })
+}
+
+/// Why two views are not rectified: points of the left one's pixels, near and far, are not seen on the same rows, or not farther left.
+fn not_rectified(left: &CameraPlan, right: &CameraPlan) -> Option<String> {
+    let time_s = left.timing.row(0, 0, 0).middle_s();
+    let (from, to) = (left.path.at(time_s), right.path.at(time_s));
+    let base_m = from.point_to_camera(to.position_m);
+    if base_m.x <= 0.0 {
+        return Some(format!("camera \"{}\" is not to the right of \"{}\"", right.name, left.name));
+    }
+    let bent = [left, right].into_iter().find(|camera| {
+        matches!(camera.body.lens, Lens::Telecentric(_))
+            || camera.body.front.as_ref().is_some_and(|f| f.optic().is_some())
+    });
+    if let Some(camera) = bent {
+        return Some(format!(
+            "the rays of camera \"{}\" do not meet in one point, so that no row is another's",
+            camera.name
+        ));
+    }
+    let raster = &left.body.raster;
+    let size = DVec2::new(raster.width() as f64, raster.height() as f64);
+    for (column, row) in (0..25).map(|i| (f64::from(i % 5), f64::from(i / 5))) {
+        let at_px = DVec2::new(column, row) / 4.0 * size;
+        let Some(direction) = left.body.lens.direction(raster.sensor_mm(at_px)) else { continue };
+        for distance_m in [4.0, 40.0, 4000.0].map(|times| times * base_m.x) {
+            let point_m = from.position_m + from.direction_to_world(direction * distance_m);
+            let seen: Option<DVec2> =
+                right.body.lens.project(to.point_to_camera(point_m)).map(|mm| right.body.raster.raster_px(mm));
+            let off_px = seen.map_or(f64::INFINITY, |seen| (seen.y - at_px.y).abs());
+            if off_px > ROW_TOLERANCE_PX {
+                return Some(told(left, right, at_px, point_m, seen));
+            }
+        }
+    }
+    None
+}
+
+fn told(left: &CameraPlan, right: &CameraPlan, at_px: DVec2, point_m: DVec3, seen: Option<DVec2>) -> String {
+    let there = seen.map_or_else(|| "nowhere".to_owned(), |seen| format!("at the height {:.3} px", seen.y));
+    format!(
+        "the views of \"{}\" and \"{}\" are not rectified: the point {point_m:.3} m is seen at the height {:.3} px in the one, {there} in the other",
+        left.name, right.name, at_px.y
+    )
+}

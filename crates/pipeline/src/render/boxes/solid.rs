@@ -1,0 +1,73 @@
+//! Boxes in space.
+
+use crate::plan::Plan;
+use etendue_core::CameraPose;
+use etendue_tracer::geometry::{Instance, Shape};
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+
+/// A box in space that stands as its object does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SolidBox {
+    /// Lengths along its own axes x, y, z, m.
+    pub size_m: DVec3,
+    /// Its place in the world.
+    pub world: Stance,
+    /// Its place in the camera's frame (x right, y down, z forward) at the same time.
+    pub camera: Stance,
+}
+
+/// Where a box stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stance {
+    /// Its centre, m.
+    pub centre_m: DVec3,
+    /// From its own axes to those of the frame; of the two quaternions of the rotation that with w ≥ 0.
+    pub rotation: DQuat,
+}
+
+impl SolidBox {
+    /// The box of an instance's shape in its own frame at a time. A frame that is scaled unevenly after it was turned has sheared axes: the
+    /// box then stands along the first of them and about all of it.
+    pub(super) fn of(plan: &Plan, instance: &Instance, time_s: f64, pose: &CameraPose) -> Self {
+        let to_world = instance.to_world.at(time_s);
+        let axes = upright(&to_world.matrix3);
+        let corners = corners(plan, instance).map(|corner| axes.transpose() * to_world.transform_vector3(corner));
+        let low = corners.iter().copied().reduce(DVec3::min).unwrap_or_default();
+        let high = corners.iter().copied().reduce(DVec3::max).unwrap_or_default();
+        let centre_m = to_world.translation + axes * ((low + high) * 0.5);
+        let to_camera = DAffine3::from_mat3_translation(pose.rotation, pose.position_m).inverse();
+        Self {
+            size_m: high - low,
+            world: Stance { centre_m, rotation: quaternion(axes) },
+            camera: Stance {
+                centre_m: to_camera.transform_point3(centre_m),
+                rotation: quaternion(to_camera.matrix3 * axes),
+            },
+        }
+    }
+}
+
+/// The corners of the box about a shape, in its own frame.
+fn corners(plan: &Plan, instance: &Instance) -> [DVec3; 8] {
+    let (low, high) = match instance.shape {
+        Shape::Mesh(id) => plan
+            .world
+            .mesh(id)
+            .bounds()
+            .map_or((DVec3::ZERO, DVec3::ZERO), |(low, high)| (low.as_dvec3(), high.as_dvec3())),
+        Shape::Sphere { radius_m } => (DVec3::splat(-radius_m), DVec3::splat(radius_m)),
+    };
+    core::array::from_fn(|i| DVec3::select(glam::BVec3::new(i & 1 == 0, i & 2 == 0, i & 4 == 0), low, high))
+}
+
+/// The rotation whose axes are those of a matrix, made perpendicular one after the other; of a matrix that mirrors, z turned about.
+fn upright(matrix: &DMat3) -> DMat3 {
+    let x = matrix.x_axis.normalize();
+    let y = (matrix.y_axis - x * x.dot(matrix.y_axis)).normalize();
+    DMat3::from_cols(x, y, x.cross(y))
+}
+
+fn quaternion(axes: DMat3) -> DQuat {
+    let q = DQuat::from_mat3(&axes);
+    if q.w < 0.0 { -q } else { q }
+}

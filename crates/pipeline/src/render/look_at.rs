@@ -1,0 +1,79 @@
+//! Along a pixel's ray of ground truth at the pixel's own time.
+
+use super::frame_view::FrameView;
+use super::truth::is_there;
+use crate::plan::Plan;
+use etendue_core::CameraPose;
+use etendue_optics::FrontRay;
+use etendue_tracer::accel::Simd;
+use etendue_tracer::render_space::{RenderSpace, Truth};
+use glam::{DVec2, DVec3};
+
+/// A frame of a camera and the world during it.
+pub(crate) struct LookAt<'a> {
+    /// The frame.
+    pub(crate) frame: FrameView<'a>,
+    plan: &'a Plan,
+    view: RenderSpace<'a>,
+}
+
+/// The ray by which a pixel looks.
+pub(crate) struct PixelRay {
+    /// In the camera's frame.
+    pub(crate) front: FrontRay,
+    /// As `CameraBody::truth_ray` tells it.
+    pub(crate) off_centre: bool,
+    /// When it looks, s from the frame's start.
+    pub(crate) ray_time_s: f32,
+    /// The simulated time that this means, s.
+    pub(crate) time_s: f64,
+    /// Where the camera stands then.
+    pub(crate) pose: CameraPose,
+}
+
+impl<'a> LookAt<'a> {
+    pub(crate) fn new(plan: &'a Plan, frame: &FrameView<'a>, simd: Simd) -> Self {
+        let origin_m = frame.pose_at(frame.interval().middle_s()).position_m;
+        let view = plan.world.render_space_with(origin_m, frame.interval(), simd);
+        Self { frame: *frame, plan, view }
+    }
+
+    /// When a row looks, s from the frame's start. Rays have times of 32 bits.
+    pub(crate) fn ray_time_s(&self, row: usize) -> f32 {
+        (self.frame.row_middle_s(row) - self.view.interval().start_s()) as f32
+    }
+
+    /// The ray of a point of the picture (px) at the time of its row; `None` where no light comes.
+    pub(crate) fn ray(&self, at_px: DVec2) -> Option<PixelRay> {
+        let (front, off_centre) = self.frame.body().truth_ray(at_px)?;
+        let ray_time_s = self.ray_time_s(at_px.y as usize);
+        let time_s = self.view.interval().moment(ray_time_s);
+        Some(PixelRay { front, off_centre, ray_time_s, time_s, pose: self.frame.pose_at(time_s) })
+    }
+
+    /// What is met first from a point of a camera's frame (m) along a direction of it, the camera standing at `pose` at a time.
+    pub(crate) fn meets(
+        &self,
+        pose: &CameraPose,
+        origin_m: DVec3,
+        direction: DVec3,
+        ray_time_s: f32,
+        instance: Option<u32>,
+    ) -> Option<Truth> {
+        // The view's origin is where the camera is half-way through the frame.
+        let from_m = pose.position_m - self.view.origin_m() + pose.point_to_render(origin_m);
+        let wanted = |index: u32| instance.is_none_or(|wanted| wanted == index);
+        self.view.truth(from_m, pose.direction_to_world(direction), ray_time_s, |point| {
+            wanted(point.instance) && is_there(&self.view, &self.plan.material_table, point)
+        })
+    }
+
+    /// Whether a point of the picture would show an instance (its place in the world's list) if that were alone.
+    pub(crate) fn meets_alone(&self, at_px: DVec2, instance: u32) -> bool {
+        let found = self.ray(at_px).and_then(|ray| {
+            let line = ray.front.ray;
+            self.meets(&ray.pose, line.origin_m, line.direction, ray.ray_time_s, Some(instance))
+        });
+        found.is_some_and(|truth| truth.instance == instance)
+    }
+}

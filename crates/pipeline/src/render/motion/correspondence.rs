@@ -1,0 +1,79 @@
+//! Where and when a point is seen in a frame, whose rows are exposed one after the other.
+//!
+//! A point at p(t) is seen at the row y for which the image of p(t(y)) lies at y, t(y) being the middle of the exposure there
+//! ([`FrameView::middle_at_s`]). The iteration y ← image of p(t(y)) shrinks errors by |image velocity| × row time, far below 1 for whatever
+//! does not outrun the shutter; what does has no single image.
+
+use super::image_point::{Target, image_point, unbent};
+use super::surface_path::{HALF_STEP_S, SurfacePath};
+use crate::render::frame_view::FrameView;
+use etendue_core::{CameraPose, Motion};
+use glam::{DVec2, DVec3};
+
+/// Where a pixel looks: its place, and whether its ray is off the pupil's centre.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sight {
+    /// Its place, px.
+    pub at_px: DVec2,
+    /// As `CameraBody::truth_ray` tells it.
+    pub off_centre: bool,
+}
+
+/// An image of a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Correspondence {
+    /// Where it is seen, px.
+    pub at_px: DVec2,
+    /// When, simulated time, s.
+    pub time_s: f64,
+    /// Where the camera stands then.
+    pub pose: CameraPose,
+    /// The point in the camera's frame then.
+    pub target: Target,
+}
+
+const MAX_STEPS: usize = 64;
+/// A step (px) after which the row is found.
+const CLOSE_PX: f64 = 1e-9;
+
+/// Where a frame sees what is seen from `sight` in another; `None` where it has no image there.
+pub(crate) fn correspondence(frame: &FrameView<'_>, surface: &SurfacePath<'_>, sight: Sight) -> Option<Correspondence> {
+    let row = sight.at_px.y.max(0.0) as usize;
+    let mut at_px = sight.at_px;
+    for _ in 0..MAX_STEPS {
+        let time_s = frame.middle_at_s(at_px.y, row);
+        let pose = frame.pose_at(time_s);
+        let target = surface.seen_from(&pose, time_s);
+        let image_px = image_point(frame.body(), target, at_px, sight.off_centre)?;
+        let step_px = (image_px.y - at_px.y).abs();
+        at_px = image_px;
+        let same_time = frame.middle_at_s(at_px.y, row) == time_s;
+        if step_px < CLOSE_PX || same_time {
+            return Some(Correspondence { at_px, time_s, pose, target });
+        }
+    }
+    None
+}
+
+/// The velocity of a point's image at a time, px/s, of a camera that is open all the while; `None` where there is no image.
+pub(crate) fn image_velocity(
+    frame: &FrameView<'_>,
+    surface: &SurfacePath<'_>,
+    sight: Sight,
+    time_s: f64,
+) -> Option<DVec2> {
+    let image = |time_s: f64| {
+        let target = surface.seen_from(&frame.pose_at(time_s), time_s);
+        image_point(frame.body(), target, sight.at_px, sight.off_centre)
+    };
+    Some((image(time_s + HALF_STEP_S)? - image(time_s - HALF_STEP_S)?) / (2.0 * HALF_STEP_S))
+}
+
+/// Where a frame sees a point of an instance's own frame, px, sought from where the bare lens would see it; `None` where it has no image, and
+/// by mirrors.
+pub(crate) fn image_of(frame: &FrameView<'_>, local: DVec3, to_world: &Motion) -> Option<DVec2> {
+    let surface = SurfacePath::Point { local, to_world };
+    let middle_s = frame.interval().middle_s();
+    let at_px = unbent(frame.body(), surface.seen_from(&frame.pose_at(middle_s), middle_s))?;
+    Some(correspondence(frame, &surface, Sight { at_px, off_centre: false })?.at_px)
+}

@@ -1,0 +1,118 @@
+//! Ground truth of motion: where what a pixel sees is seen in other frames, and how it moves.
+//!
+//! Along the same principal rays as the ground truth (587.56 nm, pixel centres), each at the middle of its row's exposure. What is seen there is
+//! held fast in its instance's own frame, moved with the instance to the time of the other frame, seen from where the camera then stands, and
+//! projected by the lens with its distortion. In a frame of a rolling shutter that time is that of the row where the point appears
+//! ([`FrameView::middle_at_s`]). What is not a number has no image: behind the camera, outside the lens's field, beside a mirror.
+//!
+//! Of two frames of one camera this is optical flow; of two cameras whose views are rectified, disparity.
+//!
+//! Left out: motion of the background (it is infinitely far and does not turn: a camera's own turning moves it); reflections and what
+//! is seen through glass, whose images move otherwise (the pane's or mirror's own surface is followed); captures of a frame with several
+//! exposures (the first one's times are used).
+
+mod correspondence;
+mod image_point;
+mod neighbour;
+mod planes;
+mod surface_path;
+#[cfg(test)]
+mod tests;
+
+pub(crate) use correspondence::image_of;
+pub use neighbour::{NeighbourTruth, Visibility};
+
+use crate::plan::Plan;
+use crate::render::frame_view::FrameView;
+use crate::render::look_at::LookAt;
+use correspondence::{Sight, image_velocity};
+use etendue_core::Plane;
+use etendue_core::quantity::{Disparity, Identity, ImageVelocity, Time, Vector};
+use etendue_tracer::accel::Simd;
+use glam::DVec2;
+use neighbour::Neighbour;
+use planes::plane;
+use rayon::prelude::*;
+use surface_path::SurfacePath;
+
+/// The truth of motion of one frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionTruth {
+    /// In the frames asked for, in their order.
+    pub neighbours: Vec<NeighbourTruth>,
+    /// Velocity of the image of what a pixel sees, at its time, px/s; NaN where there is none.
+    pub motion_vector: Plane<ImageVelocity>,
+    /// Velocity in the world of what a pixel sees, m/s; NaN for the background.
+    pub velocity: Plane<Vector>,
+    /// The time at which the pixel looks, s from the frame's start.
+    pub time: Plane<Time>,
+}
+
+/// What a pixel sees, and where it is seen in other frames.
+struct Look {
+    motion_vector: [f32; 2],
+    velocity: [f32; 3],
+    time_s: f32,
+    neighbours: Vec<neighbour::Found>,
+}
+
+/// The truth of motion of a frame against others of the same world, on the caller's pool.
+#[must_use]
+pub fn motion_truth(plan: &Plan, frame: &FrameView<'_>, others: &[FrameView<'_>], simd: Simd) -> MotionTruth {
+    let (width, height) = (frame.body().raster.width(), frame.body().raster.height());
+    let looks_at = LookAt::new(plan, frame, simd);
+    let neighbours: Vec<Neighbour<'_>> = others.iter().map(|other| Neighbour::new(plan, other, simd)).collect();
+    let looks: Vec<Look> = (0..width * height)
+        .into_par_iter()
+        .map(|i| look(plan, &looks_at, &neighbours, DVec2::new((i % width) as f64, (i / width) as f64) + 0.5))
+        .collect();
+    MotionTruth {
+        neighbours: (0..others.len())
+            .map(|n| NeighbourTruth::of(width, &looks.iter().map(|look| look.neighbours[n]).collect::<Vec<_>>()))
+            .collect(),
+        motion_vector: plane(&looks, width, |look| look.motion_vector),
+        velocity: plane(&looks, width, |look| look.velocity),
+        time: plane(&looks, width, |look| look.time_s),
+    }
+}
+
+/// Disparity: the column at which a frame of the left camera sees a point minus that at which one of the right camera does, px, whose views are
+/// rectified (parallel, alike, apart along their rows), with where the right camera sees it.
+#[must_use]
+pub fn disparity(
+    plan: &Plan,
+    left: &FrameView<'_>,
+    right: &FrameView<'_>,
+    simd: Simd,
+) -> (Plane<Disparity>, Plane<Identity>) {
+    let mut truth = motion_truth(plan, left, &[*right], simd);
+    let found = truth.neighbours.remove(0);
+    (found.flow.map(|[u, _]| -u), found.visibility)
+}
+
+fn look(plan: &Plan, looks_at: &LookAt<'_>, neighbours: &[Neighbour<'_>], at_px: DVec2) -> Look {
+    let nothing = || Look {
+        motion_vector: [f32::NAN; 2],
+        velocity: [f32::NAN; 3],
+        time_s: looks_at.ray_time_s(at_px.y as usize),
+        neighbours: vec![neighbour::Found::default(); neighbours.len()],
+    };
+    let Some(ray) = looks_at.ray(at_px) else { return nothing() };
+    let (line, pose, time_s) = (&ray.front.ray, &ray.pose, ray.time_s);
+    let surface = match looks_at.meets(pose, line.origin_m, line.direction, ray.ray_time_s, None) {
+        None => SurfacePath::Background(pose.direction_to_world(line.direction)),
+        Some(truth) => {
+            let instance = &plan.world.instances()[truth.instance as usize];
+            SurfacePath::of_point(truth.position_m, &instance.to_world, time_s)
+        }
+    };
+    let sight = Sight { at_px, off_centre: ray.off_centre };
+    let here = surface.seen_from(pose, time_s);
+    let image_velocity = image_velocity(&looks_at.frame, &surface, sight, time_s);
+    Look {
+        motion_vector: image_velocity.map_or([f32::NAN; 2], |v| v.as_vec2().to_array()),
+        velocity: surface.velocity_m_s(time_s).map_or([f32::NAN; 3], |v| v.as_vec3().to_array()),
+        neighbours: neighbours.iter().map(|other| other.find(&surface, sight, here)).collect(),
+        ..nothing()
+    }
+}

@@ -1,0 +1,116 @@
+//! The other frame: where it sees a point, and whether it does.
+
+use super::correspondence::{Correspondence, Sight, correspondence};
+use super::image_point::Target;
+use super::planes::plane;
+use super::surface_path::SurfacePath;
+use crate::plan::Plan;
+use crate::render::frame_view::FrameView;
+use crate::render::look_at::LookAt;
+use etendue_core::Plane;
+use etendue_core::quantity::{Identity, OpticalFlow, Vector};
+use etendue_tracer::accel::Simd;
+use glam::DVec2;
+
+/// Whether a point is seen in the other frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Visibility {
+    /// The pixel has no ray of its own.
+    #[default]
+    NotKnown = 0,
+    /// It is seen.
+    Seen = 1,
+    /// Something is before it.
+    Hidden = 2,
+    /// It lies outside the picture.
+    Outside = 3,
+    /// The lens makes no image of it.
+    NoImage = 4,
+}
+
+/// Where what the pixels of a frame see is in another one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NeighbourTruth {
+    /// Its place there minus its place here, px; NaN where it has no image there. Of what is hidden there or outside the picture it is where
+    /// it would be seen.
+    pub flow: Plane<OpticalFlow>,
+    /// The numbers of [`Visibility`].
+    pub visibility: Plane<Identity>,
+    /// Its place in the camera's frame there minus its place in that here, m; NaN for the background.
+    pub scene_flow: Plane<Vector>,
+}
+
+impl NeighbourTruth {
+    pub(super) fn of(width: usize, found: &[Found]) -> Self {
+        Self {
+            flow: plane(found, width, |found| found.flow),
+            visibility: plane(found, width, |found| found.visibility as u32),
+            scene_flow: plane(found, width, |found| found.scene_flow),
+        }
+    }
+}
+
+/// What one pixel's point is in the other frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found {
+    flow: [f32; 2],
+    visibility: Visibility,
+    scene_flow: [f32; 3],
+}
+
+impl Default for Found {
+    fn default() -> Self {
+        Self { flow: [f32::NAN; 2], visibility: Visibility::NotKnown, scene_flow: [f32::NAN; 3] }
+    }
+}
+
+/// How much nearer (of its distance, over the cosine of incidence) something must be to hide a point: rays are found with 32-bit floats, which
+/// may name the triangle beside the right one.
+const NEARER: f64 = 1e-6;
+/// The least cosine that is granted.
+const GRAZING: f64 = 1e-3;
+
+/// Another frame with its world.
+pub(super) struct Neighbour<'a>(LookAt<'a>);
+
+impl<'a> Neighbour<'a> {
+    pub(super) fn new(plan: &'a Plan, frame: &FrameView<'a>, simd: Simd) -> Self {
+        Self(LookAt::new(plan, frame, simd))
+    }
+
+    /// Where and whether the frame sees what is seen from `sight` as `here`.
+    pub(super) fn find(&self, surface: &SurfacePath<'_>, sight: Sight, here: Target) -> Found {
+        let Some(there) = correspondence(&self.0.frame, surface, sight) else {
+            return Found { visibility: Visibility::NoImage, ..Found::default() };
+        };
+        let scene_flow = match (here, there.target) {
+            (Target::Point(from), Target::Point(to)) => (to - from).as_vec3().to_array(),
+            _ => [f32::NAN; 3],
+        };
+        let flow = (there.at_px - sight.at_px).as_vec2().to_array();
+        Found { flow, visibility: self.visibility(&there), scene_flow }
+    }
+
+    fn visibility(&self, there: &Correspondence) -> Visibility {
+        let frame = &self.0.frame;
+        let raster = &frame.body().raster;
+        let size = DVec2::new(raster.width() as f64, raster.height() as f64);
+        if !(there.at_px.cmpge(DVec2::ZERO).all() && there.at_px.cmplt(size).all()) {
+            return Visibility::Outside;
+        }
+        let Some((front, _)) = frame.body().truth_ray(there.at_px) else { return Visibility::NoImage };
+        let origin_m = front.ray.origin_m;
+        let Some(ahead) = there.target.direction_from(origin_m) else { return Visibility::NoImage };
+        let hit = self.0.meets(&there.pose, origin_m, ahead, (there.time_s - frame.interval().start_s()) as f32, None);
+        let hidden = match (hit, there.target) {
+            (None, _) => false,
+            (Some(_), Target::Direction(_)) => true,
+            (Some(hit), Target::Point(point_m)) => {
+                let distance_m = (point_m - origin_m).length();
+                let cosine = hit.normal.dot(there.pose.direction_to_world(ahead)).abs().max(GRAZING);
+                hit.distance_m < distance_m * (1.0 - NEARER / cosine)
+            }
+        };
+        if hidden { Visibility::Hidden } else { Visibility::Seen }
+    }
+}
