@@ -28,6 +28,7 @@ mod measures;
 mod plans;
 mod point_lists;
 mod raw_files;
+mod sequences;
 mod shared_light;
 mod shared_paths;
 mod support;

@@ -110,7 +110,11 @@ fn one(
         match &rows.found {
             Some(bands) => of_bands(bands, sequence.frames[0].period.1 as f64, report),
             None => {
-                report.note(format!("no bands over the rows up to {:.0} Hz beyond what noise makes", rows.highest_hz))
+                let (low, high) = (rows.lowest_hz, rows.highest_hz);
+                let range = format!("from {low:.1} to {high:.0} Hz");
+                report.note(format!(
+                    "no bands over the rows {range} whose frequency could be told beyond what noise makes"
+                ));
             }
         }
         missing(rows.found.as_ref(), request, report);

@@ -11,6 +11,9 @@ const ANGLES: [&str; 3] = ["yaw_deg", "pitch_deg", "roll_deg"];
 /// How far the length of a quaternion may be from 1: loggers write few digits.
 const LENGTH_ERROR: f64 = 0.01;
 
+/// Rows with their lines, and the names that were not read.
+pub(super) type Read = (Vec<(usize, TrajectoryRow)>, Vec<String>);
+
 /// Where the values of a row stand.
 pub(super) struct Columns {
     place: [usize; 4],

@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use super::Read;
-use super::columns::{Columns, is_known};
+use super::columns::{Columns, Read, is_known};
 use crate::Error;
 use crate::table::{number, rows};
 

@@ -4,8 +4,7 @@ use std::path::Path;
 
 use serde_json::{Map, Value};
 
-use super::Read;
-use super::columns::{Columns, is_known};
+use super::columns::{Columns, Read, is_known};
 use crate::Error;
 
 pub(super) fn read(file: &Path, text: &str) -> Result<Read, Error> {

@@ -20,13 +20,10 @@ mod tests;
 
 use std::path::Path;
 
-use etendue_scene::asset::{TrajectoryAsset, TrajectoryRow};
+use etendue_scene::asset::TrajectoryAsset;
 
 use crate::source::{decode_text, read_bytes};
 use crate::{Error, hash};
-
-/// Rows with their lines, and the names that were not read.
-type Read = (Vec<(usize, TrajectoryRow)>, Vec<String>);
 
 /// Reads a trajectory.
 ///

@@ -16,7 +16,9 @@ const LEAST_LEFT: f64 = 0.05;
 pub struct RowFlicker {
     /// What goes up and down; `None` where nothing does that chance would not.
     pub found: Option<RowBands>,
-    /// The highest frequency that was looked for, Hz: two rows a period.
+    /// The lowest frequency that can be told, Hz: of one and a half periods in all.
+    pub lowest_hz: f64,
+    /// The highest, Hz: of two rows a period.
     pub highest_hz: f64,
 }
 
@@ -47,14 +49,14 @@ pub(super) fn measure(rows: &[Vec<f64>], row_time_s: f64, timing: &FlickerTiming
     let block =
         |(n, values): (usize, &Vec<f64>)| (timing.frame_rate_hz.map_or(0.0, |rate| n as f64 / rate), values.clone());
     let together = timing.frame_rate_hz.is_some() || rows.len() == 1;
-    let found = match together {
-        true => bands(&TimeSeries { blocks: rows.iter().enumerate().map(block).collect(), step_s: row_time_s }, timing),
-        false => {
-            let each = rows.iter().map(|values| TimeSeries { blocks: vec![(0.0, values.clone())], step_s: row_time_s });
-            joined(&each.filter_map(|series| bands(&series, timing)).collect::<Vec<_>>())
-        }
+    let of = |blocks: Vec<(f64, Vec<f64>)>| TimeSeries { blocks, step_s: row_time_s };
+    let all: Vec<TimeSeries> = match together {
+        true => vec![of(rows.iter().enumerate().map(block).collect())],
+        false => rows.iter().map(|values| of(vec![(0.0, values.clone())])).collect(),
     };
-    RowFlicker { found, highest_hz }
+    let found = joined(&all.iter().filter_map(|series| bands(series, timing)).collect::<Vec<_>>());
+    let lowest_hz = all.iter().map(TimeSeries::lowest_hz).fold(f64::INFINITY, f64::min);
+    RowFlicker { found, lowest_hz, highest_hz }
 }
 
 fn bands(series: &TimeSeries, timing: &FlickerTiming) -> Option<RowBands> {
@@ -93,6 +95,9 @@ fn pulses(series: &TimeSeries, fit: &FourierFit, exposure_s: f64) -> Option<(Pul
 /// Of frames at unknown times: the mean of each quantity over those that have it.
 fn joined(each: &[RowBands]) -> Option<RowBands> {
     let first = each.first()?;
+    if each.len() == 1 {
+        return Some(first.clone());
+    }
     let mean = |of: fn(&RowBands) -> Option<Estimate>| weighted_mean(&each.iter().filter_map(of).collect::<Vec<_>>());
     let duty = mean(|bands| bands.pulses.map(|pulses| pulses.duty));
     let share = mean(|bands| bands.pulses.map(|pulses| pulses.share));

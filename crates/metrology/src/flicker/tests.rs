@@ -126,7 +126,7 @@ fn pulses_have_their_duty_whether_shorter_or_longer_than_the_exposure() {
 
 #[test]
 fn frames_of_a_known_rate_tell_the_frequency_by_the_whole_sequence() {
-    let shot = Shot { rows: 200, frames: 24, row_time_s: 60e-6, ..SHOT };
+    let shot = Shot { rows: 200, frames: 24, row_time_s: 120e-6, ..SHOT };
     let flicker = shot.measured(7, mains(100.37, 0.2));
     let found = bands(&flicker);
     knows(found.frequency_hz, 100.37, 2e-4);
@@ -189,6 +189,16 @@ fn steady_light_has_no_bands() {
         assert_eq!(flicker.rows.as_ref().map(|rows| rows.found.is_none()), Some(true), "{seed}: {flicker:?}");
         let frames = Shot { rows: 40, frames: 20, ..SHOT }.measured(seed, |_| 1.0).frames.expect("several");
         assert!(frames.frequency.is_none() && frames.modulation.value < 0.01, "{frames:?}");
+    }
+}
+
+/// Of light that goes up and down more slowly than one and a half periods over the rows, no frequency is made up.
+#[test]
+fn a_frequency_of_too_few_periods_is_not_told() {
+    let shot = Shot { rows: 200, row_time_s: 80e-6, ..SHOT };
+    for seed in 0..10 {
+        let rows = shot.measured(seed, mains(30.0, 0.5)).rows.expect("a rolling shutter");
+        assert!((rows.lowest_hz - 93.75).abs() < 1e-9 && rows.found.is_none(), "{rows:?}");
     }
 }
 

@@ -11,6 +11,8 @@ const MAX_HARMONICS: usize = 7;
 const PERIODS_FOR_SHADING: f64 = 3.0;
 /// Whole frame rates, to either side, by which a frequency may have been mistaken.
 const MAX_ALIKE: f64 = 64.0;
+/// Periods from which on a frequency is told.
+const MIN_PERIODS: f64 = 1.5;
 /// What the fundamental must gain on the criterion besides the frequencies tried: by chance in one of 150.
 const LEAST_GAIN: f64 = 10.0;
 
@@ -109,8 +111,21 @@ impl TimeSeries {
         self.fit(&self.columns(frequency_hz, harmonics, shading)).map_or(f64::INFINITY, |fit| fit.squares)
     }
 
-    /// The frequency that explains most, with its harmonics; `None` where none explains more than chance would.
+    /// The least frequency that can be told, Hz.
+    pub(super) fn lowest_hz(&self) -> f64 {
+        MIN_PERIODS / self.length_s()
+    }
+
+    /// The frequency that explains most, with its harmonics; `None` where none explains more than chance would, or what does cannot be
+    /// told from others.
     pub(super) fn found(&self, highest_hz: f64) -> Option<FourierFit> {
+        let told = |fit: &FourierFit| {
+            fit.frequency_hz.value >= self.lowest_hz() && fit.frequency_hz.standard_uncertainty.is_finite()
+        };
+        self.strongest_fit(highest_hz).filter(told)
+    }
+
+    fn strongest_fit(&self, highest_hz: f64) -> Option<FourierFit> {
         let with_shading = self.blocks[0].1.len() >= 8;
         let fitted = |shading: bool| self.found_with(highest_hz, shading);
         let told = |fit: &FourierFit| fit.frequency_hz.value * self.block_length_s() >= PERIODS_FOR_SHADING;

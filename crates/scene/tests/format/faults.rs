@@ -216,7 +216,7 @@ fn overrides_that_are_wrong() {
         ),
         (
             "format.x=4",
-            "--set format.x=4: \"format\" is no key of this table; remove it; the keys are \"scene\", \"cameras\", \
+            "--set format.x=4: \"format\" is no key of this table; remove it; the keys are \"scene\", \"cameras\", \"sequence\", \
              \"render\", \"output\"",
         ),
         (

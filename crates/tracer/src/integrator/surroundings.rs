@@ -2,7 +2,8 @@
 //!
 //! From the centre of the entrance pupil, rays of fixed directions are followed straight through everything. A solid that a
 //! ray comes out of once more than it goes in holds the camera; of several the one it first comes out of, which is the
-//! innermost. Most of the rays decide: of a solid whose surface is closed all agree.
+//! innermost. Most of the rays decide: of a solid whose surface is closed all agree. What moves is taken where it is half-way through
+//! the view's interval; left out is a camera that enters or leaves a solid while it exposes.
 
 use core::f32::consts::TAU;
 use etendue_core::Ray;
@@ -55,7 +56,7 @@ fn direction(i: u32) -> Vec3 {
 fn left_first(view: &RenderSpace<'_>, material_table: &MaterialTable, direction: Vec3) -> Option<MaterialId> {
     // Instance, material, how often it was left more than entered; in the order in which they were first left.
     let mut met: Vec<(u32, MaterialId, i32)> = vec![];
-    let mut ray = Ray::new(Vec3::ZERO, direction, 0.0);
+    let mut ray = Ray::new(Vec3::ZERO, direction, (0.5 * view.interval().length_s()) as f32);
     for _ in 0..MAX_PASSED {
         let Some(hit) = view.closest(&ray) else { break };
         let point = view.surface(&ray, &hit);

@@ -1,0 +1,94 @@
+//! Frames whose light depends on time: the same bytes alone, in a sequence, in shards, and after a run that was interrupted.
+
+use crate::support::{contents, etendue, tests, text};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+type Files = BTreeMap<String, Vec<u8>>;
+
+fn job() -> String {
+    text(&tests().join("jobs/moving/moving.toml"))
+}
+
+fn render(folder: &Path, options: &[&str]) {
+    let arguments = ["render", &job(), "-o", &text(folder)].into_iter().chain(options.iter().copied());
+    etendue(arguments.map(str::to_owned)).ok();
+}
+
+fn rendered(options: &[&str]) -> Files {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    render(&place.path().join("out"), options);
+    contents(&place.path().join("out"))
+}
+
+#[track_caller]
+fn assert_same(expected: &Files, found: &Files, told: &str) {
+    assert_eq!(expected.keys().collect::<Vec<_>>(), found.keys().collect::<Vec<_>>(), "{told}");
+    expected.iter().for_each(|(name, bytes)| assert!(found[name] == *bytes, "{told}: {name}"));
+}
+
+#[test]
+fn a_frame_alone_has_the_light_that_it_has_in_a_sequence() {
+    let all = rendered(&["--frames", "0..3"]);
+    let alone = rendered(&["--frames", "2..3", "--threads", "1"]);
+    for name in ["left/ground_truth.0002.exr", "right/radiance.0002.exr", "right/ground_truth.0002.exr"] {
+        assert!(all[name] == alone[name], "{name}");
+    }
+    assert_ne!(all["right/radiance.0001.exr"], all["right/radiance.0002.exr"]);
+    assert_ne!(all["left/raw.0002.png"], alone["left/raw.0002.png"], "the sensor remembers the frames before");
+}
+
+#[test]
+fn shards_of_frames_are_merged_to_the_same_bytes() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let folder = |name: &str| place.path().join(name);
+    let mut arguments = vec!["merge".to_owned(), "-o".to_owned(), text(&folder("whole"))];
+    for index in [1, 0] {
+        let part = folder(&index.to_string());
+        render(&part, &["--frames", "0..2", "--shard", &format!("{index}/2")]);
+        arguments.push(text(&part));
+    }
+    etendue(arguments).ok();
+    assert_same(&rendered(&["--frames", "0..2"]), &contents(&folder("whole")), "two shards");
+}
+
+/// What a run leaves that is killed within frame 2: whole frames 0 and 1, a file of frame 2 that has its name, no side-cars.
+#[test]
+fn a_run_that_was_interrupted_goes_on_to_the_same_bytes() {
+    let expected = rendered(&["--frames", "0..4"]);
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let out = place.path().join("out");
+    render(&out, &["--frames", "0..2"]);
+    fs::remove_file(out.join("left/camera.json")).expect("it was written");
+    fs::remove_file(out.join("right/camera.json")).expect("it was written");
+    fs::write(out.join("left/raw.0002.png"), b"half").expect("a file");
+    let kept = fs::metadata(out.join("left/raw.0001.png")).and_then(|m| m.modified()).expect("a file");
+    render(&out, &["--frames", "0..4", "--resume"]);
+    assert_same(&expected, &contents(&out), "resumed");
+    let now = fs::metadata(out.join("left/raw.0001.png")).and_then(|m| m.modified()).expect("a file");
+    assert_eq!(kept, now, "whole frames are not rendered again");
+}
+
+#[test]
+fn a_frame_of_another_plan_is_no_part_of_the_run() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let out = place.path().join("out");
+    render(&out, &["--frames", "0..1"]);
+    let options =
+        ["render", &job(), "-o", &text(&out), "--frames", "0..2", "--resume", "--spp", "16"].map(str::to_owned);
+    etendue(options).refused(&["frame.0000.json", "another plan"]);
+}
+
+#[test]
+fn frames_without_a_rate_are_refused_where_light_depends_on_time() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let text_of =
+        fs::read_to_string(job()).expect("the job").replace("[sequence]\nframe_rate_hz = 20\nstart_s = 3\n", "");
+    let file = place.path().join("job.toml");
+    fs::write(&file, text_of.replace("trigger_jitter_s = 1e-3\n", "")).expect("a file");
+    let arguments = ["render".to_owned(), text(&file), "-o".to_owned(), text(&place.path().join("out"))];
+    let more = arguments.iter().cloned().chain(["--frames".to_owned(), "0..2".to_owned()]);
+    etendue(more).refused(&["camera right", "[sequence]", "frame_rate_hz"]);
+    etendue(arguments).ok();
+}
