@@ -99,7 +99,7 @@ fn edges_that_a_fisheye_bends_are_inside_the_box() {
     // Corners at (±2, ±2, 1): 70.5° from the axis, on the diagonals; the middles of the edges at 63.4° reach farther to the sides.
     let board = object("e", "type = \"quad\", size_m = [4, 4]", "position_m = [1, 0, 0]\nrotation_deg = [0, 90, 0]");
     let found = boxes(&plan(lens, &board));
-    let reach = 8.0 * 2.0_f64.atan();
+    let reach = 8.0 * etendue_core::maths::f64::atan(2.0);
     assert!(close(found[0].amodal.expect("seen").edges_px(), [16.0 - reach, 12.0 - reach, 16.0 + reach, 12.0 + reach]));
 }
 
