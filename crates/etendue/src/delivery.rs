@@ -42,12 +42,15 @@ pub(crate) fn deliver(
     mut film_of: impl FnMut(&[&CameraPlan], Shot) -> Result<Film, Error>,
     mut take: impl FnMut(CameraResults) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    check_frames(plan, options)?;
-    for group in plan.by_light() {
+    check_frames(plan, &options.frames)?;
+    let steady = |group: &Vec<&CameraPlan>| group[0].time == TimeDependence::None;
+    // What is written of steady groups gets its name at the end of the run, not with the frames of others.
+    let (last, first): (Vec<_>, Vec<_>) = plan.by_light().into_iter().partition(steady);
+    for group in first.into_iter().chain(last) {
         if group[0].time == TimeDependence::None {
             let film = film_of(&group, Shot::default())?;
             let states = vec![SensorState::default(); group.len()];
-            deliver_films(plan, &group, vec![film], &states, options, &mut take)?;
+            deliver_films(plan, &group, vec![film], (&states, options.frames.start), options, &mut take)?;
             continue;
         }
         let mut states = vec![SensorState::default(); group.len()];
@@ -58,18 +61,19 @@ pub(crate) fn deliver(
             }
             let films = shots(group[0], frame).into_iter().map(|shot| film_of(&group, shot));
             let films = films.collect::<Result<Vec<_>, _>>()?;
+            let since = options.frames.start;
             let options = RenderOptions { frames: frame..frame + 1, ..options.clone() };
-            states = deliver_films(plan, &group, films, &states, &options, &mut take)?;
+            states = deliver_films(plan, &group, films, (&states, since), &options, &mut take)?;
         }
     }
     Ok(())
 }
 
 /// Frames after the first need a rate where light depends on time.
-fn check_frames(plan: &Plan, options: &RenderOptions) -> Result<(), Error> {
+pub(crate) fn check_frames(plan: &Plan, frames: &Range<u32>) -> Result<(), Error> {
     let needs = |camera: &&CameraPlan| camera.time != TimeDependence::None && camera.timing.period_s.is_none();
     match plan.cameras.iter().find(needs) {
-        Some(camera) if options.frames.end > 1 => Err(Error::input(format!(
+        Some(camera) if frames.end > 1 => Err(Error::input(format!(
             "camera {}: its light depends on time, and nothing says when its frames after frame 0 are taken; add [sequence] with \
              \"frame_rate_hz\" to the job, or render --frames 0..1",
             camera.name
@@ -83,7 +87,7 @@ fn deliver_films(
     plan: &Arc<Plan>,
     group: &[&CameraPlan],
     films: Vec<Film>,
-    states: &[SensorState],
+    (states, since): (&[SensorState], u32),
     options: &RenderOptions,
     take: &mut impl FnMut(CameraResults) -> Result<(), Error>,
 ) -> Result<Vec<SensorState>, Error> {
@@ -92,8 +96,9 @@ fn deliver_films(
     let mut films = Some(films);
     for (i, (camera, state)) in group.iter().zip(states).enumerate() {
         let films = if i + 1 == group.len() { films.take() } else { films.clone() };
-        let results = CameraResults::of_films(plan, camera, films.unwrap_or_default(), state.clone(), options)?;
-        after.push(results.state_after().clone());
+        let results =
+            CameraResults::of_films(plan, camera, films.unwrap_or_default(), (state.clone(), since), options)?;
+        after.push(results.state_after().map_or_else(SensorState::default, |(after, _)| after.clone()));
         take(results)?;
     }
     Ok(after)

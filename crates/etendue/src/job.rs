@@ -1,6 +1,6 @@
 //! From a job file and what changes it to a plan, and from a plan to results.
 
-use crate::delivery::{check_finite, deliver, shots_of};
+use crate::delivery::{check_finite, check_frames, deliver, shots_of};
 use crate::error::Error;
 use crate::memory::MemoryFiles;
 use crate::observer::{Message, Observer, Tiles};
@@ -142,6 +142,13 @@ impl JobRequest {
                 known.join(", ")
             )));
         }
+        let right = plan.camera(name).and_then(|camera| camera.products.annotations.disparity).map(|d| d.right);
+        if let Some(right) = plan.cameras.iter().find(|camera| Some(camera.index) == right) {
+            return Err(Error::input(format!(
+                "--camera {name}: its disparity_to names camera {}, which is then not in the run; render both, or leave the key out with --set",
+                right.name
+            )));
+        }
         plan.cameras.retain(|camera| camera.name == *name);
         Ok(plan)
     }
@@ -278,6 +285,7 @@ impl Job {
         mut take: impl FnMut(&CameraPlan, Shot, Film) -> Result<(), Error>,
     ) -> Result<(), Error> {
         self.warn(observer);
+        check_frames(&self.plan, frames)?;
         let shard = spec.shard()?;
         for group in self.plan.by_light() {
             for shot in shots_of(group[0], frames) {

@@ -12,8 +12,8 @@ fn job() -> String {
 }
 
 fn render(folder: &Path, options: &[&str]) {
-    let arguments = ["render", &job(), "-o", &text(folder)].into_iter().chain(options.iter().copied());
-    etendue(arguments.map(str::to_owned)).ok();
+    let arguments = ["render".to_owned(), job(), "-o".to_owned(), text(folder)];
+    etendue(arguments.into_iter().chain(options.iter().map(|option| (*option).to_owned()))).ok();
 }
 
 fn rendered(options: &[&str]) -> Files {

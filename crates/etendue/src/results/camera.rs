@@ -29,8 +29,8 @@ pub struct CameraResults {
     pub(super) frames: Range<u32>,
     /// Of the sensor before the first of them.
     state: SensorState,
-    /// After the only one, where it has a light of its own.
-    after: SensorState,
+    /// After the only one, where it has a light of its own and the sensor remembers, with the first frame that it remembers.
+    after: Option<(SensorState, u32)>,
     pub(super) simd: Simd,
 }
 
@@ -40,7 +40,7 @@ impl CameraResults {
         plan: &Arc<Plan>,
         camera: &CameraPlan,
         films: Vec<Film>,
-        state: SensorState,
+        (state, since): (SensorState, u32),
         options: &RenderOptions,
     ) -> Result<Self, Error> {
         let place = plan.cameras.iter().position(|c| c.name == camera.name).expect("a camera of the plan");
@@ -52,10 +52,10 @@ impl CameraResults {
             RectifiedCamera::of(&camera.body, scale).expect("a compiled plan's camera has its rectified twin")
         });
         let (frames, simd) = (options.frames.clone(), options.simd);
-        let (plan, after) = (Arc::clone(plan), SensorState::default());
+        let (plan, after) = (Arc::clone(plan), None);
         let mut results = Self { plan, camera: place, light, depth, undistorted, frames, state, after, simd };
         if results.has_own_light() {
-            results.after = results.remembered();
+            results.after = results.remembered().map(|after| (after, since));
         }
         Ok(results)
     }
@@ -124,20 +124,17 @@ impl CameraResults {
         self.state.clone()
     }
 
-    /// What the sensor remembers of a frame that has a light of its own.
-    pub(crate) fn state_after(&self) -> &SensorState {
-        &self.after
+    /// What the sensor remembers of a frame that has a light of its own, and since which frame; `None` where it remembers nothing.
+    pub(crate) fn state_after(&self) -> Option<(&SensorState, u32)> {
+        self.after.as_ref().map(|(after, since)| (after, *since))
     }
 
     /// The frame is taken for it, where anything is remembered.
-    fn remembered(&self) -> SensorState {
+    fn remembered(&self) -> Option<SensorState> {
         let body = &self.camera().body;
-        let Some(light) = self.light.captures().filter(|_| body.sensor.as_ref().is_some_and(Sensor::remembers)) else {
-            return SensorState::default();
-        };
-        let step =
-            |state, frame| take(body, state, light, self.address(frame)).map_or_else(SensorState::default, |t| t.0);
-        self.frames.clone().fold(self.state.clone(), step)
+        let light = self.light.captures().filter(|_| body.sensor.as_ref().is_some_and(Sensor::remembers))?;
+        let step = |state, frame| Some(take(body, state, light, self.address(frame))?.0);
+        self.frames.clone().try_fold(self.state.clone(), step)
     }
 
     /// Where a frame of the camera stands among all.

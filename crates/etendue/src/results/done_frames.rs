@@ -5,10 +5,11 @@ use super::metadata;
 use super::sequence::Sequence;
 use crate::error::Error;
 use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
-use etendue_sensor::SensorState;
+use etendue_sensor::{Sensor, SensorState};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
+use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -17,6 +18,8 @@ use std::sync::Arc;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct DoneFrames {
     facts: BTreeMap<(String, u32), Value>,
+    /// The run's first frame, which sensors that remember begin with.
+    first: u32,
 }
 
 impl DoneFrames {
@@ -29,8 +32,12 @@ impl DoneFrames {
         for camera in plan.cameras.iter().filter(|camera| camera.time != TimeDependence::None) {
             for frame in frames.clone() {
                 let path = folder.join(&camera.name).join(Files::frame(frame));
-                let Ok(text) = fs::read_to_string(&path) else { continue };
                 let refuse = |why: &str| Error::input(format!("{}: {why}", path.display()));
+                let text = match fs::read_to_string(&path) {
+                    Ok(text) => text,
+                    Err(cause) if cause.kind() == ErrorKind::NotFound => continue,
+                    Err(cause) => return Err(refuse(&format!("it cannot be read: {cause}"))),
+                };
                 let value: Value = serde_json::from_str(&text).map_err(|_| {
                     refuse("this is not the file of a frame; remove it, or choose another output folder")
                 })?;
@@ -42,12 +49,21 @@ impl DoneFrames {
                 facts.insert((camera.name.clone(), frame), value);
             }
         }
-        Ok(Self { facts })
+        Ok(Self { facts, first: frames.start })
     }
 
-    /// The states of the sensors of cameras after a frame; `None` where it is not whole for all of them.
+    /// The states of the sensors of cameras after a frame; `None` where it is not whole for all of them, or a sensor that remembers
+    /// began with another frame.
     pub(crate) fn states(&self, group: &[&CameraPlan], frame: u32) -> Option<Vec<SensorState>> {
-        group.iter().map(|camera| Some(metadata::state_of(self.of(camera, frame)?))).collect()
+        group.iter().map(|camera| self.state(camera, frame)).collect()
+    }
+
+    fn state(&self, camera: &CameraPlan, frame: u32) -> Option<SensorState> {
+        let facts = self.of(camera, frame)?;
+        match camera.body.sensor.as_ref().is_some_and(Sensor::remembers) {
+            true => metadata::state_of(facts, self.first),
+            false => Some(SensorState::default()),
+        }
     }
 
     /// Notes the frames in a sequence that goes on after them.

@@ -214,6 +214,7 @@ fn pose_rows(pose: &CameraPose) -> [[f64; 4]; 3] {
 
 /// The side-car of a rendered camera, whose first frame it is.
 pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTreeMap<String, Value>) -> Value {
+    let first = if camera.time == TimeDependence::None { 0 } else { first };
     let settings = &camera.settings;
     json!({
         "program": "etendue",

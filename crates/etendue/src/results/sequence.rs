@@ -8,7 +8,10 @@ use crate::error::Error;
 use crate::observer::Observer;
 use etendue_io::OutputFolder;
 use etendue_pipeline::plan::{CameraPlan, Plan};
+use etendue_pipeline::rectified::RectifiedCamera;
 use serde_json::Value;
+use std::collections::BTreeMap;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// What was written of each camera.
@@ -23,13 +26,10 @@ struct CameraFrames {
     plan: Arc<Plan>,
     /// Its place among the plan's cameras.
     camera: usize,
-    /// The run's frames, as far as they were written.
-    first: u32,
-    end: u32,
-    /// What the side-car says of the undistorted twin.
-    undistorted: Value,
-    /// What it says of each frame.
-    frames: Vec<Value>,
+    /// The first and one past the last of its frames.
+    frames: Range<u32>,
+    /// What the side-car says of each frame that has photographs or a light of its own.
+    facts: BTreeMap<u32, Value>,
 }
 
 impl CameraFrames {
@@ -55,32 +55,32 @@ impl Sequence {
         if results.has_own_light() {
             let facts = metadata::own_frame(&results.plan, camera, numbers.start, frames.pop());
             let mut writer = ResultWriter { prefix: camera.name.clone(), folder };
-            let kept = metadata::with_state(facts.clone(), results.state_after());
+            let kept = match results.state_after() {
+                Some((after, since)) => metadata::with_state(facts.clone(), after, since),
+                None => facts.clone(),
+            };
             writer.json(&Files::frame(numbers.start), &kept)?;
             frames = vec![facts];
         }
-        let known = self.of(&results.plan, camera, numbers.start);
-        known.end = numbers.end;
-        known.undistorted = results.undistorted.as_ref().map_or(Value::Null, metadata::undistorted);
-        known.frames.extend(frames);
+        let known = self.of(&results.plan, camera, &numbers);
+        known.facts.extend(numbers.zip(frames));
         Ok(())
     }
 
     /// Notes a frame that a run before this one has written.
     pub(crate) fn keep(&mut self, plan: &Arc<Plan>, camera: &CameraPlan, frame: u32, facts: Value) {
-        let known = self.of(plan, camera, frame);
-        known.end = frame + 1;
-        known.frames.push(facts);
+        self.of(plan, camera, &(frame..frame + 1)).facts.insert(frame, facts);
     }
 
     /// Writes the side-cars.
     pub(crate) fn finish(&self, folder: &mut OutputFolder) -> Result<(), Error> {
         for known in &self.cameras {
             let camera = known.camera();
-            let files = Files::of_camera(camera, &(known.first..known.end));
-            let mut facts = metadata::sidecar(&known.plan, camera, known.first, &files);
-            facts["undistorted"] = known.undistorted.clone();
-            facts["frames"] = known.frames.clone().into();
+            let files = Files::of_camera(camera, &known.frames);
+            let mut facts = metadata::sidecar(&known.plan, camera, known.frames.start, &files);
+            let twin = camera.products.undistorted.and_then(|scale| RectifiedCamera::of(&camera.body, scale).ok());
+            facts["undistorted"] = twin.as_ref().map_or(Value::Null, metadata::undistorted);
+            facts["frames"] = known.facts.values().cloned().collect();
             let mut writer = ResultWriter { prefix: camera.name.clone(), folder: &mut *folder };
             writer.json(Files::SIDECAR, &facts)?;
         }
@@ -91,14 +91,16 @@ impl Sequence {
         self.cameras.iter().any(|known| known.camera().name == camera.name)
     }
 
-    fn of(&mut self, plan: &Arc<Plan>, camera: &CameraPlan, frame: u32) -> &mut CameraFrames {
+    fn of(&mut self, plan: &Arc<Plan>, camera: &CameraPlan, frames: &Range<u32>) -> &mut CameraFrames {
         let place = self.cameras.iter().position(|known| known.camera().name == camera.name);
         let place = place.unwrap_or_else(|| {
             let index = plan.cameras.iter().position(|c| c.name == camera.name).expect("a camera of the plan");
-            let (plan, undistorted, frames) = (Arc::clone(plan), Value::Null, Vec::new());
-            self.cameras.push(CameraFrames { plan, camera: index, first: frame, end: frame, undistorted, frames });
+            let (plan, facts) = (Arc::clone(plan), BTreeMap::new());
+            self.cameras.push(CameraFrames { plan, camera: index, frames: frames.clone(), facts });
             self.cameras.len() - 1
         });
-        &mut self.cameras[place]
+        let known = &mut self.cameras[place];
+        known.frames = known.frames.start.min(frames.start)..known.frames.end.max(frames.end);
+        known
     }
 }

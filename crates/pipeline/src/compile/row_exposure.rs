@@ -23,13 +23,15 @@ pub(super) fn row_exposure(
     let hdr = record.electronics.as_ref().and_then(|e| e.hdr.as_ref());
     let further = hdr.map_or(&[][..], |hdr| &hdr.captures);
     refuse_idle_starts(further, context);
-    RowExposure {
-        shutter: record.shutter.as_ref().map_or(Shutter::Global, shutter),
-        first_row,
-        rows: rows.max(1),
-        exposure_s,
-        captures: captures(further, exposure_s),
-    }
+    let shutter = record.shutter.as_ref().map_or(Shutter::Global, shutter);
+    let rows = rows.max(1);
+    // From the beginning of a row's exposure to its end, the last row's.
+    let length_s = |exposure_s: f64| match shutter {
+        Shutter::GlobalReset(_) => shutter.length_s(rows, exposure_s),
+        Shutter::Global | Shutter::Rolling(_) => exposure_s,
+    };
+    let captures = captures(further, exposure_s, length_s, context);
+    RowExposure { shutter, first_row, rows, exposure_s, captures }
 }
 
 fn shutter(record: &record::sensor::Shutter) -> Shutter {
@@ -55,11 +57,16 @@ fn exposure_s(sensor: &record::Sensor) -> f64 {
 }
 
 /// The exposures of a frame. Those of one photodiode follow each other, as it can collect one charge at a time.
-fn captures(further: &[Capture], exposure_s: f64) -> Vec<CaptureTiming> {
+fn captures(
+    further: &[Capture],
+    exposure_s: f64,
+    length_s: impl Fn(f64) -> f64,
+    context: &mut Context<'_>,
+) -> Vec<CaptureTiming> {
     let or_1 = |ratio: &Option<Placed<f64>>| ratio.as_ref().map_or(1.0, |r| r.value);
     let mut captures = vec![CaptureTiming { start_s: 0.0, exposure_ratio: 1.0 }];
     // When each photodiode, told by its sensitivity, has ended its last exposure.
-    let mut ends = vec![(1.0, exposure_s)];
+    let mut ends = vec![(1.0, length_s(exposure_s))];
     for capture in further {
         if capture.dual_conversion_gain.as_ref().is_some_and(|d| d.value) {
             captures.push(captures[captures.len() - 1]);
@@ -67,8 +74,15 @@ fn captures(further: &[Capture], exposure_s: f64) -> Vec<CaptureTiming> {
         }
         let (sensitivity, exposure_ratio) = (or_1(&capture.sensitivity_ratio), or_1(&capture.exposure_ratio));
         let end = ends.iter().rev().find(|(s, _)| *s == sensitivity).map_or(0.0, |(_, end)| *end);
+        if let Some(start) = capture.start_s.as_ref().filter(|start| start.value < end * (1.0 - 1e-9)) {
+            let problem = format!(
+                "the exposure would begin {} s after the first, and the one before it of the same photodiode ends {end} s after it",
+                start.value
+            );
+            context.fault(&start.place, problem, "begin later, or leave \"start_s\" out");
+        }
         let start_s = capture.start_s.as_ref().map_or(end, |start| start.value);
-        ends.push((sensitivity, start_s + exposure_s * exposure_ratio));
+        ends.push((sensitivity, start_s + length_s(exposure_s * exposure_ratio)));
         captures.push(CaptureTiming { start_s, exposure_ratio });
     }
     captures

@@ -54,6 +54,13 @@ pub(super) fn depend(
                            all of them";
             context.fault(&camera.body.place, problem, "give a \"global\" shutter, or route = \"lens\"");
         }
+        if camera.time == TimeDependence::Motion
+            && camera.products.undistorted.is_some()
+            && !camera.timing.exposure.is_global()
+        {
+            let problem = "rows that are read in turn see different moments, and a row of the undistorted twin is of several of them";
+            context.fault(&camera.body.place, problem, "give a \"global\" shutter, or remove \"undistorted\"");
+        }
     }
 }
 
@@ -77,19 +84,25 @@ fn period_s(sequence: Option<&Sequence>, sensor: &record::Sensor, context: &mut 
     Some(1.0 / rate.value)
 }
 
+/// A row cannot be exposed for the next frame before it has been read, and one frame is read after the other.
 fn check(timing: &Timing, sensor: &record::Sensor, sequence: Option<&Sequence>, context: &mut Context<'_>) {
+    let Some(period_s) = timing.period_s else { return };
     let jitter_s = timing.jitter.map_or(0.0, |jitter| 2.0 * jitter.half_width_s);
-    let (Some(period_s), length_s) = (timing.period_s, timing.exposure.length_s() + jitter_s) else { return };
-    if length_s > period_s * (1.0 + RATE_TOLERANCE) {
+    let exposed_s = timing.exposure.longest_row_s() + jitter_s;
+    let read_s = timing.exposure.reading_s() + jitter_s;
+    let most_s = period_s * (1.0 + RATE_TOLERANCE);
+    if exposed_s > most_s {
         let problem = format!(
-            "a frame takes {length_s} s from the beginning of its first exposure to the end of its last, jitter included, and the \
-             next one begins after {period_s} s"
+            "a row takes {exposed_s} s from the beginning of its first exposure to the end of its last, jitter included, and frames \
+             follow each other every {period_s} s"
         );
-        context.fault(
-            place(sensor, sequence),
-            problem,
-            "expose shorter, read rows faster, or take fewer frames a second",
+        context.fault(place(sensor, sequence), problem, "expose shorter, or take fewer frames a second");
+    } else if read_s > most_s {
+        let problem = format!(
+            "to read all rows takes {read_s} s, jitter included, and frames follow each other every {period_s} s"
         );
+        let place = sensor.shutter.as_ref().map_or(&sensor.place, |_| place(sensor, sequence));
+        context.fault(place, problem, "read rows faster, or take fewer frames a second");
     }
 }
 

@@ -49,10 +49,21 @@ impl RowExposure {
         TimeInterval::new(start_s, start_s + length_s).expect("times of a camera are finite")
     }
 
-    /// From the beginning of a frame to the end of its last exposure, s.
+    /// From the beginning of a row's first exposure to the end of its last, of the row that takes longest, s.
     #[must_use]
-    pub fn length_s(&self) -> f64 {
-        (0..self.captures.len()).map(|capture| self.capture(capture).end_s()).fold(0.0, f64::max)
+    pub fn longest_row_s(&self) -> f64 {
+        let end = |capture: usize| {
+            let CaptureTiming { start_s, exposure_ratio } = self.captures[capture];
+            let exposure_s = self.exposure_s * exposure_ratio;
+            start_s + if self.is_even() { exposure_s } else { self.shutter.length_s(self.rows, exposure_s) }
+        };
+        (0..self.captures.len()).map(end).fold(0.0, f64::max)
+    }
+
+    /// How long it takes to read all rows one after the other, s; 0 where all end together.
+    #[must_use]
+    pub fn reading_s(&self) -> f64 {
+        self.shutter.row_timing().map_or(0.0, |rows| rows.row_time_s * self.rows as f64)
     }
 
     /// Light of a row over that of the stated exposure time: 1 but for global reset.

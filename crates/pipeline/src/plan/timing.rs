@@ -81,7 +81,8 @@ mod tests {
         let mut exposure =
             RowExposure { shutter: Shutter::Rolling(rows), first_row: 10, ..RowExposure::global(20, 0.01) };
         exposure.captures.push(CaptureTiming { start_s: 0.01, exposure_ratio: 0.25 });
-        assert!((exposure.length_s() - (0.01 + 0.0025 + 19e-5)).abs() < 1e-12);
+        assert!((exposure.longest_row_s() - (0.01 + 0.0025)).abs() < 1e-12);
+        assert!((exposure.reading_s() - 20e-5).abs() < 1e-12);
         let timing = Timing { start_s: 100.0, period_s: Some(0.04), jitter: None, exposure };
         let row = timing.row(3, 1, 15);
         assert!((row.start_s() - (100.12 + 0.01 + 5e-5)).abs() < 1e-12 && (row.length_s() - 0.0025).abs() < 1e-12);

@@ -95,13 +95,13 @@ impl<'a> FilmExposure<'a> {
     }
 
     /// Over what time the level of a light that changes is averaged for a sample of a row: over the row's exposure where nothing
-    /// moves, else at the sample's moment.
+    /// moves, else at the sample's moment, as its ray has it.
     #[must_use]
     pub fn lit(&self, row: u32, moment_s: f64) -> TimeInterval {
         match self.time {
             TimeDependence::None => TimeInterval::default(),
             TimeDependence::Lights => self.rows[row as usize],
-            TimeDependence::Motion => TimeInterval::at(moment_s).unwrap_or_default(),
+            TimeDependence::Motion => TimeInterval::at(self.interval.moment(self.time_s(moment_s))).unwrap_or_default(),
         }
     }
 
@@ -117,7 +117,12 @@ impl<'a> FilmExposure<'a> {
         let pose = self.pose(moment_s);
         let origin = pose.point_to_render(ray.origin_m) + (pose.position_m - self.origin_m);
         let direction = pose.direction_to_world(ray.direction).as_vec3().normalize();
-        Ray::new(origin.as_vec3(), direction, (moment_s - self.interval().start_s()) as f32)
+        Ray::new(origin.as_vec3(), direction, self.time_s(moment_s))
+    }
+
+    /// A moment as the time of a ray. Moments of rows that differ by rounding alone are one time.
+    fn time_s(&self, moment_s: f64) -> f32 {
+        (moment_s - self.interval().start_s()) as f32
     }
 }
 

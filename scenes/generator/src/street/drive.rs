@@ -162,10 +162,10 @@ pub(super) fn ego() -> String {
 
 /// The job.
 pub(super) fn job() -> String {
-    let camera = |name: &str, file: &str, at: &str, turned: &str| {
+    let camera = |name: &str, file: &str, at: &str, turned: &str, more: &str| {
         format!(
             "[[cameras]]\nname = \"{name}\"\nfile = \"../cameras/{file}\"\nframe = \"ego\"\nposition_m = {at}\n\
-             rotation_deg = {turned}\n\n"
+             rotation_deg = {turned}\n{more}\n"
         )
     };
     [
@@ -176,10 +176,10 @@ pub(super) fn job() -> String {
          [sequence]\nframe_rate_hz = 20\n\n"
             .to_owned(),
         "# A pair of 0.3 m, parallel, their exposures together.\n".to_owned(),
-        camera("left", "rig-front.toml", "[0, 0.15, 1.35]", "[0, 0.5, 0]"),
-        camera("right", "rig-front.toml", "[0, -0.15, 1.35]", "[0, 0.5, 0]"),
-        camera("rear", "rig-rear.toml", "[-2.6, 0, 1.0]", "[180, 15, 0]"),
-        "[render]\n# Half a minute a frame and camera on two cores.\nspp = 64\nmax_bounces = 6\ncaustics = false\npath_reuse_px = 4\nseed = 1\n"
+        camera("left", "rig-front.toml", "[0, 0.15, 1.35]", "[0, 0.5, 0]", "output = { disparity_to = \"right\" }\n"),
+        camera("right", "rig-front.toml", "[0, -0.15, 1.35]", "[0, 0.5, 0]", ""),
+        camera("rear", "rig-rear.toml", "[-2.6, 0, 1.0]", "[180, 15, 0]", ""),
+        "[render]\n# Half a minute a frame and camera on two cores.\nspp = 64\nmax_bounces = 6\ncaustics = false\npath_reuse_px = 4\nseed = 1\n\n[output]\noptical_flow = \"exr\"\nboxes = true\n"
             .to_owned(),
     ]
     .concat()

@@ -5,8 +5,9 @@ use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
 use etendue_sensor::SensorState;
 use serde_json::{Value, json};
 
-/// The key of what the sensor remembers.
+/// The keys of what the sensor remembers, and of the first frame that it remembers anything of.
 const STATE: &str = "sensor_state";
+const SINCE: &str = "sensor_since_frame";
 
 /// A frame with its times and poses, and what is said of its `photograph`, where there is one.
 pub(crate) fn own_frame(plan: &Plan, camera: &CameraPlan, frame: u32, photograph: Option<Value>) -> Value {
@@ -25,11 +26,10 @@ pub(crate) fn own_frame(plan: &Plan, camera: &CameraPlan, frame: u32, photograph
     facts
 }
 
-/// The same with what the sensor remembers afterwards, where it does.
-pub(crate) fn with_state(mut facts: Value, after: &SensorState) -> Value {
-    if *after != SensorState::default() {
-        facts[STATE] = serde_json::to_value(after).unwrap_or(Value::Null);
-    }
+/// The same with what the sensor remembers afterwards of the frames since the run's first.
+pub(crate) fn with_state(mut facts: Value, after: &SensorState, since: u32) -> Value {
+    facts[STATE] = serde_json::to_value(after).unwrap_or(Value::Null);
+    facts[SINCE] = since.into();
     facts
 }
 
@@ -37,11 +37,13 @@ pub(crate) fn with_state(mut facts: Value, after: &SensorState) -> Value {
 pub(crate) fn without_state(mut facts: Value) -> Value {
     if let Some(table) = facts.as_object_mut() {
         table.remove(STATE);
+        table.remove(SINCE);
     }
     facts
 }
 
-/// What the sensor remembers after a frame.
-pub(crate) fn state_of(facts: &Value) -> SensorState {
-    facts.get(STATE).and_then(|state| serde_json::from_value(state.clone()).ok()).unwrap_or_default()
+/// What a sensor that remembers the frames since `since` remembers after a frame; `None` where the file does not tell that.
+pub(crate) fn state_of(facts: &Value, since: u32) -> Option<SensorState> {
+    facts.get(SINCE).filter(|stated| **stated == since)?;
+    serde_json::from_value(facts.get(STATE)?.clone()).ok()
 }

@@ -13,7 +13,9 @@ pub(super) fn motion(plan: &Plan) -> Option<String> {
         1 => Some(format!("one {one} moves")),
         n => Some(format!("{n} {many} move")),
     };
-    let moving = [told(instances, "instance", "instances"), told(cameras, "camera", "cameras")];
+    let lamps = plan.sources.lamps.iter().filter(|lamp| lamp.to_world().as_still().is_none()).count();
+    let moving =
+        [told(instances, "instance", "instances"), told(lamps, "lamp", "lamps"), told(cameras, "camera", "cameras")];
     let moving: Vec<String> = moving.into_iter().flatten().collect();
     (!moving.is_empty()).then(|| moving.join(", "))
 }
