@@ -153,7 +153,7 @@ fn a_wheel_has_the_box_of_its_way_and_no_more() {
 
 fn angle_about_y(of: &Motion, hub: &Motion, time_s: f64) -> f64 {
     let turned = hub.at(time_s).inverse() * of.at(time_s);
-    crate::maths::f64::atan2(turned.matrix3.x_axis.z * -1.0, turned.matrix3.x_axis.x)
+    crate::maths::f64::atan2(-turned.matrix3.x_axis.z, turned.matrix3.x_axis.x)
 }
 
 /// The difference of two angles, wrapped.
