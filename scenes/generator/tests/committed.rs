@@ -25,7 +25,7 @@ fn committed_files_are_those_of_the_generator() {
 #[test]
 fn nothing_else_lies_in_generated_folders() {
     let made: Vec<PathBuf> = etendue_scenes::files().iter().map(|file| scenes().join(&file.path)).collect();
-    for folder in ["street", "street/meshes", "street/textures"] {
+    for folder in ["street", "street/meshes", "street/textures", "drive"] {
         for entry in std::fs::read_dir(scenes().join(folder)).expect("the street is committed") {
             let path = entry.expect("a folder can be listed").path();
             assert!(path.is_dir() || made.contains(&path), "{} is left over", path.display());
@@ -33,11 +33,11 @@ fn nothing_else_lies_in_generated_folders() {
     }
 }
 
-/// The scenes are cloned by everybody: two megabytes at most.
+/// The scenes are cloned by everybody: two and a quarter megabytes at most, a fifth of a megabyte of them for a car whose wheels turn.
 #[test]
 fn the_scenes_are_small() {
     let bytes: usize = etendue_scenes::files().iter().map(|file| file.bytes.len()).sum();
-    assert!(bytes < 2_000_000, "{bytes} bytes");
+    assert!(bytes < 2_250_000, "{bytes} bytes");
 }
 
 /// The street is the project's large scene: a hundred thousand triangles at least, by instances.
@@ -54,6 +54,7 @@ fn jobs_can_be_read() {
         "street/sunset.toml",
         "street/night.toml",
         "street/wet-night.toml",
+        "drive/drive.toml",
         "cornell/cornell.toml",
         "furnace/furnace.toml",
         "sphere-on-plane/sphere-on-plane.toml",
