@@ -19,6 +19,7 @@ mod lens;
 mod light;
 mod linear_picture;
 mod material;
+mod medium;
 mod modulation;
 #[cfg(test)]
 mod motion_tests;
@@ -95,6 +96,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let mut builder = MaterialTableBuilder::of_scene(scene, unused, context);
     let frames = Frames::of(scene, unused, context);
     let (mut sources, open_lamps, sky) = light::sources(scene, &frames, context);
+    let media = medium::media(scene, &frames, context);
     let setups = description.cameras.iter().enumerate();
     let mut cameras: Vec<_> =
         setups.filter_map(|setup| camera_plan(setup, (description, &frames), choices, context)).collect();
@@ -107,7 +109,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let (material_table, materials) = builder.finish(context)?;
     let is_modulated = sources.is_modulated() || material_table.is_modulated();
     annotations::resolve(description, &mut cameras, context);
-    timing::depend(&mut cameras, &world, (&sources, is_modulated), context);
+    timing::depend(&mut cameras, &world, (&sources, is_modulated), &media, context);
     shared_light::share(&mut cameras);
     positions::remark(&cameras, context);
     surroundings::remark(&cameras, &world, &material_table, &materials, context);
@@ -122,7 +124,20 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
         unread(description, context);
     }
     let hash = context.faults.is_empty().then(|| fingerprint(description, context.assets, choices))?;
-    Some(Plan { world, material_table, sources, sky, cameras, identities, materials, classes, remarks, notices, hash })
+    Some(Plan {
+        world,
+        material_table,
+        sources,
+        media,
+        sky,
+        cameras,
+        identities,
+        materials,
+        classes,
+        remarks,
+        notices,
+        hash,
+    })
 }
 
 /// Refuses files that are named and were not read, also those that no step asked for: two contents would have one hash.

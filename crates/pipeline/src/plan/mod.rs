@@ -17,6 +17,7 @@ use crate::plan::remark::Remark;
 use etendue_tracer::accel::World;
 use etendue_tracer::lights::Sources;
 use etendue_tracer::materials::MaterialTable;
+use etendue_tracer::media::Medium;
 
 pub use annotations::{Annotations, CorrespondenceFormat, DisparityProduct};
 pub use camera::{CameraBody, CameraPlan, LightOwner};
@@ -35,6 +36,8 @@ pub struct Plan {
     pub material_table: MaterialTable,
     /// What shines but is no surface.
     pub sources: Sources,
+    /// What scatters light between surfaces.
+    pub media: Vec<Medium>,
     /// What is said of the sky, where the surroundings are one.
     pub sky: Option<SkyFacts>,
     /// The cameras.
