@@ -272,9 +272,28 @@ impl Job {
             Ok(())
         })?;
         sequence.finish(&mut folder)?;
-        rig::write_asked(&self.plan, &options.frames, &mut folder, observer)?;
+        rig::write(&rig::asked_files(&self.plan, &options.frames), &mut folder, observer)?;
         written.extend(folder.commit().map_err(Error::run)?);
         Ok(written)
+    }
+
+    /// Writes where all cameras stand and how they project, over frames, in the files of ROS, Kalibr and COLMAP; answers with their paths. Nothing is
+    /// rendered.
+    ///
+    /// # Errors
+    /// Where frames have no times, or the folder cannot be written.
+    pub fn save_calibration_files(
+        &self,
+        frames: &Range<u32>,
+        (folder, existing): (&Path, Existing),
+        observer: &dyn Observer,
+    ) -> Result<Vec<PathBuf>, Error> {
+        check_frames(&self.plan, frames)?;
+        let rig = rig::all_files(&self.plan, frames);
+        let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
+        folder.claim(rig.files.iter().map(|(name, _)| name.as_str())).map_err(Error::input)?;
+        rig::write(&rig, &mut folder, observer)?;
+        folder.commit().map_err(Error::run)
     }
 
     /// Renders the tiles of one shard: a film for each group of cameras of equal light, with the first of these; where light depends on time,

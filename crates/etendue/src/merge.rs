@@ -44,7 +44,7 @@ pub fn merge(
         sequence.write(&camera, &mut folder, observer)
     })?;
     sequence.finish(&mut folder)?;
-    rig::write_asked(job.plan(), &manifest.frames, &mut folder, observer)?;
+    rig::write(&rig::asked_files(job.plan(), &manifest.frames), &mut folder, observer)?;
     folder.commit().map_err(Error::run)
 }
 

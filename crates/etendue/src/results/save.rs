@@ -59,7 +59,7 @@ impl Results {
         if let Some(first) = self.cameras.first() {
             let frames = self.cameras.iter().map(CameraResults::frame_numbers);
             let frames = frames.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or_default();
-            rig::write_asked(&first.plan, &frames, &mut folder, observer)?;
+            rig::write(&rig::asked_files(&first.plan, &frames), &mut folder, observer)?;
         }
         folder.commit().map_err(Error::run)
     }

@@ -49,14 +49,13 @@ pub(crate) fn asked_files(plan: &Plan, frames: &Range<u32>) -> RigFiles {
     if cameras.is_empty() { RigFiles::default() } else { rig_files(plan, &cameras, frames) }
 }
 
-/// Writes the files that are asked for, and tells what they leave out.
-pub(crate) fn write_asked(
-    plan: &Plan,
-    frames: &Range<u32>,
-    folder: &mut OutputFolder,
-    observer: &dyn Observer,
-) -> Result<(), Error> {
-    let rig = asked_files(plan, frames);
+/// The files of all cameras of a plan, over frames.
+pub(crate) fn all_files(plan: &Plan, frames: &Range<u32>) -> RigFiles {
+    rig_files(plan, &plan.cameras.iter().collect::<Vec<_>>(), frames)
+}
+
+/// Writes files, and tells what they leave out.
+pub(crate) fn write(rig: &RigFiles, folder: &mut OutputFolder, observer: &dyn Observer) -> Result<(), Error> {
     rig.left_out.iter().for_each(|told| observer.message(Message::Warning(told)));
     rig.files.iter().try_for_each(|(name, text)| folder.write(name, text.as_bytes()).map_err(Error::run))
 }
