@@ -18,6 +18,7 @@
 //! | --- | --- | --- |
 //! | a job file | its plan, radiance, electrons, raw, picture, ground truth | [`Job`] |
 //! | a scene from arrays, a camera in code | the same | [`MemoryFiles`] |
+//! | a job file | where its cameras stand and how they project, for ROS, Kalibr and COLMAP | [`Job::save_calibration_files`] |
 //! | shards of a job | the files of the whole | [`merge()`] |
 //! | stored radiance and a camera file | what that camera would have taken | [`expose()`] |
 //! | stored raws and a camera file | pictures by its processing | [`develop()`] |

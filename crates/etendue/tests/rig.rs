@@ -1,72 +1,24 @@
 //! Calibration files of a rig, read by formulas of their own and held against the program's projection.
 
-use etendue::{Existing, Job, JobRequest, MemoryFiles, Unobserved};
+use etendue::{Existing, Job, Unobserved};
 use etendue_core::maths::f64::{atan2, cos, sin};
 use glam::{DMat3, DVec2, DVec3};
-use std::path::Path;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
 
 /// Coordinates of some thousand m and px in f64: the world's rounding of 1e-12 m is 1e-10 px.
 const TOLERANCE_PX: f64 = 1e-6;
 
-const SENSOR: &str = "sensor = { width_px = 640, height_px = 480, pixel_pitch_um = 6 }\n";
 /// Where the car is at 0 s: its place, m, and its yaw, degrees.
 const CAR_M: [f64; 3] = [1000.0, -2000.0, 3.0];
 const CAR_YAW_DEG: f64 = 30.0;
 
-/// A car with a rectified pair, one camera of five coefficients and a fisheye; beside it a camera that looks by a mirror polynomial that no
-/// format knows, and one that goes by itself.
-fn text() -> String {
-    let camera =
-        |name: &str, keys: &str, lens: &str| format!("[[cameras]]\nname = \"{name}\"\n{keys}\nlens = {lens}\n{SENSOR}");
-    let of_car = |x: f64, y: f64, rotation: &str| {
-        format!("frame = \"car\"\nposition_m = [{x}, {y}, 1.2]\nrotation_deg = {rotation}")
-    };
-    let matrix = "fx_px = 610, fy_px = 605, cx_px = 322.5, cy_px = 238.25";
-    let calibrated =
-        |projection: &str| format!("{{ type = \"calibrated\", f_number = 2, projection = {{ {projection} }} }}");
-    let pinhole = "{ type = \"pinhole\", focal_length_mm = 4, f_number = 2 }";
-    let thin = "{ type = \"thin\", focal_length_mm = 4, f_number = 2, focus_distance_m = 5, distortion = { k1 = -0.2, k2 = 0.03, \
-                radius_unit = \"focal_lengths\", direction = \"ideal_to_observed\" } }";
-    let moving = "keys = [{ time_s = 0, position_m = [0, 0, 1], rotation_deg = [0, 0, 0] }, \
-                  { time_s = 1, position_m = [3, 0, 1], rotation_deg = [20, 0, 0] }]";
-    let [x, y, z] = CAR_M;
-    [
-        "format = 1\n[sequence]\nframe_rate_hz = 10\n[output]\ncalibration_files = true\n".to_owned(),
-        camera("left", &of_car(1.5, 0.15, "[0, 2, 0]"), pinhole) + "output = { disparity_to = \"right\" }\n",
-        camera("right", &of_car(1.5, -0.15, "[0, 2, 0]"), pinhole),
-        camera("side", &of_car(0.3, 0.9, "[80, 10, 3]"), thin),
-        camera(
-            "five",
-            &of_car(0.3, -0.9, "[-80, 5, -2]"),
-            &calibrated(&format!("type = \"opencv\", distortion = [-0.2, 0.05, 0.001, -0.002, 0.003], {matrix}")),
-        ),
-        camera(
-            "rear",
-            &of_car(-2.0, 0.0, "[180, 15, 0]"),
-            &calibrated("type = \"kannala_brandt\", k = [0.01, 0.002, -0.001, 0.0001], fx_px = 210, fy_px = 208, cx_px = 319, cy_px = 241"),
-        ),
-        camera(
-            "globe",
-            &of_car(0.0, 0.0, "[0, 0, 0]"),
-            &calibrated("type = \"equisolid\", fx_px = 210, cx_px = 320, cy_px = 240"),
-        ),
-        camera("walker", moving, pinhole),
-        format!(
-            "[[scene.frames]]\nname = \"car\"\nkeys = [{{ time_s = 0, position_m = [{x}, {y}, {z}], rotation_deg = [{CAR_YAW_DEG}, 0, 0] }}, \
-             {{ time_s = 1, position_m = [{}, {y}, {z}], rotation_deg = [40, 0, 0] }}]\n",
-            x + 10.0
-        ),
-        "[[scene.materials]]\nname = \"grey\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
-         [[scene.objects]]\nname = \"ground\"\nmaterial = \"grey\"\nshape = { type = \"quad\", size_m = [40, 40] }\n"
-            .to_owned(),
-    ]
-    .concat()
+fn figures() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/oracles/figures")
 }
 
 fn job() -> Job {
-    let mut files = MemoryFiles::new();
-    files.add_text("job.toml", text());
-    JobRequest::new("job.toml").open_in(&files).unwrap_or_else(|error| panic!("{error}"))
+    Job::open(figures().join("rig/rig.toml")).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn written(job: &Job, folder: &Path) -> impl Fn(&str) -> String {
@@ -286,4 +238,66 @@ fn colmap_s_model_sees_what_the_program_sees_in_every_frame() {
         }
     }
     assert!(read("colmap/points3D.txt").starts_with('#'));
+}
+
+/// Points of a table with their pixels.
+fn table(value: &Value) -> Vec<(DVec3, DVec2)> {
+    let numbers = |value: &Value| -> Vec<f64> {
+        value.as_array().expect("a list").iter().map(|x| x.as_f64().expect("a number")).collect()
+    };
+    let list = |key: &str| value[key].as_array().expect("a list").clone();
+    let pairs = list("points_m").into_iter().zip(list("pixels"));
+    pairs.map(|(p, px)| (DVec3::from_slice(&numbers(&p)), DVec2::from_slice(&numbers(&px)))).collect()
+}
+
+/// A point of the car's frame at 0 s in the world.
+fn of_car(point_m: DVec3) -> DVec3 {
+    let (sin, cos) = (sin(CAR_YAW_DEG.to_radians()), cos(CAR_YAW_DEG.to_radians()));
+    DVec3::new(cos * point_m.x - sin * point_m.y, sin * point_m.x + cos * point_m.y, point_m.z)
+        + DVec3::from_array(CAR_M)
+}
+
+/// PyYAML, OpenCV and COLMAP on the stored files (tests/oracles/rig.py).
+#[test]
+fn other_programs_that_read_the_files_see_what_the_program_sees() {
+    let job = job();
+    let text = std::fs::read_to_string(figures().join("rig.json")).expect("figures");
+    let figures: Value = serde_json::from_str(&text).expect("JSON");
+    for name in ["left", "right", "side", "five", "rear"] {
+        assert_eq!(figures["ros"][name]["frame"], "car");
+        for (point, px) in table(&figures["ros"][name]) {
+            assert_near(px, truth(&job, name, 0.0, of_car(point)), name);
+        }
+    }
+    let left = job.plan().camera("left").expect("a camera").path.at(0.0);
+    for (point, px) in table(&figures["ros"]["pair"]) {
+        assert_near(px, truth(&job, "right", 0.0, left.position_m + left.rotation * point), "pair");
+    }
+    for name in ["left", "right", "side", "rear"] {
+        for (point, px) in table(&figures["kalibr"][name]) {
+            assert_near(px, truth(&job, name, 0.0, of_car(point)), name);
+        }
+    }
+    let images = figures["colmap"].as_array().expect("a list");
+    assert_eq!(images.len(), 18);
+    for image in images {
+        let file = image["name"].as_str().expect("a name");
+        let (name, picture) = file.split_once('/').expect("a folder");
+        let frame: f64 = picture.split('.').nth(1).and_then(|number| number.parse().ok()).expect("a number");
+        for (point, px) in table(image) {
+            assert_near(px, truth(&job, name, 0.1 * frame, point), file);
+        }
+    }
+}
+
+#[test]
+fn the_files_that_they_read_are_those_that_the_program_writes() {
+    let (job, folder) = (job(), tempfile::tempdir().expect("a folder"));
+    let written = job.save_calibration_files(&(0..3), (folder.path(), Existing::Refuse), &Unobserved).expect("written");
+    assert_eq!(written.len(), 10);
+    for path in written {
+        let name = path.strip_prefix(folder.path()).expect("within");
+        let stored = std::fs::read_to_string(figures().join("rig").join(name)).expect("a stored file");
+        assert_eq!(std::fs::read_to_string(&path).expect("a file"), stored, "{}", name.display());
+    }
 }
