@@ -5,7 +5,8 @@ poses. From the pictures alone come
 
 - disparity: cv2.StereoSGBM of frame 0;
 - flow: cv2.DISOpticalFlow from frame 0 to frame 1 of the left camera;
-- relative poses: SIFT, cv2.findEssentialMat (RANSAC), cv2.recoverPose: left to right, and left frame 0 to frame 1. Length is not known;
+- relative poses by SIFT: left to right by cv2.findEssentialMat (MAGSAC) and cv2.recoverPose, whose length is not known; left frame 0 to
+  frame 1 by cv2.solvePnPRansac on points in space that the disparity above and the stated base give;
 - the video: what cv2.VideoCapture reads of picture.y4m beside the pictures.
 
 Stored are the errors over all pixels that the truth calls seen in the other picture, and the estimates at every eighth pixel, which
@@ -68,15 +69,15 @@ def at_steps(picture, digits=3):
 
 
 def disparity(out, left, right):
-    matcher = cv2.StereoSGBM.create(minDisparity=0, numDisparities=64, blockSize=5, P1=8 * 25, P2=32 * 25, uniquenessRatio=5,
+    matcher = cv2.StereoSGBM.create(minDisparity=0, numDisparities=32, blockSize=5, P1=8 * 25, P2=32 * 25, uniquenessRatio=5,
                                     speckleWindowSize=50, speckleRange=2, mode=cv2.STEREO_SGBM_MODE_HH)
     raw = matcher.compute(left, right)
     estimate = np.where(raw >= 0, raw / 16.0, np.nan)
     truth = cv2.imread(str(out / "left" / "disparity.0000.pfm"), cv2.IMREAD_UNCHANGED)
     seen = layer(out / "left" / "disparity.0000.exr", "visibility.ID") == SEEN
     valid = seen & np.isfinite(estimate)
-    return {"errors": errors(estimate[..., None], truth[..., None], valid), "found": float((valid & seen).sum() / seen.sum()),
-            "estimate": at_steps(estimate)}
+    return estimate, {"errors": errors(estimate[..., None], truth[..., None], valid),
+                      "found": float((valid & seen).sum() / seen.sum()), "estimate": at_steps(estimate)}
 
 
 def flow(out, first, second):
@@ -88,18 +89,40 @@ def flow(out, first, second):
     return {"errors": errors(estimate, truth, seen), "estimate": at_steps(estimate)}
 
 
-def relative(first, second):
-    """Rotation (vector, rad) and direction of the second camera's frame against the first's: x2 = R x1 + t."""
-    sift = cv2.SIFT.create(contrastThreshold=0.02)
+def matched(first, second):
+    """Places of features that two pictures share, pixel centres at whole numbers."""
+    sift = cv2.SIFT.create(contrastThreshold=0.02, enable_precise_upscale=True)
     (k1, d1), (k2, d2) = sift.detectAndCompute(first, None), sift.detectAndCompute(second, None)
     pairs = [a for a, b in cv2.BFMatcher().knnMatch(d1, d2, k=2) if a.distance < 0.75 * b.distance]
-    p1 = np.array([k1[m.queryIdx].pt for m in pairs])
-    p2 = np.array([k2[m.trainIdx].pt for m in pairs])
+    return np.array([k1[m.queryIdx].pt for m in pairs]), np.array([k2[m.trainIdx].pt for m in pairs])
+
+
+def relative(rotation, translation, matches, inliers):
+    """The second camera's frame against the first's: x2 = R x1 + t."""
+    return {"rotation_rad": cv2.Rodrigues(rotation)[0].ravel().tolist() if rotation.shape == (3, 3) else rotation.ravel().tolist(),
+            "translation": translation.ravel().tolist(), "matches": int(matches), "inliers": int(inliers)}
+
+
+def by_epipolar_lines(first, second):
+    p1, p2 = matched(first, second)
     cv2.setRNGSeed(1)
-    essential, inliers = cv2.findEssentialMat(p1, p2, MATRIX, method=cv2.RANSAC, prob=0.9999, threshold=0.3)
+    essential, inliers = cv2.findEssentialMat(p1, p2, MATRIX, method=cv2.USAC_MAGSAC, prob=0.9999, threshold=1.0)
     _, rotation, translation, inliers = cv2.recoverPose(essential, p1, p2, MATRIX, mask=inliers)
-    return {"rotation_rad": cv2.Rodrigues(rotation)[0].ravel().tolist(), "direction": translation.ravel().tolist(),
-            "matches": len(pairs), "inliers": int((inliers > 0).sum())}
+    return relative(rotation, translation, len(p1), (inliers > 0).sum())
+
+
+def by_points(first, second, disparities, base_m):
+    p1, p2 = matched(first, second)
+    columns, rows = np.round(p1).astype(int).T
+    d = disparities[rows, columns]
+    known = np.isfinite(d) & (d > 0.0)
+    p1, p2, z = p1[known], p2[known], MATRIX[0, 0] * base_m / d[known]
+    points = np.column_stack([(p1 - MATRIX[:2, 2]) / MATRIX[0, 0], np.ones(len(p1))]) * z[:, None]
+    cv2.setRNGSeed(1)
+    _, turn, shift, inliers = cv2.solvePnPRansac(points, p2, MATRIX, None, iterationsCount=2000, reprojectionError=1.0, confidence=0.9999)
+    inside = inliers.ravel()
+    turn, shift = cv2.solvePnPRefineLM(points[inside], p2[inside], MATRIX, None, turn, shift)
+    return relative(turn, shift, len(p1), len(inside))
 
 
 def pose(out, camera, frame):
@@ -113,9 +136,11 @@ def with_errors(found, first, second):
     (r1, p1), (r2, p2) = first, second
     rotation, translation = r2.T @ r1, r2.T @ (p1 - p2)
     off = cv2.Rodrigues(cv2.Rodrigues(np.array(found["rotation_rad"]))[0] @ rotation.T)[0]
-    cosine = np.dot(found["direction"], translation) / np.linalg.norm(translation)
+    there = np.array(found["translation"])
+    cosine = there @ translation / np.linalg.norm(there) / np.linalg.norm(translation)
     return found | {"rotation_error_deg": float(np.degrees(np.linalg.norm(off))),
-                    "direction_error_deg": float(np.degrees(np.arccos(min(1.0, cosine))))}
+                    "direction_error_deg": float(np.degrees(np.arccos(min(1.0, cosine)))),
+                    "length_ratio": float(np.linalg.norm(there) / np.linalg.norm(translation))}
 
 
 def video(out):
@@ -137,10 +162,11 @@ def examined(out):
     grey = lambda camera, frame: cv2.imread(str(out / camera / f"picture.{frame:04}.png"), cv2.IMREAD_GRAYSCALE)
     left, right, later = grey("left", 0), grey("right", 0), grey("left", 1)
     at = lambda camera, frame: pose(out, camera, frame)
-    return {"program": f"OpenCV {cv2.__version__}", "step_px": STEP, "disparity": disparity(out, left, right),
-            "flow": flow(out, left, later), "video": video(out),
-            "left_to_right": with_errors(relative(left, right), at("left", 0), at("right", 0)),
-            "frame_0_to_1": with_errors(relative(left, later), at("left", 0), at("left", 1))}
+    disparities, of_pair = disparity(out, left, right)
+    base_m = np.linalg.norm(at("right", 0)[1] - at("left", 0)[1])
+    return {"program": f"OpenCV {cv2.__version__}", "step_px": STEP, "disparity": of_pair, "flow": flow(out, left, later),
+            "video": video(out), "left_to_right": with_errors(by_epipolar_lines(left, right), at("left", 0), at("right", 0)),
+            "frame_0_to_1": with_errors(by_points(left, later, disparities, base_m), at("left", 0), at("left", 1))}
 
 
 def main():

@@ -294,7 +294,7 @@ fn other_programs_that_read_the_files_see_what_the_program_sees() {
 fn the_files_that_they_read_are_those_that_the_program_writes() {
     let (job, folder) = (job(), tempfile::tempdir().expect("a folder"));
     let written = job.save_calibration_files(&(0..3), (folder.path(), Existing::Refuse), &Unobserved).expect("written");
-    assert_eq!(written.len(), 10);
+    assert_eq!(written.len(), 11);
     for path in written {
         let name = path.strip_prefix(folder.path()).expect("within");
         let stored = std::fs::read_to_string(figures().join("rig").join(name)).expect("a stored file");

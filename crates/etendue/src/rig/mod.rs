@@ -116,8 +116,11 @@ fn moves(parent: &str) -> String {
 fn base_m(plan: &Plan, camera: &CameraPlan) -> f64 {
     let is_left = |left: &&CameraPlan| left.products.annotations.disparity.is_some_and(|d| d.right == camera.index);
     plan.cameras.iter().find(is_left).map_or(0.0, |left| {
+        // In their own frame, if they share one: without the rounding of a far origin.
+        let fixed = left.mount.pose.zip(camera.mount.pose).filter(|_| left.mount.frame == camera.mount.frame);
         let time_s = left.timing.capture(0, 0).middle_s();
-        left.path.at(time_s).point_to_camera(camera.path.at(time_s).position_m).x
+        let (from, to) = fixed.unwrap_or_else(|| (left.path.at(time_s), camera.path.at(time_s)));
+        from.point_to_camera(to.position_m).x
     })
 }
 

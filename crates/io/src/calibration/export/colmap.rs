@@ -4,11 +4,11 @@
 //! + 0.5, as in the raster.
 
 use super::number::number;
+use super::quaternion::quaternion;
 use super::{NamedCamera, Refusal, fisheye, no_model, perspective, shortest, without_skew};
 use etendue_core::CameraPose;
 use etendue_projection::Model;
 use etendue_projection::plane::DistortionTerms;
-use glam::DQuat;
 
 const FORMAT: &str = "COLMAP";
 
@@ -99,10 +99,8 @@ pub fn images(images: &[Image]) -> String {
     );
     for (i, image) in images.iter().enumerate() {
         let inverse = image.pose.rotation.transpose();
-        let [x, y, z, w] = DQuat::from_mat3(&inverse).to_array();
-        let sign = if w < 0.0 { -1.0 } else { 1.0 };
         let translation = -(inverse * image.pose.position_m);
-        let numbers = [w, x, y, z].map(|q| sign * q).into_iter().chain(translation.to_array()).map(number);
+        let numbers = quaternion(&inverse).into_iter().chain(translation.to_array()).map(number);
         let numbers = numbers.collect::<Vec<_>>().join(" ");
         text.push_str(&format!("{} {numbers} {} {}\n\n", i + 1, image.camera, image.file));
     }

@@ -13,6 +13,7 @@
 pub mod colmap;
 pub mod kalibr;
 mod number;
+mod quaternion;
 pub mod ros;
 
 use etendue_projection::model::Ideal;

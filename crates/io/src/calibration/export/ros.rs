@@ -10,10 +10,10 @@
 //! rectified pair of base b.
 
 use super::number::{list, number, quoted};
+use super::quaternion::quaternion;
 use super::{NamedCamera, Refusal, fisheye, no_model, perspective, shortest, without_skew};
 use etendue_core::CameraPose;
 use etendue_projection::Model;
-use glam::DQuat;
 
 const FORMAT: &str = "ROS";
 
@@ -93,7 +93,7 @@ pub fn static_transforms(transforms: &[StaticTransform<'_>], left_out: &[String]
 
 fn entry(transform: &StaticTransform<'_>) -> String {
     let [x, y, z] = transform.pose.position_m.to_array().map(number);
-    let [qx, qy, qz, qw] = DQuat::from_mat3(&transform.pose.rotation).to_array().map(number);
+    let [qw, qx, qy, qz] = quaternion(&transform.pose.rotation).map(number);
     format!(
         "  - header: {{frame_id: {}}}\n    child_frame_id: {}\n    transform:\n      translation: {{x: {x}, y: {y}, z: {z}}}\n      \
          rotation: {{x: {qx}, y: {qy}, z: {qz}, w: {qw}}}\n",
