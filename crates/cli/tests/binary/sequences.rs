@@ -100,6 +100,18 @@ fn what_is_made_of_all_frames_says_what_the_frames_say() {
 }
 
 #[test]
+fn a_rig_has_the_files_of_a_render_without_one() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let out = text(&place.path().join("out"));
+    let told = etendue(["rig", &job(), "-o", &out, "--frames", "0..2"]).ok();
+    assert_eq!(told.out.lines().count(), 8, "{}", told.out);
+    let mut expected = rendered(&["--frames", "0..2"]);
+    expected.retain(|name, _| name.starts_with("calibration/"));
+    assert_same(&expected, &contents(Path::new(&out)), "rig");
+    etendue(["rig", &job(), "-o", &out]).refused(&["already there"]);
+}
+
+#[test]
 fn what_needs_more_than_is_there_is_refused() {
     let place = tempfile::tempdir().expect("a temporary folder");
     let told = |set: &str, phrases: &[&str]| {
