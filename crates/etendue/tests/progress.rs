@@ -15,8 +15,11 @@ const JOB: &str = "format = 1\n[sequence]\nframe_rate_hz = 10\n\
     [[scene.objects]]\nname = \"ball\"\nmaterial = \"grey\"\nshape = { type = \"sphere\", radius_m = 0.5 }\n\
     keys = [{ time_s = 0, position_m = [3, 0, 0] }, { time_s = 1, position_m = [3, 1, 0] }]\n";
 
+/// Heading, the frame's number, place and count, what is done and of how much.
+type Told = (String, Option<(u32, u32, u32)>, usize, usize);
+
 #[derive(Default)]
-struct Watch(Mutex<Vec<(String, Option<(u32, u32, u32)>, usize, usize)>>);
+struct Watch(Mutex<Vec<Told>>);
 
 impl Observer for Watch {
     fn progress(&self, told: Progress<'_>) {
@@ -25,7 +28,7 @@ impl Observer for Watch {
     }
 }
 
-fn watched(existing: Existing, folder: &std::path::Path) -> Vec<(String, Option<(u32, u32, u32)>, usize, usize)> {
+fn watched(existing: Existing, folder: &std::path::Path) -> Vec<Told> {
     let mut files = MemoryFiles::new();
     files.add_text("job.toml", JOB);
     let job = JobRequest::new("job.toml").open_in(&files).unwrap_or_else(|error| panic!("{error}"));

@@ -82,32 +82,36 @@ pub fn intrinsics(camera: &NamedCamera<'_>) -> Result<Intrinsics, Refusal> {
     let calibration = camera.calibration;
     without_skew(FORMAT, calibration)?;
     let matrix = calibration.matrix().to_opencv();
-    let (camera_model, before, distortion_model, distortion) = model(calibration.model())?;
-    let intrinsics = before.into_iter().chain([matrix.fx, matrix.fy, matrix.cx, matrix.cy]).collect();
-    Ok(Intrinsics { camera_model, intrinsics, distortion_model, distortion })
+    let mut said = model(calibration.model())?;
+    said.intrinsics.extend([matrix.fx, matrix.fy, matrix.cx, matrix.cy]);
+    Ok(said)
 }
 
-/// The camera model, its own numbers before focal lengths and centre, the distortion model and its numbers.
-fn model(model: &Model) -> Result<(&'static str, Vec<f64>, &'static str, Vec<f64>), Refusal> {
+/// The models with their own numbers, without focal lengths and centre.
+fn model(model: &Model) -> Result<Intrinsics, Refusal> {
+    let said = |camera_model, own: &[f64], distortion_model, distortion: &[f64]| {
+        let (intrinsics, distortion) = (own.to_vec(), distortion.to_vec());
+        Ok(Intrinsics { camera_model, intrinsics, distortion_model, distortion })
+    };
     if let Some(k) = fisheye(model) {
-        return Ok(("pinhole", Vec::new(), "equi", k.to_vec()));
+        return said("pinhole", &[], "equi", &k);
     }
     if let Some(k) = perspective(model).filter(|k| shortest(k, &[4]).is_some()) {
-        return Ok(("pinhole", Vec::new(), "radtan", k[..4].to_vec()));
+        return said("pinhole", &[], "radtan", &k[..4]);
     }
     match model {
-        Model::FieldOfView(m) => Ok(("pinhole", Vec::new(), "fov", vec![m.omega_rad()])),
+        Model::FieldOfView(m) => said("pinhole", &[], "fov", &[m.omega_rad()]),
         Model::Unified(m) => match m.distortion().terms() {
             DistortionTerms {
                 numerator: [k1, k2, 0.0, 0.0],
                 denominator: [0.0, 0.0, 0.0],
                 tangential: [p1, p2],
                 prism: [0.0, 0.0, 0.0, 0.0],
-            } => Ok(("omni", vec![m.xi()], "radtan", vec![k1, k2, p1, p2])),
+            } => said("omni", &[m.xi()], "radtan", &[k1, k2, p1, p2]),
             _ => Err(no_model(FORMAT, model)),
         },
-        Model::ExtendedUnified(m) => Ok(("eucm", vec![m.alpha(), m.beta()], "none", Vec::new())),
-        Model::DoubleSphere(m) => Ok(("ds", vec![m.xi(), m.alpha()], "none", Vec::new())),
+        Model::ExtendedUnified(m) => said("eucm", &[m.alpha(), m.beta()], "none", &[]),
+        Model::DoubleSphere(m) => said("ds", &[m.xi(), m.alpha()], "none", &[]),
         _ => Err(no_model(FORMAT, model)),
     }
 }
