@@ -51,8 +51,8 @@ impl Observer for Terminal {
             task.take().iter().for_each(|task| task.bar.finish_and_clear());
         }
         let drawn = task.get_or_insert_with(|| Bar::new(progress));
-        drawn.bar.set_prefix(heading(progress));
         drawn.bar.set_length(progress.total as u64);
+        drawn.bar.set_prefix(heading(progress));
         drawn.bar.set_position(progress.done as u64);
         if progress.done == progress.total {
             task.take().iter().for_each(|task| task.bar.finish_and_clear());

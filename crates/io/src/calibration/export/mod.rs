@@ -32,24 +32,12 @@ pub struct NamedCamera<'a> {
 /// Why a format cannot say a camera: the rest of a sentence that begins with the camera.
 pub type Refusal = String;
 
-/// The word for what a format has no model of.
+/// What a format says of a camera that it has no model of.
 fn no_model(format: &str, model: &Model) -> Refusal {
-    let projection = match model {
-        Model::Perspective(_) => "perspective with these coefficients",
-        Model::Radial(_) => "radial distortion from observed to ideal",
-        Model::Division(_) => "division",
-        Model::FieldOfView(_) => "field-of-view",
-        Model::KannalaBrandt(_) => "fisheye of more than four coefficients",
-        Model::ThinPrismFisheye(_) => "thin-prism fisheye",
-        Model::Unified(_) => "unified",
-        Model::ExtendedUnified(_) => "extended unified",
-        Model::DoubleSphere(_) => "double sphere",
-        Model::Ocam(_) => "ocam",
-        Model::FTheta(_) => "f-theta",
-        Model::Ideal(_) => "ideal",
-        Model::Panorama(_) => "panoramic",
-    };
-    format!("{format} has no model for its projection ({projection})")
+    match model {
+        Model::Perspective(_) => format!("{format} has no perspective model of as many coefficients"),
+        _ => format!("{format} has no model for its projection"),
+    }
 }
 
 /// Refuses a skew, which no format has a place for.
