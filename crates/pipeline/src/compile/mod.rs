@@ -40,6 +40,7 @@ mod surroundings;
 #[cfg(test)]
 mod tests;
 mod timing;
+mod video;
 mod world;
 
 pub use choices::{Choices, Quality};
@@ -48,7 +49,7 @@ use crate::plan::fingerprint::fingerprint;
 use crate::plan::remark::grouped;
 use crate::plan::shared_light;
 use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan, TimeDependence};
-use camera_path::camera_path;
+use camera_path::{camera_path, mount};
 use context::Context;
 use etendue_core::{CameraPath, TimeInterval};
 use etendue_scene::asset::Assets;
@@ -171,5 +172,8 @@ fn camera_plan(
     let name = setup.name.value.clone();
     let light = LightOwner { camera: name.clone(), index };
     let time = TimeDependence::None;
-    Some(CameraPlan { name, index, light, path, timing, time, body, settings, depth_of_field, products })
+    let mount = mount(&setup.pose);
+    let camera = CameraPlan { name, index, light, path, mount, timing, time, body, settings, depth_of_field, products };
+    video::check(&setup.output, &camera, context);
+    Some(camera)
 }
