@@ -9,6 +9,7 @@ pub mod integrator;
 pub mod lights;
 pub mod materials;
 pub mod media;
+pub mod precipitation;
 pub mod render_space;
 pub mod textures;
 

@@ -86,6 +86,8 @@ pub enum Draw {
     PhaseDirection = 15,
     /// Where along a ray light of a lamp is looked for, and which lamp.
     InScattering = 16,
+    /// Which way light takes at the interfaces of a drop; sixteen sub-counters a vertex.
+    DropInterface = 17,
 }
 
 /// A bijection of 64-bit words that scatters its bits (the finaliser of splitmix64, Steele et al. 2014).

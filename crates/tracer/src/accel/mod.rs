@@ -8,6 +8,7 @@
 //! - `node`, `packet`: what is tested eight at a time: boxes and triangles.
 //! - `merged`: small instances written out as one mesh.
 //! - `reach`: how far rays may start from a mesh.
+//! - `streaks`: drops and flakes about a camera, with a tree of their own.
 //! - `walk`, `pending`: near to far through a tree for the first hit, or through the largest boxes for any.
 //!
 //! Everything is written once over eight lanes (`lanes`) and compiled twice, with AVX2 and without: the same
@@ -29,6 +30,7 @@ mod ray;
 mod reach;
 #[cfg(target_arch = "x86_64")]
 mod simd;
+mod streaks;
 #[cfg(test)]
 pub(crate) mod tests;
 pub(crate) mod tlas;
@@ -37,6 +39,7 @@ mod walk;
 mod world;
 
 pub use build::TreeQuality;
+pub use streaks::{Streak, Streaks};
 pub use visits::Visits;
 pub use world::{World, WorldBuilder, WorldError};
 

@@ -31,14 +31,14 @@ enum Target<'w> {
 
 /// The lanes chosen when the view was made.
 #[derive(Clone, Copy, Debug)]
-enum Chosen {
+pub(super) enum Chosen {
     Plain,
     #[cfg(target_arch = "x86_64")]
     Avx2(Avx2),
 }
 
 impl Chosen {
-    fn new(simd: Simd) -> Self {
+    pub(super) fn new(simd: Simd) -> Self {
         match simd {
             Simd::Scalar => Self::Plain,
             #[cfg(target_arch = "x86_64")]
@@ -49,7 +49,7 @@ impl Chosen {
     }
 
     #[inline(always)]
-    fn run<J: Job>(self, job: J) -> J::Output {
+    pub(super) fn run<J: Job>(self, job: J) -> J::Output {
         match self {
             Self::Plain => Plain.run(job),
             #[cfg(target_arch = "x86_64")]

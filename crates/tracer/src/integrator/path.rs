@@ -16,6 +16,7 @@ use crate::geometry::SurfacePoint;
 use crate::lights::{LightHit, LightSample, LightSampleContext, ReceiverGloss};
 use crate::materials::{Bsdf, BsdfSample, Event, ShadingFrame};
 use crate::media::Phase;
+use crate::precipitation::NearHit;
 use crate::textures::Lookup;
 
 /// Surfaces that a path meets at most, with those that it passes. No scene needs as many; among surfaces closer together
@@ -43,6 +44,8 @@ pub(super) struct Path<'a, const N: usize> {
     pub(super) receiver: Option<LightSampleContext>,
     pub(super) medium: Medium<'a>,
     pub(super) history: History,
+    /// Whether the path has met a drop or flake: it meets one at most.
+    pub(super) beyond_particle: bool,
     /// Random numbers used for flights through media.
     pub(super) flights: u32,
     /// What the path carried when its throughput was last set to one: roulette looks at the product.
@@ -70,6 +73,8 @@ pub(super) enum Intersection<'a> {
     Passed,
     /// A place between surfaces where light is scattered, in the render frame, m.
     Medium(Vec3, &'a Phase),
+    /// A drop or flake, which the ray has been taken to.
+    Particle(NearHit),
     /// A surface, and where its textures are read.
     Surface(SurfacePoint, Lookup),
 }
@@ -97,6 +102,7 @@ impl<'a, const N: usize> Path<'a, N> {
             receiver: None,
             medium: tracer.medium,
             history: History::default(),
+            beyond_particle: false,
             flights: 0,
             prior: 1.0,
             throughput: Spectral::ONE,
@@ -134,6 +140,7 @@ impl<'a, const N: usize> Path<'a, N> {
             Intersection::Passed => PathStep::Goes,
             Intersection::Medium(..) if self.is_spent() => PathStep::Ends,
             Intersection::Medium(position, phase) => self.scatter_in_medium(position, phase),
+            Intersection::Particle(hit) => self.scatter_at_particle(&hit),
             Intersection::Surface(point, lookup) if self.is_spent() => self.only_pass(point, &lookup),
             Intersection::Surface(point, lookup) => self.scatter(&self.vertex(point, &lookup)),
         }
@@ -149,7 +156,7 @@ impl<'a, const N: usize> Path<'a, N> {
     pub(super) fn meet(&mut self) -> Intersection<'a> {
         let hit = self.tracer.view.closest(&self.ray);
         if self.tracer.media.is_some()
-            && let Some(met) = self.travel_through_media(hit.as_ref().map_or(f32::INFINITY, |hit| hit.t))
+            && let Some(met) = self.travel_to(hit.as_ref().map_or(f32::INFINITY, |hit| hit.t))
         {
             return met;
         }

@@ -7,6 +7,7 @@ use super::surroundings::Surroundings;
 use crate::lights::Lights;
 use crate::materials::MaterialTable;
 use crate::media::Media;
+use crate::precipitation::Near;
 use crate::render_space::RenderSpace;
 
 /// Answers rays of a view with spectral radiance.
@@ -20,6 +21,8 @@ pub struct PathTracer<'a> {
     pub(super) medium: Medium<'a>,
     /// What scatters light between surfaces; `None` where nothing does.
     pub(super) media: Option<&'a Media<'a>>,
+    /// Drops or flakes that rays from the camera meet; `None` where none fall.
+    pub(super) near: Option<&'a Near<'a>>,
     /// Whether any light goes up and down.
     pub(super) is_modulated: bool,
 }
@@ -37,13 +40,19 @@ impl<'a> PathTracer<'a> {
         let solid = Surroundings::of(view, material_table).solid;
         let medium = solid.map_or_else(Medium::default, |id| Medium::inside(material_table.absorption(id)));
         let is_modulated = material_table.is_modulated() || lights.are_modulated();
-        Self { view, material_table, lights, settings, medium, media: None, is_modulated }
+        Self { view, material_table, lights, settings, medium, media: None, near: None, is_modulated }
     }
 
     /// The same with what scatters light between surfaces, of the same view.
     #[must_use]
     pub fn with_media(self, media: &'a Media<'a>) -> Self {
         Self { media: Some(media).filter(|media| !media.is_empty()), ..self }
+    }
+
+    /// The same with drops or flakes about the camera, of the same view and media.
+    #[must_use]
+    pub fn with_near(self, near: Option<&'a Near<'a>>) -> Self {
+        Self { near, ..self }
     }
 
     /// How paths are followed.

@@ -12,7 +12,7 @@ use crate::media::{Media, Phase};
 impl<'a, const N: usize> Path<'a, N> {
     /// Gathers the light of lamps that is scattered on the way to `end`, and finds where the path is scattered itself; `None` where it is not.
     pub(super) fn travel_through_media(&mut self, end: f32) -> Option<Intersection<'a>> {
-        let media = self.tracer.media.filter(|_| !self.medium.is_solid())?;
+        let media = self.media_along().filter(|_| !self.medium.is_solid())?;
         if self.tracer.lights.has_points() && !self.is_spent() {
             self.gather_from_lamps(media, end);
         }
@@ -57,9 +57,15 @@ impl<'a, const N: usize> Path<'a, N> {
 
     /// Gathers drawn light at a place between surfaces and goes on from it.
     pub(super) fn scatter_in_medium(&mut self, position: Vec3, phase: &Phase) -> PathStep {
+        // Lamps that nothing but a draw can find have been asked along the ray.
+        self.scatter_by_phase(position, phase, false)
+    }
+
+    /// The same; `also_lamps` as of [`Path::sample_direct_in_medium`].
+    pub(super) fn scatter_by_phase(&mut self, position: Vec3, phase: &Phase, also_lamps: bool) -> PathStep {
         let from = self.ray.direction;
         let receiver = LightSampleContext { position, normal: Vec3::ZERO, gloss: None, time_s: self.ray.time_s };
-        self.sample_direct_in_medium(&receiver, phase);
+        self.sample_direct_in_medium(&receiver, phase, also_lamps);
         let stream = &self.asked.stream;
         let (choice, u) =
             (stream.one(Draw::PhaseDirection, 2 * self.met), stream.two(Draw::PhaseDirection, 2 * self.met + 1));
@@ -77,8 +83,8 @@ impl<'a, const N: usize> Path<'a, N> {
         self.leave(position, direction)
     }
 
-    /// Next-event estimation at a place between surfaces.
-    fn sample_direct_in_medium(&mut self, receiver: &LightSampleContext, phase: &Phase) {
+    /// Next-event estimation at a place between surfaces; of lamps that nothing but a draw can find where it is said so.
+    pub(super) fn sample_direct_in_medium(&mut self, receiver: &LightSampleContext, phase: &Phase, also_lamps: bool) {
         let lights = self.tracer.lights;
         if !lights.can_be_drawn() {
             return;
@@ -91,8 +97,7 @@ impl<'a, const N: usize> Path<'a, N> {
         else {
             return;
         };
-        // Lamps that nothing but a draw can find have been asked along the ray.
-        if light.delta {
+        if light.delta && !also_lamps {
             return;
         }
         let density = phase.density(self.ray.direction, light.direction, self.wavelengths);

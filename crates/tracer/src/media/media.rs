@@ -5,7 +5,9 @@ use etendue_core::random::{Draw, PathStream};
 use etendue_core::{Ray, Spectral, TimeInterval, Wavelengths};
 use glam::{DAffine3, DVec3, Vec3};
 
+use super::hollow::Hollow;
 use super::medium::Medium;
+use super::phase::Phase;
 
 /// Steps of ratio tracking along one ray at most. Where more would be needed, nothing comes through.
 const MAX_STEPS: u32 = 4096;
@@ -24,6 +26,8 @@ pub(super) struct Placed<'a> {
     pub(super) medium: &'a Medium,
     /// From the render frame to the medium's own, where it stands still.
     to_local: Option<DAffine3>,
+    /// Where, about the origin of the render frame, parts of it are left out.
+    hollow: Option<Hollow>,
 }
 
 /// A part of a ray, in lengths of its direction.
@@ -45,9 +49,21 @@ impl<'a> Media<'a> {
                 to_render.translation -= origin_m;
                 to_render.inverse()
             });
-            Placed { medium, to_local }
+            Placed { medium, to_local, hollow: None }
         };
         Self { placed: media.iter().map(place).collect(), origin_m, interval }
+    }
+
+    /// The same with parts of one medium, by its place in the list, left out about the origin of the render frame. Its density must be even.
+    #[must_use]
+    pub fn hollowed(mut self, medium: usize, hollow: Hollow) -> Self {
+        self.placed[medium].hollow = Some(hollow);
+        self
+    }
+
+    /// The phase function of a medium, by its place in the list.
+    pub(crate) fn phase(&self, medium: usize) -> &'a Phase {
+        &self.placed[medium].medium.phase
     }
 
     /// Whether there are none.
@@ -115,6 +131,9 @@ impl<'a> Media<'a> {
 
     /// The density of a medium at `t` along a ray, over its mean.
     pub(super) fn density(&self, placed: &Placed<'_>, ray: &Ray, t: f64) -> f64 {
+        if let Some(hollow) = &placed.hollow {
+            return hollow.density((ray.origin.as_dvec3() + ray.direction.as_dvec3() * t).length());
+        }
         if placed.medium.unevenness.is_none() {
             return 1.0;
         }
@@ -136,7 +155,10 @@ impl<'a> Media<'a> {
         for (i, placed) in self.placed.iter().enumerate() {
             let Some((from, to)) = self.span(placed, ray, f64::from(ray.t_max)) else { continue };
             let extinction = placed.medium.extinction.sample(wavelengths);
-            if placed.medium.unevenness.is_none() {
+            if let Some(hollow) = &placed.hollow {
+                let way = hollow.way((ray.origin.as_dvec3(), ray.direction.as_dvec3()), (from, to));
+                (0..N).for_each(|k| depth[k] += f64::from(extinction[k]) * way * length_m);
+            } else if placed.medium.unevenness.is_none() {
                 // No medium, no depth, however far.
                 (0..N)
                     .filter(|k| extinction[*k] > 0.0)

@@ -8,6 +8,7 @@
 //! decomposition tracking", 2017); transmittance is exact where the density is even, and estimated by ratio tracking (Novák et al. 2014) where it is not.
 
 mod collide;
+mod hollow;
 #[allow(clippy::module_inception)]
 mod media;
 mod medium;
@@ -17,6 +18,7 @@ mod phase_table;
 mod shape;
 
 pub use collide::Collision;
+pub use hollow::Hollow;
 pub use media::Media;
 pub use medium::{Medium, MediumError, Unevenness};
 pub use noise::Noise;

@@ -6,9 +6,12 @@
 use core::f32::consts::TAU;
 use core::f64::consts::PI;
 use etendue_core::maths::f32::atan2;
-use etendue_core::maths::f64::{cos, exp};
+use etendue_core::maths::f64::{asin, cos, exp, sin};
+use etendue_spectra::Spectrum;
 use etendue_spectra::mie::Droplets;
 use rayon::prelude::*;
+
+use crate::materials::fresnel;
 
 /// Intervals of a table.
 const STEPS: usize = 720;
@@ -25,6 +28,44 @@ struct PhaseTable {
     density: Vec<f32>,
     /// Share of light scattered less far than each node.
     below: Vec<f32>,
+}
+
+/// Ways out of a ball that are followed, the mirrored one first; what is left goes with the last.
+pub(crate) const ORDERS: u32 = 12;
+
+/// Rays over a ball's radius.
+const RAYS: u32 = 60_000;
+
+/// What a ball of index n makes of even light: v and strength of each part. A ray that meets it at an angle of incidence i, refracted to r, leaves
+/// after p passages turned by 2 (i − r) + (p − 1)(π − 2 r), mirrored outside by π − 2 i (van de Hulst 1957, section 12.2).
+fn balls(n: f64) -> impl Iterator<Item = (f64, f64)> {
+    let ray = move |k: u32| {
+        let b = (f64::from(k) + 0.5) / f64::from(RAYS);
+        let (i, r) = (asin(b), asin(b / n));
+        let planes = fresnel::planes(cos(i) as f32, n as f32);
+        let part = move |order: u32| {
+            let turned = match order {
+                0 => PI - 2.0 * i,
+                _ => 2.0 * (i - r) + f64::from(order - 1) * (PI - 2.0 * r),
+            };
+            let d = 2.0 * sin(0.5 * turned);
+            let strength: f64 = planes.map(f64::from).map(|mirrored| of_order(order, mirrored)).iter().sum();
+            (0.5 * d * d, b * strength)
+        };
+        (0..=ORDERS).map(part)
+    };
+    (0..RAYS).flat_map(ray)
+}
+
+/// Share of light that leaves after an order's passages, of an interface that mirrors a share.
+fn of_order(order: u32, mirrored: f64) -> f64 {
+    let through = (1.0 - mirrored) * (1.0 - mirrored);
+    let inside = (1..order).fold(1.0, |share, _| share * mirrored);
+    match order {
+        0 => mirrored,
+        ORDERS => (1.0 - mirrored) * inside,
+        _ => through * inside,
+    }
 }
 
 /// Angles of the nodes, rad.
@@ -48,6 +89,25 @@ impl PhaseTable {
         }
         let density = values.iter().map(|value| (value / whole) as f32).collect();
         Self { v: v.into_iter().map(|v| v as f32).collect(), density, below }
+    }
+
+    /// A table of light that is scattered in parts: v and strength of each.
+    fn of_parts(parts: impl Iterator<Item = (f64, f64)>) -> Self {
+        let v: Vec<f64> = angles()
+            .map(|angle| {
+                let d = 2.0 * sin(0.5 * angle);
+                0.5 * d * d
+            })
+            .collect();
+        let mut sums = vec![0.0; v.len()];
+        for (at, strength) in parts {
+            let i = v.partition_point(|node| *node <= at).clamp(1, STEPS) - 1;
+            let share = ((at - v[i]) / (v[i + 1] - v[i])).clamp(0.0, 1.0);
+            sums[i] += strength * (1.0 - share);
+            sums[i + 1] += strength * share;
+        }
+        let width = |i: usize| v[(i + 1).min(STEPS)] - v[i.saturating_sub(1)];
+        Self::new(&sums.iter().enumerate().map(|(i, sum)| sum / width(i)).collect::<Vec<_>>())
     }
 
     /// The cell of v.
@@ -127,6 +187,16 @@ impl SpectralTable {
             (1.0 - share) * of(g_hg) + share * draine
         };
         Some(Self { nm: vec![550.0], tables: vec![PhaseTable::new(&angles().map(value).collect::<Vec<_>>())] })
+    }
+
+    /// Balls of a refractive index, far larger than light's waves, by geometric optics without diffraction: what a ball does to the light that
+    /// meets it. Both polarisations, up to [`ORDERS`] passages. Of water this holds the rainbows.
+    #[must_use]
+    pub fn of_large_balls(index: &Spectrum) -> Self {
+        let nm: Vec<f32> = (0..=8).map(|i| 380.0 + 42.5 * i as f32).collect();
+        let table = |nm: &f32| PhaseTable::of_parts(balls(f64::from(index.at(*nm))));
+        let tables = nm.par_iter().map(table).collect();
+        Self { nm, tables }
     }
 
     /// p at a wavelength, 1/sr.

@@ -1,0 +1,73 @@
+//! How far about a camera particles are modelled one by one.
+//!
+//! A class of diameter D is modelled where a particle covers `smallest_px` of a pixel's width or more: up to D/(smallest_px · p), p the
+//! angle of a pixel. Where that would be more than `most` particles in the cone that is seen, all distances are taken back by one factor.
+//! Farther away, and nearer than `clear_m`, no particle of the class is modelled; farther away the class is part of the medium. A particle is
+//! there by the distance of its centre at the ray's time, the medium by that of the point: together they are the whole class at every distance.
+
+use core::f64::consts::PI;
+use etendue_core::maths::f64::cbrt;
+
+use super::class::SizeClass;
+use super::region::SeenRegion;
+
+/// Below this distance a class is not modelled, m: drops on the camera itself.
+const LEAST_M: f64 = 0.02;
+
+/// What a camera resolves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resolution {
+    /// Angle of a pixel, rad.
+    pub pixel_rad: f64,
+    /// Share of a pixel's width from which on a particle is modelled.
+    pub smallest_px: f64,
+    /// Particles that are modelled at most, in the mean.
+    pub most: f64,
+    /// Distance from the camera within which nothing falls, m.
+    pub clear_m: f64,
+}
+
+/// Up to which distance each class is modelled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChangeOver {
+    /// Distance within which nothing falls, m.
+    pub clear_m: f64,
+    /// By class, m; `clear_m` where none is modelled.
+    pub radii_m: Vec<f64>,
+    /// Particles in the region at a moment, in the mean.
+    pub expected: f64,
+}
+
+impl ChangeOver {
+    /// That of a camera which sees a region.
+    #[must_use]
+    pub fn new(classes: &[SizeClass], resolution: &Resolution, region: &SeenRegion) -> Self {
+        let clear_m = resolution.clear_m;
+        let resolved = |class: &SizeClass| class.diameter_m / (resolution.smallest_px * resolution.pixel_rad);
+        // Rays start about the origin: the region is as much wider.
+        let share = (region.solid_angle_sr() / (4.0 * PI)).min(1.0);
+        let cube = |r: f64| 4.0 / 3.0 * PI * share * r * r * r;
+        let count = |scale: f64| -> f64 {
+            let of = |class: &SizeClass| class.number_per_m3 * (cube(scale * resolved(class)) - cube(clear_m)).max(0.0);
+            classes.iter().map(of).sum()
+        };
+        let mut scale = 1.0;
+        for _ in 0..8 {
+            let count = count(scale);
+            if count > resolution.most {
+                scale *= cbrt(resolution.most / count);
+            }
+        }
+        let radius = |class: &SizeClass| {
+            let radius = scale * resolved(class);
+            if radius < LEAST_M { clear_m } else { radius.max(clear_m) }
+        };
+        Self { clear_m, radii_m: classes.iter().map(radius).collect(), expected: count(scale) }
+    }
+
+    /// The greatest distance, m.
+    #[must_use]
+    pub fn farthest_m(&self) -> f64 {
+        self.radii_m.iter().copied().fold(0.0, f64::max)
+    }
+}
