@@ -28,6 +28,7 @@ mod open_lamp;
 mod opening;
 mod picture;
 mod positions;
+mod precipitation;
 mod processing;
 mod row_exposure;
 mod samples;
@@ -56,6 +57,7 @@ use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;
 use etendue_scene::{CameraSetup, Description, Fault};
 use etendue_tracer::accel::World;
+use etendue_tracer::media::Medium;
 use frames::Frames;
 use material::MaterialTableBuilder;
 
@@ -97,7 +99,8 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let mut builder = MaterialTableBuilder::of_scene(scene, unused, context);
     let frames = Frames::of(scene, unused, context);
     let (mut sources, open_lamps, sky) = light::sources(scene, &frames, context);
-    let media = medium::media(scene, &frames, context);
+    let mut media = medium::media(scene, &frames, context);
+    let precipitation = precipitation::precipitation(scene, &mut media, context);
     let setups = description.cameras.iter().enumerate();
     let mut cameras: Vec<_> =
         setups.filter_map(|setup| camera_plan(setup, (description, &frames), choices, context)).collect();
@@ -110,7 +113,8 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let (material_table, materials) = builder.finish(context)?;
     let is_modulated = sources.is_modulated() || material_table.is_modulated();
     annotations::resolve(description, &mut cameras, context);
-    timing::depend(&mut cameras, &world, (&sources, is_modulated), &media, context);
+    let air_moves = precipitation.is_some() || media.iter().any(Medium::moves);
+    timing::depend(&mut cameras, &world, (&sources, is_modulated), air_moves, context);
     shared_light::share(&mut cameras);
     positions::remark(&cameras, context);
     surroundings::remark(&cameras, &world, &material_table, &materials, context);
@@ -130,6 +134,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
         material_table,
         sources,
         media,
+        precipitation,
         sky,
         cameras,
         identities,

@@ -5,6 +5,7 @@ mod camera;
 mod development;
 pub(crate) mod fingerprint;
 mod mount;
+mod precipitation;
 mod products;
 pub mod remark;
 mod row_exposure;
@@ -24,6 +25,7 @@ pub use annotations::{Annotations, CorrespondenceFormat, DisparityProduct};
 pub use camera::{CameraBody, CameraPlan, LightOwner};
 pub use development::{Development, PictureFormat};
 pub use mount::Mount;
+pub use precipitation::Precipitation;
 pub use products::{Products, RawFormat};
 pub use row_exposure::{CaptureTiming, RowExposure};
 pub use settings::{Route, Settings};
@@ -40,6 +42,8 @@ pub struct Plan {
     pub sources: Sources,
     /// What scatters light between surfaces.
     pub media: Vec<Medium>,
+    /// Rain or snow, whose medium is one of these.
+    pub precipitation: Option<Precipitation>,
     /// What is said of the sky, where the surroundings are one.
     pub sky: Option<SkyFacts>,
     /// The cameras.

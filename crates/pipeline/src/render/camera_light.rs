@@ -1,11 +1,12 @@
 //! Rendering a camera's light.
 
-use crate::plan::{CameraBody, CameraPlan, Plan, Route};
+use crate::plan::{CameraBody, CameraPlan, Plan, Precipitation, Route};
 use crate::render::exposure::{FilmExposure, Shot};
 use crate::render::film::Film;
 use crate::render::gather::Layout;
 use crate::render::light::{Cancelled, RaySource, RenderJob, Sampling};
 use crate::render::mosaic::Mosaic;
+use crate::render::near_precipitation::{near, seen_region};
 use crate::render::observer::Observer;
 use crate::render::spectrum_spread::SpectrumSpread;
 use crate::render::tile::Shard;
@@ -17,6 +18,7 @@ use etendue_tracer::accel::Simd;
 use etendue_tracer::integrator::{PathSettings, PathTracer};
 use etendue_tracer::lights::{LightCounts, Lights};
 use etendue_tracer::media::Media;
+use etendue_tracer::precipitation::{ChangeOver, SeenRegion};
 use etendue_tracer::render_space::RenderSpace;
 use glam::{DVec2, DVec3};
 
@@ -81,7 +83,12 @@ fn through<S: RaySource>(
     let view = plan.world.render_space_with(rows.origin_m(), rows.interval(), request.simd);
     let lights = lights(plan, camera, &view);
     let media = Media::new(&plan.media, rows.origin_m(), rows.interval());
-    let tracer = PathTracer::new(&view, &plan.material_table, &lights, path_settings(camera)).with_media(&media);
+    let near = region_and_change_over(plan, camera, &rows, source).map(|(precipitation, region, change_over)| {
+        near(precipitation, &media, (&rows, request.simd), &region, &change_over)
+    });
+    let tracer = PathTracer::new(&view, &plan.material_table, &lights, path_settings(camera))
+        .with_media(&media)
+        .with_near(near.as_ref());
     let settings = &camera.settings;
     let sensor = camera.body.sensor.as_ref().filter(|_| settings.folded);
     let mosaic = sensor.map(|sensor| Mosaic::of(sensor, settings.range_nm, settings.bands.is_some()));
@@ -91,6 +98,35 @@ fn through<S: RaySource>(
         8 => job.gather::<8>(&tracer, observer),
         _ => job.gather::<4>(&tracer, observer),
     }
+}
+
+/// Up to which distances drops or flakes are modelled one by one for the first picture of a camera; `None` where none fall.
+#[must_use]
+pub fn change_over(plan: &Plan, camera: &CameraPlan) -> Option<ChangeOver> {
+    let rows = FilmExposure::of(camera, Shot::default());
+    let of = match &camera.settings.route {
+        Route::Pupil(projection) => region_and_change_over(plan, camera, &rows, projection),
+        Route::Lens => match &camera.body.front {
+            None => region_and_change_over(plan, camera, &rows, &LensSource::of(camera)),
+            Some(front) => {
+                region_and_change_over(plan, camera, &rows, &FrontSource { lens: LensSource::of(camera), front })
+            }
+        },
+    };
+    of.map(|(.., change_over)| change_over)
+}
+
+fn region_and_change_over<'a, S: RaySource>(
+    plan: &'a Plan,
+    camera: &CameraPlan,
+    rows: &FilmExposure<'_>,
+    source: &S,
+) -> Option<(&'a Precipitation, SeenRegion, ChangeOver)> {
+    let precipitation = plan.precipitation.as_ref()?;
+    let region = seen_region(source, rows, camera.film_size());
+    let resolution = precipitation.resolution(pitch_tan(camera));
+    let change_over = ChangeOver::new(precipitation.field.classes(), &resolution, &region);
+    Some((precipitation, region, change_over))
 }
 
 fn render_job<'a, S>(
@@ -131,19 +167,23 @@ pub fn layout(camera: &CameraPlan) -> Layout {
     Layout { bands: camera.settings.bands, folded: camera.settings.folded }
 }
 
-fn path_settings(camera: &CameraPlan) -> PathSettings {
-    let pitch_tan = match &camera.settings.route {
+/// Angle of a pixel in the middle of the picture, rad, by its tangent.
+fn pitch_tan(camera: &CameraPlan) -> f64 {
+    match &camera.settings.route {
         Route::Lens => front_pitch(&camera.body)
             .unwrap_or_else(|| camera.body.raster.pitch_mm().x / camera.body.lens.principal_distance_mm()),
         Route::Pupil(projection) => projection.pitch_tan(),
-    };
+    }
+}
+
+fn path_settings(camera: &CameraPlan) -> PathSettings {
     let samples = camera.settings.spp / camera.settings.replicates;
     PathSettings {
         level: camera.settings.level,
         max_bounces: camera.settings.max_bounces,
         roulette_start: ROULETTE_START,
         samples,
-        cone_spread_rad: pitch_tan as f32 * sample_width(samples),
+        cone_spread_rad: pitch_tan(camera) as f32 * sample_width(samples),
         caustics: camera.settings.caustics,
         ..PathSettings::default()
     }

@@ -20,6 +20,7 @@ pub mod light;
 mod look_at;
 pub mod mosaic;
 pub mod motion;
+mod near_precipitation;
 pub mod observer;
 pub mod pupil_depth;
 pub mod rays;
@@ -29,5 +30,5 @@ mod test_scenes;
 pub mod tile;
 pub mod truth;
 
-pub use camera_light::{Request, layout, light, light_counts};
+pub use camera_light::{Request, change_over, layout, light, light_counts};
 pub use exposure::Shot;

@@ -7,6 +7,7 @@ use super::material::Material;
 use super::medium::Medium;
 use super::mesh::Mesh;
 use super::object::Object;
+use super::precipitation::Precipitation;
 use super::texture::Texture;
 use crate::fault::Faults;
 use crate::place::Placed;
@@ -31,6 +32,8 @@ record! {
         many lights: Light = list(record(), 0);
         /// Fog and the like, between the surfaces.
         many media: Medium = list(record(), 0);
+        /// Rain or snow. Default: none.
+        optional precipitation: Precipitation = record();
         /// The light from infinitely far. Default: none, black.
         optional environment: Environment = record();
     }

@@ -58,6 +58,12 @@ impl SizeLaw {
         Self { n0: self.n0 * self.rate_mm_h / self.carried_mm_h(), ..self }
     }
 
+    /// The rate that was asked for, mm/h of water.
+    #[must_use]
+    pub fn rate_mm_h(&self) -> f64 {
+        self.rate_mm_h
+    }
+
     /// Whether it is snow.
     #[must_use]
     pub fn is_snow(&self) -> bool {

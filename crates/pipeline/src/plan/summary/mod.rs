@@ -4,6 +4,7 @@ mod depth_of_field;
 mod effects_cost;
 mod front;
 mod lens;
+mod precipitation;
 mod processing;
 mod shared_light;
 mod spectrum;
@@ -74,7 +75,14 @@ fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
     if let Some(sky) = &plan.sky {
         line(f, "sky", self::sky(sky))?;
     }
-    let left_out = "air: it is clear; polarisation and fluorescence: not modelled";
+    if let Some(precipitation) = &plan.precipitation {
+        line(f, "weather", precipitation::field(precipitation))?;
+    }
+    let left_out = if plan.media.is_empty() {
+        "air: it is clear; polarisation and fluorescence: not modelled"
+    } else {
+        "polarisation and fluorescence: not modelled"
+    };
     match time::motion(plan) {
         None => line(f, "left out", format!("motion: nothing moves; {left_out}")),
         Some(motion) => {
@@ -109,6 +117,9 @@ fn camera(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Resul
     }
     if let Some(shutter) = time::shutter(camera) {
         line(f, "shutter", shutter)?;
+    }
+    if let Some(text) = precipitation::near(plan, camera) {
+        line(f, "weather", text)?;
     }
     lights(plan, camera, f)?;
     light_paths(camera, f)?;

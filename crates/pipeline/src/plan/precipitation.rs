@@ -1,0 +1,27 @@
+//! Rain or snow of a plan.
+
+use etendue_tracer::precipitation::{Field, Resolution};
+
+/// Rain or snow.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Precipitation {
+    /// All drops or flakes.
+    pub field: Field,
+    /// The place of its medium among the plan's media.
+    pub medium: usize,
+    /// Distance from a camera within which nothing falls, m.
+    pub clear_m: f64,
+    /// Part of a pixel's width from which on a drop or flake is modelled by itself.
+    pub smallest_px: f64,
+    /// How many are modelled at most.
+    pub most: u64,
+}
+
+impl Precipitation {
+    /// What a camera resolves whose pixels are `pixel_rad` wide.
+    #[must_use]
+    pub fn resolution(&self, pixel_rad: f64) -> Resolution {
+        let Self { smallest_px, clear_m, .. } = *self;
+        Resolution { pixel_rad, smallest_px, clear_m, most: self.most as f64 }
+    }
+}
