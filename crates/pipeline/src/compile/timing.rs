@@ -5,6 +5,7 @@ use crate::plan::{CameraBody, CameraPlan, Jitter, Route, TimeDependence, Timing}
 use etendue_scene::record::{self, Electronics, Sequence};
 use etendue_scene::{CameraSetup, Place};
 use etendue_tracer::accel::World;
+use etendue_tracer::geometry::Mesh;
 use etendue_tracer::lights::Sources;
 
 /// Relative difference of a sequence's frame rate and a sensor's frame period that is taken for rounding.
@@ -41,7 +42,8 @@ pub(super) fn depend(
 ) {
     let objects = world.instances().iter().map(|instance| &instance.to_world);
     let lamps = sources.lamps.iter().map(|lamp| lamp.to_world());
-    let moves = objects.chain(lamps).any(|motion| motion.as_still().is_none());
+    let deforms = world.meshes().iter().filter_map(Mesh::animation).any(|animation| !animation.is_still());
+    let moves = deforms || objects.chain(lamps).any(|motion| motion.as_still().is_none());
     for camera in cameras {
         camera.time = match () {
             () if moves || !camera.path.is_still() => TimeDependence::Motion,
