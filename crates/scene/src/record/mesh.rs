@@ -55,6 +55,12 @@ choice! {
     }
 }
 
+impl From<&str> for MeshSource {
+    fn from(file: &str) -> Self {
+        Self::File(file.into())
+    }
+}
+
 impl Axis {
     /// The unit vector.
     #[must_use]
