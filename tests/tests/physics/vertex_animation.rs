@@ -42,15 +42,14 @@ fn moving(files: &[Vec<[f64; 3]>], keys: &str, place: &str, sensor: &str, spp: u
 const GLOBAL: &str = "exposure_s = 0.05\nshutter = { type = \"global\" }";
 
 /// The bar's left edge stays at column 20, its right edge goes from 30 to 60 within half the exposure and to 70 in the other half. A pixel
-/// right of 30 has the share of the time in which the edge lies beyond it. Tolerance: the mean of 60 rows of 2048 stratified samples, of which
-/// some 40 cannot tell on which side of the edge they lie, is right to 0.02 % of the bar's light a pixel (a pixel's own scatter 0.1 %, three of it
-/// over √60 rows: 0.04 %).
+/// right of 30 has the share of the time in which the edge lies beyond it. Tolerance: of 512 stratified samples some 20 cannot tell on which side
+/// of the edge they lie, half of which are wrong either way: 2.2 of 512, 0.44 %, a pixel, 0.06 % the mean of 60 rows; three of these.
 #[test]
 fn a_bar_that_stretches_is_blurred_by_the_way_of_its_edge() {
     let files = [bar(20.0, 30.0), bar(20.0, 60.0), bar(20.0, 70.0)].map(Vec::from);
     let times = "times_s = [1000, 1000.025, 1000.05]";
-    let shot = moving(&files, times, "", GLOBAL, 2048).shot();
-    let still = moving(&files, "times_s = [2000, 2001, 2002]", "", GLOBAL, 2048).shot();
+    let shot = moving(&files, times, "", GLOBAL, 512).shot();
+    let still = moving(&files, "times_s = [2000, 2001, 2002]", "", GLOBAL, 512).shot();
     let mean = |plane: &Plane<MeanElectrons>, x: usize| {
         (0..SIZE[1]).map(|y| f64::from(plane.at(x, y)) / falloff(x, y)).sum::<f64>() / SIZE[1] as f64
     };
@@ -65,9 +64,9 @@ fn a_bar_that_stretches_is_blurred_by_the_way_of_its_edge() {
         let cover = |i: usize| overlap(x as f64, x as f64 + 1.0, 20.0, edge(i));
         let expected = (0..STEPS).map(cover).sum::<f64>() / STEPS as f64;
         let found = mean(&blurred, x) / full;
-        assert!((found - expected).abs() < 0.001, "column {x}: {found} for {expected}");
+        assert!((found - expected).abs() < 0.002, "column {x}: {found} for {expected}");
         let held = overlap(x as f64, x as f64 + 1.0, 20.0, 30.0);
-        assert!((mean(&before, x) / full - held).abs() < 0.001, "column {x} before the first file");
+        assert!((mean(&before, x) / full - held).abs() < 0.002, "column {x} before the first file");
     }
 }
 

@@ -28,8 +28,7 @@ fn wheel(sensor: &str, spp: u32) -> Job {
          [[scene.frames]]\nname = \"wheel\"\nparent = \"car\"\nrotation_deg = [0, 0, 90]\nrolls = {{ radius_m = {RADIUS_M} }}\n",
         -way_m
     );
-    job(bar, sensor, spp)
-        .replaced("[[cameras]]\n", &format!("{frames}[[cameras]]\nframe = \"car\"\n"))
+    job(bar, sensor, spp).replaced("[[cameras]]\n", &format!("{frames}[[cameras]]\nframe = \"car\"\n"))
 }
 
 /// The angle of a picture's place about the hub, from up to the left, as one near `about` that differs by half turns: the bar has two ends.
@@ -56,24 +55,24 @@ fn angles(light: &Plane<MeanElectrons>, about: f64) -> (f64, f64) {
 }
 
 /// Within 20 ms the mark turns by 0.628 rad: its mean angle is that of the middle, and its variance that of the mark at rest and that of an even
-/// arc, (ωT)²/12 = 0.0329 rad². In the ring lie some 96 px of the mark, met by 2·10⁵ samples that scatter by 0.2 rad: the mean is right
-/// to 5·10⁻⁴ rad and the variance to 2·10⁻⁴ rad². Pixels' middles stand for their samples, which shifts neither by more than a tenth of the
-/// pixel's variance in angle, (1/12)/16² = 3·10⁻⁴ rad², that falls out of the difference to the mark at rest.
+/// arc, (ωT)²/12 = 0.0329 rad². In the ring lie some 96 px of the mark, met by 24 000 samples that scatter by 0.18 rad: the mean is right
+/// to 1.2·10⁻³ rad, the variance to 2·10⁻⁴ rad² (of an even arc 0.9 times itself over the root of their number); three of these and more are
+/// granted. Pixels' middles stand for their samples, which adds the same to the variance of the mark at rest, 3·10⁻⁴ rad².
 #[test]
 fn a_global_shutter_shows_the_angle_and_the_arc_of_a_turning_mark() {
-    let shot = |exposure_s: f64| {
-        wheel(&format!("exposure_s = {exposure_s}\nshutter = {{ type = \"global\" }}"), 2048).shot()
-    };
+    let shot =
+        |exposure_s: f64| wheel(&format!("exposure_s = {exposure_s}\nshutter = {{ type = \"global\" }}"), 256).shot();
     let (turning, frozen) = (electrons(&shot(0.02), 0), electrons(&shot(1e-6), 0));
     let middle = RATE * 0.01;
     let ((mean, variance), (still, own)) = (angles(&turning, middle), angles(&frozen, 0.0));
-    assert!((mean - middle).abs() < 2e-3, "{mean} for {middle}");
-    assert!(still.abs() < 2e-3, "{still} at the first moment");
+    assert!((mean - middle).abs() < 4e-3, "{mean} for {middle}");
+    assert!(still.abs() < 4e-3, "{still} at the first moment");
     let arc = (RATE * 0.02) * (RATE * 0.02) / 12.0;
     assert!((variance - own - arc).abs() < 1e-3, "{variance} − {own} for {arc}");
 }
 
-/// A frame later it has turned by half a turn, and shows the same.
+/// Rows begin 300 µs after each other, and the mark turns by 9.4 mrad meanwhile: a bent bar, in light and in truth. A frame later it has turned by half a
+/// turn, and shows the same.
 #[test]
 fn rows_of_a_rolling_shutter_see_the_angle_of_their_own_time() {
     let (exposure_s, row_time_s) = (0.001, 300e-6);

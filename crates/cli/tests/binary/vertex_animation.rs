@@ -115,15 +115,24 @@ fn animations_that_are_none() {
         "files = \"sheet-%d.obj\", count = 3, times_s = [0, 0.1, 0.2], repeat = \"loop\"",
         &["3 times for a loop of 3 files", "give 4 times"],
     );
-    refused("files = \"sheet-%d.obj\", count = 3, rate_hz = 5, repeat = \"bounce\"", &["repeat", "\"hold\"", "\"loop\""]);
+    refused(
+        "files = \"sheet-%d.obj\", count = 3, rate_hz = 5, repeat = \"bounce\"",
+        &["repeat", "\"hold\"", "\"loop\""],
+    );
 }
 
 #[test]
 fn a_mesh_that_glows_keeps_its_shape() {
     let bending = Bending::new(LOOP);
     let job = fs::read_to_string(bending.job()).expect("a text");
-    let glowing =
-        job.replace("type = \"diffuse\"\nreflectance = 0.5", "type = \"emitter\"\nemission = { luminance_cd_m2 = 10, illuminant = \"D65\" }");
+    let glowing = job.replace(
+        "type = \"diffuse\"\nreflectance = 0.5",
+        "type = \"emitter\"\nemission = { luminance_cd_m2 = 10, illuminant = \"D65\" }",
+    );
     bending.write("job.toml", &glowing);
-    etendue(["plan", &bending.job()]).refused(&["job.toml:", "scene.objects.sheet", "a surface that glows must keep its shape"]);
+    etendue(["plan", &bending.job()]).refused(&[
+        "job.toml:",
+        "scene.objects.sheet",
+        "a surface that glows must keep its shape",
+    ]);
 }

@@ -4,8 +4,8 @@
 
 use core::fmt::Write as _;
 
-use super::{fleet, walk};
 use super::hours::{ONCOMING, street_lamps};
+use super::{fleet, walk};
 use crate::description::Description;
 use crate::mesh::Mesh;
 use crate::obj::number;

@@ -147,9 +147,7 @@ fn leg(body: &mut Body, side: f64, phase: f64) {
     let knee = hip + line * 0.5 + p(-line.z, 0.0, line.x).normalize() * bend;
     body.limb(&["trousers"], &[(hip + DVec3::Z * 0.06, 0.085), (hip, 0.095), (knee, 0.065), (ankle, 0.048)]);
     let sole = |x: f64, half: f64, top: f64| -> Vec<DVec3> {
-        [[half, 0.0], [half, top], [-half, top], [-half, 0.0]]
-            .map(|[y, z]| ankle + p(x, y, z - 0.085))
-            .to_vec()
+        [[half, 0.0], [half, top], [-half, top], [-half, 0.0]].map(|[y, z]| ankle + p(x, y, z - 0.085)).to_vec()
     };
     body.loft(&["rubber"], &[sole(-0.07, 0.035, 0.085), sole(0.07, 0.047, 0.085), sole(0.2, 0.035, 0.035)]);
     let swing = 0.26 * maths::cos(TAU * phase);
