@@ -51,7 +51,7 @@ impl Bending {
     /// Refused at this line of the job, with these phrases.
     #[track_caller]
     fn refused(&self, phrases: &[&str]) {
-        let phrases = [&["job.toml:14", "vertex_animation"], phrases].concat();
+        let phrases = [&["job.toml:13", "vertex_animation"], phrases].concat();
         etendue(["plan", &self.job()]).refused(&phrases);
     }
 }
@@ -65,7 +65,7 @@ fn a_frame_alone_has_the_bytes_that_it_has_in_a_sequence() {
     let of_frame: Vec<&String> = all.keys().filter(|name| name.contains(".0002.exr")).collect();
     assert!(of_frame.len() >= 2, "{:?}", all.keys());
     of_frame.iter().for_each(|name| assert!(all[*name] == alone[*name], "{name}"));
-    let light = |frame: u32| &all[&format!("radiance.{frame:04}.exr")];
+    let light = |frame: u32| &all[&format!("c/radiance.{frame:04}.exr")];
     assert!(light(1) != light(2), "the sheet bends");
 }
 
@@ -105,7 +105,7 @@ fn animations_that_are_none() {
     refused("files = \"sheet-%d.obj\", count = 1, rate_hz = 12", &["count", "found 1", "2"]);
     refused("files = \"sheet-%d.obj\", count = 3, rate_hz = 0", &["rate_hz", "found 0", "above 0"]);
     refused("files = \"sheet-0.obj\", count = 3, rate_hz = 5", &["files", "where the number of a file stands", "%03d"]);
-    refused("files = \"sheet-%d.obj\", count = 3", &["a key is missing", "\"rate_hz\" or \"times_s\""]);
+    refused("files = \"sheet-%d.obj\", count = 3", &["a key is missing", "\"rate_hz\", \"times_s\""]);
     refused(
         "files = \"sheet-%d.obj\", count = 3, times_s = [0, 0.3, 0.2]",
         &["times_s[2]", "0.2 s stands behind 0.3 s", "rising"],

@@ -185,9 +185,8 @@ fn frame(text: &str) -> MeshFrameAsset {
 fn files_of_one_mesh_are_known_by_their_faces() {
     let two = "f 1//1 2//1 3//1 4//1\nf 4//1 3//1 2//1 1//1\n";
     let first = frame(&format!("{CUBE_FACE}vn 0 0 1\n{two}"));
-    let bent = frame(&format!(
-        "v 0 0 0\nv 1 1 5\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvn 0 1 0\nf 1//1 3//2 2//1 4//1\nf 4//1 2//1 3//1 1//1\n"
-    ));
+    let bent =
+        frame("v 0 0 0\nv 1 1 5\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvn 0 1 0\nf 1//1 3//2 2//1 4//1\nf 4//1 2//1 3//1 1//1\n");
     assert_eq!(bent.difference(&first), None);
     assert_eq!(first.triangles, [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]);
     let corner = |frame: &MeshFrameAsset, i: usize| {

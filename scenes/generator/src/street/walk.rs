@@ -99,9 +99,9 @@ impl Body {
 
 /// The walker at a part of the cycle, looking towards +x, the left foot ahead at 0.
 fn walker(phase: f64) -> Body {
-    let mut body = Body::default();
+    let (mut body, rise) = (Body::default(), DVec3::Z * rise_m(phase));
     for (side, phase) in [(1.0, phase), (-1.0, phase + 0.5)] {
-        leg(&mut body, side, phase - phase.floor());
+        leg(&mut body, side, phase - phase.floor(), rise);
     }
     let p = DVec3::new;
     let trunk = [
@@ -112,7 +112,7 @@ fn walker(phase: f64) -> Body {
         (p(0.0, 0.0, 1.45), [0.09, 0.15]),
         (p(0.0, 0.0, 1.48), [0.05, 0.07]),
     ];
-    body.trunk(&["coat"], &trunk);
+    body.trunk(&["coat"], &trunk.map(|(centre, half)| (centre + rise, half)));
     let head = [
         (p(0.0, 0.0, 1.46), [0.05, 0.05]),
         (p(0.01, 0.0, 1.52), [0.06, 0.055]),
@@ -121,8 +121,16 @@ fn walker(phase: f64) -> Body {
         (p(0.01, 0.0, 1.69), [0.085, 0.07]),
         (p(0.0, 0.0, 1.73), [0.045, 0.04]),
     ];
-    body.trunk(&["skin", "skin", "skin", "hair"], &head);
+    body.trunk(&["skin", "skin", "skin", "hair"], &head.map(|(centre, half)| (centre + rise, half)));
     body
+}
+
+/// By how much the body is higher over the standing foot than between two steps, m: six tenths of what a straight leg of 0.85 m asks for.
+fn rise_m(phase: f64) -> f64 {
+    const LEG_M: f64 = 0.85;
+    let step = 2.0 * phase - (2.0 * phase).floor();
+    let x = REACH_M * (1.0 - 2.0 * step);
+    0.6 * ((LEG_M * LEG_M - x * x).sqrt() - (LEG_M * LEG_M - REACH_M * REACH_M).sqrt())
 }
 
 /// Where the ankle is at a part of the leg's own cycle: on the ground for its first half, then lifted ahead.
@@ -138,9 +146,9 @@ fn ankle(side: f64, phase: f64) -> DVec3 {
 }
 
 /// A leg with its shoe, and the arm of the same side, which swings the other way.
-fn leg(body: &mut Body, side: f64, phase: f64) {
+fn leg(body: &mut Body, side: f64, phase: f64, rise: DVec3) {
     let p = DVec3::new;
-    let (hip, ankle) = (p(0.0, 0.095 * side, 0.875), ankle(side, phase));
+    let (hip, ankle) = (p(0.0, 0.095 * side, 0.875) + rise, ankle(side, phase));
     // The knee lies ahead of the line from hip to ankle, where two bones of one length meet.
     let line = ankle - hip;
     let bend = (BONE_M * BONE_M - 0.25 * line.length_squared()).max(0.0).sqrt();
@@ -151,8 +159,8 @@ fn leg(body: &mut Body, side: f64, phase: f64) {
     };
     body.loft(&["rubber"], &[sole(-0.07, 0.035, 0.085), sole(0.07, 0.047, 0.085), sole(0.2, 0.035, 0.035)]);
     let swing = 0.26 * maths::cos(TAU * phase);
-    let (shoulder, elbow) = (p(0.0, 0.20 * side, 1.40), p(-0.45 * swing - 0.02, 0.25 * side, 1.13));
-    let hand = p(-1.1 * swing + 0.06, 0.24 * side, 0.9);
+    let (shoulder, elbow) = (p(0.0, 0.20 * side, 1.40) + rise, p(-0.45 * swing - 0.02, 0.25 * side, 1.13) + rise);
+    let hand = p(-1.1 * swing + 0.06, 0.24 * side, 0.9) + rise;
     let tip = hand + (hand - elbow).normalize() * 0.14;
     let arm = [(shoulder + DVec3::Z * 0.05, 0.03), (shoulder, 0.065), (elbow, 0.05), (hand, 0.04), (tip, 0.03)];
     body.limb(&["coat", "coat", "coat", "skin"], &arm);

@@ -270,7 +270,7 @@ fn surfaces_follow_their_vertices() {
         let along = Vec3::new(1.0 - time_s, 0.0, time_s).normalize();
         assert!((u - along).length() < 1e-6 && (v - Vec3::Y).length() < 1e-6);
         // Its area is 2 √((1 − t)² + t²), that of its texture 1.
-        let side = f32::hypot(1.0 - time_s, time_s);
+        let side = glam::Vec2::new(1.0 - time_s, time_s).length();
         assert!((view.footprint(&point).uv_per_m - (0.5 / side).sqrt()).abs() < 1e-6);
         let truth = view.truth(ray.origin.as_dvec3(), DVec3::NEG_Z, time_s, |_| true).expect("a hit");
         assert!((truth.distance_m - (5.0 - f64::from(z))).abs() < 1e-7 && truth.primitive == hit.primitive);
