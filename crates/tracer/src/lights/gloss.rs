@@ -61,7 +61,7 @@ impl ReceiverGloss {
         }
         let sent: f32 = gloss.lobes.iter().map(|lobe| albedo(lobe, cos_o)).sum();
         let matt = gloss.matt.max(LEAST * FRAC_1_PI * sent).max(f32::MIN_POSITIVE);
-        let bright: f32 = gloss.lobes.iter().map(|lobe| lobe.peak * lobe.fresnel_at_axis(cos_o)).sum();
+        let bright: f32 = gloss.lobes.iter().map(|lobe| brightness(lobe, cos_o)).sum();
         if !(bright > BRIGHT * matt && bright.is_finite()) {
             return None;
         }
@@ -200,6 +200,16 @@ fn schlick_of(f0: f32, cos: f32) -> f32 {
 
 /// Least cos θₒ + cos θᵢ.
 const LOWEST: f32 = 1e-4;
+
+/// What a lobe sends at its axis. Lobes about a direction are compared with what the matt part sends of light from that same direction,
+/// which on a road marking far ahead is little: lamp and viewer lie low.
+fn brightness(lobe: &GlossLobe, cos_o: f32) -> f32 {
+    let at_axis = lobe.peak * lobe.fresnel_at_axis(cos_o);
+    match lobe.about {
+        About::HalfVector => at_axis,
+        About::Direction(axis) => at_axis / axis.z.max(LOWEST),
+    }
+}
 
 /// Share of light that a lobe sends back, about.
 fn albedo(lobe: &GlossLobe, cos_o: f32) -> f32 {
