@@ -6,8 +6,7 @@
 
 use super::facet::Facet;
 use super::repeats::repeats;
-use super::{MeshError, MeshPose, VertexAnimation};
-use etendue_core::TimeInterval;
+use super::{MeshError, VertexAnimation};
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
@@ -108,28 +107,6 @@ impl Mesh {
     #[must_use]
     pub fn animation(&self) -> Option<&VertexAnimation> {
         self.animation.as_deref()
-    }
-
-    /// The mesh at a simulated time, s.
-    #[must_use]
-    pub fn at(&self, time_s: f64) -> MeshPose<'_> {
-        match self.animation() {
-            None => MeshPose::still(self),
-            Some(animation) => MeshPose::moved(self, animation, animation.span(time_s)),
-        }
-    }
-
-    /// The mesh as it is all through an interval; `None` where some vertex moves.
-    pub(crate) fn still_over(&self, interval: TimeInterval) -> Option<MeshPose<'_>> {
-        let Some(animation) = self.animation() else { return Some(MeshPose::still(self)) };
-        animation.still_over(interval).map(|span| MeshPose::moved(self, animation, span))
-    }
-
-    /// Poses between which all vertices go straight during an interval, in no order.
-    pub(crate) fn poses_of(&self, interval: TimeInterval) -> Vec<MeshPose<'_>> {
-        let Some(animation) = self.animation() else { return vec![MeshPose::still(self)] };
-        let spans = animation.corners_of(interval).into_iter();
-        spans.map(|span| MeshPose::moved(self, animation, span)).collect()
     }
 
     /// The same mesh, told that its file's own coordinates are those of this mesh plus `origin`: projected textures stay where

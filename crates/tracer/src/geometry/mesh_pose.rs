@@ -3,6 +3,7 @@
 use super::facet::Facet;
 use super::vertex_animation::Span;
 use super::{Mesh, VertexAnimation};
+use etendue_core::TimeInterval;
 use glam::{DVec3, Vec2, Vec3};
 
 /// A mesh at one moment: its own vertices, or where its animation has them.
@@ -12,6 +13,30 @@ pub struct MeshPose<'m> {
     moved: Option<(&'m VertexAnimation, Span)>,
 }
 
+impl Mesh {
+    /// The mesh at a simulated time, s.
+    #[must_use]
+    pub fn at(&self, time_s: f64) -> MeshPose<'_> {
+        match self.animation() {
+            None => MeshPose::still(self),
+            Some(animation) => MeshPose::moved(self, animation, animation.span(time_s)),
+        }
+    }
+
+    /// The mesh as it is all through an interval; `None` where some vertex moves.
+    pub(crate) fn still_over(&self, interval: TimeInterval) -> Option<MeshPose<'_>> {
+        let Some(animation) = self.animation() else { return Some(MeshPose::still(self)) };
+        animation.still_over(interval).map(|span| MeshPose::moved(self, animation, span))
+    }
+
+    /// Poses between which all vertices go straight during an interval, in no order.
+    pub(crate) fn poses_of(&self, interval: TimeInterval) -> Vec<MeshPose<'_>> {
+        let Some(animation) = self.animation() else { return vec![MeshPose::still(self)] };
+        let spans = animation.corners_of(interval).into_iter();
+        spans.map(|span| MeshPose::moved(self, animation, span)).collect()
+    }
+}
+
 impl<'m> MeshPose<'m> {
     /// A mesh whose vertices do not move.
     #[inline(always)]
@@ -19,7 +44,7 @@ impl<'m> MeshPose<'m> {
         Self { mesh, moved: None }
     }
 
-    pub(super) fn moved(mesh: &'m Mesh, animation: &'m VertexAnimation, span: Span) -> Self {
+    fn moved(mesh: &'m Mesh, animation: &'m VertexAnimation, span: Span) -> Self {
         Self { mesh, moved: Some((animation, span)) }
     }
 

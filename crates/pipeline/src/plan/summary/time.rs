@@ -16,7 +16,7 @@ pub(super) fn motion(plan: &Plan) -> Option<String> {
     };
     let lamps = plan.sources.lamps.iter().filter(|lamp| lamp.to_world().as_still().is_none()).count();
     let deforms = |instance: &&Instance| match instance.shape {
-        Shape::Mesh(id) => plan.world.mesh(id).animation().is_some(),
+        Shape::Mesh(id) => plan.world.mesh(id).animation().is_some_and(|animation| !animation.is_still()),
         Shape::Sphere { .. } => false,
     };
     let deforming = plan.world.instances().iter().filter(deforms).count();
