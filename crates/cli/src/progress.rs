@@ -10,7 +10,7 @@ use std::sync::Mutex;
 pub struct Terminal(Mutex<Option<Bar>>);
 
 struct Bar {
-    heading: String,
+    total: usize,
     bar: ProgressBar,
 }
 
@@ -24,8 +24,15 @@ impl Bar {
         let style =
             ProgressStyle::with_template(&format!("{{prefix}} {{wide_bar}} {{pos}}/{{len}} {unit}, {{eta}} left"));
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        bar.set_prefix(progress.heading.to_owned());
-        Self { heading: progress.heading.to_owned(), bar }
+        Self { total: progress.total, bar }
+    }
+}
+
+/// What is worked on: "left, frame 12 (3/20)".
+fn heading(progress: Progress<'_>) -> String {
+    match progress.frame {
+        None => progress.heading.to_owned(),
+        Some(frame) => format!("{}, frame {} ({}/{})", progress.heading, frame.number, frame.place, frame.count),
     }
 }
 
@@ -40,14 +47,29 @@ impl Observer for Terminal {
     fn progress(&self, progress: Progress<'_>) {
         // A thread that panicked while it drew leaves nothing half-done here.
         let mut task = self.0.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        if task.as_ref().is_some_and(|task| task.heading != progress.heading) {
+        if task.as_ref().is_some_and(|task| task.total != progress.total) {
             task.take().iter().for_each(|task| task.bar.finish_and_clear());
         }
         let drawn = task.get_or_insert_with(|| Bar::new(progress));
         drawn.bar.set_length(progress.total as u64);
+        drawn.bar.set_prefix(heading(progress));
         drawn.bar.set_position(progress.done as u64);
         if progress.done == progress.total {
             task.take().iter().for_each(|task| task.bar.finish_and_clear());
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue::FramePlace;
+
+    #[test]
+    fn a_frame_is_told_with_its_place_in_the_run() {
+        let frame = Some(FramePlace { number: 12, place: 3, count: 20 });
+        let progress = Progress { heading: "left", frame, unit: Unit::Tiles, done: 5, total: 100 };
+        assert_eq!(heading(progress), "left, frame 12 (3/20)");
+        assert_eq!(heading(Progress { frame: None, ..progress }), "left");
     }
 }

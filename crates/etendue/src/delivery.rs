@@ -14,6 +14,19 @@ use etendue_sensor::SensorState;
 use std::ops::Range;
 use std::sync::Arc;
 
+/// The first camera of each group, for each of its films that are not done.
+pub(crate) fn films_of<'a>(
+    plan: &'a Plan,
+    frames: &'a Range<u32>,
+    done: &'a DoneFrames,
+) -> impl Iterator<Item = &'a CameraPlan> {
+    plan.by_light().into_iter().flat_map(|group| {
+        let is_kept = |frame| group[0].time != TimeDependence::None && done.states(&group, frame).is_some();
+        let films = shots_of(group[0], frames).into_iter().filter(|shot| !is_kept(shot.frame)).count();
+        std::iter::repeat_n(group[0], films)
+    })
+}
+
 /// The pictures of a frame that have a film of their own.
 fn shots(camera: &CameraPlan, frame: u32) -> Vec<Shot> {
     match camera.time {

@@ -138,7 +138,9 @@ fn products(body: &CameraBody) -> Products {
         depth_png_per_m: None,
         rays: false,
         undistorted: None,
+        video: false,
         annotations: Annotations::default(),
+        calibration_files: false,
     }
 }
 

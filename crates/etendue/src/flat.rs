@@ -157,7 +157,9 @@ impl Task<'_> {
             depth_png_per_m: None,
             rays: false,
             undistorted: None,
+            video: false,
             annotations: Annotations::default(),
+            calibration_files: false,
         }
     }
 

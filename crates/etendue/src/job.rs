@@ -1,16 +1,18 @@
 //! From a job file and what changes it to a plan, and from a plan to results.
 
-use crate::delivery::{check_finite, check_frames, deliver, shots_of};
+use crate::delivery::{check_finite, check_frames, deliver, films_of, shots_of};
 use crate::error::Error;
+use crate::exposures::Exposures;
 use crate::memory::MemoryFiles;
-use crate::observer::{Message, Observer, Tiles};
+use crate::observer::{Message, Observer};
 use crate::render_options::RenderOptions;
 use crate::results::{CameraResults, DoneFrames, Results, Sequence, file_names};
+use crate::rig;
 use crate::shard_spec::ShardSpec;
 use etendue_io::{Existing, OutputFolder, complete_assets};
 use etendue_pipeline::film::Film;
-use etendue_pipeline::plan::{CameraPlan, TimeDependence};
-use etendue_pipeline::render::{Request, Shot, light};
+use etendue_pipeline::plan::CameraPlan;
+use etendue_pipeline::render::Shot;
 use etendue_pipeline::summary::Summary;
 use etendue_pipeline::tile::Shard;
 use etendue_pipeline::{Choices, Plan, compile};
@@ -236,11 +238,10 @@ impl Job {
         take: impl FnMut(CameraResults) -> Result<(), Error>,
     ) -> Result<(), Error> {
         self.warn(observer);
-        let film_of = |group: &[&CameraPlan], shot| {
-            let request = Request { shot, simd: options.simd, shard: Shard::WHOLE };
-            exposed(&self.plan, group, request, observer)
-        };
-        deliver(&self.plan, options, done, film_of, take)
+        let films = films_of(&self.plan, &options.frames, done);
+        let mut exposures =
+            Exposures::new((&self.plan, &options.frames), films, (Shard::WHOLE, options.simd), observer);
+        deliver(&self.plan, options, done, |group, shot| exposures.film(group, shot), take)
     }
 
     /// Renders camera after camera, where light depends on time frame after frame, and writes each one's files before the next is
@@ -271,8 +272,28 @@ impl Job {
             Ok(())
         })?;
         sequence.finish(&mut folder)?;
+        rig::write(&rig::asked_files(&self.plan, &options.frames), &mut folder, observer)?;
         written.extend(folder.commit().map_err(Error::run)?);
         Ok(written)
+    }
+
+    /// Writes where all cameras stand and how they project, over frames, in the files of ROS, Kalibr and COLMAP; answers with their paths. Nothing is
+    /// rendered.
+    ///
+    /// # Errors
+    /// Where frames have no times, or the folder cannot be written.
+    pub fn save_calibration_files(
+        &self,
+        frames: &Range<u32>,
+        (folder, existing): (&Path, Existing),
+        observer: &dyn Observer,
+    ) -> Result<Vec<PathBuf>, Error> {
+        check_frames(&self.plan, frames)?;
+        let rig = rig::all_files(&self.plan, frames);
+        let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
+        folder.claim(rig.files.iter().map(|(name, _)| name.as_str())).map_err(Error::input)?;
+        rig::write(&rig, &mut folder, observer)?;
+        folder.commit().map_err(Error::run)
     }
 
     /// Renders the tiles of one shard: a film for each group of cameras of equal light, with the first of these; where light depends on time,
@@ -287,9 +308,12 @@ impl Job {
         self.warn(observer);
         check_frames(&self.plan, frames)?;
         let shard = spec.shard()?;
+        let done = DoneFrames::default();
+        let films = films_of(&self.plan, frames, &done);
+        let mut exposures = Exposures::new((&self.plan, frames), films, (shard, simd), observer);
         for group in self.plan.by_light() {
             for shot in shots_of(group[0], frames) {
-                let film = exposed(&self.plan, &group, Request { shot, simd, shard }, observer)?;
+                let film = exposures.film(&group, shot)?;
                 check_finite(group[0], &film)?;
                 take(group[0], shot, film)?;
             }
@@ -304,18 +328,4 @@ impl Job {
     fn warn(&self, observer: &dyn Observer) {
         self.plan.warnings().iter().for_each(|warning| observer.message(Message::Warning(warning)));
     }
-}
-
-/// The light of cameras that have the same.
-fn exposed(plan: &Plan, group: &[&CameraPlan], request: Request, observer: &dyn Observer) -> Result<Film, Error> {
-    let heading = match group.len() {
-        1 => group[0].name.clone(),
-        n => format!("{} and {} more", group[0].name, n - 1),
-    };
-    let heading = match group[0].time {
-        TimeDependence::None => heading,
-        TimeDependence::Lights | TimeDependence::Motion => format!("{heading}, frame {}", request.shot.frame),
-    };
-    let film = light(plan, group[0], request, &Tiles { heading: &heading, observer });
-    film.map_err(|cancelled| Error::Run(cancelled.to_string()))
 }

@@ -18,6 +18,7 @@
 //! | --- | --- | --- |
 //! | a job file | its plan, radiance, electrons, raw, picture, ground truth | [`Job`] |
 //! | a scene from arrays, a camera in code | the same | [`MemoryFiles`] |
+//! | a job file | where its cameras stand and how they project, for ROS, Kalibr and COLMAP | [`Job::save_calibration_files`] |
 //! | shards of a job | the files of the whole | [`merge()`] |
 //! | stored radiance and a camera file | what that camera would have taken | [`expose()`] |
 //! | stored raws and a camera file | pictures by its processing | [`develop()`] |
@@ -41,6 +42,7 @@ mod delivery;
 mod develop;
 mod error;
 mod expose;
+mod exposures;
 mod flat;
 mod job;
 pub mod measure;
@@ -54,6 +56,7 @@ mod raw_file;
 mod render_options;
 pub mod report;
 mod results;
+mod rig;
 mod shard;
 mod shard_spec;
 mod tone_curve;
@@ -72,7 +75,7 @@ pub use job::{Integrator, Job, JobRequest, Quality};
 pub use memory::{MemoryFiles, Triangles};
 pub use merge::merge;
 pub use named_file::write_file;
-pub use observer::{Message, Observer, Progress, Unit, Unobserved};
+pub use observer::{FramePlace, Message, Observer, Progress, Unit, Unobserved};
 pub use raw_file::Levels;
 pub use render_options::RenderOptions;
 pub use results::{CameraResults, Files, Results};

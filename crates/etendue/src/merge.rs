@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::observer::Observer;
 use crate::render_options::RenderOptions;
 use crate::results::{DoneFrames, Sequence};
+use crate::rig;
 use crate::shard::{self, Manifest};
 use etendue_io::{Existing, OutputFolder};
 use etendue_pipeline::Plan;
@@ -43,6 +44,7 @@ pub fn merge(
         sequence.write(&camera, &mut folder, observer)
     })?;
     sequence.finish(&mut folder)?;
+    rig::write(&rig::asked_files(job.plan(), &manifest.frames), &mut folder, observer)?;
     folder.commit().map_err(Error::run)
 }
 

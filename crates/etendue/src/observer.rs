@@ -9,14 +9,27 @@ pub enum Unit {
     Pictures,
 }
 
+/// A frame among those of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FramePlace {
+    /// The frame's number.
+    pub number: u32,
+    /// Its place in the run, from 1.
+    pub place: u32,
+    /// Frames of the run, those included that an earlier run has left.
+    pub count: u32,
+}
+
 /// How far a task is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress<'a> {
-    /// The task: a camera's name, or what is sought.
+    /// What is worked on: a camera's name, or what is sought.
     pub heading: &'a str,
+    /// The frame that is worked on, where each has a light of its own.
+    pub frame: Option<FramePlace>,
     /// What is counted.
     pub unit: Unit,
-    /// How many are done.
+    /// How many are done, of all cameras and frames of the task.
     pub done: usize,
     /// Of how many.
     pub total: usize,
@@ -50,19 +63,3 @@ pub trait Observer: Sync {
 pub struct Unobserved;
 
 impl Observer for Unobserved {}
-
-/// The tiles of a camera's light, as the pipeline counts them.
-pub(crate) struct Tiles<'a> {
-    pub(crate) heading: &'a str,
-    pub(crate) observer: &'a dyn Observer,
-}
-
-impl etendue_pipeline::Observer for Tiles<'_> {
-    fn tiles(&self, done: usize, total: usize) {
-        self.observer.progress(Progress { heading: self.heading, unit: Unit::Tiles, done, total });
-    }
-
-    fn cancelled(&self) -> bool {
-        self.observer.cancelled()
-    }
-}

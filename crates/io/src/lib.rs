@@ -13,6 +13,8 @@
 //! | out and in | spectral EXR (layout of Fichet, Pacanowski and Wilkie 2021) | [`exr`] |
 //! | out | ground-truth EXR, planes as EXR, raw, depth and display PNG, raw TIFF and DNG, side-car JSON | [`exr`], [`png`], [`mod@tiff`], [`sidecar`] |
 //! | out | optical flow and disparity in the files of the benchmarks | [`correspondence`] |
+//! | out | videos without compression | [`y4m`] |
+//! | out | calibrated cameras and their poses, as ROS, Kalibr and COLMAP know them | [`calibration::export`] |
 //! | look | two results, channel beside channel | [`compare`] |
 //! | look | what is in a file, with a picture of it | [`inspect`] |
 //!
@@ -49,6 +51,7 @@ pub mod table;
 pub mod tiff;
 pub mod trajectory;
 mod unpacked;
+pub mod y4m;
 
 pub use assets::{complete_assets, load_assets};
 pub use error::Error;

@@ -6,7 +6,7 @@
 //! next run in the folder removes; it leaves no half-written file under a final name.
 
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Component, Path, PathBuf};
 
 use crate::Error;
@@ -64,6 +64,15 @@ impl OutputFolder {
 
     /// Writes `bytes` for `name` (relative, `/` between folders) under a temporary name.
     pub fn write(&mut self, name: &str, bytes: &[u8]) -> Result<(), Error> {
+        self.write_with(name, |file| file.write_all(bytes))
+    }
+
+    /// The same of what `write` hands over piece by piece, for files that are larger than the memory should hold.
+    pub fn write_with(
+        &mut self,
+        name: &str,
+        write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+    ) -> Result<(), Error> {
         let target = self.resolve(name)?;
         self.check_free(&target)?;
         if self.pending.iter().any(|p| p.name == target) {
@@ -76,7 +85,14 @@ impl OutputFolder {
         let mark = self.mark.as_mut().expect("a folder is marked until it is dropped");
         let temporary = mark.temporary_of(&target).map_err(unwritten)?;
         self.pending.push(Pending { temporary: temporary.clone(), name: target.clone() });
-        write_flushed(&temporary, bytes).map_err(unwritten)
+        write_flushed(&temporary, write).map_err(unwritten)
+    }
+
+    /// The path at which a file of the run can be read, as soon as it is written: its temporary name before it has its final one.
+    pub fn readable(&self, name: &str) -> Result<PathBuf, Error> {
+        let target = self.resolve(name)?;
+        let pending = self.pending.iter().find(|file| file.name == target);
+        Ok(pending.map_or(target, |file| file.temporary.clone()))
     }
 
     /// Gives every file its final name and returns the names, in the order of writing.
@@ -156,10 +172,10 @@ fn unwritable(root: &Path, cause: &io::Error) -> Error {
     Error::new(root, format!("this output folder cannot be written to: {cause}"))
 }
 
-fn write_flushed(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut file = File::create(path)?;
-    file.write_all(bytes)?;
-    file.sync_all()
+fn write_flushed(path: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
+    let mut file = BufWriter::new(File::create(path)?);
+    write(&mut file)?;
+    file.into_inner().map_err(io::IntoInnerError::into_error)?.sync_all()
 }
 
 #[cfg(test)]
@@ -186,6 +202,18 @@ mod tests {
         assert_eq!(out.commit().expect("commit"), [root.join("x.txt"), root.join("deep/y.txt")]);
         assert_eq!(listing(&root), ["deep", "x.txt"]);
         assert_eq!(fs::read(root.join("deep/y.txt")).expect("file"), b"two");
+    }
+
+    #[test]
+    fn what_was_written_can_be_read_before_and_after_it_has_its_name() {
+        let place = tempfile::tempdir().expect("temporary folder");
+        let mut out = OutputFolder::open(place.path(), Existing::Refuse).expect("folder");
+        out.write_with("a/x.txt", |file| b"onetwo".chunks(3).try_for_each(|part| file.write_all(part))).expect("write");
+        let read = |out: &OutputFolder| fs::read(out.readable("a/x.txt").expect("a plain name")).expect("a file");
+        assert_eq!(read(&out), b"onetwo");
+        out.publish().expect("published");
+        assert_eq!(read(&out), b"onetwo");
+        assert_eq!(out.readable("a/x.txt").expect("a plain name"), place.path().join("a/x.txt"));
     }
 
     #[test]

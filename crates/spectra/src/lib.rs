@@ -14,6 +14,7 @@ mod embedded;
 pub mod glass;
 pub mod illuminant;
 pub mod metal;
+pub mod mie;
 pub mod observer;
 pub mod reflectance;
 pub mod sky;

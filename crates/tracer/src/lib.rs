@@ -8,6 +8,7 @@ pub mod geometry;
 pub mod integrator;
 pub mod lights;
 pub mod materials;
+pub mod media;
 pub mod render_space;
 pub mod textures;
 

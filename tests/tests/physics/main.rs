@@ -26,6 +26,7 @@ mod motion;
 mod openings;
 mod photons;
 mod plausible;
+mod reconstruction;
 mod routes;
 mod signs;
 mod sky;

@@ -12,6 +12,7 @@ mod measure;
 mod merge;
 mod plan;
 mod render;
+mod rig;
 mod schema;
 
 use crate::subcommands::subcommands;
@@ -23,6 +24,8 @@ subcommands! {
     Render(render::Render),
     /// Join the shards of one job to the result of an unsharded run, byte for byte
     Merge(merge::Merge),
+    /// Write where a job's cameras stand and how they project, as ROS, Kalibr and COLMAP know them; nothing is rendered
+    Rig(rig::Rig),
     /// Print what will be modelled, what is left out and why, and what it will cost
     Plan(plan::Plan),
     /// Photograph a stored radiance image (rendered with route = "pupil") by another lens and sensor

@@ -3,8 +3,20 @@
 use crate::support::etendue;
 
 /// What it does, one verb each.
-const VERBS: [&str; 11] =
-    ["render", "merge", "plan", "expose", "develop", "flat", "datasheet", "inspect", "compare", "calibrate", "schema"];
+const VERBS: [&str; 12] = [
+    "render",
+    "rig",
+    "merge",
+    "plan",
+    "expose",
+    "develop",
+    "flat",
+    "datasheet",
+    "inspect",
+    "compare",
+    "calibrate",
+    "schema",
+];
 /// Those whose options are their subcommands'.
 const GROUPS: [&str; 2] = ["chart", "measure"];
 

@@ -1,6 +1,9 @@
 //! Frames whose light depends on time: the same bytes alone, in a sequence, in shards, and after a run that was interrupted.
 
 use crate::support::{contents, etendue, tests, text};
+use etendue_io::picture::read_picture;
+use etendue_scene::asset::ImagePixels;
+use serde_json::Value;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -51,6 +54,74 @@ fn shards_of_frames_are_merged_to_the_same_bytes() {
     }
     etendue(arguments).ok();
     assert_same(&rendered(&["--frames", "0..2"]), &contents(&folder("whole")), "two shards");
+}
+
+#[test]
+fn what_is_made_of_all_frames_says_what_the_frames_say() {
+    let all = rendered(&["--frames", "0..3"]);
+    for name in ["ros/left.yaml", "ros/static_transforms.yaml", "kalibr/camchain-left.yaml", "colmap/images.txt"] {
+        assert!(all.contains_key(&format!("calibration/{name}")), "{name}");
+    }
+    let json = |name: &str| serde_json::from_slice::<Value>(&all[name]).expect("JSON");
+    let tracks = json("left/tracks.json");
+    assert_eq!(tracks["frames"].as_array().map(Vec::len), Some(3));
+    let of = |frame: u64| {
+        let tracks = tracks["tracks"].as_array().expect("a list").iter();
+        let places = tracks.filter_map(move |track| {
+            let seen = track["frames"].as_array()?.iter().find(|seen| seen["frame"] == frame)?;
+            Some((track["id"].clone(), track["name"].clone(), seen.clone()))
+        });
+        places.collect::<Vec<_>>()
+    };
+    for frame in 0..3 {
+        let boxes = json(&format!("left/boxes.{frame:04}.json"));
+        let objects = boxes["objects"].as_array().expect("a list");
+        assert_eq!(objects.len(), of(frame).len(), "frame {frame}");
+        for (object, (id, name, seen)) in objects.iter().zip(of(frame)) {
+            assert_eq!((&object["id"], &object["name"], &boxes["time_s"]), (&id, &name, &seen["time_s"]));
+            for key in ["box_3d", "visible_box_px", "amodal_box_px", "visible_fraction", "is_cut"] {
+                assert_eq!(object[key], seen[key], "{key}");
+            }
+        }
+    }
+    let video = &all["left/picture.y4m"];
+    let head = b"YUV4MPEG2 W40 H24 F20:1 Ip A1:1 C444 XCOLORRANGE=LIMITED\n";
+    assert!(video.starts_with(head));
+    assert_eq!(video.len(), head.len() + 3 * ("FRAME\n".len() + 3 * 40 * 24));
+    // The first pixel's luma, of the picture's own numbers.
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let file = place.path().join("picture.png");
+    fs::write(&file, &all["left/picture.0002.png"]).expect("a file");
+    let ImagePixels::Rgb8(pixels) = read_picture(&file).expect("PNG").pixels else { panic!("8 bits") };
+    let [r, g, b] = pixels[0].map(f64::from);
+    let luma = 16.0 + 219.0 / 255.0 * (0.2126 * r + 0.7152 * g + 0.0722 * b);
+    let first = head.len() + 2 * ("FRAME\n".len() + 3 * 40 * 24) + "FRAME\n".len();
+    assert!((f64::from(video[first]) - luma).abs() <= 0.5 + 1e-9, "{} for {luma}", video[first]);
+}
+
+#[test]
+fn a_rig_has_the_files_of_a_render_without_one() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let out = text(&place.path().join("out"));
+    let told = etendue(["rig", &job(), "-o", &out, "--frames", "0..2"]).ok();
+    assert_eq!(told.out.lines().count(), 8, "{}", told.out);
+    let mut expected = rendered(&["--frames", "0..2"]);
+    expected.retain(|name, _| name.starts_with("calibration/"));
+    assert_same(&expected, &contents(Path::new(&out)), "rig");
+    etendue(["rig", &job(), "-o", &out]).refused(&["already there"]);
+}
+
+#[test]
+fn what_needs_more_than_is_there_is_refused() {
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let told = |set: &str, phrases: &[&str]| {
+        let arguments = ["render", &job(), "-o", &text(&place.path().join("out")), "--set", set].map(str::to_owned);
+        etendue(arguments).refused(phrases);
+    };
+    told("cameras.left.output.boxes=false", &["\"tracks\" is asked for", "boxes", "add boxes = true"]);
+    told("cameras.right.output={ video = \"y4m\" }", &["\"video\" is asked for", "no [isp]"]);
+    told("cameras.left.output.picture=false", &["\"video\" is asked for", "ask for \"picture\""]);
+    told("cameras.left.isp={ picture_format = \"jpeg\" }", &["\"video\" is asked for", "JPEG"]);
 }
 
 /// What a run leaves that is killed within frame 2: whole frames 0 and 1, a file of frame 2 that has its name, no side-cars.

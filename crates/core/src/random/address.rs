@@ -76,6 +76,16 @@ pub enum Draw {
     Mix = 10,
     /// Which paths of a group that shares its tails are followed on.
     Followed = 11,
+    /// How far light flies in a medium; the sub-counter counts the path's flights.
+    FreeFlight = 12,
+    /// What happens to it there.
+    Collision = 13,
+    /// A step along a ray to a light through an uneven medium.
+    Transmittance = 14,
+    /// Which wavelength's phase function gives the direction, and the direction; the sub-counter is the vertex's.
+    PhaseDirection = 15,
+    /// Where along a ray light of a lamp is looked for, and which lamp.
+    InScattering = 16,
 }
 
 /// A bijection of 64-bit words that scatters its bits (the finaliser of splitmix64, Steele et al. 2014).

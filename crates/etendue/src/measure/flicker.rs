@@ -1,5 +1,6 @@
 //! `measure flicker`: light that goes up and down, over rows and over frames.
 
+use super::frame_times::{FrameTimes, completed};
 use super::picture_input::{PictureInput, refused};
 use super::readings::Readings;
 use super::truth::Truth;
@@ -17,11 +18,11 @@ use std::path::{Path, PathBuf};
 pub struct FlickerRequest {
     /// Frames of a sequence in their order, or one of a rolling shutter
     pub frames: Vec<PathBuf>,
-    /// Time from one row of the file to the next, µs, of a rolling shutter [default: all rows are exposed together]
+    /// Time from one row of the file to the next, µs, of a rolling shutter [default: the side-car's, or all rows are exposed together]
     pub row_time_us: Option<f64>,
-    /// Frames a second [default: not known; each frame is measured by itself]
+    /// Frames a second [default: the side-car's, or not known; each frame is measured by itself]
     pub frame_rate_hz: Option<f64>,
-    /// Exposure of a row, µs: tells the light's own modulation and the duty of its pulses [default: not known]
+    /// Exposure of a row, µs: tells the light's own modulation and the duty of its pulses [default: the side-car's, or not known]
     pub exposure_us: Option<f64>,
     /// Which readings of the picture, what they mean, and the chart's truth.
     pub input: PictureInput,
@@ -53,8 +54,13 @@ struct Sequence {
 /// # Errors
 /// Where times are missing, or a region is too small, saturated or dark.
 pub fn flicker(request: &FlickerRequest) -> Result<Report, Error> {
+    let FlickerRequest { row_time_us, frame_rate_hz, exposure_us, .. } = *request;
+    let (times, notes) = completed(&request.frames, FrameTimes { row_time_us, frame_rate_hz, exposure_us })?;
+    let FrameTimes { row_time_us, frame_rate_hz, exposure_us } = times;
+    let request = &FlickerRequest { row_time_us, frame_rate_hz, exposure_us, ..request.clone() };
     let (sequence, truth) = read(request)?;
     let mut report = Report::new("flicker", METHOD);
+    notes.into_iter().for_each(|note| report.note(note));
     match truth.as_ref().filter(|truth| !EVEN.contains(&truth.chart())) {
         None => {
             let at = truth.as_ref().map(|truth| truth.middle(&sequence.frames[0])).transpose()?;

@@ -16,6 +16,7 @@ mod encoding;
 mod flare;
 mod flicker;
 mod focal;
+mod frame_times;
 mod lens;
 mod noise;
 mod oecf;

@@ -15,6 +15,12 @@ impl Pictures<'_> {
     /// One more is read.
     pub(crate) fn step(&self) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-        self.observer.progress(Progress { heading: self.heading, unit: Unit::Pictures, done, total: self.total });
+        self.observer.progress(Progress {
+            heading: self.heading,
+            frame: None,
+            unit: Unit::Pictures,
+            done,
+            total: self.total,
+        });
     }
 }

@@ -3,7 +3,7 @@
 use crate::tone_curve::encoding;
 use etendue_core::quantity::{DigitalNumber, Irradiance, MeanElectrons, Quantity, Radiance};
 use etendue_pipeline::plan::{
-    Annotations, CameraBody, CameraPlan, CorrespondenceFormat, Development, PictureFormat, Plan, Products, RawFormat,
+    Annotations, CameraBody, CameraPlan, CorrespondenceFormat, Development, PictureFormat, Products, RawFormat,
     TimeDependence,
 };
 use serde_json::{Value, json};
@@ -51,6 +51,10 @@ impl Files {
     pub const DISPARITY_PNG: &str = "disparity.png";
     /// Boxes of objects.
     pub const BOXES: &str = "boxes.json";
+    /// Boxes of objects over all frames.
+    pub const TRACKS: &str = "tracks.json";
+    /// The pictures of all frames.
+    pub const VIDEO: &str = "picture.y4m";
     /// The ray of each pixel.
     pub const RAYS: &str = "rays.exr";
     /// The side-car.
@@ -132,9 +136,9 @@ impl Files {
         files
     }
 
-    /// Whether a file tells of the camera, and is the same in all frames.
+    /// Whether a file tells of the camera or of all frames, and has no frame's number.
     pub(crate) fn is_of_camera(name: &str) -> bool {
-        name == Self::RAYS || name == Self::undistorted(Self::RAYS)
+        [Self::RAYS, Self::TRACKS].contains(&name) || name == Self::undistorted(Self::RAYS)
     }
 
     /// The files of light and ground truth.
@@ -175,6 +179,7 @@ impl Files {
         let picture = entry("disparity; 0 where it is not known", "1/256 px");
         add(disparity == Some(CorrespondenceFormat::Kitti), Self::DISPARITY_PNG, picture);
         add(asked.boxes, Self::BOXES, entry("boxes of objects in the picture and in space", "px, m"));
+        add(asked.tracks, Self::TRACKS, entry("boxes of objects over all frames, object by object", "px, m, s"));
     }
 
     /// The files of photographs.
@@ -188,6 +193,8 @@ impl Files {
         let twin = p.undistorted.is_some();
         let format = body.picture_format();
         let picture = body.development.as_ref().map_or(Value::Null, Self::picture_entry);
+        let video = entry("pictures of all frames, Y'CbCr of BT.709 in limited range, 4:4:4", "8 bits");
+        add(p.video, Self::VIDEO, video);
         let mut undistorted = picture.clone();
         undistorted["quantity"] = format!("undistorted {}", picture["quantity"].as_str().unwrap_or_default()).into();
         for frame in frames.clone() {
@@ -202,13 +209,4 @@ impl Files {
         }
         files
     }
-}
-
-/// The names, relative to the output folder, of all files of a plan.
-pub(crate) fn file_names(plan: &Plan, frames: &Range<u32>) -> Vec<String> {
-    let of_camera = |camera: &CameraPlan| {
-        let names = Files::of_camera(camera, frames).into_keys().chain([Files::SIDECAR.to_owned()]);
-        names.map(|name| format!("{}/{name}", camera.name)).collect::<Vec<_>>()
-    };
-    plan.cameras.iter().flat_map(of_camera).collect()
 }

@@ -244,6 +244,7 @@ pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTre
             "depth_of_field": (settings.route != Route::Lens).then(|| depth_of_field(&camera.depth_of_field)),
         },
         "time_s": camera.timing.frame_start_s(first),
+        "frame_period_s": camera.timing.period_s,
         "files": files,
         "ground_truth": {
             "ray.ID": "0: no ray passes the lens; 1: the principal ray; 2: that ray is clipped, the ray through the \

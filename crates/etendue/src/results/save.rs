@@ -1,13 +1,15 @@
 //! A camera's results as files.
 
 use super::camera::CameraResults;
-use super::files::{Files, file_names};
+use super::file_names::file_names;
+use super::files::Files;
 use super::frames::{Wanted, write_frames};
 use super::metadata;
 use super::sequence::Sequence;
 use super::writer::{Encoder, ResultWriter};
 use crate::error::Error;
 use crate::observer::Observer;
+use crate::rig;
 use etendue_io::exr::{self, Lengths, encode_ground_truth, encode_plane, encode_radiance, encode_rays};
 use etendue_io::{Existing, OutputFolder, png};
 use etendue_pipeline::rays::{RayTable, ray_table};
@@ -54,6 +56,11 @@ impl Results {
         let mut sequence = Sequence::default();
         self.cameras.iter().try_for_each(|camera| sequence.write(camera, &mut folder, observer))?;
         sequence.finish(&mut folder)?;
+        if let Some(first) = self.cameras.first() {
+            let frames = self.cameras.iter().map(CameraResults::frame_numbers);
+            let frames = frames.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or_default();
+            rig::write(&rig::asked_files(&first.plan, &frames), &mut folder, observer)?;
+        }
         folder.commit().map_err(Error::run)
     }
 }

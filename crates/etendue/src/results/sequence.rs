@@ -3,6 +3,8 @@
 use super::camera::CameraResults;
 use super::files::Files;
 use super::metadata;
+use super::tracks::write_tracks;
+use super::video::write_video;
 use super::writer::ResultWriter;
 use crate::error::Error;
 use crate::observer::Observer;
@@ -72,7 +74,7 @@ impl Sequence {
         self.of(plan, camera, &(frame..frame + 1)).facts.insert(frame, facts);
     }
 
-    /// Writes the side-cars.
+    /// Writes what is made of all frames, and the side-cars.
     pub(crate) fn finish(&self, folder: &mut OutputFolder) -> Result<(), Error> {
         for known in &self.cameras {
             let camera = known.camera();
@@ -81,6 +83,12 @@ impl Sequence {
             let twin = camera.products.undistorted.and_then(|scale| RectifiedCamera::of(&camera.body, scale).ok());
             facts["undistorted"] = twin.as_ref().map_or(Value::Null, metadata::undistorted);
             facts["frames"] = known.facts.values().cloned().collect();
+            if camera.products.annotations.tracks {
+                write_tracks(camera, &known.frames, folder)?;
+            }
+            if camera.products.video {
+                write_video(camera, &known.frames, folder)?;
+            }
             let mut writer = ResultWriter { prefix: camera.name.clone(), folder: &mut *folder };
             writer.json(Files::SIDECAR, &facts)?;
         }

@@ -14,6 +14,7 @@
 //! calibration that folds over inside its picture is read; [`Calibration::check`] refuses it.
 
 mod colmap;
+pub mod export;
 mod f_theta;
 mod found;
 mod kalibr;

@@ -21,6 +21,7 @@ mod pfm;
 mod raw;
 mod side_car;
 mod tiff;
+mod timing;
 
 use crate::Error;
 use crate::exr::decode_exr;
@@ -35,6 +36,7 @@ pub use encoding::{Encoding, Stated};
 pub(crate) use pfm::is_pfm;
 pub use raw::{FilterTile, RawFacts, RawFrame};
 pub(crate) use tiff::is_tiff;
+pub use timing::{StatedRows, StatedTiming, stated_timing};
 
 /// Reads a photograph and what a side-car beside it says of it.
 ///

@@ -1,6 +1,7 @@
 //! Files read and written: formats of others and our own.
 
 mod assets;
+mod calibration_export;
 mod calibrations;
 mod correspondence;
 mod exr_files;

@@ -18,6 +18,7 @@ pub(super) fn asked(output: &Output) -> Annotations {
         scene_flow: output.scene_flow.as_ref().is_some_and(|key| key.value),
         disparity: None,
         boxes: output.boxes.as_ref().is_some_and(|key| key.value),
+        tracks: output.tracks.as_ref().is_some_and(|key| key.value),
     }
 }
 

@@ -3,6 +3,7 @@
 use super::context::Context;
 use super::course::{along, through, trajectory};
 use super::frames::Frames;
+use crate::plan::Mount;
 use etendue_core::track::Key;
 use etendue_core::{CameraPath, CameraPose, Motion};
 use etendue_scene::record::Pose;
@@ -23,6 +24,17 @@ pub(super) fn camera_path(pose: &Pose, frames: &Frames<'_>, context: &mut Contex
         }
     };
     Some(CameraPath::moving(frames.carrying(pose.frame.as_ref(), own)))
+}
+
+/// The frame that carries a camera, and where it is fixed there.
+pub(super) fn mount(pose: &Pose) -> Mount {
+    let fixed = match (trajectory(pose.course.as_ref()), &pose.keys[..]) {
+        (Some(_), _) => None,
+        (None, []) => pose.to_camera_pose(),
+        (None, [only]) => only.to_camera_pose(),
+        (None, _) => None,
+    };
+    Mount { frame: pose.frame.as_ref().map(|name| name.value.clone()), pose: fixed }
 }
 
 fn still(pose: &CameraPose) -> Motion {

@@ -19,6 +19,7 @@ mod lens;
 mod light;
 mod linear_picture;
 mod material;
+mod medium;
 mod modulation;
 #[cfg(test)]
 mod motion_tests;
@@ -40,6 +41,7 @@ mod surroundings;
 mod tests;
 mod timing;
 mod vertex_animation;
+mod video;
 mod world;
 
 pub use choices::{Choices, Quality};
@@ -48,7 +50,7 @@ use crate::plan::fingerprint::fingerprint;
 use crate::plan::remark::grouped;
 use crate::plan::shared_light;
 use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan, TimeDependence};
-use camera_path::camera_path;
+use camera_path::{camera_path, mount};
 use context::Context;
 use etendue_core::{CameraPath, TimeInterval};
 use etendue_scene::asset::Assets;
@@ -97,6 +99,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let mut builder = MaterialTableBuilder::of_scene(scene, unused, context);
     let frames = Frames::of(scene, unused, context);
     let (mut sources, open_lamps, sky) = light::sources(scene, &frames, context);
+    let media = medium::media(scene, &frames, context);
     let setups = description.cameras.iter().enumerate();
     let mut cameras: Vec<_> =
         setups.filter_map(|setup| camera_plan(setup, (description, &frames), choices, context)).collect();
@@ -109,7 +112,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let (material_table, materials) = builder.finish(context)?;
     let is_modulated = sources.is_modulated() || material_table.is_modulated();
     annotations::resolve(description, &mut cameras, context);
-    timing::depend(&mut cameras, &world, (&sources, is_modulated), context);
+    timing::depend(&mut cameras, &world, (&sources, is_modulated), &media, context);
     shared_light::share(&mut cameras);
     positions::remark(&cameras, context);
     surroundings::remark(&cameras, &world, &material_table, &materials, context);
@@ -124,7 +127,20 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
         unread(description, context);
     }
     let hash = context.faults.is_empty().then(|| fingerprint(description, context.assets, choices))?;
-    Some(Plan { world, material_table, sources, sky, cameras, identities, materials, classes, remarks, notices, hash })
+    Some(Plan {
+        world,
+        material_table,
+        sources,
+        media,
+        sky,
+        cameras,
+        identities,
+        materials,
+        classes,
+        remarks,
+        notices,
+        hash,
+    })
 }
 
 /// Refuses files that are named and were not read, also those that no step asked for: two contents would have one hash.
@@ -159,5 +175,8 @@ fn camera_plan(
     let name = setup.name.value.clone();
     let light = LightOwner { camera: name.clone(), index };
     let time = TimeDependence::None;
-    Some(CameraPlan { name, index, light, path, timing, time, body, settings, depth_of_field, products })
+    let mount = mount(&setup.pose);
+    let camera = CameraPlan { name, index, light, path, mount, timing, time, body, settings, depth_of_field, products };
+    video::check(&setup.output, &camera, context);
+    Some(camera)
 }

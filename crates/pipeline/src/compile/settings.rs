@@ -48,6 +48,8 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
     );
     let development = body.development.is_some();
     need(&output.picture, development, "picture", "the camera has no [isp]", "add it", context);
+    let boxes = said(&output.boxes, false);
+    need(&output.tracks, boxes, "tracks", "they are made of boxes", "add boxes = true", context);
     let depth_png = said(&output.depth_png, false);
     if let (Some(scale), false) = (&output.depth_png_scale, depth_png) {
         let place = match scale {
@@ -73,7 +75,9 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
         depth_png_per_m: depth_png.then(|| output.depth_png_scale.as_ref().map_or(256.0, |s| s.per_metre())),
         rays: said(&output.rays, false),
         undistorted: None,
+        video: output.video.is_some(),
         annotations: super::annotations::asked(output),
+        calibration_files: said(&output.calibration_files, false),
     };
     remark_depth(&products, body, context);
     let products = Products { undistorted: undistorted(output, &products, body, context), ..products };

@@ -7,6 +7,7 @@ use etendue_scene::{CameraSetup, Place};
 use etendue_tracer::accel::World;
 use etendue_tracer::geometry::Mesh;
 use etendue_tracer::lights::Sources;
+use etendue_tracer::media::Medium;
 
 /// Relative difference of a sequence's frame rate and a sensor's frame period that is taken for rounding.
 const RATE_TOLERANCE: f64 = 1e-6;
@@ -38,12 +39,14 @@ pub(super) fn depend(
     cameras: &mut [CameraPlan],
     world: &World,
     (sources, is_modulated): (&Sources, bool),
+    media: &[Medium],
     context: &mut Context<'_>,
 ) {
     let objects = world.instances().iter().map(|instance| &instance.to_world);
     let lamps = sources.lamps.iter().map(|lamp| lamp.to_world());
     let deforms = world.meshes().iter().filter_map(Mesh::animation).any(|animation| !animation.is_still());
-    let moves = deforms || objects.chain(lamps).any(|motion| motion.as_still().is_none());
+    let carried = objects.chain(lamps).any(|motion| motion.as_still().is_none());
+    let moves = carried || deforms || media.iter().any(Medium::moves);
     for camera in cameras {
         camera.time = match () {
             () if moves || !camera.path.is_still() => TimeDependence::Motion,

@@ -31,6 +31,8 @@ pub struct Annotations {
     pub disparity: Option<DisparityProduct>,
     /// Boxes of objects.
     pub boxes: bool,
+    /// The boxes of all frames in one file.
+    pub tracks: bool,
 }
 
 impl Annotations {

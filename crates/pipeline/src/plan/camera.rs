@@ -1,6 +1,7 @@
 //! A camera of a plan.
 
 use super::development::{Development, PictureFormat};
+use super::mount::Mount;
 use super::products::Products;
 use super::row_exposure::RowExposure;
 use super::settings::{Route, Settings};
@@ -23,6 +24,8 @@ pub struct CameraPlan {
     pub light: LightOwner,
     /// Where it stands, at every time.
     pub path: CameraPath,
+    /// The frame that carries it, and where it is fixed there.
+    pub mount: Mount,
     /// When its frames and rows are exposed.
     pub timing: Timing,
     /// Whether its light depends on that.

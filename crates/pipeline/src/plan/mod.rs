@@ -4,6 +4,7 @@ mod annotations;
 mod camera;
 mod development;
 pub(crate) mod fingerprint;
+mod mount;
 mod products;
 pub mod remark;
 mod row_exposure;
@@ -17,10 +18,12 @@ use crate::plan::remark::Remark;
 use etendue_tracer::accel::World;
 use etendue_tracer::lights::Sources;
 use etendue_tracer::materials::MaterialTable;
+use etendue_tracer::media::Medium;
 
 pub use annotations::{Annotations, CorrespondenceFormat, DisparityProduct};
 pub use camera::{CameraBody, CameraPlan, LightOwner};
 pub use development::{Development, PictureFormat};
+pub use mount::Mount;
 pub use products::{Products, RawFormat};
 pub use row_exposure::{CaptureTiming, RowExposure};
 pub use settings::{Route, Settings};
@@ -35,6 +38,8 @@ pub struct Plan {
     pub material_table: MaterialTable,
     /// What shines but is no surface.
     pub sources: Sources,
+    /// What scatters light between surfaces.
+    pub media: Vec<Medium>,
     /// What is said of the sky, where the surroundings are one.
     pub sky: Option<SkyFacts>,
     /// The cameras.

@@ -53,6 +53,8 @@ pub struct Products {
     pub signal_breakdown: bool,
     /// The picture.
     pub picture: bool,
+    /// The pictures of all frames as a video.
+    pub video: bool,
     /// Depth, normals, positions, identities.
     pub ground_truth: bool,
     /// Positions in the camera's frame with it.
@@ -65,6 +67,8 @@ pub struct Products {
     pub undistorted: Option<f64>,
     /// Flow, disparity and boxes.
     pub annotations: Annotations,
+    /// Pose and projection in the files of other programs.
+    pub calibration_files: bool,
 }
 
 impl Products {

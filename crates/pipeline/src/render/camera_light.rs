@@ -16,6 +16,7 @@ use etendue_projection::Raster;
 use etendue_tracer::accel::Simd;
 use etendue_tracer::integrator::{PathSettings, PathTracer};
 use etendue_tracer::lights::{LightCounts, Lights};
+use etendue_tracer::media::Media;
 use etendue_tracer::render_space::RenderSpace;
 use glam::{DVec2, DVec3};
 
@@ -79,7 +80,8 @@ fn through<S: RaySource>(
     let rows = FilmExposure::of(camera, request.shot);
     let view = plan.world.render_space_with(rows.origin_m(), rows.interval(), request.simd);
     let lights = lights(plan, camera, &view);
-    let tracer = PathTracer::new(&view, &plan.material_table, &lights, path_settings(camera));
+    let media = Media::new(&plan.media, rows.origin_m(), rows.interval());
+    let tracer = PathTracer::new(&view, &plan.material_table, &lights, path_settings(camera)).with_media(&media);
     let settings = &camera.settings;
     let sensor = camera.body.sensor.as_ref().filter(|_| settings.folded);
     let mosaic = sensor.map(|sensor| Mosaic::of(sensor, settings.range_nm, settings.bands.is_some()));

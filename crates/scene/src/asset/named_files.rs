@@ -33,6 +33,7 @@ pub(crate) fn requests<'d>(
     frames.for_each(|f| course(f.course.as_ref(), &mut files));
     scene.objects.iter().for_each(|o| course(o.course.as_ref(), &mut files));
     scene.lights.iter().for_each(|l| light(l, &mut files));
+    scene.media.iter().for_each(|m| m.name_files(&mut files));
     scene.environment.iter().for_each(|e| environment(e, &mut files));
     for (record, pose) in cameras {
         camera(record, &mut files);

@@ -4,7 +4,7 @@ use crate::document::{Node, Table};
 use crate::fault::Faults;
 
 /// The lists of a scene whose entries have names.
-const LISTS: [&str; 6] = ["meshes", "textures", "materials", "frames", "objects", "lights"];
+const LISTS: [&str; 7] = ["meshes", "textures", "materials", "frames", "objects", "lights", "media"];
 
 /// Notes every name that is used twice.
 pub(super) fn check(document: &Node, faults: &mut Faults) {

@@ -61,6 +61,14 @@ record! {
         /// Boxes of the objects, in the picture (what is seen, and the whole object) and in space, with the part that is seen and the part that lies
         /// within the picture, JSON. Default: false.
         optional boxes: Placed<bool> = flag();
+        /// With "boxes": the boxes of all frames of the run once more in one file, object by object, "tracks.json". Default: false.
+        optional tracks: Placed<bool> = flag();
+        /// The pictures of all frames of the run as one video, "picture.y4m"; needs `[isp]` with pictures of 8 bits as PNG, and
+        /// `[sequence]`. Default: none.
+        optional video: Placed<VideoFormat> = choice();
+        /// Where this camera stands and how it projects, for other programs: in the folder "calibration" beside the cameras' own, files
+        /// of all cameras that ask for them, as ROS, Kalibr and COLMAP know them. Default: false.
+        optional calibration_files: Placed<bool> = flag();
     }
 }
 
@@ -85,6 +93,14 @@ choice! {
         "middlebury" => Middlebury,
         /// EXR, and 16-bit PNG: flow in 1/64 px up to ±512 px, disparity in 1/256 px up to 256 px.
         "kitti" => Kitti,
+    }
+}
+
+choice! {
+    /// A file format of videos.
+    pub enum VideoFormat {
+        /// YUV4MPEG2: not compressed, 8 bits, 4:4:4, the matrix of ITU-R BT.709 in limited range.
+        "y4m" => Y4m,
     }
 }
 
@@ -155,6 +171,9 @@ impl Output {
             disparity_to: None,
             disparity_format: None,
             boxes: None,
+            tracks: None,
+            video: None,
+            calibration_files: None,
         }
     }
 
@@ -185,6 +204,9 @@ impl Output {
             disparity_to: a.disparity_to.or(b.disparity_to),
             disparity_format: a.disparity_format.or(b.disparity_format),
             boxes: a.boxes.or(b.boxes),
+            tracks: a.tracks.or(b.tracks),
+            video: a.video.or(b.video),
+            calibration_files: a.calibration_files.or(b.calibration_files),
         }
     }
 }

@@ -4,6 +4,7 @@ use super::environment::Environment;
 use super::frame::{self, Frame};
 use super::light::Light;
 use super::material::Material;
+use super::medium::Medium;
 use super::mesh::Mesh;
 use super::object::Object;
 use super::texture::Texture;
@@ -28,6 +29,8 @@ record! {
         many objects: Object = list(record(), 0);
         /// Lights that are no surfaces.
         many lights: Light = list(record(), 0);
+        /// Fog and the like, between the surfaces.
+        many media: Medium = list(record(), 0);
         /// The light from infinitely far. Default: none, black.
         optional environment: Environment = record();
     }

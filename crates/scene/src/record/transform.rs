@@ -3,7 +3,7 @@
 use etendue_core::maths::f64 as maths;
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 
-use crate::place::Placed;
+use crate::place::{Place, Placed};
 use crate::reader::{Rule, RuleExt as _, either, number, record, vector};
 
 record! {
@@ -62,6 +62,12 @@ impl Transform {
 
     fn rotation(&self) -> DMat3 {
         self.rotation_deg.as_ref().map_or(DMat3::IDENTITY, |r| yaw_pitch_roll(r.value))
+    }
+
+    /// Where the first of its keys that is given stands.
+    pub(crate) fn stated_at(&self) -> Option<&Place> {
+        let keys = [&self.position_m, &self.rotation_deg, &self.scale];
+        keys.into_iter().flatten().next().map(|key| &key.place)
     }
 
     /// Whether any of its keys is given.

@@ -19,6 +19,7 @@ mod mis;
 mod path;
 mod path_tracer;
 mod radiance;
+mod scatter_in_medium;
 mod settings;
 mod shadow;
 mod shared;

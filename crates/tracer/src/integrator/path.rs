@@ -15,6 +15,7 @@ use crate::MaterialId;
 use crate::geometry::SurfacePoint;
 use crate::lights::{LightHit, LightSample, LightSampleContext, ReceiverGloss};
 use crate::materials::{Bsdf, BsdfSample, Event, ShadingFrame};
+use crate::media::Phase;
 use crate::textures::Lookup;
 
 /// Surfaces that a path meets at most, with those that it passes. No scene needs as many; among surfaces closer together
@@ -27,8 +28,8 @@ pub(super) struct Path<'a, const N: usize> {
     pub(super) tracer: &'a PathTracer<'a>,
     pub(super) wavelengths: &'a Wavelengths<N>,
     /// What the camera asked: its random address, and when lights are looked at.
-    asked: &'a FieldRay,
-    ray: Ray,
+    pub(super) asked: &'a FieldRay,
+    pub(super) ray: Ray,
     pub(super) cone: Cone,
     /// Scattering events so far.
     pub(super) bounces: u32,
@@ -39,9 +40,11 @@ pub(super) struct Path<'a, const N: usize> {
     /// Density of the ray's direction, 1/sr; `None` where it came from the camera or a mirror.
     pub(super) scattered: Option<f32>,
     /// Where the ray was last scattered; `None` where it came from the camera or a mirror.
-    receiver: Option<LightSampleContext>,
+    pub(super) receiver: Option<LightSampleContext>,
     pub(super) medium: Medium<'a>,
-    history: History,
+    pub(super) history: History,
+    /// Random numbers used for flights through media.
+    pub(super) flights: u32,
     /// What the path carried when its throughput was last set to one: roulette looks at the product.
     pub(super) prior: f32,
     /// What radiance along the ray counts at the camera.
@@ -60,11 +63,13 @@ pub(super) struct Vertex<'a, const N: usize> {
 }
 
 /// What a path meets.
-pub(super) enum Intersection {
+pub(super) enum Intersection<'a> {
     /// Nothing: infinity.
     Nothing,
     /// A surface that is not there for this path.
     Passed,
+    /// A place between surfaces where light is scattered, in the render frame, m.
+    Medium(Vec3, &'a Phase),
     /// A surface, and where its textures are read.
     Surface(SurfacePoint, Lookup),
 }
@@ -92,6 +97,7 @@ impl<'a, const N: usize> Path<'a, N> {
             receiver: None,
             medium: tracer.medium,
             history: History::default(),
+            flights: 0,
             prior: 1.0,
             throughput: Spectral::ONE,
             radiance: Spectral::ZERO,
@@ -126,6 +132,8 @@ impl<'a, const N: usize> Path<'a, N> {
         match self.meet() {
             Intersection::Nothing => PathStep::Ends,
             Intersection::Passed => PathStep::Goes,
+            Intersection::Medium(..) if self.is_spent() => PathStep::Ends,
+            Intersection::Medium(position, phase) => self.scatter_in_medium(position, phase),
             Intersection::Surface(point, lookup) if self.is_spent() => self.only_pass(point, &lookup),
             Intersection::Surface(point, lookup) => self.scatter(&self.vertex(point, &lookup)),
         }
@@ -138,8 +146,14 @@ impl<'a, const N: usize> Path<'a, N> {
 
     /// To the next surface, whose glow is gathered, or to infinity.
     #[inline(always)]
-    pub(super) fn meet(&mut self) -> Intersection {
-        let Some(hit) = self.tracer.view.closest(&self.ray) else {
+    pub(super) fn meet(&mut self) -> Intersection<'a> {
+        let hit = self.tracer.view.closest(&self.ray);
+        if self.tracer.media.is_some()
+            && let Some(met) = self.travel_through_media(hit.as_ref().map_or(f32::INFINITY, |hit| hit.t))
+        {
+            return met;
+        }
+        let Some(hit) = hit else {
             self.gather_distant();
             return Intersection::Nothing;
         };
@@ -319,14 +333,14 @@ impl<'a, const N: usize> Path<'a, N> {
 
     /// What drawn light counts beside the other way of finding it, over its density. A lamp without an opening is found in no
     /// other way, and nor are surfaces where no ray is sent out to meet them.
-    fn drawn_weight(&self, light: &LightSample<N>, scattered: f32) -> f32 {
+    pub(super) fn drawn_weight(&self, light: &LightSample<N>, scattered: f32) -> f32 {
         let settings = &self.tracer.settings;
         let only = light.delta || (settings.level == Level::Flat && light.target.is_some());
         if only { 1.0 / light.pdf } else { settings.strategies.drawn(light.pdf, scattered) / light.pdf }
     }
 
     /// Whether light of a lamp counts, given whether it is part of a caustic.
-    fn follows(&self, is_caustic: bool) -> bool {
+    pub(super) fn follows(&self, is_caustic: bool) -> bool {
         self.tracer.settings.caustics || !is_caustic
     }
 
@@ -356,7 +370,12 @@ impl<'a, const N: usize> Path<'a, N> {
     /// What light crosses that arrives at a surface from `wi`.
     fn medium_towards(&self, vertex: &Vertex<'a, N>, wi: Vec3) -> Medium<'a> {
         if wi.z < 0.0 {
-            Medium::beyond(vertex.frame.front, self.tracer.material_table.absorption(vertex.material))
+            let table = self.tracer.material_table;
+            Medium::beyond(
+                vertex.frame.front,
+                table.solid(vertex.material).is_some(),
+                table.absorption(vertex.material),
+            )
         } else {
             self.medium
         }
@@ -380,7 +399,13 @@ impl<'a, const N: usize> Path<'a, N> {
             self.cone.scatter(pdf);
         }
         self.medium = self.medium_towards(vertex, sample.wi);
-        self.ray = Ray::new(vertex.point.spawn(direction), direction, self.ray.time_s);
+        self.leave(vertex.point.spawn(direction), direction)
+    }
+
+    /// On from where the path was scattered.
+    #[inline(always)]
+    pub(super) fn leave(&mut self, origin: Vec3, direction: Vec3) -> PathStep {
+        self.ray = Ray::new(origin, direction, self.ray.time_s);
         self.travelled_m = 0.0;
         self.bounces += 1;
         if self.tracer.settings.level == Level::Flat {
@@ -393,7 +418,7 @@ impl<'a, const N: usize> Path<'a, N> {
         }
     }
 
-    fn unless_dark(&self) -> PathStep {
+    pub(super) fn unless_dark(&self) -> PathStep {
         if self.throughput.is_zero() { PathStep::Ends } else { PathStep::Goes }
     }
 

@@ -6,6 +6,7 @@ use super::settings::PathSettings;
 use super::surroundings::Surroundings;
 use crate::lights::Lights;
 use crate::materials::MaterialTable;
+use crate::media::Media;
 use crate::render_space::RenderSpace;
 
 /// Answers rays of a view with spectral radiance.
@@ -17,6 +18,8 @@ pub struct PathTracer<'a> {
     pub(super) settings: PathSettings,
     /// What the entrance pupil lies in: paths begin there.
     pub(super) medium: Medium<'a>,
+    /// What scatters light between surfaces; `None` where nothing does.
+    pub(super) media: Option<&'a Media<'a>>,
     /// Whether any light goes up and down.
     pub(super) is_modulated: bool,
 }
@@ -32,9 +35,15 @@ impl<'a> PathTracer<'a> {
         settings: PathSettings,
     ) -> Self {
         let solid = Surroundings::of(view, material_table).solid;
-        let medium = Medium::inside(solid.and_then(|id| material_table.absorption(id)));
+        let medium = solid.map_or_else(Medium::default, |id| Medium::inside(material_table.absorption(id)));
         let is_modulated = material_table.is_modulated() || lights.are_modulated();
-        Self { view, material_table, lights, settings, medium, is_modulated }
+        Self { view, material_table, lights, settings, medium, media: None, is_modulated }
+    }
+
+    /// The same with what scatters light between surfaces, of the same view.
+    #[must_use]
+    pub fn with_media(self, media: &'a Media<'a>) -> Self {
+        Self { media: Some(media).filter(|media| !media.is_empty()), ..self }
     }
 
     /// How paths are followed.

@@ -6,34 +6,45 @@ use glam::Vec3;
 use super::Level;
 use super::medium::Medium;
 use super::path::{MAX_MET, Path, Vertex};
-use crate::geometry::SurfacePoint;
 use crate::lights::LightSample;
 
 impl<const N: usize> Path<'_, N> {
-    /// The share of a drawn light that reaches the vertex through a `medium`; `None` where something opaque stands between.
+    /// The share of a drawn light that reaches the vertex through a `medium`; `None` where something opaque stands
+    /// between.
     pub(super) fn share(
         &self,
         vertex: &Vertex<'_, N>,
         light: &LightSample<N>,
         medium: Medium<'_>,
     ) -> Option<Spectral<N>> {
-        if self.tracer.settings.level == Level::Flat {
-            return Some(Spectral::ONE);
-        }
-        let ray = self.towards(&vertex.point, light.direction, light.target);
-        let share = if self.tracer.material_table.has_passages() {
-            self.share_through(ray, light)
-        } else {
-            (!self.tracer.view.occluded(&ray)).then_some(Spectral::ONE)
-        }?;
+        let ray = self.towards(vertex.point.spawn(light.direction), light.direction, light.target);
+        let share = self.share_along(ray, light, medium)?;
         // As for a path that meets nothing, the way to infinity takes nothing.
         let way_m = light.target.map_or(0.0, |target| target.distance(vertex.point.position));
         Some(medium.attenuate(share, way_m, self.wavelengths))
     }
 
-    /// The ray from a point to `target`, or to infinity.
-    fn towards(&self, point: &SurfacePoint, direction: Vec3, target: Option<Vec3>) -> Ray {
-        let origin = point.spawn(direction);
+    /// The share of a drawn light that comes through along a ray towards it, but for what a solid absorbs in which the ray begins.
+    pub(super) fn share_along(&self, ray: Ray, light: &LightSample<N>, medium: Medium<'_>) -> Option<Spectral<N>> {
+        let share = if self.tracer.settings.level == Level::Flat {
+            Spectral::ONE
+        } else if self.tracer.material_table.has_passages() {
+            self.share_through(ray, light)?
+        } else if self.tracer.view.occluded(&ray) {
+            return None;
+        } else {
+            Spectral::ONE
+        };
+        match self.tracer.media {
+            Some(media) if !medium.is_solid() => {
+                Some(share * media.transmittance(&ray, (&self.asked.stream, 2 * self.met), self.wavelengths))
+            }
+            _ => Some(share),
+        }
+    }
+
+    /// The ray from a point off all surfaces to `target`, or to infinity.
+    pub(super) fn towards(&self, origin: Vec3, direction: Vec3, target: Option<Vec3>) -> Ray {
         let mut ray = Ray::new(origin, direction, self.time_s());
         if let Some(target) = target {
             ray.direction = target - origin;
@@ -60,7 +71,7 @@ impl<const N: usize> Path<'_, N> {
             if share.is_zero() {
                 return None;
             }
-            ray = self.towards(&point, light.direction, light.target);
+            ray = self.towards(point.spawn(light.direction), light.direction, light.target);
             if ray.direction.dot(light.direction) <= 0.0 {
                 return Some(share);
             }

@@ -83,7 +83,9 @@ impl PathTracer<'_> {
 
     /// Whether paths of a group share anything.
     pub(super) fn shares(&self) -> bool {
-        self.settings.level == Level::Path && self.settings.max_bounces > 1 && self.settings.roulette_start > 1
+        let settings = &self.settings;
+        // Between surfaces no path sees what another has found there.
+        self.media.is_none() && settings.level == Level::Path && settings.max_bounces > 1 && settings.roulette_start > 1
     }
 }
 
@@ -151,6 +153,7 @@ impl<'a, const N: usize> Opening<'a, N> {
             let onward = match path.meet() {
                 Intersection::Nothing => PathStep::Ends,
                 Intersection::Passed => PathStep::Goes,
+                Intersection::Medium(..) => unreachable!("paths through media share nothing"),
                 Intersection::Surface(point, lookup) if path.is_spent() => path.only_pass(point, &lookup),
                 Intersection::Surface(point, lookup) => {
                     let vertex = path.vertex(point, &lookup);

@@ -59,6 +59,15 @@ impl CarriedLamp {
         matches!(self.lamp, Started::Opening(_))
     }
 
+    /// Where a lamp without an opening is at a time, render frame, m, and its greatest intensity, W·sr⁻¹·nm⁻¹; of one with an opening 0.
+    pub(super) fn point(&self, time_s: f32) -> (Vec3, f32) {
+        let at = self.way.at(self.way.interval.moment(time_s)).translation.as_vec3();
+        match &self.lamp {
+            Started::Point(lamp) => (at, lamp.greatest()),
+            Started::Opening(_) => (at, 0.0),
+        }
+    }
+
     /// For the choice among lights: a box of all the way, the cone of the start opened by how far the lamp turns.
     pub(super) fn bounds(&self) -> LightBounds {
         let started = match &self.lamp {

@@ -237,9 +237,13 @@ impl LampLight {
     }
 
     /// Where it is, render frame, m.
-    #[cfg(test)]
     pub(super) fn position(&self) -> Vec3 {
         self.position
+    }
+
+    /// Mean intensity over the wavelengths of the camera in its brightest direction, W·sr⁻¹·nm⁻¹.
+    pub(super) fn greatest(&self) -> f32 {
+        self.mean_intensity * self.profile.peak() as f32
     }
 
     /// For the choice among lights.

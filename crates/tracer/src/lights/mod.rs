@@ -14,6 +14,7 @@
 //!   dark throughout that interval is never drawn; what others count in the choice is their level over it
 //!   ([`crate::materials::choice_level`]).
 
+mod along;
 mod carried;
 mod choice;
 mod collect;

@@ -25,6 +25,8 @@ pub struct Lights {
     pub(super) lights: Vec<Light>,
     pub(super) choice: Choice,
     pub(super) primitives: Primitives,
+    /// Lamps without an opening, by their places.
+    pub(super) points: Vec<usize>,
     has_openings: bool,
     are_modulated: bool,
     pub(super) suns: Vec<Sun>,
@@ -49,12 +51,13 @@ impl Lights {
         for lamp in lamps {
             gathered.add_lamp(lamp, view, material_table, (low_nm, high_nm))?;
         }
+        let points = (0..gathered.lights.len()).filter(|i| gathered.lights[*i].is_point()).collect();
         let has_openings = gathered.lights.iter().any(Light::is_open);
         let weighed = suns.iter().map(|sun| (sun.clone(), sun.mean_irradiance(low_nm, high_nm) as f32)).collect();
         let surroundings = environment.as_ref().map_or(0.0, |e| e.drawn_irradiance(low_nm, high_nm)) as f32;
         let choice = Choice::new(&gathered.bounds, weighed, surroundings);
         let collect::Gathered { lights, primitives, .. } = gathered;
-        Ok(Self { lights, choice, primitives, has_openings, are_modulated, suns, environment })
+        Ok(Self { lights, choice, primitives, points, has_openings, are_modulated, suns, environment })
     }
 
     /// How many lights of each kind there are.

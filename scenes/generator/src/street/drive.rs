@@ -194,7 +194,7 @@ pub(super) fn job() -> String {
         camera("left", "rig-front.toml", "[0, 0.15, 1.35]", "[0, 0.5, 0]", "output = { disparity_to = \"right\" }\n"),
         camera("right", "rig-front.toml", "[0, -0.15, 1.35]", "[0, 0.5, 0]", ""),
         camera("rear", "rig-rear.toml", "[-2.6, 0, 1.0]", "[180, 15, 0]", ""),
-        "[render]\n# Half a minute a frame and camera on two cores.\nspp = 64\nmax_bounces = 6\ncaustics = false\npath_reuse_px = 4\nseed = 1\n\n[output]\noptical_flow = \"exr\"\nboxes = true\n"
+        "[render]\n# Half a minute a frame and camera on two cores.\nspp = 64\nmax_bounces = 6\ncaustics = false\npath_reuse_px = 4\nseed = 1\n\n[output]\noptical_flow = \"exr\"\nboxes = true\ntracks = true\nvideo = \"y4m\"\ncalibration_files = true\n"
             .to_owned(),
     ]
     .concat()

@@ -12,13 +12,13 @@ pub struct FlickerArgs {
     /// Frames of a sequence in their order, or one of a rolling shutter
     #[arg(value_name = "FRAME", required = true)]
     pub frames: Vec<PathBuf>,
-    /// Time from one row of the file to the next, µs, of a rolling shutter [default: all rows are exposed together]
+    /// Time from one row of the file to the next, µs, of a rolling shutter [default: the side-car's, or all rows are exposed together]
     #[arg(long, value_name = "US", allow_negative_numbers = true)]
     pub row_time_us: Option<f64>,
-    /// Frames a second [default: not known; each frame is measured by itself]
+    /// Frames a second [default: the side-car's, or not known; each frame is measured by itself]
     #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
     pub frame_rate_hz: Option<f64>,
-    /// Exposure of a row, µs: tells the light's own modulation and the duty of its pulses [default: not known]
+    /// Exposure of a row, µs: tells the light's own modulation and the duty of its pulses [default: the side-car's, or not known]
     #[arg(long, value_name = "US", allow_negative_numbers = true)]
     pub exposure_us: Option<f64>,
     #[command(flatten)]

@@ -267,6 +267,9 @@ fn products(p: &Products) -> String {
         (p.annotations.scene_flow, "scene flow"),
         (p.annotations.disparity.is_some(), "disparity"),
         (p.annotations.boxes, "boxes"),
+        (p.annotations.tracks, "tracks"),
+        (p.video, "video"),
+        (p.calibration_files, "calibration files"),
     ];
     let list: Vec<&str> = named.iter().filter(|(wanted, _)| *wanted).map(|(_, name)| *name).collect();
     if list.is_empty() { "nothing".to_owned() } else { list.join(", ") }

@@ -10,6 +10,7 @@ mod glossy;
 mod inside;
 mod lamps;
 mod levels;
+mod media;
 mod modulation;
 mod motion;
 mod near_lights;

@@ -1,0 +1,32 @@
+//! `etendue rig`: where the cameras of a job stand and how they project, for other programs.
+
+use crate::args::folder::Output;
+use crate::args::job::JobArgs;
+use crate::args::run::frames;
+use crate::machine;
+use crate::output::print_paths;
+use crate::progress::Terminal;
+use clap::Args;
+use etendue::Error;
+
+/// `etendue rig`
+#[derive(Debug, Args)]
+pub struct Rig {
+    #[command(flatten)]
+    pub job: JobArgs,
+    #[command(flatten)]
+    pub output: Output,
+    /// Frames whose poses are written, first to last (the last excluded)
+    #[arg(long, value_name = "A..B", value_parser = frames, default_value = "0..1")]
+    pub frames: std::ops::Range<u32>,
+}
+
+impl Rig {
+    pub fn run(&self) -> Result<(), Error> {
+        let pool = machine::pool(None)?;
+        let job = self.job.open(&pool)?;
+        let written = job.save_calibration_files(&self.frames, self.output.folder(), &Terminal::default())?;
+        print_paths(&written);
+        Ok(())
+    }
+}

@@ -1,0 +1,80 @@
+//! The films of a run, one after the other, and how far the whole run is.
+
+use crate::error::Error;
+use crate::observer::{FramePlace, Observer, Progress, Unit};
+use etendue_pipeline::Plan;
+use etendue_pipeline::film::Film;
+use etendue_pipeline::plan::{CameraPlan, TimeDependence};
+use etendue_pipeline::render::{Request, Shot, light};
+use etendue_pipeline::tile::{Shard, tiles};
+use etendue_tracer::accel::Simd;
+use std::ops::Range;
+
+/// Gathers the films of a run. Progress counts the tiles of all of them.
+pub(crate) struct Exposures<'a> {
+    plan: &'a Plan,
+    frames: Range<u32>,
+    shard: Shard,
+    simd: Simd,
+    observer: &'a dyn Observer,
+    /// Tiles of the films that are finished.
+    done: usize,
+    /// Tiles of all films.
+    total: usize,
+}
+
+impl<'a> Exposures<'a> {
+    /// The films of `frames`, each of which the first camera of a group says.
+    pub(crate) fn new<'b>(
+        (plan, frames): (&'a Plan, &Range<u32>),
+        films: impl Iterator<Item = &'b CameraPlan>,
+        (shard, simd): (Shard, Simd),
+        observer: &'a dyn Observer,
+    ) -> Self {
+        let total = films.map(|camera| tile_count(camera, shard)).sum();
+        Self { plan, frames: frames.clone(), shard, simd, observer, done: 0, total }
+    }
+
+    /// The light of cameras that have the same.
+    pub(crate) fn film(&mut self, group: &[&CameraPlan], shot: Shot) -> Result<Film, Error> {
+        let camera = group[0];
+        let heading = match group.len() {
+            1 => camera.name.clone(),
+            n => format!("{} and {} more", camera.name, n - 1),
+        };
+        let frame = (camera.time != TimeDependence::None).then(|| FramePlace {
+            number: shot.frame,
+            place: shot.frame - self.frames.start + 1,
+            count: self.frames.len() as u32,
+        });
+        let tiles = Tiles { heading: &heading, frame, before: self.done, run: self };
+        let film = light(self.plan, camera, Request { shot, simd: self.simd, shard: self.shard }, &tiles);
+        self.done += tile_count(camera, self.shard);
+        film.map_err(|cancelled| Error::Run(cancelled.to_string()))
+    }
+}
+
+/// Tiles of a camera's film.
+fn tile_count(camera: &CameraPlan, shard: Shard) -> usize {
+    let (width, height) = camera.film_size();
+    tiles(width, height, camera.settings.tile_px, shard).len()
+}
+
+/// The tiles of one film among those of a run, as the pipeline counts them.
+struct Tiles<'a> {
+    heading: &'a str,
+    frame: Option<FramePlace>,
+    before: usize,
+    run: &'a Exposures<'a>,
+}
+
+impl etendue_pipeline::Observer for Tiles<'_> {
+    fn tiles(&self, done: usize, _: usize) {
+        let Self { heading, frame, before, run } = *self;
+        run.observer.progress(Progress { heading, frame, unit: Unit::Tiles, done: before + done, total: run.total });
+    }
+
+    fn cancelled(&self) -> bool {
+        self.run.observer.cancelled()
+    }
+}

@@ -1,0 +1,82 @@
+//! The boxes of a camera's frames once more in one file, object by object, made of their files when all are there.
+
+use super::files::Files;
+use super::writer::ResultWriter;
+use crate::error::Error;
+use etendue_io::OutputFolder;
+use etendue_pipeline::plan::{CameraPlan, TimeDependence};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::fs;
+use std::ops::Range;
+
+/// What a track says of its object, not of its frames.
+const OF_OBJECT: [&str; 3] = ["id", "name", "class"];
+
+/// Writes `tracks.json`.
+pub(super) fn write_tracks(camera: &CameraPlan, frames: &Range<u32>, folder: &mut OutputFolder) -> Result<(), Error> {
+    let files: Vec<String> = match camera.time {
+        TimeDependence::None => vec![Files::BOXES.to_owned()],
+        _ => frames.clone().map(|frame| Files::numbered(Files::BOXES, frame)).collect(),
+    };
+    let mut tracks = Tracks::default();
+    for file in files {
+        tracks.add(read(&format!("{}/{file}", camera.name), folder)?);
+    }
+    let mut writer = ResultWriter { prefix: camera.name.clone(), folder };
+    writer.json(Files::TRACKS, &tracks.into_json(camera))
+}
+
+fn read(name: &str, folder: &OutputFolder) -> Result<Value, Error> {
+    let path = folder.readable(name).map_err(Error::run)?;
+    let unread = |why: String| Error::run(format!("{}: {why}", path.display()));
+    let bytes = fs::read(&path).map_err(|cause| unread(format!("it cannot be read: {cause}")))?;
+    serde_json::from_slice(&bytes).map_err(|_| unread("this is not the file of a frame's boxes".to_owned()))
+}
+
+/// What was read so far.
+#[derive(Default)]
+struct Tracks {
+    conventions: Value,
+    frames: Vec<Value>,
+    /// By identity: the object, and its frames.
+    objects: BTreeMap<u64, (Value, Vec<Value>)>,
+}
+
+impl Tracks {
+    /// Adds a frame's boxes.
+    fn add(&mut self, mut boxes: Value) {
+        let (frame, time_s) = (boxes["frame"].clone(), boxes["time_s"].clone());
+        self.conventions = boxes["conventions"].take();
+        let Value::Array(objects) = boxes["objects"].take() else { return };
+        for mut object in objects {
+            let (Some(id), Some(keys)) = (object["id"].as_u64(), object.as_object_mut()) else { continue };
+            let of_object = OF_OBJECT.map(|key| (key.to_owned(), keys.remove(key).unwrap_or(Value::Null)));
+            keys.insert("frame".to_owned(), frame.clone());
+            keys.insert("time_s".to_owned(), time_s.clone());
+            let (_, seen) =
+                self.objects.entry(id).or_insert_with(|| (Value::Object(of_object.into_iter().collect()), Vec::new()));
+            seen.push(object);
+        }
+        self.frames.push(json!({ "frame": frame, "time_s": time_s }));
+    }
+
+    fn into_json(mut self, camera: &CameraPlan) -> Value {
+        let raster = &camera.body.raster;
+        self.conventions["tracks"] = json!(
+            "an object has a place in \"frames\" for each frame in which it has pixels, or would if it stood alone"
+        );
+        let track = |(mut object, seen): (Value, Vec<Value>)| {
+            object["frames"] = Value::Array(seen);
+            object
+        };
+        json!({
+            "camera": camera.name,
+            "width_px": raster.width(),
+            "height_px": raster.height(),
+            "conventions": self.conventions,
+            "frames": self.frames,
+            "tracks": self.objects.into_values().map(track).collect::<Vec<_>>(),
+        })
+    }
+}

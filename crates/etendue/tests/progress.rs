@@ -1,0 +1,63 @@
+//! Progress is that of the whole run.
+
+use etendue::{Existing, JobRequest, MemoryFiles, Observer, Progress, RenderOptions};
+use std::sync::Mutex;
+
+/// Two cameras of different sizes before a ball that moves, of which one sees four tiles and the other one.
+const JOB: &str = "format = 1\n[sequence]\nframe_rate_hz = 10\n\
+    [[cameras]]\nname = \"wide\"\nposition_m = [0, 0, 0]\nlook_at_m = [1, 0, 0]\n\
+    lens = { type = \"pinhole\", focal_length_mm = 6, f_number = 4 }\nsensor = { width_px = 32, height_px = 32, pixel_pitch_um = 100 }\n\
+    [[cameras]]\nname = \"small\"\nposition_m = [0, 1, 0]\nlook_at_m = [1, 0, 0]\n\
+    lens = { type = \"pinhole\", focal_length_mm = 6, f_number = 4 }\nsensor = { width_px = 16, height_px = 16, pixel_pitch_um = 100 }\n\
+    [render]\nspp = 1\nreplicates = 1\nintegrator = \"flat\"\ntile_px = 16\n[output]\nground_truth = false\n\
+    [scene.environment]\ntype = \"uniform\"\nluminance_cd_m2 = 100\nilluminant = \"D65\"\n\
+    [[scene.materials]]\nname = \"grey\"\ntype = \"diffuse\"\nreflectance = 0.5\n\
+    [[scene.objects]]\nname = \"ball\"\nmaterial = \"grey\"\nshape = { type = \"sphere\", radius_m = 0.5 }\n\
+    keys = [{ time_s = 0, position_m = [3, 0, 0] }, { time_s = 1, position_m = [3, 1, 0] }]\n";
+
+/// Heading, the frame's number, place and count, what is done and of how much.
+type Told = (String, Option<(u32, u32, u32)>, usize, usize);
+
+#[derive(Default)]
+struct Watch(Mutex<Vec<Told>>);
+
+impl Observer for Watch {
+    fn progress(&self, told: Progress<'_>) {
+        let frame = told.frame.map(|frame| (frame.number, frame.place, frame.count));
+        self.0.lock().expect("no panic").push((told.heading.to_owned(), frame, told.done, told.total));
+    }
+}
+
+fn watched(existing: Existing, folder: &std::path::Path) -> Vec<Told> {
+    let mut files = MemoryFiles::new();
+    files.add_text("job.toml", JOB);
+    let job = JobRequest::new("job.toml").open_in(&files).unwrap_or_else(|error| panic!("{error}"));
+    let options = RenderOptions { frames: 5..8, ..RenderOptions::default() };
+    let watch = Watch::default();
+    job.save(&options, (folder, existing), &watch).expect("rendered");
+    watch.0.into_inner().expect("no panic")
+}
+
+#[test]
+fn tiles_of_all_cameras_and_frames_are_counted_together() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut told = watched(Existing::Refuse, folder.path());
+    // Threads may tell in another order than they count.
+    told.sort_by_key(|(_, _, done, _)| *done);
+    let done: Vec<usize> = told.iter().map(|(_, _, done, _)| *done).collect();
+    assert_eq!(done, (1..=15).collect::<Vec<_>>(), "3 frames of 4 and of 1 tiles");
+    assert!(told.iter().all(|(_, _, _, total)| *total == 15));
+    let of = |done: usize| (told[done - 1].0.as_str(), told[done - 1].1);
+    assert_eq!((of(1), of(12)), (("wide", Some((5, 1, 3))), ("wide", Some((7, 3, 3)))));
+    assert_eq!((of(13), of(15)), (("small", Some((5, 1, 3))), ("small", Some((7, 3, 3)))));
+}
+
+#[test]
+fn frames_that_are_kept_are_not_counted_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    watched(Existing::Refuse, folder.path());
+    std::fs::remove_file(folder.path().join("wide/frame.0006.json")).expect("a frame");
+    let told = watched(Existing::Resume, folder.path());
+    assert_eq!(told.len(), 4);
+    assert!(told.iter().all(|(name, frame, _, total)| name == "wide" && *frame == Some((6, 2, 3)) && *total == 4));
+}

@@ -1,0 +1,108 @@
+//! COLMAP's text model: `cameras.txt`, `images.txt` and an empty `points3D.txt`.
+//!
+//! Poses are those of the world in the camera's frame: a quaternion (w, x, y, z; w not below 0) and a translation (m). Pixel centres are at
+//! + 0.5, as in the raster.
+
+use super::number::number;
+use super::quaternion::quaternion;
+use super::{NamedCamera, Refusal, fisheye, no_model, perspective, shortest, without_skew};
+use etendue_core::CameraPose;
+use etendue_projection::Model;
+use etendue_projection::plane::DistortionTerms;
+
+const FORMAT: &str = "COLMAP";
+
+/// `points3D.txt` without points.
+pub const NO_POINTS: &str =
+    "# 3D points: none; POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)\n";
+
+/// What a line of `cameras.txt` says of a camera behind its id.
+///
+/// # Errors
+/// Why COLMAP cannot say it.
+pub fn camera(camera: &NamedCamera<'_>) -> Result<String, Refusal> {
+    let calibration = camera.calibration;
+    without_skew(FORMAT, calibration)?;
+    let (name, more) = model(calibration.model())?;
+    let [width, height] = calibration.size_px();
+    let matrix = calibration.matrix();
+    let parameters = [matrix.fx, matrix.fy, matrix.cx, matrix.cy].into_iter().chain(more).map(number);
+    Ok(format!("{name} {width} {height} {}", parameters.collect::<Vec<_>>().join(" ")))
+}
+
+fn model(model: &Model) -> Result<(&'static str, Vec<f64>), Refusal> {
+    if let Some(k) = fisheye(model) {
+        return Ok(("OPENCV_FISHEYE", k.to_vec()));
+    }
+    if let Some(k) = perspective(model) {
+        return match shortest(&k, &[0, 4, 8]) {
+            Some(0) => Ok(("PINHOLE", Vec::new())),
+            Some(4) => Ok(("OPENCV", k[..4].to_vec())),
+            Some(_) => Ok(("FULL_OPENCV", k[..8].to_vec())),
+            None => Err(no_model(FORMAT, model)),
+        };
+    }
+    match model {
+        Model::FieldOfView(m) => Ok(("FOV", vec![m.omega_rad()])),
+        Model::Division(m) => Ok(("DIVISION", vec![m.k()])),
+        Model::ExtendedUnified(m) => Ok(("EUCM", vec![m.alpha(), m.beta()])),
+        Model::ThinPrismFisheye(m) => {
+            thin_prism(m.fisheye().coefficients(), m.distortion().terms()).ok_or_else(|| no_model(FORMAT, model))
+        }
+        _ => Err(no_model(FORMAT, model)),
+    }
+}
+
+/// The two thin-prism fisheyes: one has its polynomial in the plane, the other in the angle and the first tangential coefficient with x.
+fn thin_prism(k: [f64; 6], terms: DistortionTerms) -> Option<(&'static str, Vec<f64>)> {
+    let ([p1, p2], [s1, s2, s3, s4]) = (terms.tangential, terms.prism);
+    if terms.denominator != [0.0; 3] {
+        return None;
+    }
+    if k == [0.0; 6] && (s2, s4) == (0.0, 0.0) {
+        let [k1, k2, k3, k4] = terms.numerator;
+        return Some(("THIN_PRISM_FISHEYE", vec![k1, k2, p1, p2, k3, k4, s1, s3]));
+    }
+    let more = [p2, p1, s1, s2, s3, s4];
+    (terms.numerator == [0.0; 4]).then(|| ("RAD_TAN_THIN_PRISM_FISHEYE", k.into_iter().chain(more).collect()))
+}
+
+/// `cameras.txt` of cameras by what [`camera`] says of each; ids count from 1.
+#[must_use]
+pub fn cameras(lines: &[String], left_out: &[String]) -> String {
+    let mut text = format!("# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n# Number of cameras: {}\n", lines.len());
+    left_out.iter().for_each(|told| text.push_str(&format!("# left out: {told}\n")));
+    for (i, line) in lines.iter().enumerate() {
+        text.push_str(&format!("{} {line}\n", i + 1));
+    }
+    text
+}
+
+/// A picture and where its camera stood.
+#[derive(Clone, Debug)]
+pub struct Image {
+    /// The camera, from 1.
+    pub camera: usize,
+    /// Where it stood in the world.
+    pub pose: CameraPose,
+    /// The picture's file.
+    pub file: String,
+}
+
+/// `images.txt`; ids count from 1, and no picture has points.
+#[must_use]
+pub fn images(images: &[Image]) -> String {
+    let mut text = format!(
+        "# IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME; then POINTS2D[] as (X, Y, POINT3D_ID): none\n\
+         # Number of images: {}, mean observations per image: 0\n",
+        images.len()
+    );
+    for (i, image) in images.iter().enumerate() {
+        let inverse = image.pose.rotation.transpose();
+        let translation = -(inverse * image.pose.position_m);
+        let numbers = quaternion(&inverse).into_iter().chain(translation.to_array()).map(number);
+        let numbers = numbers.collect::<Vec<_>>().join(" ");
+        text.push_str(&format!("{} {numbers} {} {}\n\n", i + 1, image.camera, image.file));
+    }
+    text
+}

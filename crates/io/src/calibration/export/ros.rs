@@ -1,0 +1,103 @@
+//! ROS: `camera_info` YAML of the raw picture (camera_calibration_parsers), and transforms that do not change.
+//!
+//! | camera | distortion_model | coefficients |
+//! | --- | --- | --- |
+//! | perspective with k1, k2, p1, p2, k3 | plumb_bob | 5 |
+//! | perspective with more | rational_polynomial | 8, 12 (with s1 … s4) or 14 (with τx, τy) |
+//! | polynomial fisheye | equidistant | 4 |
+//!
+//! The projection matrix is that of the rectified picture: the camera's own matrix, and in its fourth column −fx b for the right camera of a
+//! rectified pair of base b.
+
+use super::number::{list, number, quoted};
+use super::quaternion::quaternion;
+use super::{NamedCamera, Refusal, fisheye, no_model, perspective, shortest, without_skew};
+use etendue_core::CameraPose;
+use etendue_projection::Model;
+
+const FORMAT: &str = "ROS";
+
+/// A camera as `camera_info`; `base_m` is how far to the right of a rectified pair's left camera it stands, 0 for all others.
+///
+/// # Errors
+/// Why ROS cannot say it.
+pub fn camera_info(camera: &NamedCamera<'_>, base_m: f64) -> Result<String, Refusal> {
+    let calibration = camera.calibration;
+    without_skew(FORMAT, calibration)?;
+    let (model, coefficients) = distortion(calibration.model())?;
+    let [width, height] = calibration.size_px();
+    let matrix = calibration.matrix().to_opencv();
+    let rows = matrix.rows();
+    let projection = [
+        [rows[0][0], rows[0][1], rows[0][2], -matrix.fx * base_m],
+        [rows[1][0], rows[1][1], rows[1][2], 0.0],
+        [rows[2][0], rows[2][1], rows[2][2], 0.0],
+    ];
+    let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    Ok(format!(
+        "image_width: {width}\nimage_height: {height}\ncamera_name: {}\n{}distortion_model: {model}\n{}{}{}",
+        quoted(camera.name),
+        table("camera_matrix", 3, 3, rows.as_flattened()),
+        table("distortion_coefficients", 1, coefficients.len(), &coefficients),
+        table("rectification_matrix", 3, 3, identity.as_flattened()),
+        table("projection_matrix", 3, 4, projection.as_flattened()),
+    ))
+}
+
+fn distortion(model: &Model) -> Result<(&'static str, Vec<f64>), Refusal> {
+    if let Some(k) = fisheye(model) {
+        return Ok(("equidistant", k.to_vec()));
+    }
+    let k = perspective(model).ok_or_else(|| no_model(FORMAT, model))?;
+    let count = shortest(&k, &[5, 8, 12]).unwrap_or(k.len());
+    Ok((if count == 5 { "plumb_bob" } else { "rational_polynomial" }, k[..count].to_vec()))
+}
+
+fn table(name: &str, rows: usize, columns: usize, data: &[f64]) -> String {
+    format!("{name}:\n  rows: {rows}\n  cols: {columns}\n  data: {}\n", list(data))
+}
+
+/// A frame that is fixed in another.
+#[derive(Clone, Debug)]
+pub struct StaticTransform<'a> {
+    /// The name of the other frame.
+    pub parent: &'a str,
+    /// Its own name.
+    pub child: String,
+    /// From it to the other frame, m.
+    pub pose: CameraPose,
+}
+
+/// The frame of a camera's picture (x right, y down, z forward), as REP 103 names it.
+#[must_use]
+pub fn optical_frame(camera: &str) -> String {
+    format!("{camera}_optical_frame")
+}
+
+/// Transforms as a YAML list of `geometry_msgs/TransformStamped` without stamps: what `/tf_static` holds. `left_out` are sentences that are
+/// told above them.
+#[must_use]
+pub fn static_transforms(transforms: &[StaticTransform<'_>], left_out: &[String]) -> String {
+    let mut text = String::from(
+        "# Where frames are fixed: translation (m) and rotation take points of the child to the parent.\n",
+    );
+    left_out.iter().for_each(|told| text.push_str(&format!("# left out: {told}\n")));
+    if transforms.is_empty() {
+        text.push_str("transforms: []\n");
+        return text;
+    }
+    text.push_str("transforms:\n");
+    transforms.iter().for_each(|transform| text.push_str(&entry(transform)));
+    text
+}
+
+fn entry(transform: &StaticTransform<'_>) -> String {
+    let [x, y, z] = transform.pose.position_m.to_array().map(number);
+    let [qw, qx, qy, qz] = quaternion(&transform.pose.rotation).map(number);
+    format!(
+        "  - header: {{frame_id: {}}}\n    child_frame_id: {}\n    transform:\n      translation: {{x: {x}, y: {y}, z: {z}}}\n      \
+         rotation: {{x: {qx}, y: {qy}, z: {qz}, w: {qw}}}\n",
+        quoted(transform.parent),
+        quoted(&transform.child)
+    )
+}

@@ -1,0 +1,138 @@
+//! What is written for other programs is read again as the same camera.
+
+use etendue_core::CameraPose;
+use etendue_io::calibration::export::{NamedCamera, colmap, kalibr, ros};
+use etendue_io::calibration::{CalibrationFormat, read_calibration};
+use etendue_projection::model::{
+    Division, DoubleSphere, ExtendedUnified, FieldOfView, Ideal, KannalaBrandt, Perspective, ThinPrismFisheye, Unified,
+};
+use etendue_projection::plane::DistortionTerms;
+use etendue_projection::{Calibration, CameraMatrix, Model};
+use glam::{DMat3, DVec2, DVec3};
+
+const MATRIX: CameraMatrix = CameraMatrix { fx: 412.5, fy: 408.0, skew: 0.0, cx: 319.75, cy: 242.25 };
+
+fn camera(model: Model) -> Calibration {
+    Calibration::new(model, MATRIX, [640, 480]).expect("a legal camera")
+}
+
+fn perspective(k: &[f64]) -> Model {
+    Model::Perspective(Perspective::from_opencv(k).expect("legal"))
+}
+
+fn unified(k: [f64; 4]) -> Model {
+    let terms = DistortionTerms { numerator: [k[0], k[1], 0.0, 0.0], tangential: [k[2], k[3]], ..Default::default() };
+    Model::Unified(Unified::new(0.8, terms).expect("legal"))
+}
+
+fn thin_prism(k: [f64; 6], terms: DistortionTerms) -> Model {
+    Model::ThinPrismFisheye(ThinPrismFisheye::new(KannalaBrandt::long(k).expect("legal"), terms).expect("legal"))
+}
+
+/// Both see the same at places all over the picture.
+#[track_caller]
+fn assert_same(found: &Calibration, expected: &Calibration, told: &str) {
+    assert_eq!(found.size_px(), expected.size_px(), "{told}");
+    let mut seen = 0;
+    for i in 0..81 {
+        let at = DVec2::new(f64::from(i % 9) * 80.0, f64::from(i / 9) * 60.0);
+        let Some(direction) = expected.unproject(at) else { continue };
+        let again = found.project(direction).unwrap_or_else(|| panic!("{told}: {at} is not seen"));
+        // Rounding of some hundred px.
+        assert!((again - at).length() < 1e-10, "{told}: {again} for {at}");
+        seen += 1;
+    }
+    assert!(seen > 40, "{told}");
+}
+
+fn read(name: &str, text: &str, format: CalibrationFormat, camera: Option<&str>) -> Calibration {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join(name);
+    std::fs::write(&file, text).expect("written");
+    read_calibration(&file, format, camera).unwrap_or_else(|error| panic!("{error}\n{text}")).calibration
+}
+
+/// Every model with the formats that know it.
+fn models() -> Vec<(&'static str, Model, [bool; 3])> {
+    let prism = DistortionTerms {
+        numerator: [-0.012, 0.004, -0.002, 0.0003],
+        tangential: [0.0007, -0.0003],
+        prism: [0.0011, 0.0, -0.0009, 0.0],
+        ..Default::default()
+    };
+    let angle = DistortionTerms {
+        tangential: [0.0007, -0.0003],
+        prism: [0.0011, -0.0009, 0.0002, -0.0001],
+        ..Default::default()
+    };
+    let twelve = [-0.2, 0.05, 0.0011, -0.0008, 0.01, 0.02, -0.005, 0.001, 0.002, -0.001, 0.0015, 0.0004];
+    let fourteen = [&twelve[..], &[0.06, -0.11]].concat();
+    vec![
+        ("pinhole", perspective(&[]), [true, true, true]),
+        ("rectilinear", Model::Ideal(Ideal::Rectilinear), [true, true, true]),
+        ("four", perspective(&[-0.2, 0.05, 0.0011, -0.0008]), [true, true, true]),
+        ("five", perspective(&[-0.2, 0.05, 0.0011, -0.0008, 0.01]), [true, false, true]),
+        ("eight", perspective(&twelve[..8]), [true, false, true]),
+        ("twelve", perspective(&twelve), [true, false, false]),
+        ("fourteen", perspective(&fourteen), [true, false, false]),
+        (
+            "fisheye",
+            Model::KannalaBrandt(KannalaBrandt::new([-0.012, 0.0042, -0.0031, 0.0006]).expect("legal")),
+            [true, true, true],
+        ),
+        ("equidistant", Model::Ideal(Ideal::Equidistant), [true, true, true]),
+        ("field of view", Model::FieldOfView(FieldOfView::new(0.93).expect("legal")), [false, true, true]),
+        ("unified", unified([-0.1, 0.02, 0.0007, -0.0003]), [false, true, false]),
+        (
+            "extended unified",
+            Model::ExtendedUnified(ExtendedUnified::new(0.62, 1.1).expect("legal")),
+            [false, true, true],
+        ),
+        ("double sphere", Model::DoubleSphere(DoubleSphere::new(-0.2, 0.55).expect("legal")), [false, true, false]),
+        ("division", Model::Division(Division::new(-0.15).expect("legal")), [false, false, true]),
+        ("thin prism", thin_prism([0.0; 6], prism), [false, false, true]),
+        ("prism of angles", thin_prism([-0.012, 0.004, -0.002, 0.0006, -0.0002, 0.00002], angle), [false, false, true]),
+        ("equisolid", Model::Ideal(Ideal::Equisolid), [false, false, false]),
+    ]
+}
+
+#[test]
+fn every_model_that_a_format_knows_is_the_same_camera_in_it() {
+    for (told, model, known) in models() {
+        let calibration = camera(model);
+        let named = NamedCamera { name: "left", calibration: &calibration };
+        let ros = ros::camera_info(&named, 0.0);
+        assert_eq!(ros.is_ok(), known[0], "{told}: {ros:?}");
+        if let Ok(text) = ros {
+            assert_same(&read("ros.yaml", &text, CalibrationFormat::Ros, Some("left")), &calibration, told);
+        }
+        let chain = kalibr::intrinsics(&named).map(|intrinsics| {
+            let pose = CameraPose { position_m: DVec3::ZERO, rotation: DMat3::IDENTITY };
+            kalibr::camchain(Some("car"), &[kalibr::Link { camera: named, intrinsics, pose }], &[])
+        });
+        assert_eq!(chain.is_ok(), known[1], "{told}: {chain:?}");
+        if let Ok(text) = chain {
+            assert_same(&read("camchain.yaml", &text, CalibrationFormat::Kalibr, Some("cam0")), &calibration, told);
+        }
+        let line = colmap::camera(&named);
+        assert_eq!(line.is_ok(), known[2], "{told}: {line:?}");
+        if let Ok(line) = line {
+            let text = colmap::cameras(&[line], &[]);
+            assert_same(&read("cameras.txt", &text, CalibrationFormat::Colmap, Some("1")), &calibration, told);
+        }
+    }
+}
+
+#[test]
+fn a_skew_is_refused_by_all() {
+    let skewed = CameraMatrix { skew: 0.8, ..MATRIX };
+    let calibration = Calibration::new(perspective(&[]), skewed, [640, 480]).expect("legal");
+    let named = NamedCamera { name: "left", calibration: &calibration };
+    let refused = |told: Result<String, String>| {
+        let told = told.expect_err("a skew");
+        assert!(told.contains("the skew of 0.8 px"), "{told}");
+    };
+    refused(ros::camera_info(&named, 0.0));
+    refused(kalibr::intrinsics(&named).map(|_| String::new()));
+    refused(colmap::camera(&named));
+}

@@ -1,0 +1,85 @@
+//! Media: from records to the tracer's.
+
+use super::context::Context;
+use super::frames::Frames;
+use super::spectrum;
+use etendue_core::{Motion, maths};
+use etendue_scene::record::medium::{self, Extinction, MediumShape};
+use etendue_scene::record::{Light, Medium as Record, Scene};
+use etendue_spectra::{Outside, Spectrum};
+use etendue_tracer::media::{Medium, Noise, Phase, Shape, SpectralTable, Unevenness};
+use glam::DVec3;
+
+/// Median diameter of droplets where nothing is said, µm.
+const DROPLETS_UM: f64 = 12.0;
+
+/// The media of a scene.
+pub(super) fn media(scene: &Scene, frames: &Frames<'_>, context: &mut Context<'_>) -> Vec<Medium> {
+    remark_darkness(scene, context);
+    scene.media.iter().filter_map(|record| medium(record, frames, context)).collect()
+}
+
+fn medium(record: &Record, frames: &Frames<'_>, context: &mut Context<'_>) -> Option<Medium> {
+    let extinction = extinction(&record.extinction, context);
+    let albedo = match &record.albedo {
+        None => Some(Spectrum::constant(1.0)),
+        Some(albedo) => spectrum::curve(albedo, Outside::Hold, context),
+    };
+    let shape = match &record.shape {
+        None | Some(MediumShape::Everywhere(_)) => Shape::Everywhere,
+        Some(MediumShape::Layer(layer)) => Shape::Below { top_m: layer.top_m.value },
+        Some(MediumShape::Box(of)) => Shape::Box { half_m: DVec3::from_array(of.size_m.value) * 0.5 },
+        Some(MediumShape::Sphere(of)) => Shape::Ball { radius_m: of.radius_m.value },
+    };
+    let to_world = frames.carrying(record.frame.as_ref(), Motion::still(record.transform.to_world()));
+    let made = Medium::new((extinction?, albedo?), phase(record.phase.as_ref()), shape, to_world);
+    let medium = context.accept(&record.place, made)?;
+    Some(record.unevenness.iter().fold(medium, |medium, of| medium.with_unevenness(unevenness(of))))
+}
+
+fn extinction(record: &Extinction, context: &mut Context<'_>) -> Option<Spectrum> {
+    match record {
+        Extinction::PerMetre(curve) => spectrum::curve(curve, Outside::Hold, context),
+        Extinction::Visibility(visibility) => {
+            let per_m = -maths::f64::ln(visibility.contrast.value) / visibility.distance_m.value;
+            Some(Spectrum::constant(per_m))
+        }
+    }
+}
+
+fn phase(record: Option<&medium::Phase>) -> Phase {
+    match record {
+        None => Phase::Table(SpectralTable::of_water(DROPLETS_UM)),
+        Some(medium::Phase::WaterDroplets(of)) => Phase::Table(SpectralTable::of_water(of.diameter_um.value)),
+        Some(medium::Phase::WaterDropletsFit(of)) => {
+            Phase::Table(SpectralTable::fitted_to_water(of.diameter_um.value).expect("the key's range is the fit's"))
+        }
+        Some(medium::Phase::HenyeyGreenstein(of)) => Phase::HenyeyGreenstein { g: of.g.value as f32 },
+        Some(medium::Phase::Rayleigh(_)) => Phase::Rayleigh,
+        Some(medium::Phase::Isotropic(_)) => Phase::Isotropic,
+    }
+}
+
+fn unevenness(record: &medium::Unevenness) -> Unevenness {
+    let noise = Noise {
+        scale_m: record.scale_m.value,
+        octaves: record.octaves.as_ref().map_or(4, |octaves| octaves.value as u32),
+        gain: record.gain.as_ref().map_or(0.5, |gain| gain.value),
+        seed: record.seed.as_ref().map_or(0, |seed| seed.value as u32),
+    };
+    let wind_mps = record.wind_m_s.as_ref().map_or(DVec3::ZERO, |wind| DVec3::from_array(wind.value));
+    Unevenness { noise, amplitude: record.amplitude.value, wind_mps }
+}
+
+/// Says that nothing comes from infinity through a medium without end.
+fn remark_darkness(scene: &Scene, context: &mut Context<'_>) {
+    let endless = scene.media.iter().find(|medium| matches!(medium.shape, None | Some(MediumShape::Everywhere(_))));
+    let shines = scene.environment.is_some() || scene.lights.iter().any(|light| matches!(light, Light::Sun(_)));
+    if let (Some(medium), true) = (endless, shines) {
+        context.warn_on(
+            format!("medium \"{}\"", medium.name.value),
+            "it has no end, and light of sky and sun comes from infinity: none of it comes through; give the medium a \"shape\" with bounds, \
+             such as a layer",
+        );
+    }
+}

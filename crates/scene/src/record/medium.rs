@@ -1,0 +1,195 @@
+//! `[[media]]`: fog, haze, spray and smoke between the surfaces of a scene.
+
+use super::curve::{Curve, curve};
+use super::transform::Transform;
+use crate::asset::file_list::{FileList, NamesFiles};
+use crate::asset::request::Values;
+use crate::fault::{Faults, Named};
+use crate::place::Placed;
+use crate::reader::{keyed, name_of, number, record, text, variants, vector, whole};
+
+record! {
+    /// What fills a part of the world, scatters light and absorbs it. Several add up where they overlap. Ground truth does not see it.
+    pub struct Medium check(check) {
+        /// Its name.
+        required name: Placed<String> = text("the name of the medium");
+        /// How dense it is.
+        inside extinction: Extinction;
+        /// Share of the light taken out of a beam that is scattered, 0 … 1; the rest is absorbed. A number or `{ spectrum = file }`. Water
+        /// droplets absorb nothing. Default: 1.
+        optional albedo: Curve = curve(number("").at_least(0.0).at_most(1.0));
+        /// How light is scattered by angle. Default: water droplets of 12 µm, by Mie's series.
+        optional phase: Phase = record();
+        /// The part of the world that it fills. Default: everywhere.
+        optional shape: MediumShape = record();
+        /// Where the shape's origin is; of shapes with bounds.
+        inside transform: Transform;
+        /// The frame that the shape is placed in, and moves with. Default: the world.
+        optional frame: Placed<String> = name_of(Named::Frame);
+        /// How its density changes from place to place. Default: it is the same everywhere.
+        optional unevenness: Unevenness = record();
+    }
+}
+
+keyed! {
+    /// How much light a medium takes out of a beam.
+    pub enum Extinction {
+        /// How far one sees in it: `{ distance_m, contrast }`.
+        visibility => Visibility(Visibility) = record();
+        /// Extinction coefficient, 1/m, 0 or more: a number (the same at all wavelengths) or `{ spectrum = file }`.
+        extinction_per_m => PerMetre(Curve) = curve(number("1/m").at_least(0.0).at_most(1e6));
+    }
+}
+
+record! {
+    /// The distance at which a black object's contrast against the horizon has fallen to a threshold; the extinction coefficient is
+    /// −ln(contrast)/distance (Koschmieder 1924), at all wavelengths alike.
+    pub struct Visibility {
+        /// The distance, m, above 0.
+        required distance_m: Placed<f64> = number("m").above(0.0);
+        /// The threshold, above 0 and below 1: 0.02 is Koschmieder's, 0.05 that of the meteorological optical range (WMO).
+        required contrast: Placed<f64> = number("").above(0.0).at_most(0.999);
+    }
+}
+
+variants! {
+    /// How light is scattered by angle.
+    pub enum Phase by "type" {
+        /// Water droplets, by Mie's series.
+        "water_droplets" => WaterDroplets(WaterDroplets),
+        /// The fit of Jendersie and d'Eon (2023) to it: quicker to prepare, and four to five times too dark straight back, where head lamps
+        /// are seen in fog.
+        "water_droplets_fit" => WaterDropletsFit(WaterDropletsFit),
+        /// Henyey and Greenstein's function.
+        "henyey_greenstein" => HenyeyGreenstein(HenyeyGreenstein),
+        /// Molecules of air.
+        "rayleigh" => Rayleigh(Rayleigh),
+        /// All directions alike.
+        "isotropic" => Isotropic(Isotropic),
+    }
+}
+
+record! {
+    /// Droplets of log-normal sizes (a factor of 1.35 is one standard deviation).
+    pub struct WaterDroplets {
+        /// Their median diameter by number, µm, 0.1 … 60: some 5 to 20 in fog.
+        required diameter_um: Placed<f64> = number("µm").at_least(0.1).at_most(60.0);
+    }
+}
+
+record! {
+    /// Droplets of a mean diameter.
+    pub struct WaterDropletsFit {
+        /// Their diameter, µm, 5 … 50.
+        required diameter_um: Placed<f64> = number("µm").at_least(5.0).at_most(50.0);
+    }
+}
+
+record! {
+    /// Henyey and Greenstein's function (1941).
+    pub struct HenyeyGreenstein {
+        /// Mean cosine, −0.99 … 0.99: positive forward.
+        required g: Placed<f64> = number("").at_least(-0.99).at_most(0.99);
+    }
+}
+
+record! {
+    /// Molecules: no keys.
+    pub struct Rayleigh {}
+}
+
+record! {
+    /// Even: no keys.
+    pub struct Isotropic {}
+}
+
+variants! {
+    /// A part of the world.
+    pub enum MediumShape by "type" {
+        /// All of it, without end: no light from infinity comes through.
+        "everywhere" => Everywhere(Everywhere),
+        /// Below a height, such as a layer of fog under a clear sky.
+        "layer" => Layer(Layer),
+        /// A box about its origin.
+        "box" => Box(MediumBox),
+        /// A ball about its origin.
+        "sphere" => Sphere(MediumSphere),
+    }
+}
+
+record! {
+    /// All of the world: no keys.
+    pub struct Everywhere {}
+}
+
+record! {
+    /// Below a height.
+    pub struct Layer {
+        /// Height of its upper end over its origin, m.
+        required top_m: Placed<f64> = number("m");
+    }
+}
+
+record! {
+    /// A box about its origin.
+    pub struct MediumBox {
+        /// Its size along x, y and z, m, above 0.
+        required size_m: Placed<[f64; 3]> = vector::<3>(number("m").above(0.0));
+    }
+}
+
+record! {
+    /// A ball about its origin.
+    pub struct MediumSphere {
+        /// Its radius, m, above 0.
+        required radius_m: Placed<f64> = number("m").above(0.0);
+    }
+}
+
+record! {
+    /// Gradient noise (Perlin 2002) of mean 0, in the world's frame, about the mean density.
+    pub struct Unevenness {
+        /// The greatest deviation of the density from its mean, as a share of it, 0 … 1.
+        required amplitude: Placed<f64> = number("").at_least(0.0).at_most(1.0);
+        /// Size of the largest clouds, m, above 0.
+        required scale_m: Placed<f64> = number("m").above(0.0);
+        /// Octaves, each of half the size of the one before, 1 … 12. Default: 4.
+        optional octaves: Placed<u64> = whole(1, 12);
+        /// Strength of an octave beside the one before, 0 … 1. Default: 0.5.
+        optional gain: Placed<f64> = number("").at_least(0.0).at_most(1.0);
+        /// Velocity by which the noise drifts through the medium, m/s. Default: none.
+        optional wind_m_s: Placed<[f64; 3]> = vector::<3>(number("m/s"));
+        /// Which noise of all. Default: 0.
+        optional seed: Placed<u64> = whole(0, u32::MAX as u64);
+    }
+}
+
+fn check(medium: &Medium, faults: &mut Faults) {
+    let endless = matches!(medium.shape, None | Some(MediumShape::Everywhere(_)));
+    let placed = medium.transform.stated_at().or(medium.frame.as_ref().map(|frame| &frame.place));
+    if let (true, Some(place)) = (endless, placed) {
+        faults.add(
+            place,
+            "the medium is everywhere, so that its place has no effect",
+            "give a \"shape\" with bounds, or remove the key",
+        );
+    }
+    let fraction = medium
+        .unevenness
+        .as_ref()
+        .and_then(|u| u.gain.as_ref().filter(|_| u.octaves.as_ref().is_some_and(|o| o.value == 1)));
+    if let Some(gain) = fraction {
+        faults.add(&gain.place, "\"gain\" has no effect with one octave", "give more \"octaves\", or remove it");
+    }
+}
+
+impl NamesFiles for Medium {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, name: _, extinction, albedo, phase: _, shape: _, transform: _, frame: _, unevenness: _ } =
+            self;
+        if let Extinction::PerMetre(curve) = extinction {
+            curve.name_file(Values::Light, files);
+        }
+        albedo.iter().for_each(|albedo| albedo.name_file(Values::Share, files));
+    }
+}

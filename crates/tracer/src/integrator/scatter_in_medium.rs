@@ -1,0 +1,133 @@
+//! Scattering between surfaces.
+
+use etendue_core::Spectral;
+use etendue_core::maths::f32::{exp, exp_m1, ln_1p};
+use etendue_core::random::Draw;
+use glam::Vec3;
+
+use super::path::{Intersection, Path, PathStep};
+use crate::lights::LightSampleContext;
+use crate::media::{Media, Phase};
+
+impl<'a, const N: usize> Path<'a, N> {
+    /// Gathers the light of lamps that is scattered on the way to `end`, and finds where the path is scattered itself; `None` where it is not.
+    pub(super) fn travel_through_media(&mut self, end: f32) -> Option<Intersection<'a>> {
+        let media = self.tracer.media.filter(|_| !self.medium.is_solid())?;
+        if self.tracer.lights.has_points() && !self.is_spent() {
+            self.gather_from_lamps(media, end);
+        }
+        let stream = (&self.asked.stream, &mut self.flights);
+        let collision = media.collide(&self.ray, f64::from(end), stream, self.wavelengths, &mut self.throughput)?;
+        self.cone.travel(collision.t);
+        self.travelled_m += collision.t;
+        Some(Intersection::Medium(self.ray.at(collision.t), collision.phase))
+    }
+
+    /// Light of one lamp without an opening that is scattered once on the way to `end`. The place is drawn half by the angle at the lamp, half
+    /// as flights end; either density counts (one-sample balance heuristic, Veach and Guibas 1995).
+    fn gather_from_lamps(&mut self, media: &Media<'_>, end: f32) {
+        let Some((from, to)) = media.reach(&self.ray, f64::from(end)) else { return };
+        let (part, lights) = ([from as f32, to as f32], self.tracer.lights);
+        let stream = &self.asked.stream;
+        let Some(lamp) = lights.lamp_along(&self.ray, part, stream.one(Draw::InScattering, 2 * self.met)) else {
+            return;
+        };
+        let flight = Flight::new(part, media.greatest_per_m());
+        let u = stream.two(Draw::InScattering, 2 * self.met + 1);
+        let t = if u.x < 0.5 { lamp.place(u.y) } else { flight.place(u.y) };
+        let density = 0.5 * (lamp.density(t) + flight.density(t));
+        if !(t > part[0] && t < part[1] && density > 0.0 && density.is_finite()) {
+            return;
+        }
+        let position = self.ray.at(t);
+        let receiver = LightSampleContext { position, normal: Vec3::ZERO, gloss: None, time_s: self.ray.time_s };
+        let Some(light) = lights.of_lamp(&lamp, &receiver, (self.wavelengths, self.lit())) else { return };
+        let mut way = self.ray;
+        way.t_max = t;
+        let seen = media.transmittance(&way, (stream, 2 * self.met + 1), self.wavelengths);
+        let scattered = media.scattering(&self.ray, f64::from(t), light.direction, self.wavelengths);
+        let arriving = self.throughput * seen * scattered * light.radiance / (density * lamp.probability);
+        let ray = self.towards(position, light.direction, light.target);
+        if !arriving.is_zero()
+            && let Some(share) = self.share_along(ray, &light, self.medium)
+        {
+            self.radiance += arriving * share;
+        }
+    }
+
+    /// Gathers drawn light at a place between surfaces and goes on from it.
+    pub(super) fn scatter_in_medium(&mut self, position: Vec3, phase: &Phase) -> PathStep {
+        let from = self.ray.direction;
+        let receiver = LightSampleContext { position, normal: Vec3::ZERO, gloss: None, time_s: self.ray.time_s };
+        self.sample_direct_in_medium(&receiver, phase);
+        let stream = &self.asked.stream;
+        let (choice, u) =
+            (stream.one(Draw::PhaseDirection, 2 * self.met), stream.two(Draw::PhaseDirection, 2 * self.met + 1));
+        let direction = phase.sample(from, choice, u, self.wavelengths);
+        let density = phase.density(from, direction, self.wavelengths);
+        if density <= 0.0 {
+            return PathStep::Ends;
+        }
+        self.throughput *= Spectral(phase.values(from, direction, self.wavelengths)) / density;
+        self.scattered = Some(density);
+        self.receiver = Some(receiver);
+        // However narrow its forward peak, fog is no mirror.
+        self.history.scatter(Some(0.0));
+        self.cone.scatter(density);
+        self.leave(position, direction)
+    }
+
+    /// Next-event estimation at a place between surfaces.
+    fn sample_direct_in_medium(&mut self, receiver: &LightSampleContext, phase: &Phase) {
+        let lights = self.tracer.lights;
+        if !lights.can_be_drawn() {
+            return;
+        }
+        let stream = &self.asked.stream;
+        let choice = if lights.are_many() { stream.one(Draw::LightChoice, self.met) } else { 0.0 };
+        let u = stream.two(Draw::LightPoint, self.met);
+        let asked = (self.wavelengths, self.lit());
+        let Some(light) = lights.sample(receiver, (choice, u), self.cone.spread_rad, self.tracer.material_table, asked)
+        else {
+            return;
+        };
+        // Lamps that nothing but a draw can find have been asked along the ray.
+        if light.delta {
+            return;
+        }
+        let density = phase.density(self.ray.direction, light.direction, self.wavelengths);
+        let values = Spectral(phase.values(self.ray.direction, light.direction, self.wavelengths));
+        let arriving = self.throughput * values * light.radiance * self.drawn_weight(&light, density);
+        let ray = self.towards(receiver.position, light.direction, light.target);
+        if !arriving.is_zero()
+            && let Some(share) = self.share_along(ray, &light, self.medium)
+        {
+            self.radiance += arriving * share;
+        }
+    }
+}
+
+/// Places along a part of a ray as a flight through even fog would end there.
+struct Flight {
+    from_m: f32,
+    per_m: f32,
+    /// Share of flights that end within the part.
+    within: f32,
+}
+
+impl Flight {
+    fn new([from_m, to_m]: [f32; 2], per_m: f32) -> Self {
+        // A part of no depth is met evenly.
+        let per_m = per_m.max(1e-3 / (to_m - from_m)).max(1e-9);
+        Self { from_m, per_m, within: -exp_m1(-per_m * (to_m - from_m)) }
+    }
+
+    fn place(&self, u: f32) -> f32 {
+        self.from_m - ln_1p(-u * self.within) / self.per_m
+    }
+
+    /// 1/m.
+    fn density(&self, t: f32) -> f32 {
+        self.per_m * exp(-self.per_m * (t - self.from_m)) / self.within
+    }
+}

@@ -1,0 +1,116 @@
+//! Light through fog.
+
+use super::*;
+use crate::lights::{Lamp, Profile};
+use crate::media::{Media, Medium, Noise, Phase, Shape as Region, Unevenness};
+use glam::DMat3;
+
+const FORWARD: Phase = Phase::HenyeyGreenstein { g: 0.85 };
+
+fn fog(extinction_per_m: f64, albedo: f64, phase: Phase, shape: Region) -> Medium {
+    let of = |value| Spectrum::constant(value);
+    Medium::new((of(extinction_per_m), of(albedo)), phase, shape, Motion::still(DAffine3::IDENTITY)).expect("legal")
+}
+
+fn uneven(medium: Medium, amplitude: f64) -> Medium {
+    let noise = Noise { scale_m: 3.0, octaves: 3, gain: 0.5, seed: 5 };
+    medium.with_unevenness(Unevenness { noise, amplitude, wind_mps: DVec3::new(1.0, 0.0, 0.0) })
+}
+
+/// Radiance along a ray through media, from 32 replicates of `samples`.
+fn look(ready: &Ready, media: &[Medium], ray: &Ray, samples: u32, settings: PathSettings) -> ReplicateEstimate {
+    let view = ready.world.render_space(DVec3::ZERO);
+    let lights = ready.lights(&view);
+    let media = Media::new(media, DVec3::ZERO, TimeInterval::default());
+    let tracer = PathTracer::new(&view, &ready.material_table, &lights, settings).with_media(&media);
+    let means: Vec<_> = (0..32).map(|r| replicate(&tracer, ray, samples, r)).collect();
+    ReplicateEstimate::of(&means).expect("replicates")
+}
+
+fn even_surroundings() -> Scene {
+    let sources = Sources { environment: Some(Environment::Uniform(Spectrum::constant(1.0))), ..Sources::default() };
+    Scene { sources, ..Scene::default() }
+}
+
+fn up() -> Ray {
+    Ray::new(Vec3::ZERO, Vec3::Z, 0.0)
+}
+
+/// In even light of 1 a fog that absorbs nothing shows 1, however dense, uneven, or forward it scatters, seen from inside and outside.
+#[test]
+fn fog_in_a_furnace_is_not_seen() {
+    let ball = Region::Ball { radius_m: 4.0 };
+    let settings = PathSettings { max_bounces: 4000, roulette_start: 4000, ..PathSettings::default() };
+    for (what, phase) in [("even", Phase::Isotropic), ("forward", FORWARD), ("molecules", Phase::Rayleigh)] {
+        let even = fog(0.7, 1.0, phase.clone(), ball);
+        for (how, medium) in [("flat", even.clone()), ("uneven", uneven(even, 0.9))] {
+            let seen = look(&even_surroundings().ready(), &[medium], &up(), 16, settings);
+            assert!((seen.mean - 1.0).abs() < 3.0 * seen.standard_error() + 2e-4, "{what}, {how}: {seen:?}");
+        }
+    }
+}
+
+/// exp(−β d) of a glowing wall's light comes through a fog that only absorbs, exactly; and through an uneven one in the mean over its places.
+#[test]
+fn the_law_of_beer_and_lambert_through_fog() {
+    let mut scene = Scene::default();
+    let wall = scene.material(Surface::Absorber, Some((2.0, EmissionSides::Both)));
+    scene.square(Vec3::new(0.0, 0.0, 50.0), 30.0, wall);
+    let ready = scene.ready();
+    let layer = Region::Box { half_m: DVec3::new(100.0, 100.0, 20.0) };
+    let seen = look(&ready, &[fog(0.05, 0.0, Phase::Isotropic, layer)], &up(), 2048, PathSettings::default());
+    // 20 m of it.
+    agrees(&seen, 2.0 * maths::f64::exp(-1.0));
+    let twice =
+        [fog(0.05, 0.0, Phase::Isotropic, layer), fog(0.03, 0.5, Phase::Isotropic, Region::Below { top_m: 10.0 })];
+    let direct = PathSettings { max_bounces: 0, ..PathSettings::default() };
+    let seen = look(&ready, &twice, &up(), 2048, direct);
+    agrees(&seen, 2.0 * maths::f64::exp(-1.3));
+}
+
+/// No noise is the same as an even fog, by light that arrives, not by bits: 1 + 0 n.
+#[test]
+fn noise_of_no_amplitude_is_even() {
+    let even = fog(0.1, 0.9, FORWARD, Region::Everywhere);
+    assert_eq!(uneven(even.clone(), 0.0), even);
+}
+
+/// Light of a point lamp scattered once, against ∫ β exp(−β (t + d)) p(cos) I/d² dt by Simpson's rule: within 1 %, and three standard errors.
+#[test]
+fn light_of_a_lamp_scattered_once() {
+    let (beta, lamp_at) = (0.04, DVec3::new(3.0, 0.0, 8.0));
+    let lamp = Lamp::new(lamp_at, DMat3::IDENTITY, Spectrum::constant(5.0), Profile::Isotropic).expect("legal");
+    for (what, phase) in
+        [("isotropic", Phase::Isotropic), ("forward", FORWARD), ("backward", Phase::HenyeyGreenstein { g: -0.5 })]
+    {
+        let mut scene =
+            Scene { sources: Sources { lamps: vec![lamp.clone()], ..Sources::default() }, ..Scene::default() };
+        let wall = scene.material(Surface::Absorber, None);
+        scene.square(Vec3::new(0.0, 0.0, 30.0), 30.0, wall);
+        let ready = scene.ready();
+        let integrand = |t: f64| {
+            let to = lamp_at - DVec3::new(0.0, 0.0, t);
+            let d = to.length();
+            let p = f64::from(phase.density(Vec3::Z, (to / d).as_vec3(), &WAVELENGTHS));
+            beta * maths::f64::exp(-beta * (t + d)) * p * 5.0 / (d * d)
+        };
+        let n = 30_000_u32;
+        let h = 30.0 / f64::from(n);
+        let weight = |i: u32| {
+            if i == 0 || i == n {
+                1.0
+            } else if i % 2 == 1 {
+                4.0
+            } else {
+                2.0
+            }
+        };
+        let expected: f64 = (0..=n).map(|i| weight(i) * integrand(f64::from(i) * h)).sum::<f64>() * h / 3.0;
+        let medium = [fog(beta, 1.0, phase, Region::Everywhere)];
+        let settings = PathSettings { max_bounces: 1, ..PathSettings::default() };
+        let seen = look(&ready, &medium, &up(), 4096, settings);
+        agrees(&seen, expected);
+        assert!((seen.mean / expected - 1.0).abs() < 0.01, "{what}: {} {expected}", seen.mean);
+        println!("{what}: {} ± {} expected {expected}", seen.mean, seen.standard_error());
+    }
+}

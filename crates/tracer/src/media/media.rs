@@ -1,0 +1,184 @@
+//! All media of a view.
+
+use etendue_core::maths::f64::exp;
+use etendue_core::random::{Draw, PathStream};
+use etendue_core::{Ray, Spectral, TimeInterval, Wavelengths};
+use glam::{DAffine3, DVec3, Vec3};
+
+use super::medium::Medium;
+
+/// Steps of ratio tracking along one ray at most. Where more would be needed, nothing comes through.
+const MAX_STEPS: u32 = 4096;
+
+/// All media of a view.
+#[derive(Clone, Debug)]
+pub struct Media<'a> {
+    pub(super) placed: Vec<Placed<'a>>,
+    origin_m: DVec3,
+    interval: TimeInterval,
+}
+
+/// A medium in the world.
+#[derive(Clone, Debug)]
+pub(super) struct Placed<'a> {
+    pub(super) medium: &'a Medium,
+    /// From the render frame to the medium's own, where it stands still.
+    to_local: Option<DAffine3>,
+}
+
+/// A part of a ray, in lengths of its direction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    /// Where it ends.
+    pub(super) end: f64,
+    /// The most that the extinction of all media in it may be, 1/m.
+    pub(super) majorant_per_m: f64,
+}
+
+impl<'a> Media<'a> {
+    /// The media of a view whose render frame is about `origin_m` of the world, during an interval.
+    #[must_use]
+    pub fn new(media: &'a [Medium], origin_m: DVec3, interval: TimeInterval) -> Self {
+        let place = |medium: &'a Medium| {
+            let to_local = medium.to_world.still_over(interval).map(|to_world| {
+                let mut to_render = to_world;
+                to_render.translation -= origin_m;
+                to_render.inverse()
+            });
+            Placed { medium, to_local }
+        };
+        Self { placed: media.iter().map(place).collect(), origin_m, interval }
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.placed.is_empty()
+    }
+
+    /// Beginning and end of a ray's part in a medium, before `end`; in lengths of the ray's direction.
+    pub(super) fn span(&self, placed: &Placed<'_>, ray: &Ray, end: f64) -> Option<(f64, f64)> {
+        let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
+        let to_local = placed.to_local.unwrap_or_else(|| {
+            let mut to_render = placed.medium.to_world.at(self.interval.moment(ray.time_s));
+            to_render.translation -= self.origin_m;
+            to_render.inverse()
+        });
+        placed.medium.shape.span(to_local.transform_point3(origin), to_local.transform_vector3(direction), end)
+    }
+
+    /// From where to where, before `end`, any medium lies along a ray; `None` where none does. In lengths of the ray's direction.
+    pub(crate) fn reach(&self, ray: &Ray, end: f64) -> Option<(f64, f64)> {
+        let spans = self.placed.iter().filter_map(|placed| self.span(placed, ray, end));
+        spans.reduce(|all, one| (all.0.min(one.0), all.1.max(one.1)))
+    }
+
+    /// What is scattered at `t` along a ray towards the unit `to`, of light that arrives from there: Σ β albedo p, 1/(m sr).
+    pub(crate) fn scattering<const N: usize>(
+        &self,
+        ray: &Ray,
+        t: f64,
+        to: Vec3,
+        wavelengths: &Wavelengths<N>,
+    ) -> Spectral<N> {
+        let mut sum = Spectral::ZERO;
+        for placed in &self.placed {
+            if self.span(placed, ray, f64::INFINITY).is_some_and(|(from, end)| t >= from && t <= end) {
+                let density = self.density(placed, ray, t) as f32;
+                let Medium { extinction, albedo, phase, .. } = placed.medium;
+                let values = Spectral(phase.values(ray.direction, to, wavelengths));
+                sum += extinction.sample(wavelengths) * albedo.sample(wavelengths) * values * density;
+            }
+        }
+        sum
+    }
+
+    /// The most that all media together take out of a beam, 1/m.
+    pub(crate) fn greatest_per_m(&self) -> f32 {
+        self.placed.iter().map(|placed| placed.medium.greatest_per_m).sum()
+    }
+
+    /// The part of a ray from `t` on in which the same media lie.
+    pub(super) fn piece(&self, ray: &Ray, t: f64, end: f64) -> Piece {
+        let mut piece = Piece { end, majorant_per_m: 0.0 };
+        for placed in &self.placed {
+            let Some((from, to)) = self.span(placed, ray, end) else { continue };
+            if t < from {
+                piece.end = piece.end.min(from);
+            } else if t < to {
+                piece.end = piece.end.min(to);
+                piece.majorant_per_m += f64::from(placed.medium.greatest_per_m * placed.medium.greatest_density());
+            }
+        }
+        piece
+    }
+
+    /// The density of a medium at `t` along a ray, over its mean.
+    pub(super) fn density(&self, placed: &Placed<'_>, ray: &Ray, t: f64) -> f64 {
+        if placed.medium.unevenness.is_none() {
+            return 1.0;
+        }
+        let point = self.origin_m + ray.origin.as_dvec3() + ray.direction.as_dvec3() * t;
+        placed.medium.density(point, self.interval.moment(ray.time_s))
+    }
+
+    /// The share of light that comes through along a ray up to its `t_max`: exact where densities are even, else an unbiased estimate by
+    /// random numbers of the sub-counter `vertex`.
+    #[must_use]
+    pub fn transmittance<const N: usize>(
+        &self,
+        ray: &Ray,
+        (stream, vertex): (&PathStream, u32),
+        wavelengths: &Wavelengths<N>,
+    ) -> Spectral<N> {
+        let (mut depth, mut share) = ([0.0_f64; N], Spectral::ONE);
+        let length_m = f64::from(ray.direction.length());
+        for (i, placed) in self.placed.iter().enumerate() {
+            let Some((from, to)) = self.span(placed, ray, f64::from(ray.t_max)) else { continue };
+            let extinction = placed.medium.extinction.sample(wavelengths);
+            if placed.medium.unevenness.is_none() {
+                // No medium, no depth, however far.
+                (0..N)
+                    .filter(|k| extinction[*k] > 0.0)
+                    .for_each(|k| depth[k] += f64::from(extinction[k]) * (to - from) * length_m);
+            } else {
+                share *= self.ratio_tracked(placed, ray, (from, to), (stream, vertex ^ (i as u32) << 24), extinction);
+            }
+        }
+        share * Spectral(depth.map(|depth| exp(-depth) as f32))
+    }
+
+    fn ratio_tracked<const N: usize>(
+        &self,
+        placed: &Placed<'_>,
+        ray: &Ray,
+        (from, to): (f64, f64),
+        (stream, vertex): (&PathStream, u32),
+        extinction: Spectral<N>,
+    ) -> Spectral<N> {
+        let majorant_per_m = placed.medium.greatest_per_m * placed.medium.greatest_density();
+        let majorant = f64::from(majorant_per_m) * f64::from(ray.direction.length());
+        let (mut t, mut share) = (from, Spectral::ONE);
+        if majorant == 0.0 {
+            return share;
+        }
+        for step in 0..MAX_STEPS {
+            t += free_flight(stream.one(Draw::Transmittance, vertex.wrapping_mul(MAX_STEPS).wrapping_add(step)))
+                / majorant;
+            if t >= to {
+                return share;
+            }
+            let density = self.density(placed, ray, t) as f32;
+            share *= extinction.map(|extinction| (1.0 - extinction * density / majorant_per_m).max(0.0));
+            if share.is_zero() {
+                return share;
+            }
+        }
+        Spectral::ZERO
+    }
+}
+
+/// The optical depth that a flight is longer than with the probability 1 − u.
+pub(super) fn free_flight(u: f32) -> f64 {
+    -etendue_core::maths::f64::ln_1p(-f64::from(u))
+}

@@ -1,0 +1,117 @@
+//! A medium that scatters and absorbs: fog, haze, spray, smoke.
+//!
+//! At a point the extinction coefficient is β(λ) · (1 + a n), n noise of mean zero, of which the share `albedo` is scattered, by the phase
+//! function. Left out: light that the medium itself gives off, and an albedo or a phase function that change from place to place.
+
+use std::sync::Arc;
+
+use etendue_core::Motion;
+use etendue_spectra::Spectrum;
+use glam::DVec3;
+
+use super::noise::Noise;
+use super::phase::Phase;
+use super::shape::Shape;
+
+/// Why a medium is refused.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum MediumError {
+    /// An extinction is negative or too large.
+    #[error("an extinction of {value} 1/m was given, but it must be 0 to 1e6 at every wavelength; correct it")]
+    Extinction {
+        /// What was given, 1/m.
+        value: f32,
+    },
+    /// An albedo is out of range.
+    #[error("an albedo of {value} was given, but it must be 0 to 1 at every wavelength; correct it")]
+    Albedo {
+        /// What was given.
+        value: f32,
+    },
+    /// The motion takes a scale to zero.
+    #[error("the medium's transform is not finite or flattens its shape; correct its scale")]
+    Transform,
+}
+
+/// How a medium's density changes from place to place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unevenness {
+    /// The noise, in the world.
+    pub noise: Noise,
+    /// Deviation of the density at noise 1, as a share of the mean: 0 to 1.
+    pub amplitude: f64,
+    /// Velocity by which the noise drifts, m/s.
+    pub wind_mps: DVec3,
+}
+
+/// A medium.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Medium {
+    pub(super) extinction: Arc<Spectrum>,
+    pub(super) albedo: Arc<Spectrum>,
+    pub(super) phase: Arc<Phase>,
+    pub(super) unevenness: Option<Unevenness>,
+    pub(super) shape: Shape,
+    pub(super) to_world: Motion,
+    /// Greatest extinction over wavelengths, of the mean density, 1/m.
+    pub(super) greatest_per_m: f32,
+}
+
+impl Medium {
+    /// A medium of mean extinction coefficient `extinction` (1/m) and single-scattering `albedo`, that fills a `shape` whose frame is taken
+    /// to the world by `to_world`.
+    ///
+    /// # Errors
+    /// Where a number is out of range, or the motion flattens the shape.
+    pub fn new(
+        (extinction, albedo): (Spectrum, Spectrum),
+        phase: impl Into<Arc<Phase>>,
+        shape: Shape,
+        to_world: Motion,
+    ) -> Result<Self, MediumError> {
+        let faulty = |of: &Spectrum, most: f32| {
+            [of.min_value(), of.max_value()].into_iter().find(|value| !(*value >= 0.0 && *value <= most))
+        };
+        if let Some(value) = faulty(&extinction, 1e6) {
+            return Err(MediumError::Extinction { value });
+        }
+        if let Some(value) = faulty(&albedo, 1.0) {
+            return Err(MediumError::Albedo { value });
+        }
+        let start = to_world.at(0.0);
+        if !(start.is_finite() && start.matrix3.determinant() != 0.0) {
+            return Err(MediumError::Transform);
+        }
+        let greatest_per_m = extinction.max_value();
+        let (extinction, albedo) = (Arc::new(extinction), Arc::new(albedo));
+        Ok(Self { extinction, albedo, phase: phase.into(), unevenness: None, shape, to_world, greatest_per_m })
+    }
+
+    /// The same with an uneven density.
+    #[must_use]
+    pub fn with_unevenness(self, unevenness: Unevenness) -> Self {
+        let unevenness = Some(unevenness).filter(|unevenness| unevenness.amplitude != 0.0);
+        Self { unevenness, ..self }
+    }
+
+    /// Whether it moves, or its unevenness drifts.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        self.to_world.as_still().is_none() || self.unevenness.is_some_and(|of| of.wind_mps != DVec3::ZERO)
+    }
+
+    /// Density at a point of the world, m, at a simulated time, s, over its mean.
+    #[inline]
+    pub(super) fn density(&self, point_m: DVec3, time_s: f64) -> f64 {
+        match &self.unevenness {
+            None => 1.0,
+            Some(Unevenness { noise, amplitude, wind_mps }) => 1.0 + amplitude * noise.at(point_m - *wind_mps * time_s),
+        }
+    }
+
+    /// The most that the density may be over its mean.
+    #[inline]
+    pub(super) fn greatest_density(&self) -> f32 {
+        self.unevenness.as_ref().map_or(1.0, |unevenness| 1.0 + unevenness.amplitude as f32)
+    }
+}

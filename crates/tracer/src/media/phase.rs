@@ -1,0 +1,182 @@
+//! Phase functions: how a medium scatters light by the angle from straight on.
+//!
+//! All are normalised, ∫ p dω = 1 over the sphere, in 1/sr, and drawn exactly by themselves: what is drawn has the weight 1. An angle is
+//! given by v = 1 − cos θ, which is 0 straight on, since cosines near 1 have no digits left for narrow forward peaks.
+
+use core::f32::consts::{FRAC_1_PI, TAU};
+use etendue_core::maths::f32::{cbrt, sin_cos};
+use etendue_core::{Basis, Wavelengths};
+use glam::{Vec2, Vec3};
+
+use super::phase_table::SpectralTable;
+
+/// 1/(4π).
+const PER_SPHERE: f32 = 0.25 * FRAC_1_PI;
+
+/// A phase function.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Phase {
+    /// All directions alike.
+    Isotropic,
+    /// Henyey and Greenstein (1941) of mean cosine g, −0.99 to 0.99.
+    HenyeyGreenstein {
+        /// Mean cosine.
+        g: f32,
+    },
+    /// Molecules: 3/(16π) (1 + cos² θ), Rayleigh (1871).
+    Rayleigh,
+    /// By tables.
+    Table(SpectralTable),
+}
+
+impl Phase {
+    /// p, 1/sr, of light that travels on from the unit `from` to the unit `to`; of tables the mean over the wavelengths.
+    #[must_use]
+    pub fn density<const N: usize>(&self, from: Vec3, to: Vec3, wavelengths: &Wavelengths<N>) -> f32 {
+        let v = (0.5 * (to - from).length_squared()).min(2.0);
+        match self {
+            Self::Isotropic => PER_SPHERE,
+            Self::HenyeyGreenstein { g } => henyey_greenstein(*g, v),
+            Self::Rayleigh => rayleigh(1.0 - v),
+            Self::Table(table) => wavelengths.nm.iter().map(|nm| table.density(*nm, v)).sum::<f32>() / N as f32,
+        }
+    }
+
+    /// p at each wavelength, 1/sr.
+    #[must_use]
+    pub fn values<const N: usize>(&self, from: Vec3, to: Vec3, wavelengths: &Wavelengths<N>) -> [f32; N] {
+        match self {
+            Self::Table(table) => {
+                let v = (0.5 * (to - from).length_squared()).min(2.0);
+                wavelengths.nm.map(|nm| table.density(nm, v))
+            }
+            _ => [self.density(from, to, wavelengths); N],
+        }
+    }
+
+    /// A unit direction drawn by [`Phase::density`], for light that travels along the unit `from`.
+    #[must_use]
+    pub fn sample<const N: usize>(&self, from: Vec3, choice: f32, u: Vec2, wavelengths: &Wavelengths<N>) -> Vec3 {
+        let v = match self {
+            Self::Isotropic => 2.0 * u.x,
+            Self::HenyeyGreenstein { g } => henyey_greenstein_at(*g, u.x),
+            Self::Rayleigh => rayleigh_at(u.x),
+            Self::Table(table) => {
+                let chosen = choice * N as f32;
+                let i = (chosen as usize).min(N - 1);
+                table.sample(wavelengths.nm[i], chosen - i as f32, u.x)
+            }
+        }
+        .clamp(0.0, 2.0);
+        let sin = (v * (2.0 - v)).sqrt();
+        let (s, c) = sin_cos(TAU * u.y);
+        Basis::about(from).outward(Vec3::new(sin * c, sin * s, 1.0 - v)).normalize()
+    }
+}
+
+/// (1 − g²)/(4π (1 + g² − 2 g cos θ)^{3/2}).
+fn henyey_greenstein(g: f32, v: f32) -> f32 {
+    let below = (1.0 - g) * (1.0 - g) + 2.0 * g * v;
+    PER_SPHERE * (1.0 - g * g) / (below * below.sqrt())
+}
+
+/// v at which a share `u` of the light has been scattered less far.
+fn henyey_greenstein_at(g: f32, u: f32) -> f32 {
+    if g.abs() < 1e-3 {
+        return 2.0 * u;
+    }
+    // 2 g v = s² − (1 − g)², s = (1 − g²)/(1 + g − 2 g u).
+    let s = (1.0 - g * g) / (1.0 + g - 2.0 * g * u);
+    (s - (1.0 - g)) * (s + (1.0 - g)) / (2.0 * g)
+}
+
+fn rayleigh(cos: f32) -> f32 {
+    0.75 * PER_SPHERE * (1.0 + cos * cos)
+}
+
+/// The real root of c³ + 3 c = z, z = 4 − 8 u, by Cardano.
+fn rayleigh_at(u: f32) -> f32 {
+    let half = 2.0 - 4.0 * u;
+    let root = (half * half + 1.0).sqrt();
+    1.0 - (cbrt(half + root) + cbrt(half - root))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use etendue_core::random::{philox4x32, unit_f32};
+    use etendue_stats::chi_square;
+
+    const BINS: usize = 40;
+
+    fn all() -> Vec<(&'static str, Phase)> {
+        vec![
+            ("isotropic", Phase::Isotropic),
+            ("forward", Phase::HenyeyGreenstein { g: 0.86 }),
+            ("backward", Phase::HenyeyGreenstein { g: -0.4 }),
+            ("even", Phase::HenyeyGreenstein { g: 0.0 }),
+            ("molecules", Phase::Rayleigh),
+            ("water", Phase::Table(SpectralTable::of_water(8.0))),
+            ("fit", Phase::Table(SpectralTable::fitted_to_water(12.0).expect("in range"))),
+        ]
+    }
+
+    /// The density integrates to one, and what is drawn follows it: χ² over bins of equal expected counts in angle. 2·10⁵ draws.
+    #[test]
+    fn directions_are_drawn_by_the_density() {
+        let wavelengths = Wavelengths::<4>::uniform(400.0, 700.0, 0.3);
+        let from = Vec3::new(0.48, 0.6, 0.64).normalize();
+        let (along, across) = from.any_orthonormal_pair();
+        for (name, phase) in all() {
+            // Nodes dense in the forward peak.
+            let n = 200_000_u32;
+            let v_of = |t: f64| 2.0 * t * t * t * t;
+            let mut shares = vec![0.0_f64; n as usize];
+            for (i, share) in shares.iter_mut().enumerate() {
+                let t = (i as f64 + 0.5) / f64::from(n);
+                let v = v_of(t);
+                let (cos, sin) = ((1.0 - v) as f32, (v * (2.0 - v)).max(0.0).sqrt() as f32);
+                let to = from * cos + along * (0.6 * sin) + across * (0.8 * sin);
+                *share = f64::from(phase.density(from, to, &wavelengths)) * core::f64::consts::TAU * 8.0 * t * t * t
+                    / f64::from(n);
+            }
+            let whole: f64 = shares.iter().sum();
+            assert!((whole - 1.0).abs() < 2e-3, "{name}: {whole}");
+            let edges: Vec<f64> = {
+                let (mut sum, mut edges) = (0.0, vec![]);
+                for (i, share) in shares.iter().enumerate() {
+                    sum += share / whole;
+                    while edges.len() + 1 < BINS && sum > (edges.len() + 1) as f64 / BINS as f64 {
+                        edges.push(v_of((i as f64 + 1.0) / f64::from(n)));
+                    }
+                }
+                edges
+            };
+            let expected_shares: Vec<f64> = {
+                let mut bins = vec![0.0; BINS];
+                for (i, share) in shares.iter().enumerate() {
+                    let v = v_of((i as f64 + 0.5) / f64::from(n));
+                    bins[edges.partition_point(|edge| *edge <= v)] += share / whole;
+                }
+                bins
+            };
+            let draws = 200_000_u32;
+            let (mut counts, mut turns) = (vec![0_u64; BINS], vec![0_u64; 16]);
+            for i in 0..draws {
+                let r = philox4x32([i, 0, 0, 0], [5, 9]);
+                let u = Vec2::new(unit_f32(r[1]), unit_f32(r[2]));
+                let to = phase.sample(from, unit_f32(r[0]), u, &wavelengths);
+                assert!((to.length() - 1.0).abs() < 1e-6);
+                let v = f64::from(0.5 * (to - from).length_squared());
+                counts[edges.partition_point(|edge| *edge <= v)] += 1;
+                let turn = etendue_core::maths::f32::atan2(to.dot(across), to.dot(along)) / TAU + 0.5;
+                turns[((turn * 16.0) as usize).min(15)] += 1;
+            }
+            let expected: Vec<f64> = expected_shares.iter().map(|share| share * f64::from(draws)).collect();
+            let test = chi_square::goodness_of_fit(&counts, &expected).expect("bins");
+            assert!(test.p > 1e-3, "{name}: {test:?}");
+            let test = chi_square::goodness_of_fit(&turns, &[f64::from(draws) / 16.0; 16]).expect("bins");
+            assert!(test.p > 1e-3, "{name}, azimuth: {test:?}");
+        }
+    }
+}

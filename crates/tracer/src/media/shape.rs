@@ -1,0 +1,91 @@
+//! Where a medium is: all over, below a height, in a box or a ball; in its own frame.
+
+use glam::DVec3;
+
+/// The part of space that a medium fills.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    /// All of it.
+    Everywhere,
+    /// Below z = `top_m`.
+    Below {
+        /// Height of the upper end, m.
+        top_m: f64,
+    },
+    /// A box about the origin.
+    Box {
+        /// Half of its size along each axis, m.
+        half_m: DVec3,
+    },
+    /// A ball about the origin.
+    Ball {
+        /// Radius, m.
+        radius_m: f64,
+    },
+}
+
+impl Shape {
+    /// Beginning and end of the part of a ray that lies inside, between 0 and `end` in lengths of `direction`; `None` where there is none.
+    pub(super) fn span(&self, origin: DVec3, direction: DVec3, end: f64) -> Option<(f64, f64)> {
+        let (from, to) = match self {
+            Self::Everywhere => (0.0, end),
+            Self::Below { top_m } => slab(origin.z, direction.z, f64::NEG_INFINITY, *top_m),
+            Self::Box { half_m } => {
+                let (mut from, mut to) = (0.0_f64, end);
+                for axis in 0..3 {
+                    let (enter, leave) = slab(origin[axis], direction[axis], -half_m[axis], half_m[axis]);
+                    (from, to) = (from.max(enter), to.min(leave));
+                }
+                (from, to)
+            }
+            Self::Ball { radius_m } => ball(origin, direction, *radius_m)?,
+        };
+        let (from, to) = (from.max(0.0), to.min(end));
+        (from < to).then_some((from, to))
+    }
+}
+
+/// Where x + d t lies between two ends; an empty span where it never does.
+fn slab(x: f64, d: f64, low: f64, high: f64) -> (f64, f64) {
+    if d == 0.0 {
+        return if x >= low && x <= high {
+            (f64::NEG_INFINITY, f64::INFINITY)
+        } else {
+            (f64::INFINITY, f64::NEG_INFINITY)
+        };
+    }
+    let (a, b) = ((low - x) / d, (high - x) / d);
+    (a.min(b), a.max(b))
+}
+
+/// Where a line crosses a ball about the origin.
+fn ball(origin: DVec3, direction: DVec3, radius_m: f64) -> Option<(f64, f64)> {
+    let length2 = direction.length_squared();
+    let middle = -origin.dot(direction) / length2;
+    let aside2 = (origin + direction * middle).length_squared();
+    let half2 = (radius_m * radius_m - aside2) / length2;
+    (half2 > 0.0).then(|| (middle - half2.sqrt(), middle + half2.sqrt()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spans_of_plain_shapes() {
+        let x = DVec3::X;
+        assert_eq!(Shape::Everywhere.span(DVec3::ONE, x, 7.0), Some((0.0, 7.0)));
+        let below = Shape::Below { top_m: 2.0 };
+        assert_eq!(below.span(DVec3::ZERO, DVec3::Z, 9.0), Some((0.0, 2.0)));
+        assert_eq!(below.span(DVec3::Z * 5.0, -DVec3::Z, 9.0), Some((3.0, 9.0)));
+        assert!(below.span(DVec3::Z * 5.0, x, 9.0).is_none());
+        assert_eq!(below.span(DVec3::Z, x, f64::INFINITY), Some((0.0, f64::INFINITY)));
+        let cube = Shape::Box { half_m: DVec3::new(1.0, 2.0, 3.0) };
+        assert_eq!(cube.span(x * -4.0, x, 9.0), Some((3.0, 5.0)));
+        assert_eq!(cube.span(DVec3::ZERO, x, 9.0), Some((0.0, 1.0)), "from inside");
+        assert!(cube.span(DVec3::new(-4.0, 2.5, 0.0), x, 9.0).is_none());
+        let ball = Shape::Ball { radius_m: 2.0 };
+        assert_eq!(ball.span(x * -4.0, x * 2.0, 9.0), Some((1.0, 3.0)), "in lengths of the direction");
+        assert!(ball.span(x * 4.0, x, 9.0).is_none());
+    }
+}
