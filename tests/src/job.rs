@@ -3,7 +3,8 @@
 use crate::Shot;
 use etendue_pipeline::{Choices, Plan, compile};
 use etendue_scene::asset::{
-    Assets, ImageAsset, ImagePixels, MeshAsset, PhotometryAsset, RetroTableAsset, SpectrumAsset,
+    Assets, ImageAsset, ImagePixels, MeshAsset, MeshFrameAsset, MeshFramePart, PhotometryAsset, RetroTableAsset,
+    SlotMaterial, SpectrumAsset,
 };
 use etendue_scene::{Description, Overrides};
 use std::path::Path;
@@ -55,6 +56,30 @@ impl Job {
     pub fn with_mesh(mut self, path: &str, mesh: MeshAsset) -> Self {
         self.assets.meshes.insert(path.into(), mesh);
         self
+    }
+
+    /// With a mesh file of these vertices and triangles, without normals, of one material without a name; it may be one of the
+    /// numbered files of a mesh whose vertices move.
+    #[must_use]
+    pub fn with_triangles(mut self, path: &str, positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Self {
+        let slot = SlotMaterial { name: String::new(), surface: None };
+        let mesh = MeshAsset {
+            positions: positions.iter().map(|p| p.map(|x| x as f32)).collect(),
+            triangles: triangles.to_vec(),
+            slots: vec![0; triangles.len()],
+            slot_materials: vec![slot],
+            ..MeshAsset::default()
+        };
+        let part = MeshFramePart {
+            arities: vec![3; triangles.len()],
+            vertices: triangles.as_flattened().to_vec(),
+            positions: positions.to_vec(),
+            ..MeshFramePart::default()
+        };
+        let corners = (0..triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+        let frame = MeshFrameAsset { parts: vec![part], vertices: positions.len(), triangles: corners, hash: [0; 32] };
+        self.assets.mesh_frames.insert(path.into(), frame);
+        self.with_mesh(path, mesh)
     }
 
     /// With a lamp file.

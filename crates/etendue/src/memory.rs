@@ -3,7 +3,7 @@
 use crate::camera_file::read_text;
 use crate::error::Error;
 use etendue_io::hash::of_bytes;
-use etendue_scene::asset::{Assets, MeshAsset, SlotMaterial};
+use etendue_scene::asset::{Assets, MeshAsset, MeshFrameAsset, MeshFramePart, SlotMaterial};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -39,7 +39,7 @@ impl MemoryFiles {
         self.texts.insert(path.into(), text.into());
     }
 
-    /// A mesh; the object that shows it names its material.
+    /// A mesh, or one of the numbered files of a mesh whose vertices move; the object that shows it names its material.
     ///
     /// # Errors
     /// Where there is no triangle, an index has no vertex, a number is not finite, or normals or texture coordinates are not one a
@@ -60,6 +60,7 @@ impl MemoryFiles {
             missing_libraries: Vec::new(),
             hash: of_bytes(&bytes(mesh)),
         };
+        self.assets.mesh_frames.insert(path.clone(), frame(mesh, asset.hash));
         self.assets.meshes.insert(path, asset);
         Ok(())
     }
@@ -72,6 +73,23 @@ impl MemoryFiles {
     pub(crate) fn assets(&self) -> &Assets {
         &self.assets
     }
+}
+
+/// The same as a file of a mesh whose vertices move.
+fn frame(mesh: &Triangles<'_>, hash: [u8; 32]) -> MeshFrameAsset {
+    let vertices = mesh.triangles.as_flattened().to_vec();
+    let named = |is_given: bool| if is_given { vertices.clone() } else { Vec::new() };
+    let part = MeshFramePart {
+        material: String::new(),
+        arities: vec![3; mesh.triangles.len()],
+        uvs: named(!mesh.uvs.is_empty()),
+        normal_indices: named(!mesh.normals.is_empty()),
+        positions: mesh.positions.iter().map(|p| p.map(f64::from)).collect(),
+        normals: mesh.normals.to_vec(),
+        vertices,
+    };
+    let triangles = (0..mesh.triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+    MeshFrameAsset { parts: vec![part], vertices: mesh.positions.len(), triangles, hash }
 }
 
 fn check(mesh: &Triangles<'_>) -> Result<(), String> {

@@ -4,7 +4,7 @@ use etendue_scene::asset::{AssetKind, AssetRequest, Assets, CalibrationAsset};
 
 use crate::Error;
 use crate::calibration::{ImportedCamera, read_calibration};
-use crate::mesh::read_mesh;
+use crate::mesh::{read_mesh, read_mesh_frame};
 use crate::photometry::read_photometry;
 use crate::picture::read_picture;
 use crate::prescription::read_prescription;
@@ -47,6 +47,7 @@ fn load(assets: &mut Assets, request: &AssetRequest) -> Result<(), Error> {
     let (path, key) = (&request.path, request.path.clone());
     match &request.kind {
         AssetKind::Mesh => drop(assets.meshes.insert(key, read_mesh(path)?)),
+        AssetKind::MeshFrame => drop(assets.mesh_frames.insert(key, read_mesh_frame(path)?)),
         AssetKind::Image => drop(assets.images.insert(key, read_picture(path)?)),
         AssetKind::Spectrum(values) => drop(assets.spectra.insert(key, read_spectrum_of(path, *values)?)),
         AssetKind::Photometry => drop(assets.photometry.insert(key, read_photometry(path)?)),

@@ -3,7 +3,7 @@
 //! A [`RenderSpace`] places every instance relative to the camera's entrance pupil in f64 and only then goes to f32, so that
 //! precision is best near the camera wherever in the world it stands. So are times: rays count theirs from the start of the view's
 //! interval. What moves is where it is at a ray's own time. Rays and answers are in the render frame (axes of
-//! the world, origin at the entrance pupil, m). Nothing about a mesh is rebuilt.
+//! the world, origin at the entrance pupil, m). Nothing about a mesh is rebuilt but the trees of those whose vertices move.
 
 mod footprint;
 mod point;
@@ -16,7 +16,7 @@ pub use truth::Truth;
 
 use crate::accel::tlas::Tlas;
 use crate::accel::{Simd, Visits, World};
-use crate::geometry::{Footprint, Hit, InstanceTransform, Placement, Shape, SurfacePoint};
+use crate::geometry::{Footprint, Hit, InstanceTransform, MeshId, MeshPose, Placement, Shape, SurfacePoint};
 use etendue_core::{Ray, TimeInterval};
 use glam::{DVec3, Vec2, Vec3};
 use std::borrow::Cow;
@@ -33,14 +33,14 @@ impl World {
     #[must_use]
     pub fn render_space_with(&self, origin_m: DVec3, interval: TimeInterval, simd: Simd) -> RenderSpace<'_> {
         let placed = self.placed(origin_m, interval);
-        RenderSpace { world: self, origin_m, interval, top: Tlas::merging(self, placed, simd) }
+        RenderSpace { world: self, origin_m, interval, top: Tlas::merging(self, placed, interval, simd) }
     }
 
     /// As [`World::render_space_with`], made in less time for few rays, which take longer: no instance is written out.
     #[must_use]
     pub fn render_space_for_few(&self, origin_m: DVec3, interval: TimeInterval) -> RenderSpace<'_> {
         let placed = self.placed(origin_m, interval);
-        RenderSpace { world: self, origin_m, interval, top: Tlas::new(self, placed, None, Simd::Auto) }
+        RenderSpace { world: self, origin_m, interval, top: Tlas::new(self, (placed, None), interval, Simd::Auto) }
     }
 
     fn placed(&self, origin_m: DVec3, interval: TimeInterval) -> Vec<Placement> {
@@ -102,7 +102,7 @@ impl<'w> RenderSpace<'w> {
         let instance = &self.world.instances()[hit.instance as usize];
         let placed = &*self.placed_at(hit.instance, ray.time_s);
         match instance.shape {
-            Shape::Mesh(id) => point::of_mesh(self.world.mesh(id), instance, placed, ray, hit),
+            Shape::Mesh(id) => point::of_mesh(&self.pose(id, ray.time_s), instance, placed, ray, hit),
             Shape::Sphere { radius_m } => point::of_sphere(radius_m, instance, placed, ray, hit),
         }
     }
@@ -112,7 +112,7 @@ impl<'w> RenderSpace<'w> {
     pub fn footprint(&self, point: &SurfacePoint) -> Footprint {
         let placed = &*self.placed_at(point.instance, point.time_s);
         match self.world.instances()[point.instance as usize].shape {
-            Shape::Mesh(id) => footprint::of_mesh(self.world.mesh(id), placed, point.primitive),
+            Shape::Mesh(id) => footprint::of_mesh(&self.pose(id, point.time_s), placed, point.primitive),
             Shape::Sphere { radius_m } => footprint::of_sphere(radius_m, placed),
         }
     }
@@ -132,7 +132,7 @@ impl<'w> RenderSpace<'w> {
     pub fn change_along(&self, point: &SurfacePoint, vector: Vec3) -> (Vec2, Vec3) {
         let local = self.placed_at(point.instance, point.time_s).vector_to_local(vector.as_dvec3());
         let uv = match self.world.instances()[point.instance as usize].shape {
-            Shape::Mesh(id) => footprint::uv_along(self.world.mesh(id), point.primitive, local),
+            Shape::Mesh(id) => footprint::uv_along(&self.pose(id, point.time_s), point.primitive, local),
             Shape::Sphere { .. } => footprint::globe_along(point.local.as_dvec3(), local),
         };
         (uv.as_vec2(), local.as_vec3())
@@ -145,7 +145,7 @@ impl<'w> RenderSpace<'w> {
     pub fn tangents(&self, point: &SurfacePoint) -> Option<[Vec3; 2]> {
         let placed = &*self.placed_at(point.instance, point.time_s);
         let local = match self.world.instances()[point.instance as usize].shape {
-            Shape::Mesh(id) => tangents::of_mesh(self.world.mesh(id), point.primitive)?,
+            Shape::Mesh(id) => tangents::of_mesh(&self.pose(id, point.time_s), point.primitive)?,
             Shape::Sphere { .. } => tangents::of_sphere(point.local.as_dvec3())?,
         };
         tangents::to_render(local, placed)
@@ -159,6 +159,13 @@ impl<'w> RenderSpace<'w> {
     /// An instance's transforms at a ray's time.
     fn placed_at(&self, instance: u32, time_s: f32) -> Cow<'_, InstanceTransform> {
         self.placed(instance).at(time_s)
+    }
+
+    /// A mesh at a ray's time.
+    #[inline(always)]
+    fn pose(&self, id: MeshId, time_s: f32) -> MeshPose<'_> {
+        let mesh = self.world.mesh(id);
+        if mesh.animation().is_none() { MeshPose::still(mesh) } else { mesh.at(self.interval.moment(time_s)) }
     }
 
     /// Primitives of an instance: its triangles, or 1 for a sphere.
@@ -178,7 +185,8 @@ impl<'w> RenderSpace<'w> {
             panic!("instance {instance} is a sphere and has no triangles");
         };
         let placed = self.placed_at(instance, time_s);
-        let [a, b, c] = self.world.mesh(id).corners(primitive).map(|p| placed.point_to_render(p.as_dvec3()).as_vec3());
+        let [a, b, c] =
+            self.pose(id, time_s).corners(primitive).map(|p| placed.point_to_render(p.as_dvec3()).as_vec3());
         if placed.mirrors() { [a, c, b] } else { [a, b, c] }
     }
 

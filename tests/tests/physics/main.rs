@@ -32,4 +32,6 @@ mod signs;
 mod sky;
 mod spectral_routes;
 mod time;
+mod vertex_animation;
 mod views;
+mod wheel;

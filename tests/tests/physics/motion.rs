@@ -10,10 +10,10 @@ use etendue_tests::{Job, Shot};
 use etendue_tracer::accel::Simd;
 
 /// Columns and rows of the picture. A metre of the plane z = 0 is 500 px; the world's y goes to the left of the picture, its x up.
-const SIZE: [usize; 2] = [100, 60];
+pub(crate) const SIZE: [usize; 2] = [100, 60];
 
 /// A white shape on black, lit from afar along its normal, before a pinhole that looks down from 1 m.
-fn job(object: &str, sensor: &str, spp: u32) -> Job {
+pub(crate) fn job(object: &str, sensor: &str, spp: u32) -> Job {
     Job::new(format!(
         r#"
         [scene]
@@ -68,19 +68,19 @@ fn job(object: &str, sensor: &str, spp: u32) -> Job {
 const BAR: &str = "shape = { type = \"quad\", size_m = [1, 0.02] }\nkeys = [{ time_s = 999, position_m = [0, 2.06, 0] }, \
                    { time_s = 1001, position_m = [0, -1.94, 0] }]";
 
-fn electrons(shot: &Shot, frame: u32) -> Plane<MeanElectrons> {
+pub(crate) fn electrons(shot: &Shot, frame: u32) -> Plane<MeanElectrons> {
     let request = Request { shot: Picture { frame, capture: 0 }, ..Request::default() };
     let film = light(&shot.plan, shot.camera(), request, &Unobserved).expect("nobody cancels");
     Light::of_film(shot.camera(), film, None).expect("finite").electrons.expect("electronics")
 }
 
 /// Length of [a, b] ∩ [c, d].
-fn overlap(a: f64, b: f64, c: f64, d: f64) -> f64 {
+pub(crate) fn overlap(a: f64, b: f64, c: f64, d: f64) -> f64 {
     (b.min(d) - a.max(c)).max(0.0)
 }
 
 /// cos⁴ of the angle from the axis at a pixel's middle: the pinhole's irradiance over that on its axis.
-fn falloff(x: usize, y: usize) -> f64 {
+pub(crate) fn falloff(x: usize, y: usize) -> f64 {
     let [x, y] = [x as f64 + 0.5 - 50.0, y as f64 + 0.5 - 30.0];
     1.0 / ((1.0 + (x * x + y * y) / 250_000.0) * (1.0 + (x * x + y * y) / 250_000.0))
 }

@@ -33,3 +33,4 @@ mod shared_light;
 mod shared_paths;
 mod support;
 mod truths;
+mod vertex_animation;

@@ -141,7 +141,7 @@ impl Builder {
 }
 
 /// A unit vector in 32 bits; z for a face without area, which no ray meets.
-fn unit(v: [f64; 3]) -> [f32; 3] {
+pub(super) fn unit(v: [f64; 3]) -> [f32; 3] {
     let largest = v.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
     if largest == 0.0 {
         return [0.0, 0.0, 1.0];

@@ -11,12 +11,16 @@
 //! groups of a mesh without normals. Refused with the line: numbers that are not finite, indices out of range, faces
 //! with fewer than three corners or of which only some have a normal, polygons that cross themselves.
 //!
+//! A file of a mesh whose vertices move is read corner by corner ([`read_mesh_frame`]), so that another file of the same faces can be
+//! followed whatever its exporter made of equal normals.
+//!
 //! Coordinates are read in 64 bits and stored in 32; a mesh far from its origin is told what that costs.
 
 mod asset;
 mod corner_tree;
 mod crossing;
 mod ear_clipping;
+mod frame;
 mod mtl;
 mod obj;
 mod plane;
@@ -27,3 +31,4 @@ mod texture_option;
 mod tobj_input;
 
 pub use asset::read_mesh;
+pub use frame::read_mesh_frame;

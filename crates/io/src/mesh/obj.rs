@@ -58,8 +58,17 @@ impl Obj {
     /// The polygons by material and form, each part with vertices of its own. A part's material is an index to
     /// `materials`.
     pub(super) fn parts(&self, file: &Path) -> Result<Vec<tobj::Mesh>, Error> {
+        self.parts_with(file, true)
+    }
+
+    /// The same, with indices of their own for texture coordinates and normals.
+    pub(super) fn parts_by_corners(&self, file: &Path) -> Result<Vec<tobj::Mesh>, Error> {
+        self.parts_with(file, false)
+    }
+
+    fn parts_with(&self, file: &Path, single_index: bool) -> Result<Vec<tobj::Mesh>, Error> {
         let slots = |_: &Path| Ok((Vec::new(), self.materials.iter().cloned().zip(0..).collect()));
-        let options = tobj::LoadOptions { single_index: true, ..tobj::LoadOptions::default() };
+        let options = tobj::LoadOptions { single_index, ..tobj::LoadOptions::default() };
         let (models, _no_materials) = self.input.read(file, |text| tobj::load_obj_buf(text, &options, slots))?;
         Ok(models.into_iter().map(|model| model.mesh).collect())
     }

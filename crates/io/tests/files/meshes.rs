@@ -4,8 +4,8 @@ use etendue_testkit::skip::all_here;
 use std::fs;
 use std::path::Path;
 
-use etendue_io::mesh::read_mesh;
-use etendue_scene::asset::{MeshAsset, SlotReflectance, SlotSurface};
+use etendue_io::mesh::{read_mesh, read_mesh_frame};
+use etendue_scene::asset::{MeshAsset, MeshFrameAsset, SlotReflectance, SlotSurface};
 
 const CUBE_FACE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
@@ -171,4 +171,33 @@ fn real_meshes_have_the_triangles_and_bounds_of_their_text() {
         };
         etendue_io::picture::read_picture(path).unwrap_or_else(|e| panic!("{e}"));
     }
+}
+
+/// Reads a file of a mesh whose vertices move.
+fn frame(text: &str) -> MeshFrameAsset {
+    let folder = tempfile::tempdir().expect("temporary folder");
+    fs::write(folder.path().join("a.obj"), text).expect("write");
+    read_mesh_frame(&folder.path().join("a.obj")).expect("readable")
+}
+
+/// Exporters write equal normals once and may order vertices otherwise: what faces name tells, not by which number.
+#[test]
+fn files_of_one_mesh_are_known_by_their_faces() {
+    let two = "f 1//1 2//1 3//1 4//1\nf 4//1 3//1 2//1 1//1\n";
+    let first = frame(&format!("{CUBE_FACE}vn 0 0 1\n{two}"));
+    let bent =
+        frame("v 0 0 0\nv 1 1 5\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvn 0 1 0\nf 1//1 3//2 2//1 4//1\nf 4//1 2//1 3//1 1//1\n");
+    assert_eq!(bent.difference(&first), None);
+    assert_eq!(first.triangles, [[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]]);
+    let corner = |frame: &MeshFrameAsset, i: usize| {
+        let part = &frame.parts[0];
+        (part.positions[part.vertices[i] as usize], part.normals[part.normal_indices[i] as usize])
+    };
+    assert_eq!(corner(&bent, 2), ([1.0, 1.0, 5.0], [0.0, 0.0, 1.0]));
+    assert_eq!(corner(&bent, 1), ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]));
+    let turned = frame(&format!("{CUBE_FACE}vn 0 0 1\n{}", two.replace("f 4//1 3//1", "f 3//1 4//1")));
+    let [own, other] = turned.difference(&first).expect("other faces");
+    assert!(own.contains("face 2") && other.contains("another"), "{own} / {other}");
+    let bare = frame(&format!("{CUBE_FACE}f 1 2 3 4\nf 4 3 2 1\n"));
+    assert!(bare.difference(&first).expect("no normals")[0].contains("without normals"));
 }

@@ -41,6 +41,7 @@ mod surroundings;
 #[cfg(test)]
 mod tests;
 mod timing;
+mod vertex_animation;
 mod video;
 mod world;
 
@@ -57,6 +58,7 @@ use etendue_scene::asset::Assets;
 use etendue_scene::record::Camera;
 use etendue_scene::{CameraSetup, Description, Fault};
 use etendue_tracer::accel::World;
+use etendue_tracer::geometry::{Mesh, VertexAnimation};
 use etendue_tracer::media::Medium;
 use frames::Frames;
 use material::MaterialTableBuilder;
@@ -157,7 +159,8 @@ fn unread(description: &Description, context: &mut Context<'_>) {
 /// From the first key of all that moves to the last; a single moment where nothing does.
 fn whole_motion(world: &World, camera: &CameraPath) -> TimeInterval {
     let moving = world.instances().iter().filter_map(|instance| instance.to_world.moves_during());
-    moving.chain(camera.moves_during()).reduce(|all, one| all.union(&one)).unwrap_or_default()
+    let animations = world.meshes().iter().filter_map(Mesh::animation).map(VertexAnimation::moves_during);
+    moving.chain(animations).chain(camera.moves_during()).reduce(|all, one| all.union(&one)).unwrap_or_default()
 }
 
 fn camera_plan(

@@ -5,6 +5,7 @@ use crate::plan::{CameraBody, CameraPlan, Jitter, Route, TimeDependence, Timing}
 use etendue_scene::record::{self, Electronics, Sequence};
 use etendue_scene::{CameraSetup, Place};
 use etendue_tracer::accel::World;
+use etendue_tracer::geometry::Mesh;
 use etendue_tracer::lights::Sources;
 
 /// Relative difference of a sequence's frame rate and a sensor's frame period that is taken for rounding.
@@ -42,7 +43,9 @@ pub(super) fn depend(
 ) {
     let objects = world.instances().iter().map(|instance| &instance.to_world);
     let lamps = sources.lamps.iter().map(|lamp| lamp.to_world());
-    let moves = objects.chain(lamps).any(|motion| motion.as_still().is_none()) || air_moves;
+    let deforms = world.meshes().iter().filter_map(Mesh::animation).any(|animation| !animation.is_still());
+    let carried = objects.chain(lamps).any(|motion| motion.as_still().is_none());
+    let moves = carried || deforms || air_moves;
     for camera in cameras {
         camera.time = match () {
             () if moves || !camera.path.is_still() => TimeDependence::Motion,

@@ -5,7 +5,7 @@ use super::frames::Frames;
 use super::material::MaterialTableBuilder;
 use super::object_motion::placements;
 use super::open_lamp::OpenLamp;
-use super::{opening, shape};
+use super::{opening, shape, vertex_animation};
 use crate::plan::Identity;
 use etendue_scene::asset::{MeshAsset, SlotMaterial, SlotReflectance, SlotSurface};
 use etendue_scene::record::render::Accelerator;
@@ -78,17 +78,26 @@ struct Prototype {
 
 impl Assembly {
     fn add_mesh(&mut self, record: &record::Mesh, context: &mut Context<'_>) {
-        let Some(asset) = context.assets.meshes.get(&record.file.value) else {
-            context.fault(&record.file.place, "the mesh was not loaded", "give a readable OBJ file");
+        let file = record.file();
+        let Some(asset) = context.assets.meshes.get(&file.value) else {
+            context.fault(&file.place, "the mesh was not loaded", "give a readable OBJ file");
             return;
         };
         asset.report.iter().for_each(|line| context.remark(line));
         asset.warnings.iter().for_each(|line| context.warn(line));
-        let Some((mesh, dropped)) = context.accept(&record.file.place, mesh_of(asset)) else { return };
+        let made = match record.animation() {
+            None => mesh_of(asset),
+            Some(animation) => match vertex_animation::mesh(animation, asset, context) {
+                Some(made) => made,
+                None => return,
+            },
+        };
+        let Some((mesh, dropped)) = context.accept(&file.place, made) else { return };
+        let mesh = mesh.with_origin(DVec3::from_array(asset.origin));
         if dropped != Dropped::default() {
             let Dropped { zero_area, duplicate, .. } = dropped;
             let told = format!("{zero_area} triangles of no area and {duplicate} duplicates dropped");
-            context.warn_on(record.file.value.display(), told);
+            context.warn_on(file.value.display(), told);
         }
         let id = self.builder.add_mesh(mesh);
         self.meshes.insert(record.name.value.clone(), id);
@@ -167,10 +176,15 @@ impl Assembly {
         context: &mut Context<'_>,
     ) -> Option<Prototype> {
         let record = scene.meshes.iter().find(|m| m.name.value == name)?;
-        let asset = context.assets.meshes.get(&record.file.value)?;
+        let asset = context.assets.meshes.get(&record.file().value)?;
         let shape = Shape::Mesh(*self.meshes.get(name)?);
         let materials = slot_materials(object, record, asset, material_table, context)?;
         check_coordinates(record, asset, &materials, material_table, object, context);
+        if record.animation().is_some() && materials.iter().any(|id| material_table.glows(*id)) {
+            let problem = format!("the vertices of \"{name}\" move, and a surface that glows must keep its shape");
+            context.fault(&object.place, problem, "give it a material without emission, or a mesh of one \"file\"");
+            return None;
+        }
         let to_object = DAffine3::from_mat3(record.to_object()) * DAffine3::from_translation(asset.origin.into());
         Some(Prototype { shape, materials, to_object })
     }
@@ -256,7 +270,7 @@ fn slot_materials(
         .map(|slot| match named(&slot.name) {
             Some(material) => material_table.named(&material.value),
             None => {
-                material_table.of_slot(&mesh.file.value, &known(slot, mesh, asset, context), &object.place, context)
+                material_table.of_slot(&mesh.file().value, &known(slot, mesh, asset, context), &object.place, context)
             }
         })
         .collect()
@@ -272,7 +286,7 @@ fn known<'a>(
     if slot.surface.is_some() || slot.name.is_empty() || asset.missing_libraries.is_empty() {
         return Cow::Borrowed(slot);
     }
-    let about = format!("{}, material \"{}\"", mesh.file.value.display(), slot.name);
+    let about = format!("{}, material \"{}\"", mesh.file().value.display(), slot.name);
     let missing = asset.missing_libraries.join("; ");
     context.warn_on(about, format!("{missing}: grey of reflectance {MISSING_GREY} in its place"));
     let reflectance = SlotReflectance::LinearSrgb([MISSING_GREY; 3]);
@@ -291,8 +305,11 @@ fn check_coordinates(
     if let (true, Some(name)) =
         (asset.uvs.is_empty(), materials.iter().find_map(|id| material_table.needs_coordinates(*id)))
     {
-        let file = mesh.file.value.display();
-        let problem = format!("{file} has no texture coordinates, but its material \"{name}\" lays something by them");
+        let file = mesh.file();
+        let problem = format!(
+            "{} has no texture coordinates, but its material \"{name}\" lays something by them",
+            file.value.display()
+        );
         context.fault(
             &object.place,
             problem,
@@ -304,7 +321,7 @@ fn check_coordinates(
 fn check_slot(slot: &etendue_scene::Placed<String>, mesh: &record::Mesh, asset: &MeshAsset, context: &mut Context<'_>) {
     if asset.slot_materials.iter().all(|s| s.name != slot.value) {
         let known: Vec<&str> = asset.slot_materials.iter().map(|s| s.name.as_str()).filter(|n| !n.is_empty()).collect();
-        let problem = format!("{} has no material \"{}\"", mesh.file.value.display(), slot.value);
+        let problem = format!("{} has no material \"{}\"", mesh.file().value.display(), slot.value);
         let remedy = match known.is_empty() {
             true => "it names no materials: give \"material\" in place of \"materials\"".to_owned(),
             false => format!("give one of {}", known.join(", ")),
@@ -316,12 +333,5 @@ fn check_slot(slot: &etendue_scene::Placed<String>, mesh: &record::Mesh, asset: 
 fn mesh_of(asset: &MeshAsset) -> Result<(Mesh, Dropped), etendue_tracer::geometry::MeshError> {
     let vectors = |list: &[[f32; 3]]| list.iter().copied().map(Vec3::from).collect();
     let uvs = asset.uvs.iter().copied().map(Vec2::from).collect();
-    let mesh = Mesh::new(
-        vectors(&asset.positions),
-        vectors(&asset.normals),
-        uvs,
-        asset.triangles.clone(),
-        asset.slots.clone(),
-    );
-    mesh.map(|(mesh, dropped)| (mesh.with_origin(DVec3::from_array(asset.origin)), dropped))
+    Mesh::new(vectors(&asset.positions), vectors(&asset.normals), uvs, asset.triangles.clone(), asset.slots.clone())
 }

@@ -22,7 +22,11 @@ const PUPIL: [[f64; 2]; 5] = [[0.5, 0.5], [0.001, 0.001], [0.999, 0.001], [0.001
 const MIDDLE_NM: f64 = 550.0;
 
 /// What a camera sees during an exposure of a film of a size in px, about the origin of its view.
-pub(super) fn seen_region<S: RaySource>(source: &S, exposure: &FilmExposure<'_>, (width, height): (u32, u32)) -> SeenRegion {
+pub(super) fn seen_region<S: RaySource>(
+    source: &S,
+    exposure: &FilmExposure<'_>,
+    (width, height): (u32, u32),
+) -> SeenRegion {
     let size = DVec2::new(f64::from(width), f64::from(height));
     let moments = moments(exposure.interval());
     let (mut directions, mut margin_m) = (vec![], 0.0_f64);

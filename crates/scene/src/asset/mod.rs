@@ -3,6 +3,7 @@
 mod calibration;
 pub(crate) mod file_list;
 mod mesh;
+mod mesh_frame;
 mod mtl;
 mod named_files;
 mod photometry;
@@ -14,6 +15,7 @@ mod trajectory;
 
 pub use calibration::{CalibrationAsset, CalibrationChoice, CalibrationFormat};
 pub use mesh::{ImageAsset, ImagePixels, MeshAsset, SpectrumAsset};
+pub use mesh_frame::{MeshFrameAsset, MeshFramePart};
 pub use mtl::{COAT_INDICES, MtlFields, SlotMaterial, SlotReflectance, SlotSurface};
 pub use named_files::of_camera;
 pub(crate) use named_files::requests;

@@ -21,7 +21,9 @@ pub(crate) fn requests<'d>(
     let covered = covered(scene);
     for mesh in scene.meshes.iter().filter(|m| !unused.meshes.contains(&m.name.value)) {
         let covered = covered.get(mesh.name.as_str()).cloned().unwrap_or(Covered::All);
-        files.mesh(&mesh.file, covered);
+        files.mesh(&mesh.file(), covered);
+        let frames = mesh.animation().into_iter().flat_map(|animation| animation.frame_files());
+        frames.for_each(|file| files.add(AssetKind::MeshFrame, &file));
     }
     let textures = scene.textures.iter().filter(|t| !unused.textures.contains(&t.name.value));
     textures.for_each(|t| files.add(AssetKind::Image, &t.file));

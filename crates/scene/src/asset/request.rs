@@ -54,6 +54,8 @@ impl Covered {
 pub enum AssetKind {
     /// [`super::MeshAsset`].
     Mesh,
+    /// [`super::MeshFrameAsset`].
+    MeshFrame,
     /// [`super::ImageAsset`].
     Image,
     /// [`super::SpectrumAsset`] of such values.

@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use super::mtl::{SlotMaterial, SlotReflectance};
 use super::{
     AssetKind, AssetRequest, CalibrationAsset, CalibrationChoice, ComplexIndexAsset, Covered, ImageAsset, MeshAsset,
-    NumbersAsset, PhotometryAsset, PrescriptionAsset, RetroTableAsset, SpectrumAsset, TrajectoryAsset,
+    MeshFrameAsset, NumbersAsset, PhotometryAsset, PrescriptionAsset, RetroTableAsset, SpectrumAsset, TrajectoryAsset,
 };
 use crate::place::Place;
+use crate::record::is_numbered;
 
 /// Everything that was read for a description.
 ///
@@ -17,6 +18,8 @@ use crate::place::Place;
 pub struct Assets {
     /// Meshes by path.
     pub meshes: BTreeMap<PathBuf, MeshAsset>,
+    /// Files of meshes whose vertices move, by path.
+    pub mesh_frames: BTreeMap<PathBuf, MeshFrameAsset>,
     /// Pictures by path.
     pub images: BTreeMap<PathBuf, ImageAsset>,
     /// Spectra by path.
@@ -49,12 +52,13 @@ impl Assets {
         missing
     }
 
-    /// The hashes of all that was read of a file, and of the pictures that a mesh names, one after the other: the same where the
+    /// The hashes of all that was read of a file (of numbered files: of each), and of the pictures that a mesh names, one after the other: the same where the
     /// contents are, wherever they lie. None of a file that was not read, as of a mesh that nothing uses.
     #[must_use]
     pub fn hashes(&self, path: &Path) -> Vec<u8> {
         let Self {
             meshes,
+            mesh_frames,
             images,
             spectra,
             photometry,
@@ -65,9 +69,11 @@ impl Assets {
             trajectories,
             calibrations,
         } = self;
-        let mesh = meshes.get(path);
-        let pictures = mesh.into_iter().flat_map(|mesh| mesh.slot_materials.iter().filter_map(picture));
-        let mut hashes: Vec<[u8; 32]> = mesh.map(|asset| asset.hash).into_iter().collect();
+        let is_it = |file: &Path| file == path || is_numbered(path, file);
+        let meshes: Vec<&MeshAsset> = meshes.iter().filter(|(file, _)| is_it(file)).map(|(_, mesh)| mesh).collect();
+        let pictures = meshes.iter().flat_map(|mesh| mesh.slot_materials.iter().filter_map(picture));
+        let mut hashes: Vec<[u8; 32]> = meshes.iter().map(|asset| asset.hash).collect();
+        hashes.extend(mesh_frames.iter().filter(|(file, _)| is_it(file)).map(|(_, asset)| asset.hash));
         hashes.extend(pictures.chain([path]).filter_map(|path| images.get(path)).map(|asset| asset.hash));
         hashes.extend(spectra.get(path).map(|asset| asset.hash));
         hashes.extend(photometry.get(path).map(|asset| asset.hash));
@@ -83,6 +89,7 @@ impl Assets {
     fn has(&self, kind: &AssetKind, path: &Path) -> bool {
         match kind {
             AssetKind::Mesh => self.meshes.contains_key(path),
+            AssetKind::MeshFrame => self.mesh_frames.contains_key(path),
             AssetKind::Image => self.images.contains_key(path),
             AssetKind::Spectrum(_) => self.spectra.contains_key(path),
             AssetKind::Photometry => self.photometry.contains_key(path),
@@ -131,6 +138,9 @@ mod tests {
         let (file, mut assets) = (PathBuf::from("file"), Assets::default());
         match kind {
             AssetKind::Mesh => drop(assets.meshes.insert(file, MeshAsset { hash, ..Default::default() })),
+            AssetKind::MeshFrame => {
+                drop(assets.mesh_frames.insert(file, MeshFrameAsset { hash, ..Default::default() }));
+            }
             AssetKind::Image => drop(assets.images.insert(file, image(hash))),
             AssetKind::Spectrum(_) => drop(assets.spectra.insert(file, SpectrumAsset { hash, ..Default::default() })),
             AssetKind::Photometry => drop(assets.photometry.insert(file, lamp(hash))),
@@ -205,6 +215,7 @@ mod tests {
         let choice = CalibrationChoice { format: CalibrationFormat::OpenCv, camera: None };
         let kinds = [
             AssetKind::Mesh,
+            AssetKind::MeshFrame,
             AssetKind::Image,
             AssetKind::Spectrum(Values::Share),
             AssetKind::Photometry,
@@ -222,6 +233,15 @@ mod tests {
                 assert_eq!(assets.hashes(Path::new("file")), hash, "{kind:?}");
             }
         }
+    }
+
+    #[test]
+    fn numbered_files_have_the_hashes_of_each() {
+        let frame = |number: u8| MeshFrameAsset { hash: [number; 32], ..Default::default() };
+        let files = [("walk_0.obj", 1), ("walk_1.obj", 2), ("run_0.obj", 3)];
+        let mesh_frames = files.map(|(file, number)| (PathBuf::from(file), frame(number))).into();
+        let assets = Assets { mesh_frames, ..Assets::default() };
+        assert_eq!(assets.hashes(Path::new("walk_%d.obj")), [[1; 32], [2; 32]].concat());
     }
 
     #[test]

@@ -160,7 +160,7 @@ record! {
         /// Velocity by which the noise drifts through the medium, m/s. Default: none.
         optional wind_m_s: Placed<[f64; 3]> = vector::<3>(number("m/s"));
         /// Which noise of all. Default: 0.
-        optional seed: Placed<u64> = whole(0, u32::MAX as u64);
+        optional seed: Placed<u64> = whole(0, u64::from(u32::MAX));
     }
 }
 

@@ -4,18 +4,18 @@ use std::path::PathBuf;
 
 use glam::{DMat3, DVec3};
 
+use super::vertex_animation::VertexAnimation;
 use crate::fault::Faults;
 use crate::place::Placed;
-use crate::reader::{choice, number, path, record, text};
+use crate::reader::{choice, keyed, number, path, record, text};
 
 record! {
     /// A triangle mesh. Objects place it in the world; it may be placed many times.
     pub struct Mesh check(check) {
         /// The name by which objects call it.
         required name: Placed<String> = text("the name of the mesh");
-        /// The file (Wavefront OBJ). Its coordinates may be a survey's or a map's: they are kept to 3e-8 of the mesh's own
-        /// extent however far from the file's origin it lies.
-        required file: Placed<PathBuf> = path(&["obj"]);
+        /// Where its vertices and faces stand.
+        inside source: MeshSource;
         /// Which axis of the file points upwards.
         required up_axis: Placed<Axis> = choice();
         /// Which axis of the file points forward (the world's +x). Default: the axis that follows the up axis in the
@@ -23,6 +23,17 @@ record! {
         optional forward_axis: Placed<Axis> = choice();
         /// Metres per unit of the file. Default: 1.
         optional scale: Placed<f64> = number("m").above(0.0);
+    }
+}
+
+keyed! {
+    /// Where the vertices and faces of a mesh stand.
+    pub enum MeshSource {
+        /// The file (Wavefront OBJ). Its coordinates may be a survey's or a map's: they are kept to 3e-8 of the mesh's own
+        /// extent however far from the file's origin it lies.
+        file => File(Placed<PathBuf>) = path(&["obj"]);
+        /// Vertices that move, from several files.
+        vertex_animation => VertexAnimation(Box<VertexAnimation>) = record();
     }
 }
 
@@ -41,6 +52,12 @@ choice! {
         "-y" => MinusY,
         /// −z.
         "-z" => MinusZ,
+    }
+}
+
+impl From<&str> for MeshSource {
+    fn from(file: &str) -> Self {
+        Self::File(file.into())
     }
 }
 
@@ -69,6 +86,24 @@ impl Axis {
 }
 
 impl Mesh {
+    /// The file that says its faces and materials: of vertices that move the first one.
+    #[must_use]
+    pub fn file(&self) -> Placed<PathBuf> {
+        match &self.source {
+            MeshSource::File(file) => file.clone(),
+            MeshSource::VertexAnimation(animation) => animation.frame_files().swap_remove(0),
+        }
+    }
+
+    /// How its vertices move; `None` where they do not.
+    #[must_use]
+    pub fn animation(&self) -> Option<&VertexAnimation> {
+        match &self.source {
+            MeshSource::File(_) => None,
+            MeshSource::VertexAnimation(animation) => Some(animation),
+        }
+    }
+
     /// The axis of the file that becomes the world's +x.
     #[must_use]
     pub fn forward(&self) -> Axis {

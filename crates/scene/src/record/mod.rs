@@ -31,6 +31,7 @@ pub mod sequence;
 pub mod shape;
 pub mod texture;
 pub mod transform;
+pub mod vertex_animation;
 
 pub use camera::Camera;
 pub use curve::Curve;
@@ -59,3 +60,5 @@ pub use sequence::Sequence;
 pub use shape::Shape;
 pub use texture::Texture;
 pub use transform::Transform;
+pub use vertex_animation::VertexAnimation;
+pub(crate) use vertex_animation::is_numbered;

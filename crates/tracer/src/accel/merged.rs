@@ -5,13 +5,14 @@
 //!
 //! Corners are rounded to f32 in the render frame, by half a unit in the last place of their coordinates. A point of such a
 //! triangle is off the true surface by no more than its corners are, and [`InstanceTransform::merged`] has it in its error bound.
-//! An instance that moves has no one place to be written out at, and one with a triangle that is not [`STEEP`] times as high as that is left as it is too: its plane would tilt.
+//! An instance that moves, or whose vertices do, has no one place to be written out at, and one with a triangle that is not [`STEEP`] times as high as that is left as it is too: its plane would tilt.
 
 use super::best::Names;
 use super::blas::Blas;
 use super::boxes::Box3;
 use super::world::World;
-use crate::geometry::{InstanceTransform, MeshId, Placement, Shape};
+use crate::geometry::{InstanceTransform, MeshPose, Placement, Shape};
+use etendue_core::TimeInterval;
 use glam::{DVec3, Vec3};
 
 /// Triangles written out at most: 32 MB of trees, and less than half a second of one thread to build them for a view.
@@ -39,13 +40,13 @@ pub(crate) struct Merged {
 
 impl Merged {
     /// Writes out instances of `world` as they are `placed`, and tells these so; `None` where there are none to write out.
-    pub(super) fn new(world: &World, placed: &mut [Placement]) -> Option<Self> {
+    pub(super) fn new(world: &World, placed: &mut [Placement], interval: TimeInterval) -> Option<Self> {
         let (mut corners, mut names) = (Vec::new(), Vec::new());
-        for instance in few(world, placed) {
-            let Shape::Mesh(id) = world.instances()[instance].shape else { continue };
+        for instance in few(world, placed, interval) {
+            let Some(pose) = pose(world, instance, interval) else { continue };
             let Some(transform) = placed[instance].still_mut() else { continue };
             let begin = corners.len();
-            if let Some(greatest) = write_out(world, id, transform, &mut corners) {
+            if let Some(greatest) = write_out(&pose, transform, &mut corners) {
                 names.extend((0..(corners.len() - begin) as u32).map(|primitive| (instance as u32, primitive)));
                 transform.merge(greatest.as_dvec3());
             } else {
@@ -65,13 +66,13 @@ impl Merged {
 
 /// Instances of meshes that stand still, those of few triangles chosen first, that have [`MOST`] triangles together at most, in ascending order;
 /// none where there is one only.
-fn few(world: &World, placed: &[Placement]) -> Vec<usize> {
+fn few(world: &World, placed: &[Placement], interval: TimeInterval) -> Vec<usize> {
     let triangles = |instance: &usize| match world.instances()[*instance].shape {
         Shape::Mesh(id) => world.mesh(id).triangles().len(),
         Shape::Sphere { .. } => 0,
     };
-    let mut instances: Vec<usize> =
-        (0..placed.len()).filter(|i| triangles(i) > 0 && placed[*i].still().is_some()).collect();
+    let is_still = |i: &usize| placed[*i].still().is_some() && pose(world, *i, interval).is_some();
+    let mut instances: Vec<usize> = (0..placed.len()).filter(|i| triangles(i) > 0 && is_still(i)).collect();
     instances.sort_by_key(triangles);
     let mut sum = 0;
     instances.retain(|instance| {
@@ -85,12 +86,17 @@ fn few(world: &World, placed: &[Placement]) -> Vec<usize> {
     instances
 }
 
+/// The mesh of an instance as it is all through an interval; `None` where its vertices move, and for spheres.
+fn pose(world: &World, instance: usize, interval: TimeInterval) -> Option<MeshPose<'_>> {
+    let Shape::Mesh(id) = world.instances()[instance].shape else { return None };
+    world.mesh(id).still_over(interval)
+}
+
 /// Adds the corners of an instance's triangles in the render frame; their greatest coordinates by axis, m, or `None` where some
 /// are too far or some triangles too low.
-fn write_out(world: &World, id: MeshId, placed: &InstanceTransform, corners: &mut Vec<[Vec3; 3]>) -> Option<Vec3> {
-    let mesh = world.mesh(id);
+fn write_out(mesh: &MeshPose<'_>, placed: &InstanceTransform, corners: &mut Vec<[Vec3; 3]>) -> Option<Vec3> {
     let mut greatest = Vec3::ZERO;
-    for primitive in 0..mesh.triangles().len() as u32 {
+    for primitive in 0..mesh.mesh().triangles().len() as u32 {
         let exact = mesh.corners(primitive).map(|corner| placed.point_to_render(corner.as_dvec3()));
         let rounded = exact.map(DVec3::as_vec3);
         greatest = rounded.iter().fold(greatest, |most, corner| most.max(corner.abs()));

@@ -6,6 +6,7 @@
 //! - `build`: trees from the top down by the surface area heuristic, in blocks.
 //! - `collapse`: binary to eight-wide, at least cost.
 //! - `node`, `packet`: what is tested eight at a time: boxes and triangles.
+//! - `animated`, `swept`: meshes whose vertices move.
 //! - `merged`: small instances written out as one mesh.
 //! - `reach`: how far rays may start from a mesh.
 //! - `streaks`: drops and flakes about a camera, with a tree of their own.
@@ -14,6 +15,7 @@
 //! Everything is written once over eight lanes (`lanes`) and compiled twice, with AVX2 and without: the same
 //! operations in the same order, so the same bits.
 
+mod animated;
 mod best;
 mod binary;
 mod blas;
@@ -31,6 +33,7 @@ mod reach;
 #[cfg(target_arch = "x86_64")]
 mod simd;
 mod streaks;
+mod swept;
 #[cfg(test)]
 pub(crate) mod tests;
 pub(crate) mod tlas;

@@ -114,12 +114,16 @@ struct Test<L: Lanes> {
 }
 
 impl Half {
+    /// Triangles that it holds at most.
+    pub(super) const SIZE: usize = HALF;
+
     /// Halves, one or two, of at most eight triangles by their numbers.
     pub(super) fn of(primitives: &[u32], corners: impl Fn(u32) -> [Vec3; 3]) -> impl Iterator<Item = Self> {
         primitives.chunks(HALF).map(move |chunk| Self::new(chunk, &corners))
     }
 
-    fn new(primitives: &[u32], corners: impl Fn(u32) -> [Vec3; 3]) -> Self {
+    /// The half of at most [`Half::SIZE`] triangles by their numbers.
+    pub(super) fn new(primitives: &[u32], corners: impl Fn(u32) -> [Vec3; 3]) -> Self {
         let mut half = Self { corners: [[Four([f32::NAN; HALF]); 3]; 3], primitives: [u32::MAX; HALF] };
         for (lane, primitive) in primitives.iter().enumerate() {
             half.primitives[lane] = *primitive;

@@ -1,6 +1,7 @@
 //! The tree over the instances of a view.
 
 use super::Simd;
+use super::animated::AnimatedTree;
 use super::best::{Best, Names};
 use super::blas::Blas;
 use super::boxes::Box3;
@@ -17,16 +18,22 @@ use super::simd::Avx2;
 use super::visits::{Counting, Visits};
 use super::walk::{Leaves, walk};
 use super::world::World;
-use crate::geometry::{Hit, Instance, Placement, Shape, sphere};
+use crate::geometry::{Hit, Instance, MeshId, Placement, Shape, sphere};
 use core::cell::Cell;
-use etendue_core::Ray;
+use etendue_core::{Ray, TimeInterval};
 use glam::Vec3;
+use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// A shape with what is needed to meet it.
 #[derive(Clone, Debug)]
 enum Target<'w> {
     Mesh(&'w Blas),
     Sphere(f64),
+    /// A mesh whose vertices move.
+    Animated(Arc<AnimatedTree<'w>>),
+    /// A mesh whose vertices move and that is written out.
+    Written,
 }
 
 /// The lanes chosen when the view was made.
@@ -76,13 +83,18 @@ pub(crate) struct Tlas<'w> {
 
 impl<'w> Tlas<'w> {
     /// Builds the tree over instances placed in the render frame, small ones written out.
-    pub(crate) fn merging(world: &'w World, mut placed: Vec<Placement>, simd: Simd) -> Self {
-        let merged = Merged::new(world, &mut placed);
-        Self::new(world, placed, merged, simd)
+    pub(crate) fn merging(world: &'w World, mut placed: Vec<Placement>, interval: TimeInterval, simd: Simd) -> Self {
+        let merged = Merged::new(world, &mut placed, interval);
+        Self::new(world, (placed, merged), interval, simd)
     }
 
     /// Builds the tree over instances placed in the render frame, of which some may be written out.
-    pub(crate) fn new(world: &'w World, placed: Vec<Placement>, merged: Option<Merged>, simd: Simd) -> Self {
+    pub(crate) fn new(
+        world: &'w World,
+        (placed, merged): (Vec<Placement>, Option<Merged>),
+        interval: TimeInterval,
+        simd: Simd,
+    ) -> Self {
         let bounded = placed.iter().zip(world.instances()).zip(0_u32..).filter(|((placed, _), _)| !placed.is_merged());
         let single = bounded.filter_map(|((placed, instance), index)| {
             Some((Box3::from_f64(placed.bounds(instance, world.meshes())?), index))
@@ -94,7 +106,7 @@ impl<'w> Tlas<'w> {
             leaves.push(members[leaf[0] as usize]);
             leaves.len() - 1
         });
-        let targets = world.instances().iter().map(|instance| Target::new(world, instance)).collect();
+        let targets = targets(world, &placed, interval);
         Self { nodes: wide.nodes, root: wide.root, leaves, merged, targets, placed, chosen: Chosen::new(simd) }
     }
 
@@ -125,13 +137,19 @@ impl<'w> Tlas<'w> {
     }
 }
 
-impl<'w> Target<'w> {
-    fn new(world: &'w World, instance: &Instance) -> Self {
-        match instance.shape {
-            Shape::Mesh(id) => Self::Mesh(world.tree(id)),
-            Shape::Sphere { radius_m } => Self::Sphere(radius_m),
+/// What is needed to meet each instance.
+fn targets<'w>(world: &'w World, placed: &[Placement], interval: TimeInterval) -> Vec<Target<'w>> {
+    let mut animated: BTreeMap<MeshId, Arc<AnimatedTree<'w>>> = BTreeMap::new();
+    let target = |(instance, placed): (&Instance, &Placement)| match instance.shape {
+        Shape::Sphere { radius_m } => Target::Sphere(radius_m),
+        Shape::Mesh(id) if world.mesh(id).animation().is_none() => Target::Mesh(world.tree(id)),
+        Shape::Mesh(_) if placed.is_merged() => Target::Written,
+        Shape::Mesh(id) => {
+            let tree = || Arc::new(AnimatedTree::new(world.mesh(id), interval, world.tree_quality()));
+            Target::Animated(Arc::clone(animated.entry(id).or_insert_with(tree)))
         }
-    }
+    };
+    world.instances().iter().zip(placed).map(target).collect()
 }
 
 /// A ray that is nothing or nowhere meets nothing.
@@ -183,7 +201,7 @@ impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
             return false;
         }
         let placed = &self.top.placed[instance as usize];
-        match self.top.targets[instance as usize] {
+        match &self.top.targets[instance as usize] {
             Target::Mesh(tree) => {
                 let Some(still) = placed.still() else {
                     let moving = Moving { l: self.l, tree, placed, ray: self.ray };
@@ -200,11 +218,16 @@ impl<L: Lanes> Leaves for ClosestLeaf<'_, '_, L> {
                 );
             }
             Target::Sphere(radius) => {
-                if let Some(t) = meet_sphere(radius, placed, self.ray) {
+                if let Some(t) = meet_sphere(*radius, placed, self.ray) {
                     let hit = PrimitiveHit { t, u: 0.0, v: 0.0, primitive: 0 };
                     self.best.offer(Names::Instance(instance), hit, limit);
                 }
             }
+            Target::Animated(tree) => {
+                let animated = Animated { l: self.l, tree, placed, ray: self.ray };
+                (self.best.hit, *limit) = animated.closest(instance, self.best.hit, *limit);
+            }
+            Target::Written => {}
         }
         false
     }
@@ -248,7 +271,7 @@ impl<L: Lanes> Leaves for AnyLeaf<'_, '_, L> {
         }
         let instance = instance as usize;
         let placed = &self.top.placed[instance];
-        match self.top.targets[instance] {
+        match &self.top.targets[instance] {
             Target::Mesh(tree) => {
                 let Some(still) = placed.still() else {
                     return Moving { l: self.l, tree, placed, ray: self.ray }.occluded(*limit);
@@ -256,7 +279,9 @@ impl<L: Lanes> Leaves for AnyLeaf<'_, '_, L> {
                 let (origin, direction) = still.rounded_ray_to_local(self.ray);
                 tree.occluded(self.l, &LocalRay::new(origin, direction), *limit)
             }
-            Target::Sphere(radius) => meet_sphere(radius, placed, self.ray).is_some_and(|t| t > 0.0 && t < *limit),
+            Target::Sphere(radius) => meet_sphere(*radius, placed, self.ray).is_some_and(|t| t > 0.0 && t < *limit),
+            Target::Animated(tree) => Animated { l: self.l, tree, placed, ray: self.ray }.occluded(*limit),
+            Target::Written => false,
         }
     }
 }
@@ -288,6 +313,38 @@ impl<L: Lanes> Moving<'_, L> {
     fn occluded(self, limit: f32) -> bool {
         let (origin, direction) = self.placed.rounded_ray_to_local(self.ray);
         self.tree.occluded(self.l, &LocalRay::new(origin, direction), limit)
+    }
+}
+
+/// A mesh whose vertices move as a ray enters it, likewise.
+struct Animated<'a, L> {
+    l: L,
+    tree: &'a AnimatedTree<'a>,
+    placed: &'a Placement,
+    ray: &'a Ray,
+}
+
+impl<L: Lanes> Animated<'_, L> {
+    /// The best hit and the limit, from those so far.
+    #[cold]
+    #[inline(never)]
+    fn closest(self, instance: u32, hit: Option<Hit>, mut limit: f32) -> (Option<Hit>, f32) {
+        let mut best = Best { hit };
+        let local = self.local();
+        self.tree.closest(self.l, (&local, self.ray.time_s), Names::Instance(instance), &mut best, &mut limit);
+        (best.hit, limit)
+    }
+
+    /// Whether the ray meets a triangle before the limit.
+    #[cold]
+    #[inline(never)]
+    fn occluded(self, limit: f32) -> bool {
+        self.tree.occluded(self.l, (&self.local(), self.ray.time_s), limit)
+    }
+
+    fn local(&self) -> LocalRay {
+        let (origin, direction) = self.placed.rounded_ray_to_local(self.ray);
+        LocalRay::new(origin, direction)
     }
 }
 

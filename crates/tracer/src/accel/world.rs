@@ -123,7 +123,7 @@ impl WorldBuilder {
     }
 
     /// Area of one side of an instance's surfaces of a material, m² in the world; `None` where it changes over time because
-    /// the instance's scale does, and for a sphere that it stretches unevenly, of whose area no closed form is known.
+    /// the instance's scale does or its vertices move, and for a sphere that it stretches unevenly, of whose area no closed form is known.
     #[must_use]
     pub fn area_m2(&self, instance: &Instance, material: MaterialId) -> Option<f64> {
         let to_world = instance.to_world.keeps_areas().then(|| instance.to_world.at(0.0).matrix3)?;
@@ -133,7 +133,7 @@ impl WorldBuilder {
                 Some(4.0 * core::f64::consts::PI * radius_m * radius_m)
             }
             Shape::Mesh(id) => {
-                let mesh = &self.meshes[id.0 as usize];
+                let mesh = Some(&self.meshes[id.0 as usize]).filter(|mesh| mesh.animation().is_none())?;
                 let of_it = |primitive: &u32| {
                     instance.materials.get(usize::from(mesh.slots()[*primitive as usize])) == Some(&material)
                 };
@@ -151,7 +151,12 @@ impl WorldBuilder {
         for (index, instance) in self.instances.iter().enumerate() {
             check(index, instance, &self.meshes)?;
         }
-        let trees = self.meshes.par_iter().map(|mesh| Blas::new(mesh, self.tree_quality)).collect();
+        let tree = |mesh: &Mesh| match mesh.animation() {
+            None => Blas::new(mesh, self.tree_quality),
+            // A view makes one for its own interval.
+            Some(_) => Blas::over(0, |_| unreachable!("no triangles"), TreeQuality::Fast),
+        };
+        let trees = self.meshes.par_iter().map(tree).collect();
         Ok(World { meshes: self.meshes, trees, instances: self.instances, tree_quality: self.tree_quality })
     }
 }
@@ -208,6 +213,7 @@ impl World {
         self.tree_quality
     }
 
+    /// Of a mesh whose vertices do not move.
     pub(crate) fn tree(&self, id: MeshId) -> &Blas {
         &self.trees[id.0 as usize]
     }

@@ -4,9 +4,9 @@
 //! triangle has an area, and no two triangles are the same. What cannot be intersected (triangles of zero area) or
 //! cannot be told apart (exact duplicates, in any order of their corners) is dropped and counted.
 
-use super::MeshError;
 use super::facet::Facet;
 use super::repeats::repeats;
+use super::{MeshError, VertexAnimation};
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
@@ -28,6 +28,8 @@ pub struct Mesh {
     bounds: Option<(Vec3, Vec3)>,
     slot_count: usize,
     origin: DVec3,
+    /// Where its vertices are over time, where they move.
+    animation: Option<Box<VertexAnimation>>,
 }
 
 /// How many triangles were left out of a mesh, and why.
@@ -54,13 +56,57 @@ impl Mesh {
         check_vertices(&positions, &uvs)?;
         check_indices(positions.len(), &triangles)?;
         let slots = if slots.is_empty() { vec![0; triangles.len()] } else { slots };
-        let (bounds, slot_count, origin) = (None, 0, DVec3::ZERO);
-        let mut mesh = Self { positions, normals, uvs, triangles, slots, facets: vec![], bounds, slot_count, origin };
+        let (facets, bounds, slot_count, origin, animation) = (vec![], None, 0, DVec3::ZERO, None);
+        let mut mesh =
+            Self { positions, normals, uvs, triangles, slots, facets, bounds, slot_count, origin, animation };
         let dropped = mesh.drop_unusable();
-        mesh.facets = (0..mesh.triangles.len()).into_par_iter().map(|i| mesh.new_facet(i)).collect();
-        mesh.bounds = mesh.find_bounds();
-        mesh.slot_count = mesh.slots.iter().max().map_or(0, |s| usize::from(*s) + 1);
+        mesh.complete();
         Ok((mesh, dropped))
+    }
+
+    /// A checked mesh whose vertices move; its own are those of the first frame. As [`Mesh::new`], but triangles are dropped only
+    /// where they have no area in any frame, or the same three vertices as an earlier one.
+    pub fn animated(
+        animation: VertexAnimation,
+        uvs: Vec<Vec2>,
+        triangles: Vec<[u32; 3]>,
+        slots: Vec<u16>,
+    ) -> Result<(Self, Dropped), MeshError> {
+        for frame in animation.frames() {
+            check_counts(&frame.positions, &frame.normals, &uvs, &triangles, &slots)?;
+            check_vertices(&frame.positions, &uvs)?;
+        }
+        let first = animation.frames()[0].clone();
+        check_indices(first.positions.len(), &triangles)?;
+        let slots = if slots.is_empty() { vec![0; triangles.len()] } else { slots };
+        let mut mesh = Self {
+            positions: first.positions,
+            normals: first.normals,
+            uvs,
+            triangles,
+            slots,
+            facets: vec![],
+            bounds: None,
+            slot_count: 0,
+            origin: DVec3::ZERO,
+            animation: Some(Box::new(animation)),
+        };
+        let dropped = mesh.drop_unusable();
+        mesh.complete();
+        Ok((mesh, dropped))
+    }
+
+    /// Finds what is told of the triangles that are kept.
+    fn complete(&mut self) {
+        self.facets = (0..self.triangles.len()).into_par_iter().map(|i| self.new_facet(i)).collect();
+        self.bounds = self.find_bounds();
+        self.slot_count = self.slots.iter().max().map_or(0, |s| usize::from(*s) + 1);
+    }
+
+    /// Where its vertices are over time; `None` where they do not move.
+    #[must_use]
+    pub fn animation(&self) -> Option<&VertexAnimation> {
+        self.animation.as_deref()
     }
 
     /// The same mesh, told that its file's own coordinates are those of this mesh plus `origin`: projected textures stay where
@@ -76,7 +122,7 @@ impl Mesh {
         self.origin
     }
 
-    /// Vertex positions, m.
+    /// Vertex positions, m; of vertices that move, those of the first frame.
     #[must_use]
     pub fn positions(&self) -> &[Vec3] {
         &self.positions
@@ -116,7 +162,7 @@ impl Mesh {
         &self.facets[primitive as usize]
     }
 
-    /// The corners of a triangle.
+    /// The corners of a triangle, of vertices that move in the first frame.
     #[must_use]
     pub fn corners(&self, primitive: u32) -> [Vec3; 3] {
         self.triangles[primitive as usize].map(|v| self.positions[v as usize])
@@ -128,23 +174,40 @@ impl Mesh {
         self.slot_count
     }
 
-    /// Least and greatest coordinates of the triangles; `None` without triangles.
+    /// Least and greatest coordinates of the triangles, of vertices that move at any time; `None` without triangles.
     #[must_use]
     pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
         self.bounds
     }
 
+    /// The positions in every frame, or the only ones.
+    fn all_positions(&self) -> Vec<&[Vec3]> {
+        let Some(animation) = self.animation() else { return vec![&self.positions] };
+        animation.frames().iter().map(|frame| &frame.positions[..]).collect()
+    }
+
     fn find_bounds(&self) -> Option<(Vec3, Vec3)> {
-        let corners = self.triangles.iter().flatten().map(|v| self.positions[*v as usize]);
-        corners.map(|p| (p, p)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+        let of_frame = |positions: &[Vec3]| {
+            let corners = self.triangles.iter().flatten().map(|v| positions[*v as usize]);
+            corners.map(|p| (p, p)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+        };
+        let frames = self.all_positions().into_iter().filter_map(of_frame);
+        frames.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
     }
 
     fn drop_unusable(&mut self) -> Dropped {
         let count = self.triangles.len();
-        let mut kept: Vec<bool> =
-            (0..count as u32).into_par_iter().map(|triangle| !is_flat(self.corners(triangle))).collect();
+        let frames = self.all_positions();
+        let has_area = |triangle: u32| {
+            let vertices = self.triangles[triangle as usize];
+            frames.iter().any(|positions| !is_flat(vertices.map(|v| positions[v as usize])))
+        };
+        let mut kept: Vec<bool> = (0..count as u32).into_par_iter().map(has_area).collect();
         let usable = kept.iter().filter(|kept| **kept).count();
-        let repeated = repeats(&kept, |triangle| unordered_bits(self.corners(triangle)));
+        let repeated = repeats(&kept, |triangle| match self.animation {
+            None => unordered_bits(self.corners(triangle)),
+            Some(_) => unordered_vertices(self.triangles[triangle as usize]),
+        });
         repeated.iter().for_each(|triangle| kept[*triangle as usize] = false);
         let mut keep = kept.iter();
         self.triangles.retain(|_| *keep.next().unwrap_or(&true));
@@ -211,6 +274,12 @@ fn unordered_bits(corners: [Vec3; 3]) -> [[u32; 3]; 3] {
     let mut bits = corners.map(|p| p.to_array().map(|x| (x + 0.0).to_bits()));
     bits.sort_unstable();
     bits
+}
+
+/// The vertices in an order that does not depend on the triangle's.
+fn unordered_vertices(mut vertices: [u32; 3]) -> [[u32; 3]; 3] {
+    vertices.sort_unstable();
+    vertices.map(|vertex| [vertex, 0, 0])
 }
 
 #[cfg(test)]

@@ -49,4 +49,20 @@ pub enum MeshError {
         /// How many there are.
         triangles: usize,
     },
+    /// Vertices that move have too few frames, or times that do not fit them.
+    #[error(
+        "{frames} frames of vertices at {times} times; give two frames or more, rising finite times, one a frame, and of a loop one more"
+    )]
+    FrameTimes {
+        /// How many frames there are.
+        frames: usize,
+        /// How many times.
+        times: usize,
+    },
+    /// Frames of moving vertices differ in their numbers of vertices or normals.
+    #[error("frame {frame} has other numbers of vertices or normals than frame 0; all must be of one mesh")]
+    UnequalFrames {
+        /// The frame, counted from 0.
+        frame: usize,
+    },
 }

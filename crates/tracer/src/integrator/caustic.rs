@@ -4,7 +4,8 @@
 //! surface. Unidirectional paths find such light only by chance, in a few very bright samples. Where a caller leaves it
 //! out ([`super::PathSettings::caustics`]), the picture is darker by exactly that light: light of suns and glowing
 //! surfaces that arrives by a scattering of more than [`SMOOTH_PER_SR`] after one of less. What smooth surfaces reflect
-//! of the surroundings is kept. The rule looks at densities alone, so both ways of finding light obey it alike.
+//! of the surroundings is kept. In fog the light of a sun comes from a bright patch about it, which is found as seldom; without caustics light
+//! that a medium's forward peak scatters counts as not scattered, behind the first matt surface and the first scattering in a medium (`crate::media`). The rule looks at densities alone, so both ways of finding light obey it alike.
 
 /// Density of scattering, 1/sr, above which a surface counts as smooth: that of the highlight of a GGX surface of α ≈ 0.14.
 const SMOOTH_PER_SR: f32 = 4.0;
@@ -22,6 +23,16 @@ impl History {
         let smooth = is_smooth(pdf);
         self.caustic = smooth && self.matt;
         self.matt |= !smooth;
+    }
+
+    /// Whether the path has been scattered by anything but smooth surfaces.
+    pub(super) fn is_matt(self) -> bool {
+        self.matt
+    }
+
+    /// Whether it has, once it goes on by a scattering of density `pdf`, 1/sr.
+    pub(super) fn would_be_matt(self, pdf: f32) -> bool {
+        self.matt || !is_smooth(Some(pdf))
     }
 
     /// Whether light of a lamp that is met now is part of a caustic.

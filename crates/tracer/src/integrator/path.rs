@@ -331,8 +331,9 @@ impl<'a, const N: usize> Path<'a, N> {
             return;
         }
         let arriving = self.throughput * value.value_cos * light.radiance * self.drawn_weight(&light, value.pdf);
+        let following = self.following(self.history.would_be_matt(value.pdf));
         if !arriving.is_zero()
-            && let Some(share) = self.share(vertex, &light, self.medium_towards(vertex, wi))
+            && let Some(share) = self.share(vertex, &light, (self.medium_towards(vertex, wi), following))
         {
             self.radiance += arriving * share;
         }

@@ -21,7 +21,8 @@ const NUMBERS: u32 = 16;
 impl<'a, const N: usize> Path<'a, N> {
     /// Follows the ray through media and precipitation to `end`; `None` where it gets there.
     pub(super) fn travel_to(&mut self, end: f32) -> Option<Intersection<'a>> {
-        let hit = self.near_of_camera().filter(|_| !self.medium.is_solid()).and_then(|near| near.closest(&self.ray, end));
+        let hit =
+            self.near_of_camera().filter(|_| !self.medium.is_solid()).and_then(|near| near.closest(&self.ray, end));
         if let Some(met) = self.travel_through_media(hit.map_or(end, |hit| hit.t)) {
             return Some(met);
         }
@@ -56,7 +57,8 @@ impl<'a, const N: usize> Path<'a, N> {
 
     fn scatter_at_flake(&mut self, position: Vec3, phase: &Phase) -> PathStep {
         self.beyond_particle = true;
-        self.scatter_by_phase(position, phase, true)
+        // Lamps that were asked along the ray were asked for the medium before the flake.
+        self.scatter_by_phase(position, phase, false)
     }
 
     /// A drop is no scattering event: who follows one event only still sees what is behind it.
@@ -71,7 +73,7 @@ impl<'a, const N: usize> Path<'a, N> {
         if self.tracer.settings.level != Level::Flat && !self.is_spent() {
             let receiver = LightSampleContext { position, normal: Vec3::ZERO, gloss: None, time_s: self.ray.time_s };
             self.beyond_particle = true;
-            self.sample_direct_in_medium(&receiver, phase, true);
+            self.sample_direct_in_medium(&receiver, phase, false);
             self.scattered = Some(density);
             self.receiver = Some(receiver);
         }
@@ -79,6 +81,7 @@ impl<'a, const N: usize> Path<'a, N> {
         self.throughput *= values / density;
         self.ray = etendue_core::Ray::new(position, direction, self.ray.time_s);
         self.travelled_m = 0.0;
+        self.history.scatter(Some(0.0));
         self.cone.scatter(density);
         self.unless_dark()
     }

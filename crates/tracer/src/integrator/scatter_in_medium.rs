@@ -7,17 +7,30 @@ use glam::Vec3;
 
 use super::path::{Intersection, Path, PathStep};
 use crate::lights::LightSampleContext;
-use crate::media::{Media, Phase};
+use crate::media::{Following, Media, Phase};
 
 impl<'a, const N: usize> Path<'a, N> {
+    /// How media are followed by a path, given whether it has been scattered by more than smooth surfaces.
+    pub(super) fn following(&self, matt: bool) -> Following {
+        if matt && !self.tracer.settings.caustics { Following::WithoutPeak } else { Following::Exact }
+    }
+
+    /// Whether lamps without an opening are asked along the ray, rather than where the path is scattered: as far as the camera sees it straight
+    /// or in mirrors. Behind that a ray is one of so many that its own light matters less than its price.
+    fn asks_along(&self) -> bool {
+        self.tracer.lights.has_points() && !self.history.is_matt() && !self.is_spent()
+    }
+
     /// Gathers the light of lamps that is scattered on the way to `end`, and finds where the path is scattered itself; `None` where it is not.
     pub(super) fn travel_through_media(&mut self, end: f32) -> Option<Intersection<'a>> {
         let media = self.media_along().filter(|_| !self.medium.is_solid())?;
-        if self.tracer.lights.has_points() && !self.is_spent() {
+        let following = self.following(self.history.is_matt());
+        if self.asks_along() {
             self.gather_from_lamps(media, end);
         }
         let stream = (&self.asked.stream, &mut self.flights);
-        let collision = media.collide(&self.ray, f64::from(end), stream, self.wavelengths, &mut self.throughput)?;
+        let collision =
+            media.collide((&self.ray, following), f64::from(end), stream, self.wavelengths, &mut self.throughput)?;
         self.cone.travel(collision.t);
         self.travelled_m += collision.t;
         Some(Intersection::Medium(self.ray.at(collision.t), collision.phase))
@@ -32,7 +45,7 @@ impl<'a, const N: usize> Path<'a, N> {
         let Some(lamp) = lights.lamp_along(&self.ray, part, stream.one(Draw::InScattering, 2 * self.met)) else {
             return;
         };
-        let flight = Flight::new(part, media.greatest_per_m());
+        let flight = Flight::new(part, media.greatest_per_m(Following::Exact));
         let u = stream.two(Draw::InScattering, 2 * self.met + 1);
         let t = if u.x < 0.5 { lamp.place(u.y) } else { flight.place(u.y) };
         let density = 0.5 * (lamp.density(t) + flight.density(t));
@@ -44,12 +57,13 @@ impl<'a, const N: usize> Path<'a, N> {
         let Some(light) = lights.of_lamp(&lamp, &receiver, (self.wavelengths, self.lit())) else { return };
         let mut way = self.ray;
         way.t_max = t;
-        let seen = media.transmittance(&way, (stream, 2 * self.met + 1), self.wavelengths);
-        let scattered = media.scattering(&self.ray, f64::from(t), light.direction, self.wavelengths);
+        let seen = media.transmittance((&way, Following::Exact), (stream, 2 * self.met + 1), self.wavelengths);
+        let scattered =
+            media.scattering((&self.ray, Following::Exact), f64::from(t), light.direction, self.wavelengths);
         let arriving = self.throughput * seen * scattered * light.radiance / (density * lamp.probability);
         let ray = self.towards(position, light.direction, light.target);
         if !arriving.is_zero()
-            && let Some(share) = self.share_along(ray, &light, self.medium)
+            && let Some(share) = self.share_along(ray, &light, (self.medium, self.following(true)))
         {
             self.radiance += arriving * share;
         }
@@ -57,15 +71,14 @@ impl<'a, const N: usize> Path<'a, N> {
 
     /// Gathers drawn light at a place between surfaces and goes on from it.
     pub(super) fn scatter_in_medium(&mut self, position: Vec3, phase: &Phase) -> PathStep {
-        // Lamps that nothing but a draw can find have been asked along the ray.
-        self.scatter_by_phase(position, phase, false)
+        self.scatter_by_phase(position, phase, self.asks_along())
     }
 
-    /// The same; `also_lamps` as of [`Path::sample_direct_in_medium`].
-    pub(super) fn scatter_by_phase(&mut self, position: Vec3, phase: &Phase, also_lamps: bool) -> PathStep {
+    /// The same; `asked_along` as of [`Path::sample_direct_in_medium`].
+    pub(super) fn scatter_by_phase(&mut self, position: Vec3, phase: &Phase, asked_along: bool) -> PathStep {
         let from = self.ray.direction;
         let receiver = LightSampleContext { position, normal: Vec3::ZERO, gloss: None, time_s: self.ray.time_s };
-        self.sample_direct_in_medium(&receiver, phase, also_lamps);
+        self.sample_direct_in_medium(&receiver, phase, asked_along);
         let stream = &self.asked.stream;
         let (choice, u) =
             (stream.one(Draw::PhaseDirection, 2 * self.met), stream.two(Draw::PhaseDirection, 2 * self.met + 1));
@@ -83,8 +96,8 @@ impl<'a, const N: usize> Path<'a, N> {
         self.leave(position, direction)
     }
 
-    /// Next-event estimation at a place between surfaces; of lamps that nothing but a draw can find where it is said so.
-    pub(super) fn sample_direct_in_medium(&mut self, receiver: &LightSampleContext, phase: &Phase, also_lamps: bool) {
+    /// Next-event estimation at a place between surfaces; lamps that nothing but a draw can find are left out where they were asked along the ray.
+    pub(super) fn sample_direct_in_medium(&mut self, receiver: &LightSampleContext, phase: &Phase, asked_along: bool) {
         let lights = self.tracer.lights;
         if !lights.can_be_drawn() {
             return;
@@ -97,7 +110,7 @@ impl<'a, const N: usize> Path<'a, N> {
         else {
             return;
         };
-        if light.delta && !also_lamps {
+        if light.delta && asked_along {
             return;
         }
         let density = phase.density(self.ray.direction, light.direction, self.wavelengths);
@@ -105,7 +118,7 @@ impl<'a, const N: usize> Path<'a, N> {
         let arriving = self.throughput * values * light.radiance * self.drawn_weight(&light, density);
         let ray = self.towards(receiver.position, light.direction, light.target);
         if !arriving.is_zero()
-            && let Some(share) = self.share_along(ray, &light, self.medium)
+            && let Some(share) = self.share_along(ray, &light, (self.medium, self.following(true)))
         {
             self.radiance += arriving * share;
         }

@@ -7,6 +7,7 @@ use super::Level;
 use super::medium::Medium;
 use super::path::{MAX_MET, Path, Vertex};
 use crate::lights::LightSample;
+use crate::media::Following;
 
 impl<const N: usize> Path<'_, N> {
     /// The share of a drawn light that reaches the vertex through a `medium`; `None` where something opaque stands
@@ -15,17 +16,22 @@ impl<const N: usize> Path<'_, N> {
         &self,
         vertex: &Vertex<'_, N>,
         light: &LightSample<N>,
-        medium: Medium<'_>,
+        (medium, following): (Medium<'_>, Following),
     ) -> Option<Spectral<N>> {
         let ray = self.towards(vertex.point.spawn(light.direction), light.direction, light.target);
-        let share = self.share_along(ray, light, medium)?;
+        let share = self.share_along(ray, light, (medium, following))?;
         // As for a path that meets nothing, the way to infinity takes nothing.
         let way_m = light.target.map_or(0.0, |target| target.distance(vertex.point.position));
         Some(medium.attenuate(share, way_m, self.wavelengths))
     }
 
     /// The share of a drawn light that comes through along a ray towards it, but for what a solid absorbs in which the ray begins.
-    pub(super) fn share_along(&self, ray: Ray, light: &LightSample<N>, medium: Medium<'_>) -> Option<Spectral<N>> {
+    pub(super) fn share_along(
+        &self,
+        ray: Ray,
+        light: &LightSample<N>,
+        (medium, following): (Medium<'_>, Following),
+    ) -> Option<Spectral<N>> {
         let share = if self.tracer.settings.level == Level::Flat {
             Spectral::ONE
         } else if self.tracer.material_table.has_passages() {
@@ -36,9 +42,9 @@ impl<const N: usize> Path<'_, N> {
             Spectral::ONE
         };
         match self.tracer.media {
-            Some(media) if !medium.is_solid() => {
-                Some(share * media.transmittance(&ray, (&self.asked.stream, 2 * self.met), self.wavelengths))
-            }
+            Some(media) if !medium.is_solid() => Some(
+                share * media.transmittance((&ray, following), (&self.asked.stream, 2 * self.met), self.wavelengths),
+            ),
             _ => Some(share),
         }
     }

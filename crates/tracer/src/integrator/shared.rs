@@ -153,7 +153,9 @@ impl<'a, const N: usize> Opening<'a, N> {
             let onward = match path.meet() {
                 Intersection::Nothing => PathStep::Ends,
                 Intersection::Passed => PathStep::Goes,
-                Intersection::Medium(..) | Intersection::Particle(..) => unreachable!("paths through media share nothing"),
+                Intersection::Medium(..) | Intersection::Particle(..) => {
+                    unreachable!("paths through media share nothing")
+                }
                 Intersection::Surface(point, lookup) if path.is_spent() => path.only_pass(point, &lookup),
                 Intersection::Surface(point, lookup) => {
                     let vertex = path.vertex(point, &lookup);

@@ -85,23 +85,23 @@ impl Lights {
 
     /// A lamp without an opening for a part of a ray of unit direction, m; `None` where none sends light there.
     pub(crate) fn lamp_along(&self, ray: &Ray, part: [f32; 2], u: f32) -> Option<LampAlong> {
-        let whole: f32 = self.points.iter().map(|i| self.counts(*i, ray, part).0).sum();
-        if !(whole > 0.0 && whole.is_finite()) {
-            return None;
-        }
-        let mut rest = u * whole;
-        let mut last = None;
+        let (mut whole, mut rest, mut chosen) = (0.0_f32, f64::from(u), None);
         for light in &self.points {
             let (counts, angles) = self.counts(*light, ray, part);
             if counts > 0.0 {
-                last = Some(LampAlong { light: *light, probability: counts / whole, angles });
-                if rest < counts {
-                    break;
+                // Each replaces the one before with the probability of its share so far; what is left of the number is as even as it was.
+                whole += counts;
+                let share = f64::from(counts / whole);
+                if rest < share {
+                    chosen = Some((*light, counts, angles));
+                    rest /= share;
+                } else {
+                    rest = (rest - share) / (1.0 - share);
                 }
             }
-            rest -= counts;
         }
-        last
+        let (light, counts, angles) = chosen.filter(|_| whole.is_finite())?;
+        Some(LampAlong { light, probability: counts / whole, angles })
     }
 
     /// The light of a lamp that was drawn, at a place.

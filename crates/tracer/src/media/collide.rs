@@ -4,6 +4,7 @@ use etendue_core::random::{Draw, PathStream};
 use etendue_core::{Ray, Spectral, Wavelengths};
 
 use super::media::{Media, free_flight};
+use super::medium::Following;
 use super::phase::Phase;
 
 /// Flights, with those that met nothing, that one ray is followed by at most; beyond, its light is taken as lost.
@@ -24,7 +25,7 @@ impl<'a> Media<'a> {
     /// the path has used.
     pub fn collide<const N: usize>(
         &self,
-        ray: &Ray,
+        (ray, following): (&Ray, Following),
         end: f64,
         (stream, flights): (&PathStream, &mut u32),
         wavelengths: &Wavelengths<N>,
@@ -34,7 +35,7 @@ impl<'a> Media<'a> {
         let last = flights.saturating_add(MAX_FLIGHTS);
         let mut t = 0.0;
         while t < end {
-            let piece = self.piece(ray, t, end);
+            let piece = self.piece((ray, following), t, end);
             if piece.majorant_per_m <= 0.0 {
                 t = piece.end;
                 continue;
@@ -47,7 +48,7 @@ impl<'a> Media<'a> {
                 continue;
             }
             let u = stream.one(Draw::Collision, *flights);
-            match self.event(ray, t, piece.majorant_per_m as f32, u, wavelengths, throughput) {
+            match self.event((ray, following), t, piece.majorant_per_m as f32, u, wavelengths, throughput) {
                 Event::Null => {}
                 Event::Scattered(phase) => return Some(Collision { t: t as f32, phase }),
                 Event::Absorbed => return None,
@@ -63,7 +64,7 @@ impl<'a> Media<'a> {
     /// What happens at a tentative collision, drawn by what light counts that is scattered by each medium, or by none.
     fn event<const N: usize>(
         &self,
-        ray: &Ray,
+        (ray, following): (&Ray, Following),
         t: f64,
         majorant_per_m: f32,
         u: f32,
@@ -74,9 +75,9 @@ impl<'a> Media<'a> {
             let placed = &self.placed[i];
             let inside = self.span(placed, ray, f64::INFINITY).is_some_and(|(from, to)| t >= from && t < to);
             let density = if inside { self.density(placed, ray, t) as f32 } else { 0.0 };
-            placed.medium.extinction.sample(wavelengths) * density
+            placed.medium.optics(following).extinction.sample(wavelengths) * density
         };
-        let scattered = |i: usize| within(i) * self.placed[i].medium.albedo.sample(wavelengths);
+        let scattered = |i: usize| within(i) * self.placed[i].medium.optics(following).albedo.sample(wavelengths);
         let extinction = (0..self.placed.len()).map(within).fold(Spectral::ZERO, |sum, of| sum + of);
         let null = extinction.map(|extinction| (majorant_per_m - extinction).max(0.0));
         let counts = |of: Spectral<N>| (*throughput * of).mean();
@@ -91,7 +92,7 @@ impl<'a> Media<'a> {
             let share = counts(scattered(i));
             if rest < share {
                 *throughput *= scattered(i) * (whole / share / majorant_per_m);
-                return Event::Scattered(&self.placed[i].medium.phase);
+                return Event::Scattered(&self.placed[i].medium.optics(following).phase);
             }
             rest -= share;
         }

@@ -6,7 +6,7 @@ use etendue_core::{Ray, Spectral, TimeInterval, Wavelengths};
 use glam::{DAffine3, DVec3, Vec3};
 
 use super::hollow::Hollow;
-use super::medium::Medium;
+use super::medium::{Following, Medium, Optics};
 use super::phase::Phase;
 
 /// Steps of ratio tracking along one ray at most. Where more would be needed, nothing comes through.
@@ -63,7 +63,7 @@ impl<'a> Media<'a> {
 
     /// The phase function of a medium, by its place in the list.
     pub(crate) fn phase(&self, medium: usize) -> &'a Phase {
-        &self.placed[medium].medium.phase
+        &self.placed[medium].medium.optics(Following::Exact).phase
     }
 
     /// Whether there are none.
@@ -92,7 +92,7 @@ impl<'a> Media<'a> {
     /// What is scattered at `t` along a ray towards the unit `to`, of light that arrives from there: Σ β albedo p, 1/(m sr).
     pub(crate) fn scattering<const N: usize>(
         &self,
-        ray: &Ray,
+        (ray, following): (&Ray, Following),
         t: f64,
         to: Vec3,
         wavelengths: &Wavelengths<N>,
@@ -101,7 +101,7 @@ impl<'a> Media<'a> {
         for placed in &self.placed {
             if self.span(placed, ray, f64::INFINITY).is_some_and(|(from, end)| t >= from && t <= end) {
                 let density = self.density(placed, ray, t) as f32;
-                let Medium { extinction, albedo, phase, .. } = placed.medium;
+                let Optics { extinction, albedo, phase, .. } = placed.medium.optics(following);
                 let values = Spectral(phase.values(ray.direction, to, wavelengths));
                 sum += extinction.sample(wavelengths) * albedo.sample(wavelengths) * values * density;
             }
@@ -110,12 +110,12 @@ impl<'a> Media<'a> {
     }
 
     /// The most that all media together take out of a beam, 1/m.
-    pub(crate) fn greatest_per_m(&self) -> f32 {
-        self.placed.iter().map(|placed| placed.medium.greatest_per_m).sum()
+    pub(crate) fn greatest_per_m(&self, following: Following) -> f32 {
+        self.placed.iter().map(|placed| placed.medium.optics(following).greatest_per_m).sum()
     }
 
     /// The part of a ray from `t` on in which the same media lie.
-    pub(super) fn piece(&self, ray: &Ray, t: f64, end: f64) -> Piece {
+    pub(super) fn piece(&self, (ray, following): (&Ray, Following), t: f64, end: f64) -> Piece {
         let mut piece = Piece { end, majorant_per_m: 0.0 };
         for placed in &self.placed {
             let Some((from, to)) = self.span(placed, ray, end) else { continue };
@@ -123,7 +123,8 @@ impl<'a> Media<'a> {
                 piece.end = piece.end.min(from);
             } else if t < to {
                 piece.end = piece.end.min(to);
-                piece.majorant_per_m += f64::from(placed.medium.greatest_per_m * placed.medium.greatest_density());
+                piece.majorant_per_m +=
+                    f64::from(placed.medium.optics(following).greatest_per_m * placed.medium.greatest_density());
             }
         }
         piece
@@ -146,7 +147,7 @@ impl<'a> Media<'a> {
     #[must_use]
     pub fn transmittance<const N: usize>(
         &self,
-        ray: &Ray,
+        (ray, following): (&Ray, Following),
         (stream, vertex): (&PathStream, u32),
         wavelengths: &Wavelengths<N>,
     ) -> Spectral<N> {
@@ -154,7 +155,8 @@ impl<'a> Media<'a> {
         let length_m = f64::from(ray.direction.length());
         for (i, placed) in self.placed.iter().enumerate() {
             let Some((from, to)) = self.span(placed, ray, f64::from(ray.t_max)) else { continue };
-            let extinction = placed.medium.extinction.sample(wavelengths);
+            let optics = placed.medium.optics(following);
+            let extinction = optics.extinction.sample(wavelengths);
             if let Some(hollow) = &placed.hollow {
                 let way = hollow.way((ray.origin.as_dvec3(), ray.direction.as_dvec3()), (from, to));
                 (0..N).for_each(|k| depth[k] += f64::from(extinction[k]) * way * length_m);
@@ -164,7 +166,9 @@ impl<'a> Media<'a> {
                     .filter(|k| extinction[*k] > 0.0)
                     .for_each(|k| depth[k] += f64::from(extinction[k]) * (to - from) * length_m);
             } else {
-                share *= self.ratio_tracked(placed, ray, (from, to), (stream, vertex ^ (i as u32) << 24), extinction);
+                let majorant_per_m = optics.greatest_per_m * placed.medium.greatest_density();
+                let numbers = (stream, vertex ^ (i as u32) << 24);
+                share *= self.ratio_tracked(placed, ray, (from, to), numbers, (extinction, majorant_per_m));
             }
         }
         share * Spectral(depth.map(|depth| exp(-depth) as f32))
@@ -176,9 +180,8 @@ impl<'a> Media<'a> {
         ray: &Ray,
         (from, to): (f64, f64),
         (stream, vertex): (&PathStream, u32),
-        extinction: Spectral<N>,
+        (extinction, majorant_per_m): (Spectral<N>, f32),
     ) -> Spectral<N> {
-        let majorant_per_m = placed.medium.greatest_per_m * placed.medium.greatest_density();
         let majorant = f64::from(majorant_per_m) * f64::from(ray.direction.length());
         let (mut t, mut share) = (from, Spectral::ONE);
         if majorant == 0.0 {

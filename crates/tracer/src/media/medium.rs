@@ -44,17 +44,51 @@ pub struct Unevenness {
     pub wind_mps: DVec3,
 }
 
-/// A medium.
+/// What a medium does to light, at its mean density.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Medium {
+pub(super) struct Optics {
+    /// Extinction coefficient, 1/m.
     pub(super) extinction: Arc<Spectrum>,
     pub(super) albedo: Arc<Spectrum>,
     pub(super) phase: Arc<Phase>,
+    /// Greatest extinction over wavelengths, 1/m.
+    pub(super) greatest_per_m: f32,
+}
+
+impl Optics {
+    fn new(extinction: Spectrum, albedo: Spectrum, phase: Arc<Phase>) -> Self {
+        let greatest_per_m = extinction.max_value();
+        Self { extinction: Arc::new(extinction), albedo: Arc::new(albedo), phase, greatest_per_m }
+    }
+
+    /// The same where light scattered by the forward peak, a share f, is taken as not scattered: β (1 − ω f), albedo ω (1 − f)/(1 − ω f).
+    fn without_peak(&self) -> Self {
+        let Some((share, phase)) = self.phase.without_peak() else { return self.clone() };
+        let at = |of: &Spectrum, nm: f64| f64::from(of.at(nm as f32));
+        let kept = |nm: f64| 1.0 - at(&self.albedo, nm) * at(&share, nm);
+        let extinction = Spectrum::from_fn(|nm| at(&self.extinction, nm) * kept(nm));
+        let albedo = Spectrum::from_fn(|nm| (at(&self.albedo, nm) * (1.0 - at(&share, nm)) / kept(nm)).min(1.0));
+        Self::new(extinction, albedo, Arc::new(phase))
+    }
+}
+
+/// How exactly light through media is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Following {
+    /// By the phase function itself.
+    Exact,
+    /// Without the forward peak: light within it goes straight on.
+    WithoutPeak,
+}
+
+/// A medium.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Medium {
+    exact: Optics,
+    without_peak: Optics,
     pub(super) unevenness: Option<Unevenness>,
     pub(super) shape: Shape,
     pub(super) to_world: Motion,
-    /// Greatest extinction over wavelengths, of the mean density, 1/m.
-    pub(super) greatest_per_m: f32,
 }
 
 impl Medium {
@@ -82,9 +116,17 @@ impl Medium {
         if !(start.is_finite() && start.matrix3.determinant() != 0.0) {
             return Err(MediumError::Transform);
         }
-        let greatest_per_m = extinction.max_value();
-        let (extinction, albedo) = (Arc::new(extinction), Arc::new(albedo));
-        Ok(Self { extinction, albedo, phase: phase.into(), unevenness: None, shape, to_world, greatest_per_m })
+        let exact = Optics::new(extinction, albedo, phase.into());
+        let without_peak = exact.without_peak();
+        Ok(Self { exact, without_peak, unevenness: None, shape, to_world })
+    }
+
+    #[inline(always)]
+    pub(super) fn optics(&self, following: Following) -> &Optics {
+        match following {
+            Following::Exact => &self.exact,
+            Following::WithoutPeak => &self.without_peak,
+        }
     }
 
     /// The same with an uneven density.

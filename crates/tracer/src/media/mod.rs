@@ -20,7 +20,7 @@ mod shape;
 pub use collide::Collision;
 pub use hollow::Hollow;
 pub use media::Media;
-pub use medium::{Medium, MediumError, Unevenness};
+pub use medium::{Following, Medium, MediumError, Unevenness};
 pub use noise::Noise;
 pub use phase::Phase;
 pub use phase_table::SpectralTable;

@@ -5,7 +5,9 @@
 
 use core::f32::consts::{FRAC_1_PI, TAU};
 use etendue_core::maths::f32::{cbrt, sin_cos};
+use etendue_core::maths::f64::sin;
 use etendue_core::{Basis, Wavelengths};
+use etendue_spectra::Spectrum;
 use glam::{Vec2, Vec3};
 
 use super::phase_table::SpectralTable;
@@ -29,7 +31,32 @@ pub enum Phase {
     Table(SpectralTable),
 }
 
+/// Half angle of a forward peak, rad: 10°.
+const PEAK_RAD: f64 = 10.0 / 180.0 * core::f64::consts::PI;
+
+/// Mean cosine from which on Henyey and Greenstein's function has a peak.
+const PEAKED: f32 = 0.5;
+
 impl Phase {
+    /// The same without its forward peak, and the share of light that the peak has, by wavelength; `None` where there is none. Light of the
+    /// peak goes on within 10° of where it went: where that makes no difference, it may be taken as not scattered at all (the δ
+    /// approximation of Joseph, Wiscombe and Weinman 1976).
+    pub(super) fn without_peak(&self) -> Option<(Spectrum, Self)> {
+        let (share, table) = match self {
+            Self::Isotropic | Self::Rayleigh => return None,
+            Self::HenyeyGreenstein { g } if *g < PEAKED => return None,
+            Self::HenyeyGreenstein { g } => {
+                let of = |angle: f64| {
+                    let far = 2.0 * sin(0.5 * angle);
+                    f64::from(henyey_greenstein(*g, (0.5 * far * far) as f32))
+                };
+                SpectralTable::grey(of).without_peak(PEAK_RAD)
+            }
+            Self::Table(table) => table.without_peak(PEAK_RAD),
+        };
+        Some((share, Self::Table(table)))
+    }
+
     /// p, 1/sr, of light that travels on from the unit `from` to the unit `to`; of tables the mean over the wavelengths.
     #[must_use]
     pub fn density<const N: usize>(&self, from: Vec3, to: Vec3, wavelengths: &Wavelengths<N>) -> f32 {

@@ -110,6 +110,21 @@ impl PhaseTable {
         Self::new(&sums.iter().enumerate().map(|(i, sum)| sum / width(i)).collect::<Vec<_>>())
     }
 
+    /// As [`SpectralTable::without_peak`].
+    fn without_peak(&self, within_rad: f64) -> (f64, Self) {
+        let first = angles().take_while(|angle| *angle < within_rad).count().min(STEPS);
+        let plateau = self.density[first];
+        let cut: Vec<f64> = self
+            .density
+            .iter()
+            .enumerate()
+            .map(|(i, p)| f64::from(if i < first { p.min(plateau) } else { *p }))
+            .collect();
+        let kept: f64 =
+            (0..STEPS).map(|i| PI * (cut[i] + cut[i + 1]) * (f64::from(self.v[i + 1]) - f64::from(self.v[i]))).sum();
+        ((1.0 - kept).max(0.0), Self::new(&cut))
+    }
+
     /// The cell of v.
     #[inline]
     fn cell(&self, v: f32) -> usize {
@@ -157,6 +172,24 @@ pub struct SpectralTable {
 }
 
 impl SpectralTable {
+    /// A phase function of the angle, rad, the same at all wavelengths and known but for a factor.
+    pub(super) fn grey(of: impl Fn(f64) -> f64) -> Self {
+        Self { nm: vec![550.0], tables: vec![PhaseTable::new(&angles().map(of).collect::<Vec<_>>())] }
+    }
+
+    /// The same without its forward peak: within `within_rad` no more than at that angle; and the share of light that the peak had, by
+    /// wavelength.
+    pub(super) fn without_peak(&self, within_rad: f64) -> (Spectrum, Self) {
+        let (shares, tables): (Vec<f64>, Vec<PhaseTable>) =
+            self.tables.iter().map(|table| table.without_peak(within_rad)).unzip();
+        let share = |nm: f64| {
+            let (i, between) = self.place(nm as f32);
+            let next = shares.get(i + 1).copied().unwrap_or(shares[i]);
+            shares[i] + f64::from(between) * (next - shares[i])
+        };
+        (Spectrum::from_fn(share), Self { nm: self.nm.clone(), tables })
+    }
+
     /// Water droplets of log-normal sizes about a median diameter, µm (0.1 to 100), by Mie's series (`etendue_spectra::mie`).
     #[must_use]
     pub fn of_water(diameter_um: f64) -> Self {
@@ -182,11 +215,14 @@ impl SpectralTable {
             let mu = cos(angle);
             let far = 2.0 * etendue_core::maths::f64::sin(0.5 * angle);
             let v = 0.5 * far * far;
-            let of = |g: f64| (1.0 - g * g) / ((1.0 - g) * (1.0 - g) + 2.0 * g * v).powf(1.5) * 0.25 / PI;
+            let of = |g: f64| {
+                let x = (1.0 - g) * (1.0 - g) + 2.0 * g * v;
+                (1.0 - g * g) / (x * x.sqrt()) * 0.25 / PI
+            };
             let draine = of(g_d) * (1.0 + alpha * mu * mu) / (1.0 + alpha * (1.0 + 2.0 * g_d * g_d) / 3.0);
             (1.0 - share) * of(g_hg) + share * draine
         };
-        Some(Self { nm: vec![550.0], tables: vec![PhaseTable::new(&angles().map(value).collect::<Vec<_>>())] })
+        Some(Self::grey(value))
     }
 
     /// Balls of a refractive index, far larger than light's waves, by geometric optics without diffraction: what a ball does to the light that

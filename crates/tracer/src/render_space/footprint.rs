@@ -1,11 +1,11 @@
 //! How large textures and shapes are about a point, for filtering. Looked up where a material asks.
 
 use crate::geometry::InstanceTransform;
-use crate::geometry::{Footprint, Mesh, sphere};
+use crate::geometry::{Footprint, MeshPose, sphere};
 use core::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3, Vec3};
 
-pub(super) fn of_mesh(mesh: &Mesh, placed: &InstanceTransform, primitive: u32) -> Footprint {
+pub(super) fn of_mesh(mesh: &MeshPose<'_>, placed: &InstanceTransform, primitive: u32) -> Footprint {
     Footprint { uv_per_m: uv_per_m(mesh, placed, primitive), local_per_m: local_per_m(placed) }
 }
 
@@ -15,17 +15,14 @@ pub(super) fn of_sphere(radius_m: f64, placed: &InstanceTransform) -> Footprint 
 }
 
 /// How texture coordinates change along a vector of a mesh's own frame in the plane of a triangle.
-pub(super) fn uv_along(mesh: &Mesh, primitive: u32, vector: DVec3) -> DVec2 {
-    if mesh.uvs().is_empty() {
-        return DVec2::ZERO;
-    }
+pub(super) fn uv_along(mesh: &MeshPose<'_>, primitive: u32, vector: DVec3) -> DVec2 {
+    let Some(uvs) = mesh.uvs(primitive) else { return DVec2::ZERO };
     let [a, b, c] = mesh.corners(primitive).map(Vec3::as_dvec3);
     let (along, across) = (b - a, c - a);
     let normal = along.cross(across);
     let weights =
         DVec2::new(normal.dot(vector.cross(across)), normal.dot(along.cross(vector))) / normal.length_squared();
-    let triangle = mesh.triangles()[primitive as usize];
-    let [a, b, c]: [DVec2; 3] = triangle.map(|v| mesh.uvs()[v as usize].as_dvec2());
+    let [a, b, c]: [DVec2; 3] = uvs.map(|uv| uv.as_dvec2());
     (b - a) * weights.x + (c - a) * weights.y
 }
 
@@ -42,12 +39,9 @@ pub(super) fn globe_along(point: DVec3, vector: DVec3) -> DVec2 {
 }
 
 /// Root of the ratio of a triangle's areas in texture units and in the render frame.
-fn uv_per_m(mesh: &Mesh, placed: &InstanceTransform, primitive: u32) -> f32 {
-    if mesh.uvs().is_empty() {
-        return 0.0;
-    }
-    let triangle = mesh.triangles()[primitive as usize];
-    let [a, b, c]: [DVec2; 3] = triangle.map(|v| mesh.uvs()[v as usize].as_dvec2());
+fn uv_per_m(mesh: &MeshPose<'_>, placed: &InstanceTransform, primitive: u32) -> f32 {
+    let Some(uvs) = mesh.uvs(primitive) else { return 0.0 };
+    let [a, b, c]: [DVec2; 3] = uvs.map(|uv| uv.as_dvec2());
     let texture = (b - a).perp_dot(c - a).abs();
     let [a, b, c]: [DVec3; 3] = mesh.corners(primitive).map(Vec3::as_dvec3).map(|p| placed.point_to_render(p));
     (texture / (b - a).cross(c - a).length()).sqrt() as f32

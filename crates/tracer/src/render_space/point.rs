@@ -6,12 +6,12 @@
 
 use crate::geometry::Hit;
 use crate::geometry::InstanceTransform;
-use crate::geometry::{Instance, Mesh, SurfacePoint, sphere};
+use crate::geometry::{Instance, MeshPose, SurfacePoint, sphere};
 use etendue_core::Ray;
 use glam::{DVec3, Vec2, Vec3};
 
 pub(super) fn of_mesh(
-    mesh: &Mesh,
+    mesh: &MeshPose<'_>,
     instance: &Instance,
     placed: &InstanceTransform,
     ray: &Ray,
@@ -22,14 +22,17 @@ pub(super) fn of_mesh(
     let position = placed.point_to_render(local).as_vec3();
     let facet = mesh.facet(hit.primitive);
     let flat = placed.unit_normal_to_render(facet.normal);
-    let (shading, own) =
-        if facet.is_flat { (flat, facet.normal) } else { bent(mesh, hit.primitive, weights, placed, flat) };
+    let normals = if facet.is_flat { None } else { mesh.normals(hit.primitive) };
+    let (shading, own) = match normals {
+        None => (flat, facet.normal),
+        Some(normals) => bent(mesh, (hit.primitive, normals), weights, placed, flat),
+    };
     SurfacePoint {
         position,
         position_error: placed.position_error(position, local),
         geometric_normal: flat,
         shading_normal: shading,
-        uv: uv(mesh, mesh.triangles()[hit.primitive as usize], weights),
+        uv: uv(mesh, hit.primitive, weights),
         local: local.as_vec3(),
         local_normal: own,
         instance: hit.instance,
@@ -41,8 +44,13 @@ pub(super) fn of_mesh(
 
 /// The interpolated normal in the render frame, on the side of the triangle's own, `flat`, and in the mesh's frame; unit.
 /// In f32, but for lengths of which f32 has no squares.
-fn bent(mesh: &Mesh, primitive: u32, weights: [f64; 3], placed: &InstanceTransform, flat: Vec3) -> (Vec3, Vec3) {
-    let [a, b, c] = mesh.triangles()[primitive as usize].map(|v| mesh.normals()[v as usize]);
+fn bent(
+    mesh: &MeshPose<'_>,
+    (primitive, [a, b, c]): (u32, [Vec3; 3]),
+    weights: [f64; 3],
+    placed: &InstanceTransform,
+    flat: Vec3,
+) -> (Vec3, Vec3) {
     let [wa, wb, wc] = weights.map(|w| w as f32);
     let own = a * wa + b * wb + c * wc;
     let normal = placed.long_normal_to_render(own);
@@ -102,7 +110,7 @@ pub(super) struct Normals {
 }
 
 impl Normals {
-    pub(super) fn of_mesh(mesh: &Mesh, primitive: u32, weights: [f64; 3], placed: &InstanceTransform) -> Self {
+    pub(super) fn of_mesh(mesh: &MeshPose<'_>, primitive: u32, weights: [f64; 3], placed: &InstanceTransform) -> Self {
         let [a, b, c] = mesh.corners(primitive).map(Vec3::as_dvec3);
         let local = (b - a).cross(c - a);
         let geometric = placed.normal_to_render(local).unwrap_or(DVec3::Z);
@@ -110,11 +118,14 @@ impl Normals {
         flat.interpolated(mesh, primitive, weights, placed).unwrap_or(flat)
     }
 
-    fn interpolated(&self, mesh: &Mesh, primitive: u32, weights: [f64; 3], placed: &InstanceTransform) -> Option<Self> {
-        if mesh.normals().is_empty() {
-            return None;
-        }
-        let normals = mesh.triangles()[primitive as usize].map(|v| mesh.normals()[v as usize].as_dvec3());
+    fn interpolated(
+        &self,
+        mesh: &MeshPose<'_>,
+        primitive: u32,
+        weights: [f64; 3],
+        placed: &InstanceTransform,
+    ) -> Option<Self> {
+        let normals = mesh.normals(primitive)?.map(Vec3::as_dvec3);
         let local = blend(normals, weights);
         let normal = placed.normal_to_render(local)?;
         let shading = if normal.dot(self.geometric) < 0.0 { -normal } else { normal };
@@ -126,10 +137,8 @@ fn blend(values: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     values[0] * weights[0] + values[1] * weights[1] + values[2] * weights[2]
 }
 
-fn uv(mesh: &Mesh, triangle: [u32; 3], weights: [f64; 3]) -> Vec2 {
-    if mesh.uvs().is_empty() {
-        return Vec2::ZERO;
-    }
-    let [a, b, c] = triangle.map(|v| mesh.uvs()[v as usize].as_dvec2());
+fn uv(mesh: &MeshPose<'_>, primitive: u32, weights: [f64; 3]) -> Vec2 {
+    let Some(uvs) = mesh.uvs(primitive) else { return Vec2::ZERO };
+    let [a, b, c] = uvs.map(|uv| uv.as_dvec2());
     (a * weights[0] + b * weights[1] + c * weights[2]).as_vec2()
 }

@@ -1,18 +1,15 @@
 //! Directions in which texture coordinates grow. Looked up where a material asks.
 
 use crate::geometry::InstanceTransform;
-use crate::geometry::Mesh;
+use crate::geometry::MeshPose;
 use glam::{DVec2, DVec3, Vec3};
 
 /// ∂p/∂u and ∂p/∂v of a triangle in its own frame, up to their lengths: texture coordinates are linear over it.
-pub(super) fn of_mesh(mesh: &Mesh, primitive: u32) -> Option<[DVec3; 2]> {
-    if mesh.uvs().is_empty() {
-        return None;
-    }
+pub(super) fn of_mesh(mesh: &MeshPose<'_>, primitive: u32) -> Option<[DVec3; 2]> {
+    let uvs = mesh.uvs(primitive)?;
     let [a, b, c] = mesh.corners(primitive).map(Vec3::as_dvec3);
     let (along, across) = (b - a, c - a);
-    let triangle = mesh.triangles()[primitive as usize];
-    let [a, b, c]: [DVec2; 3] = triangle.map(|v| mesh.uvs()[v as usize].as_dvec2());
+    let [a, b, c]: [DVec2; 3] = uvs.map(|uv| uv.as_dvec2());
     let (uv_along, uv_across) = (b - a, c - a);
     let turn = uv_along.perp_dot(uv_across);
     let side = if turn < 0.0 { -1.0 } else { 1.0 };

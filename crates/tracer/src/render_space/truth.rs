@@ -12,7 +12,7 @@
 use super::point::{self, Normals};
 use super::{Hit, RenderSpace};
 use crate::geometry::InstanceTransform;
-use crate::geometry::{Mesh, Shape, SurfacePoint, sphere};
+use crate::geometry::{MeshPose, Shape, SurfacePoint, sphere};
 use etendue_core::Ray;
 use glam::{DVec3, Vec3};
 
@@ -33,6 +33,8 @@ pub struct Truth {
     pub normal: DVec3,
     /// Place of the instance in the world's list.
     pub instance: u32,
+    /// Primitive within the instance's shape.
+    pub primitive: u32,
     /// The instance's identity.
     pub instance_id: u32,
     /// The instance's class.
@@ -81,7 +83,7 @@ impl RenderSpace<'_> {
         let (t, normal, slot) = match instance.shape {
             Shape::Mesh(id) => {
                 let lines = [(origin, along, 0.0), traced(placed, rounded, start)];
-                on_mesh(self.world.mesh(id), placed, hit, lines)
+                on_mesh(&self.pose(id, rounded.time_s), placed, hit, lines)
             }
             Shape::Sphere { radius_m } => {
                 let about = passed.then_some(start + f64::from(hit.t));
@@ -94,6 +96,7 @@ impl RenderSpace<'_> {
             position_m,
             normal,
             instance: hit.instance,
+            primitive: hit.primitive,
             instance_id: instance.instance_id,
             semantic_id: instance.semantic_id,
             material: instance.materials[slot].0,
@@ -108,7 +111,7 @@ fn traced(placed: &InstanceTransform, rounded: &Ray, start: f64) -> Line {
 }
 
 /// Where the first of `lines` that meets the triangle does so.
-fn on_mesh(mesh: &Mesh, placed: &InstanceTransform, hit: &Hit, lines: [Line; 2]) -> (f64, DVec3, usize) {
+fn on_mesh(mesh: &MeshPose<'_>, placed: &InstanceTransform, hit: &Hit, lines: [Line; 2]) -> (f64, DVec3, usize) {
     let corners = mesh.corners(hit.primitive).map(Vec3::as_dvec3);
     let meets = |(t, u, v): &(f64, f64, f64)| *t > 0.0 && u.min(*v).min(1.0 - u - v) >= -BEYOND;
     let solve =
@@ -117,7 +120,7 @@ fn on_mesh(mesh: &Mesh, placed: &InstanceTransform, hit: &Hit, lines: [Line; 2])
     // A ray in the plane itself has no better answer than the accelerator's.
     let (t, u, v) = solved.unwrap_or((lines[1].2 + f64::from(hit.t), f64::from(hit.u), f64::from(hit.v)));
     let normals = Normals::of_mesh(mesh, hit.primitive, point::weights(u, v), placed);
-    (t, normals.shading, usize::from(mesh.slots()[hit.primitive as usize]))
+    (t, normals.shading, usize::from(mesh.mesh().slots()[hit.primitive as usize]))
 }
 
 /// Where a ray meets a triangle's plane: t, and the barycentric weights of vertices 1 and 2 there.

@@ -4,10 +4,11 @@
 
 use core::fmt::Write as _;
 
-use super::fleet;
 use super::hours::{ONCOMING, street_lamps};
+use super::{fleet, walk};
 use crate::description::Description;
 use crate::mesh::Mesh;
+use crate::obj::number;
 
 /// A car under way: the object of the street that it replaces, where it is at the beginning (m), its heading (degrees) and speed (m/s).
 struct Driver {
@@ -98,11 +99,19 @@ fn person((name, at, heading_deg, speed_m_s): (&str, [f64; 3], f64, f64), street
         _ => (0.0, -1.0),
     };
     let way = speed_m_s * LENGTH_S;
+    let mesh = format!("walk-{name}");
+    let rate_hz = number(walk::rate_hz(speed_m_s));
+    let _ = write!(
+        text,
+        "\n[[meshes]]\nname = \"{mesh}\"\nup_axis = \"z\"\nvertex_animation = {{ files = \"../street/meshes/walk-%d.obj\", \
+         count = {}, rate_hz = {rate_hz}, repeat = \"loop\" }}\n",
+        walk::PHASES
+    );
     let _ = write!(
         text,
         "\n{}keys = [\n  {{ time_s = 0, position_m = [{x}, {y}, {z}], rotation_deg = [{heading_deg}, 0, 0] }},\n  \
          {{ time_s = {LENGTH_S}, position_m = [{:.2}, {:.2}, {z}], rotation_deg = [{heading_deg}, 0, 0] }},\n]\n",
-        head(name, None, street),
+        walking(name, &mesh, street),
         x + dx * way,
         y + dy * way
     );
@@ -116,6 +125,12 @@ fn head(name: &str, body: Option<&Mesh>, street: &Description) -> String {
         if body.is_some() { "hatchback-body" } else { object.mesh },
         body.map(|mesh| &mesh.slots[..]),
     )
+}
+
+/// The head of a walker of the street, with another mesh.
+fn walking(name: &str, mesh: &str, street: &Description) -> String {
+    let object = street.objects.iter().find(|object| object.name == name).expect("a walker of the street");
+    street.object_head(object, mesh, None)
 }
 
 fn lamps(text: &mut String) {

@@ -21,6 +21,7 @@ mod road;
 mod roof;
 mod text;
 mod tree;
+mod walk;
 mod wheel;
 
 use crate::File;
@@ -37,6 +38,7 @@ pub fn files() -> Vec<File> {
     files.push(File::text(String::from("street/street.toml"), text::job()));
     files.extend(other_hours());
     files.extend(drive(&street));
+    files.extend(walk::files());
     files
 }
 

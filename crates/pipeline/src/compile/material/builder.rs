@@ -170,6 +170,11 @@ impl MaterialTableBuilder {
         made
     }
 
+    /// Whether a material gives light of its own.
+    pub(in super::super) fn glows(&self, id: MaterialId) -> bool {
+        self.materials.get(id.0 as usize).is_some_and(|made| made.material.emission.is_some())
+    }
+
     /// Whether the strength of a material's light changes over time.
     pub(in super::super) fn is_modulated(&self, id: MaterialId) -> bool {
         self.modulation(id).is_some()

@@ -29,7 +29,11 @@ pub(super) fn near(plan: &Plan, camera: &CameraPlan) -> Option<String> {
     let of = |diameter_m: f64| {
         let classes = precipitation.field.classes();
         let class = classes.iter().position(|class| class.diameter_m >= diameter_m).unwrap_or(classes.len() - 1);
-        format!("{} m (of {} mm)", significant(change_over.radii_m[class]), significant(1e3 * classes[class].diameter_m))
+        format!(
+            "{} m (of {} mm)",
+            significant(change_over.radii_m[class]),
+            significant(1e3 * classes[class].diameter_m)
+        )
     };
     if change_over.expected < 0.5 {
         return Some(format!("a medium at all distances: no {number} are resolved"));

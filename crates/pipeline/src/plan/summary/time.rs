@@ -3,6 +3,7 @@
 use super::words::figure;
 use crate::plan::{CameraPlan, Plan, RowExposure, TimeDependence};
 use etendue_core::{RowTiming, Shutter};
+use etendue_tracer::geometry::{Instance, Shape};
 
 /// What moves; `None` where nothing does.
 pub(super) fn motion(plan: &Plan) -> Option<String> {
@@ -14,9 +15,19 @@ pub(super) fn motion(plan: &Plan) -> Option<String> {
         n => Some(format!("{n} {many} move")),
     };
     let lamps = plan.sources.lamps.iter().filter(|lamp| lamp.to_world().as_still().is_none()).count();
+    let deforms = |instance: &&Instance| match instance.shape {
+        Shape::Mesh(id) => plan.world.mesh(id).animation().is_some_and(|animation| !animation.is_still()),
+        Shape::Sphere { .. } => false,
+    };
+    let deforming = plan.world.instances().iter().filter(deforms).count();
     let moving =
         [told(instances, "instance", "instances"), told(lamps, "lamp", "lamps"), told(cameras, "camera", "cameras")];
-    let moving: Vec<String> = moving.into_iter().flatten().collect();
+    let deforming = match deforming {
+        0 => None,
+        1 => Some("the vertices of one instance move".to_owned()),
+        n => Some(format!("the vertices of {n} instances move")),
+    };
+    let moving: Vec<String> = moving.into_iter().chain([deforming]).flatten().collect();
     (!moving.is_empty()).then(|| moving.join(", "))
 }
 

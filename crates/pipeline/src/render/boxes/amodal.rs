@@ -3,7 +3,7 @@
 use super::pixel_box::PixelBox;
 use crate::plan::Plan;
 use crate::render::frame_view::FrameView;
-use crate::render::motion::image_of;
+use crate::render::motion::{OwnPoint, image_of};
 use etendue_tracer::geometry::{Instance, Mesh, Shape};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -29,8 +29,9 @@ pub(super) struct Amodal {
 impl Amodal {
     /// The image of an instance in a frame; a sphere's outline is that seen at `time_s`.
     pub(super) fn of(plan: &Plan, frame: &FrameView<'_>, instance: &Instance, time_s: f64) -> Self {
-        let image =
-            |local: DVec3| image_of(frame, local, &instance.to_world).map(|at_px| PixelBox { low: at_px, high: at_px });
+        let image = |own: OwnPoint<'_>| {
+            image_of(frame, own, &instance.to_world).map(|at_px| PixelBox { low: at_px, high: at_px })
+        };
         let points = points(plan, frame, instance, time_s);
         let all = points.len();
         let boxes = points.into_par_iter().filter_map(image).map(|b| (1, b));
@@ -51,17 +52,18 @@ impl Amodal {
 
 /// Points whose images bound that of the object, in the instance's own frame: a mesh's vertices and points on its edges, or of a sphere's
 /// outline; none of a sphere about the camera. (An image is bounded by images of edges: a lens maps directions one to one.)
-fn points(plan: &Plan, frame: &FrameView<'_>, instance: &Instance, time_s: f64) -> Vec<DVec3> {
+fn points<'w>(plan: &'w Plan, frame: &FrameView<'_>, instance: &Instance, time_s: f64) -> Vec<OwnPoint<'w>> {
     match instance.shape {
         Shape::Mesh(id) => on_edges(plan.world.mesh(id)),
         Shape::Sphere { radius_m } => {
             let to_local = instance.to_world.at(time_s).inverse();
-            outline(radius_m, to_local.transform_point3(frame.pose_at(time_s).position_m))
+            let eye = to_local.transform_point3(frame.pose_at(time_s).position_m);
+            outline(radius_m, eye).into_iter().map(OwnPoint::Fixed).collect()
         }
     }
 }
 
-fn on_edges(mesh: &Mesh) -> Vec<DVec3> {
+fn on_edges(mesh: &Mesh) -> Vec<OwnPoint<'_>> {
     let mut edges: Vec<[u32; 2]> = mesh
         .triangles()
         .iter()
@@ -70,16 +72,23 @@ fn on_edges(mesh: &Mesh) -> Vec<DVec3> {
     edges.sort_unstable();
     edges.dedup();
     let parts = ON_EDGES.checked_div(edges.len()).unwrap_or(0).max(1);
-    let mut points: Vec<DVec3> = Vec::new();
     let mut vertices: Vec<u32> = edges.iter().flatten().copied().collect();
     vertices.sort_unstable();
     vertices.dedup();
-    let at = |vertex: u32| mesh.positions()[vertex as usize].as_dvec3();
-    points.extend(vertices.into_iter().map(at));
-    for [a, b] in edges {
-        points.extend((1..parts).map(|i| at(a).lerp(at(b), i as f64 / parts as f64)));
+    let mut points: Vec<OwnPoint<'_>> = vertices.into_iter().map(|vertex| between(mesh, [vertex; 2], 0.0)).collect();
+    for edge in edges {
+        points.extend((1..parts).map(|i| between(mesh, edge, i as f64 / parts as f64)));
     }
     points
+}
+
+/// A point of an edge, this share of its length from the first vertex.
+fn between(mesh: &Mesh, [a, b]: [u32; 2], share: f64) -> OwnPoint<'_> {
+    if mesh.animation().is_some() {
+        return OwnPoint::Between { mesh, vertices: [a, b, b], weights: [1.0 - share, share, 0.0] };
+    }
+    let [from, to] = [a, b].map(|vertex| mesh.positions()[vertex as usize].as_dvec3());
+    OwnPoint::Fixed(if a == b { from } else { from.lerp(to, share) })
 }
 
 /// Points of the circle in which rays from `eye` touch a sphere about the origin: affine maps keep what touches, so that it is the outline in

@@ -31,7 +31,8 @@ impl SolidBox {
     pub(super) fn of(plan: &Plan, instance: &Instance, time_s: f64, pose: &CameraPose) -> Self {
         let to_world = instance.to_world.at(time_s);
         let axes = upright(&to_world.matrix3);
-        let corners = corners(plan, instance).map(|corner| axes.transpose() * to_world.transform_vector3(corner));
+        let corners =
+            corners(plan, instance, time_s).map(|corner| axes.transpose() * to_world.transform_vector3(corner));
         let low = corners.iter().copied().reduce(DVec3::min).unwrap_or_default();
         let high = corners.iter().copied().reduce(DVec3::max).unwrap_or_default();
         let centre_m = to_world.translation + axes * ((low + high) * 0.5);
@@ -47,12 +48,13 @@ impl SolidBox {
     }
 }
 
-/// The corners of the box about a shape, in its own frame.
-fn corners(plan: &Plan, instance: &Instance) -> [DVec3; 8] {
+/// The corners of the box about a shape at a time, in its own frame.
+fn corners(plan: &Plan, instance: &Instance, time_s: f64) -> [DVec3; 8] {
     let (low, high) = match instance.shape {
         Shape::Mesh(id) => plan
             .world
             .mesh(id)
+            .at(time_s)
             .bounds()
             .map_or((DVec3::ZERO, DVec3::ZERO), |(low, high)| (low.as_dvec3(), high.as_dvec3())),
         Shape::Sphere { radius_m } => (DVec3::splat(-radius_m), DVec3::splat(radius_m)),

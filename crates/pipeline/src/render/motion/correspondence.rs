@@ -5,10 +5,10 @@
 //! does not outrun the shutter; what does has no single image.
 
 use super::image_point::{Target, image_point, unbent};
-use super::surface_path::{HALF_STEP_S, SurfacePath};
+use super::surface_path::{HALF_STEP_S, OwnPoint, SurfacePath};
 use crate::render::frame_view::FrameView;
 use etendue_core::{CameraPose, Motion};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 /// Where a pixel looks: its place, and whether its ray is off the pupil's centre.
 #[derive(Clone, Copy, Debug)]
@@ -71,8 +71,8 @@ pub(crate) fn image_velocity(
 
 /// Where a frame sees a point of an instance's own frame, px, sought from where the bare lens would see it; `None` where it has no image, and
 /// by mirrors.
-pub(crate) fn image_of(frame: &FrameView<'_>, local: DVec3, to_world: &Motion) -> Option<DVec2> {
-    let surface = SurfacePath::Point { local, to_world };
+pub(crate) fn image_of(frame: &FrameView<'_>, own: OwnPoint<'_>, to_world: &Motion) -> Option<DVec2> {
+    let surface = SurfacePath::Point { own, to_world };
     let middle_s = frame.interval().middle_s();
     let at_px = unbent(frame.body(), surface.seen_from(&frame.pose_at(middle_s), middle_s))?;
     Some(correspondence(frame, &surface, Sight { at_px, off_centre: false })?.at_px)

@@ -1,7 +1,7 @@
 //! Ground truth of motion: where what a pixel sees is seen in other frames, and how it moves.
 //!
 //! Along the same principal rays as the ground truth (587.56 nm, pixel centres), each at the middle of its row's exposure. What is seen there is
-//! held fast in its instance's own frame, moved with the instance to the time of the other frame, seen from where the camera then stands, and
+//! held fast in its instance's own frame (on its triangle, where vertices move), moved with the instance to the time of the other frame, seen from where the camera then stands, and
 //! projected by the lens with its distortion. In a frame of a rolling shutter that time is that of the row where the point appears
 //! ([`FrameView::middle_at_s`]). What is not a number has no image: behind the camera, outside the lens's field, beside a mirror.
 //!
@@ -33,6 +33,7 @@ use glam::DVec2;
 use neighbour::Neighbour;
 use planes::plane;
 use rayon::prelude::*;
+pub(crate) use surface_path::OwnPoint;
 use surface_path::SurfacePath;
 
 /// The truth of motion of one frame.
@@ -101,10 +102,7 @@ fn look(plan: &Plan, looks_at: &LookAt<'_>, neighbours: &[Neighbour<'_>], at_px:
     let (line, pose, time_s) = (&ray.front.ray, &ray.pose, ray.time_s);
     let surface = match looks_at.meets(pose, line.origin_m, line.direction, ray.ray_time_s, None) {
         None => SurfacePath::Background(pose.direction_to_world(line.direction)),
-        Some(truth) => {
-            let instance = &plan.world.instances()[truth.instance as usize];
-            SurfacePath::of_point(truth.position_m, &instance.to_world, time_s)
-        }
+        Some(truth) => SurfacePath::of_point(plan, &truth, time_s),
     };
     let sight = Sight { at_px, off_centre: ray.off_centre };
     let here = surface.seen_from(pose, time_s);

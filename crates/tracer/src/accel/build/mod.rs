@@ -59,6 +59,17 @@ pub(super) fn over_triangles(
     }
 }
 
+/// A binary tree over triangles that move, each in its box for all of an interval; empty without triangles. Places found at times in between
+/// may be rounded out of those boxes by a unit in the last place of f32, 1.2e-7 of their coordinates, for which there is room too.
+pub(super) fn over_moving(count: usize, swept: impl Fn(u32) -> Box3 + Sync, quality: TreeQuality) -> Vec<BinaryNode> {
+    let mut references = pieces::swept(count, &swept);
+    let binary = top_down::build(&mut references);
+    match quality {
+        TreeQuality::Fast => binary,
+        TreeQuality::Default | TreeQuality::Best => reinsertion::improved(binary, LARGEST),
+    }
+}
+
 /// A binary tree over boxes; empty without boxes.
 pub(super) fn over_boxes(boxes: &[Box3]) -> Vec<BinaryNode> {
     let reference = |(b, number): (&Box3, u32)| Reference::new(&b.grown(b.padding()), number);

@@ -18,6 +18,8 @@ const GAIN: f32 = 1.8;
 const GAIN_OF_SMALL: f32 = 1.6;
 /// Places tried along the longest axis, and one more.
 const PLACES: u32 = 12;
+/// A quarter more than the padding, 1.5e-7 of the coordinates, for a rounding of what moves.
+const ROUNDED: f32 = 1.25;
 /// Cuts one below the other: at most 2¹² pieces.
 const DEEPEST: u32 = 12;
 
@@ -30,7 +32,16 @@ pub(super) fn whole(count: usize, corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) 
     (0..count as u32).into_par_iter().map(reference).collect()
 }
 
-/// The same, with several references to a triangle that is large beside the others.
+/// A reference to each of `count` triangles that move, by the box about all places of each.
+pub(super) fn swept(count: usize, bounds: &(impl Fn(u32) -> Box3 + Sync)) -> Vec<Reference> {
+    let reference = |triangle| {
+        let bounds = bounds(triangle);
+        Reference::new(&bounds.grown(bounds.padding_by_axis() * ROUNDED), triangle)
+    };
+    (0..count as u32).into_par_iter().map(reference).collect()
+}
+
+/// As [`whole`], with several references to a triangle that is large beside the others.
 pub(super) fn cut_large(count: usize, corners: &(impl Fn(u32) -> [Vec3; 3] + Sync)) -> Vec<Reference> {
     let mut references = whole(count, corners);
     let limits = Limits::new(&references);

@@ -43,7 +43,8 @@ fn alone(view: &RenderSpace<'_>, ray: &Ray, instance: u32, primitive: u32) -> Op
             Some(Hit { t, instance, primitive, u: 0.0, v: 0.0 })
         }
         Shape::Mesh(id) => {
-            let halves: Vec<_> = Half::of(&[primitive], |p| world.mesh(id).corners(p)).collect();
+            let pose = world.mesh(id).at(view.interval().moment(ray.time_s));
+            let halves: Vec<_> = Half::of(&[primitive], |p| pose.corners(p)).collect();
             let packet = Packet::new(&halves, 0, 0);
             let local = LocalRay::new(origin.as_vec3(), direction.as_vec3());
             let hit = packet.meet(Plain, &RayLanes::new(Plain, &local), &local, f32::INFINITY)?.next()?;

@@ -1,6 +1,7 @@
 //! Tests of the accelerator against closed forms and brute force.
 
 mod agreement;
+mod deforming;
 mod degenerate;
 mod motion;
 mod needles;

@@ -1,0 +1,166 @@
+//! The tree of a mesh whose vertices move during a view's interval.
+//!
+//! Between the interval's ends and the times of frames inside it every vertex goes straight, so that a triangle stays within the box about
+//! its corners at all of these: the boxes of the tree. A leaf names its triangles, whose corners are found at the ray's own time and
+//! met by the same test as those that stand still. Two triangles that share a vertex find the same bits for it.
+
+use super::best::{Best, Names};
+use super::boxes::Box3;
+use super::build::{TreeQuality, over_moving};
+use super::collapse::{Wide, collapse};
+use super::lanes::{Job, Lanes, Visit};
+use super::local::LocalRay;
+use super::node::{Child, Node};
+use super::packet::{Half, Packet, RayLanes};
+use super::ray::SlabRay;
+use super::walk::{Leaves, walk};
+use crate::geometry::{Mesh, MeshPose};
+use etendue_core::TimeInterval;
+
+/// Triangles a leaf: as many as are met at once.
+const LEAF_SIZE: usize = 8;
+
+/// The tree of a mesh in motion.
+#[derive(Clone, Debug)]
+pub(super) struct SweptTree<'w> {
+    mesh: &'w Mesh,
+    interval: TimeInterval,
+    nodes: Vec<Node>,
+    /// Where the triangles of each leaf begin and end in `primitives`.
+    leaves: Vec<[u32; 2]>,
+    primitives: Vec<u32>,
+    root: Option<Child>,
+}
+
+impl<'w> SweptTree<'w> {
+    /// Builds the tree of a mesh for an interval.
+    pub(super) fn new(mesh: &'w Mesh, interval: TimeInterval, quality: TreeQuality) -> Self {
+        let poses = mesh.poses_of(interval);
+        let swept = |primitive: u32| {
+            let boxes = poses.iter().map(|pose| Box3::about(&pose.corners(primitive)));
+            boxes.reduce(|a, b| a.union(&b)).expect("a pose at least")
+        };
+        let binary = over_moving(mesh.triangles().len(), swept, quality);
+        let (mut leaves, mut primitives) = (Vec::new(), Vec::new());
+        let Wide { nodes, root } = collapse(&binary, LEAF_SIZE, |leaf| {
+            let begin = primitives.len() as u32;
+            primitives.extend_from_slice(leaf);
+            leaves.push([begin, primitives.len() as u32]);
+            leaves.len() - 1
+        });
+        Self { mesh, interval, nodes, leaves, primitives, root }
+    }
+
+    /// Offers the triangles that a ray of this time ([`etendue_core::Ray::time_s`]) meets with 0 < t ≤ `limit` to `best`, which lowers it.
+    pub(super) fn closest<L: Lanes>(
+        &self,
+        l: L,
+        (ray, time_s): (&LocalRay, f32),
+        names: Names<'_>,
+        best: &mut Best,
+        limit: &mut f32,
+    ) {
+        let pose = self.mesh.at(self.interval.moment(time_s));
+        l.run(Closest { tree: self, pose, ray, names, best, limit });
+    }
+
+    /// Whether a ray of this time meets a triangle with 0 < t < `t_max`.
+    pub(super) fn occluded<L: Lanes>(&self, l: L, (ray, time_s): (&LocalRay, f32), t_max: f32) -> bool {
+        let pose = self.mesh.at(self.interval.moment(time_s));
+        l.run(Occluded { tree: self, pose, ray, t_max })
+    }
+
+    /// The triangles of a leaf as they are in a pose; the second half is the first where there are four at most.
+    #[inline(always)]
+    fn halves(&self, pose: &MeshPose<'_>, leaf: usize) -> ([Half; 2], usize) {
+        let [begin, end] = self.leaves[leaf];
+        let primitives = &self.primitives[begin as usize..end as usize];
+        let (first, second) = primitives.split_at(primitives.len().min(Half::SIZE));
+        let first = Half::new(first, |primitive| pose.corners(primitive));
+        if second.is_empty() {
+            return ([first.clone(), first], 0);
+        }
+        ([first, Half::new(second, |primitive| pose.corners(primitive))], 1)
+    }
+}
+
+struct Closest<'a> {
+    tree: &'a SweptTree<'a>,
+    pose: MeshPose<'a>,
+    ray: &'a LocalRay,
+    names: Names<'a>,
+    best: &'a mut Best,
+    limit: &'a mut f32,
+}
+
+impl Job for Closest<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn work<L: Lanes>(self, l: L) {
+        let Self { tree, pose, ray, names, best, limit } = self;
+        let Some(root) = tree.root else { return };
+        let slab = SlabRay::with_inverse(ray.origin, ray.inverse);
+        walk::<L, true>(l, &tree.nodes, root, &slab, limit, &mut ClosestLeaf { l, tree, pose, ray, names, best });
+    }
+}
+
+struct ClosestLeaf<'a, L: Lanes> {
+    l: L,
+    tree: &'a SweptTree<'a>,
+    pose: MeshPose<'a>,
+    ray: &'a LocalRay,
+    names: Names<'a>,
+    best: &'a mut Best,
+}
+
+impl<L: Lanes> Leaves for ClosestLeaf<'_, L> {
+    #[inline(always)]
+    fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
+        self.l.note(Visit::Leaf);
+        let spread = RayLanes::new(self.l, self.ray);
+        let (halves, second) = self.tree.halves(&self.pose, leaf);
+        if let Some(meeting) = Packet::new(&halves, 0, second).meet(self.l, &spread, self.ray, *limit) {
+            for hit in meeting {
+                self.best.offer(self.names, hit, limit);
+            }
+        }
+        false
+    }
+}
+
+struct Occluded<'a> {
+    tree: &'a SweptTree<'a>,
+    pose: MeshPose<'a>,
+    ray: &'a LocalRay,
+    t_max: f32,
+}
+
+impl Job for Occluded<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn work<L: Lanes>(self, l: L) -> bool {
+        let Self { tree, pose, ray, t_max } = self;
+        let Some(root) = tree.root else { return false };
+        let slab = SlabRay::with_inverse(ray.origin, ray.inverse);
+        walk::<L, false>(l, &tree.nodes, root, &slab, &mut { t_max }, &mut AnyLeaf { l, tree, pose, ray })
+    }
+}
+
+struct AnyLeaf<'a, L: Lanes> {
+    l: L,
+    tree: &'a SweptTree<'a>,
+    pose: MeshPose<'a>,
+    ray: &'a LocalRay,
+}
+
+impl<L: Lanes> Leaves for AnyLeaf<'_, L> {
+    #[inline(always)]
+    fn visit(&mut self, leaf: usize, limit: &mut f32) -> bool {
+        self.l.note(Visit::Leaf);
+        let spread = RayLanes::new(self.l, self.ray);
+        let (halves, second) = self.tree.halves(&self.pose, leaf);
+        Packet::new(&halves, 0, second).blocks(self.l, &spread, self.ray, *limit)
+    }
+}

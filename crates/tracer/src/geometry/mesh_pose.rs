@@ -1,0 +1,122 @@
+//! A mesh as it is at one moment.
+
+use super::facet::Facet;
+use super::vertex_animation::Span;
+use super::{Mesh, VertexAnimation};
+use etendue_core::TimeInterval;
+use glam::{DVec3, Vec2, Vec3};
+
+/// A mesh at one moment: its own vertices, or where its animation has them.
+#[derive(Clone, Copy, Debug)]
+pub struct MeshPose<'m> {
+    mesh: &'m Mesh,
+    moved: Option<(&'m VertexAnimation, Span)>,
+}
+
+impl Mesh {
+    /// The mesh at a simulated time, s.
+    #[must_use]
+    pub fn at(&self, time_s: f64) -> MeshPose<'_> {
+        match self.animation() {
+            None => MeshPose::still(self),
+            Some(animation) => MeshPose::moved(self, animation, animation.span(time_s)),
+        }
+    }
+
+    /// The mesh as it is all through an interval; `None` where some vertex moves.
+    pub(crate) fn still_over(&self, interval: TimeInterval) -> Option<MeshPose<'_>> {
+        let Some(animation) = self.animation() else { return Some(MeshPose::still(self)) };
+        animation.still_over(interval).map(|span| MeshPose::moved(self, animation, span))
+    }
+
+    /// Poses between which all vertices go straight during an interval, in no order.
+    pub(crate) fn poses_of(&self, interval: TimeInterval) -> Vec<MeshPose<'_>> {
+        let Some(animation) = self.animation() else { return vec![MeshPose::still(self)] };
+        let spans = animation.corners_of(interval).into_iter();
+        spans.map(|span| MeshPose::moved(self, animation, span)).collect()
+    }
+}
+
+impl<'m> MeshPose<'m> {
+    /// A mesh whose vertices do not move.
+    #[inline(always)]
+    pub(crate) fn still(mesh: &'m Mesh) -> Self {
+        Self { mesh, moved: None }
+    }
+
+    fn moved(mesh: &'m Mesh, animation: &'m VertexAnimation, span: Span) -> Self {
+        Self { mesh, moved: Some((animation, span)) }
+    }
+
+    /// The mesh.
+    pub(crate) fn mesh(&self) -> &'m Mesh {
+        self.mesh
+    }
+
+    /// The corners of a triangle.
+    #[inline(always)]
+    #[must_use]
+    pub fn corners(&self, primitive: u32) -> [Vec3; 3] {
+        match self.moved {
+            None => self.mesh.corners(primitive),
+            Some((animation, span)) => self.vertices(primitive).map(|v| animation.position(span, v)),
+        }
+    }
+
+    /// A vertex, not rounded to f32.
+    #[must_use]
+    pub fn exact_position(&self, vertex: u32) -> DVec3 {
+        match self.moved {
+            None => self.mesh.positions()[vertex as usize].as_dvec3(),
+            Some((animation, span)) => animation.exact_position(span, vertex),
+        }
+    }
+
+    /// What every hit on a triangle asks of it.
+    #[inline(always)]
+    pub(crate) fn facet(&self, primitive: u32) -> Facet {
+        match self.moved {
+            None => *self.mesh.facet(primitive),
+            Some(_) => {
+                Facet::new(self.corners(primitive), self.normals(primitive), self.mesh.slots()[primitive as usize])
+            }
+        }
+    }
+
+    /// The normals of a triangle's vertices, as given; `None` without normals.
+    #[inline(always)]
+    pub(crate) fn normals(&self, primitive: u32) -> Option<[Vec3; 3]> {
+        match self.moved {
+            None => {
+                let normals = self.mesh.normals();
+                (!normals.is_empty()).then(|| self.vertices(primitive).map(|v| normals[v as usize]))
+            }
+            Some((animation, span)) => {
+                let [a, b, c] = self.vertices(primitive).map(|v| animation.normal(span, v));
+                Some([a?, b?, c?])
+            }
+        }
+    }
+
+    /// The texture coordinates of a triangle's vertices; `None` without.
+    #[inline(always)]
+    pub(crate) fn uvs(&self, primitive: u32) -> Option<[Vec2; 3]> {
+        let uvs = self.mesh.uvs();
+        (!uvs.is_empty()).then(|| self.vertices(primitive).map(|v| uvs[v as usize]))
+    }
+
+    /// Least and greatest coordinates of the triangles; `None` without triangles.
+    #[must_use]
+    pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        if self.moved.is_none() {
+            return self.mesh.bounds();
+        }
+        let corners = (0..self.mesh.triangles().len() as u32).flat_map(|primitive| self.corners(primitive));
+        corners.map(|p| (p, p)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    }
+
+    #[inline(always)]
+    fn vertices(&self, primitive: u32) -> [u32; 3] {
+        self.mesh.triangles()[primitive as usize]
+    }
+}
