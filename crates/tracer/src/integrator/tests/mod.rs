@@ -16,6 +16,7 @@ mod motion;
 mod near_lights;
 mod openings;
 mod passages;
+mod precipitation;
 mod sharing;
 mod sides;
 

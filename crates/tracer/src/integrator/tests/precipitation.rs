@@ -1,0 +1,80 @@
+//! Light through rain and snow.
+
+use super::*;
+use crate::accel::Simd;
+use crate::media::Media;
+use crate::precipitation::{ChangeOver, Crystals, Field, Near, Resolution, SeenRegion, SizeLaw, rain, snow};
+
+/// Mean radiance over rays that start about the origin within a cone along x, from 32 replicates, with what falls or without.
+fn look(ready: &Ready, law: SizeLaw, settings: PathSettings) -> (ReplicateEstimate, f64) {
+    let field = Field::new(law, DVec3::new(0.0, 4.0, 0.0), 5.0, 9);
+    let interval = TimeInterval::new(0.0, 0.02).expect("legal");
+    let region = SeenRegion::around(&[DVec3::X], 0.1, 0.0);
+    let resolution = Resolution { pixel_rad: 1e-3, smallest_px: 0.25, most: 20_000.0, clear_m: 0.0 };
+    let change_over = ChangeOver::new(field.classes(), &resolution, &region);
+    let medium = [field.medium().expect("legal")];
+    let media = Media::new(&medium, DVec3::ZERO, interval);
+    let near = Near::new(&field, (media.clone(), 0), (DVec3::ZERO, interval, Simd::Auto), &region, &change_over);
+    let view = ready.world.render_space(DVec3::ZERO);
+    let lights = ready.lights(&view);
+    let tracer =
+        PathTracer::new(&view, &ready.material_table, &lights, settings).with_media(&media).with_near(Some(&near));
+    let ray = |k: u32| {
+        let [a, b] = [k % 16, k / 16].map(|i| (i as f32 + 0.5) / 16.0 - 0.5);
+        Ray::new(Vec3::ZERO, Vec3::new(1.0, 0.12 * a, 0.12 * b).normalize(), 0.02 * (k as f32 / 256.0))
+    };
+    let met = (0..256).filter(|k| near.closest(&ray(*k), 1e9).is_some()).count() as f64 / 256.0;
+    let mean = |r: u32| (0..256).map(|k| replicate(&tracer, &ray(k), 4, 256 * r + k)).sum::<f64>() / 256.0;
+    (ReplicateEstimate::of(&(0..32).map(mean).collect::<Vec<_>>()).expect("replicates"), met)
+}
+
+fn under(environment: Environment) -> Ready {
+    Scene { sources: Sources { environment: Some(environment), ..Sources::default() }, ..Scene::default() }.ready()
+}
+
+/// A sky and a floor that sends back all light, so that none is lost in rain below.
+fn furnace() -> Ready {
+    let environment = Some(Environment::Uniform(Spectrum::constant(1.0)));
+    let mut scene = Scene { sources: Sources { environment, ..Sources::default() }, ..Scene::default() };
+    let white = scene.material(matt(1.0), None);
+    scene.square(Vec3::new(0.0, 0.0, -2.0), 20_000.0, white);
+    scene.ready()
+}
+
+/// In even light of 1 nothing that falls is seen, near or far. Spheroids scatter a little unlike the balls of the phase function, so that light
+/// that is both drawn and found is not quite whole: 1e-3 is allowed, of the tenth of the rays that meet drops.
+#[test]
+fn rain_and_snow_in_a_furnace_are_not_seen() {
+    let settings = PathSettings { max_bounces: 400, roulette_start: 400, ..PathSettings::default() };
+    for law in [rain(150.0), snow(3.0, Crystals::Dendrites)] {
+        let law = law.expect("legal");
+        let (seen, met) = look(&furnace(), law, settings);
+        assert!(met > 0.01, "{met}");
+        assert!((seen.mean - 1.0).abs() < 3.0 * seen.standard_error() + 1e-3, "{law:?}: {seen:?}");
+    }
+}
+
+/// In front of darkness drops show what is about them, and are dark where all is.
+#[test]
+fn rain_is_bright_before_a_dark_wall_and_dark_where_nothing_shines() {
+    let settings = PathSettings { max_bounces: 4, ..PathSettings::default() };
+    let mut scene = Scene {
+        sources: Sources { environment: Some(Environment::Uniform(Spectrum::constant(1.0))), ..Sources::default() },
+        ..Scene::default()
+    };
+    let black = scene.material(Surface::Absorber, None);
+    let wall = vec![
+        Vec3::new(30.0, -6.0, -6.0),
+        Vec3::new(30.0, 6.0, -6.0),
+        Vec3::new(30.0, 6.0, 6.0),
+        Vec3::new(30.0, -6.0, 6.0),
+    ];
+    scene.mesh(wall, vec![[0, 1, 2], [0, 2, 3]], black);
+    let law = rain(150.0).expect("legal");
+    let (seen, _) = look(&scene.ready(), law, settings);
+    // 30 m of β as of an image: what is lost is replaced by light of the surroundings, of which the wall hides a part about the direction of sight.
+    let lost = 30.0 * Field::new(law, DVec3::ZERO, 500.0, 0).extinction_per_m();
+    assert!(seen.mean > 0.2 * lost && seen.mean < 1.1 * lost, "{seen:?} {lost}");
+    let (dark, _) = look(&under(Environment::Uniform(Spectrum::constant(0.0))), law, settings);
+    assert_eq!(dark.mean, 0.0);
+}
