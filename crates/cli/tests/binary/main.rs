@@ -27,6 +27,7 @@ mod lenses;
 mod measures;
 mod plans;
 mod point_lists;
+mod precipitation;
 mod raw_files;
 mod sequences;
 mod shared_light;

@@ -21,7 +21,8 @@ record! {
         /// Surfaces that a path meets at most, 1 … 1 024; belongs to integrator = "path". Default: 16, or as `--quality` says.
         optional max_bounces: Placed<u64> = whole(1, 1024);
         /// Whether light of suns and glowing surfaces that smooth surfaces throw on matt ones is followed. Without it the
-        /// picture is darker by that light, and free of the rare bright samples that find it. Belongs to integrator = "path".
+        /// picture is darker by that light, and free of the rare bright samples that find it; and rain or snow turns only light on its way to the
+        /// camera, not between matt surfaces. Belongs to integrator = "path".
         /// Default: true.
         optional caustics: Placed<bool> = flag();
         /// Paths of blocks of this many by this many pixels of one colour share their tails: 1 (none do), 2, 4 or 8. It takes

@@ -77,7 +77,7 @@ impl Optics {
 pub enum Following {
     /// By the phase function itself.
     Exact,
-    /// Without the forward peak: light within it goes straight on.
+    /// Without the forward peak: light within it goes straight on. Precipitation is left out.
     WithoutPeak,
 }
 
@@ -119,6 +119,15 @@ impl Medium {
         let exact = Optics::new(extinction, albedo, phase.into());
         let without_peak = exact.without_peak();
         Ok(Self { exact, without_peak, unevenness: None, shape, to_world })
+    }
+
+    /// The same, but light that is followed without peaks goes through it as if it were not there: for what turns little light and takes none.
+    #[must_use]
+    pub fn unless_without_peak(self) -> Self {
+        let Optics { albedo, phase, .. } = &self.exact;
+        let (albedo, phase) = (albedo.clone(), phase.clone());
+        let without_peak = Optics { extinction: Arc::new(Spectrum::constant(0.0)), albedo, phase, greatest_per_m: 0.0 };
+        Self { without_peak, ..self }
     }
 
     #[inline(always)]

@@ -1,7 +1,9 @@
 //! The particles of one view, and the medium beyond them.
 //!
 //! A ray from the camera meets particles and the hollowed medium; a ray that has been scattered meets the whole medium and no particle. Each is
-//! whole by itself, so that light is right in the mean: what is simplified is that rain seen in a mirror has no single drops.
+//! whole by itself, so that light is right in the mean: what is simplified is that rain seen in a mirror has no single drops. Where caustics are
+//! off, light behind the first matt surface or scattering goes through precipitation unhindered: over the tens of metres between the surfaces
+//! of a scene it turns some per cent of the light, mostly by less than 40°, and takes none.
 
 use std::sync::Arc;
 
@@ -37,7 +39,8 @@ impl Field {
         let extinction = Spectrum::constant(self.extinction_per_m());
         let shape = Shape::Below { top_m: self.top_m() };
         let place = Motion::still(DAffine3::IDENTITY);
-        Medium::new((extinction, Spectrum::constant(1.0)), Arc::new(phase), shape, place)
+        let medium = Medium::new((extinction, Spectrum::constant(1.0)), Arc::new(phase), shape, place)?;
+        Ok(medium.unless_without_peak())
     }
 
     /// What of the medium is left out about a camera.

@@ -84,6 +84,9 @@ fn world(plan: &Plan, f: &mut Formatter<'_>) -> fmt::Result {
         "polarisation and fluorescence: not modelled"
     };
     match time::motion(plan) {
+        None if plan.precipitation.is_some() => {
+            line(f, "left out", format!("motion of objects: none moves; {left_out}"))
+        }
         None => line(f, "left out", format!("motion: nothing moves; {left_out}")),
         Some(motion) => {
             line(f, "motion", motion)?;
