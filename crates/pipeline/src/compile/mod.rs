@@ -43,6 +43,7 @@ mod tests;
 mod timing;
 mod vertex_animation;
 mod video;
+mod weather;
 mod world;
 
 pub use choices::{Choices, Quality};
@@ -62,6 +63,7 @@ use etendue_tracer::geometry::{Mesh, VertexAnimation};
 use etendue_tracer::media::Medium;
 use frames::Frames;
 use material::MaterialTableBuilder;
+pub use weather::compile_weather;
 
 /// The plan of a description.
 ///
