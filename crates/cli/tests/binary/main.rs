@@ -34,3 +34,4 @@ mod shared_paths;
 mod support;
 mod truths;
 mod vertex_animation;
+mod weather;
