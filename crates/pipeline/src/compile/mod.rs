@@ -3,6 +3,7 @@
 //! Names are resolved, models are made, contradictions are collected, all of them, with their places. After this
 //! nothing fails because of what the user wrote.
 
+mod air;
 mod annotations;
 mod camera;
 mod camera_path;
@@ -120,6 +121,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let air_moves = precipitation.is_some() || media.iter().any(Medium::moves);
     timing::depend(&mut cameras, &world, (&sources, is_modulated), air_moves, context);
     shared_light::share(&mut cameras);
+    air::remark(&cameras, &media, context);
     positions::remark(&cameras, context);
     surroundings::remark(&cameras, &world, &material_table, &materials, context);
     let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();
