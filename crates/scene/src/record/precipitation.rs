@@ -65,7 +65,7 @@ record! {
         /// Distance from the camera within which nothing falls, m, 0 … 100: under a roof, or behind a wind-screen. Default: 0.
         optional clear_m: Placed<f64> = number("m").at_least(0.0).at_most(100.0);
         /// Which drops and flakes of all that may be. Default: 0.
-        optional seed: Placed<u64> = whole(0, u32::MAX as u64);
+        optional seed: Placed<u64> = whole(0, 4_294_967_295);
         /// From which part of a pixel's width on a drop or flake is modelled by itself, above 0 … 10. Default: 0.25.
         optional smallest_px: Placed<f64> = number("").above(0.0).at_most(10.0);
         /// How many are modelled at most in what a camera sees, 0 … 5 000 000; where there would be more, they are modelled less far. Default: 200 000.
