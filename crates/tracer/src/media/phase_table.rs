@@ -31,7 +31,7 @@ struct PhaseTable {
 }
 
 /// Ways out of a ball that are followed, the mirrored one first; what is left goes with the last.
-pub(crate) const ORDERS: u32 = 12;
+const ORDERS: u32 = 12;
 
 /// Rays over a ball's radius.
 const RAYS: u32 = 60_000;
@@ -226,7 +226,7 @@ impl SpectralTable {
     }
 
     /// Balls of a refractive index, far larger than light's waves, by geometric optics without diffraction: what a ball does to the light that
-    /// meets it. Both polarisations, up to [`ORDERS`] passages. Of water this holds the rainbows.
+    /// meets it. Both polarisations, up to twelve passages. Of water this holds the rainbows.
     #[must_use]
     pub fn of_large_balls(index: &Spectrum) -> Self {
         let nm: Vec<f32> = (0..=8).map(|i| 380.0 + 42.5 * i as f32).collect();
