@@ -14,7 +14,7 @@ record! {
         /// Roughness α of a film over the ground's grains, 0 … 1. Default: 0.06.
         optional film_alpha: Placed<f64> = number("").at_least(0.0).at_most(1.0);
         /// Where water stands. Default: nowhere.
-        optional puddles: Puddles = record();
+        optional puddles: Box<Puddles> = record();
     }
 }
 
