@@ -2,6 +2,7 @@
 
 mod curve;
 mod dirt;
+mod drops;
 mod mirror;
 mod windscreen;
 

@@ -1,0 +1,45 @@
+//! Drops of water on a wind-screen.
+
+use etendue_optics::front::{Curve, DropsParameters};
+use etendue_scene::record::front::drops::{self as record, DropAmount};
+use etendue_spectra::dielectric;
+use glam::DVec2;
+
+/// Of drops that condense and join: see the record.
+const SIZE_EXPONENT: f64 = 8.0 / 3.0;
+const CONTACT_ANGLE_DEG: f64 = 60.0;
+/// The wavelength of an index without dispersion, nm.
+const PRINCIPAL_NM: f32 = 587.56;
+
+pub(super) fn drops(r: &record::Drops) -> DropsParameters {
+    let contact_angle_deg = r.contact_angle_deg.as_ref().map_or(CONTACT_ANGLE_DEG, |a| a.value);
+    DropsParameters {
+        offset_mm: r.offset_mm.as_ref().map_or(DVec2::ZERO, |o| DVec2::from_array(o.value)),
+        size_mm: DVec2::from_array(r.size_mm.value),
+        count: count(r),
+        radius_mm: [r.min_radius_mm.value, r.max_radius_mm.value],
+        size_exponent: r.size_exponent.as_ref().map_or(SIZE_EXPONENT, |e| e.value),
+        contact_angle_rad: contact_angle_deg.to_radians(),
+        index: water(r.dispersion.as_ref().is_none_or(|d| d.value)),
+        seed: r.seed.as_ref().map_or(0, |s| s.value),
+    }
+}
+
+/// Of the drops that fell: the record has checked that they are 1 to 1 000 000.
+fn count(r: &record::Drops) -> u32 {
+    match &r.amount {
+        DropAmount::Count(count) => count.value as u32,
+        DropAmount::Density(density) => {
+            let [width, height] = r.size_mm.value;
+            ((density.value * width * height * 1e-4).round() as u32).max(1)
+        }
+    }
+}
+
+fn water(disperses: bool) -> Curve {
+    let index = &dielectric::named("water").expect("water is among the dielectrics").n;
+    match disperses {
+        true => Curve::Table(Box::new(index.clone())),
+        false => Curve::Constant(f64::from(index.at(PRINCIPAL_NM))),
+    }
+}
