@@ -32,7 +32,7 @@ use windscreen::Way;
 
 pub use curve::Curve;
 pub use dirt::{Dirt, DirtParameters, Mask};
-pub use drops::{Cap, Droplet, Drops, DropsParameters};
+pub use drops::{Cap, Course, Droplet, Drops, DropsParameters, Sliding, Wiper};
 pub use error::FrontError;
 pub use front_ray::FrontRay;
 pub(crate) use line::{Fate, Line};
@@ -84,6 +84,26 @@ impl Front {
     #[must_use]
     pub fn optic(&self) -> Option<&Optic> {
         self.optic.as_ref()
+    }
+
+    /// How drops on it change over time; `None` where nothing does.
+    #[must_use]
+    pub fn course(&self) -> Option<&Course> {
+        match &self.optic {
+            Some(Optic::Windscreen(glass)) => glass.drops()?.parameters().course.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// The same front as it is at a time, s of simulated time, where `down` is gravity's direction in the camera frame.
+    #[must_use]
+    pub fn at(&self, time_s: f64, down: DVec3) -> Self {
+        match &self.optic {
+            Some(Optic::Windscreen(glass)) => {
+                Self { dirt: self.dirt.clone(), optic: Some(Optic::Windscreen(Box::new(glass.at(time_s, down)))) }
+            }
+            _ => self.clone(),
+        }
     }
 
     /// The ray of a sensor point (mm) through a lens and this front, as [`Lens::ray`].

@@ -5,6 +5,8 @@
 //! its side. Fresnel's losses at every surface; total reflection within a drop is followed. Drops that touch have become one of their
 //! joint volume, so no two overlap. Inversion, dark rims and the camera's depth of field come of that.
 //!
+//! Drops that change over time ([`Course`]) are looked at as they are at one moment.
+//!
 //! **Left out**: light that is reflected in part within a drop or at its outside; light that comes out of the glass's inside, to which some
 //! rays are thrown back (they are dark); absorption in the water (below 10⁻³ over a centimetre of it in the visible); gravity, which
 //! flattens drops above 2.7 mm and makes them hang; wet trails.
@@ -13,15 +15,22 @@
 
 mod cap;
 mod coalescence;
+mod course;
 mod droplet;
+mod evolution;
 mod grid;
 mod parameters;
 mod passage;
 mod population;
+mod sliding;
+mod wiper;
 
 pub use cap::Cap;
+pub use course::Course;
 pub use droplet::Droplet;
 pub use parameters::DropsParameters;
+pub use sliding::Sliding;
+pub use wiper::Wiper;
 
 use super::error::FrontError;
 use cap::reach_factor;
@@ -77,6 +86,14 @@ impl Drops {
         Ok(Self { parameters, droplets, bodies, grid, height_mm })
     }
 
+    /// The drops at a time, s, where they change; `down` is gravity's direction in the glass's frame. Those that
+    /// slid off the glass are gone.
+    pub(super) fn at(&self, course: &Course, time_s: f64, down: DVec3, face: Face<'_>) -> Result<Self, FrontError> {
+        let mut droplets = evolution::at(&self.parameters, course, time_s, down.truncate());
+        droplets.retain(|drop| face(drop.centre_mm).is_some());
+        Self::lying(self.parameters.clone(), droplets, face)
+    }
+
     /// What they were made of.
     #[must_use]
     pub fn parameters(&self) -> &DropsParameters {
@@ -128,6 +145,7 @@ pub(super) mod tests {
             contact_angle_rad: PI / 3.0,
             index: Curve::Constant(1.333),
             seed: 7,
+            course: None,
         }
     }
 

@@ -1,5 +1,6 @@
 //! What drops on glass are made of.
 
+use super::course::Course;
 use crate::front::curve::Curve;
 use crate::front::error::{FrontError, positive};
 use core::f64::consts::PI;
@@ -15,7 +16,7 @@ pub struct DropsParameters {
     pub offset_mm: DVec2,
     /// Its width and height, mm.
     pub size_mm: DVec2,
-    /// How many fell on it, before those that touch become one; 1 to 1 000 000.
+    /// How many fell on it before the beginning, before those that touch become one; 1 to 1 000 000, or 0 where others arrive.
     pub count: u32,
     /// Radii of their bases: least and greatest, mm, before those that touch become one.
     pub radius_mm: [f64; 2],
@@ -27,6 +28,8 @@ pub struct DropsParameters {
     pub index: Curve,
     /// Seed of places and sizes.
     pub seed: u64,
+    /// What changes them over time; `None` for drops that stay as they are.
+    pub course: Option<Course>,
 }
 
 pub(super) fn check(p: &DropsParameters) -> Result<(), FrontError> {
@@ -36,11 +39,14 @@ pub(super) fn check(p: &DropsParameters) -> Result<(), FrontError> {
     };
     positive("size_mm", p.size_mm.min_element())?;
     positive("size_mm", p.size_mm.max_element())?;
-    within("count", f64::from(p.count), 1.0, f64::from(MAX_COUNT), "1 to 1 000 000 drops")?;
+    let arrive = p.course.is_some_and(|course| course.arrivals_hz > 0.0);
+    let least_count = if arrive { 0.0 } else { 1.0 };
+    within("count", f64::from(p.count), least_count, f64::from(MAX_COUNT), "1 to 1 000 000 drops")?;
     let [least, greatest] = p.radius_mm;
     positive("min_radius_mm", least)?;
     positive("max_radius_mm", greatest)?;
     within("min_radius_mm", least, 0.0, greatest, "at most max_radius_mm")?;
+    p.course.map_or(Ok(()), |course| course.check(greatest))?;
     within("size_exponent", p.size_exponent, 0.0, 6.0, "0 to 6")?;
     let degrees = p.contact_angle_rad * 180.0 / PI;
     within("contact_angle_deg", degrees, 5.0 - 1e-9, 150.0 + 1e-9, "5 to 150")?;

@@ -15,22 +15,25 @@ use glam::DVec2;
 pub(super) enum Batch {
     /// Those of the beginning.
     First = 0,
+    /// Those that fall later.
+    Later = 1,
 }
 
 /// Tells these words from others of the same seed.
 const DOMAIN: u32 = 0x6472_6f70;
 
-/// The drop of a number: a pure function of it and the seed.
-pub(super) fn droplet(p: &DropsParameters, batch: Batch, number: u64) -> Droplet {
+/// The drop of a number, and a further number of its own in (0, 1): a pure function of it and the seed.
+pub(super) fn droplet(p: &DropsParameters, batch: Batch, number: u64) -> (Droplet, f64) {
     let word = |w: u32| (f64::from(w) + 0.5) / 4_294_967_296.0;
     let counter = [number as u32, (number >> 32) as u32, batch as u32, DOMAIN];
-    let [x, y, size, _] = philox4x32(counter, [p.seed as u32, (p.seed >> 32) as u32]).map(word);
-    Droplet { centre_mm: p.offset_mm + (DVec2::new(x, y) - 0.5) * p.size_mm, radius_mm: radius_mm(p, size) }
+    let [x, y, size, further] = philox4x32(counter, [p.seed as u32, (p.seed >> 32) as u32]).map(word);
+    let centre_mm = p.offset_mm + (DVec2::new(x, y) - 0.5) * p.size_mm;
+    (Droplet { centre_mm, radius_mm: radius_mm(p, size) }, further)
 }
 
 /// Drops of the beginning, as they fell.
 pub(super) fn first(p: &DropsParameters) -> Vec<Droplet> {
-    (0..u64::from(p.count)).map(|number| droplet(p, Batch::First, number)).collect()
+    (0..u64::from(p.count)).map(|number| droplet(p, Batch::First, number).0).collect()
 }
 
 /// The base radius, mm, below which the share `u` of drops is.

@@ -79,6 +79,20 @@ impl Windscreen {
         Ok(Self { drops: Some(Box::new(drops)), ..self })
     }
 
+    /// The same glass with its drops as they are at a time, s; `down` is gravity's direction in the camera frame.
+    pub(super) fn at(&self, time_s: f64, down: DVec3) -> Self {
+        let outer = self.faces[self.faces.len() - 1];
+        let changed = self.drops().and_then(|drops| {
+            let course = drops.parameters().course.as_ref()?;
+            let down = self.parameters.placement.rotation.transpose() * down;
+            drops.at(course, time_s, down, &|place_mm| outer.at(place_mm)).ok()
+        });
+        match changed {
+            Some(drops) => Self { drops: Some(Box::new(drops)), ..self.clone() },
+            None => self.clone(),
+        }
+    }
+
     /// The drops on it.
     #[must_use]
     pub fn drops(&self) -> Option<&Drops> {

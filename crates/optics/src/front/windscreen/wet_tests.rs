@@ -38,6 +38,7 @@ fn drops(count: u32, radius_mm: [f64; 2], contact_deg: f64) -> DropsParameters {
         contact_angle_rad: contact_deg * PI / 180.0,
         index: Curve::Constant(WATER),
         seed: 11,
+        course: None,
     }
 }
 

@@ -1,6 +1,6 @@
 //! Drops of water on a wind-screen.
 
-use etendue_optics::front::{Curve, DropsParameters};
+use etendue_optics::front::{Course, Curve, DropsParameters, Sliding, Wiper};
 use etendue_scene::record::front::drops::{self as record, DropAmount};
 use etendue_spectra::dielectric;
 use glam::DVec2;
@@ -22,6 +22,28 @@ pub(super) fn drops(r: &record::Drops) -> DropsParameters {
         contact_angle_rad: contact_angle_deg.to_radians(),
         index: water(r.dispersion.as_ref().is_none_or(|d| d.value)),
         seed: r.seed.as_ref().map_or(0, |s| s.value),
+        course: r.changes().then(|| course(r)),
+    }
+}
+
+fn course(r: &record::Drops) -> Course {
+    let start_s = r.start_s.as_ref().map_or(0.0, |s| s.value);
+    let sliding =
+        |s: &record::Sliding| Sliding { speed_mm_s: s.speed_mm_s.value, still_radius_mm: s.still_radius_mm.value };
+    let wiper = |w: &record::Wiper| Wiper {
+        pivot_mm: DVec2::from_array(w.pivot_mm.value),
+        blade_mm: w.blade_mm.value,
+        angles_rad: w.angles_deg.value.map(f64::to_radians),
+        sweep_s: w.sweep_s.value,
+        period_s: w.period_s.value,
+        start_s: w.start_s.as_ref().map_or(start_s, |s| s.value),
+    };
+    Course {
+        start_s,
+        sliding: r.sliding.as_ref().map(sliding),
+        drying_s: r.drying_s.as_ref().map(|s| s.value),
+        arrivals_hz: r.arrivals_per_s.as_ref().map_or(0.0, |s| s.value),
+        wiper: r.wiper.as_ref().map(wiper),
     }
 }
 
