@@ -89,7 +89,8 @@ fn drops_that_cannot_lie_on_the_glass() {
     let four = "[render]\nwavelengths_per_path = 4";
     plan(&format!("{DROPS}count = 4"), four).refused(&["job.toml:9", "each differently"]);
     plan(&format!("{DROPS}count = 4\ndispersion = false"), four).ok();
-    let curved = DROPS.replace("distance_mm = 100", "distance_mm = 100\nradius_across_mm = 40");
+    let curved =
+        DROPS.replace("distance_mm = 100", "distance_mm = 100\nradius_across_mm = 95").replace("[90, 60]", "[300, 60]");
     plan(&format!("{curved}count = 40"), "").refused(&["camera.toml:13", "no surface", "size_mm"]);
 }
 
