@@ -60,6 +60,13 @@ impl CameraPose {
         Some(Self { position_m, rotation: DMat3::from_cols(x, z.cross(x), z) })
     }
 
+    /// The pose of the rows of a 3 × 4 matrix, translation in m, that takes the camera frame to the world.
+    #[must_use]
+    pub fn from_rows(rows: &[[f64; 4]; 3]) -> Self {
+        let column = |k: usize| DVec3::new(rows[0][k], rows[1][k], rows[2][k]);
+        Self { position_m: column(3), rotation: DMat3::from_cols(column(0), column(1), column(2)) }
+    }
+
     /// A direction of the camera frame, in the world.
     #[must_use]
     pub fn direction_to_world(&self, direction: DVec3) -> DVec3 {

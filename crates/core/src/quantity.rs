@@ -32,6 +32,8 @@ quantities! {
     Radiance(f32) = "spectral radiance", "W.m^-2.sr^-1.nm^-1";
     /// Spectral irradiance on the sensor plane.
     Irradiance(f32) = "spectral irradiance", "W.m^-2.nm^-1";
+    /// The share of light that comes through what lies between.
+    Transmittance(f32) = "transmittance", "1";
     /// The weight of a pixel's pupil: mean projected solid angle times transmittance.
     SolidAngle(f32) = "projected solid angle", "sr";
     /// Variance of a mean, in the square of that mean's unit.

@@ -7,11 +7,9 @@ use crate::results::Files;
 use crate::results::frames::{Wanted, write_frames};
 use crate::results::metadata;
 use crate::results::writer::ResultWriter;
-use etendue_core::quantity::{Length, Radiance};
-use etendue_core::{Plane, SpectralCube};
-use etendue_io::exr::{SpectralImage, read_spectral};
-use etendue_io::{Existing, OutputFolder, Provenance};
-use etendue_optics::{DepthOfField, OpticsError, PupilProjection};
+use crate::stored_radiance::StoredRadiance;
+use etendue_io::{Existing, OutputFolder};
+use etendue_optics::{DepthOfField, OpticsError};
 use etendue_pipeline::defocus::{held_margin_px, margin_px};
 use etendue_pipeline::photograph::Light;
 use etendue_pipeline::plan::{Annotations, CameraBody, Products, RawFormat};
@@ -20,32 +18,6 @@ use etendue_sensor::{FrameAddress, SensorState};
 use serde_json::json;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-
-/// A stored radiance image that a lens can be put before.
-struct Stored {
-    radiance: SpectralCube<Radiance>,
-    /// Distance of what each pixel sees; `None` in files of former versions.
-    distance: Option<Plane<Length>>,
-    projection: PupilProjection,
-    provenance: Provenance,
-}
-
-impl Stored {
-    /// The place of the camera that rendered it in its job; 0 in files of former versions.
-    fn camera_index(&self) -> u32 {
-        self.provenance.further.get("camera_index").and_then(|i| i.parse().ok()).unwrap_or(0)
-    }
-
-    /// The exposure time over which light that depends on time was gathered; `None` where it does not.
-    fn exposure_s(&self) -> Option<f64> {
-        self.provenance.further.get(metadata::EXPOSURE_S).and_then(|s| s.parse().ok())
-    }
-
-    /// Pixels whose errors may be equal.
-    fn correlated_block_px(&self) -> u32 {
-        self.provenance.further.get("correlated_block_px").and_then(|n| n.parse().ok()).unwrap_or(1)
-    }
-}
 
 /// A stored radiance image and the camera that photographs it.
 #[derive(Clone, Debug)]
@@ -83,7 +55,7 @@ pub fn expose(
     observer: &dyn Observer,
 ) -> Result<Vec<PathBuf>, Error> {
     let body = open_camera(&request.camera, &request.set)?;
-    let stored = stored(&request.radiance)?;
+    let stored = StoredRadiance::open(&request.radiance)?;
     check_shutter(&body, &stored, request, observer)?;
     let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
     let name = stem(&request.camera);
@@ -99,7 +71,7 @@ pub fn expose(
 /// another exposure is asked for than the image was gathered over.
 fn check_shutter(
     body: &CameraBody,
-    stored: &Stored,
+    stored: &StoredRadiance,
     request: &ExposeRequest,
     observer: &dyn Observer,
 ) -> Result<(), Error> {
@@ -144,29 +116,14 @@ fn products(body: &CameraBody) -> Products {
     }
 }
 
-fn stored(path: &Path) -> Result<Stored, Error> {
-    let refuse = |why: &str| Error::input(format!("{}: {why}", path.display()));
-    let file = read_spectral(path).map_err(Error::input)?;
-    let SpectralImage::Radiance(image) = file.image else {
-        return Err(refuse("this is irradiance behind a lens; expected radiance, rendered with route = \"pupil\""));
-    };
-    let remedy = "its geometry is not stated; expected radiance that etendue rendered with route = \"pupil\"";
-    let provenance = file.provenance.ok_or_else(|| refuse(remedy))?;
-    let radiance = image.cube;
-    let through_lens = "it was rendered through a lens; render it with --set render.route=pupil to expose it";
-    let geometry = metadata::pupil_geometry(&provenance, radiance.width(), radiance.height());
-    let projection = geometry.ok_or_else(|| refuse(through_lens))?.map_err(|why| refuse(&why))?;
-    Ok(Stored { radiance, distance: file.distance, projection, provenance })
-}
-
 fn write(
     body: &CameraBody,
-    stored: &Stored,
+    stored: &StoredRadiance,
     request: &ExposeRequest,
     observer: &dyn Observer,
     writer: &mut ResultWriter<'_>,
 ) -> Result<(), Error> {
-    let Stored { radiance, projection, distance, .. } = stored;
+    let StoredRadiance { radiance, projection, distance, .. } = stored;
     let at_pupil = stored::Stored { projection, radiance, distance: distance.as_ref() };
     let refuse = |error: OpticsError| {
         let (radiance, camera) = (request.radiance.display(), request.camera.display());
@@ -207,7 +164,7 @@ fn margin(body: &CameraBody) -> String {
 /// The depth of field that is asked for; where nothing is said, the physical one as far as lens and image allow.
 fn depth_of_field(
     body: &CameraBody,
-    stored: &Stored,
+    stored: &StoredRadiance,
     request: &ExposeRequest,
     observer: &dyn Observer,
 ) -> Result<DepthOfField, Error> {
@@ -238,7 +195,7 @@ fn depth_of_field(
 /// Says where blurs from outside of the picture are cut off.
 fn warn_of_margin(
     body: &CameraBody,
-    stored: &Stored,
+    stored: &StoredRadiance,
     depth_of_field: &DepthOfField,
     observer: &dyn Observer,
 ) -> Result<(), OpticsError> {
@@ -255,7 +212,7 @@ fn warn_of_margin(
 
 fn sidecar(
     body: &CameraBody,
-    stored: &Stored,
+    stored: &StoredRadiance,
     request: &ExposeRequest,
     seed: u64,
     depth_of_field: &DepthOfField,

@@ -21,6 +21,7 @@
 //! | a job file | where its cameras stand and how they project, for ROS, Kalibr and COLMAP | [`Job::save_calibration_files`] |
 //! | shards of a job | the files of the whole | [`merge()`] |
 //! | stored radiance and a camera file | what that camera would have taken | [`expose()`] |
+//! | stored radiance and a weather file | the same seen through fog | [`weather()`] |
 //! | stored raws and a camera file | pictures by its processing | [`develop()`] |
 //! | even light and a camera file | raws of the bare sensor | [`flat()`] |
 //! | an EMVA 1288 data sheet | a camera file | [`datasheet()`] |
@@ -59,7 +60,9 @@ mod results;
 mod rig;
 mod shard;
 mod shard_spec;
+mod stored_radiance;
 mod tone_curve;
+mod weather;
 
 pub use camera_file::open_camera;
 pub use compare::{ChannelComparison, Comparison, compare};
@@ -80,3 +83,4 @@ pub use raw_file::Levels;
 pub use render_options::RenderOptions;
 pub use results::{CameraResults, Files, Results};
 pub use shard_spec::ShardSpec;
+pub use weather::{WeatherRequest, weather};

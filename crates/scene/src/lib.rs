@@ -28,7 +28,7 @@ mod suggest;
 pub mod written;
 
 pub use fault::{Fault, Faults, stated};
-pub use load::{CameraSetup, Description, ReadText, Trigger, Unused, load_camera, load_datasheet};
+pub use load::{CameraSetup, Description, ReadText, Trigger, Unused, load_camera, load_datasheet, load_weather};
 pub use overrides::Overrides;
 pub use place::{Place, Placed};
 pub use schema::{FileKind, schema};

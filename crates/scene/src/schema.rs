@@ -3,6 +3,7 @@
 use serde_json::{Value as Json, json};
 
 use crate::reader::{Record, Rule as _, record};
+use crate::record::weather::Weather;
 use crate::record::{Camera, DataSheet, Job, Scene};
 
 /// The kinds of file.
@@ -16,6 +17,8 @@ pub enum FileKind {
     Job,
     /// What a camera's maker measured after EMVA 1288.
     DataSheet,
+    /// What is laid over stored radiance.
+    Weather,
 }
 
 /// The JSON Schema (draft 2020-12) of a kind of file. That of scenes and cameras is a choice: a file with a `base` ("then")
@@ -27,6 +30,7 @@ pub fn schema(kind: FileKind) -> Json {
         FileKind::Camera => based::<Camera>("Étendue camera"),
         FileKind::Job => unbased::<Job>("Étendue job"),
         FileKind::DataSheet => unbased::<DataSheet>("EMVA 1288 data sheet"),
+        FileKind::Weather => unbased::<Weather>("Étendue weather"),
     }
 }
 

@@ -14,6 +14,7 @@ mod plan;
 mod render;
 mod rig;
 mod schema;
+mod weather;
 
 use crate::subcommands::subcommands;
 
@@ -30,6 +31,8 @@ subcommands! {
     Plan(plan::Plan),
     /// Photograph a stored radiance image (rendered with route = "pupil") by another lens and sensor
     Expose(expose::Expose),
+    /// Lay fog over a stored radiance image (rendered with route = "pupil"), by its distances
+    Weather(weather::Weather),
     /// Make pictures of raws that were taken before, by another processing
     Develop(develop::Develop),
     /// Photograph even light by a camera's bare sensor, or take the series by which EMVA 1288 measures; nothing is traced

@@ -15,3 +15,4 @@ pub mod photograph;
 pub mod raw_colour;
 pub mod rectified;
 pub mod stored;
+pub mod weather;

@@ -25,19 +25,27 @@ fn medium(record: &Record, frames: &Frames<'_>, context: &mut Context<'_>) -> Op
         None => Some(Spectrum::constant(1.0)),
         Some(albedo) => spectrum::curve(albedo, Outside::Hold, context),
     };
-    let shape = match &record.shape {
+    let to_world = frames.carrying(record.frame.as_ref(), Motion::still(record.transform.to_world()));
+    let made =
+        Medium::new((extinction?, albedo?), phase(record.phase.as_ref()), shape(record.shape.as_ref()), to_world);
+    let medium = context.accept(&record.place, made)?;
+    Some(with_unevenness(medium, record.unevenness.as_ref()))
+}
+
+pub(super) fn with_unevenness(medium: Medium, record: Option<&medium::Unevenness>) -> Medium {
+    record.into_iter().fold(medium, |medium, of| medium.with_unevenness(unevenness(of)))
+}
+
+pub(super) fn shape(record: Option<&MediumShape>) -> Shape {
+    match record {
         None | Some(MediumShape::Everywhere(_)) => Shape::Everywhere,
         Some(MediumShape::Layer(layer)) => Shape::Below { top_m: layer.top_m.value },
         Some(MediumShape::Box(of)) => Shape::Box { half_m: DVec3::from_array(of.size_m.value) * 0.5 },
         Some(MediumShape::Sphere(of)) => Shape::Ball { radius_m: of.radius_m.value },
-    };
-    let to_world = frames.carrying(record.frame.as_ref(), Motion::still(record.transform.to_world()));
-    let made = Medium::new((extinction?, albedo?), phase(record.phase.as_ref()), shape, to_world);
-    let medium = context.accept(&record.place, made)?;
-    Some(record.unevenness.iter().fold(medium, |medium, of| medium.with_unevenness(unevenness(of))))
+    }
 }
 
-fn extinction(record: &Extinction, context: &mut Context<'_>) -> Option<Spectrum> {
+pub(super) fn extinction(record: &Extinction, context: &mut Context<'_>) -> Option<Spectrum> {
     match record {
         Extinction::PerMetre(curve) => spectrum::curve(curve, Outside::Hold, context),
         Extinction::Visibility(visibility) => {

@@ -42,6 +42,7 @@ mod tests;
 mod timing;
 mod vertex_animation;
 mod video;
+mod weather;
 mod world;
 
 pub use choices::{Choices, Quality};
@@ -60,6 +61,7 @@ use etendue_tracer::accel::World;
 use etendue_tracer::geometry::{Mesh, VertexAnimation};
 use frames::Frames;
 use material::MaterialTableBuilder;
+pub use weather::compile_weather;
 
 /// The plan of a description.
 ///

@@ -9,6 +9,7 @@ use crate::record::front::mirror::{Finish, MirrorShape};
 use crate::record::lens::calibrated::View;
 use crate::record::lens::prescription::{IrCutCurve, Source};
 use crate::record::sensor::QuantumEfficiency;
+use crate::record::weather::Weather;
 use crate::record::{Body, Camera, Course, Environment, Front, Lens, Light, Object, Pose, Processing, Scene};
 
 /// Every file that is named, each once.
@@ -67,6 +68,14 @@ fn covered_by(object: &Object) -> Covered {
 pub fn of_camera(camera: &Camera) -> Vec<AssetRequest> {
     let mut files = FileList::default();
     self::camera(camera, &mut files);
+    files.into_requests()
+}
+
+/// Every file that a weather file names, each once.
+#[must_use]
+pub fn of_weather(weather: &Weather) -> Vec<AssetRequest> {
+    let mut files = FileList::default();
+    weather.name_files(&mut files);
     files.into_requests()
 }
 

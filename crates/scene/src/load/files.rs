@@ -107,8 +107,8 @@ pub(super) fn open(
     Some(tree)
 }
 
-/// The tree of a data sheet, which has no base; its format is checked and taken out.
-pub(super) fn sheet(file: &Path, read: &ReadText<'_>, faults: &mut Faults) -> Option<Node> {
+/// The tree of a file that has no base and names no other, such as a data sheet; its format is checked and taken out.
+pub(super) fn single(file: &Path, read: &ReadText<'_>, faults: &mut Faults) -> Option<Node> {
     own_tree(file, read, &Place::file_head(file), faults)
 }
 

@@ -20,6 +20,7 @@ use crate::preset;
 use crate::reader::{Rule as _, record};
 use crate::record::job::CameraSource;
 use crate::record::render::{check_levels, check_merged};
+use crate::record::weather::Weather;
 use crate::record::{Camera, CameraEntry, DataSheet, Job, Output, Pose, Render, Scene, Sequence};
 use crate::written::Table;
 
@@ -176,13 +177,24 @@ pub fn load_camera(file: &Path, read: &ReadText<'_>, overrides: &Overrides) -> R
     faults.or(camera)
 }
 
+/// Reads a weather file.
+///
+/// # Errors
+/// All faults of the file.
+pub fn load_weather(file: &Path, read: &ReadText<'_>) -> Result<Weather, Faults> {
+    let mut faults = Faults::none();
+    let document = files::single(file, read, &mut faults);
+    let weather = document.and_then(|d| record::<Weather>().read(&d, &mut faults));
+    faults.or(weather)
+}
+
 /// Reads an EMVA 1288 data sheet.
 ///
 /// # Errors
 /// All faults of the file.
 pub fn load_datasheet(file: &Path, read: &ReadText<'_>) -> Result<DataSheet, Faults> {
     let mut faults = Faults::none();
-    let document = files::sheet(file, read, &mut faults);
+    let document = files::single(file, read, &mut faults);
     let sheet = document.and_then(|d| record::<DataSheet>().read(&d, &mut faults));
     faults.or(sheet)
 }

@@ -5,7 +5,7 @@ use super::transform::Transform;
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::Values;
 use crate::fault::{Faults, Named};
-use crate::place::Placed;
+use crate::place::{Place, Placed};
 use crate::reader::{keyed, name_of, number, record, text, variants, vector, whole};
 
 record! {
@@ -165,8 +165,14 @@ record! {
 }
 
 fn check(medium: &Medium, faults: &mut Faults) {
-    let endless = matches!(medium.shape, None | Some(MediumShape::Everywhere(_)));
     let placed = medium.transform.stated_at().or(medium.frame.as_ref().map(|frame| &frame.place));
+    check_place(medium.shape.as_ref(), placed, faults);
+    check_gain(medium.unevenness.as_ref(), faults);
+}
+
+/// Refuses a place of what is everywhere.
+pub(super) fn check_place(shape: Option<&MediumShape>, placed: Option<&Place>, faults: &mut Faults) {
+    let endless = matches!(shape, None | Some(MediumShape::Everywhere(_)));
     if let (true, Some(place)) = (endless, placed) {
         faults.add(
             place,
@@ -174,11 +180,13 @@ fn check(medium: &Medium, faults: &mut Faults) {
             "give a \"shape\" with bounds, or remove the key",
         );
     }
-    let fraction = medium
-        .unevenness
-        .as_ref()
-        .and_then(|u| u.gain.as_ref().filter(|_| u.octaves.as_ref().is_some_and(|o| o.value == 1)));
-    if let Some(gain) = fraction {
+}
+
+/// Refuses the gain of octaves that are not there.
+pub(super) fn check_gain(unevenness: Option<&Unevenness>, faults: &mut Faults) {
+    let idle = unevenness
+        .and_then(|u| u.gain.as_ref().filter(|_| u.octaves.as_ref().is_some_and(|octaves| octaves.value == 1)));
+    if let Some(gain) = idle {
         faults.add(&gain.place, "\"gain\" has no effect with one octave", "give more \"octaves\", or remove it");
     }
 }

@@ -31,6 +31,7 @@ pub mod shape;
 pub mod texture;
 pub mod transform;
 pub mod vertex_animation;
+pub mod weather;
 
 pub use camera::Camera;
 pub use curve::Curve;

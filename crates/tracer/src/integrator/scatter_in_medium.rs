@@ -1,7 +1,6 @@
 //! Scattering between surfaces.
 
 use etendue_core::Spectral;
-use etendue_core::maths::f32::{exp, exp_m1, ln_1p};
 use etendue_core::random::Draw;
 use glam::Vec3;
 
@@ -36,19 +35,16 @@ impl<'a, const N: usize> Path<'a, N> {
         Some(Intersection::Medium(self.ray.at(collision.t), collision.phase))
     }
 
-    /// Light of one lamp without an opening that is scattered once on the way to `end`. The place is drawn half by the angle at the lamp, half
-    /// as flights end; either density counts (one-sample balance heuristic, Veach and Guibas 1995).
+    /// Light of one lamp without an opening that is scattered once on the way to `end`.
     fn gather_from_lamps(&mut self, media: &Media<'_>, end: f32) {
         let Some((from, to)) = media.reach(&self.ray, f64::from(end)) else { return };
         let (part, lights) = ([from as f32, to as f32], self.tracer.lights);
         let stream = &self.asked.stream;
-        let Some(lamp) = lights.lamp_along(&self.ray, part, stream.one(Draw::InScattering, 2 * self.met)) else {
-            return;
-        };
-        let flight = Flight::new(part, media.greatest_per_m(Following::Exact));
-        let u = stream.two(Draw::InScattering, 2 * self.met + 1);
-        let t = if u.x < 0.5 { lamp.place(u.y) } else { flight.place(u.y) };
-        let density = 0.5 * (lamp.density(t) + flight.density(t));
+        let u = stream.two(Draw::InScattering, self.met);
+        let seen = |t: f32, to: Vec3| media.about(&self.ray, f64::from(t), to, self.wavelengths);
+        let Some(lamp) = lights.lamp_along(&self.ray, part, u.x, seen) else { return };
+        let t = lamp.place(u.y);
+        let density = lamp.density(t);
         if !(t > part[0] && t < part[1] && density > 0.0 && density.is_finite()) {
             return;
         }
@@ -57,7 +53,7 @@ impl<'a, const N: usize> Path<'a, N> {
         let Some(light) = lights.of_lamp(&lamp, &receiver, (self.wavelengths, self.lit())) else { return };
         let mut way = self.ray;
         way.t_max = t;
-        let seen = media.transmittance((&way, Following::Exact), (stream, 2 * self.met + 1), self.wavelengths);
+        let seen = media.transmittance((&way, Following::Exact), (stream, self.met), self.wavelengths);
         let scattered =
             media.scattering((&self.ray, Following::Exact), f64::from(t), light.direction, self.wavelengths);
         let arriving = self.throughput * seen * scattered * light.radiance / (density * lamp.probability);
@@ -118,30 +114,5 @@ impl<'a, const N: usize> Path<'a, N> {
         {
             self.radiance += arriving * share;
         }
-    }
-}
-
-/// Places along a part of a ray as a flight through even fog would end there.
-struct Flight {
-    from_m: f32,
-    per_m: f32,
-    /// Share of flights that end within the part.
-    within: f32,
-}
-
-impl Flight {
-    fn new([from_m, to_m]: [f32; 2], per_m: f32) -> Self {
-        // A part of no depth is met evenly.
-        let per_m = per_m.max(1e-3 / (to_m - from_m)).max(1e-9);
-        Self { from_m, per_m, within: -exp_m1(-per_m * (to_m - from_m)) }
-    }
-
-    fn place(&self, u: f32) -> f32 {
-        self.from_m - ln_1p(-u * self.within) / self.per_m
-    }
-
-    /// 1/m.
-    fn density(&self, t: f32) -> f32 {
-        self.per_m * exp(-self.per_m * (t - self.from_m)) / self.within
     }
 }

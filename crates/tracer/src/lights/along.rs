@@ -2,7 +2,9 @@
 //!
 //! Of all light that a lamp of intensity I sends on a ray between two points, as much falls on a part as it fills of the angle at the lamp:
 //! ∫ I/d² dt = I (θ_b − θ_a)/D, D the lamp's distance from the ray (Kulla and Fajardo, "Importance sampling techniques for path tracing in
-//! participating media", 2012). A lamp is drawn by that, its intensity taken at three places of the part.
+//! participating media", 2012). The angle is cut into cells, narrow at both ends, where a beam that hardly touches the ray may fill a long way
+//! of it; in the middle of each it is looked up what the lamp sends there and how much of that reaches the eye. The cell is drawn by that, the
+//! lamp by the same at three places.
 
 use core::f32::consts::FRAC_PI_2;
 use etendue_core::maths::f32::{atan, sin_cos};
@@ -17,8 +19,14 @@ use super::scene_lights::Lights;
 /// Least distance of a lamp from a ray that is reckoned with, m.
 const NEAREST_M: f32 = 1e-4;
 
-/// Share of a lamp's greatest intensity that it counts at least.
-const FLOOR: f32 = 0.01;
+/// Share of a lamp's greatest intensity that it counts for beside what it sends into the middle of a cell.
+const FLOOR: f32 = 0.02;
+
+/// Shares of the angle that a lamp is judged by, with their weights.
+const PLACES: [(f32, f32); 3] = [(0.04, 0.25), (0.5, 0.5), (0.96, 0.25)];
+
+/// Cells that the angle is cut into.
+const CELLS: usize = 16;
 
 /// A lamp drawn for a part of a ray.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +35,7 @@ pub(crate) struct LampAlong {
     /// The probability of its choice.
     pub(crate) probability: f32,
     angles: Angles,
+    cells: Cells,
 }
 
 /// A part of a ray as seen from a lamp.
@@ -58,22 +67,71 @@ impl Angles {
         self.nearest_m + self.away_m * sin / cos.max(f32::MIN_POSITIVE)
     }
 
-    /// Density of places, 1/m.
+    /// The share of the angle up to a place, m.
+    fn share(&self, t: f32) -> f32 {
+        (atan((t - self.nearest_m) / self.away_m) - self.ends[0]) / self.whole()
+    }
+
+    /// Density of places by the angle, 1/m.
     fn density(&self, t: f32) -> f32 {
         let aside = t - self.nearest_m;
         self.away_m / (self.whole() * (self.away_m * self.away_m + aside * aside))
     }
 }
 
+/// Cells of the angle, by the light that comes from each.
+#[derive(Clone, Copy, Debug)]
+struct Cells([f32; CELLS]);
+
+impl Cells {
+    /// Where cell `i` begins, as a share of the angle: narrow at both ends.
+    fn edge(i: usize) -> f32 {
+        let x = i as f32 / CELLS as f32;
+        x * x * (3.0 - 2.0 * x)
+    }
+
+    /// Light of a cell by what is told of its middle.
+    fn by(light: impl Fn(f32) -> f32) -> Self {
+        Self(core::array::from_fn(|i| {
+            let (from, to) = (Self::edge(i), Self::edge(i + 1));
+            light(0.5 * (from + to)) * (to - from)
+        }))
+    }
+
+    fn whole(&self) -> f32 {
+        self.0.iter().sum()
+    }
+
+    /// A share of the angle, drawn.
+    fn share(&self, u: f32) -> f32 {
+        let mut rest = u * self.whole();
+        let last = self.0.iter().rposition(|light| *light > 0.0).unwrap_or(0);
+        for (i, light) in self.0.iter().enumerate() {
+            if rest < *light || i == last {
+                let within = (rest / light).clamp(0.0, 1.0);
+                return Self::edge(i) + within * (Self::edge(i + 1) - Self::edge(i));
+            }
+            rest -= light;
+        }
+        1.0
+    }
+
+    /// The density of shares.
+    fn density(&self, share: f32) -> f32 {
+        let i = (1..CELLS).take_while(|i| Self::edge(*i) <= share).count();
+        self.0[i] / (self.whole() * (Self::edge(i + 1) - Self::edge(i)))
+    }
+}
+
 impl LampAlong {
-    /// A place of the ray, m, drawn by the angle at the lamp.
+    /// A place of the ray, m, drawn by the light that comes from there.
     pub(crate) fn place(&self, u: f32) -> f32 {
-        self.angles.place(u)
+        self.angles.place(self.cells.share(u))
     }
 
     /// The density of that, 1/m.
     pub(crate) fn density(&self, t: f32) -> f32 {
-        self.angles.density(t)
+        self.angles.density(t) * self.cells.density(self.angles.share(t))
     }
 }
 
@@ -83,25 +141,35 @@ impl Lights {
         !self.points.is_empty()
     }
 
-    /// A lamp without an opening for a part of a ray of unit direction, m; `None` where none sends light there.
-    pub(crate) fn lamp_along(&self, ray: &Ray, part: [f32; 2], u: f32) -> Option<LampAlong> {
+    /// A lamp without an opening for a part of a ray of unit direction, m; `None` where none sends light there. `seen` is about the share of
+    /// light from the unit direction of its second argument that reaches the eye from a place of the ray, m.
+    pub(crate) fn lamp_along(
+        &self,
+        ray: &Ray,
+        part: [f32; 2],
+        u: f32,
+        seen: impl Fn(f32, Vec3) -> f32,
+    ) -> Option<LampAlong> {
         let (mut whole, mut rest, mut chosen) = (0.0_f32, f64::from(u), None);
         for light in &self.points {
-            let (counts, angles) = self.counts(*light, ray, part);
-            if counts > 0.0 {
+            let along = self.along(*light, ray, part);
+            let places = PLACES.map(|(share, weight)| weight * self.seen_from(&along, ray, share, &seen));
+            let counts = places.iter().sum::<f32>() * along.angles.whole() / along.angles.away_m;
+            if counts > 0.0 && counts.is_finite() {
                 // Each replaces the one before with the probability of its share so far; what is left of the number is as even as it was.
                 whole += counts;
                 let share = f64::from(counts / whole);
                 if rest < share {
-                    chosen = Some((*light, counts, angles));
+                    chosen = Some((along, counts));
                     rest /= share;
                 } else {
                     rest = (rest - share) / (1.0 - share);
                 }
             }
         }
-        let (light, counts, angles) = chosen.filter(|_| whole.is_finite())?;
-        Some(LampAlong { light, probability: counts / whole, angles })
+        let (along, counts) = chosen.filter(|_| whole.is_finite())?;
+        let cells = Cells::by(|share| self.seen_from(&along, ray, share, &seen));
+        Some(LampAlong { light: along.light, probability: counts / whole, angles: along.angles, cells })
     }
 
     /// The light of a lamp that was drawn, at a place.
@@ -118,27 +186,61 @@ impl Lights {
         }
     }
 
-    /// About what a lamp sends on a part of a ray.
-    fn counts(&self, light: usize, ray: &Ray, part: [f32; 2]) -> (f32, Angles) {
-        let (position, peak) = match &self.lights[light] {
+    fn along(&self, light: usize, ray: &Ray, part: [f32; 2]) -> Along {
+        let (position, greatest) = match &self.lights[light] {
             Light::Lamp(lamp) => (lamp.position(), lamp.greatest()),
             Light::Carried(lamp) => lamp.point(ray.time_s),
             _ => (Vec3::ZERO, 0.0),
         };
-        let angles = Angles::of(position, ray, part);
-        let at = |share: f32| {
-            let place = ray.at(angles.place(share));
-            let receiver = LightSampleContext { position: place, normal: Vec3::ZERO, gloss: None, time_s: ray.time_s };
-            let irradiance = match &self.lights[light] {
-                Light::Lamp(lamp) => lamp.irradiance(&receiver).plain,
-                Light::Carried(lamp) => lamp.irradiance(&receiver).plain,
-                _ => 0.0,
-            };
-            irradiance * (place - position).length_squared()
+        Along { light, position, greatest, angles: Angles::of(position, ray, part) }
+    }
+
+    /// About what is seen of a lamp's light, by the angle at the lamp, at a share of that.
+    fn seen_from(&self, lamp: &Along, ray: &Ray, share: f32, seen: impl Fn(f32, Vec3) -> f32) -> f32 {
+        let t = lamp.angles.place(share);
+        let place = ray.at(t);
+        let receiver = LightSampleContext { position: place, normal: Vec3::ZERO, gloss: None, time_s: ray.time_s };
+        let irradiance = match &self.lights[lamp.light] {
+            Light::Lamp(lamp) => lamp.irradiance(&receiver).plain,
+            Light::Carried(lamp) => lamp.irradiance(&receiver).plain,
+            _ => 0.0,
         };
-        let mean = (at(0.1) + at(0.5) + at(0.9)) / 3.0;
-        let intensity = mean.max(FLOOR * peak);
-        let counts = intensity * angles.whole() / angles.away_m;
-        (if counts.is_finite() { counts } else { 0.0 }, angles)
+        let way = lamp.position - place;
+        let intensity = irradiance * way.length_squared() + FLOOR * lamp.greatest;
+        intensity * seen(t, way.normalize_or_zero())
+    }
+}
+
+/// A lamp beside a part of a ray.
+#[derive(Clone, Copy, Debug)]
+struct Along {
+    light: usize,
+    position: Vec3,
+    /// Its greatest intensity.
+    greatest: f32,
+    angles: Angles,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Places drawn have the density that is told of them: the mean of 1/density over places is the length of the part.
+    #[test]
+    fn places_are_drawn_by_their_density() {
+        let ray = Ray::new(Vec3::ZERO, Vec3::X, 0.0);
+        let angles = Angles::of(Vec3::new(2.0, 0.5, 0.0), &ray, [0.0, 9.0]);
+        let cells = Cells::by(|share| 0.1 + if share > 0.4 && share < 0.6 { 5.0 } else { share });
+        let lamp = LampAlong { light: 0, probability: 1.0, angles, cells };
+        let n = 100_000;
+        let (mut sum, mut places) = (0.0_f64, [0_u32; 2]);
+        for i in 0..n {
+            let t = lamp.place((i as f32 + 0.5) / n as f32);
+            sum += 1.0 / f64::from(lamp.density(t));
+            places[usize::from(t > 2.0)] += 1;
+        }
+        // A midpoint rule in u over cells that u falls into by thousands; f32 places near their edges.
+        assert!((sum / f64::from(n) - 9.0).abs() < 0.01, "{}", sum / f64::from(n));
+        assert!(places[0] > 0 && places[1] > 0);
     }
 }

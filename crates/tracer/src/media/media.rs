@@ -93,9 +93,23 @@ impl<'a> Media<'a> {
         sum
     }
 
-    /// The most that all media together take out of a beam, 1/m.
-    pub(crate) fn greatest_per_m(&self, following: Following) -> f32 {
-        self.placed.iter().map(|placed| placed.medium.optics(following).greatest_per_m).sum()
+    /// About how much of light that arrives at `t` along a ray from the unit `to` reaches the ray's beginning, 1/(m sr): the mean over the
+    /// wavelengths, as if densities were even. For drawing by, above 0 wherever there is anything.
+    pub(crate) fn about<const N: usize>(&self, ray: &Ray, t: f64, to: Vec3, wavelengths: &Wavelengths<N>) -> f32 {
+        let (mut scattered, mut depth) = (0.0, 0.0);
+        for placed in &self.placed {
+            let Some((from, end)) = self.span(placed, ray, f64::INFINITY).filter(|(from, _)| t >= *from) else {
+                continue;
+            };
+            let Optics { extinction, albedo, phase, .. } = placed.medium.optics(Following::Exact);
+            let extinction = extinction.sample(wavelengths);
+            depth += f64::from(extinction.mean()) * (end.min(t) - from);
+            if t <= end {
+                scattered +=
+                    (extinction * albedo.sample(wavelengths)).mean() * phase.density(ray.direction, to, wavelengths);
+            }
+        }
+        scattered * exp(-depth) as f32
     }
 
     /// The part of a ray from `t` on in which the same media lie.

@@ -136,6 +136,12 @@ impl Medium {
         Self { unevenness, ..self }
     }
 
+    /// Mean extinction coefficient, 1/m.
+    #[must_use]
+    pub fn extinction(&self) -> &Spectrum {
+        &self.exact.extinction
+    }
+
     /// Whether it moves, or its unevenness drifts.
     #[must_use]
     pub fn moves(&self) -> bool {

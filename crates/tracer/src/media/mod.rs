@@ -8,6 +8,7 @@
 //! decomposition tracking", 2017); transmittance is exact where the density is even, and estimated by ratio tracking (Novák et al. 2014) where it is not.
 
 mod collide;
+mod column;
 #[allow(clippy::module_inception)]
 mod media;
 mod medium;

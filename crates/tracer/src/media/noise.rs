@@ -16,6 +16,12 @@ pub struct Noise {
 }
 
 impl Noise {
+    /// Size of the smallest eddies, m.
+    #[must_use]
+    pub fn smallest_m(&self) -> f64 {
+        self.scale_m / f64::from(1_u32 << (self.octaves - 1))
+    }
+
     /// The value at a point, m.
     #[must_use]
     pub fn at(&self, point_m: DVec3) -> f64 {

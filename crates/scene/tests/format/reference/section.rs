@@ -12,11 +12,12 @@ pub(super) enum File {
     Camera,
     Job,
     DataSheet,
+    Weather,
 }
 
 impl File {
     /// In the order in which they are searched for tables: what belongs to files of its own comes before the job that may hold it.
-    pub(super) const ALL: [Self; 4] = [Self::Scene, Self::Camera, Self::Job, Self::DataSheet];
+    pub(super) const ALL: [Self; 5] = [Self::Scene, Self::Camera, Self::Job, Self::DataSheet, Self::Weather];
 
     pub(super) fn word(self) -> &'static str {
         match self {
@@ -24,6 +25,7 @@ impl File {
             Self::Camera => "camera",
             Self::Job => "job",
             Self::DataSheet => "datasheet",
+            Self::Weather => "weather",
         }
     }
 
@@ -34,6 +36,7 @@ impl File {
             Self::Camera => FileKind::Camera,
             Self::Job => FileKind::Job,
             Self::DataSheet => FileKind::DataSheet,
+            Self::Weather => FileKind::Weather,
         });
         schema.get("else").unwrap_or(&schema).clone()
     }

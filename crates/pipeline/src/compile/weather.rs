@@ -1,0 +1,45 @@
+//! Weather over stored radiance: from its record.
+
+use super::context::Context;
+use super::{medium, spectrum};
+use crate::camera::weather::{Airlight, Weather};
+use etendue_core::Motion;
+use etendue_scene::Fault;
+use etendue_scene::asset::Assets;
+use etendue_scene::record::weather::{self as record, Fog};
+use etendue_spectra::Spectrum;
+use etendue_tracer::media::{Medium, Phase};
+
+/// Up to which height the sky is averaged where nothing is said, degrees.
+const SKY_DEG: f64 = 10.0;
+
+/// What is laid over stored radiance.
+///
+/// # Errors
+/// All contradictions, with their places.
+pub fn compile_weather(weather: &record::Weather, assets: &Assets) -> Result<Weather, Vec<Fault>> {
+    let mut context = Context::new(assets);
+    let airlight = airlight(&weather.airlight, &mut context);
+    let fog = weather.fog.iter().filter_map(|fog| self::fog(fog, &mut context)).collect();
+    let faults = context.into_faults();
+    airlight.filter(|_| faults.is_empty()).map(|airlight| Weather { airlight, fog }).ok_or(faults)
+}
+
+fn airlight(record: &record::Airlight, context: &mut Context<'_>) -> Option<Airlight> {
+    match record {
+        record::Airlight::Uniform(emission) => spectrum::emitted(emission, context).map(Airlight::Uniform),
+        record::Airlight::Sky(sky) => {
+            let elevation_deg = sky.elevation_deg.as_ref().map_or(SKY_DEG, |elevation| elevation.value);
+            Some(Airlight::Sky { elevation_rad: elevation_deg.to_radians() })
+        }
+    }
+}
+
+/// Only its extinction counts: albedo and phase function are any.
+fn fog(record: &Fog, context: &mut Context<'_>) -> Option<Medium> {
+    let optics = (medium::extinction(&record.extinction, context)?, Spectrum::constant(1.0));
+    let to_world = Motion::still(record.transform.to_world());
+    let made = Medium::new(optics, Phase::Isotropic, medium::shape(record.shape.as_ref()), to_world);
+    let fog = context.accept(&record.place, made)?;
+    Some(medium::with_unevenness(fog, record.unevenness.as_ref()))
+}

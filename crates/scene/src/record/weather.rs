@@ -1,0 +1,82 @@
+//! A weather file: what `etendue weather` lays over stored radiance.
+
+use super::light::Emission;
+use super::medium::{Extinction, MediumShape, Unevenness};
+use super::transform::Transform;
+use crate::asset::file_list::{FileList, NamesFiles};
+use crate::asset::request::Values;
+use crate::fault::Faults;
+use crate::place::Placed;
+use crate::reader::{list, number, record, text, variants};
+
+record! {
+    /// Fog laid over stored radiance by Koschmieder's law (1924): L = L₀ T + L_air (1 − T), T = exp(−∫β dt) along each pixel's ray.
+    pub struct Weather check(check_airlight) {
+        /// The radiance of fog so deep that nothing is seen through it.
+        required airlight: Airlight = record();
+        /// The fog; where several overlap they add up.
+        many fog: Fog = list(record(), 1);
+    }
+}
+
+variants! {
+    /// The radiance of fog without end.
+    pub enum Airlight by "type" {
+        /// The same everywhere, with the keys of an emission.
+        "uniform" => Uniform(Emission),
+        /// The mean of what the picture shows of the sky over the horizon.
+        "sky" => Sky(AirlightSky),
+    }
+}
+
+record! {
+    /// Airlight of the sky's own radiance.
+    pub struct AirlightSky {
+        /// Up to which height above the horizon the sky is averaged, degrees, above 0 … 90. Default: 10.
+        optional elevation_deg: Placed<f64> = number("°").above(0.0).at_most(90.0);
+    }
+}
+
+record! {
+    /// Fog in a part of the world.
+    pub struct Fog check(check) {
+        /// Its name.
+        required name: Placed<String> = text("the name of the fog");
+        /// How dense it is.
+        inside extinction: Extinction;
+        /// The part of the world that it fills. Default: everywhere.
+        optional shape: MediumShape = record();
+        /// Where the shape's origin is in the world; of shapes with bounds.
+        inside transform: Transform;
+        /// How its density changes from place to place. Default: it is the same everywhere.
+        optional unevenness: Unevenness = record();
+    }
+}
+
+fn check_airlight(weather: &Weather, faults: &mut Faults) {
+    if let Airlight::Uniform(emission) = &weather.airlight
+        && let Some((key, place)) = emission.level.flux()
+    {
+        let problem = format!("\"{key}\" is the flux of a surface, and the air has none");
+        faults.add(place, problem, "give \"luminance_cd_m2\" or \"radiance_w_m2_sr_nm\"");
+    }
+}
+
+fn check(fog: &Fog, faults: &mut Faults) {
+    super::medium::check_place(fog.shape.as_ref(), fog.transform.stated_at(), faults);
+    super::medium::check_gain(fog.unevenness.as_ref(), faults);
+}
+
+impl NamesFiles for Weather {
+    fn name_files(&self, files: &mut FileList) {
+        let Self { place: _, airlight, fog } = self;
+        if let Airlight::Uniform(emission) = airlight {
+            emission.name_files(files);
+        }
+        for Fog { place: _, name: _, extinction, shape: _, transform: _, unevenness: _ } in fog {
+            if let Extinction::PerMetre(curve) = extinction {
+                curve.name_file(Values::Light, files);
+            }
+        }
+    }
+}
