@@ -3,7 +3,7 @@
 //! "fades parameters (speed at which the drops flow and disappear)". How, it does not say; this is **our reading**, on linear light:
 //!
 //! ```text
-//! y = (1 − w) x + w b(c − s (p − c))      b: the picture, blurred by a Gaussian of σ = blur
+//! y = (1 − w) x + w b(c − s (p − c))      b: the picture, blurred by a Gaussian of σ = s · blur
 //! w = (1 − age/fade) min(1, (r − |p − c|)/blur)
 //! ```
 //!
@@ -29,7 +29,7 @@ pub struct Drops {
     pub radius_px: [f64; 2],
     /// How many times smaller the picture is in a drop, above 0.
     pub scale: f64,
-    /// σ of its blur, and width of its soft rim, px, above 0 and at most 500.
+    /// σ of its blur, and width of its soft rim, px, above 0; times `scale` at most 500.
     pub blur_px: f64,
     /// How far a drop flows downwards from frame to frame, px, 0 or more.
     pub flow_px_per_frame: f64,
@@ -57,7 +57,8 @@ impl Drops {
         demand(greatest.is_finite(), "max_radius_px", greatest, "that is finite")?;
         demand(self.scale > 0.0, "scale", self.scale, "above 0")?;
         let blur = self.blur_px;
-        demand(blur > 0.0 && blur <= 500.0, "blur_px", blur, "above 0 and at most 500")?;
+        let of_picture = blur * self.scale;
+        demand(blur > 0.0 && of_picture <= 500.0, "blur_px", blur, "above 0 and, times scale, at most 500")?;
         demand(self.flow_px_per_frame >= 0.0, "flow_px_per_frame", self.flow_px_per_frame, "of 0 or more")?;
         demand(self.fade_frames != Some(0), "fade_frames", 0.0, "of 1 or more")
     }
@@ -67,7 +68,7 @@ impl Drops {
         if width == 0 || height == 0 {
             return;
         }
-        let blurred = blur::gaussian(picture.samples(), width, self.blur_px);
+        let blurred = blur::gaussian(picture.samples(), width, self.blur_px * self.scale);
         for i in 0..self.count {
             let drop = self.drop(i, [width as f64, height as f64], address);
             self.draw(drop, picture, &blurred);
@@ -192,6 +193,7 @@ mod tests {
             Drops { radius_px: [0.0, 2.0], ..DROPS },
             Drops { scale: 0.0, ..DROPS },
             Drops { blur_px: 0.0, ..DROPS },
+            Drops { blur_px: 251.0, ..DROPS },
             Drops { flow_px_per_frame: -1.0, ..DROPS },
             Drops { fade_frames: Some(0), ..DROPS },
         ] {

@@ -64,8 +64,8 @@ record! {
         required max_radius_px: Placed<f64> = number("px").above(0.0);
         /// How many times smaller the picture is in a drop, above 0.
         required scale: Placed<f64> = number("").above(0.0);
-        /// σ of the blur in a drop, and width of its soft rim, px, above 0 and at most 500.
-        required blur_px: Placed<f64> = number("px").above(0.0).at_most(500.0);
+        /// σ of the blur in a drop, and width of its soft rim, px, above 0; times "scale" at most 500.
+        required blur_px: Placed<f64> = number("px").above(0.0);
         /// With "fade_frames": how far a drop flows downwards from frame to frame, px, above 0. Default: not at all.
         optional flow_px_per_frame: Placed<f64> = number("px").above(0.0);
         /// How many frames a drop lives, fading evenly; another is born elsewhere. Default: drops stay.
@@ -78,6 +78,11 @@ fn check_drops(drops: &PaperDrops, faults: &mut Faults) {
     if least.value > greatest {
         let problem = format!("{} px is above max_radius_px = {greatest} px", least.value);
         faults.add(&least.place, problem, "make the least radius no larger than the greatest");
+    }
+    let of_picture = drops.blur_px.value * drops.scale.value;
+    if of_picture > 500.0 {
+        let problem = format!("times scale = {} it is {of_picture} px of the picture", drops.scale.value);
+        faults.add(&drops.blur_px.place, problem, "choose both so that it is at most 500 px");
     }
     if let (Some(flow), None) = (&drops.flow_px_per_frame, &drops.fade_frames) {
         let problem = "\"flow_px_per_frame\" has no effect without \"fade_frames\": drops that live for ever would flow out of the picture";
