@@ -35,3 +35,4 @@ mod shared_paths;
 mod support;
 mod truths;
 mod vertex_animation;
+mod weather;

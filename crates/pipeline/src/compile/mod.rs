@@ -3,6 +3,7 @@
 //! Names are resolved, models are made, contradictions are collected, all of them, with their places. After this
 //! nothing fails because of what the user wrote.
 
+mod air;
 mod annotations;
 mod camera;
 mod camera_path;
@@ -116,6 +117,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     annotations::resolve(description, &mut cameras, context);
     timing::depend(&mut cameras, &world, (&sources, is_modulated), &media, context);
     shared_light::share(&mut cameras);
+    air::remark(&cameras, &media, context);
     positions::remark(&cameras, context);
     surroundings::remark(&cameras, &world, &material_table, &materials, context);
     let classes = scene.classes.iter().map(|(name, id)| (name.value.clone(), id.value as u32)).collect();

@@ -28,6 +28,7 @@ use super::gloss::Gloss;
 use super::microfacet::{Ggx, MIRROR_ALPHA, half_vector, mirrored};
 use super::model::{BsdfFlags, BsdfModel, Passage, SurfaceModel};
 use super::parameter::Parameter;
+use super::puddles::Puddles;
 use super::reflectance::Reflectance;
 use super::shading_point::ShadingPoint;
 use super::slopes::SeenFacets;
@@ -37,11 +38,16 @@ use super::texture_check::TextureCheck;
 /// and the table resolve, to that of germanium. Scene files state the same range.
 pub const COAT_INDICES: core::ops::RangeInclusive<f64> = 1.1..=4.0;
 
+/// Refractive index of water (without dispersion).
+pub const WATER: f64 = 1.333;
+
 /// A coated matt surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coated {
     pub(super) base: Reflectance,
     coat: Coat,
+    /// Water that stands in low parts and smooths them; `None` for coats as rough as they say.
+    puddles: Option<Puddles>,
 }
 
 impl Coated {
@@ -53,7 +59,13 @@ impl Coated {
         if !COAT_INDICES.contains(&n) {
             return Err(MaterialError::CoatIndex { n });
         }
-        Ok(Self { base, coat: Coat::new(n as f32, alpha.into().checked_alpha()?) })
+        Ok(Self { base, coat: Coat::new(n as f32, alpha.into().checked_alpha()?), puddles: None })
+    }
+
+    /// Ground of the (dry) reflectance `base` under a film of water that stands in its low parts.
+    #[must_use]
+    pub fn under_water(base: Reflectance, puddles: Puddles) -> Self {
+        Self { base, coat: Coat::new(WATER as f32, puddles.height), puddles: Some(puddles) }
     }
 }
 
@@ -61,7 +73,11 @@ impl SurfaceModel for Coated {
     type Bsdf<'a, const N: usize> = CoatedBsdf<'a, N>;
 
     fn parameters(&self) -> Vec<Parameter<'_>> {
-        vec![Parameter::Reflectance(&self.base), Parameter::alpha(self.coat.alpha)]
+        let factor = match self.puddles {
+            None => Parameter::alpha(self.coat.alpha),
+            Some(puddles) => Parameter::Factor(puddles.height, "a height"),
+        };
+        vec![Parameter::Reflectance(&self.base), factor]
     }
 
     fn passage(&self) -> Passage<'_> {
@@ -69,7 +85,8 @@ impl SurfaceModel for Coated {
     }
 
     fn resolve<const N: usize>(&self, point: &ShadingPoint<'_, N>) -> CoatedBsdf<'_, N> {
-        let alpha = point.factor(self.coat.alpha);
+        let told = point.factor(self.coat.alpha);
+        let alpha = self.puddles.as_ref().map_or(told, |puddles| puddles.alpha(told));
         let place = self.coat.place(alpha);
         let mean = self.coat.mean_transmittance(place);
         let n2 = self.coat.n * self.coat.n;
@@ -92,6 +109,7 @@ impl SurfaceModel for Coated {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Coat {
     pub(super) n: f32,
+    /// The roughness; of ground under water the height that it follows from.
     alpha: Factor,
     /// One row for a roughness that is a number. For a texture that of a smooth coat, then [`ROWS`] + 1 at equal ratios of α
     /// from [`MIRROR_ALPHA`] to 1.

@@ -11,6 +11,20 @@ pub enum MaterialError {
         /// What was given.
         alpha: f64,
     },
+    /// A length of ground under water is outside its range.
+    #[error("a {what} of {value} mm was given, but it must be a finite length above 0 (a level may be 0); correct it")]
+    WaterLength {
+        /// Which.
+        what: &'static str,
+        /// What was given, mm.
+        value: f64,
+    },
+    /// A rate of rain is outside its range.
+    #[error("rain of {rain_mm_h} mm/h was given, but it must lie between 0 and 150; correct it")]
+    Rain {
+        /// What was given, mm/h.
+        rain_mm_h: f64,
+    },
     /// A coat's refractive index is outside its range.
     #[error("a coat of refractive index {n} was given, but it must lie between 1.1 and 4; correct it")]
     CoatIndex {
@@ -186,6 +200,8 @@ impl MaterialError {
             | Self::MixNormal { material } => Some(*material),
             Self::RealIndex { .. }
             | Self::Roughness { .. }
+            | Self::WaterLength { .. }
+            | Self::Rain { .. }
             | Self::CoatIndex { .. }
             | Self::GlassIndex { .. }
             | Self::Absorption { .. }

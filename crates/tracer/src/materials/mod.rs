@@ -53,6 +53,7 @@ mod model;
 mod modulation;
 mod normal_map;
 mod parameter;
+mod puddles;
 mod reflectance;
 mod retro;
 mod shading;
@@ -67,7 +68,7 @@ pub use blinn_phong::{BlinnPhong, BlinnPhongBsdf, BlinnPhongError, blinn_phong_n
 pub use bsdf::{BsdfSample, BsdfValue, Event};
 pub use car_paint::{CarPaint, CarPaintBsdf, CarPaintError, CarPaintParts, flake_reflectance};
 pub use cloth::{Cloth, ClothBsdf, ClothError};
-pub use coated::{COAT_INDICES, Coated, CoatedBsdf};
+pub use coated::{COAT_INDICES, Coated, CoatedBsdf, WATER};
 pub use conductor::{Conductor, ConductorBsdf};
 pub use dielectric::{DIELECTRIC_INDICES, Dielectric, DielectricBsdf, absorption_of};
 pub use diffuse::DiffuseBsdf;
@@ -87,6 +88,7 @@ pub use microfacet::MIRROR_ALPHA;
 pub use mix::Mix;
 pub use modulation::{Modulation, choice_level};
 pub use normal_map::{Green, NormalMap};
+pub use puddles::Puddles;
 pub use reflectance::Reflectance;
 pub use retro::{
     DayTime, MarkingBsdf, MarkingError, RetroTable, RetroTableError, RoadMarking, SHEETING_CLASSES, SHEETING_COLOURS,

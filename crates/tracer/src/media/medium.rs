@@ -142,6 +142,12 @@ impl Medium {
         &self.exact.extinction
     }
 
+    /// Share of what it takes out of a beam that it scatters.
+    #[must_use]
+    pub fn albedo(&self) -> &Spectrum {
+        &self.exact.albedo
+    }
+
     /// Whether it moves, or its unevenness drifts.
     #[must_use]
     pub fn moves(&self) -> bool {

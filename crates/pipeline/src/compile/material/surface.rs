@@ -12,7 +12,7 @@ use etendue_scene::record::material::{
 use etendue_spectra::{Outside, Spectrum};
 use etendue_tracer::materials::{
     BlinnPhong, CarPaint, CarPaintParts, Cloth, Coated, Conductor, Dielectric, Distribution, Lafortune, Leaf, Lobe,
-    Mix, Reflectance, Surface, ThinSheet, absorption_of, flake_reflectance,
+    Mix, Puddles, Reflectance, Surface, ThinSheet, WATER, absorption_of, flake_reflectance,
 };
 
 /// The index of a coat or a pane that does not state one.
@@ -22,6 +22,9 @@ const FLAKE_ALPHA: f64 = 0.25;
 const COAT_ALPHA: f64 = 0.01;
 const SHEEN: f64 = 0.1;
 const SHEEN_ALPHA: f64 = 0.5;
+/// How rough a film of water over asphalt is, and the height of its grains, where nothing is said.
+const FILM_ALPHA: f64 = 0.06;
+const GRAIN_MM: f64 = 2.0;
 const MM_PER_M: f64 = 1000.0;
 
 impl MaterialCompiler<'_, '_> {
@@ -30,6 +33,7 @@ impl MaterialCompiler<'_, '_> {
             Record::Diffuse(r) => self.reflectance(&r.reflectance).map(Surface::from),
             Record::Conductor(r) => self.conductor(r),
             Record::Coated(r) => self.coated(r),
+            Record::WetGround(r) => self.wet_ground(r),
             Record::CookTorrance(r) => self.cook_torrance(r),
             Record::CarPaint(r) => self.car_paint(r),
             Record::Cloth(r) => self.cloth(r),
@@ -68,6 +72,19 @@ impl MaterialCompiler<'_, '_> {
         let alpha = self.factor(&r.alpha)?;
         let index = number(r.index.as_ref(), USUAL_INDEX);
         self.context.accept(&r.place, Coated::new(base, index, alpha)).map(Surface::from)
+    }
+
+    fn wet_ground(&mut self, r: &record::WetGround) -> Option<Surface> {
+        let base = self.reflectance(&r.reflectance)?;
+        let film_alpha = number(r.film_alpha.as_ref(), FILM_ALPHA);
+        let Some(puddles) = &r.puddles else {
+            return self.context.accept(&r.place, Coated::new(base, WATER, film_alpha)).map(Surface::from);
+        };
+        let height = self.factor(&record::Factor::Texture(puddles.height.clone()))?;
+        let lengths_mm = (puddles.relief_mm.value, puddles.level_mm.value, number(puddles.grain_mm.as_ref(), GRAIN_MM));
+        let rain_mm_h = number(puddles.rain_mm_h.as_ref(), 0.0);
+        let puddles = self.context.accept(&puddles.place, Puddles::new(height, lengths_mm, film_alpha, rain_mm_h))?;
+        Some(Surface::from(Coated::under_water(base, puddles)))
     }
 
     fn car_paint(&mut self, r: &record::CarPaint) -> Option<Surface> {

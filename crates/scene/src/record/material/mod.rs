@@ -6,6 +6,7 @@ pub mod glow;
 pub mod mix;
 pub mod road;
 pub mod surface;
+pub mod wet;
 
 pub use factor::{Channel, Factor, Green, NormalMap};
 pub use glass::{Absorption, Dielectric, Leaf, ThinSheet};
@@ -15,6 +16,7 @@ pub use road::{
     MarkingClass, MarkingDay, MarkingNight, RoadMarking, Sheeting, SheetingClass, SheetingColour, SheetingTable,
 };
 pub use surface::*;
+pub use wet::{Puddles, WetGround};
 
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::fault::Faults;

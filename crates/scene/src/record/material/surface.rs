@@ -6,6 +6,7 @@ use super::factor::{Factor, any_factor};
 use super::glass::{Dielectric, Leaf, ThinSheet};
 use super::mix::Mix;
 use super::road::{RoadMarking, Sheeting};
+use super::wet::WetGround;
 use crate::asset::COAT_INDICES;
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::{AssetKind, Values};
@@ -43,6 +44,8 @@ surfaces! {
     "conductor" => Conductor,
     /// A diffuse base under a clear dielectric coat.
     "coated" => Coated,
+    /// Ground under a film of water, which stands in its low parts: darker, and a mirror at grazing view.
+    "wet_ground" => WetGround,
     /// Cook and Torrance's model: bare microfacets of any refractive index, and nothing below them.
     "cook_torrance" => CookTorrance,
     /// Lafortune's model: a diffuse base with generalised cosine lobes.

@@ -7,6 +7,7 @@ mod reflection;
 mod refusals;
 mod retro;
 mod transmission;
+mod wet;
 
 use super::*;
 use crate::MaterialId;

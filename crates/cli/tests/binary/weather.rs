@@ -1,0 +1,88 @@
+//! Fog in scenes and over stored radiance.
+
+use crate::bad_input::Spoilt;
+use crate::support::{contents, etendue, small};
+use etendue_core::SpectralCube;
+use etendue_core::maths::f64::{exp, ln};
+use etendue_core::quantity::Radiance;
+use etendue_io::exr::{SpectralImage, read_spectral};
+
+const FOG: &str = "[[scene.media]]\nname = \"fog\"\nvisibility = { distance_m = 80, contrast = 0.05 }\nshape = { type = \"layer\", top_m = 60 }\n\
+                   phase = { type = \"isotropic\" }\n\n[[scene.lights]]\ntype = \"sun\"";
+const SUN: &str = "[[scene.lights]]\ntype = \"sun\"";
+
+/// The job with fog that is changed so is refused, at the place of its key.
+#[track_caller]
+fn refused(from: &str, to: &str, phrases: &[&str]) {
+    assert!(FOG.contains(from));
+    let spoilt = Spoilt::new();
+    spoilt.spoil("small.toml", SUN, &FOG.replacen(from, to, 1));
+    spoilt.render(&[]).refused(&[&["small.toml:", "scene.media.fog"], phrases].concat());
+}
+
+#[test]
+fn unusable_fog() {
+    let visibility = "visibility = { distance_m = 80, contrast = 0.05 }";
+    refused("distance_m = 80", "distance_m = 0", &["visibility.distance_m", "found 0", "above 0"]);
+    refused("contrast = 0.05", "contrast = 1.5", &["visibility.contrast", "1.5"]);
+    refused(visibility, "extinction_per_m = -0.1", &["extinction_per_m", "-0.1", "at least 0"]);
+    refused(visibility, &format!("{visibility}\nextinction_per_m = 0.1"), &["visibility", "extinction_per_m"]);
+    refused("name = \"fog\"", "name = \"fog\"\nalbedo = 1.2", &["albedo", "1.2", "at most 1"]);
+    refused("\"isotropic\"", "\"henyey_greenstein\", g = 1.0", &["phase.g", "0.99"]);
+    refused("\"layer\", top_m = 60", "\"box\", size_m = [1, 0, 1]", &["shape.size_m", "above 0"]);
+    refused("type = \"layer\", top_m = 60", "type = \"everywhere\"", &[]);
+}
+
+#[test]
+fn a_place_of_what_is_everywhere() {
+    refused(
+        "shape = { type = \"layer\", top_m = 60 }",
+        "position_m = [0, 0, 1]",
+        &["position_m", "the medium is everywhere", "give a \"shape\" with bounds"],
+    );
+}
+
+const WEATHER: &str = "format = 1\n[airlight]\ntype = \"uniform\"\nradiance_w_m2_sr_nm = 0.01\n\n[[fog]]\nname = \"fog\"\n\
+                       visibility = { distance_m = 80, contrast = 0.05 }\n";
+
+/// Radiance as seen through fog is the scene's times the transmittance, and the airlight; it can be exposed; nothing is written over.
+#[test]
+fn fog_over_stored_radiance() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let (job, rendered) = (small(), path("clear"));
+    let arguments = ["--set", "render.route=pupil", "--set", "output.radiance=true"];
+    etendue(["render", &job, "-o", &rendered].into_iter().chain(arguments)).ok();
+    let clear = contents(&folder.path().join("clear"));
+    let name = clear.keys().find(|name| name.ends_with("radiance.exr")).expect("radiance");
+    std::fs::write(path("fog.toml"), WEATHER).expect("written");
+    let stored = path(&format!("clear/{name}"));
+    let (file, fog) = (path("fog.toml"), path("fog"));
+    let weather = ["weather", &stored, "--weather", &file, "-o", &fog];
+    let ran = etendue(weather).ok();
+    assert!(["radiance.exr", "transmittance.exr", "airlight.exr"].iter().all(|file| ran.out.contains(file)), "{ran:?}");
+    let read = |file: &str| read_spectral(folder.path().join(file).as_path()).expect("readable");
+    let (before, after, added) = (read(&format!("clear/{name}")), read("fog/radiance.exr"), read("fog/airlight.exr"));
+    let cube = |image| match image {
+        SpectralImage::Radiance(of) => of.cube,
+        SpectralImage::Irradiance(_) => panic!("radiance"),
+    };
+    let distance = after.distance.expect("distances");
+    let (before, after, added) = (cube(before.image), cube(after.image), cube(added.image));
+    let beta = -ln(0.05) / 80.0;
+    for (i, far) in distance.samples().iter().enumerate() {
+        let of = |cube: &SpectralCube<Radiance>| f64::from(cube.planes()[3].samples()[i]);
+        let through = if far.is_nan() { 1.0 } else { exp(-beta * f64::from(*far)) };
+        let expected = of(&before) * through + 0.01 * (1.0 - through);
+        assert!((of(&after) - expected).abs() < 1e-5 * expected.max(0.01), "{i}: {} {expected}", of(&after));
+        assert!((of(&added) - 0.01 * (1.0 - through)).abs() < 1e-7);
+    }
+    etendue(weather).refused(&["radiance.exr", "--overwrite"]);
+    std::fs::write(path("none.toml"), WEATHER.replace("0.01", "-1")).expect("written");
+    etendue(["weather", &stored, "--weather", &path("none.toml"), "-o", &path("none")]).refused(&[
+        "none.toml:4",
+        "airlight.radiance_w_m2_sr_nm",
+        "-1",
+    ]);
+    assert!(!folder.path().join("none").exists());
+}

@@ -1,0 +1,54 @@
+//! What is said of light in media: how often it is scattered, and what is not done with it.
+
+use super::context::Context;
+use crate::plan::CameraPlan;
+use crate::render::block::Blocks;
+use etendue_core::{Ray, TimeInterval};
+use etendue_tracer::integrator::Level;
+use etendue_tracer::media::{Media, Medium};
+use glam::Vec3;
+
+/// Albedo from which on light is scattered so often that the limit of bounces is felt.
+const BRIGHT: f32 = 0.5;
+
+/// Bounces to an optical depth of one and more by which some 95 % of fog's light is found: with the forward peak of its phase function
+/// followed, and with it taken as unscattered. Found for water droplets of 12 µm in a layer of optical depth 2.2.
+const BOUNCES: [f64; 2] = [10.0, 4.0];
+
+/// Says which cameras lose light in fog, and which setting is passed over.
+pub(super) fn remark(cameras: &[CameraPlan], media: &[Medium], context: &mut Context<'_>) {
+    if media.is_empty() {
+        return;
+    }
+    for camera in cameras.iter().filter(|camera| camera.settings.level == Level::Path) {
+        let about = || format!("camera \"{}\"", camera.name);
+        if camera.settings.blocks != Blocks::SINGLE {
+            context.remark_on(
+                about(),
+                "\"path_reuse_px\" is passed over: where media scatter light, pixels trace paths of their own",
+            );
+        }
+        let depth = depth_above(camera, media);
+        let wanted = BOUNCES[usize::from(!camera.settings.caustics)] * (1.0 + depth.min(1e3));
+        if depth > 0.0 && f64::from(camera.settings.max_bounces) < wanted {
+            context.remark_on(about(), format!(
+                "it stands in a medium of optical depth {depth:.1} below the sky; light that is scattered more than max_bounces = {} times is left out, \
+                 and the medium looks too dark; some {:.0} find nearly all of it",
+                camera.settings.max_bounces, wanted.ceil()
+            ));
+        }
+    }
+}
+
+/// The optical depth of what scatters, straight up from a camera at its first frame.
+fn depth_above(camera: &CameraPlan, media: &[Medium]) -> f64 {
+    let start_s = camera.timing.frame_start_s(0);
+    let interval = TimeInterval::at(start_s).unwrap_or_default();
+    let columns_m =
+        Media::new(media, camera.path.at(start_s).position_m, interval).columns_m(&Ray::new(Vec3::ZERO, Vec3::Z, 0.0));
+    let bright = media.iter().zip(columns_m).filter(|(medium, _)| medium.albedo().max_value() > BRIGHT);
+    bright
+        .map(|(medium, column_m)| f64::from(medium.extinction().max_value()) * column_m)
+        .filter(|depth| !depth.is_nan())
+        .sum()
+}
