@@ -33,5 +33,7 @@ impl File {
 /// Every generated file.
 #[must_use]
 pub fn files() -> Vec<File> {
-    street::files()
+    let mut files = street::files();
+    files.push(File { path: "weather/road-height.png".to_owned(), bytes: paint::ground::hollows().grey_png(4) });
+    files
 }

@@ -70,7 +70,7 @@ fn an_unknown_variant() {
     assert_eq!(
         faults_of("type = \"diffuse\"", "type = \"difuse\""),
         "job.toml:21:8: scene.materials.grey.type: found the text \"difuse\"; did you mean \"diffuse\"? Give one of \"diffuse\", \"conductor\", \
-         \"coated\", \"cook_torrance\", \"lafortune\", \"blinn_phong\", \"car_paint\", \"cloth\", \"retro_sheeting\", \"road_marking\", \"dielectric\", \"thin_sheet\", \"leaf\", \"mix\", \"emitter\""
+         \"coated\", \"wet_ground\", \"cook_torrance\", \"lafortune\", \"blinn_phong\", \"car_paint\", \"cloth\", \"retro_sheeting\", \"road_marking\", \"dielectric\", \"thin_sheet\", \"leaf\", \"mix\", \"emitter\""
     );
 }
 

@@ -30,6 +30,17 @@ pub fn lane() -> Canvas {
     })
 }
 
+/// Heights of a road as a picture of plain numbers: hollows some metres wide in 24 m, and lesser ones in them. 0 is the lowest place.
+#[must_use]
+pub fn hollows() -> Canvas {
+    let side = 96_u32;
+    Canvas::point(side, side, |uv| {
+        let octave = |cells: u32, key: u32| noise(uv.x * f64::from(cells), uv.y * f64::from(cells), [cells; 2], key);
+        let height = 0.6 * octave(7, 31) + 0.28 * octave(16, 32) + 0.12 * octave(40, 33);
+        DVec3::splat(super::decode(height))
+    })
+}
+
 /// Fresh dark asphalt of repaired patches.
 #[must_use]
 pub fn fresh() -> Canvas {
