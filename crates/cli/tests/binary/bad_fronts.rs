@@ -66,6 +66,57 @@ fn what_bends_rays_has_no_route_at_the_pupil() {
     plan(&format!("{GLASS}internal_transmittance = 0.7"), "[render]\nwavelengths_per_path = 4").ok();
 }
 
+const DROPS: &str = "[external_optics.windscreen]\ndistance_mm = 100\n[external_optics.windscreen.drops]\nsize_mm = [90, 60]\n\
+                     min_radius_mm = 0.5\nmax_radius_mm = 2\n";
+
+#[test]
+fn drops_that_cannot_lie_on_the_glass() {
+    let refused = |more: &str, said: &[&str]| plan(&format!("{DROPS}{more}"), "").refused(said);
+    let fine = plan(&format!("{DROPS}count = 40"), "").ok().out;
+    assert!(fine.contains("drops of water on it") && fine.contains("40 of 0.5 to 2 mm radius"), "{fine}");
+    plan(&format!("{DROPS}count_per_dm2 = 100"), "").ok();
+    refused("", &["camera.toml:12", "external_optics.windscreen.drops", "count"]);
+    refused("count = 0", &["camera.toml:16", "drops.count", "none arrive"]);
+    refused("count = 4\ncount_per_dm2 = 4", &["camera.toml:1", "count_per_dm2"]);
+    refused("count_per_dm2 = 0.1", &["camera.toml:16", "count_per_dm2", "0.054 drops"]);
+    refused("count = 4\ncontact_angle_deg = 4", &["camera.toml:17", "contact_angle_deg"]);
+    refused("count = 4\ncontact_angle_deg = 151", &["camera.toml:17", "contact_angle_deg"]);
+    refused("count = 4\nsize_exponent = -1", &["camera.toml:17", "size_exponent"]);
+    refused("count = 4\noffset_mm = [900, 0]", &["camera.toml:12", "no pixel", "offset_mm"]);
+    let swapped = format!("{DROPS}count = 4").replace("max_radius_mm = 2", "max_radius_mm = 0.4");
+    plan(&swapped, "").refused(&["camera.toml:14", "min_radius_mm", "above max_radius_mm = 0.4"]);
+    // One wavelength a path, but where the index is that of one wavelength.
+    let four = "[render]\nwavelengths_per_path = 4";
+    plan(&format!("{DROPS}count = 4"), four).refused(&["job.toml:9", "each differently"]);
+    plan(&format!("{DROPS}count = 4\ndispersion = false"), four).ok();
+    let curved =
+        DROPS.replace("distance_mm = 100", "distance_mm = 100\nradius_across_mm = 95").replace("[90, 60]", "[300, 60]");
+    plan(&format!("{curved}count = 40"), "").refused(&["camera.toml:13", "no surface", "size_mm"]);
+}
+
+#[test]
+fn drops_that_cannot_change_as_described() {
+    let refused = |more: &str, said: &[&str]| plan(&format!("{DROPS}count = 4\n{more}"), "").refused(said);
+    plan(&format!("{DROPS}count = 0\narrivals_per_s = 3"), "").ok();
+    refused("start_s = 1", &["camera.toml:17", "drops.start_s", "no effect"]);
+    refused("drying_s = 0", &["camera.toml:17", "drops.drying_s"]);
+    refused("arrivals_per_s = -1", &["camera.toml:17", "drops.arrivals_per_s"]);
+    let sliding = "[external_optics.windscreen.drops.sliding]\nspeed_mm_s = 50\n";
+    plan(&format!("{DROPS}count = 4\n{sliding}still_radius_mm = 1"), "").ok();
+    refused(
+        &format!("{sliding}still_radius_mm = 2"),
+        &["camera.toml:19", "still_radius_mm", "not below max_radius_mm = 2"],
+    );
+    refused(sliding, &["camera.toml:17", "still_radius_mm"]);
+    let wiper = "[external_optics.windscreen.drops.wiper]\npivot_mm = [0, 300]\nblade_mm = [50, 300]\nangles_deg = [-80, 20]\nsweep_s = 0.5\n\
+                 period_s = 1\n";
+    plan(&format!("{DROPS}count = 4\n{wiper}"), "").ok();
+    refused(&wiper.replace("= 1\n", "= 0.9\n"), &["camera.toml:22", "wiper.period_s", "there and back, 1 s"]);
+    refused(&wiper.replace("[50, 300]", "[300, 50]"), &["camera.toml:19", "wiper.blade_mm", "smaller distance first"]);
+    refused(&wiper.replace("[-80, 20]", "[20, 20]"), &["camera.toml:20", "wiper.angles_deg", "differ"]);
+    refused(&wiper.replace("0.5", "0.05"), &["camera.toml:21", "wiper.sweep_s"]);
+}
+
 /// The command line reaches through the camera's file.
 #[test]
 fn what_stands_in_front_and_the_effects_can_be_set() {

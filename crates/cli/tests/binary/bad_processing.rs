@@ -165,6 +165,15 @@ fn pictures_that_cannot_be_written() {
 #[test]
 fn filters_of_the_paper_that_cannot_be() {
     let filter = |keys: &str, phrases: &[&str]| refused(&format!("image_filters = [{{ type = {keys} }}]"), phrases);
+    let drops = "\"drops\", count = 9, scale = 3, blur_px = 2";
+    filter(&format!("{drops}, min_radius_px = 5, max_radius_px = 4"), &["min_radius_px", "above max_radius_px = 4"]);
+    filter(
+        &format!("{drops}, min_radius_px = 4, max_radius_px = 4, flow_px_per_frame = 1"),
+        &["no effect", "fade_frames"],
+    );
+    filter(&drops.replace("count = 9", "count = 0"), &["count"]);
+    let blurred = drops.replace("blur_px = 2", "blur_px = 200, min_radius_px = 4, max_radius_px = 4");
+    filter(&blurred, &["blur_px", "600 px of the picture"]);
     filter("\"pulse_noise\", amplitude_dn = 10, probability = 0.51", &["probability", "0.5"]);
     filter("\"pulse_noise\", amplitude_dn = 256, probability = 0.1", &["amplitude_dn", "255"]);
     filter("\"gaussian_noise\", sigma_dn = -1", &["sigma_dn"]);

@@ -14,6 +14,7 @@ mod compared;
 mod datasheet;
 mod develop;
 mod dropped;
+mod drops;
 mod encodings;
 mod faults;
 mod flat;

@@ -63,7 +63,7 @@ impl Processing {
     }
 }
 
-/// Develops a raw picture; `address` is that of the random numbers of the paper's noises. Runs in the rayon pool of the
+/// Develops a raw picture; `address` is that of the random numbers of the paper's noises and drops. Runs in the rayon pool of the
 /// caller; the bits do not depend on it.
 ///
 /// # Errors
@@ -84,7 +84,7 @@ pub fn develop(
     balance(&mut samples, width, raw.mosaic, &gains, processing.ceiling());
     let linear = Plane::from_samples(width, raw.plane.height(), colours(&samples, width, raw.mosaic, processing));
     let mut linear = linear.expect("as many colours as samples");
-    paper::apply_linear(&processing.image_filters, &mut linear);
+    paper::apply_linear(&processing.image_filters, &mut linear, address);
     let display = processing.displayed(&linear, address);
     let facts = Facts { black_level_dn: black, white_balance: gains, corrected_pixels };
     Ok(Developed { linear, display, facts })

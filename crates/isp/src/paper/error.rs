@@ -24,7 +24,7 @@ pub enum FilterError {
     },
     /// A filter of linear light after one of the encoded picture.
     #[error(
-        "filter {0} (from 1) works on linear light, but one before it on the encoded picture: give glow, tone map and linear colour first"
+        "filter {0} (from 1) works on linear light, but one before it on the encoded picture: give glow, tone map, drops and linear colour first"
     )]
     Order(usize),
     /// A conversion that belongs to the other stage.

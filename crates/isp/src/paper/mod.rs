@@ -2,12 +2,13 @@
 //!
 //! They change a finished picture, as the paper's plug-ins change a rendered one, and know nothing of light and electrons:
 //! noise by them is not the noise of a sensor. The paper gives formulas for the noises and for the affine colour matrix,
-//! and only words for glow and tone mapping: what stands here for these is **an interpretation**, said in each file.
+//! and only words for glow, tone mapping and drops: what stands here for these is **an interpretation**, said in each file.
 //!
 //! | filter | works on | paper |
 //! | --- | --- | --- |
 //! | [`Glow`]: gain control by the histogram, blooming | linear light | in words |
 //! | [`ToneMap`]: the sensor's sensitivity curve, blended with the unmapped picture | linear light | in words |
+//! | [`Drops`]: inverted pictures in discs, which flow and fade | linear light | in words |
 //! | [`ColourChange`]: a 4 × 4 affine matrix | either | formula |
 //! | [`PulseNoise`], [`GaussianNoise`], [`UniformNoise`] | the encoded picture | formula |
 //!
@@ -18,6 +19,7 @@
 
 mod brightness;
 mod colour;
+mod drops;
 mod error;
 mod gaussian_noise;
 mod glow;
@@ -32,6 +34,7 @@ use etendue_core::quantity::{Display, LinearRgb};
 use etendue_core::random::FrameAddress;
 
 pub use colour::{Affine, ColourChange, ColourSpace, Operation};
+pub use drops::Drops;
 pub use error::{FilterError, Stage};
 pub use gaussian_noise::GaussianNoise;
 pub use glow::Glow;
@@ -46,6 +49,8 @@ pub enum Filter {
     Glow(Glow),
     /// From the scene's range to the sensor's.
     ToneMap(ToneMap),
+    /// Drops of rain on the picture.
+    Drops(Drops),
     /// An affine matrix on colours.
     Colour(ColourChange),
     /// Some pixels brighter, some darker.
@@ -61,7 +66,7 @@ impl Filter {
     #[must_use]
     pub fn stage(&self) -> Stage {
         match self {
-            Self::Glow(_) | Self::ToneMap(_) => Stage::Linear,
+            Self::Glow(_) | Self::ToneMap(_) | Self::Drops(_) => Stage::Linear,
             Self::Colour(change) => change.stage,
             Self::PulseNoise(_) | Self::GaussianNoise(_) | Self::UniformNoise(_) => Stage::Display,
         }
@@ -75,6 +80,7 @@ impl Filter {
         match self {
             Self::Glow(filter) => filter.check(),
             Self::ToneMap(filter) => filter.check(),
+            Self::Drops(filter) => filter.check(),
             Self::Colour(filter) => filter.check(),
             Self::PulseNoise(filter) => filter.check(),
             Self::GaussianNoise(filter) => filter.check(),
@@ -82,10 +88,11 @@ impl Filter {
         }
     }
 
-    fn apply_linear(&self, picture: &mut Plane<LinearRgb>) {
+    fn apply_linear(&self, picture: &mut Plane<LinearRgb>, address: FrameAddress) {
         match self {
             Self::Glow(filter) => filter.apply(picture),
             Self::ToneMap(filter) => filter.apply(picture),
+            Self::Drops(filter) => filter.apply(picture, address),
             Self::Colour(filter) => filter.apply_linear(picture),
             Self::PulseNoise(_) | Self::GaussianNoise(_) | Self::UniformNoise(_) => {}
         }
@@ -97,7 +104,7 @@ impl Filter {
             Self::GaussianNoise(filter) => filter.apply(picture, address),
             Self::UniformNoise(filter) => filter.apply(picture, address),
             Self::Colour(filter) => filter.apply_display(picture),
-            Self::Glow(_) | Self::ToneMap(_) => {}
+            Self::Glow(_) | Self::ToneMap(_) | Self::Drops(_) => {}
         }
     }
 }
@@ -113,8 +120,8 @@ pub fn check(filters: &[Filter]) -> Result<(), FilterError> {
 }
 
 /// Applies the filters of linear light.
-pub(crate) fn apply_linear(filters: &[Filter], picture: &mut Plane<LinearRgb>) {
-    filters.iter().filter(|f| f.stage() == Stage::Linear).for_each(|f| f.apply_linear(picture));
+pub(crate) fn apply_linear(filters: &[Filter], picture: &mut Plane<LinearRgb>, address: FrameAddress) {
+    filters.iter().filter(|f| f.stage() == Stage::Linear).for_each(|f| f.apply_linear(picture, address));
 }
 
 /// Applies the filters of the encoded picture.

@@ -68,6 +68,16 @@ pub enum FrontError {
     /// No ray goes through the glass.
     #[error("no pixel of the picture looks through the wind-screen: turn it towards the view (tilt_deg, yaw_deg)")]
     NotLookedThrough,
+    /// Drops beyond the glass.
+    #[error(
+        "the drops lie where the curved wind-screen has no surface: make their size_mm smaller or their offset_mm less"
+    )]
+    DropsOffGlass,
+    /// Drops that are not in the picture.
+    #[error(
+        "no pixel of the picture looks through the drops' rectangle: move it (offset_mm) or make it larger (size_mm)"
+    )]
+    DropsNotSeen,
     /// A mask whose texels are not those of its size.
     #[error("the mask has {texels} texels, but its size is {width} × {height}")]
     MaskSize {

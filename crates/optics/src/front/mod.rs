@@ -9,10 +9,11 @@
 //! - A ray that a member does not meet passes it by, unchanged.
 //! - Where a member has to choose ([`Windscreen`]: light that came straight or by two reflections), it uses up a part of
 //!   the pupil sample and stretches the rest to the whole square; weights are divided by the probability of the choice.
-//! - Members stand in the order dirt, then wind-screen or mirror. Both of the latter together are not modelled.
+//! - Members stand in the order dirt, then wind-screen (with drops on its outer face) or mirror. Both of the latter together are not modelled.
 
 mod curve;
 mod dirt;
+mod drops;
 mod error;
 mod front_ray;
 mod line;
@@ -31,6 +32,7 @@ use windscreen::Way;
 
 pub use curve::Curve;
 pub use dirt::{Dirt, DirtParameters, Mask};
+pub use drops::{Cap, Course, Droplet, Drops, DropsParameters, Sliding, Wiper};
 pub use error::FrontError;
 pub use front_ray::FrontRay;
 pub(crate) use line::{Fate, Line};
@@ -84,6 +86,26 @@ impl Front {
         self.optic.as_ref()
     }
 
+    /// How drops on it change over time; `None` where nothing does.
+    #[must_use]
+    pub fn course(&self) -> Option<&Course> {
+        match &self.optic {
+            Some(Optic::Windscreen(glass)) => glass.drops()?.parameters().course.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// The same front as it is at a time, s of simulated time, where `down` is gravity's direction in the camera frame.
+    #[must_use]
+    pub fn at(&self, time_s: f64, down: DVec3) -> Self {
+        match &self.optic {
+            Some(Optic::Windscreen(glass)) => {
+                Self { dirt: self.dirt.clone(), optic: Some(Optic::Windscreen(Box::new(glass.at(time_s, down)))) }
+            }
+            _ => self.clone(),
+        }
+    }
+
     /// The ray of a sensor point (mm) through a lens and this front, as [`Lens::ray`].
     #[must_use]
     pub fn ray(&self, lens: &Lens, sensor_mm: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<FrontRay> {
@@ -94,7 +116,8 @@ impl Front {
         let (way, u, inverse) = glass.choose(pupil.x);
         let mut ray = self.soiled(lens.ray(sensor_mm, DVec2::new(u, pupil.y), wavelength_nm)?)?;
         ray.weight_sr *= inverse;
-        beyond(glass, ray, wavelength_nm, way)
+        let fate = glass.through_wet(line(&ray), wavelength_nm, way);
+        beyond(fate, ray, way)
     }
 
     /// The ray by which ground truth looks, as [`Lens::truth_ray`], and whether it is off the pupil's centre.
@@ -147,20 +170,20 @@ impl Front {
         (weight_sr > 0.0).then_some(PupilRay { weight_sr, ..ray })
     }
 
-    /// The ray that ground truth and whatever needs no choice follow.
+    /// The ray that ground truth and whatever needs no choice follow. It does not see drops.
     fn carry(&self, ray: PupilRay, nm: f64) -> Option<FrontRay> {
         match &self.optic {
             None => Some(FrontRay::bare(ray)),
-            Some(Optic::Windscreen(glass)) => beyond(glass, ray, nm, Way::Straight),
+            Some(Optic::Windscreen(glass)) => beyond(glass.through(line(&ray), nm, Way::Straight), ray, Way::Straight),
             Some(Optic::Mirror(mirror)) => reflected(mirror, ray, nm),
         }
     }
 }
 
-/// A ray beyond glass. Its distances count from its point nearest to where it left the lens.
-fn beyond(glass: &Windscreen, ray: PupilRay, nm: f64, way: Way) -> Option<FrontRay> {
+/// A ray beyond glass, by its fate there. Its distances count from its point nearest to where it left the lens.
+fn beyond(fate: Fate, ray: PupilRay, way: Way) -> Option<FrontRay> {
     let from = line(&ray);
-    match glass.through(from, nm, way) {
+    match fate {
         // By the glass, light comes straight only.
         Fate::Past => (way == Way::Straight).then(|| FrontRay::bare(ray)),
         Fate::Lost => None,

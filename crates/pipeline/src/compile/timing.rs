@@ -48,7 +48,7 @@ pub(super) fn depend(
     let moves = carried || deforms || air_moves;
     for camera in cameras {
         camera.time = match () {
-            () if moves || !camera.path.is_still() => TimeDependence::Motion,
+            () if moves || !camera.path.is_still() || has_changing_front(camera) => TimeDependence::Motion,
             () if is_modulated => TimeDependence::Lights,
             () => TimeDependence::None,
         };
@@ -66,6 +66,11 @@ pub(super) fn depend(
             context.fault(&camera.body.place, problem, "give a \"global\" shutter, or remove \"undistorted\"");
         }
     }
+}
+
+/// Whether drops on the glass before a camera change.
+fn has_changing_front(camera: &CameraPlan) -> bool {
+    camera.body.front.as_ref().is_some_and(|front| front.course().is_some())
 }
 
 /// From frame to frame: as the sequence says, or the sensor.

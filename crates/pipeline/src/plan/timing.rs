@@ -12,7 +12,7 @@ pub enum TimeDependence {
     None,
     /// Nothing moves, but lights change: each row sees their mean over its exposure.
     Lights,
-    /// Something moves, the camera perhaps: each sample has a moment of its row's exposure.
+    /// Something moves, the camera or drops on the glass before it perhaps: each sample has a moment of its row's exposure.
     Motion,
 }
 

@@ -21,6 +21,7 @@ use etendue_tracer::media::Media;
 use etendue_tracer::precipitation::{ChangeOver, SeenRegion};
 use etendue_tracer::render_space::RenderSpace;
 use glam::{DVec2, DVec3};
+use std::borrow::Cow;
 
 /// Where paths may begin to end at random.
 const ROULETTE_START: u32 = 4;
@@ -52,6 +53,7 @@ pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn 
         Route::Lens => match &camera.body.front {
             None => through(plan, camera, request, observer, &LensSource::of(camera)),
             Some(front) => {
+                let front = &front_at(front, camera, request.shot);
                 through(plan, camera, request, observer, &FrontSource { lens: LensSource::of(camera), front })
             }
         },
@@ -228,6 +230,15 @@ impl RaySource for LensSource {
     fn ray(&self, raster_px: DVec2, pupil: DVec2, wavelength_nm: f64) -> Option<PupilRay> {
         self.lens.ray(self.raster.sensor_mm(raster_px), pupil, wavelength_nm)
     }
+}
+
+/// What stands in front of a camera as it is in the middle of an exposure, of all rows together. Drops slide by gravity as it is where
+/// the camera stands when they begin.
+fn front_at<'a>(front: &'a Front, camera: &CameraPlan, shot: Shot) -> Cow<'a, Front> {
+    let Some(course) = front.course() else { return Cow::Borrowed(front) };
+    let pose = camera.path.at(course.start_s);
+    let middle_s = FilmExposure::of(camera, shot).interval().middle_s();
+    Cow::Owned(front.at(middle_s, pose.rotation.transpose() * DVec3::NEG_Z))
 }
 
 /// Rays through a lens and what stands in front of it.

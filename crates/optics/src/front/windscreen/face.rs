@@ -8,7 +8,7 @@
 use super::super::Line;
 use super::WindscreenParameters;
 use etendue_core::maths::f64::sin_cos;
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 /// Newton steps at most; four or five serve.
 const STEPS: usize = 24;
@@ -71,6 +71,22 @@ impl Face {
         let length = (z * z + p.y * p.y).sqrt();
         let height = (p.y * p.y + out * (out + 2.0 * upright)) / (length + upright);
         (height, direction * (z / length) + DVec3::Y * (p.y / length))
+    }
+
+    /// The point of the face at a place of the wind-screen's x and y, mm, and the outward normal there; `None` where it has none.
+    pub(super) fn at(&self, place_mm: DVec2) -> Option<(DVec3, DVec3)> {
+        let mut p = place_mm.extend(self.height_mm);
+        for _ in 0..STEPS {
+            let (height, normal) = self.height(p);
+            if normal.z.is_nan() || normal.z <= 0.0 {
+                return None;
+            }
+            if height.abs() < NEAR_MM {
+                return Some((p, normal));
+            }
+            p.z -= height / normal.z;
+        }
+        None
     }
 
     /// Where a ray crosses the face outwards (`sense` 1) or inwards (−1): the point and the outward normal.

@@ -5,6 +5,8 @@
 //! transmittance τ of a reference thickness d taken to a path ℓ by τ^(ℓ/d) (Beer and Lambert); the double image: light that
 //! is reflected once at each outer face inside the glass, R² of what comes straight.
 //!
+//! Drops of water may lie on the outer face: [`Drops`]. There light goes from glass into water, whatever the coating.
+//!
 //! **Left out**: light reflected more than twice (R⁴, some 10⁻⁶ at normal incidence) or between the layers (n 1.52 to 1.48: 2·10⁻⁴);
 //! polarisation (the mean is taken at each face); coherence; edges: the glass has none; scatter.
 //!
@@ -14,10 +16,13 @@
 mod face;
 mod parameters;
 mod trace;
+#[cfg(test)]
+mod wet_tests;
 
 use parameters::check;
 pub use parameters::{Layer, Tint, WindscreenParameters};
 
+use super::drops::{Drops, DropsParameters};
 use super::error::FrontError;
 use super::{Fate, Line};
 use crate::prescription::coating::Coating;
@@ -44,6 +49,7 @@ pub struct Windscreen {
     faces: Vec<Face>,
     thickness_mm: f64,
     double_image_fraction: f64,
+    drops: Option<Box<Drops>>,
 }
 
 impl Windscreen {
@@ -55,12 +61,42 @@ impl Windscreen {
         check(&parameters)?;
         let faces = face::faces(&parameters);
         let thickness_mm = parameters.layers.iter().map(|layer| layer.thickness_mm).sum();
-        let mut glass = Self { parameters, faces, thickness_mm, double_image_fraction: 0.0 };
+        let mut glass = Self { parameters, faces, thickness_mm, double_image_fraction: 0.0, drops: None };
         glass.double_image_fraction = match glass.parameters.double_image_fraction {
             Some(share) => share,
             None => glass.untinted().share_of_double(),
         };
         Ok(glass)
+    }
+
+    /// The same glass with drops of water on its outer face.
+    ///
+    /// # Errors
+    /// Where a number is outside its range, or the glass ends before the drops.
+    pub fn with_drops(self, parameters: DropsParameters) -> Result<Self, FrontError> {
+        let outer = self.faces[self.faces.len() - 1];
+        let drops = Drops::new(parameters, &|place_mm| outer.at(place_mm))?;
+        Ok(Self { drops: Some(Box::new(drops)), ..self })
+    }
+
+    /// The same glass with its drops as they are at a time, s; `down` is gravity's direction in the camera frame.
+    pub(super) fn at(&self, time_s: f64, down: DVec3) -> Self {
+        let outer = self.faces[self.faces.len() - 1];
+        let changed = self.drops().and_then(|drops| {
+            let course = drops.parameters().course.as_ref()?;
+            let down = self.parameters.placement.rotation.transpose() * down;
+            drops.at(course, time_s, down, &|place_mm| outer.at(place_mm)).ok()
+        });
+        match changed {
+            Some(drops) => Self { drops: Some(Box::new(drops)), ..self.clone() },
+            None => self.clone(),
+        }
+    }
+
+    /// The drops on it.
+    #[must_use]
+    pub fn drops(&self) -> Option<&Drops> {
+        self.drops.as_deref()
     }
 
     /// What it was made of.
@@ -111,6 +147,7 @@ impl Windscreen {
         p.layers.iter().any(|layer| layer.index.varies())
             || p.tint.as_ref().is_some_and(|tint| tint.transmittance.varies())
             || matches!(p.coating, Coating::QuarterWave { .. })
+            || self.drops().is_some_and(|drops| drops.parameters().index.varies())
     }
 
     /// Which way a sample looks, by its first number; what is left of that number, and the inverse of the probability.
@@ -130,15 +167,23 @@ impl Windscreen {
         if !points.iter().all(|point| self.is_before(*point)) {
             return Err(FrontError::ThroughLens);
         }
-        let mut goes = false;
+        let (mut goes, mut over) = (false, self.drops.is_none());
         for line in lines {
             match self.through(*line, PRINCIPAL_NM, Way::Straight) {
                 Fate::Lost => return Err(FrontError::FacesCross),
-                Fate::On(..) => goes = true,
+                Fate::On(out, _) => {
+                    goes = true;
+                    let local = self.parameters.placement.inward(out);
+                    over = over || self.drops().is_some_and(|drops| drops.is_over(local.point_mm));
+                }
                 Fate::Past => {}
             }
         }
-        if goes { Ok(()) } else { Err(FrontError::NotLookedThrough) }
+        match (goes, over) {
+            (false, _) => Err(FrontError::NotLookedThrough),
+            (true, false) => Err(FrontError::DropsNotSeen),
+            (true, true) => Ok(()),
+        }
     }
 
     /// Internal transmittance of a path in the glass.

@@ -2,6 +2,7 @@
 
 mod curve;
 mod dirt;
+mod drops;
 mod mirror;
 mod windscreen;
 
@@ -9,7 +10,7 @@ use curve::curve;
 
 use super::context::Context;
 use etendue_optics::Lens;
-use etendue_optics::front::{Front, Optic};
+use etendue_optics::front::{Front, FrontError, Optic};
 use etendue_projection::Raster;
 use etendue_scene::record::{self};
 
@@ -25,6 +26,12 @@ pub(super) fn front(record: &record::Front, lens: &Lens, raster: &Raster, contex
         (None, None) => (None, &record.place),
     };
     let front = Front::new(dirt, optic)?;
-    context.accept(place, front.check(lens, raster))?;
+    let checked = front.check(lens, raster);
+    let drops = record.windscreen.as_ref().and_then(|glass| glass.drops.as_ref());
+    let place = match (&checked, drops) {
+        (Err(FrontError::DropsNotSeen), Some(drops)) => &drops.place,
+        _ => place,
+    };
+    context.accept(place, checked)?;
     Some(front)
 }

@@ -4,6 +4,7 @@ use super::super::context::Context;
 use super::super::lens::coating;
 use super::super::spectrum::from_file;
 use super::curve;
+use super::drops::drops;
 use etendue_optics::front::{Curve, Layer, Placement, Tint, Windscreen, WindscreenParameters};
 use etendue_optics::prescription::coating::Coating;
 use etendue_scene::Placed;
@@ -35,7 +36,11 @@ pub(super) fn windscreen(r: &record::Windscreen, context: &mut Context<'_>) -> O
             Some(0.0)
         },
     };
-    context.accept(&r.place, Windscreen::new(parameters))
+    let glass = context.accept(&r.place, Windscreen::new(parameters))?;
+    match &r.drops {
+        Some(record) => context.accept(&record.place, glass.with_drops(drops(record))),
+        None => Some(glass),
+    }
 }
 
 fn layers(records: Option<&[record::Layer]>, context: &mut Context<'_>) -> Option<Vec<Layer>> {

@@ -3,8 +3,8 @@
 use super::super::context::Context;
 use super::tone::tone_curve;
 use etendue_isp::paper::{
-    self, Affine, ColourChange, ColourSpace, Filter, GaussianNoise, Glow, Operation, PulseNoise, Sensitivity, Stage,
-    ToneMap, UniformNoise,
+    self, Affine, ColourChange, ColourSpace, Drops, Filter, GaussianNoise, Glow, Operation, PulseNoise, Sensitivity,
+    Stage, ToneMap, UniformNoise,
 };
 use etendue_scene::record::processing::PaperFilter;
 use etendue_scene::record::processing::filter as description;
@@ -29,6 +29,7 @@ fn filter(record: &PaperFilter, context: &mut Context<'_>) -> Option<Filter> {
             strength: r.strength.value,
         }),
         PaperFilter::ToneMap(r) => Filter::ToneMap(tone_map(r, context)?),
+        PaperFilter::Drops(r) => Filter::Drops(drops(r)),
         PaperFilter::Colour(r) => Filter::Colour(colour(r)),
         PaperFilter::PulseNoise(r) => {
             Filter::PulseNoise(PulseNoise { amplitude_dn: r.amplitude_dn.value, probability: r.probability.value })
@@ -45,6 +46,17 @@ fn tone_map(record: &description::ToneMap, context: &mut Context<'_>) -> Option<
     };
     let gain = record.gain.as_ref().map_or(1.0, |g| g.value);
     Some(ToneMap { original_factor: record.original_factor.value, gain, sensitivity })
+}
+
+fn drops(record: &description::PaperDrops) -> Drops {
+    Drops {
+        count: record.count.value as u32,
+        radius_px: [record.min_radius_px.value, record.max_radius_px.value],
+        scale: record.scale.value,
+        blur_px: record.blur_px.value,
+        flow_px_per_frame: record.flow_px_per_frame.as_ref().map_or(0.0, |f| f.value),
+        fade_frames: record.fade_frames.as_ref().map(|f| f.value as u32),
+    }
 }
 
 fn colour(record: &description::ColourChange) -> ColourChange {

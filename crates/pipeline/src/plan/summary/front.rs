@@ -1,5 +1,6 @@
 //! What is said of the things in front of a lens.
 
+use super::drops;
 use etendue_core::maths::f64::acos;
 use etendue_optics::front::{Front, Mirror, MirrorShape, Optic, Reflectance, Windscreen};
 
@@ -19,10 +20,12 @@ fn optic(front: &Front) -> Vec<String> {
             format!("a mirror, traced: {}; {}", shape(mirror), reflectance(mirror)),
             "left out: second reflections at the mirror, its roughness, the body of the camera in it".to_owned(),
         ],
-        Some(Optic::Windscreen(glass)) => vec![
-            format!("a wind-screen, traced: {}", self::glass(glass)),
-            "left out: further reflections in the glass, polarisation, its edges; the route at the pupil".to_owned(),
-        ],
+        Some(Optic::Windscreen(glass)) => {
+            let traced = format!("a wind-screen, traced: {}", self::glass(glass));
+            let left_out =
+                "left out: further reflections in the glass, polarisation, its edges; the route at the pupil";
+            [traced, left_out.to_owned()].into_iter().chain(glass.drops().into_iter().flat_map(drops::drops)).collect()
+        }
         None => Vec::new(),
     }
 }

@@ -1,6 +1,7 @@
 //! The plan in words: what is modelled, what is left out and why, what it will cost.
 
 mod depth_of_field;
+mod drops;
 mod effects_cost;
 mod front;
 mod lens;

@@ -99,6 +99,7 @@ fn paper(p: &Processing, stage: Stage) -> Vec<String> {
     let name = |filter: &Filter| match filter {
         Filter::Glow(_) => "the paper's glow",
         Filter::ToneMap(_) => "the paper's tone map",
+        Filter::Drops(_) => "the paper's drops",
         Filter::Colour(_) => "the paper's colour matrix",
         Filter::PulseNoise(_) => "the paper's pulse noise",
         Filter::GaussianNoise(_) => "the paper's Gaussian noise",

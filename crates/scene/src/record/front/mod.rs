@@ -1,12 +1,14 @@
 //! `[external_optics]`: what stands in front of the lens, attached to the camera.
 
 pub mod dirt;
+pub mod drops;
 pub mod mirror;
 pub mod windscreen;
 
 use crate::fault::Faults;
 use crate::reader::record;
 pub use dirt::Dirt;
+pub use drops::Drops;
 pub use mirror::Mirror;
 pub use windscreen::Windscreen;
 

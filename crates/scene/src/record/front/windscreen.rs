@@ -1,5 +1,6 @@
 //! Glass that the camera looks through.
 
+use super::drops::Drops;
 use crate::fault::Faults;
 use crate::place::Placed;
 use crate::reader::{flag, list, number, record};
@@ -41,6 +42,8 @@ record! {
         /// Share of samples that look for the double image, above 0 and at most 0.9: more make it less noisy and the rest
         /// more. It does not change the mean. Default: the share of light in it.
         optional double_image_sample_fraction: Placed<f64> = number("").above(0.0).at_most(0.9);
+        /// Drops of water on the outer face. Default: none.
+        optional drops: Drops = record();
     }
 }
 

@@ -1,8 +1,9 @@
 //! `[[isp.image_filters]]`: the filters of the paper.
 
 use super::tone::{ToneCurve, tone_curve};
+use crate::fault::Faults;
 use crate::place::{Place, Placed};
-use crate::reader::{RuleExt as _, choice, exactly, keyed, list, number, percentile, record, variants, vector};
+use crate::reader::{RuleExt as _, choice, exactly, keyed, list, number, percentile, record, variants, vector, whole};
 
 variants! {
     /// A filter of the paper.
@@ -11,6 +12,8 @@ variants! {
         "glow" => Glow(Glow),
         /// From the scene's range to the sensor's, on linear light (our reading).
         "tone_map" => ToneMap(ToneMap),
+        /// Drops of rain: inverted pictures in discs, which flow and fade, on linear light (our reading).
+        "drops" => Drops(PaperDrops),
         /// A 4 × 4 affine matrix on colours.
         "colour" => Colour(ColourChange),
         /// Some pixels brighter, some darker.
@@ -47,6 +50,43 @@ record! {
         optional gain: Placed<f64> = number("").above(0.0);
         /// The sensor's sensitivity curve, as a tone curve. Default: 1 − exp(−x).
         optional curve: ToneCurve = tone_curve();
+    }
+}
+
+record! {
+    /// Drops of rain on the picture: each disc shows what lies around it upside down. The drops of a wind-screen are traced, these are drawn.
+    pub struct PaperDrops check(check_drops) {
+        /// How many, 1 … 100 000.
+        required count: Placed<u64> = whole(1, 100_000);
+        /// Least radius, px, above 0.
+        required min_radius_px: Placed<f64> = number("px").above(0.0);
+        /// Greatest radius, px, above 0; radii are even between the two.
+        required max_radius_px: Placed<f64> = number("px").above(0.0);
+        /// How many times smaller the picture is in a drop, above 0.
+        required scale: Placed<f64> = number("").above(0.0);
+        /// σ of the blur in a drop, and width of its soft rim, px, above 0; times "scale" at most 500.
+        required blur_px: Placed<f64> = number("px").above(0.0);
+        /// With "fade_frames": how far a drop flows downwards from frame to frame, px, above 0. Default: not at all.
+        optional flow_px_per_frame: Placed<f64> = number("px").above(0.0);
+        /// How many frames a drop lives, fading evenly; another is born elsewhere. Default: drops stay.
+        optional fade_frames: Placed<u64> = whole(1, 1_000_000);
+    }
+}
+
+fn check_drops(drops: &PaperDrops, faults: &mut Faults) {
+    let (least, greatest) = (&drops.min_radius_px, drops.max_radius_px.value);
+    if least.value > greatest {
+        let problem = format!("{} px is above max_radius_px = {greatest} px", least.value);
+        faults.add(&least.place, problem, "make the least radius no larger than the greatest");
+    }
+    let of_picture = drops.blur_px.value * drops.scale.value;
+    if of_picture > 500.0 {
+        let problem = format!("times scale = {} it is {of_picture} px of the picture", drops.scale.value);
+        faults.add(&drops.blur_px.place, problem, "choose both so that it is at most 500 px");
+    }
+    if let (Some(flow), None) = (&drops.flow_px_per_frame, &drops.fade_frames) {
+        let problem = "\"flow_px_per_frame\" has no effect without \"fade_frames\": drops that live for ever would flow out of the picture";
+        faults.add(&flow.place, problem, "add \"fade_frames\", or remove it");
     }
 }
 
@@ -143,6 +183,7 @@ impl PaperFilter {
         match self {
             Self::Glow(r) => &r.place,
             Self::ToneMap(r) => &r.place,
+            Self::Drops(r) => &r.place,
             Self::Colour(r) => &r.place,
             Self::PulseNoise(r) => &r.place,
             Self::GaussianNoise(r) => &r.place,

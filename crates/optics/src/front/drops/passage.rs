@@ -1,0 +1,134 @@
+//! A ray from the glass through drops into the open air, against the light.
+
+use super::{Body, Drops};
+use crate::front::Line;
+use crate::prescription::coating::{Coating, Crossing};
+use glam::DVec3;
+
+/// Surfaces of water that a ray meets, at most; what goes on longer is dark.
+const MAX_SURFACES: usize = 16;
+
+/// How far drops are looked for along a ray that all but grazes the glass, mm.
+const FARTHEST_MM: f64 = 1e4;
+
+/// A surface of water ahead of a ray.
+struct Hit {
+    drop: usize,
+    way_mm: f64,
+}
+
+impl Drops {
+    /// The water's index at a wavelength, nm.
+    pub(in crate::front) fn index(&self, nm: f64) -> f64 {
+        self.parameters.index.at(nm)
+    }
+
+    /// The drop that wets a point of the glass.
+    pub(in crate::front) fn wetting(&self, point_mm: DVec3) -> Option<usize> {
+        let near = self.grid.at(point_mm.truncate()).iter().map(|i| *i as usize);
+        near.into_iter().find(|i| {
+            let body = &self.bodies[*i];
+            point_mm.distance_squared(body.centre_mm) < body.radius_mm * body.radius_mm
+        })
+    }
+
+    /// A ray that has left the glass into the drop `inside`, or into air, where it is in the open air, and the share of light that
+    /// comes this way; `None` where it ends in the glass or goes on too long. `normal` is the glass's where the ray left it, outwards.
+    pub(in crate::front) fn leave(
+        &self,
+        (mut line, normal): (Line, DVec3),
+        mut inside: Option<usize>,
+        nm: f64,
+    ) -> Option<(Line, f64)> {
+        let mut left = None;
+        let mut share = 1.0;
+        for _ in 0..MAX_SURFACES {
+            match inside {
+                Some(drop) => {
+                    let body = &self.bodies[drop];
+                    line.point_mm = body.surface_from_within(&line)?;
+                    let outward = (line.point_mm - body.centre_mm) / body.radius_mm;
+                    match refract(&mut line, -outward, [self.index(nm), 1.0], nm) {
+                        Some(passed) => {
+                            share *= passed;
+                            // Towards the glass: it sees what is behind it.
+                            if line.direction.dot(body.normal) <= 0.0 {
+                                return None;
+                            }
+                            (inside, left) = (None, Some(drop));
+                        }
+                        None => line.direction -= outward * (2.0 * line.direction.dot(outward)),
+                    }
+                }
+                None => {
+                    let Some(hit) = self.ahead(&line, normal, left) else { return Some((line, share)) };
+                    let body = &self.bodies[hit.drop];
+                    line.point_mm += line.direction * hit.way_mm;
+                    let outward = (line.point_mm - body.centre_mm) / body.radius_mm;
+                    share *= refract(&mut line, outward, [1.0, self.index(nm)], nm)?;
+                    inside = Some(hit.drop);
+                }
+            }
+        }
+        None
+    }
+
+    /// The first drop that a ray in air meets, but for the one that it has just left: spheres are convex.
+    fn ahead(&self, line: &Line, normal: DVec3, left: Option<usize>) -> Option<Hit> {
+        // Beyond this way it is higher than all drops: glass bends away from the plane that touches it.
+        let rise = line.direction.dot(normal);
+        let far_mm = if rise > 0.0 { (self.height_mm / rise).min(FARTHEST_MM) } else { FARTHEST_MM };
+        let mut first: Option<Hit> = None;
+        let end_mm = line.point_mm + line.direction * far_mm;
+        self.grid.along(line.point_mm.truncate(), end_mm.truncate(), |drops| {
+            for drop in drops.iter().map(|i| *i as usize).filter(|i| Some(*i) != left) {
+                let Some(way_mm) = self.bodies[drop].surface_from_outside(line) else { continue };
+                if first.as_ref().is_none_or(|hit| way_mm < hit.way_mm) {
+                    first = Some(Hit { drop, way_mm });
+                }
+            }
+        });
+        first
+    }
+}
+
+impl Body {
+    /// The point where a ray from within meets the sphere above the glass; `None` where it meets the glass first.
+    fn surface_from_within(&self, line: &Line) -> Option<DVec3> {
+        let from = line.point_mm - self.centre_mm;
+        let along = from.dot(line.direction);
+        let square = along * along - from.length_squared() + self.radius_mm * self.radius_mm;
+        let way_mm = square.max(0.0).sqrt() - along;
+        let point_mm = line.point_mm + line.direction * way_mm;
+        (self.height(point_mm) > 0.0).then_some(point_mm)
+    }
+
+    /// How far a ray from outside goes to the sphere above the glass.
+    fn surface_from_outside(&self, line: &Line) -> Option<f64> {
+        let from = line.point_mm - self.centre_mm;
+        let along = from.dot(line.direction);
+        let square = along * along - from.length_squared() + self.radius_mm * self.radius_mm;
+        let way_mm = -along - square.max(0.0).sqrt();
+        let right = square > 0.0 && way_mm > 0.0 && self.height(line.point_mm + line.direction * way_mm) > 0.0;
+        right.then_some(way_mm)
+    }
+
+    /// Height over the plane of the base, mm.
+    fn height(&self, point_mm: DVec3) -> f64 {
+        (point_mm - self.foot_mm).dot(self.normal)
+    }
+}
+
+/// Refracts a ray at a surface whose normal is against it; the share that passes, `None` for total reflection.
+fn refract(line: &mut Line, against: DVec3, n: [f64; 2], nm: f64) -> Option<f64> {
+    let along = -line.direction.dot(against);
+    let ratio = n[0] / n[1];
+    let square = 1.0 - ratio * ratio * (1.0 - along * along);
+    if !(along > 0.0 && square > 0.0) {
+        return None;
+    }
+    let beyond = square.sqrt();
+    let direction = line.direction * ratio - against * (beyond - ratio * along);
+    line.direction = direction.normalize();
+    Some(Coating::Uncoated.transmittance(&Crossing { n, cosine: [along, beyond] }, nm))
+}
