@@ -110,7 +110,8 @@ impl<'a> Media<'a> {
     }
 
     /// About how much of light that arrives at `t` along a ray from the unit `to` reaches the ray's beginning, 1/(m sr): the mean over the
-    /// wavelengths, as if densities were even. For drawing by, above 0 wherever there is anything.
+    /// wavelengths, but for the phase function, which is that of the first, and as if densities were even. For drawing by, above 0 wherever
+    /// there is anything.
     pub(crate) fn about<const N: usize>(&self, ray: &Ray, t: f64, to: Vec3, wavelengths: &Wavelengths<N>) -> f32 {
         let (mut scattered, mut depth) = (0.0, 0.0);
         for placed in &self.placed {
@@ -121,8 +122,8 @@ impl<'a> Media<'a> {
             let extinction = extinction.sample(wavelengths);
             depth += f64::from(extinction.mean()) * (end.min(t) - from);
             if t <= end {
-                scattered +=
-                    (extinction * albedo.sample(wavelengths)).mean() * phase.density(ray.direction, to, wavelengths);
+                let density = phase.density_at(ray.direction, to, wavelengths.nm[0]);
+                scattered += (extinction * albedo.sample(wavelengths)).mean() * density;
             }
         }
         scattered * exp(-depth) as f32

@@ -60,12 +60,20 @@ impl Phase {
     /// p, 1/sr, of light that travels on from the unit `from` to the unit `to`; of tables the mean over the wavelengths.
     #[must_use]
     pub fn density<const N: usize>(&self, from: Vec3, to: Vec3, wavelengths: &Wavelengths<N>) -> f32 {
+        match self {
+            Self::Table(_) => wavelengths.nm.iter().map(|nm| self.density_at(from, to, *nm)).sum::<f32>() / N as f32,
+            _ => self.density_at(from, to, wavelengths.nm[0]),
+        }
+    }
+
+    /// p, 1/sr, at a wavelength.
+    pub(super) fn density_at(&self, from: Vec3, to: Vec3, nm: f32) -> f32 {
         let v = (0.5 * (to - from).length_squared()).min(2.0);
         match self {
             Self::Isotropic => PER_SPHERE,
             Self::HenyeyGreenstein { g } => henyey_greenstein(*g, v),
             Self::Rayleigh => rayleigh(1.0 - v),
-            Self::Table(table) => wavelengths.nm.iter().map(|nm| table.density(*nm, v)).sum::<f32>() / N as f32,
+            Self::Table(table) => table.density(nm, v),
         }
     }
 
