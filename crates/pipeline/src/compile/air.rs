@@ -15,6 +15,9 @@ const BRIGHT: f32 = 0.5;
 /// followed, and with it taken as unscattered. Found for water droplets of 12 µm in a layer of optical depth 2.2.
 const BOUNCES: [f64; 2] = [10.0, 4.0];
 
+/// The most that can be asked for.
+const MAX_BOUNCES: f64 = 1024.0;
+
 /// Says which cameras lose light in fog, and which setting is passed over.
 pub(super) fn remark(cameras: &[CameraPlan], media: &[Medium], context: &mut Context<'_>) {
     if media.is_empty() {
@@ -29,12 +32,13 @@ pub(super) fn remark(cameras: &[CameraPlan], media: &[Medium], context: &mut Con
             );
         }
         let depth = depth_above(camera, media);
-        let wanted = BOUNCES[usize::from(!camera.settings.caustics)] * (1.0 + depth.min(1e3));
-        if depth > 0.0 && f64::from(camera.settings.max_bounces) < wanted {
+        let wanted = BOUNCES[usize::from(!camera.settings.caustics)] * (1.0 + depth);
+        // In a medium without end no number is told: light of its lamps comes from near by.
+        if depth > 0.0 && depth.is_finite() && f64::from(camera.settings.max_bounces) < wanted {
             context.remark_on(about(), format!(
                 "it stands in a medium of optical depth {depth:.1} below the sky; light that is scattered more than max_bounces = {} times is left out, \
                  and the medium looks too dark; some {:.0} find nearly all of it",
-                camera.settings.max_bounces, wanted.ceil()
+                camera.settings.max_bounces, wanted.min(MAX_BOUNCES).ceil()
             ));
         }
     }

@@ -18,10 +18,10 @@ pub struct Precipitation {
 }
 
 impl Precipitation {
-    /// What a camera resolves whose pixels are `pixel_rad` wide.
+    /// What a camera resolves whose pixels are `pixel_rad` wide in an exposure of `exposure_s`.
     #[must_use]
-    pub fn resolution(&self, pixel_rad: f64) -> Resolution {
+    pub fn resolution(&self, pixel_rad: f64, exposure_s: f64) -> Resolution {
         let Self { smallest_px, clear_m, .. } = *self;
-        Resolution { pixel_rad, smallest_px, clear_m, most: self.most as f64 }
+        Resolution { pixel_rad, smallest_px, clear_m, most: self.most as f64, exposure_s }
     }
 }

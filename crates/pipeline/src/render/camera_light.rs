@@ -126,7 +126,7 @@ fn region_and_change_over<'a, S: RaySource>(
 ) -> Option<(&'a Precipitation, SeenRegion, ChangeOver)> {
     let precipitation = plan.precipitation.as_ref()?;
     let region = seen_region(source, rows, camera.film_size());
-    let resolution = precipitation.resolution(pitch_tan(camera));
+    let resolution = precipitation.resolution(pitch_tan(camera), rows.interval().length_s());
     let change_over = ChangeOver::new(precipitation.field.classes(), &resolution, &region);
     Some((precipitation, region, change_over))
 }

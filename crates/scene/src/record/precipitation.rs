@@ -68,7 +68,7 @@ record! {
         optional seed: Placed<u64> = whole(0, 4_294_967_295);
         /// From which part of a pixel's width on a drop or flake is modelled by itself, above 0 … 10. Default: 0.25.
         optional smallest_px: Placed<f64> = number("").above(0.0).at_most(10.0);
-        /// How many are modelled at most in what a camera sees, 0 … 5 000 000; where there would be more, they are modelled less far. Default: 200 000.
+        /// How many are modelled at most in what a camera sees during an exposure, 0 … 5 000 000; where there would be more, they are modelled less far. Default: 200 000.
         optional most: Placed<u64> = whole(0, 5_000_000);
     }
 }

@@ -38,7 +38,8 @@ impl<'a, const N: usize> Path<'a, N> {
     }
 
     fn near_of_camera(&self) -> Option<&'a Near<'a>> {
-        self.tracer.near.filter(|_| self.bounces == 0 && !self.beyond_particle)
+        let of_camera = self.bounces == 0 && !self.beyond_particle;
+        self.tracer.near.filter(|near| of_camera && near.looks_along(self.ray.direction))
     }
 
     /// On from a drop or flake.

@@ -53,7 +53,7 @@ impl<'a, const N: usize> Path<'a, N> {
         let Some(light) = lights.of_lamp(&lamp, &receiver, (self.wavelengths, self.lit())) else { return };
         let mut way = self.ray;
         way.t_max = t;
-        let seen = media.transmittance((&way, Following::Exact), (stream, self.met), self.wavelengths);
+        let seen = media.transmittance((&way, Following::Exact), (stream, 2 * self.met + 1), self.wavelengths);
         let scattered =
             media.scattering((&self.ray, Following::Exact), f64::from(t), light.direction, self.wavelengths);
         let arriving = self.throughput * seen * scattered * light.radiance / (density * lamp.probability);

@@ -9,6 +9,9 @@ use super::hollow::Hollow;
 use super::medium::{Following, Medium, Optics};
 use super::phase::Phase;
 
+/// What a medium counts for beside the part of a ray that lies in it, where light is drawn by middles of longer parts.
+const BESIDE: f32 = 0.05;
+
 /// Steps of ratio tracking along one ray at most. Where more would be needed, nothing comes through.
 const MAX_STEPS: u32 = 4096;
 
@@ -110,21 +113,18 @@ impl<'a> Media<'a> {
     }
 
     /// About how much of light that arrives at `t` along a ray from the unit `to` reaches the ray's beginning, 1/(m sr): the mean over the
-    /// wavelengths, but for the phase function, which is that of the first, and as if densities were even. For drawing by, above 0 wherever
-    /// there is anything.
+    /// wavelengths, but for the phase function, which is that of the first, and as if densities were even. For drawing by, above 0 all along a
+    /// ray that meets anything.
     pub(crate) fn about<const N: usize>(&self, ray: &Ray, t: f64, to: Vec3, wavelengths: &Wavelengths<N>) -> f32 {
         let (mut scattered, mut depth) = (0.0, 0.0);
         for placed in &self.placed {
-            let Some((from, end)) = self.span(placed, ray, f64::INFINITY).filter(|(from, _)| t >= *from) else {
-                continue;
-            };
+            let Some((from, end)) = self.span(placed, ray, f64::INFINITY) else { continue };
             let Optics { extinction, albedo, phase, .. } = placed.medium.optics(Following::Exact);
             let extinction = extinction.sample(wavelengths);
-            depth += f64::from(extinction.mean()) * (end.min(t) - from);
-            if t <= end {
-                let density = phase.density_at(ray.direction, to, wavelengths.nm[0]);
-                scattered += (extinction * albedo.sample(wavelengths)).mean() * density;
-            }
+            depth += f64::from(extinction.mean()) * (t.clamp(from, end) - from);
+            let density = phase.density_at(ray.direction, to, wavelengths.nm[0]);
+            let counts = if t >= from && t <= end { 1.0 } else { BESIDE };
+            scattered += counts * (extinction * albedo.sample(wavelengths)).mean() * density;
         }
         scattered * exp(-depth) as f32
     }
@@ -158,7 +158,7 @@ impl<'a> Media<'a> {
     }
 
     /// The share of light that comes through along a ray up to its `t_max`: exact where densities are even, else an unbiased estimate by
-    /// random numbers of the sub-counter `vertex`.
+    /// random numbers of the sub-counter `vertex`; estimates that are multiplied with each other need counters of their own.
     #[must_use]
     pub fn transmittance<const N: usize>(
         &self,
@@ -182,7 +182,7 @@ impl<'a> Media<'a> {
                     .for_each(|k| depth[k] += f64::from(extinction[k]) * (to - from) * length_m);
             } else {
                 let majorant_per_m = optics.greatest_per_m * placed.medium.greatest_density();
-                let numbers = (stream, vertex ^ (i as u32) << 24);
+                let numbers = (stream, numbers_of(vertex, i));
                 share *= self.ratio_tracked(placed, ray, (from, to), numbers, (extinction, majorant_per_m));
             }
         }
@@ -194,7 +194,7 @@ impl<'a> Media<'a> {
         placed: &Placed<'_>,
         ray: &Ray,
         (from, to): (f64, f64),
-        (stream, vertex): (&PathStream, u32),
+        (stream, first): (&PathStream, u32),
         (extinction, majorant_per_m): (Spectral<N>, f32),
     ) -> Spectral<N> {
         let majorant = f64::from(majorant_per_m) * f64::from(ray.direction.length());
@@ -203,8 +203,7 @@ impl<'a> Media<'a> {
             return share;
         }
         for step in 0..MAX_STEPS {
-            t += free_flight(stream.one(Draw::Transmittance, vertex.wrapping_mul(MAX_STEPS).wrapping_add(step)))
-                / majorant;
+            t += free_flight(stream.one(Draw::Transmittance, first.wrapping_add(step))) / majorant;
             if t >= to {
                 return share;
             }
@@ -216,6 +215,11 @@ impl<'a> Media<'a> {
         }
         Spectral::ZERO
     }
+}
+
+/// The first of [`MAX_STEPS`] counters of a medium's random numbers at a vertex: those of 256 media and 4096 vertices are apart.
+fn numbers_of(vertex: u32, medium: usize) -> u32 {
+    vertex.wrapping_mul(256).wrapping_add(medium as u32 & 255).wrapping_mul(MAX_STEPS)
 }
 
 /// The optical depth that a flight is longer than with the probability 1 − u.

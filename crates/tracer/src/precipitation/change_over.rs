@@ -1,12 +1,12 @@
 //! How far about a camera particles are modelled one by one.
 //!
 //! A class of diameter D is modelled where a particle covers `smallest_px` of a pixel's width or more: up to D/(smallest_px · p), p the
-//! angle of a pixel. Where that would be more than `most` particles in the cone that is seen, all distances are taken back by one factor.
+//! angle of a pixel. Where that would be more than `most` particles that pass through the cone that is seen while it is exposed, all distances
+//! are taken back by one factor.
 //! Farther away, and nearer than `clear_m`, no particle of the class is modelled; farther away the class is part of the medium. A particle is
 //! there by the distance of its centre at the ray's time, the medium by that of the point: together they are the whole class at every distance.
 
 use core::f64::consts::PI;
-use etendue_core::maths::f64::cbrt;
 
 use super::class::SizeClass;
 use super::region::SeenRegion;
@@ -21,8 +21,10 @@ pub struct Resolution {
     pub pixel_rad: f64,
     /// Share of a pixel's width from which on a particle is modelled.
     pub smallest_px: f64,
-    /// Particles that are modelled at most, in the mean.
+    /// Particles that are modelled at most during an exposure, in the mean.
     pub most: f64,
+    /// How long it lasts, s.
+    pub exposure_s: f64,
     /// Distance from the camera within which nothing falls, m.
     pub clear_m: f64,
 }
@@ -44,25 +46,23 @@ impl ChangeOver {
     pub fn new(classes: &[SizeClass], resolution: &Resolution, region: &SeenRegion) -> Self {
         let clear_m = resolution.clear_m;
         let resolved = |class: &SizeClass| class.diameter_m / (resolution.smallest_px * resolution.pixel_rad);
-        // Rays start about the origin: the region is as much wider.
         let share = (region.solid_angle_sr() / (4.0 * PI)).min(1.0);
-        let cube = |r: f64| 4.0 / 3.0 * PI * share * r * r * r;
-        let count = |scale: f64| -> f64 {
-            let of = |class: &SizeClass| class.number_per_m3 * (cube(scale * resolved(class)) - cube(clear_m)).max(0.0);
-            classes.iter().map(of).sum()
+        let cone = |r: f64| 4.0 / 3.0 * PI * share * r * r * r;
+        let at_a_moment = |class: &SizeClass, r: f64| class.number_per_m3 * (cone(r) - cone(clear_m));
+        // What falls into the ball about the camera meanwhile, all of which may cross the cone.
+        let falling =
+            |class: &SizeClass, r: f64| class.number_per_m3 * PI * r * r * class.speed_mps * resolution.exposure_s;
+        let count = |scale: f64, of: &dyn Fn(&SizeClass, f64) -> f64| -> f64 {
+            let reached = classes.iter().map(|class| (class, scale * resolved(class)));
+            reached.filter(|(_, r)| *r > clear_m).map(|(class, r)| of(class, r)).sum()
         };
-        let mut scale = 1.0;
-        for _ in 0..8 {
-            let count = count(scale);
-            if count > resolution.most {
-                scale *= cbrt(resolution.most / count);
-            }
-        }
+        let fits = |scale: f64| count(scale, &at_a_moment) + count(scale, &falling) <= resolution.most;
+        let scale = if fits(1.0) { 1.0 } else { greatest(fits) };
         let radius = |class: &SizeClass| {
             let radius = scale * resolved(class);
             if radius < LEAST_M { clear_m } else { radius.max(clear_m) }
         };
-        Self { clear_m, radii_m: classes.iter().map(radius).collect(), expected: count(scale) }
+        Self { clear_m, radii_m: classes.iter().map(radius).collect(), expected: count(scale, &at_a_moment) }
     }
 
     /// The greatest distance, m.
@@ -70,4 +70,14 @@ impl ChangeOver {
     pub fn farthest_m(&self) -> f64 {
         self.radii_m.iter().copied().fold(0.0, f64::max)
     }
+}
+
+/// The greatest scale below 1 that fits, by bisection; 0 where none does.
+fn greatest(fits: impl Fn(f64) -> bool) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        if fits(middle) { low = middle } else { high = middle }
+    }
+    low
 }

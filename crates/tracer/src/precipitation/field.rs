@@ -150,6 +150,18 @@ fn poisson(u: f64) -> u32 {
     count
 }
 
+/// From which to which share of a `way` from a point lies within a ball about the origin; `None` where none does.
+fn within(from: DVec3, way: DVec3, radius_m: f64) -> Option<[f64; 2]> {
+    let length2 = way.length_squared();
+    if length2 == 0.0 {
+        return (from.length() <= radius_m).then_some([0.0, 1.0]);
+    }
+    let nearest = -from.dot(way) / length2;
+    let half2 = (radius_m * radius_m - (from + way * nearest).length_squared()) / length2;
+    let [enter, leave] = [(nearest - half2.max(0.0).sqrt()).max(0.0), (nearest + half2.max(0.0).sqrt()).min(1.0)];
+    (half2 >= 0.0 && enter <= leave).then_some([enter, leave])
+}
+
 /// One class about one view.
 struct Search<'a> {
     field: &'a Field,
@@ -162,7 +174,7 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn run(&self, particles: &mut Vec<Particle>) {
-        let reach = DVec3::splat(self.radius_m + self.region.margin_m()) + self.swept_m().abs();
+        let reach = DVec3::splat(self.radius_m) + self.swept_m().abs();
         let middle = self.origin_m - self.velocity() * self.interval.middle_s();
         let edge_m = self.field.edge_m(self.class);
         let low = ((middle - reach) / edge_m).floor().as_i64vec3();
@@ -209,10 +221,13 @@ impl Search<'_> {
         particle.at(self.interval.middle_s()).z <= self.field.top_m
     }
 
-    /// Whether what is within a ball of the lattice at the time 0 may be seen in the interval.
+    /// Whether what is within a ball of the lattice at the time 0 may be seen in the interval: the part of its way that lies about the camera,
+    /// if any does, in a ball of its own.
     fn may_hold(&self, centre_m: DVec3, radius_m: f64) -> bool {
-        let at = centre_m + self.velocity() * self.interval.middle_s() - self.origin_m;
-        let radius_m = radius_m + self.swept_m().length();
-        at.length() - radius_m <= self.radius_m + self.region.margin_m() && self.region.may_see(at, radius_m)
+        let middle = centre_m + self.velocity() * self.interval.middle_s() - self.origin_m;
+        let (from, way) = (middle - self.swept_m(), 2.0 * self.swept_m());
+        let Some([enter, leave]) = within(from, way, self.radius_m + radius_m) else { return false };
+        let (seen, half_m) = (from + way * (0.5 * (enter + leave)), 0.5 * (leave - enter) * way.length());
+        self.region.may_see(seen, radius_m + half_m)
     }
 }

@@ -79,6 +79,7 @@ fn water() -> &'static Spectrum {
 /// The particles of a view, and the media as rays from its camera find them.
 #[derive(Clone, Debug)]
 pub struct Near<'a> {
+    region: SeenRegion,
     streaks: Streaks,
     media: Media<'a>,
     phase: &'a Phase,
@@ -110,13 +111,19 @@ impl<'a> Near<'a> {
         let streaks = Streaks::new(particles.iter().map(streak).collect(), interval.length_s() as f32, simd);
         let index = (!field.law().is_snow()).then(water);
         let phase = media.phase(medium);
-        Self { streaks, media: media.hollowed(medium, field.hollow(change_over)), phase, index }
+        Self { region: *region, streaks, media: media.hollowed(medium, field.hollow(change_over)), phase, index }
     }
 
     /// How many particles there are.
     #[must_use]
     pub fn count(&self) -> usize {
         self.streaks.streaks().len()
+    }
+
+    /// Whether particles are modelled along a unit direction from the camera. Where they are not, the whole medium stands for them: behind
+    /// drops on a wind-screen rays look where the camera's region did not reach.
+    pub(crate) fn looks_along(&self, direction: Vec3) -> bool {
+        self.region.holds(direction.as_dvec3())
     }
 
     /// The media as rays from the camera find them.

@@ -30,9 +30,9 @@ impl SeenRegion {
         core::f64::consts::TAU * (1.0 - cos(self.half_angle_rad))
     }
 
-    /// How far from the origin rays may start, m.
-    pub(super) fn margin_m(&self) -> f64 {
-        self.margin_m
+    /// Whether a ray along a unit direction, from within the margin, sees nothing but the region.
+    pub(super) fn holds(&self, direction: DVec3) -> bool {
+        self.half_angle_rad >= core::f64::consts::PI || direction.dot(self.axis) >= cos(self.half_angle_rad)
     }
 
     /// Whether a ball may be seen; certain only where it says no.

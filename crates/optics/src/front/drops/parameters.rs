@@ -41,7 +41,13 @@ pub(super) fn check(p: &DropsParameters) -> Result<(), FrontError> {
     positive("size_mm", p.size_mm.max_element())?;
     let arrive = p.course.is_some_and(|course| course.arrivals_hz > 0.0);
     let least_count = if arrive { 0.0 } else { 1.0 };
-    within("count", f64::from(p.count), least_count, f64::from(MAX_COUNT), "1 to 1 000 000 drops")?;
+    within(
+        "count",
+        f64::from(p.count),
+        least_count,
+        f64::from(MAX_COUNT),
+        "1 to 1 000 000 drops, or 0 where others arrive",
+    )?;
     let [least, greatest] = p.radius_mm;
     positive("min_radius_mm", least)?;
     positive("max_radius_mm", greatest)?;

@@ -36,8 +36,8 @@ record! {
         optional start_s: Placed<f64> = number("s");
         /// How long a drop of "max_radius_mm" takes to dry, s, above 0; the square of a radius falls evenly with time. Default: they do not dry.
         optional drying_s: Placed<f64> = number("s").above(0.0);
-        /// Drops that fall on the rectangle after "start_s", 1/s, above 0. Default: none.
-        optional arrivals_per_s: Placed<f64> = number("1/s").above(0.0);
+        /// Drops that fall on the rectangle after "start_s", 1/s, above 0 … 10 000. Default: none.
+        optional arrivals_per_s: Placed<f64> = number("1/s").above(0.0).at_most(10_000.0);
         /// How they slide down the glass. Default: they stay.
         optional sliding: Sliding = record();
         /// What wipes them away. Default: nothing.
@@ -50,7 +50,7 @@ record! {
     /// slope α, never below 0, along gravity on the plane that touches the glass in its middle, as the camera stands at "start_s".
     pub struct Sliding {
         /// Speed of a drop of "max_radius_mm" on upright glass, mm/s, above 0; those that joined can be faster.
-        required speed_mm_s: Placed<f64> = number("mm/s").above(0.0);
+        required speed_mm_s: Placed<f64> = number("mm/s").above(0.0).at_most(10_000.0);
         /// Radius below which drops stay on upright glass, mm, 0 or more and below "max_radius_mm"; some 1 to 2 mm on glass in use.
         required still_radius_mm: Placed<f64> = number("mm").at_least(0.0);
     }

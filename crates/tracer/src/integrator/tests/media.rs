@@ -114,6 +114,57 @@ fn light_of_a_lamp_scattered_once() {
     }
 }
 
+/// The same in two uneven fogs in one another, and where media lie apart with nothing between them: transmittances of both legs and of both
+/// media are estimates that are multiplied, so that their random numbers must not depend on each other.
+#[test]
+fn light_of_a_lamp_scattered_once_in_uneven_fog() {
+    let lamp_at = DVec3::new(3.0, 0.0, 8.0);
+    let lamp = Lamp::new(lamp_at, DMat3::IDENTITY, Spectrum::constant(5.0), Profile::Isotropic).expect("legal");
+    let sources = Sources { lamps: vec![lamp], ..Sources::default() };
+    let mut scene = Scene { sources, ..Scene::default() };
+    let wall = scene.material(Surface::Absorber, None);
+    scene.square(Vec3::new(0.0, 0.0, 30.0), 30.0, wall);
+    let ready = scene.ready();
+    let ball = |z: f64| {
+        let to_world = Motion::still(DAffine3::from_translation(DVec3::Z * z));
+        let of = Spectrum::constant;
+        Medium::new((of(0.2), of(1.0)), Phase::Isotropic, Region::Ball { radius_m: 2.0 }, to_world).expect("legal")
+    };
+    let thick = |seed| {
+        let noise = Noise { scale_m: 6.0, octaves: 2, gain: 0.5, seed };
+        let unevenness = Unevenness { noise, amplitude: 0.9, wind_mps: DVec3::ZERO };
+        fog(0.06, 1.0, Phase::Isotropic, Region::Everywhere).with_unevenness(unevenness)
+    };
+    let uneven = [thick(5), thick(6)];
+    for (what, media) in [("in one another", uneven), ("apart", [ball(4.0), ball(25.0)])] {
+        let placed = Media::new(&media, DVec3::ZERO, TimeInterval::default());
+        // β of both, by the columns of a short ray.
+        let extinctions: Vec<f64> = media.iter().map(|medium| f64::from(medium.extinction().at(550.0))).collect();
+        let depth = |from: DVec3, to: DVec3| {
+            let mut ray = Ray::new(from.as_vec3(), (to - from).normalize().as_vec3(), 0.0);
+            ray.t_max = (to - from).length() as f32;
+            placed.columns_m(&ray).iter().zip(&extinctions).map(|(column_m, of)| column_m * of).sum::<f64>()
+        };
+        let n = 3000_u32;
+        let step = 30.0 / f64::from(n);
+        let at = |i: u32| {
+            let (here, before) = (DVec3::Z * step * (f64::from(i) + 0.5), DVec3::Z * step * f64::from(i));
+            let beta = depth(before, before + DVec3::Z * step) / step;
+            let d2 = (lamp_at - here).length_squared();
+            let through = maths::f64::exp(-depth(DVec3::ZERO, here) - depth(here, lamp_at));
+            beta * through * 0.25 / core::f64::consts::PI * 5.0 / d2
+        };
+        let expected = (0..n).map(at).sum::<f64>() * step;
+        let settings = PathSettings { max_bounces: 1, ..PathSettings::default() };
+        let seen = look(&ready, &media, &up(), 4096, settings);
+        assert!(
+            (seen.mean - expected).abs() < 4.0 * seen.standard_error() + 2e-3 * expected,
+            "{what}: {seen:?} {expected}"
+        );
+        assert!(seen.standard_error() < 0.01 * expected, "{what}");
+    }
+}
+
 /// Without caustics light of the forward peak counts as not scattered: in a furnace nothing changes, and of a lamp's light the sum over all
 /// scatterings stays the same as far as directions within 20° are alike. Compared through thick fog on a matt floor under a sun.
 #[test]

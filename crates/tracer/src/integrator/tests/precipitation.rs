@@ -10,7 +10,7 @@ fn look(ready: &Ready, law: SizeLaw, settings: PathSettings) -> (ReplicateEstima
     let field = Field::new(law, DVec3::new(0.0, 4.0, 0.0), 5.0, 9);
     let interval = TimeInterval::new(0.0, 0.02).expect("legal");
     let region = SeenRegion::around(&[DVec3::X], 0.1, 0.0);
-    let resolution = Resolution { pixel_rad: 1e-3, smallest_px: 0.25, most: 20_000.0, clear_m: 0.0 };
+    let resolution = Resolution { pixel_rad: 1e-3, smallest_px: 0.25, most: 20_000.0, clear_m: 0.0, exposure_s: 0.0 };
     let change_over = ChangeOver::new(field.classes(), &resolution, &region);
     let medium = [field.medium().expect("legal")];
     let media = Media::new(&medium, DVec3::ZERO, interval);

@@ -28,7 +28,7 @@ fn extinction_is_the_same_before_and_beyond_the_change_over() {
         let interval = TimeInterval::new(f64::from(round), f64::from(round) + 0.01).expect("legal");
         let axis = DVec3::new(1.0, 0.3, 0.1).normalize();
         let region = SeenRegion::around(&[axis], 0.1, 0.0);
-        let resolution = Resolution { pixel_rad: 8e-3, smallest_px: 0.25, most: 1e9, clear_m: 0.0 };
+        let resolution = Resolution { pixel_rad: 8e-3, smallest_px: 0.25, most: 1e9, clear_m: 0.0, exposure_s: 0.0 };
         let change_over = ChangeOver::new(field.classes(), &resolution, &region);
         let media = Media::new(&medium, origin_m, interval);
         let near = Near::new(&field, (media, 0), (origin_m, interval, Simd::Auto), &region, &change_over);
@@ -60,7 +60,7 @@ fn way(field: &Field, change_over: &ChangeOver, distance_m: f64) -> f64 {
 fn nothing_falls_within_the_clear_distance() {
     let field = dense();
     let region = SeenRegion::EVERYWHERE;
-    let resolution = Resolution { pixel_rad: 8e-3, smallest_px: 0.25, most: 2000.0, clear_m: 0.5 };
+    let resolution = Resolution { pixel_rad: 8e-3, smallest_px: 0.25, most: 2000.0, clear_m: 0.5, exposure_s: 0.0 };
     let change_over = ChangeOver::new(field.classes(), &resolution, &region);
     assert_eq!(way(&field, &change_over, 0.5), 0.0);
     let origin_m = DVec3::ZERO;
