@@ -6,7 +6,7 @@ use etendue_scene::Place;
 use etendue_scene::record::precipitation::{self, Fall};
 use etendue_scene::record::{Precipitation as Record, Scene};
 use etendue_tracer::media::Medium;
-use etendue_tracer::precipitation::{Crystals, Field, SizeLaw, SizeLawError, rain, snow};
+use etendue_tracer::precipitation::{Crystals, Field, SizeLaw, SizeLawError};
 use glam::DVec3;
 
 /// What falls, with its medium added to the others.
@@ -16,10 +16,10 @@ pub(super) fn precipitation(
     context: &mut Context<'_>,
 ) -> Option<Precipitation> {
     let (law, rescaled, fall, place) = match scene.precipitation.as_ref()? {
-        Record::Rain(of) => (rain(of.rate_mm_h.value), &of.rescaled, &of.fall, &of.rate_mm_h.place),
+        Record::Rain(of) => (SizeLaw::rain(of.rate_mm_h.value), &of.rescaled, &of.fall, &of.rate_mm_h.place),
         Record::Snow(of) => {
             let crystals = of.crystals.as_ref().map_or(Crystals::default(), |crystals| self::crystals(crystals.value));
-            (snow(of.rate_mm_h.value, crystals), &of.rescaled, &of.fall, &of.rate_mm_h.place)
+            (SizeLaw::snow(of.rate_mm_h.value, crystals), &of.rescaled, &of.fall, &of.rate_mm_h.place)
         }
     };
     let law = self::law(law, rescaled.as_ref().is_some_and(|rescaled| rescaled.value), place, context)?;

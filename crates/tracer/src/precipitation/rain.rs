@@ -2,20 +2,13 @@
 
 use etendue_core::maths::f64::{exp, pow};
 
-use super::size_law::{Hydrometeor, SizeLaw, SizeLawError};
-
 /// Rates that rain may have, mm/h: from drizzle to a cloudburst. Marshall and Palmer measured up to some 25 mm/h; others have used the law up to 150.
 pub(super) const RATES_MM_H: [f64; 2] = [0.1, 150.0];
 
-/// Marshall and Palmer's law ("The distribution of raindrops with size", J. Meteorol. 5, 1948) of a rate, mm/h:
-/// N(D) = 8000 exp(−4.1 R^−0.21 D) 1/(m³ mm). With the speeds of [`terminal_speed_mps`] it brings 5 to 18 % more water than R;
-/// [`SizeLaw::rescaled`] mends that.
-///
-/// # Errors
-/// Where the rate is not within 0.1 to 150 mm/h.
-pub fn rain(rate_mm_h: f64) -> Result<SizeLaw, SizeLawError> {
-    let rate_mm_h = SizeLaw::checked_rate(rate_mm_h, RATES_MM_H)?;
-    Ok(SizeLaw { n0: 8000.0, lambda: 4.1 * pow(rate_mm_h, -0.21), what: Hydrometeor::Drop, rate_mm_h })
+/// N₀, 1/(m³ mm), and Λ, 1/mm, by Marshall and Palmer ("The distribution of raindrops with size", J. Meteorol. 5, 1948) at a rate, mm/h:
+/// N(D) = 8000 exp(−4.1 R^−0.21 D) 1/(m³ mm).
+pub(super) fn marshall_palmer(rate_mm_h: f64) -> [f64; 2] {
+    [8000.0, 4.1 * pow(rate_mm_h, -0.21)]
 }
 
 /// Terminal speed of a drop of a diameter in mm, m/s: 9.65 − 10.3 exp(−0.6 D) (Atlas, Srivastava and Sekhon, Rev. Geophys. 11, 1973), of

@@ -2,8 +2,6 @@
 
 use etendue_core::maths::f64::{cbrt, pow};
 
-use super::size_law::{Hydrometeor, SizeLaw, SizeLawError};
-
 /// Rates that snow may have, mm/h of water.
 pub(super) const RATES_MM_H: [f64; 2] = [0.1, 3.0];
 
@@ -25,15 +23,10 @@ pub enum Crystals {
     Graupel,
 }
 
-/// Sekhon and Srivastava's law ("Snow size spectra and radar reflectivity", J. Atmos. Sci. 27, 1970) of a rate, mm/h of water:
-/// N(D) = 2500 R^−0.94 exp(−2.29 R^−0.45 D) 1/(m³ mm), D the diameter of the molten flake.
-///
-/// # Errors
-/// Where the rate is not within 0.1 to 3 mm/h.
-pub fn snow(rate_mm_h: f64, crystals: Crystals) -> Result<SizeLaw, SizeLawError> {
-    let rate_mm_h = SizeLaw::checked_rate(rate_mm_h, RATES_MM_H)?;
-    let (n0, lambda) = (2500.0 * pow(rate_mm_h, -0.94), 2.29 * pow(rate_mm_h, -0.45));
-    Ok(SizeLaw { n0, lambda, what: Hydrometeor::Flake(crystals), rate_mm_h })
+/// N₀, 1/(m³ mm), and Λ, 1/mm, by Sekhon and Srivastava ("Snow size spectra and radar reflectivity", J. Atmos. Sci. 27, 1970) at a rate, mm/h of
+/// water: N(D) = 2500 R^−0.94 exp(−2.29 R^−0.45 D) 1/(m³ mm), D the diameter of the molten flake.
+pub(super) fn sekhon_srivastava(rate_mm_h: f64) -> [f64; 2] {
+    [2500.0 * pow(rate_mm_h, -0.94), 2.29 * pow(rate_mm_h, -0.45)]
 }
 
 impl Crystals {

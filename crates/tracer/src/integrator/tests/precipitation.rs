@@ -3,7 +3,7 @@
 use super::*;
 use crate::accel::Simd;
 use crate::media::Media;
-use crate::precipitation::{ChangeOver, Crystals, Field, Near, Resolution, SeenRegion, SizeLaw, rain, snow};
+use crate::precipitation::{ChangeOver, Crystals, Field, Near, Resolution, SeenRegion, SizeLaw};
 
 /// Mean radiance over rays that start about the origin within a cone along x, from 32 replicates, with what falls or without.
 fn look(ready: &Ready, law: SizeLaw, settings: PathSettings) -> (ReplicateEstimate, f64) {
@@ -46,7 +46,7 @@ fn furnace() -> Ready {
 #[test]
 fn rain_and_snow_in_a_furnace_are_not_seen() {
     let settings = PathSettings { max_bounces: 400, roulette_start: 400, ..PathSettings::default() };
-    for law in [rain(150.0), snow(3.0, Crystals::Dendrites)] {
+    for law in [SizeLaw::rain(150.0), SizeLaw::snow(3.0, Crystals::Dendrites)] {
         let law = law.expect("legal");
         let (seen, met) = look(&furnace(), law, settings);
         assert!(met > 0.01, "{met}");
@@ -70,7 +70,7 @@ fn rain_is_bright_before_a_dark_wall_and_dark_where_nothing_shines() {
         Vec3::new(30.0, -6.0, 6.0),
     ];
     scene.mesh(wall, vec![[0, 1, 2], [0, 2, 3]], black);
-    let law = rain(150.0).expect("legal");
+    let law = SizeLaw::rain(150.0).expect("legal");
     let (seen, _) = look(&scene.ready(), law, settings);
     // 30 m of β as of an image: what is lost is replaced by light of the surroundings, of which the wall hides a part about the direction of sight.
     let lost = 30.0 * Field::new(law, DVec3::ZERO, 500.0, 0).extinction_per_m();

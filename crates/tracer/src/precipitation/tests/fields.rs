@@ -5,7 +5,7 @@ use etendue_core::maths::f64::exp;
 use etendue_stats::chi_square::goodness_of_fit;
 
 fn field(seed: u32) -> Field {
-    Field::new(rain(50.0).expect("legal"), DVec3::new(3.0, -1.0, 0.0), 500.0, seed)
+    Field::new(SizeLaw::rain(50.0).expect("legal"), DVec3::new(3.0, -1.0, 0.0), 500.0, seed)
 }
 
 fn within(field: &Field, origin_m: DVec3, time_s: f64, radius_m: f64) -> Vec<Particle> {
@@ -70,7 +70,7 @@ fn an_interval_holds_what_its_moments_hold() {
 fn another_seed_is_another_rain_and_nothing_is_above_the_top() {
     let particles = |seed| within(&field(seed), DVec3::ZERO, 0.0, 0.5);
     assert_ne!(particles(0), particles(1));
-    let below = Field::new(rain(50.0).expect("legal"), DVec3::ZERO, 0.0, 0);
+    let below = Field::new(SizeLaw::rain(50.0).expect("legal"), DVec3::ZERO, 0.0, 0);
     let found = within(&below, DVec3::ZERO, 5.0, 1.0);
     assert!(found.len() > 1000 && found.iter().all(|particle| particle.at(5.0).z <= 0.0));
 }

@@ -21,7 +21,7 @@ fn near(a: f64, b: f64, within: f64) -> bool {
 #[test]
 fn rain_is_as_the_table_of_marshall_and_palmer() {
     for [rate, lambda, number, per_km, carried] in TABLE {
-        let law = rain(rate).expect("within the law");
+        let law = SizeLaw::rain(rate).expect("within the law");
         assert!(near(law.lambda_per_mm(), lambda, 1e-3) && near(law.number_per_m3(), number, 1e-3), "{rate}");
         assert!(near(1e3 * law.meteorological_extinction_per_m(), per_km, 0.01), "{rate}");
         // The law's own integral goes beyond the 6 mm at which drops end: of the water above x = 6 Λ a share e⁻ˣ (1 + x + x²/2 + x³/6) is left
@@ -37,9 +37,9 @@ fn rain_is_as_the_table_of_marshall_and_palmer() {
 #[test]
 fn a_rescaled_law_brings_the_rate_asked_for() {
     for rate in [0.1, 1.0, 25.0, 150.0] {
-        assert!(near(rain(rate).expect("legal").rescaled().carried_mm_h(), rate, 1e-12));
+        assert!(near(SizeLaw::rain(rate).expect("legal").rescaled().carried_mm_h(), rate, 1e-12));
     }
-    let law = snow(2.0, Crystals::Rimed).expect("legal").rescaled();
+    let law = SizeLaw::snow(2.0, Crystals::Rimed).expect("legal").rescaled();
     assert!(near(law.carried_mm_h(), 2.0, 1e-12));
 }
 
@@ -56,7 +56,7 @@ fn drops_fall_as_atlas_measured_and_flatten() {
 /// of the ball times the cube root of its axis ratio, as seen from the side.
 #[test]
 fn an_image_loses_half_of_the_meteorological_extinction() {
-    let law = rain(10.0).expect("legal");
+    let law = SizeLaw::rain(10.0).expect("legal");
     let field = Field::new(law, DVec3::ZERO, 500.0, 0);
     assert!(near(1e3 * field.extinction_per_m(), 0.778, 0.03));
     assert!(2.0 * field.extinction_per_m() < law.meteorological_extinction_per_m());
@@ -66,7 +66,7 @@ fn an_image_loses_half_of_the_meteorological_extinction() {
 /// each kind of crystal spreads over the 3 to 10 times that Rasmussen and others found.
 #[test]
 fn flakes_are_larger_than_their_water() {
-    let per_km = |crystals| 1e3 * snow(1.0, crystals).expect("legal").meteorological_extinction_per_m();
+    let per_km = |crystals| 1e3 * SizeLaw::snow(1.0, crystals).expect("legal").meteorological_extinction_per_m();
     let by = [Crystals::Dendrites, Crystals::Aggregates, Crystals::Rimed, Crystals::Graupel].map(per_km);
     assert!(by.is_sorted_by(|a, b| a > b), "{by:?}");
     assert!(by[1] > 0.5 * 3.8 && by[1] < 2.0 * 3.8, "{by:?}");
@@ -76,11 +76,11 @@ fn flakes_are_larger_than_their_water() {
 #[test]
 fn rates_beyond_the_measurements_are_refused() {
     for rate in [-1.0, 0.0, 0.05, 151.0, f64::NAN] {
-        assert!(rain(rate).is_err(), "{rate}");
+        assert!(SizeLaw::rain(rate).is_err(), "{rate}");
     }
     for rate in [0.0, 3.5] {
-        assert!(snow(rate, Crystals::Aggregates).is_err(), "{rate}");
+        assert!(SizeLaw::snow(rate, Crystals::Aggregates).is_err(), "{rate}");
     }
-    let error = rain(200.0).expect_err("too much").to_string();
+    let error = SizeLaw::rain(200.0).expect_err("too much").to_string();
     assert!(error.contains("200 mm/h") && error.contains("0.1 to 150 mm/h"), "{error}");
 }

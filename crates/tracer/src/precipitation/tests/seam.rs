@@ -9,7 +9,7 @@ use etendue_core::random::{philox4x32, unit_f64};
 
 /// Rain a hundred times as dense, so that few metres take half of the light.
 fn dense() -> Field {
-    let law = rain(100.0).expect("legal");
+    let law = SizeLaw::rain(100.0).expect("legal");
     Field::new(size_law::SizeLaw { n0: 100.0 * law.n0(), ..law }, DVec3::new(1.0, 2.0, 0.0), 500.0, 0)
 }
 

@@ -43,7 +43,7 @@ fn the_visibility_of_rain_falls_as_the_root_of_the_exposure() {
     let exposures_s = [0.008, 0.016, 0.032, 0.064, 0.125];
     let points = exposures_s.map(|exposure_s| {
         let variance = |seed| {
-            let field = Field::new(rain(50.0).expect("legal"), DVec3::ZERO, 500.0, seed);
+            let field = Field::new(SizeLaw::rain(50.0).expect("legal"), DVec3::ZERO, 500.0, seed);
             let cover = cover(&field, exposure_s);
             let mean = cover.iter().sum::<f64>() / cover.len() as f64;
             cover.iter().map(|c| (c - mean) * (c - mean)).sum::<f64>() / cover.len() as f64
