@@ -105,7 +105,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let frames = Frames::of(scene, unused, context);
     let (mut sources, open_lamps, sky) = light::sources(scene, &frames, context);
     let mut media = medium::media(scene, &frames, context);
-    let precipitation = precipitation::precipitation(scene, &mut media, context);
+    let precipitation = precipitation::precipitation(scene.precipitation.as_ref(), &mut media, context);
     let setups = description.cameras.iter().enumerate();
     let mut cameras: Vec<_> =
         setups.filter_map(|setup| camera_plan(setup, (description, &frames), choices, context)).collect();

@@ -32,3 +32,4 @@ pub mod truth;
 
 pub use camera_light::{Request, change_over, layout, light, light_counts};
 pub use exposure::Shot;
+pub(crate) use near_precipitation::region_of_projection;

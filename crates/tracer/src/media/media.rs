@@ -30,7 +30,7 @@ pub(super) struct Placed<'a> {
     /// From the render frame to the medium's own, where it stands still.
     to_local: Option<DAffine3>,
     /// Where, about the origin of the render frame, parts of it are left out.
-    hollow: Option<Hollow>,
+    pub(super) hollow: Option<Hollow>,
 }
 
 /// A part of a ray, in lengths of its direction.
@@ -65,7 +65,8 @@ impl<'a> Media<'a> {
     }
 
     /// The phase function of a medium, by its place in the list.
-    pub(crate) fn phase(&self, medium: usize) -> &'a Phase {
+    #[must_use]
+    pub fn phase(&self, medium: usize) -> &'a Phase {
         &self.placed[medium].medium.optics(Following::Exact).phase
     }
 
