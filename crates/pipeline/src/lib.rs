@@ -18,4 +18,5 @@ pub use plan::{Plan, remark, summary};
 pub use render::observer::{Observer, Unobserved};
 pub use render::{
     block, boxes, film, frame_view, gather, light, mosaic, motion, pupil_depth, rays, spectrum_spread, tile, truth,
+    weather_layers,
 };

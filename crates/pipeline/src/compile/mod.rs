@@ -121,6 +121,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let air_moves = precipitation.is_some() || media.iter().any(Medium::moves);
     timing::depend(&mut cameras, &world, (&sources, is_modulated), air_moves, context);
     shared_light::share(&mut cameras);
+    air::layers(description, &mut cameras, (!media.is_empty(), precipitation.is_some()), context);
     air::remark(&cameras, &media, context);
     positions::remark(&cameras, context);
     surroundings::remark(&cameras, &world, &material_table, &materials, context);

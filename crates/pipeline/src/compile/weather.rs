@@ -42,7 +42,8 @@ fn airlight(record: &record::Airlight, context: &mut Context<'_>) -> Option<Airl
 fn fog(record: &Fog, context: &mut Context<'_>) -> Option<Medium> {
     let optics = (medium::extinction(&record.extinction, context)?, Spectrum::constant(1.0));
     let to_world = Motion::still(record.transform.to_world());
-    let made = Medium::new(optics, Phase::Isotropic, medium::shape(record.shape.as_ref()), to_world);
+    let shape = medium::shape(record.shape.as_ref(), context)?;
+    let made = Medium::new(optics, Phase::Isotropic, shape, to_world);
     let fog = context.accept(&record.place, made)?;
     Some(medium::with_unevenness(fog, record.unevenness.as_ref()))
 }

@@ -100,7 +100,8 @@ impl NamesFiles for Weather {
         if let Airlight::Uniform(emission) = airlight {
             emission.name_files(files);
         }
-        for Fog { place: _, name: _, extinction, shape: _, transform: _, unevenness: _ } in fog {
+        for Fog { place: _, name: _, extinction, shape, transform: _, unevenness: _ } in fog {
+            shape.name_files(files);
             if let Extinction::PerMetre(curve) = extinction {
                 curve.name_file(Values::Light, files);
             }

@@ -140,6 +140,7 @@ impl<'a, const N: usize> Path<'a, N> {
             Intersection::Passed => PathStep::Goes,
             Intersection::Medium(..) if self.is_spent() => PathStep::Ends,
             Intersection::Medium(position, phase) => self.scatter_in_medium(position, phase),
+            Intersection::Particle(_) if self.tracer.settings.only_airlight => PathStep::Ends,
             Intersection::Particle(hit) => self.scatter_at_particle(&hit),
             Intersection::Surface(point, lookup) if self.is_spent() => self.only_pass(point, &lookup),
             Intersection::Surface(point, lookup) => self.scatter(&self.vertex(point, &lookup)),
@@ -161,7 +162,9 @@ impl<'a, const N: usize> Path<'a, N> {
             return met;
         }
         let Some(hit) = hit else {
-            self.gather_distant();
+            if !self.sees_only_air() {
+                self.gather_distant();
+            }
             return Intersection::Nothing;
         };
         let point = self.tracer.view.surface(&self.ray, &hit);
@@ -169,12 +172,20 @@ impl<'a, const N: usize> Path<'a, N> {
         self.travelled_m += hit.t;
         self.throughput = self.medium.attenuate(self.throughput, hit.t, self.wavelengths);
         let lookup = self.lookup(&point, self.cone, self.ray.direction);
-        self.add_emission(&point, &lookup);
+        if !self.sees_only_air() {
+            self.add_emission(&point, &lookup);
+        }
         if self.is_passed(&point, &lookup) {
             self.pass(&point);
             return Intersection::Passed;
         }
-        Intersection::Surface(point, lookup)
+        if self.sees_only_air() { Intersection::Nothing } else { Intersection::Surface(point, lookup) }
+    }
+
+    /// Whether what the ray meets does not count, as no medium has scattered it yet.
+    #[inline(always)]
+    fn sees_only_air(&self) -> bool {
+        self.tracer.settings.only_airlight && self.bounces == 0
     }
 
     /// Where textures are read at a point that a ray of unit `direction` has met whose cone is `cone` there.

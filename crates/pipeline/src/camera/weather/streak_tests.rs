@@ -83,7 +83,7 @@ fn moments(values: &[f64]) -> [f64; 2] {
 }
 
 /// What near drops or flakes leave of a pixel is exp(−τ) in the mean, τ the sum over classes of extinction times the way on which each is drawn
-/// one by one: by sixteen fields, within four standard errors of them, which are below 2 %.
+/// one by one: by nine fields, within four standard errors of them, which are below 3 %.
 #[test]
 fn near_drops_and_flakes_take_what_their_cross_sections_say() {
     let laws = [
@@ -97,16 +97,16 @@ fn near_drops_and_flakes_take_what_their_cross_sections_say() {
             let left: Vec<f64> = cover(&seen).iter().map(|c| f64::from(1.0 - c)).collect();
             -ln(moments(&left)[0])
         };
-        let depths: Vec<f64> = (0..16).map(depth).collect();
+        let depths: Vec<f64> = (0..9).map(depth).collect();
         let [mean, deviation] = moments(&depths);
         let of = precipitation(law, 0, 0.25);
         let region = crate::render::region_of_projection(&wall.projection, wall.pose.rotation);
         let change_over = ChangeOver::new(of.field.classes(), &of.resolution(PITCH, exposure_s), &region);
         let parts = of.field.classes().iter().zip(&change_over.radii_m);
         let expected: f64 = parts.map(|(class, radius_m)| class.extinction_per_m * (radius_m - 1.0)).sum();
-        let error = deviation / 4.0;
+        let error = deviation / 3.0;
         assert!((mean - expected).abs() < 4.0 * error, "{mean} {error} {expected}");
-        assert!(error < 0.02 * expected, "{error} {expected}");
+        assert!(error < 0.03 * expected, "{error} {expected}");
     }
 }
 
