@@ -7,7 +7,7 @@ use super::section::{File, Place, Section, plain, sections};
 use super::value::value;
 
 /// The names of records that may stand in several places, by the first of them.
-const NAMES: [(&str, &str); 20] = [
+const NAMES: [(&str, &str); 19] = [
     ("environment-radiance_w_m2_sr_nm", "Spectrum"),
     ("frames-rolls", "Wheel"),
     ("frames-trajectory", "Trajectory"),
@@ -19,7 +19,6 @@ const NAMES: [(&str, &str); 20] = [
     ("media-shape", "Part of the world"),
     ("media-unevenness", "Unevenness"),
     ("media-visibility", "Visibility"),
-    ("precipitation", "Rain or snow"),
     ("lens-coating", "Coating"),
     ("lens-front_aperture", "Rim"),
     ("sensor-crosstalk", "Coupling of neighbours"),
