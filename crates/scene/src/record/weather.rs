@@ -64,7 +64,7 @@ fn check_weather(weather: &Weather, faults: &mut Faults) {
     check_airlight(weather, faults);
     match (&weather.precipitation, &weather.exposure_s) {
         (None, None) if weather.fog.is_empty() => {
-            faults.add(&weather.place, "the file holds no weather", "give \"fog\" or \"precipitation\"")
+            faults.add(&weather.place, "the file holds no weather", "give \"fog\" or \"precipitation\"");
         }
         (None, Some(exposure)) => faults.add(
             &exposure.place,

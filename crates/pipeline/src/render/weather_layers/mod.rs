@@ -133,7 +133,8 @@ impl RadianceField<1> for Shares<'_> {
         let near = self.near.filter(|near| near.looks_along(ray.direction));
         match self.of {
             Share::Cover => {
-                Spectral::splat(near.is_some_and(|near| near.closest(&ray, ray.t_max).is_some()) as u8 as f32)
+                let is_met = near.is_some_and(|near| near.closest(&ray, ray.t_max).is_some());
+                Spectral::splat(if is_met { 1.0 } else { 0.0 })
             }
             Share::Transmittance => {
                 let media = near.map_or(self.media, Near::media);
