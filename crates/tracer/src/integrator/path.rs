@@ -182,12 +182,6 @@ impl<'a, const N: usize> Path<'a, N> {
         if self.sees_only_air() { Intersection::Nothing } else { Intersection::Surface(point, lookup) }
     }
 
-    /// Whether what the ray meets does not count, as no medium has scattered it yet.
-    #[inline(always)]
-    fn sees_only_air(&self) -> bool {
-        self.tracer.settings.only_airlight && self.bounces == 0
-    }
-
     /// Where textures are read at a point that a ray of unit `direction` has met whose cone is `cone` there.
     #[inline(always)]
     pub(super) fn lookup(&self, point: &SurfacePoint, cone: Cone, direction: Vec3) -> Lookup {
