@@ -162,9 +162,7 @@ impl<'a, const N: usize> Path<'a, N> {
             return met;
         }
         let Some(hit) = hit else {
-            if !self.sees_only_air() {
-                self.gather_distant();
-            }
+            self.gather_distant();
             return Intersection::Nothing;
         };
         let point = self.tracer.view.surface(&self.ray, &hit);
@@ -206,7 +204,7 @@ impl<'a, const N: usize> Path<'a, N> {
     fn gather_distant(&mut self) {
         let strategies = self.tracer.settings.strategies;
         for light in self.tracer.lights.distant(self.ray.direction, self.receiver.as_ref(), self.wavelengths) {
-            if light.surrounds || self.follows(self.history.is_caustic()) {
+            if (light.surrounds || self.follows(self.history.is_caustic())) && !self.sees_only_air() {
                 self.radiance += self.throughput * light.radiance * strategies.met(self.scattered, light.pdf);
             }
         }
