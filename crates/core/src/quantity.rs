@@ -34,6 +34,8 @@ quantities! {
     Irradiance(f32) = "spectral irradiance", "W.m^-2.nm^-1";
     /// The share of light that comes through what lies between.
     Transmittance(f32) = "transmittance", "1";
+    /// The share of a pixel, and of its exposure, that near drops or flakes cover.
+    Cover(f32) = "cover", "1";
     /// The weight of a pixel's pupil: mean projected solid angle times transmittance.
     SolidAngle(f32) = "projected solid angle", "sr";
     /// Variance of a mean, in the square of that mean's unit.

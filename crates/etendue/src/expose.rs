@@ -108,6 +108,8 @@ fn products(body: &CameraBody) -> Products {
         picture: body.development.is_some(),
         ground_truth: false,
         camera_space_position: false,
+        weather: false,
+        cover: false,
         depth_png_per_m: None,
         rays: false,
         undistorted: None,

@@ -155,6 +155,8 @@ impl Task<'_> {
             picture: self.body.development.is_some(),
             ground_truth: false,
             camera_space_position: false,
+            weather: false,
+            cover: false,
             depth_png_per_m: None,
             rays: false,
             undistorted: None,

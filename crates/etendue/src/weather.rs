@@ -2,10 +2,11 @@
 
 use crate::camera_file::read_text;
 use crate::error::Error;
+use crate::results::metadata;
 use crate::stored_radiance::StoredRadiance;
 use etendue_core::quantity::Variance;
 use etendue_core::{CameraPose, Plane, SpectralCube, TimeInterval};
-use etendue_io::exr::{EncodeError, Lengths, encode_radiance, encode_spectral};
+use etendue_io::exr::{EncodeError, Lengths, encode_plane, encode_radiance, encode_spectral};
 use etendue_io::{Existing, OutputFolder, load_assets};
 use etendue_pipeline::compile_weather;
 use etendue_pipeline::stored::Stored;
@@ -29,22 +30,45 @@ const TRANSMITTANCE: &str = "transmittance.exr";
 /// The radiance that the weather adds.
 const AIRLIGHT: &str = "airlight.exr";
 
-/// Lays fog over a stored radiance image by its distances; writes radiance, transmittance and airlight into a folder and answers with their
-/// paths. Runs on the caller's thread pool.
+/// The share of each pixel and of the exposure that near drops or flakes cover.
+const COVER: &str = "cover.exr";
+
+/// Lays fog and streaks of rain or snow over a stored radiance image by its distances; writes radiance, transmittance and airlight, and where
+/// something falls cover, into a folder and answers with their paths. Runs on the caller's thread pool.
 ///
 /// # Errors
 /// Where image or weather cannot be used, or the folder cannot be written.
 pub fn weather(request: &WeatherRequest, (folder, existing): (&Path, Existing)) -> Result<Vec<PathBuf>, Error> {
     let weather = open(&request.weather)?;
-    let stored = StoredRadiance::open(&request.radiance)?;
+    let mut stored = StoredRadiance::open(&request.radiance)?;
+    expose(&weather, &mut stored, request)?;
     let mut folder = OutputFolder::open(folder, existing).map_err(Error::input)?;
     folder.claim([RADIANCE, TRANSMITTANCE, AIRLIGHT]).map_err(Error::input)?;
+    if weather.falling.is_some() {
+        folder.claim([COVER]).map_err(Error::input)?;
+    }
     let seen = seen(&weather, &stored, &request.radiance)?;
     for (name, bytes) in files(&seen, &stored) {
         let bytes = bytes.map_err(|error| Error::Run(format!("{name}: {error}")))?;
         folder.write(name, &bytes).map_err(Error::run)?;
     }
     folder.commit().map_err(Error::run)
+}
+
+/// Notes the exposure of streaks beside the image, as light that depends on time has one. An image that has one must have the same.
+fn expose(weather: &Weather, stored: &mut StoredRadiance, request: &WeatherRequest) -> Result<(), Error> {
+    let Some(falling) = &weather.falling else { return Ok(()) };
+    let exposure_s = falling.exposure_s;
+    if let Some(stored_s) = stored.exposure_s().filter(|stored_s| *stored_s != exposure_s) {
+        return Err(Error::input(format!(
+            "{}: \"exposure_s\" is {exposure_s} s, but the light of {} is the mean over {stored_s} s; give {stored_s}, or an image of light that \
+             does not depend on time",
+            request.weather.display(),
+            request.radiance.display()
+        )));
+    }
+    stored.provenance.further.insert(metadata::EXPOSURE_S.to_owned(), exposure_s.to_string());
+    Ok(())
 }
 
 fn open(file: &Path) -> Result<Weather, Error> {
@@ -65,15 +89,17 @@ fn seen(weather: &Weather, stored: &StoredRadiance, file: &Path) -> Result<Weath
     weather.over(&image, &pose, moment).map_err(|why| refuse(&why.to_string()))
 }
 
-fn files(seen: &Weathered, stored: &StoredRadiance) -> [(&'static str, Result<Vec<u8>, EncodeError>); 3] {
+fn files(seen: &Weathered, stored: &StoredRadiance) -> Vec<(&'static str, Result<Vec<u8>, EncodeError>)> {
     let facts = &stored.provenance;
     let variance = stored.variance.as_ref().map(|variance| dimmed(variance, seen));
     let lengths = stored.distance.as_ref().map(|distance| Lengths { distance, depth: &seen.depth });
-    [
+    let mut files = vec![
         (RADIANCE, encode_radiance(&seen.radiance, variance.as_ref(), lengths, facts)),
         (TRANSMITTANCE, encode_spectral(&seen.transmittance, None, facts)),
         (AIRLIGHT, encode_spectral(&seen.airlight, None, facts)),
-    ]
+    ];
+    files.extend(seen.cover.as_ref().map(|cover| (COVER, encode_plane(cover, None, facts))));
+    files
 }
 
 /// Variance goes with the square of what comes through; that of an airlight from the sky is not added.

@@ -18,5 +18,5 @@ pub use plan::{Plan, remark, summary};
 pub use render::observer::{Observer, Unobserved};
 pub use render::{
     adaptive, block, boxes, film, frame_view, gather, light, mosaic, motion, noise_reached, pupil_depth, rays,
-    spectrum_spread, tile, truth,
+    spectrum_spread, tile, truth, weather_layers,
 };

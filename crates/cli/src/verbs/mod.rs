@@ -31,7 +31,7 @@ subcommands! {
     Plan(plan::Plan),
     /// Photograph a stored radiance image (rendered with route = "pupil") by another lens and sensor
     Expose(expose::Expose),
-    /// Lay fog over a stored radiance image (rendered with route = "pupil"), by its distances
+    /// Lay fog, rain or snow over a stored radiance image (rendered with route = "pupil"), by its distances
     Weather(weather::Weather),
     /// Make pictures of raws that were taken before, by another processing
     Develop(develop::Develop),

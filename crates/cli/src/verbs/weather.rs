@@ -1,4 +1,4 @@
-//! `etendue weather`: fog laid over a stored radiance image.
+//! `etendue weather`: fog, rain and snow laid over a stored radiance image.
 
 use crate::args::folder::Output;
 use crate::machine::print_written;
@@ -12,7 +12,7 @@ pub struct Weather {
     /// A spectral radiance image rendered with route = "pupil"
     #[arg(value_name = "RADIANCE.exr")]
     pub radiance: PathBuf,
-    /// The weather file (TOML): fog, and the radiance of the air
+    /// The weather file (TOML): fog, rain or snow, and the radiance of the air
     #[arg(long, value_name = "WEATHER.toml")]
     pub weather: PathBuf,
     #[command(flatten)]

@@ -85,3 +85,56 @@ fn fog_over_stored_radiance() {
     ]);
     assert!(!folder.path().join("none").exists());
 }
+
+const RAIN: &str = "format = 1\nexposure_s = 0.01\n[airlight]\ntype = \"uniform\"\nradiance_w_m2_sr_nm = 0.01\n\n[precipitation]\ntype = \"rain\"\n\
+                    rate_mm_h = 100\nsmallest_px = 0.05\n";
+
+/// Streaks change light and not distances, the same at every run; what has no effect or is missing is refused at its place.
+#[test]
+fn streaks_over_stored_radiance() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let (job, clear) = (small(), path("clear"));
+    let arguments = ["--set", "render.route=pupil", "--set", "output.radiance=true"];
+    etendue(["render", &job, "-o", &clear].into_iter().chain(arguments)).ok();
+    let files = contents(&folder.path().join("clear"));
+    let name = files.keys().find(|name| name.ends_with("/radiance.exr")).expect("radiance");
+    let stored = path(&format!("clear/{name}"));
+    let run = |text: &str, out: &str| {
+        std::fs::write(path("weather.toml"), text).expect("written");
+        etendue(["weather", &stored, "--weather", &path("weather.toml"), "-o", &path(out)])
+    };
+    run(RAIN, "one").ok();
+    run(RAIN, "two").ok();
+    let [one, two] = ["one", "two"].map(|out| contents(&folder.path().join(out)));
+    assert!(one == two && one.contains_key("cover.exr"), "{:?}", one.keys());
+    run(&RAIN.replace("rate_mm_h", "seed = 1\nrate_mm_h"), "three").ok();
+    assert!(one["radiance.exr"] != contents(&folder.path().join("three"))["radiance.exr"], "other drops");
+    let distance = |file: &std::path::Path| read_spectral(file).expect("readable").distance.expect("distances");
+    let far = |of: &std::path::Path| distance(of).samples().iter().map(|m| m.to_bits()).collect::<Vec<_>>();
+    assert_eq!(far(&folder.path().join("one/radiance.exr")), far(&folder.path().join(format!("clear/{name}"))));
+    let refused = |text: &str, phrases: &[&str]| run(text, "none").refused(phrases);
+    refused(&RAIN.replace("exposure_s = 0.01\n", ""), &["weather.toml:6", "precipitation", "exposure_s"]);
+    refused(&RAIN.replace("0.01\n[a", "-1\n[a"), &["weather.toml:2", "exposure_s", "-1"]);
+    refused(&RAIN.replace("= 100", "= 400"), &["weather.toml:8", "400 mm/h", "0.1 to 150"]);
+    refused(&RAIN.replace("smallest_px = 0.05", "crystals = \"rimed\""), &["weather.toml:9", "crystals"]);
+    let (head, _) = RAIN.split_once("[precipitation]").expect("it has one");
+    refused(head, &["weather.toml:2", "\"exposure_s\" has no effect", "precipitation"]);
+    refused(&head.replace("exposure_s = 0.01\n", ""), &["weather.toml", "no weather", "fog"]);
+    assert!(!folder.path().join("none").exists());
+}
+
+/// A mesh with a hole has no inside, and a scene without weather no layers of it.
+#[test]
+fn open_meshes_and_layers_of_nothing() {
+    let shape = "shape = { type = \"layer\", top_m = 60 }";
+    let spoilt = Spoilt::new();
+    let mesh = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n";
+    spoilt.write("open.obj", mesh);
+    spoilt.spoil("small.toml", SUN, &FOG.replacen(shape, "shape = { type = \"mesh\", file = \"open.obj\" }", 1));
+    spoilt.render(&[]).refused(&["small.toml:", "shape.file", "open", "3 of its 6 edges", "close its holes"]);
+    let clear = Spoilt::new();
+    clear
+        .render(&["--set", "output.weather=true"])
+        .refused(&["output.weather", "neither [[media]] nor [precipitation]"]);
+}

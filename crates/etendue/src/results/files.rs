@@ -1,7 +1,7 @@
 //! The files that a camera can deliver: their names, and what they hold.
 
 use crate::tone_curve::encoding;
-use etendue_core::quantity::{DigitalNumber, Irradiance, MeanElectrons, Quantity, Radiance};
+use etendue_core::quantity::{Cover, DigitalNumber, Irradiance, MeanElectrons, Quantity, Radiance, Transmittance};
 use etendue_pipeline::plan::{
     Annotations, CameraBody, CameraPlan, CorrespondenceFormat, Development, PictureFormat, Products, RawFormat,
     TimeDependence,
@@ -35,6 +35,12 @@ impl Files {
     pub const SAMPLING: &str = "sampling.exr";
     /// Mean electrons of each pixel.
     pub const ELECTRONS: &str = "electrons.exr";
+    /// The share of light that comes through the air.
+    pub const TRANSMITTANCE: &str = "transmittance.exr";
+    /// The part of the radiance that the air scattered in.
+    pub const AIRLIGHT: &str = "airlight.exr";
+    /// The share of each pixel that near drops or flakes cover.
+    pub const COVER: &str = "cover.exr";
     /// Depth, normals, positions and identities.
     pub const GROUND_TRUTH: &str = "ground_truth.exr";
     /// Planar depth as a picture.
@@ -160,6 +166,9 @@ impl Files {
             entry("samples, variance of the mean by them and by the sensor", "1, e^2, e^2"),
         );
         add(p.electrons, Self::ELECTRONS, entry_of::<MeanElectrons>());
+        add(p.weather, Self::TRANSMITTANCE, entry_of::<Transmittance>());
+        add(p.weather, Self::AIRLIGHT, entry_of::<Radiance>());
+        add(p.cover, Self::COVER, entry_of::<Cover>());
         add(p.ground_truth, Self::GROUND_TRUTH, entry("depth, distance, normal, position, ids", "m, m, 1, m, 1"));
         let depth_unit = format!("1/{} m", p.depth_png_per_m.unwrap_or(0.0));
         add(p.depth_png_per_m.is_some(), Self::DEPTH, entry("planar depth, 0 is invalid", &depth_unit));

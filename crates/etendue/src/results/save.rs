@@ -12,12 +12,15 @@ use crate::observer::Observer;
 use crate::rig;
 use etendue_io::exr::{
     self, Layer, Lengths, encode_ground_truth, encode_layers, encode_plane, encode_radiance, encode_rays,
+    encode_spectral,
 };
 use etendue_io::{Existing, OutputFolder, png};
 use etendue_pipeline::rays::{RayTable, ray_table};
 use etendue_pipeline::rectified::RectifiedCamera;
+use etendue_pipeline::render::Shot;
 use etendue_pipeline::sampling::SamplingPlanes;
 use etendue_pipeline::truth::{GroundTruth, ground_truth};
+use etendue_pipeline::weather_layers::weather_layers;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
@@ -85,6 +88,7 @@ impl CameraResults {
         self.write_spectra(&mut writer)?;
         let points = self.write_photographs(&mut writer, observer)?;
         self.write_truth(&mut writer)?;
+        self.write_weather(&mut writer)?;
         self.write_annotations(&mut writer)?;
         if let Some(twin) = &self.undistorted {
             self.write_undistorted(twin, &mut writer)?;
@@ -169,6 +173,23 @@ impl CameraResults {
             files.push((self.file(Files::DEPTH), Box::new(move || png::encode_depth16(depth, per_metre))));
         }
         writer.write_together(files)
+    }
+
+    /// What weather does to each pixel: found anew, with the samples of the light.
+    fn write_weather(&self, writer: &mut ResultWriter<'_>) -> Result<(), Error> {
+        let camera = self.camera();
+        if !camera.products.weather {
+            return Ok(());
+        }
+        let shot = Shot { frame: self.frame_numbers().start, capture: 0 };
+        let layers = weather_layers(&self.plan, camera, shot, self.simd);
+        let facts = metadata::radiance_provenance(self.provenance(), camera);
+        writer.write(&self.file(Files::TRANSMITTANCE), encode_plane(&layers.transmittance, None, &facts))?;
+        writer.write(&self.file(Files::AIRLIGHT), encode_spectral(&layers.airlight, None, &facts))?;
+        layers
+            .cover
+            .iter()
+            .try_for_each(|cover| writer.write(&self.file(Files::COVER), encode_plane(cover, None, &facts)))
     }
 
     /// Ground truth of the undistorted twin.

@@ -147,7 +147,8 @@ impl View {
     }
 
     /// Whether a pixel of the stored image belongs to the view.
-    pub(super) fn holds(&self, px: DVec2) -> bool {
+    #[must_use]
+    pub fn holds(&self, px: DVec2) -> bool {
         let [low, high] = self.bounds();
         px.cmpge(low).all() && px.cmplt(high).all()
     }

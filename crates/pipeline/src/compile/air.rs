@@ -4,6 +4,7 @@ use super::context::Context;
 use crate::plan::CameraPlan;
 use crate::render::block::Blocks;
 use etendue_core::{Ray, TimeInterval};
+use etendue_scene::Description;
 use etendue_tracer::integrator::Level;
 use etendue_tracer::media::{Media, Medium};
 use glam::Vec3;
@@ -17,6 +18,23 @@ const BOUNCES: [f64; 2] = [10.0, 4.0];
 
 /// The most that can be asked for.
 const MAX_BOUNCES: f64 = 1024.0;
+
+/// Refuses layers of weather where there is none; adds the cover to them where something falls.
+pub(super) fn layers(
+    description: &Description,
+    cameras: &mut [CameraPlan],
+    (has_media, falls): (bool, bool),
+    context: &mut Context<'_>,
+) {
+    for setup in &description.cameras {
+        let Some(key) = setup.output.weather.as_ref().filter(|key| key.value) else { continue };
+        if !has_media {
+            let problem = "\"weather\" is asked for, but the scene has neither [[media]] nor [precipitation]";
+            context.fault(&key.place, problem, "add them to the scene, or remove the key");
+        }
+    }
+    cameras.iter_mut().for_each(|camera| camera.products.cover = camera.products.weather && falls);
+}
 
 /// Says which cameras lose light in fog, and which setting is passed over.
 pub(super) fn remark(cameras: &[CameraPlan], media: &[Medium], context: &mut Context<'_>) {

@@ -4,11 +4,12 @@ use super::context::Context;
 use super::frames::Frames;
 use super::spectrum;
 use etendue_core::{Motion, maths};
-use etendue_scene::record::medium::{self, Extinction, MediumShape};
+use etendue_scene::record::medium::{self, Extinction, MediumMesh, MediumShape};
 use etendue_scene::record::{Light, Medium as Record, Scene};
 use etendue_spectra::{Outside, Spectrum};
-use etendue_tracer::media::{Medium, Noise, Phase, Shape, SpectralTable, Unevenness};
+use etendue_tracer::media::{Medium, Noise, Phase, Shape, Solid, SpectralTable, Unevenness};
 use glam::DVec3;
+use std::sync::Arc;
 
 /// Median diameter of droplets where nothing is said, µm.
 const DROPLETS_UM: f64 = 12.0;
@@ -26,8 +27,8 @@ fn medium(record: &Record, frames: &Frames<'_>, context: &mut Context<'_>) -> Op
         Some(albedo) => spectrum::curve(albedo, Outside::Hold, context),
     };
     let to_world = frames.carrying(record.frame.as_ref(), Motion::still(record.transform.to_world()));
-    let made =
-        Medium::new((extinction?, albedo?), phase(record.phase.as_ref()), shape(record.shape.as_ref()), to_world);
+    let shape = shape(record.shape.as_ref(), context)?;
+    let made = Medium::new((extinction?, albedo?), phase(record.phase.as_ref()), shape, to_world);
     let medium = context.accept(&record.place, made)?;
     Some(with_unevenness(medium, record.unevenness.as_ref()))
 }
@@ -36,13 +37,27 @@ pub(super) fn with_unevenness(medium: Medium, record: Option<&medium::Unevenness
     record.into_iter().fold(medium, |medium, of| medium.with_unevenness(unevenness(of)))
 }
 
-pub(super) fn shape(record: Option<&MediumShape>) -> Shape {
-    match record {
+pub(super) fn shape(record: Option<&MediumShape>, context: &mut Context<'_>) -> Option<Shape> {
+    Some(match record {
         None | Some(MediumShape::Everywhere(_)) => Shape::Everywhere,
         Some(MediumShape::Layer(layer)) => Shape::Below { top_m: layer.top_m.value },
         Some(MediumShape::Box(of)) => Shape::Box { half_m: DVec3::from_array(of.size_m.value) * 0.5 },
         Some(MediumShape::Sphere(of)) => Shape::Ball { radius_m: of.radius_m.value },
-    }
+        Some(MediumShape::Mesh(of)) => Shape::Mesh(Arc::new(solid(of, context)?)),
+    })
+}
+
+/// The inside of a file's triangles.
+fn solid(record: &MediumMesh, context: &mut Context<'_>) -> Option<Solid> {
+    let Some(asset) = context.assets.meshes.get(&record.file.value) else {
+        context.fault(&record.file.place, "the mesh was not loaded", "give a readable file");
+        return None;
+    };
+    let unit_m = record.unit_m.as_ref().map_or(1.0, |unit| unit.value);
+    let origin = DVec3::from_array(asset.origin);
+    let positions: Vec<DVec3> =
+        asset.positions.iter().map(|p| (DVec3::from_array(p.map(f64::from)) + origin) * unit_m).collect();
+    context.accept(&record.file.place, Solid::new(&positions, &asset.triangles))
 }
 
 pub(super) fn extinction(record: &Extinction, context: &mut Context<'_>) -> Option<Spectrum> {

@@ -105,7 +105,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let frames = Frames::of(scene, unused, context);
     let (mut sources, open_lamps, sky) = light::sources(scene, &frames, context);
     let mut media = medium::media(scene, &frames, context);
-    let precipitation = precipitation::precipitation(scene, &mut media, context);
+    let precipitation = precipitation::precipitation(scene.precipitation.as_ref(), &mut media, context);
     let setups = description.cameras.iter().enumerate();
     let mut cameras: Vec<_> =
         setups.filter_map(|setup| camera_plan(setup, (description, &frames), choices, context)).collect();
@@ -121,6 +121,7 @@ fn planned(description: &Description, choices: &Choices, context: &mut Context<'
     let air_moves = precipitation.is_some() || media.iter().any(Medium::moves);
     timing::depend(&mut cameras, &world, (&sources, is_modulated), air_moves, context);
     shared_light::share(&mut cameras);
+    air::layers(description, &mut cameras, (!media.is_empty(), precipitation.is_some()), context);
     air::remark(&cameras, &media, context);
     positions::remark(&cameras, context);
     surroundings::remark(&cameras, &world, &material_table, &materials, context);

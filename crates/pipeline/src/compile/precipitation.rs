@@ -3,19 +3,19 @@
 use super::context::Context;
 use crate::plan::Precipitation;
 use etendue_scene::Place;
+use etendue_scene::record::Precipitation as Record;
 use etendue_scene::record::precipitation::{self, Fall};
-use etendue_scene::record::{Precipitation as Record, Scene};
 use etendue_tracer::media::Medium;
 use etendue_tracer::precipitation::{Crystals, Field, SizeLaw, SizeLawError};
 use glam::DVec3;
 
 /// What falls, with its medium added to the others.
 pub(super) fn precipitation(
-    scene: &Scene,
+    record: Option<&Record>,
     media: &mut Vec<Medium>,
     context: &mut Context<'_>,
 ) -> Option<Precipitation> {
-    let (law, rescaled, fall, place) = match scene.precipitation.as_ref()? {
+    let (law, rescaled, fall, place) = match record? {
         Record::Rain(of) => (SizeLaw::rain(of.rate_mm_h.value), &of.rescaled, &of.fall, &of.rate_mm_h.place),
         Record::Snow(of) => {
             let crystals = of.crystals.as_ref().map_or(Crystals::default(), |crystals| self::crystals(crystals.value));

@@ -74,6 +74,8 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
         picture: said(&output.picture, development),
         ground_truth: said(&output.ground_truth, true),
         camera_space_position: said(&output.camera_space_position, false),
+        weather: said(&output.weather, false),
+        cover: false,
         depth_png_per_m: depth_png.then(|| output.depth_png_scale.as_ref().map_or(256.0, |s| s.per_metre())),
         rays: said(&output.rays, false),
         undistorted: None,

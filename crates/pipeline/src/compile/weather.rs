@@ -1,8 +1,8 @@
 //! Weather over stored radiance: from its record.
 
 use super::context::Context;
-use super::{medium, spectrum};
-use crate::camera::weather::{Airlight, Weather};
+use super::{medium, precipitation, spectrum};
+use crate::camera::weather::{Airlight, Falling, Weather};
 use etendue_core::Motion;
 use etendue_scene::Fault;
 use etendue_scene::asset::Assets;
@@ -20,9 +20,12 @@ const SKY_DEG: f64 = 10.0;
 pub fn compile_weather(weather: &record::Weather, assets: &Assets) -> Result<Weather, Vec<Fault>> {
     let mut context = Context::new(assets);
     let airlight = airlight(&weather.airlight, &mut context);
-    let fog = weather.fog.iter().filter_map(|fog| self::fog(fog, &mut context)).collect();
+    let mut media: Vec<_> = weather.fog.iter().filter_map(|fog| self::fog(fog, &mut context)).collect();
+    let falls = precipitation::precipitation(weather.precipitation.as_ref(), &mut media, &mut context);
+    let falling = falls.zip(weather.exposure_s.as_ref());
+    let falling = falling.map(|(precipitation, of)| Falling { precipitation, exposure_s: of.value });
     let faults = context.into_faults();
-    airlight.filter(|_| faults.is_empty()).map(|airlight| Weather { airlight, fog }).ok_or(faults)
+    airlight.filter(|_| faults.is_empty()).map(|airlight| Weather { airlight, media, falling }).ok_or(faults)
 }
 
 fn airlight(record: &record::Airlight, context: &mut Context<'_>) -> Option<Airlight> {
@@ -39,7 +42,8 @@ fn airlight(record: &record::Airlight, context: &mut Context<'_>) -> Option<Airl
 fn fog(record: &Fog, context: &mut Context<'_>) -> Option<Medium> {
     let optics = (medium::extinction(&record.extinction, context)?, Spectrum::constant(1.0));
     let to_world = Motion::still(record.transform.to_world());
-    let made = Medium::new(optics, Phase::Isotropic, medium::shape(record.shape.as_ref()), to_world);
+    let shape = medium::shape(record.shape.as_ref(), context)?;
+    let made = Medium::new(optics, Phase::Isotropic, shape, to_world);
     let fog = context.accept(&record.place, made)?;
     Some(medium::with_unevenness(fog, record.unevenness.as_ref()))
 }

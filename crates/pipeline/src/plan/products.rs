@@ -61,6 +61,10 @@ pub struct Products {
     pub ground_truth: bool,
     /// Positions in the camera's frame with it.
     pub camera_space_position: bool,
+    /// What weather does to each pixel.
+    pub weather: bool,
+    /// Among it the share of each pixel that near drops or flakes cover: where something falls.
+    pub cover: bool,
     /// Depth as 16-bit PNG, by its numbers a metre.
     pub depth_png_per_m: Option<f64>,
     /// Origin and direction of each pixel's ray.
@@ -79,6 +83,11 @@ impl Products {
     pub fn is_empty(&self) -> bool {
         let light = self.radiance || self.irradiance || self.ghosts || self.electrons || self.sampling;
         let images = light || self.raw || self.picture || self.signal_breakdown;
-        !(images || self.ground_truth || self.depth_png_per_m.is_some() || self.rays || !self.annotations.is_empty())
+        !(images
+            || self.weather
+            || self.ground_truth
+            || self.depth_png_per_m.is_some()
+            || self.rays
+            || !self.annotations.is_empty())
     }
 }

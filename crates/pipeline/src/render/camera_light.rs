@@ -51,15 +51,44 @@ impl Default for Request {
 /// # Errors
 /// [`Cancelled`] where the observer asked to stop.
 pub fn light(plan: &Plan, camera: &CameraPlan, request: Request, observer: &dyn Observer) -> Result<Film, Cancelled> {
+    with_source(camera, request.shot, LightJob { plan, camera, request, observer })
+}
+
+/// What is done with a camera's rays, whatever they come through.
+pub(super) trait SourceJob {
+    /// What comes of it.
+    type Output;
+
+    /// Does it.
+    fn run<S: RaySource>(self, source: &S) -> Self::Output;
+}
+
+/// Does a job with the rays of a camera's picture.
+pub(super) fn with_source<J: SourceJob>(camera: &CameraPlan, shot: Shot, job: J) -> J::Output {
     match &camera.settings.route {
         Route::Lens => match &camera.body.front {
-            None => through(plan, camera, request, observer, &LensSource::of(camera)),
+            None => job.run(&LensSource::of(camera)),
             Some(front) => {
-                let front = &front_at(front, camera, request.shot);
-                through(plan, camera, request, observer, &FrontSource { lens: LensSource::of(camera), front })
+                let front = &front_at(front, camera, shot);
+                job.run(&FrontSource { lens: LensSource::of(camera), front })
             }
         },
-        Route::Pupil(projection) => through(plan, camera, request, observer, projection),
+        Route::Pupil(projection) => job.run(projection),
+    }
+}
+
+struct LightJob<'a> {
+    plan: &'a Plan,
+    camera: &'a CameraPlan,
+    request: Request,
+    observer: &'a dyn Observer,
+}
+
+impl SourceJob for LightJob<'_> {
+    type Output = Result<Film, Cancelled>;
+
+    fn run<S: RaySource>(self, source: &S) -> Self::Output {
+        through(self.plan, self.camera, self.request, self.observer, source)
     }
 }
 
@@ -71,7 +100,7 @@ pub fn light_counts(plan: &Plan, camera: &CameraPlan) -> LightCounts {
     lights(plan, camera, &view).light_counts()
 }
 
-fn lights(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -> Lights {
+pub(super) fn lights(plan: &Plan, camera: &CameraPlan, view: &RenderSpace<'_>) -> Lights {
     Lights::new(view, &plan.material_table, plan.sources.clone(), camera.settings.range_nm)
         .expect("a compiled plan names only materials that it has")
 }
@@ -134,7 +163,7 @@ pub fn tolerance(camera: &CameraPlan) -> Option<Tolerance> {
     Some(Tolerance::new(limit, sensor.map(Sensor::temporal_noise)))
 }
 
-fn region_and_change_over<'a, S: RaySource>(
+pub(super) fn region_and_change_over<'a, S: RaySource>(
     plan: &'a Plan,
     camera: &CameraPlan,
     rows: &FilmExposure<'_>,
@@ -147,7 +176,7 @@ fn region_and_change_over<'a, S: RaySource>(
     Some((precipitation, region, change_over))
 }
 
-fn render_job<'a, S>(
+pub(super) fn render_job<'a, S>(
     (camera, exposure): (&CameraPlan, FilmExposure<'a>),
     request: Request,
     source: &'a S,
@@ -196,7 +225,7 @@ fn pitch_tan(camera: &CameraPlan) -> f64 {
     }
 }
 
-fn path_settings(camera: &CameraPlan) -> PathSettings {
+pub(super) fn path_settings(camera: &CameraPlan) -> PathSettings {
     let Settings { spp, replicates, adaptive, .. } = camera.settings;
     // Where noise decides, runs of samples are as long as all pixels have.
     let samples = adaptive.map_or(spp, |limit| limit.min_spp) / replicates;

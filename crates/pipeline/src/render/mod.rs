@@ -7,6 +7,7 @@
 //! - [`motion`] is the ground truth of what moves: optical flow, scene flow, disparity.
 //! - [`boxes`] are those of objects, in the picture and in space.
 //! - [`truth`], [`rays`] and [`pupil_depth`] are point-sampled beside it, along principal rays.
+//! - [`weather_layers`] are what media, drops and flakes do to each pixel.
 //! - Every pixel has one owner and its own random address: the result depends on neither threads, nor tiles, nor shards.
 //! - Work runs on the caller's rayon pool, under the caller's [`observer::Observer`].
 
@@ -32,6 +33,8 @@ pub mod spectrum_spread;
 mod test_scenes;
 pub mod tile;
 pub mod truth;
+pub mod weather_layers;
 
 pub use camera_light::{Request, change_over, layout, light, light_counts, tolerance};
 pub use exposure::Shot;
+pub(crate) use near_precipitation::region_of_projection;

@@ -4,10 +4,11 @@ use crate::plan::Precipitation;
 use crate::render::exposure::FilmExposure;
 use crate::render::light::RaySource;
 use etendue_core::TimeInterval;
+use etendue_optics::PupilProjection;
 use etendue_tracer::accel::Simd;
 use etendue_tracer::media::Media;
 use etendue_tracer::precipitation::{ChangeOver, Near, SeenRegion};
-use glam::{DVec2, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 /// Points along a side of the film whose rays are looked at.
 const SIDE: u32 = 13;
@@ -18,6 +19,9 @@ const ROOM_RAD: f64 = 0.03;
 /// Points of the pupil whose rays are looked at.
 const PUPIL: [[f64; 2]; 5] = [[0.5, 0.5], [0.001, 0.001], [0.999, 0.001], [0.001, 0.999], [0.999, 0.999]];
 
+/// How far within a film points of its last edges lie where the edge itself has no ray, px.
+const WITHIN_PX: f64 = 1e-6;
+
 /// A wavelength in the middle of the spectrum, nm.
 const MIDDLE_NM: f64 = 550.0;
 
@@ -27,13 +31,12 @@ pub(super) fn seen_region<S: RaySource>(
     exposure: &FilmExposure<'_>,
     (width, height): (u32, u32),
 ) -> SeenRegion {
-    let size = DVec2::new(f64::from(width), f64::from(height));
     let moments = moments(exposure.interval());
     let (mut directions, mut margin_m) = (vec![], 0.0_f64);
-    for i in 0..SIDE * SIDE {
-        let at = size * DVec2::new(f64::from(i % SIDE), f64::from(i / SIDE)) / f64::from(SIDE - 1);
+    for [at, within] in grid((width, height)) {
         for pupil in PUPIL {
-            let Some(ray) = source.ray(at, DVec2::from_array(pupil), MIDDLE_NM) else { continue };
+            let ray = |at: DVec2| source.ray(at, DVec2::from_array(pupil), MIDDLE_NM);
+            let Some(ray) = ray(at).or_else(|| ray(within)) else { continue };
             for moment_s in moments {
                 let ray = exposure.to_render(&ray, moment_s);
                 directions.push(ray.direction.as_dvec3());
@@ -42,6 +45,23 @@ pub(super) fn seen_region<S: RaySource>(
         }
     }
     SeenRegion::around(&directions, ROOM_RAD, margin_m)
+}
+
+/// What the camera of a stored image sees that stands still, its axes turned to the world's by a rotation.
+pub(crate) fn region_of_projection(projection: &PupilProjection, rotation: DMat3) -> SeenRegion {
+    let size = (projection.width() as u32, projection.height() as u32);
+    let direction = |[at, within]: [DVec2; 2]| projection.direction(at).or_else(|| projection.direction(within));
+    let directions: Vec<_> = grid(size).filter_map(direction).map(|direction| rotation * direction).collect();
+    SeenRegion::around(&directions, ROOM_RAD, 0.0)
+}
+
+/// Points all over a film, its edges included, and the same just within the last edges.
+fn grid((width, height): (u32, u32)) -> impl Iterator<Item = [DVec2; 2]> {
+    let size = DVec2::new(f64::from(width), f64::from(height));
+    (0..SIDE * SIDE).map(move |i| {
+        let at = size * DVec2::new(f64::from(i % SIDE), f64::from(i / SIDE)) / f64::from(SIDE - 1);
+        [at, at.min(size - WITHIN_PX)]
+    })
 }
 
 fn moments(interval: TimeInterval) -> [f64; 5] {

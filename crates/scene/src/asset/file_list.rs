@@ -43,7 +43,7 @@ impl FileList {
     }
 
     /// A mesh; of a file that several meshes name, what all cover.
-    pub(super) fn mesh(&mut self, path: &Placed<PathBuf>, covered: Covered) {
+    pub(crate) fn mesh(&mut self, path: &Placed<PathBuf>, covered: Covered) {
         let known = self.0.iter_mut().find(|r| r.kind == AssetKind::Mesh && r.path == path.value);
         if let Some(known) = known {
             known.covered = std::mem::replace(&mut known.covered, Covered::All).and(covered);

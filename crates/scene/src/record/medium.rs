@@ -3,10 +3,11 @@
 use super::curve::{Curve, curve};
 use super::transform::Transform;
 use crate::asset::file_list::{FileList, NamesFiles};
-use crate::asset::request::Values;
+use crate::asset::request::{Covered, Values};
 use crate::fault::{Faults, Named};
 use crate::place::{Place, Placed};
-use crate::reader::{keyed, name_of, number, record, text, variants, vector, whole};
+use crate::reader::{keyed, name_of, number, path, record, text, variants, vector, whole};
+use std::path::PathBuf;
 
 record! {
     /// What fills a part of the world, scatters light and absorbs it. Several add up where they overlap. Ground truth does not see it.
@@ -114,6 +115,8 @@ variants! {
         "box" => Box(MediumBox),
         /// A ball about its origin.
         "sphere" => Sphere(MediumSphere),
+        /// The inside of a closed mesh.
+        "mesh" => Mesh(MediumMesh),
     }
 }
 
@@ -143,6 +146,17 @@ record! {
     pub struct MediumSphere {
         /// Its radius, m, above 0.
         required radius_m: Placed<f64> = number("m").above(0.0);
+    }
+}
+
+record! {
+    /// The inside of a mesh without open edges, in the axes of its file: where a ray has crossed its surface an odd number of times. Parts that
+    /// overlap are outside, as a part within another one is a hollow.
+    pub struct MediumMesh {
+        /// The file (Wavefront OBJ).
+        required file: Placed<PathBuf> = path(&["obj"]);
+        /// Metres per unit of the file. Default: 1.
+        optional unit_m: Placed<f64> = number("m").above(0.0);
     }
 }
 
@@ -193,11 +207,21 @@ pub(super) fn check_gain(unevenness: Option<&Unevenness>, faults: &mut Faults) {
 
 impl NamesFiles for Medium {
     fn name_files(&self, files: &mut FileList) {
-        let Self { place: _, name: _, extinction, albedo, phase: _, shape: _, transform: _, frame: _, unevenness: _ } =
+        let Self { place: _, name: _, extinction, albedo, phase: _, shape, transform: _, frame: _, unevenness: _ } =
             self;
+        shape.name_files(files);
         if let Extinction::PerMetre(curve) = extinction {
             curve.name_file(Values::Light, files);
         }
         albedo.iter().for_each(|albedo| albedo.name_file(Values::Share, files));
+    }
+}
+
+impl NamesFiles for MediumShape {
+    fn name_files(&self, files: &mut FileList) {
+        match self {
+            Self::Everywhere(_) | Self::Layer(_) | Self::Box(_) | Self::Sphere(_) => {}
+            Self::Mesh(mesh) => files.mesh(&mesh.file, Covered::All),
+        }
     }
 }

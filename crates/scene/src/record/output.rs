@@ -35,6 +35,11 @@ record! {
         /// With "ground_truth": the position in the camera's frame as well (m; x right, y down, z forward, negative behind the
         /// camera; from the centre of the entrance pupil), layers "P_camera.X", ".Y" and ".Z". Default: false.
         optional camera_space_position: Placed<bool> = flag();
+        /// What weather does to each pixel, of a scene with `[[media]]` or `[precipitation]`: "transmittance.exr", the share of light at 587.56 nm
+        /// that comes unscattered from the first surface; "airlight.exr", the part of the spectral radiance that was scattered in before it; and where
+        /// something falls "cover.exr", the share of pixel and exposure that near drops or flakes cover. In the raster of "radiance". Takes the time of
+        /// the light once more. Default: false.
+        optional weather: Placed<bool> = flag();
         /// Depth as 16-bit PNG. Default: false.
         optional depth_png: Placed<bool> = flag();
         /// With "depth_png": numbers per metre, above 0, or a data set's convention: "kitti" (256 per m), "ros" (1 000 per
@@ -166,6 +171,7 @@ impl Output {
             picture: None,
             ground_truth: None,
             camera_space_position: None,
+            weather: None,
             depth_png: None,
             depth_png_scale: None,
             rays: None,
@@ -200,6 +206,7 @@ impl Output {
             picture: a.picture.or(b.picture),
             ground_truth: a.ground_truth.or(b.ground_truth),
             camera_space_position: a.camera_space_position.or(b.camera_space_position),
+            weather: a.weather.or(b.weather),
             depth_png: a.depth_png.or(b.depth_png),
             depth_png_scale: a.depth_png_scale.or(b.depth_png_scale),
             rays: a.rays.or(b.rays),

@@ -1,6 +1,6 @@
 //! `[precipitation]`: rain or snow.
 
-use crate::place::Placed;
+use crate::place::{Place, Placed};
 use crate::reader::{choice, flag, number, record, variants, vector, whole};
 
 variants! {
@@ -11,6 +11,17 @@ variants! {
         "rain" => Rain(Rain),
         /// Snow, by Sekhon and Srivastava's law of sizes (1970).
         "snow" => Snow(Snow),
+    }
+}
+
+impl Precipitation {
+    /// Where its table stands.
+    #[must_use]
+    pub fn place(&self) -> &Place {
+        match self {
+            Self::Rain(rain) => &rain.place,
+            Self::Snow(snow) => &snow.place,
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::light::Emission;
 use super::medium::{Extinction, MediumShape, Unevenness};
+use super::precipitation::Precipitation;
 use super::transform::Transform;
 use crate::asset::file_list::{FileList, NamesFiles};
 use crate::asset::request::Values;
@@ -10,12 +11,18 @@ use crate::place::Placed;
 use crate::reader::{list, number, record, text, variants};
 
 record! {
-    /// Fog laid over stored radiance by Koschmieder's law (1924): L = L₀ T + L_air (1 − T), T = exp(−∫β dt) along each pixel's ray.
-    pub struct Weather check(check_airlight) {
+    /// Fog laid over stored radiance by Koschmieder's law (1924): L = L₀ T + L_air (1 − T), T = exp(−∫β dt) along each pixel's ray; and
+    /// streaks of rain or snow over it. One of both at least.
+    pub struct Weather check(check_weather) {
         /// The radiance of fog so deep that nothing is seen through it.
         required airlight: Airlight = record();
-        /// The fog; where several overlap they add up.
-        many fog: Fog = list(record(), 1);
+        /// The fog; where several overlap they add up. Default: none.
+        many fog: Fog = list(record(), 0);
+        /// Rain or snow: near drops and flakes as streaks, far ones by Koschmieder's law. The same keys and the same drops as those of a
+        /// scene. Default: none.
+        optional precipitation: Precipitation = record();
+        /// How long streaks are exposed from the image's time on, s, above 0 … 60; needed with "precipitation", and without effect else.
+        optional exposure_s: Placed<f64> = number("s").above(0.0).at_most(60.0);
     }
 }
 
@@ -53,6 +60,26 @@ record! {
     }
 }
 
+fn check_weather(weather: &Weather, faults: &mut Faults) {
+    check_airlight(weather, faults);
+    match (&weather.precipitation, &weather.exposure_s) {
+        (None, None) if weather.fog.is_empty() => {
+            faults.add(&weather.place, "the file holds no weather", "give \"fog\" or \"precipitation\"");
+        }
+        (None, Some(exposure)) => faults.add(
+            &exposure.place,
+            "\"exposure_s\" has no effect without \"precipitation\"",
+            "give \"precipitation\", or remove it",
+        ),
+        (Some(falls), None) => faults.add(
+            falls.place(),
+            "the image shows a moment, and streaks need an exposure",
+            "give \"exposure_s\" beside \"airlight\": the exposure time of the camera that the image is for",
+        ),
+        _ => {}
+    }
+}
+
 fn check_airlight(weather: &Weather, faults: &mut Faults) {
     if let Airlight::Uniform(emission) = &weather.airlight
         && let Some((key, place)) = emission.level.flux()
@@ -69,11 +96,12 @@ fn check(fog: &Fog, faults: &mut Faults) {
 
 impl NamesFiles for Weather {
     fn name_files(&self, files: &mut FileList) {
-        let Self { place: _, airlight, fog } = self;
+        let Self { place: _, airlight, fog, precipitation: _, exposure_s: _ } = self;
         if let Airlight::Uniform(emission) = airlight {
             emission.name_files(files);
         }
-        for Fog { place: _, name: _, extinction, shape: _, transform: _, unevenness: _ } in fog {
+        for Fog { place: _, name: _, extinction, shape, transform: _, unevenness: _ } in fog {
+            shape.name_files(files);
             if let Extinction::PerMetre(curve) = extinction {
                 curve.name_file(Values::Light, files);
             }

@@ -31,7 +31,8 @@ pub struct Streak {
 
 impl Streak {
     /// Its centre at a ray's time, m.
-    pub(crate) fn centre(&self, time_s: f32) -> Vec3 {
+    #[must_use]
+    pub fn centre(&self, time_s: f32) -> Vec3 {
         self.start_m + self.velocity_mps * time_s
     }
 

@@ -140,6 +140,7 @@ impl<'a, const N: usize> Path<'a, N> {
             Intersection::Passed => PathStep::Goes,
             Intersection::Medium(..) if self.is_spent() => PathStep::Ends,
             Intersection::Medium(position, phase) => self.scatter_in_medium(position, phase),
+            Intersection::Particle(_) if self.tracer.settings.only_airlight => PathStep::Ends,
             Intersection::Particle(hit) => self.scatter_at_particle(&hit),
             Intersection::Surface(point, lookup) if self.is_spent() => self.only_pass(point, &lookup),
             Intersection::Surface(point, lookup) => self.scatter(&self.vertex(point, &lookup)),
@@ -169,12 +170,14 @@ impl<'a, const N: usize> Path<'a, N> {
         self.travelled_m += hit.t;
         self.throughput = self.medium.attenuate(self.throughput, hit.t, self.wavelengths);
         let lookup = self.lookup(&point, self.cone, self.ray.direction);
-        self.add_emission(&point, &lookup);
+        if !self.sees_only_air() {
+            self.add_emission(&point, &lookup);
+        }
         if self.is_passed(&point, &lookup) {
             self.pass(&point);
             return Intersection::Passed;
         }
-        Intersection::Surface(point, lookup)
+        if self.sees_only_air() { Intersection::Nothing } else { Intersection::Surface(point, lookup) }
     }
 
     /// Where textures are read at a point that a ray of unit `direction` has met whose cone is `cone` there.
@@ -201,7 +204,7 @@ impl<'a, const N: usize> Path<'a, N> {
     fn gather_distant(&mut self) {
         let strategies = self.tracer.settings.strategies;
         for light in self.tracer.lights.distant(self.ray.direction, self.receiver.as_ref(), self.wavelengths) {
-            if light.surrounds || self.follows(self.history.is_caustic()) {
+            if (light.surrounds || self.follows(self.history.is_caustic())) && !self.sees_only_air() {
                 self.radiance += self.throughput * light.radiance * strategies.met(self.scattered, light.pdf);
             }
         }

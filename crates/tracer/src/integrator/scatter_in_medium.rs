@@ -14,6 +14,12 @@ impl<'a, const N: usize> Path<'a, N> {
         if matt && !self.tracer.settings.caustics { Following::WithoutPeak } else { Following::Exact }
     }
 
+    /// Whether what the ray meets does not count, as no medium has scattered it yet.
+    #[inline(always)]
+    pub(super) fn sees_only_air(&self) -> bool {
+        self.tracer.settings.only_airlight && self.bounces == 0
+    }
+
     /// Whether lamps without an opening are asked along the ray, rather than where the path is scattered: as far as the camera sees it straight
     /// or in mirrors. Behind that a ray is one of so many that its own light matters less than its price.
     fn asks_along(&self) -> bool {

@@ -22,6 +22,8 @@ pub struct PathSettings {
     /// Whether light of suns and glowing surfaces that smooth surfaces throw on matt ones is followed (`caustic.rs`).
     /// Without it the picture is darker by that light, and free of the rare bright samples that find it.
     pub caustics: bool,
+    /// Whether only light counts that media scatter into the camera's rays before these meet a surface, a drop or a flake.
+    pub only_airlight: bool,
 }
 
 impl Default for PathSettings {
@@ -34,6 +36,7 @@ impl Default for PathSettings {
             cone_spread_rad: 0.0,
             strategies: Strategies::Both,
             caustics: true,
+            only_airlight: false,
         }
     }
 }

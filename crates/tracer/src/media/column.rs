@@ -21,7 +21,13 @@ impl Media<'_> {
     fn column_m(&self, placed: &Placed<'_>, ray: &Ray) -> f64 {
         let Some((from, to)) = self.span(placed, ray, f64::from(ray.t_max)) else { return 0.0 };
         let length_m = (to - from) * f64::from(ray.direction.length());
-        let Some(unevenness) = placed.medium.unevenness.filter(|_| length_m.is_finite()) else { return length_m };
+        if let Some(hollow) = &placed.hollow {
+            let line = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
+            return hollow.way(line, (from, to)) * f64::from(ray.direction.length());
+        }
+        let Some(unevenness) = placed.medium.unevenness.filter(|_| length_m.is_finite()) else {
+            return self.inside(placed, ray, (from, to)) * f64::from(ray.direction.length());
+        };
         let steps = (length_m / unevenness.noise.smallest_m() * STEPS_PER_EDDY).ceil().clamp(1.0, MAX_STEPS);
         let middles = (0..steps as u32).map(|i| from + (f64::from(i) + 0.5) / steps * (to - from));
         length_m * middles.map(|t| self.density(placed, ray, t)).sum::<f64>() / steps

@@ -34,7 +34,7 @@ impl Hollow {
             let inside = ((middle + half).min(to) - (middle - half).max(from)).max(0.0);
             to - from - inside
         };
-        self.parts.iter().map(|(radius, share)| share * outside(*radius)).sum()
+        self.parts.iter().filter(|(_, share)| *share > 0.0).map(|(radius, share)| share * outside(*radius)).sum()
     }
 }
 

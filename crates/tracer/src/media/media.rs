@@ -30,7 +30,7 @@ pub(super) struct Placed<'a> {
     /// From the render frame to the medium's own, where it stands still.
     to_local: Option<DAffine3>,
     /// Where, about the origin of the render frame, parts of it are left out.
-    hollow: Option<Hollow>,
+    pub(super) hollow: Option<Hollow>,
 }
 
 /// A part of a ray, in lengths of its direction.
@@ -65,7 +65,8 @@ impl<'a> Media<'a> {
     }
 
     /// The phase function of a medium, by its place in the list.
-    pub(crate) fn phase(&self, medium: usize) -> &'a Phase {
+    #[must_use]
+    pub fn phase(&self, medium: usize) -> &'a Phase {
         &self.placed[medium].medium.optics(Following::Exact).phase
     }
 
@@ -77,13 +78,27 @@ impl<'a> Media<'a> {
 
     /// Beginning and end of a ray's part in a medium, before `end`; in lengths of the ray's direction.
     pub(super) fn span(&self, placed: &Placed<'_>, ray: &Ray, end: f64) -> Option<(f64, f64)> {
+        let (origin, direction) = self.local(placed, ray);
+        placed.medium.shape.span(origin, direction, end)
+    }
+
+    /// How much of a ray up to `end` lies in a medium, between where it begins and ends there; in lengths of the ray's direction.
+    pub(super) fn inside(&self, placed: &Placed<'_>, ray: &Ray, (from, to): (f64, f64)) -> f64 {
+        let Some(solid) = placed.medium.shape.gaps() else { return to - from };
+        let (origin, direction) = self.local(placed, ray);
+        solid.parts(origin, direction, to).iter().map(|(from, to)| to - from).sum()
+    }
+
+    /// A ray's origin and direction in a medium's own frame.
+    #[inline]
+    fn local(&self, placed: &Placed<'_>, ray: &Ray) -> (DVec3, DVec3) {
         let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
         let to_local = placed.to_local.unwrap_or_else(|| {
             let mut to_render = placed.medium.to_world.at(self.interval.moment(ray.time_s));
             to_render.translation -= self.origin_m;
             to_render.inverse()
         });
-        placed.medium.shape.span(to_local.transform_point3(origin), to_local.transform_vector3(direction), end)
+        (to_local.transform_point3(origin), to_local.transform_vector3(direction))
     }
 
     /// From where to where, before `end`, any medium lies along a ray; `None` where none does. In lengths of the ray's direction.
@@ -150,6 +165,12 @@ impl<'a> Media<'a> {
         if let Some(hollow) = &placed.hollow {
             return hollow.density((ray.origin.as_dvec3() + ray.direction.as_dvec3() * t).length());
         }
+        if let Some(solid) = placed.medium.shape.gaps() {
+            let (origin, direction) = self.local(placed, ray);
+            if !solid.parts(origin, direction, f64::INFINITY).iter().any(|(from, to)| t >= *from && t < *to) {
+                return 0.0;
+            }
+        }
         if placed.medium.unevenness.is_none() {
             return 1.0;
         }
@@ -176,10 +197,11 @@ impl<'a> Media<'a> {
                 let way = hollow.way((ray.origin.as_dvec3(), ray.direction.as_dvec3()), (from, to));
                 (0..N).for_each(|k| depth[k] += f64::from(extinction[k]) * way * length_m);
             } else if placed.medium.unevenness.is_none() {
+                let inside = self.inside(placed, ray, (from, to));
                 // No medium, no depth, however far.
                 (0..N)
                     .filter(|k| extinction[*k] > 0.0)
-                    .for_each(|k| depth[k] += f64::from(extinction[k]) * (to - from) * length_m);
+                    .for_each(|k| depth[k] += f64::from(extinction[k]) * inside * length_m);
             } else {
                 let majorant_per_m = optics.greatest_per_m * placed.medium.greatest_density();
                 let numbers = (stream, numbers_of(vertex, i));

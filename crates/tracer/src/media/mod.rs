@@ -17,6 +17,7 @@ mod noise;
 mod phase;
 mod phase_table;
 mod shape;
+mod solid;
 
 pub use collide::Collision;
 pub use hollow::Hollow;
@@ -26,3 +27,6 @@ pub use noise::Noise;
 pub use phase::Phase;
 pub use phase_table::SpectralTable;
 pub use shape::Shape;
+#[cfg(test)]
+pub(crate) use solid::cuboid;
+pub use solid::{Solid, SolidError};

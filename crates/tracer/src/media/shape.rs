@@ -1,9 +1,13 @@
-//! Where a medium is: all over, below a height, in a box or a ball; in its own frame.
+//! Where a medium is: all over, below a height, in a box, a ball or a closed mesh; in its own frame.
+
+use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::solid::Solid;
+
 /// The part of space that a medium fills.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// All of it.
     Everywhere,
@@ -22,10 +26,13 @@ pub enum Shape {
         /// Radius, m.
         radius_m: f64,
     },
+    /// The inside of a mesh.
+    Mesh(Arc<Solid>),
 }
 
 impl Shape {
-    /// Beginning and end of the part of a ray that lies inside, between 0 and `end` in lengths of `direction`; `None` where there is none.
+    /// Beginning and end of the part of a ray that lies inside, between 0 and `end` in lengths of `direction`; `None` where there is none. Of a
+    /// mesh from where the ray first enters to where it last leaves: between, gaps may be ([`Shape::gaps`]).
     pub(super) fn span(&self, origin: DVec3, direction: DVec3, end: f64) -> Option<(f64, f64)> {
         let (from, to) = match self {
             Self::Everywhere => (0.0, end),
@@ -39,9 +46,19 @@ impl Shape {
                 (from, to)
             }
             Self::Ball { radius_m } => ball(origin, direction, *radius_m)?,
+            Self::Mesh(solid) => {
+                let parts = solid.parts(origin, direction, end);
+                (parts.first()?.0, parts.last()?.1)
+            }
         };
         let (from, to) = (from.max(0.0), to.min(end));
         (from < to).then_some((from, to))
+    }
+
+    /// What is not convex, so that a ray may leave and enter it again.
+    #[inline]
+    pub(super) fn gaps(&self) -> Option<&Solid> {
+        if let Self::Mesh(solid) = self { Some(solid) } else { None }
     }
 }
 

@@ -122,12 +122,14 @@ impl<'a> Near<'a> {
 
     /// Whether particles are modelled along a unit direction from the camera. Where they are not, the whole medium stands for them: behind
     /// drops on a wind-screen rays look where the camera's region did not reach.
-    pub(crate) fn looks_along(&self, direction: Vec3) -> bool {
+    #[must_use]
+    pub fn looks_along(&self, direction: Vec3) -> bool {
         self.region.holds(direction.as_dvec3())
     }
 
     /// The media as rays from the camera find them.
-    pub(crate) fn media(&self) -> &Media<'a> {
+    #[must_use]
+    pub fn media(&self) -> &Media<'a> {
         &self.media
     }
 

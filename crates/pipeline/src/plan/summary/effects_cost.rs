@@ -19,6 +19,8 @@ use glam::DVec2;
 const TAP_S: f64 = 1e-9;
 /// A number in a Fourier transform, by the bits of both its sides' lengths. night-flare.toml with glare alone, by the one without effects.
 const TRANSFORMED_S: f64 = 1.07e-9;
+/// A path of the street scene (docs/performance.md).
+pub(super) const PATH_CPU_S: f64 = 3e-6;
 /// A point of a diffraction pattern shared among the taps of a kernel, with its part of the kernel's making.
 /// night-flare.toml with point spread alone.
 const SHARED_S: f64 = 38e-9;
@@ -70,6 +72,7 @@ pub(super) fn shares(plan: &Plan, camera: &CameraPlan) -> Vec<Share> {
         share("the lens on the picture", at_pupil(camera)),
         share("ground truth", truth(camera)),
         share("spectral files", files(camera)),
+        share("layers of weather", weather(camera)),
     ]
 }
 
@@ -160,6 +163,13 @@ fn truth(camera: &CameraPlan) -> f64 {
         (annotations.boxes, BOX_RAYS),
     ];
     picture * TRUTH_S * traced.iter().filter(|(wanted, _)| *wanted).map(|(_, rays)| rays).sum::<f64>()
+}
+
+/// Layers of weather: paths for the airlight and rays for both shares.
+fn weather(camera: &CameraPlan) -> f64 {
+    let (width, height) = camera.film_size();
+    let samples = f64::from(width) * f64::from(height) * f64::from(camera.settings.spp);
+    if camera.products.weather { samples * (PATH_CPU_S + 2.0 * TRUTH_S) } else { 0.0 }
 }
 
 /// Cubes of bands, encoded.

@@ -33,9 +33,6 @@ use words::{count, figure, line, list};
 #[derive(Clone, Copy, Debug)]
 pub struct Summary<'a>(pub &'a Plan);
 
-/// CPU time of a path of the street scene, for the estimate of the cost, s (docs/performance.md).
-const PATH_CPU_S: f64 = 3e-6;
-
 impl Display for Summary<'_> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let plan = self.0;
@@ -286,6 +283,7 @@ fn products(p: &Products) -> String {
         (p.picture, "picture"),
         (p.ground_truth && !p.camera_space_position, "ground truth"),
         (p.ground_truth && p.camera_space_position, "ground truth with positions in the camera's frame"),
+        (p.weather, "transmittance, airlight and cover"),
         (p.depth_png_per_m.is_some(), "depth PNG"),
         (p.rays, "ray table"),
         (p.undistorted.is_some(), "the undistorted twin of these"),
@@ -322,7 +320,7 @@ fn cost(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result 
     };
     let paths = f64::from(width) * f64::from(height) * f64::from(least);
     let film = Film::bytes(width as usize, height as usize, &layout(camera)) / 1e6;
-    let cpu = paths * PATH_CPU_S;
+    let cpu = paths * effects_cost::PATH_CPU_S;
     let served = shared_light::served(plan, camera);
     line(
         f,

@@ -2,8 +2,10 @@
 
 use super::*;
 use crate::lights::{Lamp, Profile};
-use crate::media::{Media, Medium, Noise, Phase, Shape as Region, Unevenness};
+use crate::media::{Media, Medium, Noise, Phase, Shape as Region, Solid, Unevenness, cuboid};
+use etendue_core::random::PixelAddress;
 use glam::DMat3;
+use std::sync::Arc;
 
 const FORWARD: Phase = Phase::HenyeyGreenstein { g: 0.85 };
 
@@ -42,12 +44,87 @@ fn fog_in_a_furnace_is_not_seen() {
     let ball = Region::Ball { radius_m: 4.0 };
     let settings = PathSettings { max_bounces: 4000, roulette_start: 4000, ..PathSettings::default() };
     for (what, phase) in [("even", Phase::Isotropic), ("forward", FORWARD), ("molecules", Phase::Rayleigh)] {
-        let even = fog(0.7, 1.0, phase.clone(), ball);
+        let even = fog(0.7, 1.0, phase.clone(), ball.clone());
         for (how, medium) in [("flat", even.clone()), ("uneven", uneven(even, 0.9))] {
             let seen = look(&even_surroundings().ready(), &[medium], &up(), 16, settings);
             assert!((seen.mean - 1.0).abs() < 3.0 * seen.standard_error() + 2e-4, "{what}, {how}: {seen:?}");
         }
     }
+}
+
+fn solid(boxes: &[(DVec3, DVec3)]) -> Region {
+    let (mut vertices, mut triangles) = (vec![], vec![]);
+    for (centre, half) in boxes {
+        let (more, others) = cuboid(*centre, *half, vertices.len() as u32);
+        vertices.extend(more);
+        triangles.extend(others);
+    }
+    Region::Mesh(Arc::new(Solid::new(&vertices, &triangles).expect("closed")))
+}
+
+/// The same in a mesh of two parts, from inside one of them through a gap into the other.
+#[test]
+fn fog_within_a_mesh_in_a_furnace_is_not_seen() {
+    let shape = solid(&[(DVec3::ZERO, DVec3::ONE), (DVec3::Z * 4.0, DVec3::splat(2.0))]);
+    let settings = PathSettings { max_bounces: 4000, roulette_start: 4000, ..PathSettings::default() };
+    let even = fog(0.7, 1.0, FORWARD, shape);
+    for medium in [even.clone(), uneven(even, 0.9)] {
+        let seen = look(&even_surroundings().ready(), &[medium], &up(), 16, settings);
+        assert!((seen.mean - 1.0).abs() < 3.0 * seen.standard_error() + 2e-4, "{seen:?}");
+    }
+}
+
+/// A mesh that is a box gives what the box gives, and one of two parts what two boxes give; transmittance to the bits, light by its estimate.
+#[test]
+fn fog_within_a_mesh_is_that_within_its_shape() {
+    let mut scene = Scene::default();
+    let wall = scene.material(Surface::Absorber, Some((2.0, EmissionSides::Both)));
+    scene.square(Vec3::new(0.0, 0.0, 50.0), 30.0, wall);
+    let ready = scene.ready();
+    let half_m = DVec3::new(30.0, 30.0, 8.0);
+    let moved = |shape, z: f64| {
+        let place = Motion::still(DAffine3::from_translation(DVec3::Z * z));
+        Medium::new((Spectrum::constant(0.05), Spectrum::constant(0.6)), FORWARD, shape, place).expect("legal")
+    };
+    let boxes = [moved(Region::Box { half_m }, 0.0), moved(Region::Box { half_m }, 25.0)];
+    let mesh = [moved(solid(&[(DVec3::ZERO, half_m), (DVec3::Z * 25.0, half_m)]), 0.0)];
+    let address = PixelAddress { frame: FrameAddress::default(), pixel: Pixel { x: 0, y: 0 }, replicate: 0 };
+    let stream = PathStream::new(&address, 0);
+    let wavelengths = Wavelengths::<4>::uniform(400.0, 700.0, 0.3);
+    let mut way = up();
+    way.t_max = 40.0;
+    let through = |media: &[Medium]| {
+        let media = Media::new(media, DVec3::ZERO, TimeInterval::default());
+        media.transmittance((&way, crate::media::Following::Exact), (&stream, 0), &wavelengths)
+    };
+    assert!((through(&boxes) - through(&mesh)).max_value().abs() < 1e-7, "{:?}", through(&mesh));
+    assert!((f64::from(through(&mesh)[0]) - maths::f64::exp(-0.05 * 24.0)).abs() < 1e-6);
+    let settings = PathSettings { max_bounces: 8, ..PathSettings::default() };
+    let [of_boxes, of_mesh] = [&boxes[..], &mesh[..]].map(|media| look(&ready, media, &up(), 1024, settings));
+    agree(&of_boxes, &of_mesh);
+}
+
+/// What only the air sends, and what comes from elsewhere, are the whole: of a wall, of the sky, and in a box that the camera is half inside.
+#[test]
+fn airlight_is_a_part_of_the_light() {
+    let mut scene = even_surroundings();
+    let wall = scene.material(Surface::Absorber, Some((2.0, EmissionSides::Both)));
+    scene.square(Vec3::new(0.0, 0.0, 10.0), 30.0, wall);
+    let ready = scene.ready();
+    let shape = Region::Box { half_m: DVec3::new(9.0, 9.0, 6.0) };
+    let media = [fog(0.1, 0.8, Phase::Isotropic, shape)];
+    let settings = PathSettings { max_bounces: 64, ..PathSettings::default() };
+    for (ray, behind) in [(up(), 2.0), (Ray::new(Vec3::ZERO, -Vec3::Z, 0.0), 1.0)] {
+        let whole = look(&ready, &media, &ray, 2048, settings);
+        let air = look(&ready, &media, &ray, 2048, PathSettings { only_airlight: true, ..settings });
+        // The same random numbers: what is left is the light from behind, of which exp(−0.6) comes through.
+        let expected = behind * maths::f64::exp(-0.6);
+        let error = whole.standard_error().max(1e-4);
+        assert!((whole.mean - air.mean - expected).abs() < 4.0 * error, "{whole:?} {air:?} {expected}");
+        assert!(air.mean > 0.05);
+    }
+    let clear = look(&ready, &[], &up(), 16, PathSettings { only_airlight: true, ..settings });
+    assert_eq!(clear.mean, 0.0);
 }
 
 /// exp(−β d) of a glowing wall's light comes through a fog that only absorbs, exactly; and through an uneven one in the mean over its places.
@@ -58,7 +135,7 @@ fn the_law_of_beer_and_lambert_through_fog() {
     scene.square(Vec3::new(0.0, 0.0, 50.0), 30.0, wall);
     let ready = scene.ready();
     let layer = Region::Box { half_m: DVec3::new(100.0, 100.0, 20.0) };
-    let seen = look(&ready, &[fog(0.05, 0.0, Phase::Isotropic, layer)], &up(), 2048, PathSettings::default());
+    let seen = look(&ready, &[fog(0.05, 0.0, Phase::Isotropic, layer.clone())], &up(), 2048, PathSettings::default());
     // 20 m of it.
     agrees(&seen, 2.0 * maths::f64::exp(-1.0));
     let twice =

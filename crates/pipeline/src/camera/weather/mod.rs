@@ -1,0 +1,190 @@
+//! Weather laid over a stored radiance image.
+//!
+//! - Here: fog and far precipitation, L = L₀ T + L_air (1 − T), T = exp(−∫β dt) (Koschmieder 1924). Right where the air is lit evenly from all
+//!   around, and otherwise as far as one airlight stands for it. Left out: cones of lamps, haloes, shadows in the fog, and that the scene's own
+//!   light is dimmed by it.
+//! - `streaks`: near drops and flakes, those of the traced form, as shares of pixels that they cover during an exposure.
+//! - `shown_light`: what a drop or flake shows, of what the image shows.
+//! - `image`: pixels as rays of the world.
+
+mod image;
+mod shown_light;
+#[cfg(test)]
+mod streak_tests;
+mod streaks;
+#[cfg(test)]
+mod tests;
+
+use crate::camera::stored::Stored;
+use crate::plan::Precipitation;
+use etendue_core::maths::f64::exp;
+use etendue_core::quantity::{Cover, Length, Radiance, Transmittance};
+use etendue_core::{Bands, CameraPose, Plane, Ray, SpectralCube, TimeInterval};
+use etendue_spectra::Spectrum;
+use etendue_tracer::media::{Media, Medium};
+use image::Image;
+use rayon::prelude::*;
+
+/// The radiance of fog without end.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Airlight {
+    /// The same everywhere, W·m⁻²·sr⁻¹·nm⁻¹.
+    Uniform(Spectrum),
+    /// The mean of what the image shows of the sky, from the horizon up to a height, rad.
+    Sky {
+        /// The height.
+        elevation_rad: f64,
+    },
+}
+
+/// What is laid over an image.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Weather {
+    /// The radiance of fog without end.
+    pub airlight: Airlight,
+    /// Fog, of which only the extinction counts, and the medium of what falls.
+    pub media: Vec<Medium>,
+    /// Rain or snow.
+    pub falling: Option<Falling>,
+}
+
+/// Rain or snow over a moment's image.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Falling {
+    /// What falls.
+    pub precipitation: Precipitation,
+    /// How long it is exposed, s.
+    pub exposure_s: f64,
+}
+
+/// An image with weather before it.
+#[derive(Clone, Debug)]
+pub struct Weathered {
+    /// What is seen.
+    pub radiance: SpectralCube<Radiance>,
+    /// The share of the scene's light that comes through, by band.
+    pub transmittance: SpectralCube<Transmittance>,
+    /// What the weather adds.
+    pub airlight: SpectralCube<Radiance>,
+    /// The share of each pixel and of the exposure that near drops or flakes cover; `None` where nothing falls.
+    pub cover: Option<Plane<Cover>>,
+    /// Distance of the scene along the axis, m; +∞ the sky, NaN no ray.
+    pub depth: Plane<Length>,
+}
+
+/// Why weather cannot be laid over an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum WeatherError {
+    /// No distances.
+    #[error("it has no distances (channel distance.Z), by which weather is laid over it; render it anew")]
+    Distance,
+    /// No sky.
+    #[error(
+        "no pixel shows the sky between the horizon and {elevation_deg}° above it; give an airlight of type \"uniform\""
+    )]
+    Sky {
+        /// The height, rounded.
+        elevation_deg: u32,
+    },
+}
+
+impl Weather {
+    /// Lays the weather over an image that a camera at `pose` took at a moment.
+    ///
+    /// # Errors
+    /// Where the image has no distances, or none of the sky that the airlight is to be taken from.
+    pub fn over(
+        &self,
+        stored: &Stored<'_>,
+        pose: &CameraPose,
+        moment: TimeInterval,
+    ) -> Result<Weathered, WeatherError> {
+        let distance = stored.distance.ok_or(WeatherError::Distance)?;
+        let image = Image { stored, distance, pose };
+        let airlight = self.airlight(&image)?;
+        let media = Media::new(&self.media, pose.position_m, moment);
+        let Some(falling) = &self.falling else { return Ok(self.through_media(&image, &media, &airlight)) };
+        let streaks = falling.streaks(&image, moment.start_s());
+        let media = streaks.hollowed(media);
+        let mut seen = self.through_media(&image, &media, &airlight);
+        streaks.compose(&mut seen, &image, &self.before(&media, &airlight, stored.radiance.bands()));
+        Ok(seen)
+    }
+
+    /// Koschmieder's law.
+    fn through_media(&self, image: &Image<'_>, media: &Media<'_>, airlight: &[f64]) -> Weathered {
+        let (distance, bands) = (image.distance, image.stored.radiance.bands());
+        let before = self.before(media, airlight, bands);
+        let columns_m: Vec<_> =
+            (0..distance.samples().len()).into_par_iter().map(|i| media.columns_m(&image.ray(i))).collect();
+        let mut seen = Weathered {
+            radiance: image.stored.radiance.clone(),
+            transmittance: SpectralCube::new(distance.width(), distance.height(), bands),
+            airlight: SpectralCube::new(distance.width(), distance.height(), bands),
+            cover: None,
+            depth: image.depth(),
+        };
+        let planes = seen.radiance.planes_mut().iter_mut().zip(seen.transmittance.planes_mut());
+        for (band, ((radiance, share), added)) in planes.zip(seen.airlight.planes_mut()).enumerate() {
+            let pixels = radiance.samples_mut().par_iter_mut().zip(share.samples_mut()).zip(added.samples_mut());
+            pixels.enumerate().for_each(|(i, ((radiance, share), added))| {
+                let through = before.transmittance(&columns_m[i], band);
+                let air = airlight[band] * (1.0 - through);
+                (*share, *added) = (through as f32, air as f32);
+                *radiance = (f64::from(*radiance) * through + air) as f32;
+            });
+        }
+        seen
+    }
+
+    fn before<'a>(&self, media: &'a Media<'a>, airlight: &'a [f64], bands: Bands) -> Before<'a> {
+        let extinctions = self.media.iter().map(|medium| medium.extinction().band_means(bands)).collect();
+        Before { media, extinctions, airlight }
+    }
+
+    /// By band.
+    fn airlight(&self, image: &Image<'_>) -> Result<Vec<f64>, WeatherError> {
+        let radiance = image.stored.radiance;
+        match &self.airlight {
+            Airlight::Uniform(spectrum) => Ok(spectrum.band_means(radiance.bands())),
+            Airlight::Sky { elevation_rad } => {
+                let sky = image.sky(*elevation_rad);
+                if sky.is_empty() {
+                    return Err(WeatherError::Sky { elevation_deg: elevation_rad.to_degrees().round() as u32 });
+                }
+                let mean = |plane: &Plane<Radiance>| {
+                    sky.iter().map(|i| f64::from(plane.samples()[*i])).sum::<f64>() / sky.len() as f64
+                };
+                Ok(radiance.planes().iter().map(mean).collect())
+            }
+        }
+    }
+}
+
+/// What lies before something that is seen: media, and the radiance of the air in them.
+struct Before<'a> {
+    media: &'a Media<'a>,
+    /// By medium and band, 1/m.
+    extinctions: Vec<Vec<f64>>,
+    /// By band.
+    airlight: &'a [f64],
+}
+
+impl Before<'_> {
+    /// The share of a band's light that comes through lengths of each medium, m.
+    fn transmittance(&self, columns_m: &[f64], band: usize) -> f64 {
+        // No fog, no depth, however far.
+        let terms = self.extinctions.iter().zip(columns_m).map(|(of, column_m)| (of[band], *column_m));
+        exp(-terms.filter(|(of, _)| *of > 0.0).map(|(of, column_m)| of * column_m).sum::<f64>())
+    }
+
+    /// Radiance by band as seen along a ray from its `t_max`.
+    fn seen(&self, radiance: &[f64], ray: &Ray) -> Vec<f64> {
+        let columns_m = self.media.columns_m(ray);
+        let of = |(band, radiance): (usize, &f64)| {
+            let through = self.transmittance(&columns_m, band);
+            radiance * through + self.airlight[band] * (1.0 - through)
+        };
+        radiance.iter().enumerate().map(of).collect()
+    }
+}

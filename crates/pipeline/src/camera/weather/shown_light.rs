@@ -1,0 +1,118 @@
+//! What a drop or flake shows: the mean of the world about it by its phase function.
+//!
+//! Rays to a drop go on by how it scatters light in the mean over its disc (of a falling drop a field of 165°, Garg and Nayar, "Vision and
+//! rain", IJCV 75, 2007): to pixels of the image where it shows what is there, else to the mean of its sky or of what it shows below the horizon.
+//! The drop stands at the camera: what is near is seen from there.
+
+use super::image::Image;
+use etendue_core::Wavelengths;
+use etendue_core::quantity::Radiance;
+use etendue_tracer::media::Phase;
+use glam::{DVec2, DVec3, Vec2};
+use rayon::prelude::*;
+
+/// Cells along the image's longer side, within which particles show the same.
+const CELLS: usize = 32;
+
+/// Directions that a cell's mean is taken over.
+const DIRECTIONS: u32 = 1024;
+
+/// Of a turn, by which azimuths follow each other: the golden ratio's.
+const TURN: f32 = 0.618_034;
+
+/// What drops or flakes show, by the pixel that they stand before.
+pub(super) struct ShownLight {
+    cell_px: usize,
+    columns: usize,
+    width: usize,
+    /// By cell and band, W·m⁻²·sr⁻¹·nm⁻¹.
+    cells: Vec<Vec<f64>>,
+}
+
+/// Where a ray goes on to.
+#[derive(Clone, Copy)]
+enum Onward {
+    Pixel(usize),
+    Above,
+    Below,
+}
+
+impl ShownLight {
+    /// Of an image with `airlight` by band where its sky is not seen.
+    pub(super) fn new(image: &Image<'_>, phase: &Phase, airlight: &[f64]) -> Self {
+        let (width, height) = (image.distance.width(), image.distance.height());
+        let cell_px = width.max(height).div_ceil(CELLS);
+        let (columns, rows) = (width.div_ceil(cell_px), height.div_ceil(cell_px));
+        let about = About::new(image, airlight);
+        let cell = |i: usize| {
+            let first = DVec2::new((i % columns) as f64, (i / columns) as f64) * cell_px as f64;
+            let middle = first + 0.5 * cell_px as f64;
+            let direction = image.direction_at(middle).or_else(|| image.direction_at(first + 0.5));
+            direction.map_or_else(|| airlight.to_vec(), |direction| about.mean(image, phase, direction))
+        };
+        Self { cell_px, columns, width, cells: (0..columns * rows).into_par_iter().map(cell).collect() }
+    }
+
+    /// By band, before a pixel.
+    pub(super) fn before(&self, pixel: usize) -> &[f64] {
+        let (x, y) = (pixel % self.width / self.cell_px, pixel / self.width / self.cell_px);
+        &self.cells[y * self.columns + x]
+    }
+}
+
+/// Means of what the image shows, by band.
+struct About {
+    /// Of its sky.
+    above: Vec<f64>,
+    /// Below the horizon.
+    below: Vec<f64>,
+}
+
+impl About {
+    fn new(image: &Image<'_>, airlight: &[f64]) -> Self {
+        let looks: Vec<(usize, f64, bool)> = (0..image.distance.samples().len())
+            .filter_map(|i| {
+                let direction = image.direction(i)?;
+                Some((i, image.solid_angle(i), (image.pose.rotation * direction).z >= 0.0))
+            })
+            .collect();
+        let is_sky = |i: usize| image.distance.samples()[i] == f32::INFINITY;
+        let mean = |of: &dyn Fn(usize, bool) -> bool| {
+            let chosen = || looks.iter().filter(|(i, _, is_above)| of(*i, *is_above));
+            let whole: f64 = chosen().map(|(_, weight, _)| weight).sum();
+            let planes = image.stored.radiance.planes().iter();
+            let sums = planes.map(|plane| chosen().map(|(i, weight, _)| f64::from(plane.samples()[*i]) * weight).sum());
+            let sums: Vec<f64> = sums.collect();
+            (whole > 0.0).then(|| sums.into_iter().map(|sum| sum / whole).collect::<Vec<f64>>())
+        };
+        let above = mean(&|i, is_above| is_above && is_sky(i)).unwrap_or_else(|| airlight.to_vec());
+        let below =
+            mean(&|_, is_above| !is_above).or_else(|| mean(&|i, _| !is_sky(i))).unwrap_or_else(|| above.clone());
+        Self { above, below }
+    }
+
+    /// By band, of a particle that is seen along a direction of the camera's frame.
+    fn mean(&self, image: &Image<'_>, phase: &Phase, direction: DVec3) -> Vec<f64> {
+        let rotation = image.pose.rotation;
+        let along = (rotation * direction).as_vec3();
+        let wavelengths = Wavelengths::<1> { nm: [550.0], pdf: [1.0] };
+        let onward = |k: u32| {
+            let u = Vec2::new((k as f32 + 0.5) / DIRECTIONS as f32, (k as f32 * TURN).fract());
+            let towards = phase.sample(along, 0.5, u, &wavelengths).as_dvec3();
+            match image.pixel(rotation.transpose() * towards) {
+                Some(pixel) => Onward::Pixel(pixel),
+                None if towards.z >= 0.0 => Onward::Above,
+                None => Onward::Below,
+            }
+        };
+        let onwards: Vec<Onward> = (0..DIRECTIONS).map(onward).collect();
+        let radiance = |plane: &etendue_core::Plane<Radiance>, band: usize, onward: &Onward| match onward {
+            Onward::Pixel(i) => f64::from(plane.samples()[*i]),
+            Onward::Above => self.above[band],
+            Onward::Below => self.below[band],
+        };
+        let planes = image.stored.radiance.planes().iter().enumerate();
+        let sums = planes.map(|(band, plane)| onwards.iter().map(|onward| radiance(plane, band, onward)).sum::<f64>());
+        sums.map(|sum| sum / f64::from(DIRECTIONS)).collect()
+    }
+}

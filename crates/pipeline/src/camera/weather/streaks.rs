@@ -1,0 +1,210 @@
+//! Near drops and flakes over a stored image: the share of each pixel and of the exposure that each covers.
+//!
+//! The drops are those that the traced form has for a camera with the image's view. Each one's silhouette, an ellipse, is swept along its way by
+//! points that stand for equal parts of its area and of the exposure: spread evenly (Hammersley's points with Roberts' additive
+//! recurrence), so that edges are smooth and the area that is covered is exact in the mean. A point counts where it is nearer than what the pixel shows.
+//!
+//! Left out: the camera's own motion (one pose stands for the exposure), and rows that are read in turn.
+
+use super::image::Image;
+use super::shown_light::ShownLight;
+use super::{Before, Falling, Weathered};
+use crate::render::region_of_projection;
+use core::f64::consts::{PI, TAU};
+use etendue_core::maths::f64::sin_cos;
+use etendue_core::quantity::Cover;
+use etendue_core::{Plane, Ray, TimeInterval};
+use etendue_tracer::accel::Streak;
+use etendue_tracer::media::{Hollow, Media};
+use etendue_tracer::precipitation::ChangeOver;
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+/// Points for each pixel that a silhouette passes over.
+const DENSITY: f64 = 24.0;
+
+/// Points of one particle, at least and at most.
+const POINTS: [f64; 2] = [64.0, 4.0e6];
+
+/// Roberts' recurrence in two dimensions: the powers of the inverse of the plastic number.
+const STEP: [f64; 2] = [0.754_877_666_246_692_7, 0.569_840_290_998_053_2];
+
+/// Particles that are composed together, to bound memory.
+const TOGETHER: usize = 4096;
+
+/// The near particles of an image.
+pub(super) struct Streaks {
+    /// From near to far.
+    streaks: Vec<Streak>,
+    exposure_s: f64,
+    hollow: Hollow,
+    /// The place of the medium beyond them.
+    medium: usize,
+}
+
+/// The pixels that a particle covers, and the share of each.
+struct Footprint {
+    pixels: Vec<(u32, f32)>,
+    /// The radiance that is seen of it, by band.
+    light: Vec<f64>,
+}
+
+impl Falling {
+    /// The particles before an image, exposed from a time on.
+    pub(super) fn streaks(&self, image: &Image<'_>, start_s: f64) -> Streaks {
+        let Self { precipitation, exposure_s } = self;
+        let interval = TimeInterval::new(start_s, start_s + exposure_s).expect("both are finite");
+        let field = &precipitation.field;
+        let projection = image.stored.projection;
+        let region = region_of_projection(projection, image.pose.rotation);
+        let resolution = precipitation.resolution(projection.pitch_tan(), *exposure_s);
+        let change_over = ChangeOver::new(field.classes(), &resolution, &region);
+        let view = (image.pose.position_m, interval);
+        let particles = field.about(view.0, interval, &region, &change_over);
+        let mut streaks: Vec<Streak> =
+            particles.iter().map(|particle| field.streak(particle, view, &change_over)).collect();
+        let middle_s = (0.5 * exposure_s) as f32;
+        streaks.sort_by(|a, b| a.centre(middle_s).length().total_cmp(&b.centre(middle_s).length()));
+        Streaks { streaks, exposure_s: *exposure_s, hollow: field.hollow(&change_over), medium: precipitation.medium }
+    }
+}
+
+impl Streaks {
+    /// The media without what is drawn one by one.
+    pub(super) fn hollowed<'a>(&self, media: Media<'a>) -> Media<'a> {
+        media.hollowed(self.medium, self.hollow.clone())
+    }
+
+    /// Draws the particles before what is seen.
+    pub(super) fn compose(&self, seen: &mut Weathered, image: &Image<'_>, before: &Before<'_>) {
+        let shown = ShownLight::new(image, before.media.phase(self.medium), before.airlight);
+        let count = image.distance.samples().len();
+        let mut through = vec![1.0_f32; count];
+        let mut added: Vec<Vec<f32>> = vec![vec![0.0; count]; before.airlight.len()];
+        for streaks in self.streaks.chunks(TOGETHER) {
+            let scratch = || vec![0.0_f32; count];
+            let footprint =
+                |scratch: &mut Vec<f32>, streak: &Streak| self.footprint(streak, image, scratch, &shown, before);
+            let footprints: Vec<_> =
+                streaks.par_iter().map_init(scratch, footprint).filter(|of| !of.pixels.is_empty()).collect();
+            compose(&footprints, &mut through, &mut added);
+        }
+        for (band, added) in added.iter().enumerate() {
+            let radiance = seen.radiance.planes_mut()[band].samples_mut().iter_mut();
+            let share = seen.transmittance.planes_mut()[band].samples_mut().iter_mut();
+            let air = seen.airlight.planes_mut()[band].samples_mut().iter_mut();
+            for ((((radiance, share), air), through), added) in radiance.zip(share).zip(air).zip(&through).zip(added) {
+                *share *= through;
+                *air = *air * through + added;
+                *radiance = *radiance * through + added;
+            }
+        }
+        let cover = through.into_iter().map(|through| 1.0 - through).collect();
+        let (width, height) = (image.distance.width(), image.distance.height());
+        seen.cover = Some(Plane::<Cover>::from_samples(width, height, cover).expect("one sample a pixel"));
+    }
+
+    fn footprint(
+        &self,
+        streak: &Streak,
+        image: &Image<'_>,
+        scratch: &mut [f32],
+        shown: &ShownLight,
+        before: &Before<'_>,
+    ) -> Footprint {
+        let pixels = self.pixels(streak, image, scratch);
+        let Some((pixel, _)) = pixels.get(pixels.len() / 2) else { return Footprint { pixels, light: vec![] } };
+        let centre = streak.centre((0.5 * self.exposure_s) as f32);
+        let mut ray = Ray::new(Vec3::ZERO, centre.normalize_or(Vec3::X), 0.0);
+        ray.t_max = centre.length();
+        Footprint { light: before.seen(shown.before(*pixel as usize), &ray), pixels }
+    }
+
+    /// The share of each pixel and of the exposure that a particle covers; `scratch` is 0 everywhere, before and after.
+    fn pixels(&self, streak: &Streak, image: &Image<'_>, scratch: &mut [f32]) -> Vec<(u32, f32)> {
+        let n = self.points(streak, image.stored.projection.pitch_tan());
+        let mut touched = vec![];
+        for k in 0..n {
+            let x = f64::from(k) + 0.5;
+            let time_s = x / f64::from(n) * self.exposure_s;
+            let Some(silhouette) = Silhouette::new(streak, time_s) else { continue };
+            let point = silhouette.point([(x * STEP[0]).fract(), (x * STEP[1]).fract()]);
+            let Some((pixel, area_px)) = image.pixel_and_area(point, silhouette.away_m) else { continue };
+            if f64::from(image.distance.samples()[pixel]) > silhouette.away_m {
+                if scratch[pixel] == 0.0 {
+                    touched.push(pixel);
+                }
+                scratch[pixel] += (silhouette.area_m2() * area_px / f64::from(n)) as f32;
+            }
+        }
+        let taken = |pixel: usize| (pixel as u32, core::mem::take(&mut scratch[pixel]).min(1.0));
+        touched.into_iter().map(taken).collect()
+    }
+
+    /// How many points stand for a particle.
+    fn points(&self, streak: &Streak, pitch: f64) -> u32 {
+        let (start, velocity) = (streak.start_m.as_dvec3(), streak.velocity_mps.as_dvec3());
+        let nearest_s = (-start.dot(velocity) / velocity.length_squared().max(1e-12)).clamp(0.0, self.exposure_s);
+        let nearest_m = (start + velocity * nearest_s).length().max(f64::from(streak.from_m));
+        let width_px = 2.0 * f64::from(streak.half_m[0]) / nearest_m / pitch;
+        let length_px = velocity.length() * self.exposure_s / nearest_m / pitch;
+        let passed_px = (width_px + 1.0) * (length_px + width_px + 1.0);
+        (DENSITY * passed_px).clamp(POINTS[0], POINTS[1]) as u32
+    }
+}
+
+/// Composes footprints, from near to far, over what is there of the light behind them and before.
+fn compose(footprints: &[Footprint], through: &mut [f32], added: &mut [Vec<f32>]) {
+    let mut weights = Vec::with_capacity(footprints.iter().map(|of| of.pixels.len()).sum());
+    for (pixel, cover) in footprints.iter().flat_map(|of| &of.pixels) {
+        let left = &mut through[*pixel as usize];
+        weights.push(*left * cover);
+        *left *= 1.0 - cover;
+    }
+    added.par_iter_mut().enumerate().for_each(|(band, added)| {
+        let pixels =
+            footprints.iter().flat_map(|of| of.pixels.iter().map(|(pixel, _)| (*pixel, of.light[band] as f32)));
+        for ((pixel, light), weight) in pixels.zip(&weights) {
+            added[pixel as usize] += weight * light;
+        }
+    });
+}
+
+/// A spheroid as seen from the camera: an ellipse across the line of sight.
+struct Silhouette {
+    /// Distance of its centre, m.
+    away_m: f64,
+    centre_m: DVec3,
+    /// Half-axes, m.
+    half_m: [DVec3; 2],
+}
+
+impl Silhouette {
+    /// That at a time of the exposure; `None` where the particle is not modelled there, or the camera is within it.
+    fn new(streak: &Streak, time_s: f64) -> Option<Self> {
+        let centre_m = streak.centre(time_s as f32).as_dvec3();
+        let away_m = centre_m.length();
+        let [wide_m, high_m] = streak.half_m.map(f64::from);
+        if away_m < f64::from(streak.from_m) || away_m >= f64::from(streak.to_m) || away_m <= wide_m * 1.001 {
+            return None;
+        }
+        let along = centre_m / away_m;
+        let level = DVec3::Z.cross(along).try_normalize().unwrap_or(DVec3::X);
+        let upright = along.cross(level);
+        let rise2 = along.z * along.z;
+        let upright_m = (wide_m * wide_m * rise2 + high_m * high_m * (1.0 - rise2)).sqrt();
+        // A ball's tangents meet the plane through its centre farther out.
+        let wider = (1.0 - (wide_m / away_m) * (wide_m / away_m)).sqrt().recip();
+        Some(Self { away_m, centre_m, half_m: [level * (wide_m * wider), upright * (upright_m * wider)] })
+    }
+
+    fn area_m2(&self) -> f64 {
+        PI * self.half_m[0].length() * self.half_m[1].length()
+    }
+
+    /// A point of the ellipse, even in area by two numbers in [0, 1), from the camera, m.
+    fn point(&self, [u, turn]: [f64; 2]) -> DVec3 {
+        let (sin, cos) = sin_cos(TAU * turn);
+        self.centre_m + (self.half_m[0] * cos + self.half_m[1] * sin) * u.sqrt()
+    }
+}

@@ -1,0 +1,159 @@
+//! What weather does to each pixel: layers of their own beside the light, of which depth and identities know nothing.
+//!
+//! - **Transmittance**: the share of light at 587.56 nm, the wavelength of ground truth, that comes unscattered from the first surface (or from
+//!   infinity) through all media. Near drops and flakes, which are not in these, are left to the cover: both together let
+//!   transmittance · (1 − cover) through.
+//! - **Cover**: the share of a pixel, its pupil and its exposure before whose first surface a drop or flake is.
+//! - **Airlight**: the part of the spectral radiance that media scattered into the pixel's rays before they met a surface, a drop or a flake.
+//!
+//! They are means over the samples of the light itself, with its random addresses: the airlight's error is that of the light, and light less airlight is
+//! what comes from surfaces. In the raster of the film, without what the effects behind the lens do. Where surfaces are cut out they are there as in
+//! ground truth: where at least half of them is.
+
+use crate::plan::{CameraPlan, Plan, Settings};
+use crate::render::camera_light::{SourceJob, lights, path_settings, region_and_change_over, render_job, with_source};
+use crate::render::exposure::FilmExposure;
+use crate::render::film::Film;
+use crate::render::gather::Layout;
+use crate::render::light::{RaySource, RenderJob, Sampling};
+use crate::render::near_precipitation::near;
+use crate::render::observer::Unobserved;
+use crate::render::truth::is_there;
+use crate::render::{Request, Shot};
+use etendue_core::quantity::{Cover, Quantity, Radiance, Transmittance};
+use etendue_core::{Bands, FieldRay, Plane, RadianceField, Spectral, SpectralCube, Wavelengths};
+use etendue_tracer::accel::Simd;
+use etendue_tracer::integrator::{PathSettings, PathTracer};
+use etendue_tracer::materials::MaterialTable;
+use etendue_tracer::media::{Following, Media};
+use etendue_tracer::precipitation::Near;
+use etendue_tracer::render_space::RenderSpace;
+
+/// The wavelength of ground truth, nm: the helium d line.
+const TRUTH_NM: f32 = 587.56;
+
+/// What weather does to the pixels of a film.
+#[derive(Clone, Debug)]
+pub struct WeatherLayers {
+    /// The share of light that comes through media.
+    pub transmittance: Plane<Transmittance>,
+    /// The share that near drops or flakes cover; `None` where nothing falls.
+    pub cover: Option<Plane<Cover>>,
+    /// The light that media scattered in, in the bands of the light; in a single one where it has none.
+    pub airlight: SpectralCube<Radiance>,
+}
+
+/// The layers of a camera's picture, on the caller's pool; as long as its light takes, and a little more.
+#[must_use]
+pub fn weather_layers(plan: &Plan, camera: &CameraPlan, shot: Shot, simd: Simd) -> WeatherLayers {
+    with_source(camera, shot, LayersJob { plan, camera, request: Request { shot, simd, ..Request::default() } })
+}
+
+struct LayersJob<'a> {
+    plan: &'a Plan,
+    camera: &'a CameraPlan,
+    request: Request,
+}
+
+impl SourceJob for LayersJob<'_> {
+    type Output = WeatherLayers;
+
+    fn run<S: RaySource>(self, source: &S) -> WeatherLayers {
+        let Self { plan, camera, request } = self;
+        let rows = FilmExposure::of(camera, request.shot);
+        let view = plan.world.render_space_with(rows.origin_m(), rows.interval(), request.simd);
+        let media = Media::new(&plan.media, rows.origin_m(), rows.interval());
+        let near = region_and_change_over(plan, camera, &rows, source).map(|(precipitation, region, change_over)| {
+            near(precipitation, &media, (&rows, request.simd), &region, &change_over)
+        });
+        let share =
+            |of| Shares { view: &view, material_table: &plan.material_table, media: &media, near: near.as_ref(), of };
+        let even = Layout { bands: Some(whole(camera)), folded: false, watched: false };
+        let job = |layout| {
+            let job = render_job((camera, rows.clone()), request, source, None);
+            RenderJob { layout, tolerance: None, sampling: Sampling { spp: spp(camera), ..job.sampling }, ..job }
+        };
+        let shares = |of| {
+            let film = job(even).gather::<1>(&share(of), &Unobserved).expect("nobody cancels");
+            radiance(&film).planes()[0].samples().to_vec()
+        };
+        let lights = lights(plan, camera, &view);
+        let settings = PathSettings { only_airlight: true, ..path_settings(camera) };
+        let tracer =
+            PathTracer::new(&view, &plan.material_table, &lights, settings).with_media(&media).with_near(near.as_ref());
+        let bands = camera.settings.bands.unwrap_or_else(|| whole(camera));
+        let job = job(Layout { bands: Some(bands), folded: false, watched: false });
+        let airlight = match camera.settings.wavelengths {
+            1 => job.gather::<1>(&tracer, &Unobserved),
+            8 => job.gather::<8>(&tracer, &Unobserved),
+            _ => job.gather::<4>(&tracer, &Unobserved),
+        };
+        WeatherLayers {
+            transmittance: plane(camera, shares(Share::Transmittance)),
+            cover: near.is_some().then(|| plane(camera, shares(Share::Cover))),
+            airlight: radiance(&airlight.expect("nobody cancels")),
+        }
+    }
+}
+
+/// Samples a pixel: those of the light; where these are adaptive, 64, or as many as every pixel has.
+fn spp(camera: &CameraPlan) -> u32 {
+    let Settings { spp, replicates, adaptive, .. } = camera.settings;
+    adaptive.map_or(spp, |adaptive| adaptive.min_spp.max(64).next_multiple_of(replicates))
+}
+
+/// All that a camera's light is sampled over as one band.
+fn whole(camera: &CameraPlan) -> Bands {
+    let (low, high) = camera.settings.range_nm;
+    Bands::new(low, high - low, 1).expect("a compiled plan has a range")
+}
+
+fn radiance(film: &Film) -> SpectralCube<Radiance> {
+    film.radiance().expect("a film with bands").mean
+}
+
+fn plane<Q: Quantity<Sample = f32>>(camera: &CameraPlan, samples: Vec<f32>) -> Plane<Q> {
+    let (width, height) = camera.film_size();
+    Plane::from_samples(width as usize, height as usize, samples).expect("one sample a pixel")
+}
+
+/// Which share a ray is asked for.
+#[derive(Clone, Copy)]
+enum Share {
+    Transmittance,
+    Cover,
+}
+
+/// Shares in the place of radiance, so that they are averaged as it is.
+struct Shares<'a> {
+    view: &'a RenderSpace<'a>,
+    material_table: &'a MaterialTable,
+    media: &'a Media<'a>,
+    near: Option<&'a Near<'a>>,
+    of: Share,
+}
+
+impl RadianceField<1> for Shares<'_> {
+    fn radiance(&self, asked: &FieldRay, _wavelengths: &Wavelengths<1>) -> Spectral<1> {
+        let mut ray = asked.ray;
+        let (origin, direction) = (ray.origin.as_dvec3(), ray.direction.as_dvec3());
+        let met =
+            self.view.truth(origin, direction, ray.time_s, |point| is_there(self.view, self.material_table, point));
+        ray.t_max = met.map_or(f32::INFINITY, |truth| truth.distance_m as f32);
+        let near = self.near.filter(|near| near.looks_along(ray.direction));
+        match self.of {
+            Share::Cover => {
+                let is_met = near.is_some_and(|near| near.closest(&ray, ray.t_max).is_some());
+                Spectral::splat(if is_met { 1.0 } else { 0.0 })
+            }
+            Share::Transmittance => {
+                let media = near.map_or(self.media, Near::media);
+                let at = Wavelengths { nm: [TRUTH_NM], pdf: [1.0] };
+                media.transmittance((&ray, Following::Exact), (&asked.stream, 0), &at)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
