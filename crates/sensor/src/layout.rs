@@ -100,7 +100,9 @@ impl Effect for Layout {
             parts.push(format!("{columns} × {rows} pixels of a colour give one: {how}"));
         }
         if let Some(Skipping { columns, rows }) = skipping {
-            parts.push(format!("of {columns} × {rows} tiles of the filter array the first is read, the others are skipped"));
+            parts.push(format!(
+                "of {columns} × {rows} tiles of the filter array the first is read, the others are skipped"
+            ));
         }
         if let Some(Region { x, y, width, height }) = region {
             parts.push(format!("{width} × {height} pixels from column {x}, row {y} are read"));

@@ -22,7 +22,9 @@ pub(super) fn calibration(body: &CameraBody) -> Result<Calibration, String> {
     }
     let layout = body.sensor.as_ref().map(|sensor| sensor.parameters().read_out.layout);
     if layout.is_some_and(|layout| !layout.is_whole()) {
-        return Err("its pictures are a region, or of binned or skipped pixels, whose grid is not the lens's".to_owned());
+        return Err(
+            "its pictures are a region, or of binned or skipped pixels, whose grid is not the lens's".to_owned()
+        );
     }
     let found = match &body.lens {
         Lens::Calibrated(lens) => lens.parameters().calibration.clone(),

@@ -117,7 +117,8 @@ fn undistorted(output: &Output, products: &Products, body: &CameraBody, context:
     }
     let layout = body.sensor.as_ref().map(|sensor| sensor.parameters().read_out.layout);
     if products.picture && layout.is_some_and(|l| !l.is_whole()) {
-        let problem = "pictures of a region, of binned pixels or without some that are skipped have no undistorted twins";
+        let problem =
+            "pictures of a region, of binned pixels or without some that are skipped have no undistorted twins";
         context.fault(&key.place, problem, "remove the key, or \"roi_px\", \"binning\" and \"skipping\" of the sensor");
     }
     let scale = scale.as_ref().map_or(1.0, |scale| scale.value);

@@ -191,8 +191,7 @@ mod tests {
     fn global_reset_counts_the_rows_that_are_read() {
         let rows = RowTiming { row_time_s: 1.0, upwards: false, fields: 1 };
         let skipping = RowSkipping { together: 1, pitch: 4 };
-        let exposure =
-            RowExposure { shutter: Shutter::GlobalReset(rows), skipping, ..RowExposure::global(3, 2.0) };
+        let exposure = RowExposure { shutter: Shutter::GlobalReset(rows), skipping, ..RowExposure::global(3, 2.0) };
         assert_eq!([0, 4, 8].map(|row| exposure.exposure_ratio(0, row)), [1.0, 1.5, 2.0]);
     }
 

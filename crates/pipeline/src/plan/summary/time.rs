@@ -78,6 +78,10 @@ fn order(rows: &RowExposure, timing: &RowTiming) -> String {
     let fields = if *fields > 1 { format!(" in {fields} fields") } else { String::new() };
     let last_ms = figure(1e3 * rows.shutter.length_s(rows.rows, 0.0));
     let RowSkipping { together, pitch } = rows.skipping;
-    let skipped = if rows.skipping.skips() { format!(" of {} rows, {together} of {pitch},", rows.rows) } else { String::new() };
-    format!("{} µs from row to row{skipped} {from}{fields}, the last one {last_ms} ms after the first", figure(1e6 * row_time_s))
+    let skipped =
+        if rows.skipping.skips() { format!(" of {} rows, {together} of {pitch},", rows.rows) } else { String::new() };
+    format!(
+        "{} µs from row to row{skipped} {from}{fields}, the last one {last_ms} ms after the first",
+        figure(1e6 * row_time_s)
+    )
 }

@@ -51,6 +51,15 @@ choice! {
 }
 
 impl Shutter {
+    /// Time from one row to the next; `None` where all rows are exposed together.
+    #[must_use]
+    pub fn row_time_us(&self) -> Option<&Placed<f64>> {
+        match self {
+            Self::Global(_) => None,
+            Self::Rolling(rows) | Self::GlobalReset(rows) => Some(&rows.row_time_us),
+        }
+    }
+
     /// Exposure time of a sensor without electronics, where it is given.
     #[must_use]
     pub fn exposure_s(&self) -> Option<&Placed<f64>> {
