@@ -12,12 +12,16 @@
 //!
 //! Left out: binning without regard to colour, binning and skipping together.
 
+mod skipping;
+
 use crate::cfa::Cfa;
 use crate::check::{Checks, SensorError};
 use crate::effect::{Effect, SensorFacts};
 use crate::operation::Operation;
 use etendue_core::quantity::{Charge, DigitalNumber, MeanElectrons, Quantity, SignalPart};
 use etendue_core::{EffectStatus, Plane};
+pub use skipping::Skipping;
+use skipping::first_of;
 
 /// Pixels that no light reaches.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -59,15 +63,6 @@ pub struct Binning {
     pub rows: usize,
     /// What is put together.
     pub of: BinningOf,
-}
-
-/// Pixels that are not read: of so many tiles of the colour filter array only the first is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Skipping {
-    /// Tiles beside each other.
-    pub columns: usize,
-    /// Tiles below each other.
-    pub rows: usize,
 }
 
 /// Which pixels are read, and which are read together.
@@ -285,23 +280,6 @@ impl Binning {
         let mean = |dn: &[u32]| dn.iter().map(|dn| f64::from(*dn)).sum::<f64>() / dn.len() as f64;
         self.folded(cfa, plane, |dn| mean(dn).round_ties_even() as u32)
     }
-}
-
-impl Skipping {
-    /// The samples that are read.
-    pub(crate) fn of<Q: Quantity>(&self, cfa: &Cfa, plane: &Plane<Q>) -> Plane<Q> {
-        let (width, height) = (plane.width() / self.columns, plane.height() / self.rows);
-        let row = |y: usize| {
-            let y = first_of(y, cfa.height(), self.rows);
-            (0..width).map(move |x| plane.at(first_of(x, cfa.width(), self.columns), y))
-        };
-        Plane::from_samples(width, height, (0..height).flat_map(row).collect()).expect("whole tiles")
-    }
-}
-
-/// The first of the columns, or rows, of the array that column, or row, `i` of the result is made of, `n` of them in one, in tiles of a length.
-fn first_of(i: usize, tile: usize, n: usize) -> usize {
-    i / tile * tile * n + i % tile
 }
 
 impl Region {

@@ -131,19 +131,19 @@ fn gauss(a: f64, b: f64, f: &impl Fn(f64) -> f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// φ = A (1 − cos ωt), whose fourth derivative A ω⁴ makes a cubic over h miss by A ω⁴ h⁴/384: with A = 10⁹ rad, ω = π/s and one second some
-    /// 2¹³ pieces where it is greatest, fewer where the cosine is small.
+    /// φ = A (1 − cos ωt): a cubic over h misses it at its quarters by 9/6144 A ω⁴ h⁴ times the cosine, which with A = 10¹⁰ rad and ω = π/s takes
+    /// 6 100 pieces a second where that is 1, and fewer than 4 096 where it is below 0.2.
     #[test]
     fn a_wheel_of_very_many_turns_is_met_wherever_one_looks() {
-        let amplitude = 1e9;
+        let amplitude = 1e10;
         let omega = core::f64::consts::PI;
         let rate = |time_s: f64, _: f64| amplitude * omega * crate::maths::f64::sin(omega * time_s);
         let found = pieces((0.0, 1.0), &|time_s| rate(time_s, 0.5));
-        assert!(found.len() > MOST as usize && found.len() <= 4 * MOST as usize, "{}", found.len());
+        assert!(found.len() > MOST as usize && found.len() < 2 * MOST as usize, "{}", found.len());
         assert!(found.iter().all(Piece::is_met));
         assert!(found.windows(2).all(|pair| pair[0].start_s < pair[1].start_s));
         let turned: f64 = found.iter().map(|piece| piece.turns).sum();
-        // Rounding of 2¹³ sums of up to 2·10⁹ rad.
-        assert!((turned - 2.0 * amplitude).abs() < 1e-3, "{turned}");
+        // Rounding of some 7 000 sums of up to 2·10¹⁰ rad, half of 4·10⁻⁶ each.
+        assert!((turned - 2.0 * amplitude).abs() < 1.5e-2, "{turned}");
     }
 }
