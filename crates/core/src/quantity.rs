@@ -49,6 +49,8 @@ quantities! {
     SignalPart(f32) = "part of a signal", "e";
     /// Mean electrons that a pixel makes of a second of light.
     ElectronRate(f32) = "electron rate", "e.s^-1";
+    /// What a limit of noise watches: electrons of a second of light, or irradiance over all wavelengths where none are made.
+    WatchedSignal(f32) = "watched signal", "e.s^-1 or W.m^-2";
     /// Digital numbers out of the converter, of up to 24 bits.
     DigitalNumber(u32) = "digital number", "DN";
     /// Display-referred picture, sRGB-encoded, 0 to 1 a channel.

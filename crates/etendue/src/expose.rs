@@ -100,6 +100,7 @@ fn products(body: &CameraBody) -> Products {
         irradiance: true,
         ghosts: body.effects.ghosts().is_some(),
         variance: false,
+        sampling: false,
         electrons: false,
         raw: body.sensor.is_some(),
         raw_format: RawFormat::usual(body.sensor.as_ref()),

@@ -1,11 +1,12 @@
 //! The films of a run, one after the other, and how far the whole run is.
 
 use crate::error::Error;
-use crate::observer::{FramePlace, Observer, Progress, Unit};
+use crate::observer::{FramePlace, Message, Observer, Progress, Unit};
 use etendue_pipeline::Plan;
 use etendue_pipeline::film::Film;
+use etendue_pipeline::noise_reached::NoiseReached;
 use etendue_pipeline::plan::{CameraPlan, TimeDependence};
-use etendue_pipeline::render::{Request, Shot, light};
+use etendue_pipeline::render::{Request, Shot, light, tolerance};
 use etendue_pipeline::tile::{Shard, tiles};
 use etendue_tracer::accel::Simd;
 use std::ops::Range;
@@ -50,7 +51,32 @@ impl<'a> Exposures<'a> {
         let tiles = Tiles { heading: &heading, frame, before: self.done, run: self };
         let film = light(self.plan, camera, Request { shot, simd: self.simd, shard: self.shard }, &tiles);
         self.done += tile_count(camera, self.shard);
-        film.map_err(|cancelled| Error::Run(cancelled.to_string()))
+        let film = film.map_err(|cancelled| Error::Run(cancelled.to_string()))?;
+        self.tell_noise(camera, &film);
+        Ok(film)
+    }
+
+    /// Where noise decided the samples: how many it took, and whether the limit was reached.
+    fn tell_noise(&self, camera: &CameraPlan, film: &Film) {
+        let Some((limit, tolerance)) = camera.settings.adaptive.zip(tolerance(camera)) else { return };
+        let Some(reached) = NoiseReached::of(film, &tolerance, camera.settings.spp) else { return };
+        let of = if tolerance.sensor().is_some() { "the sensor's noise" } else { "the pixel's mean" };
+        let (fewest, most) = reached.range_spp;
+        self.observer.message(Message::Note(&format!(
+            "camera {}: {:.1} samples a pixel ({fewest} to {most}); standard error {:.3} of {of} (root mean square; asked for {})",
+            camera.name,
+            reached.mean_spp,
+            limit.threshold * reached.error,
+            limit.threshold
+        )));
+        if reached.short > 0.0 {
+            self.observer.message(Message::Warning(&format!(
+                "camera {}: {:.2} % of the pixels got {most} samples and are still noisier than {} of {of}; give a larger \"max_spp\"",
+                camera.name,
+                100.0 * reached.short,
+                limit.threshold
+            )));
+        }
     }
 }
 

@@ -147,6 +147,7 @@ impl Task<'_> {
             irradiance: false,
             ghosts: false,
             variance: false,
+            sampling: false,
             electrons: false,
             raw: true,
             raw_format: RawFormat::usual(Some(self.sensor)),

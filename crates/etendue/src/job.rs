@@ -59,7 +59,7 @@ pub enum Quality {
 }
 
 /// A job file and what is changed in it: enough to make the same plan again.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct JobRequest {
     /// The job file (TOML).
@@ -68,6 +68,8 @@ pub struct JobRequest {
     pub set: Vec<String>,
     /// Samples a pixel, over all replicates, of every camera; `None`: the job's, or the quality's.
     pub spp: Option<u64>,
+    /// As many samples as it takes for a standard error of this part of the noise of the sensor; `None`: as the job says.
+    pub noise: Option<f64>,
     /// The integrator of every camera; `None`: the job's, or path.
     pub integrator: Option<Integrator>,
     /// A preset for what the job file leaves open.
@@ -81,7 +83,16 @@ pub struct JobRequest {
 impl JobRequest {
     /// A job file as it is.
     pub fn new(job: impl Into<PathBuf>) -> Self {
-        Self { job: job.into(), set: Vec::new(), spp: None, integrator: None, quality: None, camera: None, seed: None }
+        Self {
+            job: job.into(),
+            set: Vec::new(),
+            spp: None,
+            noise: None,
+            integrator: None,
+            quality: None,
+            camera: None,
+            seed: None,
+        }
     }
 
     /// Reads, checks and compiles the job. Runs on the caller's thread pool.
@@ -113,6 +124,9 @@ impl JobRequest {
         };
         if let Some(spp) = self.spp {
             flag("spp", "spp", spp.to_string(), &spp.to_string());
+        }
+        if let Some(noise) = self.noise {
+            flag("noise", "noise_threshold", format!("{noise:?}"), &noise.to_string());
         }
         if let Some(seed) = self.seed {
             flag("seed", "seed", seed.to_string(), &seed.to_string());

@@ -98,7 +98,7 @@ const AT_ONCE: usize = 4;
 fn joined(camera: &CameraPlan, shot: Shot, shards: &[(Manifest, &PathBuf)]) -> Result<Film, Error> {
     let (width, height) = camera.film_size();
     let settings = &camera.settings;
-    let mut film = Film::new(width as usize, height as usize, &layout(camera), settings.spp, settings.replicates);
+    let mut film = Film::new(width as usize, height as usize, &layout(camera), settings.replicates);
     for some in shards.chunks(AT_ONCE) {
         let parts: Vec<Result<Film, Error>> =
             some.par_iter().map(|(_, folder)| shard::read(folder, camera, shot)).collect();

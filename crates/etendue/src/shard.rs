@@ -11,7 +11,7 @@ use crate::observer::Observer;
 use crate::results::metadata;
 use crate::shard_spec::ShardSpec;
 use etendue_core::Plane;
-use etendue_core::quantity::Quantity;
+use etendue_core::quantity::{Identity, Quantity};
 use etendue_io::exr::{ExrFile, Layer, Samples, encode_layers, read_exr_within};
 use etendue_io::{Existing, OutputFolder, Provenance, sidecar};
 use etendue_pipeline::Plan;
@@ -116,6 +116,7 @@ fn film_name(camera: &CameraPlan, shot: Shot) -> String {
 fn encode(film: &Film, facts: &Provenance) -> Result<Vec<u8>, Error> {
     let mut layers = vec![
         ("weight".to_owned(), Layer::Float(film.weight.samples())),
+        ("samples".to_owned(), Layer::Uint(film.samples.samples())),
         ("not_finite".to_owned(), Layer::Uint(film.not_finite.samples())),
     ];
     if let Some(cube) = &film.cube {
@@ -127,6 +128,10 @@ fn encode(film: &Film, facts: &Provenance) -> Result<Vec<u8>, Error> {
     if let Some(rate) = &film.electron_rate {
         layers.push(("electron_rate.mean".to_owned(), Layer::Float(rate.mean.samples())));
         layers.push(("electron_rate.variance".to_owned(), Layer::Float(rate.variance.samples())));
+    }
+    if let Some(watched) = &film.watched {
+        layers.push(("watched.mean".to_owned(), Layer::Float(watched.mean.samples())));
+        layers.push(("watched.variance".to_owned(), Layer::Float(watched.variance.samples())));
     }
     encode_layers(film.weight.width(), film.weight.height(), &layers, facts)
         .map_err(|error| Error::Run(format!("the film cannot be encoded: {error}")))
@@ -151,14 +156,10 @@ pub(crate) fn read(folder: &Path, camera: &CameraPlan, shot: Shot) -> Result<Fil
 fn decode(file: &ExrFile, camera: &CameraPlan) -> Option<Film> {
     let (width, height) = camera.film_size();
     let (settings, (width, height)) = (&camera.settings, (width as usize, height as usize));
-    let mut film = Film::new(width, height, &layout(camera), settings.spp, settings.replicates);
+    let mut film = Film::new(width, height, &layout(camera), settings.replicates);
     fill(&mut film.weight, file, "weight")?;
-    match file.channel("not_finite")? {
-        Samples::Uint(values) if values.len() == width * height => {
-            film.not_finite.samples_mut().copy_from_slice(values);
-        }
-        _ => return None,
-    }
+    fill_counts(&mut film.samples, file, "samples")?;
+    fill_counts(&mut film.not_finite, file, "not_finite")?;
     if let Some(cube) = &mut film.cube {
         for (i, plane) in cube.mean.planes_mut().iter_mut().enumerate() {
             fill(plane, file, &format!("band.{i:04}.mean"))?;
@@ -171,12 +172,26 @@ fn decode(file: &ExrFile, camera: &CameraPlan) -> Option<Film> {
         fill(&mut rate.mean, file, "electron_rate.mean")?;
         fill(&mut rate.variance, file, "electron_rate.variance")?;
     }
+    if let Some(watched) = &mut film.watched {
+        fill(&mut watched.mean, file, "watched.mean")?;
+        fill(&mut watched.variance, file, "watched.variance")?;
+    }
     Some(film)
 }
 
 fn fill<Q: Quantity<Sample = f32>>(plane: &mut Plane<Q>, file: &ExrFile, name: &str) -> Option<()> {
     match file.channel(name)? {
         Samples::Float(values) if values.len() == plane.samples().len() => {
+            plane.samples_mut().copy_from_slice(values);
+            Some(())
+        }
+        _ => None,
+    }
+}
+
+fn fill_counts(plane: &mut Plane<Identity>, file: &ExrFile, name: &str) -> Option<()> {
+    match file.channel(name)? {
+        Samples::Uint(values) if values.len() == plane.samples().len() => {
             plane.samples_mut().copy_from_slice(values);
             Some(())
         }

@@ -12,10 +12,11 @@ pub mod compile;
 pub mod plan;
 pub mod render;
 
-pub use camera::{datasheet, defocus, flat, light_meter, photograph, raw_colour, rectified, stored, weather};
+pub use camera::{datasheet, defocus, flat, light_meter, photograph, raw_colour, rectified, sampling, stored, weather};
 pub use compile::{Choices, Quality, compile, compile_camera, compile_camera_with_remarks, compile_weather};
 pub use plan::{Plan, remark, summary};
 pub use render::observer::{Observer, Unobserved};
 pub use render::{
-    block, boxes, film, frame_view, gather, light, mosaic, motion, pupil_depth, rays, spectrum_spread, tile, truth,
+    adaptive, block, boxes, film, frame_view, gather, light, mosaic, motion, noise_reached, pupil_depth, rays,
+    spectrum_spread, tile, truth,
 };

@@ -8,8 +8,7 @@
 //! that this capture has of the light, to that of the next one. Fixed patterns are no part of it.
 
 use crate::emva1288::db;
-use crate::operation::Operation;
-use crate::parameters::SensorParameters;
+use crate::reading::readings;
 use crate::sensor::Sensor;
 
 /// The range of light of one frame, in photo-electrons of the first capture.
@@ -47,7 +46,7 @@ impl Sensor {
     #[must_use]
     pub fn dynamic_range(&self) -> DynamicRange {
         let p = self.parameters();
-        let captures = readings(p);
+        let captures = readings(p, p.described_point());
         let variance = captures[0].dark_variance_e2(0.0);
         let pairs = captures.windows(2).map(|pair| {
             let at_e = pair[0].signal_e(p.hdr.switch());
@@ -58,48 +57,6 @@ impl Sensor {
             most_e: captures[captures.len() - 1].signal_e(1.0),
             switches: pairs.collect(),
         }
-    }
-}
-
-/// One capture and what fraction of the first one's light it has.
-struct Reading<'a> {
-    p: &'a SensorParameters,
-    operation: Operation,
-    light: f64,
-    dark_e: f64,
-}
-
-fn readings(p: &SensorParameters) -> Vec<Reading<'_>> {
-    let of = |operation: Operation| {
-        let dark = &p.charge.dark;
-        let dark_e = p.wells_read() * dark.current_e_s * dark.temperature_factor() * operation.exposure_s;
-        Reading { p, operation, light: operation.light, dark_e }
-    };
-    p.hdr.operations(p.described_operation()).into_iter().map(of).collect()
-}
-
-impl Reading<'_> {
-    /// The signal (e⁻ of the first capture) that brings this one to a fraction of its range.
-    fn signal_e(&self, fraction: f64) -> f64 {
-        let (response, converter) = (&self.p.read_out.response, self.p.converter(&self.operation));
-        let white = self.p.capture_white_dn(&self.operation);
-        let charge_e = response.charge_e(fraction * converter.electrons(white));
-        (charge_e - self.dark_e).max(0.0) / self.light
-    }
-
-    /// Variance of everything but the signal's own shot noise at a charge, e⁻².
-    fn dark_variance_e2(&self, charge_e: f64) -> f64 {
-        let (read, operation) = (self.p.voltage.noise, &self.operation);
-        let squares: f64 = [operation.read_noise_e, read.row_e, read.column_e].iter().map(|e| e * e).sum();
-        let chain = if self.p.noise { squares } else { 0.0 };
-        let slope = self.p.read_out.response.slope(charge_e);
-        self.dark_e + (chain + 1.0 / (12.0 * operation.gain_dn_e * operation.gain_dn_e)) / (slope * slope)
-    }
-
-    /// Signal-to-noise ratio under a signal (e⁻ of the first capture).
-    fn ratio(&self, signal_e: f64) -> f64 {
-        let own_e = signal_e * self.light;
-        own_e / (own_e + self.dark_variance_e2(own_e + self.dark_e)).sqrt()
     }
 }
 

@@ -34,9 +34,11 @@ mod parameters;
 pub mod photon;
 pub mod random;
 mod raw;
+mod reading;
 mod sensor;
 mod signal_breakdown;
 mod state;
+mod temporal_noise;
 mod validity;
 
 pub use capture_light::CaptureLight;
@@ -50,3 +52,4 @@ pub use raw::{LinearRaw, Raw};
 pub use sensor::Sensor;
 pub use signal_breakdown::{SignalBreakdown, SignalComponent};
 pub use state::{FrameAddress, OperatingPoint, SensorState};
+pub use temporal_noise::TemporalNoise;

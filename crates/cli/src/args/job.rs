@@ -30,6 +30,10 @@ pub struct JobArgs {
     /// Samples a pixel, over all replicates, of every camera [default: the job's, or the quality's]
     #[arg(long, value_name = "N")]
     pub spp: Option<u64>,
+    /// As many samples as each pixel needs for a standard error of F times the noise that its sensor adds (F times its mean without a
+    /// sensor), at most render.max_spp
+    #[arg(long, value_name = "F", conflicts_with = "spp")]
+    pub noise: Option<f64>,
     /// How much of the light's ways every camera follows, as render.integrator says it [default: the job's, or path]
     #[arg(long, value_parser = choice(INTEGRATORS))]
     pub integrator: Option<Integrator>,
@@ -50,6 +54,7 @@ impl From<&JobArgs> for JobRequest {
             job: a.job.clone(),
             set: a.set.clone(),
             spp: a.spp,
+            noise: a.noise,
             integrator: a.integrator,
             quality: a.quality,
             camera: a.camera.clone(),

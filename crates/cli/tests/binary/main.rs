@@ -2,6 +2,7 @@
 //!
 //! `ETENDUE_BLESS=1` writes plan snapshots and golden results anew.
 
+mod adaptive_sampling;
 mod bad_fronts;
 mod bad_input;
 mod bad_lights;

@@ -5,10 +5,12 @@
 //!
 //! - [`PathStream`] serves light transport: scrambled Sobol points, stratified over the samples of a replicate.
 //! - [`ShiftedLattice`] spreads the wavelengths of a pixel's samples evenly.
+//! - [`GoldenSequence`] does so where nobody knows yet how many samples there will be.
 //! - [`NoiseStream`] serves the sensor: independent words from a counter-based generator.
 //! - [`number_of_name`] serves what belongs to a scene: a number by name alone.
 
 mod address;
+mod golden_sequence;
 mod named;
 mod noise;
 mod path;
@@ -17,6 +19,7 @@ mod shifted_lattice;
 mod sobol;
 
 pub use address::{Draw, FrameAddress, Pixel, PixelAddress};
+pub use golden_sequence::GoldenSequence;
 pub use named::number_of_name;
 pub use noise::{NoiseDraw, NoiseKey, NoiseStream};
 pub use path::PathStream;

@@ -11,6 +11,7 @@ use etendue_pipeline::plan::{CameraPlan, Plan, TimeDependence};
 use etendue_pipeline::pupil_depth::{PupilDepth, pupil_depth};
 use etendue_pipeline::rays::{RayTable, ray_table};
 use etendue_pipeline::rectified::RectifiedCamera;
+use etendue_pipeline::sampling::SamplingPlanes;
 use etendue_pipeline::truth::{GroundTruth, ground_truth};
 use etendue_sensor::{FrameAddress, Sensor, SensorState};
 use etendue_tracer::accel::Simd;
@@ -25,6 +26,7 @@ pub struct CameraResults {
     /// Its place among the plan's cameras.
     camera: usize,
     pub(super) light: Light,
+    pub(super) sampling: Option<SamplingPlanes>,
     pub(super) depth: Option<PupilDepth>,
     pub(super) undistorted: Option<RectifiedCamera>,
     pub(super) frames: Range<u32>,
@@ -55,6 +57,7 @@ impl CameraResults {
     ) -> Result<Self, Error> {
         let place = plan.cameras.iter().position(|c| c.name == camera.name).expect("a camera of the plan");
         let depth = pupil_depth(plan, camera, options.frames.start, options.simd);
+        let sampling = films.first().filter(|_| camera.products.sampling).map(|film| SamplingPlanes::of(camera, film));
         let light = Light::of_captures(camera, films, depth.as_ref())
             .map_err(|error| Error::Run(format!("camera {}: {error}", camera.name)))?;
         let undistorted = camera.products.undistorted;
@@ -63,7 +66,7 @@ impl CameraResults {
         });
         let (frames, simd) = (options.frames.clone(), options.simd);
         let (plan, taken) = (Arc::clone(plan), None);
-        let mut results = Self { plan, camera: place, light, depth, undistorted, frames, state, taken, simd };
+        let mut results = Self { plan, camera: place, light, sampling, depth, undistorted, frames, state, taken, simd };
         if results.has_own_light() {
             results.taken = results.remembered(since);
         }
@@ -86,6 +89,12 @@ impl CameraResults {
     #[must_use]
     pub fn light(&self) -> &Light {
         &self.light
+    }
+
+    /// How each pixel was sampled, of the first capture; `None` where the job does not ask for it.
+    #[must_use]
+    pub fn sampling(&self) -> Option<&SamplingPlanes> {
+        self.sampling.as_ref()
     }
 
     /// Mean electrons of each pixel; `None` where the camera has no electronics.

@@ -31,6 +31,8 @@ impl Files {
     pub const IRRADIANCE: &str = "irradiance.exr";
     /// The part of the irradiance that is ghosts.
     pub const GHOSTS: &str = "ghosts.exr";
+    /// Samples of each pixel and the variance that they leave.
+    pub const SAMPLING: &str = "sampling.exr";
     /// Mean electrons of each pixel.
     pub const ELECTRONS: &str = "electrons.exr";
     /// Depth, normals, positions and identities.
@@ -152,6 +154,11 @@ impl Files {
         add(p.radiance, Self::RADIANCE, entry_of::<Radiance>());
         add(p.irradiance, Self::IRRADIANCE, entry_of::<Irradiance>());
         add(p.ghosts, Self::GHOSTS, entry_of::<Irradiance>());
+        add(
+            p.sampling,
+            Self::SAMPLING,
+            entry("samples, variance of the mean by them and by the sensor", "1, e^2, e^2"),
+        );
         add(p.electrons, Self::ELECTRONS, entry_of::<MeanElectrons>());
         add(p.ground_truth, Self::GROUND_TRUTH, entry("depth, distance, normal, position, ids", "m, m, 1, m, 1"));
         let depth_unit = format!("1/{} m", p.depth_png_per_m.unwrap_or(0.0));

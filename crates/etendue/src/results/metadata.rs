@@ -62,16 +62,28 @@ pub(crate) fn provenance(plan: &Plan, camera: &CameraPlan, frame: u32) -> Proven
         time_s: camera.timing.frame_start_s(frame),
         geometry: THROUGH_LENS.to_owned(),
         camera_to_world: Some(pose_rows(&camera.path.at(middle_s(camera, frame)))),
-        further: further(settings).into_iter().chain(exposure_facts(camera, frame)).collect(),
+        further: further(settings).chain(exposure_facts(camera, frame)).collect(),
     }
 }
 
-fn further(settings: &Settings) -> [(String, String); 3] {
-    [
-        ("spp".to_owned(), settings.spp.to_string()),
-        ("replicates".to_owned(), settings.replicates.to_string()),
-        ("correlated_block_px".to_owned(), settings.blocks.len_px().to_string()),
-    ]
+/// Samples of every pixel, or what decides them.
+fn spp(settings: &Settings) -> Value {
+    match settings.adaptive {
+        None => settings.spp.into(),
+        Some(limit) => json!({ "noise_threshold": limit.threshold, "least": limit.min_spp, "most": settings.spp }),
+    }
+}
+
+fn further(settings: &Settings) -> impl Iterator<Item = (String, String)> {
+    let even = [
+        ("spp", settings.spp.to_string()),
+        ("replicates", settings.replicates.to_string()),
+        ("correlated_block_px", settings.blocks.len_px().to_string()),
+    ];
+    let limited = settings
+        .adaptive
+        .map(|limit| [("noise_threshold", limit.threshold.to_string()), ("min_spp", limit.min_spp.to_string())]);
+    even.into_iter().chain(limited.into_iter().flatten()).map(|(name, value)| (name.to_owned(), value))
 }
 
 /// When light that depends on time was gathered.
@@ -233,7 +245,7 @@ pub(crate) fn sidecar(plan: &Plan, camera: &CameraPlan, first: u32, files: &BTre
         "effects": effects(&camera.body),
         "sensor": sensor(&camera.body),
         "sampling": {
-            "spp": settings.spp,
+            "spp": spp(settings),
             "replicates": settings.replicates,
             "correlated_block_px": settings.blocks.len_px(),
             "max_bounces": settings.max_bounces,

@@ -10,10 +10,13 @@ use super::writer::{Encoder, ResultWriter};
 use crate::error::Error;
 use crate::observer::Observer;
 use crate::rig;
-use etendue_io::exr::{self, Lengths, encode_ground_truth, encode_plane, encode_radiance, encode_rays};
+use etendue_io::exr::{
+    self, Layer, Lengths, encode_ground_truth, encode_layers, encode_plane, encode_radiance, encode_rays,
+};
 use etendue_io::{Existing, OutputFolder, png};
 use etendue_pipeline::rays::{RayTable, ray_table};
 use etendue_pipeline::rectified::RectifiedCamera;
+use etendue_pipeline::sampling::SamplingPlanes;
 use etendue_pipeline::truth::{GroundTruth, ground_truth};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -120,6 +123,9 @@ impl CameraResults {
         if products.ghosts {
             writer.ghosts(&self.file(Files::GHOSTS), light, &self.provenance())?;
         }
+        if let Some(sampling) = &self.sampling {
+            writer.write(&self.file(Files::SAMPLING), encoded_sampling(sampling, &self.provenance()))?;
+        }
         if let Some(mean) = light.electrons.as_ref().filter(|_| products.electrons) {
             let variance = light.electrons_variance.as_ref().filter(|_| products.variance);
             writer.write(&self.file(Files::ELECTRONS), encode_plane(mean, variance, &self.provenance()))?;
@@ -165,6 +171,16 @@ impl CameraResults {
         let name = Files::undistorted(&self.file(Files::GROUND_TRUTH));
         writer.write(&name, encode_ground_truth(&planes(&truth), &facts))
     }
+}
+
+fn encoded_sampling(sampling: &SamplingPlanes, facts: &etendue_io::Provenance) -> Result<Vec<u8>, exr::EncodeError> {
+    let SamplingPlanes { samples, monte_carlo, sensor } = sampling;
+    let variances = [("monte_carlo_variance", monte_carlo), ("sensor_variance", sensor)];
+    let variances =
+        variances.into_iter().filter_map(|(name, plane)| Some((name, Layer::Float(plane.as_ref()?.samples()))));
+    let layers: Vec<_> = [("samples", Layer::Uint(samples.samples()))].into_iter().chain(variances).collect();
+    let layers: Vec<_> = layers.into_iter().map(|(name, layer)| (name.to_owned(), layer)).collect();
+    encode_layers(samples.width(), samples.height(), &layers, facts)
 }
 
 fn encoded_rays(table: &RayTable, facts: &etendue_io::Provenance) -> Result<Vec<u8>, exr::EncodeError> {

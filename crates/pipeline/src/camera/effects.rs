@@ -67,11 +67,15 @@ fn of_band(
 
 /// The picture of a film, without its margin.
 pub(crate) fn picture<Q: Quantity>(body: &CameraBody, film: SpectralCube<Q>) -> SpectralCube<Q> {
-    let [x, y] = body.effects.margin_px();
-    if [x, y] == [0, 0] {
+    if body.effects.margin_px() == [0, 0] {
         return film;
     }
-    let (width, height) = (body.raster.width(), body.raster.height());
-    let planes = film.planes().iter().map(|plane| plane.part(x, y, width, height)).collect();
+    let planes = film.planes().iter().map(|plane| plane_of_picture(body, plane)).collect();
     SpectralCube::from_planes(film.bands(), planes).expect("planes of one picture")
+}
+
+/// The picture's part of a plane of a film.
+pub(crate) fn plane_of_picture<Q: Quantity>(body: &CameraBody, film: &Plane<Q>) -> Plane<Q> {
+    let [x, y] = body.effects.margin_px();
+    film.part(x, y, body.raster.width(), body.raster.height())
 }

@@ -14,5 +14,6 @@ pub mod light_meter;
 pub mod photograph;
 pub mod raw_colour;
 pub mod rectified;
+pub mod sampling;
 pub mod stored;
 pub mod weather;

@@ -2,14 +2,68 @@
 
 use super::context::Context;
 use super::{Choices, Quality};
+use crate::plan::AdaptiveSampling;
 use etendue_scene::record::{Output, Render};
 use etendue_scene::stated;
 
 /// Independent replicates where nobody says how many.
 const REPLICATES: u64 = 4;
 
+/// Samples that every pixel gets, and gets at most, where noise decides.
+const MIN_SPP: u64 = 16;
+const MAX_SPP: u64 = 4096;
+
+/// How many samples pixels get.
+pub(super) struct Samples {
+    /// Of every pixel; the most where noise decides.
+    pub(super) spp: u32,
+    /// Divide them.
+    pub(super) replicates: u32,
+    /// Where noise decides.
+    pub(super) limit: Option<AdaptiveSampling>,
+}
+
+/// How many samples pixels get.
+pub(super) fn samples(render: &Render, choices: &Choices, context: &mut Context<'_>) -> Samples {
+    match render.threshold_in_force() {
+        Some(factor) => limited(factor.value, render, context),
+        None => {
+            let (spp, replicates) = even(render, choices, context);
+            Samples { spp, replicates, limit: None }
+        }
+    }
+}
+
+/// Independent replicates, and the fewest, where noise decides: two or more decide of each, and none of two of each other.
+const DECIDING_REPLICATES: u64 = 8;
+const LEAST_DECIDING: u64 = 5;
+
+/// By noise.
+fn limited(factor: f64, render: &Render, context: &mut Context<'_>) -> Samples {
+    let replicates = render.replicates.as_ref().map_or(DECIDING_REPLICATES, |r| r.value);
+    if let Some(given) = render.replicates.as_ref().filter(|_| replicates < LEAST_DECIDING) {
+        let problem = format!("\"noise_threshold\" needs replicates that decide of each other, and found {replicates}");
+        context.fault(&given.place, problem, format!("give {LEAST_DECIDING} or more, or none: {DECIDING_REPLICATES}"));
+    }
+    let pilot = render.min_spp.as_ref().map_or_else(|| MIN_SPP.next_multiple_of(replicates), |spp| spp.value);
+    let max = render.max_spp.as_ref().map_or_else(|| MAX_SPP.max(pilot).next_multiple_of(replicates), |spp| spp.value);
+    let keys = [("min_spp", &render.min_spp), ("max_spp", &render.max_spp)];
+    for (key, given) in keys.into_iter().filter_map(|(key, given)| Some((key, given.as_ref()?))) {
+        if given.value % replicates != 0 {
+            let problem = format!("{} samples cannot be shared evenly among {replicates} replicates", given.value);
+            context.fault(&given.place, problem, format!("give a \"{key}\" that is a multiple of the replicates"));
+        }
+    }
+    if let Some(given) = [&render.max_spp, &render.min_spp].into_iter().flatten().next().filter(|_| max < pilot) {
+        let problem = format!("at most {max} samples are fewer than the {pilot} that every pixel gets");
+        context.fault(&given.place, problem, "give a larger \"max_spp\" or a smaller \"min_spp\"");
+    }
+    let limit = AdaptiveSampling { threshold: factor, min_spp: pilot as u32 };
+    Samples { spp: max as u32, replicates: replicates as u32, limit: Some(limit) }
+}
+
 /// Samples a pixel and replicates; the replicates divide the samples.
-pub(super) fn samples(render: &Render, choices: &Choices, context: &mut Context<'_>) -> (u32, u32) {
+fn even(render: &Render, choices: &Choices, context: &mut Context<'_>) -> (u32, u32) {
     let by_quality = || choices.quality.unwrap_or(Quality::Standard).spp();
     let spp = render.spp.as_ref().map_or_else(by_quality, |s| s.value as u32);
     let given = render.replicates.as_ref();

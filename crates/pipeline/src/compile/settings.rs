@@ -1,13 +1,14 @@
 //! `[render]` and `[output]`: what is delivered, and how the light is found.
 
 use super::context::Context;
-use super::samples::{has_variance, samples};
+use super::samples::{Samples, has_variance, samples};
 use super::{Choices, Quality};
 use crate::camera::defocus::{margin_px, whole_margin_px};
 use crate::camera::photograph::front_on_picture;
 use crate::camera::raw_colour::RawColour;
 use crate::camera::rectified::RectifiedCamera;
 use crate::plan::{CameraBody, Products, RawFormat, Route, Settings};
+use crate::render::adaptive::cell_px;
 use crate::render::block::Blocks;
 use crate::render::film::Film;
 use crate::render::gather::Layout;
@@ -65,6 +66,7 @@ pub(super) fn products(output: &Output, body: &CameraBody, context: &mut Context
         irradiance: said(&output.irradiance, false),
         ghosts: said(&output.ghosts, false),
         variance: said(&output.variance, false),
+        sampling: said(&output.sampling, false),
         electrons: said(&output.electrons, false),
         raw: said(&output.raw, electronics),
         raw_format: raw_format(output, body, context),
@@ -182,13 +184,13 @@ pub(super) fn settings(
     choices: &Choices,
     context: &mut Context<'_>,
 ) -> Option<Settings> {
-    let (spp, replicates) = samples(render, choices, context);
+    let Samples { spp, replicates, limit } = samples(render, choices, context);
     products.variance &= has_variance(output, replicates, render, context);
     let route = route(render, body, depth_of_field, context)?;
     let (cube, folded) = accumulation(render, body, products, &route, context);
     let range_nm = range(render, body, cube);
     let bands = if cube { Some(bands(render, range_nm, context)?) } else { None };
-    check_size(body, &route, &Layout { bands, folded }, context)?;
+    check_size(body, &route, &Layout { bands, folded, watched: limit.is_some() }, context)?;
     remark_losses(products, &route, folded, body, context);
     remark_margin(body, context);
     remark_bands(render, cube, context);
@@ -206,7 +208,12 @@ pub(super) fn settings(
         range_nm,
         bands,
         folded,
-        tile_px: blocks.tile_px(render.tile_px.as_ref().map_or(TILE_PX, |t| t.value) as u32),
+        adaptive: limit,
+        tile_px: (render.tile_px.as_ref().map_or(TILE_PX, |t| t.value) as u32).next_multiple_of(if limit.is_some() {
+            cell_px(blocks)
+        } else {
+            blocks.tile_px(1)
+        }),
         blocks,
         seed: render.seed.as_ref().map_or(0, |s| s.value),
     })

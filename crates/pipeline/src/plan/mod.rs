@@ -28,7 +28,7 @@ pub use mount::Mount;
 pub use precipitation::Precipitation;
 pub use products::{Products, RawFormat};
 pub use row_exposure::{CaptureTiming, RowExposure, RowSkipping};
-pub use settings::{Route, Settings};
+pub use settings::{AdaptiveSampling, Route, Settings};
 pub use timing::{Jitter, TimeDependence, Timing};
 
 /// What a rendering does, for all cameras of a job.

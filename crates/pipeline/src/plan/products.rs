@@ -43,6 +43,8 @@ pub struct Products {
     pub ghosts: bool,
     /// Variances of what is estimated.
     pub variance: bool,
+    /// Samples of each pixel, and the variance that they leave beside the sensor's.
+    pub sampling: bool,
     /// Expected electrons.
     pub electrons: bool,
     /// Digital numbers.
@@ -75,7 +77,7 @@ impl Products {
     /// Whether nothing is delivered.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        let light = self.radiance || self.irradiance || self.ghosts || self.electrons;
+        let light = self.radiance || self.irradiance || self.ghosts || self.electrons || self.sampling;
         let images = light || self.raw || self.picture || self.signal_breakdown;
         !(images || self.ground_truth || self.depth_png_per_m.is_some() || self.rays || !self.annotations.is_empty())
     }

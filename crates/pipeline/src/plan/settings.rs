@@ -15,11 +15,22 @@ pub enum Route {
     Pupil(PupilProjection),
 }
 
+/// Samples until noise is below a limit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AdaptiveSampling {
+    /// Greatest standard error over the noise that the sensor adds, or over the pixel's mean where there is none.
+    pub threshold: f64,
+    /// Samples that every pixel gets.
+    pub min_spp: u32,
+}
+
 /// How the light of a camera is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Samples a pixel.
+    /// Samples a pixel; the most that a pixel gets where noise decides.
     pub spp: u32,
+    /// Where noise decides how many samples a pixel gets.
+    pub adaptive: Option<AdaptiveSampling>,
     /// Independent replicates; divides `spp`.
     pub replicates: u32,
     /// How much of the light's ways is followed.

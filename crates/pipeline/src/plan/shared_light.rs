@@ -6,7 +6,9 @@
 //! light share one film: that of the first of them in the job, whose place is in the random addresses of all.
 
 use crate::plan::{CameraBody, CameraPlan, LightOwner, Plan, Route, Settings, TimeDependence, Timing};
+use crate::render::adaptive::Tolerance;
 use crate::render::spectrum_spread::SpectrumSpread;
+use crate::render::tolerance;
 use etendue_core::CameraPath;
 use etendue_optics::{Front, Lens, PupilProjection};
 use etendue_projection::Raster;
@@ -23,6 +25,8 @@ struct LightKey<'a> {
     sampling: SamplingKey,
     settings: Settings,
     response: Option<ResponseKey<'a>>,
+    /// Where noise decides the samples.
+    tolerance: Option<Tolerance>,
 }
 
 /// How rays leave the camera.
@@ -75,6 +79,7 @@ impl<'a> LightKey<'a> {
             },
             // What has its own place in the key, and the size of a tile, which does not change the light.
             settings: Settings { tile_px: 0, spp: 0, replicates: 0, seed: 0, route: Route::Lens, ..*s },
+            tolerance: tolerance(camera),
             response: camera.body.sensor.as_ref().filter(|_| s.folded).map(ResponseKey::of),
         }
     }
@@ -87,7 +92,7 @@ impl<'a> LightKey<'a> {
         let samples = |key: &Self| (key.sampling.spp, key.sampling.replicates, key.sampling.seed);
         let kept = |s: &Settings| (s.bands, s.folded, s.range_nm);
         let (a, b) = (&self.settings, &other.settings);
-        let same_kept = Settings { bands: b.bands, folded: b.folded, range_nm: b.range_nm, ..*a };
+        let same_kept = Settings { adaptive: b.adaptive, bands: b.bands, folded: b.folded, range_nm: b.range_nm, ..*a };
         let unlike = [
             (samples(self) != samples(other), "samples or seed"),
             (self.timing != other.timing, "the times of exposure"),
@@ -96,6 +101,7 @@ impl<'a> LightKey<'a> {
                 a.bands == b.bands && self.sampling.spread != other.sampling.spread,
                 "variance, for which replicates are independent",
             ),
+            (self.tolerance != other.tolerance, "the noise that decides the samples"),
             (same_kept != *b, "how light is followed"),
             (self.response != other.response && a.folded && b.folded, "the response that pixels fold"),
         ];

@@ -1,6 +1,7 @@
 //! Rendering a camera's light.
 
-use crate::plan::{CameraBody, CameraPlan, Plan, Precipitation, Route};
+use crate::plan::{CameraBody, CameraPlan, Plan, Precipitation, Route, Settings};
+use crate::render::adaptive::Tolerance;
 use crate::render::exposure::{FilmExposure, Shot};
 use crate::render::film::Film;
 use crate::render::gather::Layout;
@@ -14,6 +15,7 @@ use etendue_core::PupilRay;
 use etendue_core::maths::f64::atan2;
 use etendue_optics::{Front, Lens, PupilProjection};
 use etendue_projection::Raster;
+use etendue_sensor::Sensor;
 use etendue_tracer::accel::Simd;
 use etendue_tracer::integrator::{PathSettings, PathTracer};
 use etendue_tracer::lights::{LightCounts, Lights};
@@ -92,7 +94,7 @@ fn through<S: RaySource>(
         .with_media(&media)
         .with_near(near.as_ref());
     let settings = &camera.settings;
-    let sensor = camera.body.sensor.as_ref().filter(|_| settings.folded);
+    let sensor = camera.body.sensor.as_ref().filter(|_| settings.folded || watches_electrons(settings));
     let mosaic = sensor.map(|sensor| Mosaic::of(sensor, settings.range_nm, settings.bands.is_some()));
     let job = render_job((camera, rows), request, source, mosaic.as_ref());
     match settings.wavelengths {
@@ -116,6 +118,20 @@ pub fn change_over(plan: &Plan, camera: &CameraPlan) -> Option<ChangeOver> {
         },
     };
     of.map(|(.., change_over)| change_over)
+}
+
+/// Whether electrons are made of the samples only to know their noise.
+fn watches_electrons(settings: &Settings) -> bool {
+    settings.adaptive.is_some() && settings.route == Route::Lens
+}
+
+/// The tolerance of a camera whose samples noise decides.
+#[must_use]
+pub fn tolerance(camera: &CameraPlan) -> Option<Tolerance> {
+    let settings = &camera.settings;
+    let limit = settings.adaptive?;
+    let sensor = camera.body.sensor.as_ref().filter(|_| watches_electrons(settings));
+    Some(Tolerance::new(limit, sensor.map(Sensor::temporal_noise)))
 }
 
 fn region_and_change_over<'a, S: RaySource>(
@@ -157,6 +173,7 @@ fn render_job<'a, S>(
             high_nm: settings.range_nm.1 as f32,
             spread: SpectrumSpread::of(camera),
         },
+        tolerance: tolerance(camera),
         blocks: settings.blocks,
         tile_px: settings.tile_px,
         shard: request.shard,
@@ -166,7 +183,8 @@ fn render_job<'a, S>(
 /// What a camera's film keeps.
 #[must_use]
 pub fn layout(camera: &CameraPlan) -> Layout {
-    Layout { bands: camera.settings.bands, folded: camera.settings.folded }
+    let Settings { bands, folded, adaptive, .. } = camera.settings;
+    Layout { bands, folded, watched: adaptive.is_some() }
 }
 
 /// Angle of a pixel in the middle of the picture, rad, by its tangent.
@@ -179,13 +197,15 @@ fn pitch_tan(camera: &CameraPlan) -> f64 {
 }
 
 fn path_settings(camera: &CameraPlan) -> PathSettings {
-    let samples = camera.settings.spp / camera.settings.replicates;
+    let Settings { spp, replicates, adaptive, .. } = camera.settings;
+    // Where noise decides, runs of samples are as long as all pixels have.
+    let samples = adaptive.map_or(spp, |limit| limit.min_spp) / replicates;
     PathSettings {
         level: camera.settings.level,
         max_bounces: camera.settings.max_bounces,
         roulette_start: ROULETTE_START,
         samples,
-        cone_spread_rad: pitch_tan(camera) as f32 * sample_width(samples),
+        cone_spread_rad: pitch_tan(camera) as f32 * sample_width(spp / replicates),
         caustics: camera.settings.caustics,
         ..PathSettings::default()
     }

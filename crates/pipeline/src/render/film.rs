@@ -1,9 +1,9 @@
 //! The light of a whole frame: f32 means and variances, filled tile by tile by one owner each.
 
-use crate::render::gather::{Gather, Layout};
+use crate::render::gather::{Layout, PixelLight};
 use crate::render::tile::Tile;
 use etendue_core::quantity::{
-    ElectronRate, Identity, Irradiance, MeanElectrons, Quantity, Radiance, SolidAngle, Variance,
+    ElectronRate, Identity, Irradiance, MeanElectrons, Quantity, Radiance, SolidAngle, Variance, WatchedSignal,
 };
 use etendue_core::random::Pixel;
 use etendue_core::{Bands, Plane, SpectralCube};
@@ -54,18 +54,20 @@ pub struct Film {
     pub weight: Plane<SolidAngle>,
     /// Folded electrons of a second of light.
     pub electron_rate: Option<Estimate<ElectronRate>>,
+    /// What a limit of noise watches; `None` where there is no limit.
+    pub watched: Option<Estimate<WatchedSignal>>,
+    /// Samples of each pixel.
+    pub samples: Plane<Identity>,
     /// Samples that were not finite.
     pub not_finite: Plane<Identity>,
     /// Replicates behind each variance.
     pub replicates: u32,
-    /// Samples a pixel.
-    pub spp: u32,
 }
 
 impl Film {
     /// An empty film.
     #[must_use]
-    pub fn new(width: usize, height: usize, layout: &Layout, spp: u32, replicates: u32) -> Self {
+    pub fn new(width: usize, height: usize, layout: &Layout, replicates: u32) -> Self {
         let cube = |bands| CubeEstimate {
             mean: SpectralCube::new(width, height, bands),
             variance: SpectralCube::new(width, height, bands),
@@ -74,38 +76,46 @@ impl Film {
             cube: layout.bands.map(cube),
             weight: Plane::new(width, height),
             electron_rate: layout.folded.then(|| Estimate::new(width, height)),
+            watched: layout.watched.then(|| Estimate::new(width, height)),
+            samples: Plane::new(width, height),
             not_finite: Plane::new(width, height),
             replicates,
-            spp,
         }
     }
 
     /// Bytes that a film of this size and layout takes; a float, for a picture too large to be made must not overflow.
     #[must_use]
     pub fn bytes(width: usize, height: usize, layout: &Layout) -> f64 {
-        let planes = 2 * layout.bands.map_or(0, Bands::count) + 2 * usize::from(layout.folded) + 2;
+        let planes = 2 * layout.bands.map_or(0, Bands::count)
+            + 2 * (usize::from(layout.folded) + usize::from(layout.watched))
+            + 3;
         width as f64 * height as f64 * (planes * size_of::<f32>()) as f64
     }
 
-    /// Stores what one pixel gathered.
-    pub fn store(&mut self, pixel: Pixel, gather: &Gather) {
+    /// Stores the light of one pixel, of which it keeps what it has planes for.
+    pub fn store(&mut self, pixel: Pixel, light: &PixelLight) {
         let (x, y) = (pixel.x as usize, pixel.y as usize);
         if let Some(cube) = &mut self.cube {
-            for (plane, mean) in cube.mean.planes_mut().iter_mut().zip(gather.bands()) {
+            for (plane, mean) in cube.mean.planes_mut().iter_mut().zip(light.bands()) {
                 plane.set(x, y, *mean as f32);
             }
-            for (plane, variance) in cube.variance.planes_mut().iter_mut().zip(gather.band_variances()) {
-                plane.set(x, y, variance as f32);
+            for (plane, variance) in cube.variance.planes_mut().iter_mut().zip(light.band_variances()) {
+                plane.set(x, y, *variance as f32);
             }
         }
-        if let (Some(estimate), Some((mean, variance))) = (&mut self.electron_rate, gather.electrons()) {
+        if let (Some(estimate), Some((mean, variance))) = (&mut self.electron_rate, light.electrons()) {
             estimate.mean.set(x, y, mean as f32);
             estimate.variance.set(x, y, variance as f32);
         }
-        self.weight.set(x, y, gather.weight_sr() as f32);
-        let means = gather.bands().iter().copied().chain(gather.electrons().map(|(mean, _)| mean));
+        if let (Some(estimate), Some((mean, variance))) = (&mut self.watched, light.watched()) {
+            estimate.mean.set(x, y, mean as f32);
+            estimate.variance.set(x, y, variance as f32);
+        }
+        self.weight.set(x, y, light.weight_sr() as f32);
+        self.samples.set(x, y, light.samples());
+        let means = light.bands().iter().copied().chain(light.electrons().map(|(mean, _)| mean));
         let is_lost = means.into_iter().any(|mean| !(mean as f32).is_finite());
-        self.not_finite.set(x, y, gather.not_finite().max(u32::from(is_lost)));
+        self.not_finite.set(x, y, light.not_finite().max(u32::from(is_lost)));
     }
 
     /// Copies `tile` from a film of the same size and layout.
@@ -118,7 +128,12 @@ impl Film {
             copy_plane(&mut to.mean, &from.mean, tile);
             copy_plane(&mut to.variance, &from.variance, tile);
         }
+        if let (Some(to), Some(from)) = (&mut self.watched, &from.watched) {
+            copy_plane(&mut to.mean, &from.mean, tile);
+            copy_plane(&mut to.variance, &from.variance, tile);
+        }
         copy_plane(&mut self.weight, &from.weight, tile);
+        copy_plane(&mut self.samples, &from.samples, tile);
         copy_plane(&mut self.not_finite, &from.not_finite, tile);
     }
 

@@ -1,6 +1,6 @@
 //! One pixel's samples gathered into means, with an honest variance.
 //!
-//! Samples of one replicate are summed in sample order in f64. The replicates of a pixel are scrambled independently,
+//! Samples of one replicate are summed in sample order in f64 ([`Sums`]). The replicates of a pixel are scrambled independently,
 //! so the scatter of their means is a fair estimate of the variance of the whole; the scatter of the samples is not
 //! (it overstates the variance of a stratified mean by ten to thousands of times).
 
@@ -8,18 +8,25 @@ use etendue_core::{Bands, Spectral, Wavelengths};
 use etendue_spectra::Spectrum;
 
 /// What every pixel's samples are gathered into.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layout {
     /// Spectral bands, where a cube is kept.
     pub bands: Option<Bands>,
     /// Whether each pixel folds its own responsivity into electrons.
     pub folded: bool,
+    /// Whether a limit of noise watches the pixel's light: its electrons where they are folded, else its irradiance over all wavelengths.
+    pub watched: bool,
 }
 
 impl Layout {
-    /// Numbers a pixel: the bands, the pupil's weight, the electrons.
+    /// Numbers a pixel: the bands, the pupil's weight, the electrons or the irradiance that is watched in their place.
     fn slots(&self) -> usize {
-        self.band_count() + 1 + usize::from(self.folded)
+        self.band_count() + 1 + usize::from(self.folded || self.watched)
+    }
+
+    /// The place of what is watched.
+    fn watched_slot(&self) -> usize {
+        self.band_count() + 1
     }
 
     fn band_count(&self) -> usize {
@@ -27,30 +34,19 @@ impl Layout {
     }
 }
 
-/// The running sums of one pixel.
+/// The running sums of a pixel over the samples of one replicate.
 #[derive(Clone, Debug)]
-pub struct Gather {
+pub struct Sums {
     layout: Layout,
-    sums: Vec<f64>,
-    mean: Vec<f64>,
-    squares: Vec<f64>,
-    replicates: u32,
+    slots: Vec<f64>,
     not_finite: u32,
 }
 
-impl Gather {
+impl Sums {
     /// Empty sums.
     #[must_use]
     pub fn new(layout: Layout) -> Self {
-        let slots = layout.slots();
-        Self {
-            layout,
-            sums: vec![0.0; slots],
-            mean: vec![0.0; slots],
-            squares: vec![0.0; slots],
-            replicates: 0,
-            not_finite: 0,
-        }
+        Self { slots: vec![0.0; layout.slots()], layout, not_finite: 0 }
     }
 
     /// Adds one sample: `radiance` (W·m⁻²·sr⁻¹·nm⁻¹, not divided by the wavelengths' density) through a pupil of
@@ -64,25 +60,58 @@ impl Gather {
     ) {
         self.not_finite += u32::from(!radiance.is_finite());
         let weight_slot = self.layout.band_count();
-        self.sums[weight_slot] += weight_sr;
+        self.slots[weight_slot] += weight_sr;
         for i in 0..N {
             let irradiance = weight_sr * f64::from(radiance[i]) / (f64::from(wavelengths.pdf[i]) * N as f64);
             if let Some(bands) = self.layout.bands
                 && let Some(band) = bands.index_of(f64::from(wavelengths.nm[i]))
             {
-                self.sums[band] += irradiance / bands.width_nm();
+                self.slots[band] += irradiance / bands.width_nm();
             }
-            if let Some(responsivity) = responsivity {
-                self.sums[weight_slot + 1] += irradiance * f64::from(responsivity.at(wavelengths.nm[i]));
+            match responsivity {
+                Some(responsivity) => {
+                    self.slots[weight_slot + 1] += irradiance * f64::from(responsivity.at(wavelengths.nm[i]));
+                }
+                None if self.layout.watched => self.slots[weight_slot + 1] += irradiance,
+                None => {}
             }
         }
     }
 
-    /// Ends a replicate of `samples` samples (those that the lens stopped included).
-    pub fn end_replicate(&mut self, samples: u32) {
+    /// The sum of what a limit of noise watches, where one does.
+    #[must_use]
+    pub fn watched(&self) -> f64 {
+        self.slots[self.layout.watched_slot()]
+    }
+
+    /// How many samples were not finite. They stay in the sums, which are then not finite either.
+    #[must_use]
+    pub fn not_finite(&self) -> u32 {
+        self.not_finite
+    }
+}
+
+/// The running moments of one pixel over replicates.
+#[derive(Clone, Debug)]
+pub struct Gather {
+    mean: Vec<f64>,
+    squares: Vec<f64>,
+    replicates: u32,
+}
+
+impl Gather {
+    /// No replicate yet.
+    #[must_use]
+    pub fn new(layout: &Layout) -> Self {
+        let slots = layout.slots();
+        Self { mean: vec![0.0; slots], squares: vec![0.0; slots], replicates: 0 }
+    }
+
+    /// Takes over the sums of a replicate of `samples` samples (those that the lens stopped included), and empties them.
+    pub fn end_replicate(&mut self, sums: &mut Sums, samples: u32) {
         self.replicates += 1;
         let n = f64::from(self.replicates);
-        for ((sum, mean), squares) in self.sums.iter_mut().zip(&mut self.mean).zip(&mut self.squares) {
+        for ((sum, mean), squares) in sums.slots.iter_mut().zip(&mut self.mean).zip(&mut self.squares) {
             let value = *sum / f64::from(samples);
             let step = value - *mean;
             *mean += step / n;
@@ -91,34 +120,11 @@ impl Gather {
         }
     }
 
-    /// Mean band irradiances, W·m⁻²·nm⁻¹ (empty where no cube is kept).
+    /// The pixel's light of all replicates, which had `samples` samples together, `not_finite` of them no finite number.
     #[must_use]
-    pub fn bands(&self) -> &[f64] {
-        &self.mean[..self.layout.band_count()]
-    }
-
-    /// Variances of the means of [`Gather::bands`].
-    pub fn band_variances(&self) -> impl Iterator<Item = f64> {
-        (0..self.layout.band_count()).map(|slot| self.variance(slot))
-    }
-
-    /// Mean weight of the pupil, sr.
-    #[must_use]
-    pub fn weight_sr(&self) -> f64 {
-        self.mean[self.layout.band_count()]
-    }
-
-    /// Mean electrons and the variance of that mean; `None` where nothing is folded.
-    #[must_use]
-    pub fn electrons(&self) -> Option<(f64, f64)> {
-        let slot = self.layout.band_count() + 1;
-        self.layout.folded.then(|| (self.mean[slot], self.variance(slot)))
-    }
-
-    /// How many samples were not finite. They stay in the sums, which are then not finite either.
-    #[must_use]
-    pub fn not_finite(&self) -> u32 {
-        self.not_finite
+    pub fn light(self, layout: &Layout, samples: u32, not_finite: u32) -> PixelLight {
+        let variances = (0..self.mean.len()).map(|slot| self.variance(slot)).collect();
+        PixelLight { layout: *layout, means: self.mean, variances, samples, not_finite }
     }
 
     /// Variance of a mean, from the scatter of the replicates; NaN for a single replicate, which knows none.
@@ -131,6 +137,62 @@ impl Gather {
     }
 }
 
+/// The light of one pixel: means and their variances.
+#[derive(Clone, Debug)]
+pub struct PixelLight {
+    layout: Layout,
+    means: Vec<f64>,
+    variances: Vec<f64>,
+    samples: u32,
+    not_finite: u32,
+}
+
+impl PixelLight {
+    /// Mean band irradiances, W·m⁻²·nm⁻¹ (empty where no cube is kept).
+    #[must_use]
+    pub fn bands(&self) -> &[f64] {
+        &self.means[..self.layout.band_count()]
+    }
+
+    /// Variances of the means of [`PixelLight::bands`]; NaN for a single replicate.
+    #[must_use]
+    pub fn band_variances(&self) -> &[f64] {
+        &self.variances[..self.layout.band_count()]
+    }
+
+    /// Mean weight of the pupil, sr.
+    #[must_use]
+    pub fn weight_sr(&self) -> f64 {
+        self.means[self.layout.band_count()]
+    }
+
+    /// Mean electrons and the variance of that mean; `None` where nothing is folded.
+    #[must_use]
+    pub fn electrons(&self) -> Option<(f64, f64)> {
+        let slot = self.layout.watched_slot();
+        self.layout.folded.then(|| (self.means[slot], self.variances[slot]))
+    }
+
+    /// Mean of what a limit of noise watches, and the variance of that mean; `None` where none does.
+    #[must_use]
+    pub fn watched(&self) -> Option<(f64, f64)> {
+        let slot = self.layout.watched_slot();
+        self.layout.watched.then(|| (self.means[slot], self.variances[slot]))
+    }
+
+    /// Samples behind the means.
+    #[must_use]
+    pub fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// How many samples were not finite. They stay in the means, which are then not finite either.
+    #[must_use]
+    pub fn not_finite(&self) -> u32 {
+        self.not_finite
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -138,44 +200,49 @@ mod tests {
     #[test]
     fn a_constant_radiance_gives_its_band_means_and_electrons() {
         let bands = Bands::covering(400.0, 700.0, 100.0).expect("three bands");
-        let mut gather = Gather::new(Layout { bands: Some(bands), folded: true });
+        let layout = Layout { bands: Some(bands), folded: true, watched: false };
+        let (mut sums, mut gather) = (Sums::new(layout), Gather::new(&layout));
         let responsivity = Spectrum::constant(2.0);
         for replicate in 0..2 {
             for sample in 0..48 {
                 let u = (f64::from(sample) + 0.25 + 0.5 * f64::from(replicate)) / 48.0;
                 let wavelengths = Wavelengths::<4>::uniform(400.0, 700.0, u as f32);
-                gather.add(0.5, Spectral::splat(3.0), &wavelengths, Some(&responsivity));
+                sums.add(0.5, Spectral::splat(3.0), &wavelengths, Some(&responsivity));
             }
-            gather.end_replicate(48);
+            gather.end_replicate(&mut sums, 48);
         }
-        for band in gather.bands() {
+        let light = gather.light(&layout, 96, 0);
+        for band in light.bands() {
             assert!((band - 1.5).abs() < 1e-6, "E = weight × L = 1.5, not {band}");
         }
-        let (electrons, variance) = gather.electrons().expect("folded");
+        let (electrons, variance) = light.electrons().expect("folded");
         assert!((electrons - 1.5 * 300.0 * 2.0).abs() < 1e-3, "{electrons}");
-        assert!(variance < 1e-6 && (gather.weight_sr() - 0.5).abs() < 1e-15);
+        assert!(variance < 1e-6 && (light.weight_sr() - 0.5).abs() < 1e-15);
     }
 
     #[test]
     fn variance_is_that_of_the_replicate_means() {
-        let mut gather = Gather::new(Layout { bands: None, folded: true });
+        let layout = Layout { bands: None, folded: true, watched: false };
+        let (mut sums, mut gather) = (Sums::new(layout), Gather::new(&layout));
         let one = Spectrum::constant(1.0);
         for value in [1.0, 3.0] {
             let wavelengths = Wavelengths::<1>::uniform(500.0, 501.0, 0.5);
-            gather.add(1.0, Spectral::splat(value), &wavelengths, Some(&one));
-            gather.end_replicate(1);
+            sums.add(1.0, Spectral::splat(value), &wavelengths, Some(&one));
+            gather.end_replicate(&mut sums, 1);
         }
-        let (mean, variance) = gather.electrons().expect("folded");
+        let (mean, variance) = gather.light(&layout, 2, 0).electrons().expect("folded");
         assert_eq!((mean, variance), (2.0, 1.0), "s² = 2 of two means, over two");
     }
 
     #[test]
     fn a_sample_that_is_not_finite_is_counted_and_shows() {
-        let mut gather = Gather::new(Layout { bands: None, folded: true });
+        let layout = Layout { bands: None, folded: true, watched: false };
+        let (mut sums, mut gather) = (Sums::new(layout), Gather::new(&layout));
         let wavelengths = Wavelengths::<1>::uniform(500.0, 501.0, 0.5);
-        gather.add(1.0, Spectral::splat(f32::NAN), &wavelengths, Some(&Spectrum::constant(1.0)));
-        gather.end_replicate(1);
-        assert_eq!(gather.not_finite(), 1);
-        assert!(gather.electrons().is_some_and(|(mean, _)| mean.is_nan()));
+        sums.add(1.0, Spectral::splat(f32::NAN), &wavelengths, Some(&Spectrum::constant(1.0)));
+        gather.end_replicate(&mut sums, 1);
+        let light = gather.light(&layout, 1, sums.not_finite());
+        assert_eq!(light.not_finite(), 1);
+        assert!(light.electrons().is_some_and(|(mean, _)| mean.is_nan()));
     }
 }

@@ -1,9 +1,10 @@
 //! The light of a frame: every pixel's samples sent into a radiance field and gathered on the film.
 
+use crate::render::adaptive::Tolerance;
 use crate::render::block::Blocks;
 use crate::render::exposure::{FilmExposure, Shot};
 use crate::render::film::Film;
-use crate::render::gather::{Gather, Layout};
+use crate::render::gather::{Gather, Layout, PixelLight, Sums};
 use crate::render::mosaic::{Mosaic, Site};
 use crate::render::observer::Observer;
 use crate::render::spectrum_spread::{Heroes, SpectrumSpread};
@@ -12,6 +13,7 @@ use etendue_core::random::{Draw, FrameAddress, PathStream, Pixel, PixelAddress};
 use etendue_core::{FieldRay, PupilRay, RadianceField, Spectral, Wavelengths};
 use glam::DVec2;
 use rayon::prelude::*;
+use std::ops::Range;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -25,7 +27,7 @@ pub trait RaySource: Sync {
 /// How densely light is sampled, and by which random addresses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
-    /// Samples a pixel, over all replicates.
+    /// Samples a pixel, over all replicates; the most where noise decides.
     pub spp: u32,
     /// Independently scrambled replicates; divides `spp`.
     pub replicates: u32,
@@ -58,10 +60,12 @@ pub struct RenderJob<'a, S> {
     pub aperture_px: f64,
     /// What is kept.
     pub layout: Layout,
-    /// Responsivities to fold, where electrons are folded.
+    /// Responsivities to fold, where electrons are folded, or watched for their noise.
     pub mosaic: Option<&'a Mosaic>,
     /// Samples and addresses.
     pub sampling: Sampling,
+    /// Where noise decides how many samples a pixel gets.
+    pub tolerance: Option<Tolerance>,
     /// Pixels whose paths share their tails.
     pub blocks: Blocks,
     /// Side of a tile, px, that cuts no block. It does not change the result.
@@ -72,7 +76,7 @@ pub struct RenderJob<'a, S> {
 
 /// One sample of each pixel of a block, while it is answered.
 #[derive(Default)]
-struct Asked<const N: usize> {
+pub(super) struct Asked<const N: usize> {
     /// Pixels that light reaches, by their place in the block, and the weights of their rays.
     pixels: Vec<(usize, f64)>,
     rays: Vec<FieldRay>,
@@ -118,31 +122,53 @@ impl<S: RaySource> RenderJob<'_, S> {
     }
 
     fn empty_film(&self) -> Film {
-        let Sampling { spp, replicates, .. } = self.sampling;
-        Film::new(self.width as usize, self.height as usize, &self.layout, spp, replicates)
+        Film::new(self.width as usize, self.height as usize, &self.layout, self.sampling.replicates)
     }
 
     /// Gathers a tile's pixels, then stores them together: the film is locked once a tile.
     fn gather_tile<const N: usize>(&self, field: &impl RadianceField<N>, tile: Tile, film: &Mutex<Film>) {
-        let pixels: Vec<_> = self.blocks.of(tile).flat_map(|block| self.gather_block(field, &block)).collect();
+        let pixels = match &self.tolerance {
+            None => self.blocks.of(tile).flat_map(|block| self.gather_block(field, &block)).collect(),
+            Some(tolerance) => self.gather_to_tolerance(field, tile, tolerance),
+        };
         let mut film = film.lock().expect("no tile panicked");
-        pixels.iter().for_each(|(pixel, gather)| film.store(*pixel, gather));
+        pixels.iter().for_each(|(pixel, light)| film.store(*pixel, light));
+    }
+
+    /// What is gathered of each pixel: what the film keeps, and electrons where their noise is watched.
+    pub(super) fn gathered(&self) -> Layout {
+        Layout { folded: self.mosaic.is_some(), ..self.layout }
     }
 
     /// Gathers the pixels of a block, sample by sample.
-    fn gather_block<const N: usize>(&self, field: &impl RadianceField<N>, block: &[Pixel]) -> Vec<(Pixel, Gather)> {
-        let mut gathers: Vec<_> = block.iter().map(|pixel| (*pixel, Gather::new(self.layout.clone()))).collect();
+    fn gather_block<const N: usize>(&self, field: &impl RadianceField<N>, block: &[Pixel]) -> Vec<(Pixel, PixelLight)> {
+        let layout = self.gathered();
+        let mut sums = vec![Sums::new(layout); block.len()];
+        let mut gathers = vec![Gather::new(&layout); block.len()];
         let mut asked = Asked::default();
         let samples = self.sampling.spp / self.sampling.replicates;
         for replicate in 0..self.sampling.replicates {
-            let streams: Vec<_> = block.iter().map(|p| PathStream::new(&self.address(*p, replicate), 0)).collect();
-            let heroes = self.heroes(block[0], replicate);
-            for sample in 0..samples {
-                self.add_samples(field, (&streams, &heroes), sample, &mut asked, &mut gathers);
-            }
-            gathers.iter_mut().for_each(|(_, gather)| gather.end_replicate(samples));
+            self.add_replicate(field, (block, replicate), 0..samples, &mut asked, &mut sums);
+            gathers.iter_mut().zip(&mut sums).for_each(|(gather, sums)| gather.end_replicate(sums, samples));
         }
-        gathers
+        let of = |(gather, sums): (Gather, &Sums)| gather.light(&layout, self.sampling.spp, sums.not_finite());
+        block.iter().copied().zip(gathers.into_iter().zip(&sums).map(of)).collect()
+    }
+
+    /// Adds samples of one replicate of the pixels of a block.
+    pub(super) fn add_replicate<const N: usize>(
+        &self,
+        field: &impl RadianceField<N>,
+        (block, replicate): (&[Pixel], u32),
+        samples: Range<u32>,
+        asked: &mut Asked<N>,
+        sums: &mut [Sums],
+    ) {
+        let streams: Vec<_> = block.iter().map(|p| PathStream::new(&self.address(*p, replicate), 0)).collect();
+        let heroes = self.heroes(block[0], replicate);
+        for sample in samples {
+            self.add_samples(field, block, (&streams, &heroes), sample, asked, sums);
+        }
     }
 
     fn address(&self, pixel: Pixel, replicate: u32) -> PixelAddress {
@@ -160,16 +186,17 @@ impl<S: RaySource> RenderJob<'_, S> {
     fn add_samples<const N: usize>(
         &self,
         field: &impl RadianceField<N>,
+        block: &[Pixel],
         (streams, heroes): (&[PathStream], &Heroes),
         sample: u32,
         asked: &mut Asked<N>,
-        gathers: &mut [(Pixel, Gather)],
+        sums: &mut [Sums],
     ) {
         asked.clear();
-        let site = self.mosaic.map(|mosaic| mosaic.at(gathers[0].0));
+        let site = self.mosaic.map(|mosaic| mosaic.at(block[0]));
         let wavelengths = self.wavelengths::<N>(site, heroes.number(&streams[0].with_sample(sample), N));
         let time_u = self.time_number(&streams[0].with_sample(sample));
-        for (index, (stream, (pixel, _))) in streams.iter().zip(gathers.iter()).enumerate() {
+        for (index, (stream, pixel)) in streams.iter().zip(block).enumerate() {
             let stream = stream.with_sample(sample);
             if let Some(pupil_ray) = self.pupil_ray(*pixel, &stream, wavelengths.nm[0]) {
                 asked.pixels.push((index, pupil_ray.weight_sr));
@@ -180,7 +207,7 @@ impl<S: RaySource> RenderJob<'_, S> {
         }
         field.radiance_of_group(&asked.rays, &wavelengths, &mut asked.radiance);
         for ((index, weight_sr), radiance) in asked.pixels.iter().zip(&asked.radiance) {
-            gathers[*index].1.add(*weight_sr, *radiance, &wavelengths, site.map(|s| &s.responsivity));
+            sums[*index].add(*weight_sr, *radiance, &wavelengths, site.map(|s| &s.responsivity));
         }
     }
 
@@ -236,7 +263,7 @@ mod tests {
             width: 9,
             height: 5,
             aperture_px: 1.0,
-            layout: Layout { bands, folded: false },
+            layout: Layout { bands, folded: false, watched: false },
             mosaic: None,
             sampling: Sampling {
                 spp: 64,
@@ -248,6 +275,7 @@ mod tests {
                 high_nm: 700.0,
                 spread: SpectrumSpread::EachReplicate,
             },
+            tolerance: None,
             blocks: Blocks::SINGLE,
             tile_px,
             shard,

@@ -3,12 +3,14 @@
 //! # Contract
 //! - [`light`](light()) renders one camera of a plan and answers with a [`film::Film`]: spectral irradiance (W·m⁻²·nm⁻¹) or mean
 //!   electrons a second through the lens, spectral radiance (W·m⁻²·sr⁻¹·nm⁻¹) on the route at the pupil, with the variance of the means.
+//! - [`adaptive`] decides how many samples a pixel gets, where noise does.
 //! - [`motion`] is the ground truth of what moves: optical flow, scene flow, disparity.
 //! - [`boxes`] are those of objects, in the picture and in space.
 //! - [`truth`], [`rays`] and [`pupil_depth`] are point-sampled beside it, along principal rays.
 //! - Every pixel has one owner and its own random address: the result depends on neither threads, nor tiles, nor shards.
 //! - Work runs on the caller's rayon pool, under the caller's [`observer::Observer`].
 
+pub mod adaptive;
 pub mod block;
 pub mod boxes;
 mod camera_light;
@@ -21,6 +23,7 @@ mod look_at;
 pub mod mosaic;
 pub mod motion;
 mod near_precipitation;
+pub mod noise_reached;
 pub mod observer;
 pub mod pupil_depth;
 pub mod rays;
@@ -30,5 +33,5 @@ mod test_scenes;
 pub mod tile;
 pub mod truth;
 
-pub use camera_light::{Request, change_over, layout, light, light_counts};
+pub use camera_light::{Request, change_over, layout, light, light_counts, tolerance};
 pub use exposure::Shot;

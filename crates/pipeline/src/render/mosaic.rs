@@ -52,8 +52,14 @@ impl Mosaic {
     /// The site that `pixel` has.
     #[must_use]
     pub fn at(&self, pixel: Pixel) -> &Site {
+        &self.sites[self.place(pixel)]
+    }
+
+    /// The place of `pixel` in the tile, row by row.
+    #[must_use]
+    pub fn place(&self, pixel: Pixel) -> usize {
         let rows = self.sites.len() / self.columns;
-        &self.sites[(pixel.y as usize % rows) * self.columns + pixel.x as usize % self.columns]
+        (pixel.y as usize % rows) * self.columns + pixel.x as usize % self.columns
     }
 }
 

@@ -11,7 +11,7 @@
 use crate::plan::{CameraPlan, Settings};
 use crate::render::mosaic::UNIFORM_SHARE_WITH_BANDS;
 use etendue_core::Bands;
-use etendue_core::random::{Draw, PathStream, PixelAddress, ShiftedLattice};
+use etendue_core::random::{Draw, GoldenSequence, PathStream, PixelAddress, ShiftedLattice};
 
 /// Over what wavelengths are spread.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +22,8 @@ pub enum SpectrumSpread {
     EachReplicate,
     /// The wavelengths of all replicates together lie at equal steps.
     AllReplicates,
+    /// The wavelengths of each replicate lie evenly however many there will be.
+    Open,
 }
 
 impl SpectrumSpread {
@@ -30,6 +32,7 @@ impl SpectrumSpread {
     pub fn of(camera: &CameraPlan) -> Self {
         match (camera.settings.bands, camera.products.variance) {
             (None, _) => Self::Drawn,
+            (Some(_), _) if camera.settings.adaptive.is_some() => Self::Open,
             (Some(_), true) => Self::EachReplicate,
             (Some(_), false) => Self::AllReplicates,
         }
@@ -42,7 +45,7 @@ impl SpectrumSpread {
 
     /// Standard deviation of a band of an even spectrum in even light over its mean, by the choice of `wavelengths` a path
     /// alone: a part `share` of the density falls in the band. Of ⌊m⌋ or ⌈m⌉ wavelengths in the band, m their mean in a group,
-    /// the variance is f (1 − f), f the fraction of m. `None` where wavelengths are drawn.
+    /// the variance is f (1 − f), f the fraction of m. `None` where wavelengths are drawn, or nobody knows how many there will be.
     #[must_use]
     pub fn band_noise(self, spp: u32, replicates: u32, wavelengths: u32, share: f64) -> Option<f64> {
         let (mean, groups) = self.in_band(spp, replicates, wavelengths, share)?;
@@ -61,7 +64,8 @@ impl SpectrumSpread {
     /// Mean wavelengths of a group in a band, and the groups.
     fn in_band(self, spp: u32, replicates: u32, wavelengths: u32, share: f64) -> Option<(f64, f64)> {
         let groups = f64::from(self.groups(replicates));
-        (self != Self::Drawn).then(|| (f64::from(spp) * f64::from(wavelengths) * share / groups, groups))
+        matches!(self, Self::EachReplicate | Self::AllReplicates)
+            .then(|| (f64::from(spp) * f64::from(wavelengths) * share / groups, groups))
     }
 }
 
@@ -76,31 +80,43 @@ pub fn band_share(settings: &Settings, bands: Bands) -> f64 {
 /// The numbers of a replicate's wavelengths.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Heroes {
-    even: Option<ShiftedLattice>,
-    /// The first sample's place among those that are spread together.
-    first: u32,
+    order: Order,
+}
+
+/// How the numbers of a replicate follow each other.
+#[derive(Clone, Copy, Debug)]
+enum Order {
+    Drawn,
+    /// From a place on among those that are spread together.
+    Lattice(ShiftedLattice, u32),
+    Golden(GoldenSequence),
 }
 
 impl Heroes {
     /// Those of the replicate of `address`, which has `samples` samples, of `replicates`.
     pub(crate) fn new(spread: SpectrumSpread, address: &PixelAddress, samples: u32, replicates: u32) -> Self {
-        let (even, first) = match spread {
-            SpectrumSpread::Drawn => (None, 0),
-            SpectrumSpread::EachReplicate => (Some(ShiftedLattice::new(address, samples)), 0),
+        let order = match spread {
+            SpectrumSpread::Drawn => Order::Drawn,
+            SpectrumSpread::EachReplicate => Order::Lattice(ShiftedLattice::new(address, samples), 0),
             SpectrumSpread::AllReplicates => {
                 let all = PixelAddress { replicate: 0, ..*address };
-                (Some(ShiftedLattice::new(&all, samples * replicates)), address.replicate * samples)
+                Order::Lattice(ShiftedLattice::new(&all, samples * replicates), address.replicate * samples)
             }
+            SpectrumSpread::Open => Order::Golden(GoldenSequence::new(address)),
         };
-        Self { even, first }
+        Self { order }
     }
 
     /// The number from which a sample's `wavelengths` wavelengths are drawn, in [0, 1).
     pub(crate) fn number(&self, stream: &PathStream, wavelengths: usize) -> f32 {
         let drawn = stream.one(Draw::Wavelength, 0);
-        let Some(even) = &self.even else { return drawn };
+        let even = match &self.order {
+            Order::Drawn => return drawn,
+            Order::Lattice(lattice, first) => lattice.at(first + stream.sample()),
+            Order::Golden(sequence) => sequence.at(stream.sample()),
+        };
         let n = wavelengths as f64;
         let rotation = (f64::from(drawn) * n).floor();
-        (((rotation + even.at(self.first + stream.sample())) / n) as f32).min(1.0_f32.next_down())
+        (((rotation + even) / n) as f32).min(1.0_f32.next_down())
     }
 }

@@ -21,6 +21,19 @@ impl Tile {
         (self.y0..self.y1).flat_map(move |y| (self.x0..self.x1).map(move |x| Pixel { x, y }))
     }
 
+    /// The squares of `side` pixels that it falls into, row by row; smaller at its end.
+    pub fn parts(self, side: u32) -> impl Iterator<Item = Tile> {
+        let starts = move |from: u32, to: u32| (from..to).step_by(side as usize);
+        starts(self.y0, self.y1).flat_map(move |y0| {
+            starts(self.x0, self.x1).map(move |x0| Tile {
+                x0,
+                y0,
+                x1: (x0 + side).min(self.x1),
+                y1: (y0 + side).min(self.y1),
+            })
+        })
+    }
+
     /// Number of pixels.
     #[must_use]
     pub fn len(self) -> usize {

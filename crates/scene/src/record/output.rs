@@ -15,6 +15,10 @@ record! {
         optional ghosts: Placed<bool> = flag();
         /// Variance of the mean of what is estimated, EXR; needs two replicates or more. Default: false.
         optional variance: Placed<bool> = flag();
+        /// How many samples each pixel got (layer "samples"), the variance of its mean by them ("monte_carlo_variance") and, where pixels sum
+        /// electrons, that of the sensor's noise in one frame ("sensor_variance"), both in e⁻² of the described exposure ((W/m²)² of irradiance without
+        /// electrons), EXR; of the first capture. Variances need pixels that sum electrons, or "noise_threshold". Default: false.
+        optional sampling: Placed<bool> = flag();
         /// Expected electrons of each pixel, EXR. Default: false.
         optional electrons: Placed<bool> = flag();
         /// Digital numbers, in the format of "raw_format". Default: true for a sensor with electronics.
@@ -157,6 +161,7 @@ impl Output {
             electrons: None,
             raw: None,
             raw_format: None,
+            sampling: None,
             signal_breakdown: None,
             picture: None,
             ground_truth: None,
@@ -190,6 +195,7 @@ impl Output {
             electrons: a.electrons.or(b.electrons),
             raw: a.raw.or(b.raw),
             raw_format: a.raw_format.or(b.raw_format),
+            sampling: a.sampling.or(b.sampling),
             signal_breakdown: a.signal_breakdown.or(b.signal_breakdown),
             picture: a.picture.or(b.picture),
             ground_truth: a.ground_truth.or(b.ground_truth),

@@ -16,6 +16,15 @@ record! {
         /// are spread evenly within a replicate only: where light is even, one replicate of few samples is less noisy than
         /// several. Wavelengths of bands are spread over all replicates, but where "variance" is asked for. Default: 4, or 2 or 1 where "spp" is no multiple.
         optional replicates: Placed<u64> = whole(1, 1024);
+        /// A pixel gets samples until its standard error is at most this part of the noise that the sensor adds there (shot, dark,
+        /// read, quantisation), above 0 … 100; of the pixel's own mean where no electrons are made, or with route "pupil". The number is
+        /// decided for each replicate by what others show after "min_spp" samples, so that no mean is
+        /// biased; there are 8 replicates unless said otherwise, and 5 at least. In the place of "spp". Default: every pixel gets "spp" samples.
+        optional noise_threshold: Placed<f64> = number("").above(0.0).at_most(100.0);
+        /// With "noise_threshold": samples that every pixel gets, 8 … 65 536, a multiple of "replicates". Default: 16.
+        optional min_spp: Placed<u64> = whole(8, 65_536);
+        /// With "noise_threshold": samples that a pixel gets at most, a multiple of "replicates", from "min_spp" to 1 048 576. Default: 4 096.
+        optional max_spp: Placed<u64> = whole(8, 1 << 20);
         /// How much of the light's ways is followed. Depth and identities are the same by every integrator. Default: "path".
         optional integrator: Placed<Integrator> = choice();
         /// Surfaces that a path meets at most, 1 … 1 024; belongs to integrator = "path". Default: 16, or as `--quality` says.
@@ -175,6 +184,9 @@ impl Render {
             place,
             spp: None,
             replicates: None,
+            noise_threshold: None,
+            min_spp: None,
+            max_spp: None,
             integrator: None,
             max_bounces: None,
             caustics: None,
@@ -190,6 +202,15 @@ impl Render {
             overscan: None,
             depth_of_field: None,
         }
+    }
+
+    /// The limit of noise, where it decides the samples: the command line's "spp" supersedes that of a file.
+    #[must_use]
+    pub fn threshold_in_force(&self) -> Option<&Placed<f64>> {
+        let by_command_line = |spp: &Placed<u64>| spp.place.is_command_line();
+        let limit = self.noise_threshold.as_ref()?;
+        let is_superseded = self.spp.as_ref().is_some_and(by_command_line) && !limit.place.is_command_line();
+        (!is_superseded).then_some(limit)
     }
 
     /// The keys that only paths need, as far as they are said, and where.
@@ -215,6 +236,9 @@ impl Render {
             place: a.place,
             spp: a.spp.or(b.spp),
             replicates: a.replicates.or(b.replicates),
+            noise_threshold: a.noise_threshold.or(b.noise_threshold),
+            min_spp: a.min_spp.or(b.min_spp),
+            max_spp: a.max_spp.or(b.max_spp),
             integrator: a.integrator.or(b.integrator),
             max_bounces: a.max_bounces.or(b.max_bounces),
             caustics: a.caustics.or(b.caustics),
@@ -259,6 +283,7 @@ pub(crate) fn check_levels<'r>(cameras: impl Iterator<Item = &'r Render> + Clone
 
 /// Checks a record into which the job's has been merged. The default route is through the lens.
 pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
+    check_samples(render, faults);
     if render.route.as_ref().is_some_and(|r| r.value == Route::Pupil) {
         return;
     }
@@ -275,5 +300,28 @@ pub(crate) fn check_merged(render: &Render, faults: &mut Faults) {
             let problem = format!("\"{key}\" has no effect here, it belongs to route = \"pupil\"");
             faults.add_idle((key, place), render.route.as_ref().map(|route| &route.place), problem, remedy);
         }
+    }
+}
+
+/// Samples are either as many everywhere or limited by noise.
+fn check_samples(render: &Render, faults: &mut Faults) {
+    if let (Some(limit), Some(spp)) = (&render.noise_threshold, &render.spp) {
+        let problem = "\"spp\" and \"noise_threshold\" exclude each other: so many samples everywhere, or as many as a pixel needs";
+        match render.threshold_in_force() {
+            Some(_) => faults.add_idle(("spp", &spp.place), Some(&limit.place), problem.into(), "remove one of them"),
+            None => faults.add_idle(
+                ("noise_threshold", &limit.place),
+                Some(&spp.place),
+                problem.into(),
+                "remove one of them",
+            ),
+        }
+    }
+    let keys = [("min_spp", &render.min_spp), ("max_spp", &render.max_spp)];
+    let keys = keys.into_iter().filter(|_| render.threshold_in_force().is_none());
+    for (key, value) in keys.filter_map(|(key, value)| Some((key, value.as_ref()?))) {
+        let problem = format!("\"{key}\" has no effect without \"noise_threshold\"");
+        let cause = render.spp.as_ref().map(|spp| &spp.place);
+        faults.add_idle((key, &value.place), cause, problem, "add it, or remove the key");
     }
 }

@@ -101,7 +101,7 @@ impl Followed {
         let parts = parts(rays.len());
         let stream = &rays[0].stream;
         let first = (stream.with_sample(0).one(Draw::Followed, 0) * parts as f32) as usize;
-        let turn = u64::from(stream.sample()) * parts as u64 / u64::from(samples);
+        let turn = u64::from(stream.sample() % samples) * parts as u64 / u64::from(samples);
         Self { parts, part: (first + turn as usize) % parts }
     }
 

@@ -13,7 +13,7 @@ mod time;
 mod words;
 
 use crate::plan::remark::grouped;
-use crate::plan::{CameraPlan, Plan, Products, RawFormat, Settings, SkyFacts};
+use crate::plan::{AdaptiveSampling, CameraPlan, Plan, Products, RawFormat, Route, Settings, SkyFacts};
 use crate::render::block::Blocks;
 use crate::render::film::Film;
 use crate::render::{layout, light_counts};
@@ -153,10 +153,21 @@ fn lights(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Resul
     line(f, "lights", if list.is_empty() { none } else { list.join(", ") + over_time })
 }
 
+fn samples(camera: &CameraPlan) -> String {
+    let s = &camera.settings;
+    match s.adaptive {
+        None => count(s.spp as usize, "sample"),
+        Some(AdaptiveSampling { threshold, min_spp }) => {
+            let by_sensor = s.route == Route::Lens && camera.body.sensor.is_some();
+            let of = if by_sensor { "the sensor's noise" } else { "its mean" };
+            format!("{min_spp} to {} samples, until a pixel's error is {threshold} of {of};", s.spp)
+        }
+    }
+}
+
 fn light_paths(camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result {
     let s = &camera.settings;
-    let samples = count(s.spp as usize, "sample");
-    let samples = format!("{samples} a pixel in {}", count(s.replicates as usize, "replicate"));
+    let samples = format!("{} a pixel in {}", samples(camera), count(s.replicates as usize, "replicate"));
     let alone =
         if s.wavelengths == 1 && camera.body.disperses() { ", as the lens treats each differently" } else { "" };
     let wavelengths = count(s.wavelengths as usize, "wavelength");
@@ -304,7 +315,12 @@ fn cost(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result 
         return cost_beside(&shares, beside, f);
     }
     let (width, height) = camera.film_size();
-    let paths = f64::from(width) * f64::from(height) * f64::from(camera.settings.spp);
+    let settings = &camera.settings;
+    let (least, upwards) = match settings.adaptive {
+        Some(limit) => (limit.min_spp, " and more"),
+        None => (settings.spp, ""),
+    };
+    let paths = f64::from(width) * f64::from(height) * f64::from(least);
     let film = Film::bytes(width as usize, height as usize, &layout(camera)) / 1e6;
     let cpu = paths * PATH_CPU_S;
     let served = shared_light::served(plan, camera);
@@ -312,7 +328,7 @@ fn cost(plan: &Plan, camera: &CameraPlan, f: &mut Formatter<'_>) -> fmt::Result 
         f,
         "cost",
         format!(
-            "{:.1} million paths, about {cpu:.0} CPU seconds at the street's rate{served}; film {film:.1} MB",
+            "{:.1} million paths{upwards}, about {cpu:.0} CPU seconds at the street's rate{served}; film {film:.1} MB",
             paths / 1e6
         ),
     )?;

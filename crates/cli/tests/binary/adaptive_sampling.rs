@@ -1,0 +1,152 @@
+//! Samples that noise decides: by the command line and the job, with what is told and stored of them.
+
+use crate::support::{assert_same, contents, etendue, rendered, text};
+use etendue_io::exr::{ExrFile, Samples, read_exr};
+use std::path::Path;
+
+/// A sphere on a floor under an even sky, before a colour camera; one wall beside it glows.
+const JOB: &str = r#"format = 1
+[scene]
+[scene.environment]
+type = "uniform"
+luminance_cd_m2 = 30
+illuminant = "D65"
+[[scene.materials]]
+name = "grey"
+type = "diffuse"
+reflectance = 0.5
+[[scene.materials]]
+name = "light"
+type = "emitter"
+luminance_cd_m2 = 3000
+illuminant = "A"
+[[scene.objects]]
+name = "floor"
+shape = { type = "quad", size_m = [30, 30] }
+material = "grey"
+[[scene.objects]]
+name = "ball"
+shape = { type = "sphere", radius_m = 1 }
+position_m = [6, 0, 1]
+material = "grey"
+[[scene.objects]]
+name = "wall"
+shape = { type = "quad", size_m = [1, 1] }
+position_m = [6, 3, 1]
+rotation_deg = [0, 90, 0]
+material = "light"
+[[cameras]]
+name = "front"
+position_m = [0, 0, 1.4]
+look_at_m = [6, 0, 0.9]
+[cameras.lens]
+type = "thin"
+focal_length_mm = 6
+f_number = 2
+focus_distance_m = 5
+[cameras.sensor]
+width_px = 40
+height_px = 28
+pixel_pitch_um = 150
+exposure_s = 2e-6
+cfa = "rggb"
+quantum_efficiency = { camera = "nikon-d5100", peak = 0.5 }
+full_well_e = 50_000
+read_noise_e = 4
+dark_current_e_s = 5
+gain_dn_per_e = 0.05
+black_level_dn = 64
+bits = 12
+[render]
+max_bounces = 4
+seed = 5
+[output]
+sampling = true
+ground_truth = false
+"#;
+
+fn job(folder: &Path, render: &str) -> String {
+    let path = folder.join("job.toml");
+    std::fs::write(&path, JOB.replace("[render]\n", &format!("[render]\n{render}"))).expect("written");
+    text(&path)
+}
+
+fn place() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a temporary folder")
+}
+
+fn floats(file: &ExrFile, name: &str) -> Vec<f64> {
+    match file.channel(name) {
+        Some(Samples::Float(values)) => values.iter().map(|v| f64::from(*v)).collect(),
+        other => panic!("{name}: {other:?}"),
+    }
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+#[test]
+fn the_limit_is_reached_and_told() {
+    let place = place();
+    let job = job(place.path(), "spp = 64\n");
+    let output = text(&place.path().join("out"));
+    let ran = etendue(["render", &job, "-o", &output, "--noise", "0.2"]).ok();
+    assert!(ran.err.contains("--noise 0.2 supersedes") && ran.err.contains("spp"), "{}", ran.err);
+    assert!(ran.err.contains("samples a pixel (16 to") && ran.err.contains("of the sensor's noise"), "{}", ran.err);
+    assert!(!ran.err.contains("still noisier"), "{}", ran.err);
+    let file = read_exr(&Path::new(&output).join("front/sampling.exr")).expect("layers");
+    let (light, sensor) = (floats(&file, "monte_carlo_variance"), floats(&file, "sensor_variance"));
+    let Some(Samples::Uint(samples)) = file.channel("samples") else { panic!("samples") };
+    let (least, most) = (samples.iter().min(), samples.iter().max());
+    assert!(least == Some(&16) && most > Some(&64), "{least:?} {most:?}");
+    let ratio: Vec<f64> = light.iter().zip(&sensor).map(|(a, b)| a / b).collect();
+    // The limit is 0.04; samples that are stratified do better, and no pixel gets fewer than 16.
+    assert!((0.003..0.044).contains(&mean(&ratio)), "{}", mean(&ratio));
+    // 4 e⁻ of read noise, 12 bits of 20 e⁻, and the photons' own.
+    assert!(sensor.iter().all(|v| *v > 16.0 + 33.0), "{:?}", sensor.iter().copied().fold(f64::MAX, f64::min));
+}
+
+#[test]
+fn what_is_short_of_the_limit_is_told() {
+    let place = place();
+    let job = job(place.path(), "noise_threshold = 0.01\nmax_spp = 32\n");
+    let output = text(&place.path().join("out"));
+    let ran = etendue(["render", &job, "-o", &output]).ok();
+    assert!(ran.err.contains("% of the pixels got 32 samples and are still noisier than 0.01"), "{}", ran.err);
+}
+
+#[test]
+fn shards_and_threads_do_not_change_what_noise_decides() {
+    let place = place();
+    let job = job(place.path(), "noise_threshold = 0.3\npath_reuse_px = 2\n");
+    let whole = rendered(&job, &["--threads", "1"]);
+    assert_same(&whole, &rendered(&job, &["--set", "render.tile_px=8"]), "small tiles");
+    let folder = |name: &str| text(&place.path().join(name));
+    for index in ["0/2", "1/2"] {
+        etendue(["render", &job, "-o", &folder(&index[..1]), "--shard", index]).ok();
+    }
+    etendue(["merge", &folder("0"), &folder("1"), "-o", &folder("all")]).ok();
+    assert_same(&whole, &contents(Path::new(&folder("all"))), "two shards");
+}
+
+#[test]
+fn samples_are_even_or_as_noise_says_but_not_both() {
+    let place = place();
+    let limited = job(place.path(), "noise_threshold = 0.5\n");
+    let plan = etendue(["plan", &limited]).ok().out;
+    assert!(plan.contains("16 to 4096 samples, until a pixel's error is 0.5 of the sensor's noise"), "{plan}");
+    let even = etendue(["plan", &limited, "--spp", "32"]).ok();
+    assert!(even.out.contains("32 samples a pixel in 4 replicates"), "{}", even.out);
+    assert!(even.err.contains("--spp 32 supersedes") && even.err.contains("noise_threshold"), "{}", even.err);
+    let refused = |render: &str, told: &[&str]| {
+        let job = job(place.path(), render);
+        etendue(["plan", &job]).refused(told);
+    };
+    refused("noise_threshold = 0.5\nspp = 64\n", &["job.toml", "\"spp\" and \"noise_threshold\" exclude each other"]);
+    refused("noise_threshold = 0\n", &["noise_threshold: found 0"]);
+    refused("min_spp = 16\n", &["\"min_spp\" has no effect without \"noise_threshold\""]);
+    refused("noise_threshold = 0.5\nreplicates = 4\n", &["replicates that decide of each other", "give 5 or more"]);
+    refused("noise_threshold = 0.5\nmin_spp = 20\n", &["20 samples cannot be shared evenly among 8 replicates"]);
+    refused("noise_threshold = 0.5\nmax_spp = 8\n", &["fewer than the 16 that every pixel gets"]);
+}

@@ -1,0 +1,329 @@
+//! How many samples a pixel gets, where noise decides.
+//!
+//! Every pixel gets the pilot's samples in each of its R replicates. Then replicate r goes on to as many as the pilots of the *next*
+//! ⌊(R − 1)/2⌋ replicates ask for, counted round: what is summed has no say in how long it is summed, so that the mean of each
+//! replicate has no bias (a pixel that stops when it looks right is wrong on average). Nor do any two replicates decide of each other, so
+//! that their errors are not correlated: the mean of all, each of weight 1/R whatever its samples, has the variance that their scatter tells.
+//! (Of two halves that decide of each other, each is unbiased, but where bright light is rare both err to the same side.)
+//!
+//! A pilot asks for n = n₀ v/(R T): v the variance of the mean of one replicate of n₀ samples, T the variance that is tolerated. v and the
+//! mean by which T is told are means of the pixel's own and of those of all pixels of its colour in its cell, as few replicates
+//! know them badly. Errors of stratified samples fall faster than 1/n: then the limit is kept with something to spare.
+
+use crate::plan::AdaptiveSampling;
+use crate::render::block::Blocks;
+use crate::render::gather::{Gather, Layout, PixelLight, Sums};
+use crate::render::light::{Asked, RaySource, RenderJob};
+use crate::render::tile::Tile;
+use etendue_core::RadianceField;
+use etendue_core::random::Pixel;
+use etendue_sensor::TemporalNoise;
+
+/// Least side of a cell, px.
+const CELL_PX: u32 = 8;
+/// How many standard deviations of the mean a pixel lies above white before its error is let be.
+const SURELY_WHITE: f64 = 4.0;
+
+/// Side of the cells whose pixels know their noise together, px: they cut no block. Cells lie on a grid of the whole frame.
+#[must_use]
+pub fn cell_px(blocks: Blocks) -> u32 {
+    blocks.tile_px(CELL_PX)
+}
+
+/// Which errors are let be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tolerance {
+    limit: AdaptiveSampling,
+    /// Where electrons are watched; else the pixel's own mean decides.
+    sensor: Option<TemporalNoise>,
+}
+
+impl Tolerance {
+    /// A part of the noise of a sensor; of each pixel's mean where there is none.
+    #[must_use]
+    pub fn new(limit: AdaptiveSampling, sensor: Option<TemporalNoise>) -> Self {
+        Self { limit, sensor }
+    }
+
+    /// The sensor's noise, where that is the measure.
+    #[must_use]
+    pub fn sensor(&self) -> Option<&TemporalNoise> {
+        self.sensor.as_ref()
+    }
+
+    /// The variance that a pixel's mean may have, in the square of the mean's unit: electrons a second where there is a sensor.
+    #[must_use]
+    pub fn variance(&self, mean: f64) -> f64 {
+        let factor = self.limit.threshold;
+        let Some(noise) = &self.sensor else { return factor * factor * mean * mean };
+        let exposure_s = noise.exposure_s();
+        if exposure_s == 0.0 {
+            return f64::INFINITY;
+        }
+        let mean_e = mean * exposure_s;
+        let beyond_e = (mean_e - noise.white_e()).max(0.0) / SURELY_WHITE;
+        (factor * factor * noise.variance_e2(mean_e)).max(beyond_e * beyond_e) / (exposure_s * exposure_s)
+    }
+}
+
+/// The samples of a block so far: sums of each replicate and pixel.
+struct Sampled {
+    block: Vec<Pixel>,
+    replicates: Vec<Vec<Sums>>,
+}
+
+/// What the pilots of some replicates say of one pixel: its mean, and the variance of the mean of one replicate.
+#[derive(Clone, Copy)]
+struct Pilot {
+    mean: f64,
+    variance: f64,
+}
+
+impl Pilot {
+    fn mean_of<'a>(pilots: impl Iterator<Item = &'a Self>) -> Self {
+        let (mut mean, mut variance, mut count) = (0.0, 0.0, 0.0);
+        for pilot in pilots {
+            (mean, variance, count) = (mean + pilot.mean, variance + pilot.variance, count + 1.0);
+        }
+        Self { mean: mean / count, variance: variance / count }
+    }
+}
+
+impl Sampled {
+    /// What the replicates that decide of `replicate` say of each pixel after `samples` samples each.
+    fn pilots(&self, replicate: usize, samples: u32) -> impl Iterator<Item = Pilot> {
+        let all = self.replicates.len();
+        let deciding = (all - 1) / 2;
+        let next = (1..=deciding).map(move |step| &self.replicates[(replicate + step) % all]);
+        let count = deciding as f64;
+        (0..self.block.len()).map(move |pixel| {
+            let means = || next.clone().map(|sums| sums[pixel].watched() / f64::from(samples));
+            let mean = means().sum::<f64>() / count;
+            let squares: f64 = means().map(|value| (value - mean) * (value - mean)).sum();
+            Pilot { mean, variance: squares / (count - 1.0) }
+        })
+    }
+
+    /// The light of each pixel, whose replicates had so many samples.
+    fn light(mut self, layout: &Layout, samples: &[u32]) -> Vec<(Pixel, PixelLight)> {
+        let mut of = |pixel: usize| {
+            let mut gather = Gather::new(layout);
+            let mut not_finite = 0;
+            for (sums, samples) in self.replicates.iter_mut().zip(samples) {
+                not_finite += sums[pixel].not_finite();
+                gather.end_replicate(&mut sums[pixel], *samples);
+            }
+            gather.light(layout, samples.iter().sum(), not_finite)
+        };
+        self.block.iter().enumerate().map(|(i, pixel)| (*pixel, of(i))).collect()
+    }
+}
+
+impl<S: RaySource> RenderJob<'_, S> {
+    /// Gathers the pixels of a tile that cuts no cell, each to the tolerance.
+    pub(super) fn gather_to_tolerance<const N: usize>(
+        &self,
+        field: &impl RadianceField<N>,
+        tile: Tile,
+        tolerance: &Tolerance,
+    ) -> Vec<(Pixel, PixelLight)> {
+        let cells = tile.parts(cell_px(self.blocks));
+        cells.flat_map(|cell| self.gather_cell(field, cell, tolerance)).collect()
+    }
+
+    fn gather_cell<const N: usize>(
+        &self,
+        field: &impl RadianceField<N>,
+        cell: Tile,
+        tolerance: &Tolerance,
+    ) -> Vec<(Pixel, PixelLight)> {
+        let layout = self.gathered();
+        let mut asked = Asked::default();
+        let replicates = self.sampling.replicates as usize;
+        let pilot = tolerance.limit.min_spp / self.sampling.replicates;
+        let empty =
+            |block: Vec<Pixel>| Sampled { replicates: vec![vec![Sums::new(layout); block.len()]; replicates], block };
+        let mut cell: Vec<Sampled> = self.blocks.of(cell).map(empty).collect();
+        cell.iter_mut().for_each(|sampled| self.add(field, sampled, 0, &vec![pilot; replicates], &mut asked));
+        let needs: Vec<Vec<u32>> = (0..replicates).map(|replicate| self.needs(&cell, replicate, tolerance)).collect();
+        let go_on = |(i, mut sampled): (usize, Sampled)| {
+            let samples: Vec<u32> = needs.iter().map(|of_replicate| of_replicate[i]).collect();
+            self.add(field, &mut sampled, pilot, &samples, &mut asked);
+            sampled.light(&layout, &samples)
+        };
+        cell.into_iter().enumerate().flat_map(go_on).collect()
+    }
+
+    /// Adds samples to the replicates of a block: each has `from`, and goes on to its own number.
+    fn add<const N: usize>(
+        &self,
+        field: &impl RadianceField<N>,
+        sampled: &mut Sampled,
+        from: u32,
+        to: &[u32],
+        asked: &mut Asked<N>,
+    ) {
+        for (replicate, (sums, to)) in sampled.replicates.iter_mut().zip(to).enumerate() {
+            self.add_replicate(field, (&sampled.block, replicate as u32), from..*to, asked, sums);
+        }
+    }
+
+    /// How many samples a replicate of each block of a cell needs, as those that decide of it see it.
+    fn needs(&self, cell: &[Sampled], replicate: usize, tolerance: &Tolerance) -> Vec<u32> {
+        let replicates = self.sampling.replicates;
+        let pilot = tolerance.limit.min_spp / replicates;
+        let colour = |sampled: &Sampled| self.mosaic.map_or(0, |mosaic| mosaic.place(sampled.block[0]));
+        let pilots: Vec<(usize, Vec<Pilot>)> =
+            cell.iter().map(|sampled| (colour(sampled), sampled.pilots(replicate, pilot).collect())).collect();
+        let need = |(colour, pixels): &(usize, Vec<Pilot>)| {
+            let cell = Pilot::mean_of(pilots.iter().filter(|(c, _)| c == colour).flat_map(|(_, pixels)| pixels));
+            let times = |pixel: &Pilot| {
+                let pilot = Pilot::mean_of([pixel, &cell].into_iter());
+                pilot.variance / (f64::from(replicates) * tolerance.variance(pilot.mean))
+            };
+            let most = pixels.iter().map(times).fold(0.0, f64::max);
+            let samples = most.ceil() * f64::from(pilot);
+            (samples.min(f64::from(u32::MAX)) as u32).clamp(pilot, self.sampling.spp / replicates)
+        };
+        pilots.iter().map(need).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::Shot;
+    use crate::render::exposure::FilmExposure;
+    use crate::render::film::Film;
+    use crate::render::light::{RenderJob, Sampling};
+    use crate::render::observer::Unobserved;
+    use crate::render::spectrum_spread::SpectrumSpread;
+    use crate::render::tile::Shard;
+    use etendue_core::random::Draw;
+    use etendue_core::{CameraPath, CameraPose, FieldRay, PupilRay, Spectral, Wavelengths};
+    use glam::{DMat3, DVec2, DVec3};
+
+    static PATH: std::sync::LazyLock<CameraPath> = std::sync::LazyLock::new(|| {
+        CameraPath::still(CameraPose { position_m: DVec3::ZERO, rotation: DMat3::IDENTITY })
+    });
+
+    /// Rays that leave the columns of the film at their own x.
+    struct Columns;
+
+    impl RaySource for Columns {
+        fn ray(&self, raster_px: DVec2, _pupil: DVec2, _wavelength_nm: f64) -> Option<PupilRay> {
+            Some(PupilRay { origin_m: DVec3::new(raster_px.x, 0.0, 0.0), direction: DVec3::Z, weight_sr: 1.0 })
+        }
+    }
+
+    /// Radiance 1 on average: even light in columns below 32, in the others `strength` with the chance of 1/`strength`, else none.
+    struct Sparks {
+        strength: f32,
+    }
+
+    impl RadianceField<1> for Sparks {
+        fn radiance(&self, asked: &FieldRay, _: &Wavelengths<1>) -> Spectral<1> {
+            // Far digits of a stratified number are not stratified.
+            let u = (f64::from(asked.stream.two(Draw::Pupil, 0).x) * 9973.0).fract() as f32;
+            let lit = asked.ray.origin.x < 32.0;
+            Spectral::splat(if lit {
+                1.0
+            } else if u * self.strength < 1.0 {
+                self.strength
+            } else {
+                0.0
+            })
+        }
+    }
+
+    fn film(field: &impl RadianceField<1>, factor: f64, tile_px: u32) -> Film {
+        let tolerance = Tolerance::new(AdaptiveSampling { threshold: factor, min_spp: 16 }, None);
+        let job = RenderJob {
+            source: &Columns,
+            exposure: FilmExposure::still(&PATH),
+            width: 64,
+            height: 48,
+            aperture_px: 1.0,
+            layout: Layout { bands: None, folded: false, watched: true },
+            mosaic: None,
+            sampling: Sampling {
+                spp: 4096,
+                replicates: 8,
+                seed: 11,
+                camera: 0,
+                shot: Shot::default(),
+                low_nm: 500.0,
+                high_nm: 501.0,
+                spread: SpectrumSpread::Drawn,
+            },
+            tolerance: Some(tolerance),
+            blocks: Blocks::SINGLE,
+            tile_px,
+            shard: Shard::WHOLE,
+        };
+        job.gather::<1>(field, &Unobserved).expect("not cancelled")
+    }
+
+    /// Means, variances and samples of the columns from `first` to the 32nd after it.
+    fn columns(film: &Film, first: usize) -> Vec<(f64, f64, u32)> {
+        let watched = film.watched.as_ref().expect("watched");
+        let of = |x: usize, y: usize| {
+            (f64::from(watched.mean.at(x, y)), f64::from(watched.variance.at(x, y)), film.samples.at(x, y))
+        };
+        (0..48).flat_map(|y| (first..first + 32).map(move |x| (x, y))).map(|(x, y)| of(x, y)).collect()
+    }
+
+    fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+        let n = values.len() as f64;
+        values.sum::<f64>() / n
+    }
+
+    /// Two pilots of three see no spark, and would have stopped at 0 by their own word.
+    #[test]
+    fn rare_bright_light_has_no_bias_and_an_honest_variance() {
+        let pixels = columns(&film(&Sparks { strength: 40.0 }, 0.3, 16), 32);
+        let light = mean(pixels.iter().map(|p| p.0));
+        let variance = mean(pixels.iter().map(|p| p.1));
+        let error = (variance / pixels.len() as f64).sqrt();
+        assert!((light - 1.0).abs() < 4.0 * error, "{light} ± {error}");
+        let scatter = mean(pixels.iter().map(|p| (p.0 - 1.0) * (p.0 - 1.0)));
+        // Of 1536 pixels; a pixel's square has at most some five times its mean as deviation.
+        assert!(
+            (scatter / variance - 1.0).abs() < 4.0 * 5.0 / (pixels.len() as f64).sqrt(),
+            "{scatter} for {variance}"
+        );
+    }
+
+    #[test]
+    fn even_light_stops_at_the_pilot_and_noise_at_the_limit() {
+        let film = film(&Sparks { strength: 3.0 }, 0.1, 16);
+        assert!(
+            columns(&film, 0).iter().all(|(light, variance, samples)| {
+                (light - 1.0).abs() < 1e-6 && *variance < 1e-12 && *samples == 16
+            })
+        );
+        // A sample has the variance 2, so that 200 make 0.1; 64 pixels of 3 replicates know that to a tenth.
+        let noisy = columns(&film, 32);
+        let error = mean(noisy.iter().map(|p| (p.0 - 1.0) * (p.0 - 1.0))).sqrt();
+        let samples = mean(noisy.iter().map(|p| f64::from(p.2)));
+        assert!((0.08..0.115).contains(&error), "{error}");
+        assert!((180.0..320.0).contains(&samples), "{samples}");
+    }
+
+    #[test]
+    fn tiles_do_not_change_the_film() {
+        let sparks = Sparks { strength: 5.0 };
+        assert_eq!(film(&sparks, 0.2, 8), film(&sparks, 0.2, 32));
+    }
+
+    #[test]
+    fn a_sensor_lets_more_be_the_brighter_it_is_and_all_beyond_white() {
+        let noise = TemporalNoise::of_one_capture(0.5, 9.0, 1000.0);
+        let tolerance = Tolerance::new(AdaptiveSampling { threshold: 0.5, min_spp: 16 }, Some(noise));
+        // Electrons a second; the exposure is half a second.
+        let at = |mean: f64| tolerance.variance(mean);
+        assert!((at(0.0) - 0.25 * 9.0 * 4.0).abs() < 1e-9 && (at(200.0) - 0.25 * 109.0 * 4.0).abs() < 1e-9);
+        let far = 2.0 * 9000.0;
+        assert!((at(far) - 2000.0 * 2000.0 * 4.0).abs() < 1.0);
+    }
+}
